@@ -47,6 +47,14 @@ void visitPoints(
     0, seed, reach, [&](std::uint32_t, const Cell& cell, double) { visit(cell.mean - seed); });
 }
 
+/// Whether the points within @p reach are a row: it has no normal, and is of no sheet.
+bool isRow(const HapticScene& scene, const BallCells& near, const Vec3& seed, double reach) noexcept
+{
+  PointMoments points;
+  visitPoints(scene, near, seed, reach, [&](const Vec3& offset) { points.add(offset); });
+  return symmetricEigen(points.covariance()).values[1] < kOneSheet * kOneSheet * reach * reach;
+}
+
 /// Part of a disk that points fill whose middle lies @p aside, over its radius.
 double filledPart(double aside) noexcept
 {
@@ -112,9 +120,13 @@ double ballRadius(const HapticScene& scene, FitCells& fields, const BallCells& n
     const double part = filledPart(norm(sum) / (std::max(1.0, count) * reach));
     // Two sheets have twice the points of one; where the gate leaves fewer the surface is bent.
     points = std::max({ 1.0, count / part, all / kMostSheets });
+    // Seen aslant a row would seem to be as sparse again: the ball would be caught in the gaps beside it.
+    points = points < kPoints && all >= kPoints && isRow(scene, near, seed, reach) ? all : points;
   }
   reach /= kReachGrowth;
-  const double spacing = rimSpacing(scene, near, seed, reach, middle, reach * std::sqrt(kPi / points));
+  // A few points far from all others are no surface, and have no spacing.
+  const double spacing =
+    points < kPoints ? 0.0 : rimSpacing(scene, near, seed, reach, middle, reach * std::sqrt(kPi / points));
   // Few points say little: the field, which is smooth, keeps clumps of them from making the ball too small.
   Vec3 ignored;
   const double field = kRadiusOfField * scene.fitScale(seed, fields, ignored).proxyRadius;

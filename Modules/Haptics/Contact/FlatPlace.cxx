@@ -13,6 +13,8 @@ namespace
 /// points.
 constexpr double kFlat = 0.05;
 constexpr double kPlanePoints = 6.0;
+/// RMS distance of the points from a line up to which they are a row, which has no normal, over the radius.
+constexpr double kLine = 0.1;
 /// How often the points further from the plane than the RMS are left out: those of another face.
 constexpr int kTrims = 3;
 /// Points so near to the foot of the HIP, and so far ahead of it, tell that the place goes on, over the
@@ -30,7 +32,8 @@ bool FlatPlace::find(
   Vec3 mean = all.mean();
   away = normalized(mean);
   SymEigen eigen = symmetricEigen(all.covariance());
-  if (all.count < kPlanePoints || eigen.values[0] > kFlat * kFlat * radius * radius)
+  if (all.count < kPlanePoints || eigen.values[0] > kFlat * kFlat * radius * radius ||
+    eigen.values[1] < kLine * kLine * radius * radius)
   {
     return false;
   }

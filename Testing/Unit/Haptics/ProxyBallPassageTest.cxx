@@ -40,6 +40,38 @@ private:
   int left_ = 0;
 };
 
+/// A tube of rings about the x axis, far apart, of many points each; its ends have rings and a few points
+/// that lie on top of each other.
+std::vector<Vec3> ringsOfPoints(double radius, double apart, int rings, int pointsOfRing)
+{
+  std::vector<Vec3> points;
+  for (int ring = 0; ring < rings; ++ring)
+  {
+    for (int i = 0; i < pointsOfRing; ++i)
+    {
+      const double angle = 2.0 * trial::kPi * i / pointsOfRing;
+      points.emplace_back(
+        (ring - 0.5 * (rings - 1)) * apart, radius * std::cos(angle), radius * std::sin(angle));
+    }
+  }
+  for (const double end : { -0.5, 0.5 })
+  {
+    for (int i = 0; i < 20; ++i)
+    {
+      points.emplace_back(end * (rings - 1) * apart, 1e-9 * i, 0.0);
+    }
+  }
+  return points;
+}
+
+void appendLine(trial::Path& path, const Vec3& from, const Vec3& to, int ticks)
+{
+  for (int i = 0; i <= ticks; ++i)
+  {
+    path.push_back(from + (double(i) / ticks) * (to - from));
+  }
+}
+
 /// The mean radius that clouds ask for at the rim of a hole of so many spacings, of balls that lean into it
 /// by so many degrees.
 double radiusOfLeaning(double hole, double degrees)
@@ -219,6 +251,59 @@ TEST(ProxyBallPassage, IsLetOutOfACrowdOfPointsThatItBeginsIn)
   // Of 400 14 are held: balls that began beside the points, and are on that side of them. Of a ball that does
   // not shrink among them 101 are, of these 40 10.
   EXPECT_LE(trial::recorded("heldOf40", held), 3);
+}
+
+TEST(ProxyBallPassage, IsNotCaughtBetweenRowsOfPointsThatItFellThrough)
+{
+  constexpr double kRadius = 0.027;
+  trial::Random random(66);
+  const trial::Scene scene = trial::resampledScene(ringsOfPoints(kRadius, 0.012, 7, 500));
+  int held = 0;
+  for (int stroke = 0; stroke < 60; ++stroke)
+  {
+    const double angle = random.uniform(-trial::kPi, trial::kPi);
+    const double turn = random.uniform(-trial::kPi, trial::kPi);
+    const Vec3 out(0.0, std::cos(angle), std::sin(angle));
+    const Vec3 aside(std::cos(turn), -std::sin(turn) * out.z, std::sin(turn) * out.y);
+    const Vec3 low = Vec3(random.uniform(-0.03, 0.03), 0.0, 0.0) + (kRadius - 0.001) * out;
+    const Vec3 end = low + 0.01 * aside;
+    trial::Path path;
+    appendLine(path, low + 0.005 * out, low, 200);
+    appendLine(path, low, end, 500);
+    appendLine(path, end, end + 0.005 * out, 100);
+    held += norm(trial::feel(scene, {}, path).back().force) > 0.05;
+  }
+  EXPECT_EQ(trial::recorded("heldByRowsOf60", held), 0);
+}
+
+TEST(ProxyBallPassage, TakesARowOfPointsForNoFace)
+{
+  for (const int rows : { 1, 3 })
+  {
+    std::vector<Vec3> points;
+    for (int i = 0; i < 20 * rows; ++i)
+    {
+      points.emplace_back(1e-4 * (i / rows), 5e-4 * (i % rows), 0.0);
+    }
+    const trial::Scene scene = trial::rawScene(points);
+    const Vec3 center(0.001, 5e-4 * (rows / 2), 0.001);
+    BallCells cells;
+    ASSERT_TRUE(cells.gather(scene->pyramid(), center, 0.002, 0.001));
+    FlatPlace flat;
+    Vec3 away;
+    EXPECT_EQ(flat.find(cells, center, 0.001, 0.0014, away), rows > 1);
+  }
+}
+
+TEST(ProxyBallPassage, IsNoLargerForAFewPointsFarFromAllOthers)
+{
+  HapticSceneInput input = trial::resampledInput(ringsOfPoints(0.027, 0.012, 7, 500));
+  input.bandwidth = LocalBandwidthSettings();
+  const trial::Scene scene = trial::sceneOf(std::move(input));
+  const Vec3 lone(0.036, 0.0, 0.0);
+  const auto fields = std::make_unique<FitCells>();
+  const BallCells none;
+  EXPECT_LT(ballRadius(*scene, *fields, none, lone, lone + Vec3(0.002, 0.0, 0.0)), 0.01);
 }
 
 TEST(ProxyBallPassage, StaysOnTheFaceThatIsPressedBesideAnEdge)
