@@ -9,6 +9,8 @@
 
 #include "vtkDataArray.h"
 #include "vtkFieldData.h"
+#include "vtkIdList.h"
+#include "vtkNew.h"
 
 #include <fmt/format.h>
 
@@ -66,7 +68,6 @@ private:
   T largestOf(const OutputArray* array) const;
   bool needsExtended() const;
   void takeStandardArrays();
-  void refuseInvalidPoints() const;
   double largestExtent() const;
   void planPositions();
   void planBits();
@@ -231,25 +232,6 @@ std::vector<Byte>& LasWriter::newBytes(std::size_t offset)
   return bytes_.back();
 }
 
-void LasWriter::refuseInvalidPoints() const
-{
-  withType(arrays_[0].type(),
-    [&](auto zero)
-    {
-      using T = decltype(zero);
-      const T* values = static_cast<const T*>(arrays_[0].array->GetVoidPointer(0));
-      const T* end = values + 3 * rows_;
-      const T* found =
-        std::find_if(values, end, [](T value) { return !std::isfinite(static_cast<double>(value)); });
-      if (found != end)
-      {
-        failFormat("point " + std::to_string((found - values) / 3) +
-            " is NaN or infinite, and LAS stores coordinates as integers",
-          "take such points out, or write .vtp, .ply or .pcd");
-      }
-    });
-}
-
 double LasWriter::largestExtent() const
 {
   double extent = 0.0;
@@ -264,7 +246,6 @@ double LasWriter::largestExtent() const
 
 void LasWriter::planPositions()
 {
-  refuseInvalidPoints();
   const double extent = largestExtent();
   double worst = 0.0;
   double step = 0.0;
@@ -502,11 +483,63 @@ void LasWriter::write()
   }
 }
 
+/// Calls @p visit with the row of each point whose coordinates can be stored as integers.
+template <typename Visit>
+void visitFinitePoints(const OutputArray& points, Visit visit)
+{
+  withType(points.type(),
+    [&](auto zero)
+    {
+      using T = decltype(zero);
+      const T* p = static_cast<const T*>(points.array->GetVoidPointer(0));
+      const vtkIdType rows = points.array->GetNumberOfTuples();
+      for (vtkIdType row = 0; row < rows; ++row, p += 3)
+      {
+        if (std::all_of(p, p + 3, [](T value) { return std::isfinite(static_cast<double>(value)); }))
+        {
+          visit(row);
+        }
+      }
+    });
+}
+
+std::vector<OutputArray> pickRows(std::vector<OutputArray> arrays, vtkIdList* rows)
+{
+  for (OutputArray& each : arrays)
+  {
+    const auto picked = vtkSmartPointer<vtkDataArray>::Take(each.array->NewInstance());
+    picked->SetNumberOfComponents(each.components());
+    picked->SetNumberOfTuples(rows->GetNumberOfIds());
+    each.array->GetTuples(rows, picked);
+    each.array = picked;
+  }
+  return arrays;
+}
+
 } // namespace
 
 void writeLas(const std::vector<OutputArray>& arrays, vtkFieldData* fieldData, WriteTask& task, bool isPacked)
 {
-  LasWriter(arrays, fieldData, task, isPacked).write();
+  const vtkIdType all = arrays[0].array->GetNumberOfTuples();
+  vtkIdType left = all;
+  visitFinitePoints(arrays[0], [&left](vtkIdType) { --left; });
+  if (left == 0)
+  {
+    LasWriter(arrays, fieldData, task, isPacked).write();
+    return;
+  }
+  if (left == all)
+  {
+    failFormat("all coordinates are NaN or infinite, and LAS stores them as integers",
+      "mend the cloud, or write .vtp, .ply or .pcd");
+  }
+  vtkNew<vtkIdList> finite;
+  finite->Allocate(all - left);
+  visitFinitePoints(arrays[0], [&finite](vtkIdType row) { finite->InsertNextId(row); });
+  task.notes.add(std::to_string(left) + " of " + std::to_string(all) +
+    " points are NaN or infinite and left out: LAS stores coordinates as integers; write .vtp, .ply or .pcd "
+    "to keep them");
+  LasWriter(pickRows(arrays, finite), fieldData, task, isPacked).write();
 }
 
 } // namespace pointhaptics::io

@@ -382,14 +382,44 @@ TEST_F(LasWriting, KeepsTheUnit)
   }
 }
 
-TEST_F(LasWriting, RefusesNan)
+TEST_F(LasWriting, LeavesOutAndCountsPointsThatAreNotFinite)
 {
   vtkNew<vtkPolyData> cloud;
   vtkNew<vtkPoints> points;
   points->InsertNextPoint(1, 2, 3);
   points->InsertNextPoint(4, std::nan(""), 6);
+  points->InsertNextPoint(7, 8, 9);
+  points->InsertNextPoint(-INFINITY, 2, 3);
   cloud->SetPoints(points);
-  EXPECT_NE(writeCloud(cloud, path("a.las")).find("point 1 is NaN"), std::string::npos);
+  vtkNew<vtkIntArray> numbers;
+  numbers->SetName("number");
+  for (const int number : { 10, 11, 12, 13 })
+  {
+    numbers->InsertNextValue(number);
+  }
+  cloud->GetPointData()->AddArray(numbers);
+  for (const char* name : { "a.las", "a.laz" })
+  {
+    std::vector<std::string> notes;
+    ASSERT_EQ(writeCloud(cloud, path(name), &notes), "");
+    ASSERT_EQ(notes.size(), 1u) << name;
+    EXPECT_EQ(notes[0].find("2 of 4 points are NaN or infinite and left out"), 0u) << notes[0];
+    const ReadResult result = readCloud(path(name));
+    ASSERT_EQ(result.error, "");
+    ASSERT_EQ(result.points(), 2);
+    EXPECT_EQ(result.value("number", 0), 10.0);
+    EXPECT_EQ(result.value("number", 1), 12.0);
+    EXPECT_EQ(result.cloud->GetPoint(1)[0], 7.0);
+  }
+}
+
+TEST_F(LasWriting, RefusesACloudWithoutAFinitePoint)
+{
+  vtkNew<vtkPolyData> cloud;
+  vtkNew<vtkPoints> points;
+  points->InsertNextPoint(4, std::nan(""), 6);
+  cloud->SetPoints(points);
+  EXPECT_NE(writeCloud(cloud, path("a.las")).find("all coordinates are NaN"), std::string::npos);
   EXPECT_TRUE(std::filesystem::is_empty(folder_));
 }
 
