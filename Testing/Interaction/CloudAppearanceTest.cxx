@@ -221,9 +221,12 @@ TEST(CloudAppearance, ABarBetweenWholeNumbersHasWholeLabels)
   vtkNew<vtkRenderer> renderer;
   bar->SetLookupTable(colors);
   setUpScalarBar(bar);
-  for (const Case& one : { Case{ 1, 3, 3, "%.0f " }, Case{ 1, 4, 4, "%.0f " }, Case{ 0, 8, 5, "%.0f " },
-         Case{ 0, 7, 2, "%.0f " }, Case{ 0, 580, 4, "%.0f " }, Case{ 0.5, 3, 4, "%#.3g " },
-         Case{ 0, 2e6, 4, "%#.3g " }, Case{ 2, 2, 4, "%#.3g " } })
+  for (const Case& one :
+    { Case{ 1, 3, 3, "%.0f " }, Case{ 1, 4, 4, "%.0f " }, Case{ 0, 8, 5, "%.0f " }, Case{ 0, 7, 2, "%.0f " },
+      Case{ 0, 580, 4, "%.0f " }, Case{ 0.5, 3, 4, "%#.3g " }, Case{ 0, 2e6, 4, "%#.3g " },
+      Case{ 2, 2, 1, "%.0f " }, Case{ 627, 627 + widthOfOneValue(627), 1, "%.0f " },
+      Case{ 0.25, 0.25 + widthOfOneValue(0.25), 1, "%.6g " }, Case{ 3.5, 812.4, 4, "%.0f " },
+      Case{ 627.1, 627.9, 4, "%.1f " }, Case{ 627.1, 627.12, 4, "%.3f " } })
   {
     colors->SetRange(one.low, one.high);
     placeScalarBar(bar, renderer);

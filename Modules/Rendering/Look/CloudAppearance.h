@@ -78,6 +78,9 @@ POINTHAPTICSRENDERING_EXPORT vtkLookupTable* newClassLegend(vtkDataArray* classe
 POINTHAPTICSRENDERING_EXPORT bool applyCloudAppearance(vtkPolyData* cloud, vtkPolyDataMapper* mapper,
   vtkActor* actor, const std::string& colorBy = {}, double pointSize = 3.0);
 
+/// The width of the range of colours of an array that holds @p value alone: such a range has one label.
+POINTHAPTICSRENDERING_EXPORT double widthOfOneValue(double value);
+
 /// Dark text on the light background, at the right edge: see placeScalarBar().
 POINTHAPTICSRENDERING_EXPORT void setUpScalarBar(vtkScalarBarActor* bar);
 
