@@ -76,6 +76,18 @@ void setClippingRangeToSteps(vtkCamera* camera)
   }
 }
 
+/// Text makes its image where it has nothing to draw yet.
+void makeTextImages(const vtkRenderState* state)
+{
+  for (int i = 0; i < state->GetPropArrayCount(); ++i)
+  {
+    if (auto* text = vtkActor2D::SafeDownCast(state->GetPropArray()[i]))
+    {
+      text->RenderOpaqueGeometry(state->GetRenderer());
+    }
+  }
+}
+
 } // namespace
 
 vtkStandardNewMacro(vtkDepthShadingPass);
@@ -200,6 +212,11 @@ void vtkDepthShadingPass::RenderEye(const vtkRenderState* state)
   {
     this->NumberOfSamples = 1;
     this->DrawSample(state, window);
+    if (window->GetAbortRender())
+    {
+      this->ForgetPicture();
+      return;
+    }
     this->KeptNumbers = numbers;
     this->Kept = renderer->GetSelector() ? std::vector<double>() : std::move(wanted);
     ++this->NumberOfPictures;
@@ -210,18 +227,15 @@ void vtkDepthShadingPass::RenderEye(const vtkRenderState* state)
   }
   else
   {
-    // Text makes its image where it has nothing to draw yet.
-    for (int i = 0; i < state->GetPropArrayCount(); ++i)
-    {
-      if (auto* text = vtkActor2D::SafeDownCast(state->GetPropArray()[i]))
-      {
-        text->RenderOpaqueGeometry(renderer);
-      }
-    }
+    makeTextImages(state);
   }
   if (!renderer->GetSelector() && this->Resolution == 1.0)
   {
     this->DrawSamples(state, window, samplesToAdd);
+  }
+  if (window->GetAbortRender())
+  {
+    return; // nobody sees it
   }
   this->Show(renderer, window);
   if (!isNew && this->NumberOfSamples == 1 && !this->KeptIsShaded)
@@ -275,10 +289,25 @@ void vtkDepthShadingPass::DrawSamples(const vtkRenderState* state, vtkOpenGLRend
     camera->SetWindowCenter(
       center[0] + 2.0 * offset[0] / this->Width, center[1] + 2.0 * offset[1] / this->Height);
     this->DrawSample(state, window);
+    if (window->GetAbortRender())
+    {
+      break;
+    }
     ++this->NumberOfSamples;
     this->AddToSum(state->GetRenderer(), window);
   }
   camera->SetWindowCenter(center[0], center[1]);
+  if (window->GetAbortRender() && this->NumberOfSamples == 1)
+  {
+    this->ForgetPicture(); // what was drawn lies over it
+  }
+}
+
+/// The next frame draws all anew.
+void vtkDepthShadingPass::ForgetPicture()
+{
+  this->Kept.clear();
+  this->NumberOfSamples = 0;
 }
 
 /// Shades the picture that was drawn last, at its own resolution.

@@ -151,6 +151,7 @@ private:
   void SetUniforms(
     vtkShaderProgram* program, vtkTextureObject* colors, vtkTextureObject* depths, vtkRenderer* renderer);
   void DrawSample(const vtkRenderState* state, vtkOpenGLRenderWindow* window);
+  void ForgetPicture();
   void DrawSamples(const vtkRenderState* state, vtkOpenGLRenderWindow* window, int count);
   void ShadeKept(vtkRenderer* renderer, vtkOpenGLRenderWindow* window);
   void AddToSum(vtkRenderer* renderer, vtkOpenGLRenderWindow* window);

@@ -231,11 +231,12 @@ void vtkSplatMapper::RenderPieceStart(vtkRenderer* renderer, vtkActor* actor)
   }
 }
 
-/// In steps: see DrawPace.
+/// In steps: see DrawPace. Between them the window may give up the frame.
 void vtkSplatMapper::DrawRange(vtkRenderer* renderer, vtkIdType begin, vtkIdType end, bool isIndexed)
 {
-  auto& pace = pointhaptics::DrawPace::of(vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow()));
-  while (begin < end)
+  auto* window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
+  auto& pace = pointhaptics::DrawPace::of(window);
+  while (begin < end && !window->GetAbortRender())
   {
     const auto count = static_cast<GLsizei>(std::min<std::int64_t>(end - begin, pace.room()));
     if (isIndexed)
@@ -249,6 +250,7 @@ void vtkSplatMapper::DrawRange(vtkRenderer* renderer, vtkIdType begin, vtkIdType
     }
     pace.add(count);
     begin += count;
+    window->CheckAbortStatus(); // asks five times a second at most
   }
 }
 

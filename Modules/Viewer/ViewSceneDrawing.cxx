@@ -126,6 +126,7 @@ void ViewScene::colorPoints()
 void ViewScene::drawPoints()
 {
   drawShown(*shown_, pointsMapper_);
+  detail_.setOrder(shown_->order);
   this->applyPointSizes();
   orientation_.front = normalized(transformOf(modelMatrix_).applyToVector(shown_->look.front));
 }
@@ -152,6 +153,7 @@ bool ViewScene::followMeasurement(bool waits)
     return false;
   }
   memoryDue_ = steadySeconds() + kMemorySeconds;
+  measured->order = shown_->order; // of the same points
   shown_ = measured;
   const bool isPlaced = placedCamera_ == pictureCamera(renderer_->GetActiveCamera());
   this->drawPoints();

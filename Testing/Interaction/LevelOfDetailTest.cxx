@@ -35,6 +35,8 @@
 #include <cmath>
 #include <cstdlib>
 #include <functional>
+#include <memory>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -112,6 +114,15 @@ protected:
     vtkNew<vtkUnsignedCharArray> data;
     window_->GetPixelData(0, 0, kSize - 1, kSize - 1, 0, data);
     return { data->GetPointer(0), data->GetPointer(0) + data->GetNumberOfValues() };
+  }
+
+  vtkSmartPointer<vtkSplatMapper> drawSplats()
+  {
+    auto splats = vtkSmartPointer<vtkSplatMapper>::New();
+    splats->SetInputData(cloud_);
+    actor_->SetMapper(splats);
+    applyCloudAppearance(cloud_, splats, actor_);
+    return splats;
   }
 
   void renderUntilFine()
@@ -320,10 +331,7 @@ TEST_F(LevelOfDetailTest, LeavesOutWhatIsOutOfViewWithoutChangingThePicture)
   lengths->SetNumberOfValues(kPoints);
   lengths->FillValue(0.0003f);
   cloud_->GetPointData()->AddArray(lengths);
-  vtkNew<vtkSplatMapper> splats;
-  splats->SetInputData(cloud_);
-  actor_->SetMapper(splats);
-  applyCloudAppearance(cloud_, splats, actor_);
+  const vtkSmartPointer<vtkSplatMapper> splats = this->drawSplats();
   this->render(0.01);
   ASSERT_FALSE(detail_.showsAll());
   EXPECT_EQ(detail_.visiblePoints(), detail_.drawnPoints());
@@ -428,10 +436,7 @@ TEST_F(LevelOfDetailTest, LeavesOutOfThePictureAtRestWhatIsOutOfViewWithoutChang
   }
   cloud_->GetPointData()->AddArray(lengths);
   sortAsMeans(cloud_);
-  vtkNew<vtkSplatMapper> splats;
-  splats->SetInputData(cloud_);
-  actor_->SetMapper(splats);
-  applyCloudAppearance(cloud_, splats, actor_);
+  const vtkSmartPointer<vtkSplatMapper> splats = this->drawSplats();
   vtkCamera* camera = renderer_->GetActiveCamera();
   for (const bool parallel : { false, true })
   {
@@ -476,10 +481,7 @@ TEST_F(LevelOfDetailTest, DrawsPointsInAnotherOrderThanTheirOwnAll)
     backwards->InsertNextCell(1, &i);
   }
   cloud_->SetVerts(backwards);
-  vtkNew<vtkSplatMapper> splats;
-  splats->SetInputData(cloud_);
-  actor_->SetMapper(splats);
-  applyCloudAppearance(cloud_, splats, actor_);
+  const vtkSmartPointer<vtkSplatMapper> splats = this->drawSplats();
   renderer_->GetActiveCamera()->SetViewAngle(5.0);
   this->render(0.01);
   this->renderUntilFine();
@@ -493,10 +495,7 @@ TEST_F(LevelOfDetailTest, LeavesOutWhatIsBelowAPixelFromAfar)
   lengths->SetNumberOfValues(kPoints);
   lengths->FillValue(0.0003f); // 0.43 mm apart
   cloud_->GetPointData()->AddArray(lengths);
-  vtkNew<vtkSplatMapper> splats;
-  splats->SetInputData(cloud_);
-  actor_->SetMapper(splats);
-  applyCloudAppearance(cloud_, splats, actor_);
+  const vtkSmartPointer<vtkSplatMapper> splats = this->drawSplats();
   vtkCamera* camera = renderer_->GetActiveCamera();
   std::int64_t last = kPoints + 1;
   for (const bool parallel : { false, true })
@@ -535,10 +534,7 @@ TEST_F(LevelOfDetailTest, LeavesOutWhatIsBelowAPixelFromAfar)
 
 TEST_F(LevelOfDetailTest, LeavesOutWhatTheWorkspaceClips)
 {
-  vtkNew<vtkSplatMapper> splats;
-  splats->SetInputData(cloud_);
-  actor_->SetMapper(splats);
-  applyCloudAppearance(cloud_, splats, actor_);
+  const vtkSmartPointer<vtkSplatMapper> splats = this->drawSplats();
   Bounds box;
   box.include({ -1.0, -1.0, -1.0 });
   box.include({ 0.0, 1.0, 1.0 });
@@ -548,6 +544,57 @@ TEST_F(LevelOfDetailTest, LeavesOutWhatTheWorkspaceClips)
   // Half of the sphere, and the bricks on the border.
   EXPECT_LT(double(detail_.visiblePoints()), 0.75 * double(detail_.drawnPoints()));
   EXPECT_GT(double(detail_.visiblePoints()), 0.5 * double(detail_.drawnPoints()));
+}
+
+TEST_F(LevelOfDetailTest, AFrameThatIsGivenUpIsDrawnAgain)
+{
+  this->drawSplats();
+  this->render(0.0);
+  this->renderUntilFine();
+  ASSERT_TRUE(detail_.showsAll());
+  const std::vector<unsigned char> whole = this->pixels();
+  vtkDepthShadingPass* shading = vtkDepthShadingPass::GetPassOf(renderer_);
+  shading->AddSamples(1);
+  this->render(1.0);
+  const std::vector<unsigned char> twoSamples = this->pixels();
+  cloud_->Modified();
+  this->render(0.01); // few points
+  EXPECT_FALSE(detail_.restingFrame());
+  vtkNew<vtkCallbackCommand> giveUp;
+  giveUp->SetClientData(window_);
+  giveUp->SetCallback([](vtkObject*, unsigned long, void* window, void*)
+    { static_cast<vtkRenderWindow*>(window)->SetAbortRender(1); });
+  const std::int64_t drawn = detail_.drawnPoints();
+  unsigned long atStart = renderer_->AddObserver(vtkCommand::StartEvent, giveUp);
+  this->render(1.0);
+  EXPECT_EQ(detail_.drawnPoints(), drawn);
+  EXPECT_TRUE(detail_.refinementDue(now_));
+  EXPECT_TRUE(detail_.restingFrame());
+  renderer_->RemoveObserver(atStart);
+  this->renderUntilFine();
+  EXPECT_EQ(this->pixels(), whole);
+  // The second sample lies over the first, and both come again.
+  atStart = renderer_->AddObserver(vtkCommand::StartEvent, giveUp);
+  shading->AddSamples(1);
+  this->render(1.0);
+  EXPECT_EQ(shading->GetNumberOfSamples(), 0);
+  renderer_->RemoveObserver(atStart);
+  shading->AddSamples(1);
+  this->render(1.0);
+  EXPECT_EQ(shading->GetNumberOfSamples(), 2);
+  EXPECT_EQ(this->pixels(), twoSamples);
+}
+
+TEST_F(LevelOfDetailTest, TakesAnOrderThatWasMadeElsewhere)
+{
+  this->render(0.01);
+  const std::vector<unsigned char> own = this->pixels();
+  std::vector<std::uint32_t> upwards(kPoints); // the points begin at the pole
+  std::iota(upwards.begin(), upwards.end(), 0u);
+  detail_.setOrder(std::make_shared<const std::vector<std::uint32_t>>(upwards));
+  cloud_->Modified();
+  this->render(0.01);
+  EXPECT_NE(this->pixels(), own);
 }
 
 } // namespace

@@ -188,14 +188,26 @@ public:
   {
   }
 
-  void fit(const Executor& executor)
+  /// In parts, between which @p goesOn hears how much is done, 0..1. False: it said no.
+  template <typename GoesOn>
+  bool fit(const Executor& executor, const GoesOn& goesOn)
   {
-    forRange(executor, NeighborSweep::leaves(query_), NeighborSweep::kSmallestRange,
-      [this](std::int64_t begin, std::int64_t end)
+    constexpr std::int64_t kLeavesAtOnce = 1024;
+    const std::int64_t leaves = NeighborSweep::leaves(query_);
+    for (std::int64_t first = 0; first < leaves; first += kLeavesAtOnce)
+    {
+      if (!goesOn(double(first) / double(leaves)))
       {
-        NeighborSweep sweep(query_, neighbors_ + 1);
-        sweep.run(begin, end, [this](const NeighborList& list) { this->fitOne(list); });
-      });
+        return false;
+      }
+      forRange(executor, std::min(kLeavesAtOnce, leaves - first), NeighborSweep::kSmallestRange,
+        [this, first](std::int64_t begin, std::int64_t end)
+        {
+          NeighborSweep sweep(query_, neighbors_ + 1);
+          sweep.run(first + begin, first + end, [this](const NeighborList& list) { this->fitOne(list); });
+        });
+    }
+    return true;
   }
   void compareNormals(const Executor& executor)
   {
@@ -390,12 +402,7 @@ Status measureLocalShape(const PointView& cloud, const NeighborQuery& query,
   const NeighborQuery& distinct = places.points.empty() ? query : ofPlaces;
   const int neighbors = chosenNeighbors(distinct, settings);
   Measurement measurement(distinct, neighbors);
-  if (!goesOn(0.1))
-  {
-    return Status::Aborted;
-  }
-  measurement.fit(executor);
-  if (!goesOn(0.8))
+  if (!measurement.fit(executor, [&goesOn](double part) { return goesOn(0.1 + 0.7 * part); }) || !goesOn(0.8))
   {
     return Status::Aborted;
   }

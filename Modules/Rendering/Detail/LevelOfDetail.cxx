@@ -100,6 +100,12 @@ bool LevelOfDetail::isComplete(double now) const
   return enabled_ && total_ > 0 && this->showsAll() && now - lastMotion_ >= kRestSeconds;
 }
 
+std::optional<double> LevelOfDetail::restingFrame() const
+{
+  const bool rests = enabled_ && !moving_ && !isKept_;
+  return rests ? std::optional(steadySeconds() - frameBegin_) : std::nullopt;
+}
+
 void LevelOfDetail::watchWindow()
 {
   vtkRenderWindow* window = renderer_->GetRenderWindow();
@@ -200,6 +206,8 @@ void LevelOfDetail::beginFrame(double now)
   }
   total_ = cloud->GetNumberOfPoints();
   finest_ = this->finestFor(cloud);
+  before_ = drawn_;
+  isKept_ = allOnce_;
   const std::int64_t before = cloudChanged_ ? -1 : drawn_;
   inMotion_ = !allOnce_ && (moving_ || now - lastMotion_ < kRestSeconds);
   this->show(cloud, this->wanted(now));
@@ -210,6 +218,11 @@ void LevelOfDetail::beginFrame(double now)
 
 void LevelOfDetail::endFrame()
 {
+  if (window_ && window_->GetAbortRender())
+  {
+    drawn_ = before_; // that is seen still
+    frameIsTypical_ = false;
+  }
   if (frameIsTypical_ && window_)
   {
     window_->WaitForCompletion();
@@ -427,9 +440,11 @@ void LevelOfDetail::addLevel(vtkPolyData* cloud)
 {
   std::vector<Vec3> copy;
   const PointView points = viewOf(cloud, copy);
-  if (order_.empty())
+  if (!order_)
   {
-    order_ = progressiveOrder(points);
+    const bool isGiven = givenOrder_ && std::int64_t(givenOrder_->size()) == total_;
+    order_ =
+      isGiven ? givenOrder_ : std::make_shared<const std::vector<std::uint32_t>>(progressiveOrder(points));
   }
   const std::int64_t begin = levels_.empty() ? 0 : levels_.back().end;
   double end = double(FrameBudget::kFewestPoints);
@@ -439,7 +454,7 @@ void LevelOfDetail::addLevel(vtkPolyData* cloud)
   }
   Level level;
   level.end = std::min(total_, std::int64_t(end));
-  std::vector<std::int64_t> members(order_.begin() + begin, order_.begin() + level.end);
+  std::vector<std::int64_t> members(order_->begin() + begin, order_->begin() + level.end);
   level.bricks = makeBricks(points, members);
   vtkNew<vtkIdList> ids;
   ids->SetNumberOfIds(level.end - begin);
@@ -477,7 +492,7 @@ void LevelOfDetail::removeLevels()
 void LevelOfDetail::dropLevels()
 {
   this->removeLevels();
-  order_.clear();
+  order_.reset();
   rows_.clear();
   hasRows_ = false;
   spacing_ = -1.0;

@@ -12,6 +12,9 @@
 #include "vtkWeakPointer.h"
 
 #include <cstdint>
+#include <memory>
+#include <optional>
+#include <utility>
 #include <vector>
 
 class vtkActor;
@@ -37,7 +40,8 @@ namespace pointhaptics
 /// are neither drawn nor uploaded. Text may change without the detail changing. Points are uploaded when they
 /// are first drawn.
 ///
-/// The picture only gets finer when somebody renders: call refinementDue() from a timer. GUI thread only. To
+/// The picture only gets finer when somebody renders: call refinementDue() from a timer. A frame that its
+/// window gives up (vtkRenderWindow::SetAbortRender()) does not count, and is due again. GUI thread only. To
 /// be destroyed before the actor's renderer.
 class POINTHAPTICSRENDERING_EXPORT LevelOfDetail
 {
@@ -64,6 +68,12 @@ public:
   bool refinementDue(double now) const;
   /// The picture rests and shows all points.
   bool isComplete(double now) const;
+  /// For how long the frame at rest is drawn that is drawn now, seconds. None: it is one of a motion, or to
+  /// be kept, and so not to be given up.
+  std::optional<double> restingFrame() const;
+  /// progressiveOrder() of the points of the actor's cloud, made elsewhere: it takes a second for some
+  /// millions. Of another size or null it is made here when it is first needed.
+  void setOrder(std::shared_ptr<const std::vector<std::uint32_t>> order) { givenOrder_ = std::move(order); }
   /// The next frame shows all points, whatever moves: for pictures that are kept.
   void showAllOnce() { allOnce_ = true; }
 
@@ -118,11 +128,13 @@ private:
   vtkNew<vtkProperty> coarse_;
   vtkNew<vtkCallbackCommand> onEnd_;
   vtkWeakPointer<vtkRenderWindow> window_;
-  std::vector<std::uint32_t> order_;
+  std::shared_ptr<const std::vector<std::uint32_t>> givenOrder_;
+  std::shared_ptr<const std::vector<std::uint32_t>> order_;
   std::vector<Level> levels_;
   FrameBudget budget_;
   bool enabled_ = false;
   bool allOnce_ = false;
+  bool isKept_ = false; // it was asked for the frame that is drawn
   bool moving_ = false;
   bool inMotion_ = false;
   bool cloudChanged_ = false;
@@ -133,6 +145,7 @@ private:
   std::int64_t total_ = 0;
   std::int64_t finest_ = 0; // so many points tell apart what pixels can
   std::int64_t drawn_ = 0;
+  std::int64_t before_ = 0; // the same of the frame before
   std::int64_t visible_ = 0;
   Bounds workspace_;
   double lastMotion_ = -1e9;

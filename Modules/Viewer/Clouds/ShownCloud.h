@@ -12,11 +12,13 @@
 
 #include <array>
 #include <atomic>
+#include <cstdint>
 #include <functional>
 #include <future>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 class vtkPolyData;
 class vtkSplatMapper;
@@ -42,6 +44,8 @@ struct ShownCloud
   CloudLook look;
   CloudColors colors;
   double medianSpacing = 0.0; ///< Of the points, unit of the file; 0: not measured.
+  /// progressiveOrder() of them, made in the thread that reads; null: left to LevelOfDetail.
+  std::shared_ptr<const std::vector<std::uint32_t>> order;
 };
 
 /// How a cloud is to be shown.

@@ -31,7 +31,41 @@ int eventSocket(vtkRenderWindow* window)
 }
 #endif
 
+#if defined(__unix__) && !defined(__APPLE__)
+/// Key, button of the mouse, or what the window manager says, such as that the window is to be closed.
+/// As XCheckIfEvent() asks: it takes no event out of the queue.
+int noteInput(void*, void* event, char* found)
+{
+  constexpr int kKeyPress = 2;
+  constexpr int kButtonPress = 4;
+  constexpr int kClientMessage = 33;
+  const int type = *static_cast<const int*>(event);
+  bool& isThere = *reinterpret_cast<bool*>(found);
+  isThere = isThere || type == kKeyPress || type == kButtonPress || type == kClientMessage;
+  return 0;
+}
+#endif
+
 } // namespace
+
+bool inputWaits(vtkRenderWindow* window)
+{
+#if defined(__unix__) && !defined(__APPLE__)
+  using CheckIfEvent = int (*)(void*, void*, int (*)(void*, void*, char*), char*);
+  const auto checkIfEvent = reinterpret_cast<CheckIfEvent>(findXFunction("XCheckIfEvent"));
+  void* display = xDisplayOf(window);
+  if (checkIfEvent && display)
+  {
+    long event[24]; // the size of an XEvent
+    bool isThere = false;
+    checkIfEvent(display, event, noteInput, reinterpret_cast<char*>(&isThere));
+    return isThere;
+  }
+#else
+  static_cast<void>(window);
+#endif
+  return false;
+}
 
 void runEvents(vtkRenderWindowInteractor* interactor)
 {

@@ -2,6 +2,7 @@
 /// The event loop of the window.
 #pragma once
 
+class vtkRenderWindow;
 class vtkRenderWindowInteractor;
 
 namespace pointhaptics
@@ -17,5 +18,9 @@ void runEvents(vtkRenderWindowInteractor* interactor);
 /// TerminateApp() is for good: VTK 9.1 destroys the window, and the one that the next render makes instead
 /// hears neither keys nor its close button.
 void leaveEvents(vtkRenderWindowInteractor* interactor);
+
+/// Whether a key, a button of the mouse or a word of the window manager waits to be handled by @p window's
+/// interactor. It goes on to wait. False also where the window is not one on an X server.
+bool inputWaits(vtkRenderWindow* window);
 
 } // namespace pointhaptics

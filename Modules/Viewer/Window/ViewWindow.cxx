@@ -31,6 +31,7 @@
 #include <chrono>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <utility>
 
 namespace pointhaptics
@@ -41,6 +42,8 @@ namespace
 constexpr double kChartHeight = 0.24; // part of the window
 /// Calls of the timer, of 33 ms each, between two looks at the files.
 constexpr int kLooksApart = 8;
+/// Seconds of a frame from which on the window says that it draws.
+constexpr double kLongFrame = 1.0;
 
 } // namespace
 
@@ -69,6 +72,7 @@ ViewWindow::~ViewWindow()
   {
     this->report(HapticViewerObserver::Kind::Error, message);
   }
+  window_->RemoveObserver(abortCheck_);
   layout_.follow(nullptr);
   scene_.leaveLayout();
   if (isOpen_)
@@ -264,6 +268,11 @@ void ViewWindow::connectStyle()
   timer->SetCallback(
     [](vtkObject*, unsigned long, void* window, void*) { static_cast<ViewWindow*>(window)->onTimer(); });
   interactor_->AddObserver(vtkCommand::TimerEvent, timer);
+  vtkNew<vtkCallbackCommand> check;
+  check->SetClientData(this);
+  check->SetCallback(
+    [](vtkObject*, unsigned long, void* window, void*) { static_cast<ViewWindow*>(window)->onAbortCheck(); });
+  abortCheck_ = window_->AddObserver(vtkCommand::AbortCheckEvent, check);
   // Before the style, for which Escape may have another meaning.
   cancelKey_->SetClientData(this);
   cancelKey_->SetCallback(
@@ -295,9 +304,14 @@ void ViewWindow::onSamples(void* callData)
 /// to end, and whether a picture that rests is to become finer.
 void ViewWindow::onTimer()
 {
-  if (scene_.followMeasurement(false) || scene_.refinementDue())
+  const bool wasGivenUp = std::exchange(isGivenUp_, false);
+  if (scene_.followMeasurement(false) || scene_.refinementDue() || wasGivenUp)
   {
     interactor_->Render();
+  }
+  if (std::exchange(saysDrawing_, false) && !loader_.busy())
+  {
+    window_->SetWindowName(("PointHaptics: " + scene_.title()).c_str());
   }
   if (controls_.turnTable(steadySeconds()))
   {
@@ -326,6 +340,27 @@ void ViewWindow::onTimer()
           }
         });
     }
+  }
+}
+
+/// Several times in a frame that takes long. All points may take seconds to draw: a frame at rest is given up
+/// for keys and buttons and drawn after them. Until then the window shows what it showed.
+void ViewWindow::onAbortCheck()
+{
+  const std::optional<double> seconds = scene_.detail().restingFrame();
+  if (!seconds)
+  {
+    return;
+  }
+  if (inputWaits(window_) || this->shouldStop())
+  {
+    isGivenUp_ = true;
+    window_->SetAbortRender(1);
+  }
+  else if (!saysDrawing_ && !loader_.busy() && *seconds > kLongFrame)
+  {
+    saysDrawing_ = true;
+    window_->SetWindowName(("PointHaptics: drawing " + scene_.title()).c_str());
   }
 }
 

@@ -111,6 +111,7 @@ private:
   void openSimulated();
   void openFalcon();
   void onTimer();
+  void onAbortCheck();
   bool startServo(std::string& message);
   void connectStyle();
   void observe(unsigned long event, void (ViewWindow::*handler)(void*));
@@ -179,7 +180,10 @@ private:
   std::vector<std::string> shown_; ///< What the window shows: one of files_, or all together.
   FileWatch watch_;
   int sinceLook_ = 0;
-  Loading loading_; ///< While loader_ is busy.
+  unsigned long abortCheck_ = 0;
+  bool isGivenUp_ = false;   ///< A frame was, and is to be drawn again.
+  bool saysDrawing_ = false; ///< In the window's title.
+  Loading loading_;          ///< While loader_ is busy.
   /// Until then Escape is taken as meant for the bar that has just gone.
   std::chrono::steady_clock::time_point escapeIsLate_;
   bool isOpen_ = false;

@@ -239,4 +239,38 @@ TEST(LocalShape, OfFewOrNoPointsIsLeftOpen)
   EXPECT_EQ(measureLocalShape({}, NeighborQuery(), settings, none), Status::InvalidParameter);
 }
 
+/// Says no at its third question.
+class ImpatientObserver : public ProgressObserver
+{
+public:
+  bool report(double part) override
+  {
+    last_ = part;
+    return ++reports_ < 3;
+  }
+  double last_ = 0.0;
+
+private:
+  int reports_ = 0;
+};
+
+TEST(LocalShape, EndsSoonWhereItIsAskedTo)
+{
+  std::vector<Vec3> points;
+  for (int i = 0; i < 300; ++i)
+  {
+    for (int j = 0; j < 600; ++j)
+    {
+      points.push_back({ double(i), double(j), 0.01 * (i % 7) });
+    }
+  }
+  const PointView view{ points.data(), std::int64_t(points.size()) };
+  NeighborQuery query;
+  query.build(view);
+  LocalShape shape;
+  ImpatientObserver observer;
+  EXPECT_EQ(measureLocalShape(view, query, {}, shape, {}, &observer), Status::Aborted);
+  EXPECT_LT(observer.last_, 0.5);
+}
+
 } // namespace
