@@ -124,9 +124,11 @@ double ballRadius(const HapticScene& scene, FitCells& fields, const BallCells& n
     points = points < kPoints && all >= kPoints && isRow(scene, near, seed, reach) ? all : points;
   }
   reach /= kReachGrowth;
-  // A few points far from all others are no surface, and have no spacing.
+  // A few points far from all others are no surface, and have no spacing; of a cloud that has no more the few
+  // are all there is.
+  const bool areLone = points < kPoints && double(scene.pyramid().level(0).cells.size()) >= kPoints;
   const double spacing =
-    points < kPoints ? 0.0 : rimSpacing(scene, near, seed, reach, middle, reach * std::sqrt(kPi / points));
+    areLone ? 0.0 : rimSpacing(scene, near, seed, reach, middle, reach * std::sqrt(kPi / points));
   // Few points say little: the field, which is smooth, keeps clumps of them from making the ball too small.
   Vec3 ignored;
   const double field = kRadiusOfField * scene.fitScale(seed, fields, ignored).proxyRadius;
