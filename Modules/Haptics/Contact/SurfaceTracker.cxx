@@ -54,8 +54,21 @@ bool SurfaceTracker::findSheet(const HapticScene& scene, FitCells& memory, const
 {
   Vec3 ignored;
   const LocalScale scale = scene.fitScale(onSurface, memory, ignored);
-  const double radius = scale.radius;
   const double gate = std::max(2.0 * kGateDepth * scale.countRadius, scale.gate);
+  bool found = false;
+  double radius = scale.radius;
+  // Few points that lie badly determine nothing: those a little further are used too.
+  for (int widening = 0; widening <= kWidenings && !found; ++widening, radius *= kWidening)
+  {
+    found = this->findSheet(scene, memory, onSurface, radius, gate);
+  }
+  return found;
+}
+
+/// The sheet by fits of a radius.
+bool SurfaceTracker::findSheet(
+  const HapticScene& scene, FitCells& memory, const Vec3& onSurface, double radius, double gate) noexcept
+{
   SurfaceTracker best;
   bool found = false;
   for (const double part : { 1.0, 0.7, 1.4 })

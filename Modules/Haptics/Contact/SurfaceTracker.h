@@ -29,8 +29,8 @@ public:
     const Vec3& target, int rounds) noexcept;
 
   /// The parts of find(), for who has no time for all of them at once: the sheet with its normal to the side
-  /// of @p side, the way to that side, and the way to the target. False: there is none, and what is here is of
-  /// no use.
+  /// of @p side, the way to that side, and the way to the target. False: there is none, and what is here is
+  /// of no use.
   bool findSheet(
     const HapticScene& scene, FitCells& memory, const Vec3& onSurface, const Vec3& side) noexcept;
   bool followToSide(const HapticScene& scene, FitCells& memory, const Vec3& side, int rounds) noexcept;
@@ -64,6 +64,8 @@ public:
 private:
   /// Looks from the other side.
   void flip() noexcept;
+  bool findSheet(
+    const HapticScene& scene, FitCells& memory, const Vec3& onSurface, double radius, double gate) noexcept;
   /// Fits anew at frame_. False: there is no surface to fit.
   bool refit(const HapticScene& scene, FitCells& memory) noexcept;
   /// A round of following: from where, the step to the foot there, and how far the target is.
