@@ -2,19 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace pointhaptics
 {
 namespace
 {
 
-constexpr int kRoundsPerTick = 8;
 /// Where the fit is lost it is sought at once, then every so many ticks, a part of the work in each of three:
 /// what failed a moment ago mostly fails again.
 constexpr int kSeekEvery = 4;
-constexpr int kSheetPart = 1;
-constexpr int kSidePart = 2;
-constexpr int kFootPart = 3;
 constexpr double kSeekBelow = 0.5;
 /// RMS distance of the points from the fit, over the ball's radius, up to which the surface is smooth.
 constexpr double kSmoothResidual = 0.03;
@@ -51,7 +48,7 @@ void SurfaceFitProxy::carry(const AffineTransform& from, const AffineTransform& 
   const AffineTransform change = to * from.inverse();
   ball_.carry(change, std::cbrt(std::abs(change.determinant())));
   tracker_.carry(from, to);
-  sought_.carry(from, to);
+  search_.carry(from, to);
   friction_.carry(change);
   isRough_ = false;
   normal_ = normalized(change.applyToNormal(normal_), normal_);
@@ -81,10 +78,12 @@ bool SurfaceFitProxy::comesOut(
   {
     return false;
   }
-  SurfaceTracker face;
-  isRough_ = !face.find(scene, memory.fit, nearest, hip, hip, kRoundsPerTick) ||
-    face.residual() >= kOutResidual * ball_.radius();
+  SurfaceSearch search;
+  search.begin(nearest);
+  isRough_ =
+    !search.finish(scene, memory.fit, hip, hip) || search.found().residual() >= kOutResidual * ball_.radius();
   roughAt_ = hip;
+  const SurfaceTracker& face = search.found();
   const ProxyBall before = ball_;
   if (isRough_ || face.height(hip) < 0.0 ||
     !ball_.goAround(scene, memory.fit, memory.ball, face.point(), face.normal(), status) ||
@@ -98,29 +97,22 @@ bool SurfaceFitProxy::comesOut(
   return true;
 }
 
-/// Does a part of the search for a fit at the ball; all of it in the first tick without. @return whether
-/// sought_ has come to the foot of the HIP.
+/// Does a part of the search for a fit at the ball; all of it in the first tick without. @return whether it
+/// has come to the foot of the HIP.
 bool SurfaceFitProxy::seek(const HapticScene& scene, Memory& memory, const Vec3& hip) noexcept
 {
-  const bool isAllAtOnce = ticksWithoutFit_ == 0;
-  const int part = ticksWithoutFit_++ % kSeekEvery;
-  if (isAllAtOnce || part == kSheetPart)
+  const int tick = ticksWithoutFit_++;
+  Vec3 nearest;
+  if (tick == 0 || tick % kSeekEvery == 1)
   {
-    Vec3 nearest;
-    isSought_ =
-      memory.ball.nearestOf(scene.pyramid(), ball_.nearestPoint(hip), 2.0 * ball_.radius(), nearest) &&
-      sought_.findSheet(scene, memory.fit, nearest, ball_.center());
+    search_.giveUp();
+    if (memory.ball.nearestOf(scene.pyramid(), ball_.nearestPoint(hip), 2.0 * ball_.radius(), nearest))
+    {
+      search_.begin(nearest);
+    }
   }
-  if (isSought_ && (isAllAtOnce || part == kSidePart))
-  {
-    isSought_ = sought_.followToSide(scene, memory.fit, ball_.center(), kRoundsPerTick);
-  }
-  if (!isSought_ || !(isAllAtOnce || part == kFootPart))
-  {
-    return false;
-  }
-  isSought_ = false;
-  return sought_.reaches(scene, memory.fit, hip, kRoundsPerTick);
+  return tick == 0 ? search_.finish(scene, memory.fit, ball_.center(), hip)
+                   : search_.advance(scene, memory.fit, ball_.center(), hip);
 }
 
 /// Follows the fit to the HIP. @return how much of the answer is the fit's, 0 to 1.
@@ -140,7 +132,7 @@ double SurfaceFitProxy::fitWeight(
     return agrees ? 1.0 - smoothStep((apart - trust) / ((kDistrust - 1.0) * trust)) : 0.0;
   };
   double result = 0.0;
-  const auto followed = hasFit_ ? tracker_.follow(scene, fit, hip, kRoundsPerTick) : TrackResult::Lost;
+  const auto followed = hasFit_ ? tracker_.follow(scene, fit, hip) : TrackResult::Lost;
   if (hasFit_)
   {
     status |= std::uint32_t(followed != TrackResult::Converged ? kProxyRoundLimit : kProxyOk);
@@ -152,17 +144,11 @@ double SurfaceFitProxy::fitWeight(
   }
   if (result < kSeekBelow && seek(scene, memory, hip))
   {
-    std::swap(tracker_, sought_);
+    const SurfaceTracker before = std::exchange(tracker_, search_.found());
     const double sought = weight();
-    if (sought > result)
-    {
-      result = sought;
-      hasFit_ = true;
-    }
-    else
-    {
-      std::swap(tracker_, sought_);
-    }
+    hasFit_ = hasFit_ || sought > result;
+    tracker_ = sought > result ? tracker_ : before;
+    result = std::max(result, sought);
   }
   if (result == 1.0)
   {
@@ -181,7 +167,7 @@ void SurfaceFitProxy::forgetFit() noexcept
   hasFit_ = false;
   isPatient_ = false;
   isRough_ = false;
-  isSought_ = false;
+  search_.giveUp();
   ticksWithoutFit_ = 0;
 }
 

@@ -4,7 +4,7 @@
 
 #include "Haptics/Contact/FrictionCone.h"
 #include "Haptics/Contact/ProxyBall.h"
-#include "Haptics/Contact/SurfaceTracker.h"
+#include "Haptics/Contact/SurfaceSearch.h"
 #include "Haptics/Proxy.h"
 
 namespace pointhaptics
@@ -68,11 +68,10 @@ private:
 
   ProxyBall ball_;
   SurfaceTracker tracker_;
-  SurfaceTracker sought_; ///< What is found of the next one.
+  SurfaceSearch search_; ///< For the next one.
   FrictionCone friction_;
   Vec3 normal_{ 0.0, 0.0, 1.0 };
   bool hasFit_ = false;
-  bool isSought_ = false;  ///< The parts of the search so far found something.
   bool isPatient_ = false; ///< The fit followed a smooth surface that goes on all around.
   Vec3 roughAt_;           ///< The HIP when the surface beside it was last seen to be no flat face.
   bool isRough_ = false;

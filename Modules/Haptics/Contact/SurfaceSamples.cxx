@@ -1,6 +1,6 @@
 #include "Haptics/Contact/SurfaceSamples.h"
 
-#include "Haptics/Contact/SurfaceTracker.h"
+#include "Haptics/Contact/SurfaceSearch.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,8 +14,6 @@ namespace
 /// What is gathered for one point serves the next, up to rounding; it is dropped after so many, so that the
 /// result does not depend on how the points are shared out.
 constexpr std::int64_t kRow = 256;
-/// Fits of a point, at most.
-constexpr int kRounds = 8;
 
 struct Outputs
 {
@@ -44,8 +42,8 @@ void sampleRow(const HapticScene& scene, const PointView& points, std::int64_t b
   {
     const Vec3 place = scene.toLattice(points[i]);
     SurfaceTracker tracker;
-    if (isFinite(place) && tracker.findSheet(scene, memory, place) &&
-      tracker.follow(scene, memory, place, kRounds) != TrackResult::Lost)
+    if (isFinite(place) && findSheet(scene, memory, place, tracker) &&
+      tracker.follow(scene, memory, place) != TrackResult::Lost)
     {
       outputs.set(i, scene.latticeScale() * norm(place - tracker.point()),
         scene.directionToWorkspace(tracker.normal()));

@@ -8,6 +8,8 @@ namespace pointhaptics
 namespace
 {
 
+/// Fits in a call, at most.
+constexpr int kRounds = 8;
 /// Converged when one more round would move the point by less than this part of the fit radius.
 constexpr double kConverged = 1e-5;
 /// Part of the noise below which moving on is pointless.
@@ -50,103 +52,20 @@ void SurfaceTracker::adopt(const Vec3& foot, const Vec3& normal) noexcept
   }
 }
 
-bool SurfaceTracker::findSheet(const HapticScene& scene, FitCells& memory, const Vec3& onSurface) noexcept
+void SurfaceTracker::start(const SurfaceFrame& frame, const double (&curvature)[3]) noexcept
 {
-  Vec3 ignored;
-  const LocalScale scale = scene.fitScale(onSurface, memory, ignored);
-  const double gate = std::max(2.0 * kGateDepth * scale.countRadius, scale.gate);
-  bool found = false;
-  double radius = scale.radius;
-  // Few points that lie badly determine nothing: those a little further are used too.
-  for (int widening = 0; widening <= kWidenings && !found; ++widening, radius *= kWidening)
+  *this = SurfaceTracker();
+  frame_ = frame;
+  std::copy(curvature, curvature + 3, curvature_);
+}
+
+void SurfaceTracker::lookFrom(const Vec3& side) noexcept
+{
+  if (this->height(side) < 0.0)
   {
-    found = this->findSheet(scene, memory, onSurface, radius, gate);
+    frame_.turnTo(-frame_.normal);
+    std::transform(curvature_, curvature_ + 3, curvature_, [](double c) { return -c; });
   }
-  return found;
-}
-
-/// The sheet by fits of a radius.
-bool SurfaceTracker::findSheet(
-  const HapticScene& scene, FitCells& memory, const Vec3& onSurface, double radius, double gate) noexcept
-{
-  SurfaceTracker best;
-  bool found = false;
-  for (const double part : { 1.0, 0.7, 1.4 })
-  {
-    Vec3 normal;
-    SurfaceTracker attempt;
-    if (!principalNormal(scene.pyramid(), onSurface, part * radius, normal))
-    {
-      continue;
-    }
-    attempt.frame_.turnTo(normal);
-    if (!settleOnSurface(scene.pyramid(), onSurface, radius, gate, memory, attempt.frame_, attempt.fit_,
-          attempt.curvature_) ||
-      norm2(attempt.point() - onSurface) > radius * radius)
-    {
-      continue;
-    }
-    if (!found || attempt.residual() < 0.8 * best.residual())
-    {
-      best = attempt;
-      found = true;
-    }
-    // A clean sheet needs no second try.
-    if (best.residual() < 0.05 * radius)
-    {
-      break;
-    }
-  }
-  if (found)
-  {
-    *this = best;
-  }
-  return found;
-}
-
-void SurfaceTracker::flip() noexcept
-{
-  frame_.turnTo(-frame_.normal);
-  std::transform(curvature_, curvature_ + 3, curvature_, [](double c) { return -c; });
-  search_.reset();
-  fresh_ = false;
-}
-
-bool SurfaceTracker::findSheet(
-  const HapticScene& scene, FitCells& memory, const Vec3& onSurface, const Vec3& side) noexcept
-{
-  const bool isFound = this->findSheet(scene, memory, onSurface);
-  if (isFound && this->height(side) < 0.0)
-  {
-    this->flip();
-  }
-  return isFound;
-}
-
-bool SurfaceTracker::followToSide(
-  const HapticScene& scene, FitCells& memory, const Vec3& side, int rounds) noexcept
-{
-  // Lest it begins on another face beside an edge.
-  return this->reaches(scene, memory, side, rounds) && this->height(side) >= 0.0;
-}
-
-bool SurfaceTracker::reaches(
-  const HapticScene& scene, FitCells& memory, const Vec3& target, int rounds) noexcept
-{
-  return this->follow(scene, memory, target, rounds) <= TrackResult::RoundLimit;
-}
-
-bool SurfaceTracker::find(const HapticScene& scene, FitCells& memory, const Vec3& onSurface, const Vec3& side,
-  const Vec3& target, int rounds) noexcept
-{
-  SurfaceTracker found;
-  if (!found.findSheet(scene, memory, onSurface, side) || !found.followToSide(scene, memory, side, rounds) ||
-    !found.reaches(scene, memory, target, rounds))
-  {
-    return false;
-  }
-  *this = found;
-  return true;
 }
 
 bool SurfaceTracker::refit(const HapticScene& scene, FitCells& memory) noexcept
@@ -203,13 +122,12 @@ void SurfaceTracker::nextPlace(const Round& now, const Round* before, Vec3& plac
   pointAt(fit_, fitFrame_, (from.a + way.a) / fit_.radius, (from.b + way.b) / fit_.radius, place, normal);
 }
 
-TrackResult SurfaceTracker::follow(
-  const HapticScene& scene, FitCells& memory, const Vec3& target, int rounds) noexcept
+TrackResult SurfaceTracker::follow(const HapticScene& scene, FitCells& memory, const Vec3& target) noexcept
 {
   const Vec3 start = frame_.origin;
   bool isForeseen = true;
   Round last;
-  for (int round = 0; round < rounds; ++round)
+  for (int round = 0; round < kRounds; ++round)
   {
     // The first round takes the fit of the last call: it was made a step too small to matter away.
     if (!fresh_ && !refit(scene, memory))

@@ -23,24 +23,13 @@ enum class TrackResult
 class SurfaceTracker
 {
 public:
-  /// Finds the sheet at the cell @p onSurface, its normal to the side of @p side, and follows it to @p
-  /// target. False, and nothing changes: there is none.
-  bool find(const HapticScene& scene, FitCells& memory, const Vec3& onSurface, const Vec3& side,
-    const Vec3& target, int rounds) noexcept;
+  /// Stands at the origin of @p frame, on a surface of this curvature there, per metre, as fits have it.
+  void start(const SurfaceFrame& frame, const double (&curvature)[3]) noexcept;
+  /// Turns the normal to the side of @p side.
+  void lookFrom(const Vec3& side) noexcept;
 
-  /// The parts of find(), for who has no time for all of them at once: the sheet with its normal to the side
-  /// of @p side, the way to that side, and the way to the target. False: there is none, and what is here is
-  /// of no use.
-  bool findSheet(
-    const HapticScene& scene, FitCells& memory, const Vec3& onSurface, const Vec3& side) noexcept;
-  bool followToSide(const HapticScene& scene, FitCells& memory, const Vec3& side, int rounds) noexcept;
-  bool reaches(const HapticScene& scene, FitCells& memory, const Vec3& target, int rounds) noexcept;
-
-  /// The sheet through the cells about @p onSurface, near enough to follow it; the normal to either side.
-  bool findSheet(const HapticScene& scene, FitCells& memory, const Vec3& onSurface) noexcept;
-
-  /// Moves to the surface point nearest to @p target, at most @p rounds fits.
-  TrackResult follow(const HapticScene& scene, FitCells& memory, const Vec3& target, int rounds) noexcept;
+  /// Moves to the surface point nearest to @p target; a bounded number of fits.
+  TrackResult follow(const HapticScene& scene, FitCells& memory, const Vec3& target) noexcept;
 
   /// Carries point and normal along with the model from one transform to another.
   void carry(const AffineTransform& from, const AffineTransform& to) noexcept;
@@ -62,10 +51,6 @@ public:
   double proxyRadius() const noexcept { return scale_.proxyRadius; }
 
 private:
-  /// Looks from the other side.
-  void flip() noexcept;
-  bool findSheet(
-    const HapticScene& scene, FitCells& memory, const Vec3& onSurface, double radius, double gate) noexcept;
   /// Fits anew at frame_. False: there is no surface to fit.
   bool refit(const HapticScene& scene, FitCells& memory) noexcept;
   /// A round of following: from where, the step to the foot there, and how far the target is.

@@ -1,0 +1,120 @@
+#include "Haptics/Contact/SurfaceSearch.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace pointhaptics
+{
+namespace
+{
+
+constexpr int kWidenings = 2;
+constexpr double kWidening = 1.4;
+/// RMS distance of the points over the fit radius: a sheet below the first needs no second try, and a second
+/// try is taken where it is better by the other.
+constexpr double kCleanSheet = 0.05;
+constexpr double kBetter = 0.8;
+
+/// The sheet by fits of a radius.
+bool findSheet(const HapticScene& scene, FitCells& memory, const Vec3& onSurface, double radius, double gate,
+  SurfaceTracker& tracker) noexcept
+{
+  bool found = false;
+  double residual = 0.0;
+  for (const double part : { 1.0, 0.7, 1.4 })
+  {
+    SurfaceFrame frame;
+    SurfaceFit fit;
+    double curvature[3] = { 0.0, 0.0, 0.0 };
+    Vec3 normal;
+    if (!principalNormal(scene.pyramid(), onSurface, part * radius, normal))
+    {
+      continue;
+    }
+    frame.turnTo(normal);
+    if (!settleOnSurface(scene.pyramid(), onSurface, radius, gate, memory, frame, fit, curvature) ||
+      norm2(frame.origin - onSurface) > radius * radius)
+    {
+      continue;
+    }
+    if (!found || fit.residual < kBetter * residual)
+    {
+      tracker.start(frame, curvature);
+      residual = fit.residual;
+      found = true;
+    }
+    if (residual < kCleanSheet * radius)
+    {
+      break;
+    }
+  }
+  return found;
+}
+
+}
+
+bool findSheet(
+  const HapticScene& scene, FitCells& memory, const Vec3& onSurface, SurfaceTracker& tracker) noexcept
+{
+  Vec3 ignored;
+  const LocalScale scale = scene.fitScale(onSurface, memory, ignored);
+  const double gate = std::max(2.0 * kGateDepth * scale.countRadius, scale.gate);
+  bool found = false;
+  double radius = scale.radius;
+  // Few points that lie badly determine nothing: those a little further are used too.
+  for (int widening = 0; widening <= kWidenings && !found; ++widening, radius *= kWidening)
+  {
+    found = findSheet(scene, memory, onSurface, radius, gate, tracker);
+  }
+  return found;
+}
+
+void SurfaceSearch::begin(const Vec3& onSurface) noexcept
+{
+  onSurface_ = onSurface;
+  next_ = Part::Sheet;
+}
+
+bool SurfaceSearch::advance(
+  const HapticScene& scene, FitCells& memory, const Vec3& side, const Vec3& target) noexcept
+{
+  const auto reaches = [&](const Vec3& place)
+  { return tracker_.follow(scene, memory, place) <= TrackResult::RoundLimit; };
+  switch (std::exchange(next_, Part::None))
+  {
+    case Part::Sheet:
+      if (findSheet(scene, memory, onSurface_, tracker_))
+      {
+        tracker_.lookFrom(side);
+        next_ = Part::Side;
+      }
+      return false;
+    case Part::Side:
+      next_ = reaches(side) && tracker_.height(side) >= 0.0 ? Part::Target : Part::None;
+      return false;
+    case Part::Target:
+      return reaches(target);
+    case Part::None:
+      break;
+  }
+  return false;
+}
+
+bool SurfaceSearch::finish(
+  const HapticScene& scene, FitCells& memory, const Vec3& side, const Vec3& target) noexcept
+{
+  bool isFound = false;
+  while (next_ != Part::None)
+  {
+    isFound = this->advance(scene, memory, side, target);
+  }
+  return isFound;
+}
+
+void SurfaceSearch::carry(const AffineTransform& from, const AffineTransform& to) noexcept
+{
+  onSurface_ = (to * from.inverse()).apply(onSurface_);
+  tracker_.carry(from, to);
+}
+
+} // namespace pointhaptics
