@@ -2,14 +2,15 @@
 #include "Benchmark/Touch/Studies.h"
 
 #include "Core/Base/PortableRandom.h"
-#include "Haptics/Contact/ProxyBall.h"
-#include "Haptics/Proxy.h"
+#include "Haptics/Contact/SurfaceFitProxy.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <memory>
+#include <utility>
 
 namespace pointhaptics
 {
@@ -131,7 +132,25 @@ Series circle(const std::string& name, const Vec3& center, double radius)
   return series;
 }
 
-/// What the hand meets on its way over an edge, in section: ball, HIP and contact point before and past it.
+/// The fit as far as its ball reaches, in the same plane.
+Series curve(const std::string& name, const SurfaceTracker& fit, double radius)
+{
+  constexpr int kParts = 40;
+  Series series{ name, {}, {} };
+  for (int i = -kParts; i <= kParts; ++i)
+  {
+    const Vec3 aside = radius * i / kParts * cross(Vec3(0.0, 1.0, 0.0), fit.normal());
+    Vec3 point;
+    Vec3 normal;
+    fit.alongSurface(aside, point, normal);
+    series.x.push_back(1e3 * (point.x - kHalf));
+    series.y.push_back(1e3 * (point.z - kHalf));
+  }
+  return series;
+}
+
+/// What the hand meets on its way over an edge, in section: ball, fit, HIP and contact point before and past
+/// it.
 Chart drawEdge()
 {
   constexpr std::int64_t kPoints = 47516;
@@ -161,22 +180,24 @@ Chart drawEdge()
   const Vec3 low(kHalf - 4e-3, 0.0, kHalf - kDepth);
   moveTo(stroke, low + Vec3(0.0, 0.0, 5e-3), low, kPressSpeed);
   moveTo(stroke, low, low + Vec3(6e-3, 0.0, 0.0), 0.05);
-  Proxy fit{ HapticParameters() };
-  fit.setScene(scene.scene.get());
-  ProxyBall ball;
-  const auto fields = std::make_unique<FitCells>();
-  const auto cells = std::make_unique<BallCells>();
-  const char* names[] = { "ball on the top", "ball at the edge", "ball past it" };
-  const double shown[] = { -3e-3, -1e-4, 1.5e-3 };
+  SurfaceFitProxy proxy;
+  const auto memory = std::make_unique<SurfaceFitProxy::Memory>(InstructionSet::Automatic);
+  const std::pair<double, const char*> shown[] = { { -3e-3, "on the top" }, { -4e-4, "at the edge" },
+    { 1.5e-3, "past it" } };
   std::size_t next = 0;
   for (const Vec3& hip : stroke.hip)
   {
-    const ProxyState felt = fit.step(hip, kTickSeconds);
-    std::uint32_t ignored = 0;
-    ball.step(*scene.scene, *fields, *cells, hip, ignored);
-    if (next < 3 && hip.z <= low.z + 1e-9 && hip.x - kHalf >= shown[next])
+    ProxyState felt;
+    proxy.step(*scene.scene, *memory, ContactParameters(), hip, true, felt);
+    if (next < std::size(shown) && hip.z <= low.z + 1e-9 && hip.x - kHalf >= shown[next].first)
     {
-      chart.series.push_back(circle(names[next++], ball.center(), ball.radius()));
+      const std::string where = shown[next++].second;
+      const double radius = proxy.ball().radius();
+      chart.series.push_back(circle("ball " + where, proxy.ball().center(), radius));
+      if (felt.contact && proxy.fit())
+      {
+        chart.series.push_back(curve("fit " + where, *proxy.fit(), radius));
+      }
       chart.series[1].x.push_back(1e3 * (hip.x - kHalf));
       chart.series[1].y.push_back(1e3 * (hip.z - kHalf));
       chart.series[2].x.push_back(1e3 * (felt.proxy.x - kHalf));

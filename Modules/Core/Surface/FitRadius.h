@@ -27,7 +27,9 @@ struct FitNeeds
   /// terms, coarser cells serve better.
   static FitNeeds ofFineCells() { return { 16.0, 12.0, 2.4, 1.3, false, false }; }
 
-  /// For single points without noise: the fewest that determine a fit with some to spare.
+  /// For single points without noise: the fewest that determine a fit with some to spare. A cloud has none
+  /// where the median over its nodes of what a fit of 12 cells leaves of a wide one's residual is below 0.7:
+  /// noise leaves 0.85, shapes of scans 0.45 to 0.63.
   static FitNeeds ofBarePoints() { return { 10.0, 10.0, 2.0, 1.3, false, false }; }
 };
 

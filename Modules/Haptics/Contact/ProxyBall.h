@@ -12,8 +12,9 @@
 namespace pointhaptics
 {
 
-/// A ball that never covers a point of the cloud and goes to the HIP unless something is in its way. That is
-/// all it knows: no rule about rims, edges, holes or sides. It is free exactly when its center is the HIP.
+/// A ball that never covers a point of the cloud and goes to the HIP unless something is in its way. Whether
+/// there is contact hangs on nothing else: not on rims, edges, holes or sides. It is free exactly when its
+/// center is the HIP.
 ///
 /// Each tick it slides: the way to the HIP, with what points into the points it touches taken out (up to
 /// three planes; Zilles and Salisbury 1995), cut where it would meet the next one. Where the bumps between
@@ -22,8 +23,11 @@ namespace pointhaptics
 /// it around: it does not leave the flat place that it lies on while that goes on under the HIP.
 ///
 /// Its radius is the paper's r_p, less a fifth, but at least max(2 h, 2.4 s), h the index cell and s the
-/// spacing of the points about it and ahead: a smaller one would fall through the gaps of a random sample.
-/// Lattice frame, metres. Plain state; no allocation; bounded work; one thread.
+/// spacing of the points about it and ahead: a smaller one would fall through the gaps of a random sample. In
+/// contact it changes by at most 2 % a tick, by 30 % where it is less than 0.8 of what it should be, and
+/// grows only where there is room beside the points or above them. A ball that began among points without
+/// room, as in a cloud of leaves, is on no side of them: where they hold it, it shrinks by 2 % a tick until
+/// it is free. Lattice frame, metres. Plain state; no allocation; bounded work; one thread.
 class ProxyBall
 {
 public:

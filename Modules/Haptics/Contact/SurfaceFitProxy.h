@@ -50,6 +50,11 @@ public:
   void step(const HapticScene& scene, Memory& memory, const ContactParameters& parameters, const Vec3& hip,
     bool refines, ProxyState& state) noexcept;
 
+  /// What the last step found, for pictures.
+  const ProxyBall& ball() const noexcept { return ball_; }
+  /// Null: the ball alone is felt.
+  const SurfaceTracker* fit() const noexcept { return hasFit_ ? &tracker_ : nullptr; }
+
 private:
   /// Where the ball is free: the next contact looks for a fit anew.
   void forgetFit() noexcept;
