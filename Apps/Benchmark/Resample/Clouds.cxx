@@ -95,16 +95,19 @@ void addAttributes(vtkPolyData* cloud)
 {
   const PointView points = viewOf(cloud);
   vtkNew<vtkUnsignedCharArray> colors;
-  colors->SetName("RGB");
+  colors->SetName(kColors);
   colors->SetNumberOfComponents(3);
   colors->SetNumberOfTuples(points.size());
   vtkNew<vtkFloatArray> normals;
-  normals->SetName("Normals");
+  normals->SetName(kNormals);
   normals->SetNumberOfComponents(3);
   normals->SetNumberOfTuples(points.size());
   vtkNew<vtkFloatArray> intensity;
-  intensity->SetName("Intensity");
+  intensity->SetName(kIntensity);
   intensity->SetNumberOfTuples(points.size());
+  vtkNew<vtkUnsignedCharArray> labels;
+  labels->SetName(kLabels);
+  labels->SetNumberOfTuples(points.size());
   for (std::int64_t i = 0; i < points.size(); ++i)
   {
     const Vec3 normal = points[i] * (1.0 / kSphereRadius);
@@ -114,10 +117,12 @@ void addAttributes(vtkPolyData* cloud)
       colors->SetComponent(i, axis, std::floor(127.5 * (1.0 + normal[axis])));
     }
     intensity->SetValue(i, float(std::abs(normal.z)));
+    labels->SetValue(i, static_cast<unsigned char>(normal.z > 0.0 ? i % 3 : 3));
   }
   cloud->GetPointData()->AddArray(colors);
   cloud->GetPointData()->SetNormals(normals);
   cloud->GetPointData()->AddArray(intensity);
+  cloud->GetPointData()->AddArray(labels);
 }
 
 PointView viewOf(vtkPolyData* cloud)

@@ -30,7 +30,12 @@ constexpr double kWorkspaceEdge = 0.1;
 
 /// @p count float points on the sphere, without cells and arrays. 24 bytes a point while it runs.
 vtkSmartPointer<vtkPolyData> sphereCloud(std::int64_t count, PointOrder order);
-/// Adds colours (3 unsigned char), normals (3 float) and intensity (float).
+constexpr char kColors[] = "RGB";
+constexpr char kNormals[] = "Normals";
+constexpr char kIntensity[] = "Intensity";
+constexpr char kLabels[] = "Labels";
+/// Adds colours (3 unsigned char), normals (3 float), intensity (float), and labels (unsigned char), of which
+/// a voxel has one to three.
 void addAttributes(vtkPolyData* cloud);
 /// A view of the float points.
 PointView viewOf(vtkPolyData* cloud);

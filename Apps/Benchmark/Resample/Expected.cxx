@@ -47,18 +47,17 @@ struct Comparison
 {
   const ResampleAnswer& answer;
   const ExpectedMeans& expected;
-  bool exact;
+  ComparedWith with;
 
   /// Which expected voxel output point @p i is the mean of; the number of voxels where it is none.
   std::size_t voxelOf(std::size_t i) const
   {
-    if (exact)
+    if (with != ComparedWith::Means)
     {
       return std::min(i, expected.keys.size());
     }
     std::uint64_t key = 0;
-    const double* p = &answer.xyz[3 * i];
-    if (!keyOf(answer.lattice, { p[0], p[1], p[2] }, key))
+    if (!keyOf(answer.lattice, place(i), key))
     {
       return expected.keys.size();
     }
@@ -66,17 +65,28 @@ struct Comparison
     const bool isThere = found != expected.keys.end() && *found == key;
     return isThere ? std::size_t(found - expected.keys.begin()) : expected.keys.size();
   }
-  /// False: the mean or the count is wrong.
+  Vec3 place(std::size_t i) const
+  {
+    const double* p = &answer.xyz[3 * i];
+    return { p[0], p[1], p[2] };
+  }
+  /// False: the place or the count is wrong.
   bool agrees(std::size_t i, std::size_t voxel, double& worst) const
   {
     bool right = answer.counts.empty() || answer.counts[i] == expected.counts[voxel];
+    if (with == ComparedWith::TheirVoxels)
+    {
+      std::uint64_t key = 0;
+      return right && keyOf(answer.lattice, place(i), key) && key == expected.keys[voxel];
+    }
     for (int axis = 0; axis < 3; ++axis)
     {
       const long double mean = expected.means[voxel][std::size_t(axis)];
       const double error =
         double(std::fabs(answer.xyz[3 * i + std::size_t(axis)] - mean)) / answer.lattice.spacing[axis];
-      const double tolerance =
-        exact ? exactTolerance(answer.lattice, expected.means[voxel], axis) : kRivalTolerance;
+      const double tolerance = with == ComparedWith::ExactMeans
+        ? exactTolerance(answer.lattice, expected.means[voxel], axis)
+        : kRivalTolerance;
       right = right && error <= tolerance;
       worst = std::max(worst, error);
     }
@@ -143,12 +153,12 @@ ExpectedMeans expectedMeans(const PointView& points, const Lattice& lattice)
   return result;
 }
 
-Verdict judge(const ResampleAnswer& answer, const ExpectedMeans& expected, bool exact)
+Verdict judge(const ResampleAnswer& answer, const ExpectedMeans& expected, ComparedWith with)
 {
   Verdict verdict;
   verdict.voxels = std::int64_t(answer.xyz.size() / 3);
   verdict.expectedVoxels = std::int64_t(expected.keys.size());
-  const Comparison comparison{ answer, expected, exact };
+  const Comparison comparison{ answer, expected, with };
   std::vector<bool> taken(expected.keys.size(), false);
   std::int64_t met = 0;
   for (std::size_t i = 0; i < answer.xyz.size() / 3; ++i)
@@ -164,7 +174,7 @@ Verdict judge(const ResampleAnswer& answer, const ExpectedMeans& expected, bool 
     verdict.wrongVoxels += !comparison.agrees(i, voxel, verdict.worstError);
   }
   verdict.wrongVoxels += verdict.expectedVoxels - met;
-  const std::int64_t allowed = exact ? 0 : allowedFaults(expected);
+  const std::int64_t allowed = with == ComparedWith::Means ? allowedFaults(expected) : 0;
   verdict.right = answer.fault.empty() && verdict.wrongVoxels <= allowed;
   verdict.text = textOf(verdict, answer.fault);
   return verdict;

@@ -39,10 +39,10 @@ struct Verdict
   std::string text;             ///< For the table.
 };
 
-/// Exact: nothing may be wrong, the order must be by key, and means may differ by 2^-31 voxel and by rounding
-/// to float. Otherwise: one voxel in a thousand, or one in ten thousand points, may be wrong (points at
-/// faces), means by 1e-3 voxel.
-Verdict judge(const ResampleAnswer& answer, const ExpectedMeans& expected, bool exact);
+/// Of ExactMeans and TheirVoxels nothing may be wrong, the order must be by key, and means may differ by
+/// 2^-31 voxel and by rounding to float. Of Means one voxel in a thousand, or one in ten thousand points, may
+/// be wrong (points at faces), means by 1e-3 voxel.
+Verdict judge(const ResampleAnswer& answer, const ExpectedMeans& expected, ComparedWith with);
 
 } // namespace resample
 } // namespace bench

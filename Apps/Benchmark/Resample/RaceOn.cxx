@@ -85,7 +85,7 @@ Contestant contestantOf(Rival& rival, const ResampleTask& task, Verdict& verdict
   contestant.check = [&rival, &task, &verdict]
   {
     const ResampleAnswer answer = rival.answer();
-    verdict = judge(answer, expectedMeans(viewOf(task.cloud), answer.lattice), rival.mustBeExact());
+    verdict = judge(answer, expectedMeans(viewOf(task.cloud), answer.lattice), rival.comparedWith());
     return true; // a wrong one is timed too, and said to be wrong
   };
   return contestant;
@@ -161,7 +161,8 @@ RaceTable raceOn(const ResampleTask& task, Rivals rivals, int threads, StudyCont
   for (std::size_t i = 0; i < able.size(); ++i)
   {
     const Lap& lap = laps[i];
-    context.allRight = context.allRight && (verdicts[i].right || !able[i]->mustBeExact());
+    context.allRight =
+      context.allRight && (verdicts[i].right || able[i]->comparedWith() == ComparedWith::Means);
     result.rows.push_back(
       { lap.name, verdicts[i], lap, quartiles(lap.seconds), pairedRatios(lap.seconds, laps.front().seconds),
         pairedRatios(pclSeconds(laps), lap.seconds), pairedRatios(lap.seconds, copy.seconds) });

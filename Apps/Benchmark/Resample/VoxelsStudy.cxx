@@ -4,6 +4,10 @@
 #include <fmt/format.h>
 #include <vtkPolyData.h>
 
+#include <string>
+#include <utility>
+#include <vector>
+
 namespace pointhaptics
 {
 namespace bench
@@ -16,20 +20,39 @@ namespace
 Rivals withAllThatIsAsked()
 {
   Rivals rivals;
-  const auto add = [&rivals](const char* name, bool covariance, bool attributes, int levels)
+  const auto add = [&rivals](const char* name, auto&& choose)
   {
     OursSettings settings;
     settings.name = name;
-    settings.covariance = covariance;
-    settings.attributes = attributes;
-    settings.levels = levels;
+    choose(settings);
     rivals.push_back(makeOurs(settings));
   };
-  add("points alone", false, false, 1);
-  add("with covariance", true, false, 1);
-  add("with three arrays", false, true, 1);
-  add("with both", true, true, 1);
-  add("with three coarser levels", false, false, 4);
+  const std::vector<std::string> three = { kColors, kNormals, kIntensity };
+  add("points alone", [](OursSettings&) {});
+  add("with covariance", [](OursSettings& s) { s.covariance = true; });
+  add("with three arrays", [&](OursSettings& s) { s.arrays = three; });
+  add("with both",
+    [&](OursSettings& s)
+    {
+      s.covariance = true;
+      s.arrays = three;
+    });
+  add("with three coarser levels", [](OursSettings& s) { s.levels = 4; });
+  add("with a label", [](OursSettings& s) { s.arrays = { kLabels }; });
+  add("with the voxel of each point", [](OursSettings& s) { s.voxelIndex = true; });
+  const std::pair<const char*, Representative> others[] = { { "nearest to the mean",
+                                                              Representative::NearestToMean },
+    { "nearest to the centre", Representative::NearestToCenter }, { "median", Representative::Median } };
+  for (const auto& other : others)
+  {
+    add(other.first, [&](OursSettings& s) { s.representative = other.second; });
+    add((other.first + std::string(", three arrays")).c_str(),
+      [&](OursSettings& s)
+      {
+        s.representative = other.second;
+        s.arrays = three;
+      });
+  }
   return rivals;
 }
 
@@ -69,11 +92,12 @@ ReportPart studyAttributes(StudyContext& context)
 {
   const int threads = mostThreads(context);
   ReportPart part;
-  part.title = "With covariance, what a point carries, coarser levels";
+  part.title = "With covariance, arrays, coarser levels, other representatives";
   part.text =
     fmt::format("Random order, {} voxels on an axis, {} threads. Arrays: colours (3 unsigned char), "
-                "normals (3 float), intensity (1 float). Means and counts are checked here, covariance and "
-                "arrays in the tests of the filter.",
+                "normals (3 float), intensity (1 float). Means and counts are checked here, of other "
+                "representatives that they lie in their voxels; covariance, arrays and the choice of the "
+                "representative in the tests of the filter.",
       context.options.dimension, threads);
   setRaceHeader(part, { "points" }, "points alone");
   for (const std::int64_t count : { context.options.voxelPoints, context.options.zoomPoints })

@@ -105,7 +105,7 @@ public:
   Verdict check() const
   {
     const ResampleAnswer answer = answerOf(filter_->GetOutput());
-    return judge(answer, expectedMeans(viewOf(task_.cloud), answer.lattice), true);
+    return judge(answer, expectedMeans(viewOf(task_.cloud), answer.lattice), ComparedWith::ExactMeans);
   }
 
 private:

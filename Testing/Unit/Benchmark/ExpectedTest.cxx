@@ -79,9 +79,9 @@ TEST(Expected, TheRightAnswerIsRight)
   const std::vector<float> xyz = randomPoints(3000);
   const Lattice lattice = unitLattice(20);
   const ExpectedMeans expected = expectedMeans({ xyz.data(), 3000 }, lattice);
-  for (const bool exact : { true, false })
+  for (const auto with : { ComparedWith::ExactMeans, ComparedWith::Means, ComparedWith::TheirVoxels })
   {
-    const Verdict verdict = judge(rightAnswer(expected, lattice), expected, exact);
+    const Verdict verdict = judge(rightAnswer(expected, lattice), expected, with);
     EXPECT_TRUE(verdict.right) << verdict.text;
     EXPECT_EQ(verdict.text, "right");
     EXPECT_EQ(verdict.voxels, std::int64_t(expected.keys.size()));
@@ -97,7 +97,7 @@ TEST(Expected, OneWrongVoxelIsFoundOut)
   {
     ResampleAnswer answer = rightAnswer(expected, lattice);
     spoil(answer);
-    return judge(answer, expected, true).right;
+    return judge(answer, expected, ComparedWith::ExactMeans).right;
   };
   EXPECT_FALSE(isRight([](ResampleAnswer& a) { ++a.counts[17]; }));
   EXPECT_FALSE(isRight([](ResampleAnswer& a) { a.xyz[40] += 1e-6; }));
@@ -112,6 +112,25 @@ TEST(Expected, OneWrongVoxelIsFoundOut)
   EXPECT_FALSE(isRight([](ResampleAnswer& a) { std::swap_ranges(&a.xyz[0], &a.xyz[3], &a.xyz[3]); }));
 }
 
+TEST(Expected, AnotherPointOfTheVoxelIsRightWhereMeansAreNotAsked)
+{
+  const std::vector<float> xyz = randomPoints(3000);
+  const Lattice lattice = unitLattice(20);
+  const ExpectedMeans expected = expectedMeans({ xyz.data(), 3000 }, lattice);
+  const auto isRight = [&](const auto& spoil)
+  {
+    ResampleAnswer answer = rightAnswer(expected, lattice);
+    spoil(answer);
+    return judge(answer, expected, ComparedWith::TheirVoxels).right;
+  };
+  const double voxel = lattice.spacing[1];
+  const auto middle = [&](double y) { return (std::floor(y / voxel) + 0.5) * voxel; };
+  EXPECT_TRUE(isRight([&](ResampleAnswer& a) { a.xyz[40] = middle(a.xyz[40]); }));
+  EXPECT_FALSE(isRight([&](ResampleAnswer& a) { a.xyz[40] = middle(a.xyz[40]) + voxel; }));
+  EXPECT_FALSE(isRight([](ResampleAnswer& a) { ++a.counts[17]; }));
+  EXPECT_FALSE(isRight([](ResampleAnswer& a) { std::swap_ranges(&a.xyz[0], &a.xyz[3], &a.xyz[3]); }));
+}
+
 TEST(Expected, ARivalMayComeInAnyOrderAndMissAFewFaces)
 {
   const std::vector<float> xyz = randomPoints(20000);
@@ -120,9 +139,9 @@ TEST(Expected, ARivalMayComeInAnyOrderAndMissAFewFaces)
   ResampleAnswer answer = rightAnswer(expected, lattice);
   answer.counts.clear();
   std::swap_ranges(&answer.xyz[0], &answer.xyz[3], &answer.xyz[300]);
-  EXPECT_EQ(judge(answer, expected, false).text, "right");
+  EXPECT_EQ(judge(answer, expected, ComparedWith::Means).text, "right");
   answer.xyz.resize(answer.xyz.size() - 3);
-  EXPECT_EQ(judge(answer, expected, false).text, "right but for faces: 1 voxels differ");
+  EXPECT_EQ(judge(answer, expected, ComparedWith::Means).text, "right but for faces: 1 voxels differ");
   answer.xyz.resize(answer.xyz.size() / 6 * 3);
-  EXPECT_FALSE(judge(answer, expected, false).right);
+  EXPECT_FALSE(judge(answer, expected, ComparedWith::Means).right);
 }

@@ -1,5 +1,7 @@
 #include "Benchmark/Resample/Rivals/Ours.h"
 
+#include "Benchmark/Resample/Clouds.h"
+
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
 #include <vtkIdTypeArray.h>
@@ -83,7 +85,11 @@ public:
   {
   }
   std::string name() const override { return settings_.name; }
-  bool mustBeExact() const override { return true; }
+  ComparedWith comparedWith() const override
+  {
+    return settings_.representative == Representative::Mean ? ComparedWith::ExactMeans
+                                                            : ComparedWith::TheirVoxels;
+  }
   std::string refusal(const ResampleTask&) const override
   {
     return processorHas(settings_.instructionSet) ? "" : "the processor does not have them";
@@ -91,10 +97,17 @@ public:
   void load(const ResampleTask& task) override
   {
     input_->SetPoints(task.cloud->GetPoints());
-    if (settings_.attributes)
+    for (const std::string& name : settings_.arrays)
     {
-      input_->GetPointData()->ShallowCopy(task.cloud->GetPointData());
+      input_->GetPointData()->AddArray(task.cloud->GetPointData()->GetAbstractArray(name.c_str()));
     }
+    if (input_->GetPointData()->HasArray(kNormals))
+    {
+      input_->GetPointData()->SetActiveNormals(kNormals);
+    }
+    filter_->AddCategoricalArray(kLabels);
+    filter_->SetRepresentative(int(settings_.representative));
+    filter_->SetComputeVoxelIndex(settings_.voxelIndex);
     filter_->SetInputData(input_);
     filter_->SetComputeCovariance(settings_.covariance);
     filter_->SetInstructionSet(int(settings_.instructionSet));

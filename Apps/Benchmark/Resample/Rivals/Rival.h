@@ -3,6 +3,7 @@
 #pragma once
 
 #include "Core/Base/Lattice.h"
+#include "Core/Resample/Representative.h"
 
 #include <cstdint>
 #include <memory>
@@ -36,14 +37,21 @@ struct ResampleAnswer
   std::string fault;                ///< What is wrong before any number is compared; empty: nothing.
 };
 
+/// What an answer is compared with.
+enum class ComparedWith
+{
+  ExactMeans,  ///< To the last digit, in the order of the voxels.
+  Means,       ///< Points at faces may be placed by float rounding.
+  TheirVoxels, ///< One point in each voxel, in their order, and the counts.
+};
+
 /// Use: load once, then any number of before and run, then answer.
 class Rival
 {
 public:
   virtual ~Rival() = default;
   virtual std::string name() const = 0;
-  /// Ours must agree to the last digit; others may place points on faces by float rounding.
-  virtual bool mustBeExact() const { return false; }
+  virtual ComparedWith comparedWith() const { return ComparedWith::Means; }
   /// Why this task is beyond the rival; empty: it is not.
   virtual std::string refusal(const ResampleTask&) const { return {}; }
   /// Copies the cloud into the rival's own form. Not timed.
@@ -72,7 +80,10 @@ struct OursSettings
   std::string name = "ours";
   bool automaticWorkspace = false;
   bool covariance = false;
-  bool attributes = false; ///< Average the arrays of the cloud; otherwise they are not even passed in.
+  /// Names of the arrays of the cloud that are reduced; the others are not even passed in.
+  std::vector<std::string> arrays;
+  Representative representative = Representative::Mean;
+  bool voxelIndex = false;
   InstructionSet instructionSet = InstructionSet::Automatic;
   int levels = 1; ///< The answer is that of the finest.
 };
