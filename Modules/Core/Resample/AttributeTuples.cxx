@@ -11,11 +11,8 @@ namespace pointhaptics
 namespace
 {
 
-/// Up to so many tuples are sorted by exchanges without branches, which would be unpredictable: half of them
-/// for a median, all for a mode.
-constexpr std::int64_t kFewTuples = 24;
-constexpr std::int64_t kFewForMode = 12;
-
+/// Up to so many tuples are sorted by exchanges without branches, which would be unpredictable.
+constexpr int kFewTuples = 8;
 /// Sorts each component of tuples, from the largest down to that of tuple @p least.
 template <typename Key>
 void sortFew(Key* keys, std::int64_t tuples, int components, std::int64_t least)
@@ -34,6 +31,62 @@ void sortFew(Key* keys, std::int64_t tuples, int components, std::int64_t least)
   }
 }
 
+/// Of up to so many keys each is compared with each, eight at a time: without branches, which would be
+/// unpredictable.
+constexpr int kFewKeys = 64;
+constexpr int kLanes = 8;
+
+/// Calls @p use(key, number of the keys for which @p counts(other, key)). @pre the keys are followed by the
+/// largest one there can be up to the next multiple of kLanes.
+template <typename Key, typename Counts, typename Use>
+void compareAll(const Key* keys, int count, Counts&& counts, Use&& use)
+{
+  for (int first = 0; first < count; first += kLanes)
+  {
+    Key those[kLanes];
+    Key numbers[kLanes] = {};
+    std::copy_n(keys + first, kLanes, those);
+    for (int i = 0; i < count; ++i)
+    {
+      for (int lane = 0; lane < kLanes; ++lane)
+      {
+        numbers[lane] = Key(numbers[lane] + Key(counts(keys[i], those[lane])));
+      }
+    }
+    for (int lane = 0; lane < kLanes; ++lane)
+    {
+      use(those[lane], int(numbers[lane]));
+    }
+  }
+}
+
+/// The lower middle one: of those that are greater more are below.
+template <typename Key>
+Key medianOfFew(const Key* keys, int count)
+{
+  Key result = std::numeric_limits<Key>::min();
+  compareAll(
+    keys, count, [](Key other, Key key) { return other < key; },
+    [&](Key key, int below) { result = below <= (count - 1) / 2 ? std::max(result, key) : result; });
+  return result;
+}
+
+/// As mostFrequent().
+template <typename Key>
+Key modeOfFew(const Key* keys, int count)
+{
+  Key result = keys[0];
+  int most = 0;
+  compareAll(
+    keys, count, [](Key other, Key key) { return other == key; },
+    [&](Key key, int equal)
+    {
+      result = equal > most || (equal == most && key < result) ? key : result;
+      most = std::max(most, equal);
+    });
+  return result;
+}
+
 /// The key that is there most often, the smallest of several. @pre they are sorted, @p step apart.
 template <typename Key>
 Key mostFrequent(const Key* keys, std::int64_t count, int step)
@@ -50,10 +103,16 @@ Key mostFrequent(const Key* keys, std::int64_t count, int step)
   return best;
 }
 
-/// Of many keys.
 template <typename Key>
 Key statisticOf(AttributeStatistic statistic, std::vector<Key>& keys)
 {
+  if (keys.size() <= kFewKeys)
+  {
+    const auto count = int(keys.size());
+    keys.resize(keys.size() + kLanes - 1, std::numeric_limits<Key>::max());
+    return statistic == AttributeStatistic::Median ? medianOfFew(keys.data(), count)
+                                                   : modeOfFew(keys.data(), count);
+  }
   const auto at = keys.begin() + std::ptrdiff_t((keys.size() - 1) / 2);
   if (statistic == AttributeStatistic::Median)
   {
@@ -134,32 +193,32 @@ void AttributeTuples::regroup(const std::vector<std::int64_t>& parents, std::int
 template <typename T>
 void AttributeTuples::writeValues(std::int64_t first, std::int64_t last, T* to) const
 {
-  using Key = decltype(orderedKey(T()));
+  using Key = std::conditional_t<sizeof(T) < sizeof(std::int32_t), std::int32_t, decltype(orderedKey(T()))>;
   const bool isMedian = statistic_ == AttributeStatistic::Median;
-  const std::int64_t mostFew = isMedian ? kFewTuples : kFewForMode;
-  std::vector<Key> few(std::size_t(mostFew * view_.components));
+  std::vector<Key> few(std::size_t(kFewTuples * view_.components));
   std::vector<Key> many;
   to += view_.components * first;
   for (std::int64_t v = first; v < last; ++v, to += view_.components)
   {
     const T* const values = tuple<T>(begin(v));
     const std::int64_t size = end(v) - begin(v);
+    const bool areFew = size <= kFewTuples;
     const std::int64_t middle = (size - 1) / 2;
-    if (size <= mostFew)
+    if (areFew)
     {
       std::transform(values, values + size * view_.components, few.begin(), &orderedKey<T>);
       sortFew(few.data(), size, view_.components, isMedian ? middle : 0);
     }
     for (int c = 0; c < view_.components; ++c)
     {
-      many.clear();
-      for (std::int64_t i = 0; size > mostFew && i < size; ++i)
+      many.resize(areFew ? 0 : std::size_t(size));
+      for (std::size_t i = 0; i < many.size(); ++i)
       {
-        many.push_back(orderedKey(values[i * view_.components + c]));
+        many[i] = orderedKey(values[std::int64_t(i) * view_.components + c]);
       }
-      to[c] = valueOfKey<T>(size > mostFew ? statisticOf(statistic_, many)
-          : isMedian                       ? few[std::size_t(middle * view_.components + c)]
-                                           : mostFrequent(few.data() + c, size, view_.components));
+      to[c] = valueOfKey<T>(!areFew ? statisticOf(statistic_, many)
+          : isMedian                ? few[std::size_t(middle * view_.components + c)]
+                                    : mostFrequent(few.data() + c, size, view_.components));
     }
   }
 }
