@@ -90,11 +90,11 @@ BenchRun addProxyOptions(CLI::App& command)
     "Numbers of points for the study of size; default 1e4,1e5,1e6,1e7");
   addWords(command, "--shapes", options->shapes, shapeWords(), false, "Shapes to feel; default all");
   addWords(command, "--studies", options->studies, bench::proxy::studyWords(), false,
-    "What to measure; default all, scans and meshes where there are some");
+    "What to measure; default all, scans where there are some");
   command
     .add_option_function<std::string>(
       "--scans", [options](const std::string& text) { options->scans = CLI::detail::split(text, ','); },
-      "Clouds of your own to feel, with or without a mesh")
+      "Clouds of your own to feel")
     ->type_name("FILE,...");
   addInteger(
     command, "--strokes", options->strokes, 1, kMostProxyStrokes, "Strokes over each scan; default 60");

@@ -18,9 +18,8 @@ namespace
 
 /// In the order of the report.
 constexpr Study<StudyContext> kStudies[] = { { "shapes", studyShapes }, { "methods", studyMethods },
-  { "validation", studyValidation }, { "paper", studyPaper }, { "paths", studyPaths },
-  { "edges", studyEdges }, { "size", studySize }, { "instructions", studyInstructions },
-  { "scans", studyScans }, { "meshes", studyMeshes } };
+  { "validation", studyValidation }, { "paper", studyPaper }, { "paths", studyPaths }, { "size", studySize },
+  { "instructions", studyInstructions }, { "scans", studyScans } };
 
 constexpr const char* kMethod =
 

@@ -36,7 +36,6 @@ struct ProxyBenchmarkOptions
   std::vector<std::string> studies; ///< Empty: all.
   int repetitions = 5;              ///< Walks over each path; the fastest tells the time of a tick.
   int strokes = 60;                 ///< On each scan, straight ones and following ones.
-  bool meshes = true;               ///< Judge the force on scans with a mesh.
 
   /// A second or two.
   void makeQuick();

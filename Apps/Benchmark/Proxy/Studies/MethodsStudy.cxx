@@ -160,61 +160,6 @@ ReportPart studyValidation(StudyContext& context)
   return part;
 }
 
-ReportPart studyEdges(StudyContext& context)
-{
-  ReportPart part;
-  part.page = Page::Accuracy;
-  part.title = "At the edge and the corner of a box";
-  part.text = fmt::format(
-    "A hand slides 1 mm below the top of the clean box of 50 mm, {} points, towards the middle of an\n"
-    "edge, and along the diagonal towards a corner, until it is outside. Exact is the god object that\n"
-    "came from above: 0.8 N straight up until the hand passes the edge, then nothing. The table has\n"
-    "the largest error in newtons by the distance of the HIP from the nearest edge.",
-    grouped(mostPoints(context)));
-  part.table.header = { "towards", "distance mm", "error N", "contact" };
-  const Scene scene = sceneOf(pointsOf(Shape::Box, mostPoints(context), 0.0));
-  constexpr double kHalf = 0.025;
-  const double bounds[] = { 8.0, 5.0, 4.0, 3.0, 2.0, 1.0, 0.5, 0.0, -1.0, -3.0 };
-  for (const bool corner : { false, true })
-  {
-    context.progress(corner ? "corner of the box" : "edge of the box");
-    Proxy proxy;
-    proxy.setScene(scene.get());
-    std::vector<double> worst(std::size(bounds) - 1, 0.0);
-    std::vector<int> ticks(worst.size(), 0);
-    std::vector<int> touching(worst.size(), 0);
-    for (int i = 0; i < 1000; ++i)
-    {
-      const double x = kHalf - 0.010 + 1.4e-5 * std::max(0, i - 100);
-      const double z = kHalf + 0.002 - 3e-5 * std::min(i, 100);
-      const Vec3 hip{ x, corner ? x : 0.003, z };
-      const ProxyState state = proxy.step(hip, kTickSeconds);
-      const double distance = 1e3 * (kHalf - x);
-      for (std::size_t b = 0; b < worst.size(); ++b)
-      {
-        if (i > 120 && distance <= bounds[b] && distance > bounds[b + 1])
-        {
-          const Vec3 exact{ 0.0, 0.0,
-            distance > 0.0 ? ContactParameters().stiffness * (kHalf - hip.z) : 0.0 };
-          worst[b] = std::max(worst[b], norm(state.force - exact));
-          ++ticks[b];
-          touching[b] += state.contact;
-        }
-      }
-    }
-    for (std::size_t b = 0; b < worst.size(); ++b)
-    {
-      const std::string where = corner ? "corner" : "edge";
-      const double fraction = ticks[b] > 0 ? double(touching[b]) / ticks[b] : 0.0;
-      part.table.rows.push_back({ where, fmt::format("{} to {}", bounds[b], bounds[b + 1]),
-        fmt::format("{:.5f}", worst[b]), fmt::format("{:.0f} %", 100.0 * fraction) });
-      part.rows.push_back({ { "towards", where }, { "from_mm", bounds[b] }, { "to_mm", bounds[b + 1] },
-        { "max_error_newton", worst[b] }, { "contact_fraction", fraction } });
-    }
-  }
-  return part;
-}
-
 } // namespace proxy
 } // namespace bench
 } // namespace pointhaptics

@@ -38,12 +38,10 @@ ReportPart studyMethods(StudyContext& context);
 ReportPart studyPaths(StudyContext& context);
 ReportPart studyValidation(StudyContext& context);
 ReportPart studyPaper(StudyContext& context);
-ReportPart studyEdges(StudyContext& context);
 ReportPart studySize(StudyContext& context);
 ReportPart studyInstructions(StudyContext& context);
 /// Without a key where there are no scans.
 ReportPart studyScans(StudyContext& context);
-ReportPart studyMeshes(StudyContext& context);
 
 } // namespace proxy
 } // namespace bench
