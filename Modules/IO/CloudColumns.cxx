@@ -27,8 +27,12 @@ namespace
 
 using Names = std::vector<std::vector<std::string>>;
 
-const Names kCoordinates = { { "x", "y", "z" }, { "easting", "northing", "elevation" },
-  { "easting", "northing", "height" }, { "easting", "northing", "z" } };
+const std::vector<std::string> kXyz = { "x", "y", "z" };
+/// What else the three are called.
+const Names kCoordinateWords = { { "x", "easting", "east", "e" }, { "y", "northing", "north", "n" },
+  { "z", "elevation", "elev", "height", "h", "altitude", "alt", "up" } };
+/// Words beside the name of a coordinate: "POINT_X", "x coordinate".
+const char* const kFillers[] = { "coord", "coords", "coordinate", "point", "points", "pos", "position" };
 const char* const kDegrees[] = { "lat", "lon", "latitude", "longitude", "long", "lng" };
 const Names kColorsWithAlpha = { { "red", "green", "blue", "alpha" }, { "r", "g", "b", "a" },
   { "diffuse_red", "diffuse_green", "diffuse_blue", "diffuse_alpha" } };
@@ -77,7 +81,98 @@ bool splitNumbered(const std::string& name, std::string& base, unsigned long lon
   return parseCount(std::string_view(name).substr(separator + 1), number);
 }
 
+/// Which columns have @p names, of those that are not @p placed. @return whether all were found.
+bool findNames(const std::vector<Column>& columns, const std::vector<bool>& placed,
+  const std::vector<std::string>& names, std::vector<std::size_t>& found)
+{
+  found.clear();
+  for (const std::string& name : names)
+  {
+    for (std::size_t i = 0; i < columns.size(); ++i)
+    {
+      if (!placed[i] && columns[i].components == 1 && equalNoCase(columns[i].name, name))
+      {
+        found.push_back(i);
+        break;
+      }
+    }
+  }
+  return found.size() == names.size();
+}
+
+/// "x" for "POINT_X", "X [m]" and "x-coordinate"; empty for names with other words.
+std::string coordinateWord(const std::string& name)
+{
+  std::string result;
+  std::string word;
+  const auto endWord = [&]
+  {
+    if (std::find(std::begin(kFillers), std::end(kFillers), word) == std::end(kFillers))
+    {
+      result += (result.empty() || word.empty() ? "" : " ") + word;
+    }
+    word.clear();
+  };
+  for (const char c : name.substr(0, name.find_first_of("[(")))
+  {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x80 && !std::isalnum(byte))
+    {
+      endWord();
+      continue;
+    }
+    word += static_cast<char>(std::tolower(byte));
+  }
+  endWord();
+  return result;
+}
+
+[[noreturn]] void failCoordinates(const std::vector<Column>& columns)
+{
+  constexpr std::size_t kListed = 6;
+  std::string names;
+  bool hasDegrees = false;
+  for (std::size_t i = 0; i < columns.size(); ++i)
+  {
+    const std::string& name = columns[i].name;
+    names += i < kListed ? (i == 0 ? " " : ", ") + inQuotes(name) : std::string(i == kListed ? " ..." : "");
+    hasDegrees = hasDegrees ||
+      std::any_of(
+        std::begin(kDegrees), std::end(kDegrees), [&](const char* each) { return equalNoCase(name, each); });
+  }
+  failFormat("no columns named x, y and z, but" + names,
+    hasDegrees
+      ? "degrees are no lengths: project the cloud to metres, such as UTM, and name the columns x, y, z"
+      : "name the three coordinates x, y and z in the header");
+}
+
 } // namespace
+
+std::vector<std::size_t> coordinatesOf(const std::vector<Column>& columns)
+{
+  const std::vector<bool> placed(columns.size(), false);
+  std::vector<std::size_t> found;
+  if (findNames(columns, placed, kXyz, found))
+  {
+    return found;
+  }
+  found.clear();
+  for (const std::vector<std::string>& words : kCoordinateWords)
+  {
+    const auto at = std::find_if(columns.begin(), columns.end(),
+      [&](const Column& column)
+      {
+        const bool isOne = column.components == 1;
+        return isOne && std::find(words.begin(), words.end(), coordinateWord(column.name)) != words.end();
+      });
+    if (at == columns.end())
+    {
+      failCoordinates(columns);
+    }
+    found.push_back(static_cast<std::size_t>(at - columns.begin()));
+  }
+  return found;
+}
 
 CloudColumns::CloudColumns(const std::vector<Column>& columns, vtkIdType rows)
   : columns_(columns)
@@ -95,53 +190,12 @@ CloudColumns::CloudColumns(const std::vector<Column>& columns, vtkIdType rows)
   planNumbered();
 }
 
-bool CloudColumns::find(const std::vector<std::string>& names, std::vector<std::size_t>& found) const
-{
-  found.clear();
-  for (const std::string& name : names)
-  {
-    for (std::size_t i = 0; i < columns_.size(); ++i)
-    {
-      if (!placed_[i] && columns_[i].components == 1 && equalNoCase(columns_[i].name, name))
-      {
-        found.push_back(i);
-        break;
-      }
-    }
-  }
-  return found.size() == names.size();
-}
-
 void CloudColumns::planPoints()
 {
-  std::vector<std::size_t> found;
-  if (std::none_of(kCoordinates.begin(), kCoordinates.end(),
-        [&](const std::vector<std::string>& names) { return this->find(names, found); }))
-  {
-    this->failCoordinates();
-  }
+  const std::vector<std::size_t> found = coordinatesOf(columns_);
   const bool wide =
     std::any_of(found.begin(), found.end(), [&](std::size_t i) { return needsDouble(columns_[i].type); });
   add("Points", found, wide ? VTK_DOUBLE : VTK_FLOAT);
-}
-
-void CloudColumns::failCoordinates() const
-{
-  constexpr std::size_t kListed = 6;
-  std::string names;
-  bool hasDegrees = false;
-  for (std::size_t i = 0; i < columns_.size(); ++i)
-  {
-    const std::string& name = columns_[i].name;
-    names += i < kListed ? (i == 0 ? " " : ", ") + inQuotes(name) : std::string(i == kListed ? " ..." : "");
-    hasDegrees = hasDegrees ||
-      std::any_of(
-        std::begin(kDegrees), std::end(kDegrees), [&](const char* each) { return equalNoCase(name, each); });
-  }
-  failFormat("no columns named x, y and z, but" + names,
-    hasDegrees
-      ? "degrees are no lengths: project the cloud to metres, such as UTM, and name the columns x, y, z"
-      : "name the three coordinates x, y and z in the header");
 }
 
 bool CloudColumns::planNamed(const Names& names, const char* arrayName, bool (*accepts)(int))
@@ -149,7 +203,7 @@ bool CloudColumns::planNamed(const Names& names, const char* arrayName, bool (*a
   std::vector<std::size_t> found;
   for (const std::vector<std::string>& candidate : names)
   {
-    if (find(candidate, found) &&
+    if (findNames(columns_, placed_, candidate, found) &&
       std::all_of(found.begin(), found.end(), [&](std::size_t i) { return accepts(columns_[i].type); }))
     {
       int type = columns_[found[0]].type;

@@ -29,8 +29,12 @@ struct Column
   int components = 1;
 };
 
+/// Which of @p columns become x, y and z: those called so, else those called so in other words, such as
+/// "POINT_X", "y [m]", "easting" and "height". @throws FileProblem when none do.
+std::vector<std::size_t> coordinatesOf(const std::vector<Column>& columns);
+
 /// Plans where each column goes, owns the arrays, and hands them over when they are filled:
-/// - x y z (or easting northing elevation|height|z) become the points: double when one of them is double or
+/// - x y z, or what coordinatesOf() finds, become the points: double when one of them is double or
 /// an integer of 4 bytes and more, else float;
 /// - red green blue [alpha] (or r g b [a]), all unsigned char, become "RGB" or "RGBA", the active scalars; of
 /// other types they become "Color16" (unsigned short) or "Color", beside an "RGB" made of them
@@ -60,12 +64,10 @@ private:
     int component = 0;
   };
   void planPoints();
-  [[noreturn]] void failCoordinates() const;
   /// @return whether there are such columns.
   bool planNamed(
     const std::vector<std::vector<std::string>>& names, const char* arrayName, bool (*accepts)(int));
   void planNumbered();
-  bool find(const std::vector<std::string>& names, std::vector<std::size_t>& found) const;
   void add(const std::string& name, const std::vector<std::size_t>& columns, int type);
   std::string unusedName(const std::string& name) const;
 

@@ -65,16 +65,7 @@ public:
   throw NoPoints();
 }
 
-/// @p text in quotes, cut to 40 characters, with unprintable bytes shown as '?': safe to print.
-inline std::string inQuotes(std::string_view text)
-{
-  constexpr std::size_t kLongest = 40;
-  std::string result = "'";
-  for (const char c : text.substr(0, kLongest))
-  {
-    result += c >= 0x20 && c < 0x7f ? c : '?';
-  }
-  return result + (text.size() > kLongest ? "...'" : "'");
-}
+/// @p text in quotes, cut to 40 bytes, with what is no printable UTF-8 shown as '?': safe to print.
+std::string inQuotes(std::string_view text);
 
 } // namespace pointhaptics::io

@@ -26,6 +26,15 @@ constexpr double kCompactAboutOrigin = 0.45;
 constexpr double kFoot = 0.3048;
 constexpr double kSurveyFoot = 1200.0 / 3937.0;
 
+struct Metric
+{
+  const char* name;
+  const char* prefix;
+  double metres;
+};
+
+constexpr Metric kMetric[] = { { "m", "", 1.0 }, { "cm", "centi", 0.01 }, { "mm", "milli", 1e-3 } };
+
 std::string lower(std::string text)
 {
   std::transform(
@@ -47,10 +56,15 @@ bool readUnit(vtkPolyData* cloud, LengthUnit& unit)
     unit = { "ft", has(said, "survey") ? kSurveyFoot : kFoot, UnitEvidence::File };
     return true;
   }
-  if (said == "m" || said == "metre" || said == "meter" || said == "metres" || said == "meters")
+  for (const Metric& metric : kMetric)
   {
-    unit = { "m", 1.0, UnitEvidence::File };
-    return true;
+    const std::string word = metric.prefix + std::string("met");
+    if (said == metric.name || said == word + "re" || said == word + "res" || said == word + "er" ||
+      said == word + "ers")
+    {
+      unit = { metric.name, metric.metres, UnitEvidence::File };
+      return true;
+    }
   }
   return false;
 }

@@ -22,15 +22,15 @@ enum class UnitEvidence
 
 struct LengthUnit
 {
-  std::string name = "m"; ///< m, mm or ft.
+  std::string name = "m"; ///< m, cm, mm or ft.
   double metres = 1.0;    ///< Of one unit.
   UnitEvidence evidence = UnitEvidence::None;
 };
 
 /// What @p cloud, of finite points within @p bounds, is measured in. The field array LengthUnit, which the
-/// LAS reader makes, is believed. Map coordinates, and arrays that only LiDAR has, mean metres. A compact
-/// cloud of 100 to 10,000 units without intensities, not about its scanner, is a thing in millimetres:
-/// statues of 1600 units are, a street of 160 m is not. Cost: none a point.
+/// readers of LAS and of text make, is believed. Map coordinates, and arrays that only LiDAR has, mean
+/// metres. A compact cloud of 100 to 10,000 units without intensities, not about its scanner, is a thing in
+/// millimetres: statues of 1600 units are, a street of 160 m is not. Cost: none a point.
 POINTHAPTICSIO_EXPORT LengthUnit lengthUnitOf(vtkPolyData* cloud, const Bounds& bounds);
 
 } // namespace pointhaptics

@@ -7,6 +7,7 @@
 #include "vtkType.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 
 namespace pointhaptics::io
@@ -23,8 +24,12 @@ public:
     smallest_ = std::min(smallest_, value);
     largest_ = std::max(largest_, value);
   }
-  /// An empty cell reads as NaN.
-  void addEmpty() { isInteger_ = false; }
+  /// A cell without a number reads as NaN.
+  void addEmpty()
+  {
+    isInteger_ = false;
+    ++empty_;
+  }
   /// Adds all that were added to @p other.
   void add(const NumberColumn& other)
   {
@@ -32,10 +37,13 @@ public:
     isInteger_ = isInteger_ && other.isInteger_;
     smallest_ = std::min(smallest_, other.smallest_);
     largest_ = std::max(largest_, other.largest_);
+    empty_ += other.empty_;
   }
   /// Whether all are integers in 0..@p most.
   bool isInteger(double most) const { return isInteger_ && smallest_ >= 0.0 && largest_ <= most; }
   double largest() const { return largest_; }
+  /// How often addEmpty() was called.
+  std::int64_t empty() const { return empty_; }
   /// VTK_FLOAT when a float keeps every digit, else VTK_DOUBLE.
   int floatingType() const { return fitsFloat_ ? VTK_FLOAT : VTK_DOUBLE; }
   /// VTK_INT for integers that fit it, else floatingType().
@@ -51,6 +59,7 @@ private:
   bool isInteger_ = true;
   double smallest_ = std::numeric_limits<double>::infinity();
   double largest_ = -std::numeric_limits<double>::infinity();
+  std::int64_t empty_ = 0;
 };
 
 } // namespace pointhaptics::io

@@ -2,10 +2,13 @@
 
 #include "CloudColumns.h"
 #include "CloudFormat.h"
+#include "IO/Info/FieldText.h"
+#include "IO/Text/TextCells.h"
 #include "IO/Text/TextPart.h"
 #include "IO/Text/TextTable.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace pointhaptics::io
 {
@@ -83,6 +86,10 @@ const char* separatorName(const TextLayout& layout)
       return "comma separated";
     case ';':
       return "semicolon separated";
+    case '|':
+      return "separated by |";
+    case '\t':
+      return "tab separated";
     default:
       return "space separated";
   }
@@ -95,7 +102,7 @@ TextTable ofAll(SharedReading& shared, const TextTable& own)
   all.columns.resize(own.columns.size());
   for (const std::string& bytes : shared.gather(bytesOfValues(own.columns)))
   {
-    const auto columns = valuesOfBytes<NumberColumn>(bytes);
+    const auto columns = valuesOfBytes<TextColumn>(bytes);
     for (std::size_t i = 0; i < columns.size() && i < all.columns.size(); ++i)
     {
       all.columns[i].add(columns[i]);
@@ -106,6 +113,154 @@ TextTable ofAll(SharedReading& shared, const TextTable& own)
     all.rows += static_cast<vtkIdType>(rows);
   }
   return all;
+}
+
+[[noreturn]] void failText(const TextTable& table, std::size_t column)
+{
+  const CellTexts& texts = table.columns[column].texts;
+  failFormat(texts.where() + ", column " + std::to_string(column + 1) + ": " + inQuotes(texts.first()) +
+      " is not a number",
+    "write x, y and z as numbers with the same separator on every line, and comments after #");
+}
+
+std::vector<Column> columnsCalled(const std::vector<std::string>& names)
+{
+  std::vector<Column> columns;
+  for (const std::string& name : names)
+  {
+    columns.push_back({ name });
+  }
+  return columns;
+}
+
+/// The columns that are read.
+std::vector<std::size_t> columnsOfNumbers(const TextTable& table)
+{
+  std::vector<std::size_t> columns;
+  for (std::size_t i = 0; i < table.columns.size(); ++i)
+  {
+    if (!table.isOfTexts(i))
+    {
+      columns.push_back(i);
+    }
+  }
+  return columns;
+}
+
+/// The names of all columns, of which @p read are read.
+std::vector<std::string> namesOf(
+  const TextTable& table, const TextLayout& layout, const std::vector<std::size_t>& read)
+{
+  if (!layout.names.empty())
+  {
+    return layout.names;
+  }
+  std::vector<NumberColumn> numbers;
+  for (const std::size_t i : read)
+  {
+    numbers.push_back(table.columns[i].numbers);
+  }
+  const std::vector<std::string> guessed = guessNames(numbers);
+  std::vector<std::string> names(table.columns.size());
+  for (std::size_t i = 0; i < read.size(); ++i)
+  {
+    names[read[i]] = guessed[i];
+  }
+  return names;
+}
+
+/// @throws FileProblem where x, y or z holds a text.
+void checkCoordinates(const TextTable& table, const TextLayout& layout, const std::vector<std::size_t>& read)
+{
+  const std::vector<std::size_t> places =
+    layout.names.empty() ? read : coordinatesOf(columnsCalled(layout.names));
+  const bool areTooFew = places.size() < 3; // as the others hold texts
+  for (std::size_t i = 0; i < (areTooFew ? table.columns.size() : 3); ++i)
+  {
+    const std::size_t column = areTooFew ? i : places[i];
+    if (table.columns[column].texts.count() > 0)
+    {
+      failText(table, column);
+    }
+  }
+}
+
+/// What of the texts in column @p i is worth knowing; empty where it has none.
+std::string noteOf(const TextTable& table, std::size_t i, const std::string& name)
+{
+  const CellTexts& texts = table.columns[i].texts;
+  if (texts.count() == 0)
+  {
+    return {};
+  }
+  const std::string column = "column " + (name.empty() ? std::to_string(i + 1) : inQuotes(name));
+  const std::string first = inQuotes(texts.first()) + " in " + texts.where();
+  return table.isOfTexts(i)
+    ? column + " holds texts, such as " + first + ", and is left out; write numbers in their place to keep it"
+    : std::to_string(texts.count()) + " of " + std::to_string(table.rows) + " cells of " + column +
+      " hold no number, such as " + first + ", and become NaN; write numbers in their place to keep them";
+}
+
+constexpr const char* kCureOfCommas =
+  "commas seem to separate columns and to mark decimals, too: write decimal points, put numbers in quotation "
+  "marks, or separate the columns by semicolons";
+
+/// Of "1,05,2,50,3,00" nobody can tell where a column ends: numbers without a point, of which every second
+/// one has no sign and may start with a 0 that only decimals have.
+void failTornDecimals(std::string_view text, const TextLayout& layout)
+{
+  constexpr std::size_t kLookedAt = 1000;
+  if (layout.separator != ',' || !layout.names.empty() || layout.columns < 6 || layout.columns % 2 != 0)
+  {
+    return;
+  }
+  LineReader lines(text.substr(layout.bodyOffset), layout.bodyLine);
+  std::string torn;
+  std::string_view line;
+  while (lines.next(line) && lines.lineNumber() < layout.bodyLine + kLookedAt)
+  {
+    const std::vector<std::string_view> cells = cellsOf(line, ',', lines.lineNumber());
+    for (std::size_t i = 0; i < cells.size() && !isComment(trimmed(line)); ++i)
+    {
+      const std::size_t sign = i % 2 == 0 && cells[i].substr(0, 1) == "-" ? 1 : 0;
+      if (cells[i].size() == sign || cells[i].find_first_not_of("0123456789", sign) != std::string_view::npos)
+      {
+        return;
+      }
+      if (torn.empty() && i % 2 == 1 && cells[i].size() > 1 && cells[i].front() == '0')
+      {
+        torn = "line " + std::to_string(lines.lineNumber()) + ", column " + std::to_string(i + 1) + ": " +
+          inQuotes(cells[i]) + " starts with a 0";
+      }
+    }
+  }
+  if (!torn.empty())
+  {
+    failFormat(torn, kCureOfCommas);
+  }
+}
+
+/// "mm" of "x [mm]", "y [mm]", "z [mm]"; empty where the header says no unit.
+std::string unitOf(const std::vector<std::string>& names)
+{
+  if (names.empty())
+  {
+    return {};
+  }
+  std::string unit;
+  for (const std::size_t i : coordinatesOf(columnsCalled(names)))
+  {
+    const std::size_t begin = names[i].find_first_of("[(");
+    const std::size_t end = names[i].find_first_of("])");
+    const bool has = begin != std::string::npos && end != std::string::npos && begin < end;
+    const std::string own = has ? std::string(trimmed(names[i].substr(begin + 1, end - begin - 1))) : "";
+    if (own.empty() || (!unit.empty() && own != unit))
+    {
+      return {};
+    }
+    unit = own;
+  }
+  return unit;
 }
 
 /// The layout of a text, of which the start may be all that was loaded.
@@ -139,17 +294,26 @@ void readTable(ReadTask& task, std::string_view text, TextLayout layout, vtkPoly
   {
     failNoPoints();
   }
-  const std::vector<std::string> names = layout.names.empty() ? guessNames(table.columns) : layout.names;
-  std::vector<Column> planned;
+  const std::vector<std::size_t> read = columnsOfNumbers(table);
+  checkCoordinates(table, layout, read);
+  const std::vector<std::string> names = namesOf(table, layout, read);
   for (std::size_t i = 0; i < names.size(); ++i)
   {
-    planned.push_back({ names[i], typeOf(names[i], table.columns[i]) });
+    if (std::string note = noteOf(table, i, names[i]); !note.empty())
+    {
+      task.notes.push_back(std::move(note));
+    }
+  }
+  std::vector<Column> planned;
+  for (const std::size_t i : read)
+  {
+    planned.push_back({ names[i], typeOf(names[i], table.columns[i].numbers) });
   }
   CloudColumns columns(planned, own.rows);
-  std::vector<ColumnView> targets;
-  for (std::size_t i = 0; i < names.size(); ++i)
+  std::vector<ColumnView> targets(names.size(), ColumnView{ nullptr, 0, VTK_DOUBLE });
+  for (std::size_t i = 0; i < read.size(); ++i)
   {
-    targets.push_back(columns.target(i));
+    targets[read[i]] = columns.target(i);
   }
   storeTable(task, text, layout, targets);
   columns.moveTo(cloud, task.shared);
@@ -181,8 +345,12 @@ void readText(ReadTask& task, vtkPolyData* cloud)
     failFormat("the first line of data has " + std::to_string(layout.columns) +
         (layout.columns == 1 ? " column" : " columns") +
         (layout.names.empty() ? "" : " and the header names " + std::to_string(layout.names.size())),
-      "write one point per line: x y z, then one column per name of the header");
+      layout.separator == ',' && layout.columns > layout.names.size()
+        ? kCureOfCommas
+        : "write one point per line: x y z, then one column per name of the header");
   }
+  failTornDecimals(text, layout);
+  addFieldText(cloud, "LengthUnit", unitOf(layout.names));
   readTable(task, text, layout, cloud);
 }
 

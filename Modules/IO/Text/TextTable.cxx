@@ -1,6 +1,7 @@
 #include "IO/Text/TextTable.h"
 
 #include "CloudColumns.h"
+#include "IO/Text/TextCells.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -25,141 +26,12 @@ std::string_view withoutCommentMark(std::string_view line)
   return trimmed(line);
 }
 
-bool isComment(std::string_view line)
-{
-  return line.substr(0, 1) == "#" || line.substr(0, 2) == "//";
-}
-
-/// "0,25" as a spreadsheet of many countries writes it. @return false when it is no such number.
-bool parseWithComma(std::string_view cell, double& value, NumberShape* shape)
-{
-  char copy[64];
-  const std::size_t comma = cell.find(',');
-  if (comma == std::string_view::npos || comma == 0 || comma + 1 == cell.size() ||
-    cell.size() > sizeof(copy) || cell.find('.') != std::string_view::npos)
-  {
-    return false;
-  }
-  std::copy(cell.begin(), cell.end(), copy);
-  copy[comma] = '.';
-  return parseNumber(std::string_view(copy, cell.size()), value, shape);
-}
-
-std::string_view withoutQuotes(std::string_view cell)
-{
-  while (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"')
-  {
-    cell = trimmed(cell.substr(1, cell.size() - 2));
-  }
-  return cell;
-}
-
-/// A number with a point or a comma, also within quotation marks.
-bool parseCell(std::string_view cell, double& value, NumberShape* shape = nullptr)
-{
-  if (parseNumber(cell, value, shape))
-  {
-    return true;
-  }
-  cell = withoutQuotes(cell);
-  return parseNumber(cell, value, shape) || parseWithComma(cell, value, shape);
-}
-
-/// "0,25 1 3,5": three words or more that are numbers, in which a comma can separate nothing.
-bool hasDecimalCommas(std::string_view line)
-{
-  std::size_t words = 0;
-  double value = 0.0;
-  for (std::string_view word = takeWord(line); !word.empty(); word = takeWord(line))
-  {
-    if (!parseCell(word, value))
-    {
-      return false;
-    }
-    ++words;
-  }
-  return words >= 3;
-}
-
-char separatorOf(std::string_view line)
-{
-  if (line.find(';') != std::string_view::npos)
-  {
-    return ';';
-  }
-  return line.find(',') == std::string_view::npos || hasDecimalCommas(line) ? ' ' : ',';
-}
-
-/// Takes the next cell, trimmed, off the front of @p line. @return false when there is none left.
-bool takeCell(std::string_view& line, char separator, std::string_view& cell)
-{
-  if (separator == ' ')
-  {
-    cell = takeWord(line);
-    return !cell.empty();
-  }
-  if (line.data() == nullptr)
-  {
-    return false;
-  }
-  const std::size_t end = line.find(separator);
-  cell = trimmed(line.substr(0, end));
-  line = end == std::string_view::npos ? std::string_view{} : line.substr(end + 1);
-  return true;
-}
-
-std::vector<std::string_view> cellsOf(std::string_view line, char separator, std::size_t lineNumber)
-{
-  std::vector<std::string_view> cells;
-  std::string_view cell;
-  while (takeCell(line, separator, cell))
-  {
-    if (cells.size() == kMostColumns)
-    {
-      failFormat(
-        "line " + std::to_string(lineNumber) + ": more than " + std::to_string(kMostColumns) + " columns",
-        "write one point per line");
-    }
-    cells.push_back(cell);
-  }
-  while (!cells.empty() && cells.back().empty())
-  {
-    cells.pop_back();
-  }
-  return cells;
-}
-
 /// No cell is a number: names, not a line of data with a fault in it.
 bool isHeader(const std::vector<std::string_view>& cells)
 {
   double value = 0.0;
   return !cells.empty() &&
     std::none_of(cells.begin(), cells.end(), [&](std::string_view cell) { return parseCell(cell, value); });
-}
-
-/// ParaView writes "Points:0" for x.
-std::string columnName(std::string_view cell)
-{
-  cell = withoutQuotes(cell);
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    if (equalNoCase(cell, "Points:" + std::to_string(axis)) ||
-      equalNoCase(cell, "Points_" + std::to_string(axis)))
-    {
-      return std::string(1, "xyz"[axis]);
-    }
-  }
-  return std::string(cell);
-}
-
-std::vector<std::string> columnNames(const std::vector<std::string_view>& cells)
-{
-  std::vector<std::string> names;
-  for (const std::string_view cell : cells)
-  {
-    names.push_back(columnName(cell));
-  }
-  return names;
 }
 
 bool namesCoordinates(const std::vector<std::string>& names)
@@ -175,8 +47,8 @@ bool namesCoordinates(const std::vector<std::string>& names)
   return true;
 }
 
-/// Walks over the lines of data and shows each number to a Sink: number(column, value, shape),
-/// empty(column), endRow().
+/// Walks over the lines of data and shows each cell to a Sink: number(column, value, shape), empty(column),
+/// text(column, cell, lineNumber), endRow().
 template <typename Sink>
 class TableWalk
 {
@@ -196,7 +68,6 @@ private:
   void addSeparated(std::string_view line);
   void startBlock(std::string_view line);
   std::string where() const { return "line " + std::to_string(lineNumber_); }
-  [[noreturn]] void failCell(std::size_t column, std::string_view cell) const;
   [[noreturn]] void failColumns(std::string_view line) const;
 
   const TextLayout& layout_;
@@ -205,14 +76,6 @@ private:
   std::size_t bytes_;
   std::size_t lineNumber_ = 0;
 };
-
-template <typename Sink>
-void TableWalk<Sink>::failCell(std::size_t column, std::string_view cell) const
-{
-  failFormat(where() + ", column " + std::to_string(column + 1) + ": " + inQuotes(cell) + " is not a number",
-    "write numbers with the same separator on every line, leave columns of texts out, and write comments "
-    "after #");
-}
 
 template <typename Sink>
 void TableWalk<Sink>::failColumns(std::string_view line) const
@@ -247,14 +110,15 @@ void TableWalk<Sink>::addWords(std::string_view line)
     NumberShape shape;
     if (!takeNumber(rest, value, &shape))
     {
-      const std::string_view word = takeWord(rest);
-      if (word.empty())
+      std::string_view cell;
+      if (!takeCell(rest, ' ', cell))
       {
         failColumns(line);
       }
-      if (!parseCell(word, value, &shape))
+      if (!parseCell(cell, value, &shape))
       {
-        failCell(column, word);
+        sink_.text(column, cell, lineNumber_);
+        continue;
       }
     }
     sink_.number(column, value, shape);
@@ -292,9 +156,14 @@ void TableWalk<Sink>::addSeparated(std::string_view line)
     {
       sink_.number(column, value, shape);
     }
+    else if (parseCell(withoutComment(cell), value, &shape))
+    {
+      sink_.number(column, value, shape);
+      rest = {};
+    }
     else
     {
-      failCell(column, cell);
+      sink_.text(column, cell, lineNumber_);
     }
     ++column;
   }
@@ -324,7 +193,7 @@ void TableWalk<Sink>::run(const ReadTask& task, std::string_view text, double fr
   std::string_view line;
   while (lines.next(line))
   {
-    line = trimmed(line);
+    line = trimmed(line, layout_.separator);
     lineNumber_ = lines.lineNumber();
     if (!line.empty() && !isComment(line))
     {
@@ -350,9 +219,14 @@ struct SurveySink
 
   void number(std::size_t column, double value, NumberShape shape)
   {
-    table.columns[column].add(value, shape);
+    table.columns[column].numbers.add(value, shape);
   }
-  void empty(std::size_t column) { table.columns[column].addEmpty(); }
+  void empty(std::size_t column) { table.columns[column].numbers.addEmpty(); }
+  void text(std::size_t column, std::string_view cell, std::size_t line)
+  {
+    table.columns[column].texts.add(cell, line);
+    this->empty(column);
+  }
   void endRow() { ++table.rows; }
 };
 
@@ -364,6 +238,10 @@ struct StoreSink
   void number(std::size_t column, double value, NumberShape)
   {
     const ColumnView& target = targets[column];
+    if (!target.first)
+    {
+      return; // left out
+    }
     char* to = target.first + row * target.stride;
     switch (target.type)
     {
@@ -380,6 +258,7 @@ struct StoreSink
     }
   }
   void empty(std::size_t column) { number(column, std::numeric_limits<double>::quiet_NaN(), {}); }
+  void text(std::size_t column, std::string_view, std::size_t) { this->empty(column); }
   void endRow() { ++row; }
 
   template <typename T>
@@ -391,10 +270,48 @@ struct StoreSink
 
 } // namespace
 
+void CellTexts::add(std::string_view cell, std::size_t line)
+{
+  if (count_++ == 0)
+  {
+    line_ = line;
+    cell = withoutQuotes(cell);
+    std::copy_n(cell.data(), std::min(cell.size(), first_.size() - 1), first_.data());
+  }
+}
+
+void CellTexts::add(const CellTexts& later)
+{
+  if (count_ == 0)
+  {
+    *this = later;
+    return;
+  }
+  count_ += later.count_;
+}
+
+std::string CellTexts::first() const
+{
+  return first_.data();
+}
+
+void TextColumn::add(const TextColumn& later)
+{
+  numbers.add(later.numbers);
+  texts.add(later.texts);
+}
+
+bool TextTable::isOfTexts(std::size_t i) const
+{
+  const std::int64_t texts = columns[i].texts.count();
+  return texts > rows - columns[i].numbers.empty();
+}
+
 TextLayout inspectText(std::string_view text)
 {
   TextLayout layout;
   std::string_view lastComment;
+  std::string_view header;
   std::string_view line;
   LineReader lines(text);
   std::size_t lineStart = 0;
@@ -411,11 +328,12 @@ TextLayout inspectText(std::string_view text)
       lastComment = comment.empty() ? lastComment : comment;
       continue;
     }
-    const char separator = separatorOf(line);
+    const char separator = isByTabs(header, line) ? '\t' : separatorOf(line);
     const std::vector<std::string_view> cells = cellsOf(line, separator, lines.lineNumber());
     unsigned long long count = 0;
     if (layout.names.empty() && isHeader(cells))
     {
+      header = line;
       layout.names = columnNames(cells);
       layout.separator = separator;
       layout.bodyOffset = lines.position();

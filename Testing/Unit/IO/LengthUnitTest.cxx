@@ -51,6 +51,11 @@ TEST(LengthUnit, IsWhatTheFileSays)
   sayUnit(cloud, "metre");
   EXPECT_EQ(lengthUnitOf(cloud, kStatue).name, "m");
   EXPECT_EQ(lengthUnitOf(cloud, kStatue).evidence, UnitEvidence::File);
+  vtkNew<vtkPolyData> thing;
+  sayUnit(thing, "mm");
+  EXPECT_EQ(lengthUnitOf(thing, kMap).metres, 1e-3);
+  sayUnit(thing, "Centimeters");
+  EXPECT_EQ(lengthUnitOf(thing, kMap).metres, 0.01);
   vtkNew<vtkPolyData> survey;
   sayUnit(survey, "US survey foot");
   EXPECT_EQ(lengthUnitOf(survey, kMap).name, "ft");

@@ -141,6 +141,32 @@ TEST_F(SharedReading, TextIsCutAtLinesAndHasTheTypesThatAllLinesNeed)
   expectPartsOf(write("block.pts", "3\n0 0 0\n1 0 0\n0 1 0\n"));
 }
 
+TEST_F(SharedReading, TextsAreThoseOfAllParts)
+{
+  std::string rows = "x,y,z,class,gain\n";
+  for (int i = 0; i < 300; ++i)
+  {
+    rows += std::to_string(i) + ",0,0," + (i < 170 ? "ground," : "7,") + (i % 100 == 80 ? "none\n" : "1\n");
+  }
+  const std::string file = write("class.csv", rows);
+  expectPartsOf(file, false);
+  const std::vector<std::string> notes = readAsRank(file, nullptr).result.notes;
+  ASSERT_EQ(notes.size(), 2U);
+  EXPECT_NE(notes[0].find("'class' holds texts, such as 'ground' in line 2"), std::string::npos) << notes[0];
+  EXPECT_NE(notes[1].find("3 of 300 cells of column 'gain'"), std::string::npos) << notes[1];
+  EXPECT_NE(notes[1].find("'none' in line 82"), std::string::npos) << notes[1];
+  for (const PartRead& part : readTogether(4, [&](int) { return file; }))
+  {
+    EXPECT_EQ(part.result.notes, notes);
+  }
+  const std::string bad = write("bad.csv", rows + "1,2,up,3,4\n");
+  for (const PartRead& part : readTogether(4, [&](int) { return bad; }))
+  {
+    EXPECT_NE(part.result.error.find("line 302, column 3: 'up' is not a number"), std::string::npos)
+      << part.result.error;
+  }
+}
+
 TEST_F(SharedReading, ColoursAreScaledByTheLargestOfAllParts)
 {
   expectPartsOf(write("words.csv", "x,y,z,r,g,b\n0,0,0,1,2,3\n1,0,0,1,2,3\n2,0,0,1,2,3000\n"), false);
@@ -235,7 +261,7 @@ TEST_F(SharedReading, ARankReadsItsBytesAlone)
 TEST_F(SharedReading, AFaultOfOneEndsTheReadingOfAll)
 {
   std::string text = table(300);
-  const std::string bad = write("bad.csv", text + "1,2,3,4,x,6,7,8\n");
+  const std::string bad = write("bad.csv", text + "1,2,3,4,5,6,7,8,9\n");
   const std::string good = write("good.csv", text);
   int faults = 0;
   for (const PartRead& part : readTogether(4, [&](int) { return bad; }))
@@ -245,7 +271,7 @@ TEST_F(SharedReading, AFaultOfOneEndsTheReadingOfAll)
     EXPECT_EQ(part.result.points(), 0);
     // Its number in the file.
     EXPECT_TRUE(
-      part.failedElsewhere || part.result.error.find("line 315, column 5: 'x'") != std::string::npos)
+      part.failedElsewhere || part.result.error.find("line 315: 9 columns where 8") != std::string::npos)
       << part.result.error;
   }
   EXPECT_EQ(faults, 1);

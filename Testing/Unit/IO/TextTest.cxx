@@ -1,6 +1,10 @@
 #include "CloudFiles.h"
 
+#include "vtkFieldData.h"
+#include "vtkVariant.h"
+
 #include <cmath>
+#include <string>
 
 namespace
 {
@@ -123,6 +127,113 @@ TEST_F(Text, ANumberMayHaveACommaForItsPoint)
   expectRefused(readCloud(write("d.csv", "x;y;z\n1.234,5;1;2\n")), "line 2, column 1: '1.234,5'");
 }
 
+TEST_F(Text, ColumnsOfTextsAreLeftOutAndNamed)
+{
+  const ReadResult named = readCloud(write("a.csv",
+    "time,x,y,z,\"class, German\",gain\n2024-05-01 12:00,1,2,3,\"Geb\xc3\xa4ude, alt\",4\n"
+    "2024-05-01 12:01,5,6,7,,8\n"));
+  ASSERT_EQ(named.error, "");
+  EXPECT_EQ(named.cloud->GetPoint(1)[2], 7.0);
+  EXPECT_EQ(named.value("gain", 1), 8);
+  EXPECT_EQ(named.cloud->GetPointData()->GetNumberOfArrays(), 1);
+  ASSERT_EQ(named.notes.size(), 2U);
+  EXPECT_EQ(named.notes[0],
+    "column 'time' holds texts, such as '2024-05-01 12:00' in line 2, and is left out; write numbers in "
+    "their "
+    "place to keep it");
+  EXPECT_NE(named.notes[1].find("'class, German' holds texts, such as 'Geb\xc3\xa4ude, alt' in line 2"),
+    std::string::npos)
+    << named.notes[1];
+
+  const ReadResult plain = readCloud(write("b.txt", "A1 1 2 3 tree 4\nA2 5 6 7 \"tall tree\" 8\n"));
+  ASSERT_EQ(plain.error, "");
+  EXPECT_EQ(plain.cloud->GetPoint(1)[0], 5.0);
+  EXPECT_EQ(plain.value("intensity", 1), 8);
+  ASSERT_EQ(plain.notes.size(), 2U);
+  EXPECT_NE(plain.notes[1].find("column 5 holds texts, such as 'tree' in line 1"), std::string::npos);
+}
+
+TEST_F(Text, TextsAmongNumbersAreNanAndCounted)
+{
+  const ReadResult result = readCloud(write("a.csv", "x,y,z,gain\n1,2,3,4\n5,6,7,N/A\n8,9,10,11\n"));
+  ASSERT_EQ(result.error, "");
+  EXPECT_EQ(result.value("gain", 0), 4);
+  EXPECT_TRUE(std::isnan(result.value("gain", 1)));
+  ASSERT_EQ(result.notes.size(), 1U);
+  EXPECT_EQ(result.notes[0],
+    "1 of 3 cells of column 'gain' hold no number, such as 'N/A' in line 3, and become NaN; write numbers in "
+    "their place to keep them");
+  expectRefused(
+    readCloud(write("b.csv", "x,y,z,gain\n1,2,3,4\n5,6,-,7\n")), "line 3, column 3: '-' is not a number");
+  expectRefused(readCloud(write("c.csv", "x,y,z\n1,a,3\n5,b,7\n")), "line 2, column 2: 'a' is not");
+  expectRefused(readCloud(write("d.txt", "1 one 3\n")), "line 1, column 2: 'one' is not a number");
+}
+
+TEST_F(Text, TabsSeparateTextsOfSeveralWords)
+{
+  for (const char* text : { "x\ty\tz\tclass\tGPS Time\n1\t2\t3\tGround\t7\n4\t5\t6\tHigh Vegetation\t\n",
+         "1\t2\t3\tHigh Vegetation\t7\n4\t5\t6\tGround\t8\n" })
+  {
+    const ReadResult result = readCloud(write("a.txt", text));
+    ASSERT_EQ(result.error, "") << text;
+    EXPECT_EQ(result.format, "text (tab separated)");
+    EXPECT_EQ(result.cloud->GetPoint(1)[2], 6.0) << text;
+    EXPECT_EQ(result.cloud->GetPointData()->GetNumberOfArrays(), 1) << text;
+    EXPECT_EQ(result.cloud->GetPointData()->GetArray(0)->GetComponent(0, 0), 7.0) << text;
+  }
+  const ReadResult aligned = readCloud(write("b.txt", "x\ty\tz\n1\t\t2 3\n4 5 6\n"));
+  ASSERT_EQ(aligned.error, "");
+  EXPECT_EQ(aligned.cloud->GetPoint(0)[2], 3.0);
+}
+
+TEST_F(Text, CommentsMayEndALine)
+{
+  for (const char* text : { "1 2 3 # first\n4 5 6 // second one\n", "1,2,3 # first\n4,5,6 // second, one\n" })
+  {
+    const ReadResult result = readCloud(write("a.xyz", text));
+    ASSERT_EQ(result.error, "") << text;
+    EXPECT_EQ(result.cloud->GetPoint(1)[2], 6.0) << text;
+    EXPECT_EQ(result.cloud->GetPointData()->GetNumberOfArrays(), 0) << text;
+  }
+}
+
+TEST_F(Text, CommasThatSeparateAndMarkDecimalsAreRefusedUnlessQuoted)
+{
+  const ReadResult quoted = readCloud(write("a.csv", "\"x\",\"y\",\"z\"\n\"-1,5\",\"2,5\",\"3\"\n"));
+  ASSERT_EQ(quoted.error, "");
+  EXPECT_EQ(quoted.cloud->GetPoint(0)[0], -1.5);
+  EXPECT_EQ(quoted.cloud->GetPoint(0)[1], 2.5);
+  for (const char* text : { "x,y,z\n1,5,2,5,3,5\n", "1,25,2,50,3,75\n-1,05,2,50,3,75\n" })
+  {
+    expectRefused(
+      readCloud(write("b.csv", text)), "mark decimals, too: write decimal points, put numbers in");
+  }
+  EXPECT_EQ(readCloud(write("c.csv", "1,2,3,0,128,255\n")).value("RGB", 0, 2), 255);
+  EXPECT_EQ(readCloud(write("d.csv", "0.5,02,3,0,128,255\n")).value("RGB", 0, 2), 255)
+    << "points mark decimals";
+}
+
+TEST_F(Text, CoordinatesAreFoundByWhatTheyAreCalled)
+{
+  for (const char* header : { "POINT_X,POINT_Y,POINT_Z", "x_coord,y_coord,z_coord", "E,N,H", "X,Y,Height",
+         "East (m),North (m),Altitude (m)", "x|y|z" })
+  {
+    const bool isByBars = header[1] == '|';
+    const ReadResult result =
+      readCloud(write("a.csv", std::string(header) + (isByBars ? "\n1|2|3\n" : "\n1,2,3\n")));
+    ASSERT_EQ(result.error, "") << header;
+    EXPECT_EQ(result.cloud->GetPoint(0)[2], 3.0) << header;
+  }
+  const ReadResult unit = readCloud(write("b.csv", "X [mm];Y [mm];Z [mm];h\n1;2;3;4\n"));
+  ASSERT_EQ(unit.error, "");
+  EXPECT_EQ(unit.value("h", 0), 4);
+  vtkAbstractArray* said = unit.cloud->GetFieldData()->GetAbstractArray("LengthUnit");
+  ASSERT_NE(said, nullptr);
+  EXPECT_EQ(said->GetVariantValue(0).ToString(), "mm");
+  EXPECT_EQ(readCloud(write("c.csv", "x [mm],y,z\n1,2,3\n")).cloud->GetFieldData()->GetNumberOfArrays(), 0);
+  EXPECT_EQ(readCloud(write("d.csv", "pos_x,x,y,z,E\n9,1,2,3,8\n")).cloud->GetPoint(0)[0], 1.0);
+}
+
 TEST_F(Text, ColoursOfSixteenBitsAndFractionsAreShown)
 {
   const ReadResult words = readCloud(write("a.csv", "x,y,z,r,g,b\n1,2,3,0,256,65535\n1,2,4,7,65279,1\n"));
@@ -153,7 +264,7 @@ TEST_F(Text, NamesTheLineOfWhatIsWrong)
   expectRefused(readCloud(write("a.xyz", "1 2 3\n4 5 6 7\n")), "line 2: 4 columns where 3");
   expectRefused(readCloud(write("a.xyz", "1 2 3\n1e999 5 6\n")), "1e999");
   expectRefused(
-    readCloud(write("a.csv", "east,north,up\n1,2,3\n")), "x, y and z, but 'east', 'north', 'up'; name the");
+    readCloud(write("a.csv", "left,right,up\n1,2,3\n")), "x, y and z, but 'left', 'right', 'up'; name the");
   expectRefused(readCloud(write("a.csv", "lon,lat,height\n11,48,3\n")), "degrees are no lengths");
   expectRefused(readCloud(write("a.csv",
                   "\xff\xfe"

@@ -1,0 +1,221 @@
+#include "IO/Text/TextCells.h"
+
+#include "CloudColumns.h"
+#include "FileProblem.h"
+
+#include <algorithm>
+
+namespace pointhaptics::io
+{
+
+namespace
+{
+
+/// "0,25" as a spreadsheet of many countries writes it. @return false when it is no such number.
+bool parseWithComma(std::string_view cell, double& value, NumberShape* shape)
+{
+  char copy[64];
+  const std::size_t comma = cell.find(',');
+  if (comma == std::string_view::npos || comma == 0 || comma + 1 == cell.size() ||
+    cell.size() > sizeof(copy) || cell.find('.') != std::string_view::npos)
+  {
+    return false;
+  }
+  std::copy(cell.begin(), cell.end(), copy);
+  copy[comma] = '.';
+  return parseNumber(std::string_view(copy, cell.size()), value, shape);
+}
+
+/// One past the cell at the front of @p line that stands in quotation marks; 0 where none does.
+std::size_t endOfQuoted(std::string_view line, char separator)
+{
+  const bool isQuoted = !line.empty() && line.front() == '"';
+  std::size_t mark = isQuoted ? line.find('"', 1) : std::string_view::npos;
+  for (; mark != std::string_view::npos; mark = line.find('"', mark + 1))
+  {
+    std::size_t after = mark + 1;
+    while (separator != ' ' && after < line.size() && line[after] != separator && isBlank(line[after]))
+    {
+      ++after;
+    }
+    if (after == line.size() || (separator == ' ' ? isBlank(line[after]) : line[after] == separator))
+    {
+      return after;
+    }
+  }
+  return 0;
+}
+
+struct CellCounts
+{
+  std::size_t cells = 0;
+  std::size_t numbers = 0;
+  bool hasEmpty = false;
+};
+
+CellCounts countCells(std::string_view line, char separator)
+{
+  CellCounts counts;
+  std::string_view cell;
+  double value = 0.0;
+  while (counts.cells <= kMostColumns && takeCell(line, separator, cell))
+  {
+    ++counts.cells;
+    counts.numbers += parseCell(cell, value) ? 1 : 0;
+    counts.hasEmpty = counts.hasEmpty || cell.empty();
+  }
+  return counts;
+}
+
+/// ParaView writes "Points:0" for x.
+std::string columnName(std::string_view cell)
+{
+  cell = withoutQuotes(cell);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    if (equalNoCase(cell, "Points:" + std::to_string(axis)) ||
+      equalNoCase(cell, "Points_" + std::to_string(axis)))
+    {
+      return std::string(1, "xyz"[axis]);
+    }
+  }
+  return std::string(cell);
+}
+
+} // namespace
+
+bool isComment(std::string_view text)
+{
+  return text.substr(0, 1) == "#" || text.substr(0, 2) == "//";
+}
+
+std::string_view withoutQuotes(std::string_view cell)
+{
+  while (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"')
+  {
+    cell = trimmed(cell.substr(1, cell.size() - 2));
+  }
+  return cell;
+}
+
+bool parseUnusualCell(std::string_view cell, double& value, NumberShape* shape)
+{
+  cell = withoutQuotes(cell);
+  return parseNumber(cell, value, shape) || parseWithComma(cell, value, shape);
+}
+
+char separatorOf(std::string_view line)
+{
+  char best = ' ';
+  CellCounts most;
+  for (const char separator : { ';', ',', '|' })
+  {
+    const CellCounts counts = countCells(line, separator);
+    if (separator == ';' && counts.cells >= 3)
+    {
+      return ';'; // it marks no decimals
+    }
+    if (counts.cells > 1 && (best == ' ' || counts.numbers > most.numbers))
+    {
+      best = separator;
+      most = counts;
+    }
+  }
+  const CellCounts words = countCells(line, ' ');
+  // Tabs that stand alone separate where words would tear cells apart: "1\t2\t3\tHigh Vegetation".
+  const CellCounts tabs = countCells(line, '\t');
+  const bool isTorn =
+    tabs.cells >= 3 && !tabs.hasEmpty && tabs.cells < words.cells && tabs.numbers >= words.numbers;
+  if (best == ' ' || words.numbers > most.numbers)
+  {
+    return isTorn ? '\t' : ' ';
+  }
+  return best;
+}
+
+bool isByTabs(std::string_view header, std::string_view line)
+{
+  const CellCounts names = countCells(header, '\t');
+  const CellCounts tabs = countCells(line, '\t');
+  return names.cells >= 3 && !names.hasEmpty && tabs.cells > 1 && tabs.cells <= names.cells &&
+    tabs.numbers >= countCells(line, ' ').numbers;
+}
+
+std::string_view trimmed(std::string_view line, char separator)
+{
+  if (separator != '\t')
+  {
+    return trimmed(line);
+  }
+  while (!line.empty() && line.front() != '\t' && isBlank(line.front()))
+  {
+    line.remove_prefix(1);
+  }
+  while (!line.empty() && line.back() != '\t' && isBlank(line.back()))
+  {
+    line.remove_suffix(1);
+  }
+  return line;
+}
+
+bool takeUnusualCell(std::string_view& line, char separator, std::string_view& cell)
+{
+  line = trimmed(line, separator);
+  const std::size_t quoted = endOfQuoted(line, separator);
+  if (separator == ' ')
+  {
+    cell = quoted > 0 ? line.substr(0, quoted) : takeWord(line);
+    line.remove_prefix(quoted);
+    return !cell.empty();
+  }
+  const std::size_t end = quoted > 0 ? quoted : line.find(separator);
+  cell = trimmed(line.substr(0, end));
+  line = end >= line.size() ? std::string_view{} : line.substr(end + 1);
+  return true;
+}
+
+std::string_view withoutComment(std::string_view cell)
+{
+  const std::size_t mark = std::min(cell.find(" #"), cell.find(" //"));
+  return mark == std::string_view::npos ? cell : trimmed(cell.substr(0, mark));
+}
+
+std::vector<std::string_view> cellsOf(std::string_view line, char separator, std::size_t lineNumber)
+{
+  std::vector<std::string_view> cells;
+  std::string_view cell;
+  while (takeCell(line, separator, cell) && !(separator == ' ' && isComment(cell)))
+  {
+    if (cells.size() == kMostColumns)
+    {
+      failFormat(
+        "line " + std::to_string(lineNumber) + ": more than " + std::to_string(kMostColumns) + " columns",
+        "write one point per line");
+    }
+    cells.push_back(cell);
+    double value = 0.0;
+    const std::string_view beforeComment = withoutComment(cell);
+    if (beforeComment.size() < cell.size() && parseCell(beforeComment, value))
+    {
+      cells.back() = beforeComment;
+      break;
+    }
+  }
+  while (!cells.empty() && cells.back().empty())
+  {
+    cells.pop_back();
+  }
+  return cells;
+}
+
+std::vector<std::string> columnNames(const std::vector<std::string_view>& cells)
+{
+  std::vector<std::string> names;
+  for (const std::string_view cell : cells)
+  {
+    names.push_back(columnName(cell));
+  }
+  return names;
+}
+
+} // namespace pointhaptics::io
