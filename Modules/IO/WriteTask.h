@@ -6,6 +6,8 @@
 #include "OutputColumns.h"
 #include "Progress.h"
 
+#include "vtkType.h"
+
 #include <string>
 
 class vtkAlgorithm;
@@ -24,6 +26,7 @@ struct WriteTask
 
   OutputStream out;
   WriterNotes notes;
+  vtkIdType points = 0; ///< in and out: how many are written
   vtkAlgorithm* algorithm;
 
   /// Reports how much of the writing is done, 0..1. @throws StoppedOnRequest when an observer asked to stop:

@@ -144,6 +144,7 @@ int vtkPointCloudWriter::Write()
   this->ErrorMessage.clear();
   this->Format.clear();
   this->Notes.clear();
+  this->NumberOfPointsWritten = 0;
   this->SetErrorCode(vtkErrorCode::NoError);
   if (this->GetNumberOfInputConnections(0) < 1)
   {
@@ -171,6 +172,7 @@ void vtkPointCloudWriter::WriteCloud(vtkPointSet* cloud)
       "the cloud holds no points", "check the steps before: was the workspace away from the cloud?");
   }
   io::WriteTask task(this->FileName, this);
+  task.points = cloud->GetNumberOfPoints();
   task.progress(0.0);
   if (this->Format == "VTP")
   {
@@ -205,6 +207,7 @@ void vtkPointCloudWriter::WriteCloud(vtkPointSet* cloud)
   }
   task.out.commit();
   this->Notes = task.notes.all;
+  this->NumberOfPointsWritten = task.points;
 }
 
 void vtkPointCloudWriter::WriteData()

@@ -93,6 +93,12 @@ public:
   const std::vector<std::string>& GetNotes() const { return this->Notes; }
 
   /**
+   * Points in the file of the last Write(): all of the cloud but those that GetNotes() says were left out; 0
+   * when there is no file.
+   */
+  vtkGetMacro(NumberOfPointsWritten, vtkIdType);
+
+  /**
    * Whether a file of this name can be written: asked of its extension.
    */
   static bool CanWrite(const std::string& fileName);
@@ -122,6 +128,7 @@ private:
   std::string ErrorMessage;
   std::string Format;
   std::vector<std::string> Notes;
+  vtkIdType NumberOfPointsWritten = 0;
 };
 
 #endif

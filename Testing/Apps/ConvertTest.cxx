@@ -58,6 +58,14 @@ TEST_F(Convert, SaysWhatItWrote)
   EXPECT_EQ(result["points"], 2);
 }
 
+TEST_F(Convert, CountsThePointsInTheFileItWrote)
+{
+  this->write("holes.csv", "x,y,z\n1,2,3\nnan,5,6\n7,8,9\n");
+  EXPECT_EQ(this->run({ "convert", "holes.csv", "out.las" }).output, "2 points: out.las\n");
+  EXPECT_EQ(json::parse(this->run({ "convert", "holes.csv", "out.laz", "--json" }).output)["points"], 2);
+  EXPECT_EQ(this->succeed({ "convert", "holes.csv", "out.ply" }), "3 points: out.ply\n");
+}
+
 TEST_F(Convert, TakesStandardInputAndOutput)
 {
   this->succeed({ "convert", "in.csv", "in.vtp" });

@@ -70,7 +70,7 @@ bool readFile(const std::string& path, const std::string& shown, Cloud& cloud, s
 }
 
 bool writeFile(vtkPointSet* points, const std::string& path, const std::string& shown,
-  const std::string& command, std::string& message, const std::string& extension)
+  const std::string& command, std::string& message, const std::string& extension, vtkIdType* count)
 {
   vtkNew<vtkPointCloudWriter> writer;
   writer->SetFileName(path.c_str());
@@ -84,6 +84,10 @@ bool writeFile(vtkPointSet* points, const std::string& path, const std::string& 
   for (const std::string& note : writer->GetNotes())
   {
     warn(command, shown + ": " + note);
+  }
+  if (count)
+  {
+    *count = writer->GetNumberOfPointsWritten();
   }
   if (written)
   {
@@ -154,17 +158,17 @@ std::vector<std::string> writableExtensions()
 }
 
 bool writeCloud(vtkPointSet* points, const std::string& fileName, const std::string& command,
-  std::string& message, const std::string& extension)
+  std::string& message, const std::string& extension, vtkIdType* written)
 {
   rememberStopSignals();
   if (fileName != kStandardStream)
   {
-    return writeFile(points, fileName, fileName, command, message, extension);
+    return writeFile(points, fileName, fileName, command, message, extension, written);
   }
   // Not straight into the pipe: nobody shall get half a cloud, and VTP goes back in its file.
   const TemporaryFolder folder;
   const std::string path = folder.path("output");
-  return writeFile(points, path, "standard output", command, message, extension) &&
+  return writeFile(points, path, "standard output", command, message, extension, written) &&
     copyToStandardOutput(path, message);
 }
 

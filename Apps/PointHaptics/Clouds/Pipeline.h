@@ -54,9 +54,10 @@ bool canWriteCloud(const std::string& fileName, std::string& message);
 std::vector<std::string> writableExtensions();
 /// Writes what vtkPointCloudWriter writes; the file appears only when complete. What its format cannot hold
 /// is shown as warnings of @p command. From here on a signal stops the writing: no unfinished file stays.
-/// @p extension: of a name that does not say it, as that of standard output; empty: the name's.
+/// @p extension: of a name that does not say it, as that of standard output; empty: the name's. @p written
+/// gets the number of points in the file.
 bool writeCloud(vtkPointSet* points, const std::string& fileName, const std::string& command,
-  std::string& message, const std::string& extension = {});
+  std::string& message, const std::string& extension = {}, vtkIdType* written = nullptr);
 
 /// The finite points of @p cloud, moved by @p transform, in double precision, without arrays; the others are
 /// counted.

@@ -147,11 +147,12 @@ int runConvert(ConvertOptions options)
     clouds.clear();
   }
   showWarnings(kConvertCommand);
-  if (!writeCloud(cloud, options.output(), kConvertCommand, message, options.outputFormat))
+  vtkIdType written = 0;
+  if (!writeCloud(cloud, options.output(), kConvertCommand, message, options.outputFormat, &written))
   {
     return fail(kConvertCommand, message);
   }
-  print(options, cloud->GetNumberOfPoints());
+  print(options, written);
   return kSuccess;
 }
 

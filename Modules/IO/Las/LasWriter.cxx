@@ -483,34 +483,49 @@ void LasWriter::write()
   }
 }
 
-/// Calls @p visit with the row of each point whose coordinates can be stored as integers.
-template <typename Visit>
-void visitFinitePoints(const OutputArray& points, Visit visit)
+/// The rows of points with a coordinate that cannot be stored as an integer, in rising order.
+std::vector<vtkIdType> rowsNotFinite(const OutputArray& points)
 {
+  std::vector<vtkIdType> rows;
   withType(points.type(),
     [&](auto zero)
     {
       using T = decltype(zero);
       const T* p = static_cast<const T*>(points.array->GetVoidPointer(0));
-      const vtkIdType rows = points.array->GetNumberOfTuples();
-      for (vtkIdType row = 0; row < rows; ++row, p += 3)
+      const vtkIdType count = points.array->GetNumberOfTuples();
+      for (vtkIdType row = 0; row < count; ++row, p += 3)
       {
-        if (std::all_of(p, p + 3, [](T value) { return std::isfinite(static_cast<double>(value)); }))
+        if (!std::all_of(p, p + 3, [](T value) { return std::isfinite(static_cast<double>(value)); }))
         {
-          visit(row);
+          rows.push_back(row);
         }
       }
     });
+  return rows;
 }
 
-std::vector<OutputArray> pickRows(std::vector<OutputArray> arrays, vtkIdList* rows)
+/// @p left: rows in rising order.
+std::vector<OutputArray> withoutRows(std::vector<OutputArray> arrays, const std::vector<vtkIdType>& left)
 {
+  const vtkIdType all = arrays[0].array->GetNumberOfTuples();
+  vtkNew<vtkIdList> kept;
+  kept->Allocate(all - static_cast<vtkIdType>(left.size()));
+  auto next = left.begin();
+  for (vtkIdType row = 0; row < all; ++row)
+  {
+    if (next != left.end() && *next == row)
+    {
+      ++next;
+      continue;
+    }
+    kept->InsertNextId(row);
+  }
   for (OutputArray& each : arrays)
   {
     const auto picked = vtkSmartPointer<vtkDataArray>::Take(each.array->NewInstance());
     picked->SetNumberOfComponents(each.components());
-    picked->SetNumberOfTuples(rows->GetNumberOfIds());
-    each.array->GetTuples(rows, picked);
+    picked->SetNumberOfTuples(kept->GetNumberOfIds());
+    each.array->GetTuples(kept, picked);
     each.array = picked;
   }
   return arrays;
@@ -521,25 +536,22 @@ std::vector<OutputArray> pickRows(std::vector<OutputArray> arrays, vtkIdList* ro
 void writeLas(const std::vector<OutputArray>& arrays, vtkFieldData* fieldData, WriteTask& task, bool isPacked)
 {
   const vtkIdType all = arrays[0].array->GetNumberOfTuples();
-  vtkIdType left = all;
-  visitFinitePoints(arrays[0], [&left](vtkIdType) { --left; });
-  if (left == 0)
+  const std::vector<vtkIdType> left = rowsNotFinite(arrays[0]);
+  if (left.empty())
   {
     LasWriter(arrays, fieldData, task, isPacked).write();
     return;
   }
-  if (left == all)
+  task.points = all - static_cast<vtkIdType>(left.size());
+  if (task.points == 0)
   {
     failFormat("all coordinates are NaN or infinite, and LAS stores them as integers",
       "mend the cloud, or write .vtp, .ply or .pcd");
   }
-  vtkNew<vtkIdList> finite;
-  finite->Allocate(all - left);
-  visitFinitePoints(arrays[0], [&finite](vtkIdType row) { finite->InsertNextId(row); });
-  task.notes.add(std::to_string(left) + " of " + std::to_string(all) +
+  task.notes.add(std::to_string(left.size()) + " of " + std::to_string(all) +
     " points are NaN or infinite and left out: LAS stores coordinates as integers; write .vtp, .ply or .pcd "
     "to keep them");
-  LasWriter(pickRows(arrays, finite), fieldData, task, isPacked).write();
+  LasWriter(withoutRows(arrays, left), fieldData, task, isPacked).write();
 }
 
 } // namespace pointhaptics::io
