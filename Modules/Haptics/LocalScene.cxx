@@ -164,8 +164,7 @@ double LocalSceneBuilder::cellSize(const Vec3& place, const HapticScene& global)
 
 bool LocalSceneBuilder::isUseful(const Bounds& hand, const HapticScene& global) const noexcept
 {
-  return !hand.empty() && isFinite(hand.extent()) &&
-    cellSize(global.toLattice(hand.center()), global) > 0.0;
+  return !hand.empty() && isFinite(hand.extent()) && cellSize(global.toLattice(hand.center()), global) > 0.0;
 }
 
 /// The lattice that all scenes with cells of @p cell beside @p global are cut from, metres of the workspace.
@@ -174,12 +173,7 @@ Lattice LocalSceneBuilder::latticeOf(const HapticScene& global, double cell) con
   Bounds box = workspace_;
   if (box.empty())
   {
-    const Bounds& means = global.bounds();
-    for (int corner = 0; corner < 8; ++corner)
-    {
-      box.include(global.toWorkspace({ corner & 1 ? means.maximum.x : means.minimum.x,
-        corner & 2 ? means.maximum.y : means.minimum.y, corner & 4 ? means.maximum.z : means.minimum.z }));
-    }
+    box = boxOfCorners(global.bounds(), [&](const Vec3& p) { return global.toWorkspace(p); });
     // Points lie within a voxel of their mean.
     box = grown(box, std::sqrt(3.0) * global.latticeScale() * global.cellSize());
   }

@@ -2,6 +2,7 @@
 
 #include "PolyDataAccess.h"
 
+#include "Core/Base/Boxes.h"
 #include "Core/Base/PointBlocks.h"
 
 #include "vtkPointSet.h"
@@ -94,13 +95,7 @@ std::vector<Real> pointsWithin(
 Bounds boxOfModel(const AffineTransform& transform, const Bounds& box)
 {
   const AffineTransform back = transform.inverse();
-  Bounds model;
-  for (int corner = 0; corner < 8; ++corner)
-  {
-    model.include(back.apply({ corner & 1 ? box.maximum.x : box.minimum.x,
-      corner & 2 ? box.maximum.y : box.minimum.y, corner & 4 ? box.maximum.z : box.minimum.z }));
-  }
-  return model;
+  return boxOfCorners(box, [&](const Vec3& p) { return back.apply(p); });
 }
 
 template <typename Real>

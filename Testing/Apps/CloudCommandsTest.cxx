@@ -338,7 +338,36 @@ TEST_F(CloudCommands, InfoTellsOfPointsFarFromAllOthers)
   this->write("far.csv", this->read("sphere.csv") + "1000000,0,0,0,0,1\n");
   const std::string far = this->succeed({ "info", "far.csv" });
   EXPECT_NE(far.find("1 of 2,001 points is far from all others"), std::string::npos) << far;
-  EXPECT_NE(far.find("--clip -0.0"), std::string::npos) << far;
+  EXPECT_NE(far.find("--clip and resample by --workspace -0.0"), std::string::npos) << far;
+}
+
+TEST_F(CloudCommands, ResamplingSaysHowFarPointsAreLeftOut)
+{
+  this->succeed({ "generate", "sphere", "-n", "2000", "-o", "sphere.csv" });
+  this->write("far.csv", this->read("sphere.csv") + "1000000,0,0,0,0,1\n");
+  const auto errorsOf = [&](std::vector<std::string> more)
+  {
+    std::vector<std::string> arguments = { "resample", "far.csv", "-o", "means.csv" };
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return this->run(arguments).errors;
+  };
+  for (const std::vector<std::string>& more :
+    { std::vector<std::string>{}, { "--dims", "50" }, { "--voxel", "0.001" } })
+  {
+    const std::string errors = errorsOf(more);
+    EXPECT_NE(errors.find("far.csv: 1 of 2,001 points is far from all others, and the lattice reaches there; "
+                          "--workspace -0.0"),
+      std::string::npos)
+      << errors;
+  }
+  EXPECT_EQ(errorsOf({ "--voxel", "10" }), "");
+  const std::string turned = errorsOf({ "--scale", "10", "--rotate", "90,0,0,1", "--translate", "0,0,1" });
+  const std::size_t box = turned.find("-0.");
+  ASSERT_NE(box, std::string::npos) << turned;
+  const std::string workspace = turned.substr(box, turned.find(' ', box) - box);
+  const std::string output = this->succeed({ "resample", "far.csv", "-o", "means.csv", "--scale", "10",
+    "--rotate", "90,0,0,1", "--translate", "0,0,1", "--workspace", workspace });
+  EXPECT_NE(output.find(" 1 clipped"), std::string::npos) << output;
 }
 
 TEST_F(CloudCommands, InfoTellsTheCoordinateSystemAndItsUnit)

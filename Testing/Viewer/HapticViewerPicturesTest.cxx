@@ -140,6 +140,15 @@ TEST_F(HapticViewerPictures, IsThatOfAllPointsButAFarOne)
     << warnings_[0];
   options_.clip = { -2, 2, -2, 2, -2, 2 };
   EXPECT_NEAR(double(picture("clipped.png")), double(before), 0.02 * double(before));
+  options_.clip = {};
+  options_.fitsWorkspace = false;
+  warnings_.clear();
+  picture("unfitted.png");
+  ASSERT_EQ(warnings_.size(), 1u);
+  EXPECT_NE(warnings_[0].find("1 of 20,001 points is far from all others, and the workspace reaches to it"),
+    std::string::npos)
+    << warnings_[0];
+  EXPECT_NE(warnings_[0].find("leaves it out"), std::string::npos) << warnings_[0];
 }
 
 #ifdef __linux__

@@ -4,7 +4,10 @@
 #include "Options/OptionParsing.h"
 #include "Terminal/Messages.h"
 
+#include "Core/Base/Boxes.h"
 #include "CsvWriter.h"
+#include "IO/Info/FarPoints.h"
+#include "LoadedCloud.h"
 #include "vtkVoxelMeanResampler.h"
 
 #include <CLI/CLI.hpp>
@@ -58,6 +61,23 @@ void ResampleOptions::finish(vtkPolyData* means) const
       means->GetFieldData()->RemoveArray(name);
     }
   }
+}
+
+std::string farPointsNote(const ResampleOptions& options, vtkPolyData* cloud)
+{
+  if (!options.lattice.workspace().empty())
+  {
+    return {};
+  }
+  FarPoints far = findFarPoints(cloud, transformedBounds(cloud, AffineTransform()));
+  if (far.count == 0)
+  {
+    return {};
+  }
+  const AffineTransform transform = options.lattice.transform();
+  far.others = boxOfCorners(far.others, [&](const Vec3& p) { return transform.apply(p); });
+  return fmt::format("{}: {}, and the lattice reaches there; --workspace {} leaves what is far out",
+    options.files.input, far.text(), far.clip());
 }
 
 bool openVoxelIndex(const ResampleOptions& options, CsvWriter& file, std::string& message)

@@ -36,6 +36,10 @@ struct ResampleOptions
   void finish(vtkPolyData* means) const;
 };
 
+/// What a few points of @p cloud far from all others do to the automatic lattice, and how they are left out;
+/// empty where there are none, or the lattice is not automatic.
+std::string farPointsNote(const ResampleOptions& options, vtkPolyData* cloud);
+
 /// Opens the file of --voxel-index. False: @p message says why it cannot be written.
 bool openVoxelIndex(const ResampleOptions& options, CsvWriter& file, std::string& message);
 /// Of each point the row of its voxel in the output, or -1. @pre ComputeVoxelIndex is on.

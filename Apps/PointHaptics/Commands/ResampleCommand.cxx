@@ -38,7 +38,15 @@ int runResample(const ResampleOptions& options)
   resampler->SetInputData(cloud.points);
   options.configure(resampler);
   resampler->SetComputeVoxelIndex(wantsIndex);
-  if (!updateFilter(resampler, "resampling", message))
+  const bool isDone = updateFilter(resampler, "resampling", message);
+  // Of voxels of a given size that can be made, no other is coarser for it.
+  const bool isHarmless = isDone && options.lattice.voxels.lattice.voxelSize > 0.0;
+  const std::string note = isHarmless ? std::string() : farPointsNote(options, cloud.points);
+  if (!note.empty())
+  {
+    warn(kResampleCommand, note);
+  }
+  if (!isDone)
   {
     return fail(kResampleCommand, options.files.input + ": " + message);
   }

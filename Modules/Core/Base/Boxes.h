@@ -46,4 +46,17 @@ inline Bounds intersection(const Bounds& a, const Bounds& b) noexcept
   return result;
 }
 
+/// The smallest box about the places where @p map takes the corners of @p box.
+template <typename Map>
+Bounds boxOfCorners(const Bounds& box, const Map& map)
+{
+  Bounds result;
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    result.include(map({ corner & 1 ? box.maximum.x : box.minimum.x,
+      corner & 2 ? box.maximum.y : box.minimum.y, corner & 4 ? box.maximum.z : box.minimum.z }));
+  }
+  return result;
+}
+
 } // namespace pointhaptics

@@ -221,9 +221,9 @@ CloudSummary summarize(vtkPolyData* cloud, const std::string& format)
   summary.unit = io::fieldText(cloud->GetFieldData(), "LengthUnit");
   summary.unitIsGuess = summary.unit.empty();
   const FarPoints far = findFarPoints(cloud, summary.bounds);
-  summary.farPoints = far.count > 0
-    ? far.text() + "; view and feel --fit leave out what is far, feel by --clip " + far.clip()
-    : "";
+  summary.farPoints = far.count > 0 ? far.text() +
+      "; view and feel --fit leave out what is far, feel by --clip and resample by --workspace " + far.clip()
+                                    : "";
   const LengthUnit unit = lengthUnitOf(cloud, far.others);
   if (summary.unitIsGuess && !summary.bounds.empty())
   {

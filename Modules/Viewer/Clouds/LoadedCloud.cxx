@@ -2,6 +2,7 @@
 
 #include "ClippedCloud.h"
 #include "CloudAppearance.h"
+#include "Core/Base/Boxes.h"
 #include "HapticViewerOptions.h"
 #include "IO/Info/FarPoints.h"
 #include "MergedCloud.h"
@@ -324,10 +325,11 @@ vtkSmartPointer<vtkPolyData> drawnPoints(const CloudRequest& request, const Load
   return clippedCloud(loaded.cloud, box);
 }
 
-/// Fills in LoadedCloud::shown, or what is to be measured for it. False: @p goesOn said no.
-bool show(const CloudRequest& request, const std::function<bool()>& goesOn, LoadedCloud& loaded)
+/// Fills in LoadedCloud::shown, or what is to be measured for it, of the points that are @p drawn. False: @p
+/// goesOn said no.
+bool show(
+  const CloudRequest& request, vtkPolyData* drawn, const std::function<bool()>& goesOn, LoadedCloud& loaded)
 {
-  const vtkSmartPointer<vtkPolyData> drawn = drawnPoints(request, loaded);
   if (request.measuresLater && drawn->GetNumberOfPoints() > kMeasuredAtOnce)
   {
     loaded.toMeasure = vtkSmartPointer<vtkPolyData>::New();
@@ -406,9 +408,8 @@ std::string titleOf(const std::vector<std::string>& files)
 void findBounds(const CloudRequest& request, LoadedCloud& loaded)
 {
   const bool isMoved = !request.transform.isIdentity();
-  const bool isFitted = request.options && request.options->fitsWorkspace;
   loaded.bounds = transformedBounds(loaded.cloud, request.transform);
-  const FarPoints far = isFitted
+  const FarPoints far = request.options
     ? findFarPoints(
         loaded.cloud, isMoved ? transformedBounds(loaded.cloud, AffineTransform()) : loaded.bounds)
     : FarPoints();
@@ -416,18 +417,21 @@ void findBounds(const CloudRequest& request, LoadedCloud& loaded)
   {
     return;
   }
-  loaded.near = far.others;
-  loaded.bounds = Bounds();
-  for (int corner = 0; corner < 8; ++corner)
+  const bool isFitted = request.options->fitsWorkspace;
+  const bool isBounded =
+    !request.options->clip.empty() || !(isFitted || request.options->voxels.lattice.automaticWorkspace);
+  if (isFitted)
   {
-    const auto end = [&](int axis)
-    { return ((corner >> axis & 1) != 0 ? far.others.maximum : far.others.minimum)[axis]; };
-    loaded.bounds.include(request.transform.apply({ end(0), end(1), end(2) }));
+    loaded.near = far.others;
+    loaded.bounds = boxOfCorners(far.others, [&](const Vec3& p) { return request.transform.apply(p); });
   }
-  if (request.options->clip.empty())
+  if (!isBounded)
   {
-    loaded.notes.push_back(
-      loaded.title + ": " + far.text() + ", outside the workspace: neither shown nor felt");
+    loaded.notes.push_back(fmt::format("{}: {}, {}", loaded.title, far.text(),
+      isFitted
+        ? "outside the workspace: neither shown nor felt"
+        : fmt::format("and the workspace reaches to it: all else is small and coarse; {} {} leaves it out",
+            request.options->names.clip, far.clip())));
   }
 }
 
@@ -456,16 +460,20 @@ bool loadCloud(const CloudRequest& request, const std::function<bool(double)>& g
   {
     return false;
   }
-  result.showing =
-    request.before ? *request.before : showingOf(request, drawnPoints(request, result), findings.format);
+  const vtkSmartPointer<vtkPolyData> drawn = drawnPoints(request, result);
+  result.showing = request.before ? *request.before : showingOf(request, drawn, findings.format);
   result.showing.keptArray = result.colorBy;
   result.orientation = result.showing.orientation;
   if (!hasColors(result.cloud) || !request.colorBy.empty())
   {
     result.heightZero = addHeightArray(result.cloud, result.orientation.up, result.near);
+    if (drawn != result.cloud)
+    {
+      addHeightArray(drawn, result.orientation.up, result.near);
+    }
   }
   const auto askOn = [&goesOn] { return goesOn(1.0); };
-  if (request.options && !show(request, askOn, result))
+  if (request.options && !show(request, drawn, askOn, result))
   {
     message = result.title + ": reading was stopped on request; start it again";
     return false;

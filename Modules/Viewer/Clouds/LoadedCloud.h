@@ -101,7 +101,8 @@ POINTHAPTICSVIEWER_EXPORT Bounds transformedBounds(vtkPolyData* cloud, const Aff
 /// The names of @p files without their folders.
 POINTHAPTICSVIEWER_EXPORT std::string titleOf(const std::vector<std::string>& files);
 
-/// Fills in LoadedCloud::bounds of LoadedCloud::cloud and, where the options fit it, near and a note.
+/// Fills in LoadedCloud::bounds of LoadedCloud::cloud and, where the options fit it, near; a note says of far
+/// points that they are left out, or how.
 POINTHAPTICSVIEWER_EXPORT void findBounds(const CloudRequest& request, LoadedCloud& loaded);
 
 /// What options and messages call what a cloud is coloured by: what the pipeline makes in lower case.
