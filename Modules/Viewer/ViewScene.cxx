@@ -446,7 +446,8 @@ void ViewScene::applyLook()
       newClassLegend(drawn->GetPointData()->GetArray(source->array.c_str()))));
   }
   const std::string name = source ? describeColorSource(drawn, *source) : std::string();
-  scalarBar_->SetTitle((name + (this->wantsResiduals() ? " (" + unit_.name + ")\n" : "\n")).c_str());
+  const bool isLength = this->wantsResiduals() || (source && source->array == kHeightArrayName);
+  scalarBar_->SetTitle((name + (isLength ? " (" + unit_.name + ")\n" : "\n")).c_str());
   wantsScalarBar_ = !figure_ && source.has_value();
   scalarBar_->SetVisibility(wantsScalarBar_ && barHasRoom_);
   const Vec3 ink = inkOn(ground);

@@ -330,6 +330,22 @@ TEST_F(ScreenLayoutTest, EverythingIsDrawnWhereTheLayoutSays)
   }
 }
 
+TEST_F(ScreenLayoutTest, TheColoursStandAtTheEdgeWhateverTheTitle)
+{
+  std::array<int, 4> strips[2];
+  for (int i = 0; i < 2; ++i)
+  {
+    Screen screen(640, 480, 1.0, false);
+    screen.bar->SetTitle(i == 0 ? "Ring\n" : "DistanceToSurface (m)\n");
+    screen.wantsBar = true;
+    screen.window->Render();
+    screen.bar->GetScalarBarRect(strips[i].data(), screen.renderer);
+    EXPECT_EQ(strips[i][0] + strips[i][2], 630);
+  }
+  EXPECT_NEAR(strips[0][0], strips[1][0], 1);
+  EXPECT_EQ(strips[0][1], strips[1][1]);
+}
+
 TEST_F(ScreenLayoutTest, WhatOneAsksForAloneIsShownInASmallWindow)
 {
   for (const bool asksSliders : { false, true })

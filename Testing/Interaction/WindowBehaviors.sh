@@ -341,11 +341,12 @@ ADragOnTheColorBarChangesItsRange() {
   open_viewer cloud.ply --color-by height
   write_settings
   before="$settings"
-  xdotool mousemove --window "$window" 600 200 mousedown 1
+  # The bar stands at the edge of the window, whatever its title.
+  xdotool mousemove --window "$window" 616 200 mousedown 1
   sleep 0.3
-  xdotool mousemove --window "$window" 600 190
+  xdotool mousemove --window "$window" 616 190
   sleep 0.3
-  xdotool mousemove --window "$window" 600 180 mouseup 1
+  xdotool mousemove --window "$window" 616 180 mouseup 1
   said "colours from"
   write_settings
   same camera || fail "the view has turned"

@@ -96,15 +96,12 @@ constexpr double kBarWidth = 24.0;      // points
 constexpr double kNumberLetters = 9.0;  // -1.23e-05
 constexpr double kLetterWidth = 0.57;   // of the font's size
 
-/// Points: of the box with the colours, and of the names, which stand beside it.
+/// Points: of the box with the colours, over the middle of which the title stands, and of the names beside
+/// it.
 struct BarWidths
 {
   double box = 0.0;
   double names = 0.0;
-  double title = 0.0;
-
-  /// The title stands over the middle of the bar, and so ends farther right.
-  double beyond() const { return std::max(0.0, 0.5 * (title - kBarWidth)); }
 };
 
 BarWidths widthsOf(vtkScalarBarActor* bar, double font)
@@ -112,7 +109,6 @@ BarWidths widthsOf(vtkScalarBarActor* bar, double font)
   const double letter = kLetterWidth * font;
   const double title = letter * double(bar->GetTitle() ? std::strlen(bar->GetTitle()) : 0);
   BarWidths widths;
-  widths.title = title;
   widths.box = std::max(title, kBarWidth + (hasNames(bar) ? 0.0 : letter * kNumberLetters));
   for (vtkIdType i = 0; hasNames(bar) && i < bar->GetLookupTable()->GetNumberOfAnnotatedValues(); ++i)
   {
@@ -168,16 +164,15 @@ void measureScalarBar(vtkScalarBarActor* bar, double font, double pixelsPerPoint
   constexpr double kLeastLines = 6.0;
   const BarWidths widths = widthsOf(bar, font);
   const double names = hasNames(bar) ? double(bar->GetLookupTable()->GetNumberOfAnnotatedValues()) : 0.0;
-  size[0] = pixelsPerPoint * (widths.box + widths.names + widths.beyond());
+  size[0] = pixelsPerPoint * (widths.box + widths.names);
   size[1] = pixelsPerPoint * font * kLine * std::max(kLeastLines, names + 2.0);
 }
 
 void placeScalarBar(
   vtkScalarBarActor* bar, vtkRenderer* renderer, double font, double pixelsPerPoint, const double box[4])
 {
-  const double beyond = pixelsPerPoint * widthsOf(bar, font).beyond();
   const double above = kTitleAbove * font * pixelsPerPoint;
-  const double inner[4] = { box[0], box[1], box[2] - beyond, box[3] - above };
+  const double inner[4] = { box[0], box[1], box[2], box[3] - above };
   putScalarBar(bar, renderer, font, pixelsPerPoint, inner);
 }
 
