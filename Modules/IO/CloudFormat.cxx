@@ -40,6 +40,8 @@ const Foreign kForeign[] = {
     "this file is xz-compressed", "unpack it first: unxz -k FILE" },
   { "\xff\xfe"_bytes, "this is text in UTF-16", "save it as UTF-8: iconv -f UTF-16 -t UTF-8 FILE" },
   { "\xfe\xff"_bytes, "this is text in UTF-16", "save it as UTF-8: iconv -f UTF-16 -t UTF-8 FILE" },
+  { "ncols", "this is a grid of heights (Esri ASCII), which is not read here",
+    "make points of it: gdal2xyz.py FILE points.xyz" },
   { "glTF", "this is a glTF file, which is not read here",
     "convert it to PLY, for example with meshio or Blender" },
 };

@@ -341,6 +341,23 @@ TEST_F(CloudCommands, InfoTellsOfPointsFarFromAllOthers)
   EXPECT_NE(far.find("--clip and resample by --workspace -0.0"), std::string::npos) << far;
 }
 
+TEST_F(CloudCommands, PointsWithoutDataAreFarWhateverTheirNumber)
+{
+  std::string table = "x,y,z\n";
+  for (int i = 0; i < 2000; ++i)
+  {
+    const std::string height = i % 4 == 0 ? "-9999" : std::to_string(300 + i % 7);
+    table += std::to_string(500000 + i % 50) + "," + std::to_string(5400000 + i / 50) + "," + height + "\n";
+  }
+  this->write("holes.csv", table);
+  this->succeed({ "convert", "holes.csv", "holes.las" });
+  for (const char* file : { "holes.csv", "holes.las" })
+  {
+    const std::string text = this->succeed({ "info", file });
+    EXPECT_NE(text.find("500 of 2,000 points are far from all others"), std::string::npos) << text;
+  }
+}
+
 TEST_F(CloudCommands, ResamplingSaysHowFarPointsAreLeftOut)
 {
   this->succeed({ "generate", "sphere", "-n", "2000", "-o", "sphere.csv" });

@@ -20,13 +20,28 @@ constexpr vtkIdType kFewest = 100;       ///< Of fewer points none is called far
 constexpr std::int64_t kMostPart = 1000; ///< One in so many may be far.
 constexpr double kMostLength = 0.1;      ///< Of the others' longest side over that of all.
 
+/// What files have in the place of a coordinate that was not measured.
+bool isNoData(const Vec3& p)
+{
+  constexpr double kNoData[] = { -9999.0, -99999.0, -32768.0 };
+  bool result = false;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    for (const double value : kNoData)
+    {
+      result = result || std::abs(p[axis] - value) <= 1e-9 * -value; // LAS: a multiple of a step
+    }
+  }
+  return result;
+}
+
 double longestSide(const Bounds& bounds)
 {
   const Vec3 size = bounds.extent();
   return std::max({ size.x, size.y, size.z });
 }
 
-/// From 1 % to 99 % of some points on each axis, and by as much as its longest side beyond.
+/// From 1 % to 99 % of some measured points on each axis, and by as much as its longest side beyond.
 Bounds boxOfMost(vtkPolyData* cloud)
 {
   const vtkIdType count = cloud->GetNumberOfPoints();
@@ -36,7 +51,7 @@ Bounds boxOfMost(vtkPolyData* cloud)
   for (vtkIdType i = 0; i < count; i += step)
   {
     cloud->GetPoint(i, &p.x);
-    for (int axis = 0; axis < 3 && isFinite(p); ++axis)
+    for (int axis = 0; axis < 3 && isFinite(p) && !isNoData(p); ++axis)
     {
       values[axis].push_back(p[axis]);
     }
@@ -81,6 +96,7 @@ FarPoints findFarPoints(vtkPolyData* cloud, const Bounds& bounds)
     return none;
   }
   FarPoints found;
+  std::int64_t stray = 0; // but for those without data
   Vec3 p;
   for (vtkIdType i = 0; i < cloud->GetNumberOfPoints(); ++i)
   {
@@ -88,10 +104,16 @@ FarPoints findFarPoints(vtkPolyData* cloud, const Bounds& bounds)
     if (isFinite(p))
     {
       ++found.of;
-      contains(box, p) ? found.others.include(p) : static_cast<void>(++found.count);
+      if (contains(box, p))
+      {
+        found.others.include(p);
+        continue;
+      }
+      ++found.count;
+      stray += isNoData(p) ? 0 : 1;
     }
   }
-  const bool areFew = found.count > 0 && found.count * kMostPart <= std::max(found.of, kMostPart);
+  const bool areFew = found.count > 0 && stray * kMostPart <= std::max(found.of, kMostPart);
   return areFew && longestSide(found.others) <= kMostLength * longestSide(bounds) ? found : none;
 }
 

@@ -39,9 +39,10 @@ Axis makeAxis(ConstColumnView column, vtkIdType count)
   return axis;
 }
 
-/// The integers of the grid. @return false at the first coordinate that it gives back more than @p tolerance
-/// away.
-bool place(const Axis& axis, double tolerance, LasGrid& grid)
+/// The integers of the grid. @return false at the first coordinate for which @p accepts, which gets what the
+/// grid gives back and what is wanted, says no.
+template <typename Accepts>
+bool place(const Axis& axis, const Accepts& accepts, LasGrid& grid)
 {
   grid.integers.resize(axis.coordinates.size());
   grid.largestError = 0.0;
@@ -50,15 +51,24 @@ bool place(const Axis& axis, double tolerance, LasGrid& grid)
     const double wanted = axis.coordinates[i];
     const double steps = std::clamp(std::nearbyint((wanted - grid.offset) / grid.scale), -kMost, kMost);
     const double given = steps * grid.scale + grid.offset;
-    const double error = std::abs(given - wanted);
-    if (!(error <= tolerance))
+    if (!accepts(given, wanted))
     {
       return false;
     }
     grid.integers[i] = static_cast<std::int32_t>(steps);
-    grid.largestError = std::max(grid.largestError, error);
+    grid.largestError = std::max(grid.largestError, std::abs(given - wanted));
   }
   return true;
+}
+
+bool isSame(double given, double wanted)
+{
+  return given == wanted;
+}
+
+bool isSameFloat(double given, double wanted)
+{
+  return static_cast<float>(given) == static_cast<float>(wanted);
 }
 
 /// 10 to the power of @p exponent, the double next to it.
@@ -93,7 +103,8 @@ void findRoundOffset(const Axis& axis, LasGrid& grid)
 }
 
 /// On the coarsest of some grids of whole decimals that gives each coordinate back. False: there is none.
-bool placeOnDecimals(const Axis& axis, double tolerance, LasGrid& grid)
+template <typename Accepts>
+bool placeOnDecimals(const Axis& axis, const Accepts& accepts, LasGrid& grid)
 {
   for (const double scale : { 1.0, 0.1, 0.01, 0.001, 0.0001 })
   {
@@ -101,7 +112,7 @@ bool placeOnDecimals(const Axis& axis, double tolerance, LasGrid& grid)
     {
       grid.scale = scale;
       grid.offset = offset;
-      if (place(axis, tolerance, grid))
+      if (place(axis, accepts, grid))
       {
         return true;
       }
@@ -114,7 +125,7 @@ bool placeExactly(const Axis& axis, const WantedGrid& wanted, LasGrid& grid)
 {
   grid.scale = wanted.scale;
   grid.offset = wanted.offset;
-  return (wanted.scale > 0.0 && place(axis, 0.0, grid)) || placeOnDecimals(axis, 0.0, grid);
+  return (wanted.scale > 0.0 && place(axis, isSame, grid)) || placeOnDecimals(axis, isSame, grid);
 }
 
 /// The finest steps of a power of two: at most 2^31 of them to either side of a centre that is itself a
@@ -183,7 +194,10 @@ LasGrid LasGrid::fit(ConstColumnView column, vtkIdType count, const WantedGrid& 
     takeBinarySteps(axis, grid);
     // 17.31 of a text is not 1731 times 0.01, but next to it.
     const double lastDigits = 2.0 * std::numeric_limits<double>::epsilon() * axis.farthest();
-    if (place(axis, 0.0, grid) || placeOnDecimals(axis, lastDigits, grid))
+    const auto isNearby = [=](double given, double coordinate)
+    { return std::abs(given - coordinate) <= lastDigits; };
+    if (place(axis, isSame, grid) || placeOnDecimals(axis, isNearby, grid) ||
+      (column.type == VTK_FLOAT && placeOnDecimals(axis, isSameFloat, grid)))
     {
       return grid;
     }
@@ -192,7 +206,9 @@ LasGrid LasGrid::fit(ConstColumnView column, vtkIdType count, const WantedGrid& 
   {
     takeBinarySteps(axis, grid);
   }
-  place(axis, std::numeric_limits<double>::infinity(), grid);
+  place(
+    axis, [](double, double) { return true; }, grid);
+  grid.rounds = grid.largestError > 0.0;
   return grid;
 }
 

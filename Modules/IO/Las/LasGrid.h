@@ -24,13 +24,17 @@ struct LasGrid
   double scale = 1.0;
   double offset = 0.0;
   std::vector<std::int32_t> integers;
-  double largestError =
-    0.0; ///< of what a reader gives back: at most half a step, but for the digits of doubles
+  /// Of what a reader gives back: at most half a step, but for the digits of doubles.
+  double largestError = 0.0;
+  /// Whether coordinates differ by more than their last digits, where floats are given back as floats.
+  bool rounds = false;
 
   /// Puts the @p count coordinates of @p column on the first of these grids that can be had:
   /// - one that gives each of them back bit for bit: the wanted one, one of whole decimals, or, where none is
   ///   wanted, the finest one with steps of a power of two (coordinates that are floats);
-  /// - where none is wanted, one of whole decimals that gives them back but for the last digits of doubles;
+  /// - where none is wanted, one of whole decimals that gives them back but for the last digits of doubles,
+  /// or
+  ///   as the same floats;
   /// - steps of the wanted scale, about another offset where that must be. Not of a cloud that is shorter
   /// than
   ///   kFewestSteps of them: it was made smaller, and its points would fall together;

@@ -257,8 +257,9 @@ void LasWriter::planPositions()
       column, rows_, { fieldValue("LasScale", axis, 0.0), fieldValue("LasOffset", axis, 0.0), extent });
     fields_.push_back({ { reinterpret_cast<const char*>(grid.integers.data()), 4, VTK_TYPE_INT32 },
       static_cast<std::size_t>(4 * axis), VTK_TYPE_INT32 });
-    step = grid.largestError > worst ? grid.scale : step;
-    worst = std::max(worst, grid.largestError);
+    const double error = grid.rounds ? grid.largestError : 0.0;
+    step = error > worst ? grid.scale : step;
+    worst = std::max(worst, error);
     task_.progress(kGridPart * (axis + 1) / 3);
   }
   if (worst > 0.0)

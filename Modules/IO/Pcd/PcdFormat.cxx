@@ -112,7 +112,7 @@ void fillFromRecords(const ReadTask& task, const PcdHeader& header, const RowRan
   }
 }
 
-/// Compressed files hold field after field, without padding.
+/// Compressed files hold field after field, as a rule without padding.
 void fillFromCompressed(
   const ReadTask& task, const PcdHeader& header, const PcdTable& table, const CloudColumns& columns)
 {
@@ -121,12 +121,17 @@ void fillFromCompressed(
   const vtkIdType rows = static_cast<vtkIdType>(header.points);
   std::vector<char> block;
   std::size_t done = 0;
+  const bool hasPadding = header.compressedRecordSize == header.recordSize;
   for (const PcdTable::Entry& entry : table.entries)
   {
     const PcdField& field = entry.field;
+    if (field.isPadding() && !hasPadding)
+    {
+      continue;
+    }
     const std::size_t size = static_cast<std::size_t>(sizeOfType(field.type) * field.count);
     const vtkIdType most = std::max<vtkIdType>(1, static_cast<vtkIdType>(kBlockBytes / size));
-    for (vtkIdType row = 0; row < rows && !field.isPadding(); row += most)
+    for (vtkIdType row = 0; row < rows; row += most)
     {
       const vtkIdType count = std::min(most, rows - row);
       block.resize(size * static_cast<std::size_t>(count));
@@ -136,7 +141,10 @@ void fillFromCompressed(
             inQuotes(field.name),
           "the file is damaged: copy or write it again");
       }
-      copyField(entry, block.data(), static_cast<std::ptrdiff_t>(size), columns, row, count);
+      if (!field.isPadding())
+      {
+        copyField(entry, block.data(), static_cast<std::ptrdiff_t>(size), columns, row, count);
+      }
       done += block.size();
       task.progress(
         static_cast<double>(done) / static_cast<double>(header.points * header.compressedRecordSize));

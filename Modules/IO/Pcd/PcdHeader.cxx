@@ -272,6 +272,11 @@ void checkCompressedSize(std::string_view bytes, PcdHeader& header, unsigned lon
   }
   const unsigned long long packed = numberAt(bytes, header.bodyOffset);
   const unsigned long long claimed = numberAt(bytes, header.bodyOffset + 4);
+  if (claimed != unpacked && claimed == header.points * header.recordSize)
+  {
+    header.compressedRecordSize = header.recordSize; // with the padding, as some programs write it
+    unpacked = claimed;
+  }
   if (packed > available - 8)
   {
     failTruncated("byte " + std::to_string(header.bodyOffset) + ": " + std::to_string(packed) +

@@ -41,7 +41,7 @@ struct PcdHeader
   std::size_t bodyOffset = 0;
   std::size_t bodyLine = 0;
   std::size_t recordSize = 0;           ///< bytes of a binary record
-  std::size_t compressedRecordSize = 0; ///< the same without padding, which is left out of compressed files
+  std::size_t compressedRecordSize = 0; ///< the same without padding, where compressed files leave it out
   std::size_t compressedSize = 0; ///< bytes of a compressed file's points, which follow 8 bytes of sizes
   std::size_t numbersPerLine = 0; ///< of an ASCII record
 };

@@ -133,6 +133,39 @@ TEST_F(LasWriting, KeepsFloatsOnAGridOfBinarySteps)
   }
 }
 
+TEST_F(LasWriting, KeepsTheDecimalsOfATextWithoutAWord)
+{
+  std::mt19937 random(3);
+  for (const double offset : { 0.0, 500000.0 })
+  {
+    std::string text;
+    for (int i = 0; i < 500; ++i)
+    {
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        text += std::to_string(int(offset) + int(random() % 5)) + "." +
+          std::to_string(10000 + random() % 10000).substr(1) + (axis < 2 ? " " : "\n");
+      }
+    }
+    const ReadResult from = readCloud(write("a.xyz", text));
+    ASSERT_EQ(from.cloud->GetPoints()->GetDataType(), offset == 0.0 ? VTK_FLOAT : VTK_DOUBLE);
+    std::vector<std::string> notes;
+    ASSERT_EQ(writeCloud(from.cloud, path("a.las"), &notes), "");
+    EXPECT_TRUE(notes.empty()) << notes[0];
+    const ReadResult result = readCloud(path("a.las"));
+    EXPECT_EQ(result.cloud->GetFieldData()->GetArray("LasScale")->GetComponent(0, 0), 0.0001);
+    for (vtkIdType i = 0; i < 500; ++i)
+    {
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        const double wanted = from.cloud->GetPoint(i)[axis];
+        const double given = result.cloud->GetPoint(i)[axis];
+        ASSERT_TRUE(offset == 0.0 ? float(given) == float(wanted) : std::abs(given - wanted) < 2e-10) << i;
+      }
+    }
+  }
+}
+
 TEST_F(LasWriting, SaysHowFarCoordinatesAreRounded)
 {
   vtkNew<vtkPolyData> cloud;

@@ -114,6 +114,36 @@ TEST_F(Pcd, HostileHeadersAllocateNothing)
   expectRefused(readCloud(write("e.pcd", "VERSION 0.7\nFIELDS\nWIDTH 1\nDATA ascii\n1 2 3\n")), "FIELDS");
 }
 
+/// Field after field, as literals of LZF.
+TEST_F(Pcd, CompressedFilesMayHoldTheirPadding)
+{
+  for (const bool hasPadding : { false, true })
+  {
+    std::string fields;
+    for (const float value : { 1.0f, 2.0f, 3.0f, 4.0f, 5.0f, 6.0f })
+    {
+      append(fields, value); // x of two points, y and z
+    }
+    fields += hasPadding ? std::string(8, '\x55') : "";
+    append(fields, 7.0f);
+    append(fields, 8.0f);
+    std::string pcd = "VERSION 0.7\nFIELDS x y z _ gain\nSIZE 4 4 4 1 4\nTYPE F F F U F\nCOUNT 1 1 1 4 1\n"
+                      "WIDTH 2\nHEIGHT 1\nPOINTS 2\nDATA binary_compressed\n";
+    append(pcd, static_cast<std::uint32_t>(fields.size() + (fields.size() + 31) / 32));
+    append(pcd, static_cast<std::uint32_t>(fields.size()));
+    for (std::size_t i = 0; i < fields.size(); i += 32)
+    {
+      const std::string run = fields.substr(i, 32);
+      pcd += static_cast<char>(run.size() - 1) + run;
+    }
+    const ReadResult result = readCloud(write("a.pcd", pcd));
+    ASSERT_EQ(result.error, "");
+    EXPECT_EQ(result.cloud->GetPoint(1)[2], 6.0);
+    EXPECT_EQ(result.value("gain", 1), 8.0);
+    EXPECT_EQ(result.cloud->GetPointData()->GetNumberOfArrays(), 1);
+  }
+}
+
 TEST_F(Pcd, CompressedSizesThatDoNotFitAreRefused)
 {
   for (const std::uint32_t packed : { 0u, 4u, 4000000000u })

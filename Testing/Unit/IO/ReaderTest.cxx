@@ -35,6 +35,7 @@ TEST_F(Reader, NamesAConverterForKnownForeignFormats)
 {
   expectRefused(readCloud(write("a.glb", "glTF and so on")), "meshio");
   expectRefused(readCloud(write("a.ply.gz", "\x1f\x8b\x08 and so on")), "gunzip");
+  expectRefused(readCloud(write("a.asc", "ncols 2\nnrows 1\n1 2\n")), "gdal2xyz");
   expectRefused(readCloud(write("a.zip", "PK\x03\x04 and so on")), "unzip");
 }
 
