@@ -274,6 +274,21 @@ TEST_F(HapticViewerTest, TellsOfAPickedPointNothingThatWasMadeForThePicture)
   EXPECT_TRUE(viewer.stop());
 }
 
+TEST_F(HapticViewerTest, TheWindowSaysWhatTheFirstFileLacks)
+{
+  SKIP_WITHOUT_DISPLAY();
+  options_.device = HapticViewerDevice::None;
+  HapticViewer viewer(options_, observer_);
+  ASSERT_TRUE(viewer.open({ this->path("missing.ply"), this->writeCloud("plane.csv", 500) }))
+    << viewer.message();
+  viewer.renderWindow()->SetOffScreenRendering(1);
+  ASSERT_TRUE(viewer.start()) << viewer.message();
+  viewer.style()->GetStatus().update(nullptr, false);
+  const std::string told = viewer.style()->GetStatus().overlay()->GetStatus();
+  EXPECT_NE(told.find("skipped: "), std::string::npos) << told;
+  EXPECT_TRUE(viewer.stop());
+}
+
 TEST_F(HapticViewerTest, WhatIsRecordedOrShowsMeansIsResampledBeforeTheFirstPicture)
 {
   options_.showsReading = true;

@@ -475,7 +475,10 @@ bool ViewWindow::start(std::size_t cloud, const std::string& news, std::string& 
     return false;
   }
   this->connectStyle();
+  const std::string told = news_;
   this->giveModel(scene_.modelMatrix());
+  news_ = told; // the first model makes nothing old
+  this->showNote();
   window_->Render();
   interactor_->Initialize();
   this->findIdeal(); // the first picture has no chart to compare with
