@@ -1,6 +1,6 @@
 #include "VoxelAttribute.h"
 
-#include "Core/Resample/AttributeMean.h"
+#include "Core/Resample/AttributeView.h"
 
 #include "vtkDataArray.h"
 #include "vtkType.h"

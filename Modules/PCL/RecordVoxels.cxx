@@ -4,7 +4,7 @@
 
 #include "Core/Base/Buffer.h"
 #include "Core/Distributed/SharedVoxels.h"
-#include "Core/Resample/AttributeMean.h"
+#include "Core/Resample/AttributeView.h"
 #include "Core/Resample/VoxelMean.h"
 
 #include <algorithm>

@@ -14,11 +14,6 @@ namespace pointhaptics
 namespace
 {
 
-/// With more parts than this the scale alone would push a small value below the smallest double.
-constexpr int kMostScaledLanes = 8;
-/// Adding and subtracting it rounds to an integer.
-constexpr double kRounder = 0x1.8p52;
-
 int bitsOf(std::int64_t count)
 {
   int bits = 0;
@@ -27,6 +22,11 @@ int bitsOf(std::int64_t count)
     ++bits;
   }
   return bits;
+}
+
+bool isReal(ScalarType type)
+{
+  return type == ScalarType::Float || type == ScalarType::Double;
 }
 
 /// Calls body(values, count) for the tuples from @p begin to before @p end of a strided array, copied
@@ -106,74 +106,38 @@ AttributeRange rangeOf(const AttributeView& view, const Executor& executor, Inst
 AttributeMean::AttributeMean(
   const AttributeView& view, const AttributeRange& range, InstructionSet instructions)
   : view_(view)
-  , kernels_(&simd::kernelsFor(instructions).attributes)
-  , lanes_(view.type == ScalarType::Int64 || view.type == ScalarType::UInt64 ? 2 : 1)
   , range_(range)
+  , kernels_(&simd::kernelsFor(instructions).attributes)
 {
-}
-
-/// How to cut floating-point numbers.
-void AttributeMean::chooseParts()
-{
-  const int bits = range_.exponent - range_.lastBit;
-  const int sumBits = bitsOf(mostPoints_);
-  const bool inOne = bits + sumBits <= 63;
-  partBits_ = inOne ? bits : std::min(kMostPartBits, 62 - sumBits);
-  lanes_ = inOne ? 1 : std::min((bits + partBits_ - 1) / partBits_, kMostLanes);
-  // In two factors: for tiny arrays one would overflow.
-  const int shift = partBits_ - range_.exponent;
-  scale_[0] = std::ldexp(1.0, std::min(shift, 1000));
-  scale_[1] = std::ldexp(1.0, std::max(shift - 1000, 0));
 }
 
 void AttributeMean::prepare(
   const std::int64_t*, std::int64_t voxels, std::int64_t mostPoints, const Executor& executor)
 {
-  mostPoints_ = mostPoints;
-  if (isFloating())
-  {
-    chooseParts();
-  }
-  clear(voxels, executor);
-}
-
-void AttributeMean::clear(std::int64_t voxels, const Executor& executor)
-{
-  voxels_ = voxels;
-  const std::size_t size = std::size_t(voxels) * std::size_t(view_.components);
-  sums_.reserve(size * std::size_t(lanes_), Pages::Huge);
-  forRange(executor, std::int64_t(size) * lanes_,
-    [this](std::int64_t begin, std::int64_t end) { std::fill(sums_.data() + begin, sums_.data() + end, 0); });
-  if (range_.hasNonFinite)
-  {
-    nonFinite_.reserve(size);
-    std::fill(nonFinite_.data(), nonFinite_.data() + size, NonFiniteCount());
-  }
+  sums_.components = view_.components;
+  sums_.unit = range_.lastBit; // 0 of integers
+  const bool isLong = view_.type == ScalarType::Int64 || view_.type == ScalarType::UInt64;
+  sums_.words = isLong   ? 2
+    : isReal(view_.type) ? (range_.exponent - range_.lastBit + bitsOf(mostPoints)) / 64 + 1
+                         : 1;
+  sums_.size = std::size_t(voxels) * std::size_t(view_.components);
+  sums_.values.clear();
+  sums_.values.resize(sums_.size * std::size_t(sums_.words));
+  forRange(executor, std::int64_t(sums_.values.size()),
+    [this](std::int64_t begin, std::int64_t end)
+    { std::fill(sums_.values.data() + begin, sums_.values.data() + end, 0); });
+  sums_.nonFinite.assign(range_.hasNonFinite ? sums_.size : 0, NonFiniteCount());
 }
 
 namespace
 {
 
-/// The integer a number was rounded to by adding kRounder, read from the bits of the sum.
-inline std::int64_t roundedInteger(double sum)
+/// Adds an integer, shifted, to a sum of two words.
+inline void addWide(std::uint64_t* sum, simd::Int128 more, int shift)
 {
-  std::int64_t bits;
-  std::int64_t rounder;
-  const double zero = kRounder;
-  std::memcpy(&bits, &sum, sizeof bits);
-  std::memcpy(&rounder, &zero, sizeof rounder);
-  return bits - rounder;
-}
-
-/// Adds the parts of a number that is in units of the first.
-inline void addParts(double scaled, double partScale, int parts, std::int64_t* sums)
-{
-  for (int part = 0; part < parts; ++part)
-  {
-    const double shifted = scaled + kRounder;
-    sums[part] += roundedInteger(shifted);
-    scaled = (scaled - (shifted - kRounder)) * partScale;
-  }
+  const simd::UInt128 whole = (simd::UInt128(sum[1]) << 64 | sum[0]) + (simd::UInt128(more) << shift);
+  sum[0] = std::uint64_t(whole);
+  sum[1] = std::uint64_t(whole >> 64);
 }
 
 /// Tuples of points, and the voxels they are added to.
@@ -194,10 +158,10 @@ T numberOf(const char* tuple, int component)
   return number;
 }
 
-/// Calls add(sum, value) for each number: the sums have @p Lanes words for each of @p Components components,
+/// Calls add(sum, value) for each number: the sums have @p Words words for each of @p Components components,
 /// or of the view's where the compiler is not to know.
-template <int Lanes, int Components, typename T, typename Add>
-void forNumbers(const Terms& terms, std::int64_t* sums, const Add& add)
+template <int Words, int Components, typename T, typename Add>
+void forNumbers(const Terms& terms, std::uint64_t* sums, const Add& add)
 {
   const int width = Components > 0 ? Components : terms.view.components;
   const auto* const first = static_cast<const char*>(terms.view.values);
@@ -205,70 +169,41 @@ void forNumbers(const Terms& terms, std::int64_t* sums, const Add& add)
   for (int i = 0; i < terms.count; ++i)
   {
     const char* const tuple = first + step * terms.points[i];
-    std::int64_t* sum = sums + Lanes * width * terms.voxels[i];
+    std::uint64_t* sum = sums + Words * width * terms.voxels[i];
     for (int c = 0; c < width; ++c)
     {
-      add(sum + Lanes * c, numberOf<T>(tuple, c));
+      add(sum + Words * c, numberOf<T>(tuple, c));
     }
   }
 }
-template <int Lanes, typename T, typename Add>
-void forNumbers(const Terms& terms, std::int64_t* sums, const Add& add)
+template <int Words, typename T, typename Add>
+void forNumbers(const Terms& terms, std::uint64_t* sums, const Add& add)
 {
-  terms.view.components == 3     ? forNumbers<Lanes, 3, T>(terms, sums, add)
-    : terms.view.components == 1 ? forNumbers<Lanes, 1, T>(terms, sums, add)
-                                 : forNumbers<Lanes, 0, T>(terms, sums, add);
+  terms.view.components == 3     ? forNumbers<Words, 3, T>(terms, sums, add)
+    : terms.view.components == 1 ? forNumbers<Words, 1, T>(terms, sums, add)
+                                 : forNumbers<Words, 0, T>(terms, sums, add);
 }
 
 }
 
-template <typename Integer>
-void AttributeMean::addIntegers(const std::int64_t* points, const std::int64_t* voxels, int count)
-{
-  constexpr int kLanes = sizeof(Integer) == 8 ? 2 : 1;
-  forNumbers<kLanes, Integer>({ view_, points, voxels, count }, sums_.data(),
-    [](std::int64_t* sum, Integer value)
-    {
-      if constexpr (kLanes == 2)
-      {
-        // High and low halves: the low one is not negative.
-        sum[0] += std::int64_t(value >> 32);
-        sum[1] += std::int64_t(value & Integer(0xffffffff));
-      }
-      else
-      {
-        sum[0] += value;
-      }
-    });
-}
-
-/// Adds a number in as many parts as there are, and if it is not finite. @p place: of its component.
+/// Adds a number to a sum of any words, and if it is not finite.
 template <typename Real>
-void AttributeMean::addInParts(Real value, std::int64_t place)
+void AttributeMean::addReal(Real value, std::size_t sum)
 {
-  const double partScale = std::ldexp(1.0, partBits_);
-  std::int64_t* const sum = sums_.data() + lanes_ * place;
   if (range_.hasNonFinite && !std::isfinite(value))
   {
-    NonFiniteCount& seen = nonFinite_[std::size_t(place)];
+    NonFiniteCount& seen = sums_.nonFinite[sum];
     ++(std::isnan(value) ? seen.nans : value > Real(0) ? seen.plus : seen.minus);
-  }
-  else if (lanes_ == 1)
-  {
-    *sum += std::int64_t(double(value) * scale_[0] * scale_[1]);
-  }
-  else if (lanes_ <= kMostScaledLanes)
-  {
-    addParts(double(value) * scale_[0] * scale_[1], partScale, lanes_, sum);
   }
   else if (value != Real(0))
   {
-    // From the part before the one its first bit is in.
+    constexpr int kBits = std::numeric_limits<Real>::digits;
     int exponent;
-    std::frexp(double(value), &exponent);
-    const int part = std::max(0, (range_.exponent - exponent) / partBits_ - 1);
-    const double scaled = std::ldexp(double(value), partBits_ * (part + 1) - range_.exponent);
-    addParts(scaled, partScale, lanes_ - part, sum + part);
+    const auto mantissa =
+      std::uint64_t(std::int64_t(std::ldexp(std::frexp(double(value), &exponent), kBits)));
+    // There is room: see prepare().
+    static_cast<void>(
+      simd::addShifted(&mantissa, 1, exponent - kBits - sums_.unit, 1, sums_.at(sum), sums_.words));
   }
 }
 
@@ -276,18 +211,29 @@ template <typename Real>
 void AttributeMean::addReals(const std::int64_t* points, const std::int64_t* voxels, int count)
 {
   const Terms terms = { view_, points, voxels, count };
-  const double scale = scale_[0];
-  const bool isPlain = !range_.hasNonFinite && scale_[1] == 1.0;
-  if (lanes_ == 1 && isPlain)
+  // Of two words the upper part is an integer that rounding to it finds, the lower one a word.
+  constexpr int kLowBits = 62;
+  constexpr int kHighBits = 50;
+  constexpr double kRounder = 0x1.8p52;
+  const int unit = sums_.unit;
+  const bool isPlain = !range_.hasNonFinite && unit > -900 && unit < 900;
+  if (sums_.words == 1 && isPlain)
   {
-    forNumbers<1, Real>(terms, sums_.data(),
-      [=](std::int64_t* sum, Real value) { sum[0] += std::int64_t(double(value) * scale); });
+    const double scale = std::ldexp(1.0, -unit);
+    forNumbers<1, Real>(terms, sums_.values.data(),
+      [=](std::uint64_t* sum, Real value) { *sum += std::uint64_t(std::int64_t(double(value) * scale)); });
   }
-  else if (lanes_ == 2 && isPlain)
+  else if (sums_.words == 2 && isPlain && range_.exponent - unit <= kLowBits + kHighBits)
   {
-    const double partScale = std::ldexp(1.0, partBits_);
-    forNumbers<2, Real>(terms, sums_.data(),
-      [=](std::int64_t* sum, Real value) { addParts(double(value) * scale, partScale, 2, sum); });
+    const double scale = std::ldexp(1.0, -unit - kLowBits);
+    forNumbers<2, Real>(terms, sums_.values.data(),
+      [=](std::uint64_t* sum, Real value)
+      {
+        const double scaled = double(value) * scale;
+        const double high = (scaled + kRounder) - kRounder;
+        addWide(sum, std::int64_t(high), kLowBits);
+        addWide(sum, std::int64_t((scaled - high) * std::ldexp(1.0, kLowBits)), 0);
+      });
   }
   else
   {
@@ -296,7 +242,7 @@ void AttributeMean::addReals(const std::int64_t* points, const std::int64_t* vox
       const char* const tuple = view_.tuple(points[i]);
       for (int c = 0; c < view_.components; ++c)
       {
-        addInParts(numberOf<Real>(tuple, c), view_.components * voxels[i] + c);
+        addReal(numberOf<Real>(tuple, c), std::size_t(view_.components * voxels[i] + c));
       }
     }
   }
@@ -314,32 +260,28 @@ void AttributeMean::add(const std::int64_t* points, const std::int64_t* voxels, 
       }
       else
       {
-        addIntegers<T>(points, voxels, count);
+        constexpr int kWords = sizeof(T) == 8 ? 2 : 1;
+        forNumbers<kWords, T>({ view_, points, voxels, count }, sums_.values.data(),
+          [](std::uint64_t* sum, T value)
+          { kWords == 2 ? addWide(sum, value, 0) : void(*sum += std::uint64_t(value)); });
       }
     });
 }
 
-void AttributeMean::regroup(const std::vector<std::int64_t>& parents, std::int64_t voxels)
+bool AttributeMean::write(
+  const std::int64_t* counts, void* means, const Executor& executor, ProgressObserver*) const
 {
-  const Buffer<std::int64_t> fine = std::move(sums_);
-  const Buffer<NonFiniteCount> fineNonFinite = std::move(nonFinite_);
-  clear(voxels, Executor());
-  const auto components = std::size_t(view_.components);
-  const std::size_t width = components * std::size_t(lanes_);
-  for (std::size_t v = 0; v < parents.size(); ++v)
-  {
-    const auto parent = std::size_t(parents[v]);
-    for (std::size_t c = 0; c < width; ++c)
+  const AccumulatedArray kind = { view_.type, view_.components,
+    columns_ ? AttributeStatistic::Normal : AttributeStatistic::Mean };
+  const auto components = std::int64_t(view_.components);
+  forRange(executor, std::int64_t(sums_.size) / components,
+    [&](std::int64_t begin, std::int64_t end)
     {
-      sums_[parent * width + c] += fine[v * width + c];
-    }
-    for (std::size_t c = 0; range_.hasNonFinite && c < components; ++c)
-    {
-      NonFiniteCount& seen = nonFinite_[parent * components + c];
-      const NonFiniteCount& more = fineNonFinite[v * components + c];
-      seen = { seen.nans + more.nans, seen.plus + more.plus, seen.minus + more.minus };
-    }
-  }
+      sums_.write(kind, std::size_t(begin), std::size_t(end), counts + begin,
+        columns_.value_or(std::array<Vec3, 3>()), *kernels_,
+        static_cast<char*>(means) + view_.tupleBytes() * begin);
+    });
+  return true;
 }
 
 } // namespace pointhaptics

@@ -2,7 +2,9 @@
 /// Arrays of attributes, and what is made of them voxel by voxel.
 #pragma once
 
+#include "Core/Base/Executor.h"
 #include "Core/Base/ScalarType.h"
+#include "Core/Simd/InstructionSet.h"
 
 #include <cstdint>
 #include <optional>
@@ -32,6 +34,10 @@ struct AttributeRange
   int lastBit = 0;  ///< And multiples of 2^lastBit.
   bool hasNonFinite = false;
 };
+
+/// Scans the values of a floating-point array once; integers need no range.
+AttributeRange rangeOf(const AttributeView& view, const Executor& executor,
+  InstructionSet instructions = InstructionSet::Automatic);
 
 /// How many numbers are not finite.
 struct NonFiniteCount

@@ -29,9 +29,9 @@ namespace pointhaptics
 ///
 /// Memory: 48 bytes an active voxel, 144 with covariances, at most a third more, and as much for what was
 /// subtracted since the last finish(). Time: that of resampling for the points of a call, and of copying
-/// voxels a few times; finish() costs in proportion to the active voxels. Arrays: 4 bytes a voxel and
-/// component for each 32 bits of the sums, mostly one to three times; where the most frequent or the middle
-/// value is wanted, 8, and 16 for each value of the voxel's points. One thread at a time may use an object.
+/// voxels a few times; finish() costs in proportion to the active voxels. Arrays: 8 bytes a voxel and
+/// component for each 64 bits of the sums, mostly once; where the most frequent or the middle value is
+/// wanted, 8, and 16 for each value of the voxel's points. One thread at a time may use an object.
 class VoxelAccumulator
 {
 public:

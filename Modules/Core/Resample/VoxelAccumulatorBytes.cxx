@@ -16,8 +16,8 @@ using namespace simd;
 namespace
 {
 
-/// "PHVoxel3" in the bytes.
-constexpr std::uint64_t kMagic = 0x336c65786f564850;
+/// "PHVoxel4" in the bytes.
+constexpr std::uint64_t kMagic = 0x346c65786f564850;
 
 struct Header
 {
@@ -126,12 +126,12 @@ void exchange(Archive& archive, VoxelTally& tally, std::size_t first, std::size_
 {
   TallySums& sums = tally.sums;
   archive.one(sums.components);
-  archive.one(sums.first);
-  archive.one(sums.width);
+  archive.one(sums.unit);
+  archive.one(sums.words);
   const auto ofSums = std::size_t(sums.components);
-  const std::size_t digits = ofSums * std::size_t(sums.width);
+  const std::size_t words = ofSums * std::size_t(sums.words);
   const bool areFinite = sums.nonFinite.empty();
-  archive.part(sums.digits, first * digits, last * digits);
+  archive.part(sums.values, first * words, last * words);
   archive.part(sums.nonFinite, areFinite ? 0 : first * ofSums, areFinite ? 0 : last * ofSums);
   TallyValues& values = tally.values;
   archive.one(values.components);
@@ -216,9 +216,9 @@ bool completeTally(const AccumulatedArray& kind, const VoxelRun& run, VoxelTally
   sums.size = run.size() * std::size_t(sums.components);
   const std::size_t lists = run.size() * std::size_t(values.components);
   const bool isSummed = isSum(kind.statistic);
-  if (sums.components != (isSummed ? kind.components : 0) || sums.width < int(isSummed) ||
-    sums.width > ExactNumber::kPlaces || sums.first < 0 || sums.first > ExactNumber::kPlaces - sums.width ||
-    sums.digits.size() != sums.size * std::size_t(sums.width) ||
+  if (sums.components != (isSummed ? kind.components : 0) || sums.words < 1 ||
+    sums.words > TallySums::kMostWords || sums.unit < TallySums::kLeastUnit ||
+    sums.unit > -TallySums::kLeastUnit || sums.values.size() != sums.size * std::size_t(sums.words) ||
     (!sums.nonFinite.empty() && sums.nonFinite.size() != sums.size) ||
     values.components != (isSummed ? 0 : kind.components) || values.ends.size() != lists)
   {

@@ -1,7 +1,6 @@
 #include "Core/Resample/VoxelResampler.h"
 
 #include "Core/Neighbors/PointIndex.h"
-#include "Core/Resample/AttributeMean.h"
 #include "Core/Resample/AttributeReducer.h"
 #include "Core/Resample/VoxelResamplerImplementation.h"
 
@@ -161,7 +160,8 @@ void writeTallies(
   {
     const AttributeRequest& array = request.attributes[i];
     sums.tallies[i].write({ array.view.type, array.view.components, array.statistic }, first, last,
-      arena.counts() + first, columns, arena.attribute(i, first));
+      arena.counts() + first, columns, kernelsFor(request.instructions).attributes,
+      arena.attribute(i, first));
   }
 }
 

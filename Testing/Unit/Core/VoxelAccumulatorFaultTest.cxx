@@ -132,7 +132,7 @@ TEST(VoxelAccumulatorFaults, BytesWhoseArraysNoPointsHaveAreRefused)
   };
   const AttributeView labels{ &label, ScalarType::UInt8, 1, 1 };
   const AttributeView numbers{ &number, ScalarType::Float, 1, 1 };
-  const Case cases[] = { { labels, AttributeStatistic::Mean, 31, 0, 1 }, // Sums of 255, 255 + 256.
+  const Case cases[] = { { labels, AttributeStatistic::Mean, 35, 0, 1 }, // Sums of 255, 255 + 256.
     { labels, AttributeStatistic::Mode, 8, 1, 2 },                       // How many points have a value.
     { labels, AttributeStatistic::Mode, 15, 0, 1 },                      // The values 255, 255 + 256.
     { numbers, AttributeStatistic::Mean, 44, 1, 2 },                     // How many are NaN.

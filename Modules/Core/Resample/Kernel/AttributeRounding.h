@@ -28,6 +28,18 @@ inline double powerOfTwo(int exponent)
   return value;
 }
 
+/// Rounded once, as the compiler's own conversion of 128 bits is; nearly all values take the quick way.
+inline double toDouble(Int128 value)
+{
+  constexpr std::int64_t kExact = std::int64_t(1) << 53;
+  const auto high = std::int64_t(value >> 32);
+  if (Int128(high) == value >> 32 && high > -kExact && high < kExact)
+  {
+    return double(high) * 0x1p32 + double(std::uint32_t(value));
+  }
+  return double(value);
+}
+
 /// The mean of numbers whose sum is @p sum 2^exponent. Divided before it is scaled: the scale may reach among
 /// the denormals.
 inline double scaledMean(double sum, int exponent, std::int64_t count)

@@ -1,5 +1,7 @@
 #include "Core/Resample/Stages/VoxelSink.h"
 
+#include "Core/Resample/Kernel/AttributeRounding.h"
+
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
@@ -8,23 +10,6 @@ namespace pointhaptics
 {
 namespace simd
 {
-namespace
-{
-
-/// Rounded once, as the compiler's own conversion of 128 bits is; nearly all values take the quick way.
-double toDouble(Int128 value)
-{
-  constexpr std::int64_t kExact = std::int64_t(1) << 53;
-  const auto high = std::int64_t(value >> 32);
-  if (Int128(high) == value >> 32 && high > -kExact && high < kExact)
-  {
-    return double(high) * 0x1p32 + double(std::uint32_t(value));
-  }
-  return double(value);
-}
-
-}
-
 SymMat3 covarianceOf(std::int64_t count, const Int128 sums[3], const SecondMoments& secondMoments,
   double quantum, const Vec3& spacing)
 {

@@ -4,7 +4,7 @@
 #include "Core/Resample/Kernel/AttributeRounding.h"
 
 #include <algorithm>
-#include <cstdlib>
+#include <cmath>
 #include <limits>
 #include <type_traits>
 
@@ -12,160 +12,129 @@ namespace pointhaptics
 {
 namespace simd
 {
-namespace
+bool addShiftedWords(
+  const std::uint64_t* number, int count, int shift, int sign, std::uint64_t* sum, int size)
 {
-
-constexpr int kDigitBits = 32;
-constexpr Int128 kBase = Int128(1) << kDigitBits;
-
-int exponentOf(int place)
-{
-  return kDigitBits * (place - ExactNumber::kUnit);
-}
-
-/// The lowest digit of a number, which loses it.
-template <typename Integer>
-std::int32_t takeDigit(Integer& number)
-{
-  const auto digit = std::int32_t(std::uint32_t(number));
-  number = (number - digit) >> kDigitBits;
-  return digit;
-}
-
-}
-
-double ExactNumber::rounded(int& exponent) const
-{
-  // Three digits from the first that is not 0 have more bits than a double; of the others the sign is enough.
-  int top = size;
-  while (top > 0 && digits[top - 1] == 0)
+  const int whole = (shift - (shift < 0 ? 63 : 0)) / 64;
+  const int bits = shift - 64 * whole;
+  const auto word = [=](int i) {
+    return i < 0 ? 0 : i < count ? number[i] : std::uint64_t(std::int64_t(number[count - 1]) >> 63);
+  };
+  UInt128 carry = sign < 0;
+  std::uint64_t before = 0;
+  std::uint64_t more = 0;
+  for (int i = 0; i < size; ++i)
   {
-    --top;
+    more = word(i - whole) << bits | (bits > 0 ? word(i - whole - 1) >> (64 - bits) : 0);
+    more = sign < 0 ? ~more : more;
+    before = sum[i];
+    carry += UInt128(before) + more;
+    sum[i] = std::uint64_t(carry);
+    carry >>= 64;
   }
-  const int least = std::max(top - 3, 0);
-  Int128 whole = 0;
-  for (int i = top; i > least; --i)
-  {
-    whole = whole * kBase + digits[i - 1];
-  }
-  int below = least;
-  while (below > 0 && digits[below - 1] == 0)
-  {
-    --below;
-  }
-  exponent = exponentOf(first + least) - 2;
-  const int rest = below == 0 ? 0 : digits[below - 1] > 0 ? 1 : -1;
-  return double(4 * whole + rest);
+  // Both have a sign that the result has not.
+  return ((before ^ sum[size - 1]) & (more ^ sum[size - 1])) >> 63 == 0;
 }
 
-Int128 ExactNumber::integer() const
+void TallySums::fit(int newUnit, int newWords)
 {
-  Int128 sum = 0;
-  for (int i = size; i > 0; --i)
-  {
-    sum = sum * kBase + digits[i - 1];
-  }
-  return sum * (Int128(1) << exponentOf(first));
-}
-
-ShiftedInteger::ShiftedInteger(std::int64_t value, int exponent)
-{
-  const int shift = exponent - exponentOf(0);
-  first_ = shift / kDigitBits;
-  Int128 left = Int128(value) * (Int128(1) << (shift % kDigitBits));
-  while (left != 0)
-  {
-    digits_[size_++] = takeDigit(left);
-  }
-}
-
-std::int64_t addDigits(const ExactNumber& more, int sign, int first, int size, std::int32_t* digits)
-{
-  std::int64_t carry = 0;
-  for (int place = more.first; place < first + size && (place < more.end() || carry != 0); ++place)
-  {
-    std::int32_t& digit = digits[place - first];
-    carry += digit + sign * std::int64_t(more.at(place));
-    digit = takeDigit(carry);
-  }
-  return carry;
-}
-
-/// Has all sums digits from place @p begin to before @p end; others are 0.
-void TallySums::setPlaces(int begin, int end)
-{
-  if (begin == first && end == first + width)
+  if (newUnit == unit && newWords == words)
   {
     return;
   }
-  std::vector<std::int32_t> moved;
-  moved.reserve(size * std::size_t(end - begin));
+  PageVector<std::uint64_t> moved(size * std::size_t(newWords), 0);
   for (std::size_t sum = 0; sum < size; ++sum)
   {
-    for (int place = begin; place < end; ++place)
-    {
-      moved.push_back((*this)[sum].at(place));
-    }
+    static_cast<void>(
+      addShifted(at(sum), words, unit - newUnit, 1, moved.data() + sum * std::size_t(newWords), newWords));
   }
-  digits = std::move(moved);
-  first = begin;
-  width = end - begin;
+  values = std::move(moved);
+  unit = newUnit;
+  words = newWords;
 }
 
-void TallySums::cover(int begin, int end)
+/// Makes room for the sums of another.
+void TallySums::cover(const TallySums& other)
 {
-  if (width == 0)
+  if (size == 0)
   {
-    setPlaces(begin, end);
+    unit = other.unit;
+    words = other.words;
   }
-  else if (begin < end)
+  else if (other.size > 0 && (other.unit != unit || other.words > words))
   {
-    setPlaces(std::min(first, begin), std::max(first + width, end));
+    const int least = std::min(unit, other.unit);
+    const auto needed = [=](const TallySums& sums) { return sums.words + (sums.unit - least + 63) / 64; };
+    fit(least, std::max(needed(*this), needed(other)));
   }
 }
 
 void TallySums::push(std::size_t sums)
 {
   size += sums;
-  digits.resize(size * std::size_t(width));
+  values.resize(size * std::size_t(words), 0);
   nonFinite.resize(nonFinite.empty() ? 0 : size);
 }
 
 void TallySums::append(const TallySums& from, std::size_t begin, std::size_t end)
 {
-  cover(from.first, from.first + from.width);
+  cover(from);
   const std::size_t before = size;
   push(end - begin);
-  for (std::size_t sum = begin; from.width > 0 && sum < end; ++sum)
+  if (from.unit == unit && from.words == words)
   {
-    std::copy_n(from[sum].digits, from.width,
-      digits.data() + (before + sum - begin) * std::size_t(width) + (from.first - first));
+    std::copy(from.at(begin), from.at(end), at(before));
+  }
+  for (std::size_t sum = begin; (from.unit != unit || from.words != words) && sum < end; ++sum)
+  {
+    static_cast<void>(
+      addShifted(from.at(sum), from.words, from.unit - unit, 1, at(before + sum - begin), words));
   }
   if (!from.nonFinite.empty())
   {
-    nonFinite.resize(before);
-    nonFinite.insert(nonFinite.end(), from.nonFinite.begin() + std::ptrdiff_t(begin),
-      from.nonFinite.begin() + std::ptrdiff_t(end));
+    nonFinite.resize(size);
+    std::copy(from.nonFinite.begin() + std::ptrdiff_t(begin), from.nonFinite.begin() + std::ptrdiff_t(end),
+      nonFinite.begin() + std::ptrdiff_t(before));
   }
 }
 
-void TallySums::add(std::size_t sum, const ExactNumber& more, int sign)
+bool TallySums::add(std::size_t sum, const TallySums& from, std::size_t other, int sign)
 {
-  cover(more.first, more.end());
-  const std::int64_t carry = addDigits(more, sign, first, width, digits.data() + sum * std::size_t(width));
-  if (carry != 0)
+  cover(from);
+  const std::uint64_t top = at(sum)[words - 1];
+  if (!addShifted(from.at(other), from.words, from.unit - unit, sign, at(sum), words))
   {
-    cover(first, first + width + 1);
-    digits[(sum + 1) * std::size_t(width) - 1] = std::int32_t(carry);
+    fit(unit, words + 1);
+    at(sum)[words - 1] = std::uint64_t(std::int64_t(top) >> 63);
   }
-}
-
-bool TallySums::add(std::size_t sum, const NonFiniteCount& more, int sign)
-{
+  if (from.nonFinite.empty())
+  {
+    return true;
+  }
   nonFinite.resize(size);
   NonFiniteCount& seen = nonFinite[sum];
+  const NonFiniteCount& more = from.nonFinite[other];
   seen = { seen.nans + sign * more.nans, seen.plus + sign * more.plus, seen.minus + sign * more.minus };
   return seen.nans >= 0 && seen.plus >= 0 && seen.minus >= 0;
+}
+
+TallySums TallySums::regrouped(const std::vector<std::int64_t>& parents, std::size_t voxels) const
+{
+  TallySums coarse;
+  coarse.components = components;
+  coarse.unit = unit;
+  coarse.words = words;
+  const auto ofVoxel = std::size_t(components);
+  coarse.push(voxels * ofVoxel);
+  for (std::size_t v = 0; v < parents.size(); ++v)
+  {
+    for (std::size_t c = 0; c < ofVoxel; ++c)
+    {
+      // No count is below 0.
+      static_cast<void>(coarse.add(std::size_t(parents[v]) * ofVoxel + c, *this, v * ofVoxel + c));
+    }
+  }
+  return coarse;
 }
 
 double TallySums::mean(std::size_t sum, std::int64_t count) const
@@ -174,25 +143,91 @@ double TallySums::mean(std::size_t sum, std::int64_t count) const
   {
     return meanWithNonFinite(nonFinite[sum]);
   }
-  int exponent;
-  const double rounded = (*this)[sum].rounded(exponent);
-  return scaledMean(rounded, exponent, count);
+  const std::uint64_t* const number = at(sum);
+  int top = words - 1;
+  while (top > 1 && number[top] == std::uint64_t(std::int64_t(number[top - 1]) >> 63))
+  {
+    --top;
+  }
+  if (top == 0)
+  {
+    return scaledMean(double(std::int64_t(number[0])), unit, count);
+  }
+  // Two words have more bits than a double: of those below it is enough whether all are 0.
+  const bool isExact = std::all_of(number, number + top - 1, [](std::uint64_t word) { return word == 0; });
+  const auto whole = Int128(UInt128(number[top]) << 64 | number[top - 1] | std::uint64_t(!isExact));
+  return scaledMean(toDouble(whole), unit + 64 * (top - 1), count);
+}
+
+Int128 TallySums::inUnits(std::size_t sum) const
+{
+  const std::uint64_t* const number = at(sum);
+  return words == 1 ? Int128(std::int64_t(number[0])) : Int128(UInt128(number[1]) << 64 | number[0]);
+}
+
+/// How kernels turn vectors.
+static Turn turnOf(const std::array<Vec3, 3>& columns)
+{
+  Turn turn;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    std::copy_n(&columns[axis].x, 3, turn.columns[axis]);
+  }
+  return turn;
+}
+
+void TallySums::write(const AccumulatedArray& kind, std::size_t first, std::size_t last,
+  const std::int64_t* counts, const std::array<Vec3, 3>& columns, const AttributeKernels& kernels,
+  void* tuples) const
+{
+  const bool turns = kind.statistic == AttributeStatistic::Normal;
+  const auto ofVoxel = std::size_t(components);
+  withType(kind.type,
+    [&](auto example)
+    {
+      using T = decltype(example);
+      T* to = static_cast<T*>(tuples);
+      constexpr bool kIsReal = std::is_floating_point_v<T>;
+      const auto most = [&] { return double(*std::max_element(counts, counts + (last - first))); };
+      const bool byKernel = first < last && words == 1 && nonFinite.empty() &&
+        (kIsReal ? unit > -1000 && unit < 1000
+                 : !turns && unit == 0 && sizeof(T) < 8 &&
+              most() * std::ldexp(1.0, 8 * sizeof(T)) < std::ldexp(1.0, kRealSumBits));
+      if (byKernel)
+      {
+        const WordSums sums = { reinterpret_cast<const std::int64_t*>(at(first * ofVoxel)), counts,
+          std::int64_t(last - first), components, kIsReal ? powerOfTwo(unit) : 1.0 };
+        turns ? kernels.unitVectors[sizeof(T) == sizeof(double)](sums, turnOf(columns), to)
+              : kernels.means[int(kind.type)](sums, to);
+        return;
+      }
+      for (std::size_t v = first; v < last; ++v, to += components)
+      {
+        const auto sumOf = [&](int c) { return v * ofVoxel + std::size_t(c); };
+        const std::int64_t count = *counts++;
+        writeMeans(
+          components, count, turns ? &columns : nullptr, to, [&](int c) { return mean(sumOf(c), count); },
+          [&](int c) { return inUnits(sumOf(c)) * (Int128(1) << unit); });
+      }
+    });
 }
 
 void TallySums::trim()
 {
-  int low = width;
+  int low = 64 * words; // Bits in use, but the sign.
   int high = 0;
-  for (std::size_t i = 0; i < digits.size(); i += std::size_t(width))
+  for (std::size_t sum = 0; sum < size; ++sum)
   {
-    for (int place = 0; place < width; ++place)
+    const std::uint64_t* const number = at(sum);
+    const auto sign = std::uint64_t(std::int64_t(number[words - 1]) >> 63);
+    for (int i = 0; i < words; ++i)
     {
-      low = digits[i + place] != 0 ? std::min(low, place) : low;
-      high = digits[i + place] != 0 ? std::max(high, place + 1) : high;
+      low = number[i] != 0 ? std::min(low, 64 * i + __builtin_ctzll(number[i])) : low;
+      high = number[i] != sign ? std::max(high, 64 * (i + 1) - __builtin_clzll(number[i] ^ sign)) : high;
     }
   }
-  low < high ? setPlaces(first + low, first + high) : setPlaces(ExactNumber::kUnit, ExactNumber::kUnit + 1);
-  digits.shrink_to_fit();
+  low < 64 * words ? fit(unit + low, (high - low) / 64 + 1) : fit(0, 1);
+  values.shrink_to_fit();
   if (std::none_of(nonFinite.begin(), nonFinite.end(), [](const NonFiniteCount& seen) { return seen.any(); }))
   {
     nonFinite.clear();
@@ -271,36 +306,13 @@ bool VoxelTally::addToLast(const VoxelTally& from, std::size_t voxel, int sign)
   const std::size_t own = sums.size - std::size_t(sums.components);
   for (std::size_t c = 0; c < std::size_t(sums.components); ++c)
   {
-    const std::size_t other = voxel * std::size_t(sums.components) + c;
-    sums.add(own + c, from.sums[other], sign);
-    isRight = (from.sums.nonFinite.empty() || sums.add(own + c, from.sums.nonFinite[other], sign)) && isRight;
+    isRight = sums.add(own + c, from.sums, voxel * std::size_t(sums.components) + c, sign) && isRight;
   }
   return values.addToLast(from.values, voxel * std::size_t(values.components), sign) && isRight;
 }
 
 namespace
 {
-
-template <typename T>
-void writeTuple(const VoxelTally& tally, const AccumulatedArray& kind, std::size_t voxel, std::int64_t count,
-  const std::array<Vec3, 3>& columns, T* tuple)
-{
-  const auto at = [&](int c) { return voxel * std::size_t(kind.components) + std::size_t(c); };
-  if (isSum(kind.statistic))
-  {
-    writeMeans(
-      kind.components, count, kind.statistic == AttributeStatistic::Normal ? &columns : nullptr, tuple,
-      [&](int c) { return tally.sums.mean(at(c), count); },
-      [&](int c) { return tally.sums[at(c)].integer(); });
-    return;
-  }
-  for (int c = 0; c < kind.components; ++c)
-  {
-    const TallyValues::List list = tally.values[at(c)];
-    tuple[c] =
-      valueOfKey<T>(kind.statistic == AttributeStatistic::Mode ? list.mostFrequent() : list.middle(count));
-  }
-}
 
 bool isOf(const NonFiniteCount& seen, std::int64_t count)
 {
@@ -310,23 +322,21 @@ bool isOf(const NonFiniteCount& seen, std::int64_t count)
 
 /// Of integers that as many can have the sum.
 template <typename T>
-bool isSumOf(const ExactNumber& sum, std::int64_t count)
+bool isSumOf(const TallySums& sums, std::size_t sum, std::int64_t count)
 {
-  // 34 bits of points and 64 of each: two bits are in the fourth digit.
-  constexpr int kTop = ExactNumber::kUnit + 3;
-  constexpr std::int64_t kMostOfTop = 4;
-  if (std::is_floating_point_v<T> || sum.size == 0)
+  constexpr int kMostBits = 34 + 64; // Of points, and of each.
+  if (std::is_floating_point_v<T>)
   {
     return true;
   }
-  if (sum.first < ExactNumber::kUnit || sum.end() > kTop + 1 ||
-    (sum.end() == kTop + 1 && std::abs(std::int64_t(sum.digits[sum.size - 1])) > kMostOfTop))
+  if (sums.unit < 0 || sums.unit > kMostBits || sums.words > 2)
   {
     return false;
   }
-  const Int128 integer = sum.integer();
-  return integer >= Int128(std::numeric_limits<T>::lowest()) * count &&
-    integer <= Int128(std::numeric_limits<T>::max()) * count;
+  const Int128 units = sums.inUnits(sum);
+  const Int128 least = Int128(std::numeric_limits<T>::lowest()) * count;
+  const Int128 most = Int128(std::numeric_limits<T>::max()) * count;
+  return units >= -(-least >> sums.unit) && units <= most >> sums.unit;
 }
 
 template <typename T>
@@ -349,15 +359,25 @@ bool areValuesOf(TallyValues::List list, std::int64_t count)
 }
 
 void VoxelTally::write(const AccumulatedArray& kind, std::size_t first, std::size_t last,
-  const std::int64_t* counts, const std::array<Vec3, 3>& columns, void* tuples) const
+  const std::int64_t* counts, const std::array<Vec3, 3>& columns, const AttributeKernels& kernels,
+  void* tuples) const
 {
+  if (isSum(kind.statistic))
+  {
+    sums.write(kind, first, last, counts, columns, kernels, tuples);
+    return;
+  }
   withType(kind.type,
     [&](auto example)
     {
-      auto* to = static_cast<decltype(example)*>(tuples);
-      for (std::size_t v = first; v < last; ++v, to += kind.components)
+      using T = decltype(example);
+      T* to = static_cast<T*>(tuples);
+      const auto components = std::size_t(kind.components);
+      for (std::size_t list = first * components; list < last * components; ++list)
       {
-        writeTuple(*this, kind, v, *counts++, columns, to);
+        const std::int64_t count = counts[list / components - first];
+        *to++ = valueOfKey<T>(kind.statistic == AttributeStatistic::Mode ? values[list].mostFrequent()
+                                                                         : values[list].middle(count));
       }
     });
 }
@@ -373,7 +393,7 @@ bool VoxelTally::isOf(const AccumulatedArray& kind, std::size_t voxel, std::int6
       {
         const std::size_t i = voxel * std::size_t(kind.components) + std::size_t(c);
         isRight = isSum(kind.statistic)
-          ? isSumOf<T>(sums[i], count) && (sums.nonFinite.empty() || simd::isOf(sums.nonFinite[i], count))
+          ? isSumOf<T>(sums, i, count) && (sums.nonFinite.empty() || simd::isOf(sums.nonFinite[i], count))
           : areValuesOf<T>(values[i], count);
       }
     });
@@ -389,7 +409,7 @@ void VoxelTally::trim()
 
 std::size_t VoxelTally::bytes() const
 {
-  return sums.digits.capacity() * sizeof(std::int32_t) + sums.nonFinite.capacity() * sizeof(NonFiniteCount) +
+  return sums.values.capacity() * sizeof(std::uint64_t) + sums.nonFinite.capacity() * sizeof(NonFiniteCount) +
     values.ends.capacity() * sizeof(std::size_t) + values.values.capacity() * sizeof(TallyValue);
 }
 

@@ -3,6 +3,7 @@
 /// tuples alone, not on their order or on how they came.
 #pragma once
 
+#include "Core/Base/Buffer.h"
 #include "Core/Base/Vector3.h"
 #include "Core/Resample/AttributeView.h"
 #include "Core/Resample/Kernel/VoxelKernel.h"
@@ -17,75 +18,64 @@ namespace pointhaptics
 namespace simd
 {
 
-/// An exact number, whatever its magnitude: digits of 32 bits, the least first, from -2^31 to below 2^31. A
-/// digit at place 0 is in units of 2^-1216, below the last bit of a double.
-struct ExactNumber
+/// Adds @p sign times a number of @p count words to a sum of @p size words, shifted left by so many bits, or
+/// right where that loses no bit. @return false where the sum has no room for the result: its sign is wrong.
+bool addShiftedWords(
+  const std::uint64_t* number, int count, int shift, int sign, std::uint64_t* sum, int size);
+inline bool addShifted(
+  const std::uint64_t* number, int count, int shift, int sign, std::uint64_t* sum, int size)
 {
-  int first; ///< The place of the first digit.
-  int size;
-  const std::int32_t* digits;
+  if (size > 1 || shift != 0)
+  {
+    return addShiftedWords(number, count, shift, sign, sum, size);
+  }
+  const auto more = std::int64_t(*number);
+  auto* const one = reinterpret_cast<std::int64_t*>(sum);
+  return !(sign < 0 ? __builtin_sub_overflow(*one, more, one) : __builtin_add_overflow(*one, more, one));
+}
 
-  static constexpr int kPlaces = 76; ///< Up to beyond the largest sum of doubles.
-  static constexpr int kUnit = 38;   ///< The place of 1.
-
-  int end() const { return first + size; }
-  std::int32_t at(int place) const { return place >= first && place < end() ? digits[place - first] : 0; }
-  /// Rounded once; times 2^exponent it is the number.
-  double rounded(int& exponent) const;
-  /// @pre it is an integer below 2^126.
-  Int128 integer() const;
-};
-
-/// An integer times a power of two. @pre its bits lie at places of digits.
-class ShiftedInteger
-{
-public:
-  ShiftedInteger(std::int64_t value, int exponent);
-  ExactNumber number() const { return { first_, size_, digits_ }; }
-
-private:
-  int first_;
-  int size_ = 0;
-  std::int32_t digits_[3];
-};
-
-/// Adds @p sign times a number to another one, whose @p digits are at as many places or more. @return what
-/// its digits have no room for, in units of the place after the last of them.
-std::int64_t addDigits(const ExactNumber& more, int sign, int first, int size, std::int32_t* digits);
-
-/// Sums of numbers, one for each component of each voxel. All have digits at the same places. Memory: 4 bytes
-/// a digit, of which most arrays have one to three.
+/// Sums of numbers, one for each component of each voxel: integers in units of 2^unit, in two's complement.
+/// All have as many words. Memory: 8 bytes a word, of which most arrays have one.
 class TallySums
 {
 public:
   int components = 0;
-  int first = 0; ///< The place of the first digit.
-  int width = 0; ///< Digits of a sum.
+  int unit = 0;
+  int words = 0; ///< Of a sum; 0 before there are any.
   std::size_t size = 0;
-  std::vector<std::int32_t> digits;      ///< [voxel][component][digit]
+  PageVector<std::uint64_t> values;      ///< [voxel][component][word], the lowest word first.
   std::vector<NonFiniteCount> nonFinite; ///< [voxel][component], where there are any.
 
-  ExactNumber operator[](std::size_t sum) const
-  {
-    return { first, width, digits.data() + sum * std::size_t(width) };
-  }
-  /// Gives all sums digits from place @p begin to before @p end, too.
-  void cover(int begin, int end);
+  /// Sums of doubles need no smaller unit, and no more words.
+  static constexpr int kLeastUnit = -1200;
+  static constexpr int kMostWords = 40;
+
+  std::uint64_t* at(std::size_t sum) { return values.data() + sum * std::size_t(words); }
+  const std::uint64_t* at(std::size_t sum) const { return values.data() + sum * std::size_t(words); }
   /// Appends sums of no numbers.
   void push(std::size_t sums);
   /// Appends the sums from @p begin to before @p end of others.
   void append(const TallySums& from, std::size_t begin, std::size_t end);
-  void add(std::size_t sum, const ExactNumber& more, int sign = 1);
-  /// @return false where that leaves a count below 0.
-  bool add(std::size_t sum, const NonFiniteCount& more, int sign = 1);
-  /// The mean of @p count numbers.
+  /// Adds @p sign times the @p other sum of @p from. @return false where that leaves fewer than no numbers
+  /// that are not finite.
+  bool add(std::size_t sum, const TallySums& from, std::size_t other, int sign = 1);
+  /// Those of @p voxels voxels, to which what voxel i has goes where parents[i] says.
+  TallySums regrouped(const std::vector<std::int64_t>& parents, std::size_t voxels) const;
+  /// The mean of @p count numbers; the sum is rounded once.
   double mean(std::size_t sum, std::int64_t count) const;
-  /// Leaves out digits and counts that are 0 everywhere, but one digit, so that equal sums are kept in the
-  /// same way, and frees memory.
+  /// @pre it has up to two words.
+  Int128 inUnits(std::size_t sum) const;
+  /// Writes the means of voxels @p first to before @p last, of @p counts numbers each; vectors turned by @p
+  /// columns.
+  void write(const AccumulatedArray& kind, std::size_t first, std::size_t last, const std::int64_t* counts,
+    const std::array<Vec3, 3>& columns, const AttributeKernels& kernels, void* tuples) const;
+  /// Takes the largest unit and the fewest words, so that equal sums are kept in the same way, and frees
+  /// memory.
   void trim();
 
 private:
-  void setPlaces(int begin, int end);
+  void fit(int newUnit, int newWords);
+  void cover(const TallySums& other);
 };
 
 /// So many points have a value, of which this is the orderedKey().
@@ -142,7 +132,7 @@ public:
   /// Writes the tuples of voxels @p first to before @p last, of @p counts points each; vectors turned by @p
   /// columns.
   void write(const AccumulatedArray& kind, std::size_t first, std::size_t last, const std::int64_t* counts,
-    const std::array<Vec3, 3>& columns, void* tuples) const;
+    const std::array<Vec3, 3>& columns, const AttributeKernels& kernels, void* tuples) const;
   /// Whether tuples of @p count points can have made what a voxel has.
   bool isOf(const AccumulatedArray& kind, std::size_t voxel, std::int64_t count) const;
   /// Frees memory that is not used. Equal tallies are then kept in the same way.
