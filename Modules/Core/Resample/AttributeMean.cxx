@@ -132,10 +132,10 @@ void AttributeMean::prepare(
 namespace
 {
 
-/// Adds an integer, shifted, to a sum of two words.
-inline void addWide(std::uint64_t* sum, simd::Int128 more, int shift)
+/// Adds to a sum of two words.
+inline void addWide(std::uint64_t* sum, simd::UInt128 more)
 {
-  const simd::UInt128 whole = (simd::UInt128(sum[1]) << 64 | sum[0]) + (simd::UInt128(more) << shift);
+  const simd::UInt128 whole = (simd::UInt128(sum[1]) << 64 | sum[0]) + more;
   sum[0] = std::uint64_t(whole);
   sum[1] = std::uint64_t(whole >> 64);
 }
@@ -231,8 +231,8 @@ void AttributeMean::addReals(const std::int64_t* points, const std::int64_t* vox
       {
         const double scaled = double(value) * scale;
         const double high = (scaled + kRounder) - kRounder;
-        addWide(sum, std::int64_t(high), kLowBits);
-        addWide(sum, std::int64_t((scaled - high) * std::ldexp(1.0, kLowBits)), 0);
+        const auto low = std::int64_t((scaled - high) * std::ldexp(1.0, kLowBits));
+        addWide(sum, (simd::UInt128(simd::Int128(std::int64_t(high))) << kLowBits) + simd::UInt128(low));
       });
   }
   else
@@ -263,7 +263,7 @@ void AttributeMean::add(const std::int64_t* points, const std::int64_t* voxels, 
         constexpr int kWords = sizeof(T) == 8 ? 2 : 1;
         forNumbers<kWords, T>({ view_, points, voxels, count }, sums_.values.data(),
           [](std::uint64_t* sum, T value)
-          { kWords == 2 ? addWide(sum, value, 0) : void(*sum += std::uint64_t(value)); });
+          { kWords == 2 ? addWide(sum, simd::UInt128(value)) : void(*sum += std::uint64_t(value)); });
       }
     });
 }

@@ -10,6 +10,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace pointhaptics
@@ -44,11 +45,7 @@ public:
   void prepare(const std::int64_t* counts, std::int64_t voxels, std::int64_t mostPoints,
     const Executor& executor) override;
   void add(const std::int64_t* points, const std::int64_t* voxels, int count) override;
-  void regroup(const std::vector<std::int64_t>& parents, std::int64_t voxels) override
-  {
-    sums_ = sums_.regrouped(parents, std::size_t(voxels));
-  }
-  simd::VoxelTally tally() const override { return { sums_, {} }; }
+  simd::VoxelTally takeTally() override { return { std::move(sums_), {} }; }
   /// Integers are rounded to the nearest, halves away from zero.
   bool write(const std::int64_t* counts, void* means, const Executor& executor,
     ProgressObserver* observer) const override;

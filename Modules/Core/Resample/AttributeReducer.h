@@ -36,17 +36,14 @@ public:
   virtual ~AttributeReducer() = default;
 
   /// Drops all tuples and makes room for those of @p voxels, @p counts each (sums do without), at most @p
-  /// mostPoints, at coarser levels too.
+  /// mostPoints.
   virtual void prepare(
     const std::int64_t* counts, std::int64_t voxels, std::int64_t mostPoints, const Executor& executor) = 0;
   /// Adds the tuples of points of the array. Several threads may add at once if no two have a voxel in
   /// common.
   virtual void add(const std::int64_t* points, const std::int64_t* voxels, int count) = 0;
-  /// What voxel i has goes to voxel parents[i] of @p voxels (VoxelResampler::parents()).
-  virtual void regroup(const std::vector<std::int64_t>& parents, std::int64_t voxels) = 0;
-
-  /// What the voxels have, for more to be added.
-  virtual simd::VoxelTally tally() const = 0;
+  /// What the voxels have, for more to be added; nothing is left here.
+  virtual simd::VoxelTally takeTally() = 0;
 
   /// Writes the tuples of all voxels, @p counts points each, in the array's own type. @return false where
   /// @p observer, which may be null, aborted the work.

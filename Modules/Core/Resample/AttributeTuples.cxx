@@ -160,34 +160,6 @@ void AttributeTuples::add(const std::int64_t* points, const std::int64_t* voxels
                   : addAll(bytes);
 }
 
-void AttributeTuples::regroup(const std::vector<std::int64_t>& parents, std::int64_t voxels)
-{
-  const Buffer<std::uint64_t> fine = std::move(tuples_);
-  const std::vector<std::int64_t> fineEnds = std::move(ends_);
-  ends_.assign(std::size_t(voxels), 0);
-  std::int64_t begin = 0;
-  for (std::size_t v = 0; v < parents.size(); ++v)
-  {
-    ends_[std::size_t(parents[v])] += fineEnds[v] - std::exchange(begin, fineEnds[v]);
-  }
-  makeRoom(simd::countsToPlaces(ends_));
-  withType(view_.type,
-    [&](auto example)
-    {
-      using T = decltype(example);
-      const T* from = reinterpret_cast<const T*>(fine.data());
-      std::int64_t first = 0;
-      for (std::size_t v = 0; v < parents.size(); ++v)
-      {
-        const std::int64_t size = fineEnds[v] - std::exchange(first, fineEnds[v]);
-        std::int64_t& end = ends_[std::size_t(parents[v])];
-        std::copy_n(from, view_.components * size, tuple<T>(end));
-        from += view_.components * size;
-        end += size;
-      }
-    });
-}
-
 /// Of voxels @p first to @p last. The components of few tuples go together: how many there are is
 /// unpredictable, once.
 template <typename T>
@@ -250,7 +222,7 @@ void AttributeTuples::tallyValues(simd::TallyValues& to) const
   }
 }
 
-simd::VoxelTally AttributeTuples::tally() const
+simd::VoxelTally AttributeTuples::takeTally()
 {
   simd::VoxelTally tally;
   tally.values.components = view_.components;

@@ -74,7 +74,7 @@ T valueOfKey(std::int64_t key)
 /// floating-point numbers all NaNs are one value, the largest, and both zeros are one, which is written as
 /// +0; nothing depends on the order of the points.
 ///
-/// Memory: the tuples themselves, and 8 bytes a voxel; twice that while regroup() works.
+/// Memory: the tuples themselves, and 8 bytes a voxel.
 class AttributeTuples : public AttributeReducer
 {
 public:
@@ -88,8 +88,7 @@ public:
   void prepare(const std::int64_t* counts, std::int64_t voxels, std::int64_t mostPoints,
     const Executor& executor) override;
   void add(const std::int64_t* points, const std::int64_t* voxels, int count) override;
-  void regroup(const std::vector<std::int64_t>& parents, std::int64_t voxels) override;
-  simd::VoxelTally tally() const override;
+  simd::VoxelTally takeTally() override;
   /// @pre each voxel has as many tuples as it was said to get.
   bool write(const std::int64_t* counts, void* values, const Executor& executor,
     ProgressObserver* observer) const override;

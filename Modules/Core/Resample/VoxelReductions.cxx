@@ -90,14 +90,6 @@ void VoxelReductions::prepare(const std::int64_t* counts, std::int64_t voxels, s
   }
 }
 
-void VoxelReductions::regroup(const std::vector<std::int64_t>& parents, std::int64_t voxels)
-{
-  for (const auto& reducer : reducers_)
-  {
-    reducer->regroup(parents, voxels);
-  }
-}
-
 void VoxelReductions::fetch(const std::int64_t* points, int count) const
 {
   // Points in the order of their memory need no fetching.
@@ -128,16 +120,6 @@ void VoxelReductions::add(const std::int64_t* points, const std::int64_t* voxels
   }
 }
 
-std::vector<VoxelTally> VoxelReductions::tallies() const
-{
-  std::vector<VoxelTally> tallies;
-  for (std::size_t i = 0; i < request_->attributes.size(); ++i)
-  {
-    tallies.push_back(reducers_[i]->tally());
-  }
-  return tallies;
-}
-
 bool VoxelReductions::write(
   MeanArena& arena, std::size_t first, const Executor& executor, ProgressObserver* observer) const
 {
@@ -153,6 +135,16 @@ bool VoxelReductions::write(
   }
   SubProgress choosing(observer, double(reducers_.size()) / steps, 1.0);
   return !nearest_ || nearest_->write(first, arena, executor, &choosing);
+}
+
+std::vector<VoxelTally> VoxelReductions::takeTallies()
+{
+  std::vector<VoxelTally> tallies;
+  for (std::size_t i = 0; i < request_->attributes.size(); ++i)
+  {
+    tallies.push_back(reducers_[i]->takeTally());
+  }
+  return tallies;
 }
 
 } // namespace simd

@@ -20,7 +20,7 @@ namespace simd
 {
 
 /// The attributes of voxels and the points that stand for them: of the voxels of a partition while its points
-/// are summed, or of those of all levels by another pass.
+/// are summed, or of all by another pass.
 class VoxelReductions
 {
 public:
@@ -32,20 +32,18 @@ public:
   /// nearest points that are known may be null, else must outlive this.
   void prepare(const std::int64_t* counts, std::int64_t voxels, std::int64_t mostPoints,
     const Executor& executor = {}, const NearestRecords* nearest = nullptr);
-  /// See AttributeReducer. @pre no representatives
-  void regroup(const std::vector<std::int64_t>& parents, std::int64_t voxels);
   /// Whether anything is to be added.
   bool needsPoints() const { return !reducers_.empty() || (nearest_ && nearest_->needsPoints()); }
   /// Fetches what add() reads of points, in time for that.
   void fetch(const std::int64_t* points, int count) const;
   /// Adds points. Several threads may at once if no two have a voxel in common.
   void add(const std::int64_t* points, const std::int64_t* voxels, int count);
-  /// What the arrays have in the voxels, one for each.
-  std::vector<VoxelTally> tallies() const;
   /// Writes what becomes of the voxels, from @p first on in @p arena. @pre their means and counts are there.
   /// @return false where @p observer, which may be null, aborted the work.
   bool write(MeanArena& arena, std::size_t first, const Executor& executor = {},
     ProgressObserver* observer = nullptr) const;
+  /// What the arrays have in the voxels, one for each; nothing is left here.
+  std::vector<VoxelTally> takeTallies();
 
 private:
   const VoxelRequest* request_ = nullptr;

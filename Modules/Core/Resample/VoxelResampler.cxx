@@ -60,14 +60,13 @@ Status VoxelResampler::Implementation::run(
   levels[0].lattice = request.lattice;
   usesPartitions_ = usesPartitions(request.lattice);
   status = usesPartitions_ ? runBinned(wanted, executor, observer) : runSorted(wanted, executor, observer);
-  SubProgress summing(observer, 0.0, fractionOfSums(wanted));
-  SubProgress visiting(observer, fractionOfSums(wanted), 1.0);
+  SubProgress visiting(observer, fractionOfSums(wanted), fractionOfFinest(wanted));
+  status = status == Status::Ok ? visitAgain(wanted, executor, &visiting) : status;
   if (status == Status::Ok && !keepsSums_)
   {
     const VoxelRun sums = std::move(sums_);
-    status = addLevels(wanted, sums, executor, &summing);
+    status = addLevels(wanted, sums, executor, observer);
   }
-  status = status == Status::Ok ? visitAgain(wanted, executor, &visiting) : status;
   if (status != Status::Ok)
   {
     clear();
@@ -82,11 +81,10 @@ Status VoxelResampler::Implementation::runBinned(
   const Chunks chunks(request, kChunkPoints, executor);
   prepareStages(request, chunks);
   const std::size_t count = chunks.count();
-  const double binned =
-    fractionOfFinest(request) * (reducesInPass_ ? 0.5 : double(count - 1) / double(count));
+  const double binned = reducesInPass_ ? 0.5 : double(count - 1) / double(count);
   SubProgress summing(observer, 0.0, fractionOfSums(request));
   SubProgress binning(&summing, 0.0, binned);
-  SubProgress writing(&summing, binned, fractionOfFinest(request));
+  SubProgress writing(&summing, binned, 1.0);
   for (std::size_t chunk = 0; chunk < count; ++chunk)
   {
     binner_.quantizeAndBin(

@@ -59,8 +59,8 @@ struct VoxelRequest
   bool singlePrecision = false; ///< Means are rounded to float.
   bool covariances = false;
   bool keys = false; ///< For keys(), visitPointsByVoxel() and parents().
-  /// Arrays of the points, to be reduced to a tuple for each voxel. With several levels, beyond 4096 voxels
-  /// an axis and for more than 20 million points that takes another pass over the points.
+  /// Arrays of the points, to be reduced to a tuple for each voxel. Beyond 4096 voxels an axis and for more
+  /// than 20 million points that takes another pass over the points.
   std::vector<AttributeRequest> attributes;
   /// Keeps the point records of run(), if 16 chunks hold all points: visitPointsByVoxel() then needs no
   /// second pass over the points.
@@ -107,7 +107,8 @@ struct VoxelRequest
 /// active voxel more, 132 where points are sorted. With attributes or VoxelRequest::keepPointRecords: 20
 /// bytes for each of at most 20 million points, with representatives for each point (32 where points are
 /// sorted), and the tuples of modes and medians, for the voxels at work or, where that takes another pass,
-/// for all. One object is used by one thread at a time; the executor's threads may be many.
+/// for all; with levels the sums and values of arrays (see VoxelAccumulator). One object is used by one
+/// thread at a time; the executor's threads may be many.
 class VoxelResampler
 {
 public:

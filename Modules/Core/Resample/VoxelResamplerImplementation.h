@@ -74,12 +74,17 @@ private:
   {
     return request.voxelIndex || (reduces(request) && !reducesInPass_);
   }
+  /// What arrays have is kept with the sums: more is to be made of it.
+  bool keepsTallies(const VoxelRequest& request) const { return keepsSums_ || request.levels > 1; }
   /// Sums alone are asked for, and no visit needs the voxels.
   bool writesMeans(const VoxelRequest& request) const { return !keepsSums_ || visits(request); }
   static simd::MeanArena::Layout layoutOf(const VoxelRequest& request);
-  /// The part of the work of run() that is not done by a visit, and that of it that the finest level is.
-  double fractionOfSums(const VoxelRequest& request) const { return visits(request) ? 0.5 : 1.0; }
+  /// The parts of the work of run() that the finest level is, and that of it that is not done by a visit.
   static double fractionOfFinest(const VoxelRequest& request) { return request.levels > 1 ? 0.5 : 1.0; }
+  double fractionOfSums(const VoxelRequest& request) const
+  {
+    return (visits(request) ? 0.5 : 1.0) * fractionOfFinest(request);
+  }
   bool writeSums(const VoxelRequest& request, const simd::VoxelRun& sums, int fractionBits,
     simd::Level& level, OutputAllocator* allocator, const Executor& executor, ProgressObserver* observer);
   Status addLevels(const VoxelRequest& request, const simd::VoxelRun& sums, const Executor& executor,

@@ -28,7 +28,7 @@ void VoxelResampler::Implementation::prepareStages(const VoxelRequest& request, 
   const bool wantsPoints = reduces(request) || request.keepPointRecords;
   holdsAll_ =
     wantsPoints && (chunks.count() <= kMostHeldChunks || request.representative != Representative::Mean);
-  reducesInPass_ = holdsAll_ && reduces(request) && request.levels == 1;
+  reducesInPass_ = holdsAll_ && reduces(request);
   startCounts(request);
 }
 
@@ -98,9 +98,9 @@ bool VoxelResampler::Implementation::accumulateAndWrite(
     if (!runs.empty())
     {
       runs[p] = worker.wide();
-      if (keepsSums_ && reducesInPass_ && runs[p].size() > 0)
+      if (keepsTallies(request) && reducesInPass_ && runs[p].size() > 0)
       {
-        runs[p].tallies = worker.tallies();
+        runs[p].tallies = worker.takeTallies();
       }
     }
     accumulated_[p].trim();

@@ -49,7 +49,7 @@ Status VoxelResampler::Implementation::reduceAgain(
   const VoxelRequest& request, const Visitor& visit, const Executor& executor, ProgressObserver* observer)
 {
   VoxelReductions reductions(request);
-  reductions.prepare(levels[0].arena.counts(), levels[0].size, levels.back().mostPoints(), executor);
+  reductions.prepare(levels[0].arena.counts(), levels[0].size, levels[0].mostPoints(), executor);
   SubProgress visiting(observer, 0.0, 0.6);
   const auto add = [&](const std::int64_t* points, const std::int64_t* voxels, int count)
   {
@@ -58,23 +58,14 @@ Status VoxelResampler::Implementation::reduceAgain(
     visit(points, voxels, count);
   };
   Status status = visitPointsByVoxel(request, add, executor, &visiting);
-  if (keepsSums_)
+  SubProgress writing(observer, 0.6, 1.0);
+  const bool goesOn =
+    status != Status::Ok || keepsSums_ || reductions.write(levels[0].arena, 0, executor, &writing);
+  if (keepsTallies(request))
   {
-    sums_.tallies = reductions.tallies();
-    return status;
+    sums_.tallies = reductions.takeTallies();
   }
-  const double ofLevel = 0.4 / double(levels.size());
-  double done = 0.6;
-  for (std::size_t l = 0; status == Status::Ok && l < levels.size(); ++l, done += ofLevel)
-  {
-    SubProgress writing(observer, done, std::min(done + ofLevel, 1.0));
-    if (l > 0)
-    {
-      reductions.regroup(levels[l].parents, levels[l].size);
-    }
-    status = reductions.write(levels[l].arena, 0, executor, &writing) ? Status::Ok : Status::Aborted;
-  }
-  return status;
+  return goesOn ? status : Status::Aborted;
 }
 
 } // namespace pointhaptics

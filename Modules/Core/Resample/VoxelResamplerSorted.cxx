@@ -57,7 +57,7 @@ Status VoxelResampler::Implementation::runSorted(
     sorted_.sort(chunks, chunk, executor);
     sorted_.sum(request.covariances, ranges, executor);
     countPoints(sorted_.inside(), sorted_.invalid());
-    if (!summing.report(fractionOfFinest(request) * double(chunk + 1) / double(chunks.count())))
+    if (!summing.report(double(chunk + 1) / double(chunks.count())))
     {
       return Status::Aborted;
     }

@@ -412,33 +412,6 @@ TEST(AttributeMean, FollowsIeeeAdditionWhereValuesAreNotFinite)
   }
 }
 
-TEST(AttributeMean, OfParentsIsThatOfTheirPoints)
-{
-  const auto expectSame = [](const auto& values, int components)
-  {
-    using T = typename std::decay_t<decltype(values)>::value_type;
-    const std::size_t tuples = values.size() / std::size_t(components);
-    Plan plan = planFor(tuples, 200, 17);
-    AttributeMean mean = meanOf(values, components, plan);
-    for (const std::int64_t coarse : { 60, 9, 1 })
-    {
-      const Plan up = planFor(std::size_t(plan.size), coarse, 18);
-      mean.regroup(up.voxels, coarse);
-      trial::coarsen(plan, up);
-      EXPECT_TRUE(sameBits(written<T>(mean, plan), written<T>(meanOf(values, components, plan), plan)));
-    }
-  };
-  expectSame(extremesOf<std::int64_t>(3000, 19), 3);
-  expectSame(extremesOf<std::uint8_t>(3000, 20), 1);
-  expectSame(magnitudes<double>(3000, -300, 300, 21), 2);
-  // In one part, were it not for how many points a voxel may have.
-  expectSame(magnitudes<double>(3000, 3.0, 3.2, 26), 1);
-  std::vector<float> floats = magnitudes<float>(4000, -3, 3, 22);
-  expectSame(floats, 4);
-  floats[17] = INFINITY;
-  expectSame(floats, 4);
-}
-
 TEST(AttributeMean, StartsFromNothingHoweverOftenItIsPrepared)
 {
   const std::vector<float> values = magnitudes<float>(900, -3, 3, 23);

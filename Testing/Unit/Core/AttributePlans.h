@@ -62,15 +62,5 @@ inline std::vector<std::int64_t> countsOf(const Plan& plan)
   return counts;
 }
 
-/// What becomes of a plan when its voxels become those of a coarser one: @p parents says which.
-inline void coarsen(Plan& plan, const Plan& parents)
-{
-  for (std::int64_t& voxel : plan.voxels)
-  {
-    voxel = parents.voxels[std::size_t(voxel)];
-  }
-  plan.size = parents.size;
-}
-
 } // namespace trial
 } // namespace pointhaptics

@@ -178,20 +178,6 @@ TEST(AttributeTuples, TakesNaNsAsOneValueAndZerosAsOne)
   }
 }
 
-TEST(AttributeTuples, OfParentsIsThatOfTheirPoints)
-{
-  const std::vector<std::uint16_t> values = labels<std::uint16_t>(6000, 4, 10);
-  Plan plan = planFor(3000, 400, 11);
-  AttributeTuples mode = modeOf(values, 2, plan);
-  for (const std::int64_t coarse : { 90, 12, 1 })
-  {
-    const Plan up = planFor(std::size_t(plan.size), coarse, 12);
-    mode.regroup(up.voxels, coarse);
-    trial::coarsen(plan, up);
-    EXPECT_TRUE(sameBits(written<std::uint16_t>(mode, 2, plan), expectedModes(values, 2, plan))) << coarse;
-  }
-}
-
 TEST(AttributeTuples, StartsFromNothingEachTime)
 {
   const std::vector<int> values = labels<int>(900, 3, 13);

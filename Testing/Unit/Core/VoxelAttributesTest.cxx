@@ -246,18 +246,29 @@ TEST(VoxelAttributes, OfLevelsAreThoseOfTheResamplingAtTheirSpacing)
   const std::vector<Vec3> points = randomBox(kPoints, 8, { 0, 0, 0 }, { 32, 32, 32 });
   VoxelRequest request;
   request.points = { points.data(), std::int64_t(kPoints) };
-  request.lattice = latticeOf(32, 32, 32);
   request.attributes = arrays.sums();
   request.attributes.push_back(arrays.label(AttributeStatistic::Mode));
+  request.attributes.push_back(arrays.label(AttributeStatistic::Median));
   request.levels = 4;
-  VoxelResampler resampler;
-  ASSERT_EQ(resampler.run(request), Status::Ok);
-  for (int level = 0; level < 4; ++level)
+  // In partitions, and sorted.
+  for (const Lattice& lattice : { latticeOf(32, 32, 32), latticeOf(2, 2, 2) })
   {
-    VoxelRequest direct = request;
-    direct.levels = 1;
-    direct.lattice = resampler.lattice(level);
-    EXPECT_EQ(attributesOf(resampler, request, level), expectedOf(direct)) << "level " << level;
+    request.lattice = lattice;
+    // One chunk, as many as are kept, more.
+    for (const std::int64_t chunkPoints : { 0, 1700, 170 })
+    {
+      request.chunkPoints = chunkPoints;
+      VoxelResampler resampler;
+      ASSERT_EQ(resampler.run(request, ThreadedExecutor(2)), Status::Ok);
+      for (int level = 0; level < 4; ++level)
+      {
+        VoxelRequest direct = request;
+        direct.levels = 1;
+        direct.lattice = resampler.lattice(level);
+        EXPECT_EQ(attributesOf(resampler, request, level), expectedOf(direct))
+          << nameOf(direct.lattice) << ", chunks of " << chunkPoints;
+      }
+    }
   }
 }
 

@@ -81,6 +81,7 @@ VoxelRun sumPiece(const VoxelRun& fine, std::size_t first, std::size_t last, con
   radixSort(scratch.entries, scratch.other, last - first, [](const Entry& entry) { return entry.key; });
   VoxelRun sums;
   sums.reserve(last - first, fine.hasMoments());
+  VoxelGroups groups;
   for (std::size_t i = 0; i < last - first; ++i)
   {
     const Entry& entry = scratch.entries[i];
@@ -93,14 +94,19 @@ VoxelRun sumPiece(const VoxelRun& fine, std::size_t first, std::size_t last, con
     if (i > 0 && sums.voxels.back().key == voxel.key)
     {
       sums.addToLast(voxel, wanted);
-      static_cast<void>(sums.addTalliesToLast(fine, entry.voxel)); // Sums of points are right.
+      ++groups.ends.back();
     }
     else
     {
       sums.push(voxel, wanted);
-      sums.appendTallies(fine, entry.voxel, entry.voxel + 1);
+      groups.ends.push_back(i + 1);
     }
+    groups.voxels.push_back(entry.voxel);
     parents[entry.voxel] = std::int64_t(sums.size()) - 1;
+  }
+  for (const VoxelTally& tally : fine.tallies)
+  {
+    sums.tallies.push_back(tally.gathered(groups));
   }
   return sums;
 }

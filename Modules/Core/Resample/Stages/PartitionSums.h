@@ -82,8 +82,9 @@ public:
   }
   /// All the voxels in wide sums.
   VoxelRun wide() const;
-  /// What the arrays of the request have in the voxels, where prepare() was asked to reduce them.
-  std::vector<VoxelTally> tallies() const { return reductions_.tallies(); }
+  /// What the arrays of the request have in the voxels, where prepare() was asked to reduce them. After
+  /// write().
+  std::vector<VoxelTally> takeTallies() { return reductions_.takeTallies(); }
   /// Writes the voxels, and what prepare() was asked to reduce, to @p arena, from @p offset on.
   void write(const Kernels& kernels, MeanArena& arena, std::size_t offset) const;
   /// Adds the records of a partition to its accumulated sums.

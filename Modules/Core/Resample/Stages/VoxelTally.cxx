@@ -12,8 +12,7 @@ namespace pointhaptics
 {
 namespace simd
 {
-bool addShiftedWords(
-  const std::uint64_t* number, int count, int shift, int sign, std::uint64_t* sum, int size)
+bool addShifted(const std::uint64_t* number, int count, int shift, int sign, std::uint64_t* sum, int size)
 {
   const int whole = (shift - (shift < 0 ? 63 : 0)) / 64;
   const int bits = shift - 64 * whole;
@@ -80,11 +79,11 @@ void TallySums::append(const TallySums& from, std::size_t begin, std::size_t end
 {
   cover(from);
   const std::size_t before = size;
-  push(end - begin);
   if (from.unit == unit && from.words == words)
   {
-    std::copy(from.at(begin), from.at(end), at(before));
+    values.insert(values.end(), from.at(begin), from.at(end));
   }
+  push(end - begin);
   for (std::size_t sum = begin; (from.unit != unit || from.words != words) && sum < end; ++sum)
   {
     static_cast<void>(
@@ -98,7 +97,7 @@ void TallySums::append(const TallySums& from, std::size_t begin, std::size_t end
   }
 }
 
-bool TallySums::add(std::size_t sum, const TallySums& from, std::size_t other, int sign)
+bool TallySums::addAny(std::size_t sum, const TallySums& from, std::size_t other, int sign)
 {
   cover(from);
   const std::uint64_t top = at(sum)[words - 1];
@@ -118,23 +117,26 @@ bool TallySums::add(std::size_t sum, const TallySums& from, std::size_t other, i
   return seen.nans >= 0 && seen.plus >= 0 && seen.minus >= 0;
 }
 
-TallySums TallySums::regrouped(const std::vector<std::int64_t>& parents, std::size_t voxels) const
+TallySums TallySums::gathered(const VoxelGroups& groups) const
 {
-  TallySums coarse;
-  coarse.components = components;
-  coarse.unit = unit;
-  coarse.words = words;
-  const auto ofVoxel = std::size_t(components);
-  coarse.push(voxels * ofVoxel);
-  for (std::size_t v = 0; v < parents.size(); ++v)
+  TallySums gathered;
+  gathered.components = components;
+  gathered.unit = unit;
+  gathered.words = words;
+  const auto width = std::size_t(components);
+  gathered.push(groups.ends.size() * width);
+  for (std::size_t group = 0, i = 0; group < groups.ends.size(); ++group)
   {
-    for (std::size_t c = 0; c < ofVoxel; ++c)
+    for (; i < groups.ends[group]; ++i)
     {
-      // No count is below 0.
-      static_cast<void>(coarse.add(std::size_t(parents[v]) * ofVoxel + c, *this, v * ofVoxel + c));
+      for (std::size_t c = 0; c < width; ++c)
+      {
+        // No count is below 0.
+        static_cast<void>(gathered.add(group * width + c, *this, groups.voxels[i] * width + c));
+      }
     }
   }
-  return coarse;
+  return gathered;
 }
 
 double TallySums::mean(std::size_t sum, std::int64_t count) const
@@ -288,6 +290,35 @@ bool TallyValues::addToLast(const TallyValues& from, std::size_t begin, int sign
     ends[firstOwn + c] = values.size();
   }
   return isRight;
+}
+
+TallyValues TallyValues::gathered(const VoxelGroups& groups) const
+{
+  TallyValues gathered;
+  gathered.components = components;
+  const auto width = std::size_t(components);
+  std::vector<TallyValue> all;
+  std::vector<TallyValue> both;
+  for (std::size_t list = 0; list < groups.ends.size() * width; ++list)
+  {
+    all.clear();
+    const std::size_t group = list / width;
+    for (std::size_t i = group == 0 ? 0 : groups.ends[group - 1]; i < groups.ends[group]; ++i)
+    {
+      const List more = (*this)[groups.voxels[i] * width + list % width];
+      both.resize(all.size() + std::size_t(more.last - more.first));
+      std::merge(all.begin(), all.end(), more.begin(), more.end(), both.begin(),
+        [](const TallyValue& a, const TallyValue& b) { return a.key < b.key; });
+      all.swap(both);
+    }
+    for (std::size_t i = 0; i < all.size(); ++i)
+    {
+      i > 0 && all[i].key == all[i - 1].key ? void(gathered.values.back().points += all[i].points)
+                                            : gathered.values.push_back(all[i]);
+    }
+    gathered.ends.push_back(gathered.values.size());
+  }
+  return gathered;
 }
 
 void VoxelTally::append(const VoxelTally& from, std::size_t first, std::size_t last)

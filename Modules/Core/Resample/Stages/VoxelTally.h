@@ -20,19 +20,14 @@ namespace simd
 
 /// Adds @p sign times a number of @p count words to a sum of @p size words, shifted left by so many bits, or
 /// right where that loses no bit. @return false where the sum has no room for the result: its sign is wrong.
-bool addShiftedWords(
-  const std::uint64_t* number, int count, int shift, int sign, std::uint64_t* sum, int size);
-inline bool addShifted(
-  const std::uint64_t* number, int count, int shift, int sign, std::uint64_t* sum, int size)
+bool addShifted(const std::uint64_t* number, int count, int shift, int sign, std::uint64_t* sum, int size);
+
+/// Some voxels, in groups of which each becomes one.
+struct VoxelGroups
 {
-  if (size > 1 || shift != 0)
-  {
-    return addShiftedWords(number, count, shift, sign, sum, size);
-  }
-  const auto more = std::int64_t(*number);
-  auto* const one = reinterpret_cast<std::int64_t*>(sum);
-  return !(sign < 0 ? __builtin_sub_overflow(*one, more, one) : __builtin_add_overflow(*one, more, one));
-}
+  std::vector<std::size_t> voxels;
+  std::vector<std::size_t> ends; ///< Of each group among these.
+};
 
 /// Sums of numbers, one for each component of each voxel: integers in units of 2^unit, in two's complement.
 /// All have as many words. Memory: 8 bytes a word, of which most arrays have one.
@@ -58,9 +53,23 @@ public:
   void append(const TallySums& from, std::size_t begin, std::size_t end);
   /// Adds @p sign times the @p other sum of @p from. @return false where that leaves fewer than no numbers
   /// that are not finite.
-  bool add(std::size_t sum, const TallySums& from, std::size_t other, int sign = 1);
-  /// Those of @p voxels voxels, to which what voxel i has goes where parents[i] says.
-  TallySums regrouped(const std::vector<std::int64_t>& parents, std::size_t voxels) const;
+  bool add(std::size_t sum, const TallySums& from, std::size_t other, int sign = 1)
+  {
+    // Mostly words are added.
+    if (words == 1 && from.words == 1 && from.unit == unit && sign > 0 && from.nonFinite.empty())
+    {
+      const auto more = std::int64_t(from.values[other]);
+      std::int64_t result;
+      if (!__builtin_add_overflow(std::int64_t(values[sum]), more, &result))
+      {
+        values[sum] = std::uint64_t(result);
+        return true;
+      }
+    }
+    return this->addAny(sum, from, other, sign);
+  }
+  /// What groups of voxels have.
+  TallySums gathered(const VoxelGroups& groups) const;
   /// The mean of @p count numbers; the sum is rounded once.
   double mean(std::size_t sum, std::int64_t count) const;
   /// @pre it has up to two words.
@@ -74,6 +83,7 @@ public:
   void trim();
 
 private:
+  bool addAny(std::size_t sum, const TallySums& from, std::size_t other, int sign);
   void fit(int newUnit, int newWords);
   void cover(const TallySums& other);
 };
@@ -109,6 +119,8 @@ struct TallyValues
   /// Adds to the last lists, as many as a voxel has, @p sign times those from @p begin on. @return false
   /// where that leaves fewer than no points with a value.
   bool addToLast(const TallyValues& from, std::size_t begin, int sign);
+  /// What groups of voxels have.
+  TallyValues gathered(const VoxelGroups& groups) const;
   std::size_t beginOf(std::size_t list) const { return list == 0 ? 0 : ends[list - 1]; }
   List operator[](std::size_t list) const
   {
@@ -129,6 +141,11 @@ public:
   /// Adds @p sign times what a voxel of another has to the last one. @return false where that leaves fewer
   /// than no points with a value.
   bool addToLast(const VoxelTally& from, std::size_t voxel, int sign);
+  /// What groups of voxels have.
+  VoxelTally gathered(const VoxelGroups& groups) const
+  {
+    return { sums.gathered(groups), values.gathered(groups) };
+  }
   /// Writes the tuples of voxels @p first to before @p last, of @p counts points each; vectors turned by @p
   /// columns.
   void write(const AccumulatedArray& kind, std::size_t first, std::size_t last, const std::int64_t* counts,
