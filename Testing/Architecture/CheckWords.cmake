@@ -30,7 +30,7 @@ set(words
   "markDense" "occupancy bits and rank table"
   "SecondSums|batchSeconds_?" "secondMoments"
   "ResultMemory" "OutputAllocator"
-  "assignInSets|canAssignInSets" "visitPointsByVoxel"
+  "assignInSets|canAssignInSets" "visitPoints"
   "forgiveNoise" "reclassifyMixedCells"
   "kernel::[A-Za-z_]+" "simd::")
 

@@ -106,9 +106,9 @@ public:
     InstructionSet instructions = InstructionSet::Automatic;
     OutputAllocator* allocator = nullptr;
   };
-  /// Makes the levels of @p result: its sizes, means, counts, covariances, arrays, keys and parents, as after
+  /// Makes the levels of @p result: its sizes, means, counts, covariances, arrays, keys, as after
   /// run().
-  /// Its points cannot be visited. More can be added afterwards. Errors: InvalidParameter (levels, or points
+  /// More can be added afterwards. Errors: InvalidParameter (levels, or points
   /// were subtracted that had not been added, as far as counts and the values of labels tell), Aborted.
   Status finish(const Request& request, VoxelResampler& result, const Executor& executor = {},
     ProgressObserver* observer = nullptr);

@@ -56,7 +56,6 @@ Status VoxelResampler::Implementation::run(
     }
   }
   wanted.keys = request.keys || reduces(request) || request.voxelIndex;
-  wanted.keepPointRecords = request.keepPointRecords || request.voxelIndex;
   levels[0].lattice = request.lattice;
   usesPartitions_ = usesPartitions(request.lattice);
   status = usesPartitions_ ? runBinned(wanted, executor, observer) : runSorted(wanted, executor, observer);
@@ -201,14 +200,12 @@ Status VoxelResampler::Implementation::addLevels(
     const VoxelRun& fine = l == 1 ? sums : coarse;
     Level level;
     level.lattice = coarserLattice(finer.lattice);
-    level.parents.resize(fine.size());
     SubProgress part(observer, progressAt(l), progressAt(l + 1));
     SubProgress summing(&part, 0.0, 0.7);
     SubProgress writing(&part, 0.7, 1.0);
     VoxelRun next;
     const bool isSame = level.lattice.dimensions == finer.lattice.dimensions;
-    if (!isSame &&
-      !sumCoarseVoxels(fine, finer.lattice, fractionBits, next, level.parents, executor, &summing))
+    if (!isSame && !sumCoarseVoxels(fine, finer.lattice, fractionBits, next, executor, &summing))
     {
       return Status::Aborted;
     }
@@ -256,12 +253,6 @@ Status VoxelResampler::run(const VoxelRequest& request, const Executor& executor
   return implementation_->run(request, executor, observer);
 }
 
-Status VoxelResampler::visitPointsByVoxel(
-  const VoxelRequest& request, const Visitor& visit, const Executor& executor, ProgressObserver* observer)
-{
-  return implementation_->visitPointsByVoxel(request, visit, executor, observer);
-}
-
 int VoxelResampler::exactLevels(const Lattice& lattice, int levels)
 {
   const int indexBits = indexBitsOf(lattice);
@@ -306,11 +297,6 @@ const std::vector<std::int64_t>& VoxelResampler::chosenPoints() const
 const std::vector<std::int64_t>& VoxelResampler::voxelIndex() const
 {
   return implementation_->voxelIndex;
-}
-
-const std::vector<std::int64_t>& VoxelResampler::parents(int level) const
-{
-  return implementation_->levels[std::size_t(level)].parents;
 }
 
 void VoxelResampler::copyMeans(int l, float* xyz, const Executor& executor) const

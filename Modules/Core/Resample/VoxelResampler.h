@@ -14,7 +14,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -58,13 +57,10 @@ struct VoxelRequest
   std::optional<Lattice> part;
   bool singlePrecision = false; ///< Means are rounded to float.
   bool covariances = false;
-  bool keys = false; ///< For keys(), visitPointsByVoxel() and parents().
+  bool keys = false; ///< For copyKeys().
   /// Arrays of the points, to be reduced to a tuple for each voxel. Beyond 4096 voxels an axis and for more
   /// than 20 million points that takes another pass over the points.
   std::vector<AttributeRequest> attributes;
-  /// Keeps the point records of run(), if 16 chunks hold all points: visitPointsByVoxel() then needs no
-  /// second pass over the points.
-  bool keepPointRecords = false;
   /// What stands for the points of a voxel, in the place of their mean; counts and covariances stay. All but
   /// the mean need levels of 1, keys are then made, and points must not be those of index->points().
   Representative representative = Representative::Mean;
@@ -104,7 +100,7 @@ struct VoxelRequest
 /// of them its results, where these are not in the caller's memory), a few megabytes (of which up to 1.3 for
 /// each thread where a layer of the lattice has up to 4 million voxels); where points are sorted 88 bytes
 /// (184 with covariances) for each of at most 262,144 points and 66 an active voxel; covariances: 100 an
-/// active voxel more, 132 where points are sorted. With attributes or VoxelRequest::keepPointRecords: 20
+/// active voxel more, 132 where points are sorted. With attributes or VoxelRequest::voxelIndex: 20
 /// bytes for each of at most 20 million points, with representatives for each point (32 where points are
 /// sorted), and the tuples of modes and medians, for the voxels at work or, where that takes another pass,
 /// for all; with levels the sums and values of arrays (see VoxelAccumulator). One object is used by one
@@ -148,21 +144,11 @@ public:
   /// The tuples of an attribute of the request, of the array's own type; in place until the next run().
   void copyAttribute(int level, std::size_t attribute, void* tuples, const Executor& executor = {}) const;
   const void* attribute(int level, std::size_t attribute) const;
-  /// Of each voxel of level - 1, the voxel of @p level it lies in. @pre level >= 1, keys were asked for.
-  const std::vector<std::int64_t>& parents(int level) const;
 
   /// Of each voxel the number of the point that stands for it; empty unless a nearest one was asked for.
   const std::vector<std::int64_t>& chosenPoints() const;
   /// Of each point its voxel, or -1 where it is clipped or invalid; empty unless it was asked for.
   const std::vector<std::int64_t>& voxelIndex() const;
-
-  /// Visits the points inside, grouped by voxels of level 0: calls visit(points, voxels, count) for pieces,
-  /// with the number of each point and that of its voxel. Several threads may call it at once, but no two of
-  /// them have a voxel in common.
-  /// @pre run() was Ok with the same request, keys among it. @return Ok or Aborted.
-  using Visitor = std::function<void(const std::int64_t* points, const std::int64_t* voxels, int count)>;
-  Status visitPointsByVoxel(const VoxelRequest& request, const Visitor& visit, const Executor& executor = {},
-    ProgressObserver* observer = nullptr);
 
   std::size_t scratchBytes() const;
   /// Frees the memory kept, results included.

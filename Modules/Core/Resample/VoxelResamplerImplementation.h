@@ -13,6 +13,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -29,8 +30,6 @@ class VoxelResampler::Implementation
 {
 public:
   Status run(const VoxelRequest& request, const Executor& executor, ProgressObserver* observer);
-  Status visitPointsByVoxel(
-    const VoxelRequest& request, const Visitor& visit, const Executor& executor, ProgressObserver* observer);
   /// For VoxelAccumulator: the sums of the points in the lattice's voxels, and the levels of such sums.
   Status sum(
     const VoxelRequest& request, simd::VoxelRun& sums, const Executor& executor, ProgressObserver* observer);
@@ -89,6 +88,12 @@ private:
     simd::Level& level, OutputAllocator* allocator, const Executor& executor, ProgressObserver* observer);
   Status addLevels(const VoxelRequest& request, const simd::VoxelRun& sums, const Executor& executor,
     ProgressObserver* observer);
+  /// Visits the points inside, grouped by voxels: calls visit(points, voxels, count) for pieces, with the
+  /// number of each point and that of its voxel. Several threads may call it at once, but no two of them have
+  /// a voxel in common.
+  using Visitor = std::function<void(const std::int64_t* points, const std::int64_t* voxels, int count)>;
+  Status visitPoints(
+    const VoxelRequest& request, const Visitor& visit, const Executor& executor, ProgressObserver* observer);
   Status visitAgain(const VoxelRequest& request, const Executor& executor, ProgressObserver* observer);
   Status reduceAgain(
     const VoxelRequest& request, const Visitor& visit, const Executor& executor, ProgressObserver* observer);

@@ -25,7 +25,7 @@ void VoxelResampler::Implementation::prepareStages(const VoxelRequest& request, 
     partition.clear();
   }
   // What is not reduced with the last chunk takes another pass.
-  const bool wantsPoints = reduces(request) || request.keepPointRecords;
+  const bool wantsPoints = reduces(request) || request.voxelIndex;
   holdsAll_ =
     wantsPoints && (chunks.count() <= kMostHeldChunks || request.representative != Representative::Mean);
   reducesInPass_ = holdsAll_ && reduces(request);

@@ -8,7 +8,7 @@ namespace pointhaptics
 
 using namespace simd;
 
-Status VoxelResampler::Implementation::visitPointsByVoxel(
+Status VoxelResampler::Implementation::visitPoints(
   const VoxelRequest& request, const Visitor& visit, const Executor& executor, ProgressObserver* observer)
 {
   return usesPartitions_ ? visitBinned(request, visit, executor, observer)
@@ -34,7 +34,7 @@ Status VoxelResampler::Implementation::visitAgain(
   }
   else if (request.voxelIndex)
   {
-    status = visitPointsByVoxel(request, note, executor, observer);
+    status = visitPoints(request, note, executor, observer);
   }
   if (status == Status::Ok && keepsPoints(request.representative))
   {
@@ -57,7 +57,7 @@ Status VoxelResampler::Implementation::reduceAgain(
     reductions.add(points, voxels, count);
     visit(points, voxels, count);
   };
-  Status status = visitPointsByVoxel(request, add, executor, &visiting);
+  Status status = visitPoints(request, add, executor, &visiting);
   SubProgress writing(observer, 0.6, 1.0);
   const bool goesOn =
     status != Status::Ok || keepsSums_ || reductions.write(levels[0].arena, 0, executor, &writing);

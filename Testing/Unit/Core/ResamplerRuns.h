@@ -29,7 +29,6 @@ struct LevelResult
   std::vector<std::int64_t> counts;
   std::vector<std::uint64_t> keys;
   std::vector<SymMat3> covariances;
-  std::vector<std::int64_t> parents;
 };
 
 struct RunResult
@@ -66,10 +65,6 @@ inline LevelResult levelOf(
     result.covariances.resize(size);
     resampler.copyCovariances(level, result.covariances.data(), executor);
   }
-  if (level > 0 && request.keys)
-  {
-    result.parents = resampler.parents(level);
-  }
   return result;
 }
 
@@ -103,7 +98,6 @@ inline RunResult runOf(const VoxelRequest& request, const Executor& executor = {
   return runOf(resampler, request, executor);
 }
 
-/// All but the parents.
 inline void expectSameVoxels(const LevelResult& a, const LevelResult& b, const std::string& what)
 {
   EXPECT_TRUE(sameBits(a.counts, b.counts)) << what;
@@ -121,7 +115,6 @@ inline void expectSame(const RunResult& a, const RunResult& b, const std::string
   for (std::size_t l = 0; l < a.levels.size(); ++l)
   {
     expectSameVoxels(a.levels[l], b.levels[l], what + ", level " + std::to_string(l));
-    EXPECT_EQ(a.levels[l].parents, b.levels[l].parents) << what;
   }
 }
 

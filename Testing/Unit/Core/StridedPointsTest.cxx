@@ -1,5 +1,5 @@
 #include "Core/Base/Lattice.h"
-#include "Core/Resample/AttributeMean.h"
+#include "Core/Resample/AttributeView.h"
 #include "Core/Resample/VoxelMean.h"
 #include "Core/Resample/VoxelResampler.h"
 
@@ -93,29 +93,18 @@ TEST(StridedPoints, BringTheirTuplesToTheirVoxels)
   LatticeSettings settings;
   settings.dimensions = { 10, 10, 10 };
   ASSERT_EQ(makeLattice(settings, transformedBounds(request.points, {}), request.lattice), Status::Ok);
-  request.keys = true;
-  for (const bool keep : { false, true })
+  // x, y and z themselves, as an attribute: their mean is the point.
+  request.attributes = { { { twins.wide.data(), ScalarType::Float, 3, std::int64_t(Twins<float>::count),
+    std::int64_t(7 * sizeof(float)) } } };
+  VoxelResampler resampler;
+  ASSERT_EQ(resampler.run(request), Status::Ok);
+  std::vector<float> averaged(3 * std::size_t(resampler.size()));
+  std::vector<double> means(averaged.size());
+  resampler.copyAttribute(0, 0, averaged.data());
+  resampler.copyMeans(0, means.data());
+  for (std::size_t i = 0; i < means.size(); ++i)
   {
-    request.keepPointRecords = keep;
-    VoxelResampler resampler;
-    ASSERT_EQ(resampler.run(request), Status::Ok);
-    // x, y and z themselves, as an attribute: their mean is the point.
-    const AttributeView view{ twins.wide.data(), ScalarType::Float, 3, std::int64_t(Twins<float>::count),
-      std::int64_t(7 * sizeof(float)) };
-    AttributeMean mean(view, rangeOf(view, {}));
-    mean.prepare(nullptr, resampler.size(), resampler.mostPoints(), {});
-    ASSERT_EQ(resampler.visitPointsByVoxel(request,
-                [&](const std::int64_t* numbers, const std::int64_t* voxels, int count)
-                { mean.add(numbers, voxels, count); }),
-      Status::Ok);
-    std::vector<float> averaged(3 * std::size_t(resampler.size()));
-    std::vector<double> means(averaged.size());
-    mean.write(resampler.counts(), averaged.data(), {}, nullptr);
-    resampler.copyMeans(0, means.data());
-    for (std::size_t i = 0; i < means.size(); ++i)
-    {
-      ASSERT_NEAR(double(averaged[i]), means[i], 1e-6) << i;
-    }
+    ASSERT_NEAR(double(averaged[i]), means[i], 1e-6) << i;
   }
 }
 

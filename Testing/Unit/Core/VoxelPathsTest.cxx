@@ -9,7 +9,6 @@
 
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <cmath>
 
 using namespace pointhaptics;
@@ -71,22 +70,19 @@ TEST(VoxelPaths, MorePointsInFewVoxelsThanOneBatchHoldsAreWhatAFinerLatticeSumsU
     const LevelResult expected = runOf(request, ThreadedExecutor(2)).levels[1];
     request.lattice = unitCube(8);
     request.levels = 1;
+    request.voxelIndex = true;
     VoxelResampler resampler;
     const RunResult result = runOf(resampler, request, ThreadedExecutor(2));
     expectSameVoxels(result.levels[0], expected, covariances ? "with covariances" : "without");
-    std::vector<std::atomic<std::int64_t>> counts(result.levels[0].counts.size());
-    ASSERT_EQ(resampler.visitPointsByVoxel(
-                request,
-                [&](const std::int64_t*, const std::int64_t* voxels, int count)
-                {
-                  for (int i = 0; i < count; ++i)
-                  {
-                    ++counts[std::size_t(voxels[i])];
-                  }
-                },
-                ThreadedExecutor(2)),
-      Status::Ok);
-    EXPECT_TRUE(std::equal(counts.begin(), counts.end(), result.levels[0].counts.begin()));
+    std::vector<std::int64_t> counts(result.levels[0].counts.size());
+    for (const std::int64_t voxel : resampler.voxelIndex())
+    {
+      if (voxel >= 0)
+      {
+        ++counts[std::size_t(voxel)];
+      }
+    }
+    EXPECT_EQ(counts, result.levels[0].counts);
   }
 }
 

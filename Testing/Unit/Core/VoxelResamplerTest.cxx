@@ -282,14 +282,14 @@ TEST(VoxelResampler, AnAbortLeavesNoVoxelsAndAUsableObject)
     VoxelRequest less = request;
     less.points = { points.data(), 50000 };
     expectSame(runOf(resampler, less), runOf(less), nameOf(lattice));
-    CountingObserver again(1);
-    EXPECT_EQ(resampler.visitPointsByVoxel(
-                less, [](const std::int64_t*, const std::int64_t*, int) {}, {}, nullptr),
-      Status::Ok);
-    EXPECT_EQ(resampler.run(request), Status::Ok);
-    EXPECT_EQ(resampler.visitPointsByVoxel(
-                request, [](const std::int64_t*, const std::int64_t*, int) {}, {}, &again),
-      Status::Aborted);
+    // And in the pass that tells points their voxels, the last one.
+    VoxelRequest indexed = request;
+    indexed.voxelIndex = true;
+    CountingObserver patient;
+    EXPECT_EQ(resampler.run(indexed, {}, &patient), Status::Ok);
+    CountingObserver late(int(patient.fractions.size()));
+    EXPECT_EQ(resampler.run(indexed, {}, &late), Status::Aborted);
+    EXPECT_TRUE(resampler.voxelIndex().empty());
   }
 }
 
@@ -431,9 +431,10 @@ TEST(VoxelResampler, CloudsWithoutAPointInsideAreNoError)
     VoxelResampler resampler;
     EXPECT_EQ(resampler.run(none, {}, &observer), Status::Ok);
     EXPECT_EQ(resampler.size(0) + resampler.size(1), 0);
-    EXPECT_EQ(
-      resampler.visitPointsByVoxel(none, [](const std::int64_t*, const std::int64_t*, int) { FAIL(); }),
-      Status::Ok);
+    none.levels = 1;
+    none.voxelIndex = true;
+    EXPECT_EQ(resampler.run(none), Status::Ok);
+    EXPECT_TRUE(resampler.voxelIndex().empty());
   }
 }
 

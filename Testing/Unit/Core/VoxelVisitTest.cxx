@@ -1,4 +1,4 @@
-// VoxelResampler beside means: coarser levels, parents, and the voxel of each point.
+// VoxelResampler beside means: coarser levels, and the voxel of each point.
 #include "Core/Neighbors/PointIndex.h"
 #include "Core/Resample/VoxelResampler.h"
 
@@ -8,7 +8,6 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <atomic>
 
 using namespace pointhaptics;
 using namespace pointhaptics::trial;
@@ -16,133 +15,49 @@ using namespace pointhaptics::trial;
 namespace
 {
 
-/// Every level is what the resampling of the points at its lattice gives, and parents fit.
+/// Every level is what the resampling of the points at its lattice gives.
 void expectLevelsAreDirect(const VoxelRequest& request, const Executor& executor = {})
 {
   VoxelResampler resampler;
   const RunResult all = runOf(resampler, request, executor);
   for (int l = 1; l < request.levels; ++l)
   {
-    const Lattice& fine = resampler.lattice(l - 1);
     const Lattice& coarse = resampler.lattice(l);
     VoxelRequest direct = request;
     direct.lattice = coarse;
     direct.levels = 1;
     const std::string what = nameOf(request.lattice) + " at " + nameOf(coarse);
-    const LevelResult& level = all.levels[std::size_t(l)];
-    expectSameVoxels(level, runOf(direct).levels[0], what);
-    const LevelResult& finer = all.levels[std::size_t(l - 1)];
-    ASSERT_EQ(level.parents.size(), finer.keys.size());
-    const bool repeated = fine.dimensions == std::array<std::int64_t, 3>{ 1, 1, 1 };
-    for (std::size_t v = 0; v < finer.keys.size(); ++v)
-    {
-      auto index = fine.indexOf(finer.keys[v]);
-      for (std::int64_t& i : index)
-      {
-        i = repeated ? i : i / 2;
-      }
-      const auto parent = std::size_t(level.parents[v]);
-      ASSERT_LT(parent, level.keys.size());
-      ASSERT_EQ(level.keys[parent], coarse.key(index[0], index[1], index[2])) << what;
-    }
+    expectSameVoxels(all.levels[std::size_t(l)], runOf(direct).levels[0], what);
   }
 }
 
-/// Notes the visits of points by several threads: every point once, no voxel by two threads at a time.
-class VisitLog
+/// Each point inside knows its voxel, and no other.
+void expectIndexed(VoxelRequest request, const Executor& executor)
 {
-public:
-  VisitLog(std::size_t points, std::size_t voxels)
-    : voxelOf_(points)
-    , busy_(voxels)
-  {
-    clear();
-  }
-  void clear()
-  {
-    for (auto& voxel : voxelOf_)
-    {
-      voxel = -1;
-    }
-  }
-  void note(const std::int64_t* points, const std::int64_t* voxels, int count)
-  {
-    std::vector<std::int64_t> taken;
-    for (int i = 0; i < count; ++i)
-    {
-      const std::int64_t point = points[i];
-      const std::int64_t voxel = voxels[i];
-      if (point < 0 || std::size_t(point) >= voxelOf_.size() || voxel < 0 ||
-        std::size_t(voxel) >= busy_.size())
-      {
-        ++faults_;
-        continue;
-      }
-      faults_ += voxelOf_[std::size_t(point)].exchange(voxel) != -1;
-      taken.push_back(voxel);
-    }
-    std::sort(taken.begin(), taken.end());
-    taken.erase(std::unique(taken.begin(), taken.end()), taken.end());
-    for (const std::int64_t voxel : taken)
-    {
-      faults_ += busy_[std::size_t(voxel)].exchange(1) != 0;
-    }
-    for (const std::int64_t voxel : taken)
-    {
-      busy_[std::size_t(voxel)] = 0;
-    }
-  }
-  /// What was visited is what there is.
-  void expectAll(const VoxelRequest& request, const LevelResult& level, const std::string& what) const
-  {
-    EXPECT_EQ(faults_, 0) << what;
-    std::vector<std::int64_t> counts(level.counts.size(), 0);
-    for (std::size_t i = 0; i < voxelOf_.size(); ++i)
-    {
-      const Vec3 u = request.lattice.continuousIndex(request.points[std::int64_t(i)]);
-      const std::int64_t voxel = voxelOf_[i];
-      ASSERT_EQ(voxel >= 0, request.lattice.contains(u)) << what << " point " << i;
-      if (voxel >= 0)
-      {
-        ASSERT_EQ(level.keys[std::size_t(voxel)],
-          request.lattice.key(std::int64_t(u.x), std::int64_t(u.y), std::int64_t(u.z)))
-          << what;
-        ++counts[std::size_t(voxel)];
-      }
-    }
-    EXPECT_EQ(counts, level.counts) << what;
-  }
-
-private:
-  std::vector<std::atomic<std::int64_t>> voxelOf_; ///< Of each point.
-  std::vector<std::atomic<int>> busy_;             ///< Whether a thread is at each voxel.
-  std::atomic<std::int64_t> faults_{ 0 };
-};
-
-void expectVisited(VoxelRequest request, bool keepsRecords, const Executor& executor)
-{
-  request.keepPointRecords = keepsRecords;
-  const std::string what = nameOf(request.lattice) + (request.index ? " with an index" : "") +
-    (keepsRecords ? ", keeps records" : "");
+  request.voxelIndex = true;
+  const std::string what = nameOf(request.lattice) + (request.index ? " with an index" : "");
   VoxelResampler resampler;
   const RunResult result = runOf(resampler, request, executor);
   const LevelResult& level = result.levels[0];
-  VisitLog log(std::size_t(request.points.size()), level.keys.size());
-  for (int round = 0; round < (keepsRecords ? 2 : 1); ++round)
+  const std::vector<std::int64_t> voxels = resampler.voxelIndex();
+  ASSERT_EQ(voxels.size(), std::size_t(request.points.size()));
+  std::vector<std::int64_t> counts(level.counts.size(), 0);
+  for (std::size_t i = 0; i < voxels.size(); ++i)
   {
-    log.clear();
-    const auto visit = [&](const std::int64_t* points, const std::int64_t* voxels, int count)
-    { log.note(points, voxels, count); };
-    ASSERT_EQ(resampler.visitPointsByVoxel(request, visit, executor), Status::Ok);
-    log.expectAll(request, level, what);
+    const Vec3 u = request.lattice.continuousIndex(request.points[std::int64_t(i)]);
+    ASSERT_EQ(voxels[i] >= 0, request.lattice.contains(u)) << what << " point " << i;
+    if (voxels[i] >= 0)
+    {
+      ASSERT_LT(std::size_t(voxels[i]), level.keys.size());
+      ASSERT_EQ(level.keys[std::size_t(voxels[i])],
+        request.lattice.key(std::int64_t(u.x), std::int64_t(u.y), std::int64_t(u.z)))
+        << what;
+      ++counts[std::size_t(voxels[i])];
+    }
   }
+  EXPECT_EQ(counts, level.counts) << what;
   expectSame(runOf(resampler, request, executor), result, what + " run again");
-}
-
-void expectVisited(const VoxelRequest& request, const Executor& executor)
-{
-  expectVisited(request, false, executor);
-  expectVisited(request, true, executor);
+  EXPECT_EQ(resampler.voxelIndex(), voxels) << what << " run again";
 }
 
 } // namespace
@@ -265,15 +180,15 @@ TEST(VoxelVisit, ReachesEveryPointInsideOnceOnEveryPath)
     points[5].x = NAN;
     points[9000].z = INFINITY;
     VoxelRequest request = requestFor(points, lattice);
-    expectVisited(request, {});
-    expectVisited(request, ThreadedExecutor(3));
+    expectIndexed(request, {});
+    expectIndexed(request, ThreadedExecutor(3));
     PointIndex index;
     ASSERT_EQ(index.build(request.points), Status::Ok);
     request.index = &index;
-    expectVisited(request, ThreadedExecutor(2));
+    expectIndexed(request, ThreadedExecutor(2));
     request.lattice.end = 0.3 * Vec3(double(lattice.dimensions[0]), double(lattice.dimensions[1]), 1e9);
     request.lattice.end.z = INFINITY;
-    expectVisited(request, BackwardExecutor(5));
+    expectIndexed(request, BackwardExecutor(5));
   }
 }
 
@@ -291,7 +206,7 @@ TEST(VoxelVisit, ReachesEveryPointOfMoreThanAChunk)
   for (const std::int64_t chunkPoints : { 5000, 500 })
   {
     request.chunkPoints = chunkPoints;
-    expectVisited(request, ThreadedExecutor(2));
+    expectIndexed(request, ThreadedExecutor(2));
   }
 }
 

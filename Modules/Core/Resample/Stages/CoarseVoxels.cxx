@@ -63,9 +63,9 @@ SecondMoments movedMoments(
 constexpr std::size_t kPieceVoxels = 1 << 14;
 constexpr std::size_t kPiecesPerReport = kPointsPerReport / kPieceVoxels;
 
-/// The coarse voxels of fine ones, all of theirs. @p parents: counted from the first coarse one.
+/// The coarse voxels of fine ones, all of theirs.
 VoxelRun sumPiece(const VoxelRun& fine, std::size_t first, std::size_t last, const Lattice& lattice,
-  int fractionBits, std::vector<std::int64_t>& parents, Scratch& scratch)
+  int fractionBits, Scratch& scratch)
 {
   RowIndices indices(lattice);
   const Lattice coarse = coarserLattice(lattice);
@@ -102,7 +102,6 @@ VoxelRun sumPiece(const VoxelRun& fine, std::size_t first, std::size_t last, con
       groups.ends.push_back(i + 1);
     }
     groups.voxels.push_back(entry.voxel);
-    parents[entry.voxel] = std::int64_t(sums.size()) - 1;
   }
   for (const VoxelTally& tally : fine.tallies)
   {
@@ -114,7 +113,7 @@ VoxelRun sumPiece(const VoxelRun& fine, std::size_t first, std::size_t last, con
 }
 
 bool sumCoarseVoxels(const VoxelRun& fine, const Lattice& lattice, int fractionBits, VoxelRun& coarse,
-  std::vector<std::int64_t>& parents, const Executor& executor, ProgressObserver* observer)
+  const Executor& executor, ProgressObserver* observer)
 {
   const std::size_t size = fine.size();
   const std::uint64_t twoLayers = 2 * lattice.key(0, 0, 1);
@@ -124,7 +123,6 @@ bool sumCoarseVoxels(const VoxelRun& fine, const Lattice& lattice, int fractionB
   {
     firsts[p] = fine.find(fine.voxels[size * p / pieces].key / twoLayers * twoLayers);
   }
-  parents.resize(size);
   std::vector<VoxelRun> runs(pieces);
   PointProgress progress(observer, std::int64_t(pieces), 1);
   for (std::size_t first = 0; first < pieces; first += kPiecesPerReport)
@@ -134,19 +132,12 @@ bool sumCoarseVoxels(const VoxelRun& fine, const Lattice& lattice, int fractionB
       [&](std::size_t i, Scratch& scratch)
       {
         const std::size_t p = first + i;
-        runs[p] = sumPiece(fine, firsts[p], firsts[p + 1], lattice, fractionBits, parents, scratch);
+        runs[p] = sumPiece(fine, firsts[p], firsts[p + 1], lattice, fractionBits, scratch);
       });
     if (!progress.add(std::int64_t(count)))
     {
       return false;
     }
-  }
-  std::int64_t before = 0;
-  for (std::size_t p = 0; p < pieces; ++p)
-  {
-    std::for_each(parents.begin() + std::ptrdiff_t(firsts[p]),
-      parents.begin() + std::ptrdiff_t(firsts[p + 1]), [=](std::int64_t& parent) { parent += before; });
-    before += std::int64_t(runs[p].size());
   }
   coarse = concatenated(runs, executor);
   return true;

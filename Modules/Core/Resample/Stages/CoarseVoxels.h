@@ -7,19 +7,16 @@
 #include "Core/Base/ProgressObserver.h"
 #include "Core/Resample/Stages/VoxelSums.h"
 
-#include <cstdint>
-#include <vector>
-
 namespace pointhaptics
 {
 namespace simd
 {
 
 /// Sums the voxels of the lattice twice as coarse as @p lattice, whose voxels are @p fine, with offsets of
-/// @p fractionBits bits. @p parents becomes the position of the coarse voxel that each fine one lies in.
-/// @return false where @p observer, which may be null, ended the work. @pre the lattice has several voxels
+/// @p fractionBits bits. @return false where @p observer, which may be null, ended the work. @pre the lattice
+/// has several voxels
 bool sumCoarseVoxels(const VoxelRun& fine, const Lattice& lattice, int fractionBits, VoxelRun& coarse,
-  std::vector<std::int64_t>& parents, const Executor& executor, ProgressObserver* observer);
+  const Executor& executor, ProgressObserver* observer);
 
 } // namespace simd
 } // namespace pointhaptics

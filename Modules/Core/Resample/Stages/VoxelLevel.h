@@ -28,7 +28,6 @@ struct Level
   /// Where those of each partition begin, and an end.
   std::vector<std::size_t> firsts;
   std::int64_t size = 0;
-  std::vector<std::int64_t> parents;
 
   /// Of the voxel that has most of them.
   std::int64_t mostPoints() const
