@@ -100,8 +100,8 @@ struct TallyValue
 struct TallyValues
 {
   int components = 0;
-  std::vector<std::size_t> ends; ///< Of each list.
-  std::vector<TallyValue> values;
+  PageVector<std::size_t> ends; ///< Of each list.
+  PageVector<TallyValue> values;
 
   struct List
   {
