@@ -23,7 +23,6 @@ struct Proxy::Implementation
   AffineTransform lastLattice; ///< modelToLattice of the last scene: the methods' state is in that frame.
   std::uint64_t lastCloud = 0;
   bool hadScene = false;
-  bool modelMoved = false; ///< The scene changed, and what that did to the contact is still settling.
   SurfaceFitProxy surfaceFit;
   SurfaceFitProxy::Memory memory;
   SurfaceFitProxy::Memory prefetchMemory; ///< What a prefetch gathers must not serve a step: it is
@@ -73,15 +72,7 @@ struct Proxy::Implementation
     lastCloud = newScene ? newScene->cloudNumber() : 0;
     lastLattice = newScene ? newScene->modelToLattice() : AffineTransform();
     hadScene = newScene != nullptr;
-    modelMoved = modelMoved || !isSameModel(newScene);
     scene = newScene;
-  }
-
-  /// Whether @p newScene is of what was felt till now, where it was, maybe finer.
-  bool isSameModel(const HapticScene* newScene) const noexcept
-  {
-    return newScene && scene && newScene->globalCloudNumber() == scene->globalCloudNumber() &&
-      newScene->modelToWorkspace() == scene->modelToWorkspace();
   }
 
   /// Whether the last step, seen from the model, lies in what a local scene covers: the next one begins
@@ -138,13 +129,13 @@ struct Proxy::Implementation
   /// left.
   void settleParameters(ProxyState& state, double dt) noexcept
   {
-    if (parametersChanged)
-    {
-      carried = last.force - state.force;
-    }
-    else if (touched && !state.contact)
+    if (touched && !state.contact)
     {
       carried = Vec3();
+    }
+    else if (parametersChanged)
+    {
+      carried = last.force - state.force;
     }
     parametersChanged = false;
     touched = state.contact;
@@ -193,27 +184,24 @@ struct Proxy::Implementation
     }
   }
 
-  /// Lets the contact point follow the hand at once, and the surface at the settle rate.
+  /// Lets the contact point follow the hand at once, and the surface at the settle rate. What ends is over at
+  /// once: a force that went on in free space would be of nothing.
   void settle(ProxyState& state, double stiffness, double dt) noexcept
   {
     const double shrink = stiffness > 0.0 ? parameters.contact.settleRate * dt / stiffness : INFINITY;
-    const Vec3 offset = state.contact ? state.proxy - state.hip : Vec3();
-    // Where the hand left the surface there is nothing to feel; only what the model did settles in free
-    // space.
-    if (!state.contact && !modelMoved)
+    if (!state.contact)
     {
       settler.reset();
       return;
     }
-    const Vec3 felt = settler.settle(offset, hasLastHip ? norm(state.hip - lastHip) : 0.0, shrink);
+    const double moved = hasLastHip ? norm(state.hip - lastHip) : 0.0;
+    const Vec3 felt = settler.settle(state.proxy - state.hip, moved, shrink);
     if (settler.settling())
     {
       state.proxy = state.hip + felt;
       state.sphereCenter = state.proxy + state.radius * state.normal;
-      state.contact = true;
       state.status |= kProxySettling;
     }
-    modelMoved = modelMoved && settler.settling();
   }
 
   Vec3 forceOf(const ProxyState& state, double stiffness, double dt) const noexcept
@@ -293,7 +281,6 @@ void Proxy::restart() noexcept
   self.lastLattice = AffineTransform();
   self.lastCloud = 0;
   self.hadScene = false;
-  self.modelMoved = false;
   self.lastDt = 0.0;
   self.vanished = ProxyState();
   self.parametersChanged = false;

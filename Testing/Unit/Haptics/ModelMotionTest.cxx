@@ -132,10 +132,58 @@ TEST(ModelMotion, ZoomsByAnyFactorStepNoFurtherThanTheSettleRate)
     {
       const ProxyState s = proxy.step(hip, trial::kTick);
       ASSERT_TRUE(trial::isFinite(s)) << zoom;
-      ASSERT_LE(norm(s.force - last), largestStep(proxy.parameters(), 0.0)) << zoom << " tick " << i;
+      // A model that shrinks away from the hand lets go at once.
+      ASSERT_LE(norm(s.force - (s.contact ? last : Vec3())), largestStep(proxy.parameters(), 0.0) * s.contact)
+        << zoom << " tick " << i;
       last = s.force;
     }
     keep = next;
+  }
+}
+
+TEST(ModelMotion, LetsGoAtOnceWhereTheHandSlidesOffAnEdgeMeanwhile)
+{
+  // What turns, shifts and grows the model keeps the offset settling all the time, at the rate of the force.
+  const trial::Scene scene = trial::resampledScene(trial::planePoints(60000, 8));
+  const AffineTransform turn = AffineTransform::rotation(1e-3, { 0, 0, 1 });
+  const AffineTransform shift = AffineTransform::translation({ 0, 0, 2e-4 });
+  const AffineTransform grow = AffineTransform::scaling({ 1 + 1e-5, 1 + 1e-5, 1 + 1e-5 });
+  for (const ProxyMethod method : { ProxyMethod::SurfaceFit, ProxyMethod::Sphere })
+  {
+    for (const AffineTransform& change : { turn, shift, grow })
+    {
+      HapticParameters parameters;
+      parameters.method = method;
+      Proxy proxy(parameters);
+      proxy.setScene(scene.get());
+      AffineTransform transform;
+      trial::Scene keep = scene;
+      int changes = 0;
+      bool released = false;
+      for (const Vec3& hip : trial::planeSlide(1e-3, 0.3, 200))
+      {
+        trial::Scene next = keep;
+        if (hip.x > 0.02 && changes++ < 40)
+        {
+          Status status = Status::Ok;
+          transform = change * transform;
+          next = scene->moved(transform, status);
+          ASSERT_EQ(status, Status::Ok);
+          // Whoever changes the stiffness of all moments changes it in that of the release, too.
+          parameters.contact.stiffness += 1.0;
+          proxy.setParameters(parameters);
+        }
+        proxy.setScene(next.get());
+        const ProxyState state = proxy.step(hip, trial::kTick);
+        keep = next;
+        const double outside = transform.inverse().apply(hip).x - 0.03;
+        ASSERT_TRUE(outside < 5e-4 || norm(state.force) == 0.0) << outside << ' ' << norm(state.force);
+        ASSERT_TRUE(!released || norm(state.force) == 0.0) << "there was none the tick before";
+        released = released || (outside > 0.0 && !state.contact);
+      }
+      EXPECT_TRUE(released);
+      EXPECT_GT(changes, 30);
+    }
   }
 }
 
