@@ -35,10 +35,9 @@ struct Proxy::Implementation
   bool hasLastHip = false;
   double lastDt = 0.0; ///< Of the last step, seconds.
   double fadedSeconds = 0.0;
-  ProxyState vanished; ///< The last state in a scene that is gone: its force fades.
-  Vec3 carried;        ///< What a change of parameters did to the force, and has still to settle; newtons.
-  bool parametersChanged = false;
-  bool touched = false; ///< The method found contact in the last step.
+  Vec3 carried;            ///< What a change did to the force, and has still to settle; newtons.
+  bool hasChanged = false; ///< Something did since the last step that settling the offset does not cover.
+  bool touched = false;    ///< The method found contact in the last step.
 
   explicit Implementation(InstructionSet wanted)
     : memory(wanted)
@@ -55,8 +54,7 @@ struct Proxy::Implementation
     }
     if (!newScene)
     {
-      vanished = scene ? last : vanished;
-      reset();
+      releaseContact();
     }
     const Bounds shared = newScene && scene ? newScene->sharedWith(*scene) : Bounds();
     if (!shared.empty())
@@ -98,66 +96,76 @@ struct Proxy::Implementation
     }
   }
 
-  void reset() noexcept
+  /// The methods begin anew, without contact. The force does not know yet.
+  void releaseContact() noexcept
   {
     surfaceFit.reset();
     gradientSteps.reset();
     settler.reset();
-    last = ProxyState();
-    hasLastHip = false;
-    lastMove = Vec3();
     fadedSeconds = 0.0;
     carried = Vec3();
     touched = false;
+    hasChanged = hasLastHip;
   }
 
-  /// Without a scene: the force of the last one fades to zero.
-  void fadeVanished(ProxyState& state, double dt) noexcept
+  void reset() noexcept
   {
-    fadedSeconds += dt;
-    const double left = std::max(0.0, 1.0 - fadedSeconds / kFadeSeconds);
-    state.status |= kProxyNoScene;
-    state.contact = vanished.contact && left > 0.0;
-    state.force = state.contact ? left * vanished.force : Vec3();
-    state.proxy = state.contact ? state.hip + left * (vanished.proxy - vanished.hip) : state.hip;
-    state.normal = vanished.normal;
-    last = state;
-    parametersChanged = true;
+    hasLastHip = false;
+    releaseContact();
+    last = ProxyState();
+    lastMove = Vec3();
   }
 
-  /// What changed parameters do to the force comes at the settle rate; where the hand lets go nothing is
+  /// GradientSteps trembles by itself.
+  bool settlesOffset() const noexcept { return parameters.method != ProxyMethod::GradientSteps; }
+
+  void remember(const Vec3& hip, double dt) noexcept
+  {
+    lastMove = hasLastHip ? hip - lastHip : Vec3();
+    lastHip = hip;
+    hasLastHip = true;
+    lastDt = dt;
+  }
+
+  /// What a change does to the force comes by at most @p shrink newtons; where the hand lets go nothing is
   /// left.
-  void settleParameters(ProxyState& state, double dt) noexcept
+  void settleChanges(ProxyState& state, double shrink) noexcept
   {
     if (touched && !state.contact)
     {
       carried = Vec3();
     }
-    else if (parametersChanged)
+    else if (hasChanged)
     {
       carried = last.force - state.force;
     }
-    parametersChanged = false;
+    hasChanged = false;
     touched = state.contact;
     const double length = norm(carried);
-    const double shrink = parameters.contact.settleRate * dt;
     carried = length > shrink ? (1.0 - shrink / length) * carried : Vec3();
     state.force += carried;
     state.contact = state.contact || carried != Vec3();
     state.status |= std::uint32_t(carried != Vec3() ? kProxySettling : kProxyOk);
   }
 
-  /// The last state, its force fading to zero.
-  ProxyState hold(double dt) noexcept
+  /// The last state, its force fading to zero, for a hand at @p hip.
+  ProxyState fade(const Vec3& hip, std::uint32_t status, double dt) noexcept
   {
+    const double before = std::max(0.0, 1.0 - fadedSeconds / kFadeSeconds);
     fadedSeconds += dt;
     const double left = std::max(0.0, 1.0 - fadedSeconds / kFadeSeconds);
-    ProxyState state = last;
-    state.force = left * last.force;
-    state.contact = last.contact && left > 0.0;
-    state.status = kProxyNonFiniteInput;
-    settler.resumeFrom(left * (last.proxy - last.hip));
-    return state;
+    const double part = left > 0.0 ? left / before : 0.0;
+    const Vec3 offset = part * (last.proxy - last.hip);
+    last.hip = hip;
+    last.contact = last.contact && left > 0.0;
+    last.proxy = last.contact ? hip + offset : hip;
+    last.sphereCenter = last.contact ? last.proxy + last.radius * last.normal : hip;
+    last.force = last.contact ? part * last.force : Vec3();
+    last.status = status;
+    carried = part * carried;
+    settler.resumeFrom(last.proxy - last.hip);
+    hasChanged = hasChanged || !settlesOffset();
+    return last;
   }
 
   /// The servo loop's rule for a device of which the damping alone is known, answered in the same tick.
@@ -185,15 +193,17 @@ struct Proxy::Implementation
   }
 
   /// Lets the contact point follow the hand at once, and the surface at the settle rate. What ends is over at
-  /// once: a force that went on in free space would be of nothing.
-  void settle(ProxyState& state, double stiffness, double dt) noexcept
+  /// once: a force that went on in free space would be of nothing. @return whether there was anything to
+  /// settle.
+  bool settle(ProxyState& state, double stiffness, double dt) noexcept
   {
     const double shrink = stiffness > 0.0 ? parameters.contact.settleRate * dt / stiffness : INFINITY;
     if (!state.contact)
     {
       settler.reset();
-      return;
+      return false;
     }
+    const bool wasSettling = settler.settling();
     const double moved = hasLastHip ? norm(state.hip - lastHip) : 0.0;
     const Vec3 felt = settler.settle(state.proxy - state.hip, moved, shrink);
     if (settler.settling())
@@ -202,6 +212,7 @@ struct Proxy::Implementation
       state.sphereCenter = state.proxy + state.radius * state.normal;
       state.status |= kProxySettling;
     }
+    return wasSettling || settler.settling();
   }
 
   Vec3 forceOf(const ProxyState& state, double stiffness, double dt) const noexcept
@@ -241,17 +252,10 @@ void Proxy::setParameters(const HapticParameters& parameters) noexcept
   }
   if (parameters.method != self.parameters.method)
   {
-    // Without contact; but the force does not know yet.
-    const ProxyState last = self.last;
-    const Vec3 hip = self.lastHip;
-    const bool hadHip = self.hasLastHip;
-    self.reset();
-    self.last = last;
-    self.lastHip = hip;
-    self.hasLastHip = hadHip;
+    self.releaseContact();
   }
   self.parameters = parameters;
-  self.parametersChanged = self.hasLastHip;
+  self.hasChanged = self.hasChanged || self.hasLastHip;
 }
 
 const HapticParameters& Proxy::parameters() const noexcept
@@ -268,7 +272,6 @@ void Proxy::setScene(const HapticScene* scene) noexcept
 
 void Proxy::reset() noexcept
 {
-  implementation_->vanished = ProxyState();
   implementation_->reset();
 }
 
@@ -282,8 +285,6 @@ void Proxy::restart() noexcept
   self.lastCloud = 0;
   self.hadScene = false;
   self.lastDt = 0.0;
-  self.vanished = ProxyState();
-  self.parametersChanged = false;
 }
 
 ProxyState Proxy::step(const Vec3& hip, double dt) noexcept
@@ -292,7 +293,8 @@ ProxyState Proxy::step(const Vec3& hip, double dt) noexcept
   if (!isFinite(hip) || !(dt > 0.0))
   {
     // The clock stands still: a tick counts as long as the last one.
-    return self.hold(dt > 0.0 ? dt : self.lastDt > 0.0 ? self.lastDt : kFadeSeconds);
+    const double seconds = dt > 0.0 ? dt : self.lastDt > 0.0 ? self.lastDt : kFadeSeconds;
+    return self.fade(self.last.hip, kProxyNonFiniteInput, seconds);
   }
   ProxyState state;
   state.hip = hip;
@@ -303,31 +305,30 @@ ProxyState Proxy::step(const Vec3& hip, double dt) noexcept
   self.enterFallback(hip);
   if (!self.scene)
   {
-    self.fadeVanished(state, dt);
-    return state;
+    self.remember(hip, dt);
+    return self.fade(hip, state.status | kProxyNoScene, dt);
   }
-  if (self.parameters.method != ProxyMethod::GradientSteps)
+  bool settles = false;
+  if (self.settlesOffset())
   {
     self.surfaceFit.step(*self.scene, self.memory, self.parameters.contact, self.scene->toLattice(hip),
       self.parameters.method == ProxyMethod::SurfaceFit, state);
     self.toWorkspace(state);
-    self.settle(state, stiffness, dt);
+    settles = self.settle(state, stiffness, dt);
   }
   else
   {
     self.gradientSteps.step(*self.scene, self.parameters, self.scene->toLattice(hip), dt, state);
     self.toWorkspace(state);
   }
+  state.force = self.forceOf(state, stiffness, dt);
+  // One after the other, lest two make it twice the rate.
+  self.settleChanges(state, settles ? 0.0 : self.parameters.contact.settleRate * dt);
+  self.last = state;
+  self.remember(hip, dt);
+  self.fadedSeconds = 0.0;
   self.enterFallback(state.proxy);
   self.enterFallback(state.sphereCenter);
-  state.force = self.forceOf(state, stiffness, dt);
-  self.settleParameters(state, dt);
-  self.last = state;
-  self.lastMove = self.hasLastHip ? hip - self.lastHip : Vec3();
-  self.lastHip = hip;
-  self.hasLastHip = true;
-  self.lastDt = dt;
-  self.fadedSeconds = 0.0;
   return state;
 }
 
@@ -345,7 +346,7 @@ void Proxy::prefetch() noexcept
   }
   ProxyState state = self.last;
   state.hip = hip;
-  if (self.parameters.method != ProxyMethod::GradientSteps)
+  if (self.settlesOffset())
   {
     SurfaceFitProxy copy = self.surfaceFit;
     // Gathered anew each time: whether the step will have to gather is not known here.

@@ -361,6 +361,74 @@ TEST_P(EveryMethod, FadesWithinTenMillisecondsWhenTheSceneVanishesOrTheClockStan
   EXPECT_EQ(other.last.force, Vec3());
 }
 
+TEST_P(EveryMethod, FadesOnWhereOneFaultFollowsAnother)
+{
+  Resting hand(parameters());
+  const double most = 1.01 * norm(hand.last.force) / 10.0;
+  for (int i = 0; i < 18; ++i)
+  {
+    if (i == 5)
+    {
+      hand.proxy.setScene(nullptr);
+    }
+    const ProxyState state =
+      hand.proxy.step(i % 3 == 0 ? Vec3(NAN, 0, 0) : hand.hip, i < 5 ? 0.0 : trial::kTick);
+    ASSERT_LE(norm(state.force), norm(hand.last.force)) << i;
+    ASSERT_LE(norm(state.force - hand.last.force), most) << i;
+    hand.last = state;
+  }
+  EXPECT_EQ(hand.last.force, Vec3());
+
+  Resting other(parameters());
+  other.proxy.setScene(nullptr);
+  other.proxy.setScene(other.scene.get());
+  EXPECT_LE(other.largestChange(20), 1.01 * parameters().contact.settleRate * trial::kTick);
+}
+
+TEST_P(EveryMethod, AHandThatWasNoNumberWhileAChangeSettledIsFeltAgainWithoutAKick)
+{
+  for (const double stiffness : { 1600.0, 100.0 })
+  {
+    for (const int missing : { 1, 4, 20 })
+    {
+      SCOPED_TRACE(std::to_string(stiffness) + " N/m, " + std::to_string(missing) + " ticks");
+      Resting hand(parameters());
+      const double still = hand.largestChange(50);
+      HapticParameters changed = parameters();
+      changed.contact.stiffness = stiffness;
+      hand.proxy.setParameters(changed);
+      hand.largestChange(3);
+      ProxyState last = hand.last;
+      const double fade = norm(last.force) / 10.0;
+      for (int i = 0; i < missing; ++i)
+      {
+        if (i == 2)
+        {
+          // While nobody knows where the hand is, too.
+          changed.contact.stiffness = 800.0;
+          hand.proxy.setParameters(changed);
+        }
+        const ProxyState state = hand.proxy.step({ NAN, 0.0, 0.0 }, trial::kTick);
+        ASSERT_LE(norm(state.force - last.force), fade * (1.0 + 1e-9));
+        last = state;
+      }
+      const double settle = parameters().contact.settleRate * trial::kTick + still;
+      for (int i = 0; i < 60; ++i)
+      {
+        // The sphere of GradientSteps leaps over the points of its own accord while it slides.
+        const double moved = GetParam() == ProxyMethod::GradientSteps ? 0.0 : 1e-6 * (i % 7);
+        hand.hip.x += moved;
+        const ProxyState state = hand.proxy.step(hand.hip, trial::kTick);
+        const double follows = 2.0 * std::max(800.0, stiffness) * moved;
+        ASSERT_LE(norm(state.force - last.force), settle + follows + 1e-8) << "tick " << i;
+        ASSERT_GE(state.force.z, 0.0) << "it pulls nobody in, tick " << i;
+        last = state;
+      }
+      EXPECT_GT(last.force.z, 0.8 * 1e-3 * (missing > 2 ? 800.0 : stiffness)) << "it arrives";
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Proxy, EveryMethod,
   ::testing::Values(ProxyMethod::SurfaceFit, ProxyMethod::GradientSteps, ProxyMethod::Sphere),
   [](const ::testing::TestParamInfo<ProxyMethod>& method)
