@@ -66,10 +66,12 @@ struct Proxy::Implementation
       // A new cloud may lie where an old one lay.
       memory.invalidate();
       surfaceFit.changeCells();
+      gradientSteps.changeCells();
     }
     lastCloud = newScene ? newScene->cloudNumber() : 0;
     lastLattice = newScene ? newScene->modelToLattice() : AffineTransform();
     hadScene = newScene != nullptr;
+    hasChanged = hasChanged || (!settlesOffset() && hasLastHip && newScene != scene);
     scene = newScene;
   }
 

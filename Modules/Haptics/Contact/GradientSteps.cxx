@@ -57,6 +57,7 @@ void GradientSteps::carry(const AffineTransform& from, const AffineTransform& to
 {
   const AffineTransform change = to * from.inverse();
   center_ = change.apply(center_);
+  radius_ *= std::cbrt(std::abs(change.determinant()));
   normal_ = normalized(change.applyToNormal(normal_), normal_);
 }
 
@@ -120,6 +121,12 @@ void GradientSteps::step(const HapticScene& scene, const HapticParameters& param
     state.status |= kProxyStepLimit;
   }
   const double radius = scene.coveringRadius(center_);
+  if (adopts_ && contact_)
+  {
+    center_ += (radius - radius_) * normalized(center_ - hip, Vec3());
+  }
+  adopts_ = false;
+  radius_ = radius;
   for (int i = 0; i < steps; ++i)
   {
     oneStep(scene, parameters, hip, radius);

@@ -17,6 +17,8 @@ class GradientSteps
 public:
   void reset() noexcept { *this = GradientSteps(); }
   void carry(const AffineTransform& from, const AffineTransform& to) noexcept;
+  /// The scene is another of the same model: of another radius its sphere keeps the point nearest to the HIP.
+  void changeCells() noexcept { adopts_ = true; }
   /// @pre hip finite. Fills all of the state but force.
   void step(const HapticScene& scene, const HapticParameters& parameters, const Vec3& hip, double dt,
     ProxyState& state) noexcept;
@@ -27,7 +29,9 @@ private:
 
   Vec3 center_;
   Vec3 normal_{ 0.0, 0.0, 1.0 };
+  double radius_ = 0.0; ///< Of the last step.
   bool placed_ = false;
+  bool adopts_ = false;
   bool contact_ = false;
   bool sticking_ = false;
 };
