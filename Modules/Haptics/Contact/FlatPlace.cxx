@@ -63,6 +63,13 @@ bool FlatPlace::find(
   return true;
 }
 
+void FlatPlace::carry(const AffineTransform& change) noexcept
+{
+  normal_ = normalized(change.applyToNormal(normal_), normal_);
+  point_ = change.apply(point_);
+  foundAt_ = change.apply(foundAt_);
+}
+
 bool FlatPlace::continuesUnder(
   const HapticScene& scene, const Vec3& hip, const Vec3& slipped, double radius) const noexcept
 {

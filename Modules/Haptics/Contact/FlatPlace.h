@@ -20,6 +20,8 @@ public:
   /// nothing changes.
   bool find(const BallCells& cells, const Vec3& center, double radius, double reach, Vec3& away) noexcept;
   void invalidate() noexcept { isKnown_ = false; }
+  /// The place moves with the model.
+  void carry(const AffineTransform& change) noexcept;
 
   bool isKnown() const noexcept { return isKnown_; }
   /// Whether the place is known and was found with the center within @p distance of @p center.

@@ -131,7 +131,7 @@ void ProxyBall::carry(const AffineTransform& change, double scale) noexcept
   wanted_ *= scale;
   isMeasured_ = false;
   isHeld_ = false;
-  flat_.invalidate();
+  flat_.carry(change);
 }
 
 void ProxyBall::gather(Work& work, double reach) noexcept

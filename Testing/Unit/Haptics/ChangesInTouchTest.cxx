@@ -228,3 +228,40 @@ TEST(ChangesInTouchOnTheWay, DoNotKickWhereTheBallSpeaks)
     }
   }
 }
+
+TEST(ChangesInTouchAtAnEdge, AHandStaysOnItsFaceWhereTheModelIsResampledElsewhere)
+{
+  const std::vector<Vec3> points = boxPoints();
+  // By so much that no digit of a place is lost to speak of.
+  const AffineTransform shift = AffineTransform::translation({ 0.03125, -0.0625, 0.015625 });
+  const trial::Scene here = trial::resampledScene(points);
+  const trial::Scene there = trial::resampledScene(points, shift);
+  constexpr int kRuns = 60;
+  for (const ProxyMethod method : { ProxyMethod::SurfaceFit, ProxyMethod::Sphere })
+  {
+    trial::Random random(3);
+    int spoken = 0;
+    int changed = 0;
+    for (int run = 0; run < kRuns; ++run)
+    {
+      Proxy proxy(parametersOf(method, run % 2 == 0 ? 0.0 : 0.4));
+      proxy.setScene(here.get());
+      const Vec3 hip(kSide - random.uniform(1e-4, 8e-4), random.uniform(-5e-3, 5e-3),
+        kSide - random.uniform(4e-4, 1.6e-3));
+      const Vec3 beside(hip.x - 3e-3, hip.y, hip.z);
+      for (int i = 0; i < 250; ++i)
+      {
+        const Vec3 press = beside + Vec3(0, 0, std::max(0, 100 - i) * 3e-5);
+        static_cast<void>(proxy.step(press + (std::max(0, i - 100) / 150.0) * (hip - beside), trial::kTick));
+      }
+      const ProxyState before = trial::feel(proxy, trial::Path(50, hip)).back();
+      proxy.setScene(there.get());
+      const ProxyState after = trial::feel(proxy, trial::Path(60, shift.apply(hip))).back();
+      spoken += (before.status & kProxyBallContact) != 0;
+      changed += norm(after.force - before.force) > 0.2;
+    }
+    const bool isFit = method == ProxyMethod::SurfaceFit;
+    EXPECT_TRUE(!isFit || spoken > kRuns / 5) << spoken;
+    EXPECT_LE(trial::recorded(isFit ? "changedOfFit" : "changedOfSphere", changed), kRuns / 12);
+  }
+}
