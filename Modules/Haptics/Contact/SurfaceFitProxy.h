@@ -44,7 +44,12 @@ public:
   /// A contact moves with the model from one transform to another.
   void carry(const AffineTransform& from, const AffineTransform& to) noexcept;
   /// The scene is another of the same model, finer or coarser.
-  void changeCells() noexcept { ball_.changeCells(); }
+  void changeCells() noexcept
+  {
+    ball_.changeCells();
+    tracker_.changeCells();
+    search_.giveUp();
+  }
   void reset() noexcept { *this = SurfaceFitProxy(); }
   /// @pre hip finite. Fills all of the state but force. @param refines false: the ball alone is felt.
   void step(const HapticScene& scene, Memory& memory, const ContactParameters& parameters, const Vec3& hip,

@@ -34,6 +34,9 @@ public:
   /// Carries point and normal along with the model from one transform to another.
   void carry(const AffineTransform& from, const AffineTransform& to) noexcept;
 
+  /// The next step is in other cells of the same place: a fit of the last ones does not stand for them.
+  void changeCells() noexcept { fresh_ = false; }
+
   /// Height of a point above the surface, along the normal; negative inside.
   double height(const Vec3& p) const noexcept { return dot(p - frame_.origin, frame_.normal); }
   /// The same above the last fit itself.

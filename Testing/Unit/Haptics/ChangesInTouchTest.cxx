@@ -265,3 +265,31 @@ TEST(ChangesInTouchAtAnEdge, AHandStaysOnItsFaceWhereTheModelIsResampledElsewher
     EXPECT_LE(trial::recorded(isFit ? "changedOfFit" : "changedOfSphere", changed), kRuns / 12);
   }
 }
+
+TEST(ChangesInTouchAtRest, ARestingHandFeelsTheNewScene)
+{
+  // Waves that coarse voxels blur.
+  trial::Random random(7);
+  std::vector<Vec3> points;
+  for (int i = 0; i < 50000; ++i)
+  {
+    const Vec3 p = random.inBox({ -0.012, -0.012, 0 }, { 0.012, 0.012, 0 });
+    const double phase = 2.0 * trial::kPi / 4e-3;
+    points.emplace_back(p.x, p.y, 1e-4 * std::sin(phase * p.x) * std::sin(phase * p.y));
+  }
+  const trial::Scene coarse = trial::resampledScene(points, {}, 2 * trial::kVoxel);
+  const trial::Scene fine = trial::resampledScene(points, {}, trial::kVoxel / 2);
+  trial::Path path;
+  for (int i = 0; i < 150; ++i)
+  {
+    path.emplace_back(1e-3, 1.1e-3, std::max(-5e-4, 5e-4 - 1e-5 * i));
+  }
+  Proxy proxy;
+  proxy.setScene(coarse.get());
+  const Vec3 blurred = trial::feel(proxy, path).back().force;
+  const Vec3 expected = trial::feel(fine, {}, path).back().force;
+  ASSERT_GT(norm(expected - blurred), 0.02);
+  proxy.setScene(fine.get());
+  const Vec3 felt = trial::feel(proxy, trial::Path(20, path.back())).back().force;
+  EXPECT_LT(norm(felt - expected), 1e-5);
+}
