@@ -24,9 +24,9 @@ struct ContactParameters
   double damping = 0.0;         ///< Of the HIP's speed along the normal in contact, N s/m, 0 to 1e3.
   double staticFriction = 0.0;  ///< mu_s, 0 to 10; at least dynamicFriction.
   double dynamicFriction = 0.0; ///< mu_d, 0 to 10.
-  /// With SurfaceFit the force follows the hand by at most 2 K |dH| a tick, and changes that are not the
-  /// hand's (a zoom in touch, a rim, a jump of the nearest point) at this rate; N/s, above 0 to infinity: at
-  /// once.
+  /// In contact the force follows the hand by at most 2 K |dH| a tick with SurfaceFit and Sphere, and changes
+  /// that are not the hand's (a zoom in touch, a jump of the nearest point) at this rate, with every method
+  /// those of parameters and scenes; N/s, above 0 to infinity: at once. Where contact ends the force does.
   double settleRate = 100.0;
   /// Of the device itself, N s/m, 0 to 1e3; 0: unknown. For programs that step a Proxy without ServoLoop,
   /// which refuses such springs by HapticPort::limits(): where it is known the stiffness is kept at

@@ -40,8 +40,10 @@ struct ProxyState
   Vec3
     proxy; ///< Contact point: of the proxy sphere, the point nearest the HIP; the HIP itself out of contact.
   Vec3 normal{ 0.0, 0.0, 1.0 }; ///< Outward unit surface normal; out of contact the last one.
-  Vec3 force; ///< On the hand: K (proxy - HIP) + damping; 0 out of contact. With SurfaceFit it changes by at
-              ///< most 2 K |dH| + settleRate dt a step, damping aside.
+  Vec3 force; ///< On the hand: K (proxy - HIP) + damping; 0 out of contact. In contact it changes by at most
+              ///< 2 K |dH| + settleRate dt a step with SurfaceFit and Sphere, damping aside; where contact
+              ///< ends it is 0 at once, one step of any height. While a change of parameters settles it is
+              ///< less or more than K (proxy - HIP).
   Vec3 sphereCenter;   ///< Centre of the sphere to draw: proxy + radius normal in contact, else the HIP (with
                        ///< GradientSteps the sphere itself, which follows the HIP).
   double radius = 0.0; ///< Proxy radius r_p.

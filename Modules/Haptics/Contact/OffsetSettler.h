@@ -1,6 +1,6 @@
 /// @file
-/// Spreads what the surface does at once over time: the spring's force changes with the hand, and otherwise
-/// no faster than a limit.
+/// Spreads what the surface does at once over time: in contact the spring's force changes with the hand, and
+/// otherwise no faster than a limit.
 #pragma once
 
 #include "Core/Base/Vector3.h"
@@ -10,18 +10,20 @@ namespace pointhaptics
 
 /// The offset of the contact point from the HIP follows the hand: a tick in which the HIP moves by d may
 /// change it by kFreeSteps d, and such changes pass untouched, bit for bit. Where the offset changes by more
-/// (the surface was let go at a rim, found again somewhere else, zoomed or swapped, or the nearest point
-/// jumped at a ridge) the felt one lags, and comes nearer by at most a given length a tick until it is the
-/// offset again. So it changes by at most kFreeSteps d plus that length. It turns from one direction to
-/// another less than a right angle away: the force gets no weaker on the way. One thread; no allocation.
+/// (the surface was zoomed or swapped, or the nearest point jumped at a ridge) the felt one lags, and comes
+/// nearer by at most a given length a tick until it is the offset again. So it changes by at most kFreeSteps
+/// d plus that length. It turns from one direction to another less than a right angle away: the force gets no
+/// weaker on the way. Where contact ends nothing is to settle: who asks calls reset(), and the force is gone
+/// in one step. One thread; no allocation.
 class OffsetSettler
 {
 public:
   /// The spring's own step on a smooth surface is up to 1 where it is flat or convex, more in a hollow.
   static constexpr double kFreeSteps = 2.0;
 
+  /// Out of contact: the next offset grows from nothing.
   void reset() noexcept { *this = OffsetSettler(); }
-  /// @param offset contact point - HIP, metres; zero out of contact. @param moved metres the HIP went since
+  /// @param offset contact point - HIP, metres. @param moved metres the HIP went since
   /// the last call. @param shrink metres by which the felt offset may come nearer in this call, at least 0.
   /// @return the offset to feel, metres.
   Vec3 settle(const Vec3& offset, double moved, double shrink) noexcept;
