@@ -445,6 +445,7 @@ void ProxyBall::walk(Work& work, const Vec3& hip) noexcept
     }
     else
     {
+      slid_ = true;
       slide(work, hip_);
     }
   } while (walked < length && work.rounds > 0);
@@ -454,6 +455,7 @@ void ProxyBall::step(const HapticScene& scene, FitCells& fields, BallCells& cell
   std::uint32_t& status) noexcept
 {
   Work work{ scene, fields, cells, kMostRounds, status };
+  slid_ = glided_ = false;
   if (isFarAway(scene, hip) || (placed_ && isFarAway(scene, hip_)))
   {
     reset();
@@ -491,6 +493,7 @@ void ProxyBall::step(const HapticScene& scene, FitCells& fields, BallCells& cell
       heldAt_ = hip;
       break;
     }
+    glided_ = true;
   }
 }
 

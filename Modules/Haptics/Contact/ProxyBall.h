@@ -63,6 +63,10 @@ public:
     const Vec3& up, std::uint32_t& status) noexcept;
   /// False: the HIP went further than one step can follow; the ball is on its way.
   bool isThere() const noexcept { return there_; }
+  /// Whether points were in its way in the last step; if not, it went straight with the HIP.
+  bool hasSlid() const noexcept { return slid_; }
+  /// Whether the last step took it over bumps, which may lift it.
+  bool hasGlided() const noexcept { return glided_; }
   const Vec3& center() const noexcept { return center_; }
   double radius() const noexcept { return radius_; }
   /// The ball's point nearest to @p hip. @pre not free
@@ -126,6 +130,8 @@ private:
   bool there_ = true;
   bool adopts_ = false;
   bool placed_ = false;
+  bool slid_ = false;
+  bool glided_ = false;
 };
 
 } // namespace pointhaptics

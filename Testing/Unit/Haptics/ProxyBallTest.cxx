@@ -90,14 +90,76 @@ bool isCrowded(const HapticScene& scene, const ProxyBall& before, const ProxyBal
     pointsNear(scene, ball.center(), reach) > BallCells::kCapacity;
 }
 
+/// What holds in every tick, also among more points than the ball can know. @param again the same under the
+/// same hand, in memory of its own.
+void expectOrderly(
+  const BallInScene& hand, const BallInScene& again, const ProxyBall& before, const Vec3& asked)
+{
+  const ProxyBall& ball = hand.ball();
+  ASSERT_TRUE(trial::isFinite(ball));
+  ASSERT_TRUE(trial::isSame(ball, again.ball())) << "the same hand, the same ball";
+  ASSERT_GT(ball.radius(), 0.0);
+  if (ball.isThere())
+  {
+    ASSERT_EQ(ball.isFree(), ball.center() == asked);
+  }
+  if (!before.isFree() && !ball.isFree())
+  {
+    ASSERT_LE(ball.radius(), before.radius() * 1.3 * (1 + 1e-12)); // where it is far too small
+    ASSERT_GE(ball.radius(), before.radius() / 1.02 * (1 - 1e-12));
+  }
+}
+
+/// How deep the ball covers a point, over its radius. @param ofAll looks at all points, not those near by.
+double coveredBy(const BallInScene& hand, bool ofAll)
+{
+  const ProxyBall& ball = hand.ball();
+  const Real gap = ofAll ? trial::leastDistance(hand.scene(), ball.center())
+                         : trial::leastDistanceWithin(hand.scene(), ball.center(), ball.radius());
+  return double(1.0L - gap / ball.radius());
+}
+
+/// Whether the ball followed in one stride, and neither glided nor grew: it only slid, which brings it no
+/// further from the HIP.
+bool hasOnlySlid(const ProxyBall& before, const ProxyBall& ball, double moved)
+{
+  return !before.isFree() && before.isThere() && ball.isThere() && !ball.hasGlided() &&
+    ball.radius() <= before.radius() && moved < 0.9 * ball.radius();
+}
+
+/// How deep a ball of @p radius that went straight covered a point on its way, over its radius, told in long
+/// double.
+Real deepestOnWay(const HapticScene& scene, const Vec3& from, const Vec3& to, double radius)
+{
+  const LongVec way = LongVec(to) - LongVec(from);
+  const Real length = norm(way);
+  Real deepest = 0.0L;
+  scene.pyramid().visitBall(0, 0.5 * (from + to), radius + 0.5 * norm(to - from),
+    [&](std::uint32_t, const Cell& cell, double)
+    {
+      const LongVec offset = LongVec(cell.mean) - LongVec(from);
+      const Real along = length > 0.0L ? dot(offset, way) / length : 0.0L;
+      const Real at = std::clamp(along, 0.0L, length);
+      const Real apart = norm(offset - (length > 0.0L ? at / length : 0.0L) * way);
+      deepest = std::max(deepest, 1.0L - apart / radius);
+    });
+  return deepest;
+}
+
+class ProxyBallPromises : public ::testing::TestWithParam<int>
+{
+};
+
 } // namespace
 
-TEST(ProxyBall, KeepsItsPromisesOnRandomCloudsUnderRandomHands)
+TEST_P(ProxyBallPromises, AreKeptOnRandomCloudsUnderRandomHands)
 {
   constexpr int kTicksPerCloud = 1000;
-  trial::Random random(21);
+  trial::Random random(GetParam());
   int contacts = 0;
   int crowded = 0;
+  int closer = 0;
+  int straight = 0;
   double mostCovered = 0.0;
   for (int done = 0; done < trial::stressTicks(); done += kTicksPerCloud)
   {
@@ -119,24 +181,11 @@ TEST(ProxyBall, KeepsItsPromisesOnRandomCloudsUnderRandomHands)
       hand.step(asked);
       again.step(asked);
       hip = norm(asked) < 1.0 ? asked : hip;
-      ASSERT_TRUE(trial::isFinite(ball));
-      ASSERT_TRUE(trial::isSame(ball, again.ball())) << "the same hand, the same ball";
-      ASSERT_GT(ball.radius(), 0.0);
-      if (ball.isThere())
-      {
-        ASSERT_EQ(ball.isFree(), ball.center() == asked);
-      }
-      if (!before.isFree() && !ball.isFree())
-      {
-        ++contacts;
-        ASSERT_LE(ball.radius(), before.radius() * 1.3 * (1 + 1e-12)); // where it is far too small
-        ASSERT_GE(ball.radius(), before.radius() / 1.02 * (1 - 1e-12));
-      }
-      const Real gap = tick % 64 == 0
-        ? trial::leastDistance(hand.scene(), ball.center())
-        : trial::leastDistanceWithin(hand.scene(), ball.center(), ball.radius());
-      const double covered = double(1.0L - gap / ball.radius());
+      contacts += !before.isFree() && !ball.isFree();
       const double most = mostAway(before, ball, norm(asked - last), asked, bound);
+      expectOrderly(hand, again, before, asked);
+      ASSERT_FALSE(::testing::Test::HasFatalFailure());
+      const double covered = coveredBy(hand, tick % 64 == 0);
       if (isCrowded(hand.scene(), before, ball, norm(asked - last)))
       {
         ++crowded;
@@ -147,13 +196,28 @@ TEST(ProxyBall, KeepsItsPromisesOnRandomCloudsUnderRandomHands)
       }
       ASSERT_LE(covered, 1e-8);
       ASSERT_LE(norm(ball.center() - asked), most + 1e-9 * ball.radius());
+      if (hasOnlySlid(before, ball, norm(asked - last)))
+      {
+        ++closer;
+        ASSERT_LE(norm(ball.center() - asked), norm(before.center() - asked) + 1e-9 * ball.radius());
+      }
+      if (before.isFree() && before.isThere() && !ball.hasSlid() && ball.radius() == before.radius())
+      {
+        ++straight;
+        ASSERT_LE(double(deepestOnWay(hand.scene(), before.center(), ball.center(), ball.radius())), 1e-8);
+      }
     }
   }
+  const double ticks = trial::stressTicks();
   trial::recorded("coveredWhereCrowdedOverRadius", mostCovered);
-  trial::recorded("crowdedShare", double(crowded) / trial::stressTicks());
-  EXPECT_GT(contacts, trial::stressTicks() / 20) << "the hand meets something";
-  EXPECT_LT(crowded, trial::stressTicks() / 2);
+  EXPECT_GT(contacts, ticks / 20) << "the hand meets something";
+  EXPECT_GT(trial::recorded("onlySlidShare", closer / ticks), 0.05);
+  EXPECT_GT(trial::recorded("straightShare", straight / ticks), 0.05);
+  EXPECT_LT(trial::recorded("crowdedShare", crowded / ticks), 0.1);
 }
+
+/// A million ticks in shards that run side by side.
+INSTANTIATE_TEST_SUITE_P(Seeds, ProxyBallPromises, ::testing::Range(21, 31));
 
 TEST(ProxyBall, LooksAtABoundedNumberOfPointsInATick)
 {
