@@ -230,15 +230,19 @@ Status HapticScene::Cloud::index(const HapticSceneInput& input, std::vector<Cell
   const Vec3 above = input.corner ? bounds.minimum - *input.corner : Vec3{ -1.0, -1.0, -1.0 };
   aligned = above.x >= 0.0 && above.y >= 0.0 && above.z >= 0.0;
   const Vec3* const corner = aligned ? &*input.corner : nullptr;
+  // A scene of a part has the cells of the whole, lest those of neighbouring places differ.
+  const double given = input.local                ? input.cellSize
+    : input.region && input.region->globalScene() ? input.region->cellSize()
+                                                  : 0.0;
   Status status = Status::InvalidParameter;
-  if (!input.region || (aligned && !input.region->globalScene()))
-  {
-    status = buildPyramid(std::move(cells), input.cellSize, norm(bounds.extent()), corner, pyramid);
-  }
-  else if (aligned)
+  if (given > 0.0 && (aligned || input.local))
   {
     std::vector<std::uint32_t> source;
-    status = pyramid.build(std::move(cells), input.region->cellSize(), source, corner);
+    status = pyramid.build(std::move(cells), given, source, corner);
+  }
+  else if (!input.region || (aligned && !input.region->globalScene()))
+  {
+    status = buildPyramid(std::move(cells), input.cellSize, norm(bounds.extent()), corner, pyramid);
   }
   if (status == Status::Ok)
   {

@@ -35,7 +35,7 @@ struct HapticSceneInput
   /// the density of the points unless usePointCounts is off. Neither: 2.8 local spacings everywhere.
   std::optional<LocalBandwidthSettings> bandwidth;
   /// Edge of the finest index cell: the voxel size; 0: from the points' spacing. Raised to 0.8 typical
-  /// spacings where the points are sparser: finer cells would be empty.
+  /// spacings where the points are sparser: finer cells would be empty; not that of a local scene.
   double cellSize = 0.0;
   /// A place no point is below on any axis, such as the lattice's corner: index cells are counted from there,
   /// and not from the points' own corner. Without effect where a point is below it.

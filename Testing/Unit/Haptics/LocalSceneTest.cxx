@@ -331,4 +331,24 @@ TEST(LocalSceneFollower, MakesAnotherOneOnlyWhereTheLastOneEnds)
   EXPECT_EQ(follower.numberOfScenes(), 3);
 }
 
+TEST(LocalScene, HasTheCellsOfTheLatticeWherePointsAreSparser)
+{
+  // A dense strip among points so far apart that cells of their own would be coarser.
+  constexpr double kStrip = 0.0005;
+  Random random(7);
+  std::vector<Vec3> points;
+  for (int i = 0; i < 16000; ++i)
+  {
+    const double half = i < 2400 ? kStrip : 0.5 * kSide;
+    Vec3 p = random.inBox({ -half, -0.5 * kSide, 0.0 }, { half, 0.5 * kSide, 0.0 });
+    p.z = height(p.x, p.y);
+    points.push_back(p);
+  }
+  Cloud cloud(points);
+  const Scene scene = cloud.builder.build(handAt({ 0.0, 0.0005, 0.0 }), cloud.whole);
+  ASSERT_NE(scene, nullptr);
+  const double parts = cloud.whole->cellSize() / scene->cellSize();
+  EXPECT_NEAR(parts, std::round(parts), 1e-9);
+}
+
 } // namespace
