@@ -133,15 +133,17 @@ Status LocalSceneBuilder::setCloud(const PointView& points, const Executor& exec
   return status;
 }
 
-/// Edge of the cells near @p place (lattice frame of @p global), metres of that frame; 0: the global ones
-/// will do.
-double LocalSceneBuilder::cellSize(const Vec3& place, const HapticScene& global) const noexcept
+/// Edge of the cells in a scene about @p hand (workspace), metres of the lattice frame of @p global; 0: the
+/// global ones will do.
+double LocalSceneBuilder::cellSize(const Bounds& hand, const HapticScene& global) const noexcept
 {
   const CellPyramid& pyramid = global.pyramid();
   const double coarse = global.cellSize();
+  const Vec3 place = global.toLattice(hand.center());
+  const double reach = (kReach + 0.5 * norm(hand.extent())) / global.latticeScale();
   const LocalScale scale = global.fitScale(place);
   double distance = 0.0;
-  const std::int64_t nearest = pyramid.nearest(0, place, 2.0 * kReach / global.latticeScale(), distance);
+  const std::int64_t nearest = pyramid.nearest(0, place, 2.0 * reach, distance);
   if (nearest < 0)
   {
     return 0.0;
@@ -151,7 +153,7 @@ double LocalSceneBuilder::cellSize(const Vec3& place, const HapticScene& global)
   pyramid.visitBall(
     0, seed, scale.countRadius, [&](std::uint32_t, const Cell& cell, double) { points += cell.count; });
   const double spacing = scale.countRadius * std::sqrt(kPi / std::max(1.0, points));
-  if (!hasFineShape(global, seed, kReach / global.latticeScale()))
+  if (!hasFineShape(global, seed, reach))
   {
     return 0.0;
   }
@@ -164,7 +166,7 @@ double LocalSceneBuilder::cellSize(const Vec3& place, const HapticScene& global)
 
 bool LocalSceneBuilder::isUseful(const Bounds& hand, const HapticScene& global) const noexcept
 {
-  return !hand.empty() && isFinite(hand.extent()) && cellSize(global.toLattice(hand.center()), global) > 0.0;
+  return !hand.empty() && isFinite(hand.extent()) && cellSize(hand, global) > 0.0;
 }
 
 /// The lattice that all scenes with cells of @p cell beside @p global are cut from, metres of the workspace.
@@ -210,7 +212,7 @@ std::shared_ptr<const HapticScene> LocalSceneBuilder::build(
   {
     return nullptr;
   }
-  const double cell = global->latticeScale() * cellSize(global->toLattice(hand.center()), *global);
+  const double cell = global->latticeScale() * cellSize(hand, *global);
   if (!(cell > 0.0))
   {
     return nullptr;
@@ -255,16 +257,31 @@ std::shared_ptr<const HapticScene> LocalSceneBuilder::build(
   return HapticScene::create(std::move(input), status, executor);
 }
 
-bool LocalSceneFollower::update(const Bounds& hand, const Executor& executor)
+/// @p hand, and where it will be in so many seconds.
+Bounds LocalSceneFollower::withAhead(const Bounds& hand, double seconds) const
 {
-  const auto inside = [&hand](const Bounds& box)
-  { return contains(box, hand.minimum) && contains(box, hand.maximum); };
+  const double way = seconds * norm(velocity_);
+  const double part = way > kMostAhead ? kMostAhead / way : 1.0;
+  Bounds box = hand;
+  box.include(hand.center() + (part * seconds) * velocity_);
+  return box;
+}
+
+bool LocalSceneFollower::update(const Bounds& hand, double seconds, const Executor& executor)
+{
+  const bool moves = seconds > 0.0 && !hand.empty() && !lastHand_.empty();
+  velocity_ = moves ? (hand.center() - lastHand_.center()) / seconds : Vec3();
+  lastHand_ = hand;
+  const Bounds soon = moves ? withAhead(hand, kDueAhead) : hand;
+  const auto inside = [&soon](const Bounds& box)
+  { return contains(box, soon.minimum) && contains(box, soon.maximum); };
   if ((local_ && inside(grown(local_->covered(), -LocalSceneBuilder::kNearEnd))) || inside(failed_))
   {
     return false;
   }
   failed_ = Bounds();
-  std::shared_ptr<const HapticScene> next = builder_.build(hand, global_, executor);
+  std::shared_ptr<const HapticScene> next =
+    builder_.build(moves ? withAhead(hand, kCoveredAhead) : hand, global_, executor);
   const bool changes = next || local_;
   if (next)
   {
@@ -273,7 +290,7 @@ bool LocalSceneFollower::update(const Bounds& hand, const Executor& executor)
   }
   else
   {
-    failed_ = grown(hand, LocalSceneBuilder::kNearEnd);
+    failed_ = grown(soon, LocalSceneBuilder::kNearEnd);
   }
   last_ = std::move(local_);
   local_ = std::move(next);
@@ -285,7 +302,7 @@ const HapticScene* LocalSceneFollower::at(const Vec3& hip, const Vec3& touched, 
   Bounds hand;
   hand.include(hip);
   hand.include(touched);
-  update(hand, executor);
+  update(hand, 0.0, executor);
   return scene().get();
 }
 

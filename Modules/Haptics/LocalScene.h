@@ -47,7 +47,7 @@ public:
 
 private:
   Lattice latticeOf(const HapticScene& global, double cell) const;
-  double cellSize(const Vec3& place, const HapticScene& global) const noexcept;
+  double cellSize(const Bounds& hand, const HapticScene& global) const noexcept;
   std::shared_ptr<const SceneOrigin> originOf(const Bounds& hand, const HapticScene& global) const;
 
   std::shared_ptr<const PointIndex> index_;
@@ -68,10 +68,18 @@ public:
   {
   }
 
+  /// A scene is made so long before the hand would be near the end of what is covered, as it moves now,
+  /// seconds: by then it must be there. It covers where the hand would be after the other.
+  static constexpr double kDueAhead = 0.02;
+  static constexpr double kCoveredAhead = 0.04;
+  /// Longest way ahead, metres.
+  static constexpr double kMostAhead = 8.0e-3;
+
   /// Makes another scene if one is due. @param hand the HIP and what it touches, workspace frame; the scene
-  /// of the whole cloud must be there too. @return true: scene() is another one. Costs a comparison or two
-  /// while the hand stays within what the scene covers.
-  bool update(const Bounds& hand, const Executor& executor = {});
+  /// of the whole cloud must be there too. @param seconds since the last call, of a hand that moves on while
+  /// a scene is made; 0: it waits. @return true: scene() is another one. Costs a comparison or two while the
+  /// hand stays within what the scene covers.
+  bool update(const Bounds& hand, double seconds = 0.0, const Executor& executor = {});
   /// What is to be felt: a local scene, or that of the whole cloud.
   const std::shared_ptr<const HapticScene>& scene() const { return local_ ? local_ : global_; }
   const std::shared_ptr<const HapticScene>& global() const { return global_; }
@@ -86,11 +94,15 @@ public:
   double finestCell() const { return finestCell_; }
 
 private:
+  Bounds withAhead(const Bounds& hand, double seconds) const;
+
   LocalSceneBuilder& builder_;
   std::shared_ptr<const HapticScene> global_;
   std::shared_ptr<const HapticScene> local_;
   std::shared_ptr<const HapticScene> last_; ///< The proxy may still be in it.
   Bounds failed_;                           ///< There was no local scene here.
+  Bounds lastHand_;
+  Vec3 velocity_; ///< Of the hand, metres a second.
   std::int64_t numberOfScenes_ = 0;
   double finestCell_ = global_ ? global_->latticeScale() * global_->cellSize() : 0.0;
 };

@@ -200,8 +200,11 @@ std::shared_ptr<const HapticScene> LocalSceneProvider::refine(
   const SceneRequest& request, const std::shared_ptr<const HapticScene>& global)
 {
   const Bounds hand = request.hand ? request.hand() : Bounds();
+  const auto now = std::chrono::steady_clock::now();
+  const std::chrono::duration<double> seconds = now - std::exchange(lastLook_, now);
   const bool mayServe = isIndexed() || (global && finer_.isUseful(hand, *global));
-  if (hand.empty() || !mayServe || !this->follow(request, global) || !follower_->update(hand, smp_))
+  if (hand.empty() || !mayServe || !this->follow(request, global) ||
+    !follower_->update(hand, seconds.count(), smp_))
   {
     return nullptr;
   }

@@ -12,6 +12,7 @@
 
 #include "vtkSmartPointer.h"
 
+#include <chrono>
 #include <memory>
 #include <optional>
 
@@ -66,6 +67,7 @@ private:
   std::shared_ptr<const PointIndex> index_; ///< Null: not made yet.
   LocalSceneBuilder finer_;
   std::optional<LocalSceneFollower> follower_; ///< Of the global scene that was refined last.
+  std::chrono::steady_clock::time_point lastLook_;
   VoxelResampler engine_;
   VoxelRequest voxels_;
 };

@@ -40,15 +40,21 @@ public:
 private:
   void run(ServoLoop& loop, LocalSceneFollower& follower)
   {
+    double lastLook = 0.0;
     while (!ending_)
     {
       const ServoSample latest = loop.latest();
       Bounds hand;
       hand.include(latest.state.hip);
       hand.include(latest.state.proxy);
-      if (latest.tick > 0 && follower.update(hand, SmpExecutor()))
+      if (latest.tick > 0)
       {
-        loop.publishScene(follower.scene());
+        const double seconds = latest.timeSeconds - lastLook;
+        lastLook = latest.timeSeconds;
+        if (follower.update(hand, seconds, SmpExecutor()))
+        {
+          loop.publishScene(follower.scene());
+        }
       }
       std::this_thread::sleep_for(kLook);
     }

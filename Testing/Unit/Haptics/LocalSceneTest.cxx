@@ -331,6 +331,28 @@ TEST(LocalSceneFollower, MakesAnotherOneOnlyWhereTheLastOneEnds)
   EXPECT_EQ(follower.numberOfScenes(), 3);
 }
 
+TEST(LocalSceneFollower, CoversWhereAHandThatMovesWillBe)
+{
+  Cloud cloud(waves(kDense));
+  const double reach = LocalSceneBuilder::kReach;
+  const double most = LocalSceneFollower::kMostAhead;
+  for (const bool moves : { false, true })
+  {
+    LocalSceneFollower follower(cloud.builder, cloud.whole);
+    EXPECT_TRUE(follower.update(handAt({})));
+    const Bounds hand = handAt({ 0.001, 0.0, 0.0 });
+    // At 0.2 m/s it is beyond the end by the time a scene is made.
+    EXPECT_EQ(follower.update(hand, moves ? 0.005 : 0.0), moves);
+    EXPECT_EQ(follower.scene()->covers({ 0.001 + 0.2 * LocalSceneFollower::kCoveredAhead, 0.0, 0.0 }), moves);
+    EXPECT_EQ(follower.scene()->covers({ 0.001 + 0.999 * (most + reach), 0.0, 0.0 }), moves);
+    EXPECT_TRUE(follower.scene()->covers({ -0.99 * (reach - 0.001), 0.0, 0.0 })) << "and where it is";
+  }
+  LocalSceneFollower fast(cloud.builder, cloud.whole);
+  fast.update(handAt({}));
+  EXPECT_TRUE(fast.update(handAt({ 0.001, 0.0, 0.0 }), 0.001));
+  EXPECT_FALSE(fast.scene()->covers({ 0.001 + 1.001 * (most + reach), 0.0, 0.0 })) << "no further than that";
+}
+
 TEST(LocalScene, HasTheCellsOfTheLatticeWherePointsAreSparser)
 {
   // A dense strip among points so far apart that cells of their own would be coarser.
