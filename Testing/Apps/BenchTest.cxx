@@ -289,6 +289,14 @@ TEST_F(Bench, TouchIsJudgedAtEdgesOnScansAndOnThinParts)
   EXPECT_EQ(held["scans"]["rows"][0]["instructions"], "baseline");
   EXPECT_EQ(held["scans"]["rows"][0]["rms_percent"], other["scans"]["rows"][0]["rms_percent"]);
   EXPECT_EQ(held["scans"]["rows"][1]["energy_joule"], other["scans"]["rows"][1]["energy_joule"]);
+  const json late = json::parse(this->succeed({ "bench", "touch", "--quick", "--json", "--studies", "edges",
+    "--methods", "surface-fit", "--points", "200000", "--meshes", "slot", "--late", "100" }));
+  for (const json& row : late["edges"]["rows"])
+  {
+    EXPECT_LE(row["strokes_late"], row["strokes"]) << row;
+    EXPECT_GE(row["to_100_um_newton"], 0.0) << row;
+  }
+  this->refuse(2, { "bench", "touch", "--late", "-1" }, { "bench touch", "--late" });
   this->refuse(2, { "bench", "touch", "--instructions", "mmx" }, { "bench touch", "--instructions", "avx2" });
   this->refuse(1, { "bench", "touch", "--quick", "--scans", "none.ply" }, { "none.ply" });
   this->refuse(2, { "bench", "touch", "--methods", "ball" }, { "bench touch", "--methods", "surface-fit" });

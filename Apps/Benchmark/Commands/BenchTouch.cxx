@@ -8,6 +8,7 @@
 #include "Benchmark/Touch/TouchBenchmark.h"
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include <memory>
 
@@ -20,6 +21,7 @@ namespace
 
 constexpr std::int64_t kMostTouchPoints = 100000000;
 constexpr std::int64_t kMostTouchStrokes = 100000;
+constexpr std::int64_t kMostLate = 10000;
 
 struct TouchOptions
 {
@@ -33,6 +35,7 @@ struct TouchOptions
   int instructions = int(InstructionSet::Automatic);
   bool raw = false;
   bool whole = false;
+  std::int64_t late = bench::touch::TouchBenchmarkOptions().lateTicks;
   CLI::Option* meshesOption = nullptr;
 };
 
@@ -81,6 +84,7 @@ BenchOutcome runTouch(
   settings.strokeSet = bench::touch::StrokeSet(options.strokeSet);
   settings.raw = options.raw;
   settings.local = !options.whole;
+  settings.lateTicks = int(options.late);
   settings.repetitions = shared.repetitions > 0 ? shared.repetitions : settings.repetitions;
   outcome.report = bench::touch::benchmarkTouch(settings, progress, outcome.wrong);
   return outcome;
@@ -105,6 +109,10 @@ BenchRun addTouchOptions(CLI::App& command)
     "Which strokes: two sets that share no place; default a");
   command.add_flag("--raw", options->raw, "Touch the points themselves, no voxels");
   command.add_flag("--whole", options->whole, "One scene of the whole cloud, no finer ones near the hand");
+  addInteger(command, "--late", options->late, 0, kMostLate,
+    fmt::format(
+      "Milliseconds from the look at where the hand is until the finer scene there is felt; default {}",
+      options->late));
   std::vector<std::pair<std::string, int>> sets;
   for (const bench::NamedInstructionSet& one : bench::kInstructionSets)
   {

@@ -27,6 +27,7 @@ constexpr double kBeyond = 0.015;
 constexpr int kTicksAtRest = 100;
 constexpr double kLeastOutside = 5e-4;
 constexpr double kForce = 0.05;
+constexpr double kJustOutside = 1e-9;
 constexpr std::uint64_t kSeed = 540;
 
 struct EdgeCloud
@@ -35,10 +36,16 @@ struct EdgeCloud
   double noise;
 };
 
+/// Metres outside up to which the largest forces are told apart; further than the last none may be.
+constexpr double kBands[] = { 1e-4, 2.5e-4, kLeastOutside };
+
 struct EdgeFigures
 {
+  double bandNewton[std::size(kBands)] = {};
   double outsideNewton = 0.0;
-  int above = 0; ///< Strokes.
+  int late = 0;      ///< Strokes that are let go outside.
+  int mostTicks = 0; ///< After which the last of them is.
+  int above = 0;     ///< Strokes.
   int held = 0;
 };
 
@@ -80,14 +87,27 @@ std::vector<TouchStroke> strokesOver(bool corner, int starts)
 void add(const TouchStroke& stroke, const TouchTrace& trace, double limit, EdgeFigures& figures)
 {
   double most = 0.0;
+  int ticks = 0;
   for (std::size_t i = 0; i < trace.states.size(); ++i)
   {
-    if (distanceOutside(stroke.hip[i]) > limit)
+    const double outside = distanceOutside(stroke.hip[i]);
+    const double force = norm(trace.states[i].force);
+    if (!(outside > kJustOutside))
     {
-      most = std::max(most, norm(trace.states[i].force));
+      continue;
     }
+    const double* const band = std::lower_bound(std::begin(kBands), std::end(kBands), outside);
+    if (band != std::end(kBands))
+    {
+      double& newton = figures.bandNewton[band - std::begin(kBands)];
+      newton = std::max(newton, force);
+    }
+    most = outside > limit ? std::max(most, force) : most;
+    ticks += force > kForce;
   }
   figures.outsideNewton = std::max(figures.outsideNewton, most);
+  figures.late += ticks > 0;
+  figures.mostTicks = std::max(figures.mostTicks, ticks);
   figures.above += most > kForce;
   figures.held += norm(trace.states.back().force) > kForce;
 }
@@ -216,15 +236,21 @@ ReportPart studyEdges(StudyContext& context)
   ReportPart part;
   part.page = Page::Accuracy;
   part.title = "Over the edge and the corner of a box";
-  part.text = fmt::format(
-    "A cube of 50 mm, pressed 1, 2 and 3 mm deep, slid over an edge or a corner at 50, 200 and 500 mm/s "
-    "until "
-    "the hand is 15 mm outside, {} starts each; {}. Outside: the largest force more than 0.5 mm outside (one "
-    "spacing where the cloud is sparser). Above: strokes with more than {} N there. Stuck: strokes with more "
-    "than that at their end. Turned: no face is parallel to the lattice.",
-    starts, options.raw ? "the points themselves" : "voxels of 1/3 mm", kForce);
+  part.text = fmt::format("A cube of 50 mm, pressed 1, 2 and 3 mm deep, slid over an edge or a corner at 50, "
+                          "200 and 500 mm/s until the "
+                          "hand is 15 mm outside, {} starts each; {}. The largest force where the god object "
+                          "is free, by how far the hand "
+                          "is outside: to 0.1, 0.25 and 0.5 mm, and more than that (one spacing where the "
+                          "cloud is sparser). Late: strokes "
+                          "with more than {} N anywhere outside, and in how many ticks at most. Above: "
+                          "strokes with more than that further "
+                          "outside than 0.5 mm. Stuck: strokes with more than that at their end. Turned: no "
+                          "face is parallel to the "
+                          "lattice.",
+    starts, sceneText(options), kForce);
   part.charts.push_back(drawEdge());
-  setFigureHeader(part, { "points", "noise", "box", "over", "method" }, { "outside N", "above", "stuck" });
+  setFigureHeader(part, { "points", "noise", "box", "over", "method" },
+    { "to 0.1 mm N", "to 0.25 mm", "to 0.5 mm", "outside N", "late", "ticks", "above", "stuck" });
   for (const bool turned : { false, true })
   {
     for (const bool corner : { false, true })
@@ -238,9 +264,7 @@ ReportPart studyEdges(StudyContext& context)
         {
           std::transform(points.begin(), points.end(), points.begin(), turnedAway);
         }
-        TouchSceneSettings settings;
-        settings.raw = options.raw;
-        const TouchScene scene = makeTouchScene(std::move(points), settings);
+        const TouchScene scene = makeTouchScene(std::move(points), sceneSettings(options));
         if (!scene.scene)
         {
           continue;
@@ -258,11 +282,16 @@ ReportPart studyEdges(StudyContext& context)
           const std::string over = corner ? "corner" : "edge";
           addFigures(context, part,
             { grouped(cloud.points), proxy::noiseName(cloud.noise), box, over, contestant.name,
-              brief(figures.outsideNewton), fmt::format("{}", figures.above),
+              brief(figures.bandNewton[0]), brief(figures.bandNewton[1]), brief(figures.bandNewton[2]),
+              brief(figures.outsideNewton), fmt::format("{}", figures.late),
+              fmt::format("{}", figures.mostTicks), fmt::format("{}", figures.above),
               fmt::format("{}", figures.held) },
             { { "points", cloud.points }, { "noise_metres", cloud.noise }, { "box", box }, { "over", over },
-              { "method", contestant.name }, { "outside_newton", figures.outsideNewton },
-              { "strokes_above", figures.above }, { "stuck", figures.held } },
+              { "method", contestant.name }, { "to_100_um_newton", figures.bandNewton[0] },
+              { "to_250_um_newton", figures.bandNewton[1] }, { "to_500_um_newton", figures.bandNewton[2] },
+              { "outside_newton", figures.outsideNewton }, { "strokes_late", figures.late },
+              { "most_ticks_late", figures.mostTicks }, { "strokes_above", figures.above },
+              { "stuck", figures.held } },
             all);
         }
       }

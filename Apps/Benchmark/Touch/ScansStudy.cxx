@@ -62,7 +62,7 @@ ReportPart studyScans(StudyContext& context)
                 "Scans are fitted "
                 "into 95 mm. Clouds: {} samples uniform over the area, and of scans the bare vertices; {}.",
       options.strokes, options.strokeSet == StrokeSet::A ? "A" : "B", grouped(options.points),
-      options.raw ? "the points themselves" : "voxels of 1/3 mm");
+      sceneText(options));
   setFigureHeader(part, { "mesh", "cloud", "points", "method" });
   Chart chart;
   chart.fileName = "touch-time-error";
@@ -82,10 +82,7 @@ ReportPart studyScans(StudyContext& context)
     for (Cloud& cloud : cloudsOf(mesh, options))
     {
       const std::size_t count = cloud.points.size();
-      TouchSceneSettings settings;
-      settings.raw = options.raw;
-      settings.local = options.local;
-      const TouchScene scene = makeTouchScene(std::move(cloud.points), settings);
+      const TouchScene scene = makeTouchScene(std::move(cloud.points), sceneSettings(options));
       if (!scene.scene)
       {
         part.remarks.push_back("Left out: " + cloud.name + " of " + mesh.name + " have no finite points");

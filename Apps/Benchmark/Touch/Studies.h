@@ -27,6 +27,10 @@ void setFigureHeader(
 void addFigures(StudyContext& context, ReportPart& part, std::vector<std::string> leadingCells,
   const nlohmann::ordered_json& leadingNumbers, const TouchFigures& figures);
 
+/// How the clouds of all studies are resampled, and what a report says about that.
+TouchSceneSettings sceneSettings(const TouchBenchmarkOptions& options);
+std::string sceneText(const TouchBenchmarkOptions& options);
+
 /// A stroke and its truth.
 struct TouchTask
 {

@@ -227,7 +227,7 @@ ReportPart studyThin(StudyContext& context)
     "the opening or beyond it. Ridges (12 mm high, on a base): pressed from both sides to 0.6 of their "
     "thickness, "
     "slid up over the rim. Wedges: 1 mm deep over the apex. Density: 1 mm deep, across a jump of 16:1.",
-    options.strokes, grouped(options.points), options.raw ? "the points themselves" : "voxels of 1/3 mm");
+    options.strokes, grouped(options.points), sceneText(options));
   setFigureHeader(part, { "part", "method" });
   detail::PortableRandom random(kStrokeSeed + std::uint64_t(options.strokeSet));
   for (const auto& make : itemsOf(options, random))
@@ -235,9 +235,7 @@ ReportPart studyThin(StudyContext& context)
     Item item = make();
     context.progress("god objects on " + item.name);
     const std::vector<TouchTask> tasks = tasksOn(TriangleTree(item.mesh), std::move(item.strokes));
-    TouchSceneSettings settings;
-    settings.raw = options.raw;
-    const TouchScene scene = makeTouchScene(std::move(item.points), settings);
+    const TouchScene scene = makeTouchScene(std::move(item.points), sceneSettings(options));
     if (!scene.scene)
     {
       continue;

@@ -146,6 +146,28 @@ void addFigures(StudyContext& context, ReportPart& part, std::vector<std::string
   }
 }
 
+TouchSceneSettings sceneSettings(const TouchBenchmarkOptions& options)
+{
+  TouchSceneSettings settings;
+  settings.raw = options.raw;
+  settings.local = options.local;
+  settings.lateTicks = options.lateTicks;
+  return settings;
+}
+
+std::string sceneText(const TouchBenchmarkOptions& options)
+{
+  if (options.raw)
+  {
+    return "the points themselves";
+  }
+  const std::string near = !options.local ? "everywhere"
+    : options.lateTicks == 0
+    ? "and finer near the hand in the tick that it comes there"
+    : fmt::format("and finer near the hand {} ms after a look at it", options.lateTicks);
+  return "voxels of 1/3 mm, " + near;
+}
+
 std::vector<TouchTask> tasksOn(const TriangleTree& tree, std::vector<TouchStroke> strokes)
 {
   std::vector<TouchTask> tasks;

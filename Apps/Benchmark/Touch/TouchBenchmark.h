@@ -31,6 +31,9 @@ struct TouchBenchmarkOptions
   StrokeSet strokeSet = StrokeSet::A;
   bool raw = false;  ///< The points themselves, no voxels.
   bool local = true; ///< Finer scenes near the hand, as the program makes them.
+  /// From the look at where the hand is until the finer scene there is felt, milliseconds: a look every 5 or
+  /// 10 ms, and the time of a build.
+  int lateTicks = 20;
   InstructionSet instructions = InstructionSet::Automatic; ///< Of the proxies; the forces are the same.
   int repetitions = 2; ///< Walks over each stroke; the fastest tells the time of a tick.
   bool quick = false;

@@ -108,13 +108,13 @@ void addQuad(TouchMesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c,
 TouchMesh gear()
 {
   constexpr int kTeeth = 12;
-  constexpr double kOuter = 0.030;
-  constexpr double kInner = 0.0245;
+  constexpr double kToothRadius = 0.030;
+  constexpr double kGapRadius = 0.0245;
   std::vector<Vec3> polygon;
   for (int i = 0; i < kTeeth; ++i)
   {
     for (const auto& [part, radius] :
-      { std::pair{ 0.0, kInner }, { 0.5, kInner }, { 0.6, kOuter }, { 0.9, kOuter } })
+      { std::pair{ 0.0, kGapRadius }, { 0.5, kGapRadius }, { 0.6, kToothRadius }, { 0.9, kToothRadius } })
     {
       const double angle = kTwoPi * (i + part) / kTeeth;
       polygon.emplace_back(radius * std::cos(angle), radius * std::sin(angle), 0.0);

@@ -1,5 +1,6 @@
 #include "Benchmark/Touch/Methods/TouchMethod.h"
 
+#include "Benchmark/Touch/Methods/LateScenes.h"
 #include "Benchmark/Touch/Methods/OccupancyProxy.h"
 
 #include <algorithm>
@@ -25,10 +26,10 @@ public:
   void reset(const TouchScene& scene) override
   {
     proxy_.setScene(nullptr);
-    follower_.reset();
+    scenes_.reset();
     if (scene.local)
     {
-      follower_.emplace(*scene.local, scene.scene);
+      scenes_.emplace(*scene.local, scene.scene, scene.lateTicks);
     }
     proxy_.setScene(scene_ = scene.scene.get());
     proxy_.reset();
@@ -36,7 +37,7 @@ public:
   }
   void prepare(const Vec3& hip) override
   {
-    const HapticScene* next = follower_ ? follower_->at(hip, last_.contact ? last_.proxy : hip) : scene_;
+    const HapticScene* next = scenes_ ? scenes_->at(hip, last_.contact ? last_.proxy : hip) : scene_;
     if (next != scene_)
     {
       proxy_.setScene(scene_ = next);
@@ -48,7 +49,7 @@ public:
 
 private:
   Proxy proxy_;
-  std::optional<LocalSceneFollower> follower_;
+  std::optional<LateScenes> scenes_;
   const HapticScene* scene_ = nullptr;
   ProxyState last_;
 };
@@ -74,6 +75,7 @@ TouchScene makeTouchScene(std::vector<Vec3> points, const TouchSceneSettings& se
   how.voxelSize = settings.voxelSize;
   how.raw = settings.raw;
   TouchScene scene;
+  scene.lateTicks = settings.lateTicks;
   scene.scene = proxy::sceneOf(points, how);
   scene.points = std::make_shared<const std::vector<Vec3>>(std::move(points));
   if (settings.local && !settings.raw && scene.scene)

@@ -24,6 +24,7 @@ struct TouchSceneSettings
   double voxelSize = 1e-3 / 3.0; ///< Metres.
   bool raw = false;              ///< The points themselves, no voxels.
   bool local = true;             ///< Scenes as fine as the points near the hand, as the program makes them.
+  int lateTicks = 0;             ///< They come so much later than the hand.
 };
 
 /// What a method touches. Null scene: the cloud has no finite point, or no lattice can be had.
@@ -32,6 +33,7 @@ struct TouchScene
   proxy::Scene scene;
   std::shared_ptr<const std::vector<Vec3>> points; ///< The cloud itself.
   std::shared_ptr<LocalSceneBuilder> local;        ///< Null: the scene of the whole cloud everywhere.
+  int lateTicks = 0;                               ///< Of TouchSceneSettings.
 };
 
 /// The one place where scenes are made: a scene that is refined near the hand is to be had from here.

@@ -1,0 +1,42 @@
+/// @file
+/// The scenes near the hand as a thread beside the servo loop makes them: later than the hand comes.
+#pragma once
+
+#include "Haptics/LocalScene.h"
+
+#include <memory>
+
+namespace pointhaptics
+{
+namespace bench
+{
+namespace touch
+{
+
+/// A thread that looks where the hand is in every tick and makes a scene where one is due, which the hand
+/// feels so many ticks after that look; it does not look again before. The same in each run: time is the
+/// hand's.
+class LateScenes
+{
+public:
+  /// @param builder with the cloud of @p global; outlives this. @param lateTicks 0: each scene serves the
+  /// tick in which it was due.
+  LateScenes(LocalSceneBuilder& builder, std::shared_ptr<const HapticScene> global, int lateTicks);
+
+  /// Of the next tick. @param touched what the hand touched in the last one: the HIP out of contact. @return
+  /// what is to be felt; valid until the next but one call.
+  const HapticScene* at(const Vec3& hip, const Vec3& touched);
+
+private:
+  LocalSceneFollower follower_;
+  int lateTicks_;
+  double secondsSinceLook_ = 0.0;
+  int ticksLeft_ = 0; ///< Until what comes is there.
+  std::shared_ptr<const HapticScene> felt_;
+  std::shared_ptr<const HapticScene> last_; ///< The proxy may still be in it.
+  std::shared_ptr<const HapticScene> coming_;
+};
+
+} // namespace touch
+} // namespace bench
+} // namespace pointhaptics
