@@ -289,13 +289,24 @@ TEST_F(Bench, TouchIsJudgedAtEdgesOnScansAndOnThinParts)
   EXPECT_EQ(held["scans"]["rows"][0]["instructions"], "baseline");
   EXPECT_EQ(held["scans"]["rows"][0]["rms_percent"], other["scans"]["rows"][0]["rms_percent"]);
   EXPECT_EQ(held["scans"]["rows"][1]["energy_joule"], other["scans"]["rows"][1]["energy_joule"]);
-  const json late = json::parse(this->succeed({ "bench", "touch", "--quick", "--json", "--studies", "edges",
-    "--methods", "surface-fit", "--points", "200000", "--meshes", "slot", "--late", "100" }));
+  const json late = json::parse(this->succeed({ "bench", "touch", "--quick", "--json", "--studies",
+    "edges,local", "--methods", "surface-fit", "--points", "200000", "--meshes", "slot", "--late", "100" }));
   for (const json& row : late["edges"]["rows"])
   {
     EXPECT_LE(row["strokes_late"], row["strokes"]) << row;
     EXPECT_GE(row["to_100_um_newton"], 0.0) << row;
   }
+  ASSERT_EQ(late["local"]["rows"].size(), 1u);
+  const json& scenes = late["local"]["rows"][0];
+  EXPECT_EQ(scenes["late_ms"], 100);
+  EXPECT_GT(scenes["scenes"], 0);
+  EXPECT_GT(scenes["p50_ms"], 0.0);
+  EXPECT_LE(scenes["p50_ms"], scenes["p95_ms"]);
+  EXPECT_LE(scenes["p95_ms"], scenes["max_ms"]);
+  EXPECT_GT(scenes["coarse_percent_10_times"], 90.0) << "the hand is gone when the scene comes";
+  const json whole = json::parse(this->succeed({ "bench", "touch", "--quick", "--json", "--studies", "local",
+    "--meshes", "slot", "--points", "200000", "--whole" }));
+  EXPECT_FALSE(whole.contains("local")) << "there are none";
   this->refuse(2, { "bench", "touch", "--late", "-1" }, { "bench touch", "--late" });
   this->refuse(2, { "bench", "touch", "--instructions", "mmx" }, { "bench touch", "--instructions", "avx2" });
   this->refuse(1, { "bench", "touch", "--quick", "--scans", "none.ply" }, { "none.ply" });

@@ -20,6 +20,19 @@ struct Cloud
   std::vector<Vec3> points;
 };
 
+std::vector<Cloud> cloudsOf(const TouchMesh& mesh, const TouchBenchmarkOptions& options)
+{
+  std::vector<Cloud> clouds;
+  clouds.push_back({ "samples", samplesToTouch(mesh, options) });
+  if (mesh.isScan)
+  {
+    clouds.push_back({ "vertices", mesh.points });
+  }
+  return clouds;
+}
+
+} // namespace
+
 std::vector<TouchMesh> meshesOf(const TouchBenchmarkOptions& options)
 {
   std::vector<TouchMesh> meshes;
@@ -38,18 +51,10 @@ std::vector<TouchMesh> meshesOf(const TouchBenchmarkOptions& options)
   return meshes;
 }
 
-std::vector<Cloud> cloudsOf(const TouchMesh& mesh, const TouchBenchmarkOptions& options)
+std::vector<Vec3> samplesToTouch(const TouchMesh& mesh, const TouchBenchmarkOptions& options)
 {
-  std::vector<Cloud> clouds;
-  clouds.push_back({ "samples", samplesOf(mesh, options.points, kScanSampleSeed) });
-  if (mesh.isScan)
-  {
-    clouds.push_back({ "vertices", mesh.points });
-  }
-  return clouds;
+  return samplesOf(mesh, options.points, kScanSampleSeed);
 }
-
-} // namespace
 
 ReportPart studyScans(StudyContext& context)
 {

@@ -27,6 +27,10 @@ void setFigureHeader(
 void addFigures(StudyContext& context, ReportPart& part, std::vector<std::string> leadingCells,
   const nlohmann::ordered_json& leadingNumbers, const TouchFigures& figures);
 
+/// The scans, fitted into the workspace, and the generated meshes; the same samples of each for all studies.
+std::vector<TouchMesh> meshesOf(const TouchBenchmarkOptions& options);
+std::vector<Vec3> samplesToTouch(const TouchMesh& mesh, const TouchBenchmarkOptions& options);
+
 /// How the clouds of all studies are resampled, and what a report says about that.
 TouchSceneSettings sceneSettings(const TouchBenchmarkOptions& options);
 std::string sceneText(const TouchBenchmarkOptions& options);
@@ -51,6 +55,7 @@ TouchFigures judge(StudyContext& context, const Contestant& contestant, const To
 ReportPart studyScans(StudyContext& context);
 ReportPart studyEdges(StudyContext& context);
 ReportPart studyThin(StudyContext& context);
+ReportPart studyLocal(StudyContext& context);
 
 } // namespace touch
 } // namespace bench

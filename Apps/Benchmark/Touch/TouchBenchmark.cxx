@@ -17,7 +17,7 @@ namespace
 
 /// In the order of the report.
 constexpr Study<StudyContext> kStudies[] = { { "scans", studyScans }, { "edges", studyEdges },
-  { "thin", studyThin } };
+  { "thin", studyThin }, { "local", studyLocal } };
 
 constexpr const char* kMethod =
   "Hands press, slide and lift on clouds that were sampled from triangle meshes, K = 800 N/m, one tick a "
