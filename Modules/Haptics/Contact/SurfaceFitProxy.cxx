@@ -26,10 +26,11 @@ constexpr double kDistrust = 1.5;
 /// The ball sinks into the gaps between points: it may be this much above the surface, over its radius, and
 /// how fast contact ends when it is higher.
 constexpr double kReleaseSlope = 1.25;
-/// The HIP comes out through a face that is nearer than this, and as flat as that; over the ball's radius. A
-/// fit that sees two faces of a wedge is further from its points.
+/// The HIP comes out through a face that is nearer than this, and as flat as that, over the ball's radius; or
+/// as flat over the noise of the points. A fit that sees two faces of a wedge is further from its points.
 constexpr double kOutNear = 0.5;
 constexpr double kOutResidual = 0.01;
+constexpr double kOutNoise = 1.5;
 /// Where no face is flat it moves by this many radii before the next is looked at.
 constexpr double kOutAgain = 0.1;
 /// How far a point of the fit is from it, over the ball's radius.
@@ -80,8 +81,8 @@ bool SurfaceFitProxy::comesOut(
   }
   SurfaceSearch search;
   search.begin(nearest);
-  isRough_ =
-    !search.finish(scene, memory.fit, hip, hip) || search.found().residual() >= kOutResidual * ball_.radius();
+  const double flat = std::max(kOutResidual * ball_.radius(), kOutNoise * scene.noise(nearest));
+  isRough_ = !search.finish(scene, memory.fit, hip, hip) || search.found().residual() >= flat;
   roughAt_ = hip;
   const SurfaceTracker& face = search.found();
   const ProxyBall before = ball_;

@@ -126,3 +126,28 @@ TEST(TouchOfParts, LetsGoOfTheWallOfANarrowSlotWhereTheHandIsOverThePlate)
   EXPECT_LE(figures.phantomNewton, 0.05);
   EXPECT_EQ(figures.lostPercent, 0.0);
 }
+
+TEST(TouchOfParts, LetsGoOfANoisyEdgeWithinATick)
+{
+  // 20 um of noise: a face that had to be flat to 0.01 of the ball's radius let go after up to 3 ticks.
+  constexpr double kHalf = 0.025;
+  constexpr double kForce = 0.05;
+  const TouchScene scene = makeTouchScene(bench::proxy::pointsOf(Shape::Box, 543652, 20e-6), {});
+  const std::unique_ptr<TouchMethod> method = contestantsNamed({ "surface-fit" }).front().make();
+  int most = 0;
+  for (int i = 0; i < kStrokes; ++i)
+  {
+    const Vec3 low{ kHalf - 6e-3, 1e-3 * (i - kStrokes / 2) * 0.3, kHalf - 2e-3 };
+    TouchStroke stroke;
+    moveTo(stroke, low + Vec3(0.0, 0.0, 3e-3), low, kPressSpeed);
+    moveTo(stroke, low, low + Vec3(7e-3, 0.0, 0.0), 0.02 + 1e-4 * i);
+    const TouchTrace trace = walk(*method, scene, stroke, stroke.hip.size(), 1);
+    int ticks = 0;
+    for (const ProxyState& state : trace.states)
+    {
+      ticks += state.hip.x > kHalf + 1e-9 && norm(state.force) > kForce;
+    }
+    most = std::max(most, ticks);
+  }
+  EXPECT_LE(most, 1);
+}
