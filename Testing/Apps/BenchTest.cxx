@@ -289,6 +289,13 @@ TEST_F(Bench, TouchIsJudgedAtEdgesOnScansAndOnThinParts)
   EXPECT_EQ(held["scans"]["rows"][0]["instructions"], "baseline");
   EXPECT_EQ(held["scans"]["rows"][0]["rms_percent"], other["scans"]["rows"][0]["rms_percent"]);
   EXPECT_EQ(held["scans"]["rows"][1]["energy_joule"], other["scans"]["rows"][1]["energy_joule"]);
+  this->refuse(2, { "bench", "touch", "--instructions", "mmx" }, { "bench touch", "--instructions", "avx2" });
+  this->refuse(1, { "bench", "touch", "--quick", "--scans", "none.ply" }, { "none.ply" });
+  this->refuse(2, { "bench", "touch", "--methods", "ball" }, { "bench touch", "--methods", "surface-fit" });
+}
+
+TEST_F(Bench, ScenesNearTheHandComeLate)
+{
   const json late = json::parse(this->succeed({ "bench", "touch", "--quick", "--json", "--studies",
     "edges,local", "--methods", "surface-fit", "--points", "200000", "--meshes", "slot", "--late", "100" }));
   for (const json& row : late["edges"]["rows"])
@@ -308,9 +315,6 @@ TEST_F(Bench, TouchIsJudgedAtEdgesOnScansAndOnThinParts)
     "--meshes", "slot", "--points", "200000", "--whole" }));
   EXPECT_FALSE(whole.contains("local")) << "there are none";
   this->refuse(2, { "bench", "touch", "--late", "-1" }, { "bench touch", "--late" });
-  this->refuse(2, { "bench", "touch", "--instructions", "mmx" }, { "bench touch", "--instructions", "avx2" });
-  this->refuse(1, { "bench", "touch", "--quick", "--scans", "none.ply" }, { "none.ply" });
-  this->refuse(2, { "bench", "touch", "--methods", "ball" }, { "bench touch", "--methods", "surface-fit" });
 }
 
 TEST_F(Bench, FrictionIsJudgedAtEverySpeed)

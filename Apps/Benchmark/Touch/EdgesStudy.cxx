@@ -227,6 +227,23 @@ Chart drawEdge()
   return chart;
 }
 
+void addEdgeFigures(StudyContext& context, ReportPart& part, const EdgeCloud& cloud, const std::string& box,
+  const std::string& over, const std::string& method, const EdgeFigures& figures, const TouchFigures& all)
+{
+  addFigures(context, part,
+    { grouped(cloud.points), proxy::noiseName(cloud.noise), box, over, method, brief(figures.bandNewton[0]),
+      brief(figures.bandNewton[1]), brief(figures.bandNewton[2]), brief(figures.outsideNewton),
+      fmt::format("{}", figures.late), fmt::format("{}", figures.mostTicks), fmt::format("{}", figures.above),
+      fmt::format("{}", figures.held) },
+    { { "points", cloud.points }, { "noise_metres", cloud.noise }, { "box", box }, { "over", over },
+      { "method", method }, { "to_100_um_newton", figures.bandNewton[0] },
+      { "to_250_um_newton", figures.bandNewton[1] }, { "to_500_um_newton", figures.bandNewton[2] },
+      { "outside_newton", figures.outsideNewton }, { "strokes_late", figures.late },
+      { "most_ticks_late", figures.mostTicks }, { "strokes_above", figures.above },
+      { "stuck", figures.held } },
+    all);
+}
+
 } // namespace
 
 ReportPart studyEdges(StudyContext& context)
@@ -278,21 +295,8 @@ ReportPart studyEdges(StudyContext& context)
           const TouchFigures all = judge(context, contestant, scene, tasks,
             [&](std::size_t i, const TouchTrace& trace)
             { add(strokes[i], trace, std::max(kLeastOutside, spacing), figures); });
-          const std::string box = turned ? "turned" : "straight";
-          const std::string over = corner ? "corner" : "edge";
-          addFigures(context, part,
-            { grouped(cloud.points), proxy::noiseName(cloud.noise), box, over, contestant.name,
-              brief(figures.bandNewton[0]), brief(figures.bandNewton[1]), brief(figures.bandNewton[2]),
-              brief(figures.outsideNewton), fmt::format("{}", figures.late),
-              fmt::format("{}", figures.mostTicks), fmt::format("{}", figures.above),
-              fmt::format("{}", figures.held) },
-            { { "points", cloud.points }, { "noise_metres", cloud.noise }, { "box", box }, { "over", over },
-              { "method", contestant.name }, { "to_100_um_newton", figures.bandNewton[0] },
-              { "to_250_um_newton", figures.bandNewton[1] }, { "to_500_um_newton", figures.bandNewton[2] },
-              { "outside_newton", figures.outsideNewton }, { "strokes_late", figures.late },
-              { "most_ticks_late", figures.mostTicks }, { "strokes_above", figures.above },
-              { "stuck", figures.held } },
-            all);
+          addEdgeFigures(context, part, cloud, turned ? "turned" : "straight", corner ? "corner" : "edge",
+            contestant.name, figures, all);
         }
       }
     }
