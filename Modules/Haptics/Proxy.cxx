@@ -143,6 +143,7 @@ struct Proxy::Implementation
     }
     hasChanged = false;
     touched = state.contact;
+    carried = withoutReversal(last.force, state.force + carried, state.force) - state.force;
     const double length = norm(carried);
     carried = length > shrink ? (1.0 - shrink / length) * carried : Vec3();
     state.force += carried;
@@ -161,6 +162,7 @@ struct Proxy::Implementation
     last.hip = hip;
     last.contact = last.contact && left > 0.0;
     last.proxy = last.contact ? hip + offset : hip;
+    last.radius = status & kProxyNoScene ? 0.0 : last.radius;
     last.sphereCenter = last.contact ? last.proxy + last.radius * last.normal : hip;
     last.force = last.contact ? part * last.force : Vec3();
     last.status = status;

@@ -44,7 +44,7 @@ case "$1" in
     expect_end 1 "another name" "$MPIRUN" -n 2 "$MPI_PROGRAM" resample idol.ply -o i.csv --voxel-index i.csv
     expect_end 1 "no/folder" "$MPIRUN" -n 2 "$MPI_PROGRAM" resample idol.ply -o no/folder/out.pvtp
     awk 'BEGIN { print "x,y,z"; for (i = 0; i < 200; ++i) print "1,2,3"; print "4,5,x" }' >letters.csv
-    expect_end 1 "rank 1 of 2: letters.csv: text (comma separated): line 202, column 3: 'x'" \
+    expect_end 1 "letters.csv: text (comma separated): line 202, column 3: 'x'" \
       "$MPIRUN" -n 2 "$MPI_PROGRAM" resample letters.csv -o out.ply
     expect_end 1 "standard input" "$MPIRUN" -n 2 "$MPI_PROGRAM" resample - -o out.ply
     expect_end 2 "pointhaptics-mpi resample: " "$MPIRUN" -n 2 "$MPI_PROGRAM" resample idol.ply -o out.ply --dims 0

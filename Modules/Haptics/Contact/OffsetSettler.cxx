@@ -52,7 +52,8 @@ Vec3 OffsetSettler::settle(const Vec3& offset, double moved, double shrink) noex
     felt_ = offset;
     return offset;
   }
-  felt_ = follows ? towards(felt_ + change, offset, shrink) : towards(felt_, offset, allowed + shrink);
+  felt_ = follows ? towards(withoutReversal(felt_, felt_ + change, offset), offset, shrink)
+                  : towards(felt_, offset, allowed + shrink);
   isSettling_ = felt_ != offset;
   return felt_;
 }

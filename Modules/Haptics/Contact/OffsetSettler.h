@@ -8,6 +8,14 @@
 namespace pointhaptics
 {
 
+/// What was felt as @p before and would be @p after when it ought to be @p wanted, without pulling the other
+/// way: where a hand comes out faster than what settles under it grows, nothing is felt along @p wanted.
+inline Vec3 withoutReversal(const Vec3& before, const Vec3& after, const Vec3& wanted) noexcept
+{
+  const double along = dot(after, wanted);
+  return along < 0.0 && dot(before, wanted) >= 0.0 ? after - (along / norm2(wanted)) * wanted : after;
+}
+
 /// The offset of the contact point from the HIP follows the hand: a tick in which the HIP moves by d may
 /// change it by kFreeSteps d, and such changes pass untouched, bit for bit. Where the offset changes by more
 /// (the surface was zoomed or swapped, or the nearest point jumped at a ridge) the felt one lags, and comes

@@ -73,6 +73,19 @@ TEST(OffsetSettler, NeverStepsFurtherThanTheHandAndTheLimitAllow)
   EXPECT_TRUE(settled) << "jumps end between two others";
 }
 
+TEST(OffsetSettler, NeverPullsAHandInThatComesOut)
+{
+  OffsetSettler settler;
+  Vec3 felt = settler.settle({ 0.0, 0.0, 1e-3 }, 0.0, 1e-4);
+  for (int i = 1; i < 10; ++i)
+  {
+    const Vec3 next = settler.settle({ 1e-4 * i, 0.0, 1e-3 - 1e-4 * i }, 2e-4, 1e-5);
+    EXPECT_GE(dot(next, Vec3(1e-4 * i, 0.0, 1e-3 - 1e-4 * i)), 0.0) << i;
+    EXPECT_LE(norm(next - felt), OffsetSettler::kFreeSteps * 2e-4 + 1e-5 + 1e-11) << i;
+    felt = next;
+  }
+}
+
 TEST(OffsetSettler, AnInfiniteLimitLetsEverythingThrough)
 {
   OffsetSettler settler;

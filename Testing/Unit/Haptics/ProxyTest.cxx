@@ -340,6 +340,21 @@ TEST_P(EveryMethod, ChangesOfParametersWhilePressedDoNotKick)
   expectGentle("method");
 }
 
+TEST_P(EveryMethod, AHandThatComesOutWhileAChangeSettlesIsNotPulledIn)
+{
+  HapticParameters soft = parameters();
+  soft.contact.stiffness = 100.0;
+  Resting hand(soft);
+  const Vec3 out = normalized(hand.last.force);
+  hand.proxy.setParameters(parameters());
+  for (int i = 0; i < 20; ++i)
+  {
+    hand.hip += 3e-4 * out;
+    const ProxyState state = hand.proxy.step(hand.hip, trial::kTick);
+    ASSERT_GE(dot(state.force, out), -1e-9) << i;
+  }
+}
+
 TEST_P(EveryMethod, FadesWithinTenMillisecondsWhenTheSceneVanishesOrTheClockStands)
 {
   Resting hand(parameters());
