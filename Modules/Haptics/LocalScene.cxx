@@ -257,22 +257,24 @@ std::shared_ptr<const HapticScene> LocalSceneBuilder::build(
   return HapticScene::create(std::move(input), status, executor);
 }
 
-/// @p hand, and where it will be in so many seconds.
-Bounds LocalSceneFollower::withAhead(const Bounds& hand, double seconds) const
-{
-  const double way = seconds * norm(velocity_);
-  const double part = way > kMostAhead ? kMostAhead / way : 1.0;
-  Bounds box = hand;
-  box.include(hand.center() + (part * seconds) * velocity_);
-  return box;
-}
-
 bool LocalSceneFollower::update(const Bounds& hand, double seconds, const Executor& executor)
 {
   const bool moves = seconds > 0.0 && !hand.empty() && !lastHand_.empty();
-  velocity_ = moves ? (hand.center() - lastHand_.center()) / seconds : Vec3();
+  const Vec3 velocity = moves ? (hand.center() - lastHand_.center()) / seconds : Vec3();
   lastHand_ = hand;
-  const Bounds soon = moves ? withAhead(hand, kDueAhead) : hand;
+  // The hand, and where it will be so much later.
+  const auto withAhead = [&](double later)
+  {
+    const double way = later * norm(velocity);
+    const double part = way > kMostAhead ? kMostAhead / way : 1.0;
+    Bounds box = hand;
+    if (moves)
+    {
+      box.include(hand.center() + (part * later) * velocity);
+    }
+    return box;
+  };
+  const Bounds soon = withAhead(kDueAhead);
   const auto inside = [&soon](const Bounds& box)
   { return contains(box, soon.minimum) && contains(box, soon.maximum); };
   if ((local_ && inside(grown(local_->covered(), -LocalSceneBuilder::kNearEnd))) || inside(failed_))
@@ -280,8 +282,7 @@ bool LocalSceneFollower::update(const Bounds& hand, double seconds, const Execut
     return false;
   }
   failed_ = Bounds();
-  std::shared_ptr<const HapticScene> next =
-    builder_.build(moves ? withAhead(hand, kCoveredAhead) : hand, global_, executor);
+  std::shared_ptr<const HapticScene> next = builder_.build(withAhead(kCoveredAhead), global_, executor);
   const bool changes = next || local_;
   if (next)
   {

@@ -94,15 +94,12 @@ public:
   double finestCell() const { return finestCell_; }
 
 private:
-  Bounds withAhead(const Bounds& hand, double seconds) const;
-
   LocalSceneBuilder& builder_;
   std::shared_ptr<const HapticScene> global_;
   std::shared_ptr<const HapticScene> local_;
   std::shared_ptr<const HapticScene> last_; ///< The proxy may still be in it.
   Bounds failed_;                           ///< There was no local scene here.
   Bounds lastHand_;
-  Vec3 velocity_; ///< Of the hand, metres a second.
   std::int64_t numberOfScenes_ = 0;
   double finestCell_ = global_ ? global_->latticeScale() * global_->cellSize() : 0.0;
 };

@@ -253,17 +253,13 @@ ReportPart studyEdges(StudyContext& context)
   ReportPart part;
   part.page = Page::Accuracy;
   part.title = "Over the edge and the corner of a box";
-  part.text = fmt::format("A cube of 50 mm, pressed 1, 2 and 3 mm deep, slid over an edge or a corner at 50, "
-                          "200 and 500 mm/s until the "
-                          "hand is 15 mm outside, {} starts each; {}. The largest force where the god object "
-                          "is free, by how far the hand "
-                          "is outside: to 0.1, 0.25 and 0.5 mm, and more than that (one spacing where the "
-                          "cloud is sparser). Late: strokes "
-                          "with more than {} N anywhere outside, and in how many ticks at most. Above: "
-                          "strokes with more than that further "
-                          "outside than 0.5 mm. Stuck: strokes with more than that at their end. Turned: no "
-                          "face is parallel to the "
-                          "lattice.",
+  part.text = fmt::format(
+    "A cube of 50 mm, pressed 1, 2 and 3 mm deep, slid over an edge or a corner at 50, 200 and 500 mm/s "
+    "until the hand is 15 mm outside, {} starts each; {}. The largest force where the god object is free, by "
+    "how far the hand is outside: to 0.1, 0.25 and 0.5 mm, and more than that (one spacing where the cloud "
+    "is sparser). Late: strokes with more than {} N anywhere outside, and in how many ticks at most. Above: "
+    "strokes with more than that further outside than 0.5 mm. Stuck: strokes with more than that at their "
+    "end. Turned: no face is parallel to the lattice.",
     starts, sceneText(options), kForce);
   part.charts.push_back(drawEdge());
   setFigureHeader(part, { "points", "noise", "box", "over", "method" },

@@ -168,15 +168,12 @@ ReportPart studyLocal(StudyContext& context)
   const TouchBenchmarkOptions& options = context.options;
   ReportPart part;
   part.title = "Scenes near the hand";
-  part.text = fmt::format("What LocalSceneBuilder takes for a scene, on one thread and on all, milliseconds, "
-                          "of each scene the fastest of {} "
-                          "builds: where one is due on {} strokes on {} samples of each mesh (pressed to 1 "
-                          "mm, slid 10 mm at 20 and 50 "
-                          "mm/s, lifted). Cells: median. Coarse: percent of the ticks in contact, of those "
-                          "where a finer scene is of use, "
-                          "that feel none, when each scene is felt {} ms after the look at the hand that it "
-                          "was made for; the hand as "
-                          "fast as said, and faster.",
+  part.text = fmt::format(
+    "What LocalSceneBuilder takes for a scene, on one thread and on all, milliseconds, of each scene the "
+    "fastest of {} builds: where one is due on {} strokes on {} samples of each mesh (pressed to 1 mm, slid "
+    "10 mm at 20 and 50 mm/s, lifted). Cells: median. Coarse: percent of the ticks in contact, of those "
+    "where a finer scene is of use, that feel none, when each scene is felt {} ms after the look at the hand "
+    "that it was made for; the hand as fast as said, and faster.",
     std::max(1, options.repetitions), options.strokes, grouped(options.points), options.lateTicks);
   part.table.header = { "mesh", "points", "scenes", "cells", "finest um", "one thread p50 ms", "p95", "max",
     "p50 ms", "p95", "max", "coarse % at 20-50 mm/s", "80-200", "200-500" };

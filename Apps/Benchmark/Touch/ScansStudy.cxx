@@ -12,8 +12,6 @@ namespace touch
 namespace
 {
 
-constexpr std::uint64_t kScanSampleSeed = 28;
-
 struct Cloud
 {
   std::string name;
@@ -32,29 +30,6 @@ std::vector<Cloud> cloudsOf(const TouchMesh& mesh, const TouchBenchmarkOptions& 
 }
 
 } // namespace
-
-std::vector<TouchMesh> meshesOf(const TouchBenchmarkOptions& options)
-{
-  std::vector<TouchMesh> meshes;
-  for (TouchMesh mesh : options.scans)
-  {
-    double scale = 1.0;
-    Vec3 middle;
-    mesh.points = proxy::fitted(std::move(mesh.points), scale, middle);
-    orientOutward(mesh);
-    meshes.push_back(std::move(mesh));
-  }
-  for (const std::string& name : options.meshes)
-  {
-    meshes.push_back(generatedMesh(name));
-  }
-  return meshes;
-}
-
-std::vector<Vec3> samplesToTouch(const TouchMesh& mesh, const TouchBenchmarkOptions& options)
-{
-  return samplesOf(mesh, options.points, kScanSampleSeed);
-}
 
 ReportPart studyScans(StudyContext& context)
 {

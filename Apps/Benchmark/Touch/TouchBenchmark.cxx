@@ -146,6 +146,30 @@ void addFigures(StudyContext& context, ReportPart& part, std::vector<std::string
   }
 }
 
+std::vector<TouchMesh> meshesOf(const TouchBenchmarkOptions& options)
+{
+  std::vector<TouchMesh> meshes;
+  for (TouchMesh mesh : options.scans)
+  {
+    double scale = 1.0;
+    Vec3 middle;
+    mesh.points = proxy::fitted(std::move(mesh.points), scale, middle);
+    orientOutward(mesh);
+    meshes.push_back(std::move(mesh));
+  }
+  for (const std::string& name : options.meshes)
+  {
+    meshes.push_back(generatedMesh(name));
+  }
+  return meshes;
+}
+
+std::vector<Vec3> samplesToTouch(const TouchMesh& mesh, const TouchBenchmarkOptions& options)
+{
+  constexpr std::uint64_t kSeed = 28;
+  return samplesOf(mesh, options.points, kSeed);
+}
+
 TouchSceneSettings sceneSettings(const TouchBenchmarkOptions& options)
 {
   TouchSceneSettings settings;

@@ -13,6 +13,7 @@ namespace
 
 /// Up to so many tuples are sorted by exchanges without branches, which would be unpredictable.
 constexpr int kFewTuples = 8;
+
 /// Sorts each component of tuples, from the largest down to that of tuple @p least.
 template <typename Key>
 void sortFew(Key* keys, std::int64_t tuples, int components, std::int64_t least)

@@ -50,6 +50,21 @@ ResampleAnswer rightAnswer(const ExpectedMeans& expected, const Lattice& lattice
   return answer;
 }
 
+constexpr std::int64_t kVoxels = 20;
+
+/// Says whether the right answer for some points is right once a function has spoiled it.
+auto spoiledAnswers(ComparedWith with)
+{
+  const std::vector<float> xyz = randomPoints(3000);
+  const Lattice lattice = unitLattice(kVoxels);
+  return [=, expected = expectedMeans({ xyz.data(), 3000 }, lattice)](const auto& spoil)
+  {
+    ResampleAnswer answer = rightAnswer(expected, lattice);
+    spoil(answer);
+    return judge(answer, expected, with).right;
+  };
+}
+
 } // namespace
 
 TEST(Expected, AgreesWithTheReference)
@@ -90,15 +105,7 @@ TEST(Expected, TheRightAnswerIsRight)
 
 TEST(Expected, OneWrongVoxelIsFoundOut)
 {
-  const std::vector<float> xyz = randomPoints(3000);
-  const Lattice lattice = unitLattice(20);
-  const ExpectedMeans expected = expectedMeans({ xyz.data(), 3000 }, lattice);
-  const auto isRight = [&](const auto& spoil)
-  {
-    ResampleAnswer answer = rightAnswer(expected, lattice);
-    spoil(answer);
-    return judge(answer, expected, ComparedWith::ExactMeans).right;
-  };
+  const auto isRight = spoiledAnswers(ComparedWith::ExactMeans);
   EXPECT_FALSE(isRight([](ResampleAnswer& a) { ++a.counts[17]; }));
   EXPECT_FALSE(isRight([](ResampleAnswer& a) { a.xyz[40] += 1e-6; }));
   EXPECT_FALSE(isRight([](ResampleAnswer& a) { a.xyz[40] = NAN; }));
@@ -114,16 +121,8 @@ TEST(Expected, OneWrongVoxelIsFoundOut)
 
 TEST(Expected, AnotherPointOfTheVoxelIsRightWhereMeansAreNotAsked)
 {
-  const std::vector<float> xyz = randomPoints(3000);
-  const Lattice lattice = unitLattice(20);
-  const ExpectedMeans expected = expectedMeans({ xyz.data(), 3000 }, lattice);
-  const auto isRight = [&](const auto& spoil)
-  {
-    ResampleAnswer answer = rightAnswer(expected, lattice);
-    spoil(answer);
-    return judge(answer, expected, ComparedWith::TheirVoxels).right;
-  };
-  const double voxel = lattice.spacing[1];
+  const auto isRight = spoiledAnswers(ComparedWith::TheirVoxels);
+  const double voxel = unitLattice(kVoxels).spacing[1];
   const auto middle = [&](double y) { return (std::floor(y / voxel) + 0.5) * voxel; };
   EXPECT_TRUE(isRight([&](ResampleAnswer& a) { a.xyz[40] = middle(a.xyz[40]); }));
   EXPECT_FALSE(isRight([&](ResampleAnswer& a) { a.xyz[40] = middle(a.xyz[40]) + voxel; }));

@@ -167,8 +167,11 @@ Int128 TallySums::inUnits(std::size_t sum) const
   return words == 1 ? Int128(std::int64_t(number[0])) : Int128(UInt128(number[1]) << 64 | number[0]);
 }
 
+namespace
+{
+
 /// How kernels turn vectors.
-static Turn turnOf(const std::array<Vec3, 3>& columns)
+Turn turnOf(const std::array<Vec3, 3>& columns)
 {
   Turn turn;
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -176,6 +179,8 @@ static Turn turnOf(const std::array<Vec3, 3>& columns)
     std::copy_n(&columns[axis].x, 3, turn.columns[axis]);
   }
   return turn;
+}
+
 }
 
 void TallySums::write(const AccumulatedArray& kind, std::size_t first, std::size_t last,
