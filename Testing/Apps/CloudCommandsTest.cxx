@@ -347,7 +347,7 @@ TEST_F(CloudCommands, PointsWithoutDataAreFarWhateverTheirNumber)
   for (int i = 0; i < 2000; ++i)
   {
     const std::string height = i % 4 == 0 ? "-9999" : std::to_string(300 + i % 7);
-    table += std::to_string(500000 + i % 50) + "," + std::to_string(5400000 + i / 50) + "," + height + "\n";
+    table += std::to_string(512345 + i % 50) + "," + std::to_string(5412347 + i / 50) + "," + height + "\n";
   }
   this->write("holes.csv", table);
   this->succeed({ "convert", "holes.csv", "holes.las" });
@@ -355,6 +355,11 @@ TEST_F(CloudCommands, PointsWithoutDataAreFarWhateverTheirNumber)
   {
     const std::string text = this->succeed({ "info", file });
     EXPECT_NE(text.find("500 of 2,000 points are far from all others"), std::string::npos) << text;
+    const std::string option = "--workspace ";
+    const std::size_t box = text.find(option) + option.size();
+    const std::string output = this->succeed({ "resample", file, "-o", "means.csv", "--voxel", "1",
+      "--workspace", text.substr(box, text.find_first_of(" \n", box) - box) });
+    EXPECT_NE(output.find(" 500 clipped"), std::string::npos) << text << output;
   }
 }
 

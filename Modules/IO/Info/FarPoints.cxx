@@ -77,9 +77,12 @@ std::string FarPoints::text() const
 
 std::string FarPoints::clip() const
 {
-  const Bounds box = grown(others, 0.001 * longestSide(others)); // the digits below do not cut
-  return fmt::format("{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}", box.minimum.x, box.maximum.x, box.minimum.y,
-    box.maximum.y, box.minimum.z, box.maximum.z);
+  // Digits enough for the margin, also of map coordinates: they may not cut.
+  const double margin = 0.001 * longestSide(others);
+  const Bounds box = grown(others, margin);
+  const int digits = int(std::clamp(std::ceil(-std::log10(margin)), 0.0, 17.0));
+  return fmt::format("{0:.{6}f},{1:.{6}f},{2:.{6}f},{3:.{6}f},{4:.{6}f},{5:.{6}f}", box.minimum.x,
+    box.maximum.x, box.minimum.y, box.maximum.y, box.minimum.z, box.maximum.z, digits);
 }
 
 FarPoints findFarPoints(vtkPolyData* cloud, const Bounds& bounds)
