@@ -41,15 +41,7 @@ const NeighborKernels& baselineNeighborKernels()
 
 const NeighborKernels& neighborKernels(InstructionSet wanted) noexcept
 {
-  switch (usableInstructionSet(wanted))
-  {
-    case InstructionSet::Avx512:
-      return avx512NeighborKernels() ? *avx512NeighborKernels() : baselineNeighborKernels();
-    case InstructionSet::Avx2:
-      return avx2NeighborKernels() ? *avx2NeighborKernels() : baselineNeighborKernels();
-    default:
-      return baselineNeighborKernels();
-  }
+  return loopsFor(wanted, baselineNeighborKernels, avx2NeighborKernels, avx512NeighborKernels);
 }
 
 } // namespace simd

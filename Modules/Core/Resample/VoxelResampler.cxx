@@ -1,7 +1,7 @@
 #include "Core/Resample/VoxelResampler.h"
 
 #include "Core/Neighbors/PointIndex.h"
-#include "Core/Resample/AttributeReducer.h"
+#include "Core/Resample/Reductions/AttributeReducer.h"
 #include "Core/Resample/VoxelResamplerImplementation.h"
 
 #include <algorithm>

@@ -2,13 +2,13 @@
 /// The state and the steps of VoxelResampler. Private to Core.
 #pragma once
 
+#include "Core/Resample/Reductions/VoxelReductions.h"
 #include "Core/Resample/Stages/CoarseVoxels.h"
 #include "Core/Resample/Stages/PartitionSums.h"
 #include "Core/Resample/Stages/PointBinner.h"
 #include "Core/Resample/Stages/PointQuantizer.h"
 #include "Core/Resample/Stages/SortedPoints.h"
 #include "Core/Resample/Stages/VoxelLevel.h"
-#include "Core/Resample/VoxelReductions.h"
 #include "Core/Resample/VoxelResampler.h"
 
 #include <cstddef>

@@ -17,4 +17,20 @@ enum class InstructionSet
 /// The best set that this machine and this build have, not above @p wanted. Thread-safe.
 InstructionSet usableInstructionSet(InstructionSet wanted = InstructionSet::Automatic) noexcept;
 
+/// The loops to use of a family that is compiled for each set: the one place that chooses. The last two give
+/// null where the compiler or the processor family lacks them; they are called where the machine has their
+/// instructions, which they may use. Thread-safe.
+template <typename Loops>
+const Loops& loopsFor(
+  InstructionSet wanted, const Loops& (*baseline)(), const Loops* (*avx2)(), const Loops* (*avx512)())
+{
+  const InstructionSet usable = usableInstructionSet(wanted);
+  const Loops* loops = nullptr;
+  if (usable != InstructionSet::Baseline)
+  {
+    loops = usable == InstructionSet::Avx512 ? avx512() : avx2();
+  }
+  return loops ? *loops : baseline();
+}
+
 } // namespace pointhaptics

@@ -13,15 +13,7 @@ const FitKernels& baselineFitKernels()
 
 const FitKernels& fitKernels(InstructionSet wanted) noexcept
 {
-  switch (usableInstructionSet(wanted))
-  {
-    case InstructionSet::Avx512:
-      return avx512FitKernels() ? *avx512FitKernels() : baselineFitKernels();
-    case InstructionSet::Avx2:
-      return avx2FitKernels() ? *avx2FitKernels() : baselineFitKernels();
-    default:
-      return baselineFitKernels();
-  }
+  return loopsFor(wanted, baselineFitKernels, avx2FitKernels, avx512FitKernels);
 }
 
 } // namespace simd

@@ -1,4 +1,4 @@
-#include "Core/Resample/AttributeMean.h"
+#include "Core/Resample/Reductions/AttributeMean.h"
 
 #include "AttributePlans.h"
 #include "ExactSum.h"

@@ -1,4 +1,4 @@
-#include "Core/Resample/AttributeTuples.h"
+#include "Core/Resample/Reductions/AttributeTuples.h"
 
 #include "AttributePlans.h"
 #include "CountingObserver.h"

@@ -1,6 +1,6 @@
 // VoxelResampler's attributes: whichever pass reduces them, they are what the points of each voxel give.
 #include "Core/Neighbors/PointIndex.h"
-#include "Core/Resample/AttributeReducer.h"
+#include "Core/Resample/Reductions/AttributeReducer.h"
 #include "Core/Resample/VoxelResampler.h"
 
 #include "RandomClouds.h"

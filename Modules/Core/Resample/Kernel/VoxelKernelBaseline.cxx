@@ -13,15 +13,7 @@ const Kernels& baselineKernels()
 
 const Kernels& kernelsFor(InstructionSet wanted)
 {
-  switch (usableInstructionSet(wanted))
-  {
-    case InstructionSet::Avx512:
-      return *avx512Kernels();
-    case InstructionSet::Avx2:
-      return *avx2Kernels();
-    default:
-      return baselineKernels();
-  }
+  return loopsFor(wanted, baselineKernels, avx2Kernels, avx512Kernels);
 }
 
 } // namespace simd

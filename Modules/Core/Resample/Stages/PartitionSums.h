@@ -3,10 +3,10 @@
 #pragma once
 
 #include "Core/Base/Buffer.h"
-#include "Core/Resample/Stages/NearestRecords.h"
+#include "Core/Resample/Reductions/NearestRecords.h"
+#include "Core/Resample/Reductions/VoxelReductions.h"
 #include "Core/Resample/Stages/PointBinner.h"
 #include "Core/Resample/Stages/VoxelSink.h"
-#include "Core/Resample/VoxelReductions.h"
 
 #include <algorithm>
 #include <cstdint>

@@ -1,6 +1,6 @@
 #include "Core/Resample/Stages/VoxelSink.h"
 
-#include "Core/Resample/Kernel/AttributeRounding.h"
+#include "Core/Resample/Reductions/AttributeRounding.h"
 
 #include <algorithm>
 #include <cfloat>

@@ -4,8 +4,8 @@
 #pragma once
 
 #include "Core/Base/Vector3.h"
-#include "Core/Resample/AttributeReducer.h"
-#include "Core/Resample/Stages/VoxelTally.h"
+#include "Core/Resample/Reductions/AttributeReducer.h"
+#include "Core/Resample/Reductions/VoxelTally.h"
 
 #include <array>
 #include <cstdint>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "Core/Base/Buffer.h"
-#include "Core/Resample/Stages/NearestRecords.h"
+#include "Core/Resample/Reductions/NearestRecords.h"
 #include "Core/Resample/Stages/VoxelSink.h"
 #include "Core/Resample/VoxelResampler.h"
 

@@ -1,4 +1,4 @@
-#include "Core/Resample/Stages/NearestRecords.h"
+#include "Core/Resample/Reductions/NearestRecords.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
-#include "Core/Resample/Stages/NearestPoints.h"
+#include "Core/Resample/Reductions/NearestPoints.h"
 
-#include "Core/Resample/AttributeTuples.h"
 #include "Core/Resample/Kernel/Fetch.h"
-#include "Core/Resample/VoxelSlices.h"
+#include "Core/Resample/Reductions/AttributeTuples.h"
+#include "Core/Resample/Reductions/VoxelSlices.h"
 
 #include <algorithm>
 #include <cmath>

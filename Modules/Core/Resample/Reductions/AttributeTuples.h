@@ -4,7 +4,7 @@
 
 #include "Core/Base/Buffer.h"
 #include "Core/Base/ScalarType.h"
-#include "Core/Resample/AttributeReducer.h"
+#include "Core/Resample/Reductions/AttributeReducer.h"
 
 #include <cmath>
 #include <cstddef>

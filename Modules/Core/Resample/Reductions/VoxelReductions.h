@@ -2,10 +2,10 @@
 /// What else becomes of the points of voxels, next to their sums.
 #pragma once
 
-#include "Core/Resample/AttributeReducer.h"
-#include "Core/Resample/Stages/NearestPoints.h"
-#include "Core/Resample/Stages/NearestRecords.h"
-#include "Core/Resample/Stages/VoxelTally.h"
+#include "Core/Resample/Reductions/AttributeReducer.h"
+#include "Core/Resample/Reductions/NearestPoints.h"
+#include "Core/Resample/Reductions/NearestRecords.h"
+#include "Core/Resample/Reductions/VoxelTally.h"
 #include "Core/Resample/VoxelResampler.h"
 
 #include <cstddef>

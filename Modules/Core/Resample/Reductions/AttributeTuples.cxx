@@ -1,7 +1,7 @@
-#include "Core/Resample/AttributeTuples.h"
+#include "Core/Resample/Reductions/AttributeTuples.h"
 
-#include "Core/Resample/Stages/VoxelTally.h"
-#include "Core/Resample/VoxelSlices.h"
+#include "Core/Resample/Reductions/VoxelSlices.h"
+#include "Core/Resample/Reductions/VoxelTally.h"
 
 #include <algorithm>
 #include <utility>

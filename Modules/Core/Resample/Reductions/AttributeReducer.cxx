@@ -1,7 +1,7 @@
-#include "Core/Resample/AttributeReducer.h"
+#include "Core/Resample/Reductions/AttributeReducer.h"
 
-#include "Core/Resample/AttributeMean.h"
-#include "Core/Resample/AttributeTuples.h"
+#include "Core/Resample/Reductions/AttributeMean.h"
+#include "Core/Resample/Reductions/AttributeTuples.h"
 
 namespace pointhaptics
 {

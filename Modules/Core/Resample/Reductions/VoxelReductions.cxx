@@ -1,7 +1,7 @@
-#include "Core/Resample/VoxelReductions.h"
+#include "Core/Resample/Reductions/VoxelReductions.h"
 
-#include "Core/Resample/AttributeTuples.h"
 #include "Core/Resample/Kernel/Fetch.h"
+#include "Core/Resample/Reductions/AttributeTuples.h"
 
 namespace pointhaptics
 {
