@@ -47,7 +47,7 @@ double residualOfAll(const CellPyramid& pyramid, const Vec3& place, double radiu
   }
   SurfaceFrame frame;
   frame.origin = pyramid.level(0).cells[std::size_t(seed)].mean;
-  if (!principalNormal(pyramid, frame.origin, radius, normal))
+  if (!principalNormal(pyramid, frame.origin, radius, memory, normal))
   {
     return INFINITY;
   }

@@ -7,6 +7,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <memory>
 
 namespace pointhaptics
 {
@@ -48,13 +49,15 @@ std::vector<Stroke> strokesOn(const HapticScene& scene, int count)
   const std::vector<Cell>& cells = scene.pyramid().level(0).cells;
   const Vec3 middle = 0.5 * (scene.bounds().minimum + scene.bounds().maximum);
   detail::PortableRandom random(kPlaceSeed);
+  const auto memory = std::make_unique<FitCells>();
   std::vector<Stroke> strokes;
   for (int tries = 0; int(strokes.size()) < count && tries < kMostTries * count; ++tries)
   {
     Stroke stroke;
     stroke.place = cells[std::size_t(random.uniform() * double(cells.size()))].mean;
     const double angle = 6.283185307179586 * random.uniform();
-    if (!principalNormal(scene.pyramid(), stroke.place, scene.fitRadius(stroke.place), stroke.normal))
+    if (!principalNormal(
+          scene.pyramid(), stroke.place, scene.fitRadius(stroke.place), *memory, stroke.normal))
     {
       continue;
     }

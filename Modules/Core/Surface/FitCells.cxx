@@ -9,9 +9,7 @@ namespace pointhaptics
 namespace
 {
 
-/// Margin of the gathered radius: a HIP at 50 mm/s then stays inside for about ten ticks.
-constexpr double kMargin = 1.25;
-/// The margin where that overflows.
+/// The margin where another overflows.
 constexpr double kNoMargin = 1.0 + 1e-9;
 
 /// Cells of no weight behind the last: the loops take eight at a time.
@@ -108,7 +106,7 @@ const simd::FitBlock& FitCells::near(
     {
       return block;
     }
-    if (gather(pyramid, level, center, kMargin * radius, block) ||
+    if (gather(pyramid, level, center, margin_ * radius, block) ||
       gather(pyramid, level, center, kNoMargin * radius, block))
     {
       return block;
@@ -134,7 +132,7 @@ LocalScale FitCells::scaleAt(
       pyramid_ = &pyramid;
     }
     field_ = &field;
-    if (!field.gather(pyramid, position, kMargin * field.reach(), nodes_))
+    if (!field.gather(pyramid, position, margin_ * field.reach(), nodes_))
     {
       nodes_.reach = -1.0;
       return field.at(pyramid, position, radiusGradient);

@@ -15,9 +15,14 @@ namespace pointhaptics
 class FitCells
 {
 public:
+  /// Cells are gathered this much further than a fit looks, if there is room: a HIP at 50 mm/s then stays
+  /// inside for about ten ticks.
+  static constexpr double kMargin = 1.25;
+
   /// @param wanted the instructions to use, as far as this machine has them; the results are the same.
-  explicit FitCells(InstructionSet wanted = InstructionSet::Automatic)
+  explicit FitCells(InstructionSet wanted = InstructionSet::Automatic, double margin = kMargin)
     : kernels_(&simd::fitKernels(wanted))
+    , margin_(margin)
   {
   }
 
@@ -48,6 +53,7 @@ private:
     const CellPyramid& pyramid, int level, const Vec3& center, double reach, simd::FitBlock& block) noexcept;
 
   const simd::FitKernels* kernels_;
+  double margin_;
   const CellPyramid* pyramid_ = nullptr;
   const RadiusField* field_ = nullptr;
   simd::FitBlock blocks_[2]; ///< Of even and of odd levels: a fit blends two neighbouring ones.

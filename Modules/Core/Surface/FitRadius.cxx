@@ -21,6 +21,8 @@ constexpr double kCountGrowth = 1.1;
 constexpr int kCountSteps = 120;
 
 constexpr int kMostScales = 16;
+/// Margin of gathered cells: they serve the next scale.
+constexpr double kScalesMargin = 1.32;
 /// The first scales, whose residuals estimate the noise: at longer ones curvature contributes.
 constexpr int kNoiseScales = 3;
 /// Standard errors by which a longer radius may differ from a shorter one.
@@ -242,6 +244,8 @@ FitScale chooseFitRadius(const CellPyramid& pyramid, const Vec3& seed, double la
     chosen.left = fine.noise / wide.noise;
     return chosen;
   }
+  // What another node had gathered would round otherwise: results would depend on how threads share nodes.
+  memory.invalidate();
   FitScale scale;
   scale.countRadius = countRadius(pyramid, seed, largestCount, needs);
   scale.radius = scale.countRadius;
@@ -249,7 +253,7 @@ FitScale chooseFitRadius(const CellPyramid& pyramid, const Vec3& seed, double la
   SurfaceFit fit;
   double curvature[3];
   Vec3 normal;
-  if (!principalNormal(pyramid, seed, scale.countRadius, normal))
+  if (!principalNormal(pyramid, seed, scale.countRadius, memory, normal))
   {
     return scale;
   }
@@ -331,7 +335,7 @@ std::vector<LocalScale> fitScales(const CellPyramid& pyramid, double largestCoun
     forRange(executor, std::int64_t(scales.size()), kSmallestRange,
       [&](std::int64_t begin, std::int64_t end)
       {
-        const auto memory = std::make_unique<FitCells>(wanted);
+        const auto memory = std::make_unique<FitCells>(wanted, kScalesMargin);
         for (std::size_t i = std::size_t(begin); i < std::size_t(end); ++i)
         {
           if (!isWanted(i))

@@ -293,29 +293,35 @@ bool footPoint(
   return inside;
 }
 
-bool principalNormal(const CellPyramid& pyramid, const Vec3& center, double radius, Vec3& normal) noexcept
+bool principalNormal(
+  const CellPyramid& pyramid, const Vec3& center, double radius, FitCells& memory, Vec3& normal) noexcept
 {
   double fraction = 0.0;
-  const int level = fitLevel(pyramid, radius, fraction);
+  int level = fitLevel(pyramid, radius, fraction);
+  const simd::FitBlock& block = memory.near(pyramid, level, center, radius);
+  const Vec3 origin = center - block.center;
   double weights = 0.0;
   Vec3 sum;
   SymMat3 squares;
   const double perRadius2 = 1.0 / (radius * radius);
   int cells = 0;
-  pyramid.visitBallUnmixed(level, center, radius,
-    [&](const Cell& cell, double d2)
+  for (int i = 0; i < block.size; ++i)
+  {
+    const Vec3 d = Vec3(block.x[i], block.y[i], block.z[i]) - origin;
+    const double base = 1.0 - norm2(d) * perRadius2;
+    if (!(base > 0.0))
     {
-      const double base = 1.0 - d2 * perRadius2;
-      const double w = cell.count * base * base;
-      const Vec3 d = cell.mean - center;
-      weights += w;
-      sum += w * d;
-      SymMat3 square = outerProduct(d);
-      square += cell.covariance;
-      square *= w;
-      squares += square;
-      ++cells;
-    });
+      continue;
+    }
+    const double w = block.count[i] * base * base;
+    weights += w;
+    sum += w * d;
+    SymMat3 square = outerProduct(d);
+    square += { block.xx[i], block.yy[i], block.zz[i], block.xy[i], block.yz[i], block.xz[i] };
+    square *= w;
+    squares += square;
+    ++cells;
+  }
   if (cells < 3 || !(weights > 0.0))
   {
     return false;

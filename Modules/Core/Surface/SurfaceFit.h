@@ -131,6 +131,7 @@ bool footPoint(
 
 /// Unit normal (either side) of the cells within @p radius of @p center by their covariance; false when the
 /// cells do not span a plane.
-bool principalNormal(const CellPyramid& pyramid, const Vec3& center, double radius, Vec3& normal) noexcept;
+bool principalNormal(
+  const CellPyramid& pyramid, const Vec3& center, double radius, FitCells& memory, Vec3& normal) noexcept;
 
 } // namespace pointhaptics

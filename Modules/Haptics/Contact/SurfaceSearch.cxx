@@ -27,7 +27,7 @@ bool findSheet(const HapticScene& scene, FitCells& memory, const Vec3& onSurface
     SurfaceFit fit;
     double curvature[3] = { 0.0, 0.0, 0.0 };
     Vec3 normal;
-    if (!principalNormal(scene.pyramid(), onSurface, part * radius, normal))
+    if (!principalNormal(scene.pyramid(), onSurface, part * radius, memory, normal))
     {
       continue;
     }

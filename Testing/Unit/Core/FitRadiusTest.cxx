@@ -166,6 +166,36 @@ TEST(FitScales, AreOnePerNodeAndDoNotDependOnTheExecutor)
   }
 }
 
+// Cells gathered for one node must not serve another, which would round otherwise.
+TEST(FitScales, AreTheSameBitsHoweverTheNodesAreShared)
+{
+  class OneByOne : public Executor
+  {
+  public:
+    void run(std::int64_t count, std::int64_t, void* context, Body body) const override
+    {
+      for (std::int64_t i = 0; i < count; ++i)
+      {
+        body(context, i, i + 1);
+      }
+    }
+  };
+  const CellPyramid pyramid = sphere(50000, 20e-6, 6);
+  for (const FitNeeds& needs : { FitNeeds(), FitNeeds::ofFineCells() })
+  {
+    const std::vector<LocalScale> together = fitScales(pyramid, 8e-3, 8e-3, {}, nullptr, needs);
+    const std::vector<LocalScale> alone = fitScales(pyramid, 8e-3, 8e-3, OneByOne(), nullptr, needs);
+    ASSERT_EQ(alone.size(), together.size());
+    int differ = 0;
+    for (std::size_t i = 0; i < alone.size(); ++i)
+    {
+      differ += alone[i].radius != together[i].radius || alone[i].noise != together[i].noise ||
+        alone[i].gate != together[i].gate || alone[i].cubic != together[i].cubic;
+    }
+    EXPECT_EQ(differ, 0) << "of " << alone.size();
+  }
+}
+
 // One point a cell: over a node what small fits leave says little, over the cloud it tells shape from noise.
 TEST(FitScales, AreSmallWhereBarePointsHaveShapeAndNoNoise)
 {

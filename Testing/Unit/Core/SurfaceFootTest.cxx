@@ -81,7 +81,8 @@ TEST(PrincipalNormal, IsThatOfAPlane)
   const std::vector<Vec3> points =
     sampled({ { 0, 0, 0, 0, 0, 0 } }, frameAlong(n, { 0.1, 0.2, 0.3 }), 0.01, 5000, 9);
   Vec3 normal;
-  ASSERT_TRUE(principalNormal(resampled(points, 5e-4), { 0.1, 0.2, 0.3 }, 3e-3, normal));
+  ASSERT_TRUE(
+    principalNormal(resampled(points, 5e-4), { 0.1, 0.2, 0.3 }, 3e-3, *std::make_unique<FitCells>(), normal));
   EXPECT_NEAR(std::fabs(dot(n, normal)), 1.0, 1e-9);
 }
 
@@ -93,8 +94,10 @@ TEST(PrincipalNormal, RefusesLinesAndEmptiness)
     line.emplace_back(i * 1e-4, 0.0, 0.0);
   }
   Vec3 normal;
-  EXPECT_FALSE(principalNormal(resampled(line, 3e-4), { 5e-3, 0, 0 }, 3e-3, normal));
-  EXPECT_FALSE(principalNormal(resampled(line, 3e-4), { 1, 1, 1 }, 3e-3, normal));
+  EXPECT_FALSE(
+    principalNormal(resampled(line, 3e-4), { 5e-3, 0, 0 }, 3e-3, *std::make_unique<FitCells>(), normal));
+  EXPECT_FALSE(
+    principalNormal(resampled(line, 3e-4), { 1, 1, 1 }, 3e-3, *std::make_unique<FitCells>(), normal));
 }
 
 TEST(SettleOnSurface, FindsTheSphereItsNormalAndItsCurvature)

@@ -58,7 +58,7 @@ double timeOfFit(const HapticScene& scene, InstructionSet set)
   SurfaceFrame frame;
   frame.origin = cells[cells.size() / 2].mean;
   Vec3 normal = frame.normal;
-  static_cast<void>(principalNormal(scene.pyramid(), frame.origin, scale.radius, normal));
+  static_cast<void>(principalNormal(scene.pyramid(), frame.origin, scale.radius, *memory, normal));
   frame.turnTo(normal);
   FitSettings settings;
   settings.radius = scale.radius;
