@@ -354,6 +354,11 @@ vtkIdType HapticViewer::numberOfPoints() const
   return implementation_->scene.numberOfPoints();
 }
 
+vtkIdType HapticViewer::numberOfInvalidPoints() const
+{
+  return implementation_->scene.numberOfInvalidPoints();
+}
+
 const std::string& HapticViewer::scaleNote() const
 {
   return implementation_->scene.scaleNote();

@@ -95,6 +95,8 @@ public:
   vtkPolyData* means();
   /// Of the cloud.
   vtkIdType numberOfPoints() const;
+  /// Those of them that are NaN or infinite: neither drawn nor felt.
+  vtkIdType numberOfInvalidPoints() const;
   /// How large the model is in the hand, in words.
   const std::string& scaleNote() const;
   ///@{

@@ -32,6 +32,7 @@ struct HapticViewerNames
 {
   std::string colorBy = "colorBy";
   std::string clip = "clip";
+  std::string felt = "felt";
   std::string firmware = "falcon.firmwareFile";
   std::string placement = "workspace and transform"; ///< Whatever may leave the cloud out of the workspace.
 };

@@ -187,6 +187,7 @@ bool ViewScene::open(LoadedCloud loaded, const HapticViewerOptions& options, std
   memoryDue_ = steadySeconds() + kMemorySeconds;
   placedCamera_.clear();
   isCoarse_ = loaded.isCoarse;
+  invalidPoints_ = loaded.invalid;
   heightZero_ = loaded.heightZero;
   scene_ = loaded.scene;
   resamplings_ += loaded.resamplings;

@@ -203,6 +203,7 @@ public:
   /// Text for the window's title: the names of the files.
   const std::string& title() const { return title_; }
   vtkIdType numberOfPoints() const;
+  vtkIdType numberOfInvalidPoints() const { return invalidPoints_; } ///< Those of them that are not finite.
 
 private:
   static constexpr double kMemorySeconds = 2.0; ///< After the last of what takes memory for a while.
@@ -274,6 +275,7 @@ private:
   CloudOrientation cloudOrientation_; ///< In the frame of the file.
   PictureSettings picture_;
   bool isCoarse_ = false;
+  vtkIdType invalidPoints_ = 0;
   double heightZero_ = 0.0;  ///< See LoadedCloud.
   double fixedPixels_ = 0.0; ///< HapticViewerOptions::pointSize.
   Bounds cloudBounds_;       ///< Of the finite points, as in the file; empty until somebody asks.

@@ -55,6 +55,36 @@ TEST_F(ViewFiles, ThatCannotBeReadAreSkipped)
   EXPECT_TRUE(contains(outcome.errors, "warning: skipped: worse.obj: ")) << outcome.errors;
 }
 
+TEST_F(ViewFiles, SayHowManyOfTheirPointsAreInvalid)
+{
+  this->write("some.xyz", "1 2 3\nnan nan nan\n1 2 4\n1 3 4\ninf 0 0\n");
+  const Outcome some = this->view({ "some.xyz" });
+  EXPECT_EQ(some.output.rfind("5 points, 2 of them NaN or infinite, ", 0), 0u) << some.output;
+  EXPECT_FALSE(contains(this->view({ "good.ply" }).output, "NaN"));
+}
+
+TEST_F(ViewFiles, SayThatPointsAtZeroAreNotDrawn)
+{
+  this->write("zeros.xyz", "1 2 3\n0 0 0\n1 2 4\n0 0 0\n1 3 4\n-0 0 0\n");
+  const std::string note = "warning: zeros.xyz: 3 points at (0, 0, 0), which scanners write for rays without "
+                           "return, are felt but not drawn; --felt draws what is felt";
+  EXPECT_TRUE(contains(this->view({ "zeros.xyz" }).errors, note));
+  EXPECT_TRUE(
+    contains(this->view({ "good.ply", "zeros.xyz" }, { "--together" }).errors, "3 points at (0, 0, 0)"));
+  EXPECT_FALSE(contains(this->view({ "zeros.xyz" }, { "--felt" }).errors, "(0, 0, 0)"));
+  EXPECT_FALSE(contains(this->view({ "zeros.xyz" }, { "--clip", "0.5,2,1,4,2,5" }).errors, "(0, 0, 0)"));
+  EXPECT_TRUE(
+    contains(this->run({ "info", "zeros.xyz" }).output, "note     3 points at (0, 0, 0), as scanners"));
+  // One may well be a point, and where there are no others, all are drawn.
+  this->write("one.xyz", "1 2 3\n0 0 0\n1 2 4\n1 3 4\n");
+  this->write("same.xyz", "0 0 0\n0 0 0\nnan 0 0\n");
+  for (const char* file : { "one.xyz", "same.xyz" })
+  {
+    EXPECT_FALSE(contains(this->view({ file }).errors, "(0, 0, 0)")) << file;
+    EXPECT_FALSE(contains(this->run({ "info", file }).output, "(0, 0, 0)")) << file;
+  }
+}
+
 TEST_F(ViewFiles, AfterOneThatCanBeReadAreNotLookedAt)
 {
   const Outcome outcome = this->view({ "good.ply", "bad.laz" });

@@ -34,6 +34,12 @@ std::vector<double> numbers(const Vec3& v)
   return { v.x, v.y, v.z };
 }
 
+/// As the viewer takes them (drawnPoints()).
+bool areNoReturns(const CloudSummary& s)
+{
+  return s.zeros > 1 && s.zeros + s.invalid < s.points;
+}
+
 /// Who wrote the file, and of which parts.
 void addOrigin(const CloudSummary& s, nlohmann::ordered_json& result)
 {
@@ -142,8 +148,7 @@ void printSpacing(const CloudSummary& s)
 
 void print(const std::string& file, const CloudSummary& s)
 {
-  fmt::print("{}\n  format   {}\n  points   {}{}{}\n", file, s.format, s.points,
-    s.invalid > 0 ? fmt::format(", {} of them NaN or infinite", s.invalid) : "",
+  fmt::print("{}\n  format   {}\n  points   {}{}{}\n", file, s.format, s.points, ofThemInvalid(s.invalid),
     s.duplicates > 0 ? fmt::format(", {} at the place of another", s.duplicates) : "");
   printOrigin(s);
   if (!s.bounds.empty())
@@ -183,6 +188,12 @@ void print(const std::string& file, const CloudSummary& s)
   if (!s.farPoints.empty())
   {
     fmt::print("  note     {}\n", s.farPoints);
+  }
+  if (areNoReturns(s))
+  {
+    fmt::print("  note     {} points at (0, 0, 0), as scanners write for rays without return: felt, but view "
+               "draws them with --felt alone\n",
+      s.zeros);
   }
   if (s.points > 0 && s.bounds.empty())
   {

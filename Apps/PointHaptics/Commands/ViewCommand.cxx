@@ -199,7 +199,9 @@ int runView(CLI::App& command, ViewOptions& options)
   {
     reportTimes(options, viewer);
   }
-  printNow(stdout, fmt::format("{}, {}\n", countOfPoints(viewer.numberOfPoints()), viewer.scaleNote()));
+  printNow(stdout,
+    fmt::format("{}{}, {}\n", countOfPoints(viewer.numberOfPoints()),
+      ofThemInvalid(viewer.numberOfInvalidPoints()), viewer.scaleNote()));
   if (options.draws() && !displayIsAvailable(message)) // before a path is felt
   {
     return fail(kViewCommand, message);

@@ -128,6 +128,11 @@ std::string countOfPoints(std::int64_t count)
   return fmt::format("{} point{}", count, count == 1 ? "" : "s");
 }
 
+std::string ofThemInvalid(std::int64_t count)
+{
+  return count > 0 ? fmt::format(", {} of them NaN or infinite", count) : std::string();
+}
+
 void printNow(std::FILE* stream, const std::string& text) noexcept
 {
   static_cast<void>(std::fwrite(text.data(), 1, text.size(), stream));

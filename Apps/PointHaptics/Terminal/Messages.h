@@ -27,6 +27,8 @@ void printNow(std::FILE* stream, const std::string& text) noexcept;
 
 /// "1 point", "2 points".
 std::string countOfPoints(std::int64_t count);
+/// ", 2 of them NaN or infinite", to follow that; nothing of none.
+std::string ofThemInvalid(std::int64_t count);
 
 /// Prints one object on stdout, in one line; names that are no UTF-8 get replacement characters.
 void printJson(const nlohmann::ordered_json& object);

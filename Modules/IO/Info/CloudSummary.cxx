@@ -212,6 +212,7 @@ CloudSummary summarize(vtkPolyData* cloud, const std::string& format)
   for (const Vec3& p : points)
   {
     summary.bounds.include(p);
+    summary.zeros += norm2(p) == 0.0 ? 1 : 0;
   }
   summary.spacing = spacingOf(points);
   summary.densityVariation = summary.spacing[0] > 0.0 ? summary.spacing[4] / summary.spacing[0] : 0.0;

@@ -316,7 +316,7 @@ bool cloudKindFromName(const std::string& name, CloudKind& kind)
   return false;
 }
 
-std::vector<std::uint32_t> drawnPoints(const PointView& cloud)
+std::vector<std::uint32_t> drawnPoints(const PointView& cloud, std::int64_t* noReturns)
 {
   std::vector<std::uint32_t> drawn;
   std::vector<std::uint32_t> zeros;
@@ -329,7 +329,12 @@ std::vector<std::uint32_t> drawnPoints(const PointView& cloud)
       (norm2(p) == 0.0 ? zeros : drawn).push_back(std::uint32_t(i));
     }
   }
-  if (zeros.size() == 1 || drawn.empty())
+  const bool areDrawn = zeros.size() == 1 || drawn.empty();
+  if (noReturns)
+  {
+    *noReturns = areDrawn ? 0 : std::int64_t(zeros.size());
+  }
+  if (areDrawn)
   {
     drawn.insert(drawn.end(), zeros.begin(), zeros.end());
     std::inplace_merge(drawn.begin(), drawn.end() - std::ptrdiff_t(zeros.size()), drawn.end());

@@ -3,6 +3,7 @@
 #include "ClippedCloud.h"
 #include "CloudAppearance.h"
 #include "Core/Base/Boxes.h"
+#include "Core/Base/QuantityText.h"
 #include "HapticViewerOptions.h"
 #include "IO/Info/FarPoints.h"
 #include "MergedCloud.h"
@@ -343,6 +344,19 @@ bool show(
   return loaded.shown != nullptr;
 }
 
+/// Nobody sees else why points of the file are missing.
+void noteNoReturns(const CloudRequest& request, LoadedCloud& loaded)
+{
+  const std::optional<Bounds> clip = clipBox(request.options->clip);
+  if (loaded.shown->noReturns > 0 && !request.options->felt && (!clip || isWithin(*clip, Vec3())))
+  {
+    loaded.notes.push_back(fmt::format(
+      "{}: {} points at (0, 0, 0), which scanners write for rays without return, are felt but not drawn; {} "
+      "draws what is felt",
+      loaded.title, countText(loaded.shown->noReturns), request.options->names.felt));
+  }
+}
+
 } // namespace
 
 CloudRequest CloudRequest::of(const std::vector<std::string>& files, const HapticViewerOptions& options)
@@ -375,9 +389,10 @@ std::string shortNote(const std::vector<std::string>& notes)
                           : fmt::format("{} (and {} more)", notes.front(), notes.size() - 1);
 }
 
-Bounds transformedBounds(vtkPolyData* cloud, const AffineTransform& transform)
+Bounds transformedBounds(vtkPolyData* cloud, const AffineTransform& transform, vtkIdType* invalid)
 {
   Bounds bounds;
+  vtkIdType finite = 0;
   Vec3 p;
   for (vtkIdType i = 0; i < cloud->GetNumberOfPoints(); ++i)
   {
@@ -385,7 +400,12 @@ Bounds transformedBounds(vtkPolyData* cloud, const AffineTransform& transform)
     if (isFinite(p))
     {
       bounds.include(transform.apply(p));
+      ++finite;
     }
+  }
+  if (invalid)
+  {
+    *invalid = cloud->GetNumberOfPoints() - finite;
   }
   return bounds;
 }
@@ -408,7 +428,7 @@ std::string titleOf(const std::vector<std::string>& files)
 void findBounds(const CloudRequest& request, LoadedCloud& loaded)
 {
   const bool isMoved = !request.transform.isIdentity();
-  loaded.bounds = transformedBounds(loaded.cloud, request.transform);
+  loaded.bounds = transformedBounds(loaded.cloud, request.transform, &loaded.invalid);
   const FarPoints far = request.options
     ? findFarPoints(
         loaded.cloud, isMoved ? transformedBounds(loaded.cloud, AffineTransform()) : loaded.bounds)
@@ -481,6 +501,7 @@ bool loadCloud(const CloudRequest& request, const std::function<bool(double)>& g
   keepArrays(result.cloud, result.colorBy);
   if (request.options)
   {
+    noteNoReturns(request, result);
     placeCloud(request, result);
     if (request.resamplesLater && request.canResampleLater())
     {

@@ -67,6 +67,7 @@ struct LoadedCloud
   vtkSmartPointer<vtkPolyData> felt;  ///< What of it was resampled: all, or the points in the clipping box.
   Bounds bounds; ///< Of the finite points, after CloudRequest::transform; of a fitted cloud without far ones.
   Bounds near;   ///< Of all points but a few far ones, which are not drawn; empty: none is far.
+  vtkIdType invalid = 0; ///< Points that are not finite.
   CloudOrientation orientation;
   std::string colorBy;            ///< What was asked for, exactly as the cloud or the pipeline writes it.
   std::string title;              ///< The names of the files, without their folders.
@@ -96,13 +97,15 @@ struct LoadedCloud
 };
 
 /// Bounds of the finite points after @p transform; the corners of a box would be too wide for a turned cloud.
-POINTHAPTICSVIEWER_EXPORT Bounds transformedBounds(vtkPolyData* cloud, const AffineTransform& transform);
+/// @param invalid gets the number of the others.
+POINTHAPTICSVIEWER_EXPORT Bounds transformedBounds(
+  vtkPolyData* cloud, const AffineTransform& transform, vtkIdType* invalid = nullptr);
 
 /// The names of @p files without their folders.
 POINTHAPTICSVIEWER_EXPORT std::string titleOf(const std::vector<std::string>& files);
 
-/// Fills in LoadedCloud::bounds of LoadedCloud::cloud and, where the options fit it, near; a note says of far
-/// points that they are left out, or how.
+/// Fills in LoadedCloud::bounds and invalid of LoadedCloud::cloud and, where the options fit it, near; a note
+/// says of far points that they are left out, or how.
 POINTHAPTICSVIEWER_EXPORT void findBounds(const CloudRequest& request, LoadedCloud& loaded);
 
 /// What options and messages call what a cloud is coloured by: what the pipeline makes in lower case.

@@ -210,7 +210,8 @@ std::shared_ptr<ShownCloud> makeShownCloud(
   vtkPolyData* cloud, const ShownRequest& request, const std::function<bool()>& goesOn)
 {
   auto shown = std::make_shared<ShownCloud>();
-  const std::vector<std::uint32_t> drawn = drawnPoints(PointAccess(cloud->GetPoints()).view());
+  const std::vector<std::uint32_t> drawn =
+    drawnPoints(PointAccess(cloud->GetPoints()).view(), &shown->noReturns);
   if (drawn.empty())
   {
     return nullptr;
@@ -246,7 +247,8 @@ std::shared_ptr<ShownCloud> makeShownCloud(
 std::shared_ptr<ShownCloud> makePlainCloud(vtkPolyData* cloud, const ShownRequest& request)
 {
   auto shown = std::make_shared<ShownCloud>();
-  const std::vector<std::uint32_t> drawn = drawnPoints(PointAccess(cloud->GetPoints()).view());
+  const std::vector<std::uint32_t> drawn =
+    drawnPoints(PointAccess(cloud->GetPoints()).view(), &shown->noReturns);
   if (drawn.empty())
   {
     return nullptr;
