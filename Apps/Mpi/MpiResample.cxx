@@ -71,9 +71,16 @@ int runResample(MpiResampleOptions& options, Job& job)
   resampler->SetInputData(piece.points);
   options.configure(resampler);
   resampler->SetComputeVoxelIndex(wantsIndex);
-  if (!updateFilter(resampler, "resampling", problem))
+  const bool isDone = updateFilter(resampler, "resampling", problem);
+  if (!isDone)
   {
     problem = options.files.input + ": " + problem;
+  }
+  const bool areDone = job.ranks().reduce(isDone, [](bool a, bool b) { return a && b; });
+  const std::string note = farPointsNote(options, areDone, piece.points, job.ranks());
+  if (job.isRoot() && !note.empty())
+  {
+    warn(kResampleCommand, note);
   }
   if (!job.agree(kResampleCommand, problem))
   {

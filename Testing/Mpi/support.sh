@@ -50,6 +50,8 @@ same_bytes() {
     run_ranks "$ranks" "$command" "$input" -o "out.$extension" "$@" >said-by-ranks 2>warned-by-ranks ||
       fault "$command $input $* on $ranks ranks: exit code $?: $(cat warned-by-ranks)"
     cmp "expected.$extension" "out.$extension" || fault "$command $input $* on $ranks ranks: other bytes"
+    [[ "$(sed 's/^pointhaptics-mpi /pointhaptics /' warned-by-ranks)" == "$(cat warned)" ]] ||
+      fault "$command $input $* on $ranks ranks warns of: $(cat warned-by-ranks)"
     cmp said said-by-ranks || fault "$command $input $* on $ranks ranks says $(cat said-by-ranks)"
     rm "out.$extension"
   done

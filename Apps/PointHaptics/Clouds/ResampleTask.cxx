@@ -63,13 +63,14 @@ void ResampleOptions::finish(vtkPolyData* means) const
   }
 }
 
-std::string farPointsNote(const ResampleOptions& options, vtkPolyData* cloud)
+std::string farPointsNote(const ResampleOptions& options, bool isDone, vtkPolyData* cloud, Ranks& ranks)
 {
-  if (!options.lattice.workspace().empty())
+  const bool isHarmless = isDone && options.lattice.voxels.lattice.voxelSize > 0.0;
+  if (isHarmless || !options.lattice.workspace().empty())
   {
     return {};
   }
-  FarPoints far = findFarPoints(cloud, transformedBounds(cloud, AffineTransform()));
+  FarPoints far = findFarPoints(cloud, transformedBounds(cloud, AffineTransform()), ranks);
   if (far.count == 0)
   {
     return {};

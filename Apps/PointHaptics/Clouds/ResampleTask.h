@@ -19,6 +19,7 @@ class vtkVoxelMeanResampler;
 namespace pointhaptics
 {
 class CsvWriter;
+class Ranks;
 namespace app
 {
 
@@ -37,8 +38,9 @@ struct ResampleOptions
 };
 
 /// What a few points of @p cloud far from all others do to the automatic lattice, and how they are left out;
-/// empty where there are none, or the lattice is not automatic.
-std::string farPointsNote(const ResampleOptions& options, vtkPolyData* cloud);
+/// empty where there are none, or the lattice is not automatic, or it @p isDone with voxels of a given size,
+/// of which no other is coarser for it. Collective where @p ranks have parts of the cloud: the same on all.
+std::string farPointsNote(const ResampleOptions& options, bool isDone, vtkPolyData* cloud, Ranks& ranks);
 
 /// Opens the file of --voxel-index. False: @p message says why it cannot be written.
 bool openVoxelIndex(const ResampleOptions& options, CsvWriter& file, std::string& message);

@@ -4,6 +4,7 @@
 #include "Clouds/ResampleTask.h"
 #include "Terminal/Messages.h"
 
+#include "Core/Distributed/Ranks.h"
 #include "CsvWriter.h"
 #include "vtkVoxelMeanResampler.h"
 
@@ -39,9 +40,8 @@ int runResample(const ResampleOptions& options)
   options.configure(resampler);
   resampler->SetComputeVoxelIndex(wantsIndex);
   const bool isDone = updateFilter(resampler, "resampling", message);
-  // Of voxels of a given size that can be made, no other is coarser for it.
-  const bool isHarmless = isDone && options.lattice.voxels.lattice.voxelSize > 0.0;
-  const std::string note = isHarmless ? std::string() : farPointsNote(options, cloud.points);
+  Ranks alone;
+  const std::string note = farPointsNote(options, isDone, cloud.points, alone);
   if (!note.empty())
   {
     warn(kResampleCommand, note);

@@ -2,12 +2,15 @@
 
 #include "Core/Base/Boxes.h"
 #include "Core/Base/QuantityText.h"
+#include "Core/Distributed/Ranks.h"
 
 #include "vtkPolyData.h"
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <string>
 #include <vector>
 
 namespace pointhaptics
@@ -41,21 +44,61 @@ double longestSide(const Bounds& bounds)
   return std::max({ size.x, size.y, size.z });
 }
 
-/// From 1 % to 99 % of some measured points on each axis, and by as much as its longest side beyond.
-Bounds boxOfMost(vtkPolyData* cloud)
+std::int64_t sum(Ranks& ranks, std::int64_t own)
 {
-  const vtkIdType count = cloud->GetNumberOfPoints();
-  const vtkIdType step = std::max<vtkIdType>(1, count / kLookedAt);
-  std::vector<double> values[3];
+  return ranks.reduce(own, [](std::int64_t a, std::int64_t b) { return a + b; });
+}
+
+/// Of all ranks; each is asked, also one without points.
+Bounds joined(Ranks& ranks, const Bounds& own)
+{
+  return ranks.reduce(own,
+    [](Bounds a, const Bounds& b)
+    {
+      if (!b.empty())
+      {
+        a.include(b.minimum);
+        a.include(b.maximum);
+      }
+      return a;
+    });
+}
+
+/// Some of the points, as many whatever the ranks, with those of all of them.
+void sample(vtkPolyData* part, Ranks& ranks, std::vector<double> (&values)[3])
+{
+  const std::int64_t count = part->GetNumberOfPoints();
+  const std::vector<std::int64_t> counts = ranks.gatherValues(count);
+  const auto own = counts.begin() + ranks.rank();
+  const std::int64_t before = std::accumulate(counts.begin(), own, std::int64_t{ 0 });
+  const std::int64_t all = std::accumulate(own, counts.end(), before);
+  const std::int64_t step = std::max<std::int64_t>(1, all / kLookedAt);
   Vec3 p;
-  for (vtkIdType i = 0; i < count; i += step)
+  for (vtkIdType i = (step - before % step) % step; i < count; i += step)
   {
-    cloud->GetPoint(i, &p.x);
+    part->GetPoint(i, &p.x);
     for (int axis = 0; axis < 3 && isFinite(p) && !isNoData(p); ++axis)
     {
       values[axis].push_back(p[axis]);
     }
   }
+  for (std::vector<double>& ofAxis : values)
+  {
+    const std::vector<std::string> ofRanks = ranks.gather(bytesOfValues(ofAxis));
+    ofAxis.clear();
+    for (const std::string& bytes : ofRanks)
+    {
+      const std::vector<double> more = valuesOfBytes<double>(bytes);
+      ofAxis.insert(ofAxis.end(), more.begin(), more.end());
+    }
+  }
+}
+
+/// From 1 % to 99 % of some measured points on each axis, and by as much as its longest side beyond.
+Bounds boxOfMost(vtkPolyData* part, Ranks& ranks)
+{
+  std::vector<double> values[3];
+  sample(part, ranks, values);
   Bounds box;
   for (int axis = 0; axis < 3 && !values[axis].empty(); ++axis)
   {
@@ -87,23 +130,30 @@ std::string FarPoints::clip() const
 
 FarPoints findFarPoints(vtkPolyData* cloud, const Bounds& bounds)
 {
+  Ranks alone;
+  return findFarPoints(cloud, bounds, alone);
+}
+
+FarPoints findFarPoints(vtkPolyData* part, const Bounds& bounds, Ranks& ranks)
+{
   FarPoints none;
-  none.others = bounds;
-  if (cloud->GetNumberOfPoints() < kFewest)
+  none.others = joined(ranks, bounds);
+  if (sum(ranks, part->GetNumberOfPoints()) < kFewest)
   {
     return none;
   }
-  const Bounds box = boxOfMost(cloud);
-  if (box.empty() || !(longestSide(box) > 0.0) || longestSide(box) > 3.0 * kMostLength * longestSide(bounds))
+  const double longest = longestSide(none.others);
+  const Bounds box = boxOfMost(part, ranks);
+  if (box.empty() || !(longestSide(box) > 0.0) || longestSide(box) > 3.0 * kMostLength * longest)
   {
     return none;
   }
   FarPoints found;
   std::int64_t stray = 0; // but for those without data
   Vec3 p;
-  for (vtkIdType i = 0; i < cloud->GetNumberOfPoints(); ++i)
+  for (vtkIdType i = 0; i < part->GetNumberOfPoints(); ++i)
   {
-    cloud->GetPoint(i, &p.x);
+    part->GetPoint(i, &p.x);
     if (isFinite(p))
     {
       ++found.of;
@@ -116,8 +166,12 @@ FarPoints findFarPoints(vtkPolyData* cloud, const Bounds& bounds)
       stray += isNoData(p) ? 0 : 1;
     }
   }
+  found.of = sum(ranks, found.of);
+  found.count = sum(ranks, found.count);
+  found.others = joined(ranks, found.others);
+  stray = sum(ranks, stray);
   const bool areFew = found.count > 0 && stray * kMostPart <= std::max(found.of, kMostPart);
-  return areFew && longestSide(found.others) <= kMostLength * longestSide(bounds) ? found : none;
+  return areFew && longestSide(found.others) <= kMostLength * longest ? found : none;
 }
 
 } // namespace pointhaptics

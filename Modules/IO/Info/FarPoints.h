@@ -14,6 +14,8 @@ class vtkPolyData;
 namespace pointhaptics
 {
 
+class Ranks;
+
 struct FarPoints
 {
   std::int64_t count = 0; ///< 0: there are none.
@@ -30,5 +32,9 @@ struct FarPoints
 /// for no data, without which its longest side is a tenth at most. Finite points lie within @p bounds. Cost:
 /// a look at 10,000 points, and at all where they may have far ones.
 POINTHAPTICSIO_EXPORT FarPoints findFarPoints(vtkPolyData* cloud, const Bounds& bounds);
+
+/// Collective: the same of a cloud of which each rank has a part, in its order. @param bounds of the own
+/// part.
+POINTHAPTICSIO_EXPORT FarPoints findFarPoints(vtkPolyData* part, const Bounds& bounds, Ranks& ranks);
 
 } // namespace pointhaptics
