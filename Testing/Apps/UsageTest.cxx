@@ -57,16 +57,16 @@ TEST_F(Usage, HelpNamesTheKeysThatAreBound)
   const auto says = [](const std::string& text, const std::string& part)
   { return text.find(part) != std::string::npos; };
   const std::string usual = help({});
-  for (const char* part :
-    { "where its axes point; key A ", "proxy and normal; key O ", "one at a time; keys N and B ",
-      "and end; key W writes those of the window ", "default: rgb, classification, clay or height, what suits; key M " })
+  for (const char* part : { "where its axes point; key A ", "proxy and normal; key O ",
+         "one at a time; keys N and B ", "and end; key W writes those of the window ",
+         "default: rgb, classification, clay or height, what suits; key M " })
   {
     EXPECT_TRUE(says(usual, part)) << part << "\n" << usual;
   }
   const std::string bound = help({ "--bind", "axes=F5,next-file=F7,write-settings=Ctrl+s,figure=,colors=a" });
-  for (const char* part :
-    { "where its axes point; key F5 ", "proxy and normal --", "one at a time; keys F7 and B ",
-      "and end; key Ctrl+s writes those of the window ", "default: rgb, classification, clay or height, what suits; key A " })
+  for (const char* part : { "where its axes point; key F5 ", "proxy and normal --",
+         "one at a time; keys F7 and B ", "and end; key Ctrl+s writes those of the window ",
+         "default: rgb, classification, clay or height, what suits; key A " })
   {
     EXPECT_TRUE(says(bound, part)) << part << "\n" << bound;
   }
@@ -95,6 +95,19 @@ TEST_F(Usage, UnknownAndSurplusArgumentsAreUsageErrors)
   this->refuse(2, { "bandwidth", "a.ply", "-o", "c.ply", "--voxel", "1" }, { "--voxel" });
   this->refuse(2, { "resample", "a.ply", "-o", "c.ply", "--dims" }, { "--dims" });
   this->refuse(2, { "resample", "a.ply", "-o", "c.ply", "--dims", "3", "--dims", "4" }, { "--dims" });
+}
+
+TEST_F(Usage, AFileThatLooksLikeAnOptionIsToldHowToBeGiven)
+{
+  this->write("-dash.xyz", "1 2 3\n");
+  const std::string cure = "-dash.xyz: begins with - as options do; give the file as ./-dash.xyz";
+  this->refuse(2, { "info", "-dash.xyz" }, { cure });
+  this->refuse(2, { "view", "-dash.xyz" }, { cure });
+  this->refuse(2, { "convert", "-dash.xyz", "out.ply" }, { cure });
+  this->refuse(2, { "resample", "-dash.xyz", "-o", "out.ply" }, { cure });
+  this->refuse(2, { "info", "-gone.xyz" }, { "see pointhaptics info --help" });
+  EXPECT_NE(this->succeed({ "info", "./-dash.xyz" }).find("points   1"), std::string::npos);
+  EXPECT_NE(this->succeed({ "info", "--", "-dash.xyz" }).find("points   1"), std::string::npos);
 }
 
 TEST_F(Usage, AnOutputThroughALinkKeepsTheLink)

@@ -9,7 +9,10 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <new>
+#include <system_error>
+#include <vector>
 
 namespace pointhaptics
 {
@@ -18,14 +21,30 @@ namespace app
 namespace
 {
 
+/// Which of @p words that are no option is a file that is there; empty: none.
+std::string fileLikeAnOption(const std::vector<std::string>& words)
+{
+  const auto found = std::find_if(words.begin(), words.end(),
+    [](const std::string& word)
+    {
+      std::error_code ignored;
+      return word.size() > 1 && word.front() == '-' && std::filesystem::exists(word, ignored);
+    });
+  return found == words.end() ? std::string() : *found;
+}
+
 /// CLI11's wording for the user, in one line.
 std::string usageMessage(const CLI::App& program, const CLI::ParseError& error)
 {
   // In the order in which they were given; the message has them from the last to the first.
-  if (const std::vector<std::string> extras = program.remaining(true);
-      dynamic_cast<const CLI::ExtrasError*>(&error) && !extras.empty())
+  const std::vector<std::string> words = program.remaining(true);
+  if (const std::string file = fileLikeAnOption(words); !file.empty())
   {
-    return fmt::format("unexpected argument{} {}", extras.size() > 1 ? "s" : "", fmt::join(extras, " "));
+    return fmt::format("{}: begins with - as options do; give the file as ./{}", file, file);
+  }
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) && !words.empty())
+  {
+    return fmt::format("unexpected argument{} {}", words.size() > 1 ? "s" : "", fmt::join(words, " "));
   }
   std::string message = error.what();
   std::replace(message.begin(), message.end(), '\n', ' ');
