@@ -147,6 +147,15 @@ TEST_F(Feel, SaysHowFarAHandThatTouchesNothingStaysAway)
   EXPECT_EQ(touched.find("nearest point"), std::string::npos) << touched;
 }
 
+TEST_F(Feel, RoundingErrorsAreNoForce)
+{
+  this->write("one.xyz", "1 2 3\n");
+  this->write("down.csv", "t,x,y,z\n0,0,0,0.1\n1,0,0,0\n");
+  const std::string output =
+    this->succeed({ "feel", "one.xyz", "--fit", "--path", "down.csv", "-o", "felt.csv" });
+  EXPECT_NE(output.find(" 1 in contact, max force 0 N,"), std::string::npos) << output;
+}
+
 TEST_F(Feel, TheSphereOfThePaperIsFeltWithinATwentiethOfAPercent)
 {
   this->succeed({ "generate", "sphere", "-n", "543652", "-o", "sphere.ply" });

@@ -7,6 +7,7 @@
 #include "Feel/FeelReplay.h"
 #include "Feel/FeltCloud.h"
 #include "Feel/FeltSound.h"
+#include "Feel/ForceFigure.h"
 #include "Terminal/Messages.h"
 #include "Terminal/ProgressBar.h"
 #include "Terminal/StopSignals.h"
@@ -103,7 +104,7 @@ public:
       approach_.add(state.hip);
     }
     summary_.contactTicks += state.contact;
-    summary_.maximumForce = std::max(summary_.maximumForce, norm(state.force));
+    summary_.maximumForce = std::max(summary_.maximumForce, forceFigure(norm(state.force)));
     durations_.push_back(static_cast<float>(microseconds));
     sound_.add(time, state);
     const auto row = feltRow(time, state, microseconds);

@@ -1,6 +1,7 @@
 #include "Commands/Commands.h"
 
 #include "Feel/FeelReplay.h"
+#include "Feel/ForceFigure.h"
 #include "Options/OptionParsing.h"
 #include "Terminal/Messages.h"
 #include "Terminal/ProgressBar.h"
@@ -102,11 +103,11 @@ Comparison compared(const Recording& recording, const std::array<std::vector<Fel
     for (std::size_t side = 0; side < 2; ++side)
     {
       result.contacts[side] += felt[side][i].contact;
-      result.largest[side] = std::max(result.largest[side], norm(felt[side][i].force));
+      result.largest[side] = std::max(result.largest[side], forceFigure(norm(felt[side][i].force)));
     }
     result.oneAlone += a.contact != b.contact;
     touched += a.contact || b.contact;
-    const double difference = norm(a.force - b.force);
+    const double difference = forceFigure(norm(a.force - b.force));
     sum += difference * difference;
     if (difference > result.largestDifference)
     {
