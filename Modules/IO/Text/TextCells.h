@@ -27,6 +27,10 @@ inline bool parseCell(std::string_view cell, double& value, NumberShape* shape =
   return parseNumber(cell, value, shape) || parseUnusualCell(cell, value, shape);
 }
 
+/// Of "1.234,56", "1,234.56" or "1'234.56": "1234,56" or "1234.56", without the marks between thousands.
+/// Empty where @p cell is no such number: of "1.234" alone nobody can tell.
+std::string withoutThousandsMarks(std::string_view cell);
+
 /// What separates the cells of @p line: ';', ',', '|' or '\t', or ' ' for any white space. The one that
 /// leaves the most numbers: of "0,25 1 3,5" white space, as a comma may mark decimals.
 char separatorOf(std::string_view line);

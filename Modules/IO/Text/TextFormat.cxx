@@ -115,9 +115,34 @@ TextTable ofAll(SharedReading& shared, const TextTable& own)
   return all;
 }
 
-[[noreturn]] void failText(const TextTable& table, std::size_t column)
+/// Of "1.234,56" in the line of @p texts, whatever the cells were taken to be: commas and points may have
+/// been taken for separators.
+void failThousands(std::string_view text, const TextLayout& layout, const CellTexts& texts)
+{
+  LineReader lines(text.substr(layout.bodyOffset), layout.bodyLine);
+  std::string_view line;
+  while (lines.next(line) && lines.lineNumber() < texts.line())
+  {
+  }
+  while (!line.empty() && lines.lineNumber() == texts.line())
+  {
+    const std::size_t end = std::min(line.find_first_of(" \t;|\""), line.size());
+    if (const std::string plain = withoutThousandsMarks(line.substr(0, end)); !plain.empty())
+    {
+      failFormat(texts.where() + ": " + inQuotes(line.substr(0, end)) + " has marks between thousands",
+        "write numbers without them, as " + plain +
+          (plain.find(',') == std::string::npos ? ""
+                                                : ", and separate columns by semicolons or white space"));
+    }
+    line.remove_prefix(std::min(end + 1, line.size()));
+  }
+}
+
+[[noreturn]] void failText(
+  std::string_view text, const TextLayout& layout, const TextTable& table, std::size_t column)
 {
   const CellTexts& texts = table.columns[column].texts;
+  failThousands(text, layout, texts);
   failFormat(texts.where() + ", column " + std::to_string(column + 1) + ": " + inQuotes(texts.first()) +
       " is not a number",
     "write x, y and z as numbers with the same separator on every line, and comments after #");
@@ -170,7 +195,8 @@ std::vector<std::string> namesOf(
 }
 
 /// @throws FileProblem where x, y or z holds a text.
-void checkCoordinates(const TextTable& table, const TextLayout& layout, const std::vector<std::size_t>& read)
+void checkCoordinates(std::string_view text, const TextTable& table, const TextLayout& layout,
+  const std::vector<std::size_t>& read)
 {
   const std::vector<std::size_t> places =
     layout.names.empty() ? read : coordinatesOf(columnsCalled(layout.names));
@@ -180,7 +206,7 @@ void checkCoordinates(const TextTable& table, const TextLayout& layout, const st
     const std::size_t column = areTooFew ? i : places[i];
     if (table.columns[column].texts.count() > 0)
     {
-      failText(table, column);
+      failText(text, layout, table, column);
     }
   }
 }
@@ -295,7 +321,7 @@ void readTable(ReadTask& task, std::string_view text, TextLayout layout, vtkPoly
     failNoPoints();
   }
   const std::vector<std::size_t> read = columnsOfNumbers(table);
-  checkCoordinates(table, layout, read);
+  checkCoordinates(text, table, layout, read);
   const std::vector<std::string> names = namesOf(table, layout, read);
   for (std::size_t i = 0; i < names.size(); ++i)
   {

@@ -44,6 +44,7 @@ public:
   /// "line 2"; of the first one.
   std::string where() const { return "line " + std::to_string(line_); }
   /// The first one, or its start.
+  std::uint64_t line() const { return line_; }
   std::string first() const;
 
 private:
