@@ -1,6 +1,7 @@
 #include "FormatWriters.h"
 
 #include "Bytes/NumericType.h"
+#include "IO/Info/FieldText.h"
 
 #include "vtkFieldData.h"
 #include "vtkVariant.h"
@@ -148,6 +149,11 @@ void addRecordFields(std::vector<RecordField>& fields, std::size_t& recordSize, 
 
 } // namespace
 
+std::string unitLine(const std::string& mark, const WriteTask& task)
+{
+  return task.unit.empty() ? std::string() : mark + std::string(kUnitComment) + task.unit + "\n";
+}
+
 std::string shortestDecimal(double value)
 {
   char text[32];
@@ -191,7 +197,8 @@ void writePly(const std::vector<OutputArray>& given, WriteTask& task)
   const vtkIdType rows = arrays[0].array->GetNumberOfTuples();
   std::string header = "ply\nformat ";
   header += kIsLittleEndianHost ? "binary_little_endian" : "binary_big_endian";
-  header += " 1.0\ncomment written by PointHaptics\nelement vertex " + std::to_string(rows) + "\n";
+  header += " 1.0\ncomment written by PointHaptics\n" + unitLine("comment ", task);
+  header += "element vertex " + std::to_string(rows) + "\n";
   std::vector<RecordField> fields;
   std::size_t recordSize = 0;
   for (const OutputArray& array : arrays)
@@ -238,8 +245,8 @@ void writePcd(const std::vector<OutputArray>& arrays, vtkFieldData* fieldData, W
     }
     addRecordFields(fields, recordSize, array);
   }
-  task.out.write(
-    "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\n" + lines.text() + pcdShape(fieldData, rows));
+  task.out.write("# .PCD v0.7 - Point Cloud Data file format\n" + unitLine("# ", task) + "VERSION 0.7\n" +
+    lines.text() + pcdShape(fieldData, rows));
   writeRecords(fields, recordSize, rows, task);
 }
 

@@ -19,9 +19,10 @@ void writePly(const std::vector<OutputArray>& arrays, WriteTask& task);
 /// Binary PCD; @p fieldData may hold Viewpoint (7) and OrganizedDimensions (width, height).
 void writePcd(const std::vector<OutputArray>& arrays, vtkFieldData* fieldData, WriteTask& task);
 
-/// Text with a column per component and a line of their names; each number with the fewest digits that give it
-/// back exactly. @p separator is ',' or ' ': between spaces the names are a comment ("//x y z ..."), which
-/// programs that take bare numbers leave out, and white space inside a name becomes '_'.
+/// Text with a column per component and a line of their names; each number with the fewest digits that give
+/// it back exactly. @p separator is ',' or ' ': between spaces the names are a comment ("//x y z ..."), which
+/// programs that take bare numbers leave out, and white space inside a name becomes '_'. A unit stands in a
+/// comment before them, and in brackets after x, y and z between commas.
 void writeTable(const std::vector<OutputArray>& arrays, WriteTask& task, char separator);
 
 /// LAS 1.2, or 1.4 where the arrays or well-known text need it. Arrays that the reader makes of LAS fields
@@ -29,6 +30,9 @@ void writeTable(const std::vector<OutputArray>& arrays, WriteTask& task, char se
 /// CoordinateSystem. With @p isPacked it is a LAZ file of the same records.
 void writeLas(
   const std::vector<OutputArray>& arrays, vtkFieldData* fieldData, WriteTask& task, bool isPacked);
+
+/// The comment that says the unit, after its @p mark, with the end of its line; nothing where none is known.
+std::string unitLine(const std::string& mark, const WriteTask& task);
 
 /// The fewest digits that give @p value back.
 std::string shortestDecimal(double value);

@@ -56,7 +56,8 @@
  *   with # or //; an empty cell reads as NaN; a number may have a comma for its point where that separates
  *   nothing, and stand in quotation marks. A column in which texts outnumber numbers is left out, fewer texts
  *   read as NaN: GetNotes() names them. Coordinates must be numbers; their columns may be called X [mm],
- *   POINT_X, easting and the like, and a unit in brackets becomes the field array LengthUnit. Without a
+ *   POINT_X, easting and the like, and a unit in brackets becomes the field array LengthUnit; so does
+ *   that of the comment "LengthUnit mm" which vtkPointCloudWriter leaves here, in PLY and in PCD. Without a
  * header 4 columns are x y z intensity, 6 are x y z and red green blue (three integers in 0..65535) or
  * normals, 7 are x y z intensity red green blue, and others are called column_4 and so on. Columns of
  * integers become int arrays.

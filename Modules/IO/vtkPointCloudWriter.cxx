@@ -3,6 +3,8 @@
 #include "Bytes/FileBytes.h"
 #include "FileProblem.h"
 #include "FormatWriters.h"
+#include "IO/Info/FieldText.h"
+#include "IO/Las/LasCoordinateSystem.h"
 #include "IO/Vtk/VtpWriter.h"
 #include "WriteTask.h"
 
@@ -28,18 +30,37 @@ struct FileFormat
 {
   const char* extension;
   const char* name;
-  const char* keptFieldData; ///< names, separated by spaces
+  const char* keptFieldData; ///< names, separated by spaces, but for LengthUnit
 };
 
 const FileFormat kFormats[] = {
   { "vtp", "VTP", "" },
   { "ply", "PLY", "" },
   { "pcd", "PCD", "Viewpoint OrganizedDimensions" },
-  { "las", "LAS", "LasScale LasOffset LasGlobalEncoding CoordinateSystem LengthUnit" },
-  { "laz", "LAZ", "LasScale LasOffset LasGlobalEncoding CoordinateSystem LengthUnit" },
+  { "las", "LAS", "LasScale LasOffset LasGlobalEncoding CoordinateSystem" },
+  { "laz", "LAZ", "LasScale LasOffset LasGlobalEncoding CoordinateSystem" },
   { "csv", "CSV", "" },
   { "xyz", "text", "" },
 };
+
+/// What a comment or a header of @p format says of the unit of @p cloud. Metres, which clouds without a unit
+/// are taken to be in, are left out of the names that programs look for in a table.
+std::string unitFor(const FileFormat& format, vtkPointSet* cloud)
+{
+  const std::string unit = io::fieldText(cloud->GetFieldData(), "LengthUnit");
+  const bool isMetre = unit == "m" || unit == "metre" || unit == "meter";
+  return io::isUnitWord(unit) && !(isMetre && format.name == std::string("CSV")) ? unit : std::string();
+}
+
+bool keeps(const FileFormat& format, vtkPointSet* cloud, const std::string& fieldName)
+{
+  if (fieldName == "LengthUnit")
+  {
+    const bool isLas = format.name == std::string("LAS") || format.name == std::string("LAZ");
+    return isLas ? io::lasSaysUnit(cloud->GetFieldData()) : !unitFor(format, cloud).empty();
+  }
+  return (" " + std::string(format.keptFieldData) + " ").find(" " + fieldName + " ") != std::string::npos;
+}
 
 /// Null where no format has the extension.
 const FileFormat* formatOf(const std::string& extension)
@@ -69,13 +90,13 @@ bool isIdentityPose(vtkPointSet* cloud, const std::string& name)
   return same;
 }
 
-void noteWhatIsNoColumn(vtkPointSet* cloud, const std::string& keptFieldData, io::WriterNotes& notes)
+void noteWhatIsNoColumn(vtkPointSet* cloud, const FileFormat& format, io::WriterNotes& notes)
 {
   std::string lost;
   for (const std::string name : kOfTheCloud)
   {
-    const bool isKept = (" " + keptFieldData + " ").find(" " + name + " ") != std::string::npos;
-    if (!isKept && cloud->GetFieldData()->HasArray(name.c_str()) && !isIdentityPose(cloud, name))
+    if (!keeps(format, cloud, name) && cloud->GetFieldData()->HasArray(name.c_str()) &&
+      !isIdentityPose(cloud, name))
     {
       lost += (lost.empty() ? "" : ", ") + name;
     }
@@ -186,7 +207,8 @@ void vtkPointCloudWriter::WriteCloud(vtkPointSet* cloud)
   }
   else
   {
-    noteWhatIsNoColumn(cloud, format->keptFieldData, task.notes);
+    noteWhatIsNoColumn(cloud, *format, task.notes);
+    task.unit = unitFor(*format, cloud);
     const std::vector<io::OutputArray> arrays = io::outputArrays(cloud, task.notes);
     if (this->Format == "PLY")
     {

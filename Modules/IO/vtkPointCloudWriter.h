@@ -26,6 +26,10 @@
  * number with the fewest digits that give back the same value. Types are not stored: float arrays may be read
  * as double.
  *
+ * The field data "LengthUnit" is a comment "LengthUnit mm" of .ply, .pcd and .xyz, a GeoTIFF key of .las, and
+ * stands in brackets in the header of .csv: x [mm],y [mm],z [mm]; there metres, which nothing said means,
+ * too, are left out, as programs look for x, y and z.
+ *
  * Arrays of strings are left out, and white space, commas and quotes in names become '_' (not in .vtp).
  * GetNotes() lists whatever the format could not hold of this cloud.
  *

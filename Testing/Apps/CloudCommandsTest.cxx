@@ -392,6 +392,30 @@ TEST_F(CloudCommands, ResamplingSaysHowFarPointsAreLeftOut)
   EXPECT_NE(output.find(" 1 clipped"), std::string::npos) << output;
 }
 
+TEST_F(CloudCommands, TheUnitOfATextGoesWithItsPointsUntilTheyAreScaled)
+{
+  this->write("in.csv", "x [mm],y [mm],z [mm],h\n1,2,3,4\n5,6,7,8\n");
+  for (const std::string file : { "out.ply", "out.pcd", "out.las", "out.csv", "out.xyz", "out.vtp" })
+  {
+    this->succeed({ "convert", "in.csv", file });
+    const std::string text = this->succeed({ "info", file });
+    const std::string unit = file == "out.las" ? "millimetre" : "mm";
+    EXPECT_NE(text.find("unit     " + unit + " (the file says so)"), std::string::npos) << text;
+  }
+  EXPECT_EQ(this->read("out.csv").substr(0, 23), "x [mm],y [mm],z [mm],h\n");
+  const auto isSaid = [&](std::vector<std::string> more)
+  {
+    std::vector<std::string> words = { "resample", "in.csv", "-o", "means.ply" };
+    words.insert(words.end(), more.begin(), more.end());
+    this->succeed(words);
+    return this->succeed({ "info", "means.ply" }).find("mm (the file says so)") != std::string::npos;
+  };
+  EXPECT_TRUE(isSaid({}));
+  EXPECT_TRUE(isSaid({ "--translate", "1,0,0" }));
+  EXPECT_FALSE(isSaid({ "--unit", "mm" }));
+  EXPECT_FALSE(isSaid({ "--scale", "2" }));
+}
+
 TEST_F(CloudCommands, InfoTellsTheCoordinateSystemAndItsUnit)
 {
   // VTK keeps strings as the codes of their letters: EPSG:2225 and foot.

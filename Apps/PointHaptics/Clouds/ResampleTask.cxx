@@ -51,12 +51,15 @@ void ResampleOptions::configure(vtkVoxelMeanResampler* resampler) const
   resampler->SetMinimumPointsPerVoxel(int(this->minimumPoints));
 }
 
-/// The steps of the file's coordinates are not those of transformed ones.
+/// The steps of the file's coordinates are not those of transformed ones, nor is their unit that of scaled
+/// ones.
 void ResampleOptions::finish(vtkPolyData* means) const
 {
-  for (const char* name : { "LasScale", "LasOffset" })
+  const bool isScaled =
+    this->lattice.unit != "m" || !this->lattice.scale.empty() || !this->lattice.matrix.empty();
+  for (const char* name : { "LasScale", "LasOffset", "LengthUnit" })
   {
-    if (this->lattice.hasTransform())
+    if (this->lattice.hasTransform() && (isScaled || name != std::string("LengthUnit")))
     {
       means->GetFieldData()->RemoveArray(name);
     }

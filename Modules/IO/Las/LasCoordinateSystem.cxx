@@ -27,21 +27,31 @@ constexpr int kUserDefined = 32767;
 constexpr std::size_t kMostText = 65535; ///< 16 bits hold the length of a record
 constexpr const char* kProjection = "LASF_Projection";
 
-/// From the code 9001 on.
-constexpr const char* kUnits[] = { "metre", "foot", "US survey foot" };
-constexpr int kFirstUnit = 9001;
+struct CodedUnit
+{
+  int code; ///< Of EPSG.
+  const char* name;
+  const char* others[2]; ///< As texts call it.
+};
+
+constexpr CodedUnit kUnits[] = { { 9001, "metre", { "m", "meter" } }, { 9002, "foot", { "ft", "feet" } },
+  { 9003, "US survey foot", { "ftUS", "us-ft" } }, { 1025, "millimetre", { "mm", "millimeter" } },
+  { 1033, "centimetre", { "cm", "centimeter" } } };
 
 const char* nameOfUnit(int code)
 {
-  const int unit = code - kFirstUnit;
-  return unit >= 0 && unit < int(std::size(kUnits)) ? kUnits[unit] : "";
+  const auto* const unit = std::find_if(
+    std::begin(kUnits), std::end(kUnits), [&](const CodedUnit& each) { return each.code == code; });
+  return unit == std::end(kUnits) ? "" : unit->name;
 }
 
 /// @return 0 for a unit without a code.
 int codeOfUnit(const std::string& name)
 {
-  const auto* const unit = std::find(std::begin(kUnits), std::end(kUnits), name);
-  return unit == std::end(kUnits) ? 0 : kFirstUnit + int(unit - std::begin(kUnits));
+  const auto* const unit = std::find_if(std::begin(kUnits), std::end(kUnits),
+    [&](const CodedUnit& each)
+    { return name == each.name || name == each.others[0] || name == each.others[1]; });
+  return unit == std::end(kUnits) ? 0 : unit->code;
 }
 
 /// The record of GeoTIFF keys. @param code of the system, 0 where only the unit is known; @param unit 0 where
@@ -120,6 +130,13 @@ std::string LasCoordinateSystem::lengthUnit() const
   const std::size_t unit = part.rfind("UNIT[\"");
   const std::size_t name = unit == std::string::npos ? unit : part.find('"', unit) + 1;
   return name == std::string::npos ? unit_ : part.substr(name, part.find('"', name) - name);
+}
+
+bool lasSaysUnit(vtkFieldData* fieldData)
+{
+  const std::string system = fieldText(fieldData, "CoordinateSystem");
+  const bool isText = !system.empty() && system.rfind("EPSG:", 0) != 0; // which says its own
+  return isText || codeOfUnit(fieldText(fieldData, "LengthUnit")) > 0;
 }
 
 std::string lasCoordinateSystemRecord(vtkFieldData* fieldData, std::uint16_t& encoding)

@@ -32,6 +32,9 @@ private:
   std::string unit_;
 };
 
+/// Whether that record says the field data's LengthUnit.
+bool lasSaysUnit(vtkFieldData* fieldData);
+
 /// The record that says what the field data's CoordinateSystem and LengthUnit say, empty when they say
 /// nothing; well-known text, which has its own unit, sets its bit in @p encoding.
 std::string lasCoordinateSystemRecord(vtkFieldData* fieldData, std::uint16_t& encoding);

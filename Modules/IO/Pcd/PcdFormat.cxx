@@ -2,6 +2,7 @@
 
 #include "Bytes/NumericType.h"
 #include "CloudColumns.h"
+#include "IO/Info/FieldText.h"
 #include "IO/Pcd/LzfStream.h"
 #include "IO/Pcd/PcdHeader.h"
 #include "IO/Text/TextPart.h"
@@ -263,6 +264,7 @@ RowRange rowsIn(const TextPart& part, const PcdHeader& header)
 void addFieldData(const PcdHeader& header, vtkPolyData* cloud)
 {
   vtkNew<vtkDoubleArray> viewpoint;
+  addFieldText(cloud, "LengthUnit", header.lengthUnit);
   viewpoint->SetName("Viewpoint");
   viewpoint->SetNumberOfComponents(7);
   viewpoint->InsertNextTuple(header.viewpoint.data());

@@ -3,6 +3,7 @@
 #include "Bytes/NumericType.h"
 #include "CloudColumns.h"
 #include "FileProblem.h"
+#include "IO/Info/FieldText.h"
 #include "IO/Text/TextScan.h"
 
 #include <algorithm>
@@ -222,6 +223,10 @@ PcdHeader HeaderParser::parse()
   while (!complete && lines_.next(line))
   {
     std::string keyword(takeWord(line));
+    if (const std::string unit = unitOfComment(trimmed(line)); keyword == "#" && isUnitWord(unit))
+    {
+      header_.lengthUnit = unit;
+    }
     if (keyword.empty() || keyword.front() == '#')
     {
       continue;

@@ -38,6 +38,7 @@ struct PcdHeader
   unsigned long long height = 1;
   unsigned long long points = 0;
   std::array<double, 7> viewpoint{ 0, 0, 0, 1, 0, 0, 0 }; ///< position, then quaternion w x y z
+  std::string lengthUnit; ///< as the writer's comment says it; empty: nothing says it
   std::size_t bodyOffset = 0;
   std::size_t bodyLine = 0;
   std::size_t recordSize = 0;           ///< bytes of a binary record

@@ -2,6 +2,7 @@
 
 #include "Bytes/NumericType.h"
 #include "CloudColumns.h"
+#include "IO/Info/FieldText.h"
 #include "IO/Ply/PlyHeader.h"
 #include "IO/Text/TextPart.h"
 #include "IO/Text/TextScan.h"
@@ -353,6 +354,7 @@ void readPly(ReadTask& task, vtkPolyData* cloud)
   }
   const PlyHeader header = parsePlyHeader(task.bytes);
   task.format = std::string("PLY (") + nameOf(header.encoding) + ")";
+  addFieldText(cloud, "LengthUnit", header.lengthUnit);
   if (header.encoding == PlyEncoding::Ascii)
   {
     readAsciiBody(task, header, cloud);

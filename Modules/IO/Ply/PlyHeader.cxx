@@ -3,6 +3,7 @@
 #include "Bytes/NumericType.h"
 #include "CloudColumns.h"
 #include "FileProblem.h"
+#include "IO/Info/FieldText.h"
 #include "IO/Text/TextScan.h"
 
 #include <algorithm>
@@ -184,6 +185,10 @@ PlyHeader parsePlyHeader(std::string_view bytes)
         failLine(number, "more than " + std::to_string(kMostColumns) + " properties", "use lists");
       }
       header.elements.back().properties.push_back(parseProperty(line, number));
+    }
+    else if (const std::string unit = unitOfComment(trimmed(line)); keyword == "comment" && isUnitWord(unit))
+    {
+      header.lengthUnit = unit;
     }
     else if (!keyword.empty() && keyword != "ply" && keyword != "comment" && keyword != "obj_info")
     {

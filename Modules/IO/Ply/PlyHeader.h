@@ -40,6 +40,7 @@ struct PlyHeader
 {
   PlyEncoding encoding = PlyEncoding::Ascii;
   std::vector<PlyElement> elements;
+  std::string lengthUnit;     ///< as the writer's comment says it; empty: nothing says it
   std::size_t bodyOffset = 0; ///< first byte after end_header's line
   std::size_t bodyLine = 0;   ///< its line number, for ASCII
 

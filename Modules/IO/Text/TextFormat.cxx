@@ -376,7 +376,8 @@ void readText(ReadTask& task, vtkPolyData* cloud)
         : "write one point per line: x y z, then one column per name of the header");
   }
   failTornDecimals(text, layout);
-  addFieldText(cloud, "LengthUnit", unitOf(layout.names));
+  const std::string unit = unitOf(layout.names);
+  addFieldText(cloud, "LengthUnit", unit.empty() ? layout.unit : unit);
   readTable(task, text, layout, cloud);
 }
 

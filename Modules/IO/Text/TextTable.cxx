@@ -1,6 +1,7 @@
 #include "IO/Text/TextTable.h"
 
 #include "CloudColumns.h"
+#include "IO/Info/FieldText.h"
 #include "IO/Text/TextCells.h"
 
 #include <algorithm>
@@ -45,6 +46,14 @@ bool namesCoordinates(const std::vector<std::string>& names)
     }
   }
   return true;
+}
+
+/// Of @p columns; empty where @p comment names no coordinates: prose is no header, however long it is.
+std::vector<std::string> namesInComment(std::string_view comment, std::size_t columns, std::size_t lineNumber)
+{
+  const std::string_view start = comment.substr(0, kLongestHeader);
+  const std::vector<std::string> names = columnNames(cellsOf(start, separatorOf(start), lineNumber));
+  return names.size() == columns && namesCoordinates(names) ? names : std::vector<std::string>();
 }
 
 /// Walks over the lines of data and shows each cell to a Sink: number(column, value, shape), empty(column),
@@ -325,7 +334,9 @@ TextLayout inspectText(std::string_view text)
     if (isComment(line))
     {
       const std::string_view comment = withoutCommentMark(line);
-      lastComment = comment.empty() ? lastComment : comment;
+      const std::string unit = unitOfComment(comment);
+      layout.unit = isUnitWord(unit) ? unit : layout.unit;
+      lastComment = comment.empty() || isUnitWord(unit) ? lastComment : comment;
       continue;
     }
     const char separator = isByTabs(header, line) ? '\t' : separatorOf(line);
@@ -353,14 +364,7 @@ TextLayout inspectText(std::string_view text)
   }
   if (layout.names.empty() && !lastComment.empty())
   {
-    // Prose in a comment is no header, however long it is.
-    const std::string_view start = lastComment.substr(0, kLongestHeader);
-    const std::vector<std::string> names =
-      columnNames(cellsOf(start, separatorOf(start), lines.lineNumber()));
-    if (names.size() == layout.columns && namesCoordinates(names))
-    {
-      layout.names = names;
-    }
+    layout.names = namesInComment(lastComment, layout.columns, lines.lineNumber());
   }
   // A cell may be empty at the end of the first line: the header has the number of columns.
   if (layout.separator != ' ' && layout.columns < layout.names.size())

@@ -23,6 +23,7 @@ struct TextLayout
 {
   char separator = ' ';           ///< see separatorOf()
   std::vector<std::string> names; ///< of the header; empty when there is none
+  std::string unit;               ///< that a comment says; empty: none does
   bool hasPointCount = false;     ///< PTS: lines that hold only a count stand before blocks of points
   std::size_t bodyOffset = 0;     ///< first byte after the header, or the first byte of the data
   std::size_t bodyLine = 1;       ///< its line number
@@ -43,8 +44,8 @@ public:
   std::int64_t count() const { return count_; }
   /// "line 2"; of the first one.
   std::string where() const { return "line " + std::to_string(line_); }
-  /// The first one, or its start.
   std::uint64_t line() const { return line_; }
+  /// The first one, or its start.
   std::string first() const;
 
 private:

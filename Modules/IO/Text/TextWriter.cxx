@@ -40,10 +40,14 @@ struct TableColumn
   Append append = nullptr;
 };
 
-std::string nameOf(const OutputArray& array, int component, char separator)
+std::string nameOf(const OutputArray& array, int component, const WriteTask& task, char separator)
 {
-  std::string name =
-    array.role == ArrayRole::Points ? std::string(1, "xyz"[component]) : array.componentName(component);
+  if (array.role == ArrayRole::Points)
+  {
+    const bool saysUnit = separator == ',' && !task.unit.empty();
+    return std::string(1, "xyz"[component]) + (saysUnit ? " [" + task.unit + "]" : "");
+  }
+  std::string name = array.componentName(component);
   if (separator == ' ')
   {
     std::replace_if(
@@ -64,14 +68,14 @@ void writeTable(const std::vector<OutputArray>& arrays, WriteTask& task, char se
     for (int component = 0; component < array.components(); ++component)
     {
       header += header.empty() ? mark : std::string(1, separator);
-      header += nameOf(array, component, separator);
+      header += nameOf(array, component, task, separator);
       TableColumn column;
       column.view = array.column(component);
       withType(array.type(), [&](auto zero) { column.append = &appendNumber<decltype(zero)>; });
       columns.push_back(column);
     }
   }
-  task.out.write(header + "\n");
+  task.out.write((separator == ' ' ? unitLine("//", task) : "") + header + "\n");
   std::vector<char> buffer(kFlushAt + columns.size() * (kLongestNumber + 1));
   char* end = buffer.data();
   const vtkIdType rows = arrays[0].array->GetNumberOfTuples();

@@ -1,4 +1,5 @@
 #include "CloudFiles.h"
+#include "IO/Info/FieldText.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
@@ -283,6 +284,46 @@ TEST_F(Writer, CsvStartsWithTheAgreedHeader)
     "x,y,z,RGB_0,RGB_1,RGB_2,Normals_0,Normals_1,Normals_2,Bandwidth,Density,Intensity,Label,VoxelPointCount,"
     "VoxelCovariance_0,VoxelCovariance_1,VoxelCovariance_2,VoxelCovariance_3,VoxelCovariance_4,"
     "VoxelCovariance_5");
+}
+
+TEST_F(Writer, TheUnitComesBackFromEveryFormat)
+{
+  for (const std::string extension : { "vtp", "ply", "pcd", "las", "laz", "csv", "xyz" })
+  {
+    for (const std::string unit : { "millimetre", "US survey foot", "metre", "\xc2\xb5m" })
+    {
+      SCOPED_TRACE(extension + ", " + unit);
+      const auto cloud = makeCloud(VTK_FLOAT);
+      pointhaptics::io::addFieldText(cloud, "LengthUnit", unit);
+      const bool isSaid =
+        !(extension.substr(0, 2) == "la" && unit[0] == '\xc2') && !(extension == "csv" && unit == "metre");
+      vtkNew<vtkPointCloudWriter> writer;
+      writer->SetInputData(cloud);
+      writer->SetFileName(path("a." + extension).c_str());
+      ASSERT_EQ(writer->Write(), 1);
+      const std::vector<std::string> notes = writer->GetNotes();
+      const bool isNoted =
+        std::find(notes.begin(), notes.end(), "field data LengthUnit is left out") != notes.end();
+      EXPECT_EQ(isNoted, !isSaid);
+      const ReadResult result = readCloud(path("a." + extension));
+      ASSERT_EQ(result.error, "");
+      EXPECT_EQ(pointhaptics::io::fieldText(result.cloud->GetFieldData(), "LengthUnit"), isSaid ? unit : "");
+    }
+  }
+}
+
+TEST_F(Writer, AUnitThatIsNoWordStaysOutOfHeaders)
+{
+  for (const std::string extension : { "ply", "pcd", "csv", "xyz" })
+  {
+    const auto cloud = makeCloud(VTK_FLOAT);
+    pointhaptics::io::addFieldText(cloud, "LengthUnit", "mm\nend_header\nDATA ascii");
+    ASSERT_EQ(writeCloud(cloud, path("a." + extension)), "");
+    const ReadResult result = readCloud(path("a." + extension));
+    ASSERT_EQ(result.error, "") << extension;
+    EXPECT_EQ(result.points(), kPoints) << extension;
+    EXPECT_FALSE(result.cloud->GetFieldData()->HasArray("LengthUnit")) << extension;
+  }
 }
 
 TEST_F(Writer, ColumnsBetweenSpacesHaveTheirNamesInAComment)
