@@ -19,9 +19,11 @@ namespace
 
 constexpr std::uint64_t kThinSampleSeed = 29;
 constexpr std::uint64_t kStrokeSeed = 30;
+constexpr std::uint64_t kThroughSeed = 300;
 constexpr double kLiftSpeed = 0.050;
 constexpr double kAbove = 3e-3;
 constexpr double kPlateHalf = 0.025;
+constexpr double kBehind = 3e-3; ///< How far the hand is behind a plate that it went through.
 constexpr double kDegree = 0.017453292519943295;
 
 struct Item
@@ -91,6 +93,34 @@ Item plate(double thickness, int count, detail::PortableRandom& random)
     moveTo(stroke, low, high, speeds[(i / 2) % 4]);
     stay(stroke, kRestTicks);
     item.strokes.push_back(std::move(stroke));
+  }
+  return item;
+}
+
+/// Right through a plate to 3 mm beyond its other face, and back the same way; half of the strokes go 8 mm
+/// aside there and back. At 1 m/s a tick may begin before the plate and end behind it. With @p hole
+/// they go through beside the walls of a square hole, that is through its rim.
+Item throughPlate(double thickness, double hole, int count, detail::PortableRandom random)
+{
+  Item item;
+  const double half = 0.5 * thickness;
+  const double rim = 0.5 * hole;
+  item.name = fmt::format("through {} {:.1f} mm", hole > 0.0 ? "rim" : "plate", 1e3 * thickness);
+  item.mesh = hole > 0.0
+    ? blockMesh({ -kPlateHalf, -rim, rim, kPlateHalf }, { -kPlateHalf, -rim, rim, kPlateHalf },
+        { -half, half }, [](int x, int y, int) { return x != 1 || y != 1; })
+    : blockMesh({ -kPlateHalf, kPlateHalf }, { -kPlateHalf, kPlateHalf }, { -half, half },
+        [](int, int, int) { return true; });
+  const double speeds[] = { 0.05, 0.2, 1.0 };
+  for (int i = 0; i < count; ++i)
+  {
+    const double up = i % 2 == 0 ? 1.0 : -1.0;
+    const double start = random.uniform(5e-3, 6e-3);
+    const double x = hole > 0.0 ? rim + random.uniform(0.3e-3, 1e-3) : random.uniform(-0.015, 0.015);
+    const double y = hole > 0.0 ? random.uniform(-0.7, 0.7) * rim : random.uniform(-0.02, 0.02);
+    const Vec3 aside = (i / 6) % 2 == 1 ? Vec3(8e-3, 0.0, 0.0) : Vec3();
+    item.strokes.push_back(strokeThrough(
+      { x, y, up * half }, { 0.0, 0.0, up }, start, thickness + kBehind, aside, speeds[(i / 2) % 3]));
   }
   return item;
 }
@@ -189,6 +219,17 @@ std::vector<std::function<Item()>> itemsOf(
   {
     items.emplace_back([=, &random] { return finished(plate(thickness, count, random), points); });
   }
+  const std::uint64_t through = kThroughSeed + std::uint64_t(options.strokeSet);
+  for (const double thickness : { 0.6e-3, 0.8e-3, 1e-3, 2e-3 })
+  {
+    items.emplace_back(
+      [=] { return finished(throughPlate(thickness, 0.0, count, detail::PortableRandom(through)), points); });
+  }
+  for (const double thickness : { 0.6e-3, 1e-3 })
+  {
+    items.emplace_back([=]
+      { return finished(throughPlate(thickness, 4e-3, count, detail::PortableRandom(through)), points); });
+  }
   for (const double width : { 2e-3, 4e-3, 8e-3 })
   {
     items.emplace_back(
@@ -220,13 +261,14 @@ ReportPart studyThin(StudyContext& context)
   part.page = Page::Accuracy;
   part.title = "Thin plates, holes, slots, ridges, wedges and a density jump";
   part.text = fmt::format(
-    "{} strokes and {} points each; {}. Plates: crossed at 0.05, 0.2, 0.5 and 1 m/s to 0.8 of their "
-    "thickness, from "
-    "both sides. Holes (square) and slots (30 mm long) in a plate of 3 mm: 1 mm deep, ending over the middle "
-    "of "
-    "the opening or beyond it. Ridges (12 mm high, on a base): pressed from both sides to 0.6 of their "
-    "thickness, "
-    "slid up over the rim. Wedges: 1 mm deep over the apex. Density: 1 mm deep, across a jump of 16:1.",
+    "{} strokes and {} points each; {}. Plates: pressed at 0.05, 0.2, 0.5 and 1 m/s to 0.8 of their "
+    "thickness, from both sides. Through: at 0.05, 0.2 and 1 m/s right through a plate, or through the rim "
+    "of its hole (square, 4 mm) 0.3 to 1 mm beside that, from both sides, until the hand is 3 mm behind; "
+    "half of the strokes go 8 mm aside there and back; out where they came in. A hand that is let go or "
+    "pushed on before counts under pops. Holes (square) and slots (30 mm long) in a plate of 3 mm: 1 mm "
+    "deep, ending over the middle of the opening or beyond it. Ridges (12 mm high, on a base): pressed from "
+    "both sides to 0.6 of their thickness, slid up over the rim. Wedges: 1 mm deep over the apex. Density: "
+    "1 mm deep, across a jump of 16:1.",
     options.strokes, grouped(options.points), sceneText(options));
   setFigureHeader(part, { "part", "method" });
   detail::PortableRandom random(kStrokeSeed + std::uint64_t(options.strokeSet));
