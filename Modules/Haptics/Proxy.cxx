@@ -23,6 +23,7 @@ struct Proxy::Implementation
   AffineTransform lastLattice; ///< modelToLattice of the last scene: the methods' state is in that frame.
   std::uint64_t lastCloud = 0;
   bool hadScene = false;
+  bool isFallback = false; ///< A local scene was set, and left.
   SurfaceFitProxy surfaceFit;
   SurfaceFitProxy::Memory memory;
   SurfaceFitProxy::Memory prefetchMemory; ///< What a prefetch gathers must not serve a step: it is
@@ -95,6 +96,7 @@ struct Proxy::Implementation
     if (scene && !scene->covers(scene->toLattice(place)))
     {
       take(scene->fallback());
+      isFallback = true;
     }
   }
 
@@ -272,6 +274,7 @@ void Proxy::setScene(const HapticScene* scene) noexcept
   Implementation& self = *implementation_;
   const bool reaches = !scene || !scene->isLocal() || self.isCoveredBy(*scene);
   self.take(reaches ? scene : scene->fallback());
+  self.isFallback = !reaches;
 }
 
 void Proxy::reset() noexcept
@@ -288,6 +291,7 @@ void Proxy::restart() noexcept
   self.lastLattice = AffineTransform();
   self.lastCloud = 0;
   self.hadScene = false;
+  self.isFallback = false;
   self.lastDt = 0.0;
 }
 
@@ -312,6 +316,7 @@ ProxyState Proxy::step(const Vec3& hip, double dt) noexcept
     self.remember(hip, dt);
     return self.fade(hip, state.status | kProxyNoScene, dt);
   }
+  state.status |= std::uint32_t(self.isFallback ? kProxyFallback : kProxyOk);
   bool settles = false;
   if (self.settlesOffset())
   {

@@ -12,7 +12,8 @@
 namespace pointhaptics
 {
 
-/// Bits of ProxyState::status: what bound was reached in this step, and the parameter that would cure it.
+/// Bits of ProxyState::status: what bound was reached in this step, and the parameter that would cure it; and
+/// which of the rare mechanisms spoke.
 enum ProxyStatus : std::uint32_t
 {
   kProxyOk = 0,
@@ -31,6 +32,17 @@ enum ProxyStatus : std::uint32_t
                                ///< Cure: settleRate.
   kProxyStiffnessLimit = 1u << 8, ///< The stiffness was kept at the passivity limit. Cure: a higher rate,
                                   ///< less damping, or a lower stiffness.
+  kProxyLed = 1u << 9,       ///< The fit's foot leapt, as on a ridge, and the ball went there over the bumps
+                             ///< between points. No cure needed.
+  kProxyAround = 1u << 10,   ///< The HIP came out through another face, and the ball went around the edge
+                             ///< between. No cure needed.
+  kProxySeeking = 1u << 11,  ///< No fit agreed with the ball in the last step either; one is sought, a part
+                             ///< of the work in a step. No cure needed.
+  kProxyGliding = 1u << 12,  ///< Bumps between points held the ball, and it went over them. No cure needed.
+  kProxyCrowded = 1u << 13,  ///< The ball began among points without room and is smaller for it. Cure: begin
+                             ///< outside of the cloud.
+  kProxyFallback = 1u << 14, ///< The hand left what a local scene covers, and feels its fallback. Cure: a
+                             ///< slower hand.
 };
 
 /// Result of one step. Frame: workspace; metres and newtons.

@@ -38,11 +38,16 @@ constexpr const char* kMethod =
   "through its wall. Before each tick its step is prefetched in the scene that it will be in, as the servo "
   "loop does. Times are of each tick the fastest of the walks: median and p99 in "
   "contact, finding: the longest out of contact or into it, the maximum of all ticks. Status: percent of the "
-  "ticks that set each bit of ProxyState::status.";
+  "ticks that set each bit of ProxyState::status, that is how often each mechanism spoke. Rounds, step-limit "
+  "and cells: a bound of a tick's work. Ball: fit and ball disagree, and the ball is felt. Settling: a "
+  "surface that moved by itself is followed at the limited rate. Led: the fit takes the ball over bumps. "
+  "Around: the ball goes around an edge to the face that the hand came out of. Seeking: a fit is sought, in "
+  "parts. Gliding: the ball goes over bumps. Crowded: it has no room for its radius. Fallback: the hand left "
+  "the finer scene before the next came. Releases: ticks in which contact ends.";
 
 /// Names of the bits of ProxyState::status, in their order.
 constexpr const char* kStatusNames[] = { "non-finite", "rounds", "step-limit", "ball", "bit4", "no-scene",
-  "cells", "settling", "stiffness" };
+  "cells", "settling", "stiffness", "led", "around", "seeking", "gliding", "crowded", "fallback" };
 
 /// "1 + 2": before and after the leaps, where there are some.
 std::string withLater(const std::string& before, const std::string& later, const TouchFigures& f)
@@ -101,7 +106,7 @@ void setFigureHeader(
   part.table.header.insert(part.table.header.end(), own.begin(), own.end());
   for (const char* name :
     { "median %", "p95 %", "RMS %", "dir p95", "lost %", "pops", "phantom N", "held", "strokes", "judged %",
-      "step p99", "max", "energy mJ", "p50 us", "p99", "finding us", "max us", "status %" })
+      "releases", "step p99", "max", "energy mJ", "p50 us", "p99", "finding us", "max us", "status %" })
   {
     part.table.header.emplace_back(name);
   }
@@ -115,20 +120,21 @@ void addFigures(StudyContext& context, ReportPart& part, std::vector<std::string
       brief(f.lostPercent), fmt::format("{}", f.pops),
       withLater(brief(f.phantomNewton), brief(f.laterPhantomNewton), f),
       withLater(fmt::format("{}", f.held), fmt::format("{}", f.laterHeld), f), fmt::format("{}", f.strokes),
-      fmt::format("{:.0f}", f.judgedPercent), fmt::format("{:.2f}", f.stepP99),
+      fmt::format("{:.0f}", f.judgedPercent), fmt::format("{}", f.releases), fmt::format("{:.2f}", f.stepP99),
       fmt::format("{:.1f}", f.largestStep), brief(1e3 * f.energyJoule), brief(f.p50), brief(f.p99),
       brief(f.firstContact), brief(f.maximum), statusText(f) });
   part.table.rows.push_back(std::move(leadingCells));
   nlohmann::ordered_json row = leadingNumbers;
-  row.update({ { "median_percent", f.medianPercent }, { "p95_percent", f.p95Percent },
-    { "rms_percent", f.rmsPercent }, { "direction_p95_degrees", f.directionP95Degrees },
-    { "lost_percent", f.lostPercent }, { "pops", f.pops }, { "phantom_newton", f.phantomNewton },
-    { "held", f.held }, { "phantom_after_leap_newton", f.laterPhantomNewton },
-    { "held_after_leap", f.laterHeld }, { "strokes", f.strokes }, { "leaps", f.leaps }, { "ticks", f.ticks },
-    { "contact_ticks", f.contacts }, { "judged_ticks", f.judged }, { "judged_percent", f.judgedPercent },
-    { "step_p99", f.stepP99 }, { "largest_step", f.largestStep }, { "energy_joule", f.energyJoule },
-    { "p50_us", f.p50 }, { "p99_us", f.p99 }, { "first_contact_us", f.firstContact }, { "max_us", f.maximum },
-    { "instructions", usedInstructions(context.options.instructions) } });
+  row.update(
+    { { "median_percent", f.medianPercent }, { "p95_percent", f.p95Percent }, { "rms_percent", f.rmsPercent },
+      { "direction_p95_degrees", f.directionP95Degrees }, { "lost_percent", f.lostPercent },
+      { "pops", f.pops }, { "phantom_newton", f.phantomNewton }, { "held", f.held },
+      { "phantom_after_leap_newton", f.laterPhantomNewton }, { "held_after_leap", f.laterHeld },
+      { "strokes", f.strokes }, { "leaps", f.leaps }, { "releases", f.releases }, { "ticks", f.ticks },
+      { "contact_ticks", f.contacts }, { "judged_ticks", f.judged }, { "judged_percent", f.judgedPercent },
+      { "step_p99", f.stepP99 }, { "largest_step", f.largestStep }, { "energy_joule", f.energyJoule },
+      { "p50_us", f.p50 }, { "p99_us", f.p99 }, { "first_contact_us", f.firstContact },
+      { "max_us", f.maximum }, { "instructions", usedInstructions(context.options.instructions) } });
   nlohmann::ordered_json status = nlohmann::ordered_json::object();
   for (std::size_t bit = 0; bit < kStatusBits; ++bit)
   {

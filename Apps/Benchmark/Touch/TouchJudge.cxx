@@ -79,6 +79,7 @@ void TouchJudge::add(const TouchTrace& trace, const TouchTruth& truth)
     {
       microseconds_.push_back(trace.microseconds[i]);
     }
+    figures_.releases += i > 0 && i < truth.certain && trace.states[i - 1].contact && !state.contact;
     for (std::size_t bit = 0; i < truth.certain && bit < kStatusBits; ++bit)
     {
       status_[bit] += (state.status >> bit) & 1u;

@@ -38,6 +38,7 @@ struct TouchFigures
   double laterPhantomNewton = 0.0;  ///< The same as phantomNewton after a leap.
   int laterHeld = 0;                ///< The same as held for strokes with a leap.
   int pops = 0;                     ///< Strokes in which a judged tick has no force or one that pulls.
+  int releases = 0;                 ///< Ticks in which the contact of the method ended.
   double largestStep = 0.0;         ///< |dF| over K |dH|, of ticks with a force and |dH| above 1 um.
   double stepP99 = 0.0;
   double energyJoule = 0.0; ///< Median over the strokes of what the force returned beyond the truth's.

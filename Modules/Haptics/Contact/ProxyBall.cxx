@@ -478,6 +478,7 @@ void ProxyBall::step(const HapticScene& scene, FitCells& fields, BallCells& cell
   walk(work, hip);
   there_ = hip_ == hip;
   status |= std::uint32_t(there_ ? kProxyOk : kProxyStepLimit);
+  status |= std::uint32_t(isConfined_ && !free_ ? kProxyCrowded : kProxyOk);
   const double again = kGlideAgain * radius_;
   if (free_ || (isHeld_ && norm2(hip - heldAt_) < again * again) || mayWait(hip))
   {
@@ -494,6 +495,7 @@ void ProxyBall::step(const HapticScene& scene, FitCells& fields, BallCells& cell
       break;
     }
     glided_ = true;
+    status |= kProxyGliding;
   }
 }
 

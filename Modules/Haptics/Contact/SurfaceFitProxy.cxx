@@ -140,10 +140,13 @@ double SurfaceFitProxy::fitWeight(
     // Where the foot leaps on a ridge the bumps between points would hold the ball.
     const bool isLed = followed == TrackResult::Far &&
       ball_.goTo(scene, fit, memory.ball, tracker_.point(), tracker_.normal(), status);
+    status |= std::uint32_t(isLed ? kProxyLed : kProxyOk);
     result = followed <= TrackResult::RoundLimit || isLed ? weight() : 0.0;
     hasFit_ = result > 0.0;
   }
-  if (result < kSeekBelow && seek(scene, memory, hip))
+  const bool seeks = result < kSeekBelow;
+  status |= std::uint32_t(seeks && ticksWithoutFit_ > 0 ? kProxySeeking : kProxyOk);
+  if (seeks && seek(scene, memory, hip))
   {
     const SurfaceTracker before = std::exchange(tracker_, search_.found());
     const double sought = weight();
@@ -158,6 +161,7 @@ double SurfaceFitProxy::fitWeight(
   if ((result < 1.0 || followed == TrackResult::RoundLimit || !tracker_.continuesAround()) &&
     ball_.depth(hip) > 0.0 && comesOut(scene, memory, hip, status))
   {
+    status |= kProxyAround;
     return ball_.isFree() ? 0.0 : 1.0;
   }
   return result;

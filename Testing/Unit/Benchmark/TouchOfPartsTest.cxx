@@ -33,6 +33,17 @@ TouchFigures figuresOf(const char* name, StrokeSet set, std::int64_t points)
   return figuresOf(mesh, tree, strokesOn(tree, kStrokes, set), points);
 }
 
+/// Of the ticks, in which @p mechanism spoke.
+double percentOf(const TouchFigures& figures, ProxyStatus mechanism)
+{
+  std::size_t bit = 0;
+  while ((std::uint32_t(mechanism) >> bit) != 1u)
+  {
+    ++bit;
+  }
+  return figures.statusPercent[bit];
+}
+
 /// Strokes over the apex of a prism of 60 degrees, 1 mm below its flanks at 20 mm/s.
 std::vector<TouchStroke> strokesOverApex(double side, double low)
 {
@@ -120,6 +131,11 @@ TEST(TouchOfParts, HoldsAHandThatWentRightThroughAPlateOnTheSideItCameFrom)
   EXPECT_EQ(figures.lostPercent, 0.0);
   EXPECT_EQ(figures.phantomNewton, 0.0);
   EXPECT_LE(figures.p95Percent, 1.0);
+  EXPECT_EQ(figures.releases, int(tasks.size()));
+  for (const ProxyStatus mechanism : { kProxyBallContact, kProxyLed, kProxyAround, kProxySeeking })
+  {
+    EXPECT_EQ(percentOf(figures, mechanism), 0.0) << mechanism << ": a plate is smooth";
+  }
   // A proxy that takes some steps a tick, whatever the way of the hand, falls through: the study would tell.
   EXPECT_GE(figuresOf(mesh, tree, strokesThrough(kThickness), 200000, "gradient-steps-paper").pops, 4);
 }
@@ -135,6 +151,13 @@ TEST(TouchOfParts, EndsInTheTickInWhichTheHandComesOutThroughAnotherFace)
   EXPECT_LE(gear.phantomNewton, 0.1);
   // 12.4 % where the fit may carry the ball along.
   EXPECT_LE(gear.rmsPercent, 10.0);
+  for (const ProxyStatus mechanism :
+    { kProxyBallContact, kProxyLed, kProxyAround, kProxySeeking, kProxyGliding })
+  {
+    EXPECT_GT(percentOf(gear, mechanism), 0.0) << mechanism;
+    EXPECT_LT(percentOf(gear, mechanism), 10.0) << mechanism;
+  }
+  EXPECT_EQ(percentOf(gear, kProxyCrowded), 0.0);
   EXPECT_LE(figuresOf("stairs", StrokeSet::B, 100000).phantomNewton, 0.1);
 }
 

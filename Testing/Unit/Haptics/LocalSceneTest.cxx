@@ -278,6 +278,28 @@ TEST(LocalScene, IsFeltMoreExactlyThanTheWhole)
   EXPECT_GT(factor, 3.0);
 }
 
+TEST(LocalScene, TheProxySaysWhereItFeelsTheFallback)
+{
+  Cloud cloud(waves(kDense));
+  const Scene local = cloud.builder.build(handAt({}), cloud.whole);
+  ASSERT_NE(local, nullptr);
+  const Vec3 within{ 0.0, 0.0, 5e-4 };
+  const Vec3 beyond{ 0.01, 0.0, 5e-4 };
+  ASSERT_TRUE(local->covers(local->toLattice(within)));
+  ASSERT_FALSE(local->covers(local->toLattice(beyond)));
+  Proxy proxy;
+  proxy.setScene(local.get());
+  EXPECT_EQ(proxy.step(within, kTick).status & kProxyFallback, 0u);
+  EXPECT_NE(proxy.step(beyond, kTick).status & kProxyFallback, 0u);
+  EXPECT_NE(proxy.step(within, kTick).status & kProxyFallback, 0u) << "until the next scene comes";
+  proxy.setScene(local.get());
+  EXPECT_EQ(proxy.step(within, kTick).status & kProxyFallback, 0u);
+  proxy.setScene(cloud.whole.get());
+  EXPECT_EQ(proxy.step(beyond, kTick).status & kProxyFallback, 0u) << "it was meant to be felt";
+  proxy.setScene(local.get());
+  EXPECT_NE(proxy.step(beyond, kTick).status & kProxyFallback, 0u) << "it came where the hand is not";
+}
+
 TEST(LocalScene, ChangingToOneAndBackDoesNotKick)
 {
   Cloud cloud(waves(kDense));

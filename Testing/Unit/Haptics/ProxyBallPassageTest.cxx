@@ -237,6 +237,7 @@ TEST(ProxyBallPassage, IsLetOutOfACrowdOfPointsThatItBeginsIn)
 {
   trial::Random random(27);
   int held = 0;
+  int crowded = 0;
   for (int run = 0; run < 40; ++run)
   {
     BallInScene hand(trial::rawScene(trial::randomBox(
@@ -245,9 +246,14 @@ TEST(ProxyBallPassage, IsLetOutOfACrowdOfPointsThatItBeginsIn)
     hand.rest(50);
     ASSERT_TRUE(trial::isFinite(hand.ball()));
     hand.go(0.03 * random.direction(), 0.1);
+    crowded += (hand.takeStatus() & kProxyCrowded) != 0u;
     hand.rest(500);
     held += !hand.ball().isFree();
+    hand.takeStatus();
+    hand.rest(1);
+    EXPECT_FALSE(hand.ball().isFree() && (hand.takeStatus() & kProxyCrowded) != 0u) << run;
   }
+  EXPECT_GE(trial::recorded("crowdedOf40", crowded), 5);
   // Of 400 14 are held: balls that began beside the points, and are on that side of them. Of a ball that does
   // not shrink among them 101 are, of these 40 10.
   EXPECT_LE(trial::recorded("heldOf40", held), 3);
