@@ -6,7 +6,7 @@
 #include "vtkKernelBandwidthFilter.h"
 #include "vtkVoxelMeanResampler.h"
 
-#include "../Unit/Eventually.h"
+#include "Unit/Eventually.h"
 #include "FlatCloud.h"
 
 #include "Haptics/ServoLoop.h"

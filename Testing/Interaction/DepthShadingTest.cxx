@@ -3,7 +3,7 @@
 #include "vtkCloudAxes.h"
 #include "vtkDepthShadingPass.h"
 
-#include "../Unit/SkipWithoutDisplay.h"
+#include "Unit/SkipWithoutDisplay.h"
 
 #include <gtest/gtest.h>
 #include <vtkActor.h>

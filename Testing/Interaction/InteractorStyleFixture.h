@@ -6,7 +6,7 @@
 #include "vtkKernelBandwidthFilter.h"
 #include "vtkVoxelMeanResampler.h"
 
-#include "../Unit/SkipWithoutDisplay.h"
+#include "Unit/SkipWithoutDisplay.h"
 #include "FlatCloud.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // The style with what is drawn over the cloud: overlay, chart and sliders.
 #include "InteractorStyleFixture.h"
 
-#include "../Unit/SkipWithoutDisplay.h"
+#include "Unit/SkipWithoutDisplay.h"
 
 #include "vtkHapticChart.h"
 #include "vtkHapticOverlay.h"

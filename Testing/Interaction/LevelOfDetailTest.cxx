@@ -3,7 +3,7 @@
 #include "vtkDepthShadingPass.h"
 #include "vtkSplatMapper.h"
 
-#include "../Unit/SkipWithoutDisplay.h"
+#include "Unit/SkipWithoutDisplay.h"
 
 #include <gtest/gtest.h>
 #include <vtkActor.h>

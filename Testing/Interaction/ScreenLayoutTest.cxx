@@ -1,6 +1,6 @@
 #include "ScreenLayout.h"
 
-#include "../Unit/SkipWithoutDisplay.h"
+#include "Unit/SkipWithoutDisplay.h"
 #include "CloudAppearance.h"
 #include "DistanceMark.h"
 #include "ScreenScale.h"

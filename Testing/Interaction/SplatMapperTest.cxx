@@ -1,7 +1,7 @@
 #include "DrawPace.h"
 #include "vtkSplatMapper.h"
 
-#include "../Unit/SkipWithoutDisplay.h"
+#include "Unit/SkipWithoutDisplay.h"
 
 #include <gtest/gtest.h>
 #include <vtkActor.h>

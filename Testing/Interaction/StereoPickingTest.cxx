@@ -2,7 +2,7 @@
 #include "PointPicking.h"
 #include "ScreenMarks.h"
 
-#include "../Unit/SkipWithoutDisplay.h"
+#include "Unit/SkipWithoutDisplay.h"
 
 #include <gtest/gtest.h>
 #include <vtkCamera.h>

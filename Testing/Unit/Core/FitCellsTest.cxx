@@ -4,7 +4,7 @@
 
 #include "RandomClouds.h"
 
-#include "../HeldInstructionSets.h"
+#include "Unit/HeldInstructionSets.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 
 #include "RandomClouds.h"
 
-#include "../HeldInstructionSets.h"
+#include "Unit/HeldInstructionSets.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 
 #include "Core/Resample/Kernel/VoxelKernel.h"
 
-#include "../HeldInstructionSets.h"
+#include "Unit/HeldInstructionSets.h"
 
 #include <gtest/gtest.h>
 

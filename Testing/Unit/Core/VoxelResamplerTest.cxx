@@ -5,7 +5,7 @@
 #include "RandomClouds.h"
 #include "ResamplerRuns.h"
 
-#include "../HeldInstructionSets.h"
+#include "Unit/HeldInstructionSets.h"
 
 #include <gtest/gtest.h>
 

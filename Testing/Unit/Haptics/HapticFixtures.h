@@ -6,7 +6,7 @@
 #include "Haptics/HapticScene.h"
 #include "Haptics/Proxy.h"
 
-#include "../Core/RandomClouds.h"
+#include "Unit/Core/RandomClouds.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #include "Haptics/Contact/OffsetSettler.h"
 
-#include "../Core/RandomClouds.h"
+#include "Unit/Core/RandomClouds.h"
 
 #include <gtest/gtest.h>
 

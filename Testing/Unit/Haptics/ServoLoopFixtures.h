@@ -2,7 +2,7 @@
 /// A device that does as it is told, and what the tests of the servo loop share.
 #pragma once
 
-#include "../Eventually.h"
+#include "Unit/Eventually.h"
 
 #include "Haptics/ServoLoop.h"
 

@@ -1,4 +1,4 @@
-#include "../Eventually.h"
+#include "Unit/Eventually.h"
 
 #include "Haptics/Servo/ServoThread.h"
 

@@ -8,7 +8,7 @@
 #include "vtkErrorCode.h"
 #include "vtkSMPTools.h"
 
-#include "../../Fuzz/CloudFileFuzz.h"
+#include "Fuzz/CloudFileFuzz.h"
 
 #include <cstdint>
 #include <cstdlib>

@@ -1,6 +1,6 @@
 // One VTP file that ranks write in parts is, byte for byte, the one that vtkPointCloudWriter writes of all
 // points.
-#include "../Core/ThreadRanks.h"
+#include "Unit/Core/ThreadRanks.h"
 #include "CloudFiles.h"
 
 #include "IO/Vtk/SharedVtp.h"

@@ -1,6 +1,6 @@
 // A list of VTP files (PVTP) is one cloud: for a reader alone, and for ranks that read it together. Lists
 // that are damaged or hostile are refused, with the piece.
-#include "../Core/ThreadRanks.h"
+#include "Unit/Core/ThreadRanks.h"
 #include "CloudFiles.h"
 
 #include "vtkIntArray.h"
