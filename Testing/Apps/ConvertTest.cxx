@@ -1,6 +1,6 @@
 #include "RunProgram.h"
 
-#include "../Unit/IO/E57File.h"
+#include "../Unit/IO/E57/E57File.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -1,7 +1,7 @@
 // Files that cannot be read and devices that are not there, in `view` without a window.
 #include "RunProgram.h"
 
-#include "../Unit/IO/E57File.h"
+#include "../Unit/IO/E57/E57File.h"
 
 #include <gtest/gtest.h>
 

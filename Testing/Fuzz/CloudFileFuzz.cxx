@@ -6,7 +6,7 @@
 // written and read again.
 #include "CloudFileFuzz.h"
 
-#include "../Unit/IO/E57File.h"
+#include "../Unit/IO/E57/E57File.h"
 
 #include "vtkCallbackCommand.h"
 #include "vtkNew.h"

@@ -2,7 +2,7 @@
 // the last bit, in every format; a fault of one ends the reading of all.
 #include "Unit/Core/ThreadRanks.h"
 #include "CloudFiles.h"
-#include "LazFiles.h"
+#include "Las/LazFiles.h"
 
 #include <algorithm>
 #include <mutex>
