@@ -10,8 +10,8 @@ fi
 here="$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")" && pwd -P)"
 program="$(realpath -- "$1")"
 folder="$(realpath -- "${2:-$here/Images}")"
-# shellcheck source=../Testing/Interaction/Window.sh
-source "$here/../Testing/Interaction/Window.sh"
+# shellcheck source=../Testing/Interaction/Window/Window.sh
+source "$here/../Testing/Interaction/Window/Window.sh"
 need_tools failed 1
 patience=60
 work="$(mktemp -d)"

@@ -5,8 +5,8 @@
 set -euo pipefail
 program="$(realpath -- "$1")"
 here="$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")" && pwd -P)"
-# shellcheck source=../Interaction/Window.sh
-source "$here/../Interaction/Window.sh"
+# shellcheck source=../Interaction/Window/Window.sh
+source "$here/../Interaction/Window/Window.sh"
 need_tools skipped 77
 rm -rf -- "$2"
 mkdir -p "$2"

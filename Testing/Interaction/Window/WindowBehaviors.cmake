@@ -1,7 +1,7 @@
 # pointhaptics_window_test(<behavior>): a function of WindowBehaviors.sh, with a window and an X server of its own.
 set(window_helpers)
 function (pointhaptics_window_test behavior)
-  add_test(NAME View.${behavior} COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/DriveWindow.sh"
+  add_test(NAME View.${behavior} COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/Window/DriveWindow.sh"
     $<TARGET_FILE:pointhaptics> "${view_folder}/${behavior}" ${behavior})
   set_tests_properties(View.${behavior} PROPERTIES
     ENVIRONMENT "${window_helpers}" SKIP_RETURN_CODE 77 TIMEOUT 300)
@@ -56,7 +56,7 @@ if (NOT X11_FOUND)
   return ()
 endif ()
 foreach (helper DropFile CloseWindow)
-  add_executable(${helper} ${helper}.cxx)
+  add_executable(${helper} Window/${helper}.cxx)
   target_link_libraries(${helper} PRIVATE X11::X11 pointhaptics_compiler)
 endforeach ()
 set(window_helpers DROP_FILE=$<TARGET_FILE:DropFile> CLOSE_WINDOW=$<TARGET_FILE:CloseWindow>)
@@ -67,7 +67,7 @@ pointhaptics_window_test(ABadDropKeepsTheCloud)
 if (NOT CMAKE_SYSTEM_NAME STREQUAL "Linux" OR POINTHAPTICS_SANITIZE)
   return ()
 endif ()
-add_library(HeldFile MODULE HeldFile.cxx)
+add_library(HeldFile MODULE Window/HeldFile.cxx)
 target_link_libraries(HeldFile PRIVATE ${CMAKE_DL_LIBS} pointhaptics_compiler)
 list(APPEND window_helpers HOLD_FILE=$<TARGET_FILE:HeldFile>)
 pointhaptics_window_test(EscapeKeepsTheFormerCloud)
