@@ -3,7 +3,7 @@
 #pragma once
 
 #include "Bytes/OutputStream.h"
-#include "OutputColumns.h"
+#include "IO/Columns/OutputColumns.h"
 #include "Progress.h"
 
 #include "vtkType.h"

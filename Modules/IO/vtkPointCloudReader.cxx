@@ -1,9 +1,9 @@
 #include "vtkPointCloudReader.h"
 
 #include "Bytes/FileBytes.h"
-#include "CloudColumns.h"
 #include "CloudFormat.h"
 #include "FormatReaders.h"
+#include "IO/Columns/CloudColumns.h"
 #include "IO/Las/LasHeader.h"
 
 #include "vtkDoubleArray.h"

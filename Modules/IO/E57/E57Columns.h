@@ -2,7 +2,7 @@
 /// Which column of the cloud each field of each scan goes to.
 #pragma once
 
-#include "CloudColumns.h"
+#include "IO/Columns/CloudColumns.h"
 #include "IO/E57/E57Scan.h"
 
 #include <cstddef>

@@ -2,7 +2,7 @@
 /// Fills the columns of a cloud with the records of E57 scans.
 #pragma once
 
-#include "CloudColumns.h"
+#include "IO/Columns/CloudColumns.h"
 #include "IO/E57/E57Columns.h"
 #include "IO/E57/E57Packets.h"
 #include "IO/E57/E57Scan.h"

@@ -1,7 +1,7 @@
 #include "FormatReaders.h"
 
 #include "Bytes/NumericType.h"
-#include "CloudColumns.h"
+#include "IO/Columns/CloudColumns.h"
 #include "IO/E57/E57Columns.h"
 #include "IO/E57/E57Decoder.h"
 #include "IO/E57/E57Packets.h"

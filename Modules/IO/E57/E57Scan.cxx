@@ -1,7 +1,7 @@
 #include "IO/E57/E57Scan.h"
 
-#include "CloudColumns.h"
 #include "FileProblem.h"
+#include "IO/Columns/CloudColumns.h"
 #include "IO/E57/E57Xml.h"
 #include "IO/Text/TextScan.h"
 

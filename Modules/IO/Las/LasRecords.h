@@ -2,7 +2,7 @@
 /// From LAS's point records to the arrays of a cloud.
 #pragma once
 
-#include "CloudColumns.h"
+#include "IO/Columns/CloudColumns.h"
 #include "IO/Las/LasHeader.h"
 #include "SharedReading.h"
 

@@ -1,7 +1,7 @@
 #include "FormatReaders.h"
 
-#include "CloudColumns.h"
 #include "CloudFormat.h"
+#include "IO/Columns/CloudColumns.h"
 #include "IO/Text/NumberColumn.h"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 #include "FormatReaders.h"
 
-#include "CloudColumns.h"
 #include "CloudFormat.h"
 #include "FileProblem.h"
+#include "IO/Columns/CloudColumns.h"
 #include "IO/Text/TextScan.h"
 #include "IO/Text/TextTable.h"
 

@@ -1,8 +1,8 @@
 #include "FormatReaders.h"
 
 #include "Bytes/LittleEndian.h"
-#include "CloudColumns.h"
 #include "CloudFormat.h"
+#include "IO/Columns/CloudColumns.h"
 #include "IO/Text/TextScan.h"
 
 #include <array>

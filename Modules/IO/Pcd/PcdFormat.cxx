@@ -1,7 +1,7 @@
 #include "FormatReaders.h"
 
 #include "Bytes/NumericType.h"
-#include "CloudColumns.h"
+#include "IO/Columns/CloudColumns.h"
 #include "IO/Info/FieldText.h"
 #include "IO/Pcd/LzfStream.h"
 #include "IO/Pcd/PcdHeader.h"

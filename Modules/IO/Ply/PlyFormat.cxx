@@ -1,7 +1,7 @@
 #include "FormatReaders.h"
 
 #include "Bytes/NumericType.h"
-#include "CloudColumns.h"
+#include "IO/Columns/CloudColumns.h"
 #include "IO/Info/FieldText.h"
 #include "IO/Ply/PlyHeader.h"
 #include "IO/Text/TextPart.h"

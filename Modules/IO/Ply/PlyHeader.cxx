@@ -1,8 +1,8 @@
 #include "IO/Ply/PlyHeader.h"
 
 #include "Bytes/NumericType.h"
-#include "CloudColumns.h"
 #include "FileProblem.h"
+#include "IO/Columns/CloudColumns.h"
 #include "IO/Info/FieldText.h"
 #include "IO/Text/TextScan.h"
 

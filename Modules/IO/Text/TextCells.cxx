@@ -1,7 +1,7 @@
 #include "IO/Text/TextCells.h"
 
-#include "CloudColumns.h"
 #include "FileProblem.h"
+#include "IO/Columns/CloudColumns.h"
 
 #include <algorithm>
 

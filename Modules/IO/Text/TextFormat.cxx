@@ -1,7 +1,7 @@
 #include "FormatReaders.h"
 
-#include "CloudColumns.h"
 #include "CloudFormat.h"
+#include "IO/Columns/CloudColumns.h"
 #include "IO/Info/FieldText.h"
 #include "IO/Text/TextCells.h"
 #include "IO/Text/TextPart.h"

@@ -1,6 +1,6 @@
 #include "IO/Text/TextTable.h"
 
-#include "CloudColumns.h"
+#include "IO/Columns/CloudColumns.h"
 #include "IO/Info/FieldText.h"
 #include "IO/Text/TextCells.h"
 

@@ -1,6 +1,6 @@
 #include "IO/Vtk/SharedVtp.h"
 
-#include "IO/CloudColumns.h"
+#include "IO/Columns/CloudColumns.h"
 #include "IO/Vtk/VtkXmlChecks.h"
 #include "IO/Vtk/VtpWriter.h"
 #include "IO/Vtk/XmlTags.h"

@@ -1,7 +1,7 @@
 #include "FormatReaders.h"
 
 #include "Bytes/NumericType.h"
-#include "CloudColumns.h"
+#include "IO/Columns/CloudColumns.h"
 #include "IO/Text/TextScan.h"
 #include "IO/Vtk/VtkLegacyCursor.h"
 

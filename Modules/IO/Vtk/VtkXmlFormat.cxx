@@ -1,6 +1,6 @@
 #include "FormatReaders.h"
 
-#include "CloudColumns.h"
+#include "IO/Columns/CloudColumns.h"
 #include "IO/Vtk/ErrorCollector.h"
 #include "IO/Vtk/VtkPieces.h"
 #include "IO/Vtk/VtkXmlChecks.h"

@@ -1,6 +1,6 @@
 #include "IO/Vtk/VtpWriter.h"
 
-#include "IO/CloudColumns.h"
+#include "IO/Columns/CloudColumns.h"
 #include "IO/FileProblem.h"
 #include "IO/Vtk/ErrorCollector.h"
 #include "IO/WriteTask.h"
