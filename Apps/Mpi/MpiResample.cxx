@@ -122,7 +122,12 @@ void addMpiResample(CLI::App& program, MpiWork& work)
   options->addTo(*command);
   options->traffic.addTo(*command);
   describeOutput(*command);
-  command->callback([options, &work] { work = [options](Job& job) { return runResample(*options, job); }; });
+  command->callback(
+    [options, &work]
+    {
+      options->check();
+      work = [options](Job& job) { return runResample(*options, job); };
+    });
 }
 
 } // namespace app

@@ -10,6 +10,8 @@
 #include <cmath>
 #include <cstring>
 #include <numeric>
+#include <random>
+#include <string>
 
 namespace
 {
@@ -252,6 +254,40 @@ TEST_F(CloudCommands, ResampleKeepsPointsAndTellsTheVoxelOfEach)
   this->refuse(1, { "resample", "in.csv", "-o", "a.csv", "--voxel-index", "a.csv" }, { "--voxel-index" });
   this->refuse(
     2, { "resample", "in.csv", "-o", "a.csv", "--representative", "first" }, { "nearest-to-mean" });
+}
+
+TEST_F(CloudCommands, ResampleNamesThePointOfEachVoxelInEveryFormat)
+{
+  // Three decimals, which LAS keeps.
+  std::mt19937 random(1);
+  std::string text = "x,y,z,row\n";
+  for (int row = 0; row < 2000; ++row)
+  {
+    const auto next = [&random] { return 0.001 * double(random() % 1000); };
+    text += fmt::format("{:.3f},{:.3f},{:.3f},{}\n", next(), next(), next(), row);
+  }
+  this->write("in.csv", text);
+  for (const char* representative : { "nearest-to-mean", "nearest-to-center" })
+  {
+    for (const char* extension : { "csv", "ply", "vtp", "pcd", "las", "laz", "xyz" })
+    {
+      const std::string name = std::string("out.") + extension;
+      this->succeed({ "resample", "in.csv", "-o", name, "--voxel", "0.2", "--minimum-points", "3",
+        "--original-ids", "--representative", representative });
+      this->succeed({ "convert", name, "back.csv" });
+      const Table out = parseTable(this->read("back.csv"));
+      EXPECT_GE(out.at("row").size(), 100u);
+      EXPECT_EQ(out.at("vtkOriginalPointIds"), out.at("row")) << name << ", " << representative;
+    }
+  }
+  this->succeed({ "resample", "in.csv", "-o", "without.csv", "--representative", "nearest-to-mean" });
+  EXPECT_EQ(parseTable(this->read("without.csv")).count("vtkOriginalPointIds"), 0u);
+  for (const char* representative : { "mean", "median" })
+  {
+    this->refuse(2,
+      { "resample", "in.csv", "-o", "none.csv", "--original-ids", "--representative", representative },
+      { "--original-ids: ", "give --representative nearest-to-mean or nearest-to-center" });
+  }
 }
 
 TEST_F(CloudCommands, OutputMayReplaceItsInput)

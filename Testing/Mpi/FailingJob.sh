@@ -41,6 +41,7 @@ case "$1" in
     expect_end 1 "2 points with a coordinate that is NaN" "$MPIRUN" -n 2 "$MPI_PROGRAM" bandwidth invalid.csv -o out.ply
     expect_end 1 "unknown extension" "$MPIRUN" -n 2 "$MPI_PROGRAM" resample idol.ply -o out.xls
     expect_end 1 "no/folder" "$MPIRUN" -n 2 "$MPI_PROGRAM" resample idol.ply -o out.ply --voxel-index no/folder/i.csv
+    expect_end 2 "original-ids: " "$MPIRUN" -n 2 "$MPI_PROGRAM" resample idol.ply -o out.ply --original-ids
     expect_end 1 "another name" "$MPIRUN" -n 2 "$MPI_PROGRAM" resample idol.ply -o i.csv --voxel-index i.csv
     expect_end 1 "no/folder" "$MPIRUN" -n 2 "$MPI_PROGRAM" resample idol.ply -o no/folder/out.pvtp
     awk 'BEGIN { print "x,y,z"; for (i = 0; i < 200; ++i) print "1,2,3"; print "4,5,x" }' >letters.csv

@@ -49,6 +49,8 @@ case "$1" in
     for kind in nearest-to-mean nearest-to-center median; do
       RANKS="1 3" same_bytes vtp resample arrays.csv --dims 12 --representative "$kind" --covariance
     done
+    RANKS="1 2 5" same_bytes vtp resample arrays.csv --dims 12 --representative nearest-to-mean --original-ids
+    grep -q vtkOriginalPointIds expected.vtp || fault "no vtkOriginalPointIds"
     RANKS="4" same_bytes csv resample arrays.csv --dims 9 --representative median --rotate 30,1,2,3 --minimum-points 4
     for options in "--dims 9" "--dims 9 --minimum-points 5 --representative nearest-to-mean --workspace 0.2,0.7,0,0.5,0,0.2"; do
       # shellcheck disable=SC2086 # several words

@@ -38,11 +38,23 @@ void ResampleOptions::addTo(CLI::App& command)
     "What stands for the points of a voxel: one of them, or the median of each value; default mean");
   addInteger(command, "--minimum-points", this->minimumPoints, 1, VTK_INT_MAX,
     "Leave out voxels with fewer points; default 1");
+  command.add_flag("--original-ids", voxels.keepOriginalPointIds,
+    "Add vtkOriginalPointIds: the row in IN, from 0, of the nearest point that stands for each voxel");
   command
     .add_option("--voxel-index", this->voxelIndex,
       "File to write with the row in OUT of each point of IN, from 0, or -1: .csv")
     ->type_name("FILE");
   this->lattice.addTo(command);
+}
+
+void ResampleOptions::check() const
+{
+  const VoxelMeanSettings& voxels = this->lattice.voxels;
+  if (voxels.keepOriginalPointIds && !keepsPoints(voxels.representative))
+  {
+    throwUsage("--original-ids", "",
+      "a mean or median is no point of IN; give --representative nearest-to-mean or nearest-to-center too");
+  }
 }
 
 void ResampleOptions::configure(vtkVoxelMeanResampler* resampler) const

@@ -31,6 +31,8 @@ struct ResampleOptions
   std::string voxelIndex; ///< File to write; empty: none.
 
   void addTo(CLI::App& command);
+  /// Ends the parse with a usage error where an option has no meaning beside the others.
+  void check() const;
   /// All but the voxel index.
   void configure(vtkVoxelMeanResampler* resampler) const;
   /// What is done with the means before they are written.

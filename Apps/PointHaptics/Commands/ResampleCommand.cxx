@@ -83,7 +83,12 @@ void addResampleCommand(CLI::App& program, int& exitCode)
     "resample", "Replace the points in each voxel of a lattice by their mean, or by one of them");
   auto options = std::make_shared<ResampleOptions>();
   options->addTo(*command);
-  command->callback([options, &exitCode] { exitCode = runResample(*options); });
+  command->callback(
+    [options, &exitCode]
+    {
+      options->check();
+      exitCode = runResample(*options);
+    });
 }
 
 } // namespace app

@@ -79,7 +79,7 @@ inline constexpr SettingOption kVoxelMeanOptions[] = {
   { "representative", nullptr, "--representative of resample: what is felt are means" },
   { "minimumPointsPerVoxel", nullptr, "--minimum-points of resample" },
   { "computeVoxelIndex", nullptr, "--voxel-index of resample" },
-  { "keepOriginalPointIds", nullptr, "--voxel-index of resample tells where each point went" },
+  { "keepOriginalPointIds", nullptr, "--original-ids of resample" },
   { "numberOfLevels", nullptr, "a command has one output" },
   { "usePointIndex", nullptr, kCostOnly },
   { "instructionSet", nullptr, kCostOnly },
