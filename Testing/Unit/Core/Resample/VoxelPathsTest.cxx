@@ -59,10 +59,10 @@ void expectNearReference(const VoxelRequest& request, const LevelResult& level)
 
 }
 
-TEST(VoxelPaths, MorePointsInFewVoxelsThanOneBatchHoldsAreWhatAFinerLatticeSumsUp)
+TEST(VoxelPaths, ManyChunksInFewVoxelsAreWhatAFinerLatticeSumsUp)
 {
-  // 8^3 takes them in two batches, 16^3 in one.
-  const std::vector<Vec3> points = sphereAndDust(4300000, 1);
+  // 8^3 takes them in four chunks, 16^3 in one.
+  const std::vector<Vec3> points = sphereAndDust(13000, 1);
   for (const bool covariances : { false, true })
   {
     VoxelRequest request = requestFor(points, unitCube(16), covariances);
@@ -70,6 +70,7 @@ TEST(VoxelPaths, MorePointsInFewVoxelsThanOneBatchHoldsAreWhatAFinerLatticeSumsU
     const LevelResult expected = runOf(request, ThreadedExecutor(2)).levels[1];
     request.lattice = unitCube(8);
     request.levels = 1;
+    request.chunkPoints = 4000;
     request.voxelIndex = true;
     VoxelResampler resampler;
     const RunResult result = runOf(resampler, request, ThreadedExecutor(2));
@@ -88,6 +89,7 @@ TEST(VoxelPaths, MorePointsInFewVoxelsThanOneBatchHoldsAreWhatAFinerLatticeSumsU
 
 TEST(VoxelPaths, CoarserLevelsOfFewVoxelsAreDirectOnesForManyPoints)
 {
+  // More in one voxel than the 2^21 whose coordinates a sum of 64 bits holds.
   const std::vector<Vec3> points = sphereAndDust(2200000, 2);
   VoxelRequest request = requestFor(points, unitCube(4));
   request.levels = 3;
@@ -103,7 +105,7 @@ TEST(VoxelPaths, CoarserLevelsOfFewVoxelsAreDirectOnesForManyPoints)
 
 TEST(VoxelPaths, VoxelsOfNoOrdinarySizeGiveTheSameBits)
 {
-  const std::vector<Vec3> points = sphereAndDust(560000, 3);
+  const std::vector<Vec3> points = sphereAndDust(13000, 3);
   const double tiny = std::ldexp(1.0, -540);
   std::vector<Vec3> small;
   for (const Vec3& p : points)
@@ -114,6 +116,7 @@ TEST(VoxelPaths, VoxelsOfNoOrdinarySizeGiveTheSameBits)
   {
     VoxelRequest request = requestFor(points, unitCube(n), false);
     request.levels = 2;
+    request.chunkPoints = 6000;
     RunResult expected = runOf(request);
     for (LevelResult& level : expected.levels)
     {
@@ -122,9 +125,9 @@ TEST(VoxelPaths, VoxelsOfNoOrdinarySizeGiveTheSameBits)
         mean *= tiny;
       }
     }
-    VoxelRequest scaled = requestFor(small, unitCube(n), false);
+    VoxelRequest scaled = request;
+    scaled.points = view(small);
     scaled.lattice.spacing = tiny * scaled.lattice.spacing;
-    scaled.levels = 2;
     expectSame(runOf(scaled, ThreadedExecutor(2)), expected, std::to_string(n));
   }
 }
@@ -143,11 +146,12 @@ TEST(VoxelPaths, FineLatticesMeetTheOracle)
 TEST(VoxelPaths, FineLatticesGiveTheSameBitsForEveryOrderOfManyChunks)
 {
   // A small patch on 5000^3, so that all chunks meet in its voxels, and a wide one where they do not.
-  for (const double extent : { 0.01, 1.0 })
+  for (const double extent : { 0.002, 1.0 })
   {
     const std::vector<Vec3> points =
-      randomBox(1700000, 5, { 0.2, 0.2, 0.2 }, Vec3{ 0.2, 0.2, 0.2 } + 0.79 * extent * Vec3(1, 1, 1));
-    const VoxelRequest request = requestFor(points, unitCube(5000), false);
+      randomBox(17000, 5, { 0.2, 0.2, 0.2 }, Vec3{ 0.2, 0.2, 0.2 } + 0.79 * extent * Vec3(1, 1, 1));
+    VoxelRequest request = requestFor(points, unitCube(5000), false);
+    request.chunkPoints = 2600;
     const RunResult expected = runOf(request);
     std::int64_t sum = 0;
     for (const std::int64_t count : expected.levels[0].counts)
@@ -156,7 +160,8 @@ TEST(VoxelPaths, FineLatticesGiveTheSameBitsForEveryOrderOfManyChunks)
     }
     EXPECT_EQ(sum, std::int64_t(points.size()));
     const std::vector<Vec3> reversed(points.rbegin(), points.rend());
-    expectSame(runOf(requestFor(reversed, unitCube(5000), false), ThreadedExecutor(2)), expected, "reversed");
+    request.points = view(reversed);
+    expectSame(runOf(request, ThreadedExecutor(2)), expected, "reversed");
   }
 }
 
@@ -179,6 +184,7 @@ TEST(VoxelPaths, AnIndexChangesNoBitOfFineLattices)
 
 TEST(VoxelPaths, FineLatticesKeepAndReportTheirScratch)
 {
+  // More than a chunk of the default size, whose memory this is about.
   const std::vector<Vec3> points = sphereAndDust(600000, 7);
   const VoxelRequest request = requestFor(points, unitCube(5000), false);
   VoxelResampler resampler;

@@ -18,6 +18,9 @@ using namespace pointhaptics::trial;
 namespace
 {
 
+/// Points of a chunk that make a voxel overfull with 13 of 16 of them: 2^19 do.
+constexpr std::int64_t kOverfullChunk = 650000;
+
 /// All but three of @p group points are in one voxel.
 std::vector<Vec3> pointsWithAnOverfullCell(
   std::size_t n, const Lattice& lattice, const Vec3& voxel, std::size_t group = 16)
@@ -44,6 +47,7 @@ AffineTransform generalTransform(double scale)
 
 TEST(VoxelResampler, SumsMillionsOfPointsInOneVoxelExactlyWithTheirProductsOrWithout)
 {
+  // More than the 2^21 points whose coordinates a sum of 64 bits holds, in chunks of the default size.
   const Lattice lattice = latticeOf(300, 300, 300);
   const std::vector<Vec3> points = pointsWithAnOverfullCell(3200000, lattice, { 123, 45, 299 });
   const RunResult with = runOf(requestFor(points, lattice, true));
@@ -53,22 +57,25 @@ TEST(VoxelResampler, SumsMillionsOfPointsInOneVoxelExactlyWithTheirProductsOrWit
   expectSame(without, with, "without covariances");
 }
 
-TEST(VoxelResampler, SumsMillionsOfPointsInOneOfFewVoxelsExactly)
+TEST(VoxelResampler, SumsAnOverfullOneOfFewVoxelsExactly)
 {
   for (const Lattice& lattice : { latticeOf(5, 5, 5), latticeOf(4, 4, 4) })
   {
-    const std::vector<Vec3> points = pointsWithAnOverfullCell(2200000, lattice, { 3, 0, 3 });
-    expectExact(points, lattice, runOf(requestFor(points, lattice, false)));
+    const std::vector<Vec3> points = pointsWithAnOverfullCell(700000, lattice, { 3, 0, 3 });
+    VoxelRequest request = requestFor(points, lattice, false);
+    request.chunkPoints = kOverfullChunk;
+    expectExact(points, lattice, runOf(request));
   }
 }
 
 TEST(VoxelResampler, IsExactForTheFewPointsThatSeveralChunksHaveBesideAnOverfullCell)
 {
   const Lattice lattice = latticeOf(300, 300, 300);
-  const std::vector<Vec3> points = pointsWithAnOverfullCell(1300000, lattice, { 123, 45, 299 }, 1024);
+  const std::vector<Vec3> points = pointsWithAnOverfullCell(700000, lattice, { 123, 45, 299 }, 1024);
   for (const InstructionSet set : { InstructionSet::Baseline, InstructionSet::Automatic })
   {
     VoxelRequest request = requestFor(points, lattice);
+    request.chunkPoints = kOverfullChunk;
     request.instructions = set;
     expectExact(points, lattice, runOf(request));
   }
@@ -90,9 +97,10 @@ TEST(VoxelResampler, IsExactForMoreThanAChunkOfScatteredPoints)
     { latticeOf(300, 300, 300), latticeOf(2048, 2048, 300), latticeOf(5000, 300, 200) })
   {
     SCOPED_TRACE(nameOf(lattice));
-    const bool takesSmallChunks = lattice.dimensions[0] > 4096;
-    const std::vector<Vec3> points = quantisedPoints(takesSmallChunks ? 540000 : 1260000, 4, lattice);
-    expectExact(points, lattice, runOf(requestFor(points, lattice)));
+    const std::vector<Vec3> points = quantisedPoints(12600, 4, lattice);
+    VoxelRequest request = requestFor(points, lattice);
+    request.chunkPoints = 5000;
+    expectExact(points, lattice, runOf(request));
   }
 }
 
@@ -180,10 +188,13 @@ TEST(VoxelResampler, GivesTheSameBitsForChunksInAnyOrder)
 {
   for (const Lattice& lattice : { latticeOf(40, 50, 60), latticeOf(1024, 1024, 1024) })
   {
-    const std::vector<Vec3> points = quantisedPoints(1350000, 8, lattice);
-    const RunResult expected = runOf(requestFor(points, lattice), ThreadedExecutor(2));
+    const std::vector<Vec3> points = quantisedPoints(13500, 8, lattice);
+    VoxelRequest request = requestFor(points, lattice);
+    request.chunkPoints = 6000;
+    const RunResult expected = runOf(request, ThreadedExecutor(2));
     const std::vector<Vec3> reversed(points.rbegin(), points.rend());
-    expectSame(runOf(requestFor(reversed, lattice)), expected, nameOf(lattice));
+    request.points = view(reversed);
+    expectSame(runOf(request), expected, nameOf(lattice));
   }
 }
 
@@ -269,9 +280,9 @@ TEST(VoxelResampler, AnAbortLeavesNoVoxelsAndAUsableObject)
 {
   for (const Lattice& lattice : { latticeOf(60, 60, 60), latticeOf(1024, 1024, 1024), latticeOf(5000, 3, 2) })
   {
-    const std::vector<Vec3> points =
-      quantisedPoints(lattice.dimensions[0] > 4096 ? 540000 : 1260000, 11, lattice);
-    const VoxelRequest request = requestFor(points, lattice);
+    const std::vector<Vec3> points = quantisedPoints(12600, 11, lattice);
+    VoxelRequest request = requestFor(points, lattice);
+    request.chunkPoints = 5000;
     VoxelResampler resampler;
     CountingObserver once(1);
     EXPECT_EQ(resampler.run(request, {}, &once), Status::Aborted);
@@ -280,7 +291,7 @@ TEST(VoxelResampler, AnAbortLeavesNoVoxelsAndAUsableObject)
     EXPECT_EQ(resampler.clippedPoints(), 0);
     EXPECT_EQ(resampler.invalidPoints(), 0);
     VoxelRequest less = request;
-    less.points = { points.data(), 50000 };
+    less.points = { points.data(), 4000 };
     expectSame(runOf(resampler, less), runOf(less), nameOf(lattice));
     // And in the pass that tells points their voxels, the last one.
     VoxelRequest indexed = request;
@@ -324,9 +335,10 @@ TEST(VoxelResampler, FractionsAscendToOne)
 {
   for (const Lattice& lattice : { latticeOf(60, 60, 60), latticeOf(5000, 3, 2) })
   {
-    const std::vector<Vec3> points = quantisedPoints(3000001, 12, lattice);
+    const std::vector<Vec3> points = quantisedPoints(12001, 12, lattice);
     VoxelRequest request = requestFor(points, lattice, false);
     request.levels = 3;
+    request.chunkPoints = 5000;
     VoxelResampler resampler;
     CountingObserver observer;
     ASSERT_EQ(resampler.run(request, ThreadedExecutor(2), &observer), Status::Ok);
@@ -342,12 +354,13 @@ TEST(VoxelResampler, ScratchDoesNotGrowWhileASheetMovesThroughTheLattice)
     VoxelResampler resampler;
     std::size_t least = ~std::size_t(0);
     std::size_t most = 0;
-    for (double z = 0.5; z < 300.0; z += 12.5)
+    for (double z = 0.5; z < 20.0; z += 1.0)
     {
       const std::size_t chunks = levels == 1 ? 2 : 1; // with levels sums are kept of one chunk too
-      const std::vector<Vec3> points = randomBox(chunks * 630000, 31, { 0, 0, z }, { 300, 300, z + 0.25 });
-      VoxelRequest request = requestFor(points, latticeOf(300, 300, 300), false);
+      const std::vector<Vec3> points = randomBox(chunks * 21000, 31, { 0, 0, z }, { 200, 200, z + 0.25 });
+      VoxelRequest request = requestFor(points, latticeOf(200, 200, 20), false);
       request.levels = levels;
+      request.chunkPoints = 21000;
       ASSERT_EQ(resampler.run(request), Status::Ok);
       least = std::min(least, resampler.scratchBytes());
       most = std::max(most, resampler.scratchBytes());
