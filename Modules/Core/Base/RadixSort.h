@@ -12,7 +12,8 @@ namespace pointhaptics
 
 /// Sorts the first @p size of @p items by keyOf(item), an unsigned integer; equal ones keep their order.
 /// Least significant digit first, leaving out the digits in which no two keys differ: a few nanoseconds an
-/// item.
+/// item. Not by std::sort: 65,536 entries of 40 bytes take 8 to 14 ns each here and 47 there, 300,000 of 16
+/// bytes 5 to 9 and 52; boost's spreadsort takes 21 to 28. Neither keeps the order of equal ones.
 /// @param other as large; its content is lost. Items and other are exchanged with each pass.
 template <typename Items, typename KeyOf>
 void radixSort(Items& items, Items& other, std::size_t size, KeyOf&& keyOf)

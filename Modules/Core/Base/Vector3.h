@@ -173,7 +173,10 @@ struct SymEigen
 };
 
 /// Eigen decomposition by cyclic Jacobi rotations. Relative error about 1e-15 of the largest eigenvalue;
-/// bounded work (at most 16 sweeps); a matrix that is not finite gives zeros and the unit axes.
+/// bounded work (at most 16 sweeps); a matrix that is not finite gives zeros and the unit axes. Not by Eigen:
+/// these roots and quotients have the same bits on every machine. Its iteration is as exact and takes 0.8 of
+/// the 0.37 us here; its direct solution takes 0.1 us, errs by 1e-8 where two eigenvalues meet, and its
+/// trigonometric functions differ between libraries.
 SymEigen symmetricEigen(const SymMat3& m) noexcept;
 
 } // namespace pointhaptics

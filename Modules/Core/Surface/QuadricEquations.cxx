@@ -17,7 +17,8 @@ constexpr double kCubicPivotFrom = 1e-4;
 constexpr double kCubicPivotTo = 1e-3;
 
 // Numbers of unknowns are template arguments, and the loops unrolled: short loops of ever other lengths cost
-// more than what they compute.
+// more than what they compute. Eigen's LLT of fixed size takes 150 ns for six unknowns, these 41, and has no
+// test of single pivots.
 
 /// L y = rhs.
 template <int N>

@@ -13,7 +13,8 @@ namespace
 
 using Wide = long double;
 
-/// Solves T p = b by cofactors.
+/// Solves T p = b by cofactors. Not by Eigen: one pivot of 170 would differ in its last bit, and positions
+/// with it, for a few solutions a run.
 void solve(const AffineTransform& transform, const Wide b[3], Wide p[3])
 {
   const auto& m = transform.m;
