@@ -294,6 +294,38 @@ TEST_F(Bench, TouchIsJudgedAtEdgesOnScansAndOnThinParts)
   this->refuse(2, { "bench", "touch", "--methods", "ball" }, { "bench touch", "--methods", "surface-fit" });
 }
 
+TEST_F(Bench, TouchIsTimedOnSmoothShapesAndScansOfEverySize)
+{
+  this->write("tetra.ply",
+    "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+    "element face 4\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n"
+    "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n");
+  const json result = json::parse(this->succeed({ "bench", "touch", "--quick", "--json", "--studies", "size",
+    "--scans", "tetra.ply", "--sizes", "5000,3e4" }));
+  const json& rows = result["size"]["rows"];
+  ASSERT_EQ(rows.size(), 3u * 2u);
+  const char* const meshes[] = { "sphere", "ellipsoid", "tetra.ply" };
+  for (std::size_t i = 0; i < rows.size(); ++i)
+  {
+    const json& row = rows[i];
+    EXPECT_EQ(row["mesh"], meshes[i / 2]) << row;
+    EXPECT_EQ(row["points"], i % 2 == 0 ? 5000 : 30000) << row;
+    EXPECT_EQ(row["method"], "surface-fit") << row;
+    EXPECT_GT(row["built_seconds"], 0.0) << row;
+    EXPECT_GT(row["p50_us"], 0.0) << row;
+    EXPECT_LE(row["first_contact_us"], row["max_us"]) << row;
+    EXPECT_EQ(row["lost_percent"], 0.0) << row;
+    EXPECT_LE(row["median_percent"], 1.0) << row << ": other points than the mesh's";
+    EXPECT_TRUE(row["status_percent"].contains("around")) << row;
+    EXPECT_GE(row["releases"], 1) << row;
+  }
+  const json sphere = json::parse(this->succeed({ "bench", "touch", "--quick", "--json", "--studies", "size",
+    "--meshes", "none", "--sizes", "5000", "--methods", "sphere" }));
+  ASSERT_EQ(sphere["size"]["rows"].size(), 2u);
+  EXPECT_EQ(sphere["size"]["rows"][0]["method"], "sphere");
+  this->refuse(2, { "bench", "touch", "--sizes", "0" }, { "bench touch", "--sizes" });
+}
+
 TEST_F(Bench, ScenesNearTheHandComeLate)
 {
   const json late = json::parse(this->succeed({ "bench", "touch", "--quick", "--json", "--studies",

@@ -29,6 +29,7 @@ struct TouchOptions
   std::vector<std::string> meshes;
   std::vector<std::string> methods;
   std::vector<std::string> studies;
+  std::vector<double> sizes;
   std::int64_t points = 0;  ///< 0: the default.
   std::int64_t strokes = 0; ///< 0: the default.
   int strokeSet = 0;
@@ -80,6 +81,10 @@ BenchOutcome runTouch(
   settings.methods = options.methods;
   settings.studies = options.studies;
   settings.points = options.points > 0 ? options.points : settings.points;
+  if (!options.sizes.empty())
+  {
+    settings.sizes.assign(options.sizes.begin(), options.sizes.end());
+  }
   settings.strokes = options.strokes > 0 ? int(options.strokes) : settings.strokes;
   settings.strokeSet = bench::touch::StrokeSet(options.strokeSet);
   settings.raw = options.raw;
@@ -102,6 +107,8 @@ BenchRun addTouchOptions(CLI::App& command)
     true, "Generated meshes to touch, or none; default all");
   addInteger(
     command, "--points", options->points, 1, kMostTouchPoints, "Samples of each mesh; default 543652");
+  addWholeNumbers(command, "--sizes", options->sizes, kMostTouchPoints,
+    "Samples of each mesh for the study of size; default 1e4,1e7");
   addInteger(
     command, "--strokes", options->strokes, 1, kMostTouchStrokes, "Strokes on each mesh; default 60");
   addChoice(command, "--stroke-set", options->strokeSet,

@@ -180,7 +180,7 @@ ReportPart studyLocal(StudyContext& context)
   for (const TouchMesh& mesh : meshesOf(options))
   {
     const TriangleTree tree(mesh);
-    const TouchScene scene = makeTouchScene(samplesToTouch(mesh, options), sceneSettings(options));
+    const TouchScene scene = makeTouchScene(samplesToTouch(mesh, options.points), sceneSettings(options));
     if (tree.facets().empty() || !scene.scene || !scene.local)
     {
       part.remarks.push_back("Left out: " + mesh.name + " has no finer scenes");

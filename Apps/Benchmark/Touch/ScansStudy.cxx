@@ -21,7 +21,7 @@ struct Cloud
 std::vector<Cloud> cloudsOf(const TouchMesh& mesh, const TouchBenchmarkOptions& options)
 {
   std::vector<Cloud> clouds;
-  clouds.push_back({ "samples", samplesToTouch(mesh, options) });
+  clouds.push_back({ "samples", samplesToTouch(mesh, options.points) });
   if (mesh.isScan)
   {
     clouds.push_back({ "vertices", mesh.points });

@@ -29,7 +29,7 @@ void addFigures(StudyContext& context, ReportPart& part, std::vector<std::string
 
 /// The scans, fitted into the workspace, and the generated meshes; the same samples of each for all studies.
 std::vector<TouchMesh> meshesOf(const TouchBenchmarkOptions& options);
-std::vector<Vec3> samplesToTouch(const TouchMesh& mesh, const TouchBenchmarkOptions& options);
+std::vector<Vec3> samplesToTouch(const TouchMesh& mesh, std::int64_t count);
 
 /// How the clouds of all studies are resampled, and what a report says about that.
 TouchSceneSettings sceneSettings(const TouchBenchmarkOptions& options);
@@ -56,6 +56,7 @@ ReportPart studyScans(StudyContext& context);
 ReportPart studyEdges(StudyContext& context);
 ReportPart studyThin(StudyContext& context);
 ReportPart studyLocal(StudyContext& context);
+ReportPart studySizes(StudyContext& context);
 
 } // namespace touch
 } // namespace bench

@@ -17,7 +17,7 @@ namespace
 
 /// In the order of the report.
 constexpr Study<StudyContext> kStudies[] = { { "scans", studyScans }, { "edges", studyEdges },
-  { "thin", studyThin }, { "local", studyLocal } };
+  { "thin", studyThin }, { "local", studyLocal }, { "size", studySizes } };
 
 constexpr const char* kMethod =
   "Hands press, slide and lift on clouds that were sampled from triangle meshes, K = 800 N/m, one tick a "
@@ -75,6 +75,7 @@ void TouchBenchmarkOptions::makeQuick()
 {
   quick = true;
   points = 20000;
+  sizes = { 2000, 20000 };
   strokes = 2;
   meshes = { "box" };
   repetitions = 1;
@@ -170,10 +171,10 @@ std::vector<TouchMesh> meshesOf(const TouchBenchmarkOptions& options)
   return meshes;
 }
 
-std::vector<Vec3> samplesToTouch(const TouchMesh& mesh, const TouchBenchmarkOptions& options)
+std::vector<Vec3> samplesToTouch(const TouchMesh& mesh, std::int64_t count)
 {
   constexpr std::uint64_t kSeed = 28;
-  return samplesOf(mesh, options.points, kSeed);
+  return samplesOf(mesh, count, kSeed);
 }
 
 TouchSceneSettings sceneSettings(const TouchBenchmarkOptions& options)

@@ -24,10 +24,11 @@ struct TouchBenchmarkOptions
 {
   std::vector<TouchMesh> scans; ///< As read from their files.
   std::vector<std::string> meshes = generatedMeshNames();
-  std::vector<std::string> methods; ///< Of contestantNames(); empty: all.
-  std::vector<std::string> studies; ///< Of studyWords(); empty: all.
-  std::int64_t points = 543652;     ///< Samples of each mesh; the paper's number.
-  int strokes = 60;                 ///< On each mesh.
+  std::vector<std::string> methods;                      ///< Of contestantNames(); empty: all.
+  std::vector<std::string> studies;                      ///< Of studyWords(); empty: all.
+  std::int64_t points = 543652;                          ///< Samples of each mesh; the paper's number.
+  std::vector<std::int64_t> sizes = { 10000, 10000000 }; ///< The same for the study of size.
+  int strokes = 60;                                      ///< On each mesh.
   StrokeSet strokeSet = StrokeSet::A;
   bool raw = false;  ///< The points themselves, no voxels.
   bool local = true; ///< Finer scenes near the hand, as the program makes them.
