@@ -2,14 +2,13 @@
 
 #include "Core/Base/Boxes.h"
 #include "Core/Base/QuantityText.h"
-#include "Core/Distributed/Ranks.h"
+#include "Core/Distributed/SharedVoxels.h"
 
 #include "vtkPolyData.h"
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <string>
 #include <vector>
 
@@ -44,35 +43,12 @@ double longestSide(const Bounds& bounds)
   return std::max({ size.x, size.y, size.z });
 }
 
-std::int64_t sum(Ranks& ranks, std::int64_t own)
-{
-  return ranks.reduce(own, [](std::int64_t a, std::int64_t b) { return a + b; });
-}
-
-/// Of all ranks; each is asked, also one without points.
-Bounds joined(Ranks& ranks, const Bounds& own)
-{
-  return ranks.reduce(own,
-    [](Bounds a, const Bounds& b)
-    {
-      if (!b.empty())
-      {
-        a.include(b.minimum);
-        a.include(b.maximum);
-      }
-      return a;
-    });
-}
-
 /// Some of the points, as many whatever the ranks, with those of all of them.
 void sample(vtkPolyData* part, Ranks& ranks, std::vector<double> (&values)[3])
 {
   const std::int64_t count = part->GetNumberOfPoints();
-  const std::vector<std::int64_t> counts = ranks.gatherValues(count);
-  const auto own = counts.begin() + ranks.rank();
-  const std::int64_t before = std::accumulate(counts.begin(), own, std::int64_t{ 0 });
-  const std::int64_t all = std::accumulate(own, counts.end(), before);
-  const std::int64_t step = std::max<std::int64_t>(1, all / kLookedAt);
+  const std::int64_t before = sumBefore(ranks, count);
+  const std::int64_t step = std::max<std::int64_t>(1, commonSum(ranks, count) / kLookedAt);
   Vec3 p;
   for (vtkIdType i = (step - before % step) % step; i < count; i += step)
   {
@@ -137,8 +113,8 @@ FarPoints findFarPoints(vtkPolyData* cloud, const Bounds& bounds)
 FarPoints findFarPoints(vtkPolyData* part, const Bounds& bounds, Ranks& ranks)
 {
   FarPoints none;
-  none.others = joined(ranks, bounds);
-  if (sum(ranks, part->GetNumberOfPoints()) < kFewest)
+  none.others = commonBounds(ranks, bounds);
+  if (commonSum(ranks, part->GetNumberOfPoints()) < kFewest)
   {
     return none;
   }
@@ -166,10 +142,10 @@ FarPoints findFarPoints(vtkPolyData* part, const Bounds& bounds, Ranks& ranks)
       stray += isNoData(p) ? 0 : 1;
     }
   }
-  found.of = sum(ranks, found.of);
-  found.count = sum(ranks, found.count);
-  found.others = joined(ranks, found.others);
-  stray = sum(ranks, stray);
+  found.of = commonSum(ranks, found.of);
+  found.count = commonSum(ranks, found.count);
+  found.others = commonBounds(ranks, found.others);
+  stray = commonSum(ranks, stray);
   const bool areFew = found.count > 0 && stray * kMostPart <= std::max(found.of, kMostPart);
   return areFew && longestSide(found.others) <= kMostLength * longest ? found : none;
 }

@@ -263,8 +263,8 @@ RowRange rowsIn(const TextPart& part, const PcdHeader& header)
 
 void addFieldData(const PcdHeader& header, vtkPolyData* cloud)
 {
-  vtkNew<vtkDoubleArray> viewpoint;
   addFieldText(cloud, "LengthUnit", header.lengthUnit);
+  vtkNew<vtkDoubleArray> viewpoint;
   viewpoint->SetName("Viewpoint");
   viewpoint->SetNumberOfComponents(7);
   viewpoint->InsertNextTuple(header.viewpoint.data());

@@ -166,8 +166,7 @@ TEST(Summary, TellsOfHandsThatGoThroughAPlateWhereTheRunHasThem)
   table = { { "part", "method", "lost %", "pops", "strokes" },
     { { "plate 0.6 mm", "surface-fit", "0", "0", "60" },
       { "plate 0.6 mm", "gradient-steps-tuned", "2.42", "14", "60" } } };
-  ASSERT_EQ(summaryOf(report, Page::Accuracy).size(), 1u);
-  EXPECT_EQ(summaryOf(report, Page::Accuracy)[0].answer, "0 %; the paper's method 2.42 %");
+  EXPECT_TRUE(summaryOf(report, Page::Accuracy).empty());
   table.rows.push_back({ "through plate 0.6 mm", "surface-fit", "0", "1", "60" });
   table.rows.push_back({ "through plate 0.6 mm", "gradient-steps-tuned", "9", "20", "60" });
   ASSERT_EQ(summaryOf(report, Page::Accuracy).size(), 1u);
