@@ -67,10 +67,11 @@ ReportPart studySizes(StudyContext& context)
     }
     context.progress("god objects on " + mesh.name);
     const std::vector<TouchTask> tasks = tasksOn(tree, strokesOn(tree, options.strokes, options.strokeSet));
-    for (const std::int64_t count : options.sizes)
+    for (const std::int64_t size : options.sizes)
     {
-      context.progress(fmt::format("{} samples of {}", grouped(count), mesh.name));
-      std::vector<Vec3> points = samplesToTouch(mesh, count);
+      context.progress(fmt::format("{} samples of {}", grouped(size), mesh.name));
+      std::vector<Vec3> points = samplesToTouch(mesh, size);
+      const auto count = std::int64_t(points.size());
       const auto before = std::chrono::steady_clock::now();
       const TouchScene scene = makeTouchScene(std::move(points), sceneSettings(options));
       const std::chrono::duration<double> built = std::chrono::steady_clock::now() - before;
