@@ -56,10 +56,7 @@ bool FlatPlace::find(
     mean = rest.mean();
     eigen = symmetricEigen(rest.covariance());
   }
-  normal_ = dot(eigen.vectors[0], away) < 0.0 ? -eigen.vectors[0] : eigen.vectors[0];
-  point_ = center - mean;
-  foundAt_ = center;
-  isKnown_ = true;
+  this->set(center - mean, dot(eigen.vectors[0], away) < 0.0 ? -eigen.vectors[0] : eigen.vectors[0], center);
   return true;
 }
 

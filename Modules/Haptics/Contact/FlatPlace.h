@@ -19,6 +19,15 @@ public:
   /// center. @param away receives the direction from their middle to the ball. False: they are not flat, and
   /// nothing changes.
   bool find(const BallCells& cells, const Vec3& center, double radius, double reach, Vec3& away) noexcept;
+  /// The place of @p point with the unit normal @p normal, under a ball at @p center.
+  void set(const Vec3& point, const Vec3& normal, const Vec3& center) noexcept
+  {
+    point_ = point;
+    normal_ = normal;
+    foundAt_ = center;
+    isKnown_ = true;
+  }
+
   void invalidate() noexcept { isKnown_ = false; }
   /// The place moves with the model.
   void carry(const AffineTransform& change) noexcept;

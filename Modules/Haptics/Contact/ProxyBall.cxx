@@ -62,6 +62,9 @@ constexpr double kRounding = 1e-9;
 constexpr double kTouchReach = 1.2;
 /// How far aside of the HIP, seen along the normal of a flat place, bumps may push the ball, over its radius.
 constexpr double kMostAside = 0.25;
+/// A ball that rides is so far above the surface, and goes so far in a tick, over its radius.
+constexpr double kAboveBumps = 0.1;
+constexpr double kLongestRide = 0.5;
 /// After a glide that did not help the HIP moves by this many radii before the next.
 constexpr double kGlideAgain = 0.05;
 
@@ -129,6 +132,7 @@ void ProxyBall::carry(const AffineTransform& change, double scale) noexcept
   hip_ = change.apply(hip_);
   radius_ *= scale;
   wanted_ *= scale;
+  wantedAhead_ *= scale;
   isMeasured_ = false;
   isHeld_ = false;
   flat_.carry(change);
@@ -252,6 +256,12 @@ bool ProxyBall::makeRoom(Work& work, const ProxyBall& before) noexcept
   return false;
 }
 
+bool ProxyBall::isMeasureDue(const HapticScene& scene) const noexcept
+{
+  const double every = kMeasureEvery * scene.cellSize();
+  return !isMeasured_ || norm2(center_ - measuredAt_) > every * every;
+}
+
 /// Finds the radius that the cloud asks for about the ball and ahead: what comes may be sparser, and the ball
 /// is wide.
 void ProxyBall::measure(Work& work, const Vec3& hip) noexcept
@@ -269,14 +279,15 @@ void ProxyBall::measure(Work& work, const Vec3& hip) noexcept
   const bool isFound = nearestTo(center_, nearest);
   const auto wantedAt = [&](const Vec3& seed)
   { return ballRadius(work.scene, work.fields, work.cells, seed, center_); };
-  wanted_ = isFound ? wantedAt(nearest) : radius_;
+  wanted_ = wantedAhead_ = isFound ? wantedAt(nearest) : radius_;
   const Vec3 up = normalized(center_ - hip_);
   const Vec3 course = hip - hip_;
   const Vec3 ahead = normalized(course - dot(course, up) * up);
   Vec3 next;
   if (!free_ && nearestTo(center_ + kAhead * radius_ * ahead, next) && next != nearest)
   {
-    wanted_ = std::max(wanted_, wantedAt(next));
+    wantedAhead_ = wantedAt(next);
+    wanted_ = std::max(wanted_, wantedAhead_);
   }
   measuredAt_ = center_;
   isMeasured_ = true;
@@ -292,8 +303,7 @@ void ProxyBall::measure(Work& work, const Vec3& hip) noexcept
 /// among points where it began without room: it was on no side of them.
 void ProxyBall::updateRadius(Work& work, const Vec3& hip) noexcept
 {
-  const double every = kMeasureEvery * work.scene.cellSize();
-  if (!isMeasured_ || norm2(center_ - measuredAt_) > every * every)
+  if (isMeasureDue(work.scene))
   {
     measure(work, hip);
   }
@@ -449,6 +459,68 @@ void ProxyBall::walk(Work& work, const Vec3& hip) noexcept
       slide(work, hip_);
     }
   } while (walked < length && work.rounds > 0);
+}
+
+/// The same for a ball that rides: what is about it now was ahead before.
+void ProxyBall::measureAhead(Work& work, const Vec3& hip, const Vec3& foot, const Vec3& up) noexcept
+{
+  gather(work, 2.0 * radius_);
+  const Vec3 course = hip - hip_;
+  const Vec3 ahead = normalized(course - dot(course, up) * up, Vec3());
+  Vec3 point;
+  const double before = wantedAhead_;
+  if (work.cells.nearestOf(work.scene.pyramid(), foot + kAhead * radius_ * ahead, radius_, point))
+  {
+    wantedAhead_ = ballRadius(work.scene, work.fields, work.cells, point, center_);
+  }
+  wanted_ = std::max(before, wantedAhead_);
+  measuredAt_ = center_;
+  isMeasured_ = true;
+}
+
+bool ProxyBall::ride(const HapticScene& scene, FitCells& fields, BallCells& cells, const Vec3& hip,
+  const Vec3& foot, const Vec3& up, std::uint32_t& status) noexcept
+{
+  if (free_ || !there_ || adopts_ || isConfined_)
+  {
+    return false;
+  }
+  Work work{ scene, fields, cells, kMostRounds, status };
+  const ProxyBall before = *this;
+  if (isMeasureDue(scene))
+  {
+    measureAhead(work, hip, foot, up);
+  }
+  const double smaller = radius_;
+  radius_ = std::clamp(wanted_, radius_ / kLargestGrowth, radius_ * kLargestGrowth);
+  const Vec3 way = foot + (1.0 + kAboveBumps) * radius_ * up - center_;
+  const double rise = std::max(0.0, dot(way, up));
+  const Vec3 across = way - rise * up;
+  const double length = norm(across);
+  bool isOut = smaller >= kTooSmall * wanted_ && rise + length <= kLongestRide * radius_;
+  if (isOut)
+  {
+    gather(work, radius_ + rise + length);
+    work.cells.focus(center_, kFocus * radius_);
+    const auto goes = [&](const Vec3& direction, double distance)
+    {
+      const bool isClear = work.cells.sweep(center_, direction, distance, smaller) == distance;
+      center_ += distance * direction;
+      return isClear;
+    };
+    isOut = goes(up, rise) && goes(normalized(across), length) &&
+      work.cells.nearestWithin(center_, (1.0 - kRounding) * radius_) < 0;
+  }
+  if (!isOut)
+  {
+    *this = before;
+    return false;
+  }
+  hip_ = hip;
+  slid_ = glided_ = isHeld_ = false;
+  rode_ = true;
+  flat_.set(foot, up, center_);
+  return true;
 }
 
 void ProxyBall::step(const HapticScene& scene, FitCells& fields, BallCells& cells, const Vec3& hip,

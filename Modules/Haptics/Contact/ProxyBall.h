@@ -51,6 +51,11 @@ public:
   void step(const HapticScene& scene, FitCells& fields, BallCells& cells, const Vec3& hip,
     std::uint32_t& status) noexcept;
 
+  /// In place of a step: rides above the bumps of a smooth surface to the foot @p foot of @p hip on it, with
+  /// the unit normal @p up, where no point is in its way. False: it stays, and must step.
+  bool ride(const HapticScene& scene, FitCells& fields, BallCells& cells, const Vec3& hip, const Vec3& foot,
+    const Vec3& up, std::uint32_t& status) noexcept;
+
   /// The ball is at the HIP.
   bool isFree() const noexcept { return free_; }
   /// Goes over the bumps between points and down to @p foot of a surface with the unit normal @p up, where no
@@ -98,7 +103,9 @@ private:
   };
 
   void place(Work& work, const Vec3& hip) noexcept;
+  bool isMeasureDue(const HapticScene& scene) const noexcept;
   void measure(Work& work, const Vec3& hip) noexcept;
+  void measureAhead(Work& work, const Vec3& hip, const Vec3& foot, const Vec3& up) noexcept;
   void updateRadius(Work& work, const Vec3& hip) noexcept;
   void walk(Work& work, const Vec3& hip) noexcept;
   double fly(Work& work, const Vec3& direction, double length) noexcept;
@@ -118,6 +125,7 @@ private:
   Vec3 center_;
   double radius_ = 0.0;
   double wanted_ = 0.0;
+  double wantedAhead_ = 0.0;
   Vec3 hip_; ///< As far as the ball has followed it.
   Vec3 measuredAt_;
   Vec3 heldAt_; ///< The HIP when gliding did not help.
@@ -132,6 +140,7 @@ private:
   bool placed_ = false;
   bool slid_ = false;
   bool glided_ = false;
+  bool rode_ = false; ///< And has not looked for its way among the points since.
 };
 
 } // namespace pointhaptics

@@ -53,12 +53,13 @@ Vec3 ProxyBall::surfaceNormal(const BallCells& cells) noexcept
 /// Whether the ball lies on a flat place and leans so little that it may wait.
 bool ProxyBall::mayWait(const Vec3& hip) const noexcept
 {
-  return flat_.isNear(center_, (isPatient_ ? kPatientNear : kWaitNear) * radius_) &&
+  return !rode_ && flat_.isNear(center_, (isPatient_ ? kPatientNear : kWaitNear) * radius_) &&
     norm(flat_.along(hip - center_)) < (isPatient_ ? kPatientLean : kWaitLean) * radius_;
 }
 
 bool ProxyBall::glide(Work& work, const Vec3& hip) noexcept
 {
+  rode_ = false;
   gather(work, kPlaneReach * radius_);
   work.cells.focus(center_, kPlaneReach * radius_);
   const Vec3 up = surfaceNormal(work.cells);

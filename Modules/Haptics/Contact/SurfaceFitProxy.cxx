@@ -55,12 +55,17 @@ void SurfaceFitProxy::carry(const AffineTransform& from, const AffineTransform& 
   normal_ = normalized(change.applyToNormal(normal_), normal_);
 }
 
-/// Whether the ball lies above a smooth surface that goes on all around: what it sinks into are gaps between
-/// points, and nothing that a hand could fall off.
+/// Whether the ball lies above a smooth surface.
+bool SurfaceFitProxy::isSmooth() const noexcept
+{
+  return tracker_.height(ball_.center()) > 0.0 && tracker_.residual() < kSmoothResidual * ball_.radius();
+}
+
+/// Whether that goes on all around: what the ball sinks into are gaps between points, and nothing that a hand
+/// could fall off.
 bool SurfaceFitProxy::isPlain() const noexcept
 {
-  return tracker_.height(ball_.center()) > 0.0 && tracker_.continuesAround() &&
-    tracker_.residual() < kSmoothResidual * ball_.radius();
+  return isSmooth() && tracker_.continuesAround();
 }
 
 /// Whether the HIP came out through a smooth face beside the one that the ball lies on: it is in front of
@@ -116,9 +121,19 @@ bool SurfaceFitProxy::seek(const HapticScene& scene, Memory& memory, const Vec3&
                    : search_.advance(scene, memory.fit, ball_.center(), hip);
 }
 
-/// Follows the fit to the HIP. @return how much of the answer is the fit's, 0 to 1.
-double SurfaceFitProxy::fitWeight(
+/// While the fit alone is felt and the surface goes on smoothly, the ball need not look for its way among the
+/// points: it goes with the foot of the fit. False: it stays, and must step.
+bool SurfaceFitProxy::ride(
   const HapticScene& scene, Memory& memory, const Vec3& hip, std::uint32_t& status) noexcept
+{
+  return isAlone_ && isSmooth() && tracker_.continues() && tracker_.height(hip) < 0.0 &&
+    ball_.ride(scene, memory.fit, memory.ball, hip, tracker_.point(), tracker_.normal(), status);
+}
+
+/// @param followed how the fit came to the foot of the HIP. @return how much of the answer is the fit's, 0 to
+/// 1.
+double SurfaceFitProxy::fitWeight(const HapticScene& scene, Memory& memory, const Vec3& hip,
+  TrackResult followed, std::uint32_t& status) noexcept
 {
   FitCells& fit = memory.fit;
   const auto weight = [&]
@@ -133,7 +148,6 @@ double SurfaceFitProxy::fitWeight(
     return agrees ? 1.0 - smoothStep((apart - trust) / ((kDistrust - 1.0) * trust)) : 0.0;
   };
   double result = 0.0;
-  const auto followed = hasFit_ ? tracker_.follow(scene, fit, hip) : TrackResult::Lost;
   if (hasFit_)
   {
     status |= std::uint32_t(followed != TrackResult::Converged ? kProxyRoundLimit : kProxyOk);
@@ -170,6 +184,7 @@ double SurfaceFitProxy::fitWeight(
 void SurfaceFitProxy::forgetFit() noexcept
 {
   hasFit_ = false;
+  isAlone_ = false;
   isPatient_ = false;
   isRough_ = false;
   search_.giveUp();
@@ -180,8 +195,13 @@ void SurfaceFitProxy::step(const HapticScene& scene, Memory& memory, const Conta
   const Vec3& hip, bool refines, ProxyState& state) noexcept
 {
   memory.fit.clearOverflow();
-  ball_.setPatient(isPatient_);
-  ball_.step(scene, memory.fit, memory.ball, hip, state.status);
+  const bool follows = hasFit_ && refines;
+  const TrackResult followed = follows ? tracker_.follow(scene, memory.fit, hip) : TrackResult::Lost;
+  if (followed != TrackResult::Converged || !ride(scene, memory, hip, state.status))
+  {
+    ball_.setPatient(isPatient_);
+    ball_.step(scene, memory.fit, memory.ball, hip, state.status);
+  }
   Contact contact;
   double weight = 0.0;
   if (ball_.isFree() || !ball_.isThere())
@@ -190,9 +210,10 @@ void SurfaceFitProxy::step(const HapticScene& scene, Memory& memory, const Conta
   }
   else
   {
-    weight = refines ? fitWeight(scene, memory, hip, state.status) : 0.0;
+    weight = refines ? fitWeight(scene, memory, hip, followed, state.status) : 0.0;
     const double depth = ball_.isFree() ? -ball_.radius() : ball_.depth(hip);
-    isPatient_ = weight == 1.0 && isPlain();
+    isAlone_ = weight == 1.0;
+    isPatient_ = isAlone_ && isPlain();
     const Vec3 ballPoint = ball_.nearestPoint(hip);
     Vec3 offset = (1.0 - weight) * (depth > 0.0 ? ballPoint - hip : Vec3());
     contact.normal = (1.0 - weight) * normalized(ball_.center() - hip, normal_);

@@ -72,8 +72,11 @@ private:
   };
 
   bool seek(const HapticScene& scene, Memory& memory, const Vec3& hip) noexcept;
-  double fitWeight(const HapticScene& scene, Memory& memory, const Vec3& hip, std::uint32_t& status) noexcept;
+  bool ride(const HapticScene& scene, Memory& memory, const Vec3& hip, std::uint32_t& status) noexcept;
+  double fitWeight(const HapticScene& scene, Memory& memory, const Vec3& hip, TrackResult followed,
+    std::uint32_t& status) noexcept;
   bool comesOut(const HapticScene& scene, Memory& memory, const Vec3& hip, std::uint32_t& status) noexcept;
+  bool isSmooth() const noexcept;
   bool isPlain() const noexcept;
 
   ProxyBall ball_;
@@ -82,6 +85,7 @@ private:
   FrictionCone friction_;
   Vec3 normal_{ 0.0, 0.0, 1.0 };
   bool hasFit_ = false;
+  bool isAlone_ = false;   ///< The fit alone was felt.
   bool isPatient_ = false; ///< The fit followed a smooth surface that goes on all around.
   Vec3 roughAt_;           ///< The HIP when the surface beside it was last seen to be no flat face.
   bool isRough_ = false;

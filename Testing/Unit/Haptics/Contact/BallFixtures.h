@@ -81,6 +81,25 @@ inline Real leastDistanceWithin(const HapticScene& scene, const Vec3& p, double 
   return least;
 }
 
+/// How deep a ball of @p radius that went straight covered a point on its way, over its radius, told in long
+/// double.
+inline Real deepestOnWay(const HapticScene& scene, const Vec3& from, const Vec3& to, double radius)
+{
+  const LongVec way = LongVec(to) - LongVec(from);
+  const Real length = norm(way);
+  Real deepest = 0.0L;
+  scene.pyramid().visitBall(0, 0.5 * (from + to), radius + 0.5 * norm(to - from),
+    [&](std::uint32_t, const Cell& cell, double)
+    {
+      const LongVec offset = LongVec(cell.mean) - LongVec(from);
+      const Real along = length > 0.0L ? dot(offset, way) / length : 0.0L;
+      const Real at = std::clamp(along, 0.0L, length);
+      const Real apart = norm(offset - (length > 0.0L ? at / length : 0.0L) * way);
+      deepest = std::max(deepest, 1.0L - apart / radius);
+    });
+  return deepest;
+}
+
 /// A ball, its scene and the memory it works in.
 class BallInScene
 {
