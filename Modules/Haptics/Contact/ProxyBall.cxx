@@ -65,6 +65,11 @@ constexpr double kMostAside = 0.25;
 /// A ball that rides is so far above the surface, and goes so far in a tick, over its radius.
 constexpr double kAboveBumps = 0.1;
 constexpr double kLongestRide = 0.5;
+/// How far aside of a foot the middle of the points within a radius may lie for it to be on the surface and
+/// not at its rim, likewise: 0.42 on a straight one, and 0.12 by chance where the ball is over 18 points.
+constexpr double kMostAsideOfFoot = 0.2;
+/// Points further from the plane there are of another face, likewise.
+constexpr double kFace = 0.15;
 /// After a glide that did not help the HIP moves by this many radii before the next.
 constexpr double kGlideAgain = 0.05;
 
@@ -478,26 +483,47 @@ void ProxyBall::measureAhead(Work& work, const Vec3& hip, const Vec3& foot, cons
   isMeasured_ = true;
 }
 
+bool ProxyBall::hasPointsAround(
+  const HapticScene& scene, BallCells& cells, const Vec3& foot, const Vec3& up) const noexcept
+{
+  cells.gather(scene.pyramid(), foot, radius_, radius_ / kBallRadiusInCells, kReachOfTick * radius_);
+  Vec3 sum;
+  double count = 0.0;
+  cells.visitBall(foot, radius_,
+    [&](const Vec3& offset, double)
+    {
+      const bool isOfFace = std::abs(dot(offset, up)) < kFace * radius_;
+      sum += isOfFace ? offset : Vec3();
+      count += isOfFace ? 1.0 : 0.0;
+    });
+  return norm(sum) < kMostAsideOfFoot * radius_ * count;
+}
+
 bool ProxyBall::ride(const HapticScene& scene, FitCells& fields, BallCells& cells, const Vec3& hip,
   const Vec3& foot, const Vec3& up, std::uint32_t& status) noexcept
 {
-  if (free_ || !there_ || adopts_ || isConfined_)
+  if (free_ || !there_ || isConfined_)
   {
     return false;
   }
   Work work{ scene, fields, cells, kMostRounds, status };
   const ProxyBall before = *this;
-  if (isMeasureDue(scene))
+  if (adopts_)
+  {
+    measure(work, hip);
+  }
+  else if (isMeasureDue(scene))
   {
     measureAhead(work, hip, foot, up);
   }
   const double smaller = radius_;
-  radius_ = std::clamp(wanted_, radius_ / kLargestGrowth, radius_ * kLargestGrowth);
+  const double most = adopts_ ? std::max(wanted_, radius_) : radius_ * kLargestGrowth;
+  radius_ = std::clamp(wanted_, radius_ / kLargestGrowth, most);
   const Vec3 way = foot + (1.0 + kAboveBumps) * radius_ * up - center_;
   const double rise = std::max(0.0, dot(way, up));
   const Vec3 across = way - rise * up;
   const double length = norm(across);
-  bool isOut = smaller >= kTooSmall * wanted_ && rise + length <= kLongestRide * radius_;
+  bool isOut = radius_ >= kTooSmall * wanted_ && rise + length <= kLongestRide * radius_;
   if (isOut)
   {
     gather(work, radius_ + rise + length);
@@ -517,7 +543,7 @@ bool ProxyBall::ride(const HapticScene& scene, FitCells& fields, BallCells& cell
     return false;
   }
   hip_ = hip;
-  slid_ = glided_ = isHeld_ = false;
+  slid_ = glided_ = isHeld_ = adopts_ = false;
   rode_ = true;
   flat_.set(foot, up, center_);
   return true;

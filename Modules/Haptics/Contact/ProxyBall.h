@@ -56,6 +56,11 @@ public:
   bool ride(const HapticScene& scene, FitCells& fields, BallCells& cells, const Vec3& hip, const Vec3& foot,
     const Vec3& up, std::uint32_t& status) noexcept;
 
+  /// Whether the face through @p foot with the unit normal @p up goes on around it: points within a radius
+  /// lie on all sides.
+  bool hasPointsAround(
+    const HapticScene& scene, BallCells& cells, const Vec3& foot, const Vec3& up) const noexcept;
+
   /// The ball is at the HIP.
   bool isFree() const noexcept { return free_; }
   /// Goes over the bumps between points and down to @p foot of a surface with the unit normal @p up, where no

@@ -126,7 +126,9 @@ bool SurfaceFitProxy::seek(const HapticScene& scene, Memory& memory, const Vec3&
 bool SurfaceFitProxy::ride(
   const HapticScene& scene, Memory& memory, const Vec3& hip, std::uint32_t& status) noexcept
 {
-  return isAlone_ && isSmooth() && tracker_.continues() && tracker_.height(hip) < 0.0 &&
+  return isAlone_ && isSmooth() && tracker_.height(hip) < 0.0 &&
+    (tracker_.continuesAround() ||
+      ball_.hasPointsAround(scene, memory.ball, tracker_.point(), tracker_.normal())) &&
     ball_.ride(scene, memory.fit, memory.ball, hip, tracker_.point(), tracker_.normal(), status);
 }
 

@@ -25,10 +25,9 @@ constexpr int kWidenings = 2;
 constexpr double kWidening = 1.4;
 /// Part of the fit radius in which the fit stands for the surface.
 constexpr double kReach = 0.5;
-/// Weighted centroid of the cells over the fit radius up to which the surface goes on all around, and at the
-/// point (0.235 on a straight rim; that of some twenty cells is 0.1 by chance).
+/// Weighted centroid of the cells over the fit radius up to which the surface goes on (0.235 on a straight
+/// rim).
 constexpr double kInner = 0.1;
-constexpr double kBeforeRim = 0.2;
 /// Fit radius over counted radius at which the traced slopes, which amplify noise, begin to fade and are
 /// gone.
 constexpr double kTracedUpTo = 1.05;
@@ -184,11 +183,6 @@ double SurfaceTracker::heightAboveFit(const Vec3& p) const noexcept
 bool SurfaceTracker::continuesAround() const noexcept
 {
   return fit_.quality == FitQuality::Quadric && std::hypot(fit_.centroidU, fit_.centroidV) < kInner;
-}
-
-bool SurfaceTracker::continues() const noexcept
-{
-  return fit_.quality == FitQuality::Quadric && std::hypot(fit_.centroidU, fit_.centroidV) < kBeforeRim;
 }
 
 void SurfaceTracker::alongSurface(const Vec3& t, Vec3& point, Vec3& normal) const noexcept

@@ -50,8 +50,6 @@ public:
   double residual() const noexcept { return fit_.residual; }
   /// Whether the surface goes on all around: the cells lie about the point, and not on one side of it.
   bool continuesAround() const noexcept;
-  /// Whether it goes on at the point itself: that is not at a rim. Few cells lie aside by chance.
-  bool continues() const noexcept;
   double fitRadius() const noexcept { return fit_.radius; }
   double proxyRadius() const noexcept { return scale_.proxyRadius; }
 
