@@ -3,6 +3,7 @@
 #include "Haptics/NodeRadii.h"
 
 #include "Core/Base/Boxes.h"
+#include "Core/Neighbors/SurfaceMidpoints.h"
 #include "Core/Surface/FitRadius.h"
 
 #include <algorithm>
@@ -30,6 +31,9 @@ constexpr double kCellWithoutExtent = 1e-3;
 constexpr double kMostCellsAcross = 1 << 20;
 /// Points per cell up to which cells are as fine as the points.
 constexpr double kPointsPerFineCell = 2.0;
+/// The same up to which a cloud is sparse, if its points are so many of the voxels asked for apart.
+constexpr double kPointsPerSparseCell = 1.4;
+constexpr double kSparseInVoxels = 1.2;
 /// How far beyond what they cover local scenes have all cells and fields, in index cells.
 constexpr double kSharedCells = 8.0;
 constexpr std::size_t kSpacingSamples = 500;
@@ -168,13 +172,12 @@ std::vector<Cell> finiteCells(const HapticSceneInput& input)
   return cells;
 }
 
-/// Whether the cells hold hardly more than a point each: there are no finer ones to be had.
-bool isFine(const CellPyramid& pyramid)
+double pointsPerCell(const CellPyramid& pyramid)
 {
   const std::vector<Cell>& cells = pyramid.level(0).cells;
   const double points = std::accumulate(
     cells.begin(), cells.end(), 0.0, [](double sum, const Cell& cell) { return sum + cell.count; });
-  return points <= kPointsPerFineCell * double(cells.size());
+  return points / double(cells.size());
 }
 
 /// The values of the fields at each of their nodes; of a local scene at those for which it has enough cells.
@@ -202,7 +205,8 @@ Status newScales(const HapticSceneInput& input, const CellPyramid& pyramid, doub
     }
   }
   FitNeeds needs = input.local ? FitNeeds::ofFineCells() : FitNeeds();
-  needs.finerWhereShaped = !input.local && isFine(pyramid);
+  // There are no finer cells to be had.
+  needs.finerWhereShaped = !input.local && pointsPerCell(pyramid) <= kPointsPerFineCell;
   const double largest = std::max(extent, kLargestFitRadiusInCells * size);
   scales =
     fitScales(pyramid, largest, kLargestFitRadiusInCells * size, executor, uses, needs, input.instructions);
@@ -253,6 +257,37 @@ Status HapticScene::Cloud::index(const HapticSceneInput& input, std::vector<Cell
     leastCovering = ofVoxels ? kRadiusInSpacings * size : 0.0;
   }
   return status;
+}
+
+bool HapticScene::Cloud::isSparse(double asked) const
+{
+  return asked > 0.0 && pointsPerCell(pyramid) <= kPointsPerSparseCell &&
+    typicalSpacing(pyramid, norm(bounds.extent())) >= kSparseInVoxels * asked;
+}
+
+void HapticScene::Cloud::refineContact(double asked, const Executor& executor)
+{
+  std::vector<Cell> cells = pyramid.level(0).cells;
+  std::vector<Vec3> points(cells.size());
+  std::transform(cells.begin(), cells.end(), points.begin(), [](const Cell& cell) { return cell.mean; });
+  sparse = kSparseInVoxels * asked;
+  const PointView view(points.data(), std::int64_t(points.size()));
+  for (const Vec3& middle : surfaceMidpoints(view, sparse, executor))
+  {
+    Cell cell;
+    cell.mean = middle;
+    cell.count = 1.0;
+    cells.push_back(cell);
+  }
+  std::vector<std::uint32_t> source;
+  contact = std::make_unique<CellPyramid>();
+  const Vec3 corner = pyramid.corner();
+  if (contact->build(std::move(cells), std::max(asked, 0.5 * pyramid.level(0).voxelSize), source, &corner) !=
+    Status::Ok)
+  {
+    contact.reset();
+    sparse = 0.0;
+  }
 }
 
 Status HapticScene::Cloud::measure(HapticSceneInput input, const Executor& executor)
@@ -317,6 +352,12 @@ std::shared_ptr<const HapticScene> HapticScene::create(
   const std::optional<HapticSceneInput::Local> local = input.local;
   std::shared_ptr<const HapticScene> global = input.region ? input.region->globalScene() : nullptr;
   status = cloud->index(input, std::move(cells));
+  // A scene near the hand has cells as fine as its points; one of a part is as sparse as the whole.
+  if (status == Status::Ok && !local &&
+    (global ? global->sparseSpacing() > 0.0 : cloud->isSparse(input.cellSize)))
+  {
+    cloud->refineContact(input.cellSize, executor);
+  }
   if (status == Status::Ok)
   {
     status = cloud->measure(std::move(input), executor);

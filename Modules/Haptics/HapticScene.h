@@ -67,9 +67,9 @@ class HapticScene
 {
 public:
   /// Copies nothing it can move. Points that are not finite are left out. Cost O(n log n), about 150 bytes a
-  /// point. Errors: Empty (no finite point), LatticeNotAddressable (the points' spacing is below
-  /// 2^-21 of the extent), InvalidParameter (vectors of different lengths), those of the bandwidth's
-  /// settings, the transform's own; @p status says which, the result is null.
+  /// point, of sparse clouds 600 and 7 us. Errors: Empty (no finite point), LatticeNotAddressable (the
+  /// points' spacing is below 2^-21 of the extent), InvalidParameter (vectors of different lengths), those of
+  /// the bandwidth's settings, the transform's own; @p status says which, the result is null.
   /// @p executor may spread the work over threads; the result is the same.
   static std::shared_ptr<const HapticScene> create(
     HapticSceneInput input, Status& status, const Executor& executor = {});
@@ -158,6 +158,14 @@ public:
   /// False where no cell of the cloud can be within clearance() of @p position: free space to stride through.
   bool isNear(const Vec3& position) const noexcept;
   double clearance() const { return cloud_->clearance; }
+  /// The points that decide about contact: the cells, and where those of a global scene are sparser than its
+  /// voxels asked for, points half way between them (SurfaceMidpoints.h), lest a ball that is small enough
+  /// for the shape fall between them. The midpoints are no data: no fit takes them.
+  const CellPyramid& contactPyramid() const { return cloud_->contact ? *cloud_->contact : cloud_->pyramid; }
+  /// Edge of their finest index cell, metres.
+  double contactCell() const { return contactPyramid().level(0).voxelSize; }
+  /// Spacing of the points from which on there are midpoints; 0: there are none.
+  double sparseSpacing() const { return cloud_->sparse; }
   /// Whether the index cells are counted from the corner that create() was given.
   bool isAligned() const { return cloud_->aligned; }
   /// Whether the index cells have the size that create() was given: the points are dense enough.
@@ -177,11 +185,13 @@ private:
   struct Cloud
   {
     CellPyramid pyramid;
+    std::unique_ptr<CellPyramid> contact; ///< Null: the same points.
     RadiusField scale;
     AffineTransform modelToLattice;
     Bounds bounds;
     Bounds covered; ///< Of a local scene.
     double clearance = 0.0;
+    double sparse = 0.0;
     double leastCovering = 0.0; ///< coveringRadius() is not below this.
     bool exactMoments = true;
     bool aligned = false;
@@ -191,6 +201,11 @@ private:
 
     /// Sorts the cells into the pyramid. @pre at least one cell, and a valid modelToWorkspace.
     Status index(const HapticSceneInput& input, std::vector<Cell> cells);
+    /// Whether there is hardly more than a point in a voxel of @p asked, and not in all. @pre index() gave
+    /// Ok.
+    bool isSparse(double asked) const;
+    /// Adds midpoints where the cells are sparser than that.
+    void refineContact(double asked, const Executor& executor);
     /// Fills the fields of radii and fits over the pyramid. @pre index() gave Ok.
     Status measure(HapticSceneInput input, const Executor& executor);
   };

@@ -5,6 +5,13 @@
 
 namespace pointhaptics
 {
+namespace
+{
+
+/// Part of the half way that a corner may be short of it.
+constexpr double kNearlyHalf = 0.03;
+
+}
 
 TangentCell::TangentCell(const Vec3& normal, double largest)
   : u_(anyPerpendicular(normal))
@@ -73,6 +80,16 @@ double TangentCell::reach() const
     most2 = std::max(most2, length2 < edge2 ? length2 : 0.0);
   }
   return std::sqrt(most2);
+}
+
+bool TangentCell::touches(const Vec3& place) const
+{
+  const double x = dot(place, u_);
+  const double y = dot(place, v_);
+  const double half = 0.5 * (x * x + y * y);
+  return half > 0.0 &&
+    std::any_of(corners_, corners_ + count_,
+      [&](const Corner& corner) { return corner.x * x + corner.y * y > (1.0 - kNearlyHalf) * half; });
 }
 
 } // namespace pointhaptics

@@ -23,6 +23,10 @@ public:
   /// Distance of the farthest corner that is nearer than the largest; 0: there is none.
   double reach() const;
 
+  /// Whether a side of the cell, or a corner, is half way to @p place, or nearly so: points of a square grid
+  /// touch at corners alone.
+  bool touches(const Vec3& place) const;
+
 private:
   static constexpr int kMostCorners = 24;
   struct Corner

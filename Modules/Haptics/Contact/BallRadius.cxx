@@ -12,6 +12,9 @@ namespace
 
 /// Over the radius from the bandwidth, which is some 2.9 spacings.
 constexpr double kRadiusOfField = 0.8;
+constexpr double kFieldInSpacings = 2.9;
+/// It counts half where there are midpoints: from their least spacing on, in full this part of it below.
+constexpr double kFieldRamp = 0.15;
 /// The spacing is that of so many points: the ball about one of them that has them is sought from this many
 /// index cells on, in steps.
 constexpr double kPoints = 16.0;
@@ -38,12 +41,12 @@ template <typename Visitor>
 void visitPoints(
   const HapticScene& scene, const BallCells& near, const Vec3& seed, double reach, Visitor&& visit) noexcept
 {
-  if (near.holds(scene.pyramid(), seed, reach))
+  if (near.holds(scene.contactPyramid(), seed, reach))
   {
     near.visitBall(seed, reach, [&](const Vec3& offset, double) { visit(-offset); });
     return;
   }
-  scene.pyramid().visitBall(
+  scene.contactPyramid().visitBall(
     0, seed, reach, [&](std::uint32_t, const Cell& cell, double) { visit(cell.mean - seed); });
 }
 
@@ -89,6 +92,14 @@ double rimSpacing(const HapticScene& scene, const BallCells& near, const Vec3& s
   return hasRoom ? own : spacing;
 }
 
+/// Part of the field's radius that counts at @p typical of it: where there are midpoints the spacing is half
+/// that of the points.
+double fieldPart(const HapticScene& scene, double typical) noexcept
+{
+  const double sparse = kFieldInSpacings * scene.sparseSpacing();
+  return sparse > 0.0 ? 1.0 - 0.5 * std::clamp(1.0 + (typical / sparse - 1.0) / kFieldRamp, 0.0, 1.0) : 1.0;
+}
+
 }
 
 double ballRadius(const HapticScene& scene, FitCells& fields, const BallCells& near, const Vec3& seed,
@@ -96,7 +107,7 @@ double ballRadius(const HapticScene& scene, FitCells& fields, const BallCells& n
 {
   const Vec3 up = normalized(center - seed);
   double points = 0.0;
-  double reach = kFirstReach * scene.cellSize();
+  double reach = kFirstReach * scene.contactCell();
   Vec3 middle;
   for (int i = 0; i < kReaches && points < kPoints; ++i, reach *= kReachGrowth)
   {
@@ -126,13 +137,14 @@ double ballRadius(const HapticScene& scene, FitCells& fields, const BallCells& n
   reach /= kReachGrowth;
   // A few points far from all others are no surface, and have no spacing; of a cloud that has no more the few
   // are all there is.
-  const bool areLone = points < kPoints && double(scene.pyramid().level(0).cells.size()) >= kPoints;
+  const bool areLone = points < kPoints && double(scene.contactPyramid().level(0).cells.size()) >= kPoints;
   const double spacing =
     areLone ? 0.0 : rimSpacing(scene, near, seed, reach, middle, reach * std::sqrt(kPi / points));
   // Few points say little: the field, which is smooth, keeps clumps of them from making the ball too small.
   Vec3 ignored;
-  const double field = kRadiusOfField * scene.fitScale(seed, fields, ignored).proxyRadius;
-  return std::max({ kBallRadiusInCells * scene.cellSize(), kBallRadiusInSpacings * spacing, field });
+  const double typical = scene.fitScale(seed, fields, ignored).proxyRadius;
+  const double field = kRadiusOfField * typical * fieldPart(scene, typical);
+  return std::max({ kBallRadiusInCells * scene.contactCell(), kBallRadiusInSpacings * spacing, field });
 }
 
 } // namespace pointhaptics

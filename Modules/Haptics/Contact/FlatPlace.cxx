@@ -72,7 +72,7 @@ bool FlatPlace::continuesUnder(
 {
   const Vec3 foot = hip - height(hip) * normal_;
   const Vec3 ahead = normalized(this->along(slipped - hip));
-  return scene.pyramid().anyWithin(0, foot, kUnder * radius,
+  return scene.contactPyramid().anyWithin(0, foot, kUnder * radius,
     [&](const Cell& cell)
     {
       const Vec3 beyond = cell.mean - foot;

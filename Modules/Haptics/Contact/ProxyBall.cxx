@@ -149,7 +149,7 @@ void ProxyBall::gather(Work& work, double reach) noexcept
   const std::uint64_t looked = work.cells.looked();
   const double likely = free_ ? 0.0 : kReachOfTick * radius_;
   const bool all =
-    work.cells.gather(work.scene.pyramid(), center_, reach, radius_ / kBallRadiusInCells, likely);
+    work.cells.gather(work.scene.contactPyramid(), center_, reach, radius_ / kBallRadiusInCells, likely);
   work.rounds -=
     kRoundsOfPass * (work.cells.passes() - passes) + int((work.cells.looked() - looked) / kPointsOfRound);
   work.status |= std::uint32_t(all ? kProxyOk : kProxyCellLimit);
@@ -197,7 +197,7 @@ void ProxyBall::place(Work& work, const Vec3& hip) noexcept
   placed_ = true;
   center_ = hip;
   hip_ = hip;
-  radius_ = kBallRadiusInSpacings * work.scene.cellSize();
+  radius_ = kBallRadiusInSpacings * work.scene.contactCell();
   measure(work, hip);
   radius_ = wanted_;
   gather(work, 2.0 * radius_);
@@ -208,7 +208,7 @@ void ProxyBall::place(Work& work, const Vec3& hip) noexcept
     gather(work, radius_);
     const bool isNearlyOut = work.cells.nearest(center_, d2) >= 0 && std::sqrt(d2) >= kNearlyOut * radius_;
     center_ = isNearlyOut ? center_ : hip;
-    work.cells.gather(work.scene.pyramid(), center_, 2.0 * radius_, radius_);
+    work.cells.gather(work.scene.contactPyramid(), center_, 2.0 * radius_, radius_);
     if (work.cells.nearest(center_, d2) >= 0)
     {
       radius_ = std::max(kSmallestRadius * radius_, std::min(radius_, (1.0 - kRounding) * std::sqrt(d2)));
@@ -252,8 +252,11 @@ bool ProxyBall::makeRoom(Work& work, const ProxyBall& before) noexcept
     }
     const Vec3 way = center_ - before.center_;
     const double length = norm(way);
+    // No growth is worth a leap.
     if (isOut &&
-      (isLittle || work.cells.sweep(before.center_, normalized(way), length, before.radius_) == length))
+      (isLittle ||
+        (length <= kHighestRise * growth &&
+          work.cells.sweep(before.center_, normalized(way), length, before.radius_) == length)))
     {
       return true;
     }
@@ -263,7 +266,7 @@ bool ProxyBall::makeRoom(Work& work, const ProxyBall& before) noexcept
 
 bool ProxyBall::isMeasureDue(const HapticScene& scene) const noexcept
 {
-  const double every = kMeasureEvery * scene.cellSize();
+  const double every = kMeasureEvery * scene.contactCell();
   return !isMeasured_ || norm2(center_ - measuredAt_) > every * every;
 }
 
@@ -279,7 +282,7 @@ void ProxyBall::measure(Work& work, const Vec3& hip) noexcept
   const double search =
     kSearch * std::max(radius_, work.scene.fitScale(center_, work.fields, ignored).proxyRadius);
   const auto nearestTo = [&](const Vec3& place, Vec3& point)
-  { return work.cells.nearestOf(work.scene.pyramid(), place, search, point); };
+  { return work.cells.nearestOf(work.scene.contactPyramid(), place, search, point); };
   Vec3 nearest;
   const bool isFound = nearestTo(center_, nearest);
   const auto wantedAt = [&](const Vec3& seed)
@@ -410,7 +413,7 @@ void ProxyBall::slide(Work& work, const Vec3& hip) noexcept
     const Vec3 way = withinPlanes(pull, normals, touched);
     const double length = norm(way);
     const bool isOpen = way == pull;
-    if (length < kNoWay * radius_ && !(isOpen && length < kNoWay * work.scene.cellSize()))
+    if (length < kNoWay * radius_ && !(isOpen && length < kNoWay * work.scene.contactCell()))
     {
       return;
     }
@@ -474,7 +477,7 @@ void ProxyBall::measureAhead(Work& work, const Vec3& hip, const Vec3& foot, cons
   const Vec3 ahead = normalized(course - dot(course, up) * up, Vec3());
   Vec3 point;
   const double before = wantedAhead_;
-  if (work.cells.nearestOf(work.scene.pyramid(), foot + kAhead * radius_ * ahead, radius_, point))
+  if (work.cells.nearestOf(work.scene.contactPyramid(), foot + kAhead * radius_ * ahead, radius_, point))
   {
     wantedAhead_ = ballRadius(work.scene, work.fields, work.cells, point, center_);
   }
@@ -486,7 +489,7 @@ void ProxyBall::measureAhead(Work& work, const Vec3& hip, const Vec3& foot, cons
 bool ProxyBall::hasPointsAround(
   const HapticScene& scene, BallCells& cells, const Vec3& foot, const Vec3& up) const noexcept
 {
-  cells.gather(scene.pyramid(), foot, radius_, radius_ / kBallRadiusInCells, kReachOfTick * radius_);
+  cells.gather(scene.contactPyramid(), foot, radius_, radius_ / kBallRadiusInCells, kReachOfTick * radius_);
   Vec3 sum;
   double count = 0.0;
   cells.visitBall(foot, radius_,
@@ -558,7 +561,7 @@ void ProxyBall::step(const HapticScene& scene, FitCells& fields, BallCells& cell
   {
     reset();
     center_ = hip_ = hip;
-    radius_ = kBallRadiusInSpacings * scene.cellSize();
+    radius_ = kBallRadiusInSpacings * scene.contactCell();
   }
   if (isFarAway(scene, hip))
   {

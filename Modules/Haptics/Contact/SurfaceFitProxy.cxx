@@ -77,7 +77,7 @@ bool SurfaceFitProxy::comesOut(
   const double near = kOutNear * ball_.radius();
   const double again = kOutAgain * ball_.radius();
   Vec3 nearest;
-  if (!memory.ball.nearestOf(scene.pyramid(), hip, near, nearest) ||
+  if (!memory.ball.nearestOf(scene.contactPyramid(), hip, near, nearest) ||
     (hasFit_ && tracker_.height(hip) <= 0.0 &&
       std::abs(tracker_.heightAboveFit(nearest)) < kOnFit * ball_.radius()) ||
     (isRough_ && norm2(hip - roughAt_) < again * again))
@@ -112,7 +112,7 @@ bool SurfaceFitProxy::seek(const HapticScene& scene, Memory& memory, const Vec3&
   if (tick == 0 || tick % kSeekEvery == 1)
   {
     search_.giveUp();
-    if (memory.ball.nearestOf(scene.pyramid(), ball_.nearestPoint(hip), 2.0 * ball_.radius(), nearest))
+    if (memory.ball.nearestOf(scene.contactPyramid(), ball_.nearestPoint(hip), 2.0 * ball_.radius(), nearest))
     {
       search_.begin(nearest);
     }

@@ -37,7 +37,7 @@ public:
     void carryOver(const HapticScene& scene, const Bounds& shared) noexcept
     {
       scene.carryOver(fit, shared);
-      ball.carryOver(scene.pyramid(), shared);
+      ball.carryOver(scene.contactPyramid(), shared);
     }
   };
 

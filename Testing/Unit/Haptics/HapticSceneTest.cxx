@@ -244,3 +244,25 @@ TEST(HapticScene, FitRadiusGrowsWithTheNoise)
     EXPECT_GT(noisy->fitRadius(p), clean->fitRadius(p));
   }
 }
+
+TEST(HapticScene, SparsePointsGetOthersBetweenThemForTheBall)
+{
+  const std::vector<Vec3> points = trial::spherePoints(8000, 5);
+  const HapticSceneInput input = trial::resampledInput(points);
+  const auto raw = trial::rawScene(input.points);
+  const auto scene = trial::sceneOf(input);
+  EXPECT_EQ(scene->numberOfPoints(), input.points.size());
+  EXPECT_GT(scene->contactPyramid().level(0).cells.size(), 3 * scene->numberOfPoints());
+  EXPECT_LT(scene->contactCell(), 0.6 * scene->cellSize());
+  EXPECT_GT(scene->sparseSpacing(), trial::kVoxel);
+  // No voxels, no size to be sparse against.
+  EXPECT_EQ(&raw->contactPyramid(), &raw->pyramid());
+  EXPECT_EQ(raw->sparseSpacing(), 0.0);
+}
+
+TEST(HapticScene, DensePointsDecideAboutContactThemselves)
+{
+  const auto scene = trial::resampledScene(trial::spherePoints(200000, 5));
+  EXPECT_EQ(&scene->contactPyramid(), &scene->pyramid());
+  EXPECT_EQ(scene->contactCell(), scene->cellSize());
+}

@@ -63,7 +63,7 @@ inline Real norm(const LongVec& a)
 inline Real leastDistance(const HapticScene& scene, const LongVec& p)
 {
   Real least2 = HUGE_VALL;
-  for (const Cell& cell : scene.pyramid().level(0).cells)
+  for (const Cell& cell : scene.contactPyramid().level(0).cells)
   {
     const LongVec offset = LongVec(cell.mean) - p;
     least2 = std::min(least2, dot(offset, offset));
@@ -75,7 +75,7 @@ inline Real leastDistance(const HapticScene& scene, const LongVec& p)
 inline Real leastDistanceWithin(const HapticScene& scene, const Vec3& p, double radius)
 {
   Real least = radius;
-  scene.pyramid().visitBall(0, p, radius,
+  scene.contactPyramid().visitBall(0, p, radius,
     [&](std::uint32_t, const Cell& cell, double)
     { least = std::min(least, norm(LongVec(cell.mean) - LongVec(p))); });
   return least;
@@ -88,7 +88,7 @@ inline Real deepestOnWay(const HapticScene& scene, const Vec3& from, const Vec3&
   const LongVec way = LongVec(to) - LongVec(from);
   const Real length = norm(way);
   Real deepest = 0.0L;
-  scene.pyramid().visitBall(0, 0.5 * (from + to), radius + 0.5 * norm(to - from),
+  scene.contactPyramid().visitBall(0, 0.5 * (from + to), radius + 0.5 * norm(to - from),
     [&](std::uint32_t, const Cell& cell, double)
     {
       const LongVec offset = LongVec(cell.mean) - LongVec(from);

@@ -63,7 +63,7 @@ Vec3 randomHandMove(trial::Random& random, const Vec3& hip, Vec3& velocity)
 int pointsNear(const HapticScene& scene, const Vec3& center, double radius)
 {
   int count = 0;
-  scene.pyramid().visitBall(0, center, radius, [&](std::uint32_t, const Cell&, double) { ++count; });
+  scene.contactPyramid().visitBall(0, center, radius, [&](std::uint32_t, const Cell&, double) { ++count; });
   return count;
 }
 

@@ -1,0 +1,176 @@
+#include "Core/Neighbors/SurfaceMidpoints.h"
+
+#include "Core/Neighbors/NeighborSweep.h"
+#include "Core/Neighbors/TangentCell.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+namespace pointhaptics
+{
+namespace
+{
+
+constexpr double kPi = 3.14159265358979323846;
+/// Neighbours of a point that may bound its cell; rows are closer along than across.
+constexpr int kNeighbors = 40;
+/// A normal is that of the nearest eight at least, and of those within so many spacings.
+constexpr int kFewest = 8;
+constexpr double kNormalReach = 2.0;
+/// Corners of a cell further away than this many spacings belong to a hole.
+constexpr double kCellReach = 2.0;
+/// A neighbour steeper than this above the tangent plane is of another sheet; a sine.
+constexpr double kSteep = 0.9;
+/// Longest edge, over the smaller spacing at its ends; and where it is flat: random points have such gaps.
+constexpr double kLongest = 2.0;
+constexpr double kLongestFlat = 3.0;
+constexpr double kFlat = 25.0 * kPi / 180.0;
+/// By how much more than the normals turn an edge may lean.
+constexpr double kLean = 45.0 * kPi / 180.0;
+constexpr std::size_t kMostEdges = 16;
+
+/// What is known of a point.
+struct Fan
+{
+  double spacing = 0.0; ///< 0: the point has no fan.
+  Vec3 normal;
+  std::array<std::uint32_t, kMostEdges> ends{}; ///< Slots.
+  std::size_t size = 0;
+
+  bool has(std::uint32_t slot) const
+  {
+    return std::find(ends.begin(), ends.begin() + std::ptrdiff_t(size), slot) !=
+      ends.begin() + std::ptrdiff_t(size);
+  }
+};
+
+/// @p d in the plane across @p normal, as long as it is; zero where it is too steep.
+Vec3 laidFlat(const Vec3& d, const Vec3& normal)
+{
+  const double height = dot(d, normal);
+  const Vec3 along = d - height * normal;
+  const double length = norm(d);
+  return std::abs(height) <= kSteep * length && norm2(along) > 0.0 ? (length / norm(along)) * along : Vec3();
+}
+
+class Triangulation
+{
+public:
+  Triangulation(const PointView& points, double sparse, const Executor& executor)
+    : sparse_(sparse)
+  {
+    query_.build(points, executor);
+    fans_.resize(std::size_t(query_.size()));
+    forRange(executor, NeighborSweep::leaves(query_), NeighborSweep::kSmallestRange,
+      [this](std::int64_t begin, std::int64_t end)
+      {
+        NeighborSweep sweep(query_, kNeighbors + 1);
+        sweep.run(begin, end, [this](const NeighborList& list) { this->makeFan(list); });
+      });
+  }
+
+  std::vector<Vec3> midpoints() const
+  {
+    std::vector<Vec3> result;
+    for (std::uint32_t a = 0; a < fans_.size(); ++a)
+    {
+      for (std::size_t i = 0; i < fans_[a].size; ++i)
+      {
+        const std::uint32_t b = fans_[a].ends[i];
+        if (a < b && fans_[b].has(a) && this->isEdge(a, b))
+        {
+          result.push_back(0.5 * (query_.point(a) + query_.point(b)));
+        }
+      }
+    }
+    return result;
+  }
+
+private:
+  Vec3 offset(const NeighborList& list, int i) const
+  {
+    return query_.point(std::int64_t(list.slots[i])) - query_.point(list.slot);
+  }
+
+  Vec3 normalAt(const NeighborList& list, double spacing) const
+  {
+    const double reach = kNormalReach * spacing;
+    Vec3 sum;
+    SymMat3 moments;
+    int count = 0;
+    for (; count < list.count && (count <= kFewest || list.squaredDistances[count] <= reach * reach); ++count)
+    {
+      const Vec3 d = this->offset(list, count);
+      sum += d;
+      moments += outerProduct(d);
+    }
+    SymMat3 mean = outerProduct(sum);
+    mean *= -1.0 / count;
+    moments += mean;
+    return symmetricEigen(moments).vectors[0];
+  }
+
+  void makeFan(const NeighborList& list)
+  {
+    if (list.count <= kFewest)
+    {
+      return;
+    }
+    // As if they lay in a square grid on a plane.
+    const double spacing =
+      std::sqrt(kPi * std::max(list.squaredDistances[4] / 4.0, list.squaredDistances[8] / 8.0));
+    if (spacing <= 0.0)
+    {
+      return;
+    }
+    Fan& fan = fans_[std::size_t(list.slot)];
+    fan.spacing = spacing;
+    fan.normal = this->normalAt(list, spacing);
+    // What is further away than half the last neighbour may have others nearer.
+    const double known = 0.5 * std::sqrt(list.squaredDistances[list.count - 1]);
+    TangentCell cell(fan.normal, std::max(kCellReach * spacing, known));
+    for (int i = 1; i < list.count && cell.add(laidFlat(this->offset(list, i), fan.normal)); ++i)
+    {
+    }
+    for (int i = 1; i < list.count && fan.size < kMostEdges; ++i)
+    {
+      if (cell.touches(laidFlat(this->offset(list, i), fan.normal)))
+      {
+        fan.ends[fan.size++] = std::uint32_t(list.slots[i]);
+      }
+    }
+  }
+
+  bool isEdge(std::uint32_t first, std::uint32_t second) const
+  {
+    const Fan& a = fans_[first];
+    const Fan& b = fans_[second];
+    const Vec3 d = query_.point(second) - query_.point(first);
+    const double length = norm(d);
+    const double spacing = std::min(a.spacing, b.spacing);
+    if (std::max(a.spacing, b.spacing) < sparse_ || length > kLongestFlat * spacing)
+    {
+      return false;
+    }
+    const auto leans = [&](const Fan& fan)
+    { return std::asin(std::min(1.0, std::abs(dot(d, fan.normal)) / length)); };
+    const double turn = std::acos(std::min(1.0, std::abs(dot(a.normal, b.normal))));
+    const bool isFlat = std::max(leans(a), leans(b)) <= kFlat;
+    return (isFlat || length <= kLongest * spacing) && leans(a) + leans(b) <= turn + kLean;
+  }
+
+  double sparse_;
+  NeighborQuery query_;
+  std::vector<Fan> fans_;
+};
+
+} // namespace
+
+std::vector<Vec3> surfaceMidpoints(const PointView& points, double sparse, const Executor& executor)
+{
+  return Triangulation(points, sparse, executor).midpoints();
+}
+
+} // namespace pointhaptics

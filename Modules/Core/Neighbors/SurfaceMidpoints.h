@@ -1,0 +1,26 @@
+/// @file
+/// Points half way between those of a sparse cloud: a local triangulation's edges.
+#pragma once
+
+#include "Core/Base/Executor.h"
+#include "Core/Base/PointView.h"
+#include "Core/Base/Vector3.h"
+
+#include <vector>
+
+namespace pointhaptics
+{
+
+/// The middles of the edges of a local triangulation of @p points: with them a surface of triangles has about
+/// four times the points, half as far apart. An edge joins two points each of whose Voronoi cells, in its
+/// tangent plane, has a side towards the other; neighbours are laid flat at their true distance. Left out are
+/// edges
+/// - whose ends both have a spacing below @p sparse: there are points enough;
+/// - of more than twice the smaller spacing at the ends, or three times where it is flat there: a gap of four
+///   rows stays open;
+/// - that lead through a thin plate or across a gap: they lean out of the tangent planes at their ends by 45
+///   degrees more than the normals at the ends turn.
+/// Cost: about 7 us a point on one core, 140 bytes a point while it runs. Independent of @p executor.
+std::vector<Vec3> surfaceMidpoints(const PointView& points, double sparse, const Executor& executor = {});
+
+} // namespace pointhaptics
