@@ -79,7 +79,7 @@ public:
       for (std::size_t i = 0; i < fans_[a].size; ++i)
       {
         const std::uint32_t b = fans_[a].ends[i];
-        if (a < b && fans_[b].has(a) && this->isEdge(a, b))
+        if ((a < b || !fans_[b].has(a)) && this->isEdge(a, b))
         {
           result.push_back(0.5 * (query_.point(a) + query_.point(b)));
         }

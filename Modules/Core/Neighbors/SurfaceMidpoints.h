@@ -12,8 +12,8 @@ namespace pointhaptics
 {
 
 /// The middles of the edges of a local triangulation of @p points: with them a surface of triangles has about
-/// four times the points, half as far apart. An edge joins two points each of whose Voronoi cells, in its
-/// tangent plane, has a side towards the other; neighbours are laid flat at their true distance. Left out are
+/// four times the points, half as far apart. An edge leads from a point whose Voronoi cell, in its tangent
+/// plane, has a side towards the other; neighbours are laid flat at their true distance. Left out are
 /// edges
 /// - whose ends both have a spacing below @p sparse: there are points enough;
 /// - of more than twice the smaller spacing at the ends, or three times where it is flat there: a gap of four
