@@ -4,6 +4,7 @@
 #include <bitset>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 
 namespace pointhaptics
 {
@@ -227,6 +228,7 @@ struct Extremes
 constexpr double kViewAngle = 30.0;
 constexpr double kFilledPart = 0.92;
 constexpr double kStrayFactor = 1.5;
+constexpr std::ptrdiff_t kMostStrays = 1000; ///< One in so many.
 
 /// The part of a sample that is no stray on any axis of the view: from, to on each.
 void coreOf(std::vector<Vec3>& sample, double share, Vec3& from, Vec3& to)
@@ -240,6 +242,47 @@ void coreOf(std::vector<Vec3>& sample, double share, Vec3& from, Vec3& to)
   }
 }
 
+/// Moves @p end over those of the values from @p first on, ever farther out, that no gap divides from it.
+template <typename Iterator>
+void growOver(Iterator first, Iterator last, double& extent, double& end)
+{
+  for (; first != last && std::abs(*first - end) <= (kStrayFactor - 1.0) * extent; ++first)
+  {
+    extent += std::abs(*first - end);
+    end = *first;
+  }
+}
+
+/// What surrounds a dense object may be few of the points, but goes on from it.
+void growCore(const std::vector<Vec3>& sample, Vec3& from, Vec3& to)
+{
+  const Vec3 size = to - from;
+  const double longest = std::max({ size.x, size.y, size.z });
+  std::vector<double> values(sample.size());
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    std::transform(sample.begin(), sample.end(), values.begin(), [axis](const Vec3& p) { return p[axis]; });
+    std::sort(values.begin(), values.end());
+    double extent = longest;
+    growOver(std::upper_bound(values.begin(), values.end(), to[axis]), values.end(), extent, to[axis]);
+    growOver(std::make_reverse_iterator(std::lower_bound(values.begin(), values.end(), from[axis])),
+      values.rend(), extent, from[axis]);
+  }
+}
+
+bool isBetween(const Vec3& p, const Vec3& from, const Vec3& to)
+{
+  return p.x >= from.x && p.x <= to.x && p.y >= from.y && p.y <= to.y && p.z >= from.z && p.z <= to.z;
+}
+
+/// Whether more of the points are outside the box than the few that findFarPoints() takes for strays.
+bool hasManyOutside(const std::vector<Vec3>& sample, const Vec3& from, const Vec3& to)
+{
+  const auto outside =
+    std::count_if(sample.begin(), sample.end(), [&](const Vec3& p) { return !isBetween(p, from, to); });
+  return outside * kMostStrays > std::max<std::ptrdiff_t>(std::ptrdiff_t(sample.size()), kMostStrays);
+}
+
 /// Of what of @p sample lies in the box. That of many equal points is none: there is nothing in it to fit.
 Extremes extremesBetween(
   const std::vector<Vec3>& sample, const Vec3& from, const Vec3& to, double tx, double ty)
@@ -247,9 +290,7 @@ Extremes extremesBetween(
   Extremes extremes;
   for (const Vec3& p : sample)
   {
-    const bool isBetween =
-      p.x >= from.x && p.x <= to.x && p.y >= from.y && p.y <= to.y && p.z >= from.z && p.z <= to.z;
-    if (isBetween && !(from == to))
+    if (isBetween(p, from, to) && !(from == to))
     {
       extremes.include(p, tx, ty);
     }
@@ -383,6 +424,7 @@ CloudLook cloudLook(
       look.hidesBackFaces = kind == CloudKind::Indoors;
       look.largestPixels = kind == CloudKind::Sweep ? 8.0 : 16.0;
       look.strayShare = kind == CloudKind::Sweep ? 0.06 : 0.03;
+      look.cutsSparse = true; // rays get ever fewer, and most of what is looked at is near
       break;
     case CloudKind::Frame:
       look.azimuth = look.elevation = 0.0;
@@ -424,17 +466,13 @@ CameraFit fitCamera(const PointView& cloud, const CloudLook& look, const AffineT
   const double tangent = kFilledPart * std::tan(0.5 * kViewAngle * kDegree);
   const double ty = parallel ? 0.0 : tangent; // rays that do not diverge
   const double tx = ty * aspect;
-  const auto inView = [&](std::int64_t i)
-  {
-    const Vec3 p = toWorld.apply(cloud[i]);
-    return Vec3(dot(p, view.right), dot(p, view.up), dot(p, view.back));
-  };
   Extremes extremes;
   std::vector<Vec3> sample;
   const std::int64_t step = 1 + cloud.size() / kSample;
   for (std::int64_t i = 0; i < cloud.size(); ++i)
   {
-    const Vec3 p = inView(i);
+    const Vec3 q = toWorld.apply(cloud[i]);
+    const Vec3 p{ dot(q, view.right), dot(q, view.up), dot(q, view.back) };
     extremes.include(p, tx, ty);
     if (i % step == 0)
     {
@@ -452,17 +490,25 @@ CameraFit fitCamera(const PointView& cloud, const CloudLook& look, const AffineT
   Vec3 from;
   Vec3 to;
   coreOf(sample, look.strayShare, from, to);
-  const Extremes core = extremesBetween(sample, from, to, tx, ty);
   // The focal point is what the camera turns about.
   const double depth = 0.5 * (from.z + to.z);
   const auto distanceOf = [&](const Extremes& each)
   { return parallel ? depth + each.distance(tangent * aspect, tangent) : each.distance(tx, ty); };
-  const double coreDistance = std::isfinite(core.most[0]) ? distanceOf(core) - depth : INFINITY;
-  const bool hasStrays = distanceOf(extremes) - depth >= kStrayFactor * coreDistance;
-  const Extremes& seen = hasStrays ? core : extremes;
-  const double distance = std::max(distanceOf(seen), depth + 1e-6 * (1.0 + std::abs(depth)));
-  const double x = 0.5 * (seen.most[0] - seen.most[1]);
-  const double y = 0.5 * (seen.most[2] - seen.most[3]);
+  const auto makesSmall = [&](const Extremes& core)
+  {
+    return std::isfinite(core.most[0]) &&
+      distanceOf(extremes) - depth >= kStrayFactor * (distanceOf(core) - depth);
+  };
+  Extremes core = extremesBetween(sample, from, to, tx, ty);
+  if (makesSmall(core) && !look.cutsSparse)
+  {
+    growCore(sample, from, to);
+    core = hasManyOutside(sample, from, to) ? extremes : extremesBetween(sample, from, to, tx, ty);
+  }
+  extremes = makesSmall(core) ? core : extremes;
+  const double distance = std::max(distanceOf(extremes), depth + 1e-6 * (1.0 + std::abs(depth)));
+  const double x = 0.5 * (extremes.most[0] - extremes.most[1]);
+  const double y = 0.5 * (extremes.most[2] - extremes.most[3]);
   const auto place = [&](double z) { return x * view.right + y * view.up + z * view.back; };
   fit.position = place(distance);
   fit.focalPoint = place(depth);

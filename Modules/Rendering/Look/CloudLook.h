@@ -40,7 +40,8 @@ struct CloudLook
   double azimuth = 25.0;         ///< Degrees the viewer stands to the right of the front,
   double elevation = 12.0;       ///< and above.
   double tilt = 0.0;             ///< Ratio of the horizontal variances of a strip; 0: the elevation holds.
-  double strayShare = 0.03;      ///< Part at each end of an axis that may be strays.
+  double strayShare = 0.03;      ///< Part at each end of an axis that may be strays,
+  bool cutsSparse = false;       ///< also where they go on from the others or are more than a few.
   double largestPixels = 16.0;   ///< Of the splats of a surface, in a window of 800 lines.
   double noiseLength = 0.0;      ///< Depths that differ by less are one surface,
   double noisePerDistance = 0.0; ///< the same over the distance from the camera.

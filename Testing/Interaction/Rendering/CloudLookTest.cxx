@@ -187,6 +187,35 @@ TEST(CloudLook, IsNotMadeSmallByStrays)
   EXPECT_GT(norm(fitCamera(viewOf(points), look, AffineTransform(), 1.6).position - fit.position), 0.05);
 }
 
+TEST(CloudLook, ShowsTheSparseSurroundingsOfADenseObject)
+{
+  const std::vector<Vec3> dense = ball(30000);
+  const CloudLook look = cloudLook(CloudKind::Object, viewOf(dense), measured(dense), {});
+  Random random;
+  std::vector<Vec3> ground = dense;
+  std::vector<Vec3> few = dense; // of one in a hundred
+  std::vector<Vec3> apart = dense;
+  for (int i = 0; i < 900; ++i)
+  {
+    const Vec3 p{ random.between(-9, 9), random.between(-9, 9), 0.0 };
+    ground.push_back(Vec3(10.0, -20.0, 2.0) + p);
+    apart.push_back(Vec3(18.0, -12.0, 3.0) + 0.01 * p);
+    if (i < 300)
+    {
+      few.push_back(Vec3(10.0, -20.0, 3.0) + 3.0 * p);
+    }
+  }
+  for (const std::vector<Vec3>& points : { ground, few, apart })
+  {
+    const Vec3 most = spread(points, fitCamera(viewOf(points), look, AffineTransform(), 1.6), 1.6);
+    EXPECT_NEAR(std::max(most.x, most.y), 0.92, 1e-6);
+  }
+  // Of what a sensor sees from its place ever less, the far end is not worth a small picture.
+  CloudLook sweep = look;
+  sweep.cutsSparse = true;
+  EXPECT_GT(spread(ground, fitCamera(viewOf(ground), sweep, AffineTransform(), 1.6), 1.6).x, 1.5);
+}
+
 TEST(CloudLook, FillsAParallelPictureToo)
 {
   const std::vector<Vec3> points = hills(300, 80);
