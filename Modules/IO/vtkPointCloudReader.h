@@ -17,7 +17,8 @@
  * finite coordinate beyond 1e30 is taken for damage. Coordinates are those of the file: nothing is moved,
  * scaled or turned, but for the poses of E57's scans.
  *
- * - PLY: ascii and both binary orders, all scalar types; lists and other elements are skipped.
+ * - PLY: ascii and both binary orders, all scalar types; lists and other elements are skipped. GetNotes()
+ *   tells where a file ends within elements that follow the points.
  * - PCD: ascii, binary and binary_compressed. rgb and rgba are unpacked. The viewpoint is kept, not applied:
  *   field data "Viewpoint" (tx ty tz qw qx qy qz). Organised clouds keep their shape in
  *   "OrganizedDimensions" (width, height).

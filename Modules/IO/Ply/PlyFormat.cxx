@@ -51,7 +51,14 @@ public:
     const std::size_t at = offset_;
     double count = 0.0;
     const char* data = take(static_cast<std::size_t>(sizeOfType(list.countType)), element, index);
-    copyStrided({ data, 0, list.countType }, { reinterpret_cast<char*>(&count), 0, VTK_DOUBLE }, 1, swap_);
+    if (list.countType == VTK_UNSIGNED_CHAR)
+    {
+      count = double(static_cast<unsigned char>(*data)); // of nearly all faces there are
+    }
+    else
+    {
+      copyStrided({ data, 0, list.countType }, { reinterpret_cast<char*>(&count), 0, VTK_DOUBLE }, 1, swap_);
+    }
     if (count < 0.0)
     {
       failFormat("byte " + std::to_string(at) + ": a list of " +
@@ -87,6 +94,28 @@ void skipBinaryElement(BinaryBody& body, const PlyElement& element)
         body.take(static_cast<std::size_t>(sizeOfType(property.type)), element, i);
       }
     }
+  }
+}
+
+/// Where the points are read, and what is not read after them, such as faces, is cut: who made the file for
+/// that wants to know.
+template <typename Skip>
+void noteCutElements(ReadTask& task, const PlyHeader& header, Skip&& skip)
+{
+  if (task.shared)
+  {
+    return; // each rank has read its own points only
+  }
+  try
+  {
+    for (std::size_t i = header.vertexElement() + 1; i < header.elements.size(); ++i)
+    {
+      skip(header.elements[i]);
+    }
+  }
+  catch (const FileProblem& problem)
+  {
+    task.notes.push_back(std::string("all points are there, but ") + problem.what());
   }
 }
 
@@ -196,6 +225,7 @@ void readBinaryBody(ReadTask& task, const PlyHeader& header, vtkPolyData* cloud)
     task.need(body.offset(), static_cast<std::size_t>(rows.count()) * recordSize);
     fillFixedRecords(body, vertex, static_cast<vtkIdType>(rows.count()), columns, task);
   }
+  noteCutElements(task, header, [&](const PlyElement& element) { skipBinaryElement(body, element); });
   columns.moveTo(cloud, task.shared);
 }
 
@@ -278,7 +308,8 @@ void fillAsciiRow(
   record.expectEnd();
 }
 
-void skipAsciiElement(LineReader& lines, const PlyElement& element)
+/// @return the last line of the element.
+std::string_view skipAsciiElement(LineReader& lines, const PlyElement& element)
 {
   std::string_view line;
   for (unsigned long long i = 0; i < element.count && !element.properties.empty(); ++i)
@@ -287,6 +318,26 @@ void skipAsciiElement(LineReader& lines, const PlyElement& element)
     {
       failTruncated("the file ends before " + recordNumber(element.name.c_str(), i, element.count));
     }
+  }
+  return line;
+}
+
+/// As skipAsciiElement(), and the last line must have all its numbers.
+void skipWholeAsciiElement(LineReader& lines, const PlyElement& element)
+{
+  AsciiRecord record(skipAsciiElement(lines, element), lines.lineNumber());
+  try
+  {
+    for (std::size_t i = 0; i < element.properties.size() && element.count > 0; ++i)
+    {
+      const PlyProperty& property = element.properties[i];
+      property.isList ? record.skipList(property) : void(record.takeNumber(property));
+    }
+  }
+  catch (const FileProblem&)
+  {
+    failTruncated("the file ends at line " + std::to_string(lines.lineNumber()) + " inside " +
+      recordNumber(element.name.c_str(), element.count - 1, element.count));
   }
 }
 
@@ -340,6 +391,7 @@ void readAsciiBody(ReadTask& task, const PlyHeader& header, vtkPolyData* cloud)
       task.progress(static_cast<double>(row) / static_cast<double>(rows.count()));
     }
   }
+  noteCutElements(task, header, [&](const PlyElement& element) { skipWholeAsciiElement(lines, element); });
   columns.moveTo(cloud, task.shared);
 }
 

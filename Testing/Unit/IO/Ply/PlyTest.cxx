@@ -121,6 +121,52 @@ TEST_F(Ply, EveryTruncationIsRefusedWithAMessage)
   }
 }
 
+TEST_F(Ply, FacesThatAreCutAreNoted)
+{
+  std::string binary = std::string("ply\nformat ") +
+    (isLittleEndian() ? "binary_little_endian" : "binary_big_endian") +
+    " 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nelement face 2\n"
+    "property list uchar int vertex_indices\nelement edge 1\nproperty int vertex1\nend_header\n";
+  append(binary, 1.0f);
+  append(binary, 2.0f);
+  append(binary, 3.0f);
+  const std::size_t faces = binary.size();
+  for (std::uint8_t corners : { 3, 4 })
+  {
+    append(binary, corners);
+    for (std::int32_t i = 0; i < corners; ++i)
+    {
+      append(binary, i);
+    }
+  }
+  append(binary, std::int32_t{ 0 });
+  EXPECT_TRUE(readCloud(write("whole.ply", binary)).notes.empty());
+  for (std::size_t size = faces; size < binary.size(); ++size)
+  {
+    const ReadResult result = readCloud(write("cut.ply", binary.substr(0, size)));
+    EXPECT_EQ(result.error, "") << size;
+    EXPECT_EQ(result.points(), 1) << size;
+    ASSERT_EQ(result.notes.size(), 1u) << size;
+  }
+  EXPECT_EQ(readCloud(write("cut.ply", binary.substr(0, faces + 20))).notes[0],
+    "all points are there, but the file ends at byte " + std::to_string(faces + 20) +
+      " inside face 1 of 2; the file is cut short or its header is wrong: copy it again");
+}
+
+TEST_F(Ply, AsciiFacesThatAreCutAreNoted)
+{
+  EXPECT_TRUE(readCloud(write("whole.ply", kAscii)).notes.empty());
+  const std::string cure = "; the file is cut short or its header is wrong: copy it again";
+  const ReadResult inside = readCloud(write("inside.ply", kAscii.substr(0, kAscii.rfind(" 2\n"))));
+  ASSERT_EQ(inside.points(), 3);
+  ASSERT_EQ(inside.notes.size(), 1u);
+  EXPECT_EQ(inside.notes[0], "all points are there, but the file ends at line 18 inside face 0 of 1" + cure);
+  const ReadResult before = readCloud(write("before.ply", kAscii.substr(0, kAscii.rfind("3 0 1 2"))));
+  ASSERT_EQ(before.points(), 3);
+  ASSERT_EQ(before.notes.size(), 1u);
+  EXPECT_EQ(before.notes[0], "all points are there, but the file ends before face 0 of 1" + cure);
+}
+
 TEST_F(Ply, HostileCountsAllocateNothing)
 {
   for (const char* count : { "4000000000", "9223372036854775807", "18446744073709551615" })
