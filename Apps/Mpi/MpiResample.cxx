@@ -77,10 +77,12 @@ int runResample(MpiResampleOptions& options, Job& job)
     problem = options.files.input + ": " + problem;
   }
   const bool areDone = job.ranks().reduce(isDone, [](bool a, bool b) { return a && b; });
-  const std::string note = farPointsNote(options, areDone, piece.points, job.ranks());
-  if (job.isRoot() && !note.empty())
+  for (const std::string& note : oddPointsNotes(options, areDone, piece.points, job.ranks()))
   {
-    warn(kResampleCommand, note);
+    if (job.isRoot())
+    {
+      warn(kResampleCommand, note);
+    }
   }
   if (!job.agree(kResampleCommand, problem))
   {

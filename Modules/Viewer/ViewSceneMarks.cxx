@@ -79,7 +79,7 @@ const Bounds& ViewScene::cloudBounds()
 {
   if (cloudBounds_.empty() && cloud_)
   {
-    cloudBounds_ = near_.empty() ? transformedBounds(cloud_, AffineTransform()) : near_;
+    cloudBounds_ = near_.empty() ? extentOf(cloud_).all : near_;
   }
   return cloudBounds_;
 }

@@ -399,6 +399,40 @@ TEST_F(CloudCommands, PointsWithoutDataAreFarWhateverTheirNumber)
   }
 }
 
+TEST_F(CloudCommands, RaysThatDidNotReturnAreFarWhateverTheirNumber)
+{
+  std::string table = "x,y,z\n";
+  for (int i = 0; i < 2000; ++i)
+  {
+    table += i % 4 == 0 ? "0,0,0\n"
+                        : std::to_string(512345 + i % 50) + "," + std::to_string(5412347 + i / 50) + ",3\n";
+  }
+  this->write("zeros.csv", table);
+  const std::string errors = this->run({ "resample", "zeros.csv", "-o", "means.csv" }).errors;
+  EXPECT_NE(errors.find("500 of 2,000 points are far from all others"), std::string::npos) << errors;
+  EXPECT_EQ(errors.find("(0, 0, 0)"), std::string::npos) << "it is said once";
+}
+
+TEST_F(CloudCommands, ResamplingSaysThatItTakesRaysThatDidNotReturn)
+{
+  this->write("in.csv", "x,y,z\n1,2,3\n0,0,0\n1,2,4\n0,0,0\n1,3,4\n");
+  const auto errorsOf = [&](std::vector<std::string> more)
+  {
+    std::vector<std::string> arguments = { "resample", "in.csv", "-o", "means.csv" };
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return this->run(arguments).errors;
+  };
+  EXPECT_NE(errorsOf({}).find("warning: in.csv: 2 points at (0, 0, 0), which scanners write for rays without "
+                              "return, are resampled as others are\n"),
+    std::string::npos);
+  EXPECT_NE(errorsOf({ "--voxel", "1" }).find("2 points at"), std::string::npos);
+  EXPECT_EQ(errorsOf({ "--workspace", "0.5,2,1,4,2,5" }), "");
+  EXPECT_NE(errorsOf({ "--translate", "1,2,3", "--workspace", "0.5,2,1,4,2,5" }).find("2 points at"),
+    std::string::npos);
+  this->write("in.csv", "x,y,z\n1,2,3\n0,0,0\n1,2,4\n");
+  EXPECT_EQ(errorsOf({}), "") << "one may well be a point";
+}
+
 TEST_F(CloudCommands, ResamplingSaysHowFarPointsAreLeftOut)
 {
   this->succeed({ "generate", "sphere", "-n", "2000", "-o", "sphere.csv" });

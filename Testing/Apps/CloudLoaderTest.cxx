@@ -79,6 +79,29 @@ TEST_F(CloudLoaderTest, ReadsOneCloudOfAllFiles)
   EXPECT_FALSE(loader.take(loaded, message)); // once
 }
 
+TEST_F(CloudLoaderTest, FitsACloudWithoutRaysThatDidNotReturn)
+{
+  const std::string path = this->writeCloud("zeros.csv", 300);
+  std::ofstream(path, std::ios::app) << "0,0,0\n0,0,0\n-0,0,0\n";
+  HapticViewerOptions options;
+  LoadedCloud loaded;
+  std::string message;
+  const auto goesOn = [](double) { return true; };
+  ASSERT_TRUE(loadCloud(CloudRequest::of({ path }, options), goesOn, loaded, message)) << message;
+  EXPECT_EQ(loaded.noReturns, 3);
+  EXPECT_EQ(loaded.bounds.minimum.z, 0.5);
+  ASSERT_EQ(loaded.notes.size(), 1u);
+  EXPECT_EQ(loaded.notes[0],
+    "zeros.csv: 3 points at (0, 0, 0), which scanners write for rays without return, are outside the "
+    "workspace: neither shown nor felt");
+  // The lattice about all points is the resampler's choice.
+  options.fitsWorkspace = false;
+  ASSERT_TRUE(loadCloud(CloudRequest::of({ path }, options), goesOn, loaded, message)) << message;
+  EXPECT_EQ(loaded.bounds.minimum.z, 0.0);
+  ASSERT_EQ(loaded.notes.size(), 1u);
+  EXPECT_NE(loaded.notes[0].find("are felt but not drawn"), std::string::npos);
+}
+
 TEST_F(CloudLoaderTest, ProgressAscendsOverAllFiles)
 {
   const std::string file = this->writeCloud("a.csv", 300000);

@@ -478,4 +478,31 @@ TEST_F(Feel, DevicesAndPathsThatDoNotFitAreRefused)
   EXPECT_FALSE(this->exists("out.csv"));
 }
 
+TEST_F(Feel, CountsPointsThatAreInvalidOrDidNotReturn)
+{
+  this->succeed({ "generate", "sphere", "-n", "2000", "-o", "sphere.csv" });
+  const auto feel = [&](std::vector<std::string> more)
+  {
+    std::vector<std::string> words = { "feel", "in.csv", "--path", kSpherePath, "-o", "out.csv" };
+    words.insert(words.end(), more.begin(), more.end());
+    return this->run(words);
+  };
+  this->write(
+    "in.csv", this->read("sphere.csv") + "nan,0,0,0,0,1\n0,0,0,0,0,1\n0,0,0,0,0,1\n1,2,inf,0,0,1\n");
+  for (const std::vector<std::string>& more : { std::vector<std::string>{}, { "--raw" }, { "--fit" } })
+  {
+    const apptest::Outcome outcome = feel(more);
+    EXPECT_EQ(outcome.output.rfind("2 points are NaN or infinite and left out\n", 0), 0u) << outcome.output;
+    EXPECT_NE(
+      outcome.errors.find("warning: in.csv: 2 points at (0, 0, 0), which scanners write for rays without "
+                          "return, are felt\n"),
+      std::string::npos)
+      << outcome.errors;
+  }
+  EXPECT_EQ(nlohmann::json::parse(feel({ "--json" }).output)["points_invalid"], 2);
+  this->write("in.csv", this->read("sphere.csv"));
+  EXPECT_EQ(feel({}).output.find("NaN"), std::string::npos);
+  EXPECT_EQ(feel({}).errors, "");
+}
+
 } // namespace

@@ -74,7 +74,7 @@ TEST_F(ViewFiles, SayThatPointsAtZeroAreNotDrawn)
   EXPECT_FALSE(contains(this->view({ "zeros.xyz" }, { "--felt" }).errors, "(0, 0, 0)"));
   EXPECT_FALSE(contains(this->view({ "zeros.xyz" }, { "--clip", "0.5,2,1,4,2,5" }).errors, "(0, 0, 0)"));
   EXPECT_TRUE(
-    contains(this->run({ "info", "zeros.xyz" }).output, "note     3 points at (0, 0, 0), as scanners"));
+    contains(this->run({ "info", "zeros.xyz" }).output, "note     3 points at (0, 0, 0), which scanners"));
   // One may well be a point, and where there are no others, all are drawn.
   this->write("one.xyz", "1 2 3\n0 0 0\n1 2 4\n1 3 4\n");
   this->write("same.xyz", "0 0 0\n0 0 0\nnan 0 0\n");

@@ -172,8 +172,7 @@ bool writeCloud(vtkPointSet* points, const std::string& fileName, const std::str
     copyToStandardOutput(path, message);
 }
 
-vtkSmartPointer<vtkPolyData> transformedPoints(
-  vtkPolyData* cloud, const AffineTransform& transform, std::int64_t& invalid)
+vtkSmartPointer<vtkPolyData> transformedPoints(vtkPolyData* cloud, const AffineTransform& transform)
 {
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
@@ -188,7 +187,6 @@ vtkSmartPointer<vtkPolyData> transformedPoints(
       points->InsertNextPoint(moved.x, moved.y, moved.z);
     }
   }
-  invalid = cloud->GetNumberOfPoints() - points->GetNumberOfPoints();
   auto result = vtkSmartPointer<vtkPolyData>::New();
   result->SetPoints(points);
   return result;

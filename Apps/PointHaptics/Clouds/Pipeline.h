@@ -59,10 +59,8 @@ std::vector<std::string> writableExtensions();
 bool writeCloud(vtkPointSet* points, const std::string& fileName, const std::string& command,
   std::string& message, const std::string& extension = {}, vtkIdType* written = nullptr);
 
-/// The finite points of @p cloud, moved by @p transform, in double precision, without arrays; the others are
-/// counted.
-vtkSmartPointer<vtkPolyData> transformedPoints(
-  vtkPolyData* cloud, const AffineTransform& transform, std::int64_t& invalid);
+/// The finite points of @p cloud, moved by @p transform, in double precision, without arrays.
+vtkSmartPointer<vtkPolyData> transformedPoints(vtkPolyData* cloud, const AffineTransform& transform);
 
 /// That all of so many points are NaN or infinite.
 std::string noFinitePoint(const std::string& fileName, std::int64_t count);

@@ -5,6 +5,8 @@
 #include "Terminal/Messages.h"
 
 #include "Core/Base/Boxes.h"
+#include "Core/Base/QuantityText.h"
+#include "Core/Distributed/SharedVoxels.h"
 #include "CsvWriter.h"
 #include "IO/Info/FarPoints.h"
 #include "LoadedCloud.h"
@@ -78,22 +80,35 @@ void ResampleOptions::finish(vtkPolyData* means) const
   }
 }
 
-std::string farPointsNote(const ResampleOptions& options, bool isDone, vtkPolyData* cloud, Ranks& ranks)
+std::vector<std::string> oddPointsNotes(
+  const ResampleOptions& options, bool isDone, vtkPolyData* cloud, Ranks& ranks)
 {
-  const bool isHarmless = isDone && options.lattice.voxels.lattice.voxelSize > 0.0;
-  if (isHarmless || !options.lattice.workspace().empty())
-  {
-    return {};
-  }
-  FarPoints far = findFarPoints(cloud, transformedBounds(cloud, AffineTransform()), ranks);
-  if (far.count == 0)
-  {
-    return {};
-  }
+  std::vector<std::string> notes;
   const AffineTransform transform = options.lattice.transform();
-  far.others = boxOfCorners(far.others, [&](const Vec3& p) { return transform.apply(p); });
-  return fmt::format("{}: {}, and the lattice reaches there; --workspace {} leaves what is far out",
-    options.files.input, far.text(), far.clip());
+  const Bounds workspace = options.lattice.workspace();
+  const CloudExtent own = extentOf(cloud);
+  const bool isHarmless = isDone && options.lattice.voxels.lattice.voxelSize > 0.0;
+  FarPoints far;
+  if (!isHarmless && workspace.empty())
+  {
+    far = findFarPoints(cloud, own.all, ranks);
+  }
+  const bool saysZeros = far.count > 0 && !contains(far.others, Vec3());
+  if (far.count > 0)
+  {
+    far.others = boxOfCorners(far.others, [&](const Vec3& p) { return transform.apply(p); });
+    notes.push_back(
+      fmt::format("{}: {}, and the lattice reaches there; --workspace {} leaves what is far out",
+        options.files.input, far.text(), far.clip()));
+  }
+  const std::int64_t atZero = commonSum(ranks, own.atZero);
+  const bool areIn = workspace.empty() || contains(workspace, transform.apply(Vec3()));
+  if (areNoReturns(atZero, commonSum(ranks, own.finite)) && areIn && !saysZeros)
+  {
+    notes.push_back(
+      fmt::format("{}: {} are resampled as others are", options.files.input, noReturnsText(atZero)));
+  }
+  return notes;
 }
 
 bool openVoxelIndex(const ResampleOptions& options, CsvWriter& file, std::string& message)

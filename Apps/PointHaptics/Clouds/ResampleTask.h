@@ -39,10 +39,11 @@ struct ResampleOptions
   void finish(vtkPolyData* means) const;
 };
 
-/// What a few points of @p cloud far from all others do to the automatic lattice, and how they are left out;
-/// empty where there are none, or the lattice is not automatic, or it @p isDone with voxels of a given size,
-/// of which no other is coarser for it. Collective where @p ranks have parts of the cloud: the same on all.
-std::string farPointsNote(const ResampleOptions& options, bool isDone, vtkPolyData* cloud, Ranks& ranks);
+/// What a few points of @p cloud far from all others do to the automatic lattice, and how they are left out:
+/// not where it @p isDone with voxels of a given size, of which no other is coarser for it. And that rays
+/// which did not return are resampled. Collective where @p ranks have parts of the cloud: the same on all.
+std::vector<std::string> oddPointsNotes(
+  const ResampleOptions& options, bool isDone, vtkPolyData* cloud, Ranks& ranks);
 
 /// Opens the file of --voxel-index. False: @p message says why it cannot be written.
 bool openVoxelIndex(const ResampleOptions& options, CsvWriter& file, std::string& message);

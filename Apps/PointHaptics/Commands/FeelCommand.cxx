@@ -14,6 +14,7 @@
 
 #include "ClippedCloud.h"
 #include "CsvWriter.h"
+#include "LoadedCloud.h"
 #include "PathTicks.h"
 #include "RecordingWriter.h"
 #include "Replay.h"
@@ -241,12 +242,12 @@ bool feelAs(const FeelOptions& options, FeelScenes& scenes, const HipPath& path,
 }
 
 /// Of a hand that has touched nothing @p nearest says how near it came, metres.
-void print(const FeelOptions& options, const FeelScenes& scenes, const Summary& s,
+void print(const FeelOptions& options, const FeelScenes& scenes, std::int64_t invalid, const Summary& s,
   const std::optional<double>& nearest)
 {
   if (options.json)
   {
-    nlohmann::ordered_json result = { { "output", options.output },
+    nlohmann::ordered_json result = { { "output", options.output }, { "points_invalid", invalid },
       { "points_felt", scenes.whole()->numberOfPoints() }, { "local_scenes", scenes.numberOfLocalScenes() },
       { "finest_cell_m", scenes.finestCell() }, { "ticks", s.ticks }, { "contact_ticks", s.contactTicks },
       { "max_force_n", s.maximumForce },
@@ -258,6 +259,10 @@ void print(const FeelOptions& options, const FeelScenes& scenes, const Summary& 
     }
     printJson(result);
     return;
+  }
+  if (invalid > 0)
+  {
+    fmt::print("{}{} NaN or infinite and left out\n", countOfPoints(invalid), invalid == 1 ? " is" : " are");
   }
   fmt::print("{} ticks, {} in contact, max force {:.4g} N, update p50 {:.2f} p99 {:.2f} max {:.2f} us: {}\n",
     s.ticks, s.contactTicks, s.maximumForce, s.p50Microseconds, s.p99Microseconds, s.maximumMicroseconds,
@@ -392,6 +397,7 @@ int runFeel(const FeelOptions& options)
   {
     return fail(kFeelCommand, message);
   }
+  const std::int64_t invalid = extentOf(cloud.points).invalid;
   cloud = {};
   Rows rows(table, recording, sound);
   if (!feelAs(options, scenes, path, ticks, rows, message) || !table.commit(message) ||
@@ -404,7 +410,7 @@ int runFeel(const FeelOptions& options)
     warn(kFeelCommand, fmt::format("{}: it ends early: {}", options.record, recording.problem()));
   }
   const Summary summary = rows.summary();
-  print(options, scenes, summary,
+  print(options, scenes, invalid, summary,
     summary.contactTicks == 0 ? rows.approach().distance(*scenes.whole()) : std::nullopt);
   return kSuccess;
 }

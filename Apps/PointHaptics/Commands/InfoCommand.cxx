@@ -4,6 +4,7 @@
 #include "Options/OptionParsing.h"
 #include "Terminal/Messages.h"
 
+#include "Core/Base/QuantityText.h"
 #include "IO/Info/CloudSummary.h"
 
 #include <CLI/CLI.hpp>
@@ -32,12 +33,6 @@ struct InfoOptions
 std::vector<double> numbers(const Vec3& v)
 {
   return { v.x, v.y, v.z };
-}
-
-/// As the viewer takes them (drawnPoints()).
-bool areNoReturns(const CloudSummary& s)
-{
-  return s.zeros > 1 && s.zeros + s.invalid < s.points;
 }
 
 /// Who wrote the file, and of which parts.
@@ -189,11 +184,9 @@ void print(const std::string& file, const CloudSummary& s)
   {
     fmt::print("  note     {}\n", s.farPoints);
   }
-  if (areNoReturns(s))
+  if (s.noReturns > 0)
   {
-    fmt::print("  note     {} points at (0, 0, 0), as scanners write for rays without return: felt, but view "
-               "draws them with --felt alone\n",
-      s.zeros);
+    fmt::print("  note     {} are felt, but view draws them with --felt alone\n", noReturnsText(s.noReturns));
   }
   if (s.points > 0 && s.bounds.empty())
   {

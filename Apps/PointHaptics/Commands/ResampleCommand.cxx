@@ -41,8 +41,7 @@ int runResample(const ResampleOptions& options)
   resampler->SetComputeVoxelIndex(wantsIndex);
   const bool isDone = updateFilter(resampler, "resampling", message);
   Ranks alone;
-  const std::string note = farPointsNote(options, isDone, cloud.points, alone);
-  if (!note.empty())
+  for (const std::string& note : oddPointsNotes(options, isDone, cloud.points, alone))
   {
     warn(kResampleCommand, note);
   }

@@ -11,6 +11,10 @@
 #include "LoadedCloud.h"
 #include "ResampledCloud.h"
 
+#include "Core/Base/Boxes.h"
+#include "Core/Base/QuantityText.h"
+
+#include <fmt/format.h>
 #include <vtkNew.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
@@ -30,8 +34,7 @@ namespace
 /// The points of @p cloud in the workspace frame that are inside --workspace where one is given.
 vtkSmartPointer<vtkPolyData> rawPoints(const FeelOptions& options, vtkPolyData* cloud)
 {
-  std::int64_t invalid = 0;
-  vtkSmartPointer<vtkPolyData> moved = transformedPoints(cloud, options.lattice.transform(), invalid);
+  vtkSmartPointer<vtkPolyData> moved = transformedPoints(cloud, options.lattice.transform());
   const Bounds box = options.lattice.workspace();
   if (box.empty())
   {
@@ -56,7 +59,7 @@ vtkSmartPointer<vtkPolyData> rawPoints(const FeelOptions& options, vtkPolyData* 
 /// Why nothing can be felt.
 std::string whyEmpty(const FeelOptions& options, vtkPolyData* cloud)
 {
-  return transformedBounds(cloud, AffineTransform()).empty()
+  return extentOf(cloud).all.empty()
     ? noFinitePoint(options.file, cloud->GetNumberOfPoints())
     : options.file + ": no finite point lies in the workspace; leave out --workspace, or mend the transform";
 }
@@ -93,13 +96,17 @@ std::shared_ptr<const HapticScene> resampledScene(
     message = whyEmpty(options, cloud);
     return nullptr;
   }
+  placeCloud(request, loaded);
+  const bool isMade = resampleCloud(
+    request, [] { return !stopIsRequested(); }, loaded, message);
+  if (isMade)
+  {
+    noteNoReturns(request, loaded);
+  }
   for (const std::string& note : loaded.notes)
   {
     warn("feel", note);
   }
-  placeCloud(request, loaded);
-  const bool isMade = resampleCloud(
-    request, [] { return !stopIsRequested(); }, loaded, message);
   if (const std::vector<std::string> errors = takeVtkErrors(); !errors.empty())
   {
     message = errors.front();
@@ -138,6 +145,12 @@ bool makeFeelScenes(const FeelOptions& options, vtkPolyData* cloud, FeelScenes& 
     return false;
   }
   settings.workspace = options.lattice.workspace();
+  const std::int64_t noReturns = extentOf(felt).noReturns;
+  if (noReturns > 0 &&
+    (settings.workspace.empty() || contains(settings.workspace, options.lattice.transform().apply(Vec3()))))
+  {
+    warn("feel", fmt::format("{}: {} are felt", options.file, noReturnsText(noReturns)));
+  }
   if (const Status status = scenes.make(prepared, felt->GetPoints(), settings); status != Status::Ok)
   {
     message = options.file + ": " + pointhaptics::message(status);

@@ -1,8 +1,10 @@
 /// @file
-/// What lies in boxes.
+/// What lies in boxes, and what is no place at all.
 #pragma once
 
 #include "Core/Base/PointView.h"
+
+#include <cstdint>
 
 namespace pointhaptics
 {
@@ -32,6 +34,19 @@ inline Bounds grown(const Bounds& box, double margin) noexcept
   result.minimum -= by;
   result.maximum += by;
   return result;
+}
+
+/// As scanners write rays that did not return.
+inline bool isAtZero(const Vec3& p) noexcept
+{
+  return norm2(p) == 0.0;
+}
+
+/// Whether @p atZero of @p finite points stand for rays that did not return: one may well be a point, and all
+/// are better than nothing.
+inline bool areNoReturns(std::int64_t atZero, std::int64_t finite) noexcept
+{
+  return atZero > 1 && atZero < finite;
 }
 
 /// What lies in both; empty where nothing does.

@@ -125,4 +125,9 @@ std::string countText(std::int64_t count)
   return count < 0 ? "-" + withCommas(std::to_string(count).substr(1)) : withCommas(std::to_string(count));
 }
 
+std::string noReturnsText(std::int64_t count)
+{
+  return countText(count) + " points at (0, 0, 0), which scanners write for rays without return,";
+}
+
 } // namespace pointhaptics

@@ -27,4 +27,7 @@ std::string ratioText(double ratio, int digits = 3);
 /// "543,652".
 std::string countText(std::int64_t count);
 
+/// "5,032 points at (0, 0, 0), which scanners write for rays without return," are something: areNoReturns().
+std::string noReturnsText(std::int64_t count);
+
 } // namespace pointhaptics

@@ -4,6 +4,7 @@
 #include "IO/Info/FieldText.h"
 #include "IO/Info/LengthUnit.h"
 
+#include "Core/Base/Boxes.h"
 #include "Core/Base/Lattice.h"
 #include "Core/Neighbors/NeighborQuery.h"
 
@@ -209,11 +210,13 @@ CloudSummary summarize(vtkPolyData* cloud, const std::string& format)
   summary.isFloat = cloud->GetPoints() && cloud->GetPoints()->GetDataType() == VTK_FLOAT;
   const std::vector<Vec3> points = finitePoints(cloud);
   summary.invalid = summary.points - std::int64_t(points.size());
+  std::int64_t atZero = 0;
   for (const Vec3& p : points)
   {
     summary.bounds.include(p);
-    summary.zeros += norm2(p) == 0.0 ? 1 : 0;
+    atZero += isAtZero(p) ? 1 : 0;
   }
+  summary.noReturns = areNoReturns(atZero, std::int64_t(points.size())) ? atZero : 0;
   summary.spacing = spacingOf(points);
   summary.densityVariation = summary.spacing[0] > 0.0 ? summary.spacing[4] / summary.spacing[0] : 0.0;
   summary.suggestedVoxel = kSpacingsPerVoxel * summary.spacing[2];

@@ -41,7 +41,7 @@ struct CloudSummary
   std::vector<std::string> notes; ///< What the file has beside this.
   std::int64_t points = 0;
   std::int64_t invalid = 0;    ///< NaN or infinite.
-  std::int64_t zeros = 0;      ///< At exactly (0, 0, 0): scanners write them for rays without return.
+  std::int64_t noReturns = 0;  ///< At exactly (0, 0, 0), where areNoReturns().
   Bounds bounds;               ///< Of the finite points.
   bool isFloat = false;        ///< Coordinates have the digits of a float.
   std::int64_t duplicates = 0; ///< Finite points at the very place of an earlier one.

@@ -22,11 +22,11 @@ constexpr vtkIdType kFewest = 100;       ///< Of fewer points none is called far
 constexpr std::int64_t kMostPart = 1000; ///< One in so many may be far.
 constexpr double kMostLength = 0.1;      ///< Of the others' longest side over that of all.
 
-/// What files have in the place of a coordinate that was not measured.
+/// What files have in the place of coordinates that were not measured.
 bool isNoData(const Vec3& p)
 {
   constexpr double kNoData[] = { -9999.0, -99999.0, -32768.0 };
-  bool result = false;
+  bool result = isAtZero(p);
   for (int axis = 0; axis < 3; ++axis)
   {
     for (const double value : kNoData)

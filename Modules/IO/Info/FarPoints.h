@@ -29,8 +29,8 @@ struct FarPoints
 };
 
 /// One in a thousand points of @p cloud at most, and any number with a coordinate such as -9999 that stands
-/// for no data, without which its longest side is a tenth at most. Finite points lie within @p bounds. Cost:
-/// a look at 10,000 points, and at all where they may have far ones.
+/// for no data or at exactly (0, 0, 0), without which its longest side is a tenth at most. Finite points lie
+/// within @p bounds. Cost: a look at 10,000 points, and at all where they may have far ones.
 POINTHAPTICSIO_EXPORT FarPoints findFarPoints(vtkPolyData* cloud, const Bounds& bounds);
 
 /// Collective: the same of a cloud of which each rank has a part, in its order. @param bounds of the own

@@ -1,5 +1,7 @@
 #include "CloudLook.h"
 
+#include "Core/Base/Boxes.h"
+
 #include <algorithm>
 #include <bitset>
 #include <cmath>
@@ -357,7 +359,7 @@ bool cloudKindFromName(const std::string& name, CloudKind& kind)
   return false;
 }
 
-std::vector<std::uint32_t> drawnPoints(const PointView& cloud, std::int64_t* noReturns)
+std::vector<std::uint32_t> drawnPoints(const PointView& cloud)
 {
   std::vector<std::uint32_t> drawn;
   std::vector<std::uint32_t> zeros;
@@ -367,15 +369,10 @@ std::vector<std::uint32_t> drawnPoints(const PointView& cloud, std::int64_t* noR
     const Vec3 p = cloud[i];
     if (isFinite(p))
     {
-      (norm2(p) == 0.0 ? zeros : drawn).push_back(std::uint32_t(i));
+      (isAtZero(p) ? zeros : drawn).push_back(std::uint32_t(i));
     }
   }
-  const bool areDrawn = zeros.size() == 1 || drawn.empty();
-  if (noReturns)
-  {
-    *noReturns = areDrawn ? 0 : std::int64_t(zeros.size());
-  }
-  if (areDrawn)
+  if (!areNoReturns(std::int64_t(zeros.size()), std::int64_t(zeros.size() + drawn.size())))
   {
     drawn.insert(drawn.end(), zeros.begin(), zeros.end());
     std::inplace_merge(drawn.begin(), drawn.end() - std::ptrdiff_t(zeros.size()), drawn.end());

@@ -49,11 +49,9 @@ struct CloudLook
   double meanFlatness = 0.0;
 };
 
-/// The indices of the points that are drawn: those that are finite, without those at exactly (0, 0, 0) where
-/// there is more than one: scanners write them for rays that did not return. All, if none would be left.
-/// @param noReturns gets how many of those are left out.
-POINTHAPTICSRENDERING_EXPORT std::vector<std::uint32_t> drawnPoints(
-  const PointView& cloud, std::int64_t* noReturns = nullptr);
+/// The indices of the points that are drawn: those that are finite, without rays that did not return, see
+/// areNoReturns().
+POINTHAPTICSRENDERING_EXPORT std::vector<std::uint32_t> drawnPoints(const PointView& cloud);
 
 /// The first kind that fits: a frame, as @p orientation says; a sweep where the spacing grows with the
 /// distance from the origin, indoors where it hits most directions above the sensor; terrain where the

@@ -344,19 +344,6 @@ bool show(
   return loaded.shown != nullptr;
 }
 
-/// Nobody sees else why points of the file are missing.
-void noteNoReturns(const CloudRequest& request, LoadedCloud& loaded)
-{
-  const std::optional<Bounds> clip = clipBox(request.options->clip);
-  if (loaded.shown->noReturns > 0 && !request.options->felt && (!clip || isWithin(*clip, Vec3())))
-  {
-    loaded.notes.push_back(fmt::format(
-      "{}: {} points at (0, 0, 0), which scanners write for rays without return, are felt but not drawn; {} "
-      "draws what is felt",
-      loaded.title, countText(loaded.shown->noReturns), request.options->names.felt));
-  }
-}
-
 } // namespace
 
 CloudRequest CloudRequest::of(const std::vector<std::string>& files, const HapticViewerOptions& options)
@@ -389,25 +376,41 @@ std::string shortNote(const std::vector<std::string>& notes)
                           : fmt::format("{} (and {} more)", notes.front(), notes.size() - 1);
 }
 
-Bounds transformedBounds(vtkPolyData* cloud, const AffineTransform& transform, vtkIdType* invalid)
+CloudExtent extentOf(vtkPolyData* cloud, const AffineTransform& transform)
 {
-  Bounds bounds;
-  vtkIdType finite = 0;
+  CloudExtent extent;
   Vec3 p;
   for (vtkIdType i = 0; i < cloud->GetNumberOfPoints(); ++i)
   {
     cloud->GetPoint(i, &p.x);
     if (isFinite(p))
     {
-      bounds.include(transform.apply(p));
-      ++finite;
+      ++extent.finite;
+      if (isAtZero(p))
+      {
+        ++extent.atZero;
+      }
+      else
+      {
+        extent.returned.include(transform.apply(p));
+      }
     }
   }
-  if (invalid)
+  extent.invalid = cloud->GetNumberOfPoints() - extent.finite;
+  extent.all = extent.returned;
+  if (extent.atZero > 0)
   {
-    *invalid = cloud->GetNumberOfPoints() - finite;
+    extent.all.include(transform.apply(Vec3()));
   }
-  return bounds;
+  if (areNoReturns(extent.atZero, extent.finite))
+  {
+    extent.noReturns = extent.atZero;
+  }
+  else
+  {
+    extent.returned = extent.all;
+  }
+  return extent;
 }
 
 std::string colorWord(const std::string& name)
@@ -428,16 +431,18 @@ std::string titleOf(const std::vector<std::string>& files)
 void findBounds(const CloudRequest& request, LoadedCloud& loaded)
 {
   const bool isMoved = !request.transform.isIdentity();
-  loaded.bounds = transformedBounds(loaded.cloud, request.transform, &loaded.invalid);
+  const bool isFitted = request.options && request.options->fitsWorkspace;
+  const CloudExtent extent = extentOf(loaded.cloud, request.transform);
+  loaded.bounds = isFitted ? extent.returned : extent.all;
+  loaded.invalid = extent.invalid;
+  loaded.noReturns = extent.noReturns;
   const FarPoints far = request.options
-    ? findFarPoints(
-        loaded.cloud, isMoved ? transformedBounds(loaded.cloud, AffineTransform()) : loaded.bounds)
+    ? findFarPoints(loaded.cloud, isMoved ? extentOf(loaded.cloud, AffineTransform()).all : extent.all)
     : FarPoints();
   if (far.count == 0)
   {
     return;
   }
-  const bool isFitted = request.options->fitsWorkspace;
   const bool isBounded =
     !request.options->clip.empty() || !(isFitted || request.options->voxels.lattice.automaticWorkspace);
   if (isFitted)
@@ -453,6 +458,22 @@ void findBounds(const CloudRequest& request, LoadedCloud& loaded)
         : fmt::format("and the workspace reaches to it: all else is small and coarse; {} {} leaves it out",
             request.options->names.clip, far.clip())));
   }
+}
+
+void noteNoReturns(const CloudRequest& request, LoadedCloud& loaded)
+{
+  const std::optional<Bounds> clip = clipBox(request.options->clip);
+  const bool isFar = !loaded.near.empty() && !isWithin(loaded.near, Vec3()); // that was said
+  if (loaded.noReturns == 0 || request.options->felt || isFar || (clip && !isWithin(*clip, Vec3())))
+  {
+    return;
+  }
+  const bool areFelt = isWithin(loaded.workspace, loaded.placement.apply(Vec3()));
+  const std::string what = !areFelt ? "are outside the workspace: neither shown nor felt"
+    : request.isFeltOnly
+    ? "are felt"
+    : fmt::format("are felt but not drawn; {} draws what is felt", request.options->names.felt);
+  loaded.notes.push_back(fmt::format("{}: {} {}", loaded.title, noReturnsText(loaded.noReturns), what));
 }
 
 bool loadCloud(const CloudRequest& request, const std::function<bool(double)>& goesOn, LoadedCloud& loaded,
@@ -501,7 +522,6 @@ bool loadCloud(const CloudRequest& request, const std::function<bool(double)>& g
   keepArrays(result.cloud, result.colorBy);
   if (request.options)
   {
-    noteNoReturns(request, result);
     placeCloud(request, result);
     if (request.resamplesLater && request.canResampleLater())
     {
@@ -511,6 +531,7 @@ bool loadCloud(const CloudRequest& request, const std::function<bool(double)>& g
     {
       return false;
     }
+    noteNoReturns(request, result);
   }
   loaded = std::move(result);
   return true;

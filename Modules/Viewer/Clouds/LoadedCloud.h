@@ -65,9 +65,11 @@ struct LoadedCloud
 {
   vtkSmartPointer<vtkPolyData> cloud; ///< Nobody else's.
   vtkSmartPointer<vtkPolyData> felt;  ///< What of it was resampled: all, or the points in the clipping box.
-  Bounds bounds; ///< Of the finite points, after CloudRequest::transform; of a fitted cloud without far ones.
+  Bounds bounds; ///< Of the finite points, after CloudRequest::transform; of a fitted cloud without far ones
+                 ///< and rays that did not return.
   Bounds near;   ///< Of all points but a few far ones, which are not drawn; empty: none is far.
-  vtkIdType invalid = 0; ///< Points that are not finite.
+  std::int64_t invalid = 0;   ///< Points that are not finite.
+  std::int64_t noReturns = 0; ///< Points at (0, 0, 0) that are not drawn, see areNoReturns().
   CloudOrientation orientation;
   std::string colorBy;            ///< What was asked for, exactly as the cloud or the pipeline writes it.
   std::string title;              ///< The names of the files, without their folders.
@@ -96,17 +98,30 @@ struct LoadedCloud
   double resampleSeconds = 0.0;
 };
 
-/// Bounds of the finite points after @p transform; the corners of a box would be too wide for a turned cloud.
-/// @param invalid gets the number of the others.
-POINTHAPTICSVIEWER_EXPORT Bounds transformedBounds(
-  vtkPolyData* cloud, const AffineTransform& transform, vtkIdType* invalid = nullptr);
+/// Bounds after a transform; the corners of a box would be too wide for a turned cloud.
+struct CloudExtent
+{
+  Bounds all;                 ///< Of the finite points.
+  Bounds returned;            ///< Of those but rays that did not return.
+  std::int64_t finite = 0;    ///< Points.
+  std::int64_t invalid = 0;   ///< The others.
+  std::int64_t atZero = 0;    ///< Points at (0, 0, 0),
+  std::int64_t noReturns = 0; ///< the same where areNoReturns(), else 0.
+};
+
+POINTHAPTICSVIEWER_EXPORT CloudExtent extentOf(
+  vtkPolyData* cloud, const AffineTransform& transform = AffineTransform());
 
 /// The names of @p files without their folders.
 POINTHAPTICSVIEWER_EXPORT std::string titleOf(const std::vector<std::string>& files);
 
-/// Fills in LoadedCloud::bounds and invalid of LoadedCloud::cloud and, where the options fit it, near; a note
-/// says of far points that they are left out, or how.
+/// Fills in LoadedCloud::bounds, invalid and noReturns of LoadedCloud::cloud and, where the options fit it,
+/// near; a note says of far points that they are left out, or how.
 POINTHAPTICSVIEWER_EXPORT void findBounds(const CloudRequest& request, LoadedCloud& loaded);
+
+/// Adds what becomes of rays that did not return: nobody sees else why points of the file are missing. @pre
+/// LoadedCloud::workspace is that of the scene.
+POINTHAPTICSVIEWER_EXPORT void noteNoReturns(const CloudRequest& request, LoadedCloud& loaded);
 
 /// What options and messages call what a cloud is coloured by: what the pipeline makes in lower case.
 std::string colorWord(const std::string& name);

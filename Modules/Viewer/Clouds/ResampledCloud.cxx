@@ -218,7 +218,7 @@ bool resampleCloud(
   FirstRun run(request, goesOn, loaded);
   if (loaded.felt->GetNumberOfPoints() == 0)
   {
-    const Bounds all = transformedBounds(loaded.cloud, AffineTransform());
+    const Bounds all = extentOf(loaded.cloud).all;
     message = fmt::format("{}: no point lies in the box of {} {:.6g}; the cloud has {:.6g}", loaded.title,
       request.options->names.clip, fmt::join(request.options->clip, ","), fmt::join(clipNumbers(all), ","));
     return false;

@@ -210,8 +210,7 @@ std::shared_ptr<ShownCloud> makeShownCloud(
   vtkPolyData* cloud, const ShownRequest& request, const std::function<bool()>& goesOn)
 {
   auto shown = std::make_shared<ShownCloud>();
-  const std::vector<std::uint32_t> drawn =
-    drawnPoints(PointAccess(cloud->GetPoints()).view(), &shown->noReturns);
+  const std::vector<std::uint32_t> drawn = drawnPoints(PointAccess(cloud->GetPoints()).view());
   if (drawn.empty())
   {
     return nullptr;
@@ -247,8 +246,7 @@ std::shared_ptr<ShownCloud> makeShownCloud(
 std::shared_ptr<ShownCloud> makePlainCloud(vtkPolyData* cloud, const ShownRequest& request)
 {
   auto shown = std::make_shared<ShownCloud>();
-  const std::vector<std::uint32_t> drawn =
-    drawnPoints(PointAccess(cloud->GetPoints()).view(), &shown->noReturns);
+  const std::vector<std::uint32_t> drawn = drawnPoints(PointAccess(cloud->GetPoints()).view());
   if (drawn.empty())
   {
     return nullptr;

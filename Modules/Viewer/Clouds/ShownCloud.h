@@ -43,7 +43,6 @@ struct ShownCloud
   vtkSmartPointer<vtkPolyData> points; ///< In the frame of the file, without cells.
   CloudLook look;
   CloudColors colors;
-  std::int64_t noReturns = 0; ///< Points at (0, 0, 0) that are left out, see drawnPoints().
   double medianSpacing = 0.0; ///< Of the points, unit of the file; 0: not measured.
   /// progressiveOrder() of them, made in the thread that reads; null: left to LevelOfDetail.
   std::shared_ptr<const std::vector<std::uint32_t>> order;
