@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <initializer_list>
 #include <vector>
 
 namespace pointhaptics
@@ -17,6 +18,8 @@ namespace pointhaptics
 namespace
 {
 
+/// Longest side, metres, of what an E57 file may hold that is no scan of surroundings.
+constexpr double kLongestScannedObject = 2.0;
 /// An object's longest extent over its shortest, and how many of its lengths it may lie from the origin.
 constexpr double kLongestObject = 4.0;
 constexpr double kFarthestObject = 10.0;
@@ -74,18 +77,12 @@ bool sensorOrientation(vtkPolyData* cloud, CloudOrientation& orientation)
   return true;
 }
 
-bool isMeshFormat(std::string format)
+bool isAnyOf(std::initializer_list<const char*> names, std::string format)
 {
   std::transform(
     format.begin(), format.end(), format.begin(), [](unsigned char c) { return std::tolower(c); });
-  for (const char* name : { "ply", "obj", "stl", "off" })
-  {
-    if (format.find(name) != std::string::npos)
-    {
-      return true;
-    }
-  }
-  return false;
+  return std::any_of(names.begin(), names.end(),
+    [&format](const char* name) { return format.find(name) != std::string::npos; });
 }
 
 /// A scanned object that stands on y = 0 or is tallest along y, as model makers leave them; not a scene:
@@ -105,6 +102,14 @@ bool standsAlongY(const Bounds& bounds)
   const bool startsAtFloor =
     bounds.minimum.y > -0.3 * extent.y && straddles && bounds.minimum.z < -0.3 * extent.z;
   return extent.y >= longest || startsAtFloor;
+}
+
+/// A small object above y = 0 about the y axis: a scanner would stand within what it saw, or in front of it.
+bool standsAboveFloor(const Bounds& bounds)
+{
+  const Vec3 extent = bounds.extent();
+  return std::max({ extent.x, extent.y, extent.z }) < kLongestScannedObject && bounds.minimum.y >= 0.0 &&
+    bounds.minimum.y < extent.y && standsAlongY(bounds);
 }
 
 } // namespace
@@ -143,7 +148,10 @@ CloudOrientation guessCloudOrientation(vtkPolyData* cloud, const std::string& fo
   {
     return orientation;
   }
-  if (isMeshFormat(format) && standsAlongY(finiteBounds(cloud)))
+  const bool standsUp = isAnyOf({ "ply", "obj", "stl", "off" }, format)
+    ? standsAlongY(finiteBounds(cloud))
+    : isAnyOf({ "e57" }, format) && standsAboveFloor(finiteBounds(cloud));
+  if (standsUp)
   {
     orientation = orientationForUpAxis("y");
   }

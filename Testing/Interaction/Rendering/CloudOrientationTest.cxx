@@ -49,6 +49,20 @@ TEST(CloudOrientation, StandsAScannedObjectOnItsFloor)
   EXPECT_EQ(guessCloudOrientation(buddha, "ply").up, Vec3(0, 1, 0));
 }
 
+TEST(CloudOrientation, StandsASmallObjectOfALaserScannersFormatToo)
+{
+  const Vec3 low(-0.095, 0.040, -0.062);
+  const Vec3 high(0.061, 0.187, 0.059);
+  EXPECT_EQ(guessCloudOrientation(makeCloud(low, high), "E57 1.0").up, Vec3(0, 1, 0));
+  EXPECT_EQ(guessCloudOrientation(makeCloud(low, high), "LAS").up, Vec3(0, 0, 1));
+  // A facade in front of a scanner, a room about it, and an object that stands on z = 0.
+  EXPECT_EQ(guessCloudOrientation(makeCloud(100.0 * low, 100.0 * high), "E57 1.0").up, Vec3(0, 0, 1));
+  EXPECT_EQ(
+    guessCloudOrientation(makeCloud({ -0.5, -0.2, -0.4 }, { 0.5, 0.8, 0.3 }), "E57 1.0").up, Vec3(0, 0, 1));
+  EXPECT_EQ(
+    guessCloudOrientation(makeCloud({ -0.1, -0.1, 0.0 }, { 0.1, 0.1, 0.2 }), "E57 1.0").up, Vec3(0, 0, 1));
+}
+
 TEST(CloudOrientation, LeavesLaserScansWithZUp)
 {
   const auto terrain = makeCloud({ 684766, 5017773, 0 }, { 684993, 5018007, 30 });
