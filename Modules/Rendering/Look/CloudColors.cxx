@@ -226,6 +226,11 @@ CloudColors chooseColors(
     colors.rule = isFrame ? ColorRule::Depth : ColorRule::Height;
   }
   measureRanges(cloud, look, colors);
+  if (colors.rule == ColorRule::Height && look.kind == CloudKind::Terrain &&
+    colors.high - colors.low <= shape.medianSpacing)
+  {
+    colors.rule = ColorRule::Clay; // heights of a flat plate are one colour, or noise
+  }
   return colors;
 }
 

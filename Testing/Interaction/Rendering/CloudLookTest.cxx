@@ -362,6 +362,21 @@ TEST_F(Colors, AreClayForAStatueAndHeightForTerrain)
   EXPECT_EQ(chosen(CloudKind::Frame).rule, ColorRule::Depth);
 }
 
+TEST_F(Colors, AreClayForAPlateWhoseHeightsAreNoise)
+{
+  for (const double noise : { 0.0, 0.3, 10.0 })
+  {
+    std::vector<Vec3> plate = hills(100, 90); // about a point a square unit
+    Random random;
+    for (Vec3& p : plate)
+    {
+      p.z = 100.0 + random.between(-noise, noise);
+    }
+    use(plate);
+    EXPECT_EQ(chosen(CloudKind::Terrain).rule, noise < 1.0 ? ColorRule::Clay : ColorRule::Height) << noise;
+  }
+}
+
 TEST_F(Colors, AreClassesWhereThereAreThree)
 {
   use(hills(100, 90));

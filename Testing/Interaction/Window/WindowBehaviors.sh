@@ -309,7 +309,7 @@ KeyMGoesThroughTheColors() {
   write_settings
   [[ "$(setting color-by "$settings")" == "" ]] || fail "a colour that nobody chose"
   key m
-  said "coloured by clay"
+  said "coloured by height"
   key m
   said "coloured by density"
   write_settings
@@ -318,7 +318,7 @@ KeyMGoesThroughTheColors() {
   said "coloured by residual, as soon as it is computed"
   until_true "the status still waits for Residual" grep -qxF "coloured by residual" said.txt
   key m
-  said "coloured by height"
+  said "coloured by clay"
 }
 
 KeyKChangesTheColors() {
