@@ -84,6 +84,38 @@ TEST_F(ClosedSurfaces, PointsAtRandomCloseFromAboveAndAtASlant)
   }
 }
 
+/// At random on a ball of radius 1.
+vtkSmartPointer<vtkPolyData> randomBall(int count)
+{
+  std::mt19937 random(4);
+  std::normal_distribution<double> place;
+  vtkNew<vtkPoints> points;
+  for (int i = 0; i < count; ++i)
+  {
+    const double x = place(random);
+    const double y = place(random);
+    const Vec3 p = normalized({ x, y, place(random) });
+    points->InsertNextPoint(p.x, p.y, p.z);
+  }
+  auto cloud = vtkSmartPointer<vtkPolyData>::New();
+  cloud->SetPoints(points);
+  return cloud;
+}
+
+TEST_F(ClosedSurfaces, FewPointsCloseInTheFirstView)
+{
+  SKIP_WITHOUT_DISPLAY();
+  options_.width = 800;
+  options_.height = 600;
+  options_.colorBy = "Clay";
+  options_.picture.background = "black";
+  HapticViewer viewer(options_, observer_);
+  ASSERT_TRUE(viewer.open(randomBall(10000))) << viewer.message();
+  ASSERT_TRUE(viewer.renderToFile(this->path("ball.png"))) << viewer.message();
+  const Holes holes = holesOf(this->path("ball.png"));
+  EXPECT_LT(holes.dark, holes.all / 200) << "of " << holes.all << " pixels";
+}
+
 /// A wall that turns away to the right, as a camera with so many rays sees it.
 vtkSmartPointer<vtkPolyData> slantedWall(int columns, int rows)
 {

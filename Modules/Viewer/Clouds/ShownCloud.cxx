@@ -43,6 +43,12 @@ constexpr double kLowParts = 3.0;
 constexpr double kSmallestShownPixels = 2.0;
 /// The pixels bound the splats, not the median of their lengths: a sweep is sparse far away.
 constexpr double kFarthestRatio = 1e6;
+/// From this mean flatness on an object is a surface.
+constexpr double kSurfaceFlatness = 0.63;
+/// Over the spacing: of the splats that leave hardly a gap between points at random.
+constexpr double kClosingDiameter = 2.8;
+/// Largest splat of a sparse surface, as CloudLook::largestPixels.
+constexpr double kMostPixels = 64.0;
 /// Of the window that the first picture is reckoned with.
 constexpr double kUsualHeight = 800.0;
 
@@ -235,6 +241,12 @@ std::shared_ptr<ShownCloud> makeShownCloud(
   if (decided == CloudKind::Frame)
   {
     spaceByRays(view, shape);
+  }
+  if (decided == CloudKind::Object && shape.meanFlatness > kSurfaceFlatness)
+  {
+    // Few points on a surface close it in the first view, too; seen from nearer, many would be a mosaic.
+    shown->look.largestPixels = std::clamp(
+      kClosingDiameter * shape.medianSpacing / settings.pixel, shown->look.largestPixels, kMostPixels);
   }
   addColors(*shown, request, query, shape);
   vtkDataArray* own =
