@@ -20,9 +20,11 @@ namespace
 {
 
 constexpr int kLargestHelp = 16;
+/// Of all lines at once: what is smaller is not read.
+constexpr int kReadableHelp = 9;
+/// Of a page, where not all lines fit at once, and the least where it is too wide for the window.
+constexpr int kPageFont = 12;
 constexpr int kSmallestHelp = 7;
-/// Of a page, where not all lines fit at once.
-constexpr int kPageFont = 10;
 /// Lines of the plate that are none of the list: margins, and which page it is.
 constexpr std::size_t kPlateLines = 2;
 constexpr std::size_t kFooterLines = 2;
@@ -97,6 +99,35 @@ std::vector<std::string> pageOf(const std::vector<std::string>& lines, std::size
     page[0].replace(0, group.size(), group);
   }
   return page;
+}
+
+/// Whole groups on the left, the others beside them.
+std::vector<std::string> inTwoColumns(const std::vector<std::string>& lines)
+{
+  constexpr std::size_t kGap = 4;
+  std::size_t split = (lines.size() + 1) / 2;
+  std::size_t higher = lines.size();
+  for (std::size_t i = 1; i < lines.size(); ++i)
+  {
+    if (!lines[i].empty() && lines[i].front() != ' ' && std::max(i, lines.size() - i) < higher)
+    {
+      split = i;
+      higher = std::max(i, lines.size() - i);
+    }
+  }
+  std::vector<std::string> left(lines.begin(), lines.begin() + std::ptrdiff_t(split));
+  const std::vector<std::string> right = pageOf(lines, split, lines.size() - split);
+  std::size_t longest = 0;
+  for (const std::string& line : left)
+  {
+    longest = std::max(longest, line.size());
+  }
+  left.resize(std::max(left.size(), right.size()));
+  for (std::size_t i = 0; i < right.size(); ++i)
+  {
+    left[i] += std::string(longest + kGap - left[i].size(), ' ') + right[i];
+  }
+  return left;
 }
 
 /// Bytes of a letter in UTF-8.
@@ -177,7 +208,8 @@ vtkHapticOverlay::~vtkHapticOverlay()
   }
 }
 
-/// Before every render: the largest font with which all lines are seen, else a page of them.
+/// Before every render: the largest font with which all lines are seen, in one column or two, else a page of
+/// them.
 void vtkHapticOverlay::FitHelp()
 {
   const int* size = this->Renderer->GetSize();
@@ -190,34 +222,45 @@ void vtkHapticOverlay::FitHelp()
   std::copy(size, size + 2, this->FittedTo);
   this->FittedTo[2] = dots;
   const std::vector<std::string> lines = linesOf(this->HelpText);
-  this->Help->SetInput(padded(lines).c_str());
   this->HelpPages = 1;
-  if (!this->FitHelpFont(kLargestHelp, kHelpPart * size[0], kHelpPart * size[1]))
+  const std::string texts[2] = { padded(inTwoColumns(lines)), padded(lines) };
+  int fonts[2] = { 0, 0 };
+  for (int i = 0; i < 2; ++i)
+  {
+    this->Help->SetInput(texts[i].c_str());
+    fonts[i] = this->FitHelpFont(kLargestHelp, kReadableHelp, kHelpPart * size[0], kHelpPart * size[1]);
+  }
+  if (fonts[0] > fonts[1])
+  {
+    this->Help->SetInput(texts[0].c_str());
+    this->Help->GetTextProperty()->SetFontSize(fonts[0]);
+  }
+  else if (fonts[1] == 0)
   {
     this->FitHelpPage(lines, kHelpPart * size[0], kHelpPart * size[1]);
   }
 }
 
-/// The largest font up to @p largest with which the plate is no larger; false: none.
-bool vtkHapticOverlay::FitHelpFont(int largest, double width, double height)
+/// The largest font from @p smallest to @p largest with which the plate is no larger; 0: none.
+int vtkHapticOverlay::FitHelpFont(int largest, int smallest, double width, double height)
 {
   double needed[2] = { 0.0, 0.0 };
-  for (int font = largest; font >= kSmallestHelp; --font)
+  for (int font = largest; font >= smallest; --font)
   {
     this->Help->GetTextProperty()->SetFontSize(font);
     this->Help->GetSize(this->Renderer, needed);
     if (needed[0] <= width && needed[1] <= height)
     {
-      return true;
+      return font;
     }
   }
-  return false;
+  return 0;
 }
 
-/// Of @p lines as many as fit, in a font that is read well.
+/// Of @p lines, which are the text, as many as fit, in a font that is read well.
 void vtkHapticOverlay::FitHelpPage(const std::vector<std::string>& lines, double width, double height)
 {
-  this->FitHelpFont(kPageFont, width, std::numeric_limits<double>::max());
+  this->FitHelpFont(kPageFont, kSmallestHelp, width, std::numeric_limits<double>::max());
   double needed[2] = { 0.0, 0.0 };
   this->Help->GetSize(this->Renderer, needed);
   const auto room = std::size_t(height * double(lines.size() + kPlateLines) / needed[1]);

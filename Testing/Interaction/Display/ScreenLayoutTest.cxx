@@ -1,9 +1,9 @@
 #include "ScreenLayout.h"
 
-#include "Unit/SkipWithoutDisplay.h"
 #include "CloudAppearance.h"
 #include "DistanceMark.h"
 #include "ScreenScale.h"
+#include "Unit/SkipWithoutDisplay.h"
 #include "vtkHapticGauge.h"
 #include "vtkHapticOverlay.h"
 #include "vtkHapticProgress.h"
@@ -313,6 +313,31 @@ TEST_F(ScreenLayoutTest, EveryLineOfTheHelpIsReadInASmallWindow)
   large.overlay->SetHelpVisibility(true);
   large.window->Render();
   EXPECT_EQ(large.overlay->GetNumberOfHelpPages(), 1);
+}
+
+TEST_F(ScreenLayoutTest, TheHelpIsLargeEnoughToBeRead)
+{
+  std::string help;
+  for (int line = 0; line < 56; ++line)
+  {
+    help += std::string(line % 14 == 0 ? "Show     " : "         ") +
+      "Escape while a distance is shown   some keys do this, others the contrary\n";
+  }
+  for (const Size& size : { Size{ 800, 600, 1.0 }, Size{ 1000, 700, 1.0 }, Size{ 1280, 800, 1.0 } })
+  {
+    SCOPED_TRACE(size.width);
+    Screen screen(size.width, size.height, 1.0, false);
+    screen.overlay->SetHelp(help, "H");
+    screen.overlay->SetHelpVisibility(true);
+    screen.window->Render();
+    const ScreenRectangle box = screen.layout.places().at(0).box;
+    // In two columns where they are wide enough, else by pages.
+    const int pages = screen.overlay->GetNumberOfHelpPages();
+    EXPECT_EQ(pages > 1, size.width < 1000);
+    const double letter = (box.right - box.left) / (pages == 1 ? 2.0 * 84.0 : 88.0);
+    EXPECT_GT(letter, 5.0) << "pixels, of 9 points";
+    EXPECT_LE(box.right - box.left, size.width);
+  }
 }
 
 TEST_F(ScreenLayoutTest, EverythingIsDrawnWhereTheLayoutSays)

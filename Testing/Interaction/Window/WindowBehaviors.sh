@@ -288,19 +288,22 @@ KeyHShowsTheHelpInAFigure() {
   open_viewer cloud.ply
   # What comes in the background changes the shading of some pixels: until three pictures are the same.
   picture 1 o
-  picture 2 h
-  picture 3 h
-  local shot=3 same=0
+  local shot=1 same=0
   while ((same < 2)); do
-    ((shot < 7)) || fail "the picture does not settle"
+    ((shot < 6)) || fail "the picture does not settle"
     shot=$((shot + 1))
     picture "$shot"
     if cmp -s "pointhaptics-00$((shot - 1)).png" "pointhaptics-00$shot.png"; then same=$((same + 1)); else same=0; fi
   done
   picture $((shot + 1)) h
   ! cmp -s "pointhaptics-00$shot.png" "pointhaptics-00$((shot + 1)).png" || fail "there is no help"
+  local page=1
   picture $((shot + 2)) h
-  cmp -s "pointhaptics-00$shot.png" "pointhaptics-00$((shot + 2)).png" || fail "the help stays"
+  until cmp -s "pointhaptics-00$shot.png" "pointhaptics-00$((shot + 1 + page)).png"; do
+    ((page < 3)) || fail "the help stays"
+    page=$((page + 1))
+    picture $((shot + 1 + page)) h
+  done
 }
 
 KeyMGoesThroughTheColors() {
