@@ -506,6 +506,18 @@ TEST_F(CloudCommands, InfoTellsTheCoordinateSystemAndItsUnit)
   EXPECT_NE(text.find("EPSG:2225"), std::string::npos) << text;
   EXPECT_NE(text.find("the file says so"), std::string::npos) << text;
   EXPECT_NE(text.find("m; --unit ft as the file says, --scale"), std::string::npos) << text;
+  // Points that are moved are not where the system says.
+  const auto resampled = [&](std::vector<std::string> more)
+  {
+    std::vector<std::string> words = { "resample", "feet.vtp", "-o", "means.vtp", "--voxel", "0.01" };
+    words.insert(words.end(), more.begin(), more.end());
+    this->succeed(words);
+    return this->succeed({ "info", "means.vtp" });
+  };
+  EXPECT_NE(resampled({}).find("EPSG:2225"), std::string::npos);
+  const std::string moved = resampled({ "--translate", "-6000000,-2000000,0" });
+  EXPECT_EQ(moved.find("EPSG:2225"), std::string::npos) << moved;
+  EXPECT_NE(moved.find("foot (the file says so)"), std::string::npos) << moved;
 }
 
 TEST_F(CloudCommands, WhatAFormatCannotHoldIsSaid)

@@ -65,13 +65,13 @@ void ResampleOptions::configure(vtkVoxelMeanResampler* resampler) const
   resampler->SetMinimumPointsPerVoxel(int(this->minimumPoints));
 }
 
-/// The steps of the file's coordinates are not those of transformed ones, nor is their unit that of scaled
-/// ones.
+/// Steps and coordinate system of the file are not those of transformed points, nor is its unit that of
+/// scaled ones.
 void ResampleOptions::finish(vtkPolyData* means) const
 {
   const bool isScaled =
     this->lattice.unit != "m" || !this->lattice.scale.empty() || !this->lattice.matrix.empty();
-  for (const char* name : { "LasScale", "LasOffset", "LengthUnit" })
+  for (const char* name : { "LasScale", "LasOffset", "CoordinateSystem", "LengthUnit" })
   {
     if (this->lattice.hasTransform() && (isScaled || name != std::string("LengthUnit")))
     {
