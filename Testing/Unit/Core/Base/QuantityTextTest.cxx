@@ -18,6 +18,7 @@ TEST(QuantityText, SwitchesTheUnitOfALengthInsteadOfShowingZeros)
   EXPECT_EQ(lengthText(0.000345), "0.345 mm");
   EXPECT_EQ(lengthText(0.0000871), "87.1 um");
   EXPECT_EQ(lengthText(2.5e-8), "25 nm");
+  EXPECT_EQ(lengthText(1.1e-11), "11 pm");
   EXPECT_EQ(lengthText(1234.0), "1.23 km");
   EXPECT_EQ(lengthText(-0.0349), "-34.9 mm");
   EXPECT_EQ(lengthText(0.0), "0 mm");
