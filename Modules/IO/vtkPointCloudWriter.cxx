@@ -48,8 +48,8 @@ const FileFormat kFormats[] = {
 std::string unitFor(const FileFormat& format, vtkPointSet* cloud)
 {
   const std::string unit = io::fieldText(cloud->GetFieldData(), "LengthUnit");
-  const bool isMetre = unit == "m" || unit == "metre" || unit == "meter";
-  return io::isUnitWord(unit) && !(isMetre && format.name == std::string("CSV")) ? unit : std::string();
+  const bool isLeftOut = io::isMetre(unit) && format.name == std::string("CSV");
+  return io::isUnitWord(unit) && !isLeftOut ? unit : std::string();
 }
 
 bool keeps(const FileFormat& format, vtkPointSet* cloud, const std::string& fieldName)

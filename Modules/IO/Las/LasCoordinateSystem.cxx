@@ -34,7 +34,8 @@ struct CodedUnit
   const char* others[2]; ///< As texts call it.
 };
 
-constexpr CodedUnit kUnits[] = { { 9001, "metre", { "m", "meter" } }, { 9002, "foot", { "ft", "feet" } },
+constexpr int kMetre = 9001;
+constexpr CodedUnit kUnits[] = { { kMetre, "metre", { "m", "meter" } }, { 9002, "foot", { "ft", "feet" } },
   { 9003, "US survey foot", { "ftUS", "us-ft" } }, { 1025, "millimetre", { "mm", "millimeter" } },
   { 1033, "centimetre", { "cm", "centimeter" } } };
 
@@ -130,6 +131,11 @@ std::string LasCoordinateSystem::lengthUnit() const
   const std::size_t unit = part.rfind("UNIT[\"");
   const std::size_t name = unit == std::string::npos ? unit : part.find('"', unit) + 1;
   return name == std::string::npos ? unit_ : part.substr(name, part.find('"', name) - name);
+}
+
+bool isMetre(const std::string& unit)
+{
+  return codeOfUnit(unit) == kMetre;
 }
 
 bool lasSaysUnit(vtkFieldData* fieldData)

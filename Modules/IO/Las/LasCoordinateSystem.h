@@ -32,6 +32,9 @@ private:
   std::string unit_;
 };
 
+/// Whether @p unit is one of the names of a metre, as files write them.
+bool isMetre(const std::string& unit);
+
 /// Whether that record says the field data's LengthUnit.
 bool lasSaysUnit(vtkFieldData* fieldData);
 
