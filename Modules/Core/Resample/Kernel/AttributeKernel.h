@@ -33,6 +33,19 @@ struct Turn
   double columns[3][3];
 };
 
+/// Consecutive lists of values, of one type.
+struct ValueLists
+{
+  const void* values; ///< Of all lists of an array.
+  std::int64_t begin; ///< Of the first list among them.
+  const std::int64_t* ends;
+  int count;
+};
+/// Lists of more values are left to others.
+constexpr int kFewValues = 64;
+/// Bytes of the vectors that lists are read in.
+constexpr int kListVector = 32;
+
 /// Rounded means of integers go through double where sums are below 2^kRealSumBits.
 constexpr int kRealSumBits = 51;
 struct AttributeKernels
@@ -45,6 +58,11 @@ struct AttributeKernels
   /// In the order of ScalarType; null for integers of 64 bits. sum / count unit, each operation rounded; of
   /// integers, whose unit is 1, sum / count rounded to the nearest, halves away from zero.
   void (*means[10])(const WordSums&, void* means);
+  /// The modes of lists, and the lower medians, in the order of ScalarType: see AttributeStatistic. That of a
+  /// list goes to @p to, @p step values after the one before. Lists of more than kFewValues are named in @p
+  /// many. @return the number of these. Reads, but does not use, kListVector bytes past the end.
+  int (*modes[10])(const ValueLists&, void* to, int step, int* many);
+  int (*medians[10])(const ValueLists&, void* to, int step, int* many);
 };
 
 } // namespace simd

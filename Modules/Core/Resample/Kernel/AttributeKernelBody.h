@@ -3,6 +3,7 @@
 #pragma once
 
 #include "Core/Resample/Kernel/AttributeKernel.h"
+#include "Core/Resample/Kernel/SelectBody.h"
 
 namespace pointhaptics
 {
@@ -152,11 +153,19 @@ inline void unitVectors(const WordSums& s, const Turn& turn, void* vectors)
   }
 }
 
-constexpr AttributeKernels kAttributeKernels = { { &magnitudes<std::uint32_t, float>,
-                                                   &magnitudes<std::uint64_t, double> },
+constexpr AttributeKernels kAttributeKernels = {
+  { &magnitudes<std::uint32_t, float>, &magnitudes<std::uint64_t, double> },
   { &unitVectors<float>, &unitVectors<double> },
   { &means<std::int8_t>, &means<std::uint8_t>, &means<std::int16_t>, &means<std::uint16_t>,
-    &means<std::int32_t>, &means<std::uint32_t>, nullptr, nullptr, &means<float>, &means<double> } };
+    &means<std::int32_t>, &means<std::uint32_t>, nullptr, nullptr, &means<float>, &means<double> },
+  { &select<std::int8_t, false>, &select<std::uint8_t, false>, &select<std::int16_t, false>,
+    &select<std::uint16_t, false>, &select<std::int32_t, false>, &select<std::uint32_t, false>,
+    &select<std::int64_t, false>, &select<std::uint64_t, false>, &select<float, false>,
+    &select<double, false> },
+  { &select<std::int8_t, true>, &select<std::uint8_t, true>, &select<std::int16_t, true>,
+    &select<std::uint16_t, true>, &select<std::int32_t, true>, &select<std::uint32_t, true>,
+    &select<std::int64_t, true>, &select<std::uint64_t, true>, &select<float, true>, &select<double, true> }
+};
 
 }
 } // namespace simd

@@ -18,7 +18,7 @@ std::unique_ptr<AttributeReducer> AttributeReducer::create(const AttributeReques
   const AttributeView& view = request.view;
   if (!isSum(request.statistic))
   {
-    return std::make_unique<AttributeTuples>(view, request.statistic);
+    return std::make_unique<AttributeTuples>(view, request.statistic, instructions);
   }
   auto mean = std::make_unique<AttributeMean>(
     view, request.range ? *request.range : rangeOf(view, executor, instructions), instructions);

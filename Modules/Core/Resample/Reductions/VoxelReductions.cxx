@@ -24,7 +24,7 @@ class PlaceMedians final : public AttributeTuples
 public:
   explicit PlaceMedians(const VoxelRequest& request)
     : AttributeTuples({ nullptr, request.singlePrecision ? ScalarType::Float : ScalarType::Double, 3 },
-        AttributeStatistic::Median)
+        AttributeStatistic::Median, request.instructions)
     , request_(request)
     , isIdentity_(request.transform.isIdentity())
   {
@@ -44,7 +44,7 @@ private:
       const Vec3 point = request_.points[points[i]];
       const Vec3 place = isIdentity_ ? point : request_.transform.apply(point);
       const Real xyz[3] = { Real(place.x), Real(place.y), Real(place.z) };
-      this->addTuple(xyz, sizeof xyz, voxels[i]);
+      this->addTuple<Real>(xyz, 3, voxels[i]);
     }
   }
 

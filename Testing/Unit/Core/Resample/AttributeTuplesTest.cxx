@@ -3,6 +3,7 @@
 #include "AttributePlans.h"
 #include "CountingObserver.h"
 #include "RandomClouds.h"
+#include "Unit/HeldInstructionSets.h"
 
 #include <gtest/gtest.h>
 
@@ -24,7 +25,7 @@ namespace
 /// Adds the tuples in the order of the plan, from an array that has others between them.
 template <typename T>
 AttributeTuples modeOf(const std::vector<T>& values, int components, const Plan& plan, int piece = 100,
-  AttributeStatistic statistic = AttributeStatistic::Mode)
+  AttributeStatistic statistic = AttributeStatistic::Mode, InstructionSet set = InstructionSet::Automatic)
 {
   constexpr std::size_t kApart = 3;
   const auto width = std::size_t(components);
@@ -35,7 +36,7 @@ AttributeTuples modeOf(const std::vector<T>& values, int components, const Plan&
   }
   AttributeTuples mode({ apart.data(), typeOf<T>(), components, std::int64_t(values.size() / width),
                          std::int64_t(kApart * width * sizeof(T)) },
-    statistic);
+    statistic, set);
   mode.prepare(countsOf(plan).data(), plan.size, 0, {});
   for (std::size_t first = 0; first < plan.order.size(); first += std::size_t(piece))
   {
@@ -157,6 +158,70 @@ TEST(AttributeTuples, FindsTheLowerMiddleValueOfFewAndOfMany)
   expectRight(double(), 1);
   expectRight(std::int8_t(), 2);
   expectRight(std::int64_t(), 4);
+}
+
+namespace
+{
+
+/// Tuples in which the ends of the type are frequent, in voxels of 1 to 80 points: modes and medians by the
+/// definition, of every instruction set.
+template <typename T>
+void expectRightOfEveryCount(int components)
+{
+  constexpr std::int64_t kMostPoints = 80;
+  const auto width = std::size_t(components);
+  trial::Random random(std::uint64_t(30 + sizeof(T)));
+  const T values[] = { std::numeric_limits<T>::lowest(), T(1), T(3), std::numeric_limits<T>::max() };
+  Plan plan;
+  plan.size = kMostPoints;
+  std::vector<T> tuples;
+  std::vector<std::vector<T>> sorted(std::size_t(kMostPoints) * width);
+  for (std::int64_t voxel = 0; voxel < kMostPoints; ++voxel)
+  {
+    for (std::int64_t i = 0; i <= voxel; ++i)
+    {
+      plan.order.push_back(std::int64_t(plan.voxels.size()));
+      plan.voxels.push_back(voxel);
+      for (std::size_t c = 0; c < width; ++c)
+      {
+        tuples.push_back(values[random.below(4)]);
+        sorted[std::size_t(voxel) * width + c].push_back(tuples.back());
+      }
+    }
+  }
+  std::vector<T> medians;
+  for (std::vector<T>& ofVoxel : sorted)
+  {
+    std::sort(ofVoxel.begin(), ofVoxel.end());
+    medians.push_back(ofVoxel[(ofVoxel.size() - 1) / 2]);
+  }
+  const std::vector<T> modes = expectedModes(tuples, components, plan);
+  for (const InstructionSet set : heldInstructionSets())
+  {
+    const auto found = [&](AttributeStatistic statistic)
+    { return written<T>(modeOf(tuples, components, plan, 100, statistic, set), components, plan); };
+    EXPECT_TRUE(sameBits(found(AttributeStatistic::Mode), modes)) << sizeof(T);
+    EXPECT_TRUE(sameBits(found(AttributeStatistic::Median), medians)) << sizeof(T);
+  }
+}
+
+}
+
+TEST(AttributeTuples, AreTheSameOnAllInstructionSetsForEveryCountAndType)
+{
+  for (const int components : { 1, 3 })
+  {
+    expectRightOfEveryCount<std::int8_t>(components);
+    expectRightOfEveryCount<std::uint8_t>(components);
+    expectRightOfEveryCount<std::int16_t>(components);
+    expectRightOfEveryCount<std::uint16_t>(components);
+    expectRightOfEveryCount<std::int32_t>(components);
+    expectRightOfEveryCount<std::uint32_t>(components);
+    expectRightOfEveryCount<std::int64_t>(components);
+    expectRightOfEveryCount<std::uint64_t>(components);
+    expectRightOfEveryCount<float>(components);
+    expectRightOfEveryCount<double>(components);
+  }
 }
 
 TEST(AttributeTuples, TakesNaNsAsOneValueAndZerosAsOne)
