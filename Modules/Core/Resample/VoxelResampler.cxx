@@ -88,8 +88,9 @@ Status VoxelResampler::Implementation::runBinned(
   {
     binner_.quantizeAndBin(
       request, chunks, chunk, holdsAll_ ? PointBinner::Keep::All : PointBinner::Keep::Records, executor);
-    countPoints(binner_.pool().inside(), binner_.pool().invalid());
-    if (chunk + 1 < count)
+    const PointRecordPool& pool = binner_.pool(binner_.pools() - 1);
+    countPoints(pool.inside(), pool.invalid());
+    if (chunk + 1 < count && !holdsAll_)
     {
       accumulate(request, executor);
     }

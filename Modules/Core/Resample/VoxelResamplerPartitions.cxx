@@ -55,14 +55,15 @@ void VoxelResampler::Implementation::forPartitions(
   }
 }
 
-/// Adds the pool's records to the accumulated sums.
+/// Adds the records of a chunk to the accumulated sums.
 void VoxelResampler::Implementation::accumulate(const VoxelRequest& request, const Executor& executor)
 {
   forPartitions(request, 0, binner_.plan().partitions, executor,
-    [&](PartitionWorker& worker, std::uint32_t p) { worker.accumulate(p, accumulated_[p]); });
+    [&](PartitionWorker& worker, std::uint32_t p) { worker.accumulate(p, accumulated_[p], 0); });
 }
 
-/// The pool's records and the accumulated sums become means, or sums, or both where levels are to follow.
+/// The records that are kept and the accumulated sums become means, or sums, or both where levels are to
+/// follow.
 /// @p rounds: of partitions, with a report after each. @return false where @p observer ended the work.
 bool VoxelResampler::Implementation::accumulateAndWrite(
   const VoxelRequest& request, std::size_t rounds, const Executor& executor, ProgressObserver* observer)
@@ -74,7 +75,7 @@ bool VoxelResampler::Implementation::accumulateAndWrite(
   std::size_t room = 0;
   for (std::uint32_t p = 0; writes && p < plan.partitions; ++p)
   {
-    room += mostVoxels(plan, binner_.pool().count(p), accumulated_[p].cellCount);
+    room += mostVoxels(plan, binner_.count(p), accumulated_[p].cellCount);
   }
   Level& level = levels[0];
   level.arena.prepare(room, layoutOf(request), level.lattice, plan.fractionBits, request.allocator);

@@ -115,7 +115,8 @@ struct alignas(32) PackedSums
 };
 /// The count stands above the sum of the high bits: fewer than 2^21 points of kPositionBits - kLowBits bits.
 constexpr int kCountShift = 43;
-static_assert(kChunkPoints < (std::int64_t(1) << 21) && 21 + kPositionBits - kLowBits <= kCountShift,
+constexpr std::size_t kMostPackedPoints = (std::size_t(1) << 21) - 1;
+static_assert(kChunkPoints <= std::int64_t(kMostPackedPoints) && 21 + kPositionBits - kLowBits <= kCountShift,
   "the high bits of z must not reach the count");
 
 static inline std::int64_t packedCount(const PackedSums& sums)

@@ -23,10 +23,9 @@ std::size_t occupancyWords(const PartitionPlan& plan)
 /// words in use then takes less time than counting and clearing all.
 constexpr std::size_t kWordsPerSparseCell = 3;
 
-/// A cell with so many points is overfull: its sums are moved out of the packed ones, which hold less than
-/// 2^21 points.
+/// A cell with so many points is overfull: its sums are moved out of the packed ones.
 constexpr std::int64_t kPackedCounts = std::int64_t(1) << 19;
-static_assert(kPackedCounts + kChunkPoints < (std::int64_t(1) << 21),
+static_assert(kPackedCounts + kChunkPoints < std::int64_t(kMostPackedPoints),
   "a packed sum must hold a chunk in one voxel and the accumulated points");
 
 }
@@ -104,9 +103,12 @@ void PartitionWorker::clearOccupancy(CellList cells)
 /// Sets the occupancy bits of the accumulated cells and of the records, and counts them.
 void PartitionWorker::countOccupied()
 {
-  const PointRecordPool& pool = binner_->pool();
   voxels_ = { plan().cellMap(partition_), plan().firstKey(partition_), nullptr, nullptr, nullptr, 0 };
-  const std::size_t records = pool.count(partition_);
+  std::size_t records = 0;
+  for (std::size_t pool = pools_.first; pool < pools_.last; ++pool)
+  {
+    records += binner_->pool(pool).count(partition_);
+  }
   if (records == 0 && old_->cellCount == 0)
   {
     return;
@@ -120,15 +122,17 @@ void PartitionWorker::countOccupied()
   const char* end = line + bytes;
   const std::size_t part = bytes * kBlockRecords / std::max<std::size_t>(records, 1);
   std::uint32_t* cells = recordCells_.data();
-  for (PointRecordPool::Walk block(pool, partition_); block.next(); cells += block.count())
-  {
-    const char* partEnd = line + std::min(part, std::size_t(end - line));
-    for (; line < partEnd; line += 64)
+  forBlocks(
+    [&](const PointRecordPool::Walk& block)
     {
-      fetchToWrite(line);
-    }
-    kernels_->cells(voxels_.map, block.records(), block.count(), block.recordsAhead(), cells);
-  }
+      const char* partEnd = line + std::min(part, std::size_t(end - line));
+      for (; line < partEnd; line += 64)
+      {
+        fetchToWrite(line);
+      }
+      kernels_->cells(voxels_.map, block.records(), block.count(), block.recordsAhead(), cells);
+      cells += block.count();
+    });
   // All blocks together: records of one block of a scan share words and would wait for each other.
   kernels_->setOccupied(recordCells_.data(), int(records), occupancy_.data());
   voxels_.size = rankOccupied({ recordCells_.data(), records }, { old_->cells.data(), old_->cellCount });
@@ -150,21 +154,24 @@ void PartitionWorker::sumRecords(AccumulatedPartition& to, bool reduces)
   kernels_->rank(ranks(), places_.data(), int(places_.size()));
   makeRoom(to);
   const CellSums sums = { to.cells.data(), to.packed.data(),
-    covariances_ ? to.splitSecondMoments.data() : nullptr, covariances_ };
+    covariances_ ? to.splitSecondMoments.data() : nullptr, covariances_ || reduces };
   voxels_.cells = sums.cells;
   voxels_.sums = sums.sums;
   voxels_.secondMoments = sums.secondMoments;
   std::uint32_t* cells = recordCells_.data();
-  const PointRecordPool& pool = binner_->pool();
-  PointRecordPool::Walk following(pool, pool.following(partition_));
-  for (PointRecordPool::Walk block(pool, partition_); block.next(); cells += block.count())
+  for (std::size_t number = pools_.first; number < pools_.last; ++number)
   {
-    const PointRecord* const next = following.next() ? following.records() : block.records();
-    if (reduces)
+    const PointRecordPool& pool = binner_->pool(number);
+    PointRecordPool::Walk following(pool, pool.following(partition_));
+    for (PointRecordPool::Walk block(pool, partition_); block.next(); cells += block.count())
     {
-      block.fetchNumbers(); // for reduce()
+      const PointRecord* const next = following.next() ? following.records() : block.records();
+      if (reduces)
+      {
+        block.fetchNumbers(); // for reduce()
+      }
+      kernels_->accumulate(voxels_.map, ranks(), block.records(), cells, block.count(), next, sums);
     }
-    kernels_->accumulate(voxels_.map, ranks(), block.records(), cells, block.count(), next, sums);
   }
   if (reduces)
   {
@@ -173,9 +180,30 @@ void PartitionWorker::sumRecords(AccumulatedPartition& to, bool reduces)
   clearOccupancy({ voxels_.cells, voxels_.size });
 }
 
+/// The records' ranks, where the rank table is that of the partition.
+void PartitionWorker::rankRecords()
+{
+  recordCells_.reserve(binner_->count(partition_));
+  pools_ = { 0, binner_->pools() };
+  std::uint32_t* cells = recordCells_.data();
+  forBlocks(
+    [&](const PointRecordPool::Walk& block)
+    {
+      block.fetchNumbers();
+      kernels_->cells(
+        plan().cellMap(partition_), block.records(), block.count(), block.recordsAhead(), cells);
+      kernels_->rank(ranks(), cells, block.count());
+      cells += block.count();
+    });
+}
+
 /// Reduces the points of the voxels, whose sums are complete.
 void PartitionWorker::reduce()
 {
+  if (pools_.last < binner_->pools())
+  {
+    rankRecords();
+  }
   const std::optional<VoxelRun> all =
     old_->overfull.voxels.empty() ? std::nullopt : std::make_optional(wide());
   counts_.resize(voxels_.size);
@@ -261,14 +289,15 @@ void PartitionWorker::makeRoom(AccumulatedPartition& sums) const
   sums.cellCount = size;
 }
 
-void PartitionWorker::accumulate(std::uint32_t partition, AccumulatedPartition& sums)
+void PartitionWorker::accumulate(std::uint32_t partition, AccumulatedPartition& sums, std::size_t pool)
 {
   partition_ = partition;
   old_ = &sums;
+  pools_ = { pool, pool + 1 };
   countOccupied();
   sumRecords(sums, false);
   // No voxel has more points than all have together.
-  sums.points += std::int64_t(binner_->pool().count(partition));
+  sums.points += std::int64_t(binner_->pool(pool).count(partition));
   VoxelRun overfull;
   for (std::size_t i = 0; sums.points >= kPackedCounts && i < sums.cellCount; ++i)
   {

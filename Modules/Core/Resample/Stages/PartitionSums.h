@@ -74,8 +74,14 @@ public:
   template <typename Publish>
   void load(std::uint32_t partition, AccumulatedPartition& old, Publish&& publish)
   {
+    const bool isTooMany = binner_->count(partition) > kMostPackedPoints;
+    for (std::size_t pool = 0; isTooMany && pool < binner_->pools(); ++pool)
+    {
+      accumulate(partition, old, pool);
+    }
     partition_ = partition;
     old_ = &old;
+    pools_ = { 0, isTooMany ? 0 : binner_->pools() };
     countOccupied();
     publish(voxels_.size);
     sumRecords(old_->cellCount > 0 ? *old_ : own_, reduces_);
@@ -87,8 +93,8 @@ public:
   std::vector<VoxelTally> takeTallies() { return reductions_.takeTallies(); }
   /// Writes the voxels, and what prepare() was asked to reduce, to @p arena, from @p offset on.
   void write(const Kernels& kernels, MeanArena& arena, std::size_t offset) const;
-  /// Adds the records of a partition to its accumulated sums.
-  void accumulate(std::uint32_t partition, AccumulatedPartition& sums);
+  /// Adds the records that a pool has of a partition to its accumulated sums.
+  void accumulate(std::uint32_t partition, AccumulatedPartition& sums, std::size_t pool);
   /// Calls visit(block, next) for the blocks of a partition, whose voxels' @p keys ascend; voxels are counted
   /// from @p firstVoxel. Blocks may be empty: the first one, and what follows the last.
   template <typename Visit>
@@ -98,13 +104,14 @@ public:
     makeTables();
     partition_ = partition;
     const std::uint64_t firstKey = plan().firstKey(partition);
-    recordCells_.reserve(size);
-    std::transform(keys, keys + size, recordCells_.data(),
-      [=](std::uint64_t key) { return std::uint32_t(key - firstKey); });
-    kernels_->setOccupied(recordCells_.data(), int(size), occupancy_.data());
-    rankOccupied({ recordCells_.data(), size }, {});
+    places_.resize(size);
+    std::transform(
+      keys, keys + size, places_.begin(), [=](std::uint64_t key) { return std::uint32_t(key - firstKey); });
+    kernels_->setOccupied(places_.data(), int(size), occupancy_.data());
+    rankOccupied({ places_.data(), size }, {});
+    rankRecords();
     visitRanked(firstVoxel, visit);
-    clearOccupancy({ recordCells_.data(), size });
+    clearOccupancy({ places_.data(), size });
   }
   std::size_t bytes() const;
 
@@ -123,12 +130,24 @@ private:
   void countOccupied();
   void sumRecords(AccumulatedPartition& to, bool reduces);
   void makeRoom(AccumulatedPartition& sums) const;
-  /// visit() while the rank table is that of the partition.
+  /// Calls visit(block) for the blocks of the partition.
+  template <typename Visit>
+  void forBlocks(const Visit& visit) const
+  {
+    for (std::size_t number = pools_.first; number < pools_.last; ++number)
+    {
+      const PointRecordPool& pool = binner_->pool(number);
+      for (PointRecordPool::Walk block(pool, partition_); block.next();)
+      {
+        visit(block);
+      }
+    }
+  }
+  void rankRecords();
+  /// visit() of records whose ranks are known.
   template <typename Visit>
   void visitRanked(std::size_t firstVoxel, const Visit& visit)
   {
-    const CellMap map = plan().cellMap(partition_);
-    std::uint32_t cells[kBlockRecords];
     RankedBlock blocks[2]; // One is visited while the next one's tuples are on their way.
     RankedBlock* next = blocks;
     const auto visitOther = [&]
@@ -138,21 +157,17 @@ private:
       block->count = 0;
       next = block;
     };
-    binner_->forPools(
-      [&](const PointRecordPool& pool)
+    const std::uint32_t* ranks = recordCells_.data();
+    forBlocks(
+      [&](const PointRecordPool::Walk& block)
       {
-        for (PointRecordPool::Walk block(pool, partition_); block.next();)
-        {
-          block.fetchNumbers();
-          next->records = block.records();
-          next->count = block.count();
-          kernels_->cells(map, block.records(), block.count(), block.recordsAhead(), cells);
-          kernels_->rank(ranks(), cells, block.count());
-          std::transform(cells, cells + block.count(), next->voxels,
-            [=](std::uint32_t rank) { return std::int64_t(firstVoxel + rank); });
-          block.copyNumbers(next->points);
-          visitOther();
-        }
+        next->records = block.records();
+        next->count = block.count();
+        std::transform(ranks, ranks + block.count(), next->voxels,
+          [=](std::uint32_t rank) { return std::int64_t(firstVoxel + rank); });
+        ranks += block.count();
+        block.copyNumbers(next->points);
+        visitOther();
       });
     visitOther();
   }
@@ -164,17 +179,22 @@ private:
   bool reduces_ = false;
   std::uint32_t partition_ = 0;
   AccumulatedPartition* old_ = nullptr;
+  struct
+  {
+    std::size_t first;
+    std::size_t last;
+  } pools_{}; ///< Those at work.
   PartitionVoxels voxels_;
   bool covariances_ = false;
   Buffer<std::uint64_t> occupancy_; ///< Zeros between partitions.
   Buffer<std::uint64_t> touched_; ///< Likewise; a bit for each occupancy word in use, of a sparse partition.
   bool isSparse_ = false;
   Buffer<std::uint32_t> rankTable_;
-  Buffer<std::uint32_t> recordCells_;
-  AccumulatedPartition own_;   ///< Sums that are not accumulated further.
-  VoxelReductions reductions_; ///< Of the voxels.
+  Buffer<std::uint32_t> recordCells_; ///< Where asked for, they become ranks.
+  AccumulatedPartition own_;          ///< Sums that are not accumulated further.
+  VoxelReductions reductions_;        ///< Of the voxels.
   std::optional<NearestRecords> nearest_;
-  std::vector<std::uint32_t> places_; ///< Of the accumulated cells among the voxels.
+  std::vector<std::uint32_t> places_; ///< Of the accumulated cells among the voxels; of a visit the cells.
   std::vector<std::int64_t> counts_;  ///< Of the voxels.
 };
 

@@ -151,6 +151,12 @@ void PointBinner::quantizeAndBin(
     });
 }
 
+std::size_t PointBinner::count(std::uint32_t partition) const
+{
+  return std::accumulate(pools_.begin(), pools_.begin() + std::ptrdiff_t(used_), std::size_t(0),
+    [=](std::size_t sum, const PointRecordPool& pool) { return sum + pool.count(partition); });
+}
+
 std::size_t PointBinner::bytes() const
 {
   return std::accumulate(pools_.begin(), pools_.end(), std::size_t(0),

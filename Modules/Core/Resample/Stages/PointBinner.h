@@ -83,14 +83,11 @@ public:
 
   const PartitionPlan& plan() const { return plan_; }
   const PointQuantizer& quantizer() const { return quantizer_; }
-  /// Of the last chunk.
-  const PointRecordPool& pool() const { return pools_[used_ - 1]; }
-  /// Calls visit(pool) for those of all chunks that are kept.
-  template <typename Visit>
-  void forPools(const Visit& visit) const
-  {
-    std::for_each(pools_.begin(), pools_.begin() + std::ptrdiff_t(used_), visit);
-  }
+  /// Those of the chunks that are kept; the last one is there as long as no other is binned.
+  std::size_t pools() const { return used_; }
+  const PointRecordPool& pool(std::size_t number) const { return pools_[number]; }
+  /// Records of a partition.
+  std::size_t count(std::uint32_t partition) const;
   std::size_t bytes() const;
 
 private:

@@ -239,6 +239,41 @@ TEST(VoxelAttributes, OfACrowdNeedMorePartsAsPointsCome)
   }
 }
 
+TEST(VoxelAttributes, LeaveTheSumsOfAnOverfullCellAsTheyAre)
+{
+  // 9 of 10 points in one voxel: more than the 2^21 whose coordinates a sum of 64 bits holds.
+  constexpr std::size_t kPoints = 2400000;
+  std::vector<Vec3> points = randomBox(kPoints, 15, { 0, 0, 0 }, { 8, 8, 8 });
+  std::vector<float> values(kPoints);
+  for (std::size_t i = 0; i < kPoints; ++i)
+  {
+    points[i] = i % 10 == 0 ? points[i] : Vec3(3, 4, 7) + 0.124 * points[i];
+    values[i] = float(i % 7);
+  }
+  VoxelRequest request;
+  request.points = { points.data(), std::int64_t(kPoints) };
+  request.lattice = latticeOf(8, 8, 8);
+  request.covariances = true;
+  VoxelResampler plain;
+  ASSERT_EQ(plain.run(request), Status::Ok);
+  ASSERT_GT(plain.mostPoints(), std::int64_t(1) << 21);
+  request.attributes = { { { values.data(), ScalarType::Float, 1, std::int64_t(kPoints) } } };
+  VoxelResampler resampler;
+  ASSERT_EQ(resampler.run(request, ThreadedExecutor(2)), Status::Ok);
+  ASSERT_EQ(resampler.size(), plain.size());
+  const auto voxels = std::size_t(plain.size());
+  const auto resultsOf = [&](const VoxelResampler& from)
+  {
+    std::vector<double> results(9 * voxels);
+    from.copyMeans(0, results.data());
+    from.copyCovariances(0, reinterpret_cast<SymMat3*>(results.data() + 3 * voxels));
+    return results;
+  };
+  EXPECT_EQ(resultsOf(resampler), resultsOf(plain));
+  EXPECT_TRUE(std::equal(plain.counts(), plain.counts() + voxels, resampler.counts()));
+  EXPECT_EQ(attributesOf(resampler, request, 0), expectedOf(request));
+}
+
 TEST(VoxelAttributes, OfLevelsAreThoseOfTheResamplingAtTheirSpacing)
 {
   constexpr std::size_t kPoints = 5000;
