@@ -51,19 +51,18 @@ void AttributeTuples::prepare(const std::int64_t* counts, std::int64_t voxels, s
 
 void AttributeTuples::add(const std::int64_t* points, const std::int64_t* voxels, int count)
 {
+  const auto* const first = static_cast<const char*>(view_.values);
+  const std::int64_t step = view_.step();
+  const auto tupleOf = [=](int i) { return first + step * points[i]; };
   withType(view_.type,
     [&](auto example)
     {
-      const auto addAll = [&](auto components)
-      {
-        for (int i = 0; i < count; ++i)
-        {
-          addTuple<decltype(example)>(view_.tuple(points[i]), components, voxels[i]);
-        }
-      };
-      view_.components == 1     ? addAll(std::integral_constant<int, 1>())
-        : view_.components == 3 ? addAll(std::integral_constant<int, 3>())
-                                : addAll(view_.components);
+      using T = decltype(example);
+      using One = std::integral_constant<int, 1>;
+      using Three = std::integral_constant<int, 3>;
+      view_.components == 1     ? addTuples<T>(voxels, count, One(), tupleOf)
+        : view_.components == 3 ? addTuples<T>(voxels, count, Three(), tupleOf)
+                                : addTuples<T>(voxels, count, view_.components, tupleOf);
     });
 }
 

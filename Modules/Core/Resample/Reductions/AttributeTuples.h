@@ -42,15 +42,23 @@ public:
     ProgressObserver* observer) const override;
 
 protected:
-  /// Adds a tuple of a voxel. @p components: those of the view, which the compiler may know.
-  template <typename T>
-  void addTuple(const void* tuple, int components, std::int64_t voxel)
+  /// Calls tupleOf(i) for @p count tuples of the voxels given, and keeps what it returns. @p components:
+  /// those of the view, which the compiler may know.
+  template <typename T, typename Components, typename TupleOf>
+  void addTuples(const std::int64_t* voxels, int count, Components components, const TupleOf& tupleOf)
   {
-    const std::int64_t place = ends_[std::size_t(voxel)]++;
-    for (int c = 0; c < components; ++c)
+    // Copies, which no store can change.
+    char* const to = values_.data();
+    std::int64_t* const ends = ends_.data();
+    const std::size_t apart = componentBytes_;
+    for (int i = 0; i < count; ++i)
     {
-      std::memcpy(
-        values<T>(c) + place, static_cast<const char*>(tuple) + std::size_t(c) * sizeof(T), sizeof(T));
+      const auto& tuple = tupleOf(i);
+      char* const first = to + sizeof(T) * std::size_t(ends[voxels[i]]++);
+      for (int c = 0; c < components; ++c)
+      {
+        std::memcpy(first + apart * std::size_t(c), &tuple[c * std::ptrdiff_t(sizeof(T))], sizeof(T));
+      }
     }
   }
 

@@ -39,13 +39,22 @@ private:
   template <typename Real>
   void addPlaces(const std::int64_t* points, const std::int64_t* voxels, int count)
   {
-    for (int i = 0; i < count; ++i)
+    const PointView view = request_.points;
+    const AffineTransform transform = request_.transform;
+    const auto add = [&](const auto& placeOf)
     {
-      const Vec3 point = request_.points[points[i]];
-      const Vec3 place = isIdentity_ ? point : request_.transform.apply(point);
-      const Real xyz[3] = { Real(place.x), Real(place.y), Real(place.z) };
-      this->addTuple<Real>(xyz, 3, voxels[i]);
-    }
+      this->addTuples<Real>(voxels, count, std::integral_constant<int, 3>(),
+        [=](int i)
+        {
+          const Vec3 place = placeOf(view[points[i]]);
+          const Real xyz[3] = { Real(place.x), Real(place.y), Real(place.z) };
+          std::array<char, sizeof xyz> bytes;
+          std::memcpy(bytes.data(), xyz, sizeof xyz);
+          return bytes;
+        });
+    };
+    isIdentity_ ? add([](const Vec3& point) { return point; })
+                : add([=](const Vec3& point) { return transform.apply(point); });
   }
 
   const VoxelRequest& request_;
