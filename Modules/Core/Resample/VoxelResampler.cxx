@@ -55,7 +55,8 @@ Status VoxelResampler::Implementation::run(
       attribute.range = rangeOf(attribute.view, executor, request.instructions);
     }
   }
-  wanted.keys = request.keys || reduces(request) || request.voxelIndex;
+  wanted.keys = request.keys || wantsPoints(request);
+  voxelIndex.assign(request.voxelIndex ? std::size_t(request.points.size()) : 0, -1);
   levels[0].lattice = request.lattice;
   usesPartitions_ = usesPartitions(request.lattice);
   status = usesPartitions_ ? runBinned(wanted, executor, observer) : runSorted(wanted, executor, observer);
@@ -80,7 +81,7 @@ Status VoxelResampler::Implementation::runBinned(
   const Chunks chunks(request, kChunkPoints, executor);
   prepareStages(request, chunks);
   const std::size_t count = chunks.count();
-  const double binned = reducesInPass_ ? 0.5 : double(count - 1) / double(count);
+  const double binned = holdsAll_ ? 0.5 : double(count - 1) / double(count);
   SubProgress summing(observer, 0.0, fractionOfSums(request));
   SubProgress binning(&summing, 0.0, binned);
   SubProgress writing(&summing, binned, 1.0);
@@ -99,8 +100,8 @@ Status VoxelResampler::Implementation::runBinned(
       return Status::Aborted;
     }
   }
-  // With a report for each chunk of points that are reduced.
-  const std::size_t rounds = reducesInPass_ ? count : 1;
+  // With a report for each chunk of points that are kept.
+  const std::size_t rounds = holdsAll_ ? count : 1;
   return accumulateAndWrite(request, rounds, executor, &writing) ? Status::Ok : Status::Aborted;
 }
 
@@ -113,7 +114,6 @@ void VoxelResampler::Implementation::clear()
   chosenPoints.clear();
   voxelIndex.clear();
   holdsAll_ = false;
-  reducesInPass_ = false;
   sums_ = VoxelRun();
 }
 

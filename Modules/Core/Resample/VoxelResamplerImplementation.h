@@ -68,11 +68,9 @@ private:
   {
     return !request.attributes.empty() || request.representative != Representative::Mean;
   }
-  /// Another pass over the points, or over what is kept of them.
-  bool visits(const VoxelRequest& request) const
-  {
-    return request.voxelIndex || (reduces(request) && !reducesInPass_);
-  }
+  static bool wantsPoints(const VoxelRequest& request) { return request.voxelIndex || reduces(request); }
+  /// Another pass over the points.
+  bool visits(const VoxelRequest& request) const { return wantsPoints(request) && !holdsAll_; }
   /// What arrays have is kept with the sums: more is to be made of it.
   bool keepsTallies(const VoxelRequest& request) const { return keepsSums_ || request.levels > 1; }
   /// Sums alone are asked for, and no visit needs the voxels.
@@ -105,8 +103,9 @@ private:
   bool keepsSums_ = false;      ///< For sum().
   bool usesPartitions_ = false; ///< In the last run.
   simd::PointBinner binner_;
-  bool holdsAll_ = false;      ///< The binner has all points of the last run, with their numbers.
-  bool reducesInPass_ = false; ///< Attributes and representatives are made where points are summed.
+  /// The binner has all points of the last run, with their numbers: what the request wants of them is made
+  /// where they are summed.
+  bool holdsAll_ = false;
   std::vector<simd::AccumulatedPartition> accumulated_;
   std::vector<std::unique_ptr<simd::PartitionWorker>> workers_; ///< One for each thread.
   simd::SortedPoints sorted_;

@@ -24,11 +24,8 @@ void VoxelResampler::Implementation::prepareStages(const VoxelRequest& request, 
   {
     partition.clear();
   }
-  // What is not reduced with the last chunk takes another pass.
-  const bool wantsPoints = reduces(request) || request.voxelIndex;
-  holdsAll_ =
-    wantsPoints && (chunks.count() <= kMostHeldChunks || request.representative != Representative::Mean);
-  reducesInPass_ = holdsAll_ && reduces(request);
+  holdsAll_ = wantsPoints(request) &&
+    (chunks.count() <= kMostHeldChunks || request.representative != Representative::Mean);
   startCounts(request);
 }
 
@@ -44,7 +41,7 @@ void VoxelResampler::Implementation::forPartitions(
   }
   for (const std::unique_ptr<PartitionWorker>& worker : workers_)
   {
-    worker->prepare(request, binner_, reducesInPass_);
+    worker->prepare(request, binner_, holdsAll_, voxelIndex.data());
   }
   forEachItemWith(
     executor, last - first, [&](std::size_t thread) -> PartitionWorker& { return *workers_[thread]; },
@@ -85,7 +82,8 @@ bool VoxelResampler::Implementation::accumulateAndWrite(
     std::size_t offset = 0;
     try
     {
-      worker.load(p, accumulated_[p], [&](std::size_t size) { offset = order.append(p, writes ? size : 0); });
+      offset =
+        worker.load(p, accumulated_[p], [&](std::size_t size) { return order.append(p, writes ? size : 0); });
     }
     catch (...)
     {
@@ -99,7 +97,7 @@ bool VoxelResampler::Implementation::accumulateAndWrite(
     if (!runs.empty())
     {
       runs[p] = worker.wide();
-      if (keepsTallies(request) && reducesInPass_ && runs[p].size() > 0)
+      if (keepsTallies(request) && holdsAll_ && runs[p].size() > 0)
       {
         runs[p].tallies = worker.takeTallies();
       }
@@ -124,13 +122,9 @@ Status VoxelResampler::Implementation::visitBinned(
   const VoxelRequest& request, const Visitor& visit, const Executor& executor, ProgressObserver* observer)
 {
   const Chunks chunks(request, kChunkPoints, executor);
-  const std::size_t rounds = holdsAll_ ? 1 : chunks.count();
-  for (std::size_t round = 0; round < rounds; ++round)
+  for (std::size_t chunk = 0; chunk < chunks.count(); ++chunk)
   {
-    if (!holdsAll_)
-    {
-      binner_.quantizeAndBin(request, chunks, round, PointBinner::Keep::Numbers, executor);
-    }
+    binner_.quantizeAndBin(request, chunks, chunk, PointBinner::Keep::Numbers, executor);
     forPartitions(request, 0, binner_.plan().partitions, executor,
       [&](PartitionWorker& worker, std::uint32_t p)
       {
@@ -144,7 +138,7 @@ Status VoxelResampler::Implementation::visitBinned(
             }
           });
       });
-    if (observer && !observer->report(double(round + 1) / double(rounds)))
+    if (observer && !observer->report(double(chunk + 1) / double(chunks.count())))
     {
       return Status::Aborted;
     }

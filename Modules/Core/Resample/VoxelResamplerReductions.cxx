@@ -19,7 +19,6 @@ Status VoxelResampler::Implementation::visitPoints(
 Status VoxelResampler::Implementation::visitAgain(
   const VoxelRequest& request, const Executor& executor, ProgressObserver* observer)
 {
-  voxelIndex.assign(request.voxelIndex ? std::size_t(request.points.size()) : 0, -1);
   const auto note = [&](const std::int64_t* points, const std::int64_t* voxels, int count)
   {
     for (int i = 0; request.voxelIndex && i < count; ++i)
@@ -28,13 +27,10 @@ Status VoxelResampler::Implementation::visitAgain(
     }
   };
   Status status = Status::Ok;
-  if (reduces(request) && !reducesInPass_)
+  if (visits(request))
   {
-    status = reduceAgain(request, note, executor, observer);
-  }
-  else if (request.voxelIndex)
-  {
-    status = visitPoints(request, note, executor, observer);
+    status = reduces(request) ? reduceAgain(request, note, executor, observer)
+                              : visitPoints(request, note, executor, observer);
   }
   if (status == Status::Ok && keepsPoints(request.representative))
   {

@@ -30,13 +30,15 @@ static_assert(kPackedCounts + kChunkPoints < std::int64_t(kMostPackedPoints),
 
 }
 
-void PartitionWorker::prepare(const VoxelRequest& request, const PointBinner& binner, bool reduces)
+void PartitionWorker::prepare(
+  const VoxelRequest& request, const PointBinner& binner, bool reduces, std::int64_t* voxelIndex)
 {
   request_ = &request;
   binner_ = &binner;
   kernels_ = &kernelsFor(request.instructions);
   covariances_ = request.covariances;
   reduces_ = reduces;
+  voxelIndex_ = request.voxelIndex ? voxelIndex : nullptr;
   reductions_ = reduces ? VoxelReductions(request) : VoxelReductions();
   nearest_.reset();
   if (reduces && keepsPoints(request.representative))
@@ -203,6 +205,31 @@ void PartitionWorker::reduce()
   if (pools_.last < binner_->pools())
   {
     rankRecords();
+  }
+  if (voxelIndex_)
+  {
+    visitRanked(firstVoxel_,
+      [to = voxelIndex_](const RankedBlock& block, const RankedBlock& next)
+      {
+        for (int i = 0; i < next.count; ++i)
+        {
+          fetchToWrite(to + next.points[i]);
+        }
+        for (int i = 0; i < block.count; ++i)
+        {
+          to[block.points[i]] = block.voxels[i];
+        }
+      });
+  }
+  reduceVoxels();
+}
+
+/// Reduces what the points have and their places, if asked for.
+void PartitionWorker::reduceVoxels()
+{
+  if (!nearest_ && !reductions_.needsPoints())
+  {
+    return;
   }
   const std::optional<VoxelRun> all =
     old_->overfull.voxels.empty() ? std::nullopt : std::make_optional(wide());

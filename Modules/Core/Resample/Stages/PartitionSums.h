@@ -65,14 +65,17 @@ class alignas(kApart) PartitionWorker
 {
 public:
   /// For partitions that @p binner filled for @p request; both must outlive the work. @p reduces: load()
-  /// makes what the request wants besides sums, too. All records are kept then.
-  void prepare(const VoxelRequest& request, const PointBinner& binner, bool reduces);
+  /// makes what the request wants besides sums, too; of each point the voxel goes to @p voxelIndex. All
+  /// records are kept then.
+  void prepare(
+    const VoxelRequest& request, const PointBinner& binner, bool reduces, std::int64_t* voxelIndex);
   /// Frees what is of no use for another plan.
   void finish() { reductions_ = {}; }
   /// Adds the records of a partition to its @p old sums, which may change. Calls publish(size) as soon as the
-  /// number of voxels is known. The voxels are valid until the next call.
+  /// number of voxels is known, for the number of the first. @return that. The voxels are valid until the
+  /// next call.
   template <typename Publish>
-  void load(std::uint32_t partition, AccumulatedPartition& old, Publish&& publish)
+  std::size_t load(std::uint32_t partition, AccumulatedPartition& old, Publish&& publish)
   {
     const bool isTooMany = binner_->count(partition) > kMostPackedPoints;
     for (std::size_t pool = 0; isTooMany && pool < binner_->pools(); ++pool)
@@ -83,8 +86,9 @@ public:
     old_ = &old;
     pools_ = { 0, isTooMany ? 0 : binner_->pools() };
     countOccupied();
-    publish(voxels_.size);
+    firstVoxel_ = publish(voxels_.size);
     sumRecords(old_->cellCount > 0 ? *old_ : own_, reduces_);
+    return firstVoxel_;
   }
   /// All the voxels in wide sums.
   VoxelRun wide() const;
@@ -172,11 +176,14 @@ private:
     visitOther();
   }
   void reduce();
+  void reduceVoxels();
 
   const VoxelRequest* request_ = nullptr;
   const PointBinner* binner_ = nullptr;
   const Kernels* kernels_ = nullptr;
   bool reduces_ = false;
+  std::int64_t* voxelIndex_ = nullptr; ///< Or null.
+  std::size_t firstVoxel_ = 0;
   std::uint32_t partition_ = 0;
   AccumulatedPartition* old_ = nullptr;
   struct

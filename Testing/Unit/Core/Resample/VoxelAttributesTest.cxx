@@ -258,6 +258,7 @@ TEST(VoxelAttributes, LeaveTheSumsOfAnOverfullCellAsTheyAre)
   ASSERT_EQ(plain.run(request), Status::Ok);
   ASSERT_GT(plain.mostPoints(), std::int64_t(1) << 21);
   request.attributes = { { { values.data(), ScalarType::Float, 1, std::int64_t(kPoints) } } };
+  request.voxelIndex = true;
   VoxelResampler resampler;
   ASSERT_EQ(resampler.run(request, ThreadedExecutor(2)), Status::Ok);
   ASSERT_EQ(resampler.size(), plain.size());
@@ -271,6 +272,12 @@ TEST(VoxelAttributes, LeaveTheSumsOfAnOverfullCellAsTheyAre)
   };
   EXPECT_EQ(resultsOf(resampler), resultsOf(plain));
   EXPECT_TRUE(std::equal(plain.counts(), plain.counts() + voxels, resampler.counts()));
+  std::vector<std::int64_t> indexed(voxels, 0);
+  for (const std::int64_t voxel : resampler.voxelIndex())
+  {
+    ++indexed[std::size_t(voxel)];
+  }
+  EXPECT_TRUE(std::equal(indexed.begin(), indexed.end(), plain.counts()));
   EXPECT_EQ(attributesOf(resampler, request, 0), expectedOf(request));
 }
 
