@@ -4,6 +4,7 @@
 
 #include "Core/Resample/Kernel/AttributeKernel.h"
 #include "Core/Resample/Kernel/SelectBody.h"
+#include "Core/Simd/Words.h"
 
 namespace pointhaptics
 {
@@ -95,6 +96,21 @@ inline void forPieces(const WordSums& s, Work&& work)
   }
 }
 
+/// Sums, at most kNumbers. A loop of its own: compilers make no vectors of conversions from 64 bits.
+inline void toNumbers(const std::int64_t* sums, int count, double* numbers)
+{
+  int i = 0;
+  for (; i + kWidth <= count; i += kWidth)
+  {
+    *reinterpret_cast<DoublesAt*>(numbers + i) =
+      toNumbers(Words(*reinterpret_cast<const WordsAt*>(sums + i)));
+  }
+  for (; i < count; ++i)
+  {
+    numbers[i] = double(sums[i]);
+  }
+}
+
 template <typename T>
 inline T meanOf(double sum, double count, double unit)
 {
@@ -112,14 +128,15 @@ template <typename T>
 inline void means(const WordSums& s, void* means)
 {
   const double unit = s.unit;
+  alignas(64) double sums[kNumbers];
   forPieces(s,
     [&](std::int64_t first, int count, const double* counts)
     {
-      const std::int64_t* sums = s.sums + first;
+      toNumbers(s.sums + first, count, sums);
       T* to = static_cast<T*>(means) + first;
       for (int i = 0; i < count; ++i)
       {
-        to[i] = meanOf<T>(double(sums[i]), counts[i], unit);
+        to[i] = meanOf<T>(sums[i], counts[i], unit);
       }
     });
 }
