@@ -101,7 +101,7 @@ struct VoxelRequest
 /// each thread where a layer of the lattice has up to 4 million voxels); where points are sorted 88 bytes
 /// (184 with covariances) for each of at most 262,144 points and 66 an active voxel; covariances: 100 an
 /// active voxel more, 132 where points are sorted. With attributes or VoxelRequest::voxelIndex: 20
-/// bytes for each of at most 20 million points, with representatives for each point (32 where points are
+/// bytes, with tuples of points in no order up to 52, for each of at most 20 million points, with representatives for each point (32 where points are
 /// sorted), and the tuples of modes and medians, for the voxels at work or, where that takes another pass,
 /// for all; with levels the sums and values of arrays (see VoxelAccumulator). One object is used by one
 /// thread at a time; the executor's threads may be many.

@@ -15,6 +15,27 @@ namespace simd
 
 constexpr std::uint32_t kNoBlock = ~std::uint32_t(0);
 
+/// An array whose tuples go with the records of their points.
+struct RowArray
+{
+  const char* values; ///< Of the first number.
+  std::int64_t step;  ///< Bytes from one tuple to the next.
+  int bytes;          ///< Of a tuple.
+  int offset;         ///< In bytes, of a tuple in a row.
+};
+
+/// What lies beside each record: in its first word the number of the point, if that is of use, then tuples.
+struct RowLayout
+{
+  static constexpr int kMostWords = 9;
+  static constexpr int kMostArrays = 8;
+
+  int words = 0; ///< Of 32 bits; 0: nothing.
+  bool numbered = false;
+  int count = 0;
+  RowArray arrays[kMostArrays] = {};
+};
+
 /// The write position of one thread in each partition.
 struct PointRecordWriter
 {
@@ -26,7 +47,8 @@ struct PointRecordWriter
   std::uint32_t* taken;      ///< Blocks that the pool's writers have taken: they share it.
   std::uint32_t nextBlock;   ///< Of those it took in advance.
   std::uint32_t endBlock;
-  std::uint32_t* numbers;         ///< Beside each record the number of its point; or null.
+  std::uint32_t* rows;            ///< Beside each record.
+  RowLayout layout;               ///< Of a row.
   const std::uint32_t* originals; ///< Numbers from the first range's begin on; or null: they ascend.
   std::uint32_t firstNumber;      ///< Of the first range's begin, then.
   std::int64_t inside;

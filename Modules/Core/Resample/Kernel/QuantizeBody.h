@@ -219,18 +219,62 @@ __attribute__((noinline)) int quantizeGroups(const QuantizerVectors& given, cons
   return invalid;
 }
 
+/// Copies the tuples of @p size points of an array into rows.
+template <int Bytes>
+inline void copyTuples(const RowArray& given, const std::uint32_t* numbers, int words, int size, char* to)
+{
+  constexpr int kAhead = 2048;
+  const RowArray array = given; // A copy, which no store can change.
+  const std::size_t bytes = Bytes > 0 ? std::size_t(Bytes) : std::size_t(array.bytes);
+  for (int i = 0; i < size; ++i)
+  {
+    const char* const tuple = array.values + array.step * numbers[i];
+    __builtin_prefetch(tuple + kAhead);
+    __builtin_memcpy(to + std::size_t(4 * words * i + array.offset), tuple, bytes);
+  }
+}
+
+/// The rows of quantized points.
+inline void makeRows(const QuantizedPoints& quantized, const PointRecordWriter& writer, std::uint32_t* rows)
+{
+  const int words = writer.layout.words;
+  std::uint32_t numbers[kBatchPoints + kWidest];
+  for (int i = 0; i < quantized.size; ++i)
+  {
+    const std::uint32_t index = quantized.indices[i];
+    numbers[i] = writer.originals ? writer.originals[index] : writer.firstNumber + index;
+  }
+  for (int i = 0; writer.layout.numbered && i < quantized.size; ++i)
+  {
+    rows[words * i] = numbers[i];
+  }
+  for (int a = 0; a < writer.layout.count; ++a)
+  {
+    const RowArray& array = writer.layout.arrays[a];
+    const auto copy = array.bytes == 1 ? &copyTuples<1>
+      : array.bytes == 3               ? &copyTuples<3>
+      : array.bytes == 4               ? &copyTuples<4>
+      : array.bytes == 12              ? &copyTuples<12>
+                                       : &copyTuples<0>;
+    copy(array, numbers, words, quantized.size, reinterpret_cast<char*>(rows));
+  }
+}
+
 /// Bins quantized points: appends their records to the partitions. It takes turns over the batch: neighbours
 /// in a scan go to one partition, and a record would wait for the cursor that the record before has moved.
-/// @tparam Numbered: with the numbers of the points.
-template <bool Numbered>
+/// @tparam RowWords: of what lies beside a record.
+template <int RowWords>
 inline void binPoints(QuantizedPoints& quantized, PointRecordWriter& writer)
 {
+  alignas(64) std::uint32_t batchRows[RowWords > 0 ? RowWords * (kBatchPoints + kWidest) : 1];
+  if constexpr (RowWords > 0)
+  {
+    makeRows(quantized, writer, batchRows);
+  }
   // Copies, which no store can change.
   PointRecord** const cursors = writer.cursors;
   const std::uintptr_t blockMask = writer.blockMask;
-  std::uint32_t* const numbers = writer.numbers;
-  const std::uint32_t* const originals = writer.originals;
-  const std::uint32_t firstNumber = writer.firstNumber;
+  std::uint32_t* const rows = writer.rows;
   const auto bin = [&](int i) __attribute__((always_inline))
   {
     const std::uint64_t partition = quantized.partitions[i];
@@ -240,12 +284,11 @@ inline void binPoints(QuantizedPoints& quantized, PointRecordWriter& writer)
     // cache.
     fetchToWrite(cursor + 2 * kLineRecords);
     *cursor = quantized.records[i];
-    if constexpr (Numbered)
+    if constexpr (RowWords > 0)
     {
-      std::uint32_t* const number = numbers + (cursor - writer.records);
-      fetchToWrite(number + kLineNumbers);
-      const std::uint32_t index = quantized.indices[i];
-      *number = originals ? originals[index] : firstNumber + index;
+      std::uint32_t* const row = rows + RowWords * (cursor - writer.records);
+      fetchToWrite(row + (RowWords > 1 ? 2 : 1) * kLineNumbers);
+      __builtin_memcpy(row, batchRows + RowWords * i, sizeof(std::uint32_t) * RowWords);
     }
   };
   constexpr int kParts = 16;
@@ -275,7 +318,10 @@ void partitionAll(const PointQuantizer& quantizer, const Real* xyz, const PointR
   std::int64_t count, PointRecordWriter& writer)
 {
   const QuantizerVectors constants(quantizer);
-  const auto bin = writer.numbers ? &binPoints<true> : &binPoints<false>;
+  constexpr decltype(&binPoints<0>) kBins[] = { &binPoints<0>, &binPoints<1>, &binPoints<2>, &binPoints<3>,
+    &binPoints<4>, &binPoints<5>, &binPoints<6>, &binPoints<7>, &binPoints<8>, &binPoints<9> };
+  static_assert(sizeof kBins / sizeof kBins[0] == RowLayout::kMostWords + 1, "one for each width");
+  const auto bin = kBins[writer.layout.words];
   QuantizedPoints batch;
   const auto quantize = [&](const Real* from, std::int64_t first, int groups, unsigned present)
   {

@@ -105,7 +105,7 @@ AttributeRange rangeOf(const AttributeView& view, const Executor& executor, Inst
 
 AttributeMean::AttributeMean(
   const AttributeView& view, const AttributeRange& range, InstructionSet instructions)
-  : view_(view)
+  : AttributeReducer(view)
   , range_(range)
   , kernels_(&simd::kernelsFor(instructions).attributes)
 {
@@ -143,7 +143,8 @@ inline void addWide(std::uint64_t* sum, simd::UInt128 more)
 /// Tuples of points, and the voxels they are added to.
 struct Terms
 {
-  const AttributeView& view;
+  AttributeReducer::Tuples tuples;
+  int components;
   const std::int64_t* points;
   const std::int64_t* voxels;
   int count;
@@ -163,9 +164,9 @@ T numberOf(const char* tuple, int component)
 template <int Words, int Components, typename T, typename Add>
 void forNumbers(const Terms& terms, std::uint64_t* sums, const Add& add)
 {
-  const int width = Components > 0 ? Components : terms.view.components;
-  const auto* const first = static_cast<const char*>(terms.view.values);
-  const std::int64_t step = terms.view.step();
+  const int width = Components > 0 ? Components : terms.components;
+  const char* const first = terms.tuples.first;
+  const std::int64_t step = terms.tuples.step;
   for (int i = 0; i < terms.count; ++i)
   {
     const char* const tuple = first + step * terms.points[i];
@@ -179,9 +180,9 @@ void forNumbers(const Terms& terms, std::uint64_t* sums, const Add& add)
 template <int Words, typename T, typename Add>
 void forNumbers(const Terms& terms, std::uint64_t* sums, const Add& add)
 {
-  terms.view.components == 3     ? forNumbers<Words, 3, T>(terms, sums, add)
-    : terms.view.components == 1 ? forNumbers<Words, 1, T>(terms, sums, add)
-                                 : forNumbers<Words, 0, T>(terms, sums, add);
+  terms.components == 3     ? forNumbers<Words, 3, T>(terms, sums, add)
+    : terms.components == 1 ? forNumbers<Words, 1, T>(terms, sums, add)
+                            : forNumbers<Words, 0, T>(terms, sums, add);
 }
 
 }
@@ -208,9 +209,10 @@ void AttributeMean::addReal(Real value, std::size_t sum)
 }
 
 template <typename Real>
-void AttributeMean::addReals(const std::int64_t* points, const std::int64_t* voxels, int count)
+void AttributeMean::addReals(
+  const Tuples& tuples, const std::int64_t* points, const std::int64_t* voxels, int count)
 {
-  const Terms terms = { view_, points, voxels, count };
+  const Terms terms = { tuples, view_.components, points, voxels, count };
   // Of two words the upper part is an integer that rounding to it finds, the lower one a word.
   constexpr int kLowBits = 62;
   constexpr int kHighBits = 50;
@@ -239,7 +241,7 @@ void AttributeMean::addReals(const std::int64_t* points, const std::int64_t* vox
   {
     for (int i = 0; i < count; ++i)
     {
-      const char* const tuple = view_.tuple(points[i]);
+      const char* const tuple = tuples.first + tuples.step * points[i];
       for (int c = 0; c < view_.components; ++c)
       {
         addReal(numberOf<Real>(tuple, c), std::size_t(view_.components * voxels[i] + c));
@@ -248,7 +250,8 @@ void AttributeMean::addReals(const std::int64_t* points, const std::int64_t* vox
   }
 }
 
-void AttributeMean::add(const std::int64_t* points, const std::int64_t* voxels, int count)
+void AttributeMean::addTuples(
+  const Tuples& tuples, const std::int64_t* points, const std::int64_t* voxels, int count)
 {
   withType(view_.type,
     [&](auto example)
@@ -256,12 +259,12 @@ void AttributeMean::add(const std::int64_t* points, const std::int64_t* voxels, 
       using T = decltype(example);
       if constexpr (std::is_floating_point_v<T>)
       {
-        addReals<T>(points, voxels, count);
+        addReals<T>(tuples, points, voxels, count);
       }
       else
       {
         constexpr int kWords = sizeof(T) == 8 ? 2 : 1;
-        forNumbers<kWords, T>({ view_, points, voxels, count }, sums_.values.data(),
+        forNumbers<kWords, T>({ tuples, view_.components, points, voxels, count }, sums_.values.data(),
           [](std::uint64_t* sum, T value)
           { kWords == 2 ? addWide(sum, simd::UInt128(value)) : void(*sum += std::uint64_t(value)); });
       }

@@ -44,7 +44,8 @@ public:
 
   void prepare(const std::int64_t* counts, std::int64_t voxels, std::int64_t mostPoints,
     const Executor& executor) override;
-  void add(const std::int64_t* points, const std::int64_t* voxels, int count) override;
+  void addTuples(
+    const Tuples& tuples, const std::int64_t* points, const std::int64_t* voxels, int count) override;
   simd::VoxelTally takeTally() override { return { std::move(sums_), {} }; }
   /// Integers are rounded to the nearest, halves away from zero.
   bool write(const std::int64_t* counts, void* means, const Executor& executor,
@@ -59,11 +60,10 @@ public:
 
 private:
   template <typename Real>
-  void addReals(const std::int64_t* points, const std::int64_t* voxels, int count);
+  void addReals(const Tuples& tuples, const std::int64_t* points, const std::int64_t* voxels, int count);
   template <typename Real>
   void addReal(Real value, std::size_t sum);
 
-  AttributeView view_;
   AttributeRange range_;
   const simd::AttributeKernels* kernels_;
   std::optional<std::array<Vec3, 3>> columns_; ///< How vectors are turned.

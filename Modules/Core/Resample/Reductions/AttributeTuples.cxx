@@ -49,20 +49,19 @@ void AttributeTuples::prepare(const std::int64_t* counts, std::int64_t voxels, s
   values_.reserve(componentBytes_ * std::size_t(view_.components), Pages::Huge);
 }
 
-void AttributeTuples::add(const std::int64_t* points, const std::int64_t* voxels, int count)
+void AttributeTuples::addTuples(
+  const Tuples& tuples, const std::int64_t* points, const std::int64_t* voxels, int count)
 {
-  const auto* const first = static_cast<const char*>(view_.values);
-  const std::int64_t step = view_.step();
-  const auto tupleOf = [=](int i) { return first + step * points[i]; };
+  const auto tupleOf = [=](int i) { return tuples.first + tuples.step * points[i]; };
   withType(view_.type,
     [&](auto example)
     {
       using T = decltype(example);
       using One = std::integral_constant<int, 1>;
       using Three = std::integral_constant<int, 3>;
-      view_.components == 1     ? addTuples<T>(voxels, count, One(), tupleOf)
-        : view_.components == 3 ? addTuples<T>(voxels, count, Three(), tupleOf)
-                                : addTuples<T>(voxels, count, view_.components, tupleOf);
+      view_.components == 1     ? keepTuples<T>(voxels, count, One(), tupleOf)
+        : view_.components == 3 ? keepTuples<T>(voxels, count, Three(), tupleOf)
+                                : keepTuples<T>(voxels, count, view_.components, tupleOf);
     });
 }
 

@@ -27,7 +27,7 @@ public:
   /// @pre @p statistic is Mode or Median
   explicit AttributeTuples(const AttributeView& view, AttributeStatistic statistic = AttributeStatistic::Mode,
     InstructionSet instructions = InstructionSet::Automatic)
-    : view_(view)
+    : AttributeReducer(view)
     , statistic_(statistic)
     , kernels_(&simd::kernelsFor(instructions).attributes)
   {
@@ -35,7 +35,8 @@ public:
 
   void prepare(const std::int64_t* counts, std::int64_t voxels, std::int64_t mostPoints,
     const Executor& executor) override;
-  void add(const std::int64_t* points, const std::int64_t* voxels, int count) override;
+  void addTuples(
+    const Tuples& tuples, const std::int64_t* points, const std::int64_t* voxels, int count) override;
   simd::VoxelTally takeTally() override;
   /// @pre each voxel has as many tuples as it was said to get.
   bool write(const std::int64_t* counts, void* values, const Executor& executor,
@@ -45,7 +46,7 @@ protected:
   /// Calls tupleOf(i) for @p count tuples of the voxels given, and keeps what it returns. @p components:
   /// those of the view, which the compiler may know.
   template <typename T, typename Components, typename TupleOf>
-  void addTuples(const std::int64_t* voxels, int count, Components components, const TupleOf& tupleOf)
+  void keepTuples(const std::int64_t* voxels, int count, Components components, const TupleOf& tupleOf)
   {
     // Copies, which no store can change.
     char* const to = values_.data();
@@ -78,7 +79,6 @@ private:
   template <typename T>
   void writeValues(std::int64_t first, std::int64_t last, T* to) const;
 
-  AttributeView view_;
   AttributeStatistic statistic_;
   const simd::AttributeKernels* kernels_;
   Buffer<char> values_; ///< Those of a component together, and of these those of a voxel.

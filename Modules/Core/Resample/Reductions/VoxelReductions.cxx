@@ -3,6 +3,9 @@
 #include "Core/Resample/Kernel/Fetch.h"
 #include "Core/Resample/Reductions/AttributeTuples.h"
 
+#include <algorithm>
+#include <numeric>
+
 namespace pointhaptics
 {
 namespace simd
@@ -29,24 +32,32 @@ public:
     , isIdentity_(request.transform.isIdentity())
   {
   }
-  void add(const std::int64_t* points, const std::int64_t* voxels, int count) override
+  /// Tuples are points.
+  void addTuples(
+    const Tuples& tuples, const std::int64_t* points, const std::int64_t* voxels, int count) override
   {
-    request_.singlePrecision ? this->addPlaces<float>(points, voxels, count)
-                             : this->addPlaces<double>(points, voxels, count);
+    const auto addFrom = [&](auto example)
+    {
+      using Coordinate = decltype(example);
+      request_.singlePrecision ? this->addPlaces<Coordinate, float>(tuples, points, voxels, count)
+                               : this->addPlaces<Coordinate, double>(tuples, points, voxels, count);
+    };
+    request_.points.floats() ? addFrom(float()) : addFrom(double());
   }
 
 private:
-  template <typename Real>
-  void addPlaces(const std::int64_t* points, const std::int64_t* voxels, int count)
+  template <typename Coordinate, typename Real>
+  void addPlaces(const Tuples& tuples, const std::int64_t* points, const std::int64_t* voxels, int count)
   {
-    const PointView view = request_.points;
     const AffineTransform transform = request_.transform;
     const auto add = [&](const auto& placeOf)
     {
-      this->addTuples<Real>(voxels, count, std::integral_constant<int, 3>(),
+      this->keepTuples<Real>(voxels, count, std::integral_constant<int, 3>(),
         [=](int i)
         {
-          const Vec3 place = placeOf(view[points[i]]);
+          Coordinate point[3];
+          std::memcpy(point, tuples.first + tuples.step * points[i], sizeof point);
+          const Vec3 place = placeOf(Vec3(double(point[0]), double(point[1]), double(point[2])));
           const Real xyz[3] = { Real(place.x), Real(place.y), Real(place.z) };
           std::array<char, sizeof xyz> bytes;
           std::memcpy(bytes.data(), xyz, sizeof xyz);
@@ -61,6 +72,39 @@ private:
   bool isIdentity_;
 };
 
+}
+
+RowLayout rowLayoutOf(const VoxelRequest& request)
+{
+  std::vector<AttributeView> views;
+  for (const AttributeRequest& attribute : request.attributes)
+  {
+    views.push_back(attribute.view);
+  }
+  if (request.representative == Representative::Median)
+  {
+    views.push_back(viewOf(request.points));
+  }
+  RowLayout layout;
+  constexpr int kWord = sizeof(std::uint32_t);
+  int bytes = kWord; // With a number.
+  for (const AttributeView& view : views)
+  {
+    if (layout.count == RowLayout::kMostArrays || bytes + view.tupleBytes() > RowLayout::kMostWords * kWord)
+    {
+      break;
+    }
+    layout.arrays[layout.count++] = { static_cast<const char*>(view.values), view.step(),
+      int(view.tupleBytes()), bytes };
+    bytes += int(view.tupleBytes());
+  }
+  layout.numbered =
+    request.voxelIndex || keepsPoints(request.representative) || std::size_t(layout.count) < views.size();
+  const int unused = layout.numbered ? 0 : kWord;
+  std::for_each(
+    layout.arrays, layout.arrays + layout.count, [=](RowArray& array) { array.offset -= unused; });
+  layout.words = (bytes - unused + kWord - 1) / kWord;
+  return layout;
 }
 
 VoxelReductions::VoxelReductions(const VoxelRequest& request)
@@ -99,29 +143,41 @@ void VoxelReductions::prepare(const std::int64_t* counts, std::int64_t voxels, s
   }
 }
 
-void VoxelReductions::fetch(const std::int64_t* points, int count) const
+void VoxelReductions::fetch(const std::int64_t* points, int count, int without) const
 {
   // Points in the order of their memory need no fetching.
-  const bool areScattered = count > 0 && points[count - 1] - points[0] != count - 1;
-  for (const AttributeView& view : views_)
+  const bool areScattered =
+    std::size_t(without) < views_.size() && count > 0 && points[count - 1] - points[0] != count - 1;
+  for (auto i = std::size_t(without); i < views_.size(); ++i)
   {
+    const AttributeView& view = views_[i];
     const auto* const first = static_cast<const char*>(view.values);
     const std::int64_t step = view.step();
     const std::int64_t last = view.tupleBytes() - 1;
-    for (int i = 0; areScattered && i < count; ++i)
+    for (int j = 0; areScattered && j < count; ++j)
     {
-      const char* const tuple = first + step * points[i];
+      const char* const tuple = first + step * points[j];
       simd::fetch(tuple);
       simd::fetch(tuple + last);
     }
   }
 }
 
-void VoxelReductions::add(const std::int64_t* points, const std::int64_t* voxels, int count)
+void VoxelReductions::addRows(const RowLayout& layout, const std::uint32_t* rows, const std::int64_t* points,
+  const std::int64_t* voxels, int count)
 {
-  for (const auto& reducer : reducers_)
+  std::int64_t places[kBlockRecords];
+  std::iota(places, places + (layout.count > 0 ? count : 0), 0);
+  for (std::size_t i = 0; i < reducers_.size(); ++i)
   {
-    reducer->add(points, voxels, count);
+    const bool isInRow = i < std::size_t(layout.count);
+    const AttributeReducer::Tuples rowTuples = { reinterpret_cast<const char*>(rows) +
+        (isInRow ? layout.arrays[i].offset : 0),
+      std::int64_t(sizeof(std::uint32_t)) * layout.words };
+    reducers_[i]->addTuples(isInRow
+        ? rowTuples
+        : AttributeReducer::Tuples{ static_cast<const char*>(views_[i].values), views_[i].step() },
+      isInRow ? places : points, voxels, count);
   }
   if (nearest_)
   {

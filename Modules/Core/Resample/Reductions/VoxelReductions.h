@@ -2,6 +2,7 @@
 /// What else becomes of the points of voxels, next to their sums.
 #pragma once
 
+#include "Core/Resample/Kernel/PointRecordWriter.h"
 #include "Core/Resample/Reductions/AttributeReducer.h"
 #include "Core/Resample/Reductions/NearestPoints.h"
 #include "Core/Resample/Reductions/NearestRecords.h"
@@ -19,6 +20,11 @@ namespace pointhaptics
 namespace simd
 {
 
+/// What is to lie beside the records of a request whose points are kept: the tuples that have room there, and
+/// which are so read once, in the order of their memory; the number of the point where others, or the point
+/// itself, are of use. Arrays are in the order of the attributes; last are the points, for medians.
+RowLayout rowLayoutOf(const VoxelRequest& request);
+
 /// The attributes of voxels and the points that stand for them: of the voxels of a partition while its points
 /// are summed, or of all by another pass.
 class VoxelReductions
@@ -34,10 +40,16 @@ public:
     const Executor& executor = {}, const NearestRecords* nearest = nullptr);
   /// Whether anything is to be added.
   bool needsPoints() const { return !reducers_.empty() || (nearest_ && nearest_->needsPoints()); }
-  /// Fetches what add() reads of points, in time for that.
-  void fetch(const std::int64_t* points, int count) const;
+  /// Fetches what add() reads of points, in time for that; not of so many arrays.
+  void fetch(const std::int64_t* points, int count, int without = 0) const;
   /// Adds points. Several threads may at once if no two have a voxel in common.
-  void add(const std::int64_t* points, const std::int64_t* voxels, int count);
+  void add(const std::int64_t* points, const std::int64_t* voxels, int count)
+  {
+    addRows({}, nullptr, points, voxels, count);
+  }
+  /// The same, of at most kBlockRecords points; tuples that are in @p rows are taken from there.
+  void addRows(const RowLayout& layout, const std::uint32_t* rows, const std::int64_t* points,
+    const std::int64_t* voxels, int count);
   /// Writes what becomes of the voxels, from @p first on in @p arena. @pre their means and counts are there.
   /// @return false where @p observer, which may be null, aborted the work.
   bool write(MeanArena& arena, std::size_t first, const Executor& executor = {},

@@ -170,7 +170,7 @@ void PartitionWorker::sumRecords(AccumulatedPartition& to, bool reduces)
       const PointRecord* const next = following.next() ? following.records() : block.records();
       if (reduces)
       {
-        block.fetchNumbers(); // for reduce()
+        block.fetchRows(); // for reduce()
       }
       kernels_->accumulate(voxels_.map, ranks(), block.records(), cells, block.count(), next, sums);
     }
@@ -191,7 +191,7 @@ void PartitionWorker::rankRecords()
   forBlocks(
     [&](const PointRecordPool::Walk& block)
     {
-      block.fetchNumbers();
+      block.fetchRows();
       kernels_->cells(
         plan().cellMap(partition_), block.records(), block.count(), block.recordsAhead(), cells);
       kernels_->rank(ranks(), cells, block.count());
@@ -252,11 +252,12 @@ void PartitionWorker::reduceVoxels()
     *std::max_element(counts_.begin(), counts_.end()), {}, nearest_ ? &*nearest_ : nullptr);
   if (reductions_.needsPoints())
   {
+    const RowLayout& rows = binner_->rowLayout();
     visitRanked(0,
       [&](const RankedBlock& block, const RankedBlock& next)
       {
-        reductions_.fetch(next.points, next.count);
-        reductions_.add(block.points, block.voxels, block.count);
+        reductions_.fetch(next.points, next.count, rows.count);
+        reductions_.addRows(rows, block.rows, block.points, block.voxels, block.count);
       });
   }
 }

@@ -55,6 +55,7 @@ struct alignas(kApart) AccumulatedPartition
 struct RankedBlock
 {
   const PointRecord* records = nullptr;
+  const std::uint32_t* rows = nullptr; ///< What lies beside the records.
   int count = 0;
   std::int64_t points[kBlockRecords];
   std::int64_t voxels[kBlockRecords];
@@ -166,6 +167,7 @@ private:
       [&](const PointRecordPool::Walk& block)
       {
         next->records = block.records();
+        next->rows = block.rows();
         next->count = block.count();
         std::transform(ranks, ranks + block.count(), next->voxels,
           [=](std::uint32_t rank) { return std::int64_t(firstVoxel + rank); });

@@ -1,6 +1,7 @@
 #include "Core/Resample/Stages/PointBinner.h"
 
 #include "Core/Base/PointBlocks.h"
+#include "Core/Resample/Reductions/VoxelReductions.h"
 #include "Core/Resample/Stages/PointQuantizer.h"
 
 #include <algorithm>
@@ -24,6 +25,8 @@ constexpr std::uint32_t kMostLargePartitions = 2048;
 /// Fewer points than this in a partition on average do not pay its overhead: a dozen loops, each with a
 /// mispredicted end.
 constexpr std::int64_t kPointsPerPartition = 1024;
+
+constexpr RowLayout kNumbers = { 1, true };
 
 std::uint32_t blocks(std::uint32_t count, int shift)
 {
@@ -122,7 +125,37 @@ void PointBinner::prepare(const VoxelRequest& request, std::int64_t points)
   quantizer_.blocksPerLayer = plan_.blocksPerLayer;
   quantizer_.rowShift = plan_.rowShift;
   quantizer_.layerShift = plan_.layerShift;
+  rowLayout_ = rowLayoutOf(request);
+  if (rowLayout_.count > 0 && !areScattered(request.points))
+  {
+    rowLayout_ = kNumbers;
+  }
   used_ = 0;
+}
+
+/// Whether most points are in another partition than the next one. A few are asked.
+bool PointBinner::areScattered(const PointView& points) const
+{
+  constexpr std::int64_t kPairs = 64;
+  const auto partitionOf = [&](std::int64_t point)
+  {
+    std::uint64_t position[3];
+    const bool isInside = quantizePoint(quantizer_, points[point], position) == PointLocation::Inside;
+    const std::uint64_t row = position[1] >> (quantizer_.fractionBits + plan_.rowShift);
+    const std::uint64_t layer = position[2] >> (quantizer_.fractionBits + plan_.layerShift);
+    return isInside ? std::int64_t(layer * plan_.blocksPerLayer + row) : -1;
+  };
+  int same = 0;
+  int others = 0;
+  for (std::int64_t pair = 0; points.size() > 1 && pair < kPairs; ++pair)
+  {
+    const std::int64_t point = (points.size() - 2) * pair / (kPairs - 1);
+    const std::int64_t partition = partitionOf(point);
+    const std::int64_t next = partitionOf(point + 1);
+    same += partition >= 0 && partition == next;
+    others += partition >= 0 && next >= 0 && partition != next;
+  }
+  return others > same;
 }
 
 void PointBinner::quantizeAndBin(
@@ -137,8 +170,12 @@ void PointBinner::quantizeAndBin(
   // Numbers that an index gives fit four bytes as they are, others counted from their chunk.
   const std::int64_t pieces = chunks.pieceCount(chunk);
   const std::int64_t firstNumber = chunks.originals() || pieces == 0 ? 0 : chunks.pieces(chunk)->begin;
-  pool.prepare(chunks.pointCount(chunk), plan_.partitions, executor.concurrency(),
-    keep == Keep::Records ? std::nullopt : std::make_optional(firstNumber));
+  RowLayout layout = keep == Keep::All ? rowLayout_ : keep == Keep::Numbers ? kNumbers : RowLayout();
+  for (int i = 0; i < layout.count; ++i)
+  {
+    layout.arrays[i].values += layout.arrays[i].step * firstNumber;
+  }
+  pool.prepare(chunks.pointCount(chunk), plan_.partitions, executor.concurrency(), layout, firstNumber);
   const std::int64_t grain = std::max<std::int64_t>(1, pieces / (16 * executor.concurrency()));
   forEachItemWith(
     executor, std::size_t((pieces + grain - 1) / grain),

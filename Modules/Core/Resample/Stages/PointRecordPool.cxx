@@ -25,8 +25,8 @@ std::size_t blockRecordsFor(std::size_t writers)
 
 }
 
-void PointRecordPool::prepare(
-  std::int64_t points, std::uint32_t partitions, int writers, std::optional<std::int64_t> firstNumber)
+void PointRecordPool::prepare(std::int64_t points, std::uint32_t partitions, int writers,
+  const RowLayout& layout, std::int64_t firstNumber)
 {
   const std::size_t writerCount = std::size_t(std::max(writers, 1));
   blockRecords_ = blockRecordsFor(writerCount);
@@ -34,8 +34,10 @@ void PointRecordPool::prepare(
     std::size_t(points) / blockRecords_ + writerCount * (2 * partitions + kTakenBlocks);
   records_.reserve(blocks * blockRecords_, Pages::Huge);
   previous_.reserve(blocks);
-  firstNumber_ = firstNumber.value_or(0);
-  numbers_.reserve(firstNumber ? blocks * blockRecords_ : 0, Pages::Huge);
+  firstNumber_ = firstNumber;
+  rowWords_ = std::size_t(layout.words);
+  numbered_ = layout.numbered;
+  rows_.reserve(rowWords_ * blocks * blockRecords_, Pages::Huge);
   takenBlocks_ = 0;
   while (writers_.size() < writerCount)
   {
@@ -53,7 +55,8 @@ void PointRecordPool::prepare(
     writer->previous = previous_.data();
     writer->taken = &takenBlocks_;
     writer->nextBlock = writer->endBlock = 0;
-    writer->numbers = firstNumber ? numbers_.data() : nullptr;
+    writer->rows = rows_.data();
+    writer->layout = layout;
     writer->inside = 0;
     writer->invalid = 0;
   }
@@ -100,7 +103,7 @@ std::int64_t PointRecordPool::invalid() const
 
 std::size_t PointRecordPool::bytes() const
 {
-  std::size_t sum = records_.bytes() + numbers_.bytes() + previous_.bytes();
+  std::size_t sum = records_.bytes() + rows_.bytes() + previous_.bytes();
   for (const std::unique_ptr<Writer>& writer : writers_)
   {
     sum += writer->cursorStorage.capacity() * sizeof(PointRecord*) +

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <vector>
 
 namespace pointhaptics
@@ -24,9 +23,9 @@ class PointRecordPool
 {
 public:
   /// Room for @p points records of @p partitions partitions, written by @p writers writers. Empties the pool.
-  /// @p firstNumber: the number of the point lies beside each record, in 4 bytes counted from that.
-  void prepare(
-    std::int64_t points, std::uint32_t partitions, int writers, std::optional<std::int64_t> firstNumber);
+  /// @p layout: of what lies beside each record; numbers of points are counted from @p firstNumber.
+  void prepare(std::int64_t points, std::uint32_t partitions, int writers, const RowLayout& layout,
+    std::int64_t firstNumber);
 
   /// For one thread at a time.
   PointRecordWriter& writer(std::size_t number) { return *writers_[number]; }
@@ -49,18 +48,28 @@ public:
       Walk ahead = *this;
       return ahead.next() ? ahead.records() : records();
     }
+    /// What lies beside the records.
+    const std::uint32_t* rows() const { return pool_.rows_.data() + pool_.rowWords_ * first_; }
     /// The numbers of the points, if they were kept.
     void copyNumbers(std::int64_t* numbers) const
     {
-      const std::uint32_t* const from = pool_.numbers_.data() + first_;
-      const std::int64_t first = pool_.firstNumber_;
-      std::transform(from, from + count(), numbers, [=](std::uint32_t number) { return first + number; });
-    }
-    void fetchNumbers() const
-    {
-      for (int i = 0; i < count(); i += kLineNumbers)
+      if (!pool_.numbered_)
       {
-        fetch(pool_.numbers_.data() + first_ + i);
+        return;
+      }
+      const std::uint32_t* const from = rows();
+      const std::size_t words = pool_.rowWords_;
+      const std::int64_t first = pool_.firstNumber_;
+      for (int i = 0; i < count(); ++i)
+      {
+        numbers[i] = first + from[words * std::size_t(i)];
+      }
+    }
+    void fetchRows() const
+    {
+      for (int i = 0; i < int(pool_.rowWords_) * count(); i += kLineNumbers)
+      {
+        fetch(rows() + i);
       }
     }
     int count() const { return int(end_ - first_); }
@@ -91,7 +100,9 @@ private:
 
   std::size_t blockRecords_ = kBlockRecords;
   Buffer<PointRecord> records_;
-  Buffer<std::uint32_t> numbers_;
+  Buffer<std::uint32_t> rows_;
+  std::size_t rowWords_ = 0;
+  bool numbered_ = false;
   std::int64_t firstNumber_ = 0;
   Buffer<std::uint32_t> previous_;
   alignas(kApart) std::uint32_t takenBlocks_ = 0;

@@ -239,6 +239,39 @@ TEST(VoxelAttributes, OfACrowdNeedMorePartsAsPointsCome)
   }
 }
 
+TEST(VoxelAttributes, AreTheSameInTheOrderOfAScan)
+{
+  // Tuples go with points in no order, and are read where they lie in that of a scan.
+  constexpr std::size_t kPoints = 6000;
+  std::vector<Vec3> points = randomBox(kPoints, 16, { 0, 0, 0 }, { 30, 31, 32 });
+  const Arrays arrays(kPoints, 17);
+  for (const bool isScan : { false, true })
+  {
+    if (isScan)
+    {
+      std::sort(points.begin(), points.end(), [](const Vec3& a, const Vec3& b) { return a.z < b.z; });
+    }
+    VoxelRequest request;
+    request.points = { points.data(), std::int64_t(kPoints) };
+    request.lattice = latticeOf(30, 31, 32);
+    const std::vector<AttributeRequest> sums = arrays.sums();
+    // The last one has no room beside the others.
+    for (const std::size_t count : { std::size_t(1), std::size_t(2), sums.size() })
+    {
+      request.attributes.assign(sums.begin(), sums.begin() + std::ptrdiff_t(count));
+      request.attributes.push_back(
+        { { arrays.labels.data(), ScalarType::Int16, 1, std::int64_t(kPoints) }, AttributeStatistic::Mode });
+      VoxelResampler resampler;
+      ASSERT_EQ(resampler.run(request, ThreadedExecutor(2)), Status::Ok);
+      EXPECT_EQ(attributesOf(resampler, request, 0), expectedOf(request)) << isScan << ", " << count;
+      request.chunkPoints = 1000;
+      ASSERT_EQ(resampler.run(request), Status::Ok);
+      EXPECT_EQ(attributesOf(resampler, request, 0), expectedOf(request)) << "in chunks";
+      request.chunkPoints = 0;
+    }
+  }
+}
+
 TEST(VoxelAttributes, LeaveTheSumsOfAnOverfullCellAsTheyAre)
 {
   // 9 of 10 points in one voxel: more than the 2^21 whose coordinates a sum of 64 bits holds.
