@@ -187,6 +187,14 @@ int select(const ValueLists& lists, void* given, int step, int* many)
       continue;
     }
     auto& result = to[std::int64_t(step) * i];
+    if (size <= 2)
+    {
+      // The smaller one, as mode and as median.
+      const auto first = orderedKey(values[0]);
+      const auto last = orderedKey(values[size > 1]);
+      result = valueOfKey<T>(first < last ? first : last);
+      continue;
+    }
     if (size > V::kLanes)
     {
       result = valueOfKey<T>(selectOfSeveral<Median>(values, int(size)));
