@@ -363,6 +363,14 @@ TEST_F(CloudCommands, InfoOfNoSpacingNamesNoVoxel)
   const std::string one = this->succeed({ "info", "one.xyz" });
   EXPECT_NE(one.find("spacing  none"), std::string::npos) << one;
   EXPECT_EQ(one.find("voxel"), std::string::npos) << one;
+  // More copies than neighbors are looked at.
+  std::string copies;
+  for (int i = 0; i < 40; ++i)
+  {
+    copies += "1 2 3\n1 2 5\n";
+  }
+  this->write("copies.xyz", copies);
+  EXPECT_EQ(json::parse(this->succeed({ "info", "copies.xyz", "--json" }))["files"][0]["spacing"], 2.0);
   this->write("none.xyz", "nan nan nan\n");
   EXPECT_NE(this->succeed({ "info", "none.xyz" }).find("note     no point is finite"), std::string::npos);
 }

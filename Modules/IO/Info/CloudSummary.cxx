@@ -28,7 +28,7 @@ constexpr std::size_t kSamples = 10000;
 constexpr double kSpacingsPerVoxel = 2.0;
 /// Points in one search tree; larger clouds are searched piece by piece.
 constexpr std::int64_t kPiece = 4'000'000;
-/// A duplicate is no neighbour: how many of them are looked past.
+/// A place and the nearest other one; a few more, as squares of tiny distances underflow.
 constexpr int kNeighbors = 16;
 /// Part of the workspace's edge the suggested scale fills.
 constexpr double kFilledPart = 0.9;
@@ -69,16 +69,28 @@ std::size_t sampled(std::size_t i, std::size_t samples, std::size_t points)
   return samples == points ? i : std::size_t((i * 0x9e3779b97f4a7c15u >> 11) % points);
 }
 
-/// At the places of kSpacingPercents.
-std::array<double, 5> spacingOf(const std::vector<Vec3>& points)
+/// Every place once, in order.
+std::vector<Vec3> placesOf(std::vector<Vec3> points)
+{
+  std::sort(points.begin(), points.end(),
+    [](const Vec3& a, const Vec3& b) { return a.x != b.x ? a.x < b.x
+                                         : a.y != b.y    ? a.y < b.y
+                                                         : a.z < b.z; });
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  return points;
+}
+
+/// At the places of kSpacingPercents. A duplicate is no neighbor, however many there are of a point.
+/// @param places of the points, each once.
+std::array<double, 5> spacingOf(const std::vector<Vec3>& points, const std::vector<Vec3>& places)
 {
   const std::size_t samples = std::min(kSamples, points.size());
   std::vector<double> nearest(samples, std::numeric_limits<double>::infinity());
   Neighbor neighbors[kNeighbors];
-  for (std::int64_t begin = 0; begin < std::int64_t(points.size()); begin += kPiece)
+  for (std::int64_t begin = 0; begin < std::int64_t(places.size()); begin += kPiece)
   {
     NeighborQuery query;
-    query.build(PointView(points.data() + begin, std::min(kPiece, std::int64_t(points.size()) - begin)));
+    query.build(PointView(places.data() + begin, std::min(kPiece, std::int64_t(places.size()) - begin)));
     for (std::size_t i = 0; i < samples; ++i)
     {
       const Vec3& center = points[sampled(i, samples, points.size())];
@@ -100,15 +112,6 @@ std::array<double, 5> spacingOf(const std::vector<Vec3>& points)
     result[i] = nearest[(nearest.size() - 1) * std::size_t(kSpacingPercents[i]) / 100];
   }
   return result;
-}
-
-std::int64_t countDuplicates(std::vector<Vec3> points)
-{
-  std::sort(points.begin(), points.end(),
-    [](const Vec3& a, const Vec3& b) { return a.x != b.x ? a.x < b.x
-                                         : a.y != b.y    ? a.y < b.y
-                                                         : a.z < b.z; });
-  return points.end() - std::unique(points.begin(), points.end());
 }
 
 double numberIn(vtkPolyData* cloud, const char* name, vtkIdType row = 0, int component = 0)
@@ -217,10 +220,15 @@ CloudSummary summarize(vtkPolyData* cloud, const std::string& format)
     atZero += isAtZero(p) ? 1 : 0;
   }
   summary.noReturns = areNoReturns(atZero, std::int64_t(points.size())) ? atZero : 0;
-  summary.spacing = spacingOf(points);
+  std::vector<Vec3> places = placesOf(points);
+  summary.duplicates = std::int64_t(points.size() - places.size());
+  if (summary.duplicates == 0)
+  {
+    places = std::vector<Vec3>(); // the points serve as well, and the memory is wanted
+  }
+  summary.spacing = spacingOf(points, summary.duplicates > 0 ? places : points);
   summary.densityVariation = summary.spacing[0] > 0.0 ? summary.spacing[4] / summary.spacing[0] : 0.0;
   summary.suggestedVoxel = kSpacingsPerVoxel * summary.spacing[2];
-  summary.duplicates = countDuplicates(points);
   summary.coordinateSystem = io::fieldText(cloud->GetFieldData(), "CoordinateSystem");
   summary.unit = io::fieldText(cloud->GetFieldData(), "LengthUnit");
   summary.unitIsGuess = summary.unit.empty();
