@@ -135,15 +135,15 @@ double ballRadius(const HapticScene& scene, FitCells& fields, const BallCells& n
     points = points < kPoints && all >= kPoints && isRow(scene, near, seed, reach) ? all : points;
   }
   reach /= kReachGrowth;
-  // A few points far from all others are no surface, and have no spacing; of a cloud that has no more the few
-  // are all there is.
+  // A few points far from all others are no surface: they have no spacing, and the field about them is as
+  // wide as they are far apart. Of a cloud that has no more the few are all there is.
   const bool areLone = points < kPoints && double(scene.contactPyramid().level(0).cells.size()) >= kPoints;
   const double spacing =
     areLone ? 0.0 : rimSpacing(scene, near, seed, reach, middle, reach * std::sqrt(kPi / points));
   // Few points say little: the field, which is smooth, keeps clumps of them from making the ball too small.
   Vec3 ignored;
   const double typical = scene.fitScale(seed, fields, ignored).proxyRadius;
-  const double field = kRadiusOfField * typical * fieldPart(scene, typical);
+  const double field = areLone ? 0.0 : kRadiusOfField * typical * fieldPart(scene, typical);
   return std::max({ kBallRadiusInCells * scene.contactCell(), kBallRadiusInSpacings * spacing, field });
 }
 

@@ -312,6 +312,36 @@ TEST(ProxyBallPassage, IsNoLargerForAFewPointsFarFromAllOthers)
   EXPECT_LT(ballRadius(*scene, *fields, none, lone, lone + Vec3(0.002, 0.0, 0.0)), 0.01);
 }
 
+TEST(ProxyBallPassage, FeelsNothingBesideStrayPointsInTheAir)
+{
+  constexpr double kBeside = 1.5e-3;
+  trial::Random random(60);
+  std::vector<Vec3> points = trial::planePoints(60000, 3);
+  for (int stray = 0; stray < 60; ++stray)
+  {
+    points.push_back(random.inBox(Vec3(-0.045, -0.045, 0.006), Vec3(0.045, 0.045, 0.045)));
+  }
+  HapticSceneInput input = trial::resampledInput(points);
+  input.bandwidth = LocalBandwidthSettings();
+  const trial::Scene scene = trial::sceneOf(std::move(input));
+  int felt = 0;
+  for (int stroke = 0; stroke < 60; ++stroke)
+  {
+    trial::Path path;
+    appendLine(path, random.inBox(Vec3(-0.04, -0.04, 0.006), Vec3(0.04, 0.04, 0.04)),
+      random.inBox(Vec3(-0.04, -0.04, 0.006), Vec3(0.04, 0.04, 0.04)), 400);
+    const std::vector<ProxyState> states = trial::feel(scene, {}, path);
+    // One that is met head on may be pressed for a while.
+    bool hasMet = false;
+    for (std::size_t tick = 0; tick < path.size() && !hasMet; ++tick)
+    {
+      hasMet = trial::leastDistanceWithin(*scene, path[tick], kBeside) < kBeside;
+      felt += !hasMet && norm(states[tick].force) > 0.05;
+    }
+  }
+  EXPECT_EQ(trial::recorded("feltTicks", felt), 0);
+}
+
 TEST(ProxyBallPassage, StaysOnTheFaceThatIsPressedBesideAnEdge)
 {
   constexpr double kHalf = 0.025;
