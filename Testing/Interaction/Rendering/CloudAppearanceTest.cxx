@@ -193,6 +193,26 @@ TEST(CloudAppearance, BeginsTheColorsOfErrorsAtZero)
   EXPECT_LT(range[0], 0.0);
 }
 
+TEST(CloudAppearance, LeavesOutRareValuesThatComeInStepWithASample)
+{
+  // A bad value at the end of each row of a scanner: one of 500, in clouds of which every k-th would be
+  // taken.
+  for (const int count : { 20000, 50000, 100000, 500000 })
+  {
+    vtkNew<vtkPolyData> cloud;
+    vtkNew<vtkFloatArray> values;
+    values->SetName("Intensity");
+    for (int i = 0; i < count; ++i)
+    {
+      values->InsertNextValue(i % 500 == 0 ? 65535.0f : float(i % 100));
+    }
+    cloud->GetPointData()->AddArray(values);
+    double range[2];
+    colorRange(cloud, { "Intensity", 0 }, range);
+    EXPECT_LT(range[1], 100.0) << count;
+  }
+}
+
 TEST(CloudAppearance, GrowsLighterInEvenSteps)
 {
   vtkLookupTable* colors = newCloudColorMap();
