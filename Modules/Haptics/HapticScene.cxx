@@ -36,6 +36,9 @@ constexpr double kPointsPerSparseCell = 1.4;
 constexpr double kSparseInVoxels = 1.2;
 /// How far beyond what they cover local scenes have all cells and fields, in index cells.
 constexpr double kSharedCells = 8.0;
+/// From 1e12 m on rounding errors of the ball, which is some 50 times as large as such a cloud, push the
+/// hand.
+constexpr double kFarthest = 1e9;
 constexpr std::size_t kSpacingSamples = 500;
 constexpr std::size_t kSpacingNeighbors = 6;
 constexpr double kSpacingGrowth = 1.3;
@@ -238,6 +241,10 @@ Status HapticScene::Cloud::index(const HapticSceneInput& input, std::vector<Cell
   const double given = input.local                ? input.cellSize
     : input.region && input.region->globalScene() ? input.region->cellSize()
                                                   : 0.0;
+  if (norm(bounds.minimum) > kFarthest || norm(bounds.maximum) > kFarthest)
+  {
+    return Status::PointsTooFar;
+  }
   Status status = Status::InvalidParameter;
   if (given > 0.0 && (aligned || input.local))
   {

@@ -68,8 +68,9 @@ class HapticScene
 public:
   /// Copies nothing it can move. Points that are not finite are left out. Cost O(n log n), about 150 bytes a
   /// point, of sparse clouds 600 and 7 us. Errors: Empty (no finite point), LatticeNotAddressable (the
-  /// points' spacing is below 2^-21 of the extent), InvalidParameter (vectors of different lengths), those of
-  /// the bandwidth's settings, the transform's own; @p status says which, the result is null.
+  /// points' spacing is below 2^-21 of the extent), PointsTooFar (one lies beyond 1e9 m), InvalidParameter
+  /// (vectors of different lengths), those of the bandwidth's settings, the transform's own; @p status says
+  /// which, the result is null.
   /// @p executor may spread the work over threads; the result is the same.
   static std::shared_ptr<const HapticScene> create(
     HapticSceneInput input, Status& status, const Executor& executor = {});

@@ -61,6 +61,10 @@ constexpr Message kMessages[] = {
     "stiffness and damping are above what the device can render without shaking: use less of them or a "
     "higher rate" },
   { Status::RateNotSupported, "the device cannot be served that often: use a lower rate" },
+  { Status::PointsTooFar,
+    "points lie more than 1e9 m from the origin, too far for a hand to feel any: leave out those that are "
+    "far "
+    "from all others, or scale the cloud" },
 };
 
 /// Whether each status has its message at its own index.
@@ -73,7 +77,7 @@ constexpr bool areInOrder()
       return false;
     }
   }
-  return std::size(kMessages) == std::size_t(Status::RateNotSupported) + 1;
+  return std::size(kMessages) == std::size_t(Status::PointsTooFar) + 1;
 }
 static_assert(areInOrder(), "a status lacks its message");
 

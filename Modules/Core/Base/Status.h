@@ -35,6 +35,7 @@ enum class [[nodiscard]] Status{
   FirmwareNotTaken,      ///< The device did not accept its firmware.
   NotPassive,            ///< Stiffness and damping above what the device can render without giving energy.
   RateNotSupported,      ///< The servo rate is above what the device can do.
+  PointsTooFar,          ///< Coordinates so large that double numbers cannot tell what a hand feels.
 };
 
 /// One sentence in plain words: what happened and what to do about it. Never null; static storage.

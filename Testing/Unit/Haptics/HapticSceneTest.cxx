@@ -65,6 +65,19 @@ TEST(HapticScene, RefusesACloudTooWideForItsSpacing)
   EXPECT_EQ(status, Status::LatticeNotAddressable);
 }
 
+TEST(HapticScene, RefusesPointsTooFarForAHandToFeelAny)
+{
+  for (const double far : { 1e8, 1e12, 1e18, 1e30 })
+  {
+    HapticSceneInput input =
+      trial::resampledInput({ { 0, 0, 0 }, { 1, 0, 0 }, { far, 0, 0 } }, {}, far / 300);
+    input.bandwidth = LocalBandwidthSettings();
+    Status status = Status::Empty;
+    EXPECT_EQ(HapticScene::create(std::move(input), status) == nullptr, far > 1e9) << far;
+    EXPECT_EQ(status, far > 1e9 ? Status::PointsTooFar : Status::Ok) << far;
+  }
+}
+
 TEST(HapticScene, OfSmallAndDegenerateCloudsAnswersEverywhere)
 {
   const std::vector<std::vector<Vec3>> clouds{ { { 0.1, 0.2, 0.3 } }, { { 0, 0, 0 }, { 0.01, 0, 0 } },

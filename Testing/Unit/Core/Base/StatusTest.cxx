@@ -11,7 +11,7 @@ using namespace pointhaptics;
 TEST(Status, HasAnOwnSentenceForEveryValue)
 {
   std::set<std::string> sentences;
-  for (int value = 0; value <= int(Status::RateNotSupported); ++value)
+  for (int value = 0; value <= int(Status::PointsTooFar); ++value)
   {
     const char* text = message(Status(value));
     ASSERT_NE(text, nullptr) << value;
@@ -40,8 +40,9 @@ TEST(Status, SentencesNameTheCure)
     { Status::DeviceNotReady, "wait while it starts" }, { Status::DeviceLost, "plug it in again" },
     { Status::DeviceSilent, "check its power supply" }, { Status::DeviceBadReply, "check its cable" },
     { Status::FirmwareMissing, "name the file" }, { Status::FirmwareNotTaken, "check the file" },
-    { Status::NotPassive, "use less of them" }, { Status::RateNotSupported, "use a lower rate" } };
-  for (int value = 1; value <= int(Status::RateNotSupported); ++value)
+    { Status::NotPassive, "use less of them" }, { Status::RateNotSupported, "use a lower rate" },
+    { Status::PointsTooFar, "leave out those that are far" } };
+  for (int value = 1; value <= int(Status::PointsTooFar); ++value)
   {
     const auto cure = cures.find(Status(value));
     ASSERT_NE(cure, cures.end()) << value << " has no cure: " << message(Status(value));
@@ -52,7 +53,7 @@ TEST(Status, SentencesNameTheCure)
 
 TEST(Status, SentencesKnowNoProgram)
 {
-  for (int value = 0; value <= int(Status::RateNotSupported); ++value)
+  for (int value = 0; value <= int(Status::PointsTooFar); ++value)
   {
     EXPECT_EQ(std::string(message(Status(value))).find("--"), std::string::npos)
       << "an option of a program in: " << message(Status(value));
