@@ -11,13 +11,8 @@ namespace pointhaptics
 namespace
 {
 
-/// The radius is measured again after this many index cells of way, and changes by at most this part a tick.
+/// The radius is measured again after this many index cells of way.
 constexpr double kMeasureEvery = 2.0;
-constexpr double kLargestGrowth = 1.02;
-/// The radius is measured so many radii ahead too.
-constexpr double kAhead = 1.0;
-/// A ball that is smaller than this part of what it should be is about to fall between the points.
-constexpr double kTooSmall = 0.8;
 constexpr double kHurriedGrowth = 1.3;
 /// Over what it grows by, how high a ball rises for it.
 constexpr double kHighestRise = 4.0;
@@ -32,8 +27,6 @@ constexpr int kMostSlides = 24;
 /// What a visit of the pyramid costs, in rounds: a large ball among dense points looks at thousands of them.
 constexpr int kRoundsOfPass = 3;
 constexpr std::uint64_t kPointsOfRound = 128;
-/// How far a tick in contact looks, over the radius: as far as a glide.
-constexpr double kReachOfTick = 2.1;
 /// Glides of one step.
 constexpr int kMostGlides = 3;
 constexpr int kMostPushes = 16;
@@ -44,8 +37,6 @@ constexpr double kTouch = 1.002;
 constexpr int kMostTouched = 16;
 /// A move of a slide goes as far as points are here, unless that is less than this; over the radius.
 constexpr double kShortMove = 0.25;
-/// Most moves of a slide are short: so far around the ball its points are looked at, over the radius.
-constexpr double kFocus = 1.2;
 /// Points nearer than so many radii pinch the ball where their normals are so far apart (a cosine).
 constexpr double kPinch = 1.02;
 constexpr double kOpposite = -0.9;
@@ -55,21 +46,11 @@ constexpr double kSmallestRadius = 1e-3;
 constexpr double kFarAway = 1e6;
 /// A shorter way is none, over the radius.
 constexpr double kNoWay = 1e-4;
-/// Rounding that a covered point may be off by, over the radius.
-constexpr double kRounding = 1e-9;
 /// Reach of the points that decide whether the place is flat for the first touch beside an edge, over the
 /// radius.
 constexpr double kTouchReach = 1.2;
 /// How far aside of the HIP, seen along the normal of a flat place, bumps may push the ball, over its radius.
 constexpr double kMostAside = 0.25;
-/// A ball that rides is so far above the surface, and goes so far in a tick, over its radius.
-constexpr double kAboveBumps = 0.1;
-constexpr double kLongestRide = 0.5;
-/// How far aside of a foot the middle of the points within a radius may lie for it to be on the surface and
-/// not at its rim, likewise: 0.42 on a straight one, and 0.12 by chance where the ball is over 18 points.
-constexpr double kMostAsideOfFoot = 0.2;
-/// Points further from the plane there are of another face, likewise.
-constexpr double kFace = 0.15;
 /// After a glide that did not help the HIP moves by this many radii before the next.
 constexpr double kGlideAgain = 0.05;
 
@@ -306,6 +287,13 @@ void ProxyBall::measure(Work& work, const Vec3& hip) noexcept
   }
 }
 
+/// Whether it sits in a gap about as wide as itself, where it has room by chance and cannot go on.
+bool ProxyBall::isWedged(Work& work) noexcept
+{
+  gather(work, kPinch * radius_);
+  return isPinched(work.cells);
+}
+
 /// Takes the radius towards what the cloud asks for: at once where the ball is free, else little by little.
 /// It grows only where there is room, and shrinks where it is pinched between points on two sides, or held
 /// among points where it began without room: it was on no side of them.
@@ -316,7 +304,7 @@ void ProxyBall::updateRadius(Work& work, const Vec3& hip) noexcept
     measure(work, hip);
   }
   const ProxyBall before = *this;
-  if (isConfined_ && isHeld_)
+  if (isHeld_ && (isConfined_ || isWedged(work)))
   {
     radius_ /= kLargestGrowth;
     return;
@@ -467,89 +455,6 @@ void ProxyBall::walk(Work& work, const Vec3& hip) noexcept
       slide(work, hip_);
     }
   } while (walked < length && work.rounds > 0);
-}
-
-/// The same for a ball that rides: what is about it now was ahead before.
-void ProxyBall::measureAhead(Work& work, const Vec3& hip, const Vec3& foot, const Vec3& up) noexcept
-{
-  gather(work, 2.0 * radius_);
-  const Vec3 course = hip - hip_;
-  const Vec3 ahead = normalized(course - dot(course, up) * up, Vec3());
-  Vec3 point;
-  const double before = wantedAhead_;
-  if (work.cells.nearestOf(work.scene.contactPyramid(), foot + kAhead * radius_ * ahead, radius_, point))
-  {
-    wantedAhead_ = ballRadius(work.scene, work.fields, work.cells, point, center_);
-  }
-  wanted_ = std::max(before, wantedAhead_);
-  measuredAt_ = center_;
-  isMeasured_ = true;
-}
-
-bool ProxyBall::hasPointsAround(
-  const HapticScene& scene, BallCells& cells, const Vec3& foot, const Vec3& up) const noexcept
-{
-  cells.gather(scene.contactPyramid(), foot, radius_, radius_ / kBallRadiusInCells, kReachOfTick * radius_);
-  Vec3 sum;
-  double count = 0.0;
-  cells.visitBall(foot, radius_,
-    [&](const Vec3& offset, double)
-    {
-      const bool isOfFace = std::abs(dot(offset, up)) < kFace * radius_;
-      sum += isOfFace ? offset : Vec3();
-      count += isOfFace ? 1.0 : 0.0;
-    });
-  return norm(sum) < kMostAsideOfFoot * radius_ * count;
-}
-
-bool ProxyBall::ride(const HapticScene& scene, FitCells& fields, BallCells& cells, const Vec3& hip,
-  const Vec3& foot, const Vec3& up, std::uint32_t& status) noexcept
-{
-  if (free_ || !there_ || isConfined_)
-  {
-    return false;
-  }
-  Work work{ scene, fields, cells, kMostRounds, status };
-  const ProxyBall before = *this;
-  if (adopts_)
-  {
-    measure(work, hip);
-  }
-  else if (isMeasureDue(scene))
-  {
-    measureAhead(work, hip, foot, up);
-  }
-  const double smaller = radius_;
-  const double most = adopts_ ? std::max(wanted_, radius_) : radius_ * kLargestGrowth;
-  radius_ = std::clamp(wanted_, radius_ / kLargestGrowth, most);
-  const Vec3 way = foot + (1.0 + kAboveBumps) * radius_ * up - center_;
-  const double rise = std::max(0.0, dot(way, up));
-  const Vec3 across = way - rise * up;
-  const double length = norm(across);
-  bool isOut = radius_ >= kTooSmall * wanted_ && rise + length <= kLongestRide * radius_;
-  if (isOut)
-  {
-    gather(work, radius_ + rise + length);
-    work.cells.focus(center_, kFocus * radius_);
-    const auto goes = [&](const Vec3& direction, double distance)
-    {
-      const bool isClear = work.cells.sweep(center_, direction, distance, smaller) == distance;
-      center_ += distance * direction;
-      return isClear;
-    };
-    isOut = goes(up, rise) && goes(normalized(across), length) &&
-      work.cells.nearestWithin(center_, (1.0 - kRounding) * radius_) < 0;
-  }
-  if (!isOut)
-  {
-    *this = before;
-    return false;
-  }
-  hip_ = hip;
-  slid_ = glided_ = isHeld_ = adopts_ = false;
-  rode_ = true;
-  flat_.set(foot, up, center_);
-  return true;
 }
 
 void ProxyBall::step(const HapticScene& scene, FitCells& fields, BallCells& cells, const Vec3& hip,

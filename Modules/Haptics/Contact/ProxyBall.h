@@ -90,6 +90,16 @@ public:
   double depth(const Vec3& hip) const noexcept { return norm(hip - center_) - radius_; }
 
 private:
+  /// The radius changes by at most this part a tick; smaller than that part of what it should be the ball is
+  /// about to fall between the points; and it is measured so many radii ahead.
+  static constexpr double kLargestGrowth = 1.02;
+  static constexpr double kTooSmall = 0.8;
+  static constexpr double kAhead = 1.0;
+  /// Over the radius: how far a tick in contact looks, as far as a glide; how far around the ball its points
+  /// are looked at mostly, as most moves are short; and the rounding that a covered point may be off by.
+  static constexpr double kReachOfTick = 2.1;
+  static constexpr double kFocus = 1.2;
+  static constexpr double kRounding = 1e-9;
   /// Moves of one step: a hand at 1 m/s needs some ten.
   static constexpr int kMostRounds = 192;
   /// Reach of the points that decide whether the place is flat, over the radius. A flat place serves so many
@@ -125,6 +135,7 @@ private:
   bool pushOut(const BallCells& cells) noexcept;
   bool makeRoom(Work& work, const ProxyBall& before) noexcept;
   bool isPinched(const BallCells& cells) const noexcept;
+  bool isWedged(Work& work) noexcept;
   void gather(Work& work, double reach) noexcept;
 
   Vec3 center_;

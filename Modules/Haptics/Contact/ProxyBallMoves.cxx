@@ -1,5 +1,7 @@
 #include "Haptics/Contact/ProxyBall.h"
 
+#include "Haptics/Contact/BallRadius.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -34,6 +36,14 @@ constexpr double kLeastGain = 1e-3;
 /// Points higher than this above the surface are of a wall; how far a glide may lift the ball.
 constexpr double kWallHeight = 0.2;
 constexpr double kLargestRise = 0.1;
+/// A ball that rides is so far above the surface, and goes so far in a tick, over its radius.
+constexpr double kAboveBumps = 0.1;
+constexpr double kLongestRide = 0.5;
+/// How far aside of a foot the middle of the points within a radius may lie for it to be on the surface and
+/// not at its rim, likewise: 0.42 on a straight one, and 0.12 by chance where the ball is over 18 points.
+constexpr double kMostAsideOfFoot = 0.2;
+/// Points further from the plane there are of another face, likewise.
+constexpr double kFace = 0.15;
 
 }
 
@@ -171,6 +181,89 @@ bool ProxyBall::moveAbove(Work& work, const Vec3& foot, const Vec3& up, IsGood&&
     *this = before;
   }
   return false;
+}
+
+/// The same for a ball that rides: what is about it now was ahead before.
+void ProxyBall::measureAhead(Work& work, const Vec3& hip, const Vec3& foot, const Vec3& up) noexcept
+{
+  gather(work, 2.0 * radius_);
+  const Vec3 course = hip - hip_;
+  const Vec3 ahead = normalized(course - dot(course, up) * up, Vec3());
+  Vec3 point;
+  const double before = wantedAhead_;
+  if (work.cells.nearestOf(work.scene.contactPyramid(), foot + kAhead * radius_ * ahead, radius_, point))
+  {
+    wantedAhead_ = ballRadius(work.scene, work.fields, work.cells, point, center_);
+  }
+  wanted_ = std::max(before, wantedAhead_);
+  measuredAt_ = center_;
+  isMeasured_ = true;
+}
+
+bool ProxyBall::hasPointsAround(
+  const HapticScene& scene, BallCells& cells, const Vec3& foot, const Vec3& up) const noexcept
+{
+  cells.gather(scene.contactPyramid(), foot, radius_, radius_ / kBallRadiusInCells, kReachOfTick * radius_);
+  Vec3 sum;
+  double count = 0.0;
+  cells.visitBall(foot, radius_,
+    [&](const Vec3& offset, double)
+    {
+      const bool isOfFace = std::abs(dot(offset, up)) < kFace * radius_;
+      sum += isOfFace ? offset : Vec3();
+      count += isOfFace ? 1.0 : 0.0;
+    });
+  return norm(sum) < kMostAsideOfFoot * radius_ * count;
+}
+
+bool ProxyBall::ride(const HapticScene& scene, FitCells& fields, BallCells& cells, const Vec3& hip,
+  const Vec3& foot, const Vec3& up, std::uint32_t& status) noexcept
+{
+  if (free_ || !there_ || isConfined_)
+  {
+    return false;
+  }
+  Work work{ scene, fields, cells, kMostRounds, status };
+  const ProxyBall before = *this;
+  if (adopts_)
+  {
+    measure(work, hip);
+  }
+  else if (isMeasureDue(scene))
+  {
+    measureAhead(work, hip, foot, up);
+  }
+  const double smaller = radius_;
+  const double most = adopts_ ? std::max(wanted_, radius_) : radius_ * kLargestGrowth;
+  radius_ = std::clamp(wanted_, radius_ / kLargestGrowth, most);
+  const Vec3 way = foot + (1.0 + kAboveBumps) * radius_ * up - center_;
+  const double rise = std::max(0.0, dot(way, up));
+  const Vec3 across = way - rise * up;
+  const double length = norm(across);
+  bool isOut = radius_ >= kTooSmall * wanted_ && rise + length <= kLongestRide * radius_;
+  if (isOut)
+  {
+    gather(work, radius_ + rise + length);
+    work.cells.focus(center_, kFocus * radius_);
+    const auto goes = [&](const Vec3& direction, double distance)
+    {
+      const bool isClear = work.cells.sweep(center_, direction, distance, smaller) == distance;
+      center_ += distance * direction;
+      return isClear;
+    };
+    isOut = goes(up, rise) && goes(normalized(across), length) &&
+      work.cells.nearestWithin(center_, (1.0 - kRounding) * radius_) < 0;
+  }
+  if (!isOut)
+  {
+    *this = before;
+    return false;
+  }
+  hip_ = hip;
+  slid_ = glided_ = isHeld_ = adopts_ = false;
+  rode_ = true;
+  flat_.set(foot, up, center_);
+  return true;
 }
 
 } // namespace pointhaptics

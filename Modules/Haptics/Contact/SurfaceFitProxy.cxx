@@ -193,6 +193,24 @@ void SurfaceFitProxy::forgetFit() noexcept
   ticksWithoutFit_ = 0;
 }
 
+/// What the fit says, by @p weight, and the ball by the rest.
+SurfaceFitProxy::Contact SurfaceFitProxy::blended(const Vec3& hip, double weight) const noexcept
+{
+  const double depth = ball_.isFree() ? -ball_.radius() : ball_.depth(hip);
+  Vec3 offset = (1.0 - weight) * (depth > 0.0 ? ball_.nearestPoint(hip) - hip : Vec3());
+  Vec3 normal = (1.0 - weight) * normalized(ball_.center() - hip, normal_);
+  if (weight > 0.0)
+  {
+    const double allowed = std::max(0.0, kTrustRadii * ball_.radius() + kReleaseSlope * depth);
+    const Vec3 up = tracker_.point() - hip;
+    const bool pressed =
+      tracker_.height(hip) <= 0.0 && (depth > 0.0 || norm2(up) <= allowed * allowed || isPlain());
+    offset += weight * (pressed ? up : Vec3());
+    normal += weight * tracker_.normal();
+  }
+  return { hip + offset, normalized(normal, normal_), offset != Vec3() };
+}
+
 void SurfaceFitProxy::step(const HapticScene& scene, Memory& memory, const ContactParameters& parameters,
   const Vec3& hip, bool refines, ProxyState& state) noexcept
 {
@@ -213,24 +231,9 @@ void SurfaceFitProxy::step(const HapticScene& scene, Memory& memory, const Conta
   else
   {
     weight = refines ? fitWeight(scene, memory, hip, followed, state.status) : 0.0;
-    const double depth = ball_.isFree() ? -ball_.radius() : ball_.depth(hip);
     isAlone_ = weight == 1.0;
     isPatient_ = isAlone_ && isPlain();
-    const Vec3 ballPoint = ball_.nearestPoint(hip);
-    Vec3 offset = (1.0 - weight) * (depth > 0.0 ? ballPoint - hip : Vec3());
-    contact.normal = (1.0 - weight) * normalized(ball_.center() - hip, normal_);
-    if (weight > 0.0)
-    {
-      const double allowed = std::max(0.0, kTrustRadii * ball_.radius() + kReleaseSlope * depth);
-      const Vec3 up = tracker_.point() - hip;
-      const bool pressed =
-        tracker_.height(hip) <= 0.0 && (depth > 0.0 || norm2(up) <= allowed * allowed || isPlain());
-      offset += weight * (pressed ? up : Vec3());
-      contact.normal += weight * tracker_.normal();
-    }
-    contact.pressed = offset != Vec3();
-    contact.point = hip + offset;
-    contact.normal = normalized(contact.normal, normal_);
+    contact = this->blended(hip, weight);
     state.status |= std::uint32_t(refines && weight < 1.0 && contact.pressed ? kProxyBallContact : kProxyOk);
   }
   state.status |= std::uint32_t(memory.fit.overflowed() ? kProxyCellLimit : kProxyOk);

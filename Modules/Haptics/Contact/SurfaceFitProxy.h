@@ -75,6 +75,7 @@ private:
   bool ride(const HapticScene& scene, Memory& memory, const Vec3& hip, std::uint32_t& status) noexcept;
   double fitWeight(const HapticScene& scene, Memory& memory, const Vec3& hip, TrackResult followed,
     std::uint32_t& status) noexcept;
+  Contact blended(const Vec3& hip, double weight) const noexcept;
   bool comesOut(const HapticScene& scene, Memory& memory, const Vec3& hip, std::uint32_t& status) noexcept;
   bool isSmooth() const noexcept;
   bool isPlain() const noexcept;

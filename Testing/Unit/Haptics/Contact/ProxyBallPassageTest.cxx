@@ -404,3 +404,44 @@ TEST(ProxyBallPassage, LetsGoAtTheEdgesOfABox)
   EXPECT_LE(trial::recorded("lateOf180", late), 4);
   EXPECT_LE(trial::recorded("latestRelease", latest), 1.2e-3);
 }
+
+/// Rods of 5.2 mm along y, of bare points 0.9 mm apart around and 1.5 mm along, with 4 mm between them. A
+/// ball of 2.4 spacings has no room there; it held every hand that went through.
+TEST(ProxyBallPassage, HandGoesThroughBetweenRodsOfFewPoints)
+{
+  std::vector<Vec3> points;
+  for (const double x : { -0.0046, 0.0046 })
+  {
+    for (int i = 0; i < 18 * 41; ++i)
+    {
+      const double angle = trial::kPi * (i % 18) / 9.0;
+      points.emplace_back(x + 0.0026 * std::cos(angle), 0.0015 * (i / 18 - 20), 0.0026 * std::sin(angle));
+    }
+  }
+  HapticSceneInput input;
+  input.points = points;
+  input.cellSize = trial::kVoxel;
+  input.bandwidth = LocalBandwidthSettings();
+  const trial::Scene scene = trial::sceneOf(std::move(input));
+  for (const double x : { -3e-4, 0.0, 2e-4 })
+  {
+    trial::Path path;
+    for (int i = 0; i <= 400; ++i)
+    {
+      path.emplace_back(x, 0.0004, 0.01 - 0.02 * i / 400);
+    }
+    for (const ProxyState& state : trial::feel(scene, HapticParameters(), path))
+    {
+      ASSERT_EQ(norm(state.force), 0.0) << x;
+    }
+  }
+  // The rods themselves are felt.
+  trial::Path press;
+  for (int i = 0; i <= 300; ++i)
+  {
+    press.emplace_back(0.0046, 0.0004, 0.006 - 0.0044 * i / 300);
+  }
+  const ProxyState last = trial::feel(scene, HapticParameters(), press).back();
+  EXPECT_NEAR(
+    norm(last.force), 1e-3 * ContactParameters().stiffness, 0.1 * ContactParameters().stiffness * 1e-3);
+}

@@ -2,6 +2,7 @@
 
 using namespace pointhaptics;
 using trial::BallInScene;
+using trial::deepestOnWay;
 using trial::LongVec;
 using trial::Real;
 
@@ -185,8 +186,7 @@ TEST_P(ProxyBallPromises, AreKeptOnRandomCloudsUnderRandomHands)
       if (before.isFree() && before.isThere() && !ball.hasSlid() && ball.radius() == before.radius())
       {
         ++straight;
-        ASSERT_LE(
-          double(trial::deepestOnWay(hand.scene(), before.center(), ball.center(), ball.radius())), 1e-8);
+        ASSERT_LE(double(deepestOnWay(hand.scene(), before.center(), ball.center(), ball.radius())), 1e-8);
       }
     }
   }
