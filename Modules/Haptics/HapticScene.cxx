@@ -277,9 +277,15 @@ void HapticScene::Cloud::refineContact(double asked, const Executor& executor)
   std::vector<Cell> cells = pyramid.level(0).cells;
   std::vector<Vec3> points(cells.size());
   std::transform(cells.begin(), cells.end(), points.begin(), [](const Cell& cell) { return cell.mean; });
-  sparse = kSparseInVoxels * asked;
+  const double apart = kSparseInVoxels * asked;
   const PointView view(points.data(), std::int64_t(points.size()));
-  for (const Vec3& middle : surfaceMidpoints(view, sparse, executor))
+  const std::vector<Vec3> middles = surfaceMidpoints(view, apart, executor);
+  if (middles.empty())
+  {
+    return;
+  }
+  sparse = apart;
+  for (const Vec3& middle : middles)
   {
     Cell cell;
     cell.mean = middle;

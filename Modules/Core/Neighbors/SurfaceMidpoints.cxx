@@ -30,11 +30,17 @@ constexpr double kFlat = 25.0 * kPi / 180.0;
 /// By how much more than the normals turn an edge may lean.
 constexpr double kLean = 45.0 * kPi / 180.0;
 constexpr std::size_t kMostEdges = 16;
+/// A point has a twin where its nearest neighbour is nearer than this part of the fourth, squared. Of points
+/// at random 1 - (1 - 1/16)^3 = 0.176 have; where voxels have joined some of them 0.06 and more, of vertices
+/// of meshes 0.02 and less.
+constexpr double kTwin = 1.0 / 16.0;
+constexpr double kTwinsAtRandom = 0.05;
 
 /// What is known of a point.
 struct Fan
 {
   double spacing = 0.0; ///< 0: the point has no fan.
+  bool hasTwin = false;
   Vec3 normal;
   std::array<std::uint32_t, kMostEdges> ends{}; ///< Slots.
   std::size_t size = 0;
@@ -69,6 +75,13 @@ public:
         NeighborSweep sweep(query_, kNeighbors + 1);
         sweep.run(begin, end, [this](const NeighborList& list) { this->makeFan(list); });
       });
+  }
+
+  /// Whether the points lie at random: such have gaps which triangles of their edges do not close.
+  bool areAtRandom() const
+  {
+    const auto twins = std::count_if(fans_.begin(), fans_.end(), [](const Fan& fan) { return fan.hasTwin; });
+    return double(twins) > kTwinsAtRandom * double(fans_.size());
   }
 
   std::vector<Vec3> midpoints() const
@@ -127,6 +140,7 @@ private:
     }
     Fan& fan = fans_[std::size_t(list.slot)];
     fan.spacing = spacing;
+    fan.hasTwin = list.squaredDistances[1] < kTwin * list.squaredDistances[4];
     fan.normal = this->normalAt(list, spacing);
     // What is further away than half the last neighbour may have others nearer.
     const double known = 0.5 * std::sqrt(list.squaredDistances[list.count - 1]);
@@ -170,7 +184,8 @@ private:
 
 std::vector<Vec3> surfaceMidpoints(const PointView& points, double sparse, const Executor& executor)
 {
-  return Triangulation(points, sparse, executor).midpoints();
+  const Triangulation triangulation(points, sparse, executor);
+  return triangulation.areAtRandom() ? std::vector<Vec3>() : triangulation.midpoints();
 }
 
 } // namespace pointhaptics

@@ -260,7 +260,15 @@ TEST(HapticScene, FitRadiusGrowsWithTheNoise)
 
 TEST(HapticScene, SparsePointsGetOthersBetweenThemForTheBall)
 {
-  const std::vector<Vec3> points = trial::spherePoints(8000, 5);
+  // A spiral, as even as the vertices of a mesh.
+  std::vector<Vec3> points;
+  for (int i = 0; i < 8000; ++i)
+  {
+    const double z = (i + 0.5) / 4000 - 1.0;
+    const double angle = trial::kPi * (3.0 - std::sqrt(5.0)) * i;
+    const double r = std::sqrt(1.0 - z * z);
+    points.push_back(trial::kSphereRadius * Vec3(r * std::cos(angle), r * std::sin(angle), z));
+  }
   const HapticSceneInput input = trial::resampledInput(points);
   const auto raw = trial::rawScene(input.points);
   const auto scene = trial::sceneOf(input);
@@ -273,8 +281,11 @@ TEST(HapticScene, SparsePointsGetOthersBetweenThemForTheBall)
   EXPECT_EQ(raw->sparseSpacing(), 0.0);
 }
 
-TEST(HapticScene, DensePointsDecideAboutContactThemselves)
+TEST(HapticScene, DenseAndRandomPointsDecideAboutContactThemselves)
 {
+  // Points at random likewise: their gaps would stay open.
+  const auto few = trial::resampledScene(trial::spherePoints(8000, 5));
+  EXPECT_EQ(&few->contactPyramid(), &few->pyramid());
   const auto scene = trial::resampledScene(trial::spherePoints(200000, 5));
   EXPECT_EQ(&scene->contactPyramid(), &scene->pyramid());
   EXPECT_EQ(scene->contactCell(), scene->cellSize());

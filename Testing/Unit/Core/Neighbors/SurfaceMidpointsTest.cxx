@@ -58,20 +58,31 @@ TEST(SurfaceMidpoints, HalveTheSpacingOfAGrid)
   EXPECT_TRUE(std::none_of(middles.begin(), middles.end(), offPlane));
 }
 
-TEST(SurfaceMidpoints, FillTheGapsOfRandomPoints)
+TEST(SurfaceMidpoints, FillTheGapsOfUnevenPoints)
 {
-  constexpr double kEdge = 24.0;
+  constexpr int kEdge = 24;
   trial::Random random(11);
   std::vector<Vec3> points;
-  for (int i = 0; i < int(kEdge * kEdge); ++i)
+  for (int i = 0; i < kEdge * kEdge; ++i)
   {
-    points.emplace_back(random.uniform(0.0, kEdge), random.uniform(0.0, kEdge), 0.0);
+    points.emplace_back(i % kEdge + random.uniform(0.1, 0.9), i / kEdge + random.uniform(0.1, 0.9), 0.0);
   }
   const double before = largestGap(points, kEdge);
   const std::vector<Vec3> middles = midpointsOf(points);
   EXPECT_GT(middles.size(), 2.5 * points.size());
   points.insert(points.end(), middles.begin(), middles.end());
   EXPECT_LT(largestGap(points, kEdge), 0.65 * before);
+}
+
+TEST(SurfaceMidpoints, OfPointsAtRandomAreNone)
+{
+  trial::Random random(12);
+  std::vector<Vec3> points;
+  for (int i = 0; i < 2000; ++i)
+  {
+    points.emplace_back(random.uniform(0.0, 45.0), random.uniform(0.0, 45.0), 0.0);
+  }
+  EXPECT_TRUE(midpointsOf(points).empty());
 }
 
 TEST(SurfaceMidpoints, StayOnBothSidesOfAThinPlate)
@@ -147,9 +158,11 @@ TEST(SurfaceMidpoints, DoNotDependOnTheExecutor)
   std::vector<Vec3> points;
   for (int i = 0; i < 3000; ++i)
   {
-    points.push_back(10.0 * random.direction());
+    points.emplace_back(
+      i % 50 + random.uniform(0.2, 0.8), i / 50 + random.uniform(0.2, 0.8), random.uniform(0.0, 0.2));
   }
   const std::vector<Vec3> one = midpointsOf(points);
+  EXPECT_GT(one.size(), points.size());
   EXPECT_TRUE(one == midpointsOf(points, 0.0, trial::ThreadedExecutor(3)));
   EXPECT_TRUE(one == midpointsOf(points, 0.0, trial::BackwardExecutor(7)));
 }
