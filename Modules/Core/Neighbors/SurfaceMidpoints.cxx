@@ -16,9 +16,16 @@ namespace
 constexpr double kPi = 3.14159265358979323846;
 /// Neighbours of a point that may bound its cell; rows are closer along than across.
 constexpr int kNeighbors = 40;
-/// A normal is that of the nearest eight at least, and of those within so many spacings.
+/// A normal is that of the points within so many spacings, and beyond the nearest eight; the further they
+/// are the less they count, and so does the other side of a thin plate.
 constexpr int kFewest = 8;
-constexpr double kNormalReach = 2.0;
+constexpr double kNormalReach = 2.5;
+constexpr double kBeyondFewest = 1.3; ///< Of squares.
+/// Neighbours steeper than this above the tangent plane do not count for the spacing, a sine: those of
+/// another sheet close by would halve the square of it. It grows by so much at most: at an edge half the
+/// neighbours are steep.
+constexpr double kGentle = 0.5;
+constexpr double kMostOfAll = 1.5;
 /// Corners of a cell further away than this many spacings belong to a hole.
 constexpr double kCellReach = 2.0;
 /// A neighbour steeper than this above the tangent plane is of another sheet; a sine.
@@ -61,6 +68,12 @@ Vec3 laidFlat(const Vec3& d, const Vec3& normal)
   return std::abs(height) <= kSteep * length && norm2(along) > 0.0 ? (length / norm(along)) * along : Vec3();
 }
 
+/// Of points whose fourth and eighth neighbours are so far away, squared, as if they lay in a square grid.
+double gridSpacing(double fourth2, double eighth2)
+{
+  return std::sqrt(kPi * std::max(fourth2 / 4.0, eighth2 / 8.0));
+}
+
 class Triangulation
 {
 public:
@@ -69,12 +82,8 @@ public:
   {
     query_.build(points, executor);
     fans_.resize(std::size_t(query_.size()));
-    forRange(executor, NeighborSweep::leaves(query_), NeighborSweep::kSmallestRange,
-      [this](std::int64_t begin, std::int64_t end)
-      {
-        NeighborSweep sweep(query_, kNeighbors + 1);
-        sweep.run(begin, end, [this](const NeighborList& list) { this->makeFan(list); });
-      });
+    this->sweep(executor, [this](const NeighborList& list) { this->measure(list); });
+    this->sweep(executor, [this](const NeighborList& list) { this->makeFan(list); });
   }
 
   /// Whether the points lie at random: such have gaps which triangles of their edges do not close.
@@ -92,7 +101,7 @@ public:
       for (std::size_t i = 0; i < fans_[a].size; ++i)
       {
         const std::uint32_t b = fans_[a].ends[i];
-        if ((a < b || !fans_[b].has(a)) && this->isEdge(a, b))
+        if ((a < b || !fans_[b].has(a)) && this->isSparse(a, b))
         {
           result.push_back(0.5 * (query_.point(a) + query_.point(b)));
         }
@@ -102,6 +111,18 @@ public:
   }
 
 private:
+  /// Calls visit(neighbours) once for each point.
+  template <typename Visitor>
+  void sweep(const Executor& executor, Visitor visit)
+  {
+    forRange(executor, NeighborSweep::leaves(query_), NeighborSweep::kSmallestRange,
+      [&](std::int64_t begin, std::int64_t end)
+      {
+        NeighborSweep sweep(query_, kNeighbors + 1);
+        sweep.run(begin, end, visit);
+      });
+  }
+
   Vec3 offset(const NeighborList& list, int i) const
   {
     return query_.point(std::int64_t(list.slots[i])) - query_.point(list.slot);
@@ -109,62 +130,107 @@ private:
 
   Vec3 normalAt(const NeighborList& list, double spacing) const
   {
-    const double reach = kNormalReach * spacing;
+    const double reach2 = std::max(
+      kNormalReach * kNormalReach * spacing * spacing, kBeyondFewest * list.squaredDistances[kFewest]);
     Vec3 sum;
     SymMat3 moments;
-    int count = 0;
-    for (; count < list.count && (count <= kFewest || list.squaredDistances[count] <= reach * reach); ++count)
+    double weights = 0.0;
+    for (int i = 0; i < list.count && list.squaredDistances[i] < reach2; ++i)
     {
-      const Vec3 d = this->offset(list, count);
-      sum += d;
-      moments += outerProduct(d);
+      const double weight = 1.0 - list.squaredDistances[i] / reach2;
+      const Vec3 d = this->offset(list, i);
+      sum += weight * d;
+      SymMat3 moment = outerProduct(d);
+      moment *= weight;
+      moments += moment;
+      weights += weight;
     }
     SymMat3 mean = outerProduct(sum);
-    mean *= -1.0 / count;
+    mean *= -1.0 / weights;
     moments += mean;
     return symmetricEigen(moments).vectors[0];
   }
 
-  void makeFan(const NeighborList& list)
+  /// The spacing without neighbours of another sheet; 0: there are too few of the point's own.
+  double spacingOfSheet(const NeighborList& list, const Vec3& normal) const
+  {
+    double fourth2 = 0.0;
+    int count = 0;
+    for (int i = 1; i < list.count; ++i)
+    {
+      const double height = dot(this->offset(list, i), normal);
+      if (height * height > kGentle * kGentle * list.squaredDistances[i])
+      {
+        continue;
+      }
+      ++count;
+      fourth2 = count == 4 ? list.squaredDistances[i] : fourth2;
+      if (count == 8)
+      {
+        return gridSpacing(fourth2, list.squaredDistances[i]);
+      }
+    }
+    return 0.0;
+  }
+
+  /// Finds the spacing and the normal of a point.
+  void measure(const NeighborList& list)
   {
     if (list.count <= kFewest)
     {
       return;
     }
-    // As if they lay in a square grid on a plane.
-    const double spacing =
-      std::sqrt(kPi * std::max(list.squaredDistances[4] / 4.0, list.squaredDistances[8] / 8.0));
+    const double spacing = gridSpacing(list.squaredDistances[4], list.squaredDistances[8]);
     if (spacing <= 0.0)
     {
       return;
     }
     Fan& fan = fans_[std::size_t(list.slot)];
-    fan.spacing = spacing;
     fan.hasTwin = list.squaredDistances[1] < kTwin * list.squaredDistances[4];
     fan.normal = this->normalAt(list, spacing);
+    fan.spacing = std::clamp(this->spacingOfSheet(list, fan.normal), spacing, kMostOfAll * spacing);
+  }
+
+  /// Finds the edges of a point. Neighbours of another sheet bound no cell: they would end the edges across a
+  /// hole on this one.
+  void makeFan(const NeighborList& list)
+  {
+    Fan& fan = fans_[std::size_t(list.slot)];
+    if (fan.spacing <= 0.0)
+    {
+      return;
+    }
     // What is further away than half the last neighbour may have others nearer.
     const double known = 0.5 * std::sqrt(list.squaredDistances[list.count - 1]);
-    TangentCell cell(fan.normal, std::max(kCellReach * spacing, known));
-    for (int i = 1; i < list.count && cell.add(laidFlat(this->offset(list, i), fan.normal)); ++i)
+    TangentCell cell(fan.normal, std::max(kCellReach * fan.spacing, known));
+    const auto isOfSheet = [&](int i)
+    { return this->followsSurface(std::uint32_t(list.slot), std::uint32_t(list.slots[i])); };
+    for (int i = 1; i < list.count; ++i)
     {
+      if (isOfSheet(i) && !cell.add(laidFlat(this->offset(list, i), fan.normal)))
+      {
+        break;
+      }
     }
     for (int i = 1; i < list.count && fan.size < kMostEdges; ++i)
     {
-      if (cell.touches(laidFlat(this->offset(list, i), fan.normal)))
+      if (cell.touches(laidFlat(this->offset(list, i), fan.normal)) && isOfSheet(i))
       {
         fan.ends[fan.size++] = std::uint32_t(list.slots[i]);
       }
     }
   }
 
-  bool isEdge(std::uint32_t first, std::uint32_t second) const
+  /// Whether the way from one to the other follows the surface: it leads through no thin plate, and across no
+  /// gap.
+  bool followsSurface(std::uint32_t first, std::uint32_t second) const
   {
     const Fan& a = fans_[first];
     const Fan& b = fans_[second];
     const Vec3 d = query_.point(second) - query_.point(first);
     const double length = norm(d);
     const double spacing = std::min(a.spacing, b.spacing);
-    if (std::max(a.spacing, b.spacing) < sparse_ || length > kLongestFlat * spacing)
+    if (length <= 0.0 || length > kLongestFlat * spacing)
     {
       return false;
     }
@@ -173,6 +239,11 @@ private:
     const double turn = std::acos(std::min(1.0, std::abs(dot(a.normal, b.normal))));
     const bool isFlat = std::max(leans(a), leans(b)) <= kFlat;
     return (isFlat || length <= kLongest * spacing) && leans(a) + leans(b) <= turn + kLean;
+  }
+
+  bool isSparse(std::uint32_t first, std::uint32_t second) const
+  {
+    return std::max(fans_[first].spacing, fans_[second].spacing) >= sparse_;
   }
 
   double sparse_;

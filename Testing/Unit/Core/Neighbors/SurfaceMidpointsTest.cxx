@@ -27,10 +27,10 @@ void addGrid(std::vector<Vec3>& points, int edge, const Vec3& corner)
   }
 }
 
-/// The largest distance of a place of the plane z = 0, a unit and more from the border, to the nearest point.
-double largestGap(const std::vector<Vec3>& points, double edge)
+/// Calls visit(distance to the nearest point) for places of the plane z = 0, a unit and more from the border.
+template <typename Visitor>
+void visitGaps(const std::vector<Vec3>& points, double edge, Visitor visit)
 {
-  double gap = 0.0;
   for (double x = 1.0; x < edge - 1.0; x += 0.11)
   {
     for (double y = 1.0; y < edge - 1.0; y += 0.11)
@@ -38,12 +38,32 @@ double largestGap(const std::vector<Vec3>& points, double edge)
       double least = 1e300;
       for (const Vec3& p : points)
       {
-        least = std::min(least, norm(p - Vec3(x, y, 0.0)));
+        least = std::min(least, norm2(p - Vec3(x, y, 0.0)));
       }
-      gap = std::max(gap, least);
+      visit(std::sqrt(least));
     }
   }
+}
+
+double largestGap(const std::vector<Vec3>& points, double edge)
+{
+  double gap = 0.0;
+  visitGaps(points, edge, [&](double distance) { gap = std::max(gap, distance); });
   return gap;
+}
+
+/// How many of a thousand places are further than @p far from all points.
+double partFurther(const std::vector<Vec3>& points, double edge, double far)
+{
+  int all = 0;
+  int further = 0;
+  visitGaps(points, edge,
+    [&](double distance)
+    {
+      ++all;
+      further += distance > far;
+    });
+  return 1e3 * further / all;
 }
 
 TEST(SurfaceMidpoints, HalveTheSpacingOfAGrid)
@@ -58,15 +78,21 @@ TEST(SurfaceMidpoints, HalveTheSpacingOfAGrid)
   EXPECT_TRUE(std::none_of(middles.begin(), middles.end(), offPlane));
 }
 
+/// A point anywhere in the middle of each unit square of the square [0, @p edge)^2, at the height @p z.
+void addUneven(std::vector<Vec3>& points, trial::Random& random, int edge, double z)
+{
+  for (int i = 0; i < edge * edge; ++i)
+  {
+    points.emplace_back(i % edge + random.uniform(0.1, 0.9), i / edge + random.uniform(0.1, 0.9), z);
+  }
+}
+
 TEST(SurfaceMidpoints, FillTheGapsOfUnevenPoints)
 {
   constexpr int kEdge = 24;
   trial::Random random(11);
   std::vector<Vec3> points;
-  for (int i = 0; i < kEdge * kEdge; ++i)
-  {
-    points.emplace_back(i % kEdge + random.uniform(0.1, 0.9), i / kEdge + random.uniform(0.1, 0.9), 0.0);
-  }
+  addUneven(points, random, kEdge, 0.0);
   const double before = largestGap(points, kEdge);
   const std::vector<Vec3> middles = midpointsOf(points);
   EXPECT_GT(middles.size(), 2.5 * points.size());
@@ -83,6 +109,31 @@ TEST(SurfaceMidpoints, OfPointsAtRandomAreNone)
     points.emplace_back(random.uniform(0.0, 45.0), random.uniform(0.0, 45.0), 0.0);
   }
   EXPECT_TRUE(midpointsOf(points).empty());
+}
+
+/// Points of the other side are nearer than those across a hole.
+TEST(SurfaceMidpoints, FillTheGapsOfUnevenPointsOnAThinPlate)
+{
+  constexpr int kEdge = 32;
+  constexpr double kFar = 0.5;
+  for (const double thickness : { 1.0, 1.5, 2.0 })
+  {
+    trial::Random random(5);
+    std::vector<Vec3> points;
+    addUneven(points, random, kEdge, 0.0);
+    std::vector<Vec3> side = points;
+    addUneven(points, random, kEdge, thickness);
+    const double before = partFurther(side, kEdge, kFar);
+    for (const Vec3& p : midpointsOf(points))
+    {
+      if (p.z < 0.1 * thickness)
+      {
+        side.push_back(p);
+      }
+    }
+    EXPECT_GT(before, 100.0);
+    EXPECT_EQ(partFurther(side, kEdge, kFar), 0.0) << thickness;
+  }
 }
 
 TEST(SurfaceMidpoints, StayOnBothSidesOfAThinPlate)
