@@ -34,6 +34,19 @@ constexpr double kOneSheet = 0.1;
 constexpr double kRimOffset = 0.3;
 /// Part of the ball that must have room beside a rim.
 constexpr double kRoom = 0.9;
+/// Points within so many index cells are no sheet aside. A point is a stray beside a sheet that has so many
+/// times as many points within half of the reach, and whose plane it is that far from, over the distance of
+/// the sheet's points.
+constexpr double kStrayReach = 4.0;
+constexpr double kDenserThanStray = 8.0;
+constexpr double kOffSheet = 0.5;
+/// The same of a sheet in whose plane the point is: so many times as many points must be on one side, as a
+/// sheet may go on much sparser.
+constexpr double kFarDenser = 64.0;
+/// Points so many typical spacings apart are a surface only where they are of one sheet, and their middle
+/// lies no further aside.
+constexpr double kMiddle = 0.5;
+constexpr double kScatteredSpacings = 4.0;
 constexpr double kPi = 3.14159265358979323846;
 
 /// Calls visit(offset from @p seed) for the points within @p reach of it.
@@ -56,6 +69,72 @@ bool isRow(const HapticScene& scene, const BallCells& near, const Vec3& seed, do
   PointMoments points;
   visitPoints(scene, near, seed, reach, [&](const Vec3& offset) { points.add(offset); });
   return symmetricEigen(points.covariance()).values[1] < kOneSheet * kOneSheet * reach * reach;
+}
+
+/// Whether the points about @p place, from the seed and within half of @p reach, are a sheet that the seed is
+/// a stray beside.
+bool isSheetAside(const HapticScene& scene, const BallCells& near, const Vec3& seed, double reach,
+  const Vec3& place, double countAtSeed) noexcept
+{
+  PointMoments points;
+  visitPoints(scene, near, seed + place, 0.5 * reach, [&](const Vec3& offset) { points.add(offset); });
+  if (points.count < std::max(kPoints, kDenserThanStray * countAtSeed))
+  {
+    return false;
+  }
+  const auto spread = symmetricEigen(points.covariance());
+  const double least = kOneSheet * 0.5 * reach;
+  return spread.values[1] >= least * least &&
+    std::abs(dot(place, spread.vectors[0])) > kOffSheet * norm(place);
+}
+
+/// Whether the points that were found within @p reach are not about the seed, but of a sheet beside it.
+bool isStray(const HapticScene& scene, const BallCells& near, const Vec3& seed, double reach) noexcept
+{
+  if (reach < kStrayReach * scene.contactCell())
+  {
+    return false;
+  }
+  const double half = 0.5 * reach;
+  double count = 0.0;
+  double outside = 0.0;
+  Vec3 sum;
+  Vec3 first;
+  double least = reach * reach;
+  visitPoints(scene, near, seed, reach,
+    [&](const Vec3& offset)
+    {
+      const double d2 = norm2(offset);
+      if (d2 < half * half)
+      {
+        count += 1.0;
+        return;
+      }
+      outside += 1.0;
+      sum += offset;
+      first = d2 < least ? offset : first;
+      least = std::min(least, d2);
+    });
+  const bool isOnOneSide = norm(sum) > kMiddle * reach * outside;
+  return outside > count &&
+    ((isOnOneSide && outside > kFarDenser * count) || isSheetAside(scene, near, seed, reach, first, count) ||
+      isSheetAside(scene, near, seed, reach, sum / outside, count));
+}
+
+/// Whether points as far apart as @p spacing, though the cloud has much denser ones elsewhere, are of no
+/// surface, but scattered.
+bool areScattered(
+  const HapticScene& scene, const BallCells& near, const Vec3& seed, double reach, double spacing) noexcept
+{
+  if (kFieldInSpacings * spacing < kScatteredSpacings * scene.typicalScale().proxyRadius)
+  {
+    return false;
+  }
+  PointMoments points;
+  visitPoints(scene, near, seed, reach, [&](const Vec3& offset) { points.add(offset); });
+  return points.count < kPoints ||
+    symmetricEigen(points.covariance()).values[0] > kOneSheet * kOneSheet * reach * reach ||
+    norm(points.mean()) > kMiddle * reach;
 }
 
 /// Part of a disk that points fill whose middle lies @p aside, over its radius.
@@ -135,16 +214,23 @@ double ballRadius(const HapticScene& scene, FitCells& fields, const BallCells& n
     points = points < kPoints && all >= kPoints && isRow(scene, near, seed, reach) ? all : points;
   }
   reach /= kReachGrowth;
-  // A few points far from all others are no surface: they have no spacing, and the field about them is as
-  // wide as they are far apart. Of a cloud that has no more the few are all there is.
-  const bool areLone = points < kPoints && double(scene.contactPyramid().level(0).cells.size()) >= kPoints;
-  const double spacing =
-    areLone ? 0.0 : rimSpacing(scene, near, seed, reach, middle, reach * std::sqrt(kPi / points));
+  const double apart = reach * std::sqrt(kPi / points);
+  const double least = kBallRadiusInCells * scene.contactCell();
+  // Few points far from all others, beside a sheet or scattered in the air are no surface: they have no
+  // spacing, and the field about them is as wide as they are far apart. Of a cloud that has no more the few
+  // are all there is.
+  const bool areFew = double(scene.contactPyramid().level(0).cells.size()) < kPoints;
+  if (!areFew &&
+    (points < kPoints || isStray(scene, near, seed, reach) || areScattered(scene, near, seed, reach, apart)))
+  {
+    return least;
+  }
+  const double spacing = rimSpacing(scene, near, seed, reach, middle, apart);
   // Few points say little: the field, which is smooth, keeps clumps of them from making the ball too small.
   Vec3 ignored;
   const double typical = scene.fitScale(seed, fields, ignored).proxyRadius;
-  const double field = areLone ? 0.0 : kRadiusOfField * typical * fieldPart(scene, typical);
-  return std::max({ kBallRadiusInCells * scene.contactCell(), kBallRadiusInSpacings * spacing, field });
+  const double field = kRadiusOfField * typical * fieldPart(scene, typical);
+  return std::max({ least, kBallRadiusInSpacings * spacing, field });
 }
 
 } // namespace pointhaptics

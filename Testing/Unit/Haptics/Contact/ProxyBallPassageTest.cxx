@@ -342,6 +342,86 @@ TEST(ProxyBallPassage, FeelsNothingBesideStrayPointsInTheAir)
   EXPECT_EQ(trial::recorded("feltTicks", felt), 0);
 }
 
+TEST(ProxyBallPassage, FeelsStraysAboveASheetNearThemAloneAndIsLetOut)
+{
+  // Denser than lone ones: their spacing must not be taken from the sheet below.
+  constexpr double kNear = 1.2e-3;
+  trial::Random random(61);
+  constexpr int kSheet = 60000;
+  constexpr int kStrays = 600;
+  std::vector<Vec3> points = trial::planePoints(kSheet, 3);
+  for (int stray = 0; stray < kStrays; ++stray)
+  {
+    points.push_back(random.inBox(Vec3(-0.045, -0.045, 0.003), Vec3(0.045, 0.045, 0.010)));
+  }
+  HapticSceneInput input = trial::resampledInput(points);
+  input.bandwidth = LocalBandwidthSettings();
+  const trial::Scene scene = trial::sceneOf(std::move(input));
+  const auto atStray = [&] { return points[kSheet + random.below(kStrays)]; };
+  int felt = 0;
+  int far = 0;
+  int held = 0;
+  for (int stroke = 0; stroke < 60; ++stroke)
+  {
+    const Vec3 start = random.inBox(Vec3(-0.03, -0.03, 0.014), Vec3(0.03, 0.03, 0.015));
+    trial::Path path;
+    Vec3 from = start;
+    for (int i = 0; i < 2; ++i)
+    {
+      // Head on, and past it.
+      const Vec3 stray = atStray();
+      const Vec3 to = stray + 1e-3 * normalized(stray - from);
+      appendLine(path, from, to, 400);
+      from = to;
+    }
+    appendLine(path, from, start, 400);
+    const std::vector<ProxyState> states = trial::feel(scene, {}, path);
+    for (const ProxyState& state : states)
+    {
+      const bool isFelt = norm(state.force) > 0.05;
+      felt += isFelt;
+      far += isFelt && trial::leastDistanceWithin(*scene, state.proxy, kNear) >= kNear;
+    }
+    held += norm(states.back().force) > 0.05;
+  }
+  EXPECT_GT(trial::recorded("feltTicks", felt), 0);
+  // Of 72,180 ticks; without regard to the sheet 17,800. Strays may lie in a plane by chance.
+  EXPECT_LE(trial::recorded("feltFarFromPoints", far), 15);
+  EXPECT_EQ(trial::recorded("heldOf60", held), 0);
+}
+
+TEST(ProxyBallPassage, DoesNotFallThroughAFlatPartThatIsMuchSparser)
+{
+  // On the right the points are eight times as far apart: they are no strays beside the dense sheet.
+  constexpr double kDense = 4e-4;
+  constexpr double kSparse = 3.2e-3;
+  trial::Random random(62);
+  std::vector<Vec3> points;
+  for (const Vec3& p : trial::jitteredPlane(225, 225 * kDense, 0.0, random))
+  {
+    points.insert(points.end(), p.x < 0.0 ? 1 : 0, p);
+  }
+  for (const Vec3& p : trial::jitteredPlane(28, 28 * kSparse, 0.0, random))
+  {
+    points.insert(points.end(), p.x >= 0.0 ? 1 : 0, p);
+  }
+  HapticSceneInput input = trial::resampledInput(points);
+  input.bandwidth = LocalBandwidthSettings();
+  const trial::Scene scene = trial::sceneOf(std::move(input));
+  int fallen = 0;
+  for (int stroke = 0; stroke < 60; ++stroke)
+  {
+    const Vec3 low(0.012, -0.025, -1e-3);
+    const Vec3 high(0.03, 0.025, -1e-3);
+    const Vec3 start = random.inBox(low, high);
+    trial::Path path;
+    appendLine(path, start + Vec3(0, 0, 0.005), start, 100);
+    appendLine(path, start, random.inBox(low, high), 400);
+    fallen += norm(trial::feel(scene, {}, path).back().force) < 0.05;
+  }
+  EXPECT_EQ(trial::recorded("fallenOf60", fallen), 0);
+}
+
 TEST(ProxyBallPassage, StaysOnTheFaceThatIsPressedBesideAnEdge)
 {
   constexpr double kHalf = 0.025;
