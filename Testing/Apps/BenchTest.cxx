@@ -228,10 +228,11 @@ TEST_F(Bench, ScansAreFelt)
   ASSERT_EQ(result["scans"]["rows"].size(), 4u);
   for (const json& row : result["scans"]["rows"])
   {
-    // Of four points the hand comes off at once.
-    EXPECT_LE(row["drops"], row["points"] == 4 ? 1 : 0) << row;
+    // Four points are needles: the hand slips off each, which ends the force at once.
+    const bool isNeedles = row["points"] == 4;
+    EXPECT_LE(row["drops"], isNeedles ? 2 : 0) << row;
     EXPECT_EQ(row["not_finite"], 0) << row;
-    EXPECT_LE(row["largest_change_newton"], 0.1 + 1e-6) << row;
+    EXPECT_LE(row["largest_change_newton"], isNeedles ? 0.8 : 0.1 + 1e-6) << row;
   }
   EXPECT_EQ(result["scans"]["rows"][0]["strokes"], 2);
   const std::string text = this->succeed({ "bench", "proxy", "--quick", "--studies", "scans", "--scans",

@@ -47,6 +47,8 @@ constexpr double kFarDenser = 64.0;
 /// lies no further aside.
 constexpr double kMiddle = 0.5;
 constexpr double kScatteredSpacings = 4.0;
+/// The ball of a cloud of less than kPoints points, over its extent.
+constexpr double kOfFewPoints = 0.02;
 constexpr double kPi = 3.14159265358979323846;
 
 /// Calls visit(offset from @p seed) for the points within @p reach of it.
@@ -215,13 +217,16 @@ double ballRadius(const HapticScene& scene, FitCells& fields, const BallCells& n
   }
   reach /= kReachGrowth;
   const double apart = reach * std::sqrt(kPi / points);
+  // A cloud of a few points has no surface: its cells are as large as they are far apart.
   const double least = kBallRadiusInCells * scene.contactCell();
-  // Few points far from all others, beside a sheet or scattered in the air are no surface: they have no
-  // spacing, and the field about them is as wide as they are far apart. Of a cloud that has no more the few
-  // are all there is.
-  const bool areFew = double(scene.contactPyramid().level(0).cells.size()) < kPoints;
-  if (!areFew &&
-    (points < kPoints || isStray(scene, near, seed, reach) || areScattered(scene, near, seed, reach, apart)))
+  const double extent = norm(scene.bounds().extent());
+  if (double(scene.contactPyramid().level(0).cells.size()) < kPoints)
+  {
+    return extent > 0.0 ? std::min(least, kOfFewPoints * extent) : least;
+  }
+  // Few points far from all others, beside a sheet or scattered in the air are of none: they have no spacing,
+  // and the field about them is as wide as they are far apart.
+  if (points < kPoints || isStray(scene, near, seed, reach) || areScattered(scene, near, seed, reach, apart))
   {
     return least;
   }

@@ -422,6 +422,16 @@ TEST(ProxyBallPassage, DoesNotFallThroughAFlatPartThatIsMuchSparser)
   EXPECT_EQ(trial::recorded("fallenOf60", fallen), 0);
 }
 
+TEST(ProxyBallPassage, IsSmallAboutTheOnlyPointsThereAre)
+{
+  const trial::Scene scene = trial::rawScene({ { 0, 0, 0 }, { 0.09, 0, 0 }, { 0, 0.09, 0 } });
+  BallInScene hand(scene);
+  hand.step({ 0.03, 0.03, 0.03 });
+  hand.go({ 0.03, 0.03, -0.03 }, 0.1);
+  EXPECT_TRUE(hand.ball().isFree());
+  EXPECT_LT(hand.ball().radius(), 0.005);
+}
+
 TEST(ProxyBallPassage, StaysOnTheFaceThatIsPressedBesideAnEdge)
 {
   constexpr double kHalf = 0.025;
