@@ -38,8 +38,8 @@ public:
   };
   virtual ~OutputAllocator() = default;
   /// At least so many bytes, aligned for their type, valid until the next run(); or null: the resampler's own
-  /// memory. The result may need fewer in the end. Called from the thread that called run(), at most once for
-  /// each part.
+  /// memory. The result may need fewer in the end. Called from the thread that called run(), once for each
+  /// part; and once more, for no more than the result needs, where there was too little memory.
   virtual void* allocate(std::size_t part, std::size_t bytes) = 0;
 };
 
@@ -101,10 +101,10 @@ struct VoxelRequest
 /// each thread where a layer of the lattice has up to 4 million voxels); where points are sorted 88 bytes
 /// (184 with covariances) for each of at most 262,144 points and 66 an active voxel; covariances: 100 an
 /// active voxel more, 132 where points are sorted. With attributes or VoxelRequest::voxelIndex: 20
-/// bytes, with tuples of points in no order up to 52, for each of at most 20 million points, with representatives for each point (32 where points are
-/// sorted), and the tuples of modes and medians, for the voxels at work or, where that takes another pass,
-/// for all; with levels the sums and values of arrays (see VoxelAccumulator). One object is used by one
-/// thread at a time; the executor's threads may be many.
+/// bytes, with tuples of points in no order up to 52, for each of at most 20 million points, with
+/// representatives for each point (32 where points are sorted), and the tuples of modes and medians, for the
+/// voxels at work or, where that takes another pass, for all; with levels the sums and values of arrays (see
+/// VoxelAccumulator). One object is used by one thread at a time; the executor's threads may be many.
 class VoxelResampler
 {
 public:

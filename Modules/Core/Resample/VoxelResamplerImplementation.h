@@ -58,6 +58,7 @@ private:
   void countPoints(std::int64_t inside, std::int64_t invalidOnes);
   void prepareStages(const VoxelRequest& request, const simd::Chunks& chunks);
   void accumulate(const VoxelRequest& request, const Executor& executor);
+  void makeOutput(const VoxelRequest& request, const Executor& executor);
   bool accumulateAndWrite(
     const VoxelRequest& request, std::size_t rounds, const Executor& executor, ProgressObserver* observer);
   template <typename Work>

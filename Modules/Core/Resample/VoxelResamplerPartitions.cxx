@@ -4,7 +4,9 @@
 #include "Core/Resample/VoxelResamplerImplementation.h"
 
 #include <algorithm>
+#include <atomic>
 #include <memory>
+#include <new>
 
 namespace pointhaptics
 {
@@ -59,6 +61,33 @@ void VoxelResampler::Implementation::accumulate(const VoxelRequest& request, con
     [&](PartitionWorker& worker, std::uint32_t p) { worker.accumulate(p, accumulated_[p], 0); });
 }
 
+/// Makes room for the voxels: for as many as there may be, of which what is not written is never touched, or,
+/// where a machine or a limit counts that, too, for as many as there are.
+void VoxelResampler::Implementation::makeOutput(const VoxelRequest& request, const Executor& executor)
+{
+  const PartitionPlan& plan = binner_.plan();
+  MeanArena& arena = levels[0].arena;
+  const auto prepare = [&](std::size_t room)
+  { arena.prepare(room, layoutOf(request), levels[0].lattice, plan.fractionBits, request.allocator); };
+  std::size_t most = 0;
+  for (std::uint32_t p = 0; writesMeans(request) && p < plan.partitions; ++p)
+  {
+    most += mostVoxels(plan, binner_.count(p), accumulated_[p].cellCount);
+  }
+  try
+  {
+    prepare(most);
+  }
+  catch (const std::bad_alloc&)
+  {
+    arena = MeanArena();
+    std::atomic<std::size_t> voxels{ 0 };
+    forPartitions(request, 0, plan.partitions, executor,
+      [&](PartitionWorker& worker, std::uint32_t p) { voxels += worker.countVoxels(p, accumulated_[p]); });
+    prepare(voxels);
+  }
+}
+
 /// The records that are kept and the accumulated sums become means, or sums, or both where levels are to
 /// follow.
 /// @p rounds: of partitions, with a report after each. @return false where @p observer ended the work.
@@ -69,13 +98,8 @@ bool VoxelResampler::Implementation::accumulateAndWrite(
   const PartitionPlan& plan = binner_.plan();
   std::vector<VoxelRun> runs(keepsSums_ || request.levels > 1 ? plan.partitions : 0);
   const bool writes = writesMeans(request);
-  std::size_t room = 0;
-  for (std::uint32_t p = 0; writes && p < plan.partitions; ++p)
-  {
-    room += mostVoxels(plan, binner_.count(p), accumulated_[p].cellCount);
-  }
+  makeOutput(request, executor);
   Level& level = levels[0];
-  level.arena.prepare(room, layoutOf(request), level.lattice, plan.fractionBits, request.allocator);
   PartitionOrder order(level.firsts, plan.partitions);
   const auto write = [&](PartitionWorker& worker, std::uint32_t p)
   {

@@ -140,6 +140,25 @@ void PartitionWorker::countOccupied()
   voxels_.size = rankOccupied({ recordCells_.data(), records }, { old_->cells.data(), old_->cellCount });
 }
 
+std::size_t PartitionWorker::countVoxels(std::uint32_t partition, AccumulatedPartition& old)
+{
+  const std::size_t records = binner_->count(partition);
+  if (records > kMostPackedPoints)
+  {
+    return mostVoxels(plan(), records, old.cellCount);
+  }
+  partition_ = partition;
+  old_ = &old;
+  pools_ = { 0, binner_->pools() };
+  countOccupied();
+  if (voxels_.size > 0)
+  {
+    clearOccupancy({ recordCells_.data(), records });
+    clearOccupancy({ old.cells.data(), old.cellCount });
+  }
+  return voxels_.size;
+}
+
 /// Adds the records to the sums at @p to, which become the voxels; these are complete where they are
 /// reduced.
 void PartitionWorker::sumRecords(AccumulatedPartition& to, bool reduces)

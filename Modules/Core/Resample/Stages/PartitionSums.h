@@ -91,6 +91,8 @@ public:
     sumRecords(old_->cellCount > 0 ? *old_ : own_, reduces_);
     return firstVoxel_;
   }
+  /// The number of voxels that load() will publish; for a partition of very many points an upper bound.
+  std::size_t countVoxels(std::uint32_t partition, AccumulatedPartition& old);
   /// All the voxels in wide sums.
   VoxelRun wide() const;
   /// What the arrays of the request have in the voxels, where prepare() was asked to reduce them. After

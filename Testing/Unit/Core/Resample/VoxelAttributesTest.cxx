@@ -12,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <new>
 #include <string>
 #include <vector>
 
@@ -268,6 +269,75 @@ TEST(VoxelAttributes, AreTheSameInTheOrderOfAScan)
       ASSERT_EQ(resampler.run(request), Status::Ok);
       EXPECT_EQ(attributesOf(resampler, request, 0), expectedOf(request)) << "in chunks";
       request.chunkPoints = 0;
+    }
+  }
+}
+
+namespace
+{
+
+/// Memory for so many voxels, and no more.
+class TightAllocator final : public OutputAllocator
+{
+public:
+  explicit TightAllocator(std::int64_t voxels)
+    : voxels_(std::size_t(voxels))
+  {
+  }
+  void* allocate(std::size_t part, std::size_t bytes) override
+  {
+    const std::size_t ofVoxel = part == Means ? sizeof(Vec3)
+      : part == Counts                        ? sizeof(std::int64_t)
+                                              : sizeof(float);
+    if (bytes > voxels_ * ofVoxel)
+    {
+      ++refusals;
+      throw std::bad_alloc();
+    }
+    memory_[part].resize(bytes);
+    return memory_[part].data();
+  }
+  int refusals = 0;
+
+private:
+  std::size_t voxels_;
+  std::array<std::vector<char>, Attributes + 1> memory_;
+};
+
+}
+
+TEST(VoxelAttributes, TakeNoMoreMemoryThanThereIs)
+{
+  // Room for as many voxels as points is refused; voxels are counted then.
+  constexpr std::size_t kPoints = 20000;
+  const std::vector<Vec3> points = randomBox(kPoints, 18, { 0, 0, 0 }, { 3, 30, 30 });
+  const std::vector<float> values(kPoints, 1.5f);
+  for (const std::int64_t columns : { std::int64_t(4), std::int64_t(4096) }) // dense partitions, sparse ones
+  {
+    VoxelRequest request;
+    request.points = { points.data(), std::int64_t(kPoints) };
+    request.lattice = latticeOf(columns, 60, 60);
+    request.chunkPoints = 3000;
+    VoxelResampler plain;
+    const std::vector<double> means = runOf(plain, request).levels[0].means;
+    VoxelResampler resampler;
+    for (const bool hasArray : { false, true })
+    {
+      request.attributes.clear();
+      if (hasArray)
+      {
+        request.attributes.push_back({ { values.data(), ScalarType::Float, 1, std::int64_t(kPoints) } });
+      }
+      TightAllocator tight(plain.size());
+      request.allocator = &tight;
+      EXPECT_EQ(runOf(resampler, request, ThreadedExecutor(2)).levels[0].means, means) << columns;
+      EXPECT_EQ(tight.refusals, 1) << columns;
+      EXPECT_EQ(attributesOf(resampler, request, 0), expectedOf(request)) << columns;
+      TightAllocator tooTight(plain.size() - 1);
+      request.allocator = &tooTight;
+      EXPECT_THROW(static_cast<void>(resampler.run(request)), std::bad_alloc);
+      request.allocator = nullptr;
+      EXPECT_EQ(runOf(resampler, request).levels[0].means, means) << "after too little memory";
     }
   }
 }
