@@ -45,9 +45,17 @@ void VoxelResampler::Implementation::forPartitions(
   {
     worker->prepare(request, binner_, holdsAll_, voxelIndex.data());
   }
-  forEachItemWith(
-    executor, last - first, [&](std::size_t thread) -> PartitionWorker& { return *workers_[thread]; },
-    [&](std::size_t p, PartitionWorker& worker) { work(worker, first + std::uint32_t(p)); });
+  try
+  {
+    forEachItemWith(
+      executor, last - first, [&](std::size_t thread) -> PartitionWorker& { return *workers_[thread]; },
+      [&](std::size_t p, PartitionWorker& worker) { work(worker, first + std::uint32_t(p)); });
+  }
+  catch (...)
+  {
+    workers_.clear(); // The next run finds no occupancy bits of this one.
+    throw;
+  }
   for (const std::unique_ptr<PartitionWorker>& worker : workers_)
   {
     worker->finish();

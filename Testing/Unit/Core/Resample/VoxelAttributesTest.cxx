@@ -342,6 +342,39 @@ TEST(VoxelAttributes, TakeNoMoreMemoryThanThereIs)
   }
 }
 
+TEST(VoxelAttributes, AreRightAfterMemoryRanOutAmongTheSums)
+{
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "sanitizers take so large a request for an error";
+#endif
+  // Tuples that no memory holds, for whose result there is room all the same.
+  class Boundless final : public OutputAllocator
+  {
+  public:
+    void* allocate(std::size_t part, std::size_t) override { return part < Attributes ? nullptr : &memory_; }
+
+  private:
+    char memory_ = 0;
+  };
+  constexpr std::size_t kPoints = 3000;
+  const std::vector<Vec3> first = randomBox(kPoints, 19, { 0, 0, 0 }, { 15, 30, 30 });
+  const std::vector<Vec3> second = randomBox(kPoints, 20, { 15, 0, 0 }, { 30, 30, 30 });
+  VoxelRequest request;
+  request.points = { first.data(), std::int64_t(kPoints) };
+  request.lattice = latticeOf(30, 30, 30);
+  Boundless boundless;
+  request.allocator = &boundless;
+  request.attributes = { { { first.data(), ScalarType::Double, 1 << 30, std::int64_t(kPoints), sizeof(Vec3) },
+    AttributeStatistic::Mode } };
+  VoxelResampler resampler;
+  EXPECT_THROW(static_cast<void>(resampler.run(request)), std::bad_alloc);
+  request.allocator = nullptr;
+  request.attributes.clear();
+  request.points = { second.data(), std::int64_t(kPoints) };
+  VoxelResampler fresh;
+  expectSame(runOf(resampler, request), runOf(fresh, request), "after memory ran out");
+}
+
 TEST(VoxelAttributes, LeaveTheSumsOfAnOverfullCellAsTheyAre)
 {
   // 9 of 10 points in one voxel: more than the 2^21 whose coordinates a sum of 64 bits holds.
