@@ -13,7 +13,7 @@ namespace pointhaptics
 
 using namespace simd;
 
-/// So many chunks are kept until all points are summed, each 20 bytes a point.
+/// So many chunks are kept until all points are summed, each 20 to 52 bytes a point.
 constexpr std::size_t kMostHeldChunks = 16;
 
 static_assert(kChunkPoints <= kPointsPerReport, "progress is reported after each chunk");

@@ -16,16 +16,17 @@ namespace simd
 constexpr std::uint32_t kNoBlock = ~std::uint32_t(0);
 
 /// An array whose tuples go with the records of their points.
-struct RowArray
+struct PayloadArray
 {
   const char* values; ///< Of the first number.
   std::int64_t step;  ///< Bytes from one tuple to the next.
   int bytes;          ///< Of a tuple.
-  int offset;         ///< In bytes, of a tuple in a row.
+  int offset;         ///< In bytes, of a tuple in a payload.
 };
 
-/// What lies beside each record: in its first word the number of the point, if that is of use, then tuples.
-struct RowLayout
+/// What goes with each record, its payload: in its first word the number of the point, if that is of use,
+/// then tuples.
+struct PayloadLayout
 {
   static constexpr int kMostWords = 9;
   static constexpr int kMostArrays = 8;
@@ -33,7 +34,7 @@ struct RowLayout
   int words = 0; ///< Of 32 bits; 0: nothing.
   bool numbered = false;
   int count = 0;
-  RowArray arrays[kMostArrays] = {};
+  PayloadArray arrays[kMostArrays] = {};
 };
 
 /// The write position of one thread in each partition.
@@ -47,8 +48,8 @@ struct PointRecordWriter
   std::uint32_t* taken;      ///< Blocks that the pool's writers have taken: they share it.
   std::uint32_t nextBlock;   ///< Of those it took in advance.
   std::uint32_t endBlock;
-  std::uint32_t* rows;            ///< Beside each record.
-  RowLayout layout;               ///< Of a row.
+  std::uint32_t* payloads;        ///< Of each record.
+  PayloadLayout layout;           ///< Of a payload.
   const std::uint32_t* originals; ///< Numbers from the first range's begin on; or null: they ascend.
   std::uint32_t firstNumber;      ///< Of the first range's begin, then.
   std::int64_t inside;

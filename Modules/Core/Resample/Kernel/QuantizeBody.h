@@ -219,12 +219,12 @@ __attribute__((noinline)) int quantizeGroups(const QuantizerVectors& given, cons
   return invalid;
 }
 
-/// Copies the tuples of @p size points of an array into rows.
+/// Copies the tuples of @p size points of an array into payloads.
 template <int Bytes>
-inline void copyTuples(const RowArray& given, const std::uint32_t* numbers, int words, int size, char* to)
+inline void copyTuples(const PayloadArray& given, const std::uint32_t* numbers, int words, int size, char* to)
 {
   constexpr int kAhead = 2048;
-  const RowArray array = given; // A copy, which no store can change.
+  const PayloadArray array = given; // A copy, which no store can change.
   const std::size_t bytes = Bytes > 0 ? std::size_t(Bytes) : std::size_t(array.bytes);
   for (int i = 0; i < size; ++i)
   {
@@ -234,8 +234,9 @@ inline void copyTuples(const RowArray& given, const std::uint32_t* numbers, int 
   }
 }
 
-/// The rows of quantized points.
-inline void makeRows(const QuantizedPoints& quantized, const PointRecordWriter& writer, std::uint32_t* rows)
+/// The payloads of quantized points.
+inline void makePayloads(
+  const QuantizedPoints& quantized, const PointRecordWriter& writer, std::uint32_t* payloads)
 {
   const int words = writer.layout.words;
   std::uint32_t numbers[kBatchPoints + kWidest];
@@ -246,35 +247,35 @@ inline void makeRows(const QuantizedPoints& quantized, const PointRecordWriter& 
   }
   for (int i = 0; writer.layout.numbered && i < quantized.size; ++i)
   {
-    rows[words * i] = numbers[i];
+    payloads[words * i] = numbers[i];
   }
   for (int a = 0; a < writer.layout.count; ++a)
   {
-    const RowArray& array = writer.layout.arrays[a];
+    const PayloadArray& array = writer.layout.arrays[a];
     const auto copy = array.bytes == 1 ? &copyTuples<1>
       : array.bytes == 3               ? &copyTuples<3>
       : array.bytes == 4               ? &copyTuples<4>
       : array.bytes == 12              ? &copyTuples<12>
                                        : &copyTuples<0>;
-    copy(array, numbers, words, quantized.size, reinterpret_cast<char*>(rows));
+    copy(array, numbers, words, quantized.size, reinterpret_cast<char*>(payloads));
   }
 }
 
 /// Bins quantized points: appends their records to the partitions. It takes turns over the batch: neighbours
 /// in a scan go to one partition, and a record would wait for the cursor that the record before has moved.
-/// @tparam RowWords: of what lies beside a record.
-template <int RowWords>
+/// @tparam PayloadWords: of a record.
+template <int PayloadWords>
 inline void binPoints(QuantizedPoints& quantized, PointRecordWriter& writer)
 {
-  alignas(64) std::uint32_t batchRows[RowWords > 0 ? RowWords * (kBatchPoints + kWidest) : 1];
-  if constexpr (RowWords > 0)
+  alignas(64) std::uint32_t batchPayloads[PayloadWords > 0 ? PayloadWords * (kBatchPoints + kWidest) : 1];
+  if constexpr (PayloadWords > 0)
   {
-    makeRows(quantized, writer, batchRows);
+    makePayloads(quantized, writer, batchPayloads);
   }
   // Copies, which no store can change.
   PointRecord** const cursors = writer.cursors;
   const std::uintptr_t blockMask = writer.blockMask;
-  std::uint32_t* const rows = writer.rows;
+  std::uint32_t* const payloads = writer.payloads;
   const auto bin = [&](int i) __attribute__((always_inline))
   {
     const std::uint64_t partition = quantized.partitions[i];
@@ -284,11 +285,11 @@ inline void binPoints(QuantizedPoints& quantized, PointRecordWriter& writer)
     // cache.
     fetchToWrite(cursor + 2 * kLineRecords);
     *cursor = quantized.records[i];
-    if constexpr (RowWords > 0)
+    if constexpr (PayloadWords > 0)
     {
-      std::uint32_t* const row = rows + RowWords * (cursor - writer.records);
-      fetchToWrite(row + (RowWords > 1 ? 2 : 1) * kLineNumbers);
-      __builtin_memcpy(row, batchRows + RowWords * i, sizeof(std::uint32_t) * RowWords);
+      std::uint32_t* const payload = payloads + PayloadWords * (cursor - writer.records);
+      fetchToWrite(payload + (PayloadWords > 1 ? 2 : 1) * kLineNumbers);
+      __builtin_memcpy(payload, batchPayloads + PayloadWords * i, sizeof(std::uint32_t) * PayloadWords);
     }
   };
   constexpr int kParts = 16;
@@ -320,7 +321,7 @@ void partitionAll(const PointQuantizer& quantizer, const Real* xyz, const PointR
   const QuantizerVectors constants(quantizer);
   constexpr decltype(&binPoints<0>) kBins[] = { &binPoints<0>, &binPoints<1>, &binPoints<2>, &binPoints<3>,
     &binPoints<4>, &binPoints<5>, &binPoints<6>, &binPoints<7>, &binPoints<8>, &binPoints<9> };
-  static_assert(sizeof kBins / sizeof kBins[0] == RowLayout::kMostWords + 1, "one for each width");
+  static_assert(sizeof kBins / sizeof kBins[0] == PayloadLayout::kMostWords + 1, "one for each width");
   const auto bin = kBins[writer.layout.words];
   QuantizedPoints batch;
   const auto quantize = [&](const Real* from, std::int64_t first, int groups, unsigned present)

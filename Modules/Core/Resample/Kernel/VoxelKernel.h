@@ -44,7 +44,7 @@ constexpr int kLowBits = 64 - kPositionBits;
 constexpr std::uint64_t kLowMask = (std::uint64_t(1) << kLowBits) - 1;
 
 /// A point record: the quantized position of one point, as low bits of z | x, high bits of z | y. Where more
-/// than sums is wanted, the point's number lies beside it (PointRecordPool).
+/// than sums is wanted, it has a payload (PayloadLayout).
 struct alignas(16) PointRecord
 {
   std::uint64_t first;

@@ -74,7 +74,7 @@ private:
 
 }
 
-RowLayout rowLayoutOf(const VoxelRequest& request)
+PayloadLayout payloadLayoutOf(const VoxelRequest& request)
 {
   std::vector<AttributeView> views;
   for (const AttributeRequest& attribute : request.attributes)
@@ -85,12 +85,13 @@ RowLayout rowLayoutOf(const VoxelRequest& request)
   {
     views.push_back(viewOf(request.points));
   }
-  RowLayout layout;
+  PayloadLayout layout;
   constexpr int kWord = sizeof(std::uint32_t);
   int bytes = kWord; // With a number.
   for (const AttributeView& view : views)
   {
-    if (layout.count == RowLayout::kMostArrays || bytes + view.tupleBytes() > RowLayout::kMostWords * kWord)
+    if (layout.count == PayloadLayout::kMostArrays ||
+      bytes + view.tupleBytes() > PayloadLayout::kMostWords * kWord)
     {
       break;
     }
@@ -102,7 +103,7 @@ RowLayout rowLayoutOf(const VoxelRequest& request)
     request.voxelIndex || keepsPoints(request.representative) || std::size_t(layout.count) < views.size();
   const int unused = layout.numbered ? 0 : kWord;
   std::for_each(
-    layout.arrays, layout.arrays + layout.count, [=](RowArray& array) { array.offset -= unused; });
+    layout.arrays, layout.arrays + layout.count, [=](PayloadArray& array) { array.offset -= unused; });
   layout.words = (bytes - unused + kWord - 1) / kWord;
   return layout;
 }
@@ -163,21 +164,21 @@ void VoxelReductions::fetch(const std::int64_t* points, int count, int without) 
   }
 }
 
-void VoxelReductions::addRows(const RowLayout& layout, const std::uint32_t* rows, const std::int64_t* points,
-  const std::int64_t* voxels, int count)
+void VoxelReductions::addPayloads(const PayloadLayout& layout, const std::uint32_t* payloads,
+  const std::int64_t* points, const std::int64_t* voxels, int count)
 {
   std::int64_t places[kBlockRecords];
   std::iota(places, places + (layout.count > 0 ? count : 0), 0);
   for (std::size_t i = 0; i < reducers_.size(); ++i)
   {
-    const bool isInRow = i < std::size_t(layout.count);
-    const AttributeReducer::Tuples rowTuples = { reinterpret_cast<const char*>(rows) +
-        (isInRow ? layout.arrays[i].offset : 0),
-      std::int64_t(sizeof(std::uint32_t)) * layout.words };
-    reducers_[i]->addTuples(isInRow
-        ? rowTuples
-        : AttributeReducer::Tuples{ static_cast<const char*>(views_[i].values), views_[i].step() },
-      isInRow ? places : points, voxels, count);
+    const bool isPayload = i < std::size_t(layout.count);
+    AttributeReducer::Tuples tuples = { static_cast<const char*>(views_[i].values), views_[i].step() };
+    if (isPayload)
+    {
+      tuples = { reinterpret_cast<const char*>(payloads) + layout.arrays[i].offset,
+        std::int64_t(sizeof(std::uint32_t)) * layout.words };
+    }
+    reducers_[i]->addTuples(tuples, isPayload ? places : points, voxels, count);
   }
   if (nearest_)
   {

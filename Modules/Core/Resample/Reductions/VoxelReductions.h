@@ -20,10 +20,10 @@ namespace pointhaptics
 namespace simd
 {
 
-/// What is to lie beside the records of a request whose points are kept: the tuples that have room there, and
+/// The payload of the records of a request whose points are kept: the tuples that have room there, and
 /// which are so read once, in the order of their memory; the number of the point where others, or the point
 /// itself, are of use. Arrays are in the order of the attributes; last are the points, for medians.
-RowLayout rowLayoutOf(const VoxelRequest& request);
+PayloadLayout payloadLayoutOf(const VoxelRequest& request);
 
 /// The attributes of voxels and the points that stand for them: of the voxels of a partition while its points
 /// are summed, or of all by another pass.
@@ -45,10 +45,10 @@ public:
   /// Adds points. Several threads may at once if no two have a voxel in common.
   void add(const std::int64_t* points, const std::int64_t* voxels, int count)
   {
-    addRows({}, nullptr, points, voxels, count);
+    addPayloads({}, nullptr, points, voxels, count);
   }
-  /// The same, of at most kBlockRecords points; tuples that are in @p rows are taken from there.
-  void addRows(const RowLayout& layout, const std::uint32_t* rows, const std::int64_t* points,
+  /// The same, of at most kBlockRecords points; tuples that are in @p payloads are taken from there.
+  void addPayloads(const PayloadLayout& layout, const std::uint32_t* payloads, const std::int64_t* points,
     const std::int64_t* voxels, int count);
   /// Writes what becomes of the voxels, from @p first on in @p arena. @pre their means and counts are there.
   /// @return false where @p observer, which may be null, aborted the work.

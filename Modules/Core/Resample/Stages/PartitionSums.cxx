@@ -189,7 +189,7 @@ void PartitionWorker::sumRecords(AccumulatedPartition& to, bool reduces)
       const PointRecord* const next = following.next() ? following.records() : block.records();
       if (reduces)
       {
-        block.fetchRows(); // for reduce()
+        block.fetchPayloads(); // for reduce()
       }
       kernels_->accumulate(voxels_.map, ranks(), block.records(), cells, block.count(), next, sums);
     }
@@ -210,7 +210,7 @@ void PartitionWorker::rankRecords()
   forBlocks(
     [&](const PointRecordPool::Walk& block)
     {
-      block.fetchRows();
+      block.fetchPayloads();
       kernels_->cells(
         plan().cellMap(partition_), block.records(), block.count(), block.recordsAhead(), cells);
       kernels_->rank(ranks(), cells, block.count());
@@ -271,12 +271,12 @@ void PartitionWorker::reduceVoxels()
     *std::max_element(counts_.begin(), counts_.end()), {}, nearest_ ? &*nearest_ : nullptr);
   if (reductions_.needsPoints())
   {
-    const RowLayout& rows = binner_->rowLayout();
+    const PayloadLayout& payloads = binner_->payloadLayout();
     visitRanked(0,
       [&](const RankedBlock& block, const RankedBlock& next)
       {
-        reductions_.fetch(next.points, next.count, rows.count);
-        reductions_.addRows(rows, block.rows, block.points, block.voxels, block.count);
+        reductions_.fetch(next.points, next.count, payloads.count);
+        reductions_.addPayloads(payloads, block.payloads, block.points, block.voxels, block.count);
       });
   }
 }

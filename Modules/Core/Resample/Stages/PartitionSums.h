@@ -51,11 +51,11 @@ struct alignas(kApart) AccumulatedPartition
   }
 };
 
-/// Points of a partition: their records, their numbers and those of their voxels.
+/// Points of a partition: their records, their numbers, if these are kept, and those of their voxels.
 struct RankedBlock
 {
   const PointRecord* records = nullptr;
-  const std::uint32_t* rows = nullptr; ///< What lies beside the records.
+  const std::uint32_t* payloads = nullptr; ///< Of the records.
   int count = 0;
   std::int64_t points[kBlockRecords];
   std::int64_t voxels[kBlockRecords];
@@ -169,7 +169,7 @@ private:
       [&](const PointRecordPool::Walk& block)
       {
         next->records = block.records();
-        next->rows = block.rows();
+        next->payloads = block.payloads();
         next->count = block.count();
         std::transform(ranks, ranks + block.count(), next->voxels,
           [=](std::uint32_t rank) { return std::int64_t(firstVoxel + rank); });

@@ -26,7 +26,7 @@ constexpr std::uint32_t kMostLargePartitions = 2048;
 /// mispredicted end.
 constexpr std::int64_t kPointsPerPartition = 1024;
 
-constexpr RowLayout kNumbers = { 1, true };
+constexpr PayloadLayout kNumbers = { 1, true };
 
 std::uint32_t blocks(std::uint32_t count, int shift)
 {
@@ -125,10 +125,10 @@ void PointBinner::prepare(const VoxelRequest& request, std::int64_t points)
   quantizer_.blocksPerLayer = plan_.blocksPerLayer;
   quantizer_.rowShift = plan_.rowShift;
   quantizer_.layerShift = plan_.layerShift;
-  rowLayout_ = rowLayoutOf(request);
-  if (rowLayout_.count > 0 && !areScattered(request.points))
+  payloadLayout_ = payloadLayoutOf(request);
+  if (payloadLayout_.count > 0 && !areScattered(request.points))
   {
-    rowLayout_ = kNumbers;
+    payloadLayout_ = kNumbers;
   }
   used_ = 0;
 }
@@ -170,7 +170,9 @@ void PointBinner::quantizeAndBin(
   // Numbers that an index gives fit four bytes as they are, others counted from their chunk.
   const std::int64_t pieces = chunks.pieceCount(chunk);
   const std::int64_t firstNumber = chunks.originals() || pieces == 0 ? 0 : chunks.pieces(chunk)->begin;
-  RowLayout layout = keep == Keep::All ? rowLayout_ : keep == Keep::Numbers ? kNumbers : RowLayout();
+  PayloadLayout layout = keep == Keep::All ? payloadLayout_
+    : keep == Keep::Numbers                ? kNumbers
+                                           : PayloadLayout();
   for (int i = 0; i < layout.count; ++i)
   {
     layout.arrays[i].values += layout.arrays[i].step * firstNumber;

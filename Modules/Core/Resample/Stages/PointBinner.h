@@ -71,20 +71,20 @@ public:
   enum class Keep
   {
     Records, ///< Until the next chunk.
-    Numbers, ///< Of the points, beside the records; until the next chunk.
-    All,     ///< Both, beside those of the chunks before.
+    Numbers, ///< And the numbers of their points; until the next chunk.
+    All,     ///< And payloadLayout(), beside those of the chunks before.
   };
 
   /// For chunks of @p points points, of the lattice and the transform of @p request. Empties the pools.
   void prepare(const VoxelRequest& request, std::int64_t points);
-  /// Quantizes and bins a chunk. Where all is kept, rowLayout() lies beside the records.
+  /// Quantizes and bins a chunk. Where all is kept, payloads are as payloadLayout() says.
   void quantizeAndBin(const VoxelRequest& request, const Chunks& chunks, std::size_t chunk, Keep keep,
     const Executor& executor);
 
   const PartitionPlan& plan() const { return plan_; }
-  /// What lies beside records where all is kept. Points in the order of a scan have their numbers alone:
+  /// The payload of records where all is kept. Points in the order of a scan have their numbers alone:
   /// where neighbours in memory are in one partition, its tuples are read in order anyway.
-  const RowLayout& rowLayout() const { return rowLayout_; }
+  const PayloadLayout& payloadLayout() const { return payloadLayout_; }
   const PointQuantizer& quantizer() const { return quantizer_; }
   /// Those of the chunks that are kept; the last one is there as long as no other is binned.
   std::size_t pools() const { return used_; }
@@ -98,7 +98,7 @@ private:
 
   alignas(kApart) PartitionPlan plan_;
   alignas(kApart) PointQuantizer quantizer_{};
-  RowLayout rowLayout_;
+  PayloadLayout payloadLayout_;
   std::deque<PointRecordPool> pools_;
   std::size_t used_ = 0;
 };

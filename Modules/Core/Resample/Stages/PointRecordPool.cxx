@@ -26,7 +26,7 @@ std::size_t blockRecordsFor(std::size_t writers)
 }
 
 void PointRecordPool::prepare(std::int64_t points, std::uint32_t partitions, int writers,
-  const RowLayout& layout, std::int64_t firstNumber)
+  const PayloadLayout& layout, std::int64_t firstNumber)
 {
   const std::size_t writerCount = std::size_t(std::max(writers, 1));
   blockRecords_ = blockRecordsFor(writerCount);
@@ -35,9 +35,9 @@ void PointRecordPool::prepare(std::int64_t points, std::uint32_t partitions, int
   records_.reserve(blocks * blockRecords_, Pages::Huge);
   previous_.reserve(blocks);
   firstNumber_ = firstNumber;
-  rowWords_ = std::size_t(layout.words);
+  payloadWords_ = std::size_t(layout.words);
   numbered_ = layout.numbered;
-  rows_.reserve(rowWords_ * blocks * blockRecords_, Pages::Huge);
+  payloads_.reserve(payloadWords_ * blocks * blockRecords_, Pages::Huge);
   takenBlocks_ = 0;
   while (writers_.size() < writerCount)
   {
@@ -55,7 +55,7 @@ void PointRecordPool::prepare(std::int64_t points, std::uint32_t partitions, int
     writer->previous = previous_.data();
     writer->taken = &takenBlocks_;
     writer->nextBlock = writer->endBlock = 0;
-    writer->rows = rows_.data();
+    writer->payloads = payloads_.data();
     writer->layout = layout;
     writer->inside = 0;
     writer->invalid = 0;
@@ -103,7 +103,7 @@ std::int64_t PointRecordPool::invalid() const
 
 std::size_t PointRecordPool::bytes() const
 {
-  std::size_t sum = records_.bytes() + rows_.bytes() + previous_.bytes();
+  std::size_t sum = records_.bytes() + payloads_.bytes() + previous_.bytes();
   for (const std::unique_ptr<Writer>& writer : writers_)
   {
     sum += writer->cursorStorage.capacity() * sizeof(PointRecord*) +

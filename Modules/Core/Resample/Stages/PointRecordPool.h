@@ -23,8 +23,8 @@ class PointRecordPool
 {
 public:
   /// Room for @p points records of @p partitions partitions, written by @p writers writers. Empties the pool.
-  /// @p layout: of what lies beside each record; numbers of points are counted from @p firstNumber.
-  void prepare(std::int64_t points, std::uint32_t partitions, int writers, const RowLayout& layout,
+  /// @p layout: of the payload of each; numbers of points are counted from @p firstNumber.
+  void prepare(std::int64_t points, std::uint32_t partitions, int writers, const PayloadLayout& layout,
     std::int64_t firstNumber);
 
   /// For one thread at a time.
@@ -48,8 +48,8 @@ public:
       Walk ahead = *this;
       return ahead.next() ? ahead.records() : records();
     }
-    /// What lies beside the records.
-    const std::uint32_t* rows() const { return pool_.rows_.data() + pool_.rowWords_ * first_; }
+    /// What goes with the records.
+    const std::uint32_t* payloads() const { return pool_.payloads_.data() + pool_.payloadWords_ * first_; }
     /// The numbers of the points, if they were kept.
     void copyNumbers(std::int64_t* numbers) const
     {
@@ -57,19 +57,19 @@ public:
       {
         return;
       }
-      const std::uint32_t* const from = rows();
-      const std::size_t words = pool_.rowWords_;
+      const std::uint32_t* const from = payloads();
+      const std::size_t words = pool_.payloadWords_;
       const std::int64_t first = pool_.firstNumber_;
       for (int i = 0; i < count(); ++i)
       {
         numbers[i] = first + from[words * std::size_t(i)];
       }
     }
-    void fetchRows() const
+    void fetchPayloads() const
     {
-      for (int i = 0; i < int(pool_.rowWords_) * count(); i += kLineNumbers)
+      for (int i = 0; i < int(pool_.payloadWords_) * count(); i += kLineNumbers)
       {
-        fetch(rows() + i);
+        fetch(payloads() + i);
       }
     }
     int count() const { return int(end_ - first_); }
@@ -100,8 +100,8 @@ private:
 
   std::size_t blockRecords_ = kBlockRecords;
   Buffer<PointRecord> records_;
-  Buffer<std::uint32_t> rows_;
-  std::size_t rowWords_ = 0;
+  Buffer<std::uint32_t> payloads_;
+  std::size_t payloadWords_ = 0;
   bool numbered_ = false;
   std::int64_t firstNumber_ = 0;
   Buffer<std::uint32_t> previous_;
