@@ -30,7 +30,11 @@ Status VoxelResampler::Implementation::check(const VoxelRequest& request)
     (choosesPoints && (request.levels > 1 || isOwnPoints)) ||
     (index && index->cloudSize() != points && finitePoints(*index) != points) ||
     std::any_of(request.attributes.begin(), request.attributes.end(),
-      [&](const AttributeRequest& attribute) { return attribute.view.tuples < points; }))
+      [&](const AttributeRequest& attribute)
+      {
+        return attribute.view.tuples < points || attribute.view.components < 1 ||
+          (attribute.statistic == AttributeStatistic::Normal && attribute.view.components != 3);
+      }))
   {
     return Status::InvalidParameter;
   }

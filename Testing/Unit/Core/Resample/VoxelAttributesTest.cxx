@@ -375,6 +375,23 @@ TEST(VoxelAttributes, AreRightAfterMemoryRanOutAmongTheSums)
   expectSame(runOf(resampler, request), runOf(fresh, request), "after memory ran out");
 }
 
+TEST(VoxelAttributes, HaveComponentsAndNormalsThree)
+{
+  const std::vector<Vec3> points = randomBox(10, 21, { 0, 0, 0 }, { 3, 3, 3 });
+  VoxelRequest request;
+  request.points = { points.data(), 10 };
+  request.lattice = latticeOf(3, 3, 3);
+  VoxelResampler resampler;
+  for (const auto statistic : { AttributeStatistic::Mean, AttributeStatistic::Normal })
+  {
+    const int wrong = statistic == AttributeStatistic::Mean ? 0 : 2;
+    request.attributes = { { { points.data(), ScalarType::Double, wrong, 10 }, statistic } };
+    EXPECT_EQ(resampler.run(request), Status::InvalidParameter) << wrong;
+    request.attributes[0].view.components = 3;
+    EXPECT_EQ(resampler.run(request), Status::Ok);
+  }
+}
+
 TEST(VoxelAttributes, LeaveTheSumsOfAnOverfullCellAsTheyAre)
 {
   // 9 of 10 points in one voxel: more than the 2^21 whose coordinates a sum of 64 bits holds.
