@@ -39,6 +39,8 @@ constexpr double kLargestRise = 0.1;
 /// A ball that rides is so far above the surface, and goes so far in a tick, over its radius.
 constexpr double kAboveBumps = 0.1;
 constexpr double kLongestRide = 0.5;
+/// A flat place is sought again after so much of a way, likewise.
+constexpr double kFlatAgain = 0.5;
 /// How far aside of a foot the middle of the points within a radius may lie for it to be on the surface and
 /// not at its rim, likewise: 0.42 on a straight one, and 0.12 by chance where the ball is over 18 points.
 constexpr double kMostAsideOfFoot = 0.2;
@@ -262,7 +264,17 @@ bool ProxyBall::ride(const HapticScene& scene, FitCells& fields, BallCells& cell
   hip_ = hip;
   slid_ = glided_ = isHeld_ = adopts_ = false;
   rode_ = true;
-  flat_.set(foot, up, center_);
+  // The fit leans towards an edge before it ends there, and a plane through the points does not.
+  Vec3 ignored;
+  if (!flat_.isNear(center_, kFlatAgain * radius_))
+  {
+    gather(work, kPlaneReach * radius_);
+    if (!flat_.find(work.cells, center_, radius_, kPlaneReach * radius_, ignored) &&
+      !flat_.isNear(center_, kFlatNear * radius_))
+    {
+      flat_.set(foot, up, center_);
+    }
+  }
   return true;
 }
 
