@@ -42,6 +42,8 @@ constexpr std::size_t kMostEdges = 16;
 /// of meshes mostly 0.02 and less (those cut out of a lattice 0.11: they are left as they are).
 constexpr double kTwin = 1.0 / 16.0;
 constexpr double kTwinsAtRandom = 0.05;
+/// Points no further above each other than this, over the spacing, may be of one noisy sheet.
+constexpr double kOfOneSheet = 0.5;
 
 /// What is known of a point.
 struct Fan
@@ -173,6 +175,24 @@ private:
     return 0.0;
   }
 
+  /// Looks along the normal: noise moves points apart that lie at random.
+  bool hasTwin(const NeighborList& list, const Vec3& normal, double spacing) const
+  {
+    std::array<double, kFewest> across2;
+    across2.fill(INFINITY);
+    for (int i = 1; i <= kFewest; ++i)
+    {
+      const Vec3 d = this->offset(list, i);
+      const double height = dot(d, normal);
+      if (std::abs(height) < kOfOneSheet * spacing)
+      {
+        across2[std::size_t(i - 1)] = norm2(d) - height * height;
+      }
+    }
+    std::sort(across2.begin(), across2.end());
+    return std::isfinite(across2[3]) && across2[0] < kTwin * across2[3];
+  }
+
   /// Finds the spacing and the normal of a point.
   void measure(const NeighborList& list)
   {
@@ -186,8 +206,8 @@ private:
       return;
     }
     Fan& fan = fans_[std::size_t(list.slot)];
-    fan.hasTwin = list.squaredDistances[1] < kTwin * list.squaredDistances[4];
     fan.normal = this->normalAt(list, spacing);
+    fan.hasTwin = this->hasTwin(list, fan.normal, spacing);
     fan.spacing = std::clamp(this->spacingOfSheet(list, fan.normal), spacing, kMostOfAll * spacing);
   }
 
