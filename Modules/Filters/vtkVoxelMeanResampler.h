@@ -56,13 +56,14 @@
  * reported by vtkErrorMacro with the cure, and the output is a valid empty vtkPolyData.
  *
  * Cost: a few nanoseconds a point (Documentation/Performance.md). Memory beyond input and output: 16
- * bytes for each of at most 1.25 million points, 60 bytes an active voxel and a few megabytes, kept for
+ * bytes for each of at most 5 million points, 60 bytes an active voxel and a few megabytes, kept for
  * the next update until ReleaseScratch() or the filter's end; nothing in proportion to the voxels of the
- * lattice. With covariance: 100 bytes an active voxel more; with levels: up to 90 bytes in all, 280 with
- * covariance too. With arrays: for each of those points its tuples (8 bytes where they are more than 64);
- * where there are more points, or levels, also the categories of all points inside, and of other arrays 8
- * bytes for each active voxel and component, or 16 for integers of 64 bits and for most arrays of doubles
- * (more where magnitudes differ by more than 2^50; at most 32 are kept). A workspace that shows less than
+ * lattice. With covariance: 100 bytes an active voxel more; with levels or more points: up to 90 bytes in
+ * all, 280 with covariance too. With arrays: for each of those points its number and tuples (up to 36 bytes);
+ * where there are more points, or levels, also the values of categories, and of other arrays 8 bytes for each
+ * active voxel and component, or 16 for integers of 64 bits and for most arrays of doubles
+ * (more where magnitudes differ by more than 2^50; at most 32 are kept). Representatives and the
+ * voxel index hold all points at once. A workspace that shows less than
  * half of the cloud for the second time makes a PointIndex (16 bytes a point; 28 for double coordinates),
  * after which an update costs in proportion to the points inside. Copies of arrays whose memory is not
  * plain tuples of numbers are then kept too.

@@ -14,10 +14,10 @@
 namespace
 {
 
-/// The bound without an index: 64 bytes a voxel, 16 bytes for each of a million points, a few megabytes.
+/// The bound without an index: 64 bytes a voxel, 16 bytes for each of five million points, a few megabytes.
 double boundInKiB(vtkIdType voxels, vtkIdType points)
 {
-  return (64.0 * double(voxels) + 16.0 * double(std::min<vtkIdType>(points, 1000000))) / 1024 + 8 * 1024;
+  return (64.0 * double(voxels) + 16.0 * double(std::min<vtkIdType>(points, 5000000))) / 1024 + 8 * 1024;
 }
 
 }

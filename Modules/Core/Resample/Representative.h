@@ -5,11 +5,12 @@
 namespace pointhaptics
 {
 
-/// Nearest points are chosen by the exact squared distances of the transformed points, which are rounded to
-/// double and then to 2^-40 voxel (2^-56 times their number where a voxel has more than 2^16 points):
-/// distances that are equal by symmetry, as those of two points from their mean, are equal here. Of several
-/// at the same distance the one with the smallest x is chosen, then y, then z, then the smallest values of
-/// VoxelRequest::tieBreakers, then the first.
+/// Nearest points are chosen by their places in the lattice, which are quantized as VoxelResampler says
+/// (2^-31 voxel at most), and distances computed from these in double: always in the same way, so that the
+/// choice depends on the points alone, exactly where squared distances fit a double. Two points are equally
+/// far from their mean, whatever rounding makes of it. Of several at the same distance the one with the
+/// smallest x is chosen, then y, then z, then the smallest values of VoxelRequest::tieBreakers, then the
+/// first.
 enum class Representative
 {
   Mean,

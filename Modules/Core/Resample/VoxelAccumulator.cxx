@@ -197,7 +197,7 @@ Status VoxelAccumulator::finish(
     request.attributes.push_back({ { nullptr, array.type, array.components }, array.statistic });
   }
   VoxelResampler::Implementation& engine = *result.implementation_;
-  const Status status = engine.finishSums(request, added_->runs.whole(), executor, observer);
+  const Status status = engine.finish(request, added_->runs.whole(), executor, observer);
   if (status == Status::Ok)
   {
     engine.clipped = added_->counts.clipped;

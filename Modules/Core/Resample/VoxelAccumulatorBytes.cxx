@@ -170,11 +170,10 @@ bool isRight(const Header& header)
 }
 
 /// @return false where a mean would not lie in its voxel.
-bool liesInVoxel(const VoxelSums& voxel, std::int64_t fractionBits)
+bool liesInVoxel(const WideSums& voxel, std::int64_t fractionBits)
 {
-  return isCount(voxel.count) && voxel.count > 0 &&
-    std::all_of(
-      voxel.sums, voxel.sums + 3, [&](Int128 sum) { return sum < Int128(voxel.count) << fractionBits; });
+  const auto lies = [&](int axis) { return voxel.sum(axis) < Int128(voxel.count) << fractionBits; };
+  return isCount(voxel.count) && voxel.count > 0 && lies(0) && lies(1) && lies(2);
 }
 
 /// @return false for voxels that the points of the header do not make. @pre the header is right.
@@ -185,7 +184,7 @@ bool areOf(const Header& header, const VoxelRun& run)
   for (std::size_t v = 0; v < run.size(); ++v)
   {
     const WideSums& voxel = run.voxels[v];
-    if (!liesInVoxel(voxel.whole(), header.fractionBits) || voxel.high >> 3 * WideSums::kHighBits != 0 ||
+    if (!liesInVoxel(voxel, header.fractionBits) || voxel.high >> 3 * WideSums::kHighBits != 0 ||
       voxel.key >= keys || (v > 0 && voxel.key <= run.voxels[v - 1].key) ||
       voxel.count > header.counts.points - points)
     {

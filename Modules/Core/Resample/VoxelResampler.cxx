@@ -1,7 +1,6 @@
 #include "Core/Resample/VoxelResampler.h"
 
 #include "Core/Neighbors/PointIndex.h"
-#include "Core/Resample/Reductions/AttributeReducer.h"
 #include "Core/Resample/VoxelResamplerImplementation.h"
 
 #include <algorithm>
@@ -12,22 +11,37 @@ namespace pointhaptics
 
 using namespace simd;
 
-constexpr int kMostLevels = 22;
-
-bool VoxelResampler::Implementation::usesPartitions(const Lattice& lattice)
+namespace
 {
-  return fitsPartitions(lattice, indexBitsOf(lattice)) && hasOrdinarySpacing(lattice);
+
+constexpr int kMostLevels = 22;
+/// The part of the work that the finest of several levels is.
+constexpr double kFinest = 0.5;
+
+/// Writes the arrays of voxels @p first to before @p last of a run.
+void writeTallies(
+  const VoxelRequest& request, const VoxelRun& sums, std::size_t first, std::size_t last, VoxelWriter& writer)
+{
+  const std::array<Vec3, 3> columns = normalColumns(request.transform);
+  for (std::size_t i = 0; i < sums.tallies.size(); ++i)
+  {
+    const AttributeRequest& array = request.attributes[i];
+    sums.tallies[i].write({ array.view.type, array.view.components, array.statistic }, first, last,
+      writer.counts() + first, columns, kernelsFor(request.instructions).attributes,
+      writer.attribute(i, first));
+  }
+}
+
 }
 
 Status VoxelResampler::Implementation::check(const VoxelRequest& request)
 {
   const PointIndex* index = request.index;
   const std::int64_t points = request.points.size();
-  const bool choosesPoints = request.representative != Representative::Mean || request.voxelIndex;
   const bool isOwnPoints = index && points > 0 && request.points.floats() == index->points().floats() &&
     request.points.doubles() == index->points().doubles();
   if (request.levels < 1 || request.levels > kMostLevels ||
-    (choosesPoints && (request.levels > 1 || isOwnPoints)) ||
+    (choosesPoints(request) && (request.levels > 1 || isOwnPoints || points > kMostChosenAmong)) ||
     (index && index->cloudSize() != points && finitePoints(*index) != points) ||
     std::any_of(request.attributes.begin(), request.attributes.end(),
       [&](const AttributeRequest& attribute)
@@ -42,34 +56,45 @@ Status VoxelResampler::Implementation::check(const VoxelRequest& request)
   return status == Status::Ok ? request.lattice.check() : status;
 }
 
+/// The points' sums, the finest level, and the coarser ones.
 Status VoxelResampler::Implementation::run(
   const VoxelRequest& request, const Executor& executor, ProgressObserver* observer)
 {
-  clear();
-  Status status = check(request);
+  VoxelRequest wanted = request;
+  wanted.keys = request.keys || choosesPoints(request);
+  VoxelRun sums;
+  SubProgress summing(observer, 0.0, request.levels > 1 ? kFinest : 1.0);
+  Status status = sumPoints({ wanted, true, request.levels > 1 }, sums, executor, &summing);
+  status = status == Status::Ok ? addLevels(wanted, sums, executor, observer) : status;
   if (status != Status::Ok)
   {
-    return status;
+    clear();
   }
-  VoxelRequest wanted = request;
-  for (AttributeRequest& attribute : wanted.attributes)
+  else if (keepsPoints(request.representative))
   {
-    if (isSum(attribute.statistic) && !attribute.range)
-    {
-      attribute.range = rangeOf(attribute.view, executor, request.instructions);
-    }
+    const std::int64_t* const chosen = levels[0].writer.chosen();
+    chosenPoints.assign(chosen, chosen + levels[0].size);
   }
-  wanted.keys = request.keys || wantsPoints(request);
-  voxelIndex.assign(request.voxelIndex ? std::size_t(request.points.size()) : 0, -1);
-  levels[0].lattice = request.lattice;
-  usesPartitions_ = usesPartitions(request.lattice);
-  status = usesPartitions_ ? runBinned(wanted, executor, observer) : runSorted(wanted, executor, observer);
-  SubProgress visiting(observer, fractionOfSums(wanted), fractionOfFinest(wanted));
-  status = status == Status::Ok ? visitAgain(wanted, executor, &visiting) : status;
-  if (status == Status::Ok && !keepsSums_)
+  return status;
+}
+
+Status VoxelResampler::Implementation::sum(
+  const VoxelRequest& request, VoxelRun& sums, const Executor& executor, ProgressObserver* observer)
+{
+  return sumPoints({ request, false, true }, sums, executor, observer);
+}
+
+Status VoxelResampler::Implementation::finish(
+  const VoxelRequest& request, const VoxelRun& sums, const Executor& executor, ProgressObserver* observer)
+{
+  clear();
+  Status status = check(request);
+  if (status == Status::Ok)
   {
-    const VoxelRun sums = std::move(sums_);
-    status = addLevels(wanted, sums, executor, observer);
+    levels[0].lattice = request.lattice;
+    writeSums(
+      request, sums, fractionBitsOf(request.lattice), levels[0], request.allocator, executor, nullptr);
+    status = addLevels(request, sums, executor, observer);
   }
   if (status != Status::Ok)
   {
@@ -78,64 +103,18 @@ Status VoxelResampler::Implementation::run(
   return status;
 }
 
-/// The stages: quantize and bin, accumulate, write.
-Status VoxelResampler::Implementation::runBinned(
-  const VoxelRequest& request, const Executor& executor, ProgressObserver* observer)
-{
-  const Chunks chunks(request, kChunkPoints, executor);
-  prepareStages(request, chunks);
-  const std::size_t count = chunks.count();
-  const double binned = holdsAll_ ? 0.5 : double(count - 1) / double(count);
-  SubProgress summing(observer, 0.0, fractionOfSums(request));
-  SubProgress binning(&summing, 0.0, binned);
-  SubProgress writing(&summing, binned, 1.0);
-  for (std::size_t chunk = 0; chunk < count; ++chunk)
-  {
-    binner_.quantizeAndBin(
-      request, chunks, chunk, holdsAll_ ? PointBinner::Keep::All : PointBinner::Keep::Records, executor);
-    const PointRecordPool& pool = binner_.pool(binner_.pools() - 1);
-    countPoints(pool.inside(), pool.invalid());
-    if (chunk + 1 < count && !holdsAll_)
-    {
-      accumulate(request, executor);
-    }
-    if (chunk + 1 < count && !binning.report(double(chunk + 1) / double(count - 1)))
-    {
-      return Status::Aborted;
-    }
-  }
-  // With a report for each chunk of points that are kept.
-  const std::size_t rounds = holdsAll_ ? count : 1;
-  return accumulateAndWrite(request, rounds, executor, &writing) ? Status::Ok : Status::Aborted;
-}
-
 void VoxelResampler::Implementation::clear()
 {
   levels.resize(1);
-  levels[0].firsts.clear();
   levels[0].size = 0;
   clipped = invalid = 0;
   chosenPoints.clear();
   voxelIndex.clear();
-  holdsAll_ = false;
-  sums_ = VoxelRun();
 }
 
-void VoxelResampler::Implementation::startCounts(const VoxelRequest& request)
+VoxelWriter::Layout VoxelResampler::Implementation::layoutOf(const VoxelRequest& request)
 {
-  invalid = request.index ? request.points.size() - finitePoints(*request.index) : 0;
-  clipped = request.points.size() - invalid;
-}
-
-void VoxelResampler::Implementation::countPoints(std::int64_t inside, std::int64_t invalidOnes)
-{
-  invalid += invalidOnes;
-  clipped -= inside + invalidOnes;
-}
-
-MeanArena::Layout VoxelResampler::Implementation::layoutOf(const VoxelRequest& request)
-{
-  MeanArena::Layout layout = { request.singlePrecision, request.keys, request.covariances,
+  VoxelWriter::Layout layout = { request.singlePrecision, request.keys, request.covariances,
     keepsPoints(request.representative) };
   for (const AttributeRequest& attribute : request.attributes)
   {
@@ -150,32 +129,13 @@ int VoxelResampler::Implementation::fractionBitsOf(const Lattice& lattice)
   return positionBitsFor(indexBits) - indexBits;
 }
 
-namespace
-{
-
-/// Writes the arrays of voxels @p first to before @p last of a run.
-void writeTallies(
-  const VoxelRequest& request, const VoxelRun& sums, std::size_t first, std::size_t last, MeanArena& arena)
-{
-  const std::array<Vec3, 3> columns = normalColumns(request.transform);
-  for (std::size_t i = 0; i < sums.tallies.size(); ++i)
-  {
-    const AttributeRequest& array = request.attributes[i];
-    sums.tallies[i].write({ array.view.type, array.view.components, array.statistic }, first, last,
-      arena.counts() + first, columns, kernelsFor(request.instructions).attributes,
-      arena.attribute(i, first));
-  }
-}
-
-}
-
 /// Writes the means of voxels to a level. @return false where the observer ended the work.
 bool VoxelResampler::Implementation::writeSums(const VoxelRequest& request, const VoxelRun& sums,
   int fractionBits, Level& level, OutputAllocator* allocator, const Executor& executor,
   ProgressObserver* observer)
 {
   level.size = std::int64_t(sums.size());
-  level.arena.prepare(sums.size(), layoutOf(request), level.lattice, fractionBits, allocator);
+  level.writer.prepare(sums.size(), layoutOf(request), level.lattice, fractionBits, allocator);
   PointProgress progress(observer, level.size, 1);
   return forReportedSlices(level.size, progress,
     [&](std::int64_t first, std::int64_t last)
@@ -184,8 +144,8 @@ bool VoxelResampler::Implementation::writeSums(const VoxelRequest& request, cons
         [&](std::int64_t begin, std::int64_t end)
         {
           const auto offset = std::size_t(first + begin);
-          level.arena.write(offset, sums, offset, std::size_t(first + end));
-          writeTallies(request, sums, offset, std::size_t(first + end), level.arena);
+          level.writer.write(offset, sums, offset, std::size_t(first + end));
+          writeTallies(request, sums, offset, std::size_t(first + end), level.writer);
         });
     });
 }
@@ -194,9 +154,8 @@ bool VoxelResampler::Implementation::writeSums(const VoxelRequest& request, cons
 Status VoxelResampler::Implementation::addLevels(
   const VoxelRequest& request, const VoxelRun& sums, const Executor& executor, ProgressObserver* observer)
 {
-  const double finest = fractionOfFinest(request);
   const auto progressAt = [&](int level)
-  { return finest + (1.0 - finest) * double(level - 1) / double(request.levels - 1); };
+  { return kFinest + (1.0 - kFinest) * double(level - 1) / double(request.levels - 1); };
   int fractionBits = fractionBitsOf(levels[0].lattice);
   VoxelRun coarse;
   for (int l = 1; l < request.levels; ++l)
@@ -227,19 +186,11 @@ Status VoxelResampler::Implementation::addLevels(
 
 std::size_t VoxelResampler::Implementation::scratchBytes() const
 {
-  std::size_t sum = binner_.bytes() + sorted_.bytes() + sums_.bytes() +
+  std::size_t sum = binned_.bytes() + sorted_.bytes() + places_.capacity() +
     (chosenPoints.capacity() + voxelIndex.capacity()) * sizeof(std::int64_t);
-  for (const std::unique_ptr<PartitionWorker>& worker : workers_)
-  {
-    sum += worker->bytes();
-  }
-  for (const AccumulatedPartition& partition : accumulated_)
-  {
-    sum += partition.bytes();
-  }
   for (const Level& level : levels)
   {
-    sum += level.arena.bytes() + level.firsts.capacity() * sizeof(std::size_t);
+    sum += level.writer.bytes();
   }
   return sum;
 }
@@ -307,48 +258,48 @@ const std::vector<std::int64_t>& VoxelResampler::voxelIndex() const
 void VoxelResampler::copyMeans(int l, float* xyz, const Executor& executor) const
 {
   const Level& level = implementation_->levels[std::size_t(l)];
-  copyArray(level.arena.floats(), 3 * level.size, xyz, executor);
+  copyArray(level.writer.floats(), 3 * level.size, xyz, executor);
 }
 
 void VoxelResampler::copyMeans(int l, double* xyz, const Executor& executor) const
 {
   const Level& level = implementation_->levels[std::size_t(l)];
-  copyArray(level.arena.doubles(), 3 * level.size, xyz, executor);
+  copyArray(level.writer.doubles(), 3 * level.size, xyz, executor);
 }
 
 void VoxelResampler::copyCounts(int l, std::int64_t* counts, const Executor& executor) const
 {
   const Level& level = implementation_->levels[std::size_t(l)];
-  copyArray(level.arena.counts(), level.size, counts, executor);
+  copyArray(level.writer.counts(), level.size, counts, executor);
 }
 
 const std::int64_t* VoxelResampler::counts(int l) const
 {
-  return implementation_->levels[std::size_t(l)].arena.counts();
+  return implementation_->levels[std::size_t(l)].writer.counts();
 }
 
 void VoxelResampler::copyKeys(int l, std::uint64_t* keys, const Executor& executor) const
 {
   const Level& level = implementation_->levels[std::size_t(l)];
-  copyArray(level.arena.keys(), level.size, keys, executor);
+  copyArray(level.writer.keys(), level.size, keys, executor);
 }
 
 void VoxelResampler::copyCovariances(int l, SymMat3* covariances, const Executor& executor) const
 {
   const Level& level = implementation_->levels[std::size_t(l)];
-  copyArray(level.arena.covariances(), level.size, covariances, executor);
+  copyArray(level.writer.covariances(), level.size, covariances, executor);
 }
 
 const void* VoxelResampler::attribute(int l, std::size_t attribute) const
 {
-  return implementation_->levels[std::size_t(l)].arena.attribute(attribute, 0);
+  return implementation_->levels[std::size_t(l)].writer.attribute(attribute, 0);
 }
 
 void VoxelResampler::copyAttribute(int l, std::size_t attribute, void* tuples, const Executor& executor) const
 {
   const Level& level = implementation_->levels[std::size_t(l)];
-  copyArray(level.arena.attribute(attribute, 0),
-    level.size * std::int64_t(level.arena.attributeBytes(attribute)), static_cast<char*>(tuples), executor);
+  copyArray(level.writer.attribute(attribute, 0),
+    level.size * std::int64_t(level.writer.attributeBytes(attribute)), static_cast<char*>(tuples), executor);
 }
 
 void VoxelResampler::releaseScratch()

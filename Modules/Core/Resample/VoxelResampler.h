@@ -58,11 +58,11 @@ struct VoxelRequest
   bool singlePrecision = false; ///< Means are rounded to float.
   bool covariances = false;
   bool keys = false; ///< For copyKeys().
-  /// Arrays of the points, to be reduced to a tuple for each voxel. Beyond 4096 voxels an axis and for more
-  /// than 20 million points that takes another pass over the points.
+  /// Arrays of the points, to be reduced to a tuple for each voxel.
   std::vector<AttributeRequest> attributes;
   /// What stands for the points of a voxel, in the place of their mean; counts and covariances stay. All but
-  /// the mean need levels of 1, keys are then made, and points must not be those of index->points().
+  /// the mean need levels of 1, keys are then made, points must not be those of index->points(), and are at
+  /// most 2^32.
   Representative representative = Representative::Mean;
   /// Arrays that choose between points at the same distance and place: see Representative.
   std::vector<AttributeView> tieBreakers;
@@ -70,8 +70,9 @@ struct VoxelRequest
   bool voxelIndex = false;
   /// Level l is a lattice 2^l times as coarse, until that is one voxel; further levels repeat it.
   int levels = 1;
-  /// Points that go through all steps at once, at least 1; 0 or more than the default: the default (1.25
-  /// million; 262,144 on lattices where points are sorted). It changes memory and time, not the results.
+  /// Points between two reports, at least 1; 0 or more than the default: the default (1.25 million; 262,144
+  /// on lattices where points are sorted). Four chunks are summed at once, where points are sorted one. It
+  /// changes memory and time, not the results.
   std::int64_t chunkPoints = 0;
   InstructionSet instructions = InstructionSet::Automatic;
   OutputAllocator* allocator = nullptr; ///< Null: the resampler's own memory.
@@ -96,15 +97,13 @@ struct VoxelRequest
 ///
 /// Time: a few nanoseconds a point; beyond 4096 voxels an axis or 8.6 billion in all, and where no axis has
 /// more than two, points are sorted: some tens of them, growing with the logarithm of the points. Memory
-/// beyond input and results: 16 bytes for each of at most 1.25 million points, 60 bytes an active voxel (20
-/// of them its results, where these are not in the caller's memory), a few megabytes (of which up to 1.3 for
-/// each thread where a layer of the lattice has up to 4 million voxels); where points are sorted 88 bytes
-/// (184 with covariances) for each of at most 262,144 points and 66 an active voxel; covariances: 100 an
-/// active voxel more, 132 where points are sorted. With attributes or VoxelRequest::voxelIndex: 20
-/// bytes, with tuples of points in no order up to 52, for each of at most 20 million points, with
-/// representatives for each point (32 where points are sorted), and the tuples of modes and medians, for the
-/// voxels at work or, where that takes another pass, for all; with levels the sums and values of arrays (see
-/// VoxelAccumulator). One object is used by one thread at a time; the executor's threads may be many.
+/// beyond input and results: 16 bytes for each of at most 5 million points (with attributes 20, where they
+/// come in no order up to 52), and where there are more points 48 bytes an active voxel, 144 with
+/// covariances, and the sums and values of arrays (see VoxelAccumulator): those of 5 million are merged with
+/// the others. A few megabytes (of which up to 1.3 for each thread where a layer of the lattice has up to 4
+/// million voxels). Where points are sorted: 80 bytes for each of at most 262,144, and the sums. With
+/// representatives or VoxelRequest::voxelIndex all points are held at once, with medians under a transform
+/// their places too. One object is used by one thread at a time; the executor's threads may be many.
 class VoxelResampler
 {
 public:

@@ -56,9 +56,10 @@ void cellsOf(
   }
 }
 
-void setOccupied(const std::uint32_t* cells, int count, std::uint64_t* occupancy)
+void setOccupied(const std::uint32_t* cells, std::size_t count, std::uint64_t* occupancy)
 {
-  fromFourParts(count, [=](int i) { occupancy[cells[i] / 64] |= std::uint64_t(1) << (cells[i] % 64); });
+  fromFourParts(
+    count, [=](std::size_t i) { occupancy[cells[i] / 64] |= std::uint64_t(1) << (cells[i] % 64); });
 }
 
 std::uint32_t rankWords(const CellRanks& ranks, const std::uint64_t* touched)

@@ -13,18 +13,18 @@ namespace
 /// Calls visit(i) for all i below @p count, taking turns in four parts of the range. Neighbours in a scan are
 /// in one voxel and one partition, so that an update would wait for the one before: updates elsewhere hide
 /// this latency.
-template <typename Visit>
-__attribute__((always_inline)) inline void fromFourParts(int count, Visit&& visit)
+template <typename Index, typename Visit>
+__attribute__((always_inline)) inline void fromFourParts(Index count, Visit&& visit)
 {
-  const int part = count / 4;
-  for (int i = 0; i < part; ++i)
+  const Index part = count / 4;
+  for (Index i = 0; i < part; ++i)
   {
     visit(i);
     visit(i + part);
     visit(i + 2 * part);
     visit(i + 3 * part);
   }
-  for (int i = 4 * part; i < count; ++i)
+  for (Index i = 4 * part; i < count; ++i)
   {
     visit(i);
   }

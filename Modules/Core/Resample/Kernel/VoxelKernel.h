@@ -27,7 +27,7 @@ constexpr int kPositionBits = 43;
 constexpr int kMaximumIndexBits = kPositionBits - 31;
 /// And the smallest: one bit of an index is not in the record.
 constexpr int kMinimumIndexBits = 2;
-/// Points of a chunk: a packed sum holds them together with kPackedCounts accumulated ones.
+/// Points of a chunk.
 constexpr std::int64_t kChunkPoints = 1250000;
 
 /// What one thread writes and another reads or writes lies so far apart: two lines of the caches, which the
@@ -226,24 +226,6 @@ struct CovarianceMap
   double unit[3]; ///< A quantum in the frame of the lattice.
 };
 
-/// Of a voxel the point nearest to a place in it so far. Offsets have kNearestBits bits: floats hold them.
-struct alignas(32) NearestPoint
-{
-  float target[3]; ///< The place, from the voxel's lower corner.
-  float yz;        ///< 0: distances are by x alone; else 1.
-  float least;     ///< The square of the least distance so far, and of the second least.
-  float second;
-  std::int64_t point;
-};
-constexpr int kNearestBits = 24;
-
-/// How offsets in voxels become lengths.
-struct NearestMap
-{
-  int fractionBits;
-  float scale[3];
-};
-
 /// Elements of the widest vectors.
 constexpr int kWidest = 8;
 
@@ -287,7 +269,7 @@ struct Kernels
   void (*cells)(
     const CellMap&, const PointRecord* records, int count, const PointRecord* next, std::uint32_t* cells);
   /// Sets the occupancy bits of cells.
-  void (*setOccupied)(const std::uint32_t* cells, int count, std::uint64_t* occupancy);
+  void (*setOccupied)(const std::uint32_t* cells, std::size_t count, std::uint64_t* occupancy);
   /// Builds the rank table, of the words alone whose bits are set in @p touched, unless that is null.
   /// @return the number of occupied cells.
   std::uint32_t (*rankWords)(const CellRanks& ranks, const std::uint64_t* touched);
@@ -301,9 +283,6 @@ struct Kernels
   /// these. Reads, but does not use, kWidest elements past the end.
   int (*covariances)(const CovarianceMap&, const PackedSums* sums, const SplitSecondMoments* secondMoments,
     int count, double* covariances, int* full);
-  /// Compares the points of records, whose numbers are @p points, with the nearest of their voxels.
-  void (*nearest)(const NearestMap&, const PointRecord* records, const std::int64_t* points,
-    const std::int64_t* voxels, int count, NearestPoint* nearest);
   AttributeKernels attributes;
 };
 

@@ -8,7 +8,6 @@
 #include "Core/Resample/Kernel/BoundsBody.h"
 #include "Core/Resample/Kernel/CellSumBody.h"
 #include "Core/Resample/Kernel/MeanBody.h"
-#include "Core/Resample/Kernel/NearestBody.h"
 #include "Core/Resample/Kernel/QuantizeBody.h"
 #include "Core/Resample/Kernel/VoxelKernel.h"
 
@@ -23,7 +22,7 @@ template <typename Real>
 constexpr PointKernels<Real> kPointKernels = { &partition<Real>, &packedMeans<Real>, &bounds<Real> };
 
 constexpr Kernels kKernels = { kPointKernels<float>, kPointKernels<double>, &cellsOf, &setOccupied,
-  &rankWords, &rank, &accumulate, &covariances, &nearest, kAttributeKernels };
+  &rankWords, &rank, &accumulate, &covariances, kAttributeKernels };
 
 }
 } // namespace simd

@@ -103,29 +103,26 @@ AttributeRange rangeOf(const AttributeView& view, const Executor& executor, Inst
                                         : AttributeRange();
 }
 
-AttributeMean::AttributeMean(
-  const AttributeView& view, const AttributeRange& range, InstructionSet instructions)
-  : AttributeReducer(view)
+AttributeMean::AttributeMean(const AccumulatedArray& kind, const AttributeRange& range,
+  const std::array<Vec3, 3>& columns, InstructionSet instructions)
+  : kind_(kind)
   , range_(range)
+  , columns_(columns)
   , kernels_(&simd::kernelsFor(instructions).attributes)
 {
 }
 
-void AttributeMean::prepare(
-  const std::int64_t*, std::int64_t voxels, std::int64_t mostPoints, const Executor& executor)
+void AttributeMean::prepare(const std::vector<std::int64_t>& counts)
 {
-  sums_.components = view_.components;
+  const std::int64_t most = counts.empty() ? 0 : *std::max_element(counts.begin(), counts.end());
+  sums_.components = kind_.components;
   sums_.unit = range_.lastBit; // 0 of integers
-  const bool isLong = view_.type == ScalarType::Int64 || view_.type == ScalarType::UInt64;
+  const bool isLong = kind_.type == ScalarType::Int64 || kind_.type == ScalarType::UInt64;
   sums_.words = isLong   ? 2
-    : isReal(view_.type) ? (range_.exponent - range_.lastBit + bitsOf(mostPoints)) / 64 + 1
+    : isReal(kind_.type) ? (range_.exponent - range_.lastBit + bitsOf(most)) / 64 + 1
                          : 1;
-  sums_.size = std::size_t(voxels) * std::size_t(view_.components);
-  sums_.values.clear();
-  sums_.values.resize(sums_.size * std::size_t(sums_.words));
-  forRange(executor, std::int64_t(sums_.values.size()),
-    [this](std::int64_t begin, std::int64_t end)
-    { std::fill(sums_.values.data() + begin, sums_.values.data() + end, 0); });
+  sums_.size = counts.size() * std::size_t(kind_.components);
+  sums_.values.assign(sums_.size * std::size_t(sums_.words), 0);
   sums_.nonFinite.assign(range_.hasNonFinite ? sums_.size : 0, NonFiniteCount());
 }
 
@@ -140,12 +137,12 @@ inline void addWide(std::uint64_t* sum, simd::UInt128 more)
   sum[1] = std::uint64_t(whole >> 64);
 }
 
-/// Tuples of points, and the voxels they are added to.
+/// Numbers of tuples, and the voxels they are added to.
 struct Terms
 {
   AttributeReducer::Tuples tuples;
   int components;
-  const std::int64_t* points;
+  const std::int64_t* numbers;
   const std::int64_t* voxels;
   int count;
 };
@@ -169,7 +166,7 @@ void forNumbers(const Terms& terms, std::uint64_t* sums, const Add& add)
   const std::int64_t step = terms.tuples.step;
   for (int i = 0; i < terms.count; ++i)
   {
-    const char* const tuple = first + step * terms.points[i];
+    const char* const tuple = first + step * terms.numbers[i];
     std::uint64_t* sum = sums + Words * width * terms.voxels[i];
     for (int c = 0; c < width; ++c)
     {
@@ -210,9 +207,9 @@ void AttributeMean::addReal(Real value, std::size_t sum)
 
 template <typename Real>
 void AttributeMean::addReals(
-  const Tuples& tuples, const std::int64_t* points, const std::int64_t* voxels, int count)
+  const Tuples& tuples, const std::int64_t* numbers, const std::int64_t* voxels, int count)
 {
-  const Terms terms = { tuples, view_.components, points, voxels, count };
+  const Terms terms = { tuples, kind_.components, numbers, voxels, count };
   // Of two words the upper part is an integer that rounding to it finds, the lower one a word.
   constexpr int kLowBits = 62;
   constexpr int kHighBits = 50;
@@ -241,50 +238,39 @@ void AttributeMean::addReals(
   {
     for (int i = 0; i < count; ++i)
     {
-      const char* const tuple = tuples.first + tuples.step * points[i];
-      for (int c = 0; c < view_.components; ++c)
+      const char* const tuple = tuples.first + tuples.step * numbers[i];
+      for (int c = 0; c < kind_.components; ++c)
       {
-        addReal(numberOf<Real>(tuple, c), std::size_t(view_.components * voxels[i] + c));
+        addReal(numberOf<Real>(tuple, c), std::size_t(kind_.components * voxels[i] + c));
       }
     }
   }
 }
 
-void AttributeMean::addTuples(
-  const Tuples& tuples, const std::int64_t* points, const std::int64_t* voxels, int count)
+void AttributeMean::add(
+  const Tuples& tuples, const std::int64_t* numbers, const std::int64_t* voxels, int count)
 {
-  withType(view_.type,
+  withType(kind_.type,
     [&](auto example)
     {
       using T = decltype(example);
       if constexpr (std::is_floating_point_v<T>)
       {
-        addReals<T>(tuples, points, voxels, count);
+        addReals<T>(tuples, numbers, voxels, count);
       }
       else
       {
         constexpr int kWords = sizeof(T) == 8 ? 2 : 1;
-        forNumbers<kWords, T>({ tuples, view_.components, points, voxels, count }, sums_.values.data(),
+        forNumbers<kWords, T>({ tuples, kind_.components, numbers, voxels, count }, sums_.values.data(),
           [](std::uint64_t* sum, T value)
           { kWords == 2 ? addWide(sum, simd::UInt128(value)) : void(*sum += std::uint64_t(value)); });
       }
     });
 }
 
-bool AttributeMean::write(
-  const std::int64_t* counts, void* means, const Executor& executor, ProgressObserver*) const
+void AttributeMean::write(const std::int64_t* counts, void* means) const
 {
-  const AccumulatedArray kind = { view_.type, view_.components,
-    columns_ ? AttributeStatistic::Normal : AttributeStatistic::Mean };
-  const auto components = std::int64_t(view_.components);
-  forRange(executor, std::int64_t(sums_.size) / components,
-    [&](std::int64_t begin, std::int64_t end)
-    {
-      sums_.write(kind, std::size_t(begin), std::size_t(end), counts + begin,
-        columns_.value_or(std::array<Vec3, 3>()), *kernels_,
-        static_cast<char*>(means) + view_.tupleBytes() * begin);
-    });
-  return true;
+  sums_.write(kind_, 0, sums_.size / std::size_t(kind_.components), counts, columns_, *kernels_, means);
 }
 
 } // namespace pointhaptics

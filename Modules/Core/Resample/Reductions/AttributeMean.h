@@ -9,7 +9,6 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -28,45 +27,26 @@ namespace pointhaptics
 class AttributeMean final : public AttributeReducer
 {
 public:
-  /// @pre @p range is rangeOf() the array as it is; means are wrong otherwise.
-  AttributeMean(const AttributeView& view, const AttributeRange& range,
-    InstructionSet instructions = InstructionSet::Automatic);
-  AttributeMean(const AttributeView& view, const Executor& executor,
-    InstructionSet instructions = InstructionSet::Automatic)
-    : AttributeMean(view, rangeOf(view, executor, instructions), instructions)
-  {
-  }
+  /// @pre @p range is that of all tuples; means are wrong otherwise. @p columns: what turns the means of
+  /// AttributeStatistic::Normal.
+  AttributeMean(const AccumulatedArray& kind, const AttributeRange& range,
+    const std::array<Vec3, 3>& columns = {}, InstructionSet instructions = InstructionSet::Automatic);
 
-  /// Has write() turn the means, of vectors of three numbers - mean.x times the first column and so on - and
-  /// make unit vectors of them, those of integers as long as their mean; 0 where they have no direction, NaN
-  /// where they are not finite.
-  void turnVectors(const std::array<Vec3, 3>& columns) { columns_ = columns; }
-
-  void prepare(const std::int64_t* counts, std::int64_t voxels, std::int64_t mostPoints,
-    const Executor& executor) override;
-  void addTuples(
-    const Tuples& tuples, const std::int64_t* points, const std::int64_t* voxels, int count) override;
+  void prepare(const std::vector<std::int64_t>& counts) override;
+  void add(const Tuples& tuples, const std::int64_t* numbers, const std::int64_t* voxels, int count) override;
   simd::VoxelTally takeTally() override { return { std::move(sums_), {} }; }
-  /// Integers are rounded to the nearest, halves away from zero.
-  bool write(const std::int64_t* counts, void* means, const Executor& executor,
-    ProgressObserver* observer) const override;
-  /// The mean of a component of one voxel in double.
-  double mean(std::int64_t voxel, int component, std::int64_t count) const
-  {
-    return sums_.mean(std::size_t(view_.components * voxel + component), count);
-  }
-
-  const AttributeView& view() const { return view_; }
+  void write(const std::int64_t* counts, void* means) const override;
 
 private:
   template <typename Real>
-  void addReals(const Tuples& tuples, const std::int64_t* points, const std::int64_t* voxels, int count);
+  void addReals(const Tuples& tuples, const std::int64_t* numbers, const std::int64_t* voxels, int count);
   template <typename Real>
   void addReal(Real value, std::size_t sum);
 
+  AccumulatedArray kind_;
   AttributeRange range_;
+  std::array<Vec3, 3> columns_;
   const simd::AttributeKernels* kernels_;
-  std::optional<std::array<Vec3, 3>> columns_; ///< How vectors are turned.
   simd::TallySums sums_;
 };
 

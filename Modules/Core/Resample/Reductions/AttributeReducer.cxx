@@ -12,21 +12,17 @@ std::array<Vec3, 3> normalColumns(const AffineTransform& transform)
     transform.applyToNormal({ 0, 0, 1 }) };
 }
 
-std::unique_ptr<AttributeReducer> AttributeReducer::create(const AttributeRequest& request,
-  const AffineTransform& transform, InstructionSet instructions, const Executor& executor)
+std::unique_ptr<AttributeReducer> AttributeReducer::create(
+  const AttributeRequest& request, const AffineTransform& transform, InstructionSet instructions)
 {
   const AttributeView& view = request.view;
+  const AccumulatedArray kind = { view.type, view.components, request.statistic };
   if (!isSum(request.statistic))
   {
-    return std::make_unique<AttributeTuples>(view, request.statistic, instructions);
+    return std::make_unique<AttributeTuples>(kind, instructions);
   }
-  auto mean = std::make_unique<AttributeMean>(
-    view, request.range ? *request.range : rangeOf(view, executor, instructions), instructions);
-  if (request.statistic == AttributeStatistic::Normal)
-  {
-    mean->turnVectors(normalColumns(transform));
-  }
-  return mean;
+  return std::make_unique<AttributeMean>(
+    kind, request.range.value_or(AttributeRange()), normalColumns(transform), instructions);
 }
 
 } // namespace pointhaptics

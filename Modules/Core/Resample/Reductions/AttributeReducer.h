@@ -3,8 +3,6 @@
 #pragma once
 
 #include "Core/Base/AffineTransform.h"
-#include "Core/Base/Executor.h"
-#include "Core/Base/ProgressObserver.h"
 #include "Core/Base/Vector3.h"
 #include "Core/Resample/AttributeView.h"
 #include "Core/Simd/InstructionSet.h"
@@ -19,7 +17,6 @@ namespace pointhaptics
 namespace simd
 {
 class VoxelTally;
-struct TallyValues;
 }
 
 /// What turns normals: the products of their components with these are added.
@@ -30,44 +27,26 @@ std::array<Vec3, 3> normalColumns(const AffineTransform& transform);
 class AttributeReducer
 {
 public:
-  /// A statistic of an array. @p transform turns normals.
-  static std::unique_ptr<AttributeReducer> create(const AttributeRequest& request,
-    const AffineTransform& transform, InstructionSet instructions, const Executor& executor);
-  explicit AttributeReducer(const AttributeView& view)
-    : view_(view)
-  {
-  }
+  /// A statistic of an array, whose range is known. @p transform turns normals.
+  static std::unique_ptr<AttributeReducer> create(
+    const AttributeRequest& request, const AffineTransform& transform, InstructionSet instructions);
   virtual ~AttributeReducer() = default;
 
-  /// Drops all tuples and makes room for those of @p voxels, @p counts each (sums do without), at most @p
-  /// mostPoints.
-  virtual void prepare(
-    const std::int64_t* counts, std::int64_t voxels, std::int64_t mostPoints, const Executor& executor) = 0;
+  /// Drops all tuples and makes room for those of voxels with @p counts points.
+  virtual void prepare(const std::vector<std::int64_t>& counts) = 0;
   /// Where tuples lie.
   struct Tuples
   {
     const char* first;
     std::int64_t step; ///< Bytes from one to the next.
   };
-  /// Adds the tuples of points of the array. Several threads may add at once if no two have a voxel in
-  /// common.
-  void add(const std::int64_t* points, const std::int64_t* voxels, int count)
-  {
-    addTuples({ static_cast<const char*>(view_.values), view_.step() }, points, voxels, count);
-  }
-  /// Adds tuples that lie elsewhere, of the same type.
-  virtual void addTuples(
-    const Tuples& tuples, const std::int64_t* points, const std::int64_t* voxels, int count) = 0;
+  /// Adds tuple numbers[i] to voxels[i].
+  virtual void add(
+    const Tuples& tuples, const std::int64_t* numbers, const std::int64_t* voxels, int count) = 0;
   /// What the voxels have, for more to be added; nothing is left here.
   virtual simd::VoxelTally takeTally() = 0;
-
-  /// Writes the tuples of all voxels, @p counts points each, in the array's own type. @return false where
-  /// @p observer, which may be null, aborted the work.
-  virtual bool write(
-    const std::int64_t* counts, void* values, const Executor& executor, ProgressObserver* observer) const = 0;
-
-protected:
-  AttributeView view_;
+  /// Writes the tuples of all voxels, @p counts points each, in the array's own type.
+  virtual void write(const std::int64_t* counts, void* values) const = 0;
 };
 
 } // namespace pointhaptics

@@ -1,9 +1,10 @@
 #include "Core/Resample/Reductions/AttributeTuples.h"
 
-#include "Core/Resample/Reductions/VoxelSlices.h"
-#include "Core/Resample/Reductions/VoxelTally.h"
+#include "Core/Resample/Kernel/OrderedKey.h"
 
 #include <algorithm>
+#include <cstring>
+#include <type_traits>
 #include <utility>
 
 namespace pointhaptics
@@ -38,55 +39,78 @@ Key statisticOf(AttributeStatistic statistic, std::vector<Key>& keys)
 
 }
 
-void AttributeTuples::prepare(const std::int64_t* counts, std::int64_t voxels, std::int64_t, const Executor&)
+void AttributeTuples::prepare(const std::vector<std::int64_t>& counts)
 {
-  ends_.assign(counts, counts + voxels);
-  const std::int64_t tuples = simd::countsToPlaces(ends_);
+  ends_ = counts;
+  std::int64_t tuples = 0;
+  for (std::int64_t& end : ends_)
+  {
+    tuples += std::exchange(end, tuples);
+  }
   // With what kernels read beyond the last value.
   constexpr std::size_t kBeyond = simd::kListVector;
-  const std::size_t bytes = std::size_t(tuples * bytesOf(view_.type)) + kBeyond;
+  const std::size_t bytes = std::size_t(tuples * bytesOf(kind_.type)) + kBeyond;
   componentBytes_ = (bytes + 63) / 64 * 64;
-  values_.reserve(componentBytes_ * std::size_t(view_.components), Pages::Huge);
+  values_.reserve(componentBytes_ * std::size_t(kind_.components), Pages::Huge);
 }
 
-void AttributeTuples::addTuples(
-  const Tuples& tuples, const std::int64_t* points, const std::int64_t* voxels, int count)
+/// @p components: those of a tuple, which the compiler may know.
+template <typename T, typename Components>
+void AttributeTuples::keepTuples(const Tuples& tuples, const std::int64_t* numbers,
+  const std::int64_t* voxels, int count, Components components)
 {
-  const auto tupleOf = [=](int i) { return tuples.first + tuples.step * points[i]; };
-  withType(view_.type,
+  // Copies, which no store can change.
+  char* const to = values_.data();
+  std::int64_t* const ends = ends_.data();
+  const std::size_t apart = componentBytes_;
+  const Tuples from = tuples;
+  for (int i = 0; i < count; ++i)
+  {
+    const char* const tuple = from.first + from.step * numbers[i];
+    char* const first = to + sizeof(T) * std::size_t(ends[voxels[i]]++);
+    for (int c = 0; c < components; ++c)
+    {
+      std::memcpy(first + apart * std::size_t(c), tuple + std::size_t(c) * sizeof(T), sizeof(T));
+    }
+  }
+}
+
+void AttributeTuples::add(
+  const Tuples& tuples, const std::int64_t* numbers, const std::int64_t* voxels, int count)
+{
+  withType(kind_.type,
     [&](auto example)
     {
       using T = decltype(example);
       using One = std::integral_constant<int, 1>;
       using Three = std::integral_constant<int, 3>;
-      view_.components == 1     ? keepTuples<T>(voxels, count, One(), tupleOf)
-        : view_.components == 3 ? keepTuples<T>(voxels, count, Three(), tupleOf)
-                                : keepTuples<T>(voxels, count, view_.components, tupleOf);
+      kind_.components == 1     ? keepTuples<T>(tuples, numbers, voxels, count, One())
+        : kind_.components == 3 ? keepTuples<T>(tuples, numbers, voxels, count, Three())
+                                : keepTuples<T>(tuples, numbers, voxels, count, kind_.components);
     });
 }
 
-/// Of voxels @p first to @p last.
 template <typename T>
-void AttributeTuples::writeValues(std::int64_t first, std::int64_t last, T* to) const
+void AttributeTuples::writeValues(T* to) const
 {
-  const bool isMedian = statistic_ == AttributeStatistic::Median;
-  const auto select = (isMedian ? kernels_->medians : kernels_->modes)[std::size_t(view_.type)];
+  const bool isMedian = kind_.statistic == AttributeStatistic::Median;
+  const auto select = (isMedian ? kernels_->medians : kernels_->modes)[std::size_t(kind_.type)];
   int many[simd::kBatch];
   std::vector<decltype(orderedKey(T()))> keys;
-  for (std::int64_t v = first; v < last; v += simd::kBatch)
+  for (std::int64_t v = 0; v < voxels(); v += simd::kBatch)
   {
-    const auto size = int(std::min<std::int64_t>(last - v, simd::kBatch));
-    for (int c = 0; c < view_.components; ++c)
+    const auto size = int(std::min<std::int64_t>(voxels() - v, simd::kBatch));
+    for (int c = 0; c < kind_.components; ++c)
     {
-      T* const selected = to + view_.components * v + c;
+      T* const selected = to + kind_.components * v + c;
       const int found =
-        select({ values<T>(c), begin(v), ends_.data() + v, size }, selected, view_.components, many);
+        select({ values<T>(c), begin(v), ends_.data() + v, size }, selected, kind_.components, many);
       for (int i = 0; i < found; ++i)
       {
         const std::int64_t voxel = v + many[i];
         keys.resize(std::size_t(end(voxel) - begin(voxel)));
         std::transform(values<T>(c) + begin(voxel), values<T>(c) + end(voxel), keys.begin(), &orderedKey<T>);
-        selected[view_.components * many[i]] = valueOfKey<T>(statisticOf(statistic_, keys));
+        selected[kind_.components * many[i]] = valueOfKey<T>(statisticOf(kind_.statistic, keys));
       }
     }
   }
@@ -98,7 +122,7 @@ void AttributeTuples::tallyValues(simd::TallyValues& to) const
   std::vector<decltype(orderedKey(T()))> keys;
   for (std::int64_t v = 0; v < voxels(); ++v)
   {
-    for (int c = 0; c < view_.components; ++c)
+    for (int c = 0; c < kind_.components; ++c)
     {
       keys.clear();
       for (std::int64_t i = begin(v); i < end(v); ++i)
@@ -122,23 +146,18 @@ void AttributeTuples::tallyValues(simd::TallyValues& to) const
 simd::VoxelTally AttributeTuples::takeTally()
 {
   simd::VoxelTally tally;
-  tally.values.components = view_.components;
-  withType(view_.type, [&](auto example) { tallyValues<decltype(example)>(tally.values); });
+  tally.values.components = kind_.components;
+  withType(kind_.type, [&](auto example) { tallyValues<decltype(example)>(tally.values); });
   return tally;
 }
 
-bool AttributeTuples::write(
-  const std::int64_t*, void* values, const Executor& executor, ProgressObserver* observer) const
+void AttributeTuples::write(const std::int64_t*, void* values) const
 {
-  return simd::forVoxelSlices(ends_, executor, observer,
-    [&](std::int64_t first, std::int64_t last)
+  withType(kind_.type,
+    [&](auto example)
     {
-      withType(view_.type,
-        [&](auto example)
-        {
-          using T = decltype(example);
-          writeValues(first, last, static_cast<T*>(values));
-        });
+      using T = decltype(example);
+      writeValues(static_cast<T*>(values));
     });
 }
 

@@ -3,14 +3,12 @@
 #pragma once
 
 #include "Core/Base/Buffer.h"
-#include "Core/Base/ScalarType.h"
-#include "Core/Resample/Kernel/OrderedKey.h"
 #include "Core/Resample/Kernel/VoxelKernel.h"
 #include "Core/Resample/Reductions/AttributeReducer.h"
+#include "Core/Resample/Reductions/VoxelTally.h"
 
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <vector>
 
 namespace pointhaptics
@@ -21,49 +19,27 @@ namespace pointhaptics
 /// +0; nothing depends on the order of the points.
 ///
 /// Memory: the tuples themselves, and 8 bytes a voxel.
-class AttributeTuples : public AttributeReducer
+class AttributeTuples final : public AttributeReducer
 {
 public:
-  /// @pre @p statistic is Mode or Median
-  explicit AttributeTuples(const AttributeView& view, AttributeStatistic statistic = AttributeStatistic::Mode,
-    InstructionSet instructions = InstructionSet::Automatic)
-    : AttributeReducer(view)
-    , statistic_(statistic)
+  /// @pre the statistic is Mode or Median
+  explicit AttributeTuples(
+    const AccumulatedArray& kind, InstructionSet instructions = InstructionSet::Automatic)
+    : kind_(kind)
     , kernels_(&simd::kernelsFor(instructions).attributes)
   {
   }
 
-  void prepare(const std::int64_t* counts, std::int64_t voxels, std::int64_t mostPoints,
-    const Executor& executor) override;
-  void addTuples(
-    const Tuples& tuples, const std::int64_t* points, const std::int64_t* voxels, int count) override;
+  void prepare(const std::vector<std::int64_t>& counts) override;
+  void add(const Tuples& tuples, const std::int64_t* numbers, const std::int64_t* voxels, int count) override;
   simd::VoxelTally takeTally() override;
   /// @pre each voxel has as many tuples as it was said to get.
-  bool write(const std::int64_t* counts, void* values, const Executor& executor,
-    ProgressObserver* observer) const override;
-
-protected:
-  /// Calls tupleOf(i) for @p count tuples of the voxels given, and keeps what it returns. @p components:
-  /// those of the view, which the compiler may know.
-  template <typename T, typename Components, typename TupleOf>
-  void keepTuples(const std::int64_t* voxels, int count, Components components, const TupleOf& tupleOf)
-  {
-    // Copies, which no store can change.
-    char* const to = values_.data();
-    std::int64_t* const ends = ends_.data();
-    const std::size_t apart = componentBytes_;
-    for (int i = 0; i < count; ++i)
-    {
-      const auto& tuple = tupleOf(i);
-      char* const first = to + sizeof(T) * std::size_t(ends[voxels[i]]++);
-      for (int c = 0; c < components; ++c)
-      {
-        std::memcpy(first + apart * std::size_t(c), &tuple[c * std::ptrdiff_t(sizeof(T))], sizeof(T));
-      }
-    }
-  }
+  void write(const std::int64_t* counts, void* values) const override;
 
 private:
+  template <typename T, typename Components>
+  void keepTuples(const Tuples& tuples, const std::int64_t* numbers, const std::int64_t* voxels, int count,
+    Components components);
   std::int64_t voxels() const { return std::int64_t(ends_.size()); }
   /// Of its tuples. @pre all have been added.
   std::int64_t begin(std::int64_t voxel) const { return voxel == 0 ? 0 : ends_[std::size_t(voxel - 1)]; }
@@ -77,9 +53,9 @@ private:
   template <typename T>
   void tallyValues(simd::TallyValues& to) const;
   template <typename T>
-  void writeValues(std::int64_t first, std::int64_t last, T* to) const;
+  void writeValues(T* to) const;
 
-  AttributeStatistic statistic_;
+  AccumulatedArray kind_;
   const simd::AttributeKernels* kernels_;
   Buffer<char> values_; ///< Those of a component together, and of these those of a voxel.
   std::size_t componentBytes_ = 0;

@@ -1,74 +1,117 @@
 /// @file
-/// Of the points of each voxel the one nearest to their mean, or to the voxel's centre, by their coordinates.
+/// Of the points of each voxel the one nearest to their mean, or to the voxel's centre.
 #pragma once
 
 #include "Core/Base/Buffer.h"
-#include "Core/Resample/Reductions/NearestRecords.h"
-#include "Core/Resample/Stages/VoxelSink.h"
+#include "Core/Base/Vector3.h"
+#include "Core/Resample/Stages/VoxelWriter.h"
 #include "Core/Resample/VoxelResampler.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
-#include <vector>
 
 namespace pointhaptics
 {
 namespace simd
 {
 
-/// Collects the points of consecutive voxels whose nearest point is not known, and chooses: see
-/// Representative.
+/// Compares the distances of quantized positions: see Representative.
 class NearestPoints
 {
 public:
-  /// @p request must outlive this.
-  explicit NearestPoints(const VoxelRequest& request);
+  /// @p request must outlive this. Offsets in voxels have @p fractionBits bits.
+  NearestPoints(const VoxelRequest& request, int fractionBits);
 
-  /// Drops all points and makes room for those of @p voxels, @p counts each; not of those whose nearest point
-  /// is @p known, which may be null, else must outlive this.
-  void prepare(const std::int64_t* counts, std::int64_t voxels, const NearestRecords* known);
-  bool needsPoints() const { return needsPoints_; }
-  /// Keeps points, of voxels that have room for them. Several threads may add at once if no two have a voxel
-  /// in common.
-  void add(const std::int64_t* points, const std::int64_t* voxels, int count);
-  /// Replaces the means of the voxels from @p first on in @p arena by the nearest points, and writes the
-  /// numbers of these. @return false where @p observer, which may be null, aborted the work.
-  bool write(std::size_t first, MeanArena& arena, const Executor& executor, ProgressObserver* observer) const;
+  /// Forgets all points. @p voxels: have count(voxel) and sums(voxel).
+  template <typename Voxels>
+  void prepare(const Voxels& voxels)
+  {
+    size_ = voxels.size();
+    nearest_.reserve(size_, Pages::Huge);
+    for (std::size_t v = 0; v < size_; ++v)
+    {
+      const std::int64_t count = toMean_ ? voxels.count(v) : 1;
+      // Two points are equally near to their mean: the one with the smaller x is chosen.
+      const bool byX = count == 2;
+      const std::array<double, 3> sums = byX ? std::array<double, 3>{}
+        : toMean_                            ? voxels.sums(v)
+                                             : std::array<double, 3>{ middle_, middle_, middle_ };
+      nearest_[v] = { sums, double(count), byX ? 0.0 : 1.0, INFINITY, -1, 0 };
+    }
+  }
+  /// Compares the points of a block, which has points[i], voxels[i] and offset(i), with others of their
+  /// voxels.
+  template <typename Block>
+  void add(const Block& block)
+  {
+    Nearest* const nearest = nearest_.data(); // A copy, which no store can change.
+    for (int i = 0; i < block.count; ++i)
+    {
+      Nearest& to = nearest[block.voxels[i]];
+      const double square = squareOf(block.offset(i), to);
+      // Without branches, which would be unpredictable.
+      const std::int64_t isLess = -std::int64_t(square < to.least);
+      to.ties = (to.ties & ~isLess) | std::int64_t(square == to.least);
+      to.point ^= (to.point ^ block.points[i]) & isLess;
+      to.least = square < to.least ? square : to.least;
+    }
+  }
+  /// Once all points are added. @return whether there are equal distances: resolve() decides then.
+  bool hasTies()
+  {
+    std::int64_t ties = 0;
+    for (std::size_t v = 0; v < size_; ++v)
+    {
+      ties |= nearest_[v].ties;
+    }
+    return ties != 0;
+  }
+  /// Of all points, once more.
+  template <typename Block>
+  void resolve(const Block& block)
+  {
+    for (int i = 0; i < block.count; ++i)
+    {
+      Nearest& to = nearest_[std::size_t(block.voxels[i])];
+      const bool isNearest = to.ties != 0 && squareOf(block.offset(i), to) == to.least;
+      to.point = isNearest && goesBefore(block.points[i], to.point) ? block.points[i] : to.point;
+    }
+  }
+  /// Replaces the means of the voxels from @p first on in @p writer by the nearest points, and writes the
+  /// numbers of these.
+  void write(VoxelWriter& writer, std::size_t first) const;
 
 private:
-  struct Member
+  struct alignas(64) Nearest
   {
-    Vec3 place; ///< Transformed.
-    std::int64_t number;
-  };
-  using Offset = std::array<std::int64_t, 3>;
-  /// Quanta in a unit of length: a product of two factors, as one could overflow.
-  struct Scale
-  {
-    double factors[2];
-    double most; ///< Of quanta: rounding of an ill-conditioned transform may put a point far from its voxel.
-
-    Offset quantized(const Vec3& offset) const;
+    std::array<double, 3> sums; ///< So many times the target, in quanta from the voxel's lower corner.
+    double times;
+    double yz;          ///< 0: distances are by x alone; else 1.
+    double least;       ///< The square of the least distance so far, times as often.
+    std::int64_t point; ///< That has it.
+    std::int64_t ties;  ///< 1: several have.
   };
 
-  bool isKnown(std::size_t voxel) const { return known_ && known_->point(voxel) != NearestRecords::kUnknown; }
-  const void* addressOf(std::int64_t point) const;
-  Member memberOf(std::int64_t point) const;
-  Scale scaleOf(int bits) const;
-  Vec3 centerOf(std::uint64_t key) const;
-  bool goesBefore(const Member& a, const Member& b) const;
-  const Member& chosenOf(
-    const Member* first, const Member* last, const MeanArena& arena, std::size_t voxel) const;
+  /// Always the same operations: where two distances are equal, or which is less, depends on the points
+  /// alone. Not by the quotient of the sums: distances of few digits are exact.
+  double squareOf(const std::array<double, 3>& offset, const Nearest& to) const
+  {
+    const double x = (offset[0] * to.times - to.sums[0]) * scale_.x;
+    const double y = (offset[1] * to.times - to.sums[1]) * scale_.y;
+    const double z = (offset[2] * to.times - to.sums[2]) * scale_.z;
+    return x * x + to.yz * (y * y + z * z);
+  }
+  Vec3 placeOf(std::int64_t point) const;
+  bool goesBefore(std::int64_t a, std::int64_t b) const;
 
   const VoxelRequest* request_;
   bool toMean_;
   bool isIdentity_;
-  int exponent_;                   ///< Of the longest edge of a voxel, as a power of two.
-  Scale scale_;                    ///< Of voxels with few points.
-  std::vector<std::int64_t> ends_; ///< Where the next point of each voxel goes.
-  bool needsPoints_ = false;
-  Buffer<Member> members_;
-  const NearestRecords* known_ = nullptr;
+  double middle_; ///< Of a voxel.
+  Vec3 scale_;    ///< Edges of a voxel by the longest.
+  std::size_t size_ = 0;
+  Buffer<Nearest> nearest_;
 };
 
 } // namespace simd

@@ -2,10 +2,10 @@
 /// What else becomes of the points of voxels, next to their sums.
 #pragma once
 
+#include "Core/Resample/Kernel/Fetch.h"
 #include "Core/Resample/Kernel/PointRecordWriter.h"
 #include "Core/Resample/Reductions/AttributeReducer.h"
 #include "Core/Resample/Reductions/NearestPoints.h"
-#include "Core/Resample/Reductions/NearestRecords.h"
 #include "Core/Resample/Reductions/VoxelTally.h"
 #include "Core/Resample/VoxelResampler.h"
 
@@ -20,49 +20,66 @@ namespace pointhaptics
 namespace simd
 {
 
-/// The payload of the records of a request whose points are kept: the tuples that have room there, and
-/// which are so read once, in the order of their memory; the number of the point where others, or the point
-/// itself, are of use. Arrays are in the order of the attributes; last are the points, for medians.
-PayloadLayout payloadLayoutOf(const VoxelRequest& request);
-
-/// The attributes of voxels and the points that stand for them: of the voxels of a partition while its points
-/// are summed, or of all by another pass.
+/// Reduces the points of the voxels of one partition at a time, in one visit: their arrays, the point that
+/// stands for each, and where each point went. For one thread at a time.
 class VoxelReductions
 {
 public:
-  VoxelReductions() = default; ///< Nothing.
-  /// What @p request asks for, which must outlive this. @pre the ranges of its attributes are known
-  explicit VoxelReductions(const VoxelRequest& request);
+  /// @p request must outlive this. @p arrays: its attributes, and what else is reduced like them; their
+  /// ranges are known. @p voxelIndex: of each point; null unless asked for.
+  VoxelReductions(const VoxelRequest& request, const std::vector<AttributeRequest>& arrays,
+    const PayloadLayout& payloads, int fractionBits, std::int64_t* voxelIndex);
 
-  /// Drops all points and makes room for those of @p voxels, @p counts each, at most @p mostPoints. @p
-  /// nearest points that are known may be null, else must outlive this.
-  void prepare(const std::int64_t* counts, std::int64_t voxels, std::int64_t mostPoints,
-    const Executor& executor = {}, const NearestRecords* nearest = nullptr);
-  /// Whether anything is to be added.
-  bool needsPoints() const { return !reducers_.empty() || (nearest_ && nearest_->needsPoints()); }
-  /// Fetches what add() reads of points, in time for that; not of so many arrays.
-  void fetch(const std::int64_t* points, int count, int without = 0) const;
-  /// Adds points. Several threads may at once if no two have a voxel in common.
-  void add(const std::int64_t* points, const std::int64_t* voxels, int count)
+  /// @p voxels: BinnedVoxels or SortedVoxels, summed; @p first of all voxels there is their first.
+  template <typename Voxels>
+  void reduce(const Voxels& voxels, std::size_t first)
   {
-    addPayloads({}, nullptr, points, voxels, count);
+    counts_.resize(voxels.size());
+    for (std::size_t v = 0; v < counts_.size(); ++v)
+    {
+      counts_[v] = voxels.count(v);
+    }
+    for (const auto& reducer : reducers_)
+    {
+      reducer->prepare(counts_);
+    }
+    if (nearest_)
+    {
+      nearest_->prepare(voxels);
+    }
+    voxels.visit(
+      [&](const auto& block, const auto& next)
+      {
+        this->fetch(next.points, next.count);
+        this->note(block.points, block.voxels, block.count, std::int64_t(first));
+        this->addTuples(block.payloads, block.points, block.voxels, block.count);
+        if (nearest_)
+        {
+          nearest_->add(block);
+        }
+      });
+    if (nearest_ && nearest_->hasTies())
+    {
+      voxels.visit([&](const auto& block, const auto&) { nearest_->resolve(block); });
+    }
   }
-  /// The same, of at most kBlockRecords points; tuples that are in @p payloads are taken from there.
-  void addPayloads(const PayloadLayout& layout, const std::uint32_t* payloads, const std::int64_t* points,
-    const std::int64_t* voxels, int count);
-  /// Writes what becomes of the voxels, from @p first on in @p arena. @pre their means and counts are there.
-  /// @return false where @p observer, which may be null, aborted the work.
-  bool write(MeanArena& arena, std::size_t first, const Executor& executor = {},
-    ProgressObserver* observer = nullptr) const;
+  /// Writes what became of the voxels, whose counts are there, from @p first on in @p writer.
+  void write(VoxelWriter& writer, std::size_t first) const;
   /// What the arrays have in the voxels, one for each; nothing is left here.
   std::vector<VoxelTally> takeTallies();
 
 private:
-  const VoxelRequest* request_ = nullptr;
-  std::vector<AttributeView> views_; ///< What add() reads.
-  std::vector<std::unique_ptr<AttributeReducer>>
-    reducers_; ///< One for each attribute, one for median places.
+  void fetch(const std::int64_t* points, int count) const;
+  void note(const std::int64_t* points, const std::int64_t* voxels, int count, std::int64_t first) const;
+  void addTuples(
+    const std::uint32_t* payloads, const std::int64_t* points, const std::int64_t* voxels, int count);
+
+  PayloadLayout payloads_;
+  std::int64_t* voxelIndex_;
+  std::vector<AttributeView> views_; ///< What is read of points.
+  std::vector<std::unique_ptr<AttributeReducer>> reducers_;
   std::optional<NearestPoints> nearest_;
+  std::vector<std::int64_t> counts_; ///< Of the voxels.
 };
 
 } // namespace simd

@@ -46,15 +46,14 @@ SecondMoments movedMoments(
 {
   constexpr int kRows[6] = { 0, 1, 2, 0, 1, 0 };
   constexpr int kColumns[6] = { 0, 1, 2, 1, 2, 2 };
-  const VoxelSums sums = voxel.whole();
   const auto masked = [&](int axis, UInt128 value)
   { return entryKey >> axis & 1 ? value << fractionBits : UInt128(0); };
   for (int m = 0; m < 6; ++m)
   {
     const int a = kRows[m];
     const int b = kColumns[m];
-    moments.lanes[m] += masked(a, UInt128(sums.sums[b])) + masked(b, UInt128(sums.sums[a])) +
-      masked(a, masked(b, UInt128(sums.count)));
+    moments.lanes[m] += masked(a, UInt128(voxel.sum(b))) + masked(b, UInt128(voxel.sum(a))) +
+      masked(a, masked(b, UInt128(voxel.count)));
   }
   return moments;
 }

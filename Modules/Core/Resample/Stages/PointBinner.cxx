@@ -1,11 +1,9 @@
 #include "Core/Resample/Stages/PointBinner.h"
 
 #include "Core/Base/PointBlocks.h"
-#include "Core/Resample/Reductions/VoxelReductions.h"
 #include "Core/Resample/Stages/PointQuantizer.h"
 
 #include <algorithm>
-#include <numeric>
 #include <type_traits>
 
 namespace pointhaptics
@@ -27,6 +25,32 @@ constexpr std::uint32_t kMostLargePartitions = 2048;
 constexpr std::int64_t kPointsPerPartition = 1024;
 
 constexpr PayloadLayout kNumbers = { 1, true };
+
+/// The payload of records: the tuples that have room there, and which are so read once, in the order of their
+/// memory; the number of the point where that, or others, are of use.
+PayloadLayout payloadLayoutOf(const std::vector<AttributeView>& arrays, bool numbered)
+{
+  PayloadLayout layout;
+  constexpr int kWord = sizeof(std::uint32_t);
+  int bytes = kWord; // With a number.
+  for (const AttributeView& array : arrays)
+  {
+    if (layout.count == PayloadLayout::kMostArrays ||
+      bytes + array.tupleBytes() > PayloadLayout::kMostWords * kWord)
+    {
+      break;
+    }
+    layout.arrays[layout.count++] = { static_cast<const char*>(array.values), array.step(),
+      int(array.tupleBytes()), bytes };
+    bytes += int(array.tupleBytes());
+  }
+  layout.numbered = numbered || std::size_t(layout.count) < arrays.size();
+  const int unused = layout.numbered ? 0 : kWord;
+  std::for_each(
+    layout.arrays, layout.arrays + layout.count, [=](PayloadArray& array) { array.offset -= unused; });
+  layout.words = (bytes - unused + kWord - 1) / kWord;
+  return layout;
+}
 
 std::uint32_t blocks(std::uint32_t count, int shift)
 {
@@ -112,25 +136,20 @@ bool fitsPartitions(const Lattice& lattice, int indexBits)
   return plan.cells() <= kMostCells && plan.partitions <= kMostLargePartitions;
 }
 
-std::size_t mostVoxels(const PartitionPlan& plan, std::size_t records, std::size_t accumulated)
-{
-  return std::min(records + accumulated, plan.cells());
-}
-
-void PointBinner::prepare(const VoxelRequest& request, std::int64_t points)
+void PointBinner::prepare(
+  const VoxelRequest& request, const Chunks& chunks, const std::vector<AttributeView>& arrays, bool numbered)
 {
   const int indexBits = indexBitsOf(request.lattice);
-  plan_ = makePlan(request.lattice, indexBits, points);
+  plan_ = makePlan(request.lattice, indexBits, chunks.pointCount(0));
   quantizer_ = makeQuantizer(request.transform, request.lattice, indexBits, kPositionBits);
   quantizer_.blocksPerLayer = plan_.blocksPerLayer;
   quantizer_.rowShift = plan_.rowShift;
   quantizer_.layerShift = plan_.layerShift;
-  payloadLayout_ = payloadLayoutOf(request);
+  payloadLayout_ = payloadLayoutOf(arrays, numbered);
   if (payloadLayout_.count > 0 && !areScattered(request.points))
   {
     payloadLayout_ = kNumbers;
   }
-  used_ = 0;
 }
 
 /// Whether most points are in another partition than the next one. A few are asked.
@@ -158,48 +177,37 @@ bool PointBinner::areScattered(const PointView& points) const
   return others > same;
 }
 
-void PointBinner::quantizeAndBin(
-  const VoxelRequest& request, const Chunks& chunks, std::size_t chunk, Keep keep, const Executor& executor)
+void PointBinner::start(const Chunks& chunks, std::size_t first, std::size_t last, const Executor& executor)
 {
-  used_ = keep == Keep::All ? used_ + 1 : 1;
-  while (pools_.size() < used_)
-  {
-    pools_.emplace_back();
-  }
-  PointRecordPool& pool = pools_[used_ - 1];
-  // Numbers that an index gives fit four bytes as they are, others counted from their chunk.
-  const std::int64_t pieces = chunks.pieceCount(chunk);
-  const std::int64_t firstNumber = chunks.originals() || pieces == 0 ? 0 : chunks.pieces(chunk)->begin;
-  PayloadLayout layout = keep == Keep::All ? payloadLayout_
-    : keep == Keep::Numbers                ? kNumbers
-                                           : PayloadLayout();
+  // Numbers that an index gives are counted from 0.
+  firstNumber_ = chunks.originals() || chunks.pieceCount(first) == 0 ? 0 : chunks.pieces(first)->begin;
+  PayloadLayout layout = payloadLayout_;
   for (int i = 0; i < layout.count; ++i)
   {
-    layout.arrays[i].values += layout.arrays[i].step * firstNumber;
+    layout.arrays[i].values += layout.arrays[i].step * firstNumber_;
   }
-  pool.prepare(chunks.pointCount(chunk), plan_.partitions, executor.concurrency(), layout, firstNumber);
+  std::int64_t points = 0;
+  for (std::size_t chunk = first; chunk < last; ++chunk)
+  {
+    points += chunks.pointCount(chunk);
+  }
+  pool_.prepare(points, plan_.partitions, executor.concurrency(), layout, firstNumber_);
+}
+
+void PointBinner::add(
+  const VoxelRequest& request, const Chunks& chunks, std::size_t chunk, const Executor& executor)
+{
+  const std::int64_t pieces = chunks.pieceCount(chunk);
   const std::int64_t grain = std::max<std::int64_t>(1, pieces / (16 * executor.concurrency()));
   forEachItemWith(
     executor, std::size_t((pieces + grain - 1) / grain),
-    [&](std::size_t thread) -> PointRecordWriter& { return pool.writer(thread); },
+    [&](std::size_t thread) -> PointRecordWriter& { return pool_.writer(thread); },
     [&](std::size_t item, PointRecordWriter& writer)
     {
       const std::int64_t first = std::int64_t(item) * grain;
       binRanges(kernelsFor(request.instructions), quantizer_, chunks, chunks.pieces(chunk) + first,
-        std::min(grain, pieces - first), firstNumber, writer);
+        std::min(grain, pieces - first), firstNumber_, writer);
     });
-}
-
-std::size_t PointBinner::count(std::uint32_t partition) const
-{
-  return std::accumulate(pools_.begin(), pools_.begin() + std::ptrdiff_t(used_), std::size_t(0),
-    [=](std::size_t sum, const PointRecordPool& pool) { return sum + pool.count(partition); });
-}
-
-std::size_t PointBinner::bytes() const
-{
-  return std::accumulate(pools_.begin(), pools_.end(), std::size_t(0),
-    [](std::size_t sum, const PointRecordPool& pool) { return sum + pool.bytes(); });
 }
 
 } // namespace simd

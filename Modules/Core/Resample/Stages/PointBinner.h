@@ -1,5 +1,5 @@
 /// @file
-/// Quantizes the points of a chunk and bins their records into the partitions of a lattice.
+/// Quantizes points and bins their records into the partitions of a lattice.
 #pragma once
 
 #include "Core/Base/Executor.h"
@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <deque>
+#include <vector>
 
 namespace pointhaptics
 {
@@ -60,38 +60,38 @@ bool fitsPartitions(const Lattice& lattice, int indexBits);
 /// A plan for @p points points at a time. @pre fitsPartitions()
 PartitionPlan makePlan(const Lattice& lattice, int indexBits, std::int64_t points);
 
-/// An upper bound of a partition's voxels, from its records and accumulated voxels.
-std::size_t mostVoxels(const PartitionPlan& plan, std::size_t records, std::size_t accumulated);
-
 /// The first two stages.
 class PointBinner
 {
 public:
-  /// What is kept of a chunk when it was binned.
-  enum class Keep
-  {
-    Records, ///< Until the next chunk.
-    Numbers, ///< And the numbers of their points; until the next chunk.
-    All,     ///< And payloadLayout(), beside those of the chunks before.
-  };
+  static constexpr std::int64_t kChunkPoints = simd::kChunkPoints;
+  /// So many are summed together; the sums of more are merged.
+  static constexpr std::size_t kHeldChunks = 4;
 
-  /// For chunks of @p points points, of the lattice and the transform of @p request. Empties the pools.
-  void prepare(const VoxelRequest& request, std::int64_t points);
-  /// Quantizes and bins a chunk. Where all is kept, payloads are as payloadLayout() says.
-  void quantizeAndBin(const VoxelRequest& request, const Chunks& chunks, std::size_t chunk, Keep keep,
-    const Executor& executor);
+  /// For the lattice and the transform of @p request. @p arrays: to go with the records, as many as have
+  /// room; @p numbered: with the numbers of their points.
+  void prepare(const VoxelRequest& request, const Chunks& chunks, const std::vector<AttributeView>& arrays,
+    bool numbered);
+  /// Makes room for chunks @p first to before @p last, and forgets those before.
+  void start(const Chunks& chunks, std::size_t first, std::size_t last, const Executor& executor);
+  /// Quantizes and bins one of them.
+  void add(const VoxelRequest& request, const Chunks& chunks, std::size_t chunk, const Executor& executor);
 
   const PartitionPlan& plan() const { return plan_; }
-  /// The payload of records where all is kept. Points in the order of a scan have their numbers alone:
-  /// where neighbours in memory are in one partition, its tuples are read in order anyway.
+  std::uint32_t partitions() const { return plan_.partitions; }
+  int fractionBits() const { return plan_.fractionBits; }
+  /// What goes with a record. Points in the order of a scan have their numbers alone: where neighbours in
+  /// memory are in one partition, its tuples are read in order anyway.
   const PayloadLayout& payloadLayout() const { return payloadLayout_; }
-  const PointQuantizer& quantizer() const { return quantizer_; }
-  /// Those of the chunks that are kept; the last one is there as long as no other is binned.
-  std::size_t pools() const { return used_; }
-  const PointRecordPool& pool(std::size_t number) const { return pools_[number]; }
-  /// Records of a partition.
-  std::size_t count(std::uint32_t partition) const;
-  std::size_t bytes() const;
+  const PointRecordPool& pool() const { return pool_; }
+  /// An upper bound of a partition's voxels.
+  std::size_t mostVoxels(std::uint32_t partition) const
+  {
+    return std::min(pool_.count(partition), plan_.cells());
+  }
+  std::int64_t inside() const { return pool_.inside(); }
+  std::int64_t invalid() const { return pool_.invalid(); }
+  std::size_t bytes() const { return pool_.bytes(); }
 
 private:
   bool areScattered(const PointView& points) const;
@@ -99,8 +99,8 @@ private:
   alignas(kApart) PartitionPlan plan_;
   alignas(kApart) PointQuantizer quantizer_{};
   PayloadLayout payloadLayout_;
-  std::deque<PointRecordPool> pools_;
-  std::size_t used_ = 0;
+  std::int64_t firstNumber_ = 0; ///< Others are counted from this in records: they fit four bytes.
+  PointRecordPool pool_;
 };
 
 } // namespace simd

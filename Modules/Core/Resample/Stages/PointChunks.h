@@ -18,8 +18,8 @@ namespace simd
 /// Points of a piece: enough to make the cost of scheduling it negligible.
 constexpr std::int64_t kPieceSize = 1 << 12;
 
-/// A chunk goes through all steps before the next one; threads take its pieces one by one. There is at least
-/// one, which may be empty.
+/// Points between two reports; threads take the pieces of a chunk one by one. There is at least one, which
+/// may be empty.
 class Chunks
 {
 public:

@@ -3,14 +3,13 @@
 #pragma once
 
 #include "Core/Base/Executor.h"
-#include "Core/Resample/Stages/VoxelSink.h"
+#include "Core/Resample/Stages/VoxelWriter.h"
 
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <thread>
-#include <vector>
 
 namespace pointhaptics
 {
@@ -24,46 +23,45 @@ constexpr std::int64_t kCopyGrain = 1 << 14;
 struct Level
 {
   Lattice lattice;
-  MeanArena arena;
-  /// Where those of each partition begin, and an end.
-  std::vector<std::size_t> firsts;
+  VoxelWriter writer;
   std::int64_t size = 0;
 
   /// Of the voxel that has most of them.
   std::int64_t mostPoints() const
   {
-    return size == 0 ? 0 : *std::max_element(arena.counts(), arena.counts() + size);
+    return size == 0 ? 0 : *std::max_element(writer.counts(), writer.counts() + size);
   }
 };
 
-/// Gives partitions the offsets of their voxels in the output. Threads take partitions in ascending order and
-/// count one's voxels before they do anything else with it: a thread that has counted waits, if at all, for
-/// one that is counting.
+/// Gives partitions the offsets of their voxels among all. Threads take partitions in ascending order and
+/// find one's voxels before they do anything else with it: a thread that has found them waits, if at all, for
+/// one that is finding.
 class PartitionOrder
 {
 public:
-  /// @p firsts: becomes the offset of each partition, and an end.
-  PartitionOrder(std::vector<std::size_t>& firsts, std::size_t partitions)
-    : firsts_(firsts)
-  {
-    firsts_.assign(partitions + 1, 0);
-  }
-  /// The offset of a partition of @p size voxels. @pre those before it are or were being counted.
+  /// The offset of a partition of @p size voxels. @pre those before it are done or at work.
   std::size_t append(std::size_t partition, std::size_t size)
   {
     while (known_.load(std::memory_order_acquire) != partition && !givenUp_)
     {
       std::this_thread::yield();
     }
-    firsts_[partition + 1] = firsts_[partition] + size;
+    if (givenUp_)
+    {
+      return 0;
+    }
+    const std::size_t offset = size_;
+    size_ += size;
     known_.store(partition + 1, std::memory_order_release);
-    return firsts_[partition];
+    return offset;
   }
-  /// What is appended is of no use, as a thread could not count: nobody waits any longer.
+  /// Of all partitions.
+  std::size_t size() const { return size_; }
+  /// What is appended is of no use, as a thread could not find voxels: nobody waits any longer.
   void giveUp() { givenUp_ = true; }
 
 private:
-  std::vector<std::size_t>& firsts_;
+  std::size_t size_ = 0;
   std::atomic<std::size_t> known_{ 0 }; ///< Partitions whose end is known.
   std::atomic<bool> givenUp_{ false };
 };

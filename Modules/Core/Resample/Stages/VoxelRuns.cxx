@@ -62,7 +62,7 @@ VoxelRun concatenated(std::vector<VoxelRun>& runs, const Executor& executor)
     withMoments = withMoments || run.hasMoments();
   }
   VoxelRun all;
-  all.resize(firsts.back(), withMoments);
+  all.append(firsts.back(), withMoments);
   for (const VoxelRun& run : runs)
   {
     all.appendTallies(run, 0, run.size());
@@ -91,19 +91,20 @@ bool subtracted(const VoxelRun& from, const VoxelRun& run, VoxelRun& difference)
         difference.append(from, i, i + std::size_t(isRight));
         return;
       }
-      VoxelSums left = from.voxels[i].whole();
-      const VoxelSums less = run.voxels[j].whole();
+      WideSums left = from.voxels[i];
+      const WideSums& less = run.voxels[j];
       left.count -= less.count;
       isRight = isRight && left.count >= 0;
       for (int axis = 0; axis < 3; ++axis)
       {
-        left.sums[axis] -= less.sums[axis];
-        isRight = isRight && left.sums[axis] >= 0 && (left.count > 0 || left.sums[axis] == 0);
+        const Int128 rest = left.sum(axis) - less.sum(axis);
+        isRight = isRight && rest >= 0 && (left.count > 0 || rest == 0);
+        left.add(axis, -less.low[axis], -std::uint64_t(less.sum(axis) >> 64) - (less.low[axis] > 0));
       }
       if (left.count > 0)
       {
         difference.append(from, i, i + 1);
-        difference.voxels.back() = WideSums::of(left);
+        difference.voxels.back() = left;
         for (int m = 0; run.hasMoments() && m < 6; ++m)
         {
           difference.secondMoments.back().lanes[m] -= run.secondMoments[j].lanes[m];

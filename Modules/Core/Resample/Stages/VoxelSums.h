@@ -7,6 +7,7 @@
 #include "Core/Resample/Reductions/VoxelTally.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
@@ -17,15 +18,7 @@ namespace pointhaptics
 namespace simd
 {
 
-/// Sums over the points of a voxel of their offsets in it, in quanta.
-struct VoxelSums
-{
-  std::uint64_t key;
-  std::int64_t count;
-  Int128 sums[3];
-};
-
-/// The same below 2^85.
+/// Sums over the points of a voxel of their offsets in it, in quanta: below 2^85.
 struct WideSums
 {
   std::uint64_t key;
@@ -35,6 +28,16 @@ struct WideSums
 
   static constexpr int kHighBits = 21;
 
+  static WideSums of(std::uint64_t key, const PackedSums& packed)
+  {
+    return { key, packedCount(packed), { packed.lanes[0], packed.lanes[1], std::uint64_t(packedZ(packed)) },
+      0 };
+  }
+  Int128 sum(int axis) const
+  {
+    constexpr std::uint64_t kMask = (std::uint64_t(1) << kHighBits) - 1;
+    return (Int128((high >> (kHighBits * axis)) & kMask) << 64) + Int128(low[axis]);
+  }
   /// Adds the low and the high bits of a sum.
   void add(int axis, std::uint64_t lowBits, std::uint64_t highBits)
   {
@@ -50,31 +53,8 @@ struct WideSums
       this->add(axis, other.low[axis], 0);
     }
   }
-  static WideSums of(const VoxelSums& voxel)
-  {
-    WideSums sums{ voxel.key, voxel.count, { 0, 0, 0 }, 0 };
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      sums.low[axis] = std::uint64_t(voxel.sums[axis]);
-      sums.high |= std::uint64_t(voxel.sums[axis] >> 64) << (kHighBits * axis);
-    }
-    return sums;
-  }
-  static WideSums of(std::uint64_t key, const PackedSums& packed)
-  {
-    return { key, packedCount(packed), { packed.lanes[0], packed.lanes[1], std::uint64_t(packedZ(packed)) },
-      0 };
-  }
-  VoxelSums whole() const
-  {
-    constexpr std::uint64_t kMask = (std::uint64_t(1) << kHighBits) - 1;
-    VoxelSums sums{ key, count, { 0, 0, 0 } };
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      sums.sums[axis] = (Int128((high >> (kHighBits * axis)) & kMask) << 64) + Int128(low[axis]);
-    }
-    return sums;
-  }
+  /// Rounded.
+  std::array<double, 3> sums() const { return { double(sum(0)), double(sum(1)), double(sum(2)) }; }
 };
 
 inline void add(SecondMoments& to, const SecondMoments& moments)
@@ -112,11 +92,25 @@ struct VoxelRun
     voxels.reserve(size);
     secondMoments.reserve(withMoments ? size : 0);
   }
-  /// Without what arrays have.
-  void resize(std::size_t size, bool withMoments)
+  /// Appends voxels without points, keys and what arrays have.
+  void append(std::size_t size, bool withMoments)
   {
-    voxels.resize(size);
-    secondMoments.resize(withMoments ? size : 0);
+    voxels.resize(voxels.size() + size, WideSums{});
+    secondMoments.resize(secondMoments.size() + (withMoments ? size : 0), SecondMoments{});
+  }
+  /// Adds the offsets of a point to a voxel.
+  void addPoint(std::size_t voxel, const std::array<std::uint64_t, 3>& offset)
+  {
+    WideSums& sums = voxels[voxel];
+    ++sums.count;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      sums.add(axis, offset[std::size_t(axis)], 0);
+    }
+    if (hasMoments())
+    {
+      addProducts(secondMoments[voxel], offset[0], offset[1], offset[2]);
+    }
   }
   void push(const WideSums& sums, const SecondMoments* moments)
   {

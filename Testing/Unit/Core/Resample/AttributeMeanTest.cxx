@@ -28,31 +28,54 @@ namespace
 __extension__ typedef __int128 Int128;
 
 template <typename T>
-AttributeMean meanOf(const std::vector<T>& values, int components, const Plan& plan,
-  const Executor& executor = {}, int piece = 100, std::int64_t mostPoints = 0,
-  InstructionSet instructions = InstructionSet::Automatic)
+AccumulatedArray kindOf(int components, AttributeStatistic statistic = AttributeStatistic::Mean)
 {
-  AttributeMean mean({ values.data(), typeOf<T>(), components, std::int64_t(values.size()) / components },
-    executor, instructions);
-  mean.prepare(nullptr, plan.size, mostPoints > 0 ? mostPoints : mean.view().tuples, {});
+  return { typeOf<T>(), components, statistic };
+}
+
+template <typename T>
+AttributeReducer::Tuples tuplesOf(const std::vector<T>& values, int components)
+{
+  return { reinterpret_cast<const char*>(values.data()), std::int64_t(sizeof(T)) * components };
+}
+
+struct Made
+{
+  AttributeMean mean;
+  int components;
+};
+
+/// @p columns: turn the means, which become unit vectors. @p mostPoints: there is room for, in a voxel.
+template <typename T>
+Made meanOf(const std::vector<T>& values, int components, const Plan& plan, std::int64_t mostPoints = 0,
+  InstructionSet instructions = InstructionSet::Automatic, const std::array<Vec3, 3>* columns = nullptr)
+{
+  constexpr std::size_t kPiece = 100;
+  const AttributeView view = { values.data(), typeOf<T>(), components,
+    std::int64_t(values.size()) / components };
+  AttributeMean mean(kindOf<T>(components, columns ? AttributeStatistic::Normal : AttributeStatistic::Mean),
+    rangeOf(view, {}, instructions), columns ? *columns : std::array<Vec3, 3>(), instructions);
+  std::vector<std::int64_t> counts = countsOf(plan);
+  counts[0] = std::max(counts[0], mostPoints);
+  mean.prepare(counts);
   std::vector<std::int64_t> voxels;
   for (const std::int64_t i : plan.order)
   {
     voxels.push_back(plan.voxels[std::size_t(i)]);
   }
-  for (std::size_t first = 0; first < voxels.size(); first += std::size_t(piece))
+  for (std::size_t first = 0; first < voxels.size(); first += kPiece)
   {
-    const int count = int(std::min(std::size_t(piece), voxels.size() - first));
-    mean.add(plan.order.data() + first, voxels.data() + first, count);
+    mean.add(tuplesOf(values, components), plan.order.data() + first, voxels.data() + first,
+      int(std::min(kPiece, voxels.size() - first)));
   }
-  return mean;
+  return { std::move(mean), components };
 }
 
 template <typename T>
-std::vector<T> written(const AttributeMean& mean, const Plan& plan, const Executor& executor = {})
+std::vector<T> written(const Made& made, const Plan& plan)
 {
-  std::vector<T> means(std::size_t(plan.size) * std::size_t(mean.view().components));
-  mean.write(countsOf(plan).data(), means.data(), executor, nullptr);
+  std::vector<T> means(std::size_t(plan.size) * std::size_t(made.components));
+  made.mean.write(countsOf(plan).data(), means.data());
   return means;
 }
 
@@ -82,8 +105,9 @@ std::vector<T> roundedMeans(const std::vector<T>& values, int components, const 
 template <typename T>
 void expectExact(const std::vector<T>& values, int components, const Plan& plan)
 {
-  const AttributeMean mean = meanOf(values, components, plan);
-  const std::vector<T> means = written<T>(mean, plan);
+  Made made = meanOf(values, components, plan);
+  const std::vector<T> means = written<T>(made, plan);
+  const simd::TallySums sumsOfMeans = made.mean.takeTally().sums;
   const std::vector<std::int64_t> counts = countsOf(plan);
   std::vector<ExactSum> sums(means.size());
   for (std::size_t i = 0; i < values.size(); ++i)
@@ -93,9 +117,8 @@ void expectExact(const std::vector<T>& values, int components, const Plan& plan)
   }
   for (std::size_t s = 0; s < sums.size(); ++s)
   {
-    const std::int64_t voxel = std::int64_t(s) / components;
-    const std::int64_t count = counts[std::size_t(voxel)];
-    const double got = mean.mean(voxel, int(s % std::size_t(components)), count);
+    const std::int64_t count = counts[s / std::size_t(components)];
+    const double got = sumsOfMeans.mean(s, count);
     ASSERT_TRUE(sums[s].isMean(got, count)) << "sum " << s << " mean " << got;
     ASSERT_EQ(means[s], T(got)) << "sum " << s;
   }
@@ -112,11 +135,7 @@ void expectIndependentOfOrder(const std::vector<T>& values, int components, Plan
     {
       plan.order.push_back(std::int64_t(i));
     }
-    const trial::ThreadedExecutor threads(3);
-    EXPECT_TRUE(sameBits(written<T>(meanOf(values, components, plan, threads, 7), plan, threads), expected));
-    const trial::BackwardExecutor backward(13);
-    EXPECT_TRUE(
-      sameBits(written<T>(meanOf(values, components, plan, backward, 4096), plan, backward), expected));
+    EXPECT_TRUE(sameBits(written<T>(meanOf(values, components, plan), plan), expected));
   }
 }
 
@@ -299,20 +318,14 @@ template <typename T>
 void expectSameOnAllPaths(const std::vector<T>& values, int components, const Plan& plan)
 {
   const std::array<Vec3, 3> columns = { { { 0.1, 2, 0.3 }, { -1, 0.5, 0.2 }, { 0.4, -0.6, 3 } } };
-  const std::vector<std::int64_t> counts = countsOf(plan);
   const auto results = [&](InstructionSet set, std::int64_t mostPoints)
   {
-    AttributeMean mean = meanOf(values, components, plan, {}, 100, mostPoints, set);
-    std::vector<T> all = written<T>(mean, plan);
-    if constexpr (std::is_floating_point_v<T>)
+    std::vector<T> all = written<T>(meanOf(values, components, plan, mostPoints, set), plan);
+    if (std::is_floating_point_v<T> && components == 3)
     {
-      if (components == 3)
-      {
-        std::vector<T> vectors(all.size());
-        mean.turnVectors(columns);
-        mean.write(counts.data(), vectors.data(), {}, nullptr);
-        all.insert(all.end(), vectors.begin(), vectors.end());
-      }
+      const std::vector<T> vectors =
+        written<T>(meanOf(values, components, plan, mostPoints, set, &columns), plan);
+      all.insert(all.end(), vectors.begin(), vectors.end());
     }
     return all;
   };
@@ -377,11 +390,9 @@ TEST(AttributeMean, MakesUnitVectorsOfTurnedMeans)
   const std::vector<float> values{ 1, 2, 2, 3, 2, 2, 0, 0, 1, 0, 0, -1 };
   Plan plan = planFor(4, 2, 41);
   plan.voxels = { 0, 0, 1, 1 };
-  AttributeMean mean = meanOf(values, 3, plan);
   const std::array<Vec3, 3> columns = { { { 0, 1, 0 }, { -1, 0, 0 }, { 0, 0, 1 } } };
-  std::vector<float> vectors(6, 7.0F);
-  mean.turnVectors(columns);
-  mean.write(countsOf(plan).data(), vectors.data(), {}, nullptr);
+  const std::vector<float> vectors =
+    written<float>(meanOf(values, 3, plan, 0, InstructionSet::Automatic, &columns), plan);
   const float third = float(2.0 / std::sqrt(12.0));
   EXPECT_EQ(vectors, (std::vector<float>{ -third, third, third, 0, 0, 0 }));
 }
@@ -419,13 +430,13 @@ TEST(AttributeMean, StartsFromNothingHoweverOftenItIsPrepared)
   {
     const Plan plan = planFor(300, voxels, 24);
     const std::vector<float> expected = written<float>(meanOf(values, 3, plan), plan);
-    AttributeMean mean = meanOf(values, 3, planFor(300, 90, 25));
-    mean.prepare(nullptr, voxels, 300, trial::BackwardExecutor(17));
-    mean.add(plan.order.data(), plan.voxels.data(), 300);
-    EXPECT_TRUE(sameBits(written<float>(mean, plan), expected));
-    mean.prepare(nullptr, voxels, 300, {});
-    mean.add(plan.order.data(), plan.voxels.data(), 300);
-    EXPECT_TRUE(sameBits(written<float>(mean, plan), expected)) << "once more";
+    Made made = meanOf(values, 3, planFor(300, 90, 25));
+    for (int turn = 0; turn < 2; ++turn)
+    {
+      made.mean.prepare(countsOf(plan));
+      made.mean.add(tuplesOf(values, 3), plan.order.data(), plan.voxels.data(), 300);
+      EXPECT_TRUE(sameBits(written<float>(made, plan), expected)) << "turn " << turn;
+    }
   }
 }
 
@@ -440,8 +451,9 @@ TEST(AttributeMean, ReadsFieldsOfPackedRecords)
     std::memcpy(records.data() + i * kRecord + 1, values.data() + 3 * i, 3 * sizeof(double));
   }
   const Plan plan = planFor(300, 40, 27);
-  AttributeMean mean({ records.data() + 1, ScalarType::Double, 3, 300, std::int64_t(kRecord) }, Executor());
-  mean.prepare(nullptr, plan.size, 300, {});
-  mean.add(plan.order.data(), plan.voxels.data(), 300);
-  EXPECT_TRUE(sameBits(written<double>(mean, plan), written<double>(meanOf(values, 3, plan), plan)));
+  const AttributeView view = { records.data() + 1, ScalarType::Double, 3, 300, std::int64_t(kRecord) };
+  AttributeMean mean(kindOf<double>(3), rangeOf(view, {}));
+  mean.prepare(countsOf(plan));
+  mean.add({ records.data() + 1, view.stride }, plan.order.data(), plan.voxels.data(), 300);
+  EXPECT_TRUE(sameBits(written<double>({ mean, 3 }, plan), written<double>(meanOf(values, 3, plan), plan)));
 }

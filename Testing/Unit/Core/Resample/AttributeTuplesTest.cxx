@@ -34,10 +34,10 @@ AttributeTuples modeOf(const std::vector<T>& values, int components, const Plan&
   {
     apart[i / width * width * kApart + i % width] = values[i];
   }
-  AttributeTuples mode({ apart.data(), typeOf<T>(), components, std::int64_t(values.size() / width),
-                         std::int64_t(kApart * width * sizeof(T)) },
-    statistic, set);
-  mode.prepare(countsOf(plan).data(), plan.size, 0, {});
+  AttributeTuples mode({ typeOf<T>(), components, statistic }, set);
+  mode.prepare(countsOf(plan));
+  const AttributeReducer::Tuples from = { reinterpret_cast<const char*>(apart.data()),
+    std::int64_t(kApart * width * sizeof(T)) };
   for (std::size_t first = 0; first < plan.order.size(); first += std::size_t(piece))
   {
     const std::size_t count = std::min(std::size_t(piece), plan.order.size() - first);
@@ -46,17 +46,16 @@ AttributeTuples modeOf(const std::vector<T>& values, int components, const Plan&
     {
       voxels.push_back(plan.voxels[std::size_t(plan.order[first + i])]);
     }
-    mode.add(plan.order.data() + first, voxels.data(), int(count));
+    mode.add(from, plan.order.data() + first, voxels.data(), int(count));
   }
   return mode;
 }
 
 template <typename T>
-std::vector<T> written(
-  const AttributeTuples& mode, int components, const Plan& plan, const Executor& executor = {})
+std::vector<T> written(const AttributeTuples& mode, int components, const Plan& plan)
 {
   std::vector<T> modes(std::size_t(plan.size) * std::size_t(components));
-  EXPECT_TRUE(mode.write(nullptr, modes.data(), executor, nullptr));
+  mode.write(nullptr, modes.data());
   return modes;
 }
 
@@ -110,7 +109,6 @@ TEST(AttributeTuples, IsTheValueMostPointsHaveAndTheSmallestOnATie)
       const std::vector<T> expected = expectedModes(values, components, plan);
       const AttributeTuples mode = modeOf(values, components, plan);
       EXPECT_TRUE(sameBits(written<T>(mode, components, plan), expected)) << voxels;
-      EXPECT_TRUE(sameBits(written<T>(mode, components, plan, trial::BackwardExecutor(7)), expected));
     }
   };
   expectRight(labels<std::uint8_t>(2000, 5, 2), 1);
@@ -246,28 +244,15 @@ TEST(AttributeTuples, TakesNaNsAsOneValueAndZerosAsOne)
 TEST(AttributeTuples, StartsFromNothingEachTime)
 {
   const std::vector<int> values = labels<int>(900, 3, 13);
-  AttributeTuples mode({ values.data(), ScalarType::Int32, 1, 900 });
+  AttributeTuples mode({ ScalarType::Int32, 1, AttributeStatistic::Mode });
   for (const Plan& plan : { planFor(900, 500, 14), planFor(900, 30, 15) })
   {
-    mode.prepare(countsOf(plan).data(), plan.size, 0, {});
-    mode.add(plan.order.data(), plan.voxels.data(), 900);
+    mode.prepare(countsOf(plan));
+    mode.add({ reinterpret_cast<const char*>(values.data()), sizeof(int) }, plan.order.data(),
+      plan.voxels.data(), 900);
     EXPECT_TRUE(sameBits(written<int>(mode, 1, plan), expectedModes(values, 1, plan)));
   }
-  const AttributeTuples none({ nullptr, ScalarType::Int32, 1 });
-  EXPECT_TRUE(none.write(nullptr, nullptr, {}, nullptr)) << "no voxels";
-}
-
-TEST(AttributeTuples, ReportsProgressAndEndsWhenTheObserverAborts)
-{
-  constexpr std::size_t kPoints = 3 * std::size_t(kPointsPerReport);
-  const std::vector<std::uint8_t> values = labels<std::uint8_t>(kPoints, 5, 16);
-  const Plan plan = planFor(kPoints, 1000, 17);
-  const AttributeTuples mode = modeOf(values, 1, plan, 100000);
-  std::vector<std::uint8_t> modes(1000);
-  trial::CountingObserver patient;
-  EXPECT_TRUE(mode.write(nullptr, modes.data(), {}, &patient));
-  trial::expectAscendToOne(patient.fractions, 3);
-  trial::CountingObserver impatient(2);
-  EXPECT_FALSE(mode.write(nullptr, modes.data(), {}, &impatient));
-  EXPECT_EQ(impatient.fractions.size(), 2u);
+  AttributeTuples none({ ScalarType::Int32, 1, AttributeStatistic::Mode });
+  none.prepare({});
+  none.write(nullptr, nullptr);
 }

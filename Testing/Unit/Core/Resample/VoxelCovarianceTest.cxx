@@ -1,5 +1,5 @@
 // Sums of products in 64-bit words and covariances from them, against 128-bit integers: bit for bit.
-#include "Core/Resample/Stages/VoxelSink.h"
+#include "Core/Resample/Stages/VoxelWriter.h"
 
 #include "RandomClouds.h"
 

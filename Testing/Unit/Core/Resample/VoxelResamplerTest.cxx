@@ -369,6 +369,19 @@ TEST(VoxelResampler, ScratchDoesNotGrowWhileASheetMovesThroughTheLattice)
   }
 }
 
+TEST(VoxelResampler, HoldsFourChunksHoweverManyThereAre)
+{
+  const std::vector<Vec3> points = randomBox(400000, 32, { 0, 0, 0 }, { 20, 20, 20 });
+  VoxelRequest request = requestFor(points, latticeOf(20, 20, 20), false);
+  VoxelResampler all;
+  const RunResult expected = runOf(all, request);
+  EXPECT_GT(all.scratchBytes(), std::size_t(400000 * 16));
+  request.chunkPoints = 10000;
+  VoxelResampler chunks;
+  expectSame(runOf(chunks, request), expected, "chunks");
+  EXPECT_LT(chunks.scratchBytes(), std::size_t(4 * 10000 * 16 + 1500000));
+}
+
 TEST(VoxelResampler, ReportsAndFreesItsScratch)
 {
   const std::vector<Vec3> points = randomBox(50000, 13, { 0, 0, 0 }, { 300, 300, 300 });

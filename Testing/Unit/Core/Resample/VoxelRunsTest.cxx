@@ -1,6 +1,6 @@
 #include "Core/Resample/Stages/VoxelRuns.h"
 
-#include "Core/Resample/Stages/VoxelSink.h"
+#include "Core/Resample/Stages/VoxelWriter.h"
 
 #include "RandomClouds.h"
 #include "ResamplerRuns.h"
@@ -35,18 +35,23 @@ VoxelRun randomRun(std::uint64_t seed, std::size_t voxels, std::uint64_t largest
 
 TEST(VoxelRuns, SumsPast64BitsAreExact)
 {
-  std::map<std::uint64_t, VoxelSums> expected;
+  struct Sums
+  {
+    std::int64_t count = 0;
+    Int128 of[3] = { 0, 0, 0 };
+  };
+  std::map<std::uint64_t, Sums> expected;
   VoxelRuns runs;
   for (std::uint64_t r = 0; r < 60; ++r)
   {
     const VoxelRun run = randomRun(r, 50 + 20 * (r % 7), 5);
     for (const WideSums& voxel : run.voxels)
     {
-      VoxelSums& sums = expected.try_emplace(voxel.key, VoxelSums{ voxel.key, 0, { 0, 0, 0 } }).first->second;
+      Sums& sums = expected[voxel.key];
       sums.count += voxel.count;
       for (int axis = 0; axis < 3; ++axis)
       {
-        sums.sums[axis] += Int128(voxel.low[axis]);
+        sums.of[axis] += Int128(voxel.low[axis]);
       }
     }
     runs.add(run);
@@ -57,12 +62,12 @@ TEST(VoxelRuns, SumsPast64BitsAreExact)
   std::size_t v = 0;
   for (const auto& [key, sums] : expected)
   {
-    const VoxelSums voxel = run.voxels[v].whole();
+    const WideSums& voxel = run.voxels[v];
     ASSERT_EQ(voxel.key, key);
     ASSERT_EQ(voxel.count, sums.count);
     for (int axis = 0; axis < 3; ++axis)
     {
-      ASSERT_TRUE(voxel.sums[axis] == sums.sums[axis]) << "voxel " << v << " axis " << axis;
+      ASSERT_TRUE(voxel.sum(axis) == sums.of[axis]) << "voxel " << v << " axis " << axis;
     }
     ++v;
   }
@@ -97,15 +102,15 @@ TEST(VoxelRuns, MeansOfSumsThatVectorsCannotTakeLieWhereTheyBelong)
   run.voxels.push_back({ lattice.key(1, 2, 10), count, { low, low, low }, high | high << 21 | high << 42 });
   VoxelRuns runs;
   runs.add(run);
-  MeanArena arena;
-  arena.prepare(2, { false, true, false }, lattice, 39, nullptr);
-  arena.write(0, runs.whole(), 0, 2);
+  VoxelWriter writer;
+  writer.prepare(2, { false, true, false }, lattice, 39, nullptr);
+  writer.write(0, runs.whole(), 0, 2);
   const double expected[6] = { 7.75, 8.75, 9.75, 1.75, 2.75, 10.75 };
   for (int i = 0; i < 6; ++i)
   {
-    EXPECT_EQ(arena.doubles()[i], expected[i]) << i;
+    EXPECT_EQ(writer.doubles()[i], expected[i]) << i;
   }
-  EXPECT_EQ(arena.counts()[0], 4);
-  EXPECT_EQ(arena.counts()[1], count);
-  EXPECT_EQ(arena.keys()[1], lattice.key(1, 2, 10));
+  EXPECT_EQ(writer.counts()[0], 4);
+  EXPECT_EQ(writer.counts()[1], count);
+  EXPECT_EQ(writer.keys()[1], lattice.key(1, 2, 10));
 }

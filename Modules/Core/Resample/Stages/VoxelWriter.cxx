@@ -1,4 +1,4 @@
-#include "Core/Resample/Stages/VoxelSink.h"
+#include "Core/Resample/Stages/VoxelWriter.h"
 
 #include "Core/Resample/Reductions/AttributeRounding.h"
 
@@ -57,14 +57,14 @@ MeanMap makeMeanMap(const Lattice& lattice, int fractionBits, bool singlePrecisi
   return map;
 }
 
-void MeanArena::Array::prepare(std::size_t room, std::size_t voxelBytes, void* given)
+void VoxelWriter::Array::prepare(std::size_t room, std::size_t voxelBytes, void* given)
 {
   bytes = voxelBytes;
   own.reserve(given ? 0 : room * voxelBytes);
   values = given ? static_cast<char*>(given) : own.data();
 }
 
-void MeanArena::prepare(std::size_t room, const Layout& layout, const Lattice& lattice, int fractionBits,
+void VoxelWriter::prepare(std::size_t room, const Layout& layout, const Lattice& lattice, int fractionBits,
   OutputAllocator* allocator)
 {
   layout_ = layout;
@@ -83,7 +83,7 @@ void MeanArena::prepare(std::size_t room, const Layout& layout, const Lattice& l
 }
 
 template <typename Real>
-void MeanArena::writeMeans(
+void VoxelWriter::writeMeans(
   const Kernels& kernels, std::size_t offset, const PartitionVoxels& voxels, Real* xyz)
 {
   int nearFace[kBatch];
@@ -108,7 +108,7 @@ void MeanArena::writeMeans(
   }
 }
 
-void MeanArena::write(const Kernels& kernels, std::size_t offset, const PartitionVoxels& voxels)
+void VoxelWriter::write(const Kernels& kernels, std::size_t offset, const PartitionVoxels& voxels)
 {
   layout_.singlePrecision ? writeMeans(kernels, offset, voxels, floats())
                           : writeMeans(kernels, offset, voxels, doubles());
@@ -123,7 +123,7 @@ void MeanArena::write(const Kernels& kernels, std::size_t offset, const Partitio
   }
 }
 
-void MeanArena::writeCovariances(const Kernels& kernels, std::size_t offset, const PartitionVoxels& voxels)
+void VoxelWriter::writeCovariances(const Kernels& kernels, std::size_t offset, const PartitionVoxels& voxels)
 {
   static_assert(sizeof(SymMat3) == 6 * sizeof(double), "six numbers, xx yy zz xy yz xz");
   const int fractionBits = voxels.map.fractionBits;
@@ -147,40 +147,37 @@ void MeanArena::writeCovariances(const Kernels& kernels, std::size_t offset, con
   }
 }
 
-void MeanArena::write(std::size_t offset, const VoxelRun& run, std::size_t first, std::size_t last)
+void VoxelWriter::write(std::size_t offset, const VoxelRun& run, std::size_t first, std::size_t last)
 {
   RowIndices indices(lattice_);
-  for (std::size_t v = first; v < last; ++v)
+  for (std::size_t v = first; v < last; ++v, ++offset)
   {
-    this->write(offset++, run.voxels[v].whole(), indices.of(run.voxels[v].key), run.momentsOf(v));
-  }
-}
-
-void MeanArena::write(std::size_t offset, const VoxelSums& voxel, const std::array<std::int64_t, 3>& index,
-  const SecondMoments* secondMoments)
-{
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    const std::int64_t i = index[std::size_t(axis)];
-    const double inVoxel = toDouble(voxel.sums[axis]) / double(voxel.count) * map_.quantum;
-    double coordinate = map_.origin[axis] + (double(i) + inVoxel) * map_.spacing[axis];
-    const double margin = map_.faceMargin[axis];
-    if (!(inVoxel > margin && inVoxel < 1.0 - margin))
+    const WideSums& voxel = run.voxels[v];
+    const auto index = indices.of(voxel.key);
+    const Int128 sums[3] = { voxel.sum(0), voxel.sum(1), voxel.sum(2) };
+    for (int axis = 0; axis < 3; ++axis)
     {
-      coordinate = layout_.singlePrecision ? double(lattice_.keptInVoxel(float(coordinate), axis, i))
-                                           : lattice_.keptInVoxel(coordinate, axis, i);
+      const std::int64_t i = index[std::size_t(axis)];
+      const double inVoxel = toDouble(sums[axis]) / double(voxel.count) * map_.quantum;
+      double coordinate = map_.origin[axis] + (double(i) + inVoxel) * map_.spacing[axis];
+      const double margin = map_.faceMargin[axis];
+      if (!(inVoxel > margin && inVoxel < 1.0 - margin))
+      {
+        coordinate = layout_.singlePrecision ? double(lattice_.keptInVoxel(float(coordinate), axis, i))
+                                             : lattice_.keptInVoxel(coordinate, axis, i);
+      }
+      setCoordinate(offset, axis, coordinate);
     }
-    setCoordinate(offset, axis, coordinate);
-  }
-  counts()[offset] = voxel.count;
-  if (layout_.keys)
-  {
-    keys()[offset] = voxel.key;
-  }
-  if (layout_.covariances)
-  {
-    covariances()[offset] =
-      covarianceOf(voxel.count, voxel.sums, *secondMoments, map_.quantum, lattice_.spacing);
+    counts()[offset] = voxel.count;
+    if (layout_.keys)
+    {
+      keys()[offset] = voxel.key;
+    }
+    if (layout_.covariances)
+    {
+      covariances()[offset] =
+        covarianceOf(voxel.count, sums, run.secondMoments[v], map_.quantum, lattice_.spacing);
+    }
   }
 }
 

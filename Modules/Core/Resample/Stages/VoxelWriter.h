@@ -37,8 +37,8 @@ SymMat3 covarianceOf(std::int64_t count, const Int128 sums[3], const SecondMomen
 MeanMap makeMeanMap(const Lattice& lattice, int fractionBits, bool singlePrecision);
 
 /// Means, counts and on request keys, covariances, chosen points and attributes of active voxels, an array
-/// each: in the arena's own memory or, where asked for, in the caller's.
-class MeanArena
+/// each: in the writer's own memory or, where asked for, in the caller's.
+class VoxelWriter
 {
 public:
   struct Layout
@@ -122,8 +122,6 @@ private:
   template <typename Real>
   void writeMeans(const Kernels& kernels, std::size_t offset, const PartitionVoxels& voxels, Real* xyz);
   void writeCovariances(const Kernels& kernels, std::size_t offset, const PartitionVoxels& voxels);
-  void write(std::size_t offset, const VoxelSums& voxel, const std::array<std::int64_t, 3>& index,
-    const SecondMoments* secondMoments);
 
   Layout layout_;
   Lattice lattice_;
