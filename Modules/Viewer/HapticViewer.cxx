@@ -121,7 +121,8 @@ bool HapticViewer::Implementation::awaitWithoutWindow(const CloudLoader& loader)
     stops = this->observer.shouldStop && this->observer.shouldStop();
     if (this->observer.progress)
     {
-      this->observer.progress("reading", std::min(loader.progress(), kAlmostDone));
+      const CloudLoader::Step step = loader.step();
+      this->observer.progress(step.name, std::min(step.part, kAlmostDone));
     }
   }
   if (this->observer.progress)

@@ -102,6 +102,28 @@ TEST_F(CloudLoaderTest, FitsACloudWithoutRaysThatDidNotReturn)
   EXPECT_NE(loaded.notes[0].find("are felt but not drawn"), std::string::npos);
 }
 
+TEST_F(CloudLoaderTest, NamesTheStepThatRuns)
+{
+  CloudRequest request = requestOf({ this->writeCloud("a.csv", 30000) });
+  request.options = std::make_shared<const HapticViewerOptions>();
+  std::vector<std::string> steps = { "reading" };
+  request.working = [&steps](const char* step, double part)
+  {
+    EXPECT_GE(part, 0.0);
+    EXPECT_LE(part, 1.0);
+    if (steps.back() != step)
+    {
+      steps.emplace_back(step);
+    }
+  };
+  LoadedCloud loaded;
+  std::string message;
+  ASSERT_TRUE(loadCloud(
+    request, [](double) { return true; }, loaded, message))
+    << message;
+  EXPECT_EQ(steps, (std::vector<std::string>{ "reading", "measuring", "resampling" }));
+}
+
 TEST_F(CloudLoaderTest, ProgressAscendsOverAllFiles)
 {
   const std::string file = this->writeCloud("a.csv", 300000);

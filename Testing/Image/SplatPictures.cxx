@@ -191,7 +191,8 @@ void buildFirstGlance(const std::string& fault, vtkRenderer* renderer)
   points->InsertNextPoint(0.0, 0.0, 0.0);
   vtkNew<vtkPolyData> cloud;
   cloud->SetPoints(points);
-  const std::shared_ptr<ShownCloud> shown = makeShownCloud(cloud, ShownRequest(), [] { return true; });
+  const std::shared_ptr<ShownCloud> shown =
+    makeShownCloud(cloud, ShownRequest(), [](double) { return true; });
   vtkNew<vtkSplatMapper> mapper;
   drawShown(*shown, mapper);
   mapper->ScalarVisibilityOff();

@@ -107,11 +107,16 @@ HapticViewerObserver observerFor(const ViewOptions& options, const StandardInput
   HapticViewerObserver observer;
   observer.message = [&input](HapticViewerObserver::Kind kind, const std::string& text)
   { showMessage(kind, input.shown(text)); };
-  observer.progress = [bar = std::shared_ptr<ProgressBar>()](const std::string& what, double part) mutable
+  observer.progress = [bar = std::shared_ptr<ProgressBar>(), last = std::string()](
+                        const std::string& what, double part) mutable
   {
-    if (part >= 1.0)
+    if (part >= 1.0 || what != last)
     {
       bar.reset();
+      last = what;
+    }
+    if (part >= 1.0)
+    {
       return;
     }
     if (!bar)

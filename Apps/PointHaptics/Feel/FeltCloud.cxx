@@ -86,7 +86,7 @@ std::shared_ptr<const HapticScene> resampledScene(
   CloudRequest request = CloudRequest::of({ options.file }, viewer);
   request.makesScene = true;
   request.isFeltOnly = true;
-  request.resampling = [&bar](double part) { bar.show(part); };
+  request.working = [&bar](const char*, double part) { bar.show(part); };
   LoadedCloud loaded;
   loaded.cloud = cloud;
   loaded.title = options.file;

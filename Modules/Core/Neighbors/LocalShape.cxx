@@ -89,53 +89,83 @@ Spread spreadOf(const SymMat3& m)
   return spread;
 }
 
-/// The slots of a query without those at the place of one before. Equal places lie within a leaf's length of
-/// each other in the order of SpatialOrder.h.
-struct Places
+/// Some of the slots of a query, and which of them stands for each of the others.
+struct Chosen
 {
-  std::vector<Vec3> points;          ///< Empty where all are distinct.
-  std::vector<std::uint32_t> places; ///< Of each slot: its index in points.
+  std::vector<Vec3> points;         ///< Empty where all are chosen.
+  std::vector<std::uint32_t> ofAll; ///< Of each slot of the query: its index in points.
 };
 
-Places distinctPlaces(const NeighborQuery& query)
+/// The slots of a query that are farther than @p apart from the ones chosen just before. Equal places lie
+/// within a leaf's length of each other in the order of SpatialOrder.h, near ones mostly.
+Chosen choose(const NeighborQuery& query, double apart)
 {
-  Places result;
-  const std::int64_t size = query.size();
-  std::vector<std::uint32_t> first(static_cast<std::size_t>(size));
-  bool repeats = false;
-  for (std::int64_t slot = 0; slot < size; ++slot)
+  constexpr std::int64_t kLookedAt = simd::kLeafPoints;
+  Chosen chosen;
+  chosen.ofAll.reserve(std::size_t(query.size()));
+  std::vector<std::uint32_t>& ofAll = chosen.ofAll;
+  const auto isNear = [apart](const Vec3& a, const Vec3& b)
+  { return apart > 0.0 ? norm2(a - b) <= apart * apart : a == b; };
+  for (std::int64_t slot = 0; slot < query.size(); ++slot)
   {
-    first[std::size_t(slot)] = std::uint32_t(slot);
     const Vec3 here = query.point(slot);
-    for (std::int64_t before = slot - 1; before >= std::max<std::int64_t>(0, slot - simd::kLeafPoints);
-         --before)
+    const auto end = std::int64_t(chosen.points.size());
+    const std::int64_t first = std::max<std::int64_t>(0, end - kLookedAt);
+    std::int64_t before = end - 1;
+    while (before >= first && !isNear(chosen.points[std::size_t(before)], here))
     {
-      if (query.point(before) == here)
-      {
-        first[std::size_t(slot)] = first[std::size_t(before)];
-        repeats = true;
-        break;
-      }
+      --before;
     }
+    if (before < first)
+    {
+      before = end;
+      chosen.points.push_back(here);
+    }
+    ofAll.push_back(std::uint32_t(before));
   }
-  if (repeats)
+  if (chosen.points.size() == ofAll.size())
   {
-    result.places.resize(std::size_t(size));
-    for (std::size_t slot = 0; slot < result.places.size(); ++slot)
-    {
-      if (first[slot] == slot)
-      {
-        result.places[slot] = std::uint32_t(result.points.size());
-        result.points.push_back(query.point(std::int64_t(slot)));
-      }
-      else
-      {
-        result.places[slot] = result.places[first[slot]];
-      }
-    }
+    chosen = Chosen();
   }
-  return result;
+  return chosen;
 }
+
+/// A query of some of the points of another one; of all of them it is that one.
+class ThinnedQuery
+{
+public:
+  ThinnedQuery(const NeighborQuery& all, double apart, const Executor& executor)
+    : all_(all)
+  {
+    const Chosen chosen = choose(all, apart);
+    if (chosen.points.empty())
+    {
+      return;
+    }
+    query_.build({ chosen.points.data(), std::int64_t(chosen.points.size()) }, executor);
+    std::vector<std::uint32_t> slots(chosen.points.size());
+    for (std::size_t slot = 0; slot < slots.size(); ++slot)
+    {
+      slots[std::size_t(query_.index(std::int64_t(slot)))] = std::uint32_t(slot);
+    }
+    slots_.resize(chosen.ofAll.size());
+    std::transform(chosen.ofAll.begin(), chosen.ofAll.end(), slots_.begin(),
+      [&slots](std::uint32_t point) { return slots[point]; });
+  }
+  bool holdsAll() const { return slots_.empty(); }
+  const NeighborQuery& all() const { return all_; }
+  const NeighborQuery& query() const { return this->holdsAll() ? all_ : query_; }
+  /// In query(): of the point that stands for @p slot of all.
+  std::int64_t slotFor(std::int64_t slot) const
+  {
+    return this->holdsAll() ? slot : std::int64_t(slots_[std::size_t(slot)]);
+  }
+
+private:
+  const NeighborQuery& all_;
+  NeighborQuery query_;
+  std::vector<std::uint32_t> slots_;
+};
 
 /// The value in the middle; 0 where there are none.
 double medianOf(std::vector<float>& values)
@@ -176,10 +206,11 @@ int chosenNeighbors(const NeighborQuery& query, const LocalShapeSettings& settin
 class Measurement
 {
 public:
-  Measurement(const NeighborQuery& query, int neighbors)
-    : query_(query)
+  Measurement(const ThinnedQuery& places, int neighbors)
+    : places_(places)
+    , query_(places.query())
     , neighbors_(neighbors)
-    , size_(std::size_t(query.size()))
+    , size_(std::size_t(query_.size()))
     , near_(size_)
     , thickness_(size_)
     , agreed_(size_)
@@ -192,22 +223,16 @@ public:
   template <typename GoesOn>
   bool fit(const Executor& executor, const GoesOn& goesOn)
   {
-    constexpr std::int64_t kLeavesAtOnce = 1024;
-    const std::int64_t leaves = NeighborSweep::leaves(query_);
-    for (std::int64_t first = 0; first < leaves; first += kLeavesAtOnce)
-    {
-      if (!goesOn(double(first) / double(leaves)))
-      {
-        return false;
-      }
-      forRange(executor, std::min(kLeavesAtOnce, leaves - first), NeighborSweep::kSmallestRange,
-        [this, first](std::int64_t begin, std::int64_t end)
-        {
-          NeighborSweep sweep(query_, neighbors_ + 1);
-          sweep.run(first + begin, first + end, [this](const NeighborList& list) { this->fitOne(list); });
-        });
-    }
-    return true;
+    return sweep(
+      query_, neighbors_ + 1, executor, goesOn, [this](const NeighborList& list) { this->fitOne(list); });
+  }
+  /// The same for spacing and reach among all places, where not all were fitted.
+  template <typename GoesOn>
+  bool space(const Executor& executor, const GoesOn& goesOn)
+  {
+    return places_.holdsAll() ||
+      sweep(places_.all(), LocalShapeSettings::kFewest + 1, executor, goesOn,
+        [this](const NeighborList& list) { this->spaceOne(list); });
   }
   void compareNormals(const Executor& executor)
   {
@@ -247,6 +272,25 @@ public:
   }
 
 private:
+  template <typename GoesOn, typename Visit>
+  static bool sweep(
+    const NeighborQuery& query, int count, const Executor& executor, const GoesOn& goesOn, const Visit& visit)
+  {
+    constexpr std::int64_t kLeavesAtOnce = 1024;
+    const std::int64_t leaves = NeighborSweep::leaves(query);
+    for (std::int64_t first = 0; first < leaves; first += kLeavesAtOnce)
+    {
+      if (!goesOn(double(first) / double(leaves)))
+      {
+        return false;
+      }
+      forRange(executor, std::min(kLeavesAtOnce, leaves - first), NeighborSweep::kSmallestRange,
+        [&query, &visit, count, first](std::int64_t begin, std::int64_t end)
+        { NeighborSweep(query, count).run(first + begin, first + end, visit); });
+    }
+    return true;
+  }
+
   void fitOne(const NeighborList& list)
   {
     const auto slot = std::size_t(list.slot);
@@ -280,16 +324,38 @@ private:
     shape.flatness =
       l[1] > 0.0 ? float((1.0 - ramp(l[0] / l[1], 0.08, 0.35)) * ramp(l[1] / l[2], 0.03, 0.12)) : 0.0F;
     thickness_[slot] = float(std::sqrt(l[0] / list.count));
-    shape.reach = shape.flatness > 0.0F ? this->reachOf(list, spread.normal) : 0.0F;
+    if (places_.holdsAll())
+    {
+      shape.reach = reachOf(list, query_, shape, spread.normal);
+    }
   }
 
-  float reachOf(const NeighborList& list, const Vec3& normal) const
+  /// @param list of slots of all places.
+  void spaceOne(const NeighborList& list)
   {
-    const Vec3 here = query_.point(list.slot);
-    TangentCell cell(normal, PointShape::kLargestReach * double(raw_[std::size_t(list.slot)].spacing));
+    const std::int64_t slot = places_.slotFor(list.slot);
+    if (!(query_.point(slot) == places_.all().point(list.slot)))
+    {
+      return; // another one stands for it
+    }
+    PointShape& shape = raw_[std::size_t(slot)];
+    shape.spacing = float(spacingOf(list.squaredDistances, list.count - 1));
+    shape.reach = reachOf(list, places_.all(), shape,
+      { double(shape.normal[0]), double(shape.normal[1]), double(shape.normal[2]) });
+  }
+
+  static float reachOf(
+    const NeighborList& list, const NeighborQuery& query, const PointShape& shape, const Vec3& normal)
+  {
+    if (!(shape.flatness > 0.0F))
+    {
+      return 0.0F;
+    }
+    const Vec3 here = query.point(list.slot);
+    TangentCell cell(normal, PointShape::kLargestReach * double(shape.spacing));
     for (int i = 1; i < list.count; ++i)
     {
-      if (!cell.add(query_.point(std::int64_t(list.slots[i])) - here))
+      if (!cell.add(query.point(std::int64_t(list.slots[i])) - here))
       {
         break;
       }
@@ -337,6 +403,7 @@ private:
     }
   }
 
+  const ThinnedQuery& places_;
   const NeighborQuery& query_;
   const int neighbors_;
   const std::size_t size_;
@@ -347,23 +414,17 @@ private:
   std::vector<PointShape> smooth_;
 };
 
-/// From the places back to the points of the cloud, with the sums over them.
-LocalShape collect(const PointView& cloud, const NeighborQuery& query, const Places& places,
-  const NeighborQuery& distinct, const Measurement& measurement)
+/// From what was measured back to the points of the cloud, with the sums over them.
+LocalShape collect(const PointView& cloud, const NeighborQuery& query, const ThinnedQuery& distinct,
+  const ThinnedQuery& measured, const Measurement& measurement)
 {
   LocalShape shape;
   shape.points.resize(std::size_t(cloud.size()));
-  std::vector<std::uint32_t> slots(places.points.size());
-  for (std::size_t slot = 0; slot < slots.size(); ++slot)
-  {
-    slots[std::size_t(distinct.index(std::int64_t(slot)))] = std::uint32_t(slot);
-  }
   double flatness = 0.0;
   std::vector<float> spacings;
   for (std::int64_t slot = 0; slot < query.size(); ++slot)
   {
-    const std::int64_t place = slots.empty() ? slot : std::int64_t(slots[places.places[std::size_t(slot)]]);
-    const PointShape& each = measurement.result(place);
+    const PointShape& each = measurement.result(measured.slotFor(distinct.slotFor(slot)));
     shape.points[std::size_t(query.index(slot))] = each;
     flatness += double(each.flatness);
     if (slot % (1 + query.size() / 20000) == 0)
@@ -382,9 +443,10 @@ LocalShape collect(const PointView& cloud, const NeighborQuery& query, const Pla
 Status measureLocalShape(const PointView& cloud, const NeighborQuery& query,
   const LocalShapeSettings& settings, LocalShape& shape, const Executor& executor, ProgressObserver* observer)
 {
-  if (settings.numberOfNeighbors != 0 &&
-    (settings.numberOfNeighbors < LocalShapeSettings::kFewest ||
-      settings.numberOfNeighbors > LocalShapeSettings::kMost))
+  if ((settings.numberOfNeighbors != 0 &&
+        (settings.numberOfNeighbors < LocalShapeSettings::kFewest ||
+          settings.numberOfNeighbors > LocalShapeSettings::kMost)) ||
+    !(settings.apart >= 0.0) || !std::isfinite(settings.apart))
   {
     return Status::InvalidParameter;
   }
@@ -393,22 +455,20 @@ Status measureLocalShape(const PointView& cloud, const NeighborQuery& query,
     return Status::Empty;
   }
   const auto goesOn = [observer](double part) { return !observer || observer->report(part); };
-  const Places places = distinctPlaces(query);
-  NeighborQuery ofPlaces;
-  if (!places.points.empty())
-  {
-    ofPlaces.build({ places.points.data(), std::int64_t(places.points.size()) }, executor);
-  }
-  const NeighborQuery& distinct = places.points.empty() ? query : ofPlaces;
-  const int neighbors = chosenNeighbors(distinct, settings);
-  Measurement measurement(distinct, neighbors);
-  if (!measurement.fit(executor, [&goesOn](double part) { return goesOn(0.1 + 0.7 * part); }) || !goesOn(0.8))
+  const ThinnedQuery distinct(query, 0.0, executor);
+  const ThinnedQuery measured(distinct.query(), settings.apart, executor);
+  const int neighbors = chosenNeighbors(measured.query(), settings);
+  Measurement measurement(measured, neighbors);
+  const double fitted = measured.holdsAll() ? 0.8 : 0.3;
+  const auto fits = [&](double part) { return goesOn(0.1 + (fitted - 0.1) * part); };
+  const auto spaces = [&](double part) { return goesOn(fitted + (0.8 - fitted) * part); };
+  if (!measurement.fit(executor, fits) || !measurement.space(executor, spaces) || !goesOn(0.8))
   {
     return Status::Aborted;
   }
   measurement.compareNormals(executor);
   measurement.average(executor);
-  shape = collect(cloud, query, places, distinct, measurement);
+  shape = collect(cloud, query, distinct, measured, measurement);
   shape.numberOfNeighbors = neighbors;
   return goesOn(1.0) ? Status::Ok : Status::Aborted;
 }

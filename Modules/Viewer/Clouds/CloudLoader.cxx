@@ -25,6 +25,8 @@ struct Load
   CloudRequest request;
   Clock::time_point begin = Clock::now();
   std::atomic<double> progress{ 0.0 };
+  std::atomic<const char*> step{ nullptr }; // after reading
+  std::atomic<double> partOfStep{ 0.0 };
   std::atomic<bool> cancelled{ false };
   bool finished = false; // under the mutex
   LoadedCloud loaded;
@@ -42,6 +44,11 @@ void Load::run()
   };
   try
   {
+    request.working = [this](const char* name, double part)
+    {
+      partOfStep = std::clamp(part, 0.0, 1.0);
+      step = name;
+    };
     if (loadCloud(request, goesOn, loaded, message))
     {
       message.clear();
@@ -153,6 +160,12 @@ bool CloudLoader::busy() const
 double CloudLoader::progress() const
 {
   return this->busy() ? implementation_->present->progress.load() : 0.0;
+}
+
+CloudLoader::Step CloudLoader::step() const
+{
+  const char* name = this->busy() ? implementation_->present->step.load() : nullptr;
+  return name ? Step{ name, implementation_->present->partOfStep } : Step{ "reading", this->progress() };
 }
 
 double CloudLoader::seconds() const

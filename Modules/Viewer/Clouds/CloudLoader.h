@@ -31,6 +31,13 @@ public:
   bool busy() const;
   /// Part of the files of the present load that is read, 0 to 1; it ascends. 0 where there is none.
   double progress() const;
+  /// What the present load does, for people, and how much of that is done, 0 to 1.
+  struct Step
+  {
+    const char* name = "reading"; ///< Or "measuring", "resampling".
+    double part = 0.0;
+  };
+  Step step() const;
   /// Since start().
   double seconds() const;
   /// Waits for the present load, that long at most. True: there is something to take.

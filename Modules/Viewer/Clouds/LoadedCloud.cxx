@@ -331,6 +331,14 @@ vtkSmartPointer<vtkPolyData> drawnPoints(const CloudRequest& request, const Load
 bool show(
   const CloudRequest& request, vtkPolyData* drawn, const std::function<bool()>& goesOn, LoadedCloud& loaded)
 {
+  const auto measured = [&request, &goesOn](double part)
+  {
+    if (request.working)
+    {
+      request.working("measuring", part);
+    }
+    return goesOn();
+  };
   if (request.measuresLater && drawn->GetNumberOfPoints() > kMeasuredAtOnce)
   {
     loaded.toMeasure = vtkSmartPointer<vtkPolyData>::New();
@@ -339,7 +347,7 @@ bool show(
   }
   else
   {
-    loaded.shown = makeShownCloud(drawn, loaded.showing, goesOn);
+    loaded.shown = makeShownCloud(drawn, loaded.showing, measured);
   }
   return loaded.shown != nullptr;
 }

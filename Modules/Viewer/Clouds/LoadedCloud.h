@@ -49,7 +49,9 @@ struct POINTHAPTICSVIEWER_EXPORT CloudRequest
   bool makesScene = false;              ///< It will be felt.
   std::optional<ShownRequest> before; ///< How a coarse level of the same files was shown: so are all points.
   bool isFeltOnly = false;            ///< Nothing is made for a picture: LoadedCloud::means have no arrays.
-  std::function<void(double)> resampling; ///< Gets the progress of resampling, 0 to 1; may be empty.
+  /// Gets what is done once the files are read, "measuring" or "resampling", and how much of it, 0 to 1; may
+  /// be empty.
+  std::function<void(const char* step, double part)> working;
   /// The first picture and what is near the hand do not wait for the means: LoadedCloud::isResampled. Of
   /// effect where canResampleLater().
   bool resamplesLater = false;

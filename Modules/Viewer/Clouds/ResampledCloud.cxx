@@ -92,9 +92,9 @@ public:
       [](vtkObject*, unsigned long, void* client, void*)
       {
         const auto& self = *static_cast<FirstRun*>(client);
-        if (self.request_.resampling)
+        if (self.request_.working)
         {
-          self.request_.resampling(self.resampler_->GetProgress());
+          self.request_.working("resampling", self.resampler_->GetProgress());
         }
         self.resampler_->SetAbortExecute(self.goesOn_() ? 0 : 1);
       });

@@ -51,18 +51,21 @@ constexpr double kClosingDiameter = 2.8;
 constexpr double kMostPixels = 64.0;
 /// Of the window that the first picture is reckoned with.
 constexpr double kUsualHeight = 800.0;
+/// Of more points not each is measured, but one in every place that the first picture can show.
+constexpr std::int64_t kAllMeasured = 3000000;
+constexpr double kFinestPixels = 0.5; ///< As LevelOfDetail has it.
 
 class AbortQuestion : public ProgressObserver
 {
 public:
-  explicit AbortQuestion(const std::function<bool()>& goesOn)
+  explicit AbortQuestion(const std::function<bool(double)>& goesOn)
     : goesOn_(goesOn)
   {
   }
-  bool report(double) override { return goesOn_(); }
+  bool report(double part) override { return goesOn_(part); }
 
 private:
-  const std::function<bool()>& goesOn_;
+  const std::function<bool(double)>& goesOn_;
 };
 
 /// The arrays of @p cloud that a picture may need.
@@ -213,7 +216,7 @@ void addColors(
 } // namespace
 
 std::shared_ptr<ShownCloud> makeShownCloud(
-  vtkPolyData* cloud, const ShownRequest& request, const std::function<bool()>& goesOn)
+  vtkPolyData* cloud, const ShownRequest& request, const std::function<bool(double)>& goesOn)
 {
   auto shown = std::make_shared<ShownCloud>();
   const std::vector<std::uint32_t> drawn = drawnPoints(PointAccess(cloud->GetPoints()).view());
@@ -230,6 +233,12 @@ std::shared_ptr<ShownCloud> makeShownCloud(
   LocalShape shape;
   LocalShapeSettings settings;
   settings.pixel = firstPixel(view);
+  if (view.size() > kAllMeasured)
+  {
+    // Few neighbours that are apart reach as far as many that are not.
+    settings.apart = kFinestPixels * settings.pixel;
+    settings.numberOfNeighbors = LocalShapeSettings::kFewest;
+  }
   AbortQuestion observer(goesOn);
   if (measureLocalShape(view, query, settings, shape, executor, &observer) != Status::Ok)
   {
@@ -287,7 +296,7 @@ void ShownMeasurement::start(vtkSmartPointer<vtkPolyData> cloud, const ShownRequ
   {
     try
     {
-      return makeShownCloud(cloud, request, [this] { return !cancelled_; });
+      return makeShownCloud(cloud, request, [this](double) { return !cancelled_; });
     }
     catch (const std::bad_alloc&)
     {

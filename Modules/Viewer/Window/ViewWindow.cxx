@@ -137,16 +137,16 @@ bool ViewWindow::awaitCloud(const CloudLoader& loader, const std::string& title)
   {
     ViewWindow& self;
     const CloudLoader& loader;
-    std::string words;
+    std::string title;
     bool isRead = false;
-  } wait{ *this, loader, "reading " + title };
-  this->showBar(wait.words, loader.progress());
+  } wait{ *this, loader, title };
+  this->showBar("reading " + title, loader.progress());
   vtkNew<vtkCallbackCommand> events;
   events->SetClientData(&wait);
   events->SetCallback(
     [](vtkObject*, unsigned long event, void* client, void*)
     {
-      auto& [self, reader, words, isRead] = *static_cast<Wait*>(client);
+      auto& [self, reader, title, isRead] = *static_cast<Wait*>(client);
       if (self.interactor_->GetDone())
       {
         return; // it is decided; this was in the queue
@@ -161,12 +161,12 @@ bool ViewWindow::awaitCloud(const CloudLoader& loader, const std::string& title)
       {
         leaveEvents(self.interactor_);
       }
+      const CloudLoader::Step step = reader.step();
       if (self.observer_.progress)
       {
-        self.observer_.progress(
-          "reading", isRead || cancels ? 1.0 : std::min(reader.progress(), kAlmostDone));
+        self.observer_.progress(step.name, isRead || cancels ? 1.0 : std::min(step.part, kAlmostDone));
       }
-      if (self.progress_->SetProgress(words, reader.progress()))
+      if (self.progress_->SetProgress(step.name + (" " + title), step.part))
       {
         self.window_->Render();
       }

@@ -123,9 +123,10 @@ void ViewWindow::followLoading()
   std::string message;
   if (!loader_.take(cloud, message))
   {
+    const CloudLoader::Step step = loader_.step();
     const std::string words =
-      (loading_.kind == Load::Finer ? "reading all of " : "reading ") + titleOf(loading_.files);
-    if (loader_.seconds() > kProgressDelay && progress_->SetProgress(words, loader_.progress()))
+      step.name + std::string(loading_.kind == Load::Finer ? " all of " : " ") + titleOf(loading_.files);
+    if (loader_.seconds() > kProgressDelay && progress_->SetProgress(words, step.part))
     {
       window_->SetWindowName(("PointHaptics: " + words).c_str());
       interactor_->Render();

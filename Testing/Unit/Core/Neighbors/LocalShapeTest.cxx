@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 
 using namespace pointhaptics;
 
@@ -224,6 +225,45 @@ TEST(LocalShape, TakesMoreNeighborsWhereAPixelHoldsMany)
   EXPECT_EQ(measured(grid(30, 1.0), settings).numberOfNeighbors, 48);
 }
 
+TEST(LocalShape, IsMeasuredAtPointsThatAreApartAndSharedByTheOthers)
+{
+  const std::vector<Vec3> points = sphere(60000, 1.0);
+  const LocalShape all = measured(points);
+  LocalShapeSettings settings;
+  settings.apart = 4.0 * all.medianSpacing;
+  const LocalShape some = measured(points, settings);
+  ASSERT_EQ(some.points.size(), points.size());
+  EXPECT_NEAR(some.medianSpacing, all.medianSpacing, 0.06 * all.medianSpacing) << "among all points";
+  EXPECT_GT(some.meanFlatness, 0.95 * all.meanFlatness);
+  std::set<float> spacings;
+  double reach = 0.0;
+  double reachOfAll = 0.0;
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    EXPECT_GT(std::abs(dot(normalOf(some.points[i]), points[i])), 0.99);
+    spacings.insert(some.points[i].spacing);
+    reach += double(some.points[i].reach);
+    reachOfAll += double(all.points[i].reach);
+  }
+  EXPECT_LT(spacings.size(), points.size() / 8);
+  EXPECT_NEAR(reach, reachOfAll, 0.05 * reachOfAll);
+}
+
+TEST(LocalShape, MeasuresAllWhereNoPointsAreNear)
+{
+  const std::vector<Vec3> points = grid(30, 1.0);
+  LocalShapeSettings settings;
+  settings.apart = 0.9;
+  const LocalShape some = measured(points, settings);
+  const LocalShape all = measured(points);
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    EXPECT_EQ(some.points[i].spacing, all.points[i].spacing);
+    EXPECT_EQ(some.points[i].flatness, all.points[i].flatness);
+    EXPECT_EQ(some.points[i].reach, all.points[i].reach);
+  }
+}
+
 TEST(LocalShape, OfFewOrNoPointsIsLeftOpen)
 {
   const std::vector<Vec3> two = { { 0, 0, 0 }, { 3, 0, 0 }, { NAN, 0, 0 } };
@@ -236,6 +276,9 @@ TEST(LocalShape, OfFewOrNoPointsIsLeftOpen)
   EXPECT_EQ(measureLocalShape({}, NeighborQuery(), {}, none), Status::Empty);
   LocalShapeSettings settings;
   settings.numberOfNeighbors = 3;
+  EXPECT_EQ(measureLocalShape({}, NeighborQuery(), settings, none), Status::InvalidParameter);
+  settings.numberOfNeighbors = 0;
+  settings.apart = -1.0;
   EXPECT_EQ(measureLocalShape({}, NeighborQuery(), settings, none), Status::InvalidParameter);
 }
 
