@@ -146,7 +146,7 @@ bool ViewWindow::awaitCloud(const CloudLoader& loader, const std::string& title)
   events->SetCallback(
     [](vtkObject*, unsigned long event, void* client, void*)
     {
-      auto& [self, reader, title, isRead] = *static_cast<Wait*>(client);
+      auto& [self, reader, cloud, isRead] = *static_cast<Wait*>(client);
       if (self.interactor_->GetDone())
       {
         return; // it is decided; this was in the queue
@@ -166,7 +166,7 @@ bool ViewWindow::awaitCloud(const CloudLoader& loader, const std::string& title)
       {
         self.observer_.progress(step.name, isRead || cancels ? 1.0 : std::min(step.part, kAlmostDone));
       }
-      if (self.progress_->SetProgress(step.name + (" " + title), step.part))
+      if (self.progress_->SetProgress(step.name + (" " + cloud), step.part))
       {
         self.window_->Render();
       }
