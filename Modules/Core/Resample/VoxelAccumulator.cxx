@@ -163,9 +163,9 @@ bool VoxelAccumulator::settle()
   {
     return true;
   }
-  VoxelRun difference;
-  if (this->clippedPoints() < 0 || this->invalidPoints() < 0 ||
-    !subtracted(added_->runs.whole(), subtracted_->runs.whole(), difference))
+  bool isRight = this->clippedPoints() >= 0 && this->invalidPoints() >= 0;
+  VoxelRun difference = merged(added_->runs.whole(), subtracted_->runs.whole(), -1, isRight);
+  if (!isRight)
   {
     return false;
   }

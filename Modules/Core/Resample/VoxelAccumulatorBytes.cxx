@@ -243,15 +243,17 @@ std::string VoxelAccumulator::serialize(std::uint64_t first, std::uint64_t end)
     return {};
   }
   const Sums::Range range = added_->range(first, end);
+  VoxelRun& run = added_->runs.whole();
+  std::for_each(run.tallies.begin(), run.tallies.end(), [](VoxelTally& tally) { tally.trim(); });
   Content content{ { kMagic, lattice_, covariances_, VoxelResampler::Implementation::fractionBitsOf(lattice_),
                      range.counts },
     arrays_, {} };
   content.common.assign(common_.has_value(), common_.value_or(AffineTransform()));
   Writer counter(nullptr);
-  exchange(counter, content, added_->runs.whole(), range.first, range.last);
+  exchange(counter, content, run, range.first, range.last);
   std::string bytes(counter.bytes(), 0);
   Writer writer(bytes.data());
-  exchange(writer, content, added_->runs.whole(), range.first, range.last);
+  exchange(writer, content, run, range.first, range.last);
   return bytes;
 }
 

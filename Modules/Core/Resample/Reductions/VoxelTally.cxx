@@ -52,7 +52,7 @@ void TallySums::fit(int newUnit, int newWords)
   words = newWords;
 }
 
-/// Makes room for the sums of another.
+/// Takes a unit and as many words as the sums of another need, too.
 void TallySums::cover(const TallySums& other)
 {
   if (size == 0)
@@ -68,74 +68,89 @@ void TallySums::cover(const TallySums& other)
   }
 }
 
-void TallySums::push(std::size_t sums)
-{
-  size += sums;
-  values.resize(size * std::size_t(words), 0);
-  nonFinite.resize(nonFinite.empty() ? 0 : size);
-}
-
 void TallySums::append(const TallySums& from, std::size_t begin, std::size_t end)
 {
   cover(from);
   const std::size_t before = size;
-  if (from.unit == unit && from.words == words)
+  size += end - begin;
+  values.resize(size * std::size_t(words), 0);
+  const bool isLike = from.unit == unit && from.words == words;
+  if (isLike)
   {
-    values.insert(values.end(), from.at(begin), from.at(end));
+    std::copy(from.at(begin), from.at(end), at(before));
   }
-  push(end - begin);
-  for (std::size_t sum = begin; (from.unit != unit || from.words != words) && sum < end; ++sum)
+  for (std::size_t sum = begin; !isLike && sum < end; ++sum)
   {
     static_cast<void>(
       addShifted(from.at(sum), from.words, from.unit - unit, 1, at(before + sum - begin), words));
   }
+  nonFinite.resize(nonFinite.empty() && from.nonFinite.empty() ? 0 : size);
   if (!from.nonFinite.empty())
   {
-    nonFinite.resize(size);
     std::copy(from.nonFinite.begin() + std::ptrdiff_t(begin), from.nonFinite.begin() + std::ptrdiff_t(end),
       nonFinite.begin() + std::ptrdiff_t(before));
   }
 }
 
-bool TallySums::addAny(std::size_t sum, const TallySums& from, std::size_t other, int sign)
+/// Adds @p sign times the @p other sum of @p from, which this covers. @return false where that leaves fewer
+/// than no numbers that are not finite.
+inline bool TallySums::add(std::size_t sum, const TallySums& from, std::size_t other, int sign)
 {
-  cover(from);
-  const std::uint64_t top = at(sum)[words - 1];
-  if (!addShifted(from.at(other), from.words, from.unit - unit, sign, at(sum), words))
+  std::int64_t result; // Mostly words are added.
+  if (words == 1 && from.unit == unit &&
+    !__builtin_add_overflow(std::int64_t(*at(sum)), sign * std::int64_t(*from.at(other)), &result))
   {
-    fit(unit, words + 1);
-    at(sum)[words - 1] = std::uint64_t(std::int64_t(top) >> 63);
+    *at(sum) = std::uint64_t(result);
+  }
+  else
+  {
+    const std::uint64_t top = at(sum)[words - 1];
+    if (!addShifted(from.at(other), from.words, from.unit - unit, sign, at(sum), words))
+    {
+      fit(unit, words + 1);
+      at(sum)[words - 1] = std::uint64_t(std::int64_t(top) >> 63);
+    }
   }
   if (from.nonFinite.empty())
   {
     return true;
   }
-  nonFinite.resize(size);
   NonFiniteCount& seen = nonFinite[sum];
   const NonFiniteCount& more = from.nonFinite[other];
   seen = { seen.nans + sign * more.nans, seen.plus + sign * more.plus, seen.minus + sign * more.minus };
   return seen.nans >= 0 && seen.plus >= 0 && seen.minus >= 0;
 }
 
-TallySums TallySums::gathered(const VoxelGroups& groups) const
+TallySums TallySums::gathered(
+  const TallySums* first, const TallySums* second, const VoxelGroups& groups, bool& isRight)
 {
+  const TallySums* const runs[2] = { first, second };
   TallySums gathered;
-  gathered.components = components;
-  gathered.unit = unit;
-  gathered.words = words;
-  const auto width = std::size_t(components);
-  gathered.push(groups.ends.size() * width);
-  for (std::size_t group = 0, i = 0; group < groups.ends.size(); ++group)
+  bool areFinite = true;
+  for (const TallySums* run : runs)
   {
-    for (; i < groups.ends[group]; ++i)
+    if (run && run->size > 0)
+    {
+      gathered.components = run->components;
+      gathered.cover(*run);
+      gathered.size = 1; // One of 0, for both to be covered.
+      gathered.values.assign(std::size_t(gathered.words), 0);
+      areFinite = areFinite && run->nonFinite.empty();
+    }
+  }
+  const auto width = std::size_t(gathered.components);
+  gathered.size = groups.ends.size() * width;
+  gathered.values.assign(gathered.size * std::size_t(gathered.words), 0);
+  gathered.nonFinite.resize(areFinite ? 0 : gathered.size);
+  groups.forAll(
+    [&](std::size_t group, const VoxelGroups::Voxel& voxel, int sign)
     {
       for (std::size_t c = 0; c < width; ++c)
       {
-        // No count is below 0.
-        static_cast<void>(gathered.add(group * width + c, *this, groups.voxels[i] * width + c));
+        isRight =
+          gathered.add(group * width + c, *runs[voxel.run], voxel.number * width + c, sign) && isRight;
       }
-    }
-  }
+    });
   return gathered;
 }
 
@@ -272,36 +287,16 @@ void TallyValues::append(const TallyValues& from, std::size_t begin, std::size_t
   }
 }
 
-bool TallyValues::addToLast(const TallyValues& from, std::size_t begin, int sign)
+TallyValues TallyValues::gathered(
+  const TallyValues* first, const TallyValues* second, const VoxelGroups& groups, bool& isRight)
 {
-  const std::size_t firstOwn = ends.size() - std::size_t(components);
-  const std::size_t start = beginOf(firstOwn);
-  const std::vector<TallyValue> own(values.begin() + std::ptrdiff_t(start), values.end());
-  bool isRight = true;
-  std::size_t a = 0;
-  values.resize(start);
-  for (std::size_t c = 0; c < std::size_t(components); ++c)
-  {
-    const std::size_t endOfOwn = ends[firstOwn + c] - start;
-    const List others = from[begin + c];
-    for (const TallyValue* b = others.first; a < endOfOwn || b < others.last;)
-    {
-      const bool isOwn = a < endOfOwn && (b == others.last || own[a].key <= b->key);
-      TallyValue both = isOwn ? own[a++] : TallyValue{ b->key, 0 };
-      both.points += b < others.last && b->key == both.key ? sign * (b++)->points : 0;
-      isRight = isRight && both.points >= 0;
-      values.insert(values.end(), both.points != 0, both);
-    }
-    ends[firstOwn + c] = values.size();
-  }
-  return isRight;
-}
-
-TallyValues TallyValues::gathered(const VoxelGroups& groups) const
-{
+  const TallyValues* const runs[2] = { first, second };
   TallyValues gathered;
-  gathered.components = components;
-  const auto width = std::size_t(components);
+  for (const TallyValues* run : runs)
+  {
+    gathered.components = run && !run->ends.empty() ? run->components : gathered.components;
+  }
+  const auto width = std::size_t(gathered.components);
   std::vector<TallyValue> all;
   std::vector<TallyValue> both;
   for (std::size_t list = 0; list < groups.ends.size() * width; ++list)
@@ -310,16 +305,27 @@ TallyValues TallyValues::gathered(const VoxelGroups& groups) const
     const std::size_t group = list / width;
     for (std::size_t i = group == 0 ? 0 : groups.ends[group - 1]; i < groups.ends[group]; ++i)
     {
-      const List more = (*this)[groups.voxels[i] * width + list % width];
+      const VoxelGroups::Voxel& voxel = groups.voxels[i];
+      const List more = (*runs[voxel.run])[voxel.number * width + list % width];
       both.resize(all.size() + std::size_t(more.last - more.first));
-      std::merge(all.begin(), all.end(), more.begin(), more.end(), both.begin(),
+      const auto end = std::copy(all.begin(), all.end(), both.begin());
+      std::transform(more.begin(), more.end(), end,
+        [&](const TallyValue& value) {
+          return TallyValue{ value.key, voxel.run == 0 ? value.points : groups.sign * value.points };
+        });
+      std::inplace_merge(both.begin(), end, both.end(),
         [](const TallyValue& a, const TallyValue& b) { return a.key < b.key; });
       all.swap(both);
     }
-    for (std::size_t i = 0; i < all.size(); ++i)
+    for (std::size_t i = 0; i < all.size();)
     {
-      i > 0 && all[i].key == all[i - 1].key ? void(gathered.values.back().points += all[i].points)
-                                            : gathered.values.push_back(all[i]);
+      TallyValue value = all[i++];
+      for (; i < all.size() && all[i].key == value.key; ++i)
+      {
+        value.points += all[i].points;
+      }
+      isRight = isRight && value.points >= 0;
+      gathered.values.insert(gathered.values.end(), value.points != 0, value);
     }
     gathered.ends.push_back(gathered.values.size());
   }
@@ -336,15 +342,13 @@ void VoxelTally::append(const VoxelTally& from, std::size_t first, std::size_t l
   values.append(from.values, first * ofValues, last * ofValues);
 }
 
-bool VoxelTally::addToLast(const VoxelTally& from, std::size_t voxel, int sign)
+VoxelTally VoxelTally::gathered(
+  const VoxelTally* first, const VoxelTally* second, const VoxelGroups& groups, bool& isRight)
 {
-  bool isRight = true;
-  const std::size_t own = sums.size - std::size_t(sums.components);
-  for (std::size_t c = 0; c < std::size_t(sums.components); ++c)
-  {
-    isRight = sums.add(own + c, from.sums, voxel * std::size_t(sums.components) + c, sign) && isRight;
-  }
-  return values.addToLast(from.values, voxel * std::size_t(values.components), sign) && isRight;
+  return { TallySums::gathered(
+             first ? &first->sums : nullptr, second ? &second->sums : nullptr, groups, isRight),
+    TallyValues::gathered(
+      first ? &first->values : nullptr, second ? &second->values : nullptr, groups, isRight) };
 }
 
 namespace

@@ -22,11 +22,30 @@ namespace simd
 /// right where that loses no bit. @return false where the sum has no room for the result: its sign is wrong.
 bool addShifted(const std::uint64_t* number, int count, int shift, int sign, std::uint64_t* sum, int size);
 
-/// Some voxels, in groups of which each becomes one.
+/// Voxels of one run or two, in groups of which each becomes one.
 struct VoxelGroups
 {
-  std::vector<std::size_t> voxels;
+  struct Voxel
+  {
+    int run;
+    std::size_t number;
+  };
+  std::vector<Voxel> voxels;
   std::vector<std::size_t> ends; ///< Of each group among these.
+  int sign = 1;                  ///< -1: those of the second run are taken away.
+
+  /// Calls visit(group, voxel, sign) for all of them.
+  template <typename Visit>
+  void forAll(const Visit& visit) const
+  {
+    for (std::size_t group = 0, i = 0; group < ends.size(); ++group)
+    {
+      for (; i < ends[group]; ++i)
+      {
+        visit(group, voxels[i], voxels[i].run == 0 ? 1 : sign);
+      }
+    }
+  }
 };
 
 /// Sums of numbers, one for each component of each voxel: integers in units of 2^unit, in two's complement.
@@ -47,29 +66,12 @@ public:
 
   std::uint64_t* at(std::size_t sum) { return values.data() + sum * std::size_t(words); }
   const std::uint64_t* at(std::size_t sum) const { return values.data() + sum * std::size_t(words); }
-  /// Appends sums of no numbers.
-  void push(std::size_t sums);
   /// Appends the sums from @p begin to before @p end of others.
   void append(const TallySums& from, std::size_t begin, std::size_t end);
-  /// Adds @p sign times the @p other sum of @p from. @return false where that leaves fewer than no numbers
-  /// that are not finite.
-  bool add(std::size_t sum, const TallySums& from, std::size_t other, int sign = 1)
-  {
-    // Mostly words are added.
-    if (words == 1 && from.words == 1 && from.unit == unit && sign > 0 && from.nonFinite.empty())
-    {
-      const auto more = std::int64_t(from.values[other]);
-      std::int64_t result;
-      if (!__builtin_add_overflow(std::int64_t(values[sum]), more, &result))
-      {
-        values[sum] = std::uint64_t(result);
-        return true;
-      }
-    }
-    return this->addAny(sum, from, other, sign);
-  }
-  /// What groups of voxels have.
-  TallySums gathered(const VoxelGroups& groups) const;
+  /// What groups of the voxels of two have; none of one that is null. @p isRight: becomes false where fewer
+  /// than no numbers are left that are not finite.
+  static TallySums gathered(
+    const TallySums* first, const TallySums* second, const VoxelGroups& groups, bool& isRight);
   /// The mean of @p count numbers; the sum is rounded once.
   double mean(std::size_t sum, std::int64_t count) const;
   /// @pre it has up to two words.
@@ -83,7 +85,7 @@ public:
   void trim();
 
 private:
-  bool addAny(std::size_t sum, const TallySums& from, std::size_t other, int sign);
+  bool add(std::size_t sum, const TallySums& from, std::size_t other, int sign);
   void fit(int newUnit, int newWords);
   void cover(const TallySums& other);
 };
@@ -116,11 +118,9 @@ struct TallyValues
     std::int64_t middle(std::int64_t count) const;
   };
   void append(const TallyValues& from, std::size_t begin, std::size_t end);
-  /// Adds to the last lists, as many as a voxel has, @p sign times those from @p begin on. @return false
-  /// where that leaves fewer than no points with a value.
-  bool addToLast(const TallyValues& from, std::size_t begin, int sign);
-  /// What groups of voxels have.
-  TallyValues gathered(const VoxelGroups& groups) const;
+  /// As of TallySums: points with a value.
+  static TallyValues gathered(
+    const TallyValues* first, const TallyValues* second, const VoxelGroups& groups, bool& isRight);
   std::size_t beginOf(std::size_t list) const { return list == 0 ? 0 : ends[list - 1]; }
   List operator[](std::size_t list) const
   {
@@ -138,14 +138,9 @@ public:
 
   /// Appends voxels @p first to before @p last of another one like this; one without voxels becomes like it.
   void append(const VoxelTally& from, std::size_t first, std::size_t last);
-  /// Adds @p sign times what a voxel of another has to the last one. @return false where that leaves fewer
-  /// than no points with a value.
-  bool addToLast(const VoxelTally& from, std::size_t voxel, int sign);
-  /// What groups of voxels have.
-  VoxelTally gathered(const VoxelGroups& groups) const
-  {
-    return { sums.gathered(groups), values.gathered(groups) };
-  }
+  /// As of TallySums.
+  static VoxelTally gathered(
+    const VoxelTally* first, const VoxelTally* second, const VoxelGroups& groups, bool& isRight);
   /// Writes the tuples of voxels @p first to before @p last, of @p counts points each; vectors turned by @p
   /// columns.
   void write(const AccumulatedArray& kind, std::size_t first, std::size_t last, const std::int64_t* counts,

@@ -100,12 +100,10 @@ VoxelRun sumPiece(const VoxelRun& fine, std::size_t first, std::size_t last, con
       sums.push(voxel, wanted);
       groups.ends.push_back(i + 1);
     }
-    groups.voxels.push_back(entry.voxel);
+    groups.voxels.push_back({ 0, entry.voxel });
   }
-  for (const VoxelTally& tally : fine.tallies)
-  {
-    sums.tallies.push_back(tally.gathered(groups));
-  }
+  bool isRight = true; // No count is below 0.
+  sums.gatherTallies(fine, VoxelRun(), groups, isRight);
   return sums;
 }
 

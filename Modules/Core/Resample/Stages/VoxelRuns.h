@@ -13,11 +13,9 @@ namespace pointhaptics
 namespace simd
 {
 
-/// The sums of two runs.
-VoxelRun merged(const VoxelRun& a, const VoxelRun& b);
-/// The sums of a run less those of another, without voxels that have no points left. @return false where the
-/// other one has more.
-bool subtracted(const VoxelRun& from, const VoxelRun& run, VoxelRun& difference);
+/// The sums of two runs, or, with a @p sign of -1, those of the first less those of the second; without
+/// voxels that have no points. @p isRight: becomes false where the second has more.
+VoxelRun merged(const VoxelRun& a, const VoxelRun& b, int sign, bool& isRight);
 
 /// One run of several whose keys ascend from one to the next; these are freed.
 VoxelRun concatenated(std::vector<VoxelRun>& runs, const Executor& executor);

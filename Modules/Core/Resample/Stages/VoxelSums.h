@@ -44,24 +44,29 @@ struct WideSums
     low[axis] += lowBits;
     high += (highBits + std::uint64_t(low[axis] < lowBits)) << (kHighBits * axis);
   }
-  void add(const WideSums& other)
+  /// Adds another's sums, or with a @p sign of -1 takes them away. @return false where that leaves less than
+  /// nothing.
+  bool add(const WideSums& other, int sign = 1)
   {
-    count += other.count;
-    high += other.high;
+    count += sign * other.count;
+    bool isRight = count >= 0;
     for (int axis = 0; axis < 3; ++axis)
     {
-      this->add(axis, other.low[axis], 0);
+      const Int128 more = sign * other.sum(axis);
+      isRight = isRight && (sign > 0 || (sum(axis) + more >= 0 && (count > 0 || sum(axis) + more == 0)));
+      this->add(axis, std::uint64_t(more), std::uint64_t(more >> 64));
     }
+    return isRight;
   }
   /// Rounded.
   std::array<double, 3> sums() const { return { double(sum(0)), double(sum(1)), double(sum(2)) }; }
 };
 
-inline void add(SecondMoments& to, const SecondMoments& moments)
+inline void add(SecondMoments& to, const SecondMoments& moments, int sign = 1)
 {
   for (int m = 0; m < 6; ++m)
   {
-    to.lanes[m] += moments.lanes[m];
+    to.lanes[m] += UInt128(Int128(sign)) * moments.lanes[m];
   }
 }
 
@@ -120,6 +125,15 @@ struct VoxelRun
       secondMoments.push_back(*moments);
     }
   }
+  /// Adds to the last voxel.
+  void addToLast(const WideSums& sums, const SecondMoments* moments)
+  {
+    voxels.back().add(sums);
+    if (moments)
+    {
+      add(secondMoments.back(), *moments);
+    }
+  }
   /// Appends voxels @p first to before @p last of another run.
   void append(const VoxelRun& from, std::size_t first, std::size_t last)
   {
@@ -144,23 +158,15 @@ struct VoxelRun
       tallies[i].append(from.tallies[i], first, last);
     }
   }
-  /// Adds to what arrays have in the last voxel. @return false where that leaves fewer than no points.
-  bool addTalliesToLast(const VoxelRun& from, std::size_t voxel, int sign = 1)
+  /// What arrays have in groups of the voxels of two runs. @p isRight: see TallySums::gathered().
+  void gatherTallies(const VoxelRun& from, const VoxelRun& other, const VoxelGroups& groups, bool& isRight)
   {
-    bool isRight = true;
-    for (std::size_t i = 0; i < from.tallies.size(); ++i)
+    const auto of = [](const VoxelRun& run, std::size_t i)
+    { return run.tallies.empty() ? nullptr : run.tallies.data() + i; };
+    const std::size_t arrays = std::max(from.tallies.size(), other.tallies.size());
+    for (std::size_t i = 0; i < arrays; ++i)
     {
-      isRight = tallies[i].addToLast(from.tallies[i], voxel, sign) && isRight;
-    }
-    return isRight;
-  }
-  /// Adds to the last voxel.
-  void addToLast(const WideSums& sums, const SecondMoments* moments)
-  {
-    voxels.back().add(sums);
-    if (moments)
-    {
-      add(secondMoments.back(), *moments);
+      tallies.push_back(VoxelTally::gathered(of(from, i), of(other, i), groups, isRight));
     }
   }
   void clear()
@@ -177,7 +183,6 @@ struct VoxelRun
       voxels.shrink_to_fit();
       secondMoments.shrink_to_fit();
     }
-    std::for_each(tallies.begin(), tallies.end(), [](VoxelTally& tally) { tally.trim(); });
   }
   std::size_t bytes() const
   {
