@@ -36,6 +36,7 @@ struct ArrayCloud
   std::vector<std::uint8_t> labels;
   std::vector<float> heights;
   std::vector<float> normals;
+  std::vector<std::int16_t> shorts; ///< Their sums are words of one unit.
 
   ArrayCloud(std::size_t size, const Lattice& lattice, std::uint64_t seed, int magnitude)
     : points(quantisedPoints(size, seed, lattice))
@@ -52,6 +53,7 @@ struct ArrayCloud
       integers.push_back(std::numeric_limits<std::int64_t>::min() + std::int64_t(random.below(1000)));
       labels.push_back(std::uint8_t(random.below(5)));
       heights.push_back(float(random.below(7)) - 3.0f);
+      shorts.push_back(std::int16_t(random.below(65536) - 32768));
     }
     reals[1] = -INFINITY;
     reals[size / 2] = NAN;
@@ -68,7 +70,8 @@ struct ArrayCloud
       { integers.data() + first, ScalarType::Int64, 1, size },
       { labels.data() + first, ScalarType::UInt8, 1, size },
       { heights.data() + first, ScalarType::Float, 1, size },
-      { normals.data() + 3 * first, ScalarType::Float, 3, size } };
+      { normals.data() + 3 * first, ScalarType::Float, 3, size },
+      { shorts.data() + first, ScalarType::Int16, 1, size } };
   }
 };
 
@@ -77,7 +80,8 @@ std::vector<VoxelAccumulator::Array> kinds()
   return { { ScalarType::Float, 3, AttributeStatistic::Mean },
     { ScalarType::Double, 1, AttributeStatistic::Mean }, { ScalarType::Int64, 1, AttributeStatistic::Mean },
     { ScalarType::UInt8, 1, AttributeStatistic::Mode }, { ScalarType::Float, 1, AttributeStatistic::Median },
-    { ScalarType::Float, 3, AttributeStatistic::Normal } };
+    { ScalarType::Float, 3, AttributeStatistic::Normal },
+    { ScalarType::Int16, 1, AttributeStatistic::Mean } };
 }
 
 /// The bytes of all arrays at all levels.
