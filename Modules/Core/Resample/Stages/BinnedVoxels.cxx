@@ -171,7 +171,8 @@ VoxelRun BinnedVoxels::wide() const
     return wide_;
   }
   VoxelRun run;
-  run.append(voxels_.size, covariances_);
+  run.voxels.resize(voxels_.size);
+  run.secondMoments.resize(covariances_ ? voxels_.size : 0);
   for (std::size_t i = 0; i < voxels_.size; ++i)
   {
     run.voxels[i] = WideSums::of(voxels_.firstKey + voxels_.cells[i], voxels_.sums[i]);

@@ -18,28 +18,34 @@ constexpr std::size_t kRunRatio = 4;
 
 VoxelRun merged(const VoxelRun& a, const VoxelRun& b, int sign, bool& isRight)
 {
-  const bool withMoments = a.hasMoments() || b.hasMoments();
+  std::size_t common = 0;
+  for (std::size_t i = 0, j = 0; i < a.size() && j < b.size();)
+  {
+    const std::uint64_t ofA = a.voxels[i].key;
+    const std::uint64_t ofB = b.voxels[j].key;
+    common += ofA == ofB;
+    i += ofA <= ofB;
+    j += ofB <= ofA;
+  }
   const bool withTallies = !a.tallies.empty() || !b.tallies.empty();
   VoxelRun both;
-  both.reserve(std::max(a.size(), b.size()), withMoments);
+  both.reserve(a.size() + b.size() - common, a.hasMoments() || b.hasMoments());
   VoxelGroups groups;
   groups.sign = sign;
   for (std::size_t i = 0, j = 0; i < a.size() || j < b.size();)
   {
     const bool isIn = i < a.size() && (j == b.size() || a.voxels[i].key <= b.voxels[j].key);
     const bool isInOther = j < b.size() && (!isIn || b.voxels[j].key == a.voxels[i].key);
-    WideSums sums = isIn ? a.voxels[i] : WideSums{ b.voxels[j].key, 0, { 0, 0, 0 }, 0 };
-    SecondMoments moments = isIn && withMoments ? a.secondMoments[i] : SecondMoments{};
-    if (isInOther)
+    both.push(isIn ? a.voxels[i] : b.voxels[j], isIn ? a.momentsOf(i) : b.momentsOf(j));
+    const bool isLeft =
+      isIn && isInOther ? both.addToLast(b.voxels[j], b.momentsOf(j), sign) : isIn || sign > 0;
+    isRight = isRight && isLeft;
+    const bool isEmpty = both.voxels.back().count == 0;
+    if (isEmpty)
     {
-      isRight = sums.add(b.voxels[j], sign) && isRight;
-      withMoments ? add(moments, b.secondMoments[j], sign) : void();
+      both.pop();
     }
-    if (sums.count != 0)
-    {
-      both.push(sums, withMoments ? &moments : nullptr);
-    }
-    if (sums.count != 0 && withTallies)
+    if (withTallies && !isEmpty)
     {
       isIn ? groups.voxels.push_back({ 0, i }) : void();
       isInOther ? groups.voxels.push_back({ 1, j }) : void();
@@ -62,7 +68,8 @@ VoxelRun concatenated(std::vector<VoxelRun>& runs, const Executor& executor)
     withMoments = withMoments || run.hasMoments();
   }
   VoxelRun all;
-  all.append(firsts.back(), withMoments);
+  all.voxels.resize(firsts.back());
+  all.secondMoments.resize(withMoments ? firsts.back() : 0);
   for (const VoxelRun& run : runs)
   {
     all.appendTallies(run, 0, run.size());

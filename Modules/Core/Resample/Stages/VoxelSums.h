@@ -44,17 +44,26 @@ struct WideSums
     low[axis] += lowBits;
     high += (highBits + std::uint64_t(low[axis] < lowBits)) << (kHighBits * axis);
   }
-  /// Adds another's sums, or with a @p sign of -1 takes them away. @return false where that leaves less than
-  /// nothing.
-  bool add(const WideSums& other, int sign = 1)
+  void add(const WideSums& other)
   {
-    count += sign * other.count;
+    count += other.count;
+    high += other.high;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      this->add(axis, other.low[axis], 0);
+    }
+  }
+  /// Takes another's sums away. @return false where that leaves less than nothing.
+  bool subtract(const WideSums& other)
+  {
+    count -= other.count;
     bool isRight = count >= 0;
     for (int axis = 0; axis < 3; ++axis)
     {
-      const Int128 more = sign * other.sum(axis);
-      isRight = isRight && (sign > 0 || (sum(axis) + more >= 0 && (count > 0 || sum(axis) + more == 0)));
-      this->add(axis, std::uint64_t(more), std::uint64_t(more >> 64));
+      const Int128 left = sum(axis) - other.sum(axis);
+      isRight = isRight && left >= 0 && (count > 0 || left == 0);
+      const Int128 less = -other.sum(axis);
+      this->add(axis, std::uint64_t(less), std::uint64_t(less >> 64));
     }
     return isRight;
   }
@@ -66,7 +75,7 @@ inline void add(SecondMoments& to, const SecondMoments& moments, int sign = 1)
 {
   for (int m = 0; m < 6; ++m)
   {
-    to.lanes[m] += UInt128(Int128(sign)) * moments.lanes[m];
+    to.lanes[m] += sign > 0 ? moments.lanes[m] : -moments.lanes[m];
   }
 }
 
@@ -125,14 +134,21 @@ struct VoxelRun
       secondMoments.push_back(*moments);
     }
   }
-  /// Adds to the last voxel.
-  void addToLast(const WideSums& sums, const SecondMoments* moments)
+  /// Drops the last voxel.
+  void pop()
   {
-    voxels.back().add(sums);
+    voxels.pop_back();
+    secondMoments.resize(hasMoments() ? voxels.size() : 0);
+  }
+  /// Adds to the last voxel, or with a @p sign of -1 takes from it. @return false where that leaves less than
+  /// nothing.
+  bool addToLast(const WideSums& sums, const SecondMoments* moments, int sign = 1)
+  {
     if (moments)
     {
-      add(secondMoments.back(), *moments);
+      add(secondMoments.back(), *moments, sign);
     }
+    return sign > 0 ? (voxels.back().add(sums), true) : voxels.back().subtract(sums);
   }
   /// Appends voxels @p first to before @p last of another run.
   void append(const VoxelRun& from, std::size_t first, std::size_t last)
