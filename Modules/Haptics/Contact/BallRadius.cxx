@@ -32,6 +32,8 @@ constexpr double kMostSheets = 2.0;
 /// where their middle lies further aside.
 constexpr double kOneSheet = 0.1;
 constexpr double kRimOffset = 0.3;
+/// The same of one flat sheet, with little noise.
+constexpr double kFlatSheet = 0.05;
 /// Part of the ball that must have room beside a rim.
 constexpr double kRoom = 0.9;
 /// Points within so many index cells are no sheet aside. A point is a stray beside a sheet that has so many
@@ -47,6 +49,19 @@ constexpr double kFarDenser = 64.0;
 /// lies no further aside.
 constexpr double kMiddle = 0.5;
 constexpr double kScatteredSpacings = 4.0;
+/// Part of kPoints that must be there, where they are few because they lie aside.
+constexpr double kLeastPartOfPoints = 0.5;
+/// A sheet may go on much sparser on one side of a point: where the middle of the points about it lies that
+/// far aside in their plane, over the reach, the disk beside it on the other side that has so many points is
+/// sought, in steps of kReachGrowth. There the sheet goes on, if their spacing is so many times as large, no
+/// more than so many typical ones, as a ball as large would touch too many points of the denser side; and
+/// their middle no further from the disk's, over its radius: beyond a slot they are on its far side.
+constexpr double kStepOffset = 0.18;
+constexpr double kSparser = 1.4;
+constexpr double kMostSpacings = 10.0;
+constexpr double kSidePoints = 8.0;
+constexpr int kSides = 11;
+constexpr double kSideOffset = 0.45;
 /// The ball of a cloud of less than kPoints points, over its extent.
 constexpr double kOfFewPoints = 0.02;
 constexpr double kPi = 3.14159265358979323846;
@@ -71,6 +86,16 @@ bool isRow(const HapticScene& scene, const BallCells& near, const Vec3& seed, do
   PointMoments points;
   visitPoints(scene, near, seed, reach, [&](const Vec3& offset) { points.add(offset); });
   return symmetricEigen(points.covariance()).values[1] < kOneSheet * kOneSheet * reach * reach;
+}
+
+/// Whether they are one flat sheet that goes on all around.
+bool isFlat(const HapticScene& scene, const BallCells& near, const Vec3& seed, double reach) noexcept
+{
+  PointMoments points;
+  visitPoints(scene, near, seed, reach, [&](const Vec3& offset) { points.add(offset); });
+  const double flat = kFlatSheet * reach;
+  return symmetricEigen(points.covariance()).values[0] < flat * flat &&
+    norm(points.mean()) < kRimOffset * reach;
 }
 
 /// Whether the points about @p place, from the seed and within half of @p reach, are a sheet that the seed is
@@ -134,9 +159,17 @@ bool areScattered(
   }
   PointMoments points;
   visitPoints(scene, near, seed, reach, [&](const Vec3& offset) { points.add(offset); });
-  return points.count < kPoints ||
+  return points.count < kLeastPartOfPoints * kPoints ||
     symmetricEigen(points.covariance()).values[0] > kOneSheet * kOneSheet * reach * reach ||
     norm(points.mean()) > kMiddle * reach;
+}
+
+/// Few points far from all others, beside a sheet or scattered in the air, are of none: they have no spacing,
+/// and the field about them is as wide as they are far apart.
+bool isOfNoSheet(
+  const HapticScene& scene, const BallCells& near, const Vec3& seed, double reach, double spacing) noexcept
+{
+  return isStray(scene, near, seed, reach) || areScattered(scene, near, seed, reach, spacing);
 }
 
 /// Part of a disk that points fill whose middle lies @p aside, over its radius.
@@ -173,6 +206,56 @@ double rimSpacing(const HapticScene& scene, const BallCells& near, const Vec3& s
   return hasRoom ? own : spacing;
 }
 
+/// The spacing of the seed's sheet on its sparser side, where its density steps; 0: it does not, or the noise
+/// is too large to tell. The points about the seed are those of the denser side then: a ball as small would
+/// fall through beside it. @param middle of the points within @p reach, from the seed.
+double sparserSide(const HapticScene& scene, const BallCells& near, const Vec3& seed, double reach,
+  const Vec3& middle) noexcept
+{
+  if (norm(middle) < kStepOffset * reach)
+  {
+    return 0.0;
+  }
+  PointMoments points;
+  visitPoints(scene, near, seed, reach, [&](const Vec3& offset) { points.add(offset); });
+  const auto spread = symmetricEigen(points.covariance());
+  const double flat = kFlatSheet * reach;
+  const Vec3 up = spread.vectors[0];
+  const Vec3 foot = dot(middle, up) * up;
+  if (points.count < kLeastPartOfPoints * kPoints || spread.values[0] > flat * flat ||
+    scene.noise(seed) > flat || norm(foot) > kOneSheet * reach || norm(middle - foot) < kStepOffset * reach)
+  {
+    return 0.0;
+  }
+  const Vec3 aside = normalized(foot - middle);
+  double rim = 0.0;
+  visitPoints(scene, near, seed, reach, [&](const Vec3& offset) { rim = std::max(rim, dot(offset, aside)); });
+  const double apart = reach * std::sqrt(kPi / points.count);
+  double radius = apart;
+  for (int i = 0; i < kSides; ++i, radius *= kReachGrowth)
+  {
+    PointMoments side;
+    visitPoints(scene, near, seed + foot + (rim + radius) * aside, radius,
+      [&](const Vec3& offset)
+      {
+        if (std::abs(dot(offset, up)) < kSheetDepth * radius)
+        {
+          side.add(offset);
+        }
+      });
+    if (side.count >= kSidePoints)
+    {
+      const double spacing = radius * std::sqrt(kPi / side.count);
+      const double even = kFlatSheet * radius;
+      const bool goesOn =
+        norm(side.mean()) < kSideOffset * radius && symmetricEigen(side.covariance()).values[0] < even * even;
+      const bool isTooFar = kFieldInSpacings * spacing > kMostSpacings * scene.typicalScale().proxyRadius;
+      return goesOn && !isTooFar && spacing > kSparser * apart ? spacing : 0.0;
+    }
+  }
+  return 0.0;
+}
+
 /// Part of the field's radius that counts at @p typical of it: where there are midpoints the spacing is half
 /// that of the points.
 double fieldPart(const HapticScene& scene, double typical) noexcept
@@ -188,6 +271,7 @@ double ballRadius(const HapticScene& scene, FitCells& fields, const BallCells& n
 {
   const Vec3 up = normalized(center - seed);
   double points = 0.0;
+  double total = 0.0;
   double reach = kFirstReach * scene.contactCell();
   Vec3 middle;
   for (int i = 0; i < kReaches && points < kPoints; ++i, reach *= kReachGrowth)
@@ -214,8 +298,11 @@ double ballRadius(const HapticScene& scene, FitCells& fields, const BallCells& n
     points = std::max({ 1.0, count / part, all / kMostSheets });
     // Seen aslant a row would seem to be as sparse again: the ball would be caught in the gaps beside it.
     points = points < kPoints && all >= kPoints && isRow(scene, near, seed, reach) ? all : points;
+    total = all;
   }
   reach /= kReachGrowth;
+  // A ball that became too small for a sparse sheet sees it aslant, and would stay too small.
+  points = points < kPoints && total >= kPoints && isFlat(scene, near, seed, reach) ? total : points;
   const double apart = reach * std::sqrt(kPi / points);
   // A cloud of a few points has no surface: its cells are as large as they are far apart.
   const double least = kBallRadiusInCells * scene.contactCell();
@@ -224,13 +311,12 @@ double ballRadius(const HapticScene& scene, FitCells& fields, const BallCells& n
   {
     return extent > 0.0 ? std::min(least, kOfFewPoints * extent) : least;
   }
-  // Few points far from all others, beside a sheet or scattered in the air are of none: they have no spacing,
-  // and the field about them is as wide as they are far apart.
-  if (points < kPoints || isStray(scene, near, seed, reach) || areScattered(scene, near, seed, reach, apart))
+  const double sparser = sparserSide(scene, near, seed, reach, middle);
+  if (sparser == 0.0 && (points < kPoints || isOfNoSheet(scene, near, seed, reach, apart)))
   {
     return least;
   }
-  const double spacing = rimSpacing(scene, near, seed, reach, middle, apart);
+  const double spacing = sparser > 0.0 ? sparser : rimSpacing(scene, near, seed, reach, middle, apart);
   // Few points say little: the field, which is smooth, keeps clumps of them from making the ball too small.
   Vec3 ignored;
   const double typical = scene.fitScale(seed, fields, ignored).proxyRadius;

@@ -20,7 +20,9 @@ constexpr double kBallRadiusInSpacings = 2.4;
 /// than elsewhere are needles, of a ball as small as the cells; of a cloud of a few points it is a small part
 /// of the extent. At a rim the points' own plane counts, if beside it the ball has the room that their
 /// spacing asks for: a ball that leans into a hole sees the sheet aslant, and would take the points for 1.6
-/// times as sparse as they are. Lattice frame, metres.
+/// times as sparse as they are. Where the density of a flat sheet steps, the spacing of its sparser side
+/// counts, up to ten typical ones and where there is little noise: most of the points about the seed are of
+/// the other. Lattice frame, metres.
 /// @param fields the memory for the scene's fields. @param near gathered points; others are sought. No
 /// allocation; one thread for each @p fields.
 double ballRadius(const HapticScene& scene, FitCells& fields, const BallCells& near, const Vec3& seed,
