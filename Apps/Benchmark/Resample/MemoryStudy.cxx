@@ -31,7 +31,7 @@ std::string megabytes(double bytes)
 /// The promise of the design: bytes beyond input and output.
 double promisedBytes(std::int64_t points, std::int64_t voxels)
 {
-  return 64.0 * double(voxels) + 16.0 * double(std::min<std::int64_t>(points, 1000000));
+  return 64.0 * double(voxels) + 16.0 * double(std::min<std::int64_t>(points, 5000000));
 }
 
 /// Expected active voxels, counted once a case.
@@ -110,7 +110,7 @@ ReportPart studyMemory(StudyContext& context)
     "  resident before, less the result. Whole pages count, and what malloc keeps; memory reserved\n"
     "  but never touched does not, nor does the contestant's own copy of the input.\n"
     "- kept: what is still held after the update beyond input and result.\n"
-    "- promise: 64 bytes an active voxel, and 16 bytes a point of the first million.\n"
+    "- promise: 64 bytes an active voxel, and 16 bytes a point of the first five million.\n"
     "- cold call: the time of the first call in a fresh process.",
     mostThreads(context));
   part.table.header = { "points", "voxels on an axis", "contestant", "result MB", "beyond MB", "kept MB",

@@ -18,20 +18,6 @@ constexpr int kMostLevels = 22;
 /// The part of the work that the finest of several levels is.
 constexpr double kFinest = 0.5;
 
-/// Writes the arrays of voxels @p first to before @p last of a run.
-void writeTallies(
-  const VoxelRequest& request, const VoxelRun& sums, std::size_t first, std::size_t last, VoxelWriter& writer)
-{
-  const std::array<Vec3, 3> columns = normalColumns(request.transform);
-  for (std::size_t i = 0; i < sums.tallies.size(); ++i)
-  {
-    const AttributeRequest& array = request.attributes[i];
-    sums.tallies[i].write({ array.view.type, array.view.components, array.statistic }, first, last,
-      writer.counts() + first, columns, kernelsFor(request.instructions).attributes,
-      writer.attribute(i, first));
-  }
-}
-
 }
 
 Status VoxelResampler::Implementation::check(const VoxelRequest& request)
@@ -129,6 +115,21 @@ int VoxelResampler::Implementation::fractionBitsOf(const Lattice& lattice)
   return positionBitsFor(indexBits) - indexBits;
 }
 
+/// Writes voxels @p first to before @p last of a run, from @p offset of a level on.
+void VoxelResampler::Implementation::writeRun(const VoxelRequest& request, const VoxelRun& run,
+  std::size_t first, std::size_t last, VoxelWriter& writer, std::size_t offset)
+{
+  writer.write(offset, run, first, last);
+  const std::array<Vec3, 3> columns = normalColumns(request.transform);
+  for (std::size_t i = 0; i < run.tallies.size(); ++i)
+  {
+    const AttributeRequest& array = request.attributes[i];
+    run.tallies[i].write({ array.view.type, array.view.components, array.statistic }, first, last,
+      writer.counts() + offset, columns, kernelsFor(request.instructions).attributes,
+      writer.attribute(i, offset));
+  }
+}
+
 /// Writes the means of voxels to a level. @return false where the observer ended the work.
 bool VoxelResampler::Implementation::writeSums(const VoxelRequest& request, const VoxelRun& sums,
   int fractionBits, Level& level, OutputAllocator* allocator, const Executor& executor,
@@ -143,9 +144,8 @@ bool VoxelResampler::Implementation::writeSums(const VoxelRequest& request, cons
       forRange(executor, last - first,
         [&](std::int64_t begin, std::int64_t end)
         {
-          const auto offset = std::size_t(first + begin);
-          level.writer.write(offset, sums, offset, std::size_t(first + end));
-          writeTallies(request, sums, offset, std::size_t(first + end), level.writer);
+          const auto from = std::size_t(first + begin);
+          writeRun(request, sums, from, std::size_t(first + end), level.writer, from);
         });
     });
 }

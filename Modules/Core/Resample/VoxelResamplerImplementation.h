@@ -104,6 +104,10 @@ private:
   void makeOutput(Stages<Voxels>& stages, const VoxelRequest& request, const Executor& executor);
   AttributeView placesOf(const VoxelRequest& request, const Executor& executor);
   static simd::VoxelWriter::Layout layoutOf(const VoxelRequest& request);
+  static void writeRun(const VoxelRequest& request, const simd::VoxelRun& run, std::size_t first,
+    std::size_t last, simd::VoxelWriter& writer, std::size_t offset);
+  void writeParts(
+    const VoxelRequest& request, std::vector<simd::VoxelRun>& parts, bool keeps, const Executor& executor);
   bool writeSums(const VoxelRequest& request, const simd::VoxelRun& sums, int fractionBits,
     simd::Level& level, OutputAllocator* allocator, const Executor& executor, ProgressObserver* observer);
   Status addLevels(const VoxelRequest& request, const simd::VoxelRun& sums, const Executor& executor,

@@ -158,11 +158,37 @@ Status VoxelResampler::Implementation::runStages(Stages<Voxels>& stages, const T
   }
   std::vector<VoxelRun> parts(runs.size());
   forEachItem(executor, runs.size(), [&](std::size_t p) { parts[p] = std::move(runs[p].whole()); });
+  if (wanted.writes && !task.writes)
+  {
+    writeParts(request, parts, wanted.keepsSums, executor);
+  }
   sums = concatenated(parts, executor);
-  return !wanted.writes || task.writes ||
-      writeSums(request, sums, source.fractionBits(), levels[0], request.allocator, executor, nullptr)
-    ? Status::Ok
-    : Status::Aborted;
+  return Status::Ok;
+}
+
+/// Writes runs whose keys ascend from one to the next to the finest level, and frees them unless they are
+/// kept.
+void VoxelResampler::Implementation::writeParts(
+  const VoxelRequest& request, std::vector<VoxelRun>& parts, bool keeps, const Executor& executor)
+{
+  std::vector<std::size_t> firsts = { 0 };
+  for (const VoxelRun& part : parts)
+  {
+    firsts.push_back(firsts.back() + part.size());
+  }
+  Level& level = levels[0];
+  level.size = std::int64_t(firsts.back());
+  level.writer.prepare(
+    firsts.back(), layoutOf(request), level.lattice, fractionBitsOf(request.lattice), request.allocator);
+  forEachItem(executor, parts.size(),
+    [&](std::size_t p)
+    {
+      writeRun(request, parts[p], 0, parts[p].size(), level.writer, firsts[p]);
+      if (!keeps)
+      {
+        parts[p] = VoxelRun();
+      }
+    });
 }
 
 /// Makes room for the voxels: for as many as there may be, of which what is not written is never touched, or,
@@ -174,8 +200,7 @@ void VoxelResampler::Implementation::makeOutput(
   VoxelWriter& writer = levels[0].writer;
   const auto prepare = [&](std::size_t room)
   {
-    writer.prepare(
-      room, layoutOf(request), request.lattice, stages.source.fractionBits(), request.allocator);
+    writer.prepare(room, layoutOf(request), request.lattice, stages.source.fractionBits(), request.allocator);
   };
   std::size_t most = 0;
   for (std::uint32_t p = 0; p < stages.source.partitions(); ++p)
