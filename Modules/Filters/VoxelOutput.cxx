@@ -1,5 +1,6 @@
 #include "VoxelOutput.h"
 
+#include "FieldPoses.h"
 #include "VoxelArrays.h"
 
 #include "vtkCellArray.h"
@@ -257,6 +258,7 @@ bool OutputFiller::fill(int level, vtkPolyData* output, const AddArrays& addArra
     data->AddArray(makeIds(*pointIds, kOriginalPointIds));
   }
   kept = keepVoxels(output, counts, minimumPoints, pool, executor);
+  movePoses(transform, output->GetFieldData());
   addLattice(engine.lattice(level), transform, output->GetFieldData());
   return true;
 }

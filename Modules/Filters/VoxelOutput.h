@@ -85,7 +85,8 @@ void addLattice(const Lattice& lattice, const AffineTransform& transform, vtkFie
 /// Adds @p array, as the active one of the @p roles of vtkDataSetAttributes::AttributeTypes.
 void addArray(vtkPointData* data, vtkDataArray* array, const std::vector<int>& roles);
 
-/// Fills outputs with what the engine made.
+/// Fills outputs with what the engine made. Their field data is already that of the input; poses in it move
+/// with the points.
 struct OutputFiller
 {
   const VoxelResampler& engine;

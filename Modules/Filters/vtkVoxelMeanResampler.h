@@ -19,7 +19,10 @@
  * arrays, the vtkIdTypeArray "VoxelPointCount", and on request "VoxelCovariance" (6 doubles: XX YY ZZ XY YZ
  * XZ, central, divided by the count, in squared units of the output frame). Field data: that of the input,
  * "LatticeOrigin" and "LatticeSpacing" (3 doubles), "LatticeDimensions" (3 integers), "ModelToWorkspace" (16
- * doubles, row by row). With NumberOfLevels above 1 there is an output port per level, each twice as coarse.
+ * doubles, row by row). "Viewpoint" and "ScanPoses" of vtkPointCloudReader are moved as the points are, but
+ * for a viewpoint that is the identity, which says nothing; a transform that mirrors or does not keep angles
+ * drops them with a warning. With NumberOfLevels above 1 there is an output port per level, each twice as
+ * coarse.
  *
  * Arrays: numeric arrays of any type and number of components are averaged and rounded to their own type
  * (integers to nearest, exactly), and keep their lookup table and information keys; the active normals are

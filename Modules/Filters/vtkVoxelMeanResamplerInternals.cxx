@@ -1,5 +1,6 @@
 #include "vtkVoxelMeanResamplerInternals.h"
 
+#include "FieldPoses.h"
 #include "ResamplerInput.h"
 
 #include "Core/Resample/VoxelMean.h"
@@ -66,6 +67,11 @@ bool vtkVoxelMeanResampler::Internals::Update(
   if (!this->ReadTransform() || !this->MakeLattice(input) || !this->UseIndex(input))
   {
     return false;
+  }
+  const std::string lost = lostPoses(this->Request.transform, input->GetFieldData());
+  if (!lost.empty())
+  {
+    vtkWarningWithObjectMacro(this->Filter, << lost);
   }
   // Levels that would not equal the resampling of the points at their spacing take a second pass over the
   // points.

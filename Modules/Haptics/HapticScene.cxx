@@ -43,10 +43,6 @@ constexpr std::size_t kSpacingSamples = 500;
 constexpr std::size_t kSpacingNeighbors = 6;
 constexpr double kSpacingGrowth = 1.3;
 
-/// Part of a length by which a similarity may change it with its direction: rounding, also of products of
-/// many transforms.
-constexpr double kSimilarityTolerance = 1e-9;
-
 bool lengthsAgree(const HapticSceneInput& input)
 {
   const auto agrees = [&](std::size_t size) { return size == 0 || size == input.points.size(); };
@@ -132,25 +128,6 @@ std::uint64_t nextSceneNumber()
 {
   static std::atomic<std::uint64_t> last{ 0 };
   return ++last;
-}
-
-/// True where @p transform keeps angles; @p scale receives what it does to lengths.
-bool isSimilarity(const AffineTransform& transform, double& scale)
-{
-  const Vec3 axes[3] = { transform.applyToVector({ 1, 0, 0 }), transform.applyToVector({ 0, 1, 0 }),
-    transform.applyToVector({ 0, 0, 1 }) };
-  const double square = (norm2(axes[0]) + norm2(axes[1]) + norm2(axes[2])) / 3.0;
-  scale = std::sqrt(square);
-  for (int i = 0; i < 3; ++i)
-  {
-    // Negated, so that NaN fails too.
-    if (!(std::abs(norm2(axes[i]) - square) <= kSimilarityTolerance * square) ||
-      !(std::abs(dot(axes[i], axes[(i + 1) % 3])) <= kSimilarityTolerance * square))
-    {
-      return false;
-    }
-  }
-  return scale > 0.0;
 }
 
 std::vector<Cell> finiteCells(const HapticSceneInput& input)
@@ -414,7 +391,7 @@ std::shared_ptr<const HapticScene> HapticScene::moved(
   {
     scene->latticeToWorkspace_ = modelToWorkspace * modelToLattice().inverse();
     scene->workspaceToLattice_ = scene->latticeToWorkspace_.inverse();
-    if (!isSimilarity(scene->latticeToWorkspace_, scene->scale_))
+    if (!scene->latticeToWorkspace_.isSimilarity(scene->scale_))
     {
       status = Status::InvalidParameter;
       return nullptr;

@@ -2,6 +2,7 @@
 
 #include "PieceOfCloud.h"
 
+#include "FieldPoses.h"
 #include "ResamplerInput.h"
 
 #include "Core/Resample/VoxelMean.h"
@@ -109,7 +110,13 @@ std::string DistributedUpdate::prepare(vtkAbstractTransform* transform)
     return latticeProblem(settings_.lattice, status);
   }
   this->choosePrecision();
-  return this->chooseArrays();
+  const std::string lost = lostPoses(transform_, input_->GetFieldData());
+  const std::string wrong = this->chooseArrays();
+  if (!lost.empty())
+  {
+    dropped_.push_back(lost);
+  }
+  return wrong;
 }
 
 int DistributedUpdate::run(const vtkSmartPointer<vtkPolyData>* outputs, int levels, std::string& problem)

@@ -9,6 +9,9 @@ namespace
 {
 /// Below this fraction of the products of its row and column lengths a determinant is rounding noise.
 constexpr double kSingularRatio = 1e-13;
+/// Part of a length by which a similarity may change it with its direction: rounding, also of products of
+/// many transforms.
+constexpr double kSimilarityTolerance = 1e-9;
 
 Vec3 row(const AffineTransform& t, int r)
 {
@@ -54,6 +57,23 @@ double AffineTransform::determinant() const noexcept
 bool AffineTransform::isIdentity() const noexcept
 {
   return *this == AffineTransform();
+}
+
+bool AffineTransform::isSimilarity(double& scale) const noexcept
+{
+  const Vec3 axes[3] = { applyToVector({ 1, 0, 0 }), applyToVector({ 0, 1, 0 }), applyToVector({ 0, 0, 1 }) };
+  const double square = (norm2(axes[0]) + norm2(axes[1]) + norm2(axes[2])) / 3.0;
+  scale = std::sqrt(square);
+  for (int i = 0; i < 3; ++i)
+  {
+    // Negated, so that NaN fails too.
+    if (!(std::abs(norm2(axes[i]) - square) <= kSimilarityTolerance * square) ||
+      !(std::abs(dot(axes[i], axes[(i + 1) % 3])) <= kSimilarityTolerance * square))
+    {
+      return false;
+    }
+  }
+  return scale > 0.0;
 }
 
 Vec3 AffineTransform::applyToNormal(const Vec3& n) const noexcept

@@ -53,6 +53,17 @@ TEST(AffineTransform, RotatesRightHanded)
   EXPECT_NEAR(AffineTransform::rotation(37, { 1, -2, 0.3 }).determinant(), 1.0, 1e-14);
 }
 
+TEST(AffineTransform, TellsSimilarities)
+{
+  double scale = 0.0;
+  EXPECT_TRUE((AffineTransform::rotation(37, { 1, -2, 0.3 }) * AffineTransform::scaling({ -3, 3, 3 }))
+                .isSimilarity(scale));
+  EXPECT_NEAR(scale, 3.0, 1e-14);
+  EXPECT_FALSE(AffineTransform::scaling({ 1, 1, 1.0001 }).isSimilarity(scale));
+  EXPECT_FALSE(AffineTransform::scaling({ 0, 0, 0 }).isSimilarity(scale));
+  EXPECT_FALSE(AffineTransform::scaling({ NAN, 1, 1 }).isSimilarity(scale));
+}
+
 TEST(AffineTransform, ProductAppliesTheRightOneFirst)
 {
   const AffineTransform scale = AffineTransform::scaling({ 2, 3, 4 });
