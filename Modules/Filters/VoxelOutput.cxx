@@ -175,12 +175,19 @@ void addField(vtkFieldData* field, const char* name, const double* values, int c
 
 }
 
-vtkSmartPointer<vtkIdTypeArray> makeIds(const std::vector<std::int64_t>& ids, const char* name)
+vtkSmartPointer<vtkIdTypeArray> makeIds(const std::vector<std::int64_t>& ids, const char* name,
+  const std::vector<std::int64_t>& numbers, ArrayPool& pool, const Executor& executor)
 {
   auto array = vtkSmartPointer<vtkIdTypeArray>::New();
   array->SetName(name);
-  array->SetNumberOfValues(vtkIdType(ids.size()));
-  std::copy(ids.begin(), ids.end(), array->GetPointer(0));
+  pool.allocate(array, std::int64_t(ids.size()));
+  vtkIdType* const to = array->GetPointer(0);
+  forRange(executor, std::int64_t(ids.size()),
+    [&](std::int64_t begin, std::int64_t end)
+    {
+      std::transform(ids.begin() + begin, ids.begin() + end, to + begin,
+        [&](std::int64_t id) { return numbers.empty() || id < 0 ? id : numbers[std::size_t(id)]; });
+    });
   return array;
 }
 
@@ -255,7 +262,7 @@ bool OutputFiller::fill(int level, vtkPolyData* output, const AddArrays& addArra
   }
   if (pointIds)
   {
-    data->AddArray(makeIds(*pointIds, kOriginalPointIds));
+    data->AddArray(makeIds(*pointIds, kOriginalPointIds, {}, pool, executor));
   }
   kept = keepVoxels(output, counts, minimumPoints, pool, executor);
   movePoses(transform, output->GetFieldData());

@@ -74,8 +74,9 @@ vtkSmartPointer<vtkIdTypeArray> makeCounts(
 /// The array VoxelCovariance.
 vtkSmartPointer<vtkDoubleArray> makeCovariances(
   const VoxelResampler& engine, int level, ArrayAllocator& allocator, const Executor& executor);
-/// A vtkIdTypeArray.
-vtkSmartPointer<vtkIdTypeArray> makeIds(const std::vector<std::int64_t>& ids, const char* name);
+/// An array of ids. @p numbers: what becomes of each id that is not negative; empty: they stay.
+vtkSmartPointer<vtkIdTypeArray> makeIds(const std::vector<std::int64_t>& ids, const char* name,
+  const std::vector<std::int64_t>& numbers, ArrayPool& pool, const Executor& executor);
 /// Leaves out the points of @p cloud whose @p counts, one of its arrays, are below @p minimum. @return those
 /// that stay; nothing for a minimum of 1, with which all do.
 std::optional<std::vector<std::int64_t>> keepVoxels(

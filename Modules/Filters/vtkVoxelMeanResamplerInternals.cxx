@@ -285,22 +285,17 @@ bool vtkVoxelMeanResampler::Internals::Fill(int level, vtkPointSet* input, vtkPo
     this->Kept);
 }
 
-void vtkVoxelMeanResampler::Internals::FillIndex(vtkPointSet* input, vtkPolyData* output) const
+void vtkVoxelMeanResampler::Internals::FillIndex(vtkPointSet* input, vtkPolyData* output)
 {
-  std::vector<std::int64_t> index = this->Engine.voxelIndex();
-  if (this->Kept)
+  std::vector<std::int64_t> places(this->Kept ? std::size_t(this->Engine.size()) : 0, -1);
+  for (std::size_t i = 0; this->Kept && i < this->Kept->size(); ++i)
   {
-    std::vector<std::int64_t> places(std::size_t(this->Engine.size()), -1);
-    for (std::size_t i = 0; i < this->Kept->size(); ++i)
-    {
-      places[std::size_t((*this->Kept)[i])] = std::int64_t(i);
-    }
-    std::transform(index.begin(), index.end(), index.begin(),
-      [&](std::int64_t voxel) { return voxel < 0 ? voxel : places[std::size_t(voxel)]; });
+    places[std::size_t((*this->Kept)[i])] = std::int64_t(i);
   }
   output->SetPoints(input->GetPoints());
   output->GetPointData()->PassData(input->GetPointData());
-  output->GetPointData()->AddArray(makeIds(index, "VoxelIndex"));
+  output->GetPointData()->AddArray(
+    makeIds(this->Engine.voxelIndex(), "VoxelIndex", places, this->Pool, this->Smp));
   output->GetFieldData()->PassData(input->GetFieldData());
 }
 

@@ -98,7 +98,7 @@ private:
   bool FillAll(vtkPointSet* input, const vtkSmartPointer<vtkPolyData>* outputs);
   bool AddArrays(int level, vtkPointData* data);
   bool Fill(int level, vtkPointSet* input, vtkPolyData* output);
-  void FillIndex(vtkPointSet* input, vtkPolyData* output) const;
+  void FillIndex(vtkPointSet* input, vtkPolyData* output);
   /// Lets go of the input and its arrays.
   void Release();
 

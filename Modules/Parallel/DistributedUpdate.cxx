@@ -317,12 +317,9 @@ std::string DistributedUpdate::fillIndex(vtkPolyData* output, vtkIdType voxels)
     rows[kept_ ? std::size_t((*kept_)[i]) : i] = first + std::int64_t(i);
   }
   const std::vector<std::int64_t> ofOwn = numbersOfKeys(ranks_, ranges_, keysOf(own), keysOf(made_), rows);
-  std::vector<std::int64_t> index = own.voxelIndex();
-  std::transform(index.begin(), index.end(), index.begin(),
-    [&](std::int64_t voxel) { return voxel < 0 ? voxel : ofOwn[std::size_t(voxel)]; });
   output->SetPoints(input_->GetPoints());
   output->GetPointData()->PassData(input_->GetPointData());
-  output->GetPointData()->AddArray(makeIds(index, "VoxelIndex"));
+  output->GetPointData()->AddArray(makeIds(own.voxelIndex(), "VoxelIndex", ofOwn, pool_, smp_));
   output->GetFieldData()->PassData(input_->GetFieldData());
   return {};
 }

@@ -118,7 +118,8 @@ public:
   static int exactLevels(const Lattice& lattice, int levels);
 
   /// Errors: the transform's, the lattice's, InvalidParameter (levels below 1 or above 22, an index of
-  /// another number of points, more than a level with a representative or VoxelRequest::voxelIndex, an
+  /// another number of points, more than a level or 2^32 points with a representative or
+  /// VoxelRequest::voxelIndex, an
   /// attribute of fewer tuples, without components or of normals without three), Aborted (the observer said
   /// so); there are no voxels then. A cloud without a point inside is no error.
   Status run(

@@ -97,8 +97,12 @@ void TallySums::append(const TallySums& from, std::size_t begin, std::size_t end
 inline bool TallySums::add(std::size_t sum, const TallySums& from, std::size_t other, int sign)
 {
   std::int64_t result; // Mostly words are added.
-  if (words == 1 && from.unit == unit &&
-    !__builtin_add_overflow(std::int64_t(*at(sum)), sign * std::int64_t(*from.at(other)), &result))
+  const auto isWord = [&](std::int64_t own, std::int64_t more)
+  {
+    return sign > 0 ? !__builtin_add_overflow(own, more, &result)
+                    : !__builtin_sub_overflow(own, more, &result);
+  };
+  if (words == 1 && from.unit == unit && isWord(std::int64_t(*at(sum)), std::int64_t(*from.at(other))))
   {
     *at(sum) = std::uint64_t(result);
   }

@@ -14,6 +14,7 @@ namespace
 /// A run that is more than so many times as large as the one after it waits for more: all runs together are
 /// at most a third larger than the largest, and no voxel is copied more than a few times.
 constexpr std::size_t kRunRatio = 4;
+
 }
 
 VoxelRun merged(const VoxelRun& a, const VoxelRun& b, int sign, bool& isRight)
