@@ -15,7 +15,7 @@ bool valid(const ContactParameters& contact) noexcept
   return within(contact.stiffness, 0.0, 1e5) && within(contact.damping, 0.0, 1e3) &&
     within(contact.staticFriction, 0.0, 10.0) &&
     within(contact.dynamicFriction, 0.0, contact.staticFriction) && contact.settleRate > 0.0 &&
-    within(contact.deviceDamping, 0.0, 1e3);
+    within(contact.deviceDamping, 0.0, 1e3) && contact.forceLimit > 0.0;
 }
 
 bool valid(const GradientStepsParameters& steps) noexcept

@@ -32,6 +32,11 @@ struct ContactParameters
   /// which refuses such springs by HapticPort::limits(): where it is known the stiffness is kept at
   /// largestPassiveStiffness(), here 2 (deviceDamping - damping) / T, T the tick.
   double deviceDamping = 0.0;
+  /// F, N: the force never exceeds it; above 0, infinity: none, for virtual time only. The spring has its
+  /// full force up to F/K, the limit from there to twice the hold length (F/K, within 5 and 15 mm), and fades
+  /// to nothing at three times that. There contact ends where no point is within 10 mm of the hand. A servo
+  /// loop lowers it to what the device declares.
+  double forceLimit = 8.0;
 
   static constexpr auto members()
   {
@@ -39,7 +44,7 @@ struct ContactParameters
     return std::make_tuple(settingsMember("stiffness", &S::stiffness), settingsMember("damping", &S::damping),
       settingsMember("staticFriction", &S::staticFriction),
       settingsMember("dynamicFriction", &S::dynamicFriction), settingsMember("settleRate", &S::settleRate),
-      settingsMember("deviceDamping", &S::deviceDamping));
+      settingsMember("deviceDamping", &S::deviceDamping), settingsMember("forceLimit", &S::forceLimit));
   }
 };
 static_assert(listsEveryMember<ContactParameters>());

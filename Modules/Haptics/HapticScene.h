@@ -158,6 +158,11 @@ public:
   double fitRadius(const Vec3& position) const noexcept { return fitScale(position).radius; }
   /// False where no cell of the cloud can be within clearance() of @p position: free space to stride through.
   bool isNear(const Vec3& position) const noexcept;
+  /// Whether a point that decides about contact is within @p distance (metres, lattice frame) of @p position.
+  bool hasPointsWithin(const Vec3& position, double distance) const noexcept
+  {
+    return contactPyramid().anyWithin(0, position, distance, [](const Cell&) { return true; });
+  }
   double clearance() const { return cloud_->clearance; }
   /// The points that decide about contact: the cells, and where those of a global scene are sparser than its
   /// voxels asked for, points half way between them (SurfaceMidpoints.h), lest a ball that is small enough

@@ -1,5 +1,7 @@
 #include "Haptics/Proxy.h"
 
+#include "Haptics/ContactEnergy.h"
+#include "Haptics/ContactSpring.h"
 #include "Haptics/Contact/GradientSteps.h"
 #include "Haptics/Contact/OffsetSettler.h"
 #include "Haptics/Contact/SurfaceFitProxy.h"
@@ -14,6 +16,12 @@ namespace
 {
 /// Time constant and end of the fade of a force whose HIP is not finite.
 constexpr double kFadeSeconds = 0.010;
+/// A hand that has gone away from its contact is let go where no point is nearer, metres. With less a hand
+/// that crosses a crown of leaves is let go among them and meets the next one from inside.
+constexpr double kFarFromCloud = 10e-3;
+/// Way of a hand in a tick from which on it did no work, metres: it was put there. Without it the contact
+/// that the ball finds some ticks later has no force.
+constexpr double kLeap = 5e-3;
 }
 
 struct Proxy::Implementation
@@ -22,6 +30,8 @@ struct Proxy::Implementation
   const HapticScene* scene = nullptr;
   AffineTransform lastLattice; ///< modelToLattice of the last scene: the methods' state is in that frame.
   std::uint64_t lastCloud = 0;
+  std::uint64_t lastGlobalCloud = 0;
+  AffineTransform lastPlace; ///< modelToWorkspace of the last scene.
   bool hadScene = false;
   bool isFallback = false; ///< A local scene was set, and left.
   SurfaceFitProxy surfaceFit;
@@ -39,6 +49,9 @@ struct Proxy::Implementation
   Vec3 carried;            ///< What a change did to the force, and has still to settle; newtons.
   bool hasChanged = false; ///< Something did since the last step that settling the offset does not cover.
   bool touched = false;    ///< The method found contact in the last step.
+  ContactEnergy energy;
+  bool isModelMoved = false; ///< The model, its cloud or the parameters did work that still settles.
+  bool isLetGo = false;      ///< The hand went away from its contact, and has touched nothing since.
 
   explicit Implementation(InstructionSet wanted)
     : memory(wanted)
@@ -57,6 +70,9 @@ struct Proxy::Implementation
     {
       releaseContact();
     }
+    isModelMoved = isModelMoved ||
+      (newScene && hasLastHip &&
+        (newScene->globalCloudNumber() != lastGlobalCloud || !(newScene->modelToWorkspace() == lastPlace)));
     const Bounds shared = newScene && scene ? newScene->sharedWith(*scene) : Bounds();
     if (!shared.empty())
     {
@@ -70,6 +86,8 @@ struct Proxy::Implementation
       gradientSteps.changeCells();
     }
     lastCloud = newScene ? newScene->cloudNumber() : 0;
+    lastGlobalCloud = newScene ? newScene->globalCloudNumber() : 0;
+    lastPlace = newScene ? newScene->modelToWorkspace() : AffineTransform();
     lastLattice = newScene ? newScene->modelToLattice() : AffineTransform();
     hadScene = newScene != nullptr;
     hasChanged = hasChanged || (!settlesOffset() && hasLastHip && newScene != scene);
@@ -109,12 +127,15 @@ struct Proxy::Implementation
     fadedSeconds = 0.0;
     carried = Vec3();
     touched = false;
+    energy.reset();
     hasChanged = hasLastHip;
   }
 
   void reset() noexcept
   {
     hasLastHip = false;
+    isLetGo = false;
+    isModelMoved = false;
     releaseContact();
     last = ProxyState();
     lastMove = Vec3();
@@ -160,7 +181,10 @@ struct Proxy::Implementation
     fadedSeconds += dt;
     const double left = std::max(0.0, 1.0 - fadedSeconds / kFadeSeconds);
     const double part = left > 0.0 ? left / before : 0.0;
-    const Vec3 offset = part * (last.proxy - last.hip);
+    // As long as the force that is left: the spring was limited.
+    const double spring = parameters.contact.stiffness * norm(last.proxy - last.hip);
+    const double limited = spring > parameters.contact.forceLimit ? norm(last.force) / spring : 1.0;
+    const Vec3 offset = (part * limited) * (last.proxy - last.hip);
     last.hip = hip;
     last.contact = last.contact && left > 0.0;
     last.proxy = last.contact ? hip + offset : hip;
@@ -221,15 +245,57 @@ struct Proxy::Implementation
     return wasSettling || settler.settling();
   }
 
-  Vec3 forceOf(const ProxyState& state, double stiffness, double dt) const noexcept
+  /// Ends a contact that the hand has gone away from.
+  void letGo(ProxyState& state) noexcept
+  {
+    const double end = ContactSpring(parameters.contact.stiffness, parameters.contact.forceLimit).end();
+    if (state.contact && norm(state.proxy - state.hip) >= end &&
+      !scene->hasPointsWithin(scene->toLattice(state.hip), kFarFromCloud / scene->latticeScale()))
+    {
+      surfaceFit.reset();
+      gradientSteps.reset();
+      state.contact = false;
+      state.proxy = state.sphereCenter = state.hip;
+      isLetGo = true;
+    }
+    isLetGo = isLetGo && !state.contact;
+    state.status |= std::uint32_t(isLetGo ? kProxyLetGo : kProxyOk);
+  }
+
+  /// The spring's force, within its limit and what the hand has put into the contact.
+  Vec3 springForce(ProxyState& state, double stiffness) noexcept
   {
     if (!state.contact)
     {
+      energy.reset();
       return {};
     }
+    const Vec3 offset = state.proxy - state.hip;
+    const double limited = ContactSpring(stiffness, parameters.contact.forceLimit).part(norm(offset));
+    const Vec3 plain = stiffness * offset;
+    const Vec3 force = limited < 1.0 ? limited * plain : plain;
+    if (isModelMoved || hasChanged || carried != Vec3())
+    {
+      energy.allow(force, stiffness);
+      return force;
+    }
+    const double part = energy.part(last.force, force, this->moved(state), stiffness);
+    if (part < 1.0)
+    {
+      state.status |= kProxyEnergyLimit;
+      state.proxy = limited < 1.0 ? state.proxy : state.hip + part * offset;
+      settler.hold(part * offset);
+    }
+    return part < 1.0 ? part * force : force;
+  }
+
+  Vec3 moved(const ProxyState& state) const noexcept { return hasLastHip ? state.hip - lastHip : Vec3(); }
+
+  Vec3 forceOf(ProxyState& state, double stiffness, double dt) noexcept
+  {
     const ContactParameters& contact = parameters.contact;
-    Vec3 force = stiffness * (state.proxy - state.hip);
-    if (contact.damping > 0.0 && hasLastHip && dt > 0.0)
+    Vec3 force = springForce(state, stiffness);
+    if (state.contact && contact.damping > 0.0 && hasLastHip && dt > 0.0)
     {
       const double speed = dot(state.hip - lastHip, state.normal) / dt;
       const double spring = dot(force, state.normal);
@@ -237,6 +303,22 @@ struct Proxy::Implementation
       force += std::max(-contact.damping * speed, -spring) * state.normal;
     }
     return force;
+  }
+
+  /// Keeps the limit also while a change settles, and counts the work of the tick.
+  void finishForce(ProxyState& state) noexcept
+  {
+    const double length = norm(state.force);
+    if (length > parameters.contact.forceLimit)
+    {
+      state.force *= parameters.contact.forceLimit / length;
+    }
+    if (!isModelMoved)
+    {
+      energy.add(last.force, state.force, this->moved(state));
+    }
+    const bool leaps = (state.status & kProxyStepLimit) != 0u && norm(this->moved(state)) > kLeap;
+    isModelMoved = leaps || (isModelMoved && (!state.contact || settler.settling() || carried != Vec3()));
   }
 };
 
@@ -290,6 +372,8 @@ void Proxy::restart() noexcept
   self.scene = nullptr;
   self.lastLattice = AffineTransform();
   self.lastCloud = 0;
+  self.lastGlobalCloud = 0;
+  self.lastPlace = AffineTransform();
   self.hadScene = false;
   self.isFallback = false;
   self.lastDt = 0.0;
@@ -323,16 +407,19 @@ ProxyState Proxy::step(const Vec3& hip, double dt) noexcept
     self.surfaceFit.step(*self.scene, self.memory, self.parameters.contact, self.scene->toLattice(hip),
       self.parameters.method == ProxyMethod::SurfaceFit, state);
     self.toWorkspace(state);
+    self.letGo(state);
     settles = self.settle(state, stiffness, dt);
   }
   else
   {
     self.gradientSteps.step(*self.scene, self.parameters, self.scene->toLattice(hip), dt, state);
     self.toWorkspace(state);
+    self.letGo(state);
   }
   state.force = self.forceOf(state, stiffness, dt);
   // One after the other, lest two make it twice the rate.
   self.settleChanges(state, settles ? 0.0 : self.parameters.contact.settleRate * dt);
+  self.finishForce(state);
   self.last = state;
   self.remember(hip, dt);
   self.fadedSeconds = 0.0;

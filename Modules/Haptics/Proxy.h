@@ -25,11 +25,13 @@ enum ProxyStatus : std::uint32_t
                                ///< next. Cure: a higher rate; with GradientSteps maximumStepsPerTick.
   kProxyBallContact = 1u << 3, ///< The fitted surface and the ball disagree, as at edges and folds: the
                                ///< ball's contact is felt, in part or alone. No cure needed.
-  kProxyNoScene = 1u << 5,     ///< No scene is set. Cure: setScene().
-  kProxyCellLimit = 1u << 6,   ///< More cells in a fit than there is room for: coarser ones served. Cure:
-                               ///< larger voxels.
-  kProxySettling = 1u << 7,    ///< The force follows a surface that moved by itself at the limited rate.
-                               ///< Cure: settleRate.
+  kProxyLetGo = 1u << 4,   ///< The hand went so far away from its contact that it was let go, and has touched
+                           ///< nothing since. Cure: come back to the surface.
+  kProxyNoScene = 1u << 5, ///< No scene is set. Cure: setScene().
+  kProxyCellLimit = 1u << 6,      ///< More cells in a fit than there is room for: coarser ones served. Cure:
+                                  ///< larger voxels.
+  kProxySettling = 1u << 7,       ///< The force follows a surface that moved by itself at the limited rate.
+                                  ///< Cure: settleRate.
   kProxyStiffnessLimit = 1u << 8, ///< The stiffness was kept at the passivity limit. Cure: a higher rate,
                                   ///< less damping, or a lower stiffness.
   kProxyLed = 1u << 9,       ///< The fit's foot leapt, as on a ridge, and the ball went there over the bumps
@@ -43,6 +45,8 @@ enum ProxyStatus : std::uint32_t
                              ///< outside of the cloud.
   kProxyFallback = 1u << 14, ///< The hand left what a local scene covers, and feels its fallback. Cure: a
                              ///< slower hand.
+  kProxyEnergyLimit = 1u << 15, ///< The contact moved by itself, and the force is kept at what the hand has
+                                ///< put into it. No cure needed.
 };
 
 /// Result of one step. Frame: workspace; metres and newtons.
@@ -52,10 +56,12 @@ struct ProxyState
   Vec3
     proxy; ///< Contact point: of the proxy sphere, the point nearest the HIP; the HIP itself out of contact.
   Vec3 normal{ 0.0, 0.0, 1.0 }; ///< Outward unit surface normal; out of contact the last one.
-  Vec3 force; ///< On the hand: K (proxy - HIP) + damping; 0 out of contact. In contact it changes by at most
-              ///< 2 K |dH| + settleRate dt a step with SurfaceFit and Sphere, damping aside; where contact
-              ///< ends it is 0 at once, one step of any height. While a change of parameters settles it is
-              ///< less or more than K (proxy - HIP).
+  Vec3 force; ///< On the hand: K (proxy - HIP) + damping; 0 out of contact. Never above the force limit, and
+              ///< fading where the contact is far away (ContactParameters::forceLimit). In contact it changes
+              ///< by at most 2 K |dH| + settleRate dt a step with SurfaceFit and Sphere (3 K |dH| where
+              ///< kProxyEnergyLimit is set, 1.5 times as much in the fade), damping aside; where contact ends
+              ///< it is 0 at once, one step of any height. While a change of parameters settles it is less or
+              ///< more than K (proxy - HIP).
   Vec3 sphereCenter;   ///< Centre of the sphere to draw: proxy + radius normal in contact, else the HIP (with
                        ///< GradientSteps the sphere itself, which follows the HIP).
   double radius = 0.0; ///< Proxy radius r_p.

@@ -36,6 +36,14 @@ bool valid(const ServoSettings& settings)
     settings.watchdogSeconds >= 0.0 && settings.watchdogSeconds <= kLongestWatch;
 }
 
+/// Parameters whose force limit is at most what a desktop device and this one can hold.
+HapticParameters within(const HandLimits& limits, HapticParameters parameters)
+{
+  double& limit = parameters.contact.forceLimit;
+  limit = std::min({ limit, ForceLimits().maximumForce, limits.maximumForce });
+  return parameters;
+}
+
 Status checkSpring(const HandLimits& limits, const HapticParameters& parameters, double rateHz)
 {
   const Status status = parameters.check();
@@ -131,7 +139,7 @@ struct ServoLoop::Implementation
   void writeParameters(const HapticParameters& newParameters);
   void clear();
   void publish(const ServoSample& newSample, std::int64_t wake) noexcept;
-  void prepare(HapticPort& newPort, const HapticParameters& newParameters, const ServoSettings& newSettings);
+  void prepare(HapticPort& newPort, const HapticParameters& wanted, const ServoSettings& newSettings);
   void run() noexcept;
   void waitFor(std::int64_t deadline, double early) noexcept;
   Status tick(std::uint64_t number, std::int64_t wake) noexcept;
@@ -168,11 +176,12 @@ void ServoLoop::Implementation::clear()
 }
 
 void ServoLoop::Implementation::prepare(
-  HapticPort& newPort, const HapticParameters& newParameters, const ServoSettings& newSettings)
+  HapticPort& newPort, const HapticParameters& wanted, const ServoSettings& newSettings)
 {
   port = &newPort;
   settings = newSettings;
   limits = port->limits();
+  const HapticParameters newParameters = within(limits, wanted);
   stepSettings.rateHz = settings.rateHz;
   stepSettings.limits = settings.limits;
   stepSettings.rampDownSeconds = limits.rampDownSeconds;
@@ -453,7 +462,7 @@ Status ServoLoop::setParameters(const HapticParameters& parameters, std::string*
   const Status status = checkSpring(self.limits, parameters, self.settings.rateHz);
   if (status == Status::Ok)
   {
-    self.writeParameters(parameters);
+    self.writeParameters(within(self.limits, parameters));
   }
   return explained(status, self.limits, parameters.contact, self.settings.rateHz, message);
 }

@@ -95,7 +95,7 @@ bool TraceFile::open(const std::string& fileName, std::string& message)
   {
     header += (header.empty() ? "" : ",") + std::string(column);
   }
-  isOpen_ = writer_.open(fileName, header, message);
+  isOpen_ = writer_.open(fileName, header + ",status", message);
   return isOpen_;
 }
 
@@ -103,7 +103,10 @@ void TraceFile::add(const std::vector<ServoSample>& samples)
 {
   for (const ServoSample& sample : samples)
   {
-    const auto row = feltRow(sample.timeSeconds, sample.state, 1e6 * sample.updateSeconds);
+    const auto felt = feltRow(sample.timeSeconds, sample.state, 1e6 * sample.updateSeconds);
+    std::array<double, kFeltColumns.size() + 1> row;
+    std::copy(felt.begin(), felt.end(), row.begin());
+    row.back() = double(sample.state.status);
     writer_.row(row.data(), row.size());
   }
 }

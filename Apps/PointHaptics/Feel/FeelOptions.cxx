@@ -129,6 +129,10 @@ bool FeelOptions::complete(CLI::App& command, std::string& message)
     throwUsage("--sound-file", this->soundFile, "sound is written as WAV; end the name in .wav");
   }
   this->touch.complete(command);
+  if (this->device == "falcon")
+  {
+    checkForceLimitOfDevices(this->touch.parameters.contact);
+  }
   this->settings = givenSettings(command).dump();
   return true;
 }

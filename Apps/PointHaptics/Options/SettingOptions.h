@@ -111,6 +111,7 @@ inline constexpr SettingOption kBandwidthOptions[] = {
 static_assert(describesEveryMember<BandwidthSettings>(kBandwidthOptions));
 
 constexpr NumberRange kFriction{ 0.0, 10.0 };
+constexpr NumberRange kForceLimits{ 0.0, std::numeric_limits<double>::infinity(), true };
 inline constexpr SettingOption kTouchOptions[] = {
   { "method", "--method",
     "How the proxy meets the surface: a fit (the default), a sphere among the points, or the paper's steps" },
@@ -128,6 +129,11 @@ inline constexpr SettingOption kContactOptions[] = {
   { "dynamicFriction", "--mu-d", "Dynamic friction; default 0", "X", kFriction },
   { "settleRate", nullptr, "a guard against kicks that nobody has had a reason to change" },
   { "deviceDamping", nullptr, "a property of the device, which tells it by its limits" },
+  { "forceLimit", "--force-limit",
+    "The force never exceeds this, fades where the hand is far from its contact, and lets it go; above 0, "
+    "inf: "
+    "none, in virtual time only; default 8",
+    "N", kForceLimits },
 };
 static_assert(describesEveryMember<ContactParameters>(kContactOptions));
 

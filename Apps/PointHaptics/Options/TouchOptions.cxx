@@ -6,6 +6,8 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace pointhaptics
 {
 namespace app
@@ -55,6 +57,16 @@ void TouchOptions::complete(const CLI::App& command)
   }
 }
 
+void checkForceLimitOfDevices(const ContactParameters& contact)
+{
+  const double most = ForceLimits().maximumForce;
+  if (contact.forceLimit > most)
+  {
+    throwUsage("--force-limit", fmt::format("{}", contact.forceLimit),
+      fmt::format("a device pushes a hand with at most {} N; give that or less, or feel a --path", most));
+  }
+}
+
 void setContact(nlohmann::ordered_json& settings, const ContactParameters& contact)
 {
   std::size_t i = 0;
@@ -64,7 +76,8 @@ void setContact(nlohmann::ordered_json& settings, const ContactParameters& conta
       const SettingOption& row = kContactOptions[i++];
       if (row.option)
       {
-        settings[std::string(row.option).substr(2)] = member;
+        nlohmann::ordered_json& setting = settings[std::string(row.option).substr(2)];
+        setting = std::isfinite(member) ? nlohmann::ordered_json(member) : nlohmann::ordered_json("inf");
       }
     });
 }

@@ -226,6 +226,10 @@ void ViewOptions::checkFiles() const
       "nobody touches what has no window; leave out --screenshot, "
       "--trace and --force-chart of a --path, and --device none; feel --record records a path");
   }
+  if (this->needsWindow() && this->device != "none")
+  {
+    checkForceLimitOfDevices(this->touch.parameters.contact);
+  }
   if (!this->viewer.followsFile() && !this->screenshot.empty() && (!trace.empty() || !chart.empty()))
   {
     throwUsage(trace.empty() ? "--force-chart" : "--trace", trace.empty() ? chart : trace,

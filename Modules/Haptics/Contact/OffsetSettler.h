@@ -37,6 +37,12 @@ public:
   Vec3 settle(const Vec3& offset, double moved, double shrink) noexcept;
   /// The offset was taken back to @p felt without a call, as after a fade.
   void resumeFrom(const Vec3& felt) noexcept;
+  /// Less was felt, @p felt: the next call goes on from there.
+  void hold(const Vec3& felt) noexcept
+  {
+    felt_ = felt;
+    isSettling_ = true;
+  }
   bool settling() const noexcept { return isSettling_; }
 
 private:

@@ -56,6 +56,11 @@ Vec3 ForceGuard::limit(const Vec3& force, double dt) noexcept
   return result;
 }
 
+void ForceGuard::setMaximumForce(double newtons) noexcept
+{
+  limits_.maximumForce = validLimit(newtons);
+}
+
 void ForceGuard::reset() noexcept
 {
   last_ = {};

@@ -30,6 +30,8 @@ public:
   /// growth).
   /// @return the force to send, newtons; always finite.
   Vec3 limit(const Vec3& force, double dt) noexcept;
+  /// As ForceLimits::maximumForce, from the next call on.
+  void setMaximumForce(double newtons) noexcept;
   /// The last force counts as zero again: for a fault, after which nothing is known of the motors. Counters
   /// stay.
   void reset() noexcept;

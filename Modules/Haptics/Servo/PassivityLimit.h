@@ -19,6 +19,7 @@ struct HandLimits
   double positionStep = 0.0; ///< Largest step between two positions that the device can tell apart, m.
   double delayTicks = 0.0;   ///< Ticks from a position to the force that answers it.
   double maximumRateHz = std::numeric_limits<double>::infinity();
+  double maximumForce = std::numeric_limits<double>::infinity(); ///< N that the device declares, above 0.
   double rampDownSeconds = 0.0; ///< Over which the loop takes the force away when it stops or is left alone.
   double rampUpSeconds = 0.0;   ///< Over which it lets the force come back.
 };

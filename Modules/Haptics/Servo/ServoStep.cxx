@@ -1,5 +1,7 @@
 #include "Haptics/Servo/ServoStep.h"
 
+#include <algorithm>
+
 namespace pointhaptics
 {
 namespace
@@ -17,6 +19,18 @@ ServoStep::ServoStep(const ServoStepSettings& settings, const HapticParameters& 
   , gate_(settings.rampDownSeconds, settings.rampUpSeconds)
   , clutch_(settings.clutchDownSeconds, settings.clutchUpSeconds)
 {
+  this->limitGuard();
+}
+
+void ServoStep::setParameters(const HapticParameters& parameters) noexcept
+{
+  proxy_.setParameters(parameters);
+  this->limitGuard();
+}
+
+void ServoStep::limitGuard() noexcept
+{
+  guard_.setMaximumForce(std::min(settings_.limits.maximumForce, proxy_.parameters().contact.forceLimit));
 }
 
 void ServoStep::restart(std::uint64_t number) noexcept

@@ -41,7 +41,7 @@ public:
   explicit ServoStep(const ServoStepSettings& settings = {}, const HapticParameters& parameters = {});
 
   void setScene(const HapticScene* scene) noexcept { proxy_.setScene(scene_ = scene); }
-  void setParameters(const HapticParameters& parameters) noexcept { proxy_.setParameters(parameters); }
+  void setParameters(const HapticParameters& parameters) noexcept;
   /// Before tick @p number: as a new object that got scene and parameters, of which the tick before was the
   /// last that did not count.
   void restart(std::uint64_t number) noexcept;
@@ -59,6 +59,8 @@ public:
   double openFraction() const noexcept { return gate_.fraction(); }
 
 private:
+  /// The guard's limit is the proxy's, at most that of the settings.
+  void limitGuard() noexcept;
   Vec3 answer(const TickInput& input, ServoSample& sample) noexcept;
 
   ServoStepSettings settings_;

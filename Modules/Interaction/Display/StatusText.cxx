@@ -157,8 +157,11 @@ std::string StatusText::statusLine(const ServoLoop* servo) const
     std::snprintf(text, sizeof(text),
       "\nproxy radius %s    force %.2f N%s\nservo %.0f Hz, %llu deadline miss%s%s",
       lengthText(latest.state.radius).c_str(), norm(latest.state.force),
-      latest.state.contact ? "    in contact" : "", statistics.rateHz, count(statistics.deadlineMisses),
-      statistics.deadlineMisses == 1 ? "" : "es", this->handMode());
+      latest.state.contact                  ? "    in contact"
+        : latest.state.status & kProxyLetGo ? "    let go: the hand was too far from its contact"
+                                            : "",
+      statistics.rateHz, count(statistics.deadlineMisses), statistics.deadlineMisses == 1 ? "" : "es",
+      this->handMode());
     status += text;
     if (!latest.state.contact && !distance_.empty())
     {

@@ -41,7 +41,9 @@ TEST(ModelMotion, KeepsItsSideWhenTheModelIsZoomedInContact)
   const trial::Scene before = trial::resampledScene(points);
   for (const double zoom : { 0.93, 0.98, 1.02, 1.2, 1.5 })
   {
-    Proxy proxy;
+    HapticParameters unlimited;
+    unlimited.contact.forceLimit = INFINITY;
+    Proxy proxy(unlimited);
     proxy.setScene(before.get());
     const auto states = trial::feel(proxy, trial::sphereSlide(2e-3, 0.05, 100));
     const Vec3 hip = states.back().hip;

@@ -103,10 +103,14 @@ TEST(ProxyStress, KeepsEveryPromiseOnRandomCloudsUnderRandomHands)
         ASSERT_EQ(s.proxy, asked);
         ASSERT_EQ(s.force, Vec3());
       }
-      ASSERT_LE(norm(s.force - 800.0 * (s.proxy - asked)), 1e-9 * (1.0 + norm(s.force)));
+      ASSERT_LE(norm(s.force), 8.0 * (1.0 + 1e-12));
+      const double spring = 800.0 * norm(s.proxy - asked);
+      ASSERT_TRUE(spring > 8.0 || norm(s.force - 800.0 * (s.proxy - asked)) <= 1e-9 * (1.0 + norm(s.force)));
       // The hand's way since the last tick that had one; letting go is never delayed.
+      const double steps = s.status & kProxyEnergyLimit ? 3.0 : 2.0;
+      const double steepest = spring > 8.0 ? 1.5 : 1.0; // the fade
       const double allowed =
-        2.0 * 800.0 * norm(asked - lastHip) + parameters.contact.settleRate * trial::kTick;
+        steepest * (steps * 800.0 * norm(asked - lastHip) + parameters.contact.settleRate * trial::kTick);
       ASSERT_TRUE(!s.contact || norm(s.force - lastForce) <= allowed * (1.0 + 1e-9) + 1e-9);
       lastForce = s.force;
       hip = norm(asked) < 1.0 ? asked : hip;

@@ -155,8 +155,10 @@ TEST_P(EveryMethod, FeelsTheSameBitForBitWhetherStepsArePrefetchedOrNot)
   path.insert(path.end(), slide.begin(), slide.end());
   path.insert(
     path.end(), { Vec3(NAN, 0, 0), Vec3(1e308, 0, 0), Vec3(-1e308, 0, 0), slide.back(), Vec3(0, 0, 1) });
-  Proxy plain(parameters());
-  Proxy prefetched(parameters());
+  HapticParameters unlimited = parameters();
+  unlimited.contact.forceLimit = INFINITY;
+  Proxy plain(unlimited);
+  Proxy prefetched(unlimited);
   prefetched.prefetch(); // without a scene
   int contacts = 0;
   for (std::size_t i = 0; i < path.size(); ++i)

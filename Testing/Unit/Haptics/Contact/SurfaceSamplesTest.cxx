@@ -1,5 +1,7 @@
 #include "Haptics/Contact/SurfaceSamples.h"
 
+#include "Shapes/Shapes.h"
+
 #include "HapticFixtures.h"
 
 #include <algorithm>

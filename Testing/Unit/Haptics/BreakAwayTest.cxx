@@ -1,0 +1,205 @@
+/// No hand is held: force limit, fade, break-away, and no energy from nothing.
+#include "Haptics/ContactEnergy.h"
+#include "Haptics/ContactSpring.h"
+
+#include "Unit/Eventually.h"
+#include "Unit/Haptics/HapticFixtures.h"
+#include "Unit/Haptics/ServoLoopFixtures.h"
+
+#include <cmath>
+
+using namespace pointhaptics;
+
+namespace
+{
+
+constexpr ProxyMethod kMethods[] = { ProxyMethod::SurfaceFit, ProxyMethod::Sphere,
+  ProxyMethod::GradientSteps };
+
+HapticParameters withLimit(ProxyMethod method, double forceLimit)
+{
+  HapticParameters parameters;
+  parameters.method = method;
+  parameters.contact.forceLimit = forceLimit;
+  return parameters;
+}
+
+void moveTo(trial::Path& path, const Vec3& to, double speed)
+{
+  const Vec3 from = path.back();
+  const int ticks = int(std::ceil(norm(to - from) / (speed * trial::kTick)));
+  for (int i = 1; i <= ticks; ++i)
+  {
+    path.push_back(from + (double(i) / ticks) * (to - from));
+  }
+}
+
+/// A hand in a closed sphere of radius 25 mm: from above to @p depth, and back.
+trial::Path pressAndBack(double depth)
+{
+  trial::Path path = { Vec3(0, 0, 0.028) };
+  moveTo(path, Vec3(0, 0, 0.025 - depth), 0.1);
+  moveTo(path, Vec3(0, 0, 0.028), 0.1);
+  return path;
+}
+
+/// Energy that a way gave to the hand, by the trapezoid rule, joule.
+double energyOf(const std::vector<ProxyState>& states)
+{
+  double energy = 0.0;
+  for (std::size_t i = 1; i < states.size(); ++i)
+  {
+    energy += 0.5 * dot(states[i].force + states[i - 1].force, states[i].hip - states[i - 1].hip);
+  }
+  return energy;
+}
+
+} // namespace
+
+TEST(ContactSpring, IsPlainThenConstantThenGone)
+{
+  const ContactSpring spring(800.0, 8.0);
+  EXPECT_EQ(spring.part(0.00999), 1.0);
+  EXPECT_NEAR(800.0 * 0.015 * spring.part(0.015), 8.0, 1e-12);
+  EXPECT_NEAR(800.0 * 0.020 * spring.part(0.020), 8.0, 1e-12);
+  EXPECT_NEAR(800.0 * 0.025 * spring.part(0.025), 4.0, 1e-12);
+  EXPECT_EQ(spring.part(0.030), 0.0);
+  EXPECT_DOUBLE_EQ(spring.end(), 0.030);
+  EXPECT_DOUBLE_EQ(ContactSpring(3200.0, 8.0).end(), 0.015) << "at least 5 mm";
+  EXPECT_DOUBLE_EQ(ContactSpring(100.0, 8.0).end(), 0.045) << "at most 15 mm";
+  EXPECT_DOUBLE_EQ(ContactSpring(0.0, 8.0).end(), 0.045);
+  EXPECT_EQ(ContactSpring(800.0, INFINITY).part(1.0), 1.0);
+}
+
+TEST(ContactEnergy, NeverStoresMoreThanTheHandPutIn)
+{
+  ContactEnergy energy;
+  // A surface appears 1 mm above a hand that rests.
+  const Vec3 force(0, 0, 0.8);
+  const double part = energy.part(Vec3(), force, Vec3(), 800.0);
+  EXPECT_NEAR(0.5 * part * part * 0.64 / 800.0, ContactEnergy::kSlack, 1e-12);
+  // A hand that presses in from the surface itself is not touched.
+  EXPECT_EQ(energy.part(Vec3(), force, Vec3(0, 0, -1e-3), 800.0), 1.0);
+  energy.allow(force, 800.0);
+  EXPECT_EQ(energy.part(force, force, Vec3(), 800.0), 1.0) << "the model moved";
+}
+
+TEST(BreakAway, NoHandIsHeldWhateverTheMethod)
+{
+  const trial::Scene plane = trial::resampledScene(trial::planePoints(100000, 7));
+  for (const ProxyMethod method : kMethods)
+  {
+    SCOPED_TRACE(int(method));
+    Proxy proxy(withLimit(method, 8.0));
+    proxy.setScene(plane.get());
+    trial::Path path = { Vec3(0.001, 0.002, 0.005) };
+    moveTo(path, Vec3(0.001, 0.002, -0.035), 0.1);
+    const auto pressed = trial::feel(proxy, path);
+    double most = 0.0;
+    for (const ProxyState& state : pressed)
+    {
+      most = std::max(most, norm(state.force));
+    }
+    EXPECT_LE(most, 8.0);
+    EXPECT_GT(most, 7.99);
+    const auto rest = trial::feel(proxy, trial::Path(200, path.back()));
+    EXPECT_FALSE(rest.back().contact);
+    EXPECT_EQ(rest.back().force, Vec3());
+    EXPECT_NE(rest.back().status & kProxyLetGo, 0u) << "it is said";
+    // A new contact ends what is said.
+    trial::Path back = { path.back() };
+    moveTo(back, Vec3(0.001, 0.002, 0.040), 0.1);
+    moveTo(back, Vec3(0.001, 0.002, -0.002), 0.1);
+    const ProxyState again = trial::feel(proxy, back).back();
+    EXPECT_TRUE(again.contact);
+    EXPECT_EQ(again.status & kProxyLetGo, 0u);
+  }
+}
+
+TEST(BreakAway, AHandThatComesBackFindsAllAsItLeftIt)
+{
+  const trial::Scene sphere = trial::resampledScene(trial::spherePoints(200000, 8));
+  for (const double depth : { 0.008, 0.020 })
+  {
+    const trial::Path path = pressAndBack(depth);
+    const auto limited = trial::feel(sphere, withLimit(ProxyMethod::SurfaceFit, 8.0), path);
+    const auto plain = trial::feel(sphere, withLimit(ProxyMethod::SurfaceFit, INFINITY), path);
+    for (std::size_t i = 0; i < path.size(); ++i)
+    {
+      ASSERT_EQ(limited[i].proxy, plain[i].proxy) << i;
+      ASSERT_EQ(limited[i].normal, plain[i].normal) << i;
+      ASSERT_LE(norm(limited[i].force), 8.0) << i;
+      ASSERT_TRUE(norm(plain[i].force) > 8.0 || limited[i].force == plain[i].force) << i;
+    }
+  }
+}
+
+TEST(BreakAway, ALowLimitHoldsForEveryMethodWithDampingAndWhileParametersSettle)
+{
+  const trial::Scene sphere = trial::resampledScene(trial::spherePoints(100000, 9));
+  for (const ProxyMethod method : kMethods)
+  {
+    for (const double limit : { 0.5, 2.0 })
+    {
+      HapticParameters parameters = withLimit(method, limit);
+      parameters.contact.damping = 2.0;
+      Proxy proxy(parameters);
+      proxy.setScene(sphere.get());
+      std::size_t i = 0;
+      for (const Vec3& hip : pressAndBack(0.006))
+      {
+        parameters.contact.stiffness = ++i % 50 < 25 ? 800.0 : 1500.0;
+        proxy.setParameters(parameters);
+        ASSERT_LE(norm(proxy.step(hip, trial::kTick).force), limit * (1.0 + 1e-12)) << limit;
+      }
+    }
+  }
+}
+
+TEST(BreakAway, AServoLoopKeepsToTheForceThatThePortDeclares)
+{
+  for (const double declared : { 0.5, 2.0, 20.0 })
+  {
+    trial::ScriptedPort port;
+    port.path = [](double seconds) { return Vec3(0, 0, std::max(-0.015, 0.001 - 0.2 * seconds)); };
+    port.bounds.maximumForce = declared;
+    ServoLoop loop;
+    loop.publishScene(trial::plane());
+    ASSERT_EQ(loop.start(port, HapticParameters(), trial::plainSettings()), Status::Ok);
+    ASSERT_TRUE(trial::eventually([&] { return loop.latest().timeSeconds > 0.15; }));
+    loop.stop();
+    std::vector<ServoSample> samples;
+    loop.takeTrace(samples);
+    double most = 0.0;
+    for (const ServoSample& sample : samples)
+    {
+      most = std::max(most, norm(sample.state.force));
+    }
+    EXPECT_LE(most, std::min(declared, 8.0)) << declared;
+    EXPECT_GT(most, 0.4) << declared;
+  }
+}
+
+TEST(BreakAway, ClosedPathsInScatterGiveNoEnergy)
+{
+  trial::Random random(10);
+  std::vector<Vec3> points;
+  for (int i = 0; i < 20000; ++i)
+  {
+    points.push_back(random.inBox({ -0.04, -0.04, -0.04 }, { 0.04, 0.04, 0.04 }));
+  }
+  const trial::Scene fog = trial::resampledScene(points);
+  double most = 0.0;
+  for (int run = 0; run < 20; ++run)
+  {
+    trial::Path path = { 0.02 * random.direction() };
+    for (int leg = 0; leg < 8; ++leg)
+    {
+      moveTo(path, path.back() + 4e-3 * random.direction(), 0.05);
+    }
+    const trial::Path way = path;
+    path.insert(path.end(), way.rbegin(), way.rend());
+    most = std::max(most, energyOf(trial::feel(fog, HapticParameters(), path)));
+  }
+  EXPECT_LT(trial::recorded("energyInFog", most), 0.2e-3);
+}
