@@ -350,6 +350,29 @@ TEST_F(Bench, ScenesNearTheHandComeLate)
   this->refuse(2, { "bench", "touch", "--late", "-1" }, { "bench touch", "--late" });
 }
 
+TEST_F(Bench, HardScenesAreHeldToTheirLimits)
+{
+  const std::vector<std::string> hard{ "bench", "touch", "--quick", "--json", "--studies", "hard", "--scenes",
+    "sheet,fog" };
+  const pointhaptics::apptest::Outcome outcome = this->run(hard);
+  const json rows = json::parse(outcome.output)["hard"]["rows"];
+  ASSERT_EQ(rows.size(), 3u);
+  EXPECT_EQ(rows[0]["name"], "sheet 20000");
+  EXPECT_EQ(rows[0]["pass"], true) << rows[0];
+  EXPECT_EQ(rows[0]["strokes"], 8);
+  EXPECT_EQ(rows[1]["name"], "loop sheet 20000");
+  EXPECT_TRUE(rows[1]["held"].is_null());
+  EXPECT_EQ(rows[1]["oscillating"], 0.0);
+  bool allPass = true;
+  for (const json& row : rows)
+  {
+    EXPECT_EQ(row["pass"], row["missed"].empty()) << row;
+    allPass = allPass && row["pass"];
+  }
+  EXPECT_EQ(outcome.exitCode, allPass ? 0 : 1) << outcome.errors;
+  this->refuse(2, { "bench", "touch", "--scenes", "desert" }, { "bench touch", "--scenes", "leaves" });
+}
+
 TEST_F(Bench, FrictionIsJudgedAtEverySpeed)
 {
   const json result = json::parse(this->succeed({ "bench", "friction", "--quick", "--json" }));

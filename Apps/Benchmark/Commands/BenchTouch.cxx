@@ -4,6 +4,7 @@
 #include "Options/OptionParsing.h"
 
 #include "Benchmark/Harness/Instructions.h"
+#include "Benchmark/Touch/Hard/HardScenes.h"
 #include "Benchmark/Touch/Methods/TouchMethod.h"
 #include "Benchmark/Touch/TouchBenchmark.h"
 
@@ -29,6 +30,7 @@ struct TouchOptions
   std::vector<std::string> meshes;
   std::vector<std::string> methods;
   std::vector<std::string> studies;
+  std::vector<std::string> families;
   std::vector<double> sizes;
   std::int64_t points = 0;  ///< 0: the default.
   std::int64_t strokes = 0; ///< 0: the default.
@@ -80,6 +82,7 @@ BenchOutcome runTouch(
   }
   settings.methods = options.methods;
   settings.studies = options.studies;
+  settings.families = options.families;
   settings.points = options.points > 0 ? options.points : settings.points;
   if (!options.sizes.empty())
   {
@@ -101,7 +104,7 @@ BenchRun addTouchOptions(CLI::App& command)
   command
     .add_option_function<std::string>(
       "--scans", [options](const std::string& text) { options->scans = CLI::detail::split(text, ','); },
-      "Scans with a mesh (PLY) to touch")
+      "Scans to touch: with a mesh (PLY), and for the study hard any cloud")
     ->type_name("FILE,...");
   options->meshesOption = addWords(command, "--meshes", options->meshes, bench::touch::generatedMeshNames(),
     true, "Generated meshes to touch, or none; default all");
@@ -130,7 +133,9 @@ BenchRun addTouchOptions(CLI::App& command)
   addWords(command, "--methods", options->methods, bench::touch::contestantNames(), false,
     "Methods to judge; default all");
   addWords(command, "--studies", options->studies, bench::touch::studyWords(), false,
-    "What to measure; default all");
+    "What to measure; default all but hard");
+  addWords(command, "--scenes", options->families, bench::touch::hard::hardFamilies(), false,
+    "Families of scenes of the study hard; default all");
   return [options](const BenchSettings& shared, const bench::Progress& progress)
   { return runTouch(*options, shared, progress); };
 }

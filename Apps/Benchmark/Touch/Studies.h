@@ -27,6 +27,9 @@ void setFigureHeader(
 void addFigures(StudyContext& context, ReportPart& part, std::vector<std::string> leadingCells,
   const nlohmann::ordered_json& leadingNumbers, const TouchFigures& figures);
 
+/// The name in JSON of a bit of ProxyState::status.
+std::string statusName(std::size_t bit);
+
 /// The scans, fitted into the workspace, and the generated meshes; the same samples of each for all studies.
 std::vector<TouchMesh> meshesOf(const TouchBenchmarkOptions& options);
 std::vector<Vec3> samplesToTouch(const TouchMesh& mesh, std::int64_t count);
@@ -57,6 +60,8 @@ ReportPart studyEdges(StudyContext& context);
 ReportPart studyThin(StudyContext& context);
 ReportPart studyLocal(StudyContext& context);
 ReportPart studySizes(StudyContext& context);
+/// Runs only where it is named. StudyContext::wrong says how many rows miss a limit.
+ReportPart studyHard(StudyContext& context);
 
 } // namespace touch
 } // namespace bench

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace pointhaptics
 {
 namespace bench
@@ -15,9 +17,11 @@ namespace touch
 namespace
 {
 
+constexpr const char* kHard = "hard";
+
 /// In the order of the report.
 constexpr Study<StudyContext> kStudies[] = { { "scans", studyScans }, { "edges", studyEdges },
-  { "thin", studyThin }, { "local", studyLocal }, { "size", studySizes } };
+  { "thin", studyThin }, { "local", studyLocal }, { "size", studySizes }, { kHard, studyHard } };
 
 constexpr const char* kMethod =
   "Hands press, slide and lift on clouds that were sampled from triangle meshes, K = 800 N/m, one tick a "
@@ -62,8 +66,7 @@ std::string statusText(const TouchFigures& f)
   {
     if (f.statusPercent[bit] > 0.0)
     {
-      const std::string name = bit < std::size(kStatusNames) ? kStatusNames[bit] : fmt::format("bit{}", bit);
-      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name, brief(f.statusPercent[bit]));
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", statusName(bit), brief(f.statusPercent[bit]));
     }
   }
   return text;
@@ -95,9 +98,20 @@ Report benchmarkTouch(const TouchBenchmarkOptions& options, const Progress& prog
   report.method = kMethod;
   report.machine = thisMachine();
   StudyContext context{ options, progress, {} };
-  report.parts = runStudies(kStudies, options.studies, context);
+  std::vector<std::string> wanted = options.studies;
+  if (wanted.empty())
+  {
+    wanted = studyWords();
+    wanted.erase(std::remove(wanted.begin(), wanted.end(), kHard), wanted.end());
+  }
+  report.parts = runStudies(kStudies, wanted, context);
   wrong = context.wrong;
   return report;
+}
+
+std::string statusName(std::size_t bit)
+{
+  return bit < std::size(kStatusNames) ? kStatusNames[bit] : fmt::format("bit{}", bit);
 }
 
 void setFigureHeader(
@@ -141,8 +155,7 @@ void addFigures(StudyContext& context, ReportPart& part, std::vector<std::string
   {
     if (bit < std::size(kStatusNames) || f.statusPercent[bit] > 0.0)
     {
-      status[bit < std::size(kStatusNames) ? kStatusNames[bit] : fmt::format("bit{}", bit)] =
-        f.statusPercent[bit];
+      status[statusName(bit)] = f.statusPercent[bit];
     }
   }
   row["status_percent"] = std::move(status);

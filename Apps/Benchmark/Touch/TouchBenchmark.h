@@ -25,7 +25,8 @@ struct TouchBenchmarkOptions
   std::vector<TouchMesh> scans; ///< As read from their files.
   std::vector<std::string> meshes = generatedMeshNames();
   std::vector<std::string> methods;                      ///< Of contestantNames(); empty: all.
-  std::vector<std::string> studies;                      ///< Of studyWords(); empty: all.
+  std::vector<std::string> studies;                      ///< Of studyWords(); empty: all but "hard".
+  std::vector<std::string> families;                     ///< Of hardFamilies(); empty: all.
   std::int64_t points = 543652;                          ///< Samples of each mesh; the paper's number.
   std::vector<std::int64_t> sizes = { 10000, 10000000 }; ///< The same for the study of size.
   int strokes = 60;                                      ///< On each mesh.

@@ -300,6 +300,13 @@ struct MeshGodObject::Planes
   }
 };
 
+MeshGodObject::MeshGodObject(const TriangleTree& tree, Facets facets)
+  : tree_(&tree)
+  , margin_(facets == Facets::OfClosedMesh ? kMargin : 0.0)
+  , releaseMargin_(facets == Facets::OfClosedMesh ? kReleaseMargin : 0.0)
+{
+}
+
 /// One straight way towards the HIP, along as many facets as are met from there. False: it came to the HIP.
 bool MeshGodObject::descend(const Vec3& hip, Planes& planes, int& casts)
 {
@@ -312,10 +319,10 @@ bool MeshGodObject::descend(const Vec3& hip, Planes& planes, int& casts)
     {
       return true;
     }
-    TriangleTree::Hit hit = tree_->cast(position_, way, kMargin);
+    TriangleTree::Hit hit = tree_->cast(position_, way, margin_);
     if (!hit.facet && planes.count == 0)
     {
-      hit = tree_->cast(position_, way, kReleaseMargin);
+      hit = tree_->cast(position_, way, releaseMargin_);
     }
     if (!hit.facet)
     {

@@ -81,10 +81,15 @@ struct GodObjectState
 class MeshGodObject
 {
 public:
-  explicit MeshGodObject(const TriangleTree& tree)
-    : tree_(&tree)
+  enum class Facets
   {
-  }
+    OfClosedMesh,
+    /// Of flat parts with both windings, which are met from either side: a start behind a facet, however
+    /// near, is in front of its twin.
+    OfOpenMesh
+  };
+
+  explicit MeshGodObject(const TriangleTree& tree, Facets facets = Facets::OfClosedMesh);
 
   /// The next HIP is taken as free space.
   void reset() { placed_ = false; }
@@ -95,6 +100,8 @@ private:
   bool descend(const Vec3& hip, Planes& planes, int& casts);
 
   const TriangleTree* tree_;
+  double margin_;
+  double releaseMargin_;
   Vec3 position_;
   bool placed_ = false;
 };

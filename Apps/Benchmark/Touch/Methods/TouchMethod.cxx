@@ -19,8 +19,9 @@ namespace
 class ProxyTouch : public TouchMethod
 {
 public:
-  ProxyTouch(const HapticParameters& parameters, InstructionSet wanted)
+  ProxyTouch(const HapticParameters& parameters, InstructionSet wanted, bool prefetches = true)
     : proxy_(parameters, wanted)
+    , prefetches_(prefetches)
   {
   }
   void reset(const TouchScene& scene) override
@@ -43,12 +44,16 @@ public:
       proxy_.setScene(scene_ = next);
     }
     // The servo loop does so in the time before each tick, when it has taken the scene.
-    proxy_.prefetch();
+    if (prefetches_)
+    {
+      proxy_.prefetch();
+    }
   }
   ProxyState step(const Vec3& hip, double dt) override { return last_ = proxy_.step(hip, dt); }
 
 private:
   Proxy proxy_;
+  bool prefetches_;
   std::optional<LateScenes> scenes_;
   const HapticScene* scene_ = nullptr;
   ProxyState last_;
@@ -100,6 +105,13 @@ std::vector<Contestant> contestants(InstructionSet wanted)
   all.push_back(
     { "occupancy", [] { return std::make_unique<OccupancyProxy>(ContactParameters().stiffness); } });
   return all;
+}
+
+std::unique_ptr<TouchMethod> proxyWithoutPrefetch(const ContactParameters& contact, InstructionSet wanted)
+{
+  HapticParameters parameters;
+  parameters.contact = contact;
+  return std::make_unique<ProxyTouch>(parameters, wanted, false);
 }
 
 std::vector<std::string> contestantNames()

@@ -65,6 +65,10 @@ std::vector<std::string> contestantNames();
 std::vector<Contestant> contestantsNamed(
   const std::vector<std::string>& names, InstructionSet wanted = InstructionSet::Automatic);
 
+/// The program's default method without prefetching, so that a step's time includes its cache misses.
+std::unique_ptr<TouchMethod> proxyWithoutPrefetch(
+  const ContactParameters& contact, InstructionSet wanted = InstructionSet::Automatic);
+
 } // namespace touch
 } // namespace bench
 } // namespace pointhaptics

@@ -1,0 +1,331 @@
+/// Is a hand let go, does it get no energy, and does it not fall through, on the clouds that make it hardest?
+#include "Benchmark/Touch/Hard/HandInTheLoop.h"
+#include "Benchmark/Touch/Hard/HardFigures.h"
+#include "Benchmark/Touch/Studies.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <map>
+
+namespace pointhaptics
+{
+namespace bench
+{
+namespace touch
+{
+namespace
+{
+
+using namespace hard;
+using Json = nlohmann::ordered_json;
+
+/// A row whose name begins with @p rows misses this limit where @p figure (its key in JSON) is above it. Of
+/// several limits for a row's figure the last one holds.
+struct Limit
+{
+  const char* rows;
+  const char* figure;
+  double most;
+};
+
+/// The one place of the limits. Rows of all names: a hand is let go, gets no energy, and never more than the
+/// limit of the force. The others: what was asked of each family.
+constexpr Limit kLimits[] = {
+  { "", "held", 0.0 },
+  { "", "energy_mj", 0.2 },
+  { "", "largest_newton", 8.0 + 1e-9 },
+  { "", "oscillating", 0.0 },
+  { "", "energy_over_plane_mj", 0.1 },
+  { "rim", "held", 2.0 },
+  { "leaves", "held", 2.0 },
+  { "leaves", "phantom_percent", 6.0 },
+  { "leaves", "lost_percent", 15.0 },
+  { "fog", "contact_spacings", 2.0 },
+  { "fog", "build_seconds", 3.0 },
+  { "fog", "local_build_ms", 10.0 },
+  { "sheet", "fell_through", 0.0 },
+  { "steps 1:4", "fell_through", 0.0 },
+  { "steps 1:6", "fell_through", 0.0 },
+  { "steps 1:8", "fell_through", 0.0 },
+  { "bracket 47516", "phantom_newton", 1.0 },
+  { "bracket 47516", "p95_percent", 40.0 },
+  { "bracket 543652", "phantom_newton", 0.3 },
+  { "bracket 543652", "p95_percent", 15.0 },
+  { "gear 47516", "phantom_newton", 1.0 },
+  { "gear 47516", "p95_percent", 30.0 },
+  { "gear 543652", "phantom_newton", 0.3 },
+  { "gear 543652", "p95_percent", 30.0 },
+  { "scan vertices lucy", "phantom_newton", 2.0 },
+  { "scan vertices lucy", "p95_percent", 50.0 },
+  { "scan", "p50_us", 4.0 },
+  { "scan", "p99_us", 25.0 },
+};
+
+struct Column
+{
+  const char* title;
+  const char* key; ///< In JSON.
+};
+
+constexpr Column kColumns[] = { { "strokes", "strokes" }, { "held", "held" }, { "truth", "truth_held" },
+  { "through", "fell_through" }, { "phantom %", "phantom_percent" }, { "N", "phantom_newton" },
+  { "lost %", "lost_percent" }, { "median %", "median_percent" }, { "p95 %", "p95_percent" },
+  { "energy mJ", "energy_mj" }, { "force N", "largest_newton" }, { "contact", "contact_spacings" },
+  { "trembles", "oscillating" }, { "mJ over plane", "energy_over_plane_mj" }, { "build s", "build_seconds" },
+  { "local ms", "local_build_ms" }, { "p50 us", "p50_us" }, { "p99 us", "p99_us" } };
+
+constexpr const char* kText = "Scenes on which a hand is held, gets energy or falls through, with fixed "
+                              "seeds, and hands of the chosen set. "
+                              "Steps are not prefetched. Held: strokes with a force above 0.05 N in the last "
+                              "50 ticks, where the truth is "
+                              "free; without a truth where the hand is farther than 3 F_max/K from its "
+                              "contact and 10 mm from all points. "
+                              "Through: strokes with 20 ticks without a force where the truth has 0.2 to 8 "
+                              "N; lost: those ticks in percent. "
+                              "Phantom: force above 0.05 N where the truth is free, in percent of these "
+                              "ticks, and the largest. Energy: the "
+                              "most that a stroke gave to the hand. Contact: largest distance from the "
+                              "cloud's points, in their spacings.";
+
+/// The figures of a row that has both; null in JSON: it has no such figure.
+struct Row
+{
+  std::string name;
+  std::size_t points = 0;
+  HardFigures figures;
+  double buildSeconds = HardFigures::kNone;
+  double localBuildMs = HardFigures::kNone; ///< Longest of a local scene.
+  double oscillating = HardFigures::kNone;  ///< Runs of the hand in the loop that tremble.
+  double energyOverPlane = HardFigures::kNone;
+  bool isLoop() const { return std::isfinite(oscillating); }
+};
+
+/// Measures how long prepare() takes, which makes the scenes near the hand.
+class TimedMethod : public TouchMethod
+{
+public:
+  explicit TimedMethod(const ContactParameters& contact, InstructionSet instructions)
+    : method_(proxyWithoutPrefetch(contact, instructions))
+  {
+  }
+  void reset(const TouchScene& scene) override { method_->reset(scene); }
+  void prepare(const Vec3& hip) override
+  {
+    const auto before = std::chrono::steady_clock::now();
+    method_->prepare(hip);
+    longest_ = std::max(
+      longest_, std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - before).count());
+  }
+  ProxyState step(const Vec3& hip, double dt) override { return method_->step(hip, dt); }
+  double longest() const { return longest_; }
+
+private:
+  std::unique_ptr<TouchMethod> method_;
+  double longest_ = 0.0;
+};
+
+Json numberOrNull(double value)
+{
+  return std::isfinite(value) ? Json(value) : Json();
+}
+
+/// "held 3 > 0" for each limit that @p row misses.
+std::vector<std::string> missedBy(const std::string& name, const Json& row)
+{
+  std::vector<std::string> missed;
+  std::map<std::string, double> limits;
+  for (const Limit& limit : kLimits)
+  {
+    if (name.rfind(limit.rows, 0) == 0)
+    {
+      limits[limit.figure] = limit.most;
+    }
+  }
+  for (const auto& [figure, most] : limits)
+  {
+    const Json& value = row.at(figure);
+    if (value.is_number() && value.get<double>() > most)
+    {
+      missed.push_back(fmt::format("{} {} > {}", figure, brief(value.get<double>()), brief(most)));
+    }
+  }
+  return missed;
+}
+
+/// Rounding of a path's energy is no energy, and -0 no figure.
+double milliJoule(double joule)
+{
+  return std::abs(joule) < 1e-12 ? 0.0 : 1e3 * joule;
+}
+
+/// The keys are stable. A figure that a row does not have is null: those of a truth where there is none,
+/// those of strokes in rows of the hand in the loop ("loop ..."), and the other way round.
+Json toJson(const Row& row)
+{
+  const HardFigures& f = row.figures;
+  Json json{ { "name", row.name }, { "points", row.points }, { "strokes", f.strokes }, { "held", f.held },
+    { "truth_held", f.truthHeld }, { "fell_through", f.fellThrough },
+    { "phantom_percent", numberOrNull(f.phantomPercent) },
+    { "phantom_newton", numberOrNull(f.phantomNewton) }, { "lost_percent", numberOrNull(f.lostPercent) },
+    { "median_percent", numberOrNull(f.medianPercent) }, { "p95_percent", numberOrNull(f.p95Percent) },
+    { "energy_mj", milliJoule(f.energyJoule) }, { "largest_newton", f.largestNewton },
+    { "contact_spacings", f.contactSpacings }, { "p50_us", f.p50 }, { "p99_us", f.p99 } };
+  if (row.isLoop() || !f.hasTruth())
+  {
+    json["truth_held"] = json["fell_through"] = nullptr;
+  }
+  if (row.isLoop())
+  {
+    for (const char* key : { "held", "energy_mj", "largest_newton", "contact_spacings", "p50_us", "p99_us" })
+    {
+      json[key] = nullptr;
+    }
+  }
+  json.update({ { "build_seconds", numberOrNull(row.buildSeconds) },
+    { "local_build_ms", numberOrNull(row.localBuildMs) }, { "oscillating", numberOrNull(row.oscillating) },
+    { "energy_over_plane_mj", numberOrNull(row.energyOverPlane) } });
+  Json status = Json::object();
+  for (std::size_t bit = 0; bit < kStatusBits; ++bit)
+  {
+    if (f.statusPercent[bit] > 0.0)
+    {
+      status[statusName(bit)] = f.statusPercent[bit];
+    }
+  }
+  json["status_percent"] = std::move(status);
+  return json;
+}
+
+/// A cell for each of kColumns; empty where there is no such figure.
+std::vector<std::string> cellsOf(const Json& json, const std::vector<std::string>& missed)
+{
+  std::vector<std::string> cells{ json["name"].get<std::string>() };
+  for (const Column& column : kColumns)
+  {
+    const Json& value = json[column.key];
+    cells.push_back(value.is_number_integer() ? fmt::format("{}", value.get<std::int64_t>())
+        : value.is_number()                   ? brief(value.get<double>())
+                                              : "");
+  }
+  cells.push_back(missed.empty() ? "pass" : fmt::format("FAIL: {}", fmt::join(missed, ", ")));
+  return cells;
+}
+
+void addRow(ReportPart& part, const Row& row)
+{
+  Json json = toJson(row);
+  const std::vector<std::string> missed = missedBy(row.name, json);
+  part.table.rows.push_back(cellsOf(json, missed));
+  json["pass"] = missed.empty();
+  json["missed"] = missed;
+  part.rows.push_back(std::move(json));
+}
+
+Row strokesRow(StudyContext& context, const HardScene& hard, const TouchScene& scene)
+{
+  const ContactParameters contact;
+  const CloudDistance distance(*scene.points);
+  const std::vector<TouchTruth> truths = hardTruths(hard, contact.stiffness);
+  TimedMethod method(contact, context.options.instructions);
+  HardJudge judge(hard, distance, contact.stiffness);
+  for (std::size_t i = 0; i < hard.strokes.size(); ++i)
+  {
+    const TouchTruth* truth = truths.empty() ? nullptr : &truths[i];
+    const std::size_t ticks = truth ? truth->ticks.size() : hard.strokes[i].hip.size();
+    judge.add(walk(method, scene, hard.strokes[i], ticks, 1), truth);
+  }
+  Row row;
+  row.name = hard.name;
+  row.points = scene.points->size();
+  row.figures = judge.figures();
+  row.localBuildMs = method.longest();
+  return row;
+}
+
+/// Hands in the loop at the scene's places, beside the same ones on planes there.
+Row loopRow(StudyContext& context, const HardScene& hard, const TouchScene& scene)
+{
+  constexpr double kTrembles = 10e-6;
+  Row row;
+  row.name = "loop " + hard.name;
+  row.points = scene.points->size();
+  row.oscillating = 0.0;
+  row.energyOverPlane = -INFINITY;
+  for (const LoopHand& hand : loopHands(context.options.quick))
+  {
+    ContactParameters contact;
+    contact.stiffness = hand.stiffness;
+    TimedMethod method(contact, context.options.instructions);
+    for (const TouchPlace& place : hard.loopPlaces)
+    {
+      method.reset(scene);
+      const LoopFigures felt = runLoop(hand, place,
+        [&](const Vec3& hip)
+        {
+          method.prepare(hip);
+          return method.step(hip, kTickSeconds).force;
+        });
+      const LoopFigures plane = runOnPlane(hand, place);
+      row.oscillating += felt.oscillation > kTrembles && plane.oscillation <= kTrembles;
+      row.energyOverPlane = std::max(row.energyOverPlane, milliJoule(felt.energyJoule - plane.energyJoule));
+      ++row.figures.strokes;
+    }
+  }
+  return row;
+}
+
+void addScene(StudyContext& context, ReportPart& part, HardScene hard)
+{
+  const auto before = std::chrono::steady_clock::now();
+  const TouchScene scene = makeTouchScene(std::move(hard.points), sceneSettings(context.options));
+  if (!scene.scene)
+  {
+    part.remarks.push_back("Left out: " + hard.name + " has no finite points");
+    return;
+  }
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
+  context.progress("hands on " + hard.name);
+  Row row = strokesRow(context, hard, scene);
+  row.buildSeconds = seconds;
+  addRow(part, row);
+  if (!hard.loopPlaces.empty())
+  {
+    context.progress("hands in the loop on " + hard.name);
+    addRow(part, loopRow(context, hard, scene));
+  }
+}
+
+} // namespace
+
+ReportPart studyHard(StudyContext& context)
+{
+  ReportPart part;
+  part.page = Page::Accuracy;
+  part.title = "Hard scenes: let go, no energy, nobody falls through";
+  part.text = kText;
+  part.table.header.emplace_back("scene");
+  for (const Column& column : kColumns)
+  {
+    part.table.header.emplace_back(column.title);
+  }
+  part.table.header.emplace_back("limits");
+  for (const HardSceneMaker& maker : hardScenes(context.options))
+  {
+    addScene(context, part, maker.make());
+  }
+  const auto misses =
+    std::count_if(part.rows.begin(), part.rows.end(), [](const Json& row) { return !row["missed"].empty(); });
+  if (misses > 0)
+  {
+    context.wrong = fmt::format("{} of {} rows of the hard scenes miss a limit", misses, part.rows.size());
+  }
+  return part;
+}
+
+} // namespace touch
+} // namespace bench
+} // namespace pointhaptics
