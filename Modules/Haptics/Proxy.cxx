@@ -317,8 +317,8 @@ struct Proxy::Implementation
     {
       energy.add(last.force, state.force, this->moved(state));
     }
-    const bool leaps = (state.status & kProxyStepLimit) != 0u && norm(this->moved(state)) > kLeap;
-    isModelMoved = leaps || (isModelMoved && (!state.contact || settler.settling() || carried != Vec3()));
+    isModelMoved = isModelMoved &&
+      ((state.status & kProxyStepLimit) != 0u || !state.contact || settler.settling() || carried != Vec3());
   }
 };
 
@@ -401,6 +401,7 @@ ProxyState Proxy::step(const Vec3& hip, double dt) noexcept
     return self.fade(hip, state.status | kProxyNoScene, dt);
   }
   state.status |= std::uint32_t(self.isFallback ? kProxyFallback : kProxyOk);
+  self.isModelMoved = self.isModelMoved || norm(self.moved(state)) > kLeap;
   bool settles = false;
   if (self.settlesOffset())
   {
