@@ -155,23 +155,6 @@ HardScene vertices(const TouchBenchmarkOptions& options, TouchMesh mesh)
   return scene;
 }
 
-void addScans(const TouchBenchmarkOptions& options, std::vector<HardSceneMaker>& all)
-{
-  for (const TouchMesh& scan : options.scans)
-  {
-    all.push_back({ "scan", [&options, &scan] {
-                     return cloudScene(options, "scan " + scan.name, fittedPoints(scan.points), true);
-                   } });
-    all.push_back({ "scan",
-      [&options, &scan]
-      { return cloudScene(options, "scan near " + scan.name, nearer(fittedPoints(scan.points)), true); } });
-    if (!scan.triangles.empty())
-    {
-      all.push_back({ "scan", [&options, &scan] { return vertices(options, scan); } });
-    }
-  }
-}
-
 } // namespace
 
 TouchStroke handAt(const TouchPlace& place, int kind, detail::PortableRandom& random)
@@ -246,33 +229,41 @@ std::vector<TouchPlace> placesOn(const std::vector<Vec3>& points, int count, det
   return places;
 }
 
-std::vector<HardSceneMaker> hardClouds(const TouchBenchmarkOptions& options)
+void addClouds(const TouchBenchmarkOptions& options, std::vector<HardSceneMaker>& all)
 {
   const std::int64_t count = options.quick ? 30000 : 200000;
-  std::vector<HardSceneMaker> all;
-  const auto addWaves = [&](const std::string& family, const std::string& name, const WaveSettings& settings)
-  {
-    all.push_back({ family, [=, &options] {
-                     return cloudScene(options, family + name, waves(count, settings), family == "noise");
-                   } });
+  const auto add = [&](const std::string& family, const std::string& name, bool hasLoop, auto make) {
+    all.push_back({ family, [=, &options] { return cloudScene(options, name, make(), hasLoop); } });
   };
   for (const double apart : { 1e-3, 0.3e-3, 2e-3 })
   {
-    addWaves("misregistered", fmt::format(" {:.1f} mm", 1e3 * apart), { 0.0, apart, 0.0 });
+    add("misregistered", fmt::format("misregistered {:.1f} mm", 1e3 * apart), false,
+      [=] {
+        return waves(count, { 0.0, apart, 0.0 });
+      });
   }
   for (const double noise : { 1.0, 0.5, 2.0 })
   {
-    addWaves("noise", fmt::format(" {:.1f} spacings", noise), { noise, 0.0, 0.0 });
+    add("noise", fmt::format("noise {:.1f} spacings", noise), true,
+      [=] {
+        return waves(count, { noise, 0.0, 0.0 });
+      });
   }
-  addWaves("strays", " 1 %", { 0.0, 0.0, 0.01 });
-  for (const double grid : { 0.05, 0.01, -1.0 })
+  add("strays", "strays 1 %", false, [=] { return waves(count, { 0.0, 0.0, 0.01 }); });
+  for (const double grid : { 0.05, 0.01 })
   {
-    const std::string name = grid < 0.0 ? "grid float32 UTM" : fmt::format("grid {:.0f} cm", 100.0 * grid);
-    all.push_back(
-      { "grid", [=, &options] { return cloudScene(options, name, terrain(count / 2, grid), grid > 0.0); } });
+    add("grid", fmt::format("grid {:.0f} cm", 100.0 * grid), true, [=] { return terrain(count / 2, grid); });
   }
-  addScans(options, all);
-  return all;
+  add("grid", "grid float32 UTM", false, [=] { return terrain(count / 2, -1.0); });
+  for (const TouchMesh& scan : options.scans)
+  {
+    add("scan", "scan " + scan.name, true, [&scan] { return fittedPoints(scan.points); });
+    add("scan", "scan near " + scan.name, true, [&scan] { return nearer(fittedPoints(scan.points)); });
+    if (!scan.triangles.empty())
+    {
+      all.push_back({ "scan", [&options, &scan] { return vertices(options, scan); } });
+    }
+  }
 }
 
 } // namespace pointhaptics::bench::touch::hard

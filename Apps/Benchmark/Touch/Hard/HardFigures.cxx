@@ -119,12 +119,8 @@ HardJudge::HardJudge(const HardScene& scene, const CloudDistance& distance, doub
 {
 }
 
-bool HardJudge::shouldBeFree(const ProxyState& state, const TouchTruth* truth, std::size_t tick) const
+bool HardJudge::isFar(const ProxyState& state) const
 {
-  if (truth)
-  {
-    return truth->ticks[tick].free;
-  }
   const double grip = std::clamp(kForceLimit / stiffness_, kLeastGrip, kMostGrip);
   double spacing = 0.0;
   return norm(state.proxy - state.hip) > 3.0 * grip && distance_(state.hip, spacing) > kFarFromPoints;
@@ -134,17 +130,7 @@ void HardJudge::add(const TouchTrace& trace, const TouchTruth* truth)
 {
   ++sum_.strokes;
   addTicks(trace);
-  const std::size_t size = trace.states.size();
-  bool isHeld = size >= kEndTicks && !(truth && truth->leaps());
-  bool isTruthHeld = truth != nullptr && size >= kEndTicks;
-  for (std::size_t i = size - std::min(size, kEndTicks); i < size; ++i)
-  {
-    const ProxyState& state = trace.states[i];
-    isHeld = isHeld && norm(state.force) > kFeltForce && shouldBeFree(state, truth, i);
-    isTruthHeld = isTruthHeld && norm(truth->ticks[i].force) > kFeltForce;
-  }
-  sum_.held += isHeld;
-  sum_.truthHeld += isTruthHeld;
+  addEnd(trace, truth);
   if (truth)
   {
     addTruth(trace, *truth);
@@ -153,6 +139,26 @@ void HardJudge::add(const TouchTrace& trace, const TouchTruth* truth)
   {
     errors_.add(trace, limited(*truth));
   }
+}
+
+void HardJudge::addEnd(const TouchTrace& trace, const TouchTruth* truth)
+{
+  const std::size_t size = trace.states.size();
+  const bool isLong = size >= kEndTicks;
+  bool isPulled = isLong;
+  bool isAway = isLong;
+  bool isTruthFree = truth != nullptr && isLong && !truth->leaps();
+  bool isTruthHeld = truth != nullptr && isLong;
+  for (std::size_t i = size - std::min(size, kEndTicks); i < size; ++i)
+  {
+    isPulled = isPulled && norm(trace.states[i].force) > kFeltForce;
+    isAway = isAway && isPulled && isFar(trace.states[i]);
+    isTruthFree = isTruthFree && truth->ticks[i].free;
+    isTruthHeld = isTruthHeld && norm(truth->ticks[i].force) > kFeltForce;
+  }
+  sum_.notLetGo += isAway;
+  sum_.held += isPulled && (truth ? isTruthFree : isAway);
+  sum_.truthHeld += isTruthHeld;
 }
 
 void HardJudge::addTicks(const TouchTrace& trace)

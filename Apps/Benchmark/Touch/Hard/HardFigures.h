@@ -45,8 +45,12 @@ struct HardFigures
   bool hasTruth() const { return phantomPercent == phantomPercent; }
 
   int strokes = 0;
-  int held = 0;      ///< Strokes with a force in all of the last 50 ticks, in which the hand should be free.
-  int truthHeld = 0; ///< Strokes whose truth has a force in the last 50 ticks.
+  int held = 0; ///< Strokes with a force in all of the last 50 ticks, in which the hand should be free.
+  /// Strokes with a force in all of the last 50 ticks, in which the hand is farther than 3 F_max/K (5 to 15
+  /// mm at F_max/K) from its contact and 10 mm from every point: whatever a truth says, a hand is let go
+  /// there.
+  int notLetGo = 0;
+  int truthHeld = 0;   ///< Strokes whose truth has a force in the last 50 ticks.
   int fellThrough = 0; ///< Strokes with 20 ticks or more without a force where the truth has 0.2 to 8 N.
   double phantomPercent = kNone; ///< Of the ticks in which the truth is free, those with a force.
   double phantomNewton = kNone;  ///< Largest force in them.
@@ -75,7 +79,8 @@ public:
 private:
   void addTicks(const TouchTrace& trace);
   void addTruth(const TouchTrace& trace, const TouchTruth& truth);
-  bool shouldBeFree(const ProxyState& state, const TouchTruth* truth, std::size_t tick) const;
+  bool isFar(const ProxyState& state) const;
+  void addEnd(const TouchTrace& trace, const TouchTruth* truth);
 
   const CloudDistance& distance_;
   double stiffness_;

@@ -67,15 +67,11 @@ TouchStroke aroundRim(int i, detail::PortableRandom& random)
   const double inside = random.uniform(1e-3, 8e-3);
   const double beyond = random.uniform(-0.3e-3, 3e-3);
   const double depth = i % 2 == 0 ? 1e-3 : 3e-3;
-  const double behind = depth + 3e-3;
-  TouchStroke stroke;
-  moveTo(stroke, atRim(side, -inside, along, 4e-3), atRim(side, -inside, along, -depth), kPressSpeed);
-  goTo(stroke, atRim(side, beyond, along, -depth), speeds[(i / 2) % 3]);
-  goTo(stroke, atRim(side, beyond, along, -behind), kSlow);
-  goTo(stroke, atRim(side, -10e-3, along, -behind), kSlow);
-  goTo(stroke, atRim(side, -10e-3, along, -behind - 60e-3), kAway);
-  stay(stroke, kAwayTicks);
-  return stroke;
+  const auto at = [&](double x, double z) { return atRim(side, x, along, z); };
+  return strokeAlong(at(-inside, 4e-3),
+    { { at(-inside, -depth), kPressSpeed }, { at(beyond, -depth), speeds[(i / 2) % 3] },
+      { at(beyond, -depth - 3e-3), kSlow }, { at(-10e-3, -depth - 3e-3), kSlow },
+      { at(-10e-3, -depth - 63e-3), kAway } });
 }
 
 /// Pushes against the rim from outside, in the sheet's plane or just above it, and leaves up or down.
@@ -88,13 +84,10 @@ TouchStroke againstRim(int i, detail::PortableRandom& random)
   const double in = i % 2 == 0 ? -1e-3 : -3e-3;
   const double up = (i / 2) % 2 == 0 ? 1.0 : -1.0;
   const double z = heights[(i / 4) % 3];
-  TouchStroke stroke;
-  moveTo(stroke, atRim(side, 8e-3, along, z), atRim(side, in, along, z), kPressSpeed);
-  goTo(stroke, atRim(side, in, along, z + up * 6e-3), kSlow);
-  goTo(stroke, atRim(side, in - 10e-3, along, z + up * 6e-3), kSlow);
-  goTo(stroke, atRim(side, in - 10e-3, along, z + up * 56e-3), kAway);
-  stay(stroke, kAwayTicks);
-  return stroke;
+  const auto at = [&](double x, double height) { return atRim(side, x, along, z + up * height); };
+  return strokeAlong(at(8e-3, 0.0),
+    { { at(in, 0.0), kPressSpeed }, { at(in, 6e-3), kSlow }, { at(in - 10e-3, 6e-3), kSlow },
+      { at(in - 10e-3, 56e-3), kAway } });
 }
 
 HardScene rim(const TouchBenchmarkOptions& options, std::int64_t points, double noise, bool isEdgeOn)
@@ -180,12 +173,8 @@ HardScene leaves(const TouchBenchmarkOptions& options, bool isSmall)
   for (int i = 0; i < strokesOf(options, 32); ++i)
   {
     const Vec3 start = inCube(random, 0.030);
-    TouchStroke stroke;
-    stroke.hip.push_back(start);
-    stay(stroke, 20);
-    goTo(stroke, start + 0.120 * random.sphere(), 0.100);
-    stay(stroke, kAwayTicks);
-    scene.strokes.push_back(std::move(stroke));
+    scene.strokes.push_back(
+      strokeAlong(start, { { start, kSlow }, { start + 0.120 * random.sphere(), 0.100 } }));
   }
   return scene;
 }
@@ -244,132 +233,86 @@ HardScene step(const TouchBenchmarkOptions& options, int ratio, double noise)
     const double way = i % 2 == 0 ? 12e-3 : -12e-3;
     const double depth = -random.uniform(0.5e-3, 2e-3);
     const double y = random.uniform(-0.02, 0.02);
-    TouchStroke stroke;
-    moveTo(stroke, { -way, y, 4e-3 }, { -way, y, depth }, kPressSpeed);
-    goTo(stroke, { way, y, depth }, speeds[(i / 2) % 4]);
-    goTo(stroke, { way, y, 5e-3 }, kSlow);
-    stay(stroke, kRestTicks);
-    scene.strokes.push_back(std::move(stroke));
+    scene.strokes.push_back(strokeAlong({ -way, y, 4e-3 },
+      { { { -way, y, depth }, kPressSpeed }, { { way, y, depth }, speeds[(i / 2) % 4] },
+        { { way, y, 5e-3 }, kSlow } }));
   }
   return turned(std::move(scene));
 }
 
+/// @p makePlace draws a place for each hand.
+template <class MakePlace>
+HardScene narrow(const TouchBenchmarkOptions& options, const std::string& name, TouchMesh mesh,
+  std::int64_t points, MakePlace&& makePlace)
+{
+  HardScene scene;
+  scene.name = "narrow " + name;
+  scene.points = samplesOf(mesh, points, kCloudSeed + 5);
+  scene.mesh = std::move(mesh);
+  scene.isSolid = true;
+  detail::PortableRandom random(hardSeed(options, 8));
+  std::vector<TouchPlace> places;
+  for (int i = 0; i < strokesOf(options, 40); ++i)
+  {
+    places.push_back(makePlace(random));
+  }
+  scene.strokes = handsAt(places, random);
+  return turned(std::move(scene));
+}
+
 /// Walls on a block with a gap between them, and hands that go into the gap.
-HardScene slot(double width, int count, detail::PortableRandom& random)
+HardScene slot(const TouchBenchmarkOptions& options, double width, std::int64_t points)
 {
-  HardScene scene;
-  scene.name = fmt::format("narrow slot {:.1f} mm", 1e3 * width);
-  scene.mesh = blockMesh({ -0.020, -0.5 * width, 0.5 * width, 0.020 }, { -0.025, 0.025 },
+  TouchMesh mesh = blockMesh({ -0.020, -0.5 * width, 0.5 * width, 0.020 }, { -0.025, 0.025 },
     { -0.020, -0.010, 0.0 }, [](int x, int, int z) { return z == 0 || x != 1; });
-  std::vector<TouchPlace> places;
-  for (int i = 0; i < count; ++i)
-  {
-    places.push_back({ { random.uniform(-1e-3, 1e-3), random.uniform(-0.02, 0.02), 0.0 }, { 0, 0, 1 } });
-  }
-  scene.strokes = handsAt(places, random);
+  return narrow(options, fmt::format("slot {:.1f} mm", 1e3 * width), std::move(mesh), points,
+    [](detail::PortableRandom& random)
+    {
+      const double x = random.uniform(-1e-3, 1e-3);
+      return TouchPlace{ { x, random.uniform(-0.02, 0.02), 0.0 }, { 0.0, 0.0, 1.0 } };
+    });
+}
+
+HardScene pole(const TouchBenchmarkOptions& options, double radius, std::int64_t points)
+{
+  return narrow(options, fmt::format("pole {:.1f} mm", 1e3 * radius), cylinderMesh(radius, 0.060, 32), points,
+    [=](detail::PortableRandom& random)
+    {
+      const double angle = kTwoPi * random.uniform();
+      const Vec3 up{ std::cos(angle), std::sin(angle), 0.0 };
+      return TouchPlace{ radius * up + Vec3(0.0, 0.0, random.uniform(-0.02, 0.029)), up };
+    });
+}
+
+HardScene hole(const TouchBenchmarkOptions& options, double radius, std::int64_t points)
+{
+  TouchMesh mesh = twoSided(ringMesh(circle(kSheetHalf, 32), circle(radius, 32), 0.0));
+  HardScene scene = narrow(options, fmt::format("hole {:.1f} mm", 1e3 * radius), std::move(mesh), points,
+    [](detail::PortableRandom& random)
+    {
+      const double x = random.uniform(-1e-3, 1e-3);
+      return TouchPlace{ { x, random.uniform(-1e-3, 1e-3), 0.0 }, { 0.0, 0.0, 1.0 } };
+    });
+  scene.isSolid = false;
   return scene;
 }
 
-HardScene pole(double radius, int count, detail::PortableRandom& random)
+HardScene wedge(const TouchBenchmarkOptions& options, double degrees, std::int64_t points)
 {
-  HardScene scene;
-  scene.name = fmt::format("narrow pole {:.1f} mm", 1e3 * radius);
-  scene.mesh = cylinderMesh(radius, 0.060, 32);
-  std::vector<TouchPlace> places;
-  for (int i = 0; i < count; ++i)
-  {
-    const double angle = kTwoPi * random.uniform();
-    const Vec3 up{ std::cos(angle), std::sin(angle), 0.0 };
-    places.push_back({ radius * up + Vec3(0.0, 0.0, random.uniform(-0.02, 0.029)), up });
-  }
-  scene.strokes = handsAt(places, random);
-  return scene;
-}
-
-HardScene hole(double radius, int count, detail::PortableRandom& random)
-{
-  HardScene scene;
-  scene.name = fmt::format("narrow hole {:.1f} mm", 1e3 * radius);
-  scene.mesh = twoSided(ringMesh(circle(kSheetHalf, 32), circle(radius, 32), 0.0));
-  std::vector<TouchPlace> places;
-  for (int i = 0; i < count; ++i)
-  {
-    places.push_back({ { random.uniform(-1e-3, 1e-3), random.uniform(-1e-3, 1e-3), 0.0 }, { 0, 0, 1 } });
-  }
-  scene.strokes = handsAt(places, random);
-  return scene;
-}
-
-HardScene wedge(double degrees, int count, detail::PortableRandom& random)
-{
-  HardScene scene;
-  scene.name = fmt::format("narrow wedge {:.0f} deg", degrees);
   const double flank = 0.040;
   const double s = std::sin(0.5 * degrees * kDegree);
   const double c = std::cos(0.5 * degrees * kDegree);
-  const double low = -0.5 * flank * c;
-  scene.mesh = prismMesh({ { -flank * s, low, 0.0 }, { flank * s, low, 0.0 }, { 0.0, -low, 0.0 } }, 0.05);
-  std::vector<TouchPlace> places;
-  for (int i = 0; i < count; ++i)
-  {
-    const double side = i % 2 == 0 ? 1.0 : -1.0;
-    const double back = random.uniform(0.5e-3, 6e-3);
-    places.push_back(
-      { { side * s * back, -low - c * back, random.uniform(-0.02, 0.02) }, { side * c, s, 0.0 } });
-  }
-  scene.strokes = handsAt(places, random);
-  return scene;
-}
-
-std::vector<HardSceneMaker> narrowScenes(const TouchBenchmarkOptions& options)
-{
-  const int count = strokesOf(options, 40);
-  const std::int64_t points = options.quick ? 30000 : 200000;
-  const auto finished = [=](HardScene scene, bool isSolid, std::int64_t samples)
-  {
-    scene.isSolid = isSolid;
-    scene.points = samplesOf(scene.mesh, samples, kCloudSeed + 5);
-    return turned(std::move(scene));
-  };
-  const auto random = [seed = hardSeed(options, 8)] { return detail::PortableRandom(seed); };
-  std::vector<HardSceneMaker> makers;
-  for (const double width : { 1e-3, 0.4e-3 })
-  {
-    makers.push_back({ "narrow",
-      [=]
-      {
-        detail::PortableRandom hands = random();
-        return finished(slot(width, count, hands), true, points);
-      } });
-  }
-  for (const double radius : { 0.5e-3, 0.1e-3 })
-  {
-    makers.push_back({ "narrow",
-      [=]
-      {
-        detail::PortableRandom hands = random();
-        return finished(pole(radius, count, hands), true, radius > 0.3e-3 ? 20000 : 5000);
-      } });
-  }
-  for (const double radius : { 0.5e-3, 0.3e-3 })
-  {
-    makers.push_back({ "narrow",
-      [=]
-      {
-        detail::PortableRandom hands = random();
-        return finished(hole(radius, count, hands), false, points);
-      } });
-  }
-  for (const double degrees : { 20.0, 8.0 })
-  {
-    makers.push_back({ "narrow",
-      [=]
-      {
-        detail::PortableRandom hands = random();
-        return finished(wedge(degrees, count, hands), true, points);
-      } });
-  }
-  return makers;
+  const double top = 0.5 * flank * c;
+  TouchMesh mesh =
+    prismMesh({ { -flank * s, -top, 0.0 }, { flank * s, -top, 0.0 }, { 0.0, top, 0.0 } }, 0.05);
+  return narrow(options, fmt::format("wedge {:.0f} deg", degrees), std::move(mesh), points,
+    [=](detail::PortableRandom& random)
+    {
+      const double side = random.uniform() < 0.5 ? 1.0 : -1.0;
+      const double back = random.uniform(0.5e-3, 6e-3);
+      const double z = random.uniform(-0.02, 0.02);
+      return TouchPlace{ { side * s * back, top - c * back, z }, { side * c, s, 0.0 } };
+    });
 }
 
 /// Two plates of 1 mm with ribs, slots, holes and a lip.
@@ -393,15 +336,16 @@ TouchMesh bracketMesh()
     });
 }
 
+constexpr int kTeeth = 200;
+
 TouchMesh toothedRing()
 {
-  constexpr int kTeeth = 200;
   std::vector<Vec3> outer;
   std::vector<Vec3> inner;
   for (int i = 0; i < kTeeth; ++i)
   {
     for (const auto& [part, radius] :
-      { std::pair{ 0.0, 0.045 }, { 0.4, 0.045 }, { 0.5, 0.046 }, { 0.9, 0.046 } })
+      { std::pair{ 0.0, 0.045 }, { 0.45, 0.045 }, { 0.5, 0.046 }, { 0.95, 0.046 } })
     {
       const double angle = kTwoPi * (i + part) / kTeeth;
       const Vec3 direction{ std::cos(angle), std::sin(angle), 0.0 };
@@ -412,22 +356,42 @@ TouchMesh toothedRing()
   return ringMesh(outer, inner, 0.010);
 }
 
-HardScene solid(const TouchBenchmarkOptions& options, const std::string& family, std::int64_t points)
+/// Hands that press 1 mm on tops of teeth and between them, and slide along them.
+std::vector<TouchStroke> strokesOnTeeth(int count, detail::PortableRandom& random)
+{
+  std::vector<TouchStroke> strokes;
+  for (int i = 0; i < count; ++i)
+  {
+    const bool isTop = i % 2 == 0;
+    const double part = (isTop ? 0.725 : 0.225) + random.uniform(-0.15, 0.15);
+    const double angle = kTwoPi * (double(random.bits() % kTeeth) + part) / kTeeth;
+    const Vec3 up{ std::cos(angle), std::sin(angle), 0.0 };
+    const auto at = [&](double height, double z)
+    { return ((isTop ? 0.046 : 0.045) + height) * up + Vec3(0, 0, z); };
+    strokes.push_back(strokeAlong(at(4e-3, -3e-3),
+      { { at(-1e-3, -3e-3), kPressSpeed }, { at(-1e-3, 3e-3), 0.020 }, { at(4e-3, 3e-3), kSlow } }));
+  }
+  return strokes;
+}
+
+HardScene solid(const TouchBenchmarkOptions& options, const std::string& family, std::int64_t points,
+  bool isOnTeeth = false)
 {
   HardScene scene;
-  scene.name = fmt::format("{} {}", family, points);
+  scene.name = fmt::format("{}{} {}", family, isOnTeeth ? " teeth" : "", points);
   scene.mesh = family == "gear" ? toothedRing() : bracketMesh();
-  std::transform(scene.mesh.points.begin(), scene.mesh.points.end(), scene.mesh.points.begin(), turnedAway);
   scene.isSolid = true;
   scene.hasErrors = true;
   scene.points = samplesOf(scene.mesh, points, kCloudSeed + 6);
-  scene.strokes = strokesOn(TriangleTree(scene.mesh), strokesOf(options, 60), options.strokeSet);
-  if (family == "gear")
+  detail::PortableRandom random(hardSeed(options, 9));
+  const int count = strokesOf(options, 60);
+  scene.strokes =
+    isOnTeeth ? strokesOnTeeth(count, random) : strokesOn(TriangleTree(scene.mesh), count, options.strokeSet);
+  if (isOnTeeth)
   {
-    detail::PortableRandom random(hardSeed(options, 9));
     scene.loopPlaces = placesOn(scene.points, options.quick ? 1 : 5, random);
   }
-  return scene;
+  return turned(std::move(scene));
 }
 
 void addSheets(const TouchBenchmarkOptions& options, std::vector<HardSceneMaker>& all)
@@ -460,6 +424,33 @@ void addSheets(const TouchBenchmarkOptions& options, std::vector<HardSceneMaker>
   }
 }
 
+void addSolids(const TouchBenchmarkOptions& options, std::vector<HardSceneMaker>& all)
+{
+  const std::int64_t points = options.quick ? 30000 : 200000;
+  const auto addNarrow = [&](auto make, double size, std::int64_t count) {
+    all.push_back({ "narrow", [=, &options] { return make(options, size, count); } });
+  };
+  addNarrow(slot, 1e-3, points);
+  addNarrow(slot, 0.4e-3, points);
+  addNarrow(pole, 0.5e-3, 20000);
+  addNarrow(pole, 0.1e-3, 5000);
+  addNarrow(hole, 0.5e-3, points);
+  addNarrow(hole, 0.3e-3, points);
+  addNarrow(wedge, 20.0, points);
+  addNarrow(wedge, 8.0, points);
+  for (const char* family : { "bracket", "gear" })
+  {
+    for (const std::int64_t count : { 47516, 543652 })
+    {
+      all.push_back({ family, [=, &options] { return solid(options, family, count); } });
+    }
+  }
+  for (const std::int64_t count : { 543652, 47516 })
+  {
+    all.push_back({ "teeth", [=, &options] { return solid(options, "gear", count, true); } });
+  }
+}
+
 /// The first rows of each family stand for it: those that go wrong first, of small clouds.
 std::vector<HardSceneMaker> quickOnes(const std::vector<HardSceneMaker>& makers)
 {
@@ -484,25 +475,16 @@ std::vector<HardSceneMaker> quickOnes(const std::vector<HardSceneMaker>& makers)
 
 std::vector<std::string> hardFamilies()
 {
-  return { "rim", "sheet", "leaves", "fog", "steps", "narrow", "misregistered", "noise", "strays", "grid",
-    "bracket", "gear", "scan" };
+  return { "rim", "sheet", "leaves", "fog", "steps", "narrow", "bracket", "gear", "teeth", "misregistered",
+    "noise", "strays", "grid", "scan" };
 }
 
 std::vector<HardSceneMaker> hardScenes(const TouchBenchmarkOptions& options)
 {
   std::vector<HardSceneMaker> all;
   addSheets(options, all);
-  for (std::vector<HardSceneMaker> some : { narrowScenes(options), hardClouds(options) })
-  {
-    all.insert(all.end(), some.begin(), some.end());
-  }
-  for (const char* family : { "bracket", "gear" })
-  {
-    for (const std::int64_t points : { 47516, 543652 })
-    {
-      all.push_back({ family, [=, &options] { return solid(options, family, points); } });
-    }
-  }
+  addSolids(options, all);
+  addClouds(options, all);
   if (options.quick)
   {
     all = quickOnes(all);
@@ -524,6 +506,18 @@ std::uint64_t hardSeed(const TouchBenchmarkOptions& options, std::uint64_t famil
 void goTo(TouchStroke& stroke, const Vec3& to, double speed)
 {
   moveTo(stroke, Vec3(stroke.hip.back()), to, speed);
+}
+
+TouchStroke strokeAlong(const Vec3& start, const std::vector<Leg>& legs)
+{
+  TouchStroke stroke;
+  stroke.hip.push_back(start);
+  for (const Leg& leg : legs)
+  {
+    goTo(stroke, leg.to, leg.speed);
+  }
+  stay(stroke, kAwayTicks);
+  return stroke;
 }
 
 TouchMesh twoSided(TouchMesh mesh)

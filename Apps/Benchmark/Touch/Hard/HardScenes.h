@@ -48,10 +48,16 @@ std::vector<std::string> hardFamilies();
 /// fitted into the workspace and eight times nearer, and a third for its vertices where it has triangles.
 std::vector<HardSceneMaker> hardScenes(const TouchBenchmarkOptions& options);
 
-/// A stroke that goes on from its last point.
+/// A stroke that goes on from its last point, m/s.
 void goTo(TouchStroke& stroke, const Vec3& to, double speed);
-/// Long enough for a hand that was let go to be free for 50 ticks at the end.
+struct Leg
+{
+  Vec3 to;
+  double speed = 0.0;
+};
+/// A hand that was let go at the end of the last leg has time to be free for 50 ticks: it stays for 300.
 constexpr int kAwayTicks = 300;
+TouchStroke strokeAlong(const Vec3& start, const std::vector<Leg>& legs);
 
 /// Each triangle with both windings, so that it is met from either side.
 TouchMesh twoSided(TouchMesh mesh);
@@ -69,7 +75,7 @@ std::vector<TouchStroke> handsAt(const std::vector<TouchPlace>& places, detail::
 std::vector<TouchPlace> placesOn(const std::vector<Vec3>& points, int count, detail::PortableRandom& random);
 
 /// The generated clouds without a truth: misregistered, noise, strays, grids; and those of files.
-std::vector<HardSceneMaker> hardClouds(const TouchBenchmarkOptions& options);
+void addClouds(const TouchBenchmarkOptions& options, std::vector<HardSceneMaker>& all);
 /// Seeds of hands: no set shares a place with another.
 std::uint64_t hardSeed(const TouchBenchmarkOptions& options, std::uint64_t family);
 

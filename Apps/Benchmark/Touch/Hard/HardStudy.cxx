@@ -36,6 +36,7 @@ struct Limit
 /// limit of the force. The others: what was asked of each family.
 constexpr Limit kLimits[] = {
   { "", "held", 0.0 },
+  { "", "not_let_go", 0.0 },
   { "", "energy_mj", 0.2 },
   { "", "largest_newton", 8.0 + 1e-9 },
   { "", "oscillating", 0.0 },
@@ -51,14 +52,19 @@ constexpr Limit kLimits[] = {
   { "steps 1:4", "fell_through", 0.0 },
   { "steps 1:6", "fell_through", 0.0 },
   { "steps 1:8", "fell_through", 0.0 },
+  { "bracket", "median_percent", 1e-3 },
   { "bracket 47516", "phantom_newton", 1.0 },
   { "bracket 47516", "p95_percent", 40.0 },
   { "bracket 543652", "phantom_newton", 0.3 },
   { "bracket 543652", "p95_percent", 15.0 },
-  { "gear 47516", "phantom_newton", 1.0 },
-  { "gear 47516", "p95_percent", 30.0 },
+  { "gear", "median_percent", 1e-3 },
+  { "gear", "phantom_newton", 1.0 },
   { "gear 543652", "phantom_newton", 0.3 },
   { "gear 543652", "p95_percent", 30.0 },
+  { "gear teeth", "median_percent", 30.0 },
+  { "gear teeth 543652", "phantom_newton", 0.3 },
+  { "gear teeth 543652", "p95_percent", 30.0 },
+  { "scan vertices lucy", "median_percent", 6.5 },
   { "scan vertices lucy", "phantom_newton", 2.0 },
   { "scan vertices lucy", "p95_percent", 50.0 },
   { "scan", "p50_us", 4.0 },
@@ -71,11 +77,12 @@ struct Column
   const char* key; ///< In JSON.
 };
 
-constexpr Column kColumns[] = { { "strokes", "strokes" }, { "held", "held" }, { "truth", "truth_held" },
-  { "through", "fell_through" }, { "phantom %", "phantom_percent" }, { "N", "phantom_newton" },
-  { "lost %", "lost_percent" }, { "median %", "median_percent" }, { "p95 %", "p95_percent" },
-  { "energy mJ", "energy_mj" }, { "force N", "largest_newton" }, { "contact", "contact_spacings" },
-  { "trembles", "oscillating" }, { "mJ over plane", "energy_over_plane_mj" }, { "build s", "build_seconds" },
+constexpr Column kColumns[] = { { "strokes", "strokes" }, { "held", "held" }, { "not let go", "not_let_go" },
+  { "truth", "truth_held" }, { "through", "fell_through" }, { "phantom %", "phantom_percent" },
+  { "N", "phantom_newton" }, { "lost %", "lost_percent" }, { "median %", "median_percent" },
+  { "p95 %", "p95_percent" }, { "energy mJ", "energy_mj" }, { "force N", "largest_newton" },
+  { "contact", "contact_spacings" }, { "trembles", "oscillating" },
+  { "mJ over plane", "energy_over_plane_mj" }, { "build s", "build_seconds" },
   { "local ms", "local_build_ms" }, { "p50 us", "p50_us" }, { "p99 us", "p99_us" } };
 
 constexpr const char* kText = "Scenes on which a hand is held, gets energy or falls through, with fixed "
@@ -168,7 +175,7 @@ Json toJson(const Row& row)
 {
   const HardFigures& f = row.figures;
   Json json{ { "name", row.name }, { "points", row.points }, { "strokes", f.strokes }, { "held", f.held },
-    { "truth_held", f.truthHeld }, { "fell_through", f.fellThrough },
+    { "not_let_go", f.notLetGo }, { "truth_held", f.truthHeld }, { "fell_through", f.fellThrough },
     { "phantom_percent", numberOrNull(f.phantomPercent) },
     { "phantom_newton", numberOrNull(f.phantomNewton) }, { "lost_percent", numberOrNull(f.lostPercent) },
     { "median_percent", numberOrNull(f.medianPercent) }, { "p95_percent", numberOrNull(f.p95Percent) },
@@ -180,7 +187,8 @@ Json toJson(const Row& row)
   }
   if (row.isLoop())
   {
-    for (const char* key : { "held", "energy_mj", "largest_newton", "contact_spacings", "p50_us", "p99_us" })
+    for (const char* key :
+      { "held", "not_let_go", "energy_mj", "largest_newton", "contact_spacings", "p50_us", "p99_us" })
     {
       json[key] = nullptr;
     }
