@@ -75,7 +75,8 @@ TEST(HardScenes, TheTruthItselfPasses)
     EXPECT_EQ(figures.phantomPercent, 0.0) << family;
     EXPECT_EQ(figures.lostPercent, 0.0) << family;
     EXPECT_LT(figures.energyJoule, 1e-4) << family;
-    EXPECT_LT(figures.contactSpacings, 5.0) << family;
+    // Contact points of forces that were cut are off the surface.
+    EXPECT_TRUE(figures.contactSpacings < 5.0 || figures.largestNewton >= kForceLimit) << family;
   }
 }
 
@@ -92,6 +93,7 @@ TEST(HardScenes, AHandThatIsNeverLetGoIsHeld)
         return first;
       });
     EXPECT_EQ(figures.held, figures.strokes) << family;
+    EXPECT_EQ(figures.notLetGo, family == std::string("grid") ? figures.strokes : 0) << family;
     EXPECT_GT(figures.largestNewton, 8.0) << family;
   }
 }

@@ -386,4 +386,24 @@ TEST(TouchStrokes, TheTruthDoesNotHoldWhereAShiftDecides)
   EXPECT_FALSE(truth.leaps());
 }
 
+TEST(MeshGodObject, MeetsAnOpenMeshFromBothSidesAndLeavesIt)
+{
+  TouchMesh sheet;
+  sheet.points = { { -1.0, -1.0, 0.0 }, { 1.0, -1.0, 0.0 }, { 0.0, 1.0, 0.0 } };
+  sheet.triangles = { 0, 1, 2, 0, 2, 1 };
+  const TriangleTree tree(sheet);
+  MeshGodObject hand(tree, MeshGodObject::Facets::OfOpenMesh);
+  for (const double side : { 1.0, -1.0 })
+  {
+    hand.reset();
+    EXPECT_FALSE(hand.step({ 0.0, 0.0, 0.1 * side }).contact);
+    EXPECT_TRUE(hand.step({ 0.0, 0.0, -0.1 * side }).contact);
+    const GodObjectState slid = hand.step({ 0.1, 0.0, -0.2 * side });
+    EXPECT_TRUE(slid.contact);
+    EXPECT_NEAR(slid.point.x, 0.1, 1e-9);
+    EXPECT_NEAR(slid.point.z, 0.0, 1e-9);
+    EXPECT_FALSE(hand.step({ 0.1, 0.0, 0.1 * side }).contact);
+  }
+}
+
 } // namespace

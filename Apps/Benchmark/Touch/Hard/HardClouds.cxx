@@ -59,14 +59,17 @@ double rounded(double value, double grid)
   return grid > 0.0 ? grid * std::round(value / grid) : value;
 }
 
-/// Terrain of 22 m with a wall of 4 m at 1:250. @p grid of the file, metres of the place; below 0: floats
-/// with the coordinates of UTM, whose steps are 1/32 m to the east and 1/2 m to the north.
+/// Instead of a grid: floats with the coordinates of UTM, whose steps are 1/32 m to the east and 1/2 m to the
+/// north.
+constexpr double kFloats = -1.0;
+
+/// Terrain of 22 m with a wall of 4 m at 1:250. @p grid of the file, metres of the place, or kFloats.
 std::vector<Vec3> terrain(std::int64_t count, double grid)
 {
   constexpr double kTerrainHalf = 11.0;
   constexpr double kScale = 1.0 / 250.0;
-  const double east = grid < 0.0 ? 1.0 / 32.0 : grid;
-  const double north = grid < 0.0 ? 0.5 : grid;
+  const double east = grid == kFloats ? 1.0 / 32.0 : grid;
+  const double north = grid == kFloats ? 0.5 : grid;
   detail::PortableRandom random(kWavesSeed + 1);
   std::vector<Vec3> points;
   for (std::int64_t i = 0; i < count; ++i)
@@ -117,18 +120,17 @@ std::vector<Vec3> fittedPoints(std::vector<Vec3> points)
 /// Eight times as large, about a point whose spacing is the median of some hundred.
 std::vector<Vec3> nearer(const std::vector<Vec3>& points)
 {
-  constexpr int kNeighbors = 9;
   NeighborQuery query;
   query.build(PointView(points.data(), std::int64_t(points.size())));
   std::vector<std::pair<double, std::size_t>> spacings;
   for (std::size_t i = 0; i < points.size(); i += std::max<std::size_t>(1, points.size() / 500))
   {
-    Neighbor found[kNeighbors];
-    const int count = query.nearest(points[i], kNeighbors, found);
-    spacings.emplace_back(count > 0 ? found[count - 1].squaredDistance : 0.0, i);
+    Neighbor found[9];
+    const int count = query.nearest(points[i], int(std::size(found)), found);
+    spacings.emplace_back(found[count - 1].squaredDistance, i);
   }
   std::sort(spacings.begin(), spacings.end());
-  const Vec3 center = points[spacings[spacings.size() / 2].second];
+  const Vec3 center = spacings.empty() ? Vec3() : points[spacings[spacings.size() / 2].second];
   std::vector<Vec3> kept;
   for (const Vec3& p : points)
   {
@@ -235,14 +237,14 @@ void addClouds(const TouchBenchmarkOptions& options, std::vector<HardSceneMaker>
   const auto add = [&](const std::string& family, const std::string& name, bool hasLoop, auto make) {
     all.push_back({ family, [=, &options] { return cloudScene(options, name, make(), hasLoop); } });
   };
-  for (const double apart : { 1e-3, 0.3e-3, 2e-3 })
+  for (const double apart : someOf<double>(options, { 1e-3, 0.3e-3, 2e-3 }))
   {
     add("misregistered", fmt::format("misregistered {:.1f} mm", 1e3 * apart), false,
       [=] {
         return waves(count, { 0.0, apart, 0.0 });
       });
   }
-  for (const double noise : { 1.0, 0.5, 2.0 })
+  for (const double noise : someOf<double>(options, { 1.0, 0.5, 2.0 }))
   {
     add("noise", fmt::format("noise {:.1f} spacings", noise), true,
       [=] {
@@ -250,11 +252,11 @@ void addClouds(const TouchBenchmarkOptions& options, std::vector<HardSceneMaker>
       });
   }
   add("strays", "strays 1 %", false, [=] { return waves(count, { 0.0, 0.0, 0.01 }); });
-  for (const double grid : { 0.05, 0.01 })
+  for (const double grid : someOf<double>(options, { 0.05, 0.01, kFloats }))
   {
-    add("grid", fmt::format("grid {:.0f} cm", 100.0 * grid), true, [=] { return terrain(count / 2, grid); });
+    add("grid", grid == kFloats ? "grid float32 UTM" : fmt::format("grid {:.0f} cm", 100.0 * grid),
+      grid != kFloats, [=] { return terrain(count / 2, grid); });
   }
-  add("grid", "grid float32 UTM", false, [=] { return terrain(count / 2, -1.0); });
   for (const TouchMesh& scan : options.scans)
   {
     add("scan", "scan " + scan.name, true, [&scan] { return fittedPoints(scan.points); });

@@ -12,6 +12,8 @@ namespace
 
 constexpr std::size_t kEndTicks = 50;
 constexpr double kLeastLost = 0.2; ///< N of the truth, below which a missing force counts as late, not lost.
+/// N; a force of the truth that was cut is not below it.
+constexpr double kBelowLimit = kForceLimit - 1e-6;
 constexpr int kFallTicks = 20;
 /// A hand is let go at three times this depth (F_max / K, but 5 to 15 mm), with no point within
 /// kFarFromPoints.
@@ -63,16 +65,6 @@ double energyOf(const std::vector<ProxyState>& states)
   return energy;
 }
 
-/// Forces cut to the limit, as the felt ones are.
-TouchTruth limited(TouchTruth truth)
-{
-  for (TouchTruth::Tick& tick : truth.ticks)
-  {
-    tick.force *= std::min(1.0, kForceLimit / std::max(norm(tick.force), kForceLimit));
-  }
-  return truth;
-}
-
 } // namespace
 
 CloudDistance::CloudDistance(const std::vector<Vec3>& points)
@@ -106,6 +98,10 @@ std::vector<TouchTruth> hardTruths(const HardScene& scene, double stiffness)
   {
     truths.push_back(scene.isSolid ? truthOf(tree, stroke, stiffness, 100 + truths.size())
                                    : openTruth(tree, stroke, stiffness));
+    for (TouchTruth::Tick& tick : truths.back().ticks)
+    {
+      tick.force *= kForceLimit / std::max(norm(tick.force), kForceLimit);
+    }
   }
   return truths;
 }
@@ -137,7 +133,7 @@ void HardJudge::add(const TouchTrace& trace, const TouchTruth* truth)
   }
   if (hasErrors_)
   {
-    errors_.add(trace, limited(*truth));
+    errors_.add(trace, *truth);
   }
 }
 
@@ -200,7 +196,7 @@ void HardJudge::addTruth(const TouchTrace& trace, const TouchTruth& truth)
       phantomTicks_ += felt > kFeltForce;
       sum_.phantomNewton = std::fmax(sum_.phantomNewton, felt);
     }
-    else if (right >= kLeastLost && right < kForceLimit)
+    else if (right >= kLeastLost && right < kBelowLimit)
     {
       ++pressedTicks_;
       lost += felt == 0.0;

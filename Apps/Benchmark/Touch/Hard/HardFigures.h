@@ -16,7 +16,7 @@
 namespace pointhaptics::bench::touch::hard
 {
 
-/// N; longer forces of the truth are cut to this length where they are compared.
+/// N; longer forces of the truth are cut to this length, as the felt ones are.
 constexpr double kForceLimit = 8.0;
 /// N; less counts as none.
 constexpr double kFeltForce = 0.05;
@@ -35,7 +35,7 @@ private:
 };
 
 /// Truths of the strokes of a scene: of solids those of truthOf(), of open meshes one god object that meets
-/// them from both sides. Empty for scenes without a mesh.
+/// them from both sides; cut to kForceLimit. Empty for scenes without a mesh.
 std::vector<TouchTruth> hardTruths(const HardScene& scene, double stiffness);
 
 struct HardFigures

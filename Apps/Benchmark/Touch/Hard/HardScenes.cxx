@@ -374,12 +374,12 @@ std::vector<TouchStroke> strokesOnTeeth(int count, detail::PortableRandom& rando
   return strokes;
 }
 
-HardScene solid(const TouchBenchmarkOptions& options, const std::string& family, std::int64_t points,
-  bool isOnTeeth = false)
+HardScene solid(const TouchBenchmarkOptions& options, const std::string& family, std::int64_t points)
 {
+  const bool isOnTeeth = family == "teeth";
   HardScene scene;
-  scene.name = fmt::format("{}{} {}", family, isOnTeeth ? " teeth" : "", points);
-  scene.mesh = family == "gear" ? toothedRing() : bracketMesh();
+  scene.name = fmt::format("{} {}", family, points);
+  scene.mesh = family == "bracket" ? bracketMesh() : toothedRing();
   scene.isSolid = true;
   scene.hasErrors = true;
   scene.points = samplesOf(scene.mesh, points, kCloudSeed + 6);
@@ -398,9 +398,9 @@ void addSheets(const TouchBenchmarkOptions& options, std::vector<HardSceneMaker>
 {
   for (const bool isEdgeOn : { false, true })
   {
-    for (const std::int64_t points : { 4000, 20000, 200000 })
+    for (const int points : someOf<int>(options, { 4000, 20000, 200000 }))
     {
-      for (const double noise : { 20e-6, 0.0, 200e-6 })
+      for (const double noise : someOf<double>(options, { 20e-6, 0.0, 200e-6 }))
       {
         all.push_back({ "rim", [=, &options] { return rim(options, points, noise, isEdgeOn); } });
       }
@@ -411,13 +411,13 @@ void addSheets(const TouchBenchmarkOptions& options, std::vector<HardSceneMaker>
   {
     all.push_back({ "leaves", [=, &options] { return leaves(options, isSmall); } });
   }
-  for (const int points : { 20000, 100000, 500000 })
+  for (const int points : someOf<int>(options, { 20000, 100000, 500000 }))
   {
     all.push_back({ "fog", [=, &options] { return fog(options, points); } });
   }
-  for (const double noise : { 0.3, 0.0 })
+  for (const double noise : someOf<double>(options, { 0.3, 0.0 }))
   {
-    for (const int ratio : { 8, 4, 6, 12 })
+    for (const int ratio : someOf<int>(options, { 8, 4, 6, 12 }))
     {
       all.push_back({ "steps", [=, &options] { return step(options, ratio, noise); } });
     }
@@ -426,49 +426,25 @@ void addSheets(const TouchBenchmarkOptions& options, std::vector<HardSceneMaker>
 
 void addSolids(const TouchBenchmarkOptions& options, std::vector<HardSceneMaker>& all)
 {
-  const std::int64_t points = options.quick ? 30000 : 200000;
-  const auto addNarrow = [&](auto make, double size, std::int64_t count) {
-    all.push_back({ "narrow", [=, &options] { return make(options, size, count); } });
-  };
-  addNarrow(slot, 1e-3, points);
-  addNarrow(slot, 0.4e-3, points);
-  addNarrow(pole, 0.5e-3, 20000);
-  addNarrow(pole, 0.1e-3, 5000);
-  addNarrow(hole, 0.5e-3, points);
-  addNarrow(hole, 0.3e-3, points);
-  addNarrow(wedge, 20.0, points);
-  addNarrow(wedge, 8.0, points);
-  for (const char* family : { "bracket", "gear" })
+  const auto addNarrow = [&](auto make, std::initializer_list<double> sizes, std::int64_t points)
   {
-    for (const std::int64_t count : { 47516, 543652 })
+    for (const double size : someOf<double>(options, sizes))
+    {
+      all.push_back({ "narrow", [=, &options] { return make(options, size, points); } });
+    }
+  };
+  const std::int64_t points = options.quick ? 30000 : 200000;
+  addNarrow(slot, { 1e-3, 0.4e-3 }, points);
+  addNarrow(pole, { 0.5e-3, 0.1e-3 }, 20000);
+  addNarrow(hole, { 0.5e-3, 0.3e-3 }, points);
+  addNarrow(wedge, { 20.0, 8.0 }, points);
+  for (const char* family : { "bracket", "gear", "teeth" })
+  {
+    for (const int count : someOf<int>(options, { 47516, 543652 }))
     {
       all.push_back({ family, [=, &options] { return solid(options, family, count); } });
     }
   }
-  for (const std::int64_t count : { 543652, 47516 })
-  {
-    all.push_back({ "teeth", [=, &options] { return solid(options, "gear", count, true); } });
-  }
-}
-
-/// The first rows of each family stand for it: those that go wrong first, of small clouds.
-std::vector<HardSceneMaker> quickOnes(const std::vector<HardSceneMaker>& makers)
-{
-  std::vector<HardSceneMaker> kept;
-  std::string family;
-  int count = 0;
-  for (const HardSceneMaker& maker : makers)
-  {
-    count = maker.family == family ? count + 1 : 0;
-    family = maker.family;
-    const bool isFirst =
-      count == 0 || (family == "rim" && count == 9) || (family == "narrow" && count % 2 == 0);
-    if (isFirst || family == "leaves" || family == "scan")
-    {
-      kept.push_back(maker);
-    }
-  }
-  return kept;
 }
 
 } // namespace
@@ -485,10 +461,6 @@ std::vector<HardSceneMaker> hardScenes(const TouchBenchmarkOptions& options)
   addSheets(options, all);
   addSolids(options, all);
   addClouds(options, all);
-  if (options.quick)
-  {
-    all = quickOnes(all);
-  }
   const std::vector<std::string>& wanted = options.families;
   all.erase(
     std::remove_if(all.begin(), all.end(),

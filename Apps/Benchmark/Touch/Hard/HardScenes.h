@@ -48,6 +48,14 @@ std::vector<std::string> hardFamilies();
 /// fitted into the workspace and eight times nearer, and a third for its vertices where it has triangles.
 std::vector<HardSceneMaker> hardScenes(const TouchBenchmarkOptions& options);
 
+/// All of @p values, with options.quick the first one, which stands for the others.
+template <class Value>
+std::vector<Value> someOf(const TouchBenchmarkOptions& options, std::vector<Value> values)
+{
+  values.resize(options.quick ? 1 : values.size());
+  return values;
+}
+
 /// A stroke that goes on from its last point, m/s.
 void goTo(TouchStroke& stroke, const Vec3& to, double speed);
 struct Leg
