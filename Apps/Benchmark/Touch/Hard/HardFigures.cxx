@@ -163,6 +163,7 @@ void HardJudge::addTicks(const TouchTrace& trace)
   for (std::size_t i = 0; i < trace.states.size(); ++i)
   {
     const ProxyState& state = trace.states[i];
+    sum_.nonFinite += !isFinite(state.force) || !isFinite(state.proxy);
     sum_.largestNewton = std::max(sum_.largestNewton, norm(state.force));
     for (std::size_t bit = 0; bit < kStatusBits; ++bit)
     {

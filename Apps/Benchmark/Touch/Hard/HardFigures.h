@@ -52,6 +52,7 @@ struct HardFigures
   int notLetGo = 0;
   int truthHeld = 0;   ///< Strokes whose truth has a force in the last 50 ticks.
   int fellThrough = 0; ///< Strokes with 20 ticks or more without a force where the truth has 0.2 to 8 N.
+  int nonFinite = 0;   ///< States that are not finite: beyond doubt wrong.
   double phantomPercent = kNone; ///< Of the ticks in which the truth is free, those with a force.
   double phantomNewton = kNone;  ///< Largest force in them.
   double lostPercent = kNone;    ///< Of the ticks in which the truth has 0.2 to 8 N, those without a force.

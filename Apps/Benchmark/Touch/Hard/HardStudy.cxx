@@ -35,6 +35,7 @@ struct Limit
 /// The one place of the limits. Rows of all names: a hand is let go, gets no energy, and never more than the
 /// limit of the force. The others: what was asked of each family.
 constexpr Limit kLimits[] = {
+  { "", "non_finite", 0.0 },
   { "", "held", 0.0 },
   { "", "not_let_go", 0.0 },
   { "", "energy_mj", 0.2 },
@@ -85,20 +86,16 @@ constexpr Column kColumns[] = { { "strokes", "strokes" }, { "held", "held" }, { 
   { "mJ over plane", "energy_over_plane_mj" }, { "build s", "build_seconds" },
   { "local ms", "local_build_ms" }, { "p50 us", "p50_us" }, { "p99 us", "p99_us" } };
 
-constexpr const char* kText = "Scenes on which a hand is held, gets energy or falls through, with fixed "
-                              "seeds, and hands of the chosen set. "
-                              "Steps are not prefetched. Held: strokes with a force above 0.05 N in the last "
-                              "50 ticks, where the truth is "
-                              "free; without a truth where the hand is farther than 3 F_max/K from its "
-                              "contact and 10 mm from all points. "
-                              "Through: strokes with 20 ticks without a force where the truth has 0.2 to 8 "
-                              "N; lost: those ticks in percent. "
-                              "Phantom: force above 0.05 N where the truth is free, in percent of these "
-                              "ticks, and the largest. Energy: the "
-                              "most that a stroke gave to the hand. Contact: largest distance from the "
-                              "cloud's points, in their spacings.";
+constexpr const char* kText =
+  "Scenes with fixed seeds; hands of the chosen set; steps without prefetching. Held: strokes with a force "
+  "above 0.05 N in the last 50 ticks where the truth is free. Not let go: the same where the hand is farther "
+  "than 3 F_max/K from its contact and 10 mm from all points; without a truth held is that. Through: strokes "
+  "with 20 ticks without a force where the truth has 0.2 to 8 N; lost: such ticks. Phantom: force where the "
+  "truth is "
+  "free. Energy: the most that a stroke gave to the hand. Contact: largest distance of a contact from the "
+  "cloud's points, in their spacings.";
 
-/// The figures of a row that has both; null in JSON: it has no such figure.
+/// A row's figures. One that is not finite is null in JSON: the row has no such figure.
 struct Row
 {
   std::string name;
@@ -176,7 +173,7 @@ Json toJson(const Row& row)
   const HardFigures& f = row.figures;
   Json json{ { "name", row.name }, { "points", row.points }, { "strokes", f.strokes }, { "held", f.held },
     { "not_let_go", f.notLetGo }, { "truth_held", f.truthHeld }, { "fell_through", f.fellThrough },
-    { "phantom_percent", numberOrNull(f.phantomPercent) },
+    { "non_finite", f.nonFinite }, { "phantom_percent", numberOrNull(f.phantomPercent) },
     { "phantom_newton", numberOrNull(f.phantomNewton) }, { "lost_percent", numberOrNull(f.lostPercent) },
     { "median_percent", numberOrNull(f.medianPercent) }, { "p95_percent", numberOrNull(f.p95Percent) },
     { "energy_mj", milliJoule(f.energyJoule) }, { "largest_newton", f.largestNewton },
