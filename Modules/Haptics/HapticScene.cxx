@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <functional>
 #include <numeric>
 
 namespace pointhaptics
@@ -34,6 +35,12 @@ constexpr double kPointsPerFineCell = 2.0;
 /// The same up to which a cloud is sparse, if its points are so many of the voxels asked for apart.
 constexpr double kPointsPerSparseCell = 1.4;
 constexpr double kSparseInVoxels = 1.2;
+/// Least radius of the ball over the index cell: with less it enters the gaps between the means of voxels.
+constexpr double kLeastRadiusInCells = 2.0;
+/// A cloud of fewer points has no surface, and cells as large as they are far apart: the least radius is this
+/// part of its extent at most.
+constexpr std::size_t kFewPoints = 16;
+constexpr double kOfFewPoints = 0.02;
 /// How far beyond what they cover local scenes have all cells and fields, in index cells.
 constexpr double kSharedCells = 8.0;
 /// From 1e12 m on rounding errors of the ball, which is some 50 times as large as such a cloud, push the
@@ -280,6 +287,43 @@ void HapticScene::Cloud::refineContact(double asked, const Executor& executor)
   }
 }
 
+void HapticScene::Cloud::buildField(const HapticSceneInput& input, const Executor& executor)
+{
+  const CellPyramid& points = contact ? *contact : pyramid;
+  SheetFieldSettings settings;
+  settings.leastRadius = kLeastRadiusInCells * points.level(0).voxelSize;
+  const double extent = norm(bounds.extent());
+  if (points.level(0).cells.size() < kFewPoints && extent > 0.0)
+  {
+    settings.leastRadius = std::min(settings.leastRadius, kOfFewPoints * extent);
+  }
+  if (input.bandwidth)
+  {
+    settings.leastRadius = std::max(settings.leastRadius, input.bandwidth->minimumRadius);
+    settings.mostRadius = input.bandwidth->maximumRadius;
+  }
+  Bounds felt = input.local ? input.local->covered : input.region ? input.region->covered() : Bounds();
+  felt = felt.empty() ? felt : grown(felt, kSharedCells * pyramid.level(0).voxelSize);
+  const HapticScene* const global = input.local ? input.local->global.get() : nullptr;
+  std::function<double(const Vec3&)> coarser;
+  if (global)
+  {
+    const double globalScale = global->latticeScale();
+    Bounds box;
+    box.include(global->toLattice(felt.minimum));
+    box.include(global->toLattice(felt.maximum));
+    if (global->contactField().isSparseNear(grown(box, norm(felt.extent()) / globalScale)))
+    {
+      coarser = [global, globalScale, this](const Vec3& place)
+      {
+        const double search = kSharedCells * pyramid.level(0).voxelSize / globalScale;
+        return globalScale * global->contactField().sparseRadiusAt(global->toLattice(place), search);
+      };
+    }
+  }
+  field.build(points, settings, felt, executor, coarser);
+}
+
 Status HapticScene::Cloud::measure(HapticSceneInput input, const Executor& executor)
 {
   const std::optional<LocalRegion> region = std::move(input.region);
@@ -350,6 +394,7 @@ std::shared_ptr<const HapticScene> HapticScene::create(
   }
   if (status == Status::Ok)
   {
+    cloud->buildField(input, executor);
     status = cloud->measure(std::move(input), executor);
   }
   if (status != Status::Ok)

@@ -9,6 +9,7 @@
 #include "Core/Surface/CellPyramid.h"
 #include "Core/Surface/FitCells.h"
 #include "Core/Surface/RadiusField.h"
+#include "Haptics/ContactField.h"
 #include "Haptics/LocalRegion.h"
 #include "Haptics/SceneOrigin.h"
 
@@ -168,6 +169,8 @@ public:
   /// voxels asked for, points half way between them (SurfaceMidpoints.h), lest a ball that is small enough
   /// for the shape fall between them. The midpoints are no data: no fit takes them.
   const CellPyramid& contactPyramid() const { return cloud_->contact ? *cloud_->contact : cloud_->pyramid; }
+  /// The same points with the radii of the ball that they keep away.
+  const ContactField& contactField() const { return cloud_->field; }
   /// Edge of their finest index cell, metres.
   double contactCell() const { return contactPyramid().level(0).voxelSize; }
   /// Spacing of the points from which on there are midpoints; 0: there are none.
@@ -192,6 +195,7 @@ private:
   {
     CellPyramid pyramid;
     std::unique_ptr<CellPyramid> contact; ///< Null: the same points.
+    ContactField field;
     RadiusField scale;
     AffineTransform modelToLattice;
     Bounds bounds;
@@ -212,6 +216,8 @@ private:
     bool isSparse(double asked) const;
     /// Adds midpoints where the cells are sparser than that.
     void refineContact(double asked, const Executor& executor);
+    /// Finds the radii of the ball.
+    void buildField(const HapticSceneInput& input, const Executor& executor);
     /// Fills the fields of radii and fits over the pyramid. @pre index() gave Ok.
     Status measure(HapticSceneInput input, const Executor& executor);
   };

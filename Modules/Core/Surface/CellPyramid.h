@@ -80,6 +80,15 @@ public:
   template <typename Visitor>
   void visitRuns(int level, const Vec3& center, double radius, Visitor&& visit) const
   {
+    this->visitRunsWithin(
+      level, center, [radius](int, std::uint32_t) { return radius; }, visit);
+  }
+
+  /// The same where each brick has a radius of its own, @p radius(level, brick): at least those of the bricks
+  /// below it.
+  template <typename Radius, typename Visitor>
+  void visitRunsWithin(int level, const Vec3& center, const Radius& radius, Visitor&& visit) const
+  {
     visitBricks(level, center, radius,
       [&](const Level& l, const Brick& brick)
       {
@@ -133,7 +142,8 @@ public:
   void visitBallUnmixed(int level, const Vec3& center, double radius, Visitor&& visit) const
   {
     const double r2 = radius * radius;
-    visitBricks(level, center, radius,
+    visitBricks(
+      level, center, [radius](int, std::uint32_t) { return radius; },
       [&](const Level& l, const Brick& brick)
       {
         std::uint32_t slot = brick.slot;
@@ -190,8 +200,8 @@ private:
   }
 
   /// Until visit(level, brick) returns false.
-  template <typename BrickVisitor>
-  void visitBricks(int target, const Vec3& center, double radius, BrickVisitor&& visit) const
+  template <typename Radius, typename BrickVisitor>
+  void visitBricks(int target, const Vec3& center, const Radius& radius, BrickVisitor&& visit) const
   {
     struct Entry
     {
@@ -199,8 +209,7 @@ private:
       int level;
     };
     // Rounding of the box's corners must not lose a mean that lies on one.
-    const double reach = radius + 1e-9 * levels_[0].voxelSize;
-    const double r2 = reach * reach;
+    const double rounding = 1e-9 * levels_[0].voxelSize;
     Entry stack[8 * kMaximumLevels];
     int size = 0;
     const int top = numberOfLevels() - 1;
@@ -213,7 +222,8 @@ private:
       const Entry entry = stack[--size];
       const Level& l = levels_[std::size_t(entry.level)];
       const Brick& brick = l.bricks[entry.brick];
-      if (squaredDistance(l, brick, center) > r2)
+      const double reach = radius(entry.level, entry.brick) + rounding;
+      if (squaredDistance(l, brick, center) > reach * reach)
       {
         continue;
       }

@@ -158,13 +158,14 @@ struct TraceSums
   double turnB;
 };
 
-/// Points about a ball, each coordinate in an array of its own with room for whole groups of lanes.
+/// Points about a ball, each quantity in an array of its own with room for whole groups of lanes.
 struct BallPoints
 {
   const double* x;
   const double* y;
   const double* z;
-  int size; ///< A multiple of kFitLanes; the last ones lie far away.
+  const double* radius; ///< Of the ball that each point keeps away.
+  int size;             ///< A multiple of kFitLanes; the last ones lie far away.
 };
 
 struct FitKernels
@@ -178,10 +179,14 @@ struct FitKernels
   /// Indices of the points nearer to @p p than sqrt(@p radius2), ascending; at most @p most of them. @return
   /// how many.
   int (*pointsWithin)(const BallPoints& points, const Vec3& p, double radius2, int* indices, int most);
-  /// How far a ball of @p radius can go from @p from along the unit vector @p direction, at most @p length,
-  /// before it covers a point. Ways that lead into a point by less than @p tangential metres do not count.
+  /// The same for the points nearer than @p scale times their radius and @p extra.
+  int (*ballsWithin)(
+    const BallPoints& points, const Vec3& p, double scale, double extra, int* indices, int most);
+  /// How far a place can go from @p from along the unit vector @p direction, at most @p length, before it is
+  /// nearer to a point than @p scale times its radius. Ways that lead into a point by less than @p tangential
+  /// of its radius do not count.
   double (*sweepBall)(const BallPoints& points, const Vec3& from, const Vec3& direction, double length,
-    double radius, double tangential);
+    double scale, double tangential);
   /// Weights (1 - d^2/reach^2)^3 of the nodes about @p position, relative to the block's center.
   void (*sumField)(const FieldBlock& block, const Vec3& position, double reach, FieldSums& sums);
 };

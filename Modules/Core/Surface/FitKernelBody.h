@@ -333,7 +333,9 @@ void traceRows(const FitRows& rows, const TracedFit& fit, double ra, double rb, 
   sums.turnB = to[3];
 }
 
-int pointsWithin(const BallPoints& points, const Vec3& p, double radius2, int* indices, int most)
+/// @param reach2 of the group of points that begins at an index: squared distances that are within.
+template <typename Reach2>
+int within(const BallPoints& points, const Vec3& p, const Reach2& reach2, int* indices, int most)
 {
   int found = 0;
   for (int i = 0; i < points.size && found < most; i += simd::kWidth)
@@ -341,8 +343,8 @@ int pointsWithin(const BallPoints& points, const Vec3& p, double radius2, int* i
     const Pack dx = load(points.x + i) - p.x;
     const Pack dy = load(points.y + i) - p.y;
     const Pack dz = load(points.z + i) - p.z;
-    const Pack d2 = dx * dx + dy * dy + dz * dz;
-    for (unsigned int bits = simd::belowBits(d2, radius2); bits != 0 && found < most; bits &= bits - 1)
+    const Pack beyond = dx * dx + dy * dy + dz * dz - reach2(i);
+    for (unsigned int bits = simd::belowBits(beyond, 0.0); bits != 0 && found < most; bits &= bits - 1)
     {
       indices[found++] = i + __builtin_ctz(bits);
     }
@@ -350,18 +352,35 @@ int pointsWithin(const BallPoints& points, const Vec3& p, double radius2, int* i
   return found;
 }
 
+int pointsWithin(const BallPoints& points, const Vec3& p, double radius2, int* indices, int most)
+{
+  return within(
+    points, p, [radius2](int) { return simd::all(radius2); }, indices, most);
+}
+
+int ballsWithin(const BallPoints& points, const Vec3& p, double scale, double extra, int* indices, int most)
+{
+  const auto reach2 = [&](int i)
+  {
+    const Pack reach = load(points.radius + i) * scale + extra;
+    return reach * reach;
+  };
+  return within(points, p, reach2, indices, most);
+}
+
 double sweepBall(const BallPoints& points, const Vec3& from, const Vec3& direction, double length,
-  double radius, double tangential)
+  double scale, double tangential)
 {
   // Far above the rounding of what it is compared with: no point that could be met first is left out.
   constexpr double kRounding = 1e-9;
-  const double radius2 = radius * radius;
   double reached = length;
   for (int i = 0; i < points.size; i += simd::kWidth)
   {
     const Pack dx = load(points.x + i) - from.x;
     const Pack dy = load(points.y + i) - from.y;
     const Pack dz = load(points.z + i) - from.z;
+    const Pack radius = load(points.radius + i) * scale;
+    const Pack radius2 = radius * radius;
     const Pack along = dx * direction.x + dy * direction.y + dz * direction.z;
     // At t the ball is sqrt(outside + r^2 - along^2 + (t - along)^2) from the point.
     const Pack outside = dx * dx + dy * dy + dz * dz - radius2;
@@ -370,7 +389,7 @@ double sweepBall(const BallPoints& points, const Vec3& from, const Vec3& directi
     const Pack there =
       outside + reached * (reached - 2.0 * along) - kRounding * (radius2 + reached * reached);
     const Pack isLater = along > reached ? there : simd::all(-1.0);
-    const Pack isAhead = along > tangential ? across : simd::all(1.0);
+    const Pack isAhead = along > tangential * radius ? across : simd::all(1.0);
     const Pack missed = isLater < 0.0 ? isAhead : simd::all(1.0);
     for (unsigned int bits = simd::belowBits(missed, 0.0); bits != 0; bits &= bits - 1)
     {
@@ -422,8 +441,8 @@ void sumField(const FieldBlock& block, const Vec3& position, double reach, Field
   }
 }
 
-constexpr FitKernels kKernels = { appendRows, sumRows, sumCubicRows, traceRows, pointsWithin, sweepBall,
-  sumField };
+constexpr FitKernels kKernels = { appendRows, sumRows, sumCubicRows, traceRows, pointsWithin, ballsWithin,
+  sweepBall, sumField };
 
 }
 } // namespace simd

@@ -11,22 +11,29 @@ namespace pointhaptics
 namespace
 {
 
-/// How much further than asked for is gathered, so that a sliding hand stays inside for some ticks: the first
-/// that does not overflow. The first is over the radius that will be asked for soon.
+/// How much further than asked for is gathered, over radius and way, so that a sliding hand stays inside for
+/// some ticks: the first that does not overflow. The first is over the way that will be asked for soon.
 constexpr double kMargins[] = { 1.35, 1.35, 1.1, 1.0 + 1e-9 };
-constexpr double kSmallerBall = 0.8;
-/// The same of those looked at in detail.
-constexpr double kNearMargin = 1.25;
+/// Where points were left out a way shorter than this part of the last may have room for them.
+constexpr double kShorterWay = 0.8;
+/// The same margin of those looked at in detail.
+constexpr double kNearMargin = 0.25;
 /// Behind the last point: further than any ball reaches, squared still finite.
 constexpr double kFarAway = 1e100;
-/// Part of the radius by which a way may lead towards a touched point that it goes past: rounding.
+/// Part of its radius by which a way may lead towards a touched point that it goes past: rounding.
 constexpr double kTangential = 1e-6;
 
 }
 
 void BallCells::carryOver(const CellPyramid& pyramid, const Bounds& same) noexcept
 {
-  pyramid_ = containsBall(same, center_, reach_) ? &pyramid : nullptr;
+  pyramid_ = containsBall(same, center_, reach_ + ball_) ? &pyramid : nullptr;
+}
+
+/// The way that is gathered for where @p way is asked for.
+double BallCells::reachOf(double way) const noexcept
+{
+  return kMargins[margin_] * (way + ball_) - ball_;
 }
 
 /// Leaves out what is beyond the next smaller margin. False: there is none.
@@ -36,38 +43,48 @@ bool BallCells::shrink() noexcept
   {
     return false;
   }
-  reach_ = kMargins[++margin_] * askedRadius_;
+  ++margin_;
+  reach_ = this->reachOf(askedWay_);
   const int all = size_;
   size_ = 0;
   for (int i = 0; i < all; ++i)
   {
     const Vec3 local(x_[i], y_[i], z_[i]);
+    const double radius = radius_[i];
     x_[size_] = local.x;
     y_[size_] = local.y;
     z_[size_] = local.z;
-    size_ += norm2(local) < reach_ * reach_ ? 1 : 0;
+    radius_[size_] = radius;
+    size_ += norm2(local) < (radius + reach_) * (radius + reach_) ? 1 : 0;
   }
   return true;
 }
 
-/// Adds those of the @p count points that @p pointAt gives that are within reach. False: they are too many.
-template <typename PointAt>
-bool BallCells::add(std::uint32_t count, const PointAt& pointAt) noexcept
+/// Adds those of the @p count cells of @p level, whose indices @p indexAt gives, that are within reach.
+/// False: they are too many.
+template <typename IndexAt>
+bool BallCells::add(
+  const ContactField& field, int level, std::uint32_t count, const IndexAt& indexAt) noexcept
 {
+  const Cell* const cells = field.pyramid().level(level).cells.data();
+  const float* const radii = field.radii(level).data();
   std::uint32_t i = 0;
   do
   {
     // Which points lie inside is hard to predict: each is written, and the next one over it unless it does.
-    const double reach2 = reach_ * reach_;
+    const double reach = reach_;
     const Vec3 center = center_;
     int size = size_;
     for (; i < count && size <= kCapacity; ++i)
     {
-      const Vec3 local = pointAt(i) - center;
+      const std::uint32_t index = indexAt(i);
+      const Vec3 local = cells[index].mean - center;
+      const double radius = double(radii[index]);
       x_[size] = local.x;
       y_[size] = local.y;
       z_[size] = local.z;
-      size += norm2(local) < reach2 ? 1 : 0;
+      radius_[size] = radius;
+      size += norm2(local) < (radius + reach) * (radius + reach) ? 1 : 0;
     }
     size_ = size;
     while (size_ > kCapacity)
@@ -82,52 +99,52 @@ bool BallCells::add(std::uint32_t count, const PointAt& pointAt) noexcept
   return true;
 }
 
-bool BallCells::gatherFrom(const CellPyramid& pyramid, int level, double likely, bool onePerVoxel) noexcept
+bool BallCells::gatherFrom(const ContactField& field, int level, double likely, bool onePerVoxel) noexcept
 {
-  const CellPyramid::Level& l = pyramid.level(level);
-  const Cell* const cells = l.cells.data();
+  const CellPyramid::Level& l = field.pyramid().level(level);
   bool fits = true;
   size_ = 0;
   margin_ = 0;
-  reach_ = kMargins[0] * std::max(askedRadius_, likely);
+  reach_ = this->reachOf(std::max(askedWay_, likely));
   ++passes_;
-  pyramid.visitRuns(level, center_, reach_,
+  field.visitRuns(level, center_, reach_,
     [&](std::uint32_t first, std::uint32_t last)
     {
       looked_ += last - first;
       if (!onePerVoxel)
       {
-        fits = add(last - first, [&](std::uint32_t i) { return cells[first + i].mean; });
+        fits = this->add(field, level, last - first, [first](std::uint32_t i) { return first + i; });
         return fits;
       }
       const auto slot = std::upper_bound(l.slotBegin.begin(), l.slotBegin.end(), first) - 1;
       const auto end = std::lower_bound(slot, l.slotBegin.end(), last);
-      fits =
-        add(std::uint32_t(end - slot), [&](std::uint32_t i) { return cells[slot[std::ptrdiff_t(i)]].mean; });
+      fits = this->add(
+        field, level, std::uint32_t(end - slot), [slot](std::uint32_t i) { return slot[std::ptrdiff_t(i)]; });
       return fits;
     });
   return fits;
 }
 
 bool BallCells::gather(
-  const CellPyramid& pyramid, const Vec3& center, double radius, double coarsest, double likely) noexcept
+  const ContactField& field, const Vec3& center, double way, double ball, double likely) noexcept
 {
-  const double left = reach_ - radius;
-  const bool isInside = pyramid_ == &pyramid && left >= 0.0 && norm2(center - center_) <= left * left;
-  // Where points were left out a smaller ball may have room for them.
-  if (isInside && (complete_ || radius >= kSmallerBall * askedRadius_))
+  const double left = reach_ - way;
+  const bool isInside = pyramid_ == &field.pyramid() && left >= 0.0 && norm2(center - center_) <= left * left;
+  if (isInside && (complete_ || way + ball >= kShorterWay * (askedWay_ + ball_)))
   {
     return complete_;
   }
-  pyramid_ = &pyramid;
+  pyramid_ = &field.pyramid();
   center_ = center;
-  askedRadius_ = radius;
-  complete_ = gatherFrom(pyramid, 0, likely, false);
-  bool fits = complete_ || gatherFrom(pyramid, 0, likely, true);
+  askedWay_ = way;
+  ball_ = ball;
+  complete_ = gatherFrom(field, 0, likely, false);
+  bool fits = complete_ || gatherFrom(field, 0, likely, true);
   for (int level = 1;
-       !fits && level < pyramid.numberOfCellLevels() && pyramid.level(level).voxelSize <= coarsest; ++level)
+       !fits && level < pyramid_->numberOfCellLevels() && pyramid_->level(level).voxelSize <= 0.5 * ball;
+       ++level)
   {
-    fits = gatherFrom(pyramid, level, likely, false);
+    fits = gatherFrom(field, level, likely, false);
   }
   this->pad(size_);
   nearReach_ = -1.0;
@@ -140,47 +157,55 @@ void BallCells::pad(int end) noexcept
   for (int i = end; i % simd::kFitLanes != 0; ++i)
   {
     x_[i] = y_[i] = z_[i] = kFarAway;
+    radius_[i] = 0.0;
   }
 }
 
-void BallCells::focus(const Vec3& center, double radius) noexcept
+void BallCells::focus(const Vec3& center, double way) noexcept
 {
-  if (this->servesNear(center, radius))
+  if (this->servesNear(center, way))
   {
     return;
   }
   nearCenter_ = center;
-  nearReach_ = kNearMargin * radius;
+  nearReach_ = way + kNearMargin * (way + ball_);
   int indices[kCapacity];
-  nearSize_ = kernels_->pointsWithin(
-    points({ 0, size_ }), center - center_, nearReach_ * nearReach_, indices, kCapacity);
+  nearSize_ =
+    kernels_->ballsWithin(points({ 0, size_ }), center - center_, 1.0, nearReach_, indices, kCapacity);
   for (int k = 0; k < nearSize_; ++k)
   {
     x_[kNear + k] = x_[indices[k]];
     y_[kNear + k] = y_[indices[k]];
     z_[kNear + k] = z_[indices[k]];
+    radius_[kNear + k] = radius_[indices[k]];
   }
   this->pad(kNear + nearSize_);
 }
 
-int BallCells::nearest(const Vec3& p, double& distance2) const noexcept
+int BallCells::deepest(const Vec3& p, double scale) const noexcept
 {
   const Vec3 local = p - center_;
+  int indices[kCapacity];
+  const Part part = partAbout(p, 0.0);
+  const int count = kernels_->ballsWithin(points(part), local, scale, 0.0, indices, kCapacity);
   int best = -1;
-  distance2 = INFINITY;
-  for (int i = 0; i < size_; ++i)
+  double most = -1.0;
+  for (int k = 0; k < count; ++k)
   {
-    const double dx = local.x - x_[i];
-    const double dy = local.y - y_[i];
-    const double dz = local.z - z_[i];
-    const double d2 = dx * dx + dy * dy + dz * dz;
-    if (d2 < distance2)
-    {
-      distance2 = d2;
-      best = i;
-    }
+    const int i = part.first + indices[k];
+    const double depth = scale * radius_[i] - norm(local - Vec3(x_[i], y_[i], z_[i]));
+    best = depth > most ? i : best;
+    most = std::max(most, depth);
   }
   return best;
+}
+
+double BallCells::roomAt(const Vec3& p) const noexcept
+{
+  double room = 1.0;
+  this->visitTouched(
+    p, 1.0, [&](const Vec3& offset, double radius) { room = std::min(room, norm(offset) / radius); });
+  return room;
 }
 
 int BallCells::nearestWithin(const Vec3& p, double radius) const noexcept
@@ -209,17 +234,15 @@ bool BallCells::nearestOf(
   return here >= 0 || cell >= 0;
 }
 
-double BallCells::sweep(const Vec3& from, const Vec3& direction, double length, double radius) const noexcept
+double BallCells::sweep(const Vec3& from, const Vec3& direction, double length, double scale) const noexcept
 {
   const auto sweepIn = [&](const Part& part)
-  {
-    return kernels_->sweepBall(points(part), from - center_, direction, length, radius, kTangential * radius);
-  };
+  { return kernels_->sweepBall(points(part), from - center_, direction, length, scale, kTangential); };
   // Most ways are short, whatever was asked for.
-  if (this->servesNear(from, radius))
+  if (this->servesNear(from, 0.0))
   {
     const double reached = sweepIn(Part{ kNear, nearSize_ });
-    if (this->servesNear(from, radius + reached))
+    if (this->servesNear(from, reached))
     {
       return reached;
     }

@@ -2,17 +2,17 @@
 /// The cloud's points near the proxy's ball, gathered once and used while the ball stays near.
 #pragma once
 
-#include "Core/Surface/CellPyramid.h"
 #include "Core/Surface/FitKernel.h"
+#include "Haptics/ContactField.h"
 
 #include <cstdint>
 
 namespace pointhaptics
 {
 
-/// Points near a center, each coordinate in an array of its own; all lengths in metres of the lattice frame,
-/// coordinates relative to the center. 100 kB, plain state, one thread. No member function allocates or
-/// throws.
+/// Points near a center with the radii that they keep a ball away by, each quantity in an array of its own;
+/// all lengths in metres of the lattice frame, coordinates relative to the center. A scale of the radii, 0 to
+/// 1, stands for a smaller ball. 140 kB, plain state, one thread. No member function allocates or throws.
 class BallCells
 {
 public:
@@ -30,23 +30,18 @@ public:
   /// stays.
   void carryOver(const CellPyramid& pyramid, const Bounds& same) noexcept;
 
-  /// Makes sure that all points within @p radius of @p center are here. Where there are more than kCapacity,
-  /// one point of each finest voxel, or means of coarser voxels, of at most @p coarsest metres. False: points
-  /// are left out. @param likely a radius that will be asked for soon: gathered at once, if there is room.
-  bool gather(const CellPyramid& pyramid, const Vec3& center, double radius, double coarsest,
-    double likely = 0.0) noexcept;
+  /// Makes sure that all points nearer to @p center than their radius and @p way are here: a ball can go so
+  /// far from there. Where there are more than kCapacity, one point of each finest voxel, or means of coarser
+  /// voxels, of at most half of @p ball metres. False: points are left out. @param ball typical radius there.
+  /// @param likely a way that will be asked for soon: gathered at once, if there is room.
+  bool gather(
+    const ContactField& field, const Vec3& center, double way, double ball, double likely = 0.0) noexcept;
 
-  /// What is asked next is within @p radius of @p center. The answers are the same, and cost less where more
-  /// was gathered.
-  void focus(const Vec3& center, double radius) noexcept;
+  /// What is asked next is within @p way of @p center, likewise. The answers are the same, and cost less
+  /// where more was gathered.
+  void focus(const Vec3& center, double way) noexcept;
 
-  /// Whether all points of @p pyramid within @p radius of @p p are here.
-  bool holds(const CellPyramid& pyramid, const Vec3& p, double radius) const noexcept
-  {
-    return pyramid_ == &pyramid && complete_ && norm(p - center_) + radius <= reach_;
-  }
-
-  /// The radius about @p p within which all that was asked for is here; below 0: none.
+  /// The way from @p p for which all points are here; below 0: none.
   double reachAbout(const Vec3& p) const noexcept { return reach_ - norm(p - center_); }
 
   /// How often the pyramid was visited so far: what costs time.
@@ -57,20 +52,39 @@ public:
   int size() const noexcept { return size_; }
   Vec3 point(int i) const noexcept { return center_ + Vec3(x_[i], y_[i], z_[i]); }
 
-  /// The point nearest to @p p; -1: there is none. @p distance2 receives the squared distance.
-  int nearest(const Vec3& p, double& distance2) const noexcept;
+  /// The radius of point @p i.
+  double radius(int i) const noexcept { return radius_[i]; }
 
-  /// The same among those nearer than @p radius.
+  /// The point that a ball at @p p with radii scaled by @p scale is deepest in; -1: it covers none.
+  int deepest(const Vec3& p, double scale) const noexcept;
+  /// The largest scale, at most 1, with which a ball at @p p covers no point.
+  double roomAt(const Vec3& p) const noexcept;
+  /// The point nearest to @p p among those nearer than @p radius; -1: there is none.
   int nearestWithin(const Vec3& p, double radius) const noexcept;
 
   /// The point of @p pyramid nearest to @p p, at most @p search away: mostly it is here. False: there is
   /// none.
   bool nearestOf(const CellPyramid& pyramid, const Vec3& p, double search, Vec3& nearest) const noexcept;
 
-  /// How far a ball of @p radius at @p from can go along the unit vector @p direction before it would cover a
-  /// point: exact, 0 to @p length. Points that it covers already, or that it leaves, do not count unless it
-  /// goes deeper. @pre all points within radius + length of @p from are here.
-  double sweep(const Vec3& from, const Vec3& direction, double length, double radius) const noexcept;
+  /// How far a ball at @p from can go along the unit vector @p direction before it would cover a point:
+  /// exact, 0 to @p length. Points that it covers already, or that it leaves, do not count unless it goes
+  /// deeper. @pre what a way of @p length needs is here.
+  double sweep(const Vec3& from, const Vec3& direction, double length, double scale) const noexcept;
+
+  /// Calls visit(offset from the point to @p p, its radius times @p scale) for the points nearer than that.
+  template <typename Visitor>
+  void visitTouched(const Vec3& p, double scale, Visitor&& visit) const noexcept
+  {
+    const Vec3 local = p - center_;
+    int indices[kCapacity];
+    const Part part = partAbout(p, 0.0);
+    const int count = kernels_->ballsWithin(points(part), local, scale, 0.0, indices, kCapacity);
+    for (int k = 0; k < count; ++k)
+    {
+      const int i = part.first + indices[k];
+      visit(Vec3(local.x - x_[i], local.y - y_[i], local.z - z_[i]), scale * radius_[i]);
+    }
+  }
 
   /// Calls visit(offset from the point to @p p, squared distance) for the points nearer to @p p than @p
   /// radius.
@@ -110,18 +124,20 @@ private:
   }
   simd::BallPoints points(const Part& part) const noexcept
   {
-    return { x_ + part.first, y_ + part.first, z_ + part.first,
+    return { x_ + part.first, y_ + part.first, z_ + part.first, radius_ + part.first,
       (part.size + simd::kFitLanes - 1) / simd::kFitLanes * simd::kFitLanes };
   }
   void pad(int end) noexcept;
-  template <typename PointAt>
-  bool add(std::uint32_t count, const PointAt& pointAt) noexcept;
+  template <typename IndexAt>
+  bool add(const ContactField& field, int level, std::uint32_t count, const IndexAt& indexAt) noexcept;
   bool shrink() noexcept;
-  bool gatherFrom(const CellPyramid& pyramid, int level, double likely, bool onePerVoxel) noexcept;
+  bool gatherFrom(const ContactField& field, int level, double likely, bool onePerVoxel) noexcept;
+  double reachOf(double way) const noexcept;
 
   alignas(64) double x_[2 * kNear];
   alignas(64) double y_[2 * kNear];
   alignas(64) double z_[2 * kNear];
+  alignas(64) double radius_[2 * kNear];
   int size_ = 0;
   int nearSize_ = 0;
   Vec3 nearCenter_;
@@ -130,7 +146,8 @@ private:
   double reach_ = 0.0;
   std::size_t margin_ = 0; ///< Which of the margins, from large to small, reach_ has.
   bool complete_ = true;   ///< All points of the cloud, not some or means of them.
-  double askedRadius_ = 0.0;
+  double askedWay_ = 0.0;
+  double ball_ = 0.0;
   int passes_ = 0;
   std::uint64_t looked_ = 0;
   const simd::FitKernels* kernels_;

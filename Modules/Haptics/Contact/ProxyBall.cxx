@@ -1,6 +1,5 @@
 #include "Haptics/Contact/ProxyBall.h"
 
-#include "Haptics/Contact/BallRadius.h"
 #include "Haptics/Proxy.h"
 
 #include <algorithm>
@@ -11,17 +10,6 @@ namespace pointhaptics
 namespace
 {
 
-/// The radius is measured again after this many index cells of way.
-constexpr double kMeasureEvery = 2.0;
-constexpr double kHurriedGrowth = 1.3;
-/// Over what it grows by, how high a ball rises for it.
-constexpr double kHighestRise = 4.0;
-/// Most pushes end so far above that, likewise: the points further away are looked at where they do not.
-constexpr double kNearPushes = 2.0;
-constexpr double kRises[] = { 0.0, 1.0, 2.0, kHighestRise };
-/// Points within this many radii determine the radius.
-constexpr double kSearch = 4.0;
-
 /// Moves of one slide.
 constexpr int kMostSlides = 24;
 /// What a visit of the pyramid costs, in rounds: a large ball among dense points looks at thousands of them.
@@ -30,18 +18,15 @@ constexpr std::uint64_t kPointsOfRound = 128;
 /// Glides of one step.
 constexpr int kMostGlides = 3;
 constexpr int kMostPushes = 16;
-/// Part of the radius that is free of points from which on a ball that begins is out of them.
-constexpr double kNearlyOut = 0.8;
 /// A point nearer than this many radii is touched.
 constexpr double kTouch = 1.002;
 constexpr int kMostTouched = 16;
 /// A move of a slide goes as far as points are here, unless that is less than this; over the radius.
 constexpr double kShortMove = 0.25;
-/// Points nearer than so many radii pinch the ball where their normals are so far apart (a cosine).
-constexpr double kPinch = 1.02;
-constexpr double kOpposite = -0.9;
-/// Least radius of a ball that begins where it has no room, over the one it should have.
-constexpr double kSmallestRadius = 1e-3;
+/// Least scale of a ball that begins where it has no room.
+constexpr double kSmallestScale = 1e-3;
+/// The scale of a ball that has nearly its full size.
+constexpr double kNearlyFull = 0.8;
 /// Places further away than this many times the cloud's extent are free whatever the way there.
 constexpr double kFarAway = 1e6;
 /// A shorter way is none, over the radius.
@@ -117,20 +102,16 @@ void ProxyBall::carry(const AffineTransform& change, double scale) noexcept
   center_ = change.apply(center_);
   hip_ = change.apply(hip_);
   radius_ *= scale;
-  wanted_ *= scale;
-  wantedAhead_ *= scale;
-  isMeasured_ = false;
-  isHeld_ = false;
+  heldAt_ = { NAN, NAN, NAN };
   flat_.carry(change);
 }
 
-void ProxyBall::gather(Work& work, double reach) noexcept
+void ProxyBall::gather(Work& work, double way) noexcept
 {
   const int passes = work.cells.passes();
   const std::uint64_t looked = work.cells.looked();
-  const double likely = free_ ? 0.0 : kReachOfTick * radius_;
-  const bool all =
-    work.cells.gather(work.scene.contactPyramid(), center_, reach, radius_ / kBallRadiusInCells, likely);
+  const double likely = isFree_ ? 0.0 : kReachOfTick * radius_;
+  const bool all = work.cells.gather(work.scene.contactField(), center_, way, radius_, likely);
   work.rounds -=
     kRoundsOfPass * (work.cells.passes() - passes) + int((work.cells.looked() - looked) / kPointsOfRound);
   work.status |= std::uint32_t(all ? kProxyOk : kProxyCellLimit);
@@ -141,219 +122,99 @@ bool ProxyBall::pushOut(const BallCells& cells) noexcept
 {
   for (int push = 0; push < kMostPushes; ++push)
   {
-    const int nearest = cells.nearestWithin(center_, (1.0 - kRounding) * radius_);
-    if (nearest < 0)
+    const int deepest = cells.deepest(center_, kClear * scale_);
+    if (deepest < 0)
     {
       return true;
     }
-    const Vec3 point = cells.point(nearest);
-    center_ = point + radius_ * normalized(center_ - point);
+    const Vec3 point = cells.point(deepest);
+    center_ = point + scale_ * cells.radius(deepest) * normalized(center_ - point);
   }
   return false;
-}
-
-/// Whether points on two sides hold the ball.
-bool ProxyBall::isPinched(const BallCells& cells) const noexcept
-{
-  Vec3 normals[kMostTouched];
-  int touched = 0;
-  bool result = false;
-  cells.visitBall(center_, kPinch * radius_,
-    [&](const Vec3& offset, double d2)
-    {
-      const Vec3 normal = offset / std::sqrt(std::max(d2, 1e-300));
-      result = result ||
-        std::any_of(normals, normals + touched, [&](const Vec3& n) { return dot(n, normal) < kOpposite; });
-      if (touched < kMostTouched)
-      {
-        normals[touched++] = normal;
-      }
-    });
-  return result;
 }
 
 /// Begins near @p hip, outside of all points; where the ball has no room, with a smaller one.
 void ProxyBall::place(Work& work, const Vec3& hip) noexcept
 {
-  placed_ = true;
-  center_ = hip;
-  hip_ = hip;
-  radius_ = kBallRadiusInSpacings * work.scene.contactCell();
-  measure(work, hip);
-  radius_ = wanted_;
+  isPlaced_ = true;
+  center_ = hip_ = hip;
+  scale_ = 1.0;
+  radius_ = work.scene.contactField().typical();
   gather(work, 2.0 * radius_);
-  double d2 = 0.0;
-  if (!pushOut(work.cells))
+  const int nearest = work.cells.deepest(center_, 1.0);
+  radius_ = nearest >= 0 ? work.cells.radius(nearest) : radius_;
+  gather(work, 2.0 * radius_);
+  if (!pushOut(work.cells) || norm(center_ - hip) > 2.0 * radius_)
   {
-    // Nearly out is out, by a ball a little smaller; else there is no room here for one of this size.
-    gather(work, radius_);
-    const bool isNearlyOut = work.cells.nearest(center_, d2) >= 0 && std::sqrt(d2) >= kNearlyOut * radius_;
-    center_ = isNearlyOut ? center_ : hip;
-    work.cells.gather(work.scene.contactPyramid(), center_, 2.0 * radius_, radius_);
-    if (work.cells.nearest(center_, d2) >= 0)
-    {
-      radius_ = std::max(kSmallestRadius * radius_, std::min(radius_, (1.0 - kRounding) * std::sqrt(d2)));
-    }
+    center_ = hip;
+    scale_ = std::max(kSmallestScale, work.cells.roomAt(hip));
+    radius_ *= scale_;
   }
-  free_ = center_ == hip;
-  isConfined_ = radius_ < kTooSmall * wanted_;
+  isFree_ = center_ == hip;
 }
 
-/// Makes room for a ball that has grown: beside the points that held @p before, or above them, as in a gap of
-/// the surface. A ball that grows by more than a little goes only where the smaller one could. False: there
-/// is no room.
-bool ProxyBall::makeRoom(Work& work, const ProxyBall& before) noexcept
+/// Takes the ball to other points of the same place: its contact point stays.
+void ProxyBall::placeAmongOthers(Work& work) noexcept
 {
-  const Vec3 up = flat_.isNear(before.center_, kFlatNear * radius_)
-    ? flat_.normal()
-    : normalized(before.center_ - hip_, Vec3());
-  const Vec3 start = center_;
-  const double growth = radius_ - before.radius_;
-  const bool isLittle = radius_ <= before.radius_ * kLargestGrowth;
-  const double furthest = radius_ + kHighestRise * growth;
-  for (const double part : kRises)
+  isAmongOthers_ = false;
+  heldAt_ = { NAN, NAN, NAN };
+  if (isFree_)
   {
-    bool isOut = false;
-    for (const double reach : { std::min((part + kNearPushes) * growth, furthest), furthest })
-    {
-      center_ = start;
-      gather(work, radius_ + reach + growth);
-      center_ += part * growth * up;
-      isOut = pushOut(work.cells);
-      if (norm2(center_ - start) <= reach * reach)
-      {
-        break;
-      }
-    }
-    if (isOut && norm2(center_ - start) > furthest * furthest)
-    {
-      // Pushes led it to where the points that were gathered end.
-      gather(work, 2.0 * radius_);
-      isOut = isLittle && work.cells.nearestWithin(center_, (1.0 - kRounding) * radius_) < 0;
-    }
-    const Vec3 way = center_ - before.center_;
-    const double length = norm(way);
-    // No growth is worth a leap.
-    if (isOut &&
-      (isLittle ||
-        (length <= kHighestRise * growth &&
-          work.cells.sweep(before.center_, normalized(way), length, before.radius_) == length)))
-    {
-      return true;
-    }
-  }
-  return false;
-}
-
-bool ProxyBall::isMeasureDue(const HapticScene& scene) const noexcept
-{
-  const double every = kMeasureEvery * scene.contactCell();
-  return !isMeasured_ || norm2(center_ - measuredAt_) > every * every;
-}
-
-/// Finds the radius that the cloud asks for about the ball and ahead: what comes may be sparser, and the ball
-/// is wide.
-void ProxyBall::measure(Work& work, const Vec3& hip) noexcept
-{
-  if (!free_)
-  {
-    gather(work, 2.0 * radius_);
-  }
-  Vec3 ignored;
-  const double search =
-    kSearch * std::max(radius_, work.scene.fitScale(center_, work.fields, ignored).proxyRadius);
-  const auto nearestTo = [&](const Vec3& place, Vec3& point)
-  { return work.cells.nearestOf(work.scene.contactPyramid(), place, search, point); };
-  Vec3 nearest;
-  const bool isFound = nearestTo(center_, nearest);
-  const auto wantedAt = [&](const Vec3& seed)
-  { return ballRadius(work.scene, work.fields, work.cells, seed, center_); };
-  wanted_ = wantedAhead_ = isFound ? wantedAt(nearest) : radius_;
-  const Vec3 up = normalized(center_ - hip_);
-  const Vec3 course = hip - hip_;
-  const Vec3 ahead = normalized(course - dot(course, up) * up);
-  Vec3 next;
-  if (!free_ && nearestTo(center_ + kAhead * radius_ * ahead, next) && next != nearest)
-  {
-    wantedAhead_ = wantedAt(next);
-    wanted_ = std::max(wanted_, wantedAhead_);
-  }
-  measuredAt_ = center_;
-  isMeasured_ = true;
-  if (free_ && wanted_ != radius_)
-  {
-    const double room = isFound ? (1.0 - kRounding) * norm(center_ - nearest) : wanted_;
-    radius_ = std::min(wanted_, std::max(radius_, room));
-  }
-}
-
-/// Whether it sits in a gap about as wide as itself, where it has room by chance and cannot go on.
-bool ProxyBall::isWedged(Work& work) noexcept
-{
-  gather(work, kPinch * radius_);
-  return isPinched(work.cells);
-}
-
-/// Takes the radius towards what the cloud asks for: at once where the ball is free, else little by little.
-/// It grows only where there is room, and shrinks where it is pinched between points on two sides, or held
-/// among points where it began without room: it was on no side of them.
-void ProxyBall::updateRadius(Work& work, const Vec3& hip) noexcept
-{
-  if (isMeasureDue(work.scene))
-  {
-    measure(work, hip);
-  }
-  const ProxyBall before = *this;
-  if (isHeld_ && (isConfined_ || isWedged(work)))
-  {
-    radius_ /= kLargestGrowth;
     return;
   }
-  const double growth = radius_ < kTooSmall * wanted_ ? kHurriedGrowth : kLargestGrowth;
-  const double most = adopts_ ? std::max(wanted_, radius_) : radius_ * growth;
-  adopts_ = false;
-  radius_ = std::clamp(wanted_, radius_ / kLargestGrowth, most);
-  if (radius_ > before.radius_ * growth && !free_)
+  const Vec3 up = normalized(center_ - hip_, Vec3());
+  const Vec3 contact = center_ - radius_ * up;
+  gather(work, radius_);
+  Vec3 point;
+  double wanted = radius_;
+  work.cells.visitTouched(
+    contact, 1.0, [&](const Vec3&, double radius) { wanted = std::max(wanted, radius); });
+  // A larger ball stands above the contact point; a smaller one goes down by itself.
+  center_ = contact + scale_ * wanted * up;
+  radius_ = scale_ * wanted;
+  gather(work, 2.0 * radius_);
+  const Vec3 above = center_;
+  if (!pushOut(work.cells) || norm(center_ - above) > radius_)
   {
-    // Its point nearest to the HIP stays.
-    center_ += (radius_ - before.radius_) * normalized(center_ - hip_, Vec3());
+    center_ = above;
+    scale_ = std::max(kSmallestScale, std::min(scale_, work.cells.roomAt(center_)));
   }
-  if (radius_ > before.radius_)
+}
+
+/// A ball that began without room takes what it finds on its way while it is free.
+void ProxyBall::grow(Work& work) noexcept
+{
+  if (scale_ < 1.0 && isFree_)
   {
-    if (!makeRoom(work, before))
-    {
-      *this = before;
-      adopts_ = false;
-      radius_ = isPinched(work.cells) ? radius_ / kLargestGrowth : radius_;
-    }
-    free_ = free_ && center_ == before.center_;
+    gather(work, 0.0);
+    scale_ = std::max(scale_, work.cells.roomAt(center_));
   }
-  isConfined_ = isConfined_ && (!free_ || radius_ < kTooSmall * wanted_);
 }
 
 /// A free ball goes with the HIP. @return how far it came before it touched a point, metres.
 double ProxyBall::fly(Work& work, const Vec3& direction, double length) noexcept
 {
   const Vec3 start = center_;
+  const double largest = work.scene.contactField().largest();
   double flown = 0.0;
   for (; flown < length && work.rounds > 0; --work.rounds)
   {
-    double stride = distanceTo(work.scene.bounds(), center_) - radius_;
+    double stride = distanceTo(work.scene.bounds(), center_) - largest;
     if (!(stride > radius_))
     {
-      stride = work.scene.isNear(center_) ? 0.0 : work.scene.clearance() - radius_;
+      stride = work.scene.isNear(center_) ? 0.0 : work.scene.clearance() - largest;
     }
     double reached = std::min(length - flown, stride);
     if (!(stride > radius_))
     {
       const double wanted = std::min(length - flown, radius_);
-      gather(work, radius_ + wanted);
-      reached = work.cells.sweep(center_, direction, wanted, radius_);
-      free_ = reached == wanted;
+      gather(work, wanted);
+      reached = work.cells.sweep(center_, direction, wanted, scale_);
+      isFree_ = reached == wanted;
     }
     flown += reached;
     center_ = start + flown * direction;
-    if (!free_)
+    if (!isFree_)
     {
       pushOut(work.cells);
       touchDown(work);
@@ -366,6 +227,9 @@ double ProxyBall::fly(Work& work, const Vec3& direction, double length) noexcept
 /// What the ball meets first is what it lies on, also beside an edge.
 void ProxyBall::touchDown(Work& work) noexcept
 {
+  gather(work, kTouch * radius_);
+  work.cells.visitTouched(
+    center_, kTouch * scale_, [this](const Vec3&, double radius) { radius_ = radius / kTouch; });
   gather(work, kPlaneReach * radius_);
   Vec3 ignored;
   flat_.invalidate();
@@ -384,18 +248,23 @@ void ProxyBall::slide(Work& work, const Vec3& hip) noexcept
   for (int i = 0; i < kMostSlides && work.rounds > 0; ++i, --work.rounds)
   {
     const Vec3 pull = hip - center_;
-    const double here = work.cells.reachAbout(center_) - (kTouch + kNoWay) * radius_;
+    const double here = work.cells.reachAbout(center_) - (kTouch - 1.0 + kNoWay) * radius_;
     const double longest = std::min({ norm(pull), radius_, here > kShortMove * radius_ ? here : radius_ });
-    gather(work, kTouch * radius_ + longest);
+    gather(work, (kTouch - 1.0) * work.scene.contactField().largest() + longest);
     work.cells.focus(center_, kFocus * radius_);
     Vec3 normals[kMostTouched];
     int touched = 0;
-    work.cells.visitBall(center_, kTouch * radius_,
-      [&](const Vec3& offset, double d2)
+    double least = 0.0;
+    work.cells.visitTouched(center_, kTouch * scale_,
+      [&](const Vec3& offset, double radius)
       {
+        const Vec3 normal = normalized(offset);
+        const double against = dot(normal, pull);
+        radius_ = against < least ? radius / kTouch : radius_;
+        least = std::min(least, against);
         if (touched < kMostTouched)
         {
-          normals[touched++] = offset / std::sqrt(d2);
+          normals[touched++] = normal;
         }
       });
     const Vec3 way = withinPlanes(pull, normals, touched);
@@ -407,11 +276,11 @@ void ProxyBall::slide(Work& work, const Vec3& hip) noexcept
     }
     const Vec3 direction = normalized(way);
     const double wanted = std::min(length, longest);
-    const double reached = work.cells.sweep(center_, direction, wanted, radius_);
+    const double reached = work.cells.sweep(center_, direction, wanted, scale_);
     if (isOpen && reached == length)
     {
       center_ = hip;
-      free_ = true;
+      isFree_ = true;
       return;
     }
     const Vec3 before = center_;
@@ -436,71 +305,70 @@ void ProxyBall::walk(Work& work, const Vec3& hip) noexcept
   double walked = 0.0;
   do
   {
-    if (free_)
+    if (isFree_)
     {
       walked += fly(work, direction, length - walked);
     }
-    if (!free_)
+    if (!isFree_)
     {
       walked = std::min(length, walked + radius_);
     }
     hip_ = walked < length ? start + walked * direction : hip;
-    if (free_)
+    if (isFree_)
     {
       center_ = hip_;
     }
     else
     {
-      slid_ = true;
+      hasSlid_ = true;
       slide(work, hip_);
     }
   } while (walked < length && work.rounds > 0);
 }
 
-void ProxyBall::step(const HapticScene& scene, FitCells& fields, BallCells& cells, const Vec3& hip,
-  std::uint32_t& status) noexcept
+void ProxyBall::step(
+  const HapticScene& scene, BallCells& cells, const Vec3& hip, bool isPatient, std::uint32_t& status) noexcept
 {
-  Work work{ scene, fields, cells, kMostRounds, status };
-  slid_ = glided_ = false;
-  if (isFarAway(scene, hip) || (placed_ && isFarAway(scene, hip_)))
+  Work work{ scene, cells, status };
+  hasSlid_ = false;
+  if (isFarAway(scene, hip) || (isPlaced_ && isFarAway(scene, hip_)))
   {
     reset();
     center_ = hip_ = hip;
-    radius_ = kBallRadiusInSpacings * scene.contactCell();
+    radius_ = scene.contactField().typical();
   }
   if (isFarAway(scene, hip))
   {
     return;
   }
-  if (!placed_)
+  if (!isPlaced_)
   {
     place(work, hip);
   }
-  else if (!free_ || scene.isNear(center_))
+  if (isAmongOthers_)
   {
-    updateRadius(work, hip);
+    placeAmongOthers(work);
   }
+  grow(work);
 
   walk(work, hip);
-  there_ = hip_ == hip;
-  status |= std::uint32_t(there_ ? kProxyOk : kProxyStepLimit);
-  status |= std::uint32_t(isConfined_ && !free_ ? kProxyCrowded : kProxyOk);
+  hasReachedHip_ = hip_ == hip;
+  status |= std::uint32_t(hasReachedHip_ ? kProxyOk : kProxyStepLimit);
+  status |= std::uint32_t(scale_ < kNearlyFull && !isFree_ ? kProxyCrowded : kProxyOk);
   const double again = kGlideAgain * radius_;
-  if (free_ || (isHeld_ && norm2(hip - heldAt_) < again * again) || mayWait(hip))
+  if (isFree_ || norm2(hip - heldAt_) < again * again || mayWait(hip, isPatient))
   {
     return;
   }
-  isHeld_ = false;
-  const int glides = isPatient_ ? 1 : kMostGlides;
-  for (int i = 0; i < glides && !free_ && there_ && work.rounds > 0; ++i)
+  heldAt_ = { NAN, NAN, NAN };
+  const int glides = isPatient ? 1 : kMostGlides;
+  for (int i = 0; i < glides && !isFree_ && hasReachedHip_ && work.rounds > 0; ++i)
   {
     if (!glide(work, hip))
     {
-      isHeld_ = true;
       heldAt_ = hip;
       break;
     }
-    glided_ = true;
     status |= kProxyGliding;
   }
 }

@@ -1,7 +1,5 @@
 #include "Haptics/Contact/ProxyBall.h"
 
-#include "Haptics/Contact/BallRadius.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -63,17 +61,16 @@ Vec3 ProxyBall::surfaceNormal(const BallCells& cells) noexcept
 }
 
 /// Whether the ball lies on a flat place and leans so little that it may wait.
-bool ProxyBall::mayWait(const Vec3& hip) const noexcept
+bool ProxyBall::mayWait(const Vec3& hip, bool isPatient) const noexcept
 {
-  return !rode_ && flat_.isNear(center_, (isPatient_ ? kPatientNear : kWaitNear) * radius_) &&
-    norm(flat_.along(hip - center_)) < (isPatient_ ? kPatientLean : kWaitLean) * radius_;
+  return !hasRidden_ && flat_.isNear(center_, (isPatient ? kPatientNear : kWaitNear) * radius_) &&
+    norm(flat_.along(hip - center_)) < (isPatient ? kPatientLean : kWaitLean) * radius_;
 }
 
 bool ProxyBall::glide(Work& work, const Vec3& hip) noexcept
 {
-  rode_ = false;
+  hasRidden_ = false;
   gather(work, kPlaneReach * radius_);
-  work.cells.focus(center_, kPlaneReach * radius_);
   const Vec3 up = surfaceNormal(work.cells);
   const Vec3 pull = hip - center_;
   const Vec3 lean = pull - dot(pull, up) * up;
@@ -89,11 +86,11 @@ bool ProxyBall::glide(Work& work, const Vec3& hip) noexcept
     [&](const Vec3& offset, double) { isWalled = isWalled || dot(offset, up) < highest; });
   const ProxyBall before = *this;
   const Vec3 direction = lean / leaning;
-  gather(work, (1.0 + kLongestGlide + kLifts[kMostLifts - 1]) * radius_);
+  gather(work, (kLongestGlide + kLifts[kMostLifts - 1]) * radius_);
   for (const double lift : kLifts)
   {
     // Bumps are passed by a smaller ball, deeper gaps are left by lifting it.
-    const double ball = lift > 0.0 ? radius_ : kGlideRadius * radius_;
+    const double ball = lift > 0.0 ? scale_ : kGlideRadius * scale_;
     center_ += work.cells.sweep(center_, up, lift * radius_, ball) * up;
     center_ +=
       work.cells.sweep(center_, direction, std::min(leaning, kLongestGlide * radius_), ball) * direction;
@@ -128,25 +125,25 @@ double ProxyBall::advance(Work& work, const Vec3& direction, double length) noex
   for (; left > 0.0 && reached == stride && work.rounds > 0; --work.rounds)
   {
     stride = std::min(left, radius_);
-    gather(work, radius_ + stride);
-    reached = work.cells.sweep(center_, direction, stride, radius_);
+    gather(work, stride);
+    reached = work.cells.sweep(center_, direction, stride, scale_);
     center_ += reached * direction;
     left -= reached;
   }
   return length - left;
 }
 
-bool ProxyBall::goTo(const HapticScene& scene, FitCells& fields, BallCells& cells, const Vec3& foot,
-  const Vec3& up, std::uint32_t& status) noexcept
+bool ProxyBall::goTo(const HapticScene& scene, BallCells& cells, const Vec3& foot, const Vec3& up,
+  std::uint32_t& status) noexcept
 {
-  Work work{ scene, fields, cells, kMostRounds, status };
+  Work work{ scene, cells, status };
   const double furthest = norm(hip_ - center_) + kLargestRise * radius_;
   return this->moveAbove(work, foot, up,
     [&] { return norm(hip_ - center_) < furthest && norm(center_ - foot) < kOnFoot * radius_; });
 }
 
-bool ProxyBall::goAround(const HapticScene& scene, FitCells& fields, BallCells& cells, const Vec3& foot,
-  const Vec3& up, std::uint32_t& status) noexcept
+bool ProxyBall::goAround(const HapticScene& scene, BallCells& cells, const Vec3& foot, const Vec3& up,
+  std::uint32_t& status) noexcept
 {
   // At an edge sharper than a right angle the HIP is out through the other face before it is past the edge.
   if (flat_.isNear(center_, kFlatNear * radius_) &&
@@ -154,8 +151,8 @@ bool ProxyBall::goAround(const HapticScene& scene, FitCells& fields, BallCells& 
   {
     return false;
   }
-  Work work{ scene, fields, cells, kMostRounds, status };
-  return this->moveAbove(work, foot, up, [&] { return free_ || depth(hip_) <= kAround * radius_; });
+  Work work{ scene, cells, status };
+  return this->moveAbove(work, foot, up, [&] { return isFree_ || depth(hip_) <= kAround * radius_; });
 }
 
 /// Lifts the ball, goes over edges and bumps, and down to the surface through @p foot with the unit normal
@@ -185,27 +182,10 @@ bool ProxyBall::moveAbove(Work& work, const Vec3& foot, const Vec3& up, IsGood&&
   return false;
 }
 
-/// The same for a ball that rides: what is about it now was ahead before.
-void ProxyBall::measureAhead(Work& work, const Vec3& hip, const Vec3& foot, const Vec3& up) noexcept
-{
-  gather(work, 2.0 * radius_);
-  const Vec3 course = hip - hip_;
-  const Vec3 ahead = normalized(course - dot(course, up) * up, Vec3());
-  Vec3 point;
-  const double before = wantedAhead_;
-  if (work.cells.nearestOf(work.scene.contactPyramid(), foot + kAhead * radius_ * ahead, radius_, point))
-  {
-    wantedAhead_ = ballRadius(work.scene, work.fields, work.cells, point, center_);
-  }
-  wanted_ = std::max(before, wantedAhead_);
-  measuredAt_ = center_;
-  isMeasured_ = true;
-}
-
 bool ProxyBall::hasPointsAround(
   const HapticScene& scene, BallCells& cells, const Vec3& foot, const Vec3& up) const noexcept
 {
-  cells.gather(scene.contactPyramid(), foot, radius_, radius_ / kBallRadiusInCells, kReachOfTick * radius_);
+  cells.gather(scene.contactField(), foot, radius_, radius_, kReachOfTick * radius_);
   Vec3 sum;
   double count = 0.0;
   cells.visitBall(foot, radius_,
@@ -218,43 +198,38 @@ bool ProxyBall::hasPointsAround(
   return norm(sum) < kMostAsideOfFoot * radius_ * count;
 }
 
-bool ProxyBall::ride(const HapticScene& scene, FitCells& fields, BallCells& cells, const Vec3& hip,
-  const Vec3& foot, const Vec3& up, std::uint32_t& status) noexcept
+bool ProxyBall::ride(const HapticScene& scene, BallCells& cells, const Vec3& hip, const Vec3& foot,
+  const Vec3& up, std::uint32_t& status) noexcept
 {
-  if (free_ || !there_ || isConfined_)
+  if (isFree_ || !hasReachedHip_ || scale_ < 1.0 || isAmongOthers_)
   {
     return false;
   }
-  Work work{ scene, fields, cells, kMostRounds, status };
+  Work work{ scene, cells, status };
   const ProxyBall before = *this;
-  if (adopts_)
-  {
-    measure(work, hip);
-  }
-  else if (isMeasureDue(scene))
-  {
-    measureAhead(work, hip, foot, up);
-  }
-  const double smaller = radius_;
-  const double most = adopts_ ? std::max(wanted_, radius_) : radius_ * kLargestGrowth;
-  radius_ = std::clamp(wanted_, radius_ / kLargestGrowth, most);
+  gather(work, radius_);
+  cells.focus(center_, kFocus * radius_);
+  double largest = 0.0;
+  cells.visitTouched(foot, kOnFoot,
+    [&](const Vec3& offset, double radius)
+    { largest = std::max(largest, norm2(offset) < radius_ * radius_ ? radius / kOnFoot : 0.0); });
+  radius_ = largest > 0.0 ? largest : radius_;
   const Vec3 way = foot + (1.0 + kAboveBumps) * radius_ * up - center_;
   const double rise = std::max(0.0, dot(way, up));
   const Vec3 across = way - rise * up;
   const double length = norm(across);
-  bool isOut = radius_ >= kTooSmall * wanted_ && rise + length <= kLongestRide * radius_;
+  bool isOut = rise + length <= kLongestRide * radius_;
   if (isOut)
   {
-    gather(work, radius_ + rise + length);
-    work.cells.focus(center_, kFocus * radius_);
+    gather(work, rise + length);
+    cells.focus(center_, kFocus * radius_);
     const auto goes = [&](const Vec3& direction, double distance)
     {
-      const bool isClear = work.cells.sweep(center_, direction, distance, smaller) == distance;
+      const bool isClear = cells.sweep(center_, direction, distance, scale_) == distance;
       center_ += distance * direction;
       return isClear;
     };
-    isOut = goes(up, rise) && goes(normalized(across), length) &&
-      work.cells.nearestWithin(center_, (1.0 - kRounding) * radius_) < 0;
+    isOut = goes(up, rise) && goes(normalized(across), length) && this->isClear(cells);
   }
   if (!isOut)
   {
@@ -262,8 +237,9 @@ bool ProxyBall::ride(const HapticScene& scene, FitCells& fields, BallCells& cell
     return false;
   }
   hip_ = hip;
-  slid_ = glided_ = isHeld_ = adopts_ = false;
-  rode_ = true;
+  heldAt_ = { NAN, NAN, NAN };
+  hasSlid_ = false;
+  hasRidden_ = true;
   // The fit leans towards an edge before it ends there, and a plane through the points does not.
   Vec3 ignored;
   if (!flat_.isNear(center_, kFlatAgain * radius_))

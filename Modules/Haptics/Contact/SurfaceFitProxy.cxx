@@ -92,7 +92,7 @@ bool SurfaceFitProxy::comesOut(
   const SurfaceTracker& face = search.found();
   const ProxyBall before = ball_;
   if (isRough_ || face.height(hip) < 0.0 ||
-    !ball_.goAround(scene, memory.fit, memory.ball, face.point(), face.normal(), status) ||
+    !ball_.goAround(scene, memory.ball, face.point(), face.normal(), status) ||
     face.height(ball_.center()) < 0.0)
   {
     ball_ = before;
@@ -129,7 +129,7 @@ bool SurfaceFitProxy::ride(
   return isAlone_ && isSmooth() && tracker_.height(hip) < 0.0 &&
     (tracker_.continuesAround() ||
       ball_.hasPointsAround(scene, memory.ball, tracker_.point(), tracker_.normal())) &&
-    ball_.ride(scene, memory.fit, memory.ball, hip, tracker_.point(), tracker_.normal(), status);
+    ball_.ride(scene, memory.ball, hip, tracker_.point(), tracker_.normal(), status);
 }
 
 /// @param followed how the fit came to the foot of the HIP. @return how much of the answer is the fit's, 0 to
@@ -137,7 +137,6 @@ bool SurfaceFitProxy::ride(
 double SurfaceFitProxy::fitWeight(const HapticScene& scene, Memory& memory, const Vec3& hip,
   TrackResult followed, std::uint32_t& status) noexcept
 {
-  FitCells& fit = memory.fit;
   const auto weight = [&]
   {
     const double trust =
@@ -155,7 +154,7 @@ double SurfaceFitProxy::fitWeight(const HapticScene& scene, Memory& memory, cons
     status |= std::uint32_t(followed != TrackResult::Converged ? kProxyRoundLimit : kProxyOk);
     // Where the foot leaps on a ridge the bumps between points would hold the ball.
     const bool isLed = followed == TrackResult::Far &&
-      ball_.goTo(scene, fit, memory.ball, tracker_.point(), tracker_.normal(), status);
+      ball_.goTo(scene, memory.ball, tracker_.point(), tracker_.normal(), status);
     status |= std::uint32_t(isLed ? kProxyLed : kProxyOk);
     result = followed <= TrackResult::RoundLimit || isLed ? weight() : 0.0;
     hasFit_ = result > 0.0;
@@ -219,8 +218,7 @@ void SurfaceFitProxy::step(const HapticScene& scene, Memory& memory, const Conta
   const TrackResult followed = follows ? tracker_.follow(scene, memory.fit, hip) : TrackResult::Lost;
   if (followed != TrackResult::Converged || !ride(scene, memory, hip, state.status))
   {
-    ball_.setPatient(isPatient_);
-    ball_.step(scene, memory.fit, memory.ball, hip, state.status);
+    ball_.step(scene, memory.ball, hip, isPatient_, state.status);
   }
   Contact contact;
   double weight = 0.0;

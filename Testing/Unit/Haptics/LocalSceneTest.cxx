@@ -130,16 +130,16 @@ TEST(LocalScene, SharesWhatWasGatheredWhereItOverlapsTheLastOne)
   BallCells ball;
   FitCells fit;
   Vec3 gradient;
-  ASSERT_TRUE(ball.gather(a->pyramid(), hand, 4e-4, 1.0));
+  ASSERT_TRUE(ball.gather(a->contactField(), hand, 2e-4, 2e-4));
   a->fitScale(hand, fit, gradient);
   ball.carryOver(b->pyramid(), shared);
   b->carryOver(fit, shared);
-  ASSERT_TRUE(ball.gather(b->pyramid(), hand, 4e-4, 1.0));
+  ASSERT_TRUE(ball.gather(b->contactField(), hand, 2e-4, 2e-4));
   EXPECT_EQ(ball.passes(), 1) << "what was gathered serves the next scene";
   const double radius = b->fitRadius(hand);
   EXPECT_NEAR(b->fitScale(hand, fit, gradient).radius, radius, 1e-12 * radius);
   ball.carryOver(a->pyramid(), handAt(hand));
-  ASSERT_TRUE(ball.gather(a->pyramid(), hand, 4e-4, 1.0));
+  ASSERT_TRUE(ball.gather(a->contactField(), hand, 2e-4, 2e-4));
   EXPECT_EQ(ball.passes(), 2) << "it lay beyond what the two share";
 }
 

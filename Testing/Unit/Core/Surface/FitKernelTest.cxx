@@ -115,7 +115,8 @@ void answer(const FitKernels& kernels, const Question& question, Answers& answer
   kernels.sumCubicRows(answers.rows, answers.cubic);
   kernels.traceRows(answers.rows, question.fit, 0.1, -0.3, answers.trace);
   const int groups = (question.block.size + kFitLanes - 1) / kFitLanes * kFitLanes;
-  const BallPoints points{ question.block.x, question.block.y, question.block.z, groups };
+  const BallPoints points{ question.block.x, question.block.y, question.block.z, question.block.count,
+    groups };
   const double radius = 0.3 * question.view.radius;
   std::fill(answers.indices, answers.indices + 64, -1);
   answers.within = kernels.pointsWithin(points, question.view.origin, radius * radius, answers.indices, 64);

@@ -9,7 +9,10 @@ using trial::Real;
 namespace
 {
 
-constexpr double kCoarse = 1.0;
+/// The field of points that keep nothing away, and of points whose radius is the unit of a scale.
+constexpr double kNoRadius = 0x1p-60;
+constexpr double kUnitRadius = 1.0;
+constexpr double kBall = 0.0;
 
 CellPyramid pyramidOf(const std::vector<Vec3>& points, double voxelSize)
 {
@@ -24,6 +27,13 @@ CellPyramid pyramidOf(const std::vector<Vec3>& points, double voxelSize)
   std::vector<std::uint32_t> sourceIndex;
   EXPECT_EQ(pyramid.build(std::move(cells), voxelSize, sourceIndex), Status::Ok);
   return pyramid;
+}
+
+ContactField fieldOf(const CellPyramid& pyramid, double radius = kNoRadius)
+{
+  ContactField field;
+  field.build(pyramid, { radius, radius }, Bounds(), Executor());
+  return field;
 }
 
 std::vector<Vec3> randomPoints(trial::Random& random, std::size_t n, double size)
@@ -46,8 +56,8 @@ std::vector<Vec3> randomPoints(trial::Random& random, std::size_t n, double size
 /// How near @p cells have a point to @p p.
 double gapTo(const BallCells& cells, const Vec3& p)
 {
-  double distance2 = HUGE_VAL;
-  return cells.nearest(p, distance2) < 0 ? HUGE_VAL : std::sqrt(distance2);
+  const int nearest = cells.nearestWithin(p, 1.0);
+  return nearest < 0 ? HUGE_VAL : norm(cells.point(nearest) - p);
 }
 
 /// Largest distance from a point of @p points within @p radius of @p center to the nearest one gathered.
@@ -119,7 +129,7 @@ TEST(BallCells, GathersEveryPointInReachWhereverTheBallGoes)
       center = random.below(20) == 0 ? points[random.below(points.size())]
                                      : center + random.uniform(0.0, 1e-3) * random.direction();
       const double radius = random.uniform(1e-5, 8e-3);
-      ASSERT_TRUE(cells.gather(pyramid, center, radius, kCoarse));
+      ASSERT_TRUE(cells.gather(fieldOf(pyramid), center, radius, kBall));
       ASSERT_LE(worstGap(points, cells, center, radius), 1e-16) << cloud << ' ' << move;
     }
   }
@@ -140,7 +150,7 @@ TEST(BallCells, GathersEveryPointInReachOfALargeCloudWhereNotTooManyAre)
         points[random.below(points.size())] + random.uniform(0.0, 1e-3) * random.direction();
       const double radius = random.uniform(1e-4, 2e-3);
       cells.invalidate();
-      const bool whole = cells.gather(pyramid, center, radius, kCoarse);
+      const bool whole = cells.gather(fieldOf(pyramid), center, radius, kBall);
       // More than is asked for is gathered; that counts, too.
       std::size_t inReach = 0;
       for (const Vec3& p : points)
@@ -167,7 +177,7 @@ TEST(BallCells, AnswersTheSameBitForBitWhereItWasFocused)
     const std::vector<Vec3> points = randomPoints(random, 1 + random.below(BallCells::kCapacity), 0.01);
     const CellPyramid pyramid = pyramidOf(points, 1e-3);
     BallCells all;
-    ASSERT_TRUE(all.gather(pyramid, points[0], 0.01, kCoarse));
+    ASSERT_TRUE(all.gather(fieldOf(pyramid, kUnitRadius), points[0], 0.01, kBall));
     BallCells focused = all;
     for (int i = 0; i < 50; ++i)
     {
@@ -198,7 +208,7 @@ TEST(BallCells, FindsTheNearestPointOfThePyramidWhereverThatIs)
     const std::vector<Vec3> points = randomPoints(random, 1 + random.below(2 * BallCells::kCapacity), 0.01);
     const CellPyramid pyramid = pyramidOf(points, 1e-3);
     BallCells cells;
-    cells.gather(pyramid, points[0], random.uniform(0.0, 0.01), kCoarse);
+    cells.gather(fieldOf(pyramid), points[0], random.uniform(0.0, 0.01), kBall);
     for (int i = 0; i < 50; ++i)
     {
       const Vec3 p = points[0] + random.uniform(0.0, 0.01) * random.direction();
@@ -209,7 +219,7 @@ TEST(BallCells, FindsTheNearestPointOfThePyramidWhereverThatIs)
       ASSERT_EQ(cells.nearestOf(pyramid, p, search, found), expected >= 0);
       if (expected >= 0)
       {
-        (cells.holds(pyramid, p, distance) ? here : beyond) += 1;
+        (cells.reachAbout(p) >= distance ? here : beyond) += 1;
         EXPECT_NEAR(norm(found - p), distance, 1e-15);
       }
     }
@@ -224,8 +234,8 @@ TEST(BallCells, GathersWhatIsLikelyToBeAskedWhereThereIsRoom)
   const std::vector<Vec3> few = randomPoints(random, BallCells::kCapacity, 0.01);
   const CellPyramid sparse = pyramidOf(few, 1e-3);
   BallCells cells;
-  ASSERT_TRUE(cells.gather(sparse, few[0], 1e-3, kCoarse, 4e-3));
-  ASSERT_TRUE(cells.gather(sparse, few[0], 4e-3, kCoarse));
+  ASSERT_TRUE(cells.gather(fieldOf(sparse), few[0], 1e-3, kBall, 4e-3));
+  ASSERT_TRUE(cells.gather(fieldOf(sparse), few[0], 4e-3, kBall));
   EXPECT_EQ(cells.passes(), 1);
   std::vector<Vec3> many;
   for (int i = 0; i < 20000; ++i)
@@ -234,7 +244,7 @@ TEST(BallCells, GathersWhatIsLikelyToBeAskedWhereThereIsRoom)
   }
   const CellPyramid dense = pyramidOf(many, 3e-4);
   BallCells crowded;
-  EXPECT_TRUE(crowded.gather(dense, Vec3(), 1e-3, kCoarse, 4e-3)) << "no more than that has room";
+  EXPECT_TRUE(crowded.gather(fieldOf(dense), Vec3(), 1e-3, kBall, 4e-3)) << "no more than that has room";
   EXPECT_LE(worstGap(many, crowded, Vec3(), 1e-3), 1e-16);
 }
 
@@ -251,7 +261,7 @@ TEST(BallCells, TakesOnePointOfEachVoxelWhereThereAreTooMany)
     const double voxel = random.uniform(3e-4, 5e-4);
     const CellPyramid pyramid = pyramidOf(points, voxel);
     BallCells cells;
-    ASSERT_FALSE(cells.gather(pyramid, Vec3(), 1e-3, kCoarse)) << "points are left out";
+    ASSERT_FALSE(cells.gather(fieldOf(pyramid), Vec3(), 1e-3, kBall)) << "points are left out";
     EXPECT_LE(cells.size(), int(BallCells::kCapacity));
     EXPECT_LE(worstGap(points, cells, Vec3(), 1e-3), std::sqrt(3.0) * voxel * (1 + 1e-9));
     for (int i = 0; i < cells.size(); ++i)
@@ -272,17 +282,17 @@ TEST(BallCells, TakesMeansOfCoarserVoxelsWhereVoxelsAreTooManyAndSaysWhenEvenThe
   constexpr double kFine = 2e-5; // about 8,000 voxels within the reach, 500 of 4 times the size
   const CellPyramid pyramid = pyramidOf(points, kFine);
   BallCells cells;
-  ASSERT_FALSE(cells.gather(pyramid, Vec3(), 1e-3, 3.3e-4));
+  ASSERT_FALSE(cells.gather(fieldOf(pyramid), Vec3(), 1e-3, 6.6e-4));
   const double gap = worstGap(points, cells, Vec3(), 0.999e-3);
   EXPECT_LE(gap, std::sqrt(3.0) * 16 * kFine) << "means of voxels no coarser than asked";
   EXPECT_GT(gap, 0.5 * kFine) << "not all of the points";
   EXPECT_GT(cells.size(), 100) << "not coarser than need be";
 
   cells.invalidate();
-  EXPECT_FALSE(cells.gather(pyramid, Vec3(), 1e-3, 2 * kFine)) << "too many";
+  EXPECT_FALSE(cells.gather(fieldOf(pyramid), Vec3(), 1e-3, 4 * kFine)) << "too many";
   EXPECT_LE(cells.size(), int(BallCells::kCapacity));
   EXPECT_GT(cells.size(), 0);
-  EXPECT_FALSE(cells.gather(pyramid, Vec3(), 1e-3, 2 * kFine)) << "and it says so each time";
+  EXPECT_FALSE(cells.gather(fieldOf(pyramid), Vec3(), 1e-3, 4 * kFine)) << "and it says so each time";
 }
 
 TEST(BallCells, HoldsAPointRepeatedWithoutEnd)
@@ -291,7 +301,7 @@ TEST(BallCells, HoldsAPointRepeatedWithoutEnd)
   points.emplace_back(0.01, -0.02, 0.0305);
   const CellPyramid pyramid = pyramidOf(points, 1e-4);
   BallCells cells;
-  EXPECT_FALSE(cells.gather(pyramid, { 0.01, -0.02, 0.0301 }, 1e-3, kCoarse)) << "copies are left out";
+  EXPECT_FALSE(cells.gather(fieldOf(pyramid), { 0.01, -0.02, 0.0301 }, 1e-3, kBall)) << "copies are left out";
   EXPECT_LE(worstGap(points, cells, { 0.01, -0.02, 0.0301 }, 1e-3), 1e-16);
 }
 
@@ -301,14 +311,14 @@ TEST(BallCells, ForgetsAPyramid)
   std::vector<Vec3> points = randomPoints(random, 300, 1e-3);
   CellPyramid pyramid = pyramidOf(points, 2e-4);
   BallCells cells;
-  ASSERT_TRUE(cells.gather(pyramid, points[0], 1e-3, kCoarse));
+  ASSERT_TRUE(cells.gather(fieldOf(pyramid), points[0], 1e-3, kBall));
   for (Vec3& p : points)
   {
     p += Vec3(1e-4, 0, 0);
   }
   pyramid = pyramidOf(points, 2e-4);
   cells.invalidate();
-  ASSERT_TRUE(cells.gather(pyramid, points[0], 1e-3, kCoarse));
+  ASSERT_TRUE(cells.gather(fieldOf(pyramid), points[0], 1e-3, kBall));
   EXPECT_LE(worstGap(points, cells, points[0], 1e-3), 1e-16);
 }
 
@@ -318,9 +328,8 @@ TEST(BallCells, HasNothingNearWhereNothingIs)
   BallCells cells;
   for (const Vec3& far : { Vec3(1, 0, 0), Vec3(1e3, 1e3, -1e3), Vec3(0, 1e300, 0) })
   {
-    EXPECT_TRUE(cells.gather(pyramid, far, 1e-3, kCoarse));
-    double distance2 = 0.0;
-    EXPECT_EQ(cells.nearest(far, distance2), -1);
+    EXPECT_TRUE(cells.gather(fieldOf(pyramid), far, 1e-3, kBall));
+    EXPECT_EQ(cells.nearestWithin(far, 1e-3), -1);
     EXPECT_EQ(cells.sweep(far, { 0, 0, 1 }, 1e-4, 5e-4), 1e-4);
   }
 }
@@ -335,7 +344,7 @@ TEST(BallCells, FindsTheNearestPointAndTheBall)
     const CellPyramid pyramid = pyramidOf(points, 3e-4);
     const Vec3 center = points[0] + random.uniform(0.0, 1e-3) * random.direction();
     cells.invalidate();
-    ASSERT_TRUE(cells.gather(pyramid, center, 0.02, kCoarse));
+    ASSERT_TRUE(cells.gather(fieldOf(pyramid), center, 0.02, kBall));
     for (int query = 0; query < 500; ++query)
     {
       const Vec3 p = center + random.uniform(0.0, 2e-3) * random.direction();
@@ -350,10 +359,8 @@ TEST(BallCells, FindsTheNearestPointAndTheBall)
         surely += distance < radius * (1 - 1e-12L);
         perhaps += distance < radius * (1 + 1e-12L);
       }
-      double distance2 = -1.0;
-      const int i = cells.nearest(p, distance2);
+      const int i = cells.nearestWithin(p, 1.0);
       ASSERT_GE(i, 0);
-      ASSERT_NEAR(double(std::sqrt(Real(distance2)) - least), 0.0, 1e-15);
       ASSERT_NEAR(double(norm(LongVec(cells.point(i)) - LongVec(p)) - least), 0.0, 1e-15);
       int visited = 0;
       cells.visitBall(p, radius,
@@ -384,7 +391,7 @@ TEST(BallCells, SweepsABallExactlyToTheFirstPointInItsWay)
     const CellPyramid pyramid = pyramidOf(points, 3e-4);
     const double radius = random.uniform(1e-4, 1e-3);
     cells.invalidate();
-    ASSERT_TRUE(cells.gather(pyramid, points[0], 0.02, kCoarse));
+    ASSERT_TRUE(cells.gather(fieldOf(pyramid, kUnitRadius), points[0], 0.02, kBall));
     for (int ray = 0; ray < kRays; ++ray)
     {
       // Anywhere; touching a point up to rounding; covering one by a little, or by much.
@@ -431,7 +438,7 @@ TEST(BallCells, SweepsAwayFromWhatItCovers)
 {
   const CellPyramid pyramid = pyramidOf({ Vec3(0, 0, 0) }, 1e-4);
   BallCells cells;
-  ASSERT_TRUE(cells.gather(pyramid, Vec3(), 0.01, kCoarse));
+  ASSERT_TRUE(cells.gather(fieldOf(pyramid, kUnitRadius), Vec3(), 0.01, kBall));
   const double r = 1e-3;
   for (const double z : { r, 0.999 * r, 0.5 * r, 0.01 * r })
   {

@@ -81,20 +81,22 @@ inline Real leastDistanceWithin(const HapticScene& scene, const Vec3& p, double 
   return least;
 }
 
-/// How deep a ball of @p radius that went straight covered a point on its way, over its radius, told in long
-/// double.
-inline Real deepestOnWay(const HapticScene& scene, const Vec3& from, const Vec3& to, double radius)
+/// How deep a ball that went straight covered a point on its way, over that point's radius by @p scale, told
+/// in long double.
+inline Real deepestOnWay(const HapticScene& scene, const Vec3& from, const Vec3& to, double scale)
 {
   const LongVec way = LongVec(to) - LongVec(from);
   const Real length = norm(way);
   Real deepest = 0.0L;
-  scene.contactPyramid().visitBall(0, 0.5 * (from + to), radius + 0.5 * norm(to - from),
-    [&](std::uint32_t, const Cell& cell, double)
+  const ContactField& field = scene.contactField();
+  field.pyramid().visitBall(0, 0.5 * (from + to), scale * field.largest() + 0.5 * norm(to - from),
+    [&](std::uint32_t index, const Cell& cell, double)
     {
       const LongVec offset = LongVec(cell.mean) - LongVec(from);
       const Real along = length > 0.0L ? dot(offset, way) / length : 0.0L;
       const Real at = std::clamp(along, 0.0L, length);
       const Real apart = norm(offset - (length > 0.0L ? at / length : 0.0L) * way);
+      const Real radius = Real(scale) * Real(field.radii(0)[index]);
       deepest = std::max(deepest, 1.0L - apart / radius);
     });
   return deepest;
@@ -106,7 +108,6 @@ class BallInScene
 public:
   explicit BallInScene(Scene scene)
     : scene_(std::move(scene))
-    , fields_(new FitCells)
     , cells_(new BallCells)
   {
   }
@@ -121,7 +122,9 @@ public:
   void step(const Vec3& hip)
   {
     hip_ = hip;
-    ball_.step(*scene_, *fields_, *cells_, hip, status_);
+    tickStatus_ = 0;
+    ball_.step(*scene_, *cells_, hip, false, tickStatus_);
+    status_ |= tickStatus_;
   }
   /// Along a straight line at @p speed, metres per second; ends exactly at @p to.
   void go(const Vec3& to, double speed)
@@ -140,11 +143,7 @@ public:
       step(hip_);
     }
   }
-  void invalidate()
-  {
-    fields_->invalidate();
-    cells_->invalidate();
-  }
+  void invalidate() { cells_->invalidate(); }
   /// A new scene, with the ball carried into it. What was gathered from the old one is dropped.
   void enter(Scene scene, const AffineTransform& change, double scale)
   {
@@ -158,6 +157,8 @@ public:
   ProxyBall& ball() { return ball_; }
   const ProxyBall& ball() const { return ball_; }
   const BallCells& cells() const { return *cells_; }
+  /// Of the last step.
+  bool hasGlided() const { return (tickStatus_ & kProxyGliding) != 0u; }
   /// Bits since the last call.
   std::uint32_t takeStatus()
   {
@@ -168,11 +169,11 @@ public:
 
 private:
   Scene scene_;
-  std::unique_ptr<FitCells> fields_;
   std::unique_ptr<BallCells> cells_;
   ProxyBall ball_;
   Vec3 hip_;
   std::uint32_t status_ = 0;
+  std::uint32_t tickStatus_ = 0;
 };
 
 inline bool isFinite(const ProxyBall& ball)

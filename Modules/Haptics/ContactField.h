@@ -1,0 +1,63 @@
+/// @file
+/// How far the proxy's ball stays from each point of a cloud: static, found where scenes are built.
+#pragma once
+
+#include "Core/Base/Executor.h"
+#include "Core/Surface/CellPyramid.h"
+#include "Core/Surface/SheetField.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <functional>
+#include <utility>
+#include <vector>
+
+namespace pointhaptics
+{
+
+/// The points that decide about contact, each with the radius of the ball that it keeps away (SheetField.h).
+/// Lattice frame, metres. Immutable after build(); any number of threads may read it.
+class ContactField
+{
+public:
+  /// @param pyramid must outlive this. @param settings bounds of the radii. @param felt where the ball comes:
+  /// other points get the least radius. Empty: everywhere. @param coarser least radius at a place, from a
+  /// field of more of the cloud; null: none.
+  void build(const CellPyramid& pyramid, const SheetFieldSettings& settings, const Bounds& felt,
+    const Executor& executor, const std::function<double(const Vec3&)>& coarser = nullptr);
+  /// The radius at the point nearest to @p place where that is sparser than its index cells asked for, so
+  /// that finer cells have it, too; else 0. @param search how far to look, metres.
+  double sparseRadiusAt(const Vec3& place, double search) const;
+  /// Whether any point that a ball in @p box may touch is so sparse.
+  bool isSparseNear(const Bounds& box) const;
+
+  const CellPyramid& pyramid() const { return *pyramid_; }
+  /// Of each cell of @p level; above level 0 the largest of the cells that were merged.
+  const std::vector<float>& radii(int level) const { return cells_[std::size_t(level)]; }
+  double largest() const { return largest_; }
+  double typical() const { return typical_; }
+
+  /// Calls visit(first, last) for runs of cells of @p level that hold all that are nearer to @p center than
+  /// their radius and @p extra, and others near by, until it returns false.
+  template <typename Visitor>
+  void visitRuns(int level, const Vec3& center, double extra, Visitor&& visit) const
+  {
+    pyramid_->visitRunsWithin(
+      level, center,
+      [&](int l, std::uint32_t brick) { return extra + double(bricks_[std::size_t(l)][brick]); },
+      std::forward<Visitor>(visit));
+  }
+
+private:
+  void boundBricks();
+  void mergeCells();
+
+  const CellPyramid* pyramid_ = nullptr;
+  std::vector<std::vector<float>> cells_;  ///< By level, while the pyramid has cells.
+  std::vector<std::vector<float>> bricks_; ///< By level: the largest radius below each brick.
+  double largest_ = 0.0;
+  double sparse_ = 0.0; ///< Radius from which on points are sparser than cells.
+  double typical_ = 0.0;
+};
+
+} // namespace pointhaptics
