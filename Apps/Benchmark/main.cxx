@@ -231,6 +231,6 @@ int run(std::vector<std::string> arguments)
 int main(int argc, char* argv[])
 {
   nameProgram("pointhaptics-bench");
-  return runProgram(
-    argc > 1 ? argv[1] : "", [&] { return run(std::vector<std::string>(argv + 1, argv + argc)); });
+  const std::vector<std::string> arguments(argv + 1, argv + argc);
+  return runProgram(arguments, [&] { return run(arguments); });
 }

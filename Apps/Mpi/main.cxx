@@ -98,6 +98,6 @@ int main(int argc, char* argv[])
   nameProgram("pointhaptics-mpi");
   keepFreedMemory();
   Job job(&argc, &argv);
-  return runProgram(argc > 1 ? argv[1] : "",
-    [&] { return job.finish(run(job, std::vector<std::string>(argv + 1, argv + argc))); });
+  const std::vector<std::string> arguments(argv + 1, argv + argc);
+  return runProgram(arguments, [&] { return job.finish(run(job, arguments)); });
 }

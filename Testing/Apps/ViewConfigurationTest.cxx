@@ -61,17 +61,18 @@ const std::map<std::string, std::string>& valuesOfOptions()
     { "--falcon-firmware", "image.bin" }, { "--max-force", "3" }, { "--up", "y" }, { "--color-by", "Height" },
     { "--point-size", "4" }, { "--resolution", "0.5" }, { "--bind", "help=F1 F2,rotate-x=Ctrl+x" },
     { "--camera", "0,0,1,0,0,0,0,1,0" }, { "--push-pointer", "" }, { "--axes", "" }, { "--figure", "" },
-    { "--ambient", "" }, { "--felt", "" }, { "--full-screen", "" }, { "--sound", "" }, { "--projection", "parallel" },
-    { "--background", "white" }, { "--theme", "high-contrast" }, { "--stereo", "red-blue" },
-    { "--point-scale", "2" }, { "--edl-strength", "0.5" }, { "--font-scale", "1.5" },
-    { "--color-map", "greys" }, { "--color-range", "1,2" }, { "--measure", "0,0,0,1,1,1" },
-    { "--clip", "0,1,0,1,0,1" }, { "--screenshot-size", "4000x3000" }, { "--transparent", "" },
-    { "--kind", "terrain" }, { "--ideal", "torus" }, { "--method", "gradient-steps" },
-    { "--preset", "paper" }, { "--stiffness", "500" }, { "--damping", "1.5" }, { "--mu-s", "0.5" },
-    { "--mu-d", "0.25" }, { "--no-covariance", "" }, { "--neighbors", "20" }, { "--radius", "0.002" },
-    { "--rule", "scott" }, { "--beta", "3" }, { "--r1", "0.001" }, { "--r2", "0.01" }, { "--smooth", "" },
-    { "--dims", "100,50,25" }, { "--voxel", "0.002" }, { "--workspace", "0,1,0,1,0,1" },
-    { "--scale", "1,2,3" }, { "--rotate", "30,0,0,1" }, { "--translate", "0,0,0.5" },
+    { "--ambient", "" }, { "--felt", "" }, { "--full-screen", "" }, { "--sound", "" },
+    { "--projection", "parallel" }, { "--background", "white" }, { "--theme", "high-contrast" },
+    { "--stereo", "red-blue" }, { "--point-scale", "2" }, { "--edl-strength", "0.5" },
+    { "--font-scale", "1.5" }, { "--color-map", "greys" }, { "--color-range", "1,2" },
+    { "--measure", "0,0,0,1,1,1" }, { "--clip", "0,1,0,1,0,1" }, { "--screenshot-size", "4000x3000" },
+    { "--transparent", "" }, { "--kind", "terrain" }, { "--ideal", "torus" },
+    { "--method", "gradient-steps" }, { "--preset", "paper" }, { "--stiffness", "500" },
+    { "--damping", "1.5" }, { "--mu-s", "0.5" }, { "--mu-d", "0.25" }, { "--no-covariance", "" },
+    { "--neighbors", "20" }, { "--radius", "0.002" }, { "--rule", "scott" }, { "--beta", "3" },
+    { "--r1", "0.001" }, { "--r2", "0.01" }, { "--smooth", "" }, { "--dims", "100,50,25" },
+    { "--voxel", "0.002" }, { "--workspace", "0,1,0,1,0,1" }, { "--scale", "1,2,3" },
+    { "--rotate", "30,0,0,1" }, { "--translate", "0,0,0.5" },
     { "--matrix", "2,0,0,0,0,2,0,0,0,0,2,0,0,0,0,1" }, { "--unit", "mm" } };
   return values;
 }
@@ -80,7 +81,7 @@ const std::set<std::string>& deeds()
 {
   static const std::set<std::string> names = { "--help", "--version", "--verbose", "--screenshot",
     "--turntable", "--force-chart", "--trace", "--record", "--replay", "--config", "--write-config",
-    "--recent" };
+    "--recent", "--skip-unreadable", "--quiet", "--no-clobber", "--dry-run" };
   return names;
 }
 
@@ -139,7 +140,7 @@ TEST_F(ViewConfiguration, RefusesBindingsAndCamerasThatCannotBe)
   this->refuse(
     2, { "view", "in.ply", "--measure", "1,2,3,1,2,3" }, { "--measure 1,2,3,1,2,3", "same place" });
   this->write("bad.json", R"({"bind": ["help=F1", "hepl=F2"]})");
-  this->refuse(1, { "view", "in.ply", "--config", "bad.json" }, { "bad.json", "\"bind\"", "hepl=F2" });
+  this->refuse(2, { "view", "in.ply", "--config", "bad.json" }, { "bad.json", "\"bind\"", "hepl=F2" });
 }
 
 TEST_F(ViewConfiguration, SaysThatItCannotBeWritten)

@@ -26,7 +26,7 @@ void addInfoCommand(CLI::App& program, int& exitCode);
 void addGenerateCommand(CLI::App& program, int& exitCode);
 void addDevicesCommand(CLI::App& program, int& exitCode);
 /// Hidden: for the build.
-void addManualCommand(CLI::App& program);
+void addManualCommand(CLI::App& program, int& exitCode);
 /// Runs the program pointhaptics-bench, where it is.
 void addBenchCommand(CLI::App& program, int& exitCode);
 

@@ -259,6 +259,24 @@ complete -o filenames -F _pointhaptics pointhaptics
     cases, names, longOptions(*program.get_subcommand("view")), values);
 }
 
+/// A line for each option that names files: "feel --output required writes csv".
+std::string fileOptions(CLI::App& program)
+{
+  std::string text;
+  for (const CLI::App* command : shownCommands(program))
+  {
+    for (const CLI::Option* option : command->get_options())
+    {
+      if (const std::string role = fileRole(*option); !role.empty())
+      {
+        text += fmt::format("{} {}{}{} {}\n", command->get_name(), option->get_positional() ? "" : "--",
+          option->get_single_name(), option->get_required() ? " required" : "", role);
+      }
+    }
+  }
+  return text;
+}
+
 std::string cheatSheet()
 {
   return "# Keys and mouse of `pointhaptics view`\n\nThis is what the help in the window (key " +
@@ -268,20 +286,22 @@ std::string cheatSheet()
 
 } // namespace
 
-void addManualCommand(CLI::App& program)
+void addManualCommand(CLI::App& program, int& exitCode)
 {
-  CLI::App* command =
-    program.add_subcommand("manual", "Print the man page, the bash completion or the cheat sheet");
+  CLI::App* command = program.add_subcommand(
+    "manual", "Print the man page, the bash completion, the cheat sheet, or which options name files");
   auto what = std::make_shared<std::string>();
-  addWord(*command, "what", *what, { "man", "bash", "keys" }, "What to print")->required();
-  command->callback(
-    [what, &program]
-    {
-      fmt::print("{}",
-        *what == "man"      ? manPage(program)
-          : *what == "bash" ? bashCompletion(program)
-                            : cheatSheet());
-    });
+  addWord(*command, "what", *what, { "man", "bash", "keys", "files" }, "What to print")->required();
+  const auto run = [what, &program](Files&)
+  {
+    fmt::print("{}",
+      *what == "man"       ? manPage(program)
+        : *what == "bash"  ? bashCompletion(program)
+        : *what == "files" ? fileOptions(program)
+                           : cheatSheet());
+    return kSuccess;
+  };
+  runAs(*command, exitCode, { {}, run });
 }
 
 } // namespace app
