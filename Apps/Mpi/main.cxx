@@ -2,6 +2,7 @@
 #include "Job.h"
 #include "MpiCommands.h"
 
+#include "Commands/Commands.h"
 #include "Terminal/CommandLine.h"
 #include "Terminal/Messages.h"
 
@@ -74,6 +75,7 @@ int run(Job& job, std::vector<std::string> arguments)
   MpiWork work;
   addMpiResample(program, work);
   addMpiBandwidth(program, work);
+  addManPage(program);
   int exitCode = kSuccess;
   int parsed = kSuccess;
   {
