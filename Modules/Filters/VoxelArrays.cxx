@@ -6,7 +6,7 @@
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 
-#include "Core/Base/FieldNames.h"
+#include "Core/Resample/FieldNames.h"
 
 #include <algorithm>
 #include <sstream>

@@ -3,7 +3,7 @@
 #include "PrintSettings.h"
 #include "vtkVoxelMeanResamplerInternals.h"
 
-#include "Core/Base/FieldNames.h"
+#include "Core/Resample/FieldNames.h"
 
 #include "vtkAbstractTransform.h"
 #include "vtkFieldData.h"

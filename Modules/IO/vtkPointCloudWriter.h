@@ -19,7 +19,7 @@
  *   1000 such steps gets finer ones, 10^5 to 10^6 for its length; one too long for 32 bits the finest power
  * of ten that spans it. LasScale sets the step for any cloud. Whoever transforms a cloud takes "LasScale" and
  *   "LasOffset" away. Arrays under the names of LAS fields, in any case and with or without '_'
- *   (Core/Base/FieldNames.h), become these, of whatever type where their values fit. "RGB" becomes the
+ *   (Core/Resample/FieldNames.h), become these, of whatever type where their values fit. "RGB" becomes the
  *   colour, and all others become extra bytes. NaN points are refused.
  * - .laz: the same records, compressed: pointwise for LAS 1.2, layered for 1.4, in chunks of 50,000 points
  *   that are encoded in parallel. Costs the compressed size in memory.

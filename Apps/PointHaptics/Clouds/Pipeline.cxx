@@ -19,9 +19,11 @@
 #include <vtkPolyData.h>
 #include <vtkSMPTools.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <sstream>
+#include <thread>
 
 namespace pointhaptics
 {
@@ -281,7 +283,9 @@ void useThreads(std::int64_t threads)
 {
   if (threads > 0)
   {
-    vtkSMPTools::Initialize(static_cast<int>(threads));
+    // TBB prints a warning of its own where it gets fewer.
+    const auto most = static_cast<std::int64_t>(std::max(1U, std::thread::hardware_concurrency()));
+    vtkSMPTools::Initialize(static_cast<int>(std::min(threads, most)));
   }
 }
 

@@ -139,6 +139,27 @@ void printSpacing(const CloudSummary& s)
   fmt::print("  voxel    {:.3g} holds a few points of a surface (--voxel)\n", s.suggestedVoxel);
 }
 
+void printArrays(const CloudSummary& s)
+{
+  for (std::size_t axis = 0; axis < s.coordinates.means.size(); ++axis)
+  {
+    fmt::print("  {}        mean {:.6g}, deviation {:.6g}\n", "xyz"[axis], s.coordinates.means[axis],
+      s.coordinates.deviations[axis]);
+  }
+  for (const ArraySummary& array : s.arrays)
+  {
+    std::string ranges;
+    for (std::size_t i = 0; i < array.minima.size(); ++i)
+    {
+      ranges += fmt::format(" [{:.6g}, {:.6g}]", array.minima[i], array.maxima[i]);
+      ranges += array.means.empty()
+        ? std::string()
+        : fmt::format(" mean {:.6g}, deviation {:.6g}", array.means[i], array.deviations[i]);
+    }
+    fmt::print("  array    {}: {} x {}{}\n", array.name, array.type, array.components, ranges);
+  }
+}
+
 void print(const std::string& file, const CloudSummary& s)
 {
   fmt::print("{}\n  format   {}\n  points   {}{}{}\n", file, s.format, s.points, ofThemInvalid(s.invalid),
@@ -165,23 +186,7 @@ void print(const std::string& file, const CloudSummary& s)
   {
     fmt::print("  system   {}\n", s.coordinateSystem);
   }
-  for (std::size_t axis = 0; axis < s.coordinates.means.size(); ++axis)
-  {
-    fmt::print("  {}        mean {:.6g}, deviation {:.6g}\n", "xyz"[axis], s.coordinates.means[axis],
-      s.coordinates.deviations[axis]);
-  }
-  for (const ArraySummary& array : s.arrays)
-  {
-    std::string ranges;
-    for (std::size_t i = 0; i < array.minima.size(); ++i)
-    {
-      ranges += fmt::format(" [{:.6g}, {:.6g}]", array.minima[i], array.maxima[i]);
-      ranges += array.means.empty()
-        ? std::string()
-        : fmt::format(" mean {:.6g}, deviation {:.6g}", array.means[i], array.deviations[i]);
-    }
-    fmt::print("  array    {}: {} x {}{}\n", array.name, array.type, array.components, ranges);
-  }
+  printArrays(s);
   for (const std::string& note : s.notes)
   {
     fmt::print("  note     {}\n", note);

@@ -47,6 +47,12 @@ std::vector<std::string> wordsOf(const std::string& text)
   return { std::istream_iterator<std::string>(words), {} };
 }
 
+bool isGiven(const CLI::App& command, const char* name)
+{
+  const CLI::Option* option = command.get_option_no_throw(name);
+  return option && option->count() > 0;
+}
+
 /// Each unfinished output is an open file.
 void allowManyFiles(std::size_t count)
 {
@@ -148,6 +154,37 @@ std::string expandedName(const std::string& pattern, const std::string& input)
   return result;
 }
 
+/// An output as the command line names it: maybe a pattern.
+struct Files::NamedOutput
+{
+  std::string option;
+  std::string extensions;
+  std::string name;
+};
+
+/// Ends in a usage error where nothing tells the format of the output, or nobody writes it.
+void Files::checkExtension(const CLI::App& command, const NamedOutput& output)
+{
+  const std::vector<std::string> known = wordsOf(output.extensions);
+  const bool isCloud =
+    command.get_option_no_throw("--output-format") && (output.option.empty() || output.option == "--output");
+  const Identity target(output.name, STDOUT_FILENO);
+  const bool isStream = output.name == kStandardStream || target.isStream();
+  const std::string extension = lowerExtension(output.name);
+  const bool isKnown = std::find(known.begin(), known.end(), extension) != known.end();
+  std::error_code ignored;
+  if (known.empty() || isKnown || (isCloud && isGiven(command, "--output-format")) ||
+    (isStream && !isCloud) || fs::is_directory(output.name, ignored))
+  {
+    return;
+  }
+  throwUsage(output.option + (output.option.empty() ? "" : " ") + output.name, "",
+    isStream
+      ? fmt::format("a stream has no extension; give --output-format, one of {}", fmt::join(known, ", "))
+      : fmt::format("unknown extension \"{}\"{}; end the name in .{}",
+          extension.empty() ? "" : "." + extension, didYouMean(extension, known), fmt::join(known, ", .")));
+}
+
 Files::Identity::Identity(const std::string& name, int standardStream)
 {
   struct stat status = {};
@@ -170,93 +207,68 @@ bool Files::Identity::operator==(const Identity& other) const
 Files::Files() = default;
 Files::~Files() = default;
 
+void Files::takeOutput(
+  const CLI::App& command, const NamedOutput& output, const std::vector<std::string>& clouds)
+{
+  checkExtension(command, output);
+  if (output.name == kStandardStream)
+  {
+    if (isGiven(command, "--json"))
+    {
+      throwUsage("--json", "", "standard output is the file; leave it out, or name a file to write");
+    }
+    takeStandardOutput();
+  }
+  if (!isPattern(output.name))
+  {
+    this->addOutput(output.name, output.option);
+    return;
+  }
+  allowManyFiles(clouds.size());
+  for (const std::string& cloud : clouds)
+  {
+    this->addOutput(expandedName(output.name, cloud), output.option);
+  }
+}
+
 void Files::take(const CLI::App& command)
 {
   inputs_.clear();
   outputs_.clear();
-  struct Named
-  {
-    std::string option;
-    std::string extensions;
-    std::vector<std::string> names;
-  };
-  std::vector<Named> outputs;
+  noClobber_ = isGiven(command, "--no-clobber");
+  std::vector<NamedOutput> outputs;
   std::vector<std::string> clouds;
-  const auto isGiven = [&](const char* name)
-  {
-    const CLI::Option* option = command.get_option_no_throw(name);
-    return option && option->count() > 0;
-  };
-  noClobber_ = isGiven("--no-clobber");
   for (const CLI::Option* option : command.get_options())
   {
     const std::string role = fileRole(*option);
     std::vector<std::string> names = role.empty() ? std::vector<std::string>() : option->results();
     const std::string shown = option->get_positional() ? std::string() : "--" + option->get_single_name();
     const bool isBoth = role.rfind(kReadsAndWrites, 0) == 0;
-    if (isBoth && names.size() > 1 && !isGiven("--output"))
+    if (isBoth && names.size() > 1 && !isGiven(command, "--output"))
     {
-      const std::string last = names.back();
+      outputs.push_back({ "", role.substr(std::string(kReadsAndWrites).size()), names.back() });
       names.pop_back();
       std::error_code ignored;
       // A list of inputs whose output was forgotten must not cost the last of them.
-      if (fs::is_regular_file(last, ignored) && !isGiven("--force"))
+      if (fs::is_regular_file(outputs.back().name, ignored) && !isGiven(command, "--force"))
       {
-        throwUsage(
-          last, "", "is there already, and may be one of the inputs; name the output by -o, or give --force");
+        throwUsage(outputs.back().name, "",
+          "is there already, and may be one of the inputs; name the output by -o, or give --force");
       }
-      outputs.push_back({ "", role.substr(std::string(kReadsAndWrites).size()), { last } });
     }
-    if (role == kReads || isBoth)
+    for (const std::string& name : role == kReads || isBoth ? names : std::vector<std::string>())
     {
-      for (const std::string& name : names)
-      {
-        this->addInput(name, shown);
-      }
-      clouds.insert(clouds.end(), names.begin(), option->get_positional() ? names.end() : names.begin());
+      this->addInput(name, shown);
+      clouds.insert(clouds.end(), option->get_positional() ? 1 : 0, name);
     }
-    else if (!names.empty())
+    if (role.rfind(kWrites, 0) == 0 && !names.empty())
     {
-      outputs.push_back({ shown, role.substr(std::string(kWrites).size()), names });
+      outputs.push_back({ shown, role.substr(std::string(kWrites).size()), names.back() });
     }
   }
-  allowManyFiles(clouds.size());
-  for (const Named& output : outputs)
+  for (const NamedOutput& output : outputs)
   {
-    const std::string& pattern = output.names.back();
-    const std::vector<std::string> known = wordsOf(output.extensions);
-    const Identity target(pattern, STDOUT_FILENO);
-    std::error_code ignored;
-    const bool hasName =
-      pattern != kStandardStream && !target.isStream() && !fs::is_directory(pattern, ignored);
-    const std::string extension = lowerExtension(pattern);
-    const bool isKnown = std::find(known.begin(), known.end(), extension) != known.end();
-    const bool isChosen = known.empty() || isGiven("--output-format");
-    const bool isCloud = command.get_option_no_throw("--output-format") != nullptr &&
-      (output.option.empty() || output.option == "--output");
-    if (!isChosen && !isKnown && (hasName || (isCloud && (target.isStream() || pattern == kStandardStream))))
-    {
-      throwUsage(output.option + (output.option.empty() ? "" : " ") + pattern, "",
-        hasName
-          ? fmt::format("unknown extension \"{}\"{}; end the name in .{}",
-              extension.empty() ? "" : "." + extension, didYouMean(extension, known), fmt::join(known, ", ."))
-          : fmt::format(
-              "a stream has no extension; give --output-format, one of {}", fmt::join(known, ", ")));
-    }
-    if (pattern == kStandardStream)
-    {
-      if (isGiven("--json"))
-      {
-        throwUsage("--json", "", "standard output is the file; leave it out, or name a file to write");
-      }
-      takeStandardOutput();
-    }
-    const bool isOfEach = isPattern(pattern);
-    for (std::size_t i = 0; i < (isOfEach ? clouds.size() : std::min<std::size_t>(1, output.names.size()));
-         ++i)
-    {
-      this->addOutput(isOfEach ? expandedName(pattern, clouds[i]) : pattern, output.option);
-    }
+    this->takeOutput(command, output, clouds);
   }
 }
 
@@ -266,8 +278,8 @@ void Files::check(const Entry& output) const
   const Identity& own = output.identity;
   for (const Entry& input : inputs_)
   {
-    const bool areStreams = input.name == kStandardStream && output.name == kStandardStream &&
-      !own.place.empty() && (own.isStream() || !own.exists);
+    const bool areStreams =
+      input.name == kStandardStream && output.name == kStandardStream && (own.isStream() || !own.exists);
     if (own == input.identity && !areStreams)
     {
       throwUsage(output.shown(), "",

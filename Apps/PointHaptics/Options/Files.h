@@ -109,6 +109,9 @@ private:
 
     std::string shown() const { return option + (option.empty() ? "" : " ") + name; }
   };
+  struct NamedOutput;
+  static void checkExtension(const CLI::App& command, const NamedOutput& output);
+  void takeOutput(const CLI::App& command, const NamedOutput& output, const std::vector<std::string>& clouds);
   void check(const Entry& output) const;
 
   std::list<Entry> inputs_;

@@ -99,6 +99,9 @@ const char* cureOf(int error)
       return "free some space on the disk or write elsewhere";
     case EFBIG:
       return "raise the limit of file sizes (ulimit -f), or write elsewhere";
+    case EMFILE:
+    case ENFILE:
+      return "raise the limit of open files (ulimit -n), or write fewer at a time";
     case EPIPE:
       return "its reader has ended: look why";
     case EROFS:

@@ -1,7 +1,7 @@
 #include "FormatWriters.h"
 
 #include "Bytes/NumericType.h"
-#include "Core/Base/FieldNames.h"
+#include "Core/Resample/FieldNames.h"
 #include "IO/Info/FieldText.h"
 #include "IO/Las/LasCoordinateSystem.h"
 #include "IO/Las/LasGrid.h"

@@ -64,7 +64,7 @@ class Bandwidths:
 
 
 def _field(name: str) -> str:
-    """One spelling of a field's name: see Core/Base/FieldNames.h."""
+    """One spelling of a field's name: see Core/Resample/FieldNames.h."""
     return name.lower().translate({ord(filler): None for filler in "_ -"})
 
 
