@@ -290,6 +290,13 @@ TEST_F(CloudCommands, ResampleNamesThePointOfEachVoxelInEveryFormat)
   }
 }
 
+TEST_F(CloudCommands, LabelsAreKnownInAnyCase)
+{
+  this->write("in.csv", "x,y,z,CLASSIFICATION\n0,0,0,2\n0,0,0,2\n0,0,0,5\n");
+  this->succeed({ "resample", "in.csv", "-o", "out.csv", "--dims", "1" });
+  EXPECT_EQ(parseTable(this->read("out.csv")).at("CLASSIFICATION"), std::vector<double>{ 2 });
+}
+
 TEST_F(CloudCommands, AFailedWriteLeavesTheOldFileAsItWas)
 {
   this->succeed({ "generate", "sphere", "-n", "50", "-o", "cloud.ply" });

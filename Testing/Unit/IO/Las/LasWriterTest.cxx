@@ -1,5 +1,6 @@
 #include "CloudFiles.h"
 
+#include "Core/Resample/FieldNames.h"
 #include "IO/Info/FieldText.h"
 
 #include "vtkDoubleArray.h"
@@ -156,6 +157,18 @@ TEST_F(LasWriting, RefusesStepsThatDoNotSpanTheCloud)
   EXPECT_EQ(writer->Write(), 0);
   vtkObject::GlobalWarningDisplayOn();
   EXPECT_NE(std::string(writer->GetErrorMessage()).find("do not span the cloud"), std::string::npos);
+}
+
+TEST_F(LasWriting, NamesOfFieldsMatchInAnySpelling)
+{
+  using pointhaptics::isSameField;
+  EXPECT_TRUE(isSameField("GpsTime", "gps_time"));
+  EXPECT_TRUE(isSameField("ScanAngle", "Scan Angle"));
+  EXPECT_TRUE(isSameField("", "_"));
+  EXPECT_FALSE(isSameField("Classification", "class"));
+  EXPECT_FALSE(isSameField("class", "Classification"));
+  EXPECT_TRUE(pointhaptics::isPointField("number_of_returns"));
+  EXPECT_FALSE(pointhaptics::isPointField("IntensityExtra"));
 }
 
 TEST_F(LasWriting, FieldsAreKnownInAnySpelling)
