@@ -262,7 +262,6 @@ int runCommands(CLI::App& program, std::vector<std::string> arguments, const int
   addVersionFlags(program, program.get_name() + " " POINTHAPTICS_VERSION);
   std::reverse(arguments.begin(), arguments.end()); // as CLI11 wants them
   const int code = runParsed(program, std::move(arguments), exitCode);
-  showKeptWarnings();
   return code == kFailed && stopIsRequested() ? stopExitCode() : code;
 }
 
@@ -281,6 +280,7 @@ int runProgram(const std::vector<std::string>& arguments, const std::function<in
   try
   {
     exitCode = run();
+    showKeptWarnings();
     printPromisedJson(exitCode);
   }
   catch (const std::exception& error)
