@@ -1,5 +1,6 @@
 /// The program pointhaptics-bench: one subcommand per task.
 #include "Benchmark/Commands/BenchTask.h"
+#include "Commands/Commands.h"
 #include "Options/OptionParsing.h"
 #include "Terminal/CommandLine.h"
 #include "Terminal/Messages.h"
@@ -214,14 +215,15 @@ int run(std::vector<std::string> arguments)
     addTask(program, task, exitCode);
     names.push_back(task.name);
   }
+  addManPage(program);
   if (arguments.empty() ||
-    (arguments.front().rfind("-", 0) != 0 &&
+    (arguments.front() != "manual" && arguments.front().rfind("-", 0) != 0 &&
       std::find(names.begin(), names.end(), arguments.front()) == names.end()))
   {
     const std::string what = arguments.empty() ? "name a task" : "no task '" + arguments.front() + "'";
-    fmt::print(stderr, "pointhaptics-bench: {}; tasks are {}, see pointhaptics-bench --help\n", what,
-      fmt::join(names, ", "));
-    return kUsage;
+    return failUsage("pointhaptics-bench",
+      fmt::format("{}{}; tasks are {}", what, arguments.empty() ? "" : didYouMean(arguments.front(), names),
+        fmt::join(names, ", ")));
   }
   return runCommands(program, std::move(arguments), exitCode);
 }
@@ -231,6 +233,6 @@ int run(std::vector<std::string> arguments)
 int main(int argc, char* argv[])
 {
   nameProgram("pointhaptics-bench");
-  return runProgram(
-    argc > 1 ? argv[1] : "", [&] { return run(std::vector<std::string>(argv + 1, argv + argc)); });
+  const std::vector<std::string> arguments(argv + 1, argv + argc);
+  return runProgram(arguments, [&] { return run(arguments); });
 }

@@ -56,13 +56,13 @@ int runBandwidth(MpiBandwidthOptions& options, Job& job)
   }
   const BandwidthFigures figures = job.ranks().reduce(bandwidthFigures(filter->GetOutput()), together);
   if (!job.agree(kBandwidthCommand, whyNone(options, figures)) ||
-    !writePieces(job, kBandwidthCommand, options.files.output, filter->GetOutput()))
+    !writePieces(job, kBandwidthCommand, options.files, filter->GetOutput()))
   {
     return kFailed;
   }
   if (job.isRoot())
   {
-    print(options, figures);
+    print(resultOf(options, figures), options.files.json);
   }
   options.traffic.show(job, filter->GetNumberOfBytesSent());
   return kSuccess;
@@ -77,8 +77,15 @@ void addMpiBandwidth(CLI::App& program, MpiWork& work)
   auto options = std::make_shared<MpiBandwidthOptions>();
   options->addTo(*command);
   options->traffic.addTo(*command);
-  describeOutput(*command);
-  command->callback([options, &work] { work = [options](Job& job) { return runBandwidth(*options, job); }; });
+  addOutputOptions(*command);
+  command->callback(
+    [command, options, &work]
+    {
+      if (takeFiles(*command, options->files))
+      {
+        work = [options](Job& job) { return runBandwidth(*options, job); };
+      }
+    });
 }
 
 } // namespace app

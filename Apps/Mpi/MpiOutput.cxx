@@ -7,6 +7,8 @@
 #include "IO/Vtk/SharedVtp.h"
 
 #include "Clouds/Pipeline.h"
+#include "Options/OptionParsing.h"
+#include "Terminal/CommandLine.h"
 
 #include <CLI/CLI.hpp>
 #include <vtkPolyData.h>
@@ -22,13 +24,6 @@ namespace app
 {
 namespace
 {
-
-bool canWritePieces(const std::string& fileName, std::string& problem)
-{
-  const bool canWrite = isPiecesFile(fileName) || canWriteCloud(fileName, problem);
-  problem += canWrite ? "" : ", or .pvtp for a file per rank";
-  return canWrite;
-}
 
 /// Ranks without points have no file.
 bool writePerRank(Job& job, const std::string& command, const std::string& fileName, vtkPolyData* piece)
@@ -64,10 +59,34 @@ bool writePerRank(Job& job, const std::string& command, const std::string& fileN
 
 } // namespace
 
-void describeOutput(CLI::App& command)
+void addOutputOptions(CLI::App& command)
 {
   command.get_option("--output")
-    ->description("File to write: .vtp, .ply, .pcd, .las, .laz or .csv; .pvtp writes a file per rank");
+    ->description("File to write: .vtp, .ply, .pcd, .las, .laz, .csv or .xyz; .pvtp writes a file per rank");
+  allowExtension(*command.get_option("--output"), "pvtp");
+  addCommonOptions(command, true);
+}
+
+bool takeFiles(CLI::App& command, CloudToCloudOptions& options)
+{
+  if (options.inputs.size() > 1)
+  {
+    throwUsage(options.inputs[1], "", "ranks read one cloud together; leave out the others");
+  }
+  options.input = options.inputs.front();
+  options.output = expandedName(options.output, options.input);
+  if (options.input == kStandardStream)
+  {
+    throwUsage("-", "", "standard input has no parts that ranks could read; give the name of a file");
+  }
+  Files files;
+  files.take(command);
+  const bool isTrial = command.get_option("--dry-run")->count() > 0;
+  if (isTrial)
+  {
+    files.printPlan(options.json);
+  }
+  return !isTrial;
 }
 
 bool openPiece(
@@ -75,18 +94,6 @@ bool openPiece(
 {
   useThreads(std::max<std::int64_t>(files.threads, 1));
   std::string problem;
-  if (files.input == kStandardStream)
-  {
-    problem = "standard input has no parts that ranks could read; give the name of a file";
-  }
-  else
-  {
-    canWritePieces(files.output, problem);
-  }
-  if (!job.agree(command, problem))
-  {
-    return false;
-  }
   Cloud cloud;
   files.read(cloud, problem, &job.ranks());
   if (!job.agree(command, problem))
@@ -104,8 +111,9 @@ bool openPiece(
   return true;
 }
 
-bool writePieces(Job& job, const std::string& command, const std::string& fileName, vtkPolyData* piece)
+bool writePieces(Job& job, const std::string& command, const CloudToCloudOptions& files, vtkPolyData* piece)
 {
+  const std::string& fileName = files.output;
   if (isPiecesFile(fileName))
   {
     return writePerRank(job, command, fileName, piece);
@@ -119,7 +127,7 @@ bool writePieces(Job& job, const std::string& command, const std::string& fileNa
   const vtkSmartPointer<vtkPolyData> all = gatherPieces(job.ranks(), piece);
   if (all)
   {
-    writeCloud(all, fileName, command, problem);
+    writeCloud(all, fileName, command, problem, files.writing);
   }
   return job.agree(command, problem);
 }

@@ -24,10 +24,13 @@ struct Piece
   vtkIdType pointsOfAll = 0; ///< Of all ranks.
 };
 
-/// What a command of ranks says about its options beside those of the same one of pointhaptics.
-void describeOutput(CLI::App& command);
+/// Adds what a command of ranks has beside the options of the same one of pointhaptics, and the common ones.
+void addOutputOptions(CLI::App& command);
+/// Checks the files of the parsed @p command, and fills in the input. False: there is nothing to do
+/// (--dry-run).
+bool takeFiles(CLI::App& command, CloudToCloudOptions& options);
 
-/// Asks whether the output can be written, sets the threads, one per rank unless the options say more, and
+/// Sets the threads, one per rank unless the options say more, and
 /// reads this rank's points of the input: contiguous ones, as many on each rank. False on all ranks: the
 /// message is printed.
 bool openPiece(
@@ -35,7 +38,7 @@ bool openPiece(
 
 /// Writes the pieces of all ranks: as one file by rank 0, or for a .pvtp a file of each rank beside it and
 /// the list of these. False on all ranks: the message is printed.
-bool writePieces(Job& job, const std::string& command, const std::string& fileName, vtkPolyData* piece);
+bool writePieces(Job& job, const std::string& command, const CloudToCloudOptions& files, vtkPolyData* piece);
 
 } // namespace app
 } // namespace pointhaptics

@@ -60,7 +60,7 @@ int runResample(MpiResampleOptions& options, Job& job)
   const bool wantsIndex = !options.voxelIndex.empty();
   if (wantsIndex && job.isRoot())
   {
-    openVoxelIndex(options, index, problem);
+    openVoxelIndex(options.voxelIndex, index, problem);
   }
   if (!job.agree(kResampleCommand, problem) ||
     !openPiece(job, kResampleCommand, options.files, options.traffic, piece))
@@ -101,14 +101,14 @@ int runResample(MpiResampleOptions& options, Job& job)
     return kFailed;
   }
   options.finish(resampler->GetOutput());
-  if (!writePieces(job, kResampleCommand, options.files.output, resampler->GetOutput()) ||
+  if (!writePieces(job, kResampleCommand, options.files, resampler->GetOutput()) ||
     (wantsIndex && !writeIndex(job, index, resampler)))
   {
     return kFailed;
   }
   if (job.isRoot())
   {
-    print(options, figures);
+    print(resultOf(options, figures), options.files.json);
   }
   options.traffic.show(job, resampler->GetNumberOfBytesSent());
   return kSuccess;
@@ -123,12 +123,15 @@ void addMpiResample(CLI::App& program, MpiWork& work)
   auto options = std::make_shared<MpiResampleOptions>();
   options->addTo(*command);
   options->traffic.addTo(*command);
-  describeOutput(*command);
+  addOutputOptions(*command);
   command->callback(
-    [options, &work]
+    [command, options, &work]
     {
       options->check();
-      work = [options](Job& job) { return runResample(*options, job); };
+      if (takeFiles(*command, options->files))
+      {
+        work = [options](Job& job) { return runResample(*options, job); };
+      }
     });
 }
 

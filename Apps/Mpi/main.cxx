@@ -2,6 +2,7 @@
 #include "Job.h"
 #include "MpiCommands.h"
 
+#include "Commands/Commands.h"
 #include "Terminal/CommandLine.h"
 #include "Terminal/Messages.h"
 
@@ -74,6 +75,7 @@ int run(Job& job, std::vector<std::string> arguments)
   MpiWork work;
   addMpiResample(program, work);
   addMpiBandwidth(program, work);
+  addManPage(program);
   int exitCode = kSuccess;
   int parsed = kSuccess;
   {
@@ -98,6 +100,6 @@ int main(int argc, char* argv[])
   nameProgram("pointhaptics-mpi");
   keepFreedMemory();
   Job job(&argc, &argv);
-  return runProgram(argc > 1 ? argv[1] : "",
-    [&] { return job.finish(run(job, std::vector<std::string>(argv + 1, argv + argc))); });
+  const std::vector<std::string> arguments(argv + 1, argv + argc);
+  return runProgram(arguments, [&] { return job.finish(run(job, arguments)); });
 }

@@ -8,7 +8,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -40,9 +39,8 @@ bool insertDefaultCommand(const CLI::App& program, std::vector<std::string>& arg
   const std::vector<std::string> names = commandNames(program);
   if (arguments.empty())
   {
-    fmt::print(stderr,
-      "pointhaptics: nothing to do; name a file to view or a command ({}), or see pointhaptics --help\n",
-      fmt::join(names, ", "));
+    failUsage("pointhaptics",
+      fmt::format("nothing to do; name a file to view or a command ({})", fmt::join(names, ", ")));
     return false;
   }
   const std::string& first = arguments.front();
@@ -55,8 +53,9 @@ bool insertDefaultCommand(const CLI::App& program, std::vector<std::string>& arg
     first.find_first_of("./-") == std::string::npos && !std::filesystem::exists(first, error);
   if (isWord)
   {
-    fmt::print(stderr, "pointhaptics: no command or file '{}'; commands are {}, see pointhaptics --help\n",
-      first, fmt::join(names, ", "));
+    failUsage("pointhaptics",
+      fmt::format("no command or file '{}'{}; commands are {}", first, didYouMean(first, names),
+        fmt::join(names, ", ")));
     return false;
   }
   arguments.insert(arguments.begin(), "view");
@@ -77,7 +76,7 @@ int run(std::vector<std::string> arguments)
   addGenerateCommand(program, exitCode);
   addDevicesCommand(program, exitCode);
   addBenchCommand(program, exitCode);
-  addManualCommand(program);
+  addManualCommand(program, exitCode);
   if (!insertDefaultCommand(program, arguments))
   {
     return kUsage;
@@ -89,6 +88,6 @@ int run(std::vector<std::string> arguments)
 
 int main(int argc, char* argv[])
 {
-  return runProgram(
-    argc > 1 ? argv[1] : "", [&] { return run(std::vector<std::string>(argv + 1, argv + argc)); });
+  const std::vector<std::string> arguments(argv + 1, argv + argc);
+  return runProgram(arguments, [&] { return run(arguments); });
 }

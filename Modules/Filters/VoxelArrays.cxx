@@ -6,6 +6,9 @@
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 
+#include "Core/Resample/FieldNames.h"
+
+#include <algorithm>
 #include <sstream>
 
 namespace pointhaptics
@@ -64,7 +67,9 @@ AttributeKind kindOf(vtkDataArray* array, const std::set<std::string>& categoric
   {
     return AttributeKind::Chosen;
   }
-  if (array->GetName() && categoricalArrays.count(array->GetName()) > 0)
+  const std::string name = array->GetName() ? array->GetName() : "";
+  if (std::any_of(categoricalArrays.begin(), categoricalArrays.end(),
+        [&](const std::string& each) { return isSameField(each, name); }))
   {
     return AttributeKind::Category;
   }

@@ -3,6 +3,8 @@
 #include "PrintSettings.h"
 #include "vtkVoxelMeanResamplerInternals.h"
 
+#include "Core/Resample/FieldNames.h"
+
 #include "vtkAbstractTransform.h"
 #include "vtkFieldData.h"
 #include "vtkInformation.h"
@@ -155,7 +157,10 @@ void vtkVoxelMeanResampler::ClearCategoricalArrays()
 
 bool vtkVoxelMeanResampler::IsCategoricalArray(const char* name) const
 {
-  return name && this->Settings.categoricalArrays.count(name) > 0;
+  const std::set<std::string>& all = this->Settings.categoricalArrays;
+  return name &&
+    std::any_of(all.begin(), all.end(),
+      [name](const std::string& each) { return pointhaptics::isSameField(each, name); });
 }
 
 void vtkVoxelMeanResampler::SetNumberOfLevels(int levels)

@@ -27,13 +27,13 @@
  * Arrays: numeric arrays of any type and number of components are averaged and rounded to their own type
  * (integers to nearest, exactly), and keep their lookup table and information keys; the active normals are
  * transformed by the inverse transpose and re-normalised, those in integers keep the length of their mean;
- * arrays named in CategoricalArrays take the value most points of the voxel have (the smallest one on a tie;
- * NaN counts as the largest, and both zeroes as one); string arrays and other non-numeric arrays are dropped
- * with a warning; global ids, ghost flags and the VoxelPointCount and VoxelCovariance of an earlier
- * resampling are left out. Where a voxel's points have NaN or infinity in an array, its mean is what IEEE
- * addition gives. Of vectors only the normals are turned. To keep some of the arrays, put a vtkPassArrays
- * before the filter. Points flagged as ghosts, and blanked ones, are averaged like all others: remove
- * duplicates first.
+ * arrays named in CategoricalArrays, in upper or lower case (Core/Resample/FieldNames.h), take the value most
+ * points of the voxel have (the smallest one on a tie; NaN counts as the largest, and both zeroes as one);
+ * string arrays and other non-numeric arrays are dropped with a warning; global ids, ghost flags and the
+ * VoxelPointCount and VoxelCovariance of an earlier resampling are left out. Where a voxel's points have NaN
+ * or infinity in an array, its mean is what IEEE addition gives. Of vectors only the normals are turned. To
+ * keep some of the arrays, put a vtkPassArrays before the filter. Points flagged as ghosts, and blanked ones,
+ * are averaged like all others: remove duplicates first.
  *
  * In the place of the mean another point may stand for a voxel (Representative): the point of the input
  * nearest to the mean or to the centre of the voxel, with its own values in all arrays, or the median of each

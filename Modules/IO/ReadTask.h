@@ -42,6 +42,7 @@ struct ReadTask
   std::string path;
   std::string_view bytes;
   bool wasPacked = false; ///< the bytes are the unpacked content of a gzip file
+  bool isStream = false;  ///< the bytes came through a pipe: nobody can read them again
   WantedPart wanted;
   vtkAlgorithm* algorithm = nullptr;
   /// Reads bytes of the file; empty where all are there. Those that were never read are zero.

@@ -26,8 +26,9 @@ struct WriteTask
 
   OutputStream out;
   WriterNotes notes;
-  vtkIdType points = 0; ///< in and out: how many are written
-  std::string unit;     ///< of the coordinates, for headers that can say it; empty: none is known
+  vtkIdType points = 0;  ///< in and out: how many are written
+  std::string unit;      ///< of the coordinates, for headers that can say it; empty: none is known
+  double lasScale = 0.0; ///< step of the coordinates in LAS; 0: the writer chooses
   vtkAlgorithm* algorithm;
 
   /// Reports how much of the writing is done, 0..1. @throws StoppedOnRequest when an observer asked to stop:

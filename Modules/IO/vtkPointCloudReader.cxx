@@ -320,6 +320,8 @@ void vtkPointCloudReader::ReadWhole(io::ReadTask& task, vtkPolyData* cloud)
     });
   task.bytes = bytes.view();
   task.wasPacked = bytes.wasPacked();
+  std::error_code ignored;
+  task.isStream = !std::filesystem::is_regular_file(task.path, ignored);
   readAs(format, task, cloud);
   this->NumberOfBytesRead = static_cast<vtkTypeInt64>(bytes.view().size() + task.bytesElsewhere);
   this->Finish(task, cloud);

@@ -194,6 +194,7 @@ void vtkPointCloudWriter::WriteCloud(vtkPointSet* cloud)
   }
   io::WriteTask task(this->FileName, this);
   task.points = cloud->GetNumberOfPoints();
+  task.lasScale = this->LasScale;
   task.progress(0.0);
   if (this->Format == "VTP")
   {
@@ -268,5 +269,6 @@ void vtkPointCloudWriter::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << "\n";
   os << indent << "Extension: " << this->Extension << "\n";
+  os << indent << "LasScale: " << this->LasScale << "\n";
   os << indent << "ErrorMessage: " << this->ErrorMessage << "\n";
 }

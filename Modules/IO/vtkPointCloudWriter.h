@@ -13,13 +13,14 @@
  * - .pcd: binary. Colours as packed rgb or rgba, normals as normal_x normal_y normal_z; the field data
  *   "Viewpoint" and "OrganizedDimensions" as the header's VIEWPOINT, WIDTH and HEIGHT.
  * - .las: LAS 1.2, or 1.4 where needed. Coordinates become integers: on the grid of the file they come from
- *   (field data "LasScale", "LasOffset"), on one of whole decimals or, for floats, of binary steps, where
- *   that gives every bit back. Others, such as means of points, are rounded, by at most half a step, to the
- *   scale of that file, or to the finest power of ten that spans the cloud where there is none or the cloud
- *   is shorter than 1000 steps of it. Whoever transforms a cloud takes "LasScale" and "LasOffset" away.
- *   Arrays under the names vtkPointCloudReader gives to LAS fields become these, integers of other types
- *   too where their values fit. "RGB" becomes the colour, and all others become extra bytes. NaN points are
- *   refused.
+ *   (field data "LasScale", "LasOffset"), or on one of whole decimals from 1 to 0.0001 where that gives every
+ *   coordinate back. Others, such as means of points, are rounded, by at most half a step, to the scale of
+ *   that file, or to 0.1 mm (by "LengthUnit"; without it the unit is taken for metres). A cloud shorter than
+ *   1000 such steps gets finer ones, 10^5 to 10^6 for its length; one too long for 32 bits the finest power
+ * of ten that spans it. LasScale sets the step for any cloud. Whoever transforms a cloud takes "LasScale" and
+ *   "LasOffset" away. Arrays under the names of LAS fields, in any case and with or without '_'
+ *   (Core/Resample/FieldNames.h), become these, of whatever type where their values fit. "RGB" becomes the
+ *   colour, and all others become extra bytes. NaN points are refused.
  * - .laz: the same records, compressed: pointwise for LAS 1.2, layered for 1.4, in chunks of 50,000 points
  *   that are encoded in parallel. Costs the compressed size in memory.
  * - .csv: header x,y,z and the names of the arrays, arrays of several components as name_0,name_1,...; each
@@ -80,6 +81,14 @@ public:
   const std::string& GetExtension() const { return this->Extension; }
   ///@}
 
+  ///@{
+  /**
+   * Step of the coordinates in .las and .laz, in their unit. 0: see above. Default: 0.
+   */
+  vtkSetMacro(LasScale, double);
+  vtkGetMacro(LasScale, double);
+  ///@}
+
   /**
    * Write the file. Returns 1 when it is complete under its name, else 0.
    */
@@ -129,6 +138,7 @@ private:
 
   char* FileName = nullptr;
   std::string Extension;
+  double LasScale = 0.0;
   std::string ErrorMessage;
   std::string Format;
   std::vector<std::string> Notes;

@@ -315,6 +315,13 @@ bool HapticViewer::run()
   return this->stop();
 }
 
+std::string HapticViewer::pictureName(const std::string& fileName, int number, int last)
+{
+  const std::size_t dot = std::min(fileName.rfind('.'), fileName.size());
+  const std::size_t digits = std::max<std::size_t>(3, std::to_string(last).size());
+  return fmt::format("{}-{:0{}}{}", fileName.substr(0, dot), number, digits, fileName.substr(dot));
+}
+
 const std::string& HapticViewer::message() const
 {
   return implementation_->message;

@@ -91,6 +91,10 @@ public:
   /// viewer, to which a host may add its own: style()->GetCommands().
   static CommandRegistry commands();
 
+  /// What the picture with this number, from 1, of a turntable of @p last is called: OUT-001.png for OUT.png,
+  /// with as many digits as the last one needs, and at least three.
+  static std::string pictureName(const std::string& fileName, int number, int last);
+
   /// What is drawn: voxel means with their arrays. Null before open().
   vtkPolyData* means();
   /// Of the cloud.

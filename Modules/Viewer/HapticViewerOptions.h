@@ -162,6 +162,8 @@ struct HapticViewerObserver
   std::function<void(const std::string& what, double part)> progress;
   /// True ends long work and closes the window. Asked about 30 times a second.
   std::function<bool()> shouldStop;
+  /// Where the content of a picture of that name goes, where the host gives it its name later.
+  std::function<std::string(const std::string& fileName)> placeOf;
   /// What VTK classes complained of since the last call, where the host collects it.
   std::function<std::vector<std::string>()> takeVtkErrors;
   /// The user asks to keep @p state in @p fileName (JSON). False: @p message says why not. Empty: the key has

@@ -1,5 +1,6 @@
 #include "ViewPicture.h"
 
+#include "HapticViewer.h"
 #include "PathTicks.h"
 #include "PngFile.h"
 #include "Replay.h"
@@ -335,14 +336,6 @@ void checkStereo(vtkRenderWindow* window, const std::string& stereo, const Hapti
   }
 }
 
-/// OUT-001.png for the first of OUT.png: with as many digits as the last one needs, and at least three.
-std::string numberedName(const std::string& fileName, int number, int last)
-{
-  const std::size_t dot = std::min(fileName.rfind('.'), fileName.size());
-  const std::size_t digits = std::max<std::size_t>(3, std::to_string(last).size());
-  return fmt::format("{}-{:0{}}{}", fileName.substr(0, dot), number, digits, fileName.substr(dot));
-}
-
 /// Once about the cloud in equal steps, beginning with the view as it is.
 bool writeTurntable(ViewScene& scene, const std::function<bool(const std::string&)>& write, int pictures,
   const HapticViewerObserver& observer, const std::string& fileName, std::string& message)
@@ -355,7 +348,7 @@ bool writeTurntable(ViewScene& scene, const std::function<bool(const std::string
         "{}: the turntable was stopped on request, after {} of {} pictures", fileName, i - 1, pictures);
       return false;
     }
-    if (!write(numberedName(fileName, i, pictures)))
+    if (!write(HapticViewer::pictureName(fileName, i, pictures)))
     {
       return false;
     }
@@ -397,7 +390,10 @@ bool makePicture(ViewScene& scene, const HapticViewerOptions& options, const Hap
     window->Render();
   };
   const auto write = [&](const std::string& name)
-  { return writePicture(window, render, options.picture.transparent, name, message); };
+  {
+    const std::string place = observer.placeOf ? observer.placeOf(name) : name;
+    return writePicture(window, render, options.picture.transparent, place, message);
+  };
   const int pictures = options.turntable;
   const bool isWritten =
     pictures > 0 ? writeTurntable(scene, write, pictures, observer, fileName, message) : write(fileName);
@@ -406,9 +402,9 @@ bool makePicture(ViewScene& scene, const HapticViewerOptions& options, const Hap
   {
     return false;
   }
-  const std::string names = pictures > 0
-    ? numberedName(fileName, 1, pictures) + " to " + numberedName(fileName, pictures, pictures)
-    : fileName;
+  const std::string names = pictures > 0 ? HapticViewer::pictureName(fileName, 1, pictures) + " to " +
+      HapticViewer::pictureName(fileName, pictures, pictures)
+                                         : fileName;
   note(observer, fmt::format("screenshot: {} ({}x{})", names, width, height));
   if (const std::vector<std::string> words = scene.measuredText(); !words.empty())
   {

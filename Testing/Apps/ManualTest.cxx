@@ -24,8 +24,9 @@ TEST_F(Manual, ManPageHasEveryCommandOptionAndKey)
 {
   const std::string page = this->succeed({ "manual", "man" });
   EXPECT_EQ(page.rfind(".TH POINTHAPTICS 1", 0), 0u);
-  for (const char* part : { "POINTHAPTICS VIEW", "POINTHAPTICS RESAMPLE", "\\-\\-write\\-config",
-         "\\-\\-watch", "SH EXAMPLES", "\\-\\-stiffness", "undo the last move" })
+  for (const char* part :
+    { "POINTHAPTICS VIEW", "POINTHAPTICS RESAMPLE", "\\-\\-write\\-config", "\\-\\-watch", "SH EXAMPLES",
+      "SH EXIT STATUS", "128 + N", "143 SIGTERM", "\\-\\-stiffness", "undo the last move" })
   {
     EXPECT_NE(page.find(part), std::string::npos) << part;
   }
@@ -49,6 +50,8 @@ TEST_F(Manual, BashCompletesCommandsAndOptions)
   EXPECT_EQ(complete("pointhaptics info --stif", 2), "\n");
   EXPECT_EQ(complete("pointhaptics info compl", 2), "completion\n");
   EXPECT_EQ(complete("pointhaptics view --background w", 3), "white\n");
+  EXPECT_EQ(complete("pointhaptics view --background = w", 4), "white\n");
+  EXPECT_EQ(complete("pointhaptics feel --method =", 3), "surface-fit sphere gradient-steps\n");
   EXPECT_EQ(complete("pointhaptics view --up \"\"", 3), "auto x -x y -y z -z\n");
   EXPECT_EQ(complete("pointhaptics cloud.ply --kind ter", 3), "terrain\n") << "view is the default command";
   EXPECT_EQ(complete("pointhaptics feel --method surf", 3), "surface-fit\n");

@@ -134,7 +134,7 @@ TEST_F(RecordingCommands, FeelTakesAConfigurationOfTheViewer)
     apptest::kIdolPath, "-o", "overruled.csv" });
   EXPECT_NE(felt(this->read("overruled.csv")), felt(this->read("out.csv")));
   this->write("bad.json", R"({"stifness": 500})");
-  this->refuse(1,
+  this->refuse(2,
     { "feel", "idol.ply", "--config", "bad.json", "--path", apptest::kIdolPath, "-o", "out.csv" },
     { "bad.json", "stifness" });
 }

@@ -81,7 +81,7 @@ const std::set<std::string>& deeds()
 {
   static const std::set<std::string> names = { "--help", "--version", "--verbose", "--screenshot",
     "--turntable", "--force-chart", "--trace", "--record", "--replay", "--config", "--write-config",
-    "--recent" };
+    "--recent", "--skip-unreadable", "--quiet", "--no-clobber", "--dry-run" };
   return names;
 }
 
@@ -140,7 +140,7 @@ TEST_F(ViewConfiguration, RefusesBindingsAndCamerasThatCannotBe)
   this->refuse(
     2, { "view", "in.ply", "--measure", "1,2,3,1,2,3" }, { "--measure 1,2,3,1,2,3", "same place" });
   this->write("bad.json", R"({"bind": ["help=F1", "hepl=F2"]})");
-  this->refuse(1, { "view", "in.ply", "--config", "bad.json" }, { "bad.json", "\"bind\"", "hepl=F2" });
+  this->refuse(2, { "view", "in.ply", "--config", "bad.json" }, { "bad.json", "\"bind\"", "hepl=F2" });
 }
 
 TEST_F(ViewConfiguration, SaysThatItCannotBeWritten)

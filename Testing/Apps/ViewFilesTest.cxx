@@ -46,7 +46,7 @@ protected:
 
 TEST_F(ViewFiles, ThatCannotBeReadAreSkipped)
 {
-  const Outcome outcome = this->view({ "bad.laz", "worse.obj", "good.ply" });
+  const Outcome outcome = this->view({ "bad.laz", "worse.obj", "good.ply" }, { "--skip-unreadable" });
   EXPECT_EQ(outcome.exitCode, 0);
   EXPECT_TRUE(contains(outcome.output, "2000 points")) << outcome.output;
   EXPECT_TRUE(this->exists("trace.csv"));
@@ -85,9 +85,25 @@ TEST_F(ViewFiles, SayThatPointsAtZeroAreNotDrawn)
   }
 }
 
+TEST_F(ViewFiles, ThatAPictureWouldMissAreAnError)
+{
+  for (const std::string file : { "bad.laz", "gone.ply" })
+  {
+    for (const std::vector<std::string>& files :
+      { std::vector<std::string>{ "good.ply", file }, { file, "good.ply" } })
+    {
+      const Outcome outcome = this->view(files);
+      EXPECT_EQ(outcome.exitCode, 1);
+      EXPECT_TRUE(contains(outcome.errors, file + ": ")) << outcome.errors;
+      EXPECT_TRUE(contains(outcome.errors, "--skip-unreadable shows the others")) << outcome.errors;
+    }
+  }
+  EXPECT_FALSE(this->exists("trace.csv"));
+}
+
 TEST_F(ViewFiles, AfterOneThatCanBeReadAreNotLookedAt)
 {
-  const Outcome outcome = this->view({ "good.ply", "bad.laz" });
+  const Outcome outcome = this->view({ "good.ply", "bad.laz" }, { "--skip-unreadable" });
   EXPECT_EQ(outcome.exitCode, 0);
   EXPECT_EQ(outcome.errors, "");
 }
@@ -102,7 +118,7 @@ TEST_F(ViewFiles, WithoutTheArrayThatWasAskedForAreSkippedByName)
 
 TEST_F(ViewFiles, ThatCannotBeReadAtAllEndTheProgramWithAnError)
 {
-  const Outcome outcome = this->view({ "bad.laz", "worse.obj" });
+  const Outcome outcome = this->view({ "bad.laz", "worse.obj" }, { "--skip-unreadable" });
   EXPECT_EQ(outcome.exitCode, 1);
   EXPECT_EQ(outcome.output, "");
   EXPECT_EQ(numberOfLines(outcome.errors), 3) << outcome.errors;
@@ -171,7 +187,7 @@ TEST_F(ViewFiles, ComeByStandardInput)
 TEST_F(ViewFiles, OfStandardInputSayWhatDoesNotGoWithIt)
 {
   const InputFrom input(this->path("good.ply"));
-  this->refuse(2, { "view", "-", "-" }, { "standard input can be read once" });
+  this->refuse(2, { "view", "-", "-" }, { "can be read once" });
   this->refuse(2, { "view", "-", "--watch" }, { "--watch: standard input is read once" });
   this->refuse(2, { "view", "-", "--write-config", "c.json" }, { "--write-config c.json: settings" });
 }

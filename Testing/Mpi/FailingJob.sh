@@ -39,15 +39,15 @@ case "$1" in
     printf 'x,y,z\nnan,0,0\nnan,1,1\n' >invalid.csv
     expect_end 1 "invalid" "$MPIRUN" -n 2 "$MPI_PROGRAM" resample invalid.csv -o out.ply
     expect_end 1 "2 points with a coordinate that is NaN" "$MPIRUN" -n 2 "$MPI_PROGRAM" bandwidth invalid.csv -o out.ply
-    expect_end 1 "unknown extension" "$MPIRUN" -n 2 "$MPI_PROGRAM" resample idol.ply -o out.xls
+    expect_end 2 "unknown extension" "$MPIRUN" -n 2 "$MPI_PROGRAM" resample idol.ply -o out.xls
     expect_end 1 "no/folder" "$MPIRUN" -n 2 "$MPI_PROGRAM" resample idol.ply -o out.ply --voxel-index no/folder/i.csv
     expect_end 2 "original-ids: " "$MPIRUN" -n 2 "$MPI_PROGRAM" resample idol.ply -o out.ply --original-ids
-    expect_end 1 "another name" "$MPIRUN" -n 2 "$MPI_PROGRAM" resample idol.ply -o i.csv --voxel-index i.csv
+    expect_end 2 "a name of its own" "$MPIRUN" -n 2 "$MPI_PROGRAM" resample idol.ply -o i.csv --voxel-index i.csv
     expect_end 1 "no/folder" "$MPIRUN" -n 2 "$MPI_PROGRAM" resample idol.ply -o no/folder/out.pvtp
     awk 'BEGIN { print "x,y,z"; for (i = 0; i < 200; ++i) print "1,2,3"; print "4,5,x" }' >letters.csv
     expect_end 1 "letters.csv: text (comma separated): line 202, column 3: 'x'" \
       "$MPIRUN" -n 2 "$MPI_PROGRAM" resample letters.csv -o out.ply
-    expect_end 1 "standard input" "$MPIRUN" -n 2 "$MPI_PROGRAM" resample - -o out.ply
+    expect_end 2 "standard input" "$MPIRUN" -n 2 "$MPI_PROGRAM" resample - -o out.ply
     expect_end 2 "pointhaptics-mpi resample: " "$MPIRUN" -n 2 "$MPI_PROGRAM" resample idol.ply -o out.ply --dims 0
     (($(grep -c "^pointhaptics-mpi" output) == 1)) || fault "more than one message: $(cat output)"
     ;;

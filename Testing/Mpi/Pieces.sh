@@ -37,8 +37,8 @@ for role in range(4):
 PYTHON
   fi
   # The program reads it, too, and ranks read it in parts.
-  "$PROGRAM" convert out.pvtp together.vtp >converted
-  "$PROGRAM" convert expected.vtp alone.vtp >converted
+  "$PROGRAM" convert out.pvtp -o together.vtp >converted
+  "$PROGRAM" convert expected.vtp -o alone.vtp >converted
   cmp together.vtp alone.vtp || fault "out.pvtp is not read as out.vtp"
   "$PROGRAM" info out.pvtp | grep -q "PVTP" || fault "info says: $("$PROGRAM" info out.pvtp)"
   RANKS="1 2 5" same_bytes vtp resample out.pvtp --dims 20

@@ -12,6 +12,15 @@ import numpy as np
 import pointhaptics as ph
 
 
+def without_nothing(told):
+    """The program has all keys for each file, null or empty where there is nothing to say."""
+    optional = ("scans", "notes")
+    if isinstance(told, dict):
+        kept = {key: value for key, value in told.items() if value is not None and not (key in optional and not value)}
+        return {key: without_nothing(value) for key, value in kept.items()}
+    return [without_nothing(value) for value in told] if isinstance(told, list) else told
+
+
 class Files(TestCase):
     def test_every_format_gives_back_what_was_written(self):
         points = sphere(500)
@@ -51,14 +60,14 @@ class Files(TestCase):
         ph.write(self.path("cloud.ply"), points, {"a": np.linspace(-1, 3, 5000), "RGB": np.ones((5000, 3), np.uint8)})
         for name in ("cloud.ply",):
             told = json.loads(run_program("info", "--json", self.path(name)))["files"][0]
-            self.assertEqual(ph.info(self.path(name)), told)
+            self.assertEqual(ph.info(self.path(name)), without_nothing(told))
         self.assertEqual((told["points_invalid"], told["points_duplicate"]), (1, 1))
 
     def test_info_of_a_cloud_in_millimetres_hints(self):
         ph.write(self.path("cloud.ply"), 5000 * sphere(500))
         told = json.loads(run_program("info", "--json", self.path("cloud.ply")))["files"][0]
         self.assertIn("hint", told)
-        self.assertEqual(ph.info(self.path("cloud.ply")), told)
+        self.assertEqual(ph.info(self.path("cloud.ply")), without_nothing(told))
 
     def test_what_a_format_cannot_hold_is_a_warning(self):
         with warnings.catch_warnings(record=True) as caught:

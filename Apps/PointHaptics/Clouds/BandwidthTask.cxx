@@ -68,18 +68,13 @@ std::string whyNone(const BandwidthCommandOptions& options, const BandwidthFigur
                                           : noFinitePoint(options.files.input, figures.points);
 }
 
-void print(const BandwidthCommandOptions& options, const BandwidthFigures& figures)
+CloudResult resultOf(const BandwidthCommandOptions& options, const BandwidthFigures& figures)
 {
-  if (options.files.json)
-  {
-    const nlohmann::ordered_json object = { { "input", options.files.input },
-      { "output", options.files.output }, { "points", figures.points }, { "points_invalid", figures.invalid },
-      { "proxy_radius", { { "min", figures.smallestRadius }, { "max", figures.largestRadius } } } };
-    printJson(object);
-    return;
-  }
-  fmt::print("{}, {} invalid, proxy radius {:.6g} to {:.6g}: {}\n", countOfPoints(figures.points),
-    figures.invalid, figures.smallestRadius, figures.largestRadius, options.files.output);
+  return { fmt::format("{}, {} invalid, proxy radius {:.6g} to {:.6g}: {}", countOfPoints(figures.points),
+             figures.invalid, figures.smallestRadius, figures.largestRadius, options.files.output),
+    { { "input", options.files.input }, { "output", options.files.output }, { "points", figures.points },
+      { "points_invalid", figures.invalid },
+      { "proxy_radius", { { "min", figures.smallestRadius }, { "max", figures.largestRadius } } } } };
 }
 
 } // namespace app

@@ -42,7 +42,7 @@ BandwidthFigures bandwidthFigures(vtkPolyData* cloud);
 BandwidthFigures together(const BandwidthFigures& a, const BandwidthFigures& b);
 /// Why there is no radius; empty where there is one.
 std::string whyNone(const BandwidthCommandOptions& options, const BandwidthFigures& figures);
-void print(const BandwidthCommandOptions& options, const BandwidthFigures& figures);
+CloudResult resultOf(const BandwidthCommandOptions& options, const BandwidthFigures& figures);
 
 } // namespace app
 } // namespace pointhaptics

@@ -1,51 +1,118 @@
 #include "Clouds/CloudToCloud.h"
 
 #include "Options/OptionParsing.h"
+#include "Terminal/CommandLine.h"
+#include "Terminal/Messages.h"
 #include "Terminal/StopSignals.h"
 
+#include "MergedCloud.h"
+
 #include <CLI/CLI.hpp>
-#include <vtkPointCloudWriter.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+#include <vtkPolyData.h>
 
 namespace pointhaptics
 {
 namespace app
 {
 
-void CloudToCloudOptions::addTo(CLI::App& command)
+void CloudToCloudOptions::addTo(CLI::App& command, bool lastIsOutput)
 {
-  command.add_option("IN", this->input, "Point cloud to read")->required()->type_name("");
-  command
-    .add_option(
-      "-o,--output", this->output, std::string("File to write: ") + vtkPointCloudWriter::GetExtensions())
-    ->required()
-    ->type_name("OUT");
-  addResolution(command, this->resolution);
+  CLI::Option* in = lastIsOutput
+    ? addInputsAndOutput(command, "IN", this->inputs, writableExtensions(),
+        "Point clouds to read, and where -o is not given the file to write; - is standard input or output")
+    : addInput(command, "IN", this->inputs, "Point clouds to read; - is standard input");
+  in->required();
+  addOutput(command, "-o,--output", this->output, writableExtensions(),
+    fmt::format(
+      "File to write: .{}; - is standard output; for several IN a pattern such as {{stem}}-new.ply, with "
+      "{{stem}}, {{name}} or {{folder}} of each",
+      fmt::join(writableExtensions(), ", .")))
+    ->required(!lastIsOutput);
+  command.add_flag(
+    "--merge,--together", this->merge, "Make one cloud of several IN, with every array of each");
+  addClip(command, this->reading.clip,
+    "Only what lies in this box is read, in coordinates of the file; default: all");
+  this->writing.addTo(command);
+  addResolution(command, this->reading.resolution);
   addInteger(command, "--threads", this->threads, 1, 1024, "Threads to use; default all");
   command.add_flag("--json", this->json, "Print the figures as JSON");
 }
 
-bool CloudToCloudOptions::open(const std::string& command, Cloud& cloud, std::string& message) const
+void CloudToCloudOptions::check() const
 {
-  if (!canWriteCloud(this->output, message))
+  if (this->inputs.size() > 1 && !this->merge && !isPattern(this->output))
   {
-    return false;
+    throwUsage(this->output, "",
+      fmt::format(
+        "{} inputs and one output; put {{stem}} into its name for one of each, or give --merge to make one "
+        "cloud of them",
+        this->inputs.size()));
   }
-  useThreads(this->threads);
-  rememberStopSignals();
-  if (!this->read(cloud, message))
+  if (this->merge && isPattern(this->output))
   {
-    return false;
+    throwUsage(
+      "--merge", "", "makes one cloud, and " + this->output + " stands for several; leave out one of them");
   }
-  showNotes(command, this->input, cloud);
-  return true;
 }
 
 bool CloudToCloudOptions::read(Cloud& cloud, std::string& message, Ranks* ranks) const
 {
-  ReadOptions reading;
-  reading.resolution = this->resolution;
-  reading.ranks = ranks;
-  return readCloud(this->input, cloud, message, reading);
+  ReadOptions options = this->reading;
+  options.ranks = ranks;
+  return readCloud(this->input, cloud, message, options);
+}
+
+void print(const CloudResult& result, bool isJson)
+{
+  isJson ? printJson(result.json) : printSummary(result.summary);
+}
+
+int runOnClouds(const std::string& command, const CloudToCloudOptions& options, Files& files,
+  const std::function<CloudResult(const CloudToCloudOptions&, Cloud&)>& work)
+{
+  useThreads(options.threads);
+  rememberStopSignals();
+  std::string message;
+  std::vector<Cloud> merged;
+  std::vector<CloudResult> results;
+  CloudToCloudOptions each = options;
+  for (const std::string& input : options.inputs)
+  {
+    each.input = input;
+    each.output = expandedName(options.output, input);
+    Cloud cloud;
+    if (!each.read(cloud, message))
+    {
+      throw Failure(message);
+    }
+    showNotes(command, input, cloud);
+    options.merge ? merged.push_back(std::move(cloud)) : results.push_back(work(each, cloud));
+  }
+  if (options.merge)
+  {
+    Cloud all = mergedCloud(command, merged);
+    each.input = fmt::format("{} merged inputs", merged.size());
+    each.output = options.output;
+    results.push_back(work(each, all));
+  }
+  if (!files.commit(message))
+  {
+    throw Failure(message);
+  }
+  const bool isList = options.json && isPattern(options.output);
+  nlohmann::ordered_json list = { { "files", nlohmann::ordered_json::array() } };
+  for (const CloudResult& result : results)
+  {
+    isList ? list["files"].push_back(result.json) : print(result, options.json);
+  }
+  if (isList)
+  {
+    printJson(list);
+  }
+  return kSuccess;
 }
 
 } // namespace app

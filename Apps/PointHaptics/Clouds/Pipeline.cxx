@@ -1,10 +1,12 @@
 #include "Clouds/Pipeline.h"
 
+#include "Options/OptionParsing.h"
 #include "Terminal/Messages.h"
 #include "Terminal/ProgressBar.h"
 #include "Terminal/StandardStreams.h"
 #include "Terminal/StopSignals.h"
 
+#include "MergedCloud.h"
 #include "vtkPointCloudReader.h"
 #include "vtkPointCloudWriter.h"
 
@@ -17,8 +19,11 @@
 #include <vtkPolyData.h>
 #include <vtkSMPTools.h>
 
+#include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <sstream>
+#include <thread>
 
 namespace pointhaptics
 {
@@ -26,6 +31,19 @@ namespace app
 {
 namespace
 {
+
+/// Seconds since it was made.
+class Stopwatch
+{
+public:
+  double seconds() const
+  {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+  }
+
+private:
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
 
 std::string firstOf(const std::vector<std::string>& messages)
 {
@@ -36,11 +54,16 @@ std::string firstOf(const std::vector<std::string>& messages)
 bool readFile(const std::string& path, const std::string& shown, Cloud& cloud, std::string& message,
   const ReadOptions& options)
 {
+  const Stopwatch watch;
   vtkNew<vtkPointCloudReader> reader;
   reader->SetFileName(path.c_str());
   reader->SetExtension(options.extension);
   reader->SetResolution(options.resolution);
   reader->SetApplyPoses(options.applyPoses);
+  if (!options.clip.empty())
+  {
+    reader->SetBox(options.clip.data());
+  }
   reader->SetRanks(options.ranks);
   reader->SetGenerateVertices(false); // a writer whose format has cells makes them
   {
@@ -66,15 +89,20 @@ bool readFile(const std::string& path, const std::string& shown, Cloud& cloud, s
   cloud.notes = reader->GetNotes();
   cloud.isValidWithoutPoints = reader->IsValidWithoutPoints();
   cloud.bytesRead = reader->GetNumberOfBytesRead();
+  say("read",
+    fmt::format("{}: {}, {} in {:.2f} s", shown, cloud.format,
+      countOfPoints(cloud.points->GetNumberOfPoints()), watch.seconds()));
   return message.empty() && !reader->FailedElsewhere();
 }
 
 bool writeFile(vtkPointSet* points, const std::string& path, const std::string& shown,
-  const std::string& command, std::string& message, const std::string& extension, vtkIdType* count)
+  const std::string& command, std::string& message, const WriteOptions& options, vtkIdType* count)
 {
+  const Stopwatch watch;
   vtkNew<vtkPointCloudWriter> writer;
   writer->SetFileName(path.c_str());
-  writer->SetExtension(extension);
+  writer->SetExtension(options.format);
+  writer->SetLasScale(options.lasScale);
   writer->SetInputDataObject(points);
   bool written = false;
   {
@@ -83,7 +111,7 @@ bool writeFile(vtkPointSet* points, const std::string& path, const std::string& 
   }
   for (const std::string& note : writer->GetNotes())
   {
-    warn(command, shown + ": " + note);
+    warn(command, note, shown);
   }
   if (count)
   {
@@ -91,6 +119,9 @@ bool writeFile(vtkPointSet* points, const std::string& path, const std::string& 
   }
   if (written)
   {
+    say(command,
+      fmt::format("{}: {} written in {:.2f} s", shown, countOfPoints(writer->GetNumberOfPointsWritten()),
+        watch.seconds()));
     return true;
   }
   message = writer->GetErrorMessage();
@@ -111,36 +142,25 @@ bool writeFile(vtkPointSet* points, const std::string& path, const std::string& 
 
 bool readCloud(const std::string& fileName, Cloud& cloud, std::string& message, const ReadOptions& options)
 {
-  if (fileName != kStandardStream)
-  {
-    return readFile(fileName, fileName, cloud, message, options);
-  }
-  const TemporaryFolder folder;
-  const std::string path = folder.path("input");
-  return copyStandardInput(path, message) && readFile(path, "standard input", cloud, message, options);
+  const bool isStandard = fileName == kStandardStream;
+  return readFile(
+    isStandard ? "/dev/stdin" : fileName, isStandard ? "standard input" : fileName, cloud, message, options);
 }
 
 bool updateFilter(vtkAlgorithm* filter, const std::string& label, std::string& message)
 {
-  const ProgressBar bar(label, filter);
-  filter->Update();
+  const Stopwatch watch;
+  {
+    const ProgressBar bar(label, filter);
+    filter->Update();
+  }
+  say(label, fmt::format("done in {:.2f} s", watch.seconds()));
   message = firstOf(takeVtkErrors());
   if (stopIsRequested())
   {
     message = label + " was stopped on request; start it again";
   }
   return message.empty();
-}
-
-bool canWriteCloud(const std::string& fileName, std::string& message)
-{
-  if (vtkPointCloudWriter::CanWrite(fileName))
-  {
-    return true;
-  }
-  message = fmt::format("{}: unknown extension \"{}\"; end the name in {}", fileName,
-    std::filesystem::path(fileName).extension().string(), vtkPointCloudWriter::GetExtensions());
-  return false;
 }
 
 std::vector<std::string> writableExtensions()
@@ -157,19 +177,64 @@ std::vector<std::string> writableExtensions()
   return extensions;
 }
 
+void WriteOptions::addTo(CLI::App& command)
+{
+  addWord(command, "--output-format", this->format, writableExtensions(),
+    "Format of the output where its name does not tell it");
+  addNumber(command, "--las-scale", this->lasScale, { 0.0, 1e6, true }, "UNITS",
+    "Step of the coordinates in .las and .laz; default: the step of the data, else 0.1 mm");
+}
+
 bool writeCloud(vtkPointSet* points, const std::string& fileName, const std::string& command,
-  std::string& message, const std::string& extension, vtkIdType* written)
+  std::string& message, const WriteOptions& options)
+{
+  Files none;
+  return writeCloud(points, fileName, none, command, message, options);
+}
+
+bool writeCloud(vtkPointSet* points, const std::string& fileName, Files& files, const std::string& command,
+  std::string& message, const WriteOptions& options, vtkIdType* written)
 {
   rememberStopSignals();
-  if (fileName != kStandardStream)
+  WriteOptions writing = options;
+  if (options.format.empty())
   {
-    return writeFile(points, fileName, fileName, command, message, extension, written);
+    writing.format = lowerExtension(fileName); // its part has another one
   }
-  // Not straight into the pipe: nobody shall get half a cloud, and VTP goes back in its file.
+  if (fileName != kStandardStream || writing.format != "vtp")
+  {
+    const std::string shown = fileName == kStandardStream ? "standard output" : fileName;
+    return writeFile(points, files.output(fileName), shown, command, message, writing, written);
+  }
+  // Its writer goes back in the file.
   const TemporaryFolder folder;
   const std::string path = folder.path("output");
-  return writeFile(points, path, "standard output", command, message, extension, written) &&
+  return writeFile(points, path, "standard output", command, message, writing, written) &&
     copyToStandardOutput(path, message);
+}
+
+Cloud mergedCloud(const std::string& command, std::vector<Cloud>& clouds)
+{
+  Cloud merged = clouds.front();
+  if (clouds.size() > 1)
+  {
+    std::vector<vtkPolyData*> parts;
+    for (const Cloud& each : clouds)
+    {
+      parts.push_back(each.points);
+    }
+    std::vector<std::string> notes;
+    merged.points = io::mergeClouds(parts, notes);
+    for (const std::string& note : notes)
+    {
+      warn(command, note);
+    }
+  }
+  for (Cloud& each : clouds)
+  {
+    each = {};
+  }
+  return merged;
 }
 
 vtkSmartPointer<vtkPolyData> transformedPoints(vtkPolyData* cloud, const AffineTransform& transform)
@@ -202,7 +267,7 @@ void showNotes(const std::string& command, const std::string& fileName, const Cl
 {
   for (const std::string& note : cloud.notes)
   {
-    warn(command, fileName + ": " + note);
+    warn(command, note, fileName == kStandardStream ? "standard input" : fileName);
   }
 }
 
@@ -218,7 +283,9 @@ void useThreads(std::int64_t threads)
 {
   if (threads > 0)
   {
-    vtkSMPTools::Initialize(static_cast<int>(threads));
+    // TBB prints a warning of its own where it gets fewer.
+    const auto most = static_cast<std::int64_t>(std::max(1U, std::thread::hardware_concurrency()));
+    vtkSMPTools::Initialize(static_cast<int>(std::min(threads, most)));
   }
 }
 

@@ -2,14 +2,21 @@
 /// The steps the commands share: read, run a filter, write. Each gives one clean line where it fails.
 #pragma once
 
+#include "Options/Files.h"
+
 #include "Core/Base/AffineTransform.h"
 
 #include <vtkSmartPointer.h>
+#include <vtkType.h>
 
 #include <cstdint>
 #include <string>
 #include <vector>
 
+namespace CLI
+{
+class App;
+}
 class vtkAlgorithm;
 class vtkPointSet;
 class vtkPolyData;
@@ -29,18 +36,16 @@ struct Cloud
   std::int64_t bytesRead = 0;
 };
 
-/// Standard input or output in place of a file.
-constexpr const char* kStandardStream = "-";
-
 struct ReadOptions
 {
-  std::string extension;   ///< Of a name that does not say it; empty: the name's.
-  bool applyPoses = true;  ///< Of scans (E57).
-  double resolution = 0.0; ///< How far a cloud optimised one is read, in its units; 0: all of it.
-  Ranks* ranks = nullptr;  ///< That read it together, each its part of the points; null: this process alone.
+  std::string extension;    ///< Of a name that does not say it; empty: the name's.
+  bool applyPoses = true;   ///< Of scans (E57).
+  double resolution = 0.0;  ///< How far a cloud optimised one is read, in its units; 0: all of it.
+  std::vector<double> clip; ///< Box of what is read, in its coordinates: XMIN, XMAX, YMIN, ...; empty: all.
+  Ranks* ranks = nullptr;   ///< That read it together, each its part of the points; null: this process alone.
 };
 
-/// Reads @p fileName, or standard input, which is kept in a temporary file meanwhile. False: @p message says
+/// Reads @p fileName, a pipe or standard input. False: @p message says
 /// what, where and the cure. A file without points is a fault; where it is a valid one, @p cloud says so and
 /// has its field data. Where ranks read together and another one has a fault, @p message stays empty.
 bool readCloud(
@@ -48,16 +53,30 @@ bool readCloud(
 /// Updates @p filter with a progress bar. False: @p message is the first error of any VTK class during the
 /// update, or says that a remembered signal (StopSignals.h) ended it.
 bool updateFilter(vtkAlgorithm* filter, const std::string& label, std::string& message);
-/// False, and @p message, where no writer knows the extension of @p fileName. Worth asking before long work.
-bool canWriteCloud(const std::string& fileName, std::string& message);
 /// The extensions that can be written, without their dots.
 std::vector<std::string> writableExtensions();
-/// Writes what vtkPointCloudWriter writes; the file appears only when complete. What its format cannot hold
-/// is shown as warnings of @p command. From here on a signal stops the writing: no unfinished file stays.
-/// @p extension: of a name that does not say it, as that of standard output; empty: the name's. @p written
-/// gets the number of points in the file.
+/// How a cloud is written.
+struct WriteOptions
+{
+  std::string format;    ///< Extension of a name that does not say it; empty: the name's.
+  double lasScale = 0.0; ///< Step of the coordinates of LAS, in their unit; 0: see vtkPointCloudWriter.
+
+  /// Adds --output-format and --las-scale.
+  void addTo(CLI::App& command);
+};
+
+/// Writes @p fileName, one of the outputs among @p files, as vtkPointCloudWriter does. What its format cannot
+/// hold is shown as warnings of @p command. From here on a signal stops the writing: no unfinished file
+/// stays.
+/// @p written gets the number of points in the file.
+bool writeCloud(vtkPointSet* points, const std::string& fileName, Files& files, const std::string& command,
+  std::string& message, const WriteOptions& options = {}, vtkIdType* written = nullptr);
+/// The same for one that is not among outputs; it appears at once.
 bool writeCloud(vtkPointSet* points, const std::string& fileName, const std::string& command,
-  std::string& message, const std::string& extension = {}, vtkIdType* written = nullptr);
+  std::string& message, const WriteOptions& options = {});
+
+/// All of @p clouds in one, which are empty then. Notes are shown as warnings of @p command.
+Cloud mergedCloud(const std::string& command, std::vector<Cloud>& clouds);
 
 /// The finite points of @p cloud, moved by @p transform, in double precision, without arrays.
 vtkSmartPointer<vtkPolyData> transformedPoints(vtkPolyData* cloud, const AffineTransform& transform);

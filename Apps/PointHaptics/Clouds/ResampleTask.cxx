@@ -42,15 +42,15 @@ void ResampleOptions::addTo(CLI::App& command)
     "Leave out voxels with fewer points; default 1");
   command.add_flag("--original-ids", voxels.keepOriginalPointIds,
     "Add vtkOriginalPointIds: the row in IN, from 0, of the nearest point that stands for each voxel");
-  command
-    .add_option("--voxel-index", this->voxelIndex,
-      "File to write with the row in OUT of each point of IN, from 0, or -1: .csv")
+  addOutput(command, "--voxel-index", this->voxelIndex, { "csv" },
+    "File to write with the row in OUT of each point of IN, from 0, or -1: .csv")
     ->type_name("FILE");
   this->lattice.addTo(command);
 }
 
 void ResampleOptions::check() const
 {
+  this->files.check();
   const VoxelMeanSettings& voxels = this->lattice.voxels;
   if (voxels.keepOriginalPointIds && !keepsPoints(voxels.representative))
   {
@@ -111,14 +111,9 @@ std::vector<std::string> oddPointsNotes(
   return notes;
 }
 
-bool openVoxelIndex(const ResampleOptions& options, CsvWriter& file, std::string& message)
+bool openVoxelIndex(const std::string& fileName, CsvWriter& file, std::string& message)
 {
-  if (options.voxelIndex == options.files.output)
-  {
-    message = options.voxelIndex + ": --voxel-index and -o name one file; give it another name";
-    return false;
-  }
-  return file.open(options.voxelIndex, "voxel", message);
+  return file.open(fileName, "voxel", message);
 }
 
 std::vector<std::int64_t> voxelIndexOf(vtkVoxelMeanResampler* resampler)
@@ -155,18 +150,13 @@ std::string whyEmpty(const ResampleOptions& options, const ResampleFigures& figu
     options.files.input, figures.clipped, figures.invalid);
 }
 
-void print(const ResampleOptions& options, const ResampleFigures& figures)
+CloudResult resultOf(const ResampleOptions& options, const ResampleFigures& figures)
 {
-  if (options.files.json)
-  {
-    const nlohmann::ordered_json result = { { "input", options.files.input },
-      { "output", options.files.output }, { "points_in", figures.in }, { "points_out", figures.out },
-      { "points_clipped", figures.clipped }, { "points_invalid", figures.invalid } };
-    printJson(result);
-    return;
-  }
-  fmt::print("{} in, {} out, {} clipped, {} invalid: {}\n", countOfPoints(figures.in), figures.out,
-    figures.clipped, figures.invalid, options.files.output);
+  return { fmt::format("{} in, {} out, {} clipped, {} invalid: {}", countOfPoints(figures.in), figures.out,
+             figures.clipped, figures.invalid, options.files.output),
+    { { "input", options.files.input }, { "output", options.files.output }, { "points_in", figures.in },
+      { "points_out", figures.out }, { "points_clipped", figures.clipped },
+      { "points_invalid", figures.invalid } } };
 }
 
 } // namespace app

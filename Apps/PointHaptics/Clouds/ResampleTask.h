@@ -46,7 +46,7 @@ std::vector<std::string> oddPointsNotes(
   const ResampleOptions& options, bool isDone, vtkPolyData* cloud, Ranks& ranks);
 
 /// Opens the file of --voxel-index. False: @p message says why it cannot be written.
-bool openVoxelIndex(const ResampleOptions& options, CsvWriter& file, std::string& message);
+bool openVoxelIndex(const std::string& fileName, CsvWriter& file, std::string& message);
 /// Of each point the row of its voxel in the output, or -1. @pre ComputeVoxelIndex is on.
 std::vector<std::int64_t> voxelIndexOf(vtkVoxelMeanResampler* resampler);
 void addVoxelIndex(const std::vector<std::int64_t>& rows, CsvWriter& file);
@@ -62,7 +62,7 @@ struct ResampleFigures
 
 /// Why no voxel is left.
 std::string whyEmpty(const ResampleOptions& options, const ResampleFigures& figures);
-void print(const ResampleOptions& options, const ResampleFigures& figures);
+CloudResult resultOf(const ResampleOptions& options, const ResampleFigures& figures);
 
 } // namespace app
 } // namespace pointhaptics

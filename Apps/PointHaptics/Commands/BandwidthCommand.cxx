@@ -7,6 +7,7 @@
 #include "vtkKernelBandwidthFilter.h"
 
 #include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
 #include <vtkNew.h>
 #include <vtkPolyData.h>
 
@@ -21,30 +22,27 @@ namespace
 
 constexpr const char* kBandwidthCommand = "bandwidth";
 
-int runBandwidth(const BandwidthCommandOptions& options)
+/// @p files has the output.
+CloudResult addBandwidths(const BandwidthCommandOptions& options, Cloud& cloud, Files& files)
 {
   std::string message;
-  Cloud cloud;
-  if (!options.files.open(kBandwidthCommand, cloud, message))
-  {
-    return fail(kBandwidthCommand, message);
-  }
   vtkNew<vtkKernelBandwidthFilter> filter;
   filter->SetInputData(cloud.points);
   filter->SetSettings(options.bandwidth.settings);
   if (!updateFilter(filter, "bandwidth", message))
   {
-    return fail(kBandwidthCommand, options.files.input + ": " + message);
+    throw Failure(options.files.input + ": " + message);
   }
   showWarnings(kBandwidthCommand);
   const BandwidthFigures figures = bandwidthFigures(filter->GetOutput());
   message = whyNone(options, figures);
-  if (!message.empty() || !writeCloud(filter->GetOutput(), options.files.output, kBandwidthCommand, message))
+  if (!message.empty() ||
+    !writeCloud(
+      filter->GetOutput(), options.files.output, files, kBandwidthCommand, message, options.files.writing))
   {
-    return fail(kBandwidthCommand, message);
+    throw Failure(message);
   }
-  print(options, figures);
-  return kSuccess;
+  return resultOf(options, figures);
 }
 
 } // namespace
@@ -55,7 +53,17 @@ void addBandwidthCommand(CLI::App& program, int& exitCode)
     program.add_subcommand("bandwidth", "Add kernel bandwidth, proxy radius and density to every point");
   auto options = std::make_shared<BandwidthCommandOptions>();
   options->addTo(*command);
-  command->callback([options, &exitCode] { exitCode = runBandwidth(*options); });
+  const auto run = [options](Files& files)
+  {
+    return runOnClouds(kBandwidthCommand, options->files, files,
+      [&](const CloudToCloudOptions& ofOne, Cloud& cloud)
+      {
+        BandwidthCommandOptions each = *options;
+        each.files = ofOne;
+        return addBandwidths(each, cloud, files);
+      });
+  };
+  runAs(*command, exitCode, { [options] { options->files.check(); }, run });
 }
 
 } // namespace app

@@ -26,7 +26,9 @@ void addInfoCommand(CLI::App& program, int& exitCode);
 void addGenerateCommand(CLI::App& program, int& exitCode);
 void addDevicesCommand(CLI::App& program, int& exitCode);
 /// Hidden: for the build.
-void addManualCommand(CLI::App& program);
+void addManualCommand(CLI::App& program, int& exitCode);
+/// Hidden, of a program beside pointhaptics: prints its man page, for the build.
+void addManPage(CLI::App& program);
 /// Runs the program pointhaptics-bench, where it is.
 void addBenchCommand(CLI::App& program, int& exitCode);
 

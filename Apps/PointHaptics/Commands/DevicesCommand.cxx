@@ -78,7 +78,7 @@ void addDevicesCommand(CLI::App& program, int& exitCode)
   auto options = std::make_shared<DevicesOptions>();
   CLI::Option* diagnose = command->add_flag("--diagnose", options->diagnose,
     "Walk through the checks of a Falcon that need its owner: LEDs, homing, encoders, motors, rate");
-  command->add_option("--report", options->report, "What the checks found; default falcon-report.txt")
+  addOutput(*command, "--report", options->report, {}, "What the checks found; default falcon-report.txt")
     ->type_name("FILE")
     ->needs(diagnose);
   command
@@ -86,7 +86,7 @@ void addDevicesCommand(CLI::App& program, int& exitCode)
     ->needs(diagnose);
   command->add_flag("--json", options->json, "Print the list as JSON")->excludes(diagnose);
   options->falcon.addTo(*command);
-  command->callback([options, &exitCode] { exitCode = runDevices(*options); });
+  runAs(*command, exitCode, { {}, [options](Files&) { return runDevices(*options); } });
 }
 
 } // namespace app

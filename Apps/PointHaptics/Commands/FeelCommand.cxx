@@ -262,19 +262,21 @@ void print(const FeelOptions& options, const FeelScenes& scenes, std::int64_t in
   }
   if (invalid > 0)
   {
-    fmt::print("{}{} NaN or infinite and left out\n", countOfPoints(invalid), invalid == 1 ? " is" : " are");
+    printSummary(fmt::format(
+      "{}{} NaN or infinite and left out", countOfPoints(invalid), invalid == 1 ? " is" : " are"));
   }
-  fmt::print("{} ticks, {} in contact, max force {:.4g} N, update p50 {:.2f} p99 {:.2f} max {:.2f} us: {}\n",
-    s.ticks, s.contactTicks, s.maximumForce, s.p50Microseconds, s.p99Microseconds, s.maximumMicroseconds,
-    options.output);
+  printSummary(
+    fmt::format("{} ticks, {} in contact, max force {:.4g} N, update p50 {:.2f} p99 {:.2f} max {:.2f} us: {}",
+      s.ticks, s.contactTicks, s.maximumForce, s.p50Microseconds, s.p99Microseconds, s.maximumMicroseconds,
+      options.output));
   if (nearest)
   {
     const bool isPlaced =
       options.fit || options.lattice.hasTransform() || !options.lattice.workspace().empty();
-    fmt::print("{} of {} ticks in contact; nearest point {} away{}\n", s.contactTicks, s.ticks,
+    printSummary(fmt::format("{} of {} ticks in contact; nearest point {} away{}", s.contactTicks, s.ticks,
       lengthText(*nearest < 1e-9 ? 0.0 : *nearest, 2), // rounding errors
       !isPlaced && *nearest > kDefaultWorkspaceEdge ? "; --fit brings the cloud into the 10 cm workspace"
-                                                    : "");
+                                                    : ""));
   }
 }
 
@@ -287,29 +289,30 @@ void printReplay(const FeelOptions& options, const ReplayDifference& difference,
       { "max_difference_n", difference.largest } });
     return;
   }
-  fmt::print("{} ticks, {} in contact, max force {:.4g} N: {}\n{}\n", s.ticks, s.contactTicks, s.maximumForce,
-    options.output, difference.text());
+  printSummary(fmt::format("{} ticks, {} in contact, max force {:.4g} N: {}\n{}", s.ticks, s.contactTicks,
+    s.maximumForce, options.output, difference.text()));
 }
 
-bool openSound(const FeelOptions& options, FeltSound& sound, std::string& message)
+bool openSound(const FeelOptions& options, Files& files, FeltSound& sound, std::string& message)
 {
-  return options.soundFile.empty() || sound.open(options.soundFile, message);
+  return options.soundFile.empty() || sound.open(files.output(options.soundFile), message);
 }
 
 /// A recording felt again.
-int runReplay(const FeelOptions& options)
+int runReplay(const FeelOptions& options, Files& files)
 {
   std::string message;
   Recording recording;
   vtkSmartPointer<vtkPolyData> cloud;
   rememberStopSignals();
-  if (!openRecording(options.replay, options.file, recording, cloud, message))
+  if (!openRecording(options.replay, options.file, files, recording, cloud, message))
   {
     return fail(kFeelCommand, message);
   }
   CsvWriter table;
   FeltSound sound;
-  if (!table.open(options.output, header(), message) || !openSound(options, sound, message))
+  if (!table.open(files.output(options.output), header(), message) ||
+    !openSound(options, files, sound, message))
   {
     return fail(kFeelCommand, message);
   }
@@ -340,7 +343,7 @@ int runReplay(const FeelOptions& options)
   {
     return fail(kFeelCommand, options.output + ": feeling was stopped on request; start it again");
   }
-  if (!table.commit(message) || !sound.close(message))
+  if (!table.commit(message) || !sound.close(message) || !files.commit(message))
   {
     return fail(kFeelCommand, message);
   }
@@ -348,8 +351,8 @@ int runReplay(const FeelOptions& options)
   return kSuccess;
 }
 
-bool openRecordingOutput(
-  const FeelOptions& options, vtkPolyData* cloud, RecordingWriter& recording, std::string& message)
+bool openRecordingOutput(const FeelOptions& options, vtkPolyData* cloud, Files& files,
+  RecordingWriter& recording, std::string& message)
 {
   if (options.record.empty())
   {
@@ -359,16 +362,16 @@ bool openRecordingOutput(
   header.settings = options.settings;
   header.step = VirtualTouch::settings(options.rateHz);
   recording.publish(PublishedParameters{ 1, options.touch.parameters });
-  return recording.open(options.record, header, message);
+  return recording.open(files.output(options.record), header, message);
 }
 
-int runFeel(const FeelOptions& options)
+int runFeel(const FeelOptions& options, Files& files)
 {
   std::string message;
   HipPath path;
   std::int64_t ticks = 0;
   const bool follows = options.device != "falcon";
-  if (follows && readHipPath(options.path, path, message) != Status::Ok)
+  if (follows && readHipPath(files.input(options.path), path, message) != Status::Ok)
   {
     return fail(kFeelCommand, message);
   }
@@ -392,8 +395,10 @@ int runFeel(const FeelOptions& options)
   RecordingWriter recording;
   CsvWriter table;
   FeltSound sound;
-  if (!openRecordingOutput(options, clippedCloud(cloud.points, clipBox(options.clip)), recording, message) ||
-    !table.open(options.output, header(), message) || !openSound(options, sound, message))
+  if (!openRecordingOutput(
+        options, clippedCloud(cloud.points, clipBox(options.clip)), files, recording, message) ||
+    !table.open(files.output(options.output), header(), message) ||
+    !openSound(options, files, sound, message))
   {
     return fail(kFeelCommand, message);
   }
@@ -401,7 +406,7 @@ int runFeel(const FeelOptions& options)
   cloud = {};
   Rows rows(table, recording, sound);
   if (!feelAs(options, scenes, path, ticks, rows, message) || !table.commit(message) ||
-    !recording.close(message) || !sound.close(message))
+    !recording.close(message) || !sound.close(message) || !files.commit(message))
   {
     return fail(kFeelCommand, message);
   }
@@ -423,14 +428,9 @@ void addFeelCommand(CLI::App& program, int& exitCode)
     program.add_subcommand("feel", "Feel a point cloud along a path, in virtual time, or with a Falcon");
   auto options = std::make_shared<FeelOptions>();
   options->addTo(*command);
-  command->callback(
-    [command, options, &exitCode]
-    {
-      std::string message;
-      exitCode = !options->complete(*command, message) ? fail(kFeelCommand, message)
-        : options->replay.empty()                      ? runFeel(*options)
-                                                       : runReplay(*options);
-    });
+  const auto run = [options](Files& files)
+  { return options->replay.empty() ? runFeel(*options, files) : runReplay(*options, files); };
+  runAs(*command, exitCode, { [command, options] { options->complete(*command); }, run });
 }
 
 } // namespace app

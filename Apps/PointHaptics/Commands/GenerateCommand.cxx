@@ -8,10 +8,10 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 #include <vtkDoubleArray.h>
 #include <vtkNew.h>
-#include <vtkPointCloudWriter.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
@@ -38,6 +38,7 @@ struct GenerateOptions
   std::int64_t seed = 1;
   double noise = 0.0;
   std::string output;
+  WriteOptions writing;
   bool json = false;
 };
 
@@ -50,13 +51,9 @@ vtkSmartPointer<vtkDoubleArray> arrayOf(const std::vector<Vec3>& vectors)
   return array;
 }
 
-int runGenerate(const GenerateOptions& options)
+int runGenerate(const GenerateOptions& options, Files& files)
 {
   std::string message;
-  if (!canWriteCloud(options.output, message))
-  {
-    return fail(kGenerateCommand, message);
-  }
   const Shape shape = static_cast<Shape>(options.shape);
   vtkNew<vtkPolyData> cloud;
   {
@@ -74,7 +71,8 @@ int runGenerate(const GenerateOptions& options)
     normalArray->SetName("Normals");
     cloud->GetPointData()->SetNormals(normalArray);
   }
-  if (!writeCloud(cloud, options.output, kGenerateCommand, message))
+  if (!writeCloud(cloud, options.output, files, kGenerateCommand, message, options.writing) ||
+    !files.commit(message))
   {
     return fail(kGenerateCommand, message);
   }
@@ -86,7 +84,7 @@ int runGenerate(const GenerateOptions& options)
   }
   else
   {
-    fmt::print("{} of {}: {}\n", countOfPoints(options.count), shapeName(shape), options.output);
+    printSummary(fmt::format("{} of {}: {}", countOfPoints(options.count), shapeName(shape), options.output));
   }
   return kSuccess;
 }
@@ -112,13 +110,12 @@ void addGenerateCommand(CLI::App& program, int& exitCode)
   addInteger(*command, "--seed", options->seed, 0, kLargestSeed, "Same seed, same points; default 1");
   addNumber(*command, "--noise", options->noise, { 0.0, 1.0 }, "SIGMA",
     "Standard deviation of noise along the normal, metres; default 0");
-  command
-    ->add_option(
-      "-o,--output", options->output, std::string("File to write: ") + vtkPointCloudWriter::GetExtensions())
-    ->required()
-    ->type_name("OUT");
+  addOutput(*command, "-o,--output", options->output, writableExtensions(),
+    fmt::format("File to write: .{}; - is standard output", fmt::join(writableExtensions(), ", .")))
+    ->required();
+  options->writing.addTo(*command);
   command->add_flag("--json", options->json, "Print what was made as JSON");
-  command->callback([options, &exitCode] { exitCode = runGenerate(*options); });
+  runAs(*command, exitCode, { {}, [options](Files& files) { return runGenerate(*options, files); } });
 }
 
 } // namespace app

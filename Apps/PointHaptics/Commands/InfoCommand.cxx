@@ -3,6 +3,7 @@
 #include "Clouds/Pipeline.h"
 #include "Options/OptionParsing.h"
 #include "Terminal/Messages.h"
+#include "Terminal/StopSignals.h"
 
 #include "Core/Base/QuantityText.h"
 #include "IO/Info/CloudSummary.h"
@@ -27,6 +28,7 @@ struct InfoOptions
 {
   std::vector<std::string> files;
   double resolution = 0.0;
+  bool statistics = false;
   bool json = false;
 };
 
@@ -35,69 +37,65 @@ std::vector<double> numbers(const Vec3& v)
   return { v.x, v.y, v.z };
 }
 
-/// Who wrote the file, and of which parts.
-void addOrigin(const CloudSummary& s, nlohmann::ordered_json& result)
+nlohmann::ordered_json textOrNull(const std::string& text)
 {
-  if (!s.generator.empty())
+  return text.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(text);
+}
+
+/// All keys are there for each file; null where there is nothing to say.
+nlohmann::ordered_json toJson(const std::string& file, const CloudSummary& s)
+{
+  using Json = nlohmann::ordered_json;
+  const auto ranges = [](const ArraySummary& array)
   {
-    result["generator"] = s.generator;
-  }
-  if (s.chunks > 0)
+    const auto listOrNull = [](const std::vector<double>& values)
+    { return values.empty() ? Json() : Json(values); };
+    return Json{ { "min", array.minima }, { "max", array.maxima }, { "mean", listOrNull(array.means) },
+      { "deviation", listOrNull(array.deviations) } };
+  };
+  Json arrays = Json::array();
+  for (const ArraySummary& array : s.arrays)
   {
-    result["chunks"] = s.chunks;
+    arrays.push_back({ { "name", array.name }, { "type", array.type }, { "components", array.components } });
+    arrays.back().update(ranges(array));
   }
+  Json scans = Json::array();
   for (const ScanSummary& scan : s.scans)
   {
-    result["scans"].push_back({ { "name", scan.name }, { "points", scan.points },
+    scans.push_back({ { "name", scan.name }, { "points", scan.points },
       { "translation", std::vector<double>(scan.pose.begin(), scan.pose.begin() + 3) },
       { "quaternion_wxyz", std::vector<double>(scan.pose.begin() + 3, scan.pose.end()) } });
   }
-  if (!s.notes.empty())
+  const bool hasPlace = !s.bounds.empty();
+  Json percentiles = Json::object();
+  for (std::size_t i = 0; i < s.spacing.size() && hasPlace; ++i)
   {
-    result["notes"] = s.notes;
+    percentiles[std::to_string(kSpacingPercents[i])] = s.spacing[i];
   }
-  if (!s.farPoints.empty())
-  {
-    result["far_points"] = s.farPoints;
-  }
+  const auto ifPlaced = [hasPlace](const Json& value) { return hasPlace ? value : Json(); };
+  return { { "file", file }, { "error", nullptr }, { "format", s.format }, { "points", s.points },
+    { "points_invalid", s.invalid }, { "points_duplicate", s.duplicates },
+    { "generator", textOrNull(s.generator) }, { "chunks", s.chunks > 0 ? Json(s.chunks) : Json() },
+    { "scans", scans }, { "notes", s.notes }, { "far_points", textOrNull(s.farPoints) },
+    { "bounds", ifPlaced({ { "min", numbers(s.bounds.minimum) }, { "max", numbers(s.bounds.maximum) } }) },
+    { "spacing", ifPlaced(s.spacing[2]) }, { "spacing_percentiles", ifPlaced(percentiles) },
+    { "density_variation", ifPlaced(s.densityVariation) }, { "suggested_voxel", ifPlaced(s.suggestedVoxel) },
+    { "unit", ifPlaced(s.unit) }, { "unit_is_guess", ifPlaced(s.unitIsGuess) },
+    { "coordinate_system", textOrNull(s.coordinateSystem) }, { "arrays", arrays },
+    { "coordinates", s.coordinates.means.empty() ? Json() : ranges(s.coordinates) },
+    { "hint", textOrNull(s.hint) }, { "suggested_scale", s.hint.empty() ? Json() : Json(s.suggestedScale) } };
 }
 
-nlohmann::ordered_json toJson(const std::string& file, const CloudSummary& s)
+/// The keys of a file that cannot be read: all but two are null.
+nlohmann::ordered_json toJson(const std::string& file, const std::string& error)
 {
-  nlohmann::ordered_json arrays = nlohmann::ordered_json::array();
-  for (const ArraySummary& array : s.arrays)
+  nlohmann::ordered_json result = toJson(file, CloudSummary());
+  for (auto& item : result.items())
   {
-    arrays.push_back({ { "name", array.name }, { "type", array.type }, { "components", array.components },
-      { "min", array.minima }, { "max", array.maxima } });
+    item.value() = nullptr;
   }
-  nlohmann::ordered_json result = { { "file", file }, { "format", s.format }, { "points", s.points },
-    { "points_invalid", s.invalid }, { "points_duplicate", s.duplicates } };
-  addOrigin(s, result);
-  if (!s.bounds.empty())
-  {
-    result["bounds"] = { { "min", numbers(s.bounds.minimum) }, { "max", numbers(s.bounds.maximum) } };
-    nlohmann::ordered_json percentiles;
-    for (std::size_t i = 0; i < s.spacing.size(); ++i)
-    {
-      percentiles[std::to_string(kSpacingPercents[i])] = s.spacing[i];
-    }
-    result["spacing"] = s.spacing[2];
-    result["spacing_percentiles"] = percentiles;
-    result["density_variation"] = s.densityVariation;
-    result["suggested_voxel"] = s.suggestedVoxel;
-    result["unit"] = s.unit;
-    result["unit_is_guess"] = s.unitIsGuess;
-  }
-  if (!s.coordinateSystem.empty())
-  {
-    result["coordinate_system"] = s.coordinateSystem;
-  }
-  result["arrays"] = arrays;
-  if (!s.hint.empty())
-  {
-    result["hint"] = s.hint;
-    result["suggested_scale"] = s.suggestedScale;
-  }
+  result["file"] = file;
+  result["error"] = error;
   return result;
 }
 
@@ -141,6 +139,27 @@ void printSpacing(const CloudSummary& s)
   fmt::print("  voxel    {:.3g} holds a few points of a surface (--voxel)\n", s.suggestedVoxel);
 }
 
+void printArrays(const CloudSummary& s)
+{
+  for (std::size_t axis = 0; axis < s.coordinates.means.size(); ++axis)
+  {
+    fmt::print("  {}        mean {:.6g}, deviation {:.6g}\n", "xyz"[axis], s.coordinates.means[axis],
+      s.coordinates.deviations[axis]);
+  }
+  for (const ArraySummary& array : s.arrays)
+  {
+    std::string ranges;
+    for (std::size_t i = 0; i < array.minima.size(); ++i)
+    {
+      ranges += fmt::format(" [{:.6g}, {:.6g}]", array.minima[i], array.maxima[i]);
+      ranges += array.means.empty()
+        ? std::string()
+        : fmt::format(" mean {:.6g}, deviation {:.6g}", array.means[i], array.deviations[i]);
+    }
+    fmt::print("  array    {}: {} x {}{}\n", array.name, array.type, array.components, ranges);
+  }
+}
+
 void print(const std::string& file, const CloudSummary& s)
 {
   fmt::print("{}\n  format   {}\n  points   {}{}{}\n", file, s.format, s.points, ofThemInvalid(s.invalid),
@@ -167,15 +186,7 @@ void print(const std::string& file, const CloudSummary& s)
   {
     fmt::print("  system   {}\n", s.coordinateSystem);
   }
-  for (const ArraySummary& array : s.arrays)
-  {
-    std::string ranges;
-    for (std::size_t i = 0; i < array.minima.size(); ++i)
-    {
-      ranges += fmt::format(" [{:.6g}, {:.6g}]", array.minima[i], array.maxima[i]);
-    }
-    fmt::print("  array    {}: {} x {}{}\n", array.name, array.type, array.components, ranges);
-  }
+  printArrays(s);
   for (const std::string& note : s.notes)
   {
     fmt::print("  note     {}\n", note);
@@ -207,6 +218,7 @@ std::string withoutFileName(const std::string& message, const std::string& file)
 
 int runInfo(const InfoOptions& options)
 {
+  rememberStopSignals();
   int exitCode = kSuccess;
   nlohmann::ordered_json files = nlohmann::ordered_json::array();
   for (const std::string& file : options.files)
@@ -223,11 +235,11 @@ int runInfo(const InfoOptions& options)
     else if (!hasPoints)
     {
       exitCode = fail(kInfoCommand, message);
-      files.push_back({ { "file", file }, { "error", message } });
+      files.push_back(toJson(file, message));
       continue;
     }
     showWarnings(kInfoCommand);
-    CloudSummary summary = summarize(cloud.points, cloud.format);
+    CloudSummary summary = summarize(cloud.points, cloud.format, options.statistics);
     summary.notes = cloud.notes;
     if (options.json)
     {
@@ -252,10 +264,12 @@ void addInfoCommand(CLI::App& program, int& exitCode)
 {
   CLI::App* command = program.add_subcommand("info", "Say what is in point cloud files");
   auto options = std::make_shared<InfoOptions>();
-  command->add_option("FILE", options->files, "Point clouds to look at")->required()->type_name("");
+  addInput(*command, "FILE", options->files, "Point clouds to look at; - is standard input")->required();
   addResolution(*command, options->resolution);
+  command->add_flag("--statistics", options->statistics,
+    "Also the mean and the standard deviation of each array, and of the coordinates: x, y, z");
   command->add_flag("--json", options->json, "Print all of it as JSON");
-  command->callback([options, &exitCode] { exitCode = runInfo(*options); });
+  runAs(*command, exitCode, { {}, [options](Files&) { return runInfo(*options); } });
 }
 
 } // namespace app

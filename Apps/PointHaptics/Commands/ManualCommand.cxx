@@ -92,19 +92,32 @@ std::string examples()
   return text;
 }
 
+constexpr const char* kExitStatus =
+  ".SH EXIT STATUS\n.TP\n\\fB0\\fR\nDone.\n.TP\n\\fB1\\fR\nFailed: a file cannot be read or written, or the "
+  "work "
+  "cannot be done.\n.TP\n\\fB2\\fR\nThe command line or a configuration is wrong, or an output would cost a "
+  "file; nothing "
+  "was touched.\n.TP\n\\fB128 + N\\fR\nSignal N ended it: 130 Ctrl+C (or Escape, Q and the close button "
+  "before the first "
+  "cloud is read), 143 SIGTERM, 129 SIGHUP, 141 a reader of standard output that ended.\n";
+
+/// Of this program, or of one beside it, which has no window.
 std::string manPage(CLI::App& program)
 {
+  const std::string& name = program.get_name();
+  const bool isMain = name == "pointhaptics";
+  const std::string description = program.get_description();
   std::string text = fmt::format(
-    ".TH POINTHAPTICS 1 \"\" \"pointhaptics {0}\" \"User Commands\"\n.SH NAME\npointhaptics \\- see and feel "
-    "raw "
-    "point clouds\n.SH SYNOPSIS\n.B pointhaptics\n[\\fICOMMAND\\fR] [\\fIOPTIONS\\fR] \\fIFILE\\fR...\n.SH "
-    "DESCRIPTION\nShows point clouds, and renders their touch to a haptic device or a simulated hand. "
-    "Without a "
-    "command: \\fBview\\fR.\n",
-    POINTHAPTICS_VERSION);
+    ".TH {0} 1 \"\" \"{1} {2}\" \"User Commands\"\n.SH NAME\n{1} \\- {3}\n.SH SYNOPSIS\n.B "
+    "{1}\n[\\fICOMMAND\\fR] [\\fIOPTIONS\\fR] \\fIFILE\\fR...\n.SH DESCRIPTION\n{4}\n",
+    upper(name), roff(name), POINTHAPTICS_VERSION,
+    isMain ? "see and feel raw point clouds" : roff(description.substr(0, description.find('\n'))),
+    isMain ? "Shows point clouds, and renders their touch to a haptic device or a simulated hand. Without a "
+             "command: \\fBview\\fR."
+           : roff(description));
   for (const CLI::App* command : shownCommands(program))
   {
-    text += fmt::format(".SH {}\n{}.\n{}", roff("POINTHAPTICS " + upper(command->get_name())),
+    text += fmt::format(".SH {}\n{}.\n{}", roff(upper(name + " " + command->get_name())),
       roff(command->get_description()), optionsOf(*command));
     for (const CLI::App* below : command->get_subcommands([](const CLI::App*) { return true; }))
     {
@@ -112,12 +125,12 @@ std::string manPage(CLI::App& program)
         roff(below->get_description()), optionsOf(*below));
     }
   }
-  text += ".SH KEYS AND MOUSE OF VIEW\n.nf\n" + roff(keysHelp()) + "\n.fi\n";
-  text += examples();
-  text += ".SH EXIT STATUS\n0: done, 1: failed, 2: the command line is wrong.\n";
-  text +=
-    ".SH FILES\n.TP\n\\fI$XDG_STATE_HOME/pointhaptics/view.json\\fR\nWhat the last window ended with, in "
-    "~/.local/state where XDG_STATE_HOME is not set: see \\fBview \\-\\-recent\\fR.\n";
+  text += isMain ? ".SH KEYS AND MOUSE OF VIEW\n.nf\n" + roff(keysHelp()) + "\n.fi\n" + examples() : "";
+  text += kExitStatus;
+  text += isMain
+    ? ".SH FILES\n.TP\n\\fI$XDG_STATE_HOME/pointhaptics/view.json\\fR\nWhat the last window ended with, in "
+      "~/.local/state where XDG_STATE_HOME is not set: see \\fBview \\-\\-recent\\fR.\n"
+    : "";
   return text;
 }
 
@@ -221,6 +234,11 @@ std::string bashCompletion(CLI::App& program)
   return fmt::format(R"text(# bash completion for pointhaptics
 _pointhaptics() {{
   local word="${{COMP_WORDS[COMP_CWORD]}}" before="${{COMP_WORDS[COMP_CWORD - 1]}}" words command="${{COMP_WORDS[1]}}" values="" separator=""
+  if [[ "$word" == "=" ]]; then # bash takes --option=value for three words
+    word=""
+  elif [[ "$before" == "=" ]] && ((COMP_CWORD > 2)); then
+    before="${{COMP_WORDS[COMP_CWORD - 2]}}"
+  fi
   case " {1} " in
     *" $command "*) ;;
     *) command=view ;;
@@ -259,6 +277,24 @@ complete -o filenames -F _pointhaptics pointhaptics
     cases, names, longOptions(*program.get_subcommand("view")), values);
 }
 
+/// A line for each option that names files: "feel --output required writes csv".
+std::string fileOptions(CLI::App& program)
+{
+  std::string text;
+  for (const CLI::App* command : shownCommands(program))
+  {
+    for (const CLI::Option* option : command->get_options())
+    {
+      if (const std::string role = fileRole(*option); !role.empty())
+      {
+        text += fmt::format("{} {}{}{} {}\n", command->get_name(), option->get_positional() ? "" : "--",
+          option->get_single_name(), option->get_required() ? " required" : "", role);
+      }
+    }
+  }
+  return text;
+}
+
 std::string cheatSheet()
 {
   return "# Keys and mouse of `pointhaptics view`\n\nThis is what the help in the window (key " +
@@ -268,20 +304,28 @@ std::string cheatSheet()
 
 } // namespace
 
-void addManualCommand(CLI::App& program)
+void addManPage(CLI::App& program)
 {
-  CLI::App* command =
-    program.add_subcommand("manual", "Print the man page, the bash completion or the cheat sheet");
+  CLI::App* command = program.add_subcommand("manual", "Print the man page")->group("");
+  command->callback([&program] { fmt::print("{}", manPage(program)); });
+}
+
+void addManualCommand(CLI::App& program, int& exitCode)
+{
+  CLI::App* command = program.add_subcommand(
+    "manual", "Print the man page, the bash completion, the cheat sheet, or which options name files");
   auto what = std::make_shared<std::string>();
-  addWord(*command, "what", *what, { "man", "bash", "keys" }, "What to print")->required();
-  command->callback(
-    [what, &program]
-    {
-      fmt::print("{}",
-        *what == "man"      ? manPage(program)
-          : *what == "bash" ? bashCompletion(program)
-                            : cheatSheet());
-    });
+  addWord(*command, "what", *what, { "man", "bash", "keys", "files" }, "What to print")->required();
+  const auto run = [what, &program](Files&)
+  {
+    fmt::print("{}",
+      *what == "man"       ? manPage(program)
+        : *what == "bash"  ? bashCompletion(program)
+        : *what == "files" ? fileOptions(program)
+                           : cheatSheet());
+    return kSuccess;
+  };
+  runAs(*command, exitCode, { {}, run });
 }
 
 } // namespace app

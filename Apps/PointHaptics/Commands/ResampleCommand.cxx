@@ -9,6 +9,7 @@
 #include "vtkVoxelMeanResampler.h"
 
 #include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
 #include <vtkNew.h>
 #include <vtkPolyData.h>
 
@@ -24,16 +25,15 @@ namespace
 
 constexpr const char* kResampleCommand = "resample";
 
-int runResample(const ResampleOptions& options)
+/// @p files has the outputs.
+CloudResult resample(const ResampleOptions& options, Cloud& cloud, Files& files)
 {
   std::string message;
-  Cloud cloud;
   CsvWriter index;
   const bool wantsIndex = !options.voxelIndex.empty();
-  if ((wantsIndex && !openVoxelIndex(options, index, message)) ||
-    !options.files.open(kResampleCommand, cloud, message))
+  if (wantsIndex && !openVoxelIndex(files.output(options.voxelIndex), index, message))
   {
-    return fail(kResampleCommand, message);
+    throw Failure(message);
   }
   vtkNew<vtkVoxelMeanResampler> resampler;
   resampler->SetInputData(cloud.points);
@@ -47,7 +47,7 @@ int runResample(const ResampleOptions& options)
   }
   if (!isDone)
   {
-    return fail(kResampleCommand, options.files.input + ": " + message);
+    throw Failure(options.files.input + ": " + message);
   }
   showWarnings(kResampleCommand);
   const ResampleFigures figures{ cloud.points->GetNumberOfPoints(),
@@ -55,23 +55,23 @@ int runResample(const ResampleOptions& options)
     resampler->GetNumberOfInvalidPoints() };
   if (figures.out == 0)
   {
-    return fail(kResampleCommand, whyEmpty(options, figures));
+    throw Failure(whyEmpty(options, figures));
   }
   options.finish(resampler->GetOutput());
-  if (!writeCloud(resampler->GetOutput(), options.files.output, kResampleCommand, message))
+  if (!writeCloud(resampler->GetOutput(), options.files.output, files, kResampleCommand, message,
+        options.files.writing))
   {
-    return fail(kResampleCommand, message);
+    throw Failure(message);
   }
   if (wantsIndex)
   {
     addVoxelIndex(voxelIndexOf(resampler), index);
     if (!index.commit(message))
     {
-      return fail(kResampleCommand, message);
+      throw Failure(message);
     }
   }
-  print(options, figures);
-  return kSuccess;
+  return resultOf(options, figures);
 }
 
 } // namespace
@@ -82,12 +82,18 @@ void addResampleCommand(CLI::App& program, int& exitCode)
     "resample", "Replace the points in each voxel of a lattice by their mean, or by one of them");
   auto options = std::make_shared<ResampleOptions>();
   options->addTo(*command);
-  command->callback(
-    [options, &exitCode]
-    {
-      options->check();
-      exitCode = runResample(*options);
-    });
+  const auto run = [options](Files& files)
+  {
+    return runOnClouds(kResampleCommand, options->files, files,
+      [&](const CloudToCloudOptions& ofOne, Cloud& cloud)
+      {
+        ResampleOptions each = *options;
+        each.files = ofOne;
+        each.voxelIndex = expandedName(options->voxelIndex, ofOne.input);
+        return resample(each, cloud, files);
+      });
+  };
+  runAs(*command, exitCode, { [options] { options->check(); }, run });
 }
 
 } // namespace app

@@ -4,7 +4,6 @@
 #include "Terminal/CommandLine.h"
 #include "Terminal/Messages.h"
 #include "Terminal/ProgressBar.h"
-#include "Terminal/StandardStreams.h"
 #include "Terminal/StopSignals.h"
 #include "View/ViewOptions.h"
 #include "View/ViewSettings.h"
@@ -19,7 +18,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -49,64 +47,29 @@ bool checkDevice(const ViewOptions& options, std::string& message)
   return true;
 }
 
-/// What comes by standard input, in a file that lasts as long as this.
-class StandardInput
-{
-public:
-  /// Puts the file in the place of "-". False: @p message.
-  bool take(std::vector<std::string>& files, std::string& message)
-  {
-    const auto place = std::find(files.begin(), files.end(), kStandardStream);
-    if (place == files.end())
-    {
-      return true;
-    }
-    folder_.emplace();
-    *place = this->fileName();
-    return copyStandardInput(*place, message);
-  }
-  /// Empty where nothing came by it.
-  std::string fileName() const
-  {
-    return folder_ ? folder_->path("standard input") : std::string(); // the name is the title, too
-  }
-  /// @p text without the folder of the file.
-  std::string shown(std::string text) const
-  {
-    const std::string folder = folder_ ? folder_->path("") : std::string();
-    for (std::size_t at = 0; folder_ && (at = text.find(folder, at)) != std::string::npos;)
-    {
-      text.erase(at, folder.size());
-    }
-    return text;
-  }
-
-private:
-  std::optional<TemporaryFolder> folder_;
-};
-
 void showMessage(HapticViewerObserver::Kind kind, const std::string& text)
 {
   switch (kind)
   {
     case HapticViewerObserver::Kind::Note:
-      printNow(stdout, text + "\n");
+      printSummary(shownLine(text));
+      std::fflush(stdout);
       break;
     case HapticViewerObserver::Kind::Warning:
       warn(kViewCommand, text);
+      showKeptWarnings(); // a window may stay for hours
       break;
     case HapticViewerObserver::Kind::Error:
       fail(kViewCommand, text);
   }
 }
 
-/// What the viewer says goes to the terminal, what it keeps to JSON files. @p options and @p input must
-/// outlive the result.
-HapticViewerObserver observerFor(const ViewOptions& options, const StandardInput& input)
+/// What the viewer says goes to the terminal, what it keeps to JSON files. @p options must outlive the
+/// result.
+HapticViewerObserver observerFor(const ViewOptions& options)
 {
   HapticViewerObserver observer;
-  observer.message = [&input](HapticViewerObserver::Kind kind, const std::string& text)
-  { showMessage(kind, input.shown(text)); };
+  observer.message = showMessage;
   observer.progress = [bar = std::shared_ptr<ProgressBar>(), last = std::string()](
                         const std::string& what, double part) mutable
   {
@@ -147,12 +110,13 @@ void reportTimes(const ViewOptions& options, HapticViewer& viewer)
 {
   if (!options.config.empty())
   {
-    fmt::print(stderr, "view: settings from {}\n", options.config);
+    say(kViewCommand, "settings from " + options.config);
   }
   const vtkIdType voxels = viewer.means()->GetNumberOfPoints();
-  fmt::print(stderr, "view: read in {:.2f} s{}\n", viewer.readSeconds(),
-    voxels > 0 ? fmt::format(", resampled in {:.2f} s: {} active voxels", viewer.resampleSeconds(), voxels)
-               : "");
+  say(kViewCommand,
+    fmt::format("read in {:.2f} s{}", viewer.readSeconds(),
+      voxels > 0 ? fmt::format(", resampled in {:.2f} s: {} active voxels", viewer.resampleSeconds(), voxels)
+                 : ""));
 }
 
 /// The window, or the files that are asked for instead.
@@ -167,51 +131,85 @@ bool show(const ViewOptions& options, HapticViewer& viewer)
     (options.screenshot.empty() || viewer.renderToFile(options.screenshot));
 }
 
-int runView(CLI::App& command, ViewOptions& options)
+/// A picture of some of the files is not what was asked for.
+bool canReadAll(const ViewOptions& options, std::string& message)
 {
-  collectVtkMessages();
-  std::string message;
-  if (!options.complete(command, message))
+  Cloud cloud;
+  return options.needsWindow() || options.skipsUnreadable || options.files.size() < 2 ||
+    std::all_of(options.files.begin(), options.files.end(),
+      [&](const std::string& file) { return readCloud(file, cloud, message); });
+}
+
+/// Where the viewer reads and writes: pipes are read once, and files that are not of a session appear
+/// together.
+void placeFiles(ViewOptions& options, Files& files)
+{
+  HapticViewerOptions& viewer = options.viewer;
+  for (std::string& file : options.files)
   {
-    return fail(kViewCommand, message);
+    const std::string given = file;
+    file = files.input(file);
+    viewer.passingFile = file != given ? file : viewer.passingFile;
   }
+  viewer.path = files.input(viewer.path);
+  viewer.replay = files.input(viewer.replay);
+  // What a session writes appears when it is written: the session may go on for hours.
+  for (std::string* output : { &viewer.forceChart, &viewer.trace, &viewer.record })
+  {
+    if (!output->empty() && (!options.needsWindow() || *output == kStandardStream))
+    {
+      *output = files.output(*output);
+    }
+  }
+}
+
+int runView(ViewOptions& options, Files& files)
+{
+  std::string message;
   if (!options.writeConfig.empty())
   {
-    if (!writeSettings(options.given, options.writeConfig, message))
+    if (!writeSettings(options.given, files.output(options.writeConfig), message) || !files.commit(message))
     {
       return fail(kViewCommand, message);
     }
-    fmt::print("settings: {}\n", options.writeConfig);
+    printSummary("settings: " + options.writeConfig);
     return kSuccess;
   }
   if (!checkDevice(options, message))
   {
     return fail(kViewCommand, message);
   }
-  StandardInput input;
-  if (!input.take(options.files, message))
+  options.declareMore(files);
+  placeFiles(options, files);
+  if (!canReadAll(options, message))
   {
-    return fail(kViewCommand, message);
+    return fail(kViewCommand, message + "; --skip-unreadable shows the others");
   }
-  options.viewer.passingFile = input.fileName();
-  HapticViewer viewer(options.viewer, observerFor(options, input));
+  HapticViewerObserver observer = observerFor(options);
+  if (!options.needsWindow())
+  {
+    observer.placeOf = [&files](const std::string& name) { return files.output(name); };
+  }
+  HapticViewer viewer(options.viewer, observer);
   if (!viewer.open(options.files))
   {
-    fail(kViewCommand, input.shown(viewer.message()));
+    fail(kViewCommand, viewer.message());
     return viewer.isCancelled() ? kCancelled : kFailed;
   }
-  if (options.verbose)
-  {
-    reportTimes(options, viewer);
-  }
-  printNow(stdout,
-    fmt::format("{}{}, {}\n", countOfPoints(viewer.numberOfPoints()),
-      ofThemInvalid(viewer.numberOfInvalidPoints()), viewer.scaleNote()));
+  reportTimes(options, viewer);
+  printSummary(fmt::format("{}{}, {}", countOfPoints(viewer.numberOfPoints()),
+    ofThemInvalid(viewer.numberOfInvalidPoints()), viewer.scaleNote()));
+  std::fflush(stdout);
   if (options.draws() && !displayIsAvailable(message)) // before a path is felt
   {
     return fail(kViewCommand, message);
   }
-  return show(options, viewer) ? kSuccess : fail(kViewCommand, input.shown(viewer.message()));
+  message = show(options, viewer) ? std::string() : viewer.message();
+  if (!message.empty() || !files.commit(message))
+  {
+    return fail(kViewCommand, message);
+  }
+  return stopIsRequested() ? stopExitCode() : kSuccess;
 }
 
 } // namespace
@@ -221,7 +219,12 @@ void addViewCommand(CLI::App& program, int& exitCode)
   CLI::App* command = program.add_subcommand("view", "Show point clouds and feel them (the default command)");
   auto options = std::make_shared<ViewOptions>();
   options->addTo(*command);
-  command->callback([command, options, &exitCode] { exitCode = runView(*command, *options); });
+  const auto complete = [command, options]
+  {
+    options->complete(*command);
+    collectVtkMessages();
+  };
+  runAs(*command, exitCode, { complete, [options](Files& files) { return runView(*options, files); } });
 }
 
 } // namespace app

@@ -23,7 +23,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
 #include <memory>
 #include <string>
 #include <utility>
@@ -144,7 +143,7 @@ bool replayBy(const std::string& method, const Recording& recording, vtkPolyData
   return true;
 }
 
-bool drawChart(const CompareOptions& options, const Recording& recording,
+bool drawChart(const CompareOptions& options, const std::string& fileName, const Recording& recording,
   const std::array<std::vector<Felt>, 2>& felt, std::string& message)
 {
   vtkNew<vtkHapticChart> chart;
@@ -154,7 +153,7 @@ bool drawChart(const CompareOptions& options, const Recording& recording,
     chart->AddSample(
       recording.ticks[i].felt[0], norm(felt[0][i].force), double(felt[0][i].radius), norm(felt[1][i].force));
   }
-  if (!chart->WriteImage(options.chart.c_str(), kChartWidth, kChartHeight))
+  if (!chart->WriteImage(fileName.c_str(), kChartWidth, kChartHeight))
   {
     message = chart->GetErrorMessage();
   }
@@ -162,11 +161,11 @@ bool drawChart(const CompareOptions& options, const Recording& recording,
   return message.empty();
 }
 
-bool writeTable(const CompareOptions& options, const Recording& recording,
+bool writeTable(const std::string& fileName, const Recording& recording,
   const std::array<std::vector<Felt>, 2>& felt, std::string& message)
 {
   CsvWriter table;
-  if (!table.open(options.table,
+  if (!table.open(fileName,
         "t,hip_x,hip_y,hip_z,first_x,first_y,first_z,first_contact,second_x,second_y,second_z,second_contact",
         message))
   {
@@ -194,20 +193,21 @@ void print(const CompareOptions& options, const Comparison& c)
       { "max_difference_at_s", c.largestAt } });
     return;
   }
-  fmt::print("{} ticks; {}: {} in contact, max force {:.4g} N; {}: {} in contact, max force {:.4g} N; "
-             "difference rms {:.3g} N, max {:.3g} N at {:.3f} s; {} ticks one touches alone\n",
-    c.ticks, options.methods[0], c.contacts[0], c.largest[0], options.methods[1], c.contacts[1], c.largest[1],
-    c.rmsDifference, c.largestDifference, c.largestAt, c.oneAlone);
+  printSummary(
+    fmt::format("{} ticks; {}: {} in contact, max force {:.4g} N; {}: {} in contact, max force {:.4g} N; "
+                "difference rms {:.3g} N, max {:.3g} N at {:.3f} s; {} ticks one touches alone",
+      c.ticks, options.methods[0], c.contacts[0], c.largest[0], options.methods[1], c.contacts[1],
+      c.largest[1], c.rmsDifference, c.largestDifference, c.largestAt, c.oneAlone));
 }
 
-int runCompare(const CompareOptions& options)
+int runCompare(const CompareOptions& options, Files& files)
 {
   std::string message;
   Recording recording;
   vtkSmartPointer<vtkPolyData> cloud;
   rememberStopSignals();
   if ((!options.chart.empty() && !displayIsAvailable(message)) ||
-    !openRecording(options.recording, options.cloud, recording, cloud, message))
+    !openRecording(options.recording, options.cloud, files, recording, cloud, message))
   {
     return fail(kCompareCommand, message);
   }
@@ -219,8 +219,10 @@ int runCompare(const CompareOptions& options)
       return fail(kCompareCommand, options.recording + ": " + message);
     }
   }
-  if ((!options.chart.empty() && !drawChart(options, recording, felt, message)) ||
-    (!options.table.empty() && !writeTable(options, recording, felt, message)))
+  if ((!options.chart.empty() &&
+        !drawChart(options, files.output(options.chart), recording, felt, message)) ||
+    (!options.table.empty() && !writeTable(files.output(options.table), recording, felt, message)) ||
+    !files.commit(message))
   {
     return fail(kCompareCommand, message);
   }
@@ -230,10 +232,9 @@ int runCompare(const CompareOptions& options)
 
 void addOptions(CLI::App& command, CompareOptions& options)
 {
-  command.add_option("REC", options.recording, "What view --record, its key or feel --record wrote")
-    ->required()
-    ->type_name("");
-  command.add_option("FILE", options.cloud, "The cloud; default: the one that was recorded")->type_name("");
+  addInput(command, "REC", options.recording, "What view --record, its key or feel --record wrote")
+    ->required();
+  addInput(command, "FILE", options.cloud, "The cloud; default: the one that was recorded");
   std::vector<std::string> names;
   for (const auto& method : methods())
   {
@@ -241,8 +242,9 @@ void addOptions(CLI::App& command, CompareOptions& options)
   }
   addWords(command, "--methods", options.methods, names, false,
     "The two methods; default surface-fit,gradient-steps");
-  command.add_option("-o,--output", options.chart, "Chart of both forces over time")->type_name("OUT.png");
-  command.add_option("--csv", options.table, "Both forces, one row a tick")->type_name("OUT.csv");
+  addOutput(command, "-o,--output", options.chart, { "png" }, "Chart of both forces over time")
+    ->type_name("OUT.png");
+  addOutput(command, "--csv", options.table, { "csv" }, "Both forces, one row a tick")->type_name("OUT.csv");
   command.add_flag("--json", options.json, "Print the figures as JSON");
 }
 
@@ -254,19 +256,14 @@ void addCompareCommand(CLI::App& program, int& exitCode)
     program.add_subcommand("compare", "Feel a recording by two methods, and draw both forces side by side");
   auto options = std::make_shared<CompareOptions>();
   addOptions(*command, *options);
-  command->callback(
-    [options, &exitCode]
+  const auto complete = [options]
+  {
+    if (options->methods.size() != 2 || options->methods[0] == options->methods[1])
     {
-      if (options->methods.size() != 2 || options->methods[0] == options->methods[1])
-      {
-        throwUsage("--methods", fmt::format("{}", fmt::join(options->methods, ",")), "give two methods");
-      }
-      if (!options->chart.empty() && std::filesystem::path(options->chart).extension() != ".png")
-      {
-        throwUsage("--output", options->chart, "charts are written as PNG; end the name in .png");
-      }
-      exitCode = runCompare(*options);
-    });
+      throwUsage("--methods", fmt::format("{}", fmt::join(options->methods, ",")), "give two methods");
+    }
+  };
+  runAs(*command, exitCode, { complete, [options](Files& files) { return runCompare(*options, files); } });
 }
 
 } // namespace app

@@ -1,6 +1,7 @@
 #include "Feel/FeelOptions.h"
 
 #include "Options/ConfigFile.h"
+#include "Options/Files.h"
 #include "Options/OptionParsing.h"
 #include "View/ViewOptions.h"
 #include "View/ViewSettings.h"
@@ -8,7 +9,6 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <filesystem>
 #include <vector>
 
 namespace pointhaptics
@@ -41,35 +41,30 @@ std::vector<std::string> namesOfTheViewAlone(CLI::App& feel)
 
 void FeelOptions::addTo(CLI::App& command)
 {
-  command
-    .add_option(
-      "FILE", this->file, "Point cloud to feel; with --replay the one that was recorded is the default")
-    ->type_name("");
-  command
-    .add_option("--path", this->path,
-      "Path of the hand: t,x,y,z in seconds and metres, or what feel or view --trace wrote; needed unless "
-      "--device is falcon")
+  addInput(command, "FILE", this->file,
+    "Point cloud to feel; with --replay the one that was recorded is the default");
+  addInput(command, "--path", this->path,
+    "Path of the hand: t,x,y,z in seconds and metres, or what feel or view --trace wrote; needed unless "
+    "--device is falcon")
     ->type_name("HIP.csv");
-  command
-    .add_option("--replay", this->replay,
-      "Feel this recording again, with its scenes, settings and motions of the model: the same forces to the "
-      "last bit; --method replaces its method")
+  addInput(command, "--replay", this->replay,
+    "Feel this recording again, with its scenes, settings and motions of the model: the same forces to the "
+    "last bit; --method replaces its method")
     ->type_name("REC.csv");
-  command.add_option("--record", this->record, "Write a recording, for --replay, beside the output")
+  addOutput(
+    command, "--record", this->record, { "csv" }, "Write a recording, for --replay, beside the output")
     ->type_name("REC.csv");
-  command
-    .add_option("--sound-file", this->soundFile,
-      "Write what is felt as sound, too: a quiet tone as loud as the force, and a click where contact begins")
+  addOutput(command, "--sound-file", this->soundFile, { "wav" },
+    "Write what is felt as sound, too: a quiet tone as loud as the force, and a click where contact begins")
     ->type_name("OUT.wav");
-  command
-    .add_option("--config", this->config,
-      "Defaults for these options, a JSON object as view writes it; the command line wins")
+  addInput(command, "--config", this->config,
+    "Defaults for these options, a JSON object as view writes it; the command line wins")
     ->type_name("FILE.json");
   command.add_flag("--fit", this->fit,
     "Fit the cloud to the 10 cm workspace and choose its voxels, as view does where no transform is given");
   addClip(
     command, this->clip, "Only what lies in this box is felt, in coordinates of the file; default: all");
-  command.add_option("-o,--output", this->output, "Where the felt forces go, one row a tick")
+  addOutput(command, "-o,--output", this->output, { "csv" }, "Where the felt forces go, one row a tick")
     ->required()
     ->type_name("OUT.csv");
   addWord(command, "--device", this->device, { "none", "simulated", "falcon" },
@@ -93,11 +88,11 @@ void FeelOptions::addTo(CLI::App& command)
   this->bandwidth.addTo(command);
 }
 
-bool FeelOptions::complete(CLI::App& command, std::string& message)
+void FeelOptions::complete(CLI::App& command)
 {
-  if (!this->config.empty() && !applyConfigFile(command, this->config, namesOfTheViewAlone(command), message))
+  if (!this->config.empty())
   {
-    return false;
+    applyConfigFile(command, this->config, namesOfTheViewAlone(command));
   }
   this->methodIsGiven = command.count("--method") > 0;
   if (this->file.empty() && this->replay.empty())
@@ -124,17 +119,12 @@ bool FeelOptions::complete(CLI::App& command, std::string& message)
       this->path.empty() ? "give the path of the hand, or --device falcon"
                          : "a Falcon's hand goes where it likes; leave out --path or --device falcon");
   }
-  if (!this->soundFile.empty() && std::filesystem::path(this->soundFile).extension() != ".wav")
-  {
-    throwUsage("--sound-file", this->soundFile, "sound is written as WAV; end the name in .wav");
-  }
   this->touch.complete(command);
   if (this->device == "falcon")
   {
     checkForceLimitOfDevices(this->touch.parameters.contact);
   }
   this->settings = givenSettings(command).dump();
-  return true;
 }
 
 } // namespace app

@@ -25,8 +25,8 @@ struct FeelOptions
   std::string file;
   std::string path;
   std::string output;
-  std::string replay; ///< A recording to feel again, instead of a path.
-  std::string record; ///< A recording to write, beside the output.
+  std::string replay;    ///< A recording to feel again, instead of a path.
+  std::string record;    ///< A recording to write, beside the output.
   std::string soundFile; ///< What is felt, as sound; empty: none.
   std::string config;
   std::string settings;     ///< All that was given, as a configuration in one line; filled in by complete().
@@ -48,9 +48,9 @@ struct FeelOptions
   /// Adds the options to @p command; bad values end the parse with a usage error.
   void addTo(CLI::App& command);
   /// Takes the values of --config, and says what can only be said once all options of @p command are known.
-  /// Ends in a usage error where they contradict each other; warns of one that has no effect. False: @p
-  /// message says what is wrong with the configuration file.
-  bool complete(CLI::App& command, std::string& message);
+  /// Ends in a usage error where they contradict each other; warns of one that has no effect. @throws Failure
+  /// where the configuration file cannot be read.
+  void complete(CLI::App& command);
   /// Whether scenes near the hand are as fine as the points there: nobody asked for other voxels, or none.
   bool refinesNearHand() const { return !this->lattice.voxelsAreGiven && !this->raw && !this->noCovariance; }
 };

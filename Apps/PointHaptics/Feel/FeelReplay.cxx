@@ -18,10 +18,10 @@ namespace pointhaptics
 namespace app
 {
 
-bool openRecording(const std::string& fileName, const std::string& cloudFile, Recording& recording,
-  vtkSmartPointer<vtkPolyData>& cloud, std::string& message)
+bool openRecording(const std::string& fileName, const std::string& cloudFile, Files& files,
+  Recording& recording, vtkSmartPointer<vtkPolyData>& cloud, std::string& message)
 {
-  if (!readRecording(fileName, recording, message))
+  if (!readRecording(files.input(fileName), recording, message))
   {
     return false;
   }
@@ -29,6 +29,14 @@ bool openRecording(const std::string& fileName, const std::string& cloudFile, Re
   CloudRequest request;
   request.files = cloudFile.empty() ? felt.files : std::vector<std::string>{ cloudFile };
   request.resolution = felt.resolution;
+  for (std::string& file : request.files)
+  {
+    if (cloudFile.empty())
+    {
+      files.addInput(file);
+    }
+    file = files.input(file);
+  }
   ProgressBar bar("reading");
   LoadedCloud loaded;
   const auto goesOn = [&bar](double part)

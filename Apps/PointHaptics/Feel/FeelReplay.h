@@ -2,6 +2,7 @@
 /// A recording and its cloud, for the commands that feel it again.
 #pragma once
 
+#include "Options/Files.h"
 #include "Recording.h"
 
 #include <vtkSmartPointer.h>
@@ -16,9 +17,9 @@ namespace app
 {
 
 /// Reads @p fileName and the cloud that it was made with: @p cloudFile, or where that is empty the files that
-/// its header names. False: @p message says what is wrong, and the cure.
-bool openRecording(const std::string& fileName, const std::string& cloudFile, Recording& recording,
-  vtkSmartPointer<vtkPolyData>& cloud, std::string& message);
+/// its header names: these become inputs among @p files. False: @p message says what is wrong, and the cure.
+bool openRecording(const std::string& fileName, const std::string& cloudFile, Files& files,
+  Recording& recording, vtkSmartPointer<vtkPolyData>& cloud, std::string& message);
 
 /// The header of a recording of @p cloud, which was read from @p fileName: all but settings and servo.
 RecordingHeader headerOf(const std::string& fileName, double resolution, vtkPolyData* cloud);

@@ -1,6 +1,9 @@
 #include "Options/ConfigFile.h"
 
+#include "Options/Files.h"
 #include "Options/OptionParsing.h"
+#include "Terminal/CommandLine.h"
+#include "Terminal/Messages.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -24,7 +27,7 @@ std::vector<std::string> configurableNames(CLI::App& command)
     for (const std::string& name : option->get_lnames())
     {
       const std::set<std::string> others = { "help", "version", "config", "write-config", "recent" };
-      if (others.count(name) == 0)
+      if (others.count(name) == 0 && commonOptions().count(name) == 0)
       {
         names.push_back(name);
       }
@@ -134,7 +137,8 @@ std::string applyKeys(CLI::App& command, const nlohmann::json& keys, const std::
     }
     if (std::find(names.begin(), names.end(), item.key()) == names.end())
     {
-      return fmt::format("unknown key \"{}\"; valid keys: {}", item.key(), fmt::join(names, ", "));
+      return fmt::format("unknown key \"{}\"{}; valid keys: {}", item.key(), didYouMean(item.key(), names),
+        fmt::join(names, ", "));
     }
     CLI::Option* option = command.get_option("--" + item.key());
     const std::string problem =
@@ -172,26 +176,26 @@ std::vector<double> numbersOf(const std::string& settings, const std::string& ke
   return numbers;
 }
 
-bool applyConfigFile(CLI::App& command, const std::string& fileName, const std::vector<std::string>& ignored,
-  std::string& message)
+void applyConfigFile(CLI::App& command, const std::string& fileName, const std::vector<std::string>& ignored)
 {
+  Files files; // for a pipe
+  files.addInput(fileName);
   std::error_code error;
-  std::ifstream file(fileName);
+  std::ifstream file(files.input(fileName));
   if (!file || std::filesystem::is_directory(fileName, error))
   {
-    message = fmt::format("{}: cannot be opened; check the name given to --config", fileName);
-    return false;
+    throw Failure(fmt::format("{}: cannot be opened; check the name given to --config", fileName));
   }
   const nlohmann::json keys = nlohmann::json::parse(file, nullptr, false, true);
   if (!keys.is_object())
   {
-    message =
-      fmt::format("{}: not a JSON object; write {{\"stiffness\": 600, \"up\": \"z\"}} for example", fileName);
-    return false;
+    throw Failure(fmt::format(
+      "{}: not a JSON object; write {{\"stiffness\": 600, \"up\": \"z\"}} for example", fileName));
   }
-  const std::string problem = applyKeys(command, keys, ignored);
-  message = problem.empty() ? std::string() : fmt::format("{}: {}", fileName, problem);
-  return problem.empty();
+  if (const std::string problem = applyKeys(command, keys, ignored); !problem.empty())
+  {
+    throwUsage(fileName, "", problem);
+  }
 }
 
 } // namespace app

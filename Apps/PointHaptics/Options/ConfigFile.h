@@ -19,10 +19,9 @@ namespace app
 std::vector<std::string> configurableNames(CLI::App& command);
 
 /// Takes the values of the JSON file for the options of @p command that the command line does not give. Keys
-/// among @p ignored are of another command, and mean nothing here. False: @p message says what
-/// is wrong with the file.
-bool applyConfigFile(CLI::App& command, const std::string& fileName, const std::vector<std::string>& ignored,
-  std::string& message);
+/// among @p ignored are of another command, and mean nothing here. Ends in a usage error where a key or a
+/// value is wrong. @throws Failure where the file cannot be read.
+void applyConfigFile(CLI::App& command, const std::string& fileName, const std::vector<std::string>& ignored);
 
 /// The numbers of @p key in @p settings, a configuration in one line; empty: it has none.
 std::vector<double> numbersOf(const std::string& settings, const std::string& key);

@@ -1,6 +1,7 @@
 #include "Options/OptionParsing.h"
 
 #include "Options/SettingOptions.h"
+#include "Terminal/Messages.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -221,6 +222,13 @@ CLI::Option* addWholeNumbers(CLI::App& command, const std::string& name, std::ve
   return command.add_option_function<std::string>(name, store, description)->type_name("N,...");
 }
 
+void throwNoChoice(
+  const std::string& option, const std::string& value, const std::vector<std::string>& choices)
+{
+  throwUsage(option, value,
+    fmt::format("no such choice{}; give one of {}", didYouMean(value, choices), fmt::join(choices, ", ")));
+}
+
 CLI::Option* addWord(CLI::App& command, const std::string& name, std::string& value,
   std::vector<std::string> words, const std::string& description)
 {
@@ -229,7 +237,7 @@ CLI::Option* addWord(CLI::App& command, const std::string& name, std::string& va
   {
     if (std::find(words.begin(), words.end(), text) == words.end())
     {
-      throwUsage(shown, text, fmt::format("no such choice; give one of {}", fmt::join(words, ", ")));
+      throwNoChoice(shown, text, words);
     }
     value = text;
   };
@@ -250,7 +258,7 @@ CLI::Option* addWords(CLI::App& command, const std::string& name, std::vector<st
       }
       if (std::find(words.begin(), words.end(), word) == words.end())
       {
-        throwUsage(shown, text, fmt::format("no such choice; give some of {}", fmt::join(words, ",")));
+        throwNoChoice(shown, word, words);
       }
       values.push_back(word);
     }
@@ -280,7 +288,7 @@ CLI::Option* addChoice(CLI::App& command, const std::string& name, std::function
     const auto found = std::find(words.begin(), words.end(), text);
     if (found == words.end())
     {
-      throwUsage(shown, text, fmt::format("no such choice; give one of {}", fmt::join(words, ", ")));
+      throwNoChoice(shown, text, words);
     }
     keep(choices[static_cast<std::size_t>(found - words.begin())].second);
   };

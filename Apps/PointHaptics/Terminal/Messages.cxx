@@ -10,8 +10,16 @@
 #include <vtkOutputWindow.h>
 
 #include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <mutex>
+#include <utility>
+
+#include <poll.h>
+#include <unistd.h>
 
 namespace pointhaptics
 {
@@ -99,28 +107,220 @@ MessageCollector* collector()
   return MessageCollector::SafeDownCast(vtkOutputWindow::GetInstance());
 }
 
-std::string& programName()
+struct KeptWarning
 {
-  static std::string name = "pointhaptics";
-  return name;
+  std::string key; ///< Without numbers.
+  std::string command;
+  std::string file;
+  std::string text;
+  int count = 0;
+  bool isPrinted = false;
+};
+
+/// What the program knows of how it is to speak.
+struct Speech
+{
+  std::string program = "pointhaptics";
+  Verbosity verbosity = Verbosity::Usual;
+  std::vector<KeptWarning> warnings;
+  std::vector<std::pair<std::string, std::string>> shownAs;
+  std::string firstError;
+  bool isOutputTaken = false;
+  bool promisesJson = false;
+};
+
+Speech& speech()
+{
+  static Speech state;
+  return state;
+}
+
+constexpr int kBrokenPipe = 128 + SIGPIPE; ///< As a shell counts it.
+
+/// Nobody reads standard output any more.
+bool isReaderGone()
+{
+  struct pollfd output = { STDOUT_FILENO, 0, 0 };
+  return ::poll(&output, 1, 0) == 1 && (output.revents & POLLERR) != 0;
+}
+
+/// How many letters are to be changed, left out, added or swapped.
+std::size_t distance(const std::string& a, const std::string& b)
+{
+  std::vector<std::vector<std::size_t>> table(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
+  for (std::size_t i = 0; i <= a.size(); ++i)
+  {
+    for (std::size_t j = 0; j <= b.size(); ++j)
+    {
+      if (i == 0 || j == 0)
+      {
+        table[i][j] = i + j;
+        continue;
+      }
+      table[i][j] = std::min(
+        { table[i - 1][j] + 1, table[i][j - 1] + 1, table[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1) });
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+      {
+        table[i][j] = std::min(table[i][j], table[i - 2][j - 2] + 1);
+      }
+    }
+  }
+  return table[a.size()][b.size()];
+}
+
+std::string lowerCase(std::string text)
+{
+  std::transform(text.begin(), text.end(), text.begin(),
+    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
 }
 
 } // namespace
 
 void nameProgram(const std::string& name)
 {
-  programName() = name;
+  speech().program = name;
+}
+
+const std::string& programName()
+{
+  return speech().program;
+}
+
+int failStandardOutput(const std::string& command, int error)
+{
+  return isReaderGone()
+    ? kBrokenPipe
+    : fail(command,
+        fmt::format("the standard output cannot be written{}{}; check the space left, and who reads it",
+          error == 0 ? "" : ": ", error == 0 ? "" : std::strerror(error)));
 }
 
 int fail(const std::string& command, const std::string& message)
 {
-  printNow(stderr, fmt::format("{} {}: {}\n", programName(), command, oneLine(message)));
+  if (message.find(std::strerror(EPIPE)) != std::string::npos && isReaderGone())
+  {
+    return kBrokenPipe;
+  }
+  showKeptWarnings();
+  keepError(message);
+  printNow(stderr,
+    fmt::format("{}{}{}: {}\n", speech().program, command.empty() ? "" : " ", command, shownLine(message)));
   return kFailed;
 }
 
-void warn(const std::string& command, const std::string& message)
+void warn(const std::string& command, const std::string& message, const std::string& file)
 {
-  printNow(stderr, fmt::format("{} {}: warning: {}\n", programName(), command, oneLine(message)));
+  KeptWarning warning{ command + ": " + message, command, file, message, 0, false };
+  std::string& key = warning.key;
+  key.erase(
+    std::remove_if(key.begin(), key.end(), [](unsigned char c) { return std::isdigit(c) || c == '.'; }),
+    key.end());
+  auto& all = speech().warnings;
+  auto known =
+    std::find_if(all.begin(), all.end(), [&](const KeptWarning& other) { return other.key == key; });
+  known = known == all.end() ? all.insert(all.end(), std::move(warning)) : known;
+  ++known->count;
+}
+
+void showKeptWarnings()
+{
+  for (KeptWarning& warning : speech().warnings)
+  {
+    if (!warning.isPrinted && speech().verbosity != Verbosity::Quiet)
+    {
+      const std::string file = warning.file.empty() ? "" : warning.file + ": ";
+      const std::string count = warning.count > 1 ? fmt::format(" ({} times)", warning.count) : "";
+      printNow(stderr,
+        fmt::format("{} {}: warning: {}{}\n", speech().program, warning.command,
+          shownLine(file + warning.text), count));
+    }
+    warning.isPrinted = true;
+  }
+}
+
+void showAs(const std::string& path, const std::string& shown)
+{
+  speech().shownAs.emplace_back(path, shown);
+}
+
+void keepError(const std::string& message)
+{
+  speech().firstError = speech().firstError.empty() ? shownLine(message) : speech().firstError;
+}
+
+std::string shownLine(const std::string& given)
+{
+  std::string text = oneLine(given);
+  for (const auto& [path, shown] : speech().shownAs)
+  {
+    for (std::size_t at = 0; (at = text.find(path, at)) != std::string::npos; at += shown.size())
+    {
+      text.replace(at, path.size(), shown);
+    }
+  }
+  return text;
+}
+
+void setVerbosity(Verbosity verbosity)
+{
+  speech().verbosity = verbosity;
+}
+
+Verbosity verbosity()
+{
+  return speech().verbosity;
+}
+
+void say(const std::string& command, const std::string& message)
+{
+  if (speech().verbosity == Verbosity::Verbose)
+  {
+    printNow(stderr, fmt::format("{}: {}\n", command, shownLine(message)));
+  }
+}
+
+void takeStandardOutput()
+{
+  speech().isOutputTaken = true;
+}
+
+void printSummary(const std::string& line)
+{
+  if (speech().verbosity != Verbosity::Quiet && !speech().isOutputTaken)
+  {
+    fmt::print("{}\n", line);
+  }
+}
+
+void promiseJson()
+{
+  speech().promisesJson = true;
+}
+
+void printPromisedJson(int exitCode)
+{
+  if (speech().promisesJson && exitCode != kSuccess)
+  {
+    printJson({ { "error", speech().firstError }, { "exit_code", exitCode } });
+  }
+}
+
+std::string didYouMean(const std::string& given, const std::vector<std::string>& words)
+{
+  std::string nearest;
+  std::size_t least = std::max<std::size_t>(1, given.size() / 3); // a third of the letters
+  for (const std::string& word : words)
+  {
+    const std::size_t d = distance(lowerCase(given), lowerCase(word));
+    const bool isBeginning = given.size() > 2 && word.rfind(given, 0) == 0;
+    if (d < least || (d == least && nearest.empty()) || (isBeginning && nearest.empty()))
+    {
+      nearest = word;
+      least = std::min(least, d);
+    }
+  }
+  return nearest.empty() || given.empty() ? std::string() : fmt::format("; did you mean {}?", nearest);
 }
 
 std::string countOfPoints(std::int64_t count)
@@ -141,6 +341,7 @@ void printNow(std::FILE* stream, const std::string& text) noexcept
 
 void printJson(const nlohmann::ordered_json& object)
 {
+  speech().promisesJson = false;
   fmt::print("{}\n", object.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
 }
 

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <cstdio>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -14,12 +15,55 @@ namespace pointhaptics
 namespace app
 {
 
+/// A fault that ends the command with kFailed: what, where and the cure.
+class Failure : public std::runtime_error
+{
+public:
+  using std::runtime_error::runtime_error;
+};
+
 /// Who speaks: the program's name in messages, `pointhaptics` unless main() says another at its beginning.
 void nameProgram(const std::string& name);
-/// Prints `PROGRAM COMMAND: message` on stderr, in one line. @return kFailed.
+const std::string& programName();
+/// Prints `PROGRAM COMMAND: message` on stderr, in one line, after the warnings so far. Says nothing where
+/// the reader of standard output has ended and that is the fault. @return kFailed, or 141, as a shell counts
+/// SIGPIPE.
 int fail(const std::string& command, const std::string& message);
-/// Prints `PROGRAM COMMAND: warning: message` on stderr.
-void warn(const std::string& command, const std::string& message);
+/// As fail(), of a standard output that could not be written for the reason @p error (errno, 0: unknown).
+int failStandardOutput(const std::string& command, int error);
+/// Keeps `PROGRAM COMMAND: warning: FILE: message` for showKeptWarnings(). Warnings that differ in numbers
+/// and files alone are one, with their count.
+void warn(const std::string& command, const std::string& message, const std::string& file = {});
+/// Prints the warnings kept since the last call. None in a quiet run, and none that was printed before.
+void showKeptWarnings();
+/// From here on messages say @p shown where they would say @p path.
+void showAs(const std::string& path, const std::string& shown);
+std::string shownLine(const std::string& text);
+/// Keeps the first error for printPromisedJson().
+void keepError(const std::string& message);
+
+/// --quiet: errors alone; --verbose: also what is read and written, and how long it takes, on stderr.
+enum class Verbosity
+{
+  Quiet,
+  Usual,
+  Verbose
+};
+void setVerbosity(Verbosity verbosity);
+Verbosity verbosity();
+/// Prints one line on stderr in a verbose run.
+void say(const std::string& command, const std::string& message);
+/// An output goes to standard output, where nothing else is printed then.
+void takeStandardOutput();
+/// Prints the last line of a command on stdout; not in a quiet run, nor where stdout is taken.
+void printSummary(const std::string& line);
+/// Errors are printed as JSON, too: `{"error": TEXT, "exit_code": CODE}`, at the end and only where no other
+/// JSON was printed.
+void promiseJson();
+void printPromisedJson(int exitCode);
+
+/// "; did you mean WORD?" where one of @p words is near to @p given, else empty.
+std::string didYouMean(const std::string& given, const std::vector<std::string>& words);
 
 /// Prints @p text on @p stream at once. Never throws: where nobody reads it any more, or there is no space,
 /// it is lost, and a program that holds a force goes on; main() tells in the end of a stdout that failed.

@@ -111,15 +111,16 @@ TemporaryFolder::~TemporaryFolder()
   std::filesystem::remove_all(folder_, ignored);
 }
 
-bool copyStandardInput(const std::string& path, std::string& message)
+bool copyInput(const std::string& from, const std::string& path, std::string& message)
 {
   rememberStopSignals();
+  const Descriptor source(from.empty() ? ::dup(STDIN_FILENO) : ::open(from.c_str(), O_RDONLY | O_CLOEXEC));
   const Descriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600));
-  if (file.number() >= 0 && copyAll(STDIN_FILENO, file.number()))
+  if (source.number() >= 0 && file.number() >= 0 && copyAll(source.number(), file.number()))
   {
     return true;
   }
-  message = "standard input cannot be read into " + path + ": " + reason();
+  message = "cannot be read into " + path + ": " + reason();
   return false;
 }
 

@@ -25,8 +25,9 @@ private:
   std::filesystem::path folder_;
 };
 
-/// Reads standard input to its end into a new file. A signal (StopSignals.h) ends it. False: @p message.
-bool copyStandardInput(const std::string& path, std::string& message);
+/// Reads a pipe, or standard input where @p from is empty, to its end into a new file. A signal
+/// (StopSignals.h) ends it. False: @p message.
+bool copyInput(const std::string& from, const std::string& path, std::string& message);
 /// Writes the content of a file to standard output. False: @p message.
 bool copyToStandardOutput(const std::string& path, std::string& message);
 

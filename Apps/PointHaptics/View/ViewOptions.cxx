@@ -43,8 +43,9 @@ void checkBinding(const std::string& text)
   if (equals == std::string::npos || !commands.get(action))
   {
     throwUsage("--bind", text,
-      fmt::format("{}; give ACTION=KEY, such as help=F1, with one of: {}",
-        equals == std::string::npos ? "no key" : "no such action", fmt::join(commands.names(), ", ")));
+      fmt::format("{}{}; give ACTION=KEY, such as help=F1, with one of: {}",
+        equals == std::string::npos ? "no key" : "no such action", didYouMean(action, commands.names()),
+        fmt::join(commands.names(), ", ")));
   }
   std::istringstream gestures(text.substr(equals + 1));
   for (std::string gesture; gestures >> gesture;)
@@ -107,31 +108,34 @@ void addWindowOptions(CLI::App& command, ViewOptions& options)
 /// What of a touch is written, and what of an earlier one is felt again.
 void addTouchFileOptions(CLI::App& command, HapticViewerOptions& viewer)
 {
-  command.add_option("--force-chart", viewer.forceChart, "Write force and proxy radius over time as a PNG")
+  addOutput(
+    command, "--force-chart", viewer.forceChart, { "png" }, "Write force and proxy radius over time as a PNG")
     ->type_name("OUT.png");
-  command
-    .add_option("--record", viewer.record,
-      "Record the touch, from the first tick to the last, for --replay; a key records, too")
+  addOutput(command, "--record", viewer.record, { "csv" },
+    "Record the touch, from the first tick to the last, for --replay; a key records, too")
     ->type_name("REC.csv");
-  command
-    .add_option("--replay", viewer.replay,
-      "Feel and show this recording again, with its settings and motions of the model: the same forces to "
-      "the last bit")
+  addInput(command, "--replay", viewer.replay,
+    "Feel and show this recording again, with its settings and motions of the model: the same forces to "
+    "the last bit")
     ->type_name("REC.csv");
-  command.add_option("--trace", viewer.trace, "Write one row per tick, as feel does")->type_name("OUT.csv");
+  addOutput(command, "--trace", viewer.trace, { "csv" }, "Write one row per tick, as feel does")
+    ->type_name("OUT.csv");
 }
 
 } // namespace
 
 void ViewOptions::addTo(CLI::App& command)
 {
-  command.add_option("FILE", this->files,
+  addInput(command, "FILE", this->files,
     "Point clouds: PLY, PCD, LAS, LAZ, E57, VTP, OBJ or columns of text; one that cannot be read is skipped "
     "where there are others, but with --together; with --replay those that were recorded are the "
     "default; - is standard input");
   command.add_flag("--together", this->viewer.together);
   command.add_flag("--watch", this->viewer.watch, "Read a file again when it changes");
-  command.add_option("--screenshot", this->screenshot, "Write this PNG instead of opening a window");
+  addOutput(
+    command, "--screenshot", this->screenshot, { "png" }, "Write this PNG instead of opening a window");
+  command.add_flag("--skip-unreadable", this->skipsUnreadable,
+    "Pictures: show what can be read of several files; without it one that cannot is an error");
   const auto keepSize = [this](int width, int height)
   {
     this->viewer.width = width;
@@ -141,18 +145,17 @@ void ViewOptions::addTo(CLI::App& command)
     command, "--turntable", [this](std::int64_t pictures) { this->viewer.turntable = int(pictures); }, 2,
     kMostPictures, "");
   addSize(command, "--size", keepSize, "Size of the window or picture; default 1280x800");
-  command
-    .add_option("--path", this->viewer.path,
-      "Follow the hand path in this file: t,x,y,z, or what feel or --trace wrote")
+  addInput(command, "--path", this->viewer.path,
+    "Follow the hand path in this file: t,x,y,z, or what feel or --trace wrote")
     ->type_name("HIP.csv");
   addWord(command, "--device", this->device, { "auto", "falcon", "simulated", "none" },
     "What moves the hand; default auto: a Falcon where one can be used, else the simulated hand, driven by "
     "mouse and keys; falcon is an error where none can be used, also with --screenshot and --path");
   this->falcon.addTo(command);
-  command
-    .add_option("--config", this->config, "Defaults for these options, a JSON object; the command line wins")
+  addInput(
+    command, "--config", this->config, "Defaults for these options, a JSON object; the command line wins")
     ->type_name("FILE.json");
-  command.add_option("--write-config", this->writeConfig)->type_name("OUT.json");
+  addOutput(command, "--write-config", this->writeConfig, { "json" }, "")->type_name("OUT.json");
   command.add_flag("--recent", this->recent, "Begin with the settings the last window ended with");
   addTouchFileOptions(command, this->viewer);
   addWord(command, "--up", this->viewer.up, { "auto", "x", "-x", "y", "-y", "z", "-z" },
@@ -166,7 +169,6 @@ void ViewOptions::addTo(CLI::App& command)
     "Diameter of a point; default: from the spacing of its neighbours, so that surfaces close");
   addPictureOptions(command, this->viewer.picture);
   addResolution(command, this->viewer.resolution);
-  command.add_flag("-v,--verbose", this->verbose, "Say on stderr what takes how long");
   addWindowOptions(command, *this);
   this->touch.addTo(command);
   command.add_flag("--no-covariance", this->noCovariance, "Feel plain voxel means, without second moments")
@@ -179,18 +181,17 @@ void ViewOptions::addTo(CLI::App& command)
     "cloud, and near the hand, where that tells more, voxels about as fine as the points");
 }
 
-bool ViewOptions::readConfig(CLI::App& command, std::string& message)
+void ViewOptions::readConfig(CLI::App& command)
 {
   std::error_code missing;
   if (this->recent && this->config.empty() && std::filesystem::exists(recentSettingsFile(), missing))
   {
     this->config = recentSettingsFile();
   }
-  if (this->config.empty())
+  if (!this->config.empty())
   {
-    return true;
+    applyConfigFile(command, this->config, {});
   }
-  return applyConfigFile(command, this->config, {}, message);
 }
 
 /// Ends in a usage error where files that are to be written cannot be.
@@ -198,15 +199,7 @@ void ViewOptions::checkFiles() const
 {
   const std::string& chart = this->viewer.forceChart;
   const std::string& trace = this->viewer.trace;
-  for (const auto& [option, name] :
-    { std::pair{ "--screenshot", &this->screenshot }, std::pair{ "--force-chart", &chart } })
-  {
-    if (!name->empty() && std::filesystem::path(*name).extension() != ".png")
-    {
-      throwUsage(option, *name, "pictures are written as PNG; end the name in .png");
-    }
-  }
-  if (this->viewer.turntable > 0 && this->screenshot.empty())
+  if (this->viewer.turntable > 0 && (this->screenshot.empty() || this->screenshot == kStandardStream))
   {
     throwUsage("--turntable", std::to_string(this->viewer.turntable),
       "no picture is to be written; give the name of the first by --screenshot, or turn in the window by its "
@@ -245,10 +238,6 @@ void ViewOptions::checkStandardInput() const
   {
     return;
   }
-  if (times > 1)
-  {
-    throwUsage("-", "", "standard input can be read once; leave out the second one");
-  }
   if (this->viewer.watch)
   {
     throwUsage(
@@ -262,12 +251,13 @@ void ViewOptions::checkStandardInput() const
 }
 
 /// The cloud of a recording, and the box that it was felt in.
-bool ViewOptions::takeRecording(std::string& message)
+void ViewOptions::takeRecording()
 {
   Recording recording;
+  std::string message;
   if (!readRecording(this->viewer.replay, recording, message))
   {
-    return false;
+    throw Failure(message);
   }
   if (this->files.empty())
   {
@@ -276,25 +266,20 @@ bool ViewOptions::takeRecording(std::string& message)
     this->viewer.together = this->files.size() > 1;
   }
   this->viewer.clip = numbersOf(recording.header.settings, "clip");
-  return true;
 }
 
-bool ViewOptions::complete(CLI::App& command, std::string& message)
+void ViewOptions::complete(CLI::App& command)
 {
-  if (!this->readConfig(command, message))
-  {
-    return false;
-  }
+  this->readConfig(command);
   this->checkFiles();
   this->checkStandardInput();
-  if (!this->viewer.replay.empty() && !this->takeRecording(message))
+  if (!this->viewer.replay.empty())
   {
-    return false;
+    this->takeRecording();
   }
   this->touch.complete(command);
   this->completeViewer(command);
   this->given = givenSettings(command);
-  return true;
 }
 
 /// What follows from several options, or has another form in the viewer.
@@ -325,6 +310,18 @@ void ViewOptions::completeViewer(CLI::App& command)
   options.showsReading = this->needsWindow();
   options.names = { "--color-by", "--clip", "--felt", kFirmwareOption,
     "--workspace, --scale and --translate" };
+}
+
+void ViewOptions::declareMore(Files& taken) const
+{
+  for (const std::string& file : this->viewer.replay.empty() ? std::vector<std::string>() : this->files)
+  {
+    taken.addInput(file);
+  }
+  for (int picture = 1; picture <= this->viewer.turntable; ++picture)
+  {
+    taken.addOutput(HapticViewer::pictureName(this->screenshot, picture, this->viewer.turntable));
+  }
 }
 
 bool ViewOptions::needsWindow() const

@@ -24,6 +24,8 @@ namespace pointhaptics
 namespace app
 {
 
+class Files;
+
 struct ViewOptions
 {
   HapticViewerOptions viewer; ///< The parser fills in most of it, complete() the rest.
@@ -36,15 +38,17 @@ struct ViewOptions
   FalconOptions falcon;
   std::string config;
   std::string writeConfig; ///< JSON file to write with the options in force instead of showing anything.
-  bool recent = false;     ///< Begin with what the last window ended with.
-  bool verbose = false;
+  bool skipsUnreadable = false;
+  bool recent = false;          ///< Begin with what the last window ended with.
   nlohmann::ordered_json given; ///< Options with a value, filled in by complete(): see givenSettings().
   bool noCovariance = false;
 
   void addTo(CLI::App& command);
   /// Takes the values of the JSON file config for the options the command line does not give, and fills in
-  /// what the viewer needs. False: @p message says what is wrong with the file.
-  bool complete(CLI::App& command, std::string& message);
+  /// what the viewer needs. @throws Failure
+  void complete(CLI::App& command);
+  /// Takes the files that no option names: recorded clouds, and the pictures of a turntable.
+  void declareMore(Files& taken) const;
   /// A window is what these options ask for: files that a path fills are written at once; without one a
   /// session is what fills them.
   bool needsWindow() const;
@@ -52,10 +56,10 @@ struct ViewOptions
   bool draws() const;
 
 private:
-  bool readConfig(CLI::App& command, std::string& message);
+  void readConfig(CLI::App& command);
   void checkFiles() const;
   void checkStandardInput() const;
-  bool takeRecording(std::string& message);
+  void takeRecording();
   void completeViewer(CLI::App& command);
 };
 

@@ -1,6 +1,7 @@
 #include "View/ViewSettings.h"
 
 #include "Options/TouchOptions.h"
+#include "Terminal/CommandLine.h"
 #include "View/PictureOptions.h"
 
 #include "HapticViewerOptions.h"
@@ -26,7 +27,8 @@ namespace
 const std::set<std::string>& deeds()
 {
   static const std::set<std::string> names = { "help", "version", "config", "write-config", "recent",
-    "verbose", "screenshot", "turntable", "force-chart", "trace", "record", "replay", "output", "sound-file" };
+    "screenshot", "skip-unreadable", "turntable", "force-chart", "trace", "record", "replay", "output",
+    "sound-file" };
   return names;
 }
 
@@ -76,7 +78,7 @@ nlohmann::ordered_json givenSettings(CLI::App& command)
   {
     for (const std::string& name : option->get_lnames())
     {
-      if (option->count() > 0 && deeds().count(name) == 0)
+      if (option->count() > 0 && deeds().count(name) == 0 && commonOptions().count(name) == 0)
       {
         settings[name] = valueOf(*option);
       }

@@ -2,10 +2,10 @@
 
 #include <cerrno>
 #include <filesystem>
-#include <random>
 #include <system_error>
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -18,9 +18,10 @@ namespace
 
 constexpr std::size_t kFlushAt = std::size_t{ 1 } << 16;
 constexpr int kMostLinks = 40; ///< As many as Linux follows.
-constexpr int kMostNames = 16; ///< Random names tried before giving up.
-/// File systems take names of 255 bytes: this much of the target's own stays readable in the temporary one.
+constexpr int kMostParts = 64; ///< Of one target: as many processes may write it at a time.
+/// File systems take names of 255 bytes: this much of the target's own stays readable in the part's.
 constexpr std::size_t kKeptOfName = 200;
+constexpr const char* kPartEnding = ".part";
 
 /// Where the bytes of @p target belong: the end of its chain of links, whether that exists or not.
 fs::path endOfLinks(fs::path target, std::error_code& error)
@@ -40,11 +41,74 @@ fs::path endOfLinks(fs::path target, std::error_code& error)
   return target;
 }
 
-fs::path temporaryBeside(const fs::path& target)
+std::string partOf(const fs::path& target, int number)
 {
-  std::random_device random;
   const std::string name = target.filename().string().substr(0, kKeptOfName);
-  return target.parent_path() / ("." + name + "." + std::to_string(random()) + ".part");
+  return (target.parent_path() / ("." + name + "." + std::to_string(number) + kPartEnding)).string();
+}
+
+/// Whether an open OutputFile, of any process, holds the lock of this part.
+bool isLocked(const std::string& part)
+{
+  const int descriptor = ::open(part.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  if (descriptor < 0)
+  {
+    return errno != ENOENT; // somebody else's
+  }
+  const bool isLocked = ::flock(descriptor, LOCK_EX | LOCK_NB) != 0;
+  ::close(descriptor);
+  return isLocked;
+}
+
+bool isLivingPart(const fs::path& target)
+{
+  const std::string name = target.filename().string();
+  const std::string ending = kPartEnding;
+  return name.size() > ending.size() && name.front() == '.' &&
+    name.compare(name.size() - ending.size(), ending.size(), ending) == 0 && isLocked(target.string());
+}
+
+/// Creates and locks a part. @return its descriptor, or -1: errno says why.
+int createPart(const std::string& part)
+{
+  const int descriptor = ::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  struct stat status = {};
+  // Another process may have taken it for a dead one's before it was locked.
+  if (descriptor >= 0 && ::flock(descriptor, LOCK_EX) == 0 && ::fstat(descriptor, &status) == 0 &&
+    status.st_nlink == 0)
+  {
+    ::close(descriptor);
+    errno = EEXIST;
+    return -1;
+  }
+  return descriptor;
+}
+
+/// "/dev/stdout" and its other names.
+bool isStandardOutput(const std::string& target)
+{
+  return target == "/dev/stdout" || target == "/dev/fd/1" || target == "/proc/self/fd/1";
+}
+
+const char* cureOf(int error)
+{
+  switch (error)
+  {
+    case ENOSPC:
+    case EDQUOT:
+      return "free some space on the disk or write elsewhere";
+    case EFBIG:
+      return "raise the limit of file sizes (ulimit -f), or write elsewhere";
+    case EMFILE:
+    case ENFILE:
+      return "raise the limit of open files (ulimit -n), or write fewer at a time";
+    case EPIPE:
+      return "its reader has ended: look why";
+    case EROFS:
+      return "write elsewhere";
+    default:
+      return "check that the folder exists and that you may write in it";
+  }
 }
 
 } // namespace
@@ -65,9 +129,8 @@ Status OutputFile::fail(const std::string& reason, const std::string& cure)
 Status OutputFile::fail(int error)
 {
   diskFull_ = error == ENOSPC || error == EDQUOT || error == EFBIG;
-  return this->fail(std::generic_category().message(error),
-    diskFull_ ? "free some space on the disk or write elsewhere"
-              : "check that the folder exists and that you may write in it");
+  readerGone_ = error == EPIPE;
+  return this->fail(std::generic_category().message(error), cureOf(error));
 }
 
 void OutputFile::discard() noexcept
@@ -85,12 +148,12 @@ void OutputFile::discard() noexcept
   buffer_.clear();
 }
 
-Status OutputFile::open(const std::string& target)
+Status OutputFile::check(const std::string& target)
 {
   this->discard();
   reason_.clear();
   cure_.clear();
-  diskFull_ = false;
+  diskFull_ = readerGone_ = false;
   if (fs::path(target).filename().empty())
   {
     return this->fail("this is no file name", "choose the name of a new file");
@@ -101,11 +164,10 @@ Status OutputFile::open(const std::string& target)
   {
     return this->fail("this is a folder", "choose the name of a new file");
   }
-  if (exists && !S_ISREG(status.st_mode))
+  // Root may write what nobody may: the bits tell what was meant.
+  if (exists && ((status.st_mode & 0222) == 0 || ::access(target.c_str(), W_OK) != 0))
   {
-    target_ = target;
-    descriptor_ = ::open(target_.c_str(), O_WRONLY | O_CLOEXEC);
-    return descriptor_ >= 0 ? Status::Ok : this->fail(errno);
+    return this->fail("the file is write-protected", "choose another name, or allow it: chmod u+w");
   }
   std::error_code error;
   const fs::path end = endOfLinks(target, error);
@@ -113,29 +175,89 @@ Status OutputFile::open(const std::string& target)
   {
     return this->fail(error.message(), "name a file, or repair the link");
   }
-  target_ = end.string();
-  for (int i = 0; i < kMostNames && descriptor_ < 0; ++i)
+  const bool isReplaced = !exists || S_ISREG(status.st_mode);
+  const std::string folder = end.has_parent_path() ? end.parent_path().string() : ".";
+  if (isReplaced && !isStandardOutput(target) && !isLivingPart(end) &&
+    ::access(folder.c_str(), W_OK | X_OK) != 0)
   {
-    const std::string name = temporaryBeside(end).string();
-    descriptor_ = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (descriptor_ >= 0)
+    return exists && errno != ENOENT ? this->fail(std::generic_category().message(errno) +
+                                           " in its folder, where a complete file replaces it",
+                                         "allow to write in the folder, or write elsewhere")
+                                     : this->fail(errno);
+  }
+  target_ = end.string();
+  isRegular_ = isReplaced && !isStandardOutput(target);
+  return Status::Ok;
+}
+
+Status OutputFile::openInPlace(int descriptor)
+{
+  descriptor_ = descriptor;
+  return descriptor_ >= 0 ? Status::Ok : this->fail(errno);
+}
+
+/// @p replaced: of the file that is there; null where there is none.
+Status OutputFile::openPart(const struct stat* replaced)
+{
+  int problem = EEXIST;
+  for (int number = 1; number <= kMostParts; ++number)
+  {
+    const std::string part = partOf(target_, number);
+    struct stat status = {};
+    const bool exists = ::lstat(part.c_str(), &status) == 0;
+    if (!exists && descriptor_ >= 0)
     {
-      temporary_ = name;
+      break;
     }
-    else if (errno != EEXIST)
+    if (exists && !isLocked(part))
+    {
+      ::unlink(part.c_str());
+    }
+    if (descriptor_ < 0)
+    {
+      descriptor_ = createPart(part);
+      problem = descriptor_ < 0 ? errno : 0;
+      temporary_ = descriptor_ < 0 ? std::string() : part;
+    }
+    if (problem != 0 && problem != EEXIST)
     {
       break;
     }
   }
-  if (descriptor_ < 0)
+  if (problem != 0)
   {
-    return this->fail(errno);
+    return this->fail(problem);
   }
-  if (exists && ::fchmod(descriptor_, status.st_mode & 07777) != 0)
+  if (replaced)
   {
-    return this->fail(errno);
+    // Only root can keep another owner.
+    static_cast<void>(::fchown(descriptor_, replaced->st_uid, replaced->st_gid) == 0);
   }
-  return Status::Ok;
+  return replaced && ::fchmod(descriptor_, replaced->st_mode & 07777) != 0 ? this->fail(errno) : Status::Ok;
+}
+
+Status OutputFile::open(const std::string& target)
+{
+  if (this->check(target) != Status::Ok)
+  {
+    return Status::FileNotWritable;
+  }
+  if (isStandardOutput(target))
+  {
+    target_ = target;
+    return this->openInPlace(::dup(STDOUT_FILENO));
+  }
+  if (!isRegular_)
+  {
+    target_ = target;
+    return this->openInPlace(::open(target.c_str(), O_WRONLY | O_CLOEXEC));
+  }
+  if (isLivingPart(target_))
+  {
+    return this->openInPlace(::open(target_.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC));
+  }
+  struct stat status = {};
+  return this->openPart(::stat(target_.c_str(), &status) == 0 ? &status : nullptr);
 }
 
 void OutputFile::flush()
@@ -174,6 +296,7 @@ Status OutputFile::join(const std::string& unfinished)
   reason_.clear();
   cure_.clear();
   target_ = unfinished;
+  isRegular_ = true;
   descriptor_ = ::open(target_.c_str(), O_WRONLY | O_CLOEXEC);
   return descriptor_ >= 0 ? Status::Ok : this->fail(errno);
 }
@@ -204,11 +327,17 @@ Status OutputFile::commit()
   {
     return reason_.empty() ? this->fail("no file is open", "open one first") : Status::FileNotWritable;
   }
-  const int closed = ::close(descriptor_); // a full disk may show only here
+  // Renamed while it is locked. A full disk may show only where it is closed, so the descriptor goes first.
+  const int lock = ::dup(descriptor_);
+  const int closed = ::close(descriptor_);
   descriptor_ = -1;
-  if (closed != 0 || (this->isReplacing() && ::rename(temporary_.c_str(), target_.c_str()) != 0))
+  const bool isDone =
+    closed == 0 && (temporary_.empty() || ::rename(temporary_.c_str(), target_.c_str()) == 0);
+  const int problem = errno;
+  ::close(lock);
+  if (!isDone)
   {
-    return this->fail(errno);
+    return this->fail(problem);
   }
   temporary_.clear();
   return Status::Ok;

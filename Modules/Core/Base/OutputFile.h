@@ -9,15 +9,21 @@
 #include <string>
 #include <string_view>
 
+struct stat;
+
 namespace pointhaptics
 {
 
-/// Writes a temporary file beside the target; commit() renames it. Without commit() the target is unchanged
-/// and the temporary file is removed.
+/// Writes a hidden part file beside the target, `.NAME.1.part`; commit() renames it. Without commit() the
+/// target is unchanged and the part is removed. Parts are locked (flock): open() removes those of the same
+/// target that a killed process left.
 /// - A symbolic link stays one: the file it points to is replaced, or created where there is none yet.
-/// - The new file takes the permissions of the file that it replaces.
-/// - A pipe or a device (/dev/stdout) cannot be replaced: it is written directly.
-/// Functions return Ok or FileNotWritable; then reason() and cure() explain it. One object serves one thread.
+/// - The new file takes permissions and owner of the file that it replaces. A file that is write-protected is
+///   not replaced.
+/// - A pipe or a device cannot be replaced: it is written directly, as is standard output (/dev/stdout).
+/// - A target that is the part of another OutputFile, its path(), is written in place: the other one commits
+/// it. Functions return Ok or FileNotWritable; then reason() and cure() explain it. One object serves one
+/// thread.
 class OutputFile
 {
 public:
@@ -26,8 +32,11 @@ public:
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
-  /// FileNotWritable: a folder, a loop of links, a folder that does not exist or must not be written in.
+  /// FileNotWritable: a folder, a loop of links, a write-protected file, a folder that does not exist or must
+  /// not be written in.
   Status open(const std::string& target);
+  /// Returns what open() would, as far as can be told without touching anything.
+  Status check(const std::string& target);
   /// Buffered. A fault is kept: later calls do nothing, commit() returns it.
   Status write(std::string_view bytes);
   /// Opens the unfinished file, path(), that an OutputFile of another process has open and will commit: this
@@ -39,19 +48,23 @@ public:
   /// Writes the buffer, closes, renames.
   Status commit();
 
-  /// False for a pipe or a device, true after any other open().
-  bool isReplacing() const noexcept { return !temporary_.empty(); }
-  /// The temporary file, empty after open(): other code may write it before commit(), instead of write().
-  const std::string& path() const noexcept { return isReplacing() ? temporary_ : target_; }
+  /// False for a pipe, a device and standard output, true after any other open().
+  bool isReplacing() const noexcept { return isRegular_; }
+  /// The part file, empty after open(): other code may write it before commit(), instead of write().
+  const std::string& path() const noexcept { return temporary_.empty() ? target_ : temporary_; }
   /// The system's message, such as "No space left on device", and what to do about it. Empty without an
   /// error.
   const std::string& reason() const noexcept { return reason_; }
   const std::string& cure() const noexcept { return cure_; }
   bool isDiskFull() const noexcept { return diskFull_; }
+  /// Whether the reader of a pipe is gone.
+  bool isReaderGone() const noexcept { return readerGone_; }
 
 private:
   Status fail(int error);
   Status fail(const std::string& reason, const std::string& cure);
+  Status openInPlace(int descriptor);
+  Status openPart(const struct stat* replaced);
   void flush();
   void discard() noexcept;
 
@@ -62,6 +75,8 @@ private:
   std::string cure_;
   int descriptor_ = -1;
   bool diskFull_ = false;
+  bool readerGone_ = false;
+  bool isRegular_ = false;
 };
 
 } // namespace pointhaptics

@@ -12,6 +12,10 @@
 #include <filesystem>
 #include <new>
 
+#include <fcntl.h>
+#include <poll.h>
+#include <unistd.h>
+
 namespace fs = std::filesystem;
 
 namespace pointhaptics::io
@@ -26,6 +30,8 @@ constexpr std::size_t kPackedAtOnce = std::size_t{ 1 } << 16;
 constexpr std::size_t kInspected = std::size_t{ 1 } << 16;
 constexpr int kGzipOnly = 16; ///< zlib: add to the window's bits to ask for gzip's header
 constexpr std::string_view kGzipMagic = "\x1f\x8b";
+
+constexpr const char* kStandardInput = "/dev/stdin";
 
 void checkIsReadable(const std::string& path)
 {
@@ -44,11 +50,58 @@ void checkIsReadable(const std::string& path)
   {
     throw FileProblem(vtkErrorCode::CannotOpenFileError, "this is a folder", "name one file inside it");
   }
-  if (!fs::is_regular_file(status))
+  if (fs::is_block_file(status) || (fs::is_character_file(status) && path != kStandardInput))
+  {
+    throw FileProblem(vtkErrorCode::CannotOpenFileError, "this is a device", "name a file or a pipe");
+  }
+}
+
+/// All that comes through a pipe.
+std::string contentOfStream(const std::string& path, const FileBytes::Progress& progress)
+{
+  constexpr int kPatience = 100; // ms between questions whether to go on
+  const int descriptor =
+    path == kStandardInput ? ::dup(STDIN_FILENO) : ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  std::string content;
+  std::size_t size = 0;
+  ssize_t got = descriptor < 0 ? -1 : 1;
+  while (got > 0)
+  {
+    struct pollfd input = { descriptor, POLLIN, 0 };
+    if (::poll(&input, 1, kPatience) <= 0)
+    {
+      try
+      {
+        progress(0.0);
+      }
+      catch (...)
+      {
+        ::close(descriptor);
+        throw;
+      }
+      continue;
+    }
+    if (content.size() < size + kReadAtOnce / 4)
+    {
+      content.resize(2 * size + kReadAtOnce);
+    }
+    got = ::read(descriptor, content.data() + size, content.size() - size);
+    const bool isInterrupted = got < 0 && (errno == EINTR || errno == EAGAIN);
+    size += got > 0 ? static_cast<std::size_t>(got) : 0;
+    got = isInterrupted ? 1 : got;
+  }
+  const int problem = errno;
+  if (descriptor >= 0)
+  {
+    ::close(descriptor);
+  }
+  if (got < 0)
   {
     throw FileProblem(
-      vtkErrorCode::CannotOpenFileError, "this is not a regular file", "save the stream to a file first");
+      vtkErrorCode::CannotOpenFileError, std::strerror(problem), "check the program that writes the pipe");
   }
+  content.resize(size);
+  return content;
 }
 
 std::string lowerCase(std::string text)
@@ -99,16 +152,28 @@ struct Inflater
 class FileBytes::File
 {
 public:
-  explicit File(const std::string& path)
-    : file_(std::fopen(path.c_str(), "rb"), &std::fclose)
+  /// @param progress is asked while a pipe is silent: it may throw to end the waiting.
+  File(const std::string& path, const Progress& progress)
+    : file_(nullptr, &std::fclose)
   {
+    std::error_code ignored;
+    if (fs::is_regular_file(path, ignored))
+    {
+      file_.reset(std::fopen(path.c_str(), "rb"));
+      size_ = file_ ? static_cast<std::size_t>(fs::file_size(path)) : 0;
+    }
+    else
+    {
+      stream_ = contentOfStream(path, progress);
+      size_ = stream_.size();
+      file_.reset(::fmemopen(stream_.data(), std::max(size_, std::size_t{ 1 }), "rb"));
+    }
     if (!file_)
     {
       throw FileProblem(
         vtkErrorCode::CannotOpenFileError, std::strerror(errno), "check that you may read the file");
     }
     std::setvbuf(file_.get(), nullptr, _IONBF, 0);
-    size_ = static_cast<std::size_t>(fs::file_size(path));
   }
   std::size_t size() const { return size_; }
   std::size_t position() const { return position_; }
@@ -140,6 +205,7 @@ public:
   }
 
 private:
+  std::string stream_; ///< what a pipe gave
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
   std::size_t size_ = 0;
   std::size_t position_ = 0;
@@ -148,7 +214,7 @@ private:
 FileBytes::FileBytes(const std::string& path, const Progress& progress, const Inspect& inspect)
 {
   checkIsReadable(path);
-  File file(path);
+  File file(path, progress);
   if (file.size() == 0)
   {
     throw FileProblem(vtkErrorCode::PrematureEndOfFileError, "the file is empty (0 bytes)",
@@ -169,7 +235,7 @@ FileBytes::FileBytes(const std::string& path, const Progress& progress, const In
 FileBytes::FileBytes(const std::string& path)
 {
   checkIsReadable(path);
-  file_ = std::make_unique<File>(path);
+  file_ = std::make_unique<File>(path, [](double) {});
   size_ = file_->size();
   data_.reset(static_cast<char*>(std::calloc(std::max(size_, std::size_t{ 1 }), 1)));
   if (!data_)

@@ -21,9 +21,10 @@ public:
   /// Receives the first unpacked bytes and the size of the whole content (0: not known); throws to reject it.
   using Inspect = std::function<void(std::string_view, std::size_t)>;
 
-  /// Reads @p path. A gzip file is unpacked on the way, up to kMostGzipRatio times its size (or kGzipFloor,
-  /// where that is more): real clouds stay far below, and a file crafted to fill the memory is refused.
-  /// @throws FileProblem when the file is missing, a folder, not a regular file, empty, unreadable, or its
+  /// Reads @p path, a file or a pipe. A gzip file is unpacked on the way, up to kMostGzipRatio times its size
+  /// (or kGzipFloor, where that is more): real clouds stay far below, and a file crafted to fill the memory
+  /// is refused.
+  /// @throws FileProblem when the file is missing, a folder, a device, empty, unreadable, or its
   /// gzip data are damaged, cut short or beyond the limit; what @p progress and @p inspect throw.
   FileBytes(const std::string& path, const Progress& progress, const Inspect& inspect);
   /// Memory for the whole of @p path, a file that is not packed, of which load() reads what is needed.

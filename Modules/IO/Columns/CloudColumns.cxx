@@ -249,12 +249,13 @@ void CloudColumns::planNumbered()
 
 std::string CloudColumns::unusedName(const std::string& name) const
 {
-  std::string candidate = name.empty() ? "unnamed" : name;
+  const std::string wanted = name.empty() ? "unnamed" : name;
+  std::string candidate = wanted;
   const auto isUsed = [&](const vtkSmartPointer<vtkDataArray>& array)
   { return candidate == array->GetName(); };
-  while (std::any_of(arrays_.begin(), arrays_.end(), isUsed))
+  for (int number = 2; std::any_of(arrays_.begin(), arrays_.end(), isUsed); ++number)
   {
-    candidate += "_again";
+    candidate = wanted + "_" + std::to_string(number);
   }
   return candidate;
 }

@@ -114,9 +114,10 @@ std::vector<OutputArray> outputArrays(vtkPointSet* cloud, WriterNotes& notes)
           " values for " + std::to_string(cloud->GetNumberOfPoints()) + " points",
         "give every array one value per point");
     }
-    while (!used.insert(output.name).second)
+    const std::string wanted = output.name;
+    for (int number = 2; !used.insert(output.name).second; ++number)
     {
-      output.name += "_again";
+      output.name = wanted + "_" + std::to_string(number);
     }
     const std::string given = array->GetName() ? array->GetName() : "";
     if (output.name != given)

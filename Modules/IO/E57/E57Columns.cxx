@@ -32,7 +32,7 @@ constexpr const char* kFlags[] = { "InvalidState", "SphericalInvalidState", "Int
 /// Names that no field of an extension may take.
 constexpr const char* kOtherColumns[] = { "red", "green", "blue", "Color16", "Color", "RGB", "ScanIndex",
   "nx", "ny", "nz" };
-constexpr const char* kAgain = "_again";
+constexpr const char* kSecond = "_2";
 
 const std::string kCartesian[] = { "cartesianX", "cartesianY", "cartesianZ" };
 const std::string kSpherical[] = { "sphericalRange", "sphericalAzimuth", "sphericalElevation" };
@@ -87,7 +87,7 @@ std::string columnOf(const std::string& field)
     }
   }
   const char* normal = normalColumn(field);
-  return normal ? normal : field + (isOurs(field) ? kAgain : "");
+  return normal ? normal : field + (isOurs(field) ? kSecond : "");
 }
 
 template <typename T>
@@ -217,7 +217,7 @@ E57Columns::Place E57Columns::placeOf(const E57Field& field, bool hasColors, std
     place.column = columnNamed(name);
     while (!taken.insert(place.column).second)
     {
-      name += kAgain;
+      name += kSecond;
       place.column = columnNamed(name);
     }
     place.added =

@@ -140,31 +140,57 @@ std::vector<ScanSummary> scansOf(vtkPolyData* cloud)
   return scans;
 }
 
-std::vector<ArraySummary> arraysOf(vtkPolyData* cloud)
+/// Mean and standard deviation of the finite values of a component, by Welford's sums.
+void addStatistics(vtkDataArray* array, int component, ArraySummary& summary)
+{
+  double mean = 0.0;
+  double squares = 0.0;
+  std::int64_t count = 0;
+  for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
+  {
+    const double value = array->GetComponent(i, component);
+    if (std::isfinite(value))
+    {
+      const double before = value - mean;
+      mean += before / double(++count);
+      squares += before * (value - mean);
+    }
+  }
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  summary.means.push_back(count > 0 ? mean : none);
+  summary.deviations.push_back(count > 0 ? std::sqrt(squares / double(count)) : none);
+}
+
+ArraySummary summaryOf(vtkAbstractArray* abstract, bool statistics)
+{
+  ArraySummary summary;
+  summary.name = abstract->GetName() ? abstract->GetName() : "(no name)";
+  summary.type = abstract->GetDataTypeAsString();
+  summary.components = abstract->GetNumberOfComponents();
+  vtkDataArray* array = vtkDataArray::SafeDownCast(abstract);
+  for (int component = 0; array && component < summary.components; ++component)
+  {
+    double range[2];
+    array->GetFiniteRange(range, component);
+    const bool isEmpty = !(range[0] <= range[1]);
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    summary.minima.push_back(isEmpty ? none : range[0]);
+    summary.maxima.push_back(isEmpty ? none : range[1]);
+    if (statistics)
+    {
+      addStatistics(array, component, summary);
+    }
+  }
+  return summary;
+}
+
+std::vector<ArraySummary> arraysOf(vtkPolyData* cloud, bool statistics)
 {
   std::vector<ArraySummary> result;
   vtkPointData* data = cloud->GetPointData();
   for (int i = 0; i < data->GetNumberOfArrays(); ++i)
   {
-    vtkAbstractArray* abstract = data->GetAbstractArray(i);
-    ArraySummary summary;
-    summary.name = abstract->GetName() ? abstract->GetName() : "(no name)";
-    summary.type = abstract->GetDataTypeAsString();
-    summary.components = abstract->GetNumberOfComponents();
-    if (vtkDataArray* array = vtkDataArray::SafeDownCast(abstract))
-    {
-      for (int component = 0; component < summary.components; ++component)
-      {
-        double range[2];
-        array->GetFiniteRange(range, component);
-        if (range[0] <= range[1])
-        {
-          summary.minima.push_back(range[0]);
-          summary.maxima.push_back(range[1]);
-        }
-      }
-    }
-    result.push_back(summary);
+    result.push_back(summaryOf(data->GetAbstractArray(i), statistics));
   }
   return result;
 }
@@ -202,7 +228,7 @@ void suggest(const LengthUnit& known, const Bounds& bounds, CloudSummary& summar
 
 } // namespace
 
-CloudSummary summarize(vtkPolyData* cloud, const std::string& format)
+CloudSummary summarize(vtkPolyData* cloud, const std::string& format, bool statistics)
 {
   CloudSummary summary;
   summary.format = format;
@@ -210,6 +236,10 @@ CloudSummary summarize(vtkPolyData* cloud, const std::string& format)
   summary.chunks = std::int64_t(numberIn(cloud, "Chunks"));
   summary.scans = scansOf(cloud);
   summary.points = cloud->GetNumberOfPoints();
+  if (statistics && cloud->GetPoints())
+  {
+    summary.coordinates = summaryOf(cloud->GetPoints()->GetData(), true);
+  }
   summary.isFloat = cloud->GetPoints() && cloud->GetPoints()->GetDataType() == VTK_FLOAT;
   const std::vector<Vec3> points = finitePoints(cloud);
   summary.invalid = summary.points - std::int64_t(points.size());
@@ -242,7 +272,7 @@ CloudSummary summarize(vtkPolyData* cloud, const std::string& format)
     summary.unit = unit.name;
     summary.unitIsTold = unit.evidence != UnitEvidence::None;
   }
-  summary.arrays = arraysOf(cloud);
+  summary.arrays = arraysOf(cloud, statistics);
   suggest(unit, far.others, summary);
   return summary;
 }

@@ -21,8 +21,10 @@ struct ArraySummary
   std::string name;
   std::string type;
   int components = 1;
-  std::vector<double> minima; ///< One a component, of the finite values; empty where there are none.
+  std::vector<double> minima; ///< One a component, of the finite values; NaN where there are none.
   std::vector<double> maxima;
+  std::vector<double> means;      ///< The same, and empty unless statistics are asked for.
+  std::vector<double> deviations; ///< Standard deviations: of all values, not of a sample.
 };
 
 struct ScanSummary
@@ -56,6 +58,7 @@ struct CloudSummary
   bool unitIsGuess = true;
   bool unitIsTold = true; ///< False: nothing tells the unit, and metres are taken.
   std::vector<ArraySummary> arrays;
+  ArraySummary coordinates;    ///< x, y and z; without components unless statistics are asked for.
   std::string farPoints;       ///< Of a few points far from all others, and how to leave them out; or empty.
   std::string hint;            ///< Unit or scale to try where the size is not about that of the workspace.
   double suggestedScale = 1.0; ///< Makes the cloud fill most of the workspace.
@@ -65,7 +68,8 @@ struct CloudSummary
 constexpr std::array<int, 5> kSpacingPercents{ 5, 25, 50, 75, 95 };
 
 /// Cost: O(n log n) for spacing and duplicates, 72 bytes a point up to 4 million points.
-/// @param format as the reader calls it.
-POINTHAPTICSIO_EXPORT CloudSummary summarize(vtkPolyData* cloud, const std::string& format);
+/// @param format as the reader calls it. @param statistics whether means and deviations are wanted.
+POINTHAPTICSIO_EXPORT CloudSummary summarize(
+  vtkPolyData* cloud, const std::string& format, bool statistics = false);
 
 } // namespace pointhaptics

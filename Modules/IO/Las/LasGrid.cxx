@@ -1,5 +1,9 @@
 #include "IO/Las/LasGrid.h"
 
+#include "FileProblem.h"
+
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -153,6 +157,40 @@ bool takeWantedSteps(const Axis& axis, const WantedGrid& wanted, LasGrid& grid)
   return spans(axis, grid.scale, grid.offset);
 }
 
+/// False: the cloud is too long for them.
+bool takeUsualSteps(const Axis& axis, const WantedGrid& wanted, LasGrid& grid)
+{
+  constexpr int kDigits = 5; // of the length of a small cloud
+  grid.scale = wanted.usual;
+  if (wanted.extent < LasGrid::kFewestSteps * wanted.usual && wanted.extent > LasGrid::kFewestSteps * kTiny)
+  {
+    grid.scale = powerOfTen(static_cast<int>(std::floor(std::log10(wanted.extent))) - kDigits);
+  }
+  grid.offset = 0.0;
+  if (!spans(axis, grid.scale, grid.offset))
+  {
+    findRoundOffset(axis, grid);
+  }
+  // Steps finer than the last digit of a far coordinate are none.
+  return spans(axis, grid.scale, grid.offset) && grid.scale > std::ldexp(axis.farthest(), -52);
+}
+
+/// Throws where the steps do not span the axis.
+void takeForcedSteps(const Axis& axis, const WantedGrid& wanted, LasGrid& grid)
+{
+  grid.scale = wanted.forced;
+  grid.offset = wanted.offset;
+  if (!spans(axis, grid.scale, grid.offset))
+  {
+    findRoundOffset(axis, grid);
+  }
+  if (!spans(axis, grid.scale, grid.offset))
+  {
+    failFormat("steps of " + fmt::format("{}", grid.scale) + " do not span the cloud with 32 bits",
+      "give larger ones, or none");
+  }
+}
+
 /// The finest steps of a power of ten. False: there are none that doubles can hold well.
 bool takeDecimalSteps(const Axis& axis, LasGrid& grid)
 {
@@ -185,24 +223,32 @@ LasGrid LasGrid::fit(ConstColumnView column, vtkIdType count, const WantedGrid& 
     usable.scale = 0.0;
   }
   LasGrid grid;
+  // 17.31 of a text is not 1731 times 0.01, but next to it.
+  const double lastDigits = 2.0 * std::numeric_limits<double>::epsilon() * axis.farthest();
+  const auto isNearby = [=](double given, double coordinate)
+  { return std::abs(given - coordinate) <= lastDigits; };
+  if (wanted.forced > 0.0)
+  {
+    takeForcedSteps(axis, wanted, grid);
+    place(
+      axis, [](double, double) { return true; }, grid);
+    grid.rounds = grid.largestError > lastDigits;
+    return grid;
+  }
   if (placeExactly(axis, usable, grid))
   {
     return grid;
   }
   if (usable.scale == 0.0)
   {
-    takeBinarySteps(axis, grid);
-    // 17.31 of a text is not 1731 times 0.01, but next to it.
-    const double lastDigits = 2.0 * std::numeric_limits<double>::epsilon() * axis.farthest();
-    const auto isNearby = [=](double given, double coordinate)
-    { return std::abs(given - coordinate) <= lastDigits; };
-    if (place(axis, isSame, grid) || placeOnDecimals(axis, isNearby, grid) ||
+    if (placeOnDecimals(axis, isNearby, grid) ||
       (column.type == VTK_FLOAT && placeOnDecimals(axis, isSameFloat, grid)))
     {
       return grid;
     }
   }
-  if (!takeWantedSteps(axis, usable, grid) && !takeDecimalSteps(axis, grid))
+  if (!takeWantedSteps(axis, usable, grid) && !takeUsualSteps(axis, wanted, grid) &&
+    !takeDecimalSteps(axis, grid))
   {
     takeBinarySteps(axis, grid);
   }

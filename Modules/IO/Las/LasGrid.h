@@ -15,7 +15,9 @@ struct WantedGrid
 {
   double scale = 0.0; ///< 0: there is none.
   double offset = 0.0;
-  double extent = 0.0; ///< Of the cloud that is written, along its longest axis.
+  double extent = 0.0;   ///< Of the cloud that is written, along its longest axis.
+  double forced = 0.0;   ///< The step that the user asked for; 0: none.
+  double usual = 0.0001; ///< The step where nothing tells another one.
 };
 
 /// One axis: coordinate = scale * integer + offset.
@@ -30,14 +32,15 @@ struct LasGrid
   bool rounds = false;
 
   /// Puts the @p count coordinates of @p column on the first of these grids that can be had:
-  /// - one that gives each of them back bit for bit: the wanted one, one of whole decimals, or, where none is
-  ///   wanted, the finest one with steps of a power of two (coordinates that are floats);
+  /// - one of the forced steps: a FileProblem where they are too small to span the coordinates;
+  /// - one that gives each coordinate back bit for bit: the wanted one, or one of whole decimals;
   /// - where none is wanted, one of whole decimals that gives them back but for the last digits of doubles,
   /// or
   ///   as the same floats;
   /// - steps of the wanted scale, about another offset where that must be. Not of a cloud that is shorter
   /// than
   ///   kFewestSteps of them: it was made smaller, and its points would fall together;
+  /// - the usual steps; of a cloud shorter than kFewestSteps of them 10^5 to 10^6 for its length;
   /// - the finest power of ten whose steps span them;
   /// - the finest power of two, where numbers are too small or too large for that.
   ///

@@ -1,6 +1,8 @@
 #include "FormatWriters.h"
 
 #include "Bytes/NumericType.h"
+#include "Core/Resample/FieldNames.h"
+#include "IO/Info/FieldText.h"
 #include "IO/Las/LasCoordinateSystem.h"
 #include "IO/Las/LasGrid.h"
 #include "IO/Las/LasHeader.h"
@@ -45,6 +47,13 @@ int codeOf(int type)
     std::begin(codes), std::end(codes), [&](const int(&entry)[2]) { return entry[0] == plain; }))[1];
 }
 
+/// 0.1 mm in @p unit, at most; metres where it is not known.
+double usualStep(const std::string& unit)
+{
+  const auto begins = [&unit](const char* word) { return unit.rfind(word, 0) == 0; };
+  return begins("mm") || begins("milli") ? 0.1 : begins("cm") || begins("centi") ? 0.01 : 0.0001;
+}
+
 /// Builds one file; one object per file.
 class LasWriter
 {
@@ -62,8 +71,7 @@ public:
   void write();
 
 private:
-  const OutputArray* take(const char* name, int type, int components = 1);
-  const OutputArray* takeWhole(const char* name, int type);
+  const OutputArray* take(const char* name, int type, int components = 1, double most = INFINITY);
   template <typename T>
   T largestOf(const OutputArray* array) const;
   bool needsExtended() const;
@@ -115,45 +123,42 @@ private:
   std::string descriptors_;
 };
 
-const OutputArray* LasWriter::take(const char* name, int type, int components)
+/// The array of that field, converted to @p type where it has another one: other formats store values as they
+/// like. Null where there is none, or where whole numbers from 0 to @p most are needed and it has others.
+const OutputArray* LasWriter::take(const char* name, int type, int components, double most)
 {
   for (std::size_t i = 1; i < arrays_.size(); ++i)
   {
-    if (!taken_[i] && arrays_[i].name == name && fixedSizeType(arrays_[i].type()) == type &&
-      arrays_[i].components() == components)
-    {
-      taken_[i] = true;
-      return &arrays_[i];
-    }
-  }
-  return nullptr;
-}
-
-/// Also an array of another type, whose values are whole and fit: other formats store them as they like.
-const OutputArray* LasWriter::takeWhole(const char* name, int type)
-{
-  if (const OutputArray* exact = take(name, type))
-  {
-    return exact;
-  }
-  const double most = std::ldexp(1.0, 8 * sizeOfType(type)) - 1.0;
-  for (std::size_t i = 1; i < arrays_.size(); ++i)
-  {
-    if (taken_[i] || arrays_[i].name != name || arrays_[i].components() != 1)
+    const OutputArray& array = arrays_[i];
+    if (taken_[i] || !isSameField(array.name, name) || array.components() != components)
     {
       continue;
     }
-    OutputArray converted = arrays_[i];
-    converted.array.TakeReference(vtkDataArray::CreateDataArray(type));
-    converted.array->SetNumberOfValues(rows_);
-    for (vtkIdType row = 0; row < rows_; ++row)
+    const bool isWhole = !isFloatingType(type);
+    const double largest = std::min(most, std::ldexp(1.0, 8 * sizeOfType(type)) - 1.0);
+    const auto fits = [&](double value)
+    { return !isWhole || (value >= 0.0 && value <= largest && value == std::floor(value)); };
+    OutputArray converted = array;
+    if (fixedSizeType(array.type()) != type)
     {
-      const double value = arrays_[i].array->GetComponent(row, 0);
-      if (!(value >= 0.0 && value <= most && value == std::floor(value)))
+      converted.array.TakeReference(vtkDataArray::CreateDataArray(type));
+      converted.array->SetNumberOfComponents(components);
+      converted.array->SetNumberOfTuples(rows_);
+    }
+    for (vtkIdType row = 0; row < rows_ && (isWhole || converted.array != array.array); ++row)
+    {
+      for (int component = 0; component < components; ++component)
       {
-        return nullptr;
+        const double value = array.array->GetComponent(row, component);
+        if (!fits(value))
+        {
+          return nullptr;
+        }
+        if (converted.array != array.array)
+        {
+          converted.array->SetComponent(row, component, value);
+        }
       }
-      converted.array->SetComponent(row, 0, value);
     }
     taken_[i] = true;
     converted_.push_back(converted);
@@ -164,17 +169,17 @@ const OutputArray* LasWriter::takeWhole(const char* name, int type)
 
 void LasWriter::takeStandardArrays()
 {
-  intensity_ = takeWhole("Intensity", VTK_TYPE_UINT16);
-  returnNumber_ = takeWhole("ReturnNumber", VTK_TYPE_UINT8);
-  numberOfReturns_ = takeWhole("NumberOfReturns", VTK_TYPE_UINT8);
-  classification_ = takeWhole("Classification", VTK_TYPE_UINT8);
-  flags_ = take("ClassificationFlags", VTK_TYPE_UINT8);
-  scannerChannel_ = take("ScannerChannel", VTK_TYPE_UINT8);
-  scanDirection_ = take("ScanDirection", VTK_TYPE_UINT8);
-  edge_ = take("EdgeOfFlightLine", VTK_TYPE_UINT8);
+  intensity_ = take("Intensity", VTK_TYPE_UINT16);
+  returnNumber_ = take("ReturnNumber", VTK_TYPE_UINT8, 1, 15);
+  numberOfReturns_ = take("NumberOfReturns", VTK_TYPE_UINT8, 1, 15);
+  classification_ = take("Classification", VTK_TYPE_UINT8);
+  flags_ = take("ClassificationFlags", VTK_TYPE_UINT8, 1, 15);
+  scannerChannel_ = take("ScannerChannel", VTK_TYPE_UINT8, 1, 3);
+  scanDirection_ = take("ScanDirection", VTK_TYPE_UINT8, 1, 1);
+  edge_ = take("EdgeOfFlightLine", VTK_TYPE_UINT8, 1, 1);
   scanAngle_ = take("ScanAngle", VTK_FLOAT);
-  userData_ = takeWhole("UserData", VTK_TYPE_UINT8);
-  pointSourceId_ = takeWhole("PointSourceId", VTK_TYPE_UINT16);
+  userData_ = take("UserData", VTK_TYPE_UINT8);
+  pointSourceId_ = take("PointSourceId", VTK_TYPE_UINT16);
   gpsTime_ = take("GpsTime", VTK_DOUBLE);
   wideColor_ = take("Color16", VTK_TYPE_UINT16, 3);
   color_ = take("RGB", VTK_TYPE_UINT8, 3);
@@ -247,14 +252,16 @@ double LasWriter::largestExtent() const
 void LasWriter::planPositions()
 {
   const double extent = largestExtent();
+  const double usual = usualStep(fieldText(fieldData_, "LengthUnit"));
   double worst = 0.0;
   double step = 0.0;
   for (int axis = 0; axis < 3; ++axis)
   {
     const ConstColumnView column = arrays_[0].column(axis);
     LasGrid& grid = grids_[axis];
-    grid = LasGrid::fit(
-      column, rows_, { fieldValue("LasScale", axis, 0.0), fieldValue("LasOffset", axis, 0.0), extent });
+    grid = LasGrid::fit(column, rows_,
+      { fieldValue("LasScale", axis, 0.0), fieldValue("LasOffset", axis, 0.0), extent, task_.lasScale,
+        usual });
     fields_.push_back({ { reinterpret_cast<const char*>(grid.integers.data()), 4, VTK_TYPE_INT32 },
       static_cast<std::size_t>(4 * axis), VTK_TYPE_INT32 });
     const double error = grid.rounds ? grid.largestError : 0.0;
@@ -265,7 +272,7 @@ void LasWriter::planPositions()
   if (worst > 0.0)
   {
     notes_.add("coordinates are rounded to steps of " + shortestDecimal(step) + ", by at most " +
-      fmt::format("{:.3g}", worst) + "; write .vtp or .ply to keep every bit");
+      fmt::format("{:.3g}", worst) + "; .vtp and .ply keep every bit, --las-scale sets other steps");
   }
 }
 
@@ -364,7 +371,13 @@ void LasWriter::planExtraFields()
     const OutputArray& array = arrays_[i];
     for (int component = 0; component < array.components() && !taken_[i]; ++component)
     {
-      const std::string name = array.componentName(component);
+      std::string name = array.componentName(component);
+      if (isPointField(array.name)) // each LAS point has that field, too
+      {
+        name = array.name + "Extra" + name.substr(array.name.size());
+        notes_.add(
+          "array " + array.name + " has values that its LAS field cannot hold, and is called " + name);
+      }
       if (name.size() > kLongestName)
       {
         notes_.add("array " + name + " is called " + name.substr(0, kLongestName));

@@ -329,6 +329,11 @@ void readTable(ReadTask& task, std::string_view text, TextLayout layout, vtkPoly
     {
       task.notes.push_back(std::move(note));
     }
+    if (table.columns[i].numbers.losesDigits())
+    {
+      task.notes.push_back("column " + inQuotes(names[i]) +
+        " has whole numbers of 2^53 and more, which are rounded: the last digits are lost");
+    }
   }
   std::vector<Column> planned;
   for (const std::size_t i : read)

@@ -80,7 +80,8 @@ void readVtkXml(ReadTask& task, vtkPolyData* cloud)
   else
   {
     task.shared = nullptr; // all of it is there
-    const vtkSmartPointer<vtkPointSet> read = readVtkXmlFile(task, task.path, task.bytes, 0.0, 1.0);
+    const vtkSmartPointer<vtkPointSet> read =
+      readVtkXmlFile(task, task.isStream ? "" : task.path, task.bytes, 0.0, 1.0);
     cloud->SetPoints(read->GetPoints());
     cloud->GetPointData()->ShallowCopy(read->GetPointData());
     cloud->GetFieldData()->ShallowCopy(read->GetFieldData());
@@ -108,7 +109,15 @@ vtkSmartPointer<vtkPointSet> readVtkXmlFile(
   reader->AddObserver(vtkCommand::WarningEvent, errors);
   reader->SetReaderErrorObserver(errors);
   reader->SetParserErrorObserver(errors);
-  reader->SetFileName(path.c_str());
+  if (path.empty())
+  {
+    reader->ReadFromInputStringOn();
+    reader->SetInputString(std::string(bytes));
+  }
+  else
+  {
+    reader->SetFileName(path.c_str());
+  }
   RelayedProgress progress(reader, task.algorithm, task.overall(checked), task.overall(end));
   reader->Update();
   progress.finish();

@@ -63,6 +63,11 @@ class Bandwidths:
         return len(self.bandwidth)
 
 
+def _field(name: str) -> str:
+    """One spelling of a field's name: see Core/Resample/FieldNames.h."""
+    return name.lower().translate({ord(filler): None for filler in "_ -"})
+
+
 def set_lattice(
     resampler: vtkVoxelMeanResampler,
     voxel: Optional[float],
@@ -136,7 +141,7 @@ def resample(
         resampler.SetTransform(as_transform(transform))
     attributes = {} if attributes is None else attributes
     for name in [categorical] if isinstance(categorical, str) else categorical:
-        if name not in attributes:
+        if _field(name) not in map(_field, attributes):
             raise ValueError(f"categorical: no attribute is called {name!r}; give names of {sorted(attributes)}")
         resampler.AddCategoricalArray(name)
     resampler.SetComputeCovariance(bool(covariance))

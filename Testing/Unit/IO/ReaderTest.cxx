@@ -20,7 +20,7 @@ TEST_F(Reader, RefusesWhatIsNotAFileWithPoints)
   EXPECT_EQ(missing.error.find(path("missing.ply")), 0u);
   expectRefused(readCloud(folder_.string()), "folder");
   expectRefused(readCloud(write("empty.ply", "")), "empty");
-  expectRefused(readCloud("/dev/null"), "not a regular file");
+  expectRefused(readCloud("/dev/null"), "this is a device");
   expectRefused(readCloud(""), "file name");
 }
 

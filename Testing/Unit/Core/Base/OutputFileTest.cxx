@@ -190,6 +190,48 @@ TEST_F(OutputFileTest, KeepsThePermissionsOfWhatItReplaces)
   EXPECT_EQ(fs::status(name("private.txt")).permissions(), fs::perms::owner_read | fs::perms::owner_write);
 }
 
+TEST_F(OutputFileTest, RefusesAFileThatIsWriteProtected)
+{
+  put("kept.txt", "old");
+  fs::permissions(name("kept.txt"), fs::perms::owner_read);
+  OutputFile file;
+  EXPECT_EQ(file.check(name("kept.txt")), Status::FileNotWritable);
+  EXPECT_EQ(file.open(name("kept.txt")), Status::FileNotWritable);
+  EXPECT_EQ(file.reason(), "the file is write-protected");
+  EXPECT_EQ(read("kept.txt"), "old");
+  EXPECT_EQ(entries(), 1);
+}
+
+TEST_F(OutputFileTest, RemovesThePartsThatNobodyHas)
+{
+  put(".a.txt.1.part", "of a killed process");
+  put(".a.txt.2.part", "of another one");
+  put(".b.txt.1.part", "of another target");
+  OutputFile first;
+  ASSERT_EQ(first.open(name("a.txt")), Status::Ok);
+  OutputFile second;
+  ASSERT_EQ(second.open(name("a.txt")), Status::Ok) << "two may write one target";
+  EXPECT_NE(first.path(), second.path());
+  EXPECT_EQ(entries(), 3);
+  ASSERT_EQ(first.write("first"), Status::Ok);
+  ASSERT_EQ(second.write("second"), Status::Ok);
+  ASSERT_EQ(second.commit(), Status::Ok);
+  ASSERT_EQ(first.commit(), Status::Ok);
+  EXPECT_EQ(read("a.txt"), "first");
+  EXPECT_EQ(entries(), 2);
+}
+
+TEST_F(OutputFileTest, IsWrittenInPlaceWhereAnotherOneCommitsIt)
+{
+  OutputFile outer;
+  ASSERT_EQ(outer.open(name("a.txt")), Status::Ok);
+  ASSERT_EQ(writeAll(outer.path(), "content"), Status::Ok);
+  EXPECT_FALSE(fs::exists(name("a.txt")));
+  EXPECT_EQ(entries(), 1);
+  ASSERT_EQ(outer.commit(), Status::Ok);
+  EXPECT_EQ(read("a.txt"), "content");
+}
+
 TEST_F(OutputFileTest, TakesNamesAsLongAsTheFileSystemDoes)
 {
   const std::string longest(251, 'n');

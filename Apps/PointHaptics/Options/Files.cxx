@@ -1,0 +1,448 @@
+#include "Options/Files.h"
+
+#include "Options/OptionParsing.h"
+#include "Terminal/CommandLine.h"
+#include "Terminal/Messages.h"
+#include "Terminal/StandardStreams.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <iterator>
+#include <sstream>
+#include <utility>
+
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace fs = std::filesystem;
+
+namespace pointhaptics
+{
+namespace app
+{
+namespace
+{
+
+// The role of an option is kept in the option itself, as the name of a check that takes everything.
+constexpr const char* kReads = "reads";
+constexpr const char* kWrites = "writes";
+constexpr const char* kReadsAndWrites = "reads and writes";
+constexpr const char* kPlaceholders[] = { "{stem}", "{name}", "{folder}" };
+
+CLI::Option* mark(CLI::Option* option, const std::string& role)
+{
+  return option->check(CLI::Validator([](std::string&) { return std::string(); }, "", role));
+}
+
+std::vector<std::string> wordsOf(const std::string& text)
+{
+  std::istringstream words(text);
+  return { std::istream_iterator<std::string>(words), {} };
+}
+
+bool isGiven(const CLI::App& command, const char* name)
+{
+  const CLI::Option* option = command.get_option_no_throw(name);
+  return option && option->count() > 0;
+}
+
+/// Each unfinished output is an open file.
+void allowManyFiles(std::size_t count)
+{
+  struct rlimit limit = {};
+  constexpr rlim_t kOthers = 100;
+  if (::getrlimit(RLIMIT_NOFILE, &limit) == 0 && limit.rlim_cur < 2 * count + kOthers)
+  {
+    limit.rlim_cur = std::min<rlim_t>(limit.rlim_max, 2 * count + kOthers);
+    static_cast<void>(::setrlimit(RLIMIT_NOFILE, &limit));
+  }
+}
+
+} // namespace
+
+CLI::Option* addInput(
+  CLI::App& command, const std::string& name, std::string& file, const std::string& description)
+{
+  return mark(command.add_option(name, file, description)->type_name(""), kReads);
+}
+
+CLI::Option* addInput(
+  CLI::App& command, const std::string& name, std::vector<std::string>& files, const std::string& description)
+{
+  return mark(command.add_option(name, files, description)->type_name(""), kReads);
+}
+
+CLI::Option* addInputsAndOutput(CLI::App& command, const std::string& name, std::vector<std::string>& files,
+  const std::vector<std::string>& extensions, const std::string& description)
+{
+  return mark(command.add_option(name, files, description)->type_name(""),
+    fmt::format("{} {}", kReadsAndWrites, fmt::join(extensions, " ")));
+}
+
+CLI::Option* addOutput(CLI::App& command, const std::string& name, std::string& file,
+  const std::vector<std::string>& extensions, const std::string& description)
+{
+  return mark(command.add_option(name, file, description)->type_name("OUT"),
+    fmt::format("{} {}", kWrites, fmt::join(extensions, " ")));
+}
+
+void allowExtension(CLI::Option& output, const std::string& extension)
+{
+  CLI::Validator& role = *output.get_validator(0);
+  role.name(role.get_name() + " " + extension);
+}
+
+std::string lowerExtension(const std::string& name)
+{
+  std::string extension = fs::path(name).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension.empty() ? extension : extension.substr(1);
+}
+
+std::string fileRole(const CLI::Option& option)
+{
+  try
+  {
+    // CLI11 gives checks to be changed alone.
+    const std::string role = const_cast<CLI::Option&>(option).get_validator(0)->get_name();
+    return role.rfind(kReads, 0) == 0 || role.rfind(kWrites, 0) == 0 ? role : std::string();
+  }
+  catch (const CLI::OptionNotFound&)
+  {
+    return {};
+  }
+}
+
+bool writesFiles(const CLI::App& command)
+{
+  const std::vector<const CLI::Option*> options = command.get_options();
+  return std::any_of(options.begin(), options.end(),
+    [](const CLI::Option* option) { return fileRole(*option).find(kWrites) != std::string::npos; });
+}
+
+bool isPattern(const std::string& name)
+{
+  return std::any_of(std::begin(kPlaceholders), std::end(kPlaceholders),
+    [&](const char* word) { return name.find(word) != std::string::npos; });
+}
+
+std::string expandedName(const std::string& pattern, const std::string& input)
+{
+  const fs::path path = input == kStandardStream ? fs::path("stdin") : fs::path(input);
+  const std::string folder = path.has_parent_path() ? path.parent_path().string() : ".";
+  const std::string values[] = { path.stem().string(), path.filename().string(), folder };
+  std::string result;
+  for (std::size_t at = 0; at < pattern.size();)
+  {
+    std::size_t i = 0;
+    while (
+      i < std::size(values) && pattern.compare(at, std::string(kPlaceholders[i]).size(), kPlaceholders[i]))
+    {
+      ++i;
+    }
+    result += i < std::size(values) ? values[i] : std::string(1, pattern[at]);
+    at += i < std::size(values) ? std::string(kPlaceholders[i]).size() : 1;
+  }
+  return result;
+}
+
+/// An output as the command line names it: maybe a pattern.
+struct Files::NamedOutput
+{
+  std::string option;
+  std::string extensions;
+  std::string name;
+};
+
+/// Ends in a usage error where nothing tells the format of the output, or nobody writes it.
+void Files::checkExtension(const CLI::App& command, const NamedOutput& output)
+{
+  const std::vector<std::string> known = wordsOf(output.extensions);
+  const bool isCloud =
+    command.get_option_no_throw("--output-format") && (output.option.empty() || output.option == "--output");
+  const Identity target(output.name, STDOUT_FILENO);
+  const bool isStream = output.name == kStandardStream || target.isStream();
+  const std::string extension = lowerExtension(output.name);
+  const bool isKnown = std::find(known.begin(), known.end(), extension) != known.end();
+  std::error_code ignored;
+  if (known.empty() || isKnown || (isCloud && isGiven(command, "--output-format")) ||
+    (isStream && !isCloud) || fs::is_directory(output.name, ignored))
+  {
+    return;
+  }
+  throwUsage(output.option + (output.option.empty() ? "" : " ") + output.name, "",
+    isStream
+      ? fmt::format("a stream has no extension; give --output-format, one of {}", fmt::join(known, ", "))
+      : fmt::format("unknown extension \"{}\"{}; end the name in .{}",
+          extension.empty() ? "" : "." + extension, didYouMean(extension, known), fmt::join(known, ", .")));
+}
+
+Files::Identity::Identity(const std::string& name, int standardStream)
+{
+  struct stat status = {};
+  const bool isStandard = name == kStandardStream;
+  exists = isStandard ? ::fstat(standardStream, &status) == 0 : ::stat(name.c_str(), &status) == 0;
+  isDevice = exists && S_ISCHR(status.st_mode);
+  isPipe = exists && (S_ISFIFO(status.st_mode) || S_ISSOCK(status.st_mode));
+  device = status.st_dev;
+  number = status.st_ino;
+  std::error_code error;
+  place = exists || isStandard ? name : fs::weakly_canonical(fs::absolute(name, error), error).string();
+}
+
+bool Files::Identity::operator==(const Identity& other) const
+{
+  return exists && other.exists ? device == other.device && number == other.number && !isDevice
+                                : exists == other.exists && !place.empty() && place == other.place;
+}
+
+Files::Files() = default;
+Files::~Files() = default;
+
+void Files::takeOutput(
+  const CLI::App& command, const NamedOutput& output, const std::vector<std::string>& clouds)
+{
+  checkExtension(command, output);
+  if (output.name == kStandardStream)
+  {
+    if (isGiven(command, "--json"))
+    {
+      throwUsage("--json", "", "standard output is the file; leave it out, or name a file to write");
+    }
+    takeStandardOutput();
+  }
+  if (!isPattern(output.name))
+  {
+    this->addOutput(output.name, output.option);
+    return;
+  }
+  allowManyFiles(clouds.size());
+  for (const std::string& cloud : clouds)
+  {
+    this->addOutput(expandedName(output.name, cloud), output.option);
+  }
+}
+
+void Files::take(const CLI::App& command)
+{
+  inputs_.clear();
+  outputs_.clear();
+  noClobber_ = isGiven(command, "--no-clobber");
+  std::vector<NamedOutput> outputs;
+  std::vector<std::string> clouds;
+  for (const CLI::Option* option : command.get_options())
+  {
+    const std::string role = fileRole(*option);
+    std::vector<std::string> names = role.empty() ? std::vector<std::string>() : option->results();
+    const std::string shown = option->get_positional() ? std::string() : "--" + option->get_single_name();
+    const bool isBoth = role.rfind(kReadsAndWrites, 0) == 0;
+    if (isBoth && names.size() > 1 && !isGiven(command, "--output"))
+    {
+      outputs.push_back({ "", role.substr(std::string(kReadsAndWrites).size()), names.back() });
+      names.pop_back();
+      std::error_code ignored;
+      // A list of inputs whose output was forgotten must not cost the last of them.
+      if (fs::is_regular_file(outputs.back().name, ignored) && !isGiven(command, "--force"))
+      {
+        throwUsage(outputs.back().name, "",
+          "is there already, and may be one of the inputs; name the output by -o, or give --force");
+      }
+    }
+    for (const std::string& name : role == kReads || isBoth ? names : std::vector<std::string>())
+    {
+      this->addInput(name, shown);
+      clouds.insert(clouds.end(), option->get_positional() ? 1 : 0, name);
+    }
+    if (role.rfind(kWrites, 0) == 0 && !names.empty())
+    {
+      outputs.push_back({ shown, role.substr(std::string(kWrites).size()), names.back() });
+    }
+  }
+  for (const NamedOutput& output : outputs)
+  {
+    this->takeOutput(command, output, clouds);
+  }
+}
+
+/// @p output is one of outputs_; those after it are checked against it.
+void Files::check(const Entry& output) const
+{
+  const Identity& own = output.identity;
+  for (const Entry& input : inputs_)
+  {
+    const bool areStreams =
+      input.name == kStandardStream && output.name == kStandardStream && (own.isStream() || !own.exists);
+    if (own == input.identity && !areStreams)
+    {
+      throwUsage(output.shown(), "",
+        fmt::format(
+          "this is the input {}, which would be lost; choose another name for the output", input.shown()));
+    }
+  }
+  for (auto other = outputs_.begin(); &*other != &output; ++other)
+  {
+    if (other->name == output.name || own == other->identity)
+    {
+      throwUsage(output.shown(), "",
+        fmt::format(
+          "this is the same file as the output {}; give each output a name of its own", other->shown()));
+    }
+  }
+  if (output.name == kStandardStream)
+  {
+    return;
+  }
+  if (noClobber_ && own.exists && !own.isStream())
+  {
+    throwUsage(
+      output.shown(), "", "is there already, and --no-clobber forbids to replace it; choose another name");
+  }
+  OutputFile file;
+  if (file.check(output.name) != Status::Ok)
+  {
+    throw Failure(fmt::format("{}: cannot be written: {}; {}", output.name, file.reason(), file.cure()));
+  }
+}
+
+void Files::addInput(const std::string& name, const std::string& option)
+{
+  Identity identity(name, STDIN_FILENO);
+  const bool isReadOnce = name == kStandardStream || identity.isPipe;
+  if (isReadOnce &&
+    std::any_of(inputs_.begin(), inputs_.end(), [&](const Entry& e) { return e.name == name; }))
+  {
+    throwUsage(name, "", "standard input and pipes can be read once; leave out the second one");
+  }
+  inputs_.push_back({ option, name, std::move(identity) });
+  for (const Entry& output : outputs_)
+  {
+    this->check(output);
+  }
+}
+
+void Files::addOutput(const std::string& name, const std::string& option)
+{
+  outputs_.push_back({ option, name, Identity(name, STDOUT_FILENO) });
+  this->check(outputs_.back());
+}
+
+std::string Files::input(const std::string& name)
+{
+  const auto found =
+    std::find_if(inputs_.begin(), inputs_.end(), [&](const Entry& input) { return input.name == name; });
+  if (found == inputs_.end() || (name != kStandardStream && !found->identity.isPipe))
+  {
+    return name;
+  }
+  if (found->path.empty())
+  {
+    folder_ = folder_ ? std::move(folder_) : std::make_unique<TemporaryFolder>();
+    const std::string shown = name == kStandardStream ? "standard input" : name;
+    // The name is the title of a window, too.
+    found->path = folder_->path(name == kStandardStream ? shown : fs::path(name).filename().string());
+    std::string message;
+    if (!copyInput(name == kStandardStream ? std::string() : name, found->path, message))
+    {
+      throw Failure(shown + ": " + message);
+    }
+    showAs(found->path, shown);
+  }
+  return found->path;
+}
+
+std::string Files::output(const std::string& name)
+{
+  if (name == kStandardStream)
+  {
+    showAs("/dev/stdout", "standard output");
+    return "/dev/stdout";
+  }
+  const auto found =
+    std::find_if(outputs_.begin(), outputs_.end(), [&](const Entry& output) { return output.name == name; });
+  if (found == outputs_.end())
+  {
+    return name;
+  }
+  if (found->path.empty())
+  {
+    found->path = name;
+    found->file = std::make_unique<OutputFile>();
+    if (found->identity.isStream())
+    {
+      found->file.reset();
+    }
+    else if (found->file->open(name) == Status::Ok)
+    {
+      found->path = found->file->path();
+      showAs(found->path, name);
+    }
+    // Else the writer of the file meets the same fault, and says it.
+  }
+  return found->path;
+}
+
+bool Files::commit(std::string& message)
+{
+  std::vector<std::string> created;
+  for (Entry& output : outputs_)
+  {
+    struct stat status = {};
+    const bool isNew = ::lstat(output.name.c_str(), &status) != 0;
+    if (output.file && noClobber_ && !isNew)
+    {
+      message =
+        output.name + ": has come meanwhile, and --no-clobber forbids to replace it; choose another name";
+    }
+    else if (output.file && output.file->commit() != Status::Ok)
+    {
+      message =
+        fmt::format("{}: cannot be written: {}; {}", output.name, output.file->reason(), output.file->cure());
+    }
+    if (!message.empty())
+    {
+      break;
+    }
+    created.insert(created.end(), output.file && isNew ? 1 : 0, output.name);
+  }
+  for (const std::string& name : message.empty() ? std::vector<std::string>() : created)
+  {
+    ::unlink(name.c_str());
+  }
+  return message.empty();
+}
+
+void Files::printPlan(bool asJson) const
+{
+  nlohmann::ordered_json plan = { { "reads", nlohmann::ordered_json::array() },
+    { "writes", nlohmann::ordered_json::array() } };
+  std::string text;
+  for (const Entry& input : inputs_)
+  {
+    if (!input.identity.exists)
+    {
+      throw Failure(input.name + ": there is no such file; check the path");
+    }
+    plan["reads"].push_back(input.name);
+    text += fmt::format("would read {}\n", input.name == kStandardStream ? "standard input" : input.name);
+  }
+  for (const Entry& output : outputs_)
+  {
+    const bool replaces =
+      output.identity.exists && !output.identity.isStream() && output.name != kStandardStream;
+    plan["writes"].push_back({ { "file", output.name }, { "replaces", replaces } });
+    text += fmt::format("would {} {}\n", replaces ? "replace" : "write",
+      output.name == kStandardStream ? "standard output" : output.name);
+  }
+  asJson ? printJson(plan) : printNow(stdout, text);
+}
+
+} // namespace app
+} // namespace pointhaptics
