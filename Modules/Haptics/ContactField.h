@@ -4,7 +4,7 @@
 
 #include "Core/Base/Executor.h"
 #include "Core/Surface/CellPyramid.h"
-#include "Core/Surface/SheetField.h"
+#include "Core/Bandwidth/SheetField.h"
 
 #include <algorithm>
 #include <cstdint>

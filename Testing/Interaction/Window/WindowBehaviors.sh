@@ -751,7 +751,7 @@ CtrlCEndsTheProgram() {
   make sphere cloud.ply
   open_viewer cloud.ply
   kill -INT "$viewer"
-  ends_with 0 "Ctrl+C"
+  ends_with 130 "Ctrl+C"
 }
 
 # A file that is read for long.

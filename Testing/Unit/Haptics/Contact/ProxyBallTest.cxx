@@ -143,8 +143,7 @@ TEST_P(ProxyBallPromises, AreKeptOnRandomCloudsUnderRandomHands)
     const ProxyBall& ball = hand.ball();
     Vec3 hip = 0.025 * random.direction();
     Vec3 velocity = -1e-4 * normalized(hip);
-    hand.step(hip);
-    again.step(hip);
+    hand.step(hip), again.step(hip);
     double bound = norm(ball.center() - hip);
     bool isCrowded = false;
     for (int tick = 0; tick < kTicksPerCloud; ++tick)
@@ -153,25 +152,23 @@ TEST_P(ProxyBallPromises, AreKeptOnRandomCloudsUnderRandomHands)
       const ProxyBall before = ball;
       const Vec3 last = hand.hip();
       const Vec3 asked = randomHandMove(random, hip, velocity);
-      hand.step(asked);
-      again.step(asked);
+      hand.step(asked), again.step(asked);
       hip = norm(asked) < 1.0 ? asked : hip;
       contacts += !before.isFree() && !ball.isFree();
       const double most = mostAway(before, ball, norm(asked - last), asked, bound);
       expectOrderly(hand, again, before, asked);
       ASSERT_FALSE(::testing::Test::HasFatalFailure());
-      const double covered = coveredBy(hand);
       // What it did not know of it may cover until it comes off.
       isCrowded = (hand.takeStatus() & kProxyCellLimit) != 0u || (isCrowded && !ball.isFree());
       if (isCrowded)
       {
         ++crowded;
-        mostCovered = std::max(mostCovered, covered);
+        mostCovered = std::max(mostCovered, coveredBy(hand));
         hand.invalidate();
         again.invalidate();
         continue;
       }
-      ASSERT_LE(covered, 1e-8);
+      ASSERT_LE(coveredBy(hand), 1e-8);
       ASSERT_LE(norm(ball.center() - asked), most + 1e-9 * ball.radius());
       if (hasOnlySlid(before, hand, norm(asked - last)))
       {

@@ -1,4 +1,4 @@
-#include "Core/Surface/SheetField.h"
+#include "Core/Bandwidth/SheetField.h"
 
 #include "Core/Base/Vector3.h"
 #include "Core/Neighbors/NeighborSweep.h"
@@ -221,8 +221,8 @@ private:
     }
   }
 
-  /// The spacing of a few points is off by chance: that of the neighbours counts where it is larger. A dent
-  /// in the radii holds the ball away from the surface that is fitted.
+  /// The spacing of a few points is off by chance: that of the neighbours counts where it is larger. With the
+  /// mean of both a hand falls through on the sparse side of a step.
   void findRadius(std::uint32_t slot)
   {
     SheetPoint& sheet = sheets_[slot];
