@@ -120,7 +120,11 @@ void ContactField::mergeCells()
       }
       merged.back() = std::max(merged.back(), cells_[0][i]);
     }
-    merged.resize(pyramid_->level(level).cells.size(), float(largest_));
+    // A run that the pyramid counts otherwise would give all cells behind it the radius of another.
+    if (merged.size() != pyramid_->level(level).cells.size())
+    {
+      merged.assign(pyramid_->level(level).cells.size(), float(largest_));
+    }
     cells_.push_back(std::move(merged));
   }
 }

@@ -2,9 +2,9 @@
 /// How far the proxy's ball stays from each point of a cloud: static, found where scenes are built.
 #pragma once
 
+#include "Core/Bandwidth/SheetField.h"
 #include "Core/Base/Executor.h"
 #include "Core/Surface/CellPyramid.h"
-#include "Core/Bandwidth/SheetField.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -28,7 +28,7 @@ public:
   /// The radius at the point nearest to @p place where that is sparser than its index cells asked for, so
   /// that finer cells have it, too; else 0. @param search how far to look, metres.
   double sparseRadiusAt(const Vec3& place, double search) const;
-  /// Whether any point that a ball in @p box may touch is so sparse.
+  /// Whether any point near @p box is so sparse.
   bool isSparseNear(const Bounds& box) const;
 
   const CellPyramid& pyramid() const { return *pyramid_; }

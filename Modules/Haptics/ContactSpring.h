@@ -11,8 +11,9 @@ namespace pointhaptics
 /// Magnitude of the spring's force over its length. It is K times the length up to the force limit F, stays
 /// at F up to twice the hold length, and fades smoothly to 0 at three times the hold length. So a press into
 /// a solid does not soften, and no hand is pulled for good. The hold length is F/K, within 5 and 15 mm: a
-/// hand tells a shorter way from a tremor, and a longer one does not fit into the reach of desktop devices.
-/// With an infinite limit the spring is plain and never fades. Newtons, metres; any thread.
+/// hand tells a shorter way from a tremor, and a longer one does not fit into the reach of desktop devices; a
+/// spring softer than F over 30 mm is below F where it fades. With an infinite limit the spring is plain and
+/// never fades. Newtons, metres; any thread.
 class ContactSpring
 {
 public:

@@ -1,10 +1,10 @@
 #include "Haptics/Proxy.h"
 
-#include "Haptics/ContactEnergy.h"
-#include "Haptics/ContactSpring.h"
 #include "Haptics/Contact/GradientSteps.h"
 #include "Haptics/Contact/OffsetSettler.h"
 #include "Haptics/Contact/SurfaceFitProxy.h"
+#include "Haptics/ContactEnergy.h"
+#include "Haptics/ContactSpring.h"
 #include "Haptics/Servo/PassivityLimit.h"
 
 #include <algorithm>
@@ -77,6 +77,7 @@ struct Proxy::Implementation
     if (!shared.empty())
     {
       memory.carryOver(*newScene, shared);
+      surfaceFit.changeRadii();
     }
     else if (!newScene || newScene->cloudNumber() != lastCloud)
     {
@@ -245,12 +246,13 @@ struct Proxy::Implementation
     return wasSettling || settler.settling();
   }
 
-  /// Ends a contact that the hand has gone away from.
-  void letGo(ProxyState& state) noexcept
+  /// Ends a contact that the hand has gone away from. A local scene has the points near the contact only.
+  void letGo(ProxyState& state, double stiffness) noexcept
   {
-    const double end = ContactSpring(parameters.contact.stiffness, parameters.contact.forceLimit).end();
+    const HapticScene& whole = scene->fallback() ? *scene->fallback() : *scene;
+    const double end = ContactSpring(stiffness, parameters.contact.forceLimit).end();
     if (state.contact && norm(state.proxy - state.hip) >= end &&
-      !scene->hasPointsWithin(scene->toLattice(state.hip), kFarFromCloud / scene->latticeScale()))
+      !whole.hasPointsWithin(whole.toLattice(state.hip), kFarFromCloud / whole.latticeScale()))
     {
       surfaceFit.reset();
       gradientSteps.reset();
@@ -283,7 +285,14 @@ struct Proxy::Implementation
     if (part < 1.0)
     {
       state.status |= kProxyEnergyLimit;
-      state.proxy = limited < 1.0 ? state.proxy : state.hip + part * offset;
+    }
+    if (part < 1.0 && limited == 1.0)
+    {
+      state.proxy = state.hip + part * offset;
+      state.sphereCenter = settlesOffset() ? state.proxy + state.radius * state.normal : state.sphereCenter;
+    }
+    if (part < 1.0 && limited == 1.0 && settlesOffset())
+    {
       settler.hold(part * offset);
     }
     return part < 1.0 ? part * force : force;
@@ -313,7 +322,7 @@ struct Proxy::Implementation
     {
       state.force *= parameters.contact.forceLimit / length;
     }
-    if (!isModelMoved)
+    if (!isModelMoved && state.contact)
     {
       energy.add(last.force, state.force, this->moved(state));
     }
@@ -408,14 +417,14 @@ ProxyState Proxy::step(const Vec3& hip, double dt) noexcept
     self.surfaceFit.step(*self.scene, self.memory, self.parameters.contact, self.scene->toLattice(hip),
       self.parameters.method == ProxyMethod::SurfaceFit, state);
     self.toWorkspace(state);
-    self.letGo(state);
+    self.letGo(state, stiffness);
     settles = self.settle(state, stiffness, dt);
   }
   else
   {
     self.gradientSteps.step(*self.scene, self.parameters, self.scene->toLattice(hip), dt, state);
     self.toWorkspace(state);
-    self.letGo(state);
+    self.letGo(state, stiffness);
   }
   state.force = self.forceOf(state, stiffness, dt);
   // One after the other, lest two make it twice the rate.

@@ -374,8 +374,9 @@ Status ServoLoop::start(
   HapticPort& port, const HapticParameters& parameters, const ServoSettings& settings, std::string* message)
 {
   const HandLimits limits = port.limits();
-  const Status status = running() || !valid(settings) ? Status::InvalidParameter
-                                                      : checkSpring(limits, parameters, settings.rateHz);
+  const bool mayStart = !running() && valid(settings) && limits.maximumForce > 0.0;
+  const Status status =
+    mayStart ? checkSpring(limits, within(limits, parameters), settings.rateHz) : Status::InvalidParameter;
   if (explained(status, limits, parameters.contact, settings.rateHz, message) != Status::Ok)
   {
     return status;
@@ -459,7 +460,7 @@ Status ServoLoop::setParameters(const HapticParameters& parameters, std::string*
 {
   Implementation& self = *implementation_;
   self.heartbeat();
-  const Status status = checkSpring(self.limits, parameters, self.settings.rateHz);
+  const Status status = checkSpring(self.limits, within(self.limits, parameters), self.settings.rateHz);
   if (status == Status::Ok)
   {
     self.writeParameters(within(self.limits, parameters));

@@ -281,9 +281,10 @@ private:
         }
       }
     }
+    const float most = settings_.mostRadius > 0.0 ? float(settings_.mostRadius) : INFINITY;
     for (const auto& [slot, radius] : raised)
     {
-      sheets_[slot].radius = std::max(sheets_[slot].radius, radius);
+      sheets_[slot].radius = std::max(sheets_[slot].radius, std::min(most, radius));
     }
   }
 

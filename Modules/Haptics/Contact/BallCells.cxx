@@ -1,7 +1,5 @@
 #include "Haptics/Contact/BallCells.h"
 
-#include "Core/Base/Boxes.h"
-
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -23,11 +21,6 @@ constexpr double kFarAway = 1e100;
 /// Part of its radius by which a way may lead towards a touched point that it goes past: rounding.
 constexpr double kTangential = 1e-6;
 
-}
-
-void BallCells::carryOver(const CellPyramid& pyramid, const Bounds& same) noexcept
-{
-  pyramid_ = containsBall(same, center_, reach_ + ball_) ? &pyramid : nullptr;
 }
 
 /// The way that is gathered for where @p way is asked for.

@@ -26,9 +26,6 @@ public:
 
   /// Everything gathered is dropped. Must be called before a pyramid at an address used before.
   void invalidate() noexcept { pyramid_ = nullptr; }
-  /// What is used next is @p pyramid, which is the same as the last one in @p same: what was gathered there
-  /// stays.
-  void carryOver(const CellPyramid& pyramid, const Bounds& same) noexcept;
 
   /// Makes sure that all points nearer to @p center than their radius and @p way are here: a ball can go so
   /// far from there. Where there are more than kCapacity, one point of each finest voxel, or means of coarser

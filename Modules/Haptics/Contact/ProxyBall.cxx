@@ -165,8 +165,7 @@ void ProxyBall::placeAmongOthers(Work& work) noexcept
   const Vec3 up = normalized(center_ - hip_, Vec3());
   const Vec3 contact = center_ - radius_ * up;
   gather(work, radius_);
-  Vec3 point;
-  double wanted = radius_;
+  double wanted = radius_ / scale_;
   work.cells.visitTouched(
     contact, 1.0, [&](const Vec3&, double radius) { wanted = std::max(wanted, radius); });
   // A larger ball stands above the contact point; a smaller one goes down by itself.
@@ -178,6 +177,7 @@ void ProxyBall::placeAmongOthers(Work& work) noexcept
   {
     center_ = above;
     scale_ = std::max(kSmallestScale, std::min(scale_, work.cells.roomAt(center_)));
+    radius_ = scale_ * wanted;
   }
 }
 
@@ -187,7 +187,9 @@ void ProxyBall::grow(Work& work) noexcept
   if (scale_ < 1.0 && isFree_)
   {
     gather(work, 0.0);
+    const double before = scale_;
     scale_ = std::max(scale_, work.cells.roomAt(center_));
+    radius_ *= scale_ / before;
   }
 }
 
@@ -323,7 +325,7 @@ void ProxyBall::walk(Work& work, const Vec3& hip) noexcept
       hasSlid_ = true;
       slide(work, hip_);
     }
-  } while (walked < length && work.rounds > 0);
+  } while (walked < length && --work.rounds > 0);
 }
 
 void ProxyBall::step(

@@ -207,8 +207,7 @@ bool ProxyBall::ride(const HapticScene& scene, BallCells& cells, const Vec3& hip
   }
   Work work{ scene, cells, status };
   const ProxyBall before = *this;
-  gather(work, radius_);
-  cells.focus(center_, kFocus * radius_);
+  gather(work, norm(foot - center_) + (kOnFoot - 1.0) * scene.contactField().largest());
   double largest = 0.0;
   cells.visitTouched(foot, kOnFoot,
     [&](const Vec3& offset, double radius)

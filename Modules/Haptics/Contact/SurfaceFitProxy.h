@@ -33,11 +33,12 @@ public:
       fit.invalidate();
       ball.invalidate();
     }
-    /// What is used next is @p scene, which is the same as the last one in @p shared.
+    /// What is used next is @p scene, which has the same cells as the last one in @p shared. The radii of its
+    /// contact points may differ.
     void carryOver(const HapticScene& scene, const Bounds& shared) noexcept
     {
       scene.carryOver(fit, shared);
-      ball.carryOver(scene.contactPyramid(), shared);
+      ball.invalidate();
     }
   };
 
@@ -50,6 +51,8 @@ public:
     tracker_.changeCells();
     search_.giveUp();
   }
+  /// The scene is another part of the same model with the same cells.
+  void changeRadii() noexcept { ball_.changeCells(); }
   void reset() noexcept { *this = SurfaceFitProxy(); }
   /// @pre hip finite. Fills all of the state but force. @param refines false: the ball alone is felt.
   void step(const HapticScene& scene, Memory& memory, const ContactParameters& parameters, const Vec3& hip,

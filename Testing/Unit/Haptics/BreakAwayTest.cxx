@@ -156,6 +156,41 @@ TEST(BreakAway, ALowLimitHoldsForEveryMethodWithDampingAndWhileParametersSettle)
   }
 }
 
+TEST(BreakAway, EndsWithoutAForceWhereTheStiffnessIsLimited)
+{
+  const trial::Scene plane = trial::resampledScene(trial::planePoints(100000, 7));
+  HapticParameters parameters;
+  parameters.contact.deviceDamping = 0.1; // 2 b / T: 200 N/m
+  Proxy proxy(parameters);
+  proxy.setScene(plane.get());
+  trial::Path path = { Vec3(0.001, 0.002, 0.005) };
+  moveTo(path, Vec3(0.001, 0.002, -0.060), 0.1);
+  double last = 0.0;
+  bool isLetGo = false;
+  for (const ProxyState& state : trial::feel(proxy, path))
+  {
+    if ((state.status & kProxyLetGo) != 0u && !isLetGo)
+    {
+      EXPECT_LT(last, 0.05);
+      isLetGo = true;
+    }
+    last = norm(state.force);
+  }
+  EXPECT_TRUE(isLetGo);
+}
+
+TEST(BreakAway, AServoLoopRefusesAPortThatDeclaresNoForce)
+{
+  for (const double declared : { 0.0, -1.0, double(NAN) })
+  {
+    trial::ScriptedPort port;
+    port.bounds.maximumForce = declared;
+    ServoLoop loop;
+    EXPECT_EQ(loop.start(port, HapticParameters(), trial::plainSettings()), Status::InvalidParameter)
+      << declared;
+  }
+}
+
 TEST(BreakAway, AServoLoopKeepsToTheForceThatThePortDeclares)
 {
   for (const double declared : { 0.5, 2.0, 20.0 })
@@ -190,6 +225,7 @@ TEST(BreakAway, ClosedPathsInScatterGiveNoEnergy)
   }
   const trial::Scene fog = trial::resampledScene(points);
   double most = 0.0;
+  int limited = 0;
   for (int run = 0; run < 20; ++run)
   {
     trial::Path path = { 0.02 * random.direction() };
@@ -199,7 +235,14 @@ TEST(BreakAway, ClosedPathsInScatterGiveNoEnergy)
     }
     const trial::Path way = path;
     path.insert(path.end(), way.rbegin(), way.rend());
-    most = std::max(most, energyOf(trial::feel(fog, HapticParameters(), path)));
+    const std::vector<ProxyState> states = trial::feel(fog, HapticParameters(), path);
+    most = std::max(most, energyOf(states));
+    for (const ProxyState& state : states)
+    {
+      limited += (state.status & kProxyEnergyLimit) != 0u;
+    }
   }
+  EXPECT_GT(trial::recorded("limitedTicksInFog", limited), 50)
+    << "the hand touches points, and the limit speaks";
   EXPECT_LT(trial::recorded("energyInFog", most), 0.2e-3);
 }

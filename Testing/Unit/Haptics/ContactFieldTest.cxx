@@ -34,6 +34,7 @@ TEST(ContactField, FindsEveryPointThatABallMayTouch)
   const trial::Scene scene = trial::rawScene(stepPoints());
   const ContactField& field = scene->contactField();
   const auto& cells = field.pyramid().level(0).cells;
+  ASSERT_GT(field.largest(), 2.0 * field.typical()) << "the step is there";
   trial::Random random(13);
   for (int query = 0; query < 300; ++query)
   {

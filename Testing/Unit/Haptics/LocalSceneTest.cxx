@@ -127,20 +127,12 @@ TEST(LocalScene, SharesWhatWasGatheredWhereItOverlapsTheLastOne)
   EXPECT_TRUE(a->sharedWith(*cloud.whole).empty());
   Cloud other(waves(kDense));
   EXPECT_TRUE(other.builder.build(handAt({}), other.whole)->sharedWith(*a).empty()) << "another cloud";
-  BallCells ball;
   FitCells fit;
   Vec3 gradient;
-  ASSERT_TRUE(ball.gather(a->contactField(), hand, 2e-4, 2e-4));
   a->fitScale(hand, fit, gradient);
-  ball.carryOver(b->pyramid(), shared);
   b->carryOver(fit, shared);
-  ASSERT_TRUE(ball.gather(b->contactField(), hand, 2e-4, 2e-4));
-  EXPECT_EQ(ball.passes(), 1) << "what was gathered serves the next scene";
   const double radius = b->fitRadius(hand);
   EXPECT_NEAR(b->fitScale(hand, fit, gradient).radius, radius, 1e-12 * radius);
-  ball.carryOver(a->pyramid(), handAt(hand));
-  ASSERT_TRUE(ball.gather(a->contactField(), hand, 2e-4, 2e-4));
-  EXPECT_EQ(ball.passes(), 2) << "it lay beyond what the two share";
 }
 
 TEST(LocalScene, CoversWhatIsWithinReachOfTheHandAndItsContact)
