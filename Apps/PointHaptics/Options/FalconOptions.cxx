@@ -1,5 +1,6 @@
 #include "Options/FalconOptions.h"
 
+#include "Options/Files.h"
 #include "Options/OptionParsing.h"
 #include "Terminal/StopSignals.h"
 
@@ -18,10 +19,8 @@ constexpr double kLargestForce = 8.0;
 
 void FalconOptions::addTo(CLI::App& command)
 {
-  command
-    .add_option("--falcon-firmware", this->firmware,
-      std::string("Firmware of the Falcon, from Novint's own driver; default: what ") +
-        "POINTHAPTICS_FALCON_FIRMWARE names")
+  addInput(command, "--falcon-firmware", this->firmware,
+    "Firmware of the Falcon, from Novint's own driver; default: what POINTHAPTICS_FALCON_FIRMWARE names")
     ->type_name("FILE");
   addNumber(command, "--max-force", this->maximumForce, { 0.0, kLargestForce }, "N",
     "Largest force of the Falcon; default 4");

@@ -65,6 +65,9 @@ void allowManyFiles(std::size_t count)
   }
 }
 
+/// Links that are followed by hand: as many as the system follows.
+constexpr int kMostLinks = 40;
+
 } // namespace
 
 CLI::Option* addInput(
@@ -195,7 +198,13 @@ Files::Identity::Identity(const std::string& name, int standardStream)
   device = status.st_dev;
   number = status.st_ino;
   std::error_code error;
-  place = exists || isStandard ? name : fs::weakly_canonical(fs::absolute(name, error), error).string();
+  fs::path target = fs::absolute(name, error);
+  // A link to nothing is written through: two of them may name one file.
+  for (int link = 0; !exists && link < kMostLinks && fs::is_symlink(target, error); ++link)
+  {
+    target = target.parent_path() / fs::read_symlink(target, error);
+  }
+  place = exists || isStandard ? name : fs::weakly_canonical(target, error).string();
 }
 
 bool Files::Identity::operator==(const Identity& other) const
