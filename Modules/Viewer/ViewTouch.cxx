@@ -93,9 +93,11 @@ bool TraceFile::open(const std::string& fileName, std::string& message)
   std::string header;
   for (const char* column : kFeltColumns)
   {
+    // The time of a tick stays the last one.
+    header += column == kFeltColumns.back() ? ",status" : "";
     header += (header.empty() ? "" : ",") + std::string(column);
   }
-  isOpen_ = writer_.open(fileName, header + ",status", message);
+  isOpen_ = writer_.open(fileName, header, message);
   return isOpen_;
 }
 
@@ -105,8 +107,9 @@ void TraceFile::add(const std::vector<ServoSample>& samples)
   {
     const auto felt = feltRow(sample.timeSeconds, sample.state, 1e6 * sample.updateSeconds);
     std::array<double, kFeltColumns.size() + 1> row;
-    std::copy(felt.begin(), felt.end(), row.begin());
-    row.back() = double(sample.state.status);
+    std::copy(felt.begin(), felt.end() - 1, row.begin());
+    row[felt.size() - 1] = double(sample.state.status);
+    row.back() = felt.back();
     writer_.row(row.data(), row.size());
   }
 }
