@@ -250,7 +250,7 @@ TEST_F(EmulatedMachine, TheWindowFeelsWithTheFalconAndLetsGoInOrder)
     }))
     << output();
   kill(child, SIGTERM);
-  EXPECT_EQ(finish(child), 0) << output();
+  EXPECT_EQ(finish(child), 128 + SIGTERM) << output();
   falcon.with(
     [](FalconModel& model)
     {
@@ -369,7 +369,7 @@ TEST_F(EmulatedMachine, TheWindowOpensWithoutTheFirmwareOnASimulatedHand)
     eventually([&] { return output().find("the simulated hand takes its place") != std::string::npos; }))
     << output();
   kill(child, SIGTERM);
-  EXPECT_EQ(finish(child), 0) << output();
+  EXPECT_EQ(finish(child), 128 + SIGTERM) << output();
   EXPECT_NE(output().find("--falcon-firmware"), std::string::npos) << output();
   EXPECT_NE(output().find("trace: "), std::string::npos) << "the window was there\n" << output();
 }
