@@ -43,7 +43,7 @@ class Server(TestCase):
     def test_the_reader_gives_the_program_its_cloud(self):
         for path in (shared_data("office1.pcd"), shared_data("formats/autzen_trim.laz")):
             with self.subTest(path):
-                run_program("convert", path, self.path("program.vtp"))
+                run_program("convert", path, "-o", self.path("program.vtp"))
                 self.assert_same_bits(servermanager.Fetch(read(path)), read_vtp(self.path("program.vtp")))
 
     def test_blocks_on_many_ranks_are_an_error_and_no_hang(self):
