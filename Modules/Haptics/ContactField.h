@@ -32,7 +32,7 @@ public:
   bool isSparseNear(const Bounds& box) const;
 
   const CellPyramid& pyramid() const { return *pyramid_; }
-  /// Of each cell of @p level; above level 0 the largest of the cells that were merged.
+  /// Radius of each cell of @p level; above level 0 the largest of the cells that were merged.
   const std::vector<float>& radii(int level) const { return cells_[std::size_t(level)]; }
   double largest() const { return largest_; }
   double typical() const { return typical_; }

@@ -169,7 +169,7 @@ public:
   /// voxels asked for, points half way between them (SurfaceMidpoints.h), lest a ball that is small enough
   /// for the shape fall between them. The midpoints are no data: no fit takes them.
   const CellPyramid& contactPyramid() const { return cloud_->contact ? *cloud_->contact : cloud_->pyramid; }
-  /// The same points with the radii of the ball that they keep away.
+  /// The points of contactPyramid() with the radii by which they keep the ball away.
   const ContactField& contactField() const { return cloud_->field; }
   /// Edge of their finest index cell, metres.
   double contactCell() const { return contactPyramid().level(0).voxelSize; }

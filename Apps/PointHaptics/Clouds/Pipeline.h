@@ -71,7 +71,7 @@ struct WriteOptions
 /// @p written gets the number of points in the file.
 bool writeCloud(vtkPointSet* points, const std::string& fileName, Files& files, const std::string& command,
   std::string& message, const WriteOptions& options = {}, vtkIdType* written = nullptr);
-/// The same for one that is not among outputs; it appears at once.
+/// Writes a cloud that is not among the outputs of the run; the file appears at once.
 bool writeCloud(vtkPointSet* points, const std::string& fileName, const std::string& command,
   std::string& message, const WriteOptions& options = {});
 

@@ -101,7 +101,7 @@ constexpr const char* kExitStatus =
   "before the first "
   "cloud is read), 143 SIGTERM, 129 SIGHUP, 141 a reader of standard output that ended.\n";
 
-/// Of this program, or of one beside it, which has no window.
+/// The manual page of this program or of one beside it, which has no window.
 std::string manPage(CLI::App& program)
 {
   const std::string& name = program.get_name();

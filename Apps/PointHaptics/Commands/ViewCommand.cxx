@@ -153,7 +153,7 @@ void placeFiles(ViewOptions& options, Files& files)
   }
   viewer.path = files.input(viewer.path);
   viewer.replay = files.input(viewer.replay);
-  // What a session writes appears when it is written: the session may go on for hours.
+  // Outputs of a session appear when they are written: the session may last for hours.
   for (std::string* output : { &viewer.forceChart, &viewer.trace, &viewer.record })
   {
     if (!output->empty() && (!options.needsWindow() || *output == kStandardStream))

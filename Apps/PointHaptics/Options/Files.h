@@ -43,7 +43,7 @@ CLI::Option* addOutput(CLI::App& command, const std::string& name, std::string& 
 /// Adds one more extension to those that an output option takes.
 void allowExtension(CLI::Option& output, const std::string& extension);
 
-/// Of a name, in lower case, without its dot.
+/// The extension of a file name, in lower case, without its dot.
 std::string lowerExtension(const std::string& name);
 /// "reads", "writes EXTENSION..." or "reads and writes EXTENSION..."; empty for an option that names no file.
 std::string fileRole(const CLI::Option& option);

@@ -43,7 +43,7 @@ bool parseNumbers(const std::string& text, std::vector<double>& values);
 
 /// Ends the parse with a usage error `OPTION VALUE: problem`. @p problem says what is wrong and the cure.
 [[noreturn]] void throwUsage(const std::string& option, const std::string& value, const std::string& problem);
-/// The same for a word that is none of @p choices.
+/// Ends in a usage error for a word that is none of @p choices.
 [[noreturn]] void throwNoChoice(
   const std::string& option, const std::string& value, const std::vector<std::string>& choices);
 

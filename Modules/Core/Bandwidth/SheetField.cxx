@@ -43,9 +43,9 @@ constexpr double kMostOfAll = 1.4142135623730951;
 /// Least eigenvalue of the neighbours' moments over the next where they lie in a plane, and that over the
 /// largest where they lie on a line, which has no normal.
 constexpr double kFlat = 0.1;
-/// The same below which the plane of all neighbours is that of the sheet: most points of a smooth surface.
-constexpr double kThin = 0.01;
 constexpr double kLine = 0.02;
+/// Ratio below which all neighbours count alike; without it each point of a smooth surface takes three fits.
+constexpr double kThin = 0.01;
 /// Spacing over the median up to which points are a sheet, and where all neighbours lie in a plane. Without
 /// the second a point in the middle of a ring has a ball as wide as the ring.
 constexpr double kScattered = 4.0;

@@ -13,7 +13,7 @@ namespace pointhaptics
 /// The sheet about one point.
 struct SheetPoint
 {
-  /// Of a ball that does not fall through the sheet about the point; unit of the coordinates.
+  /// Radius of a ball that does not fall through the sheet here; unit of the coordinates.
   float radius = 0.0F;
   /// Spacing of the neighbours on the sheet, as if they lay in a square grid; 0: the point is on no sheet.
   float spacing = 0.0F;

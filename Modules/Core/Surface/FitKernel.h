@@ -179,7 +179,7 @@ struct FitKernels
   /// Indices of the points nearer to @p p than sqrt(@p radius2), ascending; at most @p most of them. @return
   /// how many.
   int (*pointsWithin)(const BallPoints& points, const Vec3& p, double radius2, int* indices, int most);
-  /// The same for the points nearer than @p scale times their radius and @p extra.
+  /// As pointsWithin(), for the points nearer than @p scale times their radius and @p extra.
   int (*ballsWithin)(
     const BallPoints& points, const Vec3& p, double scale, double extra, int* indices, int most);
   /// How far a place can go from @p from along the unit vector @p direction, at most @p length, before it is

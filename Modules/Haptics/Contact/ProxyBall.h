@@ -66,9 +66,9 @@ public:
   /// Whether points were in its way in the last step; if not, it went straight with the HIP.
   bool hasSlid() const noexcept { return hasSlid_; }
   const Vec3& center() const noexcept { return center_; }
-  /// Of the point that it touches, by the scale.
+  /// Radius of the point that the ball touches, times the scale; metres.
   double radius() const noexcept { return radius_; }
-  /// Of all radii: below 1 the ball began without room.
+  /// Factor on all radii: below 1 where the ball began without room.
   double scale() const noexcept { return scale_; }
   /// The ball's point nearest to @p hip. @pre not free
   Vec3 nearestPoint(const Vec3& hip) const noexcept

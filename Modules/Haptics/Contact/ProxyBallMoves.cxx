@@ -13,6 +13,9 @@ constexpr double kFlatCosine = 0.5;
 /// Radius of the ball that glides, shortest pull along the surface, longest way and least gain of a glide;
 /// all over the radius.
 constexpr double kGlideRadius = 0.9;
+constexpr double kLeastLean = 0.02;
+constexpr double kLongestGlide = 0.5;
+constexpr double kLeastGain = 1e-3;
 /// On a flat place, so many radii around where that was seen, a ball that leans less waits.
 constexpr double kWaitNear = 0.3;
 constexpr double kWaitLean = 0.2;
@@ -25,12 +28,9 @@ constexpr double kLifts[kMostLifts] = { 0.0, 0.3, 0.6 };
 /// edge the HIP may be along the face that the ball comes from.
 constexpr double kMostBeside = 2.0;
 constexpr double kAround = 0.1;
+constexpr double kBeforeEdge = 0.02;
 /// How near to a foot a ball lies on it.
 constexpr double kOnFoot = 1.3;
-constexpr double kBeforeEdge = 0.02;
-constexpr double kLeastLean = 0.02;
-constexpr double kLongestGlide = 0.5;
-constexpr double kLeastGain = 1e-3;
 /// Points higher than this above the surface are of a wall; how far a glide may lift the ball.
 constexpr double kWallHeight = 0.2;
 constexpr double kLargestRise = 0.1;

@@ -34,7 +34,7 @@ struct LoopFigures
 /// @param force of the contact at a position of the hand, called once a tick.
 LoopFigures runLoop(
   const LoopHand& hand, const TouchPlace& place, const std::function<Vec3(const Vec3&)>& force);
-/// The same on the plane through @p place.
+/// Runs the hand on the ideal plane through @p place.
 LoopFigures runOnPlane(const LoopHand& hand, const TouchPlace& place);
 
 } // namespace pointhaptics::bench::touch::hard

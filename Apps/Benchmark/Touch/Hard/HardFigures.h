@@ -1,6 +1,6 @@
 /// @file
-/// What a hand feels on a hard scene beside the truth: is it let go, does it get energy, does it fall
-/// through?
+/// Figures of a hand on a hard scene beside the truth: they say whether it is let go, gets energy or falls
+/// through.
 #pragma once
 
 #include "Benchmark/Touch/Hard/HardScenes.h"

@@ -84,7 +84,7 @@ public:
   enum class Facets
   {
     OfClosedMesh,
-    /// Of flat parts with both windings, which are met from either side: a start behind a facet, however
+    /// Each facet is there with both windings and is met from either side: a start behind a facet, however
     /// near, is in front of its twin.
     OfOpenMesh
   };
