@@ -162,6 +162,20 @@ TEST_F(Outputs, AreNeverEachOther)
   EXPECT_GE(pairs, 4);
 }
 
+TEST_F(Outputs, AreNeverEachOtherThroughLinksToNothing)
+{
+  this->write("in.csv", "x,y,z\n0,0,0\n1,1,1\n");
+  fs::create_symlink("new.csv", this->path("first.csv"));
+  fs::create_symlink("first.csv", this->path("second.csv"));
+  for (const char* link : { "first.csv", "second.csv" })
+  {
+    const Outcome outcome =
+      this->run({ "resample", "in.csv", "--unit", "m", "-o", "new.csv", "--voxel-index", link });
+    EXPECT_EQ(outcome.exitCode, 2) << link << outcome.errors;
+    EXPECT_FALSE(this->exists("new.csv")) << link;
+  }
+}
+
 TEST_F(Outputs, AreRefusedWhereTheyMayNotBeReplaced)
 {
   const std::vector<FileOption> all = this->options();
