@@ -4,6 +4,8 @@
 
 #include <array>
 #include <cmath>
+#include <numeric>
+#include <tuple>
 
 namespace pointhaptics
 {
@@ -13,18 +15,29 @@ namespace
 /// Radius over the index cell from which on points are sparser than cells: 1.5 cells apart. Less: bends of
 /// dense surfaces count.
 constexpr double kSparseInCells = 3.6;
-/// Cells before one that may be at the same place: more in a voxel are rare, and cost only time.
-constexpr std::size_t kLookedAt = 16;
 /// For each cell of level 0 the index of the first one at the same place.
-std::vector<std::uint32_t> firstAtPlace(const std::vector<Cell>& cells)
+std::vector<std::uint32_t> firstAtPlace(const CellPyramid& pyramid)
 {
-  std::vector<std::uint32_t> first(cells.size());
-  for (std::size_t i = 0; i < cells.size(); ++i)
+  const CellPyramid::Level& level = pyramid.level(0);
+  const auto isBefore = [&](std::uint32_t a, std::uint32_t b)
   {
-    first[i] = std::uint32_t(i);
-    for (std::size_t j = i; j-- > 0 && i - j <= kLookedAt && first[i] == i;)
+    const Vec3& p = level.cells[a].mean;
+    const Vec3& q = level.cells[b].mean;
+    return std::tie(p.x, p.y, p.z, a) < std::tie(q.x, q.y, q.z, b);
+  };
+  std::vector<std::uint32_t> sorted(level.cells.size());
+  std::iota(sorted.begin(), sorted.end(), 0U);
+  std::vector<std::uint32_t> first = sorted;
+  // The points of a place are in one voxel.
+  for (std::size_t slot = 0; slot + 1 < level.slotBegin.size(); ++slot)
+  {
+    const std::uint32_t begin = level.slotBegin[slot];
+    const std::uint32_t end = level.slotBegin[slot + 1];
+    std::sort(sorted.begin() + begin, sorted.begin() + end, isBefore);
+    for (std::uint32_t i = begin + 1; i < end; ++i)
     {
-      first[i] = cells[j].mean == cells[i].mean ? first[j] : first[i];
+      const std::uint32_t before = sorted[i - 1];
+      first[sorted[i]] = level.cells[sorted[i]].mean == level.cells[before].mean ? first[before] : sorted[i];
     }
   }
   return first;
@@ -38,7 +51,7 @@ void ContactField::build(const CellPyramid& pyramid, const SheetFieldSettings& s
   constexpr std::uint32_t kNoPlace = ~std::uint32_t(0);
   pyramid_ = &pyramid;
   const std::vector<Cell>& cells = pyramid.level(0).cells;
-  const std::vector<std::uint32_t> first = firstAtPlace(cells);
+  const std::vector<std::uint32_t> first = firstAtPlace(pyramid);
   std::vector<Vec3> places;
   std::vector<std::uint32_t> placeOf(cells.size());
   for (std::size_t i = 0; i < cells.size(); ++i)

@@ -22,6 +22,10 @@ constexpr double kFarFromCloud = 10e-3;
 /// Way of a hand in a tick from which on it did no work, metres: it was put there. Without it the contact
 /// that the ball finds some ticks later has no force.
 constexpr double kLeap = 5e-3;
+/// Height of a contact over the plane of the sheet that the hand came through, over its distance along that,
+/// up to which it is a contact with the same sheet. With less a wave is met from behind; with more the far
+/// side of a thick part is not met.
+constexpr double kSameSheet = 0.5;
 }
 
 struct Proxy::Implementation
@@ -52,6 +56,10 @@ struct Proxy::Implementation
   ContactEnergy energy;
   bool isModelMoved = false; ///< The model, its cloud or the parameters did work that still settles.
   bool isLetGo = false;      ///< The hand went away from its contact, and has touched nothing since.
+  /// The hand was let go behind a sheet that it touched here, from the side of this normal; workspace frame.
+  bool isBehind = false;
+  Vec3 behindPlace;
+  Vec3 behindNormal;
 
   explicit Implementation(InstructionSet wanted)
     : memory(wanted)
@@ -86,6 +94,7 @@ struct Proxy::Implementation
       surfaceFit.changeCells();
       gradientSteps.changeCells();
     }
+    isBehind = isBehind && newScene && newScene->modelToWorkspace() == lastPlace;
     lastCloud = newScene ? newScene->cloudNumber() : 0;
     lastGlobalCloud = newScene ? newScene->globalCloudNumber() : 0;
     lastPlace = newScene ? newScene->modelToWorkspace() : AffineTransform();
@@ -136,6 +145,7 @@ struct Proxy::Implementation
   {
     hasLastHip = false;
     isLetGo = false;
+    isBehind = false;
     isModelMoved = false;
     releaseContact();
     last = ProxyState();
@@ -246,6 +256,32 @@ struct Proxy::Implementation
     return wasSettling || settler.settling();
   }
 
+  /// No contact, and none to come back to.
+  void endContact(ProxyState& state) noexcept
+  {
+    surfaceFit.reset();
+    gradientSteps.reset();
+    state.contact = false;
+    state.proxy = state.sphereCenter = state.hip;
+  }
+
+  /// A sheet that the hand was let go behind is met again from the side it was touched on, and from no other.
+  void keepSide(ProxyState& state) noexcept
+  {
+    if (!isBehind || !state.contact)
+    {
+      return;
+    }
+    const Vec3 from = state.proxy - behindPlace;
+    const double height = dot(from, behindNormal);
+    const bool isSame = std::abs(height) < state.radius + kSameSheet * norm(from - height * behindNormal);
+    isBehind = isSame && dot(state.normal, behindNormal) < 0.0;
+    if (isBehind)
+    {
+      endContact(state);
+    }
+  }
+
   /// Ends a contact that the hand has gone away from. A local scene has the points near the contact only.
   void letGo(ProxyState& state, double stiffness) noexcept
   {
@@ -254,12 +290,12 @@ struct Proxy::Implementation
     if (state.contact && norm(state.proxy - state.hip) >= end &&
       !whole.hasPointsWithin(whole.toLattice(state.hip), kFarFromCloud / whole.latticeScale()))
     {
-      surfaceFit.reset();
-      gradientSteps.reset();
-      state.contact = false;
-      state.proxy = state.sphereCenter = state.hip;
-      isLetGo = true;
+      isBehind = isLetGo = true;
+      behindPlace = state.proxy;
+      behindNormal = state.normal;
+      endContact(state);
     }
+    keepSide(state);
     isLetGo = isLetGo && !state.contact;
     state.status |= std::uint32_t(isLetGo ? kProxyLetGo : kProxyOk);
   }

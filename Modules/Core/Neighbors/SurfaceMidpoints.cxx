@@ -85,14 +85,10 @@ public:
     query_.build(points, executor);
     fans_.resize(std::size_t(query_.size()));
     this->sweep(executor, [this](const NeighborList& list) { this->measure(list); });
-    this->sweep(executor, [this](const NeighborList& list) { this->makeFan(list); });
-  }
-
-  /// Whether the points lie at random: such have gaps which triangles of their edges do not close.
-  bool areAtRandom() const
-  {
-    const auto twins = std::count_if(fans_.begin(), fans_.end(), [](const Fan& fan) { return fan.hasTwin; });
-    return double(twins) > kTwinsAtRandom * double(fans_.size());
+    if (!this->areAtRandom())
+    {
+      this->sweep(executor, [this](const NeighborList& list) { this->makeFan(list); });
+    }
   }
 
   std::vector<Vec3> midpoints() const
@@ -113,6 +109,13 @@ public:
   }
 
 private:
+  /// Whether the points lie at random: such have gaps which triangles of their edges do not close.
+  bool areAtRandom() const
+  {
+    const auto twins = std::count_if(fans_.begin(), fans_.end(), [](const Fan& fan) { return fan.hasTwin; });
+    return double(twins) > kTwinsAtRandom * double(fans_.size());
+  }
+
   /// Calls visit(neighbours) once for each point.
   template <typename Visitor>
   void sweep(const Executor& executor, Visitor visit)
@@ -275,8 +278,7 @@ private:
 
 std::vector<Vec3> surfaceMidpoints(const PointView& points, double sparse, const Executor& executor)
 {
-  const Triangulation triangulation(points, sparse, executor);
-  return triangulation.areAtRandom() ? std::vector<Vec3>() : triangulation.midpoints();
+  return Triangulation(points, sparse, executor).midpoints();
 }
 
 } // namespace pointhaptics

@@ -47,6 +47,9 @@ constexpr double kDisagreement = 1.0;
 /// Part of the points within reach that other sheets may have where cubic terms are weighed: they would bend
 /// to what of those comes through the gate.
 constexpr double kOtherSheets = 0.01;
+/// Part of the points within reach beyond the gate from which on they are scattered, and no radius is better
+/// than another: half are where there are two sheets. Without it each fit in a fog takes thousands of cells.
+constexpr double kScattered = 0.55;
 /// Parts of the neighbours that prefer cubic terms at which these begin to count and count in full.
 constexpr double kCubicVotesFrom = 0.3;
 constexpr double kCubicVotesTo = 0.75;
@@ -142,6 +145,10 @@ public:
       const bool usable = here.quality == FitQuality::Quadric;
       // With so many terms the first radius may be too short.
       if (!usable && !(cubic && size == 0))
+      {
+        break;
+      }
+      if (usable && error.leftOut > kScattered)
       {
         break;
       }

@@ -106,14 +106,39 @@ TEST(BreakAway, NoHandIsHeldWhateverTheMethod)
     EXPECT_FALSE(rest.back().contact);
     EXPECT_EQ(rest.back().force, Vec3());
     EXPECT_NE(rest.back().status & kProxyLetGo, 0u) << "it is said";
-    // A new contact ends what is said.
-    trial::Path back = { path.back() };
-    moveTo(back, Vec3(0.001, 0.002, 0.040), 0.1);
+    // The way out is free. A new contact from the side it was touched on ends what is said.
+    trial::Path out = { path.back() };
+    moveTo(out, Vec3(0.004, 0.002, 0.040), 0.1);
+    for (const ProxyState& state : trial::feel(proxy, out))
+    {
+      ASSERT_LT(norm(state.force), 0.05) << state.hip.z;
+    }
+    trial::Path back = { out.back() };
     moveTo(back, Vec3(0.001, 0.002, -0.002), 0.1);
     const ProxyState again = trial::feel(proxy, back).back();
     EXPECT_TRUE(again.contact);
+    EXPECT_GT(again.force.z, 1.0);
     EXPECT_EQ(again.status & kProxyLetGo, 0u);
   }
+}
+
+TEST(BreakAway, TheFarSideOfAThickPartIsFeltByAHandThatCameThrough)
+{
+  std::vector<Vec3> points = trial::planePoints(60000, 7);
+  const std::size_t size = points.size();
+  for (std::size_t i = 0; i < size; ++i)
+  {
+    points.push_back(points[i] - Vec3(0, 0, 0.012));
+  }
+  const trial::Scene plate = trial::resampledScene(points);
+  Proxy proxy(withLimit(ProxyMethod::SurfaceFit, 8.0));
+  proxy.setScene(plate.get());
+  trial::Path path = { Vec3(0.001, 0.002, 0.005) };
+  moveTo(path, Vec3(0.001, 0.002, -0.045), 0.1);
+  EXPECT_NE(trial::feel(proxy, path).back().status & kProxyLetGo, 0u);
+  trial::Path back = { path.back() };
+  moveTo(back, Vec3(0.001, 0.002, -0.010), 0.1);
+  EXPECT_LT(trial::feel(proxy, back).back().force.z, -1.0) << "2 mm into it from below";
 }
 
 TEST(BreakAway, AHandThatComesBackFindsAllAsItLeftIt)
