@@ -1,13 +1,17 @@
 #include "FormatWriters.h"
 
 #include "Bytes/NumericType.h"
+#include "Core/Resample/FieldNames.h"
 #include "IO/Info/FieldText.h"
 
 #include "vtkFieldData.h"
 #include "vtkVariant.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstdint>
 
 namespace pointhaptics::io
@@ -137,9 +141,9 @@ std::vector<std::uint32_t> packColors(const OutputArray& colors)
 }
 
 /// Appends the record fields of @p array; each component stands beside the one before.
-void addRecordFields(std::vector<RecordField>& fields, std::size_t& recordSize, const OutputArray& array)
+void addRecordFields(
+  std::vector<RecordField>& fields, std::size_t& recordSize, const OutputArray& array, int type)
 {
-  const int type = writtenType(array);
   for (int component = 0; component < array.components(); ++component)
   {
     fields.push_back({ array.column(component), recordSize, type });
@@ -191,9 +195,10 @@ void writeRecords(const std::vector<RecordField>& fields, std::size_t recordSize
   task.progress(1.0);
 }
 
-void writePly(const std::vector<OutputArray>& given, WriteTask& task)
+void writePly(WriteTask& task)
 {
-  const std::vector<OutputArray> arrays = withoutLongIntegers(given, task.notes);
+  const std::vector<OutputArray> arrays =
+    withoutLongIntegers(outputArrays(task.cloud, task.notes), task.notes);
   const vtkIdType rows = arrays[0].array->GetNumberOfTuples();
   std::string header = "ply\nformat ";
   header += kIsLittleEndianHost ? "binary_little_endian" : "binary_big_endian";
@@ -208,14 +213,94 @@ void writePly(const std::vector<OutputArray>& given, WriteTask& task)
       header += std::string("property ") + plyTypeName(writtenType(array)) + " " +
         plyPropertyName(array, component) + "\n";
     }
-    addRecordFields(fields, recordSize, array);
+    addRecordFields(fields, recordSize, array, writtenType(array));
   }
   task.out.write(header + "end_header\n");
   writeRecords(fields, recordSize, rows, task);
 }
 
-void writePcd(const std::vector<OutputArray>& arrays, vtkFieldData* fieldData, WriteTask& task)
+/// What a PCD file calls an array, and its type there: PCL's point types read coordinates, normals, intensity
+/// and curvature as floats, and label as an unsigned integer.
+struct PcdArray
 {
+  std::string name;
+  int type = VTK_FLOAT;
+
+  PcdArray(const OutputArray& array, const WriteTask& task)
+    : name(array.name == "_" ? "unnamed" : array.name) // which stands for padding
+    , type(writtenType(array))
+  {
+    const bool isScalar = array.role == ArrayRole::Other && array.components() == 1 && !task.keepsDoubles;
+    const bool isFloat = isScalar && (isSameField(name, "Intensity") || isSameField(name, "Curvature"));
+    if (isFloat || isLabel(array, isScalar))
+    {
+      name = isSameField(name, "Intensity") ? "intensity" : isFloat ? "curvature" : "label";
+      type = isFloat ? VTK_FLOAT : VTK_TYPE_UINT32;
+    }
+    else if (array.components() == 1 && sizeOfType(type) == 4 && (name == "rgb" || name == "rgba"))
+    {
+      name += "_2"; // of which readers would make colours
+    }
+    if (array.role == ArrayRole::Points || array.role == ArrayRole::Normals)
+    {
+      type = task.keepsDoubles ? type : VTK_FLOAT;
+    }
+  }
+  bool isLabel(const OutputArray& array, bool isScalar) const
+  {
+    double range[2] = { 0.0, 0.0 };
+    if (isScalar && isSameField(name, "Label") && !isFloatingType(type))
+    {
+      array.array->GetRange(range, 0);
+    }
+    return isScalar && isSameField(name, "Label") && !isFloatingType(type) && range[0] >= 0.0 &&
+      range[1] <= 4294967295.0;
+  }
+};
+
+/// The largest difference of a value of @p array from what is stored as a float; NaN and infinity aside.
+double floatError(const OutputArray& array)
+{
+  double worst = 0.0;
+  withType(array.type(),
+    [&](auto zero)
+    {
+      using T = decltype(zero);
+      const T* values = static_cast<const T*>(array.array->GetVoidPointer(0));
+      for (vtkIdType i = 0; i < array.array->GetNumberOfValues(); ++i)
+      {
+        const double value = static_cast<double>(values[i]);
+        const double error = std::abs(static_cast<double>(static_cast<float>(value)) - value);
+        worst = error > worst ? error : worst;
+      }
+    });
+  return worst;
+}
+
+void notePcdArray(const OutputArray& array, const PcdArray& written, WriteTask& task)
+{
+  if (array.role == ArrayRole::Other && written.name != array.name)
+  {
+    task.notes.add("array " + array.name + " is called " + written.name);
+  }
+  const bool mayRound = written.type == VTK_FLOAT && fixedSizeType(array.type()) != VTK_FLOAT;
+  const double error = mayRound && array.role != ArrayRole::Normals ? floatError(array) : 0.0;
+  if (error > 0.0 && array.role == ArrayRole::Points)
+  {
+    task.notes.add(
+      fmt::format("coordinates are rounded to floats, by at most {:.3g}, as PCL's point types read no "
+                  "others; --double keeps every digit, --translate of resample takes a large offset away",
+        error));
+  }
+  else if (error > 0.0)
+  {
+    task.notes.add(fmt::format("array {} is rounded to floats, by at most {:.3g}", array.name, error));
+  }
+}
+
+void writePcd(WriteTask& task)
+{
+  const std::vector<OutputArray> arrays = outputArrays(task.cloud, task.notes);
   const vtkIdType rows = arrays[0].array->GetNumberOfTuples();
   PcdFieldLines lines;
   std::vector<RecordField> fields;
@@ -223,7 +308,6 @@ void writePcd(const std::vector<OutputArray>& arrays, vtkFieldData* fieldData, W
   std::size_t recordSize = 0;
   for (const OutputArray& array : arrays)
   {
-    const int type = writtenType(array);
     if (array.role == ArrayRole::Colors)
     {
       packed = packColors(array);
@@ -234,19 +318,21 @@ void writePcd(const std::vector<OutputArray>& arrays, vtkFieldData* fieldData, W
       recordSize += 4;
       continue;
     }
+    const PcdArray written(array, task);
+    notePcdArray(array, written, task);
     if (array.role == ArrayRole::Other)
     {
-      lines.add(array.name, sizeOfType(type), pcdTypeLetter(type), array.components());
+      lines.add(written.name, sizeOfType(written.type), pcdTypeLetter(written.type), array.components());
     }
     for (int axis = 0; axis < 3 && array.role != ArrayRole::Other; ++axis)
     {
       const char* prefix = array.role == ArrayRole::Normals ? "normal_" : "";
-      lines.add(std::string(prefix) + "xyz"[axis], sizeOfType(type), pcdTypeLetter(type), 1);
+      lines.add(std::string(prefix) + "xyz"[axis], sizeOfType(written.type), "F", 1);
     }
-    addRecordFields(fields, recordSize, array);
+    addRecordFields(fields, recordSize, array, written.type);
   }
   task.out.write("# .PCD v0.7 - Point Cloud Data file format\n" + unitLine("# ", task) + "VERSION 0.7\n" +
-    lines.text() + pcdShape(fieldData, rows));
+    lines.text() + pcdShape(task.fieldData(), rows));
   writeRecords(fields, recordSize, rows, task);
 }
 

@@ -43,16 +43,21 @@ struct ReadTask
   std::string_view bytes;
   bool wasPacked = false; ///< the bytes are the unpacked content of a gzip file
   bool isStream = false;  ///< the bytes came through a pipe: nobody can read them again
+  std::string extension;  ///< decides what the content leaves open
   WantedPart wanted;
+  std::vector<std::string>
+    columns;            ///< names for those of text, "-" for one that is left out; empty: none given
+  bool salvage = false; ///< a file that is cut is read as far as it goes
   vtkAlgorithm* algorithm = nullptr;
   /// Reads bytes of the file; empty where all are there. Those that were never read are zero.
   std::function<void(std::size_t offset, std::size_t size)> load;
   /// Where ranks read the file together, and its format can be read in parts: null where it is read whole.
   SharedReading* shared = nullptr;
-  bool isCut = false;             ///< out: the cloud is this rank's part
-  std::size_t bytesElsewhere = 0; ///< out: read of other files, which this one lists
-  bool applyPoses = true;         ///< scans of several positions in one frame
-  bool isCoarse = false;          ///< out: WantedPart::mostPoints left out points
+  bool isCut = false;                              ///< out: the cloud is this rank's part
+  std::size_t bytesElsewhere = 0;                  ///< out: read of other files, which this one lists
+  bool applyPoses = true;                          ///< scans of several positions in one frame
+  bool isCoarse = false;                           ///< out: WantedPart::mostPoints left out points
+  std::uint64_t pointsThere = ~std::uint64_t{ 0 }; ///< out: the cloud has no more, from the first on
   std::string format;             ///< out: "PLY (binary little endian)", as soon as it is known
   std::vector<std::string> notes; ///< out: what the cloud does not have of the file, one line each
 
@@ -69,6 +74,21 @@ struct ReadTask
   {
     isCut = shared != nullptr;
     return shared ? shared->rowsOf(all) : RowRange{ 0, all };
+  }
+  /// What is to be done where the file, as @p what says, ends after @p there of @p all points: it is refused,
+  /// or read as far as it goes, with a note. @return @p there. @throws FileProblem.
+  std::uint64_t endAt(std::uint64_t there, std::uint64_t all, const std::string& what)
+  {
+    if (!salvage || shared || there == 0)
+    {
+      throw FileProblem(vtkErrorCode::PrematureEndOfFileError, what,
+        std::string("the file is cut short or its header is wrong: copy it again") +
+          (there > 0 && !salvage ? ", or read what is there by --salvage" : ""));
+    }
+    notes.push_back(what + ": the " + std::to_string(there) + " points before are read, of " +
+      std::to_string(all) + " that the file promises");
+    pointsThere = there;
+    return there;
   }
   /// The same as a rank that reads it alone: for what cannot be read in parts.
   void takeWhole()

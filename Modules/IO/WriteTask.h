@@ -6,6 +6,7 @@
 #include "IO/Columns/OutputColumns.h"
 #include "Progress.h"
 
+#include "vtkPointSet.h"
 #include "vtkType.h"
 
 #include <string>
@@ -25,12 +26,15 @@ struct WriteTask
   }
 
   OutputStream out;
+  vtkPointSet* cloud = nullptr; ///< with at least one point
   WriterNotes notes;
-  vtkIdType points = 0;  ///< in and out: how many are written
-  std::string unit;      ///< of the coordinates, for headers that can say it; empty: none is known
-  double lasScale = 0.0; ///< step of the coordinates in LAS; 0: the writer chooses
+  vtkIdType points = 0;      ///< in and out: how many are written
+  std::string unit;          ///< of the coordinates, for headers that can say it; empty: none is known
+  double lasScale = 0.0;     ///< step of the coordinates in LAS; 0: the writer chooses
+  bool keepsDoubles = false; ///< types and names of PCD as they are, which PCL's point types may not read
   vtkAlgorithm* algorithm;
 
+  vtkFieldData* fieldData() const { return cloud->GetFieldData(); }
   /// Reports how much of the writing is done, 0..1. @throws StoppedOnRequest when an observer asked to stop:
   /// then the unfinished file goes with this object.
   void progress(double fraction) const { reportProgress(algorithm, fraction); }

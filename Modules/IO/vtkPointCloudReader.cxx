@@ -1,10 +1,12 @@
 #include "vtkPointCloudReader.h"
 
 #include "Bytes/FileBytes.h"
-#include "CloudFormat.h"
-#include "FormatReaders.h"
 #include "IO/Columns/CloudColumns.h"
+#include "IO/Formats/FormatList.h"
+#include "IO/Formats/FormatLooks.h"
 #include "IO/Las/LasHeader.h"
+#include "IO/Raw/RawFormats.h"
+#include "ReadTask.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkFloatArray.h"
@@ -40,33 +42,6 @@ constexpr float kMostCoordinate = 1e30f;
 constexpr std::size_t kCopcStart = 400;
 /// Bytes that show what format a file has.
 constexpr std::size_t kStart = 65536;
-
-void readAs(io::CloudFormat format, io::ReadTask& task, vtkPolyData* cloud)
-{
-  switch (format)
-  {
-    case io::CloudFormat::Ply:
-      return io::readPly(task, cloud);
-    case io::CloudFormat::Pcd:
-      return io::readPcd(task, cloud);
-    case io::CloudFormat::VtkXml:
-      return io::readVtkXml(task, cloud);
-    case io::CloudFormat::VtkLegacy:
-      return io::readVtkLegacy(task, cloud);
-    case io::CloudFormat::Obj:
-      return io::readObj(task, cloud);
-    case io::CloudFormat::Off:
-      return io::readOff(task, cloud);
-    case io::CloudFormat::Stl:
-      return io::readStl(task, cloud);
-    case io::CloudFormat::Las:
-      return io::readLas(task, cloud);
-    case io::CloudFormat::E57:
-      return io::readE57(task, cloud);
-    case io::CloudFormat::Text:
-      return io::readText(task, cloud);
-  }
-}
 
 /// The first coordinate of @p count that is finite and too large for any unit; @p count where none is.
 template <typename T>
@@ -143,9 +118,7 @@ bool canBeCut(const std::string& start, std::size_t size, const std::string& ext
   {
     return false;
   }
-  const io::CloudFormat format = io::identifyFormat(start, size, extension);
-  return format == io::CloudFormat::Ply || format == io::CloudFormat::Pcd || format == io::CloudFormat::Las ||
-    format == io::CloudFormat::Text || format == io::CloudFormat::VtkXml;
+  return !io::isUtf16(start) && io::identifyFormat(start, size, extension).isReadInParts;
 }
 
 /// Takes away the points outside @p box, with their values in all arrays.
@@ -185,6 +158,38 @@ void keepInside(vtkPolyData* cloud, const std::array<double, 6>& box)
   cloud->GetPointData()->ShallowCopy(values);
 }
 
+/// Floats far from the origin lie on a coarse grid: "0.5 in y, 0.0312 in x" where its steps can be seen in
+/// the cloud; else empty.
+std::string coarseFloats(vtkPolyData* cloud)
+{
+  constexpr double kNear = 1000.0;  // its steps are far below a millimetre of the unit
+  constexpr double kVisible = 0.05; // of the spacing of a surface of as many points
+  vtkFloatArray* floats = vtkFloatArray::FastDownCast(cloud->GetPoints()->GetData());
+  if (!floats || floats->GetNumberOfValues() == 0 ||
+    !(std::max({ std::abs(floats->GetValue(0)), std::abs(floats->GetValue(1)),
+        std::abs(floats->GetValue(2)) }) > kNear))
+  {
+    return {};
+  }
+  const double* bounds = cloud->GetBounds();
+  const double longest = std::max({ bounds[1] - bounds[0], bounds[3] - bounds[2], bounds[5] - bounds[4] });
+  const double spacing = longest / std::sqrt(static_cast<double>(cloud->GetNumberOfPoints()));
+  std::ostringstream text;
+  text.precision(3);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const float most =
+      static_cast<float>(std::max(std::abs(bounds[2 * axis]), std::abs(bounds[2 * axis + 1])));
+    const double step = static_cast<double>(most - std::nextafter(most, 0.0f));
+    if (step > kVisible * spacing)
+    {
+      text << (text.tellp() > 0 ? ", " : "") << step << " in "
+           << "xyz"[axis];
+    }
+  }
+  return text.str();
+}
+
 /// Stores the format's name and the notes, also when reading fails.
 struct KeepFindings
 {
@@ -219,6 +224,25 @@ void vtkPointCloudReader::SetExtension(const std::string& extension)
   }
 }
 
+void vtkPointCloudReader::SetColumns(const std::vector<std::string>& names)
+{
+  if (this->Columns != names)
+  {
+    this->Columns = names;
+    this->Modified();
+  }
+}
+
+std::vector<std::string> vtkPointCloudReader::GetExtensions()
+{
+  return io::formatExtensions(false);
+}
+
+std::string vtkPointCloudReader::GetFormatTable()
+{
+  return io::formatTable();
+}
+
 void vtkPointCloudReader::SetRanks(pointhaptics::Ranks* ranks)
 {
   if (this->Ranks != ranks)
@@ -232,6 +256,9 @@ void vtkPointCloudReader::ReadInto(vtkPolyData* cloud)
 {
   io::ReadTask task;
   task.path = this->FileName;
+  task.extension = this->ExtensionOf(task.path);
+  task.columns = this->Columns;
+  task.salvage = this->Salvage;
   task.algorithm = this;
   task.wanted.onlyPositions = this->OnlyPositions;
   task.wanted.resolution = this->Resolution;
@@ -267,7 +294,7 @@ void vtkPointCloudReader::ReadTogether(io::ReadTask& task, vtkPolyData* cloud)
   try
   {
     const std::string start = io::startOfFile(task.path, kStart);
-    if (canBeCut(start, static_cast<std::size_t>(missing ? 0 : bytes), this->ExtensionOf(task.path)))
+    if (canBeCut(start, static_cast<std::size_t>(missing ? 0 : bytes), task.extension))
     {
       task.shared = &shared;
       this->ReadPart(task, cloud);
@@ -300,37 +327,52 @@ void vtkPointCloudReader::ReadPart(io::ReadTask& task, vtkPolyData* cloud)
   io::FileBytes part(task.path);
   task.bytes = part.view();
   task.load = [&](std::size_t offset, std::size_t size) { part.load(offset, size); };
-  const io::CloudFormat format =
-    io::identifyFormat(io::startOfFile(task.path, kStart), part.view().size(), this->ExtensionOf(task.path));
-  task.format = io::nameOf(format);
-  readAs(format, task, cloud);
+  const io::CloudFormat& format =
+    io::identifyFormat(io::startOfFile(task.path, kStart), part.view().size(), task.extension);
+  task.format = format.name;
+  format.read(task, cloud);
   this->NumberOfBytesRead = static_cast<vtkTypeInt64>(part.loaded() + task.bytesElsewhere);
   this->Finish(task, cloud);
 }
 
 void vtkPointCloudReader::ReadWhole(io::ReadTask& task, vtkPolyData* cloud)
 {
-  io::CloudFormat format = io::CloudFormat::Text;
+  const io::CloudFormat* format = nullptr;
   const io::FileBytes bytes(
     task.path, [&](double done) { task.readingProgress(done); },
     [&](std::string_view start, std::size_t size)
     {
-      format = io::identifyFormat(start, size, this->ExtensionOf(task.path));
-      task.format = io::nameOf(format);
+      format = &io::identifyFormat(start, size, task.extension);
+      task.format = format->name;
     });
-  task.bytes = bytes.view();
+  const std::string converted = io::isUtf16(bytes.view()) ? io::utf8Of(bytes.view()) : std::string();
+  task.bytes = converted.empty() ? bytes.view() : std::string_view(converted);
   task.wasPacked = bytes.wasPacked();
   std::error_code ignored;
   task.isStream = !std::filesystem::is_regular_file(task.path, ignored);
-  readAs(format, task, cloud);
+  format->read(task, cloud);
   this->NumberOfBytesRead = static_cast<vtkTypeInt64>(bytes.view().size() + task.bytesElsewhere);
   this->Finish(task, cloud);
 }
 
 /// What is looked at in the cloud of any format.
-void vtkPointCloudReader::Finish(const io::ReadTask& task, vtkPolyData* cloud)
+void vtkPointCloudReader::Finish(io::ReadTask& task, vtkPolyData* cloud)
 {
+  if (task.pointsThere < static_cast<std::uint64_t>(cloud->GetNumberOfPoints()))
+  {
+    keepRows(cloud, 0, static_cast<vtkIdType>(task.pointsThere));
+  }
   checkCoordinates(cloud);
+  if (!task.shared && !task.wanted.onlyPositions)
+  {
+    io::finishSplats(cloud, task.notes);
+  }
+  if (const std::string steps = task.shared ? "" : coarseFloats(cloud); !steps.empty())
+  {
+    task.notes.push_back(
+      "coordinates are floats so far from the origin that they lie on a grid of steps of " + steps +
+      ", and no finer voxel means anything; export them as double, or with an offset taken away");
+  }
   if (task.wanted.hasBox())
   {
     keepInside(cloud, task.wanted.box);
@@ -428,6 +470,7 @@ void vtkPointCloudReader::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "OnlyPositions: " << (this->OnlyPositions ? "On" : "Off") << "\n";
   os << indent << "GenerateVertices: " << (this->GenerateVertices ? "On" : "Off") << "\n";
   os << indent << "Extension: " << this->Extension << "\n";
+  os << indent << "Salvage: " << (this->Salvage ? "On" : "Off") << "\n";
   os << indent << "ApplyPoses: " << this->ApplyPoses << "\n";
   os << indent << "Format: " << this->Format << "\n";
   os << indent << "ErrorMessage: " << this->ErrorMessage << "\n";

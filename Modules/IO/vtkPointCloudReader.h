@@ -1,6 +1,6 @@
 /**
  * @class   vtkPointCloudReader
- * @brief   read raw point clouds: PLY, PCD, VTP, PVTP, VTU, VTK, OBJ, OFF, STL, LAS, LAZ, E57 and text
+ * @brief   read raw point clouds: PLY, PCD, LAS, LAZ, E57, VTK, OBJ, PTX, text and others (GetFormatTable())
  *
  * The format is detected by the file's content; the extension decides only between OBJ and columns of text,
  * and for a binary STL inside a gzip file. Files packed by gzip are read as if they were unpacked (VTP, PVTP
@@ -17,8 +17,10 @@
  * finite coordinate beyond 1e30 is taken for damage. Coordinates are those of the file: nothing is moved,
  * scaled or turned, but for the poses of E57's scans.
  *
- * - PLY: ascii and both binary orders, all scalar types; lists and other elements are skipped. GetNotes()
- *   tells where a file ends within elements that follow the points.
+ * - PLY: ascii and both binary orders, all scalar types, int64, uint64 and bool too; other elements are
+ * skipped. GetNotes() names lists of vertices, which are left out, lines of the header that cannot be
+ * understood, and tells where a file ends within elements that follow the points. Gaussian splats get "RGB"
+ * of their constant harmonics, and those with an opacity below 0.05 are left out with a note.
  * - PCD: ascii, binary and binary_compressed. rgb and rgba are unpacked. The viewpoint is kept, not applied:
  *   field data "Viewpoint" (tx ty tz qw qx qy qz). Organised clouds keep their shape in
  *   "OrganizedDimensions" (width, height).
@@ -26,9 +28,11 @@
  *   Classification, ScanAngle (float, degrees), UserData, PointSourceId, and where the format has them
  *   GpsTime, Color16 (as stored), RGB (8 bit), NearInfrared. ClassificationFlags (1 synthetic, 2 key point,
  *   4 withheld, 8 overlap), ScannerChannel, ScanDirection and EdgeOfFlightLine are there where one point
- *   sets them. Extra bytes become arrays of their names, scaled ones as double; those without a description
- *   become "ExtraBytes". Field data: LasScale, LasOffset, LasGlobalEncoding, CoordinateSystem (well-known
- *   text or "EPSG:26917") and LengthUnit. Waveforms are skipped.
+ *   sets them. Extra bytes become arrays of their names, scaled ones as double, and as floating numbers with
+ * NaN where a value stands for none; those without a description become "ExtraBytes". Field data: LasScale,
+ *   LasOffset, LasGlobalEncoding, CoordinateSystem (well-known text or "EPSG:26917"), LengthUnit ("degree" of
+ * a geographic system), and LasHeader, LasRecords and LasFarRecords (bytes that the writer keeps). Waveforms
+ * are skipped.
  * - LAZ and COPC give the same arrays, in the file's order of points: pointwise compression (versions 1 and
  *   2, point formats 0 to 5) and layered compression (version 3, 6 to 10). Chunks are decoded in parallel, by
  *   as many threads as vtkSMPTools has. More than 100 times the file's size (64 MB at least) is not unpacked.
@@ -53,15 +57,18 @@
  *   dropped. Legacy files with strings or bits are refused.
  * - OFF, NOFF, COFF, CNOFF as text; STL, both kinds: each distinct vertex once, as float, without normals.
  * - OBJ: v x y z [r g b]; vn when there is one per v.
- * - Text (XYZ, TXT, CSV, PTS): separator, header and PTS point count are found by looking; comments start
- *   with # or //; an empty cell reads as NaN; a number may have a comma for its point where that separates
- *   nothing, and stand in quotation marks. A column in which texts outnumber numbers is left out, fewer texts
- *   read as NaN: GetNotes() names them. Coordinates must be numbers; their columns may be called X [mm],
- *   POINT_X, easting and the like, and a unit in brackets becomes the field array LengthUnit; so does
- *   that of the comment "LengthUnit mm" which vtkPointCloudWriter leaves here, in PLY and in PCD. Without a
- * header 4 columns are x y z intensity, 6 are x y z and red green blue (three integers in 0..65535) or
- * normals, 7 are x y z intensity red green blue, and others are called column_4 and so on. Columns of
- * integers become int arrays.
+ * - PTX: all scans, their poses applied (SetApplyPoses), without rays that did not return. Esri ASCII grids:
+ * the middle of each cell with a height. NumPy: arrays of n rows, or of records with names. KITTI and
+ * nuScenes: float32 records, known by size and values. Gaussian splats of 32 bytes (.splat).
+ * - Text (XYZ, TXT, CSV, PTS), also in UTF-16: separator, header, titles and PTS point count are found by
+ * looking; comments start with # // % ! ; or >, and may name the columns; an empty cell reads as NaN; a
+ * number may have a comma for its point where that separates nothing, and stand in quotation marks. A column
+ * in which texts outnumber numbers is left out, fewer texts read as NaN: GetNotes() names them. Coordinates
+ * must be numbers; their columns may be called X [mm], x_m, xcoord, POINT_X, easting and the like, and their
+ * unit becomes the field array LengthUnit; so does that of the comment "LengthUnit mm" which
+ * vtkPointCloudWriter leaves here, in PLY and in PCD. Without a header the values tell (an id that counts the
+ * rows, x y z, colours, normals, labels, an intensity, others are called column_4 and so on), GetNotes() says
+ * what was taken as what, and SetColumns() says otherwise. Columns of integers become int arrays.
  *
  * Faults give an empty output, an error code (vtkErrorCode), a vtkErrorMacro, and GetErrorMessage() with
  * `file: format: what, where, value; cure`. Sizes that a file claims are checked against its length before
@@ -176,6 +183,35 @@ public:
   vtkBooleanMacro(ApplyPoses, bool);
   ///@}
 
+  ///@{
+  /**
+   * Names of the columns of a text, for one whose header says nothing or the wrong thing; "-" leaves a column
+   * out, and so does a name less. Three must be x, y and z. Other formats take no notice. Default: none.
+   */
+  void SetColumns(const std::vector<std::string>& names);
+  const std::vector<std::string>& GetColumns() const { return this->Columns; }
+  ///@}
+
+  ///@{
+  /**
+   * Reads a file whose header promises more than follows as far as it goes, and says in GetNotes() how far:
+   * LAS, LAZ, PLY, PCD (not compressed), PTS and E57. Off: it is refused, with the counts. Default: off.
+   */
+  vtkSetMacro(Salvage, bool);
+  vtkGetMacro(Salvage, bool);
+  vtkBooleanMacro(Salvage, bool);
+  ///@}
+
+  /**
+   * The extensions of all formats that are read, without dots.
+   */
+  static std::vector<std::string> GetExtensions();
+
+  /**
+   * A table of them in Markdown: name, extensions, and the extension that is written.
+   */
+  static std::string GetFormatTable();
+
   /**
    * The processes that read the file together: each gets its part of the points, as many on each, one after
    * the other in the order of the file, with the same arrays. Update() is then collective. PLY, PCD, LAS,
@@ -235,7 +271,7 @@ private:
   void ReadPart(pointhaptics::io::ReadTask& task, vtkPolyData* cloud);
   void ReadWhole(pointhaptics::io::ReadTask& task, vtkPolyData* cloud);
   void ReadTogether(pointhaptics::io::ReadTask& task, vtkPolyData* cloud);
-  void Finish(const pointhaptics::io::ReadTask& task, vtkPolyData* cloud);
+  void Finish(pointhaptics::io::ReadTask& task, vtkPolyData* cloud);
   std::string ExtensionOf(const std::string& path) const;
   void Fail(unsigned long code, const std::string& message);
 
@@ -250,6 +286,8 @@ private:
   std::string ErrorMessage;
   std::string Format;
   std::vector<std::string> Notes;
+  std::vector<std::string> Columns;
+  bool Salvage = false;
   bool ApplyPoses = true;
   bool ValidWithoutPoints = false;
   pointhaptics::Ranks* Ranks = nullptr;

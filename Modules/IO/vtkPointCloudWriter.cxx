@@ -2,10 +2,9 @@
 
 #include "Bytes/FileBytes.h"
 #include "FileProblem.h"
-#include "FormatWriters.h"
+#include "IO/Formats/FormatList.h"
 #include "IO/Info/FieldText.h"
 #include "IO/Las/LasCoordinateSystem.h"
-#include "IO/Vtk/VtpWriter.h"
 #include "WriteTask.h"
 
 #include "vtkFieldData.h"
@@ -26,33 +25,16 @@ vtkStandardNewMacro(vtkPointCloudWriter);
 namespace
 {
 
-struct FileFormat
-{
-  const char* extension;
-  const char* name;
-  const char* keptFieldData; ///< names, separated by spaces, but for LengthUnit
-};
-
-const FileFormat kFormats[] = {
-  { "vtp", "VTP", "" },
-  { "ply", "PLY", "" },
-  { "pcd", "PCD", "Viewpoint OrganizedDimensions" },
-  { "las", "LAS", "LasScale LasOffset LasGlobalEncoding CoordinateSystem" },
-  { "laz", "LAZ", "LasScale LasOffset LasGlobalEncoding CoordinateSystem" },
-  { "csv", "CSV", "" },
-  { "xyz", "text", "" },
-};
-
 /// What a comment or a header of @p format says of the unit of @p cloud. Metres, which clouds without a unit
 /// are taken to be in, are left out of the names that programs look for in a table.
-std::string unitFor(const FileFormat& format, vtkPointSet* cloud)
+std::string unitFor(const io::CloudFormat& format, vtkPointSet* cloud)
 {
   const std::string unit = io::fieldText(cloud->GetFieldData(), "LengthUnit");
   const bool isLeftOut = io::isMetre(unit) && format.name == std::string("CSV");
   return io::isUnitWord(unit) && !isLeftOut ? unit : std::string();
 }
 
-bool keeps(const FileFormat& format, vtkPointSet* cloud, const std::string& fieldName)
+bool keeps(const io::CloudFormat& format, vtkPointSet* cloud, const std::string& fieldName)
 {
   if (fieldName == "LengthUnit")
   {
@@ -60,14 +42,6 @@ bool keeps(const FileFormat& format, vtkPointSet* cloud, const std::string& fiel
     return isLas ? io::lasSaysUnit(cloud->GetFieldData()) : !unitFor(format, cloud).empty();
   }
   return (" " + std::string(format.keptFieldData) + " ").find(" " + fieldName + " ") != std::string::npos;
-}
-
-/// Null where no format has the extension.
-const FileFormat* formatOf(const std::string& extension)
-{
-  const FileFormat* found = std::find_if(std::begin(kFormats), std::end(kFormats),
-    [&](const FileFormat& format) { return extension == format.extension; });
-  return found == std::end(kFormats) ? nullptr : found;
 }
 
 /// Field data that vtkPointCloudReader adds to a cloud; that of filters is no loss.
@@ -90,7 +64,7 @@ bool isIdentityPose(vtkPointSet* cloud, const std::string& name)
   return same;
 }
 
-void noteWhatIsNoColumn(vtkPointSet* cloud, const FileFormat& format, io::WriterNotes& notes)
+void noteWhatIsNoColumn(vtkPointSet* cloud, const io::CloudFormat& format, io::WriterNotes& notes)
 {
   std::string lost;
   for (const std::string name : kOfTheCloud)
@@ -119,12 +93,22 @@ vtkPointCloudWriter::vtkPointCloudWriter() = default;
 
 bool vtkPointCloudWriter::CanWrite(const std::string& fileName)
 {
-  return formatOf(io::lowerExtension(fileName)) != nullptr;
+  return io::writtenFormat(io::lowerExtension(fileName)) != nullptr;
 }
 
 const char* vtkPointCloudWriter::GetExtensions()
 {
-  return ".vtp, .ply, .pcd, .las, .laz, .csv or .xyz";
+  static const std::string list = []
+  {
+    const std::vector<std::string> all = io::formatExtensions(true);
+    std::string text;
+    for (const std::string& each : all)
+    {
+      text += (text.empty() ? "." : &each == &all.back() ? " or ." : ", .") + each;
+    }
+    return text;
+  }();
+  return list.c_str();
 }
 
 vtkPointCloudWriter::~vtkPointCloudWriter()
@@ -180,7 +164,7 @@ void vtkPointCloudWriter::WriteCloud(vtkPointSet* cloud)
 {
   const std::string extension =
     this->Extension.empty() ? io::lowerExtension(this->FileName) : this->Extension;
-  const FileFormat* format = formatOf(extension);
+  const io::CloudFormat* format = io::writtenFormat(extension);
   if (!format)
   {
     throw io::FileProblem(vtkErrorCode::UnrecognizedFileTypeError,
@@ -195,39 +179,15 @@ void vtkPointCloudWriter::WriteCloud(vtkPointSet* cloud)
   io::WriteTask task(this->FileName, this);
   task.points = cloud->GetNumberOfPoints();
   task.lasScale = this->LasScale;
+  task.keepsDoubles = this->KeepDoubles;
   task.progress(0.0);
-  if (this->Format == "VTP")
-  {
-    if (!task.out.isReplacing())
-    {
-      throw io::FileProblem(vtkErrorCode::CannotOpenFileError,
-        "VTP files cannot be written to a pipe or a device",
-        "choose the name of a new file, or .ply, .pcd, .las, .laz, .csv or .xyz");
-    }
-    io::writeVtp(cloud, task);
-  }
-  else
+  task.cloud = cloud;
+  if (this->Format != "VTP") // which keeps all
   {
     noteWhatIsNoColumn(cloud, *format, task.notes);
     task.unit = unitFor(*format, cloud);
-    const std::vector<io::OutputArray> arrays = io::outputArrays(cloud, task.notes);
-    if (this->Format == "PLY")
-    {
-      io::writePly(arrays, task);
-    }
-    else if (this->Format == "PCD")
-    {
-      io::writePcd(arrays, cloud->GetFieldData(), task);
-    }
-    else if (this->Format == "LAS" || this->Format == "LAZ")
-    {
-      io::writeLas(arrays, cloud->GetFieldData(), task, this->Format == "LAZ");
-    }
-    else
-    {
-      io::writeTable(arrays, task, this->Format == "CSV" ? ',' : ' ');
-    }
   }
+  format->write(task);
   task.out.commit();
   this->Notes = task.notes.all;
   this->NumberOfPointsWritten = task.points;
@@ -270,5 +230,6 @@ void vtkPointCloudWriter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << "\n";
   os << indent << "Extension: " << this->Extension << "\n";
   os << indent << "LasScale: " << this->LasScale << "\n";
+  os << indent << "KeepDoubles: " << (this->KeepDoubles ? "On" : "Off") << "\n";
   os << indent << "ErrorMessage: " << this->ErrorMessage << "\n";
 }

@@ -89,6 +89,18 @@ public:
   vtkGetMacro(LasScale, double);
   ///@}
 
+  ///@{
+  /**
+   * Whether .pcd keeps the type and the name of every array, as those of other formats do. Off: coordinates,
+   * normals and intensity are floats, and intensity, curvature and label (an unsigned integer) have these
+   * names, as PCL's point types read no others; GetNotes() says what is rounded, and by how much. Default:
+   * off.
+   */
+  vtkSetMacro(KeepDoubles, bool);
+  vtkGetMacro(KeepDoubles, bool);
+  vtkBooleanMacro(KeepDoubles, bool);
+  ///@}
+
   /**
    * Write the file. Returns 1 when it is complete under its name, else 0.
    */
@@ -139,6 +151,7 @@ private:
   char* FileName = nullptr;
   std::string Extension;
   double LasScale = 0.0;
+  bool KeepDoubles = false;
   std::string ErrorMessage;
   std::string Format;
   std::vector<std::string> Notes;

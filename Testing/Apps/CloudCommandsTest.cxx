@@ -36,10 +36,13 @@ TEST_F(CloudCommands, GenerateWritesTheShapeExactlyInEveryFormat)
     this->succeed({ "bandwidth", name, "-o", "back.csv" });
     const Table back = parseTable(this->read("back.csv"));
     ASSERT_EQ(back.at("x").size(), points.size()) << name;
+    const auto stored = [&](double value) // of PCD, whose readers want floats
+    { return name == "torus.pcd" ? double(float(value)) : value; };
     for (std::size_t i = 0; i < points.size(); ++i)
     {
-      ASSERT_EQ(Vec3(back.at("x")[i], back.at("y")[i], back.at("z")[i]), points[i]) << name;
-      ASSERT_EQ(back.at("Normals_2")[i], normals[i].z) << name;
+      const Vec3 point(stored(points[i].x), stored(points[i].y), stored(points[i].z));
+      ASSERT_EQ(Vec3(back.at("x")[i], back.at("y")[i], back.at("z")[i]), point) << name;
+      ASSERT_EQ(back.at("Normals_2")[i], stored(normals[i].z)) << name;
     }
   }
 }

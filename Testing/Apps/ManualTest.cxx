@@ -12,6 +12,14 @@ class Manual : public pointhaptics::apptest::CommandLine
 {
 };
 
+TEST_F(Manual, FormatsOfTheReadmeAreThoseOfTheProgram)
+{
+  std::ifstream file(POINTHAPTICS_DOCUMENTATION "/../README.md");
+  const std::string readme((std::istreambuf_iterator<char>(file)), {});
+  EXPECT_NE(readme.find(this->succeed({ "manual", "formats" })), std::string::npos)
+    << "put the table of pointhaptics manual formats into the README";
+}
+
 TEST_F(Manual, CheatSheetInTheDocumentationIsTheHelpOfTheWindow)
 {
   std::ifstream file(POINTHAPTICS_DOCUMENTATION "/CheatSheet.md");

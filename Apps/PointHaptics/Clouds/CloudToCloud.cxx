@@ -37,6 +37,7 @@ void CloudToCloudOptions::addTo(CLI::App& command, bool lastIsOutput)
     "Only what lies in this box is read, in coordinates of the file; default: all");
   this->writing.addTo(command);
   addResolution(command, this->reading.resolution);
+  addReading(command, this->reading.columns, this->reading.salvage);
   addInteger(command, "--threads", this->threads, 1, 1024, "Threads to use; default all");
   command.add_flag("--json", this->json, "Print the figures as JSON");
 }

@@ -60,6 +60,8 @@ bool readFile(const std::string& path, const std::string& shown, Cloud& cloud, s
   reader->SetExtension(options.extension);
   reader->SetResolution(options.resolution);
   reader->SetApplyPoses(options.applyPoses);
+  reader->SetColumns(options.columns);
+  reader->SetSalvage(options.salvage);
   if (!options.clip.empty())
   {
     reader->SetBox(options.clip.data());
@@ -103,6 +105,7 @@ bool writeFile(vtkPointSet* points, const std::string& path, const std::string& 
   writer->SetFileName(path.c_str());
   writer->SetExtension(options.format);
   writer->SetLasScale(options.lasScale);
+  writer->SetKeepDoubles(options.keepsDoubles);
   writer->SetInputDataObject(points);
   bool written = false;
   {
@@ -181,6 +184,8 @@ void WriteOptions::addTo(CLI::App& command)
 {
   addWord(command, "--output-format", this->format, writableExtensions(),
     "Format of the output where its name does not tell it");
+  command.add_flag("--double", this->keepsDoubles,
+    "Keep types and names of all arrays in .pcd; default: floats and names that PCL's point types read");
   addNumber(command, "--las-scale", this->lasScale, { 0.0, 1e6, true }, "UNITS",
     "Step of the coordinates in .las and .laz; default: the step of the data, else 0.1 mm");
 }

@@ -42,7 +42,9 @@ struct ReadOptions
   bool applyPoses = true;   ///< Of scans (E57).
   double resolution = 0.0;  ///< How far a cloud optimised one is read, in its units; 0: all of it.
   std::vector<double> clip; ///< Box of what is read, in its coordinates: XMIN, XMAX, YMIN, ...; empty: all.
-  Ranks* ranks = nullptr;   ///< That read it together, each its part of the points; null: this process alone.
+  std::vector<std::string> columns; ///< Names for those of a text; empty: as the file says.
+  bool salvage = false;             ///< A file that is cut is read as far as it goes.
+  Ranks* ranks = nullptr; ///< That read it together, each its part of the points; null: this process alone.
 };
 
 /// Reads @p fileName, a pipe or standard input. False: @p message says
@@ -58,10 +60,11 @@ std::vector<std::string> writableExtensions();
 /// How a cloud is written.
 struct WriteOptions
 {
-  std::string format;    ///< Extension of a name that does not say it; empty: the name's.
-  double lasScale = 0.0; ///< Step of the coordinates of LAS, in their unit; 0: see vtkPointCloudWriter.
+  std::string format;        ///< Extension of a name that does not say it; empty: the name's.
+  bool keepsDoubles = false; ///< Types and names of arrays in PCD.
+  double lasScale = 0.0;     ///< Step of the coordinates of LAS, in their unit; 0: see vtkPointCloudWriter.
 
-  /// Adds --output-format and --las-scale.
+  /// Adds --output-format, --las-scale and --double.
   void addTo(CLI::App& command);
 };
 

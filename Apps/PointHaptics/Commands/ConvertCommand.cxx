@@ -4,6 +4,8 @@
 #include "Options/OptionParsing.h"
 #include "Terminal/Messages.h"
 
+#include "vtkPointCloudReader.h"
+
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -68,9 +70,7 @@ void addConvertCommand(CLI::App& program, int& exitCode)
     program.add_subcommand("convert", "Write point clouds in another format, with all they have");
   auto options = std::make_shared<ConvertOptions>();
   options->clouds.addTo(*command, true);
-  addWord(*command, "--input-format", options->inputFormat,
-    { "ply", "pcd", "las", "laz", "e57", "vtp", "vtu", "vtk", "obj", "off", "stl", "xyz", "txt", "csv",
-      "pts" },
+  addWord(*command, "--input-format", options->inputFormat, vtkPointCloudReader::GetExtensions(),
     "Format of the input where neither its content nor its name tells it, such as obj from xyz");
   command->add_flag("--keep-poses", options->keepPoses,
     "Leave each scan of an E57 file in its scanner's frame; .vtp keeps the poses: ScanPoses");

@@ -380,7 +380,7 @@ int runFeel(const FeelOptions& options, Files& files)
     return fail(kFeelCommand, message);
   }
   Cloud cloud;
-  if (!readCloud(options.file, cloud, message))
+  if (!readCloud(options.file, cloud, message, options.reading))
   {
     return fail(kFeelCommand, message);
   }

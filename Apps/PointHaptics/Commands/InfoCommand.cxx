@@ -27,7 +27,7 @@ constexpr const char* kInfoCommand = "info";
 struct InfoOptions
 {
   std::vector<std::string> files;
-  double resolution = 0.0;
+  ReadOptions reading;
   bool statistics = false;
   bool json = false;
 };
@@ -225,9 +225,7 @@ int runInfo(const InfoOptions& options)
   {
     Cloud cloud;
     std::string message;
-    ReadOptions reading;
-    reading.resolution = options.resolution;
-    const bool hasPoints = readCloud(file, cloud, message, reading);
+    const bool hasPoints = readCloud(file, cloud, message, options.reading);
     if (cloud.isValidWithoutPoints)
     {
       cloud.notes.push_back(withoutFileName(message, file));
@@ -265,7 +263,8 @@ void addInfoCommand(CLI::App& program, int& exitCode)
   CLI::App* command = program.add_subcommand("info", "Say what is in point cloud files");
   auto options = std::make_shared<InfoOptions>();
   addInput(*command, "FILE", options->files, "Point clouds to look at; - is standard input")->required();
-  addResolution(*command, options->resolution);
+  addResolution(*command, options->reading.resolution);
+  addReading(*command, options->reading.columns, options->reading.salvage);
   command->add_flag("--statistics", options->statistics,
     "Also the mean and the standard deviation of each array, and of the coordinates: x, y, z");
   command->add_flag("--json", options->json, "Print all of it as JSON");

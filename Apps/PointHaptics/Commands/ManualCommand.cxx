@@ -1,11 +1,12 @@
-// `pointhaptics manual man|bash|keys`: man page, bash completion and cheat sheet, from the options and
-// bindings themselves. The build calls it.
+// `pointhaptics manual man|bash|keys|formats`: man page, bash completion and cheat sheet, from the options
+// and bindings themselves. The build calls it.
 #include "Commands/Commands.h"
 
 #include "Options/OptionParsing.h"
 
 #include "CommandRegistry.h"
 #include "HapticViewer.h"
+#include "vtkPointCloudReader.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -312,17 +313,20 @@ void addManPage(CLI::App& program)
 
 void addManualCommand(CLI::App& program, int& exitCode)
 {
-  CLI::App* command = program.add_subcommand(
-    "manual", "Print the man page, the bash completion, the cheat sheet, or which options name files");
+  CLI::App* command = program.add_subcommand("manual",
+    "Print the man page, the bash completion, the cheat sheet, which options name files, or which formats "
+    "there are");
   auto what = std::make_shared<std::string>();
-  addWord(*command, "what", *what, { "man", "bash", "keys", "files" }, "What to print")->required();
+  addWord(*command, "what", *what, { "man", "bash", "keys", "files", "formats" }, "What to print")
+    ->required();
   const auto run = [what, &program](Files&)
   {
     fmt::print("{}",
-      *what == "man"       ? manPage(program)
-        : *what == "bash"  ? bashCompletion(program)
-        : *what == "files" ? fileOptions(program)
-                           : cheatSheet());
+      *what == "man"         ? manPage(program)
+        : *what == "bash"    ? bashCompletion(program)
+        : *what == "files"   ? fileOptions(program)
+        : *what == "formats" ? vtkPointCloudReader::GetFormatTable()
+                             : cheatSheet());
     return kSuccess;
   };
   runAs(*command, exitCode, { {}, run });

@@ -135,9 +135,12 @@ bool show(const ViewOptions& options, HapticViewer& viewer)
 bool canReadAll(const ViewOptions& options, std::string& message)
 {
   Cloud cloud;
+  ReadOptions reading;
+  reading.columns = options.viewer.columns;
+  reading.salvage = options.viewer.salvage;
   return options.needsWindow() || options.skipsUnreadable || options.files.size() < 2 ||
     std::all_of(options.files.begin(), options.files.end(),
-      [&](const std::string& file) { return readCloud(file, cloud, message); });
+      [&](const std::string& file) { return readCloud(file, cloud, message, reading); });
 }
 
 /// Where the viewer reads and writes: pipes are read once, and files that are not of a session appear

@@ -43,6 +43,7 @@ void FeelOptions::addTo(CLI::App& command)
 {
   addInput(command, "FILE", this->file,
     "Point cloud to feel; with --replay the one that was recorded is the default");
+  addReading(command, this->reading.columns, this->reading.salvage);
   addInput(command, "--path", this->path,
     "Path of the hand: t,x,y,z in seconds and metres, or what feel or view --trace wrote; needed unless "
     "--device is falcon")

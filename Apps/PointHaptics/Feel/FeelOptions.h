@@ -2,6 +2,7 @@
 /// The options of `pointhaptics feel`.
 #pragma once
 
+#include "Clouds/Pipeline.h"
 #include "Options/BandwidthOptions.h"
 #include "Options/FalconOptions.h"
 #include "Options/LatticeOptions.h"
@@ -23,6 +24,7 @@ namespace app
 struct FeelOptions
 {
   std::string file;
+  ReadOptions reading;
   std::string path;
   std::string output;
   std::string replay;    ///< A recording to feel again, instead of a path.

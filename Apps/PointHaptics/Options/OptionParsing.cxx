@@ -132,6 +132,19 @@ CLI::Option* addClip(CLI::App& command, std::vector<double>& box, const std::str
   return addNumbers(command, "--clip", box, { 6 }, check, "XMIN,XMAX,YMIN,YMAX,ZMIN,ZMAX", description);
 }
 
+void addReading(CLI::App& command, std::vector<std::string>& columns, bool& salvage)
+{
+  command
+    .add_option("--columns", columns,
+      "What the columns of a text are, such as id,x,y,z,-,intensity; - leaves one out. Default: what its "
+      "header "
+      "says, else a guess")
+    ->delimiter(',')
+    ->expected(1)
+    ->type_name("NAMES");
+  command.add_flag("--salvage", salvage, "Read a file that is cut as far as it goes");
+}
+
 CLI::Option* addResolution(CLI::App& command, double& value)
 {
   return addNumber(command, "--resolution", value, { 0.0, 1e30, true }, "UNITS",

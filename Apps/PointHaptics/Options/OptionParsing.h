@@ -63,6 +63,9 @@ CLI::Option* addSize(CLI::App& command, const std::string& name, std::function<v
   const std::string& description);
 /// Adds --clip: the box of a cloud that is shown and felt, six numbers in the coordinates of its file.
 CLI::Option* addClip(CLI::App& command, std::vector<double>& box, const std::string& description);
+/// Adds --columns and --salvage: what columns of a text are called, and whether a cut file is read as far as
+/// it goes.
+void addReading(CLI::App& command, std::vector<std::string>& columns, bool& salvage);
 /// Adds --resolution: how far a cloud optimised point cloud is read.
 CLI::Option* addResolution(CLI::App& command, double& value);
 /// Returns what is wrong with a list, and the cure, or an empty string.

@@ -169,6 +169,7 @@ void ViewOptions::addTo(CLI::App& command)
     "Diameter of a point; default: from the spacing of its neighbours, so that surfaces close");
   addPictureOptions(command, this->viewer.picture);
   addResolution(command, this->viewer.resolution);
+  addReading(command, this->viewer.columns, this->viewer.salvage);
   addWindowOptions(command, *this);
   this->touch.addTo(command);
   command.add_flag("--no-covariance", this->noCovariance, "Feel plain voxel means, without second moments")

@@ -29,16 +29,23 @@ using Names = std::vector<std::vector<std::string>>;
 
 const std::vector<std::string> kXyz = { "x", "y", "z" };
 /// What else the three are called.
-const Names kCoordinateWords = { { "x", "easting", "east", "e" }, { "y", "northing", "north", "n" },
-  { "z", "elevation", "elev", "height", "h", "altitude", "alt", "up" } };
+const Names kCoordinateWords = { { "x", "easting", "east", "e", "rechtswert", "ost", "est", "este" },
+  { "y", "northing", "north", "n", "hochwert", "nord", "norte" },
+  { "z", "elevation", "elev", "height", "h", "altitude", "alt", "up", "hoehe", "h\xc3\xb6he", "cota" } };
 /// Words beside the name of a coordinate: "POINT_X", "x coordinate".
-const char* const kFillers[] = { "coord", "coords", "coordinate", "point", "points", "pos", "position" };
+const std::vector<std::string> kFillers = { "coord", "coords", "coordinate", "coordinates", "point", "points",
+  "pos", "position", "positions", "xyz", "field", "world", "global", "local", "utm", "map", "vertex",
+  "cartesian", "value" };
+const std::vector<std::string> kUnitWords = { "m", "mm", "cm", "km", "um", "ft", "in", "metre", "metres",
+  "meter", "meters", "feet", "foot" };
 const char* const kDegrees[] = { "lat", "lon", "latitude", "longitude", "long", "lng" };
 const Names kColorsWithAlpha = { { "red", "green", "blue", "alpha" }, { "r", "g", "b", "a" },
   { "diffuse_red", "diffuse_green", "diffuse_blue", "diffuse_alpha" } };
-const Names kColors = { { "red", "green", "blue" }, { "r", "g", "b" },
-  { "diffuse_red", "diffuse_green", "diffuse_blue" } };
-const Names kNormals = { { "nx", "ny", "nz" }, { "normal_x", "normal_y", "normal_z" } };
+const Names kColors = { { "red", "green", "blue" }, { "r", "g", "b" }, { "rf", "gf", "bf" },
+  { "diffuse_red", "diffuse_green", "diffuse_blue" }, { "color_r", "color_g", "color_b" },
+  { "colour_r", "colour_g", "colour_b" }, { "rgb_r", "rgb_g", "rgb_b" } };
+const Names kNormals = { { "nx", "ny", "nz" }, { "normal_x", "normal_y", "normal_z" },
+  { "normalx", "normaly", "normalz" }, { "n_x", "n_y", "n_z" } };
 
 bool isByte(int type)
 {
@@ -100,31 +107,79 @@ bool findNames(const std::vector<Column>& columns, const std::vector<bool>& plac
   return found.size() == names.size();
 }
 
-/// "x" for "POINT_X", "X [m]" and "x-coordinate"; empty for names with other words.
-std::string coordinateWord(const std::string& name)
+bool has(const std::vector<std::string>& words, const std::string& word)
 {
-  std::string result;
-  std::string word;
-  const auto endWord = [&]
-  {
-    if (std::find(std::begin(kFillers), std::end(kFillers), word) == std::end(kFillers))
-    {
-      result += (result.empty() || word.empty() ? "" : " ") + word;
-    }
-    word.clear();
-  };
-  for (const char c : name.substr(0, name.find_first_of("[(")))
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+/// Lower case; what is neither letter nor digit ends a word.
+std::vector<std::string> wordsOf(const std::string& name)
+{
+  std::vector<std::string> words(1);
+  for (const char c : name)
   {
     const auto byte = static_cast<unsigned char>(c);
-    if (byte < 0x80 && !std::isalnum(byte))
+    if (byte >= 0x80 || std::isalnum(byte))
     {
-      endWord();
-      continue;
+      words.back() += static_cast<char>(std::tolower(byte));
     }
-    word += static_cast<char>(std::tolower(byte));
+    else if (!words.back().empty())
+    {
+      words.emplace_back();
+    }
   }
-  endWord();
-  return result;
+  return words;
+}
+
+/// What a name says of a coordinate: axis 0 and "mm" of "X1 (mm)"; axis -1 where it says none.
+struct CoordinateName
+{
+  int axis = -1;
+  std::string unit;
+  std::string rest; ///< What is no filler and no unit.
+  bool isPosition = false;
+
+  explicit CoordinateName(const std::string& name)
+  {
+    const std::size_t bracket = std::min(name.find_first_of("[("), name.size());
+    const std::size_t end = name.find_first_of("])", bracket);
+    if (end != std::string::npos)
+    {
+      unit = trimmed(std::string_view(name).substr(bracket + 1, end - bracket - 1));
+    }
+    for (const std::string& word : wordsOf(name.substr(0, bracket)))
+    {
+      const bool isUnit = !rest.empty() || isPosition ? has(kUnitWords, word) : false;
+      isPosition = isPosition || has(kFillers, word);
+      unit = isUnit ? word : unit;
+      rest += isUnit || has(kFillers, word) ? "" : (rest.empty() || word.empty() ? "" : " ") + word;
+    }
+    for (int i = 0; i < 3 && axis < 0; ++i)
+    {
+      axis = names(i) ? i : -1;
+    }
+  }
+  bool names(int i) const
+  {
+    const std::string letter(1, "xyz"[i]);
+    const bool isNumbered = rest.size() > 1 && rest.size() < 4 && rest.substr(0, 1) == letter &&
+      rest.find_first_not_of("0123456789", 1) == std::string::npos;
+    return has(kCoordinateWords[static_cast<std::size_t>(i)], rest) || isNumbered ||
+      (isPosition && rest == std::to_string(i)) ||
+      (rest.substr(0, 1) == letter && has(kFillers, rest.substr(1))) ||
+      (rest.size() > 1 && rest.substr(rest.size() - 1) == letter &&
+        has(kFillers, rest.substr(0, rest.size() - 1)));
+  }
+};
+
+bool isOneOf(const Names& lists, const std::string& name)
+{
+  return std::any_of(lists.begin(), lists.end(),
+    [&](const std::vector<std::string>& list)
+    {
+      return std::any_of(
+        list.begin(), list.end(), [&](const std::string& each) { return equalNoCase(each, name); });
+    });
 }
 
 [[noreturn]] void failCoordinates(const std::vector<Column>& columns)
@@ -143,35 +198,66 @@ std::string coordinateWord(const std::string& name)
   failFormat("no columns named x, y and z, but" + names,
     hasDegrees
       ? "degrees are no lengths: project the cloud to metres, such as UTM, and name the columns x, y, z"
-      : "name the three coordinates x, y and z in the header");
+      : "name the three coordinates x, y and z in the header, or for columns of text by --columns");
 }
 
 } // namespace
 
+std::vector<Column> columnsCalled(const std::vector<std::string>& names)
+{
+  std::vector<Column> columns;
+  for (const std::string& name : names)
+  {
+    columns.push_back({ name });
+  }
+  return columns;
+}
+
+bool findCoordinates(const std::vector<Column>& columns, std::vector<std::size_t>& found)
+{
+  if (findNames(columns, std::vector<bool>(columns.size(), false), kXyz, found))
+  {
+    return true;
+  }
+  found.assign(3, columns.size());
+  for (std::size_t i = columns.size(); i-- > 0;)
+  {
+    const int axis = columns[i].components == 1 ? CoordinateName(columns[i].name).axis : -1;
+    if (axis >= 0)
+    {
+      found[static_cast<std::size_t>(axis)] = i;
+    }
+  }
+  return std::find(found.begin(), found.end(), columns.size()) == found.end();
+}
+
 std::vector<std::size_t> coordinatesOf(const std::vector<Column>& columns)
 {
-  const std::vector<bool> placed(columns.size(), false);
   std::vector<std::size_t> found;
-  if (findNames(columns, placed, kXyz, found))
+  if (!findCoordinates(columns, found))
   {
-    return found;
-  }
-  found.clear();
-  for (const std::vector<std::string>& words : kCoordinateWords)
-  {
-    const auto at = std::find_if(columns.begin(), columns.end(),
-      [&](const Column& column)
-      {
-        const bool isOne = column.components == 1;
-        return isOne && std::find(words.begin(), words.end(), coordinateWord(column.name)) != words.end();
-      });
-    if (at == columns.end())
-    {
-      failCoordinates(columns);
-    }
-    found.push_back(static_cast<std::size_t>(at - columns.begin()));
+    failCoordinates(columns);
   }
   return found;
+}
+
+std::string coordinateUnit(const std::string& name)
+{
+  return CoordinateName(name).unit;
+}
+
+bool isColorName(const std::string& name)
+{
+  std::string base;
+  unsigned long long number = 0;
+  const bool isNumbered = splitNumbered(name, base, number) && number < 4;
+  return isOneOf(kColorsWithAlpha, name) || isOneOf(kColors, name) ||
+    (isNumbered && (equalNoCase(base, "RGB") || equalNoCase(base, "RGBA")));
+}
+
+bool isNormalName(const std::string& name)
+{
+  return isOneOf(kNormals, name);
 }
 
 CloudColumns::CloudColumns(const std::vector<Column>& columns, vtkIdType rows)

@@ -29,16 +29,28 @@ struct Column
   int components = 1;
 };
 
+/// Columns with these names.
+std::vector<Column> columnsCalled(const std::vector<std::string>& names);
+
 /// Which of @p columns become x, y and z: those called so, else those called so in other words, such as
-/// "POINT_X", "y [m]", "easting" and "height". @throws FileProblem when none do.
+/// "POINT_X", "y [m]", "xcoord", "field.z", "easting" and "Points:2". @return whether all three were found.
+bool findCoordinates(const std::vector<Column>& columns, std::vector<std::size_t>& found);
+/// The same. @throws FileProblem when there are none.
 std::vector<std::size_t> coordinatesOf(const std::vector<Column>& columns);
+
+/// "mm" of "X1 (mm)" and "x_mm", the names of coordinates; empty where the name says no unit.
+std::string coordinateUnit(const std::string& name);
+
+/// Whether @p name is that of a channel of colours, or of a component of normals.
+bool isColorName(const std::string& name);
+bool isNormalName(const std::string& name);
 
 /// Plans where each column goes, owns the arrays, and hands them over when they are filled:
 /// - x y z, or what coordinatesOf() finds, become the points: double when one of them is double or
 /// an integer of 4 bytes and more, else float;
-/// - red green blue [alpha] (or r g b [a]), all unsigned char, become "RGB" or "RGBA", the active scalars; of
-/// other types they become "Color16" (unsigned short) or "Color", beside an "RGB" made of them
-/// (shownColors());
+/// - red green blue [alpha] (or r g b [a], Rf Gf Bf and the like), all unsigned char, become "RGB" or "RGBA",
+/// the active scalars; of other types they become "Color16" (unsigned short) or "Color", beside an "RGB" made
+/// of them (shownColors());
 /// - nx ny nz or normal_x normal_y normal_z become "Normals", the active normals;
 /// - name_0 name_1 ... in this order become one array "name" (of the widest of their types);
 /// - every other column becomes an array of its name and type.

@@ -8,7 +8,6 @@
 #include "vtkPoints.h"
 
 #include <algorithm>
-#include <set>
 #include <type_traits>
 
 namespace pointhaptics::io
@@ -31,15 +30,15 @@ vtkSmartPointer<vtkDataArray> inPlainMemory(vtkDataArray* array)
   return copy;
 }
 
-std::string plainName(const char* name)
+std::string plainName(const char* name, NameRule rule)
 {
   std::string result = name && *name ? name : "unnamed";
   for (char& c : result)
   {
-    if (static_cast<unsigned char>(c) <= ' ' || c == ',' || c == ';' || c == '"' || c == '#')
-    {
-      c = '_';
-    }
+    const auto byte = static_cast<unsigned char>(c);
+    const bool isOut = byte < ' ' || byte == 0x7f || (rule != NameRule::Any && byte == ' ') ||
+      (rule == NameRule::Cells && std::string_view(",;|\"#%!>").find(c) != std::string_view::npos);
+    c = isOut || (rule == NameRule::Cells && c == '/' && &c == result.data()) ? '_' : c;
   }
   return result;
 }
@@ -92,11 +91,35 @@ std::string OutputArray::componentName(int component) const
   return components() == 1 ? name : name + "_" + std::to_string(component);
 }
 
-std::vector<OutputArray> outputArrays(vtkPointSet* cloud, WriterNotes& notes)
+std::string UnusedNames::unused(const std::string& wanted, std::size_t longest)
+{
+  const auto cut = [&](std::size_t size)
+  {
+    std::size_t end = std::min(size, wanted.size());
+    while (end < wanted.size() && end > 0 && (static_cast<unsigned char>(wanted[end]) & 0xc0) == 0x80)
+    {
+      --end; // within a character of UTF-8
+    }
+    return wanted.substr(0, end);
+  };
+  std::string name = cut(longest);
+  for (int number = 2; !used_.insert(name).second; ++number)
+  {
+    const std::string suffix = "_" + std::to_string(number);
+    name = cut(longest == std::string::npos ? longest : longest - suffix.size()) + suffix;
+  }
+  return name;
+}
+
+std::vector<OutputArray> outputArrays(vtkPointSet* cloud, WriterNotes& notes, NameRule names)
 {
   std::vector<OutputArray> arrays;
   arrays.push_back({ ArrayRole::Points, "Points", inPlainMemory(cloud->GetPoints()->GetData()) });
-  std::set<std::string> used = { "Points", "x", "y", "z" };
+  UnusedNames used;
+  for (const char* name : { "Points", "x", "y", "z" })
+  {
+    used.unused(name);
+  }
   vtkPointData* data = cloud->GetPointData();
   for (int i = 0; i < data->GetNumberOfArrays(); ++i)
   {
@@ -107,18 +130,14 @@ std::vector<OutputArray> outputArrays(vtkPointSet* cloud, WriterNotes& notes)
       notes.add("array " + inQuotes(name ? name : "") + " holds no numbers and is left out");
       continue;
     }
-    OutputArray output{ roleOf(array, data), plainName(array->GetName()), inPlainMemory(array) };
+    OutputArray output{ roleOf(array, data), plainName(array->GetName(), names), inPlainMemory(array) };
     if (array->GetNumberOfTuples() < cloud->GetNumberOfPoints())
     {
       failFormat("array " + inQuotes(output.name) + " has " + std::to_string(array->GetNumberOfTuples()) +
           " values for " + std::to_string(cloud->GetNumberOfPoints()) + " points",
         "give every array one value per point");
     }
-    const std::string wanted = output.name;
-    for (int number = 2; !used.insert(output.name).second; ++number)
-    {
-      output.name = wanted + "_" + std::to_string(number);
-    }
+    output.name = used.unused(output.name);
     const std::string given = array->GetName() ? array->GetName() : "";
     if (output.name != given)
     {

@@ -7,6 +7,7 @@
 #include "vtkDataArray.h"
 #include "vtkSmartPointer.h"
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,25 @@ enum class ArrayRole
   Colors,  ///< unsigned char, 3 or 4 components
   Normals, ///< float or double, 3 components
   Other,
+};
+
+/// What an array may be called in a format: other characters become '_'.
+enum class NameRule
+{
+  Words, ///< Without white space and control characters.
+  Cells, ///< Also without what separates cells or begins a comment in columns of text.
+  Any,   ///< All but control characters.
+};
+
+/// Names that differ.
+class UnusedNames
+{
+public:
+  /// @p wanted, or with a number behind it where it was given before, in at most @p longest bytes.
+  std::string unused(const std::string& wanted, std::size_t longest = std::string::npos);
+
+private:
+  std::set<std::string> used_;
 };
 
 /// One array in contiguous memory, under a name without white space, commas or quotes.
@@ -47,7 +67,9 @@ struct WriterNotes
 
 /// The points first, then every array of numbers in the point data, each under its own name; arrays of
 /// strings are left out. @throws FileProblem when an array is shorter than the cloud.
-std::vector<OutputArray> outputArrays(vtkPointSet* cloud, WriterNotes& notes);
+/// @param names what they may be called.
+std::vector<OutputArray> outputArrays(
+  vtkPointSet* cloud, WriterNotes& notes, NameRule names = NameRule::Words);
 
 /// The same with arrays of 64 bit integers as doubles, for formats without such integers.
 std::vector<OutputArray> withoutLongIntegers(std::vector<OutputArray> arrays, WriterNotes& notes);

@@ -1,4 +1,4 @@
-#include "FormatReaders.h"
+#include "ReadTask.h"
 
 #include "Bytes/NumericType.h"
 #include "IO/Columns/CloudColumns.h"
@@ -291,13 +291,13 @@ void readE57(ReadTask& task, vtkPolyData* cloud)
   pages.check(task, kCheckingPart);
   const E57Contents contents = parseE57Contents(parseE57Xml(pages));
   addFieldData(contents, cloud);
-  const std::vector<E57Scan> scans = scansWithPoints(contents);
+  std::vector<E57Scan> scans = scansWithPoints(contents);
   Sections sections;
   sections.add({ pages.xmlOffset(), pages.xmlOffset() + pages.xmlLength() });
   std::deque<E57Packets> packets;
-  for (const E57Scan& scan : scans)
+  for (E57Scan& scan : scans)
   {
-    packets.emplace_back(pages, scan, described(scan));
+    packets.emplace_back(pages, scan, described(scan), task);
     sections.add(packets.back().section());
   }
   const bool moves = task.applyPoses &&

@@ -3,6 +3,7 @@
 #include "Bytes/LittleEndian.h"
 #include "FileProblem.h"
 #include "IO/E57/E57Pages.h"
+#include "ReadTask.h"
 
 #include <algorithm>
 #include <array>
@@ -30,7 +31,7 @@ std::string atByte(std::uint64_t logical)
 
 } // namespace
 
-E57Packets::E57Packets(const E57Pages& pages, const E57Scan& scan, const std::string& where)
+E57Packets::E57Packets(const E57Pages& pages, E57Scan& scan, const std::string& where, ReadTask& task)
   : pages_(pages)
   , where_(where)
   , streams_(scan.fields.size())
@@ -40,7 +41,7 @@ E57Packets::E57Packets(const E57Pages& pages, const E57Scan& scan, const std::st
   walk(firstPacket);
   if (unfinished_ > 0)
   {
-    failMissing(scan);
+    endEarly(scan, task);
   }
 }
 
@@ -160,18 +161,24 @@ void E57Packets::failPacket(std::uint64_t at, const std::string& fault) const
   failFormat(atByte(at) + where_ + ": a packet " + fault, kCure);
 }
 
-void E57Packets::failMissing(const E57Scan& scan) const
+void E57Packets::endEarly(E57Scan& scan, ReadTask& task) const
 {
+  std::uint64_t there = scan.records;
+  std::string what;
   for (std::size_t i = 0; i < streams_.size(); ++i)
   {
     if (streams_[i].size < streams_[i].needed)
     {
-      failTruncated(where_ + ": field " + inQuotes(scan.fields[i].name) + " has " +
-        std::to_string(streams_[i].size) + " bytes, but " + std::to_string(scan.records) + " points of " +
-        std::to_string(scan.fields[i].bits) + " bits are promised");
+      what = what.empty() ? where_ + ": field " + inQuotes(scan.fields[i].name) + " has " +
+          std::to_string(streams_[i].size) + " bytes, but " + std::to_string(scan.records) + " points of " +
+          std::to_string(scan.fields[i].bits) + " bits are promised"
+                          : what;
+      there = std::min(there, streams_[i].size * 8 / scan.fields[i].bits);
     }
   }
-  failTruncated(where_ + ": records are missing");
+  task.endAt(there, scan.records, what);
+  task.pointsThere = ~std::uint64_t{ 0 }; // other scans follow
+  scan.records = there;
 }
 
 void E57Packets::gather(std::size_t field, std::uint64_t first, std::size_t count, char* to) const noexcept

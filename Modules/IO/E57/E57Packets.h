@@ -13,6 +13,7 @@ namespace pointhaptics::io
 {
 
 class E57Pages;
+struct ReadTask;
 
 /// Finds where the parts of each stream are; the bytes stay in the file. Reading from many threads at once is
 /// safe. Costs 16 bytes for each part of a stream.
@@ -22,7 +23,8 @@ public:
   /// Walks over the packets of @p scan until each stream has what its records need. The index packets are not
   /// needed for that. @throws FileProblem with the byte offset of a packet that cannot be, and where the
   /// streams end before the records that the XML promises: nothing need be allocated for those before.
-  E57Packets(const E57Pages& pages, const E57Scan& scan, const std::string& where);
+  /// A @p task that salvages lowers the number of records to those that are there, with a note.
+  E57Packets(const E57Pages& pages, E57Scan& scan, const std::string& where, ReadTask& task);
 
   /// Copies bytes of a stream: as many of @p count as there are, behind them zeros.
   void gather(std::size_t field, std::uint64_t first, std::size_t count, char* to) const noexcept;
@@ -48,7 +50,7 @@ private:
   void walk(std::uint64_t at);
   void addDataPacket(std::uint64_t at, std::size_t length);
   [[noreturn]] void failPacket(std::uint64_t at, const std::string& fault) const;
-  [[noreturn]] void failMissing(const E57Scan& scan) const;
+  void endEarly(E57Scan& scan, ReadTask& task) const;
 
   const E57Pages& pages_;
   const std::string where_;

@@ -80,11 +80,11 @@ std::vector<Vec3> placesOf(std::vector<Vec3> points)
   return points;
 }
 
-/// At the places of kSpacingPercents. A duplicate is no neighbor, however many there are of a point.
-/// @param places of the points, each once.
-std::array<double, 5> spacingOf(const std::vector<Vec3>& points, const std::vector<Vec3>& places)
+/// At the places of kSpacingPercents. @param places of the points, each once: how often a point stands there
+/// tells nothing of a surface.
+std::array<double, 5> spacingOf(const std::vector<Vec3>& places)
 {
-  const std::size_t samples = std::min(kSamples, points.size());
+  const std::size_t samples = std::min(kSamples, places.size());
   std::vector<double> nearest(samples, std::numeric_limits<double>::infinity());
   Neighbor neighbors[kNeighbors];
   for (std::int64_t begin = 0; begin < std::int64_t(places.size()); begin += kPiece)
@@ -93,7 +93,7 @@ std::array<double, 5> spacingOf(const std::vector<Vec3>& points, const std::vect
     query.build(PointView(places.data() + begin, std::min(kPiece, std::int64_t(places.size()) - begin)));
     for (std::size_t i = 0; i < samples; ++i)
     {
-      const Vec3& center = points[sampled(i, samples, points.size())];
+      const Vec3& center = places[sampled(i, samples, places.size())];
       const int found = query.nearest(center, kNeighbors, neighbors);
       const Neighbor* other = std::find_if(neighbors, neighbors + found,
         [](const Neighbor& neighbor) { return neighbor.squaredDistance > 0.0; });
@@ -112,6 +112,19 @@ std::array<double, 5> spacingOf(const std::vector<Vec3>& points, const std::vect
     result[i] = nearest[(nearest.size() - 1) * std::size_t(kSpacingPercents[i]) / 100];
   }
   return result;
+}
+
+/// Of the grid of floats at the farthest corner: nothing is known between two steps.
+double floatStep(const Bounds& bounds)
+{
+  double step = 0.0;
+  for (int axis = 0; axis < 3 && !bounds.empty(); ++axis)
+  {
+    const float most =
+      static_cast<float>(std::max(std::abs(bounds.minimum[axis]), std::abs(bounds.maximum[axis])));
+    step = std::max(step, static_cast<double>(most - std::nextafter(most, 0.0f)));
+  }
+  return step;
 }
 
 double numberIn(vtkPolyData* cloud, const char* name, vtkIdType row = 0, int component = 0)
@@ -204,6 +217,13 @@ void suggest(const LengthUnit& known, const Bounds& bounds, CloudSummary& summar
   {
     return;
   }
+  if (known.name == "deg")
+  {
+    summary.hint =
+      "degrees are no lengths: spacing, voxel and bandwidth mean nothing before the cloud is projected "
+      "to metres";
+    return;
+  }
   summary.suggestedScale = std::stod(fmt::format("{:.3g}", kFilledPart * kDefaultWorkspaceEdge / longest));
   if (longest >= kSmallest * kDefaultWorkspaceEdge && longest <= kLargest * kDefaultWorkspaceEdge)
   {
@@ -252,13 +272,18 @@ CloudSummary summarize(vtkPolyData* cloud, const std::string& format, bool stati
   summary.noReturns = areNoReturns(atZero, std::int64_t(points.size())) ? atZero : 0;
   std::vector<Vec3> places = placesOf(points);
   summary.duplicates = std::int64_t(points.size() - places.size());
+  if (summary.noReturns > 0)
+  {
+    places.erase(std::find_if(places.begin(), places.end(), isAtZero));
+  }
   if (summary.duplicates == 0)
   {
     places = std::vector<Vec3>(); // the points serve as well, and the memory is wanted
   }
-  summary.spacing = spacingOf(points, summary.duplicates > 0 ? places : points);
+  summary.spacing = spacingOf(summary.duplicates > 0 ? places : points);
   summary.densityVariation = summary.spacing[0] > 0.0 ? summary.spacing[4] / summary.spacing[0] : 0.0;
-  summary.suggestedVoxel = kSpacingsPerVoxel * summary.spacing[2];
+  summary.suggestedVoxel =
+    std::max(kSpacingsPerVoxel * summary.spacing[2], summary.isFloat ? floatStep(summary.bounds) : 0.0);
   summary.coordinateSystem = io::fieldText(cloud->GetFieldData(), "CoordinateSystem");
   summary.unit = io::fieldText(cloud->GetFieldData(), "LengthUnit");
   summary.unitIsGuess = summary.unit.empty();

@@ -18,9 +18,9 @@ namespace
 {
 
 constexpr vtkIdType kLookedAt = 10000;
-constexpr vtkIdType kFewest = 100;       ///< Of fewer points none is called far.
-constexpr std::int64_t kMostPart = 1000; ///< One in so many may be far.
-constexpr double kMostLength = 0.1;      ///< Of the others' longest side over that of all.
+constexpr vtkIdType kFewest = 100;     ///< Of fewer points none is called far.
+constexpr std::int64_t kMostPart = 20; ///< One in so many may be far.
+constexpr double kMostLength = 0.1;    ///< Of the others' longest side over that of all.
 
 /// What files have in the place of coordinates that were not measured.
 bool isNoData(const Vec3& p)
@@ -70,7 +70,7 @@ void sample(vtkPolyData* part, Ranks& ranks, std::vector<double> (&values)[3])
   }
 }
 
-/// From 1 % to 99 % of some measured points on each axis, and by as much as its longest side beyond.
+/// From 5 % to 95 % of some measured points on each axis, and by as much as its longest side beyond.
 Bounds boxOfMost(vtkPolyData* part, Ranks& ranks)
 {
   std::vector<double> values[3];
@@ -80,8 +80,8 @@ Bounds boxOfMost(vtkPolyData* part, Ranks& ranks)
   {
     std::sort(values[axis].begin(), values[axis].end());
     const std::size_t last = values[axis].size() - 1;
-    box.minimum[axis] = values[axis][last / 100];
-    box.maximum[axis] = values[axis][last - last / 100];
+    box.minimum[axis] = values[axis][last / kMostPart];
+    box.maximum[axis] = values[axis][last - last / kMostPart];
   }
   return box.empty() ? box : grown(box, longestSide(box));
 }

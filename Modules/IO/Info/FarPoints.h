@@ -28,7 +28,7 @@ struct FarPoints
   POINTHAPTICSIO_EXPORT std::string clip() const;
 };
 
-/// One in a thousand points of @p cloud at most, and any number with a coordinate such as -9999 that stands
+/// One in twenty points of @p cloud at most, and any number with a coordinate such as -9999 that stands
 /// for no data or at exactly (0, 0, 0), without which its longest side is a tenth at most. Finite points lie
 /// within @p bounds. Cost: a look at 10,000 points, and at all where they may have far ones.
 POINTHAPTICSIO_EXPORT FarPoints findFarPoints(vtkPolyData* cloud, const Bounds& bounds);

@@ -51,6 +51,11 @@ bool has(const std::string& text, const char* part)
 bool readUnit(vtkPolyData* cloud, LengthUnit& unit)
 {
   const std::string said = lower(io::fieldText(cloud->GetFieldData(), "LengthUnit"));
+  if (has(said, "degree"))
+  {
+    unit = { "deg", 1.0, UnitEvidence::File };
+    return true;
+  }
   if (has(said, "foot") || has(said, "feet") || said == "ft")
   {
     unit = { "ft", has(said, "survey") ? kSurveyFoot : kFoot, UnitEvidence::File };

@@ -22,8 +22,8 @@ enum class UnitEvidence
 
 struct LengthUnit
 {
-  std::string name = "m"; ///< m, cm, mm or ft.
-  double metres = 1.0;    ///< Of one unit.
+  std::string name = "m"; ///< m, cm, mm, ft, or deg of longitude and latitude.
+  double metres = 1.0;    ///< Of one unit; 1 of degrees, which have no length.
   UnitEvidence evidence = UnitEvidence::None;
 };
 

@@ -19,11 +19,14 @@ namespace
 constexpr int kWellKnownText = 2112;
 constexpr int kGeoKeys = 34735;
 // GeoTIFF keys and the codes of their values.
+constexpr int kModelType = 1024;
+constexpr int kGeographicModel = 2;
 constexpr int kGeographicSystem = 2048;
 constexpr int kProjectedSystem = 3072;
 constexpr int kProjectedUnit = 3076;
 constexpr int kUserDefined = 32767;
 
+constexpr const char* kDegree = "degree";
 constexpr std::size_t kMostText = 65535; ///< 16 bits hold the length of a record
 constexpr const char* kProjection = "LASF_Projection";
 
@@ -59,7 +62,6 @@ int codeOfUnit(const std::string& name)
 /// it is not.
 std::string keysRecord(int code, int unit)
 {
-  constexpr int kModelType = 1024;
   const bool isGeographic = code >= 4000 && code < 5000;
   std::vector<std::pair<int, int>> keys = { { kModelType, isGeographic ? 2 : 1 },
     { isGeographic ? kGeographicSystem : kProjectedSystem, code > 0 ? code : kUserDefined } };
@@ -108,6 +110,7 @@ void LasCoordinateSystem::addKeys(std::string_view content)
     {
       continue;
     }
+    isGeographic_ = key == kModelType ? value == kGeographicModel : isGeographic_;
     if (key == kProjectedSystem || (key == kGeographicSystem && code_.empty()))
     {
       code_ = "EPSG:" + std::to_string(value);
@@ -125,7 +128,11 @@ std::string LasCoordinateSystem::lengthUnit() const
   const std::size_t projected = text_.find("PROJC");
   if (projected == std::string::npos)
   {
-    return unit_;
+    const bool isText = text_.rfind("GEOG", 0) == 0 || text_.rfind("GEODCRS", 0) == 0 ||
+      text_.rfind("COMPD_CS", 0) == 0 || text_.rfind("COMPOUNDCRS", 0) == 0;
+    const bool hasDegrees =
+      text_.find("GEOG") != std::string::npos || text_.find("GEODCRS") != std::string::npos;
+    return unit_.empty() && ((text_.empty() && isGeographic_) || (isText && hasDegrees)) ? kDegree : unit_;
   }
   const std::string part = text_.substr(projected, text_.find("VERT") - projected);
   const std::size_t unit = part.rfind("UNIT[\"");
@@ -142,7 +149,8 @@ bool lasSaysUnit(vtkFieldData* fieldData)
 {
   const std::string system = fieldText(fieldData, "CoordinateSystem");
   const bool isText = !system.empty() && system.rfind("EPSG:", 0) != 0; // which says its own
-  return isText || codeOfUnit(fieldText(fieldData, "LengthUnit")) > 0;
+  return isText || (!system.empty() && fieldText(fieldData, "LengthUnit") == kDegree) ||
+    codeOfUnit(fieldText(fieldData, "LengthUnit")) > 0;
 }
 
 std::string lasCoordinateSystemRecord(vtkFieldData* fieldData, std::uint16_t& encoding)

@@ -21,7 +21,8 @@ public:
   void addRecord(int id, std::string_view content);
   /// Well-known text as the file has it, or "EPSG:26917"; empty when the file names none.
   const std::string& name() const { return text_.empty() ? code_ : text_; }
-  /// The unit of a projected system ("metre", "US survey foot"), empty when the file names none.
+  /// The unit of a projected system ("metre", "US survey foot"), "degree" of a geographic one, empty when the
+  /// file names none.
   std::string lengthUnit() const;
 
 private:
@@ -30,6 +31,7 @@ private:
   std::string text_;
   std::string code_;
   std::string unit_;
+  bool isGeographic_ = false;
 };
 
 /// Whether @p unit is one of the names of a metre, as files write them.

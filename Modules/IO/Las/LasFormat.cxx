@@ -1,4 +1,4 @@
-#include "FormatReaders.h"
+#include "ReadTask.h"
 
 #include "IO/Info/FieldText.h"
 #include "IO/Las/LasRecords.h"
@@ -10,6 +10,7 @@
 #include "vtkNew.h"
 #include "vtkPolyData.h"
 #include "vtkTypeInt64Array.h"
+#include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
 #include <optional>
@@ -47,7 +48,39 @@ void readPlain(const ReadTask& task, const LasHeader& header, std::uint64_t begi
   }
 }
 
+void addBytes(vtkPolyData* cloud, const char* name, const std::string& bytes)
+{
+  if (!bytes.empty())
+  {
+    vtkNew<vtkUnsignedCharArray> array;
+    array->SetName(name);
+    array->SetNumberOfValues(static_cast<vtkIdType>(bytes.size()));
+    std::copy(bytes.begin(), bytes.end(), array->GetPointer(0));
+    cloud->GetFieldData()->AddArray(array);
+  }
+}
+
+std::string bytesOf(vtkFieldData* fieldData, const char* name)
+{
+  auto* array = vtkUnsignedCharArray::SafeDownCast(fieldData->GetArray(name));
+  return array ? std::string(array->GetPointer(0), array->GetPointer(0) + array->GetNumberOfValues())
+               : std::string();
+}
+
 } // namespace
+
+void LasOrigin::addTo(vtkPolyData* cloud) const
+{
+  addBytes(cloud, "LasHeader", header);
+  addBytes(cloud, "LasRecords", records);
+  addBytes(cloud, "LasFarRecords", farRecords);
+}
+
+LasOrigin LasOrigin::of(vtkFieldData* fieldData)
+{
+  return { bytesOf(fieldData, "LasHeader"), bytesOf(fieldData, "LasRecords"),
+    bytesOf(fieldData, "LasFarRecords") };
+}
 
 void readLas(ReadTask& task, vtkPolyData* cloud)
 {
@@ -55,7 +88,9 @@ void readLas(ReadTask& task, vtkPolyData* cloud)
   const std::string version =
     task.bytes.size() > 25 ? " 1." + std::to_string(byteAt(task.bytes.data(), 25)) : std::string();
   task.format = "LAS" + version;
-  LasHeader header = parseLasHeader(task.bytes);
+  LasHeader header = parseLasHeader(task.bytes,
+    [&](std::uint64_t there, std::uint64_t all, const std::string& what)
+    { return task.endAt(there, all, what); });
   task.format = (header.packing.empty() ? "LAS" : header.packing) + version + " (point format " +
     std::to_string(header.pointFormat) + ")";
   std::optional<LazReader> packed;
@@ -84,6 +119,7 @@ void readLas(ReadTask& task, vtkPolyData* cloud)
     records.agree(*task.shared);
   }
   records.moveTo(cloud);
+  header.origin.addTo(cloud);
   addTriple(cloud, "LasScale", header.scale);
   addTriple(cloud, "LasOffset", header.offset);
   vtkNew<vtkIntArray> encoding;
@@ -100,6 +136,12 @@ void readLas(ReadTask& task, vtkPolyData* cloud)
   addFieldText(cloud, "Generator", header.generator);
   addFieldText(cloud, "CoordinateSystem", header.coordinateSystem);
   addFieldText(cloud, "LengthUnit", header.lengthUnit);
+  if (header.lengthUnit == "degree")
+  {
+    task.notes.push_back(
+      "x and y are degrees of longitude and latitude, which are no lengths; project the cloud to "
+      "metres: pdal translate IN OUT reprojection --filters.reprojection.out_srs=EPSG:UTM-ZONE");
+  }
 }
 
 } // namespace pointhaptics::io

@@ -27,8 +27,8 @@ std::string_view untilZero(std::string_view text)
   return text.substr(0, text.find('\0'));
 }
 
-/// Calls @p visit(user, id, content) for each variable length record that lies inside the file; a damaged
-/// list ends where it leaves it.
+/// Calls @p visit(user, id, content, record), with an empty record where it is cut, for each variable length
+/// record that lies inside the file; a damaged list ends where it leaves it.
 template <typename Visit>
 void forEachRecord(std::string_view bytes, const LasHeader& header, Visit visit)
 {
@@ -40,7 +40,8 @@ void forEachRecord(std::string_view bytes, const LasHeader& header, Visit visit)
     const std::size_t size = numberAt<std::uint16_t>(bytes, at + 20);
     const std::size_t content = at + kLasVlrHeader;
     visit(untilZero(bytes.substr(at + 2, 16)), numberAt<std::uint16_t>(bytes, at + 18),
-      bytes.substr(content, std::min(size, end - content)));
+      bytes.substr(content, std::min(size, end - content)),
+      size <= end - content ? bytes.substr(at, kLasVlrHeader + size) : std::string_view());
     at = content + size;
   }
   if (header.minorVersion < 4 || header.headerSize < kLasHeaderOf14 || bytes.size() < kLasHeaderOf14)
@@ -53,9 +54,12 @@ void forEachRecord(std::string_view bytes, const LasHeader& header, Visit visit)
   {
     const std::size_t start = static_cast<std::size_t>(far);
     const std::uint64_t left = bytes.size() - far - kEvlrHeader;
-    const std::uint64_t size = std::min(left, numberAt<std::uint64_t>(bytes, start + 20));
+    const std::uint64_t claimed = numberAt<std::uint64_t>(bytes, start + 20);
+    const std::uint64_t size = std::min(left, claimed);
     visit(untilZero(bytes.substr(start + 2, 16)), numberAt<std::uint16_t>(bytes, start + 18),
-      bytes.substr(start + kEvlrHeader, static_cast<std::size_t>(size)));
+      bytes.substr(start + kEvlrHeader, static_cast<std::size_t>(size)),
+      claimed <= left ? bytes.substr(start, kEvlrHeader + static_cast<std::size_t>(size))
+                      : std::string_view());
     far += kEvlrHeader + size;
   }
 }
@@ -65,7 +69,7 @@ std::string packingOf(std::string_view bytes, const LasHeader& header, int forma
 {
   std::string found = (formatByte & kLasPackedMark) != 0 ? "LAZ" : "";
   forEachRecord(bytes, header,
-    [&](std::string_view user, int id, std::string_view)
+    [&](std::string_view user, int id, std::string_view, std::string_view)
     {
       if (user == "copc" && id == 1)
       {
@@ -109,41 +113,27 @@ LasExtraField parseExtraField(std::string_view descriptor, std::size_t offset)
   field.type = typeOfExtra((code - 1) % 10 + 1);
   field.components = (code - 1) / 10 + 1;
   field.isScaled = (options & 0x18) != 0;
+  field.hasNoData = (options & 0x01) != 0;
+  field.descriptor = descriptor;
   for (std::size_t i = 0; i < 3; ++i)
   {
+    field.noData[i] = numberAt<std::int64_t>(descriptor, 40 + 8 * i);
+    const bool isNarrow = field.type == VTK_FLOAT && (field.noData[i] >> 32) == 0;
+    field.noDataAsFloat[i] = isNarrow ? static_cast<double>(numberAt<float>(descriptor, 40 + 8 * i))
+                                      : numberAt<double>(descriptor, 40 + 8 * i);
     field.scale[i] = (options & 0x08) ? numberAt<double>(descriptor, 112 + 8 * i) : 1.0;
     field.shift[i] = (options & 0x10) ? numberAt<double>(descriptor, 136 + 8 * i) : 0.0;
   }
   return field;
 }
 
-/// What the description does not cover, or all when it cannot be right, is kept as bytes.
-void describeExtraBytes(LasHeader& header, std::string_view descriptors)
+/// Whether a record is written anew, or means nothing beside the points as they are written.
+bool isOfPacking(std::string_view user, int id)
 {
-  const std::size_t first = header.fields().size;
-  std::size_t at = first;
-  for (std::size_t i = 0; i + kLasExtraDescriptor <= descriptors.size(); i += kLasExtraDescriptor)
-  {
-    const LasExtraField field = parseExtraField(descriptors.substr(i, kLasExtraDescriptor), at);
-    const std::size_t size = static_cast<std::size_t>(field.components * sizeOfType(field.type));
-    if (size == 0 || size > header.recordLength - at)
-    {
-      header.extraFields.clear();
-      at = first;
-      break;
-    }
-    header.extraFields.push_back(field);
-    at += size;
-  }
-  if (at < header.recordLength)
-  {
-    LasExtraField rest;
-    rest.name = "ExtraBytes";
-    rest.type = VTK_TYPE_UINT8;
-    rest.components = static_cast<int>(header.recordLength - at);
-    rest.offset = at;
-    header.extraFields.push_back(rest);
-  }
+  constexpr int kFirstWave = 100;
+  constexpr int kLastWave = 354;
+  const bool isWave = user == "LASF_Spec" && ((id >= kFirstWave && id <= kLastWave) || id == 65535);
+  return isWave || user == "copc" || (user == kLaszipUser && id == kLaszipRecord);
 }
 
 void parseRecords(std::string_view bytes, LasHeader& header)
@@ -151,8 +141,13 @@ void parseRecords(std::string_view bytes, LasHeader& header)
   std::string_view descriptors;
   LasCoordinateSystem system;
   forEachRecord(bytes, header,
-    [&](std::string_view user, int id, std::string_view content)
+    [&](std::string_view user, int id, std::string_view content, std::string_view record)
     {
+      if (!isOfPacking(user, id))
+      {
+        const bool isFar = record.data() >= bytes.data() + header.pointsOffset;
+        (isFar ? header.origin.farRecords : header.origin.records) += record;
+      }
       if (user == "LASF_Spec" && id == kLasExtraBytesRecord)
       {
         descriptors = content;
@@ -162,7 +157,8 @@ void parseRecords(std::string_view bytes, LasHeader& header)
         system.addRecord(id, content);
       }
     });
-  describeExtraBytes(header, descriptors);
+  header.extraFields = lasExtraFields(descriptors, header.fields().size, header.recordLength);
+  header.origin.header = bytes.substr(0, std::min(header.headerSize, kLasHeaderOf14));
   header.coordinateSystem = system.name();
   header.lengthUnit = system.lengthUnit();
 }
@@ -181,7 +177,7 @@ void checkScales(const LasHeader& header)
   }
 }
 
-void checkLayout(std::string_view bytes, const LasHeader& header)
+void checkLayout(std::string_view bytes, LasHeader& header, const LasEnd& endAt)
 {
   const std::size_t needed = header.fields().size;
   if (header.recordLength < needed)
@@ -201,11 +197,17 @@ void checkLayout(std::string_view bytes, const LasHeader& header)
     failNoPoints();
   }
   const std::size_t available = bytes.size() - header.pointsOffset;
-  if (header.packing.empty() && header.count > available / header.recordLength)
+  const std::uint64_t there = available / header.recordLength;
+  if (header.packing.empty() && header.count > there)
   {
-    failTruncated("the header counts " + std::to_string(header.count) + " points of " +
+    const std::string what = "the header counts " + std::to_string(header.count) + " points of " +
       std::to_string(header.recordLength) + " bytes, but only " + std::to_string(available) +
-      " bytes follow (" + std::to_string(available / header.recordLength) + " points)");
+      " bytes follow (" + std::to_string(there) + " points)";
+    if (!endAt)
+    {
+      failTruncated(what);
+    }
+    header.count = endAt(there, header.count, what);
   }
 }
 
@@ -215,6 +217,60 @@ bool startsLikeCopc(std::string_view start)
 {
   return start.size() >= 395 && start.substr(0, 4) == "LASF" &&
     start.substr(377, 5) == std::string_view("copc", 5) && numberAt<std::uint16_t>(start, 393) == 1;
+}
+
+int LasExtraField::arrayType() const
+{
+  const bool isFloat = sizeOfType(type) < 4 && !isScaled;
+  return !isScaled && (!hasNoData || isFloatingType(type)) ? type : isFloat ? VTK_FLOAT : VTK_DOUBLE;
+}
+
+std::vector<LasExtraField> lasExtraFields(std::string_view descriptors, std::size_t first, std::size_t length)
+{
+  std::vector<LasExtraField> fields;
+  std::size_t at = first;
+  for (std::size_t i = 0; i + kLasExtraDescriptor <= descriptors.size(); i += kLasExtraDescriptor)
+  {
+    const LasExtraField field = parseExtraField(descriptors.substr(i, kLasExtraDescriptor), at);
+    const std::size_t size = static_cast<std::size_t>(field.components * sizeOfType(field.type));
+    if (size == 0 || size > length - at)
+    {
+      fields.clear();
+      at = first;
+      break;
+    }
+    fields.push_back(field);
+    at += size;
+  }
+  if (at < length)
+  {
+    LasExtraField rest;
+    rest.name = "ExtraBytes";
+    rest.type = VTK_TYPE_UINT8;
+    rest.components = static_cast<int>(length - at);
+    rest.offset = at;
+    fields.push_back(rest);
+  }
+  return fields;
+}
+
+void forEachLasRecord(std::string_view records, bool far,
+  const std::function<void(std::string_view, std::string_view, int, std::string_view)>& visit)
+{
+  const std::size_t head = far ? kEvlrHeader : kLasVlrHeader;
+  while (records.size() >= head)
+  {
+    const std::uint64_t claimed =
+      far ? numberAt<std::uint64_t>(records, 20) : numberAt<std::uint16_t>(records, 20);
+    if (claimed > records.size() - head)
+    {
+      return;
+    }
+    const std::size_t size = static_cast<std::size_t>(claimed);
+    visit(records.substr(0, head + size), untilZero(records.substr(2, 16)),
+      numberAt<std::uint16_t>(records, 18), records.substr(head, size));
+    records.remove_prefix(head + size);
+  }
 }
 
 void needLasHeader(std::string_view bytes, const std::function<void(std::size_t, std::size_t)>& need)
@@ -245,7 +301,7 @@ void needLasHeader(std::string_view bytes, const std::function<void(std::size_t,
   }
 }
 
-LasHeader parseLasHeader(std::string_view bytes)
+LasHeader parseLasHeader(std::string_view bytes, const LasEnd& endAt)
 {
   if (bytes.size() < kLasHeaderOf12)
   {
@@ -290,7 +346,7 @@ LasHeader parseLasHeader(std::string_view bytes)
     header.scale[axis] = numberAt<double>(bytes, 131 + 8 * axis);
     header.offset[axis] = numberAt<double>(bytes, 155 + 8 * axis);
   }
-  checkLayout(bytes, header);
+  checkLayout(bytes, header, endAt);
   checkScales(header);
   parseRecords(bytes, header);
   return header;

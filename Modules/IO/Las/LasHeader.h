@@ -4,6 +4,7 @@
 #pragma once
 
 #include "Bytes/LittleEndian.h"
+#include "Bytes/NumericType.h"
 
 #include <algorithm>
 #include <array>
@@ -13,7 +14,11 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
+
+class vtkFieldData;
+class vtkPolyData;
 
 namespace pointhaptics::io
 {
@@ -46,8 +51,9 @@ constexpr std::size_t kLasHeaderOf14 = 375;
 constexpr std::size_t kLasVlrHeader = 54;
 constexpr std::size_t kLasExtraDescriptor = 192;
 constexpr int kLasExtraBytesRecord = 4; ///< of the user LASF_Spec
-constexpr int kLasPackedMark = 0xc0;    ///< bits of the point format that LAZ sets
-constexpr int kLasPackedBit = 0x80;     ///< the one of them that is written today
+constexpr std::string_view kLasProjectionUser = "LASF_Projection";
+constexpr int kLasPackedMark = 0xc0; ///< bits of the point format that LAZ sets
+constexpr int kLasPackedBit = 0x80;  ///< the one of them that is written today
 constexpr std::string_view kLaszipUser = "laszip encoded";
 constexpr int kLaszipRecord = 22204; ///< how the points are compressed
 
@@ -57,10 +63,44 @@ struct LasExtraField
   std::string name;
   int type = 0; ///< VTK type in the record
   int components = 1;
-  std::size_t offset = 0; ///< inside the record
-  bool isScaled = false;  ///< value = scale * stored + shift, as double
+  std::size_t offset = 0;                ///< inside the record
+  bool isScaled = false;                 ///< value = scale * stored + shift, as double
+  bool hasNoData = false;                ///< a stored value stands for none: NaN
+  std::array<std::int64_t, 3> noData{};  ///< of integers
+  std::array<double, 3> noDataAsFloat{}; ///< of floating types
+  std::string descriptor;                ///< its record of kLasExtraDescriptor bytes; empty: there is none
   std::array<double, 3> scale{ 1, 1, 1 };
   std::array<double, 3> shift{};
+
+  /// Of the array with its values.
+  int arrayType() const;
+  /// What is stored for none: the standard widens it, and some programs fill it up with zeros.
+  template <typename T>
+  T noDataOf(std::size_t component) const
+  {
+    return std::is_floating_point_v<T> ? static_cast<T>(noDataAsFloat[component])
+                                       : static_cast<T>(noData[component]);
+  }
+  template <typename T>
+  bool isNoData(T stored, std::size_t component) const
+  {
+    return hasNoData && stored == noDataOf<T>(component);
+  }
+};
+
+/// What describes a file and its points beside these, as it stands there.
+struct LasOrigin
+{
+  std::string header;     ///< at most kLasHeaderOf14 bytes; empty: the cloud is of no LAS file
+  std::string records;    ///< variable length records, but for those of packing and octree
+  std::string farRecords; ///< extended ones, which lie behind the points
+
+  /// Of a cloud that was read from one.
+  static LasOrigin of(vtkFieldData* fieldData);
+  void addTo(vtkPolyData* cloud) const;
+  bool isHere() const { return header.size() >= kLasHeaderOf12; }
+  int minorVersion() const { return isHere() ? header[25] : 0; }
+  int pointFormat() const { return isHere() ? header[104] & ~kLasPackedMark : 0; }
 };
 
 struct LasHeader
@@ -75,6 +115,7 @@ struct LasHeader
   std::array<double, 3> scale{};
   std::array<double, 3> offset{};
   std::vector<LasExtraField> extraFields;
+  LasOrigin origin;
   std::string generator;        ///< the program that wrote the file; empty when it does not say
   std::string coordinateSystem; ///< WKT or "EPSG:26917"; empty when the file does not say
   std::string lengthUnit;       ///< of a projected system: "metre"; empty when the file does not say
@@ -92,6 +133,19 @@ void needLasHeader(std::string_view bytes, const std::function<void(std::size_t,
 
 /// @throws FileProblem with byte offset and value; also when the file is too short for the points the header
 /// counts. Compressed points are only recognised: see Laz/LazSchema.h and Laz/LazChunks.h.
-LasHeader parseLasHeader(std::string_view bytes);
+/// With @p endAt(there, all, what) a file that is too short for them is read as far as it decides.
+using LasEnd = std::function<std::uint64_t(std::uint64_t, std::uint64_t, const std::string&)>;
+LasHeader parseLasHeader(std::string_view bytes, const LasEnd& endAt = {});
+
+/// The fields that @p descriptors, the content of an extra bytes record, describe in a record of @p length
+/// bytes from @p first on. What they do not cover, or all where they cannot be right, is kept as
+/// "ExtraBytes".
+std::vector<LasExtraField> lasExtraFields(
+  std::string_view descriptors, std::size_t first, std::size_t length);
+
+/// Calls @p visit(record, user, id, content) for each record among @p records, as LasOrigin has them; @p far:
+/// extended ones.
+void forEachLasRecord(std::string_view records, bool far,
+  const std::function<void(std::string_view, std::string_view, int, std::string_view)>& visit);
 
 } // namespace pointhaptics::io

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <cstring>
 #include <string>
+#include <string_view>
 
 namespace pointhaptics::io
 {
@@ -24,7 +25,8 @@ void putLittle(std::string& bytes, std::size_t offset, T value)
   }
 }
 
-/// The header of a variable length record of @p size bytes.
-std::string lasRecordHeader(const std::string& user, int id, std::size_t size);
+/// The header of a variable length record of @p size bytes. @p description: at most 32 bytes.
+std::string lasRecordHeader(
+  const std::string& user, int id, std::size_t size, std::string_view description = {});
 
 } // namespace pointhaptics::io

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 
 namespace pointhaptics::io
 {
@@ -104,7 +105,7 @@ LasRecords::Columns::Columns(const LasHeader& header, bool onlyPositions)
   firstExtra = all.size();
   for (const LasExtraField& field : header.extraFields)
   {
-    all.push_back({ field.name, field.isScaled ? VTK_DOUBLE : field.type, field.components });
+    all.push_back({ field.name, field.arrayType(), field.components });
   }
 }
 
@@ -206,17 +207,25 @@ void LasRecords::fillExtra(const LasBlock& block) const
     for (int component = 0; component < field.components; ++component)
     {
       const std::size_t at = field.offset + static_cast<std::size_t>(component * sizeOfType(field.type));
-      const double scale = field.scale[static_cast<std::size_t>(std::min(component, 2))];
-      const double shift = field.shift[static_cast<std::size_t>(std::min(component, 2))];
+      const std::size_t third = static_cast<std::size_t>(std::min(component, 2));
+      const double scale = field.scale[third];
+      const double shift = field.shift[third];
       withType(field.type,
         [&](auto zero)
         {
           using T = decltype(zero);
-          if (field.isScaled)
+          const auto value = [&field, third, scale, shift](T v)
           {
-            fillColumn<T, double>(
-              block, names_.firstExtra + i, at, [=](T v) { return scale * static_cast<double>(v) + shift; },
-              component);
+            return field.isNoData(v, third) ? std::numeric_limits<double>::quiet_NaN()
+                                            : scale * static_cast<double>(v) + shift;
+          };
+          if (field.arrayType() == VTK_FLOAT && (field.hasNoData || field.isScaled))
+          {
+            fillColumn<T, float>(block, names_.firstExtra + i, at, value, component);
+          }
+          else if (field.hasNoData || field.isScaled)
+          {
+            fillColumn<T, double>(block, names_.firstExtra + i, at, value, component);
           }
           else
           {

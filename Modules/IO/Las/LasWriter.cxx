@@ -3,7 +3,7 @@
 #include "Bytes/NumericType.h"
 #include "Core/Resample/FieldNames.h"
 #include "IO/Info/FieldText.h"
-#include "IO/Las/LasCoordinateSystem.h"
+#include "IO/Las/LasDescription.h"
 #include "IO/Las/LasGrid.h"
 #include "IO/Las/LasHeader.h"
 #include "IO/Las/LasRecordWriter.h"
@@ -21,6 +21,9 @@
 #include <cstdint>
 #include <cstring>
 #include <deque>
+#include <limits>
+#include <type_traits>
+#include <utility>
 
 namespace pointhaptics::io
 {
@@ -31,6 +34,7 @@ namespace
 using Byte = std::uint8_t;
 
 constexpr std::size_t kLongestName = 32;
+constexpr std::size_t kExtraText = 160; ///< where in the descriptor of an extra field its description begins
 constexpr std::size_t kMostRecord = 65535; ///< 16 bits hold the length of a record
 constexpr double kScanAngleStep = 0.006;   ///< degrees, point formats 6 to 10
 constexpr double kGridPart = 0.6;          ///< of the work: finding the grid
@@ -58,10 +62,11 @@ double usualStep(const std::string& unit)
 class LasWriter
 {
 public:
-  LasWriter(const std::vector<OutputArray>& arrays, vtkFieldData* fieldData, WriteTask& task, bool isPacked)
+  LasWriter(const std::vector<OutputArray>& arrays, WriteTask& task, bool isPacked)
     : arrays_(arrays)
     , taken_(arrays.size(), false)
-    , fieldData_(fieldData)
+    , fieldData_(task.fieldData())
+    , origin_(LasOrigin::of(task.fieldData()))
     , task_(task)
     , notes_(task.notes)
     , rows_(arrays[0].array->GetNumberOfTuples())
@@ -82,15 +87,19 @@ private:
   void planStandardFields();
   void planColors();
   void planExtraFields();
+  void addStored(const OutputArray& stored, const LasExtraField& field);
+  void addDescriptor(const OutputArray& array, int component, const std::string& origin);
   void addField(const OutputArray* array, int component, std::size_t offset, int type);
   std::vector<Byte>& newBytes(std::size_t offset);
-  std::string header(std::size_t pointsOffset, std::uint32_t records, std::uint16_t encoding) const;
+  void putCounts(std::string& bytes, bool isOf14) const;
+  std::string header(std::size_t pointsOffset, const LasDescription& description) const;
   double fieldValue(const char* name, int component, double otherwise) const;
 
   const std::vector<OutputArray>& arrays_;
   std::vector<bool> taken_;
   std::deque<OutputArray> converted_; ///< the references to them stay
   vtkFieldData* fieldData_;
+  const LasOrigin origin_; ///< The file that the cloud came from.
   WriteTask& task_;
   WriterNotes& notes_;
   const vtkIdType rows_;
@@ -121,6 +130,7 @@ private:
   std::vector<RecordField> fields_;
   std::size_t recordSize_ = 0;
   std::string descriptors_;
+  UnusedNames shortNames_;
 };
 
 /// The array of that field, converted to @p type where it has another one: other formats store values as they
@@ -364,31 +374,69 @@ void LasWriter::planColors()
   }
 }
 
+void LasWriter::addStored(const OutputArray& stored, const LasExtraField& field)
+{
+  converted_.push_back(stored);
+  for (int component = 0; component < field.components; ++component)
+  {
+    addField(&converted_.back(), component, recordSize_, field.type);
+    recordSize_ += static_cast<std::size_t>(sizeOfType(field.type));
+  }
+  descriptors_ += field.descriptor;
+}
+
+/// @param origin what described the array in another file; empty: nothing did.
+void LasWriter::addDescriptor(const OutputArray& array, int component, const std::string& origin)
+{
+  std::string name = array.componentName(component);
+  if (isPointField(array.name)) // each LAS point has that field, too
+  {
+    name = array.name + "Extra" + name.substr(array.name.size());
+    notes_.add("array " + array.name + " has values that its LAS field cannot hold, and is called " + name);
+  }
+  const std::string kept = shortNames_.unused(name, kLongestName);
+  if (kept != name)
+  {
+    notes_.add("array " + name + " is called " + kept);
+  }
+  std::string descriptor(kLasExtraDescriptor, '\0');
+  descriptor[2] = static_cast<char>(codeOf(array.type()));
+  descriptor.replace(4, kept.size(), kept);
+  if (!origin.empty())
+  {
+    descriptor.replace(kExtraText, std::string::npos, origin, kExtraText, std::string::npos);
+  }
+  descriptors_ += descriptor;
+  addField(&array, component, recordSize_, array.type());
+  recordSize_ += static_cast<std::size_t>(sizeOfType(array.type()));
+}
+
 void LasWriter::planExtraFields()
 {
+  std::vector<LasExtraField> known;
+  const auto describe = [&](std::string_view, std::string_view user, int id, std::string_view content)
+  {
+    if (user == "LASF_Spec" && id == kLasExtraBytesRecord)
+    {
+      known = lasExtraFields(content, 0, kMostRecord);
+    }
+  };
+  forEachLasRecord(origin_.records, false, describe);
+  forEachLasRecord(origin_.farRecords, true, describe);
   for (std::size_t i = 1; i < arrays_.size(); ++i)
   {
     const OutputArray& array = arrays_[i];
+    const auto field = std::find_if(known.begin(), known.end(),
+      [&](const LasExtraField& each) { return each.name == array.name && !each.descriptor.empty(); });
+    OutputArray stored{ ArrayRole::Other, array.name, {} };
+    if (!taken_[i] && field != known.end() && storeAsBefore(array, *field, stored))
+    {
+      addStored(stored, *field);
+      continue;
+    }
     for (int component = 0; component < array.components() && !taken_[i]; ++component)
     {
-      std::string name = array.componentName(component);
-      if (isPointField(array.name)) // each LAS point has that field, too
-      {
-        name = array.name + "Extra" + name.substr(array.name.size());
-        notes_.add(
-          "array " + array.name + " has values that its LAS field cannot hold, and is called " + name);
-      }
-      if (name.size() > kLongestName)
-      {
-        notes_.add("array " + name + " is called " + name.substr(0, kLongestName));
-      }
-      std::string descriptor(kLasExtraDescriptor, '\0');
-      descriptor[2] = static_cast<char>(codeOf(array.type()));
-      const std::string kept = name.substr(0, kLongestName);
-      descriptor.replace(4, kept.size(), kept);
-      descriptors_ += descriptor;
-      addField(&array, component, recordSize_, array.type());
-      recordSize_ += static_cast<std::size_t>(sizeOfType(array.type()));
+      addDescriptor(array, component, field != known.end() ? field->descriptor : std::string());
     }
   }
   if (recordSize_ > kMostRecord || descriptors_.size() > kMostRecord)
@@ -399,22 +447,9 @@ void LasWriter::planExtraFields()
   }
 }
 
-std::string LasWriter::header(std::size_t pointsOffset, std::uint32_t records, std::uint16_t encoding) const
+/// Points, and those of each number of return.
+void LasWriter::putCounts(std::string& bytes, bool isOf14) const
 {
-  const bool isOf14 = extended_ || (encoding & kLasWellKnownTextBit) != 0;
-  std::string bytes(isOf14 ? kLasHeaderOf14 : kLasHeaderOf12, '\0');
-  bytes.replace(0, 4, "LASF");
-  putLittle(bytes, 6, encoding);
-  bytes[24] = 1;
-  bytes[25] = isOf14 ? 4 : 2;
-  const std::string program = "PointHaptics";
-  bytes.replace(26, 5, "OTHER");
-  bytes.replace(58, program.size(), program);
-  putLittle(bytes, 94, static_cast<std::uint16_t>(bytes.size()));
-  putLittle(bytes, 96, static_cast<std::uint32_t>(pointsOffset));
-  putLittle(bytes, 100, records);
-  bytes[104] = static_cast<char>(isPacked_ ? format_ | kLasPackedBit : format_);
-  putLittle(bytes, 105, static_cast<std::uint16_t>(recordSize_));
   std::uint64_t byReturn[15] = {};
   const Byte* returns =
     returnNumber_ ? static_cast<const Byte*>(returnNumber_->array->GetVoidPointer(0)) : nullptr;
@@ -445,6 +480,39 @@ std::string LasWriter::header(std::size_t pointsOffset, std::uint32_t records, s
   {
     putLittle(bytes, 247, static_cast<std::uint64_t>(rows_));
   }
+}
+
+std::string LasWriter::header(std::size_t pointsOffset, const LasDescription& records) const
+{
+  const bool isOf14 = records.isOf14;
+  std::string bytes(isOf14 ? kLasHeaderOf14 : kLasHeaderOf12, '\0');
+  bytes.replace(0, 4, "LASF");
+  bytes.replace(26, 5, "OTHER");
+  if (origin_.isHere())
+  {
+    constexpr std::pair<std::size_t, std::size_t> kKept[] = { { 4, 2 }, { 8, 16 }, { 26, 32 }, { 90, 4 } };
+    for (const auto& [at, size] : kKept) // source, GUID, system, date
+    {
+      bytes.replace(at, size, origin_.header, at, size);
+    }
+  }
+  putLittle(bytes, 6, records.encoding);
+  bytes[24] = 1;
+  bytes[25] = isOf14 ? 4 : 2;
+  const std::string program = "PointHaptics";
+  bytes.replace(58, program.size(), program);
+  putLittle(bytes, 94, static_cast<std::uint16_t>(bytes.size()));
+  putLittle(bytes, 96, static_cast<std::uint32_t>(pointsOffset));
+  putLittle(bytes, 100, records.count);
+  bytes[104] = static_cast<char>(isPacked_ ? format_ | kLasPackedBit : format_);
+  putLittle(bytes, 105, static_cast<std::uint16_t>(recordSize_));
+  if (records.farCount > 0)
+  {
+    putLittle(
+      bytes, 235, static_cast<std::uint64_t>(pointsOffset + recordSize_ * static_cast<std::size_t>(rows_)));
+    putLittle(bytes, 243, records.farCount);
+  }
+  putCounts(bytes, isOf14);
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     const LasGrid& grid = grids_[axis];
@@ -460,7 +528,7 @@ std::string LasWriter::header(std::size_t pointsOffset, std::uint32_t records, s
 void LasWriter::write()
 {
   takeStandardArrays();
-  extended_ = needsExtended();
+  extended_ = needsExtended() || origin_.pointFormat() >= 6;
   const bool isColored = wideColor_ || color_;
   format_ = extended_ ? (nearInfrared_ ? 8 : isColored ? 7 : 6) : (gpsTime_ ? 1 : 0) + (isColored ? 2 : 0);
   recordSize_ = kLasPointFormats[format_].size;
@@ -470,23 +538,10 @@ void LasWriter::write()
   planColors();
   planExtraFields();
 
-  constexpr std::uint16_t kKeptEncoding = 15; // how gps time counts, and the like
-  std::uint16_t encoding = static_cast<std::uint16_t>(
-    static_cast<int>(std::clamp(fieldValue("LasGlobalEncoding", 0, 0.0), 0.0, 65535.0)) & kKeptEncoding);
-  std::string records = lasCoordinateSystemRecord(fieldData_, encoding);
-  std::uint32_t count = records.empty() ? 0 : 1;
-  if (!descriptors_.empty())
-  {
-    records += lasRecordHeader("LASF_Spec", kLasExtraBytesRecord, descriptors_.size()) + descriptors_;
-    ++count;
-  }
-  if (isPacked_)
-  {
-    records += lazDescription(format_, recordSize_);
-    ++count;
-  }
-  const std::size_t pointsOffset = header(0, count, encoding).size() + records.size();
-  task_.out.write(header(pointsOffset, count, encoding) + records);
+  const LasDescription described(origin_, fieldData_,
+    { descriptors_, isPacked_ ? lazDescription(format_, recordSize_) : std::string(), extended_ }, notes_);
+  const std::size_t pointsOffset = header(0, described).size() + described.bytes.size();
+  task_.out.write(header(pointsOffset, described) + described.bytes);
   if (isPacked_)
   {
     writeLazRecords(fields_, format_, recordSize_, pointsOffset, rows_, task_, kPlanningPart);
@@ -494,6 +549,7 @@ void LasWriter::write()
   else
   {
     writeRecords(fields_, recordSize_, rows_, task_, kPlanningPart);
+    task_.out.write(described.far);
   }
 }
 
@@ -545,15 +601,14 @@ std::vector<OutputArray> withoutRows(std::vector<OutputArray> arrays, const std:
   return arrays;
 }
 
-} // namespace
-
-void writeLas(const std::vector<OutputArray>& arrays, vtkFieldData* fieldData, WriteTask& task, bool isPacked)
+void writeRecordsOf(WriteTask& task, bool isPacked)
 {
+  const std::vector<OutputArray> arrays = outputArrays(task.cloud, task.notes, NameRule::Any);
   const vtkIdType all = arrays[0].array->GetNumberOfTuples();
   const std::vector<vtkIdType> left = rowsNotFinite(arrays[0]);
   if (left.empty())
   {
-    LasWriter(arrays, fieldData, task, isPacked).write();
+    LasWriter(arrays, task, isPacked).write();
     return;
   }
   task.points = all - static_cast<vtkIdType>(left.size());
@@ -565,7 +620,22 @@ void writeLas(const std::vector<OutputArray>& arrays, vtkFieldData* fieldData, W
   task.notes.add(std::to_string(left.size()) + " of " + std::to_string(all) +
     " points are NaN or infinite and left out: LAS stores coordinates as integers; write .vtp, .ply or .pcd "
     "to keep them");
-  LasWriter(withoutRows(arrays, left), fieldData, task, isPacked).write();
+  LasWriter(withoutRows(arrays, left), task, isPacked).write();
+}
+
+} // namespace
+
+/// LAS 1.2, or 1.4 where the arrays or well-known text need it. Arrays that the reader makes of LAS fields
+/// become these again, others extra bytes.
+void writeLas(WriteTask& task)
+{
+  writeRecordsOf(task, false);
+}
+
+/// The same records, compressed.
+void writeLaz(WriteTask& task)
+{
+  writeRecordsOf(task, true);
 }
 
 } // namespace pointhaptics::io

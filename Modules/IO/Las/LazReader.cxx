@@ -16,16 +16,22 @@ namespace pointhaptics::io
 namespace
 {
 
-LazChunks chunksOf(const ReadTask& task, const LasHeader& header, const LazSchema& schema)
+LazChunks chunksOf(ReadTask& task, const LasHeader& header, const LazSchema& schema)
 {
+  const auto need = [&](std::size_t offset, std::size_t size) { task.need(offset, size); };
+  if (task.salvage && !task.shared)
+  {
+    return findLazChunks(task.bytes, header, schema, need,
+      [&](std::uint64_t there, std::uint64_t all, const std::string& what)
+      { return task.endAt(there, all, what); });
+  }
   if (!task.load)
   {
     return findLazChunks(task.bytes, header, schema);
   }
   if (!task.wanted.isPart())
   {
-    return findLazChunks(
-      task.bytes, header, schema, [&](std::size_t offset, std::size_t size) { task.need(offset, size); });
+    return findLazChunks(task.bytes, header, schema, need);
   }
   checkLazCount(task.bytes, header);
   LazChunks part = findCopcChunks(task, header);
@@ -113,23 +119,62 @@ void LazReader::work(LasRecords& records) noexcept
   }
 }
 
-/// Each chunk tells where the next one begins.
+/// Each chunk tells where the next one begins, where it is not known. A salvaged file ends at the first
+/// fault.
 void LazReader::readInOrder(LasRecords& records)
 {
   ChunkDecoder decoder(schema_, LazFields::All);
   std::vector<char> block(static_cast<std::size_t>(kLasBlockRows) * schema_.recordLength);
   std::size_t offset = chunks_.all.front().offset;
+  done_ = 0;
+  isStopped_ = false;
   for (LazChunk chunk : chunks_.all)
   {
     if (chunk.first >= rows_.last)
     {
       break;
     }
-    chunk.offset = offset;
-    chunk.size = task_.bytes.size() - offset;
-    readChunk(decoder, block, chunk, records);
-    offset += decoder.chunkSize();
+    if (!chunks_.arePlaced)
+    {
+      chunk.offset = offset;
+      chunk.size = task_.bytes.size() - offset;
+    }
+    try
+    {
+      readChunk(decoder, block, chunk, records);
+      offset += chunks_.arePlaced ? 0 : decoder.chunkSize();
+    }
+    catch (const FileProblem& problem)
+    {
+      if (!task_.salvage)
+      {
+        throw;
+      }
+      task_.endAt(chunk.first + salvageChunk(decoder, block, chunk, records), rows_.count(), problem.what());
+      return;
+    }
   }
+}
+
+/// Reads the points of a damaged chunk one by one. @return how many there are.
+std::uint64_t LazReader::salvageChunk(
+  ChunkDecoder& decoder, std::vector<char>& block, const LazChunk& chunk, LasRecords& records)
+{
+  std::uint64_t there = 0;
+  try
+  {
+    decoder.start(task_.bytes, chunk);
+    for (; there < chunk.count; ++there)
+    {
+      decoder.next(block.data(), 1);
+      records.fill({ block.data(), static_cast<vtkIdType>(chunk.first + there), 1 });
+    }
+  }
+  catch (const FileProblem&)
+  {
+    // The points before it are there.
+  }
+  return there;
 }
 
 void LazReader::read(LasRecords& records)
@@ -159,9 +204,18 @@ void LazReader::read(LasRecords& records)
   }
   for (const std::exception_ptr& fault : faults_)
   {
-    if (fault)
+    try
     {
-      std::rethrow_exception(fault);
+      fault ? std::rethrow_exception(fault) : void();
+    }
+    catch (const FileProblem&)
+    {
+      if (!task_.salvage)
+      {
+        throw;
+      }
+      readInOrder(records);
+      return;
     }
   }
 }

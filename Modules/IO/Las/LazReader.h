@@ -48,8 +48,10 @@ private:
   void work(LasRecords& records) noexcept;
   void readChunk(ChunkDecoder& decoder, std::vector<char>& block, const LazChunk& chunk, LasRecords& records);
   void readInOrder(LasRecords& records);
+  std::uint64_t salvageChunk(
+    ChunkDecoder& decoder, std::vector<char>& block, const LazChunk& chunk, LasRecords& records);
 
-  const ReadTask& task_;
+  ReadTask& task_;
   const LazSchema schema_;
   const LazChunks chunks_;
   const RowRange rows_; ///< of the points of all chunks

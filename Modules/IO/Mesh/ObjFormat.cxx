@@ -1,7 +1,7 @@
-#include "FormatReaders.h"
+#include "ReadTask.h"
 
-#include "CloudFormat.h"
 #include "IO/Columns/CloudColumns.h"
+#include "IO/Formats/FormatLooks.h"
 #include "IO/Text/NumberColumn.h"
 
 #include <algorithm>

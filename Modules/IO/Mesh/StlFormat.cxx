@@ -1,8 +1,8 @@
-#include "FormatReaders.h"
+#include "ReadTask.h"
 
 #include "Bytes/LittleEndian.h"
-#include "CloudFormat.h"
 #include "IO/Columns/CloudColumns.h"
+#include "IO/Formats/FormatLooks.h"
 #include "IO/Text/TextScan.h"
 
 #include <array>

@@ -1,11 +1,11 @@
-#include "FormatReaders.h"
+#include "ReadTask.h"
 
 #include "Bytes/NumericType.h"
+#include "IO/Bytes/TextPart.h"
 #include "IO/Columns/CloudColumns.h"
 #include "IO/Info/FieldText.h"
 #include "IO/Pcd/LzfStream.h"
 #include "IO/Pcd/PcdHeader.h"
-#include "IO/Text/TextPart.h"
 #include "IO/Text/TextScan.h"
 
 #include "vtkDoubleArray.h"
@@ -224,8 +224,8 @@ void parseAsciiRow(
 }
 
 /// Not left to PCL, which names no line when a number is malformed.
-void fillFromAscii(const ReadTask& task, const TextPart& part, vtkIdType rows, const PcdTable& table,
-  const CloudColumns& columns)
+void fillFromAscii(
+  ReadTask& task, const TextPart& part, vtkIdType rows, const PcdTable& table, const CloudColumns& columns)
 {
   const std::vector<AsciiNumber> numbers = asciiNumbers(table, columns);
   LineReader lines(task.bytes.substr(part.begin, part.end - part.begin), part.firstLine);
@@ -237,7 +237,18 @@ void fillFromAscii(const ReadTask& task, const TextPart& part, vtkIdType rows, c
     {
       continue;
     }
-    parseAsciiRow(line, lines.lineNumber(), numbers, point);
+    try
+    {
+      parseAsciiRow(line, lines.lineNumber(), numbers, point);
+    }
+    catch (const FileProblem&)
+    {
+      if (!task.salvage || !lines.isAtEnd())
+      {
+        throw;
+      }
+      break; // it is cut
+    }
     if (++point % kProgressRows == 0)
     {
       task.progress(static_cast<double>(point) / static_cast<double>(rows));
@@ -245,8 +256,10 @@ void fillFromAscii(const ReadTask& task, const TextPart& part, vtkIdType rows, c
   }
   if (point < rows)
   {
-    failTruncated("the file ends at line " + std::to_string(lines.lineNumber()) + " after " +
-      std::to_string(point) + " of " + std::to_string(rows) + " points");
+    const bool isCut = task.salvage && point > 1 && task.bytes.back() != '\n'; // perhaps within a number
+    task.endAt(static_cast<std::uint64_t>(point - (isCut ? 1 : 0)), static_cast<std::uint64_t>(rows),
+      "the file ends at line " + std::to_string(lines.lineNumber()) + " after " + std::to_string(point) +
+        " of " + std::to_string(rows) + " points");
   }
 }
 
@@ -290,7 +303,9 @@ void readPcd(ReadTask& task, vtkPolyData* cloud)
   {
     task.takeWhole();
   }
-  const PcdHeader header = parsePcdHeader(task.bytes);
+  PcdHeader header = parsePcdHeader(task.bytes,
+    [&](std::uint64_t there, std::uint64_t all, const std::string& what)
+    { return task.endAt(there, all, what); });
   task.format = std::string("PCD (") + nameOf(header.encoding) + ")";
   const PcdTable table(header);
   TextPart part;
@@ -322,6 +337,10 @@ void readPcd(ReadTask& task, vtkPolyData* cloud)
       break;
   }
   columns.moveTo(cloud, task.shared);
+  if (task.pointsThere < header.points) // no grid of the scanner
+  {
+    header.height = 1;
+  }
   addFieldData(header, cloud);
 }
 

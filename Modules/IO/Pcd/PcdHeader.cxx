@@ -297,7 +297,9 @@ void checkCompressedSize(std::string_view bytes, PcdHeader& header, unsigned lon
   header.compressedSize = static_cast<std::size_t>(packed);
 }
 
-void checkSizes(std::string_view bytes, PcdHeader& header)
+using End = std::function<std::uint64_t(std::uint64_t, std::uint64_t, const std::string&)>;
+
+void checkSizes(std::string_view bytes, PcdHeader& header, const End& endAt)
 {
   // Division, because the product of two claims may overflow.
   const bool matches = header.width == 0 || header.height == 0
@@ -320,16 +322,19 @@ void checkSizes(std::string_view bytes, PcdHeader& header)
       : isCompressed                      ? header.compressedRecordSize
                                           : header.recordSize);
   const unsigned long long ratio = isCompressed ? kMostLzfRatio : 1;
-  if (header.points > ratio * (available + 1) / least)
+  const unsigned long long there =
+    header.encoding == PcdEncoding::Binary ? available / least : ratio * (available + 1) / least;
+  if (header.points > there)
   {
-    failTruncated("the header counts " + std::to_string(header.points) + " points of at least " +
-      std::to_string(least) + " bytes, but only " + std::to_string(available) + " bytes follow");
-  }
-  const unsigned long long total = header.points * header.recordSize;
-  if (header.encoding == PcdEncoding::Binary && total > available)
-  {
-    failTruncated("the header needs " + std::to_string(total) + " bytes of points, but only " +
-      std::to_string(available) + " follow");
+    const std::string what = "the header counts " + std::to_string(header.points) + " points of at least " +
+      std::to_string(least) + " bytes, but only " + std::to_string(available) + " bytes follow";
+    if (!endAt || isCompressed)
+    {
+      failTruncated(what);
+    }
+    header.points = endAt(there, header.points, what);
+    header.width = header.points;
+    header.height = 1;
   }
   if (isCompressed)
   {
@@ -344,10 +349,10 @@ bool PcdField::isPackedColor() const
   return count == 1 && sizeOfType(type) == 4 && (name == "rgb" || name == "rgba");
 }
 
-PcdHeader parsePcdHeader(std::string_view bytes)
+PcdHeader parsePcdHeader(std::string_view bytes, const End& endAt)
 {
   PcdHeader header = HeaderParser(bytes).parse();
-  checkSizes(bytes, header);
+  checkSizes(bytes, header, endAt);
   return header;
 }
 

@@ -4,6 +4,8 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -48,7 +50,9 @@ struct PcdHeader
 };
 
 /// @throws FileProblem with line and value, also when the file is too short for what the header promises.
-PcdHeader parsePcdHeader(std::string_view bytes);
+/// With @p endAt(there, all, what) one that is not compressed is read as far as it decides.
+PcdHeader parsePcdHeader(std::string_view bytes,
+  const std::function<std::uint64_t(std::uint64_t, std::uint64_t, const std::string&)>& endAt = {});
 
 const char* nameOf(PcdEncoding encoding);
 

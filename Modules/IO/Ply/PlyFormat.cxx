@@ -1,13 +1,17 @@
-#include "FormatReaders.h"
+#include "ReadTask.h"
 
 #include "Bytes/NumericType.h"
+#include "IO/Bytes/TextPart.h"
 #include "IO/Columns/CloudColumns.h"
 #include "IO/Info/FieldText.h"
 #include "IO/Ply/PlyHeader.h"
-#include "IO/Text/TextPart.h"
 #include "IO/Text/TextScan.h"
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <type_traits>
 
 namespace pointhaptics::io
 {
@@ -138,17 +142,20 @@ struct VertexPlan
   }
 };
 
-void checkVertexCount(const PlyElement& vertex, std::size_t available, std::size_t atLeastPerVertex)
+/// How many vertices to read.
+unsigned long long checkedCount(
+  ReadTask& task, const PlyElement& vertex, std::size_t available, std::size_t atLeastPerVertex)
 {
   if (vertex.count == 0)
   {
     failNoPoints();
   }
-  if (vertex.count > available / std::max<std::size_t>(atLeastPerVertex, 1))
-  {
-    failTruncated("the header counts " + std::to_string(vertex.count) + " vertices of at least " +
-      std::to_string(atLeastPerVertex) + " bytes, but only " + std::to_string(available) + " bytes follow");
-  }
+  const std::size_t there = available / std::max<std::size_t>(atLeastPerVertex, 1);
+  return vertex.count > there ? task.endAt(there, vertex.count,
+                                  "the header counts " + std::to_string(vertex.count) +
+                                    " vertices of at least " + std::to_string(atLeastPerVertex) +
+                                    " bytes, but only " + std::to_string(available) + " bytes follow")
+                              : vertex.count;
 }
 
 /// Records of fixed size: one pass per column over blocks that stay in the cache.
@@ -171,23 +178,41 @@ void fillFixedRecords(BinaryBody& body, const PlyElement& vertex, vtkIdType rows
   }
 }
 
+void fillRecordWithLists(BinaryBody& body, const PlyElement& vertex, const VertexPlan& plan,
+  const CloudColumns& columns, std::uint64_t row)
+{
+  for (std::size_t i = 0; i < vertex.properties.size(); ++i)
+  {
+    const PlyProperty& property = vertex.properties[i];
+    if (property.isList)
+    {
+      body.skipList(property, vertex, row);
+      continue;
+    }
+    const char* data = body.take(static_cast<std::size_t>(sizeOfType(property.type)), vertex, row);
+    copyStrided({ data, 0, property.type },
+      columns.target(plan.columnOfProperty[i]).fromRow(static_cast<vtkIdType>(row)), 1, body.swap());
+  }
+}
+
 /// Records that contain lists: their length is known only after reading them.
 void fillRecordsWithLists(BinaryBody& body, const PlyElement& vertex, const VertexPlan& plan,
-  const CloudColumns& columns, const ReadTask& task)
+  const CloudColumns& columns, std::uint64_t rows, ReadTask& task)
 {
-  for (unsigned long long row = 0; row < vertex.count; ++row)
+  for (std::uint64_t row = 0; row < rows; ++row)
   {
-    for (std::size_t i = 0; i < vertex.properties.size(); ++i)
+    try
     {
-      const PlyProperty& property = vertex.properties[i];
-      if (property.isList)
+      fillRecordWithLists(body, vertex, plan, columns, row);
+    }
+    catch (const FileProblem& problem)
+    {
+      if (!task.salvage || row == 0)
       {
-        body.skipList(property, vertex, row);
-        continue;
+        throw;
       }
-      const char* data = body.take(static_cast<std::size_t>(sizeOfType(property.type)), vertex, row);
-      copyStrided({ data, 0, property.type },
-        columns.target(plan.columnOfProperty[i]).fromRow(static_cast<vtkIdType>(row)), 1, body.swap());
+      task.endAt(row, vertex.count, problem.what());
+      return;
     }
     if (row % kProgressRows == 0)
     {
@@ -211,13 +236,12 @@ void readBinaryBody(ReadTask& task, const PlyHeader& header, vtkPolyData* cloud)
     skipBinaryElement(body, header.elements[i]);
   }
   const std::size_t recordSize = vertex.minimumRecordSize();
-  checkVertexCount(vertex, body.remaining(), recordSize);
-  const RowRange rows = task.rowsOf(vertex.count);
+  const RowRange rows = task.rowsOf(checkedCount(task, vertex, body.remaining(), recordSize));
   const VertexPlan plan(vertex);
   CloudColumns columns(plan.columns, static_cast<vtkIdType>(rows.count()));
   if (vertex.hasList())
   {
-    fillRecordsWithLists(body, vertex, plan, columns, task);
+    fillRecordsWithLists(body, vertex, plan, columns, rows.count(), task);
   }
   else
   {
@@ -228,51 +252,6 @@ void readBinaryBody(ReadTask& task, const PlyHeader& header, vtkPolyData* cloud)
   noteCutElements(task, header, [&](const PlyElement& element) { skipBinaryElement(body, element); });
   columns.moveTo(cloud, task.shared);
 }
-
-/// One ASCII record: a line of numbers.
-class AsciiRecord
-{
-public:
-  AsciiRecord(std::string_view line, std::size_t number)
-    : rest_(line)
-    , number_(number)
-  {
-  }
-  double takeNumber(const PlyProperty& property)
-  {
-    double value = 0.0;
-    if (!io::takeNumber(rest_, value))
-    {
-      const std::string_view word = takeWord(rest_);
-      failFormat(where() + "property " + inQuotes(property.name) + " is " +
-          (word.empty() ? std::string("missing") : inQuotes(word) + ", not a number"),
-        "write one number per property and one vertex per line");
-    }
-    return value;
-  }
-  void skipList(const PlyProperty& list)
-  {
-    const double count = takeNumber(list);
-    for (double i = 0.0; i < count; i += 1.0)
-    {
-      takeNumber(list);
-    }
-  }
-  void expectEnd()
-  {
-    const std::string_view extra = takeWord(rest_);
-    if (!extra.empty())
-    {
-      failFormat(where() + inQuotes(extra) + " follows the last property",
-        "write as many numbers per line as the header has properties");
-    }
-  }
-  std::string where() const { return "line " + std::to_string(number_) + ": "; }
-
-private:
-  std::string_view rest_;
-  std::size_t number_;
-};
 
 bool nextFilledLine(LineReader& lines, std::string_view& line)
 {
@@ -286,8 +265,112 @@ bool nextFilledLine(LineReader& lines, std::string_view& line)
   return false;
 }
 
+/// The numbers of ASCII records. A record is a line as a rule; one may go on in the lines behind, where it
+/// ends with a line, and several may stand in a line, where all of it belongs to them.
+class AsciiRecords
+{
+public:
+  AsciiRecords(LineReader& lines, const PlyElement& element)
+    : lines_(lines)
+    , element_(element)
+  {
+  }
+  /// @return false at the end of the file.
+  bool next()
+  {
+    goesOn_ = false;
+    const bool isThere = !rest_.empty() || nextFilledLine(lines_, rest_);
+    line_ = lines_.lineNumber();
+    return isThere;
+  }
+  double takeNumber(const PlyProperty& property)
+  {
+    double value = 0.0;
+    for (number_ = rest_; !io::takeNumber(rest_, value); number_ = rest_)
+    {
+      if (rest_.empty() && nextFilledLine(lines_, rest_))
+      {
+        missing_ = goesOn_ ? missing_ : property.name;
+        goesOn_ = true;
+        continue;
+      }
+      const std::string_view word = takeWord(rest_);
+      failFormat(where() + "property " + inQuotes(property.name) + " is " +
+          (word.empty() ? std::string("missing") : inQuotes(word) + ", not a number"),
+        "write one number per property and one vertex per line");
+    }
+    return value;
+  }
+  /// Stores the next number. @return false where the type of the property cannot hold it.
+  bool store(const PlyProperty& property, ColumnView target, vtkIdType row, double& value)
+  {
+    value = takeNumber(property);
+    return std::abs(value) >= 0x1p53 && !isFloatingType(property.type)
+      ? storeInteger(takeWord(number_), target, row) // every digit counts
+      : storeNumber(target, row, value);
+  }
+  void skipList(const PlyProperty& list)
+  {
+    const double count = takeNumber(list);
+    for (double i = 0.0; i < count; i += 1.0)
+    {
+      takeNumber(list);
+    }
+  }
+  void expectEnd()
+  {
+    rest_ = trimmed(rest_);
+    if (rest_.empty())
+    {
+      return;
+    }
+    std::size_t extra = 0;
+    for (std::string_view copy = rest_; !takeWord(copy).empty();)
+    {
+      ++extra;
+    }
+    if (goesOn_)
+    {
+      failFormat("line " + std::to_string(line_) + ": property " + inQuotes(missing_) + " is missing",
+        "write one number per property and one vertex per line");
+    }
+    if (element_.hasList() || extra % element_.properties.size() != 0)
+    {
+      failFormat(where() + inQuotes(takeWord(rest_)) + " follows the last property",
+        "write as many numbers per line as the header has properties");
+    }
+  }
+  std::string where() const { return "line " + std::to_string(lines_.lineNumber()) + ": "; }
+
+private:
+  static bool storeInteger(std::string_view word, ColumnView target, vtkIdType row)
+  {
+    bool isStored = false;
+    withType(target.type,
+      [&](auto zero)
+      {
+        using T = decltype(zero);
+        T value{};
+        if constexpr (std::is_integral_v<T>)
+        {
+          isStored = std::from_chars(word.data(), word.data() + word.size(), value).ec == std::errc();
+          std::memcpy(target.first + row * target.stride, &value, sizeof(T));
+        }
+      });
+    return isStored;
+  }
+
+  LineReader& lines_;
+  const PlyElement& element_;
+  std::string_view rest_;
+  std::string_view number_; ///< Begins with the number that was taken last.
+  std::string missing_;     ///< First property that did not stand in the line of the others.
+  std::size_t line_ = 0;    ///< In which the record begins.
+  bool goesOn_ = false;     ///< Behind the line in which it begins.
+};
+
 void fillAsciiRow(
-  AsciiRecord record, vtkIdType row, const PlyElement& vertex, const std::vector<ColumnView>& targets)
+  AsciiRecords& record, vtkIdType row, const PlyElement& vertex, const std::vector<ColumnView>& targets)
 {
   for (std::size_t i = 0; i < vertex.properties.size(); ++i)
   {
@@ -297,8 +380,8 @@ void fillAsciiRow(
       record.skipList(property);
       continue;
     }
-    const double value = record.takeNumber(property);
-    if (!storeNumber(targets[i], row, value))
+    double value = 0.0;
+    if (!record.store(property, targets[i], row, value))
     {
       failFormat(record.where() + "property " + inQuotes(property.name) + " is " + std::to_string(value) +
           ", which its integer type cannot hold",
@@ -308,8 +391,41 @@ void fillAsciiRow(
   record.expectEnd();
 }
 
-/// @return the last line of the element.
-std::string_view skipAsciiElement(LineReader& lines, const PlyElement& element)
+void fillAsciiRows(ReadTask& task, LineReader& lines, const PlyElement& vertex, std::uint64_t rows,
+  const std::vector<ColumnView>& targets)
+{
+  AsciiRecords record(lines, vertex);
+  for (std::uint64_t row = 0; row < rows; ++row)
+  {
+    if (!record.next())
+    {
+      const bool isCut = task.salvage && row > 1 && task.bytes.back() != '\n'; // perhaps within a number
+      task.endAt(row - (isCut ? 1 : 0), vertex.count,
+        "the file ends at line " + std::to_string(lines.lineNumber()) + " before " +
+          recordNumber("vertex", row, vertex.count));
+      return;
+    }
+    try
+    {
+      fillAsciiRow(record, static_cast<vtkIdType>(row), vertex, targets);
+    }
+    catch (const FileProblem& problem)
+    {
+      if (!task.salvage || !lines.isAtEnd() || row == 0)
+      {
+        throw;
+      }
+      task.endAt(row, vertex.count, problem.what());
+      return;
+    }
+    if (row % kProgressRows == 0)
+    {
+      task.progress(static_cast<double>(row) / static_cast<double>(rows));
+    }
+  }
+}
+
+void skipAsciiElement(LineReader& lines, const PlyElement& element)
 {
   std::string_view line;
   for (unsigned long long i = 0; i < element.count && !element.properties.empty(); ++i)
@@ -319,16 +435,27 @@ std::string_view skipAsciiElement(LineReader& lines, const PlyElement& element)
       failTruncated("the file ends before " + recordNumber(element.name.c_str(), i, element.count));
     }
   }
-  return line;
 }
 
 /// As skipAsciiElement(), and the last line must have all its numbers.
-void skipWholeAsciiElement(LineReader& lines, const PlyElement& element)
+void skipWholeAsciiElement(LineReader& lines, PlyElement element)
 {
-  AsciiRecord record(skipAsciiElement(lines, element), lines.lineNumber());
+  if (element.count == 0 || element.properties.empty())
+  {
+    return;
+  }
+  --element.count;
+  skipAsciiElement(lines, element);
+  AsciiRecords record(lines, element);
+  if (!record.next())
+  {
+    failTruncated(
+      "the file ends before " + recordNumber(element.name.c_str(), element.count, element.count + 1));
+  }
+  bool isWhole = true;
   try
   {
-    for (std::size_t i = 0; i < element.properties.size() && element.count > 0; ++i)
+    for (std::size_t i = 0; i < element.properties.size() && isWhole; ++i)
     {
       const PlyProperty& property = element.properties[i];
       property.isList ? record.skipList(property) : void(record.takeNumber(property));
@@ -336,9 +463,27 @@ void skipWholeAsciiElement(LineReader& lines, const PlyElement& element)
   }
   catch (const FileProblem&)
   {
-    failTruncated("the file ends at line " + std::to_string(lines.lineNumber()) + " inside " +
-      recordNumber(element.name.c_str(), element.count - 1, element.count));
+    isWhole = false;
   }
+  if (!isWhole)
+  {
+    failTruncated("the file ends at line " + std::to_string(lines.lineNumber()) + " inside " +
+      recordNumber(element.name.c_str(), element.count, element.count + 1));
+  }
+}
+
+/// Whether each record of @p text that ranks may cut at lines has a line: so does the first.
+bool isByLines(std::string_view text, const PlyElement& vertex)
+{
+  LineReader lines(text);
+  std::string_view line;
+  nextFilledLine(lines, line);
+  std::size_t words = 0;
+  while (!takeWord(line).empty())
+  {
+    ++words;
+  }
+  return vertex.hasList() || words == vertex.properties.size();
 }
 
 /// @throws FileProblem where the lines of all ranks are too few.
@@ -354,11 +499,12 @@ RowRange rowsIn(const TextPart& part, const PlyElement& vertex)
 void readAsciiBody(ReadTask& task, const PlyHeader& header, vtkPolyData* cloud)
 {
   const std::size_t vertexIndex = header.vertexElement();
-  if (vertexIndex > 0)
+  const PlyElement& vertex = header.elements[vertexIndex];
+  if (vertexIndex > 0 ||
+    (task.shared && !isByLines(task.bytes.substr(header.bodyOffset, kStartOfText), vertex)))
   {
     task.takeWhole();
   }
-  const PlyElement& vertex = header.elements[vertexIndex];
   const TextPart part = partOfText(task, task.bytes, header.bodyOffset, header.bodyLine);
   const std::string_view text = task.bytes.substr(part.begin, part.end - part.begin);
   LineReader lines(text, part.firstLine);
@@ -366,10 +512,11 @@ void readAsciiBody(ReadTask& task, const PlyHeader& header, vtkPolyData* cloud)
   {
     skipAsciiElement(lines, header.elements[i]);
   }
-  const RowRange rows = rowsIn(part, vertex);
+  RowRange rows = rowsIn(part, vertex);
   // Each number takes a digit and a separator; the last one may lack the separator.
-  checkVertexCount(
-    vertex, task.bytes.size() - header.bodyOffset - lines.position() + 1, 2 * vertex.properties.size());
+  const std::size_t available = task.bytes.size() - header.bodyOffset - lines.position() + 1;
+  const std::size_t least = 2 * vertex.properties.size();
+  rows.last = std::min<std::uint64_t>(rows.last, checkedCount(task, vertex, available, least));
   const VertexPlan plan(vertex);
   CloudColumns columns(plan.columns, static_cast<vtkIdType>(rows.count()));
   std::vector<ColumnView> targets;
@@ -377,20 +524,7 @@ void readAsciiBody(ReadTask& task, const PlyHeader& header, vtkPolyData* cloud)
   {
     targets.push_back(column == std::string::npos ? ColumnView{} : columns.target(column));
   }
-  std::string_view line;
-  for (unsigned long long row = 0; row < rows.count(); ++row)
-  {
-    if (!nextFilledLine(lines, line))
-    {
-      failTruncated("the file ends at line " + std::to_string(lines.lineNumber()) + " before " +
-        recordNumber("vertex", row, vertex.count));
-    }
-    fillAsciiRow(AsciiRecord(line, lines.lineNumber()), static_cast<vtkIdType>(row), vertex, targets);
-    if (row % kProgressRows == 0)
-    {
-      task.progress(static_cast<double>(row) / static_cast<double>(rows.count()));
-    }
-  }
+  fillAsciiRows(task, lines, vertex, rows.count(), targets);
   noteCutElements(task, header, [&](const PlyElement& element) { skipWholeAsciiElement(lines, element); });
   columns.moveTo(cloud, task.shared);
 }
@@ -406,6 +540,15 @@ void readPly(ReadTask& task, vtkPolyData* cloud)
   }
   const PlyHeader header = parsePlyHeader(task.bytes);
   task.format = std::string("PLY (") + nameOf(header.encoding) + ")";
+  task.notes = header.notes;
+  for (const PlyProperty& property : header.elements[header.vertexElement()].properties)
+  {
+    if (property.isList)
+    {
+      task.notes.push_back("the list " + inQuotes(property.name) +
+        ", which each vertex has of its own length, is left out; arrays of points have one length");
+    }
+  }
   addFieldText(cloud, "LengthUnit", header.lengthUnit);
   if (header.encoding == PlyEncoding::Ascii)
   {

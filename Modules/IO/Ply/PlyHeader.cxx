@@ -3,6 +3,7 @@
 #include "Bytes/NumericType.h"
 #include "FileProblem.h"
 #include "IO/Columns/CloudColumns.h"
+#include "IO/Formats/FormatLooks.h"
 #include "IO/Info/FieldText.h"
 #include "IO/Text/TextScan.h"
 
@@ -33,6 +34,11 @@ const TypeName kTypeNames[] = {
   { "int32", VTK_TYPE_INT32 },
   { "uint", VTK_TYPE_UINT32 },
   { "uint32", VTK_TYPE_UINT32 },
+  { "bool", VTK_TYPE_UINT8 },
+  { "long", VTK_TYPE_INT64 },
+  { "int64", VTK_TYPE_INT64 },
+  { "ulong", VTK_TYPE_UINT64 },
+  { "uint64", VTK_TYPE_UINT64 },
   { "float", VTK_FLOAT },
   { "float32", VTK_FLOAT },
   { "double", VTK_DOUBLE },
@@ -53,8 +59,10 @@ int parseType(std::string_view word, std::size_t line)
       return known.type;
     }
   }
-  failLine(
-    line, "unknown property type " + inQuotes(word), "PLY has char uchar short ushort int uint float double");
+  failLine(line, "unknown property type " + inQuotes(word),
+    "PLY has char uchar short ushort int uint float double; int8 to uint64, float32, float64 and bool are "
+    "known, "
+    "too");
 }
 
 PlyEncoding parseEncoding(std::string_view word, std::size_t line)
@@ -111,6 +119,17 @@ PlyProperty parseProperty(std::string_view rest, std::size_t line)
   return property;
 }
 
+void noteUnknown(const std::vector<std::string>& unknown, PlyHeader& header)
+{
+  if (!unknown.empty())
+  {
+    const bool isOne = unknown.size() == 1;
+    header.notes.push_back(std::to_string(unknown.size()) + (isOne ? " line" : " lines") +
+      " of the header, beginning with " + unknown.front() + ", cannot be understood and " +
+      (isOne ? "is" : "are") + " skipped; check the points");
+  }
+}
+
 } // namespace
 
 bool PlyElement::hasList() const
@@ -159,8 +178,9 @@ PlyHeader parsePlyHeader(std::string_view bytes)
   ++end;
   PlyHeader header;
   bool formatSeen = false;
-  LineReader lines(bytes.substr(0, end));
+  LineReader lines(withoutByteOrderMark(bytes.substr(0, end)));
   std::string_view line;
+  std::vector<std::string> unknown;
   while (lines.next(line))
   {
     const std::size_t number = lines.lineNumber();
@@ -190,11 +210,13 @@ PlyHeader parsePlyHeader(std::string_view bytes)
     {
       header.lengthUnit = unit;
     }
-    else if (!keyword.empty() && keyword != "ply" && keyword != "comment" && keyword != "obj_info")
+    else if (!keyword.empty() && !equalNoCase(keyword, "ply") && keyword != "comment" &&
+      keyword != "obj_info")
     {
-      failLine(number, "unknown keyword " + inQuotes(keyword), "write the file again with another program");
+      unknown.push_back(inQuotes(keyword) + " in line " + std::to_string(number));
     }
   }
+  noteUnknown(unknown, header);
   if (!formatSeen)
   {
     failFormat("the header has no line format", "write: format ascii 1.0 (or binary_little_endian)");
@@ -203,6 +225,10 @@ PlyHeader parsePlyHeader(std::string_view bytes)
   header.bodyOffset = end + std::string_view("end_header").size();
   while (
     header.bodyOffset < bytes.size() && (bytes[header.bodyOffset] == ' ' || bytes[header.bodyOffset] == '\t'))
+  {
+    ++header.bodyOffset;
+  }
+  while (bytes.substr(header.bodyOffset, 3) == "\r\r\n")
   {
     ++header.bodyOffset;
   }

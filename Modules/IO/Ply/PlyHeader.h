@@ -40,9 +40,10 @@ struct PlyHeader
 {
   PlyEncoding encoding = PlyEncoding::Ascii;
   std::vector<PlyElement> elements;
-  std::string lengthUnit;     ///< as the writer's comment says it; empty: nothing says it
-  std::size_t bodyOffset = 0; ///< first byte after end_header's line
-  std::size_t bodyLine = 0;   ///< its line number, for ASCII
+  std::vector<std::string> notes; ///< what was skipped
+  std::string lengthUnit;         ///< as the writer's comment says it; empty: nothing says it
+  std::size_t bodyOffset = 0;     ///< first byte after end_header's line
+  std::size_t bodyLine = 0;       ///< its line number, for ASCII
 
   /// Index of the element called vertex. @throws FileProblem when there is none.
   std::size_t vertexElement() const;

@@ -4,6 +4,7 @@
 #include "IO/Columns/CloudColumns.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace pointhaptics::io
 {
@@ -67,26 +68,39 @@ CellCounts countCells(std::string_view line, char separator)
   return counts;
 }
 
-/// ParaView writes "Points:0" for x.
-std::string columnName(std::string_view cell)
+/// "1.0D+00" of Fortran, and what Windows writes for NaN and infinity. @return false when it is no such
+/// number.
+bool parseForeign(std::string_view cell, double& value, NumberShape* shape)
 {
-  cell = withoutQuotes(cell);
-  for (int axis = 0; axis < 3; ++axis)
+  const std::string_view size = cell.substr(!cell.empty() && (cell[0] == '-' || cell[0] == '+') ? 1 : 0);
+  constexpr std::size_t kMark = 3;
+  if (size.substr(0, kMark) == "1.#")
   {
-    if (equalNoCase(cell, "Points:" + std::to_string(axis)) ||
-      equalNoCase(cell, "Points_" + std::to_string(axis)))
-    {
-      return std::string(1, "xyz"[axis]);
-    }
+    const std::string_view word = size.substr(kMark);
+    const bool isInfinite = equalNoCase(word.substr(0, 3), "INF");
+    value = isInfinite ? std::numeric_limits<double>::infinity() : std::numeric_limits<double>::quiet_NaN();
+    value = isInfinite && cell[0] == '-' ? -value : value;
+    shape ? void(*shape = { false, true }) : void();
+    return isInfinite || equalNoCase(word.substr(0, 4), "QNAN") || equalNoCase(word.substr(0, 4), "SNAN") ||
+      equalNoCase(word.substr(0, 3), "IND");
   }
-  return std::string(cell);
+  char copy[64];
+  const std::size_t exponent = cell.find_first_of("dDqQ");
+  if (exponent == std::string_view::npos || exponent == 0 || cell.size() > sizeof(copy))
+  {
+    return false;
+  }
+  std::copy(cell.begin(), cell.end(), copy);
+  copy[exponent] = 'e';
+  return parseNumber(std::string_view(copy, cell.size()), value, shape);
 }
 
 } // namespace
 
 bool isComment(std::string_view text)
 {
-  return text.substr(0, 1) == "#" || text.substr(0, 2) == "//";
+  return !text.empty() &&
+    (std::string_view("#%!;>").find(text.front()) != std::string_view::npos || text.substr(0, 2) == "//");
 }
 
 std::string_view withoutQuotes(std::string_view cell)
@@ -101,7 +115,8 @@ std::string_view withoutQuotes(std::string_view cell)
 bool parseUnusualCell(std::string_view cell, double& value, NumberShape* shape)
 {
   cell = withoutQuotes(cell);
-  return parseNumber(cell, value, shape) || parseWithComma(cell, value, shape);
+  return parseNumber(cell, value, shape) || parseWithComma(cell, value, shape) ||
+    parseForeign(cell, value, shape);
 }
 
 std::string withoutThousandsMarks(std::string_view cell)
@@ -236,7 +251,12 @@ std::vector<std::string> columnNames(const std::vector<std::string_view>& cells)
   std::vector<std::string> names;
   for (const std::string_view cell : cells)
   {
-    names.push_back(columnName(cell));
+    const bool isQuoted = cell.size() > 1 && cell.front() == '"' && cell.back() == '"';
+    std::string& name = names.emplace_back(isQuoted ? trimmed(cell.substr(1, cell.size() - 2)) : cell);
+    for (std::size_t at = name.find("\"\""); at != std::string::npos; at = name.find("\"\"", at + 1))
+    {
+      name.erase(at, 1); // within quotation marks one stands twice
+    }
   }
   return names;
 }

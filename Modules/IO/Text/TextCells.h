@@ -12,7 +12,7 @@
 namespace pointhaptics::io
 {
 
-/// Whether @p text starts with the mark of a comment, # or //.
+/// Whether @p text starts with the mark of a comment: # // % ! ; or >.
 bool isComment(std::string_view text);
 
 /// @p cell without the quotation marks around it.

@@ -1,11 +1,10 @@
-#include "FormatReaders.h"
+#include "IO/Text/TextTable.h"
 
-#include "CloudFormat.h"
+#include "IO/Bytes/TextPart.h"
 #include "IO/Columns/CloudColumns.h"
+#include "IO/Formats/FormatLooks.h"
 #include "IO/Info/FieldText.h"
 #include "IO/Text/TextCells.h"
-#include "IO/Text/TextPart.h"
-#include "IO/Text/TextTable.h"
 
 #include <algorithm>
 #include <utility>
@@ -16,89 +15,33 @@ namespace pointhaptics::io
 namespace
 {
 
-/// Integers as colours of 8 or 16 bits are.
-bool areColors(const std::vector<NumberColumn>& table, std::size_t first)
+int typeOf(const std::string& name, const NumberColumn& column, bool isCoordinate)
 {
-  return std::all_of(table.begin() + first, table.begin() + first + 3,
-    [](const NumberColumn& column) { return column.isInteger(65535.0); });
-}
-
-/// Names for a table without header.
-std::vector<std::string> guessNames(const std::vector<NumberColumn>& table)
-{
-  const std::size_t count = table.size();
-  if (count == 4)
-  {
-    return { "x", "y", "z", "intensity" };
-  }
-  if (count == 6 && areColors(table, 3))
-  {
-    return { "x", "y", "z", "red", "green", "blue" };
-  }
-  if (count == 6)
-  {
-    return { "x", "y", "z", "nx", "ny", "nz" };
-  }
-  if (count == 7 && areColors(table, 4))
-  {
-    return { "x", "y", "z", "intensity", "red", "green", "blue" };
-  }
-  std::vector<std::string> names = { "x", "y", "z" };
-  for (std::size_t i = 4; i <= count; ++i)
-  {
-    names.push_back("column_" + std::to_string(i));
-  }
-  return names;
-}
-
-bool isOneOf(const std::string& name, std::initializer_list<const char*> known)
-{
-  return std::any_of(known.begin(), known.end(), [&](const char* each) { return equalNoCase(name, each); });
-}
-
-bool isColorName(const std::string& name)
-{
-  return isOneOf(name,
-    { "red", "green", "blue", "alpha", "r", "g", "b", "a", "RGB_0", "RGB_1", "RGB_2", "RGB:0", "RGB:1",
-      "RGB:2", "RGBA_0", "RGBA_1", "RGBA_2", "RGBA_3", "RGBA:0", "RGBA:1", "RGBA:2", "RGBA:3" });
-}
-
-int typeOf(const std::string& name, const NumberColumn& column)
-{
-  if (isOneOf(name, { "x", "y", "z", "nx", "ny", "nz", "normal_x", "normal_y", "normal_z" }))
+  if (isCoordinate || isNormalName(name))
   {
     return column.floatingType();
   }
-  if (isColorName(name) && column.isInteger(255.0))
+  if (isColorName(name) && column.isInteger(65535.0))
   {
-    return VTK_TYPE_UINT8;
+    return column.isInteger(255.0) ? VTK_TYPE_UINT8 : VTK_TYPE_UINT16;
   }
-  return isOneOf(name, { "red", "green", "blue", "r", "g", "b" }) && column.isInteger(65535.0)
-    ? VTK_TYPE_UINT16
-    : column.type();
+  return column.type();
 }
 
-const char* separatorName(const TextLayout& layout)
+const char* separatorName(char separator)
 {
-  switch (layout.separator)
-  {
-    case ',':
-      return "comma separated";
-    case ';':
-      return "semicolon separated";
-    case '|':
-      return "separated by |";
-    case '\t':
-      return "tab separated";
-    default:
-      return "space separated";
-  }
+  return separator == ',' ? "comma separated"
+    : separator == ';'    ? "semicolon separated"
+    : separator == '|'    ? "separated by |"
+    : separator == '\t'   ? "tab separated"
+                          : "space separated";
 }
 
 /// What all ranks found, each in its lines.
 TextTable ofAll(SharedReading& shared, const TextTable& own)
 {
   TextTable all;
+  all.hasMore = own.hasMore;
   all.columns.resize(own.columns.size());
   for (const std::string& bytes : shared.gather(bytesOfValues(own.columns)))
   {
@@ -148,23 +91,15 @@ void failThousands(std::string_view text, const TextLayout& layout, const CellTe
     "write x, y and z as numbers with the same separator on every line, and comments after #");
 }
 
-std::vector<Column> columnsCalled(const std::vector<std::string>& names)
-{
-  std::vector<Column> columns;
-  for (const std::string& name : names)
-  {
-    columns.push_back({ name });
-  }
-  return columns;
-}
+constexpr const char* kLeftOut = "-";
 
 /// The columns that are read.
-std::vector<std::size_t> columnsOfNumbers(const TextTable& table)
+std::vector<std::size_t> columnsOfNumbers(const TextTable& table, const TextLayout& layout)
 {
   std::vector<std::size_t> columns;
   for (std::size_t i = 0; i < table.columns.size(); ++i)
   {
-    if (!table.isOfTexts(i))
+    if (!table.isOfTexts(i) && (layout.names.empty() || layout.names[i] != kLeftOut))
     {
       columns.push_back(i);
     }
@@ -173,23 +108,28 @@ std::vector<std::size_t> columnsOfNumbers(const TextTable& table)
 }
 
 /// The names of all columns, of which @p read are read.
-std::vector<std::string> namesOf(
-  const TextTable& table, const TextLayout& layout, const std::vector<std::size_t>& read)
+std::vector<std::string> namesOf(std::string_view text, const TextTable& table, const TextLayout& layout,
+  const std::vector<std::size_t>& read, ReadTask& task)
 {
   if (!layout.names.empty())
   {
     return layout.names;
   }
-  std::vector<NumberColumn> numbers;
+  const std::vector<ColumnEvidence> all = evidenceOf(text, layout, table);
+  std::vector<ColumnEvidence> evidence;
   for (const std::size_t i : read)
   {
-    numbers.push_back(table.columns[i].numbers);
+    evidence.push_back(all[i]);
   }
-  const std::vector<std::string> guessed = guessNames(numbers);
+  const std::vector<std::string> guessed = guessColumnNames(evidence, task.extension == "xyzrgb");
   std::vector<std::string> names(table.columns.size());
   for (std::size_t i = 0; i < read.size(); ++i)
   {
     names[read[i]] = guessed[i];
+  }
+  if (read.size() > 3 && !layout.hasPointCount) // of PTS it is known
+  {
+    task.notes.push_back(guessNote(names));
   }
   return names;
 }
@@ -269,17 +209,10 @@ void failTornDecimals(std::string_view text, const TextLayout& layout)
 /// "mm" of "x [mm]", "y [mm]", "z [mm]"; empty where the header says no unit.
 std::string unitOf(const std::vector<std::string>& names)
 {
-  if (names.empty())
-  {
-    return {};
-  }
   std::string unit;
-  for (const std::size_t i : coordinatesOf(columnsCalled(names)))
+  for (const std::size_t i : names.empty() ? std::vector<std::size_t>() : coordinatesOf(columnsCalled(names)))
   {
-    const std::size_t begin = names[i].find_first_of("[(");
-    const std::size_t end = names[i].find_first_of("])");
-    const bool has = begin != std::string::npos && end != std::string::npos && begin < end;
-    const std::string own = has ? std::string(trimmed(names[i].substr(begin + 1, end - begin - 1))) : "";
+    const std::string own = coordinateUnit(names[i]);
     if (own.empty() || (!unit.empty() && own != unit))
     {
       return {};
@@ -296,49 +229,101 @@ TextLayout layoutOf(ReadTask& task, std::string_view text)
   TextLayout layout;
   if (task.shared)
   {
-    layout = inspectText(start.substr(0, start.rfind('\n') + 1));
+    layout = inspectText(start.substr(0, start.rfind('\n') + 1), task.columns);
   }
   if (layout.columns == 0 || layout.hasPointCount)
   {
     task.takeWhole();
-    layout = inspectText(text);
+    layout = inspectText(text, task.columns);
   }
   return layout;
+}
+
+/// The first pass. Lines of many lengths, such as those that end with a list, are read as far as all go.
+TextTable surveyLines(const ReadTask& task, std::string_view text, TextLayout& layout)
+{
+  try
+  {
+    return surveyTable(task, text, layout);
+  }
+  catch (const ColumnsDiffer&)
+  {
+    constexpr std::size_t kFewest = 4;
+    const std::size_t columns = layout.names.empty() && !task.shared ? columnsOfAll(text, layout) : 0;
+    if (columns < kFewest)
+    {
+      throw;
+    }
+    layout.columns = columns;
+    layout.hasMore = true;
+    return surveyTable(task, text, layout);
+  }
+}
+
+void noteColumns(
+  const TextTable& table, const std::vector<std::string>& names, std::vector<std::string>& notes)
+{
+  for (std::size_t i = 0; i < names.size(); ++i)
+  {
+    if (std::string note = noteOf(table, i, names[i]); !note.empty() && names[i] != kLeftOut)
+    {
+      notes.push_back(std::move(note));
+    }
+    if (table.columns[i].numbers.losesDigits())
+    {
+      notes.push_back("column " + inQuotes(names[i]) +
+        " has whole numbers of 2^53 and more, which are rounded: the last digits are lost");
+    }
+  }
+  if (table.hasMore)
+  {
+    notes.push_back("what stands behind column " + std::to_string(names.size()) + ", " +
+      inQuotes(names.back()) + ", is left out; --columns with more names reads more of each line");
+  }
 }
 
 } // namespace
 
 void readTable(ReadTask& task, std::string_view text, TextLayout layout, vtkPolyData* cloud)
 {
+  if (task.salvage && layout.hasPointCount)
+  {
+    text = text.substr(0, text.rfind('\n') + 1); // behind it the file may be cut within a number
+  }
+  const std::string_view all = text;
+  TextLayout first = layout;
   const TextPart part = partOfText(task, text, layout.bodyOffset, layout.bodyLine);
   text = text.substr(0, part.end);
   layout.bodyOffset = part.begin;
   layout.bodyLine = part.firstLine;
-  const TextTable own = surveyTable(task, text, layout);
+  const TextTable own = surveyLines(task, text, layout);
   const TextTable table = task.shared ? ofAll(*task.shared, own) : own;
   if (table.rows == 0)
   {
     failNoPoints();
   }
-  const std::vector<std::size_t> read = columnsOfNumbers(table);
-  checkCoordinates(text, table, layout, read);
-  const std::vector<std::string> names = namesOf(table, layout, read);
-  for (std::size_t i = 0; i < names.size(); ++i)
+  if (own.missing > 0)
   {
-    if (std::string note = noteOf(table, i, names[i]); !note.empty())
-    {
-      task.notes.push_back(std::move(note));
-    }
-    if (table.columns[i].numbers.losesDigits())
-    {
-      task.notes.push_back("column " + inQuotes(names[i]) +
-        " has whole numbers of 2^53 and more, which are rounded: the last digits are lost");
-    }
+    task.endAt(static_cast<std::uint64_t>(own.rows), static_cast<std::uint64_t>(own.rows) + own.missing,
+      "the file ends " + std::to_string(own.missing) +
+        " points before the count in its first line is reached");
   }
+  const std::vector<std::size_t> read = columnsOfNumbers(table, layout);
+  checkCoordinates(text, table, layout, read);
+  first.columns = layout.columns;
+  const std::vector<std::string> names =
+    namesOf(task.shared ? all.substr(0, kStartOfText) : all, table, first, read, task);
+  noteColumns(table, names, task.notes);
   std::vector<Column> planned;
   for (const std::size_t i : read)
   {
-    planned.push_back({ names[i], typeOf(names[i], table.columns[i].numbers) });
+    planned.push_back({ names[i] });
+  }
+  const std::vector<std::size_t> coordinates = coordinatesOf(planned);
+  for (std::size_t i = 0; i < read.size(); ++i)
+  {
+    const bool isCoordinate = std::find(coordinates.begin(), coordinates.end(), i) != coordinates.end();
+    planned[i].type = typeOf(names[read[i]], table.columns[read[i]].numbers, isCoordinate);
   }
   CloudColumns columns(planned, own.rows);
   std::vector<ColumnView> targets(names.size(), ColumnView{ nullptr, 0, VTK_DOUBLE });
@@ -359,17 +344,10 @@ void readText(ReadTask& task, vtkPolyData* cloud)
   const bool isBlank = layout.columns == 0 && layout.names.empty();
   task.format = layout.hasPointCount ? "PTS"
     : isBlank                        ? "text"
-                                     : std::string("text (") + separatorName(layout) + ")";
+                                     : std::string("text (") + separatorName(layout.separator) + ")";
   if (layout.columns == 0)
   {
     failNoPoints();
-  }
-  if (layout.hasPointCount && layout.columns < 3)
-  {
-    failFormat("the first line of data has " + std::to_string(layout.columns) +
-        (layout.columns == 1 ? " column" : " columns"),
-      "write one point per line: x y z; a PTX file, with the scanner's place before its points, is not read: "
-      "export it as E57 or PTS");
   }
   if (layout.columns < 3 || (!layout.names.empty() && layout.names.size() != layout.columns))
   {
@@ -378,7 +356,8 @@ void readText(ReadTask& task, vtkPolyData* cloud)
         (layout.names.empty() ? "" : " and the header names " + std::to_string(layout.names.size())),
       layout.separator == ',' && layout.columns > layout.names.size()
         ? kCureOfCommas
-        : "write one point per line: x y z, then one column per name of the header");
+        : "write one point per line: x y z, then one column per name of the header; or name them by "
+          "--columns");
   }
   failTornDecimals(text, layout);
   const std::string unit = unitOf(layout.names);

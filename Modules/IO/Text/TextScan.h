@@ -21,7 +21,8 @@ public:
   /// The next line without its end. @return false at the end of the text.
   bool next(std::string_view& line);
   std::size_t lineNumber() const { return lineNumber_; } ///< of the line returned last; the first is 1
-  std::size_t position() const { return position_; }     ///< byte just after the line returned last
+  bool isAtEnd() const { return position_ >= text_.size(); }
+  std::size_t position() const { return position_; } ///< byte just after the line returned last
 
 private:
   std::string_view text_;

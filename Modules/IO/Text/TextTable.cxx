@@ -17,53 +17,151 @@ namespace
 
 /// Bytes of a comment that may be a header: enough for kMostColumns one-letter names, and never more.
 constexpr std::size_t kLongestHeader = 2 * kMostColumns;
+/// Lines before the data that may be one.
+constexpr std::size_t kMostTitles = 64;
 
 std::string_view withoutCommentMark(std::string_view line)
 {
-  while (!line.empty() && (line.front() == '#' || line.front() == '/'))
+  while (!line.empty() && std::string_view("#/%!;>").find(line.front()) != std::string_view::npos)
   {
     line.remove_prefix(1);
   }
   return trimmed(line);
 }
 
-/// No cell is a number: names, not a line of data with a fault in it.
-bool isHeader(const std::vector<std::string_view>& cells)
+struct LineCells
 {
-  double value = 0.0;
-  return !cells.empty() &&
-    std::none_of(cells.begin(), cells.end(), [&](std::string_view cell) { return parseCell(cell, value); });
+  std::vector<std::string_view> cells;
+  std::size_t numbers = 0;
+
+  LineCells(std::string_view line, char separator, std::size_t number)
+    : cells(cellsOf(line, separator, number))
+  {
+    double value = 0.0;
+    numbers = static_cast<std::size_t>(std::count_if(
+      cells.begin(), cells.end(), [&](std::string_view cell) { return parseCell(cell, value); }));
+  }
+  /// Names, not a line of data with a fault in it: columns may be called 1 and nan, too.
+  bool areNames() const
+  {
+    return !cells.empty() &&
+      (numbers == 0 || (numbers < cells.size() && namesCoordinates(columnNames(cells))));
+  }
+  bool isData() const { return numbers >= 3 || (numbers > 0 && numbers == cells.size()); }
+  static bool namesCoordinates(const std::vector<std::string>& names)
+  {
+    std::vector<std::size_t> found;
+    return findCoordinates(columnsCalled(names), found);
+  }
+};
+
+/// A line that may name the columns.
+struct Title
+{
+  std::string_view line;
+  std::size_t number = 0;
+  bool isComment = false;
+};
+
+/// The last ones before the data count.
+void addTitle(const Title& title, std::vector<Title>& titles)
+{
+  if (titles.size() == kMostTitles)
+  {
+    titles.erase(titles.begin());
+  }
+  titles.push_back(title);
 }
 
-bool namesCoordinates(const std::vector<std::string>& names)
+void addComment(std::string_view comment, std::size_t number, TextLayout& layout, std::vector<Title>& titles)
 {
-  for (const char* axis : { "x", "y", "z" })
+  const std::string unit = unitOfComment(comment);
+  const bool isUnit = isUnitWord(unit);
+  layout.unit = isUnit ? unit : layout.unit;
+  if (!comment.empty() && !isUnit)
   {
-    if (std::none_of(
-          names.begin(), names.end(), [&](const std::string& name) { return equalNoCase(name, axis); }))
+    addTitle({ comment, number, true }, titles);
+  }
+}
+
+/// Of the columns in a comment: "POINT3D_ID, X, Y, Z, TRACK[] as ...", whose list may have any length. Prose
+/// is no header, however long it is.
+bool nameByComment(const Title& title, TextLayout& layout)
+{
+  std::string_view text = title.line.substr(0, kLongestHeader);
+  const std::size_t list = std::min(text.find("[]"), text.find("..."));
+  for (const std::size_t colon : { std::string_view::npos, text.substr(0, list).rfind(": ") })
+  {
+    text.remove_prefix(colon == std::string_view::npos ? 0 : colon + 2);
+    std::vector<std::string> names = columnNames(cellsOf(text, separatorOf(text), title.number));
+    const auto open = std::find_if(names.begin(), names.end(),
+      [](const std::string& name)
+      { return name.find("[]") != std::string::npos || name.find("...") != std::string::npos; });
+    const bool hasList = open != names.end();
+    names.erase(open, names.end());
+    if ((hasList ? names.size() <= layout.columns : names.size() == layout.columns) &&
+      LineCells::namesCoordinates(names))
     {
-      return false;
+      layout.columns = names.size();
+      layout.hasMore = hasList;
+      layout.names = names;
+      return true;
     }
   }
-  return true;
+  return false;
 }
 
-/// Of @p columns; empty where @p comment names no coordinates: prose is no header, however long it is.
-std::vector<std::string> namesInComment(std::string_view comment, std::size_t columns, std::size_t lineNumber)
+void nameColumns(const std::vector<Title>& titles, const std::vector<std::string>& given, TextLayout& layout)
 {
-  const std::string_view start = comment.substr(0, kLongestHeader);
-  const std::vector<std::string> names = columnNames(cellsOf(start, separatorOf(start), lineNumber));
-  return names.size() == columns && namesCoordinates(names) ? names : std::vector<std::string>();
+  if (!given.empty())
+  {
+    layout.names = given;
+    layout.hasMore = given.size() < layout.columns;
+    layout.columns = layout.hasMore ? given.size() : layout.columns;
+    return;
+  }
+  std::vector<std::string> lastNames;
+  for (auto title = titles.rbegin(); title != titles.rend(); ++title)
+  {
+    if (title->isComment)
+    {
+      continue;
+    }
+    for (const char separator : { separatorOf(title->line), layout.separator })
+    {
+      const LineCells names(title->line, separator, title->number);
+      const bool fits = names.cells.size() == layout.columns ||
+        // A cell may be empty at the end of the first line: the header has the number of columns.
+        (layout.separator != ' ' && separator == layout.separator && names.cells.size() > layout.columns);
+      const bool isFirst = lastNames.empty();
+      lastNames = isFirst && names.areNames() ? columnNames(names.cells) : lastNames;
+      if (fits && names.areNames() && (isFirst || LineCells::namesCoordinates(columnNames(names.cells))))
+      {
+        layout.names = columnNames(names.cells);
+        layout.columns = layout.names.size();
+        return;
+      }
+    }
+  }
+  for (auto title = titles.rbegin(); title != titles.rend(); ++title)
+  {
+    if (title->isComment && nameByComment(*title, layout))
+    {
+      return;
+    }
+  }
+  layout.names = lastNames.size() >= 3 ? lastNames : layout.names; // which do not fit
 }
 
 /// Walks over the lines of data and shows each cell to a Sink: number(column, value, shape), empty(column),
-/// text(column, cell, lineNumber), endRow().
+/// text(column, cell, lineNumber), more() for columns that are left out, endRow().
 template <typename Sink>
 class TableWalk
 {
 public:
-  TableWalk(const TextLayout& layout, std::size_t bytes, Sink& sink)
+  TableWalk(const TextLayout& layout, std::size_t bytes, bool isSalvaged, Sink& sink)
     : layout_(layout)
+    , isSalvaged_(isSalvaged)
     , sink_(sink)
     , remainingLines_(layout.hasPointCount ? 0 : std::numeric_limits<unsigned long long>::max())
     , bytes_(bytes)
@@ -80,6 +178,7 @@ private:
   [[noreturn]] void failColumns(std::string_view line) const;
 
   const TextLayout& layout_;
+  const bool isSalvaged_;
   Sink& sink_;
   unsigned long long remainingLines_;
   std::size_t bytes_;
@@ -89,7 +188,8 @@ private:
 template <typename Sink>
 void TableWalk<Sink>::failColumns(std::string_view line) const
 {
-  failFormat(where() + ": " + std::to_string(cellsOf(line, layout_.separator, lineNumber_).size()) +
+  throw ColumnsDiffer(vtkErrorCode::FileFormatError,
+    where() + ": " + std::to_string(cellsOf(line, layout_.separator, lineNumber_).size()) +
       " columns where " + std::to_string(layout_.columns) + " were expected",
     "write the same number of columns on every line");
 }
@@ -102,7 +202,7 @@ void TableWalk<Sink>::startBlock(std::string_view line)
     failFormat(where() + ": " + inQuotes(line) + " stands where a count of points was expected",
       "write the right number of points in the first line");
   }
-  if (remainingLines_ > bytes_)
+  if (remainingLines_ > bytes_ && !isSalvaged_)
   {
     failTruncated(where() + ": the count of points is " + std::to_string(remainingLines_) + " in a file of " +
       std::to_string(bytes_) + " bytes");
@@ -135,7 +235,7 @@ void TableWalk<Sink>::addWords(std::string_view line)
   const std::string_view extra = takeWord(rest);
   if (!extra.empty() && !isComment(extra))
   {
-    failColumns(line);
+    layout_.hasMore ? sink_.more() : failColumns(line);
   }
 }
 
@@ -149,6 +249,11 @@ void TableWalk<Sink>::addSeparated(std::string_view line)
   {
     if (column >= layout_.columns)
     {
+      if (layout_.hasMore)
+      {
+        sink_.more();
+        break;
+      }
       if (!cell.empty()) // a separator at the end of a line is common
       {
         failColumns(line);
@@ -215,10 +320,9 @@ void TableWalk<Sink>::run(const ReadTask& task, std::string_view text, double fr
       task.progress(from + (to - from) * part);
     }
   }
-  if (layout_.hasPointCount && remainingLines_ > 0)
+  if (layout_.hasPointCount)
   {
-    failTruncated("the file ends " + std::to_string(remainingLines_) +
-      " points before the count in its first line is reached");
+    sink_.missing(remainingLines_);
   }
 }
 
@@ -236,6 +340,8 @@ struct SurveySink
     table.columns[column].texts.add(cell, line);
     this->empty(column);
   }
+  void more() { table.hasMore = true; }
+  void missing(std::uint64_t rows) { table.missing = rows; }
   void endRow() { ++table.rows; }
 };
 
@@ -268,6 +374,8 @@ struct StoreSink
   }
   void empty(std::size_t column) { number(column, std::numeric_limits<double>::quiet_NaN(), {}); }
   void text(std::size_t column, std::string_view, std::size_t) { this->empty(column); }
+  void more() {}
+  void missing(std::uint64_t) {}
   void endRow() { ++row; }
 
   template <typename T>
@@ -316,69 +424,129 @@ bool TextTable::isOfTexts(std::size_t i) const
   return texts > rows - columns[i].numbers.empty();
 }
 
-TextLayout inspectText(std::string_view text)
+TextLayout inspectText(std::string_view text, const std::vector<std::string>& names)
 {
   TextLayout layout;
-  std::string_view lastComment;
-  std::string_view header;
+  TextLayout faulty; // as the first line makes it that may be data with a fault, or a title with a number
+  std::vector<Title> titles;
   std::string_view line;
+  std::string_view header;
+  char told = '\0'; // the separator that a line "sep=;" says
   LineReader lines(text);
   std::size_t lineStart = 0;
+  const auto beginBehind = [&]
+  {
+    layout.bodyOffset = lines.position();
+    layout.bodyLine = lines.lineNumber() + 1;
+  };
   for (; lines.next(line); lineStart = lines.position())
   {
     line = trimmed(line);
-    if (line.empty())
+    const std::string_view plain = withoutQuotes(line);
+    if (plain.size() == 5 && equalNoCase(plain.substr(0, 4), "sep="))
     {
+      told = plain.back();
+      beginBehind();
       continue;
     }
-    if (isComment(line))
+    if (line.empty() || isComment(line))
     {
-      const std::string_view comment = withoutCommentMark(line);
-      const std::string unit = unitOfComment(comment);
-      layout.unit = isUnitWord(unit) ? unit : layout.unit;
-      lastComment = comment.empty() || isUnitWord(unit) ? lastComment : comment;
+      addComment(withoutCommentMark(line), lines.lineNumber(), layout, titles);
       continue;
     }
-    const char separator = isByTabs(header, line) ? '\t' : separatorOf(line);
-    const std::vector<std::string_view> cells = cellsOf(line, separator, lines.lineNumber());
+    const char separator = told != '\0' ? told : isByTabs(header, line) ? '\t' : separatorOf(line);
+    const LineCells cells(line, separator, lines.lineNumber());
     unsigned long long count = 0;
-    if (layout.names.empty() && isHeader(cells))
-    {
-      header = line;
-      layout.names = columnNames(cells);
-      layout.separator = separator;
-      layout.bodyOffset = lines.position();
-      layout.bodyLine = lines.lineNumber() + 1;
-      continue;
-    }
-    if (layout.names.empty() && !layout.hasPointCount && cells.size() == 1 && parseCount(cells[0], count))
+    if (header.empty() && !layout.hasPointCount && cells.cells.size() == 1 &&
+      parseCount(cells.cells[0], count))
     {
       layout.hasPointCount = true;
       layout.bodyOffset = lineStart;
       layout.bodyLine = lines.lineNumber();
       continue;
     }
-    layout.separator = separator;
-    layout.columns = cells.size();
-    break;
+    if (!cells.areNames() && (cells.isData() || faulty.columns == 0))
+    {
+      if (cells.isData() && faulty.columns == cells.cells.size())
+      {
+        break; // the fault is no title: it has as many columns
+      }
+      TextLayout& found = cells.isData() ? layout : faulty;
+      found = layout;
+      found.separator = separator;
+      found.columns = cells.cells.size();
+      nameColumns(titles, names, found);
+      if (cells.isData())
+      {
+        return found;
+      }
+    }
+    header = line;
+    addTitle({ line, lines.lineNumber(), false }, titles);
+    beginBehind();
   }
-  if (layout.names.empty() && !lastComment.empty())
+  if (faulty.columns == 0)
   {
-    layout.names = namesInComment(lastComment, layout.columns, lines.lineNumber());
+    nameColumns(titles, names, layout);
   }
-  // A cell may be empty at the end of the first line: the header has the number of columns.
-  if (layout.separator != ' ' && layout.columns < layout.names.size())
+  return faulty.columns > 0 ? faulty : layout;
+}
+
+std::size_t columnsOfAll(std::string_view text, const TextLayout& layout)
+{
+  LineReader lines(text.substr(layout.bodyOffset), layout.bodyLine);
+  std::string_view line;
+  std::size_t rows = 0;
+  std::size_t different = 0;
+  std::size_t fewest = layout.columns;
+  std::size_t last = layout.columns;
+  while (lines.next(line))
   {
-    layout.columns = layout.names.size();
+    line = trimmed(line, layout.separator);
+    if (!line.empty() && !isComment(line))
+    {
+      last = cellsOf(line, layout.separator, lines.lineNumber()).size();
+      fewest = std::min(fewest, last);
+      different += last != layout.columns ? 1 : 0;
+      ++rows;
+    }
   }
-  return layout;
+  const bool isCut = !text.empty() && text.back() != '\n' && last == fewest;
+  return 100 * different > rows && !isCut ? fewest : 0;
+}
+
+std::vector<ColumnEvidence> evidenceOf(
+  std::string_view text, const TextLayout& layout, const TextTable& table)
+{
+  std::vector<ColumnEvidence> evidence(layout.columns);
+  LineReader lines(text.substr(layout.bodyOffset), layout.bodyLine);
+  std::string_view line;
+  for (std::size_t rows = 0; rows < kGuessedRows && lines.next(line);)
+  {
+    line = trimmed(line, layout.separator);
+    const auto cells =
+      isComment(line) ? std::vector<std::string_view>() : cellsOf(line, layout.separator, lines.lineNumber());
+    for (std::size_t i = 0; i < layout.columns && cells.size() >= layout.columns; ++i)
+    {
+      double value = std::numeric_limits<double>::quiet_NaN();
+      parseCell(cells[i], value);
+      evidence[i].sample.push_back(value);
+    }
+    rows += cells.size() >= layout.columns ? 1 : 0;
+  }
+  for (std::size_t i = 0; i < layout.columns; ++i)
+  {
+    const NumberColumn& numbers = table.columns[i].numbers;
+    evidence[i] = { std::move(evidence[i].sample), numbers.smallest(), numbers.largest(), numbers.isWhole() };
+  }
+  return evidence;
 }
 
 TextTable surveyTable(const ReadTask& task, std::string_view text, const TextLayout& layout)
 {
   SurveySink sink;
   sink.table.columns.resize(layout.columns);
-  TableWalk<SurveySink>(layout, text.size(), sink).run(task, text, 0.0, 0.5);
+  TableWalk<SurveySink>(layout, text.size(), task.salvage, sink).run(task, text, 0.0, 0.5);
   return std::move(sink.table);
 }
 
@@ -386,7 +554,7 @@ void storeTable(const ReadTask& task, std::string_view text, const TextLayout& l
   const std::vector<ColumnView>& targets)
 {
   StoreSink sink{ targets };
-  TableWalk<StoreSink>(layout, text.size(), sink).run(task, text, 0.5, 1.0);
+  TableWalk<StoreSink>(layout, text.size(), task.salvage, sink).run(task, text, 0.5, 1.0);
 }
 
 } // namespace pointhaptics::io

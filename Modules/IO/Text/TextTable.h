@@ -3,6 +3,7 @@
 #pragma once
 
 #include "Bytes/StridedCopy.h"
+#include "IO/Columns/ColumnGuess.h"
 #include "IO/Text/NumberColumn.h"
 #include "ReadTask.h"
 
@@ -22,17 +23,21 @@ namespace pointhaptics::io
 struct TextLayout
 {
   char separator = ' ';           ///< see separatorOf()
-  std::vector<std::string> names; ///< of the header; empty when there is none
+  std::vector<std::string> names; ///< of header, comment or user; empty when there are none
   std::string unit;               ///< that a comment says; empty: none does
   bool hasPointCount = false;     ///< PTS: lines that hold only a count stand before blocks of points
   std::size_t bodyOffset = 0;     ///< first byte after the header, or the first byte of the data
   std::size_t bodyLine = 1;       ///< its line number
-  std::size_t columns = 0;        ///< in the first line of data; 0 when there is none
+  std::size_t columns = 0;        ///< that are read of each line; 0 when there is no line of data
+  bool hasMore = false;           ///< lines may have more columns, which are left out
+
+  bool isTable() const { return columns >= 3; }
 };
 
-/// Reads the lines up to the first one that holds numbers. @throws FileProblem when one of them has more
-/// than kMostColumns columns.
-TextLayout inspectText(std::string_view text);
+/// Reads the lines up to the first one that holds numbers. Columns are called as the last line of names or
+/// comment before it says that has x, y and z and a name for each column; or as @p names, which the user
+/// gave. @throws FileProblem when a line has more than kMostColumns columns.
+TextLayout inspectText(std::string_view text, const std::vector<std::string>& names = {});
 
 /// The cells of a column that hold something else than a number.
 class CellTexts
@@ -67,24 +72,43 @@ struct TextTable
 {
   std::vector<TextColumn> columns;
   vtkIdType rows = 0;
+  std::uint64_t missing = 0; ///< Rows that a count promises and the text does not have.
+  bool hasMore = false;      ///< Lines have more columns than are read.
 
   /// Whether texts outnumber the numbers of column @p i: it holds names, and nothing to compute with.
   bool isOfTexts(std::size_t i) const;
 };
 
 /// Parses every number of @p text and stores none: it finds the size and type of each array.
-/// @throws FileProblem with the number of a line with more or fewer columns than the first; StoppedOnRequest.
+/// @throws ColumnsDiffer with the number of a line with more or fewer columns than the first; FileProblem;
+/// StoppedOnRequest.
 TextTable surveyTable(const ReadTask& task, std::string_view text, const TextLayout& layout);
+
+/// A line that has more or fewer columns than the first.
+class ColumnsDiffer : public FileProblem
+{
+public:
+  using FileProblem::FileProblem;
+};
+
+/// How many columns the shortest line of data has; 0 where no more than one line in a hundred differs from
+/// the first, or the last line is cut.
+std::size_t columnsOfAll(std::string_view text, const TextLayout& layout);
+
+/// The numbers of the first rows, for each column of @p table.
+std::vector<ColumnEvidence> evidenceOf(
+  std::string_view text, const TextLayout& layout, const TextTable& table);
 
 /// Stores every number in its place, one target per column; a target without a place leaves its column out.
 /// Of texts NaN is stored. @pre surveyTable() succeeded.
 void storeTable(const ReadTask& task, std::string_view text, const TextLayout& layout,
   const std::vector<ColumnView>& targets);
 
-/// Fills @p cloud with the points and arrays of a table: the columns are called as in @p layout, or as their
-/// number and values suggest. Where ranks read it together: of this rank's lines, with names and types that
-/// suit those of all. Columns of texts are left out, and a few texts among numbers are NaN: task.notes says
-/// so; coordinates must be numbers. @throws FileProblem; StoppedOnRequest; OtherRankFailed.
+/// Fills @p cloud with the points and arrays of a table: the columns are called as in @p layout ("-" skips
+/// one), or as their values suggest (ColumnGuess.h), which task.notes then tells. Where ranks read it
+/// together: of this rank's lines, with names and types that suit those of all. Columns of texts are left
+/// out, and a few texts among numbers are NaN: task.notes says so; coordinates must be numbers. @throws
+/// FileProblem; StoppedOnRequest; OtherRankFailed.
 void readTable(ReadTask& task, std::string_view text, TextLayout layout, vtkPolyData* cloud);
 
 } // namespace pointhaptics::io

@@ -1,9 +1,8 @@
 #include "FormatWriters.h"
 
 #include "Bytes/NumericType.h"
+#include "IO/Text/TextCells.h"
 
-#include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <cstring>
 
@@ -47,19 +46,29 @@ std::string nameOf(const OutputArray& array, int component, const WriteTask& tas
     const bool saysUnit = separator == ',' && !task.unit.empty();
     return std::string(1, "xyz"[component]) + (saysUnit ? " [" + task.unit + "]" : "");
   }
-  std::string name = array.componentName(component);
-  if (separator == ' ')
+  const std::string name = array.componentName(component);
+  const bool isBare =
+    separator == ' ' || (name.find_first_of(",;|\"# /") == std::string::npos && !isComment(name));
+  if (isBare)
   {
-    std::replace_if(
-      name.begin(), name.end(), [](unsigned char c) { return std::isspace(c) != 0; }, '_');
+    return name;
   }
-  return name;
+  std::string quoted = "\"";
+  for (const char c : name)
+  {
+    quoted += c == '"' ? "\"\"" : std::string(1, c);
+  }
+  return quoted + "\"";
 }
 
-} // namespace
-
-void writeTable(const std::vector<OutputArray>& arrays, WriteTask& task, char separator)
+/// A column per component and a line of their names; each number with the fewest digits that give it back
+/// exactly. Between spaces the names are a comment ("//x y z ..."), which programs that take bare numbers
+/// leave out, and white space inside a name becomes '_'. A unit stands in a comment before them, and in
+/// brackets after x, y and z between commas.
+void writeTable(WriteTask& task, char separator)
 {
+  const std::vector<OutputArray> arrays =
+    outputArrays(task.cloud, task.notes, separator == ',' ? NameRule::Any : NameRule::Cells);
   const std::string mark = separator == ' ' ? "//" : "";
   std::string header;
   std::vector<TableColumn> columns;
@@ -99,6 +108,18 @@ void writeTable(const std::vector<OutputArray>& arrays, WriteTask& task, char se
   }
   task.out.write(buffer.data(), static_cast<std::size_t>(end - buffer.data()));
   task.progress(1.0);
+}
+
+} // namespace
+
+void writeCsv(WriteTask& task)
+{
+  writeTable(task, ',');
+}
+
+void writeXyz(WriteTask& task)
+{
+  writeTable(task, ' ');
 }
 
 } // namespace pointhaptics::io

@@ -1,4 +1,4 @@
-#include "FormatReaders.h"
+#include "ReadTask.h"
 
 #include "Bytes/NumericType.h"
 #include "IO/Columns/CloudColumns.h"

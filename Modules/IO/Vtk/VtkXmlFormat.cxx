@@ -1,4 +1,4 @@
-#include "FormatReaders.h"
+#include "ReadTask.h"
 
 #include "IO/Columns/CloudColumns.h"
 #include "IO/Vtk/ErrorCollector.h"

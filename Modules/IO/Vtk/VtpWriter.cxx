@@ -17,6 +17,8 @@
 #include <algorithm>
 #include <cstdint>
 #include <streambuf>
+#include <string>
+#include <vector>
 
 namespace pointhaptics::io
 {
@@ -95,6 +97,50 @@ private:
 };
 vtkStandardNewMacro(VtpWriter);
 
+/// An empty one is no name to VTK's reader.
+std::string escaped(const std::string& name)
+{
+  std::string result = name.empty() ? "unnamed" : "";
+  for (const char c : name)
+  {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool isPlain = byte >= 0x20 && c != '&' && c != '<' && c != '>' && c != '"';
+    result += isPlain ? std::string(1, c) : "&#" + std::to_string(byte) + ";";
+  }
+  return result;
+}
+
+/// VTK writes names into attributes of XML as they are: arrays whose names would end these get others, which
+/// read back as the names. The values are shared.
+void escapeNames(vtkFieldData* data)
+{
+  std::vector<vtkSmartPointer<vtkAbstractArray>> arrays;
+  std::vector<int> roles;
+  bool isSame = true;
+  auto* attributes = vtkDataSetAttributes::SafeDownCast(data);
+  for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+  {
+    arrays.emplace_back(data->GetAbstractArray(i));
+    roles.push_back(attributes ? attributes->IsArrayAnAttribute(i) : -1);
+    const std::string name = arrays.back()->GetName() ? arrays.back()->GetName() : "";
+    auto* numbers = vtkDataArray::SafeDownCast(arrays.back());
+    if (numbers && escaped(name) != name)
+    {
+      const auto renamed = vtkSmartPointer<vtkDataArray>::Take(numbers->NewInstance());
+      renamed->ShallowCopy(numbers);
+      renamed->SetName(escaped(name).c_str());
+      arrays.back() = renamed;
+      isSame = false;
+    }
+  }
+  for (std::size_t i = 0; i < arrays.size() && !isSame; ++i)
+  {
+    i == 0 ? data->Initialize() : void();
+    const int at = data->AddArray(arrays[i]);
+    roles[i] >= 0 ? static_cast<void>(attributes->SetActiveAttribute(at, roles[i])) : void();
+  }
+}
+
 /// All arrays at the end of the file, as they are in memory.
 void useRawData(vtkXMLWriter* writer)
 {
@@ -106,8 +152,14 @@ void useRawData(vtkXMLWriter* writer)
 
 } // namespace
 
-void writeVtp(vtkPointSet* cloud, WriteTask& task)
+void writeVtp(WriteTask& task)
 {
+  if (!task.out.isReplacing())
+  {
+    throw FileProblem(vtkErrorCode::CannotOpenFileError, "VTP files cannot be written to a pipe or a device",
+      "choose the name of a new file, or .ply, .pcd, .las, .laz, .csv or .xyz");
+  }
+  vtkPointSet* cloud = task.cloud;
   vtkNew<vtkPolyData> written;
   if (vtkPolyData* polyData = vtkPolyData::SafeDownCast(cloud))
   {
@@ -119,6 +171,16 @@ void writeVtp(vtkPointSet* cloud, WriteTask& task)
     written->GetPointData()->ShallowCopy(cloud->GetPointData());
     written->GetFieldData()->ShallowCopy(cloud->GetFieldData());
   }
+  vtkPointData* data = cloud->GetPointData();
+  for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+  {
+    if (const char* name = data->GetAbstractArray(i)->GetName(); !name || !*name)
+    {
+      task.notes.add("array '' is called unnamed");
+    }
+  }
+  escapeNames(written->GetPointData());
+  escapeNames(written->GetFieldData());
   if (written->GetNumberOfCells() == 0)
   {
     setOneVertexPerPoint(written);
@@ -146,9 +208,13 @@ void writeVtp(vtkPointSet* cloud, WriteTask& task)
 
 std::string vtpText(vtkPolyData* cloud)
 {
+  vtkNew<vtkPolyData> written;
+  written->ShallowCopy(cloud);
+  escapeNames(written->GetPointData());
+  escapeNames(written->GetFieldData());
   vtkNew<vtkXMLPolyDataWriter> writer;
   useRawData(writer);
-  writer->SetInputData(cloud);
+  writer->SetInputData(written);
   writer->WriteToOutputStringOn();
   writer->Write();
   return writer->GetOutputString();

@@ -14,7 +14,7 @@ struct WriteTask;
 
 /// Writes points, arrays and cells; a cloud without cells gets a vertex for each point. @throws FileProblem,
 /// StoppedOnRequest.
-void writeVtp(vtkPointSet* cloud, WriteTask& task);
+void writeVtp(WriteTask& task);
 
 /// The same bytes, of a small cloud, without a file.
 std::string vtpText(vtkPolyData* cloud);

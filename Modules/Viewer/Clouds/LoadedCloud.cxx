@@ -81,6 +81,8 @@ vtkSmartPointer<vtkPolyData> readPoints(const std::string& fileName, const Cloud
   reader->AddObserver(vtkCommand::ErrorEvent, silence);
   reader->SetFileName(fileName.c_str());
   reader->SetResolution(request.resolution);
+  reader->SetColumns(request.columns);
+  reader->SetSalvage(request.salvage);
   reader->SetMostPoints(request.mostPoints);
   reader->Update();
   message = reader->GetErrorMessage();
@@ -359,6 +361,8 @@ CloudRequest CloudRequest::of(const std::vector<std::string>& files, const Hapti
   CloudRequest request;
   request.files = files;
   request.resolution = options.resolution;
+  request.columns = options.columns;
+  request.salvage = options.salvage;
   request.colorBy = options.colorBy;
   request.colorByName = options.names.colorBy;
   request.up = options.up;

@@ -33,7 +33,9 @@ struct POINTHAPTICSVIEWER_EXPORT CloudRequest
   static CloudRequest of(const std::vector<std::string>& files, const HapticViewerOptions& options);
 
   std::vector<std::string> files;
-  double resolution = 0.0; ///< How far cloud optimised files are read; 0: all points.
+  double resolution = 0.0;          ///< How far cloud optimised files are read; 0: all points.
+  std::vector<std::string> columns; ///< Names for the columns of texts; empty: as the files say.
+  bool salvage = false;             ///< Files that are cut are read as far as they go.
   /// Of cloud optimised files: how many are read, by leaving out fine levels; see LoadedCloud::isCoarse. 0:
   /// all.
   vtkIdType mostPoints = 0;

@@ -106,6 +106,7 @@ inline std::string writeCloud(
   observer->SetClientData(&events);
   vtkNew<vtkPointCloudWriter> writer;
   writer->AddObserver(vtkCommand::ErrorEvent, observer);
+  writer->SetKeepDoubles(true);
   writer->SetInputData(cloud);
   writer->SetFileName(path.c_str());
   const int written = writer->Write();

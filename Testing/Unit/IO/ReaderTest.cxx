@@ -28,15 +28,15 @@ TEST_F(Reader, RefusesUnknownContent)
 {
   expectRefused(readCloud(write("a.ply", std::string("\x01\x02\x03\x00garbage", 11))), "unknown format");
   expectRefused(readCloud(write("notes.md", "Dear reader,\nthis is no cloud.\n")), "unknown format");
-  expectRefused(readCloud(write("a.html", "<html></html>")), "unknown format");
+  expectRefused(readCloud(write("a.html", "<html></html>")), "the download failed");
 }
 
 TEST_F(Reader, NamesAConverterForKnownForeignFormats)
 {
-  expectRefused(readCloud(write("a.glb", "glTF and so on")), "meshio");
+  expectRefused(readCloud(write("a.glb", "glTF and so on")), "a glTF file (GLB)");
   expectRefused(readCloud(write("a.ply.gz", "\x1f\x8b\x08 and so on")), "gunzip");
-  expectRefused(readCloud(write("a.asc", "ncols 2\nnrows 1\n1 2\n")), "gdal2xyz");
-  expectRefused(readCloud(write("a.zip", "PK\x03\x04 and so on")), "unzip");
+  expectRefused(readCloud(write("a.asc", "ncols 2\nnrows 1\n1 2\n")), "no cellsize");
+  expectRefused(readCloud(write("a.zip", "PK\x03\x04 and so on")), "zipfile");
 }
 
 TEST_F(Reader, SurvivesRandomBytesAfterEveryMagic)

@@ -240,7 +240,7 @@ TEST_P(BitRoundTrip, SaysWhatItCannotHold)
       [&](const std::string& note) { return note.find(part) != std::string::npos; });
   };
   EXPECT_EQ(isSaid("'words' holds no numbers"), extension != "vtp");
-  EXPECT_EQ(isSaid("is called a_b"), extension != "vtp");
+  EXPECT_EQ(isSaid("is called a_b"), extension == "ply" || extension == "pcd");
   EXPECT_EQ(isSaid("Viewpoint"), extension == "ply" || extension == "las");
   EXPECT_EQ(isSaid("beyond 2^53"), extension == "ply");
 }

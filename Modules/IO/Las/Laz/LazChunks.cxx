@@ -14,7 +14,8 @@ namespace
 {
 
 constexpr std::uint64_t kTableAtTheEnd = 0xffffffffffffffff;
-constexpr std::size_t kTableHeader = 8; ///< bytes: version and number of chunks
+constexpr std::uint64_t kMostPoints = 0xfffffffe; ///< of a chunk
+constexpr std::size_t kTableHeader = 8;           ///< bytes: version and number of chunks
 
 template <typename T>
 T numberAt(std::string_view bytes, std::size_t offset)
@@ -31,21 +32,25 @@ T numberAt(std::string_view bytes, std::size_t offset)
 class ChunkFinder
 {
 public:
-  ChunkFinder(std::string_view bytes, const LasHeader& header, const LazSchema& schema)
+  using End = std::function<std::uint64_t(std::uint64_t, std::uint64_t, const std::string&)>;
+  ChunkFinder(std::string_view bytes, const LasHeader& header, const LazSchema& schema, const End& endAt)
     : bytes_(bytes)
     , header_(header)
     , schema_(schema)
+    , chunkSize_(schema.chunkSize)
+    , endAt_(endAt)
     , first_(header.pointsOffset + sizeof(std::uint64_t))
   {
   }
   LazChunks find(const std::function<void(std::size_t, std::size_t)>& need);
 
 private:
-  bool hasVariableChunks() const { return schema_.chunkSize == LazSchema::kVariableChunks; }
+  bool hasVariableChunks() const { return chunkSize_ == LazSchema::kVariableChunks; }
   bool isLayered() const { return schema_.compressor == LazSchema::Compressor::Layered; }
   /// 0 where the writer was interrupted before it.
   std::size_t tableOffset() const;
   LazChunks readTable(std::size_t table) const;
+  LazChunks readUntoldTable(std::size_t table);
   LazChunks walkLayers() const;
   LazChunks countOnly() const;
   bool add(LazChunks& chunks, std::size_t offset, std::size_t size, std::uint64_t count) const;
@@ -54,6 +59,8 @@ private:
   std::string_view bytes_;
   const LasHeader& header_;
   const LazSchema& schema_;
+  std::uint32_t chunkSize_; ///< points
+  const End& endAt_;
   std::size_t first_; ///< byte of the first chunk
 };
 
@@ -69,6 +76,10 @@ std::size_t ChunkFinder::tableOffset() const
     return 0;
   }
   table = table == kTableAtTheEnd ? numberAt<std::uint64_t>(bytes_, bytes_.size() - 8) : table;
+  if (endAt_ && (table < first_ || table > bytes_.size() - kTableHeader))
+  {
+    return 0; // it is cut off
+  }
   if (table < first_ || table > bytes_.size() - kTableHeader)
   {
     failTruncated("byte " + std::to_string(header_.pointsOffset) + ": the table of chunks is at byte " +
@@ -94,9 +105,10 @@ void ChunkFinder::checkSum(const LazChunks& chunks, std::size_t at) const
   const std::uint64_t sum = chunks.all.empty() ? 0 : chunks.all.back().first + chunks.all.back().count;
   if (sum < header_.count)
   {
-    failChunks(at,
-      "the header counts " + std::to_string(header_.count) + " points, but the chunks hold " +
-        std::to_string(sum));
+    const std::string what = "the header counts " + std::to_string(header_.count) +
+      " points, but the chunks hold " + std::to_string(sum);
+    endAt_ ? void(endAt_(sum, header_.count, "byte " + std::to_string(at) + ": " + what))
+           : failChunks(at, what);
   }
 }
 
@@ -113,7 +125,7 @@ LazChunks ChunkFinder::readTable(std::size_t table) const
   ArithmeticDecoder decoder(bytes_.substr(table + kTableHeader));
   IntegerModels numbers(32, 2);
   LazChunks chunks;
-  std::uint32_t points = hasVariableChunks() ? 0 : schema_.chunkSize;
+  std::uint32_t points = hasVariableChunks() ? 0 : chunkSize_;
   std::uint32_t size = 0;
   std::size_t offset = first_;
   bool goesOn = true;
@@ -151,6 +163,7 @@ LazChunks ChunkFinder::walkLayers() const
     if (bytes_.size() - offset < headSize)
     {
       checkSum(chunks, offset);
+      break;
     }
     std::uint64_t size = headSize;
     for (std::size_t i = 0; i < layers; ++i)
@@ -160,6 +173,11 @@ LazChunks ChunkFinder::walkLayers() const
     const std::uint32_t points = numberAt<std::uint32_t>(bytes_, offset + header_.recordLength);
     if (size > bytes_.size() - offset || points == 0)
     {
+      if (endAt_)
+      {
+        checkSum(chunks, offset);
+        break;
+      }
       failChunks(offset,
         "a chunk of " + std::to_string(points) + " points in " + std::to_string(size) + " bytes, of which " +
           std::to_string(bytes_.size() - offset) + " are there");
@@ -168,6 +186,32 @@ LazChunks ChunkFinder::walkLayers() const
     offset += static_cast<std::size_t>(size);
   }
   return chunks;
+}
+
+/// Of a file that does not say how large its chunks are: the table has their numbers of points, as it should,
+/// or it was written as that of the usual size, which layered chunks do not need.
+LazChunks ChunkFinder::readUntoldTable(std::size_t table)
+{
+  try
+  {
+    LazChunks chunks = readTable(table);
+    if (chunks.all.back().offset + chunks.all.back().size == table)
+    {
+      return chunks;
+    }
+  }
+  catch (const FileProblem&)
+  {
+    // It has no numbers of points.
+  }
+  if (isLayered())
+  {
+    return walkLayers();
+  }
+  const bool isOne = numberAt<std::uint32_t>(bytes_, table + 4) == 1;
+  chunkSize_ = isOne ? static_cast<std::uint32_t>(std::min<std::uint64_t>(header_.count, kMostPoints))
+                     : LazSchema().chunkSize;
+  return readTable(table);
 }
 
 LazChunks ChunkFinder::countOnly() const
@@ -179,15 +223,15 @@ LazChunks ChunkFinder::countOnly() const
       "the file was not completely written: write it again");
   }
   const std::size_t available = bytes_.size() - first_;
-  if ((header_.count - 1) / schema_.chunkSize >= available / header_.recordLength + 1)
+  if ((header_.count - 1) / chunkSize_ >= available / header_.recordLength + 1)
   {
-    failTruncated("chunks of " + std::to_string(schema_.chunkSize) + " points for the " +
+    failTruncated("chunks of " + std::to_string(chunkSize_) + " points for the " +
       std::to_string(header_.count) + " that the header counts are more than " + std::to_string(available) +
       " bytes can be");
   }
   LazChunks chunks;
   chunks.arePlaced = false;
-  while (add(chunks, first_, available, schema_.chunkSize))
+  while (add(chunks, first_, available, chunkSize_))
   {
   }
   return chunks;
@@ -206,7 +250,12 @@ LazChunks ChunkFinder::find(const std::function<void(std::size_t, std::size_t)>&
   need(bytes_.size() - sizeof(std::uint64_t), sizeof(std::uint64_t));
   const std::size_t table = tableOffset();
   need(table != 0 ? table : first_, bytes_.size());
-  return table != 0 ? readTable(table) : isLayered() ? walkLayers() : countOnly();
+  if (table != 0)
+  {
+    return schema_.isChunkSizeTold ? readTable(table) : readUntoldTable(table);
+  }
+  chunkSize_ = schema_.isChunkSizeTold ? chunkSize_ : LazSchema().chunkSize;
+  return isLayered() ? walkLayers() : countOnly();
 }
 
 } // namespace
@@ -223,9 +272,10 @@ void checkLazCount(std::string_view bytes, const LasHeader& header)
 }
 
 LazChunks findLazChunks(std::string_view bytes, const LasHeader& header, const LazSchema& schema,
-  const std::function<void(std::size_t offset, std::size_t size)>& need)
+  const std::function<void(std::size_t offset, std::size_t size)>& need,
+  const std::function<std::uint64_t(std::uint64_t, std::uint64_t, const std::string&)>& endAt)
 {
-  return ChunkFinder(bytes, header, schema).find(need);
+  return ChunkFinder(bytes, header, schema, endAt).find(need);
 }
 
 std::string lazChunkTable(const std::vector<LazChunk>& chunks, const LazSchema& schema)

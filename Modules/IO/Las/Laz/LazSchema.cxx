@@ -183,7 +183,7 @@ void placeItems(
     if (same && !isKnownVersion(expected[i].type, version))
     {
       failFormat("byte " + std::to_string(at + 4) + ": item " + std::to_string(expected[i].type) +
-          " is compressed in version " + std::to_string(version) + ", which is not known here",
+          " is compressed in version " + std::to_string(version) + ", which is not supported: 1 to 3 are",
         "unpack it with the program that wrote it, or compress it with LASzip 3");
     }
     place(schema, expected[i], offset, version);
@@ -234,10 +234,8 @@ LazSchema parseLazSchema(std::string_view bytes, const LasHeader& header)
   schema.compressor = static_cast<LazSchema::Compressor>(compressor);
   schema.chunkSize = numberAt<std::uint32_t>(bytes, description.at + 12);
   schema.recordLength = header.recordLength;
-  if (schema.chunkSize == 0)
-  {
-    failSchema(description.at + 12, "chunks of 0 points");
-  }
+  schema.isChunkSizeTold = schema.chunkSize != 0;
+  schema.chunkSize = schema.isChunkSizeTold ? schema.chunkSize : LazSchema::kVariableChunks;
   placeItems(bytes, description, header, schema);
   return schema;
 }

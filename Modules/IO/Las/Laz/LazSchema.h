@@ -38,6 +38,8 @@ struct LazSchema
   Item wavePacket;
   Item extraBytes;
 
+  bool isChunkSizeTold = true; ///< Else chunks vary, or have the usual size; their table decides.
+
   static constexpr std::uint32_t kVariableChunks = 0xffffffffu;
   /// What is after the fixed fields of a record.
   std::size_t numberOfExtraBytes() const

@@ -442,14 +442,14 @@ TEST_F(LasWriting, PutsOtherArraysIntoExtraBytes)
   }
   std::vector<std::string> notes;
   ASSERT_EQ(writeCloud(cloud, path("a.las"), &notes), "");
-  ASSERT_EQ(notes.size(), 2u) << "the name changes twice: blanks, and its length";
+  ASSERT_EQ(notes.size(), 1u) << "the name is too long";
   const ReadResult result = readCloud(path("a.las"));
   ASSERT_EQ(result.error, "");
   ASSERT_EQ(result.array("VoxelCovariance")->GetNumberOfComponents(), 6);
   EXPECT_EQ(result.value("VoxelCovariance", 1, 5), std::sqrt(11.0));
   expectSameBits(count, result.array("VoxelPointCount"));
   EXPECT_EQ(result.value("RGB", 1, 2), color->GetComponent(1, 2));
-  EXPECT_EQ(static_cast<float>(result.value("a_name_that_is_far_longer_than_t", 0)), 0.1f);
+  EXPECT_EQ(static_cast<float>(result.value("a name that is far longer than t", 0)), 0.1f);
 }
 
 TEST_F(LasWriting, KeepsTheCoordinateSystem)
@@ -464,7 +464,7 @@ TEST_F(LasWriting, KeepsTheCoordinateSystem)
     ASSERT_EQ(result.error, "");
     EXPECT_EQ(fieldText(result.cloud->GetFieldData(), "CoordinateSystem"), system);
     vtkAbstractArray* unit = result.cloud->GetFieldData()->GetAbstractArray("LengthUnit");
-    EXPECT_EQ(unit != nullptr, system[0] == 'P');
+    EXPECT_EQ(unit != nullptr, system != "EPSG:26917") << "degrees, or as the text says";
   }
 }
 

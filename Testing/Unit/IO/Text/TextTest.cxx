@@ -83,9 +83,11 @@ TEST_F(Text, ColumnsWithoutHeaderAreGuessed)
   EXPECT_EQ(four.value("intensity", 0), 0.5);
   const ReadResult colors = readCloud(write("6.xyz", "1 2 3 0 128 255\n"));
   EXPECT_EQ(colors.value("RGB", 0, 1), 128);
-  const ReadResult normals = readCloud(write("6n.xyz", "1 2 3 0 128 255\n1 2 3 0 0 1.5\n"));
+  const ReadResult normals = readCloud(write("6n.xyz", "1 2 3 0 -0.6 0.8\n1 2 3 0 0 1\n"));
   EXPECT_EQ(normals.array("RGB"), nullptr);
-  EXPECT_EQ(normals.value("Normals", 1, 2), 1.5);
+  EXPECT_EQ(normals.value("Normals", 1, 2), 1.0);
+  const ReadResult neither = readCloud(write("6x.xyz", "1 2 3 0 -128 255\n1 2 3 0 0 1.5\n"));
+  EXPECT_EQ(neither.cloud->GetPointData()->GetNumberOfArrays(), 3);
   const ReadResult five = readCloud(write("5.xyz", "1 2 3 4 5.5\n"));
   EXPECT_EQ(five.array("column_4")->GetDataType(), VTK_INT);
   EXPECT_EQ(five.value("column_5", 0), 5.5);
@@ -150,8 +152,11 @@ TEST_F(Text, ColumnsOfTextsAreLeftOutAndNamed)
   ASSERT_EQ(plain.error, "");
   EXPECT_EQ(plain.cloud->GetPoint(1)[0], 5.0);
   EXPECT_EQ(plain.value("intensity", 1), 8);
-  ASSERT_EQ(plain.notes.size(), 2U);
-  EXPECT_NE(plain.notes[1].find("column 5 holds texts, such as 'tree' in line 1"), std::string::npos);
+  ASSERT_EQ(plain.notes.size(), 3U);
+  EXPECT_EQ(
+    plain.notes[0].find("no header names the columns, which are taken as -,x,y,z,-,intensity; --columns"), 0U)
+    << plain.notes[0];
+  EXPECT_NE(plain.notes[2].find("column 5 holds texts, such as 'tree' in line 1"), std::string::npos);
 }
 
 TEST_F(Text, TextsAmongNumbersAreNanAndCounted)
@@ -297,8 +302,8 @@ TEST_F(Text, NamesTheLineOfWhatIsWrong)
   expectRefused(readCloud(write("a.csv",
                   "\xff\xfe"
                   "x")),
-    "UTF-16");
-  expectRefused(readCloud(write("a.ptx", "2\n1\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n")), "a PTX file");
+    "no points");
+  expectRefused(readCloud(write("a.ptx", "2\n1\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n")), "the file ends at line 6");
   EXPECT_EQ(
     readCloud(write("a.csv", "Easting,Northing,Elevation\n684766.39,5017773.08,7\n")).cloud->GetPoint(0)[2],
     7.0);

@@ -1,4 +1,4 @@
-#include "IO/Text/TextPart.h"
+#include "IO/Bytes/TextPart.h"
 
 #include "IO/Text/TextScan.h"
 

@@ -1,0 +1,187 @@
+#include "IO/Columns/ColumnGuess.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace pointhaptics::io
+{
+
+namespace
+{
+
+constexpr std::size_t kMostLabels = 64;
+constexpr std::size_t kFewestIds = 3;
+
+using Columns = std::vector<ColumnEvidence>;
+
+bool isLabel(const ColumnEvidence& column)
+{
+  const std::set<double> values(column.sample.begin(), column.sample.end());
+  return column.isWhole && column.least >= -1.0 && values.size() < column.sample.size() &&
+    values.size() <= kMostLabels;
+}
+
+/// Whole numbers that count the rows, and coordinates that are not all whole.
+bool isId(const Columns& columns)
+{
+  if (columns.size() < 4 || !columns[0].isWhole || columns[0].sample.size() < kFewestIds ||
+    std::all_of(columns.begin() + 1, columns.begin() + 4, [](const ColumnEvidence& c) { return c.isWhole; }))
+  {
+    return false;
+  }
+  const std::vector<double>& ids = columns[0].sample;
+  return std::adjacent_find(ids.begin(), ids.end(), [](double a, double b) { return b != a + 1.0; }) ==
+    ids.end();
+}
+
+bool areColors(const Columns& columns, std::size_t first)
+{
+  if (first + 3 > columns.size())
+  {
+    return false;
+  }
+  double most = 0.0;
+  int whole = 0;
+  bool isPositive = true;
+  for (std::size_t i = first; i < first + 3; ++i)
+  {
+    most = std::max(most, columns[i].most);
+    whole += columns[i].isWhole ? 1 : 0;
+    isPositive = isPositive && columns[i].least >= 0.0;
+  }
+  return isPositive && (whole == 3 ? most <= 65535.0 : most <= 1.0 || (whole == 0 && most <= 255.0));
+}
+
+bool areNormals(const Columns& columns, std::size_t first)
+{
+  constexpr double kRounded = 0.02;
+  bool hasUnit = false;
+  for (std::size_t row = 0; first + 3 <= columns.size() && row < columns[first].sample.size(); ++row)
+  {
+    double squares = 0.0;
+    for (std::size_t i = first; i < first + 3; ++i)
+    {
+      squares += columns[i].sample[row] * columns[i].sample[row];
+    }
+    const bool isUnit = std::abs(squares - 1.0) <= kRounded;
+    if (!isUnit && !(squares == 0.0) && !std::isnan(squares))
+    {
+      return false;
+    }
+    hasUnit = hasUnit || isUnit;
+  }
+  return hasUnit;
+}
+
+/// Names the columns from @p at on.
+class RestNames
+{
+public:
+  RestNames(const Columns& columns, std::size_t at, bool prefersColors)
+    : columns_(columns)
+    , names_(columns.size())
+    , prefersColors_(prefersColors)
+  {
+    while (at < columns.size())
+    {
+      at = nameFrom(at);
+    }
+  }
+  std::vector<std::string> take() { return std::move(names_); }
+
+private:
+  std::size_t give(std::size_t at, const std::vector<std::string>& names)
+  {
+    std::copy(names.begin(), names.end(), names_.begin() + static_cast<std::ptrdiff_t>(at));
+    return at + names.size();
+  }
+  /// Whether a number stands before the colours or normals that end here.
+  bool isScalarFirst(std::size_t at) const
+  {
+    const std::size_t left = columns_.size() - at;
+    const bool isLastLabel = left >= 4 && isLabel(columns_[at + 3]) && !isLabel(columns_[at]);
+    const bool isWhole = columns_[at].isWhole && areColors(columns_, at + 1);
+    return isWhole && !isLastLabel && (left == 4 || (left == 7 && areNormals(columns_, at + 4)));
+  }
+  std::size_t nameFrom(std::size_t at)
+  {
+    const bool mayBeColors = !hasColors_ && areColors(columns_, at);
+    if (!hasNormals_ && areNormals(columns_, at) && !(mayBeColors && prefersColors_))
+    {
+      hasNormals_ = true;
+      return give(at, { "nx", "ny", "nz" });
+    }
+    if (mayBeColors && !isScalarFirst(at))
+    {
+      hasColors_ = true;
+      return give(at, { "red", "green", "blue" });
+    }
+    return give(at, { "" });
+  }
+
+  const Columns& columns_;
+  std::vector<std::string> names_;
+  bool prefersColors_;
+  bool hasColors_ = false;
+  bool hasNormals_ = false;
+};
+
+} // namespace
+
+ColumnEvidence ColumnEvidence::of(std::vector<double> sample, bool isWhole)
+{
+  ColumnEvidence evidence;
+  const auto ends = std::minmax_element(sample.begin(), sample.end());
+  evidence.least = sample.empty() ? 0.0 : *ends.first;
+  evidence.most = sample.empty() ? 0.0 : *ends.second;
+  evidence.sample = std::move(sample);
+  evidence.isWhole = isWhole;
+  return evidence;
+}
+
+std::vector<std::string> guessColumnNames(const std::vector<ColumnEvidence>& columns, bool prefersColors)
+{
+  const std::size_t first = isId(columns) ? 1 : 0;
+  std::vector<std::string> names =
+    RestNames(columns, std::min(first + 3, columns.size()), prefersColors).take();
+  if (first == 1)
+  {
+    names[0] = "id";
+  }
+  for (std::size_t i = 0; i < 3 && first + i < names.size(); ++i)
+  {
+    names[first + i] = std::string(1, "xyz"[i]);
+  }
+  std::vector<std::size_t> scalars;
+  bool hasLabel = false;
+  for (std::size_t i = first + 3; i < names.size(); ++i)
+  {
+    if (names[i].empty() && !hasLabel && isLabel(columns[i]))
+    {
+      names[i] = "label";
+      hasLabel = true;
+    }
+    else if (names[i].empty())
+    {
+      scalars.push_back(i);
+    }
+  }
+  for (const std::size_t i : scalars)
+  {
+    names[i] = scalars.size() == 1 ? "intensity" : "column_" + std::to_string(i + 1);
+  }
+  return names;
+}
+
+std::string guessNote(const std::vector<std::string>& names)
+{
+  std::string list;
+  for (const std::string& name : names)
+  {
+    list += (list.empty() ? "" : ",") + (name.empty() ? std::string("-") : name);
+  }
+  return "no header names the columns, which are taken as " + list + "; --columns NAMES says otherwise";
+}
+
+} // namespace pointhaptics::io

@@ -1,0 +1,39 @@
+/// @file
+/// What columns without names seem to be, by their values.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace pointhaptics::io
+{
+
+/// Rows that are enough to tell.
+constexpr std::size_t kGuessedRows = 1000;
+
+/// One column of numbers.
+struct ColumnEvidence
+{
+  std::vector<double> sample; ///< Of the first rows.
+  double least = 0.0;         ///< Of all rows.
+  double most = 0.0;
+  bool isWhole = false; ///< All numbers are written without a point.
+
+  /// Of @p sample alone.
+  static ColumnEvidence of(std::vector<double> sample, bool isWhole);
+};
+
+/// Names for columns that have none:
+/// - whole numbers that count the rows, before three coordinates: id;
+/// - x, y, z;
+/// - three of unit length together: nx ny nz; three within 0..1 or 0..255 together, or of 16 bits: red green
+///   blue;
+/// - whole numbers of few values: label; one other number: intensity; more: column_4 and so on.
+/// Four whole numbers of which all may be colours are intensity and colours, unless the last is a label.
+/// @param prefersColors whether vectors that may be both are colours.
+std::vector<std::string> guessColumnNames(const std::vector<ColumnEvidence>& columns, bool prefersColors);
+
+/// "columns are taken as x,y,z,intensity, which no header says; --columns NAMES names them otherwise".
+std::string guessNote(const std::vector<std::string>& names);
+
+} // namespace pointhaptics::io

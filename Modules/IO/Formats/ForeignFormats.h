@@ -1,0 +1,19 @@
+/// @file
+/// What people take for a point cloud and this program does not read: what it is, and the way out.
+#pragma once
+
+#include <string>
+
+namespace pointhaptics::io
+{
+
+struct FormatStart;
+
+/// @throws FileProblem where @p start is that of such a file.
+void refuseForeign(const FormatStart& start);
+
+/// @throws FileProblem where @p extension (lower case, no dot) is that of such a file: for those that nobody
+/// knows by their first bytes.
+void refuseForeignName(const std::string& extension);
+
+} // namespace pointhaptics::io

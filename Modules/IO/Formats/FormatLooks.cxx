@@ -1,0 +1,238 @@
+#include "IO/Formats/FormatLooks.h"
+
+#include "FileProblem.h"
+#include "IO/Text/TextCells.h"
+#include "IO/Text/TextTable.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+
+namespace pointhaptics::io
+{
+
+namespace
+{
+
+constexpr std::size_t kLookedAt = 4096;
+
+bool startsWith(std::string_view text, std::string_view start)
+{
+  return text.substr(0, start.size()) == start;
+}
+
+/// The first line with something on it that is not a comment; empty when there is none.
+std::string_view firstSignificantLine(std::string_view bytes)
+{
+  LineReader lines(bytes);
+  std::string_view line;
+  while (lines.next(line))
+  {
+    line = trimmed(line);
+    if (!line.empty() && !isComment(line))
+    {
+      return line;
+    }
+  }
+  return {};
+}
+
+bool isText(std::string_view head)
+{
+  return std::none_of(head.begin(), head.end(),
+    [](char c)
+    {
+      const unsigned char byte = static_cast<unsigned char>(c);
+      return (byte < 0x20 && !isBlank(c) && c != '\n') || byte == 0x7f;
+    });
+}
+
+/// It has no mark, but its length is that of the triangles it counts.
+bool looksLikeBinaryStl(std::string_view bytes, std::size_t size)
+{
+  constexpr std::size_t kHeader = 84;
+  if (bytes.size() < kHeader || size <= kHeader)
+  {
+    return false;
+  }
+  std::size_t count = 0;
+  for (std::size_t i = 4; i > 0; --i)
+  {
+    count = count << 8 | static_cast<unsigned char>(bytes[79 + i]);
+  }
+  return size == kHeader + 50 * count;
+}
+
+/// Those of text with columns, whatever is in it.
+bool isColumnExtension(const std::string& extension)
+{
+  const std::string_view known[] = { "xyz", "txt", "csv", "pts", "asc", "tsv", "dat", "xyzn", "xyzrgb" };
+  return std::find(std::begin(known), std::end(known), extension) != std::end(known);
+}
+
+void appendUtf8(std::string& text, std::uint32_t code)
+{
+  if (code < 0x80)
+  {
+    text += static_cast<char>(code);
+    return;
+  }
+  const int more = code < 0x800 ? 1 : code < 0x10000 ? 2 : 3;
+  const int first = more == 1 ? 0xc0 : more == 2 ? 0xe0 : 0xf0;
+  text += static_cast<char>(first | static_cast<int>(code >> (6 * more)));
+  for (int i = more - 1; i >= 0; --i)
+  {
+    text += static_cast<char>(0x80 | (code >> (6 * i) & 0x3f));
+  }
+}
+
+} // namespace
+
+std::string_view withoutByteOrderMark(std::string_view bytes)
+{
+  return startsWith(bytes, "\xef\xbb\xbf") ? bytes.substr(3) : bytes;
+}
+
+bool isUtf16(std::string_view bytes)
+{
+  return startsWith(bytes, "\xff\xfe") || startsWith(bytes, "\xfe\xff");
+}
+
+std::string utf8Of(std::string_view bytes)
+{
+  const std::size_t low = bytes[0] == '\xff' ? 0 : 1; // of the two bytes of a unit
+  const auto unit = [&](std::size_t i)
+  {
+    return std::uint32_t{ static_cast<unsigned char>(bytes[i + low]) } |
+      std::uint32_t{ static_cast<unsigned char>(bytes[i + 1 - low]) } << 8;
+  };
+  std::string text;
+  text.reserve(bytes.size() / 2);
+  for (std::size_t i = 2; i + 1 < bytes.size(); i += 2)
+  {
+    std::uint32_t code = unit(i);
+    if (code >= 0xd800 && code < 0xe000)
+    {
+      const std::uint32_t next = i + 3 < bytes.size() ? unit(i + 2) : 0;
+      const bool isPair = code < 0xdc00 && next >= 0xdc00 && next < 0xe000;
+      code = isPair ? 0x10000 + ((code - 0xd800) << 10) + (next - 0xdc00) : '?';
+      i += isPair ? 2 : 0;
+    }
+    appendUtf8(text, code);
+  }
+  return text;
+}
+
+FormatStart lookAt(
+  std::string_view bytes, std::size_t size, const std::string& extension, std::string& converted)
+{
+  FormatStart start;
+  converted = isUtf16(bytes) ? utf8Of(bytes) : std::string();
+  start.bytes = converted.empty() ? withoutByteOrderMark(bytes) : converted;
+  start.size = size;
+  start.extension = extension;
+  start.isText = isText(start.bytes.substr(0, kLookedAt));
+  start.line = firstSignificantLine(start.bytes);
+  return start;
+}
+
+bool looksLikePly(const FormatStart& start)
+{
+  std::string_view bytes = start.bytes;
+  while (!bytes.empty() && (isBlank(bytes.front()) || bytes.front() == '\n'))
+  {
+    bytes.remove_prefix(1);
+  }
+  return equalNoCase(bytes.substr(0, 3), "ply") &&
+    (bytes.size() == 3 || isBlank(bytes[3]) || bytes[3] == '\n');
+}
+
+bool looksLikePcd(const FormatStart& start)
+{
+  std::string_view line = start.line;
+  const std::string_view word = takeWord(line);
+  return startsWith(start.bytes, "# .PCD") || word == "VERSION" || word == "FIELDS" || word == "COLUMNS";
+}
+
+bool looksLikeLas(const FormatStart& start)
+{
+  return startsWith(start.bytes, "LASF");
+}
+
+bool looksLikeE57(const FormatStart& start)
+{
+  return startsWith(start.bytes, "ASTM-E57");
+}
+
+bool looksLikeVtkXml(const FormatStart& start)
+{
+  const std::string_view text = trimmed(start.bytes.substr(0, kLookedAt));
+  return startsWith(text, "<") && text.find("<VTKFile") != std::string_view::npos;
+}
+
+bool looksLikeVtkLegacy(const FormatStart& start)
+{
+  return startsWith(start.bytes, "# vtk DataFile");
+}
+
+/// OFF with letters in front for normals, colours and so on.
+bool looksLikeOff(const FormatStart& start)
+{
+  std::string_view line = start.line;
+  const std::string_view word = takeWord(line);
+  return word.size() >= 3 && word.size() <= 8 && word.substr(word.size() - 3) == "OFF" &&
+    word.find_first_not_of("STCN4nOF") == std::string_view::npos;
+}
+
+bool looksLikeStlText(std::string_view bytes)
+{
+  bytes = bytes.substr(0, kLookedAt);
+  LineReader lines(bytes);
+  std::string_view line;
+  if (!lines.next(line) || !equalNoCase(takeWord(line), "solid"))
+  {
+    return false;
+  }
+  while (lines.next(line))
+  {
+    const std::string_view word = takeWord(line);
+    if (!word.empty())
+    {
+      return equalNoCase(word, "facet") || equalNoCase(word, "endsolid");
+    }
+  }
+  return false;
+}
+
+bool looksLikeStl(const FormatStart& start)
+{
+  return looksLikeStlText(start.bytes) || looksLikeBinaryStl(start.bytes, start.size) ||
+    (start.extension == "stl" && !(start.isText && looksLikeColumns(start)));
+}
+
+bool looksLikeObj(const FormatStart& start)
+{
+  std::string_view line = start.line;
+  const std::string_view keyword = takeWord(line);
+  double number = 0.0;
+  if (!start.isText || (keyword == "v" && parseNumber(takeWord(line), number)))
+  {
+    return start.isText;
+  }
+  const std::string_view keywords[] = { "v", "vn", "vt", "vp", "o", "g", "s", "f", "l", "p", "mtllib",
+    "usemtl" };
+  const bool known = std::find(std::begin(keywords), std::end(keywords), keyword) != std::end(keywords);
+  return (known && !isColumnExtension(start.extension)) || (keyword.empty() && start.extension == "obj");
+}
+
+/// Numbers first, a header that names x, y and z, or columns below titles.
+bool looksLikeColumns(const FormatStart& start)
+{
+  double number = 0.0;
+  return start.isText &&
+    (isColumnExtension(start.extension) ||
+      parseNumber(start.line.data(), start.line.data() + start.line.size(), number) ||
+      inspectText(start.bytes).isTable());
+}
+
+} // namespace pointhaptics::io

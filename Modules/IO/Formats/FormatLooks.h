@@ -1,0 +1,42 @@
+/// @file
+/// What the first bytes of a file look like.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace pointhaptics::io
+{
+
+/// The start of a file.
+struct FormatStart
+{
+  std::string_view bytes; ///< Without a byte order mark; of UTF-16, in UTF-8.
+  std::size_t size = 0;   ///< Of the whole file; 0: not known.
+  std::string extension;  ///< Lower case, no dot.
+  std::string_view line;  ///< The first one of a text with something on it that is no comment.
+  bool isText = false;
+};
+
+/// @p converted holds what the result looks at where @p bytes are UTF-16.
+FormatStart lookAt(
+  std::string_view bytes, std::size_t size, const std::string& extension, std::string& converted);
+
+using Look = bool(const FormatStart&);
+Look looksLikePly, looksLikePcd, looksLikeLas, looksLikeE57, looksLikeVtkXml, looksLikeVtkLegacy,
+  looksLikeOff, looksLikeStl, looksLikeObj, looksLikeColumns;
+
+/// Whether ASCII STL starts like @p bytes: "solid", then "facet" or "endsolid".
+bool looksLikeStlText(std::string_view bytes);
+
+/// @p bytes without the UTF-8 byte order mark some editors put in front.
+std::string_view withoutByteOrderMark(std::string_view bytes);
+
+/// Whether @p bytes begin with the byte order mark of UTF-16.
+bool isUtf16(std::string_view bytes);
+
+/// The text of @p bytes, which begin with that mark, in UTF-8; what is no UTF-16 becomes '?'.
+std::string utf8Of(std::string_view bytes);
+
+} // namespace pointhaptics::io

@@ -1,0 +1,156 @@
+#include "IO/Grid/GridFormats.h"
+
+#include "IO/Formats/FormatLooks.h"
+#include "IO/Text/TextScan.h"
+#include "ReadTask.h"
+
+#include "vtkNew.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+
+#include <cmath>
+#include <map>
+
+namespace pointhaptics::io
+{
+
+namespace
+{
+
+/// The lines "name value" before the heights.
+struct EsriHeader
+{
+  std::map<std::string, double> values;
+  std::size_t columns = 0;
+  std::size_t rows = 0;
+
+  double value(const char* name, double otherwise) const
+  {
+    const auto found = values.find(name);
+    return found == values.end() ? otherwise : found->second;
+  }
+  /// Where the first cell's middle lies on an axis.
+  double middle(const char* corner, const char* center, double cell) const
+  {
+    return value(center, value(corner, 0.0) + 0.5 * cell);
+  }
+};
+
+[[noreturn]] void failLine(const LineReader& lines, const std::string& what)
+{
+  failFormat("line " + std::to_string(lines.lineNumber()) + ": " + what,
+    "write ncols, nrows, xllcorner, yllcorner, cellsize and NODATA_value, then a height for each cell");
+}
+
+/// Leaves @p line at the first heights.
+EsriHeader parseHeader(LineReader& lines, std::string_view& line)
+{
+  EsriHeader header;
+  double value = 0.0;
+  while (lines.next(line))
+  {
+    std::string_view rest = line;
+    const std::string_view word = takeWord(rest);
+    if (word.empty())
+    {
+      continue;
+    }
+    if (parseNumber(word, value))
+    {
+      break;
+    }
+    std::string name(word);
+    for (char& c : name)
+    {
+      c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
+    }
+    if (!parseNumber(takeWord(rest), value) || header.values.size() > 16)
+    {
+      failLine(lines, inQuotes(word) + " has no number");
+    }
+    header.values[name] = value;
+  }
+  for (const auto& [name, count] : { std::pair<const char*, std::size_t*>{ "ncols", &header.columns },
+         std::pair<const char*, std::size_t*>{ "nrows", &header.rows } })
+  {
+    const double given = header.value(name, 0.0);
+    if (!(given >= 1.0 && given <= 1e9 && given == std::floor(given)))
+    {
+      failLine(lines, std::string(name) + " is no count");
+    }
+    *count = static_cast<std::size_t>(given);
+  }
+  return header;
+}
+
+} // namespace
+
+bool looksLikeEsriGrid(const FormatStart& start)
+{
+  std::string_view line = start.line;
+  double value = 0.0;
+  return start.isText && equalNoCase(takeWord(line), "ncols") && parseNumber(takeWord(line), value);
+}
+
+/// A point in the middle of each cell that has a height, row by row from the north.
+void readEsriGrid(ReadTask& task, vtkPolyData* cloud)
+{
+  task.format = "Esri grid";
+  const std::string_view text = withoutByteOrderMark(task.bytes);
+  LineReader lines(text);
+  std::string_view line;
+  const EsriHeader header = parseHeader(lines, line);
+  if (header.rows > text.size() / header.columns)
+  {
+    failTruncated("line " + std::to_string(lines.lineNumber()) + ": " + std::to_string(header.columns) +
+      " x " + std::to_string(header.rows) + " cells in a file of " + std::to_string(text.size()) + " bytes");
+  }
+  const double cell = header.value("cellsize", 0.0);
+  const double width = header.value("dx", cell);
+  const double height = header.value("dy", cell);
+  const double none = header.value("nodata_value", -9999.0);
+  if (!(width > 0.0) || !(height > 0.0))
+  {
+    failLine(lines, "there is no cellsize above 0");
+  }
+  const double west = header.middle("xllcorner", "xllcenter", width);
+  const double south = header.middle("yllcorner", "yllcenter", height);
+  const std::size_t cells = header.columns * header.rows;
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  for (std::size_t i = 0; i < cells; ++i)
+  {
+    double z = 0.0;
+    while (!takeNumber(line, z))
+    {
+      if (!line.empty())
+      {
+        failLine(lines, inQuotes(takeWord(line)) + " is no height");
+      }
+      if (!lines.next(line))
+      {
+        task.endAt(static_cast<std::uint64_t>(points->GetNumberOfPoints()), cells,
+          "the file ends after " + std::to_string(i) + " of " + std::to_string(cells) + " heights");
+        i = cells;
+        break;
+      }
+    }
+    if (i < cells && z != none && !std::isnan(z))
+    {
+      const double column = static_cast<double>(i % header.columns);
+      const double row = static_cast<double>(header.rows - 1 - i / header.columns);
+      points->InsertNextPoint(west + width * column, south + height * row, z);
+    }
+    if (i % static_cast<std::size_t>(kProgressRows) == 0)
+    {
+      task.progress(static_cast<double>(i) / static_cast<double>(cells));
+    }
+  }
+  if (points->GetNumberOfPoints() == 0)
+  {
+    failNoPoints();
+  }
+  cloud->SetPoints(points);
+}
+
+} // namespace pointhaptics::io

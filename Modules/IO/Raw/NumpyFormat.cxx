@@ -1,0 +1,255 @@
+#include "IO/Raw/RawFormats.h"
+
+#include "Bytes/LittleEndian.h"
+#include "Bytes/NumericType.h"
+#include "IO/Columns/CloudColumns.h"
+#include "IO/Columns/ColumnGuess.h"
+#include "IO/Formats/FormatLooks.h"
+#include "IO/Text/TextScan.h"
+#include "ReadTask.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pointhaptics::io
+{
+
+namespace
+{
+
+constexpr const char* kCure = "write an array of n rows with x, y, z: numpy.save('cloud.npy', points)";
+
+/// One column as the array stores it.
+struct NumpyField
+{
+  std::string name;
+  int type = VTK_VOID;
+  bool isSwapped = false;
+  std::size_t offset = 0;
+};
+
+struct NumpyHeader
+{
+  std::vector<NumpyField> fields; ///< One without a name of an array without names.
+  std::vector<std::uint64_t> shape;
+  bool isByColumns = false; ///< As Fortran stores it.
+  std::size_t bodyOffset = 0;
+};
+
+/// What stands in @p text behind "'key':".
+std::string_view valueOf(std::string_view text, const std::string& key)
+{
+  const std::size_t at = text.find("'" + key + "':");
+  if (at == std::string_view::npos)
+  {
+    failFormat("the header has no " + inQuotes(key), kCure);
+  }
+  return trimmed(text.substr(at + key.size() + 3));
+}
+
+std::string_view quoted(std::string_view& text)
+{
+  const std::size_t begin = std::min(text.find('\''), text.size());
+  const std::size_t end = std::min(text.find('\'', begin + 1), text.size());
+  const std::string_view word = text.substr(std::min(begin + 1, end), end - std::min(begin + 1, end));
+  text.remove_prefix(std::min(end + 1, text.size()));
+  return word;
+}
+
+/// "<f4": byte order, kind, bytes.
+NumpyField fieldOf(std::string_view type)
+{
+  NumpyField field;
+  unsigned long long size = 0;
+  if (type.size() < 3 || !parseCount(type.substr(2), size))
+  {
+    failFormat("the values are of type " + inQuotes(type), kCure);
+  }
+  const std::string kind(type.substr(1));
+  const std::pair<const char*, int> known[] = { { "f4", VTK_FLOAT }, { "f8", VTK_DOUBLE },
+    { "i1", VTK_TYPE_INT8 }, { "u1", VTK_TYPE_UINT8 }, { "b1", VTK_TYPE_UINT8 }, { "i2", VTK_TYPE_INT16 },
+    { "u2", VTK_TYPE_UINT16 }, { "i4", VTK_TYPE_INT32 }, { "u4", VTK_TYPE_UINT32 }, { "i8", VTK_TYPE_INT64 },
+    { "u8", VTK_TYPE_UINT64 } };
+  for (const auto& [name, vtkType] : known)
+  {
+    field.type = kind == name ? vtkType : field.type;
+  }
+  if (field.type == VTK_VOID)
+  {
+    failFormat("the values are of type " + inQuotes(type) + ", which is not read here", kCure);
+  }
+  field.isSwapped = (type[0] == '>') == kIsLittleEndianHost && (type[0] == '>' || type[0] == '<');
+  return field;
+}
+
+/// "[('x', '<f4'), ('y', '<f4')]", or a type alone.
+std::vector<NumpyField> fieldsOf(std::string_view descr)
+{
+  if (descr.empty() || descr.front() != '[')
+  {
+    return { fieldOf(quoted(descr)) };
+  }
+  std::vector<NumpyField> fields;
+  std::string_view list = descr.substr(1, descr.find(']') - 1);
+  std::size_t offset = 0;
+  while (list.find('(') != std::string_view::npos && fields.size() < kMostColumns)
+  {
+    list.remove_prefix(list.find('('));
+    std::string_view entry = list.substr(0, list.find(')'));
+    const std::string_view name = quoted(entry);
+    NumpyField field = fieldOf(quoted(entry));
+    if (entry.find('(') != std::string_view::npos)
+    {
+      failFormat("the field " + inQuotes(name) + " holds arrays", kCure);
+    }
+    field.name = name;
+    field.offset = offset;
+    offset += static_cast<std::size_t>(sizeOfType(field.type));
+    fields.push_back(field);
+    list.remove_prefix(entry.size());
+    list.remove_prefix(std::min<std::size_t>(list.size(), 1));
+  }
+  return fields;
+}
+
+NumpyHeader parseHeader(std::string_view bytes)
+{
+  const bool isLong = bytes.size() > 12 && bytes[6] > 1;
+  const std::size_t begin = isLong ? 12 : 10;
+  if (bytes.size() < begin)
+  {
+    failTruncated("the file ends at byte " + std::to_string(bytes.size()) + " inside its header");
+  }
+  const std::size_t size =
+    isLong ? loadLittle<std::uint32_t>(bytes.data() + 8) : loadLittle<std::uint16_t>(bytes.data() + 8);
+  if (size > bytes.size() - begin)
+  {
+    failTruncated(
+      "byte 8: a header of " + std::to_string(size) + " bytes in a file of " + std::to_string(bytes.size()));
+  }
+  const std::string_view text = bytes.substr(begin, size);
+  NumpyHeader header;
+  header.bodyOffset = begin + size;
+  header.fields = fieldsOf(valueOf(text, "descr"));
+  header.isByColumns = valueOf(text, "fortran_order").substr(0, 4) == "True";
+  std::string_view shape = valueOf(text, "shape");
+  shape = shape.substr(std::min<std::size_t>(1, shape.size()), shape.find(')') - 1);
+  while (!trimmed(shape).empty() && header.shape.size() < 4)
+  {
+    const std::size_t comma = std::min(shape.find(','), shape.size());
+    unsigned long long length = 0;
+    if (!parseCount(trimmed(shape.substr(0, comma)), length))
+    {
+      failFormat("the shape has " + inQuotes(shape) + " where a count was expected", kCure);
+    }
+    header.shape.push_back(length);
+    shape.remove_prefix(std::min(comma + 1, shape.size()));
+  }
+  return header;
+}
+
+/// @param most that the file has room for.
+std::uint64_t rowsOf(const std::vector<std::uint64_t>& shape, std::uint64_t most)
+{
+  std::uint64_t rows = 1;
+  for (const std::uint64_t length : shape)
+  {
+    if (length == 0)
+    {
+      failNoPoints();
+    }
+    if (length > most / rows)
+    {
+      failTruncated("the header has more rows than the " + std::to_string(most) + " that follow");
+    }
+    rows *= length;
+  }
+  if (most == 0)
+  {
+    failTruncated("the file ends before the first row");
+  }
+  return rows;
+}
+
+/// Values of @p sources, for names: all of them for the range, the first ones as a sample.
+std::vector<ColumnEvidence> evidenceOf(
+  const std::vector<ConstColumnView>& sources, vtkIdType rows, bool isSwapped)
+{
+  std::vector<ColumnEvidence> evidence;
+  std::vector<double> values(static_cast<std::size_t>(rows));
+  for (const ConstColumnView& source : sources)
+  {
+    copyStrided(
+      source, { reinterpret_cast<char*>(values.data()), sizeof(double), VTK_DOUBLE }, rows, isSwapped);
+    const bool isWhole =
+      std::all_of(values.begin(), values.end(), [](double v) { return v == std::floor(v); });
+    ColumnEvidence column = ColumnEvidence::of(values, isWhole);
+    column.sample.resize(std::min(column.sample.size(), kGuessedRows));
+    evidence.push_back(std::move(column));
+  }
+  return evidence;
+}
+
+} // namespace
+
+bool looksLikeNumpy(const FormatStart& start)
+{
+  return start.bytes.substr(0, 6) == "\x93NUMPY";
+}
+
+/// An array of n rows (or h x w) with x, y, z and more, or of records with these names.
+void readNumpy(ReadTask& task, vtkPolyData* cloud)
+{
+  task.format = "NumPy";
+  const NumpyHeader header = parseHeader(task.bytes);
+  const bool hasNames = !header.fields.empty() && !header.fields[0].name.empty();
+  std::vector<std::uint64_t> shape = header.shape;
+  const std::uint64_t columns = hasNames ? header.fields.size() : shape.size() > 1 ? shape.back() : 0;
+  if (!hasNames && !shape.empty())
+  {
+    shape.pop_back();
+  }
+  if (columns < 3 || columns > kMostColumns || header.fields.empty())
+  {
+    failFormat("the array has " + std::to_string(columns) + " columns", kCure);
+  }
+  const NumpyField& last = header.fields.back();
+  const std::size_t value = static_cast<std::size_t>(sizeOfType(last.type));
+  const std::size_t record = hasNames ? last.offset + value : static_cast<std::size_t>(columns) * value;
+  const std::uint64_t rows = rowsOf(shape, (task.bytes.size() - header.bodyOffset) / record);
+  std::vector<Column> planned;
+  std::vector<ConstColumnView> sources;
+  const bool isByColumns = header.isByColumns && !hasNames;
+  for (std::size_t i = 0; i < columns; ++i)
+  {
+    const NumpyField& field = hasNames ? header.fields[i] : header.fields[0];
+    const std::size_t at =
+      hasNames ? field.offset : value * i * (isByColumns ? static_cast<std::size_t>(rows) : 1);
+    planned.push_back({ field.name, field.type });
+    sources.push_back({ task.bytes.data() + header.bodyOffset + at,
+      static_cast<std::ptrdiff_t>(isByColumns ? value : record), field.type });
+  }
+  const vtkIdType count = static_cast<vtkIdType>(rows);
+  if (!hasNames)
+  {
+    const std::vector<std::string> names =
+      guessColumnNames(evidenceOf(sources, count, last.isSwapped), false);
+    for (std::size_t i = 0; i < columns; ++i)
+    {
+      planned[i].name = names[i];
+    }
+    if (columns > 3)
+    {
+      task.notes.push_back(guessNote(names));
+    }
+  }
+  CloudColumns target(planned, count);
+  for (std::size_t i = 0; i < columns; ++i)
+  {
+    copyStrided(sources[i], target.target(i), count, (hasNames ? header.fields[i] : last).isSwapped);
+    task.progress(static_cast<double>(i + 1) / static_cast<double>(columns));
+  }
+  target.moveTo(cloud);
+}
+
+} // namespace pointhaptics::io

@@ -1,0 +1,228 @@
+#include "IO/Raw/RawFormats.h"
+
+#include "Bytes/LittleEndian.h"
+#include "Bytes/NumericType.h"
+#include "IO/Columns/CloudColumns.h"
+#include "IO/Formats/FormatLooks.h"
+#include "ReadTask.h"
+
+#include "vtkDataArray.h"
+#include "vtkIdList.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pointhaptics::io
+{
+
+namespace
+{
+
+constexpr std::size_t kFloat = 4;
+constexpr std::size_t kSplat = 32;
+constexpr std::size_t kLooked = 4096; ///< Records.
+constexpr std::size_t kFewest = 8;    ///< Records that a file without the extension must have.
+
+float floatAt(std::string_view bytes, std::size_t offset)
+{
+  return loadLittle<float>(bytes.data() + offset);
+}
+
+/// A length in metres as sensors measure it; bytes of other kinds are tiny, huge or no number.
+bool isLength(float value)
+{
+  constexpr float kMost = 2000.0f;
+  constexpr float kLeast = 1e-7f;
+  return value == 0.0f || (std::abs(value) <= kMost && std::abs(value) >= kLeast);
+}
+
+bool areScans(const FormatStart& start, std::size_t floats)
+{
+  const std::size_t record = kFloat * floats;
+  const std::size_t records = start.bytes.size() / record;
+  if (start.isText || start.size % record != 0 || records < (start.extension == "bin" ? 1 : kFewest))
+  {
+    return false;
+  }
+  float farthest = 0.0f;
+  for (std::size_t i = 0; i < std::min(records, kLooked); ++i)
+  {
+    const auto at = [&](std::size_t k) { return floatAt(start.bytes, i * record + k * kFloat); };
+    const float ring = floats > 4 ? at(4) : 0.0f;
+    if (!isLength(at(0)) || !isLength(at(1)) || !isLength(at(2)) || !(at(3) >= 0.0f && at(3) <= 65535.0f) ||
+      !(ring >= 0.0f && ring <= 255.0f && ring == std::floor(ring)))
+    {
+      return false;
+    }
+    farthest = std::max({ farthest, std::abs(at(0)), std::abs(at(1)) });
+  }
+  return farthest > 0.0f;
+}
+
+/// Columns of one record, each with its byte.
+struct RawColumn
+{
+  Column column;
+  std::size_t offset = 0;
+};
+
+void readRecords(ReadTask& task, const std::vector<RawColumn>& fields, std::size_t record, vtkPolyData* cloud)
+{
+  const vtkIdType rows = static_cast<vtkIdType>(task.bytes.size() / record);
+  std::vector<Column> planned;
+  for (const RawColumn& field : fields)
+  {
+    planned.push_back(field.column);
+  }
+  CloudColumns columns(planned, rows);
+  for (std::size_t i = 0; i < fields.size(); ++i)
+  {
+    const int type = fields[i].column.type;
+    for (int component = 0; component < fields[i].column.components; ++component)
+    {
+      const std::size_t at = fields[i].offset + static_cast<std::size_t>(component * sizeOfType(type));
+      copyStrided({ task.bytes.data() + at, static_cast<std::ptrdiff_t>(record), type },
+        columns.target(i, component), rows, !kIsLittleEndianHost);
+    }
+    task.progress(static_cast<double>(i + 1) / static_cast<double>(fields.size()));
+  }
+  columns.moveTo(cloud);
+}
+
+/// Takes away all points but @p kept.
+void keepPoints(vtkPolyData* cloud, vtkIdList* kept)
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataType(cloud->GetPoints()->GetDataType());
+  cloud->GetPoints()->GetPoints(kept, points);
+  vtkNew<vtkPointData> values;
+  values->CopyAllOn();
+  values->CopyAllocate(cloud->GetPointData(), kept->GetNumberOfIds());
+  for (vtkIdType i = 0; i < kept->GetNumberOfIds(); ++i)
+  {
+    values->CopyData(cloud->GetPointData(), kept->GetId(i), i);
+  }
+  cloud->SetPoints(points);
+  cloud->GetPointData()->ShallowCopy(values);
+}
+
+/// Leaves out what lets through nearly all light.
+template <typename Opacity>
+void leaveOutFaint(vtkPolyData* cloud, std::vector<std::string>& notes, Opacity opacity)
+{
+  constexpr double kFaint = 0.05;
+  vtkNew<vtkIdList> kept;
+  const vtkIdType count = cloud->GetNumberOfPoints();
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    if (opacity(i) >= kFaint)
+    {
+      kept->InsertNextId(i);
+    }
+  }
+  const vtkIdType faint = count - kept->GetNumberOfIds();
+  if (faint > 0 && faint < count)
+  {
+    keepPoints(cloud, kept);
+    notes.push_back(std::to_string(faint) + " of " + std::to_string(count) +
+      " splats are left out: their opacity is below 0.05");
+  }
+}
+
+} // namespace
+
+bool looksLikeKitti(const FormatStart& start)
+{
+  return areScans(start, 4);
+}
+
+bool looksLikeNuScenes(const FormatStart& start)
+{
+  return areScans(start, 5);
+}
+
+bool looksLikeSplat(const FormatStart& start)
+{
+  const std::size_t records = start.bytes.size() / kSplat;
+  if (start.isText || start.size % kSplat != 0 || records < (start.extension == "splat" ? 1 : kFewest))
+  {
+    return false;
+  }
+  for (std::size_t i = 0; i < std::min(records, kLooked); ++i)
+  {
+    double squares = 0.0; // of the rotation, a quaternion
+    bool isRight = true;
+    for (std::size_t k = 0; k < 4; ++k)
+    {
+      const double part = (static_cast<unsigned char>(start.bytes[i * kSplat + 28 + k]) - 128.0) / 128.0;
+      squares += part * part;
+      isRight = isRight && (k == 3 || std::isfinite(floatAt(start.bytes, i * kSplat + k * kFloat))) &&
+        (k == 3 || floatAt(start.bytes, i * kSplat + 12 + k * kFloat) >= 0.0f);
+    }
+    if (!isRight || std::abs(squares - 1.0) > 0.1)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// Scans of KITTI.
+void readKitti(ReadTask& task, vtkPolyData* cloud)
+{
+  task.format = "KITTI (float32 x y z intensity)";
+  readRecords(task, { { { "x" }, 0 }, { { "y" }, 4 }, { { "z" }, 8 }, { { "intensity" }, 12 } }, 16, cloud);
+}
+
+/// Scans of nuScenes.
+void readNuScenes(ReadTask& task, vtkPolyData* cloud)
+{
+  task.format = "nuScenes (float32 x y z intensity ring)";
+  readRecords(task,
+    { { { "x" }, 0 }, { { "y" }, 4 }, { { "z" }, 8 }, { { "intensity" }, 12 }, { { "ring" }, 16 } }, 20,
+    cloud);
+}
+
+/// Splats of 32 bytes.
+void readSplat(ReadTask& task, vtkPolyData* cloud)
+{
+  task.format = "Gaussian splats (.splat)";
+  readRecords(task,
+    { { { "x" }, 0 }, { { "y" }, 4 }, { { "z" }, 8 }, { { "scale", VTK_FLOAT, 3 }, 12 },
+      { { "RGBA", VTK_UNSIGNED_CHAR, 4 }, 24 }, { { "rotation", VTK_UNSIGNED_CHAR, 4 }, 28 } },
+    kSplat, cloud);
+  vtkDataArray* colors = cloud->GetPointData()->GetArray("RGBA");
+  leaveOutFaint(cloud, task.notes, [=](vtkIdType i) { return colors->GetComponent(i, 3) / 255.0; });
+}
+
+void finishSplats(vtkPolyData* cloud, std::vector<std::string>& notes)
+{
+  vtkPointData* data = cloud->GetPointData();
+  vtkDataArray* harmonics = data->GetArray("f_dc");
+  vtkDataArray* opacity = data->GetArray("opacity");
+  if (!harmonics || !opacity || harmonics->GetNumberOfComponents() != 3 || data->GetArray("RGB"))
+  {
+    return;
+  }
+  constexpr double kOfConstant = 0.28209479177387814; // the spherical harmonic of degree 0
+  vtkNew<vtkUnsignedCharArray> colors;
+  colors->SetName("RGB");
+  colors->SetNumberOfComponents(3);
+  colors->SetNumberOfTuples(cloud->GetNumberOfPoints());
+  for (vtkIdType i = 0; i < colors->GetNumberOfValues(); ++i)
+  {
+    const double value = 0.5 + kOfConstant * harmonics->GetComponent(i / 3, static_cast<int>(i % 3));
+    colors->SetValue(i, static_cast<unsigned char>(value > 0.0 ? std::min(255.0 * value + 0.5, 255.0) : 0.0));
+  }
+  data->AddArray(colors);
+  leaveOutFaint(
+    cloud, notes, [=](vtkIdType i) { return 1.0 / (1.0 + std::exp(-opacity->GetComponent(i, 0))); });
+  setActiveAttributes(cloud);
+}
+
+} // namespace pointhaptics::io

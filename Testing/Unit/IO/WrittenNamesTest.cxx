@@ -1,0 +1,77 @@
+// Arrays of any name, and what PCL's point types find in a PCD file.
+#include "CloudFiles.h"
+
+namespace
+{
+
+class WrittenNames : public CloudFiles
+{
+};
+
+bool isNoted(const std::vector<std::string>& notes, const std::string& part)
+{
+  for (const std::string& note : notes)
+  {
+    if (note.find(part) != std::string::npos)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// What writers must give back: a cloud with one array of that name.
+vtkSmartPointer<vtkPolyData> named(const std::string& name)
+{
+  auto cloud = vtkSmartPointer<vtkPolyData>::New();
+  vtkNew<vtkPoints> points;
+  points->InsertNextPoint(1, 2, 3);
+  points->InsertNextPoint(4, 5, 6);
+  cloud->SetPoints(points);
+  const auto array = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(VTK_FLOAT));
+  array->SetName(name.c_str());
+  array->SetNumberOfTuples(2);
+  array->SetComponent(0, 0, 0.5);
+  array->SetComponent(1, 0, -2.5);
+  cloud->GetPointData()->AddArray(array);
+  return cloud;
+}
+
+TEST_F(WrittenNames, ArraysOfAnyNameComeBackOrAreRenamedAloud)
+{
+  const std::string names[] = { "R&D", "a<b", "a>b", "say \"x\"", "it's", "two words", "1", "-1", "nan",
+    "inf", "1e3", "", "\xc3\xa4\xc3\xb6\xc3\xbc \xe2\x82\xac", "#", "//x", "a,b", "a;b", "a|b", "100 %", "_",
+    "rgb", std::string(300, 'n'), "X", "tab\there", "sep=;", "[m]" };
+  for (const char* extension : { "vtp", "ply", "pcd", "las", "laz", "csv", "xyz" })
+  {
+    for (const std::string& name : names)
+    {
+      std::vector<std::string> notes;
+      const std::string file = path(std::string("a.") + extension);
+      ASSERT_EQ(writeCloud(named(name), file, &notes), "") << extension << " " << name;
+      const ReadResult result = readCloud(file);
+      ASSERT_EQ(result.error, "") << extension << " " << name;
+      ASSERT_EQ(result.points(), 2) << extension << " " << name;
+      EXPECT_EQ(result.cloud->GetPoint(1)[2], 6.0) << extension << " " << name;
+      vtkDataArray* array = notes.empty() ? result.array(name.c_str()) : nullptr;
+      for (int i = 0; !notes.empty() && i < result.cloud->GetPointData()->GetNumberOfArrays(); ++i)
+      {
+        vtkDataArray* each = result.cloud->GetPointData()->GetArray(i);
+        array = isNoted(notes, std::string("is called ") + each->GetName()) ? each : array;
+      }
+      ASSERT_NE(array, nullptr) << extension << " '" << name << "' " << (notes.empty() ? "" : notes[0]);
+      EXPECT_EQ(array->GetComponent(1, 0), -2.5) << extension << " " << name;
+      EXPECT_TRUE(notes.empty() || name.empty() || std::string(extension) != "vtp") << name;
+    }
+  }
+}
+
+TEST_F(WrittenNames, NamesThatAreCutInLasStayApart)
+{
+  auto cloud = named(std::string(40, 'a') + "1");
+  cloud->GetPointData()->AddArray(named(std::string(40, 'a') + "2")->GetPointData()->GetArray(0));
+  ASSERT_EQ(writeCloud(cloud, path("a.las")), "");
+  EXPECT_NE(readCloud(path("a.las")).array((std::string(30, 'a') + "_2").c_str()), nullptr);
+}
+
+} // namespace
