@@ -457,14 +457,8 @@ void vtkSplatMapper::SetClipParameters(vtkOpenGLHelper& cells)
     ends[side % 2][axis] =
       static_cast<float>(std::clamp((this->ClipBox[side] - shift) * scale, -kLargest, kLargest));
   }
-  if (cells.Program->IsUniformUsed("splatLow"))
-  {
-    cells.Program->SetUniform3f("splatLow", ends[0]);
-  }
-  if (cells.Program->IsUniformUsed("splatHigh"))
-  {
-    cells.Program->SetUniform3f("splatHigh", ends[1]);
-  }
+  cells.Program->SetUniform3f("splatLow", ends[0]);
+  cells.Program->SetUniform3f("splatHigh", ends[1]);
 }
 
 /// The slopes of the discs come from normals in the frame of the view: it knows no large coordinates.
@@ -502,27 +496,11 @@ void vtkSplatMapper::SetSurfaceParameters(vtkOpenGLHelper& cells, vtkRenderer* r
     static_cast<float>(projection->GetElement(2, 3)) };
   const double lines = vtkDepthShadingPass::ResolutionOf(renderer) * renderer->GetSize()[1];
   const double halfPixel = 1.0 / (projection->GetElement(1, 1) * lines);
-  const auto isUsed = [&cells](const char* name) { return cells.Program->IsUniformUsed(name); };
-  if (isUsed("splatTurn"))
-  {
-    cells.Program->SetUniformMatrix3x3("splatTurn", &turn[0][0]);
-  }
-  if (isUsed("splatTerms"))
-  {
-    cells.Program->SetUniform4f("splatTerms", terms);
-  }
-  if (isUsed("splatHalfPixel"))
-  {
-    cells.Program->SetUniformf("splatHalfPixel", static_cast<float>(halfPixel));
-  }
-  if (isUsed("splatNarrow"))
-  {
-    cells.Program->SetUniformf("splatNarrow", this->Foreshortens ? 1.0F : 0.0F);
-  }
-  if (isUsed("splatIsParallel"))
-  {
-    cells.Program->SetUniformi("splatIsParallel", camera->GetParallelProjection() ? 1 : 0);
-  }
+  cells.Program->SetUniformMatrix3x3("splatTurn", &turn[0][0]);
+  cells.Program->SetUniform4f("splatTerms", terms);
+  cells.Program->SetUniformf("splatHalfPixel", static_cast<float>(halfPixel));
+  cells.Program->SetUniformf("splatNarrow", this->Foreshortens ? 1.0F : 0.0F);
+  cells.Program->SetUniformi("splatIsParallel", camera->GetParallelProjection() ? 1 : 0);
 }
 
 namespace
@@ -573,33 +551,19 @@ void vtkSplatMapper::SetLightParameters(vtkOpenGLHelper& cells, vtkRenderer* ren
   {
     const float values[3] = { static_cast<float>(vector[0]), static_cast<float>(vector[1]),
       static_cast<float>(vector[2]) };
-    if (cells.Program->IsUniformUsed(name))
-    {
-      cells.Program->SetUniform3f(name, values);
-    }
+    cells.Program->SetUniform3f(name, values);
   };
   const auto setNumber = [&cells](const char* name, double value)
-  {
-    if (cells.Program->IsUniformUsed(name))
-    {
-      cells.Program->SetUniformf(name, static_cast<float>(value));
-    }
-  };
+  { cells.Program->SetUniformf(name, static_cast<float>(value)); };
   setNumber("splatUnit", 1.0 / this->NormalUnit);
   setNumber("splatStrength", this->LightStrength);
-  if (cells.Program->IsUniformUsed("splatHides"))
-  {
-    cells.Program->SetUniformi("splatHides", this->HidesBackFaces ? 1 : 0);
-  }
+  cells.Program->SetUniformi("splatHides", this->HidesBackFaces ? 1 : 0);
   set("splatLamp", lamp);
   set("splatSky", sky);
   set("splatUnscale", unscale);
   const float place[4] = { static_cast<float>(eye[0]), static_cast<float>(eye[1]), static_cast<float>(eye[2]),
     isParallel ? 0.0F : 1.0F };
-  if (cells.Program->IsUniformUsed("splatEye"))
-  {
-    cells.Program->SetUniform4f("splatEye", place);
-  }
+  cells.Program->SetUniform4f("splatEye", place);
 }
 
 void vtkSplatMapper::PrintSelf(ostream& os, vtkIndent indent)
