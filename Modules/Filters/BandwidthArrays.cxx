@@ -1,12 +1,20 @@
 #include "BandwidthArrays.h"
 
+#include "SmpExecutor.h"
+#include "VoxelOutput.h"
+
+#include "vtkCellArray.h"
 #include "vtkDataArray.h"
 #include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkPoints.h"
 #include "vtkPolyData.h"
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 namespace pointhaptics
@@ -25,10 +33,11 @@ void addArray(vtkPolyData* output, const char* name, const std::vector<double>& 
 
 }
 
-std::vector<double> voxelCounts(vtkPolyData* cloud, bool use)
+std::vector<double> voxelCounts(vtkPointSet* cloud, bool use, std::string& problem)
 {
   std::vector<double> counts;
-  vtkDataArray* array = use ? cloud->GetPointData()->GetArray("VoxelPointCount") : nullptr;
+  vtkAbstractArray* any = use ? cloud->GetPointData()->GetAbstractArray("VoxelPointCount") : nullptr;
+  auto* array = vtkDataArray::SafeDownCast(any);
   if (array && array->GetNumberOfComponents() == 1 &&
     array->GetNumberOfTuples() == cloud->GetNumberOfPoints())
   {
@@ -38,7 +47,42 @@ std::vector<double> voxelCounts(vtkPolyData* cloud, bool use)
       counts[i] = array->GetComponent(vtkIdType(i), 0);
     }
   }
+  const bool areCounts = std::all_of(
+    counts.begin(), counts.end(), [](double count) { return count > 0.0 && std::isfinite(count); });
+  if (any && (!areCounts || vtkIdType(counts.size()) != cloud->GetNumberOfPoints()))
+  {
+    counts.clear();
+    problem = "VoxelPointCount is not a number above 0 for each point: bandwidths are those of the points as "
+              "they are. Remove the array, or set UsePointCountsOff.";
+  }
   return counts;
+}
+
+std::string invalidPoints(std::int64_t invalid, std::int64_t all)
+{
+  return invalid == 0 ? std::string()
+                      : std::to_string(invalid) + " of " + std::to_string(all) +
+      " points are NaN or infinite: they have bandwidth and radius 0. Remove them first.";
+}
+
+void passCloud(vtkPointSet* cloud, vtkPolyData* output)
+{
+  if (vtkPolyData::SafeDownCast(cloud))
+  {
+    output->ShallowCopy(cloud);
+  }
+  else
+  {
+    ArrayPool pool;
+    output->SetPoints(cloud->GetPoints());
+    output->SetVerts(makeVertices(cloud->GetNumberOfPoints(), pool, SmpExecutor()));
+    output->GetPointData()->ShallowCopy(cloud->GetPointData());
+    output->GetFieldData()->ShallowCopy(cloud->GetFieldData());
+  }
+  if (!output->GetPoints())
+  {
+    output->SetPoints(vtkNew<vtkPoints>());
+  }
 }
 
 std::string bandwidthProblem(const BandwidthSettings& settings, Status status)

@@ -3,10 +3,14 @@
 #pragma once
 
 #include "Core/Base/AffineTransform.h"
+#include "Core/Base/Lattice.h"
 #include "Core/Base/PointView.h"
+#include "Core/Base/Status.h"
 
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
+
+#include <string>
 
 class vtkAbstractTransform;
 class vtkDataArray;
@@ -32,6 +36,10 @@ private:
 /// The matrix of a linear transform; null gives the identity. @return false for a transform that is not
 /// affine.
 bool affineFromTransform(vtkAbstractTransform* transform, AffineTransform& result);
+/// Null gives the identity. @return empty, or why @p transform is of no use.
+std::string readTransform(vtkAbstractTransform* transform, AffineTransform& result);
+/// Why makeLattice() gave @p status for @p settings.
+std::string latticeProblem(const LatticeSettings& settings, Status status);
 
 ///@{
 /// The first three rows of a matrix whose fourth is 0, 0, 0, 1.

@@ -21,21 +21,29 @@ std::string nameOf(vtkAbstractArray* array)
   return array->GetName() ? array->GetName() : "";
 }
 
-/// Identifiers and ghost flags are meaningless once points are merged, and so are counts and covariances of
-/// an earlier resampling.
-bool isBookkeeping(vtkDataSetAttributes* attributes, vtkAbstractArray* array)
+/// Ghost flags are meaningless once points are merged, and so are counts and covariances of an earlier
+/// resampling.
+bool isBookkeeping(vtkAbstractArray* array)
 {
   const std::string name = nameOf(array);
-  return array == attributes->GetGlobalIds() || array == attributes->GetPedigreeIds() ||
-    name == vtkDataSetAttributes::GhostArrayName() || name == "VoxelPointCount" ||
+  return name == vtkDataSetAttributes::GhostArrayName() || name == "VoxelPointCount" ||
     name == "VoxelCovariance" || name == "VoxelIndex" || name == kOriginalPointIds;
 }
 
-std::string whyDropped(vtkAbstractArray* array, vtkIdType points)
+bool areIds(vtkDataSetAttributes* attributes, vtkAbstractArray* array)
+{
+  return array == attributes->GetGlobalIds() || array == attributes->GetPedigreeIds();
+}
+
+std::string whyDropped(vtkDataSetAttributes* attributes, vtkAbstractArray* array, vtkIdType points)
 {
   std::ostringstream text;
   text << "Array \"" << nameOf(array) << "\" ";
-  if (!vtkDataArray::SafeDownCast(array))
+  if (areIds(attributes, array))
+  {
+    text << "holds ids: merged points have none and it is dropped.";
+  }
+  else if (!vtkDataArray::SafeDownCast(array))
   {
     text << "is not numeric: it has no mean and is dropped.";
   }
@@ -90,14 +98,14 @@ std::vector<VoxelArray> voxelArrays(vtkPointSet* input, const std::set<std::stri
   for (int i = 0; i < data->GetNumberOfArrays(); ++i)
   {
     vtkAbstractArray* any = data->GetAbstractArray(i);
-    if (isBookkeeping(data, any))
+    if (isBookkeeping(any))
     {
       continue;
     }
     vtkDataArray* array = vtkDataArray::SafeDownCast(any);
-    if (!array || array->GetNumberOfTuples() != input->GetNumberOfPoints())
+    if (areIds(data, any) || !array || array->GetNumberOfTuples() != input->GetNumberOfPoints())
     {
-      dropped.push_back(whyDropped(any, input->GetNumberOfPoints()));
+      dropped.push_back(whyDropped(data, any, input->GetNumberOfPoints()));
       continue;
     }
     const bool isNormal = array == data->GetNormals() && array->GetNumberOfComponents() == 3;

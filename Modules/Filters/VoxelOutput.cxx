@@ -61,24 +61,24 @@ void ArrayAllocator::release()
   }
 }
 
-vtkSmartPointer<vtkPoints> makePoints(const VoxelResampler& engine, int level, bool singlePrecision,
-  ArrayAllocator& allocator, const Executor& executor)
+vtkSmartPointer<vtkPoints> makePoints(
+  const VoxelResampler& engine, bool singlePrecision, ArrayAllocator& allocator, const Executor& executor)
 {
   auto points = vtkSmartPointer<vtkPoints>::New();
   points->SetDataType(singlePrecision ? VTK_FLOAT : VTK_DOUBLE);
-  allocator.take(OutputAllocator::Means, points->GetData(), engine.size(level));
+  allocator.take(OutputAllocator::Means, points->GetData(), engine.size());
   if (singlePrecision)
   {
-    engine.copyMeans(level, vtkFloatArray::FastDownCast(points->GetData())->GetPointer(0), executor);
+    engine.copyMeans(0, vtkFloatArray::FastDownCast(points->GetData())->GetPointer(0), executor);
   }
   else
   {
-    engine.copyMeans(level, vtkDoubleArray::FastDownCast(points->GetData())->GetPointer(0), executor);
+    engine.copyMeans(0, vtkDoubleArray::FastDownCast(points->GetData())->GetPointer(0), executor);
   }
   return points;
 }
 
-vtkSmartPointer<vtkDataArray> reducedArray(const VoxelResampler& engine, int level, std::size_t i,
+vtkSmartPointer<vtkDataArray> reducedArray(const VoxelResampler& engine, std::size_t i,
   const VoxelAttribute& attribute, bool isNormal, const VoxelRequest& request, ArrayPool& pool,
   ArrayAllocator& allocator, const Executor& executor)
 {
@@ -90,8 +90,8 @@ vtkSmartPointer<vtkDataArray> reducedArray(const VoxelResampler& engine, int lev
   else
   {
     array = attribute.emptyArray();
-    allocator.take(OutputAllocator::Attributes + i, array, engine.size(level));
-    engine.copyAttribute(level, i, array->GetVoidPointer(0), executor);
+    allocator.take(OutputAllocator::Attributes + i, array, engine.size());
+    engine.copyAttribute(0, i, array->GetVoidPointer(0), executor);
     array = attribute.inOwnType(array);
   }
   if (request.representative != Representative::Mean && isNormal && !request.transform.isIdentity())
@@ -123,18 +123,18 @@ vtkSmartPointer<vtkCellArray> makeVertices(vtkIdType count, ArrayPool& pool, con
 }
 
 vtkSmartPointer<vtkIdTypeArray> makeCounts(
-  const VoxelResampler& engine, int level, ArrayAllocator& allocator, const Executor& executor)
+  const VoxelResampler& engine, ArrayAllocator& allocator, const Executor& executor)
 {
   static_assert(sizeof(vtkIdType) == sizeof(std::int64_t), "VTK must be built with 64-bit ids");
   auto counts = vtkSmartPointer<vtkIdTypeArray>::New();
   counts->SetName("VoxelPointCount");
-  allocator.take(OutputAllocator::Counts, counts, engine.size(level));
-  engine.copyCounts(level, reinterpret_cast<std::int64_t*>(counts->GetPointer(0)), executor);
+  allocator.take(OutputAllocator::Counts, counts, engine.size());
+  engine.copyCounts(0, reinterpret_cast<std::int64_t*>(counts->GetPointer(0)), executor);
   return counts;
 }
 
 vtkSmartPointer<vtkDoubleArray> makeCovariances(
-  const VoxelResampler& engine, int level, ArrayAllocator& allocator, const Executor& executor)
+  const VoxelResampler& engine, ArrayAllocator& allocator, const Executor& executor)
 {
   static_assert(sizeof(SymMat3) == 6 * sizeof(double), "six numbers, xx yy zz xy yz xz");
   auto array = vtkSmartPointer<vtkDoubleArray>::New();
@@ -145,8 +145,8 @@ vtkSmartPointer<vtkDoubleArray> makeCovariances(
   {
     array->SetComponentName(c, names[c]);
   }
-  allocator.take(OutputAllocator::Covariances, array, engine.size(level));
-  engine.copyCovariances(level, reinterpret_cast<SymMat3*>(array->GetPointer(0)), executor);
+  allocator.take(OutputAllocator::Covariances, array, engine.size());
+  engine.copyCovariances(0, reinterpret_cast<SymMat3*>(array->GetPointer(0)), executor);
   return array;
 }
 
@@ -244,13 +244,13 @@ void addArray(vtkPointData* data, vtkDataArray* array, const std::vector<int>& r
   }
 }
 
-bool OutputFiller::fill(int level, vtkPolyData* output, const AddArrays& addArrays,
-  std::optional<std::vector<std::int64_t>>& kept) const
+bool OutputFiller::fill(
+  vtkPolyData* output, const AddArrays& addArrays, std::optional<std::vector<std::int64_t>>& kept) const
 {
   vtkPointData* data = output->GetPointData();
-  output->SetPoints(makePoints(engine, level, singlePrecision, allocator, executor));
-  output->SetVerts(makeVertices(vtkIdType(engine.size(level)), pool, executor));
-  const auto counts = makeCounts(engine, level, allocator, executor);
+  output->SetPoints(makePoints(engine, singlePrecision, allocator, executor));
+  output->SetVerts(makeVertices(vtkIdType(engine.size()), pool, executor));
+  const auto counts = makeCounts(engine, allocator, executor);
   if (!addArrays(counts, data))
   {
     return false;
@@ -258,7 +258,7 @@ bool OutputFiller::fill(int level, vtkPolyData* output, const AddArrays& addArra
   data->AddArray(counts);
   if (covariances)
   {
-    data->AddArray(makeCovariances(engine, level, allocator, executor));
+    data->AddArray(makeCovariances(engine, allocator, executor));
   }
   if (pointIds)
   {
@@ -266,7 +266,7 @@ bool OutputFiller::fill(int level, vtkPolyData* output, const AddArrays& addArra
   }
   kept = keepVoxels(output, counts, minimumPoints, pool, executor);
   movePoses(transform, output->GetFieldData());
-  addLattice(engine.lattice(level), transform, output->GetFieldData());
+  addLattice(engine.lattice(), transform, output->GetFieldData());
   return true;
 }
 

@@ -56,24 +56,24 @@ private:
   std::vector<void*> memory_; ///< Of each part, or null.
 };
 
-// Level 0 takes its memory from the @p allocator that the engine wrote to.
+// Memory comes from the @p allocator that the engine wrote to.
 
 /// @p singlePrecision: that of the request.
-vtkSmartPointer<vtkPoints> makePoints(const VoxelResampler& engine, int level, bool singlePrecision,
-  ArrayAllocator& allocator, const Executor& executor);
-/// What the engine made of the array of @p attribute on a level: for a representative that is a point of the
+vtkSmartPointer<vtkPoints> makePoints(
+  const VoxelResampler& engine, bool singlePrecision, ArrayAllocator& allocator, const Executor& executor);
+/// What the engine made of the array of @p attribute: for a representative that is a point of the
 /// input its tuples, else those of attribute @p i of @p request.
-vtkSmartPointer<vtkDataArray> reducedArray(const VoxelResampler& engine, int level, std::size_t i,
+vtkSmartPointer<vtkDataArray> reducedArray(const VoxelResampler& engine, std::size_t i,
   const VoxelAttribute& attribute, bool isNormal, const VoxelRequest& request, ArrayPool& pool,
   ArrayAllocator& allocator, const Executor& executor);
 /// @p count vertex cells, one per point, in order.
 vtkSmartPointer<vtkCellArray> makeVertices(vtkIdType count, ArrayPool& pool, const Executor& executor);
 /// The array VoxelPointCount.
 vtkSmartPointer<vtkIdTypeArray> makeCounts(
-  const VoxelResampler& engine, int level, ArrayAllocator& allocator, const Executor& executor);
+  const VoxelResampler& engine, ArrayAllocator& allocator, const Executor& executor);
 /// The array VoxelCovariance.
 vtkSmartPointer<vtkDoubleArray> makeCovariances(
-  const VoxelResampler& engine, int level, ArrayAllocator& allocator, const Executor& executor);
+  const VoxelResampler& engine, ArrayAllocator& allocator, const Executor& executor);
 /// An array of ids. @p numbers: what becomes of each id that is not negative; empty: they stay.
 vtkSmartPointer<vtkIdTypeArray> makeIds(const std::vector<std::int64_t>& ids, const char* name,
   const std::vector<std::int64_t>& numbers, ArrayPool& pool, const Executor& executor);
@@ -103,8 +103,8 @@ struct OutputFiller
   /// Adds the arrays of the points' attributes. @return false where the work was aborted.
   using AddArrays = std::function<bool(vtkIdTypeArray* counts, vtkPointData* data)>;
   /// @p kept: of keepVoxels(). @return false where @p addArrays did; the output is not complete then.
-  bool fill(int level, vtkPolyData* output, const AddArrays& addArrays,
-    std::optional<std::vector<std::int64_t>>& kept) const;
+  bool fill(
+    vtkPolyData* output, const AddArrays& addArrays, std::optional<std::vector<std::int64_t>>& kept) const;
 };
 
 } // namespace pointhaptics

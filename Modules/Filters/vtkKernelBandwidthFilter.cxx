@@ -8,12 +8,13 @@
 #include "Core/Bandwidth/Density.h"
 #include "Core/Bandwidth/LocalBandwidth.h"
 
-#include "vtkInformation.h"
-#include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
+#include "vtkPointSet.h"
 #include "vtkPolyData.h"
 
 #include <algorithm>
+#include <chrono>
+#include <string>
 
 using namespace pointhaptics;
 
@@ -34,6 +35,7 @@ class ReportingExecutor : public SmpExecutor
 public:
   ReportingExecutor(vtkAlgorithm* filter, double from, double to)
     : Filter(filter)
+    , Now(from)
     , From(from)
     , To(to)
   {
@@ -41,22 +43,29 @@ public:
 
   void run(std::int64_t count, std::int64_t grain, void* context, Body body) const override
   {
-    const std::int64_t piece = std::max<std::int64_t>(4 * grain, (count + Slices - 1) / Slices);
-    for (std::int64_t begin = 0; begin < count && !this->Filter->GetAbortExecute(); begin += piece)
+    using Clock = std::chrono::steady_clock;
+    const std::int64_t largest = std::max<std::int64_t>(grain, (count + Slices - 1) / Slices);
+    std::int64_t piece = 1; // a long one is heard of at once
+    for (std::int64_t begin = 0; begin < count && !this->Filter->GetAbortExecute();)
     {
+      const Clock::time_point start = Clock::now();
+      const std::int64_t size = std::min(piece, count - begin);
       Shifted shifted{ context, body, begin };
-      SmpExecutor::run(std::min(piece, count - begin), grain, &shifted,
+      SmpExecutor::run(size, grain, &shifted,
         [](void* here, std::int64_t first, std::int64_t last)
         {
           const auto* s = static_cast<const Shifted*>(here);
           s->Inner(s->Context, s->Offset + first, s->Offset + last);
         });
-      this->Report(double(begin + piece) / double(count));
+      begin += size;
+      this->Report(double(begin) / double(count));
+      piece = std::min(largest, piece * (Clock::now() - start < kSlice ? 2 : 1));
     }
   }
 
 private:
   static constexpr std::int64_t Slices = 8;
+  static constexpr std::chrono::milliseconds kSlice{ 50 };
   struct Shifted
   {
     void* Context;
@@ -67,14 +76,16 @@ private:
   /// Several loops share the range: progress never decreases.
   void Report(double fraction) const
   {
-    const double progress = this->From + (this->To - this->From) * std::min(fraction, 1.0);
-    if (progress > this->Filter->GetProgress())
+    const double progress = this->From + (this->To - this->From) * fraction;
+    if (progress > this->Now)
     {
+      this->Now = progress;
       this->Filter->UpdateProgress(progress);
     }
   }
 
   vtkAlgorithm* Filter;
+  mutable double Now;
   double From;
   double To;
 };
@@ -102,48 +113,50 @@ void vtkKernelBandwidthFilter::SetDensityKernel(int value)
     pointhaptics::DensityKernel(std::clamp<int>(value, Gaussian, Epanechnikov)));
 }
 
-int vtkKernelBandwidthFilter::RequestData(
-  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+bool vtkKernelBandwidthFilter::BeginRun(const Clouds&)
 {
-  auto* input = vtkPolyData::GetData(inputVector[0]);
-  auto* output = vtkPolyData::GetData(outputVector);
-
-  LocalBandwidthSettings settings = this->Settings;
-  settings.smoothRadius = settings.smoothRadius && this->Settings.computeProxyRadius;
-  const Status status = settings.check();
+  this->SettingsOfRun = this->Settings;
+  const Status status = this->Settings.check();
   if (status != Status::Ok)
   {
-    vtkErrorMacro(<< bandwidthProblem(this->Settings, status));
-    return 1;
+    this->Fail(bandwidthProblem(this->Settings, status));
   }
-  if (input->GetNumberOfPoints() > NeighborQuery::kMostPoints)
+  return status == Status::Ok;
+}
+
+void vtkKernelBandwidthFilter::EndRun(bool) {}
+
+bool vtkKernelBandwidthFilter::RunCloud(vtkPointSet* cloud, const Outputs& outputs)
+{
+  if (cloud->GetNumberOfPoints() > NeighborQuery::kMostPoints)
   {
-    vtkErrorMacro("The input has " << input->GetNumberOfPoints() << " points, more than "
-                                   << NeighborQuery::kMostPoints << ": resample it first.");
-    return 1;
+    this->Fail("The input has " + std::to_string(cloud->GetNumberOfPoints()) + " points, more than " +
+      std::to_string(NeighborQuery::kMostPoints) + ": resample it first.");
+    return false;
   }
-  output->ShallowCopy(input);
-  const bool wanted = this->Settings.computeBandwidth || this->Settings.computeProxyRadius ||
-    this->Settings.computeDensity || this->Settings.computeMeanBandwidth;
-  if (wanted && !this->Estimate(input, output, settings))
-  {
-    output->Initialize();
-  }
-  return 1;
+  passCloud(cloud, outputs[0]);
+  const BandwidthSettings& settings = this->SettingsOfRun;
+  const bool wanted = settings.computeBandwidth || settings.computeProxyRadius || settings.computeDensity ||
+    settings.computeMeanBandwidth;
+  return !wanted || this->Estimate(outputs[0]);
 }
 
 /// @return false where an abort was asked for.
-bool vtkKernelBandwidthFilter::Estimate(
-  vtkPolyData* input, vtkPolyData* output, const LocalBandwidthSettings& settings)
+bool vtkKernelBandwidthFilter::Estimate(vtkPolyData* cloud)
 {
-  const PointAccess points(input->GetPoints());
-  const double found = this->Settings.computeDensity ? 0.4 : 0.95;
+  LocalBandwidthSettings settings = this->SettingsOfRun;
+  settings.smoothRadius = settings.smoothRadius && this->SettingsOfRun.computeProxyRadius;
+  const PointAccess points(cloud->GetPoints());
+  const double found = this->SettingsOfRun.computeDensity ? 0.4 : 0.95;
   NeighborQuery query;
   query.build(points.view(), SmpExecutor());
   this->UpdateProgress(0.1);
-  const std::vector<double> counts = voxelCounts(input, settings.usePointCounts);
-  const bool wantsPoints = this->Settings.computeBandwidth || this->Settings.computeProxyRadius;
-  const bool wantsMeans = this->Settings.computeDensity || this->Settings.computeMeanBandwidth;
+  std::string problem;
+  const std::vector<double> counts = voxelCounts(cloud, settings.usePointCounts, problem);
+  this->Warn(problem);
+  this->Warn(invalidPoints(points.view().size() - query.size(), points.view().size()));
+  const bool wantsPoints = this->SettingsOfRun.computeBandwidth || this->SettingsOfRun.computeProxyRadius;
+  const bool wantsMeans = this->SettingsOfRun.computeDensity || this->SettingsOfRun.computeMeanBandwidth;
   std::vector<double> bandwidths;
   std::vector<double> radii;
   std::vector<double> ofMeans;
@@ -165,17 +178,16 @@ bool vtkKernelBandwidthFilter::Estimate(
       ReportingExecutor(this, wantsPoints ? found : 0.1, found));
   }
   const std::vector<double>& widths = counts.empty() ? bandwidths : ofMeans;
-  if (this->Settings.computeDensity && !this->GetAbortExecute())
+  if (this->SettingsOfRun.computeDensity && !this->GetAbortExecute())
   {
     surfaceDensities(points.view(), counts, query, widths, densities, ReportingExecutor(this, found, 0.95),
-      this->Settings.densityKernel);
+      this->SettingsOfRun.densityKernel);
   }
   if (this->GetAbortExecute())
   {
     return false;
   }
-  addBandwidthArrays(output, this->Settings, densities, widths, bandwidths, radii);
-  this->UpdateProgress(1.0);
+  addBandwidthArrays(cloud, this->SettingsOfRun, densities, widths, bandwidths, radii);
   return true;
 }
 

@@ -24,14 +24,17 @@
  * whatever that density was. Where the input has the point array "VoxelPointCount" of vtkVoxelMeanResampler,
  * bandwidths and radii are therefore those of the points that the means stand for (see UsePointCounts).
  *
- * Input: any vtkPolyData; its points are read, float or double, and VoxelPointCount. Output: the input with
- * the point arrays added that are asked for: "Bandwidth" and "ProxyRadius" (double, metres, or whatever unit
- * the points have) and "Density" (double, per squared unit: the kernel density estimate on a surface with
- * each point's own bandwidth, see DensityKernel). Arrays of these names in the input are replaced; the active
- * scalars stay.
+ * Input: any vtkPointSet, or a composite of them (vtkPointCloudFilter: neighbours are those of the same
+ * block, and of the same piece where a pipeline runs on several processes); its points are read, float or
+ * double, and VoxelPointCount. Output: a vtkPolyData as it is, of others the points with a vertex each, their
+ * point arrays and field data; with the point arrays added that are asked for: "Bandwidth" and "ProxyRadius"
+ * (double, metres, or whatever unit the points have) and "Density" (double, per squared unit: the kernel
+ * density estimate on a surface with each point's own bandwidth, see DensityKernel). Arrays of these names in
+ * the input are replaced; the active scalars stay.
  *
  * Neighbourhoods are exact (k nearest, ties broken by the point's index). Points that are NaN or infinite
- * take no part and get the value 0. A neighbourhood without spread (duplicates, a single point) gets as its
+ * take no part and get the value 0; a warning says how many. So does a VoxelPointCount that is of no use: not
+ * a number above 0 for each point. A neighbourhood without spread (duplicates, a single point) gets as its
  * radius the bound r1 (where that is automatic: the smallest radius of other points, or a thousandth of the
  * cloud's diagonal, or 0.001) and the bandwidth r1 / RadiusScale: never 0, NaN or infinity for a valid point.
  *
@@ -40,7 +43,8 @@
  * Cost: O(n); 200 ns a point and thread for 16 neighbours, density six times as much. 100 bytes a point
  * while it runs. Parallel by vtkSMPTools; one thread may use an object at a time.
  *
- * Progress is reported, and AbortExecute ends the work within a tenth of it, with an empty output.
+ * Progress is reported ten times a second and more often, and AbortExecute ends the work there, with an empty
+ * output.
  * @warning A number of neighbours below 1, a radius not above 0, r1 > r2 or a scale not above 0 is reported
  * by vtkErrorMacro and gives an empty output; so do more than 2^31 - 1 points.
  * @sa vtkVoxelMeanResampler
@@ -50,13 +54,13 @@
 
 #include "Core/Bandwidth/BandwidthSettings.h" // For Settings
 #include "PointHapticsFiltersModule.h"        // For export macro
-#include "vtkPolyDataAlgorithm.h"
+#include "vtkPointCloudFilter.h"
 
-class POINTHAPTICSFILTERS_EXPORT vtkKernelBandwidthFilter : public vtkPolyDataAlgorithm
+class POINTHAPTICSFILTERS_EXPORT vtkKernelBandwidthFilter : public vtkPointCloudFilter
 {
 public:
   static vtkKernelBandwidthFilter* New();
-  vtkTypeMacro(vtkKernelBandwidthFilter, vtkPolyDataAlgorithm);
+  vtkTypeMacro(vtkKernelBandwidthFilter, vtkPointCloudFilter);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   enum NeighborhoodType
@@ -252,7 +256,11 @@ protected:
   vtkKernelBandwidthFilter() = default;
   ~vtkKernelBandwidthFilter() override = default;
 
-  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+#ifndef __VTK_WRAP__
+  bool BeginRun(const Clouds& clouds) override;
+  bool RunCloud(vtkPointSet* cloud, const Outputs& outputs) override;
+  void EndRun(bool succeeded) override;
+#endif
 
 private:
 #ifndef __VTK_WRAP__ // which cannot read pointers to members
@@ -264,10 +272,10 @@ private:
     this->SetSettings(settings);
   }
 #endif
-  bool Estimate(
-    vtkPolyData* input, vtkPolyData* output, const pointhaptics::LocalBandwidthSettings& settings);
+  bool Estimate(vtkPolyData* cloud);
 
   pointhaptics::BandwidthSettings Settings;
+  pointhaptics::BandwidthSettings SettingsOfRun; // observers of progress may set others
 
   vtkKernelBandwidthFilter(const vtkKernelBandwidthFilter&) = delete;
   void operator=(const vtkKernelBandwidthFilter&) = delete;

@@ -6,16 +6,12 @@
 #include "Core/Resample/FieldNames.h"
 
 #include "vtkAbstractTransform.h"
-#include "vtkFieldData.h"
-#include "vtkInformation.h"
-#include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointSet.h"
 #include "vtkPolyData.h"
 
 #include <algorithm>
 #include <utility>
-#include <vector>
 
 using namespace pointhaptics;
 
@@ -33,6 +29,7 @@ vtkVoxelMeanResampler::vtkVoxelMeanResampler()
   , NumberOfInvalidPoints(0)
   , Impl(std::make_unique<Internals>(this))
 {
+  this->SetNumberOfOutputPorts(2);
   this->UpdateVectors();
 }
 
@@ -55,13 +52,11 @@ vtkAbstractTransform* vtkVoxelMeanResampler::GetTransform()
 void vtkVoxelMeanResampler::SetSettings(const VoxelMeanSettings& settings)
 {
   VoxelMeanSettings valid = settings;
-  valid.numberOfLevels = std::clamp(settings.numberOfLevels, 1, VoxelMeanSettings::kMostLevels);
   valid.minimumPointsPerVoxel = std::max(settings.minimumPointsPerVoxel, 1);
   if (equalSettings(this->Settings, valid))
   {
     return;
   }
-  this->SetNumberOfOutputPorts(valid.numberOfLevels + int(valid.computeVoxelIndex));
   this->Settings = std::move(valid);
   this->UpdateVectors();
   this->Modified();
@@ -163,11 +158,6 @@ bool vtkVoxelMeanResampler::IsCategoricalArray(const char* name) const
       [name](const std::string& each) { return pointhaptics::isSameField(each, name); });
 }
 
-void vtkVoxelMeanResampler::SetNumberOfLevels(int levels)
-{
-  this->SetMember(&VoxelMeanSettings::numberOfLevels, levels);
-}
-
 void vtkVoxelMeanResampler::SetRepresentative(int representative)
 {
   this->SetMember(&VoxelMeanSettings::representative,
@@ -186,53 +176,29 @@ void vtkVoxelMeanResampler::ReleaseScratch()
 
 vtkMTimeType vtkVoxelMeanResampler::GetMTime()
 {
-  vtkMTimeType time = this->Superclass::GetMTime();
-  if (this->Transform)
-  {
-    time = std::max(time, this->Transform->GetMTime());
-  }
-  if (this->Impl->Aborted)
-  {
-    // The pipeline would take the result of an aborted execution for valid: request another one.
-    this->Impl->RetryTime.Modified();
-  }
-  return std::max(time, this->Impl->RetryTime.GetMTime());
+  return std::max(this->Superclass::GetMTime(), this->Transform ? this->Transform->GetMTime() : 0);
 }
 
-int vtkVoxelMeanResampler::FillInputPortInformation(int, vtkInformation* info)
+bool vtkVoxelMeanResampler::BeginRun(const Clouds& clouds)
 {
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
-  return 1;
-}
-
-int vtkVoxelMeanResampler::RequestData(
-  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
-{
-  auto* input = vtkPointSet::GetData(inputVector[0]);
   this->NumberOfClippedPoints = 0;
   this->NumberOfInvalidPoints = 0;
-  // Observers of progress may ask for another number of levels, which is then that of the next update.
-  std::vector<vtkSmartPointer<vtkPolyData>> outputs;
-  for (int level = 0; level < this->Settings.numberOfLevels; ++level)
-  {
-    outputs.emplace_back(vtkPolyData::GetData(outputVector, level));
-    outputs.back()->GetFieldData()->PassData(input->GetFieldData());
-  }
-  vtkSmartPointer<vtkPolyData> index;
-  if (this->Settings.computeVoxelIndex)
-  {
-    index = vtkPolyData::GetData(outputVector, this->Settings.numberOfLevels);
-  }
-  if (this->Impl->Update(input, outputs, index))
-  {
-    this->UpdateProgress(1.0);
-  }
-  else
+  return this->Impl->Begin(clouds);
+}
+
+bool vtkVoxelMeanResampler::RunCloud(vtkPointSet* cloud, const Outputs& outputs)
+{
+  return this->Impl->Update(cloud, outputs[0], outputs[1]);
+}
+
+void vtkVoxelMeanResampler::EndRun(bool succeeded)
+{
+  this->Impl->End(succeeded);
+  if (!succeeded)
   {
     this->NumberOfClippedPoints = 0;
     this->NumberOfInvalidPoints = 0;
   }
-  return 1;
 }
 
 void vtkVoxelMeanResampler::PrintSelf(ostream& os, vtkIndent indent)
@@ -240,6 +206,7 @@ void vtkVoxelMeanResampler::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Transform: " << (this->Transform ? this->Transform->GetClassName() : "(none)") << "\n";
   printSettings(os, indent, this->Settings);
+  os << indent << "LatticePerBlock: " << this->LatticePerBlock << "\n";
   os << indent << "NumberOfClippedPoints: " << this->NumberOfClippedPoints << "\n";
   os << indent << "NumberOfInvalidPoints: " << this->NumberOfInvalidPoints << "\n";
 }

@@ -8,8 +8,9 @@
  * active voxels, zooming out fewer.
  *
  * Use:
+ *
  * @code
- * vtkNew<vtkVoxelMeanResampler> resampler;
+ * vtkNew< vtkVoxelMeanResampler > resampler;
  * resampler->SetInputConnection(reader->GetOutputPort());
  * resampler->SetVoxelSize(0.001); // or SetDimensions(300, 300, 300), the default
  * resampler->Update();
@@ -21,16 +22,22 @@
  * "LatticeOrigin" and "LatticeSpacing" (3 doubles), "LatticeDimensions" (3 integers), "ModelToWorkspace" (16
  * doubles, row by row). "Viewpoint" and "ScanPoses" of vtkPointCloudReader are moved as the points are, but
  * for a viewpoint that is the identity, which says nothing; a transform that mirrors or does not keep angles
- * drops them with a warning. With NumberOfLevels above 1 there is an output port per level, each twice as
- * coarse.
+ * drops them with a warning. Output port 1 is the input with the voxel of each point (ComputeVoxelIndex).
+ *
+ * Composites (vtkPointCloudFilter): each block has means of its own, and all blocks share one lattice
+ * (LatticePerBlock: each has its own). The counts of clipped and invalid points are sums over the blocks.
+ * Pieces of a pipeline that runs on several processes have an automatic workspace each, about their own
+ * points: give WorkspaceBounds for a common lattice, or use vtkDistributedVoxelMeanResampler.
  *
  * Arrays: numeric arrays of any type and number of components are averaged and rounded to their own type
  * (integers to nearest, exactly), and keep their lookup table and information keys; the active normals are
  * transformed by the inverse transpose and re-normalised, those in integers keep the length of their mean;
  * arrays named in CategoricalArrays, in upper or lower case (Core/Resample/FieldNames.h), take the value most
  * points of the voxel have (the smallest one on a tie; NaN counts as the largest, and both zeroes as one);
- * string arrays and other non-numeric arrays are dropped with a warning; global ids, ghost flags and the
- * VoxelPointCount and VoxelCovariance of an earlier resampling are left out. Where a voxel's points have NaN
+ * string arrays, other non-numeric arrays, global and pedigree ids and arrays of another number of tuples are
+ * dropped with a warning; ghost flags and what an earlier resampling made (VoxelPointCount, VoxelCovariance,
+ * VoxelIndex, vtkOriginalPointIds) are left out. A name in CategoricalArrays that no array has is a warning,
+ * "Classification" aside. Where a voxel's points have NaN
  * or infinity in an array, its mean is what IEEE addition gives. Of vectors only the normals are turned. To
  * keep some of the arrays, put a vtkPassArrays before the filter. Points flagged as ghosts, and blanked ones,
  * are averaged like all others: remove duplicates first.
@@ -46,14 +53,12 @@
  * a mean lies in its voxel (where voxels are larger than the output type's last digits: not in single
  * precision at map coordinates). That holds for matrices of any condition number, too. Everything - points,
  * counts, covariances, averaged arrays - is the same bit for bit for every order of the input points, number
- * of threads, SMP back end and instruction set; a coarser level is the same as the points resampled at its
- * spacing over the same workspace (below a finest level of more than 4096 voxels an axis the first that has
- * no more takes another pass over the points, as does the first below one of more than 2^20).
+ * of threads, SMP back end and instruction set.
  *
  * An input without points gives all arrays without tuples.
  *
  * Points that are NaN or infinite are dropped and counted by GetNumberOfInvalidPoints(), finite points
- * outside the workspace by GetNumberOfClippedPoints().
+ * outside the workspace by GetNumberOfClippedPoints(). Where that leaves none at all, a warning says so.
  *
  * @warning Errors (singular or non-finite transform, empty bounds, a lattice that cannot be addressed) are
  * reported by vtkErrorMacro with the cure, and the output is a valid empty vtkPolyData.
@@ -61,9 +66,9 @@
  * Cost: a few nanoseconds a point (Documentation/Performance.md). Memory beyond input and output: 16
  * bytes for each of at most 5 million points, 60 bytes an active voxel and a few megabytes, kept for
  * the next update until ReleaseScratch() or the filter's end; nothing in proportion to the voxels of the
- * lattice. With covariance: 100 bytes an active voxel more; with levels or more points: up to 90 bytes in
- * all, 280 with covariance too. With arrays: for each of those points its number and tuples (up to 36 bytes);
- * where there are more points, or levels, also the values of categories, and of other arrays 8 bytes for each
+ * lattice. With covariance: 100 bytes an active voxel more; with more points: up to 90 bytes in all, 280 with
+ * covariance too. With arrays: for each of those points its number and tuples (up to 36 bytes);
+ * where there are more points, also the values of categories, and of other arrays 8 bytes for each
  * active voxel and component, or 16 for integers of 64 bits and for most arrays of doubles
  * (more where magnitudes differ by more than 2^50; at most 32 are kept). Representatives and the
  * voxel index hold all points at once. A workspace that shows less than
@@ -83,7 +88,7 @@
 
 #include "Core/Resample/VoxelMeanSettings.h" // For Settings
 #include "PointHapticsFiltersModule.h"       // For export macro
-#include "vtkPolyDataAlgorithm.h"
+#include "vtkPointCloudFilter.h"
 #include "vtkSmartPointer.h" // For Transform
 
 #include <memory> // For Internals
@@ -92,11 +97,11 @@
 
 class vtkAbstractTransform;
 
-class POINTHAPTICSFILTERS_EXPORT vtkVoxelMeanResampler : public vtkPolyDataAlgorithm
+class POINTHAPTICSFILTERS_EXPORT vtkVoxelMeanResampler : public vtkPointCloudFilter
 {
 public:
   static vtkVoxelMeanResampler* New();
-  vtkTypeMacro(vtkVoxelMeanResampler, vtkPolyDataAlgorithm);
+  vtkTypeMacro(vtkVoxelMeanResampler, vtkPointCloudFilter);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
@@ -210,8 +215,8 @@ public:
    * exact, the one with the smallest x, then y, then z, then values in the order of the arrays. Median: by
    * coordinate and by component, of an even number of points the lower middle one, NaN above all numbers;
    * categorical arrays have the value most points have. VoxelPointCount and VoxelCovariance are those of all
-   * points of the voxel. With another than the mean each level takes a pass over the points. Results are the
-   * same for every order of the points and number of threads. Default: Mean.
+   * points of the voxel. Results are the same for every order of the points and number of threads. Default:
+   * Mean.
    */
   virtual void SetRepresentative(int representative);
   virtual int GetRepresentative() const { return static_cast<int>(this->Settings.representative); }
@@ -223,7 +228,7 @@ public:
 
   ///@{
   /**
-   * Voxels with fewer points are left out, on each level. At least 1. Default: 1.
+   * Voxels with fewer points are left out. At least 1. Default: 1.
    */
   virtual void SetMinimumPointsPerVoxel(int points)
   {
@@ -234,10 +239,9 @@ public:
 
   ///@{
   /**
-   * One more output port, after those of the levels (port 1 by default): the points of the input with their
-   * arrays and the vtkIdTypeArray "VoxelIndex", the point of output 0 that each belongs to; -1 where it is
-   * clipped, invalid or in a voxel that is left out. Each level then takes a pass over the points. Default:
-   * off.
+   * Fill output port 1, which is empty otherwise: the points of the input with their arrays and the
+   * vtkIdTypeArray "VoxelIndex", the point of output 0 that each belongs to; -1 where it is clipped, invalid
+   * or in a voxel that is left out. Default: off.
    */
   virtual void SetComputeVoxelIndex(bool value)
   {
@@ -263,12 +267,12 @@ public:
 
   ///@{
   /**
-   * Level l, on output port l, is a lattice 2^l times as coarse from the same corner, made from the sums of
-   * level 0 without another pass over the points; once a level is one voxel, further ones repeat it. 1
-   * to 22. Default: 1.
+   * With an automatic workspace: each block of a composite has a lattice about its own points. Off: one
+   * lattice about the points of all. Default: off.
    */
-  virtual void SetNumberOfLevels(int levels);
-  virtual int GetNumberOfLevels() const { return this->Settings.numberOfLevels; }
+  vtkSetMacro(LatticePerBlock, bool);
+  vtkGetMacro(LatticePerBlock, bool);
+  vtkBooleanMacro(LatticePerBlock, bool);
   ///@}
 
   ///@{
@@ -303,8 +307,8 @@ public:
 
   ///@{
   /**
-   * All of the above but the transform as one plain value. NumberOfLevels and
-   * MinimumPointsPerVoxel are clamped to their ranges.
+   * All of the above but the transform and LatticePerBlock as one plain value.
+   * MinimumPointsPerVoxel is clamped to its range.
    */
   virtual void SetSettings(const pointhaptics::VoxelMeanSettings& settings);
   const pointhaptics::VoxelMeanSettings& GetSettings() const { return this->Settings; }
@@ -322,14 +326,15 @@ public:
 
   ///@{
   /**
-   * Of the last update: finite points outside the workspace, points that are NaN or infinite.
+   * Of the last update, over all blocks: finite points outside the workspace, points that are NaN or
+   * infinite.
    */
   vtkGetMacro(NumberOfClippedPoints, vtkIdType);
   vtkGetMacro(NumberOfInvalidPoints, vtkIdType);
   ///@}
 
   /**
-   * Later than the transform's; later than the last output if that was cut short.
+   * Not before the transform's.
    */
   vtkMTimeType GetMTime() override;
 
@@ -337,8 +342,11 @@ protected:
   vtkVoxelMeanResampler();
   ~vtkVoxelMeanResampler() override;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
-  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+#ifndef __VTK_WRAP__
+  bool BeginRun(const Clouds& clouds) override;
+  bool RunCloud(vtkPointSet* cloud, const Outputs& outputs) override;
+  void EndRun(bool succeeded) override;
+#endif
 
   vtkSmartPointer<vtkAbstractTransform> Transform;
   vtkIdType NumberOfClippedPoints;
@@ -360,6 +368,7 @@ private:
   void UpdateVectors();
 
   pointhaptics::VoxelMeanSettings Settings;
+  bool LatticePerBlock = false;
   // What of it is returned by pointers, in VTK's order.
   double WorkspaceBounds[6];
   int Dimensions[3];

@@ -1,11 +1,10 @@
 #include "vtkVoxelMeanResamplerInternals.h"
 
 #include "FieldPoses.h"
-#include "ResamplerInput.h"
 
+#include "Core/Resample/FieldNames.h"
 #include "Core/Resample/VoxelMean.h"
 
-#include "vtkAbstractTransform.h"
 #include "vtkDataArray.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
@@ -29,112 +28,151 @@ constexpr double kFillEnd = 0.99;
 
 }
 
-/// The scope of an update: caches are not freed within it, and the input is released at its end.
-class vtkVoxelMeanResampler::Internals::UpdateScope
+bool vtkVoxelMeanResampler::Internals::Begin(const Clouds& clouds)
 {
-public:
-  explicit UpdateScope(Internals& owner)
-    : Owner(owner)
+  this->IsRunning = true;
+  this->Aborted = false;
+  this->Settings = this->Filter->Settings;
+  this->PartBegin = this->PartEnd = 0.0;
+  this->NumberOfPoints = 0;
+  for (vtkPointSet* cloud : clouds)
   {
-    this->Owner.IsRunning = true;
+    this->NumberOfPoints += cloud->GetNumberOfPoints();
   }
-  ~UpdateScope()
+  const std::string problem = readTransform(this->Filter->Transform, this->Transform);
+  if (!problem.empty())
   {
-    this->Owner.Release();
-    this->Owner.IsRunning = false;
-    if (this->Owner.ReleaseCachesAtEnd)
+    this->Filter->Fail(problem);
+    return false;
+  }
+  this->WarnOfNames(clouds);
+  return this->FindWorkspace(clouds);
+}
+
+bool vtkVoxelMeanResampler::Internals::FindWorkspace(const Clouds& clouds)
+{
+  this->Workspace.reset();
+  if (!this->Settings.lattice.automaticWorkspace || this->Filter->LatticePerBlock || clouds.size() == 1)
+  {
+    return true;
+  }
+  Bounds all;
+  for (vtkPointSet* cloud : clouds)
+  {
+    const PointAccess points(cloud->GetPoints());
+    const Bounds bounds = transformedBounds(points.view(), this->Transform, this->Smp, this);
+    if (!bounds.empty())
     {
-      this->Owner.ReleaseCaches();
+      all.include(bounds.minimum);
+      all.include(bounds.maximum);
     }
   }
-  UpdateScope(const UpdateScope&) = delete;
-  UpdateScope& operator=(const UpdateScope&) = delete;
+  this->Workspace = all;
+  return !this->Aborted;
+}
 
-private:
-  Internals& Owner;
-};
-
-bool vtkVoxelMeanResampler::Internals::Update(
-  vtkPointSet* input, const std::vector<vtkSmartPointer<vtkPolyData>>& outputs, vtkPolyData* index)
+void vtkVoxelMeanResampler::Internals::WarnOfNames(const Clouds& clouds)
 {
-  const UpdateScope scope(*this);
-  this->Aborted = false;
-  // Once: observers of progress may ask for another.
-  this->Request.representative = this->Filter->Settings.representative;
-  this->PassBegin = 0.0;
-  this->PassEnd = 1.0;
+  const auto isNamed = [&](const std::string& name)
+  {
+    return std::any_of(clouds.begin(), clouds.end(),
+      [&](vtkPointSet* cloud)
+      {
+        vtkPointData* data = cloud->GetPointData();
+        for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+        {
+          if (data->GetArrayName(i) && isSameField(name, data->GetArrayName(i)))
+          {
+            return true;
+          }
+        }
+        return false;
+      });
+  };
+  for (const std::string& name : this->Settings.categoricalArrays)
+  {
+    if (this->NumberOfPoints > 0 && this->Settings.passAttributes &&
+      VoxelMeanSettings().categoricalArrays.count(name) == 0 && !isNamed(name))
+    {
+      this->Filter->Warn("CategoricalArrays: the input has no point array \"" + name + "\".");
+    }
+  }
+}
+
+void vtkVoxelMeanResampler::Internals::WarnOfNothing()
+{
+  const vtkIdType clipped = this->Filter->NumberOfClippedPoints;
+  const vtkIdType invalid = this->Filter->NumberOfInvalidPoints;
+  if (this->NumberOfPoints > 0 && clipped + invalid == this->NumberOfPoints)
+  {
+    this->Filter->Warn("No point is left: " + std::to_string(clipped) + " lie outside of the workspace, " +
+      std::to_string(invalid) +
+      " are NaN or infinite. Set AutomaticWorkspaceOn, or WorkspaceBounds about the points.");
+  }
+}
+
+bool vtkVoxelMeanResampler::Internals::Update(vtkPointSet* input, vtkPolyData* means, vtkPolyData* index)
+{
   this->PartBegin = this->PartEnd = 0.0;
-  if (!this->ReadTransform() || !this->MakeLattice(input) || !this->UseIndex(input))
+  this->Request.representative = this->Settings.representative;
+  this->Request.transform = this->Transform;
+  this->Request.voxelIndex = this->Settings.computeVoxelIndex;
+  means->GetFieldData()->PassData(input->GetFieldData());
+  if (!this->MakeLattice(input) || !this->UseIndex(input))
   {
     return false;
   }
-  const std::string lost = lostPoses(this->Request.transform, input->GetFieldData());
-  if (!lost.empty())
+  this->Filter->Warn(lostPoses(this->Transform, input->GetFieldData()));
+  if (this->Settings.keepOriginalPointIds && !this->KeepsPoints())
   {
-    vtkWarningWithObjectMacro(this->Filter, << lost);
+    this->Filter->Warn("KeepOriginalPointIds: a mean or median is no point of the input; choose "
+                       "Representative NearestToMean or NearestToCenter.");
   }
-  // Levels that would not equal the resampling of the points at their spacing take a second pass over the
-  // points.
-  const bool isMean = this->Request.representative == pointhaptics::Representative::Mean && !index;
-  const int levels = int(outputs.size());
-  const double begin = this->PartEnd;
-  for (int first = 0; first < levels; first += this->Request.levels)
+  this->ChooseArrays(input);
+  if (!this->Resample(input) || !this->Fill(input, means))
   {
-    this->Request.voxelIndex = first == 0 && index;
-    this->Request.levels = isMean ? VoxelResampler::exactLevels(this->Request.lattice, levels - first) : 1;
-    this->BeginPass(begin + (1.0 - begin) * first / levels,
-      begin + (1.0 - begin) * (first + this->Request.levels) / levels);
-    if (!this->Run(input, first == 0) || !this->FillAll(input, &outputs[std::size_t(first)]))
-    {
-      for (vtkPolyData* output : outputs)
-      {
-        output->Initialize();
-        output->GetFieldData()->PassData(input->GetFieldData());
-      }
-      if (index)
-      {
-        index->Initialize();
-      }
-      return false;
-    }
-    if (first == 0 && index)
-    {
-      this->FillIndex(input, index);
-    }
-    this->Request.lattice = coarserLattice(this->Engine.lattice(this->Request.levels - 1));
+    return false;
   }
+  if (this->Settings.computeVoxelIndex)
+  {
+    this->FillIndex(input, index);
+  }
+  this->Release();
   return true;
 }
 
-bool vtkVoxelMeanResampler::Internals::ReadTransform()
+void vtkVoxelMeanResampler::Internals::End(bool succeeded)
 {
-  const std::string problem = readTransform(this->Filter->Transform, this->Request.transform);
-  if (!problem.empty())
+  if (succeeded)
   {
-    vtkErrorWithObjectMacro(this->Filter, << problem);
+    this->WarnOfNothing();
   }
-  return problem.empty();
+  this->Release();
+  this->IsRunning = false;
+  if (this->ReleaseCachesAtEnd)
+  {
+    this->ReleaseCaches();
+  }
 }
 
 bool vtkVoxelMeanResampler::Internals::MakeLattice(vtkPointSet* input)
 {
   this->Points = std::make_unique<PointAccess>(input->GetPoints());
   this->Request.points = this->Points->view();
-  const LatticeSettings settings = this->Filter->Settings.lattice;
-  Bounds cloud;
-  if (settings.automaticWorkspace)
+  Bounds cloud = this->Workspace.value_or(Bounds());
+  if (this->Settings.lattice.automaticWorkspace && !this->Workspace)
   {
     this->BeginPart(0.1);
-    cloud = transformedBounds(this->Request.points, this->Request.transform, this->Smp, this);
+    cloud = transformedBounds(this->Request.points, this->Transform, this->Smp, this);
     if (this->Aborted)
     {
       return false;
     }
   }
-  const Status status = makeLattice(settings, cloud, this->Request.lattice);
+  const Status status = makeLattice(this->Settings.lattice, cloud, this->Request.lattice);
   if (status != Status::Ok)
   {
-    vtkErrorWithObjectMacro(this->Filter, << latticeProblem(settings, status));
+    this->Filter->Fail(latticeProblem(this->Settings.lattice, status));
     return false;
   }
   return true;
@@ -166,7 +204,7 @@ vtkVoxelMeanResampler::Internals::ArraySeen vtkVoxelMeanResampler::Internals::Se
 bool vtkVoxelMeanResampler::Internals::UseIndex(vtkPointSet* input)
 {
   const ArraySeen seen = SeenPoints(input);
-  if (!(seen == this->Seen) || !this->Filter->Settings.usePointIndex)
+  if (!(seen == this->Seen) || !this->Settings.usePointIndex)
   {
     this->Index = PointIndex();
     this->Indexed = false;
@@ -187,17 +225,14 @@ bool vtkVoxelMeanResampler::Internals::UseIndex(vtkPointSet* input)
   return true;
 }
 
-bool vtkVoxelMeanResampler::Internals::Resample(vtkPointSet* input, bool isFirst)
+bool vtkVoxelMeanResampler::Internals::Resample(vtkPointSet* input)
 {
-  const VoxelMeanSettings& settings = this->Filter->Settings;
   const vtkPoints* points = input->GetPoints();
-  this->Request.singlePrecision = settings.outputPointsPrecision == PointsPrecision::OfInput
+  this->Request.singlePrecision = this->Settings.outputPointsPrecision == PointsPrecision::OfInput
     ? !points || points->GetDataType() == VTK_FLOAT
-    : settings.outputPointsPrecision == PointsPrecision::Single;
-  this->Request.covariances = settings.computeCovariance;
-  this->Request.instructions = settings.instructionSet;
-  this->Request.attributes.clear();
-  this->Request.tieBreakers.clear();
+    : this->Settings.outputPointsPrecision == PointsPrecision::Single;
+  this->Request.covariances = this->Settings.computeCovariance;
+  this->Request.instructions = this->Settings.instructionSet;
   for (const NamedAttribute& named : this->Attributes)
   {
     this->KeepsPoints() ? this->Request.tieBreakers.push_back(named.attribute.view())
@@ -206,35 +241,18 @@ bool vtkVoxelMeanResampler::Internals::Resample(vtkPointSet* input, bool isFirst
   this->Request.allocator = &this->Allocator;
   this->BeginPart(kRunEnd);
   const Status status = this->Engine.run(this->Request, this->Smp, this);
-  if (status == Status::Aborted)
-  {
-    return false;
-  }
   if (status != Status::Ok)
   {
-    vtkErrorWithObjectMacro(this->Filter, << message(status) << ".");
+    if (status != Status::Aborted)
+    {
+      this->Filter->Fail(std::string(message(status)) + ".");
+    }
     return false;
   }
-  if (isFirst)
-  {
-    this->Filter->NumberOfClippedPoints = vtkIdType(this->Engine.clippedPoints());
-    this->Filter->NumberOfInvalidPoints = vtkIdType(this->Engine.invalidPoints());
-    this->PartialViews += 2 * this->Engine.clippedPoints() > this->Request.points.size();
-  }
+  this->Filter->NumberOfClippedPoints += vtkIdType(this->Engine.clippedPoints());
+  this->Filter->NumberOfInvalidPoints += vtkIdType(this->Engine.invalidPoints());
+  this->PartialViews += 2 * this->Engine.clippedPoints() > this->Request.points.size();
   return true;
-}
-
-bool vtkVoxelMeanResampler::Internals::Run(vtkPointSet* input, bool isFirst)
-{
-  if (isFirst && this->Filter->Settings.keepOriginalPointIds && !this->KeepsPoints())
-  {
-    vtkWarningWithObjectMacro(this->Filter,
-      "KeepOriginalPointIds: a mean or median is no point of the input; choose Representative NearestToMean "
-      "or "
-      "NearestToCenter.");
-  }
-  this->ChooseArrays(input, isFirst);
-  return this->Resample(input, isFirst);
 }
 
 void vtkVoxelMeanResampler::Internals::Release()
@@ -252,15 +270,13 @@ void vtkVoxelMeanResampler::Internals::Release()
   this->Points.reset();
 }
 
-bool vtkVoxelMeanResampler::Internals::AddArrays(int level, vtkPointData* data)
+bool vtkVoxelMeanResampler::Internals::AddArrays(vtkPointData* data)
 {
-  // Steps of the filling of all levels.
   const auto steps = double(this->Attributes.size() + 1);
-  double done = steps * level;
   for (std::size_t i = 0; i < this->Attributes.size(); ++i)
   {
-    this->BeginPart(kRunEnd + (kFillEnd - kRunEnd) * ++done / (steps * this->Request.levels));
-    const vtkSmartPointer<vtkDataArray> array = this->ReducedArray(i, level);
+    this->BeginPart(kRunEnd + (kFillEnd - kRunEnd) * double(i + 1) / steps);
+    const vtkSmartPointer<vtkDataArray> array = this->ReducedArray(i);
     if (!this->report(1.0))
     {
       return false;
@@ -270,19 +286,17 @@ bool vtkVoxelMeanResampler::Internals::AddArrays(int level, vtkPointData* data)
   return true;
 }
 
-bool vtkVoxelMeanResampler::Internals::Fill(int level, vtkPointSet* input, vtkPolyData* output)
+bool vtkVoxelMeanResampler::Internals::Fill(vtkPointSet* input, vtkPolyData* output)
 {
-  const VoxelMeanSettings& settings = this->Filter->Settings;
-  OutputFiller filler{ this->Engine, this->Request.transform, this->Pool, this->Allocator, this->Smp,
-    this->Request.singlePrecision, this->Request.covariances, settings.minimumPointsPerVoxel, {} };
-  if (settings.keepOriginalPointIds && this->KeepsPoints())
+  OutputFiller filler{ this->Engine, this->Transform, this->Pool, this->Allocator, this->Smp,
+    this->Request.singlePrecision, this->Request.covariances, this->Settings.minimumPointsPerVoxel, {} };
+  if (this->Settings.keepOriginalPointIds && this->KeepsPoints())
   {
     filler.pointIds = this->Engine.chosenPoints();
   }
   output->GetFieldData()->PassData(input->GetFieldData());
   return filler.fill(
-    level, output, [&](vtkIdTypeArray*, vtkPointData* data) { return this->AddArrays(level, data); },
-    this->Kept);
+    output, [&](vtkIdTypeArray*, vtkPointData* data) { return this->AddArrays(data); }, this->Kept);
 }
 
 void vtkVoxelMeanResampler::Internals::FillIndex(vtkPointSet* input, vtkPolyData* output)
@@ -297,19 +311,6 @@ void vtkVoxelMeanResampler::Internals::FillIndex(vtkPointSet* input, vtkPolyData
   output->GetPointData()->AddArray(
     makeIds(this->Engine.voxelIndex(), "VoxelIndex", places, this->Pool, this->Smp));
   output->GetFieldData()->PassData(input->GetFieldData());
-}
-
-bool vtkVoxelMeanResampler::Internals::FillAll(
-  vtkPointSet* input, const vtkSmartPointer<vtkPolyData>* outputs)
-{
-  for (int level = 0; level < this->Request.levels; ++level)
-  {
-    if (!this->Fill(level, input, outputs[level]))
-    {
-      return false;
-    }
-  }
-  return true;
 }
 
 std::size_t vtkVoxelMeanResampler::Internals::ScratchBytes() const
@@ -337,13 +338,6 @@ void vtkVoxelMeanResampler::Internals::ReleaseCaches()
   this->Known.clear();
 }
 
-void vtkVoxelMeanResampler::Internals::BeginPass(double begin, double end)
-{
-  this->PassBegin = begin;
-  this->PassEnd = end;
-  this->PartBegin = this->PartEnd = 0.0;
-}
-
 void vtkVoxelMeanResampler::Internals::BeginPart(double end)
 {
   this->PartBegin = this->PartEnd;
@@ -352,8 +346,52 @@ void vtkVoxelMeanResampler::Internals::BeginPart(double end)
 
 bool vtkVoxelMeanResampler::Internals::report(double fraction)
 {
-  const double ofPass = this->PartBegin + (this->PartEnd - this->PartBegin) * fraction;
-  this->Filter->UpdateProgress(this->PassBegin + (this->PassEnd - this->PassBegin) * ofPass);
+  this->Filter->UpdateProgress(this->PartBegin + (this->PartEnd - this->PartBegin) * fraction);
   this->Aborted = this->Filter->GetAbortExecute() != 0;
   return !this->Aborted;
+}
+
+bool vtkVoxelMeanResampler::Internals::KeepsPoints() const
+{
+  return keepsPoints(this->Request.representative);
+}
+
+void vtkVoxelMeanResampler::Internals::ChooseArrays(vtkPointSet* input)
+{
+  this->Attributes.clear();
+  if (!this->Settings.passAttributes)
+  {
+    this->Known.clear();
+    return;
+  }
+  const vtkMTimeType ownersTime =
+    std::max(input->GetPointData()->vtkObject::GetMTime(), input->vtkObject::GetMTime());
+  std::vector<KnownValues> known;
+  known.swap(this->Known);
+  std::vector<std::string> dropped;
+  for (const VoxelArray& found :
+    voxelArrays(input, this->Settings.categoricalArrays, this->Request.representative, dropped))
+  {
+    const ArraySeen seen(found.array, ownersTime);
+    const auto old = std::find_if(known.begin(), known.end(),
+      [&](const KnownValues& values) { return values.seen == seen && values.kind == found.kind; });
+    VoxelAttribute attribute(found.array, found.kind, old == known.end() ? nullptr : &old->values);
+    if (this->Settings.usePointIndex)
+    {
+      attribute.findRange(this->Settings.instructionSet, this->Smp);
+      this->Known.push_back({ seen, found.kind, attribute.values() });
+    }
+    this->Attributes.push_back({ std::move(attribute), found.roles, found.isNormal });
+  }
+  for (const std::string& text : dropped)
+  {
+    this->Filter->Warn(text);
+  }
+}
+
+vtkSmartPointer<vtkDataArray> vtkVoxelMeanResampler::Internals::ReducedArray(std::size_t i)
+{
+  const NamedAttribute& named = this->Attributes[i];
+  return reducedArray(
+    this->Engine, i, named.attribute, named.isNormal, this->Request, this->Pool, this->Allocator, this->Smp);
 }

@@ -14,7 +14,6 @@
 
 #include "vtkDataArray.h" // For Seen
 #include "vtkSmartPointer.h"
-#include "vtkTimeStamp.h"
 #include "vtkWeakPointer.h" // For Seen
 
 #include <memory>
@@ -41,10 +40,14 @@ public:
   {
   }
 
-  /// RequestData: an output for each level, and one for the index of the points' voxels or null. @return
-  /// false if it stays empty: an error was reported, or the execution aborted.
-  bool Update(
-    vtkPointSet* input, const std::vector<vtkSmartPointer<vtkPolyData>>& outputs, vtkPolyData* index);
+  // The steps of a run; false after an error was reported, or the execution aborted.
+
+  /// Reads settings and transform, and finds the workspace that all clouds share.
+  bool Begin(const Clouds& clouds);
+  /// Means, and where they are asked for the points with their voxels.
+  bool Update(vtkPointSet* input, vtkPolyData* means, vtkPolyData* index);
+  /// Lets go of what the run needed.
+  void End(bool succeeded);
   /// Frees what is kept between updates; called during an update, at its end.
   void ReleaseCaches();
   std::size_t ScratchBytes() const;
@@ -54,8 +57,6 @@ public:
 
   pointhaptics::VoxelResampler Engine;
   pointhaptics::PointIndex Index;
-  bool Aborted = false;
-  vtkTimeStamp RetryTime;
 
 private:
   /// The point arrays of the input that are averaged, and where their means go.
@@ -85,32 +86,36 @@ private:
     pointhaptics::AttributeKind kind;
     pointhaptics::AttributeValues values;
   };
-  class UpdateScope;
 
-  /// Starts a pass over the points, which covers the fractions from @p begin to @p end of an update.
-  void BeginPass(double begin, double end);
-  /// Starts a part of the pass, from the end of the previous part to @p end: report() maps to it.
+  /// Starts a part of the update of a cloud, from the end of the previous part to @p end: report() maps to
+  /// it.
   void BeginPart(double end);
   // The steps of an update; false after an error was reported, or the execution aborted.
-  bool ReadTransform();
+  bool FindWorkspace(const Clouds& clouds);
   bool MakeLattice(vtkPointSet* input);
-  bool Run(vtkPointSet* input, bool isFirst);
-  bool FillAll(vtkPointSet* input, const vtkSmartPointer<vtkPolyData>* outputs);
-  bool AddArrays(int level, vtkPointData* data);
-  bool Fill(int level, vtkPointSet* input, vtkPolyData* output);
+  bool AddArrays(vtkPointData* data);
+  bool Fill(vtkPointSet* input, vtkPolyData* output);
   void FillIndex(vtkPointSet* input, vtkPolyData* output);
+  /// Says which categories no cloud has, and that no point is left.
+  void WarnOfNames(const Clouds& clouds);
+  void WarnOfNothing();
   /// Lets go of the input and its arrays.
   void Release();
 
   /// A point of the input stands for each voxel.
   bool KeepsPoints() const;
-  /// What an attribute is on a level.
-  vtkSmartPointer<vtkDataArray> ReducedArray(std::size_t i, int level);
-  void ChooseArrays(vtkPointSet* input, bool warns);
+  /// What an attribute is in voxels.
+  vtkSmartPointer<vtkDataArray> ReducedArray(std::size_t i);
+  void ChooseArrays(vtkPointSet* input);
   bool UseIndex(vtkPointSet* input);
-  bool Resample(vtkPointSet* input, bool isFirst);
+  bool Resample(vtkPointSet* input);
 
   vtkVoxelMeanResampler* Filter;
+  pointhaptics::VoxelMeanSettings Settings;      ///< Of this run: observers of progress may set others.
+  pointhaptics::AffineTransform Transform;       ///< Of this run.
+  std::optional<pointhaptics::Bounds> Workspace; ///< Of all clouds; none: each has its own.
+  vtkIdType NumberOfPoints = 0;                  ///< Of all clouds.
+  bool Aborted = false;
   pointhaptics::SmpExecutor Smp;
   pointhaptics::VoxelRequest Request;
   std::unique_ptr<pointhaptics::PointAccess> Points;
@@ -118,8 +123,6 @@ private:
   pointhaptics::ArrayPool Pool;
   pointhaptics::ArrayAllocator Allocator{ this->Pool };
   std::optional<std::vector<std::int64_t>> Kept; ///< Voxels of output 0, where some may be left out.
-  double PassBegin = 0.0;
-  double PassEnd = 1.0;
   double PartBegin = 0.0;
   double PartEnd = 0.0;
   bool IsRunning = false;

@@ -10,8 +10,9 @@
  * drawn faintly over it, so that the hand is never lost inside an object.
  *
  * Use:
+ *
  * @code
- * vtkNew<vtkHapticProps> props;
+ * vtkNew< vtkHapticProps > props;
  * props->SetWorkspaceBounds(bounds);
  * props->AddTo(renderer);
  * props->Update(servoLoop.latest().state); // from the GUI thread, as often as wanted

@@ -117,7 +117,11 @@ void vtkInteractorStyleHaptic::ModelMoved()
 
 void vtkInteractorStyleHaptic::SceneShown(const pointhaptics::BuiltScene& built)
 {
-  if (built.empty && built.status != pointhaptics::Status::Empty)
+  if (!built.problem.empty())
+  {
+    vtkErrorMacro(<< built.problem);
+  }
+  else if (built.empty && built.status != pointhaptics::Status::Empty)
   {
     vtkErrorMacro("The model cannot be felt as it stands: " << pointhaptics::message(built.status)
                                                             << this->Status.resetHint());

@@ -4,21 +4,20 @@
  *
  * A trackball camera style that turns events into commands. They also move the model in the haptic workspace,
  * drive a simulated hand, and show what the servo loop feels. Every part is optional; set those the program
- * has, in any order:
+ * has, in any order. With a resampler, whose points lie in the box of the hand, pointhaptics::HapticTouch
+ * brings the others (vtkHapticTouch in Python):
+ *
  * @code
- * vtkNew<vtkInteractorStyleHaptic> style;
- * style->SetResampler(resampler);              // its Transform becomes the style's
- * style->SetBandwidthFilter(bandwidth);        // fed by the resampler
- * style->SetServoLoop(&servo);                 // gets a new HapticScene after every change of the model
- * style->SetDevice(&device);                   // what the servo loop drives
- * style->SetProps(props);
- * style->SetCloudActor(actor);                 // moves at once while the pipeline catches up
+ * vtkNew< vtkInteractorStyleHaptic > style;
+ * style->SetResampler(resampler);       // its Transform becomes the style's
+ * style->SetCloudActor(actor);          // moves at once while the pipeline catches up
  * interactor->SetInteractorStyle(style);
- * style->UpdateModel();
- * interactor->Initialize();
- * style->StartUpdates();
- * interactor->Start();
+ * pointhaptics::HapticTouch touch(style);
+ * touch.run();                          // until the window is closed
  * @endcode
+ * A program with parts of its own gives them by SetServoLoop(), SetDevice(), SetProps() and the other
+ * functions below, adds the props to its renderer (vtkHapticProps::AddTo), starts the device and the servo
+ * loop, and calls UpdateModel(), then StartUpdates() after the interactor's Initialize().
  *
  * What it can do is the list of its commands, each with name, keys and line in the help: GetCommands(). A
  * program adds its own there by one call, takes others away, and binds them to other keys. The help shows
@@ -34,9 +33,12 @@
  * The 33 ms timer makes scenes, reads the servo loop and moves the props; a frame is drawn only when
  * something has changed, and drawing leaves at least half of the time to events.
  *
+ * Errors of the filters that make the scenes, which run in another thread, are errors of the style
+ * (ErrorEvent).
+ *
  * Events: ModelChangedEvent after the transform changed; SceneChangedEvent after a new scene was published
  * (also when it is empty); SamplesEvent with the new ticks (call data:
- * std::vector<pointhaptics::ServoSample>*); FilesDroppedEvent (call data: vtkStringArray*).
+ * std::vector< pointhaptics::ServoSample >*); FilesDroppedEvent (call data: vtkStringArray*).
  *
  * Frames: the model transform maps the cloud's frame into the workspace's (x_T = T x + t); metres.
  * Thread safety: GUI thread only. Ownership: VTK objects are reference counted. Servo loop, device and

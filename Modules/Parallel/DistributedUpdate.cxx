@@ -3,7 +3,6 @@
 #include "PieceOfCloud.h"
 
 #include "FieldPoses.h"
-#include "ResamplerInput.h"
 
 #include "Core/Resample/VoxelMean.h"
 
@@ -119,20 +118,12 @@ std::string DistributedUpdate::prepare(vtkAbstractTransform* transform)
   return wrong;
 }
 
-int DistributedUpdate::run(const vtkSmartPointer<vtkPolyData>* outputs, int levels, std::string& problem)
+std::string DistributedUpdate::run(vtkPolyData* output)
 {
-  // As in vtkVoxelMeanResampler: further levels take another pass over the points.
-  const int exact = this->sharesSums() ? VoxelResampler::exactLevels(lattice_, levels) : 1;
-  problem = this->sharesSums() ? this->runOfSums(outputs, exact) : this->runOfPoints(outputs[0]);
-  if (!problem.empty())
-  {
-    return 0;
-  }
-  lattice_ = coarserLattice(made_.lattice(exact - 1));
-  return exact;
+  return this->sharesSums() ? this->runOfSums(output) : this->runOfPoints(output);
 }
 
-std::string DistributedUpdate::runOfSums(const vtkSmartPointer<vtkPolyData>* outputs, int levels)
+std::string DistributedUpdate::runOfSums(vtkPolyData* output)
 {
   std::vector<VoxelAccumulator::Array> kinds;
   std::vector<AttributeView> views;
@@ -148,11 +139,10 @@ std::string DistributedUpdate::runOfSums(const vtkSmartPointer<vtkPolyData>* out
   {
     return problemOf(status);
   }
-  status = shared_.share(ranks_, std::move(own), levels);
+  status = shared_.share(ranks_, std::move(own), 1);
   VoxelAccumulator::Request wanted;
   wanted.singlePrecision = singlePrecision_;
   wanted.keys = true;
-  wanted.levels = levels;
   wanted.instructions = settings_.instructionSet;
   wanted.allocator = &allocator_;
   status = status == Status::Ok ? shared_.voxels().finish(wanted, made_, smp_) : status;
@@ -163,26 +153,22 @@ std::string DistributedUpdate::runOfSums(const vtkSmartPointer<vtkPolyData>* out
   clipped_ = shared_.clippedPoints();
   invalid_ = shared_.invalidPoints();
   ranges_ = shared_.ranges();
-  for (int level = 0; level < levels; ++level)
-  {
-    this->fill(
-      level, outputs[level], [&](vtkIdTypeArray*, vtkPointData* data) { this->addMeans(level, data); });
-  }
+  this->fill(output, [&](vtkIdTypeArray*, vtkPointData* data) { this->addMeans(data); });
   return {};
 }
 
-void DistributedUpdate::addMeans(int level, vtkPointData* data)
+void DistributedUpdate::addMeans(vtkPointData* data)
 {
   for (std::size_t i = 0; i < arrays_.size(); ++i)
   {
     addArray(data,
-      reducedArray(made_, level, i, arrays_[i], found_[i].isNormal, VoxelRequest(), pool_, allocator_, smp_),
+      reducedArray(made_, i, arrays_[i], found_[i].isNormal, VoxelRequest(), pool_, allocator_, smp_),
       found_[i].roles);
   }
 }
 
 template <typename Function>
-void DistributedUpdate::fill(int level, vtkPolyData* output, Function&& addArrays)
+void DistributedUpdate::fill(vtkPolyData* output, Function&& addArrays)
 {
   OutputFiller filler{ made_, transform_, pool_, allocator_, smp_, singlePrecision_,
     settings_.computeCovariance, settings_.minimumPointsPerVoxel, {} };
@@ -194,19 +180,14 @@ void DistributedUpdate::fill(int level, vtkPolyData* output, Function&& addArray
       id = numbers_[std::size_t(id)];
     }
   }
-  std::optional<std::vector<std::int64_t>> kept;
   static_cast<void>(filler.fill(
-    level, output,
+    output,
     [&](vtkIdTypeArray* counts, vtkPointData* data)
     {
       addArrays(counts, data);
       return true;
     },
-    kept));
-  if (level == 0)
-  {
-    kept_ = std::move(kept);
-  }
+    kept_));
 }
 
 /// With keys and the voxel of each point.
@@ -289,13 +270,13 @@ std::string DistributedUpdate::runOfPoints(vtkPolyData* output)
   {
     return problemOf(status);
   }
-  this->fill(0, output,
+  this->fill(output,
     [&](vtkIdTypeArray*, vtkPointData* data)
     {
       for (std::size_t i = 0; i < found_.size(); ++i)
       {
         addArray(data,
-          reducedArray(made_, 0, i, attributes[i], found_[i].isNormal, request, pool_, allocator_, smp_),
+          reducedArray(made_, i, attributes[i], found_[i].isNormal, request, pool_, allocator_, smp_),
           found_[i].roles);
       }
     });

@@ -40,9 +40,8 @@ public:
   }
 
   std::string prepare(vtkAbstractTransform* transform);
-  /// Fills the outputs of the levels from @p outputs on. @return how many it filled, 0 with a @p problem.
-  int run(const vtkSmartPointer<vtkPolyData>* outputs, int levels, std::string& problem);
-  /// Fills the output with the index of this rank's points in the @p voxels of level 0, which run() has just
+  std::string run(vtkPolyData* output);
+  /// Fills the output with the index of this rank's points in the @p voxels that run() has just
   /// given to this rank's output, and those of the others.
   std::string fillIndex(vtkPolyData* output, vtkIdType voxels);
   std::int64_t clippedPoints() const { return clipped_; }
@@ -65,14 +64,14 @@ private:
   /// The voxels of this rank's points.
   std::string findOwnVoxels(const Lattice& lattice, VoxelResampler& own);
   // Means: sums are shared.
-  std::string runOfSums(const vtkSmartPointer<vtkPolyData>* outputs, int levels);
-  void addMeans(int level, vtkPointData* data);
-  // Others, of one level: points go to the rank that has their voxel.
+  std::string runOfSums(vtkPolyData* output);
+  void addMeans(vtkPointData* data);
+  // Others: points go to the rank that has their voxel.
   std::string runOfPoints(vtkPolyData* output);
   vtkSmartPointer<vtkPolyData> sharePoints(const VoxelResampler& own);
   /// @p addArrays adds what points have beside places, counts and covariances.
   template <typename Function>
-  void fill(int level, vtkPolyData* output, Function&& addArrays);
+  void fill(vtkPolyData* output, Function&& addArrays);
 
   Ranks& ranks_;
   const VoxelMeanSettings& settings_;

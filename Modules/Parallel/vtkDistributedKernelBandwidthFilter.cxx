@@ -9,13 +9,13 @@
 
 #include "Core/Distributed/SharedBandwidths.h"
 
-#include "vtkInformation.h"
-#include "vtkInformationVector.h"
 #include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
+#include "vtkPointSet.h"
 #include "vtkPolyData.h"
 
 #include <string>
+#include <vector>
 
 using namespace pointhaptics;
 
@@ -42,45 +42,35 @@ vtkMultiProcessController* vtkDistributedKernelBandwidthFilter::GetController()
   return this->Controller;
 }
 
-int vtkDistributedKernelBandwidthFilter::FillInputPortInformation(int port, vtkInformation* info)
+std::string vtkDistributedKernelBandwidthFilter::ProblemOf(vtkDataObject* input)
 {
-  const int filled = this->Superclass::FillInputPortInformation(port, info);
-  takeBlocksAtOnce(info, this->Controller);
-  return filled;
+  return MpiRanks(this->Controller).size() > 1 ? problemOfBlocks(input) : std::string();
 }
 
-int vtkDistributedKernelBandwidthFilter::RequestData(
-  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+bool vtkDistributedKernelBandwidthFilter::RunCloud(vtkPointSet* cloud, const Outputs& outputs)
 {
   MpiRanks ranks(this->Controller);
   this->NumberOfBytesSent = 0;
   if (ranks.size() == 1)
   {
-    return this->Superclass::RequestData(request, inputVector, outputVector);
+    return this->Superclass::RunCloud(cloud, outputs);
   }
-  const std::string blocks = problemOfBlocks(vtkDataObject::GetData(inputVector[0]));
-  if (!blocks.empty())
-  {
-    vtkErrorMacro(<< blocks);
-    return 1;
-  }
-  auto* input = vtkPolyData::GetData(inputVector[0]);
-  auto* output = vtkPolyData::GetData(outputVector);
   const BandwidthSettings settings = this->GetSettings();
-  const PointAccess points(input->GetPoints());
+  const PointAccess points(cloud->GetPoints());
   BandwidthsOfPoints found;
-  const Status status = sharedBandwidths(
-    ranks, points.view(), voxelCounts(input, settings.usePointCounts), settings, found, SmpExecutor());
+  std::string problem;
+  const std::vector<double> counts = voxelCounts(cloud, settings.usePointCounts, problem);
+  this->Warn(problem);
+  const Status status = sharedBandwidths(ranks, points.view(), counts, settings, found, SmpExecutor());
   this->NumberOfBytesSent = ranks.bytesSent();
   if (status != Status::Ok)
   {
-    vtkErrorMacro(<< bandwidthProblem(settings, status));
-    return 1;
+    this->Fail(bandwidthProblem(settings, status));
+    return false;
   }
-  output->ShallowCopy(input);
-  addBandwidthArrays(output, settings, found.densities, found.ofMeans, found.bandwidths, found.radii);
-  this->UpdateProgress(1.0);
-  return 1;
+  passCloud(cloud, outputs[0]);
+  addBandwidthArrays(outputs[0], settings, found.densities, found.ofMeans, found.bandwidths, found.radii);
+  return true;
 }
 
 void vtkDistributedKernelBandwidthFilter::PrintSelf(ostream& os, vtkIndent indent)

@@ -51,8 +51,10 @@ protected:
   vtkDistributedKernelBandwidthFilter();
   ~vtkDistributedKernelBandwidthFilter() override;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
-  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+#ifndef __VTK_WRAP__
+  std::string ProblemOf(vtkDataObject* input) override;
+  bool RunCloud(vtkPointSet* cloud, const Outputs& outputs) override;
+#endif
 
 private:
   vtkSmartPointer<vtkMultiProcessController> Controller;

@@ -7,15 +7,12 @@
 
 #include "vtkAbstractTransform.h"
 #include "vtkFieldData.h"
-#include "vtkInformation.h"
-#include "vtkInformationVector.h"
 #include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointSet.h"
 #include "vtkPolyData.h"
 
 #include <string>
-#include <vector>
 
 using namespace pointhaptics;
 
@@ -42,76 +39,47 @@ vtkMultiProcessController* vtkDistributedVoxelMeanResampler::GetController()
   return this->Controller;
 }
 
-int vtkDistributedVoxelMeanResampler::FillInputPortInformation(int port, vtkInformation* info)
+std::string vtkDistributedVoxelMeanResampler::ProblemOf(vtkDataObject* input)
 {
-  const int filled = this->Superclass::FillInputPortInformation(port, info);
-  takeBlocksAtOnce(info, this->Controller);
-  return filled;
+  return MpiRanks(this->Controller).size() > 1 ? problemOfBlocks(input) : std::string();
 }
 
-int vtkDistributedVoxelMeanResampler::RequestData(
-  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+bool vtkDistributedVoxelMeanResampler::BeginRun(const Clouds& clouds)
+{
+  // Else each step is that of all ranks.
+  return MpiRanks(this->Controller).size() > 1 || this->Superclass::BeginRun(clouds);
+}
+
+bool vtkDistributedVoxelMeanResampler::RunCloud(vtkPointSet* cloud, const Outputs& outputs)
 {
   MpiRanks ranks(this->Controller);
   this->NumberOfBytesSent = 0;
   if (ranks.size() == 1)
   {
-    return this->Superclass::RequestData(request, inputVector, outputVector);
+    return this->Superclass::RunCloud(cloud, outputs);
   }
-  const std::string blocks = problemOfBlocks(vtkDataObject::GetData(inputVector[0]));
-  if (!blocks.empty())
-  {
-    vtkErrorMacro(<< blocks);
-    return 1;
-  }
-  const vtkSmartPointer<vtkPointSet> input = withArraysOfOthers(ranks, vtkPointSet::GetData(inputVector[0]));
+  const vtkSmartPointer<vtkPointSet> input = withArraysOfOthers(ranks, cloud);
   const VoxelMeanSettings settings = this->GetSettings();
-  this->NumberOfClippedPoints = 0;
-  this->NumberOfInvalidPoints = 0;
-  std::vector<vtkSmartPointer<vtkPolyData>> outputs;
-  for (int level = 0; level < settings.numberOfLevels; ++level)
-  {
-    outputs.emplace_back(vtkPolyData::GetData(outputVector, level));
-    outputs.back()->GetFieldData()->PassData(input->GetFieldData());
-  }
-  vtkPolyData* index =
-    settings.computeVoxelIndex ? vtkPolyData::GetData(outputVector, settings.numberOfLevels) : nullptr;
+  outputs[0]->GetFieldData()->PassData(input->GetFieldData());
   DistributedUpdate update(ranks, settings, input);
   std::string problem = update.prepare(this->Transform);
-  for (int level = 0; problem.empty() && level < settings.numberOfLevels;)
+  problem = problem.empty() ? update.run(outputs[0]) : problem;
+  if (problem.empty() && settings.computeVoxelIndex)
   {
-    const bool isFirst = level == 0;
-    level += update.run(&outputs[std::size_t(level)], settings.numberOfLevels - level, problem);
-    if (isFirst && problem.empty())
-    {
-      this->NumberOfClippedPoints = vtkIdType(update.clippedPoints());
-      this->NumberOfInvalidPoints = vtkIdType(update.invalidPoints());
-    }
-    if (isFirst && problem.empty() && index)
-    {
-      problem = update.fillIndex(index, outputs[0]->GetNumberOfPoints());
-    }
-    this->UpdateProgress(double(level) / settings.numberOfLevels);
+    problem = update.fillIndex(outputs[1], outputs[0]->GetNumberOfPoints());
   }
   this->NumberOfBytesSent = ranks.bytesSent();
+  this->NumberOfClippedPoints = vtkIdType(update.clippedPoints());
+  this->NumberOfInvalidPoints = vtkIdType(update.invalidPoints());
   for (const std::string& dropped : update.dropped())
   {
-    vtkWarningMacro(<< dropped);
+    this->Warn(dropped);
   }
   if (!problem.empty())
   {
-    vtkErrorMacro(<< problem);
-    for (vtkPolyData* output : outputs)
-    {
-      output->Initialize();
-      output->GetFieldData()->PassData(input->GetFieldData());
-    }
-    if (index)
-    {
-      index->Initialize();
-    }
+    this->Fail(problem);
   }
-  return 1;
+  return problem.empty();
 }
 
 void vtkDistributedVoxelMeanResampler::PrintSelf(ostream& os, vtkIndent indent)

@@ -5,7 +5,7 @@
  * Each process gives its points as input and gets a part of the voxels as output: contiguous ranges of voxel
  * indices with about as many voxels each. The outputs of all ranks, by rank one after the other, are the
  * output of vtkVoxelMeanResampler for all points, bit for bit: however many processes there are and however
- * the points are split. That holds for points, counts, covariances, averaged arrays and levels.
+ * the points are split. That holds for points, counts, covariances and averaged arrays.
  *
  * Each rank accumulates its points on the common lattice; the sums of voxels, which are exact integers, are
  * exchanged by ranges of voxel indices and merged. What is sent is in proportion to the active voxels (64
@@ -58,8 +58,11 @@ protected:
   vtkDistributedVoxelMeanResampler();
   ~vtkDistributedVoxelMeanResampler() override;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
-  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+#ifndef __VTK_WRAP__
+  std::string ProblemOf(vtkDataObject* input) override;
+  bool BeginRun(const Clouds& clouds) override;
+  bool RunCloud(vtkPointSet* cloud, const Outputs& outputs) override;
+#endif
 
 private:
   vtkSmartPointer<vtkMultiProcessController> Controller;

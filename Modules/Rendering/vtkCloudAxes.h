@@ -8,8 +8,9 @@
  * of the renderer: nothing is done while nothing is rendered or while it is hidden.
  *
  * Use:
+ *
  * @code
- * vtkNew<vtkCloudAxes> axes;
+ * vtkNew< vtkCloudAxes > axes;
  * axes->SetBounds(cloud->GetBounds());
  * axes->SetModelMatrix(style->GetModelTransform()->GetMatrix());
  * axes->AddTo(renderer);

@@ -9,6 +9,7 @@
 #include "vtkCamera.h"
 #include "vtkDataArray.h"
 #include "vtkDataObject.h"
+#include "vtkHardwareSelector.h"
 #include "vtkMath.h"
 #include "vtkMatrix4x4.h"
 #include "vtkNew.h"
@@ -16,6 +17,8 @@
 #include "vtkOpenGLHelper.h"
 #include "vtkOpenGLIndexBufferObject.h"
 #include "vtkOpenGLRenderWindow.h"
+#include "vtkOpenGLRenderer.h"
+#include "vtkOpenGLState.h"
 #include "vtkOpenGLVertexBufferObject.h"
 #include "vtkOpenGLVertexBufferObjectGroup.h"
 #include "vtkPointData.h"
@@ -231,14 +234,20 @@ void vtkSplatMapper::RenderPieceStart(vtkRenderer* renderer, vtkActor* actor)
   }
 }
 
-/// In steps: see DrawPace. Between them the window may give up the frame.
+/// In steps: see DrawPace. Between them the window may give up the frame, but not a selection.
 void vtkSplatMapper::DrawRange(vtkRenderer* renderer, vtkIdType begin, vtkIdType end, bool isIndexed)
 {
   auto* window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
+  const bool selects = renderer->GetSelector() != nullptr;
   auto& pace = pointhaptics::DrawPace::of(window);
-  while (begin < end && !window->GetAbortRender())
+  while (begin < end && (selects || !window->GetAbortRender()))
   {
     const auto count = static_cast<GLsizei>(std::min<std::int64_t>(end - begin, pace.room()));
+    if (selects)
+    {
+      // Each call counts its primitives from 0.
+      this->LastBoundBO->Program->SetUniformi("PrimitiveIDOffset", static_cast<int>(begin));
+    }
     if (isIndexed)
     {
       const auto offset = static_cast<std::uintptr_t>(begin) * sizeof(GLuint);
@@ -250,7 +259,10 @@ void vtkSplatMapper::DrawRange(vtkRenderer* renderer, vtkIdType begin, vtkIdType
     }
     pace.add(count);
     begin += count;
-    window->CheckAbortStatus(); // asks five times a second at most
+    if (!selects)
+    {
+      window->CheckAbortStatus(); // asks five times a second at most
+    }
   }
 }
 
@@ -268,37 +280,65 @@ void vtkSplatMapper::ComputeBounds()
   }
 }
 
-void vtkSplatMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* actor)
+/// All by the same call as parts, in pictures and selections: others round otherwise.
+void vtkSplatMapper::DrawPoints(
+  vtkOpenGLHelper& points, vtkRenderer* renderer, vtkActor* actor, const RangeList& ranges)
 {
-  glEnable(GL_PROGRAM_POINT_SIZE);
-  vtkOpenGLHelper& points = this->Primitives[PrimitivePoints];
   const bool hasCells = this->CurrentInput->GetNumberOfCells() > 0;
   const auto count =
     hasCells ? static_cast<vtkIdType>(points.IBO->IndexCount) : this->CurrentInput->GetNumberOfPoints();
-  if (renderer->GetSelector())
+  if (count == 0)
   {
-    this->Superclass::RenderPieceDraw(renderer, actor);
+    return;
   }
-  else if (count > 0)
+  const std::size_t indices = points.IBO->IndexCount;
+  points.IBO->IndexCount = static_cast<std::size_t>(count); // of 0 the superclass binds no attributes
+  this->UpdateShaders(points, renderer, actor);
+  points.IBO->IndexCount = indices;
+  if (hasCells)
   {
-    // All by the same call as parts: others round otherwise.
-    const std::vector<std::array<vtkIdType, 2>> all = { { 0, count } };
-    const std::size_t indices = points.IBO->IndexCount;
-    points.IBO->IndexCount = static_cast<std::size_t>(count); // of 0 the superclass binds no attributes
-    this->UpdateShaders(points, renderer, actor);
-    points.IBO->IndexCount = indices;
-    if (hasCells)
-    {
-      points.IBO->Bind();
-    }
-    for (const auto& [begin, end] : this->Ranges.empty() ? all : this->Ranges)
-    {
-      this->DrawRange(renderer, begin, std::min(end, count), hasCells);
-    }
-    if (hasCells)
-    {
-      points.IBO->Release();
-    }
+    points.IBO->Bind();
+  }
+  const RangeList all = { { 0, count } };
+  for (const auto& [begin, end] : ranges.empty() ? all : ranges)
+  {
+    this->DrawRange(renderer, begin, std::min(end, count), hasCells);
+  }
+  if (hasCells)
+  {
+    points.IBO->Release();
+  }
+}
+
+void vtkSplatMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* actor)
+{
+  vtkHardwareSelector* selector = renderer->GetSelector();
+  const bool hasCells = this->CurrentInput->GetNumberOfCells() > 0;
+  vtkOpenGLState* state = vtkOpenGLRenderer::SafeDownCast(renderer)->GetState();
+  const vtkOpenGLState::ScopedglDepthMask mask(state);
+  const vtkOpenGLState::ScopedglDepthFunc function(state);
+  if (selector)
+  {
+    // A splat is selected by the pixels it is seen in: here, too, near ones hide others. The passes of a
+    // selection keep the depths of the pass before.
+    state->vtkglDepthMask(GL_TRUE);
+    state->vtkglDepthFunc(GL_LEQUAL);
+  }
+  glEnable(GL_PROGRAM_POINT_SIZE);
+  this->DrawingVertices = false;
+  this->DrawingSelection = false;
+  const int pass = selector ? selector->GetCurrentPass() : vtkHardwareSelector::MIN_KNOWN_PASS - 1;
+  const bool asksForCells =
+    pass == vtkHardwareSelector::CELL_ID_LOW24 || pass == vtkHardwareSelector::CELL_ID_HIGH24;
+  if (hasCells || !asksForCells)
+  {
+    this->DrawPoints(this->Primitives[PrimitivePoints], renderer, actor, this->Ranges);
+  }
+  if (hasCells && !selector)
+  {
+    this->DrawingSelection = true; // vtkMapper::SetSelection
+    this->DrawPoints(this->SelectionPrimitives[PrimitivePoints], renderer, actor, {});
+    this->DrawingSelection = false;
   }
   glDisable(GL_PROGRAM_POINT_SIZE);
 }
@@ -326,18 +366,12 @@ void vtkSplatMapper::ReplaceShaderValues(
       (tilts ? pointhaptics::kSurfaceStatements : "") + pointhaptics::kClipStatements);
   shaders[vtkShader::Vertex]->SetSource(vertex);
   std::string fragment = shaders[vtkShader::Fragment]->GetSource();
-  // Depths come before the clipping: what sets them must discard there too.
-  if (tilts)
-  {
-    vtkShaderProgram::Substitute(fragment, "//VTK::Depth::Impl", pointhaptics::kSurfaceFragment);
-  }
-  else
-  {
-    vtkShaderProgram::Substitute(fragment, "//VTK::Clip::Impl",
-      "  vec2 splatPlace = 2.0 * gl_PointCoord - vec2(1.0);\n"
-      "  if (dot(splatPlace, splatPlace) > 1.0) { discard; }\n"
-      "//VTK::Clip::Impl\n");
-  }
+  // Depth peeling may return after the depths: what is outside of the disc is discarded before.
+  vtkShaderProgram::Substitute(fragment, "//VTK::Depth::Impl",
+    tilts ? pointhaptics::kSurfaceFragment
+          : "  vec2 splatPlace = 2.0 * gl_PointCoord - vec2(1.0);\n"
+            "  if (dot(splatPlace, splatPlace) > 1.0) { discard; }\n"
+            "//VTK::Depth::Impl\n");
   if (this->HasNormals)
   {
     vtkShaderProgram::Substitute(fragment, "//VTK::PositionVC::Dec",
@@ -355,6 +389,14 @@ void vtkSplatMapper::ReplaceShaderValues(
 void vtkSplatMapper::SetMapperShaderParameters(vtkOpenGLHelper& cells, vtkRenderer* renderer, vtkActor* actor)
 {
   this->Superclass::SetMapperShaderParameters(cells, renderer, actor);
+  // VTK sets it only where a factor comes with it.
+  float factor = 0.0F;
+  float offset = 0.0F;
+  this->GetCoincidentParameters(renderer, actor, factor, offset);
+  if (cells.Program->IsUniformUsed("cOffset"))
+  {
+    cells.Program->SetUniformf("cOffset", offset);
+  }
   this->SetClipParameters(cells);
   if (this->HasNormals)
   {
@@ -415,14 +457,8 @@ void vtkSplatMapper::SetClipParameters(vtkOpenGLHelper& cells)
     ends[side % 2][axis] =
       static_cast<float>(std::clamp((this->ClipBox[side] - shift) * scale, -kLargest, kLargest));
   }
-  if (cells.Program->IsUniformUsed("splatLow"))
-  {
-    cells.Program->SetUniform3f("splatLow", ends[0]);
-  }
-  if (cells.Program->IsUniformUsed("splatHigh"))
-  {
-    cells.Program->SetUniform3f("splatHigh", ends[1]);
-  }
+  cells.Program->SetUniform3f("splatLow", ends[0]);
+  cells.Program->SetUniform3f("splatHigh", ends[1]);
 }
 
 /// The slopes of the discs come from normals in the frame of the view: it knows no large coordinates.
@@ -460,27 +496,11 @@ void vtkSplatMapper::SetSurfaceParameters(vtkOpenGLHelper& cells, vtkRenderer* r
     static_cast<float>(projection->GetElement(2, 3)) };
   const double lines = vtkDepthShadingPass::ResolutionOf(renderer) * renderer->GetSize()[1];
   const double halfPixel = 1.0 / (projection->GetElement(1, 1) * lines);
-  const auto isUsed = [&cells](const char* name) { return cells.Program->IsUniformUsed(name); };
-  if (isUsed("splatTurn"))
-  {
-    cells.Program->SetUniformMatrix3x3("splatTurn", &turn[0][0]);
-  }
-  if (isUsed("splatTerms"))
-  {
-    cells.Program->SetUniform4f("splatTerms", terms);
-  }
-  if (isUsed("splatHalfPixel"))
-  {
-    cells.Program->SetUniformf("splatHalfPixel", static_cast<float>(halfPixel));
-  }
-  if (isUsed("splatNarrow"))
-  {
-    cells.Program->SetUniformf("splatNarrow", this->Foreshortens ? 1.0F : 0.0F);
-  }
-  if (isUsed("splatIsParallel"))
-  {
-    cells.Program->SetUniformi("splatIsParallel", camera->GetParallelProjection() ? 1 : 0);
-  }
+  cells.Program->SetUniformMatrix3x3("splatTurn", &turn[0][0]);
+  cells.Program->SetUniform4f("splatTerms", terms);
+  cells.Program->SetUniformf("splatHalfPixel", static_cast<float>(halfPixel));
+  cells.Program->SetUniformf("splatNarrow", this->Foreshortens ? 1.0F : 0.0F);
+  cells.Program->SetUniformi("splatIsParallel", camera->GetParallelProjection() ? 1 : 0);
 }
 
 namespace
@@ -531,33 +551,19 @@ void vtkSplatMapper::SetLightParameters(vtkOpenGLHelper& cells, vtkRenderer* ren
   {
     const float values[3] = { static_cast<float>(vector[0]), static_cast<float>(vector[1]),
       static_cast<float>(vector[2]) };
-    if (cells.Program->IsUniformUsed(name))
-    {
-      cells.Program->SetUniform3f(name, values);
-    }
+    cells.Program->SetUniform3f(name, values);
   };
   const auto setNumber = [&cells](const char* name, double value)
-  {
-    if (cells.Program->IsUniformUsed(name))
-    {
-      cells.Program->SetUniformf(name, static_cast<float>(value));
-    }
-  };
+  { cells.Program->SetUniformf(name, static_cast<float>(value)); };
   setNumber("splatUnit", 1.0 / this->NormalUnit);
   setNumber("splatStrength", this->LightStrength);
-  if (cells.Program->IsUniformUsed("splatHides"))
-  {
-    cells.Program->SetUniformi("splatHides", this->HidesBackFaces ? 1 : 0);
-  }
+  cells.Program->SetUniformi("splatHides", this->HidesBackFaces ? 1 : 0);
   set("splatLamp", lamp);
   set("splatSky", sky);
   set("splatUnscale", unscale);
   const float place[4] = { static_cast<float>(eye[0]), static_cast<float>(eye[1]), static_cast<float>(eye[2]),
     isParallel ? 0.0F : 1.0F };
-  if (cells.Program->IsUniformUsed("splatEye"))
-  {
-    cells.Program->SetUniform4f("splatEye", place);
-  }
+  cells.Program->SetUniform4f("splatEye", place);
 }
 
 void vtkSplatMapper::PrintSelf(ostream& os, vtkIndent indent)

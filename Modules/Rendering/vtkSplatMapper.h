@@ -22,6 +22,10 @@
  * Flat neighbourhoods close to a surface: their splats are discs that tilt with it and have depth, and may
  * grow up to LargestPixels. The others stay points: they face the camera, and have at most PointPixels.
  *
+ * Picks, selections (vtkHardwareSelector, vtkMapper::SetSelection), translucency and several windows work as
+ * with vtkPolyDataMapper. A splat is selected by the pixels it is seen in, under the id that its point or
+ * cell has in the input. Without cells a selection of cells finds the actor, as cell 0.
+ *
  * Changing a number is free; changing the array uploads the points again. Colours, lookup tables and lighting
  * are those of vtkPolyDataMapper; other cells than vertices have no place in the input.
  *
@@ -204,6 +208,8 @@ protected:
   void SetMapperShaderParameters(vtkOpenGLHelper& cells, vtkRenderer* renderer, vtkActor* actor) override;
 
 private:
+  using RangeList = std::vector<std::array<vtkIdType, 2>>;
+  void DrawPoints(vtkOpenGLHelper& points, vtkRenderer* renderer, vtkActor* actor, const RangeList& ranges);
   void DrawRange(vtkRenderer* renderer, vtkIdType begin, vtkIdType end, bool isIndexed);
   void MapArray(vtkDataArray* array, const std::string& name, const char* attribute, bool& isMapped);
   void SetSurfaceParameters(vtkOpenGLHelper& cells, vtkRenderer* renderer, vtkActor* actor);

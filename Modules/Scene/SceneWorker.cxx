@@ -7,6 +7,7 @@
 #include "vtkKernelBandwidthFilter.h"
 #include "vtkVoxelMeanResampler.h"
 
+#include "vtkCallbackCommand.h"
 #include "vtkMatrix4x4.h"
 #include "vtkMatrixToLinearTransform.h"
 #include "vtkNew.h"
@@ -39,6 +40,12 @@ class Pipeline
 public:
   Pipeline()
   {
+    // What these say comes from another thread and is the owner's to say: BuiltScene::problem.
+    for (const auto event : { vtkCommand::ErrorEvent, vtkCommand::WarningEvent })
+    {
+      resampler_->AddObserver(event, silent_);
+      bandwidth_->AddObserver(event, silent_);
+    }
     transform_->SetInput(matrix_);
     resampler_->SetTransform(transform_);
     bandwidth_->SetInputConnection(resampler_->GetOutputPort());
@@ -57,7 +64,6 @@ public:
     built.numberOfPoints = numberOfPoints_;
     matrix_->DeepCopy(request.modelToWorkspace.data());
     VoxelMeanSettings voxels = request.voxels;
-    voxels.numberOfLevels = 1;
     resampler_->SetSettings(voxels);
     std::optional<LocalBandwidthSettings> rule;
     if (request.bandwidth)
@@ -69,6 +75,7 @@ public:
     if (numberOfPoints_ > 0)
     {
       this->resample(request.findsLattice, voxels, built);
+      built.problem = resampler_->GetErrorMessage();
       scene = makeHapticScene(resampler_->GetOutput(), built.status, request.useCovariance, rule, &voxels);
     }
     built.empty = scene == nullptr;
@@ -112,6 +119,7 @@ public:
       {
         bandwidth_->Update();
         result = bandwidth_->GetOutput();
+        built.problem += bandwidth_->GetErrorMessage();
       }
       built.means->ShallowCopy(result);
     }
@@ -131,6 +139,7 @@ public:
   }
 
 private:
+  vtkNew<vtkCallbackCommand> silent_;
   vtkNew<vtkMatrix4x4> matrix_;
   vtkNew<vtkMatrixToLinearTransform> transform_;
   vtkNew<vtkVoxelMeanResampler> resampler_;

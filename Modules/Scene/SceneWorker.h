@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <string>
 #include <optional>
 
 class vtkKernelBandwidthFilter;
@@ -68,6 +69,7 @@ struct BuiltScene
   int latticeDimension = 0;           ///< What SceneRequest::findsLattice found; else 0.
   bool empty = true;                  ///< No scene was made: @p status says why.
   Status status = Status::Empty;
+  std::string problem; ///< What the filters could not do; empty: nothing.
 };
 
 /// One build of the whole cloud is in flight at a time; of the requests that come meanwhile only the newest

@@ -8,6 +8,7 @@
 #include "vtkCommand.h"
 #include "vtkDataArray.h"
 #include "vtkDoubleArray.h"
+#include "vtkErrorCode.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkNew.h"
@@ -41,29 +42,21 @@ constexpr double kResampled = 0.3;
 /// Ticks between two looks at AbortExecute.
 constexpr std::int64_t kTicksBetweenReports = 256;
 
-/// Hears the resampler: keeps its first error, passes on its progress and a wish to stop.
+/// Hears the resampler: passes on its progress and a wish to stop. Its errors and warnings are the owner's to
+/// say.
 class ResamplerObserver : public vtkCommand
 {
 public:
   static ResamplerObserver* New() { return new ResamplerObserver; }
   vtkAlgorithm* Owner = nullptr;
-  std::string Error;
 
-  void Execute(vtkObject* caller, unsigned long event, void* data) override
+  void Execute(vtkObject* caller, unsigned long event, void*) override
   {
-    auto* resampler = static_cast<vtkAlgorithm*>(caller);
     if (event == vtkCommand::ProgressEvent)
     {
+      auto* resampler = static_cast<vtkAlgorithm*>(caller);
       this->Owner->UpdateProgress(kResampled * resampler->GetProgress());
       resampler->SetAbortExecute(this->Owner->GetAbortExecute());
-    }
-    else if (this->Error.empty() && data)
-    {
-      // "ERROR: In file, line n\nvtkClass (0x...): the message\n\n"
-      const std::string text = static_cast<const char*>(data);
-      const std::size_t address = text.find("): ");
-      this->Error = text.substr(address == std::string::npos ? 0 : address + 3);
-      this->Error.erase(this->Error.find_last_not_of("\n .") + 1);
     }
   }
 };
@@ -149,7 +142,7 @@ public:
   vtkNew<vtkVoxelMeanResampler> Resampler;
   vtkNew<vtkKernelBandwidthFilter> Bandwidth;
   vtkNew<ResamplerObserver> Observer;
-  bool Aborted = false;
+  bool RunsAgain = false;
   vtkTimeStamp RetryTime;
 
 private:
@@ -179,10 +172,10 @@ bool vtkHapticFeel::Internals::MakeScenes(vtkHapticFeel* filter, vtkPointSet* cl
   input->ShallowCopy(cloud);
   prepareForTouch(this->Resampler, filter->UseCovariance);
   this->Resampler->SetInputData(input);
-  this->Observer->Error.clear();
   this->Resampler->Update();
   vtkPolyData* felt = this->Resampler->GetOutput();
-  message = this->Observer->Error;
+  message = this->Resampler->GetErrorMessage();
+  message.erase(message.find_last_not_of(" .") + 1);
   if (!message.empty() || filter->AbortExecute)
   {
     return false;
@@ -273,8 +266,10 @@ vtkHapticFeel::vtkHapticFeel()
 {
   this->SetNumberOfInputPorts(2);
   this->Impl->Observer->Owner = this;
-  this->Impl->Resampler->AddObserver(vtkCommand::ErrorEvent, this->Impl->Observer);
-  this->Impl->Resampler->AddObserver(vtkCommand::ProgressEvent, this->Impl->Observer);
+  for (const auto event : { vtkCommand::ErrorEvent, vtkCommand::WarningEvent, vtkCommand::ProgressEvent })
+  {
+    this->Impl->Resampler->AddObserver(event, this->Impl->Observer);
+  }
 }
 
 vtkHapticFeel::~vtkHapticFeel()
@@ -295,9 +290,9 @@ vtkKernelBandwidthFilter* vtkHapticFeel::GetBandwidthFilter()
 
 vtkMTimeType vtkHapticFeel::GetMTime()
 {
-  if (this->Impl->Aborted)
+  if (this->Impl->RunsAgain)
   {
-    // The pipeline would take the result of an aborted execution for valid: request another one.
+    // The pipeline would take what an error or an abort left for valid: request another one.
     this->Impl->RetryTime.Modified();
   }
   return std::max({ this->Superclass::GetMTime(), this->Impl->Resampler->GetMTime(),
@@ -313,15 +308,16 @@ int vtkHapticFeel::FillInputPortInformation(int port, vtkInformation* info)
 int vtkHapticFeel::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  auto* cloud = vtkPointSet::GetData(inputVector[0]);
-  auto* output = vtkTable::GetData(outputVector);
+  const vtkSmartPointer<vtkPointSet> cloud = vtkPointSet::GetData(inputVector[0]);
+  const vtkSmartPointer<vtkTable> output = vtkTable::GetData(outputVector);
   HipPath path;
   std::int64_t ticks = 0;
   std::string message;
   const bool isFelt = pathOf(vtkTable::GetData(inputVector[1]), path, message) &&
     this->Impl->Check(this, message) && countTicks(path, "path", this->Rate, kMostTicks, ticks, message) &&
     this->Impl->MakeScenes(this, cloud, message) && this->Impl->Feel(this, path, ticks, output);
-  this->Impl->Aborted = !isFelt && message.empty();
+  this->Impl->RunsAgain = !isFelt;
+  this->SetErrorCode(message.empty() ? vtkErrorCode::NoError : vtkErrorCode::UserError);
   if (!isFelt)
   {
     output->Initialize();

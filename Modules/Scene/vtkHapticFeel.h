@@ -11,8 +11,9 @@
  * input gives the same bits on every machine and with any number of threads, update_us aside.
  *
  * Use:
+ *
  * @code
- * vtkNew<vtkHapticFeel> feel;
+ * vtkNew< vtkHapticFeel > feel;
  * feel->SetInputConnection(0, reader->GetOutputPort());
  * feel->SetInputConnection(1, table->GetOutputPort());
  * feel->GetResampler()->SetVoxelSize(0.001); // lattice and transform, where the default is not wanted

@@ -93,19 +93,11 @@ const std::map<std::string, VoxelProperty> kVoxelProperties = {
   { "computeVoxelIndex",
     { [](Resampler* f, const VoxelMeanSettings& s) { f->SetComputeVoxelIndex(s.computeVoxelIndex); },
       [](Resampler* f, const VoxelMeanSettings& s)
-      {
-        return f->GetComputeVoxelIndex() == s.computeVoxelIndex &&
-          f->GetNumberOfOutputPorts() == s.numberOfLevels + int(s.computeVoxelIndex);
-      } } },
+      { return f->GetComputeVoxelIndex() == s.computeVoxelIndex && f->GetNumberOfOutputPorts() == 2; } } },
   { "keepOriginalPointIds",
     { [](Resampler* f, const VoxelMeanSettings& s) { f->SetKeepOriginalPointIds(s.keepOriginalPointIds); },
       [](Resampler* f, const VoxelMeanSettings& s)
       { return f->GetKeepOriginalPointIds() == s.keepOriginalPointIds; } } },
-  { "numberOfLevels",
-    { [](Resampler* f, const VoxelMeanSettings& s) { f->SetNumberOfLevels(s.numberOfLevels); },
-      [](Resampler* f, const VoxelMeanSettings& s) {
-        return f->GetNumberOfLevels() == s.numberOfLevels && f->GetNumberOfOutputPorts() == s.numberOfLevels;
-      } } },
   { "usePointIndex",
     { [](Resampler* f, const VoxelMeanSettings& s) { f->SetUsePointIndex(s.usePointIndex); },
       [](Resampler* f, const VoxelMeanSettings& s) { return f->GetUsePointIndex() == s.usePointIndex; } } },
@@ -220,15 +212,9 @@ TEST(FilterSettings, OfTheBandwidthFilterAreItsProperties)
 
 TEST(FilterSettings, StayInTheirRanges)
 {
-  VoxelMeanSettings settings;
   vtkNew<vtkVoxelMeanResampler> resampler;
-  for (const auto& [asked, kept] : { std::pair{ 0, 1 }, std::pair{ 22, 22 }, std::pair{ 23, 22 } })
-  {
-    settings.numberOfLevels = asked;
-    resampler->SetSettings(settings);
-    EXPECT_EQ(resampler->GetNumberOfLevels(), kept);
-    EXPECT_EQ(resampler->GetNumberOfOutputPorts(), kept);
-  }
+  resampler->SetMinimumPointsPerVoxel(-3);
+  EXPECT_EQ(resampler->GetMinimumPointsPerVoxel(), 1);
   resampler->SetOutputPointsPrecision(7);
   EXPECT_EQ(resampler->GetOutputPointsPrecision(), int(vtkAlgorithm::DEFAULT_PRECISION));
   resampler->SetInstructionSet(-1);

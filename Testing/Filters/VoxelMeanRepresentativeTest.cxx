@@ -48,10 +48,9 @@ vtkSmartPointer<vtkPolyData> makeCloud()
   return cloud;
 }
 
-std::vector<vtkIdType> indexOf(vtkVoxelMeanResampler* resampler, int port = 1)
+std::vector<vtkIdType> indexOf(vtkVoxelMeanResampler* resampler)
 {
-  auto* array =
-    vtkIdTypeArray::SafeDownCast(resampler->GetOutput(port)->GetPointData()->GetArray("VoxelIndex"));
+  auto* array = vtkIdTypeArray::SafeDownCast(resampler->GetOutput(1)->GetPointData()->GetArray("VoxelIndex"));
   return array
     ? std::vector<vtkIdType>(array->GetPointer(0), array->GetPointer(0) + array->GetNumberOfTuples())
     : std::vector<vtkIdType>();
@@ -141,36 +140,29 @@ TEST(VoxelMeanRepresentative, EachPointKnowsItsVoxelInEveryModeWithAndWithoutLev
   for (int representative = vtkVoxelMeanResampler::Mean; representative <= vtkVoxelMeanResampler::Median;
        ++representative)
   {
-    for (const int levels : { 1, 3 })
+    vtkNew<vtkVoxelMeanResampler> resampler;
+    trial::useUnitCube(resampler, 12);
+    resampler->SetWorkspaceBounds(0, 1, 0, 1, 0, 0.5);
+    resampler->SetInputData(cloud);
+    resampler->SetMinimumPointsPerVoxel(3);
+    resampler->ComputeVoxelIndexOn();
+    resampler->SetRepresentative(representative);
+    resampler->Update();
+    const std::vector<vtkIdType> index = indexOf(resampler);
+    ASSERT_EQ(vtkIdType(index.size()), kPoints);
+    trial::expectValid(resampler->GetOutput());
+    EXPECT_GE(trial::countsOf(resampler->GetOutput())->GetRange()[0], 3.0);
+    std::map<vtkIdType, vtkIdType> members;
+    for (const vtkIdType voxel : index)
     {
-      vtkNew<vtkVoxelMeanResampler> resampler;
-      trial::useUnitCube(resampler, 12);
-      resampler->SetWorkspaceBounds(0, 1, 0, 1, 0, 0.5);
-      resampler->SetInputData(cloud);
-      resampler->SetNumberOfLevels(levels);
-      resampler->SetMinimumPointsPerVoxel(3);
-      resampler->ComputeVoxelIndexOn();
-      resampler->SetRepresentative(representative);
-      resampler->Update();
-      const std::vector<vtkIdType> index = indexOf(resampler, levels);
-      ASSERT_EQ(vtkIdType(index.size()), kPoints);
-      for (int level = 0; level < levels; ++level)
-      {
-        trial::expectValid(resampler->GetOutput(level));
-        EXPECT_GE(trial::countsOf(resampler->GetOutput(level))->GetRange()[0], 3.0);
-      }
-      std::map<vtkIdType, vtkIdType> members;
-      for (const vtkIdType voxel : index)
-      {
-        ++members[voxel];
-      }
-      const vtkIdType size = resampler->GetOutput()->GetNumberOfPoints();
-      EXPECT_GT(members[-1], resampler->GetNumberOfClippedPoints()) << "some voxels have fewer";
-      ASSERT_EQ(vtkIdType(members.size()), size + 1);
-      for (vtkIdType v = 0; v < size; ++v)
-      {
-        ASSERT_EQ(members[v], vtkIdType(trial::countsOf(resampler->GetOutput())->GetTuple1(v)));
-      }
+      ++members[voxel];
+    }
+    const vtkIdType size = resampler->GetOutput()->GetNumberOfPoints();
+    EXPECT_GT(members[-1], resampler->GetNumberOfClippedPoints()) << "some voxels have fewer";
+    ASSERT_EQ(vtkIdType(members.size()), size + 1);
+    for (vtkIdType v = 0; v < size; ++v)
+    {
+      ASSERT_EQ(members[v], vtkIdType(trial::countsOf(resampler->GetOutput())->GetTuple1(v)));
     }
   }
 }
@@ -185,46 +177,42 @@ TEST(VoxelMeanRepresentative, LeavingOutVoxelsChangesNoOther)
     trial::useUnitCube(resampler, 9);
     resampler->SetInputData(cloud);
     resampler->ComputeCovarianceOn();
-    resampler->SetNumberOfLevels(2);
   }
   some->SetMinimumPointsPerVoxel(5);
   all->Update();
   some->Update();
-  for (int level = 0; level < 2; ++level)
+  vtkPolyData* expected = all->GetOutput();
+  vtkPolyData* found = some->GetOutput();
+  trial::expectValid(found);
+  vtkIdType to = 0;
+  for (vtkIdType v = 0; v < expected->GetNumberOfPoints(); ++v)
   {
-    vtkPolyData* expected = all->GetOutput(level);
-    vtkPolyData* found = some->GetOutput(level);
-    trial::expectValid(found);
-    vtkIdType to = 0;
-    for (vtkIdType v = 0; v < expected->GetNumberOfPoints(); ++v)
+    if (trial::countsOf(expected)->GetTuple1(v) < 5.0)
     {
-      if (trial::countsOf(expected)->GetTuple1(v) < 5.0)
-      {
-        continue;
-      }
-      for (int c = 0; c < 3; ++c)
-      {
-        ASSERT_EQ(found->GetPoints()->GetData()->GetComponent(to, c),
-          expected->GetPoints()->GetData()->GetComponent(v, c));
-      }
-      for (int i = 0; i < expected->GetPointData()->GetNumberOfArrays(); ++i)
-      {
-        vtkDataArray* array = expected->GetPointData()->GetArray(i);
-        for (int c = 0; c < array->GetNumberOfComponents(); ++c)
-        {
-          ASSERT_EQ(found->GetPointData()->GetArray(i)->GetComponent(to, c), array->GetComponent(v, c));
-        }
-      }
-      ++to;
+      continue;
     }
-    EXPECT_EQ(found->GetNumberOfPoints(), to);
+    for (int c = 0; c < 3; ++c)
+    {
+      ASSERT_EQ(found->GetPoints()->GetData()->GetComponent(to, c),
+        expected->GetPoints()->GetData()->GetComponent(v, c));
+    }
+    for (int i = 0; i < expected->GetPointData()->GetNumberOfArrays(); ++i)
+    {
+      vtkDataArray* array = expected->GetPointData()->GetArray(i);
+      for (int c = 0; c < array->GetNumberOfComponents(); ++c)
+      {
+        ASSERT_EQ(found->GetPointData()->GetArray(i)->GetComponent(to, c), array->GetComponent(v, c));
+      }
+    }
+    ++to;
   }
+  EXPECT_EQ(found->GetNumberOfPoints(), to);
   some->SetMinimumPointsPerVoxel(kPoints + 1);
   some->ComputeVoxelIndexOn();
   some->Update();
   trial::expectValid(some->GetOutput());
   EXPECT_EQ(some->GetOutput()->GetNumberOfPoints(), 0);
-  EXPECT_EQ(indexOf(some, 2), std::vector<vtkIdType>(kPoints, -1));
+  EXPECT_EQ(indexOf(some), std::vector<vtkIdType>(kPoints, -1));
 }
 
 TEST(VoxelMeanRepresentative, NormalsOfPointsTurnWithTheCloud)

@@ -27,21 +27,18 @@ vtkSmartPointer<vtkPolyData> randomCloud(int n, double scale, const pointhaptics
     type);
 }
 
-/// What comes after finds all arrays it looks for, at all levels.
+/// What comes after finds all arrays it looks for.
 void expectEveryArrayWithoutTuples(vtkVoxelMeanResampler* resampler, const std::vector<const char*>& names)
 {
-  for (int level = 0; level < resampler->GetNumberOfLevels(); ++level)
+  vtkPolyData* output = resampler->GetOutput();
+  ASSERT_NE(output->GetPoints(), nullptr);
+  EXPECT_EQ(output->GetPointData()->GetNumberOfArrays(), int(names.size()));
+  for (const char* name : names)
   {
-    vtkPolyData* output = resampler->GetOutput(level);
-    ASSERT_NE(output->GetPoints(), nullptr);
-    EXPECT_EQ(output->GetPointData()->GetNumberOfArrays(), int(names.size()));
-    for (const char* name : names)
-    {
-      ASSERT_NE(output->GetPointData()->GetArray(name), nullptr) << name;
-      EXPECT_EQ(output->GetPointData()->GetArray(name)->GetNumberOfTuples(), 0) << name;
-    }
-    EXPECT_NE(output->GetFieldData()->GetArray("LatticeSpacing"), nullptr);
+    ASSERT_NE(output->GetPointData()->GetArray(name), nullptr) << name;
+    EXPECT_EQ(output->GetPointData()->GetArray(name)->GetNumberOfTuples(), 0) << name;
   }
+  EXPECT_NE(output->GetFieldData()->GetArray("LatticeSpacing"), nullptr);
 }
 
 }
@@ -58,7 +55,6 @@ TEST(VoxelMeanStress, NoPointsGiveAnEmptyOutput)
     vtkNew<vtkVoxelMeanResampler> resampler;
     resampler->SetInputData(input);
     resampler->ComputeCovarianceOn();
-    resampler->SetNumberOfLevels(2);
     trial::Ear errors(resampler, vtkCommand::ErrorEvent);
     for (const bool automatic : { true, false })
     {

@@ -14,6 +14,7 @@
 
 #include <gtest/gtest.h>
 #include <vtkActor.h>
+#include <vtkCallbackCommand.h>
 #include <vtkCamera.h>
 #include <vtkMatrix4x4.h>
 #include <vtkNew.h>
@@ -296,4 +297,31 @@ TEST_F(StyleParts, SayWhyTheTouchCannotBegin)
   EXPECT_NE(touch.message().find("no point lies in the workspace"), std::string::npos) << touch.message();
   EXPECT_FALSE(touch.servo().running());
   style = nullptr; // the touch keeps it until it ends itself
+}
+
+/// The style's worker has filters of its own, in another thread: what they could not do is the style's to say.
+TEST_F(StyleParts, SayWhatTheFiltersCouldNotDo)
+{
+  this->setAll();
+  std::string said;
+  vtkNew<vtkCallbackCommand> listen;
+  listen->SetClientData(&said);
+  listen->SetCallback([](vtkObject*, unsigned long, void* to, void* text)
+    { *static_cast<std::string*>(to) += static_cast<const char*>(text); });
+  style->AddObserver(vtkCommand::ErrorEvent, listen);
+  resampler->SetDimensions(0, 1, 1);
+  style->InvalidateModel();
+  EXPECT_FALSE(style->UpdateModel());
+  EXPECT_NE(said.find("must be between 1 and 2097152"), std::string::npos) << said;
+  said.clear();
+  resampler->SetDimensions(100, 100, 100);
+  bandwidth->SetNumberOfNeighbors(0);
+  style->InvalidateModel();
+  style->UpdateModel();
+  EXPECT_NE(said.find("NumberOfNeighbors 0"), std::string::npos) << said;
+  said.clear();
+  bandwidth->SetNumberOfNeighbors(16);
+  style->InvalidateModel();
+  EXPECT_TRUE(style->UpdateModel());
+  EXPECT_EQ(said, "");
 }

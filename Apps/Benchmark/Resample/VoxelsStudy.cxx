@@ -37,7 +37,6 @@ Rivals withAllThatIsAsked()
       s.covariance = true;
       s.arrays = three;
     });
-  add("with three coarser levels", [](OursSettings& s) { s.levels = 4; });
   add("with a label", [](OursSettings& s) { s.arrays = { kLabels }; });
   add("with the voxel of each point", [](OursSettings& s) { s.voxelIndex = true; });
   const std::pair<const char*, Representative> others[] = { { "nearest to the mean",
@@ -92,7 +91,7 @@ ReportPart studyAttributes(StudyContext& context)
 {
   const int threads = mostThreads(context);
   ReportPart part;
-  part.title = "With covariance, arrays, coarser levels, other representatives";
+  part.title = "With covariance, arrays, other representatives";
   part.text =
     fmt::format("Random order, {} voxels on an axis, {} threads. Arrays: colours (3 unsigned char), "
                 "normals (3 float), intensity (1 float). Means and counts are checked here, of other "

@@ -80,7 +80,6 @@ inline constexpr SettingOption kVoxelMeanOptions[] = {
   { "minimumPointsPerVoxel", nullptr, "--minimum-points of resample" },
   { "computeVoxelIndex", nullptr, "--voxel-index of resample" },
   { "keepOriginalPointIds", nullptr, "--original-ids of resample" },
-  { "numberOfLevels", nullptr, "a command has one output" },
   { "usePointIndex", nullptr, kCostOnly },
   { "instructionSet", nullptr, kCostOnly },
 };

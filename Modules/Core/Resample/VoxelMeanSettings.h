@@ -35,11 +35,8 @@ struct VoxelMeanSettings
   int minimumPointsPerVoxel = 1;                             ///< Voxels with fewer are left out; at least 1.
   bool computeVoxelIndex = false;                            ///< One more output: the voxel of each point.
   bool keepOriginalPointIds = false;                         ///< Which point stands for each voxel.
-  int numberOfLevels = 1;                                    ///< 1 to kMostLevels, each twice as coarse.
   bool usePointIndex = true;                                 ///< Changes the cost only.
   InstructionSet instructionSet = InstructionSet::Automatic; ///< Changes the cost only.
-
-  static constexpr int kMostLevels = 22;
 
   static constexpr auto members()
   {
@@ -53,7 +50,6 @@ struct VoxelMeanSettings
       settingsMember("minimumPointsPerVoxel", &S::minimumPointsPerVoxel),
       settingsMember("computeVoxelIndex", &S::computeVoxelIndex),
       settingsMember("keepOriginalPointIds", &S::keepOriginalPointIds),
-      settingsMember("numberOfLevels", &S::numberOfLevels),
       settingsMember("usePointIndex", &S::usePointIndex),
       settingsMember("instructionSet", &S::instructionSet));
   }

@@ -1,8 +1,16 @@
 #include "HapticTouch.h"
 
+#include "vtkSplatMapper.h"
+
+#include "vtkActor.h"
+#include "vtkPolyData.h"
 #include "vtkRenderWindow.h"
 #include "vtkRenderWindowInteractor.h"
 #include "vtkRenderer.h"
+
+#include <fmt/format.h>
+
+#include <array>
 
 namespace pointhaptics
 {
@@ -28,8 +36,52 @@ bool HapticTouch::fail(const std::string& message)
   return false;
 }
 
+/// Where the means are, and how to bring them to the hand, if none is in its box.
+std::string HapticTouch::problemOfReach() const
+{
+  vtkPolyData* means = style_->GetScenes().cloud();
+  const std::array<double, 6>& box = style_->GetModel().workspaceBounds();
+  double at[3];
+  for (vtkIdType i = 0; i < means->GetNumberOfPoints(); ++i)
+  {
+    means->GetPoint(i, at);
+    if (at[0] >= box[0] && at[0] <= box[1] && at[1] >= box[2] && at[1] <= box[3] && at[2] >= box[4] &&
+      at[2] <= box[5])
+    {
+      return {};
+    }
+  }
+  const double* is = means->GetBounds();
+  const auto span = [](const double* side) { return fmt::format("{:.4g} to {:.4g}", side[0], side[1]); };
+  return fmt::format(
+    "touch: the hand cannot reach the model, which lies at x {}, y {}, z {} m, while the hand "
+    "has x {}, y {}, z {} m; move and scale the model there by SetModelMatrix() of the style",
+    span(is), span(is + 2), span(is + 4), span(&box[0]), span(&box[2]), span(&box[4]));
+}
+
+void HapticTouch::showMeans()
+{
+  vtkRenderer* renderer = style_->GetScreen().renderer();
+  if (renderer->VisibleActorCount() > 0)
+  {
+    return;
+  }
+  vtkNew<vtkSplatMapper> mapper;
+  mapper->SetInputData(style_->GetScenes().cloud());
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  renderer->AddActor(actor);
+  style_->SetCloudActor(actor);
+}
+
 bool HapticTouch::start(const HapticParameters& parameters, const ServoSettings& settings)
 {
+  if (servo_.running())
+  {
+    message_ = "touch: it is on already";
+    return false;
+  }
+  message_.clear();
   vtkRenderWindowInteractor* interactor = style_->GetInteractor();
   if (!interactor || !style_->GetScreen().renderer())
   {
@@ -37,13 +89,19 @@ bool HapticTouch::start(const HapticParameters& parameters, const ServoSettings&
       "touch: the style has no window; call vtkRenderWindowInteractor::SetInteractorStyle() and "
       "SetRenderWindow() of a window with a renderer");
   }
-  props_->SetWorkspaceBounds(style_->GetModel().workspaceBounds().data());
-  props_->AddTo(style_->GetScreen().renderer());
   if (!style_->UpdateModel())
   {
     return this->fail(
       "touch: no point lies in the workspace; check the resampler's input and the model matrix");
   }
+  const std::string reach = this->problemOfReach();
+  if (!reach.empty())
+  {
+    return this->fail(reach);
+  }
+  this->showMeans();
+  props_->SetWorkspaceBounds(style_->GetModel().workspaceBounds().data());
+  props_->AddTo(style_->GetScreen().renderer());
   Status status = device_.open();
   if (status != Status::Ok)
   {

@@ -35,7 +35,9 @@ public:
   HapticTouch& operator=(const HapticTouch&) = delete;
 
   /// Shows the window, makes the scene, opens the device, starts the servo loop and the style's timer. False:
-  /// message() says what failed, and the touch is stopped.
+  /// message() says what failed, and the touch is stopped; or that it is on already, and it stays so. A model
+  /// of which no mean lies in the box of the hand is a failure: nothing could be touched. In a window that
+  /// shows nothing yet, the means are drawn.
   bool start(const HapticParameters& parameters = {}, const ServoSettings& settings = {});
   /// Stops the loop, closes the device.
   void stop();
@@ -46,9 +48,12 @@ public:
   const std::string& message() const { return message_; }
   ServoLoop& servo() { return servo_; }
   vtkHapticProps* props() { return props_; }
+  SimulatedDevice& hand() { return hand_; } ///< Of use where no device was given.
 
 private:
   bool fail(const std::string& message);
+  std::string problemOfReach() const;
+  void showMeans();
 
   vtkSmartPointer<vtkInteractorStyleHaptic> style_;
   SimulatedDevice hand_;

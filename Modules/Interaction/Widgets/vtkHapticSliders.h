@@ -6,6 +6,7 @@
  * other at the right. They only hold numbers: ValueChangedEvent (call data: int*, the Slider
  * that moved) tells the program, which sets them where they belong. Stiffness, beta and voxel size move in
  * proportion (logarithmic), friction evenly.
+ *
  * @code
  * sliders->SetInteractor(interactor);   // after it has its window
  * sliders->SetValue(vtkHapticSliders::Stiffness, 800.0);

@@ -190,7 +190,7 @@ bool Reader::takeVoxels(const keyed::Words& words, SceneOrigin& origin, std::str
   }
   const bool isRead = keyed::takeWords(words, voxels, wrong) &&
     voxels.outputPointsPrecision <= PointsPrecision::OfInput &&
-    voxels.representative == Representative::Mean && voxels.numberOfLevels == 1;
+    voxels.representative == Representative::Mean;
   voxels.instructionSet = InstructionSet::Automatic; // the bits are the same
   voxels.computeVoxelIndex = voxels.keepOriginalPointIds = false;
   return isRead;

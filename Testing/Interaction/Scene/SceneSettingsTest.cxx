@@ -161,7 +161,7 @@ TEST_F(SceneSettingsTest, AreThoseOfTheFiltersWhenTheRequestIsMade)
 TEST_F(SceneSettingsTest, OfTheResamplerReachTheWorkersPicture)
 {
   this->walk(resampler_.Get(),
-    { "computeVoxelIndex", "keepOriginalPointIds", "numberOfLevels", "usePointIndex", "instructionSet" });
+    { "computeVoxelIndex", "keepOriginalPointIds", "usePointIndex", "instructionSet" });
 }
 
 TEST_F(SceneSettingsTest, OfTheBandwidthFilterReachTheWorkersPicture)

@@ -111,7 +111,6 @@ public:
     filter_->SetInputData(input_);
     filter_->SetComputeCovariance(settings_.covariance);
     filter_->SetInstructionSet(int(settings_.instructionSet));
-    filter_->SetNumberOfLevels(settings_.levels);
     setTask(filter_, task, settings_.automaticWorkspace);
   }
   void before() override { input_->Modified(); }

@@ -85,7 +85,6 @@ struct OursSettings
   Representative representative = Representative::Mean;
   bool voxelIndex = false;
   InstructionSet instructionSet = InstructionSet::Automatic;
-  int levels = 1; ///< The answer is that of the finest.
 };
 
 std::unique_ptr<Rival> makeOurs(const OursSettings& settings = {});

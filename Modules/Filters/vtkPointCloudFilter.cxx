@@ -1,0 +1,228 @@
+#include "vtkPointCloudFilter.h"
+
+#include "vtkCompositeDataIterator.h"
+#include "vtkCompositeDataSet.h"
+#include "vtkDataObjectTree.h"
+#include "vtkDemandDrivenPipeline.h"
+#include "vtkErrorCode.h"
+#include "vtkFieldData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkMultiBlockDataSet.h"
+#include "vtkNew.h"
+#include "vtkPointSet.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace
+{
+
+/// Empty, but with points.
+void makeEmpty(vtkPolyData* output)
+{
+  output->Initialize();
+  output->SetPoints(vtkNew<vtkPoints>());
+}
+
+std::string nameOf(vtkCompositeDataIterator* block)
+{
+  const char* name = block->HasCurrentMetaData() != 0
+    ? block->GetCurrentMetaData()->Get(vtkCompositeDataSet::NAME())
+    : nullptr;
+  return (name ? std::string("\"") + name + "\"" : std::to_string(block->GetCurrentFlatIndex())) + " (" +
+    block->GetCurrentDataObject()->GetClassName() + ")";
+}
+
+} // namespace
+
+/// The clouds of an input, and what becomes of each: one, or those of a composite.
+struct vtkPointCloudFilter::Parts
+{
+  Clouds clouds;
+  std::vector<Outputs> outputs; ///< Of each cloud, for each port.
+  std::string others;           ///< Names of blocks without points.
+
+  Parts(vtkDataObject* input, const std::vector<vtkSmartPointer<vtkDataObject>>& results)
+  {
+    auto* composite = vtkCompositeDataSet::SafeDownCast(input);
+    if (!composite)
+    {
+      this->Add(vtkPointSet::SafeDownCast(input));
+      for (vtkDataObject* result : results)
+      {
+        this->outputs.back().emplace_back(vtkPolyData::SafeDownCast(result));
+      }
+      return;
+    }
+    const auto block = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
+    for (block->InitTraversal(); !block->IsDoneWithTraversal(); block->GoToNextItem())
+    {
+      if (auto* cloud = vtkPointSet::SafeDownCast(block->GetCurrentDataObject()))
+      {
+        this->Add(cloud);
+        for (vtkDataObject* result : results)
+        {
+          this->outputs.back().push_back(vtkSmartPointer<vtkPolyData>::New());
+          vtkCompositeDataSet::SafeDownCast(result)->SetDataSet(block, this->outputs.back().back());
+        }
+      }
+      else
+      {
+        this->others += (this->others.empty() ? "" : ", ") + nameOf(block);
+      }
+    }
+  }
+
+  void Empty() const
+  {
+    for (const Outputs& ofCloud : this->outputs)
+    {
+      std::for_each(ofCloud.begin(), ofCloud.end(), &makeEmpty);
+    }
+  }
+
+private:
+  void Add(vtkPointSet* cloud)
+  {
+    this->clouds.emplace_back(cloud);
+    this->outputs.emplace_back();
+  }
+};
+
+vtkMTimeType vtkPointCloudFilter::GetMTime()
+{
+  if (this->RunsAgain)
+  {
+    // The pipeline would take the last output for valid: request another one.
+    this->RetryTime.Modified();
+  }
+  return std::max(this->Superclass::GetMTime(), this->RetryTime.GetMTime());
+}
+
+vtkTypeBool vtkPointCloudFilter::ProcessRequest(
+  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  return request->Has(vtkDemandDrivenPipeline::REQUEST_DATA_OBJECT())
+    ? this->RequestDataObject(request, inputs, outputs)
+    : this->Superclass::ProcessRequest(request, inputs, outputs);
+}
+
+void vtkPointCloudFilter::Fail(const std::string& problem)
+{
+  this->SetErrorCode(vtkErrorCode::UserError);
+  this->ErrorMessage = problem;
+  vtkErrorMacro(<< problem);
+}
+
+void vtkPointCloudFilter::Warn(const std::string& text)
+{
+  if (!text.empty() && this->Warnings.insert(text).second)
+  {
+    vtkWarningMacro(<< text);
+  }
+}
+
+int vtkPointCloudFilter::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
+  return 1;
+}
+
+/// As that of the input, so the executive has no say.
+int vtkPointCloudFilter::FillOutputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkDataObject");
+  return 1;
+}
+
+int vtkPointCloudFilter::RequestDataObject(
+  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  vtkDataObject* input = vtkDataObject::GetData(inputs[0]);
+  vtkSmartPointer<vtkDataObject> sample = vtkSmartPointer<vtkPolyData>::New();
+  if (vtkDataObjectTree::SafeDownCast(input))
+  {
+    sample.TakeReference(input->NewInstance());
+  }
+  else if (vtkCompositeDataSet::SafeDownCast(input))
+  {
+    sample = vtkSmartPointer<vtkMultiBlockDataSet>::New();
+  }
+  for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
+  {
+    vtkInformation* info = outputs->GetInformationObject(port);
+    vtkDataObject* output = vtkDataObject::GetData(info);
+    if (!output || output->GetDataObjectType() != sample->GetDataObjectType())
+    {
+      info->Set(vtkDataObject::DATA_OBJECT(), vtkSmartPointer<vtkDataObject>::Take(sample->NewInstance()));
+    }
+  }
+  return 1;
+}
+
+std::string vtkPointCloudFilter::ProblemOf(vtkDataObject*)
+{
+  return {};
+}
+
+int vtkPointCloudFilter::RequestData(
+  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  // Observers may take away what the pipeline holds.
+  const vtkSmartPointer<vtkDataObject> input = vtkDataObject::GetData(inputs[0]);
+  auto* tree = vtkDataObjectTree::SafeDownCast(input);
+  std::vector<vtkSmartPointer<vtkDataObject>> results;
+  for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
+  {
+    results.emplace_back(vtkDataObject::GetData(outputs, port));
+    results.back()->Initialize();
+    if (tree)
+    {
+      vtkDataObjectTree::SafeDownCast(results.back())->CopyStructure(tree);
+      results.back()->GetFieldData()->PassData(input->GetFieldData());
+    }
+  }
+  this->RunsAgain = false;
+  this->ErrorMessage.clear();
+  this->SetErrorCode(vtkErrorCode::NoError);
+  const vtkMTimeType begin = this->GetMTime();
+  const Parts parts(input, tree || vtkPointSet::SafeDownCast(input) ? results : decltype(results)());
+  this->Warnings.clear();
+  this->Warn(parts.others.empty() ? "" : "Blocks without points are left empty: " + parts.others + ".");
+  parts.Empty();
+  const std::string problem = this->ProblemOf(input);
+  if (!problem.empty())
+  {
+    this->Fail(problem);
+  }
+  const bool succeeded = problem.empty() && this->RunParts(parts);
+  if (!succeeded)
+  {
+    parts.Empty();
+  }
+  this->SetProgressShiftScale(0.0, 1.0);
+  this->EndRun(succeeded);
+  this->RunsAgain = this->GetMTime() > begin;
+  this->RunsAgain = this->RunsAgain || !succeeded;
+  if (succeeded)
+  {
+    this->UpdateProgress(1.0);
+  }
+  return 1;
+}
+
+bool vtkPointCloudFilter::RunParts(const Parts& parts)
+{
+  bool succeeded = this->BeginRun(parts.clouds);
+  const auto count = double(parts.clouds.size());
+  for (std::size_t i = 0; succeeded && i < parts.clouds.size(); ++i)
+  {
+    this->SetProgressShiftScale(double(i) / count, 1.0 / count);
+    succeeded = !this->GetAbortExecute() && this->RunCloud(parts.clouds[i], parts.outputs[i]);
+  }
+  return succeeded;
+}

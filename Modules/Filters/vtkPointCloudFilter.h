@@ -1,0 +1,99 @@
+/**
+ * @class   vtkPointCloudFilter
+ * @brief   base of the filters from points to points: composites, errors, settings that change in a run
+ *
+ * Input: a vtkPointSet of any kind, or a composite dataset of them (blocks, partitions, trees of both).
+ * Output of a vtkPointSet: a vtkPolyData. Output of a composite: a composite of the same structure, names
+ * and metadata, in which each block of points is replaced by its vtkPolyData. Other blocks (images, tables)
+ * are left empty, with one warning that names them; a composite that is no tree (AMR) gives an empty
+ * vtkMultiBlockDataSet.
+ *
+ * Errors: vtkErrorMacro with what, where, value and cure. GetErrorCode() is then not 0, GetErrorMessage() has
+ * the sentence, the output is valid and empty (its points are never null), and each further Update() runs
+ * again and says so again until the cause is mended. An aborted update gives an empty output without an error
+ * and starts anew next time.
+ *
+ * What an observer sets while the filter runs, its connections included, counts from the next update on.
+ * Output ports are fixed from construction.
+ *
+ * Pieces: each process works on the points that its pipeline gives it. The distributed filters in Parallel
+ * work on those of all.
+ *
+ * One thread may use an object at a time.
+ *
+ * @sa vtkVoxelMeanResampler vtkKernelBandwidthFilter
+ */
+#ifndef vtkPointCloudFilter_h
+#define vtkPointCloudFilter_h
+
+#include "PointHapticsFiltersModule.h" // For export macro
+#include "vtkPolyDataAlgorithm.h"
+#include "vtkSmartPointer.h" // For clouds
+#include "vtkTimeStamp.h"    // For RetryTime
+
+#include <set>    // For Warnings
+#include <string> // For Fail
+#include <vector> // For clouds
+
+class vtkDataObject;
+class vtkPointSet;
+
+class POINTHAPTICSFILTERS_EXPORT vtkPointCloudFilter : public vtkPolyDataAlgorithm
+{
+public:
+  vtkAbstractTypeMacro(vtkPointCloudFilter, vtkPolyDataAlgorithm);
+
+  /**
+   * Later than what was set in a run; later than the last output where that was cut short by an error or an
+   * abort.
+   */
+  vtkMTimeType GetMTime() override;
+
+  /**
+   * What was wrong with the last update; empty: nothing.
+   */
+  const std::string& GetErrorMessage() const { return this->ErrorMessage; }
+
+  vtkTypeBool ProcessRequest(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+
+protected:
+#ifndef __VTK_WRAP__
+  using Clouds = std::vector<vtkSmartPointer<vtkPointSet>>;
+  using Outputs = std::vector<vtkSmartPointer<vtkPolyData>>;
+
+  vtkPointCloudFilter() = default;
+  ~vtkPointCloudFilter() override = default;
+
+  /// Why a run over @p input cannot be; empty: it can.
+  virtual std::string ProblemOf(vtkDataObject* input);
+  /// Takes over settings for a run over all @p clouds. @return false after Fail() or an abort.
+  virtual bool BeginRun(const Clouds& clouds) = 0;
+  /// Fills an output for each port from one cloud. @return as BeginRun().
+  virtual bool RunCloud(vtkPointSet* cloud, const Outputs& outputs) = 0;
+  /// Lets go of what the run needed. @p succeeded: false after Fail() or an abort.
+  virtual void EndRun(bool succeeded) = 0;
+
+  /// Says what is wrong: the outputs become empty.
+  void Fail(const std::string& problem);
+  /// Says it once in a run, however many clouds are concerned.
+  void Warn(const std::string& text);
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  virtual int RequestDataObject(vtkInformation*, vtkInformationVector**, vtkInformationVector*);
+  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+
+private:
+  struct Parts;
+  bool RunParts(const Parts& parts);
+
+  bool RunsAgain = false;
+  std::string ErrorMessage;
+  std::set<std::string> Warnings; ///< Of this run.
+  vtkTimeStamp RetryTime;
+
+  vtkPointCloudFilter(const vtkPointCloudFilter&) = delete;
+  void operator=(const vtkPointCloudFilter&) = delete;
+#endif
+};
+
+#endif
