@@ -13,6 +13,7 @@
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkOutlineSource.h"
+#include "vtkOverlayActor.h"
 #include "vtkPolyDataMapper.h"
 #include "vtkProperty.h"
 #include "vtkRenderer.h"
@@ -20,6 +21,7 @@
 #include "vtkWeakPointer.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 // Programs that link this library need not call vtk_module_autoinit() themselves to get a window.
@@ -62,8 +64,8 @@ constexpr double kNormalLength = 0.25;
 constexpr double kLongestArrow = 0.4;
 constexpr double kArrowThickness = 0.06;
 /// Opacity of the sphere where the cloud hides it: in contact, and in free space.
-constexpr double kSphereGhost = 0.75;
-constexpr double kFreeSphereGhost = 0.35;
+constexpr double kHiddenSphere = 0.75;
+constexpr double kHiddenFreeSphere = 0.35;
 constexpr double kVisibleMotion = 1e-4;
 /// Radius of a sphere that is drawn: around a larger one, as a few points far apart have, there is nothing to
 /// see.
@@ -78,58 +80,18 @@ constexpr double kTipLength = 0.3;
 constexpr double kRingPart = 0.3;
 constexpr double kSmallestRing = 0.012;
 
-/// One shape with its actor, and a faint copy that is not hidden by what stands in front of it.
-struct Prop
+void setUpMark(
+  vtkOverlayActor* mark, vtkAlgorithmOutput* shape, const double color[3], bool lit, double hidden)
 {
-  vtkNew<vtkPolyDataMapper> mapper;
-  vtkNew<vtkPolyDataMapper> ghostMapper;
-  vtkNew<vtkActor> actor;
-  vtkNew<vtkActor> ghost;
-
-  void setUp(vtkAlgorithmOutput* shape, const double color[3], bool lit, double ghostOpacity)
-  {
-    for (vtkPolyDataMapper* each : { mapper.Get(), ghostMapper.Get() })
-    {
-      each->SetInputConnection(shape);
-      each->ScalarVisibilityOff();
-    }
-    actor->SetMapper(mapper);
-    ghost->SetMapper(ghostMapper);
-    // A depth offset beyond the depth range puts the copy in front of everything.
-    ghostMapper->SetResolveCoincidentTopologyToPolygonOffset();
-    ghostMapper->SetRelativeCoincidentTopologyPolygonOffsetParameters(0.0, -1e6);
-    ghostMapper->SetRelativeCoincidentTopologyLineOffsetParameters(0.0, -1e6);
-    ghost->GetProperty()->SetOpacity(ghostOpacity);
-    for (vtkActor* each : { actor.Get(), ghost.Get() })
-    {
-      each->GetProperty()->SetColor(const_cast<double*>(color));
-      each->GetProperty()->SetLighting(lit);
-      each->GetProperty()->SetAmbient(0.5);
-      each->GetProperty()->SetDiffuse(0.5);
-      each->PickableOff();
-    }
-  }
-  void setColor(const double color[3])
-  {
-    actor->GetProperty()->SetColor(const_cast<double*>(color));
-    ghost->GetProperty()->SetColor(const_cast<double*>(color));
-  }
-  void setLineWidth(float width)
-  {
-    actor->GetProperty()->SetLineWidth(width);
-    ghost->GetProperty()->SetLineWidth(width);
-  }
-  void setVisible(bool visible)
-  {
-    actor->SetVisibility(visible);
-    ghost->SetVisibility(visible);
-  }
-  void place(vtkMatrix4x4* matrix)
-  {
-    actor->SetUserMatrix(matrix);
-    ghost->SetUserMatrix(matrix);
-  }
-};
+  mark->SetShape(shape);
+  mark->SetHiddenOpacity(hidden);
+  vtkProperty* looks = mark->GetProperty();
+  looks->SetColor(const_cast<double*>(color));
+  looks->SetLighting(lit);
+  looks->SetBackfaceCulling(lit);
+  looks->SetAmbient(0.5);
+  looks->SetDiffuse(0.5);
+}
 
 /// Columns: @p along, two perpendiculars, each times its length; origin last.
 void setFrame(vtkMatrix4x4* matrix, const Vec3& origin, const Vec3& along, double length, double thickness)
@@ -166,10 +128,13 @@ struct vtkHapticProps::Internals
   vtkNew<vtkSphereSource> ball;
   vtkNew<vtkLineSource> line;
   vtkNew<vtkArrowSource> arrow;
-  Prop proxy;
-  Prop normal;
-  Prop hip;
-  Prop force;
+  vtkNew<vtkOverlayActor> proxy;
+  vtkNew<vtkOverlayActor> normal;
+  vtkNew<vtkOverlayActor> hip;
+  vtkNew<vtkOverlayActor> force;
+  /// Drawn in this order: what stands in the sphere is seen through it, and the force hides the normal that
+  /// it lies along.
+  std::array<vtkOverlayActor*, 4> all() { return { normal, proxy, hip, force }; }
   TouchOutlines outlines{ [this]
     {
       this->place();
@@ -273,22 +238,22 @@ TouchMarks vtkHapticProps::Internals::marks()
   {
     return marks;
   }
-  if (this->proxy.actor->GetVisibility())
+  if (this->proxy->GetVisibility())
   {
     marks.proxy = originOf(this->proxyMatrix);
     marks.proxyRadius = norm(columnOf(this->proxyMatrix, 0));
   }
-  if (this->hip.actor->GetVisibility())
+  if (this->hip->GetVisibility())
   {
     marks.hip = originOf(this->hipMatrix);
     marks.hipRadius = norm(columnOf(this->hipMatrix, 0));
   }
-  if (this->normal.actor->GetVisibility())
+  if (this->normal->GetVisibility())
   {
     marks.normalBegin = originOf(this->normalMatrix);
     marks.normalEnd = marks.normalBegin + columnOf(this->normalMatrix, 0);
   }
-  if (this->force.actor->GetVisibility())
+  if (this->force->GetVisibility())
   {
     const Vec3 along = columnOf(this->forceMatrix, 0);
     const double thickness = norm(columnOf(this->forceMatrix, 1));
@@ -326,15 +291,15 @@ vtkHapticProps::vtkHapticProps()
   parts.arrow->SetShaftRadius(kShaftRadius);
   parts.arrow->SetTipRadius(kTipRadius);
   parts.arrow->SetTipLength(kTipLength);
-  parts.proxy.setUp(parts.sphere->GetOutputPort(), kUsual.sphere, true, kSphereGhost);
-  parts.normal.setUp(parts.line->GetOutputPort(), kUsual.normal, false, 1.0);
-  parts.hip.setUp(parts.ball->GetOutputPort(), kUsual.hip, true, 0.55);
-  parts.force.setUp(parts.arrow->GetOutputPort(), kUsual.force, true, 0.55);
-  parts.normal.setLineWidth(kUsual.lineWidth);
-  parts.proxy.place(parts.proxyMatrix);
-  parts.normal.place(parts.normalMatrix);
-  parts.hip.place(parts.hipMatrix);
-  parts.force.place(parts.forceMatrix);
+  setUpMark(parts.proxy, parts.sphere->GetOutputPort(), kUsual.sphere, true, kHiddenSphere);
+  setUpMark(parts.normal, parts.line->GetOutputPort(), kUsual.normal, false, 1.0);
+  setUpMark(parts.hip, parts.ball->GetOutputPort(), kUsual.hip, true, 0.55);
+  setUpMark(parts.force, parts.arrow->GetOutputPort(), kUsual.force, true, 0.55);
+  parts.normal->GetProperty()->SetLineWidth(kUsual.lineWidth);
+  parts.proxy->SetUserMatrix(parts.proxyMatrix);
+  parts.normal->SetUserMatrix(parts.normalMatrix);
+  parts.hip->SetUserMatrix(parts.hipMatrix);
+  parts.force->SetUserMatrix(parts.forceMatrix);
   const double cube[6] = { -0.05, 0.05, -0.05, 0.05, -0.05, 0.05 };
   this->SetWorkspaceBounds(cube);
   this->SetTouchVisibility(false);
@@ -354,9 +319,9 @@ void vtkHapticProps::SetTouchVisibility(bool visible)
 {
   this->TouchVisibility = visible;
   this->Parts->shown = false;
-  for (Prop* prop : { &this->Parts->proxy, &this->Parts->normal, &this->Parts->hip, &this->Parts->force })
+  for (vtkOverlayActor* mark : this->Parts->all())
   {
-    prop->setVisible(false);
+    mark->VisibilityOff();
   }
   this->Parts->gauge->SetVisibility(false);
   this->Modified();
@@ -365,7 +330,7 @@ void vtkHapticProps::SetTouchVisibility(bool visible)
 void vtkHapticProps::SetGaugeVisibility(bool visible)
 {
   this->GaugeVisibility = visible;
-  this->Parts->gauge->SetVisibility(visible && this->Parts->force.actor->GetVisibility());
+  this->Parts->gauge->SetVisibility(visible && this->Parts->force->GetVisibility());
   this->Modified();
 }
 
@@ -394,11 +359,9 @@ void vtkHapticProps::AddTo(vtkRenderer* renderer)
 {
   this->Parts->renderer = renderer;
   renderer->AddActor(this->Parts->outlineActor);
-  // The normal last: without friction the force lies along it, and the arrow would hide it.
-  for (Prop* prop : { &this->Parts->force, &this->Parts->hip, &this->Parts->proxy, &this->Parts->normal })
+  for (vtkOverlayActor* mark : this->Parts->all())
   {
-    renderer->AddActor(prop->actor);
-    renderer->AddActor(prop->ghost);
+    renderer->AddActor(mark);
   }
   this->Parts->outlines.addTo(renderer);
   this->Parts->gauge->AddTo(renderer);
@@ -407,10 +370,9 @@ void vtkHapticProps::AddTo(vtkRenderer* renderer)
 void vtkHapticProps::RemoveFrom(vtkRenderer* renderer)
 {
   renderer->RemoveActor(this->Parts->outlineActor);
-  for (Prop* prop : { &this->Parts->force, &this->Parts->hip, &this->Parts->proxy, &this->Parts->normal })
+  for (vtkOverlayActor* mark : this->Parts->all())
   {
-    renderer->RemoveActor(prop->actor);
-    renderer->RemoveActor(prop->ghost);
+    renderer->RemoveActor(mark);
   }
   this->Parts->outlines.removeFrom(renderer);
   this->Parts->gauge->RemoveFrom(renderer);
@@ -432,10 +394,10 @@ void vtkHapticProps::SetHighContrast(bool high)
   }
   this->HighContrast = parts.highContrast = high;
   parts.colors = high ? kHighContrast : kUsual;
-  parts.normal.setColor(parts.colors.normal);
-  parts.normal.setLineWidth(parts.colors.lineWidth);
-  parts.hip.setColor(parts.colors.hip);
-  parts.force.setColor(parts.colors.force);
+  parts.normal->GetProperty()->SetColor(const_cast<double*>(parts.colors.normal));
+  parts.normal->GetProperty()->SetLineWidth(parts.colors.lineWidth);
+  parts.hip->GetProperty()->SetColor(const_cast<double*>(parts.colors.hip));
+  parts.force->GetProperty()->SetColor(const_cast<double*>(parts.colors.force));
   parts.gauge->SetOpaque(high);
   if (parts.shown)
   {
@@ -498,11 +460,11 @@ bool vtkHapticProps::Update(const ProxyState& state)
   parts.arrowLength = std::min(force * this->ForceScale, kLongestArrow * parts.edge);
   setFrame(parts.hipMatrix, state.hip, { 1, 0, 0 }, kHipRadius * parts.edge, kHipRadius * parts.edge);
   setFrame(parts.normalMatrix, state.proxy, normalized(state.normal), kNormalLength * parts.edge, 1.0);
-  parts.proxy.setVisible(state.radius > 0.0 && state.radius <= kLargestSphere * parts.edge);
-  parts.hip.setVisible(this->HandVisibility);
-  parts.normal.setVisible(state.contact);
+  parts.proxy->SetVisibility(state.radius > 0.0 && state.radius <= kLargestSphere * parts.edge);
+  parts.hip->SetVisibility(this->HandVisibility);
+  parts.normal->SetVisibility(state.contact);
   const bool pushes = this->HandVisibility && state.contact && force > kSmallestForce;
-  parts.force.setVisible(pushes);
+  parts.force->SetVisibility(pushes);
   const bool isGauged = pushes && this->GaugeVisibility;
   parts.gauge->SetVisibility(isGauged);
   if (isGauged)
@@ -512,34 +474,32 @@ bool vtkHapticProps::Update(const ProxyState& state)
     parts.gauge->SetLeft(parts.pointsLeft(state.force));
   }
   parts.place();
-  vtkProperty* sphere = parts.proxy.actor->GetProperty();
+  vtkProperty* sphere = parts.proxy->GetProperty();
   sphere->SetColor(const_cast<double*>(state.contact ? parts.colors.sphere : parts.colors.freeSphere));
   sphere->SetOpacity(state.contact ? 1.0 : 0.45);
-  vtkProperty* ghost = parts.proxy.ghost->GetProperty();
-  ghost->SetColor(sphere->GetColor());
-  ghost->SetOpacity(state.contact ? kSphereGhost : kFreeSphereGhost);
+  parts.proxy->SetHiddenOpacity(state.contact ? kHiddenSphere : kHiddenFreeSphere);
   this->Modified();
   return true;
 }
 
 vtkActor* vtkHapticProps::GetProxyActor()
 {
-  return this->Parts->proxy.actor;
+  return this->Parts->proxy;
 }
 
 vtkActor* vtkHapticProps::GetNormalActor()
 {
-  return this->Parts->normal.actor;
+  return this->Parts->normal;
 }
 
 vtkActor* vtkHapticProps::GetHipActor()
 {
-  return this->Parts->hip.actor;
+  return this->Parts->hip;
 }
 
 vtkActor* vtkHapticProps::GetForceActor()
 {
-  return this->Parts->force.actor;
+  return this->Parts->force;
 }
 
 vtkActor* vtkHapticProps::GetWorkspaceActor()

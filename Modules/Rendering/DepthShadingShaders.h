@@ -32,57 +32,27 @@ float depthAt(ivec2 place, ivec2 last)
 }
 )";
 
-/// A pixel that lies behind nearly all around it is a hole between splats. The number of neighbours is a
-/// uniform so that the loop stays one: a software renderer leaves a loop where all its pixels have, but works
-/// on both branches of a condition.
-constexpr const char* kPinholeShader = R"(
-const int enough = 6;
-uniform int neighbors; // 8
+/// Weighted sums over their weights. The colours' alpha is 1 where a splat is in the middle of the pixel;
+/// where one only comes near, it makes the rim smooth on what lies behind, without a depth.
+constexpr const char* kDivideShader = R"(
 void main()
 {
-  ivec2 last = textureSize(depths, 0) - ivec2(1);
-  ivec2 place = ivec2(texCoord * vec2(last + ivec2(1)));
-  float depth = texelFetch(depths, place, 0).r;
-  float here = depth < 1.0 ? distanceAt(depth) : 3.4e38;
-  int side = int(1.5 * pixelScale + 0.5);
-  int corner = int(1.06 * pixelScale + 0.5);
-  int before = 0;
-  float farthest = -1.0;
-  ivec2 source = place;
-  for (int i = 0; i < neighbors; ++i)
-  {
-    int way = 1 - 2 * (i & 1);
-    ivec2 along = (i & 2) == 0 ? ivec2(1, 0) : ivec2(0, 1);
-    ivec2 other = place + (i < 4 ? side * way * along : corner * ivec2(way, 1 - (i & 2)));
-    float depthThere = depthAt(other, last);
-    float there = distanceAt(depthThere);
-    float gap = max(3.0 * pixelScale * pixelAt(there), noise.x + noise.y * there);
-    if (depthThere < depth && here - there > gap)
-    {
-      ++before;
-      source = depthThere > farthest ? other : source;
-      farthest = max(farthest, depthThere);
-    }
-    if (before + neighbors - 1 - i < enough)
-    {
-      break;
-    }
-  }
-  bool fills = before >= enough;
-  gl_FragDepth = fills ? farthest : depth;
-  gl_FragData[0] = texelFetch(colors, fills ? clamp(source, ivec2(0), last) : place, 0);
+  ivec2 place = ivec2(texCoord * vec2(textureSize(depths, 0)));
+  vec4 sum = texelFetch(colors, place, 0);
+  vec2 weight = texelFetch(depths, place, 0).rg; // and depths times them
+  if (weight.r <= 0.0) { discard; }
+  gl_FragDepth = sum.a < 1.0 ? 1.0 : clamp(weight.g / weight.r, 0.0, 1.0);
+  gl_FragData[0] = vec4(sum.rgb / weight.r, sum.a);
 }
 )";
 
 /// Colours and depths as they are, or spread over more pixels.
 constexpr const char* kCopyShader = R"(
-uniform float samples; // that the colours are the sum of
-
 void main()
 {
   ivec2 place = ivec2(texCoord * vec2(textureSize(depths, 0)));
   gl_FragDepth = texelFetch(depths, place, 0).r;
-  gl_FragData[0] = texture(colors, texCoord) / samples;
+  gl_FragData[0] = texture(colors, texCoord);
 }
 )";
 

@@ -1,5 +1,6 @@
 #include "PictureState.h"
 
+#include "vtkOverlayActor.h"
 #include "vtkSplatMapper.h"
 
 #include "vtkActor.h"
@@ -47,8 +48,8 @@ void addProp(std::vector<double>& state, vtkProp* prop)
   {
     state.insert(state.end(),
       { splats->GetSizeScale(), splats->GetSmallestPixels(), splats->GetLargestPixels(),
-        splats->GetFixedPixels(), splats->GetPointPixels(), splats->GetLightStrength(),
-        double(splats->GetHidesBackFaces()), double(splats->GetForeshortens()) });
+        splats->GetFixedPixels(), splats->GetPointPixels(), splats->GetSurfacePixels(),
+        splats->GetLightStrength(), double(splats->GetHidesBackFaces()), double(splats->GetForeshortens()) });
     double sky[3];
     splats->GetSkyDirection(sky);
     add(state, sky, 3);
@@ -61,6 +62,11 @@ void addProp(std::vector<double>& state, vtkProp* prop)
 }
 
 } // namespace
+
+bool isDrawnOver(vtkProp* prop)
+{
+  return vtkActor2D::SafeDownCast(prop) || vtkOverlayActor::SafeDownCast(prop);
+}
 
 std::vector<double> pictureState(vtkRenderer* renderer)
 {
@@ -91,7 +97,7 @@ std::vector<double> pictureState(vtkRenderer* renderer)
   renderer->GetViewProps()->InitTraversal(cookie);
   while (vtkProp* prop = renderer->GetViewProps()->GetNextProp(cookie))
   {
-    if (prop->GetVisibility() && !vtkActor2D::SafeDownCast(prop))
+    if (prop->GetVisibility() && !isDrawnOver(prop))
     {
       addProp(state, prop);
     }

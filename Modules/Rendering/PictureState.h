@@ -6,13 +6,17 @@
 
 #include <vector>
 
+class vtkProp;
 class vtkRenderer;
 
 namespace pointhaptics
 {
 
-/// Camera, size, background, lights and all props but those of text (vtkActor2D): numbers that are equal for
-/// two pictures which show the same. Brings the pipelines of visible actors up to date. GUI thread only.
+/// Whether @p prop is drawn over the finished picture: text (vtkActor2D) and marks (vtkOverlayActor).
+POINTHAPTICSRENDERING_EXPORT bool isDrawnOver(vtkProp* prop);
+
+/// Camera, size, background, lights and all props but those that are drawn over it: numbers that are equal
+/// for two pictures which show the same. Brings the pipelines of visible actors up to date. GUI thread only.
 POINTHAPTICSRENDERING_EXPORT std::vector<double> pictureState(vtkRenderer* renderer);
 
 } // namespace pointhaptics

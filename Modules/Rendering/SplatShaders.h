@@ -38,15 +38,17 @@ inline constexpr const char* kLightStatements = R"(
   }
 )";
 
-/// Slope of the disc seen from the eye: how far towards the viewer it goes for a step on the screen. The
-/// lengths are of the view: splatDepth.x is half a pixel at distance 1, splatTerms those of the projection.
+/// Slope of the disc seen from the eye: how far towards the viewer it goes for a step on the screen. Splats
+/// that are blended pass in front of the nearest of their surface, and a pixel beyond their rims. The lengths
+/// are of the view: splatHalfPixel is half a pixel at distance 1, splatTerms those of the projection.
 inline constexpr const char* kSurfaceDeclarations = R"(
 uniform mat3 splatTurn;
 uniform vec4 splatTerms;
 uniform float splatHalfPixel;
 uniform int splatIsParallel;
+uniform int splatStage; // vtkDepthShadingPass::Stage
 out vec2 splatSlope;
-out vec2 splatReach;
+out vec4 splatReach;
 )";
 inline constexpr const char* kSurfaceStatements = R"(
   vec3 splatRay = splatIsParallel != 0 ? vec3(0.0, 0.0, -1.0)
@@ -55,21 +57,53 @@ inline constexpr const char* kSurfaceStatements = R"(
   float splatAcross = dot(splatTilted, splatRay);
   splatSlope = abs(splatAcross) > 1e-4 ? splatTilted.xy / splatAcross : vec2(0.0);
   float splatSteep = length(splatSlope);
-  splatSlope *= min(1.0, 1.5 / max(splatSteep, 1e-6)) * clamp(2.0 * splatFlat - 0.6, 0.0, 1.0);
-  splatReach = vec2(gl_Position.w, gl_PointSize * splatHalfPixel * gl_Position.w);
+  splatSlope *= min(1.0, 3.0 / max(splatSteep, 1e-6)) * splatCloses;
+  // The rims of blended splats are a pixel wide: about those of points, beyond those of surfaces.
+  gl_PointSize = splatStage != 0 ? max(1.0, gl_PointSize - 1.0 + splatCloses) : gl_PointSize;
+  float splatRadius = gl_PointSize * splatHalfPixel * gl_Position.w;
+  splatReach = vec4(gl_Position.w, splatRadius, 1.0, 0.0);
+  if (splatStage == 2)
+  {
+    splatReach.zw = vec2(1.0 + 2.0 / gl_PointSize, splatRadius * mix(0.05, 0.8, splatCloses));
+    gl_PointSize += 2.0;
+  }
+)";
+inline constexpr const char* kSurfaceFragmentDeclarations = R"(
+in vec2 splatSlope;
+in vec4 splatReach; // distance, radius, place at the rim of the point, how far it comes forward
+uniform vec4 splatTerms;
+uniform int splatIsParallel;
+uniform float splatNarrow;
+uniform int splatStage;
+float splatDepth(float near)
+{
+  return clamp(splatIsParallel != 0
+    ? gl_FragCoord.z + 0.5 * splatTerms.z * near
+    : 0.5 + 0.5 * (-splatTerms.z + splatTerms.w / max(1e-6 * splatReach.x, splatReach.x - near)), 0.0, 1.0);
+}
 )";
 inline constexpr const char* kSurfaceFragment = R"(
-  vec2 splatPlace = vec2(2.0 * gl_PointCoord.x - 1.0, 1.0 - 2.0 * gl_PointCoord.y);
+  vec2 splatPlace = splatReach.z * vec2(2.0 * gl_PointCoord.x - 1.0, 1.0 - 2.0 * gl_PointCoord.y);
   float splatRise = dot(splatSlope, splatPlace);
-  if (dot(splatPlace, splatPlace) + splatNarrow * splatRise * splatRise > 1.0) { discard; }
+  float splatSquare = dot(splatPlace, splatPlace) + splatNarrow * splatRise * splatRise;
+  float splatCover = splatStage == 2 ? clamp(1.0 + (1.0 - splatSquare) / fwidth(splatSquare), 0.0, 1.0)
+    : step(splatSquare, 1.0);
+  if (splatCover <= 0.0) { discard; }
+  float splatInner = max(0.0, 1.0 - splatSquare);
+  float splatWeight = splatCover * (0.01 + splatInner * splatInner);
   float splatNear = splatReach.y * splatRise;
-  gl_FragDepth = clamp(splatIsParallel != 0
-    ? gl_FragCoord.z + 0.5 * splatTerms.z * splatNear
-    : 0.5 + 0.5 * (-splatTerms.z + splatTerms.w / max(1e-6 * splatReach.x, splatReach.x - splatNear)), 0.0, 1.0);
+  gl_FragDepth = splatDepth(splatNear + splatReach.w);
+  gl_FragData[1] = vec4(splatWeight, splatWeight * splatDepth(splatNear), 0.0, 0.0);
+)";
+/// After the light.
+inline constexpr const char* kBlendStatements = R"(
+  gl_FragData[0] = splatStage == 2 ? vec4(splatWeight * gl_FragData[0].rgb, splatCover)
+    : vec4(gl_FragData[0].rgb, 1.0);
 )";
 
 /// What is outside of the box goes behind the far plane.
 inline constexpr const char* kClipStatements = R"(
+  gl_Position.xy *= splatFit;
   if (any(lessThan(vertexMC.xyz, splatLow)) || any(greaterThan(vertexMC.xyz, splatHigh)))
   {
     gl_Position = vec4(0.0, 0.0, 2.0, 1.0);

@@ -1,7 +1,7 @@
 #include "vtkCloudAxes.h"
 
 #include "ScreenMarks.h"
-#include "vtkOverlayLines.h"
+#include "vtkOverlayActor.h"
 
 #include "Core/Base/Vector3.h"
 
@@ -14,6 +14,7 @@
 #include "vtkObjectFactory.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
+#include "vtkProperty.h"
 #include "vtkProperty2D.h"
 #include "vtkRenderer.h"
 #include "vtkWeakPointer.h"
@@ -100,7 +101,7 @@ struct vtkCloudAxes::Internals
   vtkNew<vtkMatrix4x4> model;
   vtkNew<vtkPoints> corners;
   vtkNew<vtkPolyData> box;
-  vtkNew<vtkOverlayLines> boxLines;
+  vtkNew<vtkOverlayActor> boxLines;
   ScreenLines ticks{ kTickWidth };
   ScreenLines marker{ kArmWidth };
   ScreenTexts texts;
@@ -280,8 +281,8 @@ vtkCloudAxes::vtkCloudAxes()
   }
   parts.box->SetPoints(parts.corners);
   parts.box->SetLines(edges);
-  parts.boxLines->SetLines(parts.box);
-  parts.boxLines->SetColor(0.35, 0.35, 0.40);
+  parts.boxLines->SetShape(parts.box);
+  parts.boxLines->GetProperty()->SetColor(0.35, 0.35, 0.40);
   parts.boxLines->VisibilityOff();
   parts.onStart->SetClientData(this);
   parts.onStart->SetCallback(

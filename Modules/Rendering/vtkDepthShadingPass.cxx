@@ -3,7 +3,9 @@
 #include "DepthShadingShaders.h"
 #include "DrawPace.h"
 #include "PictureState.h"
+#include "vtkSplatMapper.h"
 
+#include "vtkActor.h"
 #include "vtkActor2D.h"
 #include "vtkCamera.h"
 #include "vtkMath.h"
@@ -14,6 +16,7 @@
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLShaderCache.h"
 #include "vtkOpenGLState.h"
+#include "vtkProperty.h"
 #include "vtkRenderPassCollection.h"
 #include "vtkRenderState.h"
 #include "vtkRenderer.h"
@@ -33,10 +36,6 @@ namespace
 /// Sizes are pixels of a window of 800 lines; pixelScale makes them those of this one.
 constexpr double kUsualHeight = 800.0;
 
-/// From the middle of a pixel, in pixels: no two in a row or column.
-constexpr double kSamples[vtkDepthShadingPass::kMostSamples][2] = { { 0.0, 0.0 }, { 0.125, 0.375 },
-  { -0.375, 0.125 }, { -0.125, -0.375 }, { 0.375, -0.125 } };
-
 /// The end of a clipping range, outward to a step: four steps double it.
 double clippingStep(double distance, bool isNear)
 {
@@ -45,24 +44,6 @@ double clippingStep(double distance, bool isNear)
   const double at = kStepsPerDoubling * std::log2(distance);
   const double step = isNear ? std::floor(at + kOnStep) : std::ceil(at - kOnStep);
   return std::exp2(step / kStepsPerDoubling);
-}
-
-/// All of @p frame is drawn, into these; @p depths may be null.
-void drawInto(vtkOpenGLFramebufferObject* frame, vtkTextureObject* colors, vtkTextureObject* depths,
-  vtkOpenGLState* state)
-{
-  const int width = int(colors->GetWidth());
-  const int height = int(colors->GetHeight());
-  frame->Bind();
-  frame->AddColorAttachment(0, colors);
-  if (depths)
-  {
-    frame->AddDepthAttachment(depths);
-  }
-  frame->ActivateDrawBuffer(0);
-  frame->StartNonOrtho(width, height);
-  state->vtkglViewport(0, 0, width, height);
-  state->vtkglDisable(GL_SCISSOR_TEST);
 }
 
 /// Shades depend on depths, and their last bits on the clipping range, which follows all that is in the scene
@@ -75,6 +56,79 @@ void setClippingRangeToSteps(vtkCamera* camera)
     camera->SetClippingRange(clippingStep(range[0], true), clippingStep(range[1], false));
   }
 }
+
+/// As vtkTextureObject numbers the format of the depths that are drawn into; below 0: another one, or several
+/// samples a pixel.
+int depthFormatOfTarget()
+{
+  const auto parameter = [](GLenum name)
+  {
+    GLint value = 0;
+    glGetFramebufferAttachmentParameteriv(GL_DRAW_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, name, &value);
+    return value;
+  };
+  GLint bound = 0;
+  GLint samples = 0;
+  glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &bound);
+  glGetIntegerv(GL_SAMPLES, &samples);
+  if (bound == 0 || samples > 0 || parameter(GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE) == GL_NONE ||
+    parameter(GL_FRAMEBUFFER_ATTACHMENT_STENCIL_SIZE) > 0)
+  {
+    return -1;
+  }
+  const int bits = parameter(GL_FRAMEBUFFER_ATTACHMENT_DEPTH_SIZE);
+  const bool isFloat = parameter(GL_FRAMEBUFFER_ATTACHMENT_COMPONENT_TYPE) == GL_FLOAT;
+  return bits == 32 ? (isFloat ? vtkTextureObject::Float32 : vtkTextureObject::Fixed32)
+    : bits == 24    ? vtkTextureObject::Fixed24
+                    : -1;
+}
+
+/// Colours and depths, whatever was there.
+void overwriteAll(vtkOpenGLState* state)
+{
+  // Depths are written only where they are tested.
+  state->vtkglEnable(GL_DEPTH_TEST);
+  state->vtkglDepthFunc(GL_ALWAYS);
+  state->vtkglDepthMask(GL_TRUE);
+  state->vtkglDisable(GL_BLEND);
+}
+
+/// Draws over all of a frame buffer, until it is destroyed.
+class DrawingInto
+{
+public:
+  template <class Target>
+  DrawingInto(const Target& target, vtkOpenGLState* state)
+    : state_(state)
+    , depthTest_(state, GL_DEPTH_TEST)
+    , blend_(state, GL_BLEND)
+    , scissor_(state, GL_SCISSOR_TEST)
+  {
+    const int width = int(target.Colors->GetWidth());
+    const int height = int(target.Colors->GetHeight());
+    target.Frame->Bind();
+    target.Frame->AddColorAttachment(0, target.Colors);
+    target.Frame->AddDepthAttachment(target.Depths);
+    target.Frame->ActivateDrawBuffer(0);
+    target.Frame->StartNonOrtho(width, height);
+    state->vtkglViewport(0, 0, width, height);
+    state->vtkglDisable(GL_SCISSOR_TEST);
+    overwriteAll(state);
+  }
+  ~DrawingInto()
+  {
+    state_->vtkglDepthMask(GL_TRUE);
+    state_->vtkglDepthFunc(GL_LEQUAL);
+  }
+  DrawingInto(const DrawingInto&) = delete;
+  DrawingInto& operator=(const DrawingInto&) = delete;
+
+private:
+  vtkOpenGLState* state_;
+  vtkOpenGLState::ScopedglEnableDisable depthTest_;
+  vtkOpenGLState::ScopedglEnableDisable blend_;
+  vtkOpenGLState::ScopedglEnableDisable scissor_;
+};
 
 /// Text makes its image where it has nothing to draw yet.
 void makeTextImages(const vtkRenderState* state)
@@ -103,6 +157,12 @@ vtkDepthShadingPass* vtkDepthShadingPass::GetPassOf(vtkRenderer* renderer)
     : nullptr;
 }
 
+vtkDepthShadingPass::Stage vtkDepthShadingPass::StageOf(vtkRenderer* renderer)
+{
+  const vtkDepthShadingPass* pass = GetPassOf(renderer);
+  return pass ? pass->DrawnStage : Stage::Picture;
+}
+
 double vtkDepthShadingPass::ResolutionOf(vtkRenderer* renderer)
 {
   const vtkDepthShadingPass* pass = GetPassOf(renderer);
@@ -122,30 +182,40 @@ void vtkDepthShadingPass::ChooseResolution(const vtkRenderState* state, vtkOpenG
 
 void vtkDepthShadingPass::PrepareTargets(vtkOpenGLRenderWindow* window)
 {
-  if (!this->Frame)
-  {
-    for (auto* frame : { &this->Frame, &this->FilledFrame, &this->SumFrame })
-    {
-      *frame = vtkSmartPointer<vtkOpenGLFramebufferObject>::New();
-      (*frame)->SetContext(window);
-    }
-    for (auto* texture : { &this->Colors, &this->Depths, &this->FilledColors, &this->FilledDepths, &this->Sum,
-           &this->FirstDepths })
-    {
-      *texture = vtkSmartPointer<vtkTextureObject>::New();
-      (*texture)->SetContext(window);
-    }
-    this->Kept.clear();
-  }
   const auto width = static_cast<unsigned int>(this->W);
   const auto height = static_cast<unsigned int>(this->H);
-  if (this->Colors->GetWidth() != width || this->Colors->GetHeight() != height)
+  this->WindowFormat = depthFormatOfTarget();
+  const int format = this->WindowFormat < 0 ? int(vtkTextureObject::Float32) : this->WindowFormat;
+  const auto prepare = [&](Target& target, int type, int depthFormat)
   {
-    this->Colors->Create2D(width, height, 4, VTK_UNSIGNED_CHAR, false);
-    this->Depths->AllocateDepth(width, height, vtkTextureObject::Float32);
-    this->FilledColors->Create2D(width, height, 4, VTK_UNSIGNED_CHAR, false);
-    this->FilledDepths->AllocateDepth(width, height, vtkTextureObject::Float32);
-    this->Kept.clear();
+    if (!target.Frame)
+    {
+      target.Frame = vtkSmartPointer<vtkOpenGLFramebufferObject>::New();
+      target.Frame->SetContext(window);
+      for (auto* texture : { &target.Colors, &target.Depths })
+      {
+        *texture = vtkSmartPointer<vtkTextureObject>::New();
+        (*texture)->SetContext(window);
+      }
+    }
+    if (target.Colors->GetWidth() != width || target.Colors->GetHeight() != height)
+    {
+      target.Colors->Create2D(width, height, 4, type, false);
+      depthFormat < 0 ? target.Depths->Create2D(width, height, 2, type, false)
+                      : target.Depths->AllocateDepth(width, height, depthFormat);
+      this->Kept.clear();
+    }
+  };
+  prepare(this->Drawn, VTK_UNSIGNED_CHAR, vtkTextureObject::Float32);
+  if (format != this->ShownFormat)
+  {
+    this->Shown = Target();
+    this->ShownFormat = format;
+  }
+  prepare(this->Shown, VTK_UNSIGNED_CHAR, format);
+  if (this->BlendsSplats)
+  {
+    prepare(this->Sums, VTK_FLOAT, -1);
   }
 }
 
@@ -162,10 +232,9 @@ void vtkDepthShadingPass::RenderRightEye(const vtkRenderState* state)
   right->SetNoisePerDistance(this->NoisePerDistance);
   right->SetStrength(this->Strength);
   right->SetMinimumLightness(this->MinimumLightness);
-  right->SetFillsPinholes(this->FillsPinholes);
+  right->SetBlendsSplats(this->BlendsSplats);
   right->SetIsMoving(this->IsMoving);
   right->IsRightEye = true;
-  right->AddSamples(std::exchange(this->SamplesToAddRight, 0));
   const vtkTypeUInt64 before = right->NumberOfPictures;
   right->Render(state);
   this->NumberOfPictures += right->NumberOfPictures - before;
@@ -190,7 +259,6 @@ void vtkDepthShadingPass::Render(const vtkRenderState* state)
 void vtkDepthShadingPass::RenderEye(const vtkRenderState* state)
 {
   this->NumberOfRenderedProps = 0;
-  const int samplesToAdd = std::exchange(this->SamplesToAdd, 0);
   vtkRenderer* renderer = state->GetRenderer();
   auto* window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
   if (!this->DelegatePass || !window)
@@ -204,163 +272,124 @@ void vtkDepthShadingPass::RenderEye(const vtkRenderState* state)
   setClippingRangeToSteps(renderer->GetActiveCamera());
 
   std::vector<double> wanted = pointhaptics::pictureState(renderer);
-  const std::array<double, 6> numbers = { this->NoiseLength, this->NoisePerDistance, this->Strength,
-    this->MinimumLightness, this->FillsPinholes ? 1.0 : 0.0, this->Resolution };
-  const bool sameShades = numbers == this->KeptNumbers;
-  const bool isNew = wanted != this->Kept || !sameShades || renderer->GetSelector();
-  if (isNew)
+  wanted.insert(wanted.end(),
+    { this->NoiseLength, this->NoisePerDistance, this->Strength, this->MinimumLightness, this->Resolution,
+      double(this->BlendsSplats) });
+  if (wanted != this->Kept || renderer->GetSelector())
   {
-    this->NumberOfSamples = 1;
-    this->DrawSample(state, window);
+    this->Kept.clear();
+    this->DrawPicture(state, window);
     if (window->GetAbortRender())
     {
-      this->ForgetPicture();
-      return;
+      return; // nobody sees it
     }
-    this->KeptNumbers = numbers;
+    this->Shade(renderer, window);
     this->Kept = renderer->GetSelector() ? std::vector<double>() : std::move(wanted);
     ++this->NumberOfPictures;
-    if (this->Resolution < 1.0)
-    {
-      this->ShadeKept(renderer, window);
-    }
   }
   else
   {
     makeTextImages(state);
   }
-  if (!renderer->GetSelector() && this->Resolution == 1.0)
-  {
-    this->DrawSamples(state, window, samplesToAdd);
-  }
-  if (window->GetAbortRender())
-  {
-    return; // nobody sees it
-  }
   this->Show(renderer, window);
-  if (!isNew && this->NumberOfSamples == 1 && !this->KeptIsShaded)
-  {
-    // The first of a row of equal pictures: from now on it need not be shaded either.
-    int width = 0;
-    int height = 0;
-    int x = 0;
-    int y = 0;
-    renderer->GetTiledSizeAndOrigin(&width, &height, &x, &y);
-    this->Colors->CopyFromFrameBuffer(x, y, 0, 0, width, height);
-    this->KeptIsShaded = true;
-  }
 }
 
-void vtkDepthShadingPass::DrawSample(const vtkRenderState* state, vtkOpenGLRenderWindow* window)
+/// That of the delegate, before it is shaded.
+void vtkDepthShadingPass::DrawPicture(const vtkRenderState* state, vtkOpenGLRenderWindow* window)
 {
-  this->KeptIsShaded = false;
+  const bool blends = this->BlendsSplats && !state->GetRenderer()->GetSelector();
   window->GetState()->PushFramebufferBindings();
-  this->Frame->Bind();
-  this->RenderDelegate(state, this->W, this->H, this->W, this->H, this->Frame, this->Colors, this->Depths);
-  this->FillPinholes(state->GetRenderer(), window);
+  Target& drawn = this->Drawn;
+  drawn.Frame->Bind();
+  // The right eye's pass is asked by none: its stage is the left one's, which stands at the renderer.
+  vtkDepthShadingPass* asked = GetPassOf(state->GetRenderer());
+  asked = asked ? asked : this;
+  asked->DrawnStage = blends ? Stage::Depths : Stage::Picture;
+  this->RenderDelegate(state, this->W, this->H, this->W, this->H, drawn.Frame, drawn.Colors, drawn.Depths);
+  if (blends && !window->GetAbortRender())
+  {
+    asked->DrawnStage = Stage::Blending;
+    this->SumSplats(state, window);
+    this->DivideSums(state->GetRenderer(), window);
+  }
+  asked->DrawnStage = Stage::Picture;
   window->GetState()->PopFramebufferBindings();
 }
 
-/// @p count samples more of the picture that was drawn last.
-void vtkDepthShadingPass::DrawSamples(const vtkRenderState* state, vtkOpenGLRenderWindow* window, int count)
+void vtkDepthShadingPass::SumSplats(const vtkRenderState* state, vtkOpenGLRenderWindow* window)
 {
-  const int end = std::min(kMostSamples, this->NumberOfSamples + count);
-  if (this->NumberOfSamples >= end)
+  vtkOpenGLState* gl = window->GetState();
+  vtkOpenGLState::ScopedglEnableDisable depthTest(gl, GL_DEPTH_TEST);
+  vtkOpenGLState::ScopedglEnableDisable blend(gl, GL_BLEND);
+  vtkOpenGLState::ScopedglEnableDisable scissor(gl, GL_SCISSOR_TEST);
+  vtkOpenGLState::ScopedglBlendFuncSeparate function(gl);
+  vtkOpenGLFramebufferObject* frame = this->Sums.Frame;
+  frame->Bind();
+  frame->AddColorAttachment(0, this->Sums.Colors);
+  frame->AddColorAttachment(1, this->Sums.Depths);
+  frame->AddDepthAttachment(this->Drawn.Depths);
+  frame->ActivateDrawBuffers(2);
+  gl->vtkglViewport(0, 0, this->W, this->H);
+  gl->vtkglDisable(GL_SCISSOR_TEST);
+  gl->vtkglColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  const float zero[4] = { 0.0F, 0.0F, 0.0F, 0.0F };
+  glClearBufferfv(GL_COLOR, 0, zero);
+  glClearBufferfv(GL_COLOR, 1, zero);
+  gl->vtkglEnable(GL_DEPTH_TEST);
+  gl->vtkglDepthFunc(GL_LEQUAL);
+  gl->vtkglDepthMask(GL_FALSE);
+  gl->vtkglEnable(GL_BLEND);
+  gl->vtkglBlendFuncSeparate(GL_ONE, GL_ONE, GL_ONE, GL_ONE);
+  gl->vtkglBlendEquationSeparate(GL_FUNC_ADD, GL_MAX);
+  for (int i = 0; i < state->GetPropArrayCount() && !window->GetAbortRender(); ++i)
   {
-    return;
-  }
-  vtkCamera* camera = state->GetRenderer()->GetActiveCamera();
-  double center[2];
-  camera->GetWindowCenter(center);
-  if (this->NumberOfSamples == 1)
-  {
-    this->AddToSum(state->GetRenderer(), window);
-    // What is picked by depth is picked where the pixel's middle shows it.
-    std::swap(this->FirstDepths, this->FillsPinholes ? this->FilledDepths : this->Depths);
-    vtkTextureObject* spare = this->FillsPinholes ? this->FilledDepths : this->Depths;
-    if (spare->GetWidth() != unsigned(this->W) || spare->GetHeight() != unsigned(this->H))
+    auto* actor = vtkActor::SafeDownCast(state->GetPropArray()[i]);
+    auto* splats = actor ? vtkSplatMapper::SafeDownCast(actor->GetMapper()) : nullptr;
+    if (splats && actor->GetVisibility())
     {
-      spare->AllocateDepth(unsigned(this->W), unsigned(this->H), vtkTextureObject::Float32);
+      actor->GetProperty()->Render(actor, state->GetRenderer());
+      splats->Render(state->GetRenderer(), actor);
     }
   }
-  while (this->NumberOfSamples < end)
-  {
-    const double* offset = kSamples[this->NumberOfSamples];
-    camera->SetWindowCenter(
-      center[0] + 2.0 * offset[0] / this->Width, center[1] + 2.0 * offset[1] / this->Height);
-    this->DrawSample(state, window);
-    if (window->GetAbortRender())
-    {
-      break;
-    }
-    ++this->NumberOfSamples;
-    this->AddToSum(state->GetRenderer(), window);
-  }
-  camera->SetWindowCenter(center[0], center[1]);
-  if (window->GetAbortRender() && this->NumberOfSamples == 1)
-  {
-    this->ForgetPicture(); // what was drawn lies over it
-  }
+  gl->vtkglBlendEquationSeparate(GL_FUNC_ADD, GL_FUNC_ADD);
+  gl->vtkglDepthMask(GL_TRUE);
 }
 
-/// The next frame draws all anew.
-void vtkDepthShadingPass::ForgetPicture()
+/// Over what was drawn without the splats.
+void vtkDepthShadingPass::DivideSums(vtkRenderer* renderer, vtkOpenGLRenderWindow* window)
 {
-  this->Kept.clear();
-  this->NumberOfSamples = 0;
-}
-
-/// Shades the picture that was drawn last, at its own resolution.
-void vtkDepthShadingPass::ShadeKept(vtkRenderer* renderer, vtkOpenGLRenderWindow* window)
-{
-  vtkOpenGLState* state = window->GetState();
-  state->PushFramebufferBindings();
-  {
-    vtkOpenGLState::ScopedglEnableDisable depthTest(state, GL_DEPTH_TEST);
-    vtkOpenGLState::ScopedglEnableDisable blend(state, GL_BLEND);
-    vtkOpenGLState::ScopedglEnableDisable scissor(state, GL_SCISSOR_TEST);
-    // Into the textures that are not shown, which are of no use any more.
-    this->FillsPinholes ? drawInto(this->Frame, this->Colors, this->Depths, state)
-                        : drawInto(this->FilledFrame, this->FilledColors, this->FilledDepths, state);
-    this->DrawPicture(this->ShownColors(), this->ShownDepths(), 1, renderer, window);
-  }
-  state->PopFramebufferBindings();
-  if (!this->FillsPinholes)
-  {
-    std::swap(this->Colors, this->FilledColors);
-  }
-  this->KeptIsShaded = true;
-}
-
-/// Adds the sample that was drawn last, shaded. The first one begins the sum. Each counts as the bytes it has
-/// alone, so that the picture does not depend on which frames its samples were drawn in.
-void vtkDepthShadingPass::AddToSum(vtkRenderer* renderer, vtkOpenGLRenderWindow* window)
-{
-  if (this->Sum->GetWidth() != unsigned(this->W) || this->Sum->GetHeight() != unsigned(this->H))
-  {
-    this->Sum->Create2D(unsigned(this->W), unsigned(this->H), 4, VTK_FLOAT, false);
-  }
-  if (!this->KeptIsShaded)
-  {
-    this->ShadeKept(renderer, window);
-  }
-  if (!this->PrepareQuad(this->CopyQuad, pointhaptics::kCopyShader, window))
+  if (!this->PrepareQuad(this->DivideQuad, pointhaptics::kDivideShader, window))
   {
     return;
   }
   vtkOpenGLState* state = window->GetState();
+  const DrawingInto into(this->Drawn, state);
+  vtkOpenGLState::ScopedglBlendFuncSeparate function(state);
+  state->vtkglEnable(GL_BLEND);
+  state->vtkglBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE);
+  this->Draw(*this->DivideQuad, this->Sums, renderer);
+}
+
+/// What was drawn, into what is shown.
+void vtkDepthShadingPass::Shade(vtkRenderer* renderer, vtkOpenGLRenderWindow* window)
+{
+  vtkOpenGLState* state = window->GetState();
   state->PushFramebufferBindings();
+  if (this->PrepareQuad(this->CopyQuad, pointhaptics::kCopyShader, window))
   {
-    vtkOpenGLState::ScopedglEnableDisable depthTest(state, GL_DEPTH_TEST);
-    vtkOpenGLState::ScopedglEnableDisable blend(state, GL_BLEND);
-    vtkOpenGLState::ScopedglEnableDisable scissor(state, GL_SCISSOR_TEST);
-    vtkOpenGLState::ScopedglBlendFuncSeparate sum(state);
-    drawInto(this->SumFrame, this->Sum, nullptr, state);
-    state->vtkglDisable(GL_DEPTH_TEST);
-    state->SetEnumState(GL_BLEND, this->NumberOfSamples > 1);
-    state->vtkglBlendFuncSeparate(GL_ONE, GL_ONE, GL_ONE, GL_ONE);
-    this->CopyQuad->Program->SetUniformf("samples", 1.0F);
-    this->Draw(*this->CopyQuad, this->ShownColors(), this->ShownDepths(), renderer);
+    const DrawingInto into(this->Shown, state);
+    this->Draw(*this->CopyQuad, this->Drawn, renderer);
+    if (!renderer->GetSelector() &&
+      this->PrepareQuad(
+        this->ShadeQuad, std::string(pointhaptics::kShade) + pointhaptics::kShadeShader, window, true))
+    {
+      state->vtkglDepthMask(GL_FALSE);
+      state->vtkglDepthFunc(GL_GREATER);
+      vtkShaderProgram* program = this->ShadeQuad->Program;
+      program->SetUniformf("strength", static_cast<float>(this->Strength));
+      program->SetUniformf("minimumLightness", static_cast<float>(this->MinimumLightness));
+      this->Draw(*this->ShadeQuad, this->Drawn, renderer);
+    }
   }
   state->PopFramebufferBindings();
 }
@@ -395,8 +424,7 @@ bool vtkDepthShadingPass::PrepareQuad(std::unique_ptr<vtkOpenGLQuadHelper>& quad
   return true;
 }
 
-void vtkDepthShadingPass::SetUniforms(
-  vtkShaderProgram* program, vtkTextureObject* colors, vtkTextureObject* depths, vtkRenderer* renderer)
+void vtkDepthShadingPass::SetUniforms(vtkShaderProgram* program, const Target& source, vtkRenderer* renderer)
 {
   vtkCamera* camera = renderer->GetActiveCamera();
   const double* range = camera->GetClippingRange();
@@ -407,10 +435,10 @@ void vtkDepthShadingPass::SetUniforms(
   const double height = isParallel
     ? 2.0 * camera->GetParallelScale()
     : 2.0 * std::tan(0.5 * vtkMath::RadiansFromDegrees(camera->GetViewAngle()));
-  colors->Activate();
-  depths->Activate();
-  program->SetUniformi("colors", colors->GetTextureUnit());
-  program->SetUniformi("depths", depths->GetTextureUnit());
+  source.Colors->Activate();
+  source.Depths->Activate();
+  program->SetUniformi("colors", source.Colors->GetTextureUnit());
+  program->SetUniformi("depths", source.Depths->GetTextureUnit());
   program->SetUniform2f("clipping", clipping);
   program->SetUniformi("isParallel", isParallel ? 1 : 0);
   program->SetUniformf("pixelSize", static_cast<float>(height / std::max(1, this->H)));
@@ -419,59 +447,18 @@ void vtkDepthShadingPass::SetUniforms(
   program->SetUniform2f("noise", noise);
 }
 
-/// From the delegate's picture to that without holes.
-void vtkDepthShadingPass::FillPinholes(vtkRenderer* renderer, vtkOpenGLRenderWindow* window)
+void vtkDepthShadingPass::Draw(vtkOpenGLQuadHelper& quad, const Target& source, vtkRenderer* renderer)
 {
-  if (!this->FillsPinholes || !this->PrepareQuad(this->FillQuad, pointhaptics::kPinholeShader, window))
-  {
-    return;
-  }
-  vtkOpenGLState* state = window->GetState();
-  vtkOpenGLState::ScopedglEnableDisable depthTest(state, GL_DEPTH_TEST);
-  vtkOpenGLState::ScopedglEnableDisable blend(state, GL_BLEND);
-  vtkOpenGLState::ScopedglEnableDisable scissor(state, GL_SCISSOR_TEST);
-  drawInto(this->FilledFrame, this->FilledColors, this->FilledDepths, state);
-  state->vtkglEnable(GL_DEPTH_TEST);
-  state->vtkglDepthFunc(GL_ALWAYS);
-  state->vtkglDepthMask(GL_TRUE);
-  state->vtkglDisable(GL_BLEND);
-  this->FillQuad->Program->SetUniformi("neighbors", 8);
-  this->Draw(*this->FillQuad, this->Colors, this->Depths, renderer);
-  state->vtkglDepthFunc(GL_LEQUAL);
-}
-
-/// Of the picture that is shown: filled, or after it was kept as it is.
-vtkTextureObject* vtkDepthShadingPass::ShownColors()
-{
-  return this->FillsPinholes && !this->KeptIsShaded ? this->FilledColors : this->Colors;
-}
-
-vtkTextureObject* vtkDepthShadingPass::ShownDepths()
-{
-  return this->FillsPinholes ? this->FilledDepths : this->Depths;
-}
-
-void vtkDepthShadingPass::SetShade(vtkOpenGLQuadHelper& quad)
-{
-  quad.Program->SetUniformf("strength", static_cast<float>(this->Strength));
-  quad.Program->SetUniformf("minimumLightness", static_cast<float>(this->MinimumLightness));
-}
-
-void vtkDepthShadingPass::Draw(
-  vtkOpenGLQuadHelper& quad, vtkTextureObject* colors, vtkTextureObject* depths, vtkRenderer* renderer)
-{
-  this->SetUniforms(quad.Program, colors, depths, renderer);
+  this->SetUniforms(quad.Program, source, renderer);
   quad.Render();
-  depths->Deactivate();
-  colors->Deactivate();
+  source.Depths->Deactivate();
+  source.Colors->Deactivate();
 }
 
-/// Into the frame buffer.
+/// Into the frame buffer: a copy of bytes where both have the same.
 void vtkDepthShadingPass::Show(vtkRenderer* renderer, vtkOpenGLRenderWindow* window)
 {
   vtkOpenGLState* state = window->GetState();
-  vtkOpenGLState::ScopedglEnableDisable depthTest(state, GL_DEPTH_TEST);
-  vtkOpenGLState::ScopedglEnableDisable blend(state, GL_BLEND);
   int width = 0;
   int height = 0;
   int x = 0;
@@ -479,39 +466,27 @@ void vtkDepthShadingPass::Show(vtkRenderer* renderer, vtkOpenGLRenderWindow* win
   renderer->GetTiledSizeAndOrigin(&width, &height, &x, &y);
   state->vtkglViewport(x, y, width, height);
   state->vtkglScissor(x, y, width, height);
-  const bool isMean = this->NumberOfSamples > 1;
-  this->DrawPicture(isMean ? this->Sum.Get() : this->ShownColors(),
-    isMean ? this->FirstDepths.Get() : this->ShownDepths(), this->NumberOfSamples, renderer, window);
-}
-
-/// All over what is bound. @param colors the sum of @p samples samples, of which one is shaded if it is not.
-void vtkDepthShadingPass::DrawPicture(vtkTextureObject* colors, vtkTextureObject* depths, int samples,
-  vtkRenderer* renderer, vtkOpenGLRenderWindow* window)
-{
+  if (this->Resolution == 1.0 && this->ShownFormat == this->WindowFormat)
+  {
+    state->PushReadFramebufferBinding();
+    this->Shown.Frame->Bind(GL_READ_FRAMEBUFFER);
+    this->Shown.Frame->ActivateReadBuffer(0);
+    state->vtkglDepthMask(GL_TRUE);
+    glBlitFramebuffer(0, 0, this->W, this->H, x, y, x + width, y + height,
+      GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT, GL_NEAREST);
+    state->PopReadFramebufferBinding();
+    return;
+  }
   if (!this->PrepareQuad(this->CopyQuad, pointhaptics::kCopyShader, window))
   {
     return;
   }
-  vtkOpenGLState* state = window->GetState();
-  // Depths are written only where they are tested.
-  state->vtkglEnable(GL_DEPTH_TEST);
-  state->vtkglDepthFunc(GL_ALWAYS);
-  state->vtkglDepthMask(GL_TRUE);
-  state->vtkglDisable(GL_BLEND);
-  colors->SetMagnificationFilter(
+  vtkOpenGLState::ScopedglEnableDisable depthTest(state, GL_DEPTH_TEST);
+  vtkOpenGLState::ScopedglEnableDisable blend(state, GL_BLEND);
+  overwriteAll(state);
+  this->Shown.Colors->SetMagnificationFilter(
     this->Resolution < 1.0 ? vtkTextureObject::Linear : vtkTextureObject::Nearest);
-  this->CopyQuad->Program->SetUniformf("samples", static_cast<float>(samples));
-  this->Draw(*this->CopyQuad, colors, depths, renderer);
-  if (samples == 1 && !this->KeptIsShaded &&
-    this->PrepareQuad(
-      this->ShadeQuad, std::string(pointhaptics::kShade) + pointhaptics::kShadeShader, window, true))
-  {
-    state->vtkglDepthMask(GL_FALSE);
-    state->vtkglDepthFunc(GL_GREATER);
-    this->SetShade(*this->ShadeQuad);
-    this->Draw(*this->ShadeQuad, colors, depths, renderer);
-    state->vtkglDepthMask(GL_TRUE);
-  }
+  this->Draw(*this->CopyQuad, this->Shown, renderer);
   state->vtkglDepthFunc(GL_LEQUAL);
 }
 
@@ -522,22 +497,18 @@ void vtkDepthShadingPass::ReleaseGraphicsResources(vtkWindow* window)
   {
     this->RightEye->ReleaseGraphicsResources(window);
   }
-  for (auto* quad : { &this->FillQuad, &this->CopyQuad, &this->ShadeQuad })
+  for (auto* quad : { &this->DivideQuad, &this->CopyQuad, &this->ShadeQuad })
   {
     quad->reset();
   }
-  if (this->Frame)
+  for (Target* target : { &this->Drawn, &this->Sums, &this->Shown })
   {
-    for (auto* frame : { &this->Frame, &this->FilledFrame, &this->SumFrame })
+    if (target->Frame)
     {
-      (*frame)->ReleaseGraphicsResources(window);
-      *frame = nullptr;
-    }
-    for (auto* texture : { &this->Colors, &this->Depths, &this->FilledColors, &this->FilledDepths, &this->Sum,
-           &this->FirstDepths })
-    {
-      (*texture)->ReleaseGraphicsResources(window);
-      *texture = nullptr;
+      target->Frame->ReleaseGraphicsResources(window);
+      target->Colors->ReleaseGraphicsResources(window);
+      target->Depths->ReleaseGraphicsResources(window);
+      *target = Target();
     }
   }
   this->Kept.clear();
@@ -551,8 +522,7 @@ void vtkDepthShadingPass::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Strength: " << this->Strength << "\n";
   os << indent << "IsMoving: " << this->IsMoving << "\n";
   os << indent << "Resolution: " << this->Resolution << "\n";
-  os << indent << "FillsPinholes: " << this->FillsPinholes << "\n";
+  os << indent << "BlendsSplats: " << this->BlendsSplats << "\n";
   os << indent << "MinimumLightness: " << this->MinimumLightness << "\n";
-  os << indent << "NumberOfSamples: " << this->NumberOfSamples << "\n";
   os << indent << "NumberOfPictures: " << this->NumberOfPictures << "\n";
 }

@@ -2,14 +2,18 @@
  * @class   vtkDepthShadingPass
  * @brief   Eye-dome lighting for point clouds: darkens what lies behind its surroundings.
  *
- * Renders its delegate (a vtkCameraPass), fills pixels that lie behind nearly all around them, the holes
- * between splats, and darkens each by how far it lies behind what is on both sides of it, at three distances
- * in the picture: points without normals show their shape. It differs from vtkEDLShading in four ways:
+ * Renders its delegate (a vtkCameraPass) and darkens each pixel by how far it lies behind what is on both
+ * sides of it, at three distances in the picture: points without normals show their shape. It differs from
+ * vtkEDLShading in four ways:
  * - opposite sides are taken together: a slope is as light as a plane that faces the viewer, and a splat in
  *   front of a surface draws no outline on it;
  * - the background is never darkened, and darkens nothing;
  * - what lies deeper by no more than the noise of the cloud stays as light as the rest;
  * - its steps have full resolution, and cost a software renderer a sixth as much or less.
+ *
+ * With BlendsSplats the splats of one surface (vtkSplatMapper) are blended before they are shaded: colours
+ * and depths of those within reach of the nearest are added, weighted towards their middles, and divided by
+ * the weights. Large splats show no mosaic, and the rims of small ones are smooth.
  *
  * The camera's clipping range is widened to powers of the fourth root of 2: where it is reset, or another
  * prop comes into the scene, the picture of an equal view stays the same to the bit.
@@ -18,10 +22,8 @@
  *
  * Sizes in pixels are those of a window of 800 lines and grow with it.
  *
- * A picture in which only text changed (vtkActor2D) is not drawn anew: the delegate's last one is taken.
- *
- * A picture is first drawn with one sample a pixel. Each that AddSamples() asks for is drawn elsewhere within
- * the pixels and averaged with those before: edges get smooth where there is time, in frames of equal length.
+ * A picture in which only what is drawn over it changed, text (vtkActor2D) and marks (vtkOverlayActor), is
+ * not drawn anew: the last one is taken, with its depths.
  *
  * Where the processor draws, a picture in motion has kMostMovingPixels at most, spread over the window.
  *
@@ -37,7 +39,6 @@
 #include "vtkDepthImageProcessingPass.h"
 #include "vtkSmartPointer.h" // For members
 
-#include <array>  // For members
 #include <memory> // For std::unique_ptr
 #include <string> // For shaders
 #include <vector> // For members
@@ -83,14 +84,6 @@ public:
 
   ///@{
   /**
-   * Whether holes of a pixel or two are filled. Default: on.
-   */
-  vtkSetMacro(FillsPinholes, bool);
-  vtkGetMacro(FillsPinholes, bool);
-  ///@}
-
-  ///@{
-  /**
    * Lightness that is left to the darkest points, 0 to 1; default 0.25.
    */
   vtkSetClampMacro(MinimumLightness, double, 0.0, 1.0);
@@ -114,17 +107,23 @@ public:
   /// That of @p renderer, made by applyDepthShading(); null: it has none.
   static vtkDepthShadingPass* GetPassOf(vtkRenderer* renderer);
 
-  /// Samples of a pixel that tell: the first in its middle, the others about it.
-  static constexpr int kMostSamples = 5;
+  ///@{
   /**
-   * The next frame draws up to @p count samples more of its picture, until it has kMostSamples. A picture
-   * that is not the kept one begins anew, with one sample more.
+   * Whether splats are blended, in pictures at rest. Takes about twice as long. Default: off.
    */
-  void AddSamples(int count) { this->SamplesToAdd = this->SamplesToAddRight = count; }
-  /**
-   * Those of the picture that was shown last; 0: none was.
-   */
-  vtkGetMacro(NumberOfSamples, int);
+  vtkSetMacro(BlendsSplats, bool);
+  vtkGetMacro(BlendsSplats, bool);
+  ///@}
+
+  /// What the splats are drawn for.
+  enum class Stage
+  {
+    Picture, ///< As they are.
+    Depths,  ///< Those that are blended leave their depths alone.
+    Blending ///< Weighted sums, by the depths that were left.
+  };
+  /// At present, of the picture that @p renderer draws.
+  static Stage StageOf(vtkRenderer* renderer);
 
   /**
    * How often the delegate has drawn another picture.
@@ -142,56 +141,45 @@ private:
   vtkDepthShadingPass(const vtkDepthShadingPass&) = delete;
   void operator=(const vtkDepthShadingPass&) = delete;
 
+  /// Colours and depths that are drawn into.
+  struct Target
+  {
+    vtkSmartPointer<vtkOpenGLFramebufferObject> Frame;
+    vtkSmartPointer<vtkTextureObject> Colors;
+    vtkSmartPointer<vtkTextureObject> Depths; // of a sum: the weights, and the depths times them
+  };
   void RenderEye(const vtkRenderState* state);
   void RenderRightEye(const vtkRenderState* state);
   void ChooseResolution(const vtkRenderState* state, vtkOpenGLRenderWindow* window);
   void PrepareTargets(vtkOpenGLRenderWindow* window);
   bool PrepareQuad(std::unique_ptr<vtkOpenGLQuadHelper>& quad, const std::string& fragment,
     vtkOpenGLRenderWindow* window, bool isBehindAll = false);
-  void SetUniforms(
-    vtkShaderProgram* program, vtkTextureObject* colors, vtkTextureObject* depths, vtkRenderer* renderer);
-  void DrawSample(const vtkRenderState* state, vtkOpenGLRenderWindow* window);
-  void ForgetPicture();
-  void DrawSamples(const vtkRenderState* state, vtkOpenGLRenderWindow* window, int count);
-  void ShadeKept(vtkRenderer* renderer, vtkOpenGLRenderWindow* window);
-  void AddToSum(vtkRenderer* renderer, vtkOpenGLRenderWindow* window);
-  void FillPinholes(vtkRenderer* renderer, vtkOpenGLRenderWindow* window);
-  void DrawPicture(vtkTextureObject* colors, vtkTextureObject* depths, int samples, vtkRenderer* renderer,
-    vtkOpenGLRenderWindow* window);
+  void SetUniforms(vtkShaderProgram* program, const Target& source, vtkRenderer* renderer);
+  void DrawPicture(const vtkRenderState* state, vtkOpenGLRenderWindow* window);
+  void SumSplats(const vtkRenderState* state, vtkOpenGLRenderWindow* window);
+  void DivideSums(vtkRenderer* renderer, vtkOpenGLRenderWindow* window);
+  void Shade(vtkRenderer* renderer, vtkOpenGLRenderWindow* window);
   void Show(vtkRenderer* renderer, vtkOpenGLRenderWindow* window);
-  void SetShade(vtkOpenGLQuadHelper& quad);
-  void Draw(
-    vtkOpenGLQuadHelper& quad, vtkTextureObject* colors, vtkTextureObject* depths, vtkRenderer* renderer);
-  vtkTextureObject* ShownColors();
-  vtkTextureObject* ShownDepths();
+  void Draw(vtkOpenGLQuadHelper& quad, const Target& source, vtkRenderer* renderer);
 
   double NoiseLength = 0.0;
   double NoisePerDistance = 0.0;
   double Strength = 1.6;
   double MinimumLightness = 0.25;
-  bool FillsPinholes = true;
   bool IsMoving = false;
+  bool BlendsSplats = false;
+  Stage DrawnStage = Stage::Picture;
   double Resolution = 1.0;
-  vtkSmartPointer<vtkOpenGLFramebufferObject> Frame;
-  vtkSmartPointer<vtkTextureObject> Colors;
-  vtkSmartPointer<vtkTextureObject> Depths;
-  vtkSmartPointer<vtkOpenGLFramebufferObject> FilledFrame;
-  vtkSmartPointer<vtkTextureObject> FilledColors;
-  vtkSmartPointer<vtkTextureObject> FilledDepths;
-  // Of pictures with several samples: the sum of the shaded ones, and the depths of the first.
-  vtkSmartPointer<vtkOpenGLFramebufferObject> SumFrame;
-  vtkSmartPointer<vtkTextureObject> Sum;
-  vtkSmartPointer<vtkTextureObject> FirstDepths;
-  std::unique_ptr<vtkOpenGLQuadHelper> FillQuad;
+  Target Drawn;
+  Target Sums;
+  Target Shown;          // kept
+  int ShownFormat = -1;  // of its depths
+  int WindowFormat = -1; // of those it is shown in; below 0: its bytes cannot be copied
+  std::unique_ptr<vtkOpenGLQuadHelper> DivideQuad;
   std::unique_ptr<vtkOpenGLQuadHelper> CopyQuad;
   std::unique_ptr<vtkOpenGLQuadHelper> ShadeQuad;
-  std::vector<double> Kept; // what the textures show, see pictureState()
-  bool KeptIsShaded = false;
-  std::array<double, 6> KeptNumbers{}; // all settings they were made with
-  int SamplesToAdd = 0;
-  int SamplesToAddRight = 0; // for the right eye
+  std::vector<double> Kept; // what is shown, see pictureState()
   vtkSmartPointer<vtkDepthShadingPass> RightEye;
   bool IsRightEye = false;
-  int NumberOfSamples = 0;
   vtkTypeUInt64 NumberOfPictures = 0;
 };

@@ -6,13 +6,10 @@
 #include "vtkDepthShadingPass.h"
 
 #include "vtkActor.h"
-#include "vtkCamera.h"
 #include "vtkDataArray.h"
 #include "vtkDataObject.h"
 #include "vtkHardwareSelector.h"
 #include "vtkMath.h"
-#include "vtkMatrix4x4.h"
-#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLHelper.h"
 #include "vtkOpenGLIndexBufferObject.h"
@@ -40,12 +37,9 @@ namespace
 
 constexpr const char* kAttribute = "splatLength";
 constexpr const char* kNormalAttribute = "splatNormal";
-constexpr double kPixelsWithoutArray = 3.0;
-/// Of the window that the sizes in pixels are meant for.
-constexpr double kUsualHeight = 800.0;
-/// From the viewer's left and above, in view coordinates.
-constexpr double kLightDirection[3] = { -0.45, 0.55, 0.70 };
-
+/// Around the picture, pixels: half of the largest point that a software renderer draws. It draws none whose
+/// middle is out of its viewport.
+constexpr int kMargin = 128;
 } // namespace
 
 vtkStandardNewMacro(vtkSplatMapper);
@@ -88,6 +82,11 @@ void vtkSplatMapper::SetPixelRange(double smallest, double largest)
     this->SmallestPixels = smallest;
     this->LargestPixels = largest;
   }
+}
+
+void vtkSplatMapper::SetSurfacePixels(double pixels)
+{
+  this->SurfacePixels = pixels > 0.0 ? pixels : this->SurfacePixels;
 }
 
 void vtkSplatMapper::SetFixedPixels(double pixels)
@@ -176,6 +175,7 @@ void vtkSplatMapper::CopySizes(const vtkSplatMapper* other, double factor)
   const double wider = other->Surfaces ? factor : 1.0;
   this->SetPixelRange(other->SmallestPixels, wider * other->LargestPixels);
   this->SetPointPixels(wider * other->PointPixels);
+  this->SetSurfacePixels(wider * other->SurfacePixels);
   this->SetFixedPixels(factor * other->FixedPixels);
   this->SetAmbientLight(other->AmbientLight);
   this->SetNormalArrayName(other->NormalArrayName);
@@ -310,7 +310,41 @@ void vtkSplatMapper::DrawPoints(
   }
 }
 
+/// Into a viewport that is larger than the picture by half a splat, so that those at the border are drawn
+/// whose middles lie beyond.
 void vtkSplatMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* actor)
+{
+  using Stage = vtkDepthShadingPass::Stage;
+  const Stage stage = vtkDepthShadingPass::StageOf(renderer);
+  const bool blends = this->Surfaces && this->HasNormals;
+  if (stage == Stage::Blending && !blends)
+  {
+    return; // it is in the picture already
+  }
+  vtkOpenGLState* state = vtkOpenGLRenderer::SafeDownCast(renderer)->GetState();
+  int place[4]; // and size
+  state->vtkglGetIntegerv(GL_VIEWPORT, place);
+  for (int axis = 0; axis < 2; ++axis)
+  {
+    this->Fit[axis] = double(place[2 + axis]) / (place[2 + axis] + 2 * kMargin);
+  }
+  state->vtkglViewport(
+    place[0] - kMargin, place[1] - kMargin, place[2] + 2 * kMargin, place[3] + 2 * kMargin);
+  const bool hidesColors = stage == Stage::Depths && blends;
+  if (hidesColors)
+  {
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  }
+  this->DrawSplats(renderer, actor);
+  if (hidesColors)
+  {
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  }
+  state->vtkglViewport(place[0], place[1], place[2], place[3]);
+}
+
+/// The points, and what vtkMapper::SetSelection marks among them.
+void vtkSplatMapper::DrawSplats(vtkRenderer* renderer, vtkActor* actor)
 {
   vtkHardwareSelector* selector = renderer->GetSelector();
   const bool hasCells = this->CurrentInput->GetNumberOfCells() > 0;
@@ -354,15 +388,20 @@ void vtkSplatMapper::ReplaceShaderValues(
     (tilts ? pointhaptics::kSurfaceDeclarations : "");
   vtkShaderProgram::Substitute(vertex, "//VTK::PositionVC::Dec",
     "//VTK::PositionVC::Dec\n" + declared +
-      "uniform float splatPixels;\nuniform float splatLongest;\nuniform vec3 splatRange;\n"
-      "uniform vec3 splatLow;\nuniform vec3 splatHigh;\n");
-  const std::string largest =
-    tilts ? "mix(splatRange.z, splatRange.y, splatFlat * splatFlat)" : "splatRange.y";
+      "uniform float splatPixels;\nuniform float splatLongest;\nuniform vec4 splatRange;\n"
+      "uniform vec2 splatFit;\nuniform vec3 splatLow;\nuniform vec3 splatHigh;\n");
+  // What is flat is as large as it is; the rest stays small on the screen.
+  const std::string size = std::string("splatPixels") +
+    (this->HasSizes ? std::string(" * min(splatLongest, ") + kAttribute + ") / gl_Position.w" : "");
+  const std::string bounded = tilts
+    ? "mix(min(splatSize, mix(splatRange.z, splatRange.y, splatFlat * splatFlat)), "
+      "min(splatSize, splatRange.w), splatCloses)"
+    : "min(splatSize, splatRange.y)";
   vtkShaderProgram::Substitute(vertex, "//VTK::PositionVC::Impl",
     std::string("//VTK::PositionVC::Impl\n") + (this->HasNormals ? pointhaptics::kLightStatements : "") +
-      "  gl_PointSize = clamp(splatPixels" +
-      (this->HasSizes ? std::string(" * min(splatLongest, ") + kAttribute + ") / gl_Position.w" : "") +
-      ", splatRange.x, max(splatRange.x, " + largest + "));\n" +
+      (tilts ? "  float splatCloses = clamp(2.0 * splatFlat - 0.6, 0.0, 1.0);\n" : "") +
+      "  float splatSize = " + size + ";\n  gl_PointSize = clamp(" + bounded +
+      ", splatRange.x, max(splatRange.x, splatRange.w));\n" +
       (tilts ? pointhaptics::kSurfaceStatements : "") + pointhaptics::kClipStatements);
   shaders[vtkShader::Vertex]->SetSource(vertex);
   std::string fragment = shaders[vtkShader::Fragment]->GetSource();
@@ -376,194 +415,13 @@ void vtkSplatMapper::ReplaceShaderValues(
   {
     vtkShaderProgram::Substitute(fragment, "//VTK::PositionVC::Dec",
       std::string("//VTK::PositionVC::Dec\nin float splatLight;\n") +
-        (tilts ? "in vec2 splatSlope;\nin vec2 splatReach;\nuniform vec4 splatTerms;\n"
-                 "uniform int splatIsParallel;\nuniform float splatNarrow;\n"
-               : ""));
-    vtkShaderProgram::Substitute(
-      fragment, "//VTK::Light::Impl", "//VTK::Light::Impl\n  gl_FragData[0].rgb *= splatLight;\n");
+        (tilts ? pointhaptics::kSurfaceFragmentDeclarations : ""));
+    vtkShaderProgram::Substitute(fragment, "//VTK::Light::Impl",
+      std::string("//VTK::Light::Impl\n  gl_FragData[0].rgb *= splatLight;\n") +
+        (tilts ? pointhaptics::kBlendStatements : ""));
   }
   shaders[vtkShader::Fragment]->SetSource(fragment);
   this->Superclass::ReplaceShaderValues(shaders, renderer, actor);
-}
-
-void vtkSplatMapper::SetMapperShaderParameters(vtkOpenGLHelper& cells, vtkRenderer* renderer, vtkActor* actor)
-{
-  this->Superclass::SetMapperShaderParameters(cells, renderer, actor);
-  // VTK sets it only where a factor comes with it.
-  float factor = 0.0F;
-  float offset = 0.0F;
-  this->GetCoincidentParameters(renderer, actor, factor, offset);
-  if (cells.Program->IsUniformUsed("cOffset"))
-  {
-    cells.Program->SetUniformf("cOffset", offset);
-  }
-  this->SetClipParameters(cells);
-  if (this->HasNormals)
-  {
-    this->SetLightParameters(cells, renderer, actor);
-  }
-  if (this->HasNormals && this->Surfaces)
-  {
-    this->SetSurfaceParameters(cells, renderer, actor);
-  }
-  const double resolution = vtkDepthShadingPass::ResolutionOf(renderer);
-  double pixels = resolution * (this->FixedPixels > 0.0 ? this->FixedPixels : kPixelsWithoutArray);
-  double range[3] = { 1.0, resolution * std::max(this->FixedPixels, this->LargestPixels), 0.0 };
-  if (this->HasSizes && this->FixedPixels == 0.0)
-  {
-    // A length at distance w covers as many pixels, for both kinds of projection: w is 1 for a parallel one.
-    vtkMatrix4x4* projection =
-      renderer->GetActiveCamera()->GetProjectionTransformMatrix(renderer->GetTiledAspectRatio(), -1, 1);
-    const double modelScale = std::cbrt(std::abs(actor->GetMatrix()->Determinant()));
-    const double lines = resolution * renderer->GetSize()[1];
-    pixels = this->SizeScale * modelScale * 0.5 * lines * projection->GetElement(1, 1);
-    const double scale = this->Surfaces ? lines / kUsualHeight : resolution;
-    range[0] = std::max(1.0, scale * this->SmallestPixels);
-    range[1] = scale * this->LargestPixels;
-    range[2] = scale * this->PointPixels;
-  }
-  else if (this->HasSizes)
-  {
-    range[0] = range[1] = range[2] = pixels; // whatever the array says
-  }
-  const float limits[3] = { static_cast<float>(range[0]), static_cast<float>(range[1]),
-    static_cast<float>(range[2]) };
-  if (cells.Program->IsUniformUsed("splatPixels"))
-  {
-    cells.Program->SetUniformf("splatPixels", static_cast<float>(pixels));
-  }
-  if (cells.Program->IsUniformUsed("splatLongest"))
-  {
-    cells.Program->SetUniformf("splatLongest", static_cast<float>(this->LargestRatio * this->MedianLength));
-  }
-  if (cells.Program->IsUniformUsed("splatRange"))
-  {
-    cells.Program->SetUniform3f("splatRange", limits);
-  }
-}
-
-/// In the frame of the uploaded points, which are shifted and scaled where they are far from the origin.
-void vtkSplatMapper::SetClipParameters(vtkOpenGLHelper& cells)
-{
-  constexpr double kLargest = 3e38; // of single precision
-  vtkOpenGLVertexBufferObject* points = this->VBOs->GetVBO("vertexMC");
-  const bool isShifted = points && points->GetCoordShiftAndScaleEnabled();
-  float ends[2][3];
-  for (std::size_t side = 0; side < this->ClipBox.size(); ++side)
-  {
-    const std::size_t axis = side / 2;
-    const double shift = isShifted ? points->GetShift()[axis] : 0.0;
-    const double scale = isShifted ? points->GetScale()[axis] : 1.0;
-    ends[side % 2][axis] =
-      static_cast<float>(std::clamp((this->ClipBox[side] - shift) * scale, -kLargest, kLargest));
-  }
-  cells.Program->SetUniform3f("splatLow", ends[0]);
-  cells.Program->SetUniform3f("splatHigh", ends[1]);
-}
-
-/// The slopes of the discs come from normals in the frame of the view: it knows no large coordinates.
-void vtkSplatMapper::SetSurfaceParameters(vtkOpenGLHelper& cells, vtkRenderer* renderer, vtkActor* actor)
-{
-  vtkCamera* camera = renderer->GetActiveCamera();
-  vtkNew<vtkMatrix4x4> toView;
-  vtkMatrix4x4::Multiply4x4(camera->GetViewTransformMatrix(), actor->GetMatrix(), toView);
-  double linear[3][3];
-  double inverse[3][3];
-  for (int row = 0; row < 3; ++row)
-  {
-    for (int column = 0; column < 3; ++column)
-    {
-      linear[row][column] = toView->GetElement(row, column);
-    }
-  }
-  vtkMath::Invert3x3(linear, inverse); // its transpose takes normals
-  double longest = 0.0;
-  for (const auto& row : inverse)
-  {
-    longest = std::max(longest, vtkMath::Norm(row));
-  }
-  float turn[3][3]; // column by column, as OpenGL has it
-  for (std::size_t column = 0; column < 3; ++column)
-  {
-    for (std::size_t row = 0; row < 3; ++row)
-    {
-      turn[column][row] = static_cast<float>(longest > 0.0 ? inverse[column][row] / longest : 0.0);
-    }
-  }
-  vtkMatrix4x4* projection = camera->GetProjectionTransformMatrix(renderer->GetTiledAspectRatio(), -1, 1);
-  const float terms[4] = { static_cast<float>(projection->GetElement(0, 0)),
-    static_cast<float>(projection->GetElement(1, 1)), static_cast<float>(projection->GetElement(2, 2)),
-    static_cast<float>(projection->GetElement(2, 3)) };
-  const double lines = vtkDepthShadingPass::ResolutionOf(renderer) * renderer->GetSize()[1];
-  const double halfPixel = 1.0 / (projection->GetElement(1, 1) * lines);
-  cells.Program->SetUniformMatrix3x3("splatTurn", &turn[0][0]);
-  cells.Program->SetUniform4f("splatTerms", terms);
-  cells.Program->SetUniformf("splatHalfPixel", static_cast<float>(halfPixel));
-  cells.Program->SetUniformf("splatNarrow", this->Foreshortens ? 1.0F : 0.0F);
-  cells.Program->SetUniformi("splatIsParallel", camera->GetParallelProjection() ? 1 : 0);
-}
-
-namespace
-{
-
-/// A point (@p w 1) or a direction (@p w 0) in the frame that @p matrix leads to; @p result may be @p vector.
-void taken(vtkMatrix4x4* matrix, const double* vector, double w, double* result)
-{
-  const double in[4] = { vector[0], vector[1], vector[2], w };
-  double out[4];
-  matrix->MultiplyPoint(in, out);
-  std::copy(out, out + 3, result);
-}
-
-} // namespace
-
-/// All in the frame of the uploaded points.
-void vtkSplatMapper::SetLightParameters(vtkOpenGLHelper& cells, vtkRenderer* renderer, vtkActor* actor)
-{
-  vtkCamera* camera = renderer->GetActiveCamera();
-  vtkNew<vtkMatrix4x4> toModel;
-  vtkMatrix4x4::Invert(actor->GetMatrix(), toModel);
-  vtkNew<vtkMatrix4x4> fromView;
-  vtkMatrix4x4::Invert(camera->GetViewTransformMatrix(), fromView);
-  double lamp[3];
-  taken(fromView, kLightDirection, 0.0, lamp);
-  taken(toModel, lamp, 0.0, lamp);
-  vtkMath::Normalize(lamp);
-  double sky[3];
-  taken(toModel, this->SkyDirection.data(), 0.0, sky);
-  vtkMath::Normalize(sky);
-  const bool isParallel = camera->GetParallelProjection() != 0;
-  double eye[3];
-  double towardsViewer[3];
-  camera->GetDirectionOfProjection(towardsViewer);
-  std::transform(towardsViewer, towardsViewer + 3, towardsViewer, [](double c) { return -c; });
-  taken(toModel, isParallel ? towardsViewer : camera->GetPosition(), isParallel ? 0.0 : 1.0, eye);
-  // Points far from the origin are uploaded shifted and scaled.
-  double unscale[3] = { 1.0, 1.0, 1.0 };
-  vtkOpenGLVertexBufferObject* points = this->VBOs->GetVBO("vertexMC");
-  for (std::size_t axis = 0; points && points->GetCoordShiftAndScaleEnabled() && axis < 3; ++axis)
-  {
-    const double scale = points->GetScale()[axis];
-    unscale[axis] = 1.0 / scale;
-    eye[axis] = scale * (eye[axis] - (isParallel ? 0.0 : points->GetShift()[axis]));
-  }
-  const auto set = [&cells](const char* name, const double* vector)
-  {
-    const float values[3] = { static_cast<float>(vector[0]), static_cast<float>(vector[1]),
-      static_cast<float>(vector[2]) };
-    cells.Program->SetUniform3f(name, values);
-  };
-  const auto setNumber = [&cells](const char* name, double value)
-  { cells.Program->SetUniformf(name, static_cast<float>(value)); };
-  setNumber("splatUnit", 1.0 / this->NormalUnit);
-  setNumber("splatStrength", this->LightStrength);
-  cells.Program->SetUniformi("splatHides", this->HidesBackFaces ? 1 : 0);
-  set("splatLamp", lamp);
-  set("splatSky", sky);
-  set("splatUnscale", unscale);
-  const float place[4] = { static_cast<float>(eye[0]), static_cast<float>(eye[1]), static_cast<float>(eye[2]),
-    isParallel ? 0.0F : 1.0F };
-  cells.Program->SetUniform4f("splatEye", place);
 }
 
 void vtkSplatMapper::PrintSelf(ostream& os, vtkIndent indent)
@@ -579,6 +437,7 @@ void vtkSplatMapper::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Surfaces: " << this->Surfaces << "\n";
   os << indent << "Foreshortens: " << this->Foreshortens << "\n";
   os << indent << "PointPixels: " << this->PointPixels << "\n";
+  os << indent << "SurfacePixels: " << this->SurfacePixels << "\n";
   os << indent << "LightStrength: " << this->LightStrength << "\n";
   os << indent << "NormalUnit: " << this->NormalUnit << "\n";
   os << indent << "HidesBackFaces: " << this->HidesBackFaces << "\n";

@@ -19,8 +19,9 @@
  * normals need no side: the one towards the viewer counts.
  *
  * With Surfaces the normals also say how flat the neighbourhood of each point is, by their length, 0 to 1.
- * Flat neighbourhoods close to a surface: their splats are discs that tilt with it and have depth, and may
- * grow up to LargestPixels. The others stay points: they face the camera, and have at most PointPixels.
+ * Flat neighbourhoods close to a surface: their splats are discs that tilt with it and have depth, and are as
+ * large as their lengths say, from however near. The others stay points: they face the camera, and have from
+ * PointPixels to LargestPixels at most.
  *
  * Picks, selections (vtkHardwareSelector, vtkMapper::SetSelection), translucency and several windows work as
  * with vtkPolyDataMapper. A splat is selected by the pixels it is seen in, under the id that its point or
@@ -80,7 +81,8 @@ public:
 
   ///@{
   /**
-   * No splat is smaller or larger than this, pixels. Default: 2 and 64.
+   * No splat is smaller or larger than this, pixels; with Surfaces those of what is flat may be larger.
+   * Default: 2 and 64.
    */
   void SetPixelRange(double smallest, double largest);
   double GetSmallestPixels() const { return this->SmallestPixels; }
@@ -159,6 +161,15 @@ public:
 
   ///@{
   /**
+   * Largest diameter, pixels, of a splat whose neighbourhood is flat; with Surfaces. Default: as large as its
+   * length says, from however near.
+   */
+  void SetSurfacePixels(double pixels);
+  double GetSurfacePixels() const { return this->SurfacePixels; }
+  ///@}
+
+  ///@{
+  /**
    * How much of the light is seen, 0 (the colours themselves) to 1 (default).
    */
   void SetLightStrength(double strength);
@@ -209,6 +220,7 @@ protected:
 
 private:
   using RangeList = std::vector<std::array<vtkIdType, 2>>;
+  void DrawSplats(vtkRenderer* renderer, vtkActor* actor);
   void DrawPoints(vtkOpenGLHelper& points, vtkRenderer* renderer, vtkActor* actor, const RangeList& ranges);
   void DrawRange(vtkRenderer* renderer, vtkIdType begin, vtkIdType end, bool isIndexed);
   void MapArray(vtkDataArray* array, const std::string& name, const char* attribute, bool& isMapped);
@@ -229,6 +241,7 @@ private:
   bool Surfaces = false;
   bool Foreshortens = true;
   double PointPixels = 4.0;
+  double SurfacePixels = 1e9;
   double LightStrength = 1.0;
   double NormalUnit = 1.0;
   bool HidesBackFaces = false;
@@ -236,8 +249,9 @@ private:
   std::array<double, 3> SkyDirection = { 0.0, 0.0, 1.0 };
   std::array<double, 6> ClipBox;
   std::vector<std::array<vtkIdType, 2>> Ranges;
-  bool HasNormals = false; // the shader in use reads the normals
-  bool HasSizes = false;   // the shader in use reads the array
+  bool HasNormals = false;      // the shader in use reads the normals
+  bool HasSizes = false;        // the shader in use reads the array
+  double Fit[2] = { 1.0, 1.0 }; // of the picture in the viewport that is drawn into
   double MedianLength = 0.0;
   vtkMTimeType MedianTime = 0; // of the array it is from
 };

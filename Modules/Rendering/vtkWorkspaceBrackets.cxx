@@ -4,6 +4,7 @@
 #include "vtkObjectFactory.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
+#include "vtkProperty.h"
 
 #include <algorithm>
 
@@ -20,10 +21,11 @@ vtkStandardNewMacro(vtkWorkspaceBrackets);
 
 vtkWorkspaceBrackets::vtkWorkspaceBrackets()
 {
-  this->SetLines(this->Lines);
-  this->SetColor(0.80, 0.82, 0.86); // for a dark ground
-  this->SetOpacities(kOpacity, kHiddenOpacity);
-  this->SetLineWidth(1.5F);
+  this->SetShape(this->Lines);
+  this->GetProperty()->SetColor(0.80, 0.82, 0.86); // for a dark ground
+  this->GetProperty()->SetOpacity(kOpacity);
+  this->GetProperty()->SetLineWidth(1.5F);
+  this->SetHiddenOpacity(kHiddenOpacity);
 }
 
 vtkWorkspaceBrackets::~vtkWorkspaceBrackets() = default;

@@ -6,22 +6,22 @@
  * faintly, and fainter still where the cloud hides them.
  *
  * @warning Needs the OpenGL back end. GUI thread only.
- * @sa vtkOverlayLines vtkDepthShadingPass
+ * @sa vtkOverlayActor vtkDepthShadingPass
  */
 #pragma once
 
 #include "PointHapticsRenderingModule.h" // For export macro
 
 #include "vtkNew.h" // For members
-#include "vtkOverlayLines.h"
+#include "vtkOverlayActor.h"
 
 class vtkPolyData;
 
-class POINTHAPTICSRENDERING_EXPORT vtkWorkspaceBrackets : public vtkOverlayLines
+class POINTHAPTICSRENDERING_EXPORT vtkWorkspaceBrackets : public vtkOverlayActor
 {
 public:
   static vtkWorkspaceBrackets* New();
-  vtkTypeMacro(vtkWorkspaceBrackets, vtkOverlayLines);
+  vtkTypeMacro(vtkWorkspaceBrackets, vtkOverlayActor);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /**

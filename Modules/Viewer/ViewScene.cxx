@@ -105,30 +105,30 @@ void ViewScene::beginFrame()
   {
     placeScalarBar(scalarBar_, renderer_);
   }
+  if (shown_)
+  {
+    // What a sweep leaves open between its lines stays open from nearer: its first view rules. Surfaces
+    // close.
+    const bool isSweep = shown_->look.kind == CloudKind::Sweep || shown_->look.kind == CloudKind::Indoors;
+    pointsMapper_->SetSurfacePixels(
+      isSweep ? pointsMapper_->GetLargestPixels() * placedDistance_ / this->viewDistance() : INFINITY);
+  }
   this->detail().beginFrame(steadySeconds());
   if (vtkDepthShadingPass* shading = vtkDepthShadingPass::GetPassOf(renderer_))
   {
     shading->SetIsMoving(this->detail().isInMotion());
+    shading->SetBlendsSplats(this->detail().isFinest());
   }
 }
 
 bool ViewScene::refinementDue()
 {
-  const double now = steadySeconds();
-  vtkDepthShadingPass* shading = vtkDepthShadingPass::GetPassOf(renderer_);
-  if (this->detail().isComplete(now) && shading->GetNumberOfSamples() < vtkDepthShadingPass::kMostSamples)
-  {
-    // One a frame: whatever comes meanwhile waits for no more than that.
-    shading->AddSamples(1);
-    return true;
-  }
-  return this->detail().refinementDue(now);
+  return this->detail().refinementDue(steadySeconds());
 }
 
 void ViewScene::completeNextFrame()
 {
   this->detail().showAllOnce();
-  vtkDepthShadingPass::GetPassOf(renderer_)->AddSamples(vtkDepthShadingPass::kMostSamples);
 }
 
 vtkIdType ViewScene::numberOfPoints() const
@@ -467,7 +467,7 @@ void ViewScene::applyLook()
     applyFigureAppearance(pointsMapper_, pointsActor_, renderer_);
   }
   const Vec3 edges = isLightGround(ground) ? Vec3{ 0.25, 0.27, 0.32 } : Vec3{ 0.80, 0.82, 0.86 };
-  brackets_->SetColor(edges.x, edges.y, edges.z);
+  brackets_->GetProperty()->SetColor(edges.x, edges.y, edges.z);
   brackets_->SetVisibility(!figure_);
   props_->GetWorkspaceActor()->SetVisibility(figure_);
   axes_->SetVisibility(wantsAxes_ && !figure_);

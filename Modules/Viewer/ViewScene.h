@@ -251,6 +251,7 @@ private:
   ShownMeasurement measurement_;
   double memoryDue_ = INFINITY;      ///< When returnMemory() has something to do, by steadySeconds().
   std::vector<double> placedCamera_; ///< As placeCamera() left it.
+  double placedDistance_ = 1.0;      ///< viewDistance() of it.
   vtkNew<vtkSplatMapper> pointsMapper_;
   vtkNew<vtkActor> pointsActor_;
   vtkNew<vtkMatrix4x4> pointsMatrix_; ///< From the file to the workspace.

@@ -228,6 +228,7 @@ void ViewScene::placeCamera(const ProxyState* contact)
   }
   this->placeCamera(best);
   placedCamera_ = pictureCamera(renderer_->GetActiveCamera());
+  placedDistance_ = this->viewDistance();
 }
 
 } // namespace pointhaptics

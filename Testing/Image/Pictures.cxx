@@ -471,7 +471,7 @@ bool buildPicture(
     { "Residuals", { "not-a-number-as-zero", "larger" }, buildResiduals },
     { "AmbientLight", { "no-light", "sky-below", "wrong-normals" }, buildAmbientLight },
     { "FirstGlance", { "no-tilt", "no-light", "no-depth", "no-brackets" }, buildFirstGlance },
-    { "SmoothGlance", { "one-sample" }, buildSmoothGlance },
+    { "SmoothGlance", { "not-blended" }, buildSmoothGlance },
     { "CoarseAmbientLight", { "no-light" }, buildCoarseAmbientLight },
     { "HelpOverlay", { "missing-line" }, buildHelpOverlay },
     { "StatusOverlay", { "wrong-number" }, buildStatusOverlay },

@@ -221,18 +221,7 @@ void buildFirstGlance(const std::string& fault, vtkRenderer* renderer)
 void buildSmoothGlance(const std::string& fault, vtkRenderer* renderer)
 {
   buildFirstGlance("", renderer);
-  if (fault != "one-sample")
-  {
-    // In every frame: the first one makes a light, and the next is another picture.
-    vtkNew<vtkCallbackCommand> completing;
-    completing->SetCallback(
-      [](vtkObject* caller, unsigned long, void*, void*)
-      {
-        vtkDepthShadingPass::GetPassOf(vtkRenderer::SafeDownCast(caller))
-          ->AddSamples(vtkDepthShadingPass::kMostSamples);
-      });
-    renderer->AddObserver(vtkCommand::StartEvent, completing);
-  }
+  vtkDepthShadingPass::GetPassOf(renderer)->SetBlendsSplats(fault != "not-blended");
 }
 
 void buildCoarseAmbientLight(const std::string& fault, vtkRenderer* renderer)

@@ -110,7 +110,7 @@ TEST_F(HapticViewerPictures, ShowsPointsThatLieAtOnePlace)
     ASSERT_TRUE(viewer.renderToFile(this->path("place.png"))) << viewer.message();
     const vtkIdType colored = pixelsOfPoints(this->path("place.png"));
     EXPECT_GE(colored, 40) << "a disc of eight pixels";
-    EXPECT_LT(colored, 120);
+    EXPECT_LT(colored, 140); // with its smooth rim
   }
 }
 
@@ -508,7 +508,7 @@ TEST_F(HapticViewerPictures, ShowsEachEyeItsPicture)
   const vtkTypeUInt64 pictures = shading->GetNumberOfPictures();
   ASSERT_TRUE(viewer.renderToFile(this->path("again.png"))) << viewer.message();
   EXPECT_EQ(shading->GetNumberOfPictures(), pictures);
-  EXPECT_EQ(shading->GetNumberOfSamples(), vtkDepthShadingPass::kMostSamples);
+  EXPECT_TRUE(shading->GetBlendsSplats());
   EXPECT_EQ(pixelsOfOneEye(this->path("again.png")), pixelsOfOneEye(this->path("window.png")));
   EXPECT_TRUE(viewer.style()->GetCommands().run("stereo"));
   EXPECT_EQ(notes_.back(), "stereo: none");

@@ -48,7 +48,7 @@ Times timesOf(int count, const std::function<void()>& frame)
 }
 
 /// In the order of Effect.
-constexpr std::array<const char*, 5> kEffects = { "discs", "sizes", "tilt", "shading", "pinholes" };
+constexpr std::array<const char*, 4> kEffects = { "discs", "sizes", "tilt", "shading" };
 
 struct FileCost
 {
@@ -127,16 +127,16 @@ Report benchmarkFiles(const RenderBenchmarkOptions& options, const Progress& pro
     "level of "
     "detail, \"drawn\" the mean number of points in one, \"still ms\" the time of the picture at rest: all "
     "points, "
-    "five samples a pixel. All other columns are the time that all threads together work on a frame, the "
+    "blended. All other columns are the time that all threads together work on a frame, the "
     "least "
     "that was seen: \"motion\" with level of detail, and of {} frames of all points without it round discs "
     "of 3 "
-    "pixels; what sizes by the spacing add; light, tilt and depth by the normals; eye-dome light; filled "
-    "pinholes; and the sum.",
+    "pixels; what sizes by the spacing add; light, tilt and depth by the normals, and the blending; "
+    "eye-dome light; and the sum.",
     options.width, options.fileHeight, kDegreesPerFrame, options.frames,
     std::max(2, options.frames / kFewer));
   part.table.header = { "file", "kind", "points", "fps", "drawn", "motion ms", "still ms", "discs ms",
-    "sizes", "tilt", "shading", "pinholes", "all ms" };
+    "sizes", "tilt", "shading", "all ms" };
   for (const std::string& file : options.files)
   {
     const std::string name = std::filesystem::path(file).filename().string();

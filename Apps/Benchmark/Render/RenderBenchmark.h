@@ -22,11 +22,10 @@ constexpr double kDegreesPerFrame = 2.0;
 /// What a picture is drawn with, each with all before it.
 enum class Effect
 {
-  Discs,    ///< Of 3 pixels each.
-  Sizes,    ///< As large as the spacing says.
-  Tilt,     ///< With light and depth by their normals.
-  Shading,  ///< Eye-dome light.
-  Pinholes, ///< Filled: all that the viewer draws.
+  Discs,   ///< Of 3 pixels each.
+  Sizes,   ///< As large as the spacing says.
+  Tilt,    ///< With light and depth by their normals, blended at rest.
+  Shading, ///< Eye-dome light: all that the viewer draws.
 };
 
 /// The viewer's picture of a file, off the screen. GUI thread only.

@@ -50,7 +50,6 @@ public:
     splats->SetAmbientLight(last >= Effect::Tilt);
     splats->SetSurfaces(last >= Effect::Tilt);
     renderer->SetPass(pass_);
-    vtkDepthShadingPass::GetPassOf(renderer)->SetFillsPinholes(last >= Effect::Pinholes);
     if (last < Effect::Shading)
     {
       renderer->SetPass(nullptr);

@@ -1,6 +1,5 @@
 #include "vtkPickMarker.h"
 
-#include "vtkActor.h"
 #include "vtkActor2D.h"
 #include "vtkAppendPolyData.h"
 #include "vtkCellArray.h"
@@ -8,9 +7,9 @@
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkOutlineSource.h"
+#include "vtkOverlayActor.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
-#include "vtkPolyDataMapper.h"
 #include "vtkPolyDataMapper2D.h"
 #include "vtkProperty.h"
 #include "vtkProperty2D.h"
@@ -29,17 +28,12 @@ constexpr double kCrossColor[3] = { 0.1, 0.1, 0.1 };
 constexpr double kArmBegin = 8.0;
 constexpr double kArmEnd = 18.0;
 
-void setUpLines(vtkActor* actor, vtkPolyDataMapper* mapper, const double color[3])
+void setUpLines(vtkOverlayActor* actor, vtkAlgorithmOutput* shape, const double color[3])
 {
-  mapper->ScalarVisibilityOff();
-  // In front of the cloud, by a depth offset beyond the depth range.
-  mapper->SetResolveCoincidentTopologyToPolygonOffset();
-  mapper->SetRelativeCoincidentTopologyLineOffsetParameters(0.0, -1e6);
-  actor->SetMapper(mapper);
+  actor->SetShape(shape);
   actor->GetProperty()->SetColor(color[0], color[1], color[2]);
-  actor->GetProperty()->LightingOff();
   actor->GetProperty()->SetLineWidth(2.0f);
-  actor->PickableOff();
+  actor->SetHiddenOpacity(1.0);
 }
 
 } // namespace
@@ -47,12 +41,10 @@ void setUpLines(vtkActor* actor, vtkPolyDataMapper* mapper, const double color[3
 struct vtkPickMarker::Internals
 {
   vtkNew<vtkOutlineSource> box;
-  vtkNew<vtkPolyDataMapper> boxMapper;
-  vtkNew<vtkActor> boxActor;
+  vtkNew<vtkOverlayActor> boxActor;
   vtkNew<vtkRegularPolygonSource> circles[3];
   vtkNew<vtkAppendPolyData> sphere;
-  vtkNew<vtkPolyDataMapper> sphereMapper;
-  vtkNew<vtkActor> sphereActor;
+  vtkNew<vtkOverlayActor> sphereActor;
   vtkNew<vtkPolyData> cross;
   vtkNew<vtkPolyDataMapper2D> crossMapper;
   vtkNew<vtkActor2D> crossActor;
@@ -66,8 +58,7 @@ vtkPickMarker::vtkPickMarker()
   : Parts(new Internals)
 {
   Internals& parts = *this->Parts;
-  parts.boxMapper->SetInputConnection(parts.box->GetOutputPort());
-  setUpLines(parts.boxActor, parts.boxMapper, kVoxelColor);
+  setUpLines(parts.boxActor, parts.box->GetOutputPort(), kVoxelColor);
   for (int axis = 0; axis < 3; ++axis)
   {
     vtkRegularPolygonSource* circle = parts.circles[axis];
@@ -76,8 +67,7 @@ vtkPickMarker::vtkPickMarker()
     circle->GeneratePolygonOff();
     parts.sphere->AddInputConnection(circle->GetOutputPort());
   }
-  parts.sphereMapper->SetInputConnection(parts.sphere->GetOutputPort());
-  setUpLines(parts.sphereActor, parts.sphereMapper, kBandwidthColor);
+  setUpLines(parts.sphereActor, parts.sphere->GetOutputPort(), kBandwidthColor);
   vtkNew<vtkPoints> points;
   vtkNew<vtkCellArray> arms;
   for (const double direction : { 1.0, -1.0 })

@@ -1,6 +1,7 @@
 #include "LevelOfDetail.h"
 
 #include "CloudParts.h"
+#include "PictureState.h"
 #include "ProgressiveOrder.h"
 #include "vtkSplatMapper.h"
 
@@ -92,12 +93,7 @@ void LevelOfDetail::setCoarsePointSize(double pixels)
 
 bool LevelOfDetail::refinementDue(double now) const
 {
-  return enabled_ && total_ > 0 && !this->showsAll() && now - lastMotion_ >= kRestSeconds;
-}
-
-bool LevelOfDetail::isComplete(double now) const
-{
-  return enabled_ && total_ > 0 && this->showsAll() && now - lastMotion_ >= kRestSeconds;
+  return enabled_ && total_ > 0 && !this->isFinest() && now - lastMotion_ >= kRestSeconds;
 }
 
 std::optional<double> LevelOfDetail::restingFrame() const
@@ -146,7 +142,7 @@ bool LevelOfDetail::sceneChanged(vtkPolyData* cloud)
   while (vtkActor* actor = actors->GetNextActor(cookie))
   {
     const auto isLevel = [actor](const Level& level) { return level.actor == actor; };
-    if (actor != actor_ && std::none_of(levels_.begin(), levels_.end(), isLevel))
+    if (actor != actor_ && !isDrawnOver(actor) && std::none_of(levels_.begin(), levels_.end(), isLevel))
     {
       propsTime = std::max<unsigned long long>(propsTime, actor->GetRedrawMTime());
     }
@@ -221,6 +217,7 @@ void LevelOfDetail::endFrame()
   if (window_ && window_->GetAbortRender())
   {
     drawn_ = before_; // that is seen still
+    inMotion_ = true;
     frameIsTypical_ = false;
   }
   if (frameIsTypical_ && window_)

@@ -64,10 +64,8 @@ public:
   /// after the cloud was brought up to date. @param now seconds of a steady clock.
   void beginFrame(double now);
 
-  /// The picture rests and does not show all points: render it.
+  /// The picture rests and is not as fine as it gets: render it.
   bool refinementDue(double now) const;
-  /// The picture rests and shows all points.
-  bool isComplete(double now) const;
   /// For how long the frame at rest is drawn that is drawn now, seconds. None: it is one of a motion, or to
   /// be kept, and so not to be given up.
   std::optional<double> restingFrame() const;
@@ -82,6 +80,8 @@ public:
 
   /// Whether the last frame was as fine as it gets: all points, but for those below a pixel.
   bool showsAll() const { return drawn_ >= finest_; }
+  /// Whether it was that at rest: vtkDepthShadingPass blends its splats.
+  bool isFinest() const { return !inMotion_ && this->showsAll(); }
   bool isMoving() const { return moving_; }
   /// The frame is one of a motion: a better one of the same view comes after kRestSeconds.
   bool isInMotion() const { return inMotion_; }

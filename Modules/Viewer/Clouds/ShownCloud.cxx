@@ -34,7 +34,7 @@ namespace
 
 /// Diameter of a splat over the spacing: where nothing is flat, and what flatness adds.
 constexpr double kPointDiameter = 1.1;
-constexpr double kFlatDiameter = 0.7;
+constexpr double kFlatDiameter = 1.1;
 /// Over the spacing of the rays of a frame, flat or not: they lie in a grid, whose diagonals close.
 constexpr double kGridDiameter = 1.5;
 constexpr double kNoGrowth = 64.0;

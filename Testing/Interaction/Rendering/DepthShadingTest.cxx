@@ -8,7 +8,6 @@
 #include <gtest/gtest.h>
 #include <vtkActor.h>
 #include <vtkCamera.h>
-#include <vtkFloatArray.h>
 #include <vtkNew.h>
 #include <vtkPlaneSource.h>
 #include <vtkPolyDataMapper.h>
@@ -19,7 +18,6 @@
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
-#include <set>
 #include <vector>
 
 using namespace pointhaptics;
@@ -77,21 +75,12 @@ protected:
     renderer_->GetActiveCamera()->SetClippingRange(nearest, farthest);
     return picture();
   }
-  /// Drawn with @p samples samples a pixel more.
-  std::vector<unsigned char> picture(int samples = 0)
+  std::vector<unsigned char> picture()
   {
-    vtkDepthShadingPass::GetPassOf(renderer_)->AddSamples(samples);
     window_->Render();
     vtkNew<vtkUnsignedCharArray> pixels;
     window_->GetPixelData(0, 0, kShadedSize - 1, kShadedSize - 1, 0, pixels);
     return { pixels->GetPointer(0), pixels->GetPointer(0) + pixels->GetNumberOfValues() };
-  }
-
-  std::vector<float> depths()
-  {
-    vtkNew<vtkFloatArray> values;
-    window_->GetZbufferData(0, 0, kShadedSize - 1, kShadedSize - 1, values);
-    return { values->GetPointer(0), values->GetPointer(0) + values->GetNumberOfValues() };
   }
 
   vtkNew<vtkRenderer> renderer_;
@@ -121,45 +110,6 @@ TEST_F(DepthShading, APictureIsTheSameToTheByteWhateverElseWidensTheClippingRang
   EXPECT_EQ(renderer_->GetActiveCamera()->GetClippingRange()[1], once[1]);
   EXPECT_LE(once[0], 0.150);
   EXPECT_GE(once[1], 0.27);
-}
-
-/// Walls, ground, and what lies between: the lightness on edges.
-std::size_t numberOfShades(const std::vector<unsigned char>& picture)
-{
-  return std::set<unsigned char>(picture.begin(), picture.end()).size();
-}
-
-TEST_F(DepthShading, SamplesSmoothTheEdgesWhicheverFramesTheyAreDrawnIn)
-{
-  renderer_->GetActiveCamera()->Roll(20.0);
-  renderer_->GetActiveCamera()->SetViewAngle(16.0); // the ground is seen, too
-  applyDepthShading(renderer_, 1.5 * kStep);
-  auto* pass = vtkDepthShadingPass::GetPassOf(renderer_);
-  window_->Render(); // the first one makes a light
-  const std::vector<unsigned char> plain = picture();
-  const std::vector<float> plainDepths = depths();
-  const auto drawn = pass->GetNumberOfPictures();
-  EXPECT_EQ(pass->GetNumberOfSamples(), 1);
-  EXPECT_EQ(numberOfShades(plain), 2u) << "wall and ground";
-
-  std::vector<unsigned char> smooth;
-  for (int samples = 2; samples <= vtkDepthShadingPass::kMostSamples; ++samples)
-  {
-    smooth = picture(1);
-    EXPECT_EQ(pass->GetNumberOfSamples(), samples);
-  }
-  EXPECT_EQ(numberOfShades(smooth), 6u) << "of five samples none to all hit the wall";
-  EXPECT_EQ(picture(1), smooth) << "there are no more samples";
-  EXPECT_EQ(picture(), smooth) << "a frame that asks for none shows those of before";
-  EXPECT_EQ(depths(), plainDepths) << "what is picked lies in the middle of its pixel";
-  EXPECT_EQ(pass->GetNumberOfPictures(), drawn);
-  EXPECT_EQ(renderer_->GetActiveCamera()->GetWindowCenter()[0], 0.0);
-  EXPECT_EQ(renderer_->GetActiveCamera()->GetWindowCenter()[1], 0.0);
-
-  renderer_->GetActiveCamera()->Roll(-1.0);
-  EXPECT_EQ(numberOfShades(picture()), 2u) << "a picture that moves has one sample";
-  renderer_->GetActiveCamera()->Roll(1.0);
-  EXPECT_EQ(picture(vtkDepthShadingPass::kMostSamples), smooth) << "all in one frame";
 }
 
 /// Right of a line that stands in front of the wall: a step of the depth would darken these columns.
