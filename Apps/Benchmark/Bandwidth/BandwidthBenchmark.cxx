@@ -19,7 +19,7 @@ namespace
 /// In the order of the report.
 constexpr Study<StudyContext> kStudies[] = { { "search", studySearch }, { "rules", studyRules },
   { "touch", studyTouch }, { "settling", studySettling }, { "lattice", studyLattice },
-  { "truncation", studyTruncation }, { "sums", studySums } };
+  { "truncation", studyTruncation } };
 
 constexpr const char* kMethod =
 

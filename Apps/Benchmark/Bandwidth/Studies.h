@@ -38,7 +38,6 @@ ReportPart studyTouch(StudyContext& context);
 ReportPart studySettling(StudyContext& context);
 ReportPart studyLattice(StudyContext& context);
 ReportPart studyTruncation(StudyContext& context);
-ReportPart studySums(StudyContext& context);
 
 } // namespace bandwidth
 } // namespace bench

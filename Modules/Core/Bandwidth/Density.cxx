@@ -1,8 +1,5 @@
 #include "Core/Bandwidth/Density.h"
 
-#include "Core/Bandwidth/EpanechnikovSum.h"
-#include "Core/Bandwidth/GaussianSum.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -76,70 +73,6 @@ double epanechnikovOnSurface(const Weights& weights, const Vec3& center, double 
   return sum.value() / (weights.scale * weights.total * 0.5 * kPi * reach * reach);
 }
 
-template <typename Sum>
-Status densitiesBy(const double* sample, std::int64_t count, double width, const double* targets,
-  std::vector<double>& densities, const Executor& executor)
-{
-  Sum sum;
-  const Status status = sum.build(sample, count, width);
-  if (status != Status::Ok)
-  {
-    return status;
-  }
-  forRange(executor, std::int64_t(densities.size()),
-    [&](std::int64_t begin, std::int64_t end)
-    {
-      for (std::int64_t i = begin; i < end; ++i)
-      {
-        densities[std::size_t(i)] = sum.density(targets[i]);
-      }
-    });
-  return Status::Ok;
-}
-
-}
-
-double gaussianDensity(double x, const double* sample, std::int64_t count, double bandwidth) noexcept
-{
-  if (count < 1 || !(bandwidth > 0.0))
-  {
-    return 0.0;
-  }
-  double sum = 0.0;
-  for (std::int64_t i = 0; i < count; ++i)
-  {
-    const double u = (x - sample[i]) / bandwidth;
-    sum += std::exp(-0.5 * u * u);
-  }
-  return sum / (double(count) * bandwidth * std::sqrt(kTwoPi));
-}
-
-double epanechnikovDensity(double x, const double* sample, std::int64_t count, double bandwidth) noexcept
-{
-  if (count < 1 || !(bandwidth > 0.0))
-  {
-    return 0.0;
-  }
-  const double reach = kEpanechnikovReachOnLine * bandwidth;
-  double sum = 0.0;
-  for (std::int64_t i = 0; i < count; ++i)
-  {
-    const double u = (x - sample[i]) / reach;
-    sum += std::fabs(u) < 1.0 ? (1.0 - u) * (1.0 + u) : 0.0;
-  }
-  return 0.75 * sum / (double(count) * reach);
-}
-
-Status univariateDensities(DensityKernel kernel, const double* sample, std::int64_t count, double bandwidth,
-  const double* targets, std::int64_t targetCount, std::vector<double>& densities, const Executor& executor)
-{
-  densities.assign(std::size_t(std::max<std::int64_t>(targetCount, 0)), 0.0);
-  if (kernel == DensityKernel::Epanechnikov)
-  {
-    return densitiesBy<EpanechnikovSum>(
-      sample, count, kEpanechnikovReachOnLine * bandwidth, targets, densities, executor);
-  }
-  return densitiesBy<GaussianSum>(sample, count, bandwidth, targets, densities, executor);
 }
 
 void surfaceDensities(const PointView& points, const NeighborQuery& query,

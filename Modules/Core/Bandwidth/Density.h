@@ -14,30 +14,11 @@
 namespace pointhaptics
 {
 
-constexpr double kEpanechnikovReachOnLine = 2.23606797749978969641;    ///< w = sqrt(5) bandwidths.
 constexpr double kEpanechnikovReachOnSurface = 2.44948974278317809820; ///< w = sqrt(6) bandwidths.
 
 /// Gaussian kernels beyond this many bandwidths are left out by surfaceDensities: each is below exp(-18) =
 /// 1.6e-8 of its height.
 constexpr double kDensityCutoff = 6.0;
-
-/// Univariate Gaussian estimate f_b(x) = 1/(n b sqrt(2 pi)) sum_i exp(-(x - x_i)^2 / (2 b^2)), every term
-/// summed: O(n). Per unit of the values. 0 for an empty sample or a bandwidth not above 0. Thread-safe.
-double gaussianDensity(double x, const double* sample, std::int64_t count, double bandwidth) noexcept;
-
-/// Univariate Epanechnikov estimate f_b(x) = 3/(4 n w b) sum_i (1 - (x - x_i)^2 / (w b)^2) over the values
-/// closer than w b. Otherwise as gaussianDensity.
-double epanechnikovDensity(double x, const double* sample, std::int64_t count, double bandwidth) noexcept;
-
-/// Univariate estimate with @p kernel at each of @p targetCount targets (densities is resized), by fast sums:
-/// O(n log n + targets). Gaussian: within 1e-12 relative of the direct sum, in the tails too. Epanechnikov:
-/// within 1e-14 of a kernel's height for each value under the kernel. Details in GaussianSum.h and
-/// EpanechnikovSum.h. On an error densities are 0. Errors: InvalidParameter where the bandwidth is not
-/// above 0 or not finite or a value is not finite, Empty without values. Targets that are not finite get 0.
-/// Independent of @p executor and of the order of the values.
-Status univariateDensities(DensityKernel kernel, const double* sample, std::int64_t count, double bandwidth,
-  const double* targets, std::int64_t targetCount, std::vector<double>& densities,
-  const Executor& executor = {});
 
 /// Gaussian estimate on a surface (two dimensions) at each point with that point's own bandwidth:
 /// f_b(x) = 1/(N 2 pi b^2) sum_i exp(-|x - x_i|^2 / (2 b^2)), per squared unit of the coordinates, N =

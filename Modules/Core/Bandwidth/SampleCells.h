@@ -66,35 +66,6 @@ inline std::int64_t splitIntoCells(
   return series;
 }
 
-/// The first cell that begins right of @p value.
-inline std::size_t cellAfter(const std::vector<SampleCell>& cells, double value)
-{
-  return std::size_t(std::upper_bound(cells.begin(), cells.end(), value,
-                       [](double v, const SampleCell& cell) { return v < cell.first; }) -
-    cells.begin());
-}
-
-/// Copies and sorts @p count values. InvalidParameter where @p bandwidth is not above 0 or not finite or a
-/// value is not finite, Empty where count < 1; @p sorted is then empty.
-inline Status copySorted(
-  const double* sample, std::int64_t count, double bandwidth, std::vector<double>& sorted)
-{
-  sorted.clear();
-  if (!(bandwidth > 0.0) || !std::isfinite(bandwidth) ||
-    !std::all_of(
-      sample, sample + std::max<std::int64_t>(count, 0), [](double v) { return std::isfinite(v); }))
-  {
-    return Status::InvalidParameter;
-  }
-  if (count < 1)
-  {
-    return Status::Empty;
-  }
-  sorted.assign(sample, sample + count);
-  std::sort(sorted.begin(), sorted.end());
-  return Status::Ok;
-}
-
 template <int Terms>
 constexpr std::array<double, Terms> inverseFactorials()
 {
@@ -191,11 +162,6 @@ public:
     sum_ = next;
   }
   double value() const noexcept { return sum_ + error_; }
-  /// Value of this one less that of @p other, rounded once where they share most of their terms.
-  double minus(const CompensatedSum& other) const noexcept
-  {
-    return (sum_ - other.sum_) + (error_ - other.error_);
-  }
 
 private:
   double sum_ = 0.0;

@@ -47,35 +47,6 @@ inline long double pairSum(const std::vector<double>& sample, long double h, int
   return sum;
 }
 
-inline long double gaussianSum(const std::vector<double>& sample, long double h, long double y)
-{
-  long double sum = 0;
-  for (const double x : sample)
-  {
-    const long double t = (y - x) / h;
-    sum += std::exp(-t * t / 2);
-  }
-  return sum;
-}
-
-/// @p inside becomes the number of values closer than @p w.
-inline long double epanechnikovSum(
-  const std::vector<double>& sample, long double w, long double y, std::int64_t& inside)
-{
-  long double sum = 0;
-  inside = 0;
-  for (const double x : sample)
-  {
-    const long double t = (y - x) / w;
-    if (std::fabs(t) < 1)
-    {
-      sum += 1 - t * t;
-      ++inside;
-    }
-  }
-  return sum;
-}
-
 /// Sheather and Jones 1991, in their steps; s = min(sd, IQR / 1.349).
 class SheatherJonesOracle
 {
