@@ -37,6 +37,12 @@ public:
   virtual const char* name() const noexcept = 0;
   /// The same before and after open().
   virtual DeviceCapabilities capabilities() const noexcept = 0;
+  /// That of the capabilities; 0 there: not known, and no limit.
+  double maximumForce() const noexcept override
+  {
+    const double declared = this->capabilities().maximumForce;
+    return declared > 0.0 ? declared : HapticPort::maximumForce();
+  }
   /// Ok, or a status whose sentence says what to do; message() may say more.
   virtual Status open() = 0;
   /// Zero force, then release. Safe on a closed device.

@@ -167,14 +167,16 @@ bool parseRow(const std::string& line, const Columns& columns, HipPathPoint& poi
   return true;
 }
 
-/// The line that names the columns, after those of remarks. False: there is none.
-bool readHeader(std::istream& stream, std::string& line, std::size_t& lineNumber)
+/// The next line that is no remark. False: there is none.
+bool readTableLine(std::istream& stream, std::string& line, std::size_t& lineNumber)
 {
-  for (lineNumber = 1; stream.peek() == '#'; ++lineNumber)
+  for (++lineNumber; stream.peek() == '#'; ++lineNumber)
   {
     stream.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
   }
-  return readLine(stream, line);
+  const bool isRead = readLine(stream, line);
+  lineNumber -= isRead || lineNumber == 1 ? 0 : 1;
+  return isRead;
 }
 
 /// Reads the rows below the header. False: @p problem and the number of its line are set.
@@ -183,9 +185,8 @@ bool readRows(
 {
   std::string line;
   std::size_t blankLine = 0;
-  while (readLine(stream, line))
+  while (readTableLine(stream, line, lineNumber))
   {
-    ++lineNumber;
     if (trimmed(line).empty())
     {
       blankLine = blankLine ? blankLine : lineNumber;
@@ -298,7 +299,7 @@ Status readHipPath(const std::string& fileName, HipPath& path, std::string& mess
   std::size_t lineNumber = 0;
   std::string problem;
   Columns columns;
-  if (!readHeader(stream, line, lineNumber) || !findColumns(line, columns))
+  if (!readTableLine(stream, line, lineNumber) || !findColumns(line, columns))
   {
     problem = "the header is " + quote(line) +
       ": make the first line t,x,y,z (seconds and metres), or give a table of felt forces, which has t,hip_x,"

@@ -57,7 +57,6 @@ DeviceCapabilities SimulatedDevice::capabilities() const noexcept
 HandLimits SimulatedDevice::limits() const noexcept
 {
   HandLimits result;
-  result.maximumForce = kHoldingForce;
   if (settings_.yieldsToForce)
   {
     result.damping = settings_.gripDamping;

@@ -8,6 +8,7 @@
 #include "Haptics/Servo/PassivityLimit.h"
 
 #include <cstdint>
+#include <limits>
 
 namespace pointhaptics
 {
@@ -36,6 +37,8 @@ public:
   /// What the loop must keep to. Asked by the thread that starts the loop or sets its parameters; the same at
   /// all times. Default: a hand that nothing moves, without any limit.
   virtual HandLimits limits() const noexcept { return {}; }
+  /// N that the device declares, above 0; as HandLimits::maximumForce, of which the lesser one counts.
+  virtual double maximumForce() const noexcept { return std::numeric_limits<double>::infinity(); }
   /// Servo thread. Whether the loop may idle while the hand stands still in free space: true only where
   /// nobody can tell that an answer came a fiftieth of a second late. Default: no.
   virtual bool mayIdle() const noexcept { return false; }

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <atomic>
 #include <iterator>
+#include <limits>
 #include <mutex>
 #include <thread>
 
@@ -36,11 +37,19 @@ bool valid(const ServoSettings& settings)
     settings.watchdogSeconds >= 0.0 && settings.watchdogSeconds <= kLongestWatch;
 }
 
-/// Parameters whose force limit is at most what a desktop device and this one can hold.
-HapticParameters within(const HandLimits& limits, HapticParameters parameters)
+/// What the port says twice counts once.
+HandLimits limitsOf(const HapticPort& port)
 {
-  double& limit = parameters.contact.forceLimit;
-  limit = std::min({ limit, ForceLimits().maximumForce, limits.maximumForce });
+  HandLimits limits = port.limits();
+  limits.maximumForce = std::min(limits.maximumForce, port.maximumForce());
+  return limits;
+}
+
+/// Parameters whose force limit is the one that holds.
+HapticParameters within(const ForceLimit& limit, HapticParameters parameters)
+{
+  // A limit of 0 is the guard's.
+  parameters.contact.forceLimit = std::max(limit.newtons(), std::numeric_limits<double>::min());
   return parameters;
 }
 
@@ -125,6 +134,8 @@ struct ServoLoop::Implementation
   ServoSettings settings;
   HapticPort* port = nullptr;
   HandLimits limits;
+  std::atomic<double> userLimit{ 0.0 };  ///< N, of the newest parameters.
+  std::atomic<std::int64_t> origin{ 0 }; ///< steadyNanoseconds() of time 0.
   ServoStepSettings stepSettings;
   ServoStep step;
   const HapticScene* scene = nullptr;
@@ -147,6 +158,12 @@ struct ServoLoop::Implementation
   bool gateIsOpen(std::int64_t wake) noexcept;
   std::uint64_t ticksToIdle() noexcept;
   bool pushes() const noexcept { return sample.state.force != Vec3(); }
+  ForceLimit forceLimit() const noexcept
+  {
+    ContactParameters contact;
+    contact.forceLimit = userLimit.load(std::memory_order_relaxed);
+    return servoForceLimit(limits, contact, settings.limits);
+  }
   void heartbeat() noexcept { newestHeartbeat.store(steadyNanoseconds(), std::memory_order_relaxed); }
 };
 
@@ -180,10 +197,13 @@ void ServoLoop::Implementation::prepare(
 {
   port = &newPort;
   settings = newSettings;
-  limits = port->limits();
-  const HapticParameters newParameters = within(limits, wanted);
+  limits = limitsOf(*port);
+  userLimit.store(wanted.contact.forceLimit, std::memory_order_relaxed);
+  const HapticParameters newParameters = within(forceLimit(), wanted);
   stepSettings.rateHz = settings.rateHz;
   stepSettings.limits = settings.limits;
+  stepSettings.limits.maximumForce =
+    std::min({ settings.limits.maximumForce, kMostServoForce, limits.maximumForce });
   stepSettings.rampDownSeconds = limits.rampDownSeconds;
   stepSettings.rampUpSeconds = limits.rampUpSeconds;
   stepSettings.clutchDownSeconds = std::max(limits.rampDownSeconds, ServoLoop::kClutchDownSeconds);
@@ -223,6 +243,7 @@ void ServoLoop::Implementation::run() noexcept
 
   const double period = 1e9 / settings.rateHz;
   const std::int64_t start = steadyNanoseconds();
+  origin.store(start, std::memory_order_relaxed);
   const auto deadline = [&](std::uint64_t number)
   { return start + std::int64_t(double(number - 1) * period); };
   std::uint64_t number = 1;
@@ -373,10 +394,12 @@ ServoLoop::~ServoLoop()
 Status ServoLoop::start(
   HapticPort& port, const HapticParameters& parameters, const ServoSettings& settings, std::string* message)
 {
-  const HandLimits limits = port.limits();
+  const HandLimits limits = limitsOf(port);
+  const ForceLimit limit = servoForceLimit(limits, parameters.contact, settings.limits);
   const bool mayStart = !running() && valid(settings) && limits.maximumForce > 0.0;
-  const Status status =
-    mayStart ? checkSpring(limits, within(limits, parameters), settings.rateHz) : Status::InvalidParameter;
+  const Status status = mayStart && parameters.check() == Status::Ok
+    ? checkSpring(limits, within(limit, parameters), settings.rateHz)
+    : Status::InvalidParameter;
   if (explained(status, limits, parameters.contact, settings.rateHz, message) != Status::Ok)
   {
     return status;
@@ -460,10 +483,14 @@ Status ServoLoop::setParameters(const HapticParameters& parameters, std::string*
 {
   Implementation& self = *implementation_;
   self.heartbeat();
-  const Status status = checkSpring(self.limits, within(self.limits, parameters), self.settings.rateHz);
+  const ForceLimit limit = servoForceLimit(self.limits, parameters.contact, self.settings.limits);
+  const Status status = parameters.check() == Status::Ok
+    ? checkSpring(self.limits, within(limit, parameters), self.settings.rateHz)
+    : Status::InvalidParameter;
   if (status == Status::Ok)
   {
-    self.writeParameters(within(self.limits, parameters));
+    self.userLimit.store(parameters.contact.forceLimit, std::memory_order_relaxed);
+    self.writeParameters(within(limit, parameters));
   }
   return explained(status, self.limits, parameters.contact, self.settings.rateHz, message);
 }
@@ -533,6 +560,16 @@ void ServoLoop::takeInputs(ServoInputs& inputs)
 void ServoLoop::beginAnew() noexcept
 {
   implementation_->beginsAnew.store(true, std::memory_order_relaxed);
+}
+
+ForceLimit ServoLoop::forceLimit() const noexcept
+{
+  return implementation_->forceLimit();
+}
+
+std::int64_t ServoLoop::origin() const noexcept
+{
+  return implementation_->origin.load(std::memory_order_relaxed);
 }
 
 const ServoStepSettings& ServoLoop::stepSettings() const noexcept

@@ -8,6 +8,7 @@
 #include "Haptics/Proxy.h"
 #include "Haptics/SceneOrigin.h"
 #include "Haptics/Servo/ForceGuard.h"
+#include "Haptics/Servo/ForceLimit.h"
 #include "Haptics/Servo/LatencyHistogram.h"
 #include "Haptics/Servo/ServoSample.h"
 #include "Haptics/Servo/ServoStep.h"
@@ -174,6 +175,11 @@ public:
   void beginAnew() noexcept;
   /// Of a loop that runs: what a replay of its ticks needs.
   const ServoStepSettings& stepSettings() const noexcept;
+  /// What no force since start() or setParameters() has exceeded, and whose limit it is. Thread: that of
+  /// start() and setParameters().
+  ForceLimit forceLimit() const noexcept;
+  /// steady_clock's nanoseconds at which the time of the samples is 0; 0 before the thread runs.
+  std::int64_t origin() const noexcept;
   /// For those who point to the loop without owning it, such as threads that publish scenes.
   const Lifetime& lifetime() const noexcept { return lifetime_; }
 

@@ -3,20 +3,41 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <filesystem>
 
 namespace pointhaptics
 {
+namespace
+{
 
-bool CsvWriter::open(const std::string& fileName, const std::string& header, std::string& message)
+/// At most so much of a touch is lost where the process is killed.
+constexpr auto kFlushPeriod = std::chrono::seconds(1);
+
+} // namespace
+
+bool CsvWriter::open(
+  const std::string& fileName, const std::string& header, std::string& message, bool isKept)
 {
   fileName_ = fileName;
-  if (file_.open(fileName) != Status::Ok)
+  isKept_ = isKept;
+  isOpen_ = isFine_ = (isKept ? file_.openKept(fileName) : file_.open(fileName)) == Status::Ok;
+  if (!isOpen_)
   {
     message = fmt::format("{}: cannot be created: {}; {}", fileName, file_.reason(), file_.cure());
     return false;
   }
-  static_cast<void>(file_.write(header + "\n"));
+  this->add(header + "\n");
   return true;
+}
+
+void CsvWriter::add(const std::string& line)
+{
+  isFine_ = file_.write(line) == Status::Ok && isFine_;
+  if (isKept_ && isFine_ && Clock::now() - flushed_ >= kFlushPeriod)
+  {
+    isFine_ = file_.flush() == Status::Ok;
+    flushed_ = Clock::now();
+  }
 }
 
 void CsvWriter::row(const double* values, std::size_t count)
@@ -29,17 +50,27 @@ void CsvWriter::row(const double* values, std::size_t count)
     line_.append(digits, end.ptr);
     line_ += i + 1 < count ? ',' : '\n';
   }
-  static_cast<void>(file_.write(line_)); // commit() tells
+  this->add(line_);
 }
 
 bool CsvWriter::commit(std::string& message)
 {
+  isOpen_ = false;
   if (file_.commit() != Status::Ok)
   {
-    message = fmt::format("{}: cannot be written: {}; {}", fileName_, file_.reason(), file_.cure());
+    const std::string part = OutputFile::keptPartOf(fileName_);
+    std::error_code ignored;
+    message = fmt::format("{}: cannot be written: {}; {}{}", fileName_, file_.reason(), file_.cure(),
+      isKept_ && std::filesystem::exists(part, ignored) ? "; " + part + " has what came before" : "");
     return false;
   }
   return true;
+}
+
+void CsvWriter::abandon()
+{
+  isOpen_ = false;
+  file_.abandon();
 }
 
 } // namespace pointhaptics

@@ -6,6 +6,7 @@
 #include "Core/Base/AffineTransform.h"
 #include "Core/Resample/VoxelMeanSettings.h"
 #include "Devices/Falcon/FalconDevice.h"
+#include "Devices/PathUnits.h"
 #include "Haptics/HapticParameters.h"
 #include "PictureSettings.h"
 
@@ -81,10 +82,13 @@ struct HapticViewerOptions
   std::string ideal =
     "auto"; ///< Shape whose exact force the chart shows; auto: where the cloud is one; none.
   HapticViewerDevice device = HapticViewerDevice::Auto;
-  FalconSettings falcon; ///< @c cancelled is taken from HapticViewerObserver where it is empty.
-  std::string path;      ///< File of a hand path, t,x,y,z, that moves the hand instead of a device.
-  std::string replay;    ///< A recording that is felt again instead of a path.
-  std::string record;    ///< A recording to write, from the first tick to the last; empty: a key begins one.
+  FalconSettings falcon;  ///< @c cancelled is taken from HapticViewerObserver where it is empty.
+  std::string path;       ///< File of a hand path, t,x,y,z, that moves the hand instead of a device.
+  PathUnits pathUnits;    ///< Of its numbers.
+  std::string replay;     ///< A recording that is felt again instead of a path.
+  std::string record;     ///< A recording to write, from the first tick to the last; empty: a key begins one.
+  std::string markerText; ///< What the recording says of the markers that the key sets.
+  int markerPort = -1;    ///< Of this machine, where other programs set markers (MarkerSocket.h); -1: none.
   std::string passingFile; ///< One that the host deletes when the viewer ends: recordings keep a copy of it.
   std::string trace;       ///< CSV to write, one row a tick; empty: none.
   std::string forceChart;  ///< PNG to write, force and proxy radius over time; empty: none.

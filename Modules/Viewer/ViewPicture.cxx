@@ -224,14 +224,23 @@ namespace
 {
 
 /// A hand that follows HapticViewerOptions::path.
-bool feelPathOf(ViewScene& scene, const HapticViewerOptions& options, std::vector<ServoSample>& samples,
-  std::string& message)
+bool feelPathOf(ViewScene& scene, const HapticViewerOptions& options, const HapticViewerObserver& observer,
+  std::vector<ServoSample>& samples, std::string& message)
 {
   HipPath path;
   std::int64_t ticks = 0;
   FeelScenes scenes;
-  if (readHipPath(options.path, path, message) != Status::Ok ||
-    !countTicks(path, options.path, kRateHz, kMostTicks, ticks, message) ||
+  if (readHipPath(options.path, path, message) != Status::Ok)
+  {
+    return false;
+  }
+  applyUnits(options.pathUnits, path);
+  const std::string odd = unlikelyUnits(path, Bounds());
+  if (!odd.empty() && observer.message)
+  {
+    observer.message(HapticViewerObserver::Kind::Warning, options.path + ": " + odd);
+  }
+  if (!countTicks(path, options.path, kRateHz, kMostTicks, ticks, message) ||
     !makeFeelScenes(scene, options, scenes, message))
   {
     return false;
@@ -284,7 +293,7 @@ bool feelAlongPath(ViewScene& scene, const HapticViewerOptions& options, const H
   ServoSample& shown, std::string& message)
 {
   std::vector<ServoSample> samples;
-  if (!(options.replay.empty() ? feelPathOf(scene, options, samples, message)
+  if (!(options.replay.empty() ? feelPathOf(scene, options, observer, samples, message)
                                : feelReplay(scene, options, observer, samples, message)))
   {
     return false;
@@ -292,13 +301,13 @@ bool feelAlongPath(ViewScene& scene, const HapticViewerOptions& options, const H
   shown = mostTelling(samples);
   if (!options.trace.empty())
   {
-    TraceFile trace;
-    if (!trace.open(options.trace, message))
+    CsvWriter trace;
+    if (!trace.open(options.trace, traceColumns(), message))
     {
       return false;
     }
-    trace.add(samples);
-    if (!trace.close(message))
+    addTrace(trace, samples);
+    if (!trace.commit(message))
     {
       return false;
     }
@@ -311,7 +320,7 @@ bool feelAlongPath(ViewScene& scene, const HapticViewerOptions& options, const H
     for (const ServoSample& sample : samples)
     {
       chart->AddSample(sample.timeSeconds, norm(sample.state.force), sample.state.radius,
-        ideal ? idealForce(*ideal, scene, sample.state.hip, options.haptics.contact.stiffness) : NAN);
+        ideal ? idealForce(*ideal, scene, sample.state.hip, options.haptics.contact) : NAN);
     }
     if (!chart->WriteImage(options.forceChart.c_str()))
     {

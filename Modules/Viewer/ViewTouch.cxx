@@ -81,27 +81,26 @@ std::shared_ptr<IdealForce> idealFor(ViewScene& scene, const HapticViewerOptions
   return known ? std::make_shared<IdealForce>(shape) : nullptr;
 }
 
-double idealForce(IdealForce& ideal, ViewScene& scene, const Vec3& hip, double stiffness)
+double idealForce(IdealForce& ideal, ViewScene& scene, const Vec3& hip, const ContactParameters& contact)
 {
   AffineTransform model;
   const bool isAffine = affineFromTransform(scene.resampler()->GetTransform(), model);
-  return isAffine ? std::min(ideal.at(hip, model, stiffness), ForceLimits().maximumForce) : NAN;
+  return isAffine ? std::min(ideal.at(hip, model, contact.stiffness), contact.forceLimit) : NAN;
 }
 
-bool TraceFile::open(const std::string& fileName, std::string& message)
+std::string traceColumns()
 {
-  std::string header;
+  std::string columns;
   for (const char* column : kFeltColumns)
   {
     // The time of a tick stays the last one.
-    header += column == kFeltColumns.back() ? ",status" : "";
-    header += (header.empty() ? "" : ",") + std::string(column);
+    columns += column == kFeltColumns.back() ? ",status" : "";
+    columns += (columns.empty() ? "" : ",") + std::string(column);
   }
-  isOpen_ = writer_.open(fileName, header, message);
-  return isOpen_;
+  return columns;
 }
 
-void TraceFile::add(const std::vector<ServoSample>& samples)
+void addTrace(CsvWriter& trace, const std::vector<ServoSample>& samples)
 {
   for (const ServoSample& sample : samples)
   {
@@ -110,15 +109,8 @@ void TraceFile::add(const std::vector<ServoSample>& samples)
     std::copy(felt.begin(), felt.end() - 1, row.begin());
     row[felt.size() - 1] = double(sample.state.status);
     row.back() = felt.back();
-    writer_.row(row.data(), row.size());
+    trace.row(row.data(), row.size());
   }
-}
-
-bool TraceFile::close(std::string& message)
-{
-  const bool committed = !isOpen_ || writer_.commit(message);
-  isOpen_ = false;
-  return committed;
 }
 
 } // namespace pointhaptics

@@ -34,23 +34,12 @@ const ServoSample& mostTelling(const std::vector<ServoSample>& samples);
 /// The exact surface that --ideal names, or that the cloud of @p scene turns out to be. Null: none.
 std::shared_ptr<IdealForce> idealFor(ViewScene& scene, const HapticViewerOptions& options);
 
-/// Newtons where the model stands in @p scene at this moment; NaN: not known.
-double idealForce(IdealForce& ideal, ViewScene& scene, const Vec3& hip, double stiffness);
+/// Newtons where the model stands in @p scene at this moment, with the limit of @p contact; NaN: not known.
+double idealForce(IdealForce& ideal, ViewScene& scene, const Vec3& hip, const ContactParameters& contact);
 
-/// Writes OUT.csv of `feel`, row by row; the file appears with close().
-class TraceFile
-{
-public:
-  /// False: @p message says why the file cannot be created.
-  bool open(const std::string& fileName, std::string& message);
-  void add(const std::vector<ServoSample>& samples);
-  /// False: not all rows could be written, @p message says so.
-  bool close(std::string& message);
-  bool isOpen() const { return isOpen_; }
-
-private:
-  CsvWriter writer_;
-  bool isOpen_ = false;
-};
+/// The columns of a trace: those of `feel`, and the status of the tick.
+std::string traceColumns();
+/// A row of a trace for each sample.
+void addTrace(CsvWriter& trace, const std::vector<ServoSample>& samples);
 
 } // namespace pointhaptics

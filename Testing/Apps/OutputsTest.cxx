@@ -351,6 +351,61 @@ TEST_F(Outputs, AreWarnedOfOnceWithTheCount)
   EXPECT_NE(outcome.errors.find("(5 times)"), std::string::npos) << outcome.errors;
 }
 
+TEST_F(Outputs, OfEachInputAreAllPatterns)
+{
+  this->write("a.xyz", "1 2 3\n");
+  this->write("b.xyz", "4 5 6\n");
+  this->refuse(2, { "resample", "a.xyz", "b.xyz", "-o", "{stem}.csv", "--voxel-index", "v.csv" },
+    { "--voxel-index v.csv", "{stem}", "--merge" });
+  this->run({ "resample", "a.xyz", "b.xyz", "-o", "{stem}.csv", "--voxel-index", "{stem}-v.csv" });
+  EXPECT_TRUE(this->exists("a-v.csv") && this->exists("b-v.csv"));
+  this->refuse(2, { "resample", "a.xyz", "-o", "{stam}.csv" }, { "{stam} stands for nothing", "{stem}" });
+}
+
+TEST_F(Outputs, GoToStandardOutputByAnyOfItsNames)
+{
+  this->write("in.xyz", "0 0 0\n0 0 0.01\n0 0.01 0\n0.01 0 0\n");
+  const std::string expected = this->succeed({ "resample", "in.xyz", "-o", "-", "--output-format", "csv" });
+  fs::create_symlink("/dev/stdout", this->path("link"));
+  for (const char* name : { "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1", "link" })
+  {
+    EXPECT_EQ(this->succeed({ "resample", "in.xyz", "-o", name, "--output-format", "csv" }), expected)
+      << name;
+  }
+}
+
+TEST_F(Outputs, OfAFormatThatTheNameDoesNotTellAreWarnedOf)
+{
+  this->write("in.csv", "x,y,z,Scan Angle\n1,2,3,4\n");
+  const Outcome outcome = this->run({ "convert", "in.csv", "-o", "a.ply", "--output-format", "csv" });
+  EXPECT_NE(outcome.errors.find("a.ply: holds .csv"), std::string::npos) << outcome.errors;
+  EXPECT_EQ(this->succeed({ "convert", "in.csv", "-o", "a.las", "--las-scale", "0.1" }), "1 point: a.las\n");
+  EXPECT_NE(this->run({ "convert", "in.csv", "-o", "b.ply", "--las-scale", "0.1" }).errors.find("no effect"),
+    std::string::npos);
+}
+
+TEST_F(Outputs, OfATurntableAreAllInThePlan)
+{
+  this->write("in.xyz", "1 2 3\n");
+  EXPECT_EQ(this->succeed({ "view", "in.xyz", "--screenshot", "s.png", "--turntable", "2", "--dry-run" }),
+    "would read in.xyz\nwould write s-001.png\nwould write s-002.png\n");
+  fs::create_symlink("nothing.csv", this->path("link.csv"));
+  this->succeed({ "convert", "in.xyz", "-o", "link.csv", "--no-clobber" });
+  EXPECT_TRUE(this->exists("nothing.csv"));
+}
+
+TEST_F(Outputs, MayBeNamedByAConfiguration)
+{
+  this->write("in.xyz", "0 0 0\n0 0 0.01\n0 0.01 0\n0.01 0 0\n");
+  this->write("hip.csv", "t,x,y,z\n0,0,0,0.03\n0.01,0,0,0.029\n");
+  this->write("good.json", "{\"output\": \"out.csv\"}");
+  this->write("bad.json", "{broken");
+  this->succeed({ "feel", "in.xyz", "--path", "hip.csv", "--config", "good.json" });
+  EXPECT_TRUE(this->exists("out.csv"));
+  this->refuse(2, { "feel", "in.xyz", "--path", "hip.csv", "--config", "bad.json" }, { "bad.json" });
+  this->refuse(2, { "feel", "in.xyz", "--path", "hip.csv" }, { "--output" });
+}
+
 TEST_F(Outputs, OfJsonSayErrors)
 {
   for (const Words& words :

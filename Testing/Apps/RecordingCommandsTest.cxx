@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <cstdlib>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -52,9 +53,11 @@ TEST_F(RecordingCommands, ARecordingIsFeltAgainToTheLastBit)
   this->record({ "--mu-d", "0.3", "--damping", "0.5" });
   const std::string recording = this->read("rec.csv");
   EXPECT_NE(recording.find("kind=fine"), std::string::npos) << "no scene near the hand was felt";
-  EXPECT_NE(recording.find("\nt,hip_x,hip_y,hip_z,proxy_x,proxy_y,proxy_z,normal_x,normal_y,normal_z,force_x,"
-                           "force_y,force_z,radius,contact,update_us,buttons,marker\n"),
-    std::string::npos);
+  EXPECT_EQ(recording.rfind("t,hip_x,hip_y,hip_z,proxy_x,proxy_y,proxy_z,normal_x,normal_y,normal_z,force_x,"
+                            "force_y,force_z,radius,contact,update_us,buttons,marker\n# pointhaptics "
+                            "recording: 2\n",
+              0),
+    0u);
   EXPECT_EQ(felt(recording), felt(this->read("out.csv")));
   const std::string said = this->succeed({ "feel", "--replay", "rec.csv", "-o", "again.csv" });
   EXPECT_NE(said.find("to the last bit"), std::string::npos) << said;
@@ -109,7 +112,7 @@ TEST_F(RecordingCommands, ARecordingOfAClippedCloudIsFeltInItsBox)
   whole.emplace_back("whole.csv");
   this->succeed(whole);
   std::vector<std::string> clipped = feel;
-  clipped.insert(clipped.end(), { "clipped.csv", "--clip", "-1,1,-1,1,-1,0.02" });
+  clipped.insert(clipped.end(), { "clipped.csv", "--clip", "-1,1,-1,1,-1,0.02", "--force" });
   this->succeed(clipped);
   const std::string expected = felt(this->read("clipped.csv"));
   EXPECT_NE(felt(this->read("whole.csv")), expected) << "the box changes nothing that is touched";
@@ -117,6 +120,109 @@ TEST_F(RecordingCommands, ARecordingOfAClippedCloudIsFeltInItsBox)
   EXPECT_TRUE(felt(this->read("again.csv")) == expected);
   this->succeed({ "view", "--replay", "rec.csv", "--trace", "trace.csv" });
   EXPECT_TRUE(felt(this->read("trace.csv")) == expected);
+}
+
+TEST_F(RecordingCommands, ARecordingIsNotReplaced)
+{
+  this->record();
+  const std::string before = this->read("rec.csv");
+  const std::vector<std::string> again = { "feel", "idol.ply", "--path", apptest::kIdolPath, "-o", "out.csv",
+    "--record", "rec.csv" };
+  this->refuse(2, again, { "--record rec.csv", "--force" });
+  EXPECT_TRUE(this->read("rec.csv") == before);
+  std::vector<std::string> other = again;
+  other.back() = "other.csv";
+  this->write("other.csv.part", "of a run that was ended");
+  this->refuse(2, other, { "other.csv.part is there", "--force" });
+}
+
+TEST_F(RecordingCommands, ARecordingThatWasCutIsFeltAsFarAsItGoes)
+{
+  this->record();
+  const std::string recording = this->read("rec.csv");
+  const std::string expected = felt(recording);
+  for (const std::size_t size : { recording.size() / 2, recording.size() - 3, recording.size() / 3 })
+  {
+    this->write("cut.csv.part", recording.substr(0, size));
+    const apptest::Outcome outcome = this->run({ "feel", "--replay", "cut.csv.part", "-o", "again.csv" });
+    EXPECT_EQ(outcome.exitCode, 0) << outcome.errors;
+    EXPECT_NE(outcome.errors.find("cut.csv.part: it was not ended"), std::string::npos) << outcome.errors;
+    const std::string again = felt(this->read("again.csv"));
+    EXPECT_GT(again.size(), expected.size() / 4);
+    EXPECT_TRUE(expected.compare(0, again.size(), again) == 0);
+  }
+}
+
+TEST_F(RecordingCommands, AReplayRefusesWhatItsRecordingDecides)
+{
+  this->record();
+  this->refuse(
+    2, { "feel", "--replay", "rec.csv", "-o", "again.csv", "--stiffness", "3" }, { "leave out --stiffness" });
+  EXPECT_NE(this->succeed({ "feel", "--replay", "rec.csv", "-o", "a.csv", "--dry-run" }).find("idol.ply"),
+    std::string::npos);
+  EXPECT_NE(this->succeed({ "compare", "rec.csv", "--dry-run" }).find("idol.ply"), std::string::npos);
+}
+
+TEST_F(RecordingCommands, ACloudFromAStreamIsKeptForTheReplay)
+{
+  this->succeed({ "generate", "idol", "-n", "20000", "-o", "idol.ply" });
+  const apptest::InputFrom input(this->path("idol.ply"));
+  this->succeed({ "feel", "-", "--path", apptest::kIdolPath, "-o", "out.csv", "--record", "rec.csv" });
+  EXPECT_EQ(this->read("rec.cloud"), this->read("idol.ply"));
+  this->succeed({ "feel", "--replay", "rec.csv", "-o", "again.csv" });
+  EXPECT_TRUE(felt(this->read("again.csv")) == felt(this->read("out.csv")));
+}
+
+TEST_F(RecordingCommands, OneForceLimitHoldsInEveryMode)
+{
+  this->succeed({ "generate", "sphere", "-n", "20000", "-o", "sphere.ply" });
+  this->write("in.csv", "t,x,y,z\n0,0,0,0.03\n0.1,0,0,0.015\n");
+  const std::vector<std::string> feel = { "feel", "sphere.ply", "--path", "in.csv", "-o", "out.csv", "--json",
+    "--stiffness", "3000" };
+  struct Case
+  {
+    std::vector<std::string> options;
+    double limit;
+    std::string name;
+  };
+  for (const Case& each : { Case{ { "--max-force", "1" }, 1.0, "user" },
+         Case{ { "--force-limit", "2", "--max-force", "3" }, 2.0, "user" }, Case{ {}, 8.0, "user" },
+         Case{ { "--force-limit", "inf", "--device", "simulated", "--stiffness", "800" }, 8.0, "device" } })
+  {
+    std::vector<std::string> words = feel;
+    if (each.name == "device")
+    {
+      words.resize(words.size() - 2);
+    }
+    words.insert(words.end(), each.options.begin(), each.options.end());
+    const nlohmann::json said = nlohmann::json::parse(this->succeed(words));
+    EXPECT_LE(said["max_force_n"].get<double>(), each.limit * (1.0 + 1e-12)) << each.limit;
+    EXPECT_EQ(said["force_limit_n"], each.limit);
+    EXPECT_EQ(said["force_limit_of"], each.name);
+  }
+}
+
+/// As Recordings.md says.
+TEST_F(RecordingCommands, NumPyReadsARecording)
+{
+  const std::string python = "/usr/bin/python3";
+  if (std::system((python + " -c 'import numpy' 2> /dev/null").c_str()) != 0)
+  {
+    GTEST_SKIP() << "no NumPy";
+  }
+  this->record();
+  this->write("read.py",
+    "import numpy, sys\n"
+    "table = numpy.genfromtxt(sys.argv[1], delimiter=',', names=True)\n"
+    "assert table.dtype.names[0] == 't' and table.dtype.names[-2:] == ('buttons', 'marker'), "
+    "table.dtype.names\n"
+    "assert len(table.dtype.names) == 18 and numpy.isfinite(table['force_z']).all()\n"
+    "print(len(table), table['contact'].sum() > 0)\n");
+  const std::string command = python + " '" + this->path("read.py") + "' '" + this->path("rec.csv") +
+    "' > '" + this->path("said") + "'";
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  const std::size_t rows = parseTable(felt(this->read("rec.csv"))).at("t").size();
+  EXPECT_EQ(this->read("said"), std::to_string(rows) + " True\n");
 }
 
 TEST_F(RecordingCommands, FeelTakesAConfigurationOfTheViewer)

@@ -73,7 +73,8 @@ const std::map<std::string, std::string>& valuesOfOptions()
     { "--rule", "scott" }, { "--beta", "3" }, { "--r1", "0.001" }, { "--r2", "0.01" }, { "--smooth", "" },
     { "--dims", "100,50,25" }, { "--voxel", "0.002" }, { "--workspace", "0,1,0,1,0,1" },
     { "--scale", "1,2,3" }, { "--rotate", "30,0,0,1" }, { "--translate", "0,0,0.5" },
-    { "--matrix", "2,0,0,0,0,2,0,0,0,0,2,0,0,0,0,1" }, { "--unit", "mm" } };
+    { "--matrix", "2,0,0,0,0,2,0,0,0,0,2,0,0,0,0,1" }, { "--unit", "mm" }, { "--path-unit", "mm" },
+    { "--path-time-unit", "ms" } };
   return values;
 }
 
@@ -81,7 +82,8 @@ const std::set<std::string>& deeds()
 {
   static const std::set<std::string> names = { "--help", "--version", "--verbose", "--screenshot",
     "--turntable", "--force-chart", "--trace", "--record", "--replay", "--config", "--write-config",
-    "--recent", "--skip-unreadable", "--quiet", "--no-clobber", "--dry-run" };
+    "--recent", "--skip-unreadable", "--quiet", "--no-clobber", "--force", "--dry-run", "--marker-text",
+    "--marker-socket" };
   return names;
 }
 

@@ -42,23 +42,6 @@ void CloudToCloudOptions::addTo(CLI::App& command, bool lastIsOutput)
   command.add_flag("--json", this->json, "Print the figures as JSON");
 }
 
-void CloudToCloudOptions::check() const
-{
-  if (this->inputs.size() > 1 && !this->merge && !isPattern(this->output))
-  {
-    throwUsage(this->output, "",
-      fmt::format(
-        "{} inputs and one output; put {{stem}} into its name for one of each, or give --merge to make one "
-        "cloud of them",
-        this->inputs.size()));
-  }
-  if (this->merge && isPattern(this->output))
-  {
-    throwUsage(
-      "--merge", "", "makes one cloud, and " + this->output + " stands for several; leave out one of them");
-  }
-}
-
 bool CloudToCloudOptions::read(Cloud& cloud, std::string& message, Ranks* ranks) const
 {
   ReadOptions options = this->reading;

@@ -34,8 +34,6 @@ struct CloudToCloudOptions
 
   /// @param lastIsOutput whether the last of several IN is OUT where -o is not given.
   void addTo(CLI::App& command, bool lastIsOutput = false);
-  /// Ends in a usage error where there are several inputs, but one output and no word to merge them.
-  void check() const;
   /// Reads the input, or where ranks read it together this one's part.
   bool read(Cloud& cloud, std::string& message, Ranks* ranks = nullptr) const;
 };

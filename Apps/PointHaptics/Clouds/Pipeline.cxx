@@ -187,7 +187,10 @@ void WriteOptions::addTo(CLI::App& command)
   command.add_flag("--double", this->keepsDoubles,
     "Keep types and names of all arrays in .pcd; default: floats and names that PCL's point types read");
   addNumber(command, "--las-scale", this->lasScale, { 0.0, 1e6, true }, "UNITS",
-    "Step of the coordinates in .las and .laz; default: the step of the data, else 0.1 mm");
+    "Step of the coordinates in .las and .laz, in units of the cloud; default: the step of the file that it "
+    "comes from or of its decimals, else 0.1 mm, and finer or coarser ones where the cloud is too small or "
+    "too "
+    "large for that");
 }
 
 bool writeCloud(vtkPointSet* points, const std::string& fileName, const std::string& command,
@@ -205,6 +208,17 @@ bool writeCloud(vtkPointSet* points, const std::string& fileName, Files& files, 
   if (options.format.empty())
   {
     writing.format = lowerExtension(fileName); // its part has another one
+  }
+  const std::vector<std::string> known = writableExtensions();
+  const std::string named = lowerExtension(fileName);
+  if (writing.format != named && std::find(known.begin(), known.end(), named) != known.end())
+  {
+    warn(command, fmt::format("holds .{} as --output-format says, whatever its name ends in", writing.format),
+      fileName);
+  }
+  if (options.lasScale > 0.0 && writing.format != "las" && writing.format != "laz")
+  {
+    warn(command, fmt::format("--las-scale has no effect on .{}; leave it out", writing.format), fileName);
   }
   if (fileName != kStandardStream || writing.format != "vtp")
   {

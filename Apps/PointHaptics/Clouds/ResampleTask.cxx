@@ -50,7 +50,6 @@ void ResampleOptions::addTo(CLI::App& command)
 
 void ResampleOptions::check() const
 {
-  this->files.check();
   const VoxelMeanSettings& voxels = this->lattice.voxels;
   if (voxels.keepOriginalPointIds && !keepsPoints(voxels.representative))
   {

@@ -63,7 +63,7 @@ void addBandwidthCommand(CLI::App& program, int& exitCode)
         return addBandwidths(each, cloud, files);
       });
   };
-  runAs(*command, exitCode, { [options] { options->files.check(); }, run });
+  runAs(*command, exitCode, { run });
 }
 
 } // namespace app

@@ -42,7 +42,6 @@ void complete(ConvertOptions& options)
     clouds.output = clouds.inputs.back();
     clouds.inputs.pop_back();
   }
-  clouds.check();
   clouds.reading.extension = options.inputFormat;
   clouds.reading.applyPoses = !options.keepPoses;
 }
@@ -74,15 +73,12 @@ void addConvertCommand(CLI::App& program, int& exitCode)
     "Format of the input where neither its content nor its name tells it, such as obj from xyz");
   command->add_flag("--keep-poses", options->keepPoses,
     "Leave each scan of an E57 file in its scanner's frame; .vtp keeps the poses: ScanPoses");
-  CLI::Option* force =
-    command->add_flag("--force", "Replace OUT also where it is named by its place, without -o");
   const auto run = [options](Files& files)
   {
     return runOnClouds(kConvertCommand, options->clouds, files,
       [&](const CloudToCloudOptions& each, Cloud& cloud) { return convert(each, cloud, files); });
   };
-  runAs(*command, exitCode, { [options] { complete(*options); }, run });
-  force->excludes(command->get_option("--no-clobber"));
+  runAs(*command, exitCode, { run, [options] { complete(*options); } });
 }
 
 } // namespace app

@@ -86,7 +86,7 @@ void addDevicesCommand(CLI::App& program, int& exitCode)
     ->needs(diagnose);
   command->add_flag("--json", options->json, "Print the list as JSON")->excludes(diagnose);
   options->falcon.addTo(*command);
-  runAs(*command, exitCode, { {}, [options](Files&) { return runDevices(*options); } });
+  runAs(*command, exitCode, { [options](Files&) { return runDevices(*options); } });
 }
 
 } // namespace app

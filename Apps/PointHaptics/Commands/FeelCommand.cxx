@@ -20,6 +20,7 @@
 #include "Replay.h"
 #include "VirtualTouch.h"
 
+#include "Core/Base/Boxes.h"
 #include "Core/Base/QuantityText.h"
 #include "Devices/HipPath.h"
 #include "Devices/SimulatedDevice.h"
@@ -31,6 +32,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -71,6 +73,19 @@ std::string header()
     line += (line.empty() ? "" : ",") + std::string(column);
   }
   return line;
+}
+
+/// In virtual time there is no servo loop with a limit of its own.
+ForceLimit limitOf(const FeelOptions& options)
+{
+  ForceLimit limit;
+  limit.user = options.touch.parameters.contact.forceLimit;
+  const bool isFalcon = options.device == "falcon";
+  limit.device = isFalcon           ? options.falcon.maximumForce
+    : options.device == "simulated" ? SimulatedDevice().maximumForce()
+                                    : limit.device;
+  limit.program = isFalcon ? kMostServoForce : limit.program;
+  return limit;
 }
 
 /// Rows and their summary.
@@ -164,7 +179,9 @@ bool walkYielding(const FeelOptions& options, FeelScenes& scenes, const HipPath&
     message = options.path + ": " + pointhaptics::message(status);
     return false;
   }
-  VirtualTouch touch(options.touch.parameters, scenes, options.rateHz);
+  HapticParameters parameters = options.touch.parameters;
+  parameters.contact.forceLimit = limitOf(options).newtons();
+  VirtualTouch touch(parameters, scenes, options.rateHz);
   ProgressBar bar("feeling");
   for (std::int64_t tick = 0; tick < ticks && !stopIsRequested(); ++tick)
   {
@@ -241,6 +258,12 @@ bool feelAs(const FeelOptions& options, FeelScenes& scenes, const HipPath& path,
   return !stopIsRequested();
 }
 
+/// Null: there is none.
+nlohmann::ordered_json limitJson(const ForceLimit& limit)
+{
+  return std::isfinite(limit.newtons()) ? nlohmann::ordered_json(limit.newtons()) : nlohmann::ordered_json();
+}
+
 /// Of a hand that has touched nothing @p nearest says how near it came, metres.
 void print(const FeelOptions& options, const FeelScenes& scenes, std::int64_t invalid, const Summary& s,
   const std::optional<double>& nearest)
@@ -250,7 +273,8 @@ void print(const FeelOptions& options, const FeelScenes& scenes, std::int64_t in
     nlohmann::ordered_json result = { { "output", options.output }, { "points_invalid", invalid },
       { "points_felt", scenes.whole()->numberOfPoints() }, { "local_scenes", scenes.numberOfLocalScenes() },
       { "finest_cell_m", scenes.finestCell() }, { "ticks", s.ticks }, { "contact_ticks", s.contactTicks },
-      { "max_force_n", s.maximumForce },
+      { "max_force_n", s.maximumForce }, { "force_limit_n", limitJson(limitOf(options)) },
+      { "force_limit_of", limitOf(options).name() },
       { "update_us",
         { { "p50", s.p50Microseconds }, { "p99", s.p99Microseconds }, { "max", s.maximumMicroseconds } } } };
     if (nearest)
@@ -358,11 +382,47 @@ bool openRecordingOutput(const FeelOptions& options, vtkPolyData* cloud, Files& 
   {
     return true;
   }
-  RecordingHeader header = headerOf(options.file, 0.0, cloud);
+  const bool isCopied = files.isStream(options.file);
+  const std::string felt = isCopied ? keptCloudName(options.record) : options.file;
+  if (isCopied && !keepCloud(files.input(options.file), files.output(felt), message))
+  {
+    return false;
+  }
+  RecordingHeader header = headerOf(felt, 0.0, cloud);
   header.settings = options.settings;
+  header.limit = limitOf(options);
+  header.origin = std::chrono::nanoseconds(std::chrono::steady_clock::now().time_since_epoch()).count();
   header.step = VirtualTouch::settings(options.rateHz);
-  recording.publish(PublishedParameters{ 1, options.touch.parameters });
+  PublishedParameters parameters{ 1, options.touch.parameters };
+  parameters.parameters.contact.forceLimit = header.limit.newtons();
+  recording.publish(parameters);
   return recording.open(files.output(options.record), header, message);
+}
+
+/// Of the cloud in the workspace frame; empty where it is fitted.
+Bounds feltBox(const FeelOptions& options, vtkPolyData* cloud)
+{
+  const AffineTransform transform = options.lattice.transform();
+  const Bounds box = options.fit ? Bounds() : extentOf(cloud).all;
+  return box.empty() ? box : boxOfCorners(box, [&](const Vec3& p) { return transform.apply(p); });
+}
+
+/// The path that the hand follows, in its units, and how many ticks it takes.
+bool readPath(
+  const FeelOptions& options, Files& files, HipPath& path, std::int64_t& ticks, std::string& message)
+{
+  if (readHipPath(files.input(options.path), path, message) != Status::Ok)
+  {
+    return false;
+  }
+  applyUnits(options.pathUnits, path);
+  if (countTicks(path, options.path, options.rateHz, kMostTicks, ticks, message))
+  {
+    return true;
+  }
+  const std::string odd = unlikelyUnits(path, Bounds());
+  message += odd.empty() ? "" : "; " + odd;
+  return false;
 }
 
 int runFeel(const FeelOptions& options, Files& files)
@@ -370,19 +430,20 @@ int runFeel(const FeelOptions& options, Files& files)
   std::string message;
   HipPath path;
   std::int64_t ticks = 0;
-  const bool follows = options.device != "falcon";
-  if (follows && readHipPath(files.input(options.path), path, message) != Status::Ok)
-  {
-    return fail(kFeelCommand, message);
-  }
-  if (follows && !countTicks(path, options.path, options.rateHz, kMostTicks, ticks, message))
+  if (options.device != "falcon" && !readPath(options, files, path, ticks, message))
   {
     return fail(kFeelCommand, message);
   }
   Cloud cloud;
-  if (!readCloud(options.file, cloud, message, options.reading))
+  if (!readCloud(
+        options.record.empty() ? options.file : files.input(options.file), cloud, message, options.reading))
   {
     return fail(kFeelCommand, message);
+  }
+  const Bounds box = feltBox(options, cloud.points);
+  if (const std::string odd = unlikelyUnits(path, box); !odd.empty())
+  {
+    warn(kFeelCommand, odd);
   }
   FeelScenes scenes;
   const bool isMade = makeFeelScenes(options, cloud.points, scenes, message);
@@ -415,6 +476,11 @@ int runFeel(const FeelOptions& options, Files& files)
     warn(kFeelCommand, fmt::format("{}: it ends early: {}", options.record, recording.problem()));
   }
   const Summary summary = rows.summary();
+  const std::string odd = summary.contactTicks == 0 ? unlikelyCloudUnit(path, box) : std::string();
+  if (!odd.empty())
+  {
+    warn(kFeelCommand, odd);
+  }
   print(options, scenes, invalid, summary,
     summary.contactTicks == 0 ? rows.approach().distance(*scenes.whole()) : std::nullopt);
   return kSuccess;
@@ -430,7 +496,9 @@ void addFeelCommand(CLI::App& program, int& exitCode)
   options->addTo(*command);
   const auto run = [options](Files& files)
   { return options->replay.empty() ? runFeel(*options, files) : runReplay(*options, files); };
-  runAs(*command, exitCode, { [command, options] { options->complete(*command); }, run });
+  runAs(*command, exitCode,
+    { run, [command, options] { options->complete(*command); },
+      [options](Files& files) { options->declareMore(files); } });
 }
 
 } // namespace app

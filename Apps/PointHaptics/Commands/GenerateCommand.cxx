@@ -115,7 +115,7 @@ void addGenerateCommand(CLI::App& program, int& exitCode)
     ->required();
   options->writing.addTo(*command);
   command->add_flag("--json", options->json, "Print what was made as JSON");
-  runAs(*command, exitCode, { {}, [options](Files& files) { return runGenerate(*options, files); } });
+  runAs(*command, exitCode, { [options](Files& files) { return runGenerate(*options, files); } });
 }
 
 } // namespace app

@@ -268,7 +268,7 @@ void addInfoCommand(CLI::App& program, int& exitCode)
   command->add_flag("--statistics", options->statistics,
     "Also the mean and the standard deviation of each array, and of the coordinates: x, y, z");
   command->add_flag("--json", options->json, "Print all of it as JSON");
-  runAs(*command, exitCode, { {}, [options](Files&) { return runInfo(*options); } });
+  runAs(*command, exitCode, { [options](Files&) { return runInfo(*options); } });
 }
 
 } // namespace app

@@ -329,7 +329,7 @@ void addManualCommand(CLI::App& program, int& exitCode)
                              : cheatSheet());
     return kSuccess;
   };
-  runAs(*command, exitCode, { {}, run });
+  runAs(*command, exitCode, { run });
 }
 
 } // namespace app

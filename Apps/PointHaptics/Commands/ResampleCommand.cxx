@@ -93,7 +93,7 @@ void addResampleCommand(CLI::App& program, int& exitCode)
         return resample(each, cloud, files);
       });
   };
-  runAs(*command, exitCode, { [options] { options->check(); }, run });
+  runAs(*command, exitCode, { run, [options] { options->check(); } });
 }
 
 } // namespace app

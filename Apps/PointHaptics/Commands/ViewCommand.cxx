@@ -182,7 +182,6 @@ int runView(ViewOptions& options, Files& files)
   {
     return fail(kViewCommand, message);
   }
-  options.declareMore(files);
   placeFiles(options, files);
   if (!canReadAll(options, message))
   {
@@ -227,7 +226,9 @@ void addViewCommand(CLI::App& program, int& exitCode)
     options->complete(*command);
     collectVtkMessages();
   };
-  runAs(*command, exitCode, { complete, [options](Files& files) { return runView(*options, files); } });
+  runAs(*command, exitCode,
+    { [options](Files& files) { return runView(*options, files); }, complete,
+      [options](Files& files) { options->declareMore(files); } });
 }
 
 } // namespace app

@@ -206,7 +206,13 @@ int runCompare(const CompareOptions& options, Files& files)
   Recording recording;
   vtkSmartPointer<vtkPolyData> cloud;
   rememberStopSignals();
-  if ((!options.chart.empty() && !displayIsAvailable(message)) ||
+  const bool canDraw = options.chart.empty() || displayIsAvailable(message);
+  if (!canDraw && !options.table.empty())
+  {
+    warn(kCompareCommand, "the chart is left out: " + message, options.chart);
+    files.dropOutput(options.chart);
+  }
+  if ((!canDraw && options.table.empty()) ||
     !openRecording(options.recording, options.cloud, files, recording, cloud, message))
   {
     return fail(kCompareCommand, message);
@@ -219,7 +225,8 @@ int runCompare(const CompareOptions& options, Files& files)
       return fail(kCompareCommand, options.recording + ": " + message);
     }
   }
-  if ((!options.chart.empty() &&
+  message.clear();
+  if ((!options.chart.empty() && canDraw &&
         !drawChart(options, files.output(options.chart), recording, felt, message)) ||
     (!options.table.empty() && !writeTable(files.output(options.table), recording, felt, message)) ||
     !files.commit(message))
@@ -263,7 +270,9 @@ void addCompareCommand(CLI::App& program, int& exitCode)
       throwUsage("--methods", fmt::format("{}", fmt::join(options->methods, ",")), "give two methods");
     }
   };
-  runAs(*command, exitCode, { complete, [options](Files& files) { return runCompare(*options, files); } });
+  runAs(*command, exitCode,
+    { [options](Files& files) { return runCompare(*options, files); }, complete,
+      [options](Files& files) { declareRecordedClouds(options->recording, options->cloud, files); } });
 }
 
 } // namespace app

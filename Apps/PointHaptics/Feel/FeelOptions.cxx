@@ -48,6 +48,7 @@ void FeelOptions::addTo(CLI::App& command)
     "Path of the hand: t,x,y,z in seconds and metres, or what feel or view --trace wrote; needed unless "
     "--device is falcon")
     ->type_name("HIP.csv");
+  addPathUnits(command, this->pathUnits);
   addInput(command, "--replay", this->replay,
     "Feel this recording again, with its scenes, settings and motions of the model: the same forces to the "
     "last bit; --method replaces its method")
@@ -66,7 +67,6 @@ void FeelOptions::addTo(CLI::App& command)
   addClip(
     command, this->clip, "Only what lies in this box is felt, in coordinates of the file; default: all");
   addOutput(command, "-o,--output", this->output, { "csv" }, "Where the felt forces go, one row a tick")
-    ->required()
     ->type_name("OUT.csv");
   addWord(command, "--device", this->device, { "none", "simulated", "falcon" },
     "none: the hand is where the path says (default); simulated: a hand that is pulled there and yields to "
@@ -89,8 +89,40 @@ void FeelOptions::addTo(CLI::App& command)
   this->bandwidth.addTo(command);
 }
 
+/// What a replay takes from its recording is not to be given beside it.
+void FeelOptions::checkReplay(const std::vector<std::string>& given) const
+{
+  std::set<std::string> others = { "replay", "output", "sound-file", "method", "json", "config" };
+  others.insert(commonOptions().begin(), commonOptions().end());
+  for (const std::string& name : given)
+  {
+    if (others.count(name) == 0)
+    {
+      throwUsage("--replay", this->replay,
+        fmt::format("the hand goes where it went, with the settings of then; leave out --{}", name));
+    }
+  }
+}
+
+void FeelOptions::warnOfIdle(const CLI::App& command, const std::vector<std::string>& given) const
+{
+  if (this->path.empty())
+  {
+    warnIdle(command, given, { "path-unit", "path-time-unit" }, "without --path");
+  }
+  if (this->device != "falcon")
+  {
+    warnIdle(command, given, { "seconds", "falcon-firmware" }, "without --device falcon");
+  }
+  if (this->raw)
+  {
+    warnIdle(command, given, { "dims", "voxel", "no-covariance" }, "with --raw");
+  }
+}
+
 void FeelOptions::complete(CLI::App& command)
 {
+  const std::vector<std::string> given = givenOptions(command);
   if (!this->config.empty())
   {
     applyConfigFile(command, this->config, namesOfTheViewAlone(command));
@@ -100,10 +132,14 @@ void FeelOptions::complete(CLI::App& command)
   {
     throwUsage("FILE", "(none)", "give the point cloud to feel, or a recording by --replay");
   }
-  if (!this->replay.empty() && (!this->path.empty() || !this->record.empty() || this->device != "none"))
+  if (this->output.empty())
   {
-    throwUsage(
-      "--replay", this->replay, "the hand goes where it went; leave out --path, --record and --device");
+    throwUsage("--output", "(none)",
+      "give the file for the forces, one row a tick: -o OUT.csv, or - for standard output");
+  }
+  if (!this->replay.empty())
+  {
+    this->checkReplay(given);
   }
   if (this->fit && (this->raw || this->lattice.hasTransform() || !this->lattice.workspace().empty()))
   {
@@ -121,11 +157,35 @@ void FeelOptions::complete(CLI::App& command)
                          : "a Falcon's hand goes where it likes; leave out --path or --device falcon");
   }
   this->touch.complete(command);
+  this->falcon.complete(command, this->touch.parameters.contact);
+  this->warnOfIdle(command, given);
   if (this->device == "falcon")
   {
-    checkForceLimitOfDevices(this->touch.parameters.contact);
+    checkForceLimitOfDevices(this->touch.parameters.contact, ", or feel a --path");
   }
   this->settings = givenSettings(command).dump();
+}
+
+void FeelOptions::declareMore(Files& files) const
+{
+  if (!this->replay.empty())
+  {
+    declareRecordedClouds(this->replay, this->file, files);
+    return;
+  }
+  if (this->device == "falcon")
+  {
+    files.keep(this->output);
+  }
+  if (this->record.empty())
+  {
+    return;
+  }
+  if (files.isStream(this->file))
+  {
+    files.addOutput(keptCloudName(this->record));
+  }
+  this->device == "falcon" ? files.keep(this->record) : files.protect(this->record);
 }
 
 } // namespace app

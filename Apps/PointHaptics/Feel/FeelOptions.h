@@ -8,6 +8,8 @@
 #include "Options/LatticeOptions.h"
 #include "Options/TouchOptions.h"
 
+#include "Devices/PathUnits.h"
+
 #include <string>
 #include <vector>
 
@@ -21,11 +23,14 @@ namespace pointhaptics
 namespace app
 {
 
+class Files;
+
 struct FeelOptions
 {
   std::string file;
   ReadOptions reading;
   std::string path;
+  PathUnits pathUnits;
   std::string output;
   std::string replay;    ///< A recording to feel again, instead of a path.
   std::string record;    ///< A recording to write, beside the output.
@@ -53,8 +58,14 @@ struct FeelOptions
   /// Ends in a usage error where they contradict each other; warns of one that has no effect. @throws Failure
   /// where the configuration file cannot be read.
   void complete(CLI::App& command);
+  /// Takes the files that no option names: recorded clouds, and the copy of one that comes as a stream.
+  void declareMore(Files& files) const;
   /// Whether scenes near the hand are as fine as the points there: nobody asked for other voxels, or none.
   bool refinesNearHand() const { return !this->lattice.voxelsAreGiven && !this->raw && !this->noCovariance; }
+
+private:
+  void checkReplay(const std::vector<std::string>& given) const;
+  void warnOfIdle(const CLI::App& command, const std::vector<std::string>& given) const;
 };
 
 } // namespace app

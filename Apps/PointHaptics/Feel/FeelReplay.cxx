@@ -18,6 +18,20 @@ namespace pointhaptics
 namespace app
 {
 
+void declareRecordedClouds(const std::string& fileName, const std::string& cloudFile, Files& files)
+{
+  RecordingHeader header;
+  std::string ignored;
+  if (!cloudFile.empty() || !readRecordingHeader(files.input(fileName), header, ignored))
+  {
+    return;
+  }
+  for (const std::string& file : header.cloud.files)
+  {
+    files.addInput(file);
+  }
+}
+
 bool openRecording(const std::string& fileName, const std::string& cloudFile, Files& files,
   Recording& recording, vtkSmartPointer<vtkPolyData>& cloud, std::string& message)
 {
@@ -25,16 +39,16 @@ bool openRecording(const std::string& fileName, const std::string& cloudFile, Fi
   {
     return false;
   }
+  if (!recording.note.empty())
+  {
+    warn("replay", recording.note, fileName);
+  }
   const RecordedFiles& felt = recording.header.cloud;
   CloudRequest request;
   request.files = cloudFile.empty() ? felt.files : std::vector<std::string>{ cloudFile };
   request.resolution = felt.resolution;
   for (std::string& file : request.files)
   {
-    if (cloudFile.empty())
-    {
-      files.addInput(file);
-    }
     file = files.input(file);
   }
   ProgressBar bar("reading");

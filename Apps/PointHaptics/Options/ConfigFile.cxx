@@ -189,8 +189,7 @@ void applyConfigFile(CLI::App& command, const std::string& fileName, const std::
   const nlohmann::json keys = nlohmann::json::parse(file, nullptr, false, true);
   if (!keys.is_object())
   {
-    throw Failure(fmt::format(
-      "{}: not a JSON object; write {{\"stiffness\": 600, \"up\": \"z\"}} for example", fileName));
+    throwUsage(fileName, "", "not a JSON object; write {\"stiffness\": 600, \"up\": \"z\"} for example");
   }
   if (const std::string problem = applyKeys(command, keys, ignored); !problem.empty())
   {

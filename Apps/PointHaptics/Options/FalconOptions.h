@@ -25,6 +25,8 @@ struct FalconOptions
   double maximumForce = 4.0;
 
   void addTo(CLI::App& command);
+  /// The limit of the Falcon's force, where it is given, is one of what is felt without a Falcon too.
+  void complete(const CLI::App& command, ContactParameters& contact) const;
   /// Its start ends at a remembered signal (StopSignals.h).
   FalconSettings settings() const;
 };

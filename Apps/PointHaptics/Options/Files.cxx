@@ -30,15 +30,49 @@ namespace app
 namespace
 {
 
-// The role of an option is kept in the option itself, as the name of a check that takes everything.
+/// Links that are followed by hand: as many as the system follows.
+constexpr int kMostLinks = 40;
+
+// The role of an option is kept in the option itself, as the name of its first check.
 constexpr const char* kReads = "reads";
 constexpr const char* kWrites = "writes";
 constexpr const char* kReadsAndWrites = "reads and writes";
 constexpr const char* kPlaceholders[] = { "{stem}", "{name}", "{folder}" };
 
+/// Whether @p name is one of the names that the system gives to an open stream of this process, such as
+/// /dev/stdout, and leads to the standard stream @p stream.
+bool isStandard(const std::string& name, int stream)
+{
+  struct stat named = {};
+  struct stat own = {};
+  if (::stat(name.c_str(), &named) != 0 || ::fstat(stream, &own) != 0 || named.st_dev != own.st_dev ||
+    named.st_ino != own.st_ino)
+  {
+    return false;
+  }
+  std::error_code error;
+  const fs::path folder = fs::canonical("/proc/self/fd", error);
+  fs::path place = fs::absolute(name, error);
+  for (int link = 0; link < kMostLinks && !error && fs::is_symlink(place, error); ++link)
+  {
+    if (fs::canonical(place.parent_path(), error) == folder)
+    {
+      return true;
+    }
+    place = place.parent_path() / fs::read_symlink(place, error);
+  }
+  return false;
+}
+
+/// Keeps the role in @p option, and takes all names of standard input and output for "-".
 CLI::Option* mark(CLI::Option* option, const std::string& role)
 {
-  return option->check(CLI::Validator([](std::string&) { return std::string(); }, "", role));
+  const auto take = [](std::string& name)
+  {
+    name = isStandard(name, STDIN_FILENO) || isStandard(name, STDOUT_FILENO) ? kStandardStream : name;
+    return std::string();
+  };
+  return option->transform(CLI::Validator(take, "", role));
 }
 
 std::vector<std::string> wordsOf(const std::string& text)
@@ -65,8 +99,22 @@ void allowManyFiles(std::size_t count)
   }
 }
 
-/// Links that are followed by hand: as many as the system follows.
-constexpr int kMostLinks = 40;
+/// Ends in a usage error where @p pattern has a word in braces that stands for nothing.
+void checkPlaceholders(const std::string& option, const std::string& pattern)
+{
+  const std::vector<std::string> known(std::begin(kPlaceholders), std::end(kPlaceholders));
+  for (std::size_t begin = 0; (begin = pattern.find('{', begin)) != std::string::npos; ++begin)
+  {
+    const std::size_t end = pattern.find('}', begin);
+    const std::string word = end == std::string::npos ? "" : pattern.substr(begin, end + 1 - begin);
+    if (!word.empty() && std::find(known.begin(), known.end(), word) == known.end())
+    {
+      throwUsage(option, pattern,
+        fmt::format(
+          "{} stands for nothing{}; there are {}", word, didYouMean(word, known), fmt::join(known, ", ")));
+    }
+  }
+}
 
 } // namespace
 
@@ -228,7 +276,25 @@ void Files::takeOutput(
     }
     takeStandardOutput();
   }
-  if (!isPattern(output.name))
+  // Commands that can merge their inputs make one output of each else.
+  const bool isOfEach = command.get_option_no_throw("--merge") != nullptr;
+  if (isOfEach)
+  {
+    checkPlaceholders(output.option, output.name);
+  }
+  if (isOfEach && isPattern(output.name) && isGiven(command, "--merge"))
+  {
+    throwUsage(
+      "--merge", "", "makes one cloud, and " + output.name + " stands for several; leave out one of them");
+  }
+  if (isOfEach && !isPattern(output.name) && clouds.size() > 1 && !isGiven(command, "--merge"))
+  {
+    throwUsage(output.option + (output.option.empty() ? "" : " ") + output.name, "",
+      fmt::format("{} inputs and one output; put {{stem}} into its name for one of each, or give --merge to "
+                  "make one cloud of them",
+        clouds.size()));
+  }
+  if (!isOfEach || !isPattern(output.name))
   {
     this->addOutput(output.name, output.option);
     return;
@@ -245,6 +311,7 @@ void Files::take(const CLI::App& command)
   inputs_.clear();
   outputs_.clear();
   noClobber_ = isGiven(command, "--no-clobber");
+  isForced_ = isGiven(command, "--force");
   std::vector<NamedOutput> outputs;
   std::vector<std::string> clouds;
   for (const CLI::Option* option : command.get_options())
@@ -259,7 +326,7 @@ void Files::take(const CLI::App& command)
       names.pop_back();
       std::error_code ignored;
       // A list of inputs whose output was forgotten must not cost the last of them.
-      if (fs::is_regular_file(outputs.back().name, ignored) && !isGiven(command, "--force"))
+      if (fs::is_regular_file(outputs.back().name, ignored) && !isForced_)
       {
         throwUsage(outputs.back().name, "",
           "is there already, and may be one of the inputs; name the output by -o, or give --force");
@@ -343,11 +410,57 @@ void Files::addOutput(const std::string& name, const std::string& option)
   this->check(outputs_.back());
 }
 
+void Files::dropOutput(const std::string& name)
+{
+  outputs_.remove_if([&](const Entry& output) { return output.name == name; });
+}
+
+void Files::protect(const std::string& name)
+{
+  const auto output =
+    std::find_if(outputs_.begin(), outputs_.end(), [&](const Entry& e) { return e.name == name; });
+  if (output == outputs_.end() || name == kStandardStream || output->identity.isStream())
+  {
+    return;
+  }
+  const std::string part = OutputFile::keptPartOf(name);
+  for (const std::string& file : { name, part })
+  {
+    std::error_code ignored;
+    if (!isForced_ && fs::exists(file, ignored))
+    {
+      throwUsage(output->shown(), "",
+        fmt::format("{} is there, and a touch cannot be made again; choose another name, or give --force",
+          file == part ? part : "it"));
+    }
+  }
+}
+
+void Files::keep(const std::string& name)
+{
+  this->protect(name);
+  for (Entry& output : outputs_)
+  {
+    output.isKept = output.isKept || output.name == name;
+    if (isForced_ && output.name == name)
+    {
+      OutputFile::forgetKept(name);
+    }
+  }
+}
+
+bool Files::isStream(const std::string& name) const
+{
+  return name == kStandardStream ||
+    std::any_of(inputs_.begin(), inputs_.end(),
+      [&](const Entry& input) { return input.name == name && input.identity.isPipe; });
+}
+
 std::string Files::input(const std::string& name)
 {
   const auto found =
     std::find_if(inputs_.begin(), inputs_.end(), [&](const Entry& input) { return input.name == name; });
-  if (found == inputs_.end() || (name != kStandardStream && !found->identity.isPipe))
+  if (found == inputs_.end() || !this->isStream(name))
   {
     return name;
   }
@@ -388,7 +501,7 @@ std::string Files::output(const std::string& name)
     {
       found->file.reset();
     }
-    else if (found->file->open(name) == Status::Ok)
+    else if ((found->isKept ? found->file->openKept(name) : found->file->open(name)) == Status::Ok)
     {
       found->path = found->file->path();
       showAs(found->path, name);
@@ -403,8 +516,8 @@ bool Files::commit(std::string& message)
   std::vector<std::string> created;
   for (Entry& output : outputs_)
   {
-    struct stat status = {};
-    const bool isNew = ::lstat(output.name.c_str(), &status) != 0;
+    std::error_code ignored;
+    const bool isNew = !fs::exists(output.name, ignored);
     if (output.file && noClobber_ && !isNew)
     {
       message =
@@ -419,7 +532,8 @@ bool Files::commit(std::string& message)
     {
       break;
     }
-    created.insert(created.end(), output.file && isNew ? 1 : 0, output.name);
+    // The file, not a link to it.
+    created.insert(created.end(), output.file && isNew ? 1 : 0, fs::weakly_canonical(output.name, ignored));
   }
   for (const std::string& name : message.empty() ? std::vector<std::string>() : created)
   {

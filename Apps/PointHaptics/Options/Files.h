@@ -72,7 +72,17 @@ public:
   /// One more input, which no option names; checked like the others.
   void addInput(const std::string& name, const std::string& option = {});
   void addOutput(const std::string& name, const std::string& option = {});
+  /// Forgets an output that others are made of.
+  void dropOutput(const std::string& name);
 
+  /// Ends in a usage error where the output @p name, or the part of one that was ended, is there and --force
+  /// does not allow to replace it: a recording.
+  void protect(const std::string& name);
+  /// As protect(); what is written of it stays, in NAME.part, whatever happens: the touch of a person.
+  void keep(const std::string& name);
+
+  /// Whether the input @p name can be read once alone.
+  bool isStream(const std::string& name) const;
   /// Where the content of an input can be read as often as wanted: pipes and standard input are copied to a
   /// temporary file. @throws Failure
   std::string input(const std::string& name);
@@ -106,6 +116,7 @@ private:
     Identity identity;
     std::string path = {}; ///< Where it is read or written; empty until it is asked for.
     std::unique_ptr<OutputFile> file = {};
+    bool isKept = false;
 
     std::string shown() const { return option + (option.empty() ? "" : " ") + name; }
   };
@@ -118,6 +129,7 @@ private:
   std::list<Entry> outputs_;
   std::unique_ptr<TemporaryFolder> folder_;
   bool noClobber_ = false;
+  bool isForced_ = false;
 };
 
 } // namespace app

@@ -1,5 +1,7 @@
 #include "Options/LatticeOptions.h"
 
+#include "Devices/PathUnits.h"
+
 #include "Options/SettingOptions.h"
 
 #include "Core/Base/Lattice.h"
@@ -156,6 +158,26 @@ void LatticeOptions::addTo(CLI::App& command)
   {
     option->group(kLatticeGroup);
   }
+}
+
+void addPathUnits(CLI::App& command, PathUnits& pathUnits)
+{
+  const auto add = [&command](const char* name, const std::vector<std::pair<std::string, double>>& table,
+                     double& value, const char* text)
+  {
+    std::vector<std::pair<std::string, int>> words;
+    for (const auto& entry : table)
+    {
+      words.emplace_back(entry.first, int(words.size()));
+    }
+    addChoice(
+      command, name, [&table, &value](int choice) { value = table[std::size_t(choice)].second; }, words,
+      text);
+  };
+  static const std::vector<std::pair<std::string, double>> times = { { "s", 1.0 }, { "ms", 1e-3 },
+    { "us", 1e-6 } };
+  add("--path-unit", units(), pathUnits.metres, "Unit of the places in --path; default m");
+  add("--path-time-unit", times, pathUnits.seconds, "Unit of the times in --path; default s");
 }
 
 double LatticeOptions::metresPerUnit() const

@@ -18,8 +18,14 @@ class vtkVoxelMeanResampler;
 
 namespace pointhaptics
 {
+
+struct PathUnits;
+
 namespace app
 {
+
+/// Adds --path-unit and --path-time-unit, of the numbers in the file of --path.
+void addPathUnits(CLI::App& command, PathUnits& units);
 
 /// The transform's options as given; empty vectors mean "not given".
 struct LatticeOptions

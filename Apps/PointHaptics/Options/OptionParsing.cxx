@@ -79,6 +79,31 @@ void throwUsage(const std::string& option, const std::string& value, const std::
   throw CLI::ValidationError(option + (value.empty() ? "" : " " + value), problem);
 }
 
+std::vector<std::string> givenOptions(const CLI::App& command)
+{
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options())
+  {
+    if (option->count() > 0 && !option->get_lnames().empty())
+    {
+      names.push_back(option->get_lnames().front());
+    }
+  }
+  return names;
+}
+
+void warnIdle(const CLI::App& command, const std::vector<std::string>& given,
+  std::initializer_list<const char*> names, const std::string& why)
+{
+  for (const std::string name : names)
+  {
+    if (std::find(given.begin(), given.end(), name) != given.end())
+    {
+      warn(command.get_name(), fmt::format("--{} has no effect {}; leave it out", name, why));
+    }
+  }
+}
+
 CLI::Option* addNumber(CLI::App& command, const std::string& name, double& value, const NumberRange& range,
   const std::string& unit, const std::string& description)
 {

@@ -47,6 +47,12 @@ bool parseNumbers(const std::string& text, std::vector<double>& values);
 [[noreturn]] void throwNoChoice(
   const std::string& option, const std::string& value, const std::vector<std::string>& choices);
 
+/// The long names of the options given so far: on the command line, where no configuration was taken yet.
+std::vector<std::string> givenOptions(const CLI::App& command);
+/// Warns of those of @p given that are among @p names and have no effect, @p why: "without --device falcon".
+void warnIdle(const CLI::App& command, const std::vector<std::string>& given,
+  std::initializer_list<const char*> names, const std::string& why);
+
 /// Adds `--name` taking one number within @p range; @p unit is shown in the help and in the error.
 CLI::Option* addNumber(CLI::App& command, const std::string& name, double& value, const NumberRange& range,
   const std::string& unit, const std::string& description);

@@ -57,13 +57,13 @@ void TouchOptions::complete(const CLI::App& command)
   }
 }
 
-void checkForceLimitOfDevices(const ContactParameters& contact)
+void checkForceLimitOfDevices(const ContactParameters& contact, const std::string& cure)
 {
   const double most = ForceLimits().maximumForce;
   if (contact.forceLimit > most)
   {
     throwUsage("--force-limit", fmt::format("{}", contact.forceLimit),
-      fmt::format("a device pushes a hand with at most {} N; give that or less, or feel a --path", most));
+      fmt::format("a servo loop pushes a hand with at most {} N; give that or less{}", most, cure));
   }
 }
 

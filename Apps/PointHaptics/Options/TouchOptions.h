@@ -27,8 +27,9 @@ struct TouchOptions
   void complete(const CLI::App& command);
 };
 
-/// Ends in a usage error where the force limit is beyond what a device may push with.
-void checkForceLimitOfDevices(const ContactParameters& contact);
+/// Ends in a usage error where the force limit is beyond what a servo loop may push with. @p cure: what else
+/// to do than to give less, ", or ...".
+void checkForceLimitOfDevices(const ContactParameters& contact, const std::string& cure);
 
 /// Puts the members of @p contact in @p settings, by the names of their options.
 void setContact(nlohmann::ordered_json& settings, const ContactParameters& contact);

@@ -217,7 +217,9 @@ void addCommonOptions(CLI::App& command, bool writes)
     ->excludes(quiet);
   if (writes)
   {
-    command.add_flag("--no-clobber", "Refuse to replace a file");
+    command
+      .add_flag("--force", "Replace files also where a touch was recorded, or OUT is given by its place")
+      ->excludes(command.add_flag("--no-clobber", "Refuse to replace a file"));
     command.add_flag("--dry-run", "Print what would be read and written, and end");
   }
 }
@@ -239,6 +241,10 @@ void runAs(CLI::App& command, int& exitCode, CommandRun run)
       {
         run.complete();
         files.take(command); // with those of a configuration
+      }
+      if (run.declare)
+      {
+        run.declare(files);
       }
       if (isGiven("--dry-run"))
       {

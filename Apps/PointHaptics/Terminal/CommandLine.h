@@ -30,16 +30,17 @@ enum ExitCode : int
 /// How a command runs once its options are parsed.
 struct CommandRun
 {
-  /// What can be said only once all options are known: ends in a usage error, or throws Failure. May be
-  /// empty.
-  std::function<void()> complete;
   /// Does the work. The files that the options name are taken and checked. @return an ExitCode.
   std::function<int(Files&)> run;
+  /// What can be said only once all options are known: ends in a usage error, or throws Failure.
+  std::function<void()> complete = {};
+  /// Adds the files that no option names, and says which outputs cannot be made again.
+  std::function<void(Files&)> declare = {};
 };
 
 /// Makes @p command run so, and adds the options that every command has: --quiet and --verbose, and where it
-/// has options for outputs (Files.h) --no-clobber and --dry-run too. To be called after all other options are
-/// added.
+/// has options for outputs (Files.h) --no-clobber --force and --dry-run too. To be called after all other
+/// options are added.
 /// @param exitCode where the run leaves its exit code; must outlive the parsing.
 void runAs(CLI::App& command, int& exitCode, CommandRun run);
 /// Adds --quiet and --verbose, and if @p writes the options about outputs.

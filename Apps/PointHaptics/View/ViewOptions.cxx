@@ -114,6 +114,13 @@ void addTouchFileOptions(CLI::App& command, HapticViewerOptions& viewer)
   addOutput(command, "--record", viewer.record, { "csv" },
     "Record the touch, from the first tick to the last, for --replay; a key records, too")
     ->type_name("REC.csv");
+  command
+    .add_option(
+      "--marker-text", viewer.markerText, "What the recording says of the markers that the key sets")
+    ->type_name("TEXT");
+  addInteger(
+    command, "--marker-socket", [&viewer](std::int64_t port) { viewer.markerPort = int(port); }, 0, 65535,
+    "Each line of text that comes to this port of this machine is a marker of the recording, with its time");
   addInput(command, "--replay", viewer.replay,
     "Feel and show this recording again, with its settings and motions of the model: the same forces to "
     "the last bit")
@@ -148,6 +155,7 @@ void ViewOptions::addTo(CLI::App& command)
   addInput(command, "--path", this->viewer.path,
     "Follow the hand path in this file: t,x,y,z, or what feel or --trace wrote")
     ->type_name("HIP.csv");
+  addPathUnits(command, this->viewer.pathUnits);
   addWord(command, "--device", this->device, { "auto", "falcon", "simulated", "none" },
     "What moves the hand; default auto: a Falcon where one can be used, else the simulated hand, driven by "
     "mouse and keys; falcon is an error where none can be used, also with --screenshot and --path");
@@ -222,7 +230,10 @@ void ViewOptions::checkFiles() const
   }
   if (this->needsWindow() && this->device != "none")
   {
-    checkForceLimitOfDevices(this->touch.parameters.contact);
+    checkForceLimitOfDevices(this->touch.parameters.contact,
+      this->viewer.path.empty()
+        ? ", or --device none"
+        : ", or --screenshot, --trace or --force-chart, which follow a path without a window");
   }
   if (!this->viewer.followsFile() && !this->screenshot.empty() && (!trace.empty() || !chart.empty()))
   {
@@ -260,6 +271,10 @@ void ViewOptions::takeRecording()
   {
     throw Failure(message);
   }
+  if (!recording.note.empty())
+  {
+    warn("view", recording.note, this->viewer.replay);
+  }
   if (this->files.empty())
   {
     this->files = recording.header.cloud.files;
@@ -279,6 +294,7 @@ void ViewOptions::complete(CLI::App& command)
     this->takeRecording();
   }
   this->touch.complete(command);
+  this->falcon.complete(command, this->touch.parameters.contact);
   this->completeViewer(command);
   this->given = givenSettings(command);
 }
@@ -319,9 +335,25 @@ void ViewOptions::declareMore(Files& taken) const
   {
     taken.addInput(file);
   }
+  if (this->viewer.turntable > 0)
+  {
+    taken.dropOutput(this->screenshot);
+  }
   for (int picture = 1; picture <= this->viewer.turntable; ++picture)
   {
     taken.addOutput(HapticViewer::pictureName(this->screenshot, picture, this->viewer.turntable));
+  }
+  // What a person does in a window cannot be made again.
+  for (const std::string& output : { this->viewer.record, this->needsWindow() ? this->viewer.trace : "" })
+  {
+    taken.keep(output);
+  }
+  const bool isCopied = !this->viewer.record.empty() &&
+    std::any_of(this->files.begin(), this->files.end(),
+      [&taken](const std::string& file) { return taken.isStream(file); });
+  if (isCopied)
+  {
+    taken.addOutput(keptCloudName(this->viewer.record));
   }
 }
 

@@ -28,14 +28,14 @@ const std::set<std::string>& deeds()
 {
   static const std::set<std::string> names = { "help", "version", "config", "write-config", "recent",
     "screenshot", "skip-unreadable", "turntable", "force-chart", "trace", "record", "replay", "output",
-    "sound-file" };
+    "sound-file", "marker-text", "marker-socket" };
   return names;
 }
 
 /// Of the cloud at hand, and of no other.
 constexpr const char* kOfTheCloud[] = { "matrix", "workspace", "voxel", "dims", "scale", "rotate",
-  "translate", "unit", "resolution", "columns", "salvage", "path", "up", "color-by", "color-range", "clip",
-  "measure", "together", "watch", "camera", "ideal" };
+  "translate", "unit", "resolution", "columns", "salvage", "path", "path-unit", "path-time-unit", "up",
+  "color-by", "color-range", "clip", "measure", "together", "watch", "camera", "ideal" };
 
 /// A number where it reads back as it was written, else text: an array may be called 1e3.
 nlohmann::ordered_json valueOf(const CLI::Option& option)

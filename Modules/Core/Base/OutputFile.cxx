@@ -5,8 +5,10 @@
 #include <system_error>
 
 #include <fcntl.h>
+#include <linux/fs.h>
 #include <sys/file.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
 namespace fs = std::filesystem;
@@ -62,10 +64,7 @@ bool isLocked(const std::string& part)
 
 bool isLivingPart(const fs::path& target)
 {
-  const std::string name = target.filename().string();
-  const std::string ending = kPartEnding;
-  return name.size() > ending.size() && name.front() == '.' &&
-    name.compare(name.size() - ending.size(), ending.size(), ending) == 0 && isLocked(target.string());
+  return target.extension() == kPartEnding && isLocked(target.string());
 }
 
 /// Creates and locks a part. @return its descriptor, or -1: errno says why.
@@ -140,17 +139,24 @@ void OutputFile::discard() noexcept
     ::close(descriptor_);
     descriptor_ = -1;
   }
-  if (!temporary_.empty())
+  if (!temporary_.empty() && !isKept_)
   {
     ::unlink(temporary_.c_str());
-    temporary_.clear();
   }
+  temporary_.clear();
   buffer_.clear();
+}
+
+void OutputFile::abandon() noexcept
+{
+  isKept_ = false;
+  this->discard();
 }
 
 Status OutputFile::check(const std::string& target)
 {
   this->discard();
+  isKept_ = replaces_ = false;
   reason_.clear();
   cure_.clear();
   diskFull_ = readerGone_ = false;
@@ -200,7 +206,19 @@ Status OutputFile::openInPlace(int descriptor)
 Status OutputFile::openPart(const struct stat* replaced)
 {
   int problem = EEXIST;
-  for (int number = 1; number <= kMostParts; ++number)
+  if (isKept_)
+  {
+    const std::string part = keptPartOf(target_);
+    descriptor_ = createPart(part);
+    problem = descriptor_ < 0 ? errno : 0;
+    temporary_ = descriptor_ < 0 ? std::string() : part;
+    if (problem == EEXIST)
+    {
+      return this->fail(
+        part + " is there, left by a run that was ended", "rename it to keep it, or remove it");
+    }
+  }
+  for (int number = isKept_ ? kMostParts + 1 : 1; number <= kMostParts; ++number)
   {
     const std::string part = partOf(target_, number);
     struct stat status = {};
@@ -236,7 +254,31 @@ Status OutputFile::openPart(const struct stat* replaced)
   return replaced && ::fchmod(descriptor_, replaced->st_mode & 07777) != 0 ? this->fail(errno) : Status::Ok;
 }
 
+std::string OutputFile::keptPartOf(const std::string& target)
+{
+  return target + kPartEnding;
+}
+
+void OutputFile::forgetKept(const std::string& target)
+{
+  const std::string part = keptPartOf(target);
+  if (!isLocked(part))
+  {
+    ::unlink(part.c_str());
+  }
+}
+
 Status OutputFile::open(const std::string& target)
+{
+  return this->openAs(target, false);
+}
+
+Status OutputFile::openKept(const std::string& target)
+{
+  return this->openAs(target, true);
+}
+
+Status OutputFile::openAs(const std::string& target, bool isKept)
 {
   if (this->check(target) != Status::Ok)
   {
@@ -257,10 +299,12 @@ Status OutputFile::open(const std::string& target)
     return this->openInPlace(::open(target_.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC));
   }
   struct stat status = {};
-  return this->openPart(::stat(target_.c_str(), &status) == 0 ? &status : nullptr);
+  isKept_ = isKept;
+  replaces_ = ::stat(target_.c_str(), &status) == 0;
+  return this->openPart(replaces_ ? &status : nullptr);
 }
 
-void OutputFile::flush()
+Status OutputFile::flush()
 {
   std::size_t done = 0;
   while (done < buffer_.size())
@@ -268,12 +312,12 @@ void OutputFile::flush()
     const ssize_t written = ::write(descriptor_, buffer_.data() + done, buffer_.size() - done);
     if (written < 0 && errno != EINTR)
     {
-      static_cast<void>(this->fail(errno));
-      return;
+      return this->fail(errno);
     }
     done += written > 0 ? static_cast<std::size_t>(written) : 0;
   }
   buffer_.clear();
+  return descriptor_ >= 0 ? Status::Ok : Status::FileNotWritable;
 }
 
 Status OutputFile::write(std::string_view bytes)
@@ -283,11 +327,7 @@ Status OutputFile::write(std::string_view bytes)
     return Status::FileNotWritable;
   }
   buffer_ += bytes;
-  if (buffer_.size() >= kFlushAt)
-  {
-    this->flush();
-  }
-  return reason_.empty() ? Status::Ok : Status::FileNotWritable;
+  return buffer_.size() < kFlushAt ? Status::Ok : this->flush();
 }
 
 Status OutputFile::join(const std::string& unfinished)
@@ -317,13 +357,17 @@ Status OutputFile::writeAt(std::uint64_t place, std::string_view bytes)
   return descriptor_ >= 0 ? Status::Ok : Status::FileNotWritable;
 }
 
+bool OutputFile::renamePart() noexcept
+{
+  const unsigned how = isKept_ && !replaces_ ? RENAME_NOREPLACE : 0U;
+  return ::syscall(SYS_renameat2, AT_FDCWD, temporary_.c_str(), AT_FDCWD, target_.c_str(), how) == 0 ||
+    // Not every file system knows how.
+    ((errno == EINVAL || errno == ENOSYS) && ::rename(temporary_.c_str(), target_.c_str()) == 0);
+}
+
 Status OutputFile::commit()
 {
-  if (descriptor_ >= 0)
-  {
-    this->flush();
-  }
-  if (descriptor_ < 0)
+  if (this->flush() != Status::Ok)
   {
     return reason_.empty() ? this->fail("no file is open", "open one first") : Status::FileNotWritable;
   }
@@ -331,8 +375,7 @@ Status OutputFile::commit()
   const int lock = ::dup(descriptor_);
   const int closed = ::close(descriptor_);
   descriptor_ = -1;
-  const bool isDone =
-    closed == 0 && (temporary_.empty() || ::rename(temporary_.c_str(), target_.c_str()) == 0);
+  const bool isDone = closed == 0 && (temporary_.empty() || this->renamePart());
   const int problem = errno;
   ::close(lock);
   if (!isDone)

@@ -35,6 +35,13 @@ public:
   /// FileNotWritable: a folder, a loop of links, a write-protected file, a folder that does not exist or must
   /// not be written in.
   Status open(const std::string& target);
+  /// As open(), for what cannot be made again: the part is called NAME.part and stays unless commit() or
+  /// abandon() end it, whatever happens to this process. commit() replaces only a file that was there at the
+  /// beginning. FileNotWritable also where there is such a part; forgetKept() removes it.
+  Status openKept(const std::string& target);
+  /// Removes the NAME.part of @p target that no process writes any more.
+  static void forgetKept(const std::string& target);
+  static std::string keptPartOf(const std::string& target);
   /// Returns what open() would, as far as can be told without touching anything.
   Status check(const std::string& target);
   /// Buffered. A fault is kept: later calls do nothing, commit() returns it.
@@ -42,11 +49,15 @@ public:
   /// Opens the unfinished file, path(), that an OutputFile of another process has open and will commit: this
   /// one adds parts to it with writeAt(), and its own commit() only closes.
   Status join(const std::string& unfinished);
+  /// Hands what write() keeps to the system, so that it survives the end of this process.
+  Status flush();
   /// Writes @p bytes to a place of the file, unbuffered; files may have several writers then, and each place
-  /// one of them. Not for pipes and devices, nor together with write().
+  /// one of them. Not for pipes and devices. A place that write() has filled needs a flush() before.
   Status writeAt(std::uint64_t place, std::string_view bytes);
   /// Writes the buffer, closes, renames.
   Status commit();
+  /// Ends without a file, and without its part.
+  void abandon() noexcept;
 
   /// False for a pipe, a device and standard output, true after any other open().
   bool isReplacing() const noexcept { return isRegular_; }
@@ -65,7 +76,8 @@ private:
   Status fail(const std::string& reason, const std::string& cure);
   Status openInPlace(int descriptor);
   Status openPart(const struct stat* replaced);
-  void flush();
+  Status openAs(const std::string& target, bool isKept);
+  bool renamePart() noexcept;
   void discard() noexcept;
 
   std::string target_;
@@ -77,6 +89,8 @@ private:
   bool diskFull_ = false;
   bool readerGone_ = false;
   bool isRegular_ = false;
+  bool isKept_ = false;   ///< The part is not to be removed.
+  bool replaces_ = false; ///< There was a file when this one was opened.
 };
 
 } // namespace pointhaptics

@@ -168,7 +168,6 @@ HandLimits FalconDevice::limits() const noexcept
   result.positionStep = kLargestCountStep;
   result.delayTicks = kDelayTicks;
   result.maximumRateHz = kRateHz;
-  result.maximumForce = implementation_->settings.limits.maximumForce;
   result.rampDownSeconds = kRampDownSeconds;
   result.rampUpSeconds = implementation_->settings.limits.rampSeconds;
   return result;

@@ -60,9 +60,8 @@ bool WavFile::open(const std::string& fileName, std::string& message)
   {
     return this->fail(file_.reason(), file_.cure(), message);
   }
-  stream_.open(file_.path(), std::ios::out | std::ios::binary);
-  stream_ << header(kMostSamples);
-  return stream_.good() || this->fail("it cannot be opened", "check its folder", message);
+  static_cast<void>(file_.write(header(kMostSamples))); // close() tells
+  return true;
 }
 
 bool WavFile::write(const float* samples, std::size_t count, std::string& message)
@@ -79,21 +78,14 @@ bool WavFile::write(const float* samples, std::size_t count, std::string& messag
     add(bytes, static_cast<std::uint32_t>(static_cast<std::int32_t>(value)), kBytesPerSample);
   }
   samples_ += count;
-  stream_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  return stream_.good() || this->fail("the disk is full or gone", "check the space left", message);
+  return file_.write(bytes) == Status::Ok || this->fail(file_.reason(), file_.cure(), message);
 }
 
 bool WavFile::close(std::string& message)
 {
-  if (file_.isReplacing())
+  if (file_.isReplacing() && file_.flush() == Status::Ok)
   {
-    stream_.seekp(0);
-    stream_ << header(samples_);
-  }
-  stream_.close();
-  if (stream_.fail())
-  {
-    return this->fail("the disk is full or gone", "check the space left", message);
+    static_cast<void>(file_.writeAt(0, header(samples_)));
   }
   return file_.commit() == Status::Ok || this->fail(file_.reason(), file_.cure(), message);
 }

@@ -6,7 +6,6 @@
 #include "Devices/Sound/SoundOutput.h"
 
 #include <cstdint>
-#include <fstream>
 #include <string>
 
 namespace pointhaptics
@@ -29,7 +28,6 @@ private:
 
   std::string fileName_;
   OutputFile file_;
-  std::fstream stream_;
   std::uint64_t samples_ = 0;
 };
 

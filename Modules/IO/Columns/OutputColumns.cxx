@@ -3,6 +3,8 @@
 #include "Bytes/NumericType.h"
 #include "FileProblem.h"
 
+#include "Core/Resample/FieldNames.h"
+
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 #include "vtkPoints.h"
@@ -139,7 +141,7 @@ std::vector<OutputArray> outputArrays(vtkPointSet* cloud, WriterNotes& notes, Na
     }
     output.name = used.unused(output.name);
     const std::string given = array->GetName() ? array->GetName() : "";
-    if (output.name != given)
+    if (output.name != given && !isPointField(output.name)) // fields are known by any spelling
     {
       notes.add("array " + inQuotes(given) + " is called " + output.name);
     }

@@ -194,12 +194,13 @@ std::string StatusText::panel(const ServoLoop* servo) const
     "step time: p50 %.0f us, p99 %.0f us, max %.0f us\n"
     "ticks: %llu, deadline misses: %llu, idle: %llu\n"
     "device faults: %llu, waiting: %llu\n"
+    "force limit: %s\n"
     "device: ",
     servo->running() ? "running" : "stopped", statistics.realtime ? ", SCHED_FIFO" : "", statistics.rateHz,
     1e6 * statistics.jitter.p50, 1e6 * statistics.jitter.p99, 1e6 * statistics.jitter.maximum,
     1e6 * statistics.update.p50, 1e6 * statistics.update.p99, 1e6 * statistics.update.maximum,
     count(statistics.ticks), count(statistics.deadlineMisses), count(statistics.idleTicks),
-    count(statistics.deviceFaults), count(statistics.waitingTicks));
+    count(statistics.deviceFaults), count(statistics.waitingTicks), servo->forceLimit().text().c_str());
   return text + device;
 }
 

@@ -7,14 +7,24 @@
 #include "vtkPointSet.h"
 #include "vtkPoints.h"
 
+#include "Core/Base/OutputFile.h"
+
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cstring>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
 
 namespace pointhaptics
 {
 namespace
 {
+
+constexpr std::size_t kLongestLabel = 1000;
 
 /// Not to be broken: it finds out that a file is another one, or in another order.
 template <typename Real>
@@ -67,7 +77,15 @@ std::string recordedColumns()
 
 std::vector<std::string> linesOf(const RecordingHeader& header)
 {
-  std::vector<std::string> lines = { "pointhaptics recording: 1", "program: " + header.program };
+  const auto sinceOrigin =
+    std::chrono::steady_clock::now().time_since_epoch() - std::chrono::nanoseconds(header.origin);
+  const auto started =
+    std::chrono::time_point_cast<std::chrono::microseconds>(std::chrono::system_clock::now() - sinceOrigin);
+  const std::time_t seconds = std::chrono::system_clock::to_time_t(started);
+  const std::int64_t microseconds = started.time_since_epoch().count() % 1000000;
+  std::vector<std::string> lines = { "pointhaptics recording: 2", "program: " + header.program,
+    fmt::format("started: {:%Y-%m-%dT%H:%M:%S}.{:06}Z", fmt::gmtime(seconds), microseconds),
+    fmt::format("monotonic: {}.{:09}", header.origin / 1000000000, header.origin % 1000000000) };
   for (const std::string& file : header.cloud.files)
   {
     lines.push_back("file: " + file);
@@ -85,7 +103,19 @@ std::vector<std::string> linesOf(const RecordingHeader& header)
     keyed::textOf(step.limits.maximumSlewRate), keyed::textOf(step.rampDownSeconds),
     keyed::textOf(step.rampUpSeconds), keyed::textOf(step.clutchDownSeconds),
     keyed::textOf(step.clutchUpSeconds)));
+  const ForceLimit& limit = header.limit;
+  lines.push_back(
+    fmt::format("limits: force={} of={} device={} user={} program={}", keyed::textOf(limit.newtons()),
+      limit.name(), keyed::textOf(limit.device), keyed::textOf(limit.user), keyed::textOf(limit.program)));
   return lines;
+}
+
+std::string lineOf(const RecordedLabel& label)
+{
+  std::string text = label.text.substr(0, kLongestLabel);
+  std::replace_if(
+    text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
+  return fmt::format("marker {}: {}", label.marker, text);
 }
 
 std::string lineOf(std::uint64_t cloud, const SceneOrigin& origin)
@@ -131,6 +161,32 @@ std::string lineOf(const RecordedEvent& event)
       break;
   }
   return line;
+}
+
+std::string keptCloudName(const std::string& recording)
+{
+  return std::filesystem::path(recording).replace_extension(".cloud").string();
+}
+
+bool keepCloud(const std::string& from, const std::string& to, std::string& message)
+{
+  constexpr std::size_t kBlock = 1 << 20;
+  std::ifstream input(from, std::ios::binary);
+  std::string block(kBlock, '\0');
+  OutputFile output;
+  static_cast<void>(output.open(to)); // commit() tells
+  while (input)
+  {
+    input.read(block.data(), std::streamsize(block.size()));
+    static_cast<void>(output.write({ block.data(), std::size_t(input.gcount()) }));
+  }
+  if (output.commit() != Status::Ok)
+  {
+    message = fmt::format(
+      "{}: the cloud cannot be kept for the recording: {}; {}", to, output.reason(), output.cure());
+    return false;
+  }
+  return true;
 }
 
 } // namespace pointhaptics

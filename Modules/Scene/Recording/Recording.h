@@ -6,6 +6,7 @@
 #include "Devices/HipPath.h"
 #include "Haptics/HapticParameters.h"
 #include "Haptics/SceneOrigin.h"
+#include "Haptics/Servo/ForceLimit.h"
 #include "Haptics/Servo/ServoStep.h"
 
 #include "PointHapticsSceneModule.h" // For export macro
@@ -77,6 +78,15 @@ struct RecordingHeader
   std::string settings; ///< A configuration of `view` in one line of JSON; empty: not known.
   RecordedFiles cloud;
   ServoStepSettings step;
+  ForceLimit limit;
+  std::int64_t origin = 0; ///< Nanoseconds of the steady clock at which the time of the table is 0.
+};
+
+/// A marker with a text; its tick has its number.
+struct RecordedLabel
+{
+  std::uint32_t marker = 0;
+  std::string text;
 };
 
 struct Recording
@@ -86,12 +96,22 @@ struct Recording
   std::map<std::uint64_t, HapticParameters> parameters;
   std::vector<RecordedEvent> events; ///< By tick.
   std::vector<RecordedTick> ticks;   ///< Ascending; not empty.
+  std::vector<RecordedLabel> labels;
+  std::string note; ///< That the recording was not ended, in a sentence; empty: it was.
 };
 
 /// Reads a recording. False: @p message says file, line, value and cure. What it accepts can be replayed:
 /// ticks ascend, each event names clouds and parameters that are there, all numbers that matter are finite.
+/// The end of one that was not ended may be cut.
 POINTHAPTICSSCENE_EXPORT bool readRecording(
   const std::string& fileName, Recording& recording, std::string& message);
+/// Reads what comes before the first tick.
+POINTHAPTICSSCENE_EXPORT bool readRecordingHeader(
+  const std::string& fileName, RecordingHeader& header, std::string& message);
+/// Where a copy of the cloud of a recording lies that came as a stream: rec.cloud beside rec.csv.
+POINTHAPTICSSCENE_EXPORT std::string keptCloudName(const std::string& recording);
+/// Copies a cloud. False: @p message says why not.
+POINTHAPTICSSCENE_EXPORT bool keepCloud(const std::string& from, const std::string& to, std::string& message);
 
 ///@{
 /// The lines of a header, without their "# ".
@@ -99,7 +119,10 @@ POINTHAPTICSSCENE_EXPORT std::vector<std::string> linesOf(const RecordingHeader&
 std::string lineOf(std::uint64_t cloud, const SceneOrigin& origin);
 std::string lineOf(std::uint64_t number, const HapticParameters& parameters);
 std::string lineOf(const RecordedEvent& event);
+std::string lineOf(const RecordedLabel& label);
 ///@}
+/// In the place of the number of ticks, for the last line of a recording.
+constexpr const char* kRecordingEnd = "end";
 
 ///@{
 /// The words for RecordedEvent::Kind and SceneOrigin::Kind, in their order.
@@ -108,7 +131,7 @@ constexpr std::array<const char*, 9> kEventKinds = { "scene", "parameters", "clu
 constexpr std::array<const char*, 3> kSceneOrigins = { "whole", "region", "fine" };
 ///@}
 
-/// The last line of a header: the columns.
+/// The first line: the columns.
 std::string recordedColumns();
 
 } // namespace pointhaptics

@@ -52,6 +52,9 @@ public:
   }
   /// False: problem() says why. An empty line ends the rows.
   bool take(const std::string& line);
+  /// Whether the file may be cut after the lines taken so far: it is one that was written as it was felt, has
+  /// a tick, and no end.
+  bool mayBeCut() const { return version_ > 1 && !isEnded_ && !recording_.ticks.empty(); }
   /// Once all lines were taken.
   bool finish();
   const std::string& problem() const { return problem_; }
@@ -75,7 +78,9 @@ private:
   std::map<std::uint64_t, std::shared_ptr<SceneOrigin>> made_;
   std::string problem_;
   std::uint64_t line_ = 0;
-  bool isTable_ = false;
+  int version_ = 0; ///< 0: not known yet.
+  bool hasColumns_ = false;
+  bool isEnded_ = false;
 };
 
 bool Reader::take(const std::string& line)
@@ -85,22 +90,24 @@ bool Reader::take(const std::string& line)
   {
     return this->fail("the line is too long: is this a text file?");
   }
-  if (line_ == 1)
+  const bool isHeader = startsWith(line, "#");
+  if (version_ == 0 && (isHeader || hasColumns_ || line != recordedColumns()))
   {
-    return line == "# pointhaptics recording: 1" ||
+    version_ = line == "# pointhaptics recording: 1" ? 1 : line == "# pointhaptics recording: 2" ? 2 : 0;
+    return version_ > 0 ||
       this->fail(startsWith(line, "# pointhaptics recording")
           ? quote(line) + " is of another version: use the program that wrote it"
-          : "the first line is " + quote(line) +
+          : (hasColumns_ ? "the second line is " : "the first line is ") + quote(line) +
             ": this is no recording; give what --record wrote, or follow other tables by --path");
   }
-  if (!isTable_ && startsWith(line, "#"))
+  if (isHeader)
   {
     return this->takeHeader(line.substr(std::min(line.find_first_not_of("# "), line.size())));
   }
-  if (!isTable_)
+  if (!hasColumns_)
   {
-    isTable_ = true;
-    return line == recordedColumns() ||
+    hasColumns_ = line == recordedColumns();
+    return hasColumns_ ||
       this->fail("the columns are " + quote(line) + ": they must be " + recordedColumns());
   }
   return this->takeRow(line);
@@ -124,6 +131,12 @@ bool Reader::takeHeader(const std::string& text)
     recording_.header.cloud.files.push_back(rest);
     return true;
   }
+  if (key == "marker")
+  {
+    recording_.labels.push_back({ std::uint32_t(number), rest });
+    return true;
+  }
+  isEnded_ = isEnded_ || key == kRecordingEnd;
   if (key == "program" || key == "settings")
   {
     (key == "program" ? recording_.header.program : recording_.header.settings) = rest;
@@ -316,12 +329,23 @@ bool Reader::finish()
   {
     return this->fail("the header has no parameters; take the header as it was written");
   }
+  if (this->mayBeCut())
+  {
+    recording_.note =
+      fmt::format("it was not ended: the program stopped, or still writes it; its {} ticks until {:.3f} s "
+                  "are taken",
+        recording_.ticks.size(), recording_.ticks.back().felt[0]);
+  }
   return true;
 }
 
 } // namespace
 
-bool readRecording(const std::string& fileName, Recording& recording, std::string& message)
+namespace
+{
+
+/// Takes all lines, or where @p isHeaderAlone those before the first tick.
+bool readLines(const std::string& fileName, bool isHeaderAlone, Recording& recording, std::string& message)
 {
   recording = Recording();
   std::error_code ignored;
@@ -334,8 +358,12 @@ bool readRecording(const std::string& fileName, Recording& recording, std::strin
   Reader reader(recording);
   std::string line;
   bool isFine = true;
-  while (isFine && std::getline(stream, line))
+  while (isFine && !(isHeaderAlone && !recording.ticks.empty()) && std::getline(stream, line))
   {
+    if (stream.eof() && reader.mayBeCut())
+    {
+      break; // the line has no end
+    }
     if (!line.empty() && line.back() == '\r')
     {
       line.pop_back();
@@ -349,6 +377,21 @@ bool readRecording(const std::string& fileName, Recording& recording, std::strin
     message = fmt::format("{}:{}: {}", fileName, reader.line(), reader.problem());
   }
   return isFine;
+}
+
+} // namespace
+
+bool readRecording(const std::string& fileName, Recording& recording, std::string& message)
+{
+  return readLines(fileName, false, recording, message);
+}
+
+bool readRecordingHeader(const std::string& fileName, RecordingHeader& header, std::string& message)
+{
+  Recording recording;
+  const bool isRead = readLines(fileName, true, recording, message);
+  header = recording.header;
+  return isRead;
 }
 
 } // namespace pointhaptics

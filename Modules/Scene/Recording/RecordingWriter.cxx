@@ -2,12 +2,9 @@
 
 #include "VirtualTouch.h"
 
-#include "Core/Base/OutputFile.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <iterator>
 #include <limits>
 
@@ -15,8 +12,6 @@ namespace pointhaptics
 {
 namespace
 {
-
-constexpr std::size_t kCopied = 1 << 20;
 
 /// Forgets what was published before the input @p number, which is in use.
 template <typename Input>
@@ -32,44 +27,23 @@ const Input* inUse(std::vector<Input>& inputs, std::uint64_t number)
   return &inputs.front();
 }
 
-template <typename Number>
-void appendCell(std::string& row, Number value)
-{
-  char text[40];
-  row.append(text, std::to_chars(text, text + sizeof text, value).ptr);
-  row += ',';
-}
-
 } // namespace
 
 bool RecordingWriter::open(const std::string& fileName, const RecordingHeader& header, std::string& message)
 {
-  OutputFile file; // whether it can be written is to be known before
-  if (file.open(fileName) != Status::Ok)
-  {
-    message = fmt::format("{}: cannot be created: {}; {}", fileName, file.reason(), file.cure());
-    return false;
-  }
-  rows_.reset(std::tmpfile());
-  if (!rows_)
-  {
-    message =
-      fmt::format("{}: no temporary file can be made; free some space in the temporary folder", fileName);
-    return false;
-  }
   fileName_ = fileName;
   header_ = header;
-  lines_.clear();
   clouds_.clear();
-  row_.clear();
   marks_.clear();
+  labels_.clear();
   markers_ = 0;
   numberOfTicks_ = 0;
+  hasRow_ = false;
   problem_.clear();
-  return true;
+  return table_.open(fileName, recordedColumns(), message, true);
 }
 
-std::uint32_t RecordingWriter::mark(std::uint64_t tick)
+std::uint32_t RecordingWriter::mark(std::uint64_t tick, const std::string& text)
 {
   if (!this->isOpen() || !problem_.empty())
   {
@@ -81,6 +55,10 @@ std::uint32_t RecordingWriter::mark(std::uint64_t tick)
     marks_.push_back(marked);
     lastMark_ = marked;
     ++markers_;
+  }
+  if (!text.empty())
+  {
+    labels_.push_back({ markers_, text });
   }
   return markers_;
 }
@@ -98,6 +76,12 @@ void RecordingWriter::add(ServoLoop& loop, const std::vector<ServoSample>& sampl
   {
     lost_ = lost;
     header_.step = loop.stepSettings();
+    header_.limit = loop.forceLimit();
+    header_.origin = loop.origin();
+  }
+  for (const MarkerSocket::Marker& marker : socket_ ? socket_->take() : std::vector<MarkerSocket::Marker>())
+  {
+    this->mark(marker.tick, marker.text);
   }
   for (const ServoSample& sample : samples)
   {
@@ -126,7 +110,7 @@ void RecordingWriter::addEvent(std::uint64_t tick, RecordedEvent::Kind kind, boo
   event.tick = tick;
   event.kind = kind;
   event.on = on;
-  lines_ += "# " + lineOf(event) + "\n";
+  table_.comment(lineOf(event));
 }
 
 void RecordingWriter::addCloud(std::uint64_t number, const std::shared_ptr<const SceneOrigin>& origin)
@@ -136,16 +120,15 @@ void RecordingWriter::addCloud(std::uint64_t number, const std::shared_ptr<const
     this->end("a scene was felt of which nobody knows how it was made");
     return;
   }
-  if (clouds_[number])
+  if (!clouds_.insert(number).second)
   {
     return;
   }
-  clouds_[number] = true;
   if (origin->globalCloud != 0)
   {
     this->addCloud(origin->globalCloud, origin->global);
   }
-  lines_ += "# " + lineOf(number, *origin) + "\n";
+  table_.comment(lineOf(number, *origin));
 }
 
 void RecordingWriter::addScene(const ServoSample& sample)
@@ -169,7 +152,7 @@ void RecordingWriter::addScene(const ServoSample& sample)
       event.fallback = scene->fallbackCloud;
     }
   }
-  lines_ += "# " + lineOf(event) + "\n";
+  table_.comment(lineOf(event));
 }
 
 void RecordingWriter::addParameters(const ServoSample& sample)
@@ -180,12 +163,12 @@ void RecordingWriter::addParameters(const ServoSample& sample)
     this->end("parameters were in force that nobody knows");
     return;
   }
-  lines_ += "# " + lineOf(parameters->number, parameters->parameters) + "\n";
+  table_.comment(lineOf(parameters->number, parameters->parameters));
   RecordedEvent event;
   event.tick = sample.tick;
   event.kind = RecordedEvent::Kind::Parameters;
   event.number = parameters->number;
-  lines_ += "# " + lineOf(event) + "\n";
+  table_.comment(lineOf(event));
 }
 
 void RecordingWriter::addEvents(const ServoSample& sample)
@@ -247,37 +230,46 @@ void RecordingWriter::addRow(const ServoSample& sample)
     this->end("the servo loop was started again");
     return;
   }
+  this->writeRow(last_.tick);
+  for (const std::string& line : numberOfTicks_ == 0 ? linesOf(header_) : std::vector<std::string>())
+  {
+    table_.comment(line);
+  }
   this->addEvents(sample);
+  if (!table_.isFine())
+  {
+    this->end("the disk is full or gone");
+  }
   if (!problem_.empty())
   {
     return;
   }
-  this->writeRow(last_.tick);
   const auto felt = feltRow(sample.timeSeconds, sample.state, 1e6 * sample.updateSeconds);
-  for (const double value : felt)
-  {
-    appendCell(row_, value);
-  }
-  appendCell(row_, sample.buttons);
+  std::copy(felt.begin(), felt.end(), row_.begin());
+  row_[kFelt] = double(sample.buttons);
+  hasRow_ = true;
   ++numberOfTicks_;
 }
 
 /// The newest row, with the newest marker of those set until @p marksUntil.
 void RecordingWriter::writeRow(std::uint64_t marksUntil)
 {
-  if (row_.empty())
+  if (!hasRow_)
   {
     return;
   }
+  hasRow_ = false;
   std::uint32_t marker = 0;
   for (; !marks_.empty() && marks_.front() <= marksUntil; marks_.pop_front())
   {
     marker = markers_ - std::uint32_t(marks_.size()) + 1;
   }
-  appendCell(row_, marker);
-  row_.back() = '\n';
-  std::fwrite(row_.data(), 1, row_.size(), rows_.get()); // close() looks whether it failed
-  row_.clear();
+  for (; !labels_.empty() && labels_.front().marker <= marker; labels_.pop_front())
+  {
+    table_.comment(lineOf(labels_.front()));
+  }
+  row_[kFelt + 1] = double(marker);
+  table_.row(row_.data(), row_.size());
 }
 
 bool RecordingWriter::close(std::string& message)
@@ -286,42 +278,15 @@ bool RecordingWriter::close(std::string& message)
   {
     return true;
   }
-  this->writeRow(std::numeric_limits<std::uint64_t>::max());
-  const std::unique_ptr<std::FILE, CloseFile> rows = std::move(rows_);
   if (numberOfTicks_ == 0)
   {
-    message = fmt::format("{}: nothing was recorded: the hand did not let go of what it touched{}", fileName_,
-      problem_.empty() ? "" : "; " + problem_);
-    return false;
+    this->end("nothing was recorded: the hand did not let go of what it touched");
+    table_.abandon();
+    return true;
   }
-  OutputFile file;
-  if (file.open(fileName_) == Status::Ok)
-  {
-    for (const std::string& line : linesOf(header_))
-    {
-      static_cast<void>(file.write("# " + line + "\n"));
-    }
-    static_cast<void>(file.write(lines_ + recordedColumns() + "\n"));
-    std::vector<char> bytes(kCopied);
-    bool isWhole = std::fflush(rows.get()) == 0 && !std::ferror(rows.get());
-    std::rewind(rows.get());
-    while (const std::size_t count = std::fread(bytes.data(), 1, bytes.size(), rows.get()))
-    {
-      static_cast<void>(file.write({ bytes.data(), count }));
-    }
-    if (!isWhole || std::ferror(rows.get()))
-    {
-      message =
-        fmt::format("{}: not all ticks could be kept: free some space in the temporary folder", fileName_);
-      return false;
-    }
-  }
-  if (file.commit() != Status::Ok)
-  {
-    message = fmt::format("{}: cannot be written: {}; {}", fileName_, file.reason(), file.cure());
-    return false;
-  }
-  return true;
+  this->writeRow(std::numeric_limits<std::uint64_t>::max());
+  table_.comment(fmt::format("{}: {} ticks", kRecordingEnd, numberOfTicks_));
+  return table_.commit(message);
 }
 
 } // namespace pointhaptics

@@ -2,15 +2,18 @@
 /// Writes a recording while the servo loop runs, from its samples and inputs.
 #pragma once
 
+#include "CsvWriter.h"
+#include "MarkerSocket.h"
 #include "Recording.h"
 
 #include "Haptics/ServoLoop.h"
 
 #include "PointHapticsSceneModule.h" // For export macro
 
-#include <cstdio>
+#include <array>
 #include <deque>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -18,8 +21,8 @@ namespace pointhaptics
 {
 
 /// Takes what ServoLoop::takeTrace() and takeInputs() give, in the thread that calls these: the servo thread
-/// knows nothing of it. Rows wait in an unnamed temporary file, as the header, which has the scenes and
-/// events, comes before them; close() puts both into the file, which appears then. One thread.
+/// knows nothing of it. What was felt stands in NAME.part within a second (CsvWriter); close() gives it its
+/// name. One thread.
 class POINTHAPTICSSCENE_EXPORT RecordingWriter
 {
 public:
@@ -27,7 +30,7 @@ public:
   /// ServoLoop::beginAnew(), or open it before the loop starts. False: @p message says why it cannot be
   /// written, and the cure.
   bool open(const std::string& fileName, const RecordingHeader& header, std::string& message);
-  bool isOpen() const { return rows_ != nullptr; }
+  bool isOpen() const { return table_.isOpen(); }
   /// Whether the hand still has to let go of what it touches.
   bool isWaiting() const { return isOpen() && numberOfTicks_ == 0; }
   /// To be called with all samples of a loop, open or not, after ServoLoop::takeTrace(): it remembers what
@@ -40,23 +43,23 @@ public:
   void add(const ServoSample& sample);
   ///@}
   /// Sets a marker at @p tick, the newest that is finished, or at the first one while there is none. @return
-  /// its number, 1, 2, ..., of that tick's where it has one; 0: nothing is recorded.
-  std::uint32_t mark(std::uint64_t tick);
+  /// its number, 1, 2, ..., of that tick's where it has one; 0: nothing is recorded. @p text: what the header
+  /// says of it.
+  std::uint32_t mark(std::uint64_t tick, const std::string& text = {});
+  /// From here on add() sets the markers that come by @p socket, which outlives this; null: none.
+  void follow(MarkerSocket* socket) { socket_ = socket; }
   std::uint64_t numberOfTicks() const { return numberOfTicks_; }
   std::uint32_t numberOfMarkers() const { return markers_; }
   const std::string& fileName() const { return fileName_; }
-  /// Ends the recording and writes it. False: @p message says why nothing, or not all, could be written. Of
-  /// no effect where none is open.
+  /// Ends the recording. False: @p message says why not all could be written. One without a tick leaves no
+  /// file: problem() says so. Of no effect where none is open.
   bool close(std::string& message);
-  /// What ended the recording before close(): ticks that were lost, or a loop that started again; empty:
-  /// nothing did.
+  /// What ended the recording before close(): ticks that were lost, a loop that started again, a full disk;
+  /// empty: nothing did.
   const std::string& problem() const { return problem_; }
 
 private:
-  struct CloseFile
-  {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-  };
+  static constexpr std::size_t kFelt = std::tuple_size_v<decltype(RecordedTick::felt)>;
 
   void addRow(const ServoSample& sample);
   void writeRow(std::uint64_t marksUntil);
@@ -67,14 +70,16 @@ private:
   void addCloud(std::uint64_t number, const std::shared_ptr<const SceneOrigin>& origin);
   void end(const std::string& problem);
 
+  MarkerSocket* socket_ = nullptr;
   std::string fileName_;
   RecordingHeader header_;
-  std::unique_ptr<std::FILE, CloseFile> rows_;
-  std::string lines_; ///< Of the header: clouds, parameters and events.
-  std::map<std::uint64_t, bool> clouds_;
-  std::string row_;                 ///< The newest, without its marker, which may still come.
-  std::deque<std::uint64_t> marks_; ///< Ticks of markers that are not written yet, ascending.
-  std::uint64_t lastMark_ = 0;      ///< Tick of the newest marker, written or not.
+  CsvWriter table_;
+  std::set<std::uint64_t> clouds_;      ///< Whose lines are written.
+  std::array<double, kFelt + 2> row_{}; ///< The newest; its marker may still come.
+  bool hasRow_ = false;
+  std::deque<std::uint64_t> marks_;  ///< Ticks of markers that are not written yet, ascending.
+  std::deque<RecordedLabel> labels_; ///< Of markers that are not written yet.
+  std::uint64_t lastMark_ = 0;       ///< Tick of the newest marker, written or not.
   std::uint32_t markers_ = 0;
   std::uint64_t numberOfTicks_ = 0;
   std::uint64_t lost_ = 0; ///< Samples the loop had lost when the recording began.

@@ -63,6 +63,11 @@ bool ViewWindow::openDevice(std::string& message)
     {
       return false;
     }
+    applyUnits(options_.pathUnits, path);
+    if (const std::string odd = unlikelyUnits(path, Bounds()); !odd.empty())
+    {
+      this->report(HapticViewerObserver::Kind::Warning, options_.path + ": " + odd);
+    }
     replay_ = std::make_unique<PathReplayDevice>(std::move(path), true);
     device_ = replay_.get();
   }

@@ -12,39 +12,11 @@
 #include <vtkPointSet.h>
 
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <utility>
 
 namespace pointhaptics
 {
-
-namespace
-{
-
-/// False: @p message says why not.
-bool copyFile(const std::string& from, const std::string& to, std::string& message)
-{
-  constexpr std::size_t kBlock = 1 << 20;
-  std::ifstream input(from, std::ios::binary);
-  std::string block(kBlock, '\0');
-  OutputFile output;
-  static_cast<void>(output.open(to)); // commit() tells
-  while (input)
-  {
-    input.read(block.data(), std::streamsize(block.size()));
-    static_cast<void>(output.write({ block.data(), std::size_t(input.gcount()) }));
-  }
-  if (output.commit() != Status::Ok)
-  {
-    message = fmt::format(
-      "{}: the cloud cannot be kept for the recording: {}; {}", to, output.reason(), output.cure());
-    return false;
-  }
-  return true;
-}
-
-} // namespace
 
 bool ViewWindow::startRecording(const std::string& fileName, std::string& message)
 {
@@ -57,8 +29,8 @@ bool ViewWindow::startRecording(const std::string& fileName, std::string& messag
   {
     if (file == options_.passingFile && !file.empty())
     {
-      const std::string copy = std::filesystem::path(fileName).replace_extension(".cloud").string();
-      if (!copyFile(file, copy, message))
+      const std::string copy = keptCloudName(fileName);
+      if (!keepCloud(file, copy, message))
       {
         return false;
       }
@@ -81,10 +53,15 @@ bool ViewWindow::endRecording(std::string& message)
     return true;
   }
   style_->CollectSamples();
+  const bool isWritten = recording_.close(message);
   const std::string why = recording_.problem();
-  if (!recording_.close(message))
+  if (recording_.numberOfTicks() == 0)
   {
-    return false;
+    this->report(HapticViewerObserver::Kind::Warning, recording_.fileName() + ": " + why);
+  }
+  if (!isWritten || recording_.numberOfTicks() == 0)
+  {
+    return isWritten;
   }
   this->say(fmt::format("recording: {} ({} ticks, {} marker{}){}", recording_.fileName(),
     recording_.numberOfTicks(), recording_.numberOfMarkers(), recording_.numberOfMarkers() == 1 ? "" : "s",
@@ -117,7 +94,7 @@ void ViewWindow::toggleRecording()
   do
   {
     name = fmt::format("pointhaptics-{:03}.csv", ++recordings_);
-  } while (std::filesystem::exists(name));
+  } while (std::filesystem::exists(name) || std::filesystem::exists(OutputFile::keptPartOf(name)));
   if (!this->startRecording(name, message))
   {
     this->tell(message);
@@ -130,7 +107,7 @@ void ViewWindow::toggleRecording()
 
 void ViewWindow::setMarker()
 {
-  const std::uint32_t marker = recording_.mark(servo_.latest().tick);
+  const std::uint32_t marker = recording_.mark(servo_.latest().tick, options_.markerText);
   this->say(marker > 0 ? fmt::format("marker {}", marker) : "no marker: nothing is recorded");
 }
 

@@ -286,7 +286,12 @@ void ViewWindow::onSamples(void* callData)
   recording_.add(servo_, samples);
   if (trace_.isOpen())
   {
-    trace_.add(samples);
+    addTrace(trace_, samples);
+    std::string message;
+    if (!trace_.isFine() && !trace_.commit(message)) // at once: the session may last for hours
+    {
+      this->report(HapticViewerObserver::Kind::Error, message);
+    }
   }
   if (!options_.forceChart.empty())
   {
@@ -294,8 +299,7 @@ void ViewWindow::onSamples(void* callData)
     {
       const double newtons = norm(sample.state.force);
       wholeChart_->AddSample(sample.timeSeconds, newtons, sample.state.radius,
-        wholeIdeal_ ? idealForce(*wholeIdeal_, scene_, sample.state.hip, parameters_.contact.stiffness)
-                    : NAN);
+        wholeIdeal_ ? idealForce(*wholeIdeal_, scene_, sample.state.hip, this->contactInForce()) : NAN);
     }
   }
 }
@@ -430,33 +434,47 @@ bool ViewWindow::finish(std::string& message)
   {
     this->report(HapticViewerObserver::Kind::Warning, refusals);
   }
-  if (!this->endRecording(message))
-  {
-    return false;
-  }
+  return this->endFiles(message);
+}
+
+/// One that cannot be written takes none of the others with it.
+bool ViewWindow::endFiles(std::string& message)
+{
+  bool areWritten = this->endRecording(message);
   if (trace_.isOpen())
   {
-    if (!trace_.close(message))
-    {
-      return false;
-    }
-    this->report(HapticViewerObserver::Kind::Note, "trace: " + options_.trace);
+    const bool isWritten = trace_.commit(message);
+    this->noteFile(isWritten, "trace: " + options_.trace);
+    areWritten = areWritten && isWritten;
   }
   if (!options_.forceChart.empty())
   {
-    if (!wholeChart_->WriteImage(options_.forceChart.c_str()))
-    {
-      message = wholeChart_->GetErrorMessage();
-      return false;
-    }
-    this->report(HapticViewerObserver::Kind::Note, "force chart: " + options_.forceChart);
+    const bool isWritten = wholeChart_->WriteImage(options_.forceChart.c_str());
+    message = isWritten ? message : wholeChart_->GetErrorMessage();
+    this->noteFile(isWritten, "force chart: " + options_.forceChart);
+    areWritten = areWritten && isWritten;
   }
-  return true;
+  return areWritten;
+}
+
+void ViewWindow::noteFile(bool isWritten, const std::string& note) const
+{
+  if (isWritten)
+  {
+    this->report(HapticViewerObserver::Kind::Note, note);
+  }
+}
+
+ContactParameters ViewWindow::contactInForce() const
+{
+  ContactParameters contact = parameters_.contact;
+  contact.forceLimit = device_ && servo_.running() ? servo_.forceLimit().newtons() : contact.forceLimit;
+  return contact;
 }
 
 bool ViewWindow::start(std::size_t cloud, const std::string& news, std::string& message)
 {
-  if (!options_.trace.empty() && !trace_.open(options_.trace, message))
+  if (!options_.trace.empty() && !trace_.open(options_.trace, traceColumns(), message, true))
   {
     return false;
   }
@@ -470,6 +488,11 @@ bool ViewWindow::start(std::size_t cloud, const std::string& news, std::string& 
   shown_ = options_.together || files_.empty() ? files_ : std::vector<std::string>{ files_[cloud] };
   fileIndex_ = cloud;
   watch_.watch(shown_);
+  recording_.follow(&markers_);
+  if (options_.markerPort >= 0 && !markers_.open(options_.markerPort, servo_, message))
+  {
+    return false;
+  }
   if (!options_.record.empty() && !this->startRecording(options_.record, message))
   {
     return false;

@@ -158,7 +158,11 @@ private:
   void adoptModel(const AffineTransform& model);
   void giveModel(vtkMatrix4x4* matrix);
   void showFile(std::size_t index);
+  bool endFiles(std::string& message);
+  void noteFile(bool isWritten, const std::string& note) const;
   void findIdeal();
+  /// Parameters with the limit of the force that holds.
+  ContactParameters contactInForce() const;
   HapticViewerState state();
   void onModelChanged(void*);
   void onSceneChanged(void*);
@@ -206,7 +210,7 @@ private:
   ClipBoxTool clipping_;
   vtkNew<vtkCallbackCommand> cancelKey_;
   std::shared_ptr<IdealForce> wholeIdeal_; // for the same
-  TraceFile trace_;
+  CsvWriter trace_;
   RecordingWriter recording_;
   int recordings_ = 0;
   bool recordingWaits_ = false; ///< As the user was told.
@@ -225,6 +229,7 @@ private:
   HapticDevice* device_ = nullptr;
   CloudLoader loader_;
   ServoLoop servo_;                      // destroyed, and so stopped, before the device
+  MarkerSocket markers_;                 // asks the loop
   SoundPlayer sound_;                    // before the servo loop, which it plays
   std::unique_ptr<ReplayPlayer> player_; // feeds the loop
   Lifetime lifetime_;                    // last: it ends first

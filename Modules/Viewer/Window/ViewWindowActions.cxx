@@ -319,7 +319,7 @@ void ViewWindow::findIdeal()
   const std::shared_ptr<IdealForce> ideal = idealFor(scene_, options_);
   wholeIdeal_ = ideal ? std::make_shared<IdealForce>(*ideal) : nullptr;
   style_->GetDisplay().setIdealForce(ideal ? [this, ideal](const Vec3& hip)
-      { return idealForce(*ideal, scene_, hip, parameters_.contact.stiffness); }
+      { return idealForce(*ideal, scene_, hip, this->contactInForce()); }
                                            : std::function<double(const Vec3&)>());
 }
 

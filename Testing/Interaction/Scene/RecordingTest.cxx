@@ -20,12 +20,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <memory>
 #include <sstream>
 #include <string>
 #include <vector>
+
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
 using namespace pointhaptics;
 
@@ -88,7 +95,11 @@ protected:
     header_.cloud = { { "/no/where/sphere.ply" }, 0.0, cloud_->GetNumberOfPoints(), checksumOf(cloud_) };
     port_.path = handAt;
   }
-  ~RecordingTest() override { std::filesystem::remove(file_); }
+  ~RecordingTest() override
+  {
+    std::filesystem::remove(file_);
+    std::filesystem::remove(file_ + ".part");
+  }
 
   /// For the surroundings of a hand.
   static SceneRequest localRequest()
@@ -393,15 +404,20 @@ TEST_F(RecordingTest, WhatIsNoRecordingIsRefusedInOneLine)
     EXPECT_NE(place, std::string::npos) << from;
     return std::string(good).replace(place, from.size(), to);
   };
-  const std::string rows = good.substr(good.find("marker\n") + 7);
-  const std::string head = good.substr(0, good.size() - rows.size());
+  std::string head;
+  std::string rows;
+  std::istringstream lines(good.substr(0, good.find("# end: ")));
+  for (std::string line; std::getline(lines, line);)
+  {
+    (head.empty() || line.front() == '#' ? head : rows) += line + "\n";
+  }
   this->refuse("", "no recording");
   this->refuse("t,x,y,z\n0,0,0,0\n", "no recording");
   this->refuse(std::string(5000, 'x'), "no recording");
-  this->refuse(with("recording: 1", "recording: 2"), "another version");
+  this->refuse(with("recording: 2", "recording: 3"), "another version");
   this->refuse(head, "no row");
-  this->refuse(with("buttons,marker", "buttons"), "the columns are");
-  this->refuse(head + rows.substr(0, rows.size() - 20), "cut off");
+  this->refuse(with("buttons,marker", "buttons"), "no recording");
+  this->refuse(head + rows.substr(0, rows.size() - 20) + "\n" + rows, "cut off");
   this->refuse(head + "nan" + rows.substr(rows.find(',')), "NaN");
   this->refuse(head + "inf" + rows.substr(rows.find(',')), "out of range");
   this->refuse(head + rows + rows, "not after");
@@ -418,6 +434,126 @@ TEST_F(RecordingTest, WhatIsNoRecordingIsRefusedInOneLine)
   Recording recording;
   EXPECT_FALSE(readRecording(file_, recording, message_));
   EXPECT_NE(message_.find("cannot be opened"), std::string::npos);
+}
+
+TEST_F(RecordingTest, ItIsReadAsItWasWrittenByTheFirstVersion)
+{
+  this->start();
+  this->recordFor(500);
+  this->stop();
+  std::string head = "# pointhaptics recording: 1\n";
+  std::string table;
+  std::istringstream lines(this->text());
+  for (std::string line; std::getline(lines, line);)
+  {
+    const bool isNew = line.rfind("# pointhaptics", 0) == 0 || line.rfind("# started", 0) == 0 ||
+      line.rfind("# monotonic", 0) == 0 || line.rfind("# limits", 0) == 0 || line.rfind("# end", 0) == 0;
+    (line.front() == '#' ? head : table) += isNew ? "" : line + "\n";
+  }
+  std::ofstream(file_) << head + table;
+  this->replay(100);
+}
+
+TEST_F(RecordingTest, WhatWasFeltStandsBesideItBeforeItEnds)
+{
+  this->start();
+  this->recordFor(1500);
+  EXPECT_FALSE(std::filesystem::exists(file_));
+  Recording recording;
+  ASSERT_TRUE(readRecording(file_ + ".part", recording, message_)) << message_;
+  EXPECT_GE(recording.ticks.back().tick + 1100, samples_.back().tick);
+  EXPECT_NE(recording.note.find("it was not ended"), std::string::npos) << recording.note;
+  this->stop();
+  EXPECT_FALSE(std::filesystem::exists(file_ + ".part"));
+  ASSERT_TRUE(readRecording(file_, recording, message_)) << message_;
+  EXPECT_EQ(recording.note, "");
+}
+
+TEST_F(RecordingTest, OneThatIsThereIsNotReplaced)
+{
+  this->start();
+  this->recordFor(50);
+  std::ofstream(file_) << "of another program";
+  loop_.stop();
+  EXPECT_FALSE(writer_.close(message_));
+  EXPECT_NE(message_.find(file_ + ".part has what came before"), std::string::npos) << message_;
+  EXPECT_EQ(this->text(), "of another program");
+  RecordingWriter other;
+  EXPECT_FALSE(other.open(file_, header_, message_));
+  EXPECT_NE(message_.find(".part is there"), std::string::npos) << message_;
+}
+
+TEST_F(RecordingTest, AFullDiskLeavesWhatCameBefore)
+{
+  rlimit before;
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+  rlimit small = before;
+  small.rlim_cur = 100000;
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  this->start();
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+  const bool isFull = trial::eventually(
+    [&]
+    {
+      this->take();
+      return !writer_.problem().empty();
+    });
+  EXPECT_EQ(setrlimit(RLIMIT_FSIZE, &before), 0);
+  std::signal(SIGXFSZ, handler);
+  EXPECT_TRUE(isFull);
+  loop_.stop();
+  EXPECT_FALSE(writer_.close(message_));
+  EXPECT_NE(message_.find(".part has what came before"), std::string::npos) << message_;
+  Recording recording;
+  ASSERT_TRUE(readRecording(file_ + ".part", recording, message_)) << message_;
+  EXPECT_GT(recording.ticks.size(), 100u);
+}
+
+TEST_F(RecordingTest, LinesThatComeByASocketAreMarkers)
+{
+  this->start();
+  MarkerSocket socket;
+  ASSERT_TRUE(socket.open(0, loop_, message_)) << message_;
+  writer_.follow(&socket);
+  const int client = ::socket(AF_INET, SOCK_STREAM, 0);
+  sockaddr_in address = {};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(std::uint16_t(socket.port()));
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  ASSERT_EQ(::connect(client, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+  for (const std::string text : { "trial 1: rough\n", "trial 2: smo" })
+  {
+    ASSERT_EQ(::send(client, text.data(), text.size(), 0), ssize_t(text.size()));
+  }
+  ASSERT_TRUE(trial::eventually(
+    [&]
+    {
+      this->take();
+      return writer_.numberOfMarkers() == 1;
+    }));
+  const std::uint64_t between = loop_.latest().tick;
+  this->recordFor(20);
+  ASSERT_EQ(::send(client, "oth\n", 4, 0), 4);
+  ASSERT_TRUE(trial::eventually(
+    [&]
+    {
+      this->take();
+      return writer_.numberOfMarkers() == 2;
+    }));
+  ::close(client);
+  this->stop();
+  Recording recording;
+  ASSERT_TRUE(readRecording(file_, recording, message_)) << message_;
+  ASSERT_EQ(recording.labels.size(), 2u);
+  EXPECT_EQ(recording.labels[0].text, "trial 1: rough");
+  EXPECT_EQ(recording.labels[1].text, "trial 2: smooth");
+  const std::vector<std::uint64_t> ticks = this->markedTicks();
+  ASSERT_EQ(ticks.size(), 2u);
+  EXPECT_LE(ticks[0], between);
+  EXPECT_GT(ticks[1], between);
+  MarkerSocket taken;
+  EXPECT_FALSE(taken.open(socket.port(), loop_, message_));
+  EXPECT_NE(message_.find("give another port"), std::string::npos) << message_;
 }
 
 TEST_F(RecordingTest, AnotherCloudIsRefused)

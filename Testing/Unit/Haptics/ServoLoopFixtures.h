@@ -25,7 +25,9 @@ public:
   std::function<Status(int)> readStatus = [](int) { return Status::Ok; }; ///< Of the n-th read, from 0.
   std::function<Status(int)> writeStatus = [](int) { return Status::Ok; };
   std::function<void(int)> onRead = [](int) {};
-  HandLimits bounds; ///< What limits() says.
+  std::function<void(double)> onWrite = [](double) {}; ///< Of the force.
+  HandLimits bounds;                                   ///< What limits() says.
+  double declared = HapticPort::maximumForce();
 
   std::atomic<int> reads{ 0 };
   std::atomic<int> writes{ 0 };
@@ -45,11 +47,13 @@ public:
   Status write(double, const Vec3& force) noexcept override
   {
     lastForce = norm(force);
+    onWrite(lastForce);
     forceAfterFault = forceAfterFault || (failed_ && norm(force) != 0.0);
     return writeStatus(writes.fetch_add(1));
   }
 
   HandLimits limits() const noexcept override { return bounds; }
+  double maximumForce() const noexcept override { return declared; }
   bool mayIdle() const noexcept override { return true; }
 
 private:

@@ -4,10 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <random>
 #include <string>
+#include <thread>
 #include <vector>
 
 using namespace pointhaptics;
@@ -66,6 +69,54 @@ TEST(ServoLoop, KeepsItsForceLimitsWhateverTheProxySays)
     last = force;
   }
   EXPECT_NEAR(largest, 0.25, 1e-9);
+}
+
+TEST(ServoLoop, PushesNoHarderThanTheLeastOfThreeLimits)
+{
+  struct Case
+  {
+    double device, user, program, expected;
+    const char* name;
+  };
+  for (const Case& each : { Case{ 0.5, 8.0, 8.0, 0.5, "device" }, Case{ 2.0, 1e9, 1e9, 2.0, "device" },
+         Case{ 20.0, INFINITY, 1e9, 8.0, "program" }, Case{ 20.0, 1.0, INFINITY, 1.0, "user" },
+         Case{ 4.0, 6.0, 0.25, 0.25, "program" }, Case{ INFINITY, 8.0, INFINITY, 8.0, "user" } })
+  {
+    ScriptedPort port;
+    port.declared = each.device;
+    double largest = 0.0;
+    port.onWrite = [&largest](double force) { largest = std::max(largest, force); };
+    port.path = [](double time) { return Vec3{ 0.0, 0.0, std::max(-0.004, 0.001 - 0.2 * time) }; };
+    ServoSettings settings = plainSettings();
+    settings.limits = { each.program, INFINITY };
+    HapticParameters parameters;
+    parameters.contact.stiffness = 1e4;
+    parameters.contact.forceLimit = each.user;
+    ServoLoop loop;
+    loop.publishScene(plane());
+    ASSERT_EQ(loop.start(port, parameters, settings), Status::Ok);
+    EXPECT_EQ(loop.forceLimit().newtons(), each.expected);
+    EXPECT_STREQ(loop.forceLimit().name(), each.name);
+    ASSERT_TRUE(eventually([&] { return loop.latest().timeSeconds > 0.06; }));
+    // Whatever is asked for later.
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> exponent(-1.0, 1.0);
+    for (int i = 0; i < 40; ++i)
+    {
+      parameters.contact.stiffness = 1e4 * std::pow(10.0, exponent(random));
+      parameters.contact.damping = std::pow(10.0, 2.0 * exponent(random));
+      parameters.contact.staticFriction = parameters.contact.dynamicFriction =
+        std::pow(10.0, exponent(random));
+      parameters.contact.forceLimit = each.user * std::pow(10.0, exponent(random) + 1.0);
+      parameters.method = ProxyMethod(i % 3);
+      EXPECT_EQ(loop.setParameters(parameters), Status::Ok);
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    loop.stop();
+    const double most = std::min({ each.device, each.program, kMostServoForce });
+    EXPECT_LE(largest, most) << each.name;
+    EXPECT_GT(largest, 0.9 * each.expected) << each.name;
+  }
 }
 
 TEST(ServoLoop, RefusesSpringsAndRatesBeyondThePortWithTheLimitInTheMessage)

@@ -1,0 +1,40 @@
+/// @file
+/// Units of the numbers of a hand path, and what the sizes of path and cloud say of them.
+#pragma once
+
+#include "Core/Base/PointView.h"
+#include "Devices/HipPath.h"
+
+#include <string>
+
+namespace pointhaptics
+{
+
+/// What one of the numbers in a path's file is.
+struct PathUnits
+{
+  double metres = 1.0;  ///< Above 0.
+  double seconds = 1.0; ///< Above 0.
+};
+
+/// What those who choose units call them: options of a program, arguments of a function.
+struct UnitNames
+{
+  std::string cloud = "--unit";
+  std::string path = "--path-unit";
+  std::string time = "--path-time-unit";
+};
+
+/// Makes metres and seconds of the numbers of @p path.
+void applyUnits(const PathUnits& units, HipPath& path);
+
+/// A hand reaches 2 m, moves by millimetres a second at least, and is told more often than once in half a
+/// second. Where @p path, in metres and seconds, does not, and would in other units, says so in one sentence
+/// with the cure; else empty. @p cloud: box of what is felt, metres; may be empty. Costs a pass over the
+/// path.
+std::string unlikelyUnits(const HipPath& path, const Bounds& cloud, const UnitNames& names = {});
+/// The same of a cloud that @p path goes by without a touch: whether it would be as large as the path in
+/// another unit.
+std::string unlikelyCloudUnit(const HipPath& path, const Bounds& cloud, const UnitNames& names = {});
+
+} // namespace pointhaptics

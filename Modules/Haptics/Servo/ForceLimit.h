@@ -1,0 +1,36 @@
+/// @file
+/// How hard a hand may be pushed, in one rule.
+#pragma once
+
+#include "Haptics/HapticParameters.h"
+#include "Haptics/Servo/PassivityLimit.h"
+
+#include <limits>
+#include <string>
+
+namespace pointhaptics
+{
+
+/// The least of three limits holds, in every mode and on every device; newtons, infinity: there is none.
+struct ForceLimit
+{
+  double device = std::numeric_limits<double>::infinity();  ///< What the device declares.
+  double user = std::numeric_limits<double>::infinity();    ///< ContactParameters::forceLimit.
+  double program = std::numeric_limits<double>::infinity(); ///< ServoSettings::limits; at most 8 in a servo
+                                                            ///< loop.
+
+  double newtons() const noexcept;
+  /// "device", "user" or "program", whose limit is the least; "none".
+  const char* name() const noexcept;
+  /// "2 N (device)", or "none".
+  std::string text() const;
+};
+
+/// No servo loop pushes harder, N: the Falcon's drive ends near there. Virtual time has no such limit.
+constexpr double kMostServoForce = 8.0;
+
+/// Of a servo loop with a device of @p limits and with @p program as its own limit.
+ForceLimit servoForceLimit(
+  const HandLimits& limits, const ContactParameters& contact, const ForceLimits& program) noexcept;
+
+} // namespace pointhaptics

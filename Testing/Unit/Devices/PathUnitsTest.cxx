@@ -1,0 +1,126 @@
+// What sizes and times of a path say of its units; and a device declares its force by its capabilities alone.
+#include "Devices/PathUnits.h"
+
+#include "Devices/Falcon/FalconDevice.h"
+#include "Devices/PathReplay.h"
+#include "Devices/SimulatedDevice.h"
+#include "Haptics/ServoLoop.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+using namespace pointhaptics;
+
+namespace
+{
+
+/// To and fro over @p size, @p rows of them @p step apart.
+HipPath swing(double size, int rows, double step)
+{
+  HipPath path;
+  for (int i = 0; i < rows; ++i)
+  {
+    path.points.push_back({ step * i, { 0.5 * size * std::sin(0.01 * i), 0.0, 0.0 } });
+  }
+  return path;
+}
+
+Bounds cube(double edge)
+{
+  Bounds box;
+  box.include({ -0.5 * edge, -0.5 * edge, -0.5 * edge });
+  box.include({ 0.5 * edge, 0.5 * edge, 0.5 * edge });
+  return box;
+}
+
+TEST(PathUnits, ThatAreWrongAreSaidWithTheCure)
+{
+  struct Case
+  {
+    HipPath path;
+    Bounds cloud;
+    std::string cure;
+  };
+  for (const Case& each : { Case{ swing(60.0, 1000, 0.01), cube(0.05), "--path-unit mm" },
+         Case{ swing(60.0, 1000, 0.01), cube(50.0), "--unit mm --path-unit mm" },
+         Case{ swing(60.0, 1000, 0.01), Bounds(), "--path-unit mm" },
+         Case{ swing(6.0, 1000, 0.01), cube(0.05), "--path-unit cm" },
+         Case{ swing(0.06, 1000, 1.0), cube(0.05), "--path-time-unit ms" },
+         Case{ swing(0.06, 100, 1e4), cube(0.05), "--path-time-unit us" },
+         Case{ swing(0.5, 3, 1e3), cube(0.05), "--path-time-unit ms" } })
+  {
+    const std::string said = unlikelyUnits(each.path, each.cloud);
+    EXPECT_NE(said.find(each.cure), std::string::npos) << each.cure << ": " << said;
+    EXPECT_EQ(said.find('\n'), std::string::npos);
+  }
+  EXPECT_NE(unlikelyCloudUnit(swing(0.06, 1000, 0.01), cube(50.0)).find("--unit mm"), std::string::npos);
+  EXPECT_EQ(unlikelyCloudUnit(swing(0.06, 100, 0.01), cube(0.05)), "");
+  EXPECT_EQ(unlikelyCloudUnit(HipPath(), Bounds()), "");
+  UnitNames names;
+  names.path = "path_unit";
+  EXPECT_NE(unlikelyUnits(swing(60.0, 1000, 0.01), Bounds(), names).find("path_unit mm"), std::string::npos);
+}
+
+TEST(PathUnits, OfAnyHandAreNotDoubted)
+{
+  for (const double size : { 1e-4, 0.01, 0.1, 0.5 })
+  {
+    for (const double step : { 1e-4, 1e-3, 0.02 })
+    {
+      for (const Bounds& cloud : { Bounds(), cube(0.05), cube(0.3), cube(20.0), cube(1000.0) })
+      {
+        EXPECT_EQ(unlikelyUnits(swing(size, 200, step), cloud), "") << size << " " << step;
+      }
+    }
+  }
+  HipPath rest;
+  rest.points = { { 0.0, { 0.0, 0.0, 0.01 } }, { 3600.0, { 0.0, 0.0, 0.01 } } };
+  EXPECT_EQ(unlikelyUnits(rest, cube(0.05)), "") << "a hand that rests";
+  EXPECT_EQ(unlikelyUnits(HipPath(), Bounds()), "");
+}
+
+TEST(PathUnits, MakeMetresAndSeconds)
+{
+  HipPath path = swing(60.0, 10, 5.0); // 45 s
+  applyUnits({ 1e-3, 1e-3 }, path);
+  EXPECT_EQ(unlikelyUnits(path, cube(0.05)), "");
+  EXPECT_DOUBLE_EQ(path.points.back().timeSeconds, 0.045);
+  EXPECT_DOUBLE_EQ(path.points.back().position.x, 0.03 * std::sin(0.09));
+}
+
+/// Declares a force by its capabilities alone.
+class WeakDevice : public PathReplayDevice
+{
+public:
+  WeakDevice()
+    : PathReplayDevice(swing(0.06, 100, 0.001), true)
+  {
+  }
+  DeviceCapabilities capabilities() const noexcept override
+  {
+    DeviceCapabilities result = PathReplayDevice::capabilities();
+    result.maximumForce = 2.0;
+    return result;
+  }
+};
+
+TEST(DeviceForce, IsTheOneOfTheCapabilities)
+{
+  const SimulatedDevice simulated;
+  const FalconDevice falcon{ FalconSettings() };
+  EXPECT_EQ(simulated.maximumForce(), simulated.capabilities().maximumForce);
+  EXPECT_EQ(falcon.maximumForce(), 4.0);
+  WeakDevice weak;
+  ASSERT_EQ(weak.open(), Status::Ok);
+  ServoSettings settings;
+  settings.realtimePriority = false;
+  settings.limits.maximumForce = 1e9;
+  ServoLoop loop;
+  ASSERT_EQ(loop.start(weak, HapticParameters(), settings), Status::Ok);
+  EXPECT_EQ(loop.forceLimit().text(), "2 N (device)");
+  loop.stop();
+}
+
+} // namespace
