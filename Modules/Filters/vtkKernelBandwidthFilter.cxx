@@ -7,6 +7,7 @@
 
 #include "Core/Bandwidth/Density.h"
 #include "Core/Bandwidth/LocalBandwidth.h"
+#include "Core/Base/Host/GuardedWork.h"
 
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -41,7 +42,8 @@ public:
 
   void run(std::int64_t count, std::int64_t grain, void* context, Body body) const override
   {
-    const std::int64_t piece = std::max<std::int64_t>(4 * grain, (count + Slices - 1) / Slices);
+    const std::int64_t piece =
+      std::max<std::int64_t>(4 * grain, std::min((count + Slices - 1) / Slices, MostInSlice));
     for (std::int64_t begin = 0; begin < count && !this->Filter->GetAbortExecute(); begin += piece)
     {
       Shifted shifted{ context, body, begin };
@@ -57,6 +59,8 @@ public:
 
 private:
   static constexpr std::int64_t Slices = 8;
+  /// Some 50 ms: an abort request waits no longer.
+  static constexpr std::int64_t MostInSlice = 250000;
   struct Shifted
   {
     void* Context;
@@ -110,6 +114,7 @@ int vtkKernelBandwidthFilter::RequestData(
 
   LocalBandwidthSettings settings = this->Settings;
   settings.smoothRadius = settings.smoothRadius && this->Settings.computeProxyRadius;
+  this->SetErrorCode(0);
   const Status status = settings.check();
   if (status != Status::Ok)
   {
@@ -125,9 +130,16 @@ int vtkKernelBandwidthFilter::RequestData(
   output->ShallowCopy(input);
   const bool wanted = this->Settings.computeBandwidth || this->Settings.computeProxyRadius ||
     this->Settings.computeDensity || this->Settings.computeMeanBandwidth;
-  if (wanted && !this->Estimate(input, output, settings))
+  bool isMade = !wanted;
+  const Status end = guardedWork([&] { isMade = isMade || this->Estimate(input, output, settings); });
+  if (!isMade)
   {
     output->Initialize();
+  }
+  if (end != Status::Ok)
+  {
+    this->SetErrorCode(kOutOfMemoryCode);
+    vtkErrorMacro(<< message(end) << ".");
   }
   return 1;
 }

@@ -3,6 +3,7 @@
 #include "PrintSettings.h"
 #include "vtkVoxelMeanResamplerInternals.h"
 
+#include "Core/Base/Host/GuardedWork.h"
 #include "Core/Resample/FieldNames.h"
 
 #include "vtkAbstractTransform.h"
@@ -179,6 +180,11 @@ unsigned long vtkVoxelMeanResampler::GetScratchMemorySize() const
   return static_cast<unsigned long>(this->Impl->ScratchBytes() / 1024);
 }
 
+void vtkVoxelMeanResampler::SetNumberOfThreads(int threads)
+{
+  this->Impl->SetNumberOfThreads(unsigned(std::max(0, threads)));
+}
+
 void vtkVoxelMeanResampler::ReleaseScratch()
 {
   this->Impl->ReleaseCaches();
@@ -223,7 +229,11 @@ int vtkVoxelMeanResampler::RequestData(
   {
     index = vtkPolyData::GetData(outputVector, this->Settings.numberOfLevels);
   }
-  if (this->Impl->Update(input, outputs, index))
+  this->SetErrorCode(0);
+  bool isMade = false;
+  const pointhaptics::Status status =
+    guardedWork([&] { isMade = this->Impl->Update(input, outputs, index); });
+  if (isMade)
   {
     this->UpdateProgress(1.0);
   }
@@ -231,6 +241,20 @@ int vtkVoxelMeanResampler::RequestData(
   {
     this->NumberOfClippedPoints = 0;
     this->NumberOfInvalidPoints = 0;
+  }
+  if (status != pointhaptics::Status::Ok)
+  {
+    for (vtkPolyData* output : outputs)
+    {
+      output->Initialize();
+    }
+    if (index)
+    {
+      index->Initialize();
+    }
+    this->ReleaseScratch();
+    this->SetErrorCode(kOutOfMemoryCode);
+    vtkErrorMacro(<< message(status) << ".");
   }
   return 1;
 }

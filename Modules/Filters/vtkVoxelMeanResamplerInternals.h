@@ -47,6 +47,8 @@ public:
     vtkPointSet* input, const std::vector<vtkSmartPointer<vtkPolyData>>& outputs, vtkPolyData* index);
   /// Frees what is kept between updates; called during an update, at its end.
   void ReleaseCaches();
+  /// 0: all.
+  void SetNumberOfThreads(unsigned most) { this->Smp = pointhaptics::SmpExecutor(most); }
   std::size_t ScratchBytes() const;
 
   /// Maps the fraction to the current part of the update and passes it to the filter.

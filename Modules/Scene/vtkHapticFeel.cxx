@@ -5,6 +5,8 @@
 #include "vtkKernelBandwidthFilter.h"
 #include "vtkVoxelMeanResampler.h"
 
+#include "Core/Base/Host/GuardedWork.h"
+
 #include "vtkCommand.h"
 #include "vtkDataArray.h"
 #include "vtkDoubleArray.h"
@@ -21,7 +23,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <vector>
 
@@ -41,30 +42,18 @@ constexpr double kResampled = 0.3;
 /// Ticks between two looks at AbortExecute.
 constexpr std::int64_t kTicksBetweenReports = 256;
 
-/// Hears the resampler: keeps its first error, passes on its progress and a wish to stop.
+/// Passes the resampler's progress on, and a wish to stop back.
 class ResamplerObserver : public vtkCommand
 {
 public:
   static ResamplerObserver* New() { return new ResamplerObserver; }
   vtkAlgorithm* Owner = nullptr;
-  std::string Error;
 
-  void Execute(vtkObject* caller, unsigned long event, void* data) override
+  void Execute(vtkObject* caller, unsigned long, void*) override
   {
     auto* resampler = static_cast<vtkAlgorithm*>(caller);
-    if (event == vtkCommand::ProgressEvent)
-    {
-      this->Owner->UpdateProgress(kResampled * resampler->GetProgress());
-      resampler->SetAbortExecute(this->Owner->GetAbortExecute());
-    }
-    else if (this->Error.empty() && data)
-    {
-      // "ERROR: In file, line n\nvtkClass (0x...): the message\n\n"
-      const std::string text = static_cast<const char*>(data);
-      const std::size_t address = text.find("): ");
-      this->Error = text.substr(address == std::string::npos ? 0 : address + 3);
-      this->Error.erase(this->Error.find_last_not_of("\n .") + 1);
-    }
+    this->Owner->UpdateProgress(kResampled * resampler->GetProgress());
+    resampler->SetAbortExecute(this->Owner->GetAbortExecute());
   }
 };
 
@@ -90,11 +79,6 @@ bool pathOf(vtkTable* table, HipPath& path, std::string& message)
     return false;
   }
   const vtkIdType rows = table->GetNumberOfRows();
-  if (rows == 0)
-  {
-    message = "path: it has no rows; give at least one";
-    return false;
-  }
   path.points.reserve(std::size_t(rows));
   for (vtkIdType row = 0; row < rows; ++row)
   {
@@ -103,23 +87,10 @@ bool pathOf(vtkTable* table, HipPath& path, std::string& message)
     {
       v[i] = columns[i]->GetComponent(row, 0);
     }
-    if (!std::all_of(v, v + 4, [](double number) { return std::isfinite(number); }))
-    {
-      message = fmt::format(
-        "path: row {} is {}, {}, {}, {}; leave rows out that are not finite", row, v[0], v[1], v[2], v[3]);
-      return false;
-    }
-    if (row > 0 && !(v[0] > path.points.back().timeSeconds))
-    {
-      message =
-        fmt::format("path: row {}: time {} is not after the time before it, {}; sort the rows by time "
-                    "and remove duplicates",
-          row, v[0], path.points.back().timeSeconds);
-      return false;
-    }
     path.points.push_back({ v[0], { v[1], v[2], v[3] } });
   }
-  return true;
+  message = pathProblem(path);
+  return message.empty();
 }
 
 /// The columns of the output, still without rows.
@@ -174,45 +145,23 @@ bool vtkHapticFeel::Internals::MakeScenes(vtkHapticFeel* filter, vtkPointSet* cl
     return true;
   }
   this->CloudTime = 0;
-  // Not the object of the pipeline: it would update what is upstream again.
-  auto input = vtkSmartPointer<vtkPointSet>::Take(cloud->NewInstance());
-  input->ShallowCopy(cloud);
-  prepareForTouch(this->Resampler, filter->UseCovariance);
-  this->Resampler->SetInputData(input);
-  this->Observer->Error.clear();
-  this->Resampler->Update();
-  vtkPolyData* felt = this->Resampler->GetOutput();
-  message = this->Observer->Error;
-  if (!message.empty() || filter->AbortExecute)
-  {
-    return false;
-  }
-  if (felt->GetNumberOfPoints() == 0)
-  {
-    message = "no finite point lies in the workspace; mend points that are NaN, leave out the workspace, or "
-              "mend the transform";
-    return false;
-  }
   FeelSceneSettings settings;
   settings.bandwidth = this->Bandwidth->GetSettings();
   settings.useCovariance = filter->UseCovariance;
-  settings.refineNearHand = filter->RefineNearHand && filter->UseCovariance;
-  if (!this->Resampler->GetAutomaticWorkspace())
+  settings.refineNearHand = filter->RefineNearHand;
+  const Status status = this->Scenes.resample(cloud, this->Resampler, settings, message);
+  if (status != Status::Ok)
   {
-    const double* b = this->Resampler->GetWorkspaceBounds();
-    settings.workspace.include({ b[0], b[2], b[4] });
-    settings.workspace.include({ b[1], b[3], b[5] });
+    message = status == Status::Aborted ? "" : message;
+    return false;
   }
-  const Status status = this->Scenes.make(felt, cloud->GetPoints(), settings);
-  message = status == Status::Ok ? "" : pointhaptics::message(status);
-  filter->NumberOfFeltPoints = felt->GetNumberOfPoints();
-  this->Resampler->SetInputData(nullptr);
-  this->Resampler->ReleaseScratch();
-  this->CloudTime = status == Status::Ok ? cloud->GetMTime() : 0;
+  message.clear();
+  filter->NumberOfFeltPoints = this->Resampler->GetOutput()->GetNumberOfPoints();
+  this->CloudTime = cloud->GetMTime();
   this->FilterTime = this->TimeOfFilters();
   this->UsedCovariance = filter->UseCovariance;
   this->RefinedNearHand = filter->RefineNearHand;
-  return status == Status::Ok;
+  return true;
 }
 
 HapticParameters vtkHapticFeel::Internals::ParametersOf(const vtkHapticFeel* filter) const
@@ -273,7 +222,6 @@ vtkHapticFeel::vtkHapticFeel()
 {
   this->SetNumberOfInputPorts(2);
   this->Impl->Observer->Owner = this;
-  this->Impl->Resampler->AddObserver(vtkCommand::ErrorEvent, this->Impl->Observer);
   this->Impl->Resampler->AddObserver(vtkCommand::ProgressEvent, this->Impl->Observer);
 }
 
@@ -318,9 +266,20 @@ int vtkHapticFeel::RequestData(
   HipPath path;
   std::int64_t ticks = 0;
   std::string message;
-  const bool isFelt = pathOf(vtkTable::GetData(inputVector[1]), path, message) &&
-    this->Impl->Check(this, message) && countTicks(path, "path", this->Rate, kMostTicks, ticks, message) &&
-    this->Impl->MakeScenes(this, cloud, message) && this->Impl->Feel(this, path, ticks, output);
+  bool isFelt = false;
+  this->SetErrorCode(0);
+  const Status status = guardedWork(
+    [&]
+    {
+      isFelt = pathOf(vtkTable::GetData(inputVector[1]), path, message) && this->Impl->Check(this, message) &&
+        countTicks(path, "path", this->Rate, kMostTicks, ticks, message) &&
+        this->Impl->MakeScenes(this, cloud, message) && this->Impl->Feel(this, path, ticks, output);
+    });
+  if (status != Status::Ok)
+  {
+    this->SetErrorCode(kOutOfMemoryCode);
+    message = pointhaptics::message(status);
+  }
   this->Impl->Aborted = !isFelt && message.empty();
   if (!isFelt)
   {

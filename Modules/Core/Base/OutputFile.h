@@ -27,7 +27,7 @@ namespace pointhaptics
 class OutputFile
 {
 public:
-  OutputFile() = default;
+  OutputFile();
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
@@ -47,6 +47,10 @@ public:
   Status writeAt(std::uint64_t place, std::string_view bytes);
   /// Writes the buffer, closes, renames.
   Status commit();
+
+  /// Removes the parts of all objects of this process, which are of no use then: for a process that a library
+  /// aborts. Waits for nobody.
+  static void discardAll() noexcept;
 
   /// False for a pipe, a device and standard output, true after any other open().
   bool isReplacing() const noexcept { return isRegular_; }
@@ -68,6 +72,7 @@ private:
   void flush();
   void discard() noexcept;
 
+  OutputFile* next_ = nullptr; ///< Of all in this process.
   std::string target_;
   std::string temporary_;
   std::string buffer_;
