@@ -19,7 +19,7 @@ if [[ "${1:-}" == test && -n "${CI:-}" ]]; then
   PACKAGES+=(doxygen)
 fi
 readonly PACKAGES
-readonly TEST_PACKAGES=(python3-vtk9 python3-numpy openmpi-bin dpkg-dev file fakeroot)
+readonly TEST_PACKAGES=(python3-vtk9 python3-numpy python3-mypy openmpi-bin dpkg-dev file fakeroot)
 
 usage() {
   cat <<'TEXT'

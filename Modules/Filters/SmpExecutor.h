@@ -21,7 +21,8 @@ public:
   /// @param most threads, of those vtkSMPTools has; 0: all. vtkSMPTools::LocalScope would end and start its
   /// threads at each call, and VTK 9.1 counts no more than these for the rest of the program.
   explicit SmpExecutor(unsigned most = 0)
-    : most_(int(std::min(most, std::max(1u, std::thread::hardware_concurrency()))))
+    // Made at each step of a hand: the system, which takes microseconds, is asked where it matters.
+    : most_(most == 0 ? 0 : int(std::min(most, std::max(1u, std::thread::hardware_concurrency()))))
   {
   }
   int concurrency() const override { return most_ > 0 ? most_ : vtkSMPTools::GetEstimatedNumberOfThreads(); }

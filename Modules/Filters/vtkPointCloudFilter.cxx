@@ -1,5 +1,7 @@
 #include "vtkPointCloudFilter.h"
 
+#include "Core/Base/Host/GuardedWork.h"
+
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkDataObjectTree.h"
@@ -199,7 +201,15 @@ int vtkPointCloudFilter::RequestData(
   {
     this->Fail(problem);
   }
-  const bool succeeded = problem.empty() && this->RunParts(parts);
+  bool succeeded = problem.empty();
+  const pointhaptics::Status end =
+    pointhaptics::guardedWork([&] { succeeded = succeeded && this->RunParts(parts); });
+  if (end != pointhaptics::Status::Ok)
+  {
+    succeeded = false;
+    this->Fail(std::string(message(end)) + ".");
+    this->SetErrorCode(pointhaptics::kOutOfMemoryCode);
+  }
   if (!succeeded)
   {
     parts.Empty();

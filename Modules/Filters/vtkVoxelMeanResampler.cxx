@@ -3,6 +3,7 @@
 #include "PrintSettings.h"
 #include "vtkVoxelMeanResamplerInternals.h"
 
+#include "Core/Base/Host/OutOfMemory.h"
 #include "Core/Resample/FieldNames.h"
 
 #include "vtkAbstractTransform.h"
@@ -169,6 +170,11 @@ unsigned long vtkVoxelMeanResampler::GetScratchMemorySize() const
   return static_cast<unsigned long>(this->Impl->ScratchBytes() / 1024);
 }
 
+void vtkVoxelMeanResampler::SetNumberOfThreads(int threads)
+{
+  this->Impl->SetNumberOfThreads(unsigned(std::max(0, threads)));
+}
+
 void vtkVoxelMeanResampler::ReleaseScratch()
 {
   this->Impl->ReleaseCaches();
@@ -198,6 +204,10 @@ void vtkVoxelMeanResampler::EndRun(bool succeeded)
   {
     this->NumberOfClippedPoints = 0;
     this->NumberOfInvalidPoints = 0;
+  }
+  if (this->GetErrorCode() == pointhaptics::kOutOfMemoryCode)
+  {
+    this->ReleaseScratch();
   }
 }
 

@@ -320,6 +320,12 @@ public:
    */
   unsigned long GetScratchMemorySize() const;
   /**
+   * At most so many threads of vtkSMPTools in the next updates; 0: all of them. The result is the same with
+   * any number. Not a property of the output: the pipeline does not update for it. Default: 0.
+   */
+  void SetNumberOfThreads(int threads);
+
+  /**
    * Frees that memory.
    */
   void ReleaseScratch();

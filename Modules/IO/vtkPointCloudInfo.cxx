@@ -3,6 +3,8 @@
 #include "IO/Info/CloudSummary.h"
 #include "vtkPointCloudReader.h"
 
+#include "Core/Base/Host/GuardedWork.h"
+
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
@@ -145,8 +147,16 @@ int vtkPointCloudInfo::RequestData(
 {
   auto* input = vtkPolyData::GetData(inputVector[0]);
   auto* reader = vtkPointCloudReader::SafeDownCast(this->GetInputAlgorithm());
+  this->SetErrorCode(0);
   vtkPolyData::GetData(outputVector)->ShallowCopy(input);
-  this->Impl->Summary = summarize(input, reader ? reader->GetFormat() : "");
+  const Status status =
+    guardedWork([&] { this->Impl->Summary = summarize(input, reader ? reader->GetFormat() : ""); });
+  if (status != Status::Ok)
+  {
+    this->Impl->Summary = {};
+    this->SetErrorCode(kOutOfMemoryCode);
+    vtkErrorMacro(<< message(status) << ".");
+  }
   return 1;
 }
 

@@ -8,6 +8,8 @@
 #include "IO/Raw/RawFormats.h"
 #include "ReadTask.h"
 
+#include "Core/Base/Host/GuardedWork.h"
+
 #include "vtkDoubleArray.h"
 #include "vtkFloatArray.h"
 #include "vtkIdList.h"
@@ -25,7 +27,6 @@
 #include <exception>
 #include <filesystem>
 #include <limits>
-#include <new>
 #include <sstream>
 
 namespace io = pointhaptics::io;
@@ -419,6 +420,7 @@ int vtkPointCloudReader::RequestData(
     this->Fail(vtkErrorCode::NoFileNameError, "there is nothing to read; set a file name");
     return 1;
   }
+  const pointhaptics::WithoutInterpreterLock unlocked;
   try
   {
     this->ReadInto(output);
@@ -445,15 +447,12 @@ int vtkPointCloudReader::RequestData(
     this->ErrorMessage = std::string(this->FileName) + ": reading was stopped on request; read it again";
     this->SetErrorCode(vtkErrorCode::UserError);
   }
-  catch (const std::bad_alloc&)
-  {
-    this->Fail(
-      vtkErrorCode::UnknownError, "not enough memory for the points; close other programs or thin the cloud");
-  }
   catch (const std::exception& fault)
   {
-    this->Fail(vtkErrorCode::UnknownError,
-      std::string(fault.what()) + "; the file is probably damaged: copy it again");
+    pointhaptics::isOutOfMemory(fault)
+      ? this->Fail(pointhaptics::kOutOfMemoryCode, message(pointhaptics::Status::OutOfMemory))
+      : this->Fail(vtkErrorCode::UnknownError,
+          std::string(fault.what()) + "; the file is probably damaged: copy it again");
   }
   output->Initialize();
   return 1;

@@ -7,6 +7,8 @@
 #include "IO/Las/LasCoordinateSystem.h"
 #include "WriteTask.h"
 
+#include "Core/Base/Host/GuardedWork.h"
+
 #include "vtkFieldData.h"
 #include "vtkInformation.h"
 #include "vtkNew.h"
@@ -16,7 +18,6 @@
 #include "vtkPolyData.h"
 
 #include <algorithm>
-#include <new>
 
 namespace io = pointhaptics::io;
 
@@ -200,6 +201,7 @@ void vtkPointCloudWriter::WriteData()
     this->Fail(vtkErrorCode::NoFileNameError, "there is nowhere to write to; set a file name");
     return;
   }
+  const pointhaptics::WithoutInterpreterLock unlocked;
   try
   {
     this->WriteCloud(vtkPointSet::SafeDownCast(this->GetInput()));
@@ -213,14 +215,11 @@ void vtkPointCloudWriter::WriteData()
     this->ErrorMessage = std::string(this->FileName) + ": writing was stopped on request; write it again";
     this->SetErrorCode(vtkErrorCode::UserError);
   }
-  catch (const std::bad_alloc&)
-  {
-    this->Fail(
-      vtkErrorCode::UnknownError, "not enough memory to write; close other programs or thin the cloud");
-  }
   catch (const std::exception& fault)
   {
-    this->Fail(vtkErrorCode::CannotOpenFileError, std::string(fault.what()) + "; check the path");
+    pointhaptics::isOutOfMemory(fault)
+      ? this->Fail(pointhaptics::kOutOfMemoryCode, message(pointhaptics::Status::OutOfMemory))
+      : this->Fail(vtkErrorCode::CannotOpenFileError, std::string(fault.what()) + "; check the path");
   }
 }
 

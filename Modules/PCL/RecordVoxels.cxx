@@ -221,6 +221,18 @@ RecordVoxels::RecordVoxels()
 
 RecordVoxels::~RecordVoxels() = default;
 
+RecordVoxels::RecordVoxels(RecordVoxels&& other)
+  : RecordVoxels()
+{
+  implementation_.swap(other.implementation_);
+}
+
+RecordVoxels& RecordVoxels::operator=(RecordVoxels&& other) noexcept
+{
+  implementation_.swap(other.implementation_);
+  return *this;
+}
+
 /// Which voxels are kept.
 void RecordVoxels::Implementation::choose()
 {
@@ -360,6 +372,32 @@ std::int64_t RecordVoxels::indexOf(const std::array<std::int64_t, 3>& voxel) con
   const std::uint64_t key = mine.request.lattice.key(inside[0], inside[1], inside[2]);
   const auto found = std::lower_bound(mine.keys.begin(), mine.keys.end(), key);
   return found != mine.keys.end() && *found == key ? found - mine.keys.begin() : -1;
+}
+
+std::vector<int> RecordVoxels::layout(std::int64_t most) const
+{
+  const Implementation& mine = *implementation_;
+  const auto& n = mine.request.lattice.dimensions;
+  if (mine.keys.empty() || n[0] > most / n[1] / n[2])
+  {
+    return {};
+  }
+  std::vector<int> numbers;
+  numbers.reserve(std::size_t(n[0] * n[1] * n[2]));
+  std::size_t next = 0;
+  for (std::int64_t k = 0; k < n[2]; ++k)
+  {
+    for (std::int64_t j = 0; j < n[1]; ++j)
+    {
+      for (std::int64_t i = 0; i < n[0]; ++i)
+      {
+        const bool isActive = next < mine.keys.size() && mine.keys[next] == mine.request.lattice.key(i, j, k);
+        numbers.push_back(isActive ? int(next) : -1);
+        next += isActive;
+      }
+    }
+  }
+  return numbers;
 }
 
 std::array<std::int64_t, 3> RecordVoxels::voxelOf(const Vec3& point, const Vec3& leaf)

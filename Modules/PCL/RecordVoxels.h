@@ -58,6 +58,9 @@ class RecordVoxels
 public:
   RecordVoxels();
   ~RecordVoxels();
+  /// The other one is then as after its construction.
+  RecordVoxels(RecordVoxels&& other);
+  RecordVoxels& operator=(RecordVoxels&& other) noexcept;
   RecordVoxels(const RecordVoxels&) = delete;
   RecordVoxels& operator=(const RecordVoxels&) = delete;
 
@@ -79,6 +82,9 @@ public:
   /// The number among size() of the voxel at (i, j, k), counted as multiples of the edges; -1 where there is
   /// none, and without keepKeys.
   std::int64_t indexOf(const std::array<std::int64_t, 3>& voxel) const;
+  /// indexOf() of every voxel of the lattice, x fastest; empty without keepKeys, or where they are more than
+  /// @p most. 4 bytes each.
+  std::vector<int> layout(std::int64_t most) const;
   /// The voxel of a point, counted as multiples of the edges.
   static std::array<std::int64_t, 3> voxelOf(const Vec3& point, const Vec3& leaf);
 

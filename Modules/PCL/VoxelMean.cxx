@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 
 namespace pointhaptics
 {
@@ -151,6 +152,16 @@ Eigen::Vector3i PclVoxelMeanSettings::getGridCoordinates(float x, float y, float
 int PclVoxelMeanSettings::getCentroidIndexAt(const Eigen::Vector3i& voxel) const
 {
   return toInt(voxels_.indexOf({ voxel[0], voxel[1], voxel[2] }));
+}
+
+std::vector<int> PclVoxelMeanSettings::getLeafLayout() const
+{
+  std::vector<int> layout = voxels_.layout(std::numeric_limits<int>::max());
+  if (layout.empty() && saveLeafLayout_ && voxels_.size() > 0)
+  {
+    PCL_ERROR("[pointhaptics::PclVoxelMean::getLeafLayout] 2^31 voxels or more; use getCentroidIndexAt()\n");
+  }
+  return layout;
 }
 
 void PclVoxelMean<::pcl::PCLPointCloud2>::applyFilter(::pcl::PCLPointCloud2& output)

@@ -9,8 +9,10 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 
 class vtkPoints;
+class vtkPointSet;
 class vtkPolyData;
 class vtkVoxelMeanResampler;
 
@@ -35,12 +37,24 @@ POINTHAPTICSSCENE_EXPORT void prepareForTouch(vtkVoxelMeanResampler* resampler, 
 class POINTHAPTICSSCENE_EXPORT FeelScenes
 {
 public:
+  FeelScenes() = default;
+  /// The same cloud for another hand, whose path begins: shares what is immutable, and may be used in another
+  /// thread. Of the other object nothing is changed.
+  explicit FeelScenes(const FeelScenes& shared);
+  FeelScenes& operator=(const FeelScenes&) = delete;
+
   /// @param felt the points that are felt, in the workspace frame: what vtkVoxelMeanResampler made of the
   /// cloud after prepareForTouch(), or raw points. @param cloud the points of the cloud in its own frame, for
   /// the scenes near the hand; no reference is kept. Errors: those of HapticScene::create().
   Status make(vtkPolyData* felt, vtkPoints* cloud, const FeelSceneSettings& settings);
   /// The same with a scene of the whole cloud that is there already.
   void adopt(std::shared_ptr<const HapticScene> whole, vtkPoints* cloud, const FeelSceneSettings& settings);
+  /// Resamples @p cloud and makes the scenes of that. @param resampler has lattice and transform, and gets
+  /// what a scene needs; its observers may abort the work. @p settings' workspace is that of the resampler.
+  /// Errors: Aborted, Empty (no finite point in the workspace), InvalidParameter (the resampler's settings),
+  /// those of HapticScene::create(); @p message says which, with the cure.
+  Status resample(
+    vtkPointSet* cloud, vtkVoxelMeanResampler* resampler, FeelSceneSettings settings, std::string& message);
   /// Forgets where the hand was: the next path is felt as the first one.
   void restart();
 
@@ -58,6 +72,9 @@ public:
   double finestCell() const { return follower_ ? follower_->finestCell() : whole_->cellSize(); }
 
 private:
+  void follow();
+
+  FeelSceneSettings settings_;
   std::shared_ptr<const HapticScene> whole_;
   LocalSceneBuilder builder_;
   std::optional<LocalSceneFollower> follower_;

@@ -5,9 +5,37 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstddef>
 
 namespace pointhaptics
 {
+
+std::string pathProblem(const HipPath& path)
+{
+  if (path.points.empty())
+  {
+    return "path: it has no rows; give at least one";
+  }
+  const HipPathPoint* before = nullptr;
+  for (const HipPathPoint& point : path.points)
+  {
+    const std::ptrdiff_t row = &point - path.points.data();
+    const Vec3& p = point.position;
+    if (!std::isfinite(point.timeSeconds) || !isFinite(p))
+    {
+      return fmt::format("path: row {} is {}, {}, {}, {}; leave rows out that are not finite", row,
+        point.timeSeconds, p.x, p.y, p.z);
+    }
+    if (before && !(point.timeSeconds > before->timeSeconds))
+    {
+      return fmt::format("path: row {}: time {} is not after the time before it, {}; sort the rows by time "
+                         "and remove duplicates",
+        row, point.timeSeconds, before->timeSeconds);
+    }
+    before = &point;
+  }
+  return {};
+}
 
 bool countTicks(const HipPath& path, const std::string& fileName, double rateHz, double most,
   std::int64_t& ticks, std::string& message)

@@ -12,6 +12,10 @@ namespace pointhaptics
 
 struct HipPath;
 
+/// Why nobody can follow @p path, with row, value and cure: it has no point, a number is not finite, or times
+/// do not ascend. Empty: nothing is wrong.
+POINTHAPTICSSCENE_EXPORT std::string pathProblem(const HipPath& path);
+
 /// Ticks of @p rateHz from the path's first point to its last, both included. False where they are more than
 /// @p most:
 /// @p message then says so, with @p fileName and the cure. @pre the path is not empty.

@@ -5,6 +5,8 @@
 #include "vtkKernelBandwidthFilter.h"
 #include "vtkVoxelMeanResampler.h"
 
+#include "Core/Base/Host/GuardedWork.h"
+
 #include "vtkCommand.h"
 #include "vtkDataArray.h"
 #include "vtkDoubleArray.h"
@@ -22,7 +24,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <vector>
 
@@ -42,22 +43,18 @@ constexpr double kResampled = 0.3;
 /// Ticks between two looks at AbortExecute.
 constexpr std::int64_t kTicksBetweenReports = 256;
 
-/// Hears the resampler: passes on its progress and a wish to stop. Its errors and warnings are the owner's to
-/// say.
+/// Passes the resampler's progress on, and a wish to stop back.
 class ResamplerObserver : public vtkCommand
 {
 public:
   static ResamplerObserver* New() { return new ResamplerObserver; }
   vtkAlgorithm* Owner = nullptr;
 
-  void Execute(vtkObject* caller, unsigned long event, void*) override
+  void Execute(vtkObject* caller, unsigned long, void*) override
   {
-    if (event == vtkCommand::ProgressEvent)
-    {
-      auto* resampler = static_cast<vtkAlgorithm*>(caller);
-      this->Owner->UpdateProgress(kResampled * resampler->GetProgress());
-      resampler->SetAbortExecute(this->Owner->GetAbortExecute());
-    }
+    auto* resampler = static_cast<vtkAlgorithm*>(caller);
+    this->Owner->UpdateProgress(kResampled * resampler->GetProgress());
+    resampler->SetAbortExecute(this->Owner->GetAbortExecute());
   }
 };
 
@@ -83,11 +80,6 @@ bool pathOf(vtkTable* table, HipPath& path, std::string& message)
     return false;
   }
   const vtkIdType rows = table->GetNumberOfRows();
-  if (rows == 0)
-  {
-    message = "path: it has no rows; give at least one";
-    return false;
-  }
   path.points.reserve(std::size_t(rows));
   for (vtkIdType row = 0; row < rows; ++row)
   {
@@ -96,23 +88,10 @@ bool pathOf(vtkTable* table, HipPath& path, std::string& message)
     {
       v[i] = columns[i]->GetComponent(row, 0);
     }
-    if (!std::all_of(v, v + 4, [](double number) { return std::isfinite(number); }))
-    {
-      message = fmt::format(
-        "path: row {} is {}, {}, {}, {}; leave rows out that are not finite", row, v[0], v[1], v[2], v[3]);
-      return false;
-    }
-    if (row > 0 && !(v[0] > path.points.back().timeSeconds))
-    {
-      message =
-        fmt::format("path: row {}: time {} is not after the time before it, {}; sort the rows by time "
-                    "and remove duplicates",
-          row, v[0], path.points.back().timeSeconds);
-      return false;
-    }
     path.points.push_back({ v[0], { v[1], v[2], v[3] } });
   }
-  return true;
+  message = pathProblem(path);
+  return message.empty();
 }
 
 /// The columns of the output, still without rows.
@@ -167,45 +146,23 @@ bool vtkHapticFeel::Internals::MakeScenes(vtkHapticFeel* filter, vtkPointSet* cl
     return true;
   }
   this->CloudTime = 0;
-  // Not the object of the pipeline: it would update what is upstream again.
-  auto input = vtkSmartPointer<vtkPointSet>::Take(cloud->NewInstance());
-  input->ShallowCopy(cloud);
-  prepareForTouch(this->Resampler, filter->UseCovariance);
-  this->Resampler->SetInputData(input);
-  this->Resampler->Update();
-  vtkPolyData* felt = this->Resampler->GetOutput();
-  message = this->Resampler->GetErrorMessage();
-  message.erase(message.find_last_not_of(" .") + 1);
-  if (!message.empty() || filter->AbortExecute)
-  {
-    return false;
-  }
-  if (felt->GetNumberOfPoints() == 0)
-  {
-    message = "no finite point lies in the workspace; mend points that are NaN, leave out the workspace, or "
-              "mend the transform";
-    return false;
-  }
   FeelSceneSettings settings;
   settings.bandwidth = this->Bandwidth->GetSettings();
   settings.useCovariance = filter->UseCovariance;
-  settings.refineNearHand = filter->RefineNearHand && filter->UseCovariance;
-  if (!this->Resampler->GetAutomaticWorkspace())
+  settings.refineNearHand = filter->RefineNearHand;
+  const Status status = this->Scenes.resample(cloud, this->Resampler, settings, message);
+  if (status != Status::Ok)
   {
-    const double* b = this->Resampler->GetWorkspaceBounds();
-    settings.workspace.include({ b[0], b[2], b[4] });
-    settings.workspace.include({ b[1], b[3], b[5] });
+    message = status == Status::Aborted ? "" : message;
+    return false;
   }
-  const Status status = this->Scenes.make(felt, cloud->GetPoints(), settings);
-  message = status == Status::Ok ? "" : pointhaptics::message(status);
-  filter->NumberOfFeltPoints = felt->GetNumberOfPoints();
-  this->Resampler->SetInputData(nullptr);
-  this->Resampler->ReleaseScratch();
-  this->CloudTime = status == Status::Ok ? cloud->GetMTime() : 0;
+  message.clear();
+  filter->NumberOfFeltPoints = this->Resampler->GetOutput()->GetNumberOfPoints();
+  this->CloudTime = cloud->GetMTime();
   this->FilterTime = this->TimeOfFilters();
   this->UsedCovariance = filter->UseCovariance;
   this->RefinedNearHand = filter->RefineNearHand;
-  return status == Status::Ok;
+  return true;
 }
 
 HapticParameters vtkHapticFeel::Internals::ParametersOf(const vtkHapticFeel* filter) const
@@ -266,10 +223,7 @@ vtkHapticFeel::vtkHapticFeel()
 {
   this->SetNumberOfInputPorts(2);
   this->Impl->Observer->Owner = this;
-  for (const auto event : { vtkCommand::ErrorEvent, vtkCommand::WarningEvent, vtkCommand::ProgressEvent })
-  {
-    this->Impl->Resampler->AddObserver(event, this->Impl->Observer);
-  }
+  this->Impl->Resampler->AddObserver(vtkCommand::ProgressEvent, this->Impl->Observer);
 }
 
 vtkHapticFeel::~vtkHapticFeel()
@@ -313,11 +267,19 @@ int vtkHapticFeel::RequestData(
   HipPath path;
   std::int64_t ticks = 0;
   std::string message;
-  const bool isFelt = pathOf(vtkTable::GetData(inputVector[1]), path, message) &&
-    this->Impl->Check(this, message) && countTicks(path, "path", this->Rate, kMostTicks, ticks, message) &&
-    this->Impl->MakeScenes(this, cloud, message) && this->Impl->Feel(this, path, ticks, output);
+  bool isFelt = false;
+  const Status status = guardedWork(
+    [&]
+    {
+      isFelt = pathOf(vtkTable::GetData(inputVector[1]), path, message) && this->Impl->Check(this, message) &&
+        countTicks(path, "path", this->Rate, kMostTicks, ticks, message) &&
+        this->Impl->MakeScenes(this, cloud, message) && this->Impl->Feel(this, path, ticks, output);
+    });
+  message = status == Status::Ok ? message : pointhaptics::message(status);
   this->Impl->RunsAgain = !isFelt;
-  this->SetErrorCode(message.empty() ? vtkErrorCode::NoError : vtkErrorCode::UserError);
+  this->SetErrorCode(status != Status::Ok ? kOutOfMemoryCode
+      : message.empty()                   ? vtkErrorCode::NoError
+                                          : vtkErrorCode::UserError);
   if (!isFelt)
   {
     output->Initialize();

@@ -15,6 +15,7 @@ set(may_include_Interaction Core Shapes Haptics Devices Filters IO Scene Renderi
 set(may_include_Viewer Core Shapes Haptics Devices Filters IO Scene Rendering Interaction Viewer)
 set(may_include_PCL Core Filters PCL)
 set(may_include_ParaView Core Filters IO Parallel ParaView)
+set(may_include_C Core Haptics Devices Filters Scene C)
 set(may_include_Parallel Core Filters IO Parallel)
 set(may_include_Apps Core Shapes Haptics Devices Filters IO Scene Rendering Interaction Viewer Parallel Apps)
 # Within Core: from the room to those that it may include besides itself.
@@ -38,7 +39,7 @@ set(asks_for_version "VTK_(MAJOR|MINOR|BUILD)_VERSION|VTK_VERSION|PARAVIEW_VERSI
 set(may_ask_for_version "Modules/Filters/VtkVersions.h")
 # The viewer is a library: it prints nothing and knows no command line.
 set(not_in_viewer "^(CLI/.*|nlohmann/.*|iostream|cstdio|stdio\\.h)$")
-set(modules Core Shapes Haptics Devices Filters IO Scene Rendering Interaction Viewer PCL ParaView Parallel)
+set(modules Core Shapes Haptics Devices Filters IO Scene Rendering Interaction Viewer PCL ParaView Parallel C)
 list(JOIN modules "|" modules_pattern)
 
 # Sets home_<header> to the folder a header that is included by its bare name belongs to.
@@ -143,7 +144,7 @@ foreach (folder IN LISTS modules ITEMS Apps)
     math(EXPR number_of_files "${number_of_files} + 1")
     check_file("${file}" "${folder}")
     check_versions("${file}")
-    if (folder MATCHES "^(PCL|ParaView|Parallel)$" OR file MATCHES "/Apps/Mpi/")
+    if (folder MATCHES "^(PCL|ParaView|Parallel|C)$" OR file MATCHES "/Apps/Mpi/")
       check_skin("${file}" not_in_skins)
     endif ()
   endforeach ()

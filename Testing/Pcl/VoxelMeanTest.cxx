@@ -19,6 +19,8 @@
 #include <cstring>
 #include <map>
 #include <random>
+#include <utility>
+#include <vector>
 
 namespace
 {
@@ -218,6 +220,49 @@ TEST(PclVoxelMean, TellsWhichVoxelHoldsWhichPoint)
       both.ours.getNeighborCentroidIndices(p, around), both.theirs.getNeighborCentroidIndices(p, around));
   }
   EXPECT_EQ(both.ours.getCentroidIndexAt({ 1000, 0, 0 }), -1);
+  EXPECT_EQ(both.ours.getLeafLayout(), both.theirs.getLeafLayout());
+  EXPECT_FALSE(both.ours.getLeafLayout().empty());
+}
+
+TEST(PclVoxelMean, IsMoved)
+{
+  const auto cloud = cloudOf<pcl::PointXYZ>(3000);
+  PclVoxelMean<pcl::PointXYZ> first;
+  first.setLeafSize(0.1f, 0.1f, 0.1f);
+  first.setSaveLeafLayout(true);
+  first.setInputCloud(cloud);
+  pcl::PointCloud<pcl::PointXYZ> expected;
+  first.filter(expected);
+  const std::vector<int> layout = first.getLeafLayout();
+
+  PclVoxelMean<pcl::PointXYZ> second = std::move(first);
+  EXPECT_EQ(second.getLeafLayout(), layout);
+  std::vector<PclVoxelMean<pcl::PointXYZ>> all;
+  all.push_back(std::move(second));
+  all.emplace_back();
+  pcl::PointCloud<pcl::PointXYZ> means;
+  all.front().filter(means);
+  ASSERT_EQ(means.size(), expected.size());
+  for (std::size_t i = 0; i < means.size(); ++i)
+  {
+    EXPECT_EQ(means[i].getVector3fMap(), expected[i].getVector3fMap());
+  }
+  EXPECT_TRUE(first.getLeafLayout().empty()); // NOLINT: as new
+}
+
+/// The box has 2^60 voxels.
+TEST(PclVoxelMean, HasNoLayoutOfTooManyVoxels)
+{
+  auto cloud = cloudOf<pcl::PointXYZ>(10);
+  cloud->push_back({ 1000.0f, 1000.0f, 1000.0f });
+  PclVoxelMean<pcl::PointXYZ> grid;
+  grid.setLeafSize(0.001f, 0.001f, 0.001f);
+  grid.setSaveLeafLayout(true);
+  grid.setInputCloud(cloud);
+  pcl::PointCloud<pcl::PointXYZ> means;
+  grid.filter(means);
+  EXPECT_EQ(means.size(), 11u);
+  EXPECT_TRUE(grid.getLeafLayout().empty());
 }
 
 /// Where pcl::VoxelGrid says "Leaf size is too small" and returns the cloud as it is.

@@ -1,5 +1,7 @@
 """read, write and info."""
 
+import errno
+import io
 import json
 import os
 import pathlib
@@ -95,6 +97,85 @@ class Files(TestCase):
         self.assert_raises(ValueError, "points", ph.write, self.path("a.ply"), np.zeros((0, 3)))
         self.assert_raises(ValueError, "attributes", ph.write, self.path("a.ply"), sphere(5), {"a": [1]})
         self.assertEqual(os.listdir(self.folder), [])
+
+
+class WholeClouds(TestCase):
+    """What a file says beside its columns, and files that are none."""
+
+    def test_fields_travel_from_file_to_file(self):
+        with open(self.path("a.pcd"), "w") as file:
+            file.write("VERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 2\nHEIGHT 3\n"
+                       "VIEWPOINT 1 2 3 1 0 0 0\nPOINTS 6\nDATA ascii\n" + "0 0 1\n" * 6)  # fmt: skip
+        points, attributes = ph.read(self.path("a.pcd"))
+        self.assertEqual(attributes.fields["OrganizedDimensions"].ravel().tolist(), [2, 3])
+        self.assertEqual(attributes.fields["Viewpoint"].ravel().tolist(), [1, 2, 3, 1, 0, 0, 0])
+        ph.write(self.path("b.pcd"), points, attributes)
+        with open(self.path("b.pcd"), "rb") as file:
+            header = file.read(300)
+        self.assertIn(b"WIDTH 2\nHEIGHT 3\nVIEWPOINT 1 2 3 1 0 0 0\n", header)
+        with self.assertWarnsRegex(RuntimeWarning, "Viewpoint|OrganizedDimensions"):
+            ph.write(self.path("b.csv"), points, attributes)
+
+    def test_a_coordinate_system_travels(self):
+        points = np.round(sphere(50), 4) + (500000, 5000000, 100)
+        ph.write(self.path("a.las"), points, fields={"CoordinateSystem": "EPSG:25832", "LengthUnit": "m"})
+        again, attributes = ph.read(self.path("a.las"))
+        self.assertEqual(attributes.fields["CoordinateSystem"], "EPSG:25832")
+        ph.write(self.path("b.laz"), again, attributes)
+        last, attributes = ph.read(self.path("b.laz"))
+        self.assertEqual(attributes.fields["CoordinateSystem"], "EPSG:25832")
+        self.assert_same_bits(last, again)
+
+    def test_texts_are_kept_or_said(self):
+        names = np.array(["tree", "road", "tree"])
+        ph.write(self.path("a.vtp"), sphere(3), {"Name": names})
+        self.assertEqual(ph.read(self.path("a.vtp"))[1]["Name"].tolist(), names.tolist())
+        with self.assertWarnsRegex(RuntimeWarning, "Name"):
+            ph.write(self.path("a.ply"), sphere(3), {"Name": names})
+        with open(self.path("a.csv"), "w") as file:
+            file.write("x,y,z,kind\n1,2,3,tree\n2,3,4,road\n")
+        with self.assertWarnsRegex(RuntimeWarning, "kind"):
+            ph.read(self.path("a.csv"))
+
+    def test_voxels_are_written_with_their_counts(self):
+        voxels = ph.resample(sphere(500), voxel=0.01, covariance=True)
+        ph.write(self.path("means.vtp"), voxels)
+        points, arrays = ph.read(self.path("means.vtp"))
+        self.assert_same_bits(points, voxels.points)
+        self.assert_same_bits(arrays["VoxelPointCount"], voxels.counts)
+        self.assert_same_bits(arrays["VoxelCovariance"], voxels.covariance)
+        np.testing.assert_array_equal(arrays.fields["LatticeSpacing"].ravel(), voxels.spacing)
+
+    def test_file_objects(self):
+        points = sphere(100)
+        memory = io.BytesIO()
+        ph.write(memory, points, {"a": np.arange(100)}, extension="ply")
+        memory.seek(0)
+        again, arrays = ph.read(memory)
+        self.assert_same_bits(again, points)
+        self.assertEqual(arrays["a"].tolist(), list(range(100)))
+        with open(self.path("b.csv"), "wb") as file:
+            ph.write(file, points)
+        with open(self.path("b.csv"), "rb") as file:
+            self.assertEqual(ph.info(file)["points"], 100)
+        self.assert_raises(TypeError, "bytes", ph.read, io.StringIO("1 2 3"))
+        self.assert_raises(ValueError, "extension", ph.write, io.BytesIO(), points)
+        self.assert_raises(ValueError, "<file object>", ph.read, io.BytesIO(b"no points"))
+
+    def test_errors_of_the_system_have_errno_and_filename(self):
+        nowhere = self.path("nowhere/a.ply")
+        for kind, code, name, work in (
+            (FileNotFoundError, errno.ENOENT, self.path("no.ply"), lambda: ph.read(self.path("no.ply"))),
+            (FileNotFoundError, errno.ENOENT, self.path("no.ply"), lambda: ph.info(pathlib.Path(self.path("no.ply")))),
+            (FileNotFoundError, errno.ENOENT, nowhere, lambda: ph.write(nowhere, sphere(5))),
+            (IsADirectoryError, errno.EISDIR, self.folder, lambda: ph.read(self.folder)),
+            (IsADirectoryError, errno.EISDIR, self.folder, lambda: ph.write(self.folder, sphere(5), extension="ply")),
+            (OSError, errno.ENOSPC, "/dev/full", lambda: ph.write("/dev/full", sphere(5), extension="ply")),
+        ):
+            with self.subTest(name):
+                with self.assertRaises(kind) as caught:
+                    work()
+                self.assertEqual((caught.exception.errno, caught.exception.filename), (code, name))
 
 
 if __name__ == "__main__":

@@ -1,12 +1,18 @@
 """The package as a whole: what it offers, its help and its classes."""
 
+import copy
+import dataclasses
+import importlib.metadata
 import inspect
+import os
+import pickle
 import subprocess
 import sys
 import unittest
 
 from support import TestCase, sphere
 
+import numpy as np
 import pointhaptics as ph
 
 
@@ -17,10 +23,12 @@ class Package(TestCase):
              "representative minimum_points voxel_index"),
             (ph.bandwidth, "points k rule beta r1 r2 density counts"),
             (ph.read, "path"),
-            (ph.write, "path points attributes"),
+            (ph.write, "path points attributes fields extension"),
             (ph.info, "path"),
             (ph.Scene, "points voxel dims workspace"),
-            (ph.Scene.feel, "self path stiffness damping mu_s mu_d rate method"),
+            (ph.Scene.feel, "self path stiffness damping mu_s mu_d rate method force_limit preset gains"),
+            (ph.Proxy, "scene stiffness damping mu_s mu_d method force_limit preset gains"),
+            (ph.Proxy.step, "self hand dt"),
         ):
             with self.subTest(function):
                 self.assertEqual(list(inspect.signature(function).parameters), expected.split())
@@ -55,6 +63,69 @@ class Package(TestCase):
         for filter in (ph.vtkVoxelMeanResampler(), ph.vtkHapticFeel(), ph.vtkPointCloudInfo()):
             with self.assertRaises(ValueError):
                 ph.updates.update(filter)
+
+
+class Habits(TestCase):
+    """What users of NumPy, pip and pickle expect."""
+
+    def test_version_and_metadata(self):
+        self.assertRegex(ph.__version__, r"^\d+\.\d+\.\d+$")
+        found = importlib.metadata.distribution("pointhaptics")
+        self.assertEqual(found.version, ph.__version__)
+        self.assertEqual(found.metadata["Name"], "pointhaptics")
+        for name in ("py.typed", "PointHapticsFilters.pyi", "PointHapticsInteraction.pyi"):
+            self.assertTrue(os.path.exists(os.path.join(os.path.dirname(ph.__file__), name)), name)
+
+    def test_every_field_has_help(self):
+        for thing in (ph.Voxels, ph.Bandwidths):
+            for field in dataclasses.fields(thing):
+                self.assertRegex(thing.__doc__, rf"(?m)^    {field.name} : \S", field.name)
+        self.assertIn("-1", ph.Voxels.__doc__)
+        self.assertIn("lower one", ph.resample.__doc__)
+
+    def test_scenes_and_voxels_can_be_pickled_and_copied(self):
+        path = [[0, 0, 0, 0.045], [0.1, 0, 0, 0.036]]
+        scene = ph.Scene(sphere(3000), workspace=(-0.05, 0.05, -0.05, 0.05, -0.05, 0.05))
+        expected = scene.feel(path)["force_z"]
+        for again in (pickle.loads(pickle.dumps(scene)), copy.copy(scene), copy.deepcopy(scene)):
+            self.assert_same_bits(again.feel(path)["force_z"], expected)
+        voxels = ph.resample(sphere(3000), voxel=0.005, attributes={"a": np.arange(3000)}, covariance=True)
+        again = pickle.loads(pickle.dumps(voxels))
+        for name, values in voxels.arrays.items():
+            self.assert_same_bits(again.arrays[name], values)
+
+    def test_input_without_points_is_refused_everywhere(self):
+        nothing = np.empty((0, 3))
+        for function in (ph.resample, ph.bandwidth, ph.Scene, lambda points: ph.write(self.path("a.ply"), points)):
+            self.assert_raises(ValueError, ["points", "(0, 3)"], function, nothing)
+
+    def test_a_truth_value_is_no_length(self):
+        for wrong in (True, np.True_):
+            self.assert_raises(ValueError, ["voxel", "True"], ph.resample, sphere(10), voxel=wrong)
+            self.assert_raises(ValueError, ["voxel", "True"], ph.Scene, sphere(10), voxel=wrong)
+
+    def test_counts_are_numbers_of_points(self):
+        for wrong in (-1.0, np.nan, np.inf):
+            self.assert_raises(ValueError, "counts", ph.bandwidth, sphere(3), counts=[1, 2, wrong])
+
+    def test_normals_are_turned_in_any_case(self):
+        points, normals = sphere(1000), np.tile([1.0, 0.0, 0.0], (1000, 1))
+        turn = np.array([[0, -1, 0, 0], [1, 0, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1.0]])
+        for name in ("Normals", "normals", "NORMALS"):
+            turned = ph.resample(points, voxel=0.01, transform=turn, attributes={name: normals}).attributes[name]
+            np.testing.assert_allclose(turned, np.tile([0.0, 1.0, 0.0], (len(turned), 1)), atol=1e-12)
+
+    def test_voxels_know_their_lattice(self):
+        points = sphere(2000)
+        voxels = ph.resample(points, voxel=0.01, workspace=(-0.05, 0.05, -0.05, 0.05, -0.05, 0.03), voxel_index=True)
+        np.testing.assert_allclose(voxels.origin, -0.05)
+        np.testing.assert_allclose(voxels.spacing, 0.01)
+        self.assertEqual(voxels.dimensions.tolist(), [10, 10, 8])
+        inside = voxels.voxel_index >= 0
+        self.assertEqual((~inside).sum(), voxels.clipped)
+        cells = np.trunc((points[inside] - voxels.origin) / voxels.spacing)
+        means = np.trunc((voxels.points[voxels.voxel_index[inside]] - voxels.origin) / voxels.spacing)
+        np.testing.assert_array_equal(cells, means)
 
 
 if __name__ == "__main__":

@@ -1,8 +1,11 @@
 #include "Terminal/CommandLine.h"
 
 #include "Options/Files.h"
+#include "Terminal/LastResort.h"
 #include "Terminal/Messages.h"
 #include "Terminal/StopSignals.h"
+
+#include "Core/Base/Status.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -155,6 +158,10 @@ std::string sentenceOf(const std::exception& error)
       "{}: {}; check the path and its permissions", problem->path1().string(), problem->code().message());
   }
   const auto* problem = dynamic_cast<const std::system_error*>(&error);
+  if (dynamic_cast<const std::bad_alloc*>(&error))
+  {
+    return message(Status::OutOfMemory);
+  }
   if (text.find("pthread_create") != std::string::npos || (problem && problem->code().value() == EAGAIN))
   {
     return "no more threads can be started; give --threads 1, or raise the limit of processes (ulimit -u)";
@@ -184,10 +191,6 @@ int runParsed(CLI::App& program, std::vector<std::string> arguments, const int& 
   catch (const Failure& failure)
   {
     return fail(commandName(program), failure.what());
-  }
-  catch (const std::bad_alloc&)
-  {
-    return fail(commandName(program), "not enough memory; give fewer points or larger voxels");
   }
   catch (const std::exception& error)
   {
@@ -282,6 +285,7 @@ int runProgram(const std::vector<std::string>& arguments, const std::function<in
     promiseJson();
   }
   const std::string command = arguments.empty() ? std::string() : arguments.front();
+  endCleanlyOnAbort(command);
   int exitCode = kSuccess;
   try
   {

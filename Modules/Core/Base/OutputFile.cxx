@@ -2,6 +2,7 @@
 
 #include <cerrno>
 #include <filesystem>
+#include <mutex>
 #include <system_error>
 
 #include <fcntl.h>
@@ -110,11 +111,37 @@ const char* cureOf(int error)
   }
 }
 
+/// All objects of this process, for discardAll().
+OutputFile* all = nullptr;
+std::mutex allMutex;
+
 } // namespace
+
+OutputFile::OutputFile()
+{
+  const std::lock_guard<std::mutex> lock(allMutex);
+  next_ = all;
+  all = this;
+}
 
 OutputFile::~OutputFile()
 {
   this->discard();
+  const std::lock_guard<std::mutex> lock(allMutex);
+  OutputFile** place = &all;
+  while (*place != this)
+  {
+    place = &(*place)->next_;
+  }
+  *place = next_;
+}
+
+void OutputFile::discardAll() noexcept
+{
+  for (OutputFile* file = all; file; file = file->next_)
+  {
+    file->discard();
+  }
 }
 
 Status OutputFile::fail(const std::string& reason, const std::string& cure)

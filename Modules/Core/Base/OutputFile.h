@@ -27,7 +27,7 @@ namespace pointhaptics
 class OutputFile
 {
 public:
-  OutputFile() = default;
+  OutputFile();
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
@@ -59,6 +59,10 @@ public:
   /// Ends without a file, and without its part.
   void abandon() noexcept;
 
+  /// Removes the parts of all objects of this process, which are of no use then: for a process that a library
+  /// aborts. Waits for nobody.
+  static void discardAll() noexcept;
+
   /// False for a pipe, a device and standard output, true after any other open().
   bool isReplacing() const noexcept { return isRegular_; }
   /// The part file, empty after open(): other code may write it before commit(), instead of write().
@@ -80,6 +84,7 @@ private:
   bool renamePart() noexcept;
   void discard() noexcept;
 
+  OutputFile* next_ = nullptr; ///< Of all in this process.
   std::string target_;
   std::string temporary_;
   std::string buffer_;

@@ -65,6 +65,9 @@ constexpr Message kMessages[] = {
     "points lie more than 1e9 m from the origin, too far for a hand to feel any: leave out those that are "
     "far "
     "from all others, or scale the cloud" },
+  { Status::OutOfMemory,
+    "not enough memory: give fewer points or larger voxels, close other programs, or raise the limit (ulimit "
+    "-v)" },
 };
 
 /// Whether each status has its message at its own index.
@@ -77,7 +80,7 @@ constexpr bool areInOrder()
       return false;
     }
   }
-  return std::size(kMessages) == std::size_t(Status::PointsTooFar) + 1;
+  return std::size(kMessages) == std::size_t(Status::OutOfMemory) + 1;
 }
 static_assert(areInOrder(), "a status lacks its message");
 

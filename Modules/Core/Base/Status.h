@@ -36,6 +36,7 @@ enum class [[nodiscard]] Status{
   NotPassive,            ///< Stiffness and damping above what the device can render without giving energy.
   RateNotSupported,      ///< The servo rate is above what the device can do.
   PointsTooFar,          ///< Coordinates so large that double numbers cannot tell what a hand feels.
+  OutOfMemory,           ///< The system gave no memory, or no thread, for the work.
 };
 
 /// One sentence in plain words: what happened and what to do about it. Never null; static storage.

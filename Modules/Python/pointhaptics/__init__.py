@@ -7,8 +7,11 @@ Functions over NumPy arrays (metres, newtons, seconds; points are float32 or flo
     points, attributes = ph.read("scan.ply")
     voxels = ph.resample(points, voxel=0.001, attributes=attributes)    # one mean per active voxel
     radii = ph.bandwidth(voxels.points, counts=voxels.counts).radius    # proxy radius at each mean
-    felt = ph.Scene(points).feel(path)                                  # forces along a hand path
-    ph.write("means.vtp", voxels.points, voxels.attributes)
+    scene = ph.Scene(points)
+    felt = scene.feel(path)                                             # forces along a hand path
+    felt = ph.Proxy(scene).step(hand, dt=0.001)                         # the force on a hand, step by step
+    ph.ServoLoop(scene)                                                 # a servo loop over a simulated hand
+    ph.write("means.vtp", voxels)
     ph.info("scan.ply")                                                 # what is in a file
 
 The VTK classes are here too, for pipelines: vtkVoxelMeanResampler, vtkKernelBandwidthFilter, vtkHapticFeel,
@@ -19,12 +22,15 @@ Points are handed to the filters without a copy where they are C-contiguous floa
 copied. Results are views of the memory that the filters wrote. Everything is the same bit for bit as what the program
 `pointhaptics` computes, with any number of threads.
 
-Bad input raises TypeError or ValueError, and files that cannot be opened OSError, with one line that says what,
-where, which value and the cure. Ctrl+C ends a running filter. Of one object one thread is served at a time; functions
-may run in any thread.
+Bad input, and input without points, raises TypeError or ValueError, files that cannot be opened OSError with errno and
+filename, and want of memory MemoryError, with one line that says what, where, which value and the cure. Functions and
+scenes may be used by any number of threads at a time; they give up the GIL while they work, and so do the filters. What
+a signal handler raises, such as Ctrl+C, ends the work and is raised from the call.
 """
 
 from __future__ import annotations
+
+from typing import Any
 
 from .classes import (
     vtkHapticFeel,
@@ -34,15 +40,22 @@ from .classes import (
     vtkPointCloudWriter,
     vtkVoxelMeanResampler,
 )
-from .files import info, read, write
+from .files import Attributes, info, read, write
 from .filters import Bandwidths, Voxels, bandwidth, resample
+from .proxy import Proxy
 from .scene import FELT_COLUMNS, Scene
+from .servo import ServoLoop
+from .version import __version__
 
 __all__ = [
     "FELT_COLUMNS",
+    "Attributes",
     "Bandwidths",
+    "Proxy",
     "Scene",
+    "ServoLoop",
     "Voxels",
+    "__version__",
     "bandwidth",
     "info",
     "read",
@@ -57,7 +70,7 @@ __all__ = [
 ]
 
 
-def __getattr__(name: str):
+def __getattr__(name: str) -> Any:
     # The classes that draw need VTK's rendering modules, which take most of the time of an import.
     if name.startswith("vtk"):
         from . import PointHapticsInteraction, PointHapticsRendering

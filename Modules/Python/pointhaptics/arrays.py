@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from os import PathLike
-from typing import Dict, Mapping, Optional, Sequence, Tuple
+from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 from vtkmodules import vtkCommonCore as core
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkDataSetAttributes, vtkPolyData
@@ -28,9 +29,9 @@ _CLASSES = {
 _WIDENED = {"b1": np.uint8, "f2": np.float32}
 
 
-def _numbers(values: object, name: str) -> np.ndarray:
+def _numbers(values: object, name: str) -> NDArray[Any]:
     """`values` as a C-contiguous array of a type that VTK has; raises where there is none."""
-    if np.ma.isMaskedArray(values) and np.ma.is_masked(values):
+    if isinstance(values, np.ma.MaskedArray) and np.any(values.mask):
         raise TypeError(f"{name}: some values are masked; give an array without a mask, such as a.filled(numpy.nan)")
     try:
         array = np.asarray(values)
@@ -45,7 +46,7 @@ def _numbers(values: object, name: str) -> np.ndarray:
     return np.asarray(array, array.dtype.newbyteorder("="), "C")
 
 
-def as_points(points: object) -> np.ndarray:
+def as_points(points: object) -> NDArray[Any]:
     """Points as a C-contiguous (n, 3) array of float32 or float64; integers become float64. Raises where it is none."""
     if isinstance(points, (str, bytes, PathLike)):
         raise TypeError(f"points: {points!r}; give an array of shape (n, 3): read() gives that of a file")
@@ -57,7 +58,7 @@ def as_points(points: object) -> np.ndarray:
     return array if array.dtype.kind == "f" else array.astype(np.float64)
 
 
-def to_vtk(array: np.ndarray, name: Optional[str] = None) -> core.vtkDataArray:
+def to_vtk(array: NDArray[Any], name: Optional[str] = None) -> core.vtkDataArray:
     """A VTK array that looks at the memory of `array`, which must be C-contiguous and outlive it."""
     result = _CLASSES[array.dtype.kind + str(array.dtype.itemsize)]()
     if name is not None:
@@ -71,8 +72,11 @@ def to_vtk(array: np.ndarray, name: Optional[str] = None) -> core.vtkDataArray:
 class Cloud:
     """A vtkPolyData that looks at NumPy's memory, and keeps that memory."""
 
-    def __init__(self, points: object, attributes: Mapping[str, object] = {}) -> None:
+    def __init__(
+        self, points: object, attributes: Mapping[str, object] = {}, fields: Mapping[str, object] = {}, texts: bool = False
+    ) -> None:
         self._kept = [as_points(points)]
+        self._takes_texts = texts
         self.data = vtkPolyData()
         vtk_points = core.vtkPoints()
         vtk_points.SetData(to_vtk(self._kept[0]))
@@ -81,6 +85,8 @@ class Cloud:
             raise TypeError(f"attributes: a {type(attributes).__name__}; give a dict of names and arrays")
         for name, values in attributes.items():
             self.add(name, values)
+        for name, values in fields.items():
+            self._add_field(name, values)
 
     def __len__(self) -> int:
         return len(self._kept[0])
@@ -90,6 +96,9 @@ class Cloud:
         if not isinstance(name, str) or not name:
             raise TypeError(f"attributes: the name {name!r}; give a string that is not empty")
         argument = argument or f"attributes[{name!r}]"
+        if self._takes_texts and np.asarray(values).dtype.kind in "UO":
+            self._add_texts(name, np.asarray(values), argument)
+            return
         array = _numbers(values, argument)
         if array.ndim not in (1, 2) or len(array) != len(self) or array.size == 0:
             raise ValueError(
@@ -98,13 +107,37 @@ class Cloud:
             )
         self._kept.append(array)
         vtk_array = to_vtk(array, name)
-        if name == "Normals" and array.ndim == 2 and array.shape[1] == 3:
+        if field_name(name) == "normals" and array.ndim == 2 and array.shape[1] == 3:
             self.data.GetPointData().SetNormals(vtk_array)
         else:
             self.data.GetPointData().AddArray(vtk_array)
 
 
-def from_vtk(array: core.vtkAbstractArray) -> np.ndarray:
+    def _add_texts(self, name: str, texts: NDArray[Any], argument: str) -> None:
+        if texts.shape != (len(self),) or not all(isinstance(text, str) for text in texts.tolist()):
+            raise ValueError(f"{argument}: shape {texts.shape}; give one text for each of the {len(self)} points")
+        self.data.GetPointData().AddArray(texts_to_vtk(texts.tolist(), name))
+
+    def _add_field(self, name: str, values: object) -> None:
+        array = np.atleast_1d(np.asarray(values))
+        if array.dtype.kind in "UO":
+            self.data.GetFieldData().AddArray(texts_to_vtk([str(text) for text in array.tolist()], name))
+            return
+        array = _numbers(array, f"field[{name!r}]")
+        self._kept.append(array)
+        self.data.GetFieldData().AddArray(to_vtk(array, name))
+
+
+def texts_to_vtk(texts: List[str], name: str) -> core.vtkStringArray:
+    """A VTK array of texts."""
+    result = core.vtkStringArray()
+    result.SetName(name)
+    for text in texts:
+        result.InsertNextValue(text)
+    return result
+
+
+def from_vtk(array: core.vtkAbstractArray) -> NDArray[Any]:
     """A NumPy array that looks at the memory of `array` and keeps it; strings and bits are copied."""
     if isinstance(array, core.vtkStringArray):
         return np.array([array.GetValue(i) for i in range(array.GetNumberOfValues())])
@@ -112,16 +145,17 @@ def from_vtk(array: core.vtkAbstractArray) -> np.ndarray:
         bytes_ = core.vtkUnsignedCharArray()
         bytes_.DeepCopy(array)
         array = bytes_
-    return vtk_to_numpy(array)
+    result: NDArray[Any] = vtk_to_numpy(array)
+    return result
 
 
-def points_of(data: vtkPolyData) -> np.ndarray:
+def points_of(data: vtkPolyData) -> NDArray[Any]:
     """The points of a vtkPolyData, (n, 3), without a copy."""
     points = data.GetPoints()
     return from_vtk(points.GetData()) if points else np.empty((0, 3), np.float32)
 
 
-def arrays_of(data: vtkDataSetAttributes, without: Sequence[str] = ()) -> Dict[str, np.ndarray]:
+def arrays_of(data: vtkDataSetAttributes, without: Sequence[str] = ()) -> Dict[str, NDArray[Any]]:
     """The arrays of point data by name, in their order, without a copy."""
     result = {}
     for i in range(data.GetNumberOfArrays()):
@@ -131,12 +165,31 @@ def arrays_of(data: vtkDataSetAttributes, without: Sequence[str] = ()) -> Dict[s
     return result
 
 
-def as_bounds(workspace: object) -> Tuple[float, ...]:
+def as_bounds(workspace: ArrayLike) -> Tuple[float, ...]:
     """x0, x1, y0, y1, z0, z1; raises where these are no box."""
     box = _numbers(workspace, "workspace").astype(np.float64).reshape(-1)
     if box.shape != (6,) or not np.isfinite(box).all() or not (box[0::2] < box[1::2]).all():
-        raise ValueError(f"workspace: {workspace}; give x0, x1, y0, y1, z0, z1 with x0 < x1, y0 < y1 and z0 < z1")
+        raise ValueError(f"workspace: {workspace!r}; give x0, x1, y0, y1, z0, z1 with x0 < x1, y0 < y1 and z0 < z1")
     return tuple(box.tolist())
+
+
+_MOST_VOXELS = 1 << 21  # on an axis
+
+
+def as_dims(dims: object) -> Tuple[int, int, int]:
+    """Voxels on each axis, of one number or three; raises where they are none."""
+    if np.ndim(dims) > 1:  # type: ignore[arg-type]
+        raise ValueError(f"dims: {dims!r}; give one whole number or three, voxels on each axis")
+    three = (dims, dims, dims) if np.ndim(dims) == 0 else tuple(dims)  # type: ignore[arg-type]
+    if len(three) != 3:
+        raise ValueError(f"dims: {dims!r}; give one whole number or three, voxels on each axis")
+    x, y, z = (whole(n, "dims", 1, _MOST_VOXELS) for n in three)
+    return x, y, z
+
+
+def field_name(name: str) -> str:
+    """One spelling of a field's name: see Core/Resample/FieldNames.h."""
+    return name.lower().translate({ord(filler): None for filler in "_ -"})
 
 
 def as_transform(transform: object) -> vtkAbstractTransform:
@@ -160,6 +213,8 @@ def number(value: object, name: str, low: float, high: float, open_low: bool = F
     """`value` as a float in its range; raises TypeError or ValueError with the range."""
     if isinstance(value, (str, bytes)) or value is None:
         raise TypeError(f"{name}: {value!r}; give a number")
+    if isinstance(value, (bool, np.bool_)):
+        raise ValueError(f"{name}: {value!r}; give a number")
     try:
         result = float(value)  # type: ignore[arg-type]
     except (TypeError, ValueError):

@@ -2,85 +2,201 @@
 
 from __future__ import annotations
 
+import contextlib
+import errno
 import os
+import shutil
+import tempfile
 import warnings
-from typing import Any, Dict, Mapping, Tuple, Union
+from typing import IO, Any, Dict, Iterator, Mapping, NoReturn, Optional, Tuple, Union
 
-import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from .arrays import Cloud, arrays_of, points_of
 from .classes import vtkPointCloudInfo, vtkPointCloudReader, vtkPointCloudWriter
+from .filters import Voxels
 from .updates import run
 
-Path = Union[str, "os.PathLike[str]"]
+#: The name of a file, or a binary file object.
+Path = Union[str, "os.PathLike[str]", IO[bytes]]
+# vtkErrorCode: what a file holds, not the system, is at fault.
+_CONTENT = (20003, 20004, 20005)  # UnrecognizedFileType, PrematureEndOfFile, FileFormat
+_ERRNOS = {os.strerror(code): code for code in errno.errorcode}
 
 
-def _name(path: Path) -> str:
+class Attributes(Dict[str, NDArray[Any]]):
+    """The attributes of a cloud: name -> (n,) or (n, components); and in .fields what its file says of the whole cloud.
+
+    fields : name -> array, or text: CoordinateSystem, LengthUnit, Viewpoint (tx ty tz qw qx qy qz), OrganizedDimensions
+        (width, height), ScanPoses, LasScale ... write() writes them where the format has a place, and warns where not.
+        Whoever moves, scales or sorts the points removes those that are then wrong.
+    """
+
+    def __init__(self, attributes: Mapping[str, NDArray[Any]] = {}, fields: Mapping[str, Any] = {}) -> None:
+        super().__init__(attributes)
+        self.fields: Dict[str, Any] = dict(fields)
+
+    def copy(self) -> "Attributes":
+        return Attributes(self, self.fields)
+
+
+def _name(path: object) -> str:
     if not isinstance(path, (str, os.PathLike)):
-        raise TypeError(f"path: {path!r}; give the name of a file")
+        raise TypeError(f"path: {path!r}; give the name of a file, or a file opened for bytes")
     name = os.fspath(path)
     if not isinstance(name, str) or not name or "\0" in name:
         raise ValueError(f"path: {path!r}; give the name of a file")
     return name
 
 
-def _fail(message: str, name: str, what: str) -> None:
+def _shown_name(file: object) -> str:
+    name = getattr(file, "name", None)
+    return name if isinstance(name, str) else "<file object>"
+
+
+@contextlib.contextmanager
+def _file_to_read(path: object) -> Iterator[Tuple[str, str]]:
+    """The name of a file, and how messages call it."""
+    if not hasattr(path, "read"):
+        yield (_name(path),) * 2
+        return
+    shown = _shown_name(path)
+    with tempfile.NamedTemporaryFile(suffix=os.path.splitext(shown)[1]) as copy:
+        try:
+            shutil.copyfileobj(path, copy)
+        except TypeError:
+            raise TypeError(f"path: {shown!r} gives text; open it for bytes, as open(name, 'rb')") from None
+        copy.flush()
+        yield copy.name, shown
+
+
+def _fail(message: str, name: str, shown: str, is_content: bool) -> NoReturn:
     """Raises OSError where the system is at fault, ValueError where the content is."""
-    message = message or f"{name}: cannot be {what}"
-    raise (OSError if what == "written" or not os.path.isfile(name) else ValueError)(message)
+    message = message.replace(name, shown)
+    number = next((number for text, number in _ERRNOS.items() if text in message), 0)
+    number = errno.EISDIR if os.path.isdir(name) else number
+    if not number and is_content:
+        raise ValueError(message)
+    number = number or errno.EIO
+    raise OSError(number, message[len(shown) + 2 :] if message.startswith(shown + ": ") else message, shown)
 
 
-def _read(name: str) -> vtkPointCloudReader:
-    if not os.path.exists(name):
-        raise FileNotFoundError(f"{name}: does not exist; check the name")
+def _check_readable(name: str) -> None:
+    """Raises OSError, with errno and filename, for what cannot be opened. Opens nothing: it may be a pipe."""
+    try:
+        os.stat(name)
+    except FileNotFoundError as error:
+        raise OSError(error.errno, f"{os.strerror(errno.ENOENT)}; check the name", name) from None
+    number = errno.EISDIR if os.path.isdir(name) else 0 if os.access(name, os.R_OK) else errno.EACCES
+    if number:
+        raise OSError(number, f"{os.strerror(number)}; name a file that may be read", name)
+
+
+def _read(name: str, shown: str) -> vtkPointCloudReader:
+    _check_readable(name)
     reader = vtkPointCloudReader()
     reader.SetFileName(name)
     errors = run(reader, reader.Update)
     if errors or reader.GetErrorMessage():
-        _fail(reader.GetErrorMessage() or errors[0], name, "read")
+        _fail(reader.GetErrorMessage() or errors[0], name, shown, True)
     if reader.GetOutput().GetNumberOfPoints() == 0:
-        raise ValueError(f"{name}: holds no points; give a file with at least one")
+        raise ValueError(f"{shown}: holds no points; give a file with at least one")
     return reader
 
 
-def read(path: Path) -> Tuple[np.ndarray, Dict[str, np.ndarray]]:
+def read(path: Path) -> Tuple[NDArray[Any], Attributes]:
     """Read a point cloud; the format goes by content (PLY, PCD, LAS, VTP, OBJ, columns of text ...).
 
+    path: the name of a file, or a file object opened for bytes, which is read to its end.
+
     Returns points, (n, 3) float64 where the file's numbers need it and float32 otherwise, in the file's frame and
-    unit, and attributes, name -> (n,) or (n, components) of the file's type: "RGB", "Normals", "Intensity" ...
-    Field data of a file, such as its coordinate system, is not in them: see vtkPointCloudReader.
+    unit, and attributes, name -> (n,) or (n, components) of the file's type: "RGB", "Normals", "Intensity" ... What
+    the file says of the whole cloud, such as its coordinate system, is in attributes.fields. What is not read, such as
+    columns of texts, is said by a RuntimeWarning.
 
-    Raises FileNotFoundError or OSError where it cannot be opened, ValueError where it is damaged or of an unknown
-    format, each with file, format, place, value and cure in one line.
+    Raises OSError with errno and filename where it cannot be opened (FileNotFoundError ...), ValueError where it is
+    damaged, empty or of an unknown format, each with file, format, place, value and cure in one line; MemoryError.
     """
-    output = _read(_name(path)).GetOutput()
-    return points_of(output), arrays_of(output.GetPointData())
+    with _file_to_read(path) as (name, shown):
+        reader = _read(name, shown)
+    for note in reader.GetNotes():
+        warnings.warn(f"{shown}: {note}", RuntimeWarning, stacklevel=2)
+    output = reader.GetOutput()
+    fields = {name: _field_value(values) for name, values in arrays_of(output.GetFieldData()).items()}
+    return points_of(output), Attributes(arrays_of(output.GetPointData()), fields)
 
 
-def write(path: Path, points: np.ndarray, attributes: Mapping[str, np.ndarray] = {}) -> None:
+def _field_value(values: NDArray[Any]) -> Any:
+    return values[0] if values.dtype.kind == "U" and len(values) == 1 else values
+
+
+def write(
+    path: Path,
+    points: Union[ArrayLike, Voxels],
+    attributes: Mapping[str, ArrayLike] = {},
+    *,
+    fields: Optional[Mapping[str, Any]] = None,
+    extension: Optional[str] = None,
+) -> None:
     """Write a point cloud with its attributes: .vtp, .ply, .pcd, .las or .csv by extension.
 
-    points: (n, 3); attributes: name -> (n,) or (n, components). "RGB" (uint8) and "Normals" become the format's own.
+    path: the name of a file, or a file object opened for bytes.
+    points: (n, 3), or what resample() returned, which has its arrays with it, counts and covariances among them.
+    attributes: name -> (n,) or (n, components). "RGB" (uint8) and "Normals" become the format's own; texts go into
+        .vtp alone.
+    fields: name -> array or text, of the whole cloud. Default: those of the attributes, where they come from read().
+    extension: such as "ply", where the name does not say it.
     The file appears when it is complete, with every digit. What its format cannot hold is said by a RuntimeWarning.
 
-    Raises TypeError or ValueError for bad arrays and unknown extensions, OSError where the file cannot be written.
+    Raises TypeError or ValueError for bad arrays and unknown extensions, OSError with errno and filename where the file
+    cannot be written, MemoryError.
     """
-    name = _name(path)
-    if not vtkPointCloudWriter.CanWrite(name):
-        extension = os.path.splitext(name)[1]
+    if isinstance(points, Voxels):
+        lattice = {"LatticeOrigin": points.origin, "LatticeSpacing": points.spacing}
+        fields = {**lattice, "LatticeDimensions": points.dimensions, **(fields or {})}
+        attributes = {**points.arrays, **attributes}
+        points = points.points
+    if fields is None:
+        fields = attributes.fields if isinstance(attributes, Attributes) else {}
+    if not hasattr(path, "write"):
+        name = _name(path)
+        _write(name, name, points, attributes, fields, extension)
+        return
+    shown = _shown_name(path)
+    ending = os.path.splitext(shown)[1] if extension is None else f".{extension}"
+    with tempfile.TemporaryDirectory() as folder:
+        name = os.path.join(folder, "cloud" + ending)
+        _write(name, shown, points, attributes, fields, None)
+        with open(name, "rb") as written:
+            shutil.copyfileobj(written, path)  # type: ignore[arg-type]
+
+
+def _write(
+    name: str,
+    shown: str,
+    points: ArrayLike,
+    attributes: Mapping[str, ArrayLike],
+    fields: Mapping[str, Any],
+    extension: Optional[str],
+) -> None:
+    if not vtkPointCloudWriter.CanWrite(name if extension is None else f"cloud.{extension}"):
+        ending = os.path.splitext(name)[1] if extension is None else extension
         raise ValueError(
-            f"{name}: unknown extension {extension!r}; end the name in {vtkPointCloudWriter.GetExtensions()}"
+            f"{shown}: unknown extension {ending!r}; end the name in {vtkPointCloudWriter.GetExtensions()}"
         )
-    cloud = Cloud(points, attributes)
+    cloud = Cloud(points, attributes, fields, texts=True)
     writer = vtkPointCloudWriter()
     writer.SetFileName(name)
+    if extension is not None:
+        writer.SetExtension(extension)
     writer.SetInputData(cloud.data)
     written = []
     errors = run(writer, lambda: written.append(writer.Write()))
     for note in writer.GetNotes():
-        warnings.warn(f"{name}: {note}", RuntimeWarning, stacklevel=2)
+        warnings.warn(f"{shown}: {note}", RuntimeWarning, stacklevel=3)
     if errors or written != [1]:
-        _fail(writer.GetErrorMessage() or (errors[0] if errors else ""), name, "written")
+        message = writer.GetErrorMessage() or (errors[0] if errors else "cannot be written")
+        _fail(message, name, shown, writer.GetErrorCode() in _CONTENT)
 
 
 def _array_info(summary: vtkPointCloudInfo, array: int) -> Dict[str, Any]:
@@ -109,15 +225,15 @@ def info(path: Path) -> Dict[str, Any]:
 
     Raises as read() does.
     """
-    name = _name(path)
-    summary = vtkPointCloudInfo()
-    reader = _read(name)  # a port does not keep its filter
-    summary.SetInputConnection(reader.GetOutputPort())
-    errors = run(summary, summary.Update)
+    with _file_to_read(path) as (name, shown):
+        summary = vtkPointCloudInfo()
+        reader = _read(name, shown)  # a port does not keep its filter
+        summary.SetInputConnection(reader.GetOutputPort())
+        errors = run(summary, summary.Update)
     if errors:
         raise ValueError(errors[0])
     result: Dict[str, Any] = {
-        "file": name,
+        "file": shown,
         "format": summary.GetFormat(),
         "points": summary.GetNumberOfPoints(),
         "points_invalid": summary.GetNumberOfInvalidPoints(),

@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Collection, Dict, Mapping, Optional, Sequence, Union
+from typing import Any, Collection, Dict, Mapping, Optional, Sequence, Union
 
 import numpy as np
-from vtkmodules.vtkCommonCore import vtkSMPTools
+from numpy.typing import ArrayLike, NDArray
+from vtkmodules.vtkCommonTransforms import vtkAbstractTransform
 
-from .arrays import Cloud, arrays_of, as_bounds, as_transform, from_vtk, number, points_of, whole
+from .arrays import Cloud, arrays_of, as_bounds, as_dims, as_transform, field_name, from_vtk, number, points_of, whole
 from .classes import vtkKernelBandwidthFilter, vtkVoxelMeanResampler
 from .updates import update
 
-_MOST_VOXELS = 1 << 21  # on an axis
 _INT_MAX = (1 << 31) - 1
+_COUNTS = "VoxelPointCount"
+_COVARIANCE = "VoxelCovariance"
 _POINT_IDS = "vtkOriginalPointIds"
 _RULES = {
     "normal-reference": vtkKernelBandwidthFilter.NormalReference,
@@ -32,47 +34,71 @@ _REPRESENTATIVES = {
 
 @dataclass(frozen=True, eq=False)
 class Voxels:
-    """One row for each active voxel, in the order of the voxels' index (x fastest)."""
+    """One row for each active voxel, in the order of the voxels' index (x fastest).
 
-    points: np.ndarray  #: (n, 3), the means of the points, or what else stands for them, of the input's type, in the
-    # workspace frame.
-    counts: np.ndarray  #: (n,) int64, points of each voxel.
-    covariance: Optional[np.ndarray]  #: (n, 6) float64, XX YY ZZ XY YZ XZ in squared units of the points, or None.
-    attributes: Dict[str, np.ndarray] = field(repr=False)  #: By name, of the inputs' types: (n,) or (n, components).
-    clipped: int  #: Finite points outside the workspace.
-    invalid: int  #: Points that are NaN or infinite.
-    #: (n,) int64, the point of the input that stands for each voxel, where it is one of them, or None.
-    point_ids: Optional[np.ndarray] = field(default=None, repr=False)
-    #: (points of the input,) int64, the row of each one's voxel; -1: clipped, invalid or in a voxel that is left out.
-    #: None where it was not asked for.
-    voxel_index: Optional[np.ndarray] = field(default=None, repr=False)
+    points : (n, 3), the means of the points, or what else stands for them, of the input's type, in the workspace frame.
+    counts : (n,) int64, points of each voxel.
+    covariance : (n, 6) float64, XX YY ZZ XY YZ XZ in squared units of the points, or None where not asked for.
+    attributes : dict of (n,) or (n, components), each in the input's type.
+    clipped : finite points outside the workspace, in none of the voxels.
+    invalid : points that are NaN or infinite.
+    point_ids : (n,) int64, the row of the input that stands for each voxel, where it is one of them, or None.
+    voxel_index : (points of the input,) int64, the row of each one's voxel in this table, or -1: clipped, invalid or in
+        a voxel with fewer than minimum_points. `voxel_index[i] < 0` must be left out before it is an index, as -1 would
+        take the last row: `inside = voxel_index >= 0; points[voxel_index[inside]]`. None where not asked for.
+    origin : (3,) float64, the lowest corner of the lattice, workspace frame.
+    spacing : (3,) float64, edges of a voxel.
+    dimensions : (3,) int, voxels of the lattice on each axis.
+
+    Voxel (i, j, k) covers origin + (i, j, k) * spacing up to, not including, the next one. write() takes such a table in
+    the place of points.
+    """
+
+    points: NDArray[Any]
+    counts: NDArray[np.int64]
+    covariance: Optional[NDArray[np.float64]]
+    attributes: Dict[str, NDArray[Any]] = field(repr=False)
+    clipped: int
+    invalid: int
+    point_ids: Optional[NDArray[np.int64]] = field(default=None, repr=False)
+    voxel_index: Optional[NDArray[np.int64]] = field(default=None, repr=False)
+    origin: NDArray[np.float64] = field(default_factory=lambda: np.zeros(3))
+    spacing: NDArray[np.float64] = field(default_factory=lambda: np.zeros(3))
+    dimensions: NDArray[np.int64] = field(default_factory=lambda: np.zeros(3, np.int64))
 
     def __len__(self) -> int:
         return len(self.points)
 
+    @property
+    def arrays(self) -> Dict[str, NDArray[Any]]:
+        """The attributes, and under the program's names what else is there for each voxel: VoxelPointCount (the counts),
+        VoxelCovariance and vtkOriginalPointIds."""
+        own = {_COUNTS: self.counts, _COVARIANCE: self.covariance, _POINT_IDS: self.point_ids}
+        return {**self.attributes, **{name: values for name, values in own.items() if values is not None}}
+
 
 @dataclass(frozen=True, eq=False)
 class Bandwidths:
-    """One row for each point, in the unit of the points; 0 for points that are NaN or infinite."""
+    """One row for each point, in the unit of the points; 0 for points that are NaN or infinite.
 
-    bandwidth: np.ndarray  #: (n,) float64, kernel bandwidth.
-    radius: np.ndarray  #: (n,) float64, proxy radius.
-    density: Optional[np.ndarray]  #: (n,) float64, points per squared unit over their number, or None.
+    bandwidth : (n,) float64, kernel bandwidth.
+    radius : (n,) float64, proxy radius.
+    density : (n,) float64, points per squared unit over their number, or None where not asked for.
+    """
+
+    bandwidth: NDArray[np.float64]
+    radius: NDArray[np.float64]
+    density: Optional[NDArray[np.float64]]
 
     def __len__(self) -> int:
         return len(self.bandwidth)
-
-
-def _field(name: str) -> str:
-    """One spelling of a field's name: see Core/Resample/FieldNames.h."""
-    return name.lower().translate({ord(filler): None for filler in "_ -"})
 
 
 def set_lattice(
     resampler: vtkVoxelMeanResampler,
     voxel: Optional[float],
     dims: Union[int, Sequence[int], None],
-    workspace: Optional[Sequence[float]],
+    workspace: Optional[ArrayLike],
 ) -> None:
     """Sets those that are given; raises where they contradict each other or are out of range."""
     if voxel is not None and dims is not None:
@@ -82,19 +108,16 @@ def set_lattice(
     if voxel is not None:
         resampler.SetVoxelSize(number(voxel, "voxel", 0.0, np.inf, open_low=True))
     if dims is not None:
-        three = (dims, dims, dims) if np.ndim(dims) == 0 else tuple(dims)
-        if len(three) != 3:
-            raise ValueError(f"dims: {dims!r}; give one whole number or three, voxels on each axis")
-        resampler.SetDimensions(*(whole(n, "dims", 1, _MOST_VOXELS) for n in three))
+        resampler.SetDimensions(*as_dims(dims))
 
 
 def resample(
-    points: np.ndarray,
+    points: ArrayLike,
     voxel: Optional[float] = None,
     dims: Union[int, Sequence[int], None] = None,
-    workspace: Optional[Sequence[float]] = None,
-    transform: Optional[np.ndarray] = None,
-    attributes: Optional[Mapping[str, np.ndarray]] = None,
+    workspace: Optional[ArrayLike] = None,
+    transform: Union[ArrayLike, vtkAbstractTransform, None] = None,
+    attributes: Optional[Mapping[str, ArrayLike]] = None,
     covariance: bool = False,
     categorical: Collection[str] = (),
     threads: Optional[int] = None,
@@ -114,22 +137,25 @@ def resample(
         left out and counted. Default: a cube about the transformed points.
     transform : (4, 4) affine matrix, applied to the points first, or a vtkLinearTransform.
     attributes : name -> (n,) or (n, components) of numbers. Each is averaged in its own type, integers rounded to
-        nearest; "Normals" of three components are turned with the transform and normalised.
+        nearest; "Normals" of three components, in any case, are turned with the transform and normalised.
     covariance : compute the six second moments of each voxel.
     categorical : names of attributes that hold labels: a voxel gets the most frequent one. "Classification" always is.
     threads : at most so many, 1 or more; default: as vtkSMPTools is set. The result is the same with any number.
     representative : what stands for the points of a voxel: "mean"; "nearest-to-mean" or "nearest-to-center", the point
-        of the input, with its own attributes, whose row is in .point_ids; or "median", coordinate by coordinate.
+        of the input, with its own attributes, whose row is in .point_ids; or "median", coordinate by coordinate and
+        component by component: of an even number of values the lower one of the middle two.
     minimum_points : voxels with fewer points are left out, 1 or more.
-    voxel_index : find the voxel of each point: .voxel_index, such that .points[.voxel_index[i]] stands for point i.
+    voxel_index : find the voxel of each point: .voxel_index, its row, or -1 for points that are in none (see Voxels).
 
     Returns
     -------
-    Voxels, with .points .counts .covariance .attributes .clipped .invalid .point_ids .voxel_index
+    Voxels, with .points .counts .covariance .attributes .clipped .invalid .point_ids .voxel_index .origin .spacing
+    .dimensions
 
     Raises
     ------
-    TypeError, ValueError : one line that names the argument, its value and the cure.
+    TypeError, ValueError : one line that names the argument, its value and the cure; no points are a ValueError.
+    MemoryError : there is no memory for the result.
 
     Sums are exact: the result is that of the program and of vtkVoxelMeanResampler, bit for bit, for every order of
     the points. Cost: some nanoseconds a point. Memory: see vtkVoxelMeanResampler; points and attributes that are
@@ -141,7 +167,7 @@ def resample(
         resampler.SetTransform(as_transform(transform))
     attributes = {} if attributes is None else attributes
     for name in [categorical] if isinstance(categorical, str) else categorical:
-        if _field(name) not in map(_field, attributes):
+        if field_name(name) not in map(field_name, attributes):
             raise ValueError(f"categorical: no attribute is called {name!r}; give names of {sorted(attributes)}")
         resampler.AddCategoricalArray(name)
     resampler.SetComputeCovariance(bool(covariance))
@@ -151,40 +177,34 @@ def resample(
     resampler.SetKeepOriginalPointIds(representative.startswith("nearest"))
     resampler.SetMinimumPointsPerVoxel(whole(minimum_points, "minimum_points", 1, _INT_MAX))
     resampler.SetComputeVoxelIndex(bool(voxel_index))
+    if threads is not None:
+        resampler.SetNumberOfThreads(whole(threads, "threads", 1, _INT_MAX))
     cloud = Cloud(points, attributes)
     resampler.SetInputData(cloud.data)
-    if threads is None:
-        update(resampler)
-    else:
-        _update_with(whole(threads, "threads", 1, _INT_MAX), resampler)
+    update(resampler)
     output = resampler.GetOutput()
     data = output.GetPointData()
-    own = ("VoxelPointCount", "VoxelCovariance", _POINT_IDS)
+    own = (_COUNTS, _COVARIANCE, _POINT_IDS)
+    fields = output.GetFieldData()
     point_ids = data.GetArray(_POINT_IDS)
     places = resampler.GetOutput(1).GetPointData().GetArray("VoxelIndex") if voxel_index else None
     return Voxels(
         points=points_of(output),
-        counts=from_vtk(data.GetArray("VoxelPointCount")),
-        covariance=from_vtk(data.GetArray("VoxelCovariance")) if covariance else None,
+        counts=from_vtk(data.GetArray(_COUNTS)),
+        covariance=from_vtk(data.GetArray(_COVARIANCE)) if covariance else None,
         attributes=arrays_of(data, without=own),
         clipped=resampler.GetNumberOfClippedPoints(),
         invalid=resampler.GetNumberOfInvalidPoints(),
         point_ids=from_vtk(point_ids) if point_ids else None,
         voxel_index=from_vtk(places) if places else None,
+        origin=from_vtk(fields.GetArray("LatticeOrigin")).reshape(3),
+        spacing=from_vtk(fields.GetArray("LatticeSpacing")).reshape(3),
+        dimensions=from_vtk(fields.GetArray("LatticeDimensions")).reshape(3),
     )
 
 
-def _update_with(threads: int, resampler: vtkVoxelMeanResampler) -> None:
-    former = vtkSMPTools.GetEstimatedNumberOfThreads()
-    vtkSMPTools.Initialize(threads)
-    try:
-        update(resampler)
-    finally:
-        vtkSMPTools.Initialize(former)
-
-
 def bandwidth(
-    points: np.ndarray,
+    points: ArrayLike,
     k: int = 16,
     rule: str = "normal-reference",
     beta: float = 4.0,
@@ -192,7 +212,7 @@ def bandwidth(
     r2: Optional[float] = None,
     density: bool = False,
     *,
-    counts: Optional[np.ndarray] = None,
+    counts: Optional[ArrayLike] = None,
 ) -> Bandwidths:
     """Kernel bandwidth and proxy radius at every point, from its k nearest neighbours.
 
@@ -212,7 +232,8 @@ def bandwidth(
 
     Raises
     ------
-    TypeError, ValueError : one line that names the argument, its value and the cure.
+    TypeError, ValueError : one line that names the argument, its value and the cure; no points are a ValueError.
+    MemoryError : there is no memory for the result.
 
     Bandwidths are within 1e-9 relative of the definition, the same with any number of threads. Cost: 200 ns a point
     and thread for 16 neighbours; see vtkKernelBandwidthFilter.
@@ -232,7 +253,9 @@ def bandwidth(
     estimator.SetComputeDensity(bool(density))
     cloud = Cloud(points)
     if counts is not None:
-        cloud.add("VoxelPointCount", counts, "counts")
+        cloud.add(_COUNTS, counts, "counts")
+        if not (np.asarray(counts) >= 0).all() or not np.isfinite(counts).all():
+            raise ValueError("counts: some are negative, NaN or infinite; give the number of points of each row")
     estimator.SetInputData(cloud.data)
     update(estimator)
     data = estimator.GetOutput().GetPointData()

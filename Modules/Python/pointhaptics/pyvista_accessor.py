@@ -15,6 +15,7 @@ from __future__ import annotations
 from typing import Any, Dict
 
 import numpy as np
+from numpy.typing import NDArray
 import pyvista
 
 from . import filters
@@ -70,7 +71,7 @@ class PointHapticsAccessor:
             result.point_data["Density"] = found.density
         return result
 
-    def _arrays(self, resampled: bool = False) -> Dict[str, np.ndarray]:
+    def _arrays(self, resampled: bool = False) -> Dict[str, NDArray[Any]]:
         """The point data by name; what an earlier resampling added only where it is wanted."""
         own = () if resampled else (_COUNTS, "VoxelCovariance", "VoxelIndex", "vtkOriginalPointIds")
         return {name: np.asarray(values) for name, values in self._mesh.point_data.items() if name not in own}

@@ -1,87 +1,112 @@
-"""What a hand feels of a cloud along a path, in virtual time."""
+"""A cloud as a hand feels it, and what the hand feels along a path, in virtual time."""
 
 from __future__ import annotations
 
-from typing import Optional, Sequence, Union
+import threading
+from ctypes import byref, c_double, c_int, c_size_t
+from typing import Any, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
-from vtkmodules.vtkCommonDataModel import vtkTable
+from numpy.typing import ArrayLike, NDArray
 
-from .arrays import Cloud, from_vtk, number, to_vtk
-from .classes import vtkHapticFeel
-from .filters import set_lattice
-from .updates import update
+from . import library
+from .arrays import as_bounds, as_dims, as_points, number
+from .calls import interruptible
+from .touch import FELT_COLUMNS, FELT_TYPE, as_path, options_of
 
-#: The columns of the program's OUT.csv, and of what Scene.feel() returns.
-FELT_COLUMNS = (
-    "t", "hip_x", "hip_y", "hip_z", "proxy_x", "proxy_y", "proxy_z", "normal_x", "normal_y", "normal_z",
-    "force_x", "force_y", "force_z", "radius", "contact", "update_us",
-)  # fmt: skip
-_METHODS = {
-    "surface-fit": vtkHapticFeel.SurfaceFit,
-    "sphere": vtkHapticFeel.Sphere,
-    "gradient-steps": vtkHapticFeel.GradientSteps,
-}
+__all__ = ["FELT_COLUMNS", "Scene"]
 
-
-def _as_path(path: object) -> np.ndarray:
-    """(n, 4) float64 of t, x, y, z; from such an array or from a structured one with these fields."""
-    array = np.asarray(path)
-    if array.dtype.names:
-        names = ("t", "hip_x", "hip_y", "hip_z") if "hip_x" in array.dtype.names else ("t", "x", "y", "z")
-        missing = [name for name in names if name not in array.dtype.names]
-        if missing or array.ndim != 1:
-            raise ValueError(f"path: fields {array.dtype.names}; give a table with t, x, y and z")
-        array = np.column_stack([array[name] for name in names])
-    if array.dtype.kind not in "fiu":
-        raise TypeError(f"path: values of type {array.dtype}; give numbers")
-    if array.ndim != 2 or array.shape[1] != 4 or len(array) == 0:
-        raise ValueError(f"path: shape {array.shape}; give one row or more of t, x, y, z, (n, 4), in seconds and metres")
-    return array.astype(np.float64, copy=False)
+_LOOK = 0.05  # seconds between two looks at a stop
 
 
 class Scene:
-    """A point cloud that can be felt.
+    """A point cloud that can be felt. Immutable: any number of threads may use one at a time.
 
-    points : (n, 3), float32 or float64, metres. Kept, not copied: do not write to them while the scene is in use.
+    points : (n, 3), float32 or float64, metres. Kept, not copied: do not write to them.
     voxel : edge of the voxels that are felt, metres, above 0; or
     dims : voxels on each axis, one number or three. Where neither is given: 300, and near the hand, where that tells
         more, voxels about as fine as the points, as in the program without --dims and --voxel.
     workspace : x0, x1, y0, y1, z0, z1, metres: points outside are not felt. Default: a cube about the points.
 
-    Raises TypeError or ValueError: one line that names the argument, its value and the cure. The scene is made by the
-    first call of feel() and kept for the next ones. One thread uses a scene at a time.
+    Raises TypeError or ValueError: one line that names the argument, its value and the cure. What is felt is made by
+    the first call that needs it and kept for the next ones. Scenes can be pickled and copied: as these arguments.
     """
 
     def __init__(
         self,
-        points: np.ndarray,
+        points: ArrayLike,
         voxel: Optional[float] = None,
         dims: Union[int, Sequence[int], None] = None,
-        workspace: Optional[Sequence[float]] = None,
+        workspace: Optional[ArrayLike] = None,
     ) -> None:
-        self._cloud = Cloud(points)
-        self._filter = vtkHapticFeel()
-        self._filter.SetInputData(0, self._cloud.data)
-        set_lattice(self._filter.GetResampler(), voxel, dims, workspace)
-        self._filter.SetRefineNearHand(voxel is None and dims is None)
+        if voxel is not None and dims is not None:
+            raise ValueError(f"voxel {voxel!r} and dims {dims!r}: two ways to say one thing; give one of them")
+        self._points = as_points(points)
+        self._voxel = None if voxel is None else number(voxel, "voxel", 0.0, np.inf, open_low=True)
+        self._dims = None if dims is None else as_dims(dims)
+        self._workspace = None if workspace is None else as_bounds(workspace)
+        self._lock = threading.Lock()
+        self._made: Optional[library.Handle] = None
+
+    @property
+    def points(self) -> NDArray[Any]:
+        """The points, (n, 3), float32 or float64, metres; read-only."""
+        view = self._points.view()
+        view.flags.writeable = False
+        return view
 
     def __len__(self) -> int:
-        return len(self._cloud)
+        return len(self._points)
 
     def __repr__(self) -> str:
         return f"<pointhaptics.Scene of {len(self)} points>"
 
+    def __reduce__(self) -> Tuple[Any, ...]:
+        return Scene, (self._points, self._voxel, self._dims, self._workspace)
+
+    def made(self, stop: library.Stop) -> library.Handle:
+        """What the library feels; made once. Raises Stopped. For the modules of this package."""
+        while not self._lock.acquire(timeout=_LOOK):
+            if stop.is_requested:
+                raise library.Stopped
+        try:
+            if self._made is None:
+                self._made = self._make(stop)
+            return self._made
+        finally:
+            self._lock.release()
+
+    def _make(self, stop: library.Stop) -> library.Handle:
+        options = library.struct_of(
+            library.SceneOptions,
+            voxel=self._voxel or 0.0,
+            dims=(c_int * 3)(*(self._dims or (0, 0, 0))),
+            workspace=(c_double * 6)(*(self._workspace or [0.0] * 6)),
+            stop=stop.value,
+        )
+        points = self._points
+        if points.dtype == np.float32:
+            size: Tuple[int, ...] = (len(points), 0)
+            create = library.scene_create_float
+        else:
+            size = (len(points),)
+            create = library.scene_create
+        return library.Handle(create, library.scene_destroy, points.ctypes.data, *size, byref(options))
+
     def feel(
         self,
-        path: np.ndarray,
+        path: ArrayLike,
         stiffness: float = 800.0,
         damping: float = 0.0,
         mu_s: float = 0.0,
         mu_d: float = 0.0,
         rate: float = 1000.0,
         method: str = "surface-fit",
-    ) -> np.ndarray:
+        *,
+        force_limit: float = 8.0,
+        preset: str = "tuned",
+        gains: Optional[Mapping[str, float]] = None,
+    ) -> NDArray[Any]:
         """Move the hand along a path, in virtual time, and return what it feels at each tick.
 
         Parameters
@@ -93,6 +118,8 @@ class Scene:
         mu_s, mu_d : static and dynamic friction, 0 to 10, mu_d <= mu_s; mu_s 0: that of mu_d.
         rate : ticks a second, 1 to 1e5.
         method : "surface-fit" (accurate), "sphere" or "gradient-steps" (the paper's).
+        force_limit : the force never exceeds it, N, above 0; inf: none.
+        preset, gains : of "gradient-steps": see Proxy.
 
         Returns
         -------
@@ -102,32 +129,26 @@ class Scene:
         Raises
         ------
         TypeError, ValueError : one line that names the argument, its value and the cure.
+        MemoryError : there is no memory for the scene or the rows.
 
-        The same rows as those of `pointhaptics feel`, bit for bit, update_us aside. Cost: about 10 us a tick, and the
-        first time the resampling of the cloud.
+        The same rows as those of `pointhaptics feel`, bit for bit, update_us aside, from any number of threads at a
+        time. Cost: about 10 us a tick, and the first time the resampling of the cloud.
         """
-        if method not in _METHODS:
-            raise ValueError(f"method: {method!r}; give one of {', '.join(map(repr, _METHODS))}")
-        feel = self._filter
-        feel.SetMethod(_METHODS[method])
-        feel.SetStiffness(number(stiffness, "stiffness", 0.0, 1e5))
-        feel.SetDamping(number(damping, "damping", 0.0, 1e3))
-        mu_d = number(mu_d, "mu_d", 0.0, 10.0)
-        mu_s = number(mu_s, "mu_s", 0.0, 10.0) or mu_d
-        feel.SetStaticFriction(mu_s)
-        feel.SetDynamicFriction(mu_d)
-        if mu_d > mu_s:
-            raise ValueError(f"mu_d: {mu_d!r} is above mu_s {mu_s!r}; give mu_d <= mu_s")
-        feel.SetRate(number(rate, "rate", 1.0, 1e5))
-        rows = _as_path(path)
-        columns = [np.ascontiguousarray(rows[:, i]) for i in range(4)]
-        table = vtkTable()
-        for name, column in zip("txyz", columns):
-            table.AddColumn(to_vtk(column, name))
-        feel.SetInputData(1, table)
-        update(feel)
-        output = feel.GetOutput()
-        felt = np.empty(output.GetNumberOfRows(), [(name, np.float64) for name in FELT_COLUMNS])
-        for name in FELT_COLUMNS:
-            felt[name] = from_vtk(output.GetColumnByName(name))
-        return felt
+        rows = as_path(path)
+        rate = number(rate, "rate", 1.0, 1e5)
+        options = options_of(stiffness, damping, mu_s, mu_d, method, force_limit, preset, gains)
+        stop = library.Stop()
+
+        def work() -> NDArray[Any]:
+            steps = c_size_t()
+            library.check(library.feel_steps(rows.ctypes.data, len(rows), rate, byref(steps)))
+            scene = self.made(stop)
+            felt = np.empty(steps.value, FELT_TYPE)
+            library.check(
+                library.feel(
+                    scene.value, rows.ctypes.data, len(rows), rate, byref(options), stop.value, felt.ctypes.data
+                )
+            )
+            return felt
+
+        return interruptible(work, stop.request)

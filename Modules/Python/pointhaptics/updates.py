@@ -1,15 +1,16 @@
-"""Runs VTK filters: their errors become exceptions, their warnings Python's, and Ctrl+C ends them."""
+"""Runs VTK filters: their errors become exceptions, their warnings Python's, and signals end them."""
 
 from __future__ import annotations
 
 import re
-import signal
-import threading
 import warnings
 from typing import Callable, List
 
 from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm
 
+from .calls import interruptible
+
+_OUT_OF_MEMORY = 40012  # kOutOfMemoryCode of Core/Base/Host/OutOfMemory.h
 # "ERROR: In file, line n\nvtkClass (0x...): the message\n\n"
 _PREFIX = re.compile(r"\A(?:ERROR|Warning): In .*\n(?:vtk\w+ \(\w+\): )?")
 
@@ -31,53 +32,30 @@ class _Messages:
         (self.errors if event == "ErrorEvent" else self.warnings).append(_sentence(text))
 
 
-class _Interrupt:
-    """Turns Ctrl+C into a request that a running algorithm sees at its next report of progress."""
-
-    def __init__(self, algorithm: vtkAlgorithm) -> None:
-        self._algorithm = algorithm
-        self._former = None
-        self.requested = False
-
-    def __call__(self, caller: vtkAlgorithm, event: str) -> None:
-        if self.requested:
-            self._algorithm.SetAbortExecute(1)
-
-    def __enter__(self) -> "_Interrupt":
-        # Only the main thread may set handlers, and one that somebody else has set stays.
-        if (
-            threading.current_thread() is threading.main_thread()
-            and signal.getsignal(signal.SIGINT) is signal.default_int_handler
-        ):
-            self._former = signal.signal(signal.SIGINT, self._request)
-        return self
-
-    def __exit__(self, *unused: object) -> None:
-        if self._former is not None:
-            signal.signal(signal.SIGINT, self._former)
-
-    def _request(self, number: int, frame: object) -> None:
-        self.requested = True
-
-
 def run(algorithm: vtkAlgorithm, work: Callable[[], object]) -> List[str]:
     """Calls `work`, which runs `algorithm`, and returns the errors that were reported, each in one line.
 
-    Warnings are passed to the module `warnings`. Raises KeyboardInterrupt after Ctrl+C; the algorithm has then ended.
+    Warnings are passed to the module `warnings`. What a signal handler raises, as after Ctrl+C, ends the algorithm and
+    is raised. Raises MemoryError where memory runs out.
     """
     messages = _Messages()
-    with _Interrupt(algorithm) as interrupt:
-        # The executive reports what concerns the pipeline, such as an input of the wrong type.
-        reporters = (algorithm, algorithm.GetExecutive())
-        tags = [(r, r.AddObserver(e, messages)) for r in reporters for e in ("ErrorEvent", "WarningEvent")]
-        tags.append((algorithm, algorithm.AddObserver("ProgressEvent", interrupt)))
+    # The executive reports what concerns the pipeline, such as an input of the wrong type.
+    reporters = (algorithm, algorithm.GetExecutive())
+    tags = [(r, r.AddObserver(e, messages)) for r in reporters for e in ("ErrorEvent", "WarningEvent")]
+
+    def finish() -> None:
         try:
             work()
         finally:
             for reporter, tag in tags:
                 reporter.RemoveObserver(tag)
-    if interrupt.requested:
-        raise KeyboardInterrupt
+
+    def stop() -> None:
+        algorithm.SetAbortExecute(1)
+
+    interruptible(finish, stop)
+    if algorithm.GetErrorCode() == _OUT_OF_MEMORY:
+        raise MemoryError(messages.errors[0] if messages.errors else "not enough memory")
     for text in messages.warnings:
         warnings.warn(text, RuntimeWarning, stacklevel=4)
     return messages.errors

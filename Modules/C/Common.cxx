@@ -1,0 +1,143 @@
+#include "C/Handles.h"
+
+#include <fmt/format.h>
+
+namespace pointhaptics::c
+{
+namespace
+{
+
+thread_local std::string problem;
+
+static_assert(PH_EMPTY == int(Status::Empty) && PH_INVALID_PARAMETER == int(Status::InvalidParameter) &&
+    PH_STOPPED == int(Status::Aborted) && PH_OUT_OF_MEMORY == int(Status::OutOfMemory),
+  "the statuses are Core's");
+static_assert(PH_SURFACE_FIT == int(ProxyMethod::SurfaceFit) &&
+    PH_GRADIENT_STEPS == int(ProxyMethod::GradientSteps) && PH_SPHERE == int(ProxyMethod::Sphere),
+  "the methods are those of Haptics");
+
+GradientStepsParameters gainsOf(const ph_gains& gains)
+{
+  GradientStepsParameters result;
+  result.freeGain = gains.free_gain;
+  result.normalGain = gains.normal_gain;
+  result.tangentGain = gains.tangent_gain;
+  result.sinkTolerance = gains.sink_tolerance;
+  result.stepPeriodSeconds = gains.step_period;
+  result.maximumStepsPerTick = gains.maximum_steps;
+  result.largestStep = gains.largest_step;
+  result.normalizedByDensity = gains.normalized_by_density != 0;
+  return result;
+}
+
+} // namespace
+
+int fail(int status, const std::string& text) noexcept
+{
+  try
+  {
+    problem = text;
+  }
+  catch (const std::exception&)
+  {
+    problem.clear(); // no memory for the sentence
+  }
+  return status;
+}
+
+bool parametersOf(const ph_proxy_options* given, HapticParameters& parameters)
+{
+  const ph_proxy_options options = optionsOf(given);
+  ContactParameters& contact = parameters.contact;
+  parameters.method = static_cast<ProxyMethod>(options.method);
+  if (options.stiffness != 0.0)
+  {
+    contact.stiffness = options.stiffness < 0.0 ? 0.0 : options.stiffness;
+  }
+  contact.damping = options.damping;
+  contact.staticFriction = options.mu_s != 0.0 ? options.mu_s : options.mu_d;
+  contact.dynamicFriction = options.mu_d;
+  if (options.force_limit != 0.0)
+  {
+    contact.forceLimit = options.force_limit;
+  }
+  if (options.gains)
+  {
+    parameters.gradientSteps = gainsOf(optionsOf(options.gains));
+  }
+  const bool isValid =
+    options.method >= PH_SURFACE_FIT && options.method <= PH_SPHERE && parameters.check() == Status::Ok;
+  if (!isValid)
+  {
+    fail(PH_INVALID_PARAMETER,
+      fmt::format(
+        "stiffness {} N/m, damping {} N s/m, mu_s {}, mu_d {}, force_limit {} N, or a gain; give 0 to "
+        "1e5, 0 to 1e3, 0 to 10, 0 to mu_s, above 0, and gains in the ranges of "
+        "GradientStepsParameters",
+        contact.stiffness, contact.damping, contact.staticFriction, contact.dynamicFriction,
+        contact.forceLimit));
+  }
+  return isValid;
+}
+
+} // namespace pointhaptics::c
+
+using namespace pointhaptics;
+using namespace pointhaptics::c;
+
+const char* ph_version(void)
+{
+  return POINTHAPTICS_VERSION;
+}
+
+const char* ph_message(int status)
+{
+  return message(static_cast<Status>(status));
+}
+
+const char* ph_problem(void)
+{
+  return problem.c_str();
+}
+
+int ph_stop_create(ph_stop** out)
+{
+  return guarded(
+    [&]
+    {
+      *out = new ph_stop;
+      return PH_OK;
+    });
+}
+
+void ph_stop_request(ph_stop* stop)
+{
+  stop->requested = true;
+}
+
+void ph_stop_destroy(ph_stop* stop)
+{
+  delete stop;
+}
+
+int ph_gains_of(int preset, ph_gains* out)
+{
+  if (preset != PH_TUNED && preset != PH_PAPER)
+  {
+    return fail(
+      PH_INVALID_PARAMETER, fmt::format("preset {}; give {}, tuned, or {}, the paper's", preset, 0, 1));
+  }
+  const GradientStepsParameters gains =
+    preset == PH_PAPER ? GradientStepsParameters::paper() : GradientStepsParameters::tuned();
+  const ph_gains all = { out->struct_size, gains.freeGain, gains.normalGain, gains.tangentGain,
+    gains.sinkTolerance, gains.stepPeriodSeconds, gains.largestStep, gains.maximumStepsPerTick,
+    gains.normalizedByDensity };
+  std::memcpy(out, &all, std::min(out->struct_size, sizeof all));
+  return PH_OK;
+}
+
+void ph_set_interpreter_lock(
+  int (*is_held)(void), void* (*release)(void), void (*take)(void*), int (*is_ending)(void))
+{
+  setInterpreterLock({ is_held, release, take, is_ending });
+}

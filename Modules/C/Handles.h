@@ -1,0 +1,71 @@
+/// @file
+/// What the handles of pointhaptics.h stand for.
+#pragma once
+
+#include "C/pointhaptics.h"
+
+#include "Core/Base/Host/GuardedWork.h"
+#include "FeelScenes.h"
+#include "Haptics/HapticParameters.h"
+
+#include <atomic>
+#include <cstring>
+#include <exception>
+#include <string>
+
+struct ph_stop
+{
+  std::atomic<bool> requested{ false };
+};
+
+struct ph_scene
+{
+  std::shared_ptr<const pointhaptics::FeelScenes> scenes;
+};
+
+namespace pointhaptics::c
+{
+
+/// Keeps @p text for ph_problem().
+int fail(int status, const std::string& text) noexcept;
+inline int fail(Status status)
+{
+  return status == Status::Ok ? PH_OK : fail(int(status), message(status));
+}
+inline bool isStopped(const ph_stop* stop)
+{
+  return stop && stop->requested.load(std::memory_order_relaxed);
+}
+
+/// The status that @p work answers; one for each exception.
+template <typename Work>
+int guarded(Work&& work) noexcept
+{
+  try
+  {
+    int status = PH_OK;
+    const Status end = guardedWork([&] { status = work(); });
+    return end == Status::Ok ? status : fail(end);
+  }
+  catch (const std::exception& fault)
+  {
+    return fail(PH_INVALID_PARAMETER, fault.what());
+  }
+}
+
+/// @p given, as far as the caller knows the struct; the rest is zero.
+template <typename Options>
+Options optionsOf(const Options* given)
+{
+  Options options{};
+  if (given)
+  {
+    std::memcpy(&options, given, given->struct_size < sizeof options ? given->struct_size : sizeof options);
+  }
+  return options;
+}
+
+/// False: one is out of range, and was passed to fail().
+bool parametersOf(const ph_proxy_options* options, HapticParameters& parameters);
+
+} // namespace pointhaptics::c

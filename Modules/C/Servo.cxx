@@ -1,0 +1,267 @@
+#include "C/Handles.h"
+
+#include "PathTicks.h"
+#include "VirtualTouch.h"
+
+#include "Devices/SimulatedDevice.h"
+#include "Haptics/ServoLoop.h"
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+#include <vector>
+
+using namespace pointhaptics;
+using namespace pointhaptics::c;
+
+namespace
+{
+
+/// Between two looks at where the hand is: 0.25 mm at 50 mm/s.
+constexpr auto kLook = std::chrono::milliseconds(5);
+
+/// The simulated hand, with the caller between it and the loop.
+class HandWithCallback : public SimulatedDevice
+{
+public:
+  HandWithCallback(const SimulatedHandSettings& settings, ph_servo_tick onTick, void* user)
+    : SimulatedDevice(settings)
+    , onTick_(onTick)
+    , user_(user)
+  {
+  }
+
+  bool mayIdle() const noexcept override { return !onTick_ && SimulatedDevice::mayIdle(); }
+
+  Status read(double timeSeconds, HandState& state) noexcept override
+  {
+    const Status status = isEnded_ ? Status::EndOfPath : SimulatedDevice::read(timeSeconds, state);
+    position_ = state.position;
+    return status;
+  }
+
+  Status write(double timeSeconds, const Vec3& force) noexcept override
+  {
+    double felt[3] = { force.x, force.y, force.z };
+    const double hand[3] = { position_.x, position_.y, position_.z };
+    if (onTick_ && !isEnded_ && onTick_(user_, timeSeconds, hand, felt) != 0)
+    {
+      isEnded_ = true;
+    }
+    return SimulatedDevice::write(timeSeconds, isEnded_ ? Vec3() : Vec3(felt[0], felt[1], felt[2]));
+  }
+
+private:
+  ph_servo_tick onTick_;
+  void* user_;
+  Vec3 position_;
+  bool isEnded_ = false;
+};
+
+SimulatedHandSettings handOf(const ph_servo_options& options)
+{
+  SimulatedHandSettings settings;
+  const auto take = [](double given, double& value) { value = given != 0.0 ? given : value; };
+  take(options.mass, settings.mass);
+  take(options.grip_stiffness, settings.gripStiffness);
+  take(options.grip_damping, settings.gripDamping);
+  settings.start = { options.start[0], options.start[1], options.start[2] };
+  const double* w = options.workspace;
+  if (std::any_of(w, w + 6, [](double number) { return number != 0.0; }))
+  {
+    settings.workspace.include({ w[0], w[2], w[4] });
+    settings.workspace.include({ w[1], w[3], w[5] });
+    return settings;
+  }
+  constexpr double kHalf = 0.05;
+  settings.workspace.include(settings.start - Vec3(kHalf, kHalf, kHalf));
+  settings.workspace.include(settings.start + Vec3(kHalf, kHalf, kHalf));
+  for (std::size_t i = 0; i < options.path_count; ++i)
+  {
+    const double* v = options.path + 4 * i;
+    settings.workspace.include({ v[1], v[2], v[3] });
+  }
+  return settings;
+}
+
+} // namespace
+
+struct ph_servo
+{
+  ph_servo(const FeelScenes& shared, const ph_servo_options& options)
+    : scenes(shared)
+    , hand(handOf(options), options.on_tick, options.user)
+  {
+  }
+  ~ph_servo() { stop(); }
+
+  /// Publishes finer scenes of where the hand is.
+  void follow(LocalSceneFollower& follower)
+  {
+    double lastLook = 0.0;
+    while (!isEnding)
+    {
+      const ServoSample latest = loop.latest();
+      Bounds place;
+      place.include(latest.state.hip);
+      place.include(latest.state.proxy);
+      if (latest.tick > 0 &&
+        follower.update(
+          place, latest.timeSeconds - std::exchange(lastLook, latest.timeSeconds), SmpExecutor()))
+      {
+        loop.publishScene(follower.scene());
+      }
+      std::this_thread::sleep_for(kLook);
+    }
+  }
+
+  void stop()
+  {
+    isEnding = true;
+    if (sceneThread.joinable())
+    {
+      sceneThread.join();
+    }
+    loop.stop();
+    hand.close();
+  }
+
+  FeelScenes scenes;
+  HandWithCallback hand;
+  ServoLoop loop; ///< After the hand: stops before that is gone.
+  std::vector<ServoSample> samples;
+  std::size_t taken = 0; ///< Of the samples.
+  std::atomic<bool> isEnding{ false };
+  std::thread sceneThread;
+};
+
+int ph_servo_start(
+  const ph_scene* scene, const ph_proxy_options* proxy, const ph_servo_options* given, ph_servo** out)
+{
+  return guarded(
+    [&]
+    {
+      const ph_servo_options options = optionsOf(given);
+      HapticParameters parameters;
+      if (!parametersOf(proxy, parameters))
+      {
+        return int(PH_INVALID_PARAMETER);
+      }
+      auto servo = std::make_unique<ph_servo>(*scene->scenes, options);
+      HipPath path;
+      for (std::size_t i = 0; i < options.path_count; ++i)
+      {
+        const double* v = options.path + 4 * i;
+        path.points.push_back({ v[0], { v[1], v[2], v[3] } });
+      }
+      if (const std::string problem = path.points.empty() ? "" : pathProblem(path); !problem.empty())
+      {
+        return fail(PH_INVALID_PARAMETER, problem);
+      }
+      servo->hand.setPath(std::move(path));
+      if (const Status status = servo->hand.open(); status != Status::Ok)
+      {
+        return fail(status);
+      }
+      ServoSettings settings;
+      settings.rateHz = options.rate != 0.0 ? options.rate : settings.rateHz;
+      settings.traceCapacity = options.trace != 0 ? options.trace : settings.traceCapacity;
+      servo->loop.publishScene(servo->scenes.whole());
+      std::string problem;
+      if (const Status status = servo->loop.start(servo->hand, parameters, settings, &problem);
+          status != Status::Ok)
+      {
+        return fail(int(status), problem.empty() ? message(status) : problem);
+      }
+      if (LocalSceneFollower* follower = servo->scenes.follower())
+      {
+        servo->sceneThread = std::thread([self = servo.get(), follower] { self->follow(*follower); });
+      }
+      *out = servo.release();
+      return int(PH_OK);
+    });
+}
+
+int ph_servo_target(ph_servo* servo, const double target[3])
+{
+  servo->hand.setTarget({ target[0], target[1], target[2] });
+  return PH_OK;
+}
+
+int ph_servo_set_options(ph_servo* servo, const ph_proxy_options* options)
+{
+  return guarded(
+    [&]
+    {
+      HapticParameters parameters;
+      if (!parametersOf(options, parameters))
+      {
+        return int(PH_INVALID_PARAMETER);
+      }
+      std::string problem;
+      const Status status = servo->loop.setParameters(parameters, &problem);
+      return status == Status::Ok ? int(PH_OK)
+                                  : fail(int(status), problem.empty() ? message(status) : problem);
+    });
+}
+
+int ph_servo_running(const ph_servo* servo)
+{
+  return servo->loop.running();
+}
+
+int ph_servo_trace(ph_servo* servo, double* rows, size_t most, size_t* count)
+{
+  return guarded(
+    [&]
+    {
+      if (servo->taken == servo->samples.size())
+      {
+        servo->samples.clear();
+        servo->taken = 0;
+        servo->loop.takeTrace(servo->samples);
+      }
+      *count = std::min(most, servo->samples.size() - servo->taken);
+      for (std::size_t i = 0; i < *count; ++i)
+      {
+        const ServoSample& sample = servo->samples[servo->taken++];
+        const auto row = feltRow(sample.timeSeconds, sample.state, 1e6 * sample.updateSeconds);
+        std::copy(row.begin(), row.end(), rows + PH_COLUMNS * i);
+      }
+      return PH_OK;
+    });
+}
+
+int ph_servo_statistics_of(const ph_servo* servo, ph_servo_statistics* out)
+{
+  return guarded(
+    [&]
+    {
+      const ServoStatistics s = servo->loop.statistics();
+      const ph_servo_statistics all = { out->struct_size, s.rateHz, s.jitter.p50, s.jitter.p99,
+        s.jitter.maximum, s.update.p50, s.update.p99, s.update.maximum, s.ticks, s.deadlineMisses,
+        s.lostTraceSamples, s.realtime };
+      std::memcpy(out, &all, std::min(out->struct_size, sizeof all));
+      return PH_OK;
+    });
+}
+
+void ph_servo_stop(ph_servo* servo)
+{
+  static_cast<void>(guarded(
+    [&]
+    {
+      servo->stop();
+      return PH_OK;
+    }));
+}
+
+void ph_servo_destroy(ph_servo* servo)
+{
+  static_cast<void>(guarded(
+    [&]
+    {
+      delete servo;
+      return PH_OK;
+    }));
+}
