@@ -277,22 +277,26 @@ double floatError(const OutputArray& array)
   return worst;
 }
 
+/// Of the length of a cloud: its points lose less than anybody can see by what is rounded below it.
+constexpr double kFeltPart = 1e-6;
+
 void notePcdArray(const OutputArray& array, const PcdArray& written, WriteTask& task)
 {
-  if (array.role == ArrayRole::Other && written.name != array.name)
+  if (array.role == ArrayRole::Other && !isSameField(written.name, array.name))
   {
     task.notes.add("array " + array.name + " is called " + written.name);
   }
   const bool mayRound = written.type == VTK_FLOAT && fixedSizeType(array.type()) != VTK_FLOAT;
   const double error = mayRound && array.role != ArrayRole::Normals ? floatError(array) : 0.0;
-  if (error > 0.0 && array.role == ArrayRole::Points)
+  const bool isFelt = error > 0.0 && !(error <= kFeltPart * task.cloud->GetLength()); // NaN: nobody knows
+  if (isFelt && array.role == ArrayRole::Points)
   {
     task.notes.add(
       fmt::format("coordinates are rounded to floats, by at most {:.3g}, as PCL's point types read no "
                   "others; --double keeps every digit, --translate of resample takes a large offset away",
         error));
   }
-  else if (error > 0.0)
+  else if (error > 0.0 && array.role == ArrayRole::Other)
   {
     task.notes.add(fmt::format("array {} is rounded to floats, by at most {:.3g}", array.name, error));
   }

@@ -85,8 +85,8 @@ struct ReadTask
         std::string("the file is cut short or its header is wrong: copy it again") +
           (there > 0 && !salvage ? ", or read what is there by --salvage" : ""));
     }
-    notes.push_back(what + ": the " + std::to_string(there) + " points before are read, of " +
-      std::to_string(all) + " that the file promises");
+    notes.push_back(what.substr(0, what.find("; ")) + ": the " + std::to_string(there) +
+      " points before are read, of " + std::to_string(all) + " that the file promises");
     pointsThere = there;
     return there;
   }

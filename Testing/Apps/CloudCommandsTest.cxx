@@ -40,9 +40,11 @@ TEST_F(CloudCommands, GenerateWritesTheShapeExactlyInEveryFormat)
     { return name == "torus.pcd" ? double(float(value)) : value; };
     for (std::size_t i = 0; i < points.size(); ++i)
     {
-      const Vec3 point(stored(points[i].x), stored(points[i].y), stored(points[i].z));
-      ASSERT_EQ(Vec3(back.at("x")[i], back.at("y")[i], back.at("z")[i]), point) << name;
-      ASSERT_EQ(back.at("Normals_2")[i], stored(normals[i].z)) << name;
+      for (const auto& [column, value] : { std::pair<const char*, double>{ "x", points[i].x },
+             { "y", points[i].y }, { "z", points[i].z }, { "Normals_2", normals[i].z } })
+      {
+        ASSERT_EQ(stored(back.at(column)[i]), stored(value)) << name;
+      }
     }
   }
 }

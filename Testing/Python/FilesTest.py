@@ -36,7 +36,10 @@ class Files(TestCase):
                 name = pathlib.Path(self.path("cloud." + extension))
                 ph.write(name, points, attributes)
                 again, arrays = ph.read(name)
-                self.assert_same_bits(again, points)
+                if extension == "pcd":  # PCL's point types read floats alone
+                    np.testing.assert_array_equal(again, points.astype(np.float32))
+                else:
+                    self.assert_same_bits(again, points)
                 for key in ("Time", "RGB"):
                     np.testing.assert_array_equal(arrays[key], attributes[key])
                 np.testing.assert_array_equal(arrays["Normals"].astype(np.float32), attributes["Normals"])

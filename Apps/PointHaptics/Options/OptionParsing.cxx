@@ -159,13 +159,11 @@ CLI::Option* addClip(CLI::App& command, std::vector<double>& box, const std::str
 
 void addReading(CLI::App& command, std::vector<std::string>& columns, bool& salvage)
 {
+  const auto keep = [&columns](const std::string& list) { columns = CLI::detail::split(list, ','); };
   command
-    .add_option("--columns", columns,
+    .add_option_function<std::string>("--columns", keep,
       "What the columns of a text are, such as id,x,y,z,-,intensity; - leaves one out. Default: what its "
-      "header "
-      "says, else a guess")
-    ->delimiter(',')
-    ->expected(1)
+      "header says, else a guess")
     ->type_name("NAMES");
   command.add_flag("--salvage", salvage, "Read a file that is cut as far as it goes");
 }

@@ -5,11 +5,14 @@
 
 #include "Core/Resample/FieldNames.h"
 
+#include "vtkIdList.h"
+#include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 #include "vtkPoints.h"
 
 #include <algorithm>
+#include <cmath>
 #include <type_traits>
 
 namespace pointhaptics::io
@@ -183,6 +186,52 @@ std::vector<OutputArray> withoutLongIntegers(std::vector<OutputArray> arrays, Wr
         " are beyond 2^53 and rounded to doubles; write .vtp or .pcd to keep every bit");
     }
     each.array = copy;
+  }
+  return arrays;
+}
+
+std::vector<vtkIdType> rowsNotFinite(const OutputArray& points)
+{
+  std::vector<vtkIdType> rows;
+  withType(points.type(),
+    [&](auto zero)
+    {
+      using T = decltype(zero);
+      const T* p = static_cast<const T*>(points.array->GetVoidPointer(0));
+      const vtkIdType count = points.array->GetNumberOfTuples();
+      for (vtkIdType row = 0; row < count; ++row, p += 3)
+      {
+        if (!std::all_of(p, p + 3, [](T value) { return std::isfinite(static_cast<double>(value)); }))
+        {
+          rows.push_back(row);
+        }
+      }
+    });
+  return rows;
+}
+
+std::vector<OutputArray> withoutRows(std::vector<OutputArray> arrays, const std::vector<vtkIdType>& left)
+{
+  const vtkIdType all = arrays[0].array->GetNumberOfTuples();
+  vtkNew<vtkIdList> kept;
+  kept->Allocate(all - static_cast<vtkIdType>(left.size()));
+  auto next = left.begin();
+  for (vtkIdType row = 0; row < all; ++row)
+  {
+    if (next != left.end() && *next == row)
+    {
+      ++next;
+      continue;
+    }
+    kept->InsertNextId(row);
+  }
+  for (OutputArray& each : arrays)
+  {
+    const auto picked = vtkSmartPointer<vtkDataArray>::Take(each.array->NewInstance());
+    picked->SetNumberOfComponents(each.components());
+    picked->SetNumberOfTuples(kept->GetNumberOfIds());
+    each.array->GetTuples(kept, picked);
+    each.array = picked;
   }
   return arrays;
 }

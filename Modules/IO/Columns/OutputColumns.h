@@ -74,4 +74,10 @@ std::vector<OutputArray> outputArrays(
 /// The same with arrays of 64 bit integers as doubles, for formats without such integers.
 std::vector<OutputArray> withoutLongIntegers(std::vector<OutputArray> arrays, WriterNotes& notes);
 
+/// The rows of @p points with a coordinate that is NaN or infinite, in rising order.
+std::vector<vtkIdType> rowsNotFinite(const OutputArray& points);
+
+/// @p left: rows in rising order.
+std::vector<OutputArray> withoutRows(std::vector<OutputArray> arrays, const std::vector<vtkIdType>& left);
+
 } // namespace pointhaptics::io

@@ -67,6 +67,22 @@ std::string bytesOf(vtkFieldData* fieldData, const char* name)
                : std::string();
 }
 
+/// What @p work does with packed points; a fault of these is one that --salvage may pass.
+template <typename Work>
+void withPacked(const ReadTask& task, Work&& work)
+{
+  try
+  {
+    work();
+  }
+  catch (const FileProblem& problem)
+  {
+    throw task.salvage
+      ? problem
+      : FileProblem(problem.code, std::string(problem.what()) + ", or read what is there by --salvage");
+  }
+}
+
 } // namespace
 
 void LasOrigin::addTo(vtkPolyData* cloud) const
@@ -101,14 +117,14 @@ void readLas(ReadTask& task, vtkPolyData* cloud)
   }
   else
   {
-    packed.emplace(task, header);
+    withPacked(task, [&] { packed.emplace(task, header); });
     header.count = packed->count();
     task.isCoarse = packed->isCoarse();
   }
   LasRecords records(header, task.wanted.onlyPositions);
   if (packed)
   {
-    packed->read(records);
+    withPacked(task, [&] { packed->read(records); });
   }
   else
   {

@@ -119,6 +119,16 @@ PlyProperty parseProperty(std::string_view rest, std::size_t line)
   return property;
 }
 
+/// The byte behind the end of the line that goes on at @p at.
+std::size_t bodyAfter(std::string_view bytes, std::size_t at)
+{
+  while (at < bytes.size() && (bytes[at] == ' ' || bytes[at] == '\t' || bytes.substr(at, 3) == "\r\r\n"))
+  {
+    ++at;
+  }
+  return std::min(at + (bytes.substr(at, 2) == "\r\n" ? 2 : 1), bytes.size());
+}
+
 void noteUnknown(const std::vector<std::string>& unknown, PlyHeader& header)
 {
   if (!unknown.empty())
@@ -222,18 +232,7 @@ PlyHeader parsePlyHeader(std::string_view bytes)
     failFormat("the header has no line format", "write: format ascii 1.0 (or binary_little_endian)");
   }
   header.bodyLine = lines.lineNumber() + 2;
-  header.bodyOffset = end + std::string_view("end_header").size();
-  while (
-    header.bodyOffset < bytes.size() && (bytes[header.bodyOffset] == ' ' || bytes[header.bodyOffset] == '\t'))
-  {
-    ++header.bodyOffset;
-  }
-  while (bytes.substr(header.bodyOffset, 3) == "\r\r\n")
-  {
-    ++header.bodyOffset;
-  }
-  const bool crLf = bytes.substr(header.bodyOffset, 2) == "\r\n";
-  header.bodyOffset = std::min(header.bodyOffset + (crLf ? 2 : 1), bytes.size());
+  header.bodyOffset = bodyAfter(bytes, end + std::string_view("end_header").size());
   return header;
 }
 

@@ -434,11 +434,6 @@ TextLayout inspectText(std::string_view text, const std::vector<std::string>& na
   char told = '\0'; // the separator that a line "sep=;" says
   LineReader lines(text);
   std::size_t lineStart = 0;
-  const auto beginBehind = [&]
-  {
-    layout.bodyOffset = lines.position();
-    layout.bodyLine = lines.lineNumber() + 1;
-  };
   for (; lines.next(line); lineStart = lines.position())
   {
     line = trimmed(line);
@@ -446,7 +441,7 @@ TextLayout inspectText(std::string_view text, const std::vector<std::string>& na
     if (plain.size() == 5 && equalNoCase(plain.substr(0, 4), "sep="))
     {
       told = plain.back();
-      beginBehind();
+      layout.beginAt(lines.position(), lines.lineNumber() + 1);
       continue;
     }
     if (line.empty() || isComment(line))
@@ -461,8 +456,7 @@ TextLayout inspectText(std::string_view text, const std::vector<std::string>& na
       parseCount(cells.cells[0], count))
     {
       layout.hasPointCount = true;
-      layout.bodyOffset = lineStart;
-      layout.bodyLine = lines.lineNumber();
+      layout.beginAt(lineStart, lines.lineNumber());
       continue;
     }
     if (!cells.areNames() && (cells.isData() || faulty.columns == 0))
@@ -483,7 +477,7 @@ TextLayout inspectText(std::string_view text, const std::vector<std::string>& na
     }
     header = line;
     addTitle({ line, lines.lineNumber(), false }, titles);
-    beginBehind();
+    layout.beginAt(lines.position(), lines.lineNumber() + 1);
   }
   if (faulty.columns == 0)
   {

@@ -32,6 +32,11 @@ struct TextLayout
   bool hasMore = false;           ///< lines may have more columns, which are left out
 
   bool isTable() const { return columns >= 3; }
+  void beginAt(std::size_t offset, std::size_t line)
+  {
+    bodyOffset = offset;
+    bodyLine = line;
+  }
 };
 
 /// Reads the lines up to the first one that holds numbers. Columns are called as the last line of names or

@@ -87,6 +87,11 @@ TEST_F(HostileE57, PromisedPointsAreHeldAgainstTheBytes)
   {
     scan.recordCount = count;
     refuse(read({ { scan } }), std::string("'cartesianX' has 16 bytes, but ") + count + " points of 64 bits");
+    vtkNew<vtkPointCloudReader> salvaging;
+    salvaging->SalvageOn();
+    const ReadResult there = readCloudBy(salvaging, write("salvaged.e57", E57TestFile{ { scan } }.bytes()));
+    EXPECT_EQ(there.error, "") << count;
+    EXPECT_EQ(there.points(), 2) << count;
   }
   scan.recordCount = "-1";
   refuse(read({ { scan } }), "recordCount '-1' is no count");
