@@ -6,6 +6,7 @@
 #include "vtkDepthShadingPass.h"
 
 #include "vtkActor.h"
+#include "vtkCamera.h"
 #include "vtkDataArray.h"
 #include "vtkDataObject.h"
 #include "vtkMath.h"
@@ -38,6 +39,20 @@ constexpr const char* kNormalAttribute = "splatNormal";
 /// Around the picture, pixels: half of the largest point that a software renderer draws. It draws none whose
 /// middle is out of its viewport.
 constexpr int kMargin = 128;
+/// Of all attributes of the splats: each value for one vertex, or for a quad.
+void setAttributeDivisor(vtkOpenGLHelper& points, GLuint divisor)
+{
+  const auto program = static_cast<GLuint>(points.Program->GetHandle());
+  for (const char* name : { "vertexMC", "scalarColor", kAttribute, kNormalAttribute })
+  {
+    const GLint place = glGetAttribLocation(program, name);
+    if (place >= 0)
+    {
+      glVertexAttribDivisor(static_cast<GLuint>(place), divisor);
+    }
+  }
+}
+
 } // namespace
 
 vtkStandardNewMacro(vtkSplatMapper);
@@ -180,6 +195,7 @@ void vtkSplatMapper::CopySizes(const vtkSplatMapper* other, double factor)
   this->SkyDirection = other->SkyDirection;
   this->SetSurfaces(other->Surfaces);
   this->SetForeshortens(other->Foreshortens);
+  this->SetClosesAll(other->ClosesAll);
   this->SetLightStrength(other->LightStrength);
   this->SetNormalUnit(other->NormalUnit);
   this->SetHidesBackFaces(other->HidesBackFaces);
@@ -232,6 +248,30 @@ void vtkSplatMapper::RenderPieceStart(vtkRenderer* renderer, vtkActor* actor)
   }
 }
 
+/// Whether what is drawn are few splats seen from near: they may be larger than points can be. Quads take
+/// four times as long as points to begin with.
+bool vtkSplatMapper::WantsQuads(
+  vtkRenderer* renderer, vtkActor* actor, const std::vector<std::array<vtkIdType, 2>>& ranges)
+{
+  constexpr vtkIdType kMostQuads = 4096;
+  constexpr double kLargePixels = 32.0;
+  vtkIdType drawn = 0;
+  for (const auto& range : ranges)
+  {
+    drawn += range[1] - range[0];
+  }
+  const bool canDraw = this->Surfaces && this->HasNormals && this->HasSizes && this->FixedPixels == 0.0 &&
+    this->CurrentInput->GetNumberOfCells() == 0 && glDrawArraysInstancedBaseInstance;
+  return canDraw && drawn <= kMostQuads && this->GetMedianPixels(renderer, actor) > kLargePixels;
+}
+
+double vtkSplatMapper::GetMedianPixels(vtkRenderer* renderer, vtkActor* actor)
+{
+  vtkCamera* camera = renderer->GetActiveCamera();
+  const double distance = camera->GetParallelProjection() ? 1.0 : camera->GetDistance();
+  return this->PixelsPerLength(renderer, actor) * this->MedianLength / distance;
+}
+
 /// In steps: see DrawPace. Between them the window may give up the frame.
 void vtkSplatMapper::DrawRange(vtkRenderer* renderer, vtkIdType begin, vtkIdType end, bool isIndexed)
 {
@@ -244,6 +284,10 @@ void vtkSplatMapper::DrawRange(vtkRenderer* renderer, vtkIdType begin, vtkIdType
     {
       const auto offset = static_cast<std::uintptr_t>(begin) * sizeof(GLuint);
       glDrawElements(GL_POINTS, count, GL_UNSIGNED_INT, reinterpret_cast<const void*>(offset));
+    }
+    else if (this->DrawsQuads)
+    {
+      glDrawArraysInstancedBaseInstance(GL_TRIANGLE_STRIP, 0, 4, count, static_cast<GLuint>(begin));
     }
     else
     {
@@ -286,7 +330,8 @@ void vtkSplatMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* actor)
   state->vtkglGetIntegerv(GL_VIEWPORT, place);
   for (int axis = 0; axis < 2; ++axis)
   {
-    this->Fit[axis] = double(place[2 + axis]) / (place[2 + axis] + 2 * kMargin);
+    this->Pixel[axis] = 2.0 / (place[2 + axis] + 2 * kMargin);
+    this->Fit[axis] = 0.5 * place[2 + axis] * this->Pixel[axis];
   }
   state->vtkglViewport(
     place[0] - kMargin, place[1] - kMargin, place[2] + 2 * kMargin, place[3] + 2 * kMargin);
@@ -320,6 +365,8 @@ void vtkSplatMapper::DrawPoints(vtkRenderer* renderer, vtkActor* actor)
     // All by the same call as parts: others round otherwise.
     const std::vector<std::array<vtkIdType, 2>> all = { { 0, count } };
     const std::size_t indices = points.IBO->IndexCount;
+    const auto& ranges = this->Ranges.empty() ? all : this->Ranges;
+    this->DrawsQuads = this->WantsQuads(renderer, actor, ranges);
     points.IBO->IndexCount = static_cast<std::size_t>(count); // of 0 the superclass binds no attributes
     this->UpdateShaders(points, renderer, actor);
     points.IBO->IndexCount = indices;
@@ -327,10 +374,13 @@ void vtkSplatMapper::DrawPoints(vtkRenderer* renderer, vtkActor* actor)
     {
       points.IBO->Bind();
     }
-    for (const auto& [begin, end] : this->Ranges.empty() ? all : this->Ranges)
+    setAttributeDivisor(points, this->DrawsQuads ? 1 : 0);
+    for (const auto& [begin, end] : ranges)
     {
       this->DrawRange(renderer, begin, std::min(end, count), hasCells);
     }
+    setAttributeDivisor(points, 0);
+    this->DrawsQuads = false;
     if (hasCells)
     {
       points.IBO->Release();
@@ -360,10 +410,13 @@ void vtkSplatMapper::ReplaceShaderValues(
     : "min(splatSize, splatRange.y)";
   vtkShaderProgram::Substitute(vertex, "//VTK::PositionVC::Impl",
     std::string("//VTK::PositionVC::Impl\n") + (this->HasNormals ? pointhaptics::kLightStatements : "") +
-      (tilts ? "  float splatCloses = clamp(2.0 * splatFlat - 0.6, 0.0, 1.0);\n" : "") +
+      (tilts ? "  float splatTilts = clamp(2.0 * splatFlat - 0.6, 0.0, 1.0);\n"
+               "  float splatCloses = max(splatTilts, splatAll);\n"
+             : "") +
       "  float splatSize = " + size + ";\n  gl_PointSize = clamp(" + bounded +
       ", splatRange.x, max(splatRange.x, splatRange.w));\n" +
-      (tilts ? pointhaptics::kSurfaceStatements : "") + pointhaptics::kClipStatements);
+      (tilts ? pointhaptics::kSurfaceStatements : "") + pointhaptics::kFitStatements +
+      (tilts ? pointhaptics::kQuadStatements : "") + pointhaptics::kClipStatements);
   shaders[vtkShader::Vertex]->SetSource(vertex);
   std::string fragment = shaders[vtkShader::Fragment]->GetSource();
   // Depths come before the clipping: what sets them must discard there too.
@@ -385,7 +438,12 @@ void vtkSplatMapper::ReplaceShaderValues(
         (tilts ? pointhaptics::kSurfaceFragmentDeclarations : ""));
     vtkShaderProgram::Substitute(fragment, "//VTK::Light::Impl",
       std::string("//VTK::Light::Impl\n  gl_FragData[0].rgb *= splatLight;\n") +
-        (tilts ? pointhaptics::kBlendStatements : ""));
+        (tilts ? pointhaptics::kBlendStatements : pointhaptics::kOpaqueStatements));
+  }
+  else
+  {
+    vtkShaderProgram::Substitute(
+      fragment, "//VTK::Light::Impl", std::string("//VTK::Light::Impl\n") + pointhaptics::kOpaqueStatements);
   }
   shaders[vtkShader::Fragment]->SetSource(fragment);
   this->Superclass::ReplaceShaderValues(shaders, renderer, actor);
@@ -403,6 +461,7 @@ void vtkSplatMapper::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "AmbientLight: " << this->AmbientLight << "\n";
   os << indent << "Surfaces: " << this->Surfaces << "\n";
   os << indent << "Foreshortens: " << this->Foreshortens << "\n";
+  os << indent << "ClosesAll: " << this->ClosesAll << "\n";
   os << indent << "PointPixels: " << this->PointPixels << "\n";
   os << indent << "SurfacePixels: " << this->SurfacePixels << "\n";
   os << indent << "LightStrength: " << this->LightStrength << "\n";
