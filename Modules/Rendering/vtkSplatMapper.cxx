@@ -248,21 +248,14 @@ void vtkSplatMapper::RenderPieceStart(vtkRenderer* renderer, vtkActor* actor)
   }
 }
 
-/// Whether what is drawn are few splats seen from near: they may be larger than points can be. Quads take
-/// four times as long as points to begin with.
-bool vtkSplatMapper::WantsQuads(
-  vtkRenderer* renderer, vtkActor* actor, const std::vector<std::array<vtkIdType, 2>>& ranges)
+/// Whether splats are seen from so near that some may be larger than points can be. Quads take four times as
+/// long as points to begin with.
+bool vtkSplatMapper::WantsQuads(vtkRenderer* renderer, vtkActor* actor)
 {
-  constexpr vtkIdType kMostQuads = 4096;
-  constexpr double kLargePixels = 32.0;
-  vtkIdType drawn = 0;
-  for (const auto& range : ranges)
-  {
-    drawn += range[1] - range[0];
-  }
-  const bool canDraw = this->Surfaces && this->HasNormals && this->HasSizes && this->FixedPixels == 0.0 &&
-    this->CurrentInput->GetNumberOfCells() == 0 && glDrawArraysInstancedBaseInstance;
-  return canDraw && drawn <= kMostQuads && this->GetMedianPixels(renderer, actor) > kLargePixels;
+  constexpr double kLargePixels = 60.0;
+  return this->Surfaces && this->HasNormals && this->HasSizes && this->FixedPixels == 0.0 &&
+    this->CurrentInput->GetNumberOfCells() == 0 && glDrawArraysInstancedBaseInstance &&
+    this->GetMedianPixels(renderer, actor) > kLargePixels;
 }
 
 double vtkSplatMapper::GetMedianPixels(vtkRenderer* renderer, vtkActor* actor)
@@ -365,8 +358,7 @@ void vtkSplatMapper::DrawPoints(vtkRenderer* renderer, vtkActor* actor)
     // All by the same call as parts: others round otherwise.
     const std::vector<std::array<vtkIdType, 2>> all = { { 0, count } };
     const std::size_t indices = points.IBO->IndexCount;
-    const auto& ranges = this->Ranges.empty() ? all : this->Ranges;
-    this->DrawsQuads = this->WantsQuads(renderer, actor, ranges);
+    this->DrawsQuads = this->WantsQuads(renderer, actor);
     points.IBO->IndexCount = static_cast<std::size_t>(count); // of 0 the superclass binds no attributes
     this->UpdateShaders(points, renderer, actor);
     points.IBO->IndexCount = indices;
@@ -375,7 +367,7 @@ void vtkSplatMapper::DrawPoints(vtkRenderer* renderer, vtkActor* actor)
       points.IBO->Bind();
     }
     setAttributeDivisor(points, this->DrawsQuads ? 1 : 0);
-    for (const auto& [begin, end] : ranges)
+    for (const auto& [begin, end] : this->Ranges.empty() ? all : this->Ranges)
     {
       this->DrawRange(renderer, begin, std::min(end, count), hasCells);
     }

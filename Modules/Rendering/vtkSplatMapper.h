@@ -231,8 +231,7 @@ protected:
 
 private:
   void DrawPoints(vtkRenderer* renderer, vtkActor* actor);
-  bool WantsQuads(
-    vtkRenderer* renderer, vtkActor* actor, const std::vector<std::array<vtkIdType, 2>>& ranges);
+  bool WantsQuads(vtkRenderer* renderer, vtkActor* actor);
   double PixelsPerLength(vtkRenderer* renderer, vtkActor* actor);
   void DrawRange(vtkRenderer* renderer, vtkIdType begin, vtkIdType end, bool isIndexed);
   void MapArray(vtkDataArray* array, const std::string& name, const char* attribute, bool& isMapped);
