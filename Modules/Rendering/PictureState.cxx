@@ -49,7 +49,8 @@ void addProp(std::vector<double>& state, vtkProp* prop)
     state.insert(state.end(),
       { splats->GetSizeScale(), splats->GetSmallestPixels(), splats->GetLargestPixels(),
         splats->GetFixedPixels(), splats->GetPointPixels(), splats->GetSurfacePixels(),
-        splats->GetLightStrength(), double(splats->GetHidesBackFaces()), double(splats->GetForeshortens()) });
+        splats->GetLightStrength(), double(splats->GetHidesBackFaces()), double(splats->GetForeshortens()),
+        double(splats->GetClosesAll()) });
     double sky[3];
     splats->GetSkyDirection(sky);
     add(state, sky, 3);

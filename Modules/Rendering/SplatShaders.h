@@ -45,6 +45,9 @@ inline constexpr const char* kSurfaceDeclarations = R"(
 uniform mat3 splatTurn;
 uniform vec4 splatTerms;
 uniform float splatHalfPixel;
+uniform float splatAll;
+uniform vec2 splatPixel; // of quads; 0: points are drawn
+out vec3 splatCorner;
 uniform int splatIsParallel;
 uniform int splatStage; // vtkDepthShadingPass::Stage
 out vec2 splatSlope;
@@ -57,7 +60,7 @@ inline constexpr const char* kSurfaceStatements = R"(
   float splatAcross = dot(splatTilted, splatRay);
   splatSlope = abs(splatAcross) > 1e-4 ? splatTilted.xy / splatAcross : vec2(0.0);
   float splatSteep = length(splatSlope);
-  splatSlope *= min(1.0, 3.0 / max(splatSteep, 1e-6)) * splatCloses;
+  splatSlope *= min(1.0, 3.0 / max(splatSteep, 1e-6)) * splatTilts;
   // The rims of blended splats are a pixel wide: about those of points, beyond those of surfaces.
   gl_PointSize = splatStage != 0 ? max(1.0, gl_PointSize - 1.0 + splatCloses) : gl_PointSize;
   float splatRadius = gl_PointSize * splatHalfPixel * gl_Position.w;
@@ -67,9 +70,14 @@ inline constexpr const char* kSurfaceStatements = R"(
     splatReach.zw = vec2(1.0 + 2.0 / gl_PointSize, splatRadius * mix(0.05, 0.8, splatCloses));
     gl_PointSize += 2.0;
   }
+  splatCorner = vec3(2 * (gl_VertexID & 1) - 1, (gl_VertexID & 2) - 1, splatPixel.x > 0.0 ? 1.0 : 0.0);
+)";
+inline constexpr const char* kQuadStatements = R"(
+  gl_Position.xy += 0.5 * splatCorner.xy * gl_PointSize * splatPixel * gl_Position.w;
 )";
 inline constexpr const char* kSurfaceFragmentDeclarations = R"(
 in vec2 splatSlope;
+in vec3 splatCorner; // of a quad, and whether it is one
 in vec4 splatReach; // distance, radius, place at the rim of the point, how far it comes forward
 uniform vec4 splatTerms;
 uniform int splatIsParallel;
@@ -83,7 +91,8 @@ float splatDepth(float near)
 }
 )";
 inline constexpr const char* kSurfaceFragment = R"(
-  vec2 splatPlace = splatReach.z * vec2(2.0 * gl_PointCoord.x - 1.0, 1.0 - 2.0 * gl_PointCoord.y);
+  vec2 splatPlace = splatReach.z * (splatCorner.z > 0.0 ? splatCorner.xy
+    : vec2(2.0 * gl_PointCoord.x - 1.0, 1.0 - 2.0 * gl_PointCoord.y));
   float splatRise = dot(splatSlope, splatPlace);
   float splatSquare = dot(splatPlace, splatPlace) + splatNarrow * splatRise * splatRise;
   float splatCover = splatStage == 2 ? clamp(1.0 + (1.0 - splatSquare) / fwidth(splatSquare), 0.0, 1.0)
@@ -95,15 +104,22 @@ inline constexpr const char* kSurfaceFragment = R"(
   gl_FragDepth = splatDepth(splatNear + splatReach.w);
   gl_FragData[1] = vec4(splatWeight, splatWeight * splatDepth(splatNear), 0.0, 0.0);
 )";
-/// After the light.
+/// After the light. The alpha of a colour says nothing of whether a point is there.
+inline constexpr const char* kOpaqueStatements = R"(
+  gl_FragData[0].a = 1.0;
+)";
 inline constexpr const char* kBlendStatements = R"(
   gl_FragData[0] = splatStage == 2 ? vec4(splatWeight * gl_FragData[0].rgb, splatCover)
     : vec4(gl_FragData[0].rgb, 1.0);
 )";
 
+/// The picture lies in the middle of its viewport.
+inline constexpr const char* kFitStatements = R"(
+  gl_Position.xy *= splatFit;
+)";
+
 /// What is outside of the box goes behind the far plane.
 inline constexpr const char* kClipStatements = R"(
-  gl_Position.xy *= splatFit;
   if (any(lessThan(vertexMC.xyz, splatLow)) || any(greaterThan(vertexMC.xyz, splatHigh)))
   {
     gl_Position = vec4(0.0, 0.0, 2.0, 1.0);

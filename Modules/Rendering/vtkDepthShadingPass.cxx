@@ -36,6 +36,9 @@ namespace
 /// Sizes are pixels of a window of 800 lines; pixelScale makes them those of this one.
 constexpr double kUsualHeight = 800.0;
 
+/// In motion; below it nothing is told apart.
+constexpr double kLeastResolution = 0.3;
+
 /// The end of a clipping range, outward to a step: four steps double it.
 double clippingStep(double distance, bool isNear)
 {
@@ -173,9 +176,11 @@ void vtkDepthShadingPass::ChooseResolution(const vtkRenderState* state, vtkOpenG
 {
   this->ReadWindowSize(state);
   const double pixels = double(this->Width) * this->Height;
-  const bool isReduced = this->IsMoving && !state->GetRenderer()->GetSelector() &&
-    pixels > kMostMovingPixels && pointhaptics::DrawPace::of(window).isNeeded();
-  this->Resolution = isReduced ? std::sqrt(kMostMovingPixels / pixels) : 1.0;
+  const bool isReduced =
+    this->IsMoving && !state->GetRenderer()->GetSelector() && pointhaptics::DrawPace::of(window).isNeeded();
+  const double part = std::min(
+    { 1.0, kMostMovingPixels / pixels, kMostMovingFragments / std::max(1.0, this->MovingFragments) });
+  this->Resolution = isReduced ? std::max(kLeastResolution, std::sqrt(part)) : 1.0;
   this->W = std::max(1, int(this->Resolution * this->Width));
   this->H = std::max(1, int(this->Resolution * this->Height));
 }
@@ -234,6 +239,7 @@ void vtkDepthShadingPass::RenderRightEye(const vtkRenderState* state)
   right->SetMinimumLightness(this->MinimumLightness);
   right->SetBlendsSplats(this->BlendsSplats);
   right->SetIsMoving(this->IsMoving);
+  right->SetMovingFragments(this->MovingFragments);
   right->IsRightEye = true;
   const vtkTypeUInt64 before = right->NumberOfPictures;
   right->Render(state);
@@ -521,6 +527,7 @@ void vtkDepthShadingPass::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "NoisePerDistance: " << this->NoisePerDistance << "\n";
   os << indent << "Strength: " << this->Strength << "\n";
   os << indent << "IsMoving: " << this->IsMoving << "\n";
+  os << indent << "MovingFragments: " << this->MovingFragments << "\n";
   os << indent << "Resolution: " << this->Resolution << "\n";
   os << indent << "BlendsSplats: " << this->BlendsSplats << "\n";
   os << indent << "MinimumLightness: " << this->MinimumLightness << "\n";

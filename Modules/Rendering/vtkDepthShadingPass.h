@@ -92,12 +92,22 @@ public:
 
   /// Of a picture in motion that the processor draws: 30 a second of a window of 1280 x 800 on two cores.
   static constexpr int kMostMovingPixels = 400000;
+  /// Of splats that lie over each other, in as long.
+  static constexpr double kMostMovingFragments = 1.5e6;
   ///@{
   /**
    * Whether the coming picture is one of a motion, seen for a moment. Default: off.
    */
   vtkSetMacro(IsMoving, bool);
   vtkGetMacro(IsMoving, bool);
+  ///@}
+  ///@{
+  /**
+   * Pixels of the window that its splats cover, each on its own: of more than kMostMovingFragments a picture
+   * in motion has fewer pixels. Default: 0.
+   */
+  vtkSetClampMacro(MovingFragments, double, 0.0, 1e12);
+  vtkGetMacro(MovingFragments, double);
   ///@}
   /**
    * Lines of the picture that @p renderer draws over those it has in the window: 1, or less in motion.
@@ -167,6 +177,7 @@ private:
   double Strength = 1.6;
   double MinimumLightness = 0.25;
   bool IsMoving = false;
+  double MovingFragments = 0.0;
   bool BlendsSplats = false;
   Stage DrawnStage = Stage::Picture;
   double Resolution = 1.0;

@@ -6,6 +6,7 @@
 #include "vtkDepthShadingPass.h"
 
 #include "vtkActor.h"
+#include "vtkCamera.h"
 #include "vtkDataArray.h"
 #include "vtkDataObject.h"
 #include "vtkHardwareSelector.h"
@@ -40,6 +41,20 @@ constexpr const char* kNormalAttribute = "splatNormal";
 /// Around the picture, pixels: half of the largest point that a software renderer draws. It draws none whose
 /// middle is out of its viewport.
 constexpr int kMargin = 128;
+/// Of all attributes of the splats: each value for one vertex, or for a quad.
+void setAttributeDivisor(vtkOpenGLHelper& points, GLuint divisor)
+{
+  const auto program = static_cast<GLuint>(points.Program->GetHandle());
+  for (const char* name : { "vertexMC", "scalarColor", kAttribute, kNormalAttribute })
+  {
+    const GLint place = glGetAttribLocation(program, name);
+    if (place >= 0)
+    {
+      glVertexAttribDivisor(static_cast<GLuint>(place), divisor);
+    }
+  }
+}
+
 } // namespace
 
 vtkStandardNewMacro(vtkSplatMapper);
@@ -182,6 +197,7 @@ void vtkSplatMapper::CopySizes(const vtkSplatMapper* other, double factor)
   this->SkyDirection = other->SkyDirection;
   this->SetSurfaces(other->Surfaces);
   this->SetForeshortens(other->Foreshortens);
+  this->SetClosesAll(other->ClosesAll);
   this->SetLightStrength(other->LightStrength);
   this->SetNormalUnit(other->NormalUnit);
   this->SetHidesBackFaces(other->HidesBackFaces);
@@ -234,6 +250,23 @@ void vtkSplatMapper::RenderPieceStart(vtkRenderer* renderer, vtkActor* actor)
   }
 }
 
+/// Whether splats are seen from so near that some may be larger than points can be. Quads take four times as
+/// long as points to begin with.
+bool vtkSplatMapper::WantsQuads(vtkRenderer* renderer, vtkActor* actor)
+{
+  constexpr double kLargePixels = 60.0;
+  return this->Surfaces && this->HasNormals && this->HasSizes && this->FixedPixels == 0.0 &&
+    this->CurrentInput->GetNumberOfCells() == 0 && glDrawArraysInstancedBaseInstance &&
+    this->GetMedianPixels(renderer, actor) > kLargePixels;
+}
+
+double vtkSplatMapper::GetMedianPixels(vtkRenderer* renderer, vtkActor* actor)
+{
+  vtkCamera* camera = renderer->GetActiveCamera();
+  const double distance = camera->GetParallelProjection() ? 1.0 : camera->GetDistance();
+  return this->PixelsPerLength(renderer, actor) * this->MedianLength / distance;
+}
+
 /// In steps: see DrawPace. Between them the window may give up the frame, but not a selection.
 void vtkSplatMapper::DrawRange(vtkRenderer* renderer, vtkIdType begin, vtkIdType end, bool isIndexed)
 {
@@ -252,6 +285,10 @@ void vtkSplatMapper::DrawRange(vtkRenderer* renderer, vtkIdType begin, vtkIdType
     {
       const auto offset = static_cast<std::uintptr_t>(begin) * sizeof(GLuint);
       glDrawElements(GL_POINTS, count, GL_UNSIGNED_INT, reinterpret_cast<const void*>(offset));
+    }
+    else if (this->DrawsQuads)
+    {
+      glDrawArraysInstancedBaseInstance(GL_TRIANGLE_STRIP, 0, 4, count, static_cast<GLuint>(begin));
     }
     else
     {
@@ -291,6 +328,7 @@ void vtkSplatMapper::DrawPoints(
   {
     return;
   }
+  this->DrawsQuads = !renderer->GetSelector() && this->WantsQuads(renderer, actor);
   const std::size_t indices = points.IBO->IndexCount;
   points.IBO->IndexCount = static_cast<std::size_t>(count); // of 0 the superclass binds no attributes
   this->UpdateShaders(points, renderer, actor);
@@ -299,11 +337,14 @@ void vtkSplatMapper::DrawPoints(
   {
     points.IBO->Bind();
   }
+  setAttributeDivisor(points, this->DrawsQuads ? 1 : 0);
   const RangeList all = { { 0, count } };
   for (const auto& [begin, end] : ranges.empty() ? all : ranges)
   {
     this->DrawRange(renderer, begin, std::min(end, count), hasCells);
   }
+  setAttributeDivisor(points, 0);
+  this->DrawsQuads = false;
   if (hasCells)
   {
     points.IBO->Release();
@@ -326,7 +367,8 @@ void vtkSplatMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* actor)
   state->vtkglGetIntegerv(GL_VIEWPORT, place);
   for (int axis = 0; axis < 2; ++axis)
   {
-    this->Fit[axis] = double(place[2 + axis]) / (place[2 + axis] + 2 * kMargin);
+    this->Pixel[axis] = 2.0 / (place[2 + axis] + 2 * kMargin);
+    this->Fit[axis] = 0.5 * place[2 + axis] * this->Pixel[axis];
   }
   state->vtkglViewport(
     place[0] - kMargin, place[1] - kMargin, place[2] + 2 * kMargin, place[3] + 2 * kMargin);
@@ -399,10 +441,13 @@ void vtkSplatMapper::ReplaceShaderValues(
     : "min(splatSize, splatRange.y)";
   vtkShaderProgram::Substitute(vertex, "//VTK::PositionVC::Impl",
     std::string("//VTK::PositionVC::Impl\n") + (this->HasNormals ? pointhaptics::kLightStatements : "") +
-      (tilts ? "  float splatCloses = clamp(2.0 * splatFlat - 0.6, 0.0, 1.0);\n" : "") +
+      (tilts ? "  float splatTilts = clamp(2.0 * splatFlat - 0.6, 0.0, 1.0);\n"
+               "  float splatCloses = max(splatTilts, splatAll);\n"
+             : "") +
       "  float splatSize = " + size + ";\n  gl_PointSize = clamp(" + bounded +
       ", splatRange.x, max(splatRange.x, splatRange.w));\n" +
-      (tilts ? pointhaptics::kSurfaceStatements : "") + pointhaptics::kClipStatements);
+      (tilts ? pointhaptics::kSurfaceStatements : "") + pointhaptics::kFitStatements +
+      (tilts ? pointhaptics::kQuadStatements : "") + pointhaptics::kClipStatements);
   shaders[vtkShader::Vertex]->SetSource(vertex);
   std::string fragment = shaders[vtkShader::Fragment]->GetSource();
   // Depth peeling may return after the depths: what is outside of the disc is discarded before.
@@ -418,7 +463,12 @@ void vtkSplatMapper::ReplaceShaderValues(
         (tilts ? pointhaptics::kSurfaceFragmentDeclarations : ""));
     vtkShaderProgram::Substitute(fragment, "//VTK::Light::Impl",
       std::string("//VTK::Light::Impl\n  gl_FragData[0].rgb *= splatLight;\n") +
-        (tilts ? pointhaptics::kBlendStatements : ""));
+        (tilts ? pointhaptics::kBlendStatements : pointhaptics::kOpaqueStatements));
+  }
+  else
+  {
+    vtkShaderProgram::Substitute(
+      fragment, "//VTK::Light::Impl", std::string("//VTK::Light::Impl\n") + pointhaptics::kOpaqueStatements);
   }
   shaders[vtkShader::Fragment]->SetSource(fragment);
   this->Superclass::ReplaceShaderValues(shaders, renderer, actor);
@@ -436,6 +486,7 @@ void vtkSplatMapper::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "AmbientLight: " << this->AmbientLight << "\n";
   os << indent << "Surfaces: " << this->Surfaces << "\n";
   os << indent << "Foreshortens: " << this->Foreshortens << "\n";
+  os << indent << "ClosesAll: " << this->ClosesAll << "\n";
   os << indent << "PointPixels: " << this->PointPixels << "\n";
   os << indent << "SurfacePixels: " << this->SurfacePixels << "\n";
   os << indent << "LightStrength: " << this->LightStrength << "\n";

@@ -170,6 +170,15 @@ public:
 
   ///@{
   /**
+   * Whether what is not flat counts as part of a surface, too: only its discs face the camera. With Surfaces.
+   * Default: off. Free to change.
+   */
+  void SetClosesAll(bool on) { this->ClosesAll = on; }
+  bool GetClosesAll() const { return this->ClosesAll; }
+  ///@}
+
+  ///@{
+  /**
    * How much of the light is seen, 0 (the colours themselves) to 1 (default).
    */
   void SetLightStrength(double strength);
@@ -203,6 +212,12 @@ public:
   ///@}
 
   /**
+   * Diameter of a splat of median length where the camera looks at, pixels of the window; 0 without the
+   * array.
+   */
+  double GetMedianPixels(vtkRenderer* renderer, vtkActor* actor);
+
+  /**
    * Takes over all numbers, the names of the arrays and the light, SizeScale times @p factor.
    */
   void CopySizes(const vtkSplatMapper* other, double factor);
@@ -222,6 +237,8 @@ private:
   using RangeList = std::vector<std::array<vtkIdType, 2>>;
   void DrawSplats(vtkRenderer* renderer, vtkActor* actor);
   void DrawPoints(vtkOpenGLHelper& points, vtkRenderer* renderer, vtkActor* actor, const RangeList& ranges);
+  bool WantsQuads(vtkRenderer* renderer, vtkActor* actor);
+  double PixelsPerLength(vtkRenderer* renderer, vtkActor* actor);
   void DrawRange(vtkRenderer* renderer, vtkIdType begin, vtkIdType end, bool isIndexed);
   void MapArray(vtkDataArray* array, const std::string& name, const char* attribute, bool& isMapped);
   void SetSurfaceParameters(vtkOpenGLHelper& cells, vtkRenderer* renderer, vtkActor* actor);
@@ -240,6 +257,7 @@ private:
   bool AmbientLight = false;
   bool Surfaces = false;
   bool Foreshortens = true;
+  bool ClosesAll = false;
   double PointPixels = 4.0;
   double SurfacePixels = 1e9;
   double LightStrength = 1.0;
@@ -249,9 +267,11 @@ private:
   std::array<double, 3> SkyDirection = { 0.0, 0.0, 1.0 };
   std::array<double, 6> ClipBox;
   std::vector<std::array<vtkIdType, 2>> Ranges;
-  bool HasNormals = false;      // the shader in use reads the normals
-  bool HasSizes = false;        // the shader in use reads the array
-  double Fit[2] = { 1.0, 1.0 }; // of the picture in the viewport that is drawn into
+  bool HasNormals = false;        // the shader in use reads the normals
+  bool HasSizes = false;          // the shader in use reads the array
+  double Fit[2] = { 1.0, 1.0 };   // of the picture in the viewport that is drawn into
+  double Pixel[2] = { 0.0, 0.0 }; // of that viewport, whose width and height are 2
+  bool DrawsQuads = false;
   double MedianLength = 0.0;
   vtkMTimeType MedianTime = 0; // of the array it is from
 };

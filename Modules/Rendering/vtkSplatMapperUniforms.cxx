@@ -26,6 +26,7 @@ constexpr double kPixelsWithoutArray = 3.0;
 constexpr double kUsualHeight = 800.0;
 /// Of points that a software renderer draws.
 constexpr double kMostPixels = 255.0;
+constexpr double kMostQuadPixels = 1e5;
 /// From the viewer's left and above, in view coordinates.
 constexpr double kLightDirection[3] = { -0.45, 0.55, 0.70 };
 
@@ -81,6 +82,16 @@ private:
 
 } // namespace
 
+/// Diameter of a splat of length 1 at distance 1; at distance w it covers 1/w as many pixels, for both kinds
+/// of projection: w is 1 for a parallel one.
+double vtkSplatMapper::PixelsPerLength(vtkRenderer* renderer, vtkActor* actor)
+{
+  vtkMatrix4x4* projection =
+    renderer->GetActiveCamera()->GetProjectionTransformMatrix(renderer->GetTiledAspectRatio(), -1, 1);
+  const double modelScale = std::cbrt(std::abs(actor->GetMatrix()->Determinant()));
+  return this->SizeScale * modelScale * 0.5 * renderer->GetSize()[1] * projection->GetElement(1, 1);
+}
+
 void vtkSplatMapper::SetMapperShaderParameters(vtkOpenGLHelper& cells, vtkRenderer* renderer, vtkActor* actor)
 {
   this->Superclass::SetMapperShaderParameters(cells, renderer, actor);
@@ -103,27 +114,26 @@ void vtkSplatMapper::SetMapperShaderParameters(vtkOpenGLHelper& cells, vtkRender
   }
   const double resolution = vtkDepthShadingPass::ResolutionOf(renderer);
   double pixels = resolution * (this->FixedPixels > 0.0 ? this->FixedPixels : kPixelsWithoutArray);
-  double range[4] = { 1.0, resolution * std::max(this->FixedPixels, this->LargestPixels), 0.0, kMostPixels };
+  const double most = this->DrawsQuads ? kMostQuadPixels : kMostPixels;
+  double range[4] = { 1.0, resolution * std::max(this->FixedPixels, this->LargestPixels), 0.0, most };
   if (this->HasSizes && this->FixedPixels == 0.0)
   {
-    // A length at distance w covers as many pixels, for both kinds of projection: w is 1 for a parallel one.
-    vtkMatrix4x4* projection =
-      renderer->GetActiveCamera()->GetProjectionTransformMatrix(renderer->GetTiledAspectRatio(), -1, 1);
-    const double modelScale = std::cbrt(std::abs(actor->GetMatrix()->Determinant()));
     const double lines = resolution * renderer->GetSize()[1];
-    pixels = this->SizeScale * modelScale * 0.5 * lines * projection->GetElement(1, 1);
+    pixels = resolution * this->PixelsPerLength(renderer, actor);
     const double scale = this->Surfaces ? lines / kUsualHeight : resolution;
     range[0] = std::max(1.0, scale * this->SmallestPixels);
     range[1] = scale * this->LargestPixels;
     range[2] = scale * this->PointPixels;
-    range[3] = this->Surfaces ? std::min(kMostPixels, scale * this->SurfacePixels) : kMostPixels;
+    range[3] = this->Surfaces ? std::min(most, scale * this->SurfacePixels) : most;
   }
   else if (this->HasSizes)
   {
     std::fill(range, range + 4, pixels); // whatever the array says
   }
   Uniforms uniforms(cells);
+  const double points[2] = { 0.0, 0.0 };
   uniforms.set("splatFit", this->Fit);
+  uniforms.set("splatPixel", this->DrawsQuads ? this->Pixel : points);
   uniforms.set("splatPixels", pixels);
   uniforms.set("splatLongest", this->LargestRatio * this->MedianLength);
   uniforms.set("splatRange", range);
@@ -189,6 +199,7 @@ void vtkSplatMapper::SetSurfaceParameters(vtkOpenGLHelper& cells, vtkRenderer* r
   uniforms.set("splatTerms", terms);
   uniforms.set("splatHalfPixel", 1.0 / (projection->GetElement(1, 1) * lines));
   uniforms.set("splatNarrow", this->Foreshortens ? 1.0 : 0.0);
+  uniforms.set("splatAll", this->ClosesAll ? 1.0 : 0.0);
   uniforms.set("splatIsParallel", camera->GetParallelProjection() ? 1 : 0);
   uniforms.set("splatStage", static_cast<int>(vtkDepthShadingPass::StageOf(renderer)));
 }

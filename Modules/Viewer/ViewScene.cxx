@@ -60,10 +60,12 @@ ViewScene::ViewScene()
   actor_->SetMapper(mapper_);
   actor_->PickableOff();
   actor_->VisibilityOff();
+  actor_->ForceOpaqueOn();
   renderer_->AddActor(actor_);
   pointsActor_->SetMapper(pointsMapper_);
   pointsActor_->PickableOff();
   pointsActor_->SetUserMatrix(pointsMatrix_);
+  pointsActor_->ForceOpaqueOn();
   pointsActor_->GetProperty()->LightingOff();
   renderer_->AddActor(pointsActor_);
   renderer_->AddActor(brackets_);
@@ -117,8 +119,20 @@ void ViewScene::beginFrame()
   if (vtkDepthShadingPass* shading = vtkDepthShadingPass::GetPassOf(renderer_))
   {
     shading->SetIsMoving(this->detail().isInMotion());
+    shading->SetMovingFragments(this->fragments());
     shading->SetBlendsSplats(this->detail().isFinest());
   }
+}
+
+/// That the splats in view cover, roughly, each on its own.
+double ViewScene::fragments()
+{
+  vtkActor* actor = drawsFelt_ ? actor_ : pointsActor_;
+  const bool closes = shown_ && shown_->look.closesAll && !drawsFelt_;
+  const double pixels = this->detail().spacingFactor() *
+    std::min(this->drawnMapper()->GetMedianPixels(renderer_, actor),
+      closes ? INFINITY : this->drawnMapper()->GetLargestPixels());
+  return double(this->detail().visiblePoints()) * pixels * pixels;
 }
 
 bool ViewScene::refinementDue()

@@ -220,6 +220,7 @@ private:
   ColorRange colorRange();
   void keepColorRange(const ColorRange& before);
   void beginFrame();
+  double fragments();
   void applyLook();
   void applyColors();
   void colorPoints();

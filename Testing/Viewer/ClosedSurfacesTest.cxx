@@ -116,6 +116,27 @@ TEST_F(ClosedSurfaces, FewPointsCloseInTheFirstView)
   EXPECT_LT(holes.dark, holes.all / 200) << "of " << holes.all << " pixels";
 }
 
+TEST_F(ClosedSurfaces, APlaneStaysClosedHoweverNearItIs)
+{
+  SKIP_WITHOUT_DISPLAY();
+  options_.width = 400;
+  options_.height = 300;
+  options_.up = "z";
+  options_.kind = "object";
+  options_.colorBy = "Clay";
+  options_.picture.background = "black";
+  // The square is 10 cm wide, and neighbours are 30 to 400 pixels apart.
+  for (const double distance : { 0.04, 0.015, 0.003 })
+  {
+    options_.camera = { 0.003, 0.004, distance, 0.003, 0.004, 0, 0, 1, 0 };
+    HapticViewer viewer(options_, observer_);
+    ASSERT_TRUE(viewer.open(randomSquare(2000))) << viewer.message();
+    ASSERT_TRUE(viewer.renderToFile(this->path("near.png"))) << viewer.message();
+    const Holes holes = holesOf(this->path("near.png"));
+    EXPECT_LT(holes.dark, holes.all / 200) << "of " << holes.all << " pixels from " << distance << " m";
+  }
+}
+
 /// A wall that turns away to the right, as a camera with so many rays sees it.
 vtkSmartPointer<vtkPolyData> slantedWall(int columns, int rows)
 {

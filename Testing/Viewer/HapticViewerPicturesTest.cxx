@@ -12,6 +12,7 @@
 #include <vtkPointData.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
+#include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
 #include <cmath>
@@ -111,6 +112,30 @@ TEST_F(HapticViewerPictures, ShowsPointsThatLieAtOnePlace)
     const vtkIdType colored = pixelsOfPoints(this->path("place.png"));
     EXPECT_GE(colored, 40) << "a disc of eight pixels";
     EXPECT_LT(colored, 140); // with its smooth rim
+  }
+}
+
+TEST_F(HapticViewerPictures, ShowsColorsWithoutAlpha)
+{
+  SKIP_WITHOUT_DISPLAY();
+  options_.picture.background = "black";
+  for (const bool felt : { false, true })
+  {
+    options_.felt = felt;
+    const vtkSmartPointer<vtkPolyData> cloud = makeSphere();
+    vtkNew<vtkUnsignedCharArray> colors;
+    colors->SetName("rgba");
+    colors->SetNumberOfComponents(4);
+    for (vtkIdType i = 0; i < cloud->GetNumberOfPoints(); ++i)
+    {
+      const unsigned char color[4] = { static_cast<unsigned char>(i % 256), 255, 255, 0 };
+      colors->InsertNextTypedTuple(color);
+    }
+    cloud->GetPointData()->SetScalars(colors);
+    HapticViewer viewer(options_, observer_);
+    ASSERT_TRUE(viewer.open(cloud)) << viewer.message();
+    ASSERT_TRUE(viewer.renderToFile(this->path("alpha.png"))) << viewer.message();
+    EXPECT_GT(pixelsOfPoints(this->path("alpha.png")), 5000) << "felt: " << felt;
   }
 }
 

@@ -215,6 +215,32 @@ TEST_F(HapticViewerTest, ResamplesACloudOnceBeforeItsFirstPicture)
   EXPECT_TRUE(viewer.stop());
 }
 
+TEST_F(HapticViewerTest, ANewCloudIsColoredAsIfItWereTheFirst)
+{
+  SKIP_WITHOUT_DISPLAY();
+  options_.device = HapticViewerDevice::None;
+  HapticViewer viewer(options_, observer_);
+  ASSERT_TRUE(viewer.open({ this->writeCloud("first.csv", 6000), this->writeCloud("second.csv", 5000) }))
+    << viewer.message();
+  viewer.renderWindow()->SetOffScreenRendering(1);
+  ASSERT_TRUE(viewer.start()) << viewer.message();
+  EXPECT_TRUE(viewer.style()->GetCommands().run("colors"));
+  const std::string first = notes_.back();
+  EXPECT_TRUE(viewer.style()->GetCommands().run("colors"));
+  EXPECT_NE(notes_.back(), first);
+  EXPECT_TRUE(viewer.style()->GetCommands().run("next-file"));
+  for (int i = 0; i < 2000 && viewer.numberOfPoints() != 5000; ++i)
+  {
+    int timer = 1;
+    viewer.interactor()->InvokeEvent(vtkCommand::TimerEvent, &timer);
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  ASSERT_EQ(viewer.numberOfPoints(), 5000);
+  EXPECT_TRUE(viewer.style()->GetCommands().run("colors"));
+  EXPECT_EQ(notes_.back(), first);
+  EXPECT_TRUE(viewer.stop());
+}
+
 TEST_F(HapticViewerTest, TheFirstPictureOfAWindowWaitsForNoMeans)
 {
   SKIP_WITHOUT_DISPLAY();

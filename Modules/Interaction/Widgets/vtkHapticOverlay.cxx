@@ -241,20 +241,33 @@ void vtkHapticOverlay::FitHelp()
   }
 }
 
-/// The largest font from @p smallest to @p largest with which the plate is no larger; 0: none.
+/// The largest font from @p smallest to @p largest with which the plate is no larger; 0: none. To measure is
+/// to draw all of the text, so the first guess is made in proportion.
 int vtkHapticOverlay::FitHelpFont(int largest, int smallest, double width, double height)
 {
   double needed[2] = { 0.0, 0.0 };
-  for (int font = largest; font >= smallest; --font)
+  const auto fits = [&](int font)
   {
     this->Help->GetTextProperty()->SetFontSize(font);
     this->Help->GetSize(this->Renderer, needed);
-    if (needed[0] <= width && needed[1] <= height)
-    {
-      return font;
-    }
+    return needed[0] <= width && needed[1] <= height;
+  };
+  if (!fits(smallest))
+  {
+    return 0;
   }
-  return 0;
+  const double wider = std::min(width / std::max(1.0, needed[0]), height / std::max(1.0, needed[1]));
+  int font = int(std::clamp(smallest * wider, double(smallest), double(largest)));
+  while (font > smallest && !fits(font))
+  {
+    --font;
+  }
+  while (font < largest && fits(font + 1))
+  {
+    ++font;
+  }
+  this->Help->GetTextProperty()->SetFontSize(font);
+  return font;
 }
 
 /// Of @p lines, which are the text, as many as fit, in a font that is read well.

@@ -469,6 +469,7 @@ void LevelOfDetail::addLevel(vtkPolyData* cloud)
   level.actor = vtkSmartPointer<vtkActor>::New();
   level.actor->SetMapper(mapper);
   level.actor->SetProperty(coarse_);
+  level.actor->SetForceOpaque(actor_->GetForceOpaque());
   level.actor->PickableOff();
   renderer_->AddActor(level.actor);
   levels_.push_back(level);

@@ -305,17 +305,19 @@ CameraFit fitFrame(
 {
   constexpr double kRays = 0.998;
   constexpr double kFilled = 0.985;
+  const double ahead = look.front.z > 0.0 ? -1.0 : 1.0; // the sensor looks along z, or against it
   std::vector<double> x;
   std::vector<double> y;
   std::vector<double> z;
   for (std::int64_t i = 0; i < cloud.size(); ++i)
   {
     const Vec3 p = cloud[i];
-    if (p.z > 0.0)
+    const double depth = ahead * p.z;
+    if (depth > 0.0)
     {
-      x.push_back(p.x / p.z);
-      y.push_back(p.y / p.z);
-      z.push_back(p.z);
+      x.push_back(p.x / depth);
+      y.push_back(p.y / depth);
+      z.push_back(depth);
     }
   }
   if (z.empty())
@@ -330,10 +332,10 @@ CameraFit fitFrame(
   const double bottom = std::atan(valueAt(y, 1.0 - cut));
   const double half =
     std::max(std::tan(0.5 * (bottom - top)), std::tan(0.5 * (right - left)) / aspect) / kFilled;
-  const Vec3 ahead{ std::tan(0.5 * (left + right)), std::tan(0.5 * (top + bottom)), 1.0 };
+  const Vec3 middle{ std::tan(0.5 * (left + right)), std::tan(0.5 * (top + bottom)), ahead };
   CameraFit fit;
   fit.position = toWorld.apply({ 0.0, 0.0, 0.0 });
-  fit.focalPoint = toWorld.apply(valueAt(z, 0.5) * ahead);
+  fit.focalPoint = toWorld.apply(valueAt(z, 0.5) * middle);
   fit.up = normalized(toWorld.applyToVector(look.up));
   fit.viewAngle = std::clamp(2.0 * std::atan(half) / kDegree, 1.0, 150.0);
   return fit;
@@ -438,7 +440,7 @@ void spaceByRays(const PointView& cloud, LocalShape& shape)
   {
     const Vec3 a = cloud[i];
     const Vec3 b = cloud[i + 1];
-    if (isFinite(a) && isFinite(b) && a.z > 0.0 && b.z > 0.0)
+    if (isFinite(a) && isFinite(b) && a.z * b.z > 0.0)
     {
       angles.push_back(std::hypot(a.x / a.z - b.x / b.z, a.y / a.z - b.y / b.z));
     }
@@ -447,7 +449,7 @@ void spaceByRays(const PointView& cloud, LocalShape& shape)
   for (std::int64_t i = 0; angle > 0.0 && i < cloud.size(); ++i)
   {
     PointShape& each = shape.points[std::size_t(i)];
-    each.spacing = each.spacing > 0.0F ? float(angle * cloud[i].z) : 0.0F;
+    each.spacing = each.spacing > 0.0F ? float(angle * std::abs(cloud[i].z)) : 0.0F;
     each.reach = 0.0F;
   }
 }

@@ -45,6 +45,7 @@ struct CloudLook
   double largestPixels = 16.0;   ///< Of the splats of a surface, in a window of 800 lines.
   double noiseLength = 0.0;      ///< Depths that differ by less are one surface,
   double noisePerDistance = 0.0; ///< the same over the distance from the camera.
+  bool closesAll = false;        ///< A surface, flat everywhere or not: no splat is kept small on the screen.
   bool hidesBackFaces = false;
   double meanFlatness = 0.0;
 };

@@ -62,17 +62,20 @@ bool comesFromCamera(vtkFieldData* field)
   return moved;
 }
 
-/// A depth camera's points are in its own frame, z forward and y down, all in front of it; the viewpoint
+/// A depth camera's points are in its own frame, all in front of it: z forward and y down, or, as OpenGL has
+/// it, z backward and y up; the viewpoint
 /// places that frame in a world we do not show. Points behind the camera mean that they are in the world's
 /// frame already.
 bool sensorOrientation(vtkPolyData* cloud, CloudOrientation& orientation)
 {
-  if (!comesFromCamera(cloud->GetFieldData()) || !(finiteBounds(cloud).minimum.z > 0.0))
+  const Bounds bounds = finiteBounds(cloud);
+  const double ahead = bounds.minimum.z > 0.0 ? 1.0 : bounds.maximum.z < 0.0 ? -1.0 : 0.0;
+  if (!comesFromCamera(cloud->GetFieldData()) || ahead == 0.0)
   {
     return false;
   }
-  orientation.up = { 0.0, -1.0, 0.0 };
-  orientation.front = { 0.0, 0.0, -1.0 };
+  orientation.up = { 0.0, -ahead, 0.0 };
+  orientation.front = { 0.0, 0.0, -ahead };
   orientation.fromSensor = true;
   return true;
 }

@@ -23,11 +23,12 @@ struct CloudOrientation
 };
 
 /// A guess without guarantee, in this order: field data "OrganizedDimensions" of more than one row or a
-/// "Viewpoint" other than the identity, and all points at z > 0: a depth camera's frame, seen as the camera
-/// saw it (z forward, y down). An object (no axis is more than 4 times another, centre within ten of its own
-/// lengths of the origin) in a mesh format (PLY, OBJ, STL) whose y extent is the largest, or whose y starts
-/// near 0 while x and z straddle it: y up, seen from +z. The same of an object in an E57 file that is shorter
-/// than 2 m, with all y at 0 or above. Everything else (LAS, PCD, terrain): z up, from -y.
+/// "Viewpoint" other than the identity, and all points at z > 0, or all at z < 0: a depth camera's frame,
+/// seen as the camera saw it (z forward and y down, or z backward and y up). An object (no axis is more than
+/// 4 times another, centre within ten of its own lengths of the origin) in a mesh format (PLY, OBJ, STL)
+/// whose y extent is the largest, or whose y starts near 0 while x and z straddle it: y up, seen from +z. The
+/// same of an object in an E57 file that is shorter than 2 m, with all y at 0 or above. Everything else (LAS,
+/// PCD, terrain): z up, from -y.
 /// @param format Name or extension of the file format, any case: "ply", "LAS", ...
 POINTHAPTICSRENDERING_EXPORT CloudOrientation guessCloudOrientation(
   vtkPolyData* cloud, const std::string& format);

@@ -45,10 +45,8 @@ constexpr double kSmallestShownPixels = 2.0;
 constexpr double kFarthestRatio = 1e6;
 /// From this mean flatness on an object is a surface.
 constexpr double kSurfaceFlatness = 0.63;
-/// Over the spacing: of the splats that leave hardly a gap between points at random.
-constexpr double kClosingDiameter = 2.8;
-/// Largest splat of a sparse surface, as CloudLook::largestPixels.
-constexpr double kMostPixels = 64.0;
+/// Most of the median spacing that is closed where a surface is not flat: single points beside it stay small.
+constexpr double kWidestGap = 3.0;
 /// Of the window that the first picture is reckoned with.
 constexpr double kUsualHeight = 800.0;
 /// Of more points not each is measured, but one in every place that the first picture can show.
@@ -127,10 +125,11 @@ double usualDiameter(double flatness, double spacing)
   return (kPointDiameter + kFlatDiameter * flatness) * spacing;
 }
 
-void addSplats(vtkPolyData* points, const LocalShape& shape, CloudKind kind, vtkDataArray* ownNormals)
+void addSplats(vtkPolyData* points, const LocalShape& shape, const CloudLook& look, vtkDataArray* ownNormals)
 {
-  const bool facesSensor = kind == CloudKind::Sweep || kind == CloudKind::Indoors;
-  const double least = kind == CloudKind::Frame ? kGridDiameter : 0.0;
+  const bool isFrame = look.kind == CloudKind::Frame;
+  const bool facesSensor = look.kind == CloudKind::Sweep || look.kind == CloudKind::Indoors;
+  const double widest = kWidestGap * shape.medianSpacing;
   const vtkIdType count = points->GetNumberOfPoints();
   vtkNew<vtkFloatArray> lengths;
   lengths->SetName(kSplatLengthName);
@@ -147,8 +146,10 @@ void addSplats(vtkPolyData* points, const LocalShape& shape, CloudKind kind, vtk
   {
     const PointShape& each = shape.points[std::size_t(i)];
     const double usual = usualDiameter(double(each.flatness), double(each.spacing));
-    const double length =
-      std::max({ usual, least * double(each.spacing), 2.0 * double(each.flatness) * double(each.reach) });
+    const double least = isFrame ? kGridDiameter * double(each.spacing)
+      : look.closesAll           ? usualDiameter(1.0, std::min(double(each.spacing), widest))
+                                 : 0.0;
+    const double length = std::max({ usual, least, 2.0 * double(each.flatness) * double(each.reach) });
     lengths->SetValue(i, float(length));
     growths->SetValue(
       i, static_cast<unsigned char>(usual > 0.0 ? kNoGrowth * length / usual + 0.5 : kNoGrowth));
@@ -251,16 +252,12 @@ std::shared_ptr<ShownCloud> makeShownCloud(
   {
     spaceByRays(view, shape);
   }
-  if (decided == CloudKind::Object && shape.meanFlatness > kSurfaceFlatness)
-  {
-    // Few points on a surface close it in the first view, too; seen from nearer, many would be a mosaic.
-    shown->look.largestPixels = std::clamp(
-      kClosingDiameter * shape.medianSpacing / settings.pixel, shown->look.largestPixels, kMostPixels);
-  }
+  shown->look.closesAll =
+    decided == CloudKind::Frame || (decided == CloudKind::Object && shape.meanFlatness > kSurfaceFlatness);
   addColors(*shown, request, query, shape);
   vtkDataArray* own =
     std::int64_t(drawn.size()) == cloud->GetNumberOfPoints() ? cloud->GetPointData()->GetNormals() : nullptr;
-  addSplats(shown->points, shape, decided, own);
+  addSplats(shown->points, shape, shown->look, own);
   return shown;
 }
 
@@ -335,6 +332,7 @@ void drawShown(const ShownCloud& shown, vtkSplatMapper* mapper)
   mapper->SetAmbientLight(true);
   mapper->SetSurfaces(true);
   mapper->SetHidesBackFaces(shown.look.hidesBackFaces);
+  mapper->SetClosesAll(shown.look.closesAll);
   mapper->SetForeshortens(shown.look.kind != CloudKind::Frame);
   mapper->SetLightStrength(shown.colors.lightStrength);
 }

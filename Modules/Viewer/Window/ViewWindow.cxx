@@ -51,6 +51,8 @@ ViewWindow::ViewWindow(ViewScene& scene, const HapticViewerOptions& options,
   const HapticViewerObserver& observer, std::vector<std::string> files)
   : scene_(scene)
   , options_(options)
+  , askedColorBy_(options.colorBy)
+  , askedColorRange_(options.picture.colorRange)
   , observer_(observer)
   , parameters_(options.haptics)
   , files_(std::move(files))

@@ -176,6 +176,8 @@ private:
 
   ViewScene& scene_;
   HapticViewerOptions options_;
+  const std::string askedColorBy_; ///< As the options said at first, for each new cloud.
+  const std::vector<double> askedColorRange_;
   const HapticViewerObserver& observer_;
   HapticParameters parameters_; ///< As the servo loop has them.
   double voxelSize_ = 0.0;      ///< As the slider set it, metres; 0: as the options say.

@@ -73,7 +73,9 @@ void ViewWindow::load(const std::vector<std::string>& files, Load kind, std::fun
   HapticViewerOptions options = options_;
   if (kind == Load::New)
   {
-    options.clip.clear(); // it is of another cloud
+    options.clip.clear(); // it is of another cloud, as are colours that nobody asked for on the way in
+    options.colorBy = askedColorBy_;
+    options.picture.colorRange = askedColorRange_;
   }
   if (voxelSize_ > 0.0)
   {
@@ -233,6 +235,8 @@ void ViewWindow::show(LoadedCloud cloud)
   style_->SetResampler(scene_.resampler());
   if (!keepsModel)
   {
+    options_.colorBy = loading_.options.colorBy;
+    options_.picture.colorRange = loading_.options.picture.colorRange;
     options_.picture.measure.clear(); // they were in the first cloud
     clipping_.forget();
   }

@@ -86,6 +86,16 @@ TEST(CloudOrientation, SeesAFrameOfADepthCameraAsTheCameraDid)
   EXPECT_EQ(orientation.front, Vec3(0, 0, -1));
 }
 
+TEST(CloudOrientation, SeesAFrameBehindTheOriginAgainstZ)
+{
+  const auto frame = makeCloud({ -2.6, -2.2, -5.4 }, { 1.5, 1.6, -1.8 });
+  setViewpoint(frame, { 0, 0, 0, 0, 1, 0, 0 });
+  const CloudOrientation orientation = guessCloudOrientation(frame, "PCD");
+  EXPECT_TRUE(orientation.fromSensor);
+  EXPECT_EQ(orientation.up, Vec3(0, 1, 0));
+  EXPECT_EQ(orientation.front, Vec3(0, 0, 1));
+}
+
 TEST(CloudOrientation, IgnoresAViewpointOfPointsBehindTheCamera)
 {
   const auto room = makeCloud({ -5, -5, -1 }, { 5, 5, 2 });
