@@ -76,7 +76,8 @@ std::string unlikelyTimes(const HipPath& path, const UnitNames& names)
   const double speed = duration > 0.0 ? travel / duration : 0.0;
   const bool isSparse =
     points.size() >= kFewestRows && duration / double(points.size() - 1) >= kSparse && speed < kSlow;
-  const bool isSlow = duration >= kLong && speed < kSlowest;
+  // Two rows are a line that somebody drew, not a hand.
+  const bool isSlow = points.size() > 2 && duration >= kLong && speed < kSlowest;
   if (travel < kLeastTravel || !(isSparse || isSlow) || speed * 1e3 > kFastest)
   {
     return {};

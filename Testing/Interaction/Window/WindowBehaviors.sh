@@ -859,3 +859,20 @@ AFirstFileThatCannotBeReadIsSkipped() {
   key n
   said "pointhaptics view: slow.ply: "
 }
+
+# The hand touches from the first tick of the recording that key J asks for: it has no tick, and the trace has all.
+QuittingInTouchKeepsTheTrace() {
+  make sphere cloud.ply
+  open_viewer cloud.ply --device simulated --trace trace.csv
+  move_to 320 180
+  key f
+  for ((i = 0; i < 12; ++i)); do key Page_Up; sleep 0.2; done
+  key j
+  said "recording begins when the hand lets go"
+  key q
+  ends_with 0 "key Q"
+  said "trace: trace.csv"
+  said "nothing was recorded"
+  has_value 15 1 trace.csv || fail "the trace has no contact"
+  [[ ! -e trace.csv.part && ! -e pointhaptics-001.csv && ! -e pointhaptics-001.csv.part ]] || fail "a part is left"
+}

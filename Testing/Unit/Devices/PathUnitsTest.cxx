@@ -78,6 +78,8 @@ TEST(PathUnits, OfAnyHandAreNotDoubted)
   HipPath rest;
   rest.points = { { 0.0, { 0.0, 0.0, 0.01 } }, { 3600.0, { 0.0, 0.0, 0.01 } } };
   EXPECT_EQ(unlikelyUnits(rest, cube(0.05)), "") << "a hand that rests";
+  rest.points.back().position.z = 0.02;
+  EXPECT_EQ(unlikelyUnits(rest, cube(0.05)), "") << "a line that somebody drew";
   EXPECT_EQ(unlikelyUnits(HipPath(), Bounds()), "");
 }
 
