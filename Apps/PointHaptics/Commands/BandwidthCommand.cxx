@@ -33,12 +33,15 @@ CloudResult addBandwidths(const BandwidthCommandOptions& options, Cloud& cloud, 
   {
     throw Failure(options.files.input + ": " + message);
   }
-  showWarnings(kBandwidthCommand);
   const BandwidthFigures figures = bandwidthFigures(filter->GetOutput());
   message = whyNone(options, figures);
-  if (!message.empty() ||
-    !writeCloud(
-      filter->GetOutput(), options.files.output, files, kBandwidthCommand, message, options.files.writing))
+  if (!message.empty())
+  {
+    throw Failure(message);
+  }
+  showWarnings(kBandwidthCommand);
+  if (!writeCloud(
+        filter->GetOutput(), options.files.output, files, kBandwidthCommand, message, options.files.writing))
   {
     throw Failure(message);
   }

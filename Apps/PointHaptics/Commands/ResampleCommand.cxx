@@ -49,7 +49,6 @@ CloudResult resample(const ResampleOptions& options, Cloud& cloud, Files& files)
   {
     throw Failure(options.files.input + ": " + message);
   }
-  showWarnings(kResampleCommand);
   const ResampleFigures figures{ cloud.points->GetNumberOfPoints(),
     resampler->GetOutput()->GetNumberOfPoints(), resampler->GetNumberOfClippedPoints(),
     resampler->GetNumberOfInvalidPoints() };
@@ -57,6 +56,7 @@ CloudResult resample(const ResampleOptions& options, Cloud& cloud, Files& files)
   {
     throw Failure(whyEmpty(options, figures));
   }
+  showWarnings(kResampleCommand);
   options.finish(resampler->GetOutput());
   if (!writeCloud(resampler->GetOutput(), options.files.output, files, kResampleCommand, message,
         options.files.writing))
