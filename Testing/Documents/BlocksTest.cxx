@@ -2,6 +2,7 @@
 #include "CommandRegistry.h"
 #include "HapticTouch.h"
 #include "HapticViewer.h"
+#include "pointhaptics.h"
 #include "vtkCloudAxes.h"
 #include "vtkHapticFeel.h"
 #include "vtkHapticProps.h"
@@ -41,6 +42,8 @@
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <iostream>
 #include <vector>
 
@@ -231,6 +234,27 @@ TEST_F(Blocks, Commands)
 #include "CommandRegistry.inc"
   EXPECT_TRUE(commands.run("grid"));
   EXPECT_EQ(grid.toggles, 1);
+}
+
+TEST_F(Blocks, TouchFromC)
+{
+  std::vector<double> xyz;
+  for (vtkIdType i = 0; i < filter_->GetOutput()->GetNumberOfPoints(); ++i)
+  {
+    const double* p = filter_->GetOutput()->GetPoint(i);
+    xyz.insert(xyz.end(), p, p + 3);
+  }
+  const double* const points = xyz.data();
+  const std::size_t count = xyz.size() / 3;
+  const double hand[3] = { 0.0195, 0.0, 0.0 };
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wmissing-field-initializers"
+#include "pointhaptics.inc"
+#pragma GCC diagnostic pop
+  EXPECT_EQ(state.struct_size, sizeof state);
+  EXPECT_TRUE(std::isfinite(state.force[0]));
+  ph_proxy_destroy(proxy);
+  ph_scene_destroy(scene);
 }
 
 using pointhaptics::settingsMember;
