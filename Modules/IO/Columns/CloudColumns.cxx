@@ -187,16 +187,20 @@ bool isOneOf(const Names& lists, const std::string& name)
   constexpr std::size_t kListed = 6;
   std::string names;
   bool hasDegrees = false;
+  bool isPacked = false;
   for (std::size_t i = 0; i < columns.size(); ++i)
   {
     const std::string& name = columns[i].name;
     names += i < kListed ? (i == 0 ? " " : ", ") + inQuotes(name) : std::string(i == kListed ? " ..." : "");
+    isPacked = isPacked || name == "packed_position";
     hasDegrees = hasDegrees ||
       std::any_of(
         std::begin(kDegrees), std::end(kDegrees), [&](const char* each) { return equalNoCase(name, each); });
   }
   failFormat("no columns named x, y and z, but" + names,
-    hasDegrees
+    isPacked
+      ? "this is SuperSplat's compressed PLY: save it uncompressed there, or splat-transform IN.ply OUT.ply"
+      : hasDegrees
       ? "degrees are no lengths: project the cloud to metres, such as UTM, and name the columns x, y, z"
       : "name the three coordinates x, y and z in the header, or for columns of text by --columns");
 }

@@ -287,9 +287,14 @@ CloudSummary summarize(vtkPolyData* cloud, const std::string& format, bool stati
   summary.coordinateSystem = io::fieldText(cloud->GetFieldData(), "CoordinateSystem");
   summary.unit = io::fieldText(cloud->GetFieldData(), "LengthUnit");
   summary.unitIsGuess = summary.unit.empty();
-  const FarPoints far = findFarPoints(cloud, summary.bounds);
+  constexpr std::int64_t kMostStrays = 20; // one in so many
+  FarPoints far = findFarPoints(cloud, summary.bounds);
+  const bool areLeftOut = far.count > 0;
+  far = areLeftOut ? far : findFarPoints(cloud, summary.bounds, kMostStrays);
   summary.farPoints = far.count > 0 ? far.text() +
-      "; view and feel --fit leave out what is far, feel by --clip and resample by --workspace " + far.clip()
+      (areLeftOut ? "; view and feel --fit leave out what is far, feel by --clip and resample by --workspace "
+                  : "; view and feel leave them out by --clip, resample by --workspace ") +
+      far.clip()
                                     : "";
   const LengthUnit unit = lengthUnitOf(cloud, far.others);
   if (summary.unitIsGuess && !summary.bounds.empty())

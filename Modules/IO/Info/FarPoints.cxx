@@ -18,9 +18,9 @@ namespace
 {
 
 constexpr vtkIdType kLookedAt = 10000;
-constexpr vtkIdType kFewest = 100;     ///< Of fewer points none is called far.
-constexpr std::int64_t kMostPart = 20; ///< One in so many may be far.
-constexpr double kMostLength = 0.1;    ///< Of the others' longest side over that of all.
+constexpr vtkIdType kFewest = 100;      ///< Of fewer points none is called far.
+constexpr std::int64_t kUsualCut = 100; ///< One in so many is cut off at each end of an axis, at least.
+constexpr double kMostLength = 0.1;     ///< Of the others' longest side over that of all.
 
 /// What files have in the place of coordinates that were not measured.
 bool isNoData(const Vec3& p)
@@ -70,8 +70,9 @@ void sample(vtkPolyData* part, Ranks& ranks, std::vector<double> (&values)[3])
   }
 }
 
-/// From 5 % to 95 % of some measured points on each axis, and by as much as its longest side beyond.
-Bounds boxOfMost(vtkPolyData* part, Ranks& ranks)
+/// Some measured points without one in @p cut at each end on each axis, and by as much as its longest side
+/// beyond.
+Bounds boxOfMost(vtkPolyData* part, Ranks& ranks, std::size_t cut)
 {
   std::vector<double> values[3];
   sample(part, ranks, values);
@@ -80,8 +81,8 @@ Bounds boxOfMost(vtkPolyData* part, Ranks& ranks)
   {
     std::sort(values[axis].begin(), values[axis].end());
     const std::size_t last = values[axis].size() - 1;
-    box.minimum[axis] = values[axis][last / kMostPart];
-    box.maximum[axis] = values[axis][last - last / kMostPart];
+    box.minimum[axis] = values[axis][last / cut];
+    box.maximum[axis] = values[axis][last - last / cut];
   }
   return box.empty() ? box : grown(box, longestSide(box));
 }
@@ -104,13 +105,13 @@ std::string FarPoints::clip() const
     box.maximum.x, box.minimum.y, box.maximum.y, box.minimum.z, box.maximum.z, digits);
 }
 
-FarPoints findFarPoints(vtkPolyData* cloud, const Bounds& bounds)
+FarPoints findFarPoints(vtkPolyData* cloud, const Bounds& bounds, std::int64_t mostPart)
 {
   Ranks alone;
-  return findFarPoints(cloud, bounds, alone);
+  return findFarPoints(cloud, bounds, alone, mostPart);
 }
 
-FarPoints findFarPoints(vtkPolyData* part, const Bounds& bounds, Ranks& ranks)
+FarPoints findFarPoints(vtkPolyData* part, const Bounds& bounds, Ranks& ranks, std::int64_t mostPart)
 {
   FarPoints none;
   none.others = commonBounds(ranks, bounds);
@@ -119,7 +120,7 @@ FarPoints findFarPoints(vtkPolyData* part, const Bounds& bounds, Ranks& ranks)
     return none;
   }
   const double longest = longestSide(none.others);
-  const Bounds box = boxOfMost(part, ranks);
+  const Bounds box = boxOfMost(part, ranks, static_cast<std::size_t>(std::min(mostPart, kUsualCut)));
   if (box.empty() || !(longestSide(box) > 0.0) || longestSide(box) > 3.0 * kMostLength * longest)
   {
     return none;
@@ -146,7 +147,7 @@ FarPoints findFarPoints(vtkPolyData* part, const Bounds& bounds, Ranks& ranks)
   found.count = commonSum(ranks, found.count);
   found.others = commonBounds(ranks, found.others);
   stray = commonSum(ranks, stray);
-  const bool areFew = found.count > 0 && stray * kMostPart <= std::max(found.of, kMostPart);
+  const bool areFew = found.count > 0 && stray * mostPart <= std::max(found.of, mostPart);
   return areFew && longestSide(found.others) <= kMostLength * longest ? found : none;
 }
 

@@ -28,13 +28,16 @@ struct FarPoints
   POINTHAPTICSIO_EXPORT std::string clip() const;
 };
 
-/// One in twenty points of @p cloud at most, and any number with a coordinate such as -9999 that stands
+/// One in @p mostPart points of @p cloud at most, and any number with a coordinate such as -9999 that stands
 /// for no data or at exactly (0, 0, 0), without which its longest side is a tenth at most. Finite points lie
 /// within @p bounds. Cost: a look at 10,000 points, and at all where they may have far ones.
-POINTHAPTICSIO_EXPORT FarPoints findFarPoints(vtkPolyData* cloud, const Bounds& bounds);
+/// One in a thousand may be left out unasked; more are worth a word.
+POINTHAPTICSIO_EXPORT FarPoints findFarPoints(
+  vtkPolyData* cloud, const Bounds& bounds, std::int64_t mostPart = 1000);
 
 /// Collective: the same of a cloud of which each rank has a part, in its order. @param bounds of the own
 /// part.
-POINTHAPTICSIO_EXPORT FarPoints findFarPoints(vtkPolyData* part, const Bounds& bounds, Ranks& ranks);
+POINTHAPTICSIO_EXPORT FarPoints findFarPoints(
+  vtkPolyData* part, const Bounds& bounds, Ranks& ranks, std::int64_t mostPart = 1000);
 
 } // namespace pointhaptics

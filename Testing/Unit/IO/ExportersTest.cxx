@@ -372,6 +372,8 @@ TEST_F(Exporters, WhatIsNotReadIsNamedWithTheWayOut)
     { "a.bin", "CCB2\x01", "CloudCompare" }, { "a.rxp", std::string("\x01\0\xfe\xca", 4), "RIEGL" },
     { "a.zip", std::string("PK\x03\x04") + std::string(22, '\0') + std::string("\x09\0\0\0", 4) + "cloud.ply",
       "cloud.ply" },
+    { "packed.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty uint packed_position\nend_header\n1\n",
+      "splat-transform" },
     { "a.las", "version https://git-lfs.github.com/spec/v1\n", "git lfs pull" } };
   for (const auto& each : foreign)
   {
