@@ -24,7 +24,7 @@
  * whatever that density was. Where the input has the point array "VoxelPointCount" of vtkVoxelMeanResampler,
  * bandwidths and radii are therefore those of the points that the means stand for (see UsePointCounts).
  *
- * Input: any vtkPointSet, or a composite of them (vtkPointCloudFilter: neighbours are those of the same
+ * Input: any vtkPointSet, or a composite of them (vtkCloudAlgorithm: neighbours are those of the same
  * block, and of the same piece where a pipeline runs on several processes); its points are read, float or
  * double, and VoxelPointCount. Output: a vtkPolyData as it is, of others the points with a vertex each, their
  * point arrays and field data; with the point arrays added that are asked for: "Bandwidth" and "ProxyRadius"
@@ -54,13 +54,13 @@
 
 #include "Core/Bandwidth/BandwidthSettings.h" // For Settings
 #include "PointHapticsFiltersModule.h"        // For export macro
-#include "vtkPointCloudFilter.h"
+#include "vtkCloudAlgorithm.h"
 
-class POINTHAPTICSFILTERS_EXPORT vtkKernelBandwidthFilter : public vtkPointCloudFilter
+class POINTHAPTICSFILTERS_EXPORT vtkKernelBandwidthFilter : public vtkCloudAlgorithm
 {
 public:
   static vtkKernelBandwidthFilter* New();
-  vtkTypeMacro(vtkKernelBandwidthFilter, vtkPointCloudFilter);
+  vtkTypeMacro(vtkKernelBandwidthFilter, vtkCloudAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   enum NeighborhoodType

@@ -24,7 +24,7 @@
  * for a viewpoint that is the identity, which says nothing; a transform that mirrors or does not keep angles
  * drops them with a warning. Output port 1 is the input with the voxel of each point (ComputeVoxelIndex).
  *
- * Composites (vtkPointCloudFilter): each block has means of its own, and all blocks share one lattice
+ * Composites (vtkCloudAlgorithm): each block has means of its own, and all blocks share one lattice
  * (LatticePerBlock: each has its own). The counts of clipped and invalid points are sums over the blocks.
  * Pieces of a pipeline that runs on several processes have an automatic workspace each, about their own
  * points: give WorkspaceBounds for a common lattice, or use vtkDistributedVoxelMeanResampler.
@@ -88,7 +88,7 @@
 
 #include "Core/Resample/VoxelMeanSettings.h" // For Settings
 #include "PointHapticsFiltersModule.h"       // For export macro
-#include "vtkPointCloudFilter.h"
+#include "vtkCloudAlgorithm.h"
 #include "vtkSmartPointer.h" // For Transform
 
 #include <memory> // For Internals
@@ -97,11 +97,11 @@
 
 class vtkAbstractTransform;
 
-class POINTHAPTICSFILTERS_EXPORT vtkVoxelMeanResampler : public vtkPointCloudFilter
+class POINTHAPTICSFILTERS_EXPORT vtkVoxelMeanResampler : public vtkCloudAlgorithm
 {
 public:
   static vtkVoxelMeanResampler* New();
-  vtkTypeMacro(vtkVoxelMeanResampler, vtkPointCloudFilter);
+  vtkTypeMacro(vtkVoxelMeanResampler, vtkCloudAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{

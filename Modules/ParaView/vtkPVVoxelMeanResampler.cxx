@@ -1,9 +1,15 @@
 #include "vtkPVVoxelMeanResampler.h"
 
+#include "vtkFieldData.h"
+#include "vtkIdTypeArray.h"
+#include "vtkNew.h"
 #include "vtkObjectFactory.h"
+#include "vtkPointSet.h"
 #include "vtkPolyData.h"
+#include "vtkVariant.h"
 
 #include <algorithm>
+#include <utility>
 
 vtkStandardNewMacro(vtkPVVoxelMeanResampler);
 
@@ -64,20 +70,30 @@ void vtkPVVoxelMeanResampler::ApplyLattice()
   this->SetSettings(settings);
 }
 
-int vtkPVVoxelMeanResampler::RequestData(
-  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
+std::string vtkPVVoxelMeanResampler::ProblemOf(vtkDataObject* input)
 {
   // 0 would mean Dimensions to the superclass.
   if (this->LatticeMode == ByVoxelSize && !(this->Chosen.voxelSize > 0.0))
   {
-    vtkErrorMacro(
-      "VoxelSize is " << this->Chosen.voxelSize
-                      << "; give an edge above 0 in the unit of the points, or set the lattice by "
-                         "its dimensions");
-    vtkPolyData::GetData(outputs)->Initialize();
-    return 1;
+    return "VoxelSize is " + vtkVariant(this->Chosen.voxelSize).ToString() +
+      "; give an edge above 0 in the unit of the points, or set the lattice by its dimensions";
   }
-  return this->Superclass::RequestData(request, inputs, outputs);
+  return this->Superclass::ProblemOf(input);
+}
+
+bool vtkPVVoxelMeanResampler::RunCloud(vtkPointSet* cloud, const Outputs& outputs)
+{
+  const bool succeeded = this->Superclass::RunCloud(cloud, outputs);
+  const std::pair<const char*, vtkIdType> counts[] = { { "ClippedPoints", this->NumberOfClippedPoints },
+    { "InvalidPoints", this->NumberOfInvalidPoints } };
+  for (const auto& [name, count] : counts)
+  {
+    vtkNew<vtkIdTypeArray> field;
+    field->SetName(name);
+    field->InsertNextValue(count);
+    outputs[0]->GetFieldData()->AddArray(field);
+  }
+  return succeeded;
 }
 
 void vtkPVVoxelMeanResampler::PrintSelf(ostream& os, vtkIndent indent)

@@ -6,6 +6,9 @@
  * AutomaticWorkspace. ParaView sends the properties that changed, in an order of its own, and shows the
  * others as they are. Here all of them are kept, and LatticeMode and AutomaticWorkspace alone say which rule.
  *
+ * Its output has the field data ClippedPoints and InvalidPoints, the numbers of the superclass over all
+ * blocks so far, as the Information tab shows field data.
+ *
  * It computes nothing: results and errors are those of vtkDistributedVoxelMeanResampler. One thread may use
  * an object at a time.
  *
@@ -61,7 +64,10 @@ protected:
   vtkPVVoxelMeanResampler();
   ~vtkPVVoxelMeanResampler() override = default;
 
-  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+#ifndef __VTK_WRAP__
+  std::string ProblemOf(vtkDataObject* input) override;
+  bool RunCloud(vtkPointSet* cloud, const Outputs& outputs) override;
+#endif
 
 private:
   vtkPVVoxelMeanResampler(const vtkPVVoxelMeanResampler&) = delete;

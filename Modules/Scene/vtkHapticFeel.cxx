@@ -277,9 +277,8 @@ int vtkHapticFeel::RequestData(
     });
   message = status == Status::Ok ? message : pointhaptics::message(status);
   this->Impl->RunsAgain = !isFelt;
-  this->SetErrorCode(status != Status::Ok ? kOutOfMemoryCode
-      : message.empty()                   ? vtkErrorCode::NoError
-                                          : vtkErrorCode::UserError);
+  const unsigned long code = message.empty() ? vtkErrorCode::NoError : vtkErrorCode::UserError;
+  this->SetErrorCode(status == Status::Ok ? code : kOutOfMemoryCode);
   if (!isFelt)
   {
     output->Initialize();

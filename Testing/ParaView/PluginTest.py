@@ -129,6 +129,36 @@ class Files(TestCase):
             self.assertEqual(cloud.GetDataInformation().GetNumberOfPoints(), points)
 
 
+class InPipelines(TestCase):
+    def labels(self):
+        with open(self.path("labels.csv"), "w") as file:
+            file.write("x,y,z,Classification,ReturnNumber\n")
+            file.writelines(f"{i % 10},{i // 10 % 10},{i % 3 / 10},{i % 4},{i % 5}\n" for i in range(1000))
+        return simple.PointHapticsReader(FileNames=[self.path("labels.csv")])
+
+    def test_names_of_labels_that_no_array_has_are_said(self):
+        means = simple.VoxelMeanResampler(Input=self.labels(), VoxelSize=3)
+        means.CategoricalArrays = ["No such"]
+        with ErrorMessages() as messages:
+            means.UpdatePipeline()
+        self.assertIn("No such", " ".join(messages.found))
+
+    def test_grids_of_other_filters_are_clouds_too(self):
+        grid = simple.Threshold(Input=self.labels(), Scalars=["POINTS", "Classification"],
+                                LowerThreshold=0, UpperThreshold=2, ThresholdMethod="Between")  # fmt: skip
+        radii = simple.KernelBandwidth(Input=grid)
+        self.assertEqual(servermanager.Fetch(radii).GetNumberOfPoints(), 750)
+        simple.SaveData(self.path("grid.pcd"), proxy=grid)
+        self.assertIn("750", run_program("info", self.path("grid.pcd")))
+
+    def test_what_was_left_out_is_in_the_information(self):
+        means = simple.VoxelMeanResampler(Input=self.labels(), VoxelSize=1, AutomaticWorkspace=0,
+                                          WorkspaceBounds=[0, 5, 0, 20, 0, 20])  # fmt: skip
+        field = servermanager.Fetch(means).GetFieldData()
+        self.assertEqual(field.GetArray("ClippedPoints").GetValue(0), 500)
+        self.assertEqual(field.GetArray("InvalidPoints").GetValue(0), 0)
+
+
 class BadInput(TestCase):
     """Each is an error in ParaView's message window that names the cure, and an empty output: no crash."""
 

@@ -1,4 +1,4 @@
-#include "vtkPointCloudFilter.h"
+#include "vtkCloudAlgorithm.h"
 
 #include "Core/Base/Host/GuardedWork.h"
 
@@ -41,7 +41,7 @@ std::string nameOf(vtkCompositeDataIterator* block)
 } // namespace
 
 /// The clouds of an input, and what becomes of each: one, or those of a composite.
-struct vtkPointCloudFilter::Parts
+struct vtkCloudAlgorithm::Parts
 {
   Clouds clouds;
   std::vector<Outputs> outputs; ///< Of each cloud, for each port.
@@ -94,7 +94,7 @@ private:
   }
 };
 
-vtkMTimeType vtkPointCloudFilter::GetMTime()
+vtkMTimeType vtkCloudAlgorithm::GetMTime()
 {
   if (this->RunsAgain)
   {
@@ -104,7 +104,7 @@ vtkMTimeType vtkPointCloudFilter::GetMTime()
   return std::max(this->Superclass::GetMTime(), this->RetryTime.GetMTime());
 }
 
-vtkTypeBool vtkPointCloudFilter::ProcessRequest(
+vtkTypeBool vtkCloudAlgorithm::ProcessRequest(
   vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   return request->Has(vtkDemandDrivenPipeline::REQUEST_DATA_OBJECT())
@@ -112,14 +112,14 @@ vtkTypeBool vtkPointCloudFilter::ProcessRequest(
     : this->Superclass::ProcessRequest(request, inputs, outputs);
 }
 
-void vtkPointCloudFilter::Fail(const std::string& problem)
+void vtkCloudAlgorithm::Fail(const std::string& problem)
 {
   this->SetErrorCode(vtkErrorCode::UserError);
   this->ErrorMessage = problem;
   vtkErrorMacro(<< problem);
 }
 
-void vtkPointCloudFilter::Warn(const std::string& text)
+void vtkCloudAlgorithm::Warn(const std::string& text)
 {
   if (!text.empty() && this->Warnings.insert(text).second)
   {
@@ -127,7 +127,7 @@ void vtkPointCloudFilter::Warn(const std::string& text)
   }
 }
 
-int vtkPointCloudFilter::FillInputPortInformation(int, vtkInformation* info)
+int vtkCloudAlgorithm::FillInputPortInformation(int, vtkInformation* info)
 {
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
   info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
@@ -135,13 +135,13 @@ int vtkPointCloudFilter::FillInputPortInformation(int, vtkInformation* info)
 }
 
 /// As that of the input, so the executive has no say.
-int vtkPointCloudFilter::FillOutputPortInformation(int, vtkInformation* info)
+int vtkCloudAlgorithm::FillOutputPortInformation(int, vtkInformation* info)
 {
   info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkDataObject");
   return 1;
 }
 
-int vtkPointCloudFilter::RequestDataObject(
+int vtkCloudAlgorithm::RequestDataObject(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   vtkDataObject* input = vtkDataObject::GetData(inputs[0]);
@@ -166,12 +166,12 @@ int vtkPointCloudFilter::RequestDataObject(
   return 1;
 }
 
-std::string vtkPointCloudFilter::ProblemOf(vtkDataObject*)
+std::string vtkCloudAlgorithm::ProblemOf(vtkDataObject*)
 {
   return {};
 }
 
-int vtkPointCloudFilter::RequestData(
+int vtkCloudAlgorithm::RequestData(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   // Observers may take away what the pipeline holds.
@@ -225,7 +225,7 @@ int vtkPointCloudFilter::RequestData(
   return 1;
 }
 
-bool vtkPointCloudFilter::RunParts(const Parts& parts)
+bool vtkCloudAlgorithm::RunParts(const Parts& parts)
 {
   bool succeeded = this->BeginRun(parts.clouds);
   const auto count = double(parts.clouds.size());

@@ -75,7 +75,7 @@ double spacingOf(vtkPolyData* means)
   return means->GetFieldData()->GetArray("LatticeSpacing")->GetComponent(0, 0);
 }
 
-TEST(PointCloudFilter, BlocksOfACompositeShareOneLatticeAndAreCountedTogether)
+TEST(CloudAlgorithm, BlocksOfACompositeShareOneLatticeAndAreCountedTogether)
 {
   const auto near = cloudAt(0, 2000, 1);
   const auto far = cloudAt(3, 1000, 2);
@@ -119,7 +119,7 @@ TEST(PointCloudFilter, BlocksOfACompositeShareOneLatticeAndAreCountedTogether)
   EXPECT_LT(spacingOf(cloudsIn(resampler->GetOutputDataObject(0))[0]), 0.5 * spacingOf(clouds[0]));
 }
 
-TEST(PointCloudFilter, CountersAreSumsInAnyOrder)
+TEST(CloudAlgorithm, CountersAreSumsInAnyOrder)
 {
   const auto nearer = cloudAt(0, 500, 3);
   const auto farther = cloudAt(0.5, 700, 4);
@@ -147,7 +147,7 @@ TEST(PointCloudFilter, CountersAreSumsInAnyOrder)
   }
 }
 
-TEST(PointCloudFilter, TreesOfPartitionsKeepTheirStructure)
+TEST(CloudAlgorithm, TreesOfPartitionsKeepTheirStructure)
 {
   vtkNew<vtkPartitionedDataSet> parts;
   parts->SetPartition(0, cloudAt(0, 300, 5));
@@ -179,7 +179,7 @@ TEST(PointCloudFilter, TreesOfPartitionsKeepTheirStructure)
   EXPECT_GT(bandwidth->GetOutput()->GetNumberOfPoints(), 0);
 }
 
-TEST(PointCloudFilter, TheBandwidthFilterTakesPointsOfAnyDataSet)
+TEST(CloudAlgorithm, TheBandwidthFilterTakesPointsOfAnyDataSet)
 {
   const auto cloud = cloudAt(0, 500, 8);
   trial::addArray(cloud, "Heat", std::vector<double>(500, 1.0));
@@ -201,7 +201,7 @@ TEST(PointCloudFilter, TheBandwidthFilterTakesPointsOfAnyDataSet)
 }
 
 /// Each filter with a setting that no run can have.
-std::vector<vtkSmartPointer<vtkPointCloudFilter>> refusingFilters()
+std::vector<vtkSmartPointer<vtkCloudAlgorithm>> refusingFilters()
 {
   const auto resampler = vtkSmartPointer<vtkVoxelMeanResampler>::New();
   resampler->SetDimensions(0, 1, 1);
@@ -210,11 +210,11 @@ std::vector<vtkSmartPointer<vtkPointCloudFilter>> refusingFilters()
   return { resampler, bandwidth };
 }
 
-TEST(PointCloudFilter, AnErrorIsSaidOnEachUpdateAndLeavesEmptyPoints)
+TEST(CloudAlgorithm, AnErrorIsSaidOnEachUpdateAndLeavesEmptyPoints)
 {
   for (const bool isComposite : { false, true })
   {
-    for (vtkPointCloudFilter* filter : refusingFilters())
+    for (vtkCloudAlgorithm* filter : refusingFilters())
     {
       SCOPED_TRACE(filter->GetClassName());
       const auto cloud = cloudAt(0, 100, 9);
@@ -258,7 +258,7 @@ TEST(PointCloudFilter, AnErrorIsSaidOnEachUpdateAndLeavesEmptyPoints)
   }
 }
 
-TEST(PointCloudFilter, PortsAreThereFromConstruction)
+TEST(CloudAlgorithm, PortsAreThereFromConstruction)
 {
   vtkNew<vtkVoxelMeanResampler> resampler;
   EXPECT_EQ(resampler->GetNumberOfOutputPorts(), 2);
@@ -277,7 +277,7 @@ TEST(PointCloudFilter, PortsAreThereFromConstruction)
 }
 
 /// What an observer of progress sets is there after the next update, and not in this one.
-TEST(PointCloudFilter, WhatIsSetInARunCountsFromTheNextOn)
+TEST(CloudAlgorithm, WhatIsSetInARunCountsFromTheNextOn)
 {
   const auto cloud = cloudAt(0, 20000, 12);
   vtkNew<vtkKernelBandwidthFilter> filter;
@@ -342,7 +342,7 @@ void expectWarning(vtkAlgorithm* filter, const std::string& part)
   EXPECT_NE(texts[0].find(part), std::string::npos) << texts[0];
 }
 
-TEST(PointCloudFilter, WhatIsOfNoUseIsSaidOnce)
+TEST(CloudAlgorithm, WhatIsOfNoUseIsSaidOnce)
 {
   const auto cloud = cloudAt(0, 100, 13);
   trial::addArray(cloud, "classification", std::vector<double>(100, 3.0));
@@ -383,7 +383,7 @@ TEST(PointCloudFilter, WhatIsOfNoUseIsSaidOnce)
 }
 
 /// All points are neighbours of each: the longest search there is.
-TEST(PointCloudFilter, ALongSearchCanBeStopped)
+TEST(CloudAlgorithm, ALongSearchCanBeStopped)
 {
   vtkNew<vtkKernelBandwidthFilter> filter;
   filter->SetInputData(cloudAt(0, 8000, 15));

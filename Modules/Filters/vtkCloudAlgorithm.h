@@ -1,5 +1,5 @@
 /**
- * @class   vtkPointCloudFilter
+ * @class   vtkCloudAlgorithm
  * @brief   base of the filters from points to points: composites, errors, settings that change in a run
  *
  * Input: a vtkPointSet of any kind, or a composite dataset of them (blocks, partitions, trees of both).
@@ -23,8 +23,8 @@
  *
  * @sa vtkVoxelMeanResampler vtkKernelBandwidthFilter
  */
-#ifndef vtkPointCloudFilter_h
-#define vtkPointCloudFilter_h
+#ifndef vtkCloudAlgorithm_h
+#define vtkCloudAlgorithm_h
 
 #include "PointHapticsFiltersModule.h" // For export macro
 #include "vtkPolyDataAlgorithm.h"
@@ -38,10 +38,10 @@
 class vtkDataObject;
 class vtkPointSet;
 
-class POINTHAPTICSFILTERS_EXPORT vtkPointCloudFilter : public vtkPolyDataAlgorithm
+class POINTHAPTICSFILTERS_EXPORT vtkCloudAlgorithm : public vtkPolyDataAlgorithm
 {
 public:
-  vtkAbstractTypeMacro(vtkPointCloudFilter, vtkPolyDataAlgorithm);
+  vtkAbstractTypeMacro(vtkCloudAlgorithm, vtkPolyDataAlgorithm);
 
   /**
    * Later than what was set in a run; later than the last output where that was cut short by an error or an
@@ -61,8 +61,8 @@ protected:
   using Clouds = std::vector<vtkSmartPointer<vtkPointSet>>;
   using Outputs = std::vector<vtkSmartPointer<vtkPolyData>>;
 
-  vtkPointCloudFilter() = default;
-  ~vtkPointCloudFilter() override = default;
+  vtkCloudAlgorithm() = default;
+  ~vtkCloudAlgorithm() override = default;
 
   /// Why a run over @p input cannot be; empty: it can.
   virtual std::string ProblemOf(vtkDataObject* input);
@@ -91,8 +91,8 @@ private:
   std::set<std::string> Warnings; ///< Of this run.
   vtkTimeStamp RetryTime;
 
-  vtkPointCloudFilter(const vtkPointCloudFilter&) = delete;
-  void operator=(const vtkPointCloudFilter&) = delete;
+  vtkCloudAlgorithm(const vtkCloudAlgorithm&) = delete;
+  void operator=(const vtkCloudAlgorithm&) = delete;
 #endif
 };
 
