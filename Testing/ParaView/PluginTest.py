@@ -136,13 +136,6 @@ class InPipelines(TestCase):
             file.writelines(f"{i % 10},{i // 10 % 10},{i % 3 / 10},{i % 4},{i % 5}\n" for i in range(1000))
         return simple.PointHapticsReader(FileNames=[self.path("labels.csv")])
 
-    def test_names_of_labels_that_no_array_has_are_said(self):
-        means = simple.VoxelMeanResampler(Input=self.labels(), VoxelSize=3)
-        means.CategoricalArrays = ["No such"]
-        with ErrorMessages() as messages:
-            means.UpdatePipeline()
-        self.assertIn("No such", " ".join(messages.found))
-
     def test_grids_of_other_filters_are_clouds_too(self):
         grid = simple.Threshold(Input=self.labels(), Scalars=["POINTS", "Classification"],
                                 LowerThreshold=0, UpperThreshold=2, ThresholdMethod="Between")  # fmt: skip
