@@ -6,8 +6,8 @@
 #include "vtkKernelBandwidthFilter.h"
 #include "vtkVoxelMeanResampler.h"
 
-#include "Unit/Eventually.h"
 #include "FlatCloud.h"
+#include "Unit/Eventually.h"
 
 #include "Devices/SimulatedDevice.h"
 #include "Haptics/ServoLoop.h"
@@ -299,7 +299,8 @@ TEST_F(StyleParts, SayWhyTheTouchCannotBegin)
   style = nullptr; // the touch keeps it until it ends itself
 }
 
-/// The style's worker has filters of its own, in another thread: what they could not do is the style's to say.
+/// The style's worker has filters of its own, in another thread: what they could not do is the style's to
+/// say.
 TEST_F(StyleParts, SayWhatTheFiltersCouldNotDo)
 {
   this->setAll();

@@ -202,8 +202,7 @@ bool Reader::takeVoxels(const keyed::Words& words, SceneOrigin& origin, std::str
     return keyed::takeWords(words, voxels.lattice, wrong, "lattice.");
   }
   const bool isRead = keyed::takeWords(words, voxels, wrong) &&
-    voxels.outputPointsPrecision <= PointsPrecision::OfInput &&
-    voxels.representative == Representative::Mean;
+    voxels.outputPointsPrecision <= PointsPrecision::OfInput && voxels.representative == Representative::Mean;
   voxels.instructionSet = InstructionSet::Automatic; // the bits are the same
   voxels.computeVoxelIndex = voxels.keepOriginalPointIds = false;
   return isRead;

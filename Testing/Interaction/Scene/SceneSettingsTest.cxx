@@ -160,8 +160,8 @@ TEST_F(SceneSettingsTest, AreThoseOfTheFiltersWhenTheRequestIsMade)
 
 TEST_F(SceneSettingsTest, OfTheResamplerReachTheWorkersPicture)
 {
-  this->walk(resampler_.Get(),
-    { "computeVoxelIndex", "keepOriginalPointIds", "usePointIndex", "instructionSet" });
+  this->walk(
+    resampler_.Get(), { "computeVoxelIndex", "keepOriginalPointIds", "usePointIndex", "instructionSet" });
 }
 
 TEST_F(SceneSettingsTest, OfTheBandwidthFilterReachTheWorkersPicture)
