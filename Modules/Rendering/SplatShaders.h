@@ -104,13 +104,14 @@ inline constexpr const char* kSurfaceFragment = R"(
   gl_FragDepth = splatDepth(splatNear + splatReach.w);
   gl_FragData[1] = vec4(splatWeight, splatWeight * splatDepth(splatNear), 0.0, 0.0);
 )";
-/// After the light. The alpha of a colour says nothing of whether a point is there.
+/// After the light. The alpha of a colour says nothing of whether a point is there; the opacity of the actor
+/// counts.
 inline constexpr const char* kOpaqueStatements = R"(
-  gl_FragData[0].a = 1.0;
+  gl_FragData[0].a = opacityUniform;
 )";
 inline constexpr const char* kBlendStatements = R"(
   gl_FragData[0] = splatStage == 2 ? vec4(splatWeight * gl_FragData[0].rgb, splatCover)
-    : vec4(gl_FragData[0].rgb, 1.0);
+    : vec4(gl_FragData[0].rgb, opacityUniform);
 )";
 
 /// The picture lies in the middle of its viewport.

@@ -454,11 +454,11 @@ TEST_F(Bench, ThePictureOfAFileIsMeasuredEffectByEffect)
     EXPECT_EQ(row["kind"], "object") << row;
     EXPECT_GT(row["frames_per_second"], 0.0) << row;
     EXPECT_GT(row["discs_seconds"], 0.0) << row;
-    for (const char* effect : { "sizes", "tilt", "shading", "pinholes" })
+    for (const char* effect : { "sizes", "tilt", "shading" })
     {
       EXPECT_GT(row[std::string(effect) + "_seconds"], 0.0) << row;
     }
-    EXPECT_GT(row["still_seconds"], 2.0 * row["pinholes_seconds"].get<double>()) << row; // five samples
+    EXPECT_GT(row["still_seconds"], 0.0) << row;
   }
   EXPECT_EQ(result["files"]["rows"][0]["file"], "ring.ply");
   EXPECT_EQ(result["files"]["rows"][0]["points"], 60000);

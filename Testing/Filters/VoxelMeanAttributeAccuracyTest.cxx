@@ -124,7 +124,7 @@ TEST_F(VoxelMeanAttributeAccuracy, LargestAndSmallestNumbers)
   expectMeans("Constant");
 }
 
-TEST_F(VoxelMeanAttributeAccuracy, NanAndInfinityGiveWhatAdditionGives)
+TEST_F(VoxelMeanAttributeAccuracy, NanIsLeftOutAndInfinityIsWhatAdditionGives)
 {
   // Voxel by voxel: finite; some NaN; +Inf; -Inf; both infinities; NaN and Inf.
   resampler_->SetDimensions(6, 1, 1);
@@ -150,7 +150,7 @@ TEST_F(VoxelMeanAttributeAccuracy, NanAndInfinityGiveWhatAdditionGives)
       vtkDataArray* out = averaged(name);
       ASSERT_EQ(out->GetNumberOfTuples(), 6);
       EXPECT_EQ(out->GetComponent(0, 0), 1.0);
-      EXPECT_TRUE(std::isnan(out->GetComponent(1, 0)));
+      EXPECT_EQ(out->GetComponent(1, 0), 1.0);
       EXPECT_EQ(out->GetComponent(2, 0), infinity);
       EXPECT_EQ(out->GetComponent(3, 0), -infinity);
       EXPECT_TRUE(std::isnan(out->GetComponent(4, 0)));

@@ -14,7 +14,7 @@ EXAMPLES = os.environ["POINTHAPTICS_EXAMPLES"]
 SETTINGS = f"""[mypy]
 strict = True
 mypy_path = {PACKAGE}
-[mypy-vtkmodules.*,matplotlib.*,pyvista.*]
+[mypy-vtk,vtkmodules.*,matplotlib.*,pyvista.*]
 ignore_missing_imports = True
 """
 USE = """

@@ -446,12 +446,11 @@ int runFeel(const FeelOptions& options, Files& files)
     warn(kFeelCommand, odd);
   }
   FeelScenes scenes;
-  const bool isMade = makeFeelScenes(options, cloud.points, scenes, message);
-  showWarnings(kFeelCommand);
-  if (!isMade)
+  if (!makeFeelScenes(options, cloud.points, scenes, message))
   {
     return fail(kFeelCommand, message);
   }
+  showWarnings(kFeelCommand);
   rememberStopSignals(); // before there is an unfinished file
   RecordingWriter recording;
   CsvWriter table;

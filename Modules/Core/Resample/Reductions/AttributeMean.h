@@ -21,9 +21,9 @@ namespace pointhaptics
 /// as many words of 64 bits as its largest magnitude and the most points of a voxel need. That is one for
 /// most arrays of floats, two for those of doubles whose magnitudes differ by less than about 2^60. Sums are
 /// exact, so a mean is within one rounding of the exact one (half a unit in the last place for the quotient,
-/// as much for the sum), a lone point's is its value, and none depends on the order. A voxel with NaN or
-/// infinities has the mean that IEEE addition would give. Memory: 8 bytes a voxel, component and word
-/// (integers of up to 32 bits: one, of 64: two).
+/// as much for the sum), a lone point's is its value, and none depends on the order. NaN stands for no value:
+/// it is left out, and where there is nothing else the mean is NaN. Infinities count as in IEEE addition.
+/// Memory: 8 bytes a voxel, component and word (integers of up to 32 bits: one, of 64: two).
 class AttributeMean final : public AttributeReducer
 {
 public:

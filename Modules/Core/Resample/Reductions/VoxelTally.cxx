@@ -162,7 +162,12 @@ double TallySums::mean(std::size_t sum, std::int64_t count) const
 {
   if (!nonFinite.empty() && nonFinite[sum].any())
   {
-    return meanWithNonFinite(nonFinite[sum]);
+    const NonFiniteCount& seen = nonFinite[sum];
+    if (seen.plus > 0 || seen.minus > 0 || seen.nans >= count)
+    {
+      return meanWithNonFinite(seen);
+    }
+    count -= seen.nans;
   }
   const std::uint64_t* const number = at(sum);
   int top = words - 1;

@@ -397,7 +397,7 @@ TEST(AttributeMean, MakesUnitVectorsOfTurnedMeans)
   EXPECT_EQ(vectors, (std::vector<float>{ -third, third, third, 0, 0, 0 }));
 }
 
-TEST(AttributeMean, FollowsIeeeAdditionWhereValuesAreNotFinite)
+TEST(AttributeMean, LeavesOutNaNAndTakesInfinitiesAsIeeeAdditionDoes)
 {
   const double inf = INFINITY;
   for (const double finite : { 1.0, 0.0, 1e-300, DBL_MAX })
@@ -407,7 +407,7 @@ TEST(AttributeMean, FollowsIeeeAdditionWhereValuesAreNotFinite)
     Plan plan = planFor(12, 6, 16);
     plan.voxels = { 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5 };
     const std::vector<double> means = written<double>(meanOf(values, 1, plan), plan);
-    EXPECT_TRUE(std::isnan(means[0]));
+    EXPECT_EQ(means[0], finite);
     EXPECT_EQ(means[1], inf);
     EXPECT_EQ(means[2], -inf);
     EXPECT_TRUE(std::isnan(means[3]));
@@ -418,7 +418,8 @@ TEST(AttributeMean, FollowsIeeeAdditionWhereValuesAreNotFinite)
     plan.order.resize(10);
     plan.size = 5;
     const std::vector<float> narrow = written<float>(meanOf(floats, 1, plan), plan);
-    EXPECT_TRUE(std::isnan(narrow[0]) && std::isnan(narrow[3]) && std::isnan(narrow[4]));
+    EXPECT_TRUE(std::isnan(narrow[3]) && std::isnan(narrow[4]));
+    EXPECT_TRUE(!std::isfinite(float(finite)) || narrow[0] == float(finite));
     EXPECT_TRUE(narrow[1] == float(inf) && narrow[2] == -float(inf));
   }
 }
