@@ -32,7 +32,7 @@ GradientStepsParameters gainsOf(const ph_gains& gains)
 
 } // namespace
 
-int fail(int status, const std::string& text) noexcept
+int fail(int status, std::string_view text) noexcept
 {
   try
   {
@@ -65,8 +65,14 @@ bool parametersOf(const ph_proxy_options* given, HapticParameters& parameters)
   {
     parameters.gradientSteps = gainsOf(optionsOf(options.gains));
   }
-  const bool isValid =
-    options.method >= PH_SURFACE_FIT && options.method <= PH_SPHERE && parameters.check() == Status::Ok;
+  if (options.method < PH_SURFACE_FIT || options.method > PH_SPHERE)
+  {
+    fail(PH_INVALID_PARAMETER,
+      fmt::format("method {}; give {}, {} or {}", options.method, int(PH_SURFACE_FIT), int(PH_GRADIENT_STEPS),
+        int(PH_SPHERE)));
+    return false;
+  }
+  const bool isValid = parameters.check() == Status::Ok;
   if (!isValid)
   {
     fail(PH_INVALID_PARAMETER,
@@ -102,6 +108,10 @@ const char* ph_problem(void)
 
 int ph_stop_create(ph_stop** out)
 {
+  if (hasNull({ out }))
+  {
+    return PH_INVALID_PARAMETER;
+  }
   return guarded(
     [&]
     {
@@ -112,7 +122,10 @@ int ph_stop_create(ph_stop** out)
 
 void ph_stop_request(ph_stop* stop)
 {
-  stop->requested = true;
+  if (stop)
+  {
+    stop->requested = true;
+  }
 }
 
 void ph_stop_destroy(ph_stop* stop)
@@ -122,10 +135,18 @@ void ph_stop_destroy(ph_stop* stop)
 
 int ph_gains_of(int preset, ph_gains* out)
 {
+  if (hasNull({ out }))
+  {
+    return PH_INVALID_PARAMETER;
+  }
   if (preset != PH_TUNED && preset != PH_PAPER)
   {
-    return fail(
-      PH_INVALID_PARAMETER, fmt::format("preset {}; give {}, tuned, or {}, the paper's", preset, 0, 1));
+    return guarded(
+      [&]
+      {
+        return fail(
+          PH_INVALID_PARAMETER, fmt::format("preset {}; give {}, tuned, or {}, the paper's", preset, 0, 1));
+      });
   }
   const GradientStepsParameters gains =
     preset == PH_PAPER ? GradientStepsParameters::paper() : GradientStepsParameters::tuned();

@@ -8,10 +8,14 @@
 #include "FeelScenes.h"
 #include "Haptics/HapticParameters.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cstring>
 #include <exception>
+#include <initializer_list>
+#include <memory>
 #include <string>
+#include <string_view>
 
 struct ph_stop
 {
@@ -27,10 +31,20 @@ namespace pointhaptics::c
 {
 
 /// Keeps @p text for ph_problem().
-int fail(int status, const std::string& text) noexcept;
-inline int fail(Status status)
+int fail(int status, std::string_view text) noexcept;
+inline int fail(Status status) noexcept
 {
   return status == Status::Ok ? PH_OK : fail(int(status), message(status));
+}
+/// Whether one of @p pointers is null, which is passed to fail() then.
+inline bool hasNull(std::initializer_list<const void*> pointers) noexcept
+{
+  const bool isNull = std::find(pointers.begin(), pointers.end(), nullptr) != pointers.end();
+  if (isNull)
+  {
+    fail(PH_INVALID_PARAMETER, "a pointer is null; give one to memory of the kind that pointhaptics.h names");
+  }
+  return isNull;
 }
 inline bool isStopped(const ph_stop* stop)
 {

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <optional>
 
 using namespace pointhaptics;
@@ -74,9 +75,15 @@ namespace
 
 int stepOf(ph_proxy* proxy, const double hip[3], double dt)
 {
+  if (hasNull({ proxy, hip }))
+  {
+    return PH_INVALID_PARAMETER;
+  }
   if (!(dt > 0.0) || !std::isfinite(dt))
   {
-    return fail(PH_INVALID_PARAMETER, "dt: " + std::to_string(dt) + " s; give a finite number above 0");
+    char text[80];
+    std::snprintf(text, sizeof text, "dt: %g s; give a finite number above 0", dt);
+    return fail(PH_INVALID_PARAMETER, text);
   }
   // Without the interpreter's lock being given up: a step is shorter than that.
   try
@@ -101,6 +108,10 @@ void copy(const Vec3& from, double to[3])
 
 int ph_proxy_create(const ph_proxy_options* options, ph_proxy** out)
 {
+  if (hasNull({ out }))
+  {
+    return PH_INVALID_PARAMETER;
+  }
   return guarded(
     [&]
     {
@@ -116,6 +127,10 @@ int ph_proxy_create(const ph_proxy_options* options, ph_proxy** out)
 
 int ph_proxy_set_scene(ph_proxy* proxy, const ph_scene* scene)
 {
+  if (hasNull({ proxy }))
+  {
+    return PH_INVALID_PARAMETER;
+  }
   return guarded(
     [&]
     {
@@ -132,6 +147,10 @@ int ph_proxy_set_scene(ph_proxy* proxy, const ph_scene* scene)
 
 int ph_proxy_set_options(ph_proxy* proxy, const ph_proxy_options* options)
 {
+  if (hasNull({ proxy }))
+  {
+    return PH_INVALID_PARAMETER;
+  }
   return guarded(
     [&]
     {
@@ -148,7 +167,7 @@ int ph_proxy_set_options(ph_proxy* proxy, const ph_proxy_options* options)
 
 int ph_proxy_step(ph_proxy* proxy, const double hip[3], double dt, ph_state* out)
 {
-  const int status = stepOf(proxy, hip, dt);
+  const int status = hasNull({ out }) ? int(PH_INVALID_PARAMETER) : stepOf(proxy, hip, dt);
   if (status == PH_OK)
   {
     const ProxyState& felt = proxy->state;
@@ -167,7 +186,7 @@ int ph_proxy_step(ph_proxy* proxy, const double hip[3], double dt, ph_state* out
 
 int ph_proxy_step_row(ph_proxy* proxy, const double hip[3], double dt, double row[PH_COLUMNS])
 {
-  const int status = stepOf(proxy, hip, dt);
+  const int status = hasNull({ row }) ? int(PH_INVALID_PARAMETER) : stepOf(proxy, hip, dt);
   if (status == PH_OK)
   {
     const auto numbers = feltRow(proxy->time, proxy->state, proxy->microseconds);

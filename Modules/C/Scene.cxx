@@ -24,6 +24,8 @@ namespace
 
 /// Steps between two looks at a stop.
 constexpr std::int64_t kStepsBetweenLooks = 64;
+/// Stands for what nobody looks at.
+constexpr double kNothing = 0.0;
 
 /// Ends a filter once a stop is requested.
 class StopObserver : public vtkCommand
@@ -93,8 +95,7 @@ bool readPath(const double* rows, std::size_t count, HipPath& path)
     path.points.push_back({ v[0], { v[1], v[2], v[3] } });
   }
   const std::string problem = pathProblem(path);
-  fail(PH_INVALID_PARAMETER, problem);
-  return problem.empty();
+  return problem.empty() || fail(PH_INVALID_PARAMETER, problem) == PH_OK;
 }
 
 /// False: the problem was passed to fail().
@@ -103,14 +104,17 @@ bool countSteps(const HipPath& path, double rate, std::int64_t& steps)
   std::string message =
     rate >= 1.0 && rate <= 1e5 ? "" : "rate: " + std::to_string(rate) + " Hz; give 1 to 1e5";
   const bool isValid = message.empty() && countTicks(path, "path", rate, kMostTicks, steps, message);
-  fail(PH_INVALID_PARAMETER, message);
-  return isValid;
+  return isValid || fail(PH_INVALID_PARAMETER, message) == PH_OK;
 }
 
 } // namespace
 
 int ph_scene_create(const double* xyz, size_t count, const ph_scene_options* options, ph_scene** out)
 {
+  if (hasNull({ out, count > 0 ? xyz : &kNothing }))
+  {
+    return PH_INVALID_PARAMETER;
+  }
   return guarded(
     [&]
     {
@@ -124,6 +128,10 @@ int ph_scene_create(const double* xyz, size_t count, const ph_scene_options* opt
 int ph_scene_create_float(
   const float* xyz, size_t count, size_t stride, const ph_scene_options* options, ph_scene** out)
 {
+  if (hasNull({ out, count > 0 ? static_cast<const void*>(xyz) : &kNothing }))
+  {
+    return PH_INVALID_PARAMETER;
+  }
   return guarded(
     [&]
     {
@@ -151,6 +159,10 @@ void ph_scene_destroy(ph_scene* scene)
 
 int ph_feel_steps(const double* path, size_t count, double rate, size_t* steps)
 {
+  if (hasNull({ steps, count > 0 ? path : &kNothing }))
+  {
+    return PH_INVALID_PARAMETER;
+  }
   return guarded(
     [&]
     {
@@ -168,9 +180,14 @@ int ph_feel_steps(const double* path, size_t count, double rate, size_t* steps)
 int ph_feel(const ph_scene* scene, const double* path, size_t count, double rate,
   const ph_proxy_options* options, const ph_stop* stop, double* rows)
 {
+  if (hasNull({ scene, rows, count > 0 ? path : &kNothing }))
+  {
+    return PH_INVALID_PARAMETER;
+  }
   return guarded(
     [&]
     {
+      FeelScenes scenes(*scene->scenes); // first: the scene may be destroyed from here on
       HapticParameters parameters;
       HipPath hand;
       std::int64_t steps = 0;
@@ -179,7 +196,6 @@ int ph_feel(const ph_scene* scene, const double* path, size_t count, double rate
       {
         return int(PH_INVALID_PARAMETER);
       }
-      FeelScenes scenes(*scene->scenes);
       std::int64_t step = 0;
       feelPath(parameters, scenes, hand, rate, steps,
         [&](double time, const ProxyState& state, double microseconds)

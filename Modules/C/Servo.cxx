@@ -105,11 +105,17 @@ struct ph_servo
       Bounds place;
       place.include(latest.state.hip);
       place.include(latest.state.proxy);
-      if (latest.tick > 0 &&
-        follower.update(
-          place, latest.timeSeconds - std::exchange(lastLook, latest.timeSeconds), SmpExecutor()))
+      const double seconds = latest.timeSeconds - std::exchange(lastLook, latest.timeSeconds);
+      try
       {
-        loop.publishScene(follower.scene());
+        if (latest.tick > 0 && follower.update(place, seconds, SmpExecutor()))
+        {
+          loop.publishScene(follower.scene());
+        }
+      }
+      catch (const std::exception&)
+      {
+        // Without memory for a finer scene the one that is there goes on.
       }
       std::this_thread::sleep_for(kLook);
     }
@@ -138,6 +144,10 @@ struct ph_servo
 int ph_servo_start(
   const ph_scene* scene, const ph_proxy_options* proxy, const ph_servo_options* given, ph_servo** out)
 {
+  if (hasNull({ scene, out }))
+  {
+    return PH_INVALID_PARAMETER;
+  }
   return guarded(
     [&]
     {
@@ -184,12 +194,20 @@ int ph_servo_start(
 
 int ph_servo_target(ph_servo* servo, const double target[3])
 {
+  if (hasNull({ servo, target }))
+  {
+    return PH_INVALID_PARAMETER;
+  }
   servo->hand.setTarget({ target[0], target[1], target[2] });
   return PH_OK;
 }
 
 int ph_servo_set_options(ph_servo* servo, const ph_proxy_options* options)
 {
+  if (hasNull({ servo }))
+  {
+    return PH_INVALID_PARAMETER;
+  }
   return guarded(
     [&]
     {
@@ -207,11 +225,15 @@ int ph_servo_set_options(ph_servo* servo, const ph_proxy_options* options)
 
 int ph_servo_running(const ph_servo* servo)
 {
-  return servo->loop.running();
+  return servo && servo->loop.running();
 }
 
 int ph_servo_trace(ph_servo* servo, double* rows, size_t most, size_t* count)
 {
+  if (hasNull({ servo, count, most > 0 ? rows : static_cast<const void*>(count) }))
+  {
+    return PH_INVALID_PARAMETER;
+  }
   return guarded(
     [&]
     {
@@ -234,6 +256,10 @@ int ph_servo_trace(ph_servo* servo, double* rows, size_t most, size_t* count)
 
 int ph_servo_statistics_of(const ph_servo* servo, ph_servo_statistics* out)
 {
+  if (hasNull({ servo, out }))
+  {
+    return PH_INVALID_PARAMETER;
+  }
   return guarded(
     [&]
     {
@@ -251,7 +277,10 @@ void ph_servo_stop(ph_servo* servo)
   static_cast<void>(guarded(
     [&]
     {
-      servo->stop();
+      if (servo)
+      {
+        servo->stop();
+      }
       return PH_OK;
     }));
 }

@@ -26,6 +26,8 @@ constexpr double kLeap = 5e-3;
 /// up to which it is a contact with the same sheet. With less a wave is met from behind; with more the far
 /// side of a thick part is not met.
 constexpr double kSameSheet = 0.5;
+/// How far aside the sheet is taken to go on, metres. Without it the underside of another part is not felt.
+constexpr double kSheetGoesOn = 50e-3;
 }
 
 struct Proxy::Implementation
@@ -274,7 +276,8 @@ struct Proxy::Implementation
     }
     const Vec3 from = state.proxy - behindPlace;
     const double height = dot(from, behindNormal);
-    const bool isSame = std::abs(height) < state.radius + kSameSheet * norm(from - height * behindNormal);
+    const double aside = norm(from - height * behindNormal);
+    const bool isSame = aside < kSheetGoesOn && std::abs(height) < state.radius + kSameSheet * aside;
     isBehind = isSame && dot(state.normal, behindNormal) < 0.0;
     if (isBehind)
     {

@@ -48,8 +48,9 @@ void addProp(std::vector<double>& state, vtkProp* prop)
   {
     state.insert(state.end(),
       { splats->GetSizeScale(), splats->GetSmallestPixels(), splats->GetLargestPixels(),
-        splats->GetFixedPixels(), splats->GetPointPixels(), splats->GetSurfacePixels(),
-        splats->GetLightStrength(), double(splats->GetHidesBackFaces()), double(splats->GetForeshortens()),
+        splats->GetLargestRatio(), splats->GetNormalUnit(), splats->GetFixedPixels(),
+        splats->GetPointPixels(), splats->GetSurfacePixels(), splats->GetLightStrength(),
+        double(splats->GetHidesBackFaces()), double(splats->GetForeshortens()),
         double(splats->GetClosesAll()) });
     double sky[3];
     splats->GetSkyDirection(sky);

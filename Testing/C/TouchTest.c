@@ -132,6 +132,12 @@ int main(void)
   wrong.struct_size = sizeof wrong;
   wrong.mu_d = 11.0;
   CHECK(ph_proxy_create(&wrong, &proxy) == PH_INVALID_PARAMETER && strstr(ph_problem(), "mu_d 11"));
+  wrong.mu_d = 0.0;
+  wrong.method = 7;
+  CHECK(ph_proxy_create(&wrong, &proxy) == PH_INVALID_PARAMETER && strstr(ph_problem(), "method 7"));
+  CHECK(ph_proxy_create(NULL, NULL) == PH_INVALID_PARAMETER && strstr(ph_problem(), "null"));
+  CHECK(ph_scene_create(NULL, COUNT, NULL, &scene) == PH_INVALID_PARAMETER);
+  CHECK(ph_proxy_step(NULL, points, 0.001, NULL) == PH_INVALID_PARAMETER);
   CHECK(strlen(ph_version()) >= 5 && strstr(ph_message(PH_OUT_OF_MEMORY), "memory"));
   printf("a hand felt %.1f N\n", felt);
   return 0;

@@ -88,6 +88,8 @@ class Proxies(TestCase):
             (ValueError, "gain", lambda: ph.Proxy(self.coarse, gains={"normal_gain": 1e9})),
             (ValueError, ["hand", "(2,)"], lambda: proxy.step([0, 0])),
             (TypeError, "hand", lambda: proxy.step("here")),
+            (ValueError, "hand", lambda: proxy.step([0.02])),
+            ((TypeError, ValueError), "hand", lambda: proxy.step(0.02)),
             (ValueError, ["dt", "0"], lambda: proxy.step([0, 0, 0], 0)),
             (ValueError, "dt", lambda: proxy.step([0, 0, 0], np.nan)),
             (TypeError, "dt", lambda: proxy.step([0, 0, 0], "soon")),

@@ -389,7 +389,8 @@ bool OutputFile::renamePart() noexcept
   const unsigned how = isKept_ && !replaces_ ? RENAME_NOREPLACE : 0U;
   return ::syscall(SYS_renameat2, AT_FDCWD, temporary_.c_str(), AT_FDCWD, target_.c_str(), how) == 0 ||
     // Not every file system knows how.
-    ((errno == EINVAL || errno == ENOSYS) && ::rename(temporary_.c_str(), target_.c_str()) == 0);
+    ((errno == EINVAL || errno == ENOSYS) && (how == 0 || ::access(target_.c_str(), F_OK) != 0) &&
+      ::rename(temporary_.c_str(), target_.c_str()) == 0);
 }
 
 Status OutputFile::commit()
@@ -405,6 +406,10 @@ Status OutputFile::commit()
   const bool isDone = closed == 0 && (temporary_.empty() || this->renamePart());
   const int problem = errno;
   ::close(lock);
+  if (!isDone && problem == EEXIST)
+  {
+    return this->fail("a file of that name came meanwhile", "rename " + temporary_);
+  }
   if (!isDone)
   {
     return this->fail(problem);

@@ -60,8 +60,9 @@ void checkIsReadable(const std::string& path)
 std::string contentOfStream(const std::string& path, const FileBytes::Progress& progress)
 {
   constexpr int kPatience = 100; // ms between questions whether to go on
-  const int descriptor =
-    path == kStandardInput ? ::dup(STDIN_FILENO) : ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const int descriptor = path == kStandardInput
+    ? ::dup(STDIN_FILENO)
+    : ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK); // a pipe may have no writer yet
   std::string content;
   std::size_t size = 0;
   ssize_t got = descriptor < 0 ? -1 : 1;

@@ -132,9 +132,16 @@ private:
 ColumnEvidence ColumnEvidence::of(std::vector<double> sample, bool isWhole)
 {
   ColumnEvidence evidence;
-  const auto ends = std::minmax_element(sample.begin(), sample.end());
-  evidence.least = sample.empty() ? 0.0 : *ends.first;
-  evidence.most = sample.empty() ? 0.0 : *ends.second;
+  bool isFirst = true;
+  for (const double value : sample)
+  {
+    if (!std::isnan(value))
+    {
+      evidence.least = isFirst ? value : std::min(evidence.least, value);
+      evidence.most = isFirst ? value : std::max(evidence.most, value);
+      isFirst = false;
+    }
+  }
   evidence.sample = std::move(sample);
   evidence.isWhole = isWhole;
   return evidence;

@@ -200,7 +200,7 @@ void PtxReader::moveTo(vtkPolyData* cloud)
   {
     cloud->GetPointData()->AddArray(colors_);
   }
-  if (scan_ > 1)
+  if (scans_->GetNumberOfValues() > 0 && scans_->GetValue(scans_->GetNumberOfValues() - 1) > 0)
   {
     cloud->GetPointData()->AddArray(scans_);
   }

@@ -134,6 +134,11 @@ bool storeAsBefore(const OutputArray& array, const LasExtraField& field, OutputA
     return false;
   }
   const vtkIdType rows = array.array->GetNumberOfTuples();
+  if (!field.isScaled && !field.hasNoData && array.array->GetDataType() == field.type)
+  {
+    stored.array = array.array; // whole numbers of 64 bits are more than a double holds
+    return true;
+  }
   stored.array.TakeReference(vtkDataArray::CreateDataArray(field.type));
   stored.array->SetNumberOfComponents(field.components);
   stored.array->SetNumberOfTuples(rows);

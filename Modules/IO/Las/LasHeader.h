@@ -99,8 +99,9 @@ struct LasOrigin
   static LasOrigin of(vtkFieldData* fieldData);
   void addTo(vtkPolyData* cloud) const;
   bool isHere() const { return header.size() >= kLasHeaderOf12; }
-  int minorVersion() const { return isHere() ? header[25] : 0; }
-  int pointFormat() const { return isHere() ? header[104] & ~kLasPackedMark : 0; }
+  int minorVersion() const { return isHere() ? byteAt(25) : 0; }
+  int pointFormat() const { return isHere() ? byteAt(104) & ~kLasPackedMark : 0; }
+  int byteAt(std::size_t place) const { return static_cast<unsigned char>(header[place]); }
 };
 
 struct LasHeader

@@ -353,7 +353,9 @@ private:
         T value{};
         if constexpr (std::is_integral_v<T>)
         {
-          isStored = std::from_chars(word.data(), word.data() + word.size(), value).ec == std::errc();
+          const char* const end = word.data() + word.size();
+          const auto [last, error] = std::from_chars(word.data() + (word.front() == '+' ? 1 : 0), end, value);
+          isStored = error == std::errc() && last == end;
           std::memcpy(target.first + row * target.stride, &value, sizeof(T));
         }
       });

@@ -182,7 +182,7 @@ std::vector<ColumnEvidence> evidenceOf(
     copyStrided(
       source, { reinterpret_cast<char*>(values.data()), sizeof(double), VTK_DOUBLE }, rows, isSwapped);
     const bool isWhole =
-      std::all_of(values.begin(), values.end(), [](double v) { return v == std::floor(v); });
+      std::all_of(values.begin(), values.end(), [](double v) { return std::isnan(v) || v == std::floor(v); });
     ColumnEvidence column = ColumnEvidence::of(values, isWhole);
     column.sample.resize(std::min(column.sample.size(), kGuessedRows));
     evidence.push_back(std::move(column));

@@ -80,7 +80,8 @@ class Proxy:
             i = 0
         self._next = i + 1
         try:
-            self._hand[:] = hand
+            x, y, z = hand
+            self._hand[:] = (x, y, z)
         except (TypeError, ValueError):
             as_place(hand, "hand")
             raise

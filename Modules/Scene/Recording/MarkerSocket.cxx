@@ -70,25 +70,34 @@ std::vector<MarkerSocket::Marker> MarkerSocket::take()
   return std::exchange(markers_, {});
 }
 
+/// The line of @p client is a marker.
+void MarkerSocket::keep(Client& client)
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (markers_.size() < kMostMarkers)
+  {
+    markers_.push_back({ loop_->latest().tick, client.line });
+  }
+  client.line.clear();
+}
+
 /// False: the client has ended.
 bool MarkerSocket::read(Client& client)
 {
   char bytes[4096];
   const ssize_t count = ::recv(client.socket, bytes, sizeof bytes, 0);
-  const std::uint64_t tick = loop_->latest().tick;
   for (ssize_t i = 0; i < count; ++i)
   {
-    if (bytes[i] != '\n')
+    if (bytes[i] == '\n')
     {
-      client.line.append(client.line.size() < kLongestMarker ? 1 : 0, bytes[i]);
+      this->keep(client);
       continue;
     }
-    const std::lock_guard<std::mutex> lock(mutex_);
-    if (markers_.size() < kMostMarkers)
-    {
-      markers_.push_back({ tick, client.line });
-    }
-    client.line.clear();
+    client.line.append(client.line.size() < kLongestMarker ? 1 : 0, bytes[i]);
+  }
+  if (count == 0 && !client.line.empty())
+  {
+    this->keep(client); // its last line has no end
   }
   return count > 0 || (count < 0 && (errno == EINTR || errno == EAGAIN));
 }
@@ -127,6 +136,10 @@ void MarkerSocket::run()
     else if (accepted >= 0)
     {
       ::close(accepted);
+    }
+    else if (waits[0].revents != 0)
+    {
+      ::poll(nullptr, 0, kLookMilliseconds); // without descriptors it stays readable
     }
   }
   for (const Client& client : clients)

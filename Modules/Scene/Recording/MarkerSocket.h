@@ -37,7 +37,7 @@ public:
   /// says why not, and the cure.
   bool open(int port, const ServoLoop& loop, std::string& message);
   int port() const { return port_; }
-  /// Those since the last call, oldest first. The newest 10,000 are kept. Any thread.
+  /// Those since the last call, oldest first. At most 10,000 are kept. Any thread.
   std::vector<Marker> take();
 
 private:
@@ -47,6 +47,7 @@ private:
     std::string line; ///< As far as it has come.
   };
   void run();
+  void keep(Client& client);
   bool read(Client& client);
 
   const ServoLoop* loop_ = nullptr;

@@ -533,14 +533,14 @@ TEST_F(RecordingTest, LinesThatComeByASocketAreMarkers)
     }));
   const std::uint64_t between = loop_.latest().tick;
   this->recordFor(20);
-  ASSERT_EQ(::send(client, "oth\n", 4, 0), 4);
+  ASSERT_EQ(::send(client, "oth", 3, 0), 3);
+  ::close(client); // ends the line
   ASSERT_TRUE(trial::eventually(
     [&]
     {
       this->take();
       return writer_.numberOfMarkers() == 2;
     }));
-  ::close(client);
   this->stop();
   Recording recording;
   ASSERT_TRUE(readRecording(file_, recording, message_)) << message_;

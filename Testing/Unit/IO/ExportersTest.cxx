@@ -248,11 +248,17 @@ TEST_F(Exporters, HeadersOfPlyAreReadWithWhatOthersPutThere)
   const ReadResult wide = readCloud(write("c.ply",
     "ply\n" + kPlyHead +
       "property int64 t\nproperty uint64 u\nproperty bool b\nend_header\n1 2 3 5000000000 "
-      "18446744073709551615 1\n4 5 6 -9007199254740993 9007199254740993 0\n"));
+      "18446744073709551615 1\n4 5 6 -9007199254740993 +9007199254740993 0\n"));
   ASSERT_EQ(wide.error, "");
   EXPECT_EQ(wide.array("t")->GetVariantValue(1).ToLongLong(), -9007199254740993ll);
   EXPECT_EQ(wide.array("u")->GetVariantValue(0).ToUnsignedLongLong(), 18446744073709551615ull);
+  EXPECT_EQ(wide.array("u")->GetVariantValue(1).ToUnsignedLongLong(), 9007199254740993ull);
   EXPECT_EQ(wide.value("b", 0), 1);
+  EXPECT_EQ(
+    readCloud(write("e.ply", "ply\n" + kPlyHead + "property int64 t\nend_header\n1 2 3 1e3\n4 5 6 7\n"))
+      .value("t", 0),
+    1000)
+    << "the number, and not its beginning";
   const ReadResult lists = readCloud(write("d.ply",
     "ply\n" + kPlyHead + "property list uchar uint view_indices\nend_header\n1 2 3 2 7 8\n4 5 6 0\n"));
   expectPoint(lists, 1, 4, 5, 6);
@@ -463,9 +469,18 @@ TEST_F(Exporters, LasKeepsWhatItCameWith)
   EXPECT_EQ(again.substr(8, 16), las.substr(8, 16));
   EXPECT_EQ(again.substr(26, 32), las.substr(26, 32));
   EXPECT_EQ(again.substr(90, 4), las.substr(90, 4));
+  std::string ids = makeLas(2, 0, 28);
+  put(ids, 227 + 20, std::int64_t{ 9007199254740993 });
+  ids = withRecords(ids, lasRecord("LASF_Spec", 4, "Extra", extraBytes(8, 0, "Nanoseconds")), 1);
+  ASSERT_EQ(writeCloud(readCloud(write("e.las", ids)).cloud, path("f.las")), "");
+  EXPECT_EQ(
+    readCloud(path("f.las")).array("Nanoseconds")->GetVariantValue(0).ToLongLong(), 9007199254740993ll);
   const ReadResult six = readCloud(write("c.las", makeLas(4, 6, 30)));
   ASSERT_EQ(writeCloud(six.cloud, path("d.las")), "");
   EXPECT_EQ(readCloud(path("d.las")).format, "LAS 1.4 (point format 6)");
+  ASSERT_EQ(writeCloud(six.cloud, path("g.laz")), "");
+  ASSERT_EQ(writeCloud(readCloud(path("g.laz")).cloud, path("h.laz")), "");
+  EXPECT_EQ(readCloud(path("h.laz")).format, readCloud(path("g.laz")).format) << "packed formats have a mark";
 }
 
 TEST_F(Exporters, ExtendedRecordsOfLasStayBehindThePoints)

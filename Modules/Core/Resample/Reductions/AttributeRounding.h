@@ -49,13 +49,13 @@ inline double scaledMean(double sum, int exponent, std::int64_t count)
   return exponent > -1000 && exponent < 1000 ? mean * powerOfTwo(exponent) : std::ldexp(mean, exponent);
 }
 
-/// What IEEE addition makes of numbers some of which are not finite.
+/// What IEEE addition makes of numbers some of which are infinite, or all of them NaN.
 inline double meanWithNonFinite(const NonFiniteCount& seen)
 {
   const double infinity = std::numeric_limits<double>::infinity();
-  return seen.nans > 0 || (seen.plus > 0) == (seen.minus > 0) ? std::numeric_limits<double>::quiet_NaN()
-    : seen.plus > 0                                           ? infinity
-                                                              : -infinity;
+  return (seen.plus > 0) == (seen.minus > 0) ? std::numeric_limits<double>::quiet_NaN()
+    : seen.plus > 0                          ? infinity
+                                             : -infinity;
 }
 
 /// Rounded to the nearest, halves away from zero.
