@@ -135,6 +135,27 @@ TEST_F(Outputs, AreNeverAnInput)
   EXPECT_GE(pairs, 25);
 }
 
+TEST_F(Outputs, DoNotReplaceARecording)
+{
+  const std::vector<FileOption> all = this->options();
+  const std::string touch = "t,hip_x\n# pointhaptics recording: 2\n0,1\n";
+  int tried = 0;
+  for (const FileOption& output : all)
+  {
+    const auto csv = std::find(output.extensions.begin(), output.extensions.end(), "csv");
+    if (csv == output.extensions.end() || output.isPositional())
+    {
+      continue;
+    }
+    ++tried;
+    this->write("touch.csv", touch);
+    this->refuse(
+      2, commandLine(all, output.command, { { output.name, "touch.csv" } }), { "recording", "--force" });
+    EXPECT_EQ(this->read("touch.csv"), touch) << output.command << " " << output.name;
+  }
+  EXPECT_GE(tried, 3);
+}
+
 TEST_F(Outputs, AreNeverEachOther)
 {
   const std::vector<FileOption> all = this->options();

@@ -90,9 +90,10 @@ class Server(TestCase):
 
     def test_the_writer_writes_one_file(self):
         run_program("generate", "sphere", "-n", 5000, "-o", self.path("in.ply"))
-        simple.SaveData(self.path("out.ply"), proxy=read(self.path("in.ply")))
-        run_program("convert", self.path("in.ply"), self.path("program.vtp"))
-        self.assert_same_bits(servermanager.Fetch(read(self.path("out.ply"))), read_vtp(self.path("program.vtp")))
+        simple.SaveData(self.path("out.pcd"), proxy=read(self.path("in.ply")))
+        run_program("convert", self.path("in.ply"), self.path("program.pcd"))
+        found, expected = (servermanager.Fetch(read(self.path(name))) for name in ("out.pcd", "program.pcd"))
+        self.assert_same_bits(found, expected)
 
     def test_bad_input_is_an_error_and_the_server_lives_on(self):
         run_program("generate", "sphere", "-n", 5000, "-o", self.path("in.ply"))

@@ -13,8 +13,10 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <fstream>
 #include <iterator>
 #include <sstream>
+#include <string_view>
 #include <utility>
 
 #include <sys/resource.h>
@@ -349,6 +351,21 @@ void Files::take(const CLI::App& command)
 }
 
 /// @p output is one of outputs_; those after it are checked against it.
+namespace
+{
+
+/// By the first lines of its header.
+bool isRecording(const std::string& name)
+{
+  std::ifstream file(name, std::ios::binary);
+  char start[1024];
+  file.read(start, sizeof start);
+  return std::string_view(start, std::size_t(file.gcount())).find("# pointhaptics recording: ") !=
+    std::string_view::npos;
+}
+
+} // namespace
+
 void Files::check(const Entry& output) const
 {
   const Identity& own = output.identity;
@@ -375,6 +392,11 @@ void Files::check(const Entry& output) const
   if (output.name == kStandardStream)
   {
     return;
+  }
+  if (!isForced_ && own.exists && !own.isStream() && isRecording(output.name))
+  {
+    throwUsage(output.shown(), "",
+      "is a recording, and a touch cannot be made again; choose another name, or give --force");
   }
   if (noClobber_ && own.exists && !own.isStream())
   {

@@ -80,7 +80,7 @@ class Proxy:
             i = 0
         self._next = i + 1
         try:
-            x, y, z = hand
+            x, y, z = hand  # type: ignore[misc]
             self._hand[:] = (x, y, z)
         except (TypeError, ValueError):
             as_place(hand, "hand")

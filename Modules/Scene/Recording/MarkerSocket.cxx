@@ -25,6 +25,31 @@ constexpr std::size_t kMostClients = 16;
 constexpr std::size_t kLongestMarker = 1000;
 constexpr std::size_t kMostMarkers = 10000;
 
+bool isUtf8(const std::string& text)
+{
+  int following = 0;
+  for (const char character : text)
+  {
+    const auto byte = static_cast<unsigned char>(character);
+    const bool continues = byte >> 6 == 2;
+    if (continues != (following > 0))
+    {
+      return false;
+    }
+    following = continues ? following - 1
+      : byte < 128        ? 0
+      : byte >> 5 == 6    ? 1
+      : byte >> 4 == 14   ? 2
+      : byte >> 3 == 30   ? 3
+                          : 5;
+    if (following == 5)
+    {
+      return false;
+    }
+  }
+  return following == 0;
+}
+
 } // namespace
 
 MarkerSocket::~MarkerSocket()
@@ -70,9 +95,19 @@ std::vector<MarkerSocket::Marker> MarkerSocket::take()
   return std::exchange(markers_, {});
 }
 
-/// The line of @p client is a marker.
+/// The line of @p client is a marker, of UTF-8 as the recording is.
 void MarkerSocket::keep(Client& client)
 {
+  if (!client.line.empty() && client.line.back() == '\r')
+  {
+    client.line.pop_back();
+  }
+  if (!isUtf8(client.line))
+  {
+    std::replace_if(
+      client.line.begin(), client.line.end(), [](char c) { return static_cast<unsigned char>(c) > 127; },
+      '?');
+  }
   const std::lock_guard<std::mutex> lock(mutex_);
   if (markers_.size() < kMostMarkers)
   {
