@@ -33,8 +33,8 @@ void applyUnits(const PathUnits& units, HipPath& path);
 /// with the cure; else empty. @p cloud: box of what is felt, metres; may be empty. Costs a pass over the
 /// path.
 std::string unlikelyUnits(const HipPath& path, const Bounds& cloud, const UnitNames& names = {});
-/// The same of a cloud that @p path goes by without a touch: whether it would be as large as the path in
-/// another unit.
+/// For a @p path that passes @p cloud without a touch: says so where the cloud would be as large as the path
+/// in another unit.
 std::string unlikelyCloudUnit(const HipPath& path, const Bounds& cloud, const UnitNames& names = {});
 
 } // namespace pointhaptics

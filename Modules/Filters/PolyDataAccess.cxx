@@ -112,7 +112,7 @@ std::string latticeText(const LatticeSettings& lattice)
   return text.str();
 }
 
-/// Such a matrix is often not affine either: NaN times 0 is NaN.
+/// Tells why a matrix is not affine: NaN times 0 is NaN, so one that holds NaN mostly is not.
 bool holdsNonFinite(vtkAbstractTransform* transform)
 {
   auto* homogeneous = vtkHomogeneousTransform::SafeDownCast(transform);

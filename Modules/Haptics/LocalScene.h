@@ -30,7 +30,7 @@ public:
   Status setCloud(const PointView& points, const Executor& executor = {});
   /// The same of a cloud that has an index; null: there is none.
   void setCloud(std::shared_ptr<const PointIndex> index) { index_ = std::move(index); }
-  /// Of the cloud, for other builders of the same cloud; null: there is none.
+  /// The index of the cloud's points, for other builders of the same cloud; null without a cloud.
   const std::shared_ptr<const PointIndex>& index() const { return index_; }
   /// The rule for proxy radii, as in HapticSceneInput; without one 2.8 local spacings.
   void setBandwidth(const std::optional<LocalBandwidthSettings>& bandwidth) { bandwidth_ = bandwidth; }

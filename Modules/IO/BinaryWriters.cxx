@@ -219,7 +219,7 @@ void writePly(WriteTask& task)
   writeRecords(fields, recordSize, rows, task);
 }
 
-/// What a PCD file calls an array, and its type there: PCL's point types read coordinates, normals, intensity
+/// Name and type of an array in a PCD file: PCL's point types read coordinates, normals, intensity
 /// and curvature as floats, and label as an unsigned integer.
 struct PcdArray
 {

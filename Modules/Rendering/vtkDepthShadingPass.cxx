@@ -376,7 +376,7 @@ void vtkDepthShadingPass::DivideSums(vtkRenderer* renderer, vtkOpenGLRenderWindo
   this->Draw(*this->DivideQuad, this->Sums, renderer);
 }
 
-/// What was drawn, into what is shown.
+/// Draws the picture with its shading into the window.
 void vtkDepthShadingPass::Shade(vtkRenderer* renderer, vtkOpenGLRenderWindow* window)
 {
   vtkOpenGLState* state = window->GetState();

@@ -22,9 +22,9 @@ namespace
 {
 
 constexpr double kPixelsWithoutArray = 3.0;
-/// Of the window that the sizes in pixels are meant for.
+/// Height of the window that the sizes in pixels are meant for.
 constexpr double kUsualHeight = 800.0;
-/// Of points that a software renderer draws.
+/// Largest diameter of points that a software renderer draws.
 constexpr double kMostPixels = 255.0;
 constexpr double kMostQuadPixels = 1e5;
 /// From the viewer's left and above, in view coordinates.

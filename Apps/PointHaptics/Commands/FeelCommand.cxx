@@ -399,7 +399,7 @@ bool openRecordingOutput(const FeelOptions& options, vtkPolyData* cloud, Files& 
   return recording.open(files.output(options.record), header, message);
 }
 
-/// Of the cloud in the workspace frame; empty where it is fitted.
+/// The box about the cloud in the workspace frame; empty where the cloud is fitted.
 Bounds feltBox(const FeelOptions& options, vtkPolyData* cloud)
 {
   const AffineTransform transform = options.lattice.transform();

@@ -89,7 +89,7 @@ void FeelOptions::addTo(CLI::App& command)
   this->bandwidth.addTo(command);
 }
 
-/// What a replay takes from its recording is not to be given beside it.
+/// Refuses options whose values a replay takes from its recording.
 void FeelOptions::checkReplay(const std::vector<std::string>& given) const
 {
   std::set<std::string> others = { "replay", "output", "sound-file", "method", "json", "config" };

@@ -343,7 +343,7 @@ void ViewOptions::declareMore(Files& taken) const
   {
     taken.addOutput(HapticViewer::pictureName(this->screenshot, picture, this->viewer.turntable));
   }
-  // What a person does in a window cannot be made again.
+  // A person cannot repeat exactly what she did in a window.
   for (const std::string& output : { this->viewer.record, this->needsWindow() ? this->viewer.trace : "" })
   {
     taken.keep(output);

@@ -33,8 +33,8 @@ public:
       fit.invalidate();
       ball.invalidate();
     }
-    /// What is used next is @p scene, which has the same cells as the last one in @p shared. The radii of its
-    /// contact points may differ.
+    /// Keeps what was gathered in @p shared, where the next scene @p scene has the same cells as the last
+    /// one. The radii of its contact points may differ.
     void carryOver(const HapticScene& scene, const Bounds& shared) noexcept
     {
       scene.carryOver(fit, shared);

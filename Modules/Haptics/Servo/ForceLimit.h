@@ -29,7 +29,7 @@ struct ForceLimit
 /// No servo loop pushes harder, N: the Falcon's drive ends near there. Virtual time has no such limit.
 constexpr double kMostServoForce = 8.0;
 
-/// Of a servo loop with a device of @p limits and with @p program as its own limit.
+/// The limit of a servo loop whose device has @p limits and whose own limit is @p program.
 ForceLimit servoForceLimit(
   const HandLimits& limits, const ContactParameters& contact, const ForceLimits& program) noexcept;
 

@@ -131,7 +131,7 @@ std::vector<std::string> wordsOf(const std::string& name)
   return words;
 }
 
-/// What a name says of a coordinate: axis 0 and "mm" of "X1 (mm)"; axis -1 where it says none.
+/// Axis and unit that a column's name gives: 0 and "mm" for "X1 (mm)"; axis -1 where it names none.
 struct CoordinateName
 {
   int axis = -1;

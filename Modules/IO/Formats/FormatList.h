@@ -43,10 +43,10 @@ const CloudFormat& identifyFormat(std::string_view start, std::size_t size, cons
 /// The one that is written under @p extension; null where none is.
 const CloudFormat* writtenFormat(const std::string& extension);
 
-/// Of all formats that are read, or with @p written of those that are written.
+/// The extensions of all formats that are read, or with @p written of those that are written.
 std::vector<std::string> formatExtensions(bool written);
 
-/// Of all formats, in Markdown.
+/// The table of all formats, in Markdown.
 std::string formatTable();
 
 } // namespace pointhaptics::io

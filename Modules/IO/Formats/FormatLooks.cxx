@@ -47,7 +47,7 @@ bool isText(std::string_view head)
     });
 }
 
-/// It has no mark, but its length is that of the triangles it counts.
+/// Binary STL has no mark, but its length is that of the triangles it counts.
 bool looksLikeBinaryStl(std::string_view bytes, std::size_t size)
 {
   constexpr std::size_t kHeader = 84;

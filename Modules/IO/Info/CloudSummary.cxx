@@ -114,7 +114,7 @@ std::array<double, 5> spacingOf(const std::vector<Vec3>& places)
   return result;
 }
 
-/// Of the grid of floats at the farthest corner: nothing is known between two steps.
+/// The step between neighbouring floats at the farthest corner.
 double floatStep(const Bounds& bounds)
 {
   double step = 0.0;

@@ -1,5 +1,5 @@
 /// @file
-/// What a LAS file says beside its points: records, and extra bytes as the file of the cloud had them.
+/// Records and extra bytes of a LAS file, as the file had them that the cloud came from.
 #pragma once
 
 #include "IO/Columns/OutputColumns.h"

@@ -72,7 +72,7 @@ struct LasExtraField
   std::array<double, 3> scale{ 1, 1, 1 };
   std::array<double, 3> shift{};
 
-  /// Of the array with its values.
+  /// The type of the array that holds its values.
   int arrayType() const;
   /// What is stored for none: the standard widens it, and some programs fill it up with zeros.
   template <typename T>
@@ -95,7 +95,7 @@ struct LasOrigin
   std::string records;    ///< variable length records, but for those of packing and octree
   std::string farRecords; ///< extended ones, which lie behind the points
 
-  /// Of a cloud that was read from one.
+  /// The origin of a cloud that was read from a LAS file; empty for others.
   static LasOrigin of(vtkFieldData* fieldData);
   void addTo(vtkPolyData* cloud) const;
   bool isHere() const { return header.size() >= kLasHeaderOf12; }

@@ -582,7 +582,7 @@ void writeLas(WriteTask& task)
   writeRecordsOf(task, false);
 }
 
-/// The same records, compressed.
+/// Writes LAS records compressed.
 void writeLaz(WriteTask& task)
 {
   writeRecordsOf(task, true);

@@ -84,8 +84,8 @@ void addComment(std::string_view comment, std::size_t number, TextLayout& layout
   }
 }
 
-/// Of the columns in a comment: "POINT3D_ID, X, Y, Z, TRACK[] as ...", whose list may have any length. Prose
-/// is no header, however long it is.
+/// Takes names from a comment such as "POINT3D_ID, X, Y, Z, TRACK[] as ...", whose list may have any length.
+/// Prose is no header, however long it is.
 bool nameByComment(const Title& title, TextLayout& layout)
 {
   std::string_view text = title.line.substr(0, kLongestHeader);

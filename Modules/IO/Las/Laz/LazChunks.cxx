@@ -188,7 +188,7 @@ LazChunks ChunkFinder::walkLayers() const
   return chunks;
 }
 
-/// Of a file that does not say how large its chunks are: the table has their numbers of points, as it should,
+/// For a file that does not say how large its chunks are: the table has their numbers of points, as it should,
 /// or it was written as that of the usual size, which layered chunks do not need.
 LazChunks ChunkFinder::readUntoldTable(std::size_t table)
 {
