@@ -47,7 +47,7 @@ extern "C"
     PH_OUT_OF_MEMORY = 30
   };
 
-  /** "0.1.0". Static storage, as all texts here but ph_problem(). */
+  /** The version as text, "0.2.0". Static storage, as all texts here but ph_problem(). */
   PH_API const char* ph_version(void);
   /** One sentence of what a status means and what to do. Never null. */
   PH_API const char* ph_message(int status);
