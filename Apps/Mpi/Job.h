@@ -30,7 +30,7 @@ public:
   /// Whether no rank has a @p problem. Else the first one that has prints it as fail() does, and says which
   /// rank it is where not all have the same.
   bool agree(const std::string& command, const std::string& problem);
-  /// Of the codes of all ranks the largest: what each is to end with. The last exchange of a job.
+  /// Returns the largest exit code of all ranks: each ends with it. The last exchange of a job.
   int finish(int exitCode);
 
 private:

@@ -21,7 +21,7 @@ namespace app
 struct Piece
 {
   vtkSmartPointer<vtkPolyData> points;
-  vtkIdType pointsOfAll = 0; ///< Of all ranks.
+  vtkIdType pointsOfAll = 0; ///< Number of points on all ranks.
 };
 
 /// Adds what a command of ranks has beside the options of the same one of pointhaptics, and the common ones.

@@ -15,7 +15,7 @@ namespace app
 struct Traffic
 {
   bool isWanted = false;
-  std::int64_t read = 0; ///< Of the input.
+  std::int64_t read = 0; ///< Bytes of the input that were read.
 
   void addTo(CLI::App& command);
   /// Collective: says it on stderr, where it is wanted. @p sent: to other ranks, for the computation.

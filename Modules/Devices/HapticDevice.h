@@ -11,7 +11,7 @@
 namespace pointhaptics
 {
 
-/// What a device can do. Metres, newtons, seconds, hertz; workspace frame: x right, y up, z towards the
+/// Capabilities of a device. Metres, newtons, seconds, hertz; workspace frame: x right, y up, z towards the
 /// person.
 struct DeviceCapabilities
 {
@@ -35,9 +35,9 @@ class HapticDevice : public HapticPort
 public:
   /// Short name for people: "simulated", "path", "falcon".
   virtual const char* name() const noexcept = 0;
-  /// The same before and after open().
+  /// Capabilities, equal before and after open().
   virtual DeviceCapabilities capabilities() const noexcept = 0;
-  /// That of the capabilities; 0 there: not known, and no limit.
+  /// Largest force of the capabilities; 0 there: not known, and no limit.
   double maximumForce() const noexcept override
   {
     const double declared = this->capabilities().maximumForce;
@@ -47,8 +47,8 @@ public:
   virtual Status open() = 0;
   /// Zero force, then release. Safe on a closed device.
   virtual void close() = 0;
-  /// What open() or the device itself has to say to the user: empty, or one sentence with what and cure. Any
-  /// thread but the servo thread.
+  /// Message of open() or of the device to the user: empty, or one sentence with problem and cure. Any thread
+  /// but the servo thread.
   virtual std::string message() const { return {}; }
 };
 

@@ -17,7 +17,7 @@ namespace
 constexpr const char* kHeader = "t,x,y,z";
 /// Time and position.
 constexpr std::size_t kNumbers = 4;
-/// What a table that starts with the hand may call them: a path's words, and those of the felt forces.
+/// Names of the columns in a path, and in a table of felt forces.
 constexpr const char* kColumnNames[][kNumbers] = { { "t", "x", "y", "z" },
   { "t", "hip_x", "hip_y", "hip_z" } };
 /// No row of a path or of felt forces is longer; keeps a binary file from being read as one line.
@@ -105,7 +105,7 @@ std::vector<std::string> cellsOf(const std::string& line)
 /// Where time and position stand in each row.
 struct Columns
 {
-  std::size_t count = 0; ///< Of a row.
+  std::size_t count = 0; ///< Number of columns in a row.
   std::size_t positions[kNumbers] = {};
 };
 

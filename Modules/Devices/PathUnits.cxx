@@ -11,10 +11,10 @@ namespace
 {
 
 constexpr double kReach = 2.0;          ///< Metres that a hand moves within.
-constexpr double kUsualReach = 0.1;     ///< Of a desktop device.
+constexpr double kUsualReach = 0.1;     ///< Reach of a desktop device, metres.
 constexpr double kNear = 5.0;           ///< Ratio of two sizes that may be of the same thing.
 constexpr double kSlow = 1e-3;          ///< Metres a second, of a path whose rows are kSparse apart.
-constexpr double kSlowest = 1e-4;       ///< Of any path.
+constexpr double kSlowest = 1e-4;       ///< Least speed of any path, metres a second.
 constexpr double kFastest = 5.0;        ///< Metres a second.
 constexpr double kSparse = 0.5;         ///< Seconds from row to row.
 constexpr double kLong = 60.0;          ///< Seconds.

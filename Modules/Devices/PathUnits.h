@@ -10,14 +10,14 @@
 namespace pointhaptics
 {
 
-/// What one of the numbers in a path's file is.
+/// Units of the numbers in a path's file.
 struct PathUnits
 {
   double metres = 1.0;  ///< Above 0.
   double seconds = 1.0; ///< Above 0.
 };
 
-/// What those who choose units call them: options of a program, arguments of a function.
+/// Names of the units in messages: options of a program, arguments of a function.
 struct UnitNames
 {
   std::string cloud = "--unit";

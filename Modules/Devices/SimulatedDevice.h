@@ -58,8 +58,8 @@ public:
 
   /// Where the person wants the hand, workspace frame, metres; not finite: ignored.
   void setTarget(const Vec3& target) noexcept;
-  /// The same, and the hand is there at the next read(), at rest, without a way from where it was
-  /// (HandState::isNew): what lies between is not touched.
+  /// Sets the target and moves the hand there by the next read(), at rest, without a way from where it was
+  /// (HandState::isNew): nothing in between is touched.
   void placeAt(const Vec3& target) noexcept;
   /// The target in effect, after clamping. Any thread.
   Vec3 target() const noexcept { return target_.read(); }

@@ -53,7 +53,7 @@ public:
   /// An empty array of the name, components, information and lookup table of the input, whose numbers are as
   /// the resampler gives them.
   vtkSmartPointer<vtkDataArray> emptyArray() const;
-  /// The same in the type of the input.
+  /// Returns @p plain in the type of the input.
   vtkSmartPointer<vtkDataArray> inOwnType(vtkSmartPointer<vtkDataArray> plain) const;
   /// The tuples of the @p points, for AttributeKind::Chosen.
   vtkSmartPointer<vtkDataArray> chosen(
@@ -61,9 +61,9 @@ public:
 
 private:
   vtkSmartPointer<vtkDataArray> input_; ///< As given.
-  vtkSmartPointer<vtkDataArray> plain_; ///< The same as tuples in memory.
+  vtkSmartPointer<vtkDataArray> plain_; ///< The input as tuples in memory.
   AttributeKind kind_;
-  AttributeView view_; ///< Of plain_.
+  AttributeView view_; ///< View of plain_.
   AttributeValues values_;
 };
 

@@ -53,7 +53,7 @@ private:
   void*& of(std::size_t part);
 
   ArrayPool& pool_;
-  std::vector<void*> memory_; ///< Of each part, or null.
+  std::vector<void*> memory_; ///< Memory of each part, or null.
 };
 
 // Memory comes from the @p allocator that the engine wrote to.
@@ -61,8 +61,8 @@ private:
 /// @p singlePrecision: that of the request.
 vtkSmartPointer<vtkPoints> makePoints(
   const VoxelResampler& engine, bool singlePrecision, ArrayAllocator& allocator, const Executor& executor);
-/// What the engine made of the array of @p attribute: for a representative that is a point of the
-/// input its tuples, else those of attribute @p i of @p request.
+/// The engine's result for the array of @p attribute: the tuples of points where a representative is a point
+/// of the input, else those of attribute @p i of @p request.
 vtkSmartPointer<vtkDataArray> reducedArray(const VoxelResampler& engine, std::size_t i,
   const VoxelAttribute& attribute, bool isNormal, const VoxelRequest& request, ArrayPool& pool,
   ArrayAllocator& allocator, const Executor& executor);

@@ -50,7 +50,7 @@ public:
   vtkMTimeType GetMTime() override;
 
   /**
-   * What was wrong with the last update; empty: nothing.
+   * Errors of the last update; empty: none.
    */
   const std::string& GetErrorMessage() const { return this->ErrorMessage; }
 
@@ -88,7 +88,7 @@ private:
 
   bool RunsAgain = false;
   std::string ErrorMessage;
-  std::set<std::string> Warnings; ///< Of this run.
+  std::set<std::string> Warnings; ///< Warnings of this run.
   vtkTimeStamp RetryTime;
 
   vtkCloudAlgorithm(const vtkCloudAlgorithm&) = delete;

@@ -57,7 +57,8 @@ public:
     taken_ = std::max(0.0, taken_ + work + extra);
   }
 
-  /// What the model, its scene or the parameters did is no work of the hand: @p force is stored now.
+  /// Raises the allowed energy to what @p force stores now: work of the model, its scene or the parameters is
+  /// no work of the hand.
   void allow(const Vec3& force, double stiffness) noexcept
   {
     taken_ = std::max(taken_, kSlack + 0.5 * norm2(force) / stiffness);

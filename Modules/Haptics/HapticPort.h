@@ -34,8 +34,8 @@ public:
   virtual Status read(double timeSeconds, HandState& state) noexcept = 0;
   /// Force on the hand in newtons, workspace frame; finite and within the limits of the ForceGuard.
   virtual Status write(double timeSeconds, const Vec3& force) noexcept = 0;
-  /// What the loop must keep to. Asked by the thread that starts the loop or sets its parameters; the same at
-  /// all times. Default: a hand that nothing moves, without any limit.
+  /// Limits that the loop must keep to, constant in time. Asked by the thread that starts the loop or sets
+  /// its parameters. Default: a hand that nothing moves, without any limit.
   virtual HandLimits limits() const noexcept { return {}; }
   /// N that the device declares, above 0; as HandLimits::maximumForce, of which the lesser one counts.
   virtual double maximumForce() const noexcept { return std::numeric_limits<double>::infinity(); }

@@ -32,7 +32,7 @@ constexpr double kCellWithoutExtent = 1e-3;
 constexpr double kMostCellsAcross = 1 << 20;
 /// Points per cell up to which cells are as fine as the points.
 constexpr double kPointsPerFineCell = 2.0;
-/// The same up to which a cloud is sparse, if its points are so many of the voxels asked for apart.
+/// Points per cell up to which a cloud counts as sparse, if its points are also kSparseInVoxels voxels apart.
 constexpr double kPointsPerSparseCell = 1.4;
 constexpr double kSparseInVoxels = 1.2;
 /// Least radius of the ball over the index cell: with less it enters the gaps between the means of voxels.

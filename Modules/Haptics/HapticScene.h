@@ -23,8 +23,8 @@ namespace pointhaptics
 
 class HapticScene;
 
-/// What a snapshot is built from; all vectors have one entry per point, or are empty where that is said.
-/// Frame: the workspace (the transformed cloud); units: metres.
+/// Input of HapticScene::create(). Vectors have one entry per point; those that may be empty say so. Frame:
+/// the workspace (the transformed cloud); units: metres.
 struct HapticSceneInput
 {
   std::vector<Vec3> points;         ///< Voxel means, or raw points.
@@ -45,13 +45,13 @@ struct HapticSceneInput
   struct Local
   {
     Bounds covered; ///< Where it is to be felt; the points go on for some fit radii beyond.
-    std::shared_ptr<const HapticScene> global; ///< What is felt elsewhere; not null.
+    std::shared_ptr<const HapticScene> global; ///< The scene that is felt elsewhere; not null.
   };
   std::optional<Local> local;
   /// The scene is of these cells of the cloud alone; points that the region does not hold are left out. Where
   /// it has no global scene the points must be dense enough for cells of cellSize.
   std::optional<LocalRegion> region;
-  /// What builds it, as far as this machine has them; the scene is the same, bit for bit.
+  /// Instructions to build it with, as far as this machine has them; the scene is the same, bit for bit.
   InstructionSet instructions = InstructionSet::Automatic;
   std::shared_ptr<const SceneOrigin> origin; ///< How the points came about; null: not known.
   AffineTransform
@@ -76,7 +76,7 @@ public:
   static std::shared_ptr<const HapticScene> create(
     HapticSceneInput input, Status& status, const Executor& executor = {});
 
-  /// The same cloud where @p modelToWorkspace puts the model: turned, shifted, mirrored or uniformly scaled
+  /// This cloud where @p modelToWorkspace puts the model: turned, shifted, mirrored or uniformly scaled
   /// against how it was resampled. The HIP is taken into the lattice frame and the answer back, so this costs
   /// nothing per point (below a microsecond) and shares all memory; the force is that of a cloud resampled
   /// under @p modelToWorkspace up to the accuracy of either. What create() clipped stays away, and the voxels
@@ -98,7 +98,7 @@ public:
       (p.x >= box.minimum.x && p.y >= box.minimum.y && p.z >= box.minimum.z && p.x <= box.maximum.x &&
         p.y <= box.maximum.y && p.z <= box.maximum.z);
   }
-  /// Of a local scene, where it is felt; lattice frame.
+  /// Box in which a local scene is felt; lattice frame.
   const Bounds& covered() const { return cloud_->covered; }
   /// Where this scene has the same cells and fields as @p other, of the same lattice frame: what was gathered
   /// there serves both. Empty: nowhere. Local scenes overlap.
@@ -108,8 +108,8 @@ public:
   {
     memory.carryOver(pyramid(), cloud_->scale, shared);
   }
-  /// The same local scene with another fallback, which is moved to where this one is; null where it cannot be
-  /// (see moved()).
+  /// This local scene with another fallback, which is moved to where this one is; null where it cannot be
+  /// moved (see moved()).
   std::shared_ptr<const HapticScene> withFallback(const HapticScene& global, Status& status) const;
 
   std::size_t numberOfPoints() const { return pyramid().level(0).cells.size(); }
@@ -122,9 +122,9 @@ public:
   std::uint64_t number() const { return number_; }
   /// How its cloud was made; null where that is not known. The same for scenes that share their cloud.
   const std::shared_ptr<const SceneOrigin>& origin() const { return cloud_->origin; }
-  /// The same for scenes that share their cloud, and for no others of this run.
+  /// Equal for scenes that share their cloud, and for no others of this run.
   std::uint64_t cloudNumber() const { return cloud_->number; }
-  /// The same for the global scene of a cloud and the local ones beside it: of the global one.
+  /// Number of the global scene's cloud: equal for a global scene and the local ones beside it.
   std::uint64_t globalCloudNumber() const { return fallback_ ? fallback_->cloudNumber() : cloudNumber(); }
   Vec3 toLattice(const Vec3& p) const noexcept { return isMoved_ ? workspaceToLattice_.apply(p) : p; }
   Vec3 toWorkspace(const Vec3& p) const noexcept { return isMoved_ ? latticeToWorkspace_.apply(p) : p; }
@@ -150,8 +150,8 @@ public:
   /// where the cloud is noisy. Functions of position only, so that the force does not depend on how the hand
   /// came there.
   LocalScale fitScale(const Vec3& position) const noexcept;
-  /// The same up to rounding, faster while the positions stay near each other; and the gradient of the
-  /// radius.
+  /// As fitScale(position) up to rounding, faster while the positions stay near each other; adds the gradient
+  /// of the radius.
   LocalScale fitScale(const Vec3& position, FitCells& memory, Vec3& radiusGradient) const noexcept
   {
     return memory.scaleAt(pyramid(), cloud_->scale, position, radiusGradient);
@@ -190,7 +190,7 @@ public:
 private:
   HapticScene();
 
-  /// What does not change when the model moves.
+  /// The part that does not change when the model moves.
   struct Cloud
   {
     CellPyramid pyramid;
@@ -199,7 +199,7 @@ private:
     RadiusField scale;
     AffineTransform modelToLattice;
     Bounds bounds;
-    Bounds covered; ///< Of a local scene.
+    Bounds covered; ///< Box in which a local scene is felt.
     double clearance = 0.0;
     double sparse = 0.0;
     double leastCovering = 0.0; ///< coveringRadius() is not below this.

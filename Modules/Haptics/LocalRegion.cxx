@@ -16,15 +16,16 @@ constexpr double kBlockCells = 1 << (CellPyramid::kCellLevels - 1);
 /// Nodes within this of what is covered matter there: their reach (2.2 voxels of 8 cells each), and a fit at
 /// a surface that is watched from outside.
 constexpr double kNodeCells = 17.6 + 3.0;
-/// Of a node that has a vote: from its mean to the cell it looks from, and beyond the last fit.
+/// Reach of a node that has a vote, in cells: from its mean to the cell it looks from, and beyond the last
+/// fit.
 constexpr double kSeedCells = 4.0;
 /// Longest radius a node may try, over the one it chooses, and in cells.
 constexpr double kTriedRadii = 2.0;
 constexpr double kMostTriedCells = 20.0;
-/// The same, and beyond, where nobody knows which radii there are: those of clouds with little noise.
+/// Longest radius in cells where the global scene's radii are not known: that of clouds with little noise.
 constexpr double kTriedAlone = 14.0;
 
-/// Whether @p p is in @p box or within @p margin of it on every axis.
+/// True if @p p is in @p box or within @p margin of it on every axis.
 bool isAbout(const Bounds& box, double margin, const Vec3& p)
 {
   for (int axis = 0; axis < 3; ++axis)

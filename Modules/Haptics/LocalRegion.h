@@ -61,8 +61,8 @@ public:
   const Lattice& voxels() const { return voxels_; }
   /// About which fraction of the global scene's cells is in it, 0 to 1. @pre there is a global scene.
   double fraction() const;
-  /// What is to be found out of each cell of the field's node level: the others are too near to the end of
-  /// the cells, and too far from what is covered to matter.
+  /// Says for each cell of the field's node level what must be computed there. Cells near the end of the
+  /// region lack neighbours, and are too far from the covered box to matter.
   std::vector<NodeUse> uses(const CellPyramid& pyramid) const;
   /// Gives the nodes of which not all is found out the answers of the global scene, or else a typical one of
   /// the others. False: there is neither.

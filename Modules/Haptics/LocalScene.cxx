@@ -18,7 +18,7 @@ constexpr double kMarginCells = 18.0;
 /// RMS distance of the points from the fits up to which a cloud is smooth, and their thickness within a voxel
 /// from which on it is noisy, over the voxel; least ratio of the two that is shape.
 constexpr double kSmooth = 1e-3;
-/// The same of fits so many times as wide, which take all cells.
+/// Limit as kSmooth for fits kWide times as wide, which take all cells.
 constexpr double kSmoothWide = 8e-3;
 constexpr double kWide = 2.0;
 constexpr double kThick = 0.1;
@@ -34,8 +34,9 @@ constexpr double kCoarsest = 0.75;
 /// Cells in the global scene's fit radius from which on finer ones only cost time.
 constexpr double kCellsInFit = 16.0;
 
-/// What one surface through all cells within @p radius of the one nearest to @p place leaves of them: nothing
-/// where they are smooth, much about edges and between sheets, of which other fits see one at a time. Metres.
+/// RMS residual, metres, of one surface through all cells within @p radius of the cell nearest to @p place.
+/// It is near zero where they are smooth, and large about edges and between sheets, of which other fits see
+/// one at a time.
 double residualOfAll(const CellPyramid& pyramid, const Vec3& place, double radius, FitCells& memory)
 {
   double distance = 0.0;

@@ -28,7 +28,7 @@ public:
 
   /// @param points of the cloud, in the model's frame; copied. Errors: those of PointIndex::build().
   Status setCloud(const PointView& points, const Executor& executor = {});
-  /// The same of a cloud that has an index; null: there is none.
+  /// As setCloud(points), for a cloud that is indexed already. Null removes the cloud.
   void setCloud(std::shared_ptr<const PointIndex> index) { index_ = std::move(index); }
   /// The index of the cloud's points, for other builders of the same cloud; null without a cloud.
   const std::shared_ptr<const PointIndex>& index() const { return index_; }
@@ -82,7 +82,7 @@ public:
   /// a scene is made; 0: it waits. @return true: scene() is another one. Costs a comparison or two while the
   /// hand stays within what the scene covers.
   bool update(const Bounds& hand, double seconds = 0.0, const Executor& executor = {});
-  /// What is to be felt: a local scene, or that of the whole cloud.
+  /// The scene to feel now: a local one where there is one, else the global one.
   const std::shared_ptr<const HapticScene>& scene() const { return local_ ? local_ : global_; }
   const std::shared_ptr<const HapticScene>& global() const { return global_; }
 

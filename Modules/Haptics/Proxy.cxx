@@ -42,17 +42,17 @@ struct Proxy::Implementation
   bool isFallback = false; ///< A local scene was set, and left.
   SurfaceFitProxy surfaceFit;
   SurfaceFitProxy::Memory memory;
-  SurfaceFitProxy::Memory prefetchMemory; ///< What a prefetch gathers must not serve a step: it is
-                                          ///< gathered about another place.
+  SurfaceFitProxy::Memory prefetchMemory; ///< Separate, since a prefetch gathers about another place and must
+                                          ///< not serve a step.
   OffsetSettler settler;
   GradientSteps gradientSteps;
   ProxyState last;
   Vec3 lastHip;
-  Vec3 lastMove; ///< Of the HIP in the last step.
+  Vec3 lastMove; ///< Motion of the HIP in the last step, metres.
   bool hasLastHip = false;
-  double lastDt = 0.0; ///< Of the last step, seconds.
+  double lastDt = 0.0; ///< Duration of the last step, seconds.
   double fadedSeconds = 0.0;
-  Vec3 carried;            ///< What a change did to the force, and has still to settle; newtons.
+  Vec3 carried;            ///< Jump of the force by a change that has still to settle, newtons.
   bool hasChanged = false; ///< Something did since the last step that settling the offset does not cover.
   bool touched = false;    ///< The method found contact in the last step.
   ContactEnergy energy;
@@ -165,8 +165,8 @@ struct Proxy::Implementation
     lastDt = dt;
   }
 
-  /// What a change does to the force comes by at most @p shrink newtons; where the hand lets go nothing is
-  /// left.
+  /// Lets the jump of a change shrink by at most @p shrink newtons. Where the hand lets go nothing is left of
+  /// it.
   void settleChanges(ProxyState& state, double shrink) noexcept
   {
     if (touched && !state.contact)
@@ -223,7 +223,7 @@ struct Proxy::Implementation
     return limited ? limit : contact.stiffness;
   }
 
-  /// What a method found in the lattice frame.
+  /// Takes a method's result from the lattice frame to the workspace.
   void toWorkspace(ProxyState& state) const noexcept
   {
     if (scene->isMoved())

@@ -91,7 +91,7 @@ AttributeRequest requestFor(const RecordCloud& cloud, const RecordField& field)
 /// Records that are read together stay in the first cache until all of their fields have been.
 constexpr std::int64_t kBlock = 1024;
 
-/// What is to be known of a cloud before its points are summed.
+/// Properties of a cloud that must be known before its points are summed.
 struct Survey
 {
   Bounds box;

@@ -96,8 +96,8 @@ float shadeAt(ivec2 place, ivec2 last, float depth)
 }
 )";
 
-/// Of the pixels that something is drawn in, over what kCopyShader left: their depths are tested before, so
-/// that a software renderer works on no others.
+/// Shades the pixels that something is drawn in, over the result of kCopyShader. Their depths are tested
+/// before, so that a software renderer works on no others.
 constexpr const char* kShadeShader = R"(
 void main()
 {

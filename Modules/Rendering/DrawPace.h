@@ -46,7 +46,7 @@ private:
 
   vtkWeakPointer<vtkRenderWindow> window_;
   bool isNeeded_ = false;
-  std::int64_t drawn_ = 0; ///< Of the present step.
+  std::int64_t drawn_ = 0; ///< Points drawn in the present step.
   std::int64_t steps_ = 0;
   std::deque<__GLsync*> underWay_;
 };

@@ -23,7 +23,7 @@ constexpr double kPointsPerInch = 72.0;
 /// So near to the plane of the camera a line ends: far outside the window.
 constexpr int kHalvings = 12;
 
-/// Of the eye whose picture is drawn; the camera's composite matrix leaves eyes out.
+/// Projection of the eye whose picture is drawn; the camera's composite matrix leaves eyes out.
 void eyeProjection(vtkRenderer* renderer, double nearest, double farthest, vtkMatrix4x4* matrix)
 {
   vtkCamera* camera = renderer->GetActiveCamera();

@@ -34,11 +34,11 @@ inline Vec3 transformed(vtkMatrix4x4* matrix, const Vec3& place)
   return { out[0], out[1], out[2] };
 }
 
-/// Of what a person marks in a picture: what stands out, and the dark rim that is seen on light points.
+/// Color of a person's marks in a picture, and of the dark rim that shows on light points.
 constexpr unsigned char kMarkColor[3] = { 255, 196, 40 };
 constexpr unsigned char kMarkRim[3] = { 30, 30, 34 };
 
-/// Of a point in the window of @p renderer, as its dots per inch say.
+/// Pixels per point in the window of @p renderer, by its dots per inch.
 POINTHAPTICSRENDERING_EXPORT double pixelsPerPoint(vtkRenderer* renderer);
 
 /// Where in the whole picture of an eye a place of the window is, both pixels from the window's lower left
@@ -118,7 +118,7 @@ public:
   }
   /// After the last put().
   void finish();
-  /// Of a point, as the window's dots per inch say.
+  /// Pixels per point, by the window's dots per inch.
   double pixelsPerPoint() const { return pixels_; }
   /// An estimate, pixels.
   double widthOf(const std::string& words) const;

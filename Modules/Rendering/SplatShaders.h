@@ -119,7 +119,7 @@ inline constexpr const char* kFitStatements = R"(
   gl_Position.xy *= splatFit;
 )";
 
-/// What is outside of the box goes behind the far plane.
+/// Moves vertices outside of the box behind the far plane.
 inline constexpr const char* kClipStatements = R"(
   if (any(lessThan(vertexMC.xyz, splatLow)) || any(greaterThan(vertexMC.xyz, splatHigh)))
   {

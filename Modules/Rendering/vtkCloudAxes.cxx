@@ -121,7 +121,7 @@ struct vtkCloudAxes::Internals
   void drawMarker();
 };
 
-/// Of the edges along @p axis that lie at the outline of the picture, the one farthest down and to the left.
+/// Finds, among the edges along @p axis at the outline of the picture, the one farthest down and to the left.
 /// False: none is long enough to be read.
 bool vtkCloudAxes::Internals::findEdge(const ScreenProjection& project, int axis, Edge& best) const
 {

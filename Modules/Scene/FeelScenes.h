@@ -38,16 +38,17 @@ class POINTHAPTICSSCENE_EXPORT FeelScenes
 {
 public:
   FeelScenes() = default;
-  /// The same cloud for another hand, whose path begins: shares what is immutable, and may be used in another
-  /// thread. Of the other object nothing is changed.
+  /// Copies for another hand, whose path begins: shares the immutable scenes, and may be used in another
+  /// thread. The other object does not change.
   explicit FeelScenes(const FeelScenes& shared);
   FeelScenes& operator=(const FeelScenes&) = delete;
 
-  /// @param felt the points that are felt, in the workspace frame: what vtkVoxelMeanResampler made of the
-  /// cloud after prepareForTouch(), or raw points. @param cloud the points of the cloud in its own frame, for
-  /// the scenes near the hand; no reference is kept. Errors: those of HapticScene::create().
+  /// Makes the scenes. @param felt the points that are felt, in the workspace frame: the output of
+  /// vtkVoxelMeanResampler after prepareForTouch(), or raw points. @param cloud the points of the cloud in
+  /// its own frame, for the scenes near the hand; no reference is kept. Errors: those of
+  /// HapticScene::create().
   Status make(vtkPolyData* felt, vtkPoints* cloud, const FeelSceneSettings& settings);
-  /// The same with a scene of the whole cloud that is there already.
+  /// As make(), with a scene of the whole cloud that is there already.
   void adopt(std::shared_ptr<const HapticScene> whole, vtkPoints* cloud, const FeelSceneSettings& settings);
   /// Resamples @p cloud and makes the scenes of that. @param resampler has lattice and transform, and gets
   /// what a scene needs; its observers may abort the work. @p settings' workspace is that of the resampler.

@@ -268,7 +268,8 @@ bool LocalSceneProvider::index()
   return index_ != nullptr;
 }
 
-/// What to resample, points and part aside. False: there is nothing, or the lattice hangs on the whole cloud.
+/// Prepares lattice and transform of the resampling. False: there is no cloud, or the lattice depends on the
+/// whole cloud.
 bool LocalSceneProvider::prepare(const SceneRequest& request)
 {
   const VoxelMeanSettings& settings = request.voxels;

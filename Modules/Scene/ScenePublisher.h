@@ -45,8 +45,8 @@ private:
   std::shared_ptr<const HapticScene> newest_;
   AffineTransform modelToWorkspace_;
   std::uint64_t cloud_ = 0;
-  std::uint64_t number_ = 0; ///< Of the newest scene.
-  bool isMoved_ = false;     ///< By move(), since the newest scene was asked for or before.
+  std::uint64_t number_ = 0; ///< Number of the newest scene.
+  bool isMoved_ = false;     ///< True if move() was called since the newest scene was asked for.
 };
 
 } // namespace pointhaptics

@@ -28,9 +28,9 @@ namespace
 
 using Clock = std::chrono::steady_clock;
 
-/// Between two looks at where the hand is: 0.5 mm at 50 mm/s.
+/// Time between two looks at the hand: 0.5 mm at 50 mm/s.
 constexpr std::chrono::milliseconds kLookPeriod(10);
-/// The same of a hand that rested for so many looks.
+/// Time between two looks at a hand that rested for kRestingLooks looks.
 constexpr std::chrono::milliseconds kRestPeriod(40);
 constexpr int kRestingLooks = 50;
 
@@ -40,7 +40,7 @@ class Pipeline
 public:
   Pipeline()
   {
-    // What these say comes from another thread and is the owner's to say: BuiltScene::problem.
+    // Messages of these filters come from another thread; the owner reports them as BuiltScene::problem.
     for (const auto event : { vtkCommand::ErrorEvent, vtkCommand::WarningEvent })
     {
       resampler_->AddObserver(event, silent_);
@@ -187,7 +187,7 @@ struct Refinable
   std::shared_ptr<const HapticScene> global;
 };
 
-/// What a thread of the worker is to do.
+/// Task of a thread of the worker.
 struct Job
 {
   SceneRequest request;
@@ -227,7 +227,7 @@ struct SceneWorker::Implementation
   std::shared_ptr<const Refinable> refinable;      // while no request follows, if that is wanted
   Owned<BuiltScene> finished;
   bool ending = false;
-  // Of the thread near the hand.
+  // State of the thread near the hand.
   Bounds seenHand;
   int restingLooks = 0;
 

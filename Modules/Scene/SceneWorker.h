@@ -27,8 +27,8 @@ class vtkVoxelMeanResampler;
 namespace pointhaptics
 {
 
-/// What one scene is made with. The settings of the filters are copied when it is made: what is set on them
-/// later belongs to the next request.
+/// Input of one scene. The settings of the filters are copied when it is made: later changes belong to the
+/// next request.
 struct SceneRequest
 {
   /// Copies the settings of @p resampler, its input and transform aside, and those of @p filter, which may be
@@ -59,17 +59,17 @@ struct SceneRequest
   std::function<void(std::shared_ptr<const HapticScene>, std::uint64_t)> publish;
 };
 
-/// What came of a request.
+/// Result of a request.
 struct BuiltScene
 {
-  std::uint64_t number = 0; ///< Of the request: 1, 2, ...
+  std::uint64_t number = 0; ///< Number of the request: 1, 2, ...
   std::array<double, 16> modelToWorkspace{};
   vtkSmartPointer<vtkPolyData> means; ///< With the arrays of both filters; nobody else has it.
-  vtkIdType numberOfPoints = 0;       ///< Of the cloud.
-  int latticeDimension = 0;           ///< What SceneRequest::findsLattice found; else 0.
+  vtkIdType numberOfPoints = 0;       ///< Number of the cloud's points.
+  int latticeDimension = 0;           ///< Dimension that SceneRequest::findsLattice found; else 0.
   bool empty = true;                  ///< No scene was made: @p status says why.
   Status status = Status::Empty;
-  std::string problem; ///< What the filters could not do; empty: nothing.
+  std::string problem; ///< Failures of the filters; empty: none.
 };
 
 /// One build of the whole cloud is in flight at a time; of the requests that come meanwhile only the newest

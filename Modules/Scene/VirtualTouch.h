@@ -37,11 +37,11 @@ public:
   /// The hand is at @p hip for one tick. @param microseconds gets the duration of the tick alone: a scene
   /// that it needs is there in time.
   const ProxyState& step(const Vec3& hip, double& microseconds);
-  /// What the last step came to; its tick is its number, 1, 2, ...
+  /// Sample of the last step; its tick is the step's number, 1, 2, ...
   const ServoSample& sample() const { return sample_; }
-  /// That the last step was felt in; may be null.
+  /// Scene in which the last step was felt; may be null.
   const HapticScene* scene() const { return scene_; }
-  /// Of all ticks.
+  /// Settings of all ticks.
   static ServoStepSettings settings(double rateHz);
 
 private:
@@ -51,9 +51,9 @@ private:
   ServoSample sample_;
 };
 
-/// What feelPath() tells of each tick; false stops it.
+/// Called by feelPath() with each tick; false stops it.
 using OnTick = std::function<bool(double timeSeconds, const ProxyState& state, double microseconds)>;
-/// The same with all there is to know; the time of its sample counts from the first tick.
+/// Called with each tick and all that is known of it; the time of its sample counts from the first tick.
 using OnTouch = std::function<bool(double timeSeconds, const VirtualTouch& touch)>;
 
 /// Moves the hand along @p path, whatever the force, linearly between its points, for so many ticks (see

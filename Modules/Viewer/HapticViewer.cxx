@@ -66,10 +66,10 @@ struct HapticViewer::Implementation
   ViewScene scene;
   std::vector<std::string> files;
   std::size_t cloud = 0; ///< Which of them is shown.
-  std::string news;      ///< What was skipped before it; empty: nothing.
+  std::string news;      ///< Files that were skipped before it; empty: none.
   bool isOpen = false;
   bool isCancelled = false;
-  std::optional<ServoSample> felt; ///< What a picture shows of the path.
+  std::optional<ServoSample> felt; ///< Sample of the path that a picture shows.
   double readSeconds = 0.0;
   double resampleSeconds = 0.0;
   std::string message;
@@ -211,7 +211,7 @@ bool HapticViewer::Implementation::show(LoadedCloud loaded)
   }
   this->news += (this->news.empty() || loaded.notes.empty() ? "" : "\n") + shortNote(loaded.notes);
   this->isOpen = this->scene.open(std::move(loaded), this->options, this->message);
-  // What VTK classes complained of comes first: it may be why.
+  // Errors of VTK classes come first, since they may be the cause.
   const std::vector<std::string> errors =
     this->observer.takeVtkErrors ? this->observer.takeVtkErrors() : std::vector<std::string>();
   this->isOpen = errors.empty() ? this->isOpen : this->fail(errors.front());

@@ -19,7 +19,7 @@
 namespace pointhaptics
 {
 
-/// What moves the hand.
+/// The device that moves the hand.
 enum class HapticViewerDevice
 {
   Auto,      ///< A Falcon where one can be used, else the simulated hand.
@@ -28,7 +28,7 @@ enum class HapticViewerDevice
   None,      ///< The cloud is only looked at.
 };
 
-/// What the person at the screen calls the settings that messages speak of.
+/// Names of settings in messages, as the person at the screen knows them.
 struct HapticViewerNames
 {
   std::string colorBy = "colorBy";
@@ -66,7 +66,7 @@ struct HapticViewerOptions
   // Where the cloud lies, and the lattice it is resampled on.
   AffineTransform transform;  ///< From the file's coordinates to metres.
   std::string unit = "m";     ///< Name of the unit of the file's coordinates, for texts.
-  double metresPerUnit = 1.0; ///< What that unit is; @c transform holds it already.
+  double metresPerUnit = 1.0; ///< Length of that unit in metres; @c transform includes it already.
   bool unitIsChosen = false;  ///< Else texts take the unit that a file itself says, where it says one.
   bool fitsWorkspace = true;  ///< Fit the transformed cloud to the 10 cm cube about the origin.
   /// How the cloud is resampled. Its lattice: dimensions of 0 are a choice, 300 to 1200; where fitsWorkspace
@@ -84,11 +84,12 @@ struct HapticViewerOptions
   HapticViewerDevice device = HapticViewerDevice::Auto;
   FalconSettings falcon;  ///< @c cancelled is taken from HapticViewerObserver where it is empty.
   std::string path;       ///< File of a hand path, t,x,y,z, that moves the hand instead of a device.
-  PathUnits pathUnits;    ///< Of its numbers.
+  PathUnits pathUnits;    ///< Units of the path's numbers.
   std::string replay;     ///< A recording that is felt again instead of a path.
   std::string record;     ///< A recording to write, from the first tick to the last; empty: a key begins one.
-  std::string markerText; ///< What the recording says of the markers that the key sets.
-  int markerPort = -1;    ///< Of this machine, where other programs set markers (MarkerSocket.h); -1: none.
+  std::string markerText; ///< Text in the recording for markers that the key sets.
+  int markerPort = -1;    ///< TCP port of this machine at which other programs set markers (MarkerSocket.h);
+                          ///< -1: none.
   std::string passingFile; ///< One that the host deletes when the viewer ends: recordings keep a copy of it.
   std::string trace;       ///< CSV to write, one row a tick; empty: none.
   std::string forceChart;  ///< PNG to write, force and proxy radius over time; empty: none.
@@ -98,7 +99,7 @@ struct HapticViewerOptions
   bool pushPointer = false;          ///< The mouse pointer is pushed out of what the hand touches.
   bool together = false;             ///< All files as one cloud; else one at a time.
   bool watch = false;                ///< Read files again when they change.
-  /// Of cloud optimised files: points that the window shows at once, while all are read; 0: it waits for all.
+  /// Points of a cloud optimised file that the window shows at once, while all are read; 0: it waits for all.
   std::int64_t coarsePoints = 60000;
   bool fullScreen = false; ///< The window covers the screen, without a border.
   bool sound = false;      ///< The touch is heard (SoundPlayer.h), where the machine has a loudspeaker.
@@ -125,7 +126,7 @@ struct HapticViewerOptions
   }
 };
 
-/// What a window has come to: the options that its user changed, as they are now.
+/// State of a window: the options that its user changed, with their present values.
 struct HapticViewerState
 {
   std::array<double, 16> modelToWorkspace{}; ///< From the file's coordinates to metres, row by row.
@@ -151,15 +152,15 @@ struct HapticViewerState
   int height = 0;
 };
 
-/// What a viewer has to say, and what it asks its host. Every member may be empty. All are called in the GUI
+/// Messages and questions of a viewer to its host. Every member may be empty. All are called in the GUI
 /// thread.
 struct HapticViewerObserver
 {
   enum class Kind
   {
-    Note,    ///< What was done, such as "screenshot: FILE".
+    Note,    ///< A finished action, such as "screenshot: FILE".
     Warning, ///< The viewer goes on, with less.
-    Error,   ///< What the user asked for was not done; the window goes on.
+    Error,   ///< A request of the user failed; the window goes on.
   };
 
   /// A message for people, in one or more lines, without a line break at its end.
@@ -170,7 +171,7 @@ struct HapticViewerObserver
   std::function<bool()> shouldStop;
   /// Where the content of a picture of that name goes, where the host gives it its name later.
   std::function<std::string(const std::string& fileName)> placeOf;
-  /// What VTK classes complained of since the last call, where the host collects it.
+  /// Returns the complaints of VTK classes since the last call, where the host collects them.
   std::function<std::vector<std::string>()> takeVtkErrors;
   /// The user asks to keep @p state in @p fileName (JSON). False: @p message says why not. Empty: the key has
   /// no effect.

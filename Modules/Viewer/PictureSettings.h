@@ -9,7 +9,7 @@
 namespace pointhaptics
 {
 
-/// Of PictureSettings::theme.
+/// Names that PictureSettings::theme may have.
 inline const std::vector<std::string>& themeNames()
 {
   static const std::vector<std::string> names = { "usual", "high-contrast" };
@@ -23,7 +23,8 @@ struct PictureSettings
   std::string background = "dark"; ///< One of groundNames(): dark, light, white, black.
   std::string stereo = "none";     ///< One of stereoNames(): one picture, or how those of two eyes are shown.
   double pointScale = 1.0;         ///< Factor on the diameter of all points, 0.1 to 10.
-  double depthStrength = 1.6;      ///< Of the shading by depth, 0 (none) to 10: see vtkDepthShadingPass.
+  double depthStrength = 1.6;      ///< Strength of the shading by depth, 0 (none) to 10: see
+                                   ///< vtkDepthShadingPass.
   double fontScale = 1.0;          ///< Factor on the size of all texts, 0.5 to 4.
   std::string colorMap = "auto";   ///< One of colorMapNames().
   /// The values of what colours the cloud that have the first and the last colour; empty: nearly all that

@@ -17,7 +17,7 @@ namespace pointhaptics
 /// buffers for both.
 POINTHAPTICSVIEWER_EXPORT const std::vector<std::string>& stereoNames();
 
-/// What is used where nobody has chosen.
+/// Stereo mode that the key chooses first, and the one that needs quad buffers.
 constexpr const char* kUsualStereo = "anaglyph";
 constexpr const char* kQuadBuffers = "crystal-eyes";
 

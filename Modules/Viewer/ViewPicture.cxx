@@ -97,8 +97,8 @@ private:
   std::array<double, 3> color_{};
 };
 
-/// What gives @p black over black and @p white over white: of each colour the share that is not the
-/// background's.
+/// Returns the image with alpha that gives @p black over black and @p white over white: each colour keeps the
+/// part that is not the background's.
 vtkSmartPointer<vtkImageData> withoutGround(vtkImageData* black, vtkImageData* white)
 {
   vtkNew<vtkImageData> image;
@@ -249,7 +249,7 @@ bool feelPathOf(ViewScene& scene, const HapticViewerOptions& options, const Hapt
   return true;
 }
 
-/// What was recorded in HapticViewerOptions::replay, felt again.
+/// Feels the recording in HapticViewerOptions::replay again.
 bool feelReplay(ViewScene& scene, const HapticViewerOptions& options, const HapticViewerObserver& observer,
   std::vector<ServoSample>& samples, std::string& message)
 {

@@ -49,7 +49,7 @@ namespace
 
 /// The proxy sphere is drawn at least this large, over the workspace's edge.
 constexpr double kSmallestSphere = 0.022;
-/// Of what words stand on that lie over points.
+/// Opacity of the plates behind texts that lie over points.
 constexpr double kPlateOpacity = 0.6;
 } // namespace
 
@@ -109,8 +109,8 @@ void ViewScene::beginFrame()
   }
   if (shown_)
   {
-    // What a sweep leaves open between its lines stays open from nearer: its first view rules. Surfaces
-    // close.
+    // Gaps between the lines of a sweep stay open when the camera comes nearer: sizes stay as in the first
+    // view. Surfaces close.
     const bool isSweep = shown_->look.kind == CloudKind::Sweep || shown_->look.kind == CloudKind::Indoors;
     pointsMapper_->SetSurfacePixels(
       isSweep ? pointsMapper_->GetLargestPixels() * placedDistance_ / this->viewDistance() : INFINITY);
@@ -327,7 +327,7 @@ ViewScene::ColorRange ViewScene::colorRange()
   return range;
 }
 
-/// The same colours for the same places and values, where more points would make a wider range.
+/// Keeps the colours of places and values, where more points would widen the range.
 void ViewScene::keepColorRange(const ColorRange& before)
 {
   if (before.coloredBy == coloredBy_ && picture_.colorRange.empty())
@@ -340,7 +340,7 @@ void ViewScene::keepColorRange(const ColorRange& before)
 
 std::vector<std::string> ViewScene::colorChoices() const
 {
-  // What is shown where nothing is chosen comes first.
+  // The default choice comes first.
   std::vector<std::string> names;
   const auto add = [&names](const std::string& name)
   {

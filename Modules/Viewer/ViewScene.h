@@ -79,7 +79,7 @@ public:
   /// Puts the camera @p azimuth degrees to the right of the cloud's front and @p elevation above, with its up
   /// upwards, where the cloud fills the window.
   void lookFrom(double azimuth, double elevation);
-  /// The same from where the camera is.
+  /// As lookFrom(), from the camera's present direction.
   void fitView();
   /// Takes the camera @p degrees about the vertical line through the middle of the cloud: it turns to the
   /// left.
@@ -114,7 +114,7 @@ public:
   void clipFelt();
   /// The box with its handles.
   ClipBoxMark& clipMark() { return clipMark_; }
-  /// Of the finite points of the cloud, but for a few far ones, in the frame of the file; empty: there is
+  /// Bounds of the cloud's finite points, but for a few far ones, in the frame of the file; empty: there is
   /// none.
   const Bounds& cloudBounds();
   /// PictureSettings::measure in words: the distance, and in a second line that along each axis. Empty: there
@@ -159,7 +159,7 @@ public:
 
   /// Unit vector along an axis of the workspace, from its centre to the side the person looks from.
   Vec3 towardsViewer() const { return orientation_.front; }
-  /// Of the means that are shown; takes the one that came with the cloud where there is one.
+  /// Scene of the shown means; takes the one that came with the cloud where there is one.
   std::shared_ptr<const HapticScene> makeScene(bool useCovariance, Status& status);
   /// False: the cloud has no means yet, until meansChanged().
   bool isResampled() const { return isResampled_; }
@@ -169,7 +169,7 @@ public:
   int resamplings() const { return resamplings_; }
   /// describeScale() of the model as it was opened.
   const std::string& scaleNote() const { return scaleNote_; }
-  /// What one unit of the file is taken for in texts: as the options say, else as the file says, else metres.
+  /// Unit of the file in texts: as the options say, else as the file says, else metres.
   const LengthUnit& unit() const { return unit_; }
   /// The unit that the file seems to have where it is another; the name is empty where it seems to have none.
   const LengthUnit& likelyUnit() const { return likelyUnit_; }
@@ -178,11 +178,11 @@ public:
   vtkMatrix4x4* modelMatrix() { return modelMatrix_; }
   vtkVoxelMeanResampler* resampler() { return resampler_; }
   vtkKernelBandwidthFilter* bandwidth() { return bandwidth_; }
-  /// Of the means that are felt; of the points of the file.
+  /// Actor of the felt means, and actor of the file's points.
   vtkActor* actor() { return actor_; }
   vtkActor* pointsActor() { return pointsActor_; }
   const ShownCloud* shown() const { return shown_.get(); }
-  /// What is shown is a coarse level of its files.
+  /// True while a coarse level of the files is shown.
   bool isCoarse() const { return isCoarse_; }
   /// How a finer level of the same files is shown in the place of this one: see CloudRequest::before. The
   /// colours of open() go on in it.
@@ -209,7 +209,7 @@ private:
   static constexpr double kMemorySeconds = 2.0; ///< After the last of what takes memory for a while.
 
   void returnMemory();
-  /// What the maps of colours run between.
+  /// Ranges of values over which the color maps run.
   struct ColorRange
   {
     std::string coloredBy;
@@ -259,7 +259,7 @@ private:
   bool showsFelt_ = false;            ///< As it was asked for.
   bool drawsFelt_ = false;            ///< As it is.
   bool ambient_ = false;
-  double loadedScale_ = 1.0; ///< Of the model as it was opened.
+  double loadedScale_ = 1.0; ///< Scale of the model as it was opened.
   vtkNew<vtkWorkspaceBrackets> brackets_;
   vtkNew<vtkScalarBarActor> scalarBar_;
   bool wantsScalarBar_ = false;
@@ -271,8 +271,8 @@ private:
   bool figure_ = false;
   std::string colorBy_;
   std::string ownColor_;  ///< An array of the file that the user named.
-  std::string coloredBy_; ///< What the picture shows by now.
-  LengthUnit unit_;       ///< Of the file.
+  std::string coloredBy_; ///< Array by which the picture is coloured now.
+  LengthUnit unit_;       ///< Unit of the file.
   LengthUnit likelyUnit_;
   CloudOrientation cloudOrientation_; ///< In the frame of the file.
   PictureSettings picture_;
@@ -280,7 +280,7 @@ private:
   vtkIdType invalidPoints_ = 0;
   double heightZero_ = 0.0;  ///< See LoadedCloud.
   double fixedPixels_ = 0.0; ///< HapticViewerOptions::pointSize.
-  Bounds cloudBounds_;       ///< Of the finite points, as in the file; empty until somebody asks.
+  Bounds cloudBounds_;       ///< Bounds of the finite points, as in the file; empty until somebody asks.
   vtkNew<vtkRenderer> renderer_;
   std::vector<double> clip_; ///< As HapticViewerOptions::clip.
   Bounds near_;              ///< LoadedCloud::near.

@@ -1,4 +1,4 @@
-// What is drawn of a scene: points or means, where the model is, and from where they are seen.
+// Draws a scene: points or means, where the model is, and the camera.
 #include "ViewScene.h"
 
 #include "CloudAppearance.h"
@@ -28,7 +28,7 @@ namespace pointhaptics
 namespace
 {
 
-/// Of the depths between neighbouring means, over their spacing.
+/// Depth differences up to this fraction of the spacing count as one surface where means are drawn.
 constexpr double kStepsOfMeans = 0.75;
 /// A model that was made larger than this many times as it was opened is shown in the workspace only.
 constexpr double kShownWhole = 1.05;
@@ -131,8 +131,8 @@ void ViewScene::drawPoints()
   orientation_.front = normalized(transformOf(modelMatrix_).applyToVector(shown_->look.front));
 }
 
-/// What was freed while the cloud was read, measured and drawn goes back to the machine, once that is over:
-/// about 200 bytes a point.
+/// Returns freed memory of reading, measuring and drawing to the system, about 200 bytes a point, once these
+/// are over.
 void ViewScene::returnMemory()
 {
   if (steadySeconds() >= memoryDue_ && !measurement_.busy())

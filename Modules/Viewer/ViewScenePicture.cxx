@@ -31,15 +31,15 @@ namespace pointhaptics
 namespace
 {
 
-/// Of texts of the theme high-contrast.
+/// Factor on the size of texts in the theme high-contrast.
 constexpr double kLargerText = 1.25;
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
-/// Of vtkSplatMapper, at a scale of 1.
+/// Pixel sizes of vtkSplatMapper at a scale of 1.
 constexpr double kSmallestPixels = 2.0;
 constexpr double kPointPixels = 4.0;
-/// Of a handful of points, which nobody would see else.
+/// Smallest size of a handful of points, pixels: smaller ones would not be seen.
 constexpr double kLargestSmallest = 6.0;
-/// Of points at so few places that they have no surface, and no size.
+/// Size of points at fewer than kFewPlaces places, pixels: they have no spacing.
 constexpr double kLonePixels = 8.0;
 constexpr std::size_t kFewPlaces = 8;
 /// From here on points are as small as can be.
@@ -282,7 +282,7 @@ void ViewScene::leaveLayout()
 
 CameraFit ViewScene::fitFrom(const CloudLook& look, double turn) const
 {
-  // What the box leaves, where it leaves something.
+  // Points inside the clipping box, or all where it holds none.
   const vtkSmartPointer<vtkPolyData> clipped = clippedCloud(shown_->points, clipBox(clip_));
   const bool isEmpty = clipped->GetNumberOfPoints() == 0;
   const PointAccess access((isEmpty ? shown_->points : clipped)->GetPoints());

@@ -24,7 +24,8 @@ struct HapticViewerOptions;
 /// time is that of the path. @pre path not empty.
 std::vector<ServoSample> samplesAlong(const HipPath& path, std::int64_t ticks, FeelScenes& scenes,
   const HapticParameters& parameters, double rateHz);
-/// What `feel` feels of the cloud of @p scene, with the same options. False: @p message says why not.
+/// Makes the scenes that the command `feel` makes of the cloud of @p scene with the same options. False: @p
+/// message says why not.
 bool makeFeelScenes(
   ViewScene& scene, const HapticViewerOptions& options, FeelScenes& scenes, std::string& message);
 

@@ -131,7 +131,7 @@ TEST_F(Stop, InTheMiddleOfFeelingLeavesNoFileBehind)
   }
 }
 
-/// What a pipe gets whose reader ends at once, as `| head` does.
+/// Runs the program into a pipe whose reader ends at once, as `| head` does.
 class Reader : public Stop
 {
 protected:

@@ -28,7 +28,7 @@ struct BandwidthCommandOptions
   void addTo(CLI::App& command);
 };
 
-/// Of a cloud or a part of it. Points that are not finite have radius 0: they take no part.
+/// Figures of a cloud or a part of it. Points that are not finite have radius 0: they take no part.
 struct BandwidthFigures
 {
   double smallestRadius = INFINITY;
@@ -38,7 +38,7 @@ struct BandwidthFigures
 };
 
 BandwidthFigures bandwidthFigures(vtkPolyData* cloud);
-/// Of two parts.
+/// Joins the figures of two parts.
 BandwidthFigures together(const BandwidthFigures& a, const BandwidthFigures& b);
 /// Why there is no radius; empty where there is one.
 std::string whyNone(const BandwidthCommandOptions& options, const BandwidthFigures& figures);

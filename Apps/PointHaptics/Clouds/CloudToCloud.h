@@ -25,7 +25,7 @@ struct CloudToCloudOptions
 {
   std::vector<std::string> inputs;
   std::string input;  ///< The one at hand.
-  std::string output; ///< Of the one at hand; before, a pattern (expandedName()).
+  std::string output; ///< Output of that input; before, a pattern (expandedName()).
   bool merge = false;
   ReadOptions reading;
   WriteOptions writing;
@@ -38,7 +38,7 @@ struct CloudToCloudOptions
   bool read(Cloud& cloud, std::string& message, Ranks* ranks = nullptr) const;
 };
 
-/// What came of one cloud.
+/// Result of one cloud.
 struct CloudResult
 {
   std::string summary;

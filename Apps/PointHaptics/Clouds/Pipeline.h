@@ -31,15 +31,15 @@ struct Cloud
 {
   vtkSmartPointer<vtkPolyData> points;
   std::string format;             ///< As the reader calls it.
-  std::vector<std::string> notes; ///< What the file has and the points have not.
+  std::vector<std::string> notes; ///< Parts of the file that the points lack.
   bool isValidWithoutPoints = false;
   std::int64_t bytesRead = 0;
 };
 
 struct ReadOptions
 {
-  std::string extension;    ///< Of a name that does not say it; empty: the name's.
-  bool applyPoses = true;   ///< Of scans (E57).
+  std::string extension;    ///< Extension for a name that has none; empty: the name's.
+  bool applyPoses = true;   ///< Applies the poses of scans (E57).
   double resolution = 0.0;  ///< How far a cloud optimised one is read, in its units; 0: all of it.
   std::vector<double> clip; ///< Box of what is read, in its coordinates: XMIN, XMAX, YMIN, ...; empty: all.
   std::vector<std::string> columns; ///< Names for those of a text; empty: as the file says.

@@ -35,19 +35,20 @@ struct ResampleOptions
   void check() const;
   /// All but the voxel index.
   void configure(vtkVoxelMeanResampler* resampler) const;
-  /// What is done with the means before they are written.
+  /// Completes the means before they are written.
   void finish(vtkPolyData* means) const;
 };
 
-/// What a few points of @p cloud far from all others do to the automatic lattice, and how they are left out:
-/// not where it @p isDone with voxels of a given size, of which no other is coarser for it. And that rays
-/// which did not return are resampled. Collective where @p ranks have parts of the cloud: the same on all.
+/// Notes on points of @p cloud far from all others: how they widen the automatic lattice, and which box
+/// leaves them out. There is none where it @p isDone with voxels of a given size that no others are coarser
+/// than. Another note says that rays which did not return are resampled. Collective where @p ranks have parts
+/// of the cloud: the same on all.
 std::vector<std::string> oddPointsNotes(
   const ResampleOptions& options, bool isDone, vtkPolyData* cloud, Ranks& ranks);
 
 /// Opens the file of --voxel-index. False: @p message says why it cannot be written.
 bool openVoxelIndex(const std::string& fileName, CsvWriter& file, std::string& message);
-/// Of each point the row of its voxel in the output, or -1. @pre ComputeVoxelIndex is on.
+/// Row in the output of each point's voxel, or -1. @pre ComputeVoxelIndex is on.
 std::vector<std::int64_t> voxelIndexOf(vtkVoxelMeanResampler* resampler);
 void addVoxelIndex(const std::vector<std::int64_t>& rows, CsvWriter& file);
 

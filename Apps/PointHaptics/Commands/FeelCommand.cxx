@@ -135,7 +135,7 @@ public:
     return summary_;
   }
 
-  /// Of a hand that has touched nothing.
+  /// Nearest approach of a hand that has touched nothing.
   const ClosestApproach& approach() const { return approach_; }
 
 private:
@@ -264,7 +264,7 @@ nlohmann::ordered_json limitJson(const ForceLimit& limit)
   return std::isfinite(limit.newtons()) ? nlohmann::ordered_json(limit.newtons()) : nlohmann::ordered_json();
 }
 
-/// Of a hand that has touched nothing @p nearest says how near it came, metres.
+/// Prints the summary. @p nearest: how near a hand that touched nothing came, metres.
 void print(const FeelOptions& options, const FeelScenes& scenes, std::int64_t invalid, const Summary& s,
   const std::optional<double>& nearest)
 {

@@ -52,7 +52,7 @@ std::string upper(std::string word)
   return word;
 }
 
-/// Of all commands, also those that some windows have not.
+/// Help of all commands, also those that some windows lack.
 std::string keysHelp()
 {
   return HapticViewer::commands().help(CommandRegistry::Scope::All);
@@ -169,7 +169,7 @@ std::string listOf(const CLI::Option& option)
   return areWords ? words : std::string();
 }
 
-/// What options with other values begin with: actions of --bind, and colours that every cloud has.
+/// Values with which an option's words begin: actions of --bind, and colours that every cloud has.
 std::string beginningsOf(const std::string& option)
 {
   std::string words = option == "color-by" ? "rgb clay height density proxyradius residual" : "";

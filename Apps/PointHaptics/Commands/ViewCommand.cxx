@@ -64,7 +64,7 @@ void showMessage(HapticViewerObserver::Kind kind, const std::string& text)
   }
 }
 
-/// What the viewer says goes to the terminal, what it keeps to JSON files. @p options must outlive the
+/// Sends the viewer's messages to the terminal, and its settings to JSON files. @p options must outlive the
 /// result.
 HapticViewerObserver observerFor(const ViewOptions& options)
 {

@@ -34,7 +34,7 @@ struct FeelOptions
   std::string output;
   std::string replay;    ///< A recording to feel again, instead of a path.
   std::string record;    ///< A recording to write, beside the output.
-  std::string soundFile; ///< What is felt, as sound; empty: none.
+  std::string soundFile; ///< Sound file of the touch; empty: none.
   std::string config;
   std::string settings;     ///< All that was given, as a configuration in one line; filled in by complete().
   bool fit = false;         ///< Fit the cloud to the workspace, as view does.

@@ -49,7 +49,7 @@ inline bool areNoReturns(std::int64_t atZero, std::int64_t finite) noexcept
   return atZero > 1 && atZero < finite;
 }
 
-/// What lies in both; empty where nothing does.
+/// The box that lies in both; empty where they do not meet.
 inline Bounds intersection(const Bounds& a, const Bounds& b) noexcept
 {
   Bounds result;

@@ -45,7 +45,7 @@ inline void* allocatePages(std::size_t bytes, Pages pages)
   return memory;
 }
 
-/// Of PageVector.
+/// Allocator of PageVector.
 template <typename T>
 struct PageAllocator
 {
@@ -77,7 +77,7 @@ struct PageAllocator
   friend bool operator!=(const PageAllocator&, const PageAllocator&) { return false; }
 
 private:
-  /// What is smaller is in memory that was used before, more often than not: that needs no first touch.
+  /// Smaller blocks come mostly from memory that was used before: they need no first touch.
   static constexpr std::size_t kLarge = 4 * kHugePage;
 };
 

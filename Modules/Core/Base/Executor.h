@@ -65,14 +65,14 @@ void forEachItemWith(const Executor& executor, std::size_t count, Begin&& begin,
       }
     });
 }
-/// The same with a Scratch that each thread makes: work(item, scratch).
+/// Calls work(item, scratch) for each item, with a Scratch that each thread makes.
 template <typename Scratch, typename Work>
 void forEachItem(const Executor& executor, std::size_t count, Work&& work)
 {
   forEachItemWith(
     executor, count, [](std::size_t) { return Scratch(); }, std::forward<Work>(work));
 }
-/// The same without scratch: work(item).
+/// Calls work(item) for each item.
 template <typename Work>
 void forEachItem(const Executor& executor, std::size_t count, Work&& work)
 {

@@ -84,7 +84,7 @@ private:
   bool renamePart() noexcept;
   void discard() noexcept;
 
-  OutputFile* next_ = nullptr; ///< Of all in this process.
+  OutputFile* next_ = nullptr; ///< Next in the list of all output files of this process.
   std::string target_;
   std::string temporary_;
   std::string buffer_;

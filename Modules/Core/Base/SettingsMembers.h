@@ -112,8 +112,8 @@ void visitMembers(Settings& settings, Visitor&& visit)
     std::remove_const_t<Settings>::members());
 }
 
-/// The same through all levels: where a member is a settings struct its own members are visited instead, by
-/// names such as "lattice.voxelSize".
+/// Visits the members of all levels: the members of a settings struct within another have names such as
+/// "lattice.voxelSize".
 template <typename Settings, typename Visitor>
 void visitSettings(Settings& settings, Visitor&& visit, const std::string& prefix = {})
 {

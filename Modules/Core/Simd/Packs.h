@@ -39,7 +39,7 @@ constexpr int wholePacks(int n)
 }
 
 using Pack = double __attribute__((vector_size(8 * kWidth)));
-/// The same where it overlays numbers of an array.
+/// A Pack that overlays numbers of an array.
 using PackAt = double __attribute__((vector_size(8 * kWidth), may_alias));
 
 inline Pack load(const double* from)

@@ -84,8 +84,8 @@ public:
       level, center, [radius](int, std::uint32_t) { return radius; }, visit);
   }
 
-  /// The same where each brick has a radius of its own, @p radius(level, brick): at least those of the bricks
-  /// below it.
+  /// As visitRunsWithin(level, center, radius, visit), with a radius for each brick: @p radius(level, brick)
+  /// is at least that of the bricks below it.
   template <typename Radius, typename Visitor>
   void visitRunsWithin(int level, const Vec3& center, const Radius& radius, Visitor&& visit) const
   {

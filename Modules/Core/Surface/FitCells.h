@@ -28,8 +28,8 @@ public:
 
   /// Drops everything gathered. Call it before a pyramid or field is used whose address another one had.
   void invalidate() noexcept;
-  /// What is used next are @p pyramid and @p field, which are the same as the last ones in @p same: what was
-  /// gathered there stays.
+  /// Switches to @p pyramid and @p field, which equal the last ones in the box @p same: cells gathered there
+  /// stay.
   void carryOver(const CellPyramid& pyramid, const RadiusField& field, const Bounds& same) noexcept;
 
   /// The cells of @p level (mixed ones as their children) that can lie within @p radius of @p center, and
@@ -56,7 +56,7 @@ private:
   double margin_;
   const CellPyramid* pyramid_ = nullptr;
   const RadiusField* field_ = nullptr;
-  simd::FitBlock blocks_[2]; ///< Of even and of odd levels: a fit blends two neighbouring ones.
+  simd::FitBlock blocks_[2]; ///< Blocks of even and of odd levels: a fit blends two neighbouring levels.
   simd::FieldBlock nodes_;
   simd::FitRows rows_;
   bool overflowed_ = false;

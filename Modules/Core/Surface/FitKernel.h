@@ -86,7 +86,7 @@ struct FieldSums
   double proxyRadius = 0.0;
   double cubic = 0.0;
   double weightGradient[3] = { 0.0, 0.0, 0.0 };
-  double radiusGradient[3] = { 0.0, 0.0, 0.0 }; ///< Of the sum of weight times radius.
+  double radiusGradient[3] = { 0.0, 0.0, 0.0 }; ///< Gradient of the sum of weight times radius.
 };
 
 /// The frame and parameters of a fit; lengths in the unit of the block.
@@ -97,7 +97,7 @@ struct FitView
   Vec3 b;
   Vec3 normal;
   double radius = 0.0;
-  double blendWeight = 1.0; ///< Of this level, where a fit blends two.
+  double blendWeight = 1.0; ///< Weight of this level, where a fit blends two.
   double gate = 0.0;        ///< Over the radius; 0: none.
   bool twoSidedGate = false;
   double bend[3] = { 0.0, 0.0, 0.0 };
@@ -132,8 +132,8 @@ struct FitSums
   double cells;
 };
 
-/// The same for the cubic terms Q = (uuu, uuv, uvv, vvv): W Q P' (Q by Q), W Q Q' (lower triangle, row by
-/// row), W Q z.
+/// Sums for the cubic terms Q = (uuu, uuv, uvv, vvv): W Q P' (Q by Q), W Q Q' (lower triangle, row by row), W
+/// Q z.
 struct CubicSums
 {
   double qp[24];
@@ -148,7 +148,7 @@ struct TracedFit
   double row[10] = {};
 };
 
-/// What a moving origin does to the height, as the part of the moving weights and that of the turning frame;
+/// Changes of the height by a moving origin, as the part of the moving weights and that of the turning frame;
 /// see traceSlopes().
 struct TraceSums
 {
@@ -164,7 +164,7 @@ struct BallPoints
   const double* x;
   const double* y;
   const double* z;
-  const double* radius; ///< Of the ball that each point keeps away.
+  const double* radius; ///< Radius by which each point keeps the ball away.
   int size;             ///< A multiple of kFitLanes; the last ones lie far away.
 };
 

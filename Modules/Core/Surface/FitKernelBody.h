@@ -33,7 +33,7 @@ inline Pack inside(const Pack& e)
   return e < 1.0 ? 1.0 - e : simd::all(0.0);
 }
 
-/// Of cells, relative to the origin over the radius.
+/// Offsets of cells from the origin, over the radius.
 struct Offsets
 {
   Pack x;
@@ -148,7 +148,8 @@ inline void sumTermRows(const FitRows& rows, FitSums& sums)
 {
   constexpr bool kIsLast = Last == 6;
   constexpr int kSquares = (Last * (Last + 1) - First * (First + 1)) / 2;
-  // What is copied together begins with a pack: loads across two packs would wait until these are in memory.
+  // A group that is copied together begins with a pack: loads across two packs would wait until these are in
+  // memory.
   constexpr int kRhs = simd::wholePacks(kSquares);
   constexpr int kOthers = kRhs + Last - First;
   constexpr int kSums = kOthers + (kIsLast ? 2 : 0);
@@ -304,8 +305,7 @@ void traceRows(const FitRows& rows, const TracedFit& fit, double ra, double rb, 
           k[8] * q[2] + k[9] * q[3]);
       const Pack reach = x[0] + x[1] * u + x[2] * v + x[3] * uu + x[4] * uv + x[5] * vv + x[6] * q[0] +
         x[7] * q[1] + x[8] * q[2] + x[9] * q[3];
-      // What the turning frame does to the cell's terms: u gains h as it turns along a, v as it turns along
-      // b.
+      // The turning frame changes the cell's terms: u gains h as it turns along a, v as it turns along b.
       const Pack uh = u * h + can;
       const Pack vh = v * h + cbn;
       const Pack uuh = uu * h + twice(u * can);

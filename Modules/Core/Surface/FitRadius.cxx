@@ -27,7 +27,7 @@ constexpr double kScalesMargin = 1.32;
 constexpr int kNoiseScales = 3;
 /// Standard errors by which a longer radius may differ from a shorter one.
 constexpr double kAgreement = 2.0;
-/// The same with cubic terms, whose errors are large where the radius is short.
+/// Standard errors with cubic terms, which are large where the radius is short.
 constexpr double kCubicAgreement = 2.5;
 /// Standard errors of the height (over the finest cell) and of the slopes that leave nothing to gain.
 constexpr double kEnoughHeight = 1e-3;
@@ -251,7 +251,7 @@ FitScale chooseFitRadius(const CellPyramid& pyramid, const Vec3& seed, double la
     chosen.left = fine.noise / wide.noise;
     return chosen;
   }
-  // What another node had gathered would round otherwise: results would depend on how threads share nodes.
+  // Cells that another node gathered would round otherwise: results would depend on how threads share nodes.
   memory.invalidate();
   FitScale scale;
   scale.countRadius = countRadius(pyramid, seed, largestCount, needs);

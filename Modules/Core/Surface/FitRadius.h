@@ -16,9 +16,9 @@ namespace pointhaptics
 struct FitNeeds
 {
   double points = 30.0;          ///< Sum of weights, 1 in the middle of the fit.
-  double cells = 14.0;           ///< The same of cells, whatever they hold.
+  double cells = 14.0;           ///< Sum of weights of cells, whatever they hold.
   double radiusInCells = 3.6;    ///< Least radius over the edge of a finest cell.
-  double growth = 1.15;          ///< Of the radii tried against noise, from one to the next.
+  double growth = 1.15;          ///< Factor from one radius tried against noise to the next.
   bool weighsCubic = true;       ///< Whether fits with cubic terms are tried where the cloud is noisy.
   bool finerWhereShaped = false; ///< ofFineCells() where the residuals are shape and not noise; in
                                  ///< fitScales() ofBarePoints() where those of the whole cloud are.
@@ -55,7 +55,7 @@ FitScale chooseFitRadius(const CellPyramid& pyramid, const Vec3& seed, double la
 /// Distance between nodes that vote on each other's radii, in finest cells.
 constexpr double kVoteReachInCells = 16.0;
 
-/// What a node is used for.
+/// Use of a node.
 enum class NodeUse : unsigned char
 {
   None,

@@ -20,7 +20,7 @@ struct CubicFactor
 {
   double half[4][6];
   double m[4][4];
-  double weight; ///< Of the cubic terms: as given, less where the cells hardly determine them.
+  double weight; ///< Weight of the cubic terms: as given, or less where the cells hardly determine them.
 };
 
 /// @param l factor of the six. @param cubicWeight 0 to 1.

@@ -14,15 +14,15 @@ namespace pointhaptics
 /// The values of a field at a position; metres.
 struct LocalScale
 {
-  double radius = 0.0;      ///< Of the surface fit.
+  double radius = 0.0;      ///< Radius of the surface fit.
   double gate = 0.0;        ///< Depth of the fit's gate.
   double countRadius = 0.0; ///< Smallest radius with enough points for a fit.
-  double proxyRadius = 0.0; ///< Of the proxy sphere.
+  double proxyRadius = 0.0; ///< Radius of the proxy sphere.
   double noise = 0.0;       ///< Standard deviation of the points about the surface.
   double cubic = 0.0;       ///< Weight of the fit's cubic terms, 0 to 1.
 };
 
-/// The same where the cloud is @p factor times as large.
+/// Scale of a cloud that is @p factor times as large.
 LocalScale scaled(LocalScale scale, double factor);
 
 /// One set of values per cell of a coarse pyramid level, blended between cells by a smooth kernel of compact
@@ -43,7 +43,7 @@ public:
   /// is the one of build().
   LocalScale at(const CellPyramid& pyramid, const Vec3& position) const noexcept;
 
-  /// The same, with the gradient of the radius; zero where there is no node.
+  /// As at(pyramid, position), with the gradient of the radius; zero where there is no node.
   LocalScale at(const CellPyramid& pyramid, const Vec3& position, Vec3& radiusGradient) const noexcept;
 
   /// The noise at the node nearest to @p position; 0 where there is none within reach().

@@ -16,7 +16,7 @@ struct SurfaceFrame
   Vec3 b{ 0, 1, 0 };
   Vec3 normal{ 0, 0, 1 };
 
-  /// The same tangents, turned along with the normal as little as possible.
+  /// Turns the tangents along with the normal, as little as possible.
   void turnTo(const Vec3& newNormal) noexcept;
   /// Coordinates (along a, b, normal) of a point, in its own unit.
   Vec3 toLocal(const Vec3& p) const noexcept
@@ -93,7 +93,8 @@ struct SurfaceFitError
 {
   double noise = 0.0;   ///< Standard deviation of single points about the surface, metres.
   double leftOut = 0.0; ///< Part of the points, weighted, that the gate left out: of other sheets.
-  double standardError[3] = { 0, 0, 0 }; ///< Of rho k0 (metres), k1 and k2, for noise 1 metre.
+  double standardError[3] = { 0, 0, 0 }; ///< Standard errors of rho k0 (metres), k1 and k2, for noise 1
+                                         ///< metre.
 };
 
 /// Weighted least squares over the cells within the radius, weights count (1 - d^2/rho^2)^4; the quadratic
@@ -105,8 +106,8 @@ struct SurfaceFitError
 SurfaceFit fitSurface(const CellPyramid& pyramid, const SurfaceFrame& frame, const FitSettings& settings,
   FitCells& memory, const TracedSlopes* slopes = nullptr) noexcept;
 
-/// The same with the errors of position and slopes; for building scenes, several times the cost.
-/// @param cubic with the cubic terms; less than a Quadric where the cells do not determine them.
+/// As fitSurface() above, with the errors of position and slopes; for building scenes, several times the
+/// cost. @param cubic with the cubic terms; less than a Quadric where the cells do not determine them.
 SurfaceFit fitSurface(const CellPyramid& pyramid, const SurfaceFrame& frame, const FitSettings& settings,
   FitCells& memory, SurfaceFitError& error, bool cubic = false) noexcept;
 

@@ -16,9 +16,8 @@ namespace
 constexpr double kHalfWorkspace = 0.05;
 constexpr double kRateHz = 1000.0;
 constexpr int kButtons = 4;
-// What the drive and the hand in it dissipate at least, and what a count is worth at the grip. Assumed, to be
-// confirmed on hardware: at 1 kHz they allow 1667 N/m, in the middle of what other programs use (800 to
-// 3000).
+// Least damping (N s/m) and friction (N) of the drive and the hand in it. Assumed, to be confirmed on
+// hardware: at 1 kHz they allow 1667 N/m, in the middle of what other programs use (800 to 3000).
 constexpr double kLeastDamping = 2.5;
 constexpr double kLeastFriction = 0.1;
 /// Within the 4 cm ball about the centre a count moves the grip by at most this (FalconKinematicsTest).
@@ -54,7 +53,7 @@ struct FalconDevice::Implementation
   std::atomic<int> leds{ -1 };
   std::atomic<double> progress{ 0.0 };
   std::thread supervisor;
-  mutable std::mutex mutex; ///< Of what follows; never the servo thread's.
+  mutable std::mutex mutex; ///< Guards the members below; the servo thread never takes it.
   std::condition_variable changed;
   std::string message;
   Status started = Status::DeviceNotReady;

@@ -49,7 +49,7 @@ struct FalconStatistics
   std::uint64_t largestUnanswered = 0;
 };
 
-/// What the device said last, unprocessed, for diagnosis.
+/// The device's last reply, unprocessed, for diagnosis.
 struct FalconRaw
 {
   FalconReply reply;

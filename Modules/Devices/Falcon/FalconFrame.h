@@ -23,14 +23,14 @@ enum FalconLed : std::uint8_t
   kFalconLedRed = 8,
 };
 
-/// What the computer sends.
+/// A command of the computer.
 struct FalconCommand
 {
   std::array<std::int16_t, kFalconLegs> motors{}; ///< Motor values, -4096 to 4096 in use; 0: no torque.
   std::uint8_t leds = kFalconLedNone;             ///< FalconLed bits, 0 to 15.
 };
 
-/// What the Falcon answers.
+/// A reply of the Falcon.
 struct FalconReply
 {
   std::array<std::int16_t, kFalconLegs> encoders{}; ///< Counts.

@@ -79,7 +79,7 @@ Closure closure(const Vec3& position, double angle, const LegDirection& leg) noe
 struct Closures
 {
   Closure leg[3];
-  Vec3 cross[3]; ///< Of the other two legs' gradients.
+  Vec3 cross[3]; ///< Cross product of the other two legs' gradients.
   double determinant = 0.0;
   bool singular = true;
 };

@@ -56,7 +56,7 @@ private:
   bool positioned_ = false; ///< position_ belongs to encoders_.
   std::array<std::int16_t, kFalconLegs> encoders_{};
   bool found_ = false; ///< In this tick the position was found without one before it.
-  std::array<std::int16_t, kFalconLegs> strange_{}; ///< Of the last bad reply.
+  std::array<std::int16_t, kFalconLegs> strange_{}; ///< Encoders of the last bad reply.
   int jumps_ = 0;                                   ///< Bad replies in a row that agree.
   int vainWaits_ = 0;                               ///< Ticks in a row with an answer, but not the newest.
   int abandoned_ = 0;                               ///< Answers no longer waited for.

@@ -11,10 +11,10 @@
 namespace pointhaptics
 {
 
-/// What the person has to do or should know in @p state; empty where there is nothing.
+/// Advice for the person in @p state; empty where none is needed.
 std::string advice(FalconState state);
 
-/// What is to be said about a Falcon while it is in use, each thing once. One thread, not the servo's.
+/// Messages about a Falcon in use, each once. One thread, not the servo's.
 class FalconUpdates
 {
 public:

@@ -26,8 +26,8 @@ public:
   /// A vendor request without data, index 0. Ok, DeviceLost or DeviceSilent.
   virtual Status control(std::uint8_t request, std::uint16_t value) = 0;
   virtual Status send(const std::uint8_t* bytes, int count, int timeoutMilliseconds) = 0;
-  /// What the next packet holds, at most kFtdiPacket bytes, without the chip's status bytes. Packets without
-  /// payload are skipped until the timeout: @p count is then 0 with Ok.
+  /// Reads the payload of the next packet, at most kFtdiPacket bytes, without the chip's status bytes.
+  /// Packets without payload are skipped until the timeout: @p count is then 0 with Ok.
   virtual Status receive(std::uint8_t* bytes, int& count, int timeoutMilliseconds) = 0;
 
   // While running: these do not wait longer than asked, and do not allocate or throw themselves.

@@ -7,7 +7,7 @@
 namespace pointhaptics
 {
 
-/// What is heard at a moment.
+/// Force and contact at a moment, as they are heard.
 struct HeardTouch
 {
   double newtons = 0.0;
@@ -23,12 +23,12 @@ class ContactTone
 public:
   static constexpr double kSamplesPerSecond = 48000.0;
   static constexpr double kHertz = 330.0;
-  /// Of a full scale of 1: quiet beside what else a machine says.
+  /// Largest amplitude, of a full scale of 1: quiet beside the other sounds of a machine.
   static constexpr double kLoudest = 0.35;
   /// Loudness of the tone where the force is without limit, and the force that has half of it.
   static constexpr double kLoudestTone = 0.20;
   static constexpr double kHalfNewtons = 1.0;
-  /// From one loudness to another; twice as long after a release.
+  /// Duration of a change of loudness; twice as long after a release.
   static constexpr double kFadeSeconds = 0.010;
 
   /// Writes the next @p count samples to @p samples, all of @p touch; a count of 0 takes a beginning contact
@@ -40,7 +40,7 @@ public:
 
 private:
   bool contact_ = false;
-  double phase_ = 0.0; ///< Of the tone, in periods.
+  double phase_ = 0.0; ///< Phase of the tone, in periods.
   double loudness_ = 0.0;
   double clickSeconds_ = 1.0; ///< Since contact began.
 };

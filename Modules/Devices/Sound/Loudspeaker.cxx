@@ -18,7 +18,7 @@ namespace
 
 #if defined(__linux__)
 
-// Of ALSA's interface, which does not change within libasound.so.2.
+// Constants of ALSA's interface, which does not change within libasound.so.2.
 constexpr int kPlayback = 0;
 constexpr int kSigned16 = 2; // little endian
 constexpr int kInterleaved = 3;

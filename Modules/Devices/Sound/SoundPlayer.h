@@ -28,7 +28,7 @@ public:
   /// Ends within a few blocks.
   void stop();
   bool isPlaying() const { return thread_.isStarted(); }
-  /// What ended the sound: what failed and the cure. Empty: nothing since the last call.
+  /// Problem that ended the sound, with its cure. Empty: none since the last call.
   std::string takeProblem();
 
 private:

@@ -17,12 +17,12 @@ struct HidFound
   std::uint16_t product = 0;
   std::string path; ///< For open(): "/dev/hidraw3".
   std::string name; ///< For people.
-  // What its report descriptor says of this interface; 0: unknown.
+  // Usage in the report descriptor of this interface; 0: unknown.
   std::uint16_t usagePage = 0;
   std::uint16_t usage = 0;
 
-  /// Not said to be anything but a multi-axis controller (generic desktop, usage 8): a receiver has an
-  /// interface for each of its devices.
+  /// True unless the interface declares itself another thing than a multi-axis controller (generic desktop,
+  /// usage 8): a receiver has an interface for each of its devices.
   bool mayHaveSixAxes() const noexcept { return usagePage == 0 || (usagePage == 1 && usage == 8); }
 };
 

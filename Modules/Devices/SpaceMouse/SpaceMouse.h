@@ -39,9 +39,9 @@ public:
   int battery() const noexcept; ///< Per cent; -1: unknown.
   /// Name of the device in use, or what the user should know: one sentence with its cure.
   std::string message() const;
-  /// What message() says while none is plugged in.
+  /// Text of message() while none is plugged in.
   static constexpr const char* kNonePluggedIn = "spacemouse: none is plugged in";
-  /// For those who point to it without owning it.
+  /// Lifetime for those who point to it without owning it.
   const Lifetime& lifetime() const noexcept { return lifetime_; }
 
 private:

@@ -20,7 +20,7 @@ struct SpaceMouseMotion
   bool resting() const noexcept { return shift == Vec3() && turn == Vec3(); }
 };
 
-/// What counts as motion of the cap.
+/// Limits between motion and rest of the puck.
 struct SpaceMouseSettings
 {
   double deadZone = 0.06; ///< Part of the range that counts as rest, 0 to 0.9; beyond it motion begins at 0.

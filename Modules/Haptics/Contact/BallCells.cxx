@@ -12,13 +12,15 @@ namespace
 /// How much further than asked for is gathered, over radius and way, so that a sliding hand stays inside for
 /// some ticks: the first that does not overflow. The first is over the way that will be asked for soon.
 constexpr double kMargins[] = { 1.35, 1.35, 1.1, 1.0 + 1e-9 };
-/// Where points were left out a way shorter than this part of the last may have room for them.
+/// If points were left out, a way shorter than this fraction of the last one is gathered anew: all may have
+/// room.
 constexpr double kShorterWay = 0.8;
-/// The same margin of those looked at in detail.
+/// Margin around the points near the focus, over radius and way.
 constexpr double kNearMargin = 0.25;
-/// Behind the last point: further than any ball reaches, squared still finite.
+/// Padding coordinate behind the last point: no ball reaches it, and its square is finite.
 constexpr double kFarAway = 1e100;
-/// Part of its radius by which a way may lead towards a touched point that it goes past: rounding.
+/// A way may lead this part of a touched point's radius towards that point and still count as past it:
+/// rounding.
 constexpr double kTangential = 1e-6;
 
 }

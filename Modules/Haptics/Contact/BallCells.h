@@ -34,14 +34,14 @@ public:
   bool gather(
     const ContactField& field, const Vec3& center, double way, double ball, double likely = 0.0) noexcept;
 
-  /// What is asked next is within @p way of @p center, likewise. The answers are the same, and cost less
-  /// where more was gathered.
+  /// Announces that the next queries are within @p way of @p center. The answers are the same, and cost less
+  /// where more points were gathered.
   void focus(const Vec3& center, double way) noexcept;
 
   /// The way from @p p for which all points are here; below 0: none.
   double reachAbout(const Vec3& p) const noexcept { return reach_ - norm(p - center_); }
 
-  /// How often the pyramid was visited so far: what costs time.
+  /// Number of visits of the pyramid so far, which is what costs time.
   int passes() const noexcept { return passes_; }
   /// How many of its points were looked at so far.
   std::uint64_t looked() const noexcept { return looked_; }

@@ -31,7 +31,7 @@ private:
     return { gain_[0] * way.a + gain_[1] * way.b, gain_[2] * way.a + gain_[3] * way.b };
   }
 
-  double gain_[4] = { 1.0, 0.0, 0.0, 1.0 }; ///< What to go over what is left, by rows.
+  double gain_[4] = { 1.0, 0.0, 0.0, 1.0 }; ///< Maps the remaining way to the way to go; two rows.
 };
 
 } // namespace pointhaptics

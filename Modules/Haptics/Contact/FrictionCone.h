@@ -73,7 +73,7 @@ public:
 private:
   static constexpr int kRounds = 4;
 
-  /// Of a spring's pull the part along a surface over that across it; infinite where nothing presses.
+  /// Ratio of a spring's pull along the surface to its pull across it; infinite where nothing presses.
   static double pullRatio(const Vec3& pull, const Vec3& normal) noexcept
   {
     const double across = dot(pull, normal);

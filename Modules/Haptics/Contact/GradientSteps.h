@@ -29,7 +29,7 @@ private:
 
   Vec3 center_;
   Vec3 normal_{ 0.0, 0.0, 1.0 };
-  double radius_ = 0.0; ///< Of the last step.
+  double radius_ = 0.0; ///< Radius in the last step, metres.
   bool placed_ = false;
   bool adopts_ = false;
   bool contact_ = false;

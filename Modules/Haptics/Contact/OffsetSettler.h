@@ -8,8 +8,8 @@
 namespace pointhaptics
 {
 
-/// What was felt as @p before and would be @p after when it ought to be @p wanted, without pulling the other
-/// way: where a hand comes out faster than what settles under it grows, nothing is felt along @p wanted.
+/// Returns @p after, the offset to feel now, without the part of it that pulls against @p wanted, unless @p
+/// before pulled so already. A hand that leaves faster than the settled offset shrinks is not pulled back.
 inline Vec3 withoutReversal(const Vec3& before, const Vec3& after, const Vec3& wanted) noexcept
 {
   const double along = dot(after, wanted);

@@ -12,7 +12,8 @@ namespace
 
 /// Moves of one slide.
 constexpr int kMostSlides = 24;
-/// What a visit of the pyramid costs, in rounds: a large ball among dense points looks at thousands of them.
+/// A visit of the pyramid counts as so many rounds, and one more for each kPointsOfRound points that it looks
+/// at: a large ball among dense points looks at thousands.
 constexpr int kRoundsOfPass = 3;
 constexpr std::uint64_t kPointsOfRound = 128;
 /// Glides of one step.
@@ -226,7 +227,8 @@ double ProxyBall::fly(Work& work, const Vec3& direction, double length) noexcept
   return flown;
 }
 
-/// What the ball meets first is what it lies on, also beside an edge.
+/// Takes the radius of the touched point and looks for the flat place there, also beside an edge: the ball
+/// lies on the point that it meets first.
 void ProxyBall::touchDown(Work& work) noexcept
 {
   gather(work, kTouch * radius_);

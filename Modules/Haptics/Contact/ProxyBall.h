@@ -93,7 +93,7 @@ private:
   static constexpr double kPlaneReach = 1.4;
   static constexpr double kFlatNear = 2.0;
 
-  /// What a step works with.
+  /// The scene, the gathered points and the budget of one step.
   struct Work
   {
     const HapticScene& scene;
@@ -120,9 +120,9 @@ private:
   void gather(Work& work, double way) noexcept;
 
   Vec3 center_;
-  double radius_ = 0.0;          ///< Of what the ball touches, by the scale.
-  double scale_ = 1.0;           ///< Of all radii.
-  Vec3 hip_;                     ///< As far as the ball has followed it.
+  double radius_ = 0.0;          ///< Radius of the touched point times the scale, metres.
+  double scale_ = 1.0;           ///< Factor on all radii.
+  Vec3 hip_;                     ///< The HIP as far as the ball has followed it.
   Vec3 heldAt_{ NAN, NAN, NAN }; ///< The HIP when gliding did not help; not finite: the ball is not held.
   FlatPlace flat_;
   bool isPlaced_ = false;

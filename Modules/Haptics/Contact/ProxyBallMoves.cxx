@@ -19,17 +19,17 @@ constexpr double kLeastGain = 1e-3;
 /// On a flat place, so many radii around where that was seen, a ball that leans less waits.
 constexpr double kWaitNear = 0.3;
 constexpr double kWaitLean = 0.2;
-/// The same for a ball that need not keep up.
+/// Limits as the two above for a patient ball, which another part leads along the surface.
 constexpr double kPatientNear = 1.0;
 constexpr double kPatientLean = 0.5;
 constexpr int kMostLifts = 3;
 constexpr double kLifts[kMostLifts] = { 0.0, 0.3, 0.6 };
-/// How far beside an edge a ball goes around it, how near it must come to the HIP, and how far before the
-/// edge the HIP may be along the face that the ball comes from.
+/// How far beside an edge a ball may pass around it, how near it must come to the HIP, and how far the HIP
+/// may still be before the edge, along the face that the ball comes from; all over the radius.
 constexpr double kMostBeside = 2.0;
 constexpr double kAround = 0.1;
 constexpr double kBeforeEdge = 0.02;
-/// How near to a foot a ball lies on it.
+/// A ball whose center is this near to a foot, over the radius, lies on it.
 constexpr double kOnFoot = 1.3;
 /// Points higher than this above the surface are of a wall; how far a glide may lift the ball.
 constexpr double kWallHeight = 0.2;
@@ -79,7 +79,8 @@ bool ProxyBall::glide(Work& work, const Vec3& hip) noexcept
   {
     return false;
   }
-  // What rises from the surface is a wall: there only what brings the ball nearer to the HIP is progress.
+  // Points that rise from the surface are a wall. Beside a wall a move counts as progress only if it brings
+  // the ball nearer to the HIP.
   bool isWalled = !flat_.isKnown();
   const double highest = isWalled ? 0.0 : flat_.height(center_) - kWallHeight * radius_;
   work.cells.visitBall(center_, kPlaneReach * radius_,

@@ -9,8 +9,8 @@ namespace pointhaptics
 namespace
 {
 
-/// Where the fit is lost it is sought at once, then every so many ticks, a part of the work in each of three:
-/// what failed a moment ago mostly fails again.
+/// A lost fit is sought at once, then every kSeekEvery ticks, a third of the work a tick: a search that
+/// failed a moment ago mostly fails again.
 constexpr int kSeekEvery = 4;
 constexpr double kSeekBelow = 0.5;
 /// RMS distance of the points from the fit, over the ball's radius, up to which the surface is smooth.
@@ -19,7 +19,8 @@ constexpr double kSmoothResidual = 0.03;
 /// between points hold the ball back by up to so much of it.
 constexpr double kTrustRadii = 0.2;
 constexpr double kTrustDepths = 0.3;
-/// The same where the ball lies on a smooth surface, over its radius.
+/// Largest distance of the fit's point from the ball's where the ball lies on a smooth surface, over the
+/// radius.
 constexpr double kTrustPlain = 0.6;
 /// The ball alone is felt from this many times that distance on.
 constexpr double kDistrust = 1.5;
@@ -192,7 +193,7 @@ void SurfaceFitProxy::forgetFit() noexcept
   ticksWithoutFit_ = 0;
 }
 
-/// What the fit says, by @p weight, and the ball by the rest.
+/// Blends the contacts of fit and ball: @p weight is the fit's part, the rest is the ball's.
 SurfaceFitProxy::Contact SurfaceFitProxy::blended(const Vec3& hip, double weight) const noexcept
 {
   const double depth = ball_.isFree() ? -ball_.radius() : ball_.depth(hip);

@@ -16,7 +16,7 @@ namespace pointhaptics
 class SurfaceFitProxy
 {
 public:
-  /// What is gathered near the proxy; serves one proxy at a time.
+  /// Cells and points gathered near the proxy; serves one proxy at a time.
   struct Memory
   {
     explicit Memory(InstructionSet wanted)
@@ -58,9 +58,9 @@ public:
   void step(const HapticScene& scene, Memory& memory, const ContactParameters& parameters, const Vec3& hip,
     bool refines, ProxyState& state) noexcept;
 
-  /// What the last step found, for pictures.
+  /// The ball after the last step, for pictures.
   const ProxyBall& ball() const noexcept { return ball_; }
-  /// Null: the ball alone is felt.
+  /// The fit after the last step, for pictures; null where the ball alone is felt.
   const SurfaceTracker* fit() const noexcept { return hasFit_ ? &tracker_ : nullptr; }
 
 private:

@@ -26,7 +26,7 @@ public:
   /// Does all the parts that are left.
   bool finish(const HapticScene& scene, FitCells& memory, const Vec3& side, const Vec3& target) noexcept;
   const SurfaceTracker& found() const noexcept { return tracker_; }
-  /// What is found so far moves with the model.
+  /// Moves the result so far with the model.
   void carry(const AffineTransform& from, const AffineTransform& to) noexcept;
 
 private:

@@ -39,7 +39,7 @@ public:
 
   /// Height of a point above the surface, along the normal; negative inside.
   double height(const Vec3& p) const noexcept { return dot(p - frame_.origin, frame_.normal); }
-  /// The same above the last fit itself.
+  /// Height of a point above the last fit itself, not above its tangent plane.
   double heightAboveFit(const Vec3& p) const noexcept;
   const Vec3& point() const noexcept { return frame_.origin; }
   const Vec3& normal() const noexcept { return frame_.normal; }

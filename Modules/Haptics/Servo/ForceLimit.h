@@ -14,7 +14,7 @@ namespace pointhaptics
 /// The least of three limits holds, in every mode and on every device; newtons, infinity: there is none.
 struct ForceLimit
 {
-  double device = std::numeric_limits<double>::infinity();  ///< What the device declares.
+  double device = std::numeric_limits<double>::infinity();  ///< Declared by the device.
   double user = std::numeric_limits<double>::infinity();    ///< ContactParameters::forceLimit.
   double program = std::numeric_limits<double>::infinity(); ///< ServoSettings::limits; at most 8 in a servo
                                                             ///< loop.

@@ -9,8 +9,8 @@
 namespace pointhaptics
 {
 
-/// What the servo loop must know of the hand's mechanics and of the device that reads and pushes it. The
-/// defaults are those of a hand that no force moves: no limit.
+/// Mechanics of the hand and of the device that reads and pushes it, as far as the servo loop must know them.
+/// The defaults are those of a hand that no force moves: no limit.
 struct HandLimits
 {
   double damping =

@@ -12,21 +12,21 @@
 namespace pointhaptics
 {
 
-/// What does not change from tick to tick.
+/// Settings that stay from tick to tick.
 struct ServoStepSettings
 {
   double rateHz = 1000.0;
   ForceLimits limits;
-  double rampDownSeconds = 0.0; ///< Over which the force goes where the gate closes, and comes back.
+  double rampDownSeconds = 0.0; ///< Duration over which the force goes where the gate closes.
   double rampUpSeconds = 0.0;
-  double clutchDownSeconds = 0.0; ///< The same of the clutch.
+  double clutchDownSeconds = 0.0; ///< Durations as rampDownSeconds and rampUpSeconds, for the clutch.
   double clutchUpSeconds = 0.0;
 };
 
-/// What a tick is given.
+/// Input of one tick.
 struct TickInput
 {
-  std::uint64_t number = 0; ///< Of the tick; higher than that of the tick before.
+  std::uint64_t number = 0; ///< Number of the tick; higher than that of the tick before.
   Status reading = Status::Ok;
   HandState hand; ///< Where reading is Ok.
   bool gateIsOpen = true;
@@ -55,7 +55,7 @@ public:
   void finish(const TickInput& input, Status writing, ServoSample& sample) noexcept;
 
   void prefetch() noexcept { proxy_.prefetch(); }
-  /// Of the gate, 0 to 1.
+  /// Fraction of the force that the gate lets through, 0 to 1.
   double openFraction() const noexcept { return gate_.fraction(); }
 
 private:
@@ -70,7 +70,8 @@ private:
   ForceGate gate_;
   ForceGate clutch_;
   std::uint64_t lastSteppedTick_ = 0;
-  std::uint64_t firstFailedTick_ = 0; ///< Of the reads that failed in a row; 0: the last one did not.
+  std::uint64_t firstFailedTick_ = 0; ///< First tick of the failed reads in a row; 0: the last read
+                                      ///< succeeded.
   std::uint32_t pending_ = kTickBegins;
   bool touches_ = false;
 };

@@ -90,26 +90,26 @@ public:
 
   /// The command named so, or null. Valid until the next add() or remove().
   const Command* get(const std::string& name) const;
-  /// What its key does, for a button or menu of the program. False: see runOnce().
+  /// Runs the command as its key does, for a button or menu of the program. False: see runOnce().
   bool run(const std::string& name) const { return runOnce(this->get(name)); }
-  /// In the order they were added.
+  /// All names, in the order they were added.
   std::vector<std::string> names() const;
 
   /// Gives the command @p name these gestures, separated by spaces, in place of those it has; they are taken
   /// from the commands that had them. Empty: it cannot be reached. False, and nothing changes: there is no
   /// such command.
   bool bind(const std::string& name, const std::string& gestures);
-  /// The same for each NAME=GESTURES of @p bindings. What is no binding or names no command is left out.
+  /// Binds each NAME=GESTURES of @p bindings. Texts that are no binding or name no command are left out.
   void bind(const std::vector<std::string>& bindings);
   /// The gestures of @p name, separated by spaces, in the order they were given.
   std::string bindings(const std::string& name) const;
   /// The first of them as it stands on the keyboard: "A", "Shift+A" where the small letter is another,
   /// "Page Up", "Shift+left drag". Empty: there is none.
   std::string label(const std::string& name) const;
-  /// What @p gesture does, or null; see fallbacksOf(). Valid as get()'s.
+  /// The command that @p gesture runs, or null; see fallbacksOf(). Valid as get()'s.
   const Command* find(const std::string& gesture) const;
 
-  /// What can be done, one thing a line, in columns: group, gestures, words. Groups and lines in the order of
+  /// Lists the commands in columns, one a line: group, gestures, words. Groups and lines in the order of
   /// their first command. Commands without a gesture are left out.
   std::string help(Scope scope = Scope::Available) const;
 

@@ -23,8 +23,8 @@ std::string fixedText(double value, int decimals);
 /// With decimals down to @p step, at least three where that is 0, and no more digits than a double has.
 std::string coordinateText(double value, double step);
 
-/// Of the grid of a LAS file (field data "LasScale") along @p axis, for coordinates as large as @p largest;
-/// below 0: @p cloud has none.
+/// Decimals of the grid of a LAS file (field data "LasScale") along @p axis, for coordinates as large as @p
+/// largest; below 0: @p cloud has no grid.
 int gridDecimals(vtkPolyData* cloud, int axis, double largest);
 
 /// How far @p to is from @p from, both in the frame of the file @p cloud, in its @p unit: the distance, and

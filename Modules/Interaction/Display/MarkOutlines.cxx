@@ -17,7 +17,7 @@ constexpr double kEdgeWidth = 4.0;
 constexpr double kLineWidth = 2.0;
 constexpr unsigned char kLight[3] = { 255, 255, 255 };
 constexpr unsigned char kDark[3] = { 12, 12, 16 };
-/// Of the polygon that stands for a circle about each corner.
+/// Corners of the polygon that approximates a circle about each corner.
 constexpr int kRoundCorners = 12;
 /// Pixels: wide lines as short as this have gaps where they meet.
 constexpr double kShortestEdge = 3.0;

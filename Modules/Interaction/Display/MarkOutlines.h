@@ -30,7 +30,7 @@ struct ScreenSegment
   std::array<double, 2> end;
 };
 
-/// What is seen of the edges of all @p shapes together: none lies within another shape.
+/// Visible edges of all @p shapes together: none lies within another shape.
 POINTHAPTICSINTERACTION_EXPORT std::vector<ScreenSegment> outlineOf(const std::vector<ScreenPolygon>& shapes);
 
 /// Lines of the picture as it is drawn next: light or coloured, with dark edges. GUI thread only.

@@ -18,7 +18,7 @@ namespace
 {
 
 constexpr double kPickPixels = 8.0;
-/// Of a surface, which must not be looked for through the holes between sparse points.
+/// Reach of a pick on a surface, pixels: holes between sparse points must not let it through.
 constexpr double kSurfacePixels = 24.0;
 
 } // namespace

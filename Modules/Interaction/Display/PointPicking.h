@@ -23,16 +23,17 @@ class vtkRenderer;
 namespace pointhaptics
 {
 
-/// What is known of a picked point.
+/// Properties of a picked point.
 struct PickedPoint
 {
   vtkIdType index = -1;              ///< In the picked cloud.
   Vec3 inWorkspace;                  ///< Metres.
   std::optional<Vec3> inCloud;       ///< In the frame of the file, where the cloud says how it was mapped.
   std::optional<Vec3> voxel;         ///< Whole numbers from 0, where the cloud has a lattice.
-  std::optional<Bounds> voxelBounds; ///< Of the same, in the workspace.
+  std::optional<Bounds> voxelBounds; ///< Bounds of that voxel in the workspace.
   double bandwidth = 0.0;            ///< b, metres; 0: none asked for.
-  double radius = 0.0;               ///< Of the proxy, metres; not smoothed (see LocalBandwidthSettings).
+  double radius = 0.0;               ///< Radius of the proxy, metres; not smoothed (see
+                                     ///< LocalBandwidthSettings).
 };
 
 /// The point of the file that was picked with a mean of its points.
@@ -43,9 +44,9 @@ struct PickedOfFile
   std::set<std::string> leftOut; ///< Arrays that were made for the picture.
 };
 
-/// Of the points of @p cloud (in the workspace's frame: the output of vtkVoxelMeanResampler) that are drawn
-/// within @p pixels of the display position (@p x, @p y) of @p renderer's window, the one nearest to the
-/// camera. False: there is none. Cost: a few ns a point. GUI thread only.
+/// Picks, among the points of @p cloud (in the workspace's frame: the output of vtkVoxelMeanResampler) that
+/// are drawn within @p pixels of the display position (@p x, @p y) of @p renderer's window, the one nearest
+/// to the camera. False: there is none. Cost: a few ns a point. GUI thread only.
 /// @param toWorkspace of a cloud in another frame, as that of its file; null: it is in the workspace.
 /// @param isDrawn of places in the frame of @p cloud; empty: all are.
 POINTHAPTICSINTERACTION_EXPORT bool pickPoint(vtkPolyData* cloud, vtkRenderer* renderer, double x, double y,

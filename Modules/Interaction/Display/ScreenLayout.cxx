@@ -36,16 +36,16 @@ constexpr float kLast = -1.0F;
 
 } // namespace
 
-/// What is still free, and the font that is tried.
+/// Free space of the renderer, and the font that is tried.
 struct ScreenLayout::Room
 {
   vtkRenderer* renderer = nullptr;
   double font = kLargestFont;
-  double pixels = 1.0; ///< Of a point.
+  double pixels = 1.0; ///< Pixels per point.
   ScreenRectangle free;
   double leftTop = 0.0; ///< Below the texts at the upper left, and at the upper right.
   double rightTop = 0.0;
-  double columnLeft = 0.0; ///< Of the column at the right.
+  double columnLeft = 0.0; ///< Left edge of the column at the right.
   double bottom = 0.0;     ///< Above what is at the lower left.
   bool fits = true;
 

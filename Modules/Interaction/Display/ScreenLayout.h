@@ -84,9 +84,9 @@ public:
     std::string name; ///< "status", "panel", "detail", "help", "progress", "sliders", "bar".
     ScreenRectangle box;
   };
-  /// What is shown and where, as it was arranged last.
+  /// Shown blocks with their boxes, as they were arranged last.
   const std::vector<Place>& places() const { return places_; }
-  /// The boxes of the same: left, bottom, right, top. For marks that follow the model and give way.
+  /// Boxes of these blocks: left, bottom, right, top. Marks that follow the model give way to them.
   std::vector<std::array<double, 4>> boxes() const;
 
 private:
@@ -110,7 +110,7 @@ private:
   std::function<bool()> opaque_;
   vtkSmartPointer<vtkCallbackCommand> before_;
   vtkWeakPointer<vtkRenderer> renderer_;
-  std::vector<double> arranged_; ///< What the places depend on, as it was.
+  std::vector<double> arranged_; ///< Values on which the places depend, at the last arrangement.
   std::string arrangedTexts_;
   std::vector<Place> places_;
 };

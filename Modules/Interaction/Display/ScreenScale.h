@@ -27,7 +27,7 @@ POINTHAPTICSINTERACTION_EXPORT double scaleOfScreen(int screenLines, int windowL
 /// known.
 POINTHAPTICSINTERACTION_EXPORT int lengthOnScreen(int wanted, int screen);
 
-/// What comes after Xft.dpi: in the resources @p text of an X server; 0: nothing that is a number.
+/// Number behind Xft.dpi: in the resources @p text of an X server; 0: it is missing or no number.
 POINTHAPTICSINTERACTION_EXPORT double dotsPerInchOf(const char* text);
 
 } // namespace pointhaptics

@@ -36,7 +36,7 @@ public:
 
   /// Text at the end of the status line, such as the scale of the model.
   void setNote(const std::string& note);
-  /// What the device is and how it is, for the panel. Empty: the device's own name.
+  /// Name and state of the device, for the panel. Empty: the device's own name.
   void setDeviceNote(const std::string& note);
   /// Name of the device, until there is a note.
   void setDeviceName(const std::string& name);

@@ -64,9 +64,9 @@ private:
   vtkSmartPointer<vtkHapticChart> chart_;
   std::function<double(const Vec3&)> idealForce_;
   bool isRequested_ = false;
-  bool chartChanged_ = true;         ///< Since it was drawn.
-  std::vector<double> chartPicture_; ///< What else its picture depends on.
-  double frameSeconds_ = 0.0;        ///< Of the last frame.
+  bool chartChanged_ = true;         ///< True if the chart changed since it was drawn.
+  std::vector<double> chartPicture_; ///< Other values on which the chart's picture depends.
+  double frameSeconds_ = 0.0;        ///< Duration of the last frame.
   double frameEnd_ = -1e9;
 };
 

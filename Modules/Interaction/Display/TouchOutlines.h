@@ -17,7 +17,7 @@ class vtkRenderer;
 namespace pointhaptics
 {
 
-/// What is outlined; workspace, metres. What has no size is not there.
+/// Marks of touch that get an outline; workspace, metres. A mark without a size is not shown.
 struct TouchMarks
 {
   Vec3 proxy;

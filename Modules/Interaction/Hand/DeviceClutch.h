@@ -58,9 +58,9 @@ private:
   ModelTransform& model_;
   WatchedPointer<ServoLoop> servo_;
   std::string hold_;
-  GripAction grip_; ///< Of that command.
+  GripAction grip_; ///< Action of that command.
   std::uint32_t buttons_ = 0;
-  Vec3 from_; ///< Where the hand was when the model was last moved by it.
+  Vec3 from_; ///< Position of the hand when it last moved the model.
   Vec3 to_;
   bool isClutched_ = false; ///< As the servo loop was told.
 };

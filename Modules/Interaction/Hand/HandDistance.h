@@ -21,7 +21,7 @@ namespace pointhaptics
 class ScenePipeline;
 struct ProxyState;
 
-/// Of the means that are felt, where the model is at rest. GUI thread only.
+/// Distance from the hand to the felt means, where the model is at rest. GUI thread only.
 class POINTHAPTICSINTERACTION_EXPORT HandDistance
 {
 public:

@@ -48,7 +48,7 @@ public:
   const std::string& message() const { return message_; }
   ServoLoop& servo() { return servo_; }
   vtkHapticProps* props() { return props_; }
-  SimulatedDevice& hand() { return hand_; } ///< Of use where no device was given.
+  SimulatedDevice& hand() { return hand_; } ///< Used where no device was given.
 
 private:
   bool fail(const std::string& message);

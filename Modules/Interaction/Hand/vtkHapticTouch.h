@@ -61,7 +61,7 @@ public:
 
   ///@{
   /**
-   * Of the newest tick: where the hand is, and the force on it. 0, 0, 0 while the touch is off.
+   * Position of the hand and force on it in the newest tick; 0, 0, 0 while the touch is off.
    */
   void GetHand(double position[3]) const;
   void GetForce(double force[3]) const;

@@ -42,7 +42,7 @@ public:
   vtkTransform* transform() const { return transform_; }
   /// Also what reset() goes back to. undo() ends here.
   void setMatrix(vtkMatrix4x4* matrix);
-  /// The same without telling the observer: the scene of this matrix is there already.
+  /// As setMatrix() without telling the observer: the scene of this matrix is there already.
   void adoptMatrix(vtkMatrix4x4* matrix);
 
   ///@{
@@ -73,8 +73,8 @@ private:
   vtkSmartPointer<vtkMatrix4x4> initial_;
   std::array<double, 6> workspace_{ -0.05, 0.05, -0.05, 0.05, -0.05, 0.05 };
   std::deque<Elements> history_; ///< Matrices before the last changes, oldest first.
-  int gestures_ = 0;             ///< Under way.
-  bool isRemembered_ = false;    ///< What was before the gesture.
+  int gestures_ = 0;             ///< Gestures under way.
+  bool isRemembered_ = false;    ///< True if the matrix before the gesture is in the history.
   std::function<void()> changed_;
 };
 

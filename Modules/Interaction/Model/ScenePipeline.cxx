@@ -19,7 +19,7 @@ namespace pointhaptics
 namespace
 {
 
-/// What must be within reach of the hand: itself and what it touches. The worker's threads ask.
+/// Box that must be within reach of the hand: the HIP and the contact point. The worker's threads ask.
 Bounds handBounds(const WatchedPointer<ServoLoop>& servo)
 {
   ServoSample latest;
@@ -46,7 +46,7 @@ ScenePipeline::~ScenePipeline() = default;
 
 void ScenePipeline::setServo(ServoLoop* servo)
 {
-  // What is in flight would go to the loop before.
+  // Scenes in flight would go to the former loop.
   worker_.cancel();
   isInvalid_ = true;
   shownNumber_ = requested_;
@@ -246,7 +246,7 @@ void ScenePipeline::showFinished()
   }
 }
 
-/// What the worker has made becomes the output of the filters that the program knows, as if they had run.
+/// Makes the worker's result the output of the filters that the program knows, as if they had run.
 void ScenePipeline::show(const BuiltScene& built)
 {
   shownNumber_ = built.number;

@@ -126,7 +126,7 @@ private:
   vtkSmartPointer<vtkVoxelMeanResampler> resampler_;
   vtkSmartPointer<vtkKernelBandwidthFilter> bandwidth_;
   vtkSmartPointer<vtkActor> actor_;
-  vtkSmartPointer<vtkTransform> resampled_; ///< What the means on show were resampled with.
+  vtkSmartPointer<vtkTransform> resampled_; ///< Transform with which the shown means were resampled.
   vtkSmartPointer<vtkMatrix4x4> preview_;
   std::function<void(const BuiltScene&)> shownObserver_;
   bool isInvalid_ = true;

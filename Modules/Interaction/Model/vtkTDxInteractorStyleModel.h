@@ -35,7 +35,7 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /**
-   * What it moves, seen on @p screen. Both are not owned; null takes them away.
+   * Sets the model to move, seen on @p screen. Both are not owned; null takes them away.
    */
   void SetModel(pointhaptics::ModelTransform* model, const pointhaptics::ScreenView* screen);
 

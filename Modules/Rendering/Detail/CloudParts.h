@@ -21,8 +21,8 @@ namespace pointhaptics
 /// double.
 PointView viewOf(vtkPolyData* cloud, std::vector<Vec3>& copy);
 
-/// Of the values above 0 among at most about 10,000, the one that @p tenths tenths are below; 0 where there
-/// is none. @param tenths 0 to 9.
+/// Quantile of the values above 0 among at most about 10,000: @p tenths tenths are below it; 0 where there is
+/// none. @param tenths 0 to 9.
 double quantileOfPositive(vtkDataArray* array, std::size_t tenths);
 
 /// Whether @p cloud has no cells, or vertices at all of its points, first to last.

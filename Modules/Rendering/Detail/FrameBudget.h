@@ -26,9 +26,9 @@ public:
   /// not above 0, or not finite, is left out. One answer moves points() by a factor between 1/4 and 2.
   void add(std::int64_t points, double seconds);
 
-  /// As many points as fit.
+  /// Number of points that fit.
   std::int64_t points() const { return this->Points; }
-  /// What a frame may take.
+  /// Seconds that a frame may take.
   double secondsPerFrame() const { return this->SecondsPerFrame; }
 
 private:

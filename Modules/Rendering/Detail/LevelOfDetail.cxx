@@ -320,7 +320,7 @@ std::vector<HalfSpace> LevelOfDetail::view() const
   return result;
 }
 
-/// Of the whole cloud, by its own mapper: what no pixel can show.
+/// Leaves out the rows of the cloud that no pixel shows, where its own mapper draws it.
 void LevelOfDetail::leaveOutOfView(vtkPolyData* cloud)
 {
   auto* splats = vtkSplatMapper::SafeDownCast(actor_->GetMapper());

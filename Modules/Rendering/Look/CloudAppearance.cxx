@@ -39,9 +39,10 @@ namespace pointhaptics
 namespace
 {
 
-/// Of the larger end of a range of colours: an error's least value is an accident.
+/// A lower end of a range of colours below this part of the upper one counts as 0: the least value of an
+/// error is an accident.
 constexpr double kAsGoodAsZero = 3e-3;
-/// Of the width of a range that stays.
+/// A range stays while it moves by less than this part of its width.
 constexpr double kSameRange = 0.1;
 constexpr int kNumberOfClasses = 256;
 

@@ -37,7 +37,7 @@ POINTHAPTICSRENDERING_EXPORT double addHeightArray(
 /// True where the active scalars are colours: unsigned char with 3 or 4 components.
 POINTHAPTICSRENDERING_EXPORT bool hasColors(vtkPolyData* cloud);
 
-/// What the points are coloured by.
+/// The array component by which the points are coloured.
 struct ColorSource
 {
   std::string array;

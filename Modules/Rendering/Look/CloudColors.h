@@ -38,10 +38,10 @@ struct CloudColors
   double lightStrength = 1.0; ///< See vtkSplatMapper::SetLightStrength().
   double low = 0.0;           ///< Height and Depth: where the map begins, along the axis or the view,
   double high = 1.0;          ///< and where it ends.
-  std::vector<double> ranks;  ///< Of a sample of the intensities, ascending.
+  std::vector<double> ranks;  ///< Sample of the intensities, ascending.
 };
 
-/// What the user calls ColorRule::Clay.
+/// Name of ColorRule::Clay for users.
 constexpr const char* kClayName = "Clay";
 /// Red, green and blue of ColorRule::Clay, 0 to 1.
 constexpr double kClayColor[3] = { 0.80, 0.76, 0.70 };

@@ -121,7 +121,8 @@ bool facesUp(const PointView& cloud, const LocalShape& shape, const Vec3& up)
   return weight > 0.0 && sum > kTerrainUp * weight;
 }
 
-/// Of the two horizontal axes of the cloud: the direction of the longer one, and how much more it varies.
+/// Finds the direction of the cloud's longer horizontal axis, and returns how much more it varies than the
+/// other.
 double horizontalStrip(const PointView& cloud, const LocalShape& shape, const Vec3& up, Vec3& along)
 {
   const Vec3 u = anyPerpendicular(up);
@@ -255,7 +256,7 @@ void growOver(Iterator first, Iterator last, double& extent, double& end)
   }
 }
 
-/// What surrounds a dense object may be few of the points, but goes on from it.
+/// Grows the box of a dense object over its surroundings, which may be few of the points but go on from it.
 void growCore(const std::vector<Vec3>& sample, Vec3& from, Vec3& to)
 {
   const Vec3 size = to - from;
@@ -285,7 +286,7 @@ bool hasManyOutside(const std::vector<Vec3>& sample, const Vec3& from, const Vec
   return outside * kMostStrays > std::max<std::ptrdiff_t>(std::ptrdiff_t(sample.size()), kMostStrays);
 }
 
-/// Of what of @p sample lies in the box. That of many equal points is none: there is nothing in it to fit.
+/// Extremes of the points of @p sample in the box; none for many equal points, which give nothing to fit.
 Extremes extremesBetween(
   const std::vector<Vec3>& sample, const Vec3& from, const Vec3& to, double tx, double ty)
 {

@@ -22,7 +22,7 @@ enum class CloudKind
   Object,  ///< A thing to walk around: statue, part, tree.
   Terrain, ///< Ground seen from above.
   Sweep,   ///< Scanned from the origin of the file, outdoors.
-  Indoors, ///< The same in a room, which is shown without its near walls.
+  Indoors, ///< Scanned from the origin of the file in a room, which is shown without its near walls.
   Frame,   ///< One picture of a depth camera.
 };
 
@@ -42,7 +42,7 @@ struct CloudLook
   double tilt = 0.0;             ///< Ratio of the horizontal variances of a strip; 0: the elevation holds.
   double strayShare = 0.03;      ///< Part at each end of an axis that may be strays,
   bool cutsSparse = false;       ///< also where they go on from the others or are more than a few.
-  double largestPixels = 16.0;   ///< Of the splats of a surface, in a window of 800 lines.
+  double largestPixels = 16.0;   ///< Largest size of a surface's splats, pixels in a window of 800 lines.
   double noiseLength = 0.0;      ///< Depths that differ by less are one surface,
   double noisePerDistance = 0.0; ///< the same over the distance from the camera.
   bool closesAll = false;        ///< A surface, flat everywhere or not: no splat is kept small on the screen.

@@ -36,9 +36,9 @@ POINTHAPTICSRENDERING_EXPORT CloudOrientation guessCloudOrientation(
 /// The orientation for an up axis the user named: "x", "-x", "y", "-y", "z" or "-z" (anything else: z).
 POINTHAPTICSRENDERING_EXPORT CloudOrientation orientationForUpAxis(const std::string& axis);
 
-/// What a first picture should frame: @p workspace, or, where nearly all points lie in a small part of it
-/// (strays of a scan have set its size), a cube about those points. @p edge is at most the workspace's
-/// longest.
+/// Finds the cube that a first picture should frame: @p workspace, or, where nearly all points lie in a small
+/// part of it (strays of a scan have set its size), a cube about those points. @p edge is at most the
+/// workspace's longest.
 POINTHAPTICSRENDERING_EXPORT void framingCube(
   vtkPolyData* cloud, const Bounds& workspace, Vec3& center, double& edge);
 

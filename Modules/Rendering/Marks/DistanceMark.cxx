@@ -27,7 +27,7 @@ constexpr int kFont = 15;
 constexpr double kArm = 7.0;
 constexpr double kGap = 8.0;
 constexpr double kLine = 22.0;
-/// Of a search for a place that is free, kLine apart; farther away words belong to nothing, and are left out.
+/// Steps of the search for a free place, kLine apart; words farther away belong to nothing, and are left out.
 constexpr int kMostSteps = 6;
 /// After ScreenLayout, which says what is taken.
 constexpr float kLast = -2.0F;

@@ -32,10 +32,10 @@ struct RecordedFiles
   std::uint64_t checksum = 0; ///< checksumOf() its points.
 };
 
-/// Of the coordinates of @p cloud, in their order and type.
+/// Checksum of the coordinates of @p cloud, in their order and type.
 POINTHAPTICSSCENE_EXPORT std::uint64_t checksumOf(vtkPointSet* cloud);
 
-/// What changes before a tick is felt.
+/// A change that takes effect before a tick is felt.
 struct RecordedEvent
 {
   enum class Kind
@@ -54,15 +54,16 @@ struct RecordedEvent
   std::uint64_t tick = 0;
   Kind kind = Kind::Scene;
   bool on = false;
-  std::uint64_t number = 0;   ///< Of parameters, or of the cloud of a scene; 0: there is no scene.
-  std::uint64_t fallback = 0; ///< Cloud of what is felt where a scene of a part ends; 0: the scene is whole.
+  std::uint64_t number = 0;   ///< Number of the parameters, or of the scene's cloud; 0: there is no scene.
+  std::uint64_t fallback = 0; ///< Cloud of the scene that is felt where a local scene ends; 0: the scene is
+                              ///< global.
   AffineTransform model;      ///< From the file to the workspace.
 };
 
 /// A row of the table.
 struct RecordedTick
 {
-  std::uint64_t tick = 0;        ///< Of the servo loop: time * rate + 1.
+  std::uint64_t tick = 0;        ///< Number of the servo loop's tick: time * rate + 1.
   std::array<double, 16> felt{}; ///< kFeltColumns.
   std::uint32_t buttons = 0;
   std::uint32_t marker = 0; ///< 1, 2, ... where one was set; else 0.
@@ -71,7 +72,7 @@ struct RecordedTick
   Vec3 force() const { return { felt[10], felt[11], felt[12] }; }
 };
 
-/// What the file's header says.
+/// Contents of the file's header.
 struct RecordingHeader
 {
   std::string program;  ///< Name and version.

@@ -193,7 +193,7 @@ bool Reader::takeServo(const std::string& text)
       quote(text) + ": a servo setting is missing or out of range; take the header as it was written");
 }
 
-/// What a scene is made of: means, and one level of them.
+/// Reads the settings of the means that a scene is made of.
 bool Reader::takeVoxels(const keyed::Words& words, SceneOrigin& origin, std::string& wrong)
 {
   VoxelMeanSettings& voxels = origin.voxels;

@@ -54,8 +54,8 @@ public:
   /// Ends the recording. False: @p message says why not all could be written. One without a tick leaves no
   /// file: problem() says so. Of no effect where none is open.
   bool close(std::string& message);
-  /// What ended the recording before close(): ticks that were lost, a loop that started again, a full disk;
-  /// empty: nothing did.
+  /// Reason for which the recording ended before close(): lost ticks, a loop that started again, a full disk;
+  /// empty: it did not.
   const std::string& problem() const { return problem_; }
 
 private:
@@ -78,7 +78,7 @@ private:
   std::array<double, kFelt + 2> row_{}; ///< The newest; its marker may still come.
   bool hasRow_ = false;
   std::deque<std::uint64_t> marks_;  ///< Ticks of markers that are not written yet, ascending.
-  std::deque<RecordedLabel> labels_; ///< Of markers that are not written yet.
+  std::deque<RecordedLabel> labels_; ///< Texts of markers that are not written yet.
   std::uint64_t lastMark_ = 0;       ///< Tick of the newest marker, written or not.
   std::uint32_t markers_ = 0;
   std::uint64_t numberOfTicks_ = 0;

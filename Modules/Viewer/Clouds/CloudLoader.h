@@ -31,7 +31,7 @@ public:
   bool busy() const;
   /// Part of the files of the present load that is read, 0 to 1; it ascends. 0 where there is none.
   double progress() const;
-  /// What the present load does, for people, and how much of that is done, 0 to 1.
+  /// Step of the present load, for people, and its progress, 0 to 1.
   struct Step
   {
     const char* name = "reading"; ///< Or "measuring", "resampling".

@@ -39,7 +39,7 @@ std::string baseName(const std::string& fileName)
   return slash == std::string::npos ? fileName : fileName.substr(slash + 1);
 }
 
-/// What the reader says while it reads, and what it is told.
+/// Reports a reader's progress to goesOn and aborts the reader where goesOn returns false.
 struct Listener
 {
   vtkPointCloudReader* reader;
@@ -49,10 +49,10 @@ struct Listener
 /// Points that are measured before the first picture: it takes no longer than a frame or two.
 constexpr vtkIdType kMeasuredAtOnce = 60000;
 
-/// What is found while the files are read.
+/// Findings collected while the files are read.
 struct Findings
 {
-  std::string format; ///< Of the last file.
+  std::string format; ///< Format of the last file.
   std::vector<std::string> notes;
   bool isCoarse = false;
 };

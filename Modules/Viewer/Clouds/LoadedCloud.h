@@ -36,15 +36,15 @@ struct POINTHAPTICSVIEWER_EXPORT CloudRequest
   double resolution = 0.0;          ///< How far cloud optimised files are read; 0: all points.
   std::vector<std::string> columns; ///< Names for the columns of texts; empty: as the files say.
   bool salvage = false;             ///< Files that are cut are read as far as they go.
-  /// Of cloud optimised files: how many are read, by leaving out fine levels; see LoadedCloud::isCoarse. 0:
-  /// all.
+  /// Points of a cloud optimised file that are read at most, by leaving out fine levels; see
+  /// LoadedCloud::isCoarse. 0: all.
   vtkIdType mostPoints = 0;
-  vtkSmartPointer<vtkPolyData> points; ///< Instead of files; nobody else's.
-  std::string title;                   ///< Of the points; that of files is their names.
-  std::string colorBy; ///< What findColorSource() takes, rgb, or nothing; upper or lower case as it may.
-  std::string colorByName = "colorBy"; ///< What messages call it.
+  vtkSmartPointer<vtkPolyData> points; ///< Points instead of files; nobody else may hold them.
+  std::string title;                   ///< Title of the points; files have their names.
+  std::string colorBy; ///< An argument of findColorSource(), rgb, or empty; case does not matter.
+  std::string colorByName = "colorBy"; ///< Name of that setting in messages.
   std::string up = "auto";             ///< auto or an axis.
-  AffineTransform transform;           ///< Of the cloud, for its bounds.
+  AffineTransform transform;           ///< Transform of the cloud, for its bounds.
   /// How the cloud is resampled, with colorBy, up and transform as above. Null: it is only read.
   std::shared_ptr<const HapticViewerOptions> options;
   std::optional<AffineTransform> model; ///< Where the cloud is resampled; empty: where the options place it.
@@ -68,22 +68,22 @@ struct POINTHAPTICSVIEWER_EXPORT CloudRequest
 struct LoadedCloud
 {
   vtkSmartPointer<vtkPolyData> cloud; ///< Nobody else's.
-  vtkSmartPointer<vtkPolyData> felt;  ///< What of it was resampled: all, or the points in the clipping box.
-  Bounds bounds; ///< Of the finite points, after CloudRequest::transform; of a fitted cloud without far ones
-                 ///< and rays that did not return.
-  Bounds near;   ///< Of all points but a few far ones, which are not drawn; empty: none is far.
+  vtkSmartPointer<vtkPolyData> felt;  ///< Points that were resampled: all, or those in the clipping box.
+  Bounds bounds; ///< Bounds of the finite points after CloudRequest::transform; a fitted cloud leaves out far
+                 ///< ones and rays that did not return.
+  Bounds near;   ///< Bounds of all points but a few far ones, which are not drawn; empty: none is far.
   std::int64_t invalid = 0;   ///< Points that are not finite.
   std::int64_t noReturns = 0; ///< Points at (0, 0, 0) that are not drawn, see areNoReturns().
   CloudOrientation orientation;
-  std::string colorBy;            ///< What was asked for, exactly as the cloud or the pipeline writes it.
+  std::string colorBy;            ///< The requested array, spelt as the cloud or the pipeline writes it.
   std::string title;              ///< The names of the files, without their folders.
   bool isCoarse = false;          ///< CloudRequest::mostPoints left out points.
   double heightZero = 0.0;        ///< Where the array of heights begins, along the up axis; 0: it has none.
-  std::vector<std::string> notes; ///< What the cloud does not have of the files, a line each.
+  std::vector<std::string> notes; ///< Parts of the files that the cloud lacks, a line each.
 
   std::shared_ptr<ShownCloud> shown; ///< How its points are drawn; null: it was only read.
 
-  ShownRequest showing;                   ///< What @c shown was made of.
+  ShownRequest showing;                   ///< Request from which @c shown was made.
   vtkSmartPointer<vtkPolyData> toMeasure; ///< With all arrays, where @c shown is plain; else null.
 
   bool isResampled = true;   ///< Else of what follows there are only placement, model and workspace.
@@ -94,7 +94,7 @@ struct LoadedCloud
   AffineTransform model;     ///< Where it was resampled: there, or CloudRequest::model.
   int latticeDimension = 0;  ///< Voxels on each axis, where nobody had chosen them; else 0.
   Bounds workspace;          ///< The lattice's box.
-  VoxelMeanSettings voxels;  ///< What the means were resampled with.
+  VoxelMeanSettings voxels;  ///< Settings of the resampling.
   vtkSmartPointer<vtkPolyData> means;       ///< With the arrays of both filters; nobody else's.
   std::shared_ptr<const HapticScene> scene; ///< Null: not wanted, or there is none: sceneStatus.
   Status sceneStatus = Status::Ok;
@@ -105,8 +105,8 @@ struct LoadedCloud
 /// Bounds after a transform; the corners of a box would be too wide for a turned cloud.
 struct CloudExtent
 {
-  Bounds all;                 ///< Of the finite points.
-  Bounds returned;            ///< Of those but rays that did not return.
+  Bounds all;                 ///< Bounds of the finite points.
+  Bounds returned;            ///< Bounds without rays that did not return.
   std::int64_t finite = 0;    ///< Points.
   std::int64_t invalid = 0;   ///< The others.
   std::int64_t atZero = 0;    ///< Points at (0, 0, 0),
@@ -127,7 +127,7 @@ POINTHAPTICSVIEWER_EXPORT void findBounds(const CloudRequest& request, LoadedClo
 /// LoadedCloud::workspace is that of the scene.
 POINTHAPTICSVIEWER_EXPORT void noteNoReturns(const CloudRequest& request, LoadedCloud& loaded);
 
-/// What options and messages call what a cloud is coloured by: what the pipeline makes in lower case.
+/// Name of an array in options and messages: arrays that the pipeline makes are in lower case.
 std::string colorWord(const std::string& name);
 
 /// The first of @p notes, and how many there are besides; empty where there is none.

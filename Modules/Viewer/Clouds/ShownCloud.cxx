@@ -47,9 +47,9 @@ constexpr double kFarthestRatio = 1e6;
 constexpr double kSurfaceFlatness = 0.63;
 /// Most of the median spacing that is closed where a surface is not flat: single points beside it stay small.
 constexpr double kWidestGap = 3.0;
-/// Of the window that the first picture is reckoned with.
+/// Height, pixels, of the window that the first picture is computed for.
 constexpr double kUsualHeight = 800.0;
-/// Of more points not each is measured, but one in every place that the first picture can show.
+/// Clouds of more points are sampled: one point is measured in every place that the first picture can show.
 constexpr std::int64_t kAllMeasured = 3000000;
 constexpr double kFinestPixels = 0.5; ///< As LevelOfDetail has it.
 

@@ -43,7 +43,7 @@ struct ShownCloud
   vtkSmartPointer<vtkPolyData> points; ///< In the frame of the file, without cells.
   CloudLook look;
   CloudColors colors;
-  double medianSpacing = 0.0; ///< Of the points, unit of the file; 0: not measured.
+  double medianSpacing = 0.0; ///< Median spacing of the points, unit of the file; 0: not measured.
   /// progressiveOrder() of them, made in the thread that reads; null: left to LevelOfDetail.
   std::shared_ptr<const std::vector<std::uint32_t>> order;
 };
@@ -63,8 +63,8 @@ struct ShownRequest
 POINTHAPTICSVIEWER_EXPORT std::shared_ptr<ShownCloud> makeShownCloud(
   vtkPolyData* cloud, const ShownRequest& request, const std::function<bool(double)>& goesOn);
 
-/// The same without measuring, at once: all points as small discs, seen and coloured by what their bounds and
-/// arrays tell. Null: no point can be drawn.
+/// As makeShownCloud() without measuring, at once: all points are small discs, and bounds and arrays decide
+/// colours and camera. Null: no point can be drawn.
 POINTHAPTICSVIEWER_EXPORT std::shared_ptr<ShownCloud> makePlainCloud(
   vtkPolyData* cloud, const ShownRequest& request);
 
@@ -75,9 +75,10 @@ public:
   /// @p cloud is nobody else's; its arrays may be read by others. What was measured before is given up.
   void start(vtkSmartPointer<vtkPolyData> cloud, const ShownRequest& request);
   bool busy() const { return result_.valid(); }
-  /// What was measured, once; null: not yet, or nothing is. @param waits until it is there.
+  /// Returns the measured cloud once; null: it is not ready, or none is measured. @param waits until it is
+  /// there.
   std::shared_ptr<ShownCloud> take(bool waits);
-  /// Gives up what is measured and waits for the thread.
+  /// Gives up the measurement and waits for the thread.
   void cancel();
 
   ShownMeasurement() = default;

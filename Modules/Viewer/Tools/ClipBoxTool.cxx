@@ -119,7 +119,7 @@ void ClipBoxTool::move(int face, const Bounds& from, double way)
   scene_.clipMark().setBox(box);
 }
 
-/// What is felt is what is shown.
+/// Publishes the new box to touch: the felt points are those that are shown.
 void ClipBoxTool::finish()
 {
   clipped_();

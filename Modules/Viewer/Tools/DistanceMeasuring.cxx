@@ -16,7 +16,7 @@ namespace
 constexpr float kJustBeforeTheStyle = 0.1F;
 /// A button that is let go farther away, pixels, was a drag.
 constexpr double kClick = 3.0;
-/// Of a measured distance.
+/// Coordinates of a measured distance: two points.
 constexpr std::size_t kNumbersOfTwoEnds = 6;
 
 } // namespace

@@ -20,7 +20,7 @@ public:
   enum class Kind
   {
     Press,
-    Move, ///< Of the pointer, whether the button is pressed or not.
+    Move, ///< The pointer moves, whether the button is pressed or not.
     Release,
   };
   struct Event

@@ -26,7 +26,7 @@ constexpr double kStrongest = 10.0;
 constexpr const char* kNoQuadBuffers =
   " needs a screen that shows two pictures, and to be asked for at the start; choose anaglyph or another by "
   "--stereo";
-/// Of the turntable: a turn takes 12 seconds.
+/// Speed of the turntable: a turn takes 12 seconds.
 constexpr double kDegreesPerSecond = 30.0;
 constexpr double kLongestStep = 0.2; // seconds
 /// Seen so, a cube shows three faces alike.

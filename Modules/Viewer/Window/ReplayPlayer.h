@@ -31,7 +31,7 @@ public:
 
   /// Where the model is by now: from the file to the workspace. False: it was not moved since the last call.
   bool takeModel(AffineTransform& model);
-  /// What there is to say: a marker, the end. Empty: nothing since the last call.
+  /// Message since the last call: a marker, the end. Empty: none.
   std::string takeMessage();
   const ServoStepSettings& stepSettings() const { return recording_.header.step; }
 

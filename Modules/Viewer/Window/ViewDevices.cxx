@@ -1,4 +1,4 @@
-// What moves the hand and the model: the devices of the window, and the servo loop.
+// Devices of the window, which move the hand and the model, and the servo loop.
 #include "ViewScene.h"
 #include "ViewWindow.h"
 

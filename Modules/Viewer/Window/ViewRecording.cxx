@@ -1,4 +1,4 @@
-// What the window does to record touch, to show a recording, and to make touch heard.
+// Recording, replay and sound of the touch in the window.
 #include "PolyDataAccess.h"
 #include "ViewWindow.h"
 

@@ -1,4 +1,4 @@
-// What the sliders of the window set.
+// Sliders of the window.
 #include "ViewWindow.h"
 
 #include "ViewScene.h"

@@ -86,7 +86,7 @@ public:
   static void addCommands(CommandRegistry& commands, ViewWindow* window);
 
 private:
-  /// What files are read for.
+  /// Reason for which files are read.
   enum class Load
   {
     New,   ///< To be fitted to the workspace.
@@ -182,8 +182,8 @@ private:
   HapticParameters parameters_; ///< As the servo loop has them.
   double voxelSize_ = 0.0;      ///< As the slider set it, metres; 0: as the options say.
   std::vector<std::string> files_;
-  std::size_t fileIndex_ = 0;      ///< Of the last one that was asked for.
-  std::vector<std::string> shown_; ///< What the window shows: one of files_, or all together.
+  std::size_t fileIndex_ = 0;      ///< Index of the file that was last asked for.
+  std::vector<std::string> shown_; ///< The shown files: one of files_, or all together.
   FileWatch watch_;
   int sinceLook_ = 0;
   unsigned long abortCheck_ = 0;
@@ -219,7 +219,7 @@ private:
   int screenshots_ = 0;
   bool chartBesideFigure_ = true; ///< Comes back when the figure goes.
   bool clipBoxBesideFigure_ = false;
-  LengthUnit firstUnit_;      ///< Of the file before the user took another; no name: none was taken.
+  LengthUnit firstUnit_;      ///< Unit of the file before the user took another; no name: none was taken.
   std::string news_;          // last line of the status
   std::string awaitedColors_; ///< The news while colours are computed; empty: none are.
   std::unique_ptr<SimulatedDevice> hand_;

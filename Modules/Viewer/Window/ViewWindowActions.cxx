@@ -152,7 +152,7 @@ void ViewWindow::followLoading()
   }
 }
 
-/// What the readers warn of.
+/// Reports each note of the readers as a warning.
 void ViewWindow::warn(const std::vector<std::string>& notes)
 {
   for (const std::string& note : notes)
@@ -256,7 +256,7 @@ void ViewWindow::show(LoadedCloud cloud)
   this->findIdeal();
 }
 
-/// What keys have changed while the cloud was read.
+/// Applies the options that keys changed while the cloud was read.
 void ViewWindow::followOptions()
 {
   if (options_.felt != loading_.options.felt)
@@ -289,7 +289,8 @@ void ViewWindow::giveModel(vtkMatrix4x4* matrix)
   }
 }
 
-/// What was read is shown where it was resampled; what the user has done meanwhile is done to it too.
+/// Shows the cloud that was read in the frame in which it was resampled. Moves that the user made meanwhile
+/// are repeated.
 void ViewWindow::adoptModel(const AffineTransform& model)
 {
   vtkNew<vtkMatrix4x4> kept;
@@ -434,7 +435,7 @@ void ViewWindow::toggleMeasuring()
   measuring_.toggle(style_->GetCommands().label("measure"));
 }
 
-/// What is felt is of the box as it is now; a recording is of one cloud.
+/// Restricts touch to the present box. A recording ends, as it is of one cloud.
 void ViewWindow::clipFelt()
 {
   std::string message;
@@ -495,7 +496,7 @@ void ViewWindow::toggleAmbient()
   this->setSceneOptions();
 }
 
-/// What scenes are made with, and which arrays the picture needs.
+/// Sets how scenes are made, and which arrays the picture needs.
 void ViewWindow::setSceneOptions()
 {
   SceneOptions options;

@@ -45,7 +45,7 @@ public:
     return result;
   }
 
-  /// Of 25 mm radius; @p cellSize in metres.
+  /// Scene of a sphere of 25 mm radius; @p cellSize in metres.
   static std::shared_ptr<const HapticScene> sphere(int points, double cellSize)
   {
     HapticSceneInput input;

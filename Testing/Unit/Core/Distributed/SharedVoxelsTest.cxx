@@ -75,7 +75,7 @@ void append(RunResult& all, const RunResult& part)
   }
 }
 
-/// What each rank makes, one after the other.
+/// Joins the results of the ranks, one after the other.
 RunResult sharedRun(
   const std::vector<Vec3>& points, const Lattice& lattice, int levels, const std::vector<std::size_t>& ends)
 {
