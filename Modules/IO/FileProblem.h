@@ -13,7 +13,7 @@
 namespace pointhaptics::io
 {
 
-/// What is wrong (with line or byte offset and value) and what the user can do about it.
+/// Fault of a file (with line or byte offset and value) and its cure.
 class FileProblem : public std::runtime_error
 {
 public:

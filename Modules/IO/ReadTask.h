@@ -23,7 +23,7 @@ namespace pointhaptics::io
 /// Part of the progress that reading the bytes takes; parsing them takes the rest.
 constexpr double kReadingPart = 0.3;
 
-/// What of a cloud is wanted: see vtkPointCloudReader.
+/// Part of a cloud to read: see vtkPointCloudReader.
 struct WantedPart
 {
   bool onlyPositions = false;   ///< no arrays beside the points, where leaving them out saves work
@@ -75,8 +75,8 @@ struct ReadTask
     isCut = shared != nullptr;
     return shared ? shared->rowsOf(all) : RowRange{ 0, all };
   }
-  /// What is to be done where the file, as @p what says, ends after @p there of @p all points: it is refused,
-  /// or read as far as it goes, with a note. @return @p there. @throws FileProblem.
+  /// Handles a file that ends after @p there of @p all points, as @p what says: it is refused, or read as far
+  /// as it goes, with a note. @return @p there. @throws FileProblem.
   std::uint64_t endAt(std::uint64_t there, std::uint64_t all, const std::string& what)
   {
     if (!salvage || shared || there == 0)
@@ -90,7 +90,7 @@ struct ReadTask
     pointsThere = there;
     return there;
   }
-  /// The same as a rank that reads it alone: for what cannot be read in parts.
+  /// Makes a rank read the whole file alone: for formats that cannot be read in parts.
   void takeWhole()
   {
     shared = nullptr;
@@ -98,9 +98,9 @@ struct ReadTask
   }
   /// Reports how much of the parsing is done, 0..1. @throws StoppedOnRequest when an observer asked to stop.
   void progress(double fraction) const { reportProgress(algorithm, overall(fraction)); }
-  /// What part of the whole work is done when @p fraction of the parsing is.
+  /// Part of the whole work that is done when @p fraction of the parsing is.
   static double overall(double fraction) { return kReadingPart + (1.0 - kReadingPart) * fraction; }
-  /// The same for reading the bytes.
+  /// Reports how much of the file's bytes is read.
   void readingProgress(double fraction) const { reportProgress(algorithm, kReadingPart * fraction); }
 };
 

@@ -356,7 +356,7 @@ void vtkPointCloudReader::ReadWhole(io::ReadTask& task, vtkPolyData* cloud)
   this->Finish(task, cloud);
 }
 
-/// What is looked at in the cloud of any format.
+/// Checks the cloud of any format, and cuts it to the box.
 void vtkPointCloudReader::Finish(io::ReadTask& task, vtkPolyData* cloud)
 {
   if (task.pointsThere < static_cast<std::uint64_t>(cloud->GetNumberOfPoints()))

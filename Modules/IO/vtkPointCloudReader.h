@@ -131,7 +131,7 @@ public:
    */
   vtkSetClampMacro(MostPoints, vtkIdType, 0, VTK_ID_MAX);
   vtkGetMacro(MostPoints, vtkIdType);
-  /// Of the last update.
+  /// True if the last update left out points.
   bool IsCoarse() const { return this->Coarse; }
   ///@}
 
@@ -235,7 +235,7 @@ public:
   vtkGetMacro(NumberOfBytesRead, vtkTypeInt64);
 
   /**
-   * What the cloud of the last update does not have of its file, one line each.
+   * Parts of its file that the cloud of the last update lacks, one line each.
    */
   const std::vector<std::string>& GetNotes() const { return this->Notes; }
 
@@ -246,8 +246,7 @@ public:
   bool IsValidWithoutPoints() const { return this->ValidWithoutPoints; }
 
   /**
-   * What went wrong in the last update, in one line; empty when all went well. Never null; valid until the
-   * next update.
+   * Error of the last update, in one line; empty when all went well. Never null; valid until the next update.
    */
   const char* GetErrorMessage() const { return this->ErrorMessage.c_str(); }
 

@@ -26,8 +26,8 @@ vtkStandardNewMacro(vtkPointCloudWriter);
 namespace
 {
 
-/// What a comment or a header of @p format says of the unit of @p cloud. Metres, which clouds without a unit
-/// are taken to be in, are left out of the names that programs look for in a table.
+/// Unit of @p cloud for a comment or a header of @p format. Metres, the default unit of clouds, are left out
+/// of the names that programs look for in a table.
 std::string unitFor(const io::CloudFormat& format, vtkPointSet* cloud)
 {
   const std::string unit = io::fieldText(cloud->GetFieldData(), "LengthUnit");

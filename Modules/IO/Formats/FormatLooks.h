@@ -12,8 +12,8 @@ namespace pointhaptics::io
 /// The start of a file.
 struct FormatStart
 {
-  std::string_view bytes; ///< Without a byte order mark; of UTF-16, in UTF-8.
-  std::size_t size = 0;   ///< Of the whole file; 0: not known.
+  std::string_view bytes; ///< Bytes without a byte order mark; UTF-16 as UTF-8.
+  std::size_t size = 0;   ///< Size of the whole file; 0: not known.
   std::string extension;  ///< Lower case, no dot.
   std::string_view line;  ///< The first one of a text with something on it that is no comment.
   bool isText = false;

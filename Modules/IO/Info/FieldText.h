@@ -14,7 +14,7 @@
 namespace pointhaptics::io
 {
 
-/// Of comments in headers of PLY, PCD and text: this word, and the unit.
+/// Word before the unit in comments of PLY, PCD and text.
 constexpr std::string_view kUnitComment = "LengthUnit ";
 
 /// "mm" of "LengthUnit mm"; empty where @p comment is another one.

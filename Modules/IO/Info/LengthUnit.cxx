@@ -47,7 +47,7 @@ bool has(const std::string& text, const char* part)
   return text.find(part) != std::string::npos;
 }
 
-/// Of a file that names its unit; one that is not known here counts as not named.
+/// Reads the unit that a file names; an unknown one counts as not named.
 bool readUnit(vtkPolyData* cloud, LengthUnit& unit)
 {
   const std::string said = lower(io::fieldText(cloud->GetFieldData(), "LengthUnit"));
