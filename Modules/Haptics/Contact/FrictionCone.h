@@ -12,9 +12,9 @@
 namespace pointhaptics
 {
 
-/// The contact point sticks while the spring's pull along the surface is within mu_s of that across it, else
-/// it slides to where it is mu_d of it; on a curved surface the normal is that of the contact point. Plain
-/// state; one thread.
+/// The contact point sticks while the spring's pull along the surface is within mu_s times its pull across
+/// it. Else it slides to where the ratio is mu_d. On a curved surface the normal is that of the contact
+/// point. Plain state; one thread.
 class FrictionCone
 {
 public:
@@ -54,7 +54,7 @@ public:
     {
       return contact_;
     }
-    // The ratio is nearly proportional to the way from the foot.
+    // The ratio is nearly proportional to the distance from the foot.
     double slide = std::min(length, parameters.dynamicFriction * std::max(0.0, depth));
     for (int round = 0; round < kRounds; ++round)
     {

@@ -17,7 +17,7 @@ class GradientSteps
 public:
   void reset() noexcept { *this = GradientSteps(); }
   void carry(const AffineTransform& from, const AffineTransform& to) noexcept;
-  /// The scene is another of the same model: of another radius its sphere keeps the point nearest to the HIP.
+  /// The scene is another of the same model. A sphere of another radius keeps its point nearest to the HIP.
   void changeCells() noexcept { adopts_ = true; }
   /// @pre hip finite. Fills all of the state but force.
   void step(const HapticScene& scene, const HapticParameters& parameters, const Vec3& hip, double dt,
