@@ -1,5 +1,4 @@
-/// @file
-/// How a scene was made, so that it can be made again.
+/// Recipe of a scene, by which it can be made again.
 #pragma once
 
 #include "Core/Bandwidth/LocalBandwidth.h"
@@ -29,7 +28,7 @@ struct SceneOrigin
   VoxelMeanSettings voxels; ///< Settings of the resampler; for Fine its workspace alone.
   std::optional<LocalBandwidthSettings> bandwidth;
   bool useCovariance = true;
-  AffineTransform modelToWorkspace; ///< The points went through it.
+  AffineTransform modelToWorkspace; ///< Transform of the points.
   Bounds hand;                      ///< The box that Region and Fine were made about.
   /// The global scene beside which Region or Fine was made; a Region may have none.
   std::uint64_t globalCloud = 0; ///< HapticScene::cloudNumber() of it.

@@ -1,5 +1,4 @@
-/// @file
-/// How hard a hand may be pushed, in one rule.
+/// One rule for how hard a hand may be pushed.
 #pragma once
 
 #include "Haptics/HapticParameters.h"
@@ -20,7 +19,7 @@ struct ForceLimit
                                                             ///< loop.
 
   double newtons() const noexcept;
-  /// "device", "user" or "program", whose limit is the least; "none".
+  /// Name of the least limit: "device", "user" or "program"; "none".
   const char* name() const noexcept;
   /// "2 N (device)", or "none".
   std::string text() const;

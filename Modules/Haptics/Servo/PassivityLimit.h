@@ -1,5 +1,4 @@
-/// @file
-/// How stiff and how damped a surface may be before a sampled spring gives the hand more energy than it took.
+/// Largest stiffness and damping with which a sampled spring gives the hand no more energy than it took.
 #pragma once
 
 #include "Core/Base/Status.h"
