@@ -1,5 +1,5 @@
 /// @file
-/// What the handles of pointhaptics.h stand for.
+/// Objects behind the handles of pointhaptics.h.
 #pragma once
 
 #include "C/pointhaptics.h"

@@ -1,3 +1,4 @@
+/// @file
 /// Distances that the proxy's ball keeps from the points of a cloud: static, found where scenes are built.
 #pragma once
 

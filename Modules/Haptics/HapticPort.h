@@ -1,3 +1,4 @@
+/// @file
 /// Interface of a servo loop to a device: a hand position in, a force out.
 #pragma once
 

@@ -1,3 +1,4 @@
+/// @file
 /// Scenes near the hand, as fine as the points are.
 #pragma once
 

@@ -1,3 +1,4 @@
+/// @file
 /// Recipe of a scene, by which it can be made again.
 #pragma once
 

@@ -1,5 +1,5 @@
 /// @file
-/// How the format readers and writers report a fault: one exception type that never leaves this module.
+/// Fault of a file in a format reader or writer: one exception type that never leaves this module.
 /// vtkPointCloudReader and vtkPointCloudWriter turn it into an error code and a message.
 #pragma once
 

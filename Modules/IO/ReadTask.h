@@ -1,5 +1,5 @@
 /// @file
-/// What every format reader gets: the bytes, where to report progress, and where to name the format.
+/// Task of a format reader: the bytes, where to report progress, and where to name the format.
 #pragma once
 
 #include "FileProblem.h"

@@ -1,5 +1,5 @@
 /// @file
-/// What a renderer would draw, without drawing it: for seeing whether a picture has to be made anew.
+/// State of the picture that a renderer would draw, without drawing it: shows if a new picture is needed.
 #pragma once
 
 #include "PointHapticsRenderingModule.h" // For export macro

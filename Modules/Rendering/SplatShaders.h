@@ -1,5 +1,5 @@
 /// @file
-/// What vtkSplatMapper, which alone includes this, puts into VTK's shaders.
+/// Code that vtkSplatMapper, which alone includes this, puts into VTK's shaders.
 #pragma once
 
 namespace pointhaptics

@@ -1,5 +1,5 @@
 /// @file
-/// What a hand on a path feels: the whole cloud, and finer scenes where the hand is.
+/// Scenes that a hand on a path feels: the whole cloud, and finer scenes where the hand is.
 #pragma once
 
 #include "Haptics/LocalScene.h"

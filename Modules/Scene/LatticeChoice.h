@@ -1,5 +1,5 @@
 /// @file
-/// How many voxels an axis a cloud is resampled into where nobody says it.
+/// Chooses the number of voxels on an axis where nobody gave one.
 #pragma once
 
 #include "PointHapticsSceneModule.h" // For export macro

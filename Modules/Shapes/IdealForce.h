@@ -1,5 +1,5 @@
 /// @file
-/// What an exact surface would answer: for clouds that are samples of a shape we know.
+/// Force of an exact surface, for clouds that are samples of a known shape.
 #pragma once
 
 #include "Core/Base/AffineTransform.h"

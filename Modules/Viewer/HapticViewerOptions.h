@@ -1,5 +1,5 @@
 /// @file
-/// What a HapticViewer shows and how it feels: plain values, each with the default of the program.
+/// Options of a HapticViewer: plain values, each with the default of the program.
 #pragma once
 
 #include "Core/Bandwidth/BandwidthSettings.h"

@@ -1,5 +1,5 @@
 /// @file
-/// How a picture is drawn, whatever the cloud is: plain values that options give, keys change and files keep.
+/// Settings of a picture, whatever the cloud is: plain values that options give, keys change and files keep.
 #pragma once
 
 #include <array>

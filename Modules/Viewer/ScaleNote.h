@@ -1,5 +1,5 @@
 /// @file
-/// How large the model is in the hand, in words.
+/// Size of the model in the hand, in words.
 #pragma once
 
 #include "PointHapticsViewerModule.h" // For export macro

@@ -1,5 +1,5 @@
 /// @file
-/// What `view` feels along a hand path, in virtual time: the same touch on every machine.
+/// Touch of `view` along a hand path, in virtual time: equal on every machine.
 #pragma once
 
 #include "CsvWriter.h"

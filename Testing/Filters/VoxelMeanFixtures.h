@@ -1,5 +1,5 @@
 /// @file
-/// What the tests of the resampler share: its settings, and its answer beside the long double twin's.
+/// Shared by the tests of the resampler: its settings, and its answer beside the long double twin's.
 #pragma once
 
 #include "FilterFixtures.h"

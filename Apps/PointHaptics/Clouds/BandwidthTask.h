@@ -1,5 +1,5 @@
 /// @file
-/// What the command `bandwidth` is asked for and says, of this program and of pointhaptics-mpi.
+/// Options and messages of the command `bandwidth`, in this program and in pointhaptics-mpi.
 #pragma once
 
 #include "Clouds/CloudToCloud.h"

@@ -1,5 +1,5 @@
 /// @file
-/// What the commands share that read clouds and write others: IN... -o OUT --merge --threads --json.
+/// Shared by the commands that read clouds and write others: IN... -o OUT --merge --threads --json.
 #pragma once
 
 #include "Clouds/Pipeline.h"

@@ -1,5 +1,5 @@
 /// @file
-/// How near a hand that touches nothing comes to the cloud.
+/// Least distance to the cloud of a hand that touches nothing.
 #pragma once
 
 #include "Core/Base/Vector3.h"

@@ -1,5 +1,5 @@
 /// @file
-/// What `feel` feels, as sound.
+/// The sound of a touch that `feel` computes.
 #pragma once
 
 #include "Devices/Sound/ContactTone.h"

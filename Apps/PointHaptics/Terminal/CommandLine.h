@@ -1,5 +1,5 @@
 /// @file
-/// What the main functions of both programs do with a command line.
+/// Parses and runs the command lines of both programs.
 #pragma once
 
 #include "Options/Files.h"

@@ -1,5 +1,5 @@
 /// @file
-/// What goes to the user: errors in one line, and the messages of VTK classes collected instead of printed.
+/// Messages to the user: errors in one line, and the messages of VTK classes collected instead of printed.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

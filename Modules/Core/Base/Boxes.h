@@ -1,5 +1,5 @@
 /// @file
-/// What lies in boxes, and what is no place at all.
+/// Tests of points against boxes, and of coordinates that are no place.
 #pragma once
 
 #include "Core/Base/PointView.h"

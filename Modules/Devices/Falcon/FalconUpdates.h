@@ -1,5 +1,5 @@
 /// @file
-/// What the user of a Falcon should know while it starts and works, and how a servo loop runs with it.
+/// Messages for the user of a Falcon while it starts and works, and the settings of a servo loop with it.
 #pragma once
 
 #include "Devices/Falcon/FalconDevice.h"

@@ -1,5 +1,5 @@
 /// @file
-/// What the SpaceMouse driver asks of HID, so that a test can stand in.
+/// Interface of the SpaceMouse driver to HID, which a test can replace.
 #pragma once
 
 #include <cstdint>

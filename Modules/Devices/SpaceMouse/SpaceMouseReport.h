@@ -1,5 +1,5 @@
 /// @file
-/// What a 3Dconnexion SpaceMouse says: its reports, and the motion they stand for.
+/// Reports of a 3Dconnexion SpaceMouse, and the motion they stand for.
 #pragma once
 
 #include "Core/Base/Vector3.h"

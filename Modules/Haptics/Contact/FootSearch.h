@@ -1,3 +1,4 @@
+/// @file
 /// Step length towards a foot point that moves while one approaches it.
 #pragma once
 

@@ -1,3 +1,4 @@
+/// @file
 /// Spreads sudden changes of the surface over time: the force follows the hand at once, and other changes no
 /// faster than a limit.
 #pragma once

@@ -1,3 +1,4 @@
+/// @file
 /// Distances of points from the surface that is felt, and its normals there: for pictures.
 #pragma once
 

@@ -1,3 +1,4 @@
+/// @file
 /// One rule for how hard a hand may be pushed.
 #pragma once
 

@@ -1,3 +1,4 @@
+/// @file
 /// Largest stiffness and damping with which a sampled spring gives the hand no more energy than it took.
 #pragma once
 

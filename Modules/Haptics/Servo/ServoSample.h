@@ -1,5 +1,5 @@
 /// @file
-/// What one tick of the servo loop came to.
+/// Result of one tick of the servo loop.
 #pragma once
 
 #include "Haptics/Proxy.h"

@@ -1,5 +1,5 @@
 /// @file
-/// What a tick does between reading the device and writing it: in the servo thread, and in a replay.
+/// The work of a tick between reading the device and writing it: in the servo thread, and in a replay.
 #pragma once
 
 #include "Haptics/HapticPort.h"

@@ -1,5 +1,5 @@
 /// @file
-/// What the servo thread asks of the operating system and the processor. Each call but lockMemory() acts on
+/// Requests of the servo thread to the operating system and the processor. Each call but lockMemory() acts on
 /// the calling thread alone; WakefulCores on the whole machine.
 #pragma once
 

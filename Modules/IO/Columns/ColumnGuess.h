@@ -1,5 +1,5 @@
 /// @file
-/// What columns without names seem to be, by their values.
+/// Recognises columns without names by their values.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 /// @file
-/// What the first bytes of a file look like.
+/// Recognises formats by the first bytes of a file.
 #pragma once
 
 #include <cstddef>

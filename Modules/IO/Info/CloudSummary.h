@@ -1,5 +1,5 @@
 /// @file
-/// What `pointhaptics info` says of a cloud.
+/// Summary of a cloud, as `pointhaptics info` prints it.
 #pragma once
 
 #include "Core/Base/PointView.h"

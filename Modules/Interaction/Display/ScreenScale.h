@@ -1,5 +1,5 @@
 /// @file
-/// How large texts must be on a screen, or in a picture.
+/// Size of texts on a screen, or in a picture.
 #pragma once
 
 #include "PointHapticsInteractionModule.h" // For export macro

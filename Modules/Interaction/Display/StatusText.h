@@ -1,5 +1,5 @@
 /// @file
-/// What the interactor style says in words: the status line and the panel of the servo loop.
+/// Texts of the interactor style: the status line and the panel of the servo loop.
 #pragma once
 
 #include "CommandRegistry.h"

@@ -1,5 +1,5 @@
 /// @file
-/// How far a hand in free space is from the cloud, and in which direction.
+/// Distance and direction from a hand in free space to the cloud.
 #pragma once
 
 #include "ScreenView.h"

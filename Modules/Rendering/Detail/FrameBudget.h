@@ -1,5 +1,5 @@
 /// @file
-/// How many points a frame may draw, learnt from the frames that were drawn.
+/// Number of points that a frame may draw, learnt from the frames before.
 #pragma once
 
 #include "PointHapticsRenderingModule.h" // For export macro

@@ -1,5 +1,5 @@
 /// @file
-/// What the numbers of the array "Classification" mean.
+/// Names of the numbers in the array "Classification".
 #pragma once
 
 #include "PointHapticsRenderingModule.h" // For export macro

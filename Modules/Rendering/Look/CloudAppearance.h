@@ -1,5 +1,5 @@
 /// @file
-/// How a cloud is drawn: its own colours where it has them, else height by a perceptually uniform map.
+/// Drawing of a cloud: its own colours where it has them, else height by a perceptually uniform map.
 #pragma once
 
 #include "ColorMaps.h"

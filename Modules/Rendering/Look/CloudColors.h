@@ -1,5 +1,5 @@
 /// @file
-/// What a cloud is coloured by where nobody says: decided from its arrays.
+/// Colours of a cloud where nobody chose any: decided from its arrays.
 #pragma once
 
 #include "CloudLook.h"

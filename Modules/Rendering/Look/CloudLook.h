@@ -1,6 +1,6 @@
 /// @file
-/// How a cloud is shown at first glance, decided from the data alone: what kind of cloud it is, from where it
-/// is seen, and how its points are drawn. Plain functions, without a window; any thread may call them.
+/// First view of a cloud, decided from the data alone: what kind of cloud it is, from where it is seen, and
+/// how its points are drawn. Plain functions, without a window; any thread may call them.
 #pragma once
 
 #include "CloudOrientation.h"

@@ -1,5 +1,5 @@
 /// @file
-/// What keys do to the picture: from where it is taken, and how it is drawn.
+/// Keys for the picture: its camera, and how it is drawn.
 #pragma once
 
 #include "CommandRegistry.h"

@@ -1,5 +1,5 @@
 /// @file
-/// What the tests of the driver on a real libusb share, whatever is below that: patience, a sphere, a hand
+/// Shared by the tests of the driver on a real libusb, whatever is below that: patience, a sphere, a hand
 /// that touches it.
 #pragma once
 

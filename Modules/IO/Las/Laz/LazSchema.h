@@ -1,6 +1,6 @@
 /// @file
-/// How the points of a LAZ file are compressed: LASzip's variable length record. Source: LAZ Specification
-/// 1.4 R1.
+/// Compression of the points in a LAZ file: LASzip's variable length record. Source: LAZ Specification 1.4
+/// R1.
 #pragma once
 
 #include <cstddef>
