@@ -27,7 +27,7 @@ public:
 
   MpiRanks& ranks() { return ranks_; }
   bool isRoot() const { return ranks_.rank() == 0; }
-  /// Whether no rank has a @p problem. Else the first one that has prints it as fail() does, and says which
+  /// True if no rank has a @p problem. Else the first one that has prints it as fail() does, and says which
   /// rank it is where not all have the same.
   bool agree(const std::string& command, const std::string& problem);
   /// Returns the largest exit code of all ranks: each ends with it. The last exchange of a job.

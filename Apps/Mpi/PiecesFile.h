@@ -12,7 +12,7 @@ namespace pointhaptics
 namespace app
 {
 
-/// Whether @p fileName ends in .pvtp.
+/// True if @p fileName ends in .pvtp.
 bool isPiecesFile(const std::string& fileName);
 
 /// The file of a rank's piece: "means_2.vtp" beside "means.pvtp".

@@ -32,7 +32,7 @@ struct WantedPart
   std::array<double, 6> box{ 1.0, -1.0, 1.0, -1.0, 1.0, -1.0 }; ///< x0, x1, y0, y1, z0, z1
 
   bool hasBox() const { return box[0] <= box[1] && box[2] <= box[3] && box[4] <= box[5]; }
-  /// Whether a file that can be read in parts need not be read whole.
+  /// True if a file that can be read in parts need not be read whole.
   bool isPart() const { return hasBox() || resolution > 0.0 || mostPoints > 0; }
 };
 

@@ -44,7 +44,7 @@ public:
   std::string GetFormat() const;
 
   /**
-   * Whether there is a finite point; else bounds and what follows from them say nothing.
+   * True if there is a finite point; else bounds and what follows from them say nothing.
    */
   bool HasBounds() const;
 

@@ -112,7 +112,7 @@ void keepRows(vtkPolyData* cloud, vtkIdType first, vtkIdType count)
   cloud->GetPointData()->ShallowCopy(values);
 }
 
-/// Whether the format, told by the file's @p start, can be read in parts.
+/// True if the format, told by the file's @p start, can be read in parts.
 bool canBeCut(const std::string& start, std::size_t size, const std::string& extension)
 {
   if (start.empty() || start.compare(0, 2, "\x1f\x8b") == 0) // gzip

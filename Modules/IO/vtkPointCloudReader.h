@@ -224,7 +224,7 @@ public:
   void SetRanks(pointhaptics::Ranks* ranks);
 
   /**
-   * Whether the last update ended without points and without a fault of its own, as another of the ranks had
+   * True if the last update ended without points and without a fault of its own, as another of the ranks had
    * one.
    */
   bool FailedElsewhere() const { return this->OtherRankFailed; }
@@ -240,7 +240,7 @@ public:
   const std::vector<std::string>& GetNotes() const { return this->Notes; }
 
   /**
-   * Whether the last update found a valid file that announces no points. This is an error, too, but the
+   * True if the last update found a valid file that announces no points. This is an error, too, but the
    * output has the field data that the file gave.
    */
   bool IsValidWithoutPoints() const { return this->ValidWithoutPoints; }

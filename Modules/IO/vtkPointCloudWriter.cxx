@@ -49,7 +49,7 @@ bool keeps(const io::CloudFormat& format, vtkPointSet* cloud, const std::string&
 constexpr const char* kOfTheCloud[] = { "Viewpoint", "OrganizedDimensions", "CoordinateSystem", "LengthUnit",
   "ScanPoses" };
 
-/// Whether @p name is a viewpoint or poses (tx ty tz qw qx qy qz) that change nothing.
+/// True if @p name is a viewpoint or poses (tx ty tz qw qx qy qz) that change nothing.
 bool isIdentityPose(vtkPointSet* cloud, const std::string& name)
 {
   const double usual[] = { 0, 0, 0, 1, 0, 0, 0 };

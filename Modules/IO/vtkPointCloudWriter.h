@@ -124,7 +124,7 @@ public:
   vtkGetMacro(NumberOfPointsWritten, vtkIdType);
 
   /**
-   * Whether a file of this name can be written: asked of its extension.
+   * True if a file of this name can be written: asked of its extension.
    */
   static bool CanWrite(const std::string& fileName);
 

@@ -12,7 +12,7 @@ class vtkRenderer;
 namespace pointhaptics
 {
 
-/// Whether @p prop is drawn over the finished picture: text (vtkActor2D) and marks (vtkOverlayActor).
+/// True if @p prop is drawn over the finished picture: text (vtkActor2D) and marks (vtkOverlayActor).
 POINTHAPTICSRENDERING_EXPORT bool isDrawnOver(vtkProp* prop);
 
 /// Camera, size, background, lights and all props but those that are drawn over it: numbers that are equal

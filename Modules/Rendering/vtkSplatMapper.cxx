@@ -250,7 +250,7 @@ void vtkSplatMapper::RenderPieceStart(vtkRenderer* renderer, vtkActor* actor)
   }
 }
 
-/// Whether splats are seen from so near that some may be larger than points can be. Quads take four times as
+/// True if splats are seen from so near that some may be larger than points can be. Quads take four times as
 /// long as points to begin with.
 bool vtkSplatMapper::WantsQuads(vtkRenderer* renderer, vtkActor* actor)
 {

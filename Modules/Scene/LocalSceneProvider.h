@@ -52,7 +52,7 @@ public:
   std::shared_ptr<const HapticScene> make(
     const SceneOrigin& origin, const std::shared_ptr<const HapticScene>& global);
 
-  /// Whether the points are indexed by now: not before a scene is made of them.
+  /// True if the points are indexed by now: not before a scene is made of them.
   bool isIndexed() const { return index_ != nullptr; }
 
 private:

@@ -351,7 +351,7 @@ void SceneWorker::Implementation::buildGlobalScenes()
   }
 }
 
-/// Whether the hand rests: then there is time until the next look, and a window at rest sleeps.
+/// True if the hand rests: then there is time until the next look, and a window at rest sleeps.
 void SceneWorker::Implementation::look(const SceneRequest& request)
 {
   const Bounds hand = request.hand();

@@ -106,7 +106,7 @@ public:
   std::uint64_t numberOfBuilds() const;
   /// The newest finished build that was not taken yet. False: there is none.
   bool take(BuiltScene& built);
-  /// Whether a build is in flight or waits.
+  /// True if a build is in flight or waits.
   bool busy() const;
   /// Returns when nothing is in flight and nothing waits; finer scenes near the hand may still come.
   void wait();

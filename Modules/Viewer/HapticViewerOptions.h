@@ -109,9 +109,9 @@ struct HapticViewerOptions
 
   HapticViewerNames names;
 
-  /// Whether the hand goes where a file says.
+  /// True if the hand goes where a file says.
   bool followsFile() const { return !this->path.empty() || !this->replay.empty(); }
-  /// Whether the lattice's voxels were chosen.
+  /// True if the lattice's voxels were chosen.
   bool hasVoxels() const
   {
     return this->voxels.lattice.dimensions[0] > 0 || this->voxels.lattice.voxelSize > 0.0;

@@ -89,10 +89,10 @@ public:
 
   /// Draws this and later clouds as @p picture says.
   void setPicture(const PictureSettings& picture);
-  /// Whether the window shows two pictures: not where it has no buffers for those that are asked for.
+  /// True if the window shows two pictures: not where it has no buffers for those that are asked for.
   bool isStereo() const;
   const PictureSettings& picture() const { return picture_; }
-  /// Whether a bar tells which values the colours stand for.
+  /// True if a bar tells which values the colours stand for.
   bool isColoredByMap();
   /// The values at the two ends of the bar.
   std::array<double, 2> shownColorRange();
@@ -141,14 +141,14 @@ public:
   /// with the next scene that has; @return whether one is needed, with the filters as they are set now.
   bool setColorBy(const std::string& name);
   const std::string& colorBy() const { return colorBy_; }
-  /// Whether the picture still waits for what setColorBy() asked for.
+  /// True if the picture still waits for what setColorBy() asked for.
   bool awaitsColors() const { return coloredBy_ != colorBy_; }
   /// rgb where there are colours, Height, the array the user named, and what the pipeline makes.
   std::vector<std::string> colorChoices() const;
   /// The whole light on clouds with photographed colours too, and on means that have normals.
   void showAmbient(bool ambient);
   bool isAmbient() const { return ambient_; }
-  /// Whether the picture needs the residuals of addSurfaceArrays().
+  /// True if the picture needs the residuals of addSurfaceArrays().
   bool wantsResiduals() const;
   /// Makes the arrays of addSurfaceArrays() that the picture needs, and waits for them: for pictures without
   /// a window.

@@ -58,7 +58,7 @@ double smallestPixels(vtkIdType count)
   return std::clamp(wanted, kSmallestPixels, kLargestSmallest);
 }
 
-/// Whether all points are at @p most places.
+/// True if all points are at @p most places.
 bool hasFewPlaces(const PointView& points, std::size_t most)
 {
   std::vector<Vec3> places;

@@ -114,7 +114,7 @@ std::string contentOf(const std::string& fileName)
   return { std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>() };
 }
 
-/// Whether both have the same words, and numbers that differ by rounding only.
+/// True if both have the same words, and numbers that differ by rounding only.
 bool sameState(const std::string& test, const std::string& baseline)
 {
   std::istringstream tests(test);

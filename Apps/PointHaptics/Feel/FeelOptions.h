@@ -60,7 +60,7 @@ struct FeelOptions
   void complete(CLI::App& command);
   /// Takes the files that no option names: recorded clouds, and the copy of one that comes as a stream.
   void declareMore(Files& files) const;
-  /// Whether scenes near the hand are as fine as the points there: nobody asked for other voxels, or none.
+  /// True if scenes near the hand are as fine as the points there: nobody asked for other voxels, or none.
   bool refinesNearHand() const { return !this->lattice.voxelsAreGiven && !this->raw && !this->noCovariance; }
 
 private:

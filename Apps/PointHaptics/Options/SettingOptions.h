@@ -38,7 +38,7 @@ struct SettingOption
   NumberRange range = {}; ///< Range of numbers.
 };
 
-/// Whether @p table has a row for each member of @p Settings, in the order of its list. To be asserted at
+/// True if @p table has a row for each member of @p Settings, in the order of its list. To be asserted at
 /// compile time beside each table: whoever adds a member decides here how a user gives it.
 template <typename Settings, std::size_t Count>
 constexpr bool describesEveryMember(const SettingOption (&table)[Count])

@@ -9,7 +9,7 @@
 namespace pointhaptics
 {
 
-/// Whether the ball lies in @p box, its surface included. False for an empty box, and where a number is NaN.
+/// True if the ball lies in @p box, its surface included. False for an empty box, and where a number is NaN.
 inline bool containsBall(const Bounds& box, const Vec3& center, double radius) noexcept
 {
   bool result = true;
@@ -42,7 +42,7 @@ inline bool isAtZero(const Vec3& p) noexcept
   return norm2(p) == 0.0;
 }
 
-/// Whether @p atZero of @p finite points stand for rays that did not return: one may well be a point, and all
+/// True if @p atZero of @p finite points stand for rays that did not return: one may well be a point, and all
 /// are better than nothing.
 inline bool areNoReturns(std::int64_t atZero, std::int64_t finite) noexcept
 {

@@ -50,7 +50,7 @@ std::string partOf(const fs::path& target, int number)
   return (target.parent_path() / ("." + name + "." + std::to_string(number) + kPartEnding)).string();
 }
 
-/// Whether an open OutputFile, of any process, holds the lock of this part.
+/// True if an open OutputFile, of any process, holds the lock of this part.
 bool isLocked(const std::string& part)
 {
   const int descriptor = ::open(part.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);

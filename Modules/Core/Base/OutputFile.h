@@ -72,7 +72,7 @@ public:
   const std::string& reason() const noexcept { return reason_; }
   const std::string& cure() const noexcept { return cure_; }
   bool isDiskFull() const noexcept { return diskFull_; }
-  /// Whether the reader of a pipe is gone.
+  /// True if the reader of a pipe is gone.
   bool isReaderGone() const noexcept { return readerGone_; }
 
 private:

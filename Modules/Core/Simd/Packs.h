@@ -29,7 +29,7 @@ constexpr int kWidth = 2;
 #endif
 /// Packs in eight lanes.
 constexpr int kPacks = kLanes / kWidth;
-/// Whether there are registers for some thirty sums at once; else for about fourteen.
+/// True if there are registers for some thirty sums at once; else for about fourteen.
 constexpr bool kManyRegisters = kWidth == 8;
 
 /// @p n numbers' room in whole packs.

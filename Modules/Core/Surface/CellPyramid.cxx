@@ -87,7 +87,7 @@ void linkChildren(std::vector<CellPyramid::Brick>& bricks, const std::vector<Cel
   }
 }
 
-/// Whether a covariance's standard deviation is above @p limit in every direction: what is left without that
+/// True if a covariance's standard deviation is above @p limit in every direction: what is left without that
 /// much of each is positive definite, so that all pivots are above zero.
 bool isThick(const SymMat3& covariance, double limit)
 {

@@ -120,7 +120,7 @@ public:
       });
   }
 
-  /// Whether visit(cell) is true for a cell of @p level whose mean is nearer to @p center than @p radius.
+  /// True if visit(cell) is true for a cell of @p level whose mean is nearer to @p center than @p radius.
   template <typename Visitor>
   bool anyWithin(int level, const Vec3& center, double radius, Visitor&& visit) const
   {

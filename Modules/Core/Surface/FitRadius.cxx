@@ -312,7 +312,7 @@ LocalScale vote(const CellPyramid& pyramid, int nodeLevel, const std::vector<Fit
   return result;
 }
 
-/// Whether smaller fits leave so little over the cloud that its residuals are shape. Over one node that says
+/// True if smaller fits leave so little over the cloud that its residuals are shape. Over one node that says
 /// little, over many it is sure.
 bool isFreeOfNoise(const std::vector<FitScale>& scales)
 {

@@ -19,7 +19,7 @@ struct FitNeeds
   double cells = 14.0;           ///< Sum of weights of cells, whatever they hold.
   double radiusInCells = 3.6;    ///< Least radius over the edge of a finest cell.
   double growth = 1.15;          ///< Factor from one radius tried against noise to the next.
-  bool weighsCubic = true;       ///< Whether fits with cubic terms are tried where the cloud is noisy.
+  bool weighsCubic = true;       ///< True if fits with cubic terms are tried where the cloud is noisy.
   bool finerWhereShaped = false; ///< ofFineCells() where the residuals are shape and not noise; in
                                  ///< fitScales() ofBarePoints() where those of the whole cloud are.
 

@@ -29,7 +29,7 @@ private:
   FalconState state_ = FalconState::Closed;
 };
 
-/// Whether a Falcon is plugged in and can be opened; it is not started. False: @p message says why not, with
+/// True if a Falcon is plugged in and can be opened; it is not started. False: @p message says why not, with
 /// the cure. Not beside a driver that uses one.
 bool falconIsUsable(std::string& message);
 

@@ -45,7 +45,7 @@ public:
   /// Before tick @p number: as a new object that got scene and parameters, of which the tick before was the
   /// last that did not count.
   void restart(std::uint64_t number) noexcept;
-  /// Whether restart() would change nothing that the hand feels: it touches nothing, and no gate moves.
+  /// True if restart() would change nothing that the hand feels: it touches nothing, and no gate moves.
   bool isAtRest() const noexcept;
 
   /// Between reading and writing. Fills tick, time, state, buttons and flags of @p sample, which is that of

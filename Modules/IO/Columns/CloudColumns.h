@@ -41,7 +41,7 @@ std::vector<std::size_t> coordinatesOf(const std::vector<Column>& columns);
 /// "mm" of "X1 (mm)" and "x_mm", the names of coordinates; empty where the name says no unit.
 std::string coordinateUnit(const std::string& name);
 
-/// Whether @p name is that of a channel of colours, or of a component of normals.
+/// True if @p name is that of a channel of colours, or of a component of normals.
 bool isColorName(const std::string& name);
 bool isNormalName(const std::string& name);
 

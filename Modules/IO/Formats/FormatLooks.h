@@ -27,13 +27,13 @@ using Look = bool(const FormatStart&);
 Look looksLikePly, looksLikePcd, looksLikeLas, looksLikeE57, looksLikeVtkXml, looksLikeVtkLegacy,
   looksLikeOff, looksLikeStl, looksLikeObj, looksLikeColumns;
 
-/// Whether ASCII STL starts like @p bytes: "solid", then "facet" or "endsolid".
+/// True if ASCII STL starts like @p bytes: "solid", then "facet" or "endsolid".
 bool looksLikeStlText(std::string_view bytes);
 
 /// @p bytes without the UTF-8 byte order mark some editors put in front.
 std::string_view withoutByteOrderMark(std::string_view bytes);
 
-/// Whether @p bytes begin with the byte order mark of UTF-16.
+/// True if @p bytes begin with the byte order mark of UTF-16.
 bool isUtf16(std::string_view bytes);
 
 /// The text of @p bytes, which begin with that mark, in UTF-8; what is no UTF-16 becomes '?'.

@@ -24,7 +24,7 @@ inline std::string unitOfComment(std::string_view comment)
   return std::string(has ? comment.substr(kUnitComment.size()) : std::string_view());
 }
 
-/// Whether @p unit may stand in a line of a header, also in brackets: letters, and spaces as in "US survey
+/// True if @p unit may stand in a line of a header, also in brackets: letters, and spaces as in "US survey
 /// foot".
 inline bool isUnitWord(std::string_view unit)
 {

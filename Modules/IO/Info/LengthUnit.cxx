@@ -74,7 +74,7 @@ bool readUnit(vtkPolyData* cloud, LengthUnit& unit)
   return false;
 }
 
-/// Whether a point array of @p cloud has one of these words in its name.
+/// True if a point array of @p cloud has one of these words in its name.
 template <std::size_t Count>
 bool hasArray(vtkPolyData* cloud, const char* const (&words)[Count])
 {

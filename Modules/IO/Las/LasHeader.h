@@ -126,7 +126,7 @@ struct LasHeader
   const LasPointFormat& fields() const { return kLasPointFormats[pointFormat]; }
 };
 
-/// Whether a file that begins with @p start, of which 400 bytes are enough, is a cloud optimised point cloud.
+/// True if a file that begins with @p start, of which 400 bytes are enough, is a cloud optimised point cloud.
 bool startsLikeCopc(std::string_view start);
 
 /// Calls @p need(offset, size) for header and variable length records, which parseLasHeader() looks at.

@@ -12,7 +12,7 @@
 namespace pointhaptics::io
 {
 
-/// Whether @p text starts with the mark of a comment: # // % ! ; or >.
+/// True if @p text starts with the mark of a comment: # // % ! ; or >.
 bool isComment(std::string_view text);
 
 /// @p cell without the quotation marks around it.
@@ -35,7 +35,7 @@ std::string withoutThousandsMarks(std::string_view cell);
 /// leaves the most numbers: white space for "0,25 1 3,5", as a comma may mark decimals.
 char separatorOf(std::string_view line);
 
-/// Whether tabs separate the cells of @p line, as its @p header has names between single tabs.
+/// True if tabs separate the cells of @p line, as its @p header has names between single tabs.
 bool isByTabs(std::string_view header, std::string_view line);
 
 /// @p line without white space at its ends; tabs stay where they separate.

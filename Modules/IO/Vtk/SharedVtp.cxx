@@ -55,7 +55,7 @@ class Parts
 public:
   Parts(Ranks& ranks, vtkPolyData* piece);
 
-  /// Whether all of them can be written apart.
+  /// True if all of them can be written apart.
   bool fit() const { return fit_ && points_ > 0; }
   vtkIdType points() const { return points_; }
   vtkIdType pointsBefore() const { return before_; }

@@ -55,7 +55,7 @@ struct Command
   std::string group;    ///< Heading in the help.
   std::string help;     ///< Commands of a group with the same text share a line of the help.
   CommandAction action = {};
-  /// Whether the program has what the command works on; the help leaves it out otherwise. Empty: always.
+  /// True if the program has what the command works on; the help leaves it out otherwise. Empty: always.
   std::function<bool()> isAvailable = {};
 };
 

@@ -19,7 +19,7 @@ namespace pointhaptics
 /// becomes small.
 POINTHAPTICSINTERACTION_EXPORT std::string gestureOf(
   const std::string& name, bool control, bool shift, bool alt = false);
-/// Whether @p gesture can be made at all: modifiers in their order, then a button, the wheel or one word. A
+/// True if @p gesture can be made at all: modifiers in their order, then a button, the wheel or one word. A
 /// key is known by its keyboard only, so that every other word counts as one.
 POINTHAPTICSINTERACTION_EXPORT bool isGesture(const std::string& gesture);
 

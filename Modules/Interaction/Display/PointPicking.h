@@ -53,7 +53,7 @@ POINTHAPTICSINTERACTION_EXPORT bool pickPoint(vtkPolyData* cloud, vtkRenderer* r
   double pixels, PickedPoint& picked, vtkMatrix4x4* toWorkspace = nullptr,
   const std::function<bool(const Vec3&)>& isDrawn = {});
 
-/// Whether @p actor draws a place, in the frame of its points: its clipping planes, and the box of a
+/// True if @p actor draws a place, in the frame of its points: its clipping planes, and the box of a
 /// vtkSplatMapper, leave it. Both must outlive the result.
 POINTHAPTICSINTERACTION_EXPORT std::function<bool(const Vec3&)> drawnBy(vtkActor* actor);
 

@@ -70,7 +70,7 @@ public:
   void setScalarBar(ScreenBlock bar) { bar_ = std::move(bar); }
   /// Pixels, at 72 dots per inch, of the lower right corner that are taken; 0: none.
   void setCorner(std::function<double()> corner) { corner_ = std::move(corner); }
-  /// Whether texts stand on opaque plates.
+  /// True if texts stand on opaque plates.
   void setOpaque(std::function<bool()> opaque) { opaque_ = std::move(opaque); }
   ///@}
   /// Arranges before each render of @p renderer, in which all are drawn; null: no longer.

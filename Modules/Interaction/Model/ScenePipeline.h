@@ -95,9 +95,9 @@ public:
   /// no point in the workspace.
   void adopt(std::shared_ptr<const HapticScene> scene);
 
-  /// Whether what is felt is not yet made for the model as it is.
+  /// True if what is felt is not yet made for the model as it is.
   bool isChanged() const { return isInvalid_ || requested_ != shownNumber_; }
-  /// Whether nothing new can come before the next change: also where there is no resampler.
+  /// True if nothing new can come before the next change: also where there is no resampler.
   bool isSettled() const { return !this->isChanged() || !resampler_; }
   bool hasCloud() const { return resampler_ != nullptr; }
   bool isEmpty() const { return isEmpty_; }

@@ -48,7 +48,7 @@ bool meet(const std::array<double, 4>& a, const std::array<double, 4>& b)
   return a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3];
 }
 
-/// Whether the line from @p a to @p b goes through @p box.
+/// True if the line from @p a to @p b goes through @p box.
 bool meets(const pointhaptics::Pixel& a, const pointhaptics::Pixel& b, const std::array<double, 4>& box)
 {
   const double from[2] = { a.x, a.y };

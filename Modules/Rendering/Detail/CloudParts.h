@@ -25,7 +25,7 @@ PointView viewOf(vtkPolyData* cloud, std::vector<Vec3>& copy);
 /// none. @param tenths 0 to 9.
 double quantileOfPositive(vtkDataArray* array, std::size_t tenths);
 
-/// Whether @p cloud has no cells, or vertices at all of its points, first to last.
+/// True if @p cloud has no cells, or vertices at all of its points, first to last.
 bool drawsInOrder(vtkPolyData* cloud);
 
 /// Lets @p to colour as @p from does: what vtkPolyDataMapper::ShallowCopy() would do, without its warnings of

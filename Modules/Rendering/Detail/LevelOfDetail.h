@@ -78,9 +78,9 @@ public:
   /// The actor's mapper colours otherwise now: the parts of the picture that moves are made anew.
   void recolor() { this->removeLevels(); }
 
-  /// Whether the last frame was as fine as it gets: all points, but for those below a pixel.
+  /// True if the last frame was as fine as it gets: all points, but for those below a pixel.
   bool showsAll() const { return drawn_ >= finest_; }
-  /// Whether it was that at rest: vtkDepthShadingPass blends its splats.
+  /// True if it was that at rest: vtkDepthShadingPass blends its splats.
   bool isFinest() const { return !inMotion_ && this->showsAll(); }
   bool isMoving() const { return moving_; }
   /// The frame is one of a motion: a better one of the same view comes after kRestSeconds.

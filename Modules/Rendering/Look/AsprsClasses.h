@@ -21,7 +21,7 @@ struct AsprsClass
 /// those without one are grey. Any thread.
 POINTHAPTICSRENDERING_EXPORT const AsprsClass& asprsClass(int number);
 
-/// Whether @p array names the classes of LiDAR points: "Classification" in any case.
+/// True if @p array names the classes of LiDAR points: "Classification" in any case.
 POINTHAPTICSRENDERING_EXPORT bool holdsAsprsClasses(const std::string& array);
 
 } // namespace pointhaptics

@@ -111,7 +111,7 @@ POINTHAPTICSRENDERING_EXPORT void applyColorMap(
 POINTHAPTICSRENDERING_EXPORT const std::vector<std::string>& groundNames();
 /// The background of that name; dark where there is none.
 POINTHAPTICSRENDERING_EXPORT void applyGround(vtkRenderer* renderer, const std::string& name = "dark");
-/// Whether text on that background must be dark.
+/// True if text on that background must be dark.
 POINTHAPTICSRENDERING_EXPORT bool isLightGround(const std::string& name);
 
 /// One plain colour on white, as in a printed figure. applyCloudAppearance() and applyBackground() take it

@@ -82,7 +82,7 @@ bool isScannedFromOrigin(const PointView& cloud, const LocalShape& shape)
   return correlation > kSweepCorrelation && valueAt(distances, 0.98) > kSweepRange * valueAt(distances, 0.02);
 }
 
-/// Whether there is something in most directions above the horizon.
+/// True if there is something in most directions above the horizon.
 bool isUnderARoof(const PointView& cloud, const LocalShape& shape, const Vec3& up)
 {
   constexpr int kAround = 24;
@@ -278,7 +278,7 @@ bool isBetween(const Vec3& p, const Vec3& from, const Vec3& to)
   return p.x >= from.x && p.x <= to.x && p.y >= from.y && p.y <= to.y && p.z >= from.z && p.z <= to.z;
 }
 
-/// Whether more of the points are outside the box than the few that findFarPoints() takes for strays.
+/// True if more of the points are outside the box than the few that findFarPoints() takes for strays.
 bool hasManyOutside(const std::vector<Vec3>& sample, const Vec3& from, const Vec3& to)
 {
   const auto outside =

@@ -81,7 +81,7 @@ void setUpScalarBar(vtkScalarBarActor* bar)
   labelScalarBar(bar);
 }
 
-/// Whether names stand beside @p bar in the place of numbers.
+/// True if names stand beside @p bar in the place of numbers.
 static bool hasNames(vtkScalarBarActor* bar)
 {
   return bar->GetLookupTable() && bar->GetLookupTable()->GetIndexedLookup();

@@ -28,7 +28,7 @@ public:
   RecordedScenes(const Recording& recording, vtkPointSet* cloud);
   ~RecordedScenes();
 
-  /// Whether @p cloud is the one that was felt. False: @p message says what differs.
+  /// True if @p cloud is the one that was felt. False: @p message says what differs.
   static bool isOf(const Recording& recording, vtkPointSet* cloud, std::string& message);
   /// Makes the scene of an event of the recording, each once and in their order; null where there was none.
   /// False: @p message says why it cannot be made.

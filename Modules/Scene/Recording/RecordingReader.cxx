@@ -35,7 +35,7 @@ bool startsWith(const std::string& text, const std::string& with)
   return text.rfind(with, 0) == 0;
 }
 
-/// Whether a scene of @p origin may have such a fallback: a part has one, unless it was made before there was
+/// True if a scene of @p origin may have such a fallback: a part has one, unless it was made before there was
 /// a whole.
 bool mayEnd(const SceneOrigin& origin, std::uint64_t fallback)
 {
@@ -52,7 +52,7 @@ public:
   }
   /// False: problem() says why. An empty line ends the rows.
   bool take(const std::string& line);
-  /// Whether the file may be cut after the lines taken so far: it is one that was written as it was felt, has
+  /// True if the file may be cut after the lines taken so far: it is one that was written as it was felt, has
   /// a tick, and no end.
   bool mayBeCut() const { return version_ > 1 && !isEnded_ && !recording_.ticks.empty(); }
   /// Once all lines were taken.

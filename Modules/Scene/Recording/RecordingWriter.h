@@ -31,7 +31,7 @@ public:
   /// written, and the cure.
   bool open(const std::string& fileName, const RecordingHeader& header, std::string& message);
   bool isOpen() const { return table_.isOpen(); }
-  /// Whether the hand still has to let go of what it touches.
+  /// True if the hand still has to let go of what it touches.
   bool isWaiting() const { return isOpen() && numberOfTicks_ == 0; }
   /// To be called with all samples of a loop, open or not, after ServoLoop::takeTrace(): it remembers what
   /// was published.

@@ -60,7 +60,7 @@ struct POINTHAPTICSVIEWER_EXPORT CloudRequest
   bool measuresLater = false; ///< Large clouds are shown plain first: LoadedCloud::toMeasure.
 
   std::string name() const; ///< For messages.
-  /// Whether the options say neither that means are shown or recorded, nor where the cloud is to lie, so that
+  /// True if the options say neither that means are shown or recorded, nor where the cloud is to lie, so that
   /// it may have no points there.
   bool canResampleLater() const;
 };

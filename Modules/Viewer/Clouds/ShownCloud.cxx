@@ -192,7 +192,7 @@ double firstPixel(const PointView& points)
   return std::max({ extent.x, extent.y, extent.z }) / kUsualHeight;
 }
 
-/// Whether @p colors need no array that @p points do not have.
+/// True if @p colors need no array that @p points do not have.
 bool fits(const CloudColors& colors, vtkPolyData* points)
 {
   vtkPointData* data = points->GetPointData();

@@ -23,7 +23,7 @@ public:
   ColorBarDrag(ViewScene& scene, PictureControls& controls, vtkRenderWindowInteractor* interactor);
 
 private:
-  /// Whether nobody else shall see the event.
+  /// True if nobody else shall see the event.
   bool takes(const LeftButton::Event& event);
 
   ViewScene& scene_;

@@ -67,7 +67,7 @@ struct Place
   }
 };
 
-/// Whether the property @p name of @p owner has @p value; any value: 0.
+/// True if the property @p name of @p owner has @p value; any value: 0.
 bool hasValue(const Place& place, XId owner, const char* name, XId value)
 {
   const auto get = xFunction<int (*)(void*, XId, XId, long, long, int, XId, XId*, int*, unsigned long*,

@@ -18,7 +18,7 @@ public:
   {
   }
 
-  /// Whether the window is there, whoever put it there.
+  /// True if the window is there, whoever put it there.
   bool isFull() const;
   /// To the whole screen, or back to where the window was. False: this window system does not offer it, or
   /// the window is not open.

@@ -19,7 +19,7 @@ void runEvents(vtkRenderWindowInteractor* interactor);
 /// hears neither keys nor its close button.
 void leaveEvents(vtkRenderWindowInteractor* interactor);
 
-/// Whether a key, a button of the mouse or a word of the window manager waits to be handled by @p window's
+/// True if a key, a button of the mouse or a word of the window manager waits to be handled by @p window's
 /// interactor. It goes on to wait. False also where the window is not one on an X server.
 bool inputWaits(vtkRenderWindow* window);
 

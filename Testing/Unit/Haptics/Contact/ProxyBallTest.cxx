@@ -111,7 +111,7 @@ double coveredBy(const BallInScene& hand)
   return double(deepestOnWay(hand.scene(), hand.ball().center(), hand.ball().center(), hand.ball().scale()));
 }
 
-/// Whether the ball followed in one stride, and neither glided nor grew: it only slid, which brings it no
+/// True if the ball followed in one stride, and neither glided nor grew: it only slid, which brings it no
 /// further from the HIP.
 bool hasOnlySlid(const ProxyBall& before, const BallInScene& hand, double moved)
 {
