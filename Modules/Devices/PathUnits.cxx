@@ -18,7 +18,7 @@ constexpr double kSlowest = 1e-4;       ///< Least speed of any path, metres a s
 constexpr double kFastest = 5.0;        ///< Metres a second.
 constexpr double kSparse = 0.5;         ///< Seconds from row to row.
 constexpr double kLong = 60.0;          ///< Seconds.
-constexpr std::size_t kFewestRows = 10; ///< That show how far rows are apart.
+constexpr std::size_t kFewestRows = 10; ///< Fewest rows whose spacing in time counts.
 constexpr double kLeastTravel = 1e-3;   ///< A hand that rests has no speed.
 
 bool areNear(double a, double b)

@@ -26,7 +26,7 @@ enum class AttributeKind
   Normal,   ///< Averaged, turned with the transform, re-normalised.
   Category, ///< The value most points have, component by component; the smallest on a tie.
   Median,   ///< Component by component, of an even number the lower middle one.
-  Chosen,   ///< That of the point that stands for the voxel.
+  Chosen,   ///< Value of the point that represents the voxel.
 };
 
 /// Properties of an input array, independent of which points are averaged: valid until its values change.

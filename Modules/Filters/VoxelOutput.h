@@ -95,7 +95,7 @@ struct OutputFiller
   ArrayPool& pool;
   ArrayAllocator& allocator;
   const Executor& executor;
-  bool singlePrecision = false; ///< That of the request.
+  bool singlePrecision = false; ///< Setting of the request.
   bool covariances = false;
   vtkIdType minimumPoints = 1;                       ///< Voxels of fewer are left out.
   std::optional<std::vector<std::int64_t>> pointIds; ///< The array of KeepOriginalPointIds, if there is one.

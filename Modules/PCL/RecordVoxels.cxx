@@ -156,7 +156,7 @@ struct Written
 {
   const char* tuples;
   std::size_t every; ///< Bytes from one tuple to the next.
-  std::size_t bytes; ///< That are copied of each.
+  std::size_t bytes; ///< Bytes that are copied of each tuple.
   char* to;          ///< In the first record.
 
   /// To records @p first to before @p last, the tuples of the voxels @p kept, or of all where that is null.
@@ -181,7 +181,7 @@ private:
   }
 };
 
-/// That of means @p xyz, at the offsets @p places of the records.
+/// Adds the copy of means @p xyz, at the offsets @p places of the records.
 void addMeans(const char* xyz, std::size_t bytes, char* records, const std::array<std::size_t, 3>& places,
   std::vector<Written>& written)
 {

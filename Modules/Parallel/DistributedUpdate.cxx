@@ -72,7 +72,7 @@ std::string DistributedUpdate::chooseArrays()
   return {};
 }
 
-/// That of the input on ranks which have points.
+/// Takes the precision of the input on ranks which have points.
 void DistributedUpdate::choosePrecision()
 {
   const vtkPoints* points = input_->GetPoints();

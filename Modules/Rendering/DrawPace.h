@@ -28,12 +28,13 @@ public:
   /// Steps that are drawn while the next one is made.
   static constexpr std::size_t kAhead = 2;
 
-  /// That of @p window, whose context is current.
+  /// The pace of @p window, whose context is current.
   static DrawPace& of(vtkOpenGLRenderWindow* window);
 
-  /// So many points at most go into the next draw call; above 0.
+  /// Most points that the next draw call may have; above 0.
   std::int64_t room() const;
-  /// So many were drawn. Ends a step that is full and waits until no more than kAhead are under way.
+  /// Counts points that were drawn. Ends a step that is full and waits until no more than kAhead are under
+  /// way.
   void add(std::int64_t points);
   /// The window's renderer works in steps.
   bool isNeeded() const { return isNeeded_; }

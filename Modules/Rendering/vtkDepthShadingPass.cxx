@@ -300,7 +300,7 @@ void vtkDepthShadingPass::RenderEye(const vtkRenderState* state)
   this->Show(renderer, window);
 }
 
-/// That of the delegate, before it is shaded.
+/// Draws the picture of the delegate, before it is shaded.
 void vtkDepthShadingPass::DrawPicture(const vtkRenderState* state, vtkOpenGLRenderWindow* window)
 {
   const bool blends = this->BlendsSplats && !state->GetRenderer()->GetSelector();

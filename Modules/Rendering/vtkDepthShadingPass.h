@@ -115,7 +115,7 @@ public:
    */
   static double ResolutionOf(vtkRenderer* renderer);
 
-  /// That of @p renderer, made by applyDepthShading(); null: it has none.
+  /// The pass of @p renderer, made by applyDepthShading(); null: it has none.
   static vtkDepthShadingPass* GetPassOf(vtkRenderer* renderer);
 
   ///@{

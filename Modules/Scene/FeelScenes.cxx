@@ -83,7 +83,7 @@ Status FeelScenes::resample(
   input->ShallowCopy(cloud);
   prepareForTouch(resampler, settings.useCovariance);
   resampler->SetInputData(input);
-  // Its errors and warnings are the caller's to say.
+  // The caller reports errors and warnings of the resampler.
   vtkNew<vtkCallbackCommand> silence;
   resampler->AddObserver(vtkCommand::ErrorEvent, silence);
   resampler->AddObserver(vtkCommand::WarningEvent, silence);

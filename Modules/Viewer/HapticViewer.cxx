@@ -87,7 +87,7 @@ struct HapticViewer::Implementation
   void skip(const std::string& title);
 };
 
-/// It is opened later.
+/// The window, made at its first use.
 ViewWindow& HapticViewer::Implementation::theWindow()
 {
   if (!this->window)

@@ -60,7 +60,7 @@ struct HapticViewerOptions
   bool figure = false;        ///< Nothing but the cloud in one color on white, workspace, proxy and normal.
   bool ambient = false;       ///< Light by the normals of the felt surface.
   PictureSettings picture;    ///< Projection, background and the like.
-  int turntable = 0;          ///< So many pictures, once about the cloud, are written in place of one.
+  int turntable = 0;          ///< Number of pictures, once about the cloud, in place of one; 0: one picture.
   std::vector<double> camera; ///< Position, focal point, view up: 9 numbers; empty: from in front.
 
   // Where the cloud lies, and the lattice it is resampled on.

@@ -124,7 +124,7 @@ void ViewScene::beginFrame()
   }
 }
 
-/// That the splats in view cover, roughly, each on its own.
+/// Rough number of pixels that the splats in view cover, each on its own.
 double ViewScene::fragments()
 {
   vtkActor* actor = drawsFelt_ ? actor_ : pointsActor_;

@@ -292,7 +292,7 @@ CameraFit ViewScene::fitFrom(const CloudLook& look, double turn) const
   const double aspect = renderer->GetTiledAspectRatio();
   if (hasFewPlaces(access.view(), 1))
   {
-    // It has no size that could fill the picture: the workspace does, seen from outside.
+    // Points at one place have no size that could fill the picture: the workspace does, seen from outside.
     const std::array<Vec3, 8> corners = cornersBefore(model, workspace_);
     CloudLook outside = look;
     outside.kind = CloudKind::Object;

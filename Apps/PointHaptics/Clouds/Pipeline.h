@@ -44,7 +44,8 @@ struct ReadOptions
   std::vector<double> clip; ///< Box of what is read, in its coordinates: XMIN, XMAX, YMIN, ...; empty: all.
   std::vector<std::string> columns; ///< Names for those of a text; empty: as the file says.
   bool salvage = false;             ///< A file that is cut is read as far as it goes.
-  Ranks* ranks = nullptr; ///< That read it together, each its part of the points; null: this process alone.
+  Ranks* ranks = nullptr; ///< Ranks that read it together, each its part of the points; null: this process
+                          ///< alone.
 };
 
 /// Reads @p fileName, a pipe or standard input. False: @p message says
@@ -84,7 +85,7 @@ Cloud mergedCloud(const std::string& command, std::vector<Cloud>& clouds);
 /// The finite points of @p cloud, moved by @p transform, in double precision, without arrays.
 vtkSmartPointer<vtkPolyData> transformedPoints(vtkPolyData* cloud, const AffineTransform& transform);
 
-/// That all of so many points are NaN or infinite.
+/// Message that all @p count points are NaN or infinite.
 std::string noFinitePoint(const std::string& fileName, std::int64_t count);
 
 /// Shows the notes of a cloud that was read from @p fileName as warnings of @p command.

@@ -98,7 +98,7 @@ private:
   struct Identity
   {
     bool exists = false;
-    bool isDevice = false; ///< Such as /dev/null: it takes all, and gives back nothing of it.
+    bool isDevice = false; ///< True for devices such as /dev/null, which keep nothing of what is written.
     bool isPipe = false;
     dev_t device = 0;
     ino_t number = 0;

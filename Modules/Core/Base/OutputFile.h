@@ -95,7 +95,7 @@ private:
   bool readerGone_ = false;
   bool isRegular_ = false;
   bool isKept_ = false;   ///< The part is not to be removed.
-  bool replaces_ = false; ///< There was a file when this one was opened.
+  bool replaces_ = false; ///< True if there was a file when this one was opened.
 };
 
 } // namespace pointhaptics

@@ -131,7 +131,7 @@ Status SharedVoxels::merge(std::vector<std::string> messages, std::size_t rank, 
   {
     VoxelAccumulator part{ Lattice() };
     const Status status = r == rank ? Status::Ok : VoxelAccumulator::deserialize(messages[r], part);
-    std::string().swap(messages[r]); // Its memory serves the sums of the next.
+    std::string().swap(messages[r]); // Frees memory for the next sums.
     if (r == rank)
     {
       part = std::move(kept);

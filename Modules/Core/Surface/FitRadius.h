@@ -59,7 +59,7 @@ constexpr double kVoteReachInCells = 16.0;
 enum class NodeUse : unsigned char
 {
   None,
-  Vote, ///< It has a vote on its neighbours' radii.
+  Vote, ///< The node has a vote on its neighbours' radii.
   All,
 };
 

@@ -38,7 +38,7 @@ constexpr std::uint8_t kGreetingReply[] = { 0x0A, 0x44, 0x2C, 0x0D };
 constexpr std::uint8_t kReady = 0x41;
 constexpr int kBlock = 62;
 constexpr int kProbes = 3;
-/// So many times in a row without an answer to any greeting: nobody is there.
+/// After this many tries in a row without an answer to any greeting no device is there.
 constexpr int kSilentTries = 2;
 }
 

@@ -11,7 +11,7 @@ namespace
 /// A hand at 5 m/s turns a joint of 6 cm by 83 rad/s, 131,000 counts a second: faster is a broken answer.
 constexpr double kCountsPerSecond = 150000.0;
 constexpr double kFewCounts = 150.0;
-/// So many answers in a row far from the last good one, each near the one before it, are believed.
+/// This many answers in a row far from the last good one, each near the one before it, are believed.
 constexpr int kBelieved = 5;
 constexpr int kTimeoutsToResynchronise = 3;
 /// Ticks in a row that waited in vain for the newest answer: it was lost, or comes later than a wait may

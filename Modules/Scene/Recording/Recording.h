@@ -98,7 +98,7 @@ struct Recording
   std::vector<RecordedEvent> events; ///< By tick.
   std::vector<RecordedTick> ticks;   ///< Ascending; not empty.
   std::vector<RecordedLabel> labels;
-  std::string note; ///< That the recording was not ended, in a sentence; empty: it was.
+  std::string note; ///< Says in a sentence that the recording was not ended; empty: it was.
 };
 
 /// Reads a recording. False: @p message says file, line, value and cure. What it accepts can be replayed:

@@ -48,7 +48,7 @@ struct POINTHAPTICSVIEWER_EXPORT CloudRequest
   /// How the cloud is resampled, with colorBy, up and transform as above. Null: it is only read.
   std::shared_ptr<const HapticViewerOptions> options;
   std::optional<AffineTransform> model; ///< Where the cloud is resampled; empty: where the options place it.
-  bool makesScene = false;              ///< It will be felt.
+  bool makesScene = false;              ///< True where the cloud will be felt.
   std::optional<ShownRequest> before; ///< How a coarse level of the same files was shown: so are all points.
   bool isFeltOnly = false;            ///< Nothing is made for a picture: LoadedCloud::means have no arrays.
   /// Gets what is done once the files are read, "measuring" or "resampling", and how much of it, 0 to 1; may

@@ -25,9 +25,9 @@ public:
   DistanceMeasuring(ViewScene& scene, HapticViewerOptions& options, vtkRenderWindowInteractor* interactor,
     std::function<void(const std::string&)> say);
 
-  /// On, or off without a distance in the picture. @p key is that of the command, for the words.
+  /// Turns measuring on, or off where no distance is in the picture. @p key is the command's, for the words.
   void toggle(const std::string& key);
-  /// Off. False: it was off, and nothing was measured.
+  /// Turns measuring off. False: it was off, and nothing was measured.
   bool end();
 
 private:

@@ -44,7 +44,7 @@ bool displayIsAvailable(std::string& message)
     message = "no display: libX11.so.6 cannot be loaded; install libx11-6";
     return false;
   }
-  // Such a server refuses who comes while it begins anew: a moment later it does not.
+  // A server that resets refuses connections for a moment.
   constexpr int kMostTries = 5;
   for (int i = 0; !keptDisplay && i < kMostTries; ++i)
   {

@@ -34,7 +34,7 @@ struct FalconControl
 {
   std::uint8_t request = 0;
   std::uint16_t value = 0;
-  std::size_t bytesBefore = 0; ///< So many the host had sent by then.
+  std::size_t bytesBefore = 0; ///< Bytes that the host had sent by then.
 };
 
 /// Bytes in, bytes out, time by the caller. One thread at a time.
