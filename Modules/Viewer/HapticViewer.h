@@ -42,7 +42,7 @@ class POINTHAPTICSVIEWER_EXPORT HapticViewer
 {
 public:
   explicit HapticViewer(HapticViewerOptions options = {}, HapticViewerObserver observer = {});
-  /// Does what stop() does, where it was not called.
+  /// Stops the viewer, where stop() was not called.
   ~HapticViewer();
   HapticViewer(const HapticViewer&) = delete;
   HapticViewer& operator=(const HapticViewer&) = delete;

@@ -25,7 +25,7 @@ enum class HapticViewerDevice
   Auto,      ///< A Falcon where one can be used, else the simulated hand.
   Falcon,    ///< An error where none can be used.
   Simulated, ///< Driven by mouse and keys.
-  None,      ///< The cloud is only looked at.
+  None,      ///< The cloud is looked at and not felt.
 };
 
 /// Names of settings in messages, as the person at the screen knows them.
@@ -35,7 +35,8 @@ struct HapticViewerNames
   std::string clip = "clip";
   std::string felt = "felt";
   std::string firmware = "falcon.firmwareFile";
-  std::string placement = "workspace and transform"; ///< Whatever may leave the cloud out of the workspace.
+  std::string placement = "workspace and transform"; ///< Options that can leave the cloud out of the
+                                                     ///< workspace.
 };
 
 /// Lengths are metres of the workspace unless said otherwise.
@@ -44,7 +45,7 @@ struct HapticViewerOptions
   // The file.
   std::vector<std::string> columns; ///< Names for the columns of texts; empty: as the files say.
   bool salvage = false;             ///< Files that are cut are read as far as they go.
-  double resolution = 0.0; ///< How far cloud optimised files are read, in their units; 0: all points.
+  double resolution = 0.0;          ///< Resolution of cloud optimised files, in their units; 0: all points.
 
   // The picture.
   int width = 1280; ///< Pixels of window or picture, at least 16.
@@ -67,14 +68,14 @@ struct HapticViewerOptions
   AffineTransform transform;  ///< From the file's coordinates to metres.
   std::string unit = "m";     ///< Name of the unit of the file's coordinates, for texts.
   double metresPerUnit = 1.0; ///< Length of that unit in metres; @c transform includes it already.
-  bool unitIsChosen = false;  ///< Else texts take the unit that a file itself says, where it says one.
+  bool unitIsChosen = false;  ///< If false, texts take the unit that a file itself names.
   bool fitsWorkspace = true;  ///< Fit the transformed cloud to the 10 cm cube about the origin.
-  /// How the cloud is resampled. Its lattice: dimensions of 0 are a choice, 300 to 1200; where fitsWorkspace
-  /// is on the workspace is that cube, else an automatic one is a cube about the cloud. With
+  /// Settings of the resampling. Lattice dimensions of 0 are chosen by the viewer, 300 to 1200. Where
+  /// fitsWorkspace is on the workspace is that cube, else an automatic one is a cube about the cloud. With
   /// computeCovariance, the default here, the second moments of the points in a voxel shape the felt surface.
   VoxelMeanSettings voxels = defaultVoxels();
-  /// From the spacing of the points to the radius of the proxy. Which arrays are made of it follows from the
-  /// picture.
+  /// Rule from the spacing of the points to the radius of the proxy. The picture decides which of its arrays
+  /// are made.
   BandwidthSettings bandwidth;
 
   // The touch.
@@ -82,7 +83,7 @@ struct HapticViewerOptions
   std::string ideal =
     "auto"; ///< Shape whose exact force the chart shows; auto: where the cloud is one; none.
   HapticViewerDevice device = HapticViewerDevice::Auto;
-  FalconSettings falcon;  ///< @c cancelled is taken from HapticViewerObserver where it is empty.
+  FalconSettings falcon;  ///< The default of @c cancelled is HapticViewerObserver::shouldStop.
   std::string path;       ///< File of a hand path, t,x,y,z, that moves the hand instead of a device.
   PathUnits pathUnits;    ///< Units of the path's numbers.
   std::string replay;     ///< A recording that is felt again instead of a path.
@@ -90,7 +91,8 @@ struct HapticViewerOptions
   std::string markerText; ///< Text in the recording for markers that the key sets.
   int markerPort = -1;    ///< TCP port of this machine at which other programs set markers (MarkerSocket.h);
                           ///< -1: none.
-  std::string passingFile; ///< One that the host deletes when the viewer ends: recordings keep a copy of it.
+  std::string passingFile; ///< A file that the host deletes when the viewer ends: recordings keep a copy of
+                           ///< it.
   std::string trace;       ///< CSV to write, one row a tick; empty: none.
   std::string forceChart;  ///< PNG to write, force and proxy radius over time; empty: none.
 
@@ -103,8 +105,8 @@ struct HapticViewerOptions
   std::int64_t coarsePoints = 60000;
   bool fullScreen = false; ///< The window covers the screen, without a border.
   bool sound = false;      ///< The touch is heard (SoundPlayer.h), where the machine has a loudspeaker.
-  /// The window is shown while the first file is read, where that takes longer than 0.2 s and there is a
-  /// display: for programs that call HapticViewer::run() next.
+  /// Show the window while the first file is read, if that takes longer than 0.2 s and there is a display;
+  /// for programs that call HapticViewer::run() next.
   bool showsReading = false;
 
   HapticViewerNames names;
@@ -116,7 +118,7 @@ struct HapticViewerOptions
   {
     return this->voxels.lattice.dimensions[0] > 0 || this->voxels.lattice.voxelSize > 0.0;
   }
-  /// The default of voxels: their size is left to the viewer.
+  /// Default of voxels: the viewer chooses their size.
   static VoxelMeanSettings defaultVoxels()
   {
     VoxelMeanSettings settings;
@@ -131,7 +133,7 @@ struct HapticViewerState
 {
   std::array<double, 16> modelToWorkspace{}; ///< From the file's coordinates to metres, row by row.
   std::array<double, 6> workspace{};         ///< xmin, xmax, ymin, ymax, zmin, zmax.
-  double voxelSize = 0.0;                    ///< As the slider was set; 0: it was not.
+  double voxelSize = 0.0;                    ///< Size set by the slider; 0: it was not used.
   ContactParameters contact;
   double radiusScale = 0.0; ///< beta.
   /// As HapticViewerOptions::camera. In a parallel projection the distance tells the scale, see fitCamera().
@@ -146,7 +148,7 @@ struct HapticViewerState
   bool fullScreen = false;
   bool sound = false;
   std::string colorBy;
-  std::string unit; ///< The one that the user took for the file's; empty: none.
+  std::string unit; ///< Unit that the user took for the file's; empty: none.
   double metresPerUnit = 1.0;
   int width = 0;
   int height = 0;
@@ -163,25 +165,25 @@ struct HapticViewerObserver
     Error,   ///< A request of the user failed; the window goes on.
   };
 
-  /// A message for people, in one or more lines, without a line break at its end.
+  /// Shows a message for people, in one or more lines, without a line break at its end.
   std::function<void(Kind, const std::string&)> message;
-  /// Long work: @p part 0 to 1, which is over with 1.
+  /// Shows the progress of long work: @p part 0 to 1; 1 ends it.
   std::function<void(const std::string& what, double part)> progress;
   /// True ends long work and closes the window. Asked about 30 times a second.
   std::function<bool()> shouldStop;
-  /// Where the content of a picture of that name goes, where the host gives it its name later.
+  /// Returns the place where the content of a picture of that name is written, if the host renames it later.
   std::function<std::string(const std::string& fileName)> placeOf;
   /// Returns the complaints of VTK classes since the last call, where the host collects them.
   std::function<std::vector<std::string>()> takeVtkErrors;
-  /// The user asks to keep @p state in @p fileName (JSON). False: @p message says why not. Empty: the key has
-  /// no effect.
+  /// Keeps @p state in @p fileName (JSON) at the user's request. False: @p message says why not. Empty: the
+  /// key has no effect.
   std::function<bool(const HapticViewerState& state, const std::string& fileName, std::string& message)>
     writeState;
-  /// @p state as a configuration in one line, and the program's name and version: for the header of a
-  /// recording. Either may be missing.
+  /// Describes @p state as a configuration in one line; and the program's name and version: both for the
+  /// header of a recording, and either may be missing.
   std::function<std::string(const HapticViewerState& state)> describeState;
   std::string program;
-  /// The window closes.
+  /// Called when the window closes.
   std::function<void(const HapticViewerState& state)> rememberState;
 };
 

@@ -17,9 +17,9 @@ class vtkRenderWindow;
 namespace pointhaptics
 {
 
-/// Renders @p window by @p render and writes what it shows as PNG; where @p transparent, without the
-/// background: it is rendered over black and over white, and what is alike there is opaque. False: @p message
-/// says why not.
+/// Renders @p window by @p render and writes the picture as PNG. @p transparent: without the background; the
+/// window is rendered over black and over white, and pixels that are alike are opaque. False: @p message says
+/// why not.
 bool writePicture(vtkRenderWindow* window, const std::function<void()>& render, bool transparent,
   const std::string& fileName, std::string& message);
 

@@ -24,7 +24,7 @@ namespace pointhaptics
 namespace
 {
 
-/// Nearest first: what is under the pointer, rather than what lies beside and in front of it.
+/// Reaches of a pick, nearest first: the point under the pointer goes before those beside and in front of it.
 constexpr double kPickPixels[] = { 2.0, 4.0, 8.0 };
 
 Vec3 placeOf(const std::vector<double>& numbers, std::size_t index)

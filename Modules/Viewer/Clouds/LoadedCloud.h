@@ -1,6 +1,5 @@
 /// @file
-/// From the files that are to be shown to one cloud ready for the scene. No window and no scene is needed for
-/// it: any thread may do it.
+/// Makes one cloud of files, ready for the scene. It needs no window and no scene: any thread may do it.
 #pragma once
 
 #include "Core/Base/AffineTransform.h"
@@ -45,23 +44,23 @@ struct POINTHAPTICSVIEWER_EXPORT CloudRequest
   std::string colorByName = "colorBy"; ///< Name of that setting in messages.
   std::string up = "auto";             ///< auto or an axis.
   AffineTransform transform;           ///< Transform of the cloud, for its bounds.
-  /// How the cloud is resampled, with colorBy, up and transform as above. Null: it is only read.
+  /// Options of the resampling, with colorBy, up and transform as above. Null: the cloud is only read.
   std::shared_ptr<const HapticViewerOptions> options;
-  std::optional<AffineTransform> model; ///< Where the cloud is resampled; empty: where the options place it.
+  std::optional<AffineTransform> model; ///< Transform of the resampling; empty: the one of the options.
   bool makesScene = false;              ///< True where the cloud will be felt.
-  std::optional<ShownRequest> before; ///< How a coarse level of the same files was shown: so are all points.
-  bool isFeltOnly = false;            ///< Nothing is made for a picture: LoadedCloud::means have no arrays.
-  /// Gets what is done once the files are read, "measuring" or "resampling", and how much of it, 0 to 1; may
-  /// be empty.
+  std::optional<ShownRequest> before;   ///< Look of a coarse level of the same files: all points get it, too.
+  bool isFeltOnly = false;              ///< Nothing is made for a picture: LoadedCloud::means have no arrays.
+  /// Receives the step after the reading, "measuring" or "resampling", and its progress, 0 to 1; may be
+  /// empty.
   std::function<void(const char* step, double part)> working;
-  /// The first picture and what is near the hand do not wait for the means: LoadedCloud::isResampled. Of
-  /// effect where canResampleLater().
+  /// Do not wait for the means before the first picture and the scene near the hand:
+  /// LoadedCloud::isResampled. Effective where canResampleLater().
   bool resamplesLater = false;
-  bool measuresLater = false; ///< Large clouds are shown plain first: LoadedCloud::toMeasure.
+  bool measuresLater = false; ///< Show large clouds plain first: LoadedCloud::toMeasure.
 
   std::string name() const; ///< For messages.
-  /// True if the options say neither that means are shown or recorded, nor where the cloud is to lie, so that
-  /// it may have no points there.
+  /// True if the options neither show or record means, nor place the cloud, so that it may have no points in
+  /// the workspace.
   bool canResampleLater() const;
 };
 
@@ -78,7 +77,7 @@ struct LoadedCloud
   std::string colorBy;            ///< The requested array, spelt as the cloud or the pipeline writes it.
   std::string title;              ///< The names of the files, without their folders.
   bool isCoarse = false;          ///< CloudRequest::mostPoints left out points.
-  double heightZero = 0.0;        ///< Where the array of heights begins, along the up axis; 0: it has none.
+  double heightZero = 0.0;        ///< Origin of the array of heights, along the up axis; 0: it has none.
   std::vector<std::string> notes; ///< Parts of the files that the cloud lacks, a line each.
 
   std::shared_ptr<ShownCloud> shown; ///< How its points are drawn; null: it was only read.
@@ -86,23 +85,23 @@ struct LoadedCloud
   ShownRequest showing;                   ///< Request from which @c shown was made.
   vtkSmartPointer<vtkPolyData> toMeasure; ///< With all arrays, where @c shown is plain; else null.
 
-  bool isResampled = true;   ///< Else of what follows there are only placement, model and workspace.
-  bool findsLattice = false; ///< Nobody has chosen a lattice for what is resampled later.
+  bool isResampled = true;   ///< If false, only placement, model and workspace below are set.
+  bool findsLattice = false; ///< True if the lattice of the later resampling is still to be chosen.
 
   // Where it was resampled:
-  AffineTransform placement; ///< Where the options place the cloud: from its coordinates to the workspace.
-  AffineTransform model;     ///< Where it was resampled: there, or CloudRequest::model.
-  int latticeDimension = 0;  ///< Voxels on each axis, where nobody had chosen them; else 0.
+  AffineTransform placement; ///< Transform from the cloud's coordinates to the workspace, by the options.
+  AffineTransform model;     ///< Transform of the resampling: placement, or CloudRequest::model.
+  int latticeDimension = 0;  ///< Chosen number of voxels on each axis; 0 where the user gave it.
   Bounds workspace;          ///< The lattice's box.
   VoxelMeanSettings voxels;  ///< Settings of the resampling.
   vtkSmartPointer<vtkPolyData> means;       ///< With the arrays of both filters; nobody else's.
   std::shared_ptr<const HapticScene> scene; ///< Null: not wanted, or there is none: sceneStatus.
   Status sceneStatus = Status::Ok;
-  int resamplings = 0; ///< How often the resampler ran.
+  int resamplings = 0; ///< Number of runs of the resampler.
   double resampleSeconds = 0.0;
 };
 
-/// Bounds after a transform; the corners of a box would be too wide for a turned cloud.
+/// Bounds after a transform. The corners of a box would be too wide for a turned cloud.
 struct CloudExtent
 {
   Bounds all;                 ///< Bounds of the finite points.
@@ -120,10 +119,10 @@ POINTHAPTICSVIEWER_EXPORT CloudExtent extentOf(
 POINTHAPTICSVIEWER_EXPORT std::string titleOf(const std::vector<std::string>& files);
 
 /// Fills in LoadedCloud::bounds, invalid and noReturns of LoadedCloud::cloud and, where the options fit it,
-/// near; a note says of far points that they are left out, or how.
+/// near. A note says that far points are left out, or how to leave them out.
 POINTHAPTICSVIEWER_EXPORT void findBounds(const CloudRequest& request, LoadedCloud& loaded);
 
-/// Adds what becomes of rays that did not return: nobody sees else why points of the file are missing. @pre
+/// Adds a note on rays that did not return: it explains why points of the file are missing. @pre
 /// LoadedCloud::workspace is that of the scene.
 POINTHAPTICSVIEWER_EXPORT void noteNoReturns(const CloudRequest& request, LoadedCloud& loaded);
 

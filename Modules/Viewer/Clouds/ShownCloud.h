@@ -31,7 +31,7 @@ constexpr const char* kSplatLengthName = "SplatLength"; ///< Diameter of each sp
 constexpr const char* kSplatNormalName = "SplatNormal"; ///< Short integers: kSplatNormalUnit is flat.
 constexpr const char* kSplatGrowthName = "SplatGrowth"; ///< Bytes: 64 where the spacing alone rules.
 constexpr const char* kLookColorName = "LookColor";
-/// All of them: nobody asks what they are at a point.
+/// All arrays of the picture: texts at a point leave them out.
 constexpr std::array<const char*, 4> kArraysOfPicture = { kSplatLengthName, kSplatNormalName,
   kSplatGrowthName, kLookColorName };
 constexpr double kSplatNormalUnit = 32767.0;
@@ -48,13 +48,14 @@ struct ShownCloud
   std::shared_ptr<const std::vector<std::uint32_t>> order;
 };
 
-/// How a cloud is to be shown.
+/// Request for the look of a cloud.
 struct ShownRequest
 {
   CloudOrientation orientation;
-  std::string keptArray;             ///< To keep beside those that the colours need; empty: none.
-  std::optional<CloudKind> kind;     ///< Instead of cloudKind(), where somebody says it.
-  std::optional<CloudColors> colors; ///< Instead of chooseColors(): those of a coarse level shown before.
+  std::string keptArray;             ///< Array that is kept beside those that the colours need; empty: none.
+  std::optional<CloudKind> kind;     ///< Kind in place of cloudKind(), where the user chose it.
+  std::optional<CloudColors> colors; ///< Colours in place of chooseColors(): those of a coarse level shown
+                                     ///< before.
 };
 
 /// Leaves out points that tell nothing, measures the others and decides how they are shown. Of more than
@@ -72,7 +73,8 @@ POINTHAPTICSVIEWER_EXPORT std::shared_ptr<ShownCloud> makePlainCloud(
 class POINTHAPTICSVIEWER_EXPORT ShownMeasurement
 {
 public:
-  /// @p cloud is nobody else's; its arrays may be read by others. What was measured before is given up.
+  /// Starts to measure @p cloud, which nobody else holds; others may read its arrays. Gives up the former
+  /// measurement.
   void start(vtkSmartPointer<vtkPolyData> cloud, const ShownRequest& request);
   bool busy() const { return result_.valid(); }
   /// Returns the measured cloud once; null: it is not ready, or none is measured. @param waits until it is

@@ -17,7 +17,7 @@ namespace
 
 constexpr float kBoxBeforeTheStyle = 1.0F;
 constexpr int kFaces = 6;
-/// Parts of the cloud's extent.
+/// Step of a face by key, and least thickness of the box, over the cloud's extent.
 constexpr double kStep = 0.02;
 constexpr double kThinnest = 1e-3;
 constexpr const char* kFaceNames[kFaces] = { "xmin", "xmax", "ymin", "ymax", "zmin", "zmax" };
@@ -94,8 +94,8 @@ void ClipBoxTool::moveFace(int direction)
   this->finish();
 }
 
-/// Face @p face of @p from goes @p way outward: neither through the one opposite, nor, where it is not there
-/// yet, out of the cloud.
+/// Moves face @p face of @p from outward by @p way: neither through the opposite face, nor further out of the
+/// cloud than it is.
 void ClipBoxTool::move(int face, const Bounds& from, double way)
 {
   const int axis = face / 2;

@@ -16,12 +16,12 @@ namespace pointhaptics
 class ViewScene;
 struct HapticViewerOptions;
 
-/// While it is on, clicks choose points: two are the ends of a distance, which stays where they are until a
-/// third begins another. Drags turn the view as ever. GUI thread only.
+/// While it is on, clicks choose points: two are the ends of a distance, which stays until a third click
+/// begins another. Drags turn the view as ever. GUI thread only.
 class DistanceMeasuring
 {
 public:
-  /// All must outlive this, the interactor aside. @p say tells the person what was measured.
+  /// All must outlive this, the interactor aside. @p say shows the measured distance to the person.
   DistanceMeasuring(ViewScene& scene, HapticViewerOptions& options, vtkRenderWindowInteractor* interactor,
     std::function<void(const std::string&)> say);
 
@@ -41,7 +41,7 @@ private:
   bool isOn_ = false;
   bool isPressed_ = false;
   std::array<int, 2> pressedAt_{};
-  LeftButton button_; ///< Last: it calls this.
+  LeftButton button_; ///< Last member, as it calls this object.
 };
 
 } // namespace pointhaptics

@@ -67,7 +67,8 @@ void ViewWindow::onSlider(int slider)
   }
 }
 
-/// A device may refuse what it cannot render: then everything stays as it was, and the window says why.
+/// Sets the contact. A device may refuse what it cannot render: then everything stays as it was, and the
+/// window says why.
 void ViewWindow::setContact(const ContactParameters& contact)
 {
   HapticParameters parameters = parameters_;

@@ -67,7 +67,7 @@ void ViewWindow::onFilesDropped(void* callData)
   }
 }
 
-/// Begins to read; what is being read already is given up.
+/// Begins to read files; a load in flight is given up.
 void ViewWindow::load(const std::vector<std::string>& files, Load kind, std::function<void(bool)> then)
 {
   HapticViewerOptions options = options_;
@@ -101,7 +101,7 @@ void ViewWindow::load(const std::vector<std::string>& files, Load kind, std::fun
   loader_.start(std::move(request));
 }
 
-/// Reads all points of what is shown coarsely.
+/// Reads all points of a cloud that is shown coarsely.
 void ViewWindow::refine()
 {
   this->load(shown_, Load::Finer,
@@ -114,7 +114,7 @@ void ViewWindow::refine()
     });
 }
 
-/// At every call of the timer.
+/// Called at every timer event.
 void ViewWindow::followLoading()
 {
   if (!loader_.busy())
@@ -193,8 +193,7 @@ void ViewWindow::forgiveEscape()
   escapeIsLate_ = std::chrono::steady_clock::now() + kLateEscape;
 }
 
-/// Escape while a file is read is for the reader, then for a distance in the picture, and does not reach the
-/// style.
+/// Escape ends a load first, then a distance in the picture; it does not reach the style.
 void ViewWindow::onKey()
 {
   const char* key = interactor_->GetKeySym();
@@ -224,7 +223,7 @@ void ViewWindow::show(LoadedCloud cloud)
   }
   shown_ = loading_.files;
   watch_ = loading_.watch;
-  // From here on the window shows the new cloud, also where nothing of it lies in the workspace.
+  // From here on the window shows the new cloud, also where none of it lies in the workspace.
   if (!scene_.open(std::move(cloud), loading_.options, message))
   {
     this->tell(message);
@@ -275,7 +274,7 @@ void ViewWindow::followOptions()
   }
 }
 
-/// With the scene that came with the cloud, or to be made.
+/// Gives the style the model, with the scene that came with the cloud, or with one to be made.
 void ViewWindow::giveModel(vtkMatrix4x4* matrix)
 {
   if (scene_.isResampled())
@@ -318,7 +317,7 @@ void ViewWindow::adoptModel(const AffineTransform& model)
   }
 }
 
-/// The exact force for the chart, where the shown cloud is a shape that has one.
+/// Finds the exact force for the chart, where the shown cloud is a shape that has one.
 void ViewWindow::findIdeal()
 {
   const std::shared_ptr<IdealForce> ideal = idealFor(scene_, options_);
@@ -336,7 +335,7 @@ void ViewWindow::showFile(std::size_t index)
   }
   else
   {
-    // The next key goes on from here, not to a broken or cancelled file again.
+    // The next key continues from here, not from a broken or cancelled file.
     fileIndex_ = index;
     this->load({ files_[index] }, Load::New,
       [this, index](bool isShown)
@@ -370,7 +369,7 @@ HapticViewerState ViewWindow::state()
   state.contact = parameters_.contact;
   state.radiusScale = sliders_->GetValue(vtkHapticSliders::RadiusScale);
   vtkCamera* camera = scene_.renderer()->GetActiveCamera();
-  // In a parallel projection the wheel changes the scale alone.
+  // In a parallel projection the wheel changes only the scale.
   Vec3 focus;
   Vec3 forward;
   camera->GetFocalPoint(&focus.x);
@@ -447,14 +446,14 @@ void ViewWindow::clipFelt()
   style_->InvalidateModel();
 }
 
-/// The next of what the cloud can be coloured by.
+/// Shows the next of the choices to colour by.
 void ViewWindow::showNextColors()
 {
   const std::vector<std::string> choices = scene_.colorChoices();
   const auto shown = std::find(choices.begin(), choices.end(), scene_.colorBy());
   const std::size_t place = shown == choices.end() ? 0 : std::size_t(shown - choices.begin());
   const std::string& next = choices[(place + 1) % choices.size()];
-  // Another file may have no colours: they are what comes of itself.
+  // Another file may have no colours: rgb is the default then.
   options_.colorBy = next == "rgb" ? std::string() : next;
   options_.picture.colorRange.clear(); // of other numbers
   scene_.setPicture(options_.picture);
@@ -468,7 +467,7 @@ void ViewWindow::showNextColors()
   awaitedColors_ = waits ? news_ : std::string();
 }
 
-/// Colours that were waited for are there: what the status says of them must not stay.
+/// Clears the status when the awaited colours have come.
 void ViewWindow::endAwaitingColors()
 {
   if (awaitedColors_.empty() || scene_.awaitsColors())
@@ -507,8 +506,8 @@ void ViewWindow::setSceneOptions()
   style_->GetScenes().setOptions(options);
 }
 
-/// Texts, chart, sliders and the handles of the clipping box go; those that the user opens in the figure are
-/// shown.
+/// Hides texts, chart, sliders and the handles of the clipping box; those that the user opens in the figure
+/// are shown.
 void ViewWindow::showFigure(bool figure)
 {
   scene_.showFigure(figure);
