@@ -194,19 +194,22 @@ void SurfaceFitProxy::forgetFit() noexcept
   ticksWithoutFit_ = 0;
 }
 
-/// Blends the contacts of fit and ball: @p weight is the fit's part, the rest is the ball's.
+/// Blends the contacts of fit and ball: @p weight is the fit's part, the rest is the ball's. Each presses
+/// only a HIP below it; else its part of the offset is zero.
 SurfaceFitProxy::Contact SurfaceFitProxy::blended(const Vec3& hip, double weight) const noexcept
 {
-  const double depth = ball_.isFree() ? -ball_.radius() : ball_.depth(hip);
-  Vec3 offset = (1.0 - weight) * (depth > 0.0 ? ball_.nearestPoint(hip) - hip : Vec3());
+  const double ballDepth = ball_.isFree() ? -ball_.radius() : ball_.depth(hip);
+  Vec3 offset = (1.0 - weight) * (ballDepth > 0.0 ? ball_.nearestPoint(hip) - hip : Vec3());
   Vec3 normal = (1.0 - weight) * normalized(ball_.center() - hip, normal_);
   if (weight > 0.0)
   {
-    const double allowed = std::max(0.0, kTrustRadii * ball_.radius() + kReleaseSlope * depth);
-    const Vec3 up = tracker_.point() - hip;
-    const bool pressed =
-      tracker_.height(hip) <= 0.0 && (depth > 0.0 || norm2(up) <= allowed * allowed || isPlain());
-    offset += weight * (pressed ? up : Vec3());
+    // Bumps hold the ball above the fit: the fit also presses a HIP just inside the ball, and on a surface
+    // without edges near by any HIP below it.
+    const double mostOffset = std::max(0.0, kTrustRadii * ball_.radius() + kReleaseSlope * ballDepth);
+    const Vec3 toFit = tracker_.point() - hip;
+    const bool isPressed = tracker_.height(hip) <= 0.0 &&
+      (ballDepth > 0.0 || norm2(toFit) <= mostOffset * mostOffset || isPlain());
+    offset += weight * (isPressed ? toFit : Vec3());
     normal += weight * tracker_.normal();
   }
   return { hip + offset, normalized(normal, normal_), offset != Vec3() };

@@ -20,6 +20,7 @@ constexpr int kFaces = 6;
 /// Step of a face by key, and least thickness of the box, over the cloud's extent.
 constexpr double kStep = 0.02;
 constexpr double kThinnest = 1e-3;
+/// Names of the faces by number: even numbers are lower faces.
 constexpr const char* kFaceNames[kFaces] = { "xmin", "xmax", "ymin", "ymax", "zmin", "zmax" };
 
 } // namespace
@@ -94,8 +95,8 @@ void ClipBoxTool::moveFace(int direction)
   this->finish();
 }
 
-/// Moves face @p face of @p from outward by @p way: neither through the opposite face, nor further out of the
-/// cloud than it is.
+/// Sets the box to @p from with face @p face moved outward by @p way. The face stops before the opposite one,
+/// where the box is thinnest, and at the end of the cloud, or where it is if it lies outside already.
 void ClipBoxTool::move(int face, const Bounds& from, double way)
 {
   const int axis = face / 2;
