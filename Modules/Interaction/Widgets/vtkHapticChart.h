@@ -51,11 +51,10 @@ public:
    */
   void SetForceNames(const char* force, const char* other);
 
-  /// Freeze the picture: samples that come are kept out of it until this is off again; then the chart goes on
-  /// with the newest. Default: off.
+  ///@{
   /**
-   * Keep what is drawn: samples that come are kept out of the picture until this is off again; then the chart
-   * goes on with the newest. Default: off.
+   * Freeze the picture: samples that come are kept out of it until this is off again; then the chart goes on
+   * with the newest. Default: off.
    */
   void SetPaused(bool paused);
   bool GetPaused() const;
