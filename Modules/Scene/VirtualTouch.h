@@ -16,7 +16,7 @@
 namespace pointhaptics
 {
 
-/// A day at 1 kHz; more ticks are a mistake in the path's times.
+/// Most ticks of a path, a day at 1 kHz; more are a mistake in its times.
 constexpr double kMostTicks = 1e8;
 
 /// The columns of OUT.csv, in their order: seconds, metres, newtons, and microseconds at the end.
@@ -28,14 +28,14 @@ constexpr std::array<const char*, 16> kFeltColumns = { "t", "hip_x", "hip_y", "h
 POINTHAPTICSSCENE_EXPORT std::array<double, kFeltColumns.size()> feltRow(
   double timeSeconds, const ProxyState& state, double microseconds);
 
-/// A servo step without force limits in the scenes of where the hand comes. One thread at a time.
+/// A servo step without force limits, in the scenes along the hand's way. One thread at a time.
 class POINTHAPTICSSCENE_EXPORT VirtualTouch
 {
 public:
   /// @param scenes outlives this.
   VirtualTouch(const HapticParameters& parameters, FeelScenes& scenes, double rateHz);
-  /// The hand is at @p hip for one tick. @param microseconds gets the duration of the tick alone: a scene
-  /// that it needs is there in time.
+  /// Steps with the hand at @p hip. @param microseconds gets the duration of the tick alone: a scene that it
+  /// needs is there in time.
   const ProxyState& step(const Vec3& hip, double& microseconds);
   /// Sample of the last step; its tick is the step's number, 1, 2, ...
   const ServoSample& sample() const { return sample_; }

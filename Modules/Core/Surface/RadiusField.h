@@ -26,9 +26,9 @@ struct LocalScale
 LocalScale scaled(LocalScale scale, double factor);
 
 /// One set of values per cell of a coarse pyramid level, blended between cells by a smooth kernel of compact
-/// support. Radii of fit and proxy are cut so that neighbours differ by at most half their distance. A
-/// function of position only: it knows nothing of any proxy. Immutable after build(); any number of threads
-/// may read.
+/// support. Radii of fit and proxy are cut so that neighbours differ by at most half their distance. The
+/// values depend on the position only, not on any proxy. Immutable after build(); any number of threads may
+/// read.
 class RadiusField
 {
 public:
@@ -52,18 +52,18 @@ public:
   /// The nodes within @p reach of @p center. False: more than a block holds.
   bool gather(
     const CellPyramid& pyramid, const Vec3& center, double reach, simd::FieldBlock& block) const noexcept;
-  /// The answer of at() from the sums over the nodes near a place.
+  /// Values of at() from the sums over the nodes near a place.
   LocalScale scaleFrom(const simd::FieldSums& sums, Vec3& radiusGradient) const noexcept;
 
   /// Distance from a node beyond which it has no weight.
   double reach() const { return reach_; }
-  /// Medians of the values: the answer for places far from the cloud.
+  /// Medians of the values, for places far from the cloud.
   const LocalScale& typical() const { return typical_; }
-  /// Those of a larger cloud that this one is a part of.
+  /// Takes the typical values of a larger cloud that this one is a part of.
   void setTypical(const LocalScale& typical) { typical_ = typical; }
 
 private:
-  /// A node's value is at most rise above its neighbour's.
+  /// Bound between two nodes: the first one's value is at most rise above the other's.
   struct Link
   {
     std::uint32_t node;
