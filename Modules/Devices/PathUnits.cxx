@@ -10,9 +10,9 @@ namespace pointhaptics
 namespace
 {
 
-constexpr double kReach = 2.0;          ///< Metres that a hand moves within.
+constexpr double kReach = 2.0;          ///< Reach of a hand, metres.
 constexpr double kUsualReach = 0.1;     ///< Reach of a desktop device, metres.
-constexpr double kNear = 5.0;           ///< Ratio of two sizes that may be of the same thing.
+constexpr double kNear = 5.0;           ///< Ratio of two sizes that may belong to the same thing.
 constexpr double kSlow = 1e-3;          ///< Metres a second, of a path whose rows are kSparse apart.
 constexpr double kSlowest = 1e-4;       ///< Least speed of any path, metres a second.
 constexpr double kFastest = 5.0;        ///< Metres a second.
@@ -76,7 +76,7 @@ std::string unlikelyTimes(const HipPath& path, const UnitNames& names)
   const double speed = duration > 0.0 ? travel / duration : 0.0;
   const bool isSparse =
     points.size() >= kFewestRows && duration / double(points.size() - 1) >= kSparse && speed < kSlow;
-  // Two rows are a line that somebody drew, not a hand.
+  // Two rows are a line that somebody drew, not a hand's path.
   const bool isSlow = points.size() > 2 && duration >= kLong && speed < kSlowest;
   if (travel < kLeastTravel || !(isSparse || isSlow) || speed * 1e3 > kFastest)
   {
@@ -113,7 +113,7 @@ std::string unlikelyCloudUnit(const HipPath& path, const Bounds& cloud, const Un
 std::string unlikelyUnits(const HipPath& path, const Bounds& cloud, const UnitNames& names)
 {
   const std::string lengths = unlikelyLengths(sizeOf(boxOf(path)), sizeOf(cloud), names);
-  // Speeds are wrong where lengths are.
+  // With wrong lengths speeds mean nothing.
   return lengths.empty() ? unlikelyTimes(path, names) : lengths;
 }
 

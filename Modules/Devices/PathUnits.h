@@ -1,5 +1,5 @@
 /// @file
-/// Units of the numbers of a hand path, and what the sizes of path and cloud say of them.
+/// Units of the numbers of a hand path, and checks of them by the sizes of path and cloud.
 #pragma once
 
 #include "Core/Base/PointView.h"
@@ -25,16 +25,15 @@ struct UnitNames
   std::string time = "--path-time-unit";
 };
 
-/// Makes metres and seconds of the numbers of @p path.
+/// Converts the numbers of @p path to metres and seconds.
 void applyUnits(const PathUnits& units, HipPath& path);
 
-/// A hand reaches 2 m, moves by millimetres a second at least, and is told more often than once in half a
-/// second. Where @p path, in metres and seconds, does not, and would in other units, says so in one sentence
-/// with the cure; else empty. @p cloud: box of what is felt, metres; may be empty. Costs a pass over the
-/// path.
+/// Says in one sentence, with the cure, that @p path, in metres and seconds, is likely to be in other units;
+/// else empty. A hand reaches 2 m, moves by millimetres a second at least, and is sampled more often than
+/// once in half a second. @p cloud: box of the felt points, metres; may be empty. Costs a pass over the path.
 std::string unlikelyUnits(const HipPath& path, const Bounds& cloud, const UnitNames& names = {});
-/// For a @p path that passes @p cloud without a touch: says so where the cloud would be as large as the path
-/// in another unit.
+/// Says that a @p path which passes @p cloud without a touch would fit it in another unit of the cloud; else
+/// empty.
 std::string unlikelyCloudUnit(const HipPath& path, const Bounds& cloud, const UnitNames& names = {});
 
 } // namespace pointhaptics

@@ -86,7 +86,7 @@ Status FalconBoot::serialForRun()
   return Status::Ok;
 }
 
-/// Collects bytes until @p bytes have come; bytes before them, such as a 00, do not matter.
+/// Collects bytes until @p bytes have come. Bytes before them, such as a 00, are skipped.
 Status FalconBoot::expect(const std::uint8_t* bytes, int count, int timeoutMilliseconds, bool& found)
 {
   found = false;

@@ -22,7 +22,8 @@ constexpr double kLeastDamping = 2.5;
 constexpr double kLeastFriction = 0.1;
 /// Within the 4 cm ball about the centre a count moves the grip by at most this (FalconKinematicsTest).
 constexpr double kLargestCountStep = 60e-6;
-/// Position of the last answer; the command goes out at the end of the tick.
+/// Age of a position in ticks: it is that of the last answer, and the command goes out at the end of the
+/// tick.
 constexpr double kDelayTicks = 1.0;
 constexpr double kRampDownSeconds = 0.06;
 constexpr auto kBetweenQuestions = std::chrono::milliseconds(50);
@@ -44,10 +45,10 @@ struct FalconDevice::Implementation
 
   const FalconSettings settings;
   std::unique_ptr<FtdiBus> bus;
-  std::unique_ptr<FtdiLink> link; ///< The owner's.
-  FalconProtocol protocol;        ///< The owner's.
+  std::unique_ptr<FtdiLink> link; ///< Belongs to the owner.
+  FalconProtocol protocol;        ///< Belongs to the owner.
   std::atomic<int> owner{ kSupervisor };
-  std::atomic<int> state{ int(FalconState::Closed) }; ///< While the supervisor owns the link.
+  std::atomic<int> state{ int(FalconState::Closed) }; ///< State while the supervisor owns the link.
   std::atomic<bool> quit{ false };
   std::atomic<bool> armed{ true };
   std::atomic<int> leds{ -1 };
@@ -135,7 +136,7 @@ void FalconDevice::Implementation::supervise()
   }
 }
 
-/// Servo thread: the connection is of no use any more.
+/// Gives up the connection. Servo thread.
 void FalconDevice::Implementation::fail() noexcept
 {
   state.store(int(FalconState::Fault), std::memory_order_relaxed);

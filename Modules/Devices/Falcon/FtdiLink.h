@@ -1,5 +1,5 @@
 /// @file
-/// A connection to the Falcon's FTDI serial chip: what the driver asks of USB, so that a test can stand in.
+/// A connection to the Falcon's FTDI serial chip: the driver's interface to USB, which a test can replace.
 #pragma once
 
 #include "Core/Base/Status.h"
@@ -14,8 +14,8 @@ namespace pointhaptics
 /// Bytes of payload in one packet from the chip: 64 less its two status bytes.
 constexpr int kFtdiPacket = 62;
 
-/// One open, claimed device. One thread at a time; it may change hands between calls. Destroying it cancels
-/// and awaits what is under way, releases and closes.
+/// One open, claimed device. One thread at a time; it may change hands between calls. Its destructor cancels
+/// and awaits transfers, releases and closes.
 class FtdiLink
 {
 public:

@@ -31,9 +31,9 @@ class HidLink
 {
 public:
   virtual ~HidLink() = default;
-  /// The next report: its bytes, 0 after the timeout, -1 where the device is gone.
+  /// Reads the next report. @return its bytes, 0 after the timeout, -1 where the device is gone.
   virtual int read(std::uint8_t* bytes, int capacity, int timeoutMilliseconds) = 0;
-  /// An output report, its number first. False: not taken.
+  /// Writes an output report, its number first. False: it was not taken.
   virtual bool write(const std::uint8_t* bytes, int count) = 0;
 };
 

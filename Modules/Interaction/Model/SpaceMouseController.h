@@ -14,7 +14,7 @@
 namespace pointhaptics
 {
 
-/// The model is rotated and translated as the cap is turned and pushed on the screen. With the first button
+/// The model is rotated and translated as the puck is turned and pushed on the screen. With the first button
 /// held, pushing and pulling scales it; the second one resets it. GUI thread only.
 class POINTHAPTICSINTERACTION_EXPORT SpaceMouseController
 {
