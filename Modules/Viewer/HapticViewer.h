@@ -104,7 +104,7 @@ public:
   /// How large the model is in the hand, in words.
   const std::string& scaleNote() const;
   ///@{
-  /// What the last open() took.
+  /// Times of the last open().
   double readSeconds() const;
   double resampleSeconds() const;
   ///@}

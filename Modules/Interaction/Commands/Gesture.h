@@ -19,8 +19,8 @@ namespace pointhaptics
 /// becomes small.
 POINTHAPTICSINTERACTION_EXPORT std::string gestureOf(
   const std::string& name, bool control, bool shift, bool alt = false);
-/// True if @p gesture can be made at all: modifiers in their order, then a button, the wheel or one word. A
-/// key is known by its keyboard only, so that every other word counts as one.
+/// True if @p gesture has the form of a gesture: modifiers in their order, then a button, the wheel or one
+/// word. Only the keyboard knows its keys, so every other word counts as one.
 POINTHAPTICSINTERACTION_EXPORT bool isGesture(const std::string& gesture);
 
 /// Gestures that @p gesture falls back to where it has no command itself, best first. A key falls back to the

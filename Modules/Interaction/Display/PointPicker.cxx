@@ -77,7 +77,7 @@ bool PointPicker::pickAt(int x, int y)
   }
   if (scenes_.bandwidthFilter())
   {
-    // A neighborhood that has no bandwidth leaves it at 0, which is not shown.
+    // A neighbourhood without a bandwidth leaves it at 0, which is not shown.
     static_cast<void>(measurePicked(cloud, scenes_.bandwidthFilter()->GetSettings(), picked));
   }
   double voxel[6];

@@ -1,5 +1,5 @@
 /// @file
-/// The voxel mean under the mouse: marked in the picture, and told in the overlay.
+/// Marks the voxel mean under the mouse in the picture, and describes it in the overlay.
 #pragma once
 
 #include "Core/Base/Vector3.h"
@@ -44,7 +44,8 @@ public:
   /// Removes the marks, as voxel and bandwidth belong to one resampling. True: something was shown.
   bool forget();
 
-  /// The place there that is as deep as the nearest mean about it; workspace. Marks and says nothing.
+  /// Finds the place at a display position that is as deep as the nearest mean about it; workspace. Marks and
+  /// shows nothing.
   std::optional<Vec3> surfaceAt(int x, int y) const;
 
 private:

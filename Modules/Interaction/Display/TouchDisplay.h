@@ -1,5 +1,5 @@
 /// @file
-/// The touch in the picture: the props, the chart of the force, and when a frame is worth its time.
+/// The touch in the picture: the props, the chart of the force, and the decision to draw a frame.
 #pragma once
 
 #include "vtkHapticChart.h"
@@ -22,8 +22,8 @@ namespace pointhaptics
 class HandDistance;
 class ScreenView;
 
-/// A frame is drawn only where something has changed, and drawing leaves at least half of the time to events.
-/// GUI thread only.
+/// Draws a frame only where something has changed, and leaves at least half of the time to events. GUI thread
+/// only.
 class POINTHAPTICSINTERACTION_EXPORT TouchDisplay
 {
 public:
@@ -39,19 +39,19 @@ public:
   void setChart(vtkHapticChart* chart);
   vtkHapticChart* chart() const { return chart_; }
   ///@}
-  /// What an exact surface would answer the hand of a tick, in newtons, for the chart; NaN: not known. Called
-  /// for every tick in the order of time. Empty (default): none.
+  /// Function for the force of an exact surface on the hand of a tick, newtons, for the chart; NaN: not
+  /// known. Called for every tick in the order of time. Empty (default): none.
   void setIdealForce(std::function<double(const Vec3& hip)> ideal) { idealForce_ = std::move(ideal); }
-  /// The chart is a strip along the lower edge; the picture takes the room that it leaves.
+  /// Shows the chart as a strip along the lower edge; the picture takes the rest.
   void setChartVisibility(bool visible);
 
-  /// Takes the new ticks, and the newest one there is. True: the picture has changed.
+  /// Takes the new ticks, and the newest one. True: the picture has changed.
   bool update(const std::vector<ServoSample>& samples, const ServoSample& latest);
 
-  /// Shows where the hand of @p distance would touch. True: the picture has changed.
+  /// Shows the point that the hand of @p distance would touch. True: the picture has changed.
   bool showDistance(const HandDistance& distance);
 
-  /// The next renderIfDue() draws a frame.
+  /// Makes the next renderIfDue() draw a frame.
   void requestRender() { isRequested_ = true; }
   void renderIfDue();
 

@@ -55,7 +55,8 @@ public:
   ///@}
 
   /**
-   * Where the simulated hand is to go. The servo loop moves it there; no effect while the touch is off.
+   * Sets the target of the simulated hand. The servo loop moves the hand there; no effect while the touch is
+   * off.
    */
   void MoveHand(double x, double y, double z);
 

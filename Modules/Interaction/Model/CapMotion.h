@@ -1,5 +1,5 @@
 /// @file
-/// The cap of a 3D mouse moves the model.
+/// Moves the model by the puck of a 3D mouse.
 #pragma once
 
 #include "Core/Base/Vector3.h"

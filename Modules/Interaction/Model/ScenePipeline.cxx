@@ -102,15 +102,15 @@ void ScenePipeline::startCloud(bool findsLattice)
   numberOfVoxels_ = 0;
   auto* input = resampler_ ? vtkPointSet::SafeDownCast(resampler_->GetInputDataObject(0, 0)) : nullptr;
   numberOfPoints_ = input ? input->GetNumberOfPoints() : 0;
-  // The means of another cloud are neither drawn nor felt.
+  // Means of another cloud are neither drawn nor felt.
   if (vtkPolyData* shown = this->cloud())
   {
     shown->Initialize();
   }
 }
 
-/// The hand feels the model where it is before it is resampled there. Not with another cloud than before:
-/// what is felt until that is resampled stays where it was.
+/// Lets the hand feel the model at its new place before it is resampled there. Not after a change of the
+/// cloud: the felt scene then stays where it was until the new cloud is resampled.
 void ScenePipeline::publishMoved()
 {
   AffineTransform modelToWorkspace;
@@ -120,7 +120,7 @@ void ScenePipeline::publishMoved()
   }
 }
 
-/// The drawn means are those of the last resampling: show them where the model is now.
+/// Shows the drawn means, which are those of the last resampling, at the model's present place.
 void ScenePipeline::preview()
 {
   if (actor_)

@@ -24,7 +24,7 @@ constexpr double kFullDeflection = 350.0;
 constexpr double kFirstStep = 1.0 / 60.0;
 constexpr double kPause = 0.2;
 
-/// -1 to 1 on each axis.
+/// Limits each axis to -1 to 1.
 Vec3 limited(const Vec3& v)
 {
   Vec3 result;
