@@ -88,7 +88,8 @@ POINTHAPTICSRENDERING_EXPORT void setUpScalarBar(vtkScalarBarActor* bar);
 /// called before a render whose size or title may be another one.
 POINTHAPTICSRENDERING_EXPORT void placeScalarBar(vtkScalarBarActor* bar, vtkRenderer* renderer);
 
-/// @{ As above, for a layout: the pixels that @p bar needs with a font of @p font points, each of @p
+///@{
+/// As above, for a layout: the pixels that @p bar needs with a font of @p font points, each of @p
 /// pixelsPerPoint, and the box it is put in: left, bottom, right, top, pixels of @p renderer.
 POINTHAPTICSRENDERING_EXPORT void measureScalarBar(
   vtkScalarBarActor* bar, double font, double pixelsPerPoint, double size[2]);

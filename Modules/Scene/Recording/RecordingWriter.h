@@ -36,7 +36,8 @@ public:
   /// To be called with all samples of a loop, open or not, after ServoLoop::takeTrace(): it remembers what
   /// was published.
   void add(ServoLoop& loop, const std::vector<ServoSample>& samples);
-  /// @{ Adds samples without a loop: scenes and parameters published before a sample come before it.
+  ///@{
+  /// Adds samples without a loop: scenes and parameters published before a sample come before it.
   void publish(PublishedScene scene) { published_.scenes.push_back(std::move(scene)); }
   void publish(PublishedParameters parameters) { published_.parameters.push_back(parameters); }
   void add(const ServoSample& sample);
