@@ -43,7 +43,7 @@ public:
   virtual void* allocate(std::size_t part, std::size_t bytes) = 0;
 };
 
-/// What to resample, and what to make of it.
+/// Points to resample, and the results to make of them.
 struct VoxelRequest
 {
   PointView points;
@@ -145,9 +145,9 @@ public:
   void copyAttribute(int level, std::size_t attribute, void* tuples, const Executor& executor = {}) const;
   const void* attribute(int level, std::size_t attribute) const;
 
-  /// Of each voxel the number of the point that stands for it; empty unless a nearest one was asked for.
+  /// Number of the point that represents each voxel; empty unless a nearest one was requested.
   const std::vector<std::int64_t>& chosenPoints() const;
-  /// Of each point its voxel, or -1 where it is clipped or invalid; empty unless it was asked for.
+  /// Voxel of each point, or -1 where it is clipped or invalid; empty unless requested.
   const std::vector<std::int64_t>& voxelIndex() const;
 
   std::size_t scratchBytes() const;

@@ -30,7 +30,7 @@ struct PayloadLayout
   static constexpr int kMostWords = 9;
   static constexpr int kMostArrays = 8;
 
-  int words = 0; ///< Of 32 bits; 0: nothing.
+  int words = 0; ///< Number of 32-bit words; 0: no payload.
   bool numbered = false;
   int count = 0;
   PayloadArray arrays[kMostArrays] = {};
@@ -43,12 +43,13 @@ struct PointRecordWriter
   std::uintptr_t blockMask;  ///< Bytes of a block, less one.
   PointRecord* records;      ///< Start of the pool.
   std::uint32_t* lastBlocks; ///< Last block of each partition, or kNoBlock.
-  std::uint32_t* previous;   ///< Of each block of the pool that in its partition before it, or kNoBlock.
+  std::uint32_t* previous;   ///< For each block of the pool, the block before it in its partition, or
+                             ///< kNoBlock.
   std::uint32_t* taken;      ///< Blocks that the pool's writers have taken: they share it.
   std::uint32_t nextBlock;   ///< Next of the blocks that were taken in advance.
   std::uint32_t endBlock;
   std::uint32_t* payloads;        ///< Payload of each record.
-  PayloadLayout layout;           ///< Of a payload.
+  PayloadLayout layout;           ///< Layout of a payload.
   const std::uint32_t* originals; ///< Numbers from the first range's begin on; or null: they ascend.
   std::uint32_t firstNumber;      ///< Number of the first range's begin, where originals is null.
   std::int64_t inside;
