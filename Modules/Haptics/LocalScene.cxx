@@ -240,7 +240,7 @@ std::shared_ptr<const HapticScene> LocalSceneBuilder::build(
   const std::size_t size = std::size_t(resampler_.size());
   input.points.resize(size);
   resampler_.copyMeans(0, &input.points[0].x);
-  // Voxels beside the box may lack points.
+  // Voxels beside the part may lack points.
   const Bounds whole = part.bounds();
   std::replace_if(
     input.points.begin(), input.points.end(), [&](const Vec3& mean) { return !contains(whole, mean); },
