@@ -15,8 +15,9 @@ namespace pointhaptics
 /// True if @p prop is drawn over the finished picture: text (vtkActor2D) and marks (vtkOverlayActor).
 POINTHAPTICSRENDERING_EXPORT bool isDrawnOver(vtkProp* prop);
 
-/// Camera, size, background, lights and all props but those that are drawn over it: numbers that are equal
-/// for two pictures which show the same. Brings the pipelines of visible actors up to date. GUI thread only.
+/// Numbers that are equal for two pictures which show the same: camera, size, background, lights and all
+/// props but those that are drawn over it. Brings the pipelines of visible actors up to date. GUI thread
+/// only.
 POINTHAPTICSRENDERING_EXPORT std::vector<double> pictureState(vtkRenderer* renderer);
 
 } // namespace pointhaptics

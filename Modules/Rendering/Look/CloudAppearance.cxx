@@ -60,8 +60,8 @@ double valueOf(vtkDataArray* array, vtkIdType tuple, int component)
   return std::sqrt(sum);
 }
 
-/// The finite ones of fewer than 20,000 values, in ascending order. Of more a sample is taken, by a
-/// multiplicative hash: every k-th would meet the rows of a scanner in step.
+/// Finite values in ascending order; above 20,000 a sample by a multiplicative hash, as every k-th value
+/// would meet the rows of a scanner in step.
 std::vector<double> finiteSample(vtkDataArray* array, int component)
 {
   constexpr std::uint64_t kSamples = 10000;
@@ -81,7 +81,7 @@ std::vector<double> finiteSample(vtkDataArray* array, int component)
   return values;
 }
 
-/// The word for a component: its own name, x to z of three, or its number.
+/// Name of a component: its own, x to z of three, or its number.
 std::string componentName(vtkDataArray* array, int component)
 {
   if (component == kMagnitude)
@@ -96,7 +96,7 @@ std::string componentName(vtkDataArray* array, int component)
   return array->GetNumberOfComponents() == 3 ? std::string(1, "xyz"[component]) : std::to_string(component);
 }
 
-/// One colour for each number of a class, 0 to 255. The caller owns the result.
+/// Makes a table with a colour for each number of a class, 0 to 255. The caller owns the result.
 vtkLookupTable* newClassColorMap()
 {
   vtkLookupTable* colors = vtkLookupTable::New();
@@ -424,7 +424,7 @@ void applyDepthShading(vtkRenderer* renderer, double noise, double noisePerDista
   shading->SetDelegatePass(camera);
   shading->SetNoiseLength(noise);
   shading->SetNoisePerDistance(noisePerDistance);
-  // Text comes after the shading: it has no depth.
+  // Text is drawn after the shading, as it has no depth.
   vtkNew<vtkOverlayPass> overlay;
   vtkNew<vtkRenderPassCollection> passes;
   passes->AddItem(shading);

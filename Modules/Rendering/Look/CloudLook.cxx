@@ -16,7 +16,7 @@ namespace
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kDegree = kPi / 180.0;
 constexpr const char* kKindNames[] = { "object", "terrain", "sweep", "indoors", "frame" };
-/// Points that the kind is decided by.
+/// Number of points that decide about the kind.
 constexpr std::int64_t kSample = 50000;
 
 constexpr double kSweepCorrelation = 0.6;
@@ -50,7 +50,7 @@ void forSample(const PointView& cloud, const LocalShape& shape, Visit&& visit)
   }
 }
 
-/// Rays from one place spread: what is twice as far is twice as sparse.
+/// True if the spacing grows with the distance from the origin, as rays from one place spread.
 bool isScannedFromOrigin(const PointView& cloud, const LocalShape& shape)
 {
   std::vector<double> distances;
@@ -82,7 +82,7 @@ bool isScannedFromOrigin(const PointView& cloud, const LocalShape& shape)
   return correlation > kSweepCorrelation && valueAt(distances, 0.98) > kSweepRange * valueAt(distances, 0.02);
 }
 
-/// True if there is something in most directions above the horizon.
+/// True if points lie in most directions above the horizon.
 bool isUnderARoof(const PointView& cloud, const LocalShape& shape, const Vec3& up)
 {
   constexpr int kAround = 24;
@@ -154,7 +154,7 @@ double horizontalStrip(const PointView& cloud, const LocalShape& shape, const Ve
   return middle > radius ? (middle + radius) / (middle - radius) : INFINITY;
 }
 
-/// Where the walls look that the sensor at the origin sees.
+/// Mean direction of the walls that the sensor at the origin sees.
 Vec3 facesOfWalls(const PointView& cloud, const LocalShape& shape, const Vec3& up, const Vec3& fallback)
 {
   Vec3 sum;
@@ -188,7 +188,7 @@ struct View
 {
   Vec3 right;
   Vec3 up;
-  Vec3 back; ///< Towards the viewer.
+  Vec3 back; ///< Axis towards the viewer.
 };
 
 View viewOf(const CloudLook& look, const AffineTransform& toWorld, double aspect, double turn)
@@ -211,7 +211,7 @@ View viewOf(const CloudLook& look, const AffineTransform& toWorld, double aspect
   return view;
 }
 
-/// Extremes of x + tz, -x + tz, y + tz, -y + tz: a point is in view where they say so.
+/// Extremes of x + tz, -x + tz, y + tz, -y + tz: they decide if a point is in view.
 struct Extremes
 {
   double most[4] = { -INFINITY, -INFINITY, -INFINITY, -INFINITY };
@@ -231,9 +231,9 @@ struct Extremes
 constexpr double kViewAngle = 30.0;
 constexpr double kFilledPart = 0.92;
 constexpr double kStrayFactor = 1.5;
-constexpr std::ptrdiff_t kMostStrays = 1000; ///< One in so many.
+constexpr std::ptrdiff_t kMostStrays = 1000; ///< One point in so many may be a stray.
 
-/// The part of a sample that is no stray on any axis of the view: from, to on each.
+/// Finds the part of a sample without strays on any axis of the view: from, to on each.
 void coreOf(std::vector<Vec3>& sample, double share, Vec3& from, Vec3& to)
 {
   std::vector<double> values(sample.size());
@@ -245,7 +245,7 @@ void coreOf(std::vector<Vec3>& sample, double share, Vec3& from, Vec3& to)
   }
 }
 
-/// Moves @p end over those of the values from @p first on, ever farther out, that no gap divides from it.
+/// Moves @p end outward over the values from @p first on, until a gap divides one from it.
 template <typename Iterator>
 void growOver(Iterator first, Iterator last, double& extent, double& end)
 {
@@ -490,7 +490,7 @@ CameraFit fitCamera(const PointView& cloud, const CloudLook& look, const AffineT
   Vec3 from;
   Vec3 to;
   coreOf(sample, look.strayShare, from, to);
-  // The focal point is what the camera turns about.
+  // The camera turns about the focal point.
   const double depth = 0.5 * (from.z + to.z);
   const auto distanceOf = [&](const Extremes& each)
   { return parallel ? depth + each.distance(tangent * aspect, tangent) : each.distance(tx, ty); };

@@ -26,12 +26,12 @@ enum class CloudKind
   Frame,   ///< One picture of a depth camera.
 };
 
-/// "object", "terrain", "sweep", "indoors", "frame".
+/// Name of a kind: "object", "terrain", "sweep", "indoors", "frame".
 POINTHAPTICSRENDERING_EXPORT const char* cloudKindName(CloudKind kind);
-/// False: @p name is none of them; @p kind is as it was.
+/// Kind of a name. False: @p name is none of them; @p kind is as it was.
 POINTHAPTICSRENDERING_EXPORT bool cloudKindFromName(const std::string& name, CloudKind& kind);
 
-/// All directions and lengths in the frame of the file.
+/// First view of a cloud; all directions and lengths in the frame of the file.
 struct CloudLook
 {
   CloudKind kind = CloudKind::Object;
@@ -50,17 +50,16 @@ struct CloudLook
   double meanFlatness = 0.0;
 };
 
-/// The indices of the points that are drawn: those that are finite, without rays that did not return, see
-/// areNoReturns().
+/// Indices of the drawn points: those that are finite, without rays that did not return, see areNoReturns().
 POINTHAPTICSRENDERING_EXPORT std::vector<std::uint32_t> drawnPoints(const PointView& cloud);
 
-/// The first kind that fits: a frame, as @p orientation says; a sweep where the spacing grows with the
-/// distance from the origin, indoors where it hits most directions above the sensor; terrain where the
-/// surfaces face up; an object. With y up it is an object.
+/// Decides the kind, the first that fits: a frame, as @p orientation says; a sweep where the spacing grows
+/// with the distance from the origin, indoors where it hits most directions above the sensor; terrain where
+/// the surfaces face up; an object. With y up it is an object.
 POINTHAPTICSRENDERING_EXPORT CloudKind cloudKind(
   const PointView& cloud, const LocalShape& shape, const CloudOrientation& orientation);
 
-/// Everything that follows from the @p kind.
+/// Derives the look from the @p kind.
 POINTHAPTICSRENDERING_EXPORT CloudLook cloudLook(
   CloudKind kind, const PointView& cloud, const LocalShape& shape, const CloudOrientation& orientation);
 
