@@ -98,7 +98,7 @@ extern "C"
   enum
   {
     PH_TUNED = 0, /**< They follow a hand of 50 mm/s. */
-    PH_PAPER = 1  /**< Those that the paper prints. */
+    PH_PAPER = 1  /**< The gains that the paper prints. */
   };
   PH_API int ph_gains_of(int preset, ph_gains* out);
 
@@ -177,7 +177,7 @@ extern "C"
   typedef struct
   {
     size_t struct_size;
-    double rate;                                                                   /**< That was reached. */
+    double rate; /**< The rate that was reached. */
     double jitter_p50, jitter_p99, jitter_max, update_p50, update_p99, update_max; /**< Seconds. */
     unsigned long long ticks, deadline_misses, lost;                               /**< lost: of the trace. */
     int realtime; /**< SCHED_FIFO was granted. */

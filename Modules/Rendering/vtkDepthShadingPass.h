@@ -130,7 +130,7 @@ public:
   enum class Stage
   {
     Picture, ///< As they are.
-    Depths,  ///< Those that are blended leave their depths alone.
+    Depths,  ///< Splats that are blended leave their depths alone.
     Blending ///< Weighted sums, by the depths that were left.
   };
   /// At present, of the picture that @p renderer draws.

@@ -64,7 +64,7 @@ public:
   double low(std::size_t array) const { return lows_[array]; }
   double high(std::size_t array) const { return highs_[array]; }
   bool verticesHave64Bits() const { return vertices_ == Vertices::Of64Bits; }
-  /// Those of the file: arrays, and the two of the vertices.
+  /// Number of blocks in the file: arrays, and the two of the vertices.
   std::size_t count() const { return arrays_.size() + 2; }
   std::uint64_t tupleBytes(std::size_t array) const
   {

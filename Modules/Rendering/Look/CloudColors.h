@@ -23,7 +23,7 @@ namespace pointhaptics
 enum class ColorRule
 {
   Rgb,     ///< The cloud's own colours.
-  Classes, ///< Those of the ASPRS classes of LAS files.
+  Classes, ///< Colours of the ASPRS classes of LAS files.
   Clay,    ///< One light colour: the light shows the shape.
   Height,  ///< Along the up axis.
   Depth,   ///< The logarithm of the distance along the view of a depth camera.

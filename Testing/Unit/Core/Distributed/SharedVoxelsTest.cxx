@@ -152,7 +152,7 @@ std::vector<VoxelAccumulator::Array> kindsOfArrays()
     { ScalarType::UInt8, 1, AttributeStatistic::Median } };
 }
 
-/// Those of the points from @p first on.
+/// Views of the arrays of the points from @p first on.
 std::vector<AttributeView> viewsOf(const Arrays& arrays, std::size_t first, std::int64_t points)
 {
   return { { arrays.floats.data() + 3 * first, ScalarType::Float, 3, points },

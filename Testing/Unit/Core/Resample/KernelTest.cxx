@@ -333,7 +333,7 @@ TEST(CoarserLattice, CoversTheFineOneAndEndsWhereItDoes)
 namespace
 {
 
-/// That of the points that are finite before and after the transform, one by one.
+/// Bounds of the points that are finite before and after the transform, one by one.
 template <typename Real>
 Bounds plainBoundsOf(const AffineTransform& transform, const std::vector<Real>& xyz, std::size_t stride)
 {
