@@ -37,7 +37,7 @@ constexpr double kPointsPerSparseCell = 1.4;
 constexpr double kSparseInVoxels = 1.2;
 /// Least radius of the ball over the index cell: with less it enters the gaps between the means of voxels.
 constexpr double kLeastRadiusInCells = 2.0;
-/// Clouds of fewer points have no surface: the least radius is at most this part of their extent.
+/// Clouds of fewer than kFewPoints have no surface: the least radius is at most kOfFewPoints of their extent.
 constexpr std::size_t kFewPoints = 16;
 constexpr double kOfFewPoints = 0.02;
 /// Margin about the box of local scenes in which cells and fields are complete, in index cells.

@@ -11,7 +11,7 @@ namespace pointhaptics
 namespace
 {
 
-/// Speed of the model with the puck at its end, a second: edges of the workspace, and the like.
+/// Motion of the model in a second with the puck at its end: edges of the workspace, degrees, factor.
 constexpr double kEdgesPerSecond = 0.5;
 constexpr double kDegreesPerSecond = 90.0;
 constexpr double kScalePerSecond = 2.0;
