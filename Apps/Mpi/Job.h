@@ -1,5 +1,5 @@
 /// @file
-/// The processes that mpirun has started, and how they fail together.
+/// The processes that mpirun has started; a failure of one ends all.
 #pragma once
 
 #include "MpiRanks.h"
@@ -15,12 +15,12 @@ namespace pointhaptics
 namespace app
 {
 
-/// Lives as long as main(): starts and ends MPI.
+/// Starts MPI and ends it with main().
 class Job
 {
 public:
   Job(int* argc, char*** argv);
-  /// Ends all processes at once where this one has not gone the whole way with the others: finish().
+  /// Ends all processes at once if this one has not reached finish().
   ~Job();
   Job(const Job&) = delete;
   Job& operator=(const Job&) = delete;

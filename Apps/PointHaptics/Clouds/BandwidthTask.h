@@ -40,7 +40,7 @@ struct BandwidthFigures
 BandwidthFigures bandwidthFigures(vtkPolyData* cloud);
 /// Joins the figures of two parts.
 BandwidthFigures together(const BandwidthFigures& a, const BandwidthFigures& b);
-/// Why there is no radius; empty where there is one.
+/// Reason why there is no radius; empty where there is one.
 std::string whyNone(const BandwidthCommandOptions& options, const BandwidthFigures& figures);
 CloudResult resultOf(const BandwidthCommandOptions& options, const BandwidthFigures& figures);
 

@@ -33,7 +33,7 @@ struct ResampleOptions
   void addTo(CLI::App& command);
   /// Ends the parse with a usage error where an option has no meaning beside the others.
   void check() const;
-  /// All but the voxel index.
+  /// Sets all options but the voxel index on @p resampler.
   void configure(vtkVoxelMeanResampler* resampler) const;
   /// Completes the means before they are written.
   void finish(vtkPolyData* means) const;
@@ -61,7 +61,7 @@ struct ResampleFigures
   std::int64_t invalid = 0;
 };
 
-/// Why no voxel is left.
+/// Reason why no voxel is left.
 std::string whyEmpty(const ResampleOptions& options, const ResampleFigures& figures);
 CloudResult resultOf(const ResampleOptions& options, const ResampleFigures& figures);
 

@@ -75,7 +75,7 @@ std::string header()
   return line;
 }
 
-/// In virtual time there is no servo loop with a limit of its own.
+/// Limit of the force; in virtual time no servo loop has a limit of its own.
 ForceLimit limitOf(const FeelOptions& options)
 {
   ForceLimit limit;
@@ -88,11 +88,11 @@ ForceLimit limitOf(const FeelOptions& options)
   return limit;
 }
 
-/// Rows and their summary.
+/// Writes rows and keeps their summary.
 class Rows
 {
 public:
-  /// @param recording gets what add() gets as a sample, if it is open; @p sound what is felt.
+  /// @param recording gets each sample of add(), if it is open; @param sound plays the touch.
   Rows(CsvWriter& table, RecordingWriter& recording, FeltSound& sound)
     : table_(table)
     , recording_(recording)
@@ -100,7 +100,7 @@ public:
   {
   }
   RecordingWriter& recording() { return recording_; }
-  /// At another time than the sample's, which counts from the first tick.
+  /// Adds a row with another time than the sample's, which counts from the first tick.
   void add(double time, const VirtualTouch& touch)
   {
     const ServoSample& sample = touch.sample();
@@ -148,7 +148,7 @@ private:
   std::uint64_t scene_ = 0;
 };
 
-/// A person pulled along @p path, who yields to the force; in virtual time.
+/// Moves a person's hand along @p path that yields to the force, in virtual time.
 bool walkYielding(const FeelOptions& options, FeelScenes& scenes, const HipPath& path, std::int64_t ticks,
   Rows& rows, std::string& message)
 {
@@ -214,7 +214,7 @@ void walk(const FeelOptions& options, FeelScenes& scenes, const HipPath& path, s
     });
 }
 
-/// The hand in the device, until the time is over or the user ends it.
+/// Feels with the hand in the device, until the time is over or the user ends it.
 bool touch(const FeelOptions& options, FeelScenes& scenes, Rows& rows, std::string& message)
 {
   LiveSettings live;
@@ -258,7 +258,7 @@ bool feelAs(const FeelOptions& options, FeelScenes& scenes, const HipPath& path,
   return !stopIsRequested();
 }
 
-/// Null: there is none.
+/// The limit as JSON; null: there is none.
 nlohmann::ordered_json limitJson(const ForceLimit& limit)
 {
   return std::isfinite(limit.newtons()) ? nlohmann::ordered_json(limit.newtons()) : nlohmann::ordered_json();
@@ -322,7 +322,7 @@ bool openSound(const FeelOptions& options, Files& files, FeltSound& sound, std::
   return options.soundFile.empty() || sound.open(files.output(options.soundFile), message);
 }
 
-/// A recording felt again.
+/// Feels a recording again.
 int runReplay(const FeelOptions& options, Files& files)
 {
   std::string message;
@@ -399,7 +399,7 @@ bool openRecordingOutput(const FeelOptions& options, vtkPolyData* cloud, Files& 
   return recording.open(files.output(options.record), header, message);
 }
 
-/// The box about the cloud in the workspace frame; empty where the cloud is fitted.
+/// Box about the cloud in the workspace frame; empty where the cloud is fitted.
 Bounds feltBox(const FeelOptions& options, vtkPolyData* cloud)
 {
   const AffineTransform transform = options.lattice.transform();
@@ -407,7 +407,7 @@ Bounds feltBox(const FeelOptions& options, vtkPolyData* cloud)
   return box.empty() ? box : boxOfCorners(box, [&](const Vec3& p) { return transform.apply(p); });
 }
 
-/// The path that the hand follows, in its units, and how many ticks it takes.
+/// Reads the path of the hand in its units, and counts its ticks.
 bool readPath(
   const FeelOptions& options, Files& files, HipPath& path, std::int64_t& ticks, std::string& message)
 {
