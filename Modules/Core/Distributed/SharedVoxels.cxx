@@ -145,7 +145,7 @@ Status SharedVoxels::merge(std::vector<std::string> messages, std::size_t rank, 
   return Status::Ok;
 }
 
-/// Memory that is no longer needed is freed at once: the messages need it.
+/// What is no longer needed is freed at once: its memory serves what is sent and what comes.
 Status SharedVoxels::share(Ranks& ranks, VoxelAccumulator own, int levels)
 {
   own.releaseScratch();

@@ -80,8 +80,8 @@ public:
     All
   };
 
-  /// Adds @p command with its default gestures, which are taken from the commands that had them. A command
-  /// with that name is replaced, and its present gestures stay.
+  /// Adds @p command with its default gestures, which are taken from the commands that had them. One with the
+  /// same name is replaced, and its gestures in force stay.
   void add(Command command);
   /// False: there is no such command.
   bool remove(const std::string& name);

@@ -30,7 +30,7 @@ public:
 
   /// Shows or hides the box; what it clips stays clipped.
   void toggle();
-  /// Shows the whole cloud again, without the box.
+  /// The whole cloud again; the box goes.
   void clear();
   /// Lets keys work on the next face.
   void chooseNextFace();

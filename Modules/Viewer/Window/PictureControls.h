@@ -30,7 +30,7 @@ public:
   void fitView();
   void toggleProjection();
   void toggleFullScreen();
-  /// Switches between one picture and two, in the last stereo mode.
+  /// Pictures for two eyes, as they were asked for last, or one.
   void toggleStereo();
   /// Lets the view turn about the cloud, or stops it.
   void toggleTurntable();

@@ -124,7 +124,7 @@ void ViewWindow::showBar(const std::string& words, double part)
   window_->SetWindowName(("PointHaptics: " + words).c_str());
 }
 
-/// True for Escape and the keys that quit.
+/// Escape, and the keys that quit.
 bool ViewWindow::isCancelKey()
 {
   const std::string key = interactor_->GetKeySym() ? interactor_->GetKeySym() : "";
@@ -275,7 +275,7 @@ void ViewWindow::connectStyle()
   check->SetCallback(
     [](vtkObject*, unsigned long, void* window, void*) { static_cast<ViewWindow*>(window)->onAbortCheck(); });
   abortCheck_ = window_->AddObserver(vtkCommand::AbortCheckEvent, check);
-  // Priority over the style, for which Escape may have another meaning.
+  // Before the style, for which Escape may have another meaning.
   cancelKey_->SetClientData(this);
   cancelKey_->SetCallback(
     [](vtkObject*, unsigned long, void* window, void*) { static_cast<ViewWindow*>(window)->onKey(); });

@@ -193,7 +193,8 @@ void ViewWindow::forgiveEscape()
   escapeIsLate_ = std::chrono::steady_clock::now() + kLateEscape;
 }
 
-/// Escape ends a load first, then a distance in the picture; it does not reach the style.
+/// Escape while a file is read is for the reader, then for a distance in the picture, and does not reach the
+/// style.
 void ViewWindow::onKey()
 {
   const char* key = interactor_->GetKeySym();
