@@ -75,8 +75,8 @@ struct ReadTask
     isCut = shared != nullptr;
     return shared ? shared->rowsOf(all) : RowRange{ 0, all };
   }
-  /// Handles a file that ends after @p there of @p all points, as @p what says: it is refused, or read as far
-  /// as it goes, with a note. @return @p there. @throws FileProblem.
+  /// What is to be done where the file, as @p what says, ends after @p there of @p all points: it is refused,
+  /// or read as far as it goes, with a note. @return @p there. @throws FileProblem.
   std::uint64_t endAt(std::uint64_t there, std::uint64_t all, const std::string& what)
   {
     if (!salvage || shared || there == 0)
@@ -90,7 +90,7 @@ struct ReadTask
     pointsThere = there;
     return there;
   }
-  /// Makes a rank read the whole file alone: for formats that cannot be read in parts.
+  /// The same as a rank that reads it alone: for what cannot be read in parts.
   void takeWhole()
   {
     shared = nullptr;

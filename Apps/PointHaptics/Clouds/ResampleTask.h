@@ -39,10 +39,9 @@ struct ResampleOptions
   void finish(vtkPolyData* means) const;
 };
 
-/// Notes on points of @p cloud far from all others: how they widen the automatic lattice, and which box
-/// leaves them out. There is none where it @p isDone with voxels of a given size that no others are coarser
-/// than. Another note says that rays which did not return are resampled. Collective where @p ranks have parts
-/// of the cloud: the same on all.
+/// What a few points of @p cloud far from all others do to the automatic lattice, and how they are left out:
+/// not where it @p isDone with voxels of a given size, of which no other is coarser for it. And that rays
+/// which did not return are resampled. Collective where @p ranks have parts of the cloud: the same on all.
 std::vector<std::string> oddPointsNotes(
   const ResampleOptions& options, bool isDone, vtkPolyData* cloud, Ranks& ranks);
 

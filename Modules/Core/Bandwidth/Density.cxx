@@ -11,7 +11,7 @@ namespace
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kTwoPi = 6.28318530717958647693;
 
-/// Weight of each kernel, by slot, and their sum.
+/// What each kernel counts, by slot, and the sum of all.
 struct Weights
 {
   const NeighborQuery& query;

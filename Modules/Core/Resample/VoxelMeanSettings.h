@@ -31,8 +31,7 @@ struct VoxelMeanSettings
   bool computeCovariance = false;                                 ///< Six second moments a voxel.
   bool passAttributes = true;                                     ///< Average the arrays of the points.
   std::set<std::string> categoricalArrays = { "Classification" }; ///< Most frequent value instead of a mean.
-  Representative representative = Representative::Mean;           ///< Representative of the points of a
-                                                                  ///< voxel.
+  Representative representative = Representative::Mean;           ///< What stands for the points of a voxel.
   int minimumPointsPerVoxel = 1;                             ///< Voxels with fewer are left out; at least 1.
   bool computeVoxelIndex = false;                            ///< One more output: the voxel of each point.
   bool keepOriginalPointIds = false;                         ///< Which point stands for each voxel.

@@ -18,12 +18,11 @@ namespace
 {
 
 constexpr vtkIdType kLookedAt = 10000;
-constexpr vtkIdType kFewest = 100;      ///< No point of a smaller cloud is called far.
+constexpr vtkIdType kFewest = 100;      ///< Of fewer points none is called far.
 constexpr std::int64_t kUsualCut = 100; ///< One in so many is cut off at each end of an axis, at least.
-constexpr double kMostLength = 0.1;     ///< Longest side of the others, over that of all points, up to which
-                                        ///< points are far.
+constexpr double kMostLength = 0.1;     ///< Of the others' longest side over that of all.
 
-/// True for coordinates that files have in the place of unmeasured ones.
+/// What files have in the place of coordinates that were not measured.
 bool isNoData(const Vec3& p)
 {
   constexpr double kNoData[] = { -9999.0, -99999.0, -32768.0 };

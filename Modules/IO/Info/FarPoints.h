@@ -20,7 +20,7 @@ struct FarPoints
 {
   std::int64_t count = 0; ///< 0: there are none.
   std::int64_t of = 0;    ///< Finite points of the cloud.
-  Bounds others;          ///< Bounds of the points that are not far; of all where none is.
+  Bounds others;          ///< Of the points that are not far; of all where none is.
 
   /// "1 of 3,001 points is far from all others".
   POINTHAPTICSIO_EXPORT std::string text() const;

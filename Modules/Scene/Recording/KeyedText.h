@@ -156,7 +156,7 @@ inline bool split(const std::string& text, Words& words)
   return true;
 }
 
-/// True if what is felt depends on a member of this type: not on names.
+/// Whether what is felt depends on a member of this type: not on names.
 template <typename Member>
 constexpr bool matters = !std::is_same_v<std::remove_const_t<Member>, std::set<std::string>>;
 

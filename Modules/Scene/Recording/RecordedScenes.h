@@ -28,10 +28,10 @@ public:
   RecordedScenes(const Recording& recording, vtkPointSet* cloud);
   ~RecordedScenes();
 
-  /// True if @p cloud is the one that was felt. False: @p message says what differs.
+  /// Whether @p cloud is the one that was felt. False: @p message says what differs.
   static bool isOf(const Recording& recording, vtkPointSet* cloud, std::string& message);
-  /// Makes the scene of an event of the recording, each once and in their order; null where there was none.
-  /// False: @p message says why it cannot be made.
+  /// Of an event of the recording, and of each once, in their order; null where there was none. False: @p
+  /// message says why it cannot be made.
   bool make(const RecordedEvent& event, std::shared_ptr<const HapticScene>& scene, std::string& message);
 
 private:

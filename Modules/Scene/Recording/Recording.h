@@ -35,7 +35,7 @@ struct RecordedFiles
 /// Checksum of the coordinates of @p cloud, in their order and type.
 POINTHAPTICSSCENE_EXPORT std::uint64_t checksumOf(vtkPointSet* cloud);
 
-/// A change that takes effect before a tick is felt.
+/// What changes before a tick is felt.
 struct RecordedEvent
 {
   enum class Kind
@@ -54,9 +54,8 @@ struct RecordedEvent
   std::uint64_t tick = 0;
   Kind kind = Kind::Scene;
   bool on = false;
-  std::uint64_t number = 0;   ///< Number of the parameters, or of the scene's cloud; 0: there is no scene.
-  std::uint64_t fallback = 0; ///< Cloud of the scene that is felt where a local scene ends; 0: the scene is
-                              ///< global.
+  std::uint64_t number = 0;   ///< Of parameters, or of the cloud of a scene; 0: there is no scene.
+  std::uint64_t fallback = 0; ///< Cloud of what is felt where a scene of a part ends; 0: the scene is whole.
   AffineTransform model;      ///< From the file to the workspace.
 };
 
@@ -98,7 +97,7 @@ struct Recording
   std::vector<RecordedEvent> events; ///< By tick.
   std::vector<RecordedTick> ticks;   ///< Ascending; not empty.
   std::vector<RecordedLabel> labels;
-  std::string note; ///< Says in a sentence that the recording was not ended; empty: it was.
+  std::string note; ///< That the recording was not ended, in a sentence; empty: it was.
 };
 
 /// Reads a recording. False: @p message says file, line, value and cure. What it accepts can be replayed:

@@ -35,7 +35,7 @@ bool startsWith(const std::string& text, const std::string& with)
   return text.rfind(with, 0) == 0;
 }
 
-/// True if a scene of @p origin may have such a fallback: a part has one, unless it was made before there was
+/// Whether a scene of @p origin may have such a fallback: a part has one, unless it was made before there was
 /// a whole.
 bool mayEnd(const SceneOrigin& origin, std::uint64_t fallback)
 {
@@ -193,7 +193,7 @@ bool Reader::takeServo(const std::string& text)
       quote(text) + ": a servo setting is missing or out of range; take the header as it was written");
 }
 
-/// Reads the settings of the means that a scene is made of.
+/// What a scene is made of: means, and one level of them.
 bool Reader::takeVoxels(const keyed::Words& words, SceneOrigin& origin, std::string& wrong)
 {
   VoxelMeanSettings& voxels = origin.voxels;

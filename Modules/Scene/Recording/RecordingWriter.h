@@ -78,7 +78,7 @@ private:
   std::array<double, kFelt + 2> row_{}; ///< The newest; its marker may still come.
   bool hasRow_ = false;
   std::deque<std::uint64_t> marks_;  ///< Ticks of markers that are not written yet, ascending.
-  std::deque<RecordedLabel> labels_; ///< Texts of markers that are not written yet.
+  std::deque<RecordedLabel> labels_; ///< Of markers that are not written yet.
   std::uint64_t lastMark_ = 0;       ///< Tick of the newest marker, written or not.
   std::uint32_t markers_ = 0;
   std::uint64_t numberOfTicks_ = 0;
