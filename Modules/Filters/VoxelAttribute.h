@@ -43,7 +43,7 @@ public:
   /// Keeps a reference to @p input; if its memory is not plain tuples of numbers, it is copied first. @p
   /// known: values() of an earlier object of the same input and kind, or null.
   VoxelAttribute(vtkDataArray* input, AttributeKind kind, const AttributeValues* known = nullptr);
-  /// For requests of which many are made: each looks for the range otherwise.
+  /// Finds the range once, for many requests: without it each looks for it.
   void findRange(InstructionSet instructions, const Executor& executor);
   const AttributeValues& values() const { return values_; }
 
@@ -60,7 +60,7 @@ public:
     const std::vector<std::int64_t>& points, ArrayPool& pool, const Executor& executor) const;
 
 private:
-  vtkSmartPointer<vtkDataArray> input_; ///< As given.
+  vtkSmartPointer<vtkDataArray> input_; ///< The array as given.
   vtkSmartPointer<vtkDataArray> plain_; ///< The input as tuples in memory.
   AttributeKind kind_;
   AttributeView view_; ///< View of plain_.

@@ -46,7 +46,7 @@ public:
   void* allocate(std::size_t part, std::size_t bytes) override;
   /// Moves the memory of a part into @p array, of so many tuples; where there is none, allocates it.
   void take(std::size_t part, vtkDataArray* array, std::int64_t tuples);
-  /// Frees what was not taken.
+  /// Frees the memory that no array took.
   void release();
 
 private:
@@ -58,7 +58,7 @@ private:
 
 // Memory comes from the @p allocator that the engine wrote to.
 
-/// @p singlePrecision: that of the request.
+/// Makes points of the means. @p singlePrecision: that of the request.
 vtkSmartPointer<vtkPoints> makePoints(
   const VoxelResampler& engine, bool singlePrecision, ArrayAllocator& allocator, const Executor& executor);
 /// The engine's result for the array of @p attribute: the tuples of points where a representative is a point

@@ -36,7 +36,7 @@ inline Bounds grown(const Bounds& box, double margin) noexcept
   return result;
 }
 
-/// As scanners write rays that did not return.
+/// True for the origin, at which scanners write rays that did not return.
 inline bool isAtZero(const Vec3& p) noexcept
 {
   return norm2(p) == 0.0;

@@ -19,7 +19,7 @@ public:
   using Body = void (*)(void* context, std::int64_t begin, std::int64_t end);
 
   virtual ~Executor() = default;
-  /// Most bodies that run concurrently.
+  /// Largest number of bodies that run concurrently.
   virtual int concurrency() const { return 1; }
   /// Pieces have at least @p grain elements where there are as many; the body is not called for none.
   virtual void run(std::int64_t count, std::int64_t grain, void* context, Body body) const

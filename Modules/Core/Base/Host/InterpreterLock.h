@@ -9,12 +9,12 @@ namespace pointhaptics
 struct InterpreterLock
 {
   int (*isHeld)() = nullptr;     ///< True if the calling thread holds the lock; null: there is no lock.
-  void* (*release)() = nullptr;  ///< Gives it up; the result is for take().
-  void (*take)(void*) = nullptr; ///< Waits for it.
+  void* (*release)() = nullptr;  ///< Gives the lock up; the result is for take().
+  void (*take)(void*) = nullptr; ///< Waits for the lock.
   int (*isEnding)() = nullptr;   ///< True if the interpreter ends and gives the lock to nobody; may be null.
 };
 
-/// Sets the lock of this process. Before other threads use this library.
+/// Sets the lock of this process. Call it before other threads use this library.
 void setInterpreterLock(const InterpreterLock& lock) noexcept;
 
 /// While it lives the calling thread is without the interpreter's lock, so that other threads of the
