@@ -132,7 +132,7 @@ void VoxelResampler::Implementation::writeRun(
   {
     const AttributeRequest& array = request.attributes[i];
     run.tallies[i].write({ array.view.type, array.view.components, array.statistic }, first, last,
-      writer.counts() + to, columns, kernelsFor(request.instructions).attributes, writer.attribute(i, to));
+      writer.counts() + to, columns, writer.attribute(i, to));
   }
 }
 

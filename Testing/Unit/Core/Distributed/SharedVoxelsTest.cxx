@@ -218,7 +218,7 @@ TEST(SharedVoxels, ArraysAreThoseOfOneRun)
   const Lattice lattice = latticeOf(12, 11, 10);
   const std::vector<Vec3> points = cloudOf(lattice);
   const Arrays arrays(9);
-  VoxelRequest request = requestOf(points, lattice, 1);
+  VoxelRequest request = requestOf(points, lattice);
   const std::vector<AttributeView> views = viewsOf(arrays, 0, std::int64_t(kPoints));
   for (std::size_t i = 0; i < views.size(); ++i)
   {
