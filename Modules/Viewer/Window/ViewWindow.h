@@ -151,7 +151,7 @@ private:
   void endLoading(bool isShown);
   void cancelLoading();
   void forgiveEscape();
-  void onKey();
+  void leave();
   void show(LoadedCloud cloud);
   void warn(const std::vector<std::string>& notes);
   void followOptions();
@@ -192,6 +192,8 @@ private:
   Loading loading_;          ///< While loader_ is busy.
   /// Until then Escape is taken as meant for the bar that has just gone.
   std::chrono::steady_clock::time_point escapeIsLate_;
+  /// Until then Escape quits, although the touch is recorded.
+  std::chrono::steady_clock::time_point escapeQuits_;
   bool isOpen_ = false;
   bool isStarted_ = false;
   int writtenSettings_ = 0;
@@ -210,7 +212,6 @@ private:
   ColorBarDrag colorBar_;
   DistanceMeasuring measuring_;
   ClipBoxTool clipping_;
-  vtkNew<vtkCallbackCommand> cancelKey_;
   std::shared_ptr<IdealForce> wholeIdeal_; // for the same
   CsvWriter trace_;
   RecordingWriter recording_;
