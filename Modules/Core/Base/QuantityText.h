@@ -8,8 +8,8 @@
 namespace pointhaptics
 {
 
-/// "12 m", "0.31 mm", "45 um": @p digits significant digits, 1 to 3, in the unit (km, m, mm, um, nm, pm) in which
-/// the number is from 0.1 to 999; "0 mm" for zero. What is not finite is called "unknown".
+/// "12 m", "0.31 mm", "45 um": @p digits significant digits, 1 to 3, in the unit (km, m, mm, um, nm, pm) in
+/// which the number is from 0.1 to 999; "0 mm" for zero. What is not finite is called "unknown".
 std::string lengthText(double metres, int digits = 3);
 
 /// The same for a length that is told in @p unitName, of @p metresPerUnit, where the number is from 0.1 to

@@ -6,8 +6,8 @@
 #include "vtkKernelBandwidthFilter.h"
 #include "vtkVoxelMeanResampler.h"
 
-#include "Unit/Eventually.h"
 #include "FlatCloud.h"
+#include "Unit/Eventually.h"
 
 #include "Haptics/ServoLoop.h"
 
