@@ -11,11 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace pointhaptics
-{
-namespace bench
-{
-namespace resample
+namespace pointhaptics::bench::resample
 {
 
 struct ExpectedMeans
@@ -44,6 +40,4 @@ struct Verdict
 /// be wrong (points at faces), means by 1e-3 voxel.
 Verdict judge(const ResampleAnswer& answer, const ExpectedMeans& expected, ComparedWith with);
 
-} // namespace resample
-} // namespace bench
-} // namespace pointhaptics
+} // namespace pointhaptics::bench::resample

@@ -9,11 +9,7 @@
 #include <sched.h>
 #endif
 
-namespace pointhaptics
-{
-namespace bench
-{
-namespace servo
+namespace pointhaptics::bench::servo
 {
 
 namespace
@@ -115,6 +111,4 @@ void EmptyLoop::run()
   }
 }
 
-} // namespace servo
-} // namespace bench
-} // namespace pointhaptics
+} // namespace pointhaptics::bench::servo

@@ -9,11 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace pointhaptics
-{
-namespace bench
-{
-namespace touch
+namespace pointhaptics::bench::touch
 {
 
 constexpr std::size_t kStatusBits = 16;
@@ -90,6 +86,4 @@ private:
   std::array<std::int64_t, kStatusBits> status_{};
 };
 
-} // namespace touch
-} // namespace bench
-} // namespace pointhaptics
+} // namespace pointhaptics::bench::touch

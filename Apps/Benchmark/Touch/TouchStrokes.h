@@ -7,11 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace pointhaptics
-{
-namespace bench
-{
-namespace touch
+namespace pointhaptics::bench::touch
 {
 
 constexpr double kTickSeconds = 1e-3;
@@ -71,6 +67,4 @@ constexpr double kForceFloor = 0.04; ///< N.
 
 TouchTruth truthOf(const TriangleTree& tree, const TouchStroke& stroke, double stiffness, std::uint64_t seed);
 
-} // namespace touch
-} // namespace bench
-} // namespace pointhaptics
+} // namespace pointhaptics::bench::touch

@@ -13,11 +13,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pointhaptics
-{
-namespace bench
-{
-namespace bandwidth
+namespace pointhaptics::bench::bandwidth
 {
 
 /// The neighbourhood of one point, the point itself among it.
@@ -61,6 +57,4 @@ void loopOver(std::int64_t count, bool parallel, Piece&& piece)
   }
 }
 
-} // namespace bandwidth
-} // namespace bench
-} // namespace pointhaptics
+} // namespace pointhaptics::bench::bandwidth

@@ -6,11 +6,7 @@
 
 #include <memory>
 
-namespace pointhaptics
-{
-namespace bench
-{
-namespace touch
+namespace pointhaptics::bench::touch
 {
 
 /// A thread that looks where the hand is in every tick and makes a scene where one is due, which the hand
@@ -37,6 +33,4 @@ private:
   std::shared_ptr<const HapticScene> coming_;
 };
 
-} // namespace touch
-} // namespace bench
-} // namespace pointhaptics
+} // namespace pointhaptics::bench::touch

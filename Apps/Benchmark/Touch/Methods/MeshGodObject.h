@@ -8,11 +8,7 @@
 #include <array>
 #include <memory>
 
-namespace pointhaptics
-{
-namespace bench
-{
-namespace touch
+namespace pointhaptics::bench::touch
 {
 
 /// The triangles of a mesh in a tree of boxes. Read only after construction; any thread. Metres.
@@ -106,6 +102,4 @@ private:
   bool placed_ = false;
 };
 
-} // namespace touch
-} // namespace bench
-} // namespace pointhaptics
+} // namespace pointhaptics::bench::touch

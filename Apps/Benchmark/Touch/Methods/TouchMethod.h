@@ -12,11 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace pointhaptics
-{
-namespace bench
-{
-namespace touch
+namespace pointhaptics::bench::touch
 {
 
 struct TouchSceneSettings
@@ -69,6 +65,4 @@ std::vector<Contestant> contestantsNamed(
 std::unique_ptr<TouchMethod> proxyWithoutPrefetch(
   const ContactParameters& contact, InstructionSet wanted = InstructionSet::Automatic);
 
-} // namespace touch
-} // namespace bench
-} // namespace pointhaptics
+} // namespace pointhaptics::bench::touch
