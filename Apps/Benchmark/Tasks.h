@@ -24,7 +24,7 @@ struct Task
   std::string name;                 ///< On the command line: one word.
   std::string description;          ///< In the help, without a full stop.
   int repetitions = 15;             ///< The default; 0: there is no such option.
-  int quickRepetitions = 3;         ///< The same with --quick.
+  int quickRepetitions = 3;         ///< The default with --quick.
   bool hasThreads = false;          ///< Whether --threads means anything to it.
   std::vector<std::string> studies; ///< For --studies; with one there is no such option.
   std::vector<std::string> rivals;  ///< For --rivals: those that were built; empty: there is no such option.

@@ -11,8 +11,8 @@
 namespace pointhaptics::bench
 {
 
-/// What a rival's module exports: an extern "C" function without arguments that makes the rival. Each task
-/// has a face of its own for rivals: the function returns a pointer to a new one, the caller's.
+/// Name of the export of a rival's module: an extern "C" function without arguments that makes the rival.
+/// Each task has a face of its own for rivals: the function returns a pointer to a new one, the caller's.
 constexpr const char* kMakeRival = "pointhapticsMakeRival";
 
 /// That function of the module in @p file, which is found beside the program's libraries. @p word names the

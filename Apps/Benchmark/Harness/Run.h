@@ -28,7 +28,7 @@ public:
   std::function<void(const Json&)> print; ///< Given each row as it comes, with its study; may be empty.
 
   bool wants(const std::string& study) const;
-  /// What was given, or else @p few of a quick run, or else @p full.
+  /// Returns @p given, or else @p few of a quick run, or else @p full.
   template <class Value>
   Value chosen(const Value& given, const Value& full, const Value& few) const
   {

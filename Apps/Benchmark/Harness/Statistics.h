@@ -1,5 +1,5 @@
 /// @file
-/// What is said of repeated measurements: quartiles, and ratios of measurements taken side by side.
+/// Summaries of repeated measurements: quartiles, and ratios of measurements taken side by side.
 #pragma once
 
 #include <cstddef>

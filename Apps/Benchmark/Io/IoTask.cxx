@@ -1,4 +1,4 @@
-/// What do our reader and writer take beside those of VTK and PCL?
+/// How long do our reader and writer take beside those of VTK and PCL?
 #include "Benchmark/Harness/Machine.h"
 #include "Benchmark/Harness/Race.h"
 #include "Benchmark/Harness/RivalModule.h"
@@ -330,7 +330,7 @@ void raceOn(Run& run, const Kind& kind, vtkPolyData* cloud, const Folder& folder
   }
 }
 
-/// What our reader holds beyond the file and the result.
+/// Memory that our reader holds beyond the file and the result.
 void measureMemory(Run& run, const Kind& kind, vtkPolyData* cloud, const Folder& folder)
 {
   run.say(fmt::format("memory for {}", kind.name));

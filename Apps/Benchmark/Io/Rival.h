@@ -25,7 +25,7 @@ class Rival
 {
 public:
   virtual ~Rival() = default;
-  /// What is called for files of this kind: "vtkPLYReader"; empty: it cannot.
+  /// The class or function for files of this kind: "vtkPLYReader"; empty: there is none.
   virtual std::string readerOf(FileKind kind) const = 0;
   virtual std::string writerOf(FileKind kind) const = 0;
 

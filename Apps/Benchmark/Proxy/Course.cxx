@@ -112,7 +112,7 @@ ExactContact exactContact(Shape shape, const Vec3& hip, double stiffness)
   SurfacePoint foot = closestPoint(shape, hip);
   if (shape == Shape::Sheet)
   {
-    // Of its two sides the one the hand came from.
+    // The hand came from the upper one of its two sides.
     foot.point = { hip.x, hip.y, kSheetTop };
     foot.normal = { 0.0, 0.0, 1.0 };
     foot.distance = hip.z - kSheetTop;

@@ -12,7 +12,8 @@ namespace pointhaptics::bench::proxy
 
 constexpr double kTickSeconds = 1e-3;
 constexpr double kTwoPi = 6.28318530717958647692;
-constexpr double kSmallestMove = 1e-6; ///< Of a hand, metres: steps of force after less are not looked at.
+constexpr double kSmallestMove =
+  1e-6; ///< Metres of a hand's way below which a step of the force is not looked at.
 
 /// HIP positions in metres, one a tick. The sheet's answer depends on the side the hand came from: courses
 /// come from outside, above.
@@ -25,7 +26,7 @@ struct Course
   std::size_t loopTicks = 0;
 };
 
-/// What a spring of @p stiffness N/m must answer at @p hip, for a hand that came from the upper or outer
+/// The answer of a spring of @p stiffness N/m at @p hip, for a hand that came from the upper or outer
 /// side.
 struct ExactContact
 {

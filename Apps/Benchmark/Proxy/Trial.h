@@ -13,7 +13,7 @@ namespace pointhaptics::bench::proxy
 
 using ExactAnswer = std::function<ExactContact(const Vec3& hip)>;
 
-/// What a run came to. Errors over all ticks at least 20 um deep; percent of the RMS exact force.
+/// Figures of a run. Errors over all ticks at least 20 um deep; percent of the RMS exact force.
 struct TrialFigures
 {
   double rmsPercent = 0.0;
@@ -25,7 +25,7 @@ struct TrialFigures
   int popThroughs = 0;      ///< Ticks without contact although more than 20 um deep.
   int falseTicks = 0;       ///< Ticks with force although more than 20 um outside.
   int contactTicks = 0;
-  double p50 = 0.0; ///< Of the update times in contact, microseconds.
+  double p50 = 0.0; ///< Median update time in contact, microseconds.
   double p99 = 0.0;
   double p999 = 0.0;
   double maximum = 0.0;

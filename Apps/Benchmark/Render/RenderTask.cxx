@@ -30,13 +30,13 @@ struct Options
   bool noF3d = false;
 };
 
-/// What is drawn, and how much of it.
+/// The files to draw, and the pictures of each.
 struct Plan
 {
   std::vector<std::string> files;
   int width = 1280;
   int height = 720;
-  int frames = 60; ///< Of a turn; half as many come before, untimed, for the budget to settle.
+  int frames = 60; ///< Frames of a turn; half as many come before, untimed, for the budget to settle.
   bool withF3d = true;
 };
 

@@ -25,7 +25,7 @@ public:
   /// Reads and resamples @p file and draws it. False: @p message says why there is no picture. Call it once.
   bool open(const std::string& file, int width, int height, std::string& message);
 
-  /// What the viewer takes the file for: "object", "terrain", "sweep", "indoors" or "frame".
+  /// The kind of cloud as the viewer sees it: "object", "terrain", "sweep", "indoors" or "frame".
   std::string kind() const;
   /// Level of detail on or off, from the next frame on.
   void setDetail(bool on);

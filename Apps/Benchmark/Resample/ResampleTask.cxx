@@ -1,4 +1,4 @@
-/// What does mean resampling take beside PCL, and with everything else that the filter can be asked for?
+/// How long does mean resampling take beside PCL, and with everything else that the filter can be asked for?
 #include "Benchmark/Harness/Race.h"
 #include "Benchmark/Harness/RivalModule.h"
 #include "Benchmark/Resample/Expected.h"
@@ -155,13 +155,13 @@ struct Options
   int instructions = 0;
 };
 
-/// What the filter is asked for.
+/// Settings of the filter.
 struct Mode
 {
   std::string name = "ours";
   bool automaticWorkspace = false;
   bool covariance = false;
-  std::vector<std::string> arrays; ///< Of the cloud, those that are reduced; the others are not passed in.
+  std::vector<std::string> arrays; ///< Arrays of the cloud that are reduced; the others are not passed in.
   Representative representative = Representative::Mean;
   bool voxelIndex = false;
 };

@@ -21,7 +21,7 @@ enum class Cores
   TheLast
 };
 
-/// Of those the process may use. False: there is but one.
+/// Keeps this thread to some of the cores of the process. False: the process has one core.
 bool keepTo([[maybe_unused]] Cores which)
 {
 #ifdef __linux__

@@ -66,11 +66,11 @@ struct Setting
 struct Outcome
 {
   ServoStatistics statistics;
-  double contactFraction = 0.0; ///< Of the traced ticks.
-  double largestError = 0.0;    ///< Of the force against that of the ideal sphere, N.
+  double contactFraction = 0.0; ///< Part of the traced ticks.
+  double largestError = 0.0;    ///< Error of the force against that of the ideal sphere, N.
   double framesPerSecond = 0.0;
-  /// Of an empty loop beside this one, at the same time; where the machine was idle otherwise and a core was
-  /// left for it.
+  /// Figures of an empty loop beside this one, at the same time; where the machine was idle otherwise and a
+  /// core was left for it.
   struct Empty
   {
     std::uint64_t deadlineMisses = 0;

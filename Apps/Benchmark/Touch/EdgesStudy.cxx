@@ -1,4 +1,4 @@
-/// What does a hand meet that slides over the edge or the corner of a box into free space?
+/// Is a hand let go that slides over the edge or the corner of a box into free space?
 #include "Benchmark/Touch/Studies.h"
 
 #include "Core/Base/PortableRandom.h"
@@ -14,7 +14,7 @@ namespace pointhaptics::bench::touch
 namespace
 {
 
-constexpr double kHalf = 0.025; ///< Of Shape::Box.
+constexpr double kHalf = 0.025; ///< Half an edge of Shape::Box.
 constexpr double kBeyond = 0.015;
 constexpr int kTicksAtRest = 100;
 constexpr double kLeastOutside = 5e-4;
@@ -113,7 +113,7 @@ std::vector<EdgeCloud> cloudsOf(const TouchBenchmarkOptions& options)
   return { { 47516, 0.0 }, { options.points, 0.0 }, { options.points, 20e-6 } };
 }
 
-/// The same, turned away from the axes where asked.
+/// Strokes and their truths, turned away from the axes where asked.
 std::vector<TouchTask> tasksOver(bool turned, const std::vector<TouchStroke>& strokes)
 {
   TouchMesh mesh =

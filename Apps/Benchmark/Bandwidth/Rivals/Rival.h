@@ -16,11 +16,11 @@ namespace pointhaptics::bench::bandwidth
 constexpr double kRadiusScale = 4.0;
 constexpr double kSmallestRadiusInSpacings = 2.2;
 
-/// What every contestant is asked to do.
+/// The task of every contestant.
 struct BandwidthTask
 {
   vtkPolyData* cloud = nullptr; ///< Float points. Stays the caller's.
-  PointView points;             ///< The same.
+  PointView points;             ///< The points of @p cloud.
   int neighbors = 16;           ///< Besides the point itself.
 };
 

@@ -1,5 +1,5 @@
 /// @file
-/// What the loops over other libraries' searches share: from neighbours to bandwidth and radius as
+/// Common part of the loops over other libraries' searches: from neighbours to bandwidth and radius as
 /// vtkKernelBandwidthFilter defines them, and the loop itself.
 #pragma once
 

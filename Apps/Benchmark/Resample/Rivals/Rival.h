@@ -14,7 +14,7 @@ class vtkPolyData;
 namespace pointhaptics::bench::resample
 {
 
-/// What every contestant of a race is asked to do.
+/// The task of every contestant of a race.
 struct ResampleTask
 {
   vtkPolyData* cloud = nullptr; ///< Float points, no cells. Stays the caller's.
@@ -23,16 +23,16 @@ struct ResampleTask
   double leaf = 0.0;            ///< Edge of a voxel.
 };
 
-/// What came out, and the lattice it is meant to be on.
+/// A result, and the lattice it is meant to be on.
 struct ResampleAnswer
 {
   Lattice lattice;
   std::vector<double> xyz;
   std::vector<std::int64_t> counts; ///< Empty where the rival has none.
-  std::string fault;                ///< What is wrong before any number is compared; empty: nothing.
+  std::string fault;                ///< A fault that needs no comparison of numbers; empty: there is none.
 };
 
-/// What an answer is compared with.
+/// The rule by which an answer is judged.
 enum class ComparedWith
 {
   ExactMeans,  ///< To the last digit, in the order of the voxels.

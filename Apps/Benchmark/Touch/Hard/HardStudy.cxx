@@ -208,7 +208,7 @@ Row strokesRow(StudyContext& context, const HardScene& hard, const TouchScene& s
 Row loopRow(StudyContext& context, const HardScene& hard, const TouchScene& scene)
 {
   constexpr double kTrembles = 10e-6;
-  constexpr double kIsStill = 5e-6; ///< Of a plane; half, so that no run hangs on a micrometre.
+  constexpr double kIsStill = 5e-6; ///< A plane's; half, so that no run hangs on a micrometre.
   Row row;
   row.name = "loop " + hard.name;
   row.points = scene.points->size();

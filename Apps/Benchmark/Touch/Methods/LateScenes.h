@@ -19,8 +19,8 @@ public:
   /// tick in which it was due.
   LateScenes(LocalSceneBuilder& builder, std::shared_ptr<const HapticScene> global, int lateTicks);
 
-  /// Of the next tick. @param touched what the hand touched in the last one: the HIP out of contact. @return
-  /// what is to be felt; valid until the next but one call.
+  /// Advances to the next tick. @param touched the contact point of the last one: the HIP out of contact.
+  /// @return what is to be felt; valid until the next but one call.
   const HapticScene* at(const Vec3& hip, const Vec3& touched);
 
 private:
