@@ -13,9 +13,7 @@
 
 #include <memory>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 namespace
 {
@@ -69,5 +67,4 @@ void addBandwidthCommand(CLI::App& program, int& exitCode)
   runAs(*command, exitCode, { run });
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

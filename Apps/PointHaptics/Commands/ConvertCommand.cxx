@@ -13,9 +13,7 @@
 
 #include <memory>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 namespace
 {
@@ -81,5 +79,4 @@ void addConvertCommand(CLI::App& program, int& exitCode)
   runAs(*command, exitCode, { run, [options] { complete(*options); } });
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

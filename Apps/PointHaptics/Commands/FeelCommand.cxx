@@ -39,9 +39,7 @@
 #include <optional>
 #include <vector>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 namespace
 {
@@ -500,5 +498,4 @@ void addFeelCommand(CLI::App& program, int& exitCode)
       [options](Files& files) { options->declareMore(files); } });
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

@@ -19,9 +19,7 @@
 #include <cstring>
 #include <memory>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 namespace
 {
@@ -118,5 +116,4 @@ void addGenerateCommand(CLI::App& program, int& exitCode)
   runAs(*command, exitCode, { [options](Files& files) { return runGenerate(*options, files); } });
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

@@ -16,9 +16,7 @@
 #include <memory>
 #include <string>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 namespace
 {
@@ -96,5 +94,4 @@ void addResampleCommand(CLI::App& program, int& exitCode)
   runAs(*command, exitCode, { run, [options] { options->check(); } });
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

@@ -21,9 +21,7 @@
 #include <string>
 #include <vector>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 namespace
 {
@@ -231,5 +229,4 @@ void addViewCommand(CLI::App& program, int& exitCode)
       [options](Files& files) { options->declareMore(files); } });
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

@@ -28,9 +28,7 @@
 #include <utility>
 #include <vector>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 namespace
 {
@@ -275,5 +273,4 @@ void addCompareCommand(CLI::App& program, int& exitCode)
       [options](Files& files) { declareRecordedClouds(options->recording, options->cloud, files); } });
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

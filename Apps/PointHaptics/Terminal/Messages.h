@@ -10,9 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 
 /// A fault that ends the command with kFailed: what, where and the cure.
@@ -83,5 +81,4 @@ void collectVtkMessages();
 std::vector<std::string> takeVtkErrors();
 std::vector<std::string> takeVtkWarnings();
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app
