@@ -33,16 +33,11 @@ CloudResult addBandwidths(const BandwidthCommandOptions& options, Cloud& cloud, 
   }
   const BandwidthFigures figures = bandwidthFigures(filter->GetOutput());
   message = whyNone(options, figures);
-  if (!message.empty())
-  {
-    throw Failure(message);
-  }
+  require(message.empty(), message);
   showWarnings(kBandwidthCommand);
-  if (!writeCloud(
-        filter->GetOutput(), options.files.output, files, kBandwidthCommand, message, options.files.writing))
-  {
-    throw Failure(message);
-  }
+  require(writeCloud(filter->GetOutput(), options.files.output, files, kBandwidthCommand, message,
+            options.files.writing),
+    message);
   return resultOf(options, figures);
 }
 

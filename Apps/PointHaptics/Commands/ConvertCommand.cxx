@@ -49,10 +49,9 @@ CloudResult convert(const CloudToCloudOptions& options, Cloud& cloud, Files& fil
   showWarnings(kConvertCommand);
   std::string message;
   vtkIdType written = 0;
-  if (!writeCloud(cloud.points, options.output, files, kConvertCommand, message, options.writing, &written))
-  {
-    throw Failure(message);
-  }
+  require(
+    writeCloud(cloud.points, options.output, files, kConvertCommand, message, options.writing, &written),
+    message);
   const std::vector<std::string> inputs =
     options.merge ? options.inputs : std::vector<std::string>{ options.input };
   return { fmt::format("{}: {}", countOfPoints(written), options.output),

@@ -29,10 +29,7 @@ CloudResult resample(const ResampleOptions& options, Cloud& cloud, Files& files)
   std::string message;
   CsvWriter index;
   const bool wantsIndex = !options.voxelIndex.empty();
-  if (wantsIndex && !openVoxelIndex(files.output(options.voxelIndex), index, message))
-  {
-    throw Failure(message);
-  }
+  require(!wantsIndex || openVoxelIndex(files.output(options.voxelIndex), index, message), message);
   vtkNew<vtkVoxelMeanResampler> resampler;
   resampler->SetInputData(cloud.points);
   options.configure(resampler);
@@ -56,18 +53,13 @@ CloudResult resample(const ResampleOptions& options, Cloud& cloud, Files& files)
   }
   showWarnings(kResampleCommand);
   options.finish(resampler->GetOutput());
-  if (!writeCloud(resampler->GetOutput(), options.files.output, files, kResampleCommand, message,
-        options.files.writing))
-  {
-    throw Failure(message);
-  }
+  require(writeCloud(resampler->GetOutput(), options.files.output, files, kResampleCommand, message,
+            options.files.writing),
+    message);
   if (wantsIndex)
   {
     addVoxelIndex(voxelIndexOf(resampler), index);
-    if (!index.commit(message))
-    {
-      throw Failure(message);
-    }
+    require(index.commit(message), message);
   }
   return resultOf(options, figures);
 }

@@ -19,6 +19,14 @@ class Failure : public std::runtime_error
 public:
   using std::runtime_error::runtime_error;
 };
+/// Throws a Failure with @p message where something is not done, which has said why there.
+inline void require(bool isDone, const std::string& message)
+{
+  if (!isDone)
+  {
+    throw Failure(message);
+  }
+}
 
 /// Who speaks: the program's name in messages, `pointhaptics` unless main() says another at its beginning.
 void nameProgram(const std::string& name);
