@@ -11,9 +11,7 @@
 #include <cstring>
 #include <vector>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 
 namespace
@@ -78,5 +76,4 @@ int Job::finish(int exitCode)
   return code;
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

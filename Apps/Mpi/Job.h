@@ -10,9 +10,7 @@
 
 class vtkMPIController;
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 
 /// Starts MPI and ends it with main().
@@ -39,5 +37,4 @@ private:
   bool isFinished_ = false;
 };
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

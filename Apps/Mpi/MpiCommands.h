@@ -6,9 +6,7 @@
 
 #include <functional>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 
 /// Work of a command line, run after it was parsed on all ranks. @return an ExitCode.
@@ -18,5 +16,4 @@ using MpiWork = std::function<int(Job&)>;
 void addMpiResample(CLI::App& program, MpiWork& work);
 void addMpiBandwidth(CLI::App& program, MpiWork& work);
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

@@ -18,9 +18,7 @@
 #include <filesystem>
 #include <vector>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 namespace
 {
@@ -132,5 +130,4 @@ bool writePieces(Job& job, const std::string& command, const CloudToCloudOptions
   return job.agree(command, problem);
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

@@ -12,9 +12,7 @@
 
 #include <string>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 
 /// A rank's part of a cloud.
@@ -40,5 +38,4 @@ bool openPiece(
 /// the list of these. False on all ranks: the message is printed.
 bool writePieces(Job& job, const std::string& command, const CloudToCloudOptions& files, vtkPolyData* piece);
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

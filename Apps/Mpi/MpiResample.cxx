@@ -20,9 +20,7 @@
 #include <utility>
 #include <vector>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 namespace
 {
@@ -135,5 +133,4 @@ void addMpiResample(CLI::App& program, MpiWork& work)
     });
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

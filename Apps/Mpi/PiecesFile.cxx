@@ -14,9 +14,7 @@
 
 namespace fs = std::filesystem;
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 namespace
 {
@@ -120,5 +118,4 @@ bool writePiecesFile(
   return true;
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

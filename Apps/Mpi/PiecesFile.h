@@ -7,9 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 
 /// True if @p fileName ends in .pvtp.
@@ -23,5 +21,4 @@ std::string pieceFileOf(const std::string& fileName, int rank);
 bool writePiecesFile(
   const std::string& fileName, vtkPolyData* like, const std::vector<int>& ranks, std::string& message);
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

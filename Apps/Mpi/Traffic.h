@@ -6,9 +6,7 @@
 
 #include <cstdint>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 
 /// Bytes of this rank.
@@ -23,5 +21,4 @@ struct Traffic
   void show(Job& job, std::int64_t sent) const;
 };
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

@@ -248,7 +248,7 @@ void RecordVoxels::Implementation::choose()
   if (settings.keepKeys)
   {
     keys.resize(std::size_t(engine.size()));
-    engine.copyKeys(0, keys.data());
+    engine.copyKeys(keys.data());
     for (std::size_t i = 0; i < kept.size(); ++i)
     {
       keys[i] = keys[std::size_t(kept[i])];
@@ -327,7 +327,7 @@ void RecordVoxels::write(char* records, std::size_t step, const std::array<std::
   {
     const std::size_t bytes = bytesOf(mine.fields[i]);
     written.push_back(
-      { static_cast<const char*>(mine.engine.attribute(0, i)), bytes, bytes, records + offsets[i] });
+      { static_cast<const char*>(mine.engine.attribute(i)), bytes, bytes, records + offsets[i] });
   }
   const std::int64_t* kept = mine.kept.empty() ? nullptr : mine.kept.data();
   withThreads(mine.settings.threads,

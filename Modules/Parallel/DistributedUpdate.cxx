@@ -29,7 +29,7 @@ namespace
 std::vector<std::uint64_t> keysOf(const VoxelResampler& voxels)
 {
   std::vector<std::uint64_t> keys(std::size_t(voxels.size()));
-  voxels.copyKeys(0, keys.data());
+  voxels.copyKeys(keys.data());
   return keys;
 }
 
@@ -139,7 +139,7 @@ std::string DistributedUpdate::runOfSums(vtkPolyData* output)
   {
     return problemOf(status);
   }
-  status = shared_.share(ranks_, std::move(own), 1);
+  status = shared_.share(ranks_, std::move(own));
   VoxelAccumulator::Request wanted;
   wanted.singlePrecision = singlePrecision_;
   wanted.keys = true;

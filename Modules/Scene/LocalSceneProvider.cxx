@@ -103,7 +103,7 @@ std::vector<Vec3> meansOf(const VoxelResampler& engine)
 {
   const std::size_t size = std::size_t(engine.size());
   std::vector<Real> coordinates(3 * size);
-  engine.copyMeans(0, coordinates.data());
+  engine.copyMeans(coordinates.data());
   std::vector<Vec3> means(size);
   for (std::size_t i = 0; i < size; ++i)
   {
@@ -295,12 +295,12 @@ HapticSceneInput LocalSceneProvider::input(const SceneRequest& request) const
   HapticSceneInput input;
   input.points = voxels_.singlePrecision ? meansOf<float>(engine_) : meansOf<double>(engine_);
   std::vector<std::int64_t> counts(size);
-  engine_.copyCounts(0, counts.data());
+  engine_.copyCounts(counts.data());
   input.counts.assign(counts.begin(), counts.end());
   if (request.useCovariance && voxels_.covariances)
   {
     input.covariances.resize(size);
-    engine_.copyCovariances(0, input.covariances.data());
+    engine_.copyCovariances(input.covariances.data());
   }
   input.bandwidth = request.bandwidth;
   const Vec3& spacing = voxels_.lattice.spacing;

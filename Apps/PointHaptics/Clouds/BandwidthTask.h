@@ -15,9 +15,7 @@ class App;
 }
 class vtkPolyData;
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 
 struct BandwidthCommandOptions
@@ -44,5 +42,4 @@ BandwidthFigures together(const BandwidthFigures& a, const BandwidthFigures& b);
 std::string whyNone(const BandwidthCommandOptions& options, const BandwidthFigures& figures);
 CloudResult resultOf(const BandwidthCommandOptions& options, const BandwidthFigures& figures);
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

@@ -16,9 +16,7 @@ namespace CLI
 class App;
 }
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 
 struct CloudToCloudOptions
@@ -54,5 +52,4 @@ void print(const CloudResult& result, bool isJson);
 int runOnClouds(const std::string& command, const CloudToCloudOptions& options, Files& files,
   const std::function<CloudResult(const CloudToCloudOptions& options, Cloud& cloud)>& work);
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

@@ -25,9 +25,7 @@
 #include <sstream>
 #include <thread>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 namespace
 {
@@ -308,5 +306,4 @@ void useThreads(std::int64_t threads)
   }
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

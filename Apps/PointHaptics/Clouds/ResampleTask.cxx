@@ -20,9 +20,7 @@
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 
 void ResampleOptions::addTo(CLI::App& command)
@@ -157,5 +155,4 @@ CloudResult resultOf(const ResampleOptions& options, const ResampleFigures& figu
       { "points_invalid", figures.invalid } } };
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

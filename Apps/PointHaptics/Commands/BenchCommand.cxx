@@ -13,9 +13,7 @@
 
 #include <unistd.h>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 namespace
 {
@@ -64,5 +62,4 @@ void addBenchCommand(CLI::App& program, int& exitCode)
   command->callback([command, &exitCode] { exitCode = becomeBench(command->remaining()); });
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

@@ -9,9 +9,7 @@ namespace CLI
 class App;
 }
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 
 /// Each adds its subcommand to @p program; its callback runs the command and stores an ExitCode in @p
@@ -32,5 +30,4 @@ void addManPage(CLI::App& program);
 /// Adds a command that runs the program pointhaptics-bench, where it is installed.
 void addBenchCommand(CLI::App& program, int& exitCode);
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

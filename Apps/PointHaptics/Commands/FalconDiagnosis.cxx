@@ -18,9 +18,7 @@
 #include <poll.h>
 #include <unistd.h>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 namespace
 {
@@ -392,5 +390,4 @@ bool diagnoseFalcon(
   return done;
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

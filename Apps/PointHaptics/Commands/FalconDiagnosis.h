@@ -6,9 +6,7 @@
 
 #include <string>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 
 /// Walks through LEDs, homing, encoder directions, rate, and motors with at most 0.5 N, asking on the
@@ -18,5 +16,4 @@ namespace app
 bool diagnoseFalcon(
   const FalconOptions& options, const std::string& reportFile, bool yes, std::string& message);
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

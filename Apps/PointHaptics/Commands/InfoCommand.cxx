@@ -15,9 +15,7 @@
 
 #include <memory>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 namespace
 {
@@ -272,5 +270,4 @@ void addInfoCommand(CLI::App& program, int& exitCode)
   runAs(*command, exitCode, { [options](Files&) { return runInfo(*options); } });
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

@@ -18,9 +18,7 @@
 #include <utility>
 #include <vector>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 namespace
 {
@@ -333,5 +331,4 @@ void addManualCommand(CLI::App& program, int& exitCode)
   runAs(*command, exitCode, { run });
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

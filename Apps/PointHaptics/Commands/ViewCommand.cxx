@@ -21,9 +21,7 @@
 #include <string>
 #include <vector>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 namespace
 {
@@ -171,17 +169,12 @@ int runView(ViewOptions& options, Files& files)
   std::string message;
   if (!options.writeConfig.empty())
   {
-    if (!writeSettings(options.given, files.output(options.writeConfig), message) || !files.commit(message))
-    {
-      return fail(kViewCommand, message);
-    }
+    require(writeSettings(options.given, files.output(options.writeConfig), message) && files.commit(message),
+      message);
     printSummary("settings: " + options.writeConfig);
     return kSuccess;
   }
-  if (!checkDevice(options, message))
-  {
-    return fail(kViewCommand, message);
-  }
+  require(checkDevice(options, message), message);
   placeFiles(options, files);
   if (!canReadAll(options, message))
   {
@@ -202,15 +195,9 @@ int runView(ViewOptions& options, Files& files)
   printSummary(fmt::format("{}{}, {}", countOfPoints(viewer.numberOfPoints()),
     ofThemInvalid(viewer.numberOfInvalidPoints()), viewer.scaleNote()));
   std::fflush(stdout);
-  if (options.draws() && !displayIsAvailable(message)) // before a path is felt
-  {
-    return fail(kViewCommand, message);
-  }
+  require(!options.draws() || displayIsAvailable(message), message); // before a path is felt
   message = show(options, viewer) ? std::string() : viewer.message();
-  if (!message.empty() || !files.commit(message))
-  {
-    return fail(kViewCommand, message);
-  }
+  require(message.empty() && files.commit(message), message);
   return stopIsRequested() ? stopExitCode() : kSuccess;
 }
 
@@ -231,5 +218,4 @@ void addViewCommand(CLI::App& program, int& exitCode)
       [options](Files& files) { options->declareMore(files); } });
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

@@ -28,9 +28,7 @@
 #include <utility>
 #include <vector>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 namespace
 {
@@ -213,11 +211,9 @@ int runCompare(const CompareOptions& options, Files& files)
     warn(kCompareCommand, "the chart is left out: " + message, options.chart);
     files.dropOutput(options.chart);
   }
-  if ((!canDraw && options.table.empty()) ||
-    !openRecording(options.recording, options.cloud, files, recording, cloud, message))
-  {
-    return fail(kCompareCommand, message);
-  }
+  require((canDraw || !options.table.empty()) &&
+      openRecording(options.recording, options.cloud, files, recording, cloud, message),
+    message);
   std::array<std::vector<Felt>, 2> felt;
   for (std::size_t side = 0; side < 2; ++side)
   {
@@ -227,13 +223,11 @@ int runCompare(const CompareOptions& options, Files& files)
     }
   }
   message.clear();
-  if ((!options.chart.empty() && canDraw &&
-        !drawChart(options, files.output(options.chart), recording, felt, message)) ||
-    (!options.table.empty() && !writeTable(files.output(options.table), recording, felt, message)) ||
-    !files.commit(message))
-  {
-    return fail(kCompareCommand, message);
-  }
+  require((options.chart.empty() || !canDraw ||
+            drawChart(options, files.output(options.chart), recording, felt, message)) &&
+      (options.table.empty() || writeTable(files.output(options.table), recording, felt, message)) &&
+      files.commit(message),
+    message);
   print(options, compared(recording, felt));
   return kSuccess;
 }
@@ -276,5 +270,4 @@ void addCompareCommand(CLI::App& program, int& exitCode)
       [options](Files& files) { declareRecordedClouds(options->recording, options->cloud, files); } });
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

@@ -10,9 +10,7 @@
 #include <thread>
 #include <vector>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 namespace
 {
@@ -137,5 +135,4 @@ bool feelLive(const LiveSettings& settings, FeelScenes& scenes,
   return true;
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

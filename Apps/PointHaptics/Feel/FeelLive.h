@@ -10,9 +10,7 @@
 #include <functional>
 #include <string>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 
 struct LiveSettings
@@ -31,5 +29,4 @@ struct LiveSettings
 bool feelLive(const LiveSettings& settings, FeelScenes& scenes,
   const std::function<void(const ServoSample&)>& onSample, ServoStatistics& statistics, std::string& message);
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

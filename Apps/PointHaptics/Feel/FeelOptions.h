@@ -18,9 +18,7 @@ namespace CLI
 class App;
 }
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 
 class Files;
@@ -69,5 +67,4 @@ private:
   void warnOfIdle(const CLI::App& command, const std::vector<std::string>& given) const;
 };
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

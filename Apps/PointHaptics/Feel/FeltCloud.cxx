@@ -24,9 +24,7 @@
 #include <utility>
 #include <vector>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 namespace
 {
@@ -159,5 +157,4 @@ bool makeFeelScenes(const FeelOptions& options, vtkPolyData* cloud, FeelScenes& 
   return true;
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

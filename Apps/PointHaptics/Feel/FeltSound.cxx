@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 namespace
 {
@@ -63,5 +61,4 @@ bool FeltSound::close(std::string& message)
   return !isOpen_ || file_.close(message);
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

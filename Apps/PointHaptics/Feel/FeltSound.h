@@ -9,9 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 
 /// A WAV file as long as the touch: each tick is heard until the next one.
@@ -40,5 +38,4 @@ private:
   std::string problem_;
 };
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

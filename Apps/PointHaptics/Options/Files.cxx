@@ -25,9 +25,7 @@
 
 namespace fs = std::filesystem;
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 namespace
 {
@@ -589,5 +587,4 @@ void Files::printPlan(bool asJson) const
   asJson ? printJson(plan) : printNow(stdout, text);
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

@@ -18,9 +18,7 @@ class App;
 class Option;
 }
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 
 class TemporaryFolder;
@@ -132,5 +130,4 @@ private:
   bool isForced_ = false;
 };
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

@@ -20,9 +20,7 @@
 #include <string>
 #include <utility>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 namespace
 {
@@ -239,5 +237,4 @@ void LatticeOptions::configure(vtkVoxelMeanResampler* resampler) const
   resampler->SetSettings(this->voxels);
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

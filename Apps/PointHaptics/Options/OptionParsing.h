@@ -16,9 +16,7 @@ class App;
 class Option;
 }
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 
 /// Warning for --preset with another method than the one that has gains.
@@ -104,5 +102,4 @@ CLI::Option* addChoice(CLI::App& command, const std::string& name, std::function
   std::vector<std::pair<std::string, int>> choices, const std::string& description);
 ///@}
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

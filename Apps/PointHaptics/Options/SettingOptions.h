@@ -23,9 +23,7 @@
 #include <utility>
 #include <vector>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 
 /// How a member is given on the command line, and by the option's name in a configuration file.
@@ -190,5 +188,4 @@ void addSettings(
     });
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

@@ -11,9 +11,7 @@ namespace CLI
 class App;
 }
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 
 struct TouchOptions
@@ -34,5 +32,4 @@ void checkForceLimitOfDevices(const ContactParameters& contact, const std::strin
 /// Puts the members of @p contact in @p settings, by the names of their options.
 void setContact(nlohmann::ordered_json& settings, const ContactParameters& contact);
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

@@ -14,9 +14,7 @@ namespace CLI
 class App;
 }
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 
 /// Exit codes of the programs.
@@ -60,5 +58,4 @@ int failUsage(const std::string& command, const std::string& message);
 /// called once, by main(), with the words of the command line. @return the exit code.
 int runProgram(const std::vector<std::string>& arguments, const std::function<int()>& run);
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

@@ -10,9 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 
 /// A fault that ends the command with kFailed: what, where and the cure.
@@ -21,6 +19,14 @@ class Failure : public std::runtime_error
 public:
   using std::runtime_error::runtime_error;
 };
+/// Throws a Failure with @p message where something is not done, which has said why there.
+inline void require(bool isDone, const std::string& message)
+{
+  if (!isDone)
+  {
+    throw Failure(message);
+  }
+}
 
 /// Who speaks: the program's name in messages, `pointhaptics` unless main() says another at its beginning.
 void nameProgram(const std::string& name);
@@ -84,5 +90,4 @@ void collectVtkMessages();
 std::vector<std::string> takeVtkErrors();
 std::vector<std::string> takeVtkWarnings();
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

@@ -3,9 +3,7 @@
 #include <csignal>
 #include <initializer_list>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 namespace
 {
@@ -45,5 +43,4 @@ int stopExitCode() noexcept
   return kEndedBySignal + requested;
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

@@ -3,9 +3,7 @@
 /// order, and no half-written file stays behind.
 #pragma once
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 
 /// From here on SIGINT, SIGTERM and SIGHUP are remembered instead of ending the program; a second one of the
@@ -17,5 +15,4 @@ bool stopIsRequested() noexcept;
 /// stopIsRequested()
 int stopExitCode() noexcept;
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

@@ -24,9 +24,7 @@
 #include <set>
 #include <sstream>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 namespace
 {
@@ -368,5 +366,4 @@ bool ViewOptions::draws() const
   return this->needsWindow() || !this->screenshot.empty() || !this->viewer.forceChart.empty();
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

@@ -19,9 +19,7 @@ namespace CLI
 class App;
 }
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 
 class Files;
@@ -63,5 +61,4 @@ private:
   void completeViewer(CLI::App& command);
 };
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

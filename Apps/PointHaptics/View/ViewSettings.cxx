@@ -17,9 +17,7 @@
 #include <set>
 #include <vector>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 namespace
 {
@@ -166,5 +164,4 @@ void rememberSettings(nlohmann::ordered_json settings)
   }
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

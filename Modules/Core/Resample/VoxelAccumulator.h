@@ -103,14 +103,12 @@ public:
   {
     bool singlePrecision = false;
     bool keys = false;
-    int levels = 1;
     InstructionSet instructions = InstructionSet::Automatic;
     OutputAllocator* allocator = nullptr;
   };
-  /// Makes the levels of @p result: its sizes, means, counts, covariances, arrays, keys, as after
-  /// run().
-  /// More can be added afterwards. Errors: InvalidParameter (levels, or points
-  /// were subtracted that had not been added, as far as counts and the values of labels tell), Aborted.
+  /// Makes @p result: its means, counts, covariances, arrays, keys, as after run(). More can be added
+  /// afterwards. Errors: InvalidParameter (points were subtracted that had not been added, as far as counts
+  /// and the values of labels tell), Aborted.
   Status finish(const Request& request, VoxelResampler& result, const Executor& executor = {},
     ProgressObserver* observer = nullptr);
 

@@ -105,6 +105,13 @@ void CommandRegistry::add(Command command)
   }
   else
   {
+    for (const std::string& gesture : wordsOf(command.gestures))
+    {
+      if (const Command* other = this->findExactly(gesture))
+      {
+        conflicts_.push_back(gesture + ": " + other->name + ", " + command.name);
+      }
+    }
     entries_.push_back({ std::move(command), {} });
     this->setGestures(entries_.back(), entries_.back().command.gestures);
   }

@@ -80,9 +80,12 @@ public:
     All
   };
 
-  /// Adds @p command with its default gestures, which are taken from the commands that had them. One with the
-  /// same name is replaced, and its gestures in force stay.
+  /// Adds @p command with its default gestures, which are taken from the commands that had them and named by
+  /// conflicts(). One with the same name is replaced, and its gestures in force stay.
   void add(Command command);
+  /// The default gestures that two commands were added with, as "plus: scale-up, points-larger". A program
+  /// whose keys shall not depend on the order of add() binds the first of the two elsewhere and has none.
+  const std::vector<std::string>& conflicts() const { return conflicts_; }
   /// False: there is no such command.
   bool remove(const std::string& name);
   /// Adds a line to the help that is no command, such as "files dropped on the window".
@@ -134,6 +137,7 @@ private:
   void reportChange() const;
 
   std::vector<Entry> entries_;
+  std::vector<std::string> conflicts_;
   std::function<void()> changed_;
 };
 

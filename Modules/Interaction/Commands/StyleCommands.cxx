@@ -306,14 +306,16 @@ void addStyleCommands(vtkInteractorStyleHaptic& style)
   addHandCommands(commands, style);
   addClutchCommands(commands, style);
   addShowCommands(commands, style);
-  commands.add({ "quit", "q Escape", "Program", "quit",
-    [&style]
+  const auto quit = [&style]
+  {
+    if (style.GetInteractor())
     {
-      if (style.GetInteractor())
-      {
-        style.GetInteractor()->ExitCallback();
-      }
-    } });
+      style.GetInteractor()->ExitCallback();
+    }
+  };
+  commands.add({ "quit", "q", "Program", "quit", quit });
+  // A program that has something to leave before replaces this one.
+  commands.add({ "leave", "Escape", "Program", "quit", quit });
 }
 
 } // namespace pointhaptics

@@ -50,6 +50,16 @@ void ClipBoxTool::toggle()
   say_(mark.isVisible() ? "clipping box: drag its handles" : "clipping box: hidden");
 }
 
+bool ClipBoxTool::hide()
+{
+  const bool isShown = scene_.clipMark().isVisible();
+  if (isShown)
+  {
+    this->toggle();
+  }
+  return isShown;
+}
+
 void ClipBoxTool::clear()
 {
   const bool wasClipped = !options_.clip.empty();

@@ -30,6 +30,8 @@ public:
 
   /// Shows or hides the box; what it clips stays clipped.
   void toggle();
+  /// Hides the box. False: it is not shown.
+  bool hide();
   /// The whole cloud again; the box goes.
   void clear();
   /// Lets keys work on the next face.

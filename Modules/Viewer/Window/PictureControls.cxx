@@ -103,6 +103,11 @@ void PictureControls::toggleFullScreen()
   }
 }
 
+bool PictureControls::leaveFullScreen()
+{
+  return fullScreen_.isFull() && fullScreen_.set(false);
+}
+
 void PictureControls::toggleStereo()
 {
   std::string& stereo = options_.picture.stereo;
@@ -259,12 +264,12 @@ void PictureControls::addCommands(CommandRegistry& commands, std::function<Pictu
   };
   using Controls = PictureControls;
   const char* const group = "Show";
+  commands.bind("scale-up", "Ctrl+plus Ctrl+Shift+plus Ctrl+equal Ctrl+KP_Add");
+  commands.bind("scale-down", "Ctrl+minus Ctrl+KP_Subtract");
   commands.add({ "points-larger", "plus equal KP_Add", group, "larger, smaller points",
     step(&Controls::scalePoints, +1), isOpen });
   commands.add({ "points-smaller", "minus underscore KP_Subtract", group, "larger, smaller points",
     step(&Controls::scalePoints, -1), isOpen });
-  commands.bind("scale-up", "Ctrl+plus Ctrl+Shift+plus Ctrl+equal Ctrl+KP_Add");
-  commands.bind("scale-down", "Ctrl+minus Ctrl+KP_Subtract");
   commands.add({ "depth-stronger", "bracketright", group, "stronger, weaker shading by depth",
     step(&Controls::changeDepthStrength, +1), isOpen });
   commands.add({ "depth-weaker", "bracketleft", group, "stronger, weaker shading by depth",

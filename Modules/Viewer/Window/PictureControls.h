@@ -30,6 +30,8 @@ public:
   void fitView();
   void toggleProjection();
   void toggleFullScreen();
+  /// False: the window does not fill the screen.
+  bool leaveFullScreen();
   /// Pictures for two eyes, as they were asked for last, or one.
   void toggleStereo();
   /// Lets the view turn about the cloud, or stops it.

@@ -64,6 +64,10 @@ ViewWindow::ViewWindow(ViewScene& scene, const HapticViewerOptions& options,
       [this](const std::string& news) { this->say(news); })
 {
   ViewWindow::addCommands(style_->GetCommands(), this);
+  for (const std::string& conflict : style_->GetCommands().conflicts())
+  {
+    this->report(HapticViewerObserver::Kind::Error, "two commands have one key by default: " + conflict);
+  }
   style_->GetCommands().bind(options_.bindings);
 }
 
@@ -124,13 +128,13 @@ void ViewWindow::showBar(const std::string& words, double part)
   window_->SetWindowName(("PointHaptics: " + words).c_str());
 }
 
-/// Escape, and the keys that quit.
+/// The keys that leave or quit.
 bool ViewWindow::isCancelKey()
 {
   const std::string key = interactor_->GetKeySym() ? interactor_->GetKeySym() : "";
   const Command* command = style_->GetCommands().find(gestureOf(
     key, interactor_->GetControlKey() != 0, interactor_->GetShiftKey() != 0, interactor_->GetAltKey() != 0));
-  return key == "Escape" || (command && command->name == "quit");
+  return command && (command->name == "quit" || command->name == "leave");
 }
 
 bool ViewWindow::awaitCloud(const CloudLoader& loader, const std::string& title)
@@ -275,11 +279,6 @@ void ViewWindow::connectStyle()
   check->SetCallback(
     [](vtkObject*, unsigned long, void* window, void*) { static_cast<ViewWindow*>(window)->onAbortCheck(); });
   abortCheck_ = window_->AddObserver(vtkCommand::AbortCheckEvent, check);
-  // Before the style, for which Escape may have another meaning.
-  cancelKey_->SetClientData(this);
-  cancelKey_->SetCallback(
-    [](vtkObject*, unsigned long, void* window, void*) { static_cast<ViewWindow*>(window)->onKey(); });
-  interactor_->AddObserver(vtkCommand::KeyPressEvent, cancelKey_, 1.0F);
 }
 
 void ViewWindow::onSamples(void* callData)

@@ -152,7 +152,7 @@ private:
   void endLoading(bool isShown);
   void cancelLoading();
   void forgiveEscape();
-  void onKey();
+  void leave();
   void show(LoadedCloud cloud);
   void warn(const std::vector<std::string>& notes);
   void followOptions();
@@ -193,6 +193,8 @@ private:
   Loading loading_;          ///< Valid while loader_ is busy.
   /// Until then Escape is taken for the bar that has just gone.
   std::chrono::steady_clock::time_point escapeIsLate_;
+  /// Until then Escape quits, although the touch is recorded.
+  std::chrono::steady_clock::time_point escapeQuits_;
   bool isOpen_ = false;
   bool isStarted_ = false;
   int writtenSettings_ = 0;
@@ -211,7 +213,6 @@ private:
   ColorBarDrag colorBar_;
   DistanceMeasuring measuring_;
   ClipBoxTool clipping_;
-  vtkNew<vtkCallbackCommand> cancelKey_;
   std::shared_ptr<IdealForce> wholeIdeal_; // for the same
   CsvWriter trace_;
   RecordingWriter recording_;

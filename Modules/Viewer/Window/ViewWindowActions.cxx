@@ -30,6 +30,8 @@ namespace
 
 constexpr const char* kAsSoonAsComputed = ", as soon as it is computed";
 constexpr auto kLateEscape = std::chrono::milliseconds(700);
+/// A second Escape within this time quits while the touch is recorded.
+constexpr auto kRepeatedEscape = std::chrono::seconds(5);
 
 /// The first of STEM-001.EXTENSION, STEM-002.EXTENSION, ... after @p last that is not there yet.
 std::string freeFileName(const char* extension, int& last)
@@ -193,20 +195,26 @@ void ViewWindow::forgiveEscape()
   escapeIsLate_ = std::chrono::steady_clock::now() + kLateEscape;
 }
 
-/// Escape while a file is read is for the reader, then for a distance in the picture, and does not reach the
-/// style.
-void ViewWindow::onKey()
+/// What Escape does: it leaves the first thing that is on, and quits where nothing is.
+void ViewWindow::leave()
 {
-  const char* key = interactor_->GetKeySym();
-  const bool isLate = std::chrono::steady_clock::now() < escapeIsLate_;
-  if (key && std::string(key) == "Escape" && (loader_.busy() || isLate || measuring_.end()))
+  const auto now = std::chrono::steady_clock::now();
+  if (loader_.busy())
   {
-    if (loader_.busy())
-    {
-      this->cancelLoading();
-    }
-    cancelKey_->AbortFlagOn();
+    this->cancelLoading();
+    return;
   }
+  if (now < escapeIsLate_ || measuring_.end() || clipping_.hide() || controls_.leaveFullScreen())
+  {
+    return;
+  }
+  if (recording_.isOpen() && now > escapeQuits_)
+  {
+    escapeQuits_ = now + kRepeatedEscape;
+    this->say("recording: " + style_->GetCommands().label("leave") + " once more ends it and quits");
+    return;
+  }
+  style_->GetCommands().run("quit");
 }
 
 void ViewWindow::show(LoadedCloud cloud)

@@ -770,6 +770,21 @@ EscapeKeepsTheFormerCloud() {
   never_said "file 2 of 2"
 }
 
+EscapeLeavesOneThingAfterTheOther() {
+  make sphere cloud.ply
+  open_viewer cloud.ply
+  key C
+  said "clipping box: drag its handles"
+  key Escape
+  said "clipping box: hidden"
+  key j
+  said "recording"
+  key Escape
+  said "once more ends it and quits"
+  key Escape
+  ends_with 0 "the second Escape"
+}
+
 EscapeCancelsTheFirstFile() {
   make sphere slow.ply
   open_held slow.ply

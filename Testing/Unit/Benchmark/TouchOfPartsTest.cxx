@@ -18,10 +18,9 @@ TouchFigures figuresOf(const TouchMesh& mesh, const TriangleTree& tree, std::vec
   std::int64_t points, const char* method = "surface-fit")
 {
   constexpr std::uint64_t kSeed = 28;
-  TouchBenchmarkOptions options;
-  options.repetitions = 1;
-  const bench::Progress progress = [](const std::string&) {};
-  StudyContext context{ options, progress, {} };
+  const TouchBenchmarkOptions options;
+  bench::Run run;
+  StudyContext context{ options, run };
   const TouchScene scene = makeTouchScene(samplesOf(mesh, points, kSeed), {});
   return judge(context, contestantsNamed({ method }).front(), scene, tasksOn(tree, std::move(strokes)));
 }

@@ -3,8 +3,8 @@
 /// vectors: without branches, which would be unpredictable.
 #pragma once
 
-#include "Core/Resample/Kernel/AttributeKernel.h"
 #include "Core/Resample/Kernel/OrderedKey.h"
+#include "Core/Resample/Kernel/VoxelKernel.h"
 
 namespace pointhaptics
 {
@@ -207,6 +207,16 @@ int select(const ValueLists& lists, void* given, int step, int* many)
   }
   return found;
 }
+
+constexpr SelectKernels kSelectKernels = {
+  { &select<std::int8_t, false>, &select<std::uint8_t, false>, &select<std::int16_t, false>,
+    &select<std::uint16_t, false>, &select<std::int32_t, false>, &select<std::uint32_t, false>,
+    &select<std::int64_t, false>, &select<std::uint64_t, false>, &select<float, false>,
+    &select<double, false> },
+  { &select<std::int8_t, true>, &select<std::uint8_t, true>, &select<std::int16_t, true>,
+    &select<std::uint16_t, true>, &select<std::int32_t, true>, &select<std::uint32_t, true>,
+    &select<std::int64_t, true>, &select<std::uint64_t, true>, &select<float, true>, &select<double, true> }
+};
 
 }
 } // namespace simd

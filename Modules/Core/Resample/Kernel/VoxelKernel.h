@@ -4,7 +4,6 @@
 #pragma once
 
 #include "Core/Base/PointRange.h"
-#include "Core/Resample/Kernel/AttributeKernel.h"
 #include "Core/Simd/InstructionSet.h"
 
 #include <cstddef>
@@ -229,7 +228,15 @@ struct CovarianceMap
 /// Elements of the widest vectors.
 constexpr int kWidest = 8;
 
-/// The inner loops over coordinates of one type (x y z interleaved).
+/// What there is among numbers.
+struct Magnitudes
+{
+  double largest;  ///< Of the finite ones; 0 without any.
+  double smallest; ///< Of those that are not 0; infinite without any.
+  bool allFinite;
+};
+
+/// The inner loops over numbers of one type; coordinates are x y z interleaved.
 template <typename Real>
 struct PointKernels
 {
@@ -245,6 +252,29 @@ struct PointKernels
   /// numbers from one point to the next.
   void (*bounds)(
     const double matrix[3][4], const Real* xyz, std::int64_t count, std::int64_t stride, double box[6]);
+  Magnitudes (*magnitudes)(const Real* values, std::int64_t count);
+};
+
+/// Consecutive lists of values, of one type.
+struct ValueLists
+{
+  const void* values; ///< Of all lists of an array.
+  std::int64_t begin; ///< Of the first list among them.
+  const std::int64_t* ends;
+  int count;
+};
+/// Lists of more values are left to others.
+constexpr int kFewValues = 64;
+/// Bytes of the vectors that lists are read in.
+constexpr int kListVector = 32;
+
+/// The modes of lists, and the lower medians, in the order of ScalarType: see AttributeStatistic. The result
+/// of a list goes to @p to, @p step values after the one before. Lists of more than kFewValues are named in
+/// @p many. @return the number of these. Reads, but does not use, kListVector bytes past the end.
+struct SelectKernels
+{
+  int (*modes[10])(const ValueLists&, void* to, int step, int* many);
+  int (*medians[10])(const ValueLists&, void* to, int step, int* many);
 };
 
 /// The inner loops for one instruction set.
@@ -283,7 +313,7 @@ struct Kernels
   /// these. Reads, but does not use, kWidest elements past the end.
   int (*covariances)(const CovarianceMap&, const PackedSums* sums, const SplitSecondMoments* secondMoments,
     int count, double* covariances, int* full);
-  AttributeKernels attributes;
+  SelectKernels select;
 };
 
 /// The set that InstructionSet stands for on this machine.

@@ -65,6 +65,13 @@ T roundedMean(Int128 sum, std::int64_t count)
   const Int128 twice = 2 * sum;
   return T((twice + (twice < 0 ? -count : count)) / (2 * Int128(count)));
 }
+/// As above, in 64 bits. @pre @p sum is of numbers of at most 32 bits, so that @p sum + @p count fits.
+template <typename T>
+T roundedMean(std::int64_t sum, std::int64_t count)
+{
+  const std::int64_t half = sum < 0 ? -(count / 2) : count / 2;
+  return T((sum + half) / count);
+}
 
 /// A mean vector, turned: unit vectors, 0 without a direction, NaN where it is not finite. Integers have a
 /// scale of their own: they keep the length of their mean.

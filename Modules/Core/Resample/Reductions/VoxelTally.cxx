@@ -191,55 +191,40 @@ Int128 TallySums::inUnits(std::size_t sum) const
   return words == 1 ? Int128(std::int64_t(number[0])) : Int128(UInt128(number[1]) << 64 | number[0]);
 }
 
-namespace
-{
-
-/// How kernels turn vectors.
-Turn turnOf(const std::array<Vec3, 3>& columns)
-{
-  Turn turn;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    std::copy_n(&columns[axis].x, 3, turn.columns[axis]);
-  }
-  return turn;
-}
-
-}
-
 void TallySums::write(const AccumulatedArray& kind, std::size_t first, std::size_t last,
-  const std::int64_t* counts, const std::array<Vec3, 3>& columns, const AttributeKernels& kernels,
-  void* tuples) const
+  const std::int64_t* counts, const std::array<Vec3, 3>& columns, void* tuples) const
 {
   const bool turns = kind.statistic == AttributeStatistic::Normal;
-  const auto ofVoxel = std::size_t(components);
   withType(kind.type,
     [&](auto example)
     {
       using T = decltype(example);
-      T* to = static_cast<T*>(tuples);
-      constexpr bool kIsReal = std::is_floating_point_v<T>;
-      const auto most = [&] { return double(*std::max_element(counts, counts + (last - first))); };
-      const bool byKernel = first < last && words == 1 && nonFinite.empty() &&
-        (kIsReal ? unit > -1000 && unit < 1000
-                 : !turns && unit == 0 && sizeof(T) < 8 &&
-              most() * std::ldexp(1.0, 8 * sizeof(T)) < std::ldexp(1.0, kRealSumBits));
-      if (byKernel)
+      const auto writeAll = [&](const auto& meanOf, const auto& integerOf)
       {
-        const WordSums sums = { reinterpret_cast<const std::int64_t*>(at(first * ofVoxel)), counts,
-          std::int64_t(last - first), components, kIsReal ? powerOfTwo(unit) : 1.0 };
-        turns ? kernels.unitVectors[sizeof(T) == sizeof(double)](sums, turnOf(columns), to)
-              : kernels.means[int(kind.type)](sums, to);
+        T* to = static_cast<T*>(tuples);
+        std::size_t sum = first * std::size_t(components);
+        for (std::size_t v = first; v < last; ++v, to += components, sum += std::size_t(components))
+        {
+          const std::int64_t count = counts[v - first];
+          writeMeans(
+            components, count, turns ? &columns : nullptr, to,
+            [&](int c) { return meanOf(sum + std::size_t(c), count); },
+            [&](int c) { return integerOf(sum + std::size_t(c)); });
+        }
+      };
+      // Most sums are one word.
+      const std::uint64_t* const word = values.data();
+      const int wordUnit = unit;
+      using Integer = std::conditional_t<sizeof(T) == 8, Int128, std::int64_t>;
+      if (words == 1 && nonFinite.empty() && (std::is_floating_point_v<T> || unit == 0))
+      {
+        writeAll([=](std::size_t sum, std::int64_t count)
+          { return scaledMean(double(std::int64_t(word[sum])), wordUnit, count); },
+          [=](std::size_t sum) { return Integer(std::int64_t(word[sum])); });
         return;
       }
-      for (std::size_t v = first; v < last; ++v, to += components)
-      {
-        const auto sumOf = [&](int c) { return v * ofVoxel + std::size_t(c); };
-        const std::int64_t count = *counts++;
-        writeMeans(
-          components, count, turns ? &columns : nullptr, to, [&](int c) { return mean(sumOf(c), count); },
-          [&](int c) { return inUnits(sumOf(c)) * (Int128(1) << unit); });
-      }
+      writeAll([&](std::size_t sum, std::int64_t count) { return mean(sum, count); },
+        [&](std::size_t sum) { return inUnits(sum) * (Int128(1) << unit); });
     });
 }
 
@@ -408,12 +393,11 @@ bool areValuesOf(TallyValues::List list, std::int64_t count)
 }
 
 void VoxelTally::write(const AccumulatedArray& kind, std::size_t first, std::size_t last,
-  const std::int64_t* counts, const std::array<Vec3, 3>& columns, const AttributeKernels& kernels,
-  void* tuples) const
+  const std::int64_t* counts, const std::array<Vec3, 3>& columns, void* tuples) const
 {
   if (isSum(kind.statistic))
   {
-    sums.write(kind, first, last, counts, columns, kernels, tuples);
+    sums.write(kind, first, last, counts, columns, tuples);
     return;
   }
   withType(kind.type,

@@ -79,7 +79,7 @@ public:
   /// Writes the means of voxels @p first to before @p last, of @p counts numbers each; vectors turned by @p
   /// columns.
   void write(const AccumulatedArray& kind, std::size_t first, std::size_t last, const std::int64_t* counts,
-    const std::array<Vec3, 3>& columns, const AttributeKernels& kernels, void* tuples) const;
+    const std::array<Vec3, 3>& columns, void* tuples) const;
   /// Takes the largest unit and the fewest words, so that equal sums are kept in the same way, and frees
   /// memory.
   void trim();
@@ -144,7 +144,7 @@ public:
   /// Writes the tuples of voxels @p first to before @p last, of @p counts points each; vectors turned by @p
   /// columns.
   void write(const AccumulatedArray& kind, std::size_t first, std::size_t last, const std::int64_t* counts,
-    const std::array<Vec3, 3>& columns, const AttributeKernels& kernels, void* tuples) const;
+    const std::array<Vec3, 3>& columns, void* tuples) const;
   /// Whether tuples of @p count points can have made what a voxel has.
   bool isOf(const AccumulatedArray& kind, std::size_t voxel, std::int64_t count) const;
   /// Frees memory that is not used. Equal tallies are then kept in the same way.

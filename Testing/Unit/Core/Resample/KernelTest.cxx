@@ -1,9 +1,8 @@
-// The resampler's kernels where its results alone would not show what is wrong: plans, positions, levels.
+// The resampler's kernels where its results alone would not show what is wrong: plans, positions.
 #include "Core/Resample/Kernel/VoxelKernel.h"
 #include "Core/Resample/Stages/BinnedVoxels.h"
-#include "Core/Resample/Stages/CoarseVoxels.h"
+#include "Core/Resample/Stages/PartitionOrder.h"
 #include "Core/Resample/Stages/PointQuantizer.h"
-#include "Core/Resample/Stages/VoxelLevel.h"
 
 #include "RandomClouds.h"
 
@@ -303,31 +302,6 @@ TEST(PointQuantizer, DistinguishesOutsideFromInvalid)
   EXPECT_EQ(locationOf({ -1, 1e307, 1 }), PointLocation::Invalid);
   EXPECT_EQ(locationOf({ NAN, 0, 0 }), PointLocation::Invalid);
   EXPECT_EQ(locationOf({ 0, 0, -INFINITY }), PointLocation::Invalid);
-}
-
-TEST(CoarserLattice, CoversTheFineOneAndEndsWhereItDoes)
-{
-  trial::Random random(4);
-  for (int i = 0; i < 200; ++i)
-  {
-    Lattice fine = randomLattice(random, double(kMaximumLatticeDimension));
-    fine.origin = random.inBox({ -1, -1, -1 }, { 1, 1, 1 });
-    for (int level = 0; level < 22; ++level)
-    {
-      const Lattice coarse = coarserLattice(fine);
-      const bool isOne = fine.dimensions == std::array<std::int64_t, 3>{ 1, 1, 1 };
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        const auto a = std::size_t(axis);
-        ASSERT_EQ(coarse.spacing[axis], (isOne ? 1.0 : 2.0) * fine.spacing[axis]);
-        ASSERT_EQ(coarse.dimensions[a], (fine.dimensions[a] + 1) / 2);
-        ASSERT_EQ(std::min(coarse.end[axis], double(coarse.dimensions[a])) * coarse.spacing[axis],
-          std::min(fine.end[axis], double(fine.dimensions[a])) * fine.spacing[axis]);
-      }
-      fine = coarse;
-    }
-    EXPECT_EQ(fine.dimensions, (std::array<std::int64_t, 3>{ 1, 1, 1 }));
-  }
 }
 
 namespace

@@ -69,7 +69,7 @@ std::vector<float> randomValues(std::size_t points)
 std::vector<float> meansOf(const VoxelResampler& resampler)
 {
   std::vector<float> means(3 * std::size_t(resampler.size()));
-  resampler.copyAttribute(0, 0, means.data());
+  resampler.copyAttribute(0, means.data());
   return means;
 }
 
