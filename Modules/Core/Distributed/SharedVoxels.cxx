@@ -137,7 +137,7 @@ Status SharedVoxels::merge(std::vector<std::string> messages, std::size_t rank, 
   return Status::Ok;
 }
 
-/// What is no longer needed is freed at once: its memory serves what is sent and what comes.
+/// Memory that is no longer needed is freed at once: the messages need it.
 Status SharedVoxels::share(Ranks& ranks, VoxelAccumulator own)
 {
   own.releaseScratch();

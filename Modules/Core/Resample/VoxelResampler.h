@@ -60,8 +60,8 @@ struct VoxelRequest
   bool keys = false; ///< For copyKeys().
   /// Arrays of the points, to be reduced to a tuple for each voxel.
   std::vector<AttributeRequest> attributes;
-  /// What stands for the points of a voxel, in the place of their mean; counts and covariances stay. For all
-  /// but the mean keys are made, points must not be those of index->points(), and are at most 2^32.
+  /// Representative of the points of a voxel, in the place of their mean; counts and covariances stay. For
+  /// all but the mean keys are made, points must not be those of index->points(), and are at most 2^32.
   Representative representative = Representative::Mean;
   /// Arrays that choose between points at the same distance and place: see Representative.
   std::vector<AttributeView> tieBreakers;
@@ -113,7 +113,7 @@ public:
   Status run(
     const VoxelRequest& request, const Executor& executor = {}, ProgressObserver* observer = nullptr);
 
-  // What run() made.
+  // Results of run().
   std::int64_t clippedPoints() const; ///< Finite points outside the lattice.
   std::int64_t invalidPoints() const; ///< Points NaN or infinite, before or after the transform.
   std::int64_t size() const;          ///< Active voxels.

@@ -195,7 +195,7 @@ void ViewWindow::forgiveEscape()
   escapeIsLate_ = std::chrono::steady_clock::now() + kLateEscape;
 }
 
-/// What Escape does: it leaves the first thing that is on, and quits where nothing is.
+/// Escape leaves the first thing that is on, and quits where nothing is.
 void ViewWindow::leave()
 {
   const auto now = std::chrono::steady_clock::now();

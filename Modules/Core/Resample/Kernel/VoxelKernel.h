@@ -228,11 +228,11 @@ struct CovarianceMap
 /// Elements of the widest vectors.
 constexpr int kWidest = 8;
 
-/// What there is among numbers.
+/// Range of the absolute values of numbers.
 struct Magnitudes
 {
-  double largest;  ///< Of the finite ones; 0 without any.
-  double smallest; ///< Of those that are not 0; infinite without any.
+  double largest;  ///< Largest finite one; 0 without any.
+  double smallest; ///< Smallest one but 0; infinite without any.
   bool allFinite;
 };
 
@@ -258,8 +258,8 @@ struct PointKernels
 /// Consecutive lists of values, of one type.
 struct ValueLists
 {
-  const void* values; ///< Of all lists of an array.
-  std::int64_t begin; ///< Of the first list among them.
+  const void* values; ///< Values of all lists of an array.
+  std::int64_t begin; ///< Index of the first list's first value.
   const std::int64_t* ends;
   int count;
 };
