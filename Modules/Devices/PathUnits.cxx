@@ -113,7 +113,7 @@ std::string unlikelyCloudUnit(const HipPath& path, const Bounds& cloud, const Un
 std::string unlikelyUnits(const HipPath& path, const Bounds& cloud, const UnitNames& names)
 {
   const std::string lengths = unlikelyLengths(sizeOf(boxOf(path)), sizeOf(cloud), names);
-  // With wrong lengths speeds mean nothing.
+  // Speeds are wrong where lengths are.
   return lengths.empty() ? unlikelyTimes(path, names) : lengths;
 }
 

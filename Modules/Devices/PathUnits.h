@@ -17,7 +17,7 @@ struct PathUnits
   double seconds = 1.0; ///< Above 0.
 };
 
-/// Names of the units in messages: options of a program, arguments of a function.
+/// What those who choose units call them: options of a program, arguments of a function.
 struct UnitNames
 {
   std::string cloud = "--unit";
@@ -28,12 +28,13 @@ struct UnitNames
 /// Converts the numbers of @p path to metres and seconds.
 void applyUnits(const PathUnits& units, HipPath& path);
 
-/// Says in one sentence, with the cure, that @p path, in metres and seconds, is likely to be in other units;
-/// else empty. A hand reaches 2 m, moves by millimetres a second at least, and is sampled more often than
-/// once in half a second. @p cloud: box of the felt points, metres; may be empty. Costs a pass over the path.
+/// A hand reaches 2 m, moves by millimetres a second at least, and is told more often than once in half a
+/// second. Where @p path, in metres and seconds, does not, and would in other units, says so in one sentence
+/// with the cure; else empty. @p cloud: box of what is felt, metres; may be empty. Costs a pass over the
+/// path.
 std::string unlikelyUnits(const HipPath& path, const Bounds& cloud, const UnitNames& names = {});
-/// Says that a @p path which passes @p cloud without a touch would fit it in another unit of the cloud; else
-/// empty.
+/// For a @p path that passes @p cloud without a touch: says so where the cloud would be as large as the path
+/// in another unit.
 std::string unlikelyCloudUnit(const HipPath& path, const Bounds& cloud, const UnitNames& names = {});
 
 } // namespace pointhaptics

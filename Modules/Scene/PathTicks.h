@@ -12,8 +12,8 @@ namespace pointhaptics
 
 struct HipPath;
 
-/// Fault of @p path, with row, value and cure: it has no point, a number is not finite, or times do not
-/// ascend. Empty: none.
+/// Why nobody can follow @p path, with row, value and cure: it has no point, a number is not finite, or times
+/// do not ascend. Empty: nothing is wrong.
 POINTHAPTICSSCENE_EXPORT std::string pathProblem(const HipPath& path);
 
 /// Ticks of @p rateHz from the path's first point to its last, both included. False where they are more than

@@ -35,8 +35,7 @@ struct HapticViewerNames
   std::string clip = "clip";
   std::string felt = "felt";
   std::string firmware = "falcon.firmwareFile";
-  std::string placement = "workspace and transform"; ///< Options that can leave the cloud out of the
-                                                     ///< workspace.
+  std::string placement = "workspace and transform"; ///< Whatever may leave the cloud out of the workspace.
 };
 
 /// Lengths are metres of the workspace unless said otherwise.

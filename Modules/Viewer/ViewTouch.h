@@ -35,8 +35,7 @@ const ServoSample& mostTelling(const std::vector<ServoSample>& samples);
 /// Finds the exact surface that --ideal names, or of which the cloud of @p scene is a sample. Null: none.
 std::shared_ptr<IdealForce> idealFor(ViewScene& scene, const HapticViewerOptions& options);
 
-/// Exact force, newtons, for the present place of the model in @p scene, with the limit of @p contact; NaN:
-/// not known.
+/// Newtons where the model stands in @p scene at this moment, with the limit of @p contact; NaN: not known.
 double idealForce(IdealForce& ideal, ViewScene& scene, const Vec3& hip, const ContactParameters& contact);
 
 /// Columns of a trace: those of `feel`, and the status of the tick.

@@ -39,10 +39,10 @@ public:
   void setChart(vtkHapticChart* chart);
   vtkHapticChart* chart() const { return chart_; }
   ///@}
-  /// Function for the force of an exact surface on the hand of a tick, newtons, for the chart; NaN: not
-  /// known. Called for every tick in the order of time. Empty (default): none.
+  /// What an exact surface would answer the hand of a tick, in newtons, for the chart; NaN: not known. Called
+  /// for every tick in the order of time. Empty (default): none.
   void setIdealForce(std::function<double(const Vec3& hip)> ideal) { idealForce_ = std::move(ideal); }
-  /// Shows the chart as a strip along the lower edge; the picture takes the rest.
+  /// The chart is a strip along the lower edge; the picture takes the room that it leaves.
   void setChartVisibility(bool visible);
 
   /// Takes the new ticks, and the newest one. True: the picture has changed.

@@ -74,7 +74,7 @@ class Proxy:
         handle, place = self._arguments
         i = self._next
         if i == len(self._rows):
-            # Returned rows are views of the last block, so that stays: to copy each row takes longer.
+            # What was returned looks at rows of the block before: a copy of each takes longer.
             self._rows = np.zeros(_BLOCK, FELT_TYPE)
             self._address = self._rows.ctypes.data
             i = 0

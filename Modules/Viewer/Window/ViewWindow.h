@@ -162,7 +162,7 @@ private:
   bool endFiles(std::string& message);
   void noteFile(bool isWritten, const std::string& note) const;
   void findIdeal();
-  /// Contact parameters with the limit of the force in effect.
+  /// Parameters with the limit of the force that holds.
   ContactParameters contactInForce() const;
   HapticViewerState state();
   void onModelChanged(void*);
