@@ -5,7 +5,7 @@
 
 #include "Core/Base/Vector3.h"
 #include "Core/Resample/Reductions/AttributeReducer.h"
-#include "Core/Resample/Reductions/VoxelTally.h"
+#include "Core/Resample/Stages/VoxelTally.h"
 
 #include <array>
 #include <cstdint>

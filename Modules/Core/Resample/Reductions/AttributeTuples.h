@@ -5,7 +5,7 @@
 #include "Core/Base/Buffer.h"
 #include "Core/Resample/Kernel/VoxelKernel.h"
 #include "Core/Resample/Reductions/AttributeReducer.h"
-#include "Core/Resample/Reductions/VoxelTally.h"
+#include "Core/Resample/Stages/VoxelTally.h"
 
 #include <cstddef>
 #include <cstdint>

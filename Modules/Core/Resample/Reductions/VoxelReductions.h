@@ -6,7 +6,7 @@
 #include "Core/Resample/Kernel/PointRecordWriter.h"
 #include "Core/Resample/Reductions/AttributeReducer.h"
 #include "Core/Resample/Reductions/NearestPoints.h"
-#include "Core/Resample/Reductions/VoxelTally.h"
+#include "Core/Resample/Stages/VoxelTally.h"
 #include "Core/Resample/VoxelResampler.h"
 
 #include <cstddef>

@@ -1,7 +1,7 @@
-#include "Core/Resample/Reductions/VoxelTally.h"
+#include "Core/Resample/Stages/VoxelTally.h"
 
 #include "Core/Resample/Kernel/OrderedKey.h"
-#include "Core/Resample/Reductions/AttributeRounding.h"
+#include "Core/Resample/Stages/AttributeRounding.h"
 
 #include <algorithm>
 #include <cmath>
