@@ -46,7 +46,7 @@ TEXT
 }
 
 command_name=""
-# What the script is doing, for the last line when it fails.
+# The present step, for the last line when the script fails.
 step="reading the command line"
 xvfb_pid=""
 xvfb_folder=""

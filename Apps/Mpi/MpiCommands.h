@@ -9,7 +9,7 @@
 namespace pointhaptics::app
 {
 
-/// What a command line asks for, run after it was parsed on all ranks. @return an ExitCode.
+/// Work of a command line, run after it was parsed on all ranks. @return an ExitCode.
 using MpiWork = std::function<int(Job&)>;
 
 /// Each adds its command to @p program; its callback stores what to run in @p work.

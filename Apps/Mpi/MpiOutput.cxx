@@ -23,7 +23,7 @@ namespace pointhaptics::app
 namespace
 {
 
-/// Ranks without points have no file.
+/// Writes a file for each rank with points.
 bool writePerRank(Job& job, const std::string& command, const std::string& fileName, vtkPolyData* piece)
 {
   const int rank = job.ranks().rank();

@@ -19,10 +19,10 @@ namespace pointhaptics::app
 struct Piece
 {
   vtkSmartPointer<vtkPolyData> points;
-  vtkIdType pointsOfAll = 0; ///< Of all ranks.
+  vtkIdType pointsOfAll = 0; ///< Number of points on all ranks.
 };
 
-/// Adds what a command of ranks has beside the options of the same one of pointhaptics, and the common ones.
+/// Adds the options that a command of ranks has beside those of pointhaptics, and the common ones.
 void addOutputOptions(CLI::App& command);
 /// Checks the files of the parsed @p command, and fills in the input. False: there is nothing to do
 /// (--dry-run).

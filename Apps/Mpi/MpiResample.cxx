@@ -32,7 +32,7 @@ struct MpiResampleOptions : ResampleOptions
   Traffic traffic;
 };
 
-/// By rank 0, which gathers the rows: pieces of IN are in its order.
+/// Writes the index by rank 0, which gathers the rows: pieces of IN are in its order.
 bool writeIndex(Job& job, CsvWriter& file, vtkVoxelMeanResampler* resampler)
 {
   std::vector<std::string> messages(std::size_t(job.ranks().size()));

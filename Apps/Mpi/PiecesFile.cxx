@@ -33,7 +33,7 @@ std::string escaped(const std::string& text)
   return result;
 }
 
-/// As VTK's XML names it.
+/// Type of an array as VTK's XML names it.
 std::string typeOf(vtkAbstractArray* array)
 {
   auto* numbers = vtkDataArray::SafeDownCast(array);
@@ -54,7 +54,7 @@ std::string elementOf(vtkAbstractArray* array, const std::string& name)
     array->GetNumberOfComponents());
 }
 
-/// ' Scalars="RGB"' and so on.
+/// Roles of arrays as attributes: ' Scalars="RGB"' and so on.
 std::string rolesOf(vtkPointData* data)
 {
   std::string roles;

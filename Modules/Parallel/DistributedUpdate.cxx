@@ -72,7 +72,7 @@ std::string DistributedUpdate::chooseArrays()
   return {};
 }
 
-/// That of the input on ranks which have points.
+/// Takes the precision of the input on ranks which have points.
 void DistributedUpdate::choosePrecision()
 {
   const vtkPoints* points = input_->GetPoints();
@@ -218,7 +218,7 @@ vtkSmartPointer<vtkPolyData> DistributedUpdate::sharePoints(const VoxelResampler
   {
     to.push_back(voxel < 0 ? -1 : owners[std::size_t(voxel)]);
   }
-  // Of one type on all ranks, also where some have no points.
+  // The type must be equal on all ranks, also where some have no points.
   const bool isFloat = !input_->GetPoints() || input_->GetPoints()->GetDataType() == VTK_FLOAT;
   const bool areFloat = this->all(isFloat || to.empty());
   vtkNew<vtkPoints> places;

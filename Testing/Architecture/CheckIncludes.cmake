@@ -36,9 +36,9 @@ set(plain_folders Core Shapes Haptics Devices)
 set(not_in_plain_folders "^(vtk[A-Za-z0-9_]*\\.h|pcl/.*|Eigen/.*|CLI/.*|nlohmann/.*|fmt/.*|iostream|cstdio|stdio\\.h)$")
 # A skin over Core and Filters: it finds no voxel and adds up nothing itself.
 set(not_in_skins "std::floor|std::accumulate|std::reduce|[^a-zA-Z_]floor\\(|\\+= *\\(?double|floorf\\(")
-# The same of the Python package: no sums, no means, no rounding to voxels, no distances.
+# The Python package computes nothing either: no sums, no means, no rounding to voxels, no distances.
 set(not_in_python "(np|numpy|math)\\.(floor|rint|round|sum|nansum|add|cumsum|mean|nanmean|average|median|var|std|cov|bincount|histogram|digitize|unique|sort|lexsort|argsort|dot|einsum|linalg)|\\.(sum|mean|var|std|cumsum|round|sort|reduceat|at)\\(|[])a-zA-Z0-9_] *// *[a-zA-Z0-9_(]|\\+= ")
-# The same sources compile against every VTK from 9.1 on, that of ParaView, too. Where versions must differ, they do so here.
+# All sources compile against every VTK from 9.1 on, that of ParaView, too. Differences between versions stand in one file.
 set(asks_for_version "VTK_(MAJOR|MINOR|BUILD)_VERSION|VTK_VERSION|PARAVIEW_VERSION")
 set(may_ask_for_version "Modules/Filters/VtkVersions.h")
 # The viewer is a library: it prints nothing and knows no command line.

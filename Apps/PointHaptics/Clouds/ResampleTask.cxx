@@ -62,8 +62,7 @@ void ResampleOptions::configure(vtkVoxelMeanResampler* resampler) const
   resampler->SetMinimumPointsPerVoxel(int(this->minimumPoints));
 }
 
-/// Steps and coordinate system of the file are not those of transformed points, nor is its unit that of
-/// scaled ones.
+/// Removes steps and coordinate system of the file from transformed points, and its unit from scaled ones.
 void ResampleOptions::finish(vtkPolyData* means) const
 {
   const bool isScaled =

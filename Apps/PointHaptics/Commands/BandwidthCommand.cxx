@@ -20,7 +20,7 @@ namespace
 
 constexpr const char* kBandwidthCommand = "bandwidth";
 
-/// @p files has the output.
+/// Adds the arrays to @p cloud and writes it to the output in @p files.
 CloudResult addBandwidths(const BandwidthCommandOptions& options, Cloud& cloud, Files& files)
 {
   std::string message;

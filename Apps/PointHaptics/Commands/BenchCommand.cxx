@@ -20,7 +20,7 @@ namespace
 
 constexpr const char* kBenchProgram = "pointhaptics-bench";
 
-/// Beside this program, or wherever PATH leads.
+/// Finds the program beside this one, or on PATH.
 std::string benchProgram()
 {
   std::error_code error;
@@ -29,7 +29,7 @@ std::string benchProgram()
   return !error && ::access(beside.c_str(), X_OK) == 0 ? beside.string() : kBenchProgram;
 }
 
-/// Becomes the other program. @return kFailed, where there is none.
+/// Replaces this process by the other program. @return kFailed where there is none.
 int becomeBench(const std::vector<std::string>& words)
 {
   std::string program = benchProgram();

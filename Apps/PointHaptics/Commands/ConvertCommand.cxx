@@ -27,7 +27,7 @@ struct ConvertOptions
   bool keepPoses = false;
 };
 
-/// What can be said once all words of the command line are known.
+/// Checks that need all words of the command line.
 void complete(ConvertOptions& options)
 {
   CloudToCloudOptions& clouds = options.clouds;

@@ -1,5 +1,5 @@
 /// @file
-/// `devices --diagnose`: what only a Falcon and its owner can confirm.
+/// `devices --diagnose`: checks that need a Falcon and its owner.
 #pragma once
 
 #include "Options/FalconOptions.h"

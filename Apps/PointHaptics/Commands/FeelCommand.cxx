@@ -73,7 +73,7 @@ std::string header()
   return line;
 }
 
-/// In virtual time there is no servo loop with a limit of its own.
+/// Limit of the force; in virtual time no servo loop has a limit of its own.
 ForceLimit limitOf(const FeelOptions& options)
 {
   ForceLimit limit;
@@ -86,11 +86,11 @@ ForceLimit limitOf(const FeelOptions& options)
   return limit;
 }
 
-/// Rows and their summary.
+/// Writes rows and keeps their summary.
 class Rows
 {
 public:
-  /// @param recording gets what add() gets as a sample, if it is open; @p sound what is felt.
+  /// @param recording gets each sample of add(), if it is open; @param sound plays the touch.
   Rows(CsvWriter& table, RecordingWriter& recording, FeltSound& sound)
     : table_(table)
     , recording_(recording)
@@ -98,7 +98,7 @@ public:
   {
   }
   RecordingWriter& recording() { return recording_; }
-  /// At another time than the sample's, which counts from the first tick.
+  /// Adds a row with another time than the sample's, which counts from the first tick.
   void add(double time, const VirtualTouch& touch)
   {
     const ServoSample& sample = touch.sample();
@@ -133,7 +133,7 @@ public:
     return summary_;
   }
 
-  /// Of a hand that has touched nothing.
+  /// Nearest approach of a hand that has touched nothing.
   const ClosestApproach& approach() const { return approach_; }
 
 private:
@@ -146,7 +146,7 @@ private:
   std::uint64_t scene_ = 0;
 };
 
-/// A person pulled along @p path, who yields to the force; in virtual time.
+/// Moves a person's hand along @p path that yields to the force, in virtual time.
 void walkYielding(
   const FeelOptions& options, FeelScenes& scenes, const HipPath& path, std::int64_t ticks, Rows& rows)
 {
@@ -204,7 +204,7 @@ void walk(const FeelOptions& options, FeelScenes& scenes, const HipPath& path, s
     });
 }
 
-/// The hand in the device, until the time is over or the user ends it.
+/// Feels with the hand in the device, until the time is over or the user ends it.
 void touch(const FeelOptions& options, FeelScenes& scenes, Rows& rows)
 {
   LiveSettings live;
@@ -241,13 +241,13 @@ void feelAs(
   requireNoStop(options);
 }
 
-/// Null: there is none.
+/// The limit as JSON; null: there is none.
 nlohmann::ordered_json limitJson(const ForceLimit& limit)
 {
   return std::isfinite(limit.newtons()) ? nlohmann::ordered_json(limit.newtons()) : nlohmann::ordered_json();
 }
 
-/// Of a hand that has touched nothing @p nearest says how near it came, metres.
+/// Prints the summary. @p nearest: how near a hand that touched nothing came, metres.
 void print(const FeelOptions& options, const FeelScenes& scenes, std::int64_t invalid, const Summary& s,
   const std::optional<double>& nearest)
 {
@@ -308,7 +308,7 @@ void openOutputs(const FeelOptions& options, Files& files, CsvWriter& table, Fel
     message);
 }
 
-/// A recording felt again.
+/// Feels a recording again.
 int runReplay(const FeelOptions& options, Files& files)
 {
   std::string message;
@@ -370,7 +370,7 @@ void openRecordingOutput(
   require(recording.open(files.output(options.record), header, message), message);
 }
 
-/// The box about the cloud in the workspace frame; empty where the cloud is fitted.
+/// Box about the cloud in the workspace frame; empty where the cloud is fitted.
 Bounds feltBox(const FeelOptions& options, vtkPolyData* cloud)
 {
   const AffineTransform transform = options.lattice.transform();
@@ -378,7 +378,7 @@ Bounds feltBox(const FeelOptions& options, vtkPolyData* cloud)
   return box.empty() ? box : boxOfCorners(box, [&](const Vec3& p) { return transform.apply(p); });
 }
 
-/// The path that the hand follows, in its units, and how many ticks it takes.
+/// Reads the path of the hand in its units, and counts its ticks.
 void readPath(const FeelOptions& options, Files& files, HipPath& path, std::int64_t& ticks)
 {
   std::string message;

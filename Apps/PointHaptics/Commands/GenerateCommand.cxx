@@ -26,7 +26,7 @@ namespace
 
 constexpr const char* kGenerateCommand = "generate";
 constexpr std::int64_t kMostPoints = 100'000'000;
-/// Seeds up to here are whole numbers in a double, as JSON and most scripts have them.
+/// Largest seed: JSON and most scripts hold whole numbers up to here in a double.
 constexpr std::int64_t kLargestSeed = std::int64_t(1) << 53;
 
 struct GenerateOptions

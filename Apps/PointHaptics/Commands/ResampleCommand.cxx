@@ -23,7 +23,7 @@ namespace
 
 constexpr const char* kResampleCommand = "resample";
 
-/// @p files has the outputs.
+/// Resamples @p cloud and writes it to the outputs in @p files.
 CloudResult resample(const ResampleOptions& options, Cloud& cloud, Files& files)
 {
   std::string message;

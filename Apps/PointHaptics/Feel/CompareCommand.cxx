@@ -75,14 +75,15 @@ struct Felt
   bool contact = false;
 };
 
-/// What the two have to say of each other.
+/// Figures of the two curves and of their difference.
 struct Comparison
 {
   std::int64_t ticks = 0;
   std::array<std::int64_t, 2> contacts{};
   std::array<double, 2> largest{};
   std::int64_t oneAlone = 0;  ///< Ticks in which one of them has contact.
-  double rmsDifference = 0.0; ///< Of the forces as vectors, in ticks in which either has contact; newtons.
+  double rmsDifference = 0.0; ///< RMS difference of the forces as vectors, in ticks in which either has
+                              ///< contact; newtons.
   double largestDifference = 0.0;
   double largestAt = 0.0; ///< Seconds.
 };

@@ -16,10 +16,10 @@ namespace
 {
 
 constexpr auto kPause = std::chrono::milliseconds(20);
-/// Between two looks at where the hand is: 0.25 mm at 50 mm/s.
+/// Time between two looks at the hand: 0.25 mm at 50 mm/s.
 constexpr auto kLook = std::chrono::milliseconds(5);
 
-/// While it lives, a thread follows the hand and publishes the scenes of where it is.
+/// A thread that follows the hand and publishes the scenes there, as long as this lives.
 class SceneThread
 {
 public:

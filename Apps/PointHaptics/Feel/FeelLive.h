@@ -19,7 +19,8 @@ struct LiveSettings
   HapticParameters parameters;
   double rateHz = 1000.0;
   RecordingWriter* recording = nullptr; ///< Gets all ticks; may be null.
-  double seconds = 0.0; ///< Of touch, from the first tick with forces on; 0: until a stop signal.
+  double seconds = 0.0; ///< Duration of the touch, from the first tick with forces on; 0: until a stop
+                        ///< signal.
 };
 
 /// Runs the servo loop on the Falcon; @p onSample gets every tick that had a position. Local scenes are made

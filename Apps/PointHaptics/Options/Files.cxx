@@ -39,7 +39,7 @@ constexpr const char* kWrites = "writes";
 constexpr const char* kReadsAndWrites = "reads and writes";
 constexpr const char* kPlaceholders[] = { "{stem}", "{name}", "{folder}" };
 
-/// Whether @p name is one of the names that the system gives to an open stream of this process, such as
+/// True if @p name is one of the names that the system gives to an open stream of this process, such as
 /// /dev/stdout, and leads to the standard stream @p stream.
 bool isStandard(const std::string& name, int stream)
 {

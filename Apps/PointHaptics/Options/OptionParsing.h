@@ -79,7 +79,7 @@ using NumbersCheck = std::function<std::string(const std::vector<double>&)>;
 CLI::Option* addNumbers(CLI::App& command, const std::string& name, std::vector<double>& values,
   std::initializer_list<std::size_t> counts, NumbersCheck check, const std::string& form,
   const std::string& description);
-/// The same; the list is handed to @p keep after the checks.
+/// As addNumbers() above; the list is passed to @p keep after the checks.
 CLI::Option* addNumbers(CLI::App& command, const std::string& name,
   std::function<void(const std::vector<double>&)> keep, std::initializer_list<std::size_t> counts,
   NumbersCheck check, const std::string& form, const std::string& description);

@@ -1,5 +1,5 @@
 /// @file
-/// What the main functions of both programs do with a command line.
+/// Parses and runs the command lines of both programs.
 #pragma once
 
 #include "Options/Files.h"
@@ -30,7 +30,7 @@ struct CommandRun
 {
   /// Does the work. The files that the options name are taken and checked. @return an ExitCode.
   std::function<int(Files&)> run;
-  /// What can be said only once all options are known: ends in a usage error, or throws Failure.
+  /// Checks that need all options: ends in a usage error, or throws Failure.
   std::function<void()> complete = {};
   /// Adds the files that no option names, and says which outputs cannot be made again.
   std::function<void(Files&)> declare = {};

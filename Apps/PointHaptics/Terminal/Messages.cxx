@@ -115,7 +115,7 @@ struct KeptWarning
   bool isPrinted = false;
 };
 
-/// What the program knows of how it is to speak.
+/// State of the program's messages.
 struct Speech
 {
   std::string program = "pointhaptics";

@@ -1,5 +1,5 @@
 /// @file
-/// What goes to the user: errors in one line, and the messages of VTK classes collected instead of printed.
+/// Messages to the user: errors in one line, and the messages of VTK classes collected instead of printed.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -85,7 +85,8 @@ void printJson(const nlohmann::ordered_json& object);
 
 /// From here on VTK's errors and warnings are kept, from all threads, instead of printed.
 void collectVtkMessages();
-/// Those since the last call, as plain sentences without file names, lines and addresses; oldest first.
+/// Returns the messages since the last call, as plain sentences without file names, lines and addresses;
+/// oldest first.
 std::vector<std::string> takeVtkErrors();
 std::vector<std::string> takeVtkWarnings();
 

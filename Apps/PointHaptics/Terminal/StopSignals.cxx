@@ -22,7 +22,7 @@ void rememberStopSignals()
   action.sa_flags = static_cast<int>(SA_RESETHAND) | SA_RESTART;
   for (const int signal : { SIGINT, SIGTERM, SIGHUP })
   {
-    // What nohup or a shell in the background ignores stays ignored.
+    // A signal that nohup or a shell in the background ignores stays ignored.
     struct sigaction before = {};
     sigaction(signal, nullptr, &before);
     if (before.sa_handler != SIG_IGN)

@@ -11,8 +11,8 @@ namespace pointhaptics::app
 void rememberStopSignals();
 /// A signal has come since. Any thread.
 bool stopIsRequested() noexcept;
-/// What a program ends with that gave up its work for the signal: 130 for SIGINT, 143 for SIGTERM.
-/// @pre stopIsRequested()
+/// Exit code of a program that gave up its work for the signal: 130 for SIGINT, 143 for SIGTERM. @pre
+/// stopIsRequested()
 int stopExitCode() noexcept;
 
 } // namespace pointhaptics::app

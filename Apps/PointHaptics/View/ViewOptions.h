@@ -1,5 +1,5 @@
 /// @file
-/// What a user can say to `pointhaptics view`, on the command line or in a configuration file.
+/// Options of `pointhaptics view`, on the command line or in a configuration file.
 #pragma once
 
 #include "Options/BandwidthOptions.h"

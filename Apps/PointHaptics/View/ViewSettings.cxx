@@ -30,7 +30,7 @@ const std::set<std::string>& deeds()
   return names;
 }
 
-/// Of the cloud at hand, and of no other.
+/// Options that belong to the cloud at hand, and to no other.
 constexpr const char* kOfTheCloud[] = { "matrix", "workspace", "voxel", "dims", "scale", "rotate",
   "translate", "unit", "resolution", "columns", "salvage", "path", "path-unit", "path-time-unit", "up",
   "color-by", "color-range", "clip", "measure", "together", "watch", "camera", "ideal" };

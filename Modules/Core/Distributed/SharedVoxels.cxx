@@ -123,7 +123,7 @@ Status SharedVoxels::merge(std::vector<std::string> messages, std::size_t rank, 
   {
     VoxelAccumulator part{ Lattice() };
     const Status status = r == rank ? Status::Ok : VoxelAccumulator::deserialize(messages[r], part);
-    std::string().swap(messages[r]); // Its memory serves the sums of the next.
+    std::string().swap(messages[r]); // Frees memory for the next sums.
     if (r == rank)
     {
       part = std::move(kept);
@@ -137,7 +137,7 @@ Status SharedVoxels::merge(std::vector<std::string> messages, std::size_t rank, 
   return Status::Ok;
 }
 
-/// What is no longer needed is freed at once: its memory serves what is sent and what comes.
+/// Memory that is no longer needed is freed at once: the messages need it.
 Status SharedVoxels::share(Ranks& ranks, VoxelAccumulator own)
 {
   own.releaseScratch();

@@ -29,8 +29,8 @@ std::int64_t sumBefore(Ranks& ranks, std::int64_t own);
 /// for, ascending.
 std::vector<std::uint64_t> shareKeys(Ranks& ranks, const std::vector<std::uint64_t>& own);
 
-/// Of each of the keys @p own, ascending, the number that the rank whose range it is in gives it; -1 where it
-/// has none. Collective; 16 bytes a key are sent. @p ranges: of shareKeys(). @p keys, ascending, and @p
+/// Returns for each of the keys @p own, ascending, the number that the rank of its range gives it; -1 where
+/// it has none. Collective; 16 bytes a key are sent. @p ranges: of shareKeys(). @p keys, ascending, and @p
 /// numbers: of this rank's range.
 std::vector<std::int64_t> numbersOfKeys(Ranks& ranks, const std::vector<std::uint64_t>& ranges,
   const std::vector<std::uint64_t>& own, const std::vector<std::uint64_t>& keys,

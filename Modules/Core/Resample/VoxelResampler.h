@@ -43,7 +43,7 @@ public:
   virtual void* allocate(std::size_t part, std::size_t bytes) = 0;
 };
 
-/// What to resample, and what to make of it.
+/// Points to resample, and the results to make of them.
 struct VoxelRequest
 {
   PointView points;
@@ -60,8 +60,8 @@ struct VoxelRequest
   bool keys = false; ///< For copyKeys().
   /// Arrays of the points, to be reduced to a tuple for each voxel.
   std::vector<AttributeRequest> attributes;
-  /// What stands for the points of a voxel, in the place of their mean; counts and covariances stay. For all
-  /// but the mean keys are made, points must not be those of index->points(), and are at most 2^32.
+  /// Representative of the points of a voxel, in the place of their mean; counts and covariances stay. For
+  /// all but the mean keys are made, points must not be those of index->points(), and are at most 2^32.
   Representative representative = Representative::Mean;
   /// Arrays that choose between points at the same distance and place: see Representative.
   std::vector<AttributeView> tieBreakers;
@@ -113,7 +113,7 @@ public:
   Status run(
     const VoxelRequest& request, const Executor& executor = {}, ProgressObserver* observer = nullptr);
 
-  // What run() made.
+  // Results of run().
   std::int64_t clippedPoints() const; ///< Finite points outside the lattice.
   std::int64_t invalidPoints() const; ///< Points NaN or infinite, before or after the transform.
   std::int64_t size() const;          ///< Active voxels.
@@ -132,9 +132,9 @@ public:
   /// Those tuples in place, valid until the next run().
   const void* attribute(std::size_t attribute) const;
 
-  /// Of each voxel the number of the point that stands for it; empty unless a nearest one was asked for.
+  /// Number of the point that represents each voxel; empty unless a nearest one was requested.
   const std::vector<std::int64_t>& chosenPoints() const;
-  /// Of each point its voxel, or -1 where it is clipped or invalid; empty unless it was asked for.
+  /// Voxel of each point, or -1 where it is clipped or invalid; empty unless requested.
   const std::vector<std::int64_t>& voxelIndex() const;
 
   std::size_t scratchBytes() const;

@@ -59,7 +59,7 @@ public:
   std::size_t scratchBytes() const;
 
 private:
-  /// What becomes of the voxels of points.
+  /// Use of the voxels of points.
   struct Task
   {
     const VoxelRequest& request;
@@ -110,7 +110,7 @@ private:
 
   Stages<simd::BinnedVoxels> binned_;
   Stages<simd::SortedVoxels> sorted_;
-  PageVector<char> places_; ///< Of points, for medians.
+  PageVector<char> places_; ///< Memory of points, for medians.
 };
 
 } // namespace pointhaptics

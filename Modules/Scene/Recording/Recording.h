@@ -32,7 +32,7 @@ struct RecordedFiles
   std::uint64_t checksum = 0; ///< checksumOf() its points.
 };
 
-/// Of the coordinates of @p cloud, in their order and type.
+/// Checksum of the coordinates of @p cloud, in their order and type.
 POINTHAPTICSSCENE_EXPORT std::uint64_t checksumOf(vtkPointSet* cloud);
 
 /// What changes before a tick is felt.
@@ -62,7 +62,7 @@ struct RecordedEvent
 /// A row of the table.
 struct RecordedTick
 {
-  std::uint64_t tick = 0;        ///< Of the servo loop: time * rate + 1.
+  std::uint64_t tick = 0;        ///< Number of the servo loop's tick: time * rate + 1.
   std::array<double, 16> felt{}; ///< kFeltColumns.
   std::uint32_t buttons = 0;
   std::uint32_t marker = 0; ///< 1, 2, ... where one was set; else 0.
@@ -71,7 +71,7 @@ struct RecordedTick
   Vec3 force() const { return { felt[10], felt[11], felt[12] }; }
 };
 
-/// What the file's header says.
+/// Contents of the file's header.
 struct RecordingHeader
 {
   std::string program;  ///< Name and version.

@@ -52,7 +52,7 @@ public:
   }
   /// False: problem() says why. An empty line ends the rows.
   bool take(const std::string& line);
-  /// Whether the file may be cut after the lines taken so far: it is one that was written as it was felt, has
+  /// True if the file may be cut after the lines taken so far: it is one that was written as it was felt, has
   /// a tick, and no end.
   bool mayBeCut() const { return version_ > 1 && !isEnded_ && !recording_.ticks.empty(); }
   /// Once all lines were taken.

@@ -57,7 +57,7 @@ struct ReplayDifference
   std::uint64_t ticks = 0;
   std::uint64_t sameTicks = 0; ///< All columns of the hand, the contact and the force have the same bits.
   double largest = 0.0;        ///< Newtons, of the forces.
-  std::uint64_t firstTick = 0; ///< That differs; 0: none does.
+  std::uint64_t firstTick = 0; ///< First tick that differs; 0: none does.
 
   POINTHAPTICSSCENE_EXPORT void add(const RecordedTick& row, const ServoSample& sample);
   /// In words, in one line.

@@ -1,4 +1,4 @@
-// What the keys of the viewer do beside those of vtkInteractorStyleHaptic: one entry a command.
+// Commands of the viewer beside those of vtkInteractorStyleHaptic: one entry a command.
 #include "HapticViewer.h"
 #include "PictureControls.h"
 #include "ViewWindow.h"

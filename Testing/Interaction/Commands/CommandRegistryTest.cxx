@@ -14,7 +14,7 @@ using namespace pointhaptics;
 namespace
 {
 
-/// Those of every style.
+/// Commands of every style.
 class StyleCommands : public ::testing::Test
 {
 protected:

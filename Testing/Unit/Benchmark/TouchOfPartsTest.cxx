@@ -1,4 +1,4 @@
-/// What a hand feels that slides over machined parts, beside the god object on their meshes.
+/// Touch of a hand that slides over machined parts, beside the god object on their meshes.
 #include "Benchmark/Touch/Studies.h"
 
 #include <gtest/gtest.h>
@@ -32,7 +32,7 @@ TouchFigures figuresOf(const char* name, StrokeSet set, std::int64_t points)
   return figuresOf(mesh, tree, strokesOn(tree, kStrokes, set), points);
 }
 
-/// Of the ticks, in which @p mechanism spoke.
+/// Percentage of the ticks that set the bit of @p mechanism.
 double percentOf(const TouchFigures& figures, ProxyStatus mechanism)
 {
   std::size_t bit = 0;

@@ -1,5 +1,6 @@
 /// @file
-/// What a VoxelResampler made, gathered for comparisons, and the exact answer for points on a grid of quanta.
+/// Results of a VoxelResampler, gathered for comparisons, and the exact answer for points on a grid of
+/// quanta.
 #pragma once
 
 #include "Core/Resample/VoxelResampler.h"

@@ -104,7 +104,7 @@ protected:
       }
     }
   }
-  /// What vtkPointCloudWriter makes of @p file.
+  /// Content of @p file as vtkPointCloudWriter converts it.
   std::string converted(const std::string& file, const std::string& name) const
   {
     vtkNew<vtkPointCloudWriter> writer;

@@ -208,7 +208,7 @@ void AttributeMean::addReals(
   const Tuples& tuples, const std::int64_t* numbers, const std::int64_t* voxels, int count)
 {
   const Terms terms = { tuples, kind_.components, numbers, voxels, count };
-  // Of two words the upper part is an integer that rounding to it finds, the lower one a word.
+  // A number becomes two words: the upper part is the integer that rounding finds, the lower part a word.
   constexpr int kLowBits = 62;
   constexpr int kHighBits = 50;
   constexpr double kRounder = 0x1.8p52;

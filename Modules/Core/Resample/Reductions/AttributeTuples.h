@@ -41,7 +41,7 @@ private:
   void keepTuples(const Tuples& tuples, const std::int64_t* numbers, const std::int64_t* voxels, int count,
     Components components);
   std::int64_t voxels() const { return std::int64_t(ends_.size()); }
-  /// Of its tuples. @pre all have been added.
+  /// Begin of a voxel's tuples. @pre all have been added.
   std::int64_t begin(std::int64_t voxel) const { return voxel == 0 ? 0 : ends_[std::size_t(voxel - 1)]; }
   std::int64_t end(std::int64_t voxel) const { return ends_[std::size_t(voxel)]; }
   /// Those of a component, of all points.

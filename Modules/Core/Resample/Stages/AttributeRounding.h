@@ -49,7 +49,7 @@ inline double scaledMean(double sum, int exponent, std::int64_t count)
   return exponent > -1000 && exponent < 1000 ? mean * powerOfTwo(exponent) : std::ldexp(mean, exponent);
 }
 
-/// What IEEE addition makes of numbers some of which are infinite, or all of them NaN.
+/// Sum by IEEE addition of numbers some of which are infinite, or all of them NaN.
 inline double meanWithNonFinite(const NonFiniteCount& seen)
 {
   const double infinity = std::numeric_limits<double>::infinity();

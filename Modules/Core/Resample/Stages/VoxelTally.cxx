@@ -354,11 +354,11 @@ bool isOf(const NonFiniteCount& seen, std::int64_t count)
     seen.plus <= count - seen.nans && seen.minus <= count - seen.nans - seen.plus;
 }
 
-/// Of integers that as many can have the sum.
+/// True if @p count integers can have the sum.
 template <typename T>
 bool isSumOf(const TallySums& sums, std::size_t sum, std::int64_t count)
 {
-  constexpr int kMostBits = 34 + 64; // Of points, and of each.
+  constexpr int kMostBits = 34 + 64; // Bits of the count and of each integer.
   if (std::is_floating_point_v<T>)
   {
     return true;

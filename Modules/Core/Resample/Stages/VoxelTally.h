@@ -1,6 +1,6 @@
 /// @file
-/// What an array has in voxels, in a form that any more can be added to, or taken from. It depends on the
-/// tuples alone, not on their order or on how they came.
+/// Sums or values of an array in voxels, to which more can be added, or from which some can be taken. They
+/// depend on the tuples alone, not on their order or on how they came.
 #pragma once
 
 #include "Core/Base/Buffer.h"
@@ -31,7 +31,7 @@ struct VoxelGroups
     std::size_t number;
   };
   std::vector<Voxel> voxels;
-  std::vector<std::size_t> ends; ///< Of each group among these.
+  std::vector<std::size_t> ends; ///< End of each group among these.
   int sign = 1;                  ///< -1: those of the second run are taken away.
 
   /// Calls visit(group, voxel, sign) for all of them.
@@ -55,7 +55,7 @@ class TallySums
 public:
   int components = 0;
   int unit = 0;
-  int words = 0; ///< Of a sum; 0 before there are any.
+  int words = 0; ///< Words of a sum; 0 before there are any.
   std::size_t size = 0;
   PageVector<std::uint64_t> values;      ///< [voxel][component][word], the lowest word first.
   std::vector<NonFiniteCount> nonFinite; ///< [voxel][component], where there are any.
@@ -68,8 +68,8 @@ public:
   const std::uint64_t* at(std::size_t sum) const { return values.data() + sum * std::size_t(words); }
   /// Appends the sums from @p begin to before @p end of others.
   void append(const TallySums& from, std::size_t begin, std::size_t end);
-  /// What groups of the voxels of two have; none of one that is null. @p isRight: becomes false where fewer
-  /// than no numbers are left that are not finite.
+  /// Gathers the sums of groups of the voxels of two tallies; one that is null has none. @p isRight becomes
+  /// false where fewer than no numbers are left that are not finite.
   static TallySums gathered(
     const TallySums* first, const TallySums* second, const VoxelGroups& groups, bool& isRight);
   /// The mean of @p count numbers; the sum is rounded once.
@@ -102,7 +102,7 @@ struct TallyValue
 struct TallyValues
 {
   int components = 0;
-  PageVector<std::size_t> ends; ///< Of each list.
+  PageVector<std::size_t> ends; ///< End of each list.
   PageVector<TallyValue> values;
 
   struct List
@@ -128,8 +128,8 @@ struct TallyValues
   }
 };
 
-/// Of an array that is summed the sums, of one whose most frequent or middle values are wanted the values.
-/// The other of the two has no components.
+/// Tally of an array: sums where it is summed, values where the most frequent or middle ones are wanted. The
+/// other of the two has no components.
 class VoxelTally
 {
 public:

@@ -69,7 +69,7 @@ void append(RunResult& all, const RunResult& part)
   append(all.voxels.covariances, part.voxels.covariances);
 }
 
-/// What each rank makes, one after the other.
+/// Joins the results of the ranks, one after the other.
 RunResult sharedRun(
   const std::vector<Vec3>& points, const Lattice& lattice, const std::vector<std::size_t>& ends)
 {
@@ -142,7 +142,7 @@ std::vector<VoxelAccumulator::Array> kindsOfArrays()
     { ScalarType::UInt8, 1, AttributeStatistic::Median } };
 }
 
-/// Those of the points from @p first on.
+/// Views of the arrays of the points from @p first on.
 std::vector<AttributeView> viewsOf(const Arrays& arrays, std::size_t first, std::int64_t points)
 {
   return { { arrays.floats.data() + 3 * first, ScalarType::Float, 3, points },

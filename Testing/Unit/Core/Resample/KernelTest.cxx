@@ -165,7 +165,7 @@ TEST(PointQuantizer, TruncatesPositionsToTheQuantum)
     EXPECT_LE(std::ldexp(1.0, -quantizer.fractionBits), 0x1p-31);
     compensated += quantizer.motion == Motion::Compensated;
     const double quantum = std::ldexp(1.0, -quantizer.fractionBits);
-    // What rounding may add; where it is worth a part of a quantum, cutting cannot take all of one.
+    // Rounding adds at most this; where it is worth a part of a quantum, truncation cannot take all of one.
     const bool uncorrected = bits > kMaximumIndexBits && bits <= kUncorrectedIndexBits;
     const double rounding = bits <= kMaximumIndexBits ? 0x1p-34 : uncorrected ? 0.25 * quantum : 0x1p-50;
     EXPECT_LE(quantum + rounding, (bits <= kMaximumIndexBits ? 1.125 : 1.0001) * 0x1p-31);
@@ -307,7 +307,7 @@ TEST(PointQuantizer, DistinguishesOutsideFromInvalid)
 namespace
 {
 
-/// That of the points that are finite before and after the transform, one by one.
+/// Bounds of the points that are finite before and after the transform, one by one.
 template <typename Real>
 Bounds plainBoundsOf(const AffineTransform& transform, const std::vector<Real>& xyz, std::size_t stride)
 {

@@ -84,7 +84,7 @@ std::vector<Tuples> attributesOf(const VoxelResampler& resampler, const VoxelReq
   return all;
 }
 
-/// What reducers make of the points of each voxel, point by point.
+/// Expected result of the reducers, point by point.
 std::vector<Tuples> expectedOf(const VoxelRequest& request)
 {
   VoxelRequest plain;
