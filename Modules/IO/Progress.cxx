@@ -11,10 +11,28 @@
 namespace pointhaptics::io
 {
 
+namespace
+{
+
+/// True if @p algorithm shall stop. Later versions of VTK than 9.1 have CheckAbort(), which tells the
+/// executive too: the progress then stays where it was.
+template <typename Algorithm>
+auto shallStop(Algorithm* algorithm, int) -> decltype(algorithm->CheckAbort())
+{
+  return algorithm->CheckAbort();
+}
+template <typename Algorithm>
+bool shallStop(Algorithm* algorithm, long)
+{
+  return algorithm->GetAbortExecute() != 0;
+}
+
+} // namespace
+
 void reportProgress(vtkAlgorithm* algorithm, double fraction)
 {
   algorithm->UpdateProgress(fraction);
-  if (algorithm->GetAbortExecute())
+  if (shallStop(algorithm, 0))
   {
     throw StoppedOnRequest();
   }

@@ -147,6 +147,7 @@ void vtkPointCloudWriter::SetExtension(const std::string& extension)
 
 int vtkPointCloudWriter::Write()
 {
+  this->SetAbortExecute(0); // a stop is for the write that it came in; VTK 9.1 forgets it, 9.3 does not
   this->ErrorMessage.clear();
   this->Format.clear();
   this->Notes.clear();
