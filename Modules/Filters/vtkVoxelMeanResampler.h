@@ -116,7 +116,9 @@ public:
   ///@{
   /**
    * Box of the lattice in the frame of the transformed cloud: xmin, xmax, ymin, ymax, zmin, zmax. Setting it
-   * turns AutomaticWorkspace off. Default: the paper's 10 cm cube about the origin.
+   * turns AutomaticWorkspace off. An automatic one is a cube about the points that are not far from all
+   * others (Core/Distributed/FarPoints.h); a warning says how many are left out. Default: the paper's 10 cm
+   * cube about the origin.
    */
   virtual void SetWorkspaceBounds(const double bounds[6]);
   virtual void SetWorkspaceBounds(double x0, double x1, double y0, double y1, double z0, double z1);

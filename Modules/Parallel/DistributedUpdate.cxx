@@ -4,6 +4,7 @@
 
 #include "FieldPoses.h"
 
+#include "Core/Distributed/FarPoints.h"
 #include "Core/Resample/VoxelMean.h"
 
 #include "vtkAbstractTransform.h"
@@ -101,7 +102,13 @@ std::string DistributedUpdate::prepare(vtkAbstractTransform* transform)
   Bounds cloud;
   if (settings_.lattice.automaticWorkspace)
   {
-    cloud = commonBounds(ranks_, transformedBounds(points_.view(), transform_, smp_));
+    std::string note;
+    cloud = boundsForLattice(settings_.lattice, points_.view(),
+      transformedBounds(points_.view(), transform_, smp_), ranks_, transform_, note);
+    if (!note.empty())
+    {
+      dropped_.push_back(note);
+    }
   }
   const Status status = makeLattice(settings_.lattice, cloud, lattice_);
   if (status != Status::Ok)

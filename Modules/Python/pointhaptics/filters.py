@@ -134,7 +134,8 @@ def resample(
     voxel : edge of a cubic voxel in the units of the transformed points, above 0.
     dims : voxels on each axis, one number or three, 1 to 2097152; default 300. Give voxel or dims, not both.
     workspace : x0, x1, y0, y1, z0, z1: box of the lattice in the frame of the transformed points. Points outside are
-        left out and counted. Default: a cube about the transformed points.
+        left out and counted. Default: a cube about the transformed points, without those far from all others: a
+        RuntimeWarning says how many, and the workspace that takes them in.
     transform : (4, 4) affine matrix, applied to the points first, or a vtkLinearTransform.
     attributes : name -> (n,) or (n, components) of numbers. Each is averaged in its own type, integers rounded to
         nearest; "Normals" of three components, in any case, are turned with the transform and normalised.
