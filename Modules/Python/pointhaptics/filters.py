@@ -140,7 +140,8 @@ def resample(
     attributes : name -> (n,) or (n, components) of numbers. Each is averaged in its own type, integers rounded to
         nearest; "Normals" of three components, in any case, are turned with the transform and normalised.
     covariance : compute the six second moments of each voxel.
-    categorical : names of attributes that hold labels: a voxel gets the most frequent one. "Classification" always is.
+    categorical : names of attributes that hold labels: a voxel gets the most frequent one. Names that end with "class",
+        "classification", "label", "segment" or "instance" always are, in any case, also in the plural or with an id.
     threads : at most so many, 1 or more; default: as vtkSMPTools is set. The result is the same with any number.
     representative : what stands for the points of a voxel: "mean"; "nearest-to-mean" or "nearest-to-center", the point
         of the input, with its own attributes, whose row is in .point_ids; or "median", coordinate by coordinate and
