@@ -80,10 +80,13 @@ int runResample(MpiResampleOptions& options, Job& job)
   {
     return kFailed;
   }
-  const std::string note = noReturnsNote(options, piece.points, resampler->GetOutput(), job.ranks());
-  if (job.isRoot() && !note.empty())
+  for (const std::string& note : { noReturnsNote(options, piece.points, resampler->GetOutput(), job.ranks()),
+         voxelUnitNote(options, piece.points) })
   {
-    warn(kResampleCommand, note);
+    if (job.isRoot() && !note.empty())
+    {
+      warn(kResampleCommand, note);
+    }
   }
   const std::int64_t means = job.ranks().reduce(std::int64_t(resampler->GetOutput()->GetNumberOfPoints()),
     [](std::int64_t a, std::int64_t b) { return a + b; });

@@ -523,7 +523,7 @@ TEST_F(CloudCommands, InfoTellsTheCoordinateSystemAndItsUnit)
   // Points that are moved are not where the system says.
   const auto resampled = [&](std::vector<std::string> more)
   {
-    std::vector<std::string> words = { "resample", "feet.vtp", "-o", "means.vtp", "--voxel", "0.01" };
+    std::vector<std::string> words = { "resample", "feet.vtp", "-o", "means.vtp", "--dims", "3" };
     words.insert(words.end(), more.begin(), more.end());
     this->succeed(words);
     return this->succeed({ "info", "means.vtp" });

@@ -9,6 +9,7 @@
 #include "Core/Base/QuantityText.h"
 #include "Core/Distributed/SharedVoxels.h"
 #include "CsvWriter.h"
+#include "IO/Info/LengthUnit.h"
 #include "LoadedCloud.h"
 #include "vtkVoxelMeanResampler.h"
 
@@ -95,11 +96,9 @@ void ResampleOptions::configure(vtkVoxelMeanResampler* resampler) const
 /// scaled ones.
 void ResampleOptions::finish(vtkPolyData* means) const
 {
-  const bool isScaled =
-    this->lattice.unit != "m" || !this->lattice.scale.empty() || !this->lattice.matrix.empty();
   for (const char* name : { "LasScale", "LasOffset", "CoordinateSystem", "LengthUnit" })
   {
-    if (this->lattice.hasTransform() && (isScaled || name != std::string("LengthUnit")))
+    if (this->lattice.hasTransform() && (this->lattice.isScaled() || name != std::string("LengthUnit")))
     {
       means->GetFieldData()->RemoveArray(name);
     }
@@ -114,6 +113,16 @@ std::string noReturnsNote(
   const bool areIn = contains(latticeBounds(means), options.lattice.transform().apply(Vec3()));
   return areIn && areNoReturns(atZero, commonSum(ranks, own.finite))
     ? fmt::format("{}: {} are resampled as others are", options.files.input, noReturnsText(atZero))
+    : std::string();
+}
+
+std::string voxelUnitNote(const ResampleOptions& options, vtkPolyData* cloud)
+{
+  const LengthUnit unit = lengthUnitOf(cloud, Bounds());
+  const double voxel = options.lattice.voxels.lattice.voxelSize;
+  return voxel > 0.0 && unit.name != "m" && !options.lattice.isScaled()
+    ? fmt::format("{}: --voxel {:.6g} is {:.6g} {}, the unit of the file; --unit {} makes metres of both",
+        options.files.input, voxel, voxel, unit.name, unit.name)
     : std::string();
 }
 

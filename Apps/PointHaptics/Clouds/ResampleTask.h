@@ -44,6 +44,9 @@ struct ResampleOptions
 std::string noReturnsNote(
   const ResampleOptions& options, vtkPolyData* cloud, vtkPolyData* means, Ranks& ranks);
 
+/// In what unit --voxel is where @p cloud says that its own is no metre, and --unit does not; else empty.
+std::string voxelUnitNote(const ResampleOptions& options, vtkPolyData* cloud);
+
 /// Opens the file of --voxel-index. False: @p message says why it cannot be written.
 bool openVoxelIndex(const std::string& fileName, CsvWriter& file, std::string& message);
 /// Of each point the row of its voxel in the output, or -1. @pre ComputeVoxelIndex is on.

@@ -45,10 +45,13 @@ CloudResult resample(const ResampleOptions& options, Cloud& cloud, Files& files)
     throw Failure(options.files.input + ": " + message);
   }
   Ranks alone;
-  const std::string note = noReturnsNote(options, cloud.points, resampler->GetOutput(), alone);
-  if (!note.empty())
+  for (const std::string& note : { noReturnsNote(options, cloud.points, resampler->GetOutput(), alone),
+         voxelUnitNote(options, cloud.points) })
   {
-    warn(kResampleCommand, note);
+    if (!note.empty())
+    {
+      warn(kResampleCommand, note);
+    }
   }
   const ResampleFigures figures{ cloud.points->GetNumberOfPoints(),
     resampler->GetOutput()->GetNumberOfPoints(), resampler->GetNumberOfClippedPoints(),

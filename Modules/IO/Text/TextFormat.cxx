@@ -206,7 +206,8 @@ void failTornDecimals(std::string_view text, const TextLayout& layout)
   }
 }
 
-/// "mm" of "x [mm]", "y [mm]", "z [mm]"; empty where the header says no unit.
+/// "mm" of "x [mm]", "y [mm]", "z [mm]"; empty where the header says no unit. @throws FileProblem where it
+/// says unlike ones.
 std::string unitOf(const std::vector<std::string>& names)
 {
   std::string unit;
@@ -216,6 +217,11 @@ std::string unitOf(const std::vector<std::string>& names)
     if (own.empty() || (!unit.empty() && own != unit))
     {
       return {};
+    }
+    if (!unit.empty() && own != unit)
+    {
+      failFormat(inQuotes(names[i]) + " is in " + own + ", other coordinates are in " + unit,
+        "convert the columns to one unit, or name them by --columns where they are in one");
     }
     unit = own;
   }

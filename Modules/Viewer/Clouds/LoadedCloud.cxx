@@ -291,6 +291,11 @@ vtkSmartPointer<vtkPolyData> readAll(const CloudRequest& request, const std::fun
     return clouds.front();
   }
   vtkSmartPointer<vtkPolyData> merged = io::mergeClouds(inputs, findings.notes);
+  if (!merged)
+  {
+    message = findings.notes.back();
+    return nullptr;
+  }
   if (!std::all_of(inputs.begin(), inputs.end(), hasColors))
   {
     merged->GetPointData()->SetActiveScalars(nullptr); // those of some would leave the others black

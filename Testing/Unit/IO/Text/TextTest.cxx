@@ -331,4 +331,11 @@ TEST_F(Text, ObjKeepsColorsAndNormalsAndIgnoresFaces)
   expectRefused(readCloud(write("b.obj", "o empty\n")), "holds no points");
 }
 
+TEST_F(Text, CoordinatesOfUnlikeUnitsAreRefused)
+{
+  expectRefused(readCloud(write("a.csv", "x_m,y_m,z_mm\n1,2,3000\n4,5,6000\n")),
+    "'z_mm' is in mm, other coordinates are in m");
+  EXPECT_EQ(readCloud(write("b.csv", "x_m,y_m,depth_mm,z_m\n1,2,3000,7\n4,5,6000,8\n")).error, "");
+}
+
 } // namespace
