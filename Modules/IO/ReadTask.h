@@ -76,6 +76,16 @@ struct ReadTask
     return shared ? shared->rowsOf(all) : RowRange{ 0, all };
   }
   /// What is to be done where the file, as @p what says, ends after @p there of @p all points: it is refused,
+  /// Collective where ranks read the file together: the sum of what each has.
+  std::int64_t sumOfRanks(std::int64_t own) const
+  {
+    std::int64_t sum = shared ? 0 : own;
+    for (const std::int64_t each : shared ? shared->gatherValues(own) : std::vector<std::int64_t>())
+    {
+      sum += each;
+    }
+    return sum;
+  }
   /// or read as far as it goes, with a note. @return @p there. @throws FileProblem.
   std::uint64_t endAt(std::uint64_t there, std::uint64_t all, const std::string& what)
   {
