@@ -348,10 +348,12 @@ void vtkPointCloudReader::ReadWhole(io::ReadTask& task, vtkPolyData* cloud)
     {
       format = &io::identifyFormat(start, size, task.extension);
       task.format = format->name;
-    });
+    },
+    task.salvage);
   const std::string converted = io::isUtf16(bytes.view()) ? io::utf8Of(bytes.view()) : std::string();
   task.bytes = converted.empty() ? bytes.view() : std::string_view(converted);
   task.wasPacked = bytes.wasPacked();
+  task.isPackedCut = bytes.isCut();
   std::error_code ignored;
   task.isStream = !std::filesystem::is_regular_file(task.path, ignored);
   format->read(task, cloud);
@@ -362,6 +364,10 @@ void vtkPointCloudReader::ReadWhole(io::ReadTask& task, vtkPolyData* cloud)
 /// What is looked at in the cloud of any format.
 void vtkPointCloudReader::Finish(io::ReadTask& task, vtkPolyData* cloud)
 {
+  if (task.isPackedCut && !task.isTorn())
+  {
+    task.notes.push_back("the gzip file is cut: what is there of it is read");
+  }
   if (task.pointsThere < static_cast<std::uint64_t>(cloud->GetNumberOfPoints()))
   {
     keepRows(cloud, 0, static_cast<vtkIdType>(task.pointsThere));

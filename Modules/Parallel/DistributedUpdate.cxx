@@ -91,7 +91,7 @@ std::string DistributedUpdate::prepare(vtkAbstractTransform* transform)
 {
   if (settings_.keepOriginalPointIds && !keepsPoints(settings_.representative))
   {
-    return "A mean or median is no point of the input; set KeepOriginalPointIdsOff, or choose Representative "
+    return "A mean or median is no point of the input and has no id; choose Representative "
            "NearestToMean or NearestToCenter.";
   }
   const std::string problem = readTransform(transform, transform_);
