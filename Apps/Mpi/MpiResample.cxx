@@ -74,17 +74,17 @@ int runResample(MpiResampleOptions& options, Job& job)
   {
     problem = options.files.input + ": " + problem;
   }
-  const bool areDone = job.ranks().reduce(isDone, [](bool a, bool b) { return a && b; });
-  for (const std::string& note : oddPointsNotes(options, areDone, piece.points, job.ranks()))
-  {
-    if (job.isRoot())
-    {
-      warn(kResampleCommand, note);
-    }
-  }
   if (!job.agree(kResampleCommand, problem))
   {
     return kFailed;
+  }
+  for (const std::string& note : { noReturnsNote(options, piece.points, resampler->GetOutput(), job.ranks()),
+         voxelUnitNote(options, piece.points) })
+  {
+    if (job.isRoot() && !note.empty())
+    {
+      warn(kResampleCommand, note);
+    }
   }
   const std::int64_t means = job.ranks().reduce(std::int64_t(resampler->GetOutput()->GetNumberOfPoints()),
     [](std::int64_t a, std::int64_t b) { return a + b; });

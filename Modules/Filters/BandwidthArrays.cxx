@@ -53,7 +53,7 @@ std::vector<double> voxelCounts(vtkPointSet* cloud, bool use, std::string& probl
   {
     counts.clear();
     problem = "VoxelPointCount is not a number above 0 for each point: bandwidths are those of the points as "
-              "they are. Remove the array, or set UsePointCountsOff.";
+              "they are. Mend the array, or remove it.";
   }
   return counts;
 }

@@ -77,7 +77,7 @@ AttributeKind kindOf(vtkDataArray* array, const std::set<std::string>& categoric
   }
   const std::string name = array->GetName() ? array->GetName() : "";
   if (std::any_of(categoricalArrays.begin(), categoricalArrays.end(),
-        [&](const std::string& each) { return isSameField(each, name); }))
+        [&](const std::string& each) { return isLabelField(name, each); }))
   {
     return AttributeKind::Category;
   }

@@ -154,7 +154,7 @@ bool vtkKernelBandwidthFilter::Estimate(vtkPolyData* cloud)
   std::string problem;
   const std::vector<double> counts = voxelCounts(cloud, settings.usePointCounts, problem);
   this->Warn(problem);
-  this->Warn(invalidPoints(points.view().size() - query.size(), points.view().size()));
+  this->Warn(invalidPoints(points.view().size() - query.finitePoints(), points.view().size()));
   const bool wantsPoints = this->SettingsOfRun.computeBandwidth || this->SettingsOfRun.computeProxyRadius;
   const bool wantsMeans = this->SettingsOfRun.computeDensity || this->SettingsOfRun.computeMeanBandwidth;
   std::vector<double> bandwidths;

@@ -156,7 +156,7 @@ bool vtkVoxelMeanResampler::IsCategoricalArray(const char* name) const
   const std::set<std::string>& all = this->Settings.categoricalArrays;
   return name &&
     std::any_of(all.begin(), all.end(),
-      [name](const std::string& each) { return pointhaptics::isSameField(each, name); });
+      [name](const std::string& each) { return pointhaptics::isLabelField(name, each); });
 }
 
 void vtkVoxelMeanResampler::SetRepresentative(int representative)

@@ -37,10 +37,10 @@
  * string arrays, other non-numeric arrays, global and pedigree ids and arrays of another number of tuples are
  * dropped with a warning; ghost flags and what an earlier resampling made (VoxelPointCount, VoxelCovariance,
  * VoxelIndex, vtkOriginalPointIds) are left out. A name in CategoricalArrays that no array has is a warning,
- * "Classification" aside. NaN in an array stands for no value: a mean leaves it out, and is NaN where a voxel
- * has nothing else; infinities count as in IEEE addition. Of vectors only the normals are turned. To keep
- * some of the arrays, put a vtkPassArrays before the filter. Points flagged as ghosts, and blanked ones, are
- * averaged like all others: remove duplicates first.
+ * those from the start aside. NaN in an array stands for no value: a mean leaves it out, and is NaN where a
+ * voxel has nothing else; infinities count as in IEEE addition. Of vectors only the normals are turned. To
+ * keep some of the arrays, put a vtkPassArrays before the filter. Points flagged as ghosts, and blanked ones,
+ * are averaged like all others: remove duplicates first.
  *
  * In the place of the mean another point may stand for a voxel (Representative): the point of the input
  * nearest to the mean or to the centre of the voxel, with its own values in all arrays, or the median of each
@@ -116,7 +116,9 @@ public:
   ///@{
   /**
    * Box of the lattice in the frame of the transformed cloud: xmin, xmax, ymin, ymax, zmin, zmax. Setting it
-   * turns AutomaticWorkspace off. Default: the paper's 10 cm cube about the origin.
+   * turns AutomaticWorkspace off. An automatic one is a cube about the points that are not far from all
+   * others (Core/Distributed/FarPoints.h); a warning says how many are left out. Default: the paper's 10 cm
+   * cube about the origin.
    */
   virtual void SetWorkspaceBounds(const double bounds[6]);
   virtual void SetWorkspaceBounds(double x0, double x1, double y0, double y1, double z0, double z1);
@@ -192,7 +194,8 @@ public:
   ///@{
   /**
    * Names of the arrays that hold labels: their voxel value is the one most points have, not a mean. Default:
-   * none, but "Classification" (LAS) is in the list from the start.
+   * none, but "Class", "Classification", "Instance", "Label" and "Segment" are in the list from the start.
+   * They mean also names that end with them, in the plural or with an id ("scalar_Label", "instance_ids").
    */
   void AddCategoricalArray(const char* name);
   void RemoveCategoricalArray(const char* name);

@@ -2,6 +2,8 @@
 
 #include "FieldPoses.h"
 
+#include "Core/Distributed/FarPoints.h"
+#include "Core/Distributed/Ranks.h"
 #include "Core/Resample/FieldNames.h"
 #include "Core/Resample/VoxelMean.h"
 
@@ -49,6 +51,21 @@ bool vtkVoxelMeanResampler::Internals::Begin(const Clouds& clouds)
   return this->FindWorkspace(clouds);
 }
 
+/// The box that an automatic lattice of the points is about.
+Bounds vtkVoxelMeanResampler::Internals::BoundsOf(const PointView& points)
+{
+  const Bounds all = transformedBounds(points, this->Transform, this->Smp, this);
+  if (this->Aborted)
+  {
+    return all;
+  }
+  Ranks alone;
+  std::string note;
+  const Bounds bounds = boundsForLattice(this->Settings.lattice, points, all, alone, this->Transform, note);
+  this->Filter->Warn(note);
+  return bounds;
+}
+
 bool vtkVoxelMeanResampler::Internals::FindWorkspace(const Clouds& clouds)
 {
   this->Workspace.reset();
@@ -60,7 +77,7 @@ bool vtkVoxelMeanResampler::Internals::FindWorkspace(const Clouds& clouds)
   for (vtkPointSet* cloud : clouds)
   {
     const PointAccess points(cloud->GetPoints());
-    const Bounds bounds = transformedBounds(points.view(), this->Transform, this->Smp, this);
+    const Bounds bounds = this->BoundsOf(points.view());
     if (!bounds.empty())
     {
       all.include(bounds.minimum);
@@ -107,7 +124,7 @@ void vtkVoxelMeanResampler::Internals::WarnOfNothing()
   {
     this->Filter->Warn("No point is left: " + std::to_string(clipped) + " lie outside of the workspace, " +
       std::to_string(invalid) +
-      " are NaN or infinite. Set AutomaticWorkspaceOn, or WorkspaceBounds about the points.");
+      " are NaN or infinite. Give a workspace about the points, or none for an automatic one.");
   }
 }
 
@@ -163,7 +180,7 @@ bool vtkVoxelMeanResampler::Internals::MakeLattice(vtkPointSet* input)
   if (this->Settings.lattice.automaticWorkspace && !this->Workspace)
   {
     this->BeginPart(0.1);
-    cloud = transformedBounds(this->Request.points, this->Transform, this->Smp, this);
+    cloud = this->BoundsOf(this->Request.points);
     if (this->Aborted)
     {
       return false;

@@ -42,11 +42,11 @@ class StoppedOnRequest : public std::exception
   throw FileProblem(vtkErrorCode::FileFormatError, what, cure);
 }
 
-/// The file ends before the points its header promises.
-[[noreturn]] inline void failTruncated(const std::string& what)
+/// The file ends before the points its header promises. @param more of the cure.
+[[noreturn]] inline void failTruncated(const std::string& what, const std::string& more = {})
 {
   throw FileProblem(vtkErrorCode::PrematureEndOfFileError, what,
-    "the file is cut short or its header is wrong: copy it again");
+    "the file is cut short or its header is wrong: copy it again" + more);
 }
 
 /// The file is valid and announces no points: what it says beside them is worth knowing.

@@ -1,5 +1,8 @@
 #include "MergedCloud.h"
 
+#include "IO/Info/FieldText.h"
+#include "IO/Info/LengthUnit.h"
+
 #include <fmt/format.h>
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
@@ -182,11 +185,76 @@ void mergeFieldData(
   }
 }
 
+/// A cloud that says it is in the unit of @p to, and is.
+vtkSmartPointer<vtkPolyData> converted(vtkPolyData* cloud, double factor, vtkPolyData* to)
+{
+  auto result = vtkSmartPointer<vtkPolyData>::New();
+  result->ShallowCopy(cloud);
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  points->SetNumberOfPoints(cloud->GetNumberOfPoints());
+  for (vtkIdType i = 0; i < cloud->GetNumberOfPoints(); ++i)
+  {
+    double p[3];
+    cloud->GetPoint(i, p);
+    points->SetPoint(i, p[0] * factor, p[1] * factor, p[2] * factor);
+  }
+  result->SetPoints(points);
+  vtkNew<vtkFieldData> fields;
+  fields->ShallowCopy(cloud->GetFieldData());
+  fields->AddArray(to->GetFieldData()->GetAbstractArray("LengthUnit"));
+  result->SetFieldData(fields);
+  return result;
+}
+
+/// The clouds in the unit of the first one that says one; none where that cannot be.
+std::vector<vtkSmartPointer<vtkPolyData>> inOneUnit(
+  const std::vector<vtkPolyData*>& clouds, std::vector<std::string>& notes)
+{
+  std::vector<vtkSmartPointer<vtkPolyData>> result;
+  vtkPolyData* first = nullptr;
+  LengthUnit unit;
+  for (std::size_t i = 0; i < clouds.size(); ++i)
+  {
+    const LengthUnit own = lengthUnitOf(clouds[i], Bounds());
+    const bool isSaid = own.evidence == UnitEvidence::File;
+    unit = first || !isSaid ? unit : own;
+    first = first || !isSaid ? first : clouds[i];
+    const bool isUnlike = isSaid && own.name != unit.name;
+    if (isUnlike && (own.name == "deg" || unit.name == "deg"))
+    {
+      notes.push_back(
+        fmt::format("input {} is in {} and others are in {}, which cannot be one cloud: project "
+                    "degrees to metres first",
+          i + 1, own.name, unit.name));
+      return {};
+    }
+    const double factor = own.metres / unit.metres;
+    result.emplace_back(clouds[i]);
+    if (isSaid && factor != 1.0)
+    {
+      result.back() = converted(clouds[i], factor, first);
+    }
+    if (isUnlike)
+    {
+      notes.push_back(
+        fmt::format("the coordinates of input {} are converted from {} to {}", i + 1, own.name, unit.name));
+    }
+  }
+  return result;
+}
+
 } // namespace
 
 vtkSmartPointer<vtkPolyData> mergeClouds(
-  const std::vector<vtkPolyData*>& clouds, std::vector<std::string>& notes)
+  const std::vector<vtkPolyData*>& given, std::vector<std::string>& notes)
 {
+  const std::vector<vtkSmartPointer<vtkPolyData>> alike = inOneUnit(given, notes);
+  if (alike.empty())
+  {
+    return nullptr;
+  }
+  const std::vector<vtkPolyData*> clouds(alike.begin(), alike.end());
   auto merged = vtkSmartPointer<vtkPolyData>::New();
   MergedArray coordinates{ "Points", clouds.front()->GetPoints()->GetDataType(), 3, {} };
   for (vtkPolyData* cloud : clouds)

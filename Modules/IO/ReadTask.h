@@ -41,9 +41,10 @@ struct ReadTask
 {
   std::string path;
   std::string_view bytes;
-  bool wasPacked = false; ///< the bytes are the unpacked content of a gzip file
-  bool isStream = false;  ///< the bytes came through a pipe: nobody can read them again
-  std::string extension;  ///< decides what the content leaves open
+  bool wasPacked = false;   ///< the bytes are the unpacked content of a gzip file
+  bool isPackedCut = false; ///< and it ends too early: so do they
+  bool isStream = false;    ///< the bytes came through a pipe: nobody can read them again
+  std::string extension;    ///< decides what the content leaves open
   WantedPart wanted;
   std::vector<std::string>
     columns;            ///< names for those of text, "-" for one that is left out; empty: none given
@@ -75,21 +76,31 @@ struct ReadTask
     isCut = shared != nullptr;
     return shared ? shared->rowsOf(all) : RowRange{ 0, all };
   }
+  /// Collective where ranks read the file together: the sum of what each has.
+  std::int64_t sumOfRanks(std::int64_t own) const
+  {
+    std::int64_t sum = shared ? 0 : own;
+    for (const std::int64_t each : shared ? shared->gatherValues(own) : std::vector<std::int64_t>())
+    {
+      sum += each;
+    }
+    return sum;
+  }
   /// What is to be done where the file, as @p what says, ends after @p there of @p all points: it is refused,
   /// or read as far as it goes, with a note. @return @p there. @throws FileProblem.
   std::uint64_t endAt(std::uint64_t there, std::uint64_t all, const std::string& what)
   {
     if (!salvage || shared || there == 0)
     {
-      throw FileProblem(vtkErrorCode::PrematureEndOfFileError, what,
-        std::string("the file is cut short or its header is wrong: copy it again") +
-          (there > 0 && !salvage ? ", or read what is there by --salvage" : ""));
+      failTruncated(what, there > 0 && !salvage ? ", or read what is there by --salvage" : "");
     }
     notes.push_back(what.substr(0, what.find("; ")) + ": the " + std::to_string(there) +
       " points before are read, of " + std::to_string(all) + " that the file promises");
     pointsThere = there;
     return there;
   }
+  /// Whether the file ended among its points.
+  bool isTorn() const { return pointsThere != ~std::uint64_t{ 0 }; }
   /// The same as a rank that reads it alone: for what cannot be read in parts.
   void takeWhole()
   {

@@ -122,9 +122,10 @@ bool canBeCut(const std::string& start, std::size_t size, const std::string& ext
   return !io::isUtf16(start) && io::identifyFormat(start, size, extension).isReadInParts;
 }
 
-/// Takes away the points outside @p box, with their values in all arrays.
-void keepInside(vtkPolyData* cloud, const std::array<double, 6>& box)
+/// Takes away the points outside the box that is wanted, with their values in all arrays.
+void keepInside(const io::ReadTask& task, vtkPolyData* cloud)
 {
+  const std::array<double, 6>& box = task.wanted.box;
   vtkNew<vtkIdList> kept;
   vtkPoints* points = cloud->GetPoints();
   for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
@@ -137,50 +138,52 @@ void keepInside(vtkPolyData* cloud, const std::array<double, 6>& box)
       kept->InsertNextId(i);
     }
   }
-  if (kept->GetNumberOfIds() == points->GetNumberOfPoints())
-  {
-    return;
-  }
-  if (kept->GetNumberOfIds() == 0)
+  if (task.sumOfRanks(kept->GetNumberOfIds()) == 0 && task.sumOfRanks(points->GetNumberOfPoints()) > 0)
   {
     io::failFormat("no point lies in the box", "choose a box that meets the bounds of the cloud");
   }
-  vtkNew<vtkPoints> inside;
-  inside->SetDataType(points->GetDataType());
-  points->GetPoints(kept, inside);
-  vtkNew<vtkPointData> values;
-  values->CopyAllOn();
-  values->CopyAllocate(cloud->GetPointData(), kept->GetNumberOfIds());
-  for (vtkIdType i = 0; i < kept->GetNumberOfIds(); ++i)
+  if (kept->GetNumberOfIds() < points->GetNumberOfPoints())
   {
-    values->CopyData(cloud->GetPointData(), kept->GetId(i), i);
+    io::keepPoints(cloud, kept);
   }
-  cloud->SetPoints(inside);
-  cloud->GetPointData()->ShallowCopy(values);
 }
 
 /// Floats far from the origin lie on a coarse grid: "0.5 in y, 0.0312 in x" where its steps can be seen in
 /// the cloud; else empty.
-std::string coarseFloats(vtkPolyData* cloud)
+std::string coarseFloats(const io::ReadTask& task, vtkPolyData* cloud)
 {
   constexpr double kNear = 1000.0;  // its steps are far below a millimetre of the unit
   constexpr double kVisible = 0.05; // of the spacing of a surface of as many points
   vtkFloatArray* floats = vtkFloatArray::FastDownCast(cloud->GetPoints()->GetData());
-  if (!floats || floats->GetNumberOfValues() == 0 ||
-    !(std::max({ std::abs(floats->GetValue(0)), std::abs(floats->GetValue(1)),
-        std::abs(floats->GetValue(2)) }) > kNear))
+  const bool isFar = floats && floats->GetNumberOfValues() > 0 &&
+    std::max({ std::abs(floats->GetValue(0)), std::abs(floats->GetValue(1)),
+      std::abs(floats->GetValue(2)) }) > kNear;
+  if (task.sumOfRanks(isFar ? 1 : 0) == 0)
   {
     return {};
   }
-  const double* bounds = cloud->GetBounds();
+  std::array<double, 6> bounds{ INFINITY, -INFINITY, INFINITY, -INFINITY, INFINITY, -INFINITY };
+  if (cloud->GetNumberOfPoints() > 0)
+  {
+    cloud->GetBounds(bounds.data());
+  }
+  for (const auto& other : task.shared ? task.shared->gatherValues(bounds) : std::vector{ bounds })
+  {
+    for (std::size_t i = 0; i < 6; i += 2)
+    {
+      bounds[i] = std::min(bounds[i], other[i]);
+      bounds[i + 1] = std::max(bounds[i + 1], other[i + 1]);
+    }
+  }
   const double longest = std::max({ bounds[1] - bounds[0], bounds[3] - bounds[2], bounds[5] - bounds[4] });
-  const double spacing = longest / std::sqrt(static_cast<double>(cloud->GetNumberOfPoints()));
+  const double spacing =
+    longest / std::sqrt(static_cast<double>(task.sumOfRanks(cloud->GetNumberOfPoints())));
   std::ostringstream text;
   text.precision(3);
   for (int axis = 0; axis < 3; ++axis)
   {
-    const float most =
-      static_cast<float>(std::max(std::abs(bounds[2 * axis]), std::abs(bounds[2 * axis + 1])));
+    const auto a = static_cast<std::size_t>(axis);
+    const float most = static_cast<float>(std::max(std::abs(bounds[2 * a]), std::abs(bounds[2 * a + 1])));
     const double step = static_cast<double>(most - std::nextafter(most, 0.0f));
     if (step > kVisible * spacing)
     {
@@ -345,10 +348,12 @@ void vtkPointCloudReader::ReadWhole(io::ReadTask& task, vtkPolyData* cloud)
     {
       format = &io::identifyFormat(start, size, task.extension);
       task.format = format->name;
-    });
+    },
+    task.salvage);
   const std::string converted = io::isUtf16(bytes.view()) ? io::utf8Of(bytes.view()) : std::string();
   task.bytes = converted.empty() ? bytes.view() : std::string_view(converted);
   task.wasPacked = bytes.wasPacked();
+  task.isPackedCut = bytes.isCut();
   std::error_code ignored;
   task.isStream = !std::filesystem::is_regular_file(task.path, ignored);
   format->read(task, cloud);
@@ -359,16 +364,17 @@ void vtkPointCloudReader::ReadWhole(io::ReadTask& task, vtkPolyData* cloud)
 /// Checks the cloud of any format, and cuts it to the box.
 void vtkPointCloudReader::Finish(io::ReadTask& task, vtkPolyData* cloud)
 {
+  if (task.isPackedCut && !task.isTorn())
+  {
+    task.notes.push_back("the gzip file is cut: what is there of it is read");
+  }
   if (task.pointsThere < static_cast<std::uint64_t>(cloud->GetNumberOfPoints()))
   {
     keepRows(cloud, 0, static_cast<vtkIdType>(task.pointsThere));
   }
   checkCoordinates(cloud);
-  if (!task.shared && !task.wanted.onlyPositions)
-  {
-    io::finishSplats(cloud, task.notes);
-  }
-  if (const std::string steps = task.shared ? "" : coarseFloats(cloud); !steps.empty())
+  io::finishSplats(task, cloud);
+  if (const std::string steps = coarseFloats(task, cloud); !steps.empty())
   {
     task.notes.push_back(
       "coordinates are floats so far from the origin that they lie on a grid of steps of " + steps +
@@ -376,7 +382,7 @@ void vtkPointCloudReader::Finish(io::ReadTask& task, vtkPolyData* cloud)
   }
   if (task.wanted.hasBox())
   {
-    keepInside(cloud, task.wanted.box);
+    keepInside(task, cloud);
   }
 }
 

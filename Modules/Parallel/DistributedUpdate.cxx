@@ -4,6 +4,7 @@
 
 #include "FieldPoses.h"
 
+#include "Core/Distributed/FarPoints.h"
 #include "Core/Resample/VoxelMean.h"
 
 #include "vtkAbstractTransform.h"
@@ -90,7 +91,7 @@ std::string DistributedUpdate::prepare(vtkAbstractTransform* transform)
 {
   if (settings_.keepOriginalPointIds && !keepsPoints(settings_.representative))
   {
-    return "A mean or median is no point of the input; set KeepOriginalPointIdsOff, or choose Representative "
+    return "A mean or median is no point of the input and has no id; choose Representative "
            "NearestToMean or NearestToCenter.";
   }
   const std::string problem = readTransform(transform, transform_);
@@ -101,7 +102,13 @@ std::string DistributedUpdate::prepare(vtkAbstractTransform* transform)
   Bounds cloud;
   if (settings_.lattice.automaticWorkspace)
   {
-    cloud = commonBounds(ranks_, transformedBounds(points_.view(), transform_, smp_));
+    std::string note;
+    cloud = boundsForLattice(settings_.lattice, points_.view(),
+      transformedBounds(points_.view(), transform_, smp_), ranks_, transform_, note);
+    if (!note.empty())
+    {
+      dropped_.push_back(note);
+    }
   }
   const Status status = makeLattice(settings_.lattice, cloud, lattice_);
   if (status != Status::Ok)

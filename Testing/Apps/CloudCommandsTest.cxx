@@ -386,7 +386,7 @@ TEST_F(CloudCommands, InfoTellsOfPointsFarFromAllOthers)
   this->write("far.csv", this->read("sphere.csv") + "1000000,0,0,0,0,1\n");
   const std::string far = this->succeed({ "info", "far.csv" });
   EXPECT_NE(far.find("1 of 2,001 points is far from all others"), std::string::npos) << far;
-  EXPECT_NE(far.find("--clip and resample by --workspace -0.0"), std::string::npos) << far;
+  EXPECT_NE(far.find("lattice and picture leave it out, a workspace of -1"), std::string::npos) << far;
 }
 
 TEST_F(CloudCommands, PointsWithoutDataAreFarWhateverTheirNumber)
@@ -403,11 +403,13 @@ TEST_F(CloudCommands, PointsWithoutDataAreFarWhateverTheirNumber)
   {
     const std::string text = this->succeed({ "info", file });
     EXPECT_NE(text.find("500 of 2,000 points are far from all others"), std::string::npos) << text;
-    const std::string option = "--workspace ";
+    const std::string output = this->run({ "resample", file, "-o", "means.csv" }).output;
+    EXPECT_NE(output.find(" 500 clipped"), std::string::npos) << output;
+    const std::string option = "a workspace of ";
     const std::size_t box = text.find(option) + option.size();
-    const std::string output = this->succeed({ "resample", file, "-o", "means.csv", "--voxel", "1",
-      "--workspace", text.substr(box, text.find_first_of(" \n", box) - box) });
-    EXPECT_NE(output.find(" 500 clipped"), std::string::npos) << text << output;
+    const std::string all = this->succeed({ "resample", file, "-o", "means.csv", "--workspace",
+      text.substr(box, text.find_first_of(" \n", box) - box) });
+    EXPECT_NE(all.find(" 0 clipped"), std::string::npos) << text << all;
   }
 }
 
@@ -445,33 +447,33 @@ TEST_F(CloudCommands, ResamplingSaysThatItTakesRaysThatDidNotReturn)
   EXPECT_EQ(errorsOf({}), "") << "one may well be a point";
 }
 
-TEST_F(CloudCommands, ResamplingSaysHowFarPointsAreLeftOut)
+TEST_F(CloudCommands, ResamplingLeavesFarPointsOutAndSaysHowTheyAreTakenIn)
 {
   this->succeed({ "generate", "sphere", "-n", "2000", "-o", "sphere.csv" });
   this->write("far.csv", this->read("sphere.csv") + "1000000,0,0,0,0,1\n");
-  const auto errorsOf = [&](std::vector<std::string> more)
+  const auto resampled = [&](std::vector<std::string> more)
   {
     std::vector<std::string> arguments = { "resample", "far.csv", "-o", "means.csv" };
     arguments.insert(arguments.end(), more.begin(), more.end());
-    return this->run(arguments).errors;
+    return this->run(arguments);
   };
-  for (const std::vector<std::string>& more :
-    { std::vector<std::string>{}, { "--dims", "50" }, { "--voxel", "0.001" } })
+  const std::string of =
+    "1 of 2,001 points is far from all others; lattice and picture leave it out, a workspace of ";
+  for (const std::vector<std::string>& more : { std::vector<std::string>{}, { "--dims", "50" },
+         { "--voxel", "0.001" }, { "--scale", "10", "--rotate", "90,0,0,1", "--translate", "0,0,1" } })
   {
-    const std::string errors = errorsOf(more);
-    EXPECT_NE(errors.find("far.csv: 1 of 2,001 points is far from all others, and the lattice reaches there; "
-                          "--workspace -0.0"),
-      std::string::npos)
-      << errors;
+    const auto outcome = resampled(more);
+    const std::size_t box = outcome.errors.find(of);
+    ASSERT_NE(box, std::string::npos) << outcome.errors;
+    EXPECT_NE(outcome.output.find(" 1 clipped"), std::string::npos) << outcome.output;
+    std::vector<std::string> all = more;
+    all.resize(more.size() == 2 ? 0 : more.size());
+    const std::size_t numbers = box + of.size();
+    all.insert(all.end(),
+      { "--workspace", outcome.errors.substr(numbers, outcome.errors.find(' ', numbers) - numbers) });
+    EXPECT_NE(resampled(all).output.find(" 0 clipped"), std::string::npos) << outcome.errors;
   }
-  EXPECT_EQ(errorsOf({ "--voxel", "10" }), "");
-  const std::string turned = errorsOf({ "--scale", "10", "--rotate", "90,0,0,1", "--translate", "0,0,1" });
-  const std::size_t box = turned.find("-0.");
-  ASSERT_NE(box, std::string::npos) << turned;
-  const std::string workspace = turned.substr(box, turned.find(' ', box) - box);
-  const std::string output = this->succeed({ "resample", "far.csv", "-o", "means.csv", "--scale", "10",
-    "--rotate", "90,0,0,1", "--translate", "0,0,1", "--workspace", workspace });
-  EXPECT_NE(output.find(" 1 clipped"), std::string::npos) << output;
+  EXPECT_EQ(resampled({ "--voxel", "10" }).errors, "");
 }
 
 TEST_F(CloudCommands, TheUnitOfATextGoesWithItsPointsUntilTheyAreScaled)
@@ -521,7 +523,7 @@ TEST_F(CloudCommands, InfoTellsTheCoordinateSystemAndItsUnit)
   // Points that are moved are not where the system says.
   const auto resampled = [&](std::vector<std::string> more)
   {
-    std::vector<std::string> words = { "resample", "feet.vtp", "-o", "means.vtp", "--voxel", "0.01" };
+    std::vector<std::string> words = { "resample", "feet.vtp", "-o", "means.vtp", "--dims", "3" };
     words.insert(words.end(), more.begin(), more.end());
     this->succeed(words);
     return this->succeed({ "info", "means.vtp" });

@@ -170,4 +170,28 @@ TEST_F(Convert, InfoOfAValidFileWithoutPointsSaysSo)
     { "empty.e57: E57 1.0: the file is valid, but it holds no scan" });
 }
 
+TEST_F(Convert, FilesOfUnlikeUnitsAreMergedInOne)
+{
+  this->write("m.csv", "x_m,y_m,z_m\n1,2,3\n");
+  this->write("mm.csv", "x [mm],y [mm],z [mm]\n4000,5000,6000\n");
+  const auto outcome = this->run({ "convert", "m.csv", "mm.csv", "--merge", "-o", "all.csv" });
+  EXPECT_EQ(outcome.exitCode, 0) << outcome.errors;
+  EXPECT_NE(outcome.errors.find("the coordinates of input 2 are converted from mm to m"), std::string::npos)
+    << outcome.errors;
+  EXPECT_EQ(this->read("all.csv"), "x,y,z\n1,2,3\n4,5,6\n");
+}
+
+TEST_F(Convert, AVoxelIsSaidToBeInTheUnitOfTheFile)
+{
+  this->write("mm.csv", "x [mm],y [mm],z [mm]\n4,5,6\n");
+  const auto errorsOf = [&](std::vector<std::string> more)
+  {
+    more.insert(more.begin(), { "resample", "mm.csv", "-o", "out.csv", "--voxel", "5" });
+    return this->run(more).errors;
+  };
+  EXPECT_NE(errorsOf({}).find("--voxel 5 is 5 mm, the unit of the file; --unit mm makes metres of both"),
+    std::string::npos);
+  EXPECT_EQ(errorsOf({ "--unit", "mm" }), "");
+}
+
 } // namespace

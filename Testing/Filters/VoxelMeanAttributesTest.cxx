@@ -144,13 +144,13 @@ TEST(VoxelMeanAttributes, LabelsTakeTheMajorityAndTheSmallestOnATie)
   const auto cloud = trial::cloudAt(
     { { 0.1, 0.1, 0.1 }, { 0.1, 0.1, 0.1 }, { 0.1, 0.1, 0.1 }, { 0.9, 0.9, 0.9 }, { 0.9, 0.9, 0.9 } });
   trial::addArray(cloud, "Classification", { 9, 2, 9, 7, 5 });
-  trial::addArray(cloud, "Label", { 1, 1, 4, 8, 3 });
+  trial::addArray(cloud, "Kind", { 1, 1, 4, 8, 3 });
   trial::addArray(cloud, "Plain", { 1, 1, 4, 8, 3 });
   vtkNew<vtkVoxelMeanResampler> resampler;
   trial::useUnitCube(resampler, 2);
-  resampler->AddCategoricalArray("Label");
+  resampler->AddCategoricalArray("Kind");
   EXPECT_TRUE(resampler->IsCategoricalArray("Classification")) << "from the start";
-  EXPECT_TRUE(resampler->IsCategoricalArray("Label"));
+  EXPECT_TRUE(resampler->IsCategoricalArray("Kind"));
   EXPECT_FALSE(resampler->IsCategoricalArray("Plain"));
   resampler->SetInputData(cloud);
   resampler->Update();
@@ -158,13 +158,44 @@ TEST(VoxelMeanAttributes, LabelsTakeTheMajorityAndTheSmallestOnATie)
   ASSERT_EQ(resampler->GetOutput()->GetNumberOfPoints(), 2);
   EXPECT_EQ(out->GetArray("Classification")->GetTuple1(0), 9);
   EXPECT_EQ(out->GetArray("Classification")->GetTuple1(1), 5);
-  EXPECT_EQ(out->GetArray("Label")->GetTuple1(0), 1);
-  EXPECT_EQ(out->GetArray("Label")->GetTuple1(1), 3);
+  EXPECT_EQ(out->GetArray("Kind")->GetTuple1(0), 1);
+  EXPECT_EQ(out->GetArray("Kind")->GetTuple1(1), 3);
   EXPECT_EQ(out->GetArray("Plain")->GetTuple1(0), 2);
   resampler->ClearCategoricalArrays();
   resampler->Update();
   EXPECT_NEAR(
     resampler->GetOutput()->GetPointData()->GetArray("Classification")->GetTuple1(0), 20.0 / 3, 1e-12);
+}
+
+TEST(VoxelMeanAttributes, FieldsThatAreCalledLabelsAreLabels)
+{
+  const auto cloud = trial::cloudAt({ { 0.1, 0.1, 0.1 }, { 0.1, 0.1, 0.1 }, { 0.1, 0.1, 0.1 } });
+  const char* const labels[] = { "label", "Class", "SEGMENT", "instance", "scalar_Label", "semantic_class",
+    "labels", "classes", "instanceId", "segment_ids", "classification" };
+  const char* const others[] = { "label_quality", "ClassificationFlags", "Intensity", "glass", "id" };
+  for (const char* name : labels)
+  {
+    trial::addArray(cloud, name, { 9, 2, 9 });
+  }
+  for (const char* name : others)
+  {
+    trial::addArray(cloud, name, { 9, 0, 9 });
+  }
+  vtkNew<vtkVoxelMeanResampler> resampler;
+  trial::useUnitCube(resampler, 2);
+  resampler->SetInputData(cloud);
+  resampler->Update();
+  vtkPointData* out = resampler->GetOutput()->GetPointData();
+  for (const char* name : labels)
+  {
+    EXPECT_TRUE(resampler->IsCategoricalArray(name)) << name;
+    EXPECT_EQ(out->GetArray(name)->GetTuple1(0), 9) << name;
+  }
+  for (const char* name : others)
+  {
+    EXPECT_FALSE(resampler->IsCategoricalArray(name)) << name;
+    EXPECT_EQ(out->GetArray(name)->GetTuple1(0), 6) << name;
+  }
 }
 
 TEST(VoxelMeanAttributes, DropsStringArraysWithAWarning)

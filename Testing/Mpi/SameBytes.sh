@@ -21,11 +21,11 @@ case "$1" in
     "$PROGRAM" generate idol -n 20000 -o idol.ply >said
     same_bytes vtp resample idol.ply
     RANKS="3" same_bytes ply resample idol.ply --dims 40
-    # Points far from all others are warned of in the same words, whoever has them.
+    # Points far from all others are left out, and that is said in the same words, whoever has them.
     "$PROGRAM" convert idol.ply far.csv >said
     printf '1000000,0,0,0,0,1\n' >>far.csv
     RANKS="1 2 5" same_bytes vtp resample far.csv
-    grep -q "warning: far.csv: 1 of 20,001 points is far from all others, .* --workspace -0.0" warned-by-ranks ||
+    grep -q "warning: 1 of 20,001 points is far from all others; lattice and picture" warned-by-ranks ||
       fault "nothing is said of a far point: $(cat warned-by-ranks)"
     RANKS="2" same_bytes csv resample far.csv --voxel 10
     [[ ! -s warned-by-ranks ]] || fault "large voxels are no harm: $(cat warned-by-ranks)"
@@ -71,6 +71,19 @@ case "$1" in
       "$PROGRAM" convert arrays.csv "$file" >said
       RANKS="2 3" same_bytes vtp resample "$file" --dims 12
     done
+    # Splats: the faint ones are left out by all ranks, of all points.
+    awk 'BEGIN {
+      srand(3)
+      print "ply\nformat ascii 1.0\nelement vertex 500"
+      split("x y z f_dc_0 f_dc_1 f_dc_2 opacity", names, " ")
+      for (i = 1; i <= 7; ++i) print "property float " names[i]
+      print "end_header"
+      for (i = 0; i < 500; ++i)
+        printf "%g %g %g %g %g %g %g\n", rand(), rand(), rand(), rand(), rand(), rand(), (i > 300 && i % 3 ? -6 : 3)
+    }' >splats.ply
+    RANKS="1 2 3" same_bytes vtp resample splats.ply --dims 12
+    RANKS="3" same_bytes vtp resample splats.ply --dims 12 --clip 0,0.01,0,1,0,1
+    grep -q "133 of 500 splats are left out" warned-by-ranks || fault "not said: $(cat warned-by-ranks)"
     gzip -k idol.ply
     RANKS="3" same_bytes vtp bandwidth idol.ply.gz --density none
     ;;
@@ -79,6 +92,10 @@ case "$1" in
     same_bytes vtp bandwidth idol.ply
     "$PROGRAM" resample idol.ply -o means.vtp --dims 60 >said
     RANKS="2 3" same_bytes vtp bandwidth means.vtp
+    # Each point thrice, the copies on several ranks.
+    "$PROGRAM" convert idol.ply idol.csv >said
+    (cat idol.csv && tail -n +2 idol.csv && tail -n +2 idol.csv) >thrice.csv
+    RANKS="2 3" same_bytes vtp bandwidth thrice.csv
     RANKS="3" same_bytes ply bandwidth idol.ply --neighbors 40 --rule sheather-jones --density epanechnikov --r2 0.1
     RANKS="4" same_bytes csv bandwidth idol.ply --radius 0.02 --smooth --json
     ;;

@@ -58,6 +58,27 @@ class Files(TestCase):
         with self.assertRaisesRegex(ValueError, "piece 2 of 2, 'b.vtp': there is no such file"):
             ph.read(self.path("both.pvtp"))
 
+    def test_cut_files_and_columns_without_names(self):
+        name = self.path("cut.pts")
+        with open(name, "w") as file:
+            file.write("3\n1 2 3 4\n5 6 7 8\n")
+        with self.assertRaisesRegex(ValueError, "or read what is there by salvage=True"):
+            ph.read(name)
+        with self.assertWarnsRegex(RuntimeWarning, "the 2 points before are read, of 3"):
+            points, _ = ph.read(name, salvage=True)
+        self.assertEqual(len(points), 2)
+        with open(self.path("rows.txt"), "w") as file:
+            file.write("7 1 2 3 4\n8 5 6 7 8\n")
+        points, attributes = ph.read(self.path("rows.txt"), columns=["-", "z", "y", "x", "gain"])
+        np.testing.assert_array_equal(points, [[3, 2, 1], [7, 6, 5]])
+        self.assertEqual(list(attributes), ["gain"])
+        with self.assertRaisesRegex(ValueError, "columns has 2 names, and a point needs three"):
+            ph.read(self.path("rows.txt"), columns=["x", "y"])
+        with self.assertRaisesRegex(TypeError, "give a list of names"):
+            ph.read(self.path("rows.txt"), columns="xyz")
+        with self.assertWarnsRegex(RuntimeWarning, "are taken as .*; columns=... says otherwise"):
+            ph.read(self.path("rows.txt"))
+
     def test_info_is_that_of_the_program(self):
         points = sphere(5000)
         points[7] = np.nan

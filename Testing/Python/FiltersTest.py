@@ -47,6 +47,17 @@ class EqualsTheProgram(TestCase):
         run_program("resample", self.path("in.vtp"), "-o", self.path("out.vtp"))
         self.compare(ph.resample(points, attributes=attributes), self.path("out.vtp"))
 
+    def test_points_far_from_all_others_are_left_out(self):
+        strays = np.random.default_rng(4).normal(size=(150, 3)) * 3
+        points = np.concatenate([sphere(5000), strays]).astype(np.float32)
+        attributes = {"Label": np.arange(len(points), dtype=np.int32) % 3}
+        ph.write(self.path("in.vtp"), points, attributes)
+        run_program("resample", self.path("in.vtp"), "-o", self.path("out.vtp"))
+        with self.assertWarnsRegex(RuntimeWarning, "150 of 5,150 points are far from all others; .* takes them in"):
+            voxels = ph.resample(points, attributes=attributes)
+        self.compare(voxels, self.path("out.vtp"))
+        self.assertEqual(voxels.clipped, 150)
+
     def test_transform_workspace_dims_and_threads(self):
         points, attributes = self.cloud(np.float64)
         matrix = np.array([[0, -2, 0, 0.01], [2, 0, 0, 0], [0, 0, 2, -0.02], [0, 0, 0, 1.0]])

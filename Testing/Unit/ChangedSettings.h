@@ -36,7 +36,7 @@ inline void change(Bounds& value)
 }
 inline void change(std::set<std::string>& value)
 {
-  value.insert("Label");
+  value.insert("Kind");
 }
 template <typename Enum, typename = std::enable_if_t<std::is_enum_v<Enum>>>
 void change(Enum& value)

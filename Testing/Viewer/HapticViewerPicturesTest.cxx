@@ -160,8 +160,8 @@ TEST_F(HapticViewerPictures, IsThatOfAllPointsButAFarOne)
   cloud->GetPoints()->Modified();
   EXPECT_NEAR(double(picture("far.png")), double(before), 0.02 * double(before));
   ASSERT_EQ(warnings_.size(), 1u);
-  EXPECT_NE(
-    warnings_[0].find("1 of 20,001 points is far from all others, outside the workspace"), std::string::npos)
+  EXPECT_NE(warnings_[0].find("1 of 20,001 points is far from all others; lattice and picture leave it out"),
+    std::string::npos)
     << warnings_[0];
   options_.clip = { -2, 2, -2, 2, -2, 2 };
   EXPECT_NEAR(double(picture("clipped.png")), double(before), 0.02 * double(before));
@@ -170,10 +170,35 @@ TEST_F(HapticViewerPictures, IsThatOfAllPointsButAFarOne)
   warnings_.clear();
   picture("unfitted.png");
   ASSERT_EQ(warnings_.size(), 1u);
-  EXPECT_NE(warnings_[0].find("1 of 20,001 points is far from all others, and the workspace reaches to it"),
-    std::string::npos)
-    << warnings_[0];
-  EXPECT_NE(warnings_[0].find("leaves it out"), std::string::npos) << warnings_[0];
+  EXPECT_NE(warnings_[0].find("takes it in"), std::string::npos) << warnings_[0];
+}
+
+TEST_F(HapticViewerPictures, IsThatOfTheObjectAmongStrays)
+{
+  SKIP_WITHOUT_DISPLAY();
+  options_.picture.background = "black";
+  vtkSmartPointer<vtkPolyData> cloud = makeSphere();
+  const auto picture = [&](const char* name)
+  {
+    HapticViewer viewer(options_, observer_);
+    EXPECT_TRUE(viewer.open(cloud.Get())) << viewer.message();
+    EXPECT_TRUE(viewer.renderToFile(this->path(name))) << viewer.message();
+    return coloredPixels(this->path(name), 2, 10.0);
+  };
+  const vtkIdType before = picture("sphere.png");
+  const double size = cloud->GetLength();
+  for (int i = 0; i < 800; ++i) // spread over a ball by golden angles
+  {
+    const double r = 100.0 * size * std::cbrt((i + 0.5) / 800.0);
+    const double z = std::fmod(i * 0.7548776662, 1.0) * 2.0 - 1.0;
+    const double angle = i * 2.39996323;
+    const double ring = std::sqrt(1.0 - z * z);
+    cloud->GetPoints()->InsertNextPoint(r * ring * std::cos(angle), r * ring * std::sin(angle), r * z);
+  }
+  cloud->GetPoints()->Modified();
+  EXPECT_NEAR(double(picture("strays.png")), double(before), 0.05 * double(before));
+  ASSERT_EQ(warnings_.size(), 1u);
+  EXPECT_NE(warnings_[0].find("of 20,800 points are far from all others"), std::string::npos) << warnings_[0];
 }
 
 #ifdef __linux__

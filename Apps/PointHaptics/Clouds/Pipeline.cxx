@@ -242,6 +242,10 @@ Cloud mergedCloud(const std::string& command, std::vector<Cloud>& clouds)
     }
     std::vector<std::string> notes;
     merged.points = io::mergeClouds(parts, notes);
+    if (!merged.points)
+    {
+      throw Failure(notes.back());
+    }
     for (const std::string& note : notes)
     {
       warn(command, note);

@@ -5,10 +5,11 @@
 #include "Terminal/Messages.h"
 
 #include "Core/Base/Boxes.h"
+#include "Core/Base/Lattice.h"
 #include "Core/Base/QuantityText.h"
 #include "Core/Distributed/SharedVoxels.h"
 #include "CsvWriter.h"
-#include "IO/Info/FarPoints.h"
+#include "IO/Info/LengthUnit.h"
 #include "LoadedCloud.h"
 #include "vtkVoxelMeanResampler.h"
 
@@ -22,6 +23,33 @@
 
 namespace pointhaptics::app
 {
+
+namespace
+{
+
+/// As the resampler says it of its lattice; empty where it does not.
+Bounds latticeBounds(vtkPolyData* means)
+{
+  vtkFieldData* fields = means->GetFieldData();
+  vtkDataArray* origin = fields->GetArray("LatticeOrigin");
+  vtkDataArray* spacing = fields->GetArray("LatticeSpacing");
+  vtkDataArray* dimensions = fields->GetArray("LatticeDimensions");
+  Bounds box;
+  if (origin && spacing && dimensions)
+  {
+    Lattice lattice;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      lattice.origin[axis] = origin->GetComponent(0, axis);
+      lattice.spacing[axis] = spacing->GetComponent(0, axis);
+      lattice.dimensions[std::size_t(axis)] = std::int64_t(dimensions->GetComponent(0, axis));
+    }
+    box = lattice.bounds();
+  }
+  return box;
+}
+
+} // namespace
 
 void ResampleOptions::addTo(CLI::App& command)
 {
@@ -65,46 +93,34 @@ void ResampleOptions::configure(vtkVoxelMeanResampler* resampler) const
 /// Removes steps and coordinate system of the file from transformed points, and its unit from scaled ones.
 void ResampleOptions::finish(vtkPolyData* means) const
 {
-  const bool isScaled =
-    this->lattice.unit != "m" || !this->lattice.scale.empty() || !this->lattice.matrix.empty();
   for (const char* name : { "LasScale", "LasOffset", "CoordinateSystem", "LengthUnit" })
   {
-    if (this->lattice.hasTransform() && (isScaled || name != std::string("LengthUnit")))
+    if (this->lattice.hasTransform() && (this->lattice.isScaled() || name != std::string("LengthUnit")))
     {
       means->GetFieldData()->RemoveArray(name);
     }
   }
 }
 
-std::vector<std::string> oddPointsNotes(
-  const ResampleOptions& options, bool isDone, vtkPolyData* cloud, Ranks& ranks)
+std::string noReturnsNote(
+  const ResampleOptions& options, vtkPolyData* cloud, vtkPolyData* means, Ranks& ranks)
 {
-  std::vector<std::string> notes;
-  const AffineTransform transform = options.lattice.transform();
-  const Bounds workspace = options.lattice.workspace();
   const CloudExtent own = extentOf(cloud);
-  const bool isHarmless = isDone && options.lattice.voxels.lattice.voxelSize > 0.0;
-  FarPoints far;
-  if (!isHarmless && workspace.empty())
-  {
-    far = findFarPoints(cloud, own.all, ranks);
-  }
-  const bool saysZeros = far.count > 0 && !contains(far.others, Vec3());
-  if (far.count > 0)
-  {
-    far.others = boxOfCorners(far.others, [&](const Vec3& p) { return transform.apply(p); });
-    notes.push_back(
-      fmt::format("{}: {}, and the lattice reaches there; --workspace {} leaves what is far out",
-        options.files.input, far.text(), far.clip()));
-  }
   const std::int64_t atZero = commonSum(ranks, own.atZero);
-  const bool areIn = workspace.empty() || contains(workspace, transform.apply(Vec3()));
-  if (areNoReturns(atZero, commonSum(ranks, own.finite)) && areIn && !saysZeros)
-  {
-    notes.push_back(
-      fmt::format("{}: {} are resampled as others are", options.files.input, noReturnsText(atZero)));
-  }
-  return notes;
+  const bool areIn = contains(latticeBounds(means), options.lattice.transform().apply(Vec3()));
+  return areIn && areNoReturns(atZero, commonSum(ranks, own.finite))
+    ? fmt::format("{}: {} are resampled as others are", options.files.input, noReturnsText(atZero))
+    : std::string();
+}
+
+std::string voxelUnitNote(const ResampleOptions& options, vtkPolyData* cloud)
+{
+  const LengthUnit unit = lengthUnitOf(cloud, Bounds());
+  const double voxel = options.lattice.voxels.lattice.voxelSize;
+  return voxel > 0.0 && unit.name != "m" && !options.lattice.isScaled()
+    ? fmt::format("{}: --voxel {:.6g} is {:.6g} {}, the unit of the file; --unit {} makes metres of both",
+        options.files.input, voxel, voxel, unit.name, unit.name)
+    : std::string();
 }
 
 bool openVoxelIndex(const std::string& fileName, CsvWriter& file, std::string& message)

@@ -39,11 +39,13 @@ struct ResampleOptions
   void finish(vtkPolyData* means) const;
 };
 
-/// What a few points of @p cloud far from all others do to the automatic lattice, and how they are left out:
-/// not where it @p isDone with voxels of a given size, of which no other is coarser for it. And that rays
-/// which did not return are resampled. Collective where @p ranks have parts of the cloud: the same on all.
-std::vector<std::string> oddPointsNotes(
-  const ResampleOptions& options, bool isDone, vtkPolyData* cloud, Ranks& ranks);
+/// That rays of @p cloud which did not return are among the points of @p means; empty: they are not.
+/// Collective where @p ranks have parts of the cloud: the same on all.
+std::string noReturnsNote(
+  const ResampleOptions& options, vtkPolyData* cloud, vtkPolyData* means, Ranks& ranks);
+
+/// In what unit --voxel is where @p cloud says that its own is no metre, and --unit does not; else empty.
+std::string voxelUnitNote(const ResampleOptions& options, vtkPolyData* cloud);
 
 /// Opens the file of --voxel-index. False: @p message says why it cannot be written.
 bool openVoxelIndex(const std::string& fileName, CsvWriter& file, std::string& message);

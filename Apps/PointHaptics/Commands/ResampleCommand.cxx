@@ -35,14 +35,18 @@ CloudResult resample(const ResampleOptions& options, Cloud& cloud, Files& files)
   options.configure(resampler);
   resampler->SetComputeVoxelIndex(wantsIndex);
   const bool isDone = updateFilter(resampler, "resampling", message);
-  Ranks alone;
-  for (const std::string& note : oddPointsNotes(options, isDone, cloud.points, alone))
-  {
-    warn(kResampleCommand, note);
-  }
   if (!isDone)
   {
     throw Failure(options.files.input + ": " + message);
+  }
+  Ranks alone;
+  for (const std::string& note : { noReturnsNote(options, cloud.points, resampler->GetOutput(), alone),
+         voxelUnitNote(options, cloud.points) })
+  {
+    if (!note.empty())
+    {
+      warn(kResampleCommand, note);
+    }
   }
   const ResampleFigures figures{ cloud.points->GetNumberOfPoints(),
     resampler->GetOutput()->GetNumberOfPoints(), resampler->GetNumberOfClippedPoints(),

@@ -45,6 +45,8 @@ struct LatticeOptions
   /// Length of a unit of the file's coordinates, metres.
   double metresPerUnit() const;
   bool hasTransform() const;
+  /// Whether lengths change by it.
+  bool isScaled() const { return this->unit != "m" || !this->scale.empty() || !this->matrix.empty(); }
   /// --workspace; empty where it was not given.
   Bounds workspace() const;
   /// Sets the transform, where one was given, and the settings on @p resampler.

@@ -11,20 +11,42 @@ namespace
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kTwoPi = 6.28318530717958647693;
 
+double weightOf(const std::vector<double>& counts, std::int64_t index)
+{
+  return counts.empty() ? 1.0 : std::max(1.0, counts[std::size_t(index)]);
+}
+
 /// What each kernel counts, by slot, and the sum of all.
 struct Weights
 {
   const NeighborQuery& query;
-  const std::vector<double>& counts;
+  const std::vector<double> ofPlaces; ///< The points of each place together; empty: 1 each.
   double total = 0.0;
   /// A power of two by which the total is at most OrderedSum::kMost.
   double scale = 1.0;
 
   double at(std::int64_t slot) const
   {
-    return scale * (counts.empty() ? 1.0 : std::max(1.0, counts[std::size_t(query.index(slot))]));
+    return scale * (ofPlaces.empty() ? 1.0 : ofPlaces[std::size_t(slot)]);
   }
 };
+
+std::vector<double> weightsOfPlaces(const NeighborQuery& query, const std::vector<double>& counts)
+{
+  std::vector<double> weights;
+  if (counts.empty() && query.finitePoints() == query.size())
+  {
+    return weights;
+  }
+  weights.reserve(std::size_t(query.size()));
+  for (std::int64_t slot = 0; slot < query.size(); ++slot)
+  {
+    weights.push_back(weightOf(counts, query.index(slot)));
+  }
+  query.visitRepeats([&](std::int64_t repeated, std::int64_t slot)
+    { weights[std::size_t(slot)] += weightOf(counts, repeated); });
+  return weights;
+}
 
 /// A sum of numbers from 0 to 2^34 that does not depend on their order: each is cut to multiples of 2^-60, in
 /// two words.
@@ -95,7 +117,7 @@ double totalWeight(const PointView& points, const std::vector<double>& counts)
   double total = 0.0;
   for (std::int64_t i = 0; i < points.size(); ++i)
   {
-    total += !isFinite(points[i]) ? 0.0 : counts.empty() ? 1.0 : std::max(1.0, counts[std::size_t(i)]);
+    total += isFinite(points[i]) ? weightOf(counts, i) : 0.0;
   }
   return total;
 }
@@ -114,7 +136,7 @@ void surfaceDensitiesOfPart(const PointView& points, const std::vector<double>& 
   {
     return;
   }
-  Weights weights{ query, counts, total };
+  Weights weights{ query, weightsOfPlaces(query, counts), total };
   while (weights.scale * total > OrderedSum::kMost)
   {
     weights.scale *= 0.5;
@@ -124,26 +146,16 @@ void surfaceDensitiesOfPart(const PointView& points, const std::vector<double>& 
   forRange(executor, query.size(),
     [&](std::int64_t begin, std::int64_t end)
     {
-      // Points at one place stand side by side: with one bandwidth they have one density.
-      Vec3 lastPlace;
-      double lastBandwidth = 0.0;
-      double last = 0.0;
       for (std::int64_t slot = begin; slot < end; ++slot)
       {
         const std::size_t i = std::size_t(query.index(slot));
-        if (!(bandwidths[i] > 0.0))
+        if (bandwidths[i] > 0.0)
         {
-          continue;
+          densities[i] = density(weights, query.point(slot), bandwidths[i]);
         }
-        if (bandwidths[i] != lastBandwidth || !(query.point(slot) == lastPlace))
-        {
-          lastPlace = query.point(slot);
-          lastBandwidth = bandwidths[i];
-          last = density(weights, lastPlace, lastBandwidth);
-        }
-        densities[i] = last;
       }
     });
+  query.copyToRepeats(densities);
 }
 
 } // namespace pointhaptics

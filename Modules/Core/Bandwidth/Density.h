@@ -21,11 +21,12 @@ constexpr double kEpanechnikovReachOnSurface = 2.44948974278317809820; ///< w = 
 constexpr double kDensityCutoff = 6.0;
 
 /// Gaussian estimate on a surface (two dimensions) at each point with that point's own bandwidth:
-/// f_b(x) = 1/(N 2 pi b^2) sum_i exp(-|x - x_i|^2 / (2 b^2)), per squared unit of the coordinates, N =
-/// query.size(), cut off at kDensityCutoff; or with the Epanechnikov kernel 1/(N pi/2 w^2 b^2) sum_i
+/// f_b(x) = 1/(N 2 pi b^2) sum_i exp(-|x - x_i|^2 / (2 b^2)), per squared unit of the coordinates, N the
+/// finite points, cut off at kDensityCutoff; or with the Epanechnikov kernel 1/(N pi/2 w^2 b^2) sum_i
 /// (1 - |x - x_i|^2 / (w b)^2) over the points closer than w b, where nothing is cut off. Points that are not
-/// finite, or whose bandwidth is not above 0, get 0. Independent of @p executor, and of the order in which
-/// the query has the points: terms are summed as whole multiples of 2^-60 of a kernel's height.
+/// finite, or whose bandwidth is not above 0, get 0; points at one place get the density of the first of
+/// them. Independent of @p executor, and of the order in which the query has the points: terms are summed as
+/// whole multiples of 2^-60 of a kernel's height.
 void surfaceDensities(const PointView& points, const NeighborQuery& query,
   const std::vector<double>& bandwidths, std::vector<double>& densities, const Executor& executor = {},
   DensityKernel kernel = DensityKernel::Gaussian);

@@ -25,6 +25,8 @@ public:
     {
       radii_.push_back(radii[std::size_t(query.index(slot))]);
     }
+    query.visitRepeats([&](std::int64_t repeated, std::int64_t slot)
+      { radii_[std::size_t(slot)] = std::min(radii_[std::size_t(slot)], radii[std::size_t(repeated)]); });
     const std::vector<double>* below = &radii_;
     for (int level = 0; level < tree_.levels; ++level)
     {
@@ -104,6 +106,7 @@ void limitSlope(
         radii[std::size_t(query.index(slot))] = limiter.limited(slot);
       }
     });
+  query.copyToRepeats(radii);
 }
 
 } // namespace pointhaptics

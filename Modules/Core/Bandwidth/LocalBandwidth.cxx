@@ -47,22 +47,8 @@ public:
   {
   }
 
-  Neighborhood read(const NeighborList& list)
-  {
-    // Points at one place stand side by side and have one neighbourhood.
-    const Vec3 place = query_.point(list.slot);
-    if (!hasLast_ || !(place == lastPlace_))
-    {
-      last_ = readAnew(list);
-      lastPlace_ = place;
-      hasLast_ = true;
-    }
-    return last_;
-  }
-
-private:
   /// Sums go from the nearest to the farthest: they do not depend on how the neighbours were found.
-  Neighborhood readAnew(const NeighborList& list)
+  Neighborhood read(const NeighborList& list)
   {
     Neighborhood result;
     if (list.count < 2)
@@ -84,6 +70,7 @@ private:
     return result;
   }
 
+private:
   /// sqrt(trace(C) / 2) about the neighbourhood's own mean.
   double surfaceSpread(const NeighborList& list) const
   {
@@ -134,9 +121,6 @@ private:
   Status statusOfFactor_ = Status::DegenerateSample;
   std::vector<double> distances_;
   BandwidthScratch scratch_;
-  bool hasLast_ = false;
-  Vec3 lastPlace_;
-  Neighborhood last_;
 };
 
 /// The neighbours in a ball about each point, as NeighborSweep gives the nearest.
@@ -161,13 +145,8 @@ public:
   /// Valid until the next call.
   NeighborList alone(std::int64_t slot)
   {
-    if (!found_.empty() && query_.point(slot) == lastPlace_)
-    {
-      return { slot, int(found_.size()), squaredDistances_.data(), slots_.data() };
-    }
-    lastPlace_ = query_.point(slot);
     found_.clear();
-    query_.visitBallSlots(lastPlace_, radius_,
+    query_.visitBallSlots(query_.point(slot), radius_,
       [this](double d2, std::int64_t other) {
         found_.push_back({ d2, query_.packed(other) });
       });
@@ -185,7 +164,6 @@ public:
 private:
   const NeighborQuery& query_;
   const double radius_;
-  Vec3 lastPlace_; ///< Whose neighbours are those found.
   std::vector<Neighbor> found_;
   std::vector<double> squaredDistances_;
   std::vector<std::uint32_t> slots_;
@@ -271,6 +249,13 @@ bool readAll(const Sample& sample, MakeSweep&& makeSweep, PartialBandwidths& res
           result.radii[index] = radius;
         });
     });
+  for (std::vector<double>* values : { &result.bandwidths, &result.radii, &result.reaches })
+  {
+    if (!values->empty())
+    {
+      query.copyToRepeats(*values);
+    }
+  }
   return complete;
 }
 

@@ -46,16 +46,19 @@ struct Chosen
   std::vector<std::uint32_t> ofAll; ///< Index in points of each slot of the query.
 };
 
-/// The slots of a query that are farther than @p apart from the ones chosen just before. Equal places lie
-/// within a leaf's length of each other in the order of SpatialOrder.h, near ones mostly.
+/// The slots of a query that are farther than @p apart from the ones chosen just before, which in the order
+/// of SpatialOrder.h are near ones mostly.
 Chosen choose(const NeighborQuery& query, double apart)
 {
   constexpr std::int64_t kLookedAt = simd::kLeafPoints;
   Chosen chosen;
+  if (!(apart > 0.0))
+  {
+    return chosen;
+  }
   chosen.ofAll.reserve(std::size_t(query.size()));
   std::vector<std::uint32_t>& ofAll = chosen.ofAll;
-  const auto isNear = [apart](const Vec3& a, const Vec3& b)
-  { return apart > 0.0 ? norm2(a - b) <= apart * apart : a == b; };
+  const auto isNear = [apart](const Vec3& a, const Vec3& b) { return norm2(a - b) <= apart * apart; };
   for (std::int64_t slot = 0; slot < query.size(); ++slot)
   {
     const Vec3 here = query.point(slot);
@@ -152,7 +155,7 @@ int chosenNeighbors(const NeighborQuery& query, const LocalShapeSettings& settin
                              : LocalShapeSettings::kFewest;
 }
 
-/// The passes over the distinct places, by slot of their query.
+/// The passes over the places, by slot of their query.
 class Measurement
 {
 public:
@@ -365,8 +368,8 @@ private:
 };
 
 /// From what was measured back to the points of the cloud, with the sums over them.
-LocalShape collect(const PointView& cloud, const NeighborQuery& query, const ThinnedQuery& distinct,
-  const ThinnedQuery& measured, const Measurement& measurement)
+LocalShape collect(const PointView& cloud, const NeighborQuery& query, const ThinnedQuery& measured,
+  const Measurement& measurement)
 {
   LocalShape shape;
   shape.points.resize(std::size_t(cloud.size()));
@@ -374,7 +377,7 @@ LocalShape collect(const PointView& cloud, const NeighborQuery& query, const Thi
   std::vector<float> spacings;
   for (std::int64_t slot = 0; slot < query.size(); ++slot)
   {
-    const PointShape& each = measurement.result(measured.slotFor(distinct.slotFor(slot)));
+    const PointShape& each = measurement.result(measured.slotFor(slot));
     shape.points[std::size_t(query.index(slot))] = each;
     flatness += double(each.flatness);
     if (slot % (1 + query.size() / 20000) == 0)
@@ -382,6 +385,7 @@ LocalShape collect(const PointView& cloud, const NeighborQuery& query, const Thi
       spacings.push_back(each.spacing);
     }
   }
+  query.copyToRepeats(shape.points);
   shape.meanFlatness = flatness / double(query.size());
   shape.medianSpacing = medianOf(spacings);
   shape.noise = measurement.noise();
@@ -405,8 +409,7 @@ Status measureLocalShape(const PointView& cloud, const NeighborQuery& query,
     return Status::Empty;
   }
   const auto goesOn = [observer](double part) { return !observer || observer->report(part); };
-  const ThinnedQuery distinct(query, 0.0, executor);
-  const ThinnedQuery measured(distinct.query(), settings.apart, executor);
+  const ThinnedQuery measured(query, settings.apart, executor);
   const int neighbors = chosenNeighbors(measured.query(), settings);
   Measurement measurement(measured, neighbors);
   const double fitted = measured.holdsAll() ? 0.8 : 0.3;
@@ -418,7 +421,7 @@ Status measureLocalShape(const PointView& cloud, const NeighborQuery& query,
   }
   measurement.compareNormals(executor);
   measurement.average(executor);
-  shape = collect(cloud, query, distinct, measured, measurement);
+  shape = collect(cloud, query, measured, measurement);
   shape.numberOfNeighbors = neighbors;
   return goesOn(1.0) ? Status::Ok : Status::Aborted;
 }

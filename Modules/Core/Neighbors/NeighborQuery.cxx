@@ -4,6 +4,7 @@
 #include "Core/Neighbors/SpatialOrder.h"
 
 #include <algorithm>
+#include <atomic>
 
 namespace pointhaptics
 {
@@ -38,13 +39,14 @@ void NeighborQuery::build(const PointView& points, const Executor& executor)
   tree_ = {};
   kernels_ = &simd::neighborKernels();
   indices_ = spatialOrder(points, kLeafPoints, executor);
+  repeats_.clear();
   tree_.size = std::int64_t(indices_.size());
-  tree_.indices = indices_.data();
   if (tree_.size == 0)
   {
     return;
   }
   copyPoints(points, executor);
+  dropRepeats(executor);
   std::int64_t boxes = quotientUp(tree_.size, kLeafPoints);
   do
   {
@@ -63,7 +65,6 @@ void NeighborQuery::copyPoints(const PointView& points, const Executor& executor
   for (int axis = 0; axis < 3; ++axis)
   {
     places_[axis].resize(padded);
-    std::fill(places_[axis].begin() + tree_.size, places_[axis].end(), NAN);
     tree_.places[axis] = places_[axis].data();
   }
   forRange(executor, tree_.size,
@@ -71,12 +72,71 @@ void NeighborQuery::copyPoints(const PointView& points, const Executor& executor
     {
       for (std::int64_t slot = begin; slot < end; ++slot)
       {
-        const Vec3 p = points[index(slot)];
+        const Vec3 p = points[indices_[std::size_t(slot)]];
         places_[0][std::size_t(slot)] = p.x;
         places_[1][std::size_t(slot)] = p.y;
         places_[2][std::size_t(slot)] = p.z;
       }
     });
+}
+
+/// The slot of the same place among those before @p slot, or -1. Points of one place share a cell of the
+/// order, which holds at most a leaf's points of several places.
+std::int64_t NeighborQuery::sameBefore(const Vec3& place, std::int64_t slot) const
+{
+  const std::int64_t first = std::max<std::int64_t>(0, slot - kLeafPoints);
+  while (--slot >= first)
+  {
+    if (place == point(slot))
+    {
+      return slot;
+    }
+  }
+  return -1;
+}
+
+/// Keeps the first point of each place, pads the last leaf, and publishes the memory in the tree.
+void NeighborQuery::dropRepeats(const Executor& executor)
+{
+  std::atomic<bool> repeats{ false };
+  forRange(executor, tree_.size,
+    [&](std::int64_t begin, std::int64_t end)
+    {
+      for (std::int64_t slot = begin; slot < end; ++slot)
+      {
+        if (sameBefore(point(slot), slot) >= 0)
+        {
+          repeats.store(true, std::memory_order_relaxed);
+          return;
+        }
+      }
+    });
+  std::int64_t kept = repeats ? 0 : tree_.size;
+  for (std::int64_t slot = kept; slot < tree_.size; ++slot)
+  {
+    const Vec3 place = point(slot);
+    const std::uint32_t index = indices_[std::size_t(slot)];
+    const std::int64_t same = sameBefore(place, kept);
+    if (same >= 0)
+    {
+      repeats_.push_back({ index, std::uint32_t(same) });
+      continue;
+    }
+    indices_[std::size_t(kept)] = index;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      places_[axis][std::size_t(kept)] = place[axis];
+    }
+    ++kept;
+  }
+  tree_.size = kept;
+  indices_.resize(std::size_t(kept));
+  tree_.indices = indices_.data();
+  for (std::vector<double>& ofAxis : places_)
+  {
+    ofAxis.resize(std::size_t(quotientUp(kept, kLeafPoints) * kLeafPoints));
+    std::fill(ofAxis.begin() + kept, ofAxis.end(), NAN);
+  }
 }
 
 void NeighborQuery::boundLeaves(const Executor& executor)

@@ -30,13 +30,15 @@ inline bool operator<(const Neighbor& a, const Neighbor& b)
   return a.squaredDistance != b.squaredDistance ? a.squaredDistance < b.squaredDistance : a.index < b.index;
 }
 
-/// A copy of the finite points in the order of SpatialOrder.h, sixteen to a leaf, and a tree of boxes about
-/// the leaves, eight to a group. Queries are exact: equal to brute force in double numbers, ties broken by
-/// index. They allocate nothing beyond what the caller passes in, loop no further than the tree, and may run
-/// in any number of threads after build(), the servo thread among them. Any density, extent and number of
-/// duplicates is fine. For the neighbours of all points at once use NeighborSweep, which is several times as
-/// fast. build(): O(n), see SpatialOrder.h; 32 bytes a point, and 16 more while it runs. nearest(): O(log n +
-/// k log k) as a rule, 1.6 us for 17 of 200,000 points; it uses 60 KiB of stack.
+/// The places of the finite points in the order of SpatialOrder.h, sixteen to a leaf, and a tree of boxes
+/// about the leaves, eight to a group. Points at one place are one neighbour, with the index of the first of
+/// them: how often a file repeats a point tells nothing of the surface. Queries are exact: equal to brute
+/// force in double numbers, ties broken by index. They allocate nothing beyond what the caller passes in,
+/// loop no further than the tree, and may run in any number of threads after build(), the servo thread among
+/// them. Any density and extent is fine. For the neighbours of all points at once use NeighborSweep, which is
+/// several times as fast. build(): O(n), see SpatialOrder.h; 32 bytes a place, 8 a repeated point, and 16 a
+/// point more while it runs. nearest(): O(log n + k log k) as a rule, 1.6 us for 17 of 200,000 points; it
+/// uses 60 KiB of stack.
 class NeighborQuery
 {
 public:
@@ -46,14 +48,32 @@ public:
   /// Points that are not finite are left out. Independent of @p executor.
   void build(const PointView& points, const Executor& executor = {});
 
-  /// Finite points held.
+  /// Places held.
   std::int64_t size() const { return tree_.size; }
+  /// Finite points given to build().
+  std::int64_t finitePoints() const { return size() + std::int64_t(repeats_.size()); }
+  /// Calls visit(index, slot) for each point at the place of an earlier one.
+  template <typename Visitor>
+  void visitRepeats(Visitor&& visit) const
+  {
+    for (const Repeat& repeat : repeats_)
+    {
+      visit(std::int64_t(repeat.index), std::int64_t(repeat.slot));
+    }
+  }
+  /// Gives repeated points the value of the first one. @param values one for each point given to build().
+  template <typename T>
+  void copyToRepeats(std::vector<T>& values) const
+  {
+    visitRepeats([&](std::int64_t repeated, std::int64_t slot)
+      { values[std::size_t(repeated)] = values[std::size_t(index(slot))]; });
+  }
 
-  /// The min(k, size()) nearest points, nearest first, written to @p neighbors (room for k). @return how
+  /// The min(k, size()) nearest places, nearest first, written to @p neighbors (room for k). @return how
   /// many.
   int nearest(const Vec3& center, int k, Neighbor* neighbors) const noexcept;
 
-  /// Calls visit(point, squaredDistance, index) for each point with distance <= radius, in no stated order.
+  /// Calls visit(point, squaredDistance, index) for each place with distance <= radius, in no stated order.
   template <typename Visitor>
   void visitBall(const Vec3& center, double radius, Visitor&& visit) const
   {
@@ -61,7 +81,7 @@ public:
       [&](double squaredDistance, std::int64_t slot) { visit(point(slot), squaredDistance, index(slot)); });
   }
 
-  // The points by slot: their place in spatial order, 0 to size() - 1.
+  // The places by slot: their rank in spatial order, 0 to size() - 1.
   Vec3 point(std::int64_t slot) const
   {
     return { tree_.places[0][slot], tree_.places[1][slot], tree_.places[2][slot] };
@@ -93,7 +113,14 @@ private:
   static constexpr std::int64_t kSlotMask = (std::int64_t(1) << kSlotBits) - 1;
 
   struct Search;
+  struct Repeat
+  {
+    std::uint32_t index;
+    std::uint32_t slot; ///< Of its place.
+  };
   void copyPoints(const PointView& points, const Executor& executor);
+  std::int64_t sameBefore(const Vec3& place, std::int64_t slot) const;
+  void dropRepeats(const Executor& executor);
   void boundLeaves(const Executor& executor);
   void boundGroups(int level, const Executor& executor);
   void searchGroup(int level, std::int64_t group, Search& search) const noexcept;
@@ -136,6 +163,7 @@ private:
   }
 
   std::vector<std::uint32_t> indices_;
+  std::vector<Repeat> repeats_;
   std::vector<double> places_[3];
   std::vector<simd::BoxGroup> groups_[simd::kMostLevels];
   simd::NeighborTree tree_;

@@ -60,14 +60,7 @@ NeighborList NeighborSweep::listOf(std::int64_t leaf, int i)
 
 NeighborList NeighborSweep::alone(std::int64_t slot)
 {
-  // Duplicates are adjacent in the order and have one answer: they are searched once.
-  if (lastCount_ > 0 && query_.point(slot) == lastPlace_)
-  {
-    return { slot, lastCount_, squaredDistances_.data(), slots_.data() };
-  }
   const int count = query_.nearestSlots(query_.point(slot), k_, alone_.data());
-  lastCount_ = count;
-  lastPlace_ = query_.point(slot);
   for (int i = 0; i < count; ++i)
   {
     squaredDistances_[std::size_t(i)] = alone_[std::size_t(i)].squaredDistance;
@@ -94,6 +87,13 @@ void nearestOfAll(
             to[i] = { list.squaredDistances[i], query.index(list.slots[i]) };
           }
         });
+    });
+  query.visitRepeats(
+    [&](std::int64_t repeated, std::int64_t slot)
+    {
+      const std::int64_t first = query.index(slot);
+      counts[repeated] = counts[first];
+      std::copy_n(neighbors + first * k, counts[first], neighbors + repeated * k);
     });
 }
 

@@ -1,5 +1,5 @@
 /// @file
-/// The nearest neighbours of all points of a cloud among themselves.
+/// The nearest neighbours of all places of a cloud among themselves.
 #pragma once
 
 #include "Core/Base/Executor.h"
@@ -32,7 +32,7 @@ struct NeighborList
 /// Finds the neighbours of many points, leaf by leaf. The results are those of NeighborQuery::nearest, bit
 /// for bit, at a fraction of the cost: the points of a leaf share their candidates, and each search begins
 /// with the reach of the one before. Where more than 4096 neighbours are wanted, or the guessed reach fails
-/// (an isolated point, many duplicates), points are searched one by one. Memory: 60 KiB and 600 bytes per
+/// (an isolated point), points are searched one by one. Memory: 60 KiB and 600 bytes per
 /// neighbour, allocated in the constructor only. One thread at a time.
 class NeighborSweep
 {
@@ -75,9 +75,7 @@ private:
   const simd::NeighborKernels* kernels_; ///< Null: every point is searched alone.
   std::vector<double> memory_;
   std::unique_ptr<simd::LeafSearch> search_;
-  // The last point that was searched alone, and its neighbours.
-  Vec3 lastPlace_;
-  int lastCount_ = 0;
+  // The neighbours of the last point that was searched alone.
   std::vector<Neighbor> alone_;
   std::vector<double> squaredDistances_;
   std::vector<std::uint32_t> slots_;

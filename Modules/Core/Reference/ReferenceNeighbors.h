@@ -6,6 +6,8 @@
 #include "Core/Neighbors/NeighborQuery.h"
 
 #include <algorithm>
+#include <array>
+#include <set>
 #include <vector>
 
 namespace pointhaptics
@@ -13,15 +15,17 @@ namespace pointhaptics
 namespace reference
 {
 
-/// All finite points by distance from @p center, ties by index.
+/// All finite places by distance from @p center, ties by index, each under its first point's.
 inline std::vector<Neighbor> neighborsByDistance(const PointView& points, const Vec3& center)
 {
+  std::set<std::array<double, 3>> places;
   std::vector<Neighbor> all;
   for (std::int64_t i = 0; i < points.size(); ++i)
   {
-    if (isFinite(points[i]))
+    const Vec3 p = points[i];
+    if (isFinite(p) && places.insert({ p.x, p.y, p.z }).second)
     {
-      all.push_back({ norm2(points[i] - center), i });
+      all.push_back({ norm2(p - center), i });
     }
   }
   std::sort(all.begin(), all.end());

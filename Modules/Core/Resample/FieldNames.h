@@ -41,6 +41,47 @@ constexpr bool isSameField(std::string_view a, std::string_view b) noexcept
   }
 }
 
+/// Fields of labels, whose numbers have no mean.
+constexpr const char* kLabelFields[] = { "Class", "Classification", "Instance", "Label", "Segment" };
+
+/// Whether @p name is the field of labels @p label: the same name, or for one of kLabelFields one that ends
+/// with it, but for a plural and an id. "scalar_Label", "semantic-class", "labels" and "instanceId" are;
+/// "label_quality" is not.
+constexpr bool isLabelField(std::string_view name, std::string_view label) noexcept
+{
+  const auto without = [&name](std::string_view end)
+  {
+    std::size_t stem = name.size() - (end.size() < name.size() ? end.size() : name.size());
+    stem = isSameField(name.substr(stem), end) ? stem : name.size();
+    while (stem > 0 && isSameField(name.substr(stem - 1, 1), ""))
+    {
+      --stem;
+    }
+    return name.substr(0, stem);
+  };
+  if (isSameField(name, label))
+  {
+    return true;
+  }
+  bool isKnown = false;
+  for (const std::string_view field : kLabelFields)
+  {
+    isKnown = isKnown || field == label;
+  }
+  name = without("ids");
+  name = without("id");
+  for (const std::string_view plural : { "es", "s", "" })
+  {
+    const std::string_view stem = without(plural);
+    const std::size_t begin = stem.size() > label.size() ? stem.size() - label.size() : 0;
+    if (isKnown && isSameField(stem.substr(begin), label))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
 /// Whether @p name is one of kPointFields.
 constexpr bool isPointField(std::string_view name) noexcept
 {

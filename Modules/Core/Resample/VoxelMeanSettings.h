@@ -5,9 +5,11 @@
 
 #include "Core/Base/Lattice.h"
 #include "Core/Base/SettingsMembers.h"
+#include "Core/Resample/FieldNames.h"
 #include "Core/Resample/Representative.h"
 #include "Core/Simd/InstructionSet.h"
 
+#include <iterator>
 #include <set>
 #include <string>
 #include <tuple>
@@ -28,10 +30,11 @@ struct VoxelMeanSettings
 {
   LatticeSettings lattice = { LatticeSettings().dimensions, 0.0, true, defaultWorkspace() };
   PointsPrecision outputPointsPrecision = PointsPrecision::OfInput;
-  bool computeCovariance = false;                                 ///< Six second moments a voxel.
-  bool passAttributes = true;                                     ///< Average the arrays of the points.
-  std::set<std::string> categoricalArrays = { "Classification" }; ///< Most frequent value instead of a mean.
-  Representative representative = Representative::Mean;           ///< What stands for the points of a voxel.
+  bool computeCovariance = false; ///< Six second moments a voxel.
+  bool passAttributes = true;     ///< Average the arrays of the points.
+  /// Most frequent value instead of a mean: isLabelField().
+  std::set<std::string> categoricalArrays{ std::begin(kLabelFields), std::end(kLabelFields) };
+  Representative representative = Representative::Mean;      ///< What stands for the points of a voxel.
   int minimumPointsPerVoxel = 1;                             ///< Voxels with fewer are left out; at least 1.
   bool computeVoxelIndex = false;                            ///< One more output: the voxel of each point.
   bool keepOriginalPointIds = false;                         ///< Which point stands for each voxel.

@@ -212,7 +212,7 @@ private:
   std::size_t position_ = 0;
 };
 
-FileBytes::FileBytes(const std::string& path, const Progress& progress, const Inspect& inspect)
+FileBytes::FileBytes(const std::string& path, const Progress& progress, const Inspect& inspect, bool salvages)
 {
   checkIsReadable(path);
   File file(path, progress);
@@ -225,7 +225,7 @@ FileBytes::FileBytes(const std::string& path, const Progress& progress, const In
   wasPacked_ = file.peek(start, sizeof(start)) == kGzipMagic;
   if (wasPacked_)
   {
-    unpack(file, progress, inspect);
+    unpack(file, progress, inspect, salvages);
   }
   else
   {
@@ -281,7 +281,7 @@ void FileBytes::readPlain(File& file, const Progress& progress, const Inspect& i
   }
 }
 
-void FileBytes::unpack(File& file, const Progress& progress, const Inspect& inspect)
+void FileBytes::unpack(File& file, const Progress& progress, const Inspect& inspect, bool salvages)
 {
   const std::size_t limit = std::max(kGzipFloor, kMostGzipRatio * file.size());
   Inflater inflater;
@@ -315,7 +315,17 @@ void FileBytes::unpack(File& file, const Progress& progress, const Inspect& insp
     }
     if (!ended && size_ < capacity && !unread())
     {
-      failTruncated(where() + "the compressed data end too early");
+      if (!salvages || size_ == 0)
+      {
+        failTruncated(where() + "the compressed data end too early",
+          size_ > 0 ? ", or read what is there by --salvage" : "");
+      }
+      isCut_ = true;
+      if (!inspected)
+      {
+        inspect(view(), size_);
+      }
+      return;
     }
     if (size_ == capacity)
     {

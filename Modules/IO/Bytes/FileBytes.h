@@ -23,10 +23,10 @@ public:
 
   /// Reads @p path, a file or a pipe. A gzip file is unpacked on the way, up to kMostGzipRatio times its size
   /// (or kGzipFloor, where that is more): real clouds stay far below, and a file crafted to fill the memory
-  /// is refused.
+  /// is refused. @param salvages whether one that is cut is unpacked as far as it goes.
   /// @throws FileProblem when the file is missing, a folder, a device, empty, unreadable, or its
   /// gzip data are damaged, cut short or beyond the limit; what @p progress and @p inspect throw.
-  FileBytes(const std::string& path, const Progress& progress, const Inspect& inspect);
+  FileBytes(const std::string& path, const Progress& progress, const Inspect& inspect, bool salvages = false);
   /// Memory for the whole of @p path, a file that is not packed, of which load() reads what is needed.
   explicit FileBytes(const std::string& path);
   ~FileBytes();
@@ -39,6 +39,8 @@ public:
   std::string_view view() const { return { data_.get(), size_ }; }
   /// True if view() is the unpacked content of a gzip file.
   bool wasPacked() const { return wasPacked_; }
+  /// Whether that file is cut, and view() what was salvaged.
+  bool isCut() const { return isCut_; }
 
   static constexpr std::size_t kMostGzipRatio = 100;
   static constexpr std::size_t kGzipFloor = std::size_t{ 1 } << 26;
@@ -51,7 +53,7 @@ private:
   class File;
 
   void readPlain(File& file, const Progress& progress, const Inspect& inspect);
-  void unpack(File& file, const Progress& progress, const Inspect& inspect);
+  void unpack(File& file, const Progress& progress, const Inspect& inspect, bool salvages);
   void resize(std::size_t size);
 
   std::unique_ptr<char, Free> data_;
@@ -59,6 +61,7 @@ private:
   std::size_t size_ = 0;
   std::size_t loaded_ = 0;
   bool wasPacked_ = false;
+  bool isCut_ = false;
 };
 
 /// The first @p size bytes of a file, fewer where it has fewer; empty where it cannot be read.

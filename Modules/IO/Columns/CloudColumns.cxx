@@ -6,6 +6,7 @@
 #include "IO/Text/TextScan.h"
 
 #include "vtkCellArray.h"
+#include "vtkIdList.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
@@ -419,6 +420,22 @@ void setOneVertexPerPoint(vtkPolyData* cloud)
   count < std::numeric_limits<std::int32_t>::max() ? fillVertices<vtkTypeInt32Array>(vertices, count)
                                                    : fillVertices<vtkTypeInt64Array>(vertices, count);
   cloud->SetVerts(vertices);
+}
+
+void keepPoints(vtkPolyData* cloud, vtkIdList* kept)
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataType(cloud->GetPoints()->GetDataType());
+  cloud->GetPoints()->GetPoints(kept, points);
+  vtkNew<vtkPointData> values;
+  values->CopyAllOn();
+  values->CopyAllocate(cloud->GetPointData(), kept->GetNumberOfIds());
+  for (vtkIdType i = 0; i < kept->GetNumberOfIds(); ++i)
+  {
+    values->CopyData(cloud->GetPointData(), kept->GetId(i), i);
+  }
+  cloud->SetPoints(points);
+  cloud->GetPointData()->ShallowCopy(values);
 }
 
 void setActiveAttributes(vtkPolyData* cloud)

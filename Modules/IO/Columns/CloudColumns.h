@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+class vtkIdList;
 class vtkPolyData;
 
 namespace pointhaptics::io
@@ -93,6 +94,9 @@ private:
 
 /// Gives @p cloud one vertex cell per point and no other cell.
 void setOneVertexPerPoint(vtkPolyData* cloud);
+
+/// Takes away all points but @p kept, with their values in all arrays.
+void keepPoints(vtkPolyData* cloud, vtkIdList* kept);
 
 /// Makes the arrays RGB, RGBA and Normals the active scalars and normals where they have the right shape.
 void setActiveAttributes(vtkPolyData* cloud);

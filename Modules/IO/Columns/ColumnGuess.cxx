@@ -35,6 +35,38 @@ bool isId(const Columns& columns)
     ids.end();
 }
 
+/// Times before the coordinates: seconds since an epoch, which no coordinates beside them reach, or numbers
+/// that grow by the same step, as no coordinate does.
+bool isClock(const Columns& columns)
+{
+  constexpr double kEpoch = 1e8;
+  constexpr double kRounded = 1e-3; // of a step
+  constexpr std::size_t kFewestWhole = 8;
+  if (columns.size() < 4 || columns[0].sample.size() < kFewestIds)
+  {
+    return false;
+  }
+  const auto isSteady = [](const ColumnEvidence& column)
+  {
+    const std::vector<double>& v = column.sample;
+    const double step = v[1] - v[0];
+    bool isSame = true;
+    for (std::size_t i = 2; i < v.size(); ++i)
+    {
+      isSame = isSame && std::abs(v[i] - v[i - 1] - step) <= kRounded * std::abs(step);
+    }
+    return isSame;
+  };
+  const bool isEpoch = columns[0].least >= kEpoch &&
+    std::is_sorted(columns[0].sample.begin(), columns[0].sample.end()) &&
+    std::none_of(columns.begin() + 1, columns.begin() + 4,
+      [](const ColumnEvidence& c) { return c.most >= kEpoch || c.least <= -kEpoch; });
+  return isEpoch ||
+    ((!columns[0].isWhole || columns[0].sample.size() >= kFewestWhole) && isSteady(columns[0]) &&
+      columns[0].sample.back() > columns[0].sample.front() &&
+      std::none_of(columns.begin() + 1, columns.begin() + 4, isSteady));
+}
+
 bool areColors(const Columns& columns, std::size_t first)
 {
   if (first + 3 > columns.size())
@@ -149,12 +181,13 @@ ColumnEvidence ColumnEvidence::of(std::vector<double> sample, bool isWhole)
 
 std::vector<std::string> guessColumnNames(const std::vector<ColumnEvidence>& columns, bool prefersColors)
 {
-  const std::size_t first = isId(columns) ? 1 : 0;
+  const bool hasId = isId(columns);
+  const std::size_t first = hasId || isClock(columns) ? 1 : 0;
   std::vector<std::string> names =
     RestNames(columns, std::min(first + 3, columns.size()), prefersColors).take();
   if (first == 1)
   {
-    names[0] = "id";
+    names[0] = hasId ? "id" : "time";
   }
   for (std::size_t i = 0; i < 3 && first + i < names.size(); ++i)
   {

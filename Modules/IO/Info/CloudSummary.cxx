@@ -1,11 +1,11 @@
 #include "IO/Info/CloudSummary.h"
 
-#include "IO/Info/FarPoints.h"
 #include "IO/Info/FieldText.h"
 #include "IO/Info/LengthUnit.h"
 
 #include "Core/Base/Boxes.h"
 #include "Core/Base/Lattice.h"
+#include "Core/Distributed/FarPoints.h"
 #include "Core/Neighbors/NeighborQuery.h"
 
 #include "vtkDataArray.h"
@@ -270,6 +270,7 @@ CloudSummary summarize(vtkPolyData* cloud, const std::string& format, bool stati
     atZero += isAtZero(p) ? 1 : 0;
   }
   summary.noReturns = areNoReturns(atZero, std::int64_t(points.size())) ? atZero : 0;
+  const FarPoints far = findFarPoints(PointView(points.data(), std::int64_t(points.size())), summary.bounds);
   std::vector<Vec3> places = placesOf(points);
   summary.duplicates = std::int64_t(points.size() - places.size());
   if (summary.noReturns > 0)
@@ -287,15 +288,7 @@ CloudSummary summarize(vtkPolyData* cloud, const std::string& format, bool stati
   summary.coordinateSystem = io::fieldText(cloud->GetFieldData(), "CoordinateSystem");
   summary.unit = io::fieldText(cloud->GetFieldData(), "LengthUnit");
   summary.unitIsGuess = summary.unit.empty();
-  constexpr std::int64_t kMostStrays = 20; // one in so many
-  FarPoints far = findFarPoints(cloud, summary.bounds);
-  const bool areLeftOut = far.count > 0;
-  far = areLeftOut ? far : findFarPoints(cloud, summary.bounds, kMostStrays);
-  summary.farPoints = far.count > 0 ? far.text() +
-      (areLeftOut ? "; view and feel --fit leave out what is far, feel by --clip and resample by --workspace "
-                  : "; view and feel leave them out by --clip, resample by --workspace ") +
-      far.clip()
-                                    : "";
+  summary.farPoints = far.count > 0 ? far.note() : "";
   const LengthUnit unit = lengthUnitOf(cloud, far.others);
   if (summary.unitIsGuess && !summary.bounds.empty())
   {

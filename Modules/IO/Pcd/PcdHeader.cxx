@@ -273,7 +273,8 @@ void checkCompressedSize(std::string_view bytes, PcdHeader& header, unsigned lon
   const std::size_t available = bytes.size() - header.bodyOffset;
   if (available < 8)
   {
-    failTruncated("the file ends at byte " + std::to_string(bytes.size()) + " before its compressed points");
+    failTruncated("the file ends at byte " + std::to_string(bytes.size()) +
+      " before its compressed points, which are stored field after field: a part holds no whole point");
   }
   const unsigned long long packed = numberAt(bytes, header.bodyOffset);
   const unsigned long long claimed = numberAt(bytes, header.bodyOffset + 4);
@@ -285,7 +286,8 @@ void checkCompressedSize(std::string_view bytes, PcdHeader& header, unsigned lon
   if (packed > available - 8)
   {
     failTruncated("byte " + std::to_string(header.bodyOffset) + ": " + std::to_string(packed) +
-      " compressed bytes announced, but only " + std::to_string(available - 8) + " follow");
+      " compressed bytes announced, but only " + std::to_string(available - 8) +
+      " follow, and as fields are stored one after the other these hold no whole point");
   }
   if (claimed != unpacked || unpacked > kMostLzfRatio * packed)
   {

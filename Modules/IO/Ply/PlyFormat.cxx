@@ -106,9 +106,9 @@ void skipBinaryElement(BinaryBody& body, const PlyElement& element)
 template <typename Skip>
 void noteCutElements(ReadTask& task, const PlyHeader& header, Skip&& skip)
 {
-  if (task.shared)
+  if (task.shared || task.isTorn())
   {
-    return; // each rank has read its own points only
+    return; // each rank has read its own points only; a file that ends among its points was said to
   }
   try
   {

@@ -10,7 +10,6 @@
 #include "vtkIdList.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
-#include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkUnsignedCharArray.h"
 
@@ -94,42 +93,25 @@ void readRecords(ReadTask& task, const std::vector<RawColumn>& fields, std::size
   columns.moveTo(cloud);
 }
 
-/// Takes away all points but @p kept.
-void keepPoints(vtkPolyData* cloud, vtkIdList* kept)
-{
-  vtkNew<vtkPoints> points;
-  points->SetDataType(cloud->GetPoints()->GetDataType());
-  cloud->GetPoints()->GetPoints(kept, points);
-  vtkNew<vtkPointData> values;
-  values->CopyAllOn();
-  values->CopyAllocate(cloud->GetPointData(), kept->GetNumberOfIds());
-  for (vtkIdType i = 0; i < kept->GetNumberOfIds(); ++i)
-  {
-    values->CopyData(cloud->GetPointData(), kept->GetId(i), i);
-  }
-  cloud->SetPoints(points);
-  cloud->GetPointData()->ShallowCopy(values);
-}
-
 /// Leaves out what lets through nearly all light.
 template <typename Opacity>
-void leaveOutFaint(vtkPolyData* cloud, std::vector<std::string>& notes, Opacity opacity)
+void leaveOutFaint(ReadTask& task, vtkPolyData* cloud, Opacity opacity)
 {
   constexpr double kFaint = 0.05;
   vtkNew<vtkIdList> kept;
-  const vtkIdType count = cloud->GetNumberOfPoints();
-  for (vtkIdType i = 0; i < count; ++i)
+  for (vtkIdType i = 0; i < cloud->GetNumberOfPoints(); ++i)
   {
     if (opacity(i) >= kFaint)
     {
       kept->InsertNextId(i);
     }
   }
-  const vtkIdType faint = count - kept->GetNumberOfIds();
+  const std::int64_t count = task.sumOfRanks(cloud->GetNumberOfPoints());
+  const std::int64_t faint = count - task.sumOfRanks(kept->GetNumberOfIds());
   if (faint > 0 && faint < count)
   {
     keepPoints(cloud, kept);
-    notes.push_back(std::to_string(faint) + " of " + std::to_string(count) +
+    task.notes.push_back(std::to_string(faint) + " of " + std::to_string(count) +
       " splats are left out: their opacity is below 0.05");
   }
 }
@@ -197,10 +179,10 @@ void readSplat(ReadTask& task, vtkPolyData* cloud)
       { { "RGBA", VTK_UNSIGNED_CHAR, 4 }, 24 }, { { "rotation", VTK_UNSIGNED_CHAR, 4 }, 28 } },
     kSplat, cloud);
   vtkDataArray* colors = cloud->GetPointData()->GetArray("RGBA");
-  leaveOutFaint(cloud, task.notes, [=](vtkIdType i) { return colors->GetComponent(i, 3) / 255.0; });
+  leaveOutFaint(task, cloud, [=](vtkIdType i) { return colors->GetComponent(i, 3) / 255.0; });
 }
 
-void finishSplats(vtkPolyData* cloud, std::vector<std::string>& notes)
+void finishSplats(ReadTask& task, vtkPolyData* cloud)
 {
   vtkPointData* data = cloud->GetPointData();
   vtkDataArray* harmonics = data->GetArray("f_dc");
@@ -221,7 +203,7 @@ void finishSplats(vtkPolyData* cloud, std::vector<std::string>& notes)
   }
   data->AddArray(colors);
   leaveOutFaint(
-    cloud, notes, [=](vtkIdType i) { return 1.0 / (1.0 + std::exp(-opacity->GetComponent(i, 0))); });
+    task, cloud, [=](vtkIdType i) { return 1.0 / (1.0 + std::exp(-opacity->GetComponent(i, 0))); });
   setActiveAttributes(cloud);
 }
 

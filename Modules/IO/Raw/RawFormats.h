@@ -2,15 +2,13 @@
 /// Plain records of numbers: what robots and learning programs store.
 #pragma once
 
-#include <string>
-#include <vector>
-
 class vtkPolyData;
 
 namespace pointhaptics::io
 {
 
 struct FormatStart;
+struct ReadTask;
 
 using Look = bool(const FormatStart&);
 /// Float32 x y z intensity (KITTI), and the same with a ring (nuScenes): by size and values, as there is no
@@ -22,7 +20,7 @@ Look looksLikeNumpy;
 Look looksLikeSplat;
 
 /// Gaussian splats are a cloud of ellipsoids: of one with the arrays "f_dc" and "opacity", adds their colours
-/// as "RGB" and leaves out those that can hardly be seen, with a note.
-void finishSplats(vtkPolyData* cloud, std::vector<std::string>& notes);
+/// as "RGB" and leaves out those that can hardly be seen, with a note. Collective where ranks read the file.
+void finishSplats(ReadTask& task, vtkPolyData* cloud);
 
 } // namespace pointhaptics::io

@@ -206,16 +206,22 @@ void failTornDecimals(std::string_view text, const TextLayout& layout)
   }
 }
 
-/// "mm" of "x [mm]", "y [mm]", "z [mm]"; empty where the header says no unit.
+/// "mm" of "x [mm]", "y [mm]", "z [mm]"; empty where the header says no unit. @throws FileProblem where it
+/// says unlike ones.
 std::string unitOf(const std::vector<std::string>& names)
 {
   std::string unit;
   for (const std::size_t i : names.empty() ? std::vector<std::size_t>() : coordinatesOf(columnsCalled(names)))
   {
     const std::string own = coordinateUnit(names[i]);
-    if (own.empty() || (!unit.empty() && own != unit))
+    if (own.empty())
     {
       return {};
+    }
+    if (!unit.empty() && own != unit)
+    {
+      failFormat(inQuotes(names[i]) + " is in " + own + ", other coordinates are in " + unit,
+        "convert the columns to one unit, or name them by --columns where they are in one");
     }
     unit = own;
   }
@@ -286,7 +292,7 @@ void noteColumns(
 
 void readTable(ReadTask& task, std::string_view text, TextLayout layout, vtkPolyData* cloud)
 {
-  if (task.salvage && layout.hasPointCount)
+  if (task.isPackedCut || (task.salvage && layout.hasPointCount))
   {
     text = text.substr(0, text.rfind('\n') + 1); // behind it the file may be cut within a number
   }
@@ -348,6 +354,11 @@ void readText(ReadTask& task, vtkPolyData* cloud)
   if (layout.columns == 0)
   {
     failNoPoints();
+  }
+  if (!task.columns.empty() && task.columns.size() < 3)
+  {
+    failFormat("--columns has " + std::to_string(task.columns.size()) + " names, and a point needs three",
+      "name x, y and z, and - for each column that is left out");
   }
   if (layout.columns < 3 || (!layout.names.empty() && layout.names.size() != layout.columns))
   {

@@ -8,7 +8,7 @@ import os
 import shutil
 import tempfile
 import warnings
-from typing import IO, Any, Dict, Iterator, Mapping, NoReturn, Optional, Tuple, Union
+from typing import IO, Any, Dict, Iterator, Mapping, NoReturn, Optional, Sequence, Tuple, Union
 
 from numpy.typing import ArrayLike, NDArray
 
@@ -70,9 +70,16 @@ def _file_to_read(path: object) -> Iterator[Tuple[str, str]]:
         yield copy.name, shown
 
 
+def _spoken(message: str) -> str:
+    """With the arguments of read() in the place of the program's options."""
+    return message.replace("--salvage", "salvage=True").replace("--columns NAMES", "columns=...").replace(
+        "--columns", "columns"
+    )
+
+
 def _fail(message: str, name: str, shown: str, is_content: bool) -> NoReturn:
     """Raises OSError where the system is at fault, ValueError where the content is."""
-    message = message.replace(name, shown)
+    message = _spoken(message.replace(name, shown))
     number = next((number for text, number in _ERRNOS.items() if text in message), 0)
     number = errno.EISDIR if os.path.isdir(name) else number
     if not number and is_content:
@@ -92,10 +99,12 @@ def _check_readable(name: str) -> None:
         raise OSError(number, f"{os.strerror(number)}; name a file that may be read", name)
 
 
-def _read(name: str, shown: str) -> vtkPointCloudReader:
+def _read(name: str, shown: str, salvage: bool = False, columns: Sequence[str] = ()) -> vtkPointCloudReader:
     _check_readable(name)
     reader = vtkPointCloudReader()
     reader.SetFileName(name)
+    reader.SetSalvage(bool(salvage))
+    reader.SetColumns(list(columns))
     errors = run(reader, reader.Update)
     if errors or reader.GetErrorMessage():
         _fail(reader.GetErrorMessage() or errors[0], name, shown, True)
@@ -104,10 +113,12 @@ def _read(name: str, shown: str) -> vtkPointCloudReader:
     return reader
 
 
-def read(path: Path) -> Tuple[NDArray[Any], Attributes]:
+def read(path: Path, *, salvage: bool = False, columns: Sequence[str] = ()) -> Tuple[NDArray[Any], Attributes]:
     """Read a point cloud; the format goes by content (PLY, PCD, LAS, VTP, OBJ, columns of text ...).
 
     path: the name of a file, or a file object opened for bytes, which is read to its end.
+    salvage: read a file that is cut as far as it goes; a warning says how far.
+    columns: names of the columns of a text, for one whose header says nothing or the wrong thing; "-" leaves one out.
 
     Returns points, (n, 3) float64 where the file's numbers need it and float32 otherwise, in the file's frame and
     unit, and attributes, name -> (n,) or (n, components) of the file's type: "RGB", "Normals", "Intensity" ... What
@@ -117,10 +128,12 @@ def read(path: Path) -> Tuple[NDArray[Any], Attributes]:
     Raises OSError with errno and filename where it cannot be opened (FileNotFoundError ...), ValueError where it is
     damaged, empty or of an unknown format, each with file, format, place, value and cure in one line; MemoryError.
     """
+    if isinstance(columns, str) or not all(isinstance(column, str) for column in columns):
+        raise TypeError(f"columns: {columns!r}; give a list of names, such as ['x', 'y', 'z']")
     with _file_to_read(path) as (name, shown):
-        reader = _read(name, shown)
+        reader = _read(name, shown, salvage, columns)
     for note in reader.GetNotes():
-        warnings.warn(f"{shown}: {note}", RuntimeWarning, stacklevel=2)
+        warnings.warn(f"{shown}: {_spoken(note)}", RuntimeWarning, stacklevel=2)
     output = reader.GetOutput()
     fields = {name: _field_value(values) for name, values in arrays_of(output.GetFieldData()).items()}
     return points_of(output), Attributes(arrays_of(output.GetPointData()), fields)

@@ -134,12 +134,14 @@ def resample(
     voxel : edge of a cubic voxel in the units of the transformed points, above 0.
     dims : voxels on each axis, one number or three, 1 to 2097152; default 300. Give voxel or dims, not both.
     workspace : x0, x1, y0, y1, z0, z1: box of the lattice in the frame of the transformed points. Points outside are
-        left out and counted. Default: a cube about the transformed points.
+        left out and counted. Default: a cube about the transformed points, without those far from all others: a
+        RuntimeWarning says how many, and the workspace that takes them in.
     transform : (4, 4) affine matrix, applied to the points first, or a vtkLinearTransform.
     attributes : name -> (n,) or (n, components) of numbers. Each is averaged in its own type, integers rounded to
         nearest; "Normals" of three components, in any case, are turned with the transform and normalised.
     covariance : compute the six second moments of each voxel.
-    categorical : names of attributes that hold labels: a voxel gets the most frequent one. "Classification" always is.
+    categorical : names of attributes that hold labels: a voxel gets the most frequent one. Names that end with "class",
+        "classification", "label", "segment" or "instance" always are, in any case, also in the plural or with an id.
     threads : at most so many, 1 or more; default: as vtkSMPTools is set. The result is the same with any number.
     representative : what stands for the points of a voxel: "mean"; "nearest-to-mean" or "nearest-to-center", the point
         of the input, with its own attributes, whose row is in .point_ids; or "median", coordinate by coordinate and

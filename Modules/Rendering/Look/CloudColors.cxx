@@ -148,8 +148,7 @@ vtkDataArray* findArrayAnyCase(vtkPolyData* cloud, const std::string& name)
 
 double spatialCoherence(vtkDataArray* values, const NeighborQuery& query, const LocalShape& shape)
 {
-  constexpr int kNeighbors = 24; // some at the same place
-  constexpr int kUsed = 8;
+  constexpr int kNeighbors = 9; // the point itself among them
   constexpr std::int64_t kProbes = 5000;
   const std::vector<double> sorted =
     sortedSample(values->GetNumberOfTuples(), [values](vtkIdType i) { return values->GetComponent(i, 0); });
@@ -170,20 +169,15 @@ double spatialCoherence(vtkDataArray* values, const NeighborQuery& query, const 
     }
     Neighbor neighbors[kNeighbors];
     const int count = query.nearest(query.point(slot), kNeighbors, neighbors);
-    double mean = 0.0;
-    int used = 0;
-    for (int i = 0; i < count && used < kUsed; ++i)
+    double sumOfRanks = 0.0;
+    for (int i = 1; i < count; ++i)
     {
-      if (neighbors[i].squaredDistance > 0.0)
-      {
-        mean += rankOf(sorted, values->GetComponent(neighbors[i].index, 0));
-        ++used;
-      }
+      sumOfRanks += rankOf(sorted, values->GetComponent(neighbors[i].index, 0));
     }
-    if (used > 0)
+    if (count > 1)
     {
       const double rank = rankOf(sorted, values->GetComponent(index, 0));
-      const double residual = rank - mean / used;
+      const double residual = rank - sumOfRanks / (count - 1);
       n += 1.0;
       sum += rank;
       squares += rank * rank;

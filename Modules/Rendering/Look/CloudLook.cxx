@@ -278,7 +278,7 @@ bool isBetween(const Vec3& p, const Vec3& from, const Vec3& to)
   return p.x >= from.x && p.x <= to.x && p.y >= from.y && p.y <= to.y && p.z >= from.z && p.z <= to.z;
 }
 
-/// Whether more of the points are outside the box than the few that findFarPoints() takes for strays.
+/// Whether more of the points are outside the box than a few strays.
 bool hasManyOutside(const std::vector<Vec3>& sample, const Vec3& from, const Vec3& to)
 {
   const auto outside =

@@ -4,9 +4,10 @@
 #include "CloudAppearance.h"
 #include "Core/Base/Boxes.h"
 #include "Core/Base/QuantityText.h"
+#include "Core/Distributed/FarPoints.h"
 #include "HapticViewerOptions.h"
-#include "IO/Info/FarPoints.h"
 #include "MergedCloud.h"
+#include "PolyDataAccess.h"
 #include "ResampledCloud.h"
 #include "ShownCloud.h"
 #include "SurfaceArrays.h"
@@ -291,6 +292,11 @@ vtkSmartPointer<vtkPolyData> readAll(const CloudRequest& request, const std::fun
     return clouds.front();
   }
   vtkSmartPointer<vtkPolyData> merged = io::mergeClouds(inputs, findings.notes);
+  if (!merged)
+  {
+    message = findings.notes.back();
+    return nullptr;
+  }
   if (!std::all_of(inputs.begin(), inputs.end(), hasColors))
   {
     merged->GetPointData()->SetActiveScalars(nullptr); // those of some would leave the others black
@@ -448,27 +454,25 @@ void findBounds(const CloudRequest& request, LoadedCloud& loaded)
   loaded.bounds = isFitted ? extent.returned : extent.all;
   loaded.invalid = extent.invalid;
   loaded.noReturns = extent.noReturns;
-  const FarPoints far = request.options
-    ? findFarPoints(loaded.cloud, isMoved ? extentOf(loaded.cloud, AffineTransform()).all : extent.all)
-    : FarPoints();
+  const bool isClipped = request.options && !request.options->clip.empty();
+  if (!request.options || !(isFitted || (request.options->voxels.lattice.automaticWorkspace && !isClipped)))
+  {
+    return;
+  }
+  const PointAccess points(loaded.cloud->GetPoints());
+  FarPoints far =
+    findFarPoints(points.view(), isMoved ? extentOf(loaded.cloud, AffineTransform()).all : extent.all);
   if (far.count == 0)
   {
     return;
   }
-  const bool isBounded =
-    !request.options->clip.empty() || !(isFitted || request.options->voxels.lattice.automaticWorkspace);
-  if (isFitted)
+  const auto moved = [&](const Vec3& p) { return request.transform.apply(p); };
+  loaded.near = far.others;
+  loaded.bounds = boxOfCorners(far.others, moved);
+  far.all = boxOfCorners(far.all, moved);
+  if (!isClipped)
   {
-    loaded.near = far.others;
-    loaded.bounds = boxOfCorners(far.others, [&](const Vec3& p) { return request.transform.apply(p); });
-  }
-  if (!isBounded)
-  {
-    loaded.notes.push_back(fmt::format("{}: {}, {}", loaded.title, far.text(),
-      isFitted
-        ? "outside the workspace: neither shown nor felt"
-        : fmt::format("and the workspace reaches to it: all else is small and coarse; {} {} leaves it out",
-            request.options->names.clip, far.clip())));
+    loaded.notes.push_back(loaded.title + ": " + far.note());
   }
 }
 

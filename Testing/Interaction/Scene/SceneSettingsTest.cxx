@@ -31,7 +31,7 @@ vtkSmartPointer<vtkPolyData> makeUnevenCloud()
 {
   vtkNew<vtkPoints> points;
   vtkNew<vtkIntArray> labels;
-  labels->SetName("Label");
+  labels->SetName("Kind");
   double x = -0.03;
   for (int i = 0; x < 0.03; ++i)
   {

@@ -120,6 +120,8 @@ TEST_F(Exporters, TheUserNamesColumns)
   expectRefused(
     readNamed("c.txt", "1 2 3\n", { "x", "y", "q" }), "no columns named x, y and z, but 'x', 'y', 'q'");
   expectRefused(readNamed("d.txt", "1 2 3\n", { "x", "y", "z", "q" }), "3 columns and the header names 4");
+  expectRefused(
+    readNamed("e.txt", "1 2 3\n", { "x", "y" }), "--columns has 2 names, and a point needs three");
 }
 
 TEST_F(Exporters, NumbersAndLinesOfOtherProgramsAreRead)
@@ -568,6 +570,14 @@ TEST_F(Exporters, WhatIsCutIsRefusedOrSalvaged)
   expectSalvaged("b.pcd", pcd + "DATA binary\n" + binary.substr(head.size() + 15), 2, "counts 3 points");
   expectSalvaged("a.pts", "3\n1 2 3 4\n5 6 7 8\n", 2, "1 points before");
   EXPECT_EQ(salvage("b.pts", "3\n1 2 3 4\n5 6 7 8\n9 1").points(), 2);
+  std::string faces = head + "1 2 3\n4 5 6\n";
+  faces.insert(faces.find("end_header"), "element face 1\nproperty list uchar int vertex_indices\n");
+  const ReadResult torn = salvage("d.ply", faces);
+  EXPECT_EQ(torn.points(), 2);
+  EXPECT_EQ(torn.notes.size(), 1u) << "nothing is said of faces";
+  expectRefused(
+    salvage("c.pcd", pcd + "DATA binary_compressed\n" + std::string("\x30\0\0\0\x24\0\0\0abc", 11)),
+    "these hold no whole point");
 }
 
 } // namespace

@@ -204,6 +204,32 @@ TEST_F(SharedReading, AsciiPlyAndPcdAreCutAtLines)
     false);
 }
 
+TEST_F(SharedReading, FaintSplatsAreLeftOutByAll)
+{
+  std::string rows;
+  for (int i = 0; i < 400; ++i)
+  {
+    rows += std::to_string(i) + " 0.5 2 0.1 0.2 0.3 " + (i > 300 && i % 3 > 0 ? "-6\n" : "3\n");
+  }
+  const std::string file = write("splats.ply",
+    "ply\nformat ascii 1.0\nelement vertex 400\nproperty float x\nproperty float y\nproperty float "
+    "z\nproperty "
+    "float f_dc_0\nproperty float f_dc_1\nproperty float f_dc_2\nproperty float opacity\nend_header\n" +
+      rows);
+  const ReadResult whole = readCloud(file);
+  EXPECT_EQ(whole.points(), 334);
+  for (const int size : { 2, 5 })
+  {
+    vtkIdType points = 0;
+    for (const PartRead& part : readTogether(size, [&](int) { return file; }))
+    {
+      EXPECT_EQ(part.result.notes, whole.notes);
+      points += part.result.points();
+    }
+    EXPECT_EQ(points, 334);
+  }
+}
+
 TEST_F(SharedReading, LasHasTheRareArraysAndColoursThatOtherPartsNeed)
 {
   std::string records(500 * 34, '\0');

@@ -128,6 +128,25 @@ TEST(SurfaceDensities, DoNotDependOnTheExecutor)
   EXPECT_EQ(densitiesOf(points, bandwidths), densitiesOf(points, bandwidths, trial::ThreadedExecutor(3)));
 }
 
+TEST(SurfaceDensities, CountRepeatedPoints)
+{
+  const std::vector<Vec3> places = trial::randomBox(600, 52, { 0, 0, 0 }, { 1, 1, 0 });
+  std::vector<Vec3> points = places;
+  points.insert(points.end(), places.begin(), places.end());
+  const std::vector<double> once = densitiesOf(places, std::vector<double>(600, 0.1));
+  const std::vector<double> twice = densitiesOf(points, std::vector<double>(1200, 0.1));
+  points.insert(points.end(), 1200, places[5]);
+  const std::vector<double> crowded = densitiesOf(points, std::vector<double>(2400, 0.1));
+  for (std::size_t i = 0; i < 600; ++i)
+  {
+    EXPECT_NEAR(twice[i] / once[i], 1.0, 1e-12);
+    EXPECT_EQ(twice[i], twice[i + 600]);
+    const double kernel = std::exp(-0.5 * norm2(places[i] - places[5]) / 0.01);
+    const double added = 1200.0 * kernel / (2400.0 * 2.0 * 3.14159265358979323846 * 0.01);
+    EXPECT_NEAR(crowded[i], 0.5 * once[i] + added, 1e-6 * crowded[5]);
+  }
+}
+
 TEST(SurfaceDensities, OfMeansCountEveryPoint)
 {
   trial::Random random(31);

@@ -227,15 +227,30 @@ TEST(LocalBandwidths, DegenerateCloudsGetUsableRadii)
   }
 }
 
-TEST(LocalBandwidths, DuplicatesAmongSpreadPointsGetTheSmallestRadiusFound)
+TEST(LocalBandwidths, OfRepeatedPointsAreThoseOfTheirPlaces)
 {
-  std::vector<Vec3> points = trial::randomBox(500, 37, { 0, 0, 0 }, { 1, 1, 0 });
-  points.insert(points.end(), 40, Vec3(3, 3, 0));
-  const Local local = localOf(points, {});
-  expectUsable(local);
-  const double smallest = *std::min_element(local.radii.begin(), local.radii.begin() + 500);
-  EXPECT_EQ(local.radii[510], smallest);
-  EXPECT_DOUBLE_EQ(local.bandwidths[510], smallest / 4.0);
+  const std::vector<Vec3> places = trial::randomBox(500, 37, { 0, 0, 0 }, { 1, 1, 0 });
+  std::vector<Vec3> points = places;
+  points.insert(points.end(), 700, places[3]);
+  for (int i = 0; i < 3; ++i)
+  {
+    points.insert(points.end(), places.begin(), places.end());
+  }
+  for (const int kind : { 0, 1, 2 })
+  {
+    LocalBandwidthSettings settings;
+    settings.fixedRadius = kind == 1;
+    settings.radius = 0.06;
+    settings.smoothRadius = kind == 2;
+    const Local expected = localOf(places, settings);
+    const Local local = localOf(points, settings);
+    for (std::size_t i = 0; i < points.size(); ++i)
+    {
+      const std::size_t place = i < 500 ? i : i < 1200 ? 3 : (i - 1200) % 500;
+      ASSERT_EQ(local.bandwidths[i], expected.bandwidths[place]) << i << " kind " << kind;
+      ASSERT_EQ(local.radii[i], expected.radii[place]) << i << " kind " << kind;
+    }
+  }
 }
 
 TEST(LocalBandwidths, PointsThatAreNotFiniteGetZero)

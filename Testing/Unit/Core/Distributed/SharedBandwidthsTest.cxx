@@ -80,6 +80,20 @@ Cloud clusters()
   return cloud;
 }
 
+/// Points of few places, the copies of each on any rank.
+Cloud repeated(bool counted)
+{
+  const std::vector<Vec3> places = sheet(200).points;
+  Cloud cloud{ counted ? "repeated means" : "repeated", {}, {} };
+  for (const std::size_t i : randomOrder(4000, 5))
+  {
+    cloud.points.push_back(places[i % places.size()]);
+    cloud.counts.push_back(double(1 + i % 9));
+  }
+  cloud.counts.resize(counted ? cloud.counts.size() : 0);
+  return cloud;
+}
+
 std::vector<Cloud> clouds()
 {
   Cloud counted = sheet(700);
@@ -91,7 +105,7 @@ std::vector<Cloud> clouds()
   Cloud few{ "few", { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 2, 0 } }, {} };
   Cloud same{ "same", std::vector<Vec3>(40, { 1.0, 2.0, 3.0 }), {} };
   Cloud none{ "none", {}, {} };
-  return { sheet(1200), counted, grid(), clusters(), few, same, none };
+  return { sheet(1200), counted, grid(), clusters(), few, same, none, repeated(false), repeated(true) };
 }
 
 /// As vtkKernelBandwidthFilter does it.

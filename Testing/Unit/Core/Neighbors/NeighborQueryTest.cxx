@@ -88,7 +88,7 @@ TEST(NeighborQuery, BreaksTiesByIndexOnAGrid)
   }
 }
 
-TEST(NeighborQuery, HandlesDuplicates)
+TEST(NeighborQuery, HoldsEachPlaceOnce)
 {
   std::vector<Vec3> points(500, Vec3(1, 2, 3));
   expectNearest(points, { { 1, 2, 3 }, { 0, 0, 0 } }, 20);
@@ -97,6 +97,24 @@ TEST(NeighborQuery, HandlesDuplicates)
     points[std::size_t(i)] = { double(i % 7), 0, 0 };
   }
   expectNearest(points, { { 1, 2, 3 }, { 0, 0, 0 }, { 3, 0, 0 } }, 40);
+  std::vector<Vec3> cloud = trial::randomBox(3000, 4, { 0, 0, 0 }, { 1, 1, 1 });
+  cloud.insert(cloud.end(), 40, cloud[7]);
+  cloud.insert(cloud.end(), cloud.begin(), cloud.begin() + 3000);
+  expectNearest(cloud, trial::randomBox(20, 5, { 0, 0, 0 }, { 1, 1, 1 }), 16);
+  NeighborQuery query;
+  query.build(view(cloud), trial::ThreadedExecutor(3));
+  EXPECT_EQ(query.size(), 3000);
+  EXPECT_EQ(query.finitePoints(), 6040);
+  std::vector<std::int64_t> firsts(6040, -1);
+  for (std::int64_t slot = 0; slot < query.size(); ++slot)
+  {
+    firsts[std::size_t(query.index(slot))] = query.index(slot);
+  }
+  query.copyToRepeats(firsts);
+  for (std::int64_t i = 0; i < 6040; ++i)
+  {
+    ASSERT_EQ(firsts[std::size_t(i)], i < 3000 ? i : i < 3040 ? 7 : i - 3040);
+  }
 }
 
 TEST(NeighborQuery, HandlesLinesAndPlanes)

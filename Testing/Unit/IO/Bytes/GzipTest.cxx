@@ -67,6 +67,33 @@ TEST_F(Gzip, LongAndJoinedFilesAreReadToTheirEnd)
   EXPECT_EQ(result.cloud->GetPoint(100000)[2], 9.0);
 }
 
+TEST_F(Gzip, WhatIsCutIsSalvaged)
+{
+  const std::string text = manyLines(5000);
+  const std::string whole = gzip(text);
+  vtkNew<vtkPointCloudReader> reader;
+  reader->SalvageOn();
+  const ReadResult rows = readCloudBy(reader, write("a.xyz.gz", whole.substr(0, whole.size() / 2)));
+  ASSERT_EQ(rows.error, "");
+  EXPECT_EQ(rows.notes.size(), 1u);
+  ASSERT_GT(rows.points(), 1000);
+  ASSERT_LT(rows.points(), 5000);
+  const ReadResult all = readCloud(write("b.xyz", text));
+  for (vtkIdType i = 0; i < rows.points(); ++i) // the last one is whole
+  {
+    EXPECT_EQ(rows.cloud->GetPoint(i)[2], all.cloud->GetPoint(i)[2]);
+  }
+  const std::string head = "ply\nformat ascii 1.0\nelement vertex 5000\nproperty float x\nproperty float "
+                           "y\nproperty float z\nend_header\n";
+  const std::string ply = gzip(head + text);
+  expectRefused(
+    readCloud(write("a.ply.gz", ply.substr(0, ply.size() / 2))), "or read what is there by --salvage");
+  const ReadResult points = readCloudBy(reader, write("a.ply.gz", ply.substr(0, ply.size() / 2)));
+  ASSERT_EQ(points.error, "");
+  EXPECT_GT(points.points(), 1000);
+  EXPECT_EQ(points.notes.size(), 1u);
+}
+
 TEST_F(Gzip, TruncatedAndDamagedFilesAreRefused)
 {
   const std::string whole = gzip(manyLines(50));

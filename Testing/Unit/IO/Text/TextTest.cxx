@@ -331,4 +331,27 @@ TEST_F(Text, ObjKeepsColorsAndNormalsAndIgnoresFaces)
   expectRefused(readCloud(write("b.obj", "o empty\n")), "holds no points");
 }
 
+TEST_F(Text, TimesBeforeTheCoordinatesAreTimes)
+{
+  for (const char* rows :
+    { "0.1 1 2 3\n0.2 2 2 4\n0.3 4 3 4\n", "1714564800.1 1 2 3\n1714564801 2 2 3\n1714564807 1 5 4\n" })
+  {
+    const ReadResult result = readCloud(write("a.txt", rows));
+    ASSERT_EQ(result.error, "");
+    EXPECT_EQ(result.cloud->GetPoint(0)[0], 1.0) << rows;
+    ASSERT_NE(result.array("time"), nullptr) << rows;
+    EXPECT_GT(result.value("time", 2), 0.25);
+  }
+  // A line of a scanner goes on by the same step, and so do others of its coordinates.
+  EXPECT_EQ(readCloud(write("b.txt", "0.1 0 2 3\n0.2 0 2.5 4\n0.3 0 2.1 4\n")).array("time"), nullptr);
+  EXPECT_EQ(readCloud(write("c.txt", "1 7 2 3\n2 1 5 4\n3 3 1 4\n")).array("time"), nullptr);
+}
+
+TEST_F(Text, CoordinatesOfUnlikeUnitsAreRefused)
+{
+  expectRefused(readCloud(write("a.csv", "x_m,y_m,z_mm\n1,2,3000\n4,5,6000\n")),
+    "'z_mm' is in mm, other coordinates are in m");
+  EXPECT_EQ(readCloud(write("b.csv", "x_m,y_m,depth_mm,z_m\n1,2,3000,7\n4,5,6000,8\n")).error, "");
+}
+
 } // namespace

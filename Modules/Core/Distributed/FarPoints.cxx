@@ -1,0 +1,353 @@
+#include "Core/Distributed/FarPoints.h"
+
+#include "Core/Base/Boxes.h"
+#include "Core/Base/QuantityText.h"
+#include "Core/Distributed/SharedVoxels.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <functional>
+#include <numeric>
+#include <string>
+#include <vector>
+
+namespace pointhaptics
+{
+namespace
+{
+
+constexpr std::int64_t kFewest = 100;  ///< None of fewer points is called far.
+constexpr std::int64_t kMostPart = 20; ///< One in so many is far at most.
+constexpr double kMostLength = 0.1;    ///< The core's longest side over that of all.
+constexpr std::int64_t kLookedAt = 1000;
+/// Part of the sample that is cut off at each end of an axis: more than ever is far.
+constexpr std::size_t kCut = 10;
+constexpr int kCells = 32;
+/// Points of a cell over those of one beside it below which the cell is no connection.
+constexpr double kConnects = 0.01;
+
+/// Whether a file has this in the place of coordinates that were not measured.
+bool isNoData(const Vec3& p)
+{
+  constexpr double kNoData[] = { -9999.0, -99999.0, -32768.0 };
+  bool result = isAtZero(p);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    for (const double value : kNoData)
+    {
+      result = result || std::abs(p[axis] - value) <= 1e-9 * -value; // LAS: a multiple of a step
+    }
+  }
+  return result;
+}
+
+double longestSide(const Bounds& bounds)
+{
+  const Vec3 size = bounds.extent();
+  return std::max({ size.x, size.y, size.z });
+}
+
+std::int64_t& at(std::vector<std::int64_t>& cells, const std::array<int, 3>& cell)
+{
+  return cells[static_cast<std::size_t>((cell[2] * kCells + cell[1]) * kCells + cell[0])];
+}
+
+struct CellBox
+{
+  std::array<int, 3> low{ kCells, kCells, kCells };
+  std::array<int, 3> high{ -1, -1, -1 };
+
+  void include(const std::array<int, 3>& cell)
+  {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      low[axis] = std::min(low[axis], cell[axis]);
+      high[axis] = std::max(high[axis], cell[axis]);
+    }
+  }
+  /// One cell more on each side, where there is one.
+  CellBox grown() const
+  {
+    CellBox result = *this;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      result.low[axis] = std::max(low[axis] - 1, 0);
+      result.high[axis] = std::min(high[axis] + 1, kCells - 1);
+    }
+    return result;
+  }
+  int longest() const { return 1 + std::max({ high[0] - low[0], high[1] - low[1], high[2] - low[2] }); }
+  template <typename Visitor>
+  void forEach(Visitor&& visit) const
+  {
+    std::array<int, 3> cell;
+    for (cell[2] = low[2]; cell[2] <= high[2]; ++cell[2])
+    {
+      for (cell[1] = low[1]; cell[1] <= high[1]; ++cell[1])
+      {
+        for (cell[0] = low[0]; cell[0] <= high[0]; ++cell[0])
+        {
+          visit(cell);
+        }
+      }
+    }
+  }
+};
+
+CellBox around(const std::array<int, 3>& cell)
+{
+  CellBox box;
+  box.include(cell);
+  return box.grown();
+}
+
+class CoreSearch
+{
+public:
+  CoreSearch(const PointView& points, const AffineTransform& transform, Ranks& ranks)
+    : points_(points)
+    , transform_(transform)
+    , ranks_(ranks)
+  {
+  }
+
+  template <typename Visitor>
+  void forEach(std::int64_t first, std::int64_t step, Visitor&& visit) const
+  {
+    for (std::int64_t i = first; i < points_.size(); i += step)
+    {
+      const Vec3 p = points_[i];
+      if (isFinite(p))
+      {
+        visit(transform_.apply(p), isNoData(p));
+      }
+    }
+  }
+
+  /// Whether most of the points may lie within a small part of @p longest.
+  bool mayBeSmall(double longest) const;
+  Bounds core(const Bounds& all) const;
+
+private:
+  std::vector<std::int64_t> count(const Bounds& box, double edge) const;
+  static CellBox cellsOfCore(std::vector<std::int64_t>& cells);
+
+  const PointView& points_;
+  const AffineTransform& transform_;
+  Ranks& ranks_;
+};
+
+bool CoreSearch::mayBeSmall(double longest) const
+{
+  const std::int64_t count = points_.size();
+  const std::int64_t before = sumBefore(ranks_, count);
+  const std::int64_t step = std::max<std::int64_t>(1, commonSum(ranks_, count) / kLookedAt);
+  std::vector<double> own[3];
+  this->forEach((step - before % step) % step, step,
+    [&own](const Vec3& p, bool isFill)
+    {
+      for (int axis = 0; axis < 3 && !isFill; ++axis)
+      {
+        own[axis].push_back(p[axis]);
+      }
+    });
+  bool isSmall = true;
+  for (const std::vector<double>& ofAxis : own)
+  {
+    std::vector<double> values;
+    for (const std::string& bytes : ranks_.gather(bytesOfValues(ofAxis)))
+    {
+      const std::vector<double> more = valuesOfBytes<double>(bytes);
+      values.insert(values.end(), more.begin(), more.end());
+    }
+    std::sort(values.begin(), values.end());
+    const std::size_t cut = values.size() / kCut;
+    isSmall =
+      isSmall && !values.empty() && values[values.size() - 1 - cut] - values[cut] <= kMostLength * longest;
+  }
+  return isSmall;
+}
+
+/// The measured points of all ranks in each cell of @p box.
+std::vector<std::int64_t> CoreSearch::count(const Bounds& box, double edge) const
+{
+  std::vector<std::int64_t> cells(std::size_t(kCells * kCells * kCells), 0);
+  this->forEach(0, 1,
+    [&](const Vec3& p, bool isFill)
+    {
+      if (isFill || !contains(box, p))
+      {
+        return;
+      }
+      std::array<int, 3> cell{};
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        cell[std::size_t(axis)] = int(std::min((p[axis] - box.minimum[axis]) / edge, kCells - 1.0));
+      }
+      ++at(cells, cell);
+    });
+  const std::vector<std::string> ofRanks = ranks_.gather(bytesOfValues(cells));
+  std::fill(cells.begin(), cells.end(), 0);
+  for (const std::string& bytes : ofRanks)
+  {
+    const std::vector<std::int64_t> more = valuesOfBytes<std::int64_t>(bytes);
+    std::transform(cells.begin(), cells.end(), more.begin(), cells.begin(), std::plus<>());
+  }
+  return cells;
+}
+
+/// The fullest cell, and those connected with it.
+CellBox CoreSearch::cellsOfCore(std::vector<std::int64_t>& cells)
+{
+  const auto fullest = static_cast<int>(std::max_element(cells.begin(), cells.end()) - cells.begin());
+  std::vector<std::array<int, 3>> reached{ { fullest % kCells, fullest / kCells % kCells,
+    fullest / kCells / kCells } };
+  std::vector<std::int64_t> waiting = cells; // 0: it was reached
+  at(waiting, reached.front()) = 0;
+  CellBox box;
+  for (std::size_t i = 0; i < reached.size(); ++i)
+  {
+    box.include(reached[i]);
+    around(reached[i])
+      .forEach(
+        [&](const std::array<int, 3>& next)
+        {
+          if (at(waiting, next) == 0)
+          {
+            return;
+          }
+          std::int64_t most = 0;
+          around(next).forEach(
+            [&](const std::array<int, 3>& beside) { most = std::max(most, at(cells, beside)); });
+          if (double(at(cells, next)) >= kConnects * double(most))
+          {
+            at(waiting, next) = 0;
+            reached.push_back(next);
+          }
+        });
+  }
+  return box;
+}
+
+/// On ever finer lattices, as long as the core does not fall apart there.
+Bounds CoreSearch::core(const Bounds& all) const
+{
+  Bounds core = all;
+  std::int64_t measured = 0; // on the first lattice
+  for (double edge = longestSide(core) / kCells; edge > 0.0; edge = longestSide(core) / kCells)
+  {
+    std::vector<std::int64_t> cells = this->count(core, edge);
+    measured = std::max(measured, std::accumulate(cells.begin(), cells.end(), std::int64_t(0)));
+    const CellBox found = this->cellsOfCore(cells);
+    std::int64_t inside = 0;
+    found.forEach([&](const std::array<int, 3>& cell) { inside += at(cells, cell); });
+    if ((measured - inside) * kMostPart > measured)
+    {
+      break;
+    }
+    const CellBox cut = found.grown();
+    const Vec3 corner = core.minimum;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const auto a = std::size_t(axis);
+      core.minimum[axis] = corner[axis] + edge * cut.low[a];
+      core.maximum[axis] =
+        cut.high[a] < kCells - 1 ? corner[axis] + edge * (cut.high[a] + 1) : core.maximum[axis];
+    }
+    if (found.longest() > kCells / 4)
+    {
+      break;
+    }
+  }
+  return core;
+}
+
+std::string boxText(const Bounds& box, int digits)
+{
+  std::string text;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    for (const double end : { box.minimum[axis], box.maximum[axis] })
+    {
+      std::array<char, 400> number;
+      char* const begin = number.data();
+      const auto written = std::to_chars(begin, begin + number.size(), end, std::chars_format::fixed, digits);
+      text += (text.empty() ? "" : ",") + std::string(begin, written.ptr);
+    }
+  }
+  return text;
+}
+
+} // namespace
+
+std::string FarPoints::text() const
+{
+  return countText(count) + " of " + countText(of) + (count == 1 ? " points is" : " points are") +
+    " far from all others";
+}
+
+std::string FarPoints::note() const
+{
+  // Digits enough for the margin, also of map coordinates: they may not cut.
+  const double margin = 0.001 * longestSide(all);
+  const int digits = int(std::clamp(std::ceil(-std::log10(margin)), 0.0, 17.0));
+  const std::string them = count == 1 ? "it" : "them";
+  return text() + "; lattice and picture leave " + them + " out, a workspace of " +
+    boxText(grown(all, margin), digits) + " takes " + them + " in";
+}
+
+FarPoints findFarPoints(const PointView& points, const Bounds& bounds, const AffineTransform& transform)
+{
+  Ranks alone;
+  return findFarPoints(points, bounds, alone, transform);
+}
+
+FarPoints findFarPoints(
+  const PointView& part, const Bounds& bounds, Ranks& ranks, const AffineTransform& transform)
+{
+  FarPoints none;
+  none.all = none.others = commonBounds(ranks, bounds);
+  const double longest = longestSide(none.all);
+  CoreSearch search(part, transform, ranks);
+  if (commonSum(ranks, part.size()) < kFewest || !(longest > 0.0) || !std::isfinite(longest) ||
+    !search.mayBeSmall(longest))
+  {
+    return none;
+  }
+  const Bounds core = search.core(none.all);
+  if (longestSide(core) > longest / 2.0)
+  {
+    return none;
+  }
+  FarPoints found;
+  search.forEach(0, 1,
+    [&](const Vec3& p, bool)
+    {
+      ++found.of;
+      contains(core, p) ? found.others.include(p) : static_cast<void>(++found.count);
+    });
+  found.of = commonSum(ranks, found.of);
+  found.count = commonSum(ranks, found.count);
+  found.all = none.all;
+  found.others = commonBounds(ranks, found.others);
+  return found.count > 0 && longestSide(found.others) <= kMostLength * longest ? found : none;
+}
+
+Bounds boundsForLattice(const LatticeSettings& settings, const PointView& part, const Bounds& bounds,
+  Ranks& ranks, const AffineTransform& transform, std::string& note)
+{
+  const Bounds all = commonBounds(ranks, bounds);
+  Lattice lattice;
+  note.clear();
+  if (settings.voxelSize > 0.0 && makeLattice(settings, all, lattice) == Status::Ok)
+  {
+    return all;
+  }
+  const FarPoints far = findFarPoints(part, bounds, ranks, transform);
+  note = far.count > 0 ? far.note() : std::string();
+  return far.others;
+}
+
+} // namespace pointhaptics
