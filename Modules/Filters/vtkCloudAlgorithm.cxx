@@ -1,6 +1,7 @@
 #include "vtkCloudAlgorithm.h"
 
 #include "Core/Base/Host/GuardedWork.h"
+#include "Core/Base/Host/StopRequest.h"
 
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
@@ -210,6 +211,7 @@ int vtkCloudAlgorithm::RequestData(
     this->Fail(std::string(message(end)) + ".");
     this->SetErrorCode(pointhaptics::kOutOfMemoryCode);
   }
+  succeeded = !pointhaptics::shallStop(this, 0) && succeeded;
   if (!succeeded)
   {
     parts.Empty();
@@ -232,7 +234,7 @@ bool vtkCloudAlgorithm::RunParts(const Parts& parts)
   for (std::size_t i = 0; succeeded && i < parts.clouds.size(); ++i)
   {
     this->SetProgressShiftScale(double(i) / count, 1.0 / count);
-    succeeded = !this->GetAbortExecute() && this->RunCloud(parts.clouds[i], parts.outputs[i]);
+    succeeded = !pointhaptics::shallStop(this, 0) && this->RunCloud(parts.clouds[i], parts.outputs[i]);
   }
   return succeeded;
 }

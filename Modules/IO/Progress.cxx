@@ -1,5 +1,6 @@
 #include "Progress.h"
 
+#include "Core/Base/Host/StopRequest.h"
 #include "FileProblem.h"
 
 #include "vtkAlgorithm.h"
@@ -10,24 +11,6 @@
 
 namespace pointhaptics::io
 {
-
-namespace
-{
-
-/// True if @p algorithm shall stop. Later versions of VTK than 9.1 have CheckAbort(), which tells the
-/// executive too: the progress then stays where it was.
-template <typename Algorithm>
-auto shallStop(Algorithm* algorithm, int) -> decltype(algorithm->CheckAbort())
-{
-  return algorithm->CheckAbort();
-}
-template <typename Algorithm>
-bool shallStop(Algorithm* algorithm, long)
-{
-  return algorithm->GetAbortExecute() != 0;
-}
-
-} // namespace
 
 void reportProgress(vtkAlgorithm* algorithm, double fraction)
 {

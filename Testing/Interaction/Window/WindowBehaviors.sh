@@ -639,7 +639,7 @@ KeyJRecordsWhatFeelFeelsAgain() {
   said "recording to pointhaptics-001.csv"
   said "marker 1"
   until_true "nothing was touched" touches
-  key ctrl+plus
+  key ctrl+minus
   touches
   xdotool key space j
   said "marker 2"
