@@ -259,31 +259,27 @@ bool feelReplay(ViewScene& scene, const HapticViewerOptions& options, const Hapt
   {
     return false;
   }
-  if (!RecordedScenes::isOf(recording, cloud, message))
+  if (!isOf(recording, cloud, message))
   {
     message.insert(0, scene.title() + ": ");
     return false;
   }
-  RecordedScenes scenes(recording, cloud);
-  Replay replay(recording, scenes);
-  ReplayDifference difference;
+  Replay replay(recording, cloud);
   while (!replay.isAtEnd())
   {
-    const RecordedTick& row = replay.row();
     samples.emplace_back();
     if (!replay.step(samples.back(), message))
     {
       message.insert(0, options.replay + ": ");
       return false;
     }
-    difference.add(row, samples.back());
     if (observer.shouldStop && observer.shouldStop())
     {
       message = options.replay + ": the replay was stopped on request";
       return false;
     }
   }
-  note(observer, "replay: " + difference.text());
+  note(observer, "replay: " + replay.difference().text());
   return true;
 }
 

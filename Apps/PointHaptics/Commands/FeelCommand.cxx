@@ -340,16 +340,14 @@ int runReplay(const FeelOptions& options, Files& files)
   {
     return fail(kFeelCommand, message);
   }
-  RecordedScenes scenes(recording, cloud);
   std::optional<ProxyMethod> method;
   if (options.methodIsGiven)
   {
     method = options.touch.parameters.method;
   }
-  Replay replay(recording, scenes, method);
+  Replay replay(recording, cloud, method);
   RecordingWriter none;
   Rows rows(table, none, sound);
-  ReplayDifference difference;
   ProgressBar bar("feeling");
   while (!replay.isAtEnd() && !stopIsRequested())
   {
@@ -359,9 +357,8 @@ int runReplay(const FeelOptions& options, Files& files)
     {
       return fail(kFeelCommand, options.replay + ": " + message);
     }
-    difference.add(row, sample);
     rows.add(row.felt[0], sample.state, 1e6 * sample.updateSeconds);
-    bar.show(double(difference.ticks) / double(recording.ticks.size()));
+    bar.show(double(replay.difference().ticks) / double(recording.ticks.size()));
   }
   if (stopIsRequested())
   {
@@ -371,7 +368,7 @@ int runReplay(const FeelOptions& options, Files& files)
   {
     return fail(kFeelCommand, message);
   }
-  printReplay(options, difference, rows.summary());
+  printReplay(options, replay.difference(), rows.summary());
   return kSuccess;
 }
 
@@ -388,7 +385,8 @@ bool openRecordingOutput(const FeelOptions& options, vtkPolyData* cloud, Files& 
   {
     return false;
   }
-  RecordingHeader header = headerOf(felt, 0.0, cloud);
+  RecordingHeader header = headerOf({ felt }, 0.0, cloud);
+  header.program = "pointhaptics " POINTHAPTICS_VERSION;
   header.settings = options.settings;
   header.limit = limitOf(options);
   header.origin = std::chrono::nanoseconds(std::chrono::steady_clock::now().time_since_epoch()).count();
