@@ -235,17 +235,19 @@ bool feelPathOf(ViewScene& scene, const HapticViewerOptions& options, const Hapt
     return false;
   }
   applyUnits(options.pathUnits, path);
-  const std::string odd = unlikelyUnits(path, Bounds());
-  if (!odd.empty() && observer.message)
-  {
-    observer.message(HapticViewerObserver::Kind::Warning, options.path + ": " + odd);
-  }
-  if (!countTicks(path, options.path, kRateHz, kMostTicks, ticks, message) ||
+  if (!countTicks(path, options.path, kRateHz, kMostTicks, ticks, message, options.names.units) ||
     !makeFeelScenes(scene, options, scenes, message))
   {
     return false;
   }
   samples = samplesAlong(path, ticks, scenes, options.haptics, kRateHz);
+  const bool isTouched = std::any_of(
+    samples.begin(), samples.end(), [](const ServoSample& sample) { return sample.state.contact; });
+  const std::string odd = unlikelyUnitsIn(scene, options, path, isTouched);
+  if (!odd.empty() && observer.message)
+  {
+    observer.message(HapticViewerObserver::Kind::Warning, options.path + ": " + odd);
+  }
   return true;
 }
 

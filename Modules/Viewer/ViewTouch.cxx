@@ -7,6 +7,9 @@
 #include "PolyDataAccess.h"
 #include "vtkVoxelMeanResampler.h"
 
+#include "Core/Base/Boxes.h"
+#include "Devices/PathUnits.h"
+
 #include <vtkPointSet.h>
 
 #include <algorithm>
@@ -66,6 +69,17 @@ const ServoSample& mostTelling(const std::vector<ServoSample>& samples)
     }
   }
   return *best;
+}
+
+std::string unlikelyUnitsIn(
+  ViewScene& scene, const HapticViewerOptions& options, const HipPath& path, bool isTouched)
+{
+  AffineTransform model;
+  const Bounds& box = scene.cloudBounds();
+  const bool isPlaced = !box.empty() && affineFromTransform(scene.resampler()->GetTransform(), model);
+  return unlikelyUnits(path,
+    isPlaced ? boxOfCorners(box, [&model](const Vec3& p) { return model.apply(p); }) : Bounds(),
+    options.names.units, isTouched);
 }
 
 std::shared_ptr<IdealForce> idealFor(ViewScene& scene, const HapticViewerOptions& options)

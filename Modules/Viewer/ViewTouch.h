@@ -28,6 +28,11 @@ std::vector<ServoSample> samplesAlong(const HipPath& path, std::int64_t ticks, F
 bool makeFeelScenes(
   ViewScene& scene, const HapticViewerOptions& options, FeelScenes& scenes, std::string& message);
 
+/// What the sizes of @p path and of the cloud, as it stands in @p scene, say of their units
+/// (unlikelyUnits()).
+std::string unlikelyUnitsIn(
+  ViewScene& scene, const HapticViewerOptions& options, const HipPath& path, bool isTouched);
+
 /// The tick to show: that of the largest force, or the last one where nothing was touched. @pre not empty.
 const ServoSample& mostTelling(const std::vector<ServoSample>& samples);
 

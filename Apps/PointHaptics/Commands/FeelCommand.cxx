@@ -414,13 +414,7 @@ bool readPath(
     return false;
   }
   applyUnits(options.pathUnits, path);
-  if (countTicks(path, options.path, options.rateHz, kMostTicks, ticks, message))
-  {
-    return true;
-  }
-  const std::string odd = unlikelyUnits(path, Bounds());
-  message += odd.empty() ? "" : "; " + odd;
-  return false;
+  return countTicks(path, options.path, options.rateHz, kMostTicks, ticks, message, unitOptions());
 }
 
 int runFeel(const FeelOptions& options, Files& files)
@@ -439,10 +433,6 @@ int runFeel(const FeelOptions& options, Files& files)
     return fail(kFeelCommand, message);
   }
   const Bounds box = feltBox(options, cloud.points);
-  if (const std::string odd = unlikelyUnits(path, box); !odd.empty())
-  {
-    warn(kFeelCommand, odd);
-  }
   FeelScenes scenes;
   if (!makeFeelScenes(options, cloud.points, scenes, message))
   {
@@ -473,7 +463,7 @@ int runFeel(const FeelOptions& options, Files& files)
     warn(kFeelCommand, fmt::format("{}: it ends early: {}", options.record, recording.problem()));
   }
   const Summary summary = rows.summary();
-  const std::string odd = summary.contactTicks == 0 ? unlikelyCloudUnit(path, box) : std::string();
+  const std::string odd = unlikelyUnits(path, box, unitOptions(), summary.contactTicks > 0);
   if (!odd.empty())
   {
     warn(kFeelCommand, odd);
