@@ -253,7 +253,7 @@ bool feelPathOf(ViewScene& scene, const HapticViewerOptions& options, const Hapt
 
 /// What was recorded in HapticViewerOptions::replay, felt again.
 bool feelReplay(ViewScene& scene, const HapticViewerOptions& options, const HapticViewerObserver& observer,
-  std::vector<ServoSample>& samples, std::string& message)
+  IdealForce* ideal, std::vector<ServoSample>& samples, std::vector<double>& ideals, std::string& message)
 {
   Recording recording;
   auto* cloud = vtkPointSet::SafeDownCast(scene.resampler()->GetInputDataObject(0, 0));
@@ -275,6 +275,12 @@ bool feelReplay(ViewScene& scene, const HapticViewerOptions& options, const Hapt
       message.insert(0, options.replay + ": ");
       return false;
     }
+    if (ideal && replay.scene())
+    {
+      const AffineTransform& model = replay.scene()->modelToWorkspace();
+      ideals.push_back(idealForce(*ideal, model, samples.back().state.hip, replay.contact()));
+    }
+    ideals.resize(samples.size(), NAN);
     if (observer.shouldStop && observer.shouldStop())
     {
       message = options.replay + ": the replay was stopped on request";
@@ -291,8 +297,10 @@ bool feelAlongPath(ViewScene& scene, const HapticViewerOptions& options, const H
   ServoSample& shown, std::string& message)
 {
   std::vector<ServoSample> samples;
+  std::vector<double> ideals; // of a replay
+  const std::shared_ptr<IdealForce> ideal = options.forceChart.empty() ? nullptr : idealFor(scene, options);
   if (!(options.replay.empty() ? feelPathOf(scene, options, observer, samples, message)
-                               : feelReplay(scene, options, observer, samples, message)))
+                               : feelReplay(scene, options, observer, ideal.get(), samples, ideals, message)))
   {
     return false;
   }
@@ -314,11 +322,13 @@ bool feelAlongPath(ViewScene& scene, const HapticViewerOptions& options, const H
   if (!options.forceChart.empty())
   {
     vtkNew<vtkHapticChart> chart;
-    const std::shared_ptr<IdealForce> ideal = idealFor(scene, options);
-    for (const ServoSample& sample : samples)
+    for (std::size_t i = 0; i < samples.size(); ++i)
     {
-      chart->AddSample(sample.timeSeconds, norm(sample.state.force), sample.state.radius,
-        ideal ? idealForce(*ideal, scene, sample.state.hip, options.haptics.contact) : NAN);
+      const ProxyState& state = samples[i].state;
+      chart->AddSample(samples[i].timeSeconds, norm(state.force), state.radius,
+        !ideals.empty() ? ideals[i]
+          : ideal       ? idealForce(*ideal, scene, state.hip, options.haptics.contact)
+                        : NAN);
     }
     if (!chart->WriteImage(options.forceChart.c_str()))
     {

@@ -95,11 +95,17 @@ std::shared_ptr<IdealForce> idealFor(ViewScene& scene, const HapticViewerOptions
   return known ? std::make_shared<IdealForce>(shape) : nullptr;
 }
 
+double idealForce(
+  IdealForce& ideal, const AffineTransform& model, const Vec3& hip, const ContactParameters& contact)
+{
+  return std::min(ideal.at(hip, model, contact.stiffness), contact.forceLimit);
+}
+
 double idealForce(IdealForce& ideal, ViewScene& scene, const Vec3& hip, const ContactParameters& contact)
 {
   AffineTransform model;
   const bool isAffine = affineFromTransform(scene.resampler()->GetTransform(), model);
-  return isAffine ? std::min(ideal.at(hip, model, contact.stiffness), contact.forceLimit) : NAN;
+  return isAffine ? idealForce(ideal, model, hip, contact) : NAN;
 }
 
 std::string traceColumns()

@@ -39,7 +39,10 @@ const ServoSample& mostTelling(const std::vector<ServoSample>& samples);
 /// The exact surface that --ideal names, or that the cloud of @p scene turns out to be. Null: none.
 std::shared_ptr<IdealForce> idealFor(ViewScene& scene, const HapticViewerOptions& options);
 
-/// Newtons where the model stands in @p scene at this moment, with the limit of @p contact; NaN: not known.
+/// Newtons where the model stands, with stiffness and limit of @p contact; NaN: not known.
+double idealForce(
+  IdealForce& ideal, const AffineTransform& model, const Vec3& hip, const ContactParameters& contact);
+/// The same where it stands in @p scene at this moment.
 double idealForce(IdealForce& ideal, ViewScene& scene, const Vec3& hip, const ContactParameters& contact);
 
 /// The columns of a trace: those of `feel`, and the status of the tick.

@@ -132,19 +132,20 @@ bool Reader::takeHeader(const std::string& text)
     return true;
   }
   keyed::Line line = keyed::Line::from(rest);
-  const char* cure = "take the header as it was written";
   if (key == "cloud")
   {
     describe(line, recording_.header.cloud);
     return line.isFine() ||
-      this->fail(fmt::format("{}: points, checksum or resolution is missing; {}", quote(text), cure));
+      this->fail(
+        quote(text) + ": points, checksum or resolution is missing; take the header as it was written");
   }
   if (key == "servo")
   {
     const ServoStepSettings& step = recording_.header.step;
     describe(line, recording_.header.step);
     return (line.isFine() && step.rateHz >= 1.0 && step.rateHz <= 1e5 && step.limits.check() == Status::Ok) ||
-      this->fail(fmt::format("{}: a servo setting is missing or out of range; {}", quote(text), cure));
+      this->fail(
+        quote(text) + ": a servo setting is missing or out of range; take the header as it was written");
   }
   if (key == "made")
   {

@@ -68,6 +68,8 @@ public:
   bool step(ServoSample& sample, std::string& message);
   /// Of the ticks felt so far.
   const ReplayDifference& difference() const { return difference_; }
+  /// In force in the newest tick.
+  const ContactParameters& contact() const { return recording_.parameters.at(sample_.parameters).contact; }
   /// The scene in use; may be null.
   const std::shared_ptr<const HapticScene>& scene() const { return scene_; }
 

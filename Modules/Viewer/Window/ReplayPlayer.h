@@ -34,6 +34,11 @@ public:
   /// What there is to say: a marker, the end. Empty: nothing since the last call.
   std::string takeMessage();
   const ServoStepSettings& stepSettings() const { return recording_.header.step; }
+  /// What one of the samples fed was felt with.
+  const ContactParameters& contactOf(const ServoSample& sample) const
+  {
+    return recording_.parameters.at(sample.parameters).contact;
+  }
 
 private:
   void run(ServoLoop& loop);
