@@ -5,14 +5,15 @@
 #include "PointHapticsViewerModule.h" // For export macro
 
 #include <array>
+#include <cstdint>
 #include <string>
 
 namespace pointhaptics
 {
 
-/// True where a render window can be made. Otherwise @p message says what is missing and the cure. Keeps a
-/// connection to the X server until the program ends. GUI thread only.
-POINTHAPTICSVIEWER_EXPORT bool displayIsAvailable(std::string& message);
+/// True where a render window can be made and may draw @p points. Otherwise @p message says what is missing
+/// and the cure. Keeps a connection to the X server until the program ends. GUI thread only.
+POINTHAPTICSVIEWER_EXPORT bool displayIsAvailable(std::string& message, std::int64_t points = 0);
 
 /// Pixels of its screen across and up; 0 before displayIsAvailable() was true, and where that has no way to
 /// know. A render window that is asked opens a connection of its own, which it closes before the interactor
