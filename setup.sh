@@ -16,7 +16,11 @@ PACKAGES=(
   libcli11-dev libfmt-dev nlohmann-json3-dev libgtest-dev libnanoflann-dev)
 # In CI no test shall be skipped for want of a program.
 if [[ "${1:-}" == test && -n "${CI:-}" ]]; then
-  PACKAGES+=(doxygen)
+  PACKAGES+=(doxygen glslang-tools)
+  # Another version formats differently; Debian 12 has this one.
+  if [[ -n "$(apt-cache search --names-only '^clang-format-14$' 2>/dev/null)" ]]; then
+    PACKAGES+=(clang-format-14)
+  fi
 fi
 readonly PACKAGES
 readonly TEST_PACKAGES=(python3-vtk9 python3-numpy python3-mypy openmpi-bin dpkg-dev file fakeroot)
@@ -35,13 +39,14 @@ Packages are installed with apt-get, through sudo where this user is not root; n
 The last line says what happened; exit code 0: done, 1: failed, 2: usage.
 
 Environment:
-  CI            set: compiler warnings are errors, and test installs doxygen too
+  CI            set: compiler warnings are errors; test installs what checks sources too, and runs the unit tests
+                of Core, Haptics and IO under the address and undefined-behaviour sanitizers
   BUILD_JOBS    compilers run at once; default: one per core, fewer where memory is short
 TEXT
 }
 
 command_name=""
-# What the script is doing, for the last line when it fails.
+# The present step, for the last line when the script fails.
 step="reading the command line"
 xvfb_pid=""
 xvfb_folder=""
@@ -123,10 +128,13 @@ number_of_jobs() {
   printf '%d\n' $((jobs > 1 ? jobs : 1))
 }
 
+# build ON|OFF [TARGET]...: with or without the tests; all, or the targets and what they need.
 build() {
   local tests="$1" jobs options
+  shift
   jobs="${BUILD_JOBS:-$(number_of_jobs)}"
   options=(-DCMAKE_BUILD_TYPE=Release "-DPOINTHAPTICS_BUILD_TESTING=$tests" "-DPOINTHAPTICS_BUILD_PYTHON=$tests"
+    "-DPOINTHAPTICS_BUILD_BENCHMARKS=$tests"
     "-DPOINTHAPTICS_WARNINGS_AS_ERRORS=$([[ -n "${CI:-}" ]] && echo ON || echo OFF)")
   if command -v ccache >/dev/null; then
     options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
@@ -139,7 +147,26 @@ build() {
   say "Building in build/release ($jobs at once)"
   cmake -S "$ROOT" -B "$BUILD" -G Ninja "${options[@]}"
   step="building in build/release"
-  cmake --build "$BUILD" --parallel "$jobs"
+  cmake --build "$BUILD" --parallel "$jobs" ${1+--target "$@"}
+}
+
+# The code that reads strangers' files and computes forces, with every access and every operation checked.
+run_sanitized() {
+  local build="$ROOT/build/sanitized" test options
+  step="building in build/sanitized"
+  say "Building the unit tests of Core, Haptics and IO with sanitizers in build/sanitized"
+  options=(-DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS_RELEASE=-O1 -DPOINTHAPTICS_SANITIZE=address,undefined
+    -DPOINTHAPTICS_BUILD_BENCHMARKS=OFF)
+  if command -v ccache >/dev/null; then
+    options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+  fi
+  cmake -S "$ROOT" -B "$build" -G Ninja "${options[@]}"
+  cmake --build "$build" --parallel "${BUILD_JOBS:-$(number_of_jobs)}" \
+    --target PointHapticsCoreTest PointHapticsHapticsTest PointHapticsIOTest
+  for test in Core Haptics IO; do
+    step="running the unit tests of $test with sanitizers"
+    UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1 "$build/bin/PointHaptics${test}Test" --gtest_brief=1
+  done
 }
 
 # An X server of our own, without a screen: pictures come out the same with and without a desktop.
@@ -171,7 +198,7 @@ on_own_display() {
 run_demo() {
   local program="$BUILD/bin/pointhaptics" cloud="$OUTPUT/idol.ply" path="$ROOT/Data/Paths/idol-touch.csv" file
   install_packages
-  build OFF
+  build OFF pointhaptics
   mkdir -p "$OUTPUT"
 
   step="making the cloud output/idol.ply"
@@ -221,6 +248,9 @@ run_test() {
   step="timing the proxy with each instruction set"
   say "The proxy with each instruction set of this machine, for the log"
   "$BUILD/bin/pointhaptics-bench" proxy --quick --studies instructions
+  if [[ -n "${CI:-}" ]]; then
+    run_sanitized
+  fi
   tests="$(sed -nE 's/^100% tests passed, 0 tests failed out of ([0-9]+)$/\1/p' "$log")"
   seconds="$(sed -nE 's/^Total Test time \(real\) = *([0-9.]+) sec$/\1/p' "$log")"
   skipped="$(grep -cE '^ *[0-9]+/[0-9]+ Test .*\*\*\*Skipped' "$log" || true)"

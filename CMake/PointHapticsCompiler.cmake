@@ -2,6 +2,10 @@
 # installed or seen by users of the package.
 add_library(pointhaptics_compiler INTERFACE)
 target_compile_options(pointhaptics_compiler INTERFACE -Wall -Wextra -Wshadow)
+if (CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 14)
+  # It takes the members of a std::optional that emplace() fills for uninitialized.
+  target_compile_options(pointhaptics_compiler INTERFACE -Wno-maybe-uninitialized)
+endif ()
 if (POINTHAPTICS_WARNINGS_AS_ERRORS)
   target_compile_options(pointhaptics_compiler INTERFACE -Werror)
 endif ()

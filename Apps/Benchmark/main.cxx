@@ -1,10 +1,11 @@
-/// The program pointhaptics-bench: one subcommand per task.
-#include "Benchmark/Commands/BenchTask.h"
+/// The program pointhaptics-bench: one subcommand per task, which prints JSON rows.
+#include "Benchmark/Harness/Instructions.h"
+#include "Benchmark/Harness/Machine.h"
+#include "Benchmark/Tasks.h"
 #include "Commands/Commands.h"
 #include "Options/OptionParsing.h"
 #include "Terminal/CommandLine.h"
 #include "Terminal/Messages.h"
-#include "ViewDisplay.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -18,199 +19,173 @@
 
 #include <unistd.h>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::bench
 {
 namespace
 {
 
-/// Every task there is.
-std::vector<BenchTask> allTasks()
+using namespace app;
+
+std::vector<Task> allTasks()
 {
   return { bandwidthTask(), resampleTask(), proxyTask(), touchTask(), frictionTask(), ioTask(), servoTask(),
     renderTask() };
 }
 
 constexpr std::int64_t kMostRepetitions = 10000;
-/// Stands in the report for the folder that was named: that one is nobody else's. Of files their names are
-/// shown.
-constexpr const char* kShownFolder = "Documentation";
-
-struct BenchOptions
-{
-  std::vector<double> threads;
-  std::int64_t repetitions = 0; ///< 0: the default.
-  std::string folder;
-  bool quick = false;
-  bool json = false;
-};
+constexpr const char* kFiles = "FILE,...";
 
 int numberOfCores()
 {
   return int(std::max(1u, std::thread::hardware_concurrency()));
 }
 
-BenchSettings settingsOf(const BenchOptions& options)
-{
-  BenchSettings settings;
-  settings.threads.assign(options.threads.begin(), options.threads.end());
-  if (settings.threads.empty())
-  {
-    settings.threads = { 1 };
-    if (numberOfCores() > 1)
-    {
-      settings.threads.push_back(numberOfCores());
-    }
-  }
-  settings.repetitions = int(options.repetitions);
-  settings.quick = options.quick;
-  return settings;
-}
-
-/// Of files, one or several with commas between, their names.
-std::string withoutFolders(const std::string& files)
-{
-  std::vector<std::string> names;
-  for (const std::string& file : CLI::detail::split(files, ','))
-  {
-    names.push_back(std::filesystem::path(file).filename().string());
-  }
-  return fmt::format("{}", fmt::join(names, ","));
-}
-
-/// The command line that repeats the run.
+/// The command line that repeats the run. Files go without their folders, which are nobody else's.
 std::string commandText(const CLI::App& command)
 {
-  std::string text = "pointhaptics-bench " + command.get_name();
+  std::string text = "pointhaptics bench " + command.get_name();
   for (const CLI::Option* option : command.get_options())
   {
-    const std::string name = option->get_name();
-    if (option->count() == 0 || name == "--json")
+    if (option->count() == 0 || option->get_name() == "--json")
     {
       continue;
     }
-    text += " " + name;
+    text += " " + option->get_name();
     if (option->get_expected_max() > 0)
     {
-      const std::string value = option->as<std::string>();
-      text += " " +
-        (name == "--output"                         ? kShownFolder
-            : name == "--file" || name == "--scans" ? withoutFolders(value)
-                                                    : value);
+      std::vector<std::string> words = CLI::detail::split(option->as<std::string>(), ',');
+      for (std::string& word : words)
+      {
+        word = option->get_type_name().rfind("FILE", 0) == 0 ? std::filesystem::path(word).filename().string()
+                                                             : word;
+      }
+      text += fmt::format(" {}", fmt::join(words, ","));
     }
   }
   return text;
 }
 
-/// Asked before the long work: can the folder be had, and pictures be drawn?
-bool prepareFolder(
-  const std::string& who, const std::string& folder, bool& withPictures, std::string& message)
+struct Options
 {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error || ::access(folder.c_str(), W_OK) != 0)
-  {
-    message = folder + ": no folder that can be written; give one, or a name that one can be made under";
-    return false;
-  }
-  std::string whyNot;
-  withPictures = displayIsAvailable(whyNot);
-  if (!withPictures)
-  {
-    warn(who, "the report goes without pictures: " + whyNot);
-  }
-  return true;
+  std::vector<double> threads;
+  std::int64_t repetitions = 0; ///< 0: the task's.
+  bool json = false;
+  Run run;
+};
+
+void printLine(const Json& line)
+{
+  fmt::print("{}\n", line.dump());
+  std::fflush(stdout);
 }
 
-int runBench(const BenchRun& run, const BenchOptions& options, const CLI::App& command)
+int runTask(const Task& task, const TaskRun& measure, Options& options, const CLI::App& command)
 {
-  const std::string who = command.get_name();
-  std::string message;
-  bool withPictures = false;
-  if (!options.folder.empty() && !prepareFolder(who, options.folder, withPictures, message))
+  Run& run = options.run;
+  run.threads.assign(options.threads.begin(), options.threads.end());
+  if (run.threads.empty())
   {
-    return fail(who, message);
+    run.threads = numberOfCores() > 1 ? std::vector<int>{ 1, numberOfCores() } : std::vector<int>{ 1 };
   }
-  const bool talks = isatty(STDERR_FILENO) != 0;
-  const auto progress = [talks](const std::string& what)
+  run.repetitions = options.repetitions > 0 ? int(options.repetitions)
+    : run.quick                             ? task.quickRepetitions
+                                            : task.repetitions;
+  if (isatty(STDERR_FILENO) != 0)
   {
-    if (talks)
+    run.progress = [](const std::string& what) { fmt::print(stderr, "{}\n", what); };
+  }
+  Json head{ { "task", task.name }, { "command", commandText(command) }, { "machine", thisMachine() } };
+  if (!options.json)
+  {
+    run.print = [&head](const Json& line)
     {
-      fmt::print(stderr, "{}\n", what);
-    }
-  };
-  BenchOutcome outcome = run(settingsOf(options), progress);
-  if (outcome.report.parts.empty() && !outcome.wrong.empty())
-  {
-    return fail(who, outcome.wrong);
+      if (!head.empty())
+      {
+        printLine(head);
+        head.clear();
+      }
+      printLine(line);
+    };
   }
-  outcome.report.command = commandText(command);
-  if (options.json)
+  measure(run);
+  if (options.json && !run.parts().empty())
   {
-    printJson(bench::toJson(outcome.report));
+    head.update(run.parts());
+    printJson(head);
   }
-  else
-  {
-    fmt::print("{}", bench::toText(outcome.report));
-  }
-  if (!options.folder.empty() && !bench::writeReport(outcome.report, options.folder, withPictures, message))
-  {
-    return fail(who, message);
-  }
-  if (const std::vector<std::string> errors = takeVtkErrors(); !errors.empty())
-  {
-    return fail(who, errors.front());
-  }
-  return outcome.wrong.empty() ? kSuccess : fail(who, outcome.wrong);
+  const std::vector<std::string> errors = takeVtkErrors();
+  const std::string& wrong = errors.empty() ? run.faults() : errors.front();
+  return wrong.empty() ? kSuccess : fail(task.name, wrong);
 }
 
-void addTask(CLI::App& bench, const BenchTask& task, int& exitCode)
+void addTask(CLI::App& program, const Task& task, int& exitCode)
 {
-  CLI::App* command = bench.add_subcommand(task.name, task.description);
-  auto options = std::make_shared<BenchOptions>();
+  CLI::App* command = program.add_subcommand(task.name, task.description);
+  auto options = std::make_shared<Options>();
+  options->run.rivals = task.rivals;
   if (task.hasThreads)
   {
     addWholeNumbers(*command, "--threads", options->threads, numberOfCores(),
       "Numbers of threads; default one, and all cores");
   }
-  addInteger(*command, "--repetitions", options->repetitions, 1, kMostRepetitions,
-    fmt::format("Rounds in which each contestant runs once; default {}", task.repetitions));
-  const BenchRun run = task.addOptions(*command);
-  command->add_flag("--quick", options->quick, "A second or two, to see that everything works");
-  command->add_flag("--json", options->json, "Print the figures as JSON");
-  command
-    ->add_option("-o,--output", options->folder,
-      "Folder for Performance.md, Accuracy.md and Images/*.png; a section already there is replaced")
-    ->type_name("FOLDER");
-  command->callback([run, options, command, &exitCode] { exitCode = runBench(run, *options, *command); });
+  if (task.repetitions > 0)
+  {
+    addInteger(*command, "--repetitions", options->repetitions, 1, kMostRepetitions,
+      fmt::format("How often each contestant runs, in turn with the others; default {}", task.repetitions));
+  }
+  const TaskRun measure = task.addOptions(*command);
+  if (!task.rivals.empty())
+  {
+    addWords(*command, "--rivals", options->run.rivals, task.rivals, true,
+      "Who runs beside ours, or none; default all that were found");
+  }
+  if (task.studies.size() > 1)
+  {
+    addWords(*command, "--studies", options->run.studies, task.studies, false,
+      task.name == "touch" ? "What to measure; default all but hard" : "What to measure; default all");
+  }
+  command->add_flag("--quick", options->run.quick, "A second or two, to see that everything works");
+  command->add_flag(
+    "--json", options->json, "Print one JSON document at the end in the place of a row a line");
+  command->callback(
+    [task, measure, options, command, &exitCode] { exitCode = runTask(task, measure, *options, *command); });
 }
 
 } // namespace
 
-void addChoices(CLI::App& command, BenchChoices& choices, const std::vector<std::string>& rivalWords,
-  const std::vector<std::string>& studyWords)
+void addFiles(
+  CLI::App& command, const std::string& name, std::vector<std::string>& files, const std::string& description)
 {
-  choices.rivals = rivalWords;
-  addWords(command, "--rivals", choices.rivals, rivalWords, true,
-    "Who runs beside ours, or none; default all that were found");
-  addWords(command, "--studies", choices.studies, studyWords, false, "What to measure; default all");
+  command
+    .add_option_function<std::string>(
+      name, [&files](const std::string& text) { files = CLI::detail::split(text, ','); }, description)
+    ->type_name(kFiles);
 }
 
-} // namespace app
-} // namespace pointhaptics
-
-namespace
+void addInstructions(CLI::App& command, int& set)
 {
+  std::vector<std::pair<std::string, int>> sets;
+  for (const NamedInstructionSet& one : kInstructionSets)
+  {
+    if (hasInstructions(one.set))
+    {
+      sets.emplace_back(one.word, int(one.set));
+    }
+  }
+  addChoice(command, "--instructions", set, std::move(sets),
+    "Hold the inner loops to this instruction set; default the best of the machine");
+}
 
-using namespace pointhaptics::app;
-
-int run(std::vector<std::string> arguments)
+/// The whole program. @return an ExitCode.
+int runBench(std::vector<std::string> arguments)
 {
-  CLI::App program("Measure PointHaptics beside others, and against exact answers.", "pointhaptics-bench");
+  CLI::App program(
+    "Measure PointHaptics beside others, and against exact answers. Each task prints a JSON row a "
+    "line; Documentation/MakeTables.py makes tables and pictures of them.",
+    "pointhaptics-bench");
   int exitCode = kSuccess;
   std::vector<std::string> names;
-  for (const BenchTask& task : allTasks())
+  for (const Task& task : allTasks())
   {
     addTask(program, task, exitCode);
     names.push_back(task.name);
@@ -228,11 +203,11 @@ int run(std::vector<std::string> arguments)
   return runCommands(program, std::move(arguments), exitCode);
 }
 
-} // namespace
+} // namespace pointhaptics::bench
 
 int main(int argc, char* argv[])
 {
-  nameProgram("pointhaptics-bench");
+  pointhaptics::app::nameProgram("pointhaptics-bench");
   const std::vector<std::string> arguments(argv + 1, argv + argc);
-  return runProgram(arguments, [&] { return run(arguments); });
+  return pointhaptics::app::runProgram(arguments, [&] { return pointhaptics::bench::runBench(arguments); });
 }

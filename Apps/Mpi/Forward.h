@@ -9,12 +9,9 @@ class App;
 
 class vtkPolyData;
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 
 class Job;
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

@@ -11,16 +11,14 @@
 #include <cstring>
 #include <vector>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 
 namespace
 {
 
-/// Where all ranks run on this machine, they need none of its network hardware, for which Open MPI looks 0.15
-/// s long. What the user chose stays.
+/// Leaves out network hardware where all ranks run on this machine: Open MPI looks 0.15 s long for it. A
+/// choice of the user stays.
 void useMemoryAlone()
 {
   const char* all = std::getenv("OMPI_COMM_WORLD_SIZE");
@@ -45,7 +43,7 @@ Job::~Job()
 {
   if (!isFinished_)
   {
-    // The others may wait for a message of this one.
+    // Other ranks may wait for a message of this one.
     abortJob(kFailed);
   }
   vtkMultiProcessController::SetGlobalController(nullptr);
@@ -78,5 +76,4 @@ int Job::finish(int exitCode)
   return code;
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

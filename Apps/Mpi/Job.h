@@ -1,5 +1,5 @@
 /// @file
-/// The processes that mpirun has started, and how they fail together.
+/// The processes that mpirun has started; a failure of one ends all.
 #pragma once
 
 #include "MpiRanks.h"
@@ -10,27 +10,25 @@
 
 class vtkMPIController;
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 
-/// Lives as long as main(): starts and ends MPI.
+/// Starts MPI and ends it with main().
 class Job
 {
 public:
   Job(int* argc, char*** argv);
-  /// Ends all processes at once where this one has not gone the whole way with the others: finish().
+  /// Ends all processes at once if this one has not reached finish().
   ~Job();
   Job(const Job&) = delete;
   Job& operator=(const Job&) = delete;
 
   MpiRanks& ranks() { return ranks_; }
   bool isRoot() const { return ranks_.rank() == 0; }
-  /// Whether no rank has a @p problem. Else the first one that has prints it as fail() does, and says which
+  /// True if no rank has a @p problem. Else the first one that has prints it as fail() does, and says which
   /// rank it is where not all have the same.
   bool agree(const std::string& command, const std::string& problem);
-  /// Of the codes of all ranks the largest: what each is to end with. The last exchange of a job.
+  /// Returns the largest exit code of all ranks: each ends with it. The last exchange of a job.
   int finish(int exitCode);
 
 private:
@@ -39,5 +37,4 @@ private:
   bool isFinished_ = false;
 };
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

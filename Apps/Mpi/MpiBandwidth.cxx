@@ -17,9 +17,7 @@
 #include <memory>
 #include <string>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 namespace
 {
@@ -88,5 +86,4 @@ void addMpiBandwidth(CLI::App& program, MpiWork& work)
     });
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

@@ -6,17 +6,14 @@
 
 #include <functional>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 
-/// What a command line asks for, run after it was parsed on all ranks. @return an ExitCode.
+/// Work of a command line, run after it was parsed on all ranks. @return an ExitCode.
 using MpiWork = std::function<int(Job&)>;
 
 /// Each adds its command to @p program; its callback stores what to run in @p work.
 void addMpiResample(CLI::App& program, MpiWork& work);
 void addMpiBandwidth(CLI::App& program, MpiWork& work);
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

@@ -18,14 +18,12 @@
 #include <filesystem>
 #include <vector>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 namespace
 {
 
-/// Ranks without points have no file.
+/// Writes a file for each rank with points.
 bool writePerRank(Job& job, const std::string& command, const std::string& fileName, vtkPolyData* piece)
 {
   const int rank = job.ranks().rank();
@@ -132,5 +130,4 @@ bool writePieces(Job& job, const std::string& command, const CloudToCloudOptions
   return job.agree(command, problem);
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

@@ -12,19 +12,17 @@
 
 #include <string>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 
 /// A rank's part of a cloud.
 struct Piece
 {
   vtkSmartPointer<vtkPolyData> points;
-  vtkIdType pointsOfAll = 0; ///< Of all ranks.
+  vtkIdType pointsOfAll = 0; ///< Number of points on all ranks.
 };
 
-/// Adds what a command of ranks has beside the options of the same one of pointhaptics, and the common ones.
+/// Adds the options that a command of ranks has beside those of pointhaptics, and the common ones.
 void addOutputOptions(CLI::App& command);
 /// Checks the files of the parsed @p command, and fills in the input. False: there is nothing to do
 /// (--dry-run).
@@ -40,5 +38,4 @@ bool openPiece(
 /// the list of these. False on all ranks: the message is printed.
 bool writePieces(Job& job, const std::string& command, const CloudToCloudOptions& files, vtkPolyData* piece);
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

@@ -20,9 +20,7 @@
 #include <utility>
 #include <vector>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 namespace
 {
@@ -34,7 +32,7 @@ struct MpiResampleOptions : ResampleOptions
   Traffic traffic;
 };
 
-/// By rank 0, which gathers the rows: pieces of IN are in its order.
+/// Writes the index by rank 0, which gathers the rows: pieces of IN are in its order.
 bool writeIndex(Job& job, CsvWriter& file, vtkVoxelMeanResampler* resampler)
 {
   std::vector<std::string> messages(std::size_t(job.ranks().size()));
@@ -135,5 +133,4 @@ void addMpiResample(CLI::App& program, MpiWork& work)
     });
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

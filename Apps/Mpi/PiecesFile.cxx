@@ -14,9 +14,7 @@
 
 namespace fs = std::filesystem;
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 namespace
 {
@@ -35,7 +33,7 @@ std::string escaped(const std::string& text)
   return result;
 }
 
-/// As VTK's XML names it.
+/// Type of an array as VTK's XML names it.
 std::string typeOf(vtkAbstractArray* array)
 {
   auto* numbers = vtkDataArray::SafeDownCast(array);
@@ -56,7 +54,7 @@ std::string elementOf(vtkAbstractArray* array, const std::string& name)
     array->GetNumberOfComponents());
 }
 
-/// ' Scalars="RGB"' and so on.
+/// Roles of arrays as attributes: ' Scalars="RGB"' and so on.
 std::string rolesOf(vtkPointData* data)
 {
   std::string roles;
@@ -120,5 +118,4 @@ bool writePiecesFile(
   return true;
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

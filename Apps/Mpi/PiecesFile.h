@@ -7,21 +7,18 @@
 #include <string>
 #include <vector>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 
-/// Whether @p fileName ends in .pvtp.
+/// True if @p fileName ends in .pvtp.
 bool isPiecesFile(const std::string& fileName);
 
-/// The file of a rank's piece: "means_2.vtp" beside "means.pvtp".
+/// Name of a rank's piece: "means_2.vtp" beside "means.pvtp".
 std::string pieceFileOf(const std::string& fileName, int rank);
 
-/// Writes the list: of the files of @p ranks, whose points have arrays as those of @p like. False: @p message
+/// Writes the list of the files of @p ranks, whose points have arrays as those of @p like. False: @p message
 /// says why.
 bool writePiecesFile(
   const std::string& fileName, vtkPolyData* like, const std::vector<int>& ranks, std::string& message);
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

@@ -7,9 +7,7 @@
 
 #include <algorithm>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 
 void Traffic::addTo(CLI::App& command)
@@ -35,5 +33,4 @@ void Traffic::show(Job& job, std::int64_t sent) const
   }
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

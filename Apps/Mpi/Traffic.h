@@ -1,26 +1,24 @@
 /// @file
-/// The option --traffic: what the ranks read and sent.
+/// The option --traffic: bytes that the ranks read and sent.
 #pragma once
 
 #include "Forward.h"
 
 #include <cstdint>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 
 /// Bytes of this rank.
 struct Traffic
 {
   bool isWanted = false;
-  std::int64_t read = 0; ///< Of the input.
+  std::int64_t read = 0; ///< Bytes of the input that were read.
 
   void addTo(CLI::App& command);
-  /// Collective: says it on stderr, where it is wanted. @p sent: to other ranks, for the computation.
+  /// Prints the bytes on stderr, if that is wanted. Collective. @p sent: bytes to other ranks, for the
+  /// computation.
   void show(Job& job, std::int64_t sent) const;
 };
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

@@ -22,7 +22,7 @@ namespace
 
 using namespace pointhaptics::app;
 
-/// Help, version and usage errors are the same on all ranks: one prints them.
+/// Silences all ranks but one: help, version and usage errors are the same on all.
 class Silence
 {
 public:
@@ -59,8 +59,8 @@ private:
   int kept_[2] = { -1, -1 };
 };
 
-/// Keeps what is freed for what is allocated next. Ranks send and receive their sums in large pieces one
-/// after the other; the system would clear the memory for each anew, which takes longer than filling it.
+/// Keeps freed memory for the next allocation. Ranks send and receive their sums in large pieces one after
+/// the other; the system would clear the memory for each anew, which takes longer than filling it.
 void keepFreedMemory()
 {
   mallopt(M_MMAP_MAX, 0);

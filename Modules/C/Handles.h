@@ -1,5 +1,5 @@
 /// @file
-/// What the handles of pointhaptics.h stand for.
+/// Objects behind the handles of pointhaptics.h.
 #pragma once
 
 #include "C/pointhaptics.h"
@@ -35,7 +35,7 @@ enum class ThreadText
   Problem,
   Units
 };
-/// What the calling thread was told last; null where there is no memory for it.
+/// The text that the calling thread was given last; null where there is no memory for one.
 std::string* textOfThread(ThreadText which) noexcept;
 /// Keeps @p text for ph_problem().
 int fail(int status, std::string_view text) noexcept;
@@ -43,7 +43,7 @@ inline int fail(Status status) noexcept
 {
   return status == Status::Ok ? PH_OK : fail(int(status), message(status));
 }
-/// Whether one of @p pointers is null, which is passed to fail() then.
+/// True if one of @p pointers is null, which is passed to fail() then.
 inline bool hasNull(std::initializer_list<const void*> pointers) noexcept
 {
   const bool isNull = std::find(pointers.begin(), pointers.end(), nullptr) != pointers.end();

@@ -136,7 +136,7 @@ struct ph_servo
   HandWithCallback hand;
   ServoLoop loop; ///< After the hand: stops before that is gone.
   std::vector<ServoSample> samples;
-  std::size_t taken = 0; ///< Of the samples.
+  std::size_t taken = 0; ///< Number of samples that were taken.
   std::atomic<bool> isEnding{ false };
   std::thread sceneThread;
 };

@@ -47,12 +47,12 @@ extern "C"
     PH_OUT_OF_MEMORY = 30
   };
 
-  /** "0.1.0". Static storage, as all texts here but ph_problem(). */
+  /** The version as text, "0.2.0". Static storage, as all texts here but ph_problem(). */
   PH_API const char* ph_version(void);
-  /** One sentence of what a status means and what to do. Never null. */
+  /** One sentence that explains a status and names the cure. Never null. */
   PH_API const char* ph_message(int status);
-  /** What the last call that failed in this thread found wrong: argument, value and cure, in one line. Valid
-   * until the next failure in this thread. Never null. */
+  /** Problem of the last call that failed in this thread: argument, value and cure, in one line. Valid until
+   * the next failure in this thread. Never null. */
   PH_API const char* ph_problem(void);
 
   /** Ends calls of other threads early: those that were given it return PH_STOPPED soon. */
@@ -76,7 +76,7 @@ extern "C"
   /** Points as x, y, z in turn. Cost: some nanoseconds a point and 20 ms a 100,000 voxels. */
   PH_API int ph_scene_create(
     const double* xyz, size_t count, const ph_scene_options* options, ph_scene** out);
-  /** The same of float; @p stride: bytes from a point to the next one, 0 for 12. */
+  /** As ph_scene_create(), for float; @p stride: bytes from a point to the next one, 0 for 12. */
   PH_API int ph_scene_create_float(
     const float* xyz, size_t count, size_t stride, const ph_scene_options* options, ph_scene** out);
   PH_API void ph_scene_destroy(ph_scene* scene);
@@ -98,7 +98,7 @@ extern "C"
   enum
   {
     PH_TUNED = 0, /**< They follow a hand of 50 mm/s. */
-    PH_PAPER = 1  /**< Those that the paper prints. */
+    PH_PAPER = 1  /**< The gains that the paper prints. */
   };
   PH_API int ph_gains_of(int preset, ph_gains* out);
 
@@ -114,14 +114,14 @@ extern "C"
     const ph_gains* gains; /**< Default: PH_TUNED. */
   } ph_proxy_options;
 
-  /** What the hand feels in a step. */
+  /** Result of a step: contact and force. */
   typedef struct
   {
     size_t struct_size;
     double proxy[3];  /**< The point of the proxy sphere nearest to the hand; out of contact the hand. */
     double normal[3]; /**< Outward unit normal. */
-    double force[3];  /**< On the hand. */
-    double radius;    /**< Of the proxy sphere. */
+    double force[3];  /**< Force on the hand. */
+    double radius;    /**< Radius of the proxy sphere. */
     int contact;      /**< 0 or 1. */
     unsigned status;  /**< Bits of pointhaptics::ProxyStatus. */
   } ph_state;
@@ -143,11 +143,11 @@ extern "C"
    * forces of ph_feel(), bit for bit. Cost: some microseconds, and now and then some milliseconds for a finer
    * scene about a hand that moves on. */
   PH_API int ph_proxy_step(ph_proxy* proxy, const double hip[3], double dt, ph_state* out);
-  /** The same as a row; its t counts from the first step. */
+  /** Steps as ph_proxy_step(), with the result as a row; its t counts from the first step. */
   PH_API int ph_proxy_step_row(ph_proxy* proxy, const double hip[3], double dt, double row[PH_COLUMNS]);
   PH_API void ph_proxy_destroy(ph_proxy* proxy);
 
-  /** Steps that ph_feel() makes of @p count rows t, x, y, z at @p rate steps a second. */
+  /** Number of steps that ph_feel() makes of @p count rows t, x, y, z at @p rate steps a second. */
   PH_API int ph_feel_steps(const double* path, size_t count, double rate, size_t* steps);
   /** Moves a hand along a path, linearly between its rows, in virtual time. @p rows has room for PH_COLUMNS
    * numbers in each of the steps. */
@@ -168,7 +168,7 @@ extern "C"
   {
     size_t struct_size;
     double rate;           /**< Ticks a second, 1 to 10000. Default: 1000. */
-    double mass;           /**< Of the hand, kg. Default: 0.1. */
+    double mass;           /**< Mass of the hand, kg. Default: 0.1. */
     double grip_stiffness; /**< Between where the person wants the hand and the hand, N/m. Default: 200. */
     double grip_damping;   /**< N s/m. Default: 9. */
     double start[3];       /**< Where the hand begins, and the person wants it, metres. */
@@ -182,7 +182,7 @@ extern "C"
   typedef struct
   {
     size_t struct_size;
-    double rate;                                                                   /**< That was reached. */
+    double rate; /**< The rate that was reached. */
     double jitter_p50, jitter_p99, jitter_max, update_p50, update_p99, update_max; /**< Seconds. */
     unsigned long long ticks, deadline_misses, lost;                               /**< lost: of the trace. */
     int realtime; /**< SCHED_FIFO was granted. */

@@ -10,7 +10,8 @@ namespace pointhaptics
 namespace
 {
 
-// What is there but may not be opened is listed with its own cure: these two are about cables.
+// These messages are about cables: a device that is plugged in but may not be opened is listed with its own
+// cure.
 constexpr const char* kNoFalcon =
   "no Falcon was found: plug in its power supply, then its USB cable, and see whether `lsusb -d 0403:cb48` "
   "shows it; one that only lacks its udev rule would be listed";

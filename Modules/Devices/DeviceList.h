@@ -1,5 +1,5 @@
 /// @file
-/// Which devices are there.
+/// List of the devices that are plugged in.
 #pragma once
 
 #include <string>
@@ -8,13 +8,13 @@
 namespace pointhaptics
 {
 
-/// A device as a list of devices shows it.
+/// An entry in a list of devices.
 struct ListedDevice
 {
-  std::string kind;    ///< "falcon", "spacemouse" or "simulated".
+  std::string kind;    ///< Kind: "falcon", "spacemouse" or "simulated".
   std::string name;    ///< For people.
   std::string place;   ///< "bus 1 device 7", "/dev/hidraw3"; empty for one without hardware.
-  std::string problem; ///< Empty: it can be used; else why not, with the cure.
+  std::string problem; ///< Reason why it cannot be used, with the cure; empty: it can.
 };
 
 /// Falcons, SpaceMice, then the simulated hand, which is always there. Opens and closes each device it finds;

@@ -11,7 +11,7 @@
 namespace pointhaptics
 {
 
-/// What a device can do. Metres, newtons, seconds, hertz; workspace frame: x right, y up, z towards the
+/// Capabilities of a device. Metres, newtons, seconds, hertz; workspace frame: x right, y up, z towards the
 /// person.
 struct DeviceCapabilities
 {
@@ -21,7 +21,7 @@ struct DeviceCapabilities
   double maximumDamping = 0.0;   ///< N s/m that a damper without spring may have there.
   double maximumRateHz = 0.0;    ///< Ticks per second that make sense; 0: any.
   int numberOfButtons = 0;
-  bool pushes = false; ///< There are motors: somebody's hand is in it.
+  bool pushes = false; ///< True if there are motors: somebody's hand is in it.
 };
 
 /// Life: open(), then read() and write() in turn, once a tick, then close(). open() and close() belong to the
@@ -35,20 +35,20 @@ class HapticDevice : public HapticPort
 public:
   /// Short name for people: "simulated", "path", "falcon".
   virtual const char* name() const noexcept = 0;
-  /// The same before and after open().
+  /// Capabilities, equal before and after open().
   virtual DeviceCapabilities capabilities() const noexcept = 0;
-  /// That of the capabilities; 0 there: not known, and no limit.
+  /// Largest force of the capabilities; 0 there: not known, and no limit.
   double maximumForce() const noexcept override
   {
     const double declared = this->capabilities().maximumForce;
     return declared > 0.0 ? declared : HapticPort::maximumForce();
   }
-  /// Ok, or a status whose sentence says what to do; message() may say more.
+  /// Opens the device. Ok, or a status whose message says what to do; message() may say more.
   virtual Status open() = 0;
-  /// Zero force, then release. Safe on a closed device.
+  /// Sends zero force and releases the device. Safe on a closed one.
   virtual void close() = 0;
-  /// What open() or the device itself has to say to the user: empty, or one sentence with what and cure. Any
-  /// thread but the servo thread.
+  /// Message of open() or of the device to the user: empty, or one sentence with problem and cure. Any thread
+  /// but the servo thread.
   virtual std::string message() const { return {}; }
 };
 

@@ -15,12 +15,13 @@ namespace pointhaptics
 namespace
 {
 constexpr const char* kHeader = "t,x,y,z";
-/// Time and position.
+/// Numbers of a point: time and position.
 constexpr std::size_t kNumbers = 4;
-/// What a table that starts with the hand may call them: a path's words, and those of the felt forces.
+/// Names of the columns in a path, and in a table of felt forces.
 constexpr const char* kColumnNames[][kNumbers] = { { "t", "x", "y", "z" },
   { "t", "hip_x", "hip_y", "hip_z" } };
-/// No row of a path or of felt forces is longer; keeps a binary file from being read as one line.
+/// No row of a path or of felt forces is longer than this; it keeps a binary file from being read as one
+/// line.
 constexpr std::size_t kLongestLine = 1000;
 /// Longest part of a file's text repeated in a message.
 constexpr std::size_t kLongestQuote = 40;
@@ -50,7 +51,7 @@ std::string trimmed(const std::string& text)
                                     : text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
-/// One line without its LF or CRLF, at most kLongestLine + 1 bytes of it. False at the end of the file.
+/// Reads one line without its LF or CRLF, at most kLongestLine + 1 bytes. False at the end of the file.
 bool readLine(std::istream& stream, std::string& line)
 {
   line.clear();
@@ -71,7 +72,7 @@ bool readLine(std::istream& stream, std::string& line)
   return true;
 }
 
-/// A number, or in @p problem why it is none.
+/// Parses a number. False: @p problem says why it is none.
 bool parseNumber(const std::string& text, double& value, std::string& problem)
 {
   const std::from_chars_result parsed = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -102,14 +103,15 @@ std::vector<std::string> cellsOf(const std::string& line)
   return cells;
 }
 
-/// Where time and position stand in each row.
+/// Columns of time and position in each row.
 struct Columns
 {
-  std::size_t count = 0; ///< Of a row.
+  std::size_t count = 0; ///< Number of columns in a row.
   std::size_t positions[kNumbers] = {};
 };
 
-/// From the first line, without the byte order mark that spreadsheets write. False: it names no path.
+/// Finds the columns in the first line, without the byte order mark that spreadsheets write. False: it names
+/// no path.
 bool findColumns(std::string header, Columns& columns)
 {
   if (header.rfind("\xef\xbb\xbf", 0) == 0)
@@ -138,7 +140,7 @@ bool findColumns(std::string header, Columns& columns)
   return false;
 }
 
-/// A row, or in @p problem what is wrong with it and the cure. Other columns may hold anything.
+/// Parses a row. False: @p problem names the fault and the cure. Other columns may hold anything.
 bool parseRow(const std::string& line, const Columns& columns, HipPathPoint& point, std::string& problem)
 {
   if (line.size() > kLongestLine)
@@ -167,7 +169,7 @@ bool parseRow(const std::string& line, const Columns& columns, HipPathPoint& poi
   return true;
 }
 
-/// The next line that is no remark. False: there is none.
+/// Reads the next line that is no remark. False: there is none.
 bool readTableLine(std::istream& stream, std::string& line, std::size_t& lineNumber)
 {
   for (++lineNumber; stream.peek() == '#'; ++lineNumber)
@@ -260,7 +262,7 @@ Vec3 HipPath::position(double timeSeconds, std::size_t& hint) const noexcept
   {
     return points.back().position;
   }
-  // Most calls stay in the hint's interval or go on to the next one.
+  // Most calls stay in the hint's interval or move on to the next one.
   constexpr int kNear = 4;
   std::size_t i = std::min(hint, points.size() - 2);
   for (int step = 0;

@@ -12,7 +12,7 @@
 namespace pointhaptics
 {
 
-/// Where the HIP is at a time.
+/// Place of the HIP at a time.
 struct HipPathPoint
 {
   double timeSeconds = 0.0;
@@ -32,22 +32,21 @@ struct HipPath
   {
     return points.empty() ? 0.0 : points.back().timeSeconds - points.front().timeSeconds;
   }
-  /// Linear between two points, the first and last position outside. @pre not empty. @p hint speeds up
-  /// ascending times: pass the same variable, first 0.
+  /// Interpolates linearly between two points; before the first and after the last it holds their positions.
+  /// @pre not empty. @p hint speeds up ascending times: pass the same variable, first 0.
   Vec3 position(double timeSeconds, std::size_t& hint) const noexcept;
 };
 
 /// Reads the columns t, x, y and z that the header line names, or t, hip_x, hip_y and hip_z as the tables of
 /// felt forces have them: seconds and metres, one row a line, decimal point, spaces about numbers and CRLF
 /// line ends allowed, blank lines at the end only. Lines before it that begin with # are remarks, as a
-/// recording has. What other columns hold is not looked at. On an error @p
-/// message says file, line, value and cure, and @p path is empty: FileNotReadable, FileMalformed (no row
-/// among others).
+/// recording has. Other columns are ignored. On an error @p message says file, line, value and cure, and @p
+/// path is empty: FileNotReadable, FileMalformed (no row among others).
 Status readHipPath(const std::string& fileName, HipPath& path, std::string& message);
-/// Writes the same, shortest digits that read back to the same doubles. The file appears only when it is
-/// complete (it is written beside its place and renamed); what is no regular file, such as /dev/stdout, is
-/// written directly. InvalidParameter (see HipPath::check()), FileNotWritable; @p message then says what,
-/// where and the cure.
+/// Writes such a table, with the shortest digits that read back to the same doubles. The file appears only
+/// when it is complete (it is written beside its place and renamed); a target that is no regular file, such
+/// as /dev/stdout, is written directly. InvalidParameter (see HipPath::check()), FileNotWritable; @p message
+/// then names fault, place and cure.
 Status writeHipPath(const std::string& fileName, const HipPath& path, std::string& message);
 
 } // namespace pointhaptics

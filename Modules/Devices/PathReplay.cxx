@@ -4,7 +4,7 @@ namespace pointhaptics
 {
 namespace
 {
-/// Rounding of (tick / rate) against the times of a file.
+/// Tolerance for the rounding of (tick / rate) against the times of a file.
 constexpr double kTimeTolerance = 1e-9;
 }
 

@@ -1,5 +1,5 @@
 /// @file
-/// Devices made of paths: one that replays a HIP path, one that records what another device does.
+/// Devices made of paths: one replays a HIP path, one records another device's motion.
 #pragma once
 
 #include "Devices/HapticDevice.h"
@@ -10,8 +10,8 @@
 namespace pointhaptics
 {
 
-/// The hand follows the path in servo time, whatever the force: time 0 is the path's first point, whatever
-/// its own time. After its end: holds the last position, or EndOfPath.
+/// Moves the hand along the path in servo time, whatever the force: time 0 is the path's first point,
+/// whatever its own time. After its end it holds the last position, or answers EndOfPath.
 class PathReplayDevice : public HapticDevice
 {
 public:
@@ -20,7 +20,8 @@ public:
 
   const char* name() const noexcept override { return "path"; }
   DeviceCapabilities capabilities() const noexcept override;
-  /// Back to the start. Empty: the path has no point; InvalidParameter: it is no path (HipPath::check()).
+  /// Goes back to the start. Empty: the path has no point; InvalidParameter: it is no path
+  /// (HipPath::check()).
   Status open() override;
   void close() override { open_ = false; }
   Status read(double timeSeconds, HandState& state) noexcept override;
@@ -52,7 +53,7 @@ public:
   Status read(double timeSeconds, HandState& state) noexcept override;
   Status write(double timeSeconds, const Vec3& force) noexcept override;
 
-  /// Only while the servo loop is stopped.
+  /// The recorded path. Call it only while the servo loop is stopped.
   const HipPath& recorded() const noexcept { return path_; }
   std::uint64_t lostSamples() const noexcept { return lost_; }
 

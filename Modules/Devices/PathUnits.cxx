@@ -10,15 +10,15 @@ namespace pointhaptics
 namespace
 {
 
-constexpr double kReach = 2.0;          ///< Metres that a hand moves within.
-constexpr double kUsualReach = 0.1;     ///< Of a desktop device.
-constexpr double kNear = 5.0;           ///< Ratio of two sizes that may be of the same thing.
+constexpr double kReach = 2.0;          ///< Reach of a hand, metres.
+constexpr double kUsualReach = 0.1;     ///< Reach of a desktop device, metres.
+constexpr double kNear = 5.0;           ///< Ratio of two sizes that may belong to the same thing.
 constexpr double kSlow = 1e-3;          ///< Metres a second, of a path whose rows are kSparse apart.
-constexpr double kSlowest = 1e-4;       ///< Of any path.
+constexpr double kSlowest = 1e-4;       ///< Least speed of any path, metres a second.
 constexpr double kFastest = 5.0;        ///< Metres a second.
 constexpr double kSparse = 0.5;         ///< Seconds from row to row.
 constexpr double kLong = 60.0;          ///< Seconds.
-constexpr std::size_t kFewestRows = 10; ///< That show how far rows are apart.
+constexpr std::size_t kFewestRows = 10; ///< Fewest rows whose spacing in time counts.
 constexpr double kLeastTravel = 1e-3;   ///< A hand that rests has no speed.
 
 bool areNear(double a, double b)
@@ -105,7 +105,7 @@ std::string unlikelyTimes(const HipPath& path, const UnitNames& names)
   const double speed = duration > 0.0 ? travel / duration : 0.0;
   const bool isSparse =
     points.size() >= kFewestRows && duration / double(points.size() - 1) >= kSparse && speed < kSlow;
-  // Two rows are a line that somebody drew, not a hand.
+  // Two rows are a line that somebody drew, not a hand's path.
   const bool isSlow = points.size() > 2 && duration >= kLong && speed < kSlowest;
   if (travel < kLeastTravel || !(isSparse || isSlow) || speed * 1e3 > kFastest)
   {

@@ -1,5 +1,5 @@
 /// @file
-/// Units of the numbers of a hand path, and what the sizes of path and cloud say of them.
+/// Units of the numbers of a hand path, and checks of them by the sizes of path and cloud.
 #pragma once
 
 #include "Core/Base/PointView.h"
@@ -10,7 +10,7 @@
 namespace pointhaptics
 {
 
-/// What one of the numbers in a path's file is.
+/// Units of the numbers in a path's file.
 struct PathUnits
 {
   double metres = 1.0;  ///< Above 0.
@@ -25,7 +25,7 @@ struct UnitNames
   std::string time;
 };
 
-/// Makes metres and seconds of the numbers of @p path.
+/// Converts the numbers of @p path to metres and seconds.
 void applyUnits(const PathUnits& units, HipPath& path);
 
 /// A hand reaches 2 m, moves by millimetres a second at least, and is told more often than once in half a

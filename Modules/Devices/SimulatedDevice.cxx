@@ -7,12 +7,12 @@ namespace pointhaptics
 namespace
 {
 constexpr double kLongestStepSeconds = 1e-4;
-/// Longest time one call accounts for: after a longer pause the hand goes on from where it was.
+/// Longest time that one call accounts for: after a longer pause the hand continues from where it was.
 constexpr double kLongestPauseSeconds = 0.1;
 constexpr double kDefaultHalfEdge = 0.05;
 constexpr double kHoldingForce = 8.0;
 constexpr double kServoRateHz = 1000.0;
-/// Rounding of (tick / rate) against the times of a file.
+/// Tolerance for the rounding of (tick / rate) against the times of a file.
 constexpr double kTimeTolerance = 1e-9;
 constexpr int kButtons = 4;
 
@@ -109,9 +109,9 @@ Status SimulatedDevice::read(double timeSeconds, HandState& state) noexcept
   }
   else
   {
-    // Before the target, which is written first.
+    // The counter is read before the target, which is written first.
     const std::uint32_t placings = placings_.load(std::memory_order_acquire);
-    // Met half way through a write the target before it serves one tick more.
+    // If a write is under way, the former target serves one tick more.
     state.isNew = target_.tryRead(lastTarget_) && placings != seenPlacings_;
     seenPlacings_ = state.isNew ? placings : seenPlacings_;
   }

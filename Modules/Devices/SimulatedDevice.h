@@ -1,5 +1,5 @@
 /// @file
-/// A hand without hardware: a mass on a spring and a damper, pulled to where the mouse (or a test) points.
+/// A hand without hardware: a mass on a spring and a damper, which the mouse or a test pulls.
 #pragma once
 
 #include "Devices/HapticDevice.h"
@@ -16,9 +16,9 @@ namespace pointhaptics
 struct SimulatedHandSettings
 {
   double mass = 0.1;            ///< kg, above 0.
-  double gripStiffness = 200.0; ///< N/m between where the person wants the hand and where it is; above 0.
+  double gripStiffness = 200.0; ///< Stiffness between the person's target and the hand, N/m; above 0.
   double gripDamping = 9.0;     ///< N s/m, 0 or more; critical damping for the defaults.
-  bool yieldsToForce = true;    ///< Off: the hand is exactly at its target, whatever the force.
+  bool yieldsToForce = true;    ///< If false, the hand is exactly at its target, whatever the force.
   Vec3 start;                   ///< Position at open(), metres; clamped to the workspace.
   Bounds workspace; ///< The hand and its targets stay in it; empty: the 10 cm cube about the origin.
 };
@@ -40,14 +40,15 @@ public:
 
   const char* name() const noexcept override { return "simulated"; }
   DeviceCapabilities capabilities() const noexcept override;
-  /// The grip's damping bounds the springs it can bear; none where the hand does not yield.
+  /// Limits of the springs, by the grip's damping; none where the hand does not yield.
   HandLimits limits() const noexcept override;
-  /// True unless a path moves the hand: a target that comes from the mouse is late by more.
+  /// True unless a path moves the hand: a target that comes from the mouse is later than that.
   bool mayIdle() const noexcept override { return path_.points.empty(); }
-  /// From the next open() on the target follows @p path in servo time, its first point at time 0, instead of
-  /// setTarget(); read() gives EndOfPath after its end. An empty path: setTarget() again. Not while open.
+  /// Makes the target follow @p path in servo time from the next open() on, its first point at time 0, in
+  /// place of setTarget(); read() gives EndOfPath after its end. An empty path restores setTarget(). Not
+  /// while open.
   void setPath(HipPath path) { path_ = std::move(path); }
-  /// The hand at rest at settings.start (or at the path's first point), which is also the target.
+  /// Puts the hand at rest at settings.start (or at the path's first point), which is also the target.
   /// InvalidParameter: a setting out of its range, or a path that is none (HipPath::check()).
   Status open() override;
   void close() override;
@@ -56,10 +57,10 @@ public:
   /// InvalidParameter: @p force is not finite; the hand then feels none.
   Status write(double timeSeconds, const Vec3& force) noexcept override;
 
-  /// Where the person wants the hand, workspace frame, metres; not finite: ignored.
+  /// Sets the person's target, workspace frame, metres; one that is not finite is ignored.
   void setTarget(const Vec3& target) noexcept;
-  /// The same, and the hand is there at the next read(), at rest, without a way from where it was
-  /// (HandState::isNew): what lies between is not touched.
+  /// Sets the target and moves the hand there by the next read(), at rest, without a way from where it was
+  /// (HandState::isNew): nothing in between is touched.
   void placeAt(const Vec3& target) noexcept;
   /// The target in effect, after clamping. Any thread.
   Vec3 target() const noexcept { return target_.read(); }
@@ -73,14 +74,14 @@ private:
   std::size_t hint_ = 0;
   LatestValue<Vec3> target_;
   std::atomic<std::uint32_t> buttons_{ 0 };
-  std::atomic<std::uint32_t> placings_{ 0 }; ///< Calls of placeAt().
+  std::atomic<std::uint32_t> placings_{ 0 }; ///< Number of calls of placeAt().
   std::uint32_t seenPlacings_ = 0;
   Vec3 lastTarget_;
   Vec3 position_;
   Vec3 velocity_;
   Vec3 force_;
   double lastTime_ = 0.0;
-  bool timed_ = false; ///< lastTime_ is that of a read since open().
+  bool timed_ = false; ///< True if lastTime_ is that of a read since open().
   bool open_ = false;
 };
 

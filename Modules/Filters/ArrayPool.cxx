@@ -22,7 +22,7 @@ constexpr std::size_t kSmallest = std::size_t(1) << 16;
 /// In front of a block's data.
 struct alignas(64) ArrayPool::Header
 {
-  std::shared_ptr<State> state; ///< Of the pool it goes back to; only while an array uses it.
+  std::shared_ptr<State> state; ///< State of the pool that it goes back to; only while an array uses it.
   std::size_t bytes = 0;
 };
 

@@ -25,15 +25,15 @@ public:
   /// Gives @p array, of VTK's usual layout and with its components set, memory for so many tuples, not
   /// initialised.
   void allocate(vtkDataArray* array, std::int64_t tuples);
-  /// Memory for at least so many bytes, until it is taken or given back.
+  /// Reserves memory for at least so many bytes, until it is taken or given back.
   void* reserve(std::size_t bytes);
-  /// Gives @p array such memory, with so many tuples in it.
+  /// Gives @p array reserved memory, with so many tuples in it.
   void take(void* memory, vtkDataArray* array, std::int64_t tuples);
   /// Returns reserved memory that no array took.
   static void giveBack(void* memory);
-  /// Frees what no array uses.
+  /// Frees the memory that no array uses.
   void trim();
-  /// Bytes no array uses.
+  /// Bytes that the pool keeps for later arrays.
   std::size_t bytes() const;
 
 private:

@@ -51,7 +51,7 @@ std::vector<double> movedPosesIn(vtkFieldData* field, const char* name)
   return values;
 }
 
-/// Of the rotation whose matrix is T over @p scale: Shepperd's method, by its largest part.
+/// Quaternion of the rotation whose matrix is T over @p scale: Shepperd's method, by its largest part.
 Quaternion rotationOf(const AffineTransform& transform, double scale)
 {
   const auto& m = transform.m;

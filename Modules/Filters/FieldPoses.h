@@ -16,7 +16,7 @@ namespace pointhaptics
 /// turn, and they are removed. A viewpoint that is the identity says nothing, as in most PCD files, and
 /// stays; so do arrays of another shape. Arrays are replaced, not written to.
 void movePoses(const AffineTransform& transform, vtkFieldData* field);
-/// What movePoses() would remove, in a sentence that says why; empty where it removes nothing.
+/// Names the arrays that movePoses() would remove, in a sentence that says why; empty where it removes none.
 std::string lostPoses(const AffineTransform& transform, vtkFieldData* field);
 
 } // namespace pointhaptics

@@ -46,7 +46,7 @@ public:
       vtkSMPTools::For(0, vtkIdType(count), vtkIdType(piece), work);
       return;
     }
-    // So many calls, of which each takes the next piece.
+    // One call a thread; each takes the next piece until none is left.
     std::atomic<std::int64_t> next{ 0 };
     vtkSMPTools::For(0, threads, 1,
       [&](vtkIdType, vtkIdType)

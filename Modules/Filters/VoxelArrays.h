@@ -28,7 +28,8 @@ struct VoxelArray
   bool isNormal = false;
 };
 
-/// Those of @p input in its order, identifiers, ghost flags and what an earlier resampling made aside.
+/// Arrays of @p input that have values in voxels, in its order; not identifiers, ghost flags and results of
+/// an earlier resampling.
 /// @p dropped: a sentence for each array that has no value in voxels.
 std::vector<VoxelArray> voxelArrays(vtkPointSet* input, const std::set<std::string>& categoricalArrays,
   Representative representative, std::vector<std::string>& dropped);

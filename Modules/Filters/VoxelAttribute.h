@@ -26,7 +26,7 @@ enum class AttributeKind
   Normal,   ///< Averaged, turned with the transform, re-normalised.
   Category, ///< The value most points have, component by component; the smallest on a tie.
   Median,   ///< Component by component, of an even number the lower middle one.
-  Chosen,   ///< That of the point that stands for the voxel.
+  Chosen,   ///< Value of the point that represents the voxel.
 };
 
 /// Properties of an input array, independent of which points are averaged: valid until its values change.
@@ -43,7 +43,7 @@ public:
   /// Keeps a reference to @p input; if its memory is not plain tuples of numbers, it is copied first. @p
   /// known: values() of an earlier object of the same input and kind, or null.
   VoxelAttribute(vtkDataArray* input, AttributeKind kind, const AttributeValues* known = nullptr);
-  /// For requests of which many are made: each looks for the range otherwise.
+  /// Finds the range once, for many requests: without it each looks for it.
   void findRange(InstructionSet instructions, const Executor& executor);
   const AttributeValues& values() const { return values_; }
 
@@ -53,17 +53,17 @@ public:
   /// An empty array of the name, components, information and lookup table of the input, whose numbers are as
   /// the resampler gives them.
   vtkSmartPointer<vtkDataArray> emptyArray() const;
-  /// The same in the type of the input.
+  /// Returns @p plain in the type of the input.
   vtkSmartPointer<vtkDataArray> inOwnType(vtkSmartPointer<vtkDataArray> plain) const;
   /// The tuples of the @p points, for AttributeKind::Chosen.
   vtkSmartPointer<vtkDataArray> chosen(
     const std::vector<std::int64_t>& points, ArrayPool& pool, const Executor& executor) const;
 
 private:
-  vtkSmartPointer<vtkDataArray> input_; ///< As given.
-  vtkSmartPointer<vtkDataArray> plain_; ///< The same as tuples in memory.
+  vtkSmartPointer<vtkDataArray> input_; ///< The array as given.
+  vtkSmartPointer<vtkDataArray> plain_; ///< The input as tuples in memory.
   AttributeKind kind_;
-  AttributeView view_; ///< Of plain_.
+  AttributeView view_; ///< View of plain_.
   AttributeValues values_;
 };
 

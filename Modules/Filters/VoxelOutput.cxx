@@ -69,11 +69,11 @@ vtkSmartPointer<vtkPoints> makePoints(
   allocator.take(OutputAllocator::Means, points->GetData(), engine.size());
   if (singlePrecision)
   {
-    engine.copyMeans(0, vtkFloatArray::FastDownCast(points->GetData())->GetPointer(0), executor);
+    engine.copyMeans(vtkFloatArray::FastDownCast(points->GetData())->GetPointer(0), executor);
   }
   else
   {
-    engine.copyMeans(0, vtkDoubleArray::FastDownCast(points->GetData())->GetPointer(0), executor);
+    engine.copyMeans(vtkDoubleArray::FastDownCast(points->GetData())->GetPointer(0), executor);
   }
   return points;
 }
@@ -91,7 +91,7 @@ vtkSmartPointer<vtkDataArray> reducedArray(const VoxelResampler& engine, std::si
   {
     array = attribute.emptyArray();
     allocator.take(OutputAllocator::Attributes + i, array, engine.size());
-    engine.copyAttribute(0, i, array->GetVoidPointer(0), executor);
+    engine.copyAttribute(i, array->GetVoidPointer(0), executor);
     array = attribute.inOwnType(array);
   }
   if (request.representative != Representative::Mean && isNormal && !request.transform.isIdentity())
@@ -129,7 +129,7 @@ vtkSmartPointer<vtkIdTypeArray> makeCounts(
   auto counts = vtkSmartPointer<vtkIdTypeArray>::New();
   counts->SetName("VoxelPointCount");
   allocator.take(OutputAllocator::Counts, counts, engine.size());
-  engine.copyCounts(0, reinterpret_cast<std::int64_t*>(counts->GetPointer(0)), executor);
+  engine.copyCounts(reinterpret_cast<std::int64_t*>(counts->GetPointer(0)), executor);
   return counts;
 }
 
@@ -146,7 +146,7 @@ vtkSmartPointer<vtkDoubleArray> makeCovariances(
     array->SetComponentName(c, names[c]);
   }
   allocator.take(OutputAllocator::Covariances, array, engine.size());
-  engine.copyCovariances(0, reinterpret_cast<SymMat3*>(array->GetPointer(0)), executor);
+  engine.copyCovariances(reinterpret_cast<SymMat3*>(array->GetPointer(0)), executor);
   return array;
 }
 

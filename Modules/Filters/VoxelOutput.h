@@ -46,23 +46,23 @@ public:
   void* allocate(std::size_t part, std::size_t bytes) override;
   /// Moves the memory of a part into @p array, of so many tuples; where there is none, allocates it.
   void take(std::size_t part, vtkDataArray* array, std::int64_t tuples);
-  /// Frees what was not taken.
+  /// Frees the memory that no array took.
   void release();
 
 private:
   void*& of(std::size_t part);
 
   ArrayPool& pool_;
-  std::vector<void*> memory_; ///< Of each part, or null.
+  std::vector<void*> memory_; ///< Memory of each part, or null.
 };
 
 // Memory comes from the @p allocator that the engine wrote to.
 
-/// @p singlePrecision: that of the request.
+/// Makes points of the means. @p singlePrecision: that of the request.
 vtkSmartPointer<vtkPoints> makePoints(
   const VoxelResampler& engine, bool singlePrecision, ArrayAllocator& allocator, const Executor& executor);
-/// What the engine made of the array of @p attribute: for a representative that is a point of the
-/// input its tuples, else those of attribute @p i of @p request.
+/// The engine's result for the array of @p attribute: the tuples of points where a representative is a point
+/// of the input, else those of attribute @p i of @p request.
 vtkSmartPointer<vtkDataArray> reducedArray(const VoxelResampler& engine, std::size_t i,
   const VoxelAttribute& attribute, bool isNormal, const VoxelRequest& request, ArrayPool& pool,
   ArrayAllocator& allocator, const Executor& executor);
@@ -95,7 +95,7 @@ struct OutputFiller
   ArrayPool& pool;
   ArrayAllocator& allocator;
   const Executor& executor;
-  bool singlePrecision = false; ///< That of the request.
+  bool singlePrecision = false; ///< Setting of the request.
   bool covariances = false;
   vtkIdType minimumPoints = 1;                       ///< Voxels of fewer are left out.
   std::optional<std::vector<std::int64_t>> pointIds; ///< The array of KeepOriginalPointIds, if there is one.

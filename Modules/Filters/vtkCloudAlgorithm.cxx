@@ -44,7 +44,7 @@ std::string nameOf(vtkCompositeDataIterator* block)
 struct vtkCloudAlgorithm::Parts
 {
   Clouds clouds;
-  std::vector<Outputs> outputs; ///< Of each cloud, for each port.
+  std::vector<Outputs> outputs; ///< Outputs of each cloud, for each port.
   std::string others;           ///< Names of blocks without points.
 
   Parts(vtkDataObject* input, const std::vector<vtkSmartPointer<vtkDataObject>>& results)

@@ -50,7 +50,7 @@ public:
   vtkMTimeType GetMTime() override;
 
   /**
-   * What was wrong with the last update; empty: nothing.
+   * Errors of the last update; empty: none.
    */
   const std::string& GetErrorMessage() const { return this->ErrorMessage; }
 
@@ -70,12 +70,12 @@ protected:
   virtual bool BeginRun(const Clouds& clouds) = 0;
   /// Fills an output for each port from one cloud. @return as BeginRun().
   virtual bool RunCloud(vtkPointSet* cloud, const Outputs& outputs) = 0;
-  /// Lets go of what the run needed. @p succeeded: false after Fail() or an abort.
+  /// Releases the data of the run. @p succeeded: false after Fail() or an abort.
   virtual void EndRun(bool succeeded) = 0;
 
-  /// Says what is wrong: the outputs become empty.
+  /// Reports the error @p problem; the outputs become empty.
   void Fail(const std::string& problem);
-  /// Says it once in a run, however many clouds are concerned.
+  /// Warns once in a run, however many clouds are concerned.
   void Warn(const std::string& text);
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
@@ -88,7 +88,7 @@ private:
 
   bool RunsAgain = false;
   std::string ErrorMessage;
-  std::set<std::string> Warnings; ///< Of this run.
+  std::set<std::string> Warnings; ///< Warnings of this run.
   vtkTimeStamp RetryTime;
 
   vtkCloudAlgorithm(const vtkCloudAlgorithm&) = delete;

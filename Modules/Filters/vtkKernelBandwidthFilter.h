@@ -84,8 +84,8 @@ public:
 
   ///@{
   /**
-   * What counts as the neighbourhood of a point. In a fixed ball the spread hardly changes with density, so
-   * only KNearest (default) makes the radius follow it.
+   * Kind of a point's neighbourhood. In a fixed ball the spread hardly changes with density, so only KNearest
+   * (default) makes the radius follow it.
    */
   virtual void SetNeighborhood(int value)
   {

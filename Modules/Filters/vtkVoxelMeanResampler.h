@@ -210,13 +210,12 @@ public:
   };
   ///@{
   /**
-   * What stands for the points of a voxel. NearestToMean, NearestToCenter: one of them, whose values all
-   * arrays have (the active normals turned with the transform). Of points at the same distance, which is
-   * exact, the one with the smallest x, then y, then z, then values in the order of the arrays. Median: by
-   * coordinate and by component, of an even number of points the lower middle one, NaN above all numbers;
-   * categorical arrays have the value most points have. VoxelPointCount and VoxelCovariance are those of all
-   * points of the voxel. Results are the same for every order of the points and number of threads. Default:
-   * Mean.
+   * Representative of the points of a voxel. NearestToMean, NearestToCenter: one of the points, whose values
+   * all arrays have (the active normals turned with the transform). Among points at exactly the same distance
+   * it is the one with the smallest x, then y, then z, then values in the order of the arrays. Median: by
+   * coordinate and by component, the lower middle one of an even number, NaN above all numbers; categorical
+   * arrays have the value most points have. VoxelPointCount and VoxelCovariance are those of all points of
+   * the voxel. Results are the same for every order of the points and number of threads. Default: Mean.
    */
   virtual void SetRepresentative(int representative);
   virtual int GetRepresentative() const { return static_cast<int>(this->Settings.representative); }
@@ -332,15 +331,15 @@ public:
 
   ///@{
   /**
-   * Of the last update, over all blocks: finite points outside the workspace, points that are NaN or
-   * infinite.
+   * Points left out of the last update, over all blocks: finite ones outside the workspace, and those that
+   * are NaN or infinite.
    */
   vtkGetMacro(NumberOfClippedPoints, vtkIdType);
   vtkGetMacro(NumberOfInvalidPoints, vtkIdType);
   ///@}
 
   /**
-   * Not before the transform's.
+   * At least the MTime of the transform.
    */
   vtkMTimeType GetMTime() override;
 
@@ -375,7 +374,7 @@ private:
 
   pointhaptics::VoxelMeanSettings Settings;
   bool LatticePerBlock = false;
-  // What of it is returned by pointers, in VTK's order.
+  // Copies of settings that are returned by pointers, in VTK's order.
   double WorkspaceBounds[6];
   int Dimensions[3];
 

@@ -106,17 +106,18 @@ private:
 
   /// A point of the input stands for each voxel.
   bool KeepsPoints() const;
-  /// What an attribute is in voxels.
+  /// The array of attribute @p i with one tuple a voxel.
   vtkSmartPointer<vtkDataArray> ReducedArray(std::size_t i);
   void ChooseArrays(vtkPointSet* input);
   bool UseIndex(vtkPointSet* input);
   bool Resample(vtkPointSet* input);
 
   vtkVoxelMeanResampler* Filter;
-  pointhaptics::VoxelMeanSettings Settings;      ///< Of this run: observers of progress may set others.
-  pointhaptics::AffineTransform Transform;       ///< Of this run.
-  std::optional<pointhaptics::Bounds> Workspace; ///< Of all clouds; none: each has its own.
-  vtkIdType NumberOfPoints = 0;                  ///< Of all clouds.
+  pointhaptics::VoxelMeanSettings Settings;      ///< Settings of this run: observers of progress may set
+                                                 ///< others.
+  pointhaptics::AffineTransform Transform;       ///< Transform of this run.
+  std::optional<pointhaptics::Bounds> Workspace; ///< Workspace of all clouds; none: each has its own.
+  vtkIdType NumberOfPoints = 0;                  ///< Number of points of all clouds.
   bool Aborted = false;
   pointhaptics::SmpExecutor Smp;
   pointhaptics::VoxelRequest Request;
@@ -133,5 +134,5 @@ private:
   ArraySeen Seen;
   int PartialViews = 0;
   bool Indexed = false;
-  std::vector<KnownValues> Known; ///< Of the arrays of the last input, if it may be indexed.
+  std::vector<KnownValues> Known; ///< Values of the arrays of the last input, if it may be indexed.
 };

@@ -24,19 +24,19 @@ public:
   /// Joule that a contact may return beyond what it took: rounding and the curvature of the way within a
   /// tick. Without it spheres and tori of the test shapes lose force in the last digits.
   static constexpr double kSlack = 1e-6;
-  /// Part of the work taken that a contact may return on top, and how much of that in all, joule. Fits of a
-  /// rough surface are no exact gradient of a distance: without it a slide over bare vertices lets the force
-  /// drift some percent below the spring's.
+  /// A contact may return kTolerance of the work taken on top, and at most so many joule in all. Fits of a
+  /// rough surface are no exact gradient of a distance: without this tolerance the force drifts some percent
+  /// below the spring's while a hand slides over bare vertices.
   static constexpr double kTolerance = 0.01;
   static constexpr double kMostTolerance = 1e-4;
 
   void reset() noexcept { *this = ContactEnergy(); }
 
-  /// @param before force of the last tick. @param wanted force of this one. @param moved way of the hand
-  /// between them. @return the largest part of @p wanted, 0 to 1, whose stored energy was put in.
+  /// Returns the largest part of @p wanted, 0 to 1, whose stored energy the hand has put in. @param before
+  /// force of the last tick. @param wanted force of this one. @param moved way of the hand between them.
   double part(const Vec3& before, const Vec3& wanted, const Vec3& moved, double stiffness) const noexcept
   {
-    // a s^2 + b s <= c for the part s.
+    // Solves a s^2 + b s <= c for the part s.
     const double a = 0.5 * norm2(wanted) / stiffness;
     const double b = 0.5 * dot(wanted, moved);
     const double c = taken_ - 0.5 * dot(before, moved);
@@ -48,7 +48,7 @@ public:
     return root2 > 0.0 && a > 0.0 ? std::clamp((std::sqrt(root2) - b) / (2.0 * a), 0.0, 1.0) : 0.0;
   }
 
-  /// Counts the work of a tick with the force that was chosen.
+  /// Counts the work of a tick in which @p force was sent.
   void add(const Vec3& before, const Vec3& force, const Vec3& moved) noexcept
   {
     const double work = -0.5 * dot(before + force, moved);
@@ -57,7 +57,8 @@ public:
     taken_ = std::max(0.0, taken_ + work + extra);
   }
 
-  /// What the model, its scene or the parameters did is no work of the hand: @p force is stored now.
+  /// Raises the allowed energy to what @p force stores now: work of the model, its scene or the parameters is
+  /// no work of the hand.
   void allow(const Vec3& force, double stiffness) noexcept
   {
     taken_ = std::max(taken_, kSlack + 0.5 * norm2(force) / stiffness);

@@ -12,8 +12,8 @@ namespace pointhaptics
 namespace
 {
 
-/// Radius over the index cell from which on points are sparser than cells: 1.5 cells apart. Less: bends of
-/// dense surfaces count.
+/// Points are sparser than cells from this radius on, over the index cell: they are then 1.5 cells apart.
+/// With a smaller limit bends of dense surfaces would count.
 constexpr double kSparseInCells = 3.6;
 /// For each cell of level 0 the index of the first one at the same place.
 std::vector<std::uint32_t> firstAtPlace(const CellPyramid& pyramid)
@@ -133,7 +133,7 @@ void ContactField::mergeCells()
       }
       merged.back() = std::max(merged.back(), cells_[0][i]);
     }
-    // A run that the pyramid counts otherwise would give all cells behind it the radius of another.
+    // A run that the pyramid counted otherwise would shift the radii of all cells behind it.
     if (merged.size() != pyramid_->level(level).cells.size())
     {
       merged.assign(pyramid_->level(level).cells.size(), float(largest_));

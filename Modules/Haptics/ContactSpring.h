@@ -10,8 +10,8 @@ namespace pointhaptics
 
 /// Magnitude of the spring's force over its length. It is K times the length up to the force limit F, stays
 /// at F up to twice the hold length, and fades smoothly to 0 at three times the hold length. So a press into
-/// a solid does not soften, and no hand is pulled for good. The hold length is F/K, within 5 and 15 mm: a
-/// hand tells a shorter way from a tremor, and a longer one does not fit into the reach of desktop devices; a
+/// a solid stays hard, and no hand is pulled for ever. The hold length is F/K, within 5 and 15 mm: a hand
+/// tells a shorter way from a tremor, and a longer one does not fit into the reach of desktop devices; a
 /// spring softer than F over 30 mm is below F where it fades. With an infinite limit the spring is plain and
 /// never fades. Newtons, metres; any thread.
 class ContactSpring
@@ -19,7 +19,7 @@ class ContactSpring
 public:
   static constexpr double kLeastHold = 5e-3;
   static constexpr double kMostHold = 15e-3;
-  /// Over the hold length: where the fade begins and ends.
+  /// Begin and end of the fade, over the hold length.
   static constexpr double kFadeBegins = 2.0;
   static constexpr double kFadeEnds = 3.0;
 
@@ -30,10 +30,10 @@ public:
   {
   }
 
-  /// A longer spring has no force.
+  /// Length from which on the spring has no force, metres.
   double end() const noexcept { return kFadeEnds * hold_; }
 
-  /// @return what the plain spring of this length is multiplied by, 0 to 1; exactly 1 below limit and fade.
+  /// @return the factor on the plain spring's force at this length, 0 to 1; exactly 1 below limit and fade.
   double part(double length) const noexcept
   {
     const double plain = stiffness_ * length;

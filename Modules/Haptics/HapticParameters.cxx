@@ -29,7 +29,7 @@ bool valid(const GradientStepsParameters& steps) noexcept
 
 Status ForceLimits::check() const noexcept
 {
-  // Up to infinity on purpose: an offline run has no motor to protect.
+  // Infinity is allowed: a run in virtual time has no motor to protect.
   return maximumForce >= 0.0 && maximumSlewRate >= 0.0 ? Status::Ok : Status::InvalidParameter;
 }
 

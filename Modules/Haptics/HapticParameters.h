@@ -17,20 +17,21 @@ enum class ProxyMethod
   Sphere,        ///< The ball that decides about contact for SurfaceFit, alone: a sphere among the points.
 };
 
-/// How the proxy meets the surface and what the spring is. Plain data; hand it to Proxy by value.
+/// Contact and spring of a proxy. Plain data.
 struct ContactParameters
 {
   double stiffness = 800.0;     ///< K, N/m, 0 to 1e5.
-  double damping = 0.0;         ///< Of the HIP's speed along the normal in contact, N s/m, 0 to 1e3.
+  double damping = 0.0;         ///< Damps the HIP's speed along the normal in contact, N s/m, 0 to 1e3.
   double staticFriction = 0.0;  ///< mu_s, 0 to 10; at least dynamicFriction.
   double dynamicFriction = 0.0; ///< mu_d, 0 to 10.
-  /// In contact the force follows the hand by at most 2 K |dH| a tick with SurfaceFit and Sphere, and changes
-  /// that are not the hand's (a zoom in touch, a jump of the nearest point) at this rate, with every method
-  /// those of parameters and scenes; N/s, above 0 to infinity: at once. Where contact ends the force does.
+  /// Rate of changes in contact that the hand did not cause, N/s, above 0; infinity: at once. With SurfaceFit
+  /// and Sphere the force follows the hand by at most 2 K |dH| a tick, and a zoom in touch or a jump of the
+  /// nearest point settles at this rate. With every method so do changes of parameters and scenes. Where
+  /// contact ends the force ends at once.
   double settleRate = 100.0;
-  /// Of the device itself, N s/m, 0 to 1e3; 0: unknown. For programs that step a Proxy without ServoLoop,
-  /// which refuses such springs by HapticPort::limits(): where it is known the stiffness is kept at
-  /// largestPassiveStiffness(), here 2 (deviceDamping - damping) / T, T the tick.
+  /// Viscous damping of the device, N s/m, 0 to 1e3; 0: unknown. It is for programs that step a Proxy without
+  /// ServoLoop, which refuses such springs by HapticPort::limits(). Where it is known the stiffness is kept
+  /// at largestPassiveStiffness(), here 2 (deviceDamping - damping) / T, T the tick.
   double deviceDamping = 0.0;
   /// F, N: the force never exceeds it; above 0, infinity: none, for virtual time only. The spring has its
   /// full force up to F/K, the limit from there to twice the hold length (F/K, within 5 and 15 mm), and fades
@@ -82,7 +83,7 @@ struct GradientStepsParameters
 };
 static_assert(listsEveryMember<GradientStepsParameters>());
 
-/// Limits the force must keep whatever the proxy says; in newtons and newtons per second.
+/// Limits of the force whatever the proxy answers; newtons and newtons per second.
 struct ForceLimits
 {
   double maximumForce = 8.0; ///< Clamp of |f|, 0 to infinity; the Falcon's drive ends near 8 N.

@@ -20,31 +20,30 @@ namespace
 constexpr double kPi = 3.14159265358979323846;
 /// Proxy radius in local spacings where the caller gives none.
 constexpr double kRadiusInSpacings = 2.8;
-/// The index cell is at least this part of the typical spacing: finer ones would be empty.
+/// The index cell is at least this part of the typical spacing: finer cells would be empty.
 constexpr double kCellInSpacings = 0.8;
 /// Longest fit radius in index cells.
 constexpr double kLargestFitRadiusInCells = 18.0;
-/// A cell this much larger or smaller than the spacing asks for will do.
+/// An index cell is kept while it differs by less than this factor from the one that the spacing asks for.
 constexpr double kCellTolerance = 1.1;
 /// Index cell of a cloud without any extent, metres.
 constexpr double kCellWithoutExtent = 1e-3;
-/// Finest index cell asked for that is tried as it is, over the extent.
+/// An index cell finer than the extent over this number is not tried.
 constexpr double kMostCellsAcross = 1 << 20;
 /// Points per cell up to which cells are as fine as the points.
 constexpr double kPointsPerFineCell = 2.0;
-/// The same up to which a cloud is sparse, if its points are so many of the voxels asked for apart.
+/// Points per cell up to which a cloud counts as sparse, if its points are also kSparseInVoxels voxels apart.
 constexpr double kPointsPerSparseCell = 1.4;
 constexpr double kSparseInVoxels = 1.2;
 /// Least radius of the ball over the index cell: with less it enters the gaps between the means of voxels.
 constexpr double kLeastRadiusInCells = 2.0;
-/// A cloud of fewer points has no surface, and cells as large as they are far apart: the least radius is this
-/// part of its extent at most.
+/// Clouds of fewer than kFewPoints have no surface: the least radius is at most kOfFewPoints of their extent.
 constexpr std::size_t kFewPoints = 16;
 constexpr double kOfFewPoints = 0.02;
-/// How far beyond what they cover local scenes have all cells and fields, in index cells.
+/// Margin about the box of local scenes in which cells and fields are complete, in index cells.
 constexpr double kSharedCells = 8.0;
-/// From 1e12 m on rounding errors of the ball, which is some 50 times as large as such a cloud, push the
-/// hand.
+/// Largest coordinate, metres. The ball of a cloud at 1e12 m is some 50 times as large as the cloud, and its
+/// rounding errors push the hand.
 constexpr double kFarthest = 1e9;
 constexpr std::size_t kSpacingSamples = 500;
 constexpr std::size_t kSpacingNeighbors = 6;
@@ -108,7 +107,8 @@ double typicalSpacing(const CellPyramid& pyramid, double extent)
   return *middle;
 }
 
-/// Builds the pyramid with cells as asked for, or coarser where those would be empty between the points.
+/// Builds the pyramid with the requested cells, or with coarser ones where those would be empty between the
+/// points.
 Status buildPyramid(
   std::vector<Cell> cells, double asked, double extent, const Vec3* corner, CellPyramid& pyramid)
 {
@@ -167,7 +167,7 @@ double pointsPerCell(const CellPyramid& pyramid)
   return points / double(cells.size());
 }
 
-/// The values of the fields at each of their nodes; of a local scene at those for which it has enough cells.
+/// Computes the fields at their nodes; in a local scene at those nodes that have enough cells.
 Status newScales(const HapticSceneInput& input, const CellPyramid& pyramid, double extent,
   const Executor& executor, const std::vector<NodeUse>* uses, std::vector<LocalScale>& scales)
 {
@@ -192,7 +192,7 @@ Status newScales(const HapticSceneInput& input, const CellPyramid& pyramid, doub
     }
   }
   FitNeeds needs = input.local ? FitNeeds::ofFineCells() : FitNeeds();
-  // There are no finer cells to be had.
+  // Finer cells do not exist.
   needs.finerWhereShaped = !input.local && pointsPerCell(pyramid) <= kPointsPerFineCell;
   const double largest = std::max(extent, kLargestFitRadiusInCells * size);
   scales =
@@ -221,7 +221,7 @@ Status HapticScene::Cloud::index(const HapticSceneInput& input, std::vector<Cell
   const Vec3 above = input.corner ? bounds.minimum - *input.corner : Vec3{ -1.0, -1.0, -1.0 };
   aligned = above.x >= 0.0 && above.y >= 0.0 && above.z >= 0.0;
   const Vec3* const corner = aligned ? &*input.corner : nullptr;
-  // A scene of a part has the cells of the whole, lest those of neighbouring places differ.
+  // A local scene has the cells of the global one: cells of neighbouring places must not differ.
   const double given = input.local                ? input.cellSize
     : input.region && input.region->globalScene() ? input.region->cellSize()
                                                   : 0.0;
@@ -243,7 +243,7 @@ Status HapticScene::Cloud::index(const HapticSceneInput& input, std::vector<Cell
   {
     const double size = pyramid.level(0).voxelSize;
     latticeCells = size == input.cellSize;
-    // Nobody knows how far a region without a global scene must go if its cells are coarser than voxels.
+    // Without a global scene the reach of a region is known only for cells as fine as voxels.
     status = input.region && size != input.region->cellSize() ? Status::InvalidParameter : status;
     leastCovering = ofVoxels ? kRadiusInSpacings * size : 0.0;
   }
@@ -328,7 +328,7 @@ Status HapticScene::Cloud::measure(HapticSceneInput input, const Executor& execu
 {
   const std::optional<LocalRegion> region = std::move(input.region);
   const std::vector<NodeUse> uses = region ? region->uses(pyramid) : std::vector<NodeUse>();
-  // Where there are few points a fit may grow over the whole cloud.
+  // With few points a fit may grow over the whole cloud.
   const HapticScene* const global = region ? region->globalScene().get() : nullptr;
   const double whole = global ? region->scale() * norm(global->bounds().extent()) : norm(bounds.extent());
   std::vector<LocalScale> scales;
@@ -344,7 +344,7 @@ Status HapticScene::Cloud::measure(HapticSceneInput input, const Executor& execu
   }
   scale.build(pyramid, std::move(scales));
   pyramid.reclassifyMixedCells([this](const Vec3& place) { return scale.noiseAt(pyramid, place); });
-  // Beyond a node's reach no cell of its voxel can be nearer than the reach less the voxel's diagonal.
+  // Beyond a node's reach no cell of its voxel is nearer than the reach less the voxel's diagonal.
   const int nodeLevel = RadiusField::nodeLevel(pyramid);
   clearance = scale.reach() - std::sqrt(3.0) * pyramid.level(nodeLevel).voxelSize;
   if (region)
@@ -386,7 +386,7 @@ std::shared_ptr<const HapticScene> HapticScene::create(
   const std::optional<HapticSceneInput::Local> local = input.local;
   std::shared_ptr<const HapticScene> global = input.region ? input.region->globalScene() : nullptr;
   status = cloud->index(input, std::move(cells));
-  // A scene near the hand has cells as fine as its points; one of a part is as sparse as the whole.
+  // A fine local scene has cells as fine as its points; a regional one is as sparse as the global scene.
   if (status == Status::Ok && !local &&
     (global ? global->sparseSpacing() > 0.0 : cloud->isSparse(input.cellSize)))
   {

@@ -23,37 +23,37 @@ namespace pointhaptics
 
 class HapticScene;
 
-/// What a snapshot is built from; all vectors have one entry per point, or are empty where that is said.
-/// Frame: the workspace (the transformed cloud); units: metres.
+/// Input of HapticScene::create(). Vectors have one entry per point; those that may be empty say so. Frame:
+/// the workspace (the transformed cloud); units: metres.
 struct HapticSceneInput
 {
   std::vector<Vec3> points;         ///< Voxel means, or raw points.
   std::vector<double> counts;       ///< Points each one stands for; empty: 1 each.
   std::vector<SymMat3> covariances; ///< Central second moments of each voxel; empty: zero.
   std::vector<double> proxyRadii;   ///< From the bandwidth; empty: found as the next line says.
-  /// The rule for the radii, of which only those that the scene needs are computed, a few in a hundred: the
-  /// scene is the same, bit for bit, as with the proxyRadii of localBandwidths, which takes the counts for
-  /// the density of the points unless usePointCounts is off. Neither: 2.8 local spacings everywhere.
+  /// Rule for the radii. Only the radii that the scene needs are computed, a few in a hundred; the scene is
+  /// the same, bit for bit, as with the proxyRadii of localBandwidths. Counts give the density of the points
+  /// unless usePointCounts is off. Without rule and radii: 2.8 local spacings everywhere.
   std::optional<LocalBandwidthSettings> bandwidth;
-  /// Edge of the finest index cell: the voxel size; 0: from the points' spacing. Raised to 0.8 typical
-  /// spacings where the points are sparser: finer cells would be empty; not that of a local scene.
+  /// Edge of the finest index cell: the voxel size; 0: from the points' spacing. It is raised to 0.8 typical
+  /// spacings where the points are sparser, as finer cells would be empty; not in a local scene.
   double cellSize = 0.0;
-  /// A place no point is below on any axis, such as the lattice's corner: index cells are counted from there,
-  /// and not from the points' own corner. Without effect where a point is below it.
+  /// Origin from which index cells are counted, such as the lattice's corner, in place of the points' own
+  /// corner. Without effect if a point is below it on an axis.
   std::optional<Vec3> corner;
-  /// The scene is of what is in a box alone, with finer cells than a scene of the whole cloud.
+  /// A scene of a box alone, with finer cells than a scene of the whole cloud.
   struct Local
   {
-    Bounds covered; ///< Where it is to be felt; the points go on for some fit radii beyond.
-    std::shared_ptr<const HapticScene> global; ///< What is felt elsewhere; not null.
+    Bounds covered; ///< Box in which it is felt; the points go on for some fit radii beyond.
+    std::shared_ptr<const HapticScene> global; ///< The scene that is felt elsewhere; not null.
   };
   std::optional<Local> local;
-  /// The scene is of these cells of the cloud alone; points that the region does not hold are left out. Where
-  /// it has no global scene the points must be dense enough for cells of cellSize.
+  /// Region of the cloud that this scene consists of; other points are left out. Where it has no global scene
+  /// the points must be dense enough for cells of cellSize.
   std::optional<LocalRegion> region;
-  /// What builds it, as far as this machine has them; the scene is the same, bit for bit.
+  /// Instructions to build it with, as far as this machine has them; the scene is the same, bit for bit.
   InstructionSet instructions = InstructionSet::Automatic;
-  std::shared_ptr<const SceneOrigin> origin; ///< How the points came about; null: not known.
+  std::shared_ptr<const SceneOrigin> origin; ///< Origin of the points; null: not known.
   AffineTransform
     modelToWorkspace; ///< The transform the points went through; carries the proxy into a new snapshot.
 };
@@ -76,7 +76,7 @@ public:
   static std::shared_ptr<const HapticScene> create(
     HapticSceneInput input, Status& status, const Executor& executor = {});
 
-  /// The same cloud where @p modelToWorkspace puts the model: turned, shifted, mirrored or uniformly scaled
+  /// This cloud where @p modelToWorkspace puts the model: turned, shifted, mirrored or uniformly scaled
   /// against how it was resampled. The HIP is taken into the lattice frame and the answer back, so this costs
   /// nothing per point (below a microsecond) and shares all memory; the force is that of a cloud resampled
   /// under @p modelToWorkspace up to the accuracy of either. What create() clipped stays away, and the voxels
@@ -85,12 +85,11 @@ public:
   /// similarity against the one of create() (shear, or a scale that differs by axis): resample. Any thread.
   std::shared_ptr<const HapticScene> moved(const AffineTransform& modelToWorkspace, Status& status) const;
 
-  /// A local scene has the newest global one, of the whole cloud, as its fallback, moved to the same place:
-  /// that is to be felt where this one does not cover(). Null: this one is global, or nothing can be felt
-  /// elsewhere before there is a global scene.
+  /// The newest global scene, moved to the same place: it is felt where this local scene does not cover().
+  /// Null: this one is global, or no global scene is made yet.
   const HapticScene* fallback() const { return fallback_.get(); }
   bool isLocal() const { return !cloud_->covered.empty(); }
-  /// Whether a hand at @p p (lattice frame) feels what it would feel in a global scene.
+  /// True if a hand at @p p (lattice frame) feels the same in a global scene.
   bool covers(const Vec3& p) const noexcept
   {
     const Bounds& box = cloud_->covered;
@@ -98,18 +97,18 @@ public:
       (p.x >= box.minimum.x && p.y >= box.minimum.y && p.z >= box.minimum.z && p.x <= box.maximum.x &&
         p.y <= box.maximum.y && p.z <= box.maximum.z);
   }
-  /// Of a local scene, where it is felt; lattice frame.
+  /// Box in which a local scene is felt; lattice frame.
   const Bounds& covered() const { return cloud_->covered; }
-  /// Where this scene has the same cells and fields as @p other, of the same lattice frame: what was gathered
-  /// there serves both. Empty: nowhere. Local scenes overlap.
+  /// Box in which this scene has the same cells and fields as @p other, of the same lattice frame: cells
+  /// gathered there serve both. Empty: none. Local scenes overlap.
   Bounds sharedWith(const HapticScene& other) const noexcept;
-  /// @p memory served a scene that is the same in @p shared, and serves this one next.
+  /// Prepares @p memory, which served a scene that equals this one in @p shared.
   void carryOver(FitCells& memory, const Bounds& shared) const noexcept
   {
     memory.carryOver(pyramid(), cloud_->scale, shared);
   }
-  /// The same local scene with another fallback, which is moved to where this one is; null where it cannot be
-  /// (see moved()).
+  /// This local scene with another fallback, which is moved to where this one is; null where it cannot be
+  /// moved (see moved()).
   std::shared_ptr<const HapticScene> withFallback(const HapticScene& global, Status& status) const;
 
   std::size_t numberOfPoints() const { return pyramid().level(0).cells.size(); }
@@ -118,17 +117,18 @@ public:
   /// The transform the points went through.
   const AffineTransform& modelToLattice() const { return cloud_->modelToLattice; }
   bool isMoved() const { return isMoved_; }
-  /// Another one for each scene, also those that moved() and withFallback() make; above 0.
+  /// Number of this object, above 0: differs for each scene, also for those that moved() and withFallback()
+  /// make.
   std::uint64_t number() const { return number_; }
-  /// How its cloud was made; null where that is not known. The same for scenes that share their cloud.
+  /// Origin of the cloud; null: not known. Equal for scenes that share their cloud.
   const std::shared_ptr<const SceneOrigin>& origin() const { return cloud_->origin; }
-  /// The same for scenes that share their cloud, and for no others of this run.
+  /// Equal for scenes that share their cloud, and for no others of this run.
   std::uint64_t cloudNumber() const { return cloud_->number; }
-  /// The same for the global scene of a cloud and the local ones beside it: of the global one.
+  /// Number of the global scene's cloud: equal for a global scene and the local ones beside it.
   std::uint64_t globalCloudNumber() const { return fallback_ ? fallback_->cloudNumber() : cloudNumber(); }
   Vec3 toLattice(const Vec3& p) const noexcept { return isMoved_ ? workspaceToLattice_.apply(p) : p; }
   Vec3 toWorkspace(const Vec3& p) const noexcept { return isMoved_ ? latticeToWorkspace_.apply(p) : p; }
-  /// A unit vector of the lattice frame in the workspace.
+  /// Turns a unit vector of the lattice frame into the workspace.
   Vec3 directionToWorkspace(const Vec3& v) const noexcept
   {
     return isMoved_ ? latticeToWorkspace_.applyToVector(v) / scale_ : v;
@@ -141,17 +141,17 @@ public:
   /// Radius of the proxy sphere at @p position: smooth, from the radii of the points near it, and the cloud's
   /// typical one far from all of them; metres, above 0.
   double proxyRadius(const Vec3& position) const noexcept;
-  /// The radius of a sphere that is to stand on the cells themselves. Where those are voxels of several
-  /// points proxyRadius() may be smaller than the gaps between their means, and such a sphere would fall
-  /// through: this is at least 2.8 cells then, what the default rule gives for points a cell apart. On raw
-  /// points it is proxyRadius().
+  /// Radius of a sphere that stands on the cells themselves. Where cells are means of several points,
+  /// proxyRadius() may be smaller than the gaps between them, and such a sphere would fall through. This is
+  /// then at least 2.8 cells, the default rule for points a cell apart. On raw points it equals
+  /// proxyRadius().
   double coveringRadius(const Vec3& position) const noexcept;
   /// Radius and gate of the local surface fit at @p position: large enough for 30 points and 14 cells, more
   /// where the cloud is noisy. Functions of position only, so that the force does not depend on how the hand
   /// came there.
   LocalScale fitScale(const Vec3& position) const noexcept;
-  /// The same up to rounding, faster while the positions stay near each other; and the gradient of the
-  /// radius.
+  /// As fitScale(position) up to rounding, faster while the positions stay near each other; adds the gradient
+  /// of the radius.
   LocalScale fitScale(const Vec3& position, FitCells& memory, Vec3& radiusGradient) const noexcept
   {
     return memory.scaleAt(pyramid(), cloud_->scale, position, radiusGradient);
@@ -159,29 +159,29 @@ public:
   double fitRadius(const Vec3& position) const noexcept { return fitScale(position).radius; }
   /// False where no cell of the cloud can be within clearance() of @p position: free space to stride through.
   bool isNear(const Vec3& position) const noexcept;
-  /// Whether a point that decides about contact is within @p distance (metres, lattice frame) of @p position.
+  /// True if a point that decides about contact is within @p distance (metres, lattice frame) of @p position.
   bool hasPointsWithin(const Vec3& position, double distance) const noexcept
   {
     return contactPyramid().anyWithin(0, position, distance, [](const Cell&) { return true; });
   }
   double clearance() const { return cloud_->clearance; }
-  /// The points that decide about contact: the cells, and where those of a global scene are sparser than its
-  /// voxels asked for, points half way between them (SurfaceMidpoints.h), lest a ball that is small enough
-  /// for the shape fall between them. The midpoints are no data: no fit takes them.
+  /// The points that decide about contact: the cells. Where the cells of a global scene are sparser than the
+  /// requested voxels, points half way between them are added (SurfaceMidpoints.h), or a ball small enough
+  /// for the shape would fall between them. The midpoints are no data: no fit takes them.
   const CellPyramid& contactPyramid() const { return cloud_->contact ? *cloud_->contact : cloud_->pyramid; }
   /// The points of contactPyramid() with the radii by which they keep the ball away.
   const ContactField& contactField() const { return cloud_->field; }
   /// Edge of their finest index cell, metres.
   double contactCell() const { return contactPyramid().level(0).voxelSize; }
-  /// Spacing of the points from which on there are midpoints; 0: there are none.
+  /// Spacing of the points above which midpoints are added; 0: there are none.
   double sparseSpacing() const { return cloud_->sparse; }
-  /// Whether the index cells are counted from the corner that create() was given.
+  /// True if the index cells are counted from the corner that create() was given.
   bool isAligned() const { return cloud_->aligned; }
-  /// Whether the index cells have the size that create() was given: the points are dense enough.
+  /// True if the index cells have the size that create() was given: the points are dense enough.
   bool hasLatticeCells() const { return cloud_->latticeCells; }
   /// Standard deviation of the points about the surface near @p position, metres; 0 where no cell is near.
   double noise(const Vec3& position) const noexcept;
-  /// The values of the fields far from the cloud.
+  /// Values of the fields far from the cloud.
   const LocalScale& typicalScale() const { return cloud_->scale.typical(); }
   /// True where the covariances of the voxels are known, or each cell is a single point; false for plain
   /// means, whose fits ripple with the voxels.
@@ -190,7 +190,7 @@ public:
 private:
   HapticScene();
 
-  /// What does not change when the model moves.
+  /// The part that does not change when the model moves.
   struct Cloud
   {
     CellPyramid pyramid;
@@ -199,7 +199,7 @@ private:
     RadiusField scale;
     AffineTransform modelToLattice;
     Bounds bounds;
-    Bounds covered; ///< Of a local scene.
+    Bounds covered; ///< Box in which a local scene is felt.
     double clearance = 0.0;
     double sparse = 0.0;
     double leastCovering = 0.0; ///< coveringRadius() is not below this.
@@ -211,8 +211,7 @@ private:
 
     /// Sorts the cells into the pyramid. @pre at least one cell, and a valid modelToWorkspace.
     Status index(const HapticSceneInput& input, std::vector<Cell> cells);
-    /// Whether there is hardly more than a point in a voxel of @p asked, and not in all. @pre index() gave
-    /// Ok.
+    /// True if the voxels of @p asked hold hardly more than a point each. @pre index() gave Ok.
     bool isSparse(double asked) const;
     /// Adds midpoints where the cells are sparser than that.
     void refineContact(double asked, const Executor& executor);

@@ -13,18 +13,19 @@ namespace
 
 /// Cells of the coarsest level of a pyramid, in index cells.
 constexpr double kBlockCells = 1 << (CellPyramid::kCellLevels - 1);
-/// Nodes within this of what is covered matter there: their reach (2.2 voxels of 8 cells each), and a fit at
-/// a surface that is watched from outside.
+/// Margin of nodes that matter, in cells: their reach (2.2 voxels of 8 cells each), and a fit at a surface
+/// that is watched from outside.
 constexpr double kNodeCells = 17.6 + 3.0;
-/// Of a node that has a vote: from its mean to the cell it looks from, and beyond the last fit.
+/// Reach of a node that has a vote, in cells: from its mean to the cell it looks from, and beyond the last
+/// fit.
 constexpr double kSeedCells = 4.0;
-/// Longest radius a node may try, over the one it chooses, and in cells.
+/// Longest radius that a node may try, over the one it chooses; and at most so many cells.
 constexpr double kTriedRadii = 2.0;
 constexpr double kMostTriedCells = 20.0;
-/// The same, and beyond, where nobody knows which radii there are: those of clouds with little noise.
+/// Longest radius in cells where the global scene's radii are not known: that of clouds with little noise.
 constexpr double kTriedAlone = 14.0;
 
-/// Whether @p p is in @p box or within @p margin of it on every axis.
+/// True if @p p is in @p box or within @p margin of it on every axis.
 bool isAbout(const Bounds& box, double margin, const Vec3& p)
 {
   for (int axis = 0; axis < 3; ++axis)
@@ -79,7 +80,7 @@ std::optional<LocalRegion> LocalRegion::alone(const Bounds& hand, const Lattice&
   return isThere ? std::optional<LocalRegion>(region) : std::nullopt;
 }
 
-/// Finds what is covered, and the blocks and voxels within @p margin of it. False: there are none.
+/// Finds the covered box, and the blocks and voxels within @p margin of it. False: there are none.
 bool LocalRegion::cut(const Bounds& hand, const Lattice& lattice, double margin)
 {
   voxels_ = lattice;
@@ -99,7 +100,7 @@ bool LocalRegion::cut(const Bounds& hand, const Lattice& lattice, double margin)
     }
     first_[std::size_t(axis)] = std::int64_t(kBlockCells * std::max(0.0, low));
     end_[std::size_t(axis)] = std::int64_t(kBlockCells * std::min(blocks, high));
-    // A voxel more on either side: blocks need not end where voxels do.
+    // Blocks need not end where voxels do: one more voxel on either side.
     const double perVoxel = cellSize_ / lattice.spacing[axis];
     const double first = std::max(0.0, std::floor(double(first_[std::size_t(axis)]) * perVoxel) - 1.0);
     const double end = std::min(dimension, std::ceil(double(end_[std::size_t(axis)]) * perVoxel) + 1.0);

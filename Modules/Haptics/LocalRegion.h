@@ -19,31 +19,31 @@ namespace pointhaptics
 
 class HapticScene;
 
-/// A box about the hand, and what a scene of the cells about it takes from the newest one of the whole cloud,
-/// or without any. With one:
-/// Within covered() forces are those of a scene of the whole cloud (LocalSceneProviderTest: to 1e-13 of the
-/// strongest): the cells are the same bit for bit, and there are enough of them for the same radii of fit and
-/// proxy at all nodes of the fields that matter there. They may differ by some parts in a thousand where
-/// points are sparser than voxels, as the index cells have the size of the last global scene's then, and
-/// where a radius is cut for a much smaller one more than 30 cells away. What only the whole cloud knows,
-/// such as the radius far from all cells, is as it was. Frame: the lattice of the new scene. Immutable.
+/// A box about the hand, for a scene of the cells about it. It takes values from the newest global scene, if
+/// there is one. In that case: Within covered() forces are those of a scene of the whole cloud
+/// (LocalSceneProviderTest: to 1e-13 of the strongest): the cells are the same bit for bit, and there are
+/// enough of them for the same radii of fit and proxy at all nodes of the fields that matter there. They may
+/// differ by some parts in a thousand where points are sparser than voxels, as the index cells have the size
+/// of the last global scene's then, and where a radius is cut for a much smaller one more than 30 cells away.
+/// What only the whole cloud knows, such as the radius far from all cells, is as it was. Frame: the lattice
+/// of the new scene. Immutable.
 class LocalRegion
 {
 public:
   /// Half-width of covered() about the hand, in index cells: 4 mm in the default workspace.
   static constexpr double kReachCells = 12.0;
-  /// Lengths on the model, new over old, up to which the global scene is valid for the new one; and one over
-  /// that.
+  /// The global scene is valid for a new model whose lengths differ by at most this factor, up or down.
   static constexpr double kMostScale = 1.6;
 
-  /// @param hand what is to be within reach: the HIP and the point of contact. @param global the scene of the
-  /// whole cloud made last; its index cells are counted from a corner. @param modelToLattice
-  /// of the new scene. @param lattice of the new scene. @return nothing: the global scene has no corner, its
-  /// cloud would not keep its shape or nearly its size, or the hand is far from the workspace.
+  /// Returns the region about a hand. @param hand box that must be within reach: the HIP and the point of
+  /// contact. @param global the newest scene of the whole cloud; its index cells are counted from a corner.
+  /// @param modelToLattice of the new scene. @param lattice of the new scene. @return nothing: the global
+  /// scene has no corner, its cloud would not keep its shape or nearly its size, or the hand is far from the
+  /// workspace.
   static std::optional<LocalRegion> about(const Bounds& hand, std::shared_ptr<const HapticScene> global,
     const AffineTransform& modelToLattice, const Lattice& lattice);
 
-  /// Where there is no scene of the whole cloud yet. Nodes beside what is covered() have fewer votes, so
+  /// Returns the region where no global scene is made yet. Nodes beside the covered box have fewer votes, so
   /// radii near its end may differ from those of the whole cloud. @return nothing: the hand is far from the
   /// workspace.
   static std::optional<LocalRegion> alone(const Bounds& hand, const Lattice& lattice);
@@ -54,18 +54,19 @@ public:
   double cellSize() const { return cellSize_; }
   /// Lengths of the new scene over those of the global one's lattice frame.
   double scale() const { return scale_; }
-  /// Whether a cell with this mean belongs to the region: it lies in one of its blocks, which are as large as
+  /// True if a cell with this mean belongs to the region: it lies in one of its blocks, which are as large as
   /// the coarsest cells.
   bool holds(const Vec3& mean) const noexcept;
-  /// Voxels of @p lattice that have all means that the region holds.
+  /// Voxels of @p lattice that hold all means of the region.
   const Lattice& voxels() const { return voxels_; }
-  /// About which fraction of the global scene's cells is in it, 0 to 1. @pre there is a global scene.
+  /// Approximate fraction of the global scene's cells that the region holds, 0 to 1. @pre there is a global
+  /// scene.
   double fraction() const;
-  /// What is to be found out of each cell of the field's node level: the others are too near to the end of
-  /// the cells, and too far from what is covered to matter.
+  /// Says for each cell of the field's node level what must be computed there. Cells near the end of the
+  /// region lack neighbours, and are too far from the covered box to matter.
   std::vector<NodeUse> uses(const CellPyramid& pyramid) const;
-  /// Gives the nodes of which not all is found out the answers of the global scene, or else a typical one of
-  /// the others. False: there is neither.
+  /// Gives incomplete nodes the values of the global scene, or else typical ones of the other nodes. False:
+  /// there is neither.
   bool completeScales(
     const CellPyramid& pyramid, const std::vector<NodeUse>& uses, std::vector<LocalScale>& scales) const;
 

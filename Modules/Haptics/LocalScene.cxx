@@ -13,29 +13,31 @@ namespace
 {
 
 constexpr double kPi = 3.14159265358979323846;
-/// Points beyond what is covered, in cells: the reach of a field's nodes and of their fits.
+/// Margin of points about the covered box, in cells: the reach of a field's nodes and of their fits.
 constexpr double kMarginCells = 18.0;
-/// RMS distance of the points from the fits up to which a cloud is smooth, and their thickness within a voxel
-/// from which on it is noisy, over the voxel; least ratio of the two that is shape.
+/// A cloud is smooth up to kSmooth, the RMS distance of its points from the fits, and noisy from kThick on,
+/// the thickness within a voxel; both over the voxel. Distances above kShapeOverNoise times the thickness are
+/// shape.
 constexpr double kSmooth = 1e-3;
-/// The same of fits so many times as wide, which take all cells.
+/// Limit as kSmooth for fits kWide times as wide, which take all cells.
 constexpr double kSmoothWide = 8e-3;
 constexpr double kWide = 2.0;
 constexpr double kThick = 0.1;
 constexpr double kShapeOverNoise = 2.0;
-/// Points that determine a voxel's thickness, of which a plane takes three, and voxels that must.
+/// Points that determine a voxel's thickness (a plane takes three), and voxels that must have so many.
 constexpr double kPointsForThickness = 6.0;
 constexpr double kPointsOfPlane = 3.0;
 constexpr std::size_t kCellsForThickness = 5;
 /// Levels whose cells show edges and second sheets.
 constexpr int kMixedLevels = 2;
-/// The finer cell is at most this part of the global one, or it is not worth it.
+/// A finer scene is worth it only if its cell is at most this part of the global one.
 constexpr double kCoarsest = 0.75;
-/// Cells in the global scene's fit radius from which on finer ones only cost time.
+/// A global fit radius of more cells than this gains nothing by finer ones.
 constexpr double kCellsInFit = 16.0;
 
-/// What one surface through all cells within @p radius of the one nearest to @p place leaves of them: nothing
-/// where they are smooth, much about edges and between sheets, of which other fits see one at a time. Metres.
+/// RMS residual, metres, of one surface through all cells within @p radius of the cell nearest to @p place.
+/// It is near zero where they are smooth, and large about edges and between sheets, of which other fits see
+/// one at a time.
 double residualOfAll(const CellPyramid& pyramid, const Vec3& place, double radius, FitCells& memory)
 {
   double distance = 0.0;
@@ -58,9 +60,9 @@ double residualOfAll(const CellPyramid& pyramid, const Vec3& place, double radiu
   return fit.quality == FitQuality::Quadric ? fit.residual : INFINITY;
 }
 
-/// Whether smaller fits would resolve more within @p reach of @p seed. The points stand off the fits of the
-/// global scene by nothing where it is smooth, and by their noise where it is noisy, which is as large within
-/// a voxel as in a whole fit. What is larger in a fit than in its voxels is shape.
+/// True if smaller fits would resolve more within @p reach of @p seed. Points lie on the fits of the global
+/// scene where it is smooth, and off them by their noise where it is noisy. Noise is as large within a voxel
+/// as in a whole fit; a larger distance in a fit than in its voxels is shape.
 bool hasFineShape(const HapticScene& global, const Vec3& seed, double reach)
 {
   const CellPyramid& pyramid = global.pyramid();
@@ -104,7 +106,7 @@ bool hasFineShape(const HapticScene& global, const Vec3& seed, double reach)
 }
 
 /// The voxels of @p lattice about @p box, in whole cells of the levels that a fit may see there; none where
-/// it is outside.
+/// the box is outside.
 Lattice partOf(const Lattice& lattice, const Bounds& box)
 {
   constexpr double kBlock = 4.0;
@@ -134,7 +136,7 @@ Status LocalSceneBuilder::setCloud(const PointView& points, const Executor& exec
 }
 
 /// Edge of the cells in a scene about @p hand (workspace), metres of the lattice frame of @p global; 0: the
-/// global ones will do.
+/// global cells are fine enough.
 double LocalSceneBuilder::cellSize(const Bounds& hand, const HapticScene& global) const noexcept
 {
   const CellPyramid& pyramid = global.pyramid();
@@ -157,7 +159,7 @@ double LocalSceneBuilder::cellSize(const Bounds& hand, const HapticScene& global
   {
     return 0.0;
   }
-  // A whole fraction of the global cell, so that scenes of neighbouring places share their cells.
+  // The cell is a whole fraction of the global one, so that scenes of neighbouring places share their cells.
   const double finest = std::max(kFinest * coarse, scale.radius / kCellsInFit);
   const double most = std::max(2.0, std::floor(coarse / finest));
   const double parts = std::min(std::floor(coarse / spacing + 0.5), most);
@@ -169,7 +171,7 @@ bool LocalSceneBuilder::isUseful(const Bounds& hand, const HapticScene& global) 
   return !hand.empty() && isFinite(hand.extent()) && cellSize(hand, global) > 0.0;
 }
 
-/// The lattice that all scenes with cells of @p cell beside @p global are cut from, metres of the workspace.
+/// Lattice from which all scenes with cells of @p cell beside @p global are cut, metres of the workspace.
 Lattice LocalSceneBuilder::latticeOf(const HapticScene& global, double cell) const
 {
   Bounds box = workspace_;
@@ -237,17 +239,17 @@ std::shared_ptr<const HapticScene> LocalSceneBuilder::build(
   }
   const std::size_t size = std::size_t(resampler_.size());
   input.points.resize(size);
-  resampler_.copyMeans(0, &input.points[0].x);
+  resampler_.copyMeans(&input.points[0].x);
   // Voxels beside the part may lack points.
   const Bounds whole = part.bounds();
   std::replace_if(
     input.points.begin(), input.points.end(), [&](const Vec3& mean) { return !contains(whole, mean); },
     Vec3{ NAN, NAN, NAN });
   std::vector<std::int64_t> counts(size);
-  resampler_.copyCounts(0, counts.data());
+  resampler_.copyCounts(counts.data());
   input.counts.assign(counts.begin(), counts.end());
   input.covariances.resize(size);
-  resampler_.copyCovariances(0, input.covariances.data());
+  resampler_.copyCovariances(input.covariances.data());
   input.bandwidth = bandwidth_;
   input.cellSize = cell;
   input.corner = lattice.origin;
@@ -262,7 +264,7 @@ bool LocalSceneFollower::update(const Bounds& hand, double seconds, const Execut
   const bool moves = seconds > 0.0 && !hand.empty() && !lastHand_.empty();
   const Vec3 velocity = moves ? (hand.center() - lastHand_.center()) / seconds : Vec3();
   lastHand_ = hand;
-  // The hand, and where it will be so much later.
+  // Box of the hand now and after @p later seconds.
   const auto withAhead = [&](double later)
   {
     const double way = later * norm(velocity);

@@ -14,19 +14,20 @@ namespace pointhaptics
 {
 namespace
 {
-/// Time constant and end of the fade of a force whose HIP is not finite.
+/// Time constant of the fade of a force whose HIP is not finite, seconds.
 constexpr double kFadeSeconds = 0.010;
-/// A hand that has gone away from its contact is let go where no point is nearer, metres. With less a hand
-/// that crosses a crown of leaves is let go among them and meets the next one from inside.
+/// A hand that left its contact is released if no point is within this distance, metres. With less a hand
+/// that crosses a crown of leaves would be released among them and meet the next leaf from inside.
 constexpr double kFarFromCloud = 10e-3;
-/// Way of a hand in a tick from which on it did no work, metres: it was put there. Without it the contact
-/// that the ball finds some ticks later has no force.
+/// A hand that moves further than this in a tick, metres, did no work: it was put there. Without this the
+/// contact that the ball finds some ticks later has no force.
 constexpr double kLeap = 5e-3;
-/// Height of a contact over the plane of the sheet that the hand came through, over its distance along that,
-/// up to which it is a contact with the same sheet. With less a wave is met from behind; with more the far
-/// side of a thick part is not met.
+/// A contact belongs to the sheet that the hand came through if its height over that sheet's plane is at most
+/// this part of its distance along the plane. With less a wave is met from behind; with more the far side of
+/// a thick part is not met.
 constexpr double kSameSheet = 0.5;
-/// How far aside the sheet is taken to go on, metres. Without it the underside of another part is not felt.
+/// Distance along which the sheet is taken to go on, metres. Without it the underside of another part is not
+/// felt.
 constexpr double kSheetGoesOn = 50e-3;
 }
 
@@ -34,31 +35,34 @@ struct Proxy::Implementation
 {
   HapticParameters parameters;
   const HapticScene* scene = nullptr;
-  AffineTransform lastLattice; ///< modelToLattice of the last scene: the methods' state is in that frame.
+  AffineTransform lastLattice; ///< modelToLattice of the last scene: the state of the methods is in that
+                               ///< frame.
   std::uint64_t lastCloud = 0;
   std::uint64_t lastGlobalCloud = 0;
   AffineTransform lastPlace; ///< modelToWorkspace of the last scene.
   bool hadScene = false;
-  bool isFallback = false; ///< A local scene was set, and left.
+  bool isFallback = false; ///< True after a local scene was left.
   SurfaceFitProxy surfaceFit;
   SurfaceFitProxy::Memory memory;
-  SurfaceFitProxy::Memory prefetchMemory; ///< What a prefetch gathers must not serve a step: it is
-                                          ///< gathered about another place.
+  SurfaceFitProxy::Memory prefetchMemory; ///< Separate, since a prefetch gathers about another place and must
+                                          ///< not serve a step.
   OffsetSettler settler;
   GradientSteps gradientSteps;
   ProxyState last;
   Vec3 lastHip;
-  Vec3 lastMove; ///< Of the HIP in the last step.
+  Vec3 lastMove; ///< Motion of the HIP in the last step, metres.
   bool hasLastHip = false;
-  double lastDt = 0.0; ///< Of the last step, seconds.
+  double lastDt = 0.0; ///< Duration of the last step, seconds.
   double fadedSeconds = 0.0;
-  Vec3 carried;            ///< What a change did to the force, and has still to settle; newtons.
-  bool hasChanged = false; ///< Something did since the last step that settling the offset does not cover.
+  Vec3 carried;            ///< Jump of the force by a change that has still to settle, newtons.
+  bool hasChanged = false; ///< True if since the last step something changed that settling the offset does
+                           ///< not cover.
   bool touched = false;    ///< The method found contact in the last step.
   ContactEnergy energy;
-  bool isModelMoved = false; ///< The model, its cloud or the parameters did work that still settles.
-  bool isLetGo = false;      ///< The hand went away from its contact, and has touched nothing since.
-  /// The hand was let go behind a sheet that it touched here, from the side of this normal; workspace frame.
+  bool isModelMoved = false; ///< True while work of the model, its cloud or the parameters still settles.
+  bool isLetGo = false;      ///< True after the hand left its contact, until it touches anything.
+  /// The hand was released behind a sheet that it touched here, from the side of this normal; workspace
+  /// frame.
   bool isBehind = false;
   Vec3 behindPlace;
   Vec3 behindNormal;
@@ -91,7 +95,7 @@ struct Proxy::Implementation
     }
     else if (!newScene || newScene->cloudNumber() != lastCloud)
     {
-      // A new cloud may lie where an old one lay.
+      // A new cloud may have the address of an old one.
       memory.invalidate();
       surfaceFit.changeCells();
       gradientSteps.changeCells();
@@ -106,8 +110,8 @@ struct Proxy::Implementation
     scene = newScene;
   }
 
-  /// Whether the last step, seen from the model, lies in what a local scene covers: the next one begins
-  /// there.
+  /// True if the last step lies, in the model's frame, in the covered box of a local scene: the next step
+  /// begins there.
   bool isCoveredBy(const HapticScene& local) const noexcept
   {
     if (!scene || !hasLastHip)
@@ -120,7 +124,7 @@ struct Proxy::Implementation
       local.covers(change.apply(scene->toLattice(last.sphereCenter)));
   }
 
-  /// Takes the fallback where a local scene is left: nothing where it has none yet.
+  /// Changes to the fallback where a local scene is left; to no scene where it has no fallback yet.
   void enterFallback(const Vec3& place) noexcept
   {
     if (scene && !scene->covers(scene->toLattice(place)))
@@ -130,7 +134,7 @@ struct Proxy::Implementation
     }
   }
 
-  /// The methods begin anew, without contact. The force does not know yet.
+  /// Restarts the methods without contact. The force settles later.
   void releaseContact() noexcept
   {
     surfaceFit.reset();
@@ -154,7 +158,7 @@ struct Proxy::Implementation
     lastMove = Vec3();
   }
 
-  /// GradientSteps trembles by itself.
+  /// GradientSteps trembles by itself, so its offset is not settled.
   bool settlesOffset() const noexcept { return parameters.method != ProxyMethod::GradientSteps; }
 
   void remember(const Vec3& hip, double dt) noexcept
@@ -165,8 +169,8 @@ struct Proxy::Implementation
     lastDt = dt;
   }
 
-  /// What a change does to the force comes by at most @p shrink newtons; where the hand lets go nothing is
-  /// left.
+  /// Lets the jump of a change shrink by at most @p shrink newtons. Where the hand lets go nothing is left of
+  /// it.
   void settleChanges(ProxyState& state, double shrink) noexcept
   {
     if (touched && !state.contact)
@@ -187,14 +191,14 @@ struct Proxy::Implementation
     state.status |= std::uint32_t(carried != Vec3() ? kProxySettling : kProxyOk);
   }
 
-  /// The last state, its force fading to zero, for a hand at @p hip.
+  /// Returns the last state for a hand at @p hip, its force fading to zero.
   ProxyState fade(const Vec3& hip, std::uint32_t status, double dt) noexcept
   {
     const double before = std::max(0.0, 1.0 - fadedSeconds / kFadeSeconds);
     fadedSeconds += dt;
     const double left = std::max(0.0, 1.0 - fadedSeconds / kFadeSeconds);
     const double part = left > 0.0 ? left / before : 0.0;
-    // As long as the force that is left: the spring was limited.
+    // The spring is as long as the remaining force: it was limited.
     const double spring = parameters.contact.stiffness * norm(last.proxy - last.hip);
     const double limited = spring > parameters.contact.forceLimit ? norm(last.force) / spring : 1.0;
     const Vec3 offset = (part * limited) * (last.proxy - last.hip);
@@ -211,7 +215,8 @@ struct Proxy::Implementation
     return last;
   }
 
-  /// The servo loop's rule for a device of which the damping alone is known, answered in the same tick.
+  /// Applies the servo loop's rule to a device of which only the damping is known, and which answers in the
+  /// same tick.
   double passiveStiffness(double dt, std::uint32_t& status) const noexcept
   {
     const ContactParameters& contact = parameters.contact;
@@ -223,7 +228,7 @@ struct Proxy::Implementation
     return limited ? limit : contact.stiffness;
   }
 
-  /// What a method found in the lattice frame.
+  /// Takes a method's result from the lattice frame to the workspace.
   void toWorkspace(ProxyState& state) const noexcept
   {
     if (scene->isMoved())
@@ -235,9 +240,9 @@ struct Proxy::Implementation
     }
   }
 
-  /// Lets the contact point follow the hand at once, and the surface at the settle rate. What ends is over at
-  /// once: a force that went on in free space would be of nothing. @return whether there was anything to
-  /// settle.
+  /// Lets the contact point follow the hand at once, and the surface at the settle rate. A contact that ends
+  /// is over at once: a force that went on in free space would belong to no surface. @return true if anything
+  /// settles.
   bool settle(ProxyState& state, double stiffness, double dt) noexcept
   {
     const double shrink = stiffness > 0.0 ? parameters.contact.settleRate * dt / stiffness : INFINITY;
@@ -258,7 +263,7 @@ struct Proxy::Implementation
     return wasSettling || settler.settling();
   }
 
-  /// No contact, and none to come back to.
+  /// Ends the contact; nothing remembers its side.
   void endContact(ProxyState& state) noexcept
   {
     surfaceFit.reset();
@@ -267,7 +272,7 @@ struct Proxy::Implementation
     state.proxy = state.sphereCenter = state.hip;
   }
 
-  /// A sheet that the hand was let go behind is met again from the side it was touched on, and from no other.
+  /// Lets a hand that was released behind a sheet meet it again only from the side that it came from.
   void keepSide(ProxyState& state) noexcept
   {
     if (!isBehind || !state.contact)
@@ -285,7 +290,8 @@ struct Proxy::Implementation
     }
   }
 
-  /// Ends a contact that the hand has gone away from. A local scene has the points near the contact only.
+  /// Ends a contact that the hand has left. A local scene has only points near the contact, so the global one
+  /// decides.
   void letGo(ProxyState& state, double stiffness) noexcept
   {
     const HapticScene& whole = scene->fallback() ? *scene->fallback() : *scene;
@@ -303,7 +309,7 @@ struct Proxy::Implementation
     state.status |= std::uint32_t(isLetGo ? kProxyLetGo : kProxyOk);
   }
 
-  /// The spring's force, within its limit and what the hand has put into the contact.
+  /// Force of the spring, within its limit and the energy that the hand has put in.
   Vec3 springForce(ProxyState& state, double stiffness) noexcept
   {
     if (!state.contact)
@@ -353,7 +359,7 @@ struct Proxy::Implementation
     return force;
   }
 
-  /// Keeps the limit also while a change settles, and counts the work of the tick.
+  /// Keeps the limit while a change settles, and counts the work of the tick.
   void finishForce(ProxyState& state) noexcept
   {
     const double length = norm(state.force);
@@ -432,7 +438,7 @@ ProxyState Proxy::step(const Vec3& hip, double dt) noexcept
   Implementation& self = *implementation_;
   if (!isFinite(hip) || !(dt > 0.0))
   {
-    // The clock stands still: a tick counts as long as the last one.
+    // If the clock stands still, a tick counts as long as the last one.
     const double seconds = dt > 0.0 ? dt : self.lastDt > 0.0 ? self.lastDt : kFadeSeconds;
     return self.fade(self.last.hip, kProxyNonFiniteInput, seconds);
   }
@@ -466,7 +472,7 @@ ProxyState Proxy::step(const Vec3& hip, double dt) noexcept
     self.letGo(state, stiffness);
   }
   state.force = self.forceOf(state, stiffness, dt);
-  // One after the other, lest two make it twice the rate.
+  // Only one of them settles at a time: both together would be twice the rate.
   self.settleChanges(state, settles ? 0.0 : self.parameters.contact.settleRate * dt);
   self.finishForce(state);
   self.last = state;
@@ -494,7 +500,7 @@ void Proxy::prefetch() noexcept
   if (self.settlesOffset())
   {
     SurfaceFitProxy copy = self.surfaceFit;
-    // Gathered anew each time: whether the step will have to gather is not known here.
+    // The memory is always gathered anew, as it is not known here if the step will have to gather.
     self.prefetchMemory.invalidate();
     copy.step(*self.scene, self.prefetchMemory, self.parameters.contact, hip,
       self.parameters.method == ProxyMethod::SurfaceFit, state);

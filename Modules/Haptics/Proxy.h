@@ -12,8 +12,8 @@
 namespace pointhaptics
 {
 
-/// Bits of ProxyState::status: what bound was reached in this step, and the parameter that would cure it; and
-/// which of the rare mechanisms spoke.
+/// Bits of ProxyState::status: bounds that this step reached, with the parameter that cures them, and rare
+/// mechanisms that acted.
 enum ProxyStatus : std::uint32_t
 {
   kProxyOk = 0,
@@ -86,25 +86,25 @@ public:
   void setParameters(const HapticParameters& parameters) noexcept;
   const HapticParameters& parameters() const noexcept;
 
-  /// The scene must outlive its use here (SceneExchange sees to it). From the old scene's transform to the
-  /// new one's the contact point and normal move with the model, and so does the HIP of the last step: what
-  /// the model passes the hand with counts as met by the hand, so that a surface never ends up on its wrong
-  /// side. Null: no contact. Of a local scene the fallback (HapticScene::fallback()) is felt
-  /// from the first step on that leaves what it covers.
+  /// Sets the scene, which must outlive its use here (SceneExchange sees to it). Contact point, normal and
+  /// the last HIP move with the model from the old scene's transform to the new one's. A surface that the
+  /// model passes the hand with counts as met by the hand, so it never ends up on its wrong side. Null: no
+  /// contact. The fallback of a local scene (HapticScene::fallback()) is felt from the first step on that
+  /// leaves the covered box.
   void setScene(const HapticScene* scene) noexcept;
 
-  /// Out of contact, no memory of a side; the next HIP is taken as free space.
+  /// Ends contact and forgets its side; the next HIP is taken as free space.
   void reset() noexcept;
 
-  /// As a new proxy with the present parameters and no scene. Safe in the servo thread.
+  /// Restores a new proxy with the present parameters and no scene. Safe in the servo thread.
   void restart() noexcept;
 
   /// @param hip Position of the hand in the workspace frame, metres. @param dt Seconds since the last step, >
   /// 0.
   ProxyState step(const Vec3& hip, double dt) noexcept;
 
-  /// Steps a copy to where the HIP will be if it goes on as in the last step: what the next step will read
-  /// and run is then in the processor's caches. Changes no result of any later call, bit for bit. Costs more
+  /// Steps a copy to where the HIP will be if it moves on as in the last step, so that the next step finds
+  /// code and data in the processor's caches. Changes no result of any later call, bit for bit. Costs more
   /// than a step, about 10 us after a sleep; the step after it then takes a third of its time. Safe in the
   /// servo thread, as step() is.
   void prefetch() noexcept;

@@ -1,5 +1,5 @@
 /// @file
-/// How a scene was made, so that it can be made again.
+/// Recipe of a scene, by which it can be made again.
 #pragma once
 
 #include "Core/Bandwidth/LocalBandwidth.h"
@@ -14,24 +14,24 @@
 namespace pointhaptics
 {
 
-/// Of a scene that was made of a cloud by a resampler: with the same cloud the same scene comes of it, bit
-/// for bit. Plain data.
+/// Recipe of a scene that a resampler made of a cloud: with that cloud it gives the scene again, bit for bit.
+/// Plain data.
 struct SceneOrigin
 {
   enum class Kind
   {
     Whole,  ///< The whole cloud, resampled.
-    Region, ///< What is near the hand, as the whole cloud would be resampled (LocalRegion).
-    Fine,   ///< What is near the hand, as fine as the points there (LocalSceneBuilder).
+    Region, ///< The points near the hand, as the whole cloud would be resampled (LocalRegion).
+    Fine,   ///< The points near the hand, as fine as they are dense (LocalSceneBuilder).
   };
 
   Kind kind = Kind::Whole;
-  VoxelMeanSettings voxels; ///< Of the resampler; of Fine its workspace alone.
+  VoxelMeanSettings voxels; ///< Settings of the resampler; for Fine its workspace alone.
   std::optional<LocalBandwidthSettings> bandwidth;
   bool useCovariance = true;
-  AffineTransform modelToWorkspace; ///< The points went through it.
-  Bounds hand;                      ///< Of Region and Fine: what the scene was made about.
-  /// Of Region and Fine: the scene of the whole cloud that they were made beside; a Region may have none.
+  AffineTransform modelToWorkspace; ///< Transform of the points.
+  Bounds hand;                      ///< The box that Region and Fine were made about.
+  /// The global scene beside which Region or Fine was made; a Region may have none.
   std::uint64_t globalCloud = 0; ///< HapticScene::cloudNumber() of it.
   std::shared_ptr<const SceneOrigin> global;
 };

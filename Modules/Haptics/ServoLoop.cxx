@@ -24,7 +24,7 @@ constexpr double kIdlePeriodSeconds = 0.02;
 constexpr int kLargestTrace = 1 << 22;
 constexpr double kLongestWatch = 3600.0;
 constexpr double kEarliestWake = 1e-3;
-/// Of a period, to wake early by: the rest of the core is for others.
+/// Largest part of a period by which the thread may wake early: the rest of the core is for others.
 constexpr double kLargestEarlyPart = 0.5;
 /// Inputs kept for a reader that does not come.
 constexpr std::size_t kMostInputs = 10000;
@@ -37,7 +37,7 @@ bool valid(const ServoSettings& settings)
     settings.watchdogSeconds >= 0.0 && settings.watchdogSeconds <= kLongestWatch;
 }
 
-/// What the port says twice counts once.
+/// The limits of a port, with the lesser of its two maximum forces.
 HandLimits limitsOf(const HapticPort& port)
 {
   HandLimits limits = port.limits();
@@ -100,7 +100,8 @@ struct ServoLoop::Implementation
 {
   // Shared between the threads, each by an exchange without waiting.
   SceneExchange scenes;
-  std::mutex publishing; ///< Of its publishing side and inputs; the servo thread never takes it.
+  std::mutex publishing; ///< Guards the publishing side of scenes and inputs; the servo thread never takes
+                         ///< it.
   ServoInputs inputs;
   LatestValue<HapticParameters> parameters;
   LatestValue<ServoSample> newest;
@@ -127,7 +128,7 @@ struct ServoLoop::Implementation
   std::atomic<bool> clutched{ false };
   std::atomic<bool> beginsAnew{ false }; ///< As soon as the hand allows it.
 
-  WakefulCores wakefulCores; ///< Of the thread that starts and stops.
+  WakefulCores wakefulCores; ///< Requested by the thread that starts and stops.
 
   // The servo thread's from start() to the join in stop().
   std::thread thread;
@@ -284,7 +285,8 @@ void ServoLoop::Implementation::waitFor(std::int64_t deadline, double early) noe
   sleepUntil(deadline - std::int64_t(1e9 * early));
   // Whoever let go had published the scene that is to be felt: not the other way about.
   holdsModel = clutched.load(std::memory_order_acquire);
-  // What is prefetched is a step in the newest scene: the first one there reads what none before it did.
+  // The prefetch steps in the newest scene: without this the first tick there would read memory that no tick
+  // has read before.
   applyUpdates();
   if (early > 0.0 && steadyNanoseconds() < deadline)
   {

@@ -45,7 +45,7 @@ struct ServoSettings
   ForceLimits limits;
 };
 
-/// What a servo loop did since start(): ticks, deadline misses, faults and times.
+/// Counts and times of a servo loop since start(): ticks, deadline misses, faults.
 struct ServoStatistics
 {
   std::uint64_t ticks = 0;
@@ -76,8 +76,8 @@ struct PublishedScene
   std::uint64_t number = 0; ///< HapticScene::number(); 0: no scene.
   AffineTransform modelToWorkspace;
   std::uint64_t cloud = 0;                   ///< HapticScene::cloudNumber().
-  std::shared_ptr<const SceneOrigin> origin; ///< Of the cloud; null: not known.
-  std::uint64_t fallbackCloud = 0;           ///< The same of HapticScene::fallback(); 0: there is none.
+  std::shared_ptr<const SceneOrigin> origin; ///< Origin of the cloud; null: not known.
+  std::uint64_t fallbackCloud = 0;           ///< Cloud number of HapticScene::fallback(); 0: there is none.
   std::shared_ptr<const SceneOrigin> fallbackOrigin;
 };
 
@@ -88,14 +88,14 @@ struct PublishedParameters
   HapticParameters parameters;
 };
 
-/// What a servo loop was given beside the device, oldest first.
+/// Scenes and parameters that a servo loop was given, oldest first.
 struct ServoInputs
 {
   std::vector<PublishedScene> scenes;
   std::vector<PublishedParameters> parameters;
 };
 
-/// What the system refused, one sentence each with the cure; empty where nothing was.
+/// One sentence for each request that the system refused, with the cure; empty where nothing was refused.
 std::string describeRefusals(const ServoStatistics& statistics);
 
 /// Deadlines are absolute times of the steady clock, one period apart; the thread sleeps until shortly before
@@ -173,10 +173,10 @@ public:
   /// what was before (ServoSample::tickFlags, kTickBegins): from there on the forces can be computed again
   /// from samples and inputs. The hand feels nothing of it. The first tick after start() is such a one.
   void beginAnew() noexcept;
-  /// Of a loop that runs: what a replay of its ticks needs.
+  /// Settings of a running loop that a replay of its ticks needs.
   const ServoStepSettings& stepSettings() const noexcept;
-  /// What no force since start() or setParameters() has exceeded, and whose limit it is. Thread: that of
-  /// start() and setParameters().
+  /// Limit that no force since start() or setParameters() has exceeded, and whose limit it is. Thread: that
+  /// of start() and setParameters().
   ForceLimit forceLimit() const noexcept;
   /// steady_clock's nanoseconds at which the time of the samples is 0; 0 before the thread runs.
   std::int64_t origin() const noexcept;

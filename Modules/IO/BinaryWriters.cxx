@@ -277,7 +277,7 @@ double floatError(const OutputArray& array)
   return worst;
 }
 
-/// Of the length of a cloud: its points lose less than anybody can see by what is rounded below it.
+/// Errors below this part of a cloud's length cannot be seen.
 constexpr double kFeltPart = 1e-6;
 
 void notePcdArray(const OutputArray& array, const PcdArray& written, WriteTask& task)

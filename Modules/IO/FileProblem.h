@@ -1,5 +1,5 @@
 /// @file
-/// How the format readers and writers report a fault: one exception type that never leaves this module.
+/// Fault of a file in a format reader or writer: one exception type that never leaves this module.
 /// vtkPointCloudReader and vtkPointCloudWriter turn it into an error code and a message.
 #pragma once
 
@@ -13,7 +13,7 @@
 namespace pointhaptics::io
 {
 
-/// What is wrong (with line or byte offset and value) and what the user can do about it.
+/// Fault of a file (with line or byte offset and value) and its cure.
 class FileProblem : public std::runtime_error
 {
 public:

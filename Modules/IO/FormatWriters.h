@@ -1,6 +1,5 @@
 /// @file
-/// What the writers behind vtkPointCloudWriter share: each writes the whole of task.cloud
-/// (Formats/FormatList.h).
+/// Writers behind vtkPointCloudWriter: each writes the whole of task.cloud (Formats/FormatList.h).
 #pragma once
 
 #include "WriteTask.h"

@@ -1,5 +1,5 @@
 /// @file
-/// What every format reader gets: the bytes, where to report progress, and where to name the format.
+/// Task of a format reader: the bytes, where to report progress, and where to name the format.
 #pragma once
 
 #include "FileProblem.h"
@@ -23,7 +23,7 @@ namespace pointhaptics::io
 /// Part of the progress that reading the bytes takes; parsing them takes the rest.
 constexpr double kReadingPart = 0.3;
 
-/// What of a cloud is wanted: see vtkPointCloudReader.
+/// Part of a cloud to read: see vtkPointCloudReader.
 struct WantedPart
 {
   bool onlyPositions = false;   ///< no arrays beside the points, where leaving them out saves work
@@ -32,7 +32,7 @@ struct WantedPart
   std::array<double, 6> box{ 1.0, -1.0, 1.0, -1.0, 1.0, -1.0 }; ///< x0, x1, y0, y1, z0, z1
 
   bool hasBox() const { return box[0] <= box[1] && box[2] <= box[3] && box[4] <= box[5]; }
-  /// Whether a file that can be read in parts need not be read whole.
+  /// True if a file that can be read in parts need not be read whole.
   bool isPart() const { return hasBox() || resolution > 0.0 || mostPoints > 0; }
 };
 
@@ -98,9 +98,9 @@ struct ReadTask
   }
   /// Reports how much of the parsing is done, 0..1. @throws StoppedOnRequest when an observer asked to stop.
   void progress(double fraction) const { reportProgress(algorithm, overall(fraction)); }
-  /// What part of the whole work is done when @p fraction of the parsing is.
+  /// Part of the whole work that is done when @p fraction of the parsing is.
   static double overall(double fraction) { return kReadingPart + (1.0 - kReadingPart) * fraction; }
-  /// The same for reading the bytes.
+  /// Reports how much of the file's bytes is read.
   void readingProgress(double fraction) const { reportProgress(algorithm, kReadingPart * fraction); }
 };
 

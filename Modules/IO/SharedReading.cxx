@@ -10,10 +10,10 @@ namespace pointhaptics::io
 namespace
 {
 
-/// What stands before each message.
+/// Header of each message.
 struct Preface
 {
-  std::uint64_t bytes = 0;  ///< Of the file.
+  std::uint64_t bytes = 0;  ///< Size of the file.
   std::uint64_t failed = 0; ///< 1: there is no more to come.
 };
 

@@ -28,8 +28,8 @@ class OtherRankFailed : public std::exception
 {
 };
 
-/// What ranks say to each other while they read. Each says whether it can go on with every message, so that a
-/// fault of one ends the reading of all, and none waits for it.
+/// Messages between ranks that read a file together. Each rank says with every message whether it can go on,
+/// so that a fault of one ends the reading of all, and none waits for it.
 class SharedReading
 {
 public:
@@ -45,7 +45,7 @@ public:
   /// Collective: what each rank has. @throws OtherRankFailed; FileProblem where ranks see files of different
   /// sizes.
   std::vector<std::string> gather(const std::string& own);
-  /// The same of a plain value.
+  /// Gathers a plain value.
   template <typename T>
   std::vector<T> gatherValues(const T& own)
   {

@@ -1,5 +1,5 @@
 /// @file
-/// What every format writer gets: where the bytes go, where to report progress, and where to note losses.
+/// Task of a format writer: where the bytes go, where to report progress, and where to note losses.
 #pragma once
 
 #include "Bytes/OutputStream.h"

@@ -30,8 +30,8 @@ public:
 
   ///@{
   /**
-   * Of the last update: all points, those that are NaN or infinite, finite ones at the very place of an
-   * earlier one.
+   * Numbers of points in the last update: all, those that are NaN or infinite, finite ones at the very place
+   * of an earlier one.
    */
   vtkIdType GetNumberOfPoints() const;
   vtkIdType GetNumberOfInvalidPoints() const;
@@ -44,7 +44,7 @@ public:
   std::string GetFormat() const;
 
   /**
-   * Whether there is a finite point; else bounds and what follows from them say nothing.
+   * True if there is a finite point; else bounds and what follows from them say nothing.
    */
   bool HasBounds() const;
 

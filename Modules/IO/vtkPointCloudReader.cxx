@@ -112,7 +112,7 @@ void keepRows(vtkPolyData* cloud, vtkIdType first, vtkIdType count)
   cloud->GetPointData()->ShallowCopy(values);
 }
 
-/// Whether the format, told by the file's @p start, can be read in parts.
+/// True if the format, told by the file's @p start, can be read in parts.
 bool canBeCut(const std::string& start, std::size_t size, const std::string& extension)
 {
   if (start.empty() || start.compare(0, 2, "\x1f\x8b") == 0) // gzip
@@ -356,7 +356,7 @@ void vtkPointCloudReader::ReadWhole(io::ReadTask& task, vtkPolyData* cloud)
   this->Finish(task, cloud);
 }
 
-/// What is looked at in the cloud of any format.
+/// Checks the cloud of any format, and cuts it to the box.
 void vtkPointCloudReader::Finish(io::ReadTask& task, vtkPolyData* cloud)
 {
   if (task.pointsThere < static_cast<std::uint64_t>(cloud->GetNumberOfPoints()))

@@ -131,7 +131,7 @@ public:
    */
   vtkSetClampMacro(MostPoints, vtkIdType, 0, VTK_ID_MAX);
   vtkGetMacro(MostPoints, vtkIdType);
-  /// Of the last update.
+  /// True if the last update left out points.
   bool IsCoarse() const { return this->Coarse; }
   ///@}
 
@@ -224,7 +224,7 @@ public:
   void SetRanks(pointhaptics::Ranks* ranks);
 
   /**
-   * Whether the last update ended without points and without a fault of its own, as another of the ranks had
+   * True if the last update ended without points and without a fault of its own, as another of the ranks had
    * one.
    */
   bool FailedElsewhere() const { return this->OtherRankFailed; }
@@ -235,19 +235,18 @@ public:
   vtkGetMacro(NumberOfBytesRead, vtkTypeInt64);
 
   /**
-   * What the cloud of the last update does not have of its file, one line each.
+   * Parts of its file that the cloud of the last update lacks, one line each.
    */
   const std::vector<std::string>& GetNotes() const { return this->Notes; }
 
   /**
-   * Whether the last update found a valid file that announces no points. This is an error, too, but the
+   * True if the last update found a valid file that announces no points. This is an error, too, but the
    * output has the field data that the file gave.
    */
   bool IsValidWithoutPoints() const { return this->ValidWithoutPoints; }
 
   /**
-   * What went wrong in the last update, in one line; empty when all went well. Never null; valid until the
-   * next update.
+   * Error of the last update, in one line; empty when all went well. Never null; valid until the next update.
    */
   const char* GetErrorMessage() const { return this->ErrorMessage.c_str(); }
 

@@ -26,8 +26,8 @@ vtkStandardNewMacro(vtkPointCloudWriter);
 namespace
 {
 
-/// What a comment or a header of @p format says of the unit of @p cloud. Metres, which clouds without a unit
-/// are taken to be in, are left out of the names that programs look for in a table.
+/// Unit of @p cloud for a comment or a header of @p format. Metres, the default unit of clouds, are left out
+/// of the names that programs look for in a table.
 std::string unitFor(const io::CloudFormat& format, vtkPointSet* cloud)
 {
   const std::string unit = io::fieldText(cloud->GetFieldData(), "LengthUnit");
@@ -49,7 +49,7 @@ bool keeps(const io::CloudFormat& format, vtkPointSet* cloud, const std::string&
 constexpr const char* kOfTheCloud[] = { "Viewpoint", "OrganizedDimensions", "CoordinateSystem", "LengthUnit",
   "ScanPoses" };
 
-/// Whether @p name is a viewpoint or poses (tx ty tz qw qx qy qz) that change nothing.
+/// True if @p name is a viewpoint or poses (tx ty tz qw qx qy qz) that change nothing.
 bool isIdentityPose(vtkPointSet* cloud, const std::string& name)
 {
   const double usual[] = { 0, 0, 0, 1, 0, 0, 0 };

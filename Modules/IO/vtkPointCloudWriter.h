@@ -107,13 +107,13 @@ public:
   int Write() override;
 
   /**
-   * What went wrong in the last Write(), in one line; empty when all went well. Never null.
+   * Error of the last Write(), in one line; empty when all went well. Never null.
    */
   const char* GetErrorMessage() const { return this->ErrorMessage.c_str(); }
 
   /**
-   * What the format could not hold in the last Write(), one sentence each; empty when a reader gets back
-   * all there was.
+   * Losses of the last Write(), where the format could not hold the cloud, one sentence each; empty when a
+   * reader gets back all there was.
    */
   const std::vector<std::string>& GetNotes() const { return this->Notes; }
 
@@ -124,7 +124,7 @@ public:
   vtkGetMacro(NumberOfPointsWritten, vtkIdType);
 
   /**
-   * Whether a file of this name can be written: asked of its extension.
+   * True if a file of this name can be written: asked of its extension.
    */
   static bool CanWrite(const std::string& fileName);
 

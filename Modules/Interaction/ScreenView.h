@@ -1,5 +1,5 @@
 /// @file
-/// The picture that an interactor style works in: between pixels and the workspace.
+/// Converts between pixels of an interactor style's picture and the workspace.
 #pragma once
 
 #include "Core/Base/Vector3.h"
@@ -31,7 +31,7 @@ public:
   {
   }
 
-  /// May be null, as long as the style has none.
+  /// Interactor of the style; null while it has none.
   vtkRenderWindowInteractor* interactor() const;
   /// The renderer under the mouse, else the style's default one, else the first of the window. May be null.
   vtkRenderer* renderer() const;
@@ -45,8 +45,8 @@ public:
   Vec3 toWorkspace(double x, double y, double depth) const;
   Vec3 toDisplay(const Vec3& point) const;
   ///@}
-  /// How far @p anchor moves in the view plane when the mouse goes from its last position to this one.
-  /// @pre renderer() and interactor() are not null.
+  /// Motion of @p anchor in the view plane when the mouse goes from its last position to this one. @pre
+  /// renderer() and interactor() are not null.
   Vec3 mouseMotion(const Vec3& anchor) const;
 
 private:

@@ -39,7 +39,7 @@ using pointhaptics::Vec3;
 namespace
 {
 
-/// Of the marks.
+/// Colors of the marks, and the width of lines.
 struct Colors
 {
   double sphere[3];
@@ -51,10 +51,10 @@ struct Colors
 };
 constexpr Colors kUsual = { { 1.0, 0.30, 0.62 }, { 1.0, 0.55, 0.78 }, { 0.05, 0.78, 0.15 },
   { 0.05, 0.25, 0.95 }, { 0.95, 0.42, 0.02 }, 4.0f };
-/// Of Okabe and Ito's palette; they differ in lightness too.
+/// Colors of Okabe and Ito's palette; they differ in lightness too.
 constexpr Colors kHighContrast = { { 0.94, 0.89, 0.26 }, { 0.97, 0.94, 0.60 }, { 1.0, 1.0, 1.0 },
   { 0.34, 0.71, 0.91 }, { 0.84, 0.37, 0.0 }, 6.0f };
-/// Of outlines, with high contrast.
+/// Width of outlines with high contrast, as a factor.
 constexpr double kThicker = 1.6;
 constexpr double kSmallestForce = 0.01; // newtons: shorter arrows are not drawn
 
@@ -72,7 +72,7 @@ constexpr double kVisibleMotion = 1e-4;
 constexpr double kLargestSphere = 0.5;
 /// Radius of a sphere that is drawn larger than it is, points: in a close view it would hide what it touches.
 constexpr double kLargestEnlarged = 24.0;
-/// Of the arrow, over its length and thickness.
+/// Parts of the arrow, over its length and thickness.
 constexpr double kShaftRadius = 0.10;
 constexpr double kTipRadius = 0.24;
 constexpr double kTipLength = 0.3;
@@ -178,7 +178,7 @@ struct vtkHapticProps::Internals
   }
 };
 
-/// Of the sphere, for the camera as it is.
+/// Radius of the drawn sphere, for the present camera.
 double vtkHapticProps::Internals::drawnRadius() const
 {
   double enlarged = this->smallestRadius;
@@ -222,7 +222,7 @@ void vtkHapticProps::Internals::place()
   }
 }
 
-/// What is outlined, as it is shown.
+/// The marks that are outlined, as they are shown.
 TouchMarks vtkHapticProps::Internals::marks()
 {
   TouchMarks marks;

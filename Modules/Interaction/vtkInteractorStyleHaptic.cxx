@@ -176,7 +176,7 @@ void vtkInteractorStyleHaptic::Refresh()
   this->Display.renderIfDue();
 }
 
-/// Of a hand that somebody moves: of the mouse's only in hand mode.
+/// Measures while a person moves the hand; the mouse counts in hand mode only.
 void vtkInteractorStyleHaptic::MeasureDistance(const ServoSample& latest)
 {
   const bool isHeld = this->Servo && latest.tick > 0 && !this->Clutch.isHolding() &&

@@ -110,7 +110,7 @@ public:
 
   ///@{
   /**
-   * What the style is made of. They live as long as the style.
+   * Parts of the style. They live as long as the style.
    */
   pointhaptics::CommandRegistry& GetCommands() { return this->Commands; }
   pointhaptics::ModelTransform& GetModel() { return this->Model; }
@@ -139,18 +139,18 @@ public:
   ///@}
 
   /**
-   * The same for a model whose scene was made elsewhere: see ScenePipeline::adopt().
+   * As SetModelMatrix(), for a model whose scene was made elsewhere: see ScenePipeline::adopt().
    */
   void AdoptModel(vtkMatrix4x4* matrix, std::shared_ptr<const pointhaptics::HapticScene> scene);
 
   /**
-   * The same for a model whose scene is to be made: see ScenePipeline::startCloud().
+   * As SetModelMatrix(), for a model whose scene is to be made: see ScenePipeline::startCloud().
    */
   void StartModel(vtkMatrix4x4* matrix, bool findsLattice);
 
   /**
-   * Something else changed that the scene is made from, such as the voxel size or the filters' settings: the
-   * next UpdateModel() or timer event makes a new one.
+   * Marks the model as changed by something else that the scene is made from, such as the voxel size or the
+   * filters' settings: the next UpdateModel() or timer event makes a new one.
    */
   void InvalidateModel();
 
@@ -180,7 +180,8 @@ public:
   ///@}
 
   /**
-   * What the timer does: model, props, chart and status up to date, and a render if something changed.
+   * Runs the timer's work: brings model, props, chart and status up to date, and renders if something
+   * changed.
    */
   void Refresh();
 

@@ -159,7 +159,7 @@ bool isPackedColor(const Field& field)
   return field.name == "rgb" || field.name == "rgba";
 }
 
-/// What is wrong with the cloud and the cure; empty: nothing.
+/// Problem of the cloud and its cure; empty: none.
 std::string problemOf(const Cloud& cloud, FieldLayout& layout)
 {
   std::string message;
@@ -260,7 +260,7 @@ struct Column
 {
   Field field;
   const void* values = nullptr;
-  std::size_t bytes = 0; ///< Of a point.
+  std::size_t bytes = 0; ///< Bytes of a point.
 };
 
 /// Lays out the fields of a cloud and fills them.

@@ -36,7 +36,7 @@ void setViewpoint(vtkPolyData* points, const double viewpoint[7]);
 /// False, and an unmoved viewpoint, where there is none.
 bool getViewpoint(vtkPolyData* points, double viewpoint[7]);
 
-/// The same for clouds of one type of points, with the pose of the sensor as "Viewpoint".
+/// As toPolyData() above, for clouds of one type of points, with the pose of the sensor as "Viewpoint".
 template <typename PointT>
 vtkSmartPointer<vtkPolyData> toPolyData(const ::pcl::PointCloud<PointT>& cloud)
 {

@@ -27,7 +27,7 @@ bool isColor(const Field& field)
     (field.datatype == Field::FLOAT32 || field.datatype == Field::UINT32 || field.datatype == Field::INT32);
 }
 
-/// Whether normal_x, normal_y and normal_z are three real numbers after each other.
+/// True if normal_x, normal_y and normal_z are three real numbers after each other.
 bool hasNormal(const std::vector<Field>& fields)
 {
   const Field* x = fieldNamed(fields, "normal_x");

@@ -17,7 +17,7 @@ namespace pointhaptics
 struct FieldLayout
 {
   std::array<std::size_t, 3> xyz{};
-  ScalarType type = ScalarType::Float; ///< Of x, y and z.
+  ScalarType type = ScalarType::Float; ///< Type of x, y and z.
   std::vector<RecordField> others;
 };
 

@@ -91,7 +91,7 @@ AttributeRequest requestFor(const RecordCloud& cloud, const RecordField& field)
 /// Records that are read together stay in the first cache until all of their fields have been.
 constexpr std::int64_t kBlock = 1024;
 
-/// What is to be known of a cloud before its points are summed.
+/// Properties of a cloud that must be known before its points are summed.
 struct Survey
 {
   Bounds box;
@@ -156,7 +156,7 @@ struct Written
 {
   const char* tuples;
   std::size_t every; ///< Bytes from one tuple to the next.
-  std::size_t bytes; ///< That are copied of each.
+  std::size_t bytes; ///< Bytes that are copied of each tuple.
   char* to;          ///< In the first record.
 
   /// To records @p first to before @p last, the tuples of the voxels @p kept, or of all where that is null.
@@ -181,7 +181,7 @@ private:
   }
 };
 
-/// That of means @p xyz, at the offsets @p places of the records.
+/// Adds the copy of means @p xyz, at the offsets @p places of the records.
 void addMeans(const char* xyz, std::size_t bytes, char* records, const std::array<std::size_t, 3>& places,
   std::vector<Written>& written)
 {
@@ -248,7 +248,7 @@ void RecordVoxels::Implementation::choose()
   if (settings.keepKeys)
   {
     keys.resize(std::size_t(engine.size()));
-    engine.copyKeys(0, keys.data());
+    engine.copyKeys(keys.data());
     for (std::size_t i = 0; i < kept.size(); ++i)
     {
       keys[i] = keys[std::size_t(kept[i])];
@@ -327,7 +327,7 @@ void RecordVoxels::write(char* records, std::size_t step, const std::array<std::
   {
     const std::size_t bytes = bytesOf(mine.fields[i]);
     written.push_back(
-      { static_cast<const char*>(mine.engine.attribute(0, i)), bytes, bytes, records + offsets[i] });
+      { static_cast<const char*>(mine.engine.attribute(i)), bytes, bytes, records + offsets[i] });
   }
   const std::int64_t* kept = mine.kept.empty() ? nullptr : mine.kept.data();
   withThreads(mine.settings.threads,

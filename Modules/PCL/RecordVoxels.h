@@ -40,7 +40,7 @@ struct RecordCloud
   std::int64_t size = 0;
   std::size_t step = 0; ///< Bytes from one record to the next.
   std::array<std::size_t, 3> xyz{};
-  ScalarType type = ScalarType::Float; ///< Of x, y and z: Float or Double.
+  ScalarType type = ScalarType::Float; ///< Type of x, y and z: Float or Double.
 };
 
 struct RecordVoxelSettings
@@ -76,7 +76,7 @@ public:
   void write(char* records, std::size_t step, const std::array<std::size_t, 3>& xyz,
     const std::vector<std::size_t>& offsets) const;
 
-  /// Of the last run: the lattice, and the multiple of the edges at which it starts on each axis.
+  /// Lattice of the last run, and the multiple of the edges at which it starts on each axis.
   const Lattice& lattice() const;
   const std::array<std::int64_t, 3>& first() const;
   /// The number among size() of the voxel at (i, j, k), counted as multiples of the edges; -1 where there is

@@ -53,8 +53,8 @@ public:
   /// At most so many threads; 0 (default): as vtkSMPTools is set. The result is the same with any number.
   void setNumberOfThreads(unsigned threads = 0) { threads_ = threads; }
 
-  /// Of the last filter(): lowest and highest voxel, counted as multiples of the edges, and their number and
-  /// step on each axis. Steps beyond 32 bits are given as the largest int.
+  /// Boxes of the last filter(): lowest and highest voxel, counted as multiples of the edges, and their
+  /// number and step on each axis. Steps beyond 32 bits are given as the largest int.
   Eigen::Vector3i getMinBoxCoordinates() const;
   Eigen::Vector3i getMaxBoxCoordinates() const;
   Eigen::Vector3i getNrDivisions() const;
@@ -66,7 +66,7 @@ public:
   /// getCentroidIndexAt() of all voxels of the box, x fastest: layout[(voxel - getMinBoxCoordinates()).dot(
   /// getDivisionMultiplier())]. 4 bytes a voxel; empty, after a PCL_ERROR, where they are 2^31 or more.
   std::vector<int> getLeafLayout() const;
-  /// The same of the voxel a point lies in, and of its neighbours: one voxel a column, counted from it.
+  /// Index of the voxel that a point lies in, and of its neighbours: one voxel a column, counted from it.
   template <typename PointT>
   int getCentroidIndex(const PointT& point) const
   {
@@ -178,8 +178,8 @@ protected:
   }
 };
 
-/// The same for clouds whose fields are known at run time; x, y and z may be FLOAT64, too. Every field keeps
-/// its name, type and place; with setDownsampleAllData(false) there are x, y and z alone.
+/// Voxel means of clouds whose fields are known at run time; x, y and z may be FLOAT64, too. Every field
+/// keeps its name, type and place; with setDownsampleAllData(false) there are x, y and z alone.
 template <>
 class PclVoxelMean<::pcl::PCLPointCloud2>
   : public ::pcl::Filter<::pcl::PCLPointCloud2>

@@ -29,7 +29,7 @@ namespace
 std::vector<std::uint64_t> keysOf(const VoxelResampler& voxels)
 {
   std::vector<std::uint64_t> keys(std::size_t(voxels.size()));
-  voxels.copyKeys(0, keys.data());
+  voxels.copyKeys(keys.data());
   return keys;
 }
 
@@ -72,7 +72,7 @@ std::string DistributedUpdate::chooseArrays()
   return {};
 }
 
-/// That of the input on ranks which have points.
+/// Takes the precision of the input on ranks which have points.
 void DistributedUpdate::choosePrecision()
 {
   const vtkPoints* points = input_->GetPoints();
@@ -139,7 +139,7 @@ std::string DistributedUpdate::runOfSums(vtkPolyData* output)
   {
     return problemOf(status);
   }
-  status = shared_.share(ranks_, std::move(own), 1);
+  status = shared_.share(ranks_, std::move(own));
   VoxelAccumulator::Request wanted;
   wanted.singlePrecision = singlePrecision_;
   wanted.keys = true;
@@ -218,7 +218,7 @@ vtkSmartPointer<vtkPolyData> DistributedUpdate::sharePoints(const VoxelResampler
   {
     to.push_back(voxel < 0 ? -1 : owners[std::size_t(voxel)]);
   }
-  // Of one type on all ranks, also where some have no points.
+  // The type must be equal on all ranks, also where some have no points.
   const bool isFloat = !input_->GetPoints() || input_->GetPoints()->GetDataType() == VTK_FLOAT;
   const bool areFloat = this->all(isFloat || to.empty());
   vtkNew<vtkPoints> places;

@@ -84,15 +84,16 @@ private:
   Lattice lattice_;
   bool singlePrecision_ = true;
   std::vector<VoxelArray> found_;
-  std::vector<VoxelAttribute> arrays_; ///< Of these, where sums are shared.
+  std::vector<VoxelAttribute> arrays_; ///< Attributes of these arrays, where sums are shared.
   std::vector<std::string> dropped_;
-  std::int64_t clipped_ = 0; ///< Of all ranks.
+  std::int64_t clipped_ = 0; ///< Number of points outside the workspace, on all ranks.
   std::int64_t invalid_ = 0;
   SharedVoxels shared_;
-  std::vector<std::uint64_t> ranges_; ///< Of keys, of all ranks.
-  std::vector<std::int64_t> numbers_; ///< Of the points that came to this rank: their numbers in all.
-  VoxelResampler made_;               ///< Of this rank's range.
-  std::optional<std::vector<std::int64_t>> kept_; ///< Of its voxels, where some may be left out.
+  std::vector<std::uint64_t> ranges_;             ///< Ranges of keys of all ranks.
+  std::vector<std::int64_t> numbers_;             ///< Global numbers of the points that came to this rank.
+  VoxelResampler made_;                           ///< Result for this rank's range.
+  std::optional<std::vector<std::int64_t>> kept_; ///< Voxels of this rank that stay, where some may be left
+                                                  ///< out.
 };
 
 } // namespace pointhaptics

@@ -143,7 +143,7 @@ void setBytes(vtkAbstractArray* array, const std::vector<std::string>& pieces)
   }
 }
 
-/// What stands before the name of an array.
+/// Header in front of the name of an array.
 struct ArrayPreface
 {
   int type = 0;

@@ -5,7 +5,7 @@
 namespace pointhaptics
 {
 
-/// Comes before each of the others.
+/// Declarations in front of each of the other shaders.
 constexpr const char* kDepthCommon = R"(//VTK::System::Dec
 //VTK::Output::Dec
 in vec2 texCoord;
@@ -32,8 +32,8 @@ float depthAt(ivec2 place, ivec2 last)
 }
 )";
 
-/// Weighted sums over their weights. The colours' alpha is 1 where a splat is in the middle of the pixel;
-/// where one only comes near, it makes the rim smooth on what lies behind, without a depth.
+/// Divides weighted sums by their weights. The colours' alpha is 1 where a splat is in the middle of the
+/// pixel; where a splat only comes near, it makes the rim smooth on what lies behind, without a depth.
 constexpr const char* kDivideShader = R"(
 void main()
 {
@@ -46,7 +46,7 @@ void main()
 }
 )";
 
-/// Colours and depths as they are, or spread over more pixels.
+/// Copies colours and depths as they are, or spreads them over more pixels.
 constexpr const char* kCopyShader = R"(
 void main()
 {
@@ -56,7 +56,8 @@ void main()
 }
 )";
 
-/// Depths along a line over a plane are even: only what bends towards the viewer on both sides is dark.
+/// Shades a pixel. Depths along a line over a plane are even: only places that bend towards the viewer on
+/// both sides are dark.
 constexpr const char* kShade = R"(
 uniform float strength;
 uniform float minimumLightness;
@@ -96,8 +97,8 @@ float shadeAt(ivec2 place, ivec2 last, float depth)
 }
 )";
 
-/// Of the pixels that something is drawn in, over what kCopyShader left: their depths are tested before, so
-/// that a software renderer works on no others.
+/// Shades the pixels that something is drawn in, over the result of kCopyShader. Their depths are tested
+/// before, so that a software renderer works on no others.
 constexpr const char* kShadeShader = R"(
 void main()
 {

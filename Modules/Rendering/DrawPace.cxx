@@ -13,7 +13,7 @@ namespace
 
 constexpr GLuint64 kLongestWait = 1'000'000'000; // ns
 
-/// Whether points are drawn by Mesa on the processor.
+/// True if points are drawn by Mesa on the processor.
 bool drawsInSoftware()
 {
   const auto* text = reinterpret_cast<const char*>(glGetString(GL_RENDERER));

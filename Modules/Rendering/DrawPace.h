@@ -16,10 +16,10 @@ class vtkRenderWindow;
 namespace pointhaptics
 {
 
-/// Mesa's software renderer makes about 500 bytes of each point before it draws that on the pixels, and keeps
-/// the memory: of a frame with all of 543,652 points 200 MB, until the window closes. Few points at a time
-/// use the same few megabytes again, which lie in the cache: such a frame takes two thirds of the time.
-/// Of no effect on graphics cards. GUI thread only.
+/// Mesa's software renderer makes about 500 bytes of each point before it draws it, and keeps the memory: 200
+/// MB for a frame with all of 543,652 points, until the window closes. A few points at a time reuse the same
+/// megabytes, which lie in the cache: such a frame takes two thirds of the time. No effect on graphics cards.
+/// GUI thread only.
 class POINTHAPTICSRENDERING_EXPORT DrawPace
 {
 public:
@@ -28,16 +28,17 @@ public:
   /// Steps that are drawn while the next one is made.
   static constexpr std::size_t kAhead = 2;
 
-  /// That of @p window, whose context is current.
+  /// The pace of @p window, whose context is current.
   static DrawPace& of(vtkOpenGLRenderWindow* window);
 
-  /// So many points at most go into the next draw call; above 0.
+  /// Most points that the next draw call may have; above 0.
   std::int64_t room() const;
-  /// So many were drawn. Ends a step that is full and waits until no more than kAhead are under way.
+  /// Counts points that were drawn. Ends a step that is full and waits until no more than kAhead are under
+  /// way.
   void add(std::int64_t points);
-  /// The window's renderer works in steps.
+  /// True if the window's renderer works in steps.
   bool isNeeded() const { return isNeeded_; }
-  /// Steps that were ended, and how many of them may be under way at present.
+  /// Number of steps that were ended; and of those that may be under way.
   std::int64_t steps() const { return steps_; }
   std::size_t underWay() const { return underWay_.size(); }
 
@@ -46,7 +47,7 @@ private:
 
   vtkWeakPointer<vtkRenderWindow> window_;
   bool isNeeded_ = false;
-  std::int64_t drawn_ = 0; ///< Of the present step.
+  std::int64_t drawn_ = 0; ///< Points drawn in the present step.
   std::int64_t steps_ = 0;
   std::deque<__GLsync*> underWay_;
 };

@@ -21,7 +21,7 @@ namespace pointhaptics
 namespace
 {
 
-/// Times of modification are counts, exact as doubles.
+/// Adds a time of modification, which is a count and exact as a double.
 void add(std::vector<double>& state, vtkMTimeType time)
 {
   state.push_back(double(time));
@@ -42,7 +42,7 @@ void addProp(std::vector<double>& state, vtkProp* prop)
     placed->ComputeMatrix();
     add(state, placed->GetMatrix()->GetData(), 16);
   }
-  // Nor do the sizes of splats change that of their mapper.
+  // Sizes of splats do not change the time of their mapper either.
   auto* actor = vtkActor::SafeDownCast(prop);
   if (auto* splats = actor ? vtkSplatMapper::SafeDownCast(actor->GetMapper()) : nullptr)
   {

@@ -1,5 +1,5 @@
 /// @file
-/// What a renderer would draw, without drawing it: for seeing whether a picture has to be made anew.
+/// State of the picture that a renderer would draw, without drawing it: shows if a new picture is needed.
 #pragma once
 
 #include "PointHapticsRenderingModule.h" // For export macro
@@ -12,11 +12,12 @@ class vtkRenderer;
 namespace pointhaptics
 {
 
-/// Whether @p prop is drawn over the finished picture: text (vtkActor2D) and marks (vtkOverlayActor).
+/// True if @p prop is drawn over the finished picture: text (vtkActor2D) and marks (vtkOverlayActor).
 POINTHAPTICSRENDERING_EXPORT bool isDrawnOver(vtkProp* prop);
 
-/// Camera, size, background, lights and all props but those that are drawn over it: numbers that are equal
-/// for two pictures which show the same. Brings the pipelines of visible actors up to date. GUI thread only.
+/// Numbers that are equal for two pictures which show the same: camera, size, background, lights and all
+/// props but those that are drawn over it. Brings the pipelines of visible actors up to date. GUI thread
+/// only.
 POINTHAPTICSRENDERING_EXPORT std::vector<double> pictureState(vtkRenderer* renderer);
 
 } // namespace pointhaptics

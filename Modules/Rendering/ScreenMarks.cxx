@@ -15,15 +15,15 @@ namespace pointhaptics
 {
 namespace
 {
-/// Estimates for the font, parts of its size.
+/// Estimated sizes of letters, over the font's size.
 constexpr double kLetterWidth = 0.62;
 constexpr double kLetterHeight = 1.25;
-/// At which a point is a pixel.
+/// Dots per inch at which a point is a pixel.
 constexpr double kPointsPerInch = 72.0;
-/// So near to the plane of the camera a line ends: far outside the window.
+/// Number of halvings that find the end of a line near the camera's plane, far outside the window.
 constexpr int kHalvings = 12;
 
-/// Of the eye whose picture is drawn; the camera's composite matrix leaves eyes out.
+/// Projection of the eye whose picture is drawn; the camera's composite matrix leaves eyes out.
 void eyeProjection(vtkRenderer* renderer, double nearest, double farthest, vtkMatrix4x4* matrix)
 {
   vtkCamera* camera = renderer->GetActiveCamera();

@@ -25,7 +25,7 @@ class vtkRenderer;
 namespace pointhaptics
 {
 
-/// Where the affine @p matrix puts @p place.
+/// Transforms @p place by the affine @p matrix.
 inline Vec3 transformed(vtkMatrix4x4* matrix, const Vec3& place)
 {
   const double in[4] = { place.x, place.y, place.z, 1.0 };
@@ -34,18 +34,18 @@ inline Vec3 transformed(vtkMatrix4x4* matrix, const Vec3& place)
   return { out[0], out[1], out[2] };
 }
 
-/// Of what a person marks in a picture: what stands out, and the dark rim that is seen on light points.
+/// Color of a person's marks in a picture, and of the dark rim that shows on light points.
 constexpr unsigned char kMarkColor[3] = { 255, 196, 40 };
 constexpr unsigned char kMarkRim[3] = { 30, 30, 34 };
 
-/// Of a point in the window of @p renderer, as its dots per inch say.
+/// Pixels per point in the window of @p renderer, by its dots per inch.
 POINTHAPTICSRENDERING_EXPORT double pixelsPerPoint(vtkRenderer* renderer);
 
-/// Where in the whole picture of an eye a place of the window is, both pixels from the window's lower left
-/// corner: two pictures may stand side by side.
+/// Finds the place in the whole picture of an eye for a place of the window, both in pixels from the window's
+/// lower left corner: two pictures may stand side by side.
 POINTHAPTICSRENDERING_EXPORT std::array<double, 2> placeInPicture(vtkRenderer* renderer, double x, double y);
-/// From the picture's coordinates to -1 ... 1 across and up, and @p nearest ... @p farthest along the view,
-/// for what lies under the pointer at @p x: that of the eye whose picture is there, or of one between both.
+/// Gets the matrix from the picture's coordinates to -1 ... 1 across and up, and @p nearest ... @p farthest
+/// along the view, for picking at @p x: that of the eye whose picture is there, or of one between both.
 POINTHAPTICSRENDERING_EXPORT void pointerProjection(
   vtkRenderer* renderer, double x, double nearest, double farthest, vtkMatrix4x4* matrix);
 
@@ -53,18 +53,18 @@ struct Pixel
 {
   double x = 0.0;
   double y = 0.0;
-  bool seen = false; ///< In front of the camera.
+  bool seen = false; ///< True if it is in front of the camera.
 };
 
-/// From coordinates of the picture to pixels of the viewport, for the camera and the eye as they are.
+/// Projects coordinates of the picture to pixels of the viewport, for the present camera and eye.
 class POINTHAPTICSRENDERING_EXPORT ScreenProjection
 {
 public:
   explicit ScreenProjection(vtkRenderer* renderer);
-  /// For what lies under the pointer at @p x: see pointerProjection().
+  /// Projects for picking at @p x: see pointerProjection().
   ScreenProjection(vtkRenderer* renderer, double x);
   Pixel operator()(const Vec3& p) const;
-  /// Moves the end that is not in front of the camera to where the line from @p a to @p b is. False: none is.
+  /// Cuts the line from @p a to @p b at the camera: moves the end that is not in front of it. False: none is.
   bool leaveSeenPart(Vec3& a, Vec3& b) const;
 
 private:
@@ -73,14 +73,14 @@ private:
   double height_ = 0.0;
 };
 
-/// Each of its own colour.
+/// Draws lines, each in its own colour.
 class POINTHAPTICSRENDERING_EXPORT ScreenLines
 {
 public:
   explicit ScreenLines(float width);
   void clear();
   void add(double x0, double y0, double x1, double y1, const unsigned char color[3]);
-  /// After the last add().
+  /// Completes the lines. Call it after the last add().
   void finish();
   vtkActor2D* actor() { return actor_; }
 
@@ -93,7 +93,7 @@ private:
   vtkNew<vtkActor2D> actor_;
 };
 
-/// Texts none of which lies over another or over the edge of the viewport.
+/// Draws texts none of which lies over another or over the edge of the viewport.
 class ScreenTexts
 {
 public:
@@ -102,25 +102,25 @@ public:
   ScreenTexts();
   void addTo(vtkRenderer* renderer);
   void removeFrom(vtkRenderer* renderer);
-  /// Until the next put().
+  /// Hides the texts until the next put().
   void hide();
 
-  /// A new picture: there is room everywhere.
+  /// Begins a new picture, with room everywhere.
   void clear(vtkRenderer* renderer, int fontSize);
-  /// Text with its nearest corner or side at (@p x, @p y), on the side of the direction out. False: there is
-  /// no room.
+  /// Puts a text with its nearest corner or side at (@p x, @p y), on the side of the direction out. False:
+  /// there is no room.
   bool put(
     const std::string& words, double x, double y, double outX, double outY, const unsigned char color[3]);
-  /// Nothing is put where somebody else is: left, bottom, right, top.
+  /// Takes a place: left, bottom, right, top. No text is put there.
   void take(const std::array<double, 4>& place)
   {
     taken_.push_back({ place[0], place[2], place[1], place[3] });
   }
-  /// After the last put().
+  /// Completes the texts. Call it after the last put().
   void finish();
-  /// Of a point, as the window's dots per inch say.
+  /// Pixels per point, by the window's dots per inch.
   double pixelsPerPoint() const { return pixels_; }
-  /// An estimate, pixels.
+  /// Estimated width, pixels.
   double widthOf(const std::string& words) const;
 
 private:

@@ -1,13 +1,13 @@
 /// @file
-/// What vtkSplatMapper, which alone includes this, puts into VTK's shaders.
+/// Code that vtkSplatMapper, which alone includes this, puts into VTK's shaders.
 #pragma once
 
 namespace pointhaptics
 {
 
-/// The light on a side of a splat is that of the sky, which is darker below, and the part of the lamp's that
-/// wraps around the shape. Near the outline, where noise turns normals away, both sides count. The length of
-/// a normal is how much of the light is seen.
+/// Light on a side of a splat: the sky, which is darker below, and the lamp, which wraps around the shape.
+/// Near the outline, where noise turns normals away, both sides count. The length of a normal is the part of
+/// the light that is seen.
 inline constexpr const char* kLightFunctions = R"(
 in vec3 splatNormal;
 uniform vec3 splatSky;
@@ -104,8 +104,8 @@ inline constexpr const char* kSurfaceFragment = R"(
   gl_FragDepth = splatDepth(splatNear + splatReach.w);
   gl_FragData[1] = vec4(splatWeight, splatWeight * splatDepth(splatNear), 0.0, 0.0);
 )";
-/// After the light. The alpha of a colour says nothing of whether a point is there; the opacity of the actor
-/// counts.
+/// Sets the opacity after the light. The alpha of a colour does not tell if a point is there; the opacity of
+/// the actor counts.
 inline constexpr const char* kOpaqueStatements = R"(
   gl_FragData[0].a = opacityUniform;
 )";
@@ -114,12 +114,12 @@ inline constexpr const char* kBlendStatements = R"(
     : vec4(gl_FragData[0].rgb, opacityUniform);
 )";
 
-/// The picture lies in the middle of its viewport.
+/// Moves the picture to the middle of its viewport.
 inline constexpr const char* kFitStatements = R"(
   gl_Position.xy *= splatFit;
 )";
 
-/// What is outside of the box goes behind the far plane.
+/// Moves vertices outside of the box behind the far plane.
 inline constexpr const char* kClipStatements = R"(
   if (any(lessThan(vertexMC.xyz, splatLow)) || any(greaterThan(vertexMC.xyz, splatHigh)))
   {

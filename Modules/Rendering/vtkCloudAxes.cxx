@@ -36,7 +36,7 @@ using pointhaptics::Vec3;
 namespace
 {
 
-/// Points.
+/// Lengths in points.
 constexpr double kTick = 6.0;
 constexpr double kGap = 4.0;
 constexpr double kLeastStep = 26.0;
@@ -44,9 +44,9 @@ constexpr double kShortestEdge = 40.0;
 constexpr double kFarthest = 200.0;
 constexpr double kArm = 34.0;
 constexpr double kCorner = 58.0;
-/// After ScreenLayout, which says what is taken.
+/// Priority after ScreenLayout, which knows the taken places.
 constexpr float kLast = -2.0F;
-/// Points.
+/// Widths in points.
 constexpr float kTickWidth = 1.0F;
 constexpr float kArmWidth = 3.0F;
 /// Windows from this height on take the larger font.
@@ -54,7 +54,7 @@ constexpr int kTallWindow = 600;
 
 constexpr unsigned char kAxisColors[3][3] = { { 190, 30, 30 }, { 15, 125, 30 }, { 30, 60, 190 } };
 
-/// 1, 2 or 5 times a power of ten, at least @p least.
+/// Returns 1, 2 or 5 times a power of ten, at least @p least.
 double niceStep(double least)
 {
   const double power = std::pow(10.0, std::floor(std::log10(least)));
@@ -81,7 +81,7 @@ std::string numberText(double value, int decimals)
   return isZero && text[0] == '-' ? text + 1 : text;
 }
 
-/// One edge of the box and how it lies in the picture.
+/// One edge of the box and its line in the picture.
 struct Edge
 {
   int axis = 0;
@@ -121,7 +121,7 @@ struct vtkCloudAxes::Internals
   void drawMarker();
 };
 
-/// Of the edges along @p axis that lie at the outline of the picture, the one farthest down and to the left.
+/// Finds, among the edges along @p axis at the outline of the picture, the one farthest down and to the left.
 /// False: none is long enough to be read.
 bool vtkCloudAxes::Internals::findEdge(const ScreenProjection& project, int axis, Edge& best) const
 {
@@ -176,7 +176,7 @@ bool vtkCloudAxes::Internals::findEdge(const ScreenProjection& project, int axis
   return std::isfinite(lowest);
 }
 
-/// Ticks with numbers from @p low to @p high along @p edge, and the bounds beside its middle.
+/// Draws ticks with numbers from @p low to @p high along @p edge, and the bounds beside its middle.
 void vtkCloudAxes::Internals::label(
   const ScreenProjection& project, const Edge& edge, double low, double high, const std::string& unit)
 {
@@ -212,7 +212,8 @@ void vtkCloudAxes::Internals::label(
   const std::string bounds = std::string(1, "xyz"[edge.axis]) + "  " + numberText(low, finer) + " to " +
     numberText(high, finer) + " " + unit;
   const Pixel middle = project(0.5 * (edge.begin + edge.end));
-  // Farther out until the numbers leave room; where the picture ends before that, the letter must do.
+  // The bounds go farther out until the numbers leave room; where the picture ends before that, the letter
+  // must do.
   for (const std::string& words : { bounds, bounds.substr(0, 1) })
   {
     for (double away = pixels * (kTick + 2.0 * kGap); away < pixels * kFarthest; away += pixels * kGap)
@@ -344,8 +345,8 @@ void vtkCloudAxes::SetVisibility(bool visible)
   this->Modified();
 }
 
-/// Corner i has the larger bound of axis a where bit a of i is set. In doubles from the cloud to the picture:
-/// coordinates of a map have no digits to lose.
+/// Places the box. Corner i has the larger bound of axis a where bit a of i is set. All is in doubles from
+/// the cloud to the picture, as coordinates of a map have no digits to lose.
 void vtkCloudAxes::PlaceBox()
 {
   Internals& parts = *this->Parts;

@@ -33,13 +33,13 @@
 namespace
 {
 
-/// Sizes are pixels of a window of 800 lines; pixelScale makes them those of this one.
+/// Height of the window for which sizes are given, pixels; pixelScale converts them to this one.
 constexpr double kUsualHeight = 800.0;
 
-/// In motion; below it nothing is told apart.
+/// Least resolution in motion; below it nothing is told apart.
 constexpr double kLeastResolution = 0.3;
 
-/// The end of a clipping range, outward to a step: four steps double it.
+/// Moves the end of a clipping range outward to a step: four steps double it.
 double clippingStep(double distance, bool isNear)
 {
   constexpr double kStepsPerDoubling = 4.0;
@@ -49,8 +49,9 @@ double clippingStep(double distance, bool isNear)
   return std::exp2(step / kStepsPerDoubling);
 }
 
-/// Shades depend on depths, and their last bits on the clipping range, which follows all that is in the scene
-/// and is reset before most frames: in steps, an equal view has an equal picture.
+/// Sets the clipping range in steps. Shades depend on depths, and their last bits on the clipping range,
+/// which follows all that is in the scene and is reset before most frames: with steps, an equal view has an
+/// equal picture.
 void setClippingRangeToSteps(vtkCamera* camera)
 {
   const double* range = camera->GetClippingRange();
@@ -60,7 +61,7 @@ void setClippingRangeToSteps(vtkCamera* camera)
   }
 }
 
-/// As vtkTextureObject numbers the format of the depths that are drawn into; below 0: another one, or several
+/// Format of the depths that are drawn into, as vtkTextureObject numbers it; below 0: another one, or several
 /// samples a pixel.
 int depthFormatOfTarget()
 {
@@ -86,7 +87,7 @@ int depthFormatOfTarget()
                     : -1;
 }
 
-/// Colours and depths, whatever was there.
+/// Lets the next drawing overwrite colours and depths.
 void overwriteAll(vtkOpenGLState* state)
 {
   // Depths are written only where they are tested.
@@ -133,7 +134,7 @@ private:
   vtkOpenGLState::ScopedglEnableDisable scissor_;
 };
 
-/// Text makes its image where it has nothing to draw yet.
+/// Lets texts make their images: they do so where they have nothing to draw yet.
 void makeTextImages(const vtkRenderState* state)
 {
   for (int i = 0; i < state->GetPropArrayCount(); ++i)
@@ -224,7 +225,8 @@ void vtkDepthShadingPass::PrepareTargets(vtkOpenGLRenderWindow* window)
   }
 }
 
-/// With textures of its own: else each eye's picture would take the place of the other's, and none be kept.
+/// Renders the right eye with textures of its own: else each eye's picture would replace the other's, and
+/// none would be kept.
 void vtkDepthShadingPass::RenderRightEye(const vtkRenderState* state)
 {
   if (!this->RightEye)
@@ -300,7 +302,7 @@ void vtkDepthShadingPass::RenderEye(const vtkRenderState* state)
   this->Show(renderer, window);
 }
 
-/// That of the delegate, before it is shaded.
+/// Draws the picture of the delegate, before it is shaded.
 void vtkDepthShadingPass::DrawPicture(const vtkRenderState* state, vtkOpenGLRenderWindow* window)
 {
   const bool blends = this->BlendsSplats && !state->GetRenderer()->GetSelector();

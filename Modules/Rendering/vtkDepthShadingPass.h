@@ -58,7 +58,7 @@ public:
 
   ///@{
   /**
-   * What lies less than this behind its neighbours, in the units of the scene, stays as light as they are:
+   * Surfaces less than this behind their neighbours, in the units of the scene, stay as light as they are:
    * the splats of a noisy wall do not cast shadows on each other. 0 and above; default 0.
    */
   vtkSetClampMacro(NoiseLength, double, 0.0, 1e12);
@@ -67,7 +67,7 @@ public:
 
   ///@{
   /**
-   * The same over the distance from the camera, for depth cameras. Added to NoiseLength. Default 0.
+   * Noise length over the distance from the camera, for depth cameras. Added to NoiseLength. Default 0.
    */
   vtkSetClampMacro(NoisePerDistance, double, 0.0, 1.0);
   vtkGetMacro(NoisePerDistance, double);
@@ -90,9 +90,10 @@ public:
   vtkGetMacro(MinimumLightness, double);
   ///@}
 
-  /// Of a picture in motion that the processor draws: 30 a second of a window of 1280 x 800 on two cores.
+  /// Most pixels of a picture in motion that the processor draws: 30 a second of a window of 1280 x 800 on
+  /// two cores.
   static constexpr int kMostMovingPixels = 400000;
-  /// Of splats that lie over each other, in as long.
+  /// Most splat pixels that lie over each other in such a picture.
   static constexpr double kMostMovingFragments = 1.5e6;
   ///@{
   /**
@@ -114,7 +115,7 @@ public:
    */
   static double ResolutionOf(vtkRenderer* renderer);
 
-  /// That of @p renderer, made by applyDepthShading(); null: it has none.
+  /// The pass of @p renderer, made by applyDepthShading(); null: it has none.
   static vtkDepthShadingPass* GetPassOf(vtkRenderer* renderer);
 
   ///@{
@@ -125,11 +126,11 @@ public:
   vtkGetMacro(BlendsSplats, bool);
   ///@}
 
-  /// What the splats are drawn for.
+  /// Purpose for which the splats are drawn.
   enum class Stage
   {
     Picture, ///< As they are.
-    Depths,  ///< Those that are blended leave their depths alone.
+    Depths,  ///< Splats that are blended leave their depths alone.
     Blending ///< Weighted sums, by the depths that were left.
   };
   /// At present, of the picture that @p renderer draws.

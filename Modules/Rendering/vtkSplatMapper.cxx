@@ -41,7 +41,7 @@ constexpr const char* kNormalAttribute = "splatNormal";
 /// Around the picture, pixels: half of the largest point that a software renderer draws. It draws none whose
 /// middle is out of its viewport.
 constexpr int kMargin = 128;
-/// Of all attributes of the splats: each value for one vertex, or for a quad.
+/// Sets the divisor of all attributes of the splats: each value serves one vertex, or a quad.
 void setAttributeDivisor(vtkOpenGLHelper& points, GLuint divisor)
 {
   const auto program = static_cast<GLuint>(points.Program->GetHandle());
@@ -239,7 +239,7 @@ void vtkSplatMapper::RenderPieceStart(vtkRenderer* renderer, vtkActor* actor)
     this->MedianLength = pointhaptics::quantileOfPositive(sizes, 5);
   }
   this->Superclass::RenderPieceStart(renderer, actor);
-  // What is in the graphics card's memory, or the software renderer's, is kept here by nobody: 28 bytes a
+  // Drops the copy of the attributes, which the graphics card or the software renderer holds: 28 bytes a
   // point.
   for (const char* attribute : { "vertexMC", "scalarColor", kAttribute, kNormalAttribute })
   {
@@ -250,7 +250,7 @@ void vtkSplatMapper::RenderPieceStart(vtkRenderer* renderer, vtkActor* actor)
   }
 }
 
-/// Whether splats are seen from so near that some may be larger than points can be. Quads take four times as
+/// True if splats are seen from so near that some may be larger than points can be. Quads take four times as
 /// long as points to begin with.
 bool vtkSplatMapper::WantsQuads(vtkRenderer* renderer, vtkActor* actor)
 {
@@ -432,7 +432,7 @@ void vtkSplatMapper::ReplaceShaderValues(
     "//VTK::PositionVC::Dec\n" + declared +
       "uniform float splatPixels;\nuniform float splatLongest;\nuniform vec4 splatRange;\n"
       "uniform vec2 splatFit;\nuniform vec3 splatLow;\nuniform vec3 splatHigh;\n");
-  // What is flat is as large as it is; the rest stays small on the screen.
+  // A flat surface is drawn at its size; the rest stays small on the screen.
   const std::string size = std::string("splatPixels") +
     (this->HasSizes ? std::string(" * min(splatLongest, ") + kAttribute + ") / gl_Position.w" : "");
   const std::string bounded = tilts

@@ -10,7 +10,7 @@ namespace pointhaptics
 namespace
 {
 
-/// At most so much of a touch is lost where the process is killed.
+/// A killed process loses at most this much of a touch.
 constexpr auto kFlushPeriod = std::chrono::seconds(1);
 
 } // namespace

@@ -12,24 +12,24 @@
 namespace pointhaptics
 {
 
-/// Rows of numbers into an OutputFile, which appears under its name with commit(). One thread.
+/// Writes rows of numbers into an OutputFile, which appears under its name with commit(). One thread.
 class POINTHAPTICSSCENE_EXPORT CsvWriter
 {
 public:
-  /// @param isKept for what cannot be made again: rows stand in NAME.part within a second, and stay there
-  /// where commit() is not reached (OutputFile::openKept()). False: @p message says why the file cannot be
-  /// created.
+  /// Opens the file. @param isKept for data that cannot be made again: rows stand in NAME.part within a
+  /// second, and stay there where commit() is not reached (OutputFile::openKept()). False: @p message says
+  /// why the file cannot be created.
   bool open(
     const std::string& fileName, const std::string& header, std::string& message, bool isKept = false);
   bool isOpen() const { return isOpen_; }
   void row(const double* values, std::size_t count);
-  /// A line "# text".
+  /// Writes a line "# text".
   void comment(const std::string& text) { this->add("# " + text + "\n"); }
   /// False: not all could be written; commit() says why.
   bool isFine() const { return isFine_; }
   /// False: @p message says why; the target is as it was before. Closes the file in any case.
   bool commit(std::string& message);
-  /// Closes the file and leaves nothing of it.
+  /// Closes and removes the file.
   void abandon();
 
 private:

@@ -43,7 +43,7 @@ void FeelScenes::adopt(
   builder_.setCloud(nullptr);
   if (whole_ && settings.refineNearHand && cloud)
   {
-    // Without an index there are no finer scenes.
+    // No finer scenes are made without an index.
     static_cast<void>(builder_.setCloud(PointAccess(cloud).view(), SmpExecutor()));
   }
   this->follow();
@@ -78,12 +78,12 @@ void FeelScenes::restart()
 Status FeelScenes::resample(
   vtkPointSet* cloud, vtkVoxelMeanResampler* resampler, FeelSceneSettings settings, std::string& message)
 {
-  // Not the object of a pipeline: it would update what is upstream again.
+  // The input is a copy, as the original may belong to a pipeline that would update again.
   auto input = vtkSmartPointer<vtkPointSet>::Take(cloud->NewInstance());
   input->ShallowCopy(cloud);
   prepareForTouch(resampler, settings.useCovariance);
   resampler->SetInputData(input);
-  // Its errors and warnings are the caller's to say.
+  // The caller reports errors and warnings of the resampler.
   vtkNew<vtkCallbackCommand> silence;
   resampler->AddObserver(vtkCommand::ErrorEvent, silence);
   resampler->AddObserver(vtkCommand::WarningEvent, silence);

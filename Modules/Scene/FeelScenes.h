@@ -1,5 +1,5 @@
 /// @file
-/// What a hand on a path feels: the whole cloud, and finer scenes where the hand is.
+/// Scenes that a hand on a path feels: the whole cloud, and finer scenes where the hand is.
 #pragma once
 
 #include "Haptics/LocalScene.h"
@@ -19,49 +19,49 @@ class vtkVoxelMeanResampler;
 namespace pointhaptics
 {
 
-/// How the scenes of a cloud are made.
+/// Settings of the scenes of a cloud.
 struct FeelSceneSettings
 {
-  LocalBandwidthSettings bandwidth; ///< The rule for proxy radii.
+  LocalBandwidthSettings bandwidth; ///< Rule for proxy radii.
   Bounds workspace;                 ///< Points outside are not felt; empty: all are.
   bool useCovariance = true;        ///< Feel the second moments of the voxels, too.
   bool refineNearHand = true;       ///< Scenes near the hand are as fine as the points there.
 };
 
-/// Sets on @p resampler what a scene needs of it: double means, without arrays, with second moments where
-/// they are felt.
+/// Sets @p resampler up for a scene: double means without arrays, with second moments where they are felt.
 POINTHAPTICSSCENE_EXPORT void prepareForTouch(vtkVoxelMeanResampler* resampler, bool useCovariance);
 
-/// The scene of the whole cloud, and with FeelSceneSettings::refineNearHand beside it local ones, which are
-/// made as the hand comes along. One thread at a time.
+/// The scene of the whole cloud, and local ones with FeelSceneSettings::refineNearHand, which are made as the
+/// hand comes along. One thread at a time.
 class POINTHAPTICSSCENE_EXPORT FeelScenes
 {
 public:
   FeelScenes() = default;
-  /// The same cloud for another hand, whose path begins: shares what is immutable, and may be used in another
-  /// thread. Of the other object nothing is changed.
+  /// Copies for another hand, whose path begins: shares the immutable scenes, and may be used in another
+  /// thread. The other object does not change.
   explicit FeelScenes(const FeelScenes& shared);
   FeelScenes& operator=(const FeelScenes&) = delete;
 
-  /// @param felt the points that are felt, in the workspace frame: what vtkVoxelMeanResampler made of the
-  /// cloud after prepareForTouch(), or raw points. @param cloud the points of the cloud in its own frame, for
-  /// the scenes near the hand; no reference is kept. Errors: those of HapticScene::create().
+  /// Makes the scenes. @param felt the points that are felt, in the workspace frame: the output of
+  /// vtkVoxelMeanResampler after prepareForTouch(), or raw points. @param cloud the points of the cloud in
+  /// its own frame, for the scenes near the hand; no reference is kept. Errors: those of
+  /// HapticScene::create().
   Status make(vtkPolyData* felt, vtkPoints* cloud, const FeelSceneSettings& settings);
-  /// The same with a scene of the whole cloud that is there already.
+  /// As make(), with a scene of the whole cloud that is there already.
   void adopt(std::shared_ptr<const HapticScene> whole, vtkPoints* cloud, const FeelSceneSettings& settings);
-  /// Resamples @p cloud and makes the scenes of that. @param resampler has lattice and transform, and gets
-  /// what a scene needs; its observers may abort the work. @p settings' workspace is that of the resampler.
+  /// Resamples @p cloud and makes its scenes. @param resampler has lattice and transform, and is set up by
+  /// prepareForTouch(); its observers may abort the work. @p settings' workspace is that of the resampler.
   /// Errors: Aborted, Empty (no finite point in the workspace), InvalidParameter (the resampler's settings),
   /// those of HapticScene::create(); @p message says which, with the cure.
   Status resample(
     vtkPointSet* cloud, vtkVoxelMeanResampler* resampler, FeelSceneSettings settings, std::string& message);
-  /// Forgets where the hand was: the next path is felt as the first one.
+  /// Forgets the hand: the next path is felt as the first one.
   void restart();
 
   const std::shared_ptr<const HapticScene>& whole() const { return whole_; }
-  /// Null: the scene of the whole cloud is felt everywhere.
+  /// Follower of the hand; null: the global scene is felt everywhere.
   LocalSceneFollower* follower() { return follower_ ? &*follower_ : nullptr; }
-  /// In virtual time: the scene for the next step (see LocalSceneFollower::at()).
+  /// Scene for the next step in virtual time (see LocalSceneFollower::at()).
   const HapticScene* at(const Vec3& hip, const Vec3& touched)
   {
     return follower_ ? follower_->at(hip, touched, SmpExecutor()) : whole_.get();

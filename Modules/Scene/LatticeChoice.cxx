@@ -12,9 +12,9 @@ namespace
 {
 
 constexpr int kFinest = 4 * kDefaultLatticeDimension;
-/// So many means show and feel a shape well.
+/// This many means show and feel a shape well.
 constexpr vtkIdType kEnough = 30000;
-/// Finer voxels that give less than so many times the means only repeat the points.
+/// Finer voxels that give less than this many times the means only repeat the points.
 constexpr double kGain = 1.25;
 
 } // namespace

@@ -1,5 +1,5 @@
 /// @file
-/// How many voxels an axis a cloud is resampled into where nobody says it.
+/// Chooses the number of voxels on an axis where nobody gave one.
 #pragma once
 
 #include "PointHapticsSceneModule.h" // For export macro
@@ -20,9 +20,10 @@ struct LatticeChoice
   bool isNewest = true; ///< The means are those of the last call of @c resample.
 };
 
-/// 300; but where these leave fewer than 30,000 means of a cloud that finer voxels would tell apart (a sweep
-/// of LiDAR over a street, dense near the scanner and thin at 80 m), 600 or 1200. @p resample gives the means
-/// of the cloud with so many voxels an axis. Once @p goesOn answers false, what there is is taken.
+/// Chooses 300; or 600 or 1200 where 300 leave fewer than 30,000 means of a cloud that finer voxels would
+/// tell apart, such as a sweep of LiDAR over a street, dense near the scanner and thin at 80 m. @p resample
+/// gives the means of the cloud with so many voxels an axis. Once @p goesOn answers false, the best choice so
+/// far is taken.
 POINTHAPTICSSCENE_EXPORT LatticeChoice chooseLattice(
   const std::function<vtkSmartPointer<vtkPolyData>(int)>& resample, const std::function<bool()>& goesOn);
 

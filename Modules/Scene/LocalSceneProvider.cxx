@@ -19,7 +19,7 @@ namespace pointhaptics
 namespace
 {
 
-/// Fraction of the cells in the local scene from which on it does not pay.
+/// A local scene with more than this fraction of the cells does not pay.
 constexpr double kLargestFraction = 0.7;
 constexpr std::int64_t kBlocksAPiece = 32;
 
@@ -36,8 +36,8 @@ AffineTransform affineFromRows(const std::array<double, 16>& rows)
   return transform;
 }
 
-/// How many of the points from @p begin to before @p end lie in @p box; their numbers to @p inside, which has
-/// room for all of them. Without branches: they would be guessed wrong.
+/// Counts the points from @p begin to before @p end in @p box, and writes their numbers to @p inside, which
+/// has room for all. It has no branches, as they would be mispredicted.
 template <typename Real>
 std::size_t findWithin(const Real* first, std::int64_t stride, const Bounds& box, std::int64_t begin,
   std::int64_t end, std::int64_t* inside)
@@ -53,8 +53,8 @@ std::size_t findWithin(const Real* first, std::int64_t stride, const Bounds& box
   return count;
 }
 
-/// Those of @p points in @p box, x y z together. Found twice: memory that grows costs more than a second
-/// look.
+/// Returns the points of @p points in @p box, x y z together. They are found twice, as memory that grows
+/// costs more than a second look.
 template <typename Real>
 std::vector<Real> pointsWithin(
   const Real* first, const PointView& points, const Bounds& box, const Executor& executor)
@@ -91,7 +91,7 @@ std::vector<Real> pointsWithin(
   return found;
 }
 
-/// The smallest box of the model's frame that @p transform takes to a body about @p box.
+/// Smallest box of the model's frame that covers @p box after @p transform.
 Bounds boxOfModel(const AffineTransform& transform, const Bounds& box)
 {
   const AffineTransform back = transform.inverse();
@@ -103,7 +103,7 @@ std::vector<Vec3> meansOf(const VoxelResampler& engine)
 {
   const std::size_t size = std::size_t(engine.size());
   std::vector<Real> coordinates(3 * size);
-  engine.copyMeans(0, coordinates.data());
+  engine.copyMeans(coordinates.data());
   std::vector<Vec3> means(size);
   for (std::size_t i = 0; i < size; ++i)
   {
@@ -159,14 +159,14 @@ std::shared_ptr<const HapticScene> LocalSceneProvider::build(
   return HapticScene::create(std::move(input), status, smp_);
 }
 
-/// The voxels of @p region. False: there are none, or most of the cloud is in it.
+/// Resamples the voxels of @p region. False: there are none, or most of the cloud is in it.
 bool LocalSceneProvider::resample(const LocalRegion& region)
 {
   std::vector<float> floats;
   std::vector<double> doubles;
   if (!region.globalScene())
   {
-    // A look at each point costs less than an index of them, which nobody needs yet.
+    // To look at each point costs less than an index, which is not needed yet.
     const PointAccess access(cloud_->GetPoints());
     const PointView& all = access.view();
     const Bounds box = boxOfModel(voxels_.transform, region.voxels().bounds());
@@ -237,7 +237,7 @@ std::shared_ptr<const HapticScene> LocalSceneProvider::make(
   return beside && this->follow(request, beside) ? finer_.build(origin.hand, beside, smp_) : nullptr;
 }
 
-/// False: there is nothing to make finer scenes of.
+/// Prepares finer scenes. False: the scene or the cloud cannot have any.
 bool LocalSceneProvider::follow(const SceneRequest& request, const std::shared_ptr<const HapticScene>& global)
 {
   if (follower_ && follower_->global() == global)
@@ -268,7 +268,8 @@ bool LocalSceneProvider::index()
   return index_ != nullptr;
 }
 
-/// What to resample, points and part aside. False: there is nothing, or the lattice hangs on the whole cloud.
+/// Prepares lattice and transform of the resampling. False: there is no cloud, or the lattice depends on the
+/// whole cloud.
 bool LocalSceneProvider::prepare(const SceneRequest& request)
 {
   const VoxelMeanSettings& settings = request.voxels;
@@ -287,19 +288,19 @@ bool LocalSceneProvider::prepare(const SceneRequest& request)
     makeLattice(settings.lattice, Bounds(), voxels_.lattice) == Status::Ok;
 }
 
-/// The voxels, as makeHapticScene() reads them from the filter's output.
+/// Input of a scene, as makeHapticScene() reads it from the filter's output.
 HapticSceneInput LocalSceneProvider::input(const SceneRequest& request) const
 {
   const std::size_t size = std::size_t(engine_.size());
   HapticSceneInput input;
   input.points = voxels_.singlePrecision ? meansOf<float>(engine_) : meansOf<double>(engine_);
   std::vector<std::int64_t> counts(size);
-  engine_.copyCounts(0, counts.data());
+  engine_.copyCounts(counts.data());
   input.counts.assign(counts.begin(), counts.end());
   if (request.useCovariance && voxels_.covariances)
   {
     input.covariances.resize(size);
-    engine_.copyCovariances(0, input.covariances.data());
+    engine_.copyCovariances(input.covariances.data());
   }
   input.bandwidth = request.bandwidth;
   const Vec3& spacing = voxels_.lattice.spacing;

@@ -52,7 +52,7 @@ public:
   std::shared_ptr<const HapticScene> make(
     const SceneOrigin& origin, const std::shared_ptr<const HapticScene>& global);
 
-  /// Whether the points are indexed by now: not before a scene is made of them.
+  /// True if the points are indexed by now: not before a scene is made of them.
   bool isIndexed() const { return index_ != nullptr; }
 
 private:
@@ -66,7 +66,7 @@ private:
   vtkSmartPointer<vtkPointSet> cloud_;
   std::shared_ptr<const PointIndex> index_; ///< Null: not made yet.
   LocalSceneBuilder finer_;
-  std::optional<LocalSceneFollower> follower_; ///< Of the global scene that was refined last.
+  std::optional<LocalSceneFollower> follower_; ///< Follower of the global scene that was refined last.
   std::chrono::steady_clock::time_point lastLook_;
   VoxelResampler engine_;
   VoxelRequest voxels_;

@@ -40,7 +40,7 @@ std::string pathProblem(const HipPath& path)
 bool countTicks(const HipPath& path, const std::string& fileName, double rateHz, double most,
   std::int64_t& ticks, std::string& message, const UnitNames& units)
 {
-  // The last point counts also where rounding puts it just before its tick.
+  // The last point counts even if rounding puts it just before its tick.
   const double count = std::floor(path.duration() * rateHz + 1e-6) + 1.0;
   if (!(count <= most))
   {

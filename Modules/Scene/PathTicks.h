@@ -1,5 +1,5 @@
 /// @file
-/// How many servo ticks a hand path takes.
+/// Number of servo ticks that a hand path takes.
 #pragma once
 
 #include "Devices/PathUnits.h"

@@ -1,5 +1,5 @@
 /// @file
-/// Which scene the hand feels while the model moves and scenes of it are being made.
+/// Decides which scene the hand feels while the model moves and new scenes are made.
 #pragma once
 
 #include "Core/Base/AffineTransform.h"
@@ -15,28 +15,27 @@
 namespace pointhaptics
 {
 
-/// A model that is turned, shifted or uniformly scaled is felt where it is at once: the newest scene is moved
-/// (HapticScene::moved, below a microsecond), until the one of the cloud resampled there is made. A scene
-/// that was made for where the model no longer is comes moved to where it is. Any thread.
+/// A model that is rotated, translated or uniformly scaled is felt at its new place at once: the newest scene
+/// is moved (HapticScene::moved, below a microsecond), until the cloud is resampled there. A scene that was
+/// made for a former place of the model is moved to the present one. Any thread.
 class POINTHAPTICSSCENE_EXPORT ScenePublisher
 {
 public:
   using Sink = std::function<void(std::shared_ptr<const HapticScene>)>;
 
-  /// Who gets the scenes from now on, one at a time, under a lock; may be empty.
+  /// Sets the receiver of the scenes, which it gets one at a time, under a lock; may be empty.
   void setSink(Sink sink);
-  /// The model is moved. Publishes the newest scene there, if there is one that can be moved so: not under
-  /// shear, nor scales that differ by axis.
+  /// Notes that the model moved, and publishes the newest scene there. A scene that cannot be moved so, under
+  /// shear or scales that differ by axis, is not published.
   void move(const AffineTransform& modelToWorkspace);
-  /// A scene of cloud @p cloud is made for request @p number, or null where there is nothing to feel.
-  /// Publishes it where the model is by now; nothing, if that cloud is gone or a later request's is there.
-  /// But an earlier scene of the whole cloud takes its place beside a later one of a part
-  /// (HapticScene::fallback()), and a part is published after the whole cloud of the same request if it was
-  /// made beside that.
+  /// Publishes a scene of cloud @p cloud for request @p number, or null where there is nothing to feel, at
+  /// the present place of the model. Nothing happens if that cloud is gone, or a later request's scene is
+  /// there. Yet an earlier global scene becomes the fallback of a later local one (HapticScene::fallback()),
+  /// and a local scene that was made beside the global one of its request is published after it.
   void publish(std::shared_ptr<const HapticScene> scene, std::uint64_t cloud, std::uint64_t number);
-  /// Another cloud comes: what is felt of the old one is not moved any more.
+  /// Notes that another cloud comes: scenes of the old one are not moved any more.
   void startCloud();
-  /// The number of the present one.
+  /// Number of the present cloud.
   std::uint64_t cloud() const;
 
 private:
@@ -45,8 +44,8 @@ private:
   std::shared_ptr<const HapticScene> newest_;
   AffineTransform modelToWorkspace_;
   std::uint64_t cloud_ = 0;
-  std::uint64_t number_ = 0; ///< Of the newest scene.
-  bool isMoved_ = false;     ///< By move(), since the newest scene was asked for or before.
+  std::uint64_t number_ = 0; ///< Number of the newest scene.
+  bool isMoved_ = false;     ///< True if move() was called since the newest scene was asked for.
 };
 
 } // namespace pointhaptics

@@ -28,19 +28,19 @@ namespace
 
 using Clock = std::chrono::steady_clock;
 
-/// Between two looks at where the hand is: 0.5 mm at 50 mm/s.
+/// Time between two looks at the hand: 0.5 mm at 50 mm/s.
 constexpr std::chrono::milliseconds kLookPeriod(10);
-/// The same of a hand that rested for so many looks.
+/// Time between two looks at a hand that rested for kRestingLooks looks.
 constexpr std::chrono::milliseconds kRestPeriod(40);
 constexpr int kRestingLooks = 50;
 
-/// The filters, which live and die in the worker's thread.
+/// Filters that live and die in the worker's thread.
 class Pipeline
 {
 public:
   Pipeline()
   {
-    // What these say comes from another thread and is the owner's to say: BuiltScene::problem.
+    // Messages of these filters come from another thread; the owner reports them as BuiltScene::problem.
     for (const auto event : { vtkCommand::ErrorEvent, vtkCommand::WarningEvent })
     {
       resampler_->AddObserver(event, silent_);
@@ -57,7 +57,7 @@ public:
     numberOfPoints_ = cloud ? cloud->GetNumberOfPoints() : 0;
   }
 
-  /// Resamples; null where there is nothing to feel.
+  /// Resamples and makes the scene; null where there is nothing to feel.
   std::shared_ptr<const HapticScene> buildScene(const SceneRequest& request, BuiltScene& built)
   {
     built.modelToWorkspace = request.modelToWorkspace;
@@ -130,7 +130,7 @@ public:
     this->release();
   }
 
-  /// Others own what was taken; the next update makes new arrays.
+  /// Lets go of the output, which others own now; the next update makes new arrays.
   void release()
   {
     bandwidth_->GetOutput()->ReleaseData();
@@ -164,10 +164,10 @@ SceneRequest SceneRequest::of(vtkVoxelMeanResampler* resampler, vtkKernelBandwid
 namespace
 {
 
-/// An object whose ownership is to pass to another thread. vtkSmartPointer copies where it is assigned, even
-/// from what is moved: a reference would stay behind, and who lets go of one of several has
-/// vtkGarbageCollector walk through an object that is another thread's by now. An optional constructs, which
-/// moves.
+/// An object whose ownership passes to another thread. vtkSmartPointer copies even where it is assigned from
+/// a moved pointer, so a reference would stay behind. Whoever lets go of one of several references makes
+/// vtkGarbageCollector walk through an object that belongs to another thread by then. The constructor of an
+/// optional moves.
 template <typename Object>
 using Owned = std::optional<Object>;
 
@@ -187,7 +187,7 @@ struct Refinable
   std::shared_ptr<const HapticScene> global;
 };
 
-/// What a thread of the worker is to do.
+/// Task of a thread of the worker.
 struct Job
 {
   SceneRequest request;
@@ -197,7 +197,7 @@ struct Job
   std::shared_ptr<const Refinable> refinable = nullptr; // refine this; there is no request then
 };
 
-/// A thread of the worker, and what it does next. All but the thread under the worker's mutex.
+/// A thread of the worker and its next task. All members but the thread are guarded by the worker's mutex.
 struct Builder
 {
   std::optional<SceneRequest> waiting;
@@ -216,7 +216,7 @@ struct SceneWorker::Implementation
 {
   mutable std::mutex mutex;
   std::condition_variable changed;
-  // Under the mutex.
+  // Guarded by the mutex.
   Builder global;
   Builder local;
   std::uint64_t number = 0;
@@ -227,7 +227,7 @@ struct SceneWorker::Implementation
   std::shared_ptr<const Refinable> refinable;      // while no request follows, if that is wanted
   Owned<BuiltScene> finished;
   bool ending = false;
-  // Of the thread near the hand.
+  // State of the thread near the hand.
   Bounds seenHand;
   int restingLooks = 0;
 
@@ -249,7 +249,7 @@ void SceneWorker::Implementation::start(Builder& builder, void (Implementation::
   }
 }
 
-/// The thread is done with its last job, and waits for the next one. Nothing: the end.
+/// Ends the thread's last job and waits for the next one. Nothing: the thread must end.
 std::optional<Job> SceneWorker::Implementation::next(Builder& builder)
 {
   std::unique_lock<std::mutex> lock(this->mutex);
@@ -279,8 +279,8 @@ std::optional<Job> SceneWorker::Implementation::next(Builder& builder)
   return job;
 }
 
-/// The thread of the whole cloud leaves the processors to the other one until that is done with this job, or
-/// a newer one.
+/// Lets the thread of the whole cloud wait until the other one is done with this job, or with a newer one:
+/// local scenes go first.
 void SceneWorker::Implementation::waitForLocal(const Job& job)
 {
   std::unique_lock<std::mutex> lock(this->mutex);
@@ -294,7 +294,7 @@ bool SceneWorker::Implementation::isFollowed() const
   return this->global.waiting.has_value();
 }
 
-/// After the scene of a request was published: if no other follows, it may be refined.
+/// Offers the scene of a request, which is published, for refinement, if no other request follows.
 void SceneWorker::Implementation::offerRefinement(
   const Job& job, const std::shared_ptr<const HapticScene>& scene)
 {
@@ -351,7 +351,7 @@ void SceneWorker::Implementation::buildGlobalScenes()
   }
 }
 
-/// Whether the hand rests: then there is time until the next look, and a window at rest sleeps.
+/// Looks at the hand. If it rests, the next look comes later, and a window at rest sleeps.
 void SceneWorker::Implementation::look(const SceneRequest& request)
 {
   const Bounds hand = request.hand();

@@ -27,8 +27,8 @@ class vtkVoxelMeanResampler;
 namespace pointhaptics
 {
 
-/// What one scene is made with. The settings of the filters are copied when it is made: what is set on them
-/// later belongs to the next request.
+/// Input of one scene. The settings of the filters are copied when it is made: later changes belong to the
+/// next request.
 struct SceneRequest
 {
   /// Copies the settings of @p resampler, its input and transform aside, and those of @p filter, which may be
@@ -38,50 +38,49 @@ struct SceneRequest
 
   std::array<double, 16> modelToWorkspace{ 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1 }; ///< Row by row.
   bool useCovariance = true;
-  VoxelMeanSettings voxels;                   ///< Scene and picture are those of the finest level.
-  std::optional<BandwidthSettings> bandwidth; ///< The rule of the radii, and the arrays of the picture.
-  /// Arrays of the picture that take long: see SurfaceArrays.h. A picture with them is left out of a build
-  /// that is followed by another.
+  VoxelMeanSettings voxels;                   ///< Settings of scene and picture.
+  std::optional<BandwidthSettings> bandwidth; ///< Rule of the radii, and the arrays of the picture.
+  /// Arrays of the picture that take long: see SurfaceArrays.h. A build that is followed by another leaves
+  /// out a picture with them.
   bool hasResiduals = false;
   bool hasNormals = false;
-  /// While the model rests, scenes of what is near the hand are made that are as fine as the points there
-  /// (LocalSceneBuilder), and published with this request's number. Needs a hand and covariances.
+  /// Make fine scenes near the hand while the model rests (LocalSceneBuilder), and publish them with this
+  /// request's number. Needs a hand and covariances.
   bool refinesNearHand = false;
-  /// Nobody has chosen the lattice: that of the scene of the whole cloud is as chooseLattice() finds it, what
-  /// is near the hand has that of @c voxels.
+  /// Choose the lattice of the global scene by chooseLattice(); local scenes have that of @c voxels.
   bool findsLattice = false;
-  /// A box about the hand and what it touches, in the workspace; empty: there is no hand. May be missing.
-  /// Called in the worker's threads.
+  /// Returns a box about the HIP and the contact point, in the workspace; empty: there is no hand. May be
+  /// missing. Called in the worker's threads.
   std::function<Bounds()> hand;
-  /// Called in the worker's threads with a finished scene and the request's number: a scene of what is near
-  /// the hand, where one is made, and that of the whole cloud, or null where there is nothing in the
-  /// workspace; before the picture's arrays are made. Two calls may meet.
+  /// Receives a finished scene and the request's number, in the worker's threads: a local scene, where one is
+  /// made, and the global one, or null where nothing lies in the workspace. It is called before the picture's
+  /// arrays are made. Two calls may meet.
   std::function<void(std::shared_ptr<const HapticScene>, std::uint64_t)> publish;
 };
 
-/// What came of a request.
+/// Result of a request.
 struct BuiltScene
 {
-  std::uint64_t number = 0; ///< Of the request: 1, 2, ...
+  std::uint64_t number = 0; ///< Number of the request: 1, 2, ...
   std::array<double, 16> modelToWorkspace{};
   vtkSmartPointer<vtkPolyData> means; ///< With the arrays of both filters; nobody else has it.
-  vtkIdType numberOfPoints = 0;       ///< Of the cloud.
-  int latticeDimension = 0;           ///< What SceneRequest::findsLattice found; else 0.
+  vtkIdType numberOfPoints = 0;       ///< Number of the cloud's points.
+  int latticeDimension = 0;           ///< Dimension that SceneRequest::findsLattice found; else 0.
   bool empty = true;                  ///< No scene was made: @p status says why.
   Status status = Status::Empty;
-  std::string problem; ///< What the filters could not do; empty: nothing.
+  std::string problem; ///< Failures of the filters; empty: none.
 };
 
-/// One build of the whole cloud is in flight at a time; of the requests that come meanwhile only the newest
-/// is built. The picture may be left out of a build that is followed by another, but not for longer than
-/// kPictureSeconds. A second thread builds what is near the hand (LocalSceneProvider) in the same way, and
-/// goes first: new voxels are felt before the whole cloud is resampled. While the model rests it looks at the
-/// hand 100 times a second, 25 times a hand that rests, if the newest request says so, and makes finer scenes
-/// of where that comes.
+/// Builds the global scene of one request at a time; of the requests that come meanwhile only the newest is
+/// built. The picture may be left out of a build that is followed by another, but not for longer than
+/// kPictureSeconds. A second thread builds local scenes (LocalSceneProvider) in the same way, and goes first:
+/// new voxels are felt before the whole cloud is resampled. While the model rests, and if the newest request
+/// says so, it looks at the hand 100 times a second, or 25 times at a hand that rests, and makes finer scenes
+/// on its way.
 ///
-/// request(), adopt(), setCloud(), take(), wait() and cancel() from one thread (the GUI's), which waits in
-/// the last two only. VTK objects pass from thread to thread whole: the worker has filters of its own, and
-/// what one side hands over it lets go of.
+/// request(), adopt(), setCloud(), take(), wait() and cancel() belong to one thread (the GUI's), which waits
+/// in the last two only. VTK objects pass from thread to thread whole: the worker has filters of its own, and
+/// the side that passes an object on keeps no reference.
 class POINTHAPTICSSCENE_EXPORT SceneWorker
 {
 public:
@@ -92,26 +91,25 @@ public:
   SceneWorker(const SceneWorker&) = delete;
   SceneWorker& operator=(const SceneWorker&) = delete;
 
-  /// The cloud of the requests from now on; nothing of the former one can be taken any more. Its points and
-  /// arrays are shared and must not be changed; the object itself is the worker's.
+  /// Sets the cloud of the following requests; results of the former one can no longer be taken. Its points
+  /// and arrays are shared and must not be changed; the object itself is the worker's.
   void setCloud(vtkSmartPointer<vtkPointSet> cloud);
   /// @return the request's number.
   std::uint64_t request(SceneRequest request);
-  /// A scene of the cloud that was made elsewhere as @p request would make it, or null where there was
-  /// nothing in the workspace, takes the place of what would be built: it is published at once and may be
-  /// refined. What is in flight still is dropped, and nothing of it can be taken. @return the request's
-  /// number.
+  /// Takes a scene that was made elsewhere, as @p request would make it, in place of a build; null where
+  /// nothing lies in the workspace. It is published at once and may be refined. Builds in flight are dropped,
+  /// and none of their results can be taken. @return the request's number.
   std::uint64_t adopt(SceneRequest request, std::shared_ptr<const HapticScene> scene);
-  /// How often the whole cloud was resampled.
+  /// Number of times that the whole cloud was resampled.
   std::uint64_t numberOfBuilds() const;
-  /// The newest finished build that was not taken yet. False: there is none.
+  /// Takes the newest finished build once. False: there is none.
   bool take(BuiltScene& built);
-  /// Whether a build is in flight or waits.
+  /// True if a build is in flight or waits.
   bool busy() const;
-  /// Returns when nothing is in flight and nothing waits; finer scenes near the hand may still come.
+  /// Waits until no build is in flight and no request waits; finer scenes near the hand may still come.
   void wait();
-  /// Forgets the requests that wait and the result that was not taken, and waits for the builds in flight.
-  /// Nothing is called or published afterwards, finer scenes neither, until the next request.
+  /// Forgets waiting requests and the result that was not taken, and waits for the builds in flight.
+  /// Afterwards nothing is called or published, not even finer scenes, until the next request.
   void cancel();
 
 private:

@@ -1,5 +1,5 @@
 /// @file
-/// Arrays for pictures that tell of the surface the hand feels.
+/// Arrays of the felt surface, for pictures.
 #pragma once
 
 #include "PointHapticsSceneModule.h" // For export macro
@@ -19,8 +19,8 @@ constexpr const char* kResidualArrayName = "Residual";
 /// frame of the means; zero where there is none.
 constexpr const char* kSurfaceNormalArrayName = "SurfaceNormal";
 
-/// Adds those that are wanted to @p means, points of the workspace that @p scene was made of. About 10 us a
-/// point and thread of vtkSMPTools. Any thread that @p means belongs to.
+/// Adds the wanted arrays to @p means, points of the workspace from which @p scene was made. About 10 us a
+/// point and thread of vtkSMPTools. Any thread that owns @p means.
 POINTHAPTICSSCENE_EXPORT void addSurfaceArrays(
   vtkPolyData* means, const HapticScene& scene, bool residuals, bool normals);
 

@@ -16,7 +16,7 @@
 namespace pointhaptics
 {
 
-/// A day at 1 kHz; more ticks are a mistake in the path's times.
+/// Most ticks of a path, a day at 1 kHz; more are a mistake in its times.
 constexpr double kMostTicks = 1e8;
 
 /// The columns of OUT.csv, in their order: seconds, metres, newtons, and microseconds at the end.
@@ -28,20 +28,20 @@ constexpr std::array<const char*, 16> kFeltColumns = { "t", "hip_x", "hip_y", "h
 POINTHAPTICSSCENE_EXPORT std::array<double, kFeltColumns.size()> feltRow(
   double timeSeconds, const ProxyState& state, double microseconds);
 
-/// A servo step without force limits in the scenes of where the hand comes. One thread at a time.
+/// A servo step without force limits, in the scenes along the hand's way. One thread at a time.
 class POINTHAPTICSSCENE_EXPORT VirtualTouch
 {
 public:
   /// @param scenes outlives this.
   VirtualTouch(const HapticParameters& parameters, FeelScenes& scenes, double rateHz);
-  /// The hand is at @p hip for one tick. @param microseconds gets the duration of the tick alone: a scene
-  /// that it needs is there in time.
+  /// Steps with the hand at @p hip. @param microseconds gets the duration of the tick alone: a scene that it
+  /// needs is there in time.
   const ProxyState& step(const Vec3& hip, double& microseconds);
-  /// What the last step came to; its tick is its number, 1, 2, ...
+  /// Sample of the last step; its tick is the step's number, 1, 2, ...
   const ServoSample& sample() const { return sample_; }
-  /// That the last step was felt in; may be null.
+  /// Scene in which the last step was felt; may be null.
   const HapticScene* scene() const { return scene_; }
-  /// Of all ticks.
+  /// Settings of all ticks.
   static ServoStepSettings settings(double rateHz);
 
 private:
@@ -51,9 +51,9 @@ private:
   ServoSample sample_;
 };
 
-/// What feelPath() tells of each tick; false stops it.
+/// Called by feelPath() with each tick; false stops it.
 using OnTick = std::function<bool(double timeSeconds, const ProxyState& state, double microseconds)>;
-/// The same with all there is to know; the time of its sample counts from the first tick.
+/// Called with each tick and all that is known of it; the time of its sample counts from the first tick.
 using OnTouch = std::function<bool(double timeSeconds, const VirtualTouch& touch)>;
 
 /// Moves the hand along @p path, whatever the force, linearly between its points, for so many ticks (see

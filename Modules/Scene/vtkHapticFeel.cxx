@@ -129,7 +129,7 @@ public:
 
 private:
   FeelScenes Scenes;
-  /// What the scenes were made of; MTimes are never given twice.
+  /// MTimes of the inputs from which the scenes were made; MTimes are never given twice.
   vtkMTimeType CloudTime = 0;
   vtkMTimeType FilterTime = 0;
   bool UsedCovariance = false;

@@ -81,7 +81,7 @@ public:
 
   ///@{
   /**
-   * Of the hand's speed along the normal, in contact, N s/m, 0 to 1e3. Default: 0.
+   * Damping of the hand's speed along the normal, in contact, N s/m, 0 to 1e3. Default: 0.
    */
   vtkSetMacro(Damping, double);
   vtkGetMacro(Damping, double);
@@ -135,12 +135,12 @@ public:
   ///@}
 
   /**
-   * Of the last update: points of the resampled cloud that were felt.
+   * Number of points of the resampled cloud that were felt in the last update.
    */
   vtkGetMacro(NumberOfFeltPoints, vtkIdType);
 
   /**
-   * Later than that of the two filters.
+   * MTime of the filter, the two inner filters included.
    */
   vtkMTimeType GetMTime() override;
 

@@ -12,7 +12,7 @@ namespace
 constexpr double kOnSurface = 1e-6;
 constexpr std::int64_t kSample = 1000;
 constexpr double kHoleRadius = 0.010;
-constexpr double kHalfEdge = 0.05; ///< Of the cube that holds all shapes.
+constexpr double kHalfEdge = 0.05; ///< Half the edge of the cube that holds all shapes, metres.
 /// A foot point this far off the normal's line, over the distance, lies on a rim.
 constexpr double kRimSlope = 1e-4;
 constexpr double kEvenZoom = 1e-6;

@@ -1,5 +1,5 @@
 /// @file
-/// What an exact surface would answer: for clouds that are samples of a shape we know.
+/// Force of an exact surface, for clouds that are samples of a known shape.
 #pragma once
 
 #include "Core/Base/AffineTransform.h"
@@ -9,7 +9,7 @@
 namespace pointhaptics
 {
 
-/// Whether @p points are a sample of a shape as generateShape() draws it, in its own frame: the finite ones
+/// True if @p points are a sample of a shape as generateShape() draws it, in its own frame: the finite ones
 /// of 1000 points spread over the cloud lie within 1 um of its surface. Of shapes with one surface the
 /// plainest is named: the plane for the density step. False, and @p shape unchanged: of none, or there are no
 /// points, or noise was added. Cost: below 0.1 s. Thread safe.

@@ -62,7 +62,7 @@ void idolWidths(const T& c, T& across, T& deep)
     T(0.050) - 0.018 * plinthTop - 0.0145 * plinthNeck - 0.005 * stepAt(c, -0.1, 0.2) - 0.0055 * neck + head;
 }
 
-/// What the features add to the half-widths, as a fraction.
+/// Relief that the features add to the half-widths, as a fraction.
 template <typename T>
 T idolRelief(const T& x, const T& y, const T& c)
 {

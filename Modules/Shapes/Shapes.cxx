@@ -178,7 +178,7 @@ double idolDensity(const Vec3& q)
 struct IdolBounds
 {
   static constexpr int kSlices = 128;
-  std::array<double, kSlices> area{}; ///< Of the area normal's length, by the height of q.
+  std::array<double, kSlices> area{}; ///< Integral of the area normal's length, by the height of q.
   double densityTimesArea = 0.0;
 
   static int slice(const Vec3& q) { return std::clamp(int((0.5 + 0.5 * q.z) * kSlices), 0, kSlices - 1); }

@@ -21,7 +21,7 @@
 #include <optional>
 #include <utility>
 
-// A host need not know which of VTK's modules bring what a window is made of.
+// Initialises the VTK modules of a window, so that a host need not know them.
 VTK_MODULE_INIT(vtkInteractionStyle)
 VTK_MODULE_INIT(vtkRenderingContextOpenGL2)
 VTK_MODULE_INIT(vtkRenderingFreeType)
@@ -45,7 +45,7 @@ private:
   Clock::time_point begin_ = Clock::now();
 };
 
-/// @p message with the name of the file where it does not have it.
+/// Adds the name of the file to @p message where it lacks it.
 std::string withTitle(const std::string& title, const std::string& message)
 {
   return message.find(title) == std::string::npos ? title + ": " + message : message;
@@ -65,11 +65,11 @@ struct HapticViewer::Implementation
   const HapticViewerObserver observer;
   ViewScene scene;
   std::vector<std::string> files;
-  std::size_t cloud = 0; ///< Which of them is shown.
-  std::string news;      ///< What was skipped before it; empty: nothing.
+  std::size_t cloud = 0; ///< Index of the shown file.
+  std::string news;      ///< Files that were skipped before it; empty: none.
   bool isOpen = false;
   bool isCancelled = false;
-  std::optional<ServoSample> felt; ///< What a picture shows of the path.
+  std::optional<ServoSample> felt; ///< Sample of the path that a picture shows.
   double readSeconds = 0.0;
   double resampleSeconds = 0.0;
   std::string message;
@@ -87,7 +87,7 @@ struct HapticViewer::Implementation
   void skip(const std::string& title);
 };
 
-/// It is opened later.
+/// The window, made at its first use.
 ViewWindow& HapticViewer::Implementation::theWindow()
 {
   if (!this->window)
@@ -132,7 +132,7 @@ bool HapticViewer::Implementation::awaitWithoutWindow(const CloudLoader& loader)
   return !stops;
 }
 
-/// Until there is something to take. False: the user gave it up.
+/// Waits until the loader has a result. False: the user gave it up.
 bool HapticViewer::Implementation::await(const CloudLoader& loader, const std::string& title)
 {
   std::string ignored;
@@ -143,7 +143,7 @@ bool HapticViewer::Implementation::await(const CloudLoader& loader, const std::s
   return isRead || this->fail(title + ": reading was stopped on request; nothing is shown");
 }
 
-/// A file that cannot be shown, as message says, where there are others.
+/// Warns of a file that cannot be shown, where there are others.
 void HapticViewer::Implementation::skip(const std::string& title)
 {
   const std::string why = withTitle(title, this->message);
@@ -155,12 +155,12 @@ void HapticViewer::Implementation::skip(const std::string& title)
   }
 }
 
-/// In the loader's thread, without a word of what fails.
+/// Reads in the loader's thread, without any message of what fails.
 bool HapticViewer::Implementation::read(CloudRequest request, LoadedCloud& loaded)
 {
   request.measuresLater = this->options.showsReading;
   request.resamplesLater = this->options.showsReading;
-  // A recording is of all points.
+  // A recording needs all points.
   const bool needsAll = !this->options.replay.empty() || !this->options.record.empty();
   request.mostPoints = this->options.showsReading && !needsAll ? this->options.coarsePoints : 0;
   request.makesScene = this->options.showsReading || this->options.followsFile();
@@ -175,7 +175,7 @@ bool HapticViewer::Implementation::read(CloudRequest request, LoadedCloud& loade
   return this->message.empty();
 }
 
-/// Reads cloud after cloud until one can be shown.
+/// Reads one cloud after the other until one can be shown.
 bool HapticViewer::Implementation::readFirst(LoadedCloud& loaded)
 {
   const std::size_t count = this->options.together ? 1 : this->files.size();
@@ -211,7 +211,7 @@ bool HapticViewer::Implementation::show(LoadedCloud loaded)
   }
   this->news += (this->news.empty() || loaded.notes.empty() ? "" : "\n") + shortNote(loaded.notes);
   this->isOpen = this->scene.open(std::move(loaded), this->options, this->message);
-  // What VTK classes complained of comes first: it may be why.
+  // Errors of VTK classes come first, since they may be the cause.
   const std::vector<std::string> errors =
     this->observer.takeVtkErrors ? this->observer.takeVtkErrors() : std::vector<std::string>();
   this->isOpen = errors.empty() ? this->isOpen : this->fail(errors.front());

@@ -42,7 +42,7 @@ class POINTHAPTICSVIEWER_EXPORT HapticViewer
 {
 public:
   explicit HapticViewer(HapticViewerOptions options = {}, HapticViewerObserver observer = {});
-  /// Does what stop() does, where it was not called.
+  /// Stops the viewer, where stop() was not called.
   ~HapticViewer();
   HapticViewer(const HapticViewer&) = delete;
   HapticViewer& operator=(const HapticViewer&) = delete;
@@ -91,20 +91,20 @@ public:
   /// viewer, to which a host may add its own: style()->GetCommands().
   static CommandRegistry commands();
 
-  /// What the picture with this number, from 1, of a turntable of @p last is called: OUT-001.png for OUT.png,
-  /// with as many digits as the last one needs, and at least three.
+  /// Name of picture @p number, from 1, of a turntable of @p last pictures: OUT-001.png for OUT.png, with as
+  /// many digits as the last one needs, and at least three.
   static std::string pictureName(const std::string& fileName, int number, int last);
 
-  /// What is drawn: voxel means with their arrays. Null before open().
+  /// The drawn voxel means with their arrays. Null before open().
   vtkPolyData* means();
-  /// Of the cloud.
+  /// Number of the cloud's points.
   vtkIdType numberOfPoints() const;
-  /// Those of them that are NaN or infinite: neither drawn nor felt.
+  /// Number of points that are NaN or infinite: neither drawn nor felt.
   vtkIdType numberOfInvalidPoints() const;
   /// How large the model is in the hand, in words.
   const std::string& scaleNote() const;
   ///@{
-  /// What the last open() took.
+  /// Times of the last open().
   double readSeconds() const;
   double resampleSeconds() const;
   ///@}

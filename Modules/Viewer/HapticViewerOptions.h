@@ -1,5 +1,5 @@
 /// @file
-/// What a HapticViewer shows and how it feels: plain values, each with the default of the program.
+/// Options of a HapticViewer: plain values, each with the default of the program.
 #pragma once
 
 #include "Core/Bandwidth/BandwidthSettings.h"
@@ -19,16 +19,16 @@
 namespace pointhaptics
 {
 
-/// What moves the hand.
+/// The device that moves the hand.
 enum class HapticViewerDevice
 {
   Auto,      ///< A Falcon where one can be used, else the simulated hand.
   Falcon,    ///< An error where none can be used.
   Simulated, ///< Driven by mouse and keys.
-  None,      ///< The cloud is only looked at.
+  None,      ///< The cloud is looked at and not felt.
 };
 
-/// What the person at the screen calls the settings that messages speak of.
+/// Names of settings in messages, as the person at the screen knows them.
 struct HapticViewerNames
 {
   std::string colorBy = "colorBy";
@@ -45,7 +45,7 @@ struct HapticViewerOptions
   // The file.
   std::vector<std::string> columns; ///< Names for the columns of texts; empty: as the files say.
   bool salvage = false;             ///< Files that are cut are read as far as they go.
-  double resolution = 0.0; ///< How far cloud optimised files are read, in their units; 0: all points.
+  double resolution = 0.0;          ///< Resolution of cloud optimised files, in their units; 0: all points.
 
   // The picture.
   int width = 1280; ///< Pixels of window or picture, at least 16.
@@ -61,21 +61,21 @@ struct HapticViewerOptions
   bool figure = false;        ///< Nothing but the cloud in one color on white, workspace, proxy and normal.
   bool ambient = false;       ///< Light by the normals of the felt surface.
   PictureSettings picture;    ///< Projection, background and the like.
-  int turntable = 0;          ///< So many pictures, once about the cloud, are written in place of one.
+  int turntable = 0;          ///< Number of pictures, once about the cloud, in place of one; 0: one picture.
   std::vector<double> camera; ///< Position, focal point, view up: 9 numbers; empty: from in front.
 
   // Where the cloud lies, and the lattice it is resampled on.
   AffineTransform transform;  ///< From the file's coordinates to metres.
   std::string unit = "m";     ///< Name of the unit of the file's coordinates, for texts.
-  double metresPerUnit = 1.0; ///< What that unit is; @c transform holds it already.
-  bool unitIsChosen = false;  ///< Else texts take the unit that a file itself says, where it says one.
+  double metresPerUnit = 1.0; ///< Length of that unit in metres; @c transform includes it already.
+  bool unitIsChosen = false;  ///< If false, texts take the unit that a file itself names.
   bool fitsWorkspace = true;  ///< Fit the transformed cloud to the 10 cm cube about the origin.
-  /// How the cloud is resampled. Its lattice: dimensions of 0 are a choice, 300 to 1200; where fitsWorkspace
-  /// is on the workspace is that cube, else an automatic one is a cube about the cloud. With
+  /// Settings of the resampling. Lattice dimensions of 0 are chosen by the viewer, 300 to 1200. Where
+  /// fitsWorkspace is on the workspace is that cube, else an automatic one is a cube about the cloud. With
   /// computeCovariance, the default here, the second moments of the points in a voxel shape the felt surface.
   VoxelMeanSettings voxels = defaultVoxels();
-  /// From the spacing of the points to the radius of the proxy. Which arrays are made of it follows from the
-  /// picture.
+  /// Rule from the spacing of the points to the radius of the proxy. The picture decides which of its arrays
+  /// are made.
   BandwidthSettings bandwidth;
 
   // The touch.
@@ -83,14 +83,16 @@ struct HapticViewerOptions
   std::string ideal =
     "auto"; ///< Shape whose exact force the chart shows; auto: where the cloud is one; none.
   HapticViewerDevice device = HapticViewerDevice::Auto;
-  FalconSettings falcon;  ///< @c cancelled is taken from HapticViewerObserver where it is empty.
+  FalconSettings falcon;  ///< The default of @c cancelled is HapticViewerObserver::shouldStop.
   std::string path;       ///< File of a hand path, t,x,y,z, that moves the hand instead of a device.
-  PathUnits pathUnits;    ///< Of its numbers.
+  PathUnits pathUnits;    ///< Units of the path's numbers.
   std::string replay;     ///< A recording that is felt again instead of a path.
   std::string record;     ///< A recording to write, from the first tick to the last; empty: a key begins one.
-  std::string markerText; ///< What the recording says of the markers that the key sets.
-  int markerPort = -1;    ///< Of this machine, where other programs set markers (MarkerSocket.h); -1: none.
-  std::string passingFile; ///< One that the host deletes when the viewer ends: recordings keep a copy of it.
+  std::string markerText; ///< Text in the recording for markers that the key sets.
+  int markerPort = -1;    ///< TCP port of this machine at which other programs set markers (MarkerSocket.h);
+                          ///< -1: none.
+  std::string passingFile; ///< A file that the host deletes when the viewer ends: recordings keep a copy of
+                           ///< it.
   std::string trace;       ///< CSV to write, one row a tick; empty: none.
   std::string forceChart;  ///< PNG to write, force and proxy radius over time; empty: none.
 
@@ -99,24 +101,24 @@ struct HapticViewerOptions
   bool pushPointer = false;          ///< The mouse pointer is pushed out of what the hand touches.
   bool together = false;             ///< All files as one cloud; else one at a time.
   bool watch = false;                ///< Read files again when they change.
-  /// Of cloud optimised files: points that the window shows at once, while all are read; 0: it waits for all.
+  /// Points of a cloud optimised file that the window shows at once, while all are read; 0: it waits for all.
   std::int64_t coarsePoints = 60000;
   bool fullScreen = false; ///< The window covers the screen, without a border.
   bool sound = false;      ///< The touch is heard (SoundPlayer.h), where the machine has a loudspeaker.
-  /// The window is shown while the first file is read, where that takes longer than 0.2 s and there is a
-  /// display: for programs that call HapticViewer::run() next.
+  /// Show the window while the first file is read, if that takes longer than 0.2 s and there is a display;
+  /// for programs that call HapticViewer::run() next.
   bool showsReading = false;
 
   HapticViewerNames names;
 
-  /// Whether the hand goes where a file says.
+  /// True if the hand goes where a file says.
   bool followsFile() const { return !this->path.empty() || !this->replay.empty(); }
-  /// Whether the lattice's voxels were chosen.
+  /// True if the lattice's voxels were chosen.
   bool hasVoxels() const
   {
     return this->voxels.lattice.dimensions[0] > 0 || this->voxels.lattice.voxelSize > 0.0;
   }
-  /// The default of voxels: their size is left to the viewer.
+  /// Default of voxels: the viewer chooses their size.
   static VoxelMeanSettings defaultVoxels()
   {
     VoxelMeanSettings settings;
@@ -126,12 +128,12 @@ struct HapticViewerOptions
   }
 };
 
-/// What a window has come to: the options that its user changed, as they are now.
+/// State of a window: the options that its user changed, with their present values.
 struct HapticViewerState
 {
   std::array<double, 16> modelToWorkspace{}; ///< From the file's coordinates to metres, row by row.
   std::array<double, 6> workspace{};         ///< xmin, xmax, ymin, ymax, zmin, zmax.
-  double voxelSize = 0.0;                    ///< As the slider was set; 0: it was not.
+  double voxelSize = 0.0;                    ///< Size set by the slider; 0: it was not used.
   ContactParameters contact;
   double radiusScale = 0.0; ///< beta.
   /// As HapticViewerOptions::camera. In a parallel projection the distance tells the scale, see fitCamera().
@@ -146,42 +148,42 @@ struct HapticViewerState
   bool fullScreen = false;
   bool sound = false;
   std::string colorBy;
-  std::string unit; ///< The one that the user took for the file's; empty: none.
+  std::string unit; ///< Unit that the user took for the file's; empty: none.
   double metresPerUnit = 1.0;
   int width = 0;
   int height = 0;
 };
 
-/// What a viewer has to say, and what it asks its host. Every member may be empty. All are called in the GUI
+/// Messages and questions of a viewer to its host. Every member may be empty. All are called in the GUI
 /// thread.
 struct HapticViewerObserver
 {
   enum class Kind
   {
-    Note,    ///< What was done, such as "screenshot: FILE".
+    Note,    ///< A finished action, such as "screenshot: FILE".
     Warning, ///< The viewer goes on, with less.
-    Error,   ///< What the user asked for was not done; the window goes on.
+    Error,   ///< A request of the user failed; the window goes on.
   };
 
-  /// A message for people, in one or more lines, without a line break at its end.
+  /// Shows a message for people, in one or more lines, without a line break at its end.
   std::function<void(Kind, const std::string&)> message;
-  /// Long work: @p part 0 to 1, which is over with 1.
+  /// Shows the progress of long work: @p part 0 to 1; 1 ends it.
   std::function<void(const std::string& what, double part)> progress;
   /// True ends long work and closes the window. Asked about 30 times a second.
   std::function<bool()> shouldStop;
-  /// Where the content of a picture of that name goes, where the host gives it its name later.
+  /// Returns the place where the content of a picture of that name is written, if the host renames it later.
   std::function<std::string(const std::string& fileName)> placeOf;
-  /// What VTK classes complained of since the last call, where the host collects it.
+  /// Returns the complaints of VTK classes since the last call, where the host collects them.
   std::function<std::vector<std::string>()> takeVtkErrors;
-  /// The user asks to keep @p state in @p fileName (JSON). False: @p message says why not. Empty: the key has
-  /// no effect.
+  /// Keeps @p state in @p fileName (JSON) at the user's request. False: @p message says why not. Empty: the
+  /// key has no effect.
   std::function<bool(const HapticViewerState& state, const std::string& fileName, std::string& message)>
     writeState;
-  /// @p state as a configuration in one line, and the program's name and version: for the header of a
-  /// recording. Either may be missing.
+  /// Describes @p state as a configuration in one line; and the program's name and version: both for the
+  /// header of a recording, and either may be missing.
   std::function<std::string(const HapticViewerState& state)> describeState;
   std::string program;
-  /// The window closes.
+  /// Called when the window closes.
   std::function<void(const HapticViewerState& state)> rememberState;
 };
 

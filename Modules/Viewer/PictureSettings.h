@@ -1,5 +1,5 @@
 /// @file
-/// How a picture is drawn, whatever the cloud is: plain values that options give, keys change and files keep.
+/// Settings of a picture, whatever the cloud is: plain values that options give, keys change and files keep.
 #pragma once
 
 #include <array>
@@ -9,36 +9,36 @@
 namespace pointhaptics
 {
 
-/// Of PictureSettings::theme.
+/// Names that PictureSettings::theme may have.
 inline const std::vector<std::string>& themeNames()
 {
   static const std::vector<std::string> names = { "usual", "high-contrast" };
   return names;
 }
 
-/// The choices; each can be a command-line option, a key and a line of the configuration file.
+/// Settings of a picture; each can be a command-line option, a key and a line of the configuration file.
 struct PictureSettings
 {
   bool parallel = false;           ///< Parallel projection; else perspective.
   std::string background = "dark"; ///< One of groundNames(): dark, light, white, black.
   std::string stereo = "none";     ///< One of stereoNames(): one picture, or how those of two eyes are shown.
   double pointScale = 1.0;         ///< Factor on the diameter of all points, 0.1 to 10.
-  double depthStrength = 1.6;      ///< Of the shading by depth, 0 (none) to 10: see vtkDepthShadingPass.
+  double depthStrength = 1.6;      ///< Strength of the shading by depth, 0 (none) to 10: see
+                                   ///< vtkDepthShadingPass.
   double fontScale = 1.0;          ///< Factor on the size of all texts, 0.5 to 4.
   std::string colorMap = "auto";   ///< One of colorMapNames().
-  /// The values of what colours the cloud that have the first and the last colour; empty: nearly all that
-  /// occur.
+  /// Values that get the first and the last colour; empty: nearly all values that occur.
   std::vector<double> colorRange;
-  /// Two places in the frame of the file, x, y, z each, whose distance is shown; one: its end is still to be
-  /// chosen; empty: none.
+  /// Coordinates x, y, z in the frame of the file of two points whose distance is shown. One point: the other
+  /// is still to be chosen; empty: none.
   std::vector<double> measure;
-  /// Width and height in pixels of pictures that are written; 0: those of the window.
+  /// Width and height of written pictures, pixels; 0: those of the window.
   std::array<int, 2> screenshotSize{};
   /// One of themeNames(). high-contrast: backgrounds are black or white, texts a quarter larger on opaque
   /// plates, marks of touch in colours that people with colour vision deficiencies tell apart, with thick
   /// outlines.
   std::string theme = "usual";
-  bool transparent = false; ///< Pictures that are written have no background: what is behind shows through.
+  bool transparent = false; ///< Written pictures have no background: the page behind shows through.
 
   bool isHighContrast() const { return theme == "high-contrast"; }
 };

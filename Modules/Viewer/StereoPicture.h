@@ -13,11 +13,11 @@ class vtkRenderWindow;
 namespace pointhaptics
 {
 
-/// none, then the ways of VTK to show two pictures in one, then crystal-eyes, which needs a screen with
-/// buffers for both.
+/// Names of stereo modes: none, then VTK's ways to show two pictures in one, then crystal-eyes, which needs a
+/// screen with buffers for both.
 POINTHAPTICSVIEWER_EXPORT const std::vector<std::string>& stereoNames();
 
-/// What is used where nobody has chosen.
+/// Stereo mode that the key chooses first, and the one that needs quad buffers.
 constexpr const char* kUsualStereo = "anaglyph";
 constexpr const char* kQuadBuffers = "crystal-eyes";
 
@@ -25,8 +25,8 @@ constexpr const char* kQuadBuffers = "crystal-eyes";
 /// shows one picture.
 bool applyStereo(vtkRenderWindow* window, const std::string& name);
 
-/// Before each frame: the camera of @p renderer learns whether its window shows two pictures, which VTK 9.1
-/// forgets where a renderer has a render pass.
+/// Tells the camera of @p renderer, before each frame, if its window shows two pictures. VTK 9.1 forgets that
+/// where a renderer has a render pass.
 void tellStereo(vtkRenderer* renderer);
 
 } // namespace pointhaptics

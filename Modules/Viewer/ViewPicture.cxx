@@ -70,7 +70,7 @@ std::vector<vtkSmartPointer<vtkRenderer>> renderersOf(vtkRenderWindow* window)
   return renderers;
 }
 
-/// A background of one grey, or what was there before.
+/// Replaces the background by one grey, and restores it.
 class PlainGround
 {
 public:
@@ -97,8 +97,8 @@ private:
   std::array<double, 3> color_{};
 };
 
-/// What gives @p black over black and @p white over white: of each colour the share that is not the
-/// background's.
+/// Returns the image with alpha that gives @p black over black and @p white over white: each colour keeps the
+/// part that is not the background's.
 vtkSmartPointer<vtkImageData> withoutGround(vtkImageData* black, vtkImageData* white)
 {
   vtkNew<vtkImageData> image;
@@ -164,7 +164,7 @@ bool writePicture(vtkRenderWindow* window, const std::function<void()>& render, 
 namespace
 {
 
-/// All renderers go from @p from to @p to. What they drew with goes with the window it is of.
+/// Moves all renderers from @p from to @p to. Graphics resources belong to a window and are released.
 void moveRenderers(vtkRenderWindow* from, vtkRenderWindow* to)
 {
   for (const auto& renderer : renderersOf(from))
@@ -223,7 +223,7 @@ bool writePictureOfSize(vtkRenderWindow* window, vtkCamera* camera, const std::a
 namespace
 {
 
-/// A hand that follows HapticViewerOptions::path.
+/// Moves a hand along HapticViewerOptions::path.
 bool feelPathOf(ViewScene& scene, const HapticViewerOptions& options, const HapticViewerObserver& observer,
   std::vector<ServoSample>& samples, std::string& message)
 {
@@ -251,7 +251,7 @@ bool feelPathOf(ViewScene& scene, const HapticViewerOptions& options, const Hapt
   return true;
 }
 
-/// What was recorded in HapticViewerOptions::replay, felt again.
+/// Feels the recording in HapticViewerOptions::replay again.
 bool feelReplay(ViewScene& scene, const HapticViewerOptions& options, const HapticViewerObserver& observer,
   IdealForce* ideal, std::vector<ServoSample>& samples, std::vector<double>& ideals, std::string& message)
 {
@@ -343,7 +343,7 @@ bool feelAlongPath(ViewScene& scene, const HapticViewerOptions& options, const H
 namespace
 {
 
-/// Says where a picture is for one eye alone though it was asked for two.
+/// Warns if a picture shows one eye alone though two were asked for.
 void checkStereo(vtkRenderWindow* window, const std::string& stereo, const HapticViewerObserver& observer)
 {
   if (!window->GetStereoRender() && stereo != stereoNames().front() && observer.message)
@@ -353,7 +353,7 @@ void checkStereo(vtkRenderWindow* window, const std::string& stereo, const Hapti
   }
 }
 
-/// Once about the cloud in equal steps, beginning with the view as it is.
+/// Writes pictures once about the cloud in equal steps, beginning with the present view.
 bool writeTurntable(ViewScene& scene, const std::function<bool(const std::string&)>& write, int pictures,
   const HapticViewerObserver& observer, const std::string& fileName, std::string& message)
 {

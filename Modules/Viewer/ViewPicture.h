@@ -17,15 +17,15 @@ class vtkRenderWindow;
 namespace pointhaptics
 {
 
-/// Renders @p window by @p render and writes what it shows as PNG; where @p transparent, without the
-/// background: it is rendered over black and over white, and what is alike there is opaque. False: @p message
-/// says why not.
+/// Renders @p window by @p render and writes the picture as PNG. @p transparent: without the background; the
+/// window is rendered over black and over white, and pixels that are alike are opaque. False: @p message says
+/// why not.
 bool writePicture(vtkRenderWindow* window, const std::function<void()>& render, bool transparent,
   const std::string& fileName, std::string& message);
 
-/// The same of @p width by @p height pixels, whatever the size of @p window is: its renderers are in another
-/// one, off the screen, meanwhile. The picture shows at least what @p window does; of the cameras that is
-/// @p camera. @p render is given the window to render.
+/// As writePicture(), in @p width by @p height pixels, whatever the size of @p window. Its renderers are in
+/// another window meanwhile, off the screen. The picture shows at least what @p window does, by @p camera. @p
+/// render is given the window to render.
 bool writePictureOfSize(vtkRenderWindow* window, vtkCamera* camera, const std::array<int, 2>& size,
   const std::function<void(vtkRenderWindow*)>& render, bool transparent, const std::string& fileName,
   std::string& message);

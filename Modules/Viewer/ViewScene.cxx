@@ -49,7 +49,7 @@ namespace
 
 /// The proxy sphere is drawn at least this large, over the workspace's edge.
 constexpr double kSmallestSphere = 0.022;
-/// Of what words stand on that lie over points.
+/// Opacity of the plates behind texts that lie over points.
 constexpr double kPlateOpacity = 0.6;
 } // namespace
 
@@ -98,7 +98,7 @@ ViewScene::~ViewScene()
   resampler_->RemoveObservers(vtkCommand::StartEvent);
 }
 
-/// Before every render: how many points it shows, and room for the scalar bar.
+/// Chooses before every render how many points it shows, and leaves room for the scalar bar.
 void ViewScene::beginFrame()
 {
   applyTextScale(renderer_->GetRenderWindow(), this->textScale());
@@ -109,8 +109,8 @@ void ViewScene::beginFrame()
   }
   if (shown_)
   {
-    // What a sweep leaves open between its lines stays open from nearer: its first view rules. Surfaces
-    // close.
+    // Gaps between the lines of a sweep stay open when the camera comes nearer: sizes stay as in the first
+    // view. Surfaces close.
     const bool isSweep = shown_->look.kind == CloudKind::Sweep || shown_->look.kind == CloudKind::Indoors;
     pointsMapper_->SetSurfacePixels(
       isSweep ? pointsMapper_->GetLargestPixels() * placedDistance_ / this->viewDistance() : INFINITY);
@@ -124,7 +124,7 @@ void ViewScene::beginFrame()
   }
 }
 
-/// That the splats in view cover, roughly, each on its own.
+/// Rough number of pixels that the splats in view cover, each on its own.
 double ViewScene::fragments()
 {
   vtkActor* actor = drawsFelt_ ? actor_ : pointsActor_;
@@ -245,7 +245,7 @@ void ViewScene::setUnit(const LengthUnit& unit)
   }
 }
 
-/// The filters, as those were that made the means: for what is made after a change.
+/// Sets the filters as those that made the means, for means after a change.
 void ViewScene::configure(const LoadedCloud& loaded, const HapticViewerOptions& options)
 {
   resampler_->SetInputData(loaded.felt ? loaded.felt : cloud_);
@@ -259,7 +259,7 @@ void ViewScene::configure(const LoadedCloud& loaded, const HapticViewerOptions& 
 
 void ViewScene::showMeans(const LoadedCloud& loaded, const HapticViewerOptions& options)
 {
-  // As if the filters had run, which they shall not.
+  // The output looks as if the filters had run, which they shall not.
   bandwidth_->GetOutput()->ShallowCopy(loaded.means);
   mapper_->SetSizeArrayName("MeanBandwidth");
   this->drawPoints();
@@ -294,7 +294,7 @@ void ViewScene::chooseArrays()
   bandwidth_->SetComputeProxyRadius(colorBy_ == "ProxyRadius");
 }
 
-/// Colours points and means by what is asked for, or as if nothing were where they do not have it.
+/// Colours points and means by the chosen array, or by the default where they lack it.
 void ViewScene::applyColors()
 {
   vtkPolyData* output = bandwidth_->GetOutput();
@@ -327,7 +327,7 @@ ViewScene::ColorRange ViewScene::colorRange()
   return range;
 }
 
-/// The same colours for the same places and values, where more points would make a wider range.
+/// Keeps the colours of places and values, where more points would widen the range.
 void ViewScene::keepColorRange(const ColorRange& before)
 {
   if (before.coloredBy == coloredBy_ && picture_.colorRange.empty())
@@ -340,7 +340,7 @@ void ViewScene::keepColorRange(const ColorRange& before)
 
 std::vector<std::string> ViewScene::colorChoices() const
 {
-  // What is shown where nothing is chosen comes first.
+  // The default choice comes first.
   std::vector<std::string> names;
   const auto add = [&names](const std::string& name)
   {
@@ -357,7 +357,7 @@ std::vector<std::string> ViewScene::colorChoices() const
   add(hasColors(shown_->points) ? "rgb" : "");
   for (const char* name : { "classification", "intensity", "returnnumber" })
   {
-    // The means have none of what only the points were read for, and never get it.
+    // The means lack arrays that only the points have, and never get them.
     vtkDataArray* array = findArrayAnyCase(showsFelt_ ? cloud_ : shown_->points, name);
     add(array ? array->GetName() : "");
   }
@@ -447,7 +447,7 @@ void ViewScene::showFigure(bool figure)
   }
 }
 
-/// Colours of the cloud and the background, and what stands beside the cloud.
+/// Sets the colours of cloud and background, and shows or hides what stands beside the cloud.
 void ViewScene::applyLook()
 {
   vtkPolyData* drawn = drawsFelt_ ? bandwidth_->GetOutput() : shown_->points.Get();
@@ -470,7 +470,7 @@ void ViewScene::applyLook()
          scalarBar_->GetAnnotationTextProperty() })
   {
     text->SetColor(ink.x, ink.y, ink.z);
-    // Points may lie behind, of any colour.
+    // Points of any colour may lie behind.
     const double plate = isLightGround(ground) ? 1.0 : 0.0;
     text->SetBackgroundColor(plate, plate, plate);
     text->SetBackgroundOpacity(kPlateOpacity);
@@ -489,7 +489,7 @@ void ViewScene::applyLook()
   this->detail().recolor();
 }
 
-/// The box ends where the workspace does: of a monument the part in reach is what is looked at.
+/// Ends the box where the workspace does: people look at the part of a monument that is in reach.
 void ViewScene::placeAxes(vtkMatrix4x4* model)
 {
   if (!axes_->GetVisibility() || !cloud_)

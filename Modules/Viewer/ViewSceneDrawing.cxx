@@ -1,4 +1,4 @@
-// What is drawn of a scene: points or means, where the model is, and from where they are seen.
+// Draws a scene: points or means, where the model is, and the camera.
 #include "ViewScene.h"
 
 #include "CloudAppearance.h"
@@ -28,12 +28,12 @@ namespace pointhaptics
 namespace
 {
 
-/// Of the depths between neighbouring means, over their spacing.
+/// Depth differences up to this fraction of the spacing count as one surface where means are drawn.
 constexpr double kStepsOfMeans = 0.75;
-/// A model that was made larger than this many times as it was opened is shown in the workspace only.
+/// A model that was enlarged by more than this factor is shown within the workspace only.
 constexpr double kShownWhole = 1.05;
 
-/// Arrays that means alone have.
+/// True for arrays that means alone have.
 bool isFeltOnly(const std::string& name)
 {
   return name == "ProxyRadius" || name == kResidualArrayName || name == "Bandwidth" ||
@@ -54,12 +54,12 @@ double scaleOf(vtkMatrix4x4* matrix)
   return std::cbrt(std::abs(matrix->Determinant()));
 }
 
-/// Cosine between the surface normal and the direction to the camera from which on a contact counts as seen.
+/// A contact counts as seen from this cosine on, between the surface normal and the direction to the camera.
 constexpr double kFacingEnough = 0.25;
 
 } // namespace
 
-/// Points or means, and what stands beside the one that is shown.
+/// Shows points or means, with what belongs to them.
 void ViewScene::chooseDrawn()
 {
   const bool drawsFelt =
@@ -131,8 +131,8 @@ void ViewScene::drawPoints()
   orientation_.front = normalized(transformOf(modelMatrix_).applyToVector(shown_->look.front));
 }
 
-/// What was freed while the cloud was read, measured and drawn goes back to the machine, once that is over:
-/// about 200 bytes a point.
+/// Returns freed memory of reading, measuring and drawing to the system, about 200 bytes a point, once these
+/// are over.
 void ViewScene::returnMemory()
 {
   if (steadySeconds() >= memoryDue_ && !measurement_.busy())
@@ -165,7 +165,7 @@ bool ViewScene::followMeasurement(bool waits)
   return true;
 }
 
-/// The discs of means face the viewer: where a surface is steep they stand in steps.
+/// Sets the noise of the shading. Discs of means face the viewer, so they form steps on steep surfaces.
 void ViewScene::applyNoise()
 {
   const double noise = drawsFelt_ ? kStepsOfMeans * medianSpacing(bandwidth_->GetOutput())
@@ -173,7 +173,7 @@ void ViewScene::applyNoise()
   applyDepthShading(renderer_, noise, shown_->look.noisePerDistance);
 }
 
-/// The model may leave the workspace where it is turned; made larger, it would stand in front of it.
+/// Places the model. It may leave the workspace where it is rotated; enlarged, it would stand in front of it.
 void ViewScene::placeModel(vtkMatrix4x4* model)
 {
   pointsMatrix_->DeepCopy(model);
@@ -211,8 +211,8 @@ void ViewScene::placeCamera(const ProxyState* contact)
     return;
   }
   const bool turns = contact && contact->contact && shown_->look.kind != CloudKind::Frame;
-  // A contact is wanted on the side we see: the smallest turn that shows it, or else the one that faces it
-  // most.
+  // The contact must be on the visible side: take the smallest turn that shows it, or else the one that faces
+  // it most.
   CameraFit best = this->fitFrom(shown_->look);
   double facing = -2.0;
   for (double turn : { 0.0, -60.0, 60.0, 120.0, -120.0, 180.0 })

@@ -1,4 +1,5 @@
-// What a person marks in a cloud: the two ends of a distance, and the box outside of which nothing is shown.
+// Marks that a person sets in a cloud: the two ends of a distance, and the box outside of which nothing is
+// shown.
 #include "ViewScene.h"
 
 #include "ClippedCloud.h"
@@ -23,7 +24,7 @@ namespace pointhaptics
 namespace
 {
 
-/// Nearest first: what is under the pointer, rather than what lies beside and in front of it.
+/// Reaches of a pick, nearest first: the point under the pointer goes before those beside and in front of it.
 constexpr double kPickPixels[] = { 2.0, 4.0, 8.0 };
 
 Vec3 placeOf(const std::vector<double>& numbers, std::size_t index)
@@ -61,7 +62,7 @@ std::vector<std::string> ViewScene::measuredText() const
                                     : std::vector<std::string>();
 }
 
-/// Of a figure they are no part.
+/// Shows the marks; a figure has none.
 void ViewScene::applyMarks()
 {
   const std::size_t count = figure_ ? 0 : std::min<std::size_t>(2, picture_.measure.size() / 3);

@@ -1,4 +1,4 @@
-// How the scene is drawn and from where, as PictureSettings and the person say.
+// Drawing and camera of the scene, as PictureSettings and the person say.
 #include "ViewScene.h"
 
 #include "AsprsClasses.h"
@@ -31,34 +31,34 @@ namespace pointhaptics
 namespace
 {
 
-/// Of texts of the theme high-contrast.
+/// Factor on the size of texts in the theme high-contrast.
 constexpr double kLargerText = 1.25;
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
-/// Of vtkSplatMapper, at a scale of 1.
+/// Pixel sizes of vtkSplatMapper at a scale of 1.
 constexpr double kSmallestPixels = 2.0;
 constexpr double kPointPixels = 4.0;
-/// Of a handful of points, which nobody would see else.
+/// Smallest size of a handful of points, pixels: smaller ones would not be seen.
 constexpr double kLargestSmallest = 6.0;
-/// Of points at so few places that they have no surface, and no size.
+/// Size of points at fewer than kFewPlaces places, pixels: they have no spacing.
 constexpr double kLonePixels = 8.0;
 constexpr std::size_t kFewPlaces = 8;
-/// From here on points are as small as can be.
+/// Clouds of more points have the smallest points.
 constexpr double kManyPoints = 2000.0;
 constexpr double kFeltScale = 3.6;
 constexpr double kFeltLargest = 64.0;
-/// From straight above the camera's own up says which way it is turned.
+/// From straight above, the camera's own up vector decides how the view is turned.
 constexpr double kSteepest = 0.999;
-/// At which a point is a pixel.
+/// Dots per inch at which a point is a pixel.
 constexpr double kPointsPerInch = 72.0;
 
-/// Least diameter of so many points in the file, pixels.
+/// Least diameter of the points in a file of @p count points, pixels.
 double smallestPixels(vtkIdType count)
 {
   const double wanted = kSmallestPixels * std::sqrt(kManyPoints / std::max<double>(1.0, double(count)));
   return std::clamp(wanted, kSmallestPixels, kLargestSmallest);
 }
 
-/// Whether all points are at @p most places.
+/// True if all points are at @p most places.
 bool hasFewPlaces(const PointView& points, std::size_t most)
 {
   std::vector<Vec3> places;
@@ -72,7 +72,7 @@ bool hasFewPlaces(const PointView& points, std::size_t most)
   return places.size() <= most;
 }
 
-/// The corners of @p box, which lies where @p toWorld leads.
+/// Corners of @p box after @p toWorld.
 std::array<Vec3, 8> cornersBefore(const AffineTransform& toWorld, const Bounds& box)
 {
   const AffineTransform toCloud = toWorld.inverse();
@@ -110,7 +110,7 @@ void ViewScene::setPicture(const PictureSettings& picture)
   vtkCamera* camera = renderer_->GetActiveCamera();
   if (!isProjected && !picture.parallel)
   {
-    // From where what lies at the focal point keeps its size.
+    // Objects at the focal point keep their size seen from this distance.
     const double distance = this->viewDistance();
     Vec3 focus;
     Vec3 forward;
@@ -154,7 +154,7 @@ double ViewScene::viewDistance() const
   return picture_.parallel ? camera->GetParallelScale() / halfTangent(camera) : camera->GetDistance();
 }
 
-/// In a parallel projection the picture shows what a perspective one shows at the focal point.
+/// Makes a parallel picture show what a perspective one shows at the focal point.
 void ViewScene::applyProjection()
 {
   vtkCamera* camera = renderer_->GetActiveCamera();
@@ -248,7 +248,7 @@ ScreenBlock ViewScene::scalarBarBlock()
 
 void ViewScene::join(ScreenLayout& layout)
 {
-  // The corner of the axes' directions, pixels at 72 dots per inch.
+  // Size of the corner with the axes' directions, pixels at 72 dots per inch.
   constexpr double kMarker = 112.0;
   layoutPlacesBar_ = true;
   layout.setScalarBar(this->scalarBarBlock());
@@ -282,7 +282,7 @@ void ViewScene::leaveLayout()
 
 CameraFit ViewScene::fitFrom(const CloudLook& look, double turn) const
 {
-  // What the box leaves, where it leaves something.
+  // Points inside the clipping box, or all where it holds none.
   const vtkSmartPointer<vtkPolyData> clipped = clippedCloud(shown_->points, clipBox(clip_));
   const bool isEmpty = clipped->GetNumberOfPoints() == 0;
   const PointAccess access((isEmpty ? shown_->points : clipped)->GetPoints());
@@ -292,7 +292,7 @@ CameraFit ViewScene::fitFrom(const CloudLook& look, double turn) const
   const double aspect = renderer->GetTiledAspectRatio();
   if (hasFewPlaces(access.view(), 1))
   {
-    // It has no size that could fill the picture: the workspace does, seen from outside.
+    // Points at one place have no size that could fill the picture: the workspace does, seen from outside.
     const std::array<Vec3, 8> corners = cornersBefore(model, workspace_);
     CloudLook outside = look;
     outside.kind = CloudKind::Object;
@@ -312,7 +312,8 @@ void ViewScene::placeCamera(const CameraFit& fit)
   this->applyProjection();
 }
 
-/// Seen along the axes of the file, and from outside, also where the first view is that of a sensor.
+/// The look for views along the axes of the file: from outside, also where the first view is that of a
+/// sensor.
 CloudLook ViewScene::axisLook() const
 {
   CloudLook look = shown_->look;

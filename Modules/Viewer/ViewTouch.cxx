@@ -113,7 +113,7 @@ std::string traceColumns()
   std::string columns;
   for (const char* column : kFeltColumns)
   {
-    // The time of a tick stays the last one.
+    // The time of a tick stays the last column.
     columns += column == kFeltColumns.back() ? ",status" : "";
     columns += (columns.empty() ? "" : ",") + std::string(column);
   }

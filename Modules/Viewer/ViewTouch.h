@@ -1,5 +1,5 @@
 /// @file
-/// What `view` feels along a hand path, in virtual time: the same touch on every machine.
+/// Touch of `view` along a hand path, in virtual time: equal on every machine.
 #pragma once
 
 #include "CsvWriter.h"
@@ -24,30 +24,30 @@ struct HapticViewerOptions;
 /// time is that of the path. @pre path not empty.
 std::vector<ServoSample> samplesAlong(const HipPath& path, std::int64_t ticks, FeelScenes& scenes,
   const HapticParameters& parameters, double rateHz);
-/// What `feel` feels of the cloud of @p scene, with the same options. False: @p message says why not.
+/// Makes the scenes that the command `feel` makes of the cloud of @p scene with the same options. False: @p
+/// message says why not.
 bool makeFeelScenes(
   ViewScene& scene, const HapticViewerOptions& options, FeelScenes& scenes, std::string& message);
 
-/// What the sizes of @p path and of the cloud, as it stands in @p scene, say of their units
-/// (unlikelyUnits()).
+/// Judges the units of @p path and of the cloud, as it stands in @p scene, by unlikelyUnits().
 std::string unlikelyUnitsIn(
   ViewScene& scene, const HapticViewerOptions& options, const HipPath& path, bool isTouched);
 
 /// The tick to show: that of the largest force, or the last one where nothing was touched. @pre not empty.
 const ServoSample& mostTelling(const std::vector<ServoSample>& samples);
 
-/// The exact surface that --ideal names, or that the cloud of @p scene turns out to be. Null: none.
+/// Finds the exact surface that --ideal names, or of which the cloud of @p scene is a sample. Null: none.
 std::shared_ptr<IdealForce> idealFor(ViewScene& scene, const HapticViewerOptions& options);
 
 /// Newtons where the model stands, with stiffness and limit of @p contact; NaN: not known.
 double idealForce(
   IdealForce& ideal, const AffineTransform& model, const Vec3& hip, const ContactParameters& contact);
-/// The same where it stands in @p scene at this moment.
+/// As above, with the model where it stands in @p scene at this moment.
 double idealForce(IdealForce& ideal, ViewScene& scene, const Vec3& hip, const ContactParameters& contact);
 
-/// The columns of a trace: those of `feel`, and the status of the tick.
+/// Columns of a trace: those of `feel`, and the status of the tick.
 std::string traceColumns();
-/// A row of a trace for each sample.
+/// Adds a row to the trace for each sample.
 void addTrace(CsvWriter& trace, const std::vector<ServoSample>& samples);
 
 } // namespace pointhaptics

@@ -358,7 +358,7 @@ Places placesOf(const std::string& fileName, const std::array<int, 3>& color)
   return places;
 }
 
-/// Of the path, and of its recording, which was felt with other parameters than the viewer has.
+/// Charts of a path, and of its recording, which was felt with other parameters than the viewer has.
 TEST_F(RecordingCommands, TheIdealForceOfAChartObeysTheLimitThatHeld)
 {
   constexpr std::array<int, 3> kForce = { 205, 85, 0 };

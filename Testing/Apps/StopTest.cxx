@@ -43,7 +43,7 @@ protected:
     return std::count_if(names.begin(), names.end(),
       [](const std::string& name) { return name.find(".part") != std::string::npos; });
   }
-  /// Whether the program remembers SIGINT by now.
+  /// True if the program remembers SIGINT by now.
   static bool remembers(pid_t child)
   {
     const std::string mask = statusOf(child, "SigCgt:");
@@ -131,7 +131,7 @@ TEST_F(Stop, InTheMiddleOfFeelingLeavesNoFileBehind)
   }
 }
 
-/// What a pipe gets whose reader ends at once, as `| head` does.
+/// Runs the program into a pipe whose reader ends at once, as `| head` does.
 class Reader : public Stop
 {
 protected:

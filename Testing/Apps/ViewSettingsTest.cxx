@@ -15,7 +15,7 @@ using namespace pointhaptics::app;
 namespace
 {
 
-/// What --config makes of the settings.
+/// Reads the settings back as --config does.
 LatticeOptions readBack(const nlohmann::ordered_json& settings)
 {
   LatticeOptions options;

@@ -27,14 +27,18 @@ set(rooms_of_Bandwidth Base Simd Neighbors)
 set(rooms_of_Surface Base Simd)
 set(rooms_of_Distributed Base Simd Neighbors Resample Bandwidth)
 set(rooms_of_Reference Base Simd Neighbors Resample Bandwidth Surface)
+# Within Core/Resample likewise.
+set(stages_of_Kernel "")
+set(stages_of_Stages Kernel)
+set(stages_of_Reductions Kernel Stages)
 # Plain C++17: no VTK, no PCL, nothing that prints.
 set(plain_folders Core Shapes Haptics Devices)
 set(not_in_plain_folders "^(vtk[A-Za-z0-9_]*\\.h|pcl/.*|Eigen/.*|CLI/.*|nlohmann/.*|fmt/.*|iostream|cstdio|stdio\\.h)$")
 # A skin over Core and Filters: it finds no voxel and adds up nothing itself.
 set(not_in_skins "std::floor|std::accumulate|std::reduce|[^a-zA-Z_]floor\\(|\\+= *\\(?double|floorf\\(")
-# The same of the Python package: no sums, no means, no rounding to voxels, no distances.
+# The Python package computes nothing either: no sums, no means, no rounding to voxels, no distances.
 set(not_in_python "(np|numpy|math)\\.(floor|rint|round|sum|nansum|add|cumsum|mean|nanmean|average|median|var|std|cov|bincount|histogram|digitize|unique|sort|lexsort|argsort|dot|einsum|linalg)|\\.(sum|mean|var|std|cumsum|round|sort|reduceat|at)\\(|[])a-zA-Z0-9_] *// *[a-zA-Z0-9_(]|\\+= ")
-# The same sources compile against every VTK from 9.1 on, that of ParaView, too. Where versions must differ, they do so here.
+# All sources compile against every VTK from 9.1 on, that of ParaView, too. Differences between versions stand in one file.
 set(asks_for_version "VTK_(MAJOR|MINOR|BUILD)_VERSION|VTK_VERSION|PARAVIEW_VERSION")
 set(may_ask_for_version "Modules/Filters/VtkVersions.h")
 # The viewer is a library: it prints nothing and knows no command line.
@@ -85,6 +89,19 @@ macro (check_room)
   endif ()
 endmacro ()
 
+# For check_file: the same for the rooms of Core/Resample.
+macro (check_stage)
+  if (shown MATCHES "^Modules/Core/Resample/([A-Za-z]+)/")
+    set(room "${CMAKE_MATCH_1}")
+    if (name MATCHES "^Core/Resample/([A-Za-z]+)/")
+      set(other "${CMAKE_MATCH_1}")
+      if (NOT other STREQUAL room AND NOT other IN_LIST stages_of_${room})
+        list(APPEND problems "${shown} includes ${name}: Core/Resample/${room} may not include Core/Resample/${other}")
+      endif ()
+    endif ()
+  endif ()
+endmacro ()
+
 # Appends to the list problems what is wrong with the includes of one file of a folder.
 function (check_file file folder)
   file(STRINGS "${file}" lines REGEX "^[ \t]*#[ \t]*include")
@@ -96,6 +113,7 @@ function (check_file file folder)
     set(name "${CMAKE_MATCH_1}")
     folder_of("${name}" "${file}" target)
     check_room()
+    check_stage()
     if (target AND NOT target IN_LIST may_include_${folder})
       list(JOIN may_include_${folder} ", " allowed)
       list(APPEND problems "${shown} includes ${name}: ${folder} may include ${allowed} only, not ${target}")

@@ -1,6 +1,6 @@
 # cmake -DROOT=<folder with Modules, Apps and Testing> -DAWK=<awk> -P CheckSizes.cmake
-# What grows too large to be read at one go gets split: functions above 60 lines, files above 600, folders of Modules above
-# 25 sources, of Apps above 15. Fails with all that are larger.
+# Limits what a person reads at one go: functions have at most 60 lines, files 600, folders of Modules 25 sources, of Apps
+# 15. Fails with all that are larger.
 cmake_minimum_required(VERSION 3.18)
 
 set(functionLines 60)

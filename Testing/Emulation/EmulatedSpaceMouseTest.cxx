@@ -131,7 +131,7 @@ public:
   }
 
 private:
-  /// What the device was called while it was plugged in once.
+  /// Names of the device while it was plugged in once.
   struct Node
   {
     EmulatedCap* cap = nullptr;

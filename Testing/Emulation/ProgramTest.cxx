@@ -140,8 +140,8 @@ protected:
   }
 
   FirmwareFile file;
-  int input = -1; ///< Of the program; below 0: /dev/null.
-  int talk = -1;  ///< Where it says what it says; below 0: into out.txt.
+  int input = -1; ///< Standard input of the program; below 0: /dev/null.
+  int talk = -1;  ///< Descriptor of its output; below 0: into out.txt.
   EmulatedFalcon falcon;
   std::filesystem::path folder;
 };

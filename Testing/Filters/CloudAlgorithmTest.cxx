@@ -1,4 +1,4 @@
-// What the filters have in common: composites, errors, ports, warnings.
+// Tests of the behaviour that all filters share: composites, errors, ports, warnings.
 #include "VoxelMeanCases.h"
 #include "vtkKernelBandwidthFilter.h"
 
@@ -276,7 +276,7 @@ TEST(CloudAlgorithm, PortsAreThereFromConstruction)
   }
 }
 
-/// What an observer of progress sets is there after the next update, and not in this one.
+/// A setting that an observer of progress changes counts from the next update on.
 TEST(CloudAlgorithm, WhatIsSetInARunCountsFromTheNextOn)
 {
   const auto cloud = cloudAt(0, 20000, 12);

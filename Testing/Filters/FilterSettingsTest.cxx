@@ -22,7 +22,7 @@ template <typename Filter, typename Settings>
 struct Property
 {
   std::function<void(Filter*, const Settings&)> set; ///< The member, by its Set function.
-  std::function<bool(Filter*, const Settings&)> has; ///< Whether the Get function returns the member.
+  std::function<bool(Filter*, const Settings&)> has; ///< True if the Get function returns the member.
 };
 
 using Resampler = vtkVoxelMeanResampler;

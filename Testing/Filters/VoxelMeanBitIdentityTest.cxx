@@ -1,4 +1,4 @@
-// The same bits, whatever the order of the points, the threads, the back end or the run.
+// Results have equal bits, whatever the order of the points, the threads, the back end or the run.
 #include "VoxelMeanCases.h"
 
 #include "vtkSMPTools.h"

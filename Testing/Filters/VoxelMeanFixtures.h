@@ -1,5 +1,5 @@
 /// @file
-/// What the tests of the resampler share: its settings, and its answer beside the long double twin's.
+/// Shared by the tests of the resampler: its settings, and its answer beside the long double twin's.
 #pragma once
 
 #include "FilterFixtures.h"
@@ -97,7 +97,7 @@ inline pointhaptics::AffineTransform transformOf(vtkPolyData* output)
   return transform;
 }
 
-/// What the definition says of a resampler's last update, in long double.
+/// Expected result of a resampler's last update by the definition, in long double.
 struct Oracle
 {
   std::vector<double> coordinates;

@@ -1,4 +1,5 @@
-// What the resampler keeps between updates: bounded by the active voxels and the points, freed on request.
+// Memory of the resampler between updates is bounded by the active voxels and the points, and freed on
+// request.
 #include "VoxelMeanCases.h"
 
 #include <gtest/gtest.h>

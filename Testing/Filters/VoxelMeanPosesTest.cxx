@@ -49,8 +49,8 @@ Pose poseIn(vtkPolyData* cloud, const char* name, vtkIdType row = 0)
   return pose;
 }
 
-/// What the sensor at @p pose saw at @p p in its own frame, in the frame of the points; its quaternion may
-/// have any length.
+/// Takes @p p from the own frame of the sensor at @p pose to the frame of the points; its quaternion may have
+/// any length.
 pointhaptics::Vec3 seen(const Pose& pose, const pointhaptics::Vec3& p)
 {
   const pointhaptics::Vec3 axis(pose[4], pose[5], pose[6]);

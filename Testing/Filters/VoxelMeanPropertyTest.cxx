@@ -1,4 +1,4 @@
-// What holds for every cloud, lattice and transform.
+// Properties that hold for every cloud, lattice and transform.
 #include "VoxelMeanCases.h"
 
 #include <gtest/gtest.h>

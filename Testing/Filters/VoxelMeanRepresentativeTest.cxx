@@ -1,4 +1,4 @@
-// What stands for voxels other than the mean, which voxels are left out, and the voxel of each point.
+// Representatives other than the mean, voxels that are left out, and the voxel of each point.
 #include "VoxelMeanFixtures.h"
 
 #include "vtkBitArray.h"

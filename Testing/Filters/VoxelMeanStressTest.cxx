@@ -27,7 +27,7 @@ vtkSmartPointer<vtkPolyData> randomCloud(int n, double scale, const pointhaptics
     type);
 }
 
-/// What comes after finds all arrays it looks for.
+/// Expects all named arrays, without tuples: later filters find them.
 void expectEveryArrayWithoutTuples(vtkVoxelMeanResampler* resampler, const std::vector<const char*>& names)
 {
   vtkPolyData* output = resampler->GetOutput();

@@ -14,7 +14,7 @@
 namespace
 {
 
-/// What a filter without any memory of earlier updates says with @p resampler's settings.
+/// Result of a filter without any memory of earlier updates, with @p resampler's settings.
 vtkSmartPointer<vtkPolyData> fromScratch(vtkVoxelMeanResampler* resampler, vtkPolyData* cloud)
 {
   vtkNew<vtkVoxelMeanResampler> fresh;
@@ -131,7 +131,7 @@ TEST(VoxelMeanPointIndex, ValuesAreLookedThroughAgainWhenTheyChange)
   for (int step = 0; step < 12; ++step)
   {
     setView(resampler, transform, step);
-    // Of other magnitudes, down to other last bits; now and then with one that is not finite.
+    // Values of other magnitudes, down to other last bits; now and then one is not finite.
     const double scale = std::ldexp(1.0, 20 * (step % 5) - 40);
     for (vtkIdType i = 0; step % 2 == 0 && i < values->GetNumberOfTuples(); ++i)
     {

@@ -29,7 +29,7 @@ namespace
 {
 
 constexpr int kSkipped = 77;
-/// Of the state after an interaction: metres, matrix elements.
+/// Tolerance of numbers in the state after an interaction: metres, matrix elements.
 constexpr double kSameNumber = 1e-6;
 
 struct Arguments
@@ -114,7 +114,7 @@ std::string contentOf(const std::string& fileName)
   return { std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>() };
 }
 
-/// Whether both have the same words, and numbers that differ by rounding only.
+/// True if both have the same words, and numbers that differ by rounding only.
 bool sameState(const std::string& test, const std::string& baseline)
 {
   std::istringstream tests(test);
@@ -138,7 +138,7 @@ bool sameState(const std::string& test, const std::string& baseline)
   return !(baselines >> other);
 }
 
-/// What a comparison says; of what cannot be compared all is false.
+/// Result of a comparison; all is false where there is nothing to compare.
 struct Verdict
 {
   bool comparable = false;
@@ -152,7 +152,7 @@ std::string besideBaseline(const Arguments& arguments, const std::string& extens
   return std::filesystem::path(arguments.baseline).replace_extension(extension).string();
 }
 
-/// What a failure leaves to look at.
+/// Pictures that a failure leaves to look at.
 struct Evidence
 {
   const char* name;

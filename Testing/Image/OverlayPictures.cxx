@@ -116,7 +116,7 @@ void buildHelpFits(const std::string& fault, vtkRenderer* renderer)
   }
 }
 
-/// What the window says when something fails.
+/// Draws the window's message of a failure.
 void buildErrorOverlay(const std::string& fault, vtkRenderer* renderer)
 {
   applyBackground(renderer);

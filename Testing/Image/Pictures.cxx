@@ -213,7 +213,7 @@ void buildSphereContact(const std::string& fault, vtkRenderer* renderer)
   showTouch(renderer, state);
 }
 
-/// What a hand feels that comes down at @p place, to @p depth below z = 0.
+/// State of a hand that comes down at @p place, to @p depth below z = 0.
 ProxyState touchFromAbove(const HapticScene& scene, const Vec3& place, double depth)
 {
   Proxy proxy;

@@ -6,8 +6,8 @@
 #include "vtkKernelBandwidthFilter.h"
 #include "vtkVoxelMeanResampler.h"
 
-#include "Unit/SkipWithoutDisplay.h"
 #include "FlatCloud.h"
+#include "Unit/SkipWithoutDisplay.h"
 
 #include <gtest/gtest.h>
 #include <vtkCallbackCommand.h>

@@ -108,7 +108,7 @@ protected:
     device->buttons = buttons;
     ASSERT_TRUE(eventually([&] { return servo->latest().buttons == buttons; }));
   }
-  /// What a program goes on doing.
+  /// Uses the style as a program that goes on does.
   void useStyle()
   {
     style->GetModel().translate({ 0.001, 0.0, 0.0 });

@@ -1,4 +1,4 @@
-# What the tests under mpirun share: a folder that goes, and run_ranks. Sourced.
+# Sourced by the tests under mpirun: makes a temporary folder and defines run_ranks.
 set -euo pipefail
 
 if [[ -z "${MPIRUN:-}" || ! -x "$MPIRUN" ]]; then
@@ -21,7 +21,7 @@ fault() {
   exit 1
 }
 
-# What ends a test otherwise says where it was, with all that programs said last.
+# Reports where a failed command stood, with the last lines of all programs.
 explain() {
   local code="$1"
   trap - ERR

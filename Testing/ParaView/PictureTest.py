@@ -1,4 +1,4 @@
-"""What the plugin's filters look like in ParaView: the picture of Documentation/ParaView.md, drawn anew and compared.
+"""Draws the picture of Documentation/ParaView.md, by the plugin's filters in ParaView, and compares it.
 
 pvpython PictureTest.py PICTURE.png [--record]: --record writes PICTURE.png instead of comparing with it. A picture that differs
 is left in the working folder, ParaView.png.
@@ -14,7 +14,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOImage import vtkPNGReader
 
 SIZE = [900, 600]
-# Of all pixels, those that may differ by more than 16 of 255: other versions of Mesa draw edges otherwise.
+# Fraction of pixels that may differ by more than 16 of 255: other versions of Mesa draw edges otherwise.
 MOST_DIFFERING = 0.01
 
 

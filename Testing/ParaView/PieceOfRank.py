@@ -1,4 +1,4 @@
-"""What each rank of a job has: mpirun -np N pvbatch --sym PieceOfRank.py FOLDER CLOUD VOXEL, started by RanksTest.py.
+"""Writes the piece of each rank: mpirun -np N pvbatch --sym PieceOfRank.py FOLDER CLOUD VOXEL, started by RanksTest.py.
 
 Rank R leaves FOLDER/NAME.R.npz: points and point arrays of its piece, for each step NAME of a pipeline.
 """

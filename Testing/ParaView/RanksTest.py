@@ -45,8 +45,8 @@ class Ranks(TestCase):
                 self.assertGreater(len(values), 0)
 
     def check(self, path, voxel, numbers_of_ranks, parts=True):
-        """What run_ranks() gives for each number of ranks. parts: whether the format has parts, and each rank reads no more
-        than its own.
+        """Compares run_ranks() with the program for each number of ranks. parts: the format has parts, and each rank reads no
+        more than its own.
         """
         self.run_program_on(path, voxel)
         expected = {name: arrays_of(read_vtp(self.path(f"{name}.vtp"))) for name in ("cloud", "means", "radii")}

@@ -1,4 +1,4 @@
-"""What the tests of the ParaView plugin share. Run by pvpython or pvbatch with Testing/ParaView/run.sh."""
+"""Shared by the tests of the ParaView plugin. Run by pvpython or pvbatch with Testing/ParaView/run.sh."""
 
 import os
 import subprocess

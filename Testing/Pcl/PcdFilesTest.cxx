@@ -1,5 +1,5 @@
-// What vtkPointCloudWriter writes as .pcd is what PCL's point types read: they find fields by name and type,
-// and leave out the others with no more than a warning.
+// Files of vtkPointCloudWriter as .pcd fit PCL's point types, which find fields by name and type, and leave
+// out the others with no more than a warning.
 #include "vtkPointCloudWriter.h"
 
 #include <gtest/gtest.h>

@@ -58,11 +58,11 @@ void fill(PointT& point, std::mt19937& random)
   }
 }
 
-/// Of the rounds of a contestant, milliseconds.
+/// Times of a contestant's rounds, milliseconds.
 struct Times
 {
   std::vector<double> wall;
-  std::vector<double> processor; ///< Of all threads: of use where others have the machine, too.
+  std::vector<double> processor; ///< Time of all threads: useful where others have the machine, too.
 
   void add(const std::function<void()>& work)
   {

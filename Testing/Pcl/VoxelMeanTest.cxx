@@ -67,7 +67,7 @@ typename pcl::PointCloud<PointT>::Ptr cloudOf(std::size_t size, unsigned seed = 
   return cloud;
 }
 
-/// The same settings on both.
+/// Runs @p grid with the settings that both filters get.
 template <typename Grid, typename Cloud>
 Cloud filtered(Grid& grid, const typename Cloud::ConstPtr& cloud, float leaf = kLeaf)
 {

@@ -1,4 +1,4 @@
-"""What a call from Python costs beside the filter alone: a little that does not grow with the points."""
+"""A call from Python costs little beside the filter alone, and that does not grow with the points."""
 
 import time
 import unittest
@@ -25,7 +25,7 @@ def least(work, rounds):
 
 
 def filter_alone(cloud):
-    """What a C++ program does; the filter itself ends before the clock stops, as in ph.resample()."""
+    """Runs the filter as a C++ program does; it ends before the clock stops, as in ph.resample()."""
     resampler = ph.vtkVoxelMeanResampler()
     resampler.SetInputData(cloud.data)
     resampler.Update()

@@ -103,7 +103,7 @@ class Files(TestCase):
 
 
 class WholeClouds(TestCase):
-    """What a file says beside its columns, and files that are none."""
+    """Fields of a file beside its columns, and files that are no clouds."""
 
     def test_fields_travel_from_file_to_file(self):
         with open(self.path("a.pcd"), "w") as file:

@@ -11,7 +11,7 @@ from vtkmodules.vtkCommonTransforms import vtkTransform
 
 
 class EqualsTheProgram(TestCase):
-    """The same cloud through a file and the program."""
+    """Compares results with those of the program, which reads the cloud from a file."""
 
     def cloud(self, dtype):
         points = sphere(20000).astype(dtype)
@@ -237,7 +237,7 @@ class BadInput(TestCase):
             (TypeError, ["threads", "1.5"], {"threads": 1.5}),
             (ValueError, ["representative", "'nearest'", "'nearest-to-mean'"], {"representative": "nearest"}),
             (ValueError, ["minimum_points", "0"], {"minimum_points": 0}),
-            # What only the filter can know comes from it.
+            # Only the filter can find these errors.
             (ValueError, ["voxel"], {"voxel": 1e-12}),
             (ValueError, ["voxel"], {"voxel": 5e-324}),
         ):

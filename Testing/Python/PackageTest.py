@@ -66,7 +66,7 @@ class Package(TestCase):
 
 
 class Habits(TestCase):
-    """What users of NumPy, pip and pickle expect."""
+    """Expectations of users of NumPy, pip and pickle."""
 
     def test_version_and_metadata(self):
         self.assertRegex(ph.__version__, r"^\d+\.\d+\.\d+$")

@@ -11,7 +11,7 @@ import pointhaptics as ph
 
 
 class DataSet:
-    """What the accessor uses of a pyvista.DataSet."""
+    """The part of a pyvista.DataSet that the accessor uses."""
 
     def __init__(self, points):
         self.points = points

@@ -204,7 +204,7 @@ TEST(NoAllocation, InTheServoLoopWhileScenesAndParametersChange)
     HapticParameters parameters;
     parameters.contact.stiffness = 600.0 + 100.0 * (round % 5);
     EXPECT_EQ(loop.setParameters(parameters), Status::Ok);
-    // Of another size only once the hand touches it: a surface that grows past a free hand has it inside.
+    // The size changes only once the hand touches it: a surface that grows past a free hand has it inside.
     loop.publishScene(sphere(5000, port.pushed ? 1.0 + 0.001 * (round % 3) : 1.0));
     if (round % 3 == 0)
     {

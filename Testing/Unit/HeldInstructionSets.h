@@ -12,7 +12,7 @@
 namespace pointhaptics
 {
 
-/// That this machine and this build have; the baseline first, which all have.
+/// Instruction sets of this machine and this build; the baseline first, which all have.
 inline std::vector<InstructionSet> heldInstructionSets()
 {
   std::vector<InstructionSet> held;

@@ -501,7 +501,7 @@ TEST_F(HapticViewerPictures, LeavesTheHandlesOfTheClippingBoxOutOfTheFigure)
   EXPECT_TRUE(viewer.stop());
 }
 
-/// What only one eye sees in an anaglyph of a grey cloud.
+/// Number of pixels that only one eye sees in an anaglyph of a grey cloud.
 vtkIdType pixelsOfOneEye(const std::string& fileName)
 {
   return coloredPixels(fileName, 1, 60.0);

@@ -25,7 +25,7 @@ public:
   void unplug();
   /// One report, its number first.
   void say(const std::vector<std::uint8_t>& report);
-  /// What the host last said of the LED; -1: nothing since it was plugged in.
+  /// State of the LED that the host last set; -1: none since it was plugged in.
   int led();
 
 private:

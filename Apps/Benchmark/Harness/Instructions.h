@@ -4,9 +4,7 @@
 
 #include "Core/Simd/InstructionSet.h"
 
-namespace pointhaptics
-{
-namespace bench
+namespace pointhaptics::bench
 {
 
 struct NamedInstructionSet
@@ -38,5 +36,4 @@ inline const char* usedInstructions(InstructionSet wanted) noexcept
   return name;
 }
 
-} // namespace bench
-} // namespace pointhaptics
+} // namespace pointhaptics::bench

@@ -1,7 +1,6 @@
 #include "Benchmark/Harness/Machine.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <vtkSMPTools.h>
 #include <vtkVersion.h>
 
@@ -10,11 +9,10 @@
 #include <fstream>
 #include <thread>
 
+#include <malloc.h>
 #include <unistd.h>
 
-namespace pointhaptics
-{
-namespace bench
+namespace pointhaptics::bench
 {
 namespace
 {
@@ -35,9 +33,11 @@ std::string valueOf(const char* file, const std::string& key, char separator = '
   return "";
 }
 
-double kilobytesOf(const std::string& key)
+constexpr const char* kStatus = "/proc/self/status";
+
+double kilobytesOf(const char* file, const std::string& key)
 {
-  return std::strtod(valueOf("/proc/meminfo", key).c_str(), nullptr);
+  return std::strtod(valueOf(file, key).c_str(), nullptr);
 }
 
 std::string cacheText()
@@ -70,43 +70,29 @@ std::string compilerText()
 
 } // namespace
 
-Machine thisMachine()
+Json thisMachine()
 {
-  Machine machine;
-  machine.processor = valueOf("/proc/cpuinfo", "model name");
-  if (machine.processor.empty())
-  {
-    machine.processor = "unknown processor";
-  }
-  machine.cores = int(std::max(1u, std::thread::hardware_concurrency()));
-  machine.caches = cacheText();
-  machine.memoryGigabytes = kilobytesOf("MemTotal") / (1024.0 * 1024.0);
-  machine.system = systemText();
-  machine.compiler = compilerText();
-  machine.vtk = fmt::format("VTK {}, {}", vtkVersion::GetVTKVersion(), vtkSMPTools::GetBackend());
+  const std::string processor = valueOf("/proc/cpuinfo", "model name");
   double load = 0.0;
-  machine.load = getloadavg(&load, 1) == 1 ? load : 0.0;
-  return machine;
+  const bool hasLoad = getloadavg(&load, 1) == 1;
+  return { { "processor", processor.empty() ? "unknown processor" : processor },
+    { "cores", std::max(1u, std::thread::hardware_concurrency()) }, { "caches", cacheText() },
+    { "memory_gigabytes", kilobytesOf("/proc/meminfo", "MemTotal") / (1024.0 * 1024.0) },
+    { "system", systemText() }, { "compiler", compilerText() },
+    { "vtk", fmt::format("VTK {}, {}", vtkVersion::GetVTKVersion(), vtkSMPTools::GetBackend()) },
+    { "load", hasLoad ? load : 0.0 } };
 }
 
-nlohmann::ordered_json toJson(const Machine& machine)
+std::int64_t peakBytesOf(const std::function<void()>& work)
 {
-  return { { "processor", machine.processor }, { "cores", machine.cores }, { "caches", machine.caches },
-    { "memory_gigabytes", machine.memoryGigabytes }, { "system", machine.system },
-    { "compiler", machine.compiler }, { "vtk", machine.vtk }, { "load", machine.load } };
+#ifdef __GLIBC__
+  malloc_trim(0); // or the work is served from pages that were freed before it
+#endif
+  const double before = kilobytesOf(kStatus, "VmRSS");
+  std::ofstream reset("/proc/self/clear_refs");
+  reset << "5" << std::flush; // the high-water mark begins anew
+  work();
+  return reset && before > 0.0 ? std::int64_t(1024.0 * (kilobytesOf(kStatus, "VmHWM") - before)) : -1;
 }
 
-std::string describe(const Machine& machine)
-{
-  return fmt::format("{}, {} cores, {}, {:.0f} GiB; {}; {}; {}; load before the run {:.1f}.",
-    machine.processor, machine.cores, machine.caches, machine.memoryGigabytes, machine.system,
-    machine.compiler, machine.vtk, machine.load);
-}
-
-std::int64_t availableMemory()
-{
-  return std::int64_t(1024.0 * kilobytesOf("MemAvailable"));
-}
-
-} // namespace bench
-} // namespace pointhaptics
+} // namespace pointhaptics::bench

@@ -2,35 +2,19 @@
 /// The machine a figure was measured on, as far as the figure depends on it. No names of hosts or users.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
+#include "Benchmark/Harness/Run.h"
 
 #include <cstdint>
-#include <string>
+#include <functional>
 
-namespace pointhaptics
-{
-namespace bench
+namespace pointhaptics::bench
 {
 
-struct Machine
-{
-  std::string processor; ///< Model name.
-  int cores = 1;
-  std::string caches;
-  double memoryGigabytes = 0.0;
-  std::string system;   ///< Name and version of the distribution.
-  std::string compiler; ///< Name, version, build type.
-  std::string vtk;      ///< Version and SMP back end.
-  double load = 0.0;    ///< Runnable threads, mean of the last minute, when this was asked.
-};
+Json thisMachine();
 
-Machine thisMachine();
-nlohmann::ordered_json toJson(const Machine& machine);
-/// One sentence for a reader.
-std::string describe(const Machine& machine);
+/// The highest resident memory during @p work beyond that before it, bytes; pages count when they are
+/// touched. Below 0: the kernel has no counters. Call it before anything large was freed: what malloc keeps
+/// may hide.
+std::int64_t peakBytesOf(const std::function<void()>& work);
 
-/// Bytes that can be had without pushing anything out; 0 where that is unknown.
-std::int64_t availableMemory();
-
-} // namespace bench
-} // namespace pointhaptics
+} // namespace pointhaptics::bench

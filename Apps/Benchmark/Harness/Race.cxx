@@ -1,21 +1,13 @@
 #include "Benchmark/Harness/Race.h"
 
 #include <algorithm>
-#include <chrono>
 #include <numeric>
 #include <random>
 
-namespace pointhaptics
-{
-namespace bench
+namespace pointhaptics::bench
 {
 namespace
 {
-
-double steadySeconds()
-{
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 double runOnce(const Contestant& contestant, const std::function<double()>& clock)
 {
@@ -32,7 +24,7 @@ double runOnce(const Contestant& contestant, const std::function<double()>& cloc
 
 std::vector<Lap> race(const std::vector<Contestant>& contestants, const RaceSettings& settings)
 {
-  const std::function<double()> clock = settings.clock ? settings.clock : steadySeconds;
+  const std::function<double()> clock = settings.clock ? settings.clock : secondsNow;
   std::vector<Lap> laps;
   std::vector<std::size_t> order;
   for (const Contestant& contestant : contestants)
@@ -67,15 +59,22 @@ std::vector<Lap> race(const std::vector<Contestant>& contestants, const RaceSett
         {
           laps[who].seconds.push_back(seconds);
         }
-        else if (round >= 0 && call == 1)
-        {
-          laps[who].afterOthers.push_back(seconds);
-        }
       }
     }
   }
   return laps;
 }
 
-} // namespace bench
-} // namespace pointhaptics
+Json timesOf(const std::vector<Lap>& laps, std::size_t which)
+{
+  const Lap& lap = laps[which];
+  const Quartiles seconds = quartiles(lap.seconds);
+  const Quartiles ratio = pairedRatios(lap.seconds, laps.front().seconds);
+  return { { "contestant", lap.name }, { "repetitions", seconds.count }, { "median_seconds", seconds.median },
+    { "lower_quartile_seconds", seconds.lower }, { "upper_quartile_seconds", seconds.upper },
+    { "fastest_seconds", seconds.minimum }, { "first_seconds", lap.firstSeconds },
+    { "times_ours", ratio.median }, { "times_ours_lower", ratio.lower },
+    { "times_ours_upper", ratio.upper } };
+}
+
+} // namespace pointhaptics::bench

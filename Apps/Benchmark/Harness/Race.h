@@ -7,6 +7,7 @@
 /// together for paired ratios.
 #pragma once
 
+#include "Benchmark/Harness/Run.h"
 #include "Benchmark/Harness/Statistics.h"
 
 #include <cstdint>
@@ -15,9 +16,7 @@
 #include <string>
 #include <vector>
 
-namespace pointhaptics
-{
-namespace bench
+namespace pointhaptics::bench
 {
 
 struct Contestant
@@ -37,8 +36,7 @@ struct RaceSettings
   int rounds = 15;
   int warmUps = 2;
   /// Calls of a contestant in each round, one after the other. The last is timed: it finds the caches and the
-  /// threads as its own call left them, like all calls in a program that does nothing else. Above 1, the
-  /// first is kept too: it finds them as the others left them.
+  /// threads as its own call left them, like all calls in a program that does nothing else.
   int inARow = 1;
   /// A contestant that has run so long in all, after its first call, sits out the rounds left: kLeastRounds
   /// of them, warm-ups included, it runs in any case.
@@ -51,14 +49,15 @@ struct RaceSettings
 struct Lap
 {
   std::string name;
-  bool checked = false;            ///< The check held, or there was none; false: not timed.
-  double firstSeconds = 0.0;       ///< The first call: memory and threads still to be had.
-  std::vector<double> seconds;     ///< One a round, the same round at the same place for everyone.
-  std::vector<double> afterOthers; ///< The first call in each round's row; empty where that is the only one.
+  bool checked = false;        ///< The check held, or there was none; false: not timed.
+  double firstSeconds = 0.0;   ///< The first call: memory and threads still to be had.
+  std::vector<double> seconds; ///< One a round, the same round at the same place for everyone.
 };
 
 /// One lap per contestant, in their order. Exceptions of a contestant pass through.
 std::vector<Lap> race(const std::vector<Contestant>& contestants, const RaceSettings& settings);
 
-} // namespace bench
-} // namespace pointhaptics
+/// The times of one lap as a row has them, with their ratio to those of the first lap.
+Json timesOf(const std::vector<Lap>& laps, std::size_t which);
+
+} // namespace pointhaptics::bench

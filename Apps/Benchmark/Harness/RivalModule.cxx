@@ -4,9 +4,7 @@
 
 #include <dlfcn.h>
 
-namespace pointhaptics
-{
-namespace bench
+namespace pointhaptics::bench
 {
 
 void* loadRivalModule(const std::string& file, const std::string& word)
@@ -21,5 +19,4 @@ void* loadRivalModule(const std::string& file, const std::string& word)
   return symbol;
 }
 
-} // namespace bench
-} // namespace pointhaptics
+} // namespace pointhaptics::bench

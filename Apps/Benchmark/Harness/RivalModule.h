@@ -3,19 +3,16 @@
 /// commands shall not load them. pointhaptics_benchmark_rival() of CMake builds the modules.
 #pragma once
 
-#include <cstddef>
 #include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-namespace pointhaptics
-{
-namespace bench
+namespace pointhaptics::bench
 {
 
-/// What a rival's module exports: an extern "C" function without arguments that makes the rival. Each task
-/// has a face of its own for rivals: the function returns a pointer to a new one, the caller's.
+/// Name of the export of a rival's module: an extern "C" function without arguments that makes the rival.
+/// Each task has a face of its own for rivals: the function returns a pointer to a new one, the caller's.
 constexpr const char* kMakeRival = "pointhapticsMakeRival";
 
 /// That function of the module in @p file, which is found beside the program's libraries. @p word names the
@@ -23,42 +20,36 @@ constexpr const char* kMakeRival = "pointhapticsMakeRival";
 /// with threads and registries of their own do not unload well.
 void* loadRivalModule(const std::string& file, const std::string& word);
 
-/// One rival of a task: made by a function that is linked already, or by the module in a file.
-template <class Rival>
-struct RivalChoice
+/// A rival's word on the command line and its module's file.
+struct RivalFile
 {
-  const char* word;
-  const char* file;                 ///< Null where @p make is given.
-  std::unique_ptr<Rival> (*make)(); ///< Null where @p file is given.
+  std::string word;
+  std::string file;
 };
 
-template <class Rival, std::size_t Count>
-std::vector<std::string> wordsOf(const RivalChoice<Rival> (&choices)[Count])
+inline std::vector<std::string> wordsOf(const std::vector<RivalFile>& files)
 {
   std::vector<std::string> words;
-  for (const RivalChoice<Rival>& choice : choices)
+  for (const RivalFile& one : files)
   {
-    words.emplace_back(choice.word);
+    words.push_back(one.word);
   }
   return words;
 }
 
-/// Throws std::runtime_error where there is no such word or its module cannot be loaded.
-template <class Rival, std::size_t Count>
-std::unique_ptr<Rival> makeRival(const RivalChoice<Rival> (&choices)[Count], const std::string& word)
+/// Throws std::runtime_error where the module cannot be loaded. @pre @p word is among the words of @p files.
+template <class Rival>
+std::unique_ptr<Rival> makeRival(const std::vector<RivalFile>& files, const std::string& word)
 {
-  for (const RivalChoice<Rival>& choice : choices)
+  for (const RivalFile& one : files)
   {
-    if (word == choice.word)
+    if (one.word == word)
     {
       using Make = Rival* (*)();
-      return choice.make
-        ? choice.make()
-        : std::unique_ptr<Rival>(reinterpret_cast<Make>(loadRivalModule(choice.file, word))());
+      return std::unique_ptr<Rival>(reinterpret_cast<Make>(loadRivalModule(one.file, word))());
     }
   }
   throw std::runtime_error("no rival is called " + word);
 }
 
-} // namespace bench
-} // namespace pointhaptics
+} // namespace pointhaptics::bench

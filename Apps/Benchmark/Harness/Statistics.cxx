@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pointhaptics
-{
-namespace bench
+namespace pointhaptics::bench
 {
 
 double quantile(const std::vector<double>& sorted, double p)
@@ -46,5 +44,4 @@ Quartiles pairedRatios(const std::vector<double>& a, const std::vector<double>& 
   return quartiles(std::move(ratios));
 }
 
-} // namespace bench
-} // namespace pointhaptics
+} // namespace pointhaptics::bench

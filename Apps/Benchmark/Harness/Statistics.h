@@ -1,13 +1,11 @@
 /// @file
-/// What is said of repeated measurements: quartiles, and ratios of measurements taken side by side.
+/// Summaries of repeated measurements: quartiles, and ratios of measurements taken side by side.
 #pragma once
 
 #include <cstddef>
 #include <vector>
 
-namespace pointhaptics
-{
-namespace bench
+namespace pointhaptics::bench
 {
 
 /// Zero throughout where there was nothing to summarise.
@@ -32,5 +30,4 @@ Quartiles quartiles(std::vector<double> values);
 /// Rounds whose b[i] is not above 0 are left out; the longer vector's surplus is too.
 Quartiles pairedRatios(const std::vector<double>& a, const std::vector<double>& b);
 
-} // namespace bench
-} // namespace pointhaptics
+} // namespace pointhaptics::bench

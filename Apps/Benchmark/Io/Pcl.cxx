@@ -11,11 +11,7 @@
 
 #include <stdexcept>
 
-namespace pointhaptics
-{
-namespace bench
-{
-namespace io
+namespace pointhaptics::bench::io
 {
 namespace
 {
@@ -27,37 +23,21 @@ public:
   Pcl() { pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS); }
   std::string readerOf(FileKind kind) const override
   {
-    switch (kind)
-    {
-      case FileKind::BinaryPly:
-      case FileKind::AsciiPly:
-        return "pcl::io::loadPLYFile";
-      case FileKind::BinaryPcd:
-      case FileKind::CompressedPcd:
-      case FileKind::AsciiPcd:
-        return "pcl::io::loadPCDFile";
-      default:
-        return {};
-    }
+    return kind == FileKind::BinaryPly ? "pcl::io::loadPLYFile"
+      : kind == FileKind::BinaryPcd    ? "pcl::io::loadPCDFile"
+                                       : "";
   }
   std::string writerOf(FileKind kind) const override
   {
-    switch (kind)
-    {
-      case FileKind::BinaryPly:
-        return "pcl::io::savePLYFileBinary";
-      case FileKind::BinaryPcd:
-        return "pcl::io::savePCDFileBinary";
-      case FileKind::CompressedPcd:
-        return "pcl::io::savePCDFileBinaryCompressed";
-      default:
-        return {};
-    }
+    return kind == FileKind::BinaryPly ? "pcl::io::savePLYFileBinary"
+      : kind == FileKind::BinaryPcd    ? "pcl::io::savePCDFileBinary"
+                                       : "";
   }
   void read(FileKind kind, const std::string& path) override
   {
-    const bool isPly = kind == FileKind::BinaryPly || kind == FileKind::AsciiPly;
-    check(isPly ? pcl::io::loadPLYFile(path, cloud_) : pcl::io::loadPCDFile(path, cloud_), path);
+    check(
+      kind == FileKind::BinaryPly ? pcl::io::loadPLYFile(path, cloud_) : pcl::io::loadPCDFile(path, cloud_),
+      path);
   }
   void discard() override { cloud_ = {}; }
   std::vector<double> points() const override
@@ -70,7 +50,6 @@ public:
     }
     return xyz;
   }
-  std::int64_t resultBytes() const override { return std::int64_t(cloud_.size() * sizeof(pcl::PointXYZI)); }
 
   void load(vtkPolyData* cloud) override
   {
@@ -89,9 +68,8 @@ public:
   }
   void write(FileKind kind, const std::string& path) override
   {
-    check(kind == FileKind::BinaryPly     ? pcl::io::savePLYFileBinary(path, cloud_)
-        : kind == FileKind::CompressedPcd ? pcl::io::savePCDFileBinaryCompressed(path, cloud_)
-                                          : pcl::io::savePCDFileBinary(path, cloud_),
+    check(kind == FileKind::BinaryPly ? pcl::io::savePLYFileBinary(path, cloud_)
+                                      : pcl::io::savePCDFileBinary(path, cloud_),
       path);
   }
 
@@ -107,9 +85,7 @@ private:
 };
 
 } // namespace
-} // namespace io
-} // namespace bench
-} // namespace pointhaptics
+} // namespace pointhaptics::bench::io
 
 /// See kMakeRival.
 extern "C" pointhaptics::bench::io::Rival* pointhapticsMakeRival()

@@ -3,12 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 
-namespace pointhaptics
-{
-namespace bench
-{
-namespace proxy
+namespace pointhaptics::bench::proxy
 {
 namespace
 {
@@ -108,26 +105,6 @@ std::vector<double> evenAngles(const Curve& curve, double speed)
   return angles;
 }
 
-/// From 3 mm outside to the curve's start, then twice around.
-Course closedCourse(const char* name, const Curve& curve, const Vec3& outside)
-{
-  Course course;
-  course.name = name;
-  append(course.hip, outside, curve(0.0), kHandSpeed);
-  const std::vector<double> angles = evenAngles(curve, kHandSpeed);
-  for (int turn = 0; turn < 2; ++turn)
-  {
-    course.loopBegin = course.hip.size();
-    for (const double angle : angles)
-    {
-      course.hip.push_back(curve(angle));
-    }
-  }
-  course.loopTicks = angles.size();
-  course.hip.push_back(curve(0.0));
-  return course;
-}
-
 } // namespace
 
 ExactContact exactContact(Shape shape, const Vec3& hip, double stiffness)
@@ -135,7 +112,7 @@ ExactContact exactContact(Shape shape, const Vec3& hip, double stiffness)
   SurfacePoint foot = closestPoint(shape, hip);
   if (shape == Shape::Sheet)
   {
-    // Of its two sides the one the hand came from.
+    // The hand came from the upper one of its two sides.
     foot.point = { hip.x, hip.y, kSheetTop };
     foot.normal = { 0.0, 0.0, 1.0 };
     foot.distance = hip.z - kSheetTop;
@@ -144,77 +121,19 @@ ExactContact exactContact(Shape shape, const Vec3& hip, double stiffness)
   return { depth > 0.0 ? stiffness * (foot.point - hip) : Vec3(), foot.normal, depth };
 }
 
-Course slideCourse(Shape shape, double scale)
+Course slideCourse(Shape shape)
 {
-  const Curve curve = [shape, scale](double angle)
-  {
-    const Vec3 on = closestPoint(shape, place(shape, angle)).point;
-    return scale * on - slideDepth(shape, angle) * normalAt(shape, on);
-  };
-  const Vec3 start = closestPoint(shape, place(shape, 0.0)).point;
-  return closedCourse("slide", curve, scale * start + 0.003 * normalAt(shape, start));
-}
-
-Course circleCourse(Shape shape)
-{
-  const Vec3 middle = closestPoint(shape, place(shape, 1.1)).point;
-  const Vec3 n = normalAt(shape, middle);
-  const Vec3 a = anyPerpendicular(n);
-  const Vec3 b = cross(n, a);
-  const double depth = shape == Shape::Sheet ? 3e-4 : 1e-3;
-  const Curve curve = [=](double angle)
-  {
-    const Vec3 near = middle + 0.004 * (std::cos(angle) * a + std::sin(angle) * b);
-    const Vec3 on = closestPoint(shape, near).point;
-    return on - depth * normalAt(shape, on);
-  };
-  return closedCourse("circle", curve, curve(0.0) + 0.004 * n);
-}
-
-Course pressCourse(Shape shape)
-{
-  constexpr double kSpeed = 0.025;
+  const Curve curve = [shape](double angle) { return below(shape, angle, slideDepth(shape, angle)); };
   Course course;
-  course.name = "press";
-  const double deep = shape == Shape::Sheet ? 7e-4 : 3e-3;
-  const Vec3 above = below(shape, 0.7, -3e-3);
-  const Vec3 bottom = below(shape, 0.7, deep);
-  append(course.hip, above, bottom, kSpeed);
-  course.hip.insert(course.hip.end(), 100, bottom);
-  append(course.hip, bottom, above, kSpeed);
-  course.hip.push_back(above);
-  return course;
-}
-
-Course tapCourse(Shape shape)
-{
-  constexpr int kTaps = 10;
-  constexpr int kTicksPerTap = 100;
-  Course course;
-  course.name = "tap";
-  const double deep = shape == Shape::Sheet ? 5e-4 : 1.5e-3;
-  for (int i = 0; i <= kTaps * kTicksPerTap; ++i)
+  append(course.hip, below(shape, 0.0, -0.003), curve(0.0), kHandSpeed);
+  const std::vector<double> angles = evenAngles(curve, kHandSpeed);
+  for (int turn = 0; turn < 2; ++turn)
   {
-    const double angle = 0.3 + 0.2 * i / (kTaps * kTicksPerTap);
-    course.hip.push_back(below(shape, angle, -deep * std::cos(kTwoPi * i / kTicksPerTap)));
+    course.loopBegin = course.hip.size();
+    std::transform(angles.begin(), angles.end(), std::back_inserter(course.hip), curve);
   }
-  return course;
-}
-
-Course crossCourse(Shape shape, double speed, int start)
-{
-  Course course;
-  course.name = "cross";
-  const double angle = 0.37 * start;
-  const double deep = shape == Shape::Sheet ? 7e-4 : 3e-3;
-  // A shift within one tick's way, so that every phase of crossing is met.
-  const double phase = speed * kTickSeconds * (start % 7) / 7.0;
-  const Vec3 above = below(shape, angle, -5e-3 - phase);
-  const Vec3 bottom = below(shape, angle, deep);
-  append(course.hip, above, bottom, speed);
-  course.hip.insert(course.hip.end(), 20, bottom);
-  append(course.hip, bottom, above, speed);
-  course.hip.push_back(above);
+  course.loopTicks = angles.size();
+  course.hip.push_back(curve(0.0));
   return course;
 }
 
@@ -222,7 +141,6 @@ Course frictionCourse(Shape shape, double speed, double travel)
 {
   constexpr double kDepth = 1e-3;
   Course course;
-  course.name = "friction";
   const Vec3 start = below(shape, 0.5, kDepth);
   append(course.hip, start + 0.004 * normalAt(shape, start), start, 0.025);
   Vec3 at = start;
@@ -239,6 +157,4 @@ Course frictionCourse(Shape shape, double speed, double travel)
   return course;
 }
 
-} // namespace proxy
-} // namespace bench
-} // namespace pointhaptics
+} // namespace pointhaptics::bench::proxy

@@ -8,11 +8,7 @@
 
 #include <algorithm>
 
-namespace pointhaptics
-{
-namespace bench
-{
-namespace proxy
+namespace pointhaptics::bench::proxy
 {
 namespace
 {
@@ -63,15 +59,11 @@ Scene sceneOf(const std::vector<Vec3>& points, const SceneSettings& settings)
     return nullptr;
   }
   // The proxy's radius from the bandwidth, as the program does.
-  LocalBandwidthSettings rule;
-  rule.minimumRadius = settings.proxyRadius;
-  rule.maximumRadius = settings.proxyRadius;
-  rule.usePointCounts = settings.pointCounts;
   const PointView felt(input.points.data(), std::int64_t(input.points.size()));
   NeighborQuery query;
   query.build(felt);
   std::vector<double> bandwidths;
-  Status status = localBandwidths(felt, input.counts, query, rule, bandwidths, input.proxyRadii);
+  Status status = localBandwidths(felt, input.counts, query, {}, bandwidths, input.proxyRadii);
   return status == Status::Ok ? HapticScene::create(std::move(input), status) : nullptr;
 }
 
@@ -82,7 +74,7 @@ std::vector<Vec3> pointsOf(Shape shape, std::int64_t count, double noise)
   return points;
 }
 
-std::vector<Vec3> fitted(std::vector<Vec3> points, double& scale, Vec3& middle)
+std::vector<Vec3> fitted(std::vector<Vec3> points)
 {
   Bounds box;
   for (const Vec3& p : points)
@@ -93,8 +85,8 @@ std::vector<Vec3> fitted(std::vector<Vec3> points, double& scale, Vec3& middle)
     }
   }
   const Vec3 extent = box.extent();
-  scale = kFittedSide / std::max({ extent.x, extent.y, extent.z });
-  middle = 0.5 * (box.minimum + box.maximum);
+  const double scale = kFittedSide / std::max({ extent.x, extent.y, extent.z });
+  const Vec3 middle = 0.5 * (box.minimum + box.maximum);
   for (Vec3& p : points)
   {
     p = scale * (p - middle);
@@ -107,6 +99,4 @@ std::string noiseName(double noise)
   return noise > 0.0 ? fmt::format("{:.0f} um", 1e6 * noise) : "clean";
 }
 
-} // namespace proxy
-} // namespace bench
-} // namespace pointhaptics
+} // namespace pointhaptics::bench::proxy

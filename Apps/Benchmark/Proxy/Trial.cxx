@@ -6,11 +6,7 @@
 #include <chrono>
 #include <cmath>
 
-namespace pointhaptics
-{
-namespace bench
-{
-namespace proxy
+namespace pointhaptics::bench::proxy
 {
 namespace
 {
@@ -37,35 +33,6 @@ std::vector<ProxyState> walk(const HapticScene& scene, const HapticParameters& p
   return states;
 }
 
-/// RMS over a period of the components above 100 Hz.
-double highFrequencies(const std::vector<Vec3>& signal)
-{
-  const std::size_t n = signal.size();
-  const double cut = 100.0 * kTickSeconds * double(n);
-  // What lies above is the whole less what lies at and below.
-  Vec3 mean;
-  double power = 0.0;
-  for (const Vec3& v : signal)
-  {
-    mean += v / double(n);
-    power += norm2(v) / double(n);
-  }
-  power -= norm2(mean);
-  for (std::size_t k = 1; double(k) <= cut && 2 * k <= n; ++k)
-  {
-    Vec3 re;
-    Vec3 im;
-    for (std::size_t i = 0; i < n; ++i)
-    {
-      const double phase = kTwoPi * double((k * i) % n) / double(n);
-      re += std::cos(phase) * signal[i];
-      im += std::sin(phase) * signal[i];
-    }
-    power -= (2 * k == n ? 1.0 : 2.0) * (norm2(re) + norm2(im)) / (double(n) * double(n));
-  }
-  return std::sqrt(std::max(0.0, power));
-}
-
 void judgeForces(const std::vector<ProxyState>& states, const std::vector<ExactContact>& exact,
   double stiffness, TrialFigures& figures)
 {
@@ -77,8 +44,6 @@ void judgeForces(const std::vector<ProxyState>& states, const std::vector<ExactC
   {
     const double depth = exact[i].depth;
     figures.falseTicks += depth < -kClear && norm(states[i].force) > 0.0;
-    figures.status |= states[i].status;
-    figures.cappedTicks += (states[i].status & kProxyRoundLimit) != 0;
     if (i > 0)
     {
       const double moved = norm(states[i].hip - states[i - 1].hip);
@@ -87,7 +52,6 @@ void judgeForces(const std::vector<ProxyState>& states, const std::vector<ExactC
         const double unit = stiffness * moved;
         figures.largestStep =
           std::max(figures.largestStep, norm(states[i].force - states[i - 1].force) / unit);
-        figures.exactStep = std::max(figures.exactStep, norm(exact[i].force - exact[i - 1].force) / unit);
       }
     }
     if (depth <= kClear)
@@ -121,34 +85,27 @@ void judgeTurn(const std::vector<ProxyState>& states, const std::vector<ExactCon
   {
     return;
   }
-  std::vector<Vec3> error;
   for (std::size_t i = course.loopBegin; i < course.loopBegin + course.loopTicks; ++i)
   {
-    error.push_back(states[i].force - exact[i].force);
     // The exact force returns nothing, but its sum over ticks does: only the difference tells.
     const Vec3 mean = 0.5 * (states[i].force - exact[i].force + states[i + 1].force - exact[i + 1].force);
     figures.energyJoule += dot(mean, states[i + 1].hip - states[i].hip);
   }
-  figures.above100Hz = highFrequencies(error);
 }
 
-/// @return the times in contact, sorted.
-std::vector<double> judgeTimes(
+void judgeTimes(
   const std::vector<ProxyState>& states, const std::vector<double>& microseconds, TrialFigures& figures)
 {
   std::vector<double> touching;
-  std::vector<double> free;
   for (std::size_t i = 0; i < states.size(); ++i)
   {
-    const bool first = states[i].contact && (i == 0 || !states[i - 1].contact);
-    if (first || !states[i].contact)
+    if (!states[i].contact || i == 0 || !states[i - 1].contact)
     {
       figures.firstContact = std::max(figures.firstContact, microseconds[i]);
     }
-    (states[i].contact ? touching : free).push_back(microseconds[i]);
+    touching.insert(touching.end(), states[i].contact ? 1 : 0, microseconds[i]);
   }
   std::sort(touching.begin(), touching.end());
-  std::sort(free.begin(), free.end());
   if (!touching.empty())
   {
     figures.p50 = quantile(touching, 0.5);
@@ -156,8 +113,6 @@ std::vector<double> judgeTimes(
     figures.p999 = quantile(touching, 0.999);
     figures.maximum = touching.back();
   }
-  figures.freeP50 = free.empty() ? 0.0 : quantile(free, 0.5);
-  return touching;
 }
 
 } // namespace
@@ -179,10 +134,8 @@ Trial runTrial(const HapticScene& scene, const HapticParameters& parameters, con
   }
   judgeForces(trial.states, answers, parameters.contact.stiffness, trial.figures);
   judgeTurn(trial.states, answers, course, trial.figures);
-  trial.microseconds = judgeTimes(trial.states, microseconds, trial.figures);
+  judgeTimes(trial.states, microseconds, trial.figures);
   return trial;
 }
 
-} // namespace proxy
-} // namespace bench
-} // namespace pointhaptics
+} // namespace pointhaptics::bench::proxy

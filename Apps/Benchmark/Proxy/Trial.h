@@ -8,44 +8,34 @@
 
 #include <functional>
 
-namespace pointhaptics
-{
-namespace bench
-{
-namespace proxy
+namespace pointhaptics::bench::proxy
 {
 
 using ExactAnswer = std::function<ExactContact(const Vec3& hip)>;
 
-/// What a run came to. Errors over all ticks at least 20 um deep; percent of the RMS exact force.
+/// Figures of a run. Errors over all ticks at least 20 um deep; percent of the RMS exact force.
 struct TrialFigures
 {
   double rmsPercent = 0.0;
   double maximumPercent = 0.0;
   double directionRmsDegrees = 0.0;
   double directionMaximumDegrees = 0.0;
-  double exactStep = 0.0;   ///< Largest exact force step in a tick over K |dH|.
   double largestStep = 0.0; ///< Largest force step in a tick over K |dH|; ticks with |dH| above 1 um.
   double energyJoule = 0.0; ///< Returned to the hand over the closed turn; above 0: the surface is active.
-  double above100Hz = 0.0;  ///< RMS of the force's error above 100 Hz over the closed turn, newtons.
   int popThroughs = 0;      ///< Ticks without contact although more than 20 um deep.
   int falseTicks = 0;       ///< Ticks with force although more than 20 um outside.
   int contactTicks = 0;
-  double p50 = 0.0; ///< Of the update times in contact, microseconds.
+  double p50 = 0.0; ///< Median update time in contact, microseconds.
   double p99 = 0.0;
   double p999 = 0.0;
   double maximum = 0.0;
-  double freeP50 = 0.0;      ///< Of the update times out of contact.
   double firstContact = 0.0; ///< The longest update out of contact or into it: finding the surface.
-  std::uint32_t status = 0;  ///< All bits that were reported.
-  int cappedTicks = 0;       ///< Ticks that reached the cap of rounds.
 };
 
 struct Trial
 {
   TrialFigures figures;
   std::vector<ProxyState> states;
-  std::vector<double> microseconds; ///< Of the ticks in contact, sorted.
 };
 
 /// Runs @p course from a fresh proxy. @p repetitions: the fastest of that many runs tells the time of each
@@ -53,6 +43,4 @@ struct Trial
 Trial runTrial(const HapticScene& scene, const HapticParameters& parameters, const Course& course,
   const ExactAnswer& exact, int repetitions, InstructionSet wanted = InstructionSet::Automatic);
 
-} // namespace proxy
-} // namespace bench
-} // namespace pointhaptics
+} // namespace pointhaptics::bench::proxy

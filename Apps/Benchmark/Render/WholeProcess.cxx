@@ -13,14 +13,10 @@
 
 extern char** environ;
 
-namespace pointhaptics
-{
-namespace bench
-{
-namespace render
+namespace pointhaptics::bench::render
 {
 
-ProcessRun runProcess(const std::vector<std::string>& words)
+ProcessRun runProcess(const std::vector<std::string>& words, std::string* output)
 {
   std::vector<char*> arguments;
   for (const std::string& word : words)
@@ -30,7 +26,15 @@ ProcessRun runProcess(const std::vector<std::string>& words)
   arguments.push_back(nullptr);
   posix_spawn_file_actions_t actions;
   ::posix_spawn_file_actions_init(&actions);
-  ::posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+  int ends[2] = { -1, -1 };
+  if (output && ::pipe2(ends, O_CLOEXEC) == 0)
+  {
+    ::posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
+  }
+  else
+  {
+    ::posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+  }
   ::posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
   ProcessRun run;
   pid_t child = 0;
@@ -38,6 +42,16 @@ ProcessRun runProcess(const std::vector<std::string>& words)
   const bool started =
     ::posix_spawnp(&child, arguments[0], &actions, nullptr, arguments.data(), environ) == 0;
   ::posix_spawn_file_actions_destroy(&actions);
+  if (ends[0] >= 0)
+  {
+    ::close(ends[1]);
+    char buffer[512];
+    for (ssize_t got = 1; (got = ::read(ends[0], buffer, sizeof(buffer))) > 0;)
+    {
+      output->append(buffer, std::size_t(got));
+    }
+    ::close(ends[0]);
+  }
   int status = 0;
   struct rusage usage = {};
   if (started && ::wait4(child, &status, 0, &usage) == child)
@@ -71,6 +85,4 @@ std::string viewerProgram()
   return !error && ::access(beside.c_str(), X_OK) == 0 ? beside.string() : "pointhaptics";
 }
 
-} // namespace render
-} // namespace bench
-} // namespace pointhaptics
+} // namespace pointhaptics::bench::render

@@ -6,11 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace pointhaptics
-{
-namespace bench
-{
-namespace render
+namespace pointhaptics::bench::render
 {
 
 struct ProcessRun
@@ -20,9 +16,9 @@ struct ProcessRun
   int exitCode = -1;          ///< -1: it could not be started, or ended by a signal.
 };
 
-/// Runs @p words[0], searched in PATH where it has no slash, with the other words as arguments and without
-/// its output. @pre words is not empty.
-ProcessRun runProcess(const std::vector<std::string>& words);
+/// Runs @p words[0], searched in PATH where it has no slash, with the other words as arguments. What it
+/// prints goes into @p output, or nowhere. @pre words is not empty.
+ProcessRun runProcess(const std::vector<std::string>& words, std::string* output = nullptr);
 
 /// Whether a program of that name is in PATH.
 bool programExists(const std::string& name);
@@ -30,6 +26,4 @@ bool programExists(const std::string& name);
 /// The program pointhaptics: beside the one that runs, or wherever PATH leads.
 std::string viewerProgram();
 
-} // namespace render
-} // namespace bench
-} // namespace pointhaptics
+} // namespace pointhaptics::bench::render

@@ -1,7 +1,5 @@
 #include "Benchmark/Resample/Expected.h"
 
-#include "Benchmark/Report/Table.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,11 +7,7 @@
 #include <numeric>
 #include <utility>
 
-namespace pointhaptics
-{
-namespace bench
-{
-namespace resample
+namespace pointhaptics::bench::resample
 {
 namespace
 {
@@ -114,7 +108,7 @@ std::string textOf(const Verdict& verdict, const std::string& fault)
     return "right";
   }
   return fmt::format(
-    "{}: {} voxels differ", verdict.right ? "right but for faces" : "wrong", grouped(verdict.wrongVoxels));
+    "{}: {} voxels differ", verdict.right ? "right but for faces" : "wrong", verdict.wrongVoxels);
 }
 
 } // namespace
@@ -180,6 +174,4 @@ Verdict judge(const ResampleAnswer& answer, const ExpectedMeans& expected, Compa
   return verdict;
 }
 
-} // namespace resample
-} // namespace bench
-} // namespace pointhaptics
+} // namespace pointhaptics::bench::resample

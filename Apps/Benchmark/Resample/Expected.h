@@ -11,11 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace pointhaptics
-{
-namespace bench
-{
-namespace resample
+namespace pointhaptics::bench::resample
 {
 
 struct ExpectedMeans
@@ -39,11 +35,9 @@ struct Verdict
   std::string text;             ///< For the table.
 };
 
-/// Of ExactMeans and TheirVoxels nothing may be wrong, the order must be by key, and means may differ by
+/// In ExactMeans and TheirVoxels nothing may be wrong, the order must be by key, and means may differ by
 /// 2^-31 voxel and by rounding to float. Of Means one voxel in a thousand, or one in ten thousand points, may
 /// be wrong (points at faces), means by 1e-3 voxel.
 Verdict judge(const ResampleAnswer& answer, const ExpectedMeans& expected, ComparedWith with);
 
-} // namespace resample
-} // namespace bench
-} // namespace pointhaptics
+} // namespace pointhaptics::bench::resample

@@ -9,11 +9,7 @@
 #include <sched.h>
 #endif
 
-namespace pointhaptics
-{
-namespace bench
-{
-namespace servo
+namespace pointhaptics::bench::servo
 {
 
 namespace
@@ -25,7 +21,7 @@ enum class Cores
   TheLast
 };
 
-/// Of those the process may use. False: there is but one.
+/// Keeps this thread to some of the cores of the process. False: the process has one core.
 bool keepTo([[maybe_unused]] Cores which)
 {
 #ifdef __linux__
@@ -115,6 +111,4 @@ void EmptyLoop::run()
   }
 }
 
-} // namespace servo
-} // namespace bench
-} // namespace pointhaptics
+} // namespace pointhaptics::bench::servo

@@ -7,11 +7,7 @@
 #include <cstdint>
 #include <thread>
 
-namespace pointhaptics
-{
-namespace bench
-{
-namespace servo
+namespace pointhaptics::bench::servo
 {
 
 /// The last core of the machine is kept apart: threads that are started while this lives, by the thread that
@@ -55,6 +51,4 @@ private:
   std::thread thread_;
 };
 
-} // namespace servo
-} // namespace bench
-} // namespace pointhaptics
+} // namespace pointhaptics::bench::servo

@@ -1,42 +1,31 @@
 /// @file
-/// The studies of the touch benchmark: each asks one question and gives one part of the report.
+/// The studies of the touch benchmark: each asks one question and adds rows.
 #pragma once
 
+#include "Benchmark/Harness/Run.h"
 #include "Benchmark/Touch/TouchBenchmark.h"
 #include "Benchmark/Touch/TouchJudge.h"
 
-namespace pointhaptics
-{
-namespace bench
-{
-namespace touch
+namespace pointhaptics::bench::touch
 {
 
 struct StudyContext
 {
   const TouchBenchmarkOptions& options;
-  const Progress& progress;
-  std::string wrong;
+  Run& run;
 };
 
-/// Columns @p leading, then @p own of the study, then those of TouchFigures.
-void setFigureHeader(
-  ReportPart& part, const std::vector<std::string>& leading, const std::vector<std::string>& own = {});
-/// A row of setFigureHeader's columns, and the same as numbers after @p leadingNumbers. Notes states that are
-/// not finite in @p context.
-void addFigures(StudyContext& context, ReportPart& part, std::vector<std::string> leadingCells,
-  const nlohmann::ordered_json& leadingNumbers, const TouchFigures& figures);
+/// A row of @p study: @p leading, then the figures. States that are not finite are a fault.
+void addFigures(StudyContext& context, const char* study, Json leading, const TouchFigures& figures);
 
 /// The name in JSON of a bit of ProxyState::status.
 std::string statusName(std::size_t bit);
 
-/// The scans, fitted into the workspace, and the generated meshes; the same samples of each for all studies.
+/// The scans, fitted into the workspace, and the generated meshes.
 std::vector<TouchMesh> meshesOf(const TouchBenchmarkOptions& options);
-std::vector<Vec3> samplesToTouch(const TouchMesh& mesh, std::int64_t count);
 
-/// How the clouds of all studies are resampled, and what a report says about that.
+/// How the clouds of all studies are resampled.
 TouchSceneSettings sceneSettings(const TouchBenchmarkOptions& options);
-std::string sceneText(const TouchBenchmarkOptions& options);
 
 /// A stroke and its truth.
 struct TouchTask
@@ -55,14 +44,10 @@ using TouchObserver = std::function<void(std::size_t stroke, const TouchTrace& t
 TouchFigures judge(StudyContext& context, const Contestant& contestant, const TouchScene& scene,
   const std::vector<TouchTask>& tasks, const TouchObserver& observer = {});
 
-ReportPart studyScans(StudyContext& context);
-ReportPart studyEdges(StudyContext& context);
-ReportPart studyThin(StudyContext& context);
-ReportPart studyLocal(StudyContext& context);
-ReportPart studySizes(StudyContext& context);
-/// Runs only where it is named. StudyContext::wrong says how many rows miss a limit.
-ReportPart studyHard(StudyContext& context);
+void studyScans(StudyContext& context);
+void studyEdges(StudyContext& context);
+void studyThin(StudyContext& context);
+/// Runs only where it is named. The fault of the run says how many rows miss a limit.
+void studyHard(StudyContext& context);
 
-} // namespace touch
-} // namespace bench
-} // namespace pointhaptics
+} // namespace pointhaptics::bench::touch

@@ -1,9 +1,8 @@
 /// @file
-/// `pointhaptics bench touch`: does the touch of a cloud keep to the surface it was sampled from, where that
-/// is not smooth?
+/// Options of `pointhaptics bench touch`: does the touch of a cloud keep to the surface it was sampled
+/// from, where that is not smooth?
 #pragma once
 
-#include "Benchmark/Report/Report.h"
 #include "Benchmark/Touch/TouchMesh.h"
 #include "Benchmark/Touch/TouchStrokes.h"
 
@@ -13,42 +12,30 @@
 #include <string>
 #include <vector>
 
-namespace pointhaptics
-{
-namespace bench
-{
-namespace touch
+namespace pointhaptics::bench::touch
 {
 
 struct TouchBenchmarkOptions
 {
   std::vector<TouchMesh> scans; ///< As read from their files.
   std::vector<std::string> meshes = generatedMeshNames();
-  std::vector<std::string> methods;                      ///< Of contestantNames(); empty: all.
-  std::vector<std::string> studies;                      ///< Of studyWords(); empty: all but "hard".
-  std::vector<std::string> families;                     ///< Of hardFamilies(); empty: all.
-  std::int64_t points = 543652;                          ///< Samples of each mesh; the paper's number.
-  std::vector<std::int64_t> sizes = { 10000, 10000000 }; ///< The same for the study of size.
-  int strokes = 60;                                      ///< On each mesh.
+  std::vector<std::string> methods;  ///< Some of contestantNames(); empty: all.
+  std::vector<std::string> families; ///< Some of hardFamilies(); empty: all.
+  std::int64_t points = 543652;      ///< Samples of each mesh; the paper's number.
+  std::vector<double> sizes = {};    ///< Numbers of samples of the study of scans.
+  std::int64_t strokes = 60;         ///< On each mesh.
   StrokeSet strokeSet = StrokeSet::A;
   bool raw = false;  ///< The points themselves, no voxels.
   bool local = true; ///< Finer scenes near the hand, as the program makes them.
   /// From the look at where the hand is until the finer scene there is felt, milliseconds: a look every 5 or
   /// 10 ms, and the time of a build.
-  int lateTicks = 20;
-  InstructionSet instructions = InstructionSet::Automatic; ///< Of the proxies; the forces are the same.
-  int repetitions = 2; ///< Walks over each stroke; the fastest tells the time of a tick.
+  std::int64_t lateTicks = 20;
+  InstructionSet instructions =
+    InstructionSet::Automatic; ///< Instructions of the proxies; the forces are the same.
   bool quick = false;
 
   /// A few seconds.
   void makeQuick();
 };
 
-std::vector<std::string> studyWords();
-
-/// @param wrong receives which answer is wrong beyond doubt; left empty where none is.
-Report benchmarkTouch(const TouchBenchmarkOptions& options, const Progress& progress, std::string& wrong);
-
-} // namespace touch
-} // namespace bench
-} // namespace pointhaptics
+} // namespace pointhaptics::bench::touch

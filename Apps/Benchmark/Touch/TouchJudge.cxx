@@ -6,11 +6,7 @@
 #include <chrono>
 #include <cmath>
 
-namespace pointhaptics
-{
-namespace bench
-{
-namespace touch
+namespace pointhaptics::bench::touch
 {
 namespace
 {
@@ -178,6 +174,4 @@ TouchFigures TouchJudge::figures() const
   return f;
 }
 
-} // namespace touch
-} // namespace bench
-} // namespace pointhaptics
+} // namespace pointhaptics::bench::touch

@@ -9,11 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace pointhaptics
-{
-namespace bench
-{
-namespace touch
+namespace pointhaptics::bench::touch
 {
 
 constexpr std::size_t kStatusBits = 16;
@@ -31,12 +27,12 @@ struct TouchFigures
   double medianPercent = 0.0;
   double p95Percent = 0.0;
   double rmsPercent = 0.0;
-  double directionP95Degrees = 0.0; ///< Of the ticks with a force.
+  double directionP95Degrees = 0.0; ///< Direction error of the ticks with a force.
   double lostPercent = 0.0;         ///< Judged ticks more than 0.05 mm deep without force.
   double phantomNewton = 0.0;       ///< Largest force where all nine god objects are free.
   int held = 0;                     ///< Strokes whose last 50 ticks, all free, all have a force above 0.05 N.
-  double laterPhantomNewton = 0.0;  ///< The same as phantomNewton after a leap.
-  int laterHeld = 0;                ///< The same as held for strokes with a leap.
+  double laterPhantomNewton = 0.0;  ///< As phantomNewton, after a leap.
+  int laterHeld = 0;                ///< As held, of strokes with a leap.
   int pops = 0;                     ///< Strokes in which a judged tick has no force or one that pulls.
   int releases = 0;                 ///< Ticks in which the contact of the method ended.
   double largestStep = 0.0;         ///< |dF| over K |dH|, of ticks with a force and |dH| above 1 um.
@@ -45,12 +41,12 @@ struct TouchFigures
   double p50 = 0.0;         ///< Update time of a tick in contact, microseconds.
   double p99 = 0.0;
   double firstContact = 0.0; ///< The longest update out of contact or into it: finding the surface.
-  double maximum = 0.0;      ///< Of all ticks, finding the surface among them.
+  double maximum = 0.0;      ///< Longest update of all ticks, finding the surface among them.
   std::array<double, kStatusBits> statusPercent{}; ///< Ticks in which each bit of ProxyState::status was set.
   std::int64_t nonFinite = 0;                      ///< States that are not finite: beyond doubt wrong.
 };
 
-/// Of one stroke: all states, and the shortest update of each tick over @p repetitions walks.
+/// All states of one stroke, and the shortest update of each tick over @p repetitions walks.
 struct TouchTrace
 {
   std::vector<ProxyState> states;
@@ -90,6 +86,4 @@ private:
   std::array<std::int64_t, kStatusBits> status_{};
 };
 
-} // namespace touch
-} // namespace bench
-} // namespace pointhaptics
+} // namespace pointhaptics::bench::touch

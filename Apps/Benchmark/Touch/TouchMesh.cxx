@@ -10,11 +10,7 @@
 #include <unordered_map>
 #include <utility>
 
-namespace pointhaptics
-{
-namespace bench
-{
-namespace touch
+namespace pointhaptics::bench::touch
 {
 namespace
 {
@@ -324,6 +320,11 @@ std::vector<std::string> generatedMeshNames()
   return { "box", "stairs", "slot", "gear" };
 }
 
+std::vector<std::string> smoothMeshNames()
+{
+  return { "sphere", "ellipsoid" };
+}
+
 TouchMesh generatedMesh(const std::string& name)
 {
   TouchMesh mesh;
@@ -343,6 +344,13 @@ TouchMesh generatedMesh(const std::string& name)
   else if (name == "gear")
   {
     mesh = gear();
+  }
+  else if (name == "sphere" || name == "ellipsoid")
+  {
+    mesh = sphereMesh(0.030, 600);
+    const Vec3 scale = name == "sphere" ? Vec3(1.0, 1.0, 1.0) : Vec3(1.0, 0.7, 0.5);
+    std::transform(mesh.points.begin(), mesh.points.end(), mesh.points.begin(),
+      [&](const Vec3& p) { return Vec3(scale.x * p.x, scale.y * p.y, scale.z * p.z); });
   }
   mesh.name = name;
   std::transform(mesh.points.begin(), mesh.points.end(), mesh.points.begin(), turnedAway);
@@ -385,6 +393,4 @@ std::vector<Vec3> samplesOf(const TouchMesh& mesh, std::int64_t count, std::uint
   return points;
 }
 
-} // namespace touch
-} // namespace bench
-} // namespace pointhaptics
+} // namespace pointhaptics::bench::touch

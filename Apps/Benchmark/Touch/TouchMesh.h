@@ -9,11 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace pointhaptics
-{
-namespace bench
-{
-namespace touch
+namespace pointhaptics::bench::touch
 {
 
 /// Twice the area, m^2, below which a triangle has no usable normal.
@@ -47,9 +43,11 @@ TouchMesh cylinderMesh(double radius, double height, int sides);
 /// Turned about the origin, so that no face of a box is parallel to the lattice.
 Vec3 turnedAway(const Vec3& p);
 
-/// The generated meshes of the benchmark, about 60 mm, turned away from the axes.
+/// The generated meshes of the benchmark, about 60 mm, turned away from the axes: parts with edges, and the
+/// smooth ones, whose facets are smaller than fits reach.
 std::vector<std::string> generatedMeshNames();
-/// One of generatedMeshNames(); empty for another name.
+std::vector<std::string> smoothMeshNames();
+/// One of either names; empty for another name.
 TouchMesh generatedMesh(const std::string& name);
 
 /// @p count points uniform over the area; the same for the same seed. With @p noise, Gaussian along the
@@ -57,6 +55,4 @@ TouchMesh generatedMesh(const std::string& name);
 std::vector<Vec3> samplesOf(
   const TouchMesh& mesh, std::int64_t count, std::uint64_t seed, double noise = 0.0);
 
-} // namespace touch
-} // namespace bench
-} // namespace pointhaptics
+} // namespace pointhaptics::bench::touch

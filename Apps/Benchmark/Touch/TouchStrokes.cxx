@@ -5,11 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pointhaptics
-{
-namespace bench
-{
-namespace touch
+namespace pointhaptics::bench::touch
 {
 namespace
 {
@@ -181,6 +177,4 @@ TouchTruth truthOf(const TriangleTree& tree, const TouchStroke& stroke, double s
   return truth;
 }
 
-} // namespace touch
-} // namespace bench
-} // namespace pointhaptics
+} // namespace pointhaptics::bench::touch

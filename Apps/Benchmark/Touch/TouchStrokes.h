@@ -7,11 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace pointhaptics
-{
-namespace bench
-{
-namespace touch
+namespace pointhaptics::bench::touch
 {
 
 constexpr double kTickSeconds = 1e-3;
@@ -52,14 +48,14 @@ struct TouchTruth
   struct Tick
   {
     Vec3 force;           ///< N.
-    bool contact = false; ///< Of the god object at the hand itself.
+    bool contact = false; ///< Contact of the god object at the hand itself.
     /// In contact, and eight god objects whose hands are shifted (four by 10 um, four by 50 um) feel the same
     /// within 25 %; only for forces above kForceFloor.
     bool holds = false;
     bool free = false; ///< All nine are free.
   };
-  /// Of the whole stroke, or up to where a free hand comes out through a facet from behind: it was inside an
-  /// open scan, and a cloud, which has no inside, may hold it there.
+  /// All ticks of the stroke, or those up to where a free hand comes out through a facet from behind: it was
+  /// inside an open scan, and a cloud, which has no inside, may hold it there.
   std::vector<Tick> ticks;
   /// Ticks before the god object leaps from contact to contact, by more than 4 times the way of the hand and
   /// 0.2 mm: from there on which of two places is right is a matter of chance.
@@ -71,6 +67,4 @@ constexpr double kForceFloor = 0.04; ///< N.
 
 TouchTruth truthOf(const TriangleTree& tree, const TouchStroke& stroke, double stiffness, std::uint64_t seed);
 
-} // namespace touch
-} // namespace bench
-} // namespace pointhaptics
+} // namespace pointhaptics::bench::touch

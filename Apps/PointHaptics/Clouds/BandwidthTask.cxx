@@ -13,9 +13,7 @@
 
 #include <algorithm>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 
 void BandwidthCommandOptions::addTo(CLI::App& command)
@@ -77,5 +75,4 @@ CloudResult resultOf(const BandwidthCommandOptions& options, const BandwidthFigu
       { "proxy_radius", { { "min", figures.smallestRadius }, { "max", figures.largestRadius } } } } };
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

@@ -1,5 +1,5 @@
 /// @file
-/// What the command `bandwidth` is asked for and says, of this program and of pointhaptics-mpi.
+/// Options and messages of the command `bandwidth`, in this program and in pointhaptics-mpi.
 #pragma once
 
 #include "Clouds/CloudToCloud.h"
@@ -15,9 +15,7 @@ class App;
 }
 class vtkPolyData;
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 
 struct BandwidthCommandOptions
@@ -28,7 +26,7 @@ struct BandwidthCommandOptions
   void addTo(CLI::App& command);
 };
 
-/// Of a cloud or a part of it. Points that are not finite have radius 0: they take no part.
+/// Figures of a cloud or a part of it. Points that are not finite have radius 0: they take no part.
 struct BandwidthFigures
 {
   double smallestRadius = INFINITY;
@@ -38,11 +36,10 @@ struct BandwidthFigures
 };
 
 BandwidthFigures bandwidthFigures(vtkPolyData* cloud);
-/// Of two parts.
+/// Joins the figures of two parts.
 BandwidthFigures together(const BandwidthFigures& a, const BandwidthFigures& b);
-/// Why there is no radius; empty where there is one.
+/// Reason why there is no radius; empty where there is one.
 std::string whyNone(const BandwidthCommandOptions& options, const BandwidthFigures& figures);
 CloudResult resultOf(const BandwidthCommandOptions& options, const BandwidthFigures& figures);
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

@@ -13,9 +13,7 @@
 #include <nlohmann/json.hpp>
 #include <vtkPolyData.h>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 
 void CloudToCloudOptions::addTo(CLI::App& command, bool lastIsOutput)
@@ -99,5 +97,4 @@ int runOnClouds(const std::string& command, const CloudToCloudOptions& options, 
   return kSuccess;
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

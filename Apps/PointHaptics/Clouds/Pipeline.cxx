@@ -25,14 +25,12 @@
 #include <sstream>
 #include <thread>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 namespace
 {
 
-/// Seconds since it was made.
+/// Measures the seconds since it was made.
 class Stopwatch
 {
 public:
@@ -50,7 +48,7 @@ std::string firstOf(const std::vector<std::string>& messages)
   return messages.empty() ? std::string() : messages.front();
 }
 
-/// @p shown: what messages call the file.
+/// Reads a file. @p shown: its name in messages.
 bool readFile(const std::string& path, const std::string& shown, Cloud& cloud, std::string& message,
   const ReadOptions& options)
 {
@@ -225,7 +223,7 @@ bool writeCloud(vtkPointSet* points, const std::string& fileName, Files& files, 
     const std::string shown = fileName == kStandardStream ? "standard output" : fileName;
     return writeFile(points, files.output(fileName), shown, command, message, writing, written);
   }
-  // Its writer goes back in the file.
+  // The writer of VTP seeks in the file.
   const TemporaryFolder folder;
   const std::string path = folder.path("output");
   return writeFile(points, path, "standard output", command, message, writing, written) &&
@@ -302,11 +300,10 @@ void useThreads(std::int64_t threads)
 {
   if (threads > 0)
   {
-    // TBB prints a warning of its own where it gets fewer.
+    // TBB prints a warning where it gets fewer threads than it asks for.
     const auto most = static_cast<std::int64_t>(std::max(1U, std::thread::hardware_concurrency()));
     vtkSMPTools::Initialize(static_cast<int>(std::min(threads, most)));
   }
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

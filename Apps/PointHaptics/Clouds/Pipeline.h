@@ -30,21 +30,24 @@ namespace app
 struct Cloud
 {
   vtkSmartPointer<vtkPolyData> points;
-  std::string format;             ///< As the reader calls it.
-  std::vector<std::string> notes; ///< What the file has and the points have not.
+  std::string format;             ///< Name of the format, as the reader gives it.
+  std::vector<std::string> notes; ///< Parts of the file that the points lack.
   bool isValidWithoutPoints = false;
   std::int64_t bytesRead = 0;
 };
 
 struct ReadOptions
 {
-  std::string extension;    ///< Of a name that does not say it; empty: the name's.
-  bool applyPoses = true;   ///< Of scans (E57).
-  double resolution = 0.0;  ///< How far a cloud optimised one is read, in its units; 0: all of it.
-  std::vector<double> clip; ///< Box of what is read, in its coordinates: XMIN, XMAX, YMIN, ...; empty: all.
-  std::vector<std::string> columns; ///< Names for those of a text; empty: as the file says.
+  std::string extension;    ///< Extension for a name that has none; empty: the name's.
+  bool applyPoses = true;   ///< Applies the poses of scans (E57).
+  double resolution = 0.0;  ///< Resolution to which a cloud optimised file is read, in its units; 0: all of
+                            ///< it.
+  std::vector<double> clip; ///< Box of the points that are read, in the file's coordinates: XMIN, XMAX, YMIN,
+                            ///< ...; empty: all.
+  std::vector<std::string> columns; ///< Names for the columns of a text; empty: as the file says.
   bool salvage = false;             ///< A file that is cut is read as far as it goes.
-  Ranks* ranks = nullptr; ///< That read it together, each its part of the points; null: this process alone.
+  Ranks* ranks = nullptr; ///< Ranks that read it together, each its part of the points; null: this process
+                          ///< alone.
 };
 
 /// Reads @p fileName, a pipe or standard input. False: @p message says
@@ -57,10 +60,10 @@ bool readCloud(
 bool updateFilter(vtkAlgorithm* filter, const std::string& label, std::string& message);
 /// The extensions that can be written, without their dots.
 std::vector<std::string> writableExtensions();
-/// How a cloud is written.
+/// Options for writing a cloud.
 struct WriteOptions
 {
-  std::string format;        ///< Extension of a name that does not say it; empty: the name's.
+  std::string format;        ///< Extension for a name that has none; empty: the name's.
   bool keepsDoubles = false; ///< Types and names of arrays in PCD.
   double lasScale = 0.0;     ///< Step of the coordinates of LAS, in their unit; 0: see vtkPointCloudWriter.
 
@@ -78,18 +81,18 @@ bool writeCloud(vtkPointSet* points, const std::string& fileName, Files& files, 
 bool writeCloud(vtkPointSet* points, const std::string& fileName, const std::string& command,
   std::string& message, const WriteOptions& options = {});
 
-/// All of @p clouds in one, which are empty then. Notes are shown as warnings of @p command.
+/// Merges @p clouds, which are empty then, into one. Notes are shown as warnings of @p command.
 Cloud mergedCloud(const std::string& command, std::vector<Cloud>& clouds);
 
 /// The finite points of @p cloud, moved by @p transform, in double precision, without arrays.
 vtkSmartPointer<vtkPolyData> transformedPoints(vtkPolyData* cloud, const AffineTransform& transform);
 
-/// That all of so many points are NaN or infinite.
+/// Message that all @p count points are NaN or infinite.
 std::string noFinitePoint(const std::string& fileName, std::int64_t count);
 
 /// Shows the notes of a cloud that was read from @p fileName as warnings of @p command.
 void showNotes(const std::string& command, const std::string& fileName, const Cloud& cloud);
-/// Shows what VTK classes warned of since the last call as warnings of @p command.
+/// Shows the warnings of VTK classes since the last call as warnings of @p command.
 void showWarnings(const std::string& command);
 /// Number of threads for VTK's parallel loops; 0 leaves the default.
 void useThreads(std::int64_t threads);

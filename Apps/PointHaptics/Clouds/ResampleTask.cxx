@@ -20,9 +20,7 @@
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 
 void ResampleOptions::addTo(CLI::App& command)
@@ -64,8 +62,7 @@ void ResampleOptions::configure(vtkVoxelMeanResampler* resampler) const
   resampler->SetMinimumPointsPerVoxel(int(this->minimumPoints));
 }
 
-/// Steps and coordinate system of the file are not those of transformed points, nor is its unit that of
-/// scaled ones.
+/// Removes steps and coordinate system of the file from transformed points, and its unit from scaled ones.
 void ResampleOptions::finish(vtkPolyData* means) const
 {
   const bool isScaled =
@@ -158,5 +155,4 @@ CloudResult resultOf(const ResampleOptions& options, const ResampleFigures& figu
       { "points_invalid", figures.invalid } } };
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

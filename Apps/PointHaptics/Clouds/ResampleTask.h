@@ -1,5 +1,5 @@
 /// @file
-/// What the command `resample` is asked for and says, of this program and of pointhaptics-mpi.
+/// Options and messages of the command `resample`, in this program and in pointhaptics-mpi.
 #pragma once
 
 #include "Clouds/CloudToCloud.h"
@@ -33,9 +33,9 @@ struct ResampleOptions
   void addTo(CLI::App& command);
   /// Ends the parse with a usage error where an option has no meaning beside the others.
   void check() const;
-  /// All but the voxel index.
+  /// Sets all options but the voxel index on @p resampler.
   void configure(vtkVoxelMeanResampler* resampler) const;
-  /// What is done with the means before they are written.
+  /// Completes the means before they are written.
   void finish(vtkPolyData* means) const;
 };
 
@@ -47,7 +47,7 @@ std::vector<std::string> oddPointsNotes(
 
 /// Opens the file of --voxel-index. False: @p message says why it cannot be written.
 bool openVoxelIndex(const std::string& fileName, CsvWriter& file, std::string& message);
-/// Of each point the row of its voxel in the output, or -1. @pre ComputeVoxelIndex is on.
+/// Row in the output of each point's voxel, or -1. @pre ComputeVoxelIndex is on.
 std::vector<std::int64_t> voxelIndexOf(vtkVoxelMeanResampler* resampler);
 void addVoxelIndex(const std::vector<std::int64_t>& rows, CsvWriter& file);
 
@@ -60,7 +60,7 @@ struct ResampleFigures
   std::int64_t invalid = 0;
 };
 
-/// Why no voxel is left.
+/// Reason why no voxel is left.
 std::string whyEmpty(const ResampleOptions& options, const ResampleFigures& figures);
 CloudResult resultOf(const ResampleOptions& options, const ResampleFigures& figures);
 

@@ -13,16 +13,14 @@
 
 #include <memory>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 namespace
 {
 
 constexpr const char* kBandwidthCommand = "bandwidth";
 
-/// @p files has the output.
+/// Adds the arrays to @p cloud and writes it to the output in @p files.
 CloudResult addBandwidths(const BandwidthCommandOptions& options, Cloud& cloud, Files& files)
 {
   std::string message;
@@ -35,16 +33,11 @@ CloudResult addBandwidths(const BandwidthCommandOptions& options, Cloud& cloud, 
   }
   const BandwidthFigures figures = bandwidthFigures(filter->GetOutput());
   message = whyNone(options, figures);
-  if (!message.empty())
-  {
-    throw Failure(message);
-  }
+  require(message.empty(), message);
   showWarnings(kBandwidthCommand);
-  if (!writeCloud(
-        filter->GetOutput(), options.files.output, files, kBandwidthCommand, message, options.files.writing))
-  {
-    throw Failure(message);
-  }
+  require(writeCloud(filter->GetOutput(), options.files.output, files, kBandwidthCommand, message,
+            options.files.writing),
+    message);
   return resultOf(options, figures);
 }
 
@@ -69,5 +62,4 @@ void addBandwidthCommand(CLI::App& program, int& exitCode)
   runAs(*command, exitCode, { run });
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

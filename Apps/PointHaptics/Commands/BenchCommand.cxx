@@ -13,16 +13,14 @@
 
 #include <unistd.h>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 namespace
 {
 
 constexpr const char* kBenchProgram = "pointhaptics-bench";
 
-/// Beside this program, or wherever PATH leads.
+/// Finds the program beside this one, or on PATH.
 std::string benchProgram()
 {
   std::error_code error;
@@ -31,7 +29,7 @@ std::string benchProgram()
   return !error && ::access(beside.c_str(), X_OK) == 0 ? beside.string() : kBenchProgram;
 }
 
-/// Becomes the other program. @return kFailed, where there is none.
+/// Replaces this process by the other program. @return kFailed where there is none.
 int becomeBench(const std::vector<std::string>& words)
 {
   std::string program = benchProgram();
@@ -64,5 +62,4 @@ void addBenchCommand(CLI::App& program, int& exitCode)
   command->callback([command, &exitCode] { exitCode = becomeBench(command->remaining()); });
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

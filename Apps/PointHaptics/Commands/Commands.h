@@ -9,9 +9,7 @@ namespace CLI
 class App;
 }
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 
 /// Each adds its subcommand to @p program; its callback runs the command and stores an ExitCode in @p
@@ -25,12 +23,11 @@ void addConvertCommand(CLI::App& program, int& exitCode);
 void addInfoCommand(CLI::App& program, int& exitCode);
 void addGenerateCommand(CLI::App& program, int& exitCode);
 void addDevicesCommand(CLI::App& program, int& exitCode);
-/// Hidden: for the build.
+/// Adds a hidden command for the build.
 void addManualCommand(CLI::App& program, int& exitCode);
-/// Hidden, of a program beside pointhaptics: prints its man page, for the build.
+/// Adds a hidden command to a program beside pointhaptics, which prints its man page for the build.
 void addManPage(CLI::App& program);
-/// Runs the program pointhaptics-bench, where it is.
+/// Adds a command that runs the program pointhaptics-bench, where it is installed.
 void addBenchCommand(CLI::App& program, int& exitCode);
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

@@ -13,9 +13,7 @@
 
 #include <memory>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 namespace
 {
@@ -29,7 +27,7 @@ struct ConvertOptions
   bool keepPoses = false;
 };
 
-/// What can be said once all words of the command line are known.
+/// Checks that need all words of the command line.
 void complete(ConvertOptions& options)
 {
   CloudToCloudOptions& clouds = options.clouds;
@@ -51,10 +49,9 @@ CloudResult convert(const CloudToCloudOptions& options, Cloud& cloud, Files& fil
   showWarnings(kConvertCommand);
   std::string message;
   vtkIdType written = 0;
-  if (!writeCloud(cloud.points, options.output, files, kConvertCommand, message, options.writing, &written))
-  {
-    throw Failure(message);
-  }
+  require(
+    writeCloud(cloud.points, options.output, files, kConvertCommand, message, options.writing, &written),
+    message);
   const std::vector<std::string> inputs =
     options.merge ? options.inputs : std::vector<std::string>{ options.input };
   return { fmt::format("{}: {}", countOfPoints(written), options.output),
@@ -81,5 +78,4 @@ void addConvertCommand(CLI::App& program, int& exitCode)
   runAs(*command, exitCode, { run, [options] { complete(*options); } });
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

@@ -12,9 +12,7 @@
 
 #include <memory>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 namespace
 {
@@ -89,5 +87,4 @@ void addDevicesCommand(CLI::App& program, int& exitCode)
   runAs(*command, exitCode, { [options](Files&) { return runDevices(*options); } });
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

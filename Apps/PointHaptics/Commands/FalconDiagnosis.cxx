@@ -18,30 +18,28 @@
 #include <poll.h>
 #include <unistd.h>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 namespace
 {
 
 constexpr double kRateHz = 1000.0;
 constexpr double kTinyForce = 0.5; // N
-/// The ramp takes one of them.
+/// Duration of a push; the ramp takes one second of it.
 constexpr double kPushSeconds = 1.5;
 constexpr double kShortestPush = 0.5;
-/// Until a hand that was pushed is back.
+/// Time until a pushed hand is back, seconds.
 constexpr double kBackSeconds = 0.3;
 constexpr double kLedSeconds = 0.3;
 constexpr double kRateSeconds = 5.0;
-/// Nobody is there to see and feel it.
+/// Part of the time that is enough where no person sees and feels it.
 constexpr double kPartWithoutAPerson = 0.2;
 constexpr double kLongestHoming = 120.0;
-/// Part of a movement that must be in the direction asked for.
+/// Part of a movement that must be in the requested direction.
 constexpr double kDirection = 0.9;
 constexpr int kQuestionMilliseconds = 100;
 
-/// A virtual finger: no scene, a force of our own. Gives the diagnosis the servo thread for itself.
+/// A virtual finger: no scene, a force of its own. It gives the diagnosis the servo thread.
 class PushPort : public HapticPort
 {
 public:
@@ -67,7 +65,7 @@ private:
   Vec3 newest_; ///< The servo thread's.
 };
 
-/// A push that ends with its scope, whatever ends that.
+/// A push that ends with its scope, however that is left.
 class Push
 {
 public:
@@ -112,7 +110,7 @@ private:
     printNow(stdout, line + "\n");
     report_ << line << std::endl; // what was found stays, whatever comes next
   }
-  /// @p result and whether it is as it should be, on one line.
+  /// Prints @p result and if it is right, on one line.
   void judge(const std::string& result, bool isRight)
   {
     note(result + (isRight ? "as expected" : "NOT as expected"));
@@ -138,7 +136,7 @@ private:
   int problems_ = 0;
 };
 
-/// A line from the terminal, without its end; what there is of it where the program is asked to stop.
+/// Reads a line from the terminal, without its end; a part of it where the program is asked to stop.
 std::string answerOfPerson()
 {
   std::string answer;
@@ -159,7 +157,7 @@ std::string answerOfPerson()
   return answer;
 }
 
-/// The answer goes into the report. The loop goes on meanwhile.
+/// Asks a question and writes the answer into the report. The loop runs meanwhile.
 void Diagnosis::ask(const std::string& question)
 {
   printNow(stdout, question + " ");
@@ -362,7 +360,7 @@ bool Diagnosis::run(std::string& message)
 bool diagnoseFalcon(
   const FalconOptions& options, const std::string& reportFile, bool yes, std::string& message)
 {
-  // Before anything moves: a report that cannot be written is no use.
+  // The report is opened before anything moves: one that cannot be written is no use.
   std::ofstream file(reportFile);
   if (!file)
   {
@@ -392,5 +390,4 @@ bool diagnoseFalcon(
   return done;
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

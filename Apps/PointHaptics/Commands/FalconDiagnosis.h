@@ -1,14 +1,12 @@
 /// @file
-/// `devices --diagnose`: what only a Falcon and its owner can confirm.
+/// `devices --diagnose`: checks that need a Falcon and its owner.
 #pragma once
 
 #include "Options/FalconOptions.h"
 
 #include <string>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 
 /// Walks through LEDs, homing, encoder directions, rate, and motors with at most 0.5 N, asking on the
@@ -18,5 +16,4 @@ namespace app
 bool diagnoseFalcon(
   const FalconOptions& options, const std::string& reportFile, bool yes, std::string& message);
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

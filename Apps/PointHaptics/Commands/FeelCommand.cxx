@@ -39,9 +39,7 @@
 #include <optional>
 #include <vector>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 namespace
 {
@@ -75,7 +73,7 @@ std::string header()
   return line;
 }
 
-/// In virtual time there is no servo loop with a limit of its own.
+/// Limit of the force; in virtual time no servo loop has a limit of its own.
 ForceLimit limitOf(const FeelOptions& options)
 {
   ForceLimit limit;
@@ -88,11 +86,11 @@ ForceLimit limitOf(const FeelOptions& options)
   return limit;
 }
 
-/// Rows and their summary.
+/// Writes rows and keeps their summary.
 class Rows
 {
 public:
-  /// @param recording gets what add() gets as a sample, if it is open; @p sound what is felt.
+  /// @param recording gets each sample of add(), if it is open; @param sound plays the touch.
   Rows(CsvWriter& table, RecordingWriter& recording, FeltSound& sound)
     : table_(table)
     , recording_(recording)
@@ -100,7 +98,7 @@ public:
   {
   }
   RecordingWriter& recording() { return recording_; }
-  /// At another time than the sample's, which counts from the first tick.
+  /// Adds a row with another time than the sample's, which counts from the first tick.
   void add(double time, const VirtualTouch& touch)
   {
     const ServoSample& sample = touch.sample();
@@ -135,7 +133,7 @@ public:
     return summary_;
   }
 
-  /// Of a hand that has touched nothing.
+  /// Nearest approach of a hand that has touched nothing.
   const ClosestApproach& approach() const { return approach_; }
 
 private:
@@ -148,9 +146,9 @@ private:
   std::uint64_t scene_ = 0;
 };
 
-/// A person pulled along @p path, who yields to the force; in virtual time.
-bool walkYielding(const FeelOptions& options, FeelScenes& scenes, const HipPath& path, std::int64_t ticks,
-  Rows& rows, std::string& message)
+/// Moves a person's hand along @p path that yields to the force, in virtual time.
+void walkYielding(
+  const FeelOptions& options, FeelScenes& scenes, const HipPath& path, std::int64_t ticks, Rows& rows)
 {
   SimulatedHandSettings settings;
   for (const HipPathPoint& point : path.points)
@@ -165,20 +163,13 @@ bool walkYielding(const FeelOptions& options, FeelScenes& scenes, const HipPath&
   hand.setPath(path);
   const ContactParameters& contact = options.touch.parameters.contact;
   const HandLimits limits = hand.limits();
-  if (checkPassive(limits, contact.stiffness, contact.damping, options.rateHz) != Status::Ok)
-  {
-    message =
-      fmt::format("stiffness {} N/m with damping {} N s/m would make the hand shake at {} Hz; use at most "
-                  "{:.0f} N/m beside this damping",
-        contact.stiffness, contact.damping, options.rateHz,
-        largestPassiveStiffness(limits, contact.damping, options.rateHz));
-    return false;
-  }
-  if (const Status status = hand.open(); status != Status::Ok)
-  {
-    message = options.path + ": " + pointhaptics::message(status);
-    return false;
-  }
+  require(checkPassive(limits, contact.stiffness, contact.damping, options.rateHz) == Status::Ok,
+    fmt::format("stiffness {} N/m with damping {} N s/m would make the hand shake at {} Hz; use at most "
+                "{:.0f} N/m beside this damping",
+      contact.stiffness, contact.damping, options.rateHz,
+      largestPassiveStiffness(limits, contact.damping, options.rateHz)));
+  const Status status = hand.open();
+  require(status == Status::Ok, options.path + ": " + pointhaptics::message(status));
   HapticParameters parameters = options.touch.parameters;
   parameters.contact.forceLimit = limitOf(options).newtons();
   VirtualTouch touch(parameters, scenes, options.rateHz);
@@ -197,7 +188,6 @@ bool walkYielding(const FeelOptions& options, FeelScenes& scenes, const HipPath&
     rows.add(path.points.front().timeSeconds + time, touch);
     bar.show(double(tick) / double(ticks));
   }
-  return true;
 }
 
 /// Moves the hand along @p path in virtual time.
@@ -214,8 +204,8 @@ void walk(const FeelOptions& options, FeelScenes& scenes, const HipPath& path, s
     });
 }
 
-/// The hand in the device, until the time is over or the user ends it.
-bool touch(const FeelOptions& options, FeelScenes& scenes, Rows& rows, std::string& message)
+/// Feels with the hand in the device, until the time is over or the user ends it.
+void touch(const FeelOptions& options, FeelScenes& scenes, Rows& rows)
 {
   LiveSettings live;
   live.falcon = options.falcon;
@@ -226,45 +216,38 @@ bool touch(const FeelOptions& options, FeelScenes& scenes, Rows& rows, std::stri
   ServoStatistics statistics;
   const auto row = [&rows](const ServoSample& sample)
   { rows.add(sample.timeSeconds, sample.state, 1e6 * sample.updateSeconds); };
-  if (!feelLive(live, scenes, row, statistics, message))
-  {
-    return false;
-  }
+  std::string message;
+  require(feelLive(live, scenes, row, statistics, message), message);
   printNow(stderr,
     fmt::format("{:.0f} Hz, {} deadline misses, {} device faults, jitter p99 {:.0f} us\n", statistics.rateHz,
       statistics.deadlineMisses, statistics.deviceFaults, 1e6 * statistics.jitter.p99));
-  return true;
 }
 
-bool feelAs(const FeelOptions& options, FeelScenes& scenes, const HipPath& path, std::int64_t ticks,
-  Rows& rows, std::string& message)
+void requireNoStop(const FeelOptions& options)
+{
+  require(!stopIsRequested(), options.output + ": feeling was stopped on request; start it again");
+}
+
+void feelAs(
+  const FeelOptions& options, FeelScenes& scenes, const HipPath& path, std::int64_t ticks, Rows& rows)
 {
   if (options.device == "falcon")
   {
-    return touch(options, scenes, rows, message);
+    touch(options, scenes, rows);
+    return;
   }
-  if (options.device == "simulated" && !walkYielding(options, scenes, path, ticks, rows, message))
-  {
-    return false;
-  }
-  if (options.device != "simulated")
-  {
-    walk(options, scenes, path, ticks, rows);
-  }
-  if (stopIsRequested())
-  {
-    message = options.output + ": feeling was stopped on request; start it again";
-  }
-  return !stopIsRequested();
+  options.device == "simulated" ? walkYielding(options, scenes, path, ticks, rows)
+                                : walk(options, scenes, path, ticks, rows);
+  requireNoStop(options);
 }
 
-/// Null: there is none.
+/// The limit as JSON; null: there is none.
 nlohmann::ordered_json limitJson(const ForceLimit& limit)
 {
   return std::isfinite(limit.newtons()) ? nlohmann::ordered_json(limit.newtons()) : nlohmann::ordered_json();
 }
 
-/// Of a hand that has touched nothing @p nearest says how near it came, metres.
+/// Prints the summary. @p nearest: how near a hand that touched nothing came, metres.
 void print(const FeelOptions& options, const FeelScenes& scenes, std::int64_t invalid, const Summary& s,
   const std::optional<double>& nearest)
 {
@@ -317,29 +300,25 @@ void printReplay(const FeelOptions& options, const ReplayDifference& difference,
     s.maximumForce, options.output, difference.text()));
 }
 
-bool openSound(const FeelOptions& options, Files& files, FeltSound& sound, std::string& message)
+void openOutputs(const FeelOptions& options, Files& files, CsvWriter& table, FeltSound& sound)
 {
-  return options.soundFile.empty() || sound.open(files.output(options.soundFile), message);
+  std::string message;
+  require(table.open(files.output(options.output), header(), message) &&
+      (options.soundFile.empty() || sound.open(files.output(options.soundFile), message)),
+    message);
 }
 
-/// A recording felt again.
+/// Feels a recording again.
 int runReplay(const FeelOptions& options, Files& files)
 {
   std::string message;
   Recording recording;
   vtkSmartPointer<vtkPolyData> cloud;
   rememberStopSignals();
-  if (!openRecording(options.replay, options.file, files, recording, cloud, message))
-  {
-    return fail(kFeelCommand, message);
-  }
+  require(openRecording(options.replay, options.file, files, recording, cloud, message), message);
   CsvWriter table;
   FeltSound sound;
-  if (!table.open(files.output(options.output), header(), message) ||
-    !openSound(options, files, sound, message))
-  {
-    return fail(kFeelCommand, message);
-  }
+  openOutputs(options, files, table, sound);
   std::optional<ProxyMethod> method;
   if (options.methodIsGiven)
   {
@@ -355,36 +334,28 @@ int runReplay(const FeelOptions& options, Files& files)
     ServoSample sample;
     if (!replay.step(sample, message))
     {
-      return fail(kFeelCommand, options.replay + ": " + message);
+      throw Failure(options.replay + ": " + message);
     }
     rows.add(row.felt[0], sample.state, 1e6 * sample.updateSeconds);
     bar.show(double(replay.difference().ticks) / double(recording.ticks.size()));
   }
-  if (stopIsRequested())
-  {
-    return fail(kFeelCommand, options.output + ": feeling was stopped on request; start it again");
-  }
-  if (!table.commit(message) || !sound.close(message) || !files.commit(message))
-  {
-    return fail(kFeelCommand, message);
-  }
+  requireNoStop(options);
+  require(table.commit(message) && sound.close(message) && files.commit(message), message);
   printReplay(options, replay.difference(), rows.summary());
   return kSuccess;
 }
 
-bool openRecordingOutput(const FeelOptions& options, vtkPolyData* cloud, Files& files,
-  RecordingWriter& recording, std::string& message)
+void openRecordingOutput(
+  const FeelOptions& options, vtkPolyData* cloud, Files& files, RecordingWriter& recording)
 {
   if (options.record.empty())
   {
-    return true;
+    return;
   }
+  std::string message;
   const bool isCopied = files.isStream(options.file);
   const std::string felt = isCopied ? keptCloudName(options.record) : options.file;
-  if (isCopied && !keepCloud(files.input(options.file), files.output(felt), message))
-  {
-    return false;
-  }
+  require(!isCopied || keepCloud(files.input(options.file), files.output(felt), message), message);
   RecordingHeader header = headerOf({ felt }, 0.0, cloud);
   header.program = "pointhaptics " POINTHAPTICS_VERSION;
   header.settings = options.settings;
@@ -394,10 +365,10 @@ bool openRecordingOutput(const FeelOptions& options, vtkPolyData* cloud, Files& 
   PublishedParameters parameters{ 1, options.touch.parameters };
   parameters.parameters.contact.forceLimit = header.limit.newtons();
   recording.publish(parameters);
-  return recording.open(files.output(options.record), header, message);
+  require(recording.open(files.output(options.record), header, message), message);
 }
 
-/// The box about the cloud in the workspace frame; empty where the cloud is fitted.
+/// Box about the cloud in the workspace frame; empty where the cloud is fitted.
 Bounds feltBox(const FeelOptions& options, vtkPolyData* cloud)
 {
   const AffineTransform transform = options.lattice.transform();
@@ -405,16 +376,13 @@ Bounds feltBox(const FeelOptions& options, vtkPolyData* cloud)
   return box.empty() ? box : boxOfCorners(box, [&](const Vec3& p) { return transform.apply(p); });
 }
 
-/// The path that the hand follows, in its units, and how many ticks it takes.
-bool readPath(
-  const FeelOptions& options, Files& files, HipPath& path, std::int64_t& ticks, std::string& message)
+/// Reads the path of the hand in its units, and counts its ticks.
+void readPath(const FeelOptions& options, Files& files, HipPath& path, std::int64_t& ticks)
 {
-  if (readHipPath(files.input(options.path), path, message) != Status::Ok)
-  {
-    return false;
-  }
+  std::string message;
+  require(readHipPath(files.input(options.path), path, message) == Status::Ok, message);
   applyUnits(options.pathUnits, path);
-  return countTicks(path, options.path, options.rateHz, kMostTicks, ticks, message, unitOptions());
+  require(countTicks(path, options.path, options.rateHz, kMostTicks, ticks, message, unitOptions()), message);
 }
 
 int runFeel(const FeelOptions& options, Files& files)
@@ -422,42 +390,29 @@ int runFeel(const FeelOptions& options, Files& files)
   std::string message;
   HipPath path;
   std::int64_t ticks = 0;
-  if (options.device != "falcon" && !readPath(options, files, path, ticks, message))
+  if (options.device != "falcon")
   {
-    return fail(kFeelCommand, message);
+    readPath(options, files, path, ticks);
   }
   Cloud cloud;
-  if (!readCloud(
-        options.record.empty() ? options.file : files.input(options.file), cloud, message, options.reading))
-  {
-    return fail(kFeelCommand, message);
-  }
+  const std::string input = options.record.empty() ? options.file : files.input(options.file);
+  require(readCloud(input, cloud, message, options.reading), message);
   const Bounds box = feltBox(options, cloud.points);
   FeelScenes scenes;
-  if (!makeFeelScenes(options, cloud.points, scenes, message))
-  {
-    return fail(kFeelCommand, message);
-  }
+  require(makeFeelScenes(options, cloud.points, scenes, message), message);
   showWarnings(kFeelCommand);
   rememberStopSignals(); // before there is an unfinished file
   RecordingWriter recording;
   CsvWriter table;
   FeltSound sound;
-  if (!openRecordingOutput(
-        options, clippedCloud(cloud.points, clipBox(options.clip)), files, recording, message) ||
-    !table.open(files.output(options.output), header(), message) ||
-    !openSound(options, files, sound, message))
-  {
-    return fail(kFeelCommand, message);
-  }
+  openRecordingOutput(options, clippedCloud(cloud.points, clipBox(options.clip)), files, recording);
+  openOutputs(options, files, table, sound);
   const std::int64_t invalid = extentOf(cloud.points).invalid;
   cloud = {};
   Rows rows(table, recording, sound);
-  if (!feelAs(options, scenes, path, ticks, rows, message) || !table.commit(message) ||
-    !recording.close(message) || !sound.close(message) || !files.commit(message))
-  {
-    return fail(kFeelCommand, message);
-  }
+  feelAs(options, scenes, path, ticks, rows);
+  require(table.commit(message) && recording.close(message) && sound.close(message) && files.commit(message),
+    message);
   if (!recording.problem().empty())
   {
     warn(kFeelCommand, fmt::format("{}: it ends early: {}", options.record, recording.problem()));
@@ -488,5 +443,4 @@ void addFeelCommand(CLI::App& program, int& exitCode)
       [options](Files& files) { options->declareMore(files); } });
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

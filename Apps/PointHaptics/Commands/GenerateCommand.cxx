@@ -19,16 +19,14 @@
 #include <cstring>
 #include <memory>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 namespace
 {
 
 constexpr const char* kGenerateCommand = "generate";
 constexpr std::int64_t kMostPoints = 100'000'000;
-/// Seeds up to here are whole numbers in a double, as JSON and most scripts have them.
+/// Largest seed: JSON and most scripts hold whole numbers up to here in a double.
 constexpr std::int64_t kLargestSeed = std::int64_t(1) << 53;
 
 struct GenerateOptions
@@ -60,10 +58,7 @@ int runGenerate(const GenerateOptions& options, Files& files)
     std::vector<Vec3> points, normals;
     const Status status = generateShape(
       shape, options.count, static_cast<std::uint64_t>(options.seed), options.noise, points, &normals);
-    if (status != Status::Ok)
-    {
-      return fail(kGenerateCommand, pointhaptics::message(status));
-    }
+    require(status == Status::Ok, pointhaptics::message(status));
     vtkNew<vtkPoints> coordinates;
     coordinates->SetData(arrayOf(points));
     cloud->SetPoints(coordinates);
@@ -71,11 +66,9 @@ int runGenerate(const GenerateOptions& options, Files& files)
     normalArray->SetName("Normals");
     cloud->GetPointData()->SetNormals(normalArray);
   }
-  if (!writeCloud(cloud, options.output, files, kGenerateCommand, message, options.writing) ||
-    !files.commit(message))
-  {
-    return fail(kGenerateCommand, message);
-  }
+  require(writeCloud(cloud, options.output, files, kGenerateCommand, message, options.writing) &&
+      files.commit(message),
+    message);
   if (options.json)
   {
     const nlohmann::ordered_json result = { { "output", options.output }, { "shape", shapeName(shape) },
@@ -118,5 +111,4 @@ void addGenerateCommand(CLI::App& program, int& exitCode)
   runAs(*command, exitCode, { [options](Files& files) { return runGenerate(*options, files); } });
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

@@ -15,9 +15,7 @@
 
 #include <memory>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 namespace
 {
@@ -42,7 +40,7 @@ nlohmann::ordered_json textOrNull(const std::string& text)
   return text.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(text);
 }
 
-/// All keys are there for each file; null where there is nothing to say.
+/// JSON of a file with all keys; null where there is no value.
 nlohmann::ordered_json toJson(const std::string& file, const CloudSummary& s)
 {
   using Json = nlohmann::ordered_json;
@@ -86,7 +84,7 @@ nlohmann::ordered_json toJson(const std::string& file, const CloudSummary& s)
     { "hint", textOrNull(s.hint) }, { "suggested_scale", s.hint.empty() ? Json() : Json(s.suggestedScale) } };
 }
 
-/// The keys of a file that cannot be read: all but two are null.
+/// JSON of a file that cannot be read: all keys but two are null.
 nlohmann::ordered_json toJson(const std::string& file, const std::string& error)
 {
   nlohmann::ordered_json result = toJson(file, CloudSummary());
@@ -118,7 +116,8 @@ void printOrigin(const CloudSummary& s)
   }
 }
 
-/// With the digits that a float, or a double, has for certain: a multiple of 0.01 ends there, too.
+/// Text of a coordinate with the digits that a float, or a double, has for certain: a multiple of 0.01 ends
+/// there, too.
 std::string coordinate(const CloudSummary& s, double value)
 {
   return s.isFloat ? fmt::format("{}", float(value)) : fmt::format("{:.15g}", value);
@@ -210,7 +209,7 @@ void print(const std::string& file, const CloudSummary& s)
   }
 }
 
-/// The message of the reader begins with the name.
+/// Removes the name, with which the reader's message begins.
 std::string withoutFileName(const std::string& message, const std::string& file)
 {
   return message.compare(0, file.size() + 2, file + ": ") == 0 ? message.substr(file.size() + 2) : message;
@@ -271,5 +270,4 @@ void addInfoCommand(CLI::App& program, int& exitCode)
   runAs(*command, exitCode, { [options](Files&) { return runInfo(*options); } });
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

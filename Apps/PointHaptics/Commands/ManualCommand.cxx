@@ -18,9 +18,7 @@
 #include <utility>
 #include <vector>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 namespace
 {
@@ -30,7 +28,7 @@ std::vector<CLI::App*> shownCommands(CLI::App& program)
   return program.get_subcommands([](const CLI::App* command) { return !command->get_group().empty(); });
 }
 
-/// Text as roff takes it: dashes that can be copied, no line that reads as a request.
+/// Escapes text for roff: dashes that can be copied, no line that reads as a request.
 std::string roff(const std::string& text)
 {
   std::string result;
@@ -52,7 +50,7 @@ std::string upper(std::string word)
   return word;
 }
 
-/// Of all commands, also those that some windows have not.
+/// Help of all commands, also those that some windows lack.
 std::string keysHelp()
 {
   return HapticViewer::commands().help(CommandRegistry::Scope::All);
@@ -102,7 +100,7 @@ constexpr const char* kExitStatus =
   "before the first "
   "cloud is read), 143 SIGTERM, 129 SIGHUP, 141 a reader of standard output that ended.\n";
 
-/// The manual page of this program or of one beside it, which has no window.
+/// Manual page of this program or of one beside it, which has no window.
 std::string manPage(CLI::App& program)
 {
   const std::string& name = program.get_name();
@@ -148,7 +146,7 @@ std::string longOptions(const CLI::App& command)
   return words;
 }
 
-/// The values of an option or argument that takes one of a few words: "a b c"; empty where it takes others.
+/// Values of an option or argument that takes one of a few words: "a b c"; empty where it takes others.
 std::string choicesOf(const CLI::Option& option)
 {
   std::string words = option.get_expected_max() > 0 ? option.get_type_name() : std::string();
@@ -158,7 +156,7 @@ std::string choicesOf(const CLI::Option& option)
   return areChoices ? words : std::string();
 }
 
-/// The words of an option that takes some of a few, with commas between them; empty where it takes others.
+/// Words of an option that takes some of a few, with commas between them; empty where it takes others.
 std::string listOf(const CLI::Option& option)
 {
   std::string words = option.get_type_name();
@@ -169,7 +167,7 @@ std::string listOf(const CLI::Option& option)
   return areWords ? words : std::string();
 }
 
-/// What options with other values begin with: actions of --bind, and colours that every cloud has.
+/// Values with which an option's words begin: actions of --bind, and colours that every cloud has.
 std::string beginningsOf(const std::string& option)
 {
   std::string words = option == "color-by" ? "rgb clay height density proxyradius residual" : "";
@@ -183,7 +181,7 @@ std::string beginningsOf(const std::string& option)
   return words;
 }
 
-/// A case for each option of @p command with choices, and their words.
+/// Makes a case for each option of @p command with choices, and their words.
 std::string choiceCases(const CLI::App& command, const std::string& name)
 {
   std::string cases;
@@ -204,7 +202,7 @@ std::string choiceCases(const CLI::App& command, const std::string& name)
   return cases;
 }
 
-/// The choices of its arguments that are no options.
+/// Choices of the command's arguments that are no options.
 std::string argumentChoices(const CLI::App& command)
 {
   std::string words;
@@ -215,7 +213,8 @@ std::string argumentChoices(const CLI::App& command)
   return words;
 }
 
-/// Commands and files first, then the options of the command; everything else is a file.
+/// Makes the bash completion: commands and files first, then the options of the command; every other word is
+/// a file.
 std::string bashCompletion(CLI::App& program)
 {
   std::string names;
@@ -278,7 +277,7 @@ complete -o filenames -F _pointhaptics pointhaptics
     cases, names, longOptions(*program.get_subcommand("view")), values);
 }
 
-/// A line for each option that names files: "feel --output required writes csv".
+/// Makes a line for each option that names files: "feel --output required writes csv".
 std::string fileOptions(CLI::App& program)
 {
   std::string text;
@@ -332,5 +331,4 @@ void addManualCommand(CLI::App& program, int& exitCode)
   runAs(*command, exitCode, { run });
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

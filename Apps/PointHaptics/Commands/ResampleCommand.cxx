@@ -16,25 +16,20 @@
 #include <memory>
 #include <string>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 namespace
 {
 
 constexpr const char* kResampleCommand = "resample";
 
-/// @p files has the outputs.
+/// Resamples @p cloud and writes it to the outputs in @p files.
 CloudResult resample(const ResampleOptions& options, Cloud& cloud, Files& files)
 {
   std::string message;
   CsvWriter index;
   const bool wantsIndex = !options.voxelIndex.empty();
-  if (wantsIndex && !openVoxelIndex(files.output(options.voxelIndex), index, message))
-  {
-    throw Failure(message);
-  }
+  require(!wantsIndex || openVoxelIndex(files.output(options.voxelIndex), index, message), message);
   vtkNew<vtkVoxelMeanResampler> resampler;
   resampler->SetInputData(cloud.points);
   options.configure(resampler);
@@ -58,18 +53,13 @@ CloudResult resample(const ResampleOptions& options, Cloud& cloud, Files& files)
   }
   showWarnings(kResampleCommand);
   options.finish(resampler->GetOutput());
-  if (!writeCloud(resampler->GetOutput(), options.files.output, files, kResampleCommand, message,
-        options.files.writing))
-  {
-    throw Failure(message);
-  }
+  require(writeCloud(resampler->GetOutput(), options.files.output, files, kResampleCommand, message,
+            options.files.writing),
+    message);
   if (wantsIndex)
   {
     addVoxelIndex(voxelIndexOf(resampler), index);
-    if (!index.commit(message))
-    {
-      throw Failure(message);
-    }
+    require(index.commit(message), message);
   }
   return resultOf(options, figures);
 }
@@ -96,5 +86,4 @@ void addResampleCommand(CLI::App& program, int& exitCode)
   runAs(*command, exitCode, { run, [options] { options->check(); } });
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

@@ -21,21 +21,19 @@
 #include <string>
 #include <vector>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 namespace
 {
 
 constexpr const char* kViewCommand = "view";
-/// As after Ctrl+C.
+/// Exit code as after Ctrl+C.
 constexpr int kCancelled = 130;
 
-/// False: what the options ask for cannot be had, whatever the clouds are; @p message says why.
+/// Checks the device. False: the options cannot be met, whatever the clouds are; @p message says why.
 bool checkDevice(const ViewOptions& options, std::string& message)
 {
-  // Where the hand follows a path or is in no window, nothing else would notice.
+  // If the hand follows a path or is in no window, nothing else would notice a missing Falcon.
   const bool opensFalcon = options.needsWindow() && !options.viewer.followsFile();
   if (options.device == "falcon" && !opensFalcon && !falconIsUsable(message))
   {
@@ -64,7 +62,7 @@ void showMessage(HapticViewerObserver::Kind kind, const std::string& text)
   }
 }
 
-/// What the viewer says goes to the terminal, what it keeps to JSON files. @p options must outlive the
+/// Sends the viewer's messages to the terminal, and its settings to JSON files. @p options must outlive the
 /// result.
 HapticViewerObserver observerFor(const ViewOptions& options)
 {
@@ -119,7 +117,7 @@ void reportTimes(const ViewOptions& options, HapticViewer& viewer)
                  : ""));
 }
 
-/// The window, or the files that are asked for instead.
+/// Shows the window, or writes the requested files.
 bool show(const ViewOptions& options, HapticViewer& viewer)
 {
   if (options.needsWindow())
@@ -131,7 +129,7 @@ bool show(const ViewOptions& options, HapticViewer& viewer)
     (options.screenshot.empty() || viewer.renderToFile(options.screenshot));
 }
 
-/// A picture of some of the files is not what was asked for.
+/// True if every file can be read: a picture of some of them is not the requested one.
 bool canReadAll(const ViewOptions& options, std::string& message)
 {
   Cloud cloud;
@@ -143,8 +141,8 @@ bool canReadAll(const ViewOptions& options, std::string& message)
       [&](const std::string& file) { return readCloud(file, cloud, message, reading); });
 }
 
-/// Where the viewer reads and writes: pipes are read once, and files that are not of a session appear
-/// together.
+/// Sets the places where the viewer reads and writes: pipes are read once, and files that are not of a
+/// session appear together.
 void placeFiles(ViewOptions& options, Files& files)
 {
   HapticViewerOptions& viewer = options.viewer;
@@ -171,17 +169,12 @@ int runView(ViewOptions& options, Files& files)
   std::string message;
   if (!options.writeConfig.empty())
   {
-    if (!writeSettings(options.given, files.output(options.writeConfig), message) || !files.commit(message))
-    {
-      return fail(kViewCommand, message);
-    }
+    require(writeSettings(options.given, files.output(options.writeConfig), message) && files.commit(message),
+      message);
     printSummary("settings: " + options.writeConfig);
     return kSuccess;
   }
-  if (!checkDevice(options, message))
-  {
-    return fail(kViewCommand, message);
-  }
+  require(checkDevice(options, message), message);
   placeFiles(options, files);
   if (!canReadAll(options, message))
   {
@@ -202,15 +195,9 @@ int runView(ViewOptions& options, Files& files)
   printSummary(fmt::format("{}{}, {}", countOfPoints(viewer.numberOfPoints()),
     ofThemInvalid(viewer.numberOfInvalidPoints()), viewer.scaleNote()));
   std::fflush(stdout);
-  if (options.draws() && !displayIsAvailable(message)) // before a path is felt
-  {
-    return fail(kViewCommand, message);
-  }
+  require(!options.draws() || displayIsAvailable(message), message); // before a path is felt
   message = show(options, viewer) ? std::string() : viewer.message();
-  if (!message.empty() || !files.commit(message))
-  {
-    return fail(kViewCommand, message);
-  }
+  require(message.empty() && files.commit(message), message);
   return stopIsRequested() ? stopExitCode() : kSuccess;
 }
 
@@ -231,5 +218,4 @@ void addViewCommand(CLI::App& program, int& exitCode)
       [options](Files& files) { options->declareMore(files); } });
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

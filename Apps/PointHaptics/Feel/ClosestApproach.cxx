@@ -6,9 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 
 void ClosestApproach::add(const Vec3& hip)
@@ -50,5 +48,4 @@ std::optional<double> ClosestApproach::distance(const HapticScene& scene) const
   return std::isfinite(least) ? std::optional<double>(scene.latticeScale() * std::sqrt(least)) : std::nullopt;
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

@@ -1,5 +1,5 @@
 /// @file
-/// How near a hand that touches nothing comes to the cloud.
+/// Least distance to the cloud of a hand that touches nothing.
 #pragma once
 
 #include "Core/Base/Vector3.h"
@@ -23,7 +23,7 @@ public:
   static constexpr std::size_t kMostPlaces = 4096;
 
   void add(const Vec3& hip);
-  /// Metres from the kept place that is nearest to a point of @p scene; nothing: there is no place. 0.1 us
+  /// Distance from the nearest kept place to a point of @p scene, metres; nothing: there is no place. 0.1 us
   /// per point, and some us per place.
   std::optional<double> distance(const HapticScene& scene) const;
 

@@ -27,9 +27,7 @@
 #include <utility>
 #include <vector>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 namespace
 {
@@ -76,14 +74,15 @@ struct Felt
   bool contact = false;
 };
 
-/// What the two have to say of each other.
+/// Figures of the two curves and of their difference.
 struct Comparison
 {
   std::int64_t ticks = 0;
   std::array<std::int64_t, 2> contacts{};
   std::array<double, 2> largest{};
   std::int64_t oneAlone = 0;  ///< Ticks in which one of them has contact.
-  double rmsDifference = 0.0; ///< Of the forces as vectors, in ticks in which either has contact; newtons.
+  double rmsDifference = 0.0; ///< RMS difference of the forces as vectors, in ticks in which either has
+                              ///< contact; newtons.
   double largestDifference = 0.0;
   double largestAt = 0.0; ///< Seconds.
 };
@@ -210,11 +209,9 @@ int runCompare(const CompareOptions& options, Files& files)
     warn(kCompareCommand, "the chart is left out: " + message, options.chart);
     files.dropOutput(options.chart);
   }
-  if ((!canDraw && options.table.empty()) ||
-    !openRecording(options.recording, options.cloud, files, recording, cloud, message))
-  {
-    return fail(kCompareCommand, message);
-  }
+  require((canDraw || !options.table.empty()) &&
+      openRecording(options.recording, options.cloud, files, recording, cloud, message),
+    message);
   std::array<std::vector<Felt>, 2> felt;
   for (std::size_t side = 0; side < 2; ++side)
   {
@@ -224,13 +221,11 @@ int runCompare(const CompareOptions& options, Files& files)
     }
   }
   message.clear();
-  if ((!options.chart.empty() && canDraw &&
-        !drawChart(options, files.output(options.chart), recording, felt, message)) ||
-    (!options.table.empty() && !writeTable(files.output(options.table), recording, felt, message)) ||
-    !files.commit(message))
-  {
-    return fail(kCompareCommand, message);
-  }
+  require((options.chart.empty() || !canDraw ||
+            drawChart(options, files.output(options.chart), recording, felt, message)) &&
+      (options.table.empty() || writeTable(files.output(options.table), recording, felt, message)) &&
+      files.commit(message),
+    message);
   print(options, compared(recording, felt));
   return kSuccess;
 }
@@ -273,5 +268,4 @@ void addCompareCommand(CLI::App& program, int& exitCode)
       [options](Files& files) { declareRecordedClouds(options->recording, options->cloud, files); } });
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

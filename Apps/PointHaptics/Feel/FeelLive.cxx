@@ -10,18 +10,16 @@
 #include <thread>
 #include <vector>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 namespace
 {
 
 constexpr auto kPause = std::chrono::milliseconds(20);
-/// Between two looks at where the hand is: 0.25 mm at 50 mm/s.
+/// Time between two looks at the hand: 0.25 mm at 50 mm/s.
 constexpr auto kLook = std::chrono::milliseconds(5);
 
-/// While it lives, a thread follows the hand and publishes the scenes of where it is.
+/// A thread that follows the hand and publishes the scenes there, as long as this lives.
 class SceneThread
 {
 public:
@@ -137,5 +135,4 @@ bool feelLive(const LiveSettings& settings, FeelScenes& scenes,
   return true;
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

@@ -10,9 +10,7 @@
 #include <functional>
 #include <string>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 
 struct LiveSettings
@@ -21,7 +19,8 @@ struct LiveSettings
   HapticParameters parameters;
   double rateHz = 1000.0;
   RecordingWriter* recording = nullptr; ///< Gets all ticks; may be null.
-  double seconds = 0.0; ///< Of touch, from the first tick with forces on; 0: until a stop signal.
+  double seconds = 0.0; ///< Duration of the touch, from the first tick with forces on; 0: until a stop
+                        ///< signal.
 };
 
 /// Runs the servo loop on the Falcon; @p onSample gets every tick that had a position. Local scenes are made
@@ -30,5 +29,4 @@ struct LiveSettings
 bool feelLive(const LiveSettings& settings, FeelScenes& scenes,
   const std::function<void(const ServoSample&)>& onSample, ServoStatistics& statistics, std::string& message);
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

@@ -11,9 +11,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 
 namespace
@@ -188,5 +186,4 @@ void FeelOptions::declareMore(Files& files) const
   this->device == "falcon" ? files.keep(this->record) : files.protect(this->record);
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

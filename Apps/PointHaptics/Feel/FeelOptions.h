@@ -18,9 +18,7 @@ namespace CLI
 class App;
 }
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 
 class Files;
@@ -34,11 +32,11 @@ struct FeelOptions
   std::string output;
   std::string replay;    ///< A recording to feel again, instead of a path.
   std::string record;    ///< A recording to write, beside the output.
-  std::string soundFile; ///< What is felt, as sound; empty: none.
+  std::string soundFile; ///< Sound file of the touch; empty: none.
   std::string config;
-  std::string settings;     ///< All that was given, as a configuration in one line; filled in by complete().
-  bool fit = false;         ///< Fit the cloud to the workspace, as view does.
-  std::vector<double> clip; ///< See HapticViewerOptions::clip.
+  std::string settings;       ///< All given options, as a configuration in one line; filled in by complete().
+  bool fit = false;           ///< Fit the cloud to the workspace, as view does.
+  std::vector<double> clip;   ///< See HapticViewerOptions::clip.
   bool methodIsGiven = false; ///< --method, which a replay takes instead of its own.
   LatticeOptions lattice;
   BandwidthOptions bandwidth;
@@ -54,13 +52,14 @@ struct FeelOptions
 
   /// Adds the options to @p command; bad values end the parse with a usage error.
   void addTo(CLI::App& command);
-  /// Takes the values of --config, and says what can only be said once all options of @p command are known.
-  /// Ends in a usage error where they contradict each other; warns of one that has no effect. @throws Failure
-  /// where the configuration file cannot be read.
+  /// Takes the values of --config, and completes those that depend on several options of @p command. Ends in
+  /// a usage error where they contradict each other; warns of one that has no effect. @throws Failure where
+  /// the configuration file cannot be read.
   void complete(CLI::App& command);
   /// Takes the files that no option names: recorded clouds, and the copy of one that comes as a stream.
   void declareMore(Files& files) const;
-  /// Whether scenes near the hand are as fine as the points there: nobody asked for other voxels, or none.
+  /// True if scenes near the hand are as fine as the points there: the user asked neither for other voxels
+  /// nor for none.
   bool refinesNearHand() const { return !this->lattice.voxelsAreGiven && !this->raw && !this->noCovariance; }
 
 private:
@@ -68,5 +67,4 @@ private:
   void warnOfIdle(const CLI::App& command, const std::vector<std::string>& given) const;
 };
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

@@ -24,14 +24,12 @@
 #include <utility>
 #include <vector>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 namespace
 {
 
-/// The points of @p cloud in the workspace frame that are inside --workspace where one is given.
+/// Points of @p cloud in the workspace frame, inside --workspace where that is given.
 vtkSmartPointer<vtkPolyData> rawPoints(const FeelOptions& options, vtkPolyData* cloud)
 {
   vtkSmartPointer<vtkPolyData> moved = transformedPoints(cloud, options.lattice.transform());
@@ -56,7 +54,7 @@ vtkSmartPointer<vtkPolyData> rawPoints(const FeelOptions& options, vtkPolyData* 
   return moved;
 }
 
-/// Why nothing can be felt.
+/// Reason why nothing can be felt.
 std::string whyEmpty(const FeelOptions& options, vtkPolyData* cloud)
 {
   return extentOf(cloud).all.empty()
@@ -64,7 +62,7 @@ std::string whyEmpty(const FeelOptions& options, vtkPolyData* cloud)
     : options.file + ": no finite point lies in the workspace; leave out --workspace, or mend the transform";
 }
 
-/// The scene of the whole cloud, as the viewer makes it, and in @p box what of the workspace is felt. Null:
+/// Makes the scene of the whole cloud, as the viewer does; @p box gets the felt part of the workspace. Null:
 /// @p message says why.
 std::shared_ptr<const HapticScene> resampledScene(
   const FeelOptions& options, vtkPolyData* cloud, Bounds& box, std::string& message)
@@ -159,5 +157,4 @@ bool makeFeelScenes(const FeelOptions& options, vtkPolyData* cloud, FeelScenes& 
   return true;
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

@@ -1,5 +1,5 @@
 /// @file
-/// From the options of `feel` to the scenes that are felt.
+/// Makes the felt scenes from the options of `feel`.
 #pragma once
 
 #include "Feel/FeelOptions.h"
@@ -16,8 +16,8 @@ class FeelScenes;
 namespace app
 {
 
-/// Resamples @p cloud, or what --clip leaves of it, or takes its points as they are (--raw), and makes @p
-/// scenes of that. False: @p message says why there is nothing to feel.
+/// Resamples @p cloud, or the part that --clip leaves, or takes its points as they are (--raw), and makes the
+/// @p scenes. False: @p message says why there is nothing to feel.
 bool makeFeelScenes(const FeelOptions& options, vtkPolyData* cloud, FeelScenes& scenes, std::string& message);
 
 } // namespace app

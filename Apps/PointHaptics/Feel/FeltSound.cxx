@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 namespace
 {
@@ -20,7 +18,7 @@ bool FeltSound::open(const std::string& fileName, std::string& message)
   return isOpen_;
 }
 
-/// Counted from the first tick, so that ticks between two samples add up.
+/// Plays the touch for @p seconds more. Samples are counted from the first tick, so that ticks add up.
 void FeltSound::play(double seconds)
 {
   wanted_ += std::clamp(seconds, 0.0, kLongestPause);
@@ -63,5 +61,4 @@ bool FeltSound::close(std::string& message)
   return !isOpen_ || file_.close(message);
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

@@ -1,5 +1,5 @@
 /// @file
-/// What `feel` feels, as sound.
+/// The sound of a touch that `feel` computes.
 #pragma once
 
 #include "Devices/Sound/ContactTone.h"
@@ -9,9 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 
 /// A WAV file as long as the touch: each tick is heard until the next one.
@@ -20,7 +18,7 @@ class FeltSound
 public:
   /// False: @p message says why the file cannot be created.
   bool open(const std::string& fileName, std::string& message);
-  /// What is felt from @p time on, seconds; a pause longer than a second is cut to one.
+  /// Plays @p state from @p time on, seconds; a pause longer than a second is cut to one.
   void add(double time, const ProxyState& state);
   /// False: @p message says what is lost. True also where it was not opened.
   bool close(std::string& message);
@@ -34,11 +32,10 @@ private:
   bool isOpen_ = false;
   bool hasBegun_ = false;
   HeardTouch touch_;
-  double time_ = 0.0;   ///< Of the newest tick.
-  double step_ = 0.0;   ///< Between the last two.
+  double time_ = 0.0;   ///< Time of the newest tick.
+  double step_ = 0.0;   ///< Time between the last two ticks.
   double wanted_ = 0.0; ///< Seconds of sound so far.
   std::string problem_;
 };
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

@@ -2,9 +2,7 @@
 /// Forces as the figures that commands print.
 #pragma once
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 
 /// Rounding leaves about 1e-14 N where a surface is met without depth: no figure, but nothing.
@@ -14,5 +12,4 @@ inline double forceFigure(double newtons)
   return newtons < kSmallest ? 0.0 : newtons;
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

@@ -5,9 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 
 CLI::Option* addSetting(CLI::App& command, const SettingOption& row, BandwidthRule& rule)
@@ -40,5 +38,4 @@ void BandwidthOptions::addTo(CLI::App& command)
     });
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

@@ -9,9 +9,7 @@ namespace CLI
 class App;
 }
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 
 struct BandwidthOptions
@@ -22,5 +20,4 @@ struct BandwidthOptions
   void addTo(CLI::App& command);
 };
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

@@ -14,9 +14,7 @@
 #include <fstream>
 #include <set>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 
 std::vector<std::string> configurableNames(CLI::App& command)
@@ -197,5 +195,4 @@ void applyConfigFile(CLI::App& command, const std::string& fileName, const std::
   }
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

@@ -10,9 +10,7 @@ namespace CLI
 class App;
 }
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 
 /// Long names of the options a configuration file may set, without the dashes.
@@ -26,5 +24,4 @@ void applyConfigFile(CLI::App& command, const std::string& fileName, const std::
 /// The numbers of @p key in @p settings, a configuration in one line; empty: it has none.
 std::vector<double> numbersOf(const std::string& settings, const std::string& key);
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

@@ -6,9 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 namespace
 {
@@ -41,5 +39,4 @@ FalconSettings FalconOptions::settings() const
   return result;
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

@@ -11,9 +11,7 @@ namespace CLI
 class App;
 }
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 
 /// For openProblem().
@@ -31,5 +29,4 @@ struct FalconOptions
   FalconSettings settings() const;
 };
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

@@ -25,9 +25,7 @@
 
 namespace fs = std::filesystem;
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 namespace
 {
@@ -41,7 +39,7 @@ constexpr const char* kWrites = "writes";
 constexpr const char* kReadsAndWrites = "reads and writes";
 constexpr const char* kPlaceholders[] = { "{stem}", "{name}", "{folder}" };
 
-/// Whether @p name is one of the names that the system gives to an open stream of this process, such as
+/// True if @p name is one of the names that the system gives to an open stream of this process, such as
 /// /dev/stdout, and leads to the standard stream @p stream.
 bool isStandard(const std::string& name, int stream)
 {
@@ -589,5 +587,4 @@ void Files::printPlan(bool asJson) const
   asJson ? printJson(plan) : printNow(stdout, text);
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

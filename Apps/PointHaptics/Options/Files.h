@@ -18,9 +18,7 @@ class App;
 class Option;
 }
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 
 class TemporaryFolder;
@@ -47,7 +45,7 @@ void allowExtension(CLI::Option& output, const std::string& extension);
 std::string lowerExtension(const std::string& name);
 /// "reads", "writes EXTENSION..." or "reads and writes EXTENSION..."; empty for an option that names no file.
 std::string fileRole(const CLI::Option& option);
-/// Whether an option of @p command names an output.
+/// True if an option of @p command names an output.
 bool writesFiles(const CLI::App& command);
 
 /// The output for @p input by a pattern: "{stem}" is the name of the input without folder and extension,
@@ -81,7 +79,7 @@ public:
   /// As protect(); what is written of it stays, in NAME.part, whatever happens: the touch of a person.
   void keep(const std::string& name);
 
-  /// Whether the input @p name can be read once alone.
+  /// True if the input @p name can be read once alone.
   bool isStream(const std::string& name) const;
   /// Where the content of an input can be read as often as wanted: pipes and standard input are copied to a
   /// temporary file. @throws Failure
@@ -98,7 +96,7 @@ private:
   struct Identity
   {
     bool exists = false;
-    bool isDevice = false; ///< Such as /dev/null: it takes all, and gives back nothing of it.
+    bool isDevice = false; ///< True for devices such as /dev/null, which keep nothing of what is written.
     bool isPipe = false;
     dev_t device = 0;
     ino_t number = 0;
@@ -132,5 +130,4 @@ private:
   bool isForced_ = false;
 };
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

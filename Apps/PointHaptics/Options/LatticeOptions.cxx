@@ -18,9 +18,7 @@
 #include <string>
 #include <utility>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 namespace
 {
@@ -242,5 +240,4 @@ void LatticeOptions::configure(vtkVoxelMeanResampler* resampler) const
   resampler->SetSettings(this->voxels);
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

@@ -42,7 +42,7 @@ struct LatticeOptions
   void addTo(CLI::App& command);
   /// translate * rotate * scale * unit, or matrix * unit.
   AffineTransform transform() const;
-  /// What a unit of the file's coordinates is.
+  /// Length of a unit of the file's coordinates, metres.
   double metresPerUnit() const;
   bool hasTransform() const;
   /// --workspace; empty where it was not given.

@@ -12,9 +12,7 @@
 #include <cmath>
 #include <cstdio>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 namespace
 {
@@ -345,5 +343,4 @@ CLI::Option* addSetting(CLI::App& command, const SettingOption& row, bool& membe
   return command.add_flag_function(row.option, store, row.text);
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

@@ -16,9 +16,7 @@ class App;
 class Option;
 }
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 
 /// Warning for --preset with another method than the one that has gains.
@@ -81,7 +79,7 @@ using NumbersCheck = std::function<std::string(const std::vector<double>&)>;
 CLI::Option* addNumbers(CLI::App& command, const std::string& name, std::vector<double>& values,
   std::initializer_list<std::size_t> counts, NumbersCheck check, const std::string& form,
   const std::string& description);
-/// The same; the list is handed to @p keep after the checks.
+/// As addNumbers() above; the list is passed to @p keep after the checks.
 CLI::Option* addNumbers(CLI::App& command, const std::string& name,
   std::function<void(const std::vector<double>&)> keep, std::initializer_list<std::size_t> counts,
   NumbersCheck check, const std::string& form, const std::string& description);
@@ -104,5 +102,4 @@ CLI::Option* addChoice(CLI::App& command, const std::string& name, std::function
   std::vector<std::pair<std::string, int>> choices, const std::string& description);
 ///@}
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

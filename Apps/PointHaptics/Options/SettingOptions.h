@@ -23,9 +23,7 @@
 #include <utility>
 #include <vector>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 
 /// How a member is given on the command line, and by the option's name in a configuration file.
@@ -34,11 +32,11 @@ struct SettingOption
   const char* member;     ///< As the struct lists it.
   const char* option;     ///< Such as "--beta". Null: it has none, and text says why.
   const char* text;       ///< For --help.
-  const char* form = "";  ///< Of the value, for --help: a unit.
-  NumberRange range = {}; ///< Of numbers.
+  const char* form = "";  ///< Unit of the value, for --help.
+  NumberRange range = {}; ///< Range of numbers.
 };
 
-/// Whether @p table has a row for each member of @p Settings, in the order of its list. To be asserted at
+/// True if @p table has a row for each member of @p Settings, in the order of its list. To be asserted at
 /// compile time beside each table: whoever adds a member decides here how a user gives it.
 template <typename Settings, std::size_t Count>
 constexpr bool describesEveryMember(const SettingOption (&table)[Count])
@@ -152,7 +150,7 @@ CLI::Option* addSetting(CLI::App& command, const SettingOption& row, std::array<
 CLI::Option* addSetting(CLI::App& command, const SettingOption& row, Bounds& box);
 ///@}
 
-/// Of a type without a form on the command line, for which @p row must name no option.
+/// Refuses a type without a form on the command line: @p row must name no option.
 template <typename Member>
 CLI::Option* addSetting(CLI::App&, const SettingOption& row, Member&)
 {
@@ -190,5 +188,4 @@ void addSettings(
     });
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

@@ -8,9 +8,7 @@
 
 #include <cmath>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 namespace
 {
@@ -82,5 +80,4 @@ void setContact(nlohmann::ordered_json& settings, const ContactParameters& conta
     });
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

@@ -11,9 +11,7 @@ namespace CLI
 class App;
 }
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 
 struct TouchOptions
@@ -22,17 +20,16 @@ struct TouchOptions
 
   /// Adds the options to @p command; bad values end the parse with a usage error.
   void addTo(CLI::App& command);
-  /// What can only be said once all options of @p command are known: mu_s where only mu_d is given. Ends in a
+  /// Completes values once all options of @p command are known: mu_s where only mu_d is given. Ends in a
   /// usage error where they contradict each other; warns of one that has no effect.
   void complete(const CLI::App& command);
 };
 
-/// Ends in a usage error where the force limit is beyond what a servo loop may push with. @p cure: what else
-/// to do than to give less, ", or ...".
+/// Ends in a usage error where the force limit is beyond what a servo loop may push with. @p cure: another
+/// cure than a lower limit, ", or ...".
 void checkForceLimitOfDevices(const ContactParameters& contact, const std::string& cure);
 
 /// Puts the members of @p contact in @p settings, by the names of their options.
 void setContact(nlohmann::ordered_json& settings, const ContactParameters& contact);
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

@@ -21,9 +21,7 @@
 #include <system_error>
 #include <vector>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 namespace
 {
@@ -305,5 +303,4 @@ int runProgram(const std::vector<std::string>& arguments, const std::function<in
   return exitCode;
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

@@ -1,5 +1,5 @@
 /// @file
-/// What the main functions of both programs do with a command line.
+/// Parses and runs the command lines of both programs.
 #pragma once
 
 #include "Options/Files.h"
@@ -14,9 +14,7 @@ namespace CLI
 class App;
 }
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 
 /// Exit codes of the programs.
@@ -32,7 +30,7 @@ struct CommandRun
 {
   /// Does the work. The files that the options name are taken and checked. @return an ExitCode.
   std::function<int(Files&)> run;
-  /// What can be said only once all options are known: ends in a usage error, or throws Failure.
+  /// Checks that need all options: ends in a usage error, or throws Failure.
   std::function<void()> complete = {};
   /// Adds the files that no option names, and says which outputs cannot be made again.
   std::function<void(Files&)> declare = {};
@@ -60,5 +58,4 @@ int failUsage(const std::string& command, const std::string& message);
 /// called once, by main(), with the words of the command line. @return the exit code.
 int runProgram(const std::vector<std::string>& arguments, const std::function<int()>& run);
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

@@ -10,14 +10,11 @@ namespace CLI
 class App;
 }
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 
 /// Describes those options of @p command, which has them all, with the keys as @p bindings change the usual
 /// ones: each ACTION=GESTURES, checked. May be called again with others.
 void describeKeyedOptions(CLI::App& command, const std::vector<std::string>& bindings);
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

@@ -11,9 +11,7 @@
 
 #include <unistd.h>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 namespace
 {
@@ -40,5 +38,4 @@ void endCleanlyOnAbort(const std::string& command)
   std::set_terminate([] { endNow(SIGABRT); });
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

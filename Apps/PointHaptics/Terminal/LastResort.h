@@ -4,14 +4,11 @@
 
 #include <string>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 
 /// From now on an abort of this process, and an exception that nobody catches, end it with kFailed and one
 /// line, and leave no unfinished file. @param command names who speaks in that line.
 void endCleanlyOnAbort(const std::string& command);
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

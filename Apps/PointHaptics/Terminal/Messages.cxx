@@ -21,9 +21,7 @@
 #include <poll.h>
 #include <unistd.h>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 namespace
 {
@@ -117,7 +115,7 @@ struct KeptWarning
   bool isPrinted = false;
 };
 
-/// What the program knows of how it is to speak.
+/// State of the program's messages.
 struct Speech
 {
   std::string program = "pointhaptics";
@@ -364,5 +362,4 @@ std::vector<std::string> takeVtkWarnings()
   return window ? window->TakeWarnings() : std::vector<std::string>();
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

@@ -1,5 +1,5 @@
 /// @file
-/// What goes to the user: errors in one line, and the messages of VTK classes collected instead of printed.
+/// Messages to the user: errors in one line, and the messages of VTK classes collected instead of printed.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -10,9 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 
 /// A fault that ends the command with kFailed: what, where and the cure.
@@ -21,6 +19,14 @@ class Failure : public std::runtime_error
 public:
   using std::runtime_error::runtime_error;
 };
+/// Throws a Failure with @p message where something is not done, which has said why there.
+inline void require(bool isDone, const std::string& message)
+{
+  if (!isDone)
+  {
+    throw Failure(message);
+  }
+}
 
 /// Who speaks: the program's name in messages, `pointhaptics` unless main() says another at its beginning.
 void nameProgram(const std::string& name);
@@ -79,9 +85,9 @@ void printJson(const nlohmann::ordered_json& object);
 
 /// From here on VTK's errors and warnings are kept, from all threads, instead of printed.
 void collectVtkMessages();
-/// Those since the last call, as plain sentences without file names, lines and addresses; oldest first.
+/// Returns the messages since the last call, as plain sentences without file names, lines and addresses;
+/// oldest first.
 std::vector<std::string> takeVtkErrors();
 std::vector<std::string> takeVtkWarnings();
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

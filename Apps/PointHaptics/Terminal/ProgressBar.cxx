@@ -15,9 +15,7 @@
 
 #include <unistd.h>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 namespace
 {
@@ -82,5 +80,4 @@ void ProgressBar::show(double fraction)
     fmt::format("\r{} [{:#<{}}{: >{}}] {:3.0f} %", label_, "", filled, "", kWidth - filled, 100.0 * part));
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

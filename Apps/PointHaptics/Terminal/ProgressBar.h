@@ -8,9 +8,7 @@
 class vtkAlgorithm;
 class vtkObject;
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 
 /// Shows nothing in the first half second, nor where stderr is no terminal; wipes itself when it goes.
@@ -39,5 +37,4 @@ private:
   Clock::time_point next_;
 };
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

@@ -12,9 +12,7 @@
 #include <poll.h>
 #include <unistd.h>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 namespace
 {
@@ -135,5 +133,4 @@ bool copyToStandardOutput(const std::string& path, std::string& message)
   return false;
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

@@ -5,9 +5,7 @@
 #include <filesystem>
 #include <string>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 
 /// A folder in that of temporary files (TMPDIR), removed at the end with all in it.
@@ -31,5 +29,4 @@ bool copyInput(const std::string& from, const std::string& path, std::string& me
 /// Writes the content of a file to standard output. False: @p message.
 bool copyToStandardOutput(const std::string& path, std::string& message);
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

@@ -3,9 +3,7 @@
 #include <csignal>
 #include <initializer_list>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 namespace
 {
@@ -24,7 +22,7 @@ void rememberStopSignals()
   action.sa_flags = static_cast<int>(SA_RESETHAND) | SA_RESTART;
   for (const int signal : { SIGINT, SIGTERM, SIGHUP })
   {
-    // What nohup or a shell in the background ignores stays ignored.
+    // A signal that nohup or a shell in the background ignores stays ignored.
     struct sigaction before = {};
     sigaction(signal, nullptr, &before);
     if (before.sa_handler != SIG_IGN)
@@ -45,5 +43,4 @@ int stopExitCode() noexcept
   return kEndedBySignal + requested;
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

@@ -3,9 +3,7 @@
 /// order, and no half-written file stays behind.
 #pragma once
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 
 /// From here on SIGINT, SIGTERM and SIGHUP are remembered instead of ending the program; a second one of the
@@ -13,9 +11,8 @@ namespace app
 void rememberStopSignals();
 /// A signal has come since. Any thread.
 bool stopIsRequested() noexcept;
-/// What a program ends with that gave up its work for the signal: 130 for SIGINT, 143 for SIGTERM.
-/// @pre stopIsRequested()
+/// Exit code of a program that gave up its work for the signal: 130 for SIGINT, 143 for SIGTERM. @pre
+/// stopIsRequested()
 int stopExitCode() noexcept;
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

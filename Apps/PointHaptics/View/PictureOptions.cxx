@@ -11,9 +11,7 @@
 
 #include <algorithm>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 namespace
 {
@@ -83,5 +81,4 @@ void setPicture(nlohmann::ordered_json& settings, const PictureSettings& picture
   }
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

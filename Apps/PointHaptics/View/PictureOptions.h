@@ -12,9 +12,7 @@ namespace CLI
 class App;
 }
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 
 /// Adds the options to @p command; bad values end the parse with a usage error. Those that keys do too get
@@ -25,5 +23,4 @@ void addPictureOptions(CLI::App& command, PictureSettings& picture);
 /// out.
 void setPicture(nlohmann::ordered_json& settings, const PictureSettings& picture);
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

@@ -24,14 +24,12 @@
 #include <set>
 #include <sstream>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 namespace
 {
 
-/// Of a turntable.
+/// Most pictures of a turntable.
 constexpr std::int64_t kMostPictures = 9999;
 
 /// Ends the parse where @p text is not ACTION=GESTURES.
@@ -105,7 +103,7 @@ void addWindowOptions(CLI::App& command, ViewOptions& options)
     ->group(group);
 }
 
-/// What of a touch is written, and what of an earlier one is felt again.
+/// Adds the options for files that a touch writes, and for a recording that is felt again.
 void addTouchFileOptions(CLI::App& command, HapticViewerOptions& viewer)
 {
   addOutput(
@@ -299,7 +297,7 @@ void ViewOptions::complete(CLI::App& command)
   this->given = givenSettings(command);
 }
 
-/// What follows from several options, or has another form in the viewer.
+/// Sets options that follow from several others, or have another form in the viewer.
 void ViewOptions::completeViewer(CLI::App& command)
 {
   HapticViewerOptions& options = this->viewer;
@@ -368,5 +366,4 @@ bool ViewOptions::draws() const
   return this->needsWindow() || !this->screenshot.empty() || !this->viewer.forceChart.empty();
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

@@ -1,5 +1,5 @@
 /// @file
-/// What a user can say to `pointhaptics view`, on the command line or in a configuration file.
+/// Options of `pointhaptics view`, on the command line or in a configuration file.
 #pragma once
 
 #include "Options/BandwidthOptions.h"
@@ -19,9 +19,7 @@ namespace CLI
 class App;
 }
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 
 class Files;
@@ -63,5 +61,4 @@ private:
   void completeViewer(CLI::App& command);
 };
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

@@ -17,9 +17,7 @@
 #include <set>
 #include <vector>
 
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 namespace
 {
@@ -32,7 +30,7 @@ const std::set<std::string>& deeds()
   return names;
 }
 
-/// Of the cloud at hand, and of no other.
+/// Options that belong to the cloud at hand, and to no other.
 constexpr const char* kOfTheCloud[] = { "matrix", "workspace", "voxel", "dims", "scale", "rotate",
   "translate", "unit", "resolution", "columns", "salvage", "path", "path-unit", "path-time-unit", "up",
   "color-by", "color-range", "clip", "measure", "together", "watch", "camera", "ideal" };
@@ -166,5 +164,4 @@ void rememberSettings(nlohmann::ordered_json settings)
   }
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::app

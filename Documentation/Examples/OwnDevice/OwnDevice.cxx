@@ -23,7 +23,7 @@ public:
     result.pushes = true;      // there are motors
     return result;
   }
-  // What the mechanics can bear: the loop refuses springs that would make the hand shake.
+  // Limits of the mechanics: the loop refuses springs that would make the hand shake.
   HandLimits limits() const noexcept override
   {
     HandLimits result;

@@ -15,7 +15,7 @@ MASS, DAMPER, PUSH, DT = 0.2, 4.0, np.array([0.0, 0.0, -0.8]), 0.001  # kg, N s/
 
 
 def press(delay: int) -> Any:
-    """What is felt in a second whose forces arrive `delay` ticks late."""
+    """Felt forces of a second in which each force arrives `delay` ticks late."""
     proxy = ph.Proxy(scene, stiffness=800.0)
     on_the_way = deque([np.zeros(3)] * delay)
     hand, speed, felt = np.array([0.0, 0.0, 0.032]), np.zeros(3), []

@@ -26,7 +26,7 @@ constexpr double kBandwidthWithoutSpread = 1e-3;
 /// Mean, sample standard deviation (n - 1) and quartiles (R's default, type 7) of a univariate sample.
 struct SampleSpread
 {
-  std::int64_t count = 0; ///< Of the finite values.
+  std::int64_t count = 0; ///< Number of finite values.
   double mean = 0.0;
   double standardDeviation = 0.0;
   double interquartileRange = 0.0;

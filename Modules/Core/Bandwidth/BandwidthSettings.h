@@ -1,5 +1,6 @@
 /// @file
-/// What is computed at each point, as a plain struct: the properties of vtkKernelBandwidthFilter.
+/// Settings of bandwidth and radius at each point, as a plain struct: the properties of
+/// vtkKernelBandwidthFilter.
 #pragma once
 
 #include "Core/Bandwidth/Bandwidth.h"
@@ -14,15 +15,15 @@ namespace pointhaptics
 /// Settings of local bandwidths and proxy radii. Lengths are in the unit of the points.
 struct LocalBandwidthSettings
 {
-  bool fixedRadius = false;   ///< Else the k nearest.
+  bool fixedRadius = false;   ///< Use a fixed neighbourhood in place of the k nearest points.
   int numberOfNeighbors = 16; ///< Besides the point itself; at least 1. More than there are: all.
-  double radius = 0.001;      ///< Of the fixed neighbourhood, above 0.
+  double radius = 0.001;      ///< Radius of the fixed neighbourhood, above 0.
   BandwidthRule rule = BandwidthRule::NormalReference;
   double radiusScale = 4.0;   ///< beta, above 0.
   double minimumRadius = 0.0; ///< r1; 0: kNoSinkSpacings local spacings.
   double maximumRadius = 0.0; ///< r2; 0: none.
   bool smoothRadius = false;  ///< Cut the radii by limitSlope().
-  bool usePointCounts = true; ///< Of voxel means: bandwidths and radii of the points they stand for.
+  bool usePointCounts = true; ///< For voxel means: bandwidths and radii of the points they represent.
   Status check() const noexcept;
 
   static constexpr auto members()

@@ -35,8 +35,8 @@ void surfaceDensities(const PointView& points, const NeighborQuery& query,
 void surfaceDensities(const PointView& points, const std::vector<double>& counts, const NeighborQuery& query,
   const std::vector<double>& bandwidths, std::vector<double>& densities, const Executor& executor = {},
   DensityKernel kernel = DensityKernel::Gaussian);
-/// The same of a part of a cloud, and the points nearby: @p total is N of the whole cloud, totalWeight() of
-/// its parts together. Points that do not matter have bandwidth 0.
+/// Densities in a part of a cloud, given with the points nearby: @p total is N of the whole cloud,
+/// totalWeight() of its parts together. Points whose density is not wanted have bandwidth 0.
 void surfaceDensitiesOfPart(const PointView& points, const std::vector<double>& counts,
   const NeighborQuery& query, const std::vector<double>& bandwidths, double total,
   std::vector<double>& densities, const Executor& executor = {},

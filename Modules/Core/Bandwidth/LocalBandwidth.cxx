@@ -25,7 +25,7 @@ struct Neighborhood
   double spacing = 0.0;
 };
 
-/// What the radii are made from.
+/// Input of the radii.
 struct Sample
 {
   const PointView& points;

@@ -35,11 +35,11 @@ Status localBandwidths(const PointView& points, const NeighborQuery& query,
   const LocalBandwidthSettings& settings, std::vector<double>& bandwidths, std::vector<double>& radii,
   const Executor& executor = {});
 
-/// The same where @p points are the means of voxels, and @p counts the number of points in each: the
-/// bandwidths and radii of those points. The paper takes the bandwidth from the density of the points, so
-/// that the proxy is large where they are sparse and small where they are dense. Means do not show that
-/// density: on a surface they stand about a voxel apart wherever there are points, and a cloud of 3.9:1 in
-/// spacing has means of 1.6:1.
+/// As localBandwidths() above, for means of voxels: bandwidths and radii of the points in them. @p points are
+/// the means, @p counts the number of points in each. The paper takes the bandwidth from the density of the
+/// points, so that the proxy is large where they are sparse and small where they are dense. Means do not show
+/// that density: on a surface they stand about a voxel apart wherever there are points, and a cloud of 3.9:1
+/// in spacing has means of 1.6:1.
 ///
 /// k nearest: N means represent c N points if each stands for c. So the spacing of the points, and with it s,
 /// the sample of distances and the automatic r1, is that of the means over sqrt(c). c is the mean of the
@@ -59,11 +59,11 @@ Status localBandwidths(const PointView& points, const std::vector<double>& count
   const LocalBandwidthSettings& settings, std::vector<double>& bandwidths, std::vector<double>& radii,
   const Executor& executor = {});
 
-/// What is known of the neighbourhoods of a part of a cloud: see partialBandwidths().
+/// Neighbourhoods of a part of a cloud: see partialBandwidths().
 struct PartialBandwidths
 {
   std::vector<double> bandwidths; ///< 0 where the neighbourhood has no spread.
-  std::vector<double> radii;      ///< The same.
+  std::vector<double> radii;      ///< Radius; 0 where the neighbourhood has no spread.
   std::vector<double> reaches;    ///< Distance of the last neighbour; of a ball's, its radius.
 };
 
@@ -85,7 +85,7 @@ void completeBandwidths(const PointView& points, const LocalBandwidthSettings& s
 Status localRadiiAt(const PointView& points, const NeighborQuery& query,
   const LocalBandwidthSettings& settings, const std::vector<std::int64_t>& slots, std::vector<double>& radii,
   const Executor& executor = {});
-/// Of means of voxels, with the counts of localBandwidths.
+/// As localRadiiAt() above, for means of voxels, with the counts of localBandwidths.
 Status localRadiiAt(const PointView& points, const std::vector<double>& counts, const NeighborQuery& query,
   const LocalBandwidthSettings& settings, const std::vector<std::int64_t>& slots, std::vector<double>& radii,
   const Executor& executor = {});

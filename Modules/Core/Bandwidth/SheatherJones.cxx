@@ -15,7 +15,7 @@ constexpr double kStart = 1.144;
 constexpr double kStepRatio = 1.2;
 constexpr int kLargestNumberOfSteps = 190;
 constexpr int kLargestNumberOfRefinements = 100;
-/// Of the logarithm of b; a step as short as this ends the refinement, which by then converges superlinearly.
+/// Steps of the logarithm of b as short as this end the refinement, which by then converges superlinearly.
 constexpr double kTolerance = 1e-12;
 
 bool isUsable(double value)

@@ -46,7 +46,7 @@ private:
   bool bracket(double& low, double& high, double& atLow, double& atHigh);
   double root(double low, double high, double atLow, double atHigh);
 
-  // Of the sample in hand; bandwidths are in units of scale_, which keeps their powers in range.
+  // Values of the present sample; bandwidths are in units of scale_, which keeps their powers in range.
   const double* sorted_ = nullptr;
   std::int64_t count_ = 0;
   double n_ = 0.0;

@@ -96,7 +96,7 @@ private:
     int count = 0;
     bool isFlat = false; ///< The neighbours lie in a plane, all of them.
     bool isLine = false;
-    float spacing = 0.0F;                        ///< Of all neighbours, as if they lay in one sheet.
+    float spacing = 0.0F;                        ///< Spacing of all neighbours, as if they lay in one sheet.
     std::array<std::uint32_t, kNeighbors> slots; ///< Nearest first.
   };
 

@@ -24,7 +24,7 @@ struct SheetPoint
 struct SheetFieldSettings
 {
   double leastRadius = 0.0; ///< Also of points on no sheet, where their neighbours are no farther apart.
-  double mostRadius = 0.0;  ///< Of balls that are larger than their spacing asks for; 0: none.
+  double mostRadius = 0.0;  ///< Largest radius of balls that are larger than their spacing asks for; 0: none.
 };
 
 /// One entry for each of @p points. The normal is that of the plane through the nearest neighbours, where

@@ -118,7 +118,7 @@ Status AffineTransform::check() const noexcept
   return Status::Ok;
 }
 
-/// Of scaled rows, as check() judges them: determinants of the rows as they are, which Eigen forms, would
+/// Inverts scaled rows, as check() judges them. Determinants of the unscaled rows, which Eigen forms, would
 /// overflow where entries are beyond 1e103.
 AffineTransform AffineTransform::inverse() const noexcept
 {

@@ -31,7 +31,7 @@ struct AffineTransform
 
   double determinant() const noexcept;
   bool isIdentity() const noexcept;
-  /// Whether T keeps angles, up to rounding; it may mirror. @p scale receives what it does to lengths.
+  /// True if T keeps angles, up to rounding; it may mirror. @p scale receives what it does to lengths.
   bool isSimilarity(double& scale) const noexcept;
   /// Ok, NonFiniteTransform or SingularTransform (|det T| below 1e-13 of the product of its row lengths and
   /// of that of its column lengths, or an inverse too large for a double).

@@ -1,5 +1,5 @@
 /// @file
-/// What lies in boxes, and what is no place at all.
+/// Tests of points against boxes, and of coordinates that are no place.
 #pragma once
 
 #include "Core/Base/PointView.h"
@@ -9,7 +9,7 @@
 namespace pointhaptics
 {
 
-/// Whether the ball lies in @p box, its surface included. False for an empty box, and where a number is NaN.
+/// True if the ball lies in @p box, its surface included. False for an empty box, and where a number is NaN.
 inline bool containsBall(const Bounds& box, const Vec3& center, double radius) noexcept
 {
   bool result = true;
@@ -36,20 +36,20 @@ inline Bounds grown(const Bounds& box, double margin) noexcept
   return result;
 }
 
-/// As scanners write rays that did not return.
+/// True for the origin, at which scanners write rays that did not return.
 inline bool isAtZero(const Vec3& p) noexcept
 {
   return norm2(p) == 0.0;
 }
 
-/// Whether @p atZero of @p finite points stand for rays that did not return: one may well be a point, and all
+/// True if @p atZero of @p finite points stand for rays that did not return: one may well be a point, and all
 /// are better than nothing.
 inline bool areNoReturns(std::int64_t atZero, std::int64_t finite) noexcept
 {
   return atZero > 1 && atZero < finite;
 }
 
-/// What lies in both; empty where nothing does.
+/// The box that lies in both; empty where they do not meet.
 inline Bounds intersection(const Bounds& a, const Bounds& b) noexcept
 {
   Bounds result;

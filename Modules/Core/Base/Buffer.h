@@ -24,7 +24,7 @@ enum class Pages
 
 constexpr std::size_t kHugePage = std::size_t(1) << 21;
 
-/// Memory for std::free, in huge pages where it is as large as one. @throw std::bad_alloc
+/// Allocates memory, to be freed by std::free, in huge pages from the size of one on. @throw std::bad_alloc
 inline void* allocatePages(std::size_t bytes, Pages pages)
 {
   constexpr std::size_t kSmallAlignment = 4096;
@@ -45,7 +45,7 @@ inline void* allocatePages(std::size_t bytes, Pages pages)
   return memory;
 }
 
-/// Of PageVector.
+/// Allocator of PageVector.
 template <typename T>
 struct PageAllocator
 {
@@ -77,7 +77,7 @@ struct PageAllocator
   friend bool operator!=(const PageAllocator&, const PageAllocator&) { return false; }
 
 private:
-  /// What is smaller is in memory that was used before, more often than not: that needs no first touch.
+  /// Least bytes of a block in huge pages: smaller blocks mostly reuse memory, which needs no first touch.
   static constexpr std::size_t kLarge = 4 * kHugePage;
 };
 

@@ -19,7 +19,7 @@ public:
   using Body = void (*)(void* context, std::int64_t begin, std::int64_t end);
 
   virtual ~Executor() = default;
-  /// Most bodies that run concurrently.
+  /// Largest number of bodies that run concurrently.
   virtual int concurrency() const { return 1; }
   /// Pieces have at least @p grain elements where there are as many; the body is not called for none.
   virtual void run(std::int64_t count, std::int64_t grain, void* context, Body body) const
@@ -65,14 +65,14 @@ void forEachItemWith(const Executor& executor, std::size_t count, Begin&& begin,
       }
     });
 }
-/// The same with a Scratch that each thread makes: work(item, scratch).
+/// Calls work(item, scratch) for each item, with a Scratch that each thread makes.
 template <typename Scratch, typename Work>
 void forEachItem(const Executor& executor, std::size_t count, Work&& work)
 {
   forEachItemWith(
     executor, count, [](std::size_t) { return Scratch(); }, std::forward<Work>(work));
 }
-/// The same without scratch: work(item).
+/// Calls work(item) for each item.
 template <typename Work>
 void forEachItem(const Executor& executor, std::size_t count, Work&& work)
 {

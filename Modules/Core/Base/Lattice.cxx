@@ -64,24 +64,6 @@ Status Lattice::check() const noexcept
   return Status::Ok;
 }
 
-Lattice coarserLattice(const Lattice& lattice) noexcept
-{
-  Lattice coarse = lattice;
-  if (lattice.dimensions == std::array<std::int64_t, 3>{ 1, 1, 1 })
-  {
-    return coarse;
-  }
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    const auto a = std::size_t(axis);
-    coarse.dimensions[a] = (lattice.dimensions[a] + 1) / 2;
-    coarse.spacing[axis] = 2.0 * lattice.spacing[axis];
-    // A last voxel that had no partner reaches out of the workspace.
-    coarse.end[axis] = 0.5 * std::min(lattice.end[axis], double(lattice.dimensions[a]));
-  }
-  return coarse;
-}
-
 Bounds defaultWorkspace() noexcept
 {
   const double half = 0.5 * kDefaultWorkspaceEdge;

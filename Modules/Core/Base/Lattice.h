@@ -114,9 +114,6 @@ private:
   std::uint64_t width_ = 0; ///< None before the first key.
 };
 
-/// The lattice twice as coarse, from the same corner; one voxel has no coarser one and stays as it is.
-Lattice coarserLattice(const Lattice& lattice) noexcept;
-
 /// The user's settings of the lattice; makeLattice turns them into one.
 struct LatticeSettings
 {

@@ -54,21 +54,22 @@ class WatchedPointer
 {
 public:
   WatchedPointer() = default;
-  /// Null or an object that lives.
+  /// Points to an object that lives, or is null.
   WatchedPointer(T* object)
     : object_(object)
     , state_(object ? object->lifetime().state_ : nullptr)
   {
   }
 
-  /// The object, or null. For the thread that may destroy the object: to others it says nothing about the
-  /// next moment.
+  /// Returns the object, or null. Only for the thread that may destroy the object: others learn nothing about
+  /// the next moment.
   T* get() const noexcept { return state_ && !state_->hasEnded ? object_ : nullptr; }
   T* operator->() const noexcept { return this->get(); }
   explicit operator bool() const noexcept { return this->get() != nullptr; }
 
-  /// Any thread. Calls work(object) unless the object is gone, which cannot go before @p work returns.
-  /// Calls of several threads follow each other. @p work must not destroy the object. False: it is gone.
+  /// Calls work(object), in any thread, unless the object is gone; it is not destroyed before @p work
+  /// returns. Calls of several threads follow each other. @p work must not destroy the object. False: it is
+  /// gone.
   template <typename Work>
   bool use(Work&& work) const
   {

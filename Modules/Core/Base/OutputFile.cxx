@@ -21,8 +21,8 @@ namespace
 
 constexpr std::size_t kFlushAt = std::size_t{ 1 } << 16;
 constexpr int kMostLinks = 40; ///< As many as Linux follows.
-constexpr int kMostParts = 64; ///< Of one target: as many processes may write it at a time.
-/// File systems take names of 255 bytes: this much of the target's own stays readable in the part's.
+constexpr int kMostParts = 64; ///< Most parts of one target: as many processes may write it at a time.
+/// Bytes of the target's own name that stay in the part's: file systems take names of 255 bytes.
 constexpr std::size_t kKeptOfName = 200;
 constexpr const char* kPartEnding = ".part";
 
@@ -50,7 +50,7 @@ std::string partOf(const fs::path& target, int number)
   return (target.parent_path() / ("." + name + "." + std::to_string(number) + kPartEnding)).string();
 }
 
-/// Whether an open OutputFile, of any process, holds the lock of this part.
+/// True if an open OutputFile, of any process, holds the lock of this part.
 bool isLocked(const std::string& part)
 {
   const int descriptor = ::open(part.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);

@@ -44,19 +44,19 @@ public:
   static std::string keptPartOf(const std::string& target);
   /// Returns what open() would, as far as can be told without touching anything.
   Status check(const std::string& target);
-  /// Buffered. A fault is kept: later calls do nothing, commit() returns it.
+  /// Adds bytes to a buffer. A fault is kept: later calls do nothing, commit() returns it.
   Status write(std::string_view bytes);
   /// Opens the unfinished file, path(), that an OutputFile of another process has open and will commit: this
   /// one adds parts to it with writeAt(), and its own commit() only closes.
   Status join(const std::string& unfinished);
-  /// Hands what write() keeps to the system, so that it survives the end of this process.
+  /// Hands the buffer to the system, so that its bytes survive the end of this process.
   Status flush();
   /// Writes @p bytes to a place of the file, unbuffered; files may have several writers then, and each place
   /// one of them. Not for pipes and devices. A place that write() has filled needs a flush() before.
   Status writeAt(std::uint64_t place, std::string_view bytes);
   /// Writes the buffer, closes, renames.
   Status commit();
-  /// Ends without a file, and without its part.
+  /// Closes and removes the part: the target is not replaced.
   void abandon() noexcept;
 
   /// Removes the parts of all objects of this process, which are of no use then: for a process that a library
@@ -72,7 +72,7 @@ public:
   const std::string& reason() const noexcept { return reason_; }
   const std::string& cure() const noexcept { return cure_; }
   bool isDiskFull() const noexcept { return diskFull_; }
-  /// Whether the reader of a pipe is gone.
+  /// True if the reader of a pipe is gone.
   bool isReaderGone() const noexcept { return readerGone_; }
 
 private:
@@ -84,7 +84,7 @@ private:
   bool renamePart() noexcept;
   void discard() noexcept;
 
-  OutputFile* next_ = nullptr; ///< Of all in this process.
+  OutputFile* next_ = nullptr; ///< Next in the list of all output files of this process.
   std::string target_;
   std::string temporary_;
   std::string buffer_;
@@ -95,7 +95,7 @@ private:
   bool readerGone_ = false;
   bool isRegular_ = false;
   bool isKept_ = false;   ///< The part is not to be removed.
-  bool replaces_ = false; ///< There was a file when this one was opened.
+  bool replaces_ = false; ///< True if there was a file when this one was opened.
 };
 
 } // namespace pointhaptics

@@ -11,7 +11,7 @@
 namespace pointhaptics
 {
 
-/// Points of a block: what is copied stays in the first cache.
+/// Points of a block, so few that a copy stays in the first cache.
 constexpr std::int64_t kPointBlock = 1024;
 
 /// Copies @p count points to @p block, which has room for one number more. @p last: whether nothing may lie

@@ -15,7 +15,8 @@ struct Unit
   double metres;
 };
 /// The first in which the length can be read is taken.
-constexpr Unit kMetric[] = { { "m", 1.0 }, { "mm", 1e-3 }, { "um", 1e-6 }, { "nm", 1e-9 }, { "pm", 1e-12 }, { "km", 1e3 } };
+constexpr Unit kMetric[] = { { "m", 1.0 }, { "mm", 1e-3 }, { "um", 1e-6 }, { "nm", 1e-9 }, { "pm", 1e-12 },
+  { "km", 1e3 } };
 
 /// Between these a number needs neither an exponent nor leading zeros.
 constexpr double kLeast = 0.0995;

@@ -8,12 +8,12 @@
 namespace pointhaptics
 {
 
-/// "12 m", "0.31 mm", "45 um": @p digits significant digits, 1 to 3, in the unit (km, m, mm, um, nm, pm) in which
-/// the number is from 0.1 to 999; "0 mm" for zero. What is not finite is called "unknown".
+/// "12 m", "0.31 mm", "45 um": @p digits significant digits, 1 to 3, in the unit (km, m, mm, um, nm, pm) in
+/// which the number is from 0.1 to 999; "0 mm" for zero. What is not finite is called "unknown".
 std::string lengthText(double metres, int digits = 3);
 
-/// The same for a length that is told in @p unitName, of @p metresPerUnit, where the number is from 0.1 to
-/// 999 in that, and as above where it is not.
+/// Text of a length in @p unitName, of @p metresPerUnit, where the number is from 0.1 to 999 in that unit;
+/// else as lengthText(metres).
 std::string lengthText(double metres, const std::string& unitName, double metresPerUnit, int digits = 3);
 
 /// "1.25 N", "85 mN", "0 N": two decimals from 0.1 N on, whole millinewtons below, and zero below half of

@@ -79,7 +79,7 @@ struct HasMembers<Struct, std::void_t<decltype(Struct::members())>> : std::true_
 
 } // namespace detail
 
-/// Whether @p Struct is a settings struct.
+/// True if @p Struct is a settings struct.
 template <typename Struct>
 constexpr bool isSettings = detail::HasMembers<Struct>::value;
 
@@ -87,7 +87,7 @@ constexpr bool isSettings = detail::HasMembers<Struct>::value;
 template <typename Settings>
 constexpr std::size_t numberOfMembers = std::tuple_size_v<decltype(Settings::members())>;
 
-/// Whether @p Settings lists as many members as it has. @p Base: the settings struct it derives from, if any,
+/// True if @p Settings lists as many members as it has. @p Base: the settings struct it derives from, if any,
 /// whose members come first in its list.
 template <typename Settings, typename Base = void>
 constexpr bool listsEveryMember()
@@ -112,8 +112,8 @@ void visitMembers(Settings& settings, Visitor&& visit)
     std::remove_const_t<Settings>::members());
 }
 
-/// The same through all levels: where a member is a settings struct its own members are visited instead, by
-/// names such as "lattice.voxelSize".
+/// Visits the members of all levels: the members of a settings struct within another have names such as
+/// "lattice.voxelSize".
 template <typename Settings, typename Visitor>
 void visitSettings(Settings& settings, Visitor&& visit, const std::string& prefix = {})
 {
@@ -131,7 +131,7 @@ void visitSettings(Settings& settings, Visitor&& visit, const std::string& prefi
     });
 }
 
-/// Whether all members are equal. NaN is not equal to itself.
+/// True if all members are equal. NaN is not equal to itself.
 template <typename Settings>
 bool equalSettings(const Settings& a, const Settings& b)
 {

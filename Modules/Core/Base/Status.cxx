@@ -70,7 +70,7 @@ constexpr Message kMessages[] = {
     "-v)" },
 };
 
-/// Whether each status has its message at its own index.
+/// True if each status has its message at its own index.
 constexpr bool areInOrder()
 {
   for (std::size_t i = 0; i < std::size(kMessages); ++i)

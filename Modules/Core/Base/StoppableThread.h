@@ -9,7 +9,7 @@
 namespace pointhaptics
 {
 
-/// Declare it last in its owner: its destructor ends the thread before what that uses is gone. All but
+/// Declare it last in its owner: its destructor ends the thread before the members that it uses. All but
 /// stopIsRequested() from one thread.
 class StoppableThread
 {
@@ -36,7 +36,7 @@ public:
       thread_.join();
     }
   }
-  /// Between start() and stop(), also when the work has ended by itself.
+  /// True between start() and stop(), also when the work has ended by itself.
   bool isStarted() const { return thread_.joinable(); }
   bool stopIsRequested() const { return stopping_; }
 

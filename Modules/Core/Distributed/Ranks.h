@@ -23,12 +23,12 @@ public:
   /// Gives messages[r] to rank r. @return what each rank gave to this one, by rank. @pre size() messages.
   virtual std::vector<std::string> exchange(std::vector<std::string> messages) { return messages; }
 
-  /// What each rank has, on all of them.
+  /// Gives every rank the messages of all ranks, by rank.
   std::vector<std::string> gather(const std::string& message)
   {
     return this->exchange(std::vector<std::string>(std::size_t(this->size()), message));
   }
-  /// The same for plain values.
+  /// As gather(), for plain values.
   template <typename T>
   std::vector<T> gatherValues(const T& value)
   {

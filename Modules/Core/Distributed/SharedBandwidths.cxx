@@ -157,8 +157,8 @@ bool SharedEstimate::ensure(const SlabRange& needed)
   return true;
 }
 
-/// Of the own points. What is found in too few points lies too far away: the range that it reaches is certain
-/// to hold the neighbours.
+/// Estimates bandwidths of the own points. A neighbourhood that reaches beyond the known points gives a range
+/// that is certain to hold the neighbours.
 std::vector<double> SharedEstimate::estimate(
   const std::vector<double>& counts, const LocalBandwidthSettings& settings, std::vector<double>& radii)
 {

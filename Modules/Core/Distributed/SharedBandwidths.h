@@ -22,9 +22,9 @@ struct BandwidthsOfPoints
   std::vector<double> densities;
 };
 
-/// What vtkKernelBandwidthFilter computes, at each of this rank's @p points, from the points of all ranks:
-/// bit for bit what one rank with all of them, in the order of ranks, computes. @p counts: points of each
-/// voxel mean, or empty, on all ranks alike.
+/// Computes the arrays of vtkKernelBandwidthFilter at each of this rank's @p points, from the points of all
+/// ranks. The result is bit for bit that of one rank with all points, in the order of ranks. @p counts:
+/// points of each voxel mean, or empty, on all ranks alike.
 ///
 /// Ranks exchange points for slabs of space, with about as many points each. A rank finds how far the
 /// neighbourhoods of its slab reach, gets the points of other slabs in that range (ghosts), and sees whether

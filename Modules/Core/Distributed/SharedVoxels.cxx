@@ -12,14 +12,6 @@ namespace
 
 constexpr std::uint64_t kBeyondAllKeys = std::numeric_limits<std::uint64_t>::max();
 
-/// Keys of the cells of the coarsest of @p levels levels: a range between multiples of it cuts none of them.
-std::uint64_t uncutKeys(const Lattice& lattice, int levels)
-{
-  return levels <= 1
-    ? 1
-    : std::uint64_t(lattice.dimensions[0]) * std::uint64_t(lattice.dimensions[1]) << (levels - 1);
-}
-
 }
 
 Bounds commonBounds(Ranks& ranks, const Bounds& own)
@@ -64,7 +56,7 @@ std::int64_t sumBefore(Ranks& ranks, std::int64_t own)
 
 /// Every rank shows each n-th of its voxels, the same n on all, so that a rank's part of the sample is its
 /// part of the voxels.
-std::vector<std::uint64_t> shareKeys(Ranks& ranks, const std::vector<std::uint64_t>& own, std::uint64_t uncut)
+std::vector<std::uint64_t> shareKeys(Ranks& ranks, const std::vector<std::uint64_t>& own)
 {
   constexpr std::int64_t kSamplesPerRank = 256;
   const auto size = std::size_t(ranks.size());
@@ -85,7 +77,7 @@ std::vector<std::uint64_t> shareKeys(Ranks& ranks, const std::vector<std::uint64
   std::vector<std::uint64_t> ranges(size + 1, 0);
   for (std::size_t r = 1; r < size && !sample.empty(); ++r)
   {
-    ranges[r] = sample[sample.size() * r / size] / uncut * uncut;
+    ranges[r] = sample[sample.size() * r / size];
   }
   ranges.back() = kBeyondAllKeys;
   return ranges;
@@ -131,7 +123,7 @@ Status SharedVoxels::merge(std::vector<std::string> messages, std::size_t rank, 
   {
     VoxelAccumulator part{ Lattice() };
     const Status status = r == rank ? Status::Ok : VoxelAccumulator::deserialize(messages[r], part);
-    std::string().swap(messages[r]); // Its memory serves the sums of the next.
+    std::string().swap(messages[r]); // Frees memory for the next sums.
     if (r == rank)
     {
       part = std::move(kept);
@@ -145,11 +137,11 @@ Status SharedVoxels::merge(std::vector<std::string> messages, std::size_t rank, 
   return Status::Ok;
 }
 
-/// What is no longer needed is freed at once: its memory serves what is sent and what comes.
-Status SharedVoxels::share(Ranks& ranks, VoxelAccumulator own, int levels)
+/// Memory that is no longer needed is freed at once: the messages need it.
+Status SharedVoxels::share(Ranks& ranks, VoxelAccumulator own)
 {
   own.releaseScratch();
-  ranges_ = shareKeys(ranks, own.keys(), uncutKeys(own.lattice(), levels));
+  ranges_ = shareKeys(ranks, own.keys());
   clipped_ = commonSum(ranks, own.clippedPoints());
   invalid_ = commonSum(ranks, own.invalidPoints());
   const auto rank = std::size_t(ranks.rank());

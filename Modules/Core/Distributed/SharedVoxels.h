@@ -24,14 +24,13 @@ std::int64_t commonSum(Ranks& ranks, std::int64_t own);
 /// The sum of the numbers of the ranks before this one.
 std::int64_t sumBefore(Ranks& ranks, std::int64_t own);
 
-/// Which keys of voxels belong to which rank: contiguous ranges, which begin at multiples of @p uncut, with
-/// about as many of the voxels that ranks have; rank r has those from [r] to before [r + 1]. Collective.
-/// @p own: the keys that this rank has points for, ascending.
-std::vector<std::uint64_t> shareKeys(
-  Ranks& ranks, const std::vector<std::uint64_t>& own, std::uint64_t uncut = 1);
+/// Which keys of voxels belong to which rank: contiguous ranges with about as many of the voxels that ranks
+/// have; rank r has those from [r] to before [r + 1]. Collective. @p own: the keys that this rank has points
+/// for, ascending.
+std::vector<std::uint64_t> shareKeys(Ranks& ranks, const std::vector<std::uint64_t>& own);
 
-/// Of each of the keys @p own, ascending, the number that the rank whose range it is in gives it; -1 where it
-/// has none. Collective; 16 bytes a key are sent. @p ranges: of shareKeys(). @p keys, ascending, and @p
+/// Returns for each of the keys @p own, ascending, the number that the rank of its range gives it; -1 where
+/// it has none. Collective; 16 bytes a key are sent. @p ranges: of shareKeys(). @p keys, ascending, and @p
 /// numbers: of this rank's range.
 std::vector<std::int64_t> numbersOfKeys(Ranks& ranks, const std::vector<std::uint64_t>& ranges,
   const std::vector<std::uint64_t>& own, const std::vector<std::uint64_t>& keys,
@@ -47,11 +46,10 @@ class SharedVoxels
 {
 public:
   /// @p own: the sums of the points of this rank, all of them on the same lattice; give them away, and they
-  /// are freed before others come. @p levels: the cells of so many levels are not cut by the ranges.
-  /// Afterwards voxels() are the merged ones of this rank's range.
+  /// are freed before others come. Afterwards voxels() are the merged ones of this rank's range.
   /// Errors, on all ranks: InvalidParameter (other lattices or arrays, more points than an accumulator
   /// takes).
-  Status share(Ranks& ranks, VoxelAccumulator own, int levels = 1);
+  Status share(Ranks& ranks, VoxelAccumulator own);
   VoxelAccumulator& voxels() { return voxels_; }
   /// The ranges of keys of all ranks: see shareKeys().
   const std::vector<std::uint64_t>& ranges() const { return ranges_; }

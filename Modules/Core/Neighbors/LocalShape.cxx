@@ -43,7 +43,7 @@ double spacingOf(const double* squared, int others)
 struct Chosen
 {
   std::vector<Vec3> points;         ///< Empty where all are chosen.
-  std::vector<std::uint32_t> ofAll; ///< Of each slot of the query: its index in points.
+  std::vector<std::uint32_t> ofAll; ///< Index in points of each slot of the query.
 };
 
 /// The slots of a query that are farther than @p apart from the ones chosen just before. Equal places lie
@@ -176,7 +176,7 @@ public:
     return sweep(
       query_, neighbors_ + 1, executor, goesOn, [this](const NeighborList& list) { this->fitOne(list); });
   }
-  /// The same for spacing and reach among all places, where not all were fitted.
+  /// Fits spacing and reach among all places, where not all were fitted.
   template <typename GoesOn>
   bool space(const Executor& executor, const GoesOn& goesOn)
   {

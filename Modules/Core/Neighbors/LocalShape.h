@@ -1,5 +1,5 @@
 /// @file
-/// What the neighbours of each point of a cloud tell of its surface: spacing, flatness and normal.
+/// Shape of the surface at each point of a cloud, from its neighbours: spacing, flatness and normal.
 #pragma once
 
 #include "Core/Base/Executor.h"

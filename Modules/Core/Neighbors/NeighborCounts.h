@@ -1,5 +1,5 @@
 /// @file
-/// How many points the voxel means of a neighbourhood represent.
+/// Number of points that the voxel means of a neighbourhood represent.
 #pragma once
 
 #include "Core/Neighbors/NeighborSweep.h"

@@ -29,7 +29,7 @@ struct LeafSearch
   /// Most points that may be within reach of a leaf, and most of those within reach of a point.
   int mostCandidates;
   int mostNear;
-  int k; ///< Of each row of the answers.
+  int k; ///< Length of each row of the answers.
   // Points within reach of the leaf.
   double* places[3];
   std::uint32_t* slots;
@@ -50,7 +50,7 @@ struct LeafSearch
 
   static constexpr int candidatesFor(int k) { return k <= kMostAlone ? 1024 : 8 * k + 512; }
   static constexpr int nearFor(int k) { return k <= kMostAlone ? kMostRanked : 2 * k + 64; }
-  /// Of the memory for answers to @p points points, as many doubles.
+  /// Size of the memory for answers to @p points points, in doubles.
   static constexpr std::size_t wordsFor(int k, int points)
   {
     const std::size_t candidates = std::size_t(candidatesFor(k) + kSlack);

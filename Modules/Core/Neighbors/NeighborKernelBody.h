@@ -272,7 +272,7 @@ void searchLeaf(const NeighborTree& tree, std::int64_t leaf, LeafSearch& search)
   search.reach = search.found == all ? kLeafMargin * largest : 0.0;
 }
 
-/// Of the points from @p slot, one vector of them.
+/// Squared distances of the points from @p slot on, one vector of them.
 template <typename Set>
 typename Set::Doubles squaredDistances(const NeighborTree& tree, std::int64_t slot, const double (&center)[3])
 {

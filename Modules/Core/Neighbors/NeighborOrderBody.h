@@ -52,7 +52,7 @@ void rankNear(int count, LeafSearch& search)
   }
 }
 
-/// Of two of the listed: at equal distance the smaller index goes first.
+/// True if candidate @p a goes before @p b: it is nearer, or as near with the smaller index.
 inline bool isNearer(const NeighborTree& tree, const LeafSearch& search, std::int32_t a, std::int32_t b)
 {
   return search.near[a] != search.near[b] ? search.near[a] < search.near[b]

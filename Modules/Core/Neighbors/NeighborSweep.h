@@ -23,7 +23,7 @@ struct NeighborKernels;
 /// first. Slots are those of NeighborQuery. Valid during the visit only.
 struct NeighborList
 {
-  std::int64_t slot = 0; ///< Of the point itself.
+  std::int64_t slot = 0; ///< Slot of the point itself.
   int count = 0;
   const double* squaredDistances = nullptr;
   const std::uint32_t* slots = nullptr;

@@ -33,7 +33,7 @@ struct NeighborTree
 {
   /// Coordinates by slot, NaN from size to a full leaf.
   const double* places[3] = {};
-  const std::uint32_t* indices = nullptr; ///< Of the points in the cloud, by slot.
+  const std::uint32_t* indices = nullptr; ///< Indices of the points in the cloud, by slot.
   std::int64_t size = 0;
   int levels = 0;
   const BoxGroup* groups[kMostLevels] = {};

@@ -69,7 +69,7 @@ private:
   class BoxTest;
   void appendRanges(const BoxTest& test, std::size_t group, std::vector<PointRange>& ranges) const;
 
-  // Of each brick with points: where they begin (and an end) and their bounds.
+  // Begin of each brick with points (and an end), and its bounds.
   std::vector<std::int64_t> begins_;
   std::vector<Box> boxes_;
   std::vector<Box> groups_; ///< The bounds of so many bricks each that follow each other.

@@ -10,9 +10,9 @@
 namespace pointhaptics
 {
 
-/// Of a symmetric matrix that is no multiple of the identity: eigenvalues in ascending order by the
-/// trigonometric solution of the cubic, and the vector of the smallest. Absolute error about 1e-8 of the
-/// largest, which thinness does not see.
+/// Eigenvalues of a symmetric matrix in ascending order, by the trigonometric solution of the cubic, and the
+/// eigenvector of the smallest. The matrix must be no multiple of the identity. The absolute error is about
+/// 1e-8 of the largest eigenvalue, which thinness does not see.
 struct PrincipalPlane
 {
   double values[3] = { 0.0, 0.0, 0.0 };

@@ -20,7 +20,7 @@ constexpr int kNeighbors = 40;
 /// are the less they count, and so does the other side of a thin plate.
 constexpr int kFewest = 8;
 constexpr double kNormalReach = 2.5;
-constexpr double kBeyondFewest = 1.3; ///< Of squares.
+constexpr double kBeyondFewest = 1.3; ///< Ratio of squared distances.
 /// Neighbours steeper than this above the tangent plane do not count for the spacing, a sine: those of
 /// another sheet close by would halve the square of it. It grows by so much at most: at an edge half the
 /// neighbours are steep.
@@ -45,7 +45,7 @@ constexpr double kTwinsAtRandom = 0.05;
 /// Points no further above each other than this, over the spacing, may be of one noisy sheet.
 constexpr double kOfOneSheet = 0.5;
 
-/// What is known of a point.
+/// Properties of a point.
 struct Fan
 {
   double spacing = 0.0; ///< 0: the point has no fan.
@@ -70,7 +70,7 @@ Vec3 laidFlat(const Vec3& d, const Vec3& normal)
   return std::abs(height) <= kSteep * length && norm2(along) > 0.0 ? (length / norm(along)) * along : Vec3();
 }
 
-/// Of points whose fourth and eighth neighbours are so far away, squared, as if they lay in a square grid.
+/// Spacing of a square grid whose fourth and eighth neighbours are as far away; squared distances.
 double gridSpacing(double fourth2, double eighth2)
 {
   return std::sqrt(kPi * std::max(fourth2 / 4.0, eighth2 / 8.0));
@@ -223,7 +223,7 @@ private:
     {
       return;
     }
-    // What is further away than half the last neighbour may have others nearer.
+    // Points further away than half the last neighbour may have nearer ones that are not listed.
     const double known = 0.5 * std::sqrt(list.squaredDistances[list.count - 1]);
     TangentCell cell(fan.normal, std::max(kCellReach * fan.spacing, known));
     const auto isOfSheet = [&](int i)

@@ -1,5 +1,5 @@
 /// @file
-/// How far a surface goes about one of its points until another point is nearer.
+/// Cell of a surface about one of its points: the part that is nearer to it than to any other point.
 #pragma once
 
 #include "Core/Base/Vector3.h"
@@ -38,7 +38,7 @@ private:
   Vec3 u_;
   Vec3 v_;
   double largest_;
-  double farthest2_; ///< Of all corners, squared.
+  double farthest2_; ///< Largest squared distance of a corner.
   int count_ = 4;
   Corner corners_[kMostCorners];
 };

@@ -27,7 +27,8 @@ struct AttributeView
   const char* tuple(std::int64_t i) const { return static_cast<const char*>(values) + step() * i; }
 };
 
-/// What must be known of all finite values of a floating-point array before some of them are summed.
+/// Properties of all finite values of a floating-point array that must be known before some of them are
+/// summed.
 struct AttributeRange
 {
   int exponent = 0; ///< All magnitudes are below 2^exponent.
@@ -49,10 +50,10 @@ struct NonFiniteCount
   bool any() const { return nans > 0 || plus > 0 || minus > 0; }
 };
 
-/// What an array becomes in a voxel. All are exact, and none depends on the order of the points.
+/// Statistic of an array in a voxel. All are exact, and none depends on the order of the points.
 enum class AttributeStatistic
 {
-  Mean, ///< Of integers rounded to the nearest, halves away from zero.
+  Mean, ///< Mean; means of integers are rounded to the nearest, halves away from zero.
   /// The mean of vectors of three, turned as normals are by the request's transform: unit vectors, 0 without
   /// a direction; those of integers are as long as their mean.
   Normal,

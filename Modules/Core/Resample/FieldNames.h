@@ -1,5 +1,5 @@
 /// @file
-/// What the fields of point clouds are called, in every format and for every filter.
+/// Names of the fields of point clouds, in every format and for every filter.
 #pragma once
 
 #include <string_view>

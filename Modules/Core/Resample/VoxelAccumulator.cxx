@@ -188,7 +188,6 @@ Status VoxelAccumulator::finish(
   request.covariances = covariances_;
   request.singlePrecision = wanted.singlePrecision;
   request.keys = wanted.keys;
-  request.levels = wanted.levels;
   request.instructions = wanted.instructions;
   request.allocator = wanted.allocator;
   request.transform = common_.value_or(AffineTransform());

@@ -94,22 +94,21 @@ public:
   /// Adds all of another's sums. InvalidParameter: another lattice, covariances in one of them only, other
   /// arrays, another common transform, too many points; nothing is changed then.
   Status merge(const VoxelAccumulator& other);
-  /// The same of another one that is no longer needed: its sums are not copied, and it has none afterwards.
+  /// Merges another accumulator that is no longer needed: its sums are not copied, and it has none
+  /// afterwards.
   Status merge(VoxelAccumulator&& other);
 
-  /// What to make of the sums; as in VoxelRequest.
+  /// Results to make of the sums; as in VoxelRequest.
   struct Request
   {
     bool singlePrecision = false;
     bool keys = false;
-    int levels = 1;
     InstructionSet instructions = InstructionSet::Automatic;
     OutputAllocator* allocator = nullptr;
   };
-  /// Makes the levels of @p result: its sizes, means, counts, covariances, arrays, keys, as after
-  /// run().
-  /// More can be added afterwards. Errors: InvalidParameter (levels, or points
-  /// were subtracted that had not been added, as far as counts and the values of labels tell), Aborted.
+  /// Makes @p result: its means, counts, covariances, arrays, keys, as after run(). More can be added
+  /// afterwards. Errors: InvalidParameter (points were subtracted that had not been added, as far as counts
+  /// and the values of labels tell), Aborted.
   Status finish(const Request& request, VoxelResampler& result, const Executor& executor = {},
     ProgressObserver* observer = nullptr);
 
@@ -121,16 +120,16 @@ public:
   /// invalid go with the first key, 0. The parts of all ranges merge to the whole. None where points were
   /// subtracted that had not been added.
   VoxelAccumulator part(std::uint64_t first, std::uint64_t end);
-  /// Of add() and subtract(): see VoxelRequest::chunkPoints.
+  /// Points that add() and subtract() take at once: see VoxelRequest::chunkPoints.
   void setChunkPoints(std::int64_t points) { chunkPoints_ = points; }
   /// Frees the scratch memory that add() and subtract() keep for the next call.
   void releaseScratch() { engine_.releaseScratch(); }
   /// Keys of active voxels in ascending order, every @p step th of them (at least 1). None where points were
   /// subtracted that had not been added.
   std::vector<std::uint64_t> keys(std::int64_t step = 1);
-  /// What serialize() made. InvalidParameter, with @p result unchanged: bytes of another version or that no
-  /// accumulator writes. Sizes are checked before memory is allocated; keys ascend and lie in the lattice,
-  /// means in their voxels.
+  /// Reads the bytes of serialize(). InvalidParameter, with @p result unchanged: bytes of another version or
+  /// that no accumulator writes. Sizes are checked before memory is allocated; keys ascend and lie in the
+  /// lattice, means in their voxels.
   static Status deserialize(std::string_view bytes, VoxelAccumulator& result);
 
   /// Added, or subtracted: their sums fit on every lattice.

@@ -28,7 +28,7 @@ struct Header
   PointCounts counts;
 };
 
-/// What is written besides voxels.
+/// Content besides the voxels.
 struct Content
 {
   Header header;

@@ -65,13 +65,13 @@ Status voxelMeans(const PointView& points, const AffineTransform& transform, con
   result.keys.resize(size);
   result.means.resize(size);
   result.counts.resize(size);
-  resampler.copyKeys(0, result.keys.data(), executor);
-  resampler.copyMeans(0, size ? &result.means.front().x : nullptr, executor);
-  resampler.copyCounts(0, result.counts.data(), executor);
+  resampler.copyKeys(result.keys.data(), executor);
+  resampler.copyMeans(size ? &result.means.front().x : nullptr, executor);
+  resampler.copyCounts(result.counts.data(), executor);
   if (withCovariances)
   {
     result.covariances.resize(size);
-    resampler.copyCovariances(0, result.covariances.data(), executor);
+    resampler.copyCovariances(result.covariances.data(), executor);
   }
   result.clippedPoints = resampler.clippedPoints();
   result.invalidPoints = resampler.invalidPoints();

@@ -1,6 +1,6 @@
 /// @file
-/// What a resampling is asked for, as a plain struct: the properties of vtkVoxelMeanResampler, input and
-/// transform aside.
+/// Settings of a resampling, as a plain struct: the properties of vtkVoxelMeanResampler, input and transform
+/// aside.
 #pragma once
 
 #include "Core/Base/Lattice.h"

@@ -23,8 +23,8 @@ namespace pointhaptics
 
 class PointIndex;
 
-/// Allocates the results of the finest level in the caller's memory: run() writes level 0 in place, and
-/// copying it there does nothing.
+/// Allocates the results in the caller's memory: run() writes them in place, and copying them there does
+/// nothing.
 class OutputAllocator
 {
 public:
@@ -43,7 +43,7 @@ public:
   virtual void* allocate(std::size_t part, std::size_t bytes) = 0;
 };
 
-/// What to resample, and what to make of it.
+/// Points to resample, and the results to make of them.
 struct VoxelRequest
 {
   PointView points;
@@ -60,16 +60,13 @@ struct VoxelRequest
   bool keys = false; ///< For copyKeys().
   /// Arrays of the points, to be reduced to a tuple for each voxel.
   std::vector<AttributeRequest> attributes;
-  /// What stands for the points of a voxel, in the place of their mean; counts and covariances stay. All but
-  /// the mean need levels of 1, keys are then made, points must not be those of index->points(), and are at
-  /// most 2^32.
+  /// Representative of the points of a voxel, in the place of their mean; counts and covariances stay. For
+  /// all but the mean keys are made, points must not be those of index->points(), and are at most 2^32.
   Representative representative = Representative::Mean;
   /// Arrays that choose between points at the same distance and place: see Representative.
   std::vector<AttributeView> tieBreakers;
   /// For voxelIndex(). Conditions as for a representative.
   bool voxelIndex = false;
-  /// Level l is a lattice 2^l times as coarse, until that is one voxel; further levels repeat it.
-  int levels = 1;
   /// Points between two reports, at least 1; 0 or more than the default: the default (1.25 million; 262,144
   /// on lattices where points are sorted). Four chunks are summed at once, where points are sorted one. It
   /// changes memory and time, not the results.
@@ -82,13 +79,10 @@ struct VoxelRequest
 ///
 /// The position of a point in the lattice is u = (T p + t - origin) / spacing, in double. It is computed
 /// about a point near the lattice's origin, so that large coordinates cost no digits. The voxel is floor(u),
-/// half-open. Positions are then quantized: truncated to fixed-point numbers whose quantum is the same on a
-/// lattice and on one twice as coarse, at most 2^-31 voxel, 2^-34 on 300^3. Sums of these are exact.
-///
-/// Hence results are the same bit for bit for every order of the points, every executor, instruction set and
-/// PointIndex, and a coarser level equals the resampling of the points at its spacing. That holds on lattices
-/// of up to 4096 voxels an axis; beyond, quanta are finer still, and a level that crosses this border may
-/// differ by 2^-31 voxel: see exactLevels().
+/// half-open. Positions are then quantized: truncated to fixed-point numbers whose quantum is a power of two
+/// below the length of the lattice's longest axis, at most 2^-31 voxel, 2^-34 on 300^3. Sums of these are
+/// exact. Hence results are the same bit for bit for every order of the points, every executor, instruction
+/// set and PointIndex.
 ///
 /// Accuracy: a mean is off by at most 2^-31 voxel, then rounded once to the output's type; it lies in its
 /// voxel. Counts are 64-bit. Under a matrix whose condition number would cost digits, the products are summed
@@ -112,42 +106,35 @@ public:
   VoxelResampler(VoxelResampler&&) noexcept;
   VoxelResampler& operator=(VoxelResampler&&) noexcept;
 
-  /// How many of @p levels levels from the finest, @p lattice, on equal the resampling of the points at their
-  /// spacing bit for bit: all where it has at most 4096 voxels an axis; else those before the first that has
-  /// (or, from more than 2^20 on, the first of fewer).
-  static int exactLevels(const Lattice& lattice, int levels);
-
-  /// Errors: the transform's, the lattice's, InvalidParameter (levels below 1 or above 22, an index of
-  /// another number of points, more than a level or 2^32 points with a representative or
-  /// VoxelRequest::voxelIndex, an
-  /// attribute of fewer tuples, without components or of normals without three), Aborted (the observer said
-  /// so); there are no voxels then. A cloud without a point inside is no error.
+  /// Errors: the transform's, the lattice's, InvalidParameter (an index of another number of points, more
+  /// than 2^32 points with a representative or VoxelRequest::voxelIndex, an attribute of fewer tuples,
+  /// without components or of normals without three), Aborted (the observer said so); there are no voxels
+  /// then. A cloud without a point inside is no error.
   Status run(
     const VoxelRequest& request, const Executor& executor = {}, ProgressObserver* observer = nullptr);
 
-  // What run() made. Levels count from 0, the lattice asked for.
-  std::int64_t clippedPoints() const;     ///< Finite points outside the lattice.
-  std::int64_t invalidPoints() const;     ///< Points NaN or infinite, before or after the transform.
-  std::int64_t size(int level = 0) const; ///< Active voxels.
-  /// Of the voxel that has most of them.
-  std::int64_t mostPoints(int level = 0) const;
-  const Lattice& lattice(int level = 0) const;
-  /// Voxels in ascending order of their keys (x fastest). @p xyz: 3 size(level) numbers, of the type asked
-  /// for.
-  void copyMeans(int level, float* xyz, const Executor& executor = {}) const;
-  void copyMeans(int level, double* xyz, const Executor& executor = {}) const;
-  void copyCounts(int level, std::int64_t* counts, const Executor& executor = {}) const;
-  /// The same until the next run().
-  const std::int64_t* counts(int level = 0) const;
-  void copyKeys(int level, std::uint64_t* keys, const Executor& executor = {}) const;
-  void copyCovariances(int level, SymMat3* covariances, const Executor& executor = {}) const;
-  /// The tuples of an attribute of the request, of the array's own type; in place until the next run().
-  void copyAttribute(int level, std::size_t attribute, void* tuples, const Executor& executor = {}) const;
-  const void* attribute(int level, std::size_t attribute) const;
+  // Results of run().
+  std::int64_t clippedPoints() const; ///< Finite points outside the lattice.
+  std::int64_t invalidPoints() const; ///< Points NaN or infinite, before or after the transform.
+  std::int64_t size() const;          ///< Active voxels.
+  std::int64_t mostPoints() const;    ///< Points of the voxel that has most.
+  const Lattice& lattice() const;
+  /// Voxels in ascending order of their keys (x fastest). @p xyz: 3 size() numbers, of the type asked for.
+  void copyMeans(float* xyz, const Executor& executor = {}) const;
+  void copyMeans(double* xyz, const Executor& executor = {}) const;
+  void copyCounts(std::int64_t* counts, const Executor& executor = {}) const;
+  /// Points of each voxel, valid until the next run().
+  const std::int64_t* counts() const;
+  void copyKeys(std::uint64_t* keys, const Executor& executor = {}) const;
+  void copyCovariances(SymMat3* covariances, const Executor& executor = {}) const;
+  /// The tuples of an attribute of the request, of the array's own type.
+  void copyAttribute(std::size_t attribute, void* tuples, const Executor& executor = {}) const;
+  /// Those tuples in place, valid until the next run().
+  const void* attribute(std::size_t attribute) const;
 
-  /// Of each voxel the number of the point that stands for it; empty unless a nearest one was asked for.
+  /// Number of the point that represents each voxel; empty unless a nearest one was requested.
   const std::vector<std::int64_t>& chosenPoints() const;
-  /// Of each point its voxel, or -1 where it is clipped or invalid; empty unless it was asked for.
+  /// Voxel of each point, or -1 where it is clipped or invalid; empty unless requested.
   const std::vector<std::int64_t>& voxelIndex() const;
 
   std::size_t scratchBytes() const;

@@ -4,10 +4,9 @@
 
 #include "Core/Resample/Reductions/VoxelReductions.h"
 #include "Core/Resample/Stages/BinnedVoxels.h"
-#include "Core/Resample/Stages/CoarseVoxels.h"
+#include "Core/Resample/Stages/PartitionOrder.h"
 #include "Core/Resample/Stages/PointQuantizer.h"
 #include "Core/Resample/Stages/SortedVoxels.h"
-#include "Core/Resample/Stages/VoxelLevel.h"
 #include "Core/Resample/Stages/VoxelRuns.h"
 #include "Core/Resample/VoxelResampler.h"
 
@@ -40,16 +39,18 @@ class VoxelResampler::Implementation
 {
 public:
   Status run(const VoxelRequest& request, const Executor& executor, ProgressObserver* observer);
-  /// For VoxelAccumulator: the sums of the points in the lattice's voxels, and the levels of such sums, which
-  /// are in ascending order.
+  /// For VoxelAccumulator: the sums of the points in the lattice's voxels.
   Status sum(
     const VoxelRequest& request, simd::VoxelRun& sums, const Executor& executor, ProgressObserver* observer);
+  /// For VoxelAccumulator: the result that such sums make.
   Status finish(const VoxelRequest& request, const simd::VoxelRun& sums, const Executor& executor,
     ProgressObserver* observer);
   /// Bits of an offset in a voxel.
   static int fractionBitsOf(const Lattice& lattice);
 
-  std::vector<simd::Level> levels = std::vector<simd::Level>(1);
+  Lattice lattice;
+  simd::VoxelWriter writer; ///< The result's arrays.
+  std::int64_t size = 0;    ///< Voxels of the result.
   std::int64_t clipped = 0;
   std::int64_t invalid = 0;
   std::vector<std::int64_t> chosenPoints;
@@ -58,12 +59,11 @@ public:
   std::size_t scratchBytes() const;
 
 private:
-  /// What becomes of the voxels of points.
+  /// Use of the voxels of points.
   struct Task
   {
     const VoxelRequest& request;
-    bool writes;    ///< They are written to the finest level.
-    bool keepsSums; ///< More is to be made of their sums.
+    bool writes; ///< They are written to the result; else their sums are kept.
     /// The attributes of the request, and what is reduced like them.
     std::vector<AttributeRequest> arrays = {};
   };
@@ -104,18 +104,13 @@ private:
   void makeOutput(Stages<Voxels>& stages, const VoxelRequest& request, const Executor& executor);
   AttributeView placesOf(const VoxelRequest& request, const Executor& executor);
   static simd::VoxelWriter::Layout layoutOf(const VoxelRequest& request);
-  static void writeRun(const VoxelRequest& request, const simd::VoxelRun& run, std::size_t first,
-    std::size_t last, simd::VoxelWriter& writer, std::size_t offset);
-  void writeParts(
-    const VoxelRequest& request, std::vector<simd::VoxelRun>& parts, bool keeps, const Executor& executor);
-  bool writeSums(const VoxelRequest& request, const simd::VoxelRun& sums, int fractionBits,
-    simd::Level& level, OutputAllocator* allocator, const Executor& executor, ProgressObserver* observer);
-  Status addLevels(const VoxelRequest& request, const simd::VoxelRun& sums, const Executor& executor,
-    ProgressObserver* observer);
+  void writeRun(const VoxelRequest& request, const simd::VoxelRun& run, std::size_t first, std::size_t last,
+    std::size_t offset);
+  void writeParts(const VoxelRequest& request, std::vector<simd::VoxelRun>& parts, const Executor& executor);
 
   Stages<simd::BinnedVoxels> binned_;
   Stages<simd::SortedVoxels> sorted_;
-  PageVector<char> places_; ///< Of points, for medians.
+  PageVector<char> places_; ///< Memory of points, for medians.
 };
 
 } // namespace pointhaptics

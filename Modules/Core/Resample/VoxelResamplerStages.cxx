@@ -105,7 +105,7 @@ Status VoxelResampler::Implementation::sumPoints(
     wanted.arrays.push_back({ placesOf(request, executor), AttributeStatistic::Median });
   }
   voxelIndex.assign(request.voxelIndex ? std::size_t(request.points.size()) : 0, -1);
-  levels[0].lattice = request.lattice;
+  lattice = request.lattice;
   return usesPartitions(request.lattice) ? runStages(binned_, wanted, sums, executor, observer)
                                          : runStages(sorted_, wanted, sums, executor, observer);
 }
@@ -123,7 +123,6 @@ Status VoxelResampler::Implementation::runStages(Stages<Voxels>& stages, const T
   const bool isWhole = chunks.count() <= held;
   Task task = wanted;
   task.writes = wanted.writes && isWhole;
-  task.keepsSums = wanted.keepsSums || !isWhole;
   std::vector<AttributeView> views;
   for (const AttributeRequest& array : task.arrays)
   {
@@ -132,7 +131,7 @@ Status VoxelResampler::Implementation::runStages(Stages<Voxels>& stages, const T
   source.prepare(request, chunks, views, request.voxelIndex || keepsPoints(request.representative));
   invalid = request.index ? request.points.size() - finitePoints(*request.index) : 0;
   clipped = request.points.size() - invalid;
-  std::vector<VoxelRuns> runs(task.keepsSums ? source.partitions() : 0);
+  std::vector<VoxelRuns> runs(task.writes ? 0 : source.partitions());
   for (std::size_t first = 0; first < chunks.count(); first += held)
   {
     const std::size_t last = std::min(first + held, chunks.count());
@@ -160,34 +159,31 @@ Status VoxelResampler::Implementation::runStages(Stages<Voxels>& stages, const T
   forEachItem(executor, runs.size(), [&](std::size_t p) { parts[p] = std::move(runs[p].whole()); });
   if (wanted.writes && !task.writes)
   {
-    writeParts(request, parts, wanted.keepsSums, executor);
+    writeParts(request, parts, executor);
   }
-  sums = concatenated(parts, executor);
+  else
+  {
+    sums = concatenated(parts, executor);
+  }
   return Status::Ok;
 }
 
-/// Writes runs whose keys ascend from one to the next to the finest level, and frees them unless they are
-/// kept.
+/// Writes runs whose keys ascend from one to the next to the result, and frees them.
 void VoxelResampler::Implementation::writeParts(
-  const VoxelRequest& request, std::vector<VoxelRun>& parts, bool keeps, const Executor& executor)
+  const VoxelRequest& request, std::vector<VoxelRun>& parts, const Executor& executor)
 {
   std::vector<std::size_t> firsts = { 0 };
   for (const VoxelRun& part : parts)
   {
     firsts.push_back(firsts.back() + part.size());
   }
-  Level& level = levels[0];
-  level.size = std::int64_t(firsts.back());
-  level.writer.prepare(
-    firsts.back(), layoutOf(request), level.lattice, fractionBitsOf(request.lattice), request.allocator);
+  size = std::int64_t(firsts.back());
+  writer.prepare(firsts.back(), layoutOf(request), lattice, fractionBitsOf(lattice), request.allocator);
   forEachItem(executor, parts.size(),
     [&](std::size_t p)
     {
-      writeRun(request, parts[p], 0, parts[p].size(), level.writer, firsts[p]);
-      if (!keeps)
-      {
-        parts[p] = VoxelRun();
-      }
+      writeRun(request, parts[p], 0, parts[p].size(), firsts[p]);
+      parts[p] = VoxelRun();
     });
 }
 
@@ -197,7 +193,6 @@ template <typename Voxels>
 void VoxelResampler::Implementation::makeOutput(
   Stages<Voxels>& stages, const VoxelRequest& request, const Executor& executor)
 {
-  VoxelWriter& writer = levels[0].writer;
   const auto prepare = [&](std::size_t room)
   {
     writer.prepare(room, layoutOf(request), request.lattice, stages.source.fractionBits(), request.allocator);
@@ -234,9 +229,8 @@ void VoxelResampler::Implementation::sumPartition(typename Stages<Voxels>::Worke
 {
   Voxels& voxels = worker.voxels;
   std::optional<VoxelReductions>& reductions = worker.reductions;
-  VoxelWriter& writer = levels[0].writer;
-  const std::size_t size = voxels.find(partition);
-  const std::size_t offset = order.append(partition, size);
+  const std::size_t voxelCount = voxels.find(partition);
+  const std::size_t offset = order.append(partition, voxelCount);
   voxels.sum();
   if (reductions)
   {
@@ -247,7 +241,7 @@ void VoxelResampler::Implementation::sumPartition(typename Stages<Voxels>::Worke
     voxels.write(kernelsFor(task.request.instructions), writer, offset);
     reductions ? reductions->write(writer, offset) : void();
   }
-  if (task.keepsSums && size > 0)
+  if (!task.writes && voxelCount > 0)
   {
     VoxelRun run = voxels.wide();
     run.tallies = reductions ? reductions->takeTallies() : std::vector<VoxelTally>();
@@ -304,7 +298,7 @@ bool VoxelResampler::Implementation::sumPartitions(Stages<Voxels>& stages, const
   {
     worker->reductions.reset();
   }
-  levels[0].size = task.writes ? std::int64_t(order.size()) : 0;
+  size = task.writes ? std::int64_t(order.size()) : 0;
   return true;
 }
 

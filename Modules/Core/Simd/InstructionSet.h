@@ -9,7 +9,7 @@ namespace pointhaptics
 enum class InstructionSet
 {
   Automatic, ///< The best this machine has.
-  Baseline,  ///< What every processor of the family has (SSE2 on x86-64).
+  Baseline,  ///< Instructions of every processor of the family (SSE2 on x86-64).
   Avx2,      ///< AVX2, FMA, BMI and BMI2.
   Avx512,    ///< AVX-512 F, DQ, BW, VL and VPOPCNTDQ.
 };

@@ -29,7 +29,7 @@ constexpr int kWidth = 2;
 #endif
 /// Packs in eight lanes.
 constexpr int kPacks = kLanes / kWidth;
-/// Whether there are registers for some thirty sums at once; else for about fourteen.
+/// True if there are registers for some thirty sums at once; else for about fourteen.
 constexpr bool kManyRegisters = kWidth == 8;
 
 /// @p n numbers' room in whole packs.
@@ -39,7 +39,7 @@ constexpr int wholePacks(int n)
 }
 
 using Pack = double __attribute__((vector_size(8 * kWidth)));
-/// The same where it overlays numbers of an array.
+/// A Pack that overlays numbers of an array.
 using PackAt = double __attribute__((vector_size(8 * kWidth), may_alias));
 
 inline Pack load(const double* from)

@@ -124,13 +124,13 @@ inline Words productOfHalves(const Words& a, const Words& b)
 #endif
 }
 
-/// Of what is below 2^52.
+/// Converts integers below 2^52.
 inline Pack smallToNumbers(const Words& v)
 {
   return fromBits(v | std::uint64_t(0x4330000000000000)) - 0x1p52;
 }
 
-/// Of signed integers. The halves are put beside 2^52, 2^63 and 2^84; only their sum is rounded.
+/// Converts signed integers. The halves are put beside 2^52, 2^63 and 2^84; only their sum is rounded.
 inline Pack toNumbers(const Words& v)
 {
 #if defined(__AVX512DQ__)
@@ -178,7 +178,7 @@ inline Pack numbersAt(const float* from)
   return Pack{ double(from[0]), double(from[1]) };
 #endif
 }
-/// Of integers below 2^31.
+/// Converts integers below 2^31.
 inline Pack numbersAt(const std::uint32_t* from)
 {
 #if defined(__AVX512F__)
@@ -220,7 +220,7 @@ inline void loadPoints(const Real* xyz, Pack p[3])
   loadPoints(numbersAt(xyz), numbersAt(xyz + kWidth), numbersAt(xyz + 2 * kWidth), p);
 }
 
-/// The same the other way round, rounded to the type.
+/// Stores points, rounded to the type: the inverse of loadPoints().
 inline void storePoints(double* xyz, const Pack p[3])
 {
   for (int i = 0; i < kWidth; ++i)
@@ -295,7 +295,7 @@ inline void turnFour(
 }
 #endif
 
-/// The same of kWidth structures.
+/// Transposes the words of kWidth structures.
 inline void turnWords(const std::uint64_t* from, std::size_t stride, Words (&to)[4])
 {
 #if defined(__AVX512F__)

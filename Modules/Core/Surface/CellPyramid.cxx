@@ -12,7 +12,7 @@ namespace
 
 /// A cell is mixed when it is thicker than this part of its voxel in its thinnest direction.
 constexpr double kMixedThickness = 0.10;
-/// Standard deviations of the noise up to which a mixed cell may still be one sheet.
+/// A mixed cell may still be one sheet if it is at most this many standard deviations of the noise thick.
 constexpr double kNoiseThickness = 2.0;
 
 /// First reach of the search for the nearest cell, in voxels.
@@ -41,14 +41,14 @@ std::int32_t gather(std::uint64_t v)
   return std::int32_t(v);
 }
 
-/// The Morton code of the voxel at a position in voxels, which is not negative.
+/// Morton code of the voxel at a position, which is in voxels and not negative.
 std::uint64_t mortonCode(const Vec3& place)
 {
   return spread(std::uint64_t(place.x)) | spread(std::uint64_t(place.y)) << 1 |
     spread(std::uint64_t(place.z)) << 2;
 }
 
-/// Bricks of a level from its sorted, distinct voxel codes.
+/// Makes the bricks of a level from its sorted, distinct voxel codes.
 std::vector<CellPyramid::Brick> makeBricks(const std::vector<std::uint64_t>& codes)
 {
   std::vector<CellPyramid::Brick> bricks;
@@ -71,7 +71,7 @@ std::vector<CellPyramid::Brick> makeBricks(const std::vector<std::uint64_t>& cod
   return bricks;
 }
 
-/// Links each brick to the bricks of the level below that lie in it. Both in Morton order.
+/// Links each brick to the bricks of the level below that lie in it. Both lists are in Morton order.
 void linkChildren(std::vector<CellPyramid::Brick>& bricks, const std::vector<CellPyramid::Brick>& below)
 {
   std::uint32_t child = 0;
@@ -87,8 +87,8 @@ void linkChildren(std::vector<CellPyramid::Brick>& bricks, const std::vector<Cel
   }
 }
 
-/// Whether a covariance's standard deviation is above @p limit in every direction: what is left without that
-/// much of each is positive definite, so that all pivots are above zero.
+/// True if the standard deviation of a covariance is above @p limit in every direction. Less limit^2 on the
+/// diagonal the covariance is then positive definite, so all pivots are above zero.
 bool isThick(const SymMat3& covariance, double limit)
 {
   const double variance = limit * limit;
@@ -262,7 +262,7 @@ void CellPyramid::reclassifyMixedCells(const std::function<double(const Vec3&)>&
 std::int64_t CellPyramid::nearest(
   int level, const Vec3& center, double radius, double& distance) const noexcept
 {
-  // The smallest of the balls, each twice as large as the one before, that has a cell has the nearest.
+  // The balls double in size. The first one that holds a cell holds the nearest.
   for (double reach = std::min(radius, kFirstReach * this->level(level).voxelSize);; reach *= 2.0)
   {
     reach = std::min(reach, radius);

@@ -14,7 +14,7 @@
 namespace pointhaptics
 {
 
-/// Points merged into one: how many, their mean, and their central second moments divided by the count.
+/// Points merged into one: their count, mean, and central second moments divided by the count.
 struct Cell
 {
   Vec3 mean;
@@ -33,7 +33,7 @@ public:
   /// Levels above the finest that hold merged cells; a fit never needs coarser ones.
   static constexpr int kCellLevels = 5;
 
-  /// 4 x 4 x 4 voxels of a level, and which of them hold points.
+  /// 4 x 4 x 4 voxels of a level, with a bit for each voxel that holds points.
   struct Brick
   {
     std::uint64_t mask = 0;      ///< Bit m: the voxel with Morton index m in the brick holds points.
@@ -69,14 +69,14 @@ public:
   /// metres; called with the means of mixed cells.
   void reclassifyMixedCells(const std::function<double(const Vec3&)>& noiseAt);
 
-  /// Where voxels are counted from.
+  /// Origin from which voxels are counted.
   const Vec3& corner() const { return origin_; }
   int numberOfLevels() const { return int(levels_.size()); }
   int numberOfCellLevels() const { return numberOfLevels() < kCellLevels ? numberOfLevels() : kCellLevels; }
   const Level& level(int l) const { return levels_[std::size_t(l)]; }
 
-  /// Calls visit(first, last) for runs of cells of @p level that hold all whose mean is nearer to @p center
-  /// than @p radius, and others near by, in Morton order, until it returns false.
+  /// Calls visit(first, last) for runs of cells of @p level in Morton order, until it returns false. The runs
+  /// hold all cells whose mean is nearer to @p center than @p radius, and others near by.
   template <typename Visitor>
   void visitRuns(int level, const Vec3& center, double radius, Visitor&& visit) const
   {
@@ -84,8 +84,8 @@ public:
       level, center, [radius](int, std::uint32_t) { return radius; }, visit);
   }
 
-  /// The same where each brick has a radius of its own, @p radius(level, brick): at least those of the bricks
-  /// below it.
+  /// As visitRunsWithin(level, center, radius, visit), with a radius for each brick: @p radius(level, brick)
+  /// is at least that of the bricks below it.
   template <typename Radius, typename Visitor>
   void visitRunsWithin(int level, const Vec3& center, const Radius& radius, Visitor&& visit) const
   {
@@ -120,7 +120,7 @@ public:
       });
   }
 
-  /// Whether visit(cell) is true for a cell of @p level whose mean is nearer to @p center than @p radius.
+  /// True if visit(cell) is true for a cell of @p level whose mean is nearer to @p center than @p radius.
   template <typename Visitor>
   bool anyWithin(int level, const Vec3& center, double radius, Visitor&& visit) const
   {
@@ -136,8 +136,8 @@ public:
     return found;
   }
 
-  /// Like visitBall, but a mixed cell is replaced by the cells it was merged from, down to level 0.
-  /// visit(cell, squaredDistance).
+  /// As visitBall, but a mixed cell is replaced by the cells it was merged from, down to level 0. visit(cell,
+  /// squaredDistance).
   template <typename Visitor>
   void visitBallUnmixed(int level, const Vec3& center, double radius, Visitor&& visit) const
   {
@@ -177,7 +177,7 @@ public:
       });
   }
 
-  /// The cell of @p level nearest to @p center within @p radius; -1: none. Ties: the smaller index.
+  /// Index of the cell of @p level nearest to @p center within @p radius; -1: none. Ties: the smaller index.
   std::int64_t nearest(int level, const Vec3& center, double radius, double& distance) const noexcept;
 
 private:
@@ -199,7 +199,7 @@ private:
     return x * x + y * y + z * z;
   }
 
-  /// Until visit(level, brick) returns false.
+  /// Visits bricks until visit(level, brick) returns false.
   template <typename Radius, typename BrickVisitor>
   void visitBricks(int target, const Vec3& center, const Radius& radius, BrickVisitor&& visit) const
   {
@@ -283,8 +283,8 @@ private:
     }
   }
 
-  /// The cells along the Morton curve; @p codes receives the distinct voxels', @p sourceIndex each cell's
-  /// index.
+  /// Sorts the cells along the Morton curve. @p codes receives the distinct voxels' codes, @p sourceIndex
+  /// each cell's index.
   Level finestLevel(const std::vector<Cell>& cells, double voxelSize, std::vector<std::uint64_t>& codes,
     std::vector<std::uint32_t>& sourceIndex) const;
   void buildUpperLevels(const std::vector<std::uint64_t>& codes, int leastLevels);

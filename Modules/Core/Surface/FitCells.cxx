@@ -9,10 +9,10 @@ namespace pointhaptics
 namespace
 {
 
-/// The margin where another overflows.
+/// Margin of a second try where the usual one overflows the block.
 constexpr double kNoMargin = 1.0 + 1e-9;
 
-/// Cells of no weight behind the last: the loops take eight at a time.
+/// Appends cells of no weight, as the loops take eight at a time.
 template <typename Block>
 void pad(Block& block) noexcept
 {
@@ -59,7 +59,8 @@ bool FitCells::gather(
   bool fits = true;
   if (level == 0)
   {
-    // Which cells lie inside is hard to predict: each is written, and the next one over it unless it does.
+    // A branch on "inside" would be mispredicted. So each cell is written, and the next one overwrites it if
+    // it is outside.
     const Cell* const cells = pyramid.level(0).cells.data();
     pyramid.visitRuns(0, center, reach,
       [&](std::uint32_t first, std::uint32_t last)

@@ -9,9 +9,9 @@
 namespace pointhaptics
 {
 
-/// The memory of local fits: neighbourhoods of cells and of field nodes, gathered once and used for all fits
-/// whose balls lie inside, and the rows of the normal equations. About 350 kB; allocate it once, on the heap.
-/// Plain state, one thread. No member function allocates, locks or throws.
+/// Memory of local fits: neighbourhoods of cells and of field nodes, and the rows of the normal equations.
+/// Neighbourhoods are gathered once and serve all fits whose balls lie inside. About 350 kB; allocate it
+/// once, on the heap. Plain state, one thread. No member function allocates, locks or throws.
 class FitCells
 {
 public:
@@ -26,15 +26,15 @@ public:
   {
   }
 
-  /// Drops everything gathered. Call it before a pyramid or field is used whose address another one had.
+  /// Drops all that was gathered. Call it before a pyramid or field is used whose address another one had.
   void invalidate() noexcept;
-  /// What is used next are @p pyramid and @p field, which are the same as the last ones in @p same: what was
-  /// gathered there stays.
+  /// Switches to @p pyramid and @p field, which equal the last ones in the box @p same: cells gathered there
+  /// stay.
   void carryOver(const CellPyramid& pyramid, const RadiusField& field, const Bounds& same) noexcept;
 
-  /// The cells of @p level (mixed ones as their children) that can lie within @p radius of @p center, and
-  /// maybe others. Where there are more than a block holds, those of the next coarser level that fits; @p
-  /// level receives which.
+  /// The cells of @p level that may lie within @p radius of @p center, and maybe others; mixed cells as their
+  /// children. If they are more than a block holds, it takes the next coarser level that fits, and @p level
+  /// receives that.
   const simd::FitBlock& near(
     const CellPyramid& pyramid, int& level, const Vec3& center, double radius) noexcept;
 
@@ -56,7 +56,7 @@ private:
   double margin_;
   const CellPyramid* pyramid_ = nullptr;
   const RadiusField* field_ = nullptr;
-  simd::FitBlock blocks_[2]; ///< Of even and of odd levels: a fit blends two neighbouring ones.
+  simd::FitBlock blocks_[2]; ///< Blocks of even and of odd levels: a fit blends two neighbouring levels.
   simd::FieldBlock nodes_;
   simd::FitRows rows_;
   bool overflowed_ = false;

@@ -12,8 +12,8 @@ namespace simd
 {
 
 constexpr int kFitLanes = 8;
-/// Numbers left free behind each array: without them equal places of all arrays would compete for the same
-/// few lines of the cache.
+/// Free numbers behind each array. Without them equal indices of all arrays would compete for the same few
+/// cache lines.
 constexpr int kFitGap = kFitLanes;
 
 /// Cells near a center, each quantity in an array of its own; positions relative to the center.
@@ -32,9 +32,9 @@ struct alignas(64) FitBlock
   double yz[kCapacity + kFitGap];
   double zz[kCapacity + kFitGap];
   int size = 0;
-  int level = -1; ///< -1: holds nothing.
+  int level = -1; ///< Level of the cells; -1: the block is empty.
   Vec3 center;
-  double reach = 0.0; ///< All cells nearer to the center than this are here.
+  double reach = 0.0; ///< Radius about the center within which all cells are here.
 
   void set(int i, const Vec3& p, double n, const SymMat3& c)
   {
@@ -49,7 +49,7 @@ struct alignas(64) FitBlock
     yz[i] = c.yz;
     zz[i] = c.zz;
   }
-  /// A cell without weight.
+  /// Makes cell @p i one without weight.
   void clear(int i) { set(i, Vec3(), 0.0, SymMat3()); }
 };
 
@@ -86,19 +86,19 @@ struct FieldSums
   double proxyRadius = 0.0;
   double cubic = 0.0;
   double weightGradient[3] = { 0.0, 0.0, 0.0 };
-  double radiusGradient[3] = { 0.0, 0.0, 0.0 }; ///< Of the sum of weight times radius.
+  double radiusGradient[3] = { 0.0, 0.0, 0.0 }; ///< Gradient of the sum of weight times radius.
 };
 
 /// The frame and parameters of a fit; lengths in the unit of the block.
 struct FitView
 {
-  Vec3 origin; ///< Relative to the block's center.
+  Vec3 origin; ///< Origin of the frame, relative to the block's center.
   Vec3 a;
   Vec3 b;
   Vec3 normal;
   double radius = 0.0;
-  double blendWeight = 1.0; ///< Of this level, where a fit blends two.
-  double gate = 0.0;        ///< Over the radius; 0: none.
+  double blendWeight = 1.0; ///< Weight of this level, where a fit blends two.
+  double gate = 0.0;        ///< Depth of the gate, over the radius; 0: none.
   bool twoSidedGate = false;
   double bend[3] = { 0.0, 0.0, 0.0 };
 };
@@ -132,8 +132,8 @@ struct FitSums
   double cells;
 };
 
-/// The same for the cubic terms Q = (uuu, uuv, uvv, vvv): W Q P' (Q by Q), W Q Q' (lower triangle, row by
-/// row), W Q z.
+/// Sums for the cubic terms Q = (uuu, uuv, uvv, vvv): W Q P' (Q by Q), W Q Q' (lower triangle, row by row), W
+/// Q z.
 struct CubicSums
 {
   double qp[24];
@@ -148,7 +148,7 @@ struct TracedFit
   double row[10] = {};
 };
 
-/// What a moving origin does to the height, as the part of the moving weights and that of the turning frame;
+/// Changes of the height by a moving origin, as the part of the moving weights and that of the turning frame;
 /// see traceSlopes().
 struct TraceSums
 {
@@ -164,8 +164,8 @@ struct BallPoints
   const double* x;
   const double* y;
   const double* z;
-  const double* radius; ///< Of the ball that each point keeps away.
-  int size;             ///< A multiple of kFitLanes; the last ones lie far away.
+  const double* radius; ///< Radius by which each point keeps the ball away.
+  int size;             ///< Number of points, a multiple of kFitLanes; the last ones lie far away.
 };
 
 struct FitKernels
@@ -182,20 +182,20 @@ struct FitKernels
   /// As pointsWithin(), for the points nearer than @p scale times their radius and @p extra.
   int (*ballsWithin)(
     const BallPoints& points, const Vec3& p, double scale, double extra, int* indices, int most);
-  /// How far a place can go from @p from along the unit vector @p direction, at most @p length, before it is
-  /// nearer to a point than @p scale times its radius. Ways that lead into a point by less than @p tangential
-  /// of its radius do not count.
+  /// Length that a place can go from @p from along the unit vector @p direction, at most @p length, before it
+  /// is nearer to a point than @p scale times its radius. A way that leads into a point by less than @p
+  /// tangential of its radius does not count.
   double (*sweepBall)(const BallPoints& points, const Vec3& from, const Vec3& direction, double length,
     double scale, double tangential);
   /// Weights (1 - d^2/reach^2)^3 of the nodes about @p position, relative to the block's center.
   void (*sumField)(const FieldBlock& block, const Vec3& position, double reach, FieldSums& sums);
 };
 
-/// Those of usableInstructionSet(@p wanted).
+/// Loops of usableInstructionSet(@p wanted).
 const FitKernels& fitKernels(InstructionSet wanted = InstructionSet::Automatic) noexcept;
 
 const FitKernels& baselineFitKernels();
-/// Null where the compiler or the processor family lacks them.
+/// Loops of one instruction set; null where the compiler or the processor family lacks it.
 const FitKernels* avx2FitKernels();
 const FitKernels* avx512FitKernels();
 

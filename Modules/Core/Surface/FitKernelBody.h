@@ -18,28 +18,28 @@ namespace
 
 static_assert(kFitLanes == simd::kLanes, "the blocks are laid out for the loops");
 
-/// The gate opens over the last part of its depth.
+/// The gate opens over the last part of its depth, from this fraction on.
 constexpr double kGateOpen = 0.7;
 
-/// 2 x: multiplications are what most of these loops wait for.
+/// Returns 2 x by an addition: most of these loops wait for multiplications.
 inline Pack twice(const Pack& x)
 {
   return x + x;
 }
 
-/// 1 - e, and 0 beyond the radius.
+/// Returns 1 - e, and 0 beyond the radius.
 inline Pack inside(const Pack& e)
 {
   return e < 1.0 ? 1.0 - e : simd::all(0.0);
 }
 
-/// Of cells, relative to the origin over the radius.
+/// Offsets of cells from the origin, over the radius.
 struct Offsets
 {
   Pack x;
   Pack y;
   Pack z;
-  Pack e; ///< Their squares' sum.
+  Pack e; ///< Sum of their squares.
 };
 
 inline Offsets offsetsOf(const FitBlock& block, int i, const Vec3& origin, double perRho)
@@ -52,7 +52,7 @@ inline Offsets offsetsOf(const FitBlock& block, int i, const Vec3& origin, doubl
   return d;
 }
 
-/// The part of a cell's weight that the gate leaves it; @p h its height.
+/// Fraction of a cell's weight that passes the gate; @p h its height.
 inline Pack throughGate(
   const FitView& view, double gateFrom, double perGate, const Pack& u, const Pack& v, const Pack& h)
 {
@@ -63,7 +63,7 @@ inline Pack throughGate(
   return 1.0 - t * t * (3.0 - twice(t));
 }
 
-/// The pack of rows from @p row on, of the cells from @p i on.
+/// Writes the pack of rows from @p row on, for the cells from @p i on.
 inline void makeRows(
   const FitBlock& block, const FitView& view, const Offsets& d, int i, FitRows& rows, int row)
 {
@@ -110,7 +110,7 @@ inline void makeRows(
 
 void appendRows(const FitBlock& block, const FitView& whole, FitRows& rows)
 {
-  // A copy that the rows cannot overlay.
+  // The compiler knows that stores to the rows cannot change this copy.
   const FitView view = whole;
   const double perRho = 1.0 / view.radius;
   int row = rows.size;
@@ -124,8 +124,7 @@ void appendRows(const FitBlock& block, const FitView& whole, FitRows& rows)
       d[pack] = offsetsOf(block, i + pack * simd::kWidth, view.origin, perRho);
       isAnyInside |= simd::anyBelow(d[pack].e, 1.0);
     }
-    // Most groups of a neighbourhood gathered with a margin lie inside; those that do not are cheap to leave
-    // out.
+    // Most groups of a neighbourhood gathered with a margin lie inside; the others are cheap to skip.
     if (!isAnyInside)
     {
       continue;
@@ -141,14 +140,15 @@ void appendRows(const FitBlock& block, const FitView& whole, FitRows& rows)
   rows.size = row;
 }
 
-/// The sums of the terms P from @p First to before @p Last as far as the register hold them, and the last
-/// ones with what else is summed.
+/// Sums the terms P from @p First to before @p Last, as many as fit in registers; the last call adds the
+/// other sums.
 template <int First, int Last>
 inline void sumTermRows(const FitRows& rows, FitSums& sums)
 {
   constexpr bool kIsLast = Last == 6;
   constexpr int kSquares = (Last * (Last + 1) - First * (First + 1)) / 2;
-  // What is copied together begins with a pack: loads across two packs would wait until these are in memory.
+  // A group that is copied together begins with a pack: loads across two packs would wait until these are in
+  // memory.
   constexpr int kRhs = simd::wholePacks(kSquares);
   constexpr int kOthers = kRhs + Last - First;
   constexpr int kSums = kOthers + (kIsLast ? 2 : 0);
@@ -205,7 +205,7 @@ void sumRows(const FitRows& rows, FitSums& sums)
   }
 }
 
-/// The means over a cell of uuu, uuv, uvv and vvv, as far as its second moments determine them.
+/// Means over a cell of uuu, uuv, uvv and vvv, as far as its second moments determine them.
 inline void cubicTerms(
   const Pack& u, const Pack& v, const Pack& uu, const Pack& uv, const Pack& vv, Pack q[4])
 {
@@ -217,7 +217,7 @@ inline void cubicTerms(
   q[3] = v * (3.0 * vv - twice(v * v));
 }
 
-/// The sums of the cubic terms from @p First to before @p Last.
+/// Sums the cubic terms from @p First to before @p Last.
 template <int First, int Last>
 inline void sumSomeCubicRows(const FitRows& rows, CubicSums& sums)
 {
@@ -304,8 +304,7 @@ void traceRows(const FitRows& rows, const TracedFit& fit, double ra, double rb, 
           k[8] * q[2] + k[9] * q[3]);
       const Pack reach = x[0] + x[1] * u + x[2] * v + x[3] * uu + x[4] * uv + x[5] * vv + x[6] * q[0] +
         x[7] * q[1] + x[8] * q[2] + x[9] * q[3];
-      // What the turning frame does to the cell's terms: u gains h as it turns along a, v as it turns along
-      // b.
+      // The turning frame changes the cell's terms: u gains h as it turns along a, v as it turns along b.
       const Pack uh = u * h + can;
       const Pack vh = v * h + cbn;
       const Pack uuh = uu * h + twice(u * can);
@@ -371,7 +370,7 @@ int ballsWithin(const BallPoints& points, const Vec3& p, double scale, double ex
 double sweepBall(const BallPoints& points, const Vec3& from, const Vec3& direction, double length,
   double scale, double tangential)
 {
-  // Far above the rounding of what it is compared with: no point that could be met first is left out.
+  // The tolerance is far above rounding: no point that could be met first is left out.
   constexpr double kRounding = 1e-9;
   double reached = length;
   for (int i = 0; i < points.size; i += simd::kWidth)
@@ -385,7 +384,7 @@ double sweepBall(const BallPoints& points, const Vec3& from, const Vec3& directi
     // At t the ball is sqrt(outside + r^2 - along^2 + (t - along)^2) from the point.
     const Pack outside = dx * dx + dy * dy + dz * dz - radius2;
     const Pack across = outside - along * along;
-    // A point ahead that is free of the ball at the place reached so far is met later than that.
+    // A point ahead that the ball does not cover at the place reached so far is met later.
     const Pack there =
       outside + reached * (reached - 2.0 * along) - kRounding * (radius2 + reached * reached);
     const Pack isLater = along > reached ? there : simd::all(-1.0);

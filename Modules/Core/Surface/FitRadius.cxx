@@ -11,9 +11,9 @@ namespace pointhaptics
 namespace
 {
 
-/// RMS residual of a fit, in cells, up to which a surface is smooth; the fraction of a residual that a
-/// smaller fit leaves where it is shape; and the median of that fraction over a cloud without noise, which is
-/// 0.85 in noise and 0.45 to 0.63 on scans.
+/// A surface is smooth up to kSmooth, the RMS residual of a fit in cells. The next two limit the fraction of
+/// a residual that a smaller fit leaves: where the residual is shape, and in the median over a cloud without
+/// noise. Noise leaves 0.85, scans 0.45 to 0.63.
 constexpr double kSmooth = 1e-3;
 constexpr double kLeftOfShape = 0.5;
 constexpr double kLeftWithoutNoise = 0.7;
@@ -21,41 +21,41 @@ constexpr double kCountGrowth = 1.1;
 constexpr int kCountSteps = 120;
 
 constexpr int kMostScales = 16;
-/// Margin of gathered cells: they serve the next scale.
+/// Margin of gathered cells, so that they serve the next scale, too.
 constexpr double kScalesMargin = 1.32;
-/// The first scales, whose residuals estimate the noise: at longer ones curvature contributes.
+/// Scales whose residuals estimate the noise: at longer ones curvature contributes.
 constexpr int kNoiseScales = 3;
-/// Standard errors by which a longer radius may differ from a shorter one.
+/// A longer radius may differ from a shorter one by this many standard errors.
 constexpr double kAgreement = 2.0;
-/// The same with cubic terms, whose errors are large where the radius is short.
+/// Standard errors with cubic terms, which are large where the radius is short.
 constexpr double kCubicAgreement = 2.5;
-/// Standard errors of the height (over the finest cell) and of the slopes that leave nothing to gain.
+/// Standard errors below these leave nothing to gain: of the height, over the finest cell, and of the slopes.
 constexpr double kEnoughHeight = 1e-3;
 constexpr double kEnoughSlope = 1e-3;
-/// Growth of the radius from which on a cloud counts as noisy, and cubic terms at a longer radius are
-/// tried.
+/// A cloud counts as noisy if its radius grew by this factor; cubic terms at a longer radius are tried then.
 constexpr double kNoisyGrowth = 1.3;
-/// How much longer than a quadratic fit one with cubic terms may look at most.
+/// Longest radius with cubic terms, over that of the quadratic fit.
 constexpr double kCubicReach = 1.1;
-/// Standard error of its slopes over that of the quadratic fit up to which a fit with cubic terms is as good
-/// anyway, and up to which it is preferred where the slopes of the two disagree: then the quadratic one is
-/// bent.
+/// A fit with cubic terms is as good if its slope errors are at most kCubicErrorAsGood times the quadratic
+/// fit's. Up to the second factor it is preferred where the slopes of the two disagree, since the quadratic
+/// fit is bent then.
 constexpr double kCubicErrorAsGood = 1.2;
 constexpr double kCubicErrorAtMost = 3.0;
-/// Standard errors by which they disagree.
+/// Slopes disagree if they differ by this many standard errors.
 constexpr double kDisagreement = 1.0;
-/// Part of the points within reach that other sheets may have where cubic terms are weighed: they would bend
-/// to what of those comes through the gate.
+/// Cubic terms are tried only if at most this part of the points within reach belongs to other sheets: they
+/// would bend to the points that pass the gate.
 constexpr double kOtherSheets = 0.01;
-/// Part of the points within reach beyond the gate from which on they are scattered, and no radius is better
-/// than another: half are where there are two sheets. Without it each fit in a fog takes thousands of cells.
+/// Points are scattered, and no radius is better than another, if this part of those within reach lies beyond
+/// the gate; two sheets have half. Without this limit each fit in a fog takes thousands of cells.
 constexpr double kScattered = 0.55;
-/// Parts of the neighbours that prefer cubic terms at which these begin to count and count in full.
+/// Fractions of neighbours that prefer cubic terms: from the first on these count, from the second on in
+/// full.
 constexpr double kCubicVotesFrom = 0.3;
 constexpr double kCubicVotesTo = 0.75;
-/// The gate never cuts into this many standard deviations of noise.
+/// The gate is at least this many standard deviations of noise deep.
 constexpr double kGateNoise = 4.0;
-/// Neighbouring nodes that vote, in voxels of the node level.
+/// Reach of the vote among neighbouring nodes, in voxels of the node level.
 constexpr double kVoteReach = 2.0;
 
 double countRadius(const CellPyramid& pyramid, const Vec3& seed, double largest, const FitNeeds& needs)
@@ -89,7 +89,7 @@ struct ScaleEstimate
   double error[3];
 };
 
-/// @param tolerance in standard errors of the shorter scale.
+/// True if the two scales agree within @p tolerance standard errors of the shorter one.
 bool agrees(const ScaleEstimate& longer, const ScaleEstimate& shorter, double tolerance)
 {
   for (int i = 0; i < 3; ++i)
@@ -111,7 +111,7 @@ struct ScaleChoice
   double slopeError() const { return std::max(estimate.error[1], estimate.error[2]); }
 };
 
-/// Lepski's scale search: longer and longer radii in one frame.
+/// Lepski's scale search: tries longer and longer radii in one frame.
 class ScaleSearch
 {
 public:
@@ -126,7 +126,8 @@ public:
     std::copy(curvature, curvature + 3, curvature_);
   }
 
-  /// Call it without cubic terms first: that estimates the noise. Radius 0: another sheet is in reach.
+  /// Runs the search. The first run must be without cubic terms, as it estimates the noise. Radius 0: another
+  /// sheet is in reach.
   ScaleChoice run(double largest, bool cubic)
   {
     ScaleChoice result;
@@ -143,7 +144,7 @@ public:
       SurfaceFitError error;
       const SurfaceFit here = fitSurface(pyramid_, frame_, settings, memory_, error, cubic);
       const bool usable = here.quality == FitQuality::Quadric;
-      // With so many terms the first radius may be too short.
+      // The first radius may be too short for so many terms.
       if (!usable && !(cubic && size == 0))
       {
         break;
@@ -169,7 +170,7 @@ public:
           return {};
         }
         result = { settings.radius, estimates[size] };
-        // Further on the gate follows what is known of the curvature by now.
+        // From here on the gate follows the curvature found so far.
         std::transform(
           here.k + 3, here.k + 6, settings.curvature, [&](double k) { return k / settings.radius; });
         ++size;
@@ -190,7 +191,7 @@ public:
   double noise() const { return noise_; }
 
 private:
-  /// The errors are so small that a longer radius would only smooth detail, holes and rims away.
+  /// True if the errors are so small that a longer radius would only smooth detail, holes and rims away.
   bool isEnough(const ScaleChoice& choice) const
   {
     return noise_ * choice.estimate.error[0] < kEnoughHeight * pyramid_.level(0).voxelSize &&
@@ -206,7 +207,7 @@ private:
   double noise_ = INFINITY;
 };
 
-/// True where the fit with cubic terms is better: its slopes are about as exact, or differ from those of the
+/// True if the fit with cubic terms is better: its slopes are about as exact, or differ from those of the
 /// quadratic fit by more than their errors.
 bool prefersCubic(const ScaleChoice& cubic, const ScaleChoice& quadratic, double noise)
 {
@@ -239,7 +240,7 @@ FitScale chooseFitRadius(const CellPyramid& pyramid, const Vec3& seed, double la
 {
   if (needs.finerWhereShaped)
   {
-    // A smaller fit has as much residual from noise, and less from shape.
+    // A smaller fit has as much residual by noise, and less by shape.
     const FitScale wide = chooseFitRadius(pyramid, seed, largestCount, largest, memory);
     if (wide.noise <= kSmooth * pyramid.level(0).voxelSize)
     {
@@ -251,7 +252,7 @@ FitScale chooseFitRadius(const CellPyramid& pyramid, const Vec3& seed, double la
     chosen.left = fine.noise / wide.noise;
     return chosen;
   }
-  // What another node had gathered would round otherwise: results would depend on how threads share nodes.
+  // Cells that another node gathered would round otherwise: results would depend on how threads share nodes.
   memory.invalidate();
   FitScale scale;
   scale.countRadius = countRadius(pyramid, seed, largestCount, needs);
@@ -286,7 +287,7 @@ FitScale chooseFitRadius(const CellPyramid& pyramid, const Vec3& seed, double la
 namespace
 {
 
-/// The medians of the nodes about a node.
+/// Medians over the nodes about a node.
 LocalScale vote(const CellPyramid& pyramid, int nodeLevel, const std::vector<FitScale>& scales, std::size_t i)
 {
   const auto& nodes = pyramid.level(nodeLevel);
@@ -312,8 +313,8 @@ LocalScale vote(const CellPyramid& pyramid, int nodeLevel, const std::vector<Fit
   return result;
 }
 
-/// Whether smaller fits leave so little over the cloud that its residuals are shape. Over one node that says
-/// little, over many it is sure.
+/// True if smaller fits leave so little of the residuals over the cloud that these are shape. One node tells
+/// little, many nodes are certain.
 bool isFreeOfNoise(const std::vector<FitScale>& scales)
 {
   std::vector<double> left;

@@ -16,31 +16,31 @@ namespace pointhaptics
 struct FitNeeds
 {
   double points = 30.0;          ///< Sum of weights, 1 in the middle of the fit.
-  double cells = 14.0;           ///< The same of cells, whatever they hold.
+  double cells = 14.0;           ///< Sum of weights of cells, whatever they hold.
   double radiusInCells = 3.6;    ///< Least radius over the edge of a finest cell.
-  double growth = 1.15;          ///< Of the radii tried against noise, from one to the next.
-  bool weighsCubic = true;       ///< Whether fits with cubic terms are tried where the cloud is noisy.
-  bool finerWhereShaped = false; ///< ofFineCells() where the residuals are shape and not noise; in
-                                 ///< fitScales() ofBarePoints() where those of the whole cloud are.
+  double growth = 1.15;          ///< Factor from one radius tried against noise to the next.
+  bool weighsCubic = true;       ///< True if fits with cubic terms are tried where the cloud is noisy.
+  bool finerWhereShaped = false; ///< Use ofFineCells() where the residuals are shape and not noise; in
+                                 ///< fitScales() use ofBarePoints() where those of the whole cloud are.
 
-  /// For cells about as fine as the points' spacing, the finest that are of use. Where noise calls for cubic
-  /// terms, coarser cells serve better.
+  /// Needs for cells about as fine as the points' spacing, the finest useful ones. Where noise calls for
+  /// cubic terms, coarser cells serve better.
   static FitNeeds ofFineCells() { return { 16.0, 12.0, 2.4, 1.3, false, false }; }
 
-  /// For single points without noise: the fewest that determine a fit with some to spare. A cloud has none
-  /// where the median over its nodes of what a fit of 12 cells leaves of a wide one's residual is below 0.7:
-  /// noise leaves 0.85, shapes of scans 0.45 to 0.63.
+  /// Needs for single points without noise: a few more than determine a fit. A cloud has no noise if a fit of
+  /// 12 cells leaves less than 0.7 of a wide fit's residual, in the median over its nodes: noise leaves 0.85,
+  /// shapes of scans 0.45 to 0.63.
   static FitNeeds ofBarePoints() { return { 10.0, 10.0, 2.0, 1.3, false, false }; }
 };
 
 /// The scale of fits at one position; metres.
 struct FitScale
 {
-  double countRadius = 0.0; ///< Smallest radius with what a fit needs.
+  double countRadius = 0.0; ///< Smallest radius that meets the needs.
   double radius = 0.0;      ///< Chosen radius: countRadius where the cloud is clean, more where it is noisy.
   double noise = 0.0;       ///< Standard deviation of the points about the surface.
-  bool cubic = false;       ///< The radius is one for a fit with cubic terms.
-  double left = 0.0;        ///< The part of the noise that a smaller fit leaves; 0 where none was tried.
+  bool cubic = false;       ///< True if the radius is one for a fit with cubic terms.
+  double left = 0.0;        ///< Fraction of the noise that a smaller fit leaves; 0 where none was tried.
 };
 
 /// Lepski's scale search at the cell mean @p seed: a longer radius is accepted while it agrees with every
@@ -55,19 +55,18 @@ FitScale chooseFitRadius(const CellPyramid& pyramid, const Vec3& seed, double la
 /// Distance between nodes that vote on each other's radii, in finest cells.
 constexpr double kVoteReachInCells = 16.0;
 
-/// What a node is used for.
+/// Use of a node.
 enum class NodeUse : unsigned char
 {
   None,
-  Vote, ///< It has a vote on its neighbours' radii.
+  Vote, ///< The node has a vote on its neighbours' radii.
   All,
 };
 
-/// chooseFitRadius at each cell of the field's node level, medians of the neighbours taken against outliers,
-/// as the radius and gate of the surface fit.
-/// @param uses where given, one per node: the result is valid for All only, and scales are computed for Vote
-/// and All only. @param wanted the instructions to use, as far as this machine has them; the result is the
-/// same.
+/// Runs chooseFitRadius at each cell of the field's node level, and takes medians of the neighbours against
+/// outliers, as the radius and gate of the surface fit. @param uses where given, one per node: the result is
+/// valid for All only, and scales are computed for Vote and All only. @param wanted the instructions to use,
+/// as far as this machine has them; the result is the same.
 std::vector<LocalScale> fitScales(const CellPyramid& pyramid, double largestCount, double largest,
   const Executor& executor = {}, const std::vector<NodeUse>* uses = nullptr, const FitNeeds& needs = {},
   InstructionSet wanted = InstructionSet::Automatic);

@@ -8,19 +8,20 @@ namespace pointhaptics
 namespace
 {
 
-/// A pivot below this part of its diagonal means the cells do not determine that coefficient.
+/// Cells do not determine a coefficient whose pivot is below this part of its diagonal.
 constexpr double kPivotTolerance = 1e-7;
-/// Bound of what the moving fit may add to a slope.
+/// Bound of the slope that the moving fit may add.
 constexpr double kLargestSlopeChange = 0.3;
-/// Pivots of the cubic terms, over their diagonals, at which these begin to count and count in full.
+/// Pivots of the cubic terms, over their diagonals: from the first on the terms count, from the second on in
+/// full.
 constexpr double kCubicPivotFrom = 1e-4;
 constexpr double kCubicPivotTo = 1e-3;
 
-// Numbers of unknowns are template arguments, and the loops unrolled: short loops of ever other lengths cost
-// more than what they compute. Eigen's LLT of fixed size takes 150 ns for six unknowns, these 41, and has no
-// test of single pivots.
+// Numbers of unknowns are template arguments, so that the loops are unrolled: short loops of varying lengths
+// cost more than their arithmetic. Eigen's LLT of fixed size takes 150 ns for six unknowns, these 41, and has
+// no test of single pivots.
 
-/// L y = rhs.
+/// Solves L y = rhs.
 template <int N>
 inline void halfSolve(const double l[6][6], const double rhs[6], double y[6])
 {
@@ -37,7 +38,7 @@ inline void halfSolve(const double l[6][6], const double rhs[6], double y[6])
   }
 }
 
-/// L' k = y.
+/// Solves L' k = y.
 template <int N>
 inline void otherHalf(const double l[6][6], const double y[6], double k[6])
 {
@@ -75,7 +76,7 @@ inline bool factorLeading(const simd::FitSums& sums, double l[6][6])
         l[i][j] = sum * l[j][j];
         continue;
       }
-      // Negated, so that NaN fails too.
+      // The test is negated, so that NaN fails too.
       if (!(sum > kPivotTolerance * row[i]))
       {
         return false;
@@ -181,7 +182,7 @@ CubicFactor factorCubic(const simd::CubicSums& cubic, const double l[6][6], doub
         factor.m[i][j] = sum * factor.m[j][j];
         continue;
       }
-      // Zero where sum is not a number, too.
+      // NaN gives zero, too.
       const double pivot = sum > kCubicPivotFrom * row[i] ? sum / row[i] : 0.0;
       const double t = std::clamp((pivot - kCubicPivotFrom) / (kCubicPivotTo - kCubicPivotFrom), 0.0, 1.0);
       factor.weight *= t * t * (3.0 - 2.0 * t);

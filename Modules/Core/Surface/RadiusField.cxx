@@ -9,7 +9,7 @@ namespace
 constexpr int kNodeLevel = 3;
 /// Reach of a node in edges of its voxel.
 constexpr double kReachInVoxels = 2.2;
-/// |grad| bound between nodes, and how often it is handed on from neighbour to neighbour.
+/// Bound of |grad| between nodes, and the number of passes from neighbour to neighbour that enforce it.
 constexpr double kSlope = 0.5;
 constexpr int kSlopePasses = 6;
 }

@@ -14,21 +14,21 @@ namespace pointhaptics
 /// The values of a field at a position; metres.
 struct LocalScale
 {
-  double radius = 0.0;      ///< Of the surface fit.
+  double radius = 0.0;      ///< Radius of the surface fit.
   double gate = 0.0;        ///< Depth of the fit's gate.
   double countRadius = 0.0; ///< Smallest radius with enough points for a fit.
-  double proxyRadius = 0.0; ///< Of the proxy sphere.
+  double proxyRadius = 0.0; ///< Radius of the proxy sphere.
   double noise = 0.0;       ///< Standard deviation of the points about the surface.
   double cubic = 0.0;       ///< Weight of the fit's cubic terms, 0 to 1.
 };
 
-/// The same where the cloud is @p factor times as large.
+/// Scale of a cloud that is @p factor times as large.
 LocalScale scaled(LocalScale scale, double factor);
 
 /// One set of values per cell of a coarse pyramid level, blended between cells by a smooth kernel of compact
-/// support. Radii of fit and proxy are cut so that neighbours differ by at most half their distance. A
-/// function of position only: it knows nothing of any proxy. Immutable after build(); any number of threads
-/// may read.
+/// support. Radii of fit and proxy are cut so that neighbours differ by at most half their distance. The
+/// values depend on the position only, not on any proxy. Immutable after build(); any number of threads may
+/// read.
 class RadiusField
 {
 public:
@@ -43,7 +43,7 @@ public:
   /// is the one of build().
   LocalScale at(const CellPyramid& pyramid, const Vec3& position) const noexcept;
 
-  /// The same, with the gradient of the radius; zero where there is no node.
+  /// As at(pyramid, position), with the gradient of the radius; zero where there is no node.
   LocalScale at(const CellPyramid& pyramid, const Vec3& position, Vec3& radiusGradient) const noexcept;
 
   /// The noise at the node nearest to @p position; 0 where there is none within reach().
@@ -52,18 +52,18 @@ public:
   /// The nodes within @p reach of @p center. False: more than a block holds.
   bool gather(
     const CellPyramid& pyramid, const Vec3& center, double reach, simd::FieldBlock& block) const noexcept;
-  /// The answer of at() from the sums over the nodes near a place.
+  /// Values of at() from the sums over the nodes near a place.
   LocalScale scaleFrom(const simd::FieldSums& sums, Vec3& radiusGradient) const noexcept;
 
   /// Distance from a node beyond which it has no weight.
   double reach() const { return reach_; }
-  /// Medians of the values: the answer for places far from the cloud.
+  /// Medians of the values, for places far from the cloud.
   const LocalScale& typical() const { return typical_; }
-  /// Those of a larger cloud that this one is a part of.
+  /// Takes the typical values of a larger cloud that this one is a part of.
   void setTypical(const LocalScale& typical) { typical_ = typical; }
 
 private:
-  /// A node's value is at most rise above its neighbour's.
+  /// Bound between two nodes: the first one's value is at most rise above the other's.
   struct Link
   {
     std::uint32_t node;

@@ -9,15 +9,15 @@ namespace pointhaptics
 namespace
 {
 
-/// Voxels in the fit radius at which the next coarser level begins to serve.
+/// The next coarser level begins to serve where the fit radius has more voxels than this.
 constexpr double kVoxelsPerRadius = 3.0;
 /// Part of a level's range after which the next level is blended in.
 constexpr double kBlendFrom = 0.7;
 constexpr int kFewestCellsForQuadric = 9;
-/// Bound of each curvature term the gate follows, over rho.
+/// Bound of each curvature term that the gate follows, over rho.
 constexpr double kLargestGateCurvature = 0.6;
 constexpr int kSettleRounds = 3;
-/// The first gate over the others: where a search begins may be off the surface by the noise.
+/// Depth of the first gate over that of the others: a search may begin off the surface by the noise.
 constexpr double kFirstGate = 1.5;
 
 double smoothStep(double t)
@@ -39,7 +39,7 @@ void SurfaceFrame::turnTo(const Vec3& newNormal) noexcept
 namespace
 {
 
-/// The finest cells a fit of this radius uses: level l with 3 to 6 voxels in rho.
+/// Level whose cells a fit of this radius uses: the one with 3 to 6 voxels in rho.
 int fitLevel(const CellPyramid& pyramid, double radius, double& fraction)
 {
   const double exact = std::log2(radius / (kVoxelsPerRadius * pyramid.level(0).voxelSize));
@@ -66,7 +66,8 @@ simd::FitView viewOf(const SurfaceFrame& frame, const FitSettings& settings)
   return view;
 }
 
-/// The rows of one or two levels, the coarser one blended in over the last part of the finer one's range.
+/// Collects the rows of one or two levels; the coarser one is blended in over the last part of the finer
+/// one's range.
 void collectRows(
   const CellPyramid& pyramid, const SurfaceFrame& frame, const FitSettings& settings, FitCells& memory)
 {
@@ -90,7 +91,7 @@ void collectRows(
   }
 }
 
-/// The fit of the rows; @p terms receives how many coefficients it has, @p l the factor.
+/// Solves the fit of the rows; @p terms receives the number of its coefficients, @p l the factor.
 SurfaceFit solve(const simd::FitSums& sums, double radius, double l[6][6], int& terms)
 {
   SurfaceFit fit;
@@ -246,7 +247,7 @@ bool footPoint(
 {
   constexpr int kMaximumIterations = 12;
   constexpr double kReach = 0.5;
-  // The last step squared is the error left.
+  // The error left is about the last step squared.
   constexpr double kConverged = 1e-9;
   const double* k = fit.k;
   const double* c = fit.cubic;
@@ -264,7 +265,7 @@ bool footPoint(
     double huu = 1.0 + qu * qu + 2.0 * gap * (k[3] + 3.0 * c[0] * u + c[1] * v);
     double huv = qu * qv + gap * (k[4] + 2.0 * (c[1] * u + c[2] * v));
     double hvv = 1.0 + qv * qv + 2.0 * gap * (k[5] + 3.0 * c[3] * v + c[2] * u);
-    // Far on the hollow side the Hessian turns: Gauss-Newton is always downhill.
+    // The Hessian turns far on the hollow side; Gauss-Newton is always downhill.
     if (huu * hvv - huv * huv <= 0.02 || huu <= 0.1)
     {
       huu = 1.0 + qu * qu;

@@ -16,7 +16,7 @@ struct SurfaceFrame
   Vec3 b{ 0, 1, 0 };
   Vec3 normal{ 0, 0, 1 };
 
-  /// The same tangents, turned along with the normal as little as possible.
+  /// Turns the tangents along with the normal, as little as possible.
   void turnTo(const Vec3& newNormal) noexcept;
   /// Coordinates (along a, b, normal) of a point, in its own unit.
   Vec3 toLocal(const Vec3& p) const noexcept
@@ -40,10 +40,10 @@ struct FitSettings
   double curvature[3] = { 0, 0, 0 }; ///< (uu, uv, vv) of the fit before, per metre: the gate follows it.
 };
 
-/// The fit moves with its origin, so the surface it traces has not quite the slopes of the quadric: with
-/// this, slopes of that traced surface instead, which makes the foot point the true nearest one and closed
-/// paths free of energy. The height is then fitted with cubic terms beside the quadratic ones, so that k0 to
-/// k5 are right where the curvature changes.
+/// Slopes of the traced surface. The fit moves with its origin, so the surface it traces has not quite the
+/// slopes of the quadric. The traced slopes make the foot point the true nearest one, and closed paths free
+/// of energy. The height is fitted with cubic terms, too, so that k0 to k5 are right where the curvature
+/// changes.
 struct TracedSlopes
 {
   double strength =
@@ -93,7 +93,8 @@ struct SurfaceFitError
 {
   double noise = 0.0;   ///< Standard deviation of single points about the surface, metres.
   double leftOut = 0.0; ///< Part of the points, weighted, that the gate left out: of other sheets.
-  double standardError[3] = { 0, 0, 0 }; ///< Of rho k0 (metres), k1 and k2, for noise 1 metre.
+  double standardError[3] = { 0, 0, 0 }; ///< Standard errors of rho k0 (metres), k1 and k2, for noise 1
+                                         ///< metre.
 };
 
 /// Weighted least squares over the cells within the radius, weights count (1 - d^2/rho^2)^4; the quadratic
@@ -105,32 +106,32 @@ struct SurfaceFitError
 SurfaceFit fitSurface(const CellPyramid& pyramid, const SurfaceFrame& frame, const FitSettings& settings,
   FitCells& memory, const TracedSlopes* slopes = nullptr) noexcept;
 
-/// The same with the errors of position and slopes; for building scenes, several times the cost.
-/// @param cubic with the cubic terms; less than a Quadric where the cells do not determine them.
+/// As fitSurface() above, with the errors of position and slopes; for building scenes, several times the
+/// cost. @param cubic with the cubic terms; less than a Quadric where the cells do not determine them.
 SurfaceFit fitSurface(const CellPyramid& pyramid, const SurfaceFrame& frame, const FitSettings& settings,
   FitCells& memory, SurfaceFitError& error, bool cubic = false) noexcept;
 
-/// Starts on the surface near @p onSurface with the approximate normal in @p frame: a few fits, moving to the
-/// foot of the origin each time. Cells further than @p gate (metres; half as much again in the first fit)
-/// above or below the fit before, at first the plane, have no part. @p curvature receives the last fit's, per
-/// metre. False: no fit.
+/// Starts on the surface near @p onSurface with the approximate normal in @p frame: a few fits, each from the
+/// foot of the origin. Cells further than @p gate (metres; half as much again in the first fit) above or
+/// below the former fit, at first the plane, do not count. @p curvature receives the last fit's, per metre.
+/// False: no fit.
 bool settleOnSurface(const CellPyramid& pyramid, const Vec3& onSurface, double radius, double gate,
   FitCells& memory, SurfaceFrame& frame, SurfaceFit& fit, double curvature[3]) noexcept;
 
 /// Depth of the gate that keeps a second sheet out, over the fit radius.
 constexpr double kGateDepth = 0.2;
 
-/// The fit's point over (u, v), both over the fit radius, and the unit normal there.
+/// Gets the fit's point over (u, v), both over the fit radius, and the unit normal there.
 void pointAt(
   const SurfaceFit& fit, const SurfaceFrame& frame, double u, double v, Vec3& point, Vec3& normal) noexcept;
 
-/// The fit's point nearest to @p target and the unit normal there. Newton from the frame's origin, steps
-/// bounded, at most half a fit radius from the origin. @return false when it stopped at a bound.
+/// Finds the fit's point nearest to @p target and the unit normal there, by Newton steps from the frame's
+/// origin, bounded to half a fit radius from it. @return false when it stopped at a bound.
 bool footPoint(
   const SurfaceFit& fit, const SurfaceFrame& frame, const Vec3& target, Vec3& foot, Vec3& normal) noexcept;
 
-/// Unit normal (either side) of the cells within @p radius of @p center by their covariance; false when the
-/// cells do not span a plane.
+/// Finds the unit normal (either side) of the cells within @p radius of @p center by their covariance; false
+/// when the cells do not span a plane.
 bool principalNormal(
   const CellPyramid& pyramid, const Vec3& center, double radius, FitCells& memory, Vec3& normal) noexcept;
 

@@ -38,7 +38,7 @@ constexpr std::uint8_t kGreetingReply[] = { 0x0A, 0x44, 0x2C, 0x0D };
 constexpr std::uint8_t kReady = 0x41;
 constexpr int kBlock = 62;
 constexpr int kProbes = 3;
-/// So many times in a row without an answer to any greeting: nobody is there.
+/// After this many tries in a row without an answer to any greeting no device is there.
 constexpr int kSilentTries = 2;
 }
 
@@ -86,7 +86,7 @@ Status FalconBoot::serialForRun()
   return Status::Ok;
 }
 
-/// Collects bytes until @p bytes have come; bytes before them, such as a 00, do not matter.
+/// Collects bytes until @p bytes have come. Bytes before them, such as a 00, are skipped.
 Status FalconBoot::expect(const std::uint8_t* bytes, int count, int timeoutMilliseconds, bool& found)
 {
   found = false;

@@ -25,7 +25,7 @@ struct FalconBootSettings
   int loads = 10;              ///< Tries to load the firmware: often the first ones fail.
 };
 
-/// One thread; waits. Ends early with Aborted when @p cancelled becomes true.
+/// Starts a Falcon. One thread; its calls wait. Ends early with Aborted when @p cancelled becomes true.
 class FalconBoot
 {
 public:
@@ -51,9 +51,10 @@ private:
   const std::atomic<bool>& cancelled_;
 };
 
-/// Probe, and where no firmware answers: greet and load, as often as settings say. @p firmware may be empty:
-/// FirmwareMissing where it is needed. @p onLoading is called when the loading begins, @p progress with how
-/// far it is. DeviceSilent: twice in a row no greeting was answered (10 s with the default settings).
+/// Probes the device, and where no firmware answers, greets and loads as often as the settings say. @p
+/// firmware may be empty: FirmwareMissing where it is needed. @p onLoading is called when the loading begins,
+/// @p progress with its progress. DeviceSilent: twice in a row no greeting was answered (10 s with the
+/// default settings).
 Status bootFalcon(FtdiLink& link, const FalconBootSettings& settings,
   const std::vector<std::uint8_t>& firmware, const std::atomic<bool>& cancelled,
   const std::function<void()>& onLoading, const std::function<void(double)>& progress);

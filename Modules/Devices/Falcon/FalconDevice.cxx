@@ -16,14 +16,14 @@ namespace
 constexpr double kHalfWorkspace = 0.05;
 constexpr double kRateHz = 1000.0;
 constexpr int kButtons = 4;
-// What the drive and the hand in it dissipate at least, and what a count is worth at the grip. Assumed, to be
-// confirmed on hardware: at 1 kHz they allow 1667 N/m, in the middle of what other programs use (800 to
-// 3000).
+// Least damping (N s/m) and friction (N) of the drive and the hand in it. Assumed, to be confirmed on
+// hardware: at 1 kHz they allow 1667 N/m, in the middle of what other programs use (800 to 3000).
 constexpr double kLeastDamping = 2.5;
 constexpr double kLeastFriction = 0.1;
 /// Within the 4 cm ball about the centre a count moves the grip by at most this (FalconKinematicsTest).
 constexpr double kLargestCountStep = 60e-6;
-/// Position of the last answer; the command goes out at the end of the tick.
+/// Age of a position in ticks: it is that of the last answer, and the command goes out at the end of the
+/// tick.
 constexpr double kDelayTicks = 1.0;
 constexpr double kRampDownSeconds = 0.06;
 constexpr auto kBetweenQuestions = std::chrono::milliseconds(50);
@@ -45,16 +45,16 @@ struct FalconDevice::Implementation
 
   const FalconSettings settings;
   std::unique_ptr<FtdiBus> bus;
-  std::unique_ptr<FtdiLink> link; ///< The owner's.
-  FalconProtocol protocol;        ///< The owner's.
+  std::unique_ptr<FtdiLink> link; ///< Belongs to the owner.
+  FalconProtocol protocol;        ///< Belongs to the owner.
   std::atomic<int> owner{ kSupervisor };
-  std::atomic<int> state{ int(FalconState::Closed) }; ///< While the supervisor owns the link.
+  std::atomic<int> state{ int(FalconState::Closed) }; ///< State while the supervisor owns the link.
   std::atomic<bool> quit{ false };
   std::atomic<bool> armed{ true };
   std::atomic<int> leds{ -1 };
   std::atomic<double> progress{ 0.0 };
   std::thread supervisor;
-  mutable std::mutex mutex; ///< Of what follows; never the servo thread's.
+  mutable std::mutex mutex; ///< Guards the members below; the servo thread never takes it.
   std::condition_variable changed;
   std::string message;
   Status started = Status::DeviceNotReady;
@@ -136,7 +136,7 @@ void FalconDevice::Implementation::supervise()
   }
 }
 
-/// Servo thread: the connection is of no use any more.
+/// Gives up the connection. Servo thread.
 void FalconDevice::Implementation::fail() noexcept
 {
   state.store(int(FalconState::Fault), std::memory_order_relaxed);

@@ -18,23 +18,24 @@
 namespace pointhaptics
 {
 
-/// How a FalconDevice is started, and its limits.
+/// Start and limits of a FalconDevice.
 struct FalconSettings
 {
-  std::string firmwareFile; ///< Empty: what the environment names (kFirmwareVariable), if anything.
+  std::string firmwareFile; ///< File of the firmware; empty: the one that kFirmwareVariable names, if any.
   FalconForceLimits limits;
   FalconBootSettings boot;
-  bool armWhenHomed = true;   ///< Off: forces pass only after setArmed(true).
+  bool armWhenHomed = true;   ///< If false, forces pass only after setArmed(true).
   bool waitForDevice = false; ///< open() succeeds without a device; it is used as soon as it is plugged in.
-  /// Asked by open() 20 times a second, in its thread: true ends the start with Aborted. Empty: never.
+  /// Ends the start with Aborted when it returns true. open() asks 20 times a second, in its thread. Empty:
+  /// never.
   std::function<bool()> cancelled;
   double retrySeconds = 0.5;      ///< Between two looks for a device that is gone.
   double replyWaitSeconds = 3e-4; ///< Longest time that read() waits for an answer that is late.
-  /// Without an answer for so long: no force, and the command is sent anew.
+  /// After so long without an answer there is no force, and the command is sent anew.
   double answerTimeoutSeconds = 0.02;
 };
 
-/// Counted since open(). Each may be read by any thread.
+/// Counters since open(). Each may be read by any thread.
 struct FalconStatistics
 {
   std::uint64_t replies = 0;
@@ -44,12 +45,12 @@ struct FalconStatistics
   std::uint64_t droppedBytes = 0;    ///< Bytes outside whole frames.
   std::uint64_t skippedCommands = 0; ///< Commands not sent since the one before was still on its way.
   std::uint64_t connections = 0;     ///< Times the device came to run.
-  /// Most commands that were still without an answer when a position was taken: 0: all positions are of the
-  /// tick before, as limits() promises; n: some were n ticks older.
+  /// Largest number of commands without an answer when a position was taken. 0: all positions are of the tick
+  /// before, as limits() promises; n: some were n ticks older.
   std::uint64_t largestUnanswered = 0;
 };
 
-/// What the device said last, unprocessed, for diagnosis.
+/// The device's last reply, unprocessed, for diagnosis.
 struct FalconRaw
 {
   FalconReply reply;
@@ -57,9 +58,9 @@ struct FalconRaw
   FalconState state = FalconState::Closed;
 };
 
-/// Threads: a supervisor thread of its own finds, starts and loads the device, and looks for it again after
-/// a fault; the connection then belongs to the servo thread, which reads and writes without waiting for
-/// anybody. An atomic word says whose it is. state(), statistics(), raw(), message() and setArmed() are for
+/// Threads: a supervisor thread of its own finds, starts and loads the device, and looks for it again after a
+/// fault; the connection then belongs to the servo thread, which reads and writes without waiting for
+/// anybody. An atomic word names the owner. state(), statistics(), raw(), message() and setArmed() are for
 /// any thread. The step itself does not allocate, lock, log or throw; libusb, below it, allocates some tens
 /// of bytes for each transfer and takes locks that nobody else holds.
 ///
@@ -73,9 +74,9 @@ struct FalconRaw
 class FalconDevice : public HapticDevice
 {
 public:
-  /// On the libusb of this machine.
+  /// Uses the libusb of this machine.
   explicit FalconDevice(const FalconSettings& settings = {});
-  /// On another bus, for tests.
+  /// Uses another bus, for tests.
   FalconDevice(const FalconSettings& settings, std::unique_ptr<FtdiBus> bus);
   ~FalconDevice() override; ///< Closes.
   FalconDevice(const FalconDevice&) = delete;
@@ -105,7 +106,7 @@ public:
   FalconRaw raw() const noexcept;
   /// Part of the firmware that was sent, 0 to 1.
   double loadProgress() const noexcept;
-  /// For diagnosis: LEDs to show instead of the usual ones (FalconLed bits; -1: the usual ones).
+  /// Shows these LEDs in place of the usual ones, for diagnosis (FalconLed bits; -1: the usual ones).
   void showLeds(int leds) noexcept;
 
 private:

@@ -24,7 +24,7 @@ constexpr std::size_t kKnownFirmwareSize = 8492;
 /// Variable of the environment that names the file where no option does.
 constexpr const char* kFirmwareVariable = "POINTHAPTICS_FALCON_FIRMWARE";
 
-/// @p fileName, or what kFirmwareVariable names where it is empty; may stay empty.
+/// Returns @p fileName, or if that is empty the file that kFirmwareVariable names; may stay empty.
 std::string falconFirmwareFile(const std::string& fileName);
 
 /// FirmwareMissing: no name, no such file, empty, or larger than 64 KiB; @p message says what the file is,

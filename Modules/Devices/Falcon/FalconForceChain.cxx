@@ -14,7 +14,7 @@ constexpr double kLargestForce = 8.0;
 constexpr double kLargestTorque = 0.4096;
 constexpr double kShortestRamp = 1.0;
 constexpr double kLongestRamp = 60.0;
-/// A longer pause does not make the force arrive at once.
+/// Longest time between two calls that counts: the force must not arrive at once after a pause.
 constexpr double kLongestStep = 0.1;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 

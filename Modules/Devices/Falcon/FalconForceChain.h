@@ -1,5 +1,5 @@
 /// @file
-/// What stands between a force and the Falcon's motors, whatever the rest of the program does.
+/// Limits between a force and the Falcon's motors, whatever the rest of the program does.
 #pragma once
 
 #include "Devices/Falcon/FalconFrame.h"

@@ -1,5 +1,5 @@
 /// @file
-/// The Falcon's messages while it runs: 16 bytes each way, and how to find them again in a broken stream.
+/// The Falcon's messages while it runs, 16 bytes each way, and a finder for them in a broken stream.
 #pragma once
 
 #include <array>
@@ -17,20 +17,21 @@ using FalconFrame = std::array<std::uint8_t, kFalconFrameSize>;
 enum FalconLed : std::uint8_t
 {
   kFalconLedNone = 0,
-  kFalconHomingBit = 1, ///< Not an LED: asks the firmware to watch for the homing stops. In every command.
+  kFalconHomingBit = 1, ///< Asks the firmware to watch for the homing stops; in every command. It is not an
+                        ///< LED.
   kFalconLedGreen = 2,
   kFalconLedBlue = 4,
   kFalconLedRed = 8,
 };
 
-/// What the computer sends.
+/// A command of the computer.
 struct FalconCommand
 {
   std::array<std::int16_t, kFalconLegs> motors{}; ///< Motor values, -4096 to 4096 in use; 0: no torque.
   std::uint8_t leds = kFalconLedNone;             ///< FalconLed bits, 0 to 15.
 };
 
-/// What the Falcon answers.
+/// A reply of the Falcon.
 struct FalconReply
 {
   std::array<std::int16_t, kFalconLegs> encoders{}; ///< Counts.
@@ -40,15 +41,14 @@ struct FalconReply
 };
 
 FalconFrame encode(const FalconCommand& command) noexcept;
-/// The reply's own encoding, for emulators and tests.
+/// Encodes a reply, for emulators and tests.
 FalconFrame encode(const FalconReply& reply) noexcept;
-/// False where a byte cannot be; @p command or @p reply is then unchanged.
+/// Decodes a frame. False: a byte is invalid; @p command or @p reply is then unchanged.
 bool decode(const FalconFrame& frame, FalconCommand& command) noexcept;
 bool decode(const FalconFrame& frame, FalconReply& reply) noexcept;
 
-/// Finds frames in a stream of bytes. '<' begins one wherever it stands; a byte that cannot be in its place
-/// drops what was collected, and the next '<' begins anew, so one damaged frame costs itself alone. Constant
-/// memory, one thread.
+/// Finds frames in a stream of bytes. '<' begins one wherever it stands. An invalid byte drops the collected
+/// bytes, and the next '<' begins anew, so one damaged frame costs itself alone. Constant memory, one thread.
 class FalconFrameFinder
 {
 public:

@@ -23,12 +23,12 @@ constexpr double kCountsPerTurn = 1280.0;
 constexpr double kGear = 110.0 / 14.25;
 constexpr int kMostSteps = 12;
 constexpr double kConverged = 1e-12;
-/// No step of Newton's method is longer: the legs are a few centimetres long.
+/// Longest step of Newton's method: the legs are a few centimetres long.
 constexpr double kLongestStep = 0.03;
-/// No joint turns further; a pose beyond is a solution of the equations, not of the machine.
+/// Range of a joint. A pose beyond it solves the equations, but the machine cannot take it.
 constexpr double kLeastAngle = -50.0 * kPi / 180.0;
 constexpr double kLargestAngle = 140.0 * kPi / 180.0;
-/// The grip is on the far side of the base and nowhere near this far.
+/// Distance from the base beyond which the grip cannot be.
 constexpr double kFarthest = 0.25;
 
 /// cos and sin of 90 + 15, -30 + 15 and -150 + 15 degrees.
@@ -41,14 +41,14 @@ const LegDirection kLegs[3] = { { std::cos(kPi * 105 / 180), std::sin(kPi * 105 
   { std::cos(-kPi * 15 / 180), std::sin(-kPi * 15 / 180) },
   { std::cos(-kPi * 135 / 180), std::sin(-kPi * 135 / 180) } };
 
-/// Position in the frame of one leg.
+/// Turns a position into the frame of one leg.
 Vec3 inLeg(const Vec3& p, const LegDirection& leg) noexcept
 {
   return { p.x * leg.cosine + p.y * leg.sine - kBaseRadius, p.y * leg.cosine - p.x * leg.sine - kBaseSide,
     p.z };
 }
 
-/// One leg's closure and its derivatives by the position (device frame) and by the angle.
+/// Closure of one leg and its derivatives by the position (device frame) and by the angle.
 struct Closure
 {
   double value = 0.0;
@@ -79,7 +79,7 @@ Closure closure(const Vec3& position, double angle, const LegDirection& leg) noe
 struct Closures
 {
   Closure leg[3];
-  Vec3 cross[3]; ///< Of the other two legs' gradients.
+  Vec3 cross[3]; ///< Cross product of the other two legs' gradients.
   double determinant = 0.0;
   bool singular = true;
 };

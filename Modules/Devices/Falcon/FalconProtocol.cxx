@@ -11,11 +11,11 @@ namespace
 /// A hand at 5 m/s turns a joint of 6 cm by 83 rad/s, 131,000 counts a second: faster is a broken answer.
 constexpr double kCountsPerSecond = 150000.0;
 constexpr double kFewCounts = 150.0;
-/// So many answers in a row far from the last good one, each near the one before it, are believed.
+/// This many answers in a row far from the last good one, each near the one before it, are believed.
 constexpr int kBelieved = 5;
 constexpr int kTimeoutsToResynchronise = 3;
-/// Ticks in a row that waited in vain for the newest answer: it was lost, or comes later than a wait may
-/// last.
+/// After this many ticks in a row without the newest answer, that answer counts as lost: it comes later than
+/// a wait may last.
 constexpr int kVainWaits = 10;
 constexpr int kTimeoutsToGiveUp = 50;
 constexpr int kShutdownAnswers = 3;
@@ -71,7 +71,7 @@ void FalconProtocol::begin() noexcept
   state_.store(int(FalconState::Unhomed), std::memory_order_relaxed);
 }
 
-/// True: at least one whole answer has come; reply_ is the newest.
+/// Takes answers that have come. True: at least one whole one came; reply_ is the newest.
 bool FalconProtocol::receive(FtdiLink& link, double waitSeconds, Status& status) noexcept
 {
   std::uint8_t bytes[kBytes];
@@ -108,7 +108,7 @@ Status FalconProtocol::take(const FalconReply& reply, double elapsed) noexcept
   {
     ++count_.badReplies;
     chain_.restart();
-    // A hand that stays where it cannot have come to has been there: the answers between were lost.
+    // A hand that stays at a place it cannot have reached has reached it: answers between were lost.
     const bool agrees = jumps_ > 0 && largestDifference(reply.encoders, strange_) <= allowed;
     jumps_ = agrees ? jumps_ + 1 : 1;
     strange_ = reply.encoders;
@@ -129,7 +129,7 @@ Status FalconProtocol::take(const FalconReply& reply, double elapsed) noexcept
   return Status::Ok;
 }
 
-/// No answer at @p timeSeconds. Ok: it is only late, the last position serves.
+/// Handles a tick at @p timeSeconds without an answer. Ok: the answer is only late, the last position serves.
 Status FalconProtocol::noAnswer(double timeSeconds) noexcept
 {
   ++count_.lateReplies;
@@ -143,7 +143,7 @@ Status FalconProtocol::noAnswer(double timeSeconds) noexcept
   unanswered_ = 0;
   vainWaits_ = 0;
   chain_.restart();
-  // Purging the chip is a control request, which waits, and would drop the answer that may just come.
+  // Purging the chip is a control request, which waits, and would drop an answer that is about to come.
   if (timeouts_ % kTimeoutsToResynchronise == 0)
   {
     finder_.reset();
@@ -157,7 +157,7 @@ Status FalconProtocol::read(FtdiLink& link, double timeSeconds, bool wantArmed, 
   found_ = false;
   if (timed_ && timeSeconds < lastReply_)
   {
-    // Another loop has begun, with a clock of its own.
+    // A new loop has begun, with a clock of its own.
     timed_ = false;
     timeouts_ = 0;
     chain_.restart();
@@ -168,7 +168,7 @@ Status FalconProtocol::read(FtdiLink& link, double timeSeconds, bool wantArmed, 
   }
   Status status = Status::Ok;
   bool whole = receive(link, 0.0, status);
-  // An old answer alone would leave every later position a tick older: the newest is waited for too.
+  // An old answer alone would leave every later position a tick older: wait for the newest one, too.
   if (status == Status::Ok && timed_ && (!whole || unanswered_ > 0))
   {
     whole = receive(link, settings_.replyWaitSeconds, status) || whole;
@@ -198,14 +198,14 @@ Status FalconProtocol::read(FtdiLink& link, double timeSeconds, bool wantArmed, 
   return status;
 }
 
-/// Counts how much older than the last command's answer a position is.
+/// Counts how many ticks a position is older than the last command's answer.
 void FalconProtocol::noteDelay() noexcept
 {
   count_.largestUnanswered = std::max(count_.largestUnanswered, std::uint64_t(unanswered_));
   vainWaits_ = unanswered_ > 0 ? vainWaits_ + 1 : 0;
   if (vainWaits_ >= kVainWaits)
   {
-    // Waiting on would cost every tick that time.
+    // Further waits would take that time in every tick.
     abandoned_ = unanswered_;
     unanswered_ = 0;
     vainWaits_ = 0;

@@ -15,9 +15,9 @@ class FalconProtocol
 public:
   explicit FalconProtocol(const FalconSettings& settings);
 
-  /// Begins with a device that has just come to run, and is not homed as far as anybody knows.
+  /// Begins with a device that has just started, and counts as not homed.
   void begin() noexcept;
-  /// Takes what has come. Ok: @p hand is the newest position. DeviceLost ends the connection.
+  /// Reads the answers that have come. Ok: @p hand is the newest position. DeviceLost ends the connection.
   Status read(FtdiLink& link, double timeSeconds, bool wantArmed, HandState& hand) noexcept;
   /// Sends @p force (workspace frame) through the chain. DeviceLost ends the connection.
   Status write(FtdiLink& link, double timeSeconds, const Vec3& force, int leds) noexcept;
@@ -51,21 +51,21 @@ private:
   LatestValue<FalconRaw> raw_;
   std::atomic<int> state_{ int(FalconState::Closed) };
 
-  Vec3 position_; ///< Device frame.
+  Vec3 position_; ///< Position in the device frame.
   FalconAngles angles_{};
   bool positioned_ = false; ///< position_ belongs to encoders_.
   std::array<std::int16_t, kFalconLegs> encoders_{};
-  bool found_ = false; ///< In this tick the position was found without one before it.
-  std::array<std::int16_t, kFalconLegs> strange_{}; ///< Of the last bad reply.
+  bool found_ = false; ///< True if in this tick the position was found without one before it.
+  std::array<std::int16_t, kFalconLegs> strange_{}; ///< Encoders of the last bad reply.
   int jumps_ = 0;                                   ///< Bad replies in a row that agree.
   int vainWaits_ = 0;                               ///< Ticks in a row with an answer, but not the newest.
   int abandoned_ = 0;                               ///< Answers no longer waited for.
   int timeouts_ = 0;                                ///< Timeouts in a row.
   int unanswered_ = 0;     ///< Commands since begin() or the last timeout that have no answer yet.
-  double lastReply_ = 0.0; ///< Servo time.
+  double lastReply_ = 0.0; ///< Servo time of the last reply.
   double lastWrite_ = 0.0;
-  bool timed_ = false;    ///< The two times are valid.
-  bool answered_ = false; ///< read() was Ok in this tick: a force may pass.
+  bool timed_ = false;    ///< True if the two times are valid.
+  bool answered_ = false; ///< True if read() was Ok in this tick: a force may pass.
 };
 
 } // namespace pointhaptics

@@ -1,5 +1,5 @@
 /// @file
-/// The Falcon's states and what leads from one to the next.
+/// The Falcon's states and the events between them.
 #pragma once
 
 namespace pointhaptics

@@ -11,7 +11,7 @@ namespace
 
 constexpr double kWatchdogTimeoutSeconds = 2.0;
 
-/// The states of a device that is gone, which follow each other for as long as it is.
+/// True for the states of a device that is gone, which follow each other for as long as it is.
 bool isAway(FalconState state)
 {
   return state == FalconState::Opening || state == FalconState::Boot || state == FalconState::Fault;

@@ -1,5 +1,5 @@
 /// @file
-/// What the user of a Falcon should know while it starts and works, and how a servo loop runs with it.
+/// Messages for the user of a Falcon while it starts and works, and the settings of a servo loop with it.
 #pragma once
 
 #include "Devices/Falcon/FalconDevice.h"
@@ -11,17 +11,17 @@
 namespace pointhaptics
 {
 
-/// What the person has to do or should know in @p state; empty where there is nothing.
+/// Advice for the person in @p state; empty where none is needed.
 std::string advice(FalconState state);
 
-/// What is to be said about a Falcon while it is in use, each thing once. One thread, not the servo's.
+/// Messages about a Falcon in use, each once. One thread, not the servo's.
 class FalconUpdates
 {
 public:
-  /// The device's message or the advice for its state, where it changed; empty where nothing did. Looking for
-  /// a device that is gone is one state here.
+  /// Returns the device's message or the advice for its state where it changed, else an empty text. The
+  /// search for a device that is gone counts as one state.
   std::string next(const FalconDevice& device);
-  /// As last published.
+  /// State at the last call of next().
   FalconState state() const noexcept { return state_; }
 
 private:
@@ -29,16 +29,16 @@ private:
   FalconState state_ = FalconState::Closed;
 };
 
-/// Whether a Falcon is plugged in and can be opened; it is not started. False: @p message says why not, with
+/// True if a Falcon is plugged in and can be opened; it is not started. False: @p message says why not, with
 /// the cure. Not beside a driver that uses one.
 bool falconIsUsable(std::string& message);
 
-/// Why @p device could not be opened, with the cure: its own words, else those of @p status.
-/// @param firmwareName what the user calls the setting that names the firmware's file.
+/// Reason why @p device could not be opened, with the cure: its own message, else that of @p status. @param
+/// firmwareName the user's name for the setting with the firmware's file.
 std::string openProblem(const HapticDevice& device, Status status, const std::string& firmwareName);
 
-/// How the servo loop runs where somebody's hand is in the device: SCHED_FIFO, memory locked, and no force
-/// when the program has given no heartbeat for two seconds.
+/// Settings of a servo loop with a device that pushes a hand: SCHED_FIFO, memory locked, and no force when
+/// the program has given no heartbeat for two seconds.
 ServoSettings pushingServoSettings(double rateHz);
 
 } // namespace pointhaptics

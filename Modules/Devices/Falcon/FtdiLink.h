@@ -1,5 +1,5 @@
 /// @file
-/// A connection to the Falcon's FTDI serial chip: what the driver asks of USB, so that a test can stand in.
+/// A connection to the Falcon's FTDI serial chip: the driver's interface to USB, which a test can replace.
 #pragma once
 
 #include "Core/Base/Status.h"
@@ -14,8 +14,8 @@ namespace pointhaptics
 /// Bytes of payload in one packet from the chip: 64 less its two status bytes.
 constexpr int kFtdiPacket = 62;
 
-/// One open, claimed device. One thread at a time; it may change hands between calls. Destroying it cancels
-/// and awaits what is under way, releases and closes.
+/// One open, claimed device. One thread at a time; it may change hands between calls. Its destructor cancels
+/// and awaits transfers, releases and closes.
 class FtdiLink
 {
 public:
@@ -26,8 +26,8 @@ public:
   /// A vendor request without data, index 0. Ok, DeviceLost or DeviceSilent.
   virtual Status control(std::uint8_t request, std::uint16_t value) = 0;
   virtual Status send(const std::uint8_t* bytes, int count, int timeoutMilliseconds) = 0;
-  /// What the next packet holds, at most kFtdiPacket bytes, without the chip's status bytes. Packets without
-  /// payload are skipped until the timeout: @p count is then 0 with Ok.
+  /// Reads the payload of the next packet, at most kFtdiPacket bytes, without the chip's status bytes.
+  /// Packets without payload are skipped until the timeout: @p count is then 0 with Ok.
   virtual Status receive(std::uint8_t* bytes, int& count, int timeoutMilliseconds) = 0;
 
   // While running: these do not wait longer than asked, and do not allocate or throw themselves.

@@ -1,4 +1,4 @@
-// In the place of UsbFtdiLink.cxx where libusb is not installed.
+// Replaces UsbFtdiLink.cxx where libusb is not installed.
 #include "Devices/Falcon/FalconDevice.h"
 #include "Devices/Falcon/UsbFtdi.h"
 

@@ -23,7 +23,7 @@ constexpr int kPacket = 64;
 constexpr int kStatusBytes = 2;
 constexpr int kLongestCommand = 16;
 constexpr int kStored = 4 * kFtdiPacket;
-/// After this long a transfer that was cancelled is taken as never to come back.
+/// A cancelled transfer that has not come back after this many seconds counts as lost.
 constexpr double kReapSeconds = 1.0;
 
 using Clock = std::chrono::steady_clock;
@@ -51,7 +51,7 @@ Status statusOf(int error) noexcept
 class UsbFtdiLink : public FtdiLink
 {
 public:
-  /// Takes over both.
+  /// Takes over both arguments.
   UsbFtdiLink(libusb_context* context, libusb_device_handle* handle)
     : context_(context)
     , handle_(handle)
@@ -85,7 +85,7 @@ public:
 
   Status send(const std::uint8_t* bytes, int count, int timeoutMilliseconds) override
   {
-    // libusb asks for memory it may write to, and does not when sending.
+    // libusb wants writable memory, though it only reads it when sending.
     std::array<unsigned char, kPacket> copy;
     for (int sent = 0; sent < count;)
     {
@@ -203,7 +203,7 @@ private:
     const int payload = transfer->actual_length - kStatusBytes;
     if (payload > 0)
     {
-      // Whoever did not read for so long wants the newest.
+      // A reader that waited for so long wants the newest bytes: older ones are dropped.
       self->stored_ = self->stored_ + payload > kStored ? 0 : self->stored_;
       std::copy(transfer->buffer + kStatusBytes, transfer->buffer + transfer->actual_length,
         self->store_.begin() + self->stored_);
@@ -248,7 +248,7 @@ private:
   bool closing_ = false;
 };
 
-/// The machine's USB devices while it lives.
+/// List of the machine's USB devices, freed by its destructor.
 class DeviceList
 {
 public:
@@ -350,7 +350,7 @@ private:
     int error = libusb_open(device, &handle);
     if (error == LIBUSB_SUCCESS)
     {
-      // Refused where the system knows no drivers to detach; claiming then says so.
+      // The call fails where the system knows no drivers to detach; claiming then reports it.
       static_cast<void>(libusb_set_auto_detach_kernel_driver(handle, 1));
       error = libusb_claim_interface(handle, kInterface);
     }
@@ -397,7 +397,8 @@ std::vector<UsbFalcon> findUsbFalcons(std::string& problem)
       int error = libusb_open(device, &handle);
       if (handle)
       {
-        // Only whoever claims it learns that another program has; a system's own driver gives way later.
+        // Only a failed claim tells that another program has the device; a system's own driver gives way
+        // later.
         error = libusb_kernel_driver_active(handle, kInterface) == 1
           ? error
           : libusb_claim_interface(handle, kInterface);

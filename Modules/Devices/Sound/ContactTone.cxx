@@ -16,7 +16,7 @@ constexpr double kClickLoudness = 0.30;
 constexpr double kClickRise = 0.001;
 constexpr double kClickDecay = 0.004;
 constexpr double kClickEnd = 0.030;
-/// Fades in at most that much a sample.
+/// Largest change of loudness in a sample.
 constexpr double kStep = ContactTone::kLoudestTone * kSample / ContactTone::kFadeSeconds;
 
 double clickAt(double seconds)

@@ -7,15 +7,15 @@
 namespace pointhaptics
 {
 
-/// What is heard at a moment.
+/// Force and contact at a moment, as they are heard.
 struct HeardTouch
 {
   double newtons = 0.0;
   bool contact = false;
 };
 
-/// Samples of the sound, one after the other: the same for the same touches, whatever the lengths that they
-/// are asked for in. Where nothing is touched there is silence, to the last bit, once the tone has died away
+/// Samples of the sound, one after the other. They depend on the touches only, not on how many are asked for
+/// at a time. Where nothing is touched there is silence, to the last bit, once the tone has died away
 /// (kFadeSeconds). No sample exceeds kLoudest, and loudness never jumps. Neither allocates nor locks; one
 /// object serves one thread.
 class ContactTone
@@ -23,16 +23,16 @@ class ContactTone
 public:
   static constexpr double kSamplesPerSecond = 48000.0;
   static constexpr double kHertz = 330.0;
-  /// Of a full scale of 1: quiet beside what else a machine says.
+  /// Largest amplitude, of a full scale of 1: quiet beside the other sounds of a machine.
   static constexpr double kLoudest = 0.35;
-  /// Loudness of the tone where the force is without limit, and the force that has half of it.
+  /// Loudness that the tone approaches as the force grows, and the force that has half of it.
   static constexpr double kLoudestTone = 0.20;
   static constexpr double kHalfNewtons = 1.0;
-  /// From one loudness to another; twice as long after a release.
+  /// Duration of a change of loudness; twice as long after a release.
   static constexpr double kFadeSeconds = 0.010;
 
-  /// Writes the next @p count samples to @p samples, all of @p touch; a count of 0 takes a beginning contact
-  /// along. A force that is not finite is none.
+  /// Writes the next @p count samples to @p samples, all of @p touch; a count of 0 notes the beginning of a
+  /// contact. A force that is not finite counts as none.
   void render(const HeardTouch& touch, float* samples, std::size_t count);
 
   /// Loudness of the tone at a force, 0 to kLoudestTone.
@@ -40,9 +40,9 @@ public:
 
 private:
   bool contact_ = false;
-  double phase_ = 0.0; ///< Of the tone, in periods.
+  double phase_ = 0.0; ///< Phase of the tone, in periods.
   double loudness_ = 0.0;
-  double clickSeconds_ = 1.0; ///< Since contact began.
+  double clickSeconds_ = 1.0; ///< Seconds since contact began.
 };
 
 } // namespace pointhaptics

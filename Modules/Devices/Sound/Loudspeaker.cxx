@@ -1,4 +1,4 @@
-// ALSA by its functions' names: its header need not be there, nor its library.
+// Calls ALSA by its functions' names: its header need not be there, nor its library.
 #include "Devices/Sound/ContactTone.h"
 #include "Devices/Sound/SoundOutput.h"
 
@@ -18,7 +18,7 @@ namespace
 
 #if defined(__linux__)
 
-// Of ALSA's interface, which does not change within libasound.so.2.
+// Constants of ALSA's interface, which does not change within libasound.so.2.
 constexpr int kPlayback = 0;
 constexpr int kSigned16 = 2; // little endian
 constexpr int kInterleaved = 3;
@@ -59,7 +59,7 @@ struct Alsa
   }
 };
 
-/// The library stays in the process: it has threads and handlers of its own.
+/// Plays through ALSA. The library stays loaded, as it has threads and handlers of its own.
 class Loudspeaker : public SoundOutput
 {
 public:
@@ -106,7 +106,7 @@ public:
       long written = alsa_.write(pcm_, block_.data(), some);
       if (written < 0)
       {
-        // It ran empty, or the machine slept.
+        // The buffer ran empty, or the machine slept.
         const int error = alsa_.recover(pcm_, static_cast<int>(written), 1);
         if (error < 0)
         {

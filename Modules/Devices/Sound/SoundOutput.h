@@ -1,5 +1,5 @@
 /// @file
-/// Where samples of sound go: the machine's loudspeaker, or a file.
+/// Receiver of sound samples: the machine's loudspeaker, or a file.
 #pragma once
 
 #include "Core/Base/Status.h"
@@ -16,13 +16,13 @@ class SoundOutput
 {
 public:
   virtual ~SoundOutput() = default;
-  /// Samples of -1 to 1, what is beyond is cut; waits while the output is full. False: @p message says what
-  /// failed and the cure, and what comes later is lost.
+  /// Takes samples of -1 to 1 and cuts larger ones; waits while the output is full. False: @p message names
+  /// the fault and the cure, and later samples are lost.
   virtual bool write(const float* samples, std::size_t count, std::string& message) = 0;
 };
 
-/// The machine's default output, by ALSA's library, which is looked for when this is called: a program
-/// without it runs, silently. Null: @p message says what is missing and the cure.
+/// Opens the machine's default output by ALSA's library, which is looked for by this call: a program without
+/// it runs silently. Null: @p message says what is missing and the cure.
 std::unique_ptr<SoundOutput> openLoudspeaker(std::string& message, const char* library = "libasound.so.2");
 
 } // namespace pointhaptics

@@ -49,7 +49,7 @@ void SoundPlayer::run(const ServoLoop& loop)
   auto due = Clock::now(); // when the block is heard at the earliest
   while (!thread_.stopIsRequested())
   {
-    // An output that never waits would be given hours at once.
+    // An output that never waits would get hours of samples at once.
     due = std::max(due, Clock::now());
     if (due - Clock::now() > kAhead)
     {

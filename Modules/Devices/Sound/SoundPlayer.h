@@ -1,5 +1,5 @@
 /// @file
-/// A servo loop made heard.
+/// Plays the touch of a servo loop.
 #pragma once
 
 #include "Devices/Sound/SoundOutput.h"
@@ -15,20 +15,20 @@ namespace pointhaptics
 
 class ServoLoop;
 
-/// A thread that looks at the newest tick for every block of samples (kBlockSeconds) and plays what it says;
-/// the servo thread neither waits for it nor knows of it. A contact shorter than a block may not be heard.
-/// All but the constructor from one thread (the GUI's).
+/// A thread that plays the newest tick, looking at it for every block of samples (kBlockSeconds); the servo
+/// thread neither waits for it nor knows of it. A contact shorter than a block may not be heard. All
+/// functions but the constructor belong to one thread (the GUI's).
 class SoundPlayer
 {
 public:
   static constexpr double kBlockSeconds = 0.005;
 
-  /// Plays @p loop, which must outlive stop(), into @p output; what was played before ends.
+  /// Plays @p loop, which must outlive stop(), into @p output; ends the former sound.
   void start(const ServoLoop& loop, std::unique_ptr<SoundOutput> output);
-  /// Ends within a few blocks.
+  /// Ends the sound within a few blocks.
   void stop();
   bool isPlaying() const { return thread_.isStarted(); }
-  /// What ended the sound: what failed and the cure. Empty: nothing since the last call.
+  /// Problem that ended the sound, with its cure. Empty: none since the last call.
   std::string takeProblem();
 
 private:
@@ -36,7 +36,7 @@ private:
 
   std::unique_ptr<SoundOutput> output_;
   std::mutex mutex_;
-  std::string problem_; ///< Under the mutex.
+  std::string problem_; ///< Guarded by the mutex.
   StoppableThread thread_;
 };
 

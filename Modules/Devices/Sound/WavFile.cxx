@@ -14,7 +14,7 @@ namespace
 
 constexpr std::uint32_t kHeaderBytes = 44;
 constexpr std::uint32_t kBytesPerSample = 2;
-/// Of the lengths in a header, which are 32 bits.
+/// Most samples that the 32-bit lengths of a header can express.
 constexpr std::uint64_t kMostSamples =
   (std::numeric_limits<std::uint32_t>::max() - kHeaderBytes) / kBytesPerSample;
 

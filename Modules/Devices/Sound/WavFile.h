@@ -11,8 +11,8 @@
 namespace pointhaptics
 {
 
-/// One channel of 16 bits, ContactTone::kSamplesPerSecond. The file appears with close(); a pipe gets a
-/// header without the length, which is not known before.
+/// A WAV file of one channel of 16 bits, ContactTone::kSamplesPerSecond. It appears with close(); a pipe gets
+/// a header without the length, which is not known before.
 class WavFile : public SoundOutput
 {
 public:

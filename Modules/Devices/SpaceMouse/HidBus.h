@@ -1,5 +1,5 @@
 /// @file
-/// What the SpaceMouse driver asks of HID, so that a test can stand in.
+/// Interface of the SpaceMouse driver to HID, which a test can replace.
 #pragma once
 
 #include <cstdint>
@@ -17,12 +17,12 @@ struct HidFound
   std::uint16_t product = 0;
   std::string path; ///< For open(): "/dev/hidraw3".
   std::string name; ///< For people.
-  // What its report descriptor says of this interface; 0: unknown.
+  // Usage in the report descriptor of this interface; 0: unknown.
   std::uint16_t usagePage = 0;
   std::uint16_t usage = 0;
 
-  /// Not said to be anything but a multi-axis controller (generic desktop, usage 8): a receiver has an
-  /// interface for each of its devices.
+  /// True unless the interface declares itself another thing than a multi-axis controller (generic desktop,
+  /// usage 8): a receiver has an interface for each of its devices.
   bool mayHaveSixAxes() const noexcept { return usagePage == 0 || (usagePage == 1 && usage == 8); }
 };
 
@@ -31,9 +31,9 @@ class HidLink
 {
 public:
   virtual ~HidLink() = default;
-  /// The next report: its bytes, 0 after the timeout, -1 where the device is gone.
+  /// Reads the next report. @return its bytes, 0 after the timeout, -1 where the device is gone.
   virtual int read(std::uint8_t* bytes, int capacity, int timeoutMilliseconds) = 0;
-  /// An output report, its number first. False: not taken.
+  /// Writes an output report, its number first. False: it was not taken.
   virtual bool write(const std::uint8_t* bytes, int count) = 0;
 };
 

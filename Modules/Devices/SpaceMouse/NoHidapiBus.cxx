@@ -1,4 +1,4 @@
-// In the place of HidapiBus.cxx where hidapi is not installed.
+// Replaces HidapiBus.cxx where hidapi is not installed.
 #include "Devices/SpaceMouse/HidBus.h"
 
 namespace pointhaptics

@@ -29,10 +29,10 @@ void setLed(HidLink& link, bool on)
   static_cast<void>(link.write(report, int(sizeof(report))));
 }
 
-/// What others see of the device, one value: a cap that is gone is at rest in the very same read.
+/// State of the device for other threads, one value: a puck that is gone is at rest in the very same read.
 struct Cap
 {
-  /// With all its times, so that whoever asks sees what is stale at that moment.
+  /// Holds all times, so that each reader sees which values are stale at that moment.
   SpaceMouseDecoder decoder;
   bool connected = false;
 };

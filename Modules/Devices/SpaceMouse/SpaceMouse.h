@@ -21,9 +21,9 @@ namespace pointhaptics
 class SpaceMouse
 {
 public:
-  /// On the hidapi of this machine.
+  /// Uses the hidapi of this machine.
   explicit SpaceMouse(const SpaceMouseSettings& settings = {});
-  /// On another bus, for tests.
+  /// Uses another bus, for tests.
   SpaceMouse(const SpaceMouseSettings& settings, std::unique_ptr<HidBus> bus);
   ~SpaceMouse(); ///< Stops.
   SpaceMouse(const SpaceMouse&) = delete;
@@ -34,14 +34,14 @@ public:
   /// LED off, closes; 0.1 s at most.
   void stop();
 
-  /// The cap now; at rest where no report came for staleSeconds or none is plugged in.
+  /// The puck's present motion; at rest where no report came for staleSeconds or none is plugged in.
   SpaceMouseMotion motion() const noexcept;
   int battery() const noexcept; ///< Per cent; -1: unknown.
-  /// Name of the device in use, or what the user should know: one sentence with its cure.
+  /// Name of the device in use, or a message to the user: one sentence with its cure.
   std::string message() const;
-  /// What message() says while none is plugged in.
+  /// Text of message() while none is plugged in.
   static constexpr const char* kNonePluggedIn = "spacemouse: none is plugged in";
-  /// For those who point to it without owning it.
+  /// Lifetime for those who point to it without owning it.
   const Lifetime& lifetime() const noexcept { return lifetime_; }
 
 private:

@@ -39,7 +39,7 @@ double axis(const std::uint8_t* bytes) noexcept
   return std::min(std::max(value / kRange, -1.0), 1.0);
 }
 
-/// From the device's axes to the workspace's.
+/// Turns the device's axes into the workspace's.
 Vec3 inWorkspace(const std::uint8_t* bytes) noexcept
 {
   return { axis(bytes), -axis(bytes + 4), axis(bytes + 2) };

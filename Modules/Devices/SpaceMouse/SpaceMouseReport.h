@@ -1,5 +1,5 @@
 /// @file
-/// What a 3Dconnexion SpaceMouse says: its reports, and the motion they stand for.
+/// Reports of a 3Dconnexion SpaceMouse, and the motion they stand for.
 #pragma once
 
 #include "Core/Base/Vector3.h"
@@ -9,8 +9,8 @@
 namespace pointhaptics
 {
 
-/// How far the cap is pushed and turned, each axis from -1 to 1 (after the dead zone). Workspace frame: x
-/// right, y up, z towards the person; turns are right-handed about these axes.
+/// Push and turn of the puck, each axis from -1 to 1 (after the dead zone). Workspace frame: x right, y up, z
+/// towards the person; turns are right-handed about these axes.
 struct SpaceMouseMotion
 {
   Vec3 shift;
@@ -20,15 +20,16 @@ struct SpaceMouseMotion
   bool resting() const noexcept { return shift == Vec3() && turn == Vec3(); }
 };
 
-/// What counts as motion of the cap.
+/// Limits between motion and rest of the puck.
 struct SpaceMouseSettings
 {
   double deadZone = 0.06; ///< Part of the range that counts as rest, 0 to 0.9; beyond it motion begins at 0.
-  double staleSeconds = 0.1; ///< A value that old means the cap is at rest: a last report may get lost.
+  double staleSeconds = 0.1; ///< After so long without a report the puck counts as at rest: a last report may
+                             ///< get lost.
   double retrySeconds = 0.5; ///< Between two looks for a device that is gone.
 };
 
-/// True for the products that speak this language. The vendor number alone would also match ordinary mice.
+/// True for products with these reports. The vendor number alone would also match ordinary mice.
 bool isSpaceMouse(std::uint16_t vendor, std::uint16_t product) noexcept;
 
 /// Keeps the newest values of each kind of report. One thread; no allocation.
@@ -40,7 +41,7 @@ class SpaceMouseDecoder
 {
 public:
   explicit SpaceMouseDecoder(const SpaceMouseSettings& settings = {});
-  /// @return true where @p bytes are a report that is known and whole.
+  /// Takes a report. @return true where @p bytes are a known and whole one.
   bool take(const std::uint8_t* bytes, int count, double timeSeconds) noexcept;
   /// The motion at @p timeSeconds; buttons do not become stale.
   SpaceMouseMotion motion(double timeSeconds) const noexcept;

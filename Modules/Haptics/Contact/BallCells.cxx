@@ -9,27 +9,30 @@ namespace pointhaptics
 namespace
 {
 
-/// How much further than asked for is gathered, over radius and way, so that a sliding hand stays inside for
-/// some ticks: the first that does not overflow. The first is over the way that will be asked for soon.
+/// Points are gathered further than asked for, so that a sliding hand stays inside for some ticks. These are
+/// the factors on radius and way; the first with room is used, and the first of all is applied to the way
+/// that will be asked for soon.
 constexpr double kMargins[] = { 1.35, 1.35, 1.1, 1.0 + 1e-9 };
-/// Where points were left out a way shorter than this part of the last may have room for them.
+/// If points were left out, a way shorter than this fraction of the last one is gathered anew: all may have
+/// room.
 constexpr double kShorterWay = 0.8;
-/// The same margin of those looked at in detail.
+/// Margin around the points near the focus, over radius and way.
 constexpr double kNearMargin = 0.25;
-/// Behind the last point: further than any ball reaches, squared still finite.
+/// Padding coordinate behind the last point: no ball reaches it, and its square is finite.
 constexpr double kFarAway = 1e100;
-/// Part of its radius by which a way may lead towards a touched point that it goes past: rounding.
+/// A way may lead this part of a touched point's radius towards that point and still count as past it:
+/// rounding.
 constexpr double kTangential = 1e-6;
 
 }
 
-/// The way that is gathered for where @p way is asked for.
+/// The reach, with its margin, for a requested way of @p way metres.
 double BallCells::reachOf(double way) const noexcept
 {
   return kMargins[margin_] * (way + ball_) - ball_;
 }
 
-/// Leaves out what is beyond the next smaller margin. False: there is none.
+/// Drops the points beyond the next smaller margin. False: there is no smaller one.
 bool BallCells::shrink() noexcept
 {
   if (margin_ + 1 == std::size(kMargins))
@@ -53,8 +56,8 @@ bool BallCells::shrink() noexcept
   return true;
 }
 
-/// Adds those of the @p count cells of @p level, whose indices @p indexAt gives, that are within reach.
-/// False: they are too many.
+/// Adds the cells of @p level within reach, out of the @p count that @p indexAt enumerates. False: they are
+/// too many.
 template <typename IndexAt>
 bool BallCells::add(
   const ContactField& field, int level, std::uint32_t count, const IndexAt& indexAt) noexcept
@@ -64,7 +67,8 @@ bool BallCells::add(
   std::uint32_t i = 0;
   do
   {
-    // Which points lie inside is hard to predict: each is written, and the next one over it unless it does.
+    // A branch on "inside" would be mispredicted. So each point is written, and the next one overwrites it if
+    // it is outside.
     const double reach = reach_;
     const Vec3 center = center_;
     int size = size_;
@@ -144,7 +148,7 @@ bool BallCells::gather(
   return complete_;
 }
 
-/// Points far away behind the last one, at @p end: the loops take eight at a time.
+/// Fills up to @p end with points far away, as the loops take eight at a time.
 void BallCells::pad(int end) noexcept
 {
   for (int i = end; i % simd::kFitLanes != 0; ++i)
@@ -231,7 +235,7 @@ double BallCells::sweep(const Vec3& from, const Vec3& direction, double length, 
 {
   const auto sweepIn = [&](const Part& part)
   { return kernels_->sweepBall(points(part), from - center_, direction, length, scale, kTangential); };
-  // Most ways are short, whatever was asked for.
+  // Most ways are short, even where a long one was asked for.
   if (this->servesNear(from, 0.0))
   {
     const double reached = sweepIn(Part{ kNear, nearSize_ });

@@ -10,9 +10,10 @@
 namespace pointhaptics
 {
 
-/// Points near a center with the radii that they keep a ball away by, each quantity in an array of its own;
-/// all lengths in metres of the lattice frame, coordinates relative to the center. A scale of the radii, 0 to
-/// 1, stands for a smaller ball. 140 kB, plain state, one thread. No member function allocates or throws.
+/// Points near a center, each with the radius by which it keeps the ball away. Every quantity has an array of
+/// its own; lengths are metres of the lattice frame, coordinates relative to the center. A scale of the
+/// radii, 0 to 1, stands for a smaller ball. 140 kB, plain state, one thread. No member function allocates or
+/// throws.
 class BallCells
 {
 public:
@@ -24,26 +25,27 @@ public:
   {
   }
 
-  /// Everything gathered is dropped. Must be called before a pyramid at an address used before.
+  /// Drops all points. Call it before a pyramid at an address that another one had.
   void invalidate() noexcept { pyramid_ = nullptr; }
 
-  /// Makes sure that all points nearer to @p center than their radius and @p way are here: a ball can go so
-  /// far from there. Where there are more than kCapacity, one point of each finest voxel, or means of coarser
-  /// voxels, of at most half of @p ball metres. False: points are left out. @param ball typical radius there.
-  /// @param likely a way that will be asked for soon: gathered at once, if there is room.
+  /// Gathers all points nearer to @p center than their radius plus @p way, so that a ball there can go by @p
+  /// way metres. Where these are more than kCapacity, it takes one point of each finest voxel, or means of
+  /// coarser voxels, whose edge is at most half of @p ball. False: points are left out. @param ball typical
+  /// radius there, metres. @param likely a way that will be asked for soon: gathered at once, if there is
+  /// room.
   bool gather(
     const ContactField& field, const Vec3& center, double way, double ball, double likely = 0.0) noexcept;
 
-  /// What is asked next is within @p way of @p center, likewise. The answers are the same, and cost less
-  /// where more was gathered.
+  /// Announces that the next queries are within @p way of @p center. The answers are the same, and cost less
+  /// where more points were gathered.
   void focus(const Vec3& center, double way) noexcept;
 
-  /// The way from @p p for which all points are here; below 0: none.
+  /// Longest way from @p p for which all points are here; below 0: none.
   double reachAbout(const Vec3& p) const noexcept { return reach_ - norm(p - center_); }
 
-  /// How often the pyramid was visited so far: what costs time.
+  /// Number of visits of the pyramid so far, which is what costs time.
   int passes() const noexcept { return passes_; }
-  /// How many of its points were looked at so far.
+  /// Number of points of the pyramid that were looked at so far.
   std::uint64_t looked() const noexcept { return looked_; }
 
   int size() const noexcept { return size_; }
@@ -59,13 +61,13 @@ public:
   /// The point nearest to @p p among those nearer than @p radius; -1: there is none.
   int nearestWithin(const Vec3& p, double radius) const noexcept;
 
-  /// The point of @p pyramid nearest to @p p, at most @p search away: mostly it is here. False: there is
-  /// none.
+  /// Finds the point of @p pyramid nearest to @p p, at most @p search away. Mostly it is here already. False:
+  /// there is none.
   bool nearestOf(const CellPyramid& pyramid, const Vec3& p, double search, Vec3& nearest) const noexcept;
 
-  /// How far a ball at @p from can go along the unit vector @p direction before it would cover a point:
-  /// exact, 0 to @p length. Points that it covers already, or that it leaves, do not count unless it goes
-  /// deeper. @pre what a way of @p length needs is here.
+  /// Length that a ball at @p from can go along the unit vector @p direction before it would cover a point:
+  /// exact, 0 to @p length. A point that it covers already, or that it leaves, counts only if the ball goes
+  /// deeper. @pre all points for a way of @p length are here.
   double sweep(const Vec3& from, const Vec3& direction, double length, double scale) const noexcept;
 
   /// Calls visit(offset from the point to @p p, its radius times @p scale) for the points nearer than that.
@@ -114,7 +116,7 @@ private:
     const double left = nearReach_ - radius;
     return left >= 0.0 && norm2(p - nearCenter_) <= left * left;
   }
-  /// The fewest points that hold all within @p radius of @p p.
+  /// The smaller of the two parts that holds all points within @p radius of @p p.
   Part partAbout(const Vec3& p, double radius) const noexcept
   {
     return servesNear(p, radius) ? Part{ kNear, nearSize_ } : Part{ 0, size_ };

@@ -9,16 +9,16 @@ namespace pointhaptics
 namespace
 {
 
-/// RMS distance of the points from the plane up to which they are flat, over the ball's radius; fewest
-/// points.
+/// Points are flat up to this RMS distance from their plane, over the ball's radius; fewer than kPlanePoints
+/// are not.
 constexpr double kFlat = 0.05;
 constexpr double kPlanePoints = 6.0;
-/// RMS distance of the points from a line up to which they are a row, which has no normal, over the radius.
+/// Points in a row have no normal: up to this RMS distance from a line, over the radius.
 constexpr double kLine = 0.1;
-/// How often the points further from the plane than the RMS are left out: those of another face.
+/// Points further from the plane than the RMS belong to another face: they are left out this many times.
 constexpr int kTrims = 3;
-/// Points so near to the foot of the HIP, and so far ahead of it, tell that the place goes on, over the
-/// radius.
+/// The place continues where a point lies within kUnder of the foot of the HIP and kAhead beyond it; both
+/// over the radius.
 constexpr double kUnder = 0.5;
 constexpr double kAhead = 0.04;
 

@@ -9,17 +9,17 @@
 namespace pointhaptics
 {
 
-/// A plane through the points about a ball, remembered while the ball is near: beside an edge the points tell
-/// of two faces, and the ball has gone around neither. Lattice frame, metres. Plain state; one thread;
-/// nothing allocates or throws.
+/// A plane through the points about a ball, kept while the ball is near. Beside an edge the points show two
+/// faces, but the ball still lies on the first. Lattice frame, metres. Plain state; one thread; nothing
+/// allocates or throws.
 class FlatPlace
 {
 public:
-  /// @param center of a ball. @param radius of the ball. @param reach of the points that count, from the
-  /// center. @param away receives the direction from their middle to the ball. False: they are not flat, and
-  /// nothing changes.
+  /// Fits the plane. @param center of the ball. @param radius of the ball. @param reach of the points that
+  /// count, from the center. @param away receives the direction from their middle to the ball. False: they
+  /// are not flat, and nothing changes.
   bool find(const BallCells& cells, const Vec3& center, double radius, double reach, Vec3& away) noexcept;
-  /// The place of @p point with the unit normal @p normal, under a ball at @p center.
+  /// Sets the plane through @p point with the unit normal @p normal, under a ball at @p center.
   void set(const Vec3& point, const Vec3& normal, const Vec3& center) noexcept
   {
     point_ = point;
@@ -29,27 +29,27 @@ public:
   }
 
   void invalidate() noexcept { isKnown_ = false; }
-  /// The place moves with the model.
+  /// Moves the place with the model.
   void carry(const AffineTransform& change) noexcept;
 
   bool isKnown() const noexcept { return isKnown_; }
-  /// Whether the place is known and was found with the center within @p distance of @p center.
+  /// True if the place is known and was found with the center within @p distance of @p center.
   bool isNear(const Vec3& center, double distance) const noexcept
   {
     return isKnown_ && norm2(center - foundAt_) <= distance * distance;
   }
   /// Unit normal, to the ball's side. @pre known
   const Vec3& normal() const noexcept { return normal_; }
-  /// How high @p p is above the plane. @pre known
+  /// Height of @p p above the plane. @pre known
   double height(const Vec3& p) const noexcept { return dot(p - point_, normal_); }
   /// @p v without its part along the normal. @pre known
   Vec3 along(const Vec3& v) const noexcept { return v - dot(v, normal_) * normal_; }
-  /// Whether points of the plane lie about the foot of @p hip on the side of @p slipped, where a ball of @p
-  /// radius went. @pre known
+  /// True if points of the plane lie about the foot of @p hip on the side of @p slipped, to which bumps
+  /// pushed a ball of @p radius. @pre known
   bool continuesUnder(
     const HapticScene& scene, const Vec3& hip, const Vec3& slipped, double radius) const noexcept;
-  /// How far along the unit vector @p direction a ball at @p center may go until it is @p most aside of @p
-  /// hip. @pre known, and the ball is not so far aside yet
+  /// Length that a ball at @p center may go along the unit vector @p direction until it is @p most aside of
+  /// @p hip. @pre known, and the ball is not so far aside yet
   double wayAside(const Vec3& center, const Vec3& hip, const Vec3& direction, double most) const noexcept;
 
 private:

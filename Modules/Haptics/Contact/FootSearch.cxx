@@ -7,11 +7,11 @@ namespace pointhaptics
 namespace
 {
 
-/// Bounds of what to go along what is left, and in all, over what is left: further aside or further away was
-/// learned elsewhere.
+/// A learned way is used only if it leads at least kLeastGain of the remaining way towards the foot and is at
+/// most kMostGain of it long. Else it was learned at another place.
 constexpr double kLeastGain = 0.15;
 constexpr double kMostGain = 1.5;
-/// Part of the way that the next one must lead along it, to learn from it.
+/// A step teaches nothing if it led less than this fraction in the expected direction.
 constexpr double kLeastProgress = 0.1;
 
 double product(const FootSearch::Way& v, const FootSearch::Way& w) noexcept
@@ -25,7 +25,7 @@ FootSearch::Way FootSearch::wayFor(const Way& left) noexcept
 {
   const Way way = along(left);
   const double length2 = product(left, left);
-  // Negated, so that what is not finite is forgotten too.
+  // The test is negated, so that a way that is not finite is rejected too.
   if (!(product(way, left) >= kLeastGain * length2 && product(way, way) <= kMostGain * kMostGain * length2))
   {
     this->reset();

@@ -12,9 +12,9 @@
 namespace pointhaptics
 {
 
-/// The contact point sticks while the spring's pull along the surface is within mu_s of that across it, else
-/// it slides to where it is mu_d of it; on a curved surface the normal is that of the contact point. Plain
-/// state; one thread.
+/// The contact point sticks while the spring's pull along the surface is within mu_s times its pull across
+/// it. Else it slides to where the ratio is mu_d. On a curved surface the normal is that of the contact
+/// point. Plain state; one thread.
 class FrictionCone
 {
 public:
@@ -54,7 +54,7 @@ public:
     {
       return contact_;
     }
-    // The ratio is nearly proportional to the way from the foot.
+    // The ratio is nearly proportional to the distance from the foot.
     double slide = std::min(length, parameters.dynamicFriction * std::max(0.0, depth));
     for (int round = 0; round < kRounds; ++round)
     {
@@ -73,7 +73,7 @@ public:
 private:
   static constexpr int kRounds = 4;
 
-  /// Of a spring's pull the part along a surface over that across it; infinite where nothing presses.
+  /// Ratio of a spring's pull along the surface to its pull across it; infinite where nothing presses.
   static double pullRatio(const Vec3& pull, const Vec3& normal) noexcept
   {
     const double across = dot(pull, normal);

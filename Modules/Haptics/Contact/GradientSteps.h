@@ -17,7 +17,7 @@ class GradientSteps
 public:
   void reset() noexcept { *this = GradientSteps(); }
   void carry(const AffineTransform& from, const AffineTransform& to) noexcept;
-  /// The scene is another of the same model: of another radius its sphere keeps the point nearest to the HIP.
+  /// The scene is another of the same model. A sphere of another radius keeps its point nearest to the HIP.
   void changeCells() noexcept { adopts_ = true; }
   /// @pre hip finite. Fills all of the state but force.
   void step(const HapticScene& scene, const HapticParameters& parameters, const Vec3& hip, double dt,
@@ -29,7 +29,7 @@ private:
 
   Vec3 center_;
   Vec3 normal_{ 0.0, 0.0, 1.0 };
-  double radius_ = 0.0; ///< Of the last step.
+  double radius_ = 0.0; ///< Radius in the last step, metres.
   bool placed_ = false;
   bool adopts_ = false;
   bool contact_ = false;

@@ -8,13 +8,13 @@ namespace pointhaptics
 namespace
 {
 
-/// Rounding of places in the workspace, metres.
+/// Rounding error of positions in the workspace, metres.
 constexpr double kRounding = 1e-12;
 /// Sine below which two directions are one.
 constexpr double kSameDirection = 1e-6;
 
-/// Goes from @p from by at most @p way to @p to. Between directions less than a right angle apart it turns,
-/// so that it gets no shorter on the way than the shorter one.
+/// Moves @p from by at most @p way towards @p to. Directions less than a right angle apart are turned, so
+/// that the vector gets no shorter on the way than the shorter one.
 Vec3 towards(const Vec3& from, const Vec3& to, double way) noexcept
 {
   const Vec3 change = to - from;

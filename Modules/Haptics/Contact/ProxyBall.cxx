@@ -12,7 +12,8 @@ namespace
 
 /// Moves of one slide.
 constexpr int kMostSlides = 24;
-/// What a visit of the pyramid costs, in rounds: a large ball among dense points looks at thousands of them.
+/// A visit of the pyramid counts as so many rounds, and one more for each kPointsOfRound points that it looks
+/// at: a large ball among dense points looks at thousands.
 constexpr int kRoundsOfPass = 3;
 constexpr std::uint64_t kPointsOfRound = 128;
 /// Glides of one step.
@@ -21,25 +22,26 @@ constexpr int kMostPushes = 16;
 /// A point nearer than this many radii is touched.
 constexpr double kTouch = 1.002;
 constexpr int kMostTouched = 16;
-/// A move of a slide goes as far as points are here, unless that is less than this; over the radius.
+/// A slide moves as far as points are gathered; it gathers more only if that is less than this, over the
+/// radius.
 constexpr double kShortMove = 0.25;
 /// Least scale of a ball that begins where it has no room.
 constexpr double kSmallestScale = 1e-3;
 /// The scale of a ball that has nearly its full size.
 constexpr double kNearlyFull = 0.8;
-/// Places further away than this many times the cloud's extent are free whatever the way there.
+/// Places further away than this many times the cloud's extent are free without a look at the way there.
 constexpr double kFarAway = 1e6;
-/// A shorter way is none, over the radius.
+/// Ways shorter than this, over the radius, count as none.
 constexpr double kNoWay = 1e-4;
 /// Reach of the points that decide whether the place is flat for the first touch beside an edge, over the
 /// radius.
 constexpr double kTouchReach = 1.2;
-/// How far aside of the HIP, seen along the normal of a flat place, bumps may push the ball, over its radius.
+/// Bumps may push the ball this far aside of the HIP, seen along the normal of a flat place; over the radius.
 constexpr double kMostAside = 0.25;
-/// After a glide that did not help the HIP moves by this many radii before the next.
+/// After a useless glide the next one waits until the HIP has moved by this many radii.
 constexpr double kGlideAgain = 0.05;
 
-/// The vector nearest to @p pull that leads into none of the @p count planes with the unit normals @p n.
+/// The vector nearest to @p pull that points into none of the @p count planes with unit normals @p n.
 Vec3 withinPlanes(const Vec3& pull, const Vec3* n, int count) noexcept
 {
   const double slack = -1e-9 * norm(pull);
@@ -75,7 +77,7 @@ Vec3 withinPlanes(const Vec3& pull, const Vec3* n, int count) noexcept
   return best;
 }
 
-/// How far @p p is outside the box.
+/// Distance of @p p from the box; 0 inside.
 double distanceTo(const Bounds& box, const Vec3& p) noexcept
 {
   Vec3 outside;
@@ -86,7 +88,7 @@ double distanceTo(const Bounds& box, const Vec3& p) noexcept
   return norm(outside);
 }
 
-/// True where the way to @p p need not be looked at.
+/// True where the ball may jump to @p p without a look at the way.
 bool isFarAway(const HapticScene& scene, const Vec3& p) noexcept
 {
   const double far = kFarAway * (norm(scene.bounds().extent()) + scene.clearance());
@@ -97,7 +99,7 @@ bool isFarAway(const HapticScene& scene, const Vec3& p) noexcept
 
 void ProxyBall::carry(const AffineTransform& change, double scale) noexcept
 {
-  // Seen from the model it is the hand that moved: what it passes on that way it meets, whatever the
+  // In the model's frame the hand has moved: the ball meets all that lies on that way, whatever the
   // transform.
   center_ = change.apply(center_);
   hip_ = change.apply(hip_);
@@ -117,7 +119,7 @@ void ProxyBall::gather(Work& work, double way) noexcept
   work.status |= std::uint32_t(all ? kProxyOk : kProxyCellLimit);
 }
 
-/// Moves the ball out of the points it covers; false where they hold it from all sides.
+/// Moves the ball out of the points that it covers. False: they enclose it.
 bool ProxyBall::pushOut(const BallCells& cells) noexcept
 {
   for (int push = 0; push < kMostPushes; ++push)
@@ -133,7 +135,7 @@ bool ProxyBall::pushOut(const BallCells& cells) noexcept
   return false;
 }
 
-/// Begins near @p hip, outside of all points; where the ball has no room, with a smaller one.
+/// Places the ball near @p hip, outside of all points, or a smaller ball where it has no room.
 void ProxyBall::place(Work& work, const Vec3& hip) noexcept
 {
   isPlaced_ = true;
@@ -153,7 +155,7 @@ void ProxyBall::place(Work& work, const Vec3& hip) noexcept
   isFree_ = center_ == hip;
 }
 
-/// Takes the ball to other points of the same place: its contact point stays.
+/// Keeps the contact point of a ball in a scene with other points of the same place.
 void ProxyBall::placeAmongOthers(Work& work) noexcept
 {
   isAmongOthers_ = false;
@@ -181,7 +183,7 @@ void ProxyBall::placeAmongOthers(Work& work) noexcept
   }
 }
 
-/// A ball that began without room takes what it finds on its way while it is free.
+/// Lets a free ball that began too small grow as far as there is room.
 void ProxyBall::grow(Work& work) noexcept
 {
   if (scale_ < 1.0 && isFree_)
@@ -193,7 +195,7 @@ void ProxyBall::grow(Work& work) noexcept
   }
 }
 
-/// A free ball goes with the HIP. @return how far it came before it touched a point, metres.
+/// Moves a free ball with the HIP. @return how far it came before it touched a point, metres.
 double ProxyBall::fly(Work& work, const Vec3& direction, double length) noexcept
 {
   const Vec3 start = center_;
@@ -226,7 +228,8 @@ double ProxyBall::fly(Work& work, const Vec3& direction, double length) noexcept
   return flown;
 }
 
-/// What the ball meets first is what it lies on, also beside an edge.
+/// Takes the radius of the touched point and looks for the flat place there, also beside an edge: the ball
+/// lies on the point that it meets first.
 void ProxyBall::touchDown(Work& work) noexcept
 {
   gather(work, kTouch * radius_);

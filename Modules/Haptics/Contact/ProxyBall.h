@@ -14,8 +14,8 @@ namespace pointhaptics
 
 /// A ball that keeps away from each point of the cloud by that point's radius (ContactField.h) and goes to
 /// the HIP unless something is in its way. The radii do not change with time, so where the ball may be does
-/// not depend on how it came there. Whether there is contact hangs on nothing else: not on rims, edges, holes
-/// or sides. It is free exactly when its center is the HIP.
+/// not depend on how it came there. Nothing else decides about contact: no rims, edges, holes or sides. It is
+/// free exactly when its center is the HIP.
 ///
 /// Each tick it slides: the way to the HIP, with what points into the points it touches taken out (up to
 /// three planes; Zilles and Salisbury 1995), cut where it would meet the next one. Where the bumps between
@@ -29,41 +29,42 @@ class ProxyBall
 {
 public:
   void reset() noexcept { *this = ProxyBall(); }
-  /// The ball moves with the model: @p change takes a place of the old lattice frame into the new one.
+  /// Moves the ball with the model: @p change takes a place of the old lattice frame into the new one.
   void carry(const AffineTransform& change, double scale) noexcept;
 
-  /// The next step is among other points of the same place: the ball keeps its contact point.
+  /// Announces a scene with other points of the same place: the ball keeps its contact point.
   void changeCells() noexcept { isAmongOthers_ = true; }
 
-  /// @param cells the memory of the points near the ball. @param hip finite. @param isPatient the ball lets
-  /// bumps hold it back by up to half its radius: something else follows the surface. @param status receives
-  /// bits.
+  /// Moves the ball towards the HIP. @param cells the memory of the points near the ball. @param hip finite.
+  /// @param isPatient true where a fit follows the surface: the ball then lets bumps hold it back by up to
+  /// half its radius. @param status receives bits.
   void step(const HapticScene& scene, BallCells& cells, const Vec3& hip, bool isPatient,
     std::uint32_t& status) noexcept;
 
-  /// In place of a step: rides above the bumps of a smooth surface to the foot @p foot of @p hip on it, with
-  /// the unit normal @p up, where no point is in its way. False: it stays, and must step.
+  /// Replaces a step: moves the ball above the bumps of a smooth surface to the foot @p foot of @p hip on it,
+  /// with the unit normal @p up, if no point is in its way. False: it stays, and must step.
   bool ride(const HapticScene& scene, BallCells& cells, const Vec3& hip, const Vec3& foot, const Vec3& up,
     std::uint32_t& status) noexcept;
 
-  /// Whether the face through @p foot with the unit normal @p up goes on around it: points within a radius
-  /// lie on all sides.
+  /// True if points within a radius lie on all sides of @p foot, in the face with the unit normal @p up.
   bool hasPointsAround(
     const HapticScene& scene, BallCells& cells, const Vec3& foot, const Vec3& up) const noexcept;
 
   /// The ball is at the HIP.
   bool isFree() const noexcept { return isFree_; }
-  /// Goes over the bumps between points and down to @p foot of a surface with the unit normal @p up, where no
-  /// point is in its way and it comes no further from the HIP than bumps are high. False: it stays.
+  /// Moves the ball over the bumps between points and down to @p foot, on a surface with the unit normal @p
+  /// up. False, and it stays: a point is in its way, or it would get further from the HIP than bumps are
+  /// high.
   bool goTo(const HapticScene& scene, BallCells& cells, const Vec3& foot, const Vec3& up,
     std::uint32_t& status) noexcept;
-  /// Goes over the edge of what it lies on and down beside the surface through @p foot with the unit normal
-  /// @p up, where no point is in its way and the HIP is then inside it: it came out there. False: it stays.
+  /// Moves the ball over the edge of the face that it lies on, and down to the surface through @p foot with
+  /// the unit normal @p up. False, and it stays: a point is in its way, or the HIP is not inside the ball
+  /// then, so it did not come out there.
   bool goAround(const HapticScene& scene, BallCells& cells, const Vec3& foot, const Vec3& up,
     std::uint32_t& status) noexcept;
-  /// False: the HIP went further than one step can follow; the ball is on its way.
+  /// False: the HIP moved further than one step can follow; the ball is on its way.
   bool isThere() const noexcept { return hasReachedHip_; }
-  /// Whether points were in its way in the last step; if not, it went straight with the HIP.
+  /// True if points were in its way in the last step; if not, it moved straight with the HIP.
   bool hasSlid() const noexcept { return hasSlid_; }
   const Vec3& center() const noexcept { return center_; }
   /// Radius of the point that the ball touches, times the scale; metres.
@@ -77,12 +78,12 @@ public:
     const double length = norm(pull);
     return length > 0.0 ? center_ + (radius_ / length) * pull : center_;
   }
-  /// How deep the HIP is below that point, metres; negative: the HIP is inside the ball.
+  /// Depth of the HIP below that point, metres; negative: the HIP is inside the ball.
   double depth(const Vec3& hip) const noexcept { return norm(hip - center_) - radius_; }
 
 private:
-  /// Over the radius: how far a tick in contact looks, as far as a glide; how far around the ball its points
-  /// are looked at mostly, as most moves are short; and the rounding that a covered point may be off by.
+  /// Reaches over the radius: kReachOfTick for a tick in contact, as far as a glide; kFocus for the points
+  /// that most moves look at, as most are short. kClear allows for the rounding of a covered point.
   static constexpr double kReachOfTick = 1.1;
   static constexpr double kFocus = 0.2;
   static constexpr double kClear = 1.0 - 1e-9;
@@ -93,7 +94,7 @@ private:
   static constexpr double kPlaneReach = 1.4;
   static constexpr double kFlatNear = 2.0;
 
-  /// What a step works with.
+  /// The scene, the gathered points and the budget of one step.
   struct Work
   {
     const HapticScene& scene;
@@ -120,17 +121,17 @@ private:
   void gather(Work& work, double way) noexcept;
 
   Vec3 center_;
-  double radius_ = 0.0;          ///< Of what the ball touches, by the scale.
-  double scale_ = 1.0;           ///< Of all radii.
-  Vec3 hip_;                     ///< As far as the ball has followed it.
+  double radius_ = 0.0;          ///< Radius of the touched point times the scale, metres.
+  double scale_ = 1.0;           ///< Factor on all radii.
+  Vec3 hip_;                     ///< The HIP as far as the ball has followed it.
   Vec3 heldAt_{ NAN, NAN, NAN }; ///< The HIP when gliding did not help; not finite: the ball is not held.
   FlatPlace flat_;
   bool isPlaced_ = false;
   bool isFree_ = true;
   bool hasReachedHip_ = true;
-  bool isAmongOthers_ = false; ///< The points are others than in the last step.
+  bool isAmongOthers_ = false; ///< The points differ from those of the last step.
   bool hasSlid_ = false;
-  bool hasRidden_ = false; ///< And has not looked for its way among the points since.
+  bool hasRidden_ = false; ///< The ball rode, and has not looked for its way among the points since.
 };
 
 } // namespace pointhaptics

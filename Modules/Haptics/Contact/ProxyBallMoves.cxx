@@ -8,47 +8,48 @@ namespace pointhaptics
 namespace
 {
 
-/// A flat place serves up to this angle.
+/// Cosine of the largest angle between a remembered flat place and the direction away from the points.
 constexpr double kFlatCosine = 0.5;
-/// Radius of the ball that glides, shortest pull along the surface, longest way and least gain of a glide;
-/// all over the radius.
+/// Limits of a glide, over the radius: radius of the gliding ball, least pull along the surface, longest way,
+/// least gain.
 constexpr double kGlideRadius = 0.9;
 constexpr double kLeastLean = 0.02;
 constexpr double kLongestGlide = 0.5;
 constexpr double kLeastGain = 1e-3;
-/// On a flat place, so many radii around where that was seen, a ball that leans less waits.
+/// A ball within kWaitNear of a flat place that leans by less than kWaitLean waits; over the radius.
 constexpr double kWaitNear = 0.3;
 constexpr double kWaitLean = 0.2;
-/// The same for a ball that need not keep up.
+/// Limits as the two above for a patient ball, which another part leads along the surface.
 constexpr double kPatientNear = 1.0;
 constexpr double kPatientLean = 0.5;
 constexpr int kMostLifts = 3;
 constexpr double kLifts[kMostLifts] = { 0.0, 0.3, 0.6 };
-/// How far beside an edge a ball goes around it, how near it must come to the HIP, and how far before the
-/// edge the HIP may be along the face that the ball comes from.
+/// How far beside an edge a ball may pass around it, how near it must come to the HIP, and how far the HIP
+/// may still be before the edge, along the face that the ball comes from; all over the radius.
 constexpr double kMostBeside = 2.0;
 constexpr double kAround = 0.1;
 constexpr double kBeforeEdge = 0.02;
-/// How near to a foot a ball lies on it.
+/// A ball whose center is this near to a foot, over the radius, lies on it.
 constexpr double kOnFoot = 1.3;
-/// Points higher than this above the surface are of a wall; how far a glide may lift the ball.
+/// Points higher than kWallHeight above the surface belong to a wall; a glide may lift the ball by
+/// kLargestRise.
 constexpr double kWallHeight = 0.2;
 constexpr double kLargestRise = 0.1;
-/// A ball that rides is so far above the surface, and goes so far in a tick, over its radius.
+/// Height of a riding ball above the surface, and its longest way in a tick; over the radius.
 constexpr double kAboveBumps = 0.1;
 constexpr double kLongestRide = 0.5;
-/// A flat place is sought again after so much of a way, likewise.
+/// A riding ball looks for the flat place again after this way, over the radius.
 constexpr double kFlatAgain = 0.5;
-/// How far aside of a foot the middle of the points within a radius may lie for it to be on the surface and
-/// not at its rim, likewise: 0.42 on a straight one, and 0.12 by chance where the ball is over 18 points.
+/// A foot is on the surface, and not at its rim, if the middle of the points within a radius lies less than
+/// this aside of it, over the radius. A straight rim has 0.42; 18 points reach 0.12 by chance.
 constexpr double kMostAsideOfFoot = 0.2;
-/// Points further from the plane there are of another face, likewise.
+/// Points further than this from the plane, over the radius, belong to another face.
 constexpr double kFace = 0.15;
 
 }
 
-/// The normal of the surface that the ball lies on: of a plane through the points about it. Where they are
-/// not flat, as at an edge, the last flat one near by: the ball has not gone around yet.
+/// Returns the normal of the plane through the points about the ball. Where they are not flat, as at an edge,
+/// the last flat place near by gives it: the ball has not gone around yet.
 Vec3 ProxyBall::surfaceNormal(const BallCells& cells) noexcept
 {
   Vec3 away;
@@ -60,7 +61,7 @@ Vec3 ProxyBall::surfaceNormal(const BallCells& cells) noexcept
   return flat_.isKnown() ? flat_.normal() : away;
 }
 
-/// Whether the ball lies on a flat place and leans so little that it may wait.
+/// True if the ball lies on a flat place and leans so little that it may wait.
 bool ProxyBall::mayWait(const Vec3& hip, bool isPatient) const noexcept
 {
   return !hasRidden_ && flat_.isNear(center_, (isPatient ? kPatientNear : kWaitNear) * radius_) &&
@@ -79,7 +80,8 @@ bool ProxyBall::glide(Work& work, const Vec3& hip) noexcept
   {
     return false;
   }
-  // What rises from the surface is a wall: there only what brings the ball nearer to the HIP is progress.
+  // Points that rise from the surface are a wall. Beside a wall a move counts as progress only if it brings
+  // the ball nearer to the HIP.
   bool isWalled = !flat_.isKnown();
   const double highest = isWalled ? 0.0 : flat_.height(center_) - kWallHeight * radius_;
   work.cells.visitBall(center_, kPlaneReach * radius_,
@@ -89,7 +91,7 @@ bool ProxyBall::glide(Work& work, const Vec3& hip) noexcept
   gather(work, (kLongestGlide + kLifts[kMostLifts - 1]) * radius_);
   for (const double lift : kLifts)
   {
-    // Bumps are passed by a smaller ball, deeper gaps are left by lifting it.
+    // A smaller ball passes bumps; a lift takes the ball out of deeper gaps.
     const double ball = lift > 0.0 ? scale_ : kGlideRadius * scale_;
     center_ += work.cells.sweep(center_, up, lift * radius_, ball) * up;
     center_ +=
@@ -115,8 +117,8 @@ bool ProxyBall::glide(Work& work, const Vec3& hip) noexcept
   return false;
 }
 
-/// Along the unit vector @p direction by up to @p length metres, as far as no point is in the way. @return
-/// how far.
+/// Moves the ball along the unit vector @p direction by up to @p length metres, until a point is in the way.
+/// @return how far.
 double ProxyBall::advance(Work& work, const Vec3& direction, double length) noexcept
 {
   double left = length;
@@ -145,7 +147,7 @@ bool ProxyBall::goTo(const HapticScene& scene, BallCells& cells, const Vec3& foo
 bool ProxyBall::goAround(const HapticScene& scene, BallCells& cells, const Vec3& foot, const Vec3& up,
   std::uint32_t& status) noexcept
 {
-  // At an edge sharper than a right angle the HIP is out through the other face before it is past the edge.
+  // At an edge sharper than a right angle the HIP passes the other face before it is past the edge.
   if (flat_.isNear(center_, kFlatNear * radius_) &&
     dot(hip_ - flat_.height(hip_) * flat_.normal() - foot, up) < -kBeforeEdge * radius_)
   {
@@ -155,8 +157,8 @@ bool ProxyBall::goAround(const HapticScene& scene, BallCells& cells, const Vec3&
   return this->moveAbove(work, foot, up, [&] { return isFree_ || depth(hip_) <= kAround * radius_; });
 }
 
-/// Lifts the ball, goes over edges and bumps, and down to the surface through @p foot with the unit normal
-/// @p up, as far as no point is in the way. It stays where it began unless @p isGood then.
+/// Lifts the ball, moves it over edges and bumps, and lowers it to the surface through @p foot with the unit
+/// normal @p up, as far as no point is in the way. Restores it unless @p isGood then.
 template <typename IsGood>
 bool ProxyBall::moveAbove(Work& work, const Vec3& foot, const Vec3& up, IsGood&& isGood) noexcept
 {
@@ -165,7 +167,7 @@ bool ProxyBall::moveAbove(Work& work, const Vec3& foot, const Vec3& up, IsGood&&
   for (int i = 1; i < kMostLifts; ++i)
   {
     const double lift = kLifts[i] * radius_;
-    // Off the points that it lies on, in a gap to its middle; beside the edge, and down.
+    // Lift the ball off its points, in a gap only to the middle; move it past the edge, lower it.
     const Vec3 away = normalized(center_ - hip_);
     const double lifted = advance(work, away, lift);
     center_ -= lifted < lift ? 0.5 * lifted * away : Vec3();
@@ -239,7 +241,7 @@ bool ProxyBall::ride(const HapticScene& scene, BallCells& cells, const Vec3& hip
   heldAt_ = { NAN, NAN, NAN };
   hasSlid_ = false;
   hasRidden_ = true;
-  // The fit leans towards an edge before it ends there, and a plane through the points does not.
+  // A fit leans towards an edge before it ends there; a plane through the points does not.
   Vec3 ignored;
   if (!flat_.isNear(center_, kFlatAgain * radius_))
   {

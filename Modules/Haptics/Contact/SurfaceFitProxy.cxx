@@ -9,31 +9,34 @@ namespace pointhaptics
 namespace
 {
 
-/// Where the fit is lost it is sought at once, then every so many ticks, a part of the work in each of three:
-/// what failed a moment ago mostly fails again.
+/// A lost fit is sought at once, then every kSeekEvery ticks, a third of the work a tick: a search that
+/// failed a moment ago mostly fails again.
 constexpr int kSeekEvery = 4;
 constexpr double kSeekBelow = 0.5;
 /// RMS distance of the points from the fit, over the ball's radius, up to which the surface is smooth.
 constexpr double kSmoothResidual = 0.03;
-/// How far the fit's point may be from the ball's: over the ball's radius, and over the depth, as bumps
-/// between points hold the ball back by up to so much of it.
+/// The fit's point may be this far from the ball's: kTrustRadii of the ball's radius and kTrustDepths of the
+/// depth, as bumps between points hold the ball back.
 constexpr double kTrustRadii = 0.2;
 constexpr double kTrustDepths = 0.3;
-/// The same where the ball lies on a smooth surface, over its radius.
+/// Largest distance of the fit's point from the ball's where the ball lies on a smooth surface, over the
+/// radius.
 constexpr double kTrustPlain = 0.6;
-/// The ball alone is felt from this many times that distance on.
+/// From this many times the trusted distance on the ball alone is felt.
 constexpr double kDistrust = 1.5;
-/// The ball sinks into the gaps between points: it may be this much above the surface, over its radius, and
-/// how fast contact ends when it is higher.
+/// A HIP may be pressed while its offset to the fit is at most kTrustRadii of the ball's radius plus this
+/// slope times its depth below the ball, which is negative inside the ball: contact ends gradually as the
+/// ball rises.
 constexpr double kReleaseSlope = 1.25;
-/// The HIP comes out through a face that is nearer than this, and as flat as that, over the ball's radius; or
-/// as flat over the noise of the points. A fit that sees two faces of a wedge is further from its points.
+/// A face counts as an exit of the HIP if it is within kOutNear and its residual below kOutResidual, both
+/// over the ball's radius, or below kOutNoise times the noise. A fit across two faces of a wedge has a larger
+/// residual.
 constexpr double kOutNear = 0.5;
 constexpr double kOutResidual = 0.01;
 constexpr double kOutNoise = 1.5;
-/// Where no face is flat it moves by this many radii before the next is looked at.
+/// After a face that is not flat the HIP moves by this many radii before the next is looked at.
 constexpr double kOutAgain = 0.1;
-/// How far a point of the fit is from it, over the ball's radius.
+/// A point within this distance of the fit, over the ball's radius, lies on it.
 constexpr double kOnFit = 0.1;
 
 double smoothStep(double t) noexcept
@@ -55,22 +58,22 @@ void SurfaceFitProxy::carry(const AffineTransform& from, const AffineTransform& 
   normal_ = normalized(change.applyToNormal(normal_), normal_);
 }
 
-/// Whether the ball lies above a smooth surface.
+/// True if the ball lies above a smooth surface.
 bool SurfaceFitProxy::isSmooth() const noexcept
 {
   return tracker_.height(ball_.center()) > 0.0 && tracker_.residual() < kSmoothResidual * ball_.radius();
 }
 
-/// Whether that goes on all around: what the ball sinks into are gaps between points, and nothing that a hand
-/// could fall off.
+/// True if the smooth surface continues on all sides, so that the ball sinks only into gaps between points,
+/// not over an edge.
 bool SurfaceFitProxy::isPlain() const noexcept
 {
   return isSmooth() && tracker_.continuesAround();
 }
 
-/// Whether the HIP came out through a smooth face beside the one that the ball lies on: it is in front of
-/// that face, and the ball can go there. Bumps between points would hold the ball back at the edge. A HIP
-/// below the fit whose nearest point lies on that fit has come out nowhere.
+/// True if the HIP came out through a smooth face beside the one that the ball lies on: it is in front of
+/// that face, and the ball can go there. Without this, bumps between points would hold the ball back at the
+/// edge. A HIP below the fit whose nearest point lies on that fit has come out nowhere.
 bool SurfaceFitProxy::comesOut(
   const HapticScene& scene, Memory& memory, const Vec3& hip, std::uint32_t& status) noexcept
 {
@@ -103,8 +106,8 @@ bool SurfaceFitProxy::comesOut(
   return true;
 }
 
-/// Does a part of the search for a fit at the ball; all of it in the first tick without. @return whether it
-/// has come to the foot of the HIP.
+/// Does the next part of the search for a fit at the ball, or all of it in the first tick without a fit.
+/// @return true if it has come to the foot of the HIP.
 bool SurfaceFitProxy::seek(const HapticScene& scene, Memory& memory, const Vec3& hip) noexcept
 {
   const int tick = ticksWithoutFit_++;
@@ -121,8 +124,8 @@ bool SurfaceFitProxy::seek(const HapticScene& scene, Memory& memory, const Vec3&
                    : search_.advance(scene, memory.fit, ball_.center(), hip);
 }
 
-/// While the fit alone is felt and the surface goes on smoothly, the ball need not look for its way among the
-/// points: it goes with the foot of the fit. False: it stays, and must step.
+/// Moves the ball with the foot of the fit while the fit alone is felt and the surface continues smoothly: it
+/// need not look for its way among the points. False: it stays, and must step.
 bool SurfaceFitProxy::ride(
   const HapticScene& scene, Memory& memory, const Vec3& hip, std::uint32_t& status) noexcept
 {
@@ -132,8 +135,7 @@ bool SurfaceFitProxy::ride(
     ball_.ride(scene, memory.ball, hip, tracker_.point(), tracker_.normal(), status);
 }
 
-/// @param followed how the fit came to the foot of the HIP. @return how much of the answer is the fit's, 0 to
-/// 1.
+/// Returns the fit's part of the answer, 0 to 1. @param followed how the fit came to the foot of the HIP.
 double SurfaceFitProxy::fitWeight(const HapticScene& scene, Memory& memory, const Vec3& hip,
   TrackResult followed, std::uint32_t& status) noexcept
 {
@@ -143,7 +145,7 @@ double SurfaceFitProxy::fitWeight(const HapticScene& scene, Memory& memory, cons
       std::max(kTrustRadii * ball_.radius() + kTrustDepths * std::max(0.0, ball_.depth(hip)),
         isPlain() ? kTrustPlain * ball_.radius() : 0.0);
     const double apart = norm(tracker_.point() - ball_.nearestPoint(hip));
-    // A HIP in front of the fit that the ball has deep inside is in front of another sheet.
+    // A HIP in front of the fit but deep below the ball belongs to another sheet.
     const bool agrees =
       tracker_.height(ball_.center()) > 0.0 && !(tracker_.height(hip) > 0.0 && ball_.depth(hip) > trust);
     return agrees ? 1.0 - smoothStep((apart - trust) / ((kDistrust - 1.0) * trust)) : 0.0;
@@ -152,7 +154,7 @@ double SurfaceFitProxy::fitWeight(const HapticScene& scene, Memory& memory, cons
   if (hasFit_)
   {
     status |= std::uint32_t(followed != TrackResult::Converged ? kProxyRoundLimit : kProxyOk);
-    // Where the foot leaps on a ridge the bumps between points would hold the ball.
+    // Where the foot leaps on a ridge it leads the ball, which bumps between points would hold back.
     const bool isLed = followed == TrackResult::Far &&
       ball_.goTo(scene, memory.ball, tracker_.point(), tracker_.normal(), status);
     status |= std::uint32_t(isLed ? kProxyLed : kProxyOk);
@@ -192,19 +194,22 @@ void SurfaceFitProxy::forgetFit() noexcept
   ticksWithoutFit_ = 0;
 }
 
-/// What the fit says, by @p weight, and the ball by the rest.
+/// Blends the contacts of fit and ball: @p weight is the fit's part, the rest is the ball's. Each presses
+/// only a HIP below it; else its part of the offset is zero.
 SurfaceFitProxy::Contact SurfaceFitProxy::blended(const Vec3& hip, double weight) const noexcept
 {
-  const double depth = ball_.isFree() ? -ball_.radius() : ball_.depth(hip);
-  Vec3 offset = (1.0 - weight) * (depth > 0.0 ? ball_.nearestPoint(hip) - hip : Vec3());
+  const double ballDepth = ball_.isFree() ? -ball_.radius() : ball_.depth(hip);
+  Vec3 offset = (1.0 - weight) * (ballDepth > 0.0 ? ball_.nearestPoint(hip) - hip : Vec3());
   Vec3 normal = (1.0 - weight) * normalized(ball_.center() - hip, normal_);
   if (weight > 0.0)
   {
-    const double allowed = std::max(0.0, kTrustRadii * ball_.radius() + kReleaseSlope * depth);
-    const Vec3 up = tracker_.point() - hip;
-    const bool pressed =
-      tracker_.height(hip) <= 0.0 && (depth > 0.0 || norm2(up) <= allowed * allowed || isPlain());
-    offset += weight * (pressed ? up : Vec3());
+    // Bumps hold the ball above the fit: the fit also presses a HIP just inside the ball, and on a surface
+    // without edges near by any HIP below it.
+    const double mostOffset = std::max(0.0, kTrustRadii * ball_.radius() + kReleaseSlope * ballDepth);
+    const Vec3 toFit = tracker_.point() - hip;
+    const bool isPressed = tracker_.height(hip) <= 0.0 &&
+      (ballDepth > 0.0 || norm2(toFit) <= mostOffset * mostOffset || isPlain());
+    offset += weight * (isPressed ? toFit : Vec3());
     normal += weight * tracker_.normal();
   }
   return { hip + offset, normalized(normal, normal_), offset != Vec3() };

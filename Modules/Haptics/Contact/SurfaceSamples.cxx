@@ -11,8 +11,8 @@ namespace pointhaptics
 namespace
 {
 
-/// What is gathered for one point serves the next, up to rounding; it is dropped after so many, so that the
-/// result does not depend on how the points are shared out.
+/// Gathered cells serve the next points too, up to rounding. They are dropped after this many points, so that
+/// the result does not depend on how the points are shared out among threads.
 constexpr std::int64_t kRow = 256;
 
 struct Outputs

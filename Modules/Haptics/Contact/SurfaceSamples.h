@@ -1,5 +1,5 @@
 /// @file
-/// How far points lie from the surface that is felt, and its normals there: for pictures.
+/// Distances of points from the surface that is felt, and its normals there: for pictures.
 #pragma once
 
 #include "Core/Base/Executor.h"

@@ -10,12 +10,12 @@ namespace
 
 constexpr int kWidenings = 2;
 constexpr double kWidening = 1.4;
-/// RMS distance of the points over the fit radius: a sheet below the first needs no second try, and a second
-/// try is taken where it is better by the other.
+/// RMS distance of the points over the fit radius: below kCleanSheet no second try is made; a second try
+/// replaces the first if its residual is below kBetter of that.
 constexpr double kCleanSheet = 0.05;
 constexpr double kBetter = 0.8;
 
-/// The sheet by fits of a radius.
+/// Finds the sheet by fits of one radius.
 bool findSheet(const HapticScene& scene, FitCells& memory, const Vec3& onSurface, double radius, double gate,
   SurfaceTracker& tracker) noexcept
 {
@@ -61,7 +61,7 @@ bool findSheet(
   const double gate = std::max(2.0 * kGateDepth * scale.countRadius, scale.gate);
   bool found = false;
   double radius = scale.radius;
-  // Few points that lie badly determine nothing: those a little further are used too.
+  // A few badly placed points determine no fit: widen the radius.
   for (int widening = 0; widening <= kWidenings && !found; ++widening, radius *= kWidening)
   {
     found = findSheet(scene, memory, onSurface, radius, gate, tracker);

@@ -7,26 +7,26 @@
 namespace pointhaptics
 {
 
-/// A tracker on the sheet through the cells about @p onSurface, near enough to follow it; its normal points
-/// to either side. False, and nothing changes: there is none.
+/// Starts @p tracker on the sheet through the cells about @p onSurface, near enough to follow it; its normal
+/// points to either side. False, and nothing changes: there is none.
 bool findSheet(
   const HapticScene& scene, FitCells& memory, const Vec3& onSurface, SurfaceTracker& tracker) noexcept;
 
-/// The search for a surface that is seen from a side and followed to a target, in three parts: the sheet, the
-/// way to the side, lest it begins on another face beside an edge, and the way to the target. Who has no time
-/// for all of them at once does one in each tick. Plain state; no allocation; one thread.
+/// Searches a surface that is seen from a side, and follows it to a target, in three parts: the sheet; the
+/// way to the side, so that it does not begin on another face beside an edge; the way to the target. A caller
+/// without time for all parts does one in each tick. Plain state; no allocation; one thread.
 class SurfaceSearch
 {
 public:
   /// Begins anew at the cell @p onSurface.
   void begin(const Vec3& onSurface) noexcept;
   void giveUp() noexcept { next_ = Part::None; }
-  /// Does the next part, if any. @return whether found() has come to @p target.
+  /// Does the next part, if any. @return true if found() has come to @p target.
   bool advance(const HapticScene& scene, FitCells& memory, const Vec3& side, const Vec3& target) noexcept;
-  /// Does all the parts that are left.
+  /// Does all remaining parts.
   bool finish(const HapticScene& scene, FitCells& memory, const Vec3& side, const Vec3& target) noexcept;
   const SurfaceTracker& found() const noexcept { return tracker_; }
-  /// What is found so far moves with the model.
+  /// Moves the result so far with the model.
   void carry(const AffineTransform& from, const AffineTransform& to) noexcept;
 
 private:

@@ -8,28 +8,28 @@ namespace pointhaptics
 namespace
 {
 
-/// Fits in a call, at most.
+/// Largest number of fits in a call.
 constexpr int kRounds = 8;
-/// Converged when one more round would move the point by less than this part of the fit radius.
+/// The point has converged when one more round would move it by less than this part of the fit radius.
 constexpr double kConverged = 1e-5;
 /// Part of the noise below which moving on is pointless.
 constexpr double kConvergedNoise = 3e-3;
 constexpr double kAwaySlack = 1e-3;
-/// A call moves the point by at most this many fit radii; one that still moves from so many on is far.
+/// A call moves the point by at most kFurthestRadii fit radii; one that is still moving after kFar of them
+/// has leapt.
 constexpr double kFurthestRadii = 2.0;
 constexpr double kFar = 1.0;
-/// Difference of the slopes of a fit from those that the last one foresaw, up to which both are of one
-/// surface: at edges it is 0.07 and more.
+/// Slopes of a fit may differ from those that the last one predicted by this much; at edges they differ by
+/// 0.07 and more.
 constexpr double kForeseen = 0.03;
 constexpr int kWidenings = 2;
 constexpr double kWidening = 1.4;
-/// Part of the fit radius in which the fit stands for the surface.
+/// Part of the fit radius within which the fit represents the surface.
 constexpr double kReach = 0.5;
-/// Weighted centroid of the cells over the fit radius up to which the surface goes on (0.235 on a straight
-/// rim).
+/// The surface continues on all sides if the weighted centroid of the cells is nearer than this, over the fit
+/// radius; a straight rim has 0.235.
 constexpr double kInner = 0.1;
-/// Fit radius over counted radius at which the traced slopes, which amplify noise, begin to fade and are
-/// gone.
+/// Traced slopes amplify noise: they fade out between these two ratios of fit radius to counted radius.
 constexpr double kTracedUpTo = 1.05;
 constexpr double kTracedNoMore = 1.3;
 
@@ -79,7 +79,7 @@ bool SurfaceTracker::refit(const HapticScene& scene, FitCells& memory) noexcept
   settings.gate = scale.gate;
   std::copy(curvature_, curvature_ + 3, settings.curvature);
   SurfaceFit fit = fitSurface(scene.pyramid(), frame_, settings, memory, &slopes);
-  // Few points that lie badly determine no more than a plane: those a little further are used too.
+  // A few badly placed points determine no more than a plane: widen the radius.
   for (int i = 0; i < kWidenings && fit.quality != FitQuality::Quadric; ++i)
   {
     settings.radius *= kWidening;
@@ -96,8 +96,8 @@ bool SurfaceTracker::refit(const HapticScene& scene, FitCells& memory) noexcept
   return true;
 }
 
-/// Where to go from frame_ when the foot is @p step away, on the last fit. @param before null in the first
-/// round.
+/// Finds the next place of frame_ when the last fit shows the foot @p step away. @param before null in the
+/// first round.
 void SurfaceTracker::nextPlace(const Round& now, const Round* before, Vec3& place, Vec3& normal) noexcept
 {
   const auto inPlane = [&](const Vec3& v) {
@@ -110,7 +110,7 @@ void SurfaceTracker::nextPlace(const Round& now, const Round* before, Vec3& plac
   FootSearch::Way way;
   if (before && now.distance > before->distance + kAwaySlack * fit_.radius)
   {
-    // It swings about the answer.
+    // The rounds swing about the answer.
     search_.reset();
     way = inPlane(0.5 * now.step);
   }
@@ -129,7 +129,7 @@ TrackResult SurfaceTracker::follow(const HapticScene& scene, FitCells& memory, c
   Round last;
   for (int round = 0; round < kRounds; ++round)
   {
-    // The first round takes the fit of the last call: it was made a step too small to matter away.
+    // The first round takes the fit of the last call, whose origin is a negligible step away.
     if (!fresh_ && !refit(scene, memory))
     {
       return TrackResult::Lost;
@@ -150,7 +150,7 @@ TrackResult SurfaceTracker::follow(const HapticScene& scene, FitCells& memory, c
       return isForeseen ? TrackResult::Far : TrackResult::Lost;
     }
     adopt(place, normal);
-    // The next step would be shorter than this one by as much as this one is than the last.
+    // The steps shrink geometrically: estimate the next one from the last two.
     const double length = norm(now.step);
     const double next = round > 0 ? length * std::min(1.0, length / norm(last.step)) : length;
     if (!(next > std::max(kConverged * fit_.radius, kConvergedNoise * fit_.residual)))
@@ -191,7 +191,7 @@ void SurfaceTracker::alongSurface(const Vec3& t, Vec3& point, Vec3& normal) cons
   const double length = std::hypot(local.x, local.y);
   const double scale = length > kReach ? kReach / length : 1.0;
   pointAt(fit_, fitFrame_, scale * local.x, scale * local.y, point, normal);
-  // Past the fit's reach its curvature says nothing.
+  // Beyond its reach the curvature of the fit means nothing.
   const Vec3 rest = (1.0 - scale) * fit_.radius * (local.x * fitFrame_.a + local.y * fitFrame_.b);
   point += rest - dot(rest, normal) * normal;
 }

@@ -14,18 +14,18 @@ enum class TrackResult
 {
   Converged,
   RoundLimit, ///< Still moving after the last round; the point is on the surface, its foot is not exact.
-  Far,        ///< As far along one surface as a call goes, and still moving: the foot leapt.
-  Lost,       ///< No surface to fit here, or the point ran away to another.
+  Far,        ///< Moved as far along one surface as a call may, and still moving: the foot leapt.
+  Lost,       ///< No surface to fit here, or the point moved to another sheet.
 };
 
-/// Follows one sheet of a scene. Remembers the side it is on by its normal: no global orientation of the
-/// cloud is needed. Plain state; no allocation; one thread.
+/// Follows one sheet of a scene. The normal remembers the side, so the cloud needs no global orientation.
+/// Plain state; no allocation; one thread.
 class SurfaceTracker
 {
 public:
-  /// Stands at the origin of @p frame, on a surface of this curvature there, per metre, as fits have it.
+  /// Starts at the origin of @p frame, on a surface of this curvature there, per metre, as fits have it.
   void start(const SurfaceFrame& frame, const double (&curvature)[3]) noexcept;
-  /// Turns the normal to the side of @p side.
+  /// Turns the normal towards @p side.
   void lookFrom(const Vec3& side) noexcept;
 
   /// Moves to the surface point nearest to @p target; a bounded number of fits.
@@ -34,21 +34,21 @@ public:
   /// Carries point and normal along with the model from one transform to another.
   void carry(const AffineTransform& from, const AffineTransform& to) noexcept;
 
-  /// The next step is in other cells of the same place: a fit of the last ones does not stand for them.
+  /// Announces other cells of the same place: the last fit does not hold for them.
   void changeCells() noexcept { fresh_ = false; }
 
   /// Height of a point above the surface, along the normal; negative inside.
   double height(const Vec3& p) const noexcept { return dot(p - frame_.origin, frame_.normal); }
-  /// The same above the last fit itself.
+  /// Height of a point above the last fit itself, not above its tangent plane.
   double heightAboveFit(const Vec3& p) const noexcept;
   const Vec3& point() const noexcept { return frame_.origin; }
   const Vec3& normal() const noexcept { return frame_.normal; }
-  /// The surface point above the tangent offset @p t from point(), and the normal there, by the last fit;
-  /// past half a fit radius along the tangent there.
+  /// Finds the surface point above the tangent offset @p t from point(), and the normal there, by the last
+  /// fit; beyond half a fit radius along the tangent there.
   void alongSurface(const Vec3& t, Vec3& point, Vec3& normal) const noexcept;
   /// RMS distance of the cells from the last fit: the noise, metres.
   double residual() const noexcept { return fit_.residual; }
-  /// Whether the surface goes on all around: the cells lie about the point, and not on one side of it.
+  /// True if the surface continues on all sides: the cells lie about the point, and not on one side of it.
   bool continuesAround() const noexcept;
   double fitRadius() const noexcept { return fit_.radius; }
   double proxyRadius() const noexcept { return scale_.proxyRadius; }
@@ -56,7 +56,7 @@ public:
 private:
   /// Fits anew at frame_. False: there is no surface to fit.
   bool refit(const HapticScene& scene, FitCells& memory) noexcept;
-  /// A round of following: from where, the step to the foot there, and how far the target is.
+  /// A round of following: its origin, the step to the foot from there, and the distance to the target.
   struct Round
   {
     Vec3 origin;
@@ -68,11 +68,11 @@ private:
 
   SurfaceFrame frame_;
   SurfaceFit fit_;
-  SurfaceFrame fitFrame_; ///< The frame of fit_: a little behind frame_.
-  LocalScale scale_;      ///< At the origin of fitFrame_.
-  bool fresh_ = false;    ///< fit_ is valid about frame_: the next step may begin with it.
+  SurfaceFrame fitFrame_; ///< Frame of fit_, a little behind frame_.
+  LocalScale scale_;      ///< Scale at the origin of fitFrame_.
+  bool fresh_ = false;    ///< True while fit_ is valid about frame_: the next step may begin with it.
   double curvature_[3] = { 0.0, 0.0, 0.0 };
-  FootSearch search_; ///< In the tangents of frame_.
+  FootSearch search_; ///< Search in the tangents of frame_.
 };
 
 } // namespace pointhaptics

@@ -4,10 +4,10 @@ namespace pointhaptics
 {
 namespace
 {
-/// Takes a shortened vector inside its limit in spite of rounding.
+/// Factor that takes a shortened vector inside its limit in spite of rounding.
 constexpr double kInside = 1.0 - 1e-15;
 
-/// Without overflow for any finite vector up to 1e308.
+/// Length of a vector, without overflow for any finite one up to 1e308.
 double length(const Vec3& v) noexcept
 {
   return std::hypot(v.x, v.y, v.z);

@@ -1,5 +1,5 @@
 /// @file
-/// How hard a hand may be pushed, in one rule.
+/// One rule for how hard a hand may be pushed.
 #pragma once
 
 #include "Haptics/HapticParameters.h"
@@ -14,13 +14,13 @@ namespace pointhaptics
 /// The least of three limits holds, in every mode and on every device; newtons, infinity: there is none.
 struct ForceLimit
 {
-  double device = std::numeric_limits<double>::infinity();  ///< What the device declares.
+  double device = std::numeric_limits<double>::infinity();  ///< Declared by the device.
   double user = std::numeric_limits<double>::infinity();    ///< ContactParameters::forceLimit.
   double program = std::numeric_limits<double>::infinity(); ///< ServoSettings::limits; at most 8 in a servo
                                                             ///< loop.
 
   double newtons() const noexcept;
-  /// "device", "user" or "program", whose limit is the least; "none".
+  /// Name of the least limit: "device", "user" or "program"; "none".
   const char* name() const noexcept;
   /// "2 N (device)", or "none".
   std::string text() const;

@@ -7,7 +7,7 @@ namespace pointhaptics
 namespace
 {
 constexpr double kHalfATick = 0.5;
-/// A limit met exactly is not exceeded because of rounding.
+/// Rounding must not make a limit that is met exactly count as exceeded.
 constexpr double kRounding = 1.0 + 1e-12;
 
 double secondsFromPositionToForce(const HandLimits& limits, double rateHz) noexcept

@@ -1,5 +1,5 @@
 /// @file
-/// How stiff and how damped a surface may be before a sampled spring gives the hand more energy than it took.
+/// Largest stiffness and damping with which a sampled spring gives the hand no more energy than it took.
 #pragma once
 
 #include "Core/Base/Status.h"
@@ -9,8 +9,8 @@
 namespace pointhaptics
 {
 
-/// What the servo loop must know of the hand's mechanics and of the device that reads and pushes it. The
-/// defaults are those of a hand that no force moves: no limit.
+/// Mechanics of the hand and of the device that reads and pushes it, as far as the servo loop must know them.
+/// The defaults are those of a hand that no force moves: no limit.
 struct HandLimits
 {
   double damping =

@@ -1,5 +1,5 @@
 /// @file
-/// What the servo loop says where it refuses something.
+/// Messages of the servo loop about refused springs and rates.
 #pragma once
 
 #include "Core/Base/Status.h"

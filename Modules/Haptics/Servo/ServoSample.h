@@ -1,5 +1,5 @@
 /// @file
-/// What one tick of the servo loop came to.
+/// Result of one tick of the servo loop.
 #pragma once
 
 #include "Haptics/Proxy.h"
@@ -30,7 +30,7 @@ struct ServoSample
   std::uint32_t buttons = 0;
   std::uint32_t tickFlags = 0; ///< TickFlags.
   Status device =
-    Status::Ok; ///< What the device said; unless Ok, state is that of the tick before, without force.
+    Status::Ok; ///< Answer of the device; unless Ok, state is that of the tick before, without force.
   double updateSeconds = 0.0;   ///< Wall time of the tick's work, reading and writing the device included.
   std::uint64_t scenes = 0;     ///< Scenes taken since start(), this tick's included.
   std::uint64_t scene = 0;      ///< HapticScene::number() of the one in use; 0: none.

@@ -1,5 +1,5 @@
 /// @file
-/// What a tick does between reading the device and writing it: in the servo thread, and in a replay.
+/// The work of a tick between reading the device and writing it: in the servo thread, and in a replay.
 #pragma once
 
 #include "Haptics/HapticPort.h"
@@ -12,21 +12,21 @@
 namespace pointhaptics
 {
 
-/// What does not change from tick to tick.
+/// Settings that stay from tick to tick.
 struct ServoStepSettings
 {
   double rateHz = 1000.0;
   ForceLimits limits;
-  double rampDownSeconds = 0.0; ///< Over which the force goes where the gate closes, and comes back.
+  double rampDownSeconds = 0.0; ///< Duration over which the force goes where the gate closes.
   double rampUpSeconds = 0.0;
-  double clutchDownSeconds = 0.0; ///< The same of the clutch.
+  double clutchDownSeconds = 0.0; ///< Durations as rampDownSeconds and rampUpSeconds, for the clutch.
   double clutchUpSeconds = 0.0;
 };
 
-/// What a tick is given.
+/// Input of one tick.
 struct TickInput
 {
-  std::uint64_t number = 0; ///< Of the tick; higher than that of the tick before.
+  std::uint64_t number = 0; ///< Number of the tick; higher than that of the tick before.
   Status reading = Status::Ok;
   HandState hand; ///< Where reading is Ok.
   bool gateIsOpen = true;
@@ -45,7 +45,7 @@ public:
   /// Before tick @p number: as a new object that got scene and parameters, of which the tick before was the
   /// last that did not count.
   void restart(std::uint64_t number) noexcept;
-  /// Whether restart() would change nothing that the hand feels: it touches nothing, and no gate moves.
+  /// True if restart() would change nothing that the hand feels: it touches nothing, and no gate moves.
   bool isAtRest() const noexcept;
 
   /// Between reading and writing. Fills tick, time, state, buttons and flags of @p sample, which is that of
@@ -55,7 +55,7 @@ public:
   void finish(const TickInput& input, Status writing, ServoSample& sample) noexcept;
 
   void prefetch() noexcept { proxy_.prefetch(); }
-  /// Of the gate, 0 to 1.
+  /// Fraction of the force that the gate lets through, 0 to 1.
   double openFraction() const noexcept { return gate_.fraction(); }
 
 private:
@@ -70,7 +70,8 @@ private:
   ForceGate gate_;
   ForceGate clutch_;
   std::uint64_t lastSteppedTick_ = 0;
-  std::uint64_t firstFailedTick_ = 0; ///< Of the reads that failed in a row; 0: the last one did not.
+  std::uint64_t firstFailedTick_ = 0; ///< First tick of the failed reads in a row; 0: the last read
+                                      ///< succeeded.
   std::uint32_t pending_ = kTickBegins;
   bool touches_ = false;
 };

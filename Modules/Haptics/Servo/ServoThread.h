@@ -1,5 +1,5 @@
 /// @file
-/// What the servo thread asks of the operating system and the processor. Each call but lockMemory() acts on
+/// Requests of the servo thread to the operating system and the processor. Each call but lockMemory() acts on
 /// the calling thread alone; WakefulCores on the whole machine.
 #pragma once
 
@@ -12,7 +12,8 @@ namespace pointhaptics
 /// others, and no force of 1e-308 N is felt. x86 only; elsewhere nothing happens.
 void flushDenormalsToZero() noexcept;
 
-/// The same while it lives, for threads that compute what a servo thread computes; then as before.
+/// Flushes denormals to zero while it lives, for threads that compute what a servo thread computes; then
+/// restores the mode.
 class DenormalsAreZero
 {
 public:

@@ -191,7 +191,7 @@ public:
         "check the disk, or wait until the file is completely written");
     }
   }
-  /// The same from byte @p offset on.
+  /// Reads @p size bytes from byte @p offset on.
   void read(std::size_t offset, char* to, std::size_t size)
   {
     std::fseek(file_.get(), static_cast<long>(offset), SEEK_SET);

@@ -37,7 +37,7 @@ public:
   /// Bytes that load() has read.
   std::size_t loaded() const { return loaded_; }
   std::string_view view() const { return { data_.get(), size_ }; }
-  /// Whether view() is the unpacked content of a gzip file.
+  /// True if view() is the unpacked content of a gzip file.
   bool wasPacked() const { return wasPacked_; }
 
   static constexpr std::size_t kMostGzipRatio = 100;

@@ -93,7 +93,7 @@ inline bool isFloatingType(int vtkType)
   return vtkType == VTK_FLOAT || vtkType == VTK_DOUBLE;
 }
 
-/// Whether a float would lose digits of @p vtkType.
+/// True if a float would lose digits of @p vtkType.
 inline bool needsDouble(int vtkType)
 {
   return vtkType != VTK_FLOAT && sizeOfType(vtkType) >= 4;

@@ -21,7 +21,7 @@ public:
 
   void write(const char* data, std::size_t size) { check(file_.write({ data, size })); }
   void write(std::string_view text) { check(file_.write(text)); }
-  /// Of any order, unbuffered: see OutputFile::writeAt().
+  /// Writes bytes at any place, unbuffered: see OutputFile::writeAt().
   void writeAt(std::uint64_t place, std::string_view bytes) { check(file_.writeAt(place, bytes)); }
   /// Throws the fault of an earlier call again, where there was one.
   void checkEarlier() const { check(file_.reason().empty() ? Status::Ok : Status::FileNotWritable); }

@@ -9,7 +9,7 @@
 namespace pointhaptics::io
 {
 
-/// Whether this machine stores the least significant byte first.
+/// True if this machine stores the least significant byte first.
 #if defined(__BYTE_ORDER__)
 constexpr bool kIsLittleEndianHost = __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__;
 #else

@@ -19,9 +19,9 @@ struct TextPart
 {
   std::size_t begin = 0; ///< Bytes of the text.
   std::size_t end = 0;
-  std::size_t firstLine = 1;     ///< Its number.
+  std::size_t firstLine = 1;     ///< Number of the first line.
   RowRange filled;               ///< Which of the lines that are not blank.
-  std::uint64_t filledOfAll = 0; ///< Those of all ranks.
+  std::uint64_t filledOfAll = 0; ///< Number of such lines of all ranks.
 
   /// Rows of this part, where the first @p all lines that are not blank are rows.
   RowRange rowsOf(std::uint64_t all) const

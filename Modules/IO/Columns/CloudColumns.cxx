@@ -28,7 +28,7 @@ namespace
 using Names = std::vector<std::vector<std::string>>;
 
 const std::vector<std::string> kXyz = { "x", "y", "z" };
-/// What else the three are called.
+/// Other names of the three coordinates.
 const Names kCoordinateWords = { { "x", "easting", "east", "e", "rechtswert", "ost", "est", "este" },
   { "y", "northing", "north", "n", "hochwert", "nord", "norte" },
   { "z", "elevation", "elev", "height", "h", "altitude", "alt", "up", "hoehe", "h\xc3\xb6he", "cota" } };
@@ -136,7 +136,7 @@ struct CoordinateName
 {
   int axis = -1;
   std::string unit;
-  std::string rest; ///< What is no filler and no unit.
+  std::string rest; ///< Rest of the name without fillers and unit.
   bool isPosition = false;
 
   explicit CoordinateName(const std::string& name)

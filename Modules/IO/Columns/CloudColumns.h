@@ -35,13 +35,13 @@ std::vector<Column> columnsCalled(const std::vector<std::string>& names);
 /// Which of @p columns become x, y and z: those called so, else those called so in other words, such as
 /// "POINT_X", "y [m]", "xcoord", "field.z", "easting" and "Points:2". @return whether all three were found.
 bool findCoordinates(const std::vector<Column>& columns, std::vector<std::size_t>& found);
-/// The same. @throws FileProblem when there are none.
+/// Returns the columns of x, y and z. @throws FileProblem where there are none.
 std::vector<std::size_t> coordinatesOf(const std::vector<Column>& columns);
 
 /// "mm" of "X1 (mm)" and "x_mm", the names of coordinates; empty where the name says no unit.
 std::string coordinateUnit(const std::string& name);
 
-/// Whether @p name is that of a channel of colours, or of a component of normals.
+/// True if @p name is that of a channel of colours, or of a component of normals.
 bool isColorName(const std::string& name);
 bool isNormalName(const std::string& name);
 

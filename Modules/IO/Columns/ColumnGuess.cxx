@@ -96,7 +96,7 @@ private:
     std::copy(names.begin(), names.end(), names_.begin() + static_cast<std::ptrdiff_t>(at));
     return at + names.size();
   }
-  /// Whether a number stands before the colours or normals that end here.
+  /// True if a number stands before the colours or normals that end here.
   bool isScalarFirst(std::size_t at) const
   {
     const std::size_t left = columns_.size() - at;

@@ -1,5 +1,5 @@
 /// @file
-/// What columns without names seem to be, by their values.
+/// Recognises columns without names by their values.
 #pragma once
 
 #include <string>
@@ -14,12 +14,12 @@ constexpr std::size_t kGuessedRows = 1000;
 /// One column of numbers.
 struct ColumnEvidence
 {
-  std::vector<double> sample; ///< Of the first rows.
-  double least = 0.0;         ///< Of all rows.
+  std::vector<double> sample; ///< Values of the first rows.
+  double least = 0.0;         ///< Least value of all rows.
   double most = 0.0;
   bool isWhole = false; ///< All numbers are written without a point.
 
-  /// Of @p sample alone.
+  /// Evidence of @p sample alone.
   static ColumnEvidence of(std::vector<double> sample, bool isWhole);
 };
 

@@ -24,7 +24,7 @@ enum class ArrayRole
   Other,
 };
 
-/// What an array may be called in a format: other characters become '_'.
+/// Characters that a format allows in the name of an array: others become '_'.
 enum class NameRule
 {
   Words, ///< Without white space and control characters.
@@ -57,7 +57,7 @@ struct OutputArray
   std::string componentName(int component) const;
 };
 
-/// What a format could not hold: one sentence each, without end mark.
+/// Parts of a cloud that a format could not hold: one sentence each, without end mark.
 struct WriterNotes
 {
   std::vector<std::string> all;
@@ -71,7 +71,7 @@ struct WriterNotes
 std::vector<OutputArray> outputArrays(
   vtkPointSet* cloud, WriterNotes& notes, NameRule names = NameRule::Words);
 
-/// The same with arrays of 64 bit integers as doubles, for formats without such integers.
+/// Converts arrays of 64 bit integers to doubles, for formats without such integers.
 std::vector<OutputArray> withoutLongIntegers(std::vector<OutputArray> arrays, WriterNotes& notes);
 
 /// The rows of @p points with a coordinate that is NaN or infinite, in rising order.

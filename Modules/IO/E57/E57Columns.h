@@ -76,7 +76,7 @@ private:
 /// Arrays of flags that most files leave at zero: dropped where they are.
 bool isE57Flag(const std::string& column);
 
-/// Whether a scan has the three fields of a colour.
+/// True if a scan has the three fields of a colour.
 bool hasE57Colors(const E57Scan& scan);
 
 } // namespace pointhaptics::io

@@ -40,7 +40,7 @@ constexpr vtkIdType kReportedBlocks = 64;
 constexpr std::uint64_t kMostGrowth = 100;
 constexpr std::uint64_t kGrowthFloor = std::uint64_t{ 1 } << 26;
 
-/// What is known of the file without its points.
+/// Adds the file's properties beside its points as field data.
 void addFieldData(const E57Contents& contents, vtkPolyData* cloud)
 {
   addFieldText(cloud, "Generator", contents.generator);
@@ -224,7 +224,7 @@ void addDimensions(vtkPolyData* cloud)
   cloud->GetFieldData()->AddArray(dimensions);
 }
 
-/// What the cloud does not have of the file.
+/// Notes the parts of the file that the cloud lacks.
 void addNotes(
   const E57Contents& contents, const std::vector<E57Scan>& scans, const E57Columns& plan, ReadTask& task)
 {

@@ -1,5 +1,5 @@
 /// @file
-/// What the XML section of an E57 file says about its scans. Layout: ASTM E2807-11, tables 1 to 20.
+/// Scans of an E57 file, as its XML section describes them. Layout: ASTM E2807-11, tables 1 to 20.
 #pragma once
 
 #include <array>

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <exception>
 #include <memory>
 
@@ -17,6 +18,16 @@ namespace
 {
 
 constexpr const char* kCure = "the file is damaged: copy or write it again";
+
+/// The line that the parser is at, from 1.
+std::uint64_t lineOf(XML_Parser parser)
+{
+#if XML_MAJOR_VERSION > 2 || (XML_MAJOR_VERSION == 2 && XML_MINOR_VERSION >= 8)
+  return XML_GetCurrentLineNumber64(parser); // the other is deprecated there
+#else
+  return XML_GetCurrentLineNumber(parser);
+#endif
+}
 
 /// Builds the tree as expat calls; nothing is thrown through expat, which is C.
 class TreeBuilder
@@ -47,7 +58,7 @@ public:
 private:
   [[noreturn]] void fail(const std::string& what) const
   {
-    failFormat("XML line " + std::to_string(XML_GetCurrentLineNumber(parser_)) + ": " + what, kCure);
+    failFormat("XML line " + std::to_string(lineOf(parser_)) + ": " + what, kCure);
   }
   template <typename F>
   static void guarded(void* self, F&& f)

@@ -110,7 +110,7 @@ const Foreign kByNames[] = {
   throw FileProblem(vtkErrorCode::UnrecognizedFileTypeError, what, cure);
 }
 
-/// Of a zip archive, which begins with the name of its first file.
+/// Refuses a zip archive, which begins with the name of its first file.
 void refuseZip(std::string_view bytes)
 {
   constexpr std::size_t kHeader = 30;

@@ -1,5 +1,6 @@
 /// @file
-/// What people take for a point cloud and this program does not read: what it is, and the way out.
+/// Formats that people take for point clouds and this program does not read: their names, and tools that
+/// convert them.
 #pragma once
 
 #include <string>

@@ -63,7 +63,7 @@ bool looksLikeBinaryStl(std::string_view bytes, std::size_t size)
   return size == kHeader + 50 * count;
 }
 
-/// Those of text with columns, whatever is in it.
+/// True for extensions of text with columns, whatever is in it.
 bool isColumnExtension(const std::string& extension)
 {
   const std::string_view known[] = { "xyz", "txt", "csv", "pts", "asc", "tsv", "dat", "xyzn", "xyzrgb" };

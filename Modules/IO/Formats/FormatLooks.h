@@ -1,5 +1,5 @@
 /// @file
-/// What the first bytes of a file look like.
+/// Recognises formats by the first bytes of a file.
 #pragma once
 
 #include <cstddef>
@@ -12,8 +12,8 @@ namespace pointhaptics::io
 /// The start of a file.
 struct FormatStart
 {
-  std::string_view bytes; ///< Without a byte order mark; of UTF-16, in UTF-8.
-  std::size_t size = 0;   ///< Of the whole file; 0: not known.
+  std::string_view bytes; ///< Bytes without a byte order mark; UTF-16 as UTF-8.
+  std::size_t size = 0;   ///< Size of the whole file; 0: not known.
   std::string extension;  ///< Lower case, no dot.
   std::string_view line;  ///< The first one of a text with something on it that is no comment.
   bool isText = false;
@@ -27,13 +27,13 @@ using Look = bool(const FormatStart&);
 Look looksLikePly, looksLikePcd, looksLikeLas, looksLikeE57, looksLikeVtkXml, looksLikeVtkLegacy,
   looksLikeOff, looksLikeStl, looksLikeObj, looksLikeColumns;
 
-/// Whether ASCII STL starts like @p bytes: "solid", then "facet" or "endsolid".
+/// True if ASCII STL starts like @p bytes: "solid", then "facet" or "endsolid".
 bool looksLikeStlText(std::string_view bytes);
 
 /// @p bytes without the UTF-8 byte order mark some editors put in front.
 std::string_view withoutByteOrderMark(std::string_view bytes);
 
-/// Whether @p bytes begin with the byte order mark of UTF-16.
+/// True if @p bytes begin with the byte order mark of UTF-16.
 bool isUtf16(std::string_view bytes);
 
 /// The text of @p bytes, which begin with that mark, in UTF-8; what is no UTF-16 becomes '?'.

@@ -7,10 +7,10 @@ namespace pointhaptics::io
 
 struct FormatStart;
 
-/// Whether the first line is that of an Esri grid, "ncols 300", in any case.
+/// True if the first line is that of an Esri grid, "ncols 300", in any case.
 bool looksLikeEsriGrid(const FormatStart& start);
 
-/// Whether two counts, for columns and rows, and twelve numbers for the scanner's place stand first.
+/// True if two counts, for columns and rows, and twelve numbers for the scanner's place stand first.
 bool looksLikePtx(const FormatStart& start);
 
 } // namespace pointhaptics::io

@@ -1,5 +1,5 @@
 /// @file
-/// What `pointhaptics info` says of a cloud.
+/// Summary of a cloud, as `pointhaptics info` prints it.
 #pragma once
 
 #include "Core/Base/PointView.h"
@@ -23,8 +23,8 @@ struct ArraySummary
   int components = 1;
   std::vector<double> minima; ///< One a component, of the finite values; NaN where there are none.
   std::vector<double> maxima;
-  std::vector<double> means;      ///< The same, and empty unless statistics are asked for.
-  std::vector<double> deviations; ///< Standard deviations: of all values, not of a sample.
+  std::vector<double> means;      ///< Mean of each component; empty unless statistics are asked for.
+  std::vector<double> deviations; ///< Standard deviation of all values, not of a sample.
 };
 
 struct ScanSummary
@@ -40,11 +40,11 @@ struct CloudSummary
   std::string generator;   ///< The program that wrote the file; empty where it does not say.
   std::int64_t chunks = 0; ///< Parts that are packed one by one; 0 where there are none.
   std::vector<ScanSummary> scans;
-  std::vector<std::string> notes; ///< What the file has beside this.
+  std::vector<std::string> notes; ///< Parts of the file that this does not tell.
   std::int64_t points = 0;
   std::int64_t invalid = 0;    ///< NaN or infinite.
   std::int64_t noReturns = 0;  ///< At exactly (0, 0, 0), where areNoReturns().
-  Bounds bounds;               ///< Of the finite points.
+  Bounds bounds;               ///< Bounds of the finite points.
   bool isFloat = false;        ///< Coordinates have the digits of a float.
   std::int64_t duplicates = 0; ///< Finite points at the very place of an earlier one.
   /// Distance to the nearest distinct point, of a sample of the points: what 5, 25, 50, 75 and 95 percent of
@@ -59,12 +59,13 @@ struct CloudSummary
   bool unitIsTold = true; ///< False: nothing tells the unit, and metres are taken.
   std::vector<ArraySummary> arrays;
   ArraySummary coordinates;    ///< x, y and z; without components unless statistics are asked for.
-  std::string farPoints;       ///< Of a few points far from all others, and how to leave them out; or empty.
+  std::string farPoints;       ///< Note on a few points far from all others, and how to leave them out; or
+                               ///< empty.
   std::string hint;            ///< Unit or scale to try where the size is not about that of the workspace.
   double suggestedScale = 1.0; ///< Makes the cloud fill most of the workspace.
 };
 
-/// What spacing holds.
+/// Percentiles that spacing holds.
 constexpr std::array<int, 5> kSpacingPercents{ 5, 25, 50, 75, 95 };
 
 /// Cost: O(n log n) for spacing and duplicates, 72 bytes a point up to 4 million points.

@@ -14,7 +14,7 @@
 namespace pointhaptics::io
 {
 
-/// Of comments in headers of PLY, PCD and text: this word, and the unit.
+/// Word before the unit in comments of PLY, PCD and text.
 constexpr std::string_view kUnitComment = "LengthUnit ";
 
 /// "mm" of "LengthUnit mm"; empty where @p comment is another one.
@@ -24,7 +24,7 @@ inline std::string unitOfComment(std::string_view comment)
   return std::string(has ? comment.substr(kUnitComment.size()) : std::string_view());
 }
 
-/// Whether @p unit may stand in a line of a header, also in brackets: letters, and spaces as in "US survey
+/// True if @p unit may stand in a line of a header, also in brackets: letters, and spaces as in "US survey
 /// foot".
 inline bool isUnitWord(std::string_view unit)
 {

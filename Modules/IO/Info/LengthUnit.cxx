@@ -47,7 +47,7 @@ bool has(const std::string& text, const char* part)
   return text.find(part) != std::string::npos;
 }
 
-/// Of a file that names its unit; one that is not known here counts as not named.
+/// Reads the unit that a file names; an unknown one counts as not named.
 bool readUnit(vtkPolyData* cloud, LengthUnit& unit)
 {
   const std::string said = lower(io::fieldText(cloud->GetFieldData(), "LengthUnit"));
@@ -74,7 +74,7 @@ bool readUnit(vtkPolyData* cloud, LengthUnit& unit)
   return false;
 }
 
-/// Whether a point array of @p cloud has one of these words in its name.
+/// True if a point array of @p cloud has one of these words in its name.
 template <std::size_t Count>
 bool hasArray(vtkPolyData* cloud, const char* const (&words)[Count])
 {

@@ -23,14 +23,14 @@ enum class UnitEvidence
 struct LengthUnit
 {
   std::string name = "m"; ///< m, cm, mm, ft, or deg of longitude and latitude.
-  double metres = 1.0;    ///< Of one unit; 1 of degrees, which have no length.
+  double metres = 1.0;    ///< Length of one unit; 1 for degrees, which have no length.
   UnitEvidence evidence = UnitEvidence::None;
 };
 
-/// What @p cloud, of finite points within @p bounds, is measured in. The field array LengthUnit, which the
-/// readers of LAS and of text make, is believed. Map coordinates, and arrays that only LiDAR has, mean
-/// metres. A compact cloud of 100 to 10,000 units without intensities, not about its scanner, is a thing in
-/// millimetres: statues of 1600 units are, a street of 160 m is not. Cost: none a point.
+/// Unit of the coordinates of @p cloud, whose finite points lie within @p bounds. The field array LengthUnit,
+/// which the readers of LAS and of text make, is believed. Map coordinates, and arrays that only LiDAR has,
+/// mean metres. A compact cloud of 100 to 10,000 units without intensities, not about its scanner, is a thing
+/// in millimetres: statues of 1600 units are, a street of 160 m is not. Cost: none a point.
 POINTHAPTICSIO_EXPORT LengthUnit lengthUnitOf(vtkPolyData* cloud, const Bounds& bounds);
 
 } // namespace pointhaptics

@@ -32,7 +32,7 @@ constexpr const char* kProjection = "LASF_Projection";
 
 struct CodedUnit
 {
-  int code; ///< Of EPSG.
+  int code; ///< Code of EPSG.
   const char* name;
   const char* others[2]; ///< As texts call it.
 };

@@ -34,10 +34,10 @@ private:
   bool isGeographic_ = false;
 };
 
-/// Whether @p unit is one of the names of a metre, as files write them.
+/// True if @p unit is one of the names of a metre, as files write them.
 bool isMetre(const std::string& unit);
 
-/// Whether that record says the field data's LengthUnit.
+/// True if that record says the field data's LengthUnit.
 bool lasSaysUnit(vtkFieldData* fieldData);
 
 /// The record that says what the field data's CoordinateSystem and LengthUnit say, empty when they say

@@ -22,7 +22,7 @@ constexpr std::size_t kDescription = 22;    ///< where the text begins in the he
 constexpr std::size_t kFarDescription = 28;
 constexpr std::size_t kLongestText = 32;
 
-/// Whether the records of the file that the cloud came from say what its field data say now.
+/// True if the records of the file that the cloud came from say what its field data say now.
 bool keepsCoordinateSystem(const LasOrigin& origin, vtkFieldData* fieldData)
 {
   LasCoordinateSystem system;

@@ -16,7 +16,7 @@ namespace pointhaptics::io
 /// How the points are written.
 struct LasPoints
 {
-  std::string descriptors; ///< Of the extra bytes, kLasExtraDescriptor each.
+  std::string descriptors; ///< Descriptors of the extra bytes, kLasExtraDescriptor each.
   std::string packing;     ///< The record of LAZ; empty: they are not packed.
   bool isExtended = false; ///< Point format 6 and more.
 };

@@ -67,7 +67,7 @@ std::string bytesOf(vtkFieldData* fieldData, const char* name)
                : std::string();
 }
 
-/// What @p work does with packed points; a fault of these is one that --salvage may pass.
+/// Runs @p work on packed points; a fault of these is one that --salvage may pass.
 template <typename Work>
 void withPacked(const ReadTask& task, Work&& work)
 {

@@ -81,7 +81,7 @@ double powerOfTen(int exponent)
   return std::strtod(("1e" + std::to_string(exponent)).c_str(), nullptr);
 }
 
-/// Whether @p offset is within reach of all coordinates.
+/// True if @p offset is within reach of all coordinates.
 bool spans(const Axis& axis, double scale, double offset)
 {
   return axis.largest - offset <= scale * kMost && offset - axis.smallest <= scale * kMost;

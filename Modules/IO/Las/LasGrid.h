@@ -15,7 +15,7 @@ struct WantedGrid
 {
   double scale = 0.0; ///< 0: there is none.
   double offset = 0.0;
-  double extent = 0.0;   ///< Of the cloud that is written, along its longest axis.
+  double extent = 0.0;   ///< Extent of the written cloud along its longest axis.
   double forced = 0.0;   ///< The step that the user asked for; 0: none.
   double usual = 0.0001; ///< The step where nothing tells another one.
 };
@@ -26,9 +26,9 @@ struct LasGrid
   double scale = 1.0;
   double offset = 0.0;
   std::vector<std::int32_t> integers;
-  /// Of what a reader gives back: at most half a step, but for the digits of doubles.
+  /// Largest error of the coordinates that a reader gets: at most half a step, but for the digits of doubles.
   double largestError = 0.0;
-  /// Whether coordinates differ by more than their last digits, where floats are given back as floats.
+  /// True if coordinates differ by more than their last digits; floats are read as floats.
   bool rounds = false;
 
   /// Puts the @p count coordinates of @p column on the first of these grids that can be had:

@@ -127,7 +127,7 @@ LasExtraField parseExtraField(std::string_view descriptor, std::size_t offset)
   return field;
 }
 
-/// Whether a record is written anew, or means nothing beside the points as they are written.
+/// True if a record is written anew, or means nothing beside the points as they are written.
 bool isOfPacking(std::string_view user, int id)
 {
   constexpr int kFirstWave = 100;

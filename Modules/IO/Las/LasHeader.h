@@ -74,7 +74,7 @@ struct LasExtraField
 
   /// The type of the array that holds its values.
   int arrayType() const;
-  /// What is stored for none: the standard widens it, and some programs fill it up with zeros.
+  /// Value that stands for no data: the standard widens it, and some programs fill it up with zeros.
   template <typename T>
   T noDataOf(std::size_t component) const
   {
@@ -88,7 +88,7 @@ struct LasExtraField
   }
 };
 
-/// What describes a file and its points beside these, as it stands there.
+/// Description of a file and its points beside these, byte by byte.
 struct LasOrigin
 {
   std::string header;     ///< at most kLasHeaderOf14 bytes; empty: the cloud is of no LAS file
@@ -126,7 +126,7 @@ struct LasHeader
   const LasPointFormat& fields() const { return kLasPointFormats[pointFormat]; }
 };
 
-/// Whether a file that begins with @p start, of which 400 bytes are enough, is a cloud optimised point cloud.
+/// True if a file that begins with @p start, of which 400 bytes are enough, is a cloud optimised point cloud.
 bool startsLikeCopc(std::string_view start);
 
 /// Calls @p need(offset, size) for header and variable length records, which parseLasHeader() looks at.

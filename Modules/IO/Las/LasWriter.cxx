@@ -205,7 +205,7 @@ T LasWriter::largestOf(const OutputArray* array) const
   return *std::max_element(values, values + rows_);
 }
 
-/// Whether the point formats 0 to 3 are too narrow.
+/// True if the point formats 0 to 3 are too narrow.
 bool LasWriter::needsExtended() const
 {
   bool wholeDegrees = true;

@@ -95,7 +95,7 @@ void LazReader::readChunk(
   }
 }
 
-/// What each thread does: the next chunk, until there is none or one is faulty.
+/// Work of each thread: it takes the next chunk until there is none or one is faulty.
 void LazReader::work(LasRecords& records) noexcept
 {
   std::size_t chunk = chunks_.all.size();

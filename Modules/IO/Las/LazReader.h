@@ -35,7 +35,7 @@ public:
   /// The points that read() gives: those of the header, or of the wanted part; where ranks read together,
   /// this one's of them.
   std::uint64_t count() const { return rows_.count(); }
-  /// Whether WantedPart::mostPoints left out points.
+  /// True if WantedPart::mostPoints left out points.
   bool isCoarse() const { return chunks_.isCoarse; }
   /// Parts that are packed one by one, of those points.
   std::int64_t numberOfChunks() const { return std::int64_t(chunks_.all.size()); }

@@ -90,7 +90,7 @@ void walkObj(const ReadTask& task, std::string_view text, Sink& sink, double fro
   }
 }
 
-/// What a first pass finds.
+/// Findings of a first pass.
 struct ObjSurvey
 {
   std::array<NumberColumn, 3> position;

@@ -24,7 +24,7 @@ public:
   }
   /// Fills all of @p to. @return false when the packed bytes are damaged or end before.
   bool read(char* to, std::size_t size);
-  /// Whether everything was unpacked and handed out.
+  /// True if everything was unpacked and handed out.
   bool isAtEnd() const { return at_ == packed_.size() && begin_ == end_; }
   /// How many packed bytes were used, up to the fault where there is one.
   std::size_t position() const { return at_; }

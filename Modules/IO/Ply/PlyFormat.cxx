@@ -474,7 +474,7 @@ void skipWholeAsciiElement(LineReader& lines, PlyElement element)
   }
 }
 
-/// Whether each record of @p text that ranks may cut at lines has a line: so does the first.
+/// True if each record of @p text that ranks may cut at lines has a line: so does the first.
 bool isByLines(std::string_view text, const PlyElement& vertex)
 {
   LineReader lines(text);

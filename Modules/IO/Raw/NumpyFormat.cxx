@@ -36,7 +36,7 @@ struct NumpyHeader
   std::size_t bodyOffset = 0;
 };
 
-/// What stands in @p text behind "'key':".
+/// Text behind "'key':" in @p text.
 std::string_view valueOf(std::string_view text, const std::string& key)
 {
   const std::size_t at = text.find("'" + key + "':");

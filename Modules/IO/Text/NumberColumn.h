@@ -39,11 +39,11 @@ public:
     largest_ = std::max(largest_, other.largest_);
     empty_ += other.empty_;
   }
-  /// Whether all are integers in 0..@p most.
+  /// True if all are integers in 0..@p most.
   bool isInteger(double most) const { return isInteger_ && smallest_ >= 0.0 && largest_ <= most; }
-  /// Whether all are written without a point.
+  /// True if all are written without a point.
   bool isWhole() const { return isInteger_; }
-  /// Whether whole numbers are so large that doubles cannot hold each of them.
+  /// True if whole numbers are so large that doubles cannot hold each of them.
   bool losesDigits() const { return isInteger_ && std::max(largest_, -smallest_) >= 0x1p53; }
   double smallest() const { return smallest_; }
   double largest() const { return largest_; }

@@ -12,7 +12,7 @@
 namespace pointhaptics::io
 {
 
-/// Whether @p text starts with the mark of a comment: # // % ! ; or >.
+/// True if @p text starts with the mark of a comment: # // % ! ; or >.
 bool isComment(std::string_view text);
 
 /// @p cell without the quotation marks around it.
@@ -27,15 +27,15 @@ inline bool parseCell(std::string_view cell, double& value, NumberShape* shape =
   return parseNumber(cell, value, shape) || parseUnusualCell(cell, value, shape);
 }
 
-/// Of "1.234,56", "1,234.56" or "1'234.56": "1234,56" or "1234.56", without the marks between thousands.
-/// Empty where @p cell is no such number: of "1.234" alone nobody can tell.
+/// Removes the marks between thousands: "1234,56" or "1234.56" for "1.234,56", "1,234.56" or "1'234.56".
+/// Empty where @p cell is no such number: "1.234" alone is ambiguous.
 std::string withoutThousandsMarks(std::string_view cell);
 
-/// What separates the cells of @p line: ';', ',', '|' or '\t', or ' ' for any white space. The one that
-/// leaves the most numbers: of "0,25 1 3,5" white space, as a comma may mark decimals.
+/// Separator of the cells of @p line: ';', ',', '|' or '\t', or ' ' for any white space. It is the one that
+/// leaves the most numbers: white space for "0,25 1 3,5", as a comma may mark decimals.
 char separatorOf(std::string_view line);
 
-/// Whether tabs separate the cells of @p line, as its @p header has names between single tabs.
+/// True if tabs separate the cells of @p line, as its @p header has names between single tabs.
 bool isByTabs(std::string_view header, std::string_view line);
 
 /// @p line without white space at its ends; tabs stay where they separate.
@@ -62,7 +62,7 @@ inline bool takeCell(std::string_view& line, char separator, std::string_view& c
   return true;
 }
 
-/// Of "3 # a corner" that a cell may be: the number before a comment. All of @p cell where it holds none.
+/// The number before a comment, such as "3" for "3 # a corner". All of @p cell where it holds none.
 std::string_view withoutComment(std::string_view cell);
 
 /// All cells before a comment, without empty ones at the end. @throws FileProblem when they are more than

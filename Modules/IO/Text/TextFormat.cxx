@@ -37,7 +37,7 @@ const char* separatorName(char separator)
                           : "space separated";
 }
 
-/// What all ranks found, each in its lines.
+/// Joins the tables of all ranks, each of its own lines.
 TextTable ofAll(SharedReading& shared, const TextTable& own)
 {
   TextTable all;
@@ -58,8 +58,8 @@ TextTable ofAll(SharedReading& shared, const TextTable& own)
   return all;
 }
 
-/// Of "1.234,56" in the line of @p texts, whatever the cells were taken to be: commas and points may have
-/// been taken for separators.
+/// Refuses a table with "1.234,56" in the line of @p texts, whatever the cells were taken to be: commas and
+/// points may have been taken for separators.
 void failThousands(std::string_view text, const TextLayout& layout, const CellTexts& texts)
 {
   LineReader lines(text.substr(layout.bodyOffset), layout.bodyLine);
@@ -151,7 +151,7 @@ void checkCoordinates(std::string_view text, const TextTable& table, const TextL
   }
 }
 
-/// What of the texts in column @p i is worth knowing; empty where it has none.
+/// Note on the texts in column @p i; empty where it has none.
 std::string noteOf(const TextTable& table, std::size_t i, const std::string& name)
 {
   const CellTexts& texts = table.columns[i].texts;
@@ -171,8 +171,8 @@ constexpr const char* kCureOfCommas =
   "commas seem to separate columns and to mark decimals, too: write decimal points, put numbers in quotation "
   "marks, or separate the columns by semicolons";
 
-/// Of "1,05,2,50,3,00" nobody can tell where a column ends: numbers without a point, of which every second
-/// one has no sign and may start with a 0 that only decimals have.
+/// Refuses "1,05,2,50,3,00", where nobody can tell where a column ends: numbers without a point, of which
+/// every second one has no sign and may start with a 0 that only decimals have.
 void failTornDecimals(std::string_view text, const TextLayout& layout)
 {
   constexpr std::size_t kLookedAt = 1000;

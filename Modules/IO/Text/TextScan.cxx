@@ -89,7 +89,7 @@ bool isDigit(char c)
   return static_cast<unsigned char>(c - '0') < 10;
 }
 
-/// Whether a float keeps every number of these digits (kFloatDigits of them, trailing zeros aside).
+/// True if a float keeps every number of these digits (kFloatDigits of them, trailing zeros aside).
 bool fewDigits(std::uint64_t mantissa)
 {
   while (mantissa >= kAboveFloatDigits && mantissa % 10 == 0)

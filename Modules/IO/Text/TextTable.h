@@ -80,7 +80,7 @@ struct TextTable
   std::uint64_t missing = 0; ///< Rows that a count promises and the text does not have.
   bool hasMore = false;      ///< Lines have more columns than are read.
 
-  /// Whether texts outnumber the numbers of column @p i: it holds names, and nothing to compute with.
+  /// True if texts outnumber the numbers of column @p i: it holds names, and nothing to compute with.
   bool isOfTexts(std::size_t i) const;
 };
 

@@ -32,7 +32,8 @@ namespace pointhaptics::io
 namespace
 {
 
-constexpr std::uint64_t kSizeBytes = sizeof(std::uint64_t); ///< What stands before the bytes of an array.
+constexpr std::uint64_t kSizeBytes = sizeof(std::uint64_t); ///< Bytes in front of an array, which hold its
+                                                            ///< size.
 
 /// How vertices are numbered: two arrays of a file.
 enum class Vertices
@@ -48,13 +49,13 @@ std::uint64_t bytesOfTuple(vtkDataArray* array)
     static_cast<std::uint64_t>(array->GetNumberOfComponents());
 }
 
-/// What the ranks have to write, and what each knows of the others.
+/// Parts of the file that the ranks write, and their knowledge of each other.
 class Parts
 {
 public:
   Parts(Ranks& ranks, vtkPolyData* piece);
 
-  /// Whether all of them can be written apart.
+  /// True if all of them can be written apart.
   bool fit() const { return fit_ && points_ > 0; }
   vtkIdType points() const { return points_; }
   vtkIdType pointsBefore() const { return before_; }
@@ -63,7 +64,7 @@ public:
   double low(std::size_t array) const { return lows_[array]; }
   double high(std::size_t array) const { return highs_[array]; }
   bool verticesHave64Bits() const { return vertices_ == Vertices::Of64Bits; }
-  /// Those of the file: arrays, and the two of the vertices.
+  /// Number of blocks in the file: arrays, and the two of the vertices.
   std::size_t count() const { return arrays_.size() + 2; }
   std::uint64_t tupleBytes(std::size_t array) const
   {
@@ -170,7 +171,7 @@ std::string textOfOnePoint(vtkPolyData* piece, const Parts& parts)
 /// An array of a file.
 struct Block
 {
-  std::uint64_t place = 0; ///< Of its size, which its bytes follow.
+  std::uint64_t place = 0; ///< Place of its size, which its bytes follow.
   std::uint64_t bytes = 0;
   bool isShared = false;    ///< The ranks write the bytes.
   std::string_view content; ///< Else these.
@@ -199,7 +200,7 @@ private:
   std::size_t shared_ = 0;
   std::uint64_t next_ = 0;   ///< Where the next block lies in the text's data,
   std::uint64_t offset_ = 0; ///< and where in that of the file.
-  std::uint64_t begin_ = 0;  ///< Of the data.
+  std::uint64_t begin_ = 0;  ///< Begin of the data.
   std::string head_;
   std::vector<Block> blocks_;
 };

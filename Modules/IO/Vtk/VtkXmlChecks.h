@@ -16,8 +16,9 @@ std::string_view xmlAttribute(std::string_view tag, std::string_view name);
 /// The tag <VTKFile ...>, without its closing mark. @throws FileProblem where it is not the first one.
 std::string_view vtkFileTag(std::string_view bytes);
 
-/// What the pieces of a VTK XML file of @p fileSize bytes say, from its @p start: all up to the appended
-/// data, or the whole file where there are none. @throws FileProblem where the file cannot hold as many.
+/// Number of points in the pieces of a VTK XML file of @p fileSize bytes, from its @p start: all up to the
+/// appended data, or the whole file where there are none. @throws FileProblem where the file cannot hold as
+/// many.
 std::uint64_t pointsOfVtkXml(std::string_view start, std::size_t fileSize);
 
 /// @throws FileProblem with the byte offset of a count, an offset or a block of data that the file cannot

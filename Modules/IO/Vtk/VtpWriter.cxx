@@ -26,7 +26,7 @@ namespace pointhaptics::io
 namespace
 {
 
-/// What VTK's stream writes goes by OutputStream, which keeps the reason of a fault: VTK forgets it.
+/// Passes VTK's stream on to OutputStream, which keeps the reason of a fault: VTK forgets it.
 class OutputBuffer : public std::streambuf
 {
 public:

@@ -16,7 +16,7 @@ struct WriteTask;
 /// StoppedOnRequest.
 void writeVtp(WriteTask& task);
 
-/// The same bytes, of a small cloud, without a file.
+/// Bytes of the file for a small cloud.
 std::string vtpText(vtkPolyData* cloud);
 
 } // namespace pointhaptics::io

@@ -25,7 +25,7 @@ XmlTags::XmlTags(std::string_view bytes)
 {
 }
 
-/// Whether @p start stands at begin_; then position_ is behind the next @p end.
+/// True if @p start stands at begin_; then position_ is behind the next @p end.
 bool XmlTags::passOver(std::string_view start, std::string_view end)
 {
   if (bytes_.substr(begin_, start.size()) != start)

@@ -5,7 +5,7 @@ namespace pointhaptics
 namespace
 {
 
-/// The functions are copied: a command may change the registry.
+/// Calls a copy of the function, as a command may change the registry.
 template <typename Action>
 std::optional<Action> actionOf(const Command* command)
 {

@@ -10,8 +10,8 @@
 namespace pointhaptics
 {
 
-/// Knows which drag is under way. A gesture whose command is of another kind (a drag on a key) does nothing.
-/// GUI thread only.
+/// Passes gestures to the functions of commands and keeps the drag under way. A gesture whose command is of
+/// another kind (a drag on a key) does nothing. GUI thread only.
 class POINTHAPTICSINTERACTION_EXPORT CommandInput
 {
 public:
@@ -21,15 +21,16 @@ public:
   {
   }
 
-  /// A mouse button goes down: a drag begins, or a command is run. Nothing while another drag is under way.
+  /// Begins a drag, or runs a command, when a mouse button goes down. Does nothing while another drag is
+  /// under way.
   void pressButton(const std::string& gesture);
   /// Ends the drag.
   void releaseButton();
   bool isDragging() const { return drag_.has_value(); }
-  /// The mouse has moved. True: the drag took it.
+  /// Notes that the mouse has moved. True: the drag took it.
   bool moveMouse();
   void turnWheel(const std::string& gesture, int direction);
-  /// False: the key has no command that a key can run.
+  /// Runs the command of a key. False: it has none that a key can run.
   bool pressKey(const std::string& gesture);
   bool releaseKey(const std::string& name);
 

@@ -43,7 +43,7 @@ std::string padded(std::string text, std::size_t width)
   return text;
 }
 
-/// The four keys have one name together.
+/// Gives the four arrow keys one name together.
 std::string withArrowKeys(std::string text)
 {
   const std::string arrows = "Left, Right, Up, Down";
@@ -105,6 +105,13 @@ void CommandRegistry::add(Command command)
   }
   else
   {
+    for (const std::string& gesture : wordsOf(command.gestures))
+    {
+      if (const Command* other = this->findExactly(gesture))
+      {
+        conflicts_.push_back(gesture + ": " + other->name + ", " + command.name);
+      }
+    }
     entries_.push_back({ std::move(command), {} });
     this->setGestures(entries_.back(), entries_.back().command.gestures);
   }
@@ -208,7 +215,8 @@ const Command* CommandRegistry::find(const std::string& gesture) const
   return found;
 }
 
-/// Letters in capitals, as on the keys, where both cases do the same; "drag" or "click" for the mouse.
+/// Label of a gesture: letters in capitals, as on the keys, where both cases do the same; "drag" or "click"
+/// for the mouse.
 std::string CommandRegistry::labelOf(const std::string& gesture) const
 {
   const Command* command = this->find(gesture);
@@ -221,7 +229,7 @@ std::string CommandRegistry::labelOf(const std::string& gesture) const
   return gestureLabel(!capital.empty() && this->find(capital) == command ? capital : gesture);
 }
 
-/// The first gesture of each command; a command alone in its line shows two.
+/// Labels for a line of the help: the first gesture of each command; a command alone in its line shows two.
 std::string CommandRegistry::labelsOf(const std::vector<const Entry*>& line, Scope scope) const
 {
   std::vector<std::string> labels;

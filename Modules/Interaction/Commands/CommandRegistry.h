@@ -15,8 +15,8 @@
 namespace pointhaptics
 {
 
-/// From the press of a mouse button to its release. Each may be empty; without @c move the mouse is left to
-/// VTK's style.
+/// Functions of a drag, from the press of a mouse button to its release. Each may be empty; without @c move
+/// the mouse is left to VTK's style.
 struct DragAction
 {
   std::function<void()> begin = {};
@@ -24,20 +24,20 @@ struct DragAction
   std::function<void()> end = {};
 };
 
-/// A notch of the wheel: +1 away from the person, -1 towards the person.
+/// Function of the wheel, for a notch: +1 away from the person, -1 towards the person.
 struct WheelAction
 {
   std::function<void(int direction)> turn;
 };
 
-/// As long as a key is down. A key that repeats is up and down again each time.
+/// Functions of a key that is held. A key that repeats is up and down again each time.
 struct HoldAction
 {
   std::function<void(bool isDown)> hold;
 };
 
-/// As long as a button of the haptic device is down: the hand holds the model instead of feeling it. @c move
-/// gets how far the hand has moved since the last call, metres in the workspace; @c end may be empty.
+/// Functions of a button of the haptic device that is held: the hand holds the model instead of feeling it.
+/// @c move gets the motion of the hand since the last call, metres in the workspace; @c end may be empty.
 struct GripAction
 {
   std::function<void(const Vec3& way)> move = {};
@@ -50,12 +50,12 @@ using CommandAction = std::variant<std::function<void()>, DragAction, WheelActio
 /// Something that a user can do by a key, a gesture or a button of the device.
 struct Command
 {
-  std::string name;     ///< "write-settings": for bind() and --bind.
-  std::string gestures; ///< The default ones, separated by spaces; see Gesture.h. Empty: none.
+  std::string name;     ///< Name for bind() and --bind, such as "write-settings".
+  std::string gestures; ///< Default gestures, separated by spaces; see Gesture.h. Empty: none.
   std::string group;    ///< Heading in the help.
   std::string help;     ///< Commands of a group with the same text share a line of the help.
   CommandAction action = {};
-  /// Whether the program has what the command works on; the help leaves it out otherwise. Empty: always.
+  /// True if the program has what the command works on; the help leaves it out otherwise. Empty: always.
   std::function<bool()> isAvailable = {};
 };
 
@@ -73,55 +73,59 @@ POINTHAPTICSINTERACTION_EXPORT bool runOnce(const Command* command);
 class POINTHAPTICSINTERACTION_EXPORT CommandRegistry
 {
 public:
-  /// Which commands the help has: those of this program at this moment, or all.
+  /// Commands in the help: those that are available now, or all.
   enum class Scope
   {
     Available,
     All
   };
 
-  /// Adds @p command with its default gestures, which are taken from the commands that had them. One with the
-  /// same name is replaced, and its gestures in force stay.
+  /// Adds @p command with its default gestures, which are taken from the commands that had them and named by
+  /// conflicts(). One with the same name is replaced, and its gestures in force stay.
   void add(Command command);
+  /// The default gestures that two commands were added with, as "plus: scale-up, points-larger". A program
+  /// whose keys shall not depend on the order of add() binds the first of the two elsewhere and has none.
+  const std::vector<std::string>& conflicts() const { return conflicts_; }
   /// False: there is no such command.
   bool remove(const std::string& name);
-  /// A line of the help for what is no command, such as "files dropped on the window".
+  /// Adds a line to the help that is no command, such as "files dropped on the window".
   void addNote(const std::string& group, const std::string& what, const std::string& help);
 
-  /// The command named so, or null. Valid until the next add() or remove().
+  /// Returns the command of that name, or null. Valid until the next add() or remove().
   const Command* get(const std::string& name) const;
-  /// What its key does, for a button or menu of the program. False: see runOnce().
+  /// Runs the command as its key does, for a button or menu of the program. False: see runOnce().
   bool run(const std::string& name) const { return runOnce(this->get(name)); }
-  /// In the order they were added.
+  /// All names, in the order they were added.
   std::vector<std::string> names() const;
 
   /// Gives the command @p name these gestures, separated by spaces, in place of those it has; they are taken
   /// from the commands that had them. Empty: it cannot be reached. False, and nothing changes: there is no
   /// such command.
   bool bind(const std::string& name, const std::string& gestures);
-  /// The same for each NAME=GESTURES of @p bindings. What is no binding or names no command is left out.
+  /// Binds each NAME=GESTURES of @p bindings. Texts that are no binding or name no command are left out.
   void bind(const std::vector<std::string>& bindings);
   /// The gestures of @p name, separated by spaces, in the order they were given.
   std::string bindings(const std::string& name) const;
-  /// The first of them as it stands on the keyboard: "A", "Shift+A" where the small letter is another,
-  /// "Page Up", "Shift+left drag". Empty: there is none.
+  /// Label of the first gesture: "A", "Shift+A" where the small letter is another, "Page Up", "Shift+left
+  /// drag". Empty: there is none.
   std::string label(const std::string& name) const;
-  /// What @p gesture does, or null; see fallbacksOf(). Valid as get()'s.
+  /// The command that @p gesture runs, or null; see fallbacksOf(). Valid as get()'s.
   const Command* find(const std::string& gesture) const;
 
-  /// What can be done, one thing a line, in columns: group, gestures, words. Groups and lines in the order of
+  /// Lists the commands in columns, one a line: group, gestures, words. Groups and lines in the order of
   /// their first command. Commands without a gesture are left out.
   std::string help(Scope scope = Scope::Available) const;
 
   /// Called after each change.
   void setObserver(std::function<void()> changed) { changed_ = std::move(changed); }
-  /// A copy to be bound and described, but not run: without functions and observer. help(Scope::All) is its.
+  /// Copies the commands without functions and observer, so that they can be bound and described, but not
+  /// run: help(Scope::All) is for it.
   CommandRegistry described() const;
 
 private:
   struct Entry
   {
-    Command command; ///< A note has no name; what it is about stands in place of the gesture.
+    Command command; ///< A note has no name; its subject stands in place of the gesture.
     std::vector<std::string> gestures;
   };
   Entry* entryOf(const std::string& name);
@@ -133,6 +137,7 @@ private:
   void reportChange() const;
 
   std::vector<Entry> entries_;
+  std::vector<std::string> conflicts_;
   std::function<void()> changed_;
 };
 

@@ -9,7 +9,7 @@ namespace pointhaptics
 namespace
 {
 
-/// Without its modifiers.
+/// Returns the gesture without its modifiers.
 std::string nameOf(const std::string& gesture)
 {
   const std::size_t plus = gesture.rfind('+');

@@ -19,19 +19,20 @@ namespace pointhaptics
 /// becomes small.
 POINTHAPTICSINTERACTION_EXPORT std::string gestureOf(
   const std::string& name, bool control, bool shift, bool alt = false);
-/// Whether @p gesture can be made at all: modifiers in their order, then a button, the wheel or one word. A
-/// key is known by its keyboard only, so that every other word counts as one.
+/// True if @p gesture has the form of a gesture: modifiers in their order, then a button, the wheel or one
+/// word. Only the keyboard knows its keys, so every other word counts as one.
 POINTHAPTICSINTERACTION_EXPORT bool isGesture(const std::string& gesture);
 
-/// What @p gesture also stands for where it has no command itself, best first. A key does what it does
-/// without modifiers and in lower case. But a letter with Ctrl+ or Alt+ is another command in most programs,
-/// and the mouse does only what it is bound to: these stand for nothing else.
+/// Gestures that @p gesture falls back to where it has no command itself, best first. A key falls back to the
+/// key without modifiers and in lower case. A letter with Ctrl+ or Alt+ has no fallback, as it is another
+/// command in most programs; nor has the mouse.
 std::vector<std::string> fallbacksOf(const std::string& gesture);
-/// As it stands on the keyboard: "Page Up", "Shift+left", "device's button 1". A small letter stays small.
+/// Name of a gesture on the keyboard: "Page Up", "Shift+left", "device's button 1". A small letter stays
+/// small.
 std::string gestureLabel(const std::string& gesture);
-/// The same letter in upper case, where @p gesture is a small letter with or without Ctrl+; else empty.
+/// Upper case of the letter, where @p gesture is a small letter with or without Ctrl+; else empty.
 std::string capitalOf(const std::string& gesture);
-/// Of the mouse: left, middle, right, with or without modifiers.
+/// True for a button of the mouse: left, middle, right, with or without modifiers.
 bool isMouseButton(const std::string& gesture);
 
 } // namespace pointhaptics

@@ -24,23 +24,23 @@ constexpr const char* kTranslateHelp = "translate; in hand mode keys move the ha
 constexpr double kDegreesPerPixel = 0.4;
 constexpr double kDegreesPerKey = 5.0;
 constexpr double kScalePerStep = 1.1;
-/// Parts of the workspace's longest edge.
+/// Steps of keys, over the workspace's longest edge.
 constexpr double kTranslationPerKey = 0.02;
 constexpr double kDepthPerKey = 0.02;
 constexpr double kDepthPerWheelStep = 0.01;
-/// A hand whose distance is known goes this part of it at once, between these steps.
+/// In hand mode a step covers this part of the distance to the cloud, within the two limits below.
 constexpr double kStepOfDistance = 0.3;
 constexpr double kShortestStep = 0.002;
-constexpr double kShortestStepAside = 0.01; ///< Along a surface that is touched.
+constexpr double kShortestStepAside = 0.01; ///< Least step along a surface that is touched.
 constexpr double kLongestStep = 0.05;
-/// How high above the surface hand mode begins.
+/// Height above the surface at which hand mode begins.
 constexpr double kHoverHeight = 0.04;
-/// Radius of the ball that the hand rolls, and the way it has to go to scale by e.
+/// Radius of the ball that the hand rolls, and the way that scales by e.
 constexpr double kBallRadius = 0.25;
 constexpr double kWayPerScale = 0.25;
 
-/// Metres of a step of the hand, of at least @p shortest edges of the workspace; @p usual edges where nobody
-/// knows how far the cloud is.
+/// Length of a step of the hand, metres, of at least @p shortest edges of the workspace; @p usual edges where
+/// the distance to the cloud is not known.
 double handStep(vtkInteractorStyleHaptic& style, double usual, double shortest)
 {
   const std::optional<double> distance = style.GetDistance().distance();
@@ -87,7 +87,7 @@ void addCameraCommands(CommandRegistry& commands, vtkInteractorStyleHaptic& styl
   commands.add({ "reset-view", "r", group, "whole workspace", showAll });
 }
 
-/// The mouse rolls a ball: the axis lies in the view plane, across the motion.
+/// Rotates the model as if the mouse rolled a ball: the axis lies in the view plane, across the motion.
 void rotateByMouse(vtkInteractorStyleHaptic& style)
 {
   if (style.GetScreen().renderer())
@@ -109,7 +109,7 @@ void translateByMouse(vtkInteractorStyleHaptic& style)
   }
 }
 
-/// In hand mode the hand, else the model.
+/// Translates the hand in hand mode, else the model.
 void translateOnScreen(vtkInteractorStyleHaptic& style, double right, double up)
 {
   if (style.GetHand().followsMouse() && style.GetHand().hasDevice())
@@ -161,7 +161,7 @@ void addModelCommands(CommandRegistry& commands, vtkInteractorStyleHaptic& style
     { "reset-model", "0 Home KP_0 KP_Home", group, "back to the start", [&model] { model.reset(); } });
 }
 
-/// Hand mode begins above the surface under the pointer.
+/// Toggles hand mode, which begins above the surface under the pointer.
 void toggleHandMode(vtkInteractorStyleHaptic& style)
 {
   MouseHand& hand = style.GetHand();
@@ -199,7 +199,7 @@ void addHandCommands(CommandRegistry& commands, vtkInteractorStyleHaptic& style)
   commands.add({ "push-pointer", "g", group, "touch pushes the mouse pointer", push, hasHand });
 }
 
-/// As if a ball of a quarter of the workspace were rolled under the hand.
+/// Rotates the model as if a ball of a quarter of the workspace were rolled under the hand.
 void rotateByHand(vtkInteractorStyleHaptic& style, const Vec3& way)
 {
   const ScreenAxes screen = style.GetScreen().axes();
@@ -208,7 +208,7 @@ void rotateByHand(vtkInteractorStyleHaptic& style, const Vec3& way)
   style.GetModel().rotate(degrees, -1.0 * cross(screen.forward, inPlane));
 }
 
-/// The camera goes with the model, which stays where it is on the screen.
+/// Moves the workspace over the model. The camera goes with the model, which stays where it is on the screen.
 void moveWorkspace(vtkInteractorStyleHaptic& style, const Vec3& way)
 {
   vtkCamera* camera = style.GetScreen().renderer()->GetActiveCamera();
@@ -229,7 +229,7 @@ void addClutchCommands(CommandRegistry& commands, vtkInteractorStyleHaptic& styl
   const auto translate = [&style](const Vec3& way) { style.GetModel().translate(way); };
   const auto rotate = [&style](const Vec3& way) { rotateByHand(style, way); };
   const auto index = [&style](const Vec3& way) { moveWorkspace(style, way); };
-  // The pointer drives the hand, and the picture stayed while the hand went.
+  // The pointer drives the hand: put it on the hand, which moved under a picture that stayed.
   const auto indexed = [&style] { style.GetHand().putPointerOnHand(); };
   const auto scale = [&style](const Vec3& way)
   {
@@ -306,14 +306,16 @@ void addStyleCommands(vtkInteractorStyleHaptic& style)
   addHandCommands(commands, style);
   addClutchCommands(commands, style);
   addShowCommands(commands, style);
-  commands.add({ "quit", "q Escape", "Program", "quit",
-    [&style]
+  const auto quit = [&style]
+  {
+    if (style.GetInteractor())
     {
-      if (style.GetInteractor())
-      {
-        style.GetInteractor()->ExitCallback();
-      }
-    } });
+      style.GetInteractor()->ExitCallback();
+    }
+  };
+  commands.add({ "quit", "q", "Program", "quit", quit });
+  // A program that has something to leave before replaces this one.
+  commands.add({ "leave", "Escape", "Program", "quit", quit });
 }
 
 } // namespace pointhaptics

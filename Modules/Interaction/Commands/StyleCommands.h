@@ -10,7 +10,7 @@ namespace pointhaptics
 /// Name of the command that moves the workspace over the model, while the camera goes with it.
 constexpr const char* kIndexByHand = "index-by-hand";
 
-/// Adds them to the style's own. They work on its parts, each where the style has it.
+/// Adds the commands to the style's own. Each works on a part of the style, where the style has it.
 void addStyleCommands(vtkInteractorStyleHaptic& style);
 
 } // namespace pointhaptics

@@ -16,15 +16,16 @@ namespace
 {
 
 constexpr int kLeastDecimals = 3;
-/// Of a double.
+/// Decimal digits that a double holds.
 constexpr int kMostDigits = 15;
-/// Of a distance between points that lie on no grid: at least, at most, and where their spacing is not known.
+/// Digits of a distance between points that lie on no grid: at least, at most, and where the spacing is not
+/// known.
 constexpr int kFewestDigits = 2;
 constexpr int kMostDistanceDigits = 4;
 constexpr int kUsualDigits = 3;
-/// From here on numbers have an exponent.
+/// Numbers from here on have an exponent.
 constexpr double kLargestFixed = 1e9;
-/// Between neighbouring numbers of single precision, over the smaller.
+/// Relative step between neighbouring numbers of single precision.
 constexpr double kSinglePrecision = 1.2e-7;
 
 int decimalsDownTo(double step)
@@ -32,7 +33,7 @@ int decimalsDownTo(double step)
   return int(std::ceil(std::min(-std::log10(step) - 1e-9, double(kMostDigits))));
 }
 
-/// Of a distance, where the file has no grid.
+/// Decimals of a distance, where the file has no grid.
 int distanceDecimals(vtkPolyData* cloud, const Vec3& from, const Vec3& to, double spacing)
 {
   const double distance = norm(to - from);

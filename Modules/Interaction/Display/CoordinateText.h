@@ -14,24 +14,24 @@ class vtkPolyData;
 namespace pointhaptics
 {
 
-/// @p count values of a field array, tuple by tuple. False: @p cloud has none of that name, or fewer.
+/// Gets @p count values of a field array, tuple by tuple. False: @p cloud has no such array, or fewer values.
 bool fieldValues(vtkPolyData* cloud, const char* name, int count, double* values);
 
-/// With @p decimals; without the sign of a number that is rounded to zero.
+/// Text of @p value with @p decimals; a number that is rounded to zero has no sign.
 std::string fixedText(double value, int decimals);
 
-/// With decimals down to @p step, at least three where that is 0, and no more digits than a double has.
+/// Text of @p value with decimals down to @p step, at least three where that is 0, and no more digits than a
+/// double has.
 std::string coordinateText(double value, double step);
 
-/// Of the grid of a LAS file (field data "LasScale") along @p axis, for coordinates as large as @p largest;
-/// below 0: @p cloud has none.
+/// Decimals of the grid of a LAS file (field data "LasScale") along @p axis, for coordinates as large as @p
+/// largest; below 0: @p cloud has no grid.
 int gridDecimals(vtkPolyData* cloud, int axis, double largest);
 
-/// How far @p to is from @p from, both in the frame of the file @p cloud, in its @p unit: the distance, and
-/// in a second line that along each axis. Decimals are those of the file's grid; where there is none, they go
-/// down to @p spacing, that of the points, nearer than which a click tells nothing: two to four digits of the
-/// distance, and of single precision no more than its coordinates have.
-/// @param spacing 0: not known; three digits.
+/// Text of the distance from @p from to @p to, both in the frame of the file @p cloud, in its @p unit; a
+/// second line has the distance along each axis. Decimals are those of the file's grid. Without a grid they
+/// go down to @p spacing, that of the points, as a click is no more exact: two to four digits of the
+/// distance, and no more than single precision coordinates have. @param spacing 0: not known; three digits.
 POINTHAPTICSINTERACTION_EXPORT std::vector<std::string> distanceText(
   vtkPolyData* cloud, const Vec3& from, const Vec3& to, const std::string& unit, double spacing);
 

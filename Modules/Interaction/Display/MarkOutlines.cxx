@@ -12,12 +12,12 @@ namespace pointhaptics
 namespace
 {
 
-/// Points.
+/// Widths of lines, points.
 constexpr double kEdgeWidth = 4.0;
 constexpr double kLineWidth = 2.0;
 constexpr unsigned char kLight[3] = { 255, 255, 255 };
 constexpr unsigned char kDark[3] = { 12, 12, 16 };
-/// Of the polygon that stands for a circle about each corner.
+/// Corners of the polygon that approximates a circle about each corner.
 constexpr int kRoundCorners = 12;
 /// Pixels: wide lines as short as this have gaps where they meet.
 constexpr double kShortestEdge = 3.0;
@@ -28,7 +28,8 @@ double cross(const std::array<double, 2>& a, const std::array<double, 2>& b, con
   return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
 
-/// The part of @p line within @p shape, 0 to 1 along it; empty where the second is not above the first.
+/// Part of @p line within @p shape, from 0 to 1 along it; empty where the second number is not above the
+/// first.
 std::pair<double, double> partWithin(const ScreenSegment& line, const ScreenPolygon& shape)
 {
   std::pair<double, double> part{ 0.0, 1.0 };
@@ -77,7 +78,7 @@ ScreenPolygon convexHull(ScreenPolygon points)
     return points;
   }
   ScreenPolygon hull;
-  // The lower side from left to right, then the upper one back.
+  // Goes along the lower side from left to right, then back along the upper one.
   for (int side = 0; side < 2; ++side)
   {
     const std::size_t first = hull.size();

@@ -17,20 +17,20 @@ namespace pointhaptics
 /// Corners of a convex polygon, counterclockwise; pixels.
 using ScreenPolygon = std::vector<std::array<double, 2>>;
 
-/// The smallest one about @p points.
+/// Smallest convex polygon about @p points.
 POINTHAPTICSINTERACTION_EXPORT ScreenPolygon convexHull(ScreenPolygon points);
 
-/// About @p points with @p pixels of room on all sides.
+/// Convex polygon about @p points with @p pixels of room on all sides.
 POINTHAPTICSINTERACTION_EXPORT ScreenPolygon hullAbout(const ScreenPolygon& points, double pixels);
 
-/// Pixels.
+/// A line between two pixels.
 struct ScreenSegment
 {
   std::array<double, 2> begin;
   std::array<double, 2> end;
 };
 
-/// What is seen of the edges of all @p shapes together: none lies within another shape.
+/// Visible edges of all @p shapes together: none lies within another shape.
 POINTHAPTICSINTERACTION_EXPORT std::vector<ScreenSegment> outlineOf(const std::vector<ScreenPolygon>& shapes);
 
 /// Lines of the picture as it is drawn next: light or coloured, with dark edges. GUI thread only.
@@ -41,12 +41,12 @@ public:
   void addTo(vtkRenderer* renderer);
   void removeFrom(vtkRenderer* renderer);
 
-  /// A new picture, for a point of so many @p pixels; @p width is a factor on the lines.
+  /// Begins a new picture, where a point has @p pixels; @p width is a factor on the lines.
   void clear(double pixels, double width);
   void add(const ScreenSegment& line, const unsigned char color[3]);
-  /// About all @p shapes together.
+  /// Adds the outline about all @p shapes together.
   void addOutline(const std::vector<ScreenPolygon>& shapes);
-  /// After the last add().
+  /// Completes the lines. Call it after the last add().
   void finish();
 
 private:

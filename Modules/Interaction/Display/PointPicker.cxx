@@ -18,7 +18,7 @@ namespace
 {
 
 constexpr double kPickPixels = 8.0;
-/// Of a surface, which must not be looked for through the holes between sparse points.
+/// Reach of a pick on a surface, pixels: holes between sparse points must not let it through.
 constexpr double kSurfacePixels = 24.0;
 
 } // namespace
@@ -77,7 +77,7 @@ bool PointPicker::pickAt(int x, int y)
   }
   if (scenes_.bandwidthFilter())
   {
-    // A neighborhood that has no bandwidth leaves it at 0, which is not shown.
+    // A neighbourhood without a bandwidth leaves it at 0, which is not shown.
     static_cast<void>(measurePicked(cloud, scenes_.bandwidthFilter()->GetSettings(), picked));
   }
   double voxel[6];

@@ -1,5 +1,5 @@
 /// @file
-/// The voxel mean under the mouse: marked in the picture, and told in the overlay.
+/// Marks the voxel mean under the mouse in the picture, and describes it in the overlay.
 #pragma once
 
 #include "Core/Base/Vector3.h"
@@ -34,17 +34,18 @@ public:
   PointPicker(const PointPicker&) = delete;
   PointPicker& operator=(const PointPicker&) = delete;
 
-  /// Of the points of the file that @p actor draws, in whatever frame, the values are told that the picked
-  /// one has, without the arrays @p leftOut. Null, or while it is hidden: those of the mean alone. It must
+  /// Texts show the values of the picked point of the file, which @p actor draws in whatever frame, without
+  /// the arrays @p leftOut. Null, or while the actor is hidden: the values of the mean alone. The actor must
   /// outlive this, or be taken back.
   void setPointsOfFile(vtkActor* actor, const std::set<std::string>& leftOut);
   /// Shows position, voxel, bandwidth and arrays of the voxel mean at a display position, until the model
   /// moves. False: no mean is drawn within 8 pixels of it; none is shown then.
   bool pickAt(int x, int y);
-  /// Voxel and bandwidth are those of one resampling: the next one has others. True: something was shown.
+  /// Removes the marks, as voxel and bandwidth belong to one resampling. True: something was shown.
   bool forget();
 
-  /// The place there that is as deep as the nearest mean about it; workspace. Marks and says nothing.
+  /// Finds the place at a display position that is as deep as the nearest mean about it; workspace. Marks and
+  /// shows nothing.
   std::optional<Vec3> surfaceAt(int x, int y) const;
 
 private:

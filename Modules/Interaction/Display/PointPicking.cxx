@@ -36,10 +36,11 @@ namespace pointhaptics
 namespace
 {
 
-/// Coordinates of the file are told to this part of a voxel.
+/// Coordinates of the file are shown down to this part of a voxel.
 constexpr double kStepInVoxels = 1e-3;
 constexpr int kLeastDecimals = 3;
-/// From here to there numbers with a fraction have decimals instead of six digits, and none has an exponent.
+/// Between these limits numbers with a fraction have decimals instead of six digits, and none has an
+/// exponent.
 constexpr double kLeastFixed = 1e5;
 constexpr double kLargestFixed = 1e9;
 constexpr int kMostComponents = 9;
@@ -61,8 +62,8 @@ std::optional<Vec3> placeInCloud(vtkPolyData* cloud, const Vec3& inWorkspace)
   return transformed(matrix, inWorkspace);
 }
 
-/// How finely coordinates of the file are told: a thousandth of the smallest edge of a voxel there; 0 where
-/// the cloud does not say.
+/// Step to which coordinates of the file are shown: a thousandth of the smallest edge of a voxel; 0 where the
+/// cloud has no voxels.
 double coordinateStep(vtkPolyData* cloud)
 {
   double spacing[3];
@@ -95,7 +96,7 @@ std::string shortText(double value)
   return text;
 }
 
-/// A value of an array: whole numbers whole, large ones without an exponent.
+/// Text of an array's value: whole numbers whole, large ones without an exponent.
 std::string valueText(double value)
 {
   const double size = std::abs(value);
@@ -106,7 +107,7 @@ std::string valueText(double value)
   return fixedText(value, value == std::round(value) ? 0 : kLeastDecimals);
 }
 
-/// On a line of its own.
+/// Describes an array on a line of its own.
 std::string describeArray(vtkDataArray* array, vtkIdType index, double step)
 {
   const std::string name = array->GetName();
@@ -123,7 +124,7 @@ std::string describeArray(vtkDataArray* array, vtkIdType index, double step)
   return text;
 }
 
-/// A line for each array but @p leftOut, which gets their names.
+/// Describes each array on a line, but those of @p leftOut, which gets their names.
 std::string describeArrays(vtkPolyData* cloud, vtkIdType index, double step, std::set<std::string>& leftOut)
 {
   std::string text;
@@ -140,7 +141,7 @@ std::string describeArrays(vtkPolyData* cloud, vtkIdType index, double step, std
   return text;
 }
 
-/// The place of a point of the file: with the decimals of its grid, or down to @p step.
+/// Text of the place of a point in the file, with the decimals of its grid, or down to @p step.
 std::string placeInFile(const PickedOfFile& ofFile, double step)
 {
   Vec3 p;
@@ -263,7 +264,7 @@ Status measurePicked(vtkPolyData* cloud, const LocalBandwidthSettings& settings,
   const PointAccess access(cloud->GetPoints());
   NeighborQuery query;
   query.build(access.view(), SmpExecutor());
-  // The point with its neighbourhood alone has the same bandwidth as among all.
+  // The point has the same bandwidth among its neighbours alone as among all points.
   std::vector<double> positions{ picked.inWorkspace.x, picked.inWorkspace.y, picked.inWorkspace.z };
   vtkDataArray* pointCounts = cloud->GetPointData()->GetArray("VoxelPointCount");
   std::vector<double> counts;

@@ -1,5 +1,5 @@
 /// @file
-/// The point under the mouse, and what is known of it.
+/// The point under the mouse, and its properties.
 #pragma once
 
 #include "Core/Bandwidth/LocalBandwidth.h"
@@ -23,19 +23,20 @@ class vtkRenderer;
 namespace pointhaptics
 {
 
-/// What is known of a picked point.
+/// Properties of a picked point.
 struct PickedPoint
 {
-  vtkIdType index = -1;              ///< In the picked cloud.
-  Vec3 inWorkspace;                  ///< Metres.
+  vtkIdType index = -1;              ///< Index in the picked cloud.
+  Vec3 inWorkspace;                  ///< Position in the workspace, metres.
   std::optional<Vec3> inCloud;       ///< In the frame of the file, where the cloud says how it was mapped.
   std::optional<Vec3> voxel;         ///< Whole numbers from 0, where the cloud has a lattice.
-  std::optional<Bounds> voxelBounds; ///< Of the same, in the workspace.
-  double bandwidth = 0.0;            ///< b, metres; 0: none asked for.
-  double radius = 0.0;               ///< Of the proxy, metres; not smoothed (see LocalBandwidthSettings).
+  std::optional<Bounds> voxelBounds; ///< Bounds of that voxel in the workspace.
+  double bandwidth = 0.0;            ///< Bandwidth b, metres; 0: not measured.
+  double radius = 0.0;               ///< Radius of the proxy, metres; not smoothed (see
+                                     ///< LocalBandwidthSettings).
 };
 
-/// The point of the file that was picked with a mean of its points.
+/// The point of the file that belongs to a picked mean.
 struct PickedOfFile
 {
   vtkPolyData* cloud = nullptr; ///< In the frame of the file; null: none was.
@@ -43,21 +44,22 @@ struct PickedOfFile
   std::set<std::string> leftOut; ///< Arrays that were made for the picture.
 };
 
-/// Of the points of @p cloud (in the workspace's frame: the output of vtkVoxelMeanResampler) that are drawn
-/// within @p pixels of the display position (@p x, @p y) of @p renderer's window, the one nearest to the
-/// camera. False: there is none. Cost: a few ns a point. GUI thread only.
+/// Picks, among the points of @p cloud (in the workspace's frame: the output of vtkVoxelMeanResampler) that
+/// are drawn within @p pixels of the display position (@p x, @p y) of @p renderer's window, the one nearest
+/// to the camera. False: there is none. Cost: a few ns a point. GUI thread only.
 /// @param toWorkspace of a cloud in another frame, as that of its file; null: it is in the workspace.
 /// @param isDrawn of places in the frame of @p cloud; empty: all are.
 POINTHAPTICSINTERACTION_EXPORT bool pickPoint(vtkPolyData* cloud, vtkRenderer* renderer, double x, double y,
   double pixels, PickedPoint& picked, vtkMatrix4x4* toWorkspace = nullptr,
   const std::function<bool(const Vec3&)>& isDrawn = {});
 
-/// Whether @p actor draws a place, in the frame of its points: its clipping planes, and the box of a
+/// True if @p actor draws a place, in the frame of its points: its clipping planes, and the box of a
 /// vtkSplatMapper, leave it. Both must outlive the result.
 POINTHAPTICSINTERACTION_EXPORT std::function<bool(const Vec3&)> drawnBy(vtkActor* actor);
 
-/// Fills in bandwidth and radius: those vtkKernelBandwidthFilter gives the point with @p settings. Searches
-/// its neighbours among all points of @p cloud: about 0.1 s for a million. Errors: those of localBandwidths.
+/// Fills in bandwidth and radius, as vtkKernelBandwidthFilter computes them with @p settings. Searches the
+/// point's neighbours among all points of @p cloud: about 0.1 s for a million. Errors: those of
+/// localBandwidths.
 POINTHAPTICSINTERACTION_EXPORT Status measurePicked(
   vtkPolyData* cloud, const LocalBandwidthSettings& settings, PickedPoint& picked);
 

@@ -19,34 +19,34 @@ namespace
 
 using Overlay = vtkHapticOverlay;
 
-/// Points.
+/// Sizes in points.
 constexpr double kLargestFont = 15.0;
 constexpr double kSmallestFont = 8.0;
 constexpr double kMargin = 8.0;
 constexpr double kGap = 8.0;
 constexpr double kPointsPerInch = 72.0;
-/// Where the column at the right begins and ends if nothing is in its way, over the renderer's height.
+/// Begin and end of the column at the right if nothing is in its way, over the renderer's height.
 constexpr double kColumnBottom = 0.28;
 constexpr double kColumnTop = 0.78;
 constexpr int kAllLines = 1000;
 /// Part of the width that the status may take beside the panel.
 constexpr double kStatusPart = 0.62;
-/// After every other observer of the render, which may change what is shown.
+/// Priority after every other observer of the render, which may change the blocks.
 constexpr float kLast = -1.0F;
 
 } // namespace
 
-/// What is still free, and the font that is tried.
+/// Free space of the renderer, and the font that is tried.
 struct ScreenLayout::Room
 {
   vtkRenderer* renderer = nullptr;
   double font = kLargestFont;
-  double pixels = 1.0; ///< Of a point.
+  double pixels = 1.0; ///< Pixels per point.
   ScreenRectangle free;
-  double leftTop = 0.0; ///< Below the texts at the upper left, and at the upper right.
+  double leftTop = 0.0; ///< Lower ends of the texts at the upper left, and at the upper right.
   double rightTop = 0.0;
-  double columnLeft = 0.0; ///< Of the column at the right.
-  double bottom = 0.0;     ///< Above what is at the lower left.
+  double columnLeft = 0.0; ///< Left edge of the column at the right.
+  double bottom = 0.0;     ///< Upper end of the block at the lower left.
   bool fits = true;
 
   double gap() const { return kGap * pixels; }
@@ -162,7 +162,7 @@ void ScreenLayout::arrange(vtkRenderer* renderer)
   }
 }
 
-/// Help stands alone.
+/// Places the help, which stands alone.
 void ScreenLayout::placeHelp(vtkRenderer* renderer)
 {
   places_.clear();
@@ -202,7 +202,7 @@ bool ScreenLayout::tryFont(vtkRenderer* renderer, double font, bool isLast)
   return room.fits || isLast;
 }
 
-/// Status at the left, panel at the right; below it where both do not fit side by side.
+/// Places the status at the left and the panel at the right, or below it where both do not fit side by side.
 void ScreenLayout::placeTop(Room& room, bool isLast)
 {
   const double width = room.free.width();
@@ -242,7 +242,7 @@ void ScreenLayout::placeTop(Room& room, bool isLast)
   room.fits = room.fits && std::min(room.leftTop, room.rightTop) > 0.4 * room.free.height();
 }
 
-/// Sliders at the right edge, the scalar bar beside them.
+/// Places the sliders at the right edge and the scalar bar beside them.
 void ScreenLayout::placeColumn(Room& room, bool isLast)
 {
   double size[2] = { 0.0, 0.0 };
@@ -273,8 +273,8 @@ void ScreenLayout::placeColumn(Room& room, bool isLast)
   }
 }
 
-/// A box of at least @p size left of what is at the right edge, from @p bottom to @p top where that is free;
-/// empty: there is no room.
+/// Takes a box of at least @p size beside the blocks at the right edge, from @p bottom to @p top where that
+/// is free; empty: there is no room.
 ScreenRectangle ScreenLayout::takeColumn(Room& room, const double size[2], double bottom, double top)
 {
   const double floor = std::max(room.free.bottom, (corner_ ? corner_() : 0.0) * room.pixels);
@@ -319,8 +319,8 @@ void ScreenLayout::placeDetail(Room& room, bool isLast)
   room.bottom = room.free.bottom + size[1] + room.gap();
 }
 
-/// In the middle of what is left, smaller where that is small; what is in its way goes until the file is
-/// read.
+/// Places the progress in the middle of the free room, smaller where that is small; blocks in its way are
+/// hidden until the file is read.
 void ScreenLayout::placeProgress(Room& room)
 {
   if (!progress_ || progress_->GetText().empty())

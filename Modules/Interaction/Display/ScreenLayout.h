@@ -1,5 +1,5 @@
 /// @file
-/// Where the words and controls over the picture stand, so that none lies over another.
+/// Places the words and controls over the picture, so that none lies over another.
 #pragma once
 
 #include "PointHapticsInteractionModule.h" // For export macro
@@ -21,7 +21,7 @@ class vtkRenderer;
 namespace pointhaptics
 {
 
-/// Pixels of the renderer, from its lower left corner.
+/// A rectangle in pixels of the renderer, from its lower left corner.
 struct ScreenRectangle
 {
   double left = 0.0;
@@ -38,19 +38,19 @@ struct ScreenRectangle
   }
 };
 
-/// A block that the layout knows by its size alone, such as a scalar bar.
+/// A block that the layout knows only by its size, such as a scalar bar.
 struct ScreenBlock
 {
-  /// Width and least height in pixels for a font of @p font points; false: it is not shown.
+  /// Returns width and least height in pixels for a font of @p font points; false: it is not shown.
   std::function<bool(double font, double& width, double& height)> measure;
-  /// Puts it within @p box; an empty one hides it.
+  /// Puts the block within @p box; an empty box hides it.
   std::function<void(const ScreenRectangle& box, double font)> place;
 };
 
-/// The places of all that is written over a picture: status at the upper left, the panel beside it or below,
-/// a column at the right with the scalar bar and the sliders, details at the lower left, progress in the
-/// middle of what is left. Help covers all: the others go as long as it is open. Where the window is too
-/// small the font shrinks, then lines are left out, and at last what is asked for least.
+/// Places all blocks over a picture: status at the upper left, the panel beside it or below, a column at the
+/// right with the scalar bar and the sliders, details at the lower left, progress in the middle of the free
+/// room. The help covers all: the others are hidden while it is open. Where the window is too small the font
+/// shrinks, then lines are left out, and at last the least wanted block is.
 ///
 /// Lengths follow the window's dots per inch: at 72, the default of VTK, one point is one pixel. GUI thread
 /// only.
@@ -63,30 +63,31 @@ public:
   ScreenLayout& operator=(const ScreenLayout&) = delete;
 
   ///@{
-  /// What it places; null takes one away.
+  /// Set the blocks; null takes one away.
   void setOverlay(vtkHapticOverlay* overlay);
   void setSliders(vtkHapticSliders* sliders);
   void setProgress(vtkHapticProgress* progress);
   void setScalarBar(ScreenBlock bar) { bar_ = std::move(bar); }
-  /// Pixels, at 72 dots per inch, of the lower right corner that are taken; 0: none.
+  /// Size in pixels, at 72 dots per inch, of the lower right corner that is taken; 0: none.
   void setCorner(std::function<double()> corner) { corner_ = std::move(corner); }
-  /// Whether texts stand on opaque plates.
+  /// True if texts stand on opaque plates.
   void setOpaque(std::function<bool()> opaque) { opaque_ = std::move(opaque); }
   ///@}
-  /// Arranges before each render of @p renderer, in which all are drawn; null: no longer.
+  /// Arranges before each render of @p renderer, in which all blocks are drawn; null: stops that.
   void follow(vtkRenderer* renderer);
-  /// At once, if anything has changed since.
+  /// Arranges now, if anything has changed.
   void arrange(vtkRenderer* renderer);
 
-  /// A part of the screen, and who has it.
+  /// A block and its part of the screen.
   struct Place
   {
-    std::string name; ///< "status", "panel", "detail", "help", "progress", "sliders", "bar".
+    std::string name; ///< Name of the block: "status", "panel", "detail", "help", "progress", "sliders",
+                      ///< "bar".
     ScreenRectangle box;
   };
-  /// What is shown and where, as it was arranged last.
+  /// Shown blocks with their boxes, as they were arranged last.
   const std::vector<Place>& places() const { return places_; }
-  /// The boxes of the same: left, bottom, right, top. For marks that follow the model and give way.
+  /// Boxes of these blocks: left, bottom, right, top. Marks that follow the model give way to them.
   std::vector<std::array<double, 4>> boxes() const;
 
 private:
@@ -110,7 +111,7 @@ private:
   std::function<bool()> opaque_;
   vtkSmartPointer<vtkCallbackCommand> before_;
   vtkWeakPointer<vtkRenderer> renderer_;
-  std::vector<double> arranged_; ///< What the places depend on, as it was.
+  std::vector<double> arranged_; ///< Values on which the places depend, at the last arrangement.
   std::string arrangedTexts_;
   std::vector<Place> places_;
 };

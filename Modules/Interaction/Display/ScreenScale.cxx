@@ -16,15 +16,15 @@ namespace
 
 constexpr double kUsualDotsPerInch = 96.0;
 constexpr double kUsualHeight = 1080.0;
-/// From here on texts of the usual size are small: such screens have more dots an inch, or are looked at from
-/// farther away.
+/// On screens with more lines than this usual texts are small: they have more dots an inch, or are looked at
+/// from farther away.
 constexpr int kTallScreen = 1440;
-/// Lines of a window in which texts of the usual size have room, all at once.
+/// Height of a window in which all usual texts have room at once, lines.
 constexpr double kLeastHeight = 600.0;
 constexpr double kLargestScale = 4.0;
-/// Part of the screen of a window that were larger than it.
+/// Part of the screen that a new window takes where it would be larger than the screen.
 constexpr double kBesideFrame = 0.9;
-/// At which a point is a pixel: VTK's default.
+/// Dots per inch at which a point is a pixel: VTK's default.
 constexpr double kPointsPerInch = 72.0;
 
 } // namespace

@@ -1,5 +1,5 @@
 /// @file
-/// How large texts must be on a screen, or in a picture.
+/// Size of texts on a screen, or in a picture.
 #pragma once
 
 #include "PointHapticsInteractionModule.h" // For export macro
@@ -9,25 +9,23 @@ class vtkRenderWindow;
 namespace pointhaptics
 {
 
-/// 1 on a screen of the usual 96 dots per inch. On X as the desktop says (Xft.dpi), where it says nothing
-/// scaleOfScreen(): an X server tells 96 dots per inch of any screen. On other systems as VTK finds out; off
-/// the screen by the height of the picture, 1 up to 1080 pixels. 1 to 4.
+/// Scale of texts in @p window, 1 to 4; 1 on a screen of the usual 96 dots per inch. On X it follows the
+/// desktop (Xft.dpi), or else scaleOfScreen(), as an X server claims 96 dots per inch for any screen. On
+/// other systems it follows VTK. Off the screen it follows the height of the picture: 1 up to 1080 pixels.
 POINTHAPTICSINTERACTION_EXPORT double screenScale(vtkRenderWindow* window);
 
-/// Texts of @p window are screenScale() times @p factor times as large as VTK's: by its dots per inch.
+/// Makes texts of @p window screenScale() times @p factor times as large as VTK's, by its dots per inch.
 POINTHAPTICSINTERACTION_EXPORT void applyTextScale(vtkRenderWindow* window, double factor);
 
-/// In a window of @p windowLines on a screen of @p screenLines, of which nobody knows how many inches: 1 on
-/// screens below 1440 lines, on others lines over 1080, but not more than leaves room for the texts in the
-/// window.
+/// Scale in a window of @p windowLines on a screen of @p screenLines whose size in inches is not known. It is
+/// 1 on screens below 1440 lines, on others lines over 1080, but leaves room for the texts in the window.
 POINTHAPTICSINTERACTION_EXPORT double scaleOfScreen(int screenLines, int windowLines);
 
-/// Pixels of a new window of which @p wanted are asked for: on an axis where the @p screen has less, what
-/// leaves room for the window's frame; there the window would end beyond the screen. 0 of a screen: not
-/// known.
+/// Pixels of a new window along an axis, of @p wanted. If the @p screen has less, the window and its frame
+/// fit the screen. @p screen 0: not known.
 POINTHAPTICSINTERACTION_EXPORT int lengthOnScreen(int wanted, int screen);
 
-/// What comes after Xft.dpi: in the resources @p text of an X server; 0: nothing that is a number.
+/// Number behind Xft.dpi: in the resources @p text of an X server; 0: it is missing or no number.
 POINTHAPTICSINTERACTION_EXPORT double dotsPerInchOf(const char* text);
 
 } // namespace pointhaptics

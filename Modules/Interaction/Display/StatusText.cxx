@@ -109,7 +109,7 @@ bool StatusText::update(const ServoLoop* servo, bool touchMoved)
   return overlay_->SetStatus(this->statusLine(servo)) || isNewPanel;
 }
 
-/// One of a few literals.
+/// Name of the hand's mode, a literal.
 const char* StatusText::handMode() const
 {
   return clutch_.isHolding() ? "    the hand holds the model"
@@ -118,7 +118,7 @@ const char* StatusText::handMode() const
                              : "    hand follows the mouse";
 }
 
-/// How the mouse moves the hand, until it has touched something.
+/// Text on how the mouse moves the hand, until it has touched something.
 std::string StatusText::firstUse() const
 {
   if (hasTouched_ || !hand_.followsMouse() || !hand_.hasDevice())

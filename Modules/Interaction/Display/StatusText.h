@@ -1,5 +1,5 @@
 /// @file
-/// What the interactor style says in words: the status line and the panel of the servo loop.
+/// Texts of the interactor style: the status line and the panel of the servo loop.
 #pragma once
 
 #include "CommandRegistry.h"
@@ -19,7 +19,7 @@ class MouseHand;
 class ScenePipeline;
 class ServoLoop;
 
-/// Texts name the keys that are bound at the moment. GUI thread only.
+/// Writes the texts, which name the present keys. GUI thread only.
 class POINTHAPTICSINTERACTION_EXPORT StatusText
 {
 public:
@@ -30,13 +30,13 @@ public:
   StatusText(const StatusText&) = delete;
   StatusText& operator=(const StatusText&) = delete;
 
-  /// Where the texts go; null: nowhere.
+  /// Sets the overlay that shows the texts; null: none does.
   void setOverlay(vtkHapticOverlay* overlay);
   vtkHapticOverlay* overlay() const { return overlay_; }
 
   /// Text at the end of the status line, such as the scale of the model.
   void setNote(const std::string& note);
-  /// What the device is and how it is, for the panel. Empty: the device's own name.
+  /// Name and state of the device, for the panel. Empty: the device's own name.
   void setDeviceNote(const std::string& note);
   /// Name of the device, until there is a note.
   void setDeviceName(const std::string& name);
@@ -45,19 +45,19 @@ public:
   void setPanelVisibility(bool visible);
   bool panelVisibility() const { return showsPanel_; }
   ///@}
-  /// Of a hand that touches nothing: how far the cloud is. Empty: nothing to say.
+  /// Text on the distance from the hand to the cloud; empty: none.
   void setDistance(const std::string& distance) { distance_ = distance; }
   /// Shows the help, its next page, or hides it after the last one.
   void turnHelp();
-  /// The help says what the commands are now.
+  /// Updates the help after a change of the commands.
   void updateHelp();
 
-  /// Brings the texts up to date, four times a second, and every four seconds while nothing moves: a line of
-  /// text costs a frame. At once after a change of what is set here, of the hand's mode or of its hold.
+  /// Brings the texts up to date, four times a second, and every four seconds while nothing moves, as a line
+  /// of text costs a frame. After a change of settings, of the hand's mode or of its hold it does so at once.
   /// @p servo may be null. @p touchMoved: the picture of the touch has changed. True: a text has changed.
   bool update(const ServoLoop* servo, bool touchMoved);
-  /// The key that resets the model, as part of a sentence: ": key 0 resets the model"; empty where it has
-  /// none.
+  /// Names the key that resets the model, as part of a sentence: ": key 0 resets the model"; empty where it
+  /// has none.
   std::string resetHint() const;
 
 private:
@@ -75,7 +75,7 @@ private:
   std::string deviceNote_;
   std::string deviceName_;
   std::string distance_;
-  bool hasTouched_ = false; ///< In hand mode: then its keys are known.
+  bool hasTouched_ = false; ///< True once the hand has touched in hand mode: the person knows the keys then.
   bool showsPanel_ = false;
   const char* shownMode_ = nullptr;
   double lastUpdate_ = -1e9;

@@ -16,7 +16,7 @@ namespace pointhaptics
 namespace
 {
 
-/// While it lives, a chart that did not change is not drawn: the window keeps what it shows of it.
+/// Keeps an unchanged chart from being drawn while it lives: the window keeps its picture.
 class ChartPause
 {
 public:
@@ -91,7 +91,7 @@ bool TouchDisplay::update(const std::vector<ServoSample>& samples, const ServoSa
       const double ideal = idealForce_ ? idealForce_(sample) : std::numeric_limits<double>::quiet_NaN();
       chart_->AddSample(sample.timeSeconds, norm(sample.state.force), sample.state.radius, ideal);
     }
-    // A chart that is drawn seldom costs little; it is brought up to date only where a render would show it.
+    // A chart that is drawn seldom costs little: it is updated only where a render would show it.
     changed = this->isDue() && chart_->GetVisibility() && chart_->Update();
     chartChanged_ = chartChanged_ || changed;
   }

@@ -1,5 +1,5 @@
 /// @file
-/// The touch in the picture: the props, the chart of the force, and when a frame is worth its time.
+/// The touch in the picture: the props, the chart of the force, and the decision to draw a frame.
 #pragma once
 
 #include "vtkHapticChart.h"
@@ -22,8 +22,8 @@ namespace pointhaptics
 class HandDistance;
 class ScreenView;
 
-/// A frame is drawn only where something has changed, and drawing leaves at least half of the time to events.
-/// GUI thread only.
+/// Draws a frame only where something has changed, and leaves at least half of the time to events. GUI thread
+/// only.
 class POINTHAPTICSINTERACTION_EXPORT TouchDisplay
 {
 public:
@@ -45,13 +45,13 @@ public:
   /// The chart is a strip along the lower edge; the picture takes the room that it leaves.
   void setChartVisibility(bool visible);
 
-  /// Takes the new ticks, and the newest one there is. True: the picture has changed.
+  /// Takes the new ticks, and the newest one. True: the picture has changed.
   bool update(const std::vector<ServoSample>& samples, const ServoSample& latest);
 
-  /// Shows where the hand of @p distance would touch. True: the picture has changed.
+  /// Shows the point that the hand of @p distance would touch. True: the picture has changed.
   bool showDistance(const HandDistance& distance);
 
-  /// The next renderIfDue() draws a frame.
+  /// Makes the next renderIfDue() draw a frame.
   void requestRender() { isRequested_ = true; }
   void renderIfDue();
 
@@ -64,9 +64,9 @@ private:
   vtkSmartPointer<vtkHapticChart> chart_;
   std::function<double(const ServoSample&)> idealForce_;
   bool isRequested_ = false;
-  bool chartChanged_ = true;         ///< Since it was drawn.
-  std::vector<double> chartPicture_; ///< What else its picture depends on.
-  double frameSeconds_ = 0.0;        ///< Of the last frame.
+  bool chartChanged_ = true;         ///< True if the chart changed since it was drawn.
+  std::vector<double> chartPicture_; ///< Other values on which the chart's picture depends.
+  double frameSeconds_ = 0.0;        ///< Duration of the last frame.
   double frameEnd_ = -1e9;
 };
 

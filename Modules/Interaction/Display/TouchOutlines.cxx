@@ -14,16 +14,16 @@ namespace pointhaptics
 namespace
 {
 
-/// Points between a mark and the middle of its outline.
+/// Distance between a mark and the middle of its outline, points.
 constexpr double kAway = 1.5;
-/// After all that set the camera and the window's dots per inch.
+/// Priority after all observers that set the camera and the window's dots per inch.
 constexpr float kLast = -2.0F;
 constexpr double kPointsPerInch = 72.0;
 constexpr int kCircleCorners = 32;
 constexpr double kTurn = 6.28318530717958648;
 constexpr unsigned char kYellow[3] = { 255, 217, 26 };
 
-/// About @p center, through the ends of @p first and @p second.
+/// Circle about @p center through the ends of @p first and @p second.
 std::vector<Vec3> circle(const Vec3& center, const Vec3& first, const Vec3& second)
 {
   std::vector<Vec3> points;
@@ -35,7 +35,7 @@ std::vector<Vec3> circle(const Vec3& center, const Vec3& first, const Vec3& seco
   return points;
 }
 
-/// Across @p along.
+/// Circle across @p along.
 std::vector<Vec3> circleAcross(const Vec3& center, const Vec3& along, double radius)
 {
   const Vec3 second = anyPerpendicular(along);
@@ -44,7 +44,7 @@ std::vector<Vec3> circleAcross(const Vec3& center, const Vec3& along, double rad
 
 } // namespace
 
-/// For the camera as it is.
+/// Projects shapes for the present camera.
 class TouchOutlines::Picture
 {
 public:
@@ -60,7 +60,7 @@ public:
     up_ = cross(right_, forward); // the camera's own stays as it is
   }
 
-  /// The shape about @p points; nothing where one lies behind the camera.
+  /// Adds the shape about @p points, unless one lies behind the camera.
   void add(const std::vector<Vec3>& points)
   {
     ScreenPolygon polygon;
@@ -82,7 +82,7 @@ public:
       this->add(circle(center, radius * right_, radius * up_));
     }
   }
-  /// About two circles across the way between them.
+  /// Adds the shape about two circles across the way between them.
   void addCone(const Vec3& begin, double beginRadius, const Vec3& end, double endRadius)
   {
     const Vec3 along = normalized(end - begin);
@@ -151,7 +151,7 @@ void TouchOutlines::place()
   const double pixels = renderer_->GetRenderWindow()->GetDPI() / kPointsPerInch;
   outlines_.clear(pixels, marks.width);
   Picture picture(renderer_, kAway * pixels * marks.width);
-  // Sphere, arrow and normal together; the hand, which lies in them, for itself.
+  // Sphere, arrow and normal have one outline; the hand, which lies in them, has its own.
   picture.addBall(marks.proxy, marks.proxyRadius);
   if (marks.tipRadius > 0.0)
   {

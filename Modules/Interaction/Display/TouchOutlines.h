@@ -1,5 +1,5 @@
 /// @file
-/// Where the marks of touch lie in the picture, so that their outlines can be drawn.
+/// Finds the marks of touch in the picture and draws their outlines.
 #pragma once
 
 #include "MarkOutlines.h"
@@ -17,7 +17,7 @@ class vtkRenderer;
 namespace pointhaptics
 {
 
-/// What is outlined; workspace, metres. What has no size is not there.
+/// Marks of touch that get an outline; workspace, metres. A mark without a size is not shown.
 struct TouchMarks
 {
   Vec3 proxy;
@@ -28,21 +28,21 @@ struct TouchMarks
   Vec3 normalEnd;
   Vec3 arrowBegin;
   Vec3 arrowEnd;
-  Vec3 arrowNeck; ///< Where the tip begins.
+  Vec3 arrowNeck; ///< Place where the tip begins.
   double shaftRadius = 0.0;
   double tipRadius = 0.0;
-  /// From the hand to where it would touch, with a ring there.
+  /// Line from the hand to the point that it would touch, with a ring there.
   Vec3 hand;
   Vec3 nearest;
   double ringRadius = 0.0;
   double width = 1.0; ///< Factor on all lines.
 };
 
-/// Placed at the start of each render of the renderer. GUI thread only.
+/// Draws the outlines at the start of each render of the renderer. GUI thread only.
 class TouchOutlines
 {
 public:
-  /// @p marks is asked before each render.
+  /// @p marks returns the marks before each render.
   explicit TouchOutlines(std::function<TouchMarks()> marks);
   ~TouchOutlines();
   TouchOutlines(const TouchOutlines&) = delete;

@@ -40,10 +40,10 @@ bool DeviceClutch::take(const std::vector<ServoSample>& samples)
 
 bool DeviceClutch::take(const ServoSample& sample)
 {
-  // A device that says nothing holds nothing: the hand may be anywhere when it speaks again.
+  // A device without an answer counts as holding nothing: the hand may be anywhere when it answers again.
   const bool isReadable = sample.device == Status::Ok && isFinite(sample.state.hip);
   const std::uint32_t buttons = isReadable ? sample.buttons : 0;
-  // But a button that is held through a moment without answers is not pressed again.
+  // A button that is held through a moment without answers is not pressed again.
   const std::uint32_t pressed = buttons & ~buttons_;
   buttons_ = isReadable ? buttons : buttons_;
   std::string held; // a name: a command that is run may change the registry

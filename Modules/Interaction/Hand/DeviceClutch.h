@@ -19,10 +19,10 @@ namespace pointhaptics
 class ModelTransform;
 class ScreenView;
 
-/// Runs what the buttons of any device are bound to, as the servo loop reads them. The model follows each
-/// tick in which the button of a GripAction was down, and no other, however late this is seen. From the
-/// moment the button is seen the force goes to zero (ServoLoop::setClutched()); once the scene of the new
-/// place is felt, it comes back slowly. Other commands are run when their button is pressed. GUI thread only.
+/// Runs the commands that are bound to the device's buttons, as the servo loop reads them. The model follows
+/// each tick in which the button of a GripAction was down, and no other, however late this is seen. Once the
+/// button is seen the force goes to zero (ServoLoop::setClutched()); it comes back slowly once the scene of
+/// the new place is felt. Other commands run when their button is pressed. GUI thread only.
 class POINTHAPTICSINTERACTION_EXPORT DeviceClutch
 {
 public:
@@ -37,14 +37,16 @@ public:
   DeviceClutch(const DeviceClutch&) = delete;
   DeviceClutch& operator=(const DeviceClutch&) = delete;
 
-  /// Not owned, and may be destroyed at any time. The one before is let go of.
+  /// Sets the servo loop, which is not owned and may be destroyed at any time. The former loop is released
+  /// from the clutch.
   void setServo(ServoLoop* servo);
   /// Name of the command that holds the model at this moment; empty: none does.
   const std::string& hold() const { return hold_; }
   bool isHolding() const { return !hold_.empty(); }
-  /// All ticks since the last call. True: a command was run.
+  /// Takes all ticks since the last call. True: a command was run.
   bool take(const std::vector<ServoSample>& samples);
-  /// The scene of the model's new place is published: the hand may feel it, unless it holds the model.
+  /// Ends the clutch: the scene of the model's new place is published, and the hand may feel it unless it
+  /// holds the model.
   void letGo();
 
 private:
@@ -58,11 +60,11 @@ private:
   ModelTransform& model_;
   WatchedPointer<ServoLoop> servo_;
   std::string hold_;
-  GripAction grip_; ///< Of that command.
+  GripAction grip_; ///< Action of that command.
   std::uint32_t buttons_ = 0;
-  Vec3 from_; ///< Where the hand was when the model was last moved by it.
+  Vec3 from_; ///< Position of the hand when it last moved the model.
   Vec3 to_;
-  bool isClutched_ = false; ///< As the servo loop was told.
+  bool isClutched_ = false; ///< True if the servo loop was told to clutch.
 };
 
 } // namespace pointhaptics

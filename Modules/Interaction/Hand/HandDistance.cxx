@@ -18,12 +18,12 @@ namespace pointhaptics
 namespace
 {
 
-/// Part of the way beyond which a direction is worth a word.
+/// A direction is named if it has more than this part of the way.
 constexpr double kMuch = 0.4;
 
 } // namespace
 
-/// False: there is no cloud, or it moves.
+/// Indexes the cloud. False: there is none, or it moves.
 bool HandDistance::index()
 {
   vtkPolyData* cloud = scenes_.cloud();

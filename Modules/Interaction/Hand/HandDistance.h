@@ -1,5 +1,5 @@
 /// @file
-/// How far a hand in free space is from the cloud, and in which direction.
+/// Distance and direction from a hand in free space to the cloud.
 #pragma once
 
 #include "ScreenView.h"
@@ -21,7 +21,7 @@ namespace pointhaptics
 class ScenePipeline;
 struct ProxyState;
 
-/// Of the means that are felt, where the model is at rest. GUI thread only.
+/// Distance from the hand to the felt means, where the model is at rest. GUI thread only.
 class POINTHAPTICSINTERACTION_EXPORT HandDistance
 {
 public:
@@ -31,14 +31,14 @@ public:
   {
   }
 
-  /// Takes the hand of @p latest; null: nobody asks. The first call after the cloud has changed makes an
-  /// index, 0.1 us a point; later ones take some microseconds.
+  /// Takes the hand of @p latest; null: the distance is not needed. The first call after the cloud has
+  /// changed makes an index, 0.1 us a point; later ones take some microseconds.
   void update(const ProxyState* latest);
 
-  /// The point nearest to the hand, which touches nothing; workspace, metres.
+  /// Point nearest to the hand, which touches nothing; workspace, metres.
   const std::optional<Vec3>& nearest() const { return nearest_; }
   const Vec3& hand() const { return hand_; }
-  /// Metres; 0 in contact. Nothing: nobody asked, or there is no point.
+  /// Distance in metres; 0 in contact. Nothing: it is not needed, or there is no point.
   std::optional<double> distance() const { return distance_; }
   /// "nearest point 3.1 mm away: left, ahead", as the person sees it; empty where there is nothing to say.
   std::string text(const ScreenAxes& screen) const;

@@ -36,7 +36,7 @@ bool HapticTouch::fail(const std::string& message)
   return false;
 }
 
-/// Where the means are, and how to bring them to the hand, if none is in its box.
+/// Says where the means are, and how to bring them to the hand, if none is in its box.
 std::string HapticTouch::problemOfReach() const
 {
   vtkPolyData* means = style_->GetScenes().cloud();

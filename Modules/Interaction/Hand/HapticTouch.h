@@ -18,7 +18,7 @@
 namespace pointhaptics
 {
 
-/// Use, where a style has a resampler and is that of an interactor with a window:
+/// Adds touch to a style that has a resampler and belongs to an interactor with a window:
 /// @code
 /// HapticTouch touch(style); // a simulated hand under the mouse
 /// touch.run();
@@ -27,28 +27,28 @@ namespace pointhaptics
 class POINTHAPTICSINTERACTION_EXPORT HapticTouch
 {
 public:
-  /// Gives the style all three. @p device is not owned, is closed and must outlive this; null: a simulated
-  /// hand.
+  /// Gives the style device, servo loop and props. @p device is not owned, is closed and must outlive this;
+  /// null: a simulated hand.
   explicit HapticTouch(vtkInteractorStyleHaptic* style, HapticDevice* device = nullptr);
   ~HapticTouch(); ///< Stops.
   HapticTouch(const HapticTouch&) = delete;
   HapticTouch& operator=(const HapticTouch&) = delete;
 
-  /// Shows the window, makes the scene, opens the device, starts the servo loop and the style's timer. False:
-  /// message() says what failed, and the touch is stopped; or that it is on already, and it stays so. A model
-  /// of which no mean lies in the box of the hand is a failure: nothing could be touched. In a window that
-  /// shows nothing yet, the means are drawn.
+  /// Shows the window, makes the scene, opens the device, and starts the servo loop and the style's timer.
+  /// False: message() says what failed, and the touch is stopped; or the touch was on already and stays so. A
+  /// model without a mean in the hand's box is a failure, as nothing could be touched. In a window that shows
+  /// nothing yet, the means are drawn.
   bool start(const HapticParameters& parameters = {}, const ServoSettings& settings = {});
   /// Stops the loop, closes the device.
   void stop();
-  /// start(), events until the user closes the window, stop(). What failed is an error of the style too,
-  /// which VTK shows.
+  /// Runs start(), events until the user closes the window, and stop(). A failure is an error of the style
+  /// too, which VTK shows.
   bool run();
 
   const std::string& message() const { return message_; }
   ServoLoop& servo() { return servo_; }
   vtkHapticProps* props() { return props_; }
-  SimulatedDevice& hand() { return hand_; } ///< Of use where no device was given.
+  SimulatedDevice& hand() { return hand_; } ///< Used where no device was given.
 
 private:
   bool fail(const std::string& message);
@@ -60,7 +60,7 @@ private:
   HapticDevice& device_;
   vtkNew<vtkHapticProps> props_;
   std::string message_;
-  ServoLoop servo_; ///< Last: destroyed, and so stopped, first.
+  ServoLoop servo_; ///< Last member: destroyed, and so stopped, first.
 };
 
 } // namespace pointhaptics

@@ -18,9 +18,9 @@ namespace pointhaptics
 namespace
 {
 
-/// A key that is pressed again so soon was held all the time.
+/// A key that is pressed again within this time was held all along.
 constexpr double kKeyRepeatSeconds = 0.05;
-/// Pixels: a pointer nearer to the hand is left where it is.
+/// A pointer nearer to the hand than this, pixels, stays where it is.
 constexpr double kPointerSlack = 1.0;
 
 } // namespace

@@ -17,7 +17,7 @@ class ModelTransform;
 class ScreenView;
 struct ProxyState;
 
-/// Without a device every call has no effect. GUI thread only.
+/// Moves the simulated hand by mouse and keys. Without a device every call has no effect. GUI thread only.
 class POINTHAPTICSINTERACTION_EXPORT MouseHand
 {
 public:
@@ -28,7 +28,7 @@ public:
   {
   }
 
-  /// Not owned, and may be destroyed at any time.
+  /// Sets the device, which is not owned and may be destroyed at any time.
   void setDevice(SimulatedDevice* device) { device_ = device; }
   bool hasDevice() const { return bool(device_); }
 
@@ -38,35 +38,34 @@ public:
   bool followsMouse() const { return followsMouse_; }
   ///@}
   ///@{
-  /// In hand mode, push the mouse pointer out of what the hand touches: the pointer goes to where the surface
-  /// has pushed the hand, and the person has to push against it. Default: off.
+  /// Pushes the mouse pointer, in hand mode, out of the touched surface: the pointer goes to where the
+  /// surface has pushed the hand, and the person has to push against it. Default: off.
   void setPushesPointer(bool on) { pushesPointer_ = on; }
   bool pushesPointer() const { return pushesPointer_; }
   ///@}
 
   ///@{
-  /// Metres in the workspace; clamped to it. Depth: away from the person (positive) or back, along the view
-  /// direction.
+  /// Moves the hand, metres in the workspace; clamped to it. Depth: away from the person (positive) or back,
+  /// along the view direction.
   void move(const Vec3& offset);
   void moveInDepth(double metres);
-  /// In the view plane, as arrow keys do.
+  /// Moves the hand in the view plane, as arrow keys do.
   void moveOnScreen(double right, double up);
-  /// Without a way from where it was: nothing in between is touched.
+  /// Puts the hand to @p place without a way there: nothing in between is touched.
   void placeAt(const Vec3& place);
   ///@}
-  /// As far as the mouse has moved, in the view plane.
+  /// Moves the hand in the view plane as far as the mouse has moved.
   void drag();
-  /// To where the pointer is, in the view plane.
+  /// Moves the hand in the view plane to the pointer.
   void follow();
   void setPointerInside(bool isInside) { isPointerInside_ = isInside; }
-  /// The surface has pushed the hand away from where the pointer wants it: the pointer goes where the hand
-  /// is.
+  /// Moves the pointer to the hand, where the surface has pushed the hand away from it.
   void pushPointer(const ProxyState& latest);
-  /// In hand mode the pointer goes where the hand is.
+  /// Moves the pointer to the hand, in hand mode.
   void putPointerOnHand();
 
-  /// A key presses or releases button @p index, 0 to 3, of the device. A key that repeats is released and
-  /// pressed again at once: whether it stays up is decided by update().
+  /// Presses or releases button @p index, 0 to 3, of the device by a key. A key that repeats is released and
+  /// pressed again at once; update() decides if it stays up.
   void holdButton(int index, bool isDown);
   /// To be called from a timer.
   void update();
@@ -82,7 +81,7 @@ private:
   bool pushesPointer_ = false;
   bool isPointerInside_ = false;
   std::uint32_t heldButtons_ = 0;
-  std::uint32_t releasedButtons_ = 0; ///< To be released unless the key repeats.
+  std::uint32_t releasedButtons_ = 0; ///< Buttons that are released unless the key repeats.
   double releaseTime_ = -1e9;
 };
 

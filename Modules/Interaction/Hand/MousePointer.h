@@ -1,5 +1,5 @@
 /// @file
-/// Puts the mouse pointer somewhere, which VTK 9.1 leaves undone on X.
+/// Moves the mouse pointer, which VTK 9.1 does not do on X.
 #pragma once
 
 class vtkRenderWindow;

@@ -16,7 +16,7 @@ struct vtkHapticTouch::Internals
 {
   vtkSmartPointer<vtkInteractorStyleHaptic> style;
   std::unique_ptr<HapticDevice> device; ///< Null: the touch's own hand.
-  std::unique_ptr<HapticTouch> touch;   ///< After the device, which must outlive it.
+  std::unique_ptr<HapticTouch> touch;   ///< Declared after the device, which must outlive it.
 
   ProxyState latest() const
   {

@@ -55,13 +55,14 @@ public:
   ///@}
 
   /**
-   * Where the simulated hand is to go. The servo loop moves it there; no effect while the touch is off.
+   * Sets the target of the simulated hand. The servo loop moves the hand there; no effect while the touch is
+   * off.
    */
   void MoveHand(double x, double y, double z);
 
   ///@{
   /**
-   * Of the newest tick: where the hand is, and the force on it. 0, 0, 0 while the touch is off.
+   * Position of the hand and force on it in the newest tick; 0, 0, 0 while the touch is off.
    */
   void GetHand(double position[3]) const;
   void GetForce(double force[3]) const;

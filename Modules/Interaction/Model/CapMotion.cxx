@@ -11,11 +11,11 @@ namespace pointhaptics
 namespace
 {
 
-/// The cap at its end: a second of it.
+/// Motion of the model in a second with the puck at its end: edges of the workspace, degrees, factor.
 constexpr double kEdgesPerSecond = 0.5;
 constexpr double kDegreesPerSecond = 90.0;
 constexpr double kScalePerSecond = 2.0;
-/// After a pause the model does not jump.
+/// Longest time between two reports that counts, seconds: the model must not jump after a pause.
 constexpr double kLongestStep = 0.2;
 
 } // namespace

@@ -1,5 +1,5 @@
 /// @file
-/// The cap of a 3D mouse moves the model.
+/// Moves the model by the puck of a 3D mouse.
 #pragma once
 
 #include "Core/Base/Vector3.h"
@@ -12,8 +12,8 @@ namespace pointhaptics
 class ModelTransform;
 class ScreenView;
 
-/// What the drivers of 3D mice have in common. The cap's axes are those of the screen: x right, y up, z
-/// towards the person. GUI thread only.
+/// Moves the model by the puck of a 3D mouse, for all drivers. The puck's axes are those of the screen: x
+/// right, y up, z towards the person. GUI thread only.
 class POINTHAPTICSINTERACTION_EXPORT CapMotion
 {
 public:
@@ -27,9 +27,9 @@ public:
   CapMotion(const CapMotion&) = delete;
   CapMotion& operator=(const CapMotion&) = delete;
 
-  /// For @p seconds the cap was pushed by @p shift and turned by @p turn, each axis from -1 to 1; longer than
-  /// 0.2 s counts as that. With @p scales, pulling it enlarges the model and pushing makes it smaller;
-  /// nothing else moves then. All moves up to rest() are one to ModelTransform::undo().
+  /// Moves the model: for @p seconds the puck was pushed by @p shift and turned by @p turn, each axis from -1
+  /// to 1; longer than 0.2 s counts as that. With @p scales, pulling it enlarges the model and pushing makes
+  /// it smaller; nothing else moves then. All moves up to rest() are one to ModelTransform::undo().
   void move(const Vec3& shift, const Vec3& turn, bool scales, double seconds);
   /// The cap is let go of.
   void rest();

@@ -106,7 +106,7 @@ bool ModelTransform::undo()
   {
     const Elements elements = history_.back();
     history_.pop_back();
-    // A reset of a model that had not moved changed nothing.
+    // A reset of a model that had not moved is no change.
     if (!std::equal(elements.begin(), elements.end(), transform_->GetMatrix()->GetData()))
     {
       transform_->SetMatrix(elements.data());
@@ -146,7 +146,7 @@ void ModelTransform::remember()
 
 void ModelTransform::report()
 {
-  // Many small steps must not grow vtkTransform's list of concatenated matrices without end.
+  // Many small steps must not lengthen vtkTransform's list of matrices for ever.
   vtkNew<vtkMatrix4x4> matrix;
   matrix->DeepCopy(transform_->GetMatrix());
   transform_->SetMatrix(matrix);

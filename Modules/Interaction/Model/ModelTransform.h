@@ -1,5 +1,5 @@
 /// @file
-/// Where the model lies in the haptic workspace, and how to take changes back.
+/// Transform of the model into the haptic workspace, with undo.
 #pragma once
 
 #include "Core/Base/Vector3.h"
@@ -36,13 +36,13 @@ public:
   void setWorkspaceBounds(const double bounds[6]);
   const std::array<double, 6>& workspaceBounds() const { return workspace_; }
   Vec3 center() const;
-  double edge() const; ///< The longest one.
+  double edge() const; ///< Longest edge of the box.
 
-  /// For reading. The same object at all times.
+  /// The transform, for reading; always the same object.
   vtkTransform* transform() const { return transform_; }
-  /// Also what reset() goes back to. undo() ends here.
+  /// Sets the transform, to which reset() goes back. undo() ends here.
   void setMatrix(vtkMatrix4x4* matrix);
-  /// The same without telling the observer: the scene of this matrix is there already.
+  /// As setMatrix() without telling the observer: the scene of this matrix is there already.
   void adoptMatrix(vtkMatrix4x4* matrix);
 
   ///@{
@@ -52,14 +52,14 @@ public:
   void translate(const Vec3& offset);
   void scale(double factor);
   ///@}
-  /// Back to setMatrix().
+  /// Restores the matrix of setMatrix().
   void reset();
   /// Takes back the last change. The last 100 are kept. False: there is none.
   bool undo();
 
   ///@{
-  /// The changes in between are one to undo(), such as the steps of a drag. Gestures may overlap: they are
-  /// one then.
+  /// Joins the changes in between, such as the steps of a drag, into one for undo(). Gestures that overlap
+  /// are one.
   void beginGesture();
   void endGesture();
   ///@}
@@ -73,8 +73,8 @@ private:
   vtkSmartPointer<vtkMatrix4x4> initial_;
   std::array<double, 6> workspace_{ -0.05, 0.05, -0.05, 0.05, -0.05, 0.05 };
   std::deque<Elements> history_; ///< Matrices before the last changes, oldest first.
-  int gestures_ = 0;             ///< Under way.
-  bool isRemembered_ = false;    ///< What was before the gesture.
+  int gestures_ = 0;             ///< Gestures under way.
+  bool isRemembered_ = false;    ///< True if the matrix before the gesture is in the history.
   std::function<void()> changed_;
 };
 

@@ -19,7 +19,7 @@ namespace pointhaptics
 namespace
 {
 
-/// What must be within reach of the hand: itself and what it touches. The worker's threads ask.
+/// Box that must be within reach of the hand: the HIP and the contact point. The worker's threads ask.
 Bounds handBounds(const WatchedPointer<ServoLoop>& servo)
 {
   ServoSample latest;
@@ -46,7 +46,7 @@ ScenePipeline::~ScenePipeline() = default;
 
 void ScenePipeline::setServo(ServoLoop* servo)
 {
-  // What is in flight would go to the loop before.
+  // Scenes in flight would go to the former loop.
   worker_.cancel();
   isInvalid_ = true;
   shownNumber_ = requested_;
@@ -102,15 +102,15 @@ void ScenePipeline::startCloud(bool findsLattice)
   numberOfVoxels_ = 0;
   auto* input = resampler_ ? vtkPointSet::SafeDownCast(resampler_->GetInputDataObject(0, 0)) : nullptr;
   numberOfPoints_ = input ? input->GetNumberOfPoints() : 0;
-  // The means of another cloud are neither drawn nor felt.
+  // Means of another cloud are neither drawn nor felt.
   if (vtkPolyData* shown = this->cloud())
   {
     shown->Initialize();
   }
 }
 
-/// The hand feels the model where it is before it is resampled there. Not with another cloud than before:
-/// what is felt until that is resampled stays where it was.
+/// Lets the hand feel the model at its new place before it is resampled there. Not after a change of the
+/// cloud: the felt scene then stays where it was until the new cloud is resampled.
 void ScenePipeline::publishMoved()
 {
   AffineTransform modelToWorkspace;
@@ -120,7 +120,7 @@ void ScenePipeline::publishMoved()
   }
 }
 
-/// The drawn means are those of the last resampling: show them where the model is now.
+/// Shows the drawn means, which are those of the last resampling, at the model's present place.
 void ScenePipeline::preview()
 {
   if (actor_)
@@ -246,7 +246,7 @@ void ScenePipeline::showFinished()
   }
 }
 
-/// What the worker has made becomes the output of the filters that the program knows, as if they had run.
+/// Makes the worker's result the output of the filters that the program knows, as if they had run.
 void ScenePipeline::show(const BuiltScene& built)
 {
   shownNumber_ = built.number;

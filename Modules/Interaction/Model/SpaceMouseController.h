@@ -1,5 +1,5 @@
 /// @file
-/// A SpaceMouse read by our own driver moves the model.
+/// Moves the model by a SpaceMouse of the project's own driver.
 #pragma once
 
 #include "CapMotion.h"
@@ -14,7 +14,7 @@
 namespace pointhaptics
 {
 
-/// The model is rotated and translated as the cap is turned and pushed on the screen. With the first button
+/// Rotates and translates the model as the puck is turned and pushed on the screen. With the first button
 /// held, pushing and pulling scales it; the second one resets it. GUI thread only.
 class POINTHAPTICSINTERACTION_EXPORT SpaceMouseController
 {
@@ -25,9 +25,9 @@ public:
   {
   }
 
-  /// Not owned, and may be destroyed at any time.
+  /// Sets the SpaceMouse, which is not owned and may be destroyed at any time.
   void setMouse(SpaceMouse* mouse) { mouse_ = mouse; }
-  /// To be called some 30 times a second; @p timeSeconds of a steady clock.
+  /// Moves the model. Call it some 30 times a second; @p timeSeconds of a steady clock.
   void update(double timeSeconds);
 
 private:

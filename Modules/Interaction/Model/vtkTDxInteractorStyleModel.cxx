@@ -18,13 +18,13 @@ namespace
 
 constexpr int kScaleButton = 1;
 constexpr int kResetButton = 2;
-/// Of a cap at its end.
+/// Value of an axis at the end of the puck's way.
 constexpr double kFullDeflection = 350.0;
-/// What the first event after a pause stands for: drivers report about 60 times a second.
+/// Seconds that the first event after a pause counts for: drivers report about 60 times a second.
 constexpr double kFirstStep = 1.0 / 60.0;
 constexpr double kPause = 0.2;
 
-/// -1 to 1 on each axis.
+/// Limits each axis to -1 to 1.
 Vec3 limited(const Vec3& v)
 {
   Vec3 result;

@@ -6,7 +6,7 @@
  * VTK_USE_TDX and the program calls vtkRenderWindowInteractor::UseTDxOn() or QVTK's equivalent. This moves
  * the model as pointhaptics::SpaceMouseController does, where vtkTDxInteractorStyleCamera moves the camera.
  * vtkInteractorStyleHaptic has one: see GetTDxStyle(). The Settings of the base class choose axes and speed.
- * A cap pushed to its end is taken to say 350, the number of the devices' own reports; AngleSensitivity and
+ * A puck pushed to its end is taken to say 350, the number of the devices' own reports; AngleSensitivity and
  * TranslationX/Y/ZSensitivity adapt drivers that scale it.
  *
  * Button 1 held: pushing and pulling scales. Button 2: reset. GUI thread only.
@@ -35,7 +35,7 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /**
-   * What it moves, seen on @p screen. Both are not owned; null takes them away.
+   * Sets the model to move, seen on @p screen. Both are not owned; null takes them away.
    */
   void SetModel(pointhaptics::ModelTransform* model, const pointhaptics::ScreenView* screen);
 
@@ -49,7 +49,7 @@ public:
   ///@}
 
   /**
-   * To be called from a timer: drivers do not say that the cap rests. A pause of 0.2 s means so, and ends
+   * To be called from a timer: drivers do not say that the puck rests. A pause of 0.2 s means so, and ends
    * what one undo takes back.
    */
   void CheckForRest();

@@ -1,5 +1,5 @@
 /// @file
-/// A picture as a file that appears when it is complete.
+/// Writes a picture as a file that appears when it is complete.
 #pragma once
 
 #include "PointHapticsInteractionModule.h" // For export macro

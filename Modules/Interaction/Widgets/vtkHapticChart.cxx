@@ -36,7 +36,7 @@ constexpr unsigned char kForceColor[3] = { 205, 85, 0 };
 constexpr unsigned char kRadiusColor[3] = { 190, 30, 110 };
 constexpr unsigned char kIdealColor[3] = { 20, 90, 200 };
 constexpr int kIdealPlot = 2; // of the chart; 0 and 1 are radius and force
-/// Points: a lower chart has few labels beside it.
+/// A chart lower than this, points, has few labels beside it.
 constexpr double kLow = 150.0;
 constexpr double kPointsPerInch = 72.0;
 constexpr int kFontSize = 13;
@@ -65,7 +65,7 @@ void styleAxis(vtkAxis* axis, const char* title, const unsigned char color[3])
   axis->GetPen()->SetColor(90, 90, 90);
 }
 
-/// The next number at or above @p value that is one of @p steps times a power of ten.
+/// Returns the next number at or above @p value that is one of @p steps times a power of ten.
 double roundUp(double value, std::initializer_list<double> steps)
 {
   const double power = std::pow(10.0, std::floor(std::log10(value)));
@@ -79,8 +79,8 @@ double roundUp(double value, std::initializer_list<double> steps)
   return 10.0 * power;
 }
 
-/// Beside a @p low axis VTK has room for two labels, 1, 2 or 5 apart: other ranges would have that of 0
-/// alone.
+/// Sets the range of an axis. Beside a @p low axis VTK has room for two labels, 1, 2 or 5 apart: other ranges
+/// would have only the label of 0.
 void setRange(vtkAxis* axis, double largest, double smallestRange, bool low)
 {
   const double needed = std::max(smallestRange, 1.05 * largest);
@@ -121,8 +121,8 @@ bool vtkHapticChart::Internals::isLow() const
   return window && drawn->GetSize()[1] * kPointsPerInch < kLow * window->GetDPI();
 }
 
-/// The label at the top of an axis, half of which is above it, and the upright titles end within the chart.
-/// Titles have one size, the largest that all of them fit in.
+/// Fits the texts into the chart: the label at the top of an axis, half of which is above it, and the upright
+/// titles. Titles have one size, the largest that all of them fit in.
 void vtkHapticChart::Internals::fitTexts()
 {
   vtkRenderer* drawn = this->renderer;
@@ -160,7 +160,7 @@ void vtkHapticChart::Internals::fitTexts()
   }
 }
 
-/// One row for each slice that has samples.
+/// Fills the table: one row for each slice that has samples.
 void vtkHapticChart::Internals::fill(double begin, double end)
 {
   this->time->Reset();
@@ -194,7 +194,7 @@ void vtkHapticChart::Internals::fill(double begin, double end)
   }
   for (int plot = 0; plot < 2; ++plot)
   {
-    // vtkContext2D takes a line of fewer than two points for an error.
+    // vtkContext2D reports a line of fewer than two points as an error.
     this->chart->GetPlot(plot)->SetVisible(this->time->GetNumberOfTuples() > 1);
   }
   knowsIdeal = knowsIdeal && this->time->GetNumberOfTuples() > 1;
@@ -245,7 +245,7 @@ vtkHapticChart::vtkHapticChart()
   ideal->GetPen()->SetLineType(vtkPen::DASH_LINE);
   ideal->SetVisible(false);
   vtkChartLegend* legend = parts.chart->GetLegend();
-  // Beside the curves: they may be anywhere in the plot.
+  // The legend stands beside the curves, which may be anywhere in the plot.
   legend->SetInline(false);
   legend->SetHorizontalAlignment(vtkChartLegend::RIGHT);
   legend->SetVerticalAlignment(vtkChartLegend::TOP);

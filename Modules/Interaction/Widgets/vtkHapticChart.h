@@ -46,15 +46,15 @@ public:
   ///@}
 
   /**
-   * What the legend calls the two forces of AddSample(), such as two methods. Default: "force (N)" and "ideal
-   * force (N)".
+   * Names in the legend for the two forces of AddSample(), such as two methods. Default: "force (N)" and
+   * "ideal force (N)".
    */
   void SetForceNames(const char* force, const char* other);
 
   ///@{
   /**
-   * Keep what is drawn: samples that come are kept out of the picture until this is off again; then the chart
-   * goes on with the newest. Default: off.
+   * Freeze the picture: samples that come are kept out of it until this is off again; then the chart goes on
+   * with the newest. Default: off.
    */
   void SetPaused(bool paused);
   bool GetPaused() const;

@@ -37,7 +37,7 @@ constexpr double kBesideLine = 5.0;
 /// Opacity.
 constexpr double kBarGround = 0.75;
 constexpr double kNumberGround = 0.6;
-/// Of a search for a place that is free.
+/// Step of the search for a free place, points.
 constexpr double kStep = 12.0;
 constexpr double kPointsPerInch = 72.0;
 /// After ScreenLayout, which says what is taken.
@@ -48,7 +48,7 @@ bool meet(const std::array<double, 4>& a, const std::array<double, 4>& b)
   return a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3];
 }
 
-/// Whether the line from @p a to @p b goes through @p box.
+/// True if the line from @p a to @p b goes through @p box.
 bool meets(const pointhaptics::Pixel& a, const pointhaptics::Pixel& b, const std::array<double, 4>& box)
 {
   const double from[2] = { a.x, a.y };
@@ -144,7 +144,7 @@ void vtkHapticGauge::Internals::place()
   this->side > 0.0 ? text->SetJustificationToLeft() : text->SetJustificationToRight();
 }
 
-/// What it takes where it is now; @p text is the size of the number.
+/// Box of the gauge at place @p at; @p text is the size of the number.
 std::array<double, 4> vtkHapticGauge::Internals::boxAt(
   const pointhaptics::Pixel& at, const double text[2]) const
 {

@@ -20,12 +20,13 @@ namespace
 {
 
 constexpr int kLargestHelp = 16;
-/// Of all lines at once: what is smaller is not read.
+/// Least font of the help where all lines are shown at once: a smaller one is not read.
 constexpr int kReadableHelp = 9;
-/// Of a page, where not all lines fit at once, and the least where it is too wide for the window.
+/// Font of a help page, where not all lines fit at once, and the least where the page is too wide for the
+/// window.
 constexpr int kPageFont = 12;
 constexpr int kSmallestHelp = 7;
-/// Lines of the plate that are none of the list: margins, and which page it is.
+/// Lines of the plate beside the list: margins, and the number of the page.
 constexpr std::size_t kPlateLines = 2;
 constexpr std::size_t kFooterLines = 2;
 /// Part of the renderer that the list of keys may take.
@@ -270,7 +271,7 @@ int vtkHapticOverlay::FitHelpFont(int largest, int smallest, double width, doubl
   return font;
 }
 
-/// Of @p lines, which are the text, as many as fit, in a font that is read well.
+/// Fills the page with as many of @p lines, the lines of the help, as fit in a font that is read well.
 void vtkHapticOverlay::FitHelpPage(const std::vector<std::string>& lines, double width, double height)
 {
   this->FitHelpFont(kPageFont, kSmallestHelp, width, std::numeric_limits<double>::max());

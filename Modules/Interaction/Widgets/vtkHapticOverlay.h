@@ -36,7 +36,7 @@ public:
 
   ///@{
   /**
-   * The same at the upper right (a panel of numbers) and at the lower left (details of what was picked).
+   * As SetText(), at the upper right (a panel of numbers) and at the lower left (details of a picked point).
    */
   bool SetPanel(const std::string& text);
   bool SetDetail(const std::string& text);

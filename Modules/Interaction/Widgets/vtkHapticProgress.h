@@ -38,7 +38,7 @@ public:
    */
   bool Hide();
 
-  /// What is written over the bar; empty: it is hidden.
+  /// Text over the bar; empty: the bar is hidden.
   const std::string& GetText() const { return this->ShownText; }
 
   ///@{

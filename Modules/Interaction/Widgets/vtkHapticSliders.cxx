@@ -49,7 +49,7 @@ constexpr double kTextAbove = 0.022;
 constexpr double kLeastWidth = 96.0;
 constexpr double kHalfKnob = 0.06; // over the length of the way
 constexpr double kSliderPerText = 2.4;
-/// Of the room below the text.
+/// Height of a slider within the room below the text, as a fraction.
 constexpr double kSliderAt = 0.5;
 
 struct One

@@ -63,7 +63,7 @@ public:
   ///@}
 
   /**
-   * What a drag does: takes @p part of the slider's way, 0 to 1, and sends ValueChangedEvent.
+   * Acts as a drag: takes @p part of the slider's way, 0 to 1, and sends ValueChangedEvent.
    */
   void MoveTo(int slider, double part);
 

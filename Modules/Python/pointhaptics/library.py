@@ -116,7 +116,7 @@ def check(status: int) -> None:
 
 
 class Handle:
-    """What the library made, destroyed with this object."""
+    """Owns an object of the library and destroys it."""
 
     def __init__(self, create: Callable[..., int], destroy: Callable[[c_void_p], None], *arguments: Any) -> None:
         self.value = c_void_p()

@@ -65,7 +65,7 @@ class Scene:
         return Scene, (self._points, self._voxel, self._dims, self._workspace)
 
     def made(self, stop: library.Stop) -> library.Handle:
-        """What the library feels; made once. Raises Stopped. For the modules of this package."""
+        """The library's scene; made once. Raises Stopped. For the modules of this package."""
         while not self._lock.acquire(timeout=_LOOK):
             if stop.is_requested:
                 raise library.Stopped

@@ -1,4 +1,4 @@
-"""What proxies, paths and servo loops share: how a surface feels, and rows of what is felt."""
+"""Parameters and result rows that proxies, paths and servo loops share."""
 
 from __future__ import annotations
 

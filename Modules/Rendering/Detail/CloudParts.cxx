@@ -21,7 +21,7 @@ namespace pointhaptics
 namespace
 {
 
-/// The array @p mapper colours the points of @p cloud by; null: none.
+/// The array by which @p mapper colours the points of @p cloud; null: none.
 vtkDataArray* colorArray(vtkPolyData* cloud, vtkMapper* mapper)
 {
   if (!mapper->GetScalarVisibility())

@@ -17,18 +17,18 @@ class vtkPolyData;
 namespace pointhaptics
 {
 
-/// The points of @p cloud where they lie; @p copy is filled where the coordinates are neither float nor
-/// double.
+/// View of the points of @p cloud where they lie; @p copy is filled where the coordinates are neither float
+/// nor double.
 PointView viewOf(vtkPolyData* cloud, std::vector<Vec3>& copy);
 
-/// Of the values above 0 among at most about 10,000, the one that @p tenths tenths are below; 0 where there
-/// is none. @param tenths 0 to 9.
+/// Quantile of the values above 0 among at most about 10,000: @p tenths tenths are below it; 0 where there is
+/// none. @param tenths 0 to 9.
 double quantileOfPositive(vtkDataArray* array, std::size_t tenths);
 
-/// Whether @p cloud has no cells, or vertices at all of its points, first to last.
+/// True if @p cloud has no cells, or vertices at all of its points, first to last.
 bool drawsInOrder(vtkPolyData* cloud);
 
-/// Lets @p to colour as @p from does: what vtkPolyDataMapper::ShallowCopy() would do, without its warnings of
+/// Lets @p to colour as @p from does, as vtkPolyDataMapper::ShallowCopy() would, without its warnings of
 /// deprecated shaders.
 void colorAlike(vtkMapper* from, vtkMapper* to);
 

@@ -8,11 +8,11 @@ namespace pointhaptics
 namespace
 {
 
-/// Weight of a frame in the next one: about the last seven count.
+/// Weight of a frame in the next estimate: about the last seven count.
 constexpr double kMemory = 0.85;
-/// Part of the frame that is planned; the rest is for what varies.
+/// Part of the frame that is planned; the rest is a reserve for variation.
 constexpr double kPlannedPart = 0.9;
-/// Spread of the numbers of points, over their mean, from which on a line can be fitted.
+/// A line is fitted if the numbers of points spread by more than this, over their mean.
 constexpr double kEnoughSpread = 0.05;
 
 } // namespace

@@ -33,13 +33,13 @@ constexpr std::int64_t kRefinement = 4;
 /// A moving picture keeps its level while the budget is between these parts of it.
 constexpr double kLeastShare = 0.9;
 constexpr double kMostShare = 1.6;
-/// Part in view that is reckoned with at least: the next frame may show more.
+/// Least part in view that is assumed: the next frame may show more.
 constexpr double kLeastSeen = 0.1;
 
-/// Points nearer to each other on the screen than this cannot be told apart: half of the smallest splat lies
-/// on its neighbour.
+/// Points nearer to each other on the screen than this many pixels cannot be told apart: half of the smallest
+/// splat lies on its neighbour.
 constexpr double kFinestPixels = 0.5;
-/// Diameter of splats that close to a surface over their spacing, at least.
+/// Least diameter, over their spacing, of splats that close to a surface.
 constexpr double kDiameterPerSpacing = 1.8;
 
 double steadySeconds()
@@ -155,7 +155,7 @@ bool LevelOfDetail::sceneChanged(vtkPolyData* cloud)
   return changed;
 }
 
-/// How many points the coming frame may draw.
+/// Number of points that the coming frame may draw.
 std::int64_t LevelOfDetail::wanted(double now)
 {
   if (allOnce_)
@@ -168,7 +168,7 @@ std::int64_t LevelOfDetail::wanted(double now)
   {
     const bool wentOn = now - lastMotion_ < kRestSeconds && drawn_ < total_;
     lastMotion_ = now;
-    // The level changes for a reason only: points that grow and shrink catch the eye.
+    // The level changes only for a reason: points that grow and shrink catch the eye.
     const double seen =
       double(std::max<std::int64_t>(1, visible_)) / double(std::max<std::int64_t>(1, drawn_));
     const double fitting = double(budget_.points()) / std::max(seen, kLeastSeen);
@@ -179,7 +179,7 @@ std::int64_t LevelOfDetail::wanted(double now)
   {
     return drawn_;
   }
-  // The last level before the whole cloud would be most of it, and kept beside it.
+  // The last level before the whole cloud would hold most of it, and be kept beside it.
   const std::int64_t finer = kRefinement * drawn_;
   return finer > total_ / kRefinement ? total_ : finer;
 }
@@ -207,7 +207,7 @@ void LevelOfDetail::beginFrame(double now)
   const std::int64_t before = cloudChanged_ ? -1 : drawn_;
   inMotion_ = !allOnce_ && (moving_ || now - lastMotion_ < kRestSeconds);
   this->show(cloud, this->wanted(now));
-  // At rest a frame may take the picture of the one before, or draw it several times.
+  // A frame at rest may reuse the last picture, or draw it several times.
   frameIsTypical_ = moving_ && drawn_ == before;
   frameBegin_ = steadySeconds();
 }
@@ -228,7 +228,7 @@ void LevelOfDetail::endFrame()
   frameIsTypical_ = false;
 }
 
-/// The end of the largest level, made or not, that has at most @p points; all of them where no level has.
+/// End of the largest level, made or not, that has at most @p points; all of them where no level has.
 std::int64_t LevelOfDetail::levelFor(std::int64_t points) const
 {
   if (points >= total_)
@@ -278,8 +278,8 @@ void LevelOfDetail::show(vtkPolyData* cloud, std::int64_t points)
   coarse_->SetLighting(actor_->GetProperty()->GetLighting());
 }
 
-/// Left, right, bottom and top of the frustum, @p pixels outside of the picture; the clipping range holds the
-/// whole scene.
+/// Left, right, bottom and top of the frustum, @p pixels outside of the picture. The clipping range holds the
+/// whole scene, so near and far are left out.
 std::vector<HalfSpace> LevelOfDetail::sides(double pixels) const
 {
   vtkMatrix4x4* toClip = renderer_->GetActiveCamera()->GetCompositeProjectionTransformMatrix(
@@ -302,7 +302,7 @@ std::vector<HalfSpace> LevelOfDetail::sides(double pixels) const
   return result;
 }
 
-/// The sides of the frustum and of the workspace.
+/// Sides of the frustum and of the workspace.
 std::vector<HalfSpace> LevelOfDetail::view() const
 {
   std::vector<HalfSpace> result = this->sides(0.0);
@@ -320,7 +320,7 @@ std::vector<HalfSpace> LevelOfDetail::view() const
   return result;
 }
 
-/// Of the whole cloud, by its own mapper: what no pixel can show.
+/// Leaves out the rows of the cloud that no pixel shows, where its own mapper draws it.
 void LevelOfDetail::leaveOutOfView(vtkPolyData* cloud)
 {
   auto* splats = vtkSplatMapper::SafeDownCast(actor_->GetMapper());
@@ -356,7 +356,8 @@ void LevelOfDetail::leaveOutOfView(vtkPolyData* cloud)
   splats->SetRanges(std::move(ranges));
 }
 
-/// All points, or as many of the progressive order as lie kFinestPixels apart where the cloud is nearest.
+/// Number of points that the picture at rest needs: all, or as many of the progressive order as lie
+/// kFinestPixels apart where the cloud is nearest.
 std::int64_t LevelOfDetail::finestFor(vtkPolyData* cloud)
 {
   auto* splats = vtkSplatMapper::SafeDownCast(actor_->GetMapper());

@@ -54,48 +54,48 @@ public:
   LevelOfDetail(const LevelOfDetail&) = delete;
   LevelOfDetail& operator=(const LevelOfDetail&) = delete;
 
-  /// A box in the frame of the scene: what lies outside is not drawn while the picture moves. Default: none.
+  /// Sets a box in the frame of the scene; nothing outside is drawn while the picture moves. Default: none.
   void setWorkspace(const Bounds& box) { workspace_ = box; }
-  /// Off (the default): every frame shows all points.
+  /// Enables it. If it is off (the default), every frame shows all points.
   void setEnabled(bool enabled);
   bool isEnabled() const { return enabled_; }
 
-  /// Chooses what the coming frame shows. To be called when the renderer starts (vtkCommand::StartEvent),
-  /// after the cloud was brought up to date. @param now seconds of a steady clock.
+  /// Chooses the points of the coming frame. Call it when the renderer starts (vtkCommand::StartEvent), after
+  /// the cloud was brought up to date. @param now seconds of a steady clock.
   void beginFrame(double now);
 
-  /// The picture rests and is not as fine as it gets: render it.
+  /// True if the picture rests and can become finer: render it.
   bool refinementDue(double now) const;
-  /// For how long the frame at rest is drawn that is drawn now, seconds. None: it is one of a motion, or to
-  /// be kept, and so not to be given up.
+  /// Seconds for which the present frame at rest has been drawn. None: it belongs to a motion, or must be
+  /// kept, so it must not be given up.
   std::optional<double> restingFrame() const;
-  /// progressiveOrder() of the points of the actor's cloud, made elsewhere: it takes a second for some
-  /// millions. Of another size or null it is made here when it is first needed.
+  /// Gives it progressiveOrder() of the cloud's points, which takes a second for some millions. If it is null
+  /// or has another size, the order is made here when it is first needed.
   void setOrder(std::shared_ptr<const std::vector<std::uint32_t>> order) { givenOrder_ = std::move(order); }
-  /// The next frame shows all points, whatever moves: for pictures that are kept.
+  /// Makes the next frame show all points, whatever moves: for pictures that are kept.
   void showAllOnce() { allOnce_ = true; }
 
-  /// The actor's mapper colours otherwise now: the parts of the picture that moves are made anew.
+  /// Notes that the actor's mapper has other colours: the parts for moving pictures are made anew.
   void recolor() { this->removeLevels(); }
 
-  /// Whether the last frame was as fine as it gets: all points, but for those below a pixel.
+  /// True if the last frame was as fine as possible: all points, but for those below a pixel.
   bool showsAll() const { return drawn_ >= finest_; }
-  /// Whether it was that at rest: vtkDepthShadingPass blends its splats.
+  /// True if the last frame was as fine as possible and at rest: vtkDepthShadingPass blends its splats.
   bool isFinest() const { return !inMotion_ && this->showsAll(); }
   bool isMoving() const { return moving_; }
-  /// The frame is one of a motion: a better one of the same view comes after kRestSeconds.
+  /// True if the frame belongs to a motion: a better one of the same view comes after kRestSeconds.
   bool isInMotion() const { return inMotion_; }
-  /// Points in the last frame, those out of view included; and without them.
+  /// Number of points in the last frame, with those out of view; and without them.
   std::int64_t drawnPoints() const { return drawn_; }
   std::int64_t visiblePoints() const { return visible_; }
   std::int64_t allPoints() const { return total_; }
-  /// Points that are kept beside the cloud, for pictures with a part of them; after a picture that went from
-  /// few points to all of them at most a quarter of all.
+  /// Number of points that are kept beside the cloud, for pictures with a part of them; at most a quarter of
+  /// all after a picture that went from few points to all.
   std::int64_t keptPoints() const { return levels_.empty() ? 0 : levels_.back().end; }
-  /// All points over those drawn, square root: how much farther apart the drawn ones lie on a surface.
+  /// Distance of the drawn points over that of all points on a surface: the square root of their ratio.
   double spacingFactor() const;
-  /// Pixels, for the points of the coming frame where it does not show all and the actor's mapper is no
-  /// vtkSplatMapper.
+  /// Sets the size in pixels of the coming frame's points, if it does not show all and the actor's mapper is
+  /// no vtkSplatMapper.
   void setCoarsePointSize(double pixels);
   const FrameBudget& budget() const { return budget_; }
 

@@ -12,7 +12,7 @@ namespace
 constexpr int kDepth = 6; // levels of the octree
 constexpr std::uint32_t kCubes = 1u << (3 * kDepth);
 
-/// The bits of @p value, kDepth of them, two apart.
+/// Spreads the low kDepth bits of @p value to every third bit.
 std::uint32_t spread(std::uint32_t value)
 {
   std::uint32_t result = 0;
@@ -23,7 +23,7 @@ std::uint32_t spread(std::uint32_t value)
   return result;
 }
 
-/// Place of the cube that @p p lies in, along the curve that visits every cube of the octree whole.
+/// Place of the cube of @p p along the curve that visits every cube of the octree whole.
 std::uint32_t cubeOf(const Vec3& p, const Bounds& bounds, double perEdge)
 {
   std::uint32_t cube = 0;
@@ -46,7 +46,7 @@ std::int64_t reversedBits(std::int64_t value, int bits)
   return result;
 }
 
-/// The indices in the order of the curve.
+/// Indices in the order of the curve.
 std::vector<std::uint32_t> alongCurve(const PointView& points)
 {
   Bounds bounds;

@@ -21,7 +21,7 @@ std::uint32_t spread(std::uint32_t v)
   return (v | v << 2) & 0x09249249u;
 }
 
-/// Seen from the points' frame.
+/// Takes a half space into the points' frame.
 HalfSpace inFrame(const HalfSpace& plane, vtkMatrix4x4* toWorld)
 {
   HalfSpace moved{};

@@ -20,7 +20,7 @@ namespace pointhaptics
 /// The half space where x a + y b + z c + d is not below 0.
 using HalfSpace = std::array<double, 4>;
 
-/// Neighbours in a row, and the box about them with their splats.
+/// Neighbouring points in a row, and the box about their splats.
 struct SplatBrick
 {
   std::int64_t begin = 0;
@@ -38,9 +38,9 @@ POINTHAPTICSRENDERING_EXPORT std::vector<SplatBrick> makeBricks(
 POINTHAPTICSRENDERING_EXPORT std::vector<SplatBrick> makeRows(
   const PointView& points, std::int64_t size = 64);
 
-/// The parts of the row of which something, or what lies within @p margin of it, is in all @p halfSpaces;
-/// bricks side by side are one part. @p toWorld, which may be null, maps the points' frame to that of the
-/// half spaces; @p margin is in the points' frame.
+/// Parts of the row with splats in all @p halfSpaces, grown by @p margin; adjacent bricks are one part. @p
+/// toWorld, which may be null, maps the points' frame to that of the half spaces; @p margin is in the points'
+/// frame.
 POINTHAPTICSRENDERING_EXPORT std::vector<std::array<vtkIdType, 2>> visibleRanges(
   const std::vector<SplatBrick>& bricks, const std::vector<HalfSpace>& halfSpaces, vtkMatrix4x4* toWorld,
   double margin);

@@ -1,5 +1,5 @@
 /// @file
-/// What the numbers of the array "Classification" mean.
+/// Names of the numbers in the array "Classification".
 #pragma once
 
 #include "PointHapticsRenderingModule.h" // For export macro
@@ -9,19 +9,19 @@
 namespace pointhaptics
 {
 
-/// How a class is named and drawn.
+/// Name and colour of a class.
 struct AsprsClass
 {
   const char* name; ///< Static storage.
   double color[3];  ///< Red, green and blue, 0 to 1, for a dark ground.
 };
 
-/// "ground" and its colour for 2: the class of ASPRS, LAS Specification 1.4 R15, table 17; "reserved" and
-/// "user defined" where it leaves them so, "no class" below 0 and above 255. The colours are our choice;
-/// those without one are grey. Any thread.
+/// Returns name and colour of a class, such as "ground" for 2: ASPRS, LAS Specification 1.4 R15, table 17.
+/// "reserved" and "user defined" stand where it leaves them so, "no class" below 0 and above 255. The colours
+/// are the project's choice; other classes are grey. Any thread.
 POINTHAPTICSRENDERING_EXPORT const AsprsClass& asprsClass(int number);
 
-/// Whether @p array names the classes of LiDAR points: "Classification" in any case.
+/// True if @p array names the classes of LiDAR points: "Classification" in any case.
 POINTHAPTICSRENDERING_EXPORT bool holdsAsprsClasses(const std::string& array);
 
 } // namespace pointhaptics

@@ -39,9 +39,10 @@ namespace pointhaptics
 namespace
 {
 
-/// Of the larger end of a range of colours: an error's least value is an accident.
+/// A lower end of a range of colours below this part of the upper one counts as 0: the least value of an
+/// error is an accident.
 constexpr double kAsGoodAsZero = 3e-3;
-/// Of the width of a range that stays.
+/// A range stays while it moves by less than this part of its width.
 constexpr double kSameRange = 0.1;
 constexpr int kNumberOfClasses = 256;
 
@@ -59,8 +60,8 @@ double valueOf(vtkDataArray* array, vtkIdType tuple, int component)
   return std::sqrt(sum);
 }
 
-/// The finite ones of fewer than 20,000 values, in ascending order. Of more a sample is taken, by a
-/// multiplicative hash: every k-th would meet the rows of a scanner in step.
+/// Finite values in ascending order; above 20,000 a sample by a multiplicative hash, as every k-th value
+/// would meet the rows of a scanner in step.
 std::vector<double> finiteSample(vtkDataArray* array, int component)
 {
   constexpr std::uint64_t kSamples = 10000;
@@ -80,7 +81,7 @@ std::vector<double> finiteSample(vtkDataArray* array, int component)
   return values;
 }
 
-/// The word for a component: its own name, x to z of three, or its number.
+/// Name of a component: its own, x to z of three, or its number.
 std::string componentName(vtkDataArray* array, int component)
 {
   if (component == kMagnitude)
@@ -95,7 +96,7 @@ std::string componentName(vtkDataArray* array, int component)
   return array->GetNumberOfComponents() == 3 ? std::string(1, "xyz"[component]) : std::to_string(component);
 }
 
-/// One colour for each number of a class, 0 to 255. The caller owns the result.
+/// Makes a table with a colour for each number of a class, 0 to 255. The caller owns the result.
 vtkLookupTable* newClassColorMap()
 {
   vtkLookupTable* colors = vtkLookupTable::New();
@@ -423,7 +424,7 @@ void applyDepthShading(vtkRenderer* renderer, double noise, double noisePerDista
   shading->SetDelegatePass(camera);
   shading->SetNoiseLength(noise);
   shading->SetNoisePerDistance(noisePerDistance);
-  // Text comes after the shading: it has no depth.
+  // Text is drawn after the shading, as it has no depth.
   vtkNew<vtkOverlayPass> overlay;
   vtkNew<vtkRenderPassCollection> passes;
   passes->AddItem(shading);

@@ -1,5 +1,5 @@
 /// @file
-/// How a cloud is drawn: its own colours where it has them, else height by a perceptually uniform map.
+/// Drawing of a cloud: its own colours where it has them, else height by a perceptually uniform map.
 #pragma once
 
 #include "ColorMaps.h"
@@ -37,7 +37,7 @@ POINTHAPTICSRENDERING_EXPORT double addHeightArray(
 /// True where the active scalars are colours: unsigned char with 3 or 4 components.
 POINTHAPTICSRENDERING_EXPORT bool hasColors(vtkPolyData* cloud);
 
-/// What the points are coloured by.
+/// The array component by which the points are coloured.
 struct ColorSource
 {
   std::string array;
@@ -52,7 +52,7 @@ constexpr int kMagnitude = -1;
 POINTHAPTICSRENDERING_EXPORT std::optional<ColorSource> findColorSource(
   vtkPolyData* cloud, const std::string& colorBy);
 
-/// "ARRAY", or with its component as the user would write it where there are several: for a scalar bar.
+/// Text for a scalar bar: "ARRAY", or with its component as the user would write it where there are several.
 POINTHAPTICSRENDERING_EXPORT std::string describeColorSource(vtkPolyData* cloud, const ColorSource& source);
 
 /// The values of @p source between which the colours run: those of the finite points, without the 1 % at each
@@ -78,10 +78,10 @@ POINTHAPTICSRENDERING_EXPORT vtkLookupTable* newClassLegend(vtkDataArray* classe
 POINTHAPTICSRENDERING_EXPORT bool applyCloudAppearance(vtkPolyData* cloud, vtkPolyDataMapper* mapper,
   vtkActor* actor, const std::string& colorBy = {}, double pointSize = 3.0);
 
-/// The width of the range of colours of an array that holds @p value alone: such a range has one label.
+/// Width of the range of colours of an array that holds only @p value: such a range has one label.
 POINTHAPTICSRENDERING_EXPORT double widthOfOneValue(double value);
 
-/// Dark text on the light background, at the right edge: see placeScalarBar().
+/// Sets dark text on the light background, at the right edge: see placeScalarBar().
 POINTHAPTICSRENDERING_EXPORT void setUpScalarBar(vtkScalarBarActor* bar);
 
 /// Makes room for the title and the numbers of @p bar at the right edge of @p renderer, in pixels: to be
@@ -89,7 +89,7 @@ POINTHAPTICSRENDERING_EXPORT void setUpScalarBar(vtkScalarBarActor* bar);
 POINTHAPTICSRENDERING_EXPORT void placeScalarBar(vtkScalarBarActor* bar, vtkRenderer* renderer);
 
 ///@{
-/// The same for a layout: the pixels that @p bar needs with a font of @p font points, each of @p
+/// As above, for a layout: the pixels that @p bar needs with a font of @p font points, each of @p
 /// pixelsPerPoint, and the box it is put in: left, bottom, right, top, pixels of @p renderer.
 POINTHAPTICSRENDERING_EXPORT void measureScalarBar(
   vtkScalarBarActor* bar, double font, double pixelsPerPoint, double size[2]);
@@ -97,25 +97,25 @@ POINTHAPTICSRENDERING_EXPORT void placeScalarBar(
   vtkScalarBarActor* bar, vtkRenderer* renderer, double font, double pixelsPerPoint, const double box[4]);
 ///@}
 
-/// A light background, white below to a pale blue-grey above, on which black lines and all colours of the map
-/// read.
+/// Sets a light background, white below to a pale blue-grey above, on which black lines and all colours of
+/// the map can be read.
 POINTHAPTICSRENDERING_EXPORT void applyBackground(vtkRenderer* renderer);
 
-/// Where @p mapper colours by a map: the colours of newColorMap() of that @p name, over @p range, two values
-/// of the array, or over the same as before where it is empty. Those of classes stay.
+/// Sets the map of a @p mapper that colours by one: newColorMap() of @p name over @p range, two values of the
+/// array; the former range if that is empty. Colours of classes stay.
 POINTHAPTICSRENDERING_EXPORT void applyColorMap(
   vtkMapper* mapper, const std::string& name = "auto", const std::vector<double>& range = {});
 
-/// The names of applyGround(): dark, on which a cloud's own colours stand out; light, that of
-/// applyBackground(); white; black.
+/// Names for applyGround(): dark, on which a cloud's own colours stand out; light, that of applyBackground();
+/// white; black.
 POINTHAPTICSRENDERING_EXPORT const std::vector<std::string>& groundNames();
-/// The background of that name; dark where there is none.
+/// Sets the background of that name; dark where there is none.
 POINTHAPTICSRENDERING_EXPORT void applyGround(vtkRenderer* renderer, const std::string& name = "dark");
-/// Whether text on that background must be dark.
+/// True if text on that background must be dark.
 POINTHAPTICSRENDERING_EXPORT bool isLightGround(const std::string& name);
 
-/// One plain colour on white, as in a printed figure. applyCloudAppearance() and applyBackground() take it
-/// back.
+/// Shows the cloud in one plain colour on white, as in a printed figure. applyCloudAppearance() and
+/// applyBackground() undo it.
 POINTHAPTICSRENDERING_EXPORT void applyFigureAppearance(
   vtkPolyDataMapper* mapper, vtkActor* actor, vtkRenderer* renderer);
 

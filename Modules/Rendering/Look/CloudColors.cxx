@@ -39,7 +39,7 @@ double at(const std::vector<double>& sorted, double part)
   return sorted.empty() ? 0.0 : sorted[std::size_t(part * double(sorted.size() - 1))];
 }
 
-/// The finite values of @p value(i) over a sample of @p count, ascending.
+/// Finite values of @p value(i) over a sample of @p count, ascending.
 template <typename Value>
 std::vector<double> sortedSample(vtkIdType count, Value&& value)
 {
@@ -56,7 +56,7 @@ std::vector<double> sortedSample(vtkIdType count, Value&& value)
   return values;
 }
 
-/// The part of the sample below @p value, half of the equal ones with it.
+/// Fraction of the sample below @p value, half of the equal ones included.
 double rankOf(const std::vector<double>& sorted, double value)
 {
   const auto range = std::equal_range(sorted.begin(), sorted.end(), value);
@@ -64,7 +64,7 @@ double rankOf(const std::vector<double>& sorted, double value)
     double(sorted.size());
 }
 
-/// Whether the colours tell anything, and how much of the light they leave to see.
+/// True if the colours tell anything; @p lightStrength receives how much of the light they leave visible.
 bool rgbIsUseful(vtkDataArray* rgb, double& lightStrength)
 {
   const auto luma = [rgb](vtkIdType i)
@@ -105,7 +105,7 @@ Vec3 positionOf(vtkPolyData* cloud, vtkIdType i)
   return p;
 }
 
-/// Where a point stands on the map of colours of ColorRule::Height and Depth.
+/// Position of a point on the map of colours of ColorRule::Height and Depth.
 double levelOf(vtkPolyData* cloud, vtkIdType i, ColorRule rule, const CloudLook& look)
 {
   const Vec3 p = positionOf(cloud, i);

@@ -16,7 +16,7 @@ namespace
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kDegree = kPi / 180.0;
 constexpr const char* kKindNames[] = { "object", "terrain", "sweep", "indoors", "frame" };
-/// Points that the kind is decided by.
+/// Number of points that decide about the kind.
 constexpr std::int64_t kSample = 50000;
 
 constexpr double kSweepCorrelation = 0.6;
@@ -50,7 +50,7 @@ void forSample(const PointView& cloud, const LocalShape& shape, Visit&& visit)
   }
 }
 
-/// Rays from one place spread: what is twice as far is twice as sparse.
+/// True if the spacing grows with the distance from the origin, as rays from one place spread.
 bool isScannedFromOrigin(const PointView& cloud, const LocalShape& shape)
 {
   std::vector<double> distances;
@@ -82,7 +82,7 @@ bool isScannedFromOrigin(const PointView& cloud, const LocalShape& shape)
   return correlation > kSweepCorrelation && valueAt(distances, 0.98) > kSweepRange * valueAt(distances, 0.02);
 }
 
-/// Whether there is something in most directions above the horizon.
+/// True if points lie in most directions above the horizon.
 bool isUnderARoof(const PointView& cloud, const LocalShape& shape, const Vec3& up)
 {
   constexpr int kAround = 24;
@@ -121,7 +121,8 @@ bool facesUp(const PointView& cloud, const LocalShape& shape, const Vec3& up)
   return weight > 0.0 && sum > kTerrainUp * weight;
 }
 
-/// Of the two horizontal axes of the cloud: the direction of the longer one, and how much more it varies.
+/// Finds the direction of the cloud's longer horizontal axis, and returns how much more it varies than the
+/// other.
 double horizontalStrip(const PointView& cloud, const LocalShape& shape, const Vec3& up, Vec3& along)
 {
   const Vec3 u = anyPerpendicular(up);
@@ -153,7 +154,7 @@ double horizontalStrip(const PointView& cloud, const LocalShape& shape, const Ve
   return middle > radius ? (middle + radius) / (middle - radius) : INFINITY;
 }
 
-/// Where the walls look that the sensor at the origin sees.
+/// Mean direction of the walls that the sensor at the origin sees.
 Vec3 facesOfWalls(const PointView& cloud, const LocalShape& shape, const Vec3& up, const Vec3& fallback)
 {
   Vec3 sum;
@@ -187,7 +188,7 @@ struct View
 {
   Vec3 right;
   Vec3 up;
-  Vec3 back; ///< Towards the viewer.
+  Vec3 back; ///< Axis towards the viewer.
 };
 
 View viewOf(const CloudLook& look, const AffineTransform& toWorld, double aspect, double turn)
@@ -210,7 +211,7 @@ View viewOf(const CloudLook& look, const AffineTransform& toWorld, double aspect
   return view;
 }
 
-/// Extremes of x + tz, -x + tz, y + tz, -y + tz: a point is in view where they say so.
+/// Extremes of x + tz, -x + tz, y + tz, -y + tz: they decide if a point is in view.
 struct Extremes
 {
   double most[4] = { -INFINITY, -INFINITY, -INFINITY, -INFINITY };
@@ -230,9 +231,9 @@ struct Extremes
 constexpr double kViewAngle = 30.0;
 constexpr double kFilledPart = 0.92;
 constexpr double kStrayFactor = 1.5;
-constexpr std::ptrdiff_t kMostStrays = 1000; ///< One in so many.
+constexpr std::ptrdiff_t kMostStrays = 1000; ///< One point in so many may be a stray.
 
-/// The part of a sample that is no stray on any axis of the view: from, to on each.
+/// Finds the part of a sample without strays on any axis of the view: from, to on each.
 void coreOf(std::vector<Vec3>& sample, double share, Vec3& from, Vec3& to)
 {
   std::vector<double> values(sample.size());
@@ -244,7 +245,7 @@ void coreOf(std::vector<Vec3>& sample, double share, Vec3& from, Vec3& to)
   }
 }
 
-/// Moves @p end over those of the values from @p first on, ever farther out, that no gap divides from it.
+/// Moves @p end outward over the values from @p first on, until a gap divides one from it.
 template <typename Iterator>
 void growOver(Iterator first, Iterator last, double& extent, double& end)
 {
@@ -255,7 +256,7 @@ void growOver(Iterator first, Iterator last, double& extent, double& end)
   }
 }
 
-/// What surrounds a dense object may be few of the points, but goes on from it.
+/// Grows the box of a dense object over its surroundings, which may be few of the points but go on from it.
 void growCore(const std::vector<Vec3>& sample, Vec3& from, Vec3& to)
 {
   const Vec3 size = to - from;
@@ -285,7 +286,7 @@ bool hasManyOutside(const std::vector<Vec3>& sample, const Vec3& from, const Vec
   return outside * kMostStrays > std::max<std::ptrdiff_t>(std::ptrdiff_t(sample.size()), kMostStrays);
 }
 
-/// Of what of @p sample lies in the box. That of many equal points is none: there is nothing in it to fit.
+/// Extremes of the points of @p sample in the box; none for many equal points, which give nothing to fit.
 Extremes extremesBetween(
   const std::vector<Vec3>& sample, const Vec3& from, const Vec3& to, double tx, double ty)
 {
@@ -489,7 +490,7 @@ CameraFit fitCamera(const PointView& cloud, const CloudLook& look, const AffineT
   Vec3 from;
   Vec3 to;
   coreOf(sample, look.strayShare, from, to);
-  // The focal point is what the camera turns about.
+  // The camera turns about the focal point.
   const double depth = 0.5 * (from.z + to.z);
   const auto distanceOf = [&](const Extremes& each)
   { return parallel ? depth + each.distance(tangent * aspect, tangent) : each.distance(tx, ty); };

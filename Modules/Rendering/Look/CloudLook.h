@@ -1,6 +1,6 @@
 /// @file
-/// How a cloud is shown at first glance, decided from the data alone: what kind of cloud it is, from where it
-/// is seen, and how its points are drawn. Plain functions, without a window; any thread may call them.
+/// First view of a cloud, decided from the data alone: what kind of cloud it is, from where it is seen, and
+/// how its points are drawn. Plain functions, without a window; any thread may call them.
 #pragma once
 
 #include "CloudOrientation.h"
@@ -22,16 +22,16 @@ enum class CloudKind
   Object,  ///< A thing to walk around: statue, part, tree.
   Terrain, ///< Ground seen from above.
   Sweep,   ///< Scanned from the origin of the file, outdoors.
-  Indoors, ///< The same in a room, which is shown without its near walls.
+  Indoors, ///< Scanned from the origin of the file in a room, which is shown without its near walls.
   Frame,   ///< One picture of a depth camera.
 };
 
-/// "object", "terrain", "sweep", "indoors", "frame".
+/// Name of a kind: "object", "terrain", "sweep", "indoors", "frame".
 POINTHAPTICSRENDERING_EXPORT const char* cloudKindName(CloudKind kind);
-/// False: @p name is none of them; @p kind is as it was.
+/// Kind of a name. False: @p name is none of them; @p kind is as it was.
 POINTHAPTICSRENDERING_EXPORT bool cloudKindFromName(const std::string& name, CloudKind& kind);
 
-/// All directions and lengths in the frame of the file.
+/// First view of a cloud; all directions and lengths in the frame of the file.
 struct CloudLook
 {
   CloudKind kind = CloudKind::Object;
@@ -42,7 +42,7 @@ struct CloudLook
   double tilt = 0.0;             ///< Ratio of the horizontal variances of a strip; 0: the elevation holds.
   double strayShare = 0.03;      ///< Part at each end of an axis that may be strays,
   bool cutsSparse = false;       ///< also where they go on from the others or are more than a few.
-  double largestPixels = 16.0;   ///< Of the splats of a surface, in a window of 800 lines.
+  double largestPixels = 16.0;   ///< Largest size of a surface's splats, pixels in a window of 800 lines.
   double noiseLength = 0.0;      ///< Depths that differ by less are one surface,
   double noisePerDistance = 0.0; ///< the same over the distance from the camera.
   bool closesAll = false;        ///< A surface, flat everywhere or not: no splat is kept small on the screen.
@@ -50,17 +50,16 @@ struct CloudLook
   double meanFlatness = 0.0;
 };
 
-/// The indices of the points that are drawn: those that are finite, without rays that did not return, see
-/// areNoReturns().
+/// Indices of the drawn points: those that are finite, without rays that did not return, see areNoReturns().
 POINTHAPTICSRENDERING_EXPORT std::vector<std::uint32_t> drawnPoints(const PointView& cloud);
 
-/// The first kind that fits: a frame, as @p orientation says; a sweep where the spacing grows with the
-/// distance from the origin, indoors where it hits most directions above the sensor; terrain where the
-/// surfaces face up; an object. With y up it is an object.
+/// Decides the kind, the first that fits: a frame, as @p orientation says; a sweep where the spacing grows
+/// with the distance from the origin, indoors where it hits most directions above the sensor; terrain where
+/// the surfaces face up; an object. With y up it is an object.
 POINTHAPTICSRENDERING_EXPORT CloudKind cloudKind(
   const PointView& cloud, const LocalShape& shape, const CloudOrientation& orientation);
 
-/// Everything that follows from the @p kind.
+/// Derives the look from the @p kind.
 POINTHAPTICSRENDERING_EXPORT CloudLook cloudLook(
   CloudKind kind, const PointView& cloud, const LocalShape& shape, const CloudOrientation& orientation);
 

@@ -18,9 +18,9 @@ namespace pointhaptics
 namespace
 {
 
-/// Longest side, metres, of what an E57 file may hold that is no scan of surroundings.
+/// Longest side, metres, of a thing in an E57 file that is no scan of surroundings.
 constexpr double kLongestScannedObject = 2.0;
-/// An object's longest extent over its shortest, and how many of its lengths it may lie from the origin.
+/// Largest ratio of an object's extents; and of its distance from the origin to its length.
 constexpr double kLongestObject = 4.0;
 constexpr double kFarthestObject = 10.0;
 
@@ -45,7 +45,8 @@ double fieldValue(vtkDataArray* array, int i)
   return array->GetComponent(i / components, i % components);
 }
 
-/// A viewpoint (tx ty tz qw qx qy qz) other than the identity, or an organised frame of more than one row.
+/// True for a viewpoint (tx ty tz qw qx qy qz) other than the identity, or an organised frame of more than
+/// one row.
 bool comesFromCamera(vtkFieldData* field)
 {
   vtkDataArray* dimensions = field->GetArray("OrganizedDimensions");
@@ -88,8 +89,8 @@ bool isAnyOf(std::initializer_list<const char*> names, std::string format)
     [&format](const char* name) { return format.find(name) != std::string::npos; });
 }
 
-/// A scanned object that stands on y = 0 or is tallest along y, as model makers leave them; not a scene:
-/// those are wide, and low along z.
+/// True for a scanned object that stands on y = 0 or is tallest along y, as model makers leave them; not for
+/// a scene, which is wide, and low along z.
 bool standsAlongY(const Bounds& bounds)
 {
   const Vec3 extent = bounds.extent();
@@ -107,7 +108,8 @@ bool standsAlongY(const Bounds& bounds)
   return extent.y >= longest || startsAtFloor;
 }
 
-/// A small object above y = 0 about the y axis: a scanner would stand within what it saw, or in front of it.
+/// True for a small object above y = 0 about the y axis: a scanner would stand within its scene, or in front
+/// of it.
 bool standsAboveFloor(const Bounds& bounds)
 {
   const Vec3 extent = bounds.extent();

@@ -1,5 +1,5 @@
 /// @file
-/// Which way a cloud stands: its up axis, and the direction from which a person expects to see it.
+/// Orientation of a cloud: its up axis, and the direction from which a person expects to see it.
 #pragma once
 
 #include "Core/Base/PointView.h"
@@ -19,7 +19,7 @@ struct CloudOrientation
 {
   Vec3 up{ 0.0, 0.0, 1.0 };
   Vec3 front{ 0.0, -1.0, 0.0 }; ///< From the cloud towards the person who looks at it.
-  bool fromSensor = false;      ///< The cloud is one view of a sensor: look along its axis, not from aside.
+  bool fromSensor = false;      ///< True for one view of a sensor: look along its axis, not from aside.
 };
 
 /// A guess without guarantee, in this order: field data "OrganizedDimensions" of more than one row or a
@@ -36,9 +36,9 @@ POINTHAPTICSRENDERING_EXPORT CloudOrientation guessCloudOrientation(
 /// The orientation for an up axis the user named: "x", "-x", "y", "-y", "z" or "-z" (anything else: z).
 POINTHAPTICSRENDERING_EXPORT CloudOrientation orientationForUpAxis(const std::string& axis);
 
-/// What a first picture should frame: @p workspace, or, where nearly all points lie in a small part of it
-/// (strays of a scan have set its size), a cube about those points. @p edge is at most the workspace's
-/// longest.
+/// Finds the cube that a first picture should frame: @p workspace, or, where nearly all points lie in a small
+/// part of it (strays of a scan have set its size), a cube about those points. @p edge is at most the
+/// workspace's longest.
 POINTHAPTICSRENDERING_EXPORT void framingCube(
   vtkPolyData* cloud, const Bounds& workspace, Vec3& center, double& edge);
 

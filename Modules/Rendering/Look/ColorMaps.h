@@ -19,9 +19,10 @@ namespace pointhaptics
 /// (Delete()).
 POINTHAPTICSRENDERING_EXPORT vtkLookupTable* newCloudColorMap();
 
-/// The same for a dark ground, of eight steps from blue to a pale red. The caller owns the result (Delete()).
+/// Color map for a dark ground, of eight steps from blue to a pale red. The caller owns the result
+/// (Delete()).
 POINTHAPTICSRENDERING_EXPORT vtkLookupTable* newGroundColorMap();
-/// Red, green and blue, 0 to 1, at @p position 0 to 1 of that map.
+/// Red, green and blue, 0 to 1, at @p position 0 to 1 of newGroundColorMap().
 POINTHAPTICSRENDERING_EXPORT Vec3 groundColor(double position);
 
 /// The names of newColorMap(), in the order that a key goes through them. auto: newGroundColorMap(); viridis

@@ -1,4 +1,4 @@
-// The bar that says what the colours mean: its labels, and where it stands.
+// The bar that explains the colours: its labels and its place.
 #include "CloudAppearance.h"
 
 #include "vtkLookupTable.h"
@@ -24,8 +24,8 @@ double widthOfOneValue(double value)
   return std::max(1e-12, 1e-6 * std::abs(value));
 }
 
-/// So that neighbouring labels differ, @p step apart; with three digits as a rule, and no point behind the
-/// last.
+/// Format with which neighbouring labels, @p step apart, differ: three digits as a rule, and no point behind
+/// the last.
 static std::string labelFormat(const double range[2], double step)
 {
   constexpr double kThreeDigits = 99.5;
@@ -38,7 +38,8 @@ static std::string labelFormat(const double range[2], double step)
   return "%." + std::to_string(decimals) + "f ";
 }
 
-/// Between whole numbers, such as counts and returns, all labels are whole. An array of one value has one.
+/// Sets the labels. Between whole numbers, such as counts and returns, all are whole. An array of one value
+/// has one.
 static void labelScalarBar(vtkScalarBarActor* bar)
 {
   constexpr double kFew = 100.0;
@@ -81,7 +82,7 @@ void setUpScalarBar(vtkScalarBarActor* bar)
   labelScalarBar(bar);
 }
 
-/// Whether names stand beside @p bar in the place of numbers.
+/// True if names stand beside @p bar in the place of numbers.
 static bool hasNames(vtkScalarBarActor* bar)
 {
   return bar->GetLookupTable() && bar->GetLookupTable()->GetIndexedLookup();
@@ -96,8 +97,8 @@ constexpr double kBarWidth = 24.0;      // points
 constexpr double kNumberLetters = 9.0;  // -1.23e-05
 constexpr double kLetterWidth = 0.57;   // of the font's size
 
-/// Points: of the box with the colours, over the middle of which the title stands, and of the names beside
-/// it.
+/// Widths in points: of the box with the colours, over the middle of which the title stands, and of the names
+/// beside it.
 struct BarWidths
 {
   double box = 0.0;
@@ -140,7 +141,7 @@ static void putScalarBar(
     bar->SetWidth(width / size[0]);
     bar->SetHeight((box[3] - box[1]) / size[1]);
     bar->SetBarRatio(std::min(1.0, kBarWidth * pixelsPerPoint / width));
-    // All text stands away from the window's edge: numbers where the position says, names opposite to it.
+    // All text stands away from the window's edge: numbers at the given position, names opposite to it.
     bar->SetTextPosition(
       hasNames(bar) ? vtkScalarBarActor::SucceedScalarBar : vtkScalarBarActor::PrecedeScalarBar);
   }

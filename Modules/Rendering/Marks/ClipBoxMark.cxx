@@ -22,12 +22,12 @@ constexpr float kWidth = 1.5F;
 constexpr float kHandleWidth = 3.0F;
 constexpr float kRimWidth = 6.0F;
 constexpr int kFaces = 6;
-/// Points, which are pixels at 72 dots per inch: of a handle, and how near to its middle it is taken.
+/// Size of a handle, and reach of its middle, in points: pixels at 72 dots per inch.
 constexpr double kHandle = 6.0;
 constexpr double kReach = 11.0;
-/// Of the box: short enough to be in front of the camera where the handle is.
+/// Length of the probe along a handle, over the box: short enough to be in front of the camera.
 constexpr double kProbe = 0.01;
-/// A face seen from straight above goes so many pixels up for the whole box.
+/// Pixels that the whole box counts for where a face is seen from straight above.
 constexpr double kPixelsOfBox = 300.0;
 constexpr double kLeastPixels = 0.15; // of the probe
 
@@ -199,7 +199,7 @@ std::optional<int> ClipBoxMark::faceAt(double x, double y) const
   {
     const Pixel at = project(parts.inPicture(parts.middleOf(face)));
     const double distance = std::hypot(place[0] - corner[0] - at.x, place[1] - corner[1] - at.y);
-    // Of two in one place the one that stands out.
+    // Where two handles meet, the active one wins.
     if (at.seen && (distance < nearest || (distance == nearest && face == parts.active)))
     {
       nearest = distance;

@@ -22,14 +22,14 @@ namespace
 constexpr unsigned char kInk[3] = { 25, 25, 30 };
 constexpr float kWidth = 2.0F;
 constexpr float kRimWidth = 5.0F;
-/// Points, which are pixels at 72 dots per inch.
+/// Sizes in points: pixels at 72 dots per inch.
 constexpr int kFont = 15;
 constexpr double kArm = 7.0;
 constexpr double kGap = 8.0;
 constexpr double kLine = 22.0;
-/// Of a search for a place that is free, kLine apart; farther away words belong to nothing, and are left out.
+/// Steps of the search for a free place, kLine apart; words farther away belong to nothing, and are left out.
 constexpr int kMostSteps = 6;
-/// After ScreenLayout, which says what is taken.
+/// Priority after ScreenLayout, which knows the taken places.
 constexpr float kLast = -2.0F;
 /// A line steeper than this has its words to the right.
 constexpr double kSteep = 0.25;
@@ -63,7 +63,7 @@ struct DistanceMark::Parts
   void write(const Pixel& a, const Pixel& b);
 };
 
-/// Beside the middle of what is seen of the line, within the viewport, and where nothing else is written.
+/// Writes beside the middle of the visible line, within the viewport, where nothing else is written.
 void DistanceMark::Parts::write(const Pixel& a, const Pixel& b)
 {
   const double pixels = this->texts.pixelsPerPoint();
@@ -71,7 +71,7 @@ void DistanceMark::Parts::write(const Pixel& a, const Pixel& b)
   const auto within = [](double value, double edge) { return std::clamp(value, 0.0, edge); };
   const double x = 0.5 * (within(a.x, size[0]) + within(b.x, size[0]));
   const double y = 0.5 * (within(a.y, size[1]) + within(b.y, size[1]));
-  // Above and below a flat line; beside a steep one, on the side that it leaves free.
+  // Words stand above and below a flat line, and beside a steep one, on the side that it leaves free.
   const bool isSteep = std::abs(b.y - a.y) > kSteep * std::abs(b.x - a.x);
   const double first = isSteep ? ((b.y - a.y) * (b.x - a.x) > 0.0 ? -0.5 : 1.5) * kLine : kGap + 0.5 * kLine;
   const double step = isSteep ? kLine : 2.0 * first;

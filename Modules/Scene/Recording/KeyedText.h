@@ -159,7 +159,7 @@ public:
 
   /// The line; of one that was read the word that is wrong, where there is one.
   const std::string& text() const { return text_; }
-  /// Whether all words were there and right.
+  /// True where all words were there and right.
   bool isFine() const { return isFine_; }
 
   /// @p isRequired false: stays as it is where a line that is read has no such word.
@@ -192,7 +192,7 @@ public:
       },
       prefix);
   }
-  /// The same of settings that a line may lack.
+  /// As settings(), where the line may lack all of them.
   template <typename Settings>
   void settings(std::optional<Settings>& settings, const std::string& prefix)
   {

@@ -37,7 +37,7 @@ public:
   /// says why not, and the cure.
   bool open(int port, const ServoLoop& loop, std::string& message);
   int port() const { return port_; }
-  /// Those since the last call, oldest first. At most 10,000 are kept. Any thread.
+  /// Returns the markers since the last call, oldest first. At most 10,000 are kept. Any thread.
   std::vector<Marker> take();
 
 private:

@@ -32,7 +32,7 @@ struct RecordedFiles
   std::uint64_t checksum = 0; ///< checksumOf() its points.
 };
 
-/// Of the coordinates of @p cloud, in their order and type.
+/// Checksum of the coordinates of @p cloud, in their order and type.
 POINTHAPTICSSCENE_EXPORT std::uint64_t checksumOf(vtkPointSet* cloud);
 
 /// Beside TickFlags: the device did not take the force.
@@ -60,7 +60,7 @@ struct RecordedEvent
 /// A row of the table.
 struct RecordedTick
 {
-  std::uint64_t tick = 0;        ///< Of the servo loop: time * rate + 1.
+  std::uint64_t tick = 0;        ///< Number of the servo loop's tick: time * rate + 1.
   std::array<double, 16> felt{}; ///< kFeltColumns.
   std::uint32_t buttons = 0;
   std::uint32_t marker = 0; ///< Number of the newest that was set in this tick, 1, 2, ...; else 0.
@@ -69,7 +69,7 @@ struct RecordedTick
   Vec3 force() const { return { felt[10], felt[11], felt[12] }; }
 };
 
-/// What the file's header says.
+/// Contents of the file's header.
 struct RecordingHeader
 {
   std::string program;  ///< Name and version.
@@ -100,7 +100,7 @@ struct Recording
 /// The end of one that was not ended may be cut. @param isHeaderAlone only what comes before the second tick.
 POINTHAPTICSSCENE_EXPORT bool readRecording(
   const std::string& fileName, Recording& recording, std::string& message, bool isHeaderAlone = false);
-/// Whether @p cloud is the one that was felt. False: @p message says what differs.
+/// True where @p cloud is the one that was felt. False: @p message says what differs.
 POINTHAPTICSSCENE_EXPORT bool isOf(const Recording& recording, vtkPointSet* cloud, std::string& message);
 /// Where a copy of the cloud of a recording lies that came as a stream: rec.cloud beside rec.csv.
 POINTHAPTICSSCENE_EXPORT std::string keptCloudName(const std::string& recording);

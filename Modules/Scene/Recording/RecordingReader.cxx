@@ -7,7 +7,6 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 
 namespace pointhaptics
 {
@@ -45,7 +44,7 @@ public:
   }
   /// False: problem() says why. An empty line ends the rows.
   bool take(const std::string& line);
-  /// Whether the file may be cut after the lines taken so far: it is one that was written as it was felt, has
+  /// True if the file may be cut after the lines taken so far: it is one that was written as it was felt, has
   /// a tick, and no end.
   bool mayBeCut() const { return version_ > 1 && !isEnded_ && !recording_.ticks.empty(); }
   /// Once all lines were taken.
@@ -115,34 +114,28 @@ bool Reader::takeHeader(const std::string& text)
   {
     return this->fail(quote(text) + ": a number is missing; take the header as it was written");
   }
-  if (key == "file")
-  {
-    recording_.header.cloud.files.push_back(rest);
-    return true;
-  }
-  if (key == "marker")
-  {
-    recording_.labels[std::uint32_t(number)] = rest;
-    return true;
-  }
+  RecordingHeader& header = recording_.header;
   isEnded_ = isEnded_ || key == kRecordingEnd;
-  if (key == "program" || key == "settings")
+  if (key == "file" || key == "marker" || key == "program" || key == "settings")
   {
-    (key == "program" ? recording_.header.program : recording_.header.settings) = rest;
+    (key == "file"         ? header.cloud.files.emplace_back()
+        : key == "marker"  ? recording_.labels[std::uint32_t(number)]
+        : key == "program" ? header.program
+                           : header.settings) = rest;
     return true;
   }
   keyed::Line line = keyed::Line::from(rest);
   if (key == "cloud")
   {
-    describe(line, recording_.header.cloud);
+    describe(line, header.cloud);
     return line.isFine() ||
       this->fail(
         quote(text) + ": points, checksum or resolution is missing; take the header as it was written");
   }
   if (key == "servo")
   {
-    const ServoStepSettings& step = recording_.header.step;
-    describe(line, recording_.header.step);
+    const ServoStepSettings& step = header.step;
+    describe(line, header.step);
     return (line.isFine() && step.rateHz >= 1.0 && step.rateHz <= 1e5 && step.limits.check() == Status::Ok) ||
       this->fail(
         quote(text) + ": a servo setting is missing or out of range; take the header as it was written");

@@ -98,13 +98,11 @@ void RecordingWriter::add(const ServoSample& sample)
   last_ = sample;
 }
 
-/// Writes what changes before @p tick.
 void RecordingWriter::addEvent(std::uint64_t tick, const std::string& event)
 {
   table_.comment(fmt::format("tick {}: {}", tick, event));
 }
 
-/// How a scene was made, before it is first named.
 void RecordingWriter::addCloud(std::uint64_t number, const std::shared_ptr<const SceneOrigin>& origin)
 {
   if (!origin)
@@ -135,10 +133,8 @@ void RecordingWriter::addScene(const ServoSample& sample)
   {
     this->addCloud(scene.fallbackCloud, scene.fallbackOrigin);
   }
-  RecordedEvent event;
-  event.number = scene.cloud;
-  event.fallback = scene.fallbackCloud;
-  event.model = scene.modelToWorkspace;
+  const RecordedEvent event{ sample.tick, RecordedEvent::Kind::Scene, 0, false, scene.cloud,
+    scene.fallbackCloud, scene.modelToWorkspace };
   this->addEvent(sample.tick, lineOf("scene", event));
 }
 

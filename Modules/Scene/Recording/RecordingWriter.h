@@ -31,13 +31,13 @@ public:
   /// written, and the cure.
   bool open(const std::string& fileName, const RecordingHeader& header, std::string& message);
   bool isOpen() const { return table_.isOpen(); }
-  /// Whether the hand still has to let go of what it touches.
+  /// True if the hand still has to let go of what it touches.
   bool isWaiting() const { return isOpen() && numberOfTicks_ == 0; }
   /// To be called with all samples of a loop, open or not, after ServoLoop::takeTrace(): it remembers what
   /// was published.
   void add(ServoLoop& loop, const std::vector<ServoSample>& samples);
   ///@{
-  /// The same without a loop: what was published before a sample comes before it.
+  /// Adds samples without a loop: scenes and parameters published before a sample come before it.
   void publish(PublishedScene scene) { published_.scenes.push_back(std::move(scene)); }
   void publish(PublishedParameters parameters) { published_.parameters.push_back(parameters); }
   void add(const ServoSample& sample);
@@ -53,8 +53,8 @@ public:
   /// Ends the recording. False: @p message says why not all could be written. One without a tick leaves no
   /// file: problem() says so. Of no effect where none is open.
   bool close(std::string& message);
-  /// What ended the recording before close(): ticks that were lost, a loop that started again, a full disk;
-  /// empty: nothing did.
+  /// Reason for which the recording ended before close(): lost ticks, a loop that started again, a full disk;
+  /// empty: it did not.
   const std::string& problem() const { return problem_; }
 
 private:

@@ -25,8 +25,8 @@ public:
   RecordedScenes(const Recording& recording, vtkPointSet* cloud);
   ~RecordedScenes();
 
-  /// Of an event of the recording, in their order; null where there was none. False: @p
-  /// message says why it cannot be made.
+  /// Makes the scene of an event; events come in their order. Null where there was none. False: @p message
+  /// says why it cannot be made.
   bool make(const RecordedEvent& event, std::shared_ptr<const HapticScene>& scene, std::string& message);
 
 private:
@@ -45,7 +45,7 @@ struct ReplayDifference
   std::uint64_t ticks = 0;
   std::uint64_t sameTicks = 0; ///< All columns of the hand, the contact and the force have the same bits.
   double largest = 0.0;        ///< Newtons, of the forces.
-  std::uint64_t firstTick = 0; ///< That differs; 0: none does.
+  std::uint64_t firstTick = 0; ///< First tick that differs; 0: none does.
 
   POINTHAPTICSSCENE_EXPORT void add(const RecordedTick& row, const ServoSample& sample);
   /// In words, in one line.
@@ -66,7 +66,7 @@ public:
   const RecordedTick& row() const { return recording_.ticks[next_]; }
   /// Feels the next tick. @pre not isAtEnd(). False: @p message says which scene cannot be made.
   bool step(ServoSample& sample, std::string& message);
-  /// Of the ticks felt so far.
+  /// Compares the ticks felt so far with the recorded ones.
   const ReplayDifference& difference() const { return difference_; }
   /// In force in the newest tick.
   const ContactParameters& contact() const { return recording_.parameters.at(sample_.parameters).contact; }

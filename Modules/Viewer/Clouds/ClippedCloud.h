@@ -18,7 +18,7 @@ namespace pointhaptics
 
 /// HapticViewerOptions::clip as a box; nothing: there is none.
 POINTHAPTICSVIEWER_EXPORT std::optional<Bounds> clipBox(const std::vector<double>& clip);
-/// The other way round.
+/// HapticViewerOptions::clip of a box.
 std::vector<double> clipNumbers(const Bounds& box);
 
 bool isWithin(const Bounds& box, const Vec3& place);

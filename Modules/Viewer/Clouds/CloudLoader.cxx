@@ -19,7 +19,8 @@ namespace
 
 using Clock = std::chrono::steady_clock;
 
-/// One load. What is not atomic belongs to the loader's thread until it is finished, then to the other one.
+/// One load. Members that are not atomic belong to the loader's thread until it is finished, then to the
+/// other one.
 struct Load
 {
   CloudRequest request;

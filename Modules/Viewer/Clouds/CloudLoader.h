@@ -19,28 +19,28 @@ class POINTHAPTICSVIEWER_EXPORT CloudLoader
 {
 public:
   CloudLoader();
-  /// Gives up what is being read and waits for the reader.
+  /// Gives up the present load and waits for the reader.
   ~CloudLoader();
   CloudLoader(const CloudLoader&) = delete;
   CloudLoader& operator=(const CloudLoader&) = delete;
 
   void start(CloudRequest request);
-  /// Does not wait. What has been read, if it was not taken, is gone too.
+  /// Gives up the present load without waiting. A result that was not taken is lost, too.
   void cancel();
-  /// Something was started that was neither taken nor cancelled.
+  /// True if a load was started and neither taken nor cancelled.
   bool busy() const;
   /// Part of the files of the present load that is read, 0 to 1; it ascends. 0 where there is none.
   double progress() const;
-  /// What the present load does, for people, and how much of that is done, 0 to 1.
+  /// Step of the present load, for people, and its progress, 0 to 1.
   struct Step
   {
     const char* name = "reading"; ///< Or "measuring", "resampling".
     double part = 0.0;
   };
   Step step() const;
-  /// Since start().
+  /// Seconds since start().
   double seconds() const;
-  /// Waits for the present load, that long at most. True: there is something to take.
+  /// Waits for the present load, @p seconds at most. True: take() has a result.
   bool waitFor(double seconds) const;
   /// True: the present load has ended, and is over with this call. An empty @p message: @p loaded is what it
   /// made; otherwise @p message says which file cannot be read and why, and @p loaded is as it was.
@@ -51,9 +51,9 @@ private:
   std::unique_ptr<Implementation> implementation_;
 };
 
-/// Seconds in which most files are read: a bar would only flicker.
+/// Seconds in which most files are read: a bar for them would only flicker.
 constexpr double kProgressDelay = 0.2;
-/// HapticViewerObserver::progress() is told 1 once, at the end.
+/// Largest progress before the end: HapticViewerObserver::progress() gets 1 once.
 constexpr double kAlmostDone = 0.999;
 
 } // namespace pointhaptics

@@ -10,13 +10,13 @@
 namespace pointhaptics
 {
 
-/// By size and time of change. A file that is being written is waited for: it counts as changed once two
-/// looks in a row find it the same, and different from what was looked at when watching began. A file that is
-/// gone is unchanged until it comes back. One thread.
+/// Compares size and time of change. A file that is being written is waited for: it counts as changed once
+/// two looks in a row find it equal, and different from the file at the start. A missing file counts as
+/// unchanged until it comes back. One thread.
 class FileWatch
 {
 public:
-  /// From now on: these, as they are.
+  /// Watches these files from now on.
   void watch(const std::vector<std::string>& files);
   /// True once for each change, at a look after it has settled.
   bool look();

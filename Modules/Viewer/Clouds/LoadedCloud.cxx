@@ -39,20 +39,20 @@ std::string baseName(const std::string& fileName)
   return slash == std::string::npos ? fileName : fileName.substr(slash + 1);
 }
 
-/// What the reader says while it reads, and what it is told.
+/// Reports a reader's progress to goesOn and aborts the reader where goesOn returns false.
 struct Listener
 {
   vtkPointCloudReader* reader;
   std::function<bool(double)> goesOn;
 };
 
-/// Points that are measured before the first picture: it takes no longer than a frame or two.
+/// Points that are measured before the first picture, which takes no longer than a frame or two.
 constexpr vtkIdType kMeasuredAtOnce = 60000;
 
-/// What is found while the files are read.
+/// Findings collected while the files are read.
 struct Findings
 {
-  std::string format; ///< Of the last file.
+  std::string format; ///< Format of the last file.
   std::vector<std::string> notes;
   bool isCoarse = false;
 };
@@ -75,7 +75,8 @@ vtkSmartPointer<vtkPolyData> readPoints(const std::string& fileName, const Cloud
       }
     });
   reader->AddObserver(vtkCommand::ProgressEvent, progress);
-  // Its error is in its message; without an observer it would go where the errors of the scene are collected.
+  // The reader's error is in its message; without an observer it would go where the errors of the scene are
+  // collected.
   vtkNew<vtkCallbackCommand> silence;
   silence->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
   reader->AddObserver(vtkCommand::ErrorEvent, silence);
@@ -108,7 +109,7 @@ vtkSmartPointer<vtkPolyData> readPoints(const std::string& fileName, const Cloud
   return points;
 }
 
-/// Every array costs time at every zoom: only those that are looked at stay.
+/// Keeps only the arrays that are looked at: every array costs time at every zoom.
 void keepArrays(vtkPolyData* cloud, const std::string& colorBy)
 {
   vtkPointData* data = cloud->GetPointData();
@@ -142,7 +143,7 @@ std::string lowered(std::string text)
   return text;
 }
 
-/// Exactly as somebody wrote it: colours or an array of the cloud, or an array of the pipeline.
+/// True for an exact name: colours or an array of the cloud, or an array of the pipeline.
 bool isExactName(vtkPolyData* cloud, const std::string& name)
 {
   return name == "rgb" ? hasColors(cloud)
@@ -186,8 +187,8 @@ std::set<std::string> namesInAnyCase(vtkPolyData* cloud, const std::string& want
   return found;
 }
 
-/// Makes of what the user wrote the name that is meant: the one written so, else the only one that differs in
-/// upper and lower case. Unchanged where there is none. False: there are several, which @p message lists.
+/// Completes @p name: the exact name, else the only one that differs in upper and lower case. Unchanged where
+/// there is none. False: there are several, which @p message lists.
 bool completeName(vtkPolyData* cloud, const std::string& option, std::string& name, std::string& message)
 {
   const std::set<std::string> found =
@@ -297,7 +298,7 @@ vtkSmartPointer<vtkPolyData> readAll(const CloudRequest& request, const std::fun
   return merged;
 }
 
-/// How the cloud is shown where no coarse level of it was shown before.
+/// Request for a cloud of which no coarse level was shown before.
 ShownRequest showingOf(const CloudRequest& request, vtkPolyData* cloud, const std::string& format)
 {
   ShownRequest showing;
@@ -311,8 +312,7 @@ ShownRequest showingOf(const CloudRequest& request, vtkPolyData* cloud, const st
   return showing;
 }
 
-/// All points but far ones, which would take the digits of a float from the others. Far ones in the clipping
-/// box stay.
+/// All points but far ones, which would take float digits from the others. Far ones in the clipping box stay.
 vtkSmartPointer<vtkPolyData> drawnPoints(const CloudRequest& request, const LoadedCloud& loaded)
 {
   if (loaded.near.empty())
@@ -328,7 +328,7 @@ vtkSmartPointer<vtkPolyData> drawnPoints(const CloudRequest& request, const Load
   return clippedCloud(loaded.cloud, box);
 }
 
-/// Fills in LoadedCloud::shown, or what is to be measured for it, of the points that are @p drawn. False: @p
+/// Fills in LoadedCloud::shown from the points that are @p drawn, or what must be measured for it. False: @p
 /// goesOn said no.
 bool show(
   const CloudRequest& request, vtkPolyData* drawn, const std::function<bool()>& goesOn, LoadedCloud& loaded)

@@ -1,6 +1,5 @@
 /// @file
-/// From the files that are to be shown to one cloud ready for the scene. No window and no scene is needed for
-/// it: any thread may do it.
+/// Makes one cloud of files, ready for the scene. It needs no window and no scene: any thread may do it.
 #pragma once
 
 #include "Core/Base/AffineTransform.h"
@@ -36,77 +35,77 @@ struct POINTHAPTICSVIEWER_EXPORT CloudRequest
   double resolution = 0.0;          ///< How far cloud optimised files are read; 0: all points.
   std::vector<std::string> columns; ///< Names for the columns of texts; empty: as the files say.
   bool salvage = false;             ///< Files that are cut are read as far as they go.
-  /// Of cloud optimised files: how many are read, by leaving out fine levels; see LoadedCloud::isCoarse. 0:
-  /// all.
+  /// Points of a cloud optimised file that are read at most, by leaving out fine levels; see
+  /// LoadedCloud::isCoarse. 0: all.
   vtkIdType mostPoints = 0;
-  vtkSmartPointer<vtkPolyData> points; ///< Instead of files; nobody else's.
-  std::string title;                   ///< Of the points; that of files is their names.
-  std::string colorBy; ///< What findColorSource() takes, rgb, or nothing; upper or lower case as it may.
-  std::string colorByName = "colorBy"; ///< What messages call it.
+  vtkSmartPointer<vtkPolyData> points; ///< Points instead of files; nobody else may hold them.
+  std::string title;                   ///< Title of the points; files have their names.
+  std::string colorBy; ///< An argument of findColorSource(), rgb, or empty; case does not matter.
+  std::string colorByName = "colorBy"; ///< Name of that setting in messages.
   std::string up = "auto";             ///< auto or an axis.
-  AffineTransform transform;           ///< Of the cloud, for its bounds.
-  /// How the cloud is resampled, with colorBy, up and transform as above. Null: it is only read.
+  AffineTransform transform;           ///< Transform of the cloud, for its bounds.
+  /// Options of the resampling, with colorBy, up and transform as above. Null: the cloud is only read.
   std::shared_ptr<const HapticViewerOptions> options;
-  std::optional<AffineTransform> model; ///< Where the cloud is resampled; empty: where the options place it.
-  bool makesScene = false;              ///< It will be felt.
-  std::optional<ShownRequest> before; ///< How a coarse level of the same files was shown: so are all points.
-  bool isFeltOnly = false;            ///< Nothing is made for a picture: LoadedCloud::means have no arrays.
-  /// Gets what is done once the files are read, "measuring" or "resampling", and how much of it, 0 to 1; may
-  /// be empty.
+  std::optional<AffineTransform> model; ///< Transform of the resampling; empty: the one of the options.
+  bool makesScene = false;              ///< True where the cloud will be felt.
+  std::optional<ShownRequest> before;   ///< Look of a coarse level of the same files: all points get it, too.
+  bool isFeltOnly = false;              ///< Nothing is made for a picture: LoadedCloud::means have no arrays.
+  /// Receives the step after the reading, "measuring" or "resampling", and its progress, 0 to 1; may be
+  /// empty.
   std::function<void(const char* step, double part)> working;
-  /// The first picture and what is near the hand do not wait for the means: LoadedCloud::isResampled. Of
-  /// effect where canResampleLater().
+  /// Do not wait for the means before the first picture and the scene near the hand:
+  /// LoadedCloud::isResampled. Effective where canResampleLater().
   bool resamplesLater = false;
-  bool measuresLater = false; ///< Large clouds are shown plain first: LoadedCloud::toMeasure.
+  bool measuresLater = false; ///< Show large clouds plain first: LoadedCloud::toMeasure.
 
   std::string name() const; ///< For messages.
-  /// Whether the options say neither that means are shown or recorded, nor where the cloud is to lie, so that
-  /// it may have no points there.
+  /// True if the options neither show or record means, nor place the cloud, so that it may have no points in
+  /// the workspace.
   bool canResampleLater() const;
 };
 
 struct LoadedCloud
 {
   vtkSmartPointer<vtkPolyData> cloud; ///< Nobody else's.
-  vtkSmartPointer<vtkPolyData> felt;  ///< What of it was resampled: all, or the points in the clipping box.
-  Bounds bounds; ///< Of the finite points, after CloudRequest::transform; of a fitted cloud without far ones
-                 ///< and rays that did not return.
-  Bounds near;   ///< Of all points but a few far ones, which are not drawn; empty: none is far.
+  vtkSmartPointer<vtkPolyData> felt;  ///< Points that were resampled: all, or those in the clipping box.
+  Bounds bounds; ///< Bounds of the finite points after CloudRequest::transform; a fitted cloud leaves out far
+                 ///< ones and rays that did not return.
+  Bounds near;   ///< Bounds of all points but a few far ones, which are not drawn; empty: none is far.
   std::int64_t invalid = 0;   ///< Points that are not finite.
   std::int64_t noReturns = 0; ///< Points at (0, 0, 0) that are not drawn, see areNoReturns().
   CloudOrientation orientation;
-  std::string colorBy;            ///< What was asked for, exactly as the cloud or the pipeline writes it.
+  std::string colorBy;            ///< The requested array, spelt as the cloud or the pipeline writes it.
   std::string title;              ///< The names of the files, without their folders.
   bool isCoarse = false;          ///< CloudRequest::mostPoints left out points.
-  double heightZero = 0.0;        ///< Where the array of heights begins, along the up axis; 0: it has none.
-  std::vector<std::string> notes; ///< What the cloud does not have of the files, a line each.
+  double heightZero = 0.0;        ///< Origin of the array of heights, along the up axis; 0: it has none.
+  std::vector<std::string> notes; ///< Parts of the files that the cloud lacks, a line each.
 
   std::shared_ptr<ShownCloud> shown; ///< How its points are drawn; null: it was only read.
 
-  ShownRequest showing;                   ///< What @c shown was made of.
+  ShownRequest showing;                   ///< Request from which @c shown was made.
   vtkSmartPointer<vtkPolyData> toMeasure; ///< With all arrays, where @c shown is plain; else null.
 
-  bool isResampled = true;   ///< Else of what follows there are only placement, model and workspace.
-  bool findsLattice = false; ///< Nobody has chosen a lattice for what is resampled later.
+  bool isResampled = true;   ///< If false, only placement, model and workspace below are set.
+  bool findsLattice = false; ///< True if the lattice of the later resampling is still to be chosen.
 
   // Where it was resampled:
-  AffineTransform placement; ///< Where the options place the cloud: from its coordinates to the workspace.
-  AffineTransform model;     ///< Where it was resampled: there, or CloudRequest::model.
-  int latticeDimension = 0;  ///< Voxels on each axis, where nobody had chosen them; else 0.
+  AffineTransform placement; ///< Transform from the cloud's coordinates to the workspace, by the options.
+  AffineTransform model;     ///< Transform of the resampling: placement, or CloudRequest::model.
+  int latticeDimension = 0;  ///< Chosen number of voxels on each axis; 0 where the user gave it.
   Bounds workspace;          ///< The lattice's box.
-  VoxelMeanSettings voxels;  ///< What the means were resampled with.
+  VoxelMeanSettings voxels;  ///< Settings of the resampling.
   vtkSmartPointer<vtkPolyData> means;       ///< With the arrays of both filters; nobody else's.
   std::shared_ptr<const HapticScene> scene; ///< Null: not wanted, or there is none: sceneStatus.
   Status sceneStatus = Status::Ok;
-  int resamplings = 0; ///< How often the resampler ran.
+  int resamplings = 0; ///< Number of runs of the resampler.
   double resampleSeconds = 0.0;
 };
 
-/// Bounds after a transform; the corners of a box would be too wide for a turned cloud.
+/// Bounds after a transform. The corners of a box would be too wide for a turned cloud.
 struct CloudExtent
 {
-  Bounds all;                 ///< Of the finite points.
-  Bounds returned;            ///< Of those but rays that did not return.
+  Bounds all;                 ///< Bounds of the finite points.
+  Bounds returned;            ///< Bounds without rays that did not return.
   std::int64_t finite = 0;    ///< Points.
   std::int64_t invalid = 0;   ///< The others.
   std::int64_t atZero = 0;    ///< Points at (0, 0, 0),
@@ -120,14 +119,14 @@ POINTHAPTICSVIEWER_EXPORT CloudExtent extentOf(
 POINTHAPTICSVIEWER_EXPORT std::string titleOf(const std::vector<std::string>& files);
 
 /// Fills in LoadedCloud::bounds, invalid and noReturns of LoadedCloud::cloud and, where the options fit it,
-/// near; a note says of far points that they are left out, or how.
+/// near. A note says that far points are left out, or how to leave them out.
 POINTHAPTICSVIEWER_EXPORT void findBounds(const CloudRequest& request, LoadedCloud& loaded);
 
-/// Adds what becomes of rays that did not return: nobody sees else why points of the file are missing. @pre
+/// Adds a note on rays that did not return: it explains why points of the file are missing. @pre
 /// LoadedCloud::workspace is that of the scene.
 POINTHAPTICSVIEWER_EXPORT void noteNoReturns(const CloudRequest& request, LoadedCloud& loaded);
 
-/// What options and messages call what a cloud is coloured by: what the pipeline makes in lower case.
+/// Name of an array in options and messages: arrays that the pipeline makes are in lower case.
 std::string colorWord(const std::string& name);
 
 /// The first of @p notes, and how many there are besides; empty where there is none.

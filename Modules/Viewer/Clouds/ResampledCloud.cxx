@@ -33,7 +33,7 @@ namespace pointhaptics
 namespace
 {
 
-/// Part of the workspace's edge a fitted cloud takes: the hand needs room to reach it from every side.
+/// Part of the workspace's edge that a fitted cloud takes: the hand needs room to reach it from every side.
 constexpr double kFittedPart = 0.9;
 constexpr int kUsual = kDefaultLatticeDimension;
 
@@ -54,8 +54,8 @@ LatticeSettings latticeOf(const HapticViewerOptions& options, const LoadedCloud&
   return lattice;
 }
 
-/// The box of the lattice before there is one, as the resampler would choose it: the hand's box stays, and so
-/// it need not be asked. Empty where the options are no lattice, which the resampler will say.
+/// Box of the lattice before there is one, as the resampler would choose it. The hand's box stays, so the
+/// resampler need not be asked. Empty where the options are no lattice, which the resampler reports.
 Bounds workspaceOf(const HapticViewerOptions& options, const LoadedCloud& loaded)
 {
   Lattice lattice;
@@ -68,7 +68,7 @@ bool choosesLattice(const HapticViewerOptions& options)
   return options.fitsWorkspace && !options.hasVoxels();
 }
 
-/// The filters, for one cloud.
+/// Runs the filters for one cloud.
 class FirstRun
 {
 public:
@@ -111,7 +111,7 @@ public:
     return means;
   }
 
-  /// With the lattice that suits the cloud.
+  /// Resamples with the lattice that suits the cloud.
   vtkSmartPointer<vtkPolyData> resampleAsFits()
   {
     const auto with = [this](int dimension)
@@ -124,7 +124,7 @@ public:
     return std::move(choice.means);
   }
 
-  /// All that is made of the means.
+  /// Makes all that depends on the means.
   void finish(vtkPolyData* means)
   {
     const bool residuals =
@@ -188,8 +188,8 @@ void configureFilters(const HapticViewerOptions& options, const LoadedCloud& loa
     voxels.lattice.automaticWorkspace = false;
   }
   resampler->SetSettings(voxels);
-  // The picture needs the sizes of its splats and what it is coloured by; the scene computes the few radii it
-  // needs.
+  // The picture needs the sizes of its splats and the array that colours it; the scene computes the few radii
+  // that it needs.
   BandwidthSettings settings = options.bandwidth;
   settings.computeBandwidth = false;
   settings.computeMeanBandwidth = true;

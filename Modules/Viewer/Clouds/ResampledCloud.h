@@ -20,13 +20,13 @@ POINTHAPTICSVIEWER_EXPORT void placeCloud(const CloudRequest& request, LoadedClo
 void configureFilters(const HapticViewerOptions& options, const LoadedCloud& loaded,
   vtkVoxelMeanResampler* resampler, vtkKernelBandwidthFilter* bandwidth);
 
-/// Resamples the placed cloud and fills in means and workspace, and the scene where @p request wants it.
-/// Once; but where nobody has chosen a lattice as often as chooseLattice() does. @p goesOn is asked now and
-/// then; once it answers false, it ends. False: it was ended, @p message says so.
+/// Resamples the placed cloud, and fills in means and workspace, and the scene where @p request wants it. It
+/// runs once, or as often as chooseLattice() needs where nobody chose a lattice. @p goesOn is asked now and
+/// then; once it answers false, the work ends. False: it was ended, @p message says so.
 POINTHAPTICSVIEWER_EXPORT bool resampleCloud(const CloudRequest& request, const std::function<bool()>& goesOn,
   LoadedCloud& loaded, std::string& message);
 
-/// Fills in what a cloud has that somebody else resamples: no means, and the workspace.
+/// Fills in the workspace of a cloud that is resampled later, without means.
 void resampleLater(const CloudRequest& request, LoadedCloud& loaded);
 
 } // namespace pointhaptics

@@ -32,10 +32,11 @@ namespace pointhaptics
 namespace
 {
 
-/// Diameter of a splat over the spacing: where nothing is flat, and what flatness adds.
+/// Diameter of a splat over the spacing where nothing is flat; and the addition where it is.
 constexpr double kPointDiameter = 1.1;
 constexpr double kFlatDiameter = 1.1;
-/// Over the spacing of the rays of a frame, flat or not: they lie in a grid, whose diagonals close.
+/// Diameter of a splat over the spacing of the rays of a frame, flat or not: the rays lie in a grid, whose
+/// diagonals must close.
 constexpr double kGridDiameter = 1.5;
 constexpr double kNoGrowth = 64.0;
 /// A cloud this many times as wide as it is high may be terrain.
@@ -43,13 +44,14 @@ constexpr double kLowParts = 3.0;
 constexpr double kSmallestShownPixels = 2.0;
 /// The pixels bound the splats, not the median of their lengths: a sweep is sparse far away.
 constexpr double kFarthestRatio = 1e6;
-/// From this mean flatness on an object is a surface.
+/// An object is a surface from this mean flatness on.
 constexpr double kSurfaceFlatness = 0.63;
-/// Most of the median spacing that is closed where a surface is not flat: single points beside it stay small.
+/// Gaps up to this many median spacings are closed where a surface is not flat: single points beside it stay
+/// small.
 constexpr double kWidestGap = 3.0;
-/// Of the window that the first picture is reckoned with.
+/// Height, pixels, of the window that the first picture is computed for.
 constexpr double kUsualHeight = 800.0;
-/// Of more points not each is measured, but one in every place that the first picture can show.
+/// Clouds of more points are sampled: one point is measured in every place that the first picture can show.
 constexpr std::int64_t kAllMeasured = 3000000;
 constexpr double kFinestPixels = 0.5; ///< As LevelOfDetail has it.
 
@@ -119,7 +121,7 @@ vtkSmartPointer<vtkPolyData> pick(
   return result;
 }
 
-/// As the spacing says.
+/// Usual diameter for a spacing.
 double usualDiameter(double flatness, double spacing)
 {
   return (kPointDiameter + kFlatDiameter * flatness) * spacing;
@@ -174,7 +176,7 @@ void addSplats(vtkPolyData* points, const LocalShape& shape, const CloudLook& lo
   points->GetPointData()->AddArray(normals);
 }
 
-/// Not those of vtkPoints, which other threads may read at the same time.
+/// Bounds of the points. vtkPoints' own must not be used, as other threads may read them at the same time.
 Bounds boundsOf(const PointView& points)
 {
   Bounds bounds;
@@ -185,14 +187,14 @@ Bounds boundsOf(const PointView& points)
   return bounds;
 }
 
-/// Edge of a pixel of the first picture, roughly.
+/// Approximate edge of a pixel in the first picture.
 double firstPixel(const PointView& points)
 {
   const Vec3 extent = boundsOf(points).extent();
   return std::max({ extent.x, extent.y, extent.z }) / kUsualHeight;
 }
 
-/// Whether @p colors need no array that @p points do not have.
+/// True if @p colors need no array that @p points do not have.
 bool fits(const CloudColors& colors, vtkPolyData* points)
 {
   vtkPointData* data = points->GetPointData();
@@ -236,7 +238,7 @@ std::shared_ptr<ShownCloud> makeShownCloud(
   settings.pixel = firstPixel(view);
   if (view.size() > kAllMeasured)
   {
-    // Few neighbours that are apart reach as far as many that are not.
+    // A few neighbours that are apart reach as far as many that are close.
     settings.apart = kFinestPixels * settings.pixel;
     settings.numberOfNeighbors = LocalShapeSettings::kFewest;
   }

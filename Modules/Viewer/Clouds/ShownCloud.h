@@ -31,7 +31,7 @@ constexpr const char* kSplatLengthName = "SplatLength"; ///< Diameter of each sp
 constexpr const char* kSplatNormalName = "SplatNormal"; ///< Short integers: kSplatNormalUnit is flat.
 constexpr const char* kSplatGrowthName = "SplatGrowth"; ///< Bytes: 64 where the spacing alone rules.
 constexpr const char* kLookColorName = "LookColor";
-/// All of them: nobody asks what they are at a point.
+/// All arrays of the picture: texts at a point leave them out.
 constexpr std::array<const char*, 4> kArraysOfPicture = { kSplatLengthName, kSplatNormalName,
   kSplatGrowthName, kLookColorName };
 constexpr double kSplatNormalUnit = 32767.0;
@@ -43,18 +43,19 @@ struct ShownCloud
   vtkSmartPointer<vtkPolyData> points; ///< In the frame of the file, without cells.
   CloudLook look;
   CloudColors colors;
-  double medianSpacing = 0.0; ///< Of the points, unit of the file; 0: not measured.
+  double medianSpacing = 0.0; ///< Median spacing of the points, unit of the file; 0: not measured.
   /// progressiveOrder() of them, made in the thread that reads; null: left to LevelOfDetail.
   std::shared_ptr<const std::vector<std::uint32_t>> order;
 };
 
-/// How a cloud is to be shown.
+/// Request for the look of a cloud.
 struct ShownRequest
 {
   CloudOrientation orientation;
-  std::string keptArray;             ///< To keep beside those that the colours need; empty: none.
-  std::optional<CloudKind> kind;     ///< Instead of cloudKind(), where somebody says it.
-  std::optional<CloudColors> colors; ///< Instead of chooseColors(): those of a coarse level shown before.
+  std::string keptArray;             ///< Array that is kept beside those that the colours need; empty: none.
+  std::optional<CloudKind> kind;     ///< Kind in place of cloudKind(), where the user chose it.
+  std::optional<CloudColors> colors; ///< Colours in place of chooseColors(): those of a coarse level shown
+                                     ///< before.
 };
 
 /// Leaves out points that tell nothing, measures the others and decides how they are shown. Of more than
@@ -63,8 +64,8 @@ struct ShownRequest
 POINTHAPTICSVIEWER_EXPORT std::shared_ptr<ShownCloud> makeShownCloud(
   vtkPolyData* cloud, const ShownRequest& request, const std::function<bool(double)>& goesOn);
 
-/// The same without measuring, at once: all points as small discs, seen and coloured by what their bounds and
-/// arrays tell. Null: no point can be drawn.
+/// As makeShownCloud() without measuring, at once: all points are small discs, and bounds and arrays decide
+/// colours and camera. Null: no point can be drawn.
 POINTHAPTICSVIEWER_EXPORT std::shared_ptr<ShownCloud> makePlainCloud(
   vtkPolyData* cloud, const ShownRequest& request);
 
@@ -72,12 +73,14 @@ POINTHAPTICSVIEWER_EXPORT std::shared_ptr<ShownCloud> makePlainCloud(
 class POINTHAPTICSVIEWER_EXPORT ShownMeasurement
 {
 public:
-  /// @p cloud is nobody else's; its arrays may be read by others. What was measured before is given up.
+  /// Starts to measure @p cloud, which nobody else holds; others may read its arrays. Gives up the former
+  /// measurement.
   void start(vtkSmartPointer<vtkPolyData> cloud, const ShownRequest& request);
   bool busy() const { return result_.valid(); }
-  /// What was measured, once; null: not yet, or nothing is. @param waits until it is there.
+  /// Returns the measured cloud once; null: it is not ready, or none is measured. @param waits until it is
+  /// there.
   std::shared_ptr<ShownCloud> take(bool waits);
-  /// Gives up what is measured and waits for the thread.
+  /// Gives up the measurement and waits for the thread.
   void cancel();
 
   ShownMeasurement() = default;

@@ -17,9 +17,10 @@ namespace
 
 constexpr float kBoxBeforeTheStyle = 1.0F;
 constexpr int kFaces = 6;
-/// Parts of the cloud's extent.
+/// Step of a face by key, and least thickness of the box, over the cloud's extent.
 constexpr double kStep = 0.02;
 constexpr double kThinnest = 1e-3;
+/// Names of the faces by number: even numbers are lower faces.
 constexpr const char* kFaceNames[kFaces] = { "xmin", "xmax", "ymin", "ymax", "zmin", "zmax" };
 
 } // namespace
@@ -47,6 +48,16 @@ void ClipBoxTool::toggle()
   mark.setBox(this->box());
   mark.setVisible(!mark.isVisible());
   say_(mark.isVisible() ? "clipping box: drag its handles" : "clipping box: hidden");
+}
+
+bool ClipBoxTool::hide()
+{
+  const bool isShown = scene_.clipMark().isVisible();
+  if (isShown)
+  {
+    this->toggle();
+  }
+  return isShown;
 }
 
 void ClipBoxTool::clear()
@@ -94,8 +105,8 @@ void ClipBoxTool::moveFace(int direction)
   this->finish();
 }
 
-/// Face @p face of @p from goes @p way outward: neither through the one opposite, nor, where it is not there
-/// yet, out of the cloud.
+/// Sets the box to @p from with face @p face moved outward by @p way. The face stops before the opposite one,
+/// where the box is thinnest, and at the end of the cloud, or where it is if it lies outside already.
 void ClipBoxTool::move(int face, const Bounds& from, double way)
 {
   const int axis = face / 2;
@@ -119,7 +130,7 @@ void ClipBoxTool::move(int face, const Bounds& from, double way)
   scene_.clipMark().setBox(box);
 }
 
-/// What is felt is what is shown.
+/// Publishes the new box to touch: the felt points are those that are shown.
 void ClipBoxTool::finish()
 {
   clipped_();

@@ -14,8 +14,8 @@ namespace pointhaptics
 class PictureControls;
 class ViewScene;
 
-/// A drag that begins on the colour bar takes the value under the pointer along, and nothing else moves. GUI
-/// thread only.
+/// A drag that begins on the colour bar moves the value under the pointer; nothing else moves. GUI thread
+/// only.
 class ColorBarDrag
 {
 public:
@@ -23,18 +23,18 @@ public:
   ColorBarDrag(ViewScene& scene, PictureControls& controls, vtkRenderWindowInteractor* interactor);
 
 private:
-  /// Whether nobody else shall see the event.
+  /// True if no other observer may see the event.
   bool takes(const LeftButton::Event& event);
 
   ViewScene& scene_;
   PictureControls& controls_;
   bool drags_ = false;
-  // The bar as the drag found it: words that come and go may move it.
+  // The bar when the drag began: words that come and go may move it.
   double from_ = 0.0; ///< ViewScene::ColorBarPlace::along.
   double pixels_ = 1.0;
   int fromY_ = 0;
   std::array<double, 2> range_{};
-  LeftButton button_; ///< Last: it calls this.
+  LeftButton button_; ///< Last member, as it calls this object.
 };
 
 } // namespace pointhaptics

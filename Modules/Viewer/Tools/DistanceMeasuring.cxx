@@ -12,11 +12,11 @@ namespace pointhaptics
 namespace
 {
 
-/// Sliders and the colour bar come first, and keep what is theirs.
+/// Priority below that of sliders and colour bar, which keep their events.
 constexpr float kJustBeforeTheStyle = 0.1F;
 /// A button that is let go farther away, pixels, was a drag.
 constexpr double kClick = 3.0;
-/// Of a measured distance.
+/// Coordinates of a measured distance: two points.
 constexpr std::size_t kNumbersOfTwoEnds = 6;
 
 } // namespace
@@ -73,7 +73,7 @@ void DistanceMeasuring::follow(const LeftButton::Event& event)
   }
 }
 
-/// The point under the pointer is the next end.
+/// Takes the point under the pointer as the next end.
 void DistanceMeasuring::choose()
 {
   Vec3 place;

@@ -16,18 +16,18 @@ namespace pointhaptics
 class ViewScene;
 struct HapticViewerOptions;
 
-/// While it is on, clicks choose points: two are the ends of a distance, which stays where they are until a
-/// third begins another. Drags turn the view as ever. GUI thread only.
+/// While it is on, clicks choose points: two are the ends of a distance, which stays until a third click
+/// begins another. Drags turn the view as ever. GUI thread only.
 class DistanceMeasuring
 {
 public:
-  /// All must outlive this, the interactor aside. @p say tells the person what was measured.
+  /// All must outlive this, the interactor aside. @p say shows the measured distance to the person.
   DistanceMeasuring(ViewScene& scene, HapticViewerOptions& options, vtkRenderWindowInteractor* interactor,
     std::function<void(const std::string&)> say);
 
-  /// On, or off without a distance in the picture. @p key is that of the command, for the words.
+  /// Turns measuring on, or off where no distance is in the picture. @p key is the command's, for the words.
   void toggle(const std::string& key);
-  /// Off. False: it was off, and nothing was measured.
+  /// Turns measuring off. False: it was off, and nothing was measured.
   bool end();
 
 private:
@@ -41,7 +41,7 @@ private:
   bool isOn_ = false;
   bool isPressed_ = false;
   std::array<int, 2> pressedAt_{};
-  LeftButton button_; ///< Last: it calls this.
+  LeftButton button_; ///< Last member, as it calls this object.
 };
 
 } // namespace pointhaptics

@@ -13,14 +13,14 @@ class vtkRenderWindowInteractor;
 namespace pointhaptics
 {
 
-/// Observes the button, and the pointer, of an interactor as long as it lives. GUI thread only.
+/// Observes the button and the pointer of an interactor as long as it lives. GUI thread only.
 class LeftButton
 {
 public:
   enum class Kind
   {
     Press,
-    Move, ///< Of the pointer, whether the button is pressed or not.
+    Move, ///< The pointer moves, whether the button is pressed or not.
     Release,
   };
   struct Event
@@ -31,8 +31,8 @@ public:
     bool isPlain = true; ///< Neither Shift nor Ctrl is held: with them a drag is the model's or the hand's.
   };
 
-  /// @p takes returns whether nobody else shall see the event. Tools with a higher @p priority come first;
-  /// the style's is 0.
+  /// @p takes returns true if no other observer may see the event. Tools with a higher @p priority come
+  /// first; the style's is 0.
   LeftButton(vtkRenderWindowInteractor* interactor, float priority, std::function<bool(const Event&)> takes);
   ~LeftButton();
   LeftButton(const LeftButton&) = delete;

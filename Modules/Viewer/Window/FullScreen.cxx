@@ -42,7 +42,7 @@ Function xFunction(const char* name)
   return reinterpret_cast<Function>(findXFunction(name));
 }
 
-/// The window on its server; none is open: no display.
+/// The window on its server. Nothing is open: no display.
 struct Place
 {
   void* display = nullptr;
@@ -67,7 +67,7 @@ struct Place
   }
 };
 
-/// Whether the property @p name of @p owner has @p value; any value: 0.
+/// True if the property @p name of @p owner has @p value; any value: 0.
 bool hasValue(const Place& place, XId owner, const char* name, XId value)
 {
   const auto get = xFunction<int (*)(void*, XId, XId, long, long, int, XId, XId*, int*, unsigned long*,
@@ -94,8 +94,8 @@ bool hasValue(const Place& place, XId owner, const char* name, XId value)
   return has;
 }
 
-/// A window manager that full screens can be asked of. What one that is gone has left on the root does not
-/// count: it owns its selection no more.
+/// True if a window manager offers full screens. Properties that a former one left on the root do not count:
+/// it no longer owns its selection.
 bool hasManager(const Place& place)
 {
   const auto ownerOf = xFunction<XId (*)(void*, XId)>("XGetSelectionOwner");
@@ -105,7 +105,7 @@ bool hasManager(const Place& place)
     hasValue(place, place.root, "_NET_SUPPORTING_WM_CHECK", 0);
 }
 
-/// x, y, width and height; those of the root are the screen's.
+/// Gets x, y, width and height; those of the root are the screen's.
 bool geometryOf(const Place& place, XId window, int geometry[4])
 {
   const auto get = xFunction<int (*)(void*, XId, XId*, int*, int*, unsigned int*, unsigned int*,

@@ -7,8 +7,8 @@ class vtkRenderWindow;
 namespace pointhaptics
 {
 
-/// Asks the window manager; without one it moves and sizes the window itself. (VTK's own way makes another
-/// window, which has lost its events.) X servers only. GUI thread only.
+/// Asks the window manager; without one it moves and sizes the window itself. VTK's own way makes another
+/// window, which loses its events. X servers only. GUI thread only.
 class FullScreen
 {
 public:
@@ -18,17 +18,17 @@ public:
   {
   }
 
-  /// Whether the window is there, whoever put it there.
+  /// True if the window covers the screen, whoever made it so.
   bool isFull() const;
-  /// To the whole screen, or back to where the window was. False: this window system does not offer it, or
-  /// the window is not open.
+  /// Covers the whole screen, or restores the window. False: this window system does not offer it, or the
+  /// window is not open.
   bool set(bool full);
 
 private:
   bool setByHand(bool full);
 
   vtkRenderWindow* window_;
-  int place_[4] = { 0, 0, 0, 0 }; ///< x, y, width, height before, where there is no window manager.
+  int place_[4] = { 0, 0, 0, 0 }; ///< Former x, y, width and height, where there is no window manager.
 };
 
 } // namespace pointhaptics

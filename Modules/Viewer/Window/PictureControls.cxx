@@ -26,14 +26,15 @@ constexpr double kStrongest = 10.0;
 constexpr const char* kNoQuadBuffers =
   " needs a screen that shows two pictures, and to be asked for at the start; choose anaglyph or another by "
   "--stereo";
-/// Of the turntable: a turn takes 12 seconds.
+/// Speed of the turntable: a turn takes 12 seconds.
 constexpr double kDegreesPerSecond = 30.0;
 constexpr double kLongestStep = 0.2; // seconds
-/// Seen so, a cube shows three faces alike.
+/// Angles from which a cube shows three equal faces.
 constexpr double kIsometricAzimuth = 45.0;
 constexpr double kIsometricElevation = 35.2643896828;
 
-/// A bar is not stretched further by one drag.
+/// The dragged value stays at least this far from the fixed end: this bounds how far one drag stretches a
+/// bar.
 constexpr double kNearestToEnd = 0.05;
 
 void takeNext(std::string& name, const std::vector<std::string>& names)
@@ -102,6 +103,11 @@ void PictureControls::toggleFullScreen()
   }
 }
 
+bool PictureControls::leaveFullScreen()
+{
+  return fullScreen_.isFull() && fullScreen_.set(false);
+}
+
 void PictureControls::toggleStereo()
 {
   std::string& stereo = options_.picture.stereo;
@@ -130,7 +136,7 @@ bool PictureControls::turnTable(double seconds)
 {
   if (turns_)
   {
-    // A frame that takes long does not make it jump.
+    // A frame that takes long must not make the view jump.
     const double since = turnedAt_ < 0.0 ? 0.0 : std::min(seconds - turnedAt_, kLongestStep);
     scene_.turnView(kDegreesPerSecond * since);
     turnedAt_ = seconds;
@@ -181,7 +187,7 @@ void PictureControls::showNextColorMap()
 void PictureControls::dragColorRange(std::array<double, 2> range, double from, double to)
 {
   const double value = range[0] + from * (range[1] - range[0]);
-  // The value that was taken is where the pointer is; the end that is farther stays.
+  // The dragged value stays under the pointer; the end that is farther away stays.
   if (from > 0.5)
   {
     range[1] = range[0] + (value - range[0]) / std::clamp(to, kNearestToEnd, 1.0);
@@ -258,12 +264,12 @@ void PictureControls::addCommands(CommandRegistry& commands, std::function<Pictu
   };
   using Controls = PictureControls;
   const char* const group = "Show";
+  commands.bind("scale-up", "Ctrl+plus Ctrl+Shift+plus Ctrl+equal Ctrl+KP_Add");
+  commands.bind("scale-down", "Ctrl+minus Ctrl+KP_Subtract");
   commands.add({ "points-larger", "plus equal KP_Add", group, "larger, smaller points",
     step(&Controls::scalePoints, +1), isOpen });
   commands.add({ "points-smaller", "minus underscore KP_Subtract", group, "larger, smaller points",
     step(&Controls::scalePoints, -1), isOpen });
-  commands.bind("scale-up", "Ctrl+plus Ctrl+Shift+plus Ctrl+equal Ctrl+KP_Add");
-  commands.bind("scale-down", "Ctrl+minus Ctrl+KP_Subtract");
   commands.add({ "depth-stronger", "bracketright", group, "stronger, weaker shading by depth",
     step(&Controls::changeDepthStrength, +1), isOpen });
   commands.add({ "depth-weaker", "bracketleft", group, "stronger, weaker shading by depth",

@@ -1,5 +1,5 @@
 /// @file
-/// What keys do to the picture: from where it is taken, and how it is drawn.
+/// Keys for the picture: its camera, and how it is drawn.
 #pragma once
 
 #include "CommandRegistry.h"
@@ -19,37 +19,39 @@ class ViewScene;
 class PictureControls
 {
 public:
-  /// Changes @p scene and the picture of @p options, which must outlive this, and @p window. @p say tells the
-  /// person what was done.
+  /// Changes @p scene and the picture of @p options, which must outlive this, and @p window. @p say reports
+  /// each change to the person.
   PictureControls(ViewScene& scene, HapticViewerOptions& options, vtkRenderWindow* window,
     std::function<void(const std::string&)> say);
 
   void lookFrom(double azimuth, double elevation);
-  /// As the cloud was first seen.
+  /// Restores the first view of the cloud.
   void showFirstView();
   void fitView();
   void toggleProjection();
   void toggleFullScreen();
+  /// False: the window does not fill the screen.
+  bool leaveFullScreen();
   /// Pictures for two eyes, as they were asked for last, or one.
   void toggleStereo();
-  /// The view turns about the cloud, or stops.
+  /// Lets the view turn about the cloud, or stops it.
   void toggleTurntable();
-  /// Turns it on to what it is at @p seconds of a steady clock. False: it stands still.
+  /// Turns the view to its place at @p seconds of a steady clock. False: it stands still.
   bool turnTable(double seconds);
   FullScreen& fullScreen() { return fullScreen_; }
-  /// @p direction 1: larger, -1: smaller.
+  /// Makes points larger (@p direction 1) or smaller (-1).
   void scalePoints(int direction);
-  /// @p direction 1: stronger, -1: weaker.
+  /// Makes the shading by depth stronger (@p direction 1) or weaker (-1).
   void changeDepthStrength(int direction);
   void showNextBackground();
   void showNextTheme();
   void showNextColorMap();
-  /// Takes the value that was @p from up a colour bar of that @p range, 0 to 1, to @p to; the end farther
+  /// Drags the value at @p from on a colour bar of that @p range, 0 to 1 upwards, to @p to; the end farther
   /// away stays.
   void dragColorRange(std::array<double, 2> range, double from, double to);
   void resetColorRange();
 
-  /// Adds what the result of @p controls can do, as long as there is one.
+  /// Adds the commands of the result of @p controls, for as long as it exists.
   static void addCommands(CommandRegistry& commands, std::function<PictureControls*()> controls);
 
 private:
@@ -60,7 +62,7 @@ private:
   HapticViewerOptions& options_;
   FullScreen fullScreen_;
   std::function<void(const std::string&)> say_;
-  std::string stereo_; ///< The one that was shown last; empty: none was.
+  std::string stereo_; ///< Stereo mode that was shown last; empty: none was.
   bool turns_ = false;
   double turnedAt_ = -1.0; ///< Seconds; below 0: not yet.
 };

@@ -14,7 +14,7 @@ namespace pointhaptics
 namespace
 {
 
-/// Longest sleep between two looks whether it shall end.
+/// Longest sleep between two looks at the request to end.
 constexpr std::chrono::milliseconds kLongestSleep(50);
 
 } // namespace
@@ -31,7 +31,7 @@ bool ReplayPlayer::open(const std::string& fileName, vtkPointSet* cloud, std::st
     message = fmt::format("{}: the cloud is another one: {}", fileName, message);
     return false;
   }
-  // An object of its own: its points are shared.
+  // The copy is an object of its own; its points are shared.
   cloud_ = vtkSmartPointer<vtkPointSet>::Take(cloud->NewInstance());
   cloud_->SetPoints(cloud->GetPoints());
   return true;

@@ -1,4 +1,4 @@
-// What the keys of the viewer do beside those of vtkInteractorStyleHaptic: one entry a command.
+// Commands of the viewer beside those of vtkInteractorStyleHaptic: one entry a command.
 #include "HapticViewer.h"
 #include "PictureControls.h"
 #include "ViewWindow.h"
@@ -49,6 +49,7 @@ void ViewWindow::addCommands(CommandRegistry& commands, ViewWindow* window)
     { "next-file", "n", "Program", "next, previous file", call(&Window::showNextFile), hasOtherFiles });
   commands.add({ "previous-file", "b", "Program", "next, previous file", call(&Window::showPreviousFile),
     hasOtherFiles });
+  commands.bind("undo-model", "Ctrl+z");
   commands.add(
     { "take-unit", "u", "Show", "take the unit the file seems to have", call(&Window::toggleUnit), isOpen });
   commands.add(
@@ -59,11 +60,12 @@ void ViewWindow::addCommands(CommandRegistry& commands, ViewWindow* window)
     call(&Window::writeSettings), keepsSettings });
   commands.add(
     { "record", "j", "Program", "start, stop recording the touch", call(&Window::toggleRecording), isOpen });
+  commands.add({ "leave", "Escape", "Program",
+    "leave what is on: reading, a tool, the full screen; then quit", call(&Window::leave), isOpen });
+  commands.bind("hand-mode", "f");
   commands.add(
     { "marker", "space", "Program", "set a marker in the recording", call(&Window::setMarker), isOpen });
   commands.addNote("Program", "files dropped on the window", "open them");
-  commands.addNote("Program", "Escape while a file is read", "keep the former cloud");
-  commands.addNote("Program", "Escape while a distance is shown", "end measuring");
 }
 
 CommandRegistry HapticViewer::commands()

@@ -1,4 +1,4 @@
-// What moves the hand and the model: the devices of the window, and the servo loop.
+// Devices of the window, which move the hand and the model, and the servo loop.
 #include "ViewScene.h"
 #include "ViewWindow.h"
 
@@ -23,7 +23,7 @@ void ViewWindow::openSimulated()
 {
   SimulatedHandSettings settings;
   settings.workspace = scene_.workspace();
-  // In front of the cloud, where the person sees it.
+  // The hand starts in front of the cloud, where the person sees it.
   const Bounds& box = scene_.workspace();
   const Vec3 front = scene_.towardsViewer();
   settings.start = box.center() +
@@ -33,7 +33,7 @@ void ViewWindow::openSimulated()
   device_ = hand_.get();
 }
 
-/// Its workspace is the 10 cm cube about the origin, which the cloud is fitted to.
+/// Opens the Falcon. Its workspace is the 10 cm cube about the origin, to which the cloud is fitted.
 void ViewWindow::openFalcon()
 {
   FalconSettings settings = options_.falcon;
@@ -98,13 +98,13 @@ bool ViewWindow::openDevice(std::string& message)
   }
   style_->SetDevice(device_);
   style_->SetServoLoop(device_ || player_ ? &servo_ : nullptr);
-  // Where there is none, it may be plugged in later; where there is no driver, the window does without.
+  // A SpaceMouse may be plugged in later; without its driver the window does without.
   static_cast<void>(spaceMouse_.start());
   style_->SetSpaceMouse(&spaceMouse_);
   return true;
 }
 
-/// After the first scene was published: a path must not begin in an empty world.
+/// Starts the servo loop, after the first scene was published: a path must not begin in an empty world.
 bool ViewWindow::startServo(std::string& message)
 {
   if (player_)

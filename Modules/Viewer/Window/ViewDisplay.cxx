@@ -24,7 +24,7 @@ constexpr std::size_t kRoomOfCore = std::size_t(96) << 20;
 constexpr std::size_t kRoomOfPoint = 100;
 ///@}
 
-/// Whether there is room to draw @p points. What there was room for once, the driver has.
+/// True where there is room to draw @p points. The driver keeps the room that it once had.
 bool hasRoomFor(std::int64_t points)
 {
   static std::int64_t most = -1;
@@ -41,11 +41,11 @@ bool hasRoomFor(std::int64_t points)
 namespace
 {
 
-/// Kept until the program ends: a server whose last client goes may begin anew, as that of xvfb-run does, and
-/// cuts the connection that VTK opens meanwhile.
+/// Connection that is kept until the program ends. A server whose last client goes may reset, as that of
+/// xvfb-run does, and cut the connection that VTK opens meanwhile.
 void* keptDisplay = nullptr;
 
-/// VTK brings the library in; asking for it by name saves a dependency of our own.
+/// Gets a function of libX11, which VTK loads: a look-up by name saves a dependency.
 template <typename Function>
 Function functionOfX(const char* name)
 {
@@ -75,7 +75,7 @@ bool displayIsAvailable(std::string& message, std::int64_t points)
     message = "no display: libX11.so.6 cannot be loaded; install libx11-6";
     return false;
   }
-  // Such a server refuses who comes while it begins anew: a moment later it does not.
+  // A server that resets refuses connections for a moment.
   constexpr int kMostTries = 5;
   for (int i = 0; !keptDisplay && i < kMostTries; ++i)
   {

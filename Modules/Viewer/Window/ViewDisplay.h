@@ -15,9 +15,9 @@ namespace pointhaptics
 /// and the cure. Keeps a connection to the X server until the program ends. GUI thread only.
 POINTHAPTICSVIEWER_EXPORT bool displayIsAvailable(std::string& message, std::int64_t points = 0);
 
-/// Pixels of its screen across and up; 0 before displayIsAvailable() was true, and where that has no way to
-/// know. A render window that is asked opens a connection of its own, which it closes before the interactor
-/// has read its last event. GUI thread only.
+/// Width and height of the screen, pixels; 0 before displayIsAvailable() was true, and where they are not
+/// known. A render window would open a connection of its own for this, and close it before the interactor has
+/// read its last event. GUI thread only.
 POINTHAPTICSVIEWER_EXPORT std::array<int, 2> screenSize();
 
 } // namespace pointhaptics

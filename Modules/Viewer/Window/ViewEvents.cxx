@@ -21,7 +21,7 @@ namespace
 constexpr auto kTimerPeriod = std::chrono::milliseconds(33);
 
 #if defined(__unix__) && !defined(__APPLE__)
-/// The socket on which the X server's events of @p window come; -1: there is none.
+/// Socket on which the X server's events of @p window arrive; -1: there is none.
 int eventSocket(vtkRenderWindow* window)
 {
   using ConnectionNumber = int (*)(void*);
@@ -32,8 +32,8 @@ int eventSocket(vtkRenderWindow* window)
 #endif
 
 #if defined(__unix__) && !defined(__APPLE__)
-/// Key, button of the mouse, or what the window manager says, such as that the window is to be closed.
-/// As XCheckIfEvent() asks: it takes no event out of the queue.
+/// Notes a key, a button of the mouse, or a message of the window manager, such as to close the window.
+/// XCheckIfEvent() calls it; it takes no event out of the queue.
 int noteInput(void*, void* event, char* found)
 {
   constexpr int kKeyPress = 2;
@@ -78,7 +78,7 @@ void runEvents(vtkRenderWindowInteractor* interactor)
     Clock::time_point due = Clock::now();
     while (!interactor->GetDone())
     {
-      // Sends what is still to be sent, and empties the queue: nothing is overlooked by poll().
+      // Sends pending requests and empties the queue, so that poll() overlooks nothing.
       interactor->ProcessEvents();
       if (!interactor->GetDone() && Clock::now() >= due)
       {

@@ -14,12 +14,12 @@ namespace pointhaptics
 /// after Initialize().
 void runEvents(vtkRenderWindowInteractor* interactor);
 
-/// Ends runEvents() of @p interactor, from one of its events, for a window that is used further. On X11
-/// TerminateApp() is for good: VTK 9.1 destroys the window, and the one that the next render makes instead
-/// hears neither keys nor its close button.
+/// Ends runEvents() of @p interactor from one of its events; the window stays usable. TerminateApp() of VTK
+/// 9.1 on X11 destroys the window, and the one that the next render makes hears neither keys nor its close
+/// button.
 void leaveEvents(vtkRenderWindowInteractor* interactor);
 
-/// Whether a key, a button of the mouse or a word of the window manager waits to be handled by @p window's
+/// True if a key, a button of the mouse or a word of the window manager waits to be handled by @p window's
 /// interactor. It goes on to wait. False also where the window is not one on an X server.
 bool inputWaits(vtkRenderWindow* window);
 

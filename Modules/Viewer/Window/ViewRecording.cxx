@@ -1,4 +1,4 @@
-// What the window does to record touch, to show a recording, and to make touch heard.
+// Recording, replay and sound of the touch in the window.
 #include "PolyDataAccess.h"
 #include "ViewWindow.h"
 
@@ -40,7 +40,7 @@ bool ViewWindow::startRecording(const std::string& fileName, std::string& messag
   return recording_.open(fileName, header, message);
 }
 
-/// False: @p message says what is lost. Says where the recording is.
+/// Ends the recording and says where it is. False: @p message says what is lost.
 bool ViewWindow::endRecording(std::string& message)
 {
   if (!recording_.isOpen())
@@ -106,7 +106,7 @@ void ViewWindow::setMarker()
   this->say(marker > 0 ? fmt::format("marker {}", marker) : "no marker: nothing is recorded");
 }
 
-/// At every call of the timer.
+/// Called at every timer event.
 void ViewWindow::followRecording()
 {
   if (!recording_.isOpen())
@@ -134,7 +134,7 @@ void ViewWindow::followRecording()
   }
 }
 
-/// On, or off.
+/// Switches the sound on or off.
 void ViewWindow::toggleSound()
 {
   options_.sound = !options_.sound;
@@ -162,7 +162,7 @@ void ViewWindow::toggleSound()
   }
 }
 
-/// At every call of the timer.
+/// Called at every timer event.
 void ViewWindow::followSound()
 {
   const std::string problem = sound_.takeProblem();
@@ -181,7 +181,7 @@ bool ViewWindow::openReplay(std::string& message)
   return player_->open(options_.replay, cloud, message);
 }
 
-/// At every call of the timer: the model goes where it went.
+/// Called at every timer event: moves the model as in the recording.
 void ViewWindow::followReplay()
 {
   AffineTransform model;

@@ -1,4 +1,4 @@
-// What the sliders of the window set.
+// Sliders of the window.
 #include "ViewWindow.h"
 
 #include "ViewScene.h"
@@ -67,7 +67,8 @@ void ViewWindow::onSlider(int slider)
   }
 }
 
-/// A device may refuse what it cannot render: then everything stays as it was, and the window says why.
+/// Sets the contact. A device may refuse what it cannot render: then everything stays as it was, and the
+/// window says why.
 void ViewWindow::setContact(const ContactParameters& contact)
 {
   HapticParameters parameters = parameters_;

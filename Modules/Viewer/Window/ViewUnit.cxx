@@ -7,7 +7,7 @@
 namespace pointhaptics
 {
 
-/// The scale as it is after all zooming, and the unit that could be taken.
+/// Text of the present scale, and of the unit that could be taken.
 std::string ViewWindow::scaleText()
 {
   const LengthUnit& unit = scene_.unit();
@@ -18,14 +18,14 @@ std::string ViewWindow::scaleText()
   return isOffered ? scale + "    " + key + ": the file is in " + likely.name : scale;
 }
 
-/// The scale, and the last news.
+/// Shows the scale and the last message.
 void ViewWindow::showNote()
 {
   const std::string scale = this->scaleText();
   style_->GetStatus().setNote(news_.empty() ? scale : scale + "\n" + news_);
 }
 
-/// Takes what the file seems to be in, and gives it back.
+/// Takes the unit that the file seems to have, or gives it back.
 void ViewWindow::toggleUnit()
 {
   const LengthUnit likely = scene_.likelyUnit();

@@ -40,9 +40,9 @@ namespace
 {
 
 constexpr double kChartHeight = 0.24; // part of the window
-/// Calls of the timer, of 33 ms each, between two looks at the files.
+/// Timer events, 33 ms apart, between two looks at the files.
 constexpr int kLooksApart = 8;
-/// Seconds of a frame from which on the window says that it draws.
+/// Frames that take longer than this, seconds, are announced in the title.
 constexpr double kLongFrame = 1.0;
 
 } // namespace
@@ -64,6 +64,10 @@ ViewWindow::ViewWindow(ViewScene& scene, const HapticViewerOptions& options,
       [this](const std::string& news) { this->say(news); })
 {
   ViewWindow::addCommands(style_->GetCommands(), this);
+  for (const std::string& conflict : style_->GetCommands().conflicts())
+  {
+    this->report(HapticViewerObserver::Kind::Error, "two commands have one key by default: " + conflict);
+  }
   style_->GetCommands().bind(options_.bindings);
 }
 
@@ -91,7 +95,7 @@ void ViewWindow::report(HapticViewerObserver::Kind kind, const std::string& mess
   }
 }
 
-/// Once, with or without a cloud.
+/// Opens the window once, with or without a cloud.
 void ViewWindow::openWindow()
 {
   window_->SetMultiSamples(0);
@@ -104,7 +108,7 @@ void ViewWindow::openWindow()
   isOpen_ = true;
 }
 
-/// A renderer of its own: the scene's would ask filters that have no cloud.
+/// Shows the bar in a renderer of its own: the scene's would ask filters that have no cloud.
 void ViewWindow::showBar(const std::string& words, double part)
 {
   if (!isOpen_)
@@ -120,17 +124,17 @@ void ViewWindow::showBar(const std::string& words, double part)
   window_->AddRenderer(waiting_);
   window_->Render();
   interactor_->Initialize();
-  // Not before it hears keys: who waits for the title may press one.
+  // The title comes after the window hears keys: a person who waits for it may press one.
   window_->SetWindowName(("PointHaptics: " + words).c_str());
 }
 
-/// Escape, and the keys that quit.
+/// The keys that leave or quit.
 bool ViewWindow::isCancelKey()
 {
   const std::string key = interactor_->GetKeySym() ? interactor_->GetKeySym() : "";
   const Command* command = style_->GetCommands().find(gestureOf(
     key, interactor_->GetControlKey() != 0, interactor_->GetShiftKey() != 0, interactor_->GetAltKey() != 0));
-  return key == "Escape" || (command && command->name == "quit");
+  return command && (command->name == "quit" || command->name == "leave");
 }
 
 bool ViewWindow::awaitCloud(const CloudLoader& loader, const std::string& title)
@@ -275,11 +279,6 @@ void ViewWindow::connectStyle()
   check->SetCallback(
     [](vtkObject*, unsigned long, void* window, void*) { static_cast<ViewWindow*>(window)->onAbortCheck(); });
   abortCheck_ = window_->AddObserver(vtkCommand::AbortCheckEvent, check);
-  // Before the style, for which Escape may have another meaning.
-  cancelKey_->SetClientData(this);
-  cancelKey_->SetCallback(
-    [](vtkObject*, unsigned long, void* window, void*) { static_cast<ViewWindow*>(window)->onKey(); });
-  interactor_->AddObserver(vtkCommand::KeyPressEvent, cancelKey_, 1.0F);
 }
 
 void ViewWindow::onSamples(void* callData)
@@ -306,8 +305,8 @@ void ViewWindow::onSamples(void* callData)
   }
 }
 
-/// 30 times a second: whether a file has been read, what the device has to say, whether the program is asked
-/// to end, and whether a picture that rests is to become finer.
+/// Called 30 times a second. Looks for a finished file, messages of the device and a request to end, and
+/// refines a picture that rests.
 void ViewWindow::onTimer()
 {
   const bool wasGivenUp = std::exchange(isGivenUp_, false);
@@ -349,8 +348,8 @@ void ViewWindow::onTimer()
   }
 }
 
-/// Several times in a frame that takes long. All points may take seconds to draw: a frame at rest is given up
-/// for keys and buttons and drawn after them. Until then the window shows what it showed.
+/// Called several times in a frame that takes long. All points may take seconds to draw: a frame at rest is
+/// given up for keys and buttons and drawn after them. Until then the window shows the former picture.
 void ViewWindow::onAbortCheck()
 {
   const std::optional<double> seconds = scene_.detail().restingFrame();
@@ -377,7 +376,7 @@ void ViewWindow::say(const std::string& news)
   this->showNote();
 }
 
-/// To the host and in the window.
+/// Sends a message to the host and shows it in the window.
 void ViewWindow::tell(const std::string& message)
 {
   this->report(HapticViewerObserver::Kind::Error, message);
@@ -393,8 +392,8 @@ void ViewWindow::onModelChanged(void*)
   this->showNote();
 }
 
-/// New means may have what the picture waits for. What VTK classes complained of while the scene was made
-/// goes where the user looks.
+/// Shows new means, which may bring the colours that the picture waits for. Errors of VTK classes go where
+/// the user looks.
 void ViewWindow::onSceneChanged(void*)
 {
   const bool wasResampled = scene_.isResampled();
@@ -439,7 +438,7 @@ bool ViewWindow::finish(std::string& message)
   return this->endFiles(message);
 }
 
-/// One that cannot be written takes none of the others with it.
+/// Ends all files. One that cannot be written takes none of the others with it.
 bool ViewWindow::endFiles(std::string& message)
 {
   bool areWritten = this->endRecording(message);
@@ -467,7 +466,7 @@ void ViewWindow::noteFile(bool isWritten, const std::string& note) const
   }
 }
 
-/// What @p sample was felt with.
+/// Parameters that @p sample was felt with.
 ContactParameters ViewWindow::contactOf(const ServoSample& sample) const
 {
   ContactParameters contact = player_ ? player_->contactOf(sample) : parameters_.contact;

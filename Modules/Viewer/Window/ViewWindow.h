@@ -48,12 +48,12 @@
 namespace pointhaptics
 {
 
-/// Everything the window needs while it is open, which may be before there is a cloud. The servo loop stops
-/// before what it works on goes away.
+/// All that the window needs while it is open, which may be before there is a cloud. The servo loop stops
+/// before its devices and scenes go.
 class ViewWindow
 {
 public:
-  /// Opens nothing yet. @p scene must outlive this. The user steps through @p files, if they are not shown
+  /// Opens nothing yet. @p scene must outlive this. The user steps through @p files, unless they are shown
   /// together.
   ViewWindow(ViewScene& scene, const HapticViewerOptions& options, const HapticViewerObserver& observer,
     std::vector<std::string> files);
@@ -61,20 +61,21 @@ public:
   ViewWindow(const ViewWindow&) = delete;
   ViewWindow& operator=(const ViewWindow&) = delete;
 
-  /// Opens the window, empty but for a bar, until @p loader has something to take; @p title names what it
-  /// reads. Again for the next cloud where one could not be read. False: the user closed the window or
-  /// pressed Escape, or the observer says stop.
+  /// Shows a bar in a window, which it opens, until @p loader has a result; @p title names what it reads.
+  /// Call it again for the next cloud if one could not be read. False: the user closed the window or pressed
+  /// Escape, or the observer asks to stop.
   bool awaitCloud(const CloudLoader& loader, const std::string& title);
   /// Shows the scene, which must be built of file @p cloud, or of all of them, and @p news in its status
-  /// until there are others; opens the device and starts the servo loop. False: @p message says what failed.
+  /// until there is other news; opens the device and starts the servo loop. False: @p message says what
+  /// failed.
   bool start(std::size_t cloud, const std::string& news, std::string& message);
   /// Handles events until the user closes the window.
   void handleEvents();
-  /// After start(): stops the loop, closes the device, writes what was asked for. False: @p message says what
-  /// could not be written.
+  /// Stops the loop after start(), closes the device and writes the requested files. False: @p message says
+  /// what could not be written.
   bool finish(std::string& message);
   bool isStarted() const { return isStarted_; }
-  /// Writes what the window shows. False: @p message says why not.
+  /// Writes the picture of the window. False: @p message says why not.
   bool writeImage(const std::string& fileName, std::string& message);
 
   vtkRenderWindow* window() { return window_; }
@@ -82,11 +83,11 @@ public:
   vtkInteractorStyleHaptic* style() { return style_; }
   const Lifetime& lifetime() const { return lifetime_; }
 
-  /// Adds what @p window can do to the commands of its style. Null: to be described, not run.
+  /// Adds the commands of @p window to its style's. Null: they are described, not run.
   static void addCommands(CommandRegistry& commands, ViewWindow* window);
 
 private:
-  /// What files are read for.
+  /// Reason for which files are read.
   enum class Load
   {
     New,   ///< To be fitted to the workspace.
@@ -98,9 +99,9 @@ private:
   {
     std::vector<std::string> files;
     Load kind = Load::New;
-    HapticViewerOptions options;            ///< As they were when it began.
+    HapticViewerOptions options;            ///< Options when the load began.
     std::function<void(bool isShown)> then; ///< Also after a cancel.
-    FileWatch watch;                        ///< From before the first byte was read.
+    FileWatch watch;                        ///< State of the files before the first byte was read.
   };
   void openWindow();
   bool isCancelKey();
@@ -151,7 +152,7 @@ private:
   void endLoading(bool isShown);
   void cancelLoading();
   void forgiveEscape();
-  void onKey();
+  void leave();
   void show(LoadedCloud cloud);
   void warn(const std::vector<std::string>& notes);
   void followOptions();
@@ -176,22 +177,24 @@ private:
 
   ViewScene& scene_;
   HapticViewerOptions options_;
-  const std::string askedColorBy_; ///< As the options said at first, for each new cloud.
+  const std::string askedColorBy_; ///< Colours of the options at the start, for each new cloud.
   const std::vector<double> askedColorRange_;
   const HapticViewerObserver& observer_;
-  HapticParameters parameters_; ///< As the servo loop has them.
-  double voxelSize_ = 0.0;      ///< As the slider set it, metres; 0: as the options say.
+  HapticParameters parameters_; ///< Parameters of the servo loop.
+  double voxelSize_ = 0.0;      ///< Voxel size of the slider, metres; 0: that of the options.
   std::vector<std::string> files_;
-  std::size_t fileIndex_ = 0;      ///< Of the last one that was asked for.
-  std::vector<std::string> shown_; ///< What the window shows: one of files_, or all together.
+  std::size_t fileIndex_ = 0;      ///< Index of the file that was last asked for.
+  std::vector<std::string> shown_; ///< The shown files: one of files_, or all together.
   FileWatch watch_;
   int sinceLook_ = 0;
   unsigned long abortCheck_ = 0;
-  bool isGivenUp_ = false;   ///< A frame was, and is to be drawn again.
-  bool saysDrawing_ = false; ///< In the window's title.
-  Loading loading_;          ///< While loader_ is busy.
-  /// Until then Escape is taken as meant for the bar that has just gone.
+  bool isGivenUp_ = false;   ///< A frame was given up and must be drawn again.
+  bool saysDrawing_ = false; ///< The window's title says "drawing".
+  Loading loading_;          ///< Valid while loader_ is busy.
+  /// Until then Escape is taken for the bar that has just gone.
   std::chrono::steady_clock::time_point escapeIsLate_;
+  /// Until then Escape quits, although the touch is recorded.
+  std::chrono::steady_clock::time_point escapeQuits_;
   bool isOpen_ = false;
   bool isStarted_ = false;
   int writtenSettings_ = 0;
@@ -210,23 +213,22 @@ private:
   ColorBarDrag colorBar_;
   DistanceMeasuring measuring_;
   ClipBoxTool clipping_;
-  vtkNew<vtkCallbackCommand> cancelKey_;
   std::shared_ptr<IdealForce> wholeIdeal_; // for the same
   CsvWriter trace_;
   RecordingWriter recording_;
   int recordings_ = 0;
-  bool recordingWaits_ = false; ///< As the user was told.
+  bool recordingWaits_ = false; ///< The user was told that the recording waits.
   int screenshots_ = 0;
-  bool chartBesideFigure_ = true; ///< Comes back when the figure goes.
+  bool chartBesideFigure_ = true; ///< Restores the chart when the figure goes.
   bool clipBoxBesideFigure_ = false;
-  LengthUnit firstUnit_;      ///< Of the file before the user took another; no name: none was taken.
+  LengthUnit firstUnit_;      ///< Unit of the file before the user took another; no name: none was taken.
   std::string news_;          // last line of the status
-  std::string awaitedColors_; ///< The news while colours are computed; empty: none are.
+  std::string awaitedColors_; ///< The message while colours are computed; empty: none are.
   std::unique_ptr<SimulatedDevice> hand_;
   std::unique_ptr<PathReplayDevice> replay_;
   std::unique_ptr<FalconDevice> falcon_;
   FalconUpdates falconUpdates_;
-  std::string spaceMouseMessage_; ///< As the user was told.
+  std::string spaceMouseMessage_; ///< The message that was shown last.
   SpaceMouse spaceMouse_;
   HapticDevice* device_ = nullptr;
   CloudLoader loader_;

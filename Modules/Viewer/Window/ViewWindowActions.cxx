@@ -30,6 +30,8 @@ namespace
 
 constexpr const char* kAsSoonAsComputed = ", as soon as it is computed";
 constexpr auto kLateEscape = std::chrono::milliseconds(700);
+/// A second Escape within this time quits while the touch is recorded.
+constexpr auto kRepeatedEscape = std::chrono::seconds(5);
 
 /// The first of STEM-001.EXTENSION, STEM-002.EXTENSION, ... after @p last that is not there yet.
 std::string freeFileName(const char* extension, int& last)
@@ -67,7 +69,7 @@ void ViewWindow::onFilesDropped(void* callData)
   }
 }
 
-/// Begins to read; what is being read already is given up.
+/// Begins to read files; a load in flight is given up.
 void ViewWindow::load(const std::vector<std::string>& files, Load kind, std::function<void(bool)> then)
 {
   HapticViewerOptions options = options_;
@@ -101,7 +103,7 @@ void ViewWindow::load(const std::vector<std::string>& files, Load kind, std::fun
   loader_.start(std::move(request));
 }
 
-/// Reads all points of what is shown coarsely.
+/// Reads all points of a cloud that is shown coarsely.
 void ViewWindow::refine()
 {
   this->load(shown_, Load::Finer,
@@ -114,7 +116,7 @@ void ViewWindow::refine()
     });
 }
 
-/// At every call of the timer.
+/// Called at every timer event.
 void ViewWindow::followLoading()
 {
   if (!loader_.busy())
@@ -152,7 +154,7 @@ void ViewWindow::followLoading()
   }
 }
 
-/// What the readers warn of.
+/// Reports each note of the readers as a warning.
 void ViewWindow::warn(const std::vector<std::string>& notes)
 {
   for (const std::string& note : notes)
@@ -193,20 +195,26 @@ void ViewWindow::forgiveEscape()
   escapeIsLate_ = std::chrono::steady_clock::now() + kLateEscape;
 }
 
-/// Escape while a file is read is for the reader, then for a distance in the picture, and does not reach the
-/// style.
-void ViewWindow::onKey()
+/// Escape leaves the first thing that is on, and quits where nothing is.
+void ViewWindow::leave()
 {
-  const char* key = interactor_->GetKeySym();
-  const bool isLate = std::chrono::steady_clock::now() < escapeIsLate_;
-  if (key && std::string(key) == "Escape" && (loader_.busy() || isLate || measuring_.end()))
+  const auto now = std::chrono::steady_clock::now();
+  if (loader_.busy())
   {
-    if (loader_.busy())
-    {
-      this->cancelLoading();
-    }
-    cancelKey_->AbortFlagOn();
+    this->cancelLoading();
+    return;
   }
+  if (now < escapeIsLate_ || measuring_.end() || clipping_.hide() || controls_.leaveFullScreen())
+  {
+    return;
+  }
+  if (recording_.isOpen() && now > escapeQuits_)
+  {
+    escapeQuits_ = now + kRepeatedEscape;
+    this->say("recording: " + style_->GetCommands().label("leave") + " once more ends it and quits");
+    return;
+  }
+  style_->GetCommands().run("quit");
 }
 
 void ViewWindow::show(LoadedCloud cloud)
@@ -224,7 +232,7 @@ void ViewWindow::show(LoadedCloud cloud)
   }
   shown_ = loading_.files;
   watch_ = loading_.watch;
-  // From here on the window shows the new cloud, also where nothing of it lies in the workspace.
+  // From here on the window shows the new cloud, also where none of it lies in the workspace.
   if (!scene_.open(std::move(cloud), loading_.options, message))
   {
     this->tell(message);
@@ -256,7 +264,7 @@ void ViewWindow::show(LoadedCloud cloud)
   this->findIdeal();
 }
 
-/// What keys have changed while the cloud was read.
+/// Applies the options that keys changed while the cloud was read.
 void ViewWindow::followOptions()
 {
   if (options_.felt != loading_.options.felt)
@@ -275,7 +283,7 @@ void ViewWindow::followOptions()
   }
 }
 
-/// With the scene that came with the cloud, or to be made.
+/// Gives the style the model, with the scene that came with the cloud, or with one to be made.
 void ViewWindow::giveModel(vtkMatrix4x4* matrix)
 {
   if (scene_.isResampled())
@@ -289,7 +297,8 @@ void ViewWindow::giveModel(vtkMatrix4x4* matrix)
   }
 }
 
-/// What was read is shown where it was resampled; what the user has done meanwhile is done to it too.
+/// Shows the cloud that was read in the frame in which it was resampled. Moves that the user made meanwhile
+/// are repeated.
 void ViewWindow::adoptModel(const AffineTransform& model)
 {
   vtkNew<vtkMatrix4x4> kept;
@@ -317,7 +326,7 @@ void ViewWindow::adoptModel(const AffineTransform& model)
   }
 }
 
-/// The exact force for the chart, where the shown cloud is a shape that has one.
+/// Finds the exact force for the chart, where the shown cloud is a shape that has one.
 void ViewWindow::findIdeal()
 {
   const std::shared_ptr<IdealForce> ideal = idealFor(scene_, options_);
@@ -335,7 +344,7 @@ void ViewWindow::showFile(std::size_t index)
   }
   else
   {
-    // The next key goes on from here, not to a broken or cancelled file again.
+    // The next key continues from here, not from a broken or cancelled file.
     fileIndex_ = index;
     this->load({ files_[index] }, Load::New,
       [this, index](bool isShown)
@@ -369,7 +378,7 @@ HapticViewerState ViewWindow::state()
   state.contact = parameters_.contact;
   state.radiusScale = sliders_->GetValue(vtkHapticSliders::RadiusScale);
   vtkCamera* camera = scene_.renderer()->GetActiveCamera();
-  // In a parallel projection the wheel changes the scale alone.
+  // In a parallel projection the wheel changes only the scale.
   Vec3 focus;
   Vec3 forward;
   camera->GetFocalPoint(&focus.x);
@@ -434,7 +443,7 @@ void ViewWindow::toggleMeasuring()
   measuring_.toggle(style_->GetCommands().label("measure"));
 }
 
-/// What is felt is of the box as it is now; a recording is of one cloud.
+/// Restricts touch to the present box. A recording ends, as it is of one cloud.
 void ViewWindow::clipFelt()
 {
   std::string message;
@@ -446,14 +455,14 @@ void ViewWindow::clipFelt()
   style_->InvalidateModel();
 }
 
-/// The next of what the cloud can be coloured by.
+/// Shows the next of the choices to colour by.
 void ViewWindow::showNextColors()
 {
   const std::vector<std::string> choices = scene_.colorChoices();
   const auto shown = std::find(choices.begin(), choices.end(), scene_.colorBy());
   const std::size_t place = shown == choices.end() ? 0 : std::size_t(shown - choices.begin());
   const std::string& next = choices[(place + 1) % choices.size()];
-  // Another file may have no colours: they are what comes of itself.
+  // Another file may have no colours: rgb is the default then.
   options_.colorBy = next == "rgb" ? std::string() : next;
   options_.picture.colorRange.clear(); // of other numbers
   scene_.setPicture(options_.picture);
@@ -467,7 +476,7 @@ void ViewWindow::showNextColors()
   awaitedColors_ = waits ? news_ : std::string();
 }
 
-/// Colours that were waited for are there: what the status says of them must not stay.
+/// Clears the status when the awaited colours have come.
 void ViewWindow::endAwaitingColors()
 {
   if (awaitedColors_.empty() || scene_.awaitsColors())
@@ -495,7 +504,7 @@ void ViewWindow::toggleAmbient()
   this->setSceneOptions();
 }
 
-/// What scenes are made with, and which arrays the picture needs.
+/// Sets how scenes are made, and which arrays the picture needs.
 void ViewWindow::setSceneOptions()
 {
   SceneOptions options;
@@ -506,8 +515,8 @@ void ViewWindow::setSceneOptions()
   style_->GetScenes().setOptions(options);
 }
 
-/// Texts, chart, sliders and the handles of the clipping box go; those that the user opens in the figure are
-/// shown.
+/// Hides texts, chart, sliders and the handles of the clipping box; those that the user opens in the figure
+/// are shown.
 void ViewWindow::showFigure(bool figure)
 {
   scene_.showFigure(figure);

@@ -15,7 +15,7 @@ namespace pointhaptics
 class WaitingKeys
 {
 public:
-  /// The key that @p interactor has just heard.
+  /// Keeps the key that @p interactor has just received.
   void keep(vtkRenderWindowInteractor* interactor);
   /// Presses and lets go of all of them, in their order, and forgets them.
   void press(vtkRenderWindowInteractor* interactor);

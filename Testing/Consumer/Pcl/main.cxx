@@ -43,7 +43,7 @@ Cloud::Ptr scene()
 struct Result
 {
   std::size_t means = 0;
-  double seconds = 0.0; ///< Of the grid: the best of five.
+  double seconds = 0.0; ///< Seconds of the grid: the best of five.
   pcl::ModelCoefficients table;
   std::size_t left = 0;     ///< Points that are not the table's.
   double normalError = 0.0; ///< Mean sine between the normals and those of the ball.

@@ -14,7 +14,7 @@ using namespace pointhaptics;
 namespace
 {
 
-/// Those of every style.
+/// Commands of every style.
 class StyleCommands : public ::testing::Test
 {
 protected:
@@ -285,4 +285,17 @@ TEST(CommandInput, DoesNothingForAGestureThatIsOfAnotherKind)
   input.pressButton("left");
   EXPECT_FALSE(input.moveMouse()) << "left to VTK's style";
   input.releaseButton();
+}
+
+TEST(CommandRegistry, NamesKeysThatTwoCommandsHaveByDefault)
+{
+  CommandRegistry commands;
+  commands.add({ "first", "k F4", "", "", [] {} });
+  commands.add({ "second", "l", "", "", [] {} });
+  EXPECT_TRUE(commands.conflicts().empty());
+  commands.add({ "third", "m F4", "", "", [] {} });
+  EXPECT_EQ(commands.conflicts(), std::vector<std::string>{ "F4: first, third" });
+  commands.bind("first", "n");
+  commands.add({ "fourth", "k", "", "", [] {} });
+  EXPECT_EQ(commands.conflicts().size(), 1u);
 }

@@ -46,7 +46,7 @@ void setVoxel(vtkPolyData* cloud, double edge)
   addField(cloud, "LatticeSpacing", { 1e-3, 1e-3, 1e-3 });
 }
 
-/// What is said of the place in a file with voxels of @p edge; 0: nothing is known of them.
+/// Text for a place in a file with voxels of @p edge; 0: the voxels are not known.
 std::string placeText(const Vec3& place, double edge)
 {
   vtkNew<vtkPolyData> cloud;
@@ -61,7 +61,7 @@ std::string placeText(const Vec3& place, double edge)
   return text.substr(0, text.find('\n'));
 }
 
-/// What is said of the value of an array.
+/// Text for the value of an array.
 std::string arrayText(const char* name, double value, double edge)
 {
   vtkNew<vtkPolyData> cloud;

@@ -185,7 +185,7 @@ void expectApart(const Screen& screen, const std::string& what)
   }
 }
 
-/// What each actor draws alone lies in a place.
+/// Draws each actor alone and expects its pixels within one place.
 void expectInPlaces(Screen& screen, const std::string& what)
 {
   constexpr double kSlack = 3.0; // pixels

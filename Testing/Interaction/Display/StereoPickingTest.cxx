@@ -1,4 +1,4 @@
-// What is picked in pictures for two eyes: needs a window, skips itself without a display.
+// Picking in pictures for two eyes: needs a window, skips itself without a display.
 #include "PointPicking.h"
 #include "ScreenMarks.h"
 

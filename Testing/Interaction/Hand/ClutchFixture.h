@@ -6,8 +6,8 @@
 #include "vtkKernelBandwidthFilter.h"
 #include "vtkVoxelMeanResampler.h"
 
-#include "Unit/Eventually.h"
 #include "FlatCloud.h"
+#include "Unit/Eventually.h"
 
 #include "Haptics/ServoLoop.h"
 
@@ -69,7 +69,7 @@ protected:
     }
     ASSERT_FALSE(style->IsModelChanged());
   }
-  /// Of the model's matrix.
+  /// Element of the model's matrix.
   double element(int row, int column)
   {
     return style->GetModelTransform()->GetMatrix()->GetElement(row, column);

@@ -20,10 +20,10 @@ namespace
 
 /// Positions come from encoders: twice their largest step (FalconDevice::limits()).
 constexpr double kTwoSteps = 120e-6;
-/// Of the person's hand between two commands: the driver takes no answer that jumps.
+/// Largest way of the person's hand between two commands, metres: the driver takes no answer that jumps.
 constexpr double kLargestStep = 1e-3;
 
-/// What the person does; the servo thread reads it at each command.
+/// State of the person; the servo thread reads it at each command.
 struct Person
 {
   std::mutex mutex;

@@ -54,7 +54,7 @@ public:
   }
   SimulatedDevice device;
   std::vector<Vec3> forces;              ///< The servo thread's until it stops.
-  std::atomic<std::size_t> written{ 0 }; ///< Of them.
+  std::atomic<std::size_t> written{ 0 }; ///< Number of forces written.
   std::atomic<bool> silent{ false };
 };
 

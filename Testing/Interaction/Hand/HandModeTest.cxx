@@ -1,4 +1,4 @@
-// What hand mode does before anything is touched.
+// Hand mode before anything is touched.
 #include "HandDistance.h"
 #include "InteractorStyleFixture.h"
 #include "SteadyHand.h"

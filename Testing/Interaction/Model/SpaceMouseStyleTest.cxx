@@ -19,7 +19,7 @@ using namespace pointhaptics;
 namespace
 {
 
-/// What the cap says, over and over.
+/// Report that the puck repeats.
 struct Cap
 {
   std::atomic<int> shift[3] = { 0, 0, 0 };

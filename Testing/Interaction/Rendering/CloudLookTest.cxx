@@ -75,7 +75,7 @@ std::vector<Vec3> hills(double width, double depth)
   return points;
 }
 
-/// What rays from the origin meet in a box; up to @p most degrees above the horizon.
+/// Points where rays from the origin meet a box; up to @p most degrees above the horizon.
 std::vector<Vec3> scanned(const Vec3& low, const Vec3& high, double most)
 {
   std::vector<Vec3> points;
@@ -210,7 +210,7 @@ TEST(CloudLook, ShowsTheSparseSurroundingsOfADenseObject)
     const Vec3 most = spread(points, fitCamera(viewOf(points), look, AffineTransform(), 1.6), 1.6);
     EXPECT_NEAR(std::max(most.x, most.y), 0.92, 1e-6);
   }
-  // Of what a sensor sees from its place ever less, the far end is not worth a small picture.
+  // A sensor sees ever less of the far end, which is not worth a small picture.
   CloudLook sweep = look;
   sweep.cutsSparse = true;
   EXPECT_GT(spread(ground, fitCamera(viewOf(ground), sweep, AffineTransform(), 1.6), 1.6).x, 1.5);

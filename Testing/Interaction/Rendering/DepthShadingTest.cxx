@@ -1,4 +1,4 @@
-// What the shading by depth darkens, pixel by pixel: needs a window, skips itself without a display.
+// Pixels that the shading by depth darkens: needs a window, skips itself without a display.
 #include "CloudAppearance.h"
 #include "vtkCloudAxes.h"
 #include "vtkDepthShadingPass.h"
@@ -60,7 +60,7 @@ protected:
     renderer_->AddActor(actor);
   }
 
-  /// Of the middle row, 0 to 255.
+  /// Darkest value in the middle row, 0 to 255.
   int darkest(double tolerance)
   {
     applyDepthShading(renderer_, tolerance);

@@ -47,7 +47,7 @@ TEST(ProgressiveOrder, EveryBeginningTakesFromEveryCubeItsShare)
   constexpr int kCubes = 4; // per edge
   const std::vector<Vec3> points = unevenCloud(60000);
   const std::vector<std::uint32_t> order = progressiveOrder({ points.data(), std::int64_t(points.size()) });
-  // The same box as that of the order.
+  // Box of the order.
   Bounds bounds;
   for (const Vec3& p : points)
   {

@@ -163,7 +163,7 @@ struct SplatWindow
   vtkNew<vtkRenderWindow> window;
 };
 
-/// Of the many points only a few are under way at a time where they are drawn by the processor.
+/// Only a few points at a time are under way where the processor draws many.
 TEST(SplatMapper, PointsAreDrawnInStepsWhereTheProcessorDrawsThem)
 {
   SKIP_WITHOUT_DISPLAY();

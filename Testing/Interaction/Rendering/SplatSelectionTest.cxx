@@ -108,7 +108,7 @@ struct SelectionWindow
     return { data->GetPointer(0), data->GetPointer(0) + data->GetNumberOfValues() };
   }
 
-  /// Of points, or of cells, in a rectangle; those of both ends are in it.
+  /// Ids of points, or of cells, in a rectangle; both ends belong to it.
   std::set<vtkIdType> idsIn(unsigned first, unsigned last, int association)
   {
     vtkNew<vtkHardwareSelector> selector;

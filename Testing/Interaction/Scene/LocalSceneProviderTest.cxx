@@ -1,4 +1,4 @@
-// What is felt near the hand while the model moves, against scenes of the whole cloud.
+// Touch near the hand while the model moves, compared with scenes of the whole cloud.
 #include "LocalSceneProvider.h"
 #include "SceneWorker.h"
 
@@ -126,7 +126,7 @@ struct Difference
 {
   int touched = 0;      ///< Ticks in contact with the whole cloud.
   int left = 0;         ///< Ticks outside of what the near one covers.
-  double largest = 0.0; ///< Of the forces, newtons.
+  double largest = 0.0; ///< Largest difference of the forces, newtons.
   double strongest = 0.0;
 };
 

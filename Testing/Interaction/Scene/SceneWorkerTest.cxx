@@ -276,7 +276,7 @@ TEST_F(SceneWorkerTest, DropsWhatIsInFlightForWhatItAdopts)
   }
 }
 
-/// What was published, by any thread.
+/// Keeps the scenes that any thread publishes.
 struct Published
 {
   void operator()(std::shared_ptr<const HapticScene> scene)

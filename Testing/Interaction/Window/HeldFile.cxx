@@ -54,7 +54,7 @@ extern "C" std::size_t fread(void* to, std::size_t size, std::size_t count, std:
   return real(to, size, count, stream);
 }
 
-/// What a build with _FORTIFY_SOURCE calls.
+/// Called in place of fread() by a build with _FORTIFY_SOURCE.
 extern "C" std::size_t __fread_chk(
   void* to, std::size_t room, std::size_t size, std::size_t count, std::FILE* stream)
 {

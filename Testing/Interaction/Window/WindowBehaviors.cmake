@@ -62,6 +62,7 @@ endforeach ()
 set(window_helpers DROP_FILE=$<TARGET_FILE:DropFile> CLOSE_WINDOW=$<TARGET_FILE:CloseWindow>)
 pointhaptics_window_test(ADroppedFileIsShown)
 pointhaptics_window_test(ABadDropKeepsTheCloud)
+pointhaptics_window_test(EscapeLeavesOneThingAfterTheOther)
 
 # Files that take long. A sanitizer's runtime must be loaded first, so HeldFile cannot be.
 if (NOT CMAKE_SYSTEM_NAME STREQUAL "Linux" OR POINTHAPTICS_SANITIZE)

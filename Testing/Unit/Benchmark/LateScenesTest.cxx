@@ -1,6 +1,7 @@
 /// Scenes near the hand that come later than the hand.
 #include "Benchmark/Touch/Methods/LateScenes.h"
 #include "Benchmark/Touch/Methods/TouchMethod.h"
+#include "Benchmark/Touch/TouchMesh.h"
 
 #include <gtest/gtest.h>
 

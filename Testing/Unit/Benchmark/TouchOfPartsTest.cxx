@@ -1,4 +1,4 @@
-/// What a hand feels that slides over machined parts, beside the god object on their meshes.
+/// Touch of a hand that slides over machined parts, beside the god object on their meshes.
 #include "Benchmark/Touch/Studies.h"
 
 #include <gtest/gtest.h>
@@ -18,10 +18,9 @@ TouchFigures figuresOf(const TouchMesh& mesh, const TriangleTree& tree, std::vec
   std::int64_t points, const char* method = "surface-fit")
 {
   constexpr std::uint64_t kSeed = 28;
-  TouchBenchmarkOptions options;
-  options.repetitions = 1;
-  const bench::Progress progress = [](const std::string&) {};
-  StudyContext context{ options, progress, {} };
+  const TouchBenchmarkOptions options;
+  bench::Run run;
+  StudyContext context{ options, run };
   const TouchScene scene = makeTouchScene(samplesOf(mesh, points, kSeed), {});
   return judge(context, contestantsNamed({ method }).front(), scene, tasksOn(tree, std::move(strokes)));
 }
@@ -33,7 +32,7 @@ TouchFigures figuresOf(const char* name, StrokeSet set, std::int64_t points)
   return figuresOf(mesh, tree, strokesOn(tree, kStrokes, set), points);
 }
 
-/// Of the ticks, in which @p mechanism spoke.
+/// Percentage of the ticks that set the bit of @p mechanism.
 double percentOf(const TouchFigures& figures, ProxyStatus mechanism)
 {
   std::size_t bit = 0;

@@ -1,5 +1,6 @@
 /// @file
-/// What a VoxelResampler made, gathered for comparisons, and the exact answer for points on a grid of quanta.
+/// Results of a VoxelResampler, gathered for comparisons, and the exact answer for points on a grid of
+/// quanta.
 #pragma once
 
 #include "Core/Resample/VoxelResampler.h"
@@ -22,7 +23,7 @@ namespace trial
 /// The coarsest quantum of any lattice: points on multiples of it lose nothing where voxels have edge 1.
 constexpr double kQuantum = 0x1p-31;
 
-struct LevelResult
+struct VoxelResult
 {
   std::vector<double> means;
   std::vector<float> floats;
@@ -35,35 +36,35 @@ struct RunResult
 {
   std::int64_t clipped = 0;
   std::int64_t invalid = 0;
-  std::vector<LevelResult> levels;
+  VoxelResult voxels;
 };
 
-inline LevelResult levelOf(
-  const VoxelResampler& resampler, const VoxelRequest& request, int level, const Executor& executor = {})
+inline VoxelResult voxelsOf(
+  const VoxelResampler& resampler, const VoxelRequest& request, const Executor& executor = {})
 {
-  LevelResult result;
-  const auto size = std::size_t(resampler.size(level));
+  VoxelResult result;
+  const auto size = std::size_t(resampler.size());
   result.counts.resize(size);
-  resampler.copyCounts(level, result.counts.data(), executor);
+  resampler.copyCounts(result.counts.data(), executor);
   if (request.singlePrecision)
   {
     result.floats.resize(3 * size);
-    resampler.copyMeans(level, result.floats.data(), executor);
+    resampler.copyMeans(result.floats.data(), executor);
   }
   else
   {
     result.means.resize(3 * size);
-    resampler.copyMeans(level, result.means.data(), executor);
+    resampler.copyMeans(result.means.data(), executor);
   }
   if (request.keys)
   {
     result.keys.resize(size);
-    resampler.copyKeys(level, result.keys.data(), executor);
+    resampler.copyKeys(result.keys.data(), executor);
   }
   if (request.covariances)
   {
     result.covariances.resize(size);
-    resampler.copyCovariances(level, result.covariances.data(), executor);
+    resampler.copyCovariances(result.covariances.data(), executor);
   }
   return result;
 }
@@ -71,14 +72,7 @@ inline LevelResult levelOf(
 inline RunResult runOf(VoxelResampler& resampler, const VoxelRequest& request, const Executor& executor = {})
 {
   EXPECT_EQ(resampler.run(request, executor), Status::Ok);
-  RunResult result;
-  result.clipped = resampler.clippedPoints();
-  result.invalid = resampler.invalidPoints();
-  for (int level = 0; level < request.levels; ++level)
-  {
-    result.levels.push_back(levelOf(resampler, request, level, executor));
-  }
-  return result;
+  return { resampler.clippedPoints(), resampler.invalidPoints(), voxelsOf(resampler, request, executor) };
 }
 
 inline VoxelRequest requestFor(
@@ -98,7 +92,7 @@ inline RunResult runOf(const VoxelRequest& request, const Executor& executor = {
   return runOf(resampler, request, executor);
 }
 
-inline void expectSameVoxels(const LevelResult& a, const LevelResult& b, const std::string& what)
+inline void expectSameVoxels(const VoxelResult& a, const VoxelResult& b, const std::string& what)
 {
   EXPECT_TRUE(sameBits(a.counts, b.counts)) << what;
   EXPECT_TRUE(sameBits(a.means, b.means)) << what;
@@ -111,11 +105,7 @@ inline void expectSame(const RunResult& a, const RunResult& b, const std::string
 {
   EXPECT_EQ(a.clipped, b.clipped) << what;
   EXPECT_EQ(a.invalid, b.invalid) << what;
-  ASSERT_EQ(a.levels.size(), b.levels.size()) << what;
-  for (std::size_t l = 0; l < a.levels.size(); ++l)
-  {
-    expectSameVoxels(a.levels[l], b.levels[l], what + ", level " + std::to_string(l));
-  }
+  expectSameVoxels(a.voxels, b.voxels, what);
 }
 
 inline Lattice latticeOf(std::int64_t x, std::int64_t y, std::int64_t z)
@@ -203,19 +193,19 @@ private:
   Wide second_[6] = { 0, 0, 0, 0, 0, 0 };
 };
 
-inline void expectExact(const ExactVoxel& exact, const LevelResult& level, std::size_t v)
+inline void expectExact(const ExactVoxel& exact, const VoxelResult& voxels, std::size_t v)
 {
-  ASSERT_EQ(level.counts[v], exact.count()) << "voxel " << v;
+  ASSERT_EQ(voxels.counts[v], exact.count()) << "voxel " << v;
   for (int axis = 0; axis < 3; ++axis)
   {
     const double expected = exact.mean(axis);
-    ASSERT_NEAR(level.means[3 * v + std::size_t(axis)], expected, 4e-16 * (expected + 1.0)) << "voxel " << v;
+    ASSERT_NEAR(voxels.means[3 * v + std::size_t(axis)], expected, 4e-16 * (expected + 1.0)) << "voxel " << v;
   }
-  if (level.covariances.empty())
+  if (voxels.covariances.empty())
   {
     return;
   }
-  const SymMat3& c = level.covariances[v];
+  const SymMat3& c = voxels.covariances[v];
   const double got[6] = { c.xx, c.yy, c.zz, c.xy, c.yz, c.xz };
   for (int m = 0; m < 6; ++m)
   {
@@ -237,7 +227,7 @@ inline void expectExact(const std::vector<Vec3>& points, const Lattice& lattice,
     }
   }
   std::sort(members.begin(), members.end());
-  const LevelResult& level = result.levels[0];
+  const VoxelResult& voxels = result.voxels;
   EXPECT_EQ(result.clipped, std::int64_t(points.size() - members.size()));
   std::size_t v = 0;
   for (std::size_t begin = 0; begin < members.size(); ++v)
@@ -248,11 +238,11 @@ inline void expectExact(const std::vector<Vec3>& points, const Lattice& lattice,
     {
       exact.add(points[members[begin].second]);
     }
-    ASSERT_LT(v, level.counts.size());
-    ASSERT_EQ(level.keys[v], key);
-    ASSERT_NO_FATAL_FAILURE(expectExact(exact, level, v));
+    ASSERT_LT(v, voxels.counts.size());
+    ASSERT_EQ(voxels.keys[v], key);
+    ASSERT_NO_FATAL_FAILURE(expectExact(exact, voxels, v));
   }
-  EXPECT_EQ(v, level.counts.size());
+  EXPECT_EQ(v, voxels.counts.size());
 }
 
 } // namespace trial

@@ -31,7 +31,7 @@ struct FalconOnAWire
   std::mutex mutex;
   FalconModel model;
   bool plugged = true;
-  Status openStatus = Status::Ok; ///< What the bus answers instead of opening.
+  Status openStatus = Status::Ok; ///< Answer of the bus in place of opening.
   std::atomic<int> openLinks{ 0 };
   std::function<void(std::vector<std::uint8_t>&)> distort = [](std::vector<std::uint8_t>&) {};
   bool receivesSlowly = false; ///< While booting, 10 ms for no answer.

@@ -1,5 +1,5 @@
-// What the driver asks of the serial chip, request by request. The model of the device minds only some of it,
-// the chip all: set otherwise it loses bytes, or answers late.
+// Requests of the driver to the serial chip, one by one. The model of the device minds only some of them, the
+// chip all: with other settings it loses bytes, or answers late.
 #include "Devices/Falcon/FalconBoot.h"
 
 #include "FalconBench.h"

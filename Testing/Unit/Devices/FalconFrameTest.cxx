@@ -190,7 +190,7 @@ TEST(FalconFrameFinder, FindsAFrameAfterAnyGarbage)
       bytes.push_back(random() % 4 ? std::uint8_t(random()) : '<');
     }
     found(bytes, finder);
-    // What was garbage may have swallowed nothing but itself: a '<' always begins anew.
+    // Garbage swallows nothing but itself: a '<' always begins anew.
     const FalconReply reply = randomReply(random);
     const FalconFrame frame = encode(reply);
     const std::vector<FalconReply> replies = found({ frame.begin(), frame.end() }, finder);

@@ -34,7 +34,7 @@ struct FalconControl
 {
   std::uint8_t request = 0;
   std::uint16_t value = 0;
-  std::size_t bytesBefore = 0; ///< So many the host had sent by then.
+  std::size_t bytesBefore = 0; ///< Bytes that the host had sent by then.
 };
 
 /// Bytes in, bytes out, time by the caller. One thread at a time.
@@ -51,13 +51,13 @@ public:
   FalconHand hand;
   std::vector<std::uint8_t> expectedFirmware;
 
-  // What it has seen.
-  std::vector<FalconControl> controls; ///< Of all times.
-  std::size_t bytesTaken = 0;          ///< The host has sent.
+  // Log of the host's requests.
+  std::vector<FalconControl> controls; ///< Controls since the start.
+  std::size_t bytesTaken = 0;          ///< Bytes that the host has sent.
   std::vector<std::uint8_t> firmware;
   int framesWithoutHomingBit = 0;
   int frames = 0;
-  int frozenFrames = 0; ///< In a row, the newest ones, without any torque.
+  int frozenFrames = 0; ///< Newest frames in a row without any torque.
   FalconCommand command;
   Vec3 force; ///< On the hand, device frame.
   double largestForce = 0.0;

@@ -1,5 +1,5 @@
 /// @file
-/// What the tests of the driver on a real libusb share, whatever is below that: patience, a sphere, a hand
+/// Shared by the tests of the driver on a real libusb, whatever is below that: patience, a sphere, a hand
 /// that touches it.
 #pragma once
 
@@ -45,7 +45,7 @@ public:
     return result;
   }
 
-  /// Of 25 mm radius; @p cellSize in metres.
+  /// Scene of a sphere of 25 mm radius; @p cellSize in metres.
   static std::shared_ptr<const HapticScene> sphere(int points, double cellSize)
   {
     HapticSceneInput input;

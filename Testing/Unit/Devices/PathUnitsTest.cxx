@@ -1,4 +1,5 @@
-// What sizes and times of a path say of its units; and a device declares its force by its capabilities alone.
+// Units that sizes and times of a path suggest; and a device that declares its force by its capabilities
+// alone.
 #include "Devices/PathUnits.h"
 
 #include "Devices/Falcon/FalconDevice.h"

@@ -55,8 +55,8 @@ protected:
       movedTo_ = now;
     }
   }
-  /// What the chip answers to a request of @p room bytes that came at @p asked: two status bytes and what the
-  /// model has said; without payload only after the latency timer. Empty: nothing yet.
+  /// Answer of the chip to a request of @p room bytes that came at @p asked: two status bytes and the model's
+  /// bytes; without payload only after the latency timer. Empty: nothing yet.
   std::vector<std::uint8_t> packet(std::size_t room, Clock::time_point asked)
   {
     constexpr auto kLatency = std::chrono::milliseconds(1);

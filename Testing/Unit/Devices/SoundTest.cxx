@@ -193,7 +193,7 @@ TEST(Sound, SaysWhatIsMissingWithoutALibrary)
   EXPECT_NE(message.find("feel --sound-file"), std::string::npos) << message;
 }
 
-/// What was played, as loud as it was; it waits as a loudspeaker does.
+/// Records how loud the played blocks are; it waits as a loudspeaker does.
 struct Heard : SoundOutput
 {
   Heard(std::atomic<int>& all, std::atomic<float>& most, bool fails)

@@ -15,7 +15,7 @@ constexpr double kSide = 0.025; // of the box from its middle
 struct Place
 {
   const char* name;
-  HapticSceneInput input; ///< Of the cloud as it is.
+  HapticSceneInput input; ///< Input with the cloud as it is.
   std::vector<Vec3> points;
   Vec3 above;
   Vec3 hip;

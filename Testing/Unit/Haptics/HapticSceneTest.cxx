@@ -224,7 +224,7 @@ TEST(HapticScene, RadiusOfAResampledCloudFollowsTheDensityOfThePoints)
   EXPECT_LT(ratio(trial::sceneOf(ofMeans)), 2.0);
   for (const Vec3& p : { Vec3(-0.025, 0, 0), Vec3(-0.02, 0.01, 0), Vec3(0.025, 0, 0), Vec3(0.03, 0.02, 0) })
   {
-    // Those of a few points each: they scatter.
+    // Radii of a few points each scatter.
     EXPECT_NEAR(scene->proxyRadius(p) / expected->proxyRadius(p), 1.0, 0.2);
     EXPECT_EQ(expected->coveringRadius(p), expected->proxyRadius(p));
     EXPECT_EQ(scene->coveringRadius(p), std::max(scene->proxyRadius(p), 2.8 * scene->cellSize()));

@@ -28,7 +28,7 @@ double height(double x, double y)
   return kAmplitude * std::sin(2.0 * kPi * x / kWave) * std::sin(2.0 * kPi * y / kWave);
 }
 
-/// Of a square with waves that are a few voxels long.
+/// Points of a square with waves that are a few voxels long.
 std::vector<Vec3> waves(int n, double noise = 0.0)
 {
   Random random(7);

@@ -5,7 +5,7 @@ using namespace pointhaptics;
 namespace
 {
 
-/// What a tick may change of the force where the hand moves by @p moved.
+/// Largest change of the force in a tick in which the hand moves by @p moved.
 double largestStep(const HapticParameters& parameters, double moved)
 {
   return 2.0 * parameters.contact.stiffness * moved + parameters.contact.settleRate * trial::kTick + 1e-9;
@@ -145,7 +145,7 @@ TEST(ModelMotion, ZoomsByAnyFactorStepNoFurtherThanTheSettleRate)
 
 TEST(ModelMotion, LetsGoAtOnceWhereTheHandSlidesOffAnEdgeMeanwhile)
 {
-  // What turns, shifts and grows the model keeps the offset settling all the time, at the rate of the force.
+  // A model that turns, shifts and grows keeps the offset settling all the time, at the rate of the force.
   const trial::Scene scene = trial::resampledScene(trial::planePoints(60000, 8));
   const AffineTransform turn = AffineTransform::rotation(1e-3, { 0, 0, 1 });
   const AffineTransform shift = AffineTransform::translation({ 0, 0, 2e-4 });

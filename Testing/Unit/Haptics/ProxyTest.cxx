@@ -7,7 +7,7 @@ using namespace pointhaptics;
 namespace
 {
 
-/// What holds for every method.
+/// Tests that hold for every method.
 class EveryMethod : public ::testing::TestWithParam<ProxyMethod>
 {
 protected:
@@ -501,7 +501,7 @@ TEST(Proxy, AChangeOfMethodStartsWithoutContact)
   const auto states = trial::feel(proxy, trial::sphereSlide(1e-3, 0.05, 100));
   ASSERT_TRUE(states.back().contact);
   proxy.setParameters(trial::gradientSteps(GradientStepsParameters::tuned()));
-  // What the last one left goes at the settle rate.
+  // The force of the last method goes at the settle rate.
   const ProxyState s = trial::feel(proxy, trial::Path(20, states.back().hip)).back();
   EXPECT_FALSE(s.contact);
   EXPECT_EQ(s.force, Vec3());

@@ -1,4 +1,4 @@
-// What the loop does when device, machine or system fail it.
+// The loop when device, machine or system fail it.
 #include "ServoLoopFixtures.h"
 
 #include <gtest/gtest.h>

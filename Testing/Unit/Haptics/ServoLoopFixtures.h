@@ -17,16 +17,17 @@ namespace pointhaptics
 {
 namespace trial
 {
-/// What the test's device does; every member is set before start() or is atomic.
+/// Port with scripted answers; every member is set before start() or is atomic.
 class ScriptedPort : public HapticPort
 {
 public:
   std::function<Vec3(double)> path = [](double) { return Vec3(); };
-  std::function<Status(int)> readStatus = [](int) { return Status::Ok; }; ///< Of the n-th read, from 0.
+  std::function<Status(int)> readStatus = [](int) { return Status::Ok; }; ///< Status of the n-th read, from
+                                                                          ///< 0.
   std::function<Status(int)> writeStatus = [](int) { return Status::Ok; };
   std::function<void(int)> onRead = [](int) {};
-  std::function<void(double)> onWrite = [](double) {}; ///< Of the force.
-  HandLimits bounds;                                   ///< What limits() says.
+  std::function<void(double)> onWrite = [](double) {}; ///< Called with the force.
+  HandLimits bounds;                                   ///< Answer of limits().
   double declared = HapticPort::maximumForce();
 
   std::atomic<int> reads{ 0 };

@@ -1,4 +1,4 @@
-// What the loop refuses, holds back and takes away.
+// Springs that the loop refuses, forces that it limits and takes away.
 #include "ServoLoopFixtures.h"
 
 #include <gtest/gtest.h>

@@ -142,7 +142,7 @@ TEST(ServoLoop, CountsWhatAFullTraceLoses)
   EXPECT_EQ(loop.statistics().lostTraceSamples + 8, loop.statistics().ticks);
 }
 
-/// What the readers of a loop share with the thread that starts and stops it.
+/// Flags that the readers of a loop share with the thread that starts and stops it.
 struct Watch
 {
   std::atomic<bool> done{ false };
@@ -282,7 +282,7 @@ TEST(ServoLoop, CountsTheScenesItTakes)
 
 TEST(ServoLoop, TakesAPublishedSceneBeforeItReadsTheHand)
 {
-  // What it prefetches before the deadline is a step in that scene.
+  // The step that is prefetched before the deadline is one in that scene.
   constexpr int kPublished = 30;
   const std::shared_ptr<const HapticScene> first = plane();
   const std::shared_ptr<const HapticScene> second = plane();

@@ -133,8 +133,8 @@ inline void expectSameBits(vtkDataArray* expected, vtkDataArray* actual)
     << expected->GetName();
 }
 
-/// What every refused file must give: a message with the file's name and a cure, an error code, an event and
-/// an empty cloud.
+/// Expects the answer to every refused file: a message with the file's name and a cure, an error code, an
+/// event and an empty cloud.
 inline void expectRefused(const ReadResult& result, const std::string& part)
 {
   EXPECT_NE(result.error.find(part), std::string::npos) << result.error;

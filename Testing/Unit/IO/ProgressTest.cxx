@@ -178,7 +178,8 @@ TEST_P(WritingProgress, WritesNoFurtherOnceStopped)
   EXPECT_LT(std::filesystem::file_size(observer.kept), whole / 2);
 }
 
-INSTANTIATE_TEST_SUITE_P(Formats, WritingProgress, ::testing::Values("vtp", "ply", "pcd", "las", "csv", "xyz"),
+INSTANTIATE_TEST_SUITE_P(Formats, WritingProgress,
+  ::testing::Values("vtp", "ply", "pcd", "las", "csv", "xyz"),
   [](const auto& format) { return std::string(format.param); });
 
 using ReadingProgress = CloudFiles;

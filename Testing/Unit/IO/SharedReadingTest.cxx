@@ -1,8 +1,8 @@
 // Ranks that read a file together: their parts, one after the other, are the cloud that one reader gives, to
 // the last bit, in every format; a fault of one ends the reading of all.
-#include "Unit/Core/ThreadRanks.h"
 #include "CloudFiles.h"
 #include "Las/LazFiles.h"
+#include "Unit/Core/ThreadRanks.h"
 
 #include <algorithm>
 #include <mutex>
@@ -104,7 +104,7 @@ protected:
       }
     }
   }
-  /// What vtkPointCloudWriter makes of @p file.
+  /// Content of @p file as vtkPointCloudWriter converts it.
   std::string converted(const std::string& file, const std::string& name) const
   {
     vtkNew<vtkPointCloudWriter> writer;

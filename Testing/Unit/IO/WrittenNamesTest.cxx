@@ -20,7 +20,7 @@ bool isNoted(const std::vector<std::string>& notes, const std::string& part)
   return false;
 }
 
-/// What writers must give back: a cloud with one array of that name.
+/// A cloud with one array of that name, which writers must give back.
 vtkSmartPointer<vtkPolyData> named(const std::string& name)
 {
   auto cloud = vtkSmartPointer<vtkPolyData>::New();

@@ -2,11 +2,7 @@
 
 #include <nanoflann.hpp>
 
-namespace pointhaptics
-{
-namespace bench
-{
-namespace bandwidth
+namespace pointhaptics::bench::bandwidth
 {
 namespace
 {
@@ -79,9 +75,7 @@ private:
 };
 
 } // namespace
-} // namespace bandwidth
-} // namespace bench
-} // namespace pointhaptics
+} // namespace pointhaptics::bench::bandwidth
 
 /// See kMakeRival.
 extern "C" pointhaptics::bench::bandwidth::Rival* pointhapticsMakeRival()

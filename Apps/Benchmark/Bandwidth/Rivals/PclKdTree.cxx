@@ -6,11 +6,7 @@
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
 
-namespace pointhaptics
-{
-namespace bench
-{
-namespace bandwidth
+namespace pointhaptics::bench::bandwidth
 {
 namespace
 {
@@ -68,9 +64,7 @@ private:
 };
 
 } // namespace
-} // namespace bandwidth
-} // namespace bench
-} // namespace pointhaptics
+} // namespace pointhaptics::bench::bandwidth
 
 /// See kMakeRival.
 extern "C" pointhaptics::bench::bandwidth::Rival* pointhapticsMakeRival()

@@ -4,29 +4,23 @@
 
 #include "Core/Base/PointView.h"
 
-#include <cstdint>
-#include <memory>
 #include <string>
 #include <vector>
 
 class vtkPolyData;
 
-namespace pointhaptics
-{
-namespace bench
-{
-namespace bandwidth
+namespace pointhaptics::bench::bandwidth
 {
 
 /// beta, and r1 in local spacings: the defaults of vtkKernelBandwidthFilter.
 constexpr double kRadiusScale = 4.0;
 constexpr double kSmallestRadiusInSpacings = 2.2;
 
-/// What every contestant is asked to do.
+/// The task of every contestant.
 struct BandwidthTask
 {
   vtkPolyData* cloud = nullptr; ///< Float points. Stays the caller's.
-  PointView points;             ///< The same.
+  PointView points;             ///< The points of @p cloud.
   int neighbors = 16;           ///< Besides the point itself.
 };
 
@@ -51,15 +45,4 @@ public:
   virtual BandwidthAnswer answer() const = 0;
 };
 
-std::unique_ptr<Rival> makeOurs();
-std::unique_ptr<Rival> makeVtkStaticPointLocator();
-
-/// The words of --rivals, those that were built.
-std::vector<std::string> rivalWords();
-/// @p word must be one of them. Loads the rival's module the first time; throws std::runtime_error where it
-/// cannot be loaded.
-std::unique_ptr<Rival> makeRival(const std::string& word);
-
-} // namespace bandwidth
-} // namespace bench
-} // namespace pointhaptics
+} // namespace pointhaptics::bench::bandwidth

@@ -1,5 +1,5 @@
 /// @file
-/// What the loops over other libraries' searches share: from neighbours to bandwidth and radius as
+/// Common part of the loops over other libraries' searches: from neighbours to bandwidth and radius as
 /// vtkKernelBandwidthFilter defines them, and the loop itself.
 #pragma once
 
@@ -13,11 +13,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pointhaptics
-{
-namespace bench
-{
-namespace bandwidth
+namespace pointhaptics::bench::bandwidth
 {
 
 /// The neighbourhood of one point, the point itself among it.
@@ -61,6 +57,4 @@ void loopOver(std::int64_t count, bool parallel, Piece&& piece)
   }
 }
 
-} // namespace bandwidth
-} // namespace bench
-} // namespace pointhaptics
+} // namespace pointhaptics::bench::bandwidth

@@ -12,11 +12,7 @@
 #include <cmath>
 #include <limits>
 
-namespace pointhaptics
-{
-namespace bench
-{
-namespace resample
+namespace pointhaptics::bench::resample
 {
 namespace
 {
@@ -66,7 +62,6 @@ public:
     }
     return answer;
   }
-  std::int64_t resultBytes() const override { return std::int64_t(output_.size() * sizeof(pcl::PointXYZ)); }
 
 private:
   double leaf_ = 0.0;
@@ -75,10 +70,7 @@ private:
 };
 
 } // namespace
-
-} // namespace resample
-} // namespace bench
-} // namespace pointhaptics
+} // namespace pointhaptics::bench::resample
 
 /// See kMakeRival.
 extern "C" pointhaptics::bench::resample::Rival* pointhapticsMakeRival()

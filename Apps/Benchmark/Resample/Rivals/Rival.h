@@ -3,7 +3,6 @@
 #pragma once
 
 #include "Core/Base/Lattice.h"
-#include "Core/Resample/Representative.h"
 
 #include <cstdint>
 #include <memory>
@@ -12,14 +11,10 @@
 
 class vtkPolyData;
 
-namespace pointhaptics
-{
-namespace bench
-{
-namespace resample
+namespace pointhaptics::bench::resample
 {
 
-/// What every contestant of a race is asked to do.
+/// The task of every contestant of a race.
 struct ResampleTask
 {
   vtkPolyData* cloud = nullptr; ///< Float points, no cells. Stays the caller's.
@@ -28,16 +23,16 @@ struct ResampleTask
   double leaf = 0.0;            ///< Edge of a voxel.
 };
 
-/// What came out, and the lattice it is meant to be on.
+/// A result, and the lattice it is meant to be on.
 struct ResampleAnswer
 {
   Lattice lattice;
   std::vector<double> xyz;
   std::vector<std::int64_t> counts; ///< Empty where the rival has none.
-  std::string fault;                ///< What is wrong before any number is compared; empty: nothing.
+  std::string fault;                ///< A fault that needs no comparison of numbers; empty: there is none.
 };
 
-/// What an answer is compared with.
+/// The rule by which an answer is judged.
 enum class ComparedWith
 {
   ExactMeans,  ///< To the last digit, in the order of the voxels.
@@ -60,42 +55,6 @@ public:
   virtual void before() {}
   virtual void run() = 0;
   virtual ResampleAnswer answer() const = 0;
-  /// Bytes of the result that run() left.
-  virtual std::int64_t resultBytes() const = 0;
 };
 
-/// As vtkVoxelMeanResampler numbers them.
-enum class InstructionSet : int
-{
-  Automatic = 0,
-  Baseline,
-  Avx2,
-  Avx512,
-};
-const char* instructionSetName(InstructionSet set);
-
-/// Which of ours: each of these is a contestant.
-struct OursSettings
-{
-  std::string name = "ours";
-  bool automaticWorkspace = false;
-  bool covariance = false;
-  /// Names of the arrays of the cloud that are reduced; the others are not even passed in.
-  std::vector<std::string> arrays;
-  Representative representative = Representative::Mean;
-  bool voxelIndex = false;
-  InstructionSet instructionSet = InstructionSet::Automatic;
-};
-
-std::unique_ptr<Rival> makeOurs(const OursSettings& settings = {});
-std::unique_ptr<Rival> makeVtkVoxelGrid();
-
-/// The words of --rivals, those that were built.
-std::vector<std::string> rivalWords();
-/// @p word must be one of them. Loads the rival's module the first time; throws std::runtime_error where it
-/// cannot be loaded.
-std::unique_ptr<Rival> makeRival(const std::string& word);
-
-} // namespace resample
-} // namespace bench
-} // namespace pointhaptics
+} // namespace pointhaptics::bench::resample

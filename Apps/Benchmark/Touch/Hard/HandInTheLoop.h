@@ -15,7 +15,7 @@ struct LoopHand
 {
   double mass = 0.1;          ///< kg.
   double grip = 300.0;        ///< N/m, of the spring.
-  double dampingRatio = 0.4;  ///< Of mass and spring alone.
+  double dampingRatio = 0.4;  ///< Damping ratio of mass and spring alone.
   double deviceDamping = 2.5; ///< N s/m.
   double stiffness = 800.0;   ///< K, N/m.
   int delay = 1;              ///< Ticks from a position to its force.
@@ -27,7 +27,7 @@ std::vector<LoopHand> loopHands(bool quick);
 struct LoopFigures
 {
   double oscillation = 0.0; ///< Largest way from the mean of 0.1 s in the last half of a hold, metres.
-  double energyJoule = 0.0; ///< What the forces gave to the hand.
+  double energyJoule = 0.0; ///< Energy that the forces gave to the hand.
 };
 
 /// Presses to 3 mm in 0.4 s, holds 1 s, slides 5 mm, holds 1 s, leaves by 20 mm.

@@ -27,7 +27,7 @@ constexpr double kWorkspaceHalf = 0.050;
 struct WaveSettings
 {
   double noise = 0.0;  ///< In spacings.
-  double apart = 0.0;  ///< Of two copies, metres; the second is aside by 0.3 of it.
+  double apart = 0.0;  ///< Distance of two copies, metres; the second is aside by 0.3 of it.
   double strays = 0.0; ///< Fraction of the points that lie anywhere.
 };
 

@@ -53,9 +53,10 @@ struct HardFigures
   int truthHeld = 0;   ///< Strokes whose truth has a force in the last 50 ticks.
   int fellThrough = 0; ///< Strokes with 20 ticks or more without a force where the truth has 0.2 to 8 N.
   int nonFinite = 0;   ///< States that are not finite: beyond doubt wrong.
-  double phantomPercent = kNone; ///< Of the ticks in which the truth is free, those with a force.
+  double phantomPercent = kNone; ///< Ticks with a force, per cent of those in which the truth is free.
   double phantomNewton = kNone;  ///< Largest force in them.
-  double lostPercent = kNone;    ///< Of the ticks in which the truth has 0.2 to 8 N, those without a force.
+  double lostPercent = kNone;    ///< Ticks without a force, per cent of those in which the truth has 0.2 to 8
+                                 ///< N.
   double medianPercent = kNone;  ///< Error of the force, of HardScene::hasErrors only.
   double p95Percent = kNone;
   /// Largest over the strokes of what the force gives to the hand, J. All strokes begin free, so an ideal
@@ -63,7 +64,7 @@ struct HardFigures
   double energyJoule = 0.0;
   double largestNewton = 0.0;
   double contactSpacings = 0.0; ///< Largest distance of a contact point from the nearest point of the cloud.
-  double p50 = 0.0;             ///< Of a tick in contact, microseconds.
+  double p50 = 0.0;             ///< Median time of a tick in contact, microseconds.
   double p99 = 0.0;
   std::array<double, kStatusBits> statusPercent{};
 };
@@ -88,7 +89,7 @@ private:
   bool hasTruth_;
   bool hasErrors_;
   HardFigures sum_;
-  TouchJudge errors_; ///< Of solids: as the other studies judge them.
+  TouchJudge errors_; ///< Judge of solids, as in the other studies.
   std::vector<double> microseconds_;
   std::array<std::int64_t, kStatusBits> status_{};
   std::int64_t ticks_ = 0;

@@ -4,24 +4,17 @@
 #include "Benchmark/Touch/Studies.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <map>
 
-namespace pointhaptics
-{
-namespace bench
-{
-namespace touch
+namespace pointhaptics::bench::touch
 {
 namespace
 {
 
 using namespace hard;
-using Json = nlohmann::ordered_json;
 
 /// A row whose name begins with @p rows misses this limit where @p figure (its key in JSON) is above it. Of
 /// several limits for a row's figure the last one holds.
@@ -72,29 +65,6 @@ constexpr Limit kLimits[] = {
   { "scan", "p99_us", 25.0 },
 };
 
-struct Column
-{
-  const char* title;
-  const char* key; ///< In JSON.
-};
-
-constexpr Column kColumns[] = { { "strokes", "strokes" }, { "held", "held" }, { "not let go", "not_let_go" },
-  { "truth", "truth_held" }, { "through", "fell_through" }, { "phantom %", "phantom_percent" },
-  { "N", "phantom_newton" }, { "lost %", "lost_percent" }, { "median %", "median_percent" },
-  { "p95 %", "p95_percent" }, { "energy mJ", "energy_mj" }, { "force N", "largest_newton" },
-  { "contact", "contact_spacings" }, { "trembles", "oscillating" },
-  { "mJ over plane", "energy_over_plane_mj" }, { "build s", "build_seconds" },
-  { "local ms", "local_build_ms" }, { "p50 us", "p50_us" }, { "p99 us", "p99_us" } };
-
-constexpr const char* kText =
-  "Scenes with fixed seeds; hands of the chosen set; steps without prefetching. Held: strokes with a force "
-  "above 0.05 N in the last 50 ticks where the truth is free. Not let go: the same where the hand is farther "
-  "than 3 F_max/K from its contact and 10 mm from all points; without a truth held is that. Through: strokes "
-  "with 20 ticks without a force where the truth has 0.2 to 8 N; lost: such ticks. Phantom: force where the "
-  "truth is "
-  "free. Energy: the most that a stroke gave to the hand. Contact: largest distance of a contact from the "
-  "cloud's points, in their spacings.";
-
 /// A row's figures. One that is not finite is null in JSON: the row has no such figure.
 struct Row
 {
@@ -119,10 +89,9 @@ public:
   void reset(const TouchScene& scene) override { method_->reset(scene); }
   void prepare(const Vec3& hip) override
   {
-    const auto before = std::chrono::steady_clock::now();
+    const double before = secondsNow();
     method_->prepare(hip);
-    longest_ = std::max(
-      longest_, std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - before).count());
+    longest_ = std::max(longest_, 1e3 * (secondsNow() - before));
   }
   ProxyState step(const Vec3& hip, double dt) override { return method_->step(hip, dt); }
   double longest() const { return longest_; }
@@ -154,7 +123,7 @@ std::vector<std::string> missedBy(const std::string& name, const Json& row)
     const Json& value = row.at(figure);
     if (value.is_number() && value.get<double>() > most)
     {
-      missed.push_back(fmt::format("{} {} > {}", figure, brief(value.get<double>()), brief(most)));
+      missed.push_back(fmt::format("{} {:.3g} > {:.3g}", figure, value.get<double>(), most));
     }
   }
   return missed;
@@ -205,29 +174,13 @@ Json toJson(const Row& row)
   return json;
 }
 
-/// A cell for each of kColumns; empty where there is no such figure.
-std::vector<std::string> cellsOf(const Json& json, const std::vector<std::string>& missed)
-{
-  std::vector<std::string> cells{ json["name"].get<std::string>() };
-  for (const Column& column : kColumns)
-  {
-    const Json& value = json[column.key];
-    cells.push_back(value.is_number_integer() ? fmt::format("{}", value.get<std::int64_t>())
-        : value.is_number()                   ? brief(value.get<double>())
-                                              : "");
-  }
-  cells.push_back(missed.empty() ? "pass" : fmt::format("FAIL: {}", fmt::join(missed, ", ")));
-  return cells;
-}
-
-void addRow(ReportPart& part, const Row& row)
+void addRow(StudyContext& context, const Row& row)
 {
   Json json = toJson(row);
   const std::vector<std::string> missed = missedBy(row.name, json);
-  part.table.rows.push_back(cellsOf(json, missed));
   json["pass"] = missed.empty();
   json["missed"] = missed;
-  part.rows.push_back(std::move(json));
+  context.run.add("hard", std::move(json));
 }
 
 Row strokesRow(StudyContext& context, const HardScene& hard, const TouchScene& scene)
@@ -255,7 +208,7 @@ Row strokesRow(StudyContext& context, const HardScene& hard, const TouchScene& s
 Row loopRow(StudyContext& context, const HardScene& hard, const TouchScene& scene)
 {
   constexpr double kTrembles = 10e-6;
-  constexpr double kIsStill = 5e-6; ///< Of a plane; half, so that no run hangs on a micrometre.
+  constexpr double kIsStill = 5e-6; ///< A plane's; half, so that no run hangs on a micrometre.
   Row row;
   row.name = "loop " + hard.name;
   row.points = scene.points->size();
@@ -284,54 +237,46 @@ Row loopRow(StudyContext& context, const HardScene& hard, const TouchScene& scen
   return row;
 }
 
-void addScene(StudyContext& context, ReportPart& part, HardScene hard)
+void addScene(StudyContext& context, HardScene hard)
 {
-  const auto before = std::chrono::steady_clock::now();
+  const double before = secondsNow();
   const TouchScene scene = makeTouchScene(std::move(hard.points), sceneSettings(context.options));
   if (!scene.scene)
   {
-    part.remarks.push_back("Left out: " + hard.name + " has no finite points");
+    context.run.remark("hard", "Left out: " + hard.name + " has no finite points");
     return;
   }
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
-  context.progress("hands on " + hard.name);
+  const double seconds = secondsNow() - before;
+  context.run.say("hands on " + hard.name);
   Row row = strokesRow(context, hard, scene);
   row.buildSeconds = seconds;
-  addRow(part, row);
+  addRow(context, row);
   if (!hard.loopPlaces.empty())
   {
-    context.progress("hands in the loop on " + hard.name);
-    addRow(part, loopRow(context, hard, scene));
+    context.run.say("hands in the loop on " + hard.name);
+    addRow(context, loopRow(context, hard, scene));
   }
 }
 
 } // namespace
 
-ReportPart studyHard(StudyContext& context)
+void studyHard(StudyContext& context)
 {
-  ReportPart part;
-  part.page = Page::Accuracy;
-  part.title = "Hard scenes: let go, no energy, nobody falls through";
-  part.text = kText;
-  part.table.header.emplace_back("scene");
-  for (const Column& column : kColumns)
-  {
-    part.table.header.emplace_back(column.title);
-  }
-  part.table.header.emplace_back("limits");
   for (const HardSceneMaker& maker : hardScenes(context.options))
   {
-    addScene(context, part, maker.make());
+    addScene(context, maker.make());
   }
+  if (!context.run.parts().contains("hard"))
+  {
+    return;
+  }
+  const Json& rows = context.run.parts()["hard"]["rows"];
   const auto misses =
-    std::count_if(part.rows.begin(), part.rows.end(), [](const Json& row) { return !row["missed"].empty(); });
+    std::count_if(rows.begin(), rows.end(), [](const Json& row) { return !row["missed"].empty(); });
   if (misses > 0)
   {
-    context.wrong = fmt::format("{} of {} rows of the hard scenes miss a limit", misses, part.rows.size());
+    context.run.fault(fmt::format("{} of {} rows of the hard scenes miss a limit", misses, rows.size()));
   }
-  return part;
 }
 
-} // namespace touch
-} // namespace bench
-} // namespace pointhaptics
+} // namespace pointhaptics::bench::touch

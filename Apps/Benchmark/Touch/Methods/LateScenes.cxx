@@ -4,11 +4,7 @@
 
 #include <utility>
 
-namespace pointhaptics
-{
-namespace bench
-{
-namespace touch
+namespace pointhaptics::bench::touch
 {
 
 LateScenes::LateScenes(LocalSceneBuilder& builder, std::shared_ptr<const HapticScene> global, int lateTicks)
@@ -41,6 +37,4 @@ const HapticScene* LateScenes::at(const Vec3& hip, const Vec3& touched)
   return felt_.get();
 }
 
-} // namespace touch
-} // namespace bench
-} // namespace pointhaptics
+} // namespace pointhaptics::bench::touch

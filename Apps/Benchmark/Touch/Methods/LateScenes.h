@@ -6,11 +6,7 @@
 
 #include <memory>
 
-namespace pointhaptics
-{
-namespace bench
-{
-namespace touch
+namespace pointhaptics::bench::touch
 {
 
 /// A thread that looks where the hand is in every tick and makes a scene where one is due, which the hand
@@ -23,8 +19,8 @@ public:
   /// tick in which it was due.
   LateScenes(LocalSceneBuilder& builder, std::shared_ptr<const HapticScene> global, int lateTicks);
 
-  /// Of the next tick. @param touched what the hand touched in the last one: the HIP out of contact. @return
-  /// what is to be felt; valid until the next but one call.
+  /// Advances to the next tick. @param touched the contact point of the last one: the HIP out of contact.
+  /// @return what is to be felt; valid until the next but one call.
   const HapticScene* at(const Vec3& hip, const Vec3& touched);
 
 private:
@@ -37,6 +33,4 @@ private:
   std::shared_ptr<const HapticScene> coming_;
 };
 
-} // namespace touch
-} // namespace bench
-} // namespace pointhaptics
+} // namespace pointhaptics::bench::touch

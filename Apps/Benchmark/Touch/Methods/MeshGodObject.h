@@ -8,11 +8,7 @@
 #include <array>
 #include <memory>
 
-namespace pointhaptics
-{
-namespace bench
-{
-namespace touch
+namespace pointhaptics::bench::touch
 {
 
 /// The triangles of a mesh in a tree of boxes. Read only after construction; any thread. Metres.
@@ -28,7 +24,7 @@ public:
   struct Hit
   {
     const Facet* facet = nullptr; ///< Null: nothing is in the way.
-    double fraction = 1.0;        ///< Of the way, where the facet was reached with the clearance kept.
+    double fraction = 1.0;        ///< Part of the way to the facet, with the clearance kept.
   };
 
   /// Triangles without area are left out.
@@ -55,7 +51,7 @@ private:
   {
     Vec3 low;
     Vec3 high;
-    int first = 0; ///< Of a leaf: its facets. Else: its children are `first` and `first + 1`.
+    int first = 0; ///< A leaf's facets. Else: the children are `first` and `first + 1`.
     int count = 0; ///< 0: no leaf.
   };
 
@@ -72,7 +68,7 @@ struct GodObjectState
   Vec3 point; ///< On the surface; the HIP where free.
   bool contact = false;
   int planes = 0;                ///< Facets that hold it, at most three of them at once.
-  std::array<Vec3, 3> normals{}; ///< Of these facets, unit, outward.
+  std::array<Vec3, 3> normals{}; ///< Normals of these facets, unit, outward.
 };
 
 /// Goes from where it is towards the HIP along straight lines, and stops at facets met from their front. It
@@ -106,6 +102,4 @@ private:
   bool placed_ = false;
 };
 
-} // namespace touch
-} // namespace bench
-} // namespace pointhaptics
+} // namespace pointhaptics::bench::touch

@@ -1,16 +1,11 @@
 #include "Benchmark/Touch/Methods/TouchMethod.h"
 
 #include "Benchmark/Touch/Methods/LateScenes.h"
-#include "Benchmark/Touch/Methods/OccupancyProxy.h"
 
 #include <algorithm>
 #include <optional>
 
-namespace pointhaptics
-{
-namespace bench
-{
-namespace touch
+namespace pointhaptics::bench::touch
 {
 namespace
 {
@@ -102,8 +97,6 @@ std::vector<Contestant> contestants(InstructionSet wanted)
   all.push_back(ofProxy("sphere", sphere, wanted));
   all.push_back(ofProxy("gradient-steps-tuned", gradientSteps(GradientStepsParameters::tuned()), wanted));
   all.push_back(ofProxy("gradient-steps-paper", gradientSteps(GradientStepsParameters::paper()), wanted));
-  all.push_back(
-    { "occupancy", [] { return std::make_unique<OccupancyProxy>(ContactParameters().stiffness); } });
   return all;
 }
 
@@ -137,6 +130,4 @@ std::vector<Contestant> contestantsNamed(const std::vector<std::string>& names, 
   return chosen;
 }
 
-} // namespace touch
-} // namespace bench
-} // namespace pointhaptics
+} // namespace pointhaptics::bench::touch

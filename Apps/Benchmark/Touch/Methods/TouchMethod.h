@@ -12,11 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace pointhaptics
-{
-namespace bench
-{
-namespace touch
+namespace pointhaptics::bench::touch
 {
 
 struct TouchSceneSettings
@@ -27,13 +23,13 @@ struct TouchSceneSettings
   int lateTicks = 0;             ///< They come so much later than the hand.
 };
 
-/// What a method touches. Null scene: the cloud has no finite point, or no lattice can be had.
+/// The cloud under a method. Null scene: the cloud has no finite point, or no lattice can be had.
 struct TouchScene
 {
   proxy::Scene scene;
   std::shared_ptr<const std::vector<Vec3>> points; ///< The cloud itself.
   std::shared_ptr<LocalSceneBuilder> local;        ///< Null: the scene of the whole cloud everywhere.
-  int lateTicks = 0;                               ///< Of TouchSceneSettings.
+  int lateTicks = 0;                               ///< As TouchSceneSettings has it.
 };
 
 /// The one place where scenes are made: a scene that is refined near the hand is to be had from here.
@@ -46,7 +42,7 @@ public:
   virtual ~TouchMethod() = default;
   /// Out of contact, in @p scene, which outlives its use.
   virtual void reset(const TouchScene& scene) = 0;
-  /// What a thread beside the servo loop does before @p hip is felt.
+  /// Does the work of the thread beside the servo loop before @p hip is felt.
   virtual void prepare(const Vec3& hip) { static_cast<void>(hip); }
   virtual ProxyState step(const Vec3& hip, double dt) = 0;
 };
@@ -69,6 +65,4 @@ std::vector<Contestant> contestantsNamed(
 std::unique_ptr<TouchMethod> proxyWithoutPrefetch(
   const ContactParameters& contact, InstructionSet wanted = InstructionSet::Automatic);
 
-} // namespace touch
-} // namespace bench
-} // namespace pointhaptics
+} // namespace pointhaptics::bench::touch

@@ -1,5 +1,5 @@
 /// @file
-/// What surrounds long work that a host asked for.
+/// Frame of long work that a host asked for.
 #pragma once
 
 #include "Core/Base/Host/InterpreterLock.h"

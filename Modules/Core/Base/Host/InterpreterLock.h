@@ -8,13 +8,13 @@ namespace pointhaptics
 /// How an interpreter's lock is given up and taken again. Functions of the interpreter; none throws.
 struct InterpreterLock
 {
-  int (*isHeld)() = nullptr;     ///< Whether the calling thread holds the lock; null: there is no lock.
-  void* (*release)() = nullptr;  ///< Gives it up; the result is for take().
-  void (*take)(void*) = nullptr; ///< Waits for it.
-  int (*isEnding)() = nullptr;   ///< Whether the interpreter ends and gives the lock to nobody; may be null.
+  int (*isHeld)() = nullptr;     ///< True if the calling thread holds the lock; null: there is no lock.
+  void* (*release)() = nullptr;  ///< Gives the lock up; the result is for take().
+  void (*take)(void*) = nullptr; ///< Waits for the lock.
+  int (*isEnding)() = nullptr;   ///< True if the interpreter ends and gives the lock to nobody; may be null.
 };
 
-/// Sets the lock of this process. Before other threads use this library.
+/// Sets the lock of this process. Call it before other threads use this library.
 void setInterpreterLock(const InterpreterLock& lock) noexcept;
 
 /// While it lives the calling thread is without the interpreter's lock, so that other threads of the

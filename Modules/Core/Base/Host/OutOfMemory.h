@@ -15,7 +15,7 @@ constexpr unsigned long kOutOfMemoryCode = 40000 + 12;
 /// them are message(Status::OutOfMemory).
 bool isOutOfMemory(const std::exception& error) noexcept;
 
-/// Whether the process may have so much more address space: for what ends it, or crashes, where it gets none.
+/// True where the process may have so much more address space. Asked before libraries that crash without it.
 bool hasAddressSpace(std::size_t bytes) noexcept;
 
 /// To be called by a thread before what may throw. The C++ library takes the variables of a thread's first

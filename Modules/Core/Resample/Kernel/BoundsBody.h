@@ -97,7 +97,7 @@ void boundsOfEach(const double matrix[3][4], const Real* xyz, std::int64_t count
   {
     Pack p[3], moved[3];
     loadPoints(from, p);
-    // What is not finite makes the sum not a number.
+    // A coordinate that is not finite makes the sum NaN.
     Pack check = (p[0] - p[0]) + (p[1] - p[1]) + (p[2] - p[2]);
     for (int axis = 0; axis < 3; ++axis)
     {

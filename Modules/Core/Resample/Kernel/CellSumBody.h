@@ -120,48 +120,6 @@ struct RecordAdder
 };
 
 /// Adds the products of one record's offsets to the twelve words of the sums.
-#if defined(__AVX512IFMA__)
-struct ProductAdder
-{
-  __m512i masks;
-  __m128i toTop; ///< Shifts an offset so far that its product with another is split between bits 51 and 52.
-
-  explicit ProductAdder(int fractionBits)
-    : toTop(_mm_cvtsi32_si128(52 - fractionBits))
-  {
-    const auto fraction = std::int64_t((std::uint64_t(1) << fractionBits) - 1);
-    const auto low = std::int64_t(kLowMask);
-    masks = _mm512_setr_epi64(fraction, fraction, low, fraction & ~low, 0, 0, 0, 0);
-  }
-  void add(SplitSecondMoments& sums, const PointRecord& r) const
-  {
-    static_assert(sizeof(SplitSecondMoments) == 96, "high and low follow each other");
-    const __m512i words = _mm512_broadcast_i64x2(_mm_load_si128(reinterpret_cast<const __m128i*>(&r)));
-    // x, y and the two parts of z.
-    const __m512i parts = _mm512_and_si512(
-      _mm512_rolv_epi64(words, _mm512_setr_epi64(kPositionBits, kPositionBits, 0, kLowBits, 0, 0, 0, 0)),
-      masks);
-    // The factors of the six products in their order, then those of the first two again.
-    const __m512i upperZ = _mm512_set1_epi64(3);
-    const __m512i a =
-      _mm512_or_si512(_mm512_permutexvar_epi64(_mm512_setr_epi64(0, 1, 2, 0, 1, 0, 0, 1), parts),
-        _mm512_maskz_permutexvar_epi64(0x04, upperZ, parts));
-    const __m512i b =
-      _mm512_or_si512(_mm512_permutexvar_epi64(_mm512_setr_epi64(0, 1, 2, 1, 2, 2, 0, 1), parts),
-        _mm512_maskz_permutexvar_epi64(0x34, upperZ, parts));
-    const __m512i top = _mm512_sll_epi64(a, toTop);
-    const __m512i zero = _mm512_setzero_si512();
-    const __m512i high = _mm512_madd52hi_epu64(zero, top, b);
-    const __m512i low = _mm512_srl_epi64(_mm512_madd52lo_epu64(zero, top, b), toTop);
-    auto* first = sums.high;
-    auto* rest = reinterpret_cast<__m256i*>(sums.low + 2);
-    _mm512_storeu_si512(
-      first, _mm512_add_epi64(_mm512_loadu_si512(first), _mm512_mask_blend_epi64(0xC0, high, low)));
-    _mm256_storeu_si256(rest,
-      _mm256_add_epi64(_mm256_loadu_si256(rest), _mm512_castsi512_si256(_mm512_alignr_epi64(zero, low, 2))));
-  }
-};
-#else
 struct ProductAdder
 {
   std::uint64_t fractionMask;
@@ -185,7 +143,6 @@ struct ProductAdder
     }
   }
 };
-#endif
 
 /// @tparam KeepsRanks: cells become their ranks.
 template <bool KeepsRanks>

@@ -1,5 +1,5 @@
 /// @file
-/// What loops that wait for memory ask for in advance.
+/// Prefetches for loops that wait for memory.
 #pragma once
 
 #include <cstddef>
@@ -29,7 +29,7 @@ __attribute__((always_inline)) static inline void fetchToWrite(const void* addre
   __builtin_prefetch(address, 1, 2);
 }
 
-/// The same for each line of a piece of memory.
+/// Fetches each line of a piece of memory to write to it.
 __attribute__((always_inline)) static inline void fetchToWrite(const void* address, std::size_t bytes)
 {
   for (std::size_t i = 0; i < bytes; i += 64)

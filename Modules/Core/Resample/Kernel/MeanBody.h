@@ -136,11 +136,10 @@ inline Words truncated(const Pack& v, Pack& real)
   return bits ^ bitsOf(all(kToBits));
 }
 
-/// What covarianceOf() gives, in 64-bit arithmetic. About an integer m near the mean, with
-/// sum = n m + rest, the central sum of a product is
-///   S_ab - m_a sum_b - m_b rest_a.
-/// Modulo 2^64 integers give it exactly; doubles are nearer to it than 2^63 and show which multiple of 2^64
-/// that leaves out. Both together make 53 bits and the last 32, whose sum is rounded once.
+/// Computes covarianceOf() in 64-bit arithmetic. About an integer m near the mean, with sum = n m + rest, the
+/// central sum of a product is S_ab - m_a sum_b - m_b rest_a. Modulo 2^64 integers give it exactly; doubles
+/// are nearer to it than 2^63 and show which multiple of 2^64 that leaves out. Both together make 53 bits and
+/// the last 32, whose sum is rounded once.
 inline void covariancesTogether(
   const CovarianceMap& map, const PackedSums* packed, const SplitSecondMoments* secondMoments, Pack result[6])
 {

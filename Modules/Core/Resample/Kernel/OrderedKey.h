@@ -19,7 +19,7 @@ inline Key turnedNegative(Key key)
   return Key(key ^ ((key >> (8 * sizeof(Key) - 1)) & kMost));
 }
 
-/// Of 64-bit integers without a sign, taken as ones with it.
+/// Key of the first negative number: 64-bit integers with a sign are taken as ones without.
 constexpr std::uint64_t kFirstNegative = std::uint64_t(1) << 63;
 
 /// An integer of at most 63 bits and a sign for each value, in the order of the values. Of floating-point

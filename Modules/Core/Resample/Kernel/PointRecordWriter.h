@@ -18,20 +18,19 @@ constexpr std::uint32_t kNoBlock = ~std::uint32_t(0);
 /// An array whose tuples go with the records of their points.
 struct PayloadArray
 {
-  const char* values; ///< Of the first number.
+  const char* values; ///< Address of the first number.
   std::int64_t step;  ///< Bytes from one tuple to the next.
-  int bytes;          ///< Of a tuple.
+  int bytes;          ///< Bytes of a tuple.
   int offset;         ///< In bytes, of a tuple in a payload.
 };
 
-/// What goes with each record, its payload: in its first word the number of the point, if that is of use,
-/// then tuples.
+/// Layout of a record's payload: its first word is the number of the point, if that is of use; tuples follow.
 struct PayloadLayout
 {
   static constexpr int kMostWords = 9;
   static constexpr int kMostArrays = 8;
 
-  int words = 0; ///< Of 32 bits; 0: nothing.
+  int words = 0; ///< Number of 32-bit words; 0: no payload.
   bool numbered = false;
   int count = 0;
   PayloadArray arrays[kMostArrays] = {};
@@ -43,15 +42,16 @@ struct PointRecordWriter
   PointRecord** cursors;
   std::uintptr_t blockMask;  ///< Bytes of a block, less one.
   PointRecord* records;      ///< Start of the pool.
-  std::uint32_t* lastBlocks; ///< Of each partition, or kNoBlock.
-  std::uint32_t* previous;   ///< Of each block of the pool that in its partition before it, or kNoBlock.
+  std::uint32_t* lastBlocks; ///< Last block of each partition, or kNoBlock.
+  std::uint32_t* previous;   ///< For each block of the pool, the block before it in its partition, or
+                             ///< kNoBlock.
   std::uint32_t* taken;      ///< Blocks that the pool's writers have taken: they share it.
-  std::uint32_t nextBlock;   ///< Of those it took in advance.
+  std::uint32_t nextBlock;   ///< Next of the blocks that were taken in advance.
   std::uint32_t endBlock;
-  std::uint32_t* payloads;        ///< Of each record.
-  PayloadLayout layout;           ///< Of a payload.
+  std::uint32_t* payloads;        ///< Payload of each record.
+  PayloadLayout layout;           ///< Layout of a payload.
   const std::uint32_t* originals; ///< Numbers from the first range's begin on; or null: they ascend.
-  std::uint32_t firstNumber;      ///< Of the first range's begin, then.
+  std::uint32_t firstNumber;      ///< Number of the first range's begin, where originals is null.
   std::int64_t inside;
   std::int64_t invalid;
 };

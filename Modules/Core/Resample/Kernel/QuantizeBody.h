@@ -207,7 +207,7 @@ __attribute__((noinline)) int quantizeGroups(const QuantizerVectors& given, cons
       {
         Pack v[3];
         move<motion>(constants, xyz + 3 * kWidth * (first + g), v);
-        // What is not finite makes the difference not a number.
+        // A coordinate that is not finite makes the difference NaN.
         const Pack zero = (v[0] - v[0]) + (v[1] - v[1]) + (v[2] - v[2]);
         const unsigned finite = highestBits(reinterpret_cast<Words>(zero == 0.0));
         invalid += __builtin_popcount(present & ~finite);

@@ -3,8 +3,8 @@
 /// vectors: without branches, which would be unpredictable.
 #pragma once
 
-#include "Core/Resample/Kernel/AttributeKernel.h"
 #include "Core/Resample/Kernel/OrderedKey.h"
+#include "Core/Resample/Kernel/VoxelKernel.h"
 
 namespace pointhaptics
 {
@@ -85,7 +85,7 @@ struct ListVectors
     }
     return chosen(firstLanes(count), keys, all(kMost));
   }
-  /// Of each of a vector how many of so many keys are below it, or equal to it.
+  /// Counts for each of a vector of keys how many of @p count keys are below it, or equal to it.
   template <bool Below>
   static Signs numbers(const Key* keys, int count, const Keys& those)
   {
@@ -107,7 +107,7 @@ template <typename T>
 struct Selected
 {
   typename ListVectors<T>::Key key;
-  int number; ///< Of the keys that are equal to it.
+  int number; ///< Number of keys that are equal to it.
 };
 
 /// The lower middle one: of those that are greater more are below.
@@ -143,8 +143,8 @@ inline Selected<T> selectAmong(const typename ListVectors<T>::Key* keys, int cou
   return Median ? medianAmong<T>(keys, count, compared, first) : modeAmong<T>(keys, count, compared, first);
 }
 
-/// Of a list that takes several vectors. A function of its own: the compiler would keep each of its keys in a
-/// vector.
+/// Selects from a list that takes several vectors. It is a function of its own, as the compiler would keep
+/// each of its keys in a vector.
 template <bool Median, typename T>
 __attribute__((noinline)) auto selectOfSeveral(const T* values, int count)
 {
@@ -207,6 +207,16 @@ int select(const ValueLists& lists, void* given, int step, int* many)
   }
   return found;
 }
+
+constexpr SelectKernels kSelectKernels = {
+  { &select<std::int8_t, false>, &select<std::uint8_t, false>, &select<std::int16_t, false>,
+    &select<std::uint16_t, false>, &select<std::int32_t, false>, &select<std::uint32_t, false>,
+    &select<std::int64_t, false>, &select<std::uint64_t, false>, &select<float, false>,
+    &select<double, false> },
+  { &select<std::int8_t, true>, &select<std::uint8_t, true>, &select<std::int16_t, true>,
+    &select<std::uint16_t, true>, &select<std::int32_t, true>, &select<std::uint32_t, true>,
+    &select<std::int64_t, true>, &select<std::uint64_t, true>, &select<float, true>, &select<double, true> }
+};
 
 }
 } // namespace simd

@@ -4,7 +4,6 @@
 #pragma once
 
 #include "Core/Base/PointRange.h"
-#include "Core/Resample/Kernel/AttributeKernel.h"
 #include "Core/Simd/InstructionSet.h"
 
 #include <cstddef>
@@ -30,7 +29,7 @@ constexpr int kMinimumIndexBits = 2;
 /// Points of a chunk.
 constexpr std::int64_t kChunkPoints = 1250000;
 
-/// What one thread writes and another reads or writes lies so far apart: two lines of the caches, which the
+/// Distance between memory that one thread writes and memory that another uses: two cache lines, which the
 /// processor fetches together.
 constexpr std::size_t kApart = 128;
 
@@ -57,7 +56,7 @@ constexpr std::size_t kBlockRecords = 4096 / sizeof(PointRecord);
 constexpr int kLineRecords = 64 / sizeof(PointRecord);
 constexpr int kLineNumbers = 64 / sizeof(std::uint32_t);
 
-/// What of the matrix and the offset there is to work with.
+/// Parts of the matrix and the offset that must be applied.
 enum class Motion
 {
   Subtract, ///< The matrix is one and the offset is 0. The pivot is not, so that v is never -0.
@@ -74,10 +73,10 @@ struct PointQuantizer
   double pivot[3];
   double matrix[3][3];
   double offset[3];
-  double offsetRest[3]; ///< What rounding took from it; only Motion::Compensated looks at it.
+  double offsetRest[3]; ///< Rounding error of the offset; only Motion::Compensated uses it.
   double quantum[3];    ///< The spacing over a power of two.
   double reciprocal[3]; ///< 1 / quantum, rounded.
-  double remainder[3];  ///< What rounding took from it, rounded.
+  double remainder[3];  ///< Rounding error of the reciprocal, rounded.
   /// fma(v, reciprocal, v remainder), which takes half the time, is v / quantum correctly rounded for all v.
   bool pairDivides;
   double limit[3]; ///< u below this is inside.
@@ -137,8 +136,8 @@ struct SecondMoments
   UInt128 lanes[6];
 };
 
-/// The same, each as two sums that do not overflow where the sums of the offsets do not: one of the products
-/// shifted right by the bits of an offset, one of the bits shifted out.
+/// Second moments, each as two sums that do not overflow where the sums of the offsets do not: one of the
+/// products shifted right by the bits of an offset, one of the bits shifted out.
 struct SplitSecondMoments
 {
   std::uint64_t high[6];
@@ -229,7 +228,15 @@ struct CovarianceMap
 /// Elements of the widest vectors.
 constexpr int kWidest = 8;
 
-/// The inner loops over coordinates of one type (x y z interleaved).
+/// Range of the absolute values of numbers.
+struct Magnitudes
+{
+  double largest;  ///< Largest finite one; 0 without any.
+  double smallest; ///< Smallest one but 0; infinite without any.
+  bool allFinite;
+};
+
+/// The inner loops over numbers of one type; coordinates are x y z interleaved.
 template <typename Real>
 struct PointKernels
 {
@@ -245,6 +252,29 @@ struct PointKernels
   /// numbers from one point to the next.
   void (*bounds)(
     const double matrix[3][4], const Real* xyz, std::int64_t count, std::int64_t stride, double box[6]);
+  Magnitudes (*magnitudes)(const Real* values, std::int64_t count);
+};
+
+/// Consecutive lists of values, of one type.
+struct ValueLists
+{
+  const void* values; ///< Values of all lists of an array.
+  std::int64_t begin; ///< Index of the first list's first value.
+  const std::int64_t* ends;
+  int count;
+};
+/// Lists of more values are left to others.
+constexpr int kFewValues = 64;
+/// Bytes of the vectors that lists are read in.
+constexpr int kListVector = 32;
+
+/// The modes of lists, and the lower medians, in the order of ScalarType: see AttributeStatistic. The result
+/// of a list goes to @p to, @p step values after the one before. Lists of more than kFewValues are named in
+/// @p many. @return the number of these. Reads, but does not use, kListVector bytes past the end.
+struct SelectKernels
+{
+  int (*modes[10])(const ValueLists&, void* to, int step, int* many);
+  int (*medians[10])(const ValueLists&, void* to, int step, int* many);
 };
 
 /// The inner loops for one instruction set.
@@ -283,7 +313,7 @@ struct Kernels
   /// these. Reads, but does not use, kWidest elements past the end.
   int (*covariances)(const CovarianceMap&, const PackedSums* sums, const SplitSecondMoments* secondMoments,
     int count, double* covariances, int* full);
-  AttributeKernels attributes;
+  SelectKernels select;
 };
 
 /// The set that InstructionSet stands for on this machine.

@@ -4,11 +4,12 @@
 /// the standard library is called, so that no function compiled for one set can stand in for another's.
 #pragma once
 
-#include "Core/Resample/Kernel/AttributeKernelBody.h"
 #include "Core/Resample/Kernel/BoundsBody.h"
 #include "Core/Resample/Kernel/CellSumBody.h"
+#include "Core/Resample/Kernel/MagnitudesBody.h"
 #include "Core/Resample/Kernel/MeanBody.h"
 #include "Core/Resample/Kernel/QuantizeBody.h"
+#include "Core/Resample/Kernel/SelectBody.h"
 #include "Core/Resample/Kernel/VoxelKernel.h"
 
 namespace pointhaptics
@@ -18,11 +19,12 @@ namespace simd
 namespace
 {
 
-template <typename Real>
-constexpr PointKernels<Real> kPointKernels = { &partition<Real>, &packedMeans<Real>, &bounds<Real> };
+template <typename Real, typename Bits>
+constexpr PointKernels<Real> kPointKernels = { &partition<Real>, &packedMeans<Real>, &bounds<Real>,
+  &magnitudes<Bits, Real> };
 
-constexpr Kernels kKernels = { kPointKernels<float>, kPointKernels<double>, &cellsOf, &setOccupied,
-  &rankWords, &rank, &accumulate, &covariances, kAttributeKernels };
+constexpr Kernels kKernels = { kPointKernels<float, std::uint32_t>, kPointKernels<double, std::uint64_t>,
+  &cellsOf, &setOccupied, &rankWords, &rank, &accumulate, &covariances, kSelectKernels };
 
 }
 } // namespace simd

@@ -57,9 +57,9 @@ void forPackedTuples(const AttributeView& view, std::int64_t begin, std::int64_t
 }
 
 template <typename Real>
-AttributeRange rangeOfReals(
-  const simd::AttributeKernels& kernels, const AttributeView& view, const Executor& executor)
+AttributeRange rangeOfReals(const AttributeView& view, const Executor& executor, InstructionSet instructions)
 {
+  const auto magnitudes = simd::kernelsFor(instructions).of<Real>().magnitudes;
   const auto* values = static_cast<const Real*>(view.values);
   AttributeRange range;
   double largest = 0.0;
@@ -67,7 +67,7 @@ AttributeRange rangeOfReals(
   std::mutex mutex;
   const auto look = [&](const Real* first, std::int64_t count)
   {
-    const simd::Magnitudes found = kernels.magnitudes[sizeof(Real) == sizeof(double)](first, count);
+    const simd::Magnitudes found = magnitudes(first, count);
     const std::lock_guard<std::mutex> lock(mutex);
     largest = std::max(largest, found.largest);
     smallest = std::min(smallest, found.smallest);
@@ -97,18 +97,16 @@ AttributeRange rangeOfReals(
 
 AttributeRange rangeOf(const AttributeView& view, const Executor& executor, InstructionSet instructions)
 {
-  const simd::AttributeKernels& kernels = simd::kernelsFor(instructions).attributes;
-  return view.type == ScalarType::Float ? rangeOfReals<float>(kernels, view, executor)
-    : view.type == ScalarType::Double   ? rangeOfReals<double>(kernels, view, executor)
+  return view.type == ScalarType::Float ? rangeOfReals<float>(view, executor, instructions)
+    : view.type == ScalarType::Double   ? rangeOfReals<double>(view, executor, instructions)
                                         : AttributeRange();
 }
 
-AttributeMean::AttributeMean(const AccumulatedArray& kind, const AttributeRange& range,
-  const std::array<Vec3, 3>& columns, InstructionSet instructions)
+AttributeMean::AttributeMean(
+  const AccumulatedArray& kind, const AttributeRange& range, const std::array<Vec3, 3>& columns)
   : kind_(kind)
   , range_(range)
   , columns_(columns)
-  , kernels_(&simd::kernelsFor(instructions).attributes)
 {
 }
 
@@ -210,7 +208,7 @@ void AttributeMean::addReals(
   const Tuples& tuples, const std::int64_t* numbers, const std::int64_t* voxels, int count)
 {
   const Terms terms = { tuples, kind_.components, numbers, voxels, count };
-  // Of two words the upper part is an integer that rounding to it finds, the lower one a word.
+  // A number becomes two words: the upper part is the integer that rounding finds, the lower part a word.
   constexpr int kLowBits = 62;
   constexpr int kHighBits = 50;
   constexpr double kRounder = 0x1.8p52;
@@ -270,7 +268,7 @@ void AttributeMean::add(
 
 void AttributeMean::write(const std::int64_t* counts, void* means) const
 {
-  sums_.write(kind_, 0, sums_.size / std::size_t(kind_.components), counts, columns_, *kernels_, means);
+  sums_.write(kind_, 0, sums_.size / std::size_t(kind_.components), counts, columns_, means);
 }
 
 } // namespace pointhaptics

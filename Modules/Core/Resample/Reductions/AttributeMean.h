@@ -5,7 +5,7 @@
 
 #include "Core/Base/Vector3.h"
 #include "Core/Resample/Reductions/AttributeReducer.h"
-#include "Core/Resample/Reductions/VoxelTally.h"
+#include "Core/Resample/Stages/VoxelTally.h"
 
 #include <array>
 #include <cstdint>
@@ -29,8 +29,8 @@ class AttributeMean final : public AttributeReducer
 public:
   /// @pre @p range is that of all tuples; means are wrong otherwise. @p columns: what turns the means of
   /// AttributeStatistic::Normal.
-  AttributeMean(const AccumulatedArray& kind, const AttributeRange& range,
-    const std::array<Vec3, 3>& columns = {}, InstructionSet instructions = InstructionSet::Automatic);
+  AttributeMean(
+    const AccumulatedArray& kind, const AttributeRange& range, const std::array<Vec3, 3>& columns = {});
 
   void prepare(const std::vector<std::int64_t>& counts) override;
   void add(const Tuples& tuples, const std::int64_t* numbers, const std::int64_t* voxels, int count) override;
@@ -46,7 +46,6 @@ private:
   AccumulatedArray kind_;
   AttributeRange range_;
   std::array<Vec3, 3> columns_;
-  const simd::AttributeKernels* kernels_;
   simd::TallySums sums_;
 };
 

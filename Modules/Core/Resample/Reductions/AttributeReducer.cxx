@@ -22,7 +22,7 @@ std::unique_ptr<AttributeReducer> AttributeReducer::create(
     return std::make_unique<AttributeTuples>(kind, instructions);
   }
   return std::make_unique<AttributeMean>(
-    kind, request.range.value_or(AttributeRange()), normalColumns(transform), instructions);
+    kind, request.range.value_or(AttributeRange()), normalColumns(transform));
 }
 
 } // namespace pointhaptics

@@ -19,7 +19,7 @@ namespace simd
 class VoxelTally;
 }
 
-/// What turns normals: the products of their components with these are added.
+/// Columns that turn normals: the products of a normal's components with these are added.
 std::array<Vec3, 3> normalColumns(const AffineTransform& transform);
 
 /// Keeps what a statistic needs of the tuples of each voxel. Nothing it gives depends on the order of the
@@ -43,7 +43,7 @@ public:
   /// Adds tuple numbers[i] to voxels[i].
   virtual void add(
     const Tuples& tuples, const std::int64_t* numbers, const std::int64_t* voxels, int count) = 0;
-  /// What the voxels have, for more to be added; nothing is left here.
+  /// Takes the sums of the voxels, so that more can be added; nothing is left here.
   virtual simd::VoxelTally takeTally() = 0;
   /// Writes the tuples of all voxels, @p counts points each, in the array's own type.
   virtual void write(const std::int64_t* counts, void* values) const = 0;

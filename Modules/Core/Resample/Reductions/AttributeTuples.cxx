@@ -12,7 +12,7 @@ namespace pointhaptics
 namespace
 {
 
-/// Of more than simd::kFewValues.
+/// Statistic of more than simd::kFewValues values.
 template <typename Key>
 Key statisticOf(AttributeStatistic statistic, std::vector<Key>& keys)
 {

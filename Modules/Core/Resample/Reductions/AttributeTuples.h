@@ -5,7 +5,7 @@
 #include "Core/Base/Buffer.h"
 #include "Core/Resample/Kernel/VoxelKernel.h"
 #include "Core/Resample/Reductions/AttributeReducer.h"
-#include "Core/Resample/Reductions/VoxelTally.h"
+#include "Core/Resample/Stages/VoxelTally.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -26,7 +26,7 @@ public:
   explicit AttributeTuples(
     const AccumulatedArray& kind, InstructionSet instructions = InstructionSet::Automatic)
     : kind_(kind)
-    , kernels_(&simd::kernelsFor(instructions).attributes)
+    , kernels_(&simd::kernelsFor(instructions).select)
   {
   }
 
@@ -41,7 +41,7 @@ private:
   void keepTuples(const Tuples& tuples, const std::int64_t* numbers, const std::int64_t* voxels, int count,
     Components components);
   std::int64_t voxels() const { return std::int64_t(ends_.size()); }
-  /// Of its tuples. @pre all have been added.
+  /// Begin of a voxel's tuples. @pre all have been added.
   std::int64_t begin(std::int64_t voxel) const { return voxel == 0 ? 0 : ends_[std::size_t(voxel - 1)]; }
   std::int64_t end(std::int64_t voxel) const { return ends_[std::size_t(voxel)]; }
   /// Those of a component, of all points.
@@ -56,7 +56,7 @@ private:
   void writeValues(T* to) const;
 
   AccumulatedArray kind_;
-  const simd::AttributeKernels* kernels_;
+  const simd::SelectKernels* kernels_;
   Buffer<char> values_; ///< Those of a component together, and of these those of a voxel.
   std::size_t componentBytes_ = 0;
   std::vector<std::int64_t> ends_; ///< Where the next tuple of each voxel goes.

@@ -1,5 +1,5 @@
 /// @file
-/// Of the points of each voxel the one nearest to their mean, or to the voxel's centre.
+/// Finds in each voxel the point nearest to the mean, or to the voxel's centre.
 #pragma once
 
 #include "Core/Base/Buffer.h"
@@ -67,7 +67,7 @@ public:
     }
     return ties != 0;
   }
-  /// Of all points, once more.
+  /// Resolves ties by a second look at all points.
   template <typename Block>
   void resolve(const Block& block)
   {
@@ -108,7 +108,7 @@ private:
   const VoxelRequest* request_;
   bool toMean_;
   bool isIdentity_;
-  double middle_; ///< Of a voxel.
+  double middle_; ///< Middle of a voxel.
   Vec3 scale_;    ///< Edges of a voxel by the longest.
   std::size_t size_ = 0;
   Buffer<Nearest> nearest_;

@@ -1,12 +1,12 @@
 /// @file
-/// What else becomes of the points of voxels, next to their sums.
+/// Results of the points of voxels beside their sums.
 #pragma once
 
 #include "Core/Resample/Kernel/Fetch.h"
 #include "Core/Resample/Kernel/PointRecordWriter.h"
 #include "Core/Resample/Reductions/AttributeReducer.h"
 #include "Core/Resample/Reductions/NearestPoints.h"
-#include "Core/Resample/Reductions/VoxelTally.h"
+#include "Core/Resample/Stages/VoxelTally.h"
 #include "Core/Resample/VoxelResampler.h"
 
 #include <cstddef>
@@ -65,7 +65,7 @@ public:
   }
   /// Writes what became of the voxels, whose counts are there, from @p first on in @p writer.
   void write(VoxelWriter& writer, std::size_t first) const;
-  /// What the arrays have in the voxels, one for each; nothing is left here.
+  /// Takes the tallies of the arrays in the voxels, one for each array.
   std::vector<VoxelTally> takeTallies();
 
 private:
@@ -76,10 +76,10 @@ private:
 
   PayloadLayout payloads_;
   std::int64_t* voxelIndex_;
-  std::vector<AttributeView> views_; ///< What is read of points.
+  std::vector<AttributeView> views_; ///< Arrays that are read at points.
   std::vector<std::unique_ptr<AttributeReducer>> reducers_;
   std::optional<NearestPoints> nearest_;
-  std::vector<std::int64_t> counts_; ///< Of the voxels.
+  std::vector<std::int64_t> counts_; ///< Number of points of each voxel.
 };
 
 } // namespace simd

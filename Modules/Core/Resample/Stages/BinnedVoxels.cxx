@@ -9,14 +9,14 @@ namespace simd
 namespace
 {
 
-/// Words with an occupancy bit for each cell.
+/// Number of 64-bit words that hold an occupancy bit for each cell of a partition.
 std::size_t occupancyWords(const PartitionPlan& plan)
 {
   return (plan.cells() - 1) / 64 + 1;
 }
 
-/// A partition is sparse where it has fewer records than one for so many occupancy words: visiting the words
-/// in use then takes less time than counting and clearing all.
+/// A partition with less than one record for so many occupancy words is sparse: to visit the words in use
+/// takes less time than to count and clear all.
 constexpr std::size_t kWordsPerSparseRecord = 3;
 
 }
@@ -29,7 +29,8 @@ void BinnedVoxels::prepare(const VoxelRequest& request, const PointBinner& binne
   visits_ = visits;
 }
 
-/// Memory that grows with the plan is touched by a thread that works.
+/// Grows the tables to the cells of a partition, with all bits 0. The thread that sums does this and not
+/// prepare(), since whoever writes to a page first gets it near its own core.
 void BinnedVoxels::makeTables()
 {
   const std::size_t words = occupancyWords(plan());
@@ -37,7 +38,7 @@ void BinnedVoxels::makeTables()
   {
     std::fill(occupancy_.data(), occupancy_.data() + words, 0);
   }
-  const std::size_t touchedWords = (words + 63) / 64;
+  const std::size_t touchedWords = (words + 63) / 64; // a bit for each occupancy word
   if (touched_.reserve(touchedWords))
   {
     std::fill(touched_.data(), touched_.data() + touchedWords, 0);
@@ -78,7 +79,7 @@ std::size_t BinnedVoxels::find(std::uint32_t partition)
   recordCells_.reserve(records_);
   forBlocks([&](const PointRecordPool::Walk& block, std::uint32_t* cells)
     { kernels_->cells(voxels_.map, block.records(), block.count(), block.recordsAhead(), cells); });
-  // All blocks together: records of one block of a scan share words and would wait for each other.
+  // All blocks go in one call: records of one block of a scan share words and would wait for each other.
   kernels_->setOccupied(recordCells_.data(), records_, occupancy_.data());
   rankOccupied();
   return voxels_.size;

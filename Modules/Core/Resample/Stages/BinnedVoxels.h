@@ -21,13 +21,13 @@ namespace simd
 struct BinnedBlock
 {
   const PointRecord* records = nullptr;
-  const std::uint32_t* payloads = nullptr; ///< Of the records.
+  const std::uint32_t* payloads = nullptr; ///< Payloads of the records.
   std::uint64_t fractionMask = 0;
   int count = 0;
   std::int64_t points[kBlockRecords]; ///< Their numbers, if these are kept.
   std::int64_t voxels[kBlockRecords];
 
-  /// Of a point in its voxel, in quanta.
+  /// Offset of a point in its voxel, in quanta.
   std::array<double, 3> offset(int i) const
   {
     const PointRecord& r = records[i];
@@ -56,7 +56,7 @@ public:
   {
     return isWide_ ? wide_.voxels[voxel].count : packedCount(voxels_.sums[voxel]);
   }
-  /// Of the points of a voxel, in quanta from its lower corner, rounded.
+  /// Sums of the points of a voxel, in quanta from its lower corner, rounded.
   std::array<double, 3> sums(std::size_t voxel) const
   {
     if (isWide_)

@@ -80,7 +80,7 @@ public:
   const PartitionPlan& plan() const { return plan_; }
   std::uint32_t partitions() const { return plan_.partitions; }
   int fractionBits() const { return plan_.fractionBits; }
-  /// What goes with a record. Points in the order of a scan have their numbers alone: where neighbours in
+  /// Layout of a record's payload. Points in the order of a scan have only their numbers: where neighbours in
   /// memory are in one partition, its tuples are read in order anyway.
   const PayloadLayout& payloadLayout() const { return payloadLayout_; }
   const PointRecordPool& pool() const { return pool_; }

@@ -58,7 +58,7 @@ double compensatedDot(const double row[3], const double p[3], double offset, dou
   return v;
 }
 
-/// What rounding takes from a - b (Knuth).
+/// Rounding error of a - b (Knuth).
 double leftOfDifference(double a, double b)
 {
   const double difference = a - b;
@@ -110,7 +110,7 @@ Motion motionOf(const AffineTransform& t)
   return t.m[0][0] == 1.0 && t.m[1][1] == 1.0 && t.m[2][2] == 1.0 ? Motion::Shift : Motion::Scale;
 }
 
-/// What the transform makes of the pivot, from the lattice's origin.
+/// Sets the transformed pivot, from the lattice's origin.
 void setOffset(const AffineTransform& transform, const Lattice& lattice, PointQuantizer& quantizer)
 {
   for (int axis = 0; axis < 3; ++axis)
@@ -246,7 +246,7 @@ PointLocation quantizePoint(const PointQuantizer& quantizer, const Vec3& point, 
   for (int axis = 0; axis < 3; ++axis)
   {
     const double* row = quantizer.matrix[axis];
-    // The same operations in the same order as the vector loops.
+    // The vector loops do these operations in this order.
     const double offset = quantizer.offset[axis];
     double left = 0.0;
     const double v = quantizer.motion == Motion::Compensated

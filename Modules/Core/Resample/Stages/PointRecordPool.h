@@ -42,13 +42,13 @@ public:
     /// Goes to the next block, at first to the first. @return whether there is one.
     bool next();
     const PointRecord* records() const { return pool_.records_.data() + first_; }
-    /// What to prefetch while this block is processed: the next one, or this one again.
+    /// Records to prefetch while this block is processed: those of the next block, or of this one again.
     const PointRecord* recordsAhead() const
     {
       Walk ahead = *this;
       return ahead.next() ? ahead.records() : records();
     }
-    /// What goes with the records.
+    /// Payloads of the records.
     const std::uint32_t* payloads() const { return pool_.payloads_.data() + pool_.payloadWords_ * first_; }
     /// The numbers of the points, if they were kept.
     void copyNumbers(std::int64_t* numbers) const

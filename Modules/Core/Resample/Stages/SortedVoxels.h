@@ -71,7 +71,7 @@ private:
   const std::uint32_t* originals_ = nullptr;
   std::vector<Piece> pieces_;
   std::size_t used_ = 0;
-  std::vector<std::uint64_t> starts_; ///< Of the ranges, and an end.
+  std::vector<std::uint64_t> starts_; ///< Starts of the ranges, and an end.
 };
 
 template <typename Take>
@@ -98,7 +98,7 @@ struct SortedBlock
   std::int64_t points[kMostPoints];
   std::int64_t voxels[kMostPoints];
 
-  /// Of a point in its voxel, in quanta.
+  /// Offset of a point in its voxel, in quanta.
   std::array<double, 3> offset(int i) const
   {
     const auto& q = from[i].offset;

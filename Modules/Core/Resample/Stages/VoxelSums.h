@@ -4,7 +4,7 @@
 
 #include "Core/Base/Buffer.h"
 #include "Core/Resample/Kernel/VoxelKernel.h"
-#include "Core/Resample/Reductions/VoxelTally.h"
+#include "Core/Resample/Stages/VoxelTally.h"
 
 #include <algorithm>
 #include <array>
@@ -24,7 +24,7 @@ struct WideSums
   std::uint64_t key;
   std::int64_t count;
   std::uint64_t low[3];
-  std::uint64_t high; ///< What stands above the low 64 bits: kHighBits for each axis.
+  std::uint64_t high; ///< Bits above the low 64: kHighBits for each axis.
 
   static constexpr int kHighBits = 21;
 
@@ -89,7 +89,7 @@ struct VoxelRun
 
   std::size_t size() const { return voxels.size(); }
   bool hasMoments() const { return !secondMoments.empty(); }
-  /// Of a voxel; null unless asked for.
+  /// Second moments of a voxel; null unless requested.
   const SecondMoments* momentsOf(std::size_t voxel) const
   {
     return hasMoments() ? secondMoments.data() + voxel : nullptr;
@@ -165,7 +165,7 @@ struct VoxelRun
     }
     appendTallies(from, first, last);
   }
-  /// The same of what arrays have there, alone.
+  /// Appends only the tallies of the arrays.
   void appendTallies(const VoxelRun& from, std::size_t first, std::size_t last)
   {
     tallies.resize(std::max(tallies.size(), from.tallies.size())); // A run without voxels has none.
@@ -174,7 +174,7 @@ struct VoxelRun
       tallies[i].append(from.tallies[i], first, last);
     }
   }
-  /// What arrays have in groups of the voxels of two runs. @p isRight: see TallySums::gathered().
+  /// Gathers the tallies of groups of the voxels of two runs. @p isRight: see TallySums::gathered().
   void gatherTallies(const VoxelRun& from, const VoxelRun& other, const VoxelGroups& groups, bool& isRight)
   {
     const auto of = [](const VoxelRun& run, std::size_t i)

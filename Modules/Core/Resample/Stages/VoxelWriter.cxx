@@ -1,6 +1,6 @@
 #include "Core/Resample/Stages/VoxelWriter.h"
 
-#include "Core/Resample/Reductions/AttributeRounding.h"
+#include "Core/Resample/Stages/AttributeRounding.h"
 
 #include <algorithm>
 #include <cfloat>

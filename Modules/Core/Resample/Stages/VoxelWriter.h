@@ -47,7 +47,7 @@ public:
     bool keys = false;
     bool covariances = false;
     bool chosen = false;
-    std::vector<std::size_t> attributeBytes = {}; ///< Of a voxel's tuple of each.
+    std::vector<std::size_t> attributeBytes = {}; ///< Bytes of a voxel's tuple, by array.
   };
 
   void prepare(std::size_t room, const Layout& layout, const Lattice& lattice, int fractionBits,
@@ -95,7 +95,7 @@ public:
 private:
   struct Array
   {
-    std::size_t bytes = 0; ///< Of a voxel; 0: not asked for.
+    std::size_t bytes = 0; ///< Bytes of a voxel; 0: not requested.
     char* values = nullptr;
     Buffer<char> own;
 

@@ -105,7 +105,7 @@ public:
 
   /// Marks the stream as one that no encoder writes.
   void markDamaged() { isDamaged_ = true; }
-  /// Whether more bytes were asked for than there are, or markDamaged() was called.
+  /// True if more bytes were asked for than there are, or markDamaged() was called.
   bool isDamaged() const { return isDamaged_ || missing_ > 0; }
   /// Bytes read so far: where a stream that is read to its end has its end.
   std::size_t position() const { return static_cast<std::size_t>(at_ - begin_); }

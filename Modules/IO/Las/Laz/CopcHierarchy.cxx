@@ -66,7 +66,7 @@ private:
   std::map<std::uint64_t, std::uint64_t> pages_; ///< offsets and ends of those that were found, read or not
   std::map<std::uint64_t, std::uint64_t> nodes_; ///< offsets and ends of the wanted ones
   std::vector<std::pair<std::uint64_t, std::uint64_t>> pending_; ///< pages to read
-  /// Of a wanted node.
+  /// Level and number of points of a wanted node.
   struct Points
   {
     int level;

@@ -30,7 +30,7 @@ public:
   /// A layer that is not in use has in all records what the first one has. All are in use at first.
   void setUsed(std::size_t i, bool isUsed) { layers_[i].isUsed = isUsed; }
   bool isUsed(std::size_t i) const { return layers_[i].isUsed; }
-  /// Of an encoder: whether layer @p i has any value that differs from the one before.
+  /// For an encoder: true if layer @p i has any value that differs from the one before.
   bool hasChanges(std::size_t i) const;
 
 private:

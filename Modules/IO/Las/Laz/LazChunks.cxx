@@ -188,8 +188,8 @@ LazChunks ChunkFinder::walkLayers() const
   return chunks;
 }
 
-/// For a file that does not say how large its chunks are: the table has their numbers of points, as it should,
-/// or it was written as that of the usual size, which layered chunks do not need.
+/// For a file that does not say how large its chunks are: the table has their numbers of points, as it
+/// should, or it was written as that of the usual size, which layered chunks do not need.
 LazChunks ChunkFinder::readUntoldTable(std::size_t table)
 {
   try

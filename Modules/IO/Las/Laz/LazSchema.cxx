@@ -96,7 +96,7 @@ Description findDescription(std::string_view bytes, const LasHeader& header)
   return found;
 }
 
-/// What LASzip stores for a record of this point format, in its order.
+/// Items that LASzip stores for a record of this point format, in its order.
 std::vector<RecordItem> itemsOf(const LasHeader& header)
 {
   const LasPointFormat& fields = header.fields();

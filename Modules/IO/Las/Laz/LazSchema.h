@@ -1,6 +1,6 @@
 /// @file
-/// How the points of a LAZ file are compressed: LASzip's variable length record. Source: LAZ Specification
-/// 1.4 R1.
+/// Compression of the points in a LAZ file: LASzip's variable length record. Source: LAZ Specification 1.4
+/// R1.
 #pragma once
 
 #include <cstddef>
@@ -41,7 +41,7 @@ struct LazSchema
   bool isChunkSizeTold = true; ///< Else chunks vary, or have the usual size; their table decides.
 
   static constexpr std::uint32_t kVariableChunks = 0xffffffffu;
-  /// What is after the fixed fields of a record.
+  /// Number of bytes after the fixed fields of a record.
   std::size_t numberOfExtraBytes() const
   {
     return extraBytes.offset != 0 ? recordLength - extraBytes.offset : 0;
@@ -50,12 +50,12 @@ struct LazSchema
   std::size_t numberOfLayers() const;
 };
 
-/// What LASzip's record in @p bytes says of the points that @p header describes. Its items must be those of
-/// the point format, each once. @throws FileProblem with byte offset and value; versions of items that are
-/// not known are refused with their number.
+/// Reads LASzip's record in @p bytes for the points that @p header describes. Its items must be those of the
+/// point format, each once. @throws FileProblem with byte offset and value; versions of items that are not
+/// known are refused with their number.
 LazSchema parseLazSchema(std::string_view bytes, const LasHeader& header);
 
-/// How a file of the point format and the record length of @p header is written here.
+/// Schema for a file of the point format and the record length of @p header.
 LazSchema makeLazSchema(const LasHeader& header);
 
 /// The content of LASzip's record for @p schema.

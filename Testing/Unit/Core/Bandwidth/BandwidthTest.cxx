@@ -16,7 +16,7 @@ using namespace pointhaptics;
 namespace
 {
 
-/// Those that need no more than the spread.
+/// Rules that need no more than the spread.
 const BandwidthRule kSpreadRules[] = { BandwidthRule::NormalReference, BandwidthRule::SilvermanRobust,
   BandwidthRule::ScottMultivariate, BandwidthRule::SilvermanMultivariate };
 const BandwidthRule kRules[] = { BandwidthRule::NormalReference, BandwidthRule::SilvermanRobust,

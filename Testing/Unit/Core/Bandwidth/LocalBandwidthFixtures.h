@@ -1,5 +1,5 @@
 /// @file
-/// What the tests of local bandwidths have in common: the rules, clouds, and what every result holds.
+/// Shared by the tests of local bandwidths: the rules, clouds, and what every result holds.
 #pragma once
 
 #include "Core/Bandwidth/LocalBandwidth.h"

@@ -62,8 +62,8 @@ TEST(LocalBandwidths, ScaleWithTheCloudFromPicometresToTerametres)
 
 TEST(LocalBandwidths, FallAsTheDensityOfTheShapesRises)
 {
-  // Of the density step 16 times as many points per area on one side; of the idol, the density falls from its
-  // face to behind its foot, and the median radius with it rises from each sixth of the spacings to the next.
+  // The density step has 16 times as many points per area on one side. The idol's density falls from its face
+  // to behind its foot, and the median radius rises from each sixth of the spacings to the next.
   LocalBandwidthSettings settings;
   for (const Shape shape : { Shape::DensityStep, Shape::Idol })
   {

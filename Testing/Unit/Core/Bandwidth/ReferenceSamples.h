@@ -49,8 +49,8 @@ inline const std::vector<double> kPrecipitation = { 67, 54.7, 7, 48.5, 14, 17.2,
   37.6, 39.9, 36.2, 42.8, 46.4, 24.7, 49.1, 46, 35.9, 7.8, 48.2, 15.2, 32.5, 44.7, 42.6, 38.8, 17.4, 40.8,
   29.1, 14.6, 59.2 };
 
-/// What R finds: sd(x), bw.nrd0(x), bw.nrd(x).
-/// R: qnorm(ppoints(100)), the quantiles of the normal distribution at (i - 1/2) / 100.
+/// Reference values are R's sd(x), bw.nrd0(x), bw.nrd(x). The sample is qnorm(ppoints(100)), the quantiles of
+/// the normal distribution at (i - 1/2) / 100.
 inline std::vector<double> normalQuantiles()
 {
   std::vector<double> values;

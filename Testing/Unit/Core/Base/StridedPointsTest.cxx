@@ -100,8 +100,8 @@ TEST(StridedPoints, BringTheirTuplesToTheirVoxels)
   ASSERT_EQ(resampler.run(request), Status::Ok);
   std::vector<float> averaged(3 * std::size_t(resampler.size()));
   std::vector<double> means(averaged.size());
-  resampler.copyAttribute(0, 0, averaged.data());
-  resampler.copyMeans(0, means.data());
+  resampler.copyAttribute(0, averaged.data());
+  resampler.copyMeans(means.data());
   for (std::size_t i = 0; i < means.size(); ++i)
   {
     ASSERT_NEAR(double(averaged[i]), means[i], 1e-6) << i;

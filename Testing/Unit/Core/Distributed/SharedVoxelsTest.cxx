@@ -20,17 +20,15 @@ namespace
 {
 
 constexpr std::size_t kPoints = 6000;
-constexpr int kLevels = 3;
 const std::vector<int> kSizes = { 1, 2, 3, 4, 8 };
 
-VoxelRequest requestOf(const std::vector<Vec3>& points, const Lattice& lattice, int levels)
+VoxelRequest requestOf(const std::vector<Vec3>& points, const Lattice& lattice)
 {
   VoxelRequest request;
   request.points = { points.data(), std::int64_t(points.size()) };
   request.lattice = lattice;
   request.keys = true;
   request.covariances = true;
-  request.levels = levels;
   return request;
 }
 
@@ -65,19 +63,15 @@ void append(RunResult& all, const RunResult& part)
 {
   all.clipped = part.clipped;
   all.invalid = part.invalid;
-  all.levels.resize(part.levels.size());
-  for (std::size_t l = 0; l < part.levels.size(); ++l)
-  {
-    append(all.levels[l].means, part.levels[l].means);
-    append(all.levels[l].counts, part.levels[l].counts);
-    append(all.levels[l].keys, part.levels[l].keys);
-    append(all.levels[l].covariances, part.levels[l].covariances);
-  }
+  append(all.voxels.means, part.voxels.means);
+  append(all.voxels.counts, part.voxels.counts);
+  append(all.voxels.keys, part.voxels.keys);
+  append(all.voxels.covariances, part.voxels.covariances);
 }
 
-/// What each rank makes, one after the other.
+/// Joins the results of the ranks, one after the other.
 RunResult sharedRun(
-  const std::vector<Vec3>& points, const Lattice& lattice, int levels, const std::vector<std::size_t>& ends)
+  const std::vector<Vec3>& points, const Lattice& lattice, const std::vector<std::size_t>& ends)
 {
   const int size = int(ends.size()) - 1;
   std::vector<RunResult> results(static_cast<std::size_t>(size));
@@ -88,19 +82,15 @@ RunResult sharedRun(
       VoxelAccumulator own(lattice, true);
       EXPECT_EQ(own.add(partOf(points, ends, ranks.rank())), Status::Ok);
       SharedVoxels shared;
-      EXPECT_EQ(shared.share(ranks, std::move(own), levels), Status::Ok);
+      EXPECT_EQ(shared.share(ranks, std::move(own)), Status::Ok);
       VoxelAccumulator::Request wanted;
       wanted.keys = true;
-      wanted.levels = levels;
       VoxelResampler made;
       EXPECT_EQ(shared.voxels().finish(wanted, made), Status::Ok);
       RunResult& result = results[std::size_t(ranks.rank())];
       result.clipped = shared.clippedPoints();
       result.invalid = shared.invalidPoints();
-      for (int level = 0; level < levels; ++level)
-      {
-        result.levels.push_back(levelOf(made, requestOf(points, lattice, levels), level));
-      }
+      result.voxels = voxelsOf(made, requestOf(points, lattice));
     });
   RunResult all;
   for (const RunResult& result : results)
@@ -152,7 +142,7 @@ std::vector<VoxelAccumulator::Array> kindsOfArrays()
     { ScalarType::UInt8, 1, AttributeStatistic::Median } };
 }
 
-/// Those of the points from @p first on.
+/// Views of the arrays of the points from @p first on.
 std::vector<AttributeView> viewsOf(const Arrays& arrays, std::size_t first, std::int64_t points)
 {
   return { { arrays.floats.data() + 3 * first, ScalarType::Float, 3, points },
@@ -171,7 +161,7 @@ Made madeBy(const VoxelResampler& result)
   for (std::size_t i = 0; i < kindsOfArrays().size(); ++i)
   {
     const VoxelAccumulator::Array kind = kindsOfArrays()[i];
-    const auto* bytes = static_cast<const char*>(result.attribute(0, i));
+    const auto* bytes = static_cast<const char*>(result.attribute(i));
     made.emplace_back(bytes, bytes + result.size() * bytesOf(kind.type) * kind.components);
   }
   return made;
@@ -214,14 +204,11 @@ TEST(SharedVoxels, AreThoseOfOneRunHoweverPointsAndRanksAreSplit)
          latticeOf(2, 2, 1), latticeOf(1, 1, 1) })
   {
     const std::vector<Vec3> points = cloudOf(lattice);
-    for (const int levels : { 1, kLevels })
+    const RunResult expected = runOf(requestOf(points, lattice));
+    for (const int size : kSizes)
     {
-      const RunResult expected = runOf(requestOf(points, lattice, levels));
-      for (const int size : kSizes)
-      {
-        expectSame(sharedRun(points, lattice, levels, splitOfPoints(size, std::uint64_t(size))), expected,
-          nameOf(lattice) + ", ranks " + std::to_string(size) + ", levels " + std::to_string(levels));
-      }
+      expectSame(sharedRun(points, lattice, splitOfPoints(size, std::uint64_t(size))), expected,
+        nameOf(lattice) + ", ranks " + std::to_string(size));
     }
   }
 }
@@ -231,7 +218,7 @@ TEST(SharedVoxels, ArraysAreThoseOfOneRun)
   const Lattice lattice = latticeOf(12, 11, 10);
   const std::vector<Vec3> points = cloudOf(lattice);
   const Arrays arrays(9);
-  VoxelRequest request = requestOf(points, lattice, 1);
+  VoxelRequest request = requestOf(points, lattice);
   const std::vector<AttributeView> views = viewsOf(arrays, 0, std::int64_t(kPoints));
   for (std::size_t i = 0; i < views.size(); ++i)
   {

@@ -54,7 +54,7 @@ Made meanOf(const std::vector<T>& values, int components, const Plan& plan, std:
   const AttributeView view = { values.data(), typeOf<T>(), components,
     std::int64_t(values.size()) / components };
   AttributeMean mean(kindOf<T>(components, columns ? AttributeStatistic::Normal : AttributeStatistic::Mean),
-    rangeOf(view, {}, instructions), columns ? *columns : std::array<Vec3, 3>(), instructions);
+    rangeOf(view, {}, instructions), columns ? *columns : std::array<Vec3, 3>());
   std::vector<std::int64_t> counts = countsOf(plan);
   counts[0] = std::max(counts[0], mostPoints);
   mean.prepare(counts);

@@ -1,5 +1,5 @@
 /// @file
-/// What tests of attributes share: which tuples are in which voxels.
+/// Shared by the tests of attributes: the tuples of each voxel.
 #pragma once
 
 #include "Core/Base/ScalarType.h"

@@ -1,9 +1,8 @@
-// The resampler's kernels where its results alone would not show what is wrong: plans, positions, levels.
+// The resampler's kernels where its results alone would not show what is wrong: plans, positions.
 #include "Core/Resample/Kernel/VoxelKernel.h"
 #include "Core/Resample/Stages/BinnedVoxels.h"
-#include "Core/Resample/Stages/CoarseVoxels.h"
+#include "Core/Resample/Stages/PartitionOrder.h"
 #include "Core/Resample/Stages/PointQuantizer.h"
-#include "Core/Resample/Stages/VoxelLevel.h"
 
 #include "RandomClouds.h"
 
@@ -166,7 +165,7 @@ TEST(PointQuantizer, TruncatesPositionsToTheQuantum)
     EXPECT_LE(std::ldexp(1.0, -quantizer.fractionBits), 0x1p-31);
     compensated += quantizer.motion == Motion::Compensated;
     const double quantum = std::ldexp(1.0, -quantizer.fractionBits);
-    // What rounding may add; where it is worth a part of a quantum, cutting cannot take all of one.
+    // Rounding adds at most this; where it is worth a part of a quantum, truncation cannot take all of one.
     const bool uncorrected = bits > kMaximumIndexBits && bits <= kUncorrectedIndexBits;
     const double rounding = bits <= kMaximumIndexBits ? 0x1p-34 : uncorrected ? 0.25 * quantum : 0x1p-50;
     EXPECT_LE(quantum + rounding, (bits <= kMaximumIndexBits ? 1.125 : 1.0001) * 0x1p-31);
@@ -305,35 +304,10 @@ TEST(PointQuantizer, DistinguishesOutsideFromInvalid)
   EXPECT_EQ(locationOf({ 0, 0, -INFINITY }), PointLocation::Invalid);
 }
 
-TEST(CoarserLattice, CoversTheFineOneAndEndsWhereItDoes)
-{
-  trial::Random random(4);
-  for (int i = 0; i < 200; ++i)
-  {
-    Lattice fine = randomLattice(random, double(kMaximumLatticeDimension));
-    fine.origin = random.inBox({ -1, -1, -1 }, { 1, 1, 1 });
-    for (int level = 0; level < 22; ++level)
-    {
-      const Lattice coarse = coarserLattice(fine);
-      const bool isOne = fine.dimensions == std::array<std::int64_t, 3>{ 1, 1, 1 };
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        const auto a = std::size_t(axis);
-        ASSERT_EQ(coarse.spacing[axis], (isOne ? 1.0 : 2.0) * fine.spacing[axis]);
-        ASSERT_EQ(coarse.dimensions[a], (fine.dimensions[a] + 1) / 2);
-        ASSERT_EQ(std::min(coarse.end[axis], double(coarse.dimensions[a])) * coarse.spacing[axis],
-          std::min(fine.end[axis], double(fine.dimensions[a])) * fine.spacing[axis]);
-      }
-      fine = coarse;
-    }
-    EXPECT_EQ(fine.dimensions, (std::array<std::int64_t, 3>{ 1, 1, 1 }));
-  }
-}
-
 namespace
 {
 
-/// That of the points that are finite before and after the transform, one by one.
+/// Bounds of the points that are finite before and after the transform, one by one.
 template <typename Real>
 Bounds plainBoundsOf(const AffineTransform& transform, const std::vector<Real>& xyz, std::size_t stride)
 {

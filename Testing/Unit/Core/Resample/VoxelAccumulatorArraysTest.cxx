@@ -19,7 +19,6 @@ namespace
 {
 
 constexpr std::size_t kArrayPoints = 5000;
-constexpr int kArrayLevels = 3;
 
 AffineTransform turnedBy(double degrees)
 {
@@ -84,20 +83,17 @@ std::vector<VoxelAccumulator::Array> kinds()
     { ScalarType::Int16, 1, AttributeStatistic::Mean } };
 }
 
-/// The bytes of all arrays at all levels.
-std::string bytesOf(const VoxelResampler& made, int levels = kArrayLevels)
+/// The bytes of all arrays.
+std::string bytesOf(const VoxelResampler& made)
 {
   std::string bytes;
-  for (int level = 0; level < levels; ++level)
+  for (std::size_t i = 0; i < kinds().size(); ++i)
   {
-    for (std::size_t i = 0; i < kinds().size(); ++i)
-    {
-      const auto size = std::size_t(made.size(level) * pointhaptics::bytesOf(kinds()[i].type)) *
-        std::size_t(kinds()[i].components);
-      std::string tuples(size, 0);
-      made.copyAttribute(level, i, tuples.data());
-      bytes += tuples;
-    }
+    const auto size =
+      std::size_t(made.size() * pointhaptics::bytesOf(kinds()[i].type)) * std::size_t(kinds()[i].components);
+    std::string tuples(size, 0);
+    made.copyAttribute(i, tuples.data());
+    bytes += tuples;
   }
   return bytes;
 }
@@ -105,7 +101,6 @@ std::string bytesOf(const VoxelResampler& made, int levels = kArrayLevels)
 std::string finished(VoxelAccumulator& sums)
 {
   VoxelAccumulator::Request wanted;
-  wanted.levels = kArrayLevels;
   VoxelResampler made;
   EXPECT_EQ(sums.finish(wanted, made, ThreadedExecutor(2)), Status::Ok);
   return bytesOf(made);
@@ -117,7 +112,6 @@ std::string ofOneRun(const ArrayCloud& cloud, const Lattice& lattice, const Affi
   request.points = cloud.view(0, kArrayPoints);
   request.transform = transform;
   request.lattice = lattice;
-  request.levels = kArrayLevels;
   const std::vector<AttributeView> views = cloud.arrays(0, kArrayPoints);
   for (std::size_t i = 0; i < views.size(); ++i)
   {
@@ -244,8 +238,8 @@ TEST(VoxelAccumulatorArrays, SumsAreRoundedOnceWhateverIsFarBelow)
     request.attributes = { { view, AttributeStatistic::Mean } };
     VoxelResampler expected;
     ASSERT_EQ(expected.run(request), Status::Ok);
-    EXPECT_EQ(*static_cast<const double*>(made.attribute(0, 0)),
-      *static_cast<const double*>(expected.attribute(0, 0)))
+    EXPECT_EQ(
+      *static_cast<const double*>(made.attribute(0)), *static_cast<const double*>(expected.attribute(0)))
       << values[0] << " " << values[1];
   }
 }
@@ -270,7 +264,7 @@ TEST(VoxelAccumulatorArrays, NormalsOfFramesAreTurnedEachByItsOwn)
     VoxelResampler made;
     EXPECT_EQ(sums.finish({}, made), Status::Ok);
     Vec3 mean;
-    made.copyAttribute(0, 0, &mean.x);
+    made.copyAttribute(0, &mean.x);
     return mean;
   };
   const Vec3 mean = meanOf({ 0, 90 });

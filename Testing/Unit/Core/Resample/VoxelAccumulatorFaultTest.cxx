@@ -1,4 +1,4 @@
-// What an accumulator must refuse: sums that no points make, however small the lie.
+// Accumulators refuse sums that no points make, however small the lie.
 #include "Core/Resample/VoxelAccumulator.h"
 
 #include "ResamplerRuns.h"
@@ -108,7 +108,7 @@ TEST(VoxelAccumulatorFaults, BytesWhoseMeansLieOutsideTheirVoxelsAreRefused)
   std::string bytes = twoVoxels();
   const std::uint64_t bits = wordAt(bytes, kFractionBits);
   ASSERT_LT(bits, 63u);
-  // Of a voxel of one point a sum of 1 is its upper face, which belongs to the next one.
+  // In a voxel of one point a sum of 1 is the upper face, which belongs to the next voxel.
   setWord(bytes, kFirstVoxel + 2, (std::uint64_t{ 1 } << bits) - 1);
   VoxelAccumulator read(latticeOf(1, 1, 1));
   EXPECT_EQ(VoxelAccumulator::deserialize(bytes, read), Status::Ok);
@@ -126,7 +126,7 @@ TEST(VoxelAccumulatorFaults, BytesWhoseArraysNoPointsHaveAreRefused)
   {
     AttributeView view;
     AttributeStatistic statistic;
-    std::size_t fromEnd; ///< Of the byte that is changed.
+    std::size_t fromEnd; ///< Distance of the changed byte from the end.
     char right;
     char wrong;
   };

@@ -18,7 +18,6 @@ namespace
 {
 
 constexpr std::size_t kPoints = 8000;
-constexpr int kLevels = 3;
 
 AffineTransform turned()
 {
@@ -46,7 +45,6 @@ struct Case
     request.lattice = lattice;
     request.keys = true;
     request.covariances = true;
-    request.levels = kLevels;
     return request;
   }
   VoxelAccumulator of(std::size_t first, std::size_t last, const Executor& executor = {}) const
@@ -66,17 +64,11 @@ void expectFinishes(VoxelAccumulator& sums, const Case& all, const std::string& 
 {
   VoxelAccumulator::Request wanted;
   wanted.keys = true;
-  wanted.levels = kLevels;
   wanted.instructions = instructions;
   VoxelResampler result;
   ASSERT_EQ(sums.finish(wanted, result, executor), Status::Ok) << what;
-  RunResult found;
-  found.clipped = result.clippedPoints();
-  found.invalid = result.invalidPoints();
-  for (int level = 0; level < kLevels; ++level)
-  {
-    found.levels.push_back(levelOf(result, all.request(0, 1), level));
-  }
+  const RunResult found = { result.clippedPoints(), result.invalidPoints(),
+    voxelsOf(result, all.request(0, 1)) };
   expectSame(found, all.expected, nameOf(all.lattice) + ", " + what);
 }
 

@@ -73,19 +73,18 @@ struct Arrays
 
 using Tuples = std::vector<char>;
 
-std::vector<Tuples> attributesOf(const VoxelResampler& resampler, const VoxelRequest& request, int level)
+std::vector<Tuples> attributesOf(const VoxelResampler& resampler, const VoxelRequest& request)
 {
   std::vector<Tuples> all;
   for (std::size_t i = 0; i < request.attributes.size(); ++i)
   {
-    all.emplace_back(
-      std::size_t(resampler.size(level)) * std::size_t(request.attributes[i].view.tupleBytes()));
-    resampler.copyAttribute(level, i, all.back().data());
+    all.emplace_back(std::size_t(resampler.size()) * std::size_t(request.attributes[i].view.tupleBytes()));
+    resampler.copyAttribute(i, all.back().data());
   }
   return all;
 }
 
-/// What reducers make of the points of each voxel, point by point.
+/// Expected result of the reducers, point by point.
 std::vector<Tuples> expectedOf(const VoxelRequest& request)
 {
   VoxelRequest plain;
@@ -131,7 +130,7 @@ void expectAttributes(VoxelRequest request, const Executor& executor, const std:
       for (int round = 0; round < 2; ++round)
       {
         ASSERT_EQ(resampler.run(request, executor), Status::Ok);
-        EXPECT_EQ(attributesOf(resampler, request, 0), expected) << what << ", chunks of " << chunkPoints;
+        EXPECT_EQ(attributesOf(resampler, request), expected) << what << ", chunks of " << chunkPoints;
       }
     }
   }
@@ -180,7 +179,7 @@ TEST(VoxelAttributes, ComeWithAnIndexAndATransformAsWithout)
     request.chunkPoints = chunkPoints;
     VoxelResampler resampler;
     ASSERT_EQ(resampler.run(request, ThreadedExecutor(2)), Status::Ok);
-    EXPECT_EQ(attributesOf(resampler, request, 0), expected);
+    EXPECT_EQ(attributesOf(resampler, request), expected);
   }
 }
 
@@ -206,7 +205,7 @@ TEST(VoxelAttributes, ComeWithRepresentativesAndTheVoxelsOfPointsAsWithout)
       request.chunkPoints = chunkPoints;
       VoxelResampler resampler;
       ASSERT_EQ(resampler.run(request, BackwardExecutor(3)), Status::Ok);
-      EXPECT_EQ(attributesOf(resampler, request, 0), expected);
+      EXPECT_EQ(attributesOf(resampler, request), expected);
       for (std::size_t v = 0; v < resampler.chosenPoints().size(); ++v)
       {
         ASSERT_EQ(resampler.voxelIndex()[std::size_t(resampler.chosenPoints()[v])], std::int64_t(v));
@@ -238,7 +237,7 @@ TEST(VoxelAttributes, OfACrowdNeedMorePartsAsPointsCome)
     request.chunkPoints = chunkPoints;
     VoxelResampler resampler;
     ASSERT_EQ(resampler.run(request), Status::Ok);
-    EXPECT_EQ(attributesOf(resampler, request, 0), expected) << "chunks of " << chunkPoints;
+    EXPECT_EQ(attributesOf(resampler, request), expected) << "chunks of " << chunkPoints;
   }
 }
 
@@ -266,10 +265,10 @@ TEST(VoxelAttributes, AreTheSameInTheOrderOfAScan)
         { { arrays.labels.data(), ScalarType::Int16, 1, std::int64_t(kPoints) }, AttributeStatistic::Mode });
       VoxelResampler resampler;
       ASSERT_EQ(resampler.run(request, ThreadedExecutor(2)), Status::Ok);
-      EXPECT_EQ(attributesOf(resampler, request, 0), expectedOf(request)) << isScan << ", " << count;
+      EXPECT_EQ(attributesOf(resampler, request), expectedOf(request)) << isScan << ", " << count;
       request.chunkPoints = 1000;
       ASSERT_EQ(resampler.run(request), Status::Ok);
-      EXPECT_EQ(attributesOf(resampler, request, 0), expectedOf(request)) << "in chunks";
+      EXPECT_EQ(attributesOf(resampler, request), expectedOf(request)) << "in chunks";
       request.chunkPoints = 0;
     }
   }
@@ -321,7 +320,7 @@ TEST(VoxelAttributes, TakeNoMoreMemoryThanThereIs)
     request.lattice = latticeOf(columns, 60, 60);
     request.chunkPoints = 5000;
     VoxelResampler plain;
-    const std::vector<double> means = runOf(plain, request).levels[0].means;
+    const std::vector<double> means = runOf(plain, request).voxels.means;
     VoxelResampler resampler;
     for (const bool hasArray : { false, true })
     {
@@ -332,20 +331,20 @@ TEST(VoxelAttributes, TakeNoMoreMemoryThanThereIs)
       }
       TightAllocator tight(plain.size());
       request.allocator = &tight;
-      EXPECT_EQ(runOf(resampler, request, ThreadedExecutor(2)).levels[0].means, means) << columns;
+      EXPECT_EQ(runOf(resampler, request, ThreadedExecutor(2)).voxels.means, means) << columns;
       EXPECT_EQ(tight.refusals, 1) << columns;
-      EXPECT_EQ(attributesOf(resampler, request, 0), expectedOf(request)) << columns;
+      EXPECT_EQ(attributesOf(resampler, request), expectedOf(request)) << columns;
       TightAllocator exact(plain.size());
       VoxelRequest inParts = request;
       inParts.allocator = &exact;
       inParts.chunkPoints = 3000; // Sums are merged: the voxels are counted anyway.
-      EXPECT_EQ(runOf(resampler, inParts, ThreadedExecutor(2)).levels[0].means, means) << columns;
+      EXPECT_EQ(runOf(resampler, inParts, ThreadedExecutor(2)).voxels.means, means) << columns;
       EXPECT_EQ(exact.refusals, 0) << columns;
       TightAllocator tooTight(plain.size() - 1);
       request.allocator = &tooTight;
       EXPECT_THROW(static_cast<void>(resampler.run(request)), std::bad_alloc);
       request.allocator = nullptr;
-      EXPECT_EQ(runOf(resampler, request).levels[0].means, means) << "after too little memory";
+      EXPECT_EQ(runOf(resampler, request).voxels.means, means) << "after too little memory";
     }
   }
 }
@@ -427,8 +426,8 @@ TEST(VoxelAttributes, LeaveTheSumsOfAnOverfullCellAsTheyAre)
   const auto resultsOf = [&](const VoxelResampler& from)
   {
     std::vector<double> results(9 * voxels);
-    from.copyMeans(0, results.data());
-    from.copyCovariances(0, reinterpret_cast<SymMat3*>(results.data() + 3 * voxels));
+    from.copyMeans(results.data());
+    from.copyCovariances(reinterpret_cast<SymMat3*>(results.data() + 3 * voxels));
     return results;
   };
   EXPECT_EQ(resultsOf(resampler), resultsOf(plain));
@@ -439,40 +438,7 @@ TEST(VoxelAttributes, LeaveTheSumsOfAnOverfullCellAsTheyAre)
     ++indexed[std::size_t(voxel)];
   }
   EXPECT_TRUE(std::equal(indexed.begin(), indexed.end(), plain.counts()));
-  EXPECT_EQ(attributesOf(resampler, request, 0), expectedOf(request));
-}
-
-TEST(VoxelAttributes, OfLevelsAreThoseOfTheResamplingAtTheirSpacing)
-{
-  constexpr std::size_t kPoints = 5000;
-  const Arrays arrays(kPoints, 7);
-  const std::vector<Vec3> points = randomBox(kPoints, 8, { 0, 0, 0 }, { 32, 32, 32 });
-  VoxelRequest request;
-  request.points = { points.data(), std::int64_t(kPoints) };
-  request.attributes = arrays.sums();
-  request.attributes.push_back(arrays.label(AttributeStatistic::Mode));
-  request.attributes.push_back(arrays.label(AttributeStatistic::Median));
-  request.levels = 4;
-  // In partitions, and sorted.
-  for (const Lattice& lattice : { latticeOf(32, 32, 32), latticeOf(2, 2, 2) })
-  {
-    request.lattice = lattice;
-    // One chunk, as many as are kept, more.
-    for (const std::int64_t chunkPoints : { 0, 1700, 170 })
-    {
-      request.chunkPoints = chunkPoints;
-      VoxelResampler resampler;
-      ASSERT_EQ(resampler.run(request, ThreadedExecutor(2)), Status::Ok);
-      for (int level = 0; level < 4; ++level)
-      {
-        VoxelRequest direct = request;
-        direct.levels = 1;
-        direct.lattice = resampler.lattice(level);
-        EXPECT_EQ(attributesOf(resampler, request, level), expectedOf(direct))
-          << nameOf(direct.lattice) << ", chunks of " << chunkPoints;
-      }
-    }
-  }
+  EXPECT_EQ(attributesOf(resampler, request), expectedOf(request));
 }
 
 TEST(VoxelAttributes, OfFewerTuplesThanPointsAreRefused)

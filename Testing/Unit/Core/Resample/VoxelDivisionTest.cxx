@@ -181,8 +181,8 @@ TEST(VoxelDivision, BySpacingsIsCorrectlyRoundedNextToMidpoints)
     {
       request.instructions = set;
       const RunResult result = runOf(request);
-      ASSERT_EQ(result.levels[0].means.size(), 3u);
-      EXPECT_EQ(result.levels[0].means[0], expected)
+      ASSERT_EQ(result.voxels.means.size(), 3u);
+      EXPECT_EQ(result.voxels.means[0], expected)
         << hard.place << " / " << hard.spacing << ", set " << int(set);
     }
   }

@@ -38,7 +38,7 @@ std::vector<Vec3> sphereAndDust(std::size_t n, std::uint64_t seed)
   return points;
 }
 
-void expectNearReference(const VoxelRequest& request, const LevelResult& level)
+void expectNearReference(const VoxelRequest& request, const VoxelResult& level)
 {
   const reference::VoxelMap expected =
     reference::voxelMeans(request.points, request.transform, request.lattice);
@@ -59,23 +59,19 @@ void expectNearReference(const VoxelRequest& request, const LevelResult& level)
 
 }
 
-TEST(VoxelPaths, ManyChunksInFewVoxelsAreWhatAFinerLatticeSumsUp)
+TEST(VoxelPaths, ManyChunksInFewVoxelsAreWhatOneChunkGives)
 {
-  // 8^3 takes them in four chunks, 16^3 in one.
   const std::vector<Vec3> points = sphereAndDust(13000, 1);
   for (const bool covariances : { false, true })
   {
-    VoxelRequest request = requestFor(points, unitCube(16), covariances);
-    request.levels = 2;
-    const LevelResult expected = runOf(request, ThreadedExecutor(2)).levels[1];
-    request.lattice = unitCube(8);
-    request.levels = 1;
+    VoxelRequest request = requestFor(points, unitCube(8), covariances);
+    const VoxelResult expected = runOf(request, ThreadedExecutor(2)).voxels;
     request.chunkPoints = 4000;
     request.voxelIndex = true;
     VoxelResampler resampler;
     const RunResult result = runOf(resampler, request, ThreadedExecutor(2));
-    expectSameVoxels(result.levels[0], expected, covariances ? "with covariances" : "without");
-    std::vector<std::int64_t> counts(result.levels[0].counts.size());
+    expectSameVoxels(result.voxels, expected, covariances ? "with covariances" : "without");
+    std::vector<std::int64_t> counts(result.voxels.counts.size());
     for (const std::int64_t voxel : resampler.voxelIndex())
     {
       if (voxel >= 0)
@@ -83,23 +79,7 @@ TEST(VoxelPaths, ManyChunksInFewVoxelsAreWhatAFinerLatticeSumsUp)
         ++counts[std::size_t(voxel)];
       }
     }
-    EXPECT_EQ(counts, result.levels[0].counts);
-  }
-}
-
-TEST(VoxelPaths, CoarserLevelsOfFewVoxelsAreDirectOnesForManyPoints)
-{
-  // More in one voxel than the 2^21 whose coordinates a sum of 64 bits holds.
-  const std::vector<Vec3> points = sphereAndDust(2200000, 2);
-  VoxelRequest request = requestFor(points, unitCube(4));
-  request.levels = 3;
-  const RunResult all = runOf(request, ThreadedExecutor(2));
-  for (const int level : { 1, 2 })
-  {
-    request.lattice = unitCube(4 >> level);
-    request.levels = 1;
-    expectSameVoxels(
-      runOf(request, ThreadedExecutor(2)).levels[0], all.levels[std::size_t(level)], std::to_string(level));
+    EXPECT_EQ(counts, result.voxels.counts);
   }
 }
 
@@ -115,15 +95,11 @@ TEST(VoxelPaths, VoxelsOfNoOrdinarySizeGiveTheSameBits)
   for (const std::int64_t n : { 2, 30, 300 })
   {
     VoxelRequest request = requestFor(points, unitCube(n), false);
-    request.levels = 2;
     request.chunkPoints = 6000;
     RunResult expected = runOf(request);
-    for (LevelResult& level : expected.levels)
+    for (double& mean : expected.voxels.means)
     {
-      for (double& mean : level.means)
-      {
-        mean *= tiny;
-      }
+      mean *= tiny;
     }
     VoxelRequest scaled = request;
     scaled.points = view(small);
@@ -139,7 +115,7 @@ TEST(VoxelPaths, FineLatticesMeetTheOracle)
   {
     VoxelRequest request = requestFor(points, unitCube(n));
     request.lattice.end.y = 0.7 * double(n);
-    expectNearReference(request, runOf(request, ThreadedExecutor(3)).levels[0]);
+    expectNearReference(request, runOf(request, ThreadedExecutor(3)).voxels);
   }
 }
 
@@ -154,7 +130,7 @@ TEST(VoxelPaths, FineLatticesGiveTheSameBitsForEveryOrderOfManyChunks)
     request.chunkPoints = 2600;
     const RunResult expected = runOf(request);
     std::int64_t sum = 0;
-    for (const std::int64_t count : expected.levels[0].counts)
+    for (const std::int64_t count : expected.voxels.counts)
     {
       sum += count;
     }
@@ -176,7 +152,7 @@ TEST(VoxelPaths, AnIndexChangesNoBitOfFineLattices)
     AffineTransform::rotation(40, { 1, 0, 2 }) * AffineTransform::scaling({ 1, 1, -1.2 }) *
     AffineTransform::translation({ -0.5, -0.5, -0.5 });
   const RunResult expected = runOf(request);
-  ASSERT_GT(expected.levels[0].counts.size(), 1000u);
+  ASSERT_GT(expected.voxels.counts.size(), 1000u);
   ASSERT_GT(expected.clipped, 1000);
   request.index = &index;
   expectSame(runOf(request, ThreadedExecutor(2)), expected, "with an index");

@@ -79,7 +79,7 @@ Chosen chosenBy(const VoxelRequest& request, const Executor& executor = {})
 {
   VoxelResampler resampler;
   const RunResult result = runOf(resampler, request, executor);
-  const LevelResult& level = result.levels[0];
+  const VoxelResult& level = result.voxels;
   std::vector<double> places = level.means;
   places.insert(places.end(), level.floats.begin(), level.floats.end());
   return { places, resampler.chosenPoints(), resampler.voxelIndex(), level.counts };
@@ -328,7 +328,7 @@ TEST(VoxelRepresentative, OfFloatsIsAPointBitForBit)
     for (std::size_t v = 0; v < resampler.chosenPoints().size(); ++v)
     {
       const float* point = floats.data() + 3 * resampler.chosenPoints()[v];
-      ASSERT_EQ(std::memcmp(result.levels[0].floats.data() + 3 * v, point, 3 * sizeof(float)), 0);
+      ASSERT_EQ(std::memcmp(result.voxels.floats.data() + 3 * v, point, 3 * sizeof(float)), 0);
     }
   }
 }
@@ -347,22 +347,19 @@ TEST(VoxelRepresentative, ChangesNeitherCountsNorCovariances)
     {
       request.representative = representative;
       RunResult result = runOf(request);
-      result.levels[0].means = means.levels[0].means;
+      result.voxels.means = means.voxels.means;
       expectSame(result, means, nameOf(lattice));
     }
   }
 }
 
-TEST(VoxelRepresentative, RefusesLevelsAndTheIndexesOwnPoints)
+TEST(VoxelRepresentative, RefusesTheIndexesOwnPoints)
 {
   const Cloud cloud(latticeOf(9, 9, 9));
   VoxelRequest request = cloud.request(latticeOf(9, 9, 9), Representative::NearestToMean);
-  request.levels = 2;
   VoxelResampler resampler;
-  EXPECT_EQ(resampler.run(request), Status::InvalidParameter);
   PointIndex index;
   ASSERT_EQ(index.build(request.points), Status::Ok);
-  request.levels = 1;
   request.index = &index;
   request.points = index.points();
   EXPECT_EQ(resampler.run(request), Status::InvalidParameter);

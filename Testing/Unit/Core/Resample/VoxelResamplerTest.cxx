@@ -53,7 +53,7 @@ TEST(VoxelResampler, SumsMillionsOfPointsInOneVoxelExactlyWithTheirProductsOrWit
   const RunResult with = runOf(requestFor(points, lattice, true));
   expectExact(points, lattice, with);
   RunResult without = runOf(requestFor(points, lattice, false));
-  without.levels[0].covariances = with.levels[0].covariances;
+  without.voxels.covariances = with.voxels.covariances;
   expectSame(without, with, "without covariances");
 }
 
@@ -146,9 +146,9 @@ TEST(VoxelResampler, TheLowestCornerIsInsideWhateverTheSignOfItsZeros)
       {
         request.instructions = set;
         const RunResult result = runOf(request);
-        ASSERT_EQ(result.levels[0].counts.size(), 1u) << corner << ", " << i << " cm, set " << int(set);
-        EXPECT_EQ(result.levels[0].counts[0], 37);
-        EXPECT_EQ(result.levels[0].keys[0], 0u);
+        ASSERT_EQ(result.voxels.counts.size(), 1u) << corner << ", " << i << " cm, set " << int(set);
+        EXPECT_EQ(result.voxels.counts[0], 37);
+        EXPECT_EQ(result.voxels.keys[0], 0u);
       }
     }
   }
@@ -173,7 +173,7 @@ TEST(VoxelResampler, GivesTheSameBitsUnderAGeneralTransformInBothPrecisions)
         request.transform = generalTransform(double(lattice.dimensions[0])) * shear;
         request.singlePrecision = single;
         const RunResult expected = runOf(request);
-        ASSERT_GT(expected.levels[0].counts.size(), 1000u);
+        ASSERT_GT(expected.voxels.counts.size(), 1000u);
         for (const InstructionSet set : heldInstructionSets())
         {
           request.instructions = set;
@@ -205,7 +205,6 @@ TEST(VoxelResampler, GivesTheSameBitsForChunksOfAnySize)
     const std::vector<Vec3> points = quantisedPoints(10000, 47, lattice);
     VoxelRequest request = requestFor(points, lattice);
     request.covariances = true;
-    request.levels = 3;
     const RunResult expected = runOf(request);
     for (const std::int64_t size : { 97, 1000, 4096, 4099, 9999, 10000 })
     {
@@ -233,9 +232,9 @@ TEST(VoxelResampler, FloatMeansLieInTheirVoxelsAndRoundTheDoubleOnes)
     points.push_back(p);
   }
   VoxelRequest request = requestFor(points, lattice);
-  const LevelResult doubles = runOf(request).levels[0];
+  const VoxelResult doubles = runOf(request).voxels;
   request.singlePrecision = true;
-  const LevelResult floats = runOf(request).levels[0];
+  const VoxelResult floats = runOf(request).voxels;
   ASSERT_EQ(floats.keys, doubles.keys);
   for (std::size_t v = 0; v < floats.keys.size(); ++v)
   {
@@ -260,11 +259,10 @@ TEST(VoxelResampler, OneObjectDoesWhatAFreshOneDoesWhateverItDidBefore)
   {
     for (const Lattice& lattice : latticesOfAllPaths())
     {
-      for (const int options : { 0, 3, 5, 6 })
+      for (const int options : { 0, 1, 2, 3 })
       {
         VoxelRequest request = requestFor(points, lattice, (options & 1) != 0);
         request.singlePrecision = (options & 2) != 0;
-        request.levels = (options & 4) != 0 ? 4 : 1;
         request.points = { points.data(), 20000 - 37 * step };
         const ThreadedExecutor threads(1 + step % 3);
         expectSame(runOf(reused, request, threads), runOf(request), nameOf(lattice));
@@ -304,40 +302,12 @@ TEST(VoxelResampler, AnAbortLeavesNoVoxelsAndAUsableObject)
   }
 }
 
-TEST(VoxelResampler, AnAbortWithinALevelIsObeyed)
-{
-  // More voxels than may pass between two reports, in partitions that are sorted, and that are not.
-  for (const Lattice& lattice : { latticeOf(1000, 1000, 1000), latticeOf(300, 300, 300) })
-  {
-    SCOPED_TRACE(nameOf(lattice));
-    const auto edge = double(lattice.dimensions[0]);
-    const std::vector<Vec3> points = randomBox(2500000, 21, { 0, 0, 0 }, { edge, edge, edge });
-    VoxelRequest request = requestFor(points, lattice, false);
-    request.levels = 2;
-    VoxelResampler resampler;
-    CountingObserver all;
-    ASSERT_EQ(resampler.run(request, ThreadedExecutor(2), &all), Status::Ok);
-    expectAscendToOne(all.fractions, 5);
-    const auto inLevel = std::find_if(
-      all.fractions.begin(), all.fractions.end(), [](double done) { return done > 0.5 && done < 1.0; });
-    ASSERT_NE(inLevel, all.fractions.end());
-    const auto last = std::size_t(inLevel - all.fractions.begin()) + 1;
-    CountingObserver ends(last);
-    EXPECT_EQ(resampler.run(request, ThreadedExecutor(2), &ends), Status::Aborted);
-    EXPECT_EQ(ends.fractions.size(), last);
-    EXPECT_GT(ends.fractions.back(), 0.5);
-    EXPECT_LT(ends.fractions.back(), 1.0);
-    EXPECT_EQ(resampler.size(), 0);
-  }
-}
-
 TEST(VoxelResampler, FractionsAscendToOne)
 {
   for (const Lattice& lattice : { latticeOf(60, 60, 60), latticeOf(5000, 3, 2) })
   {
     const std::vector<Vec3> points = quantisedPoints(12001, 12, lattice);
     VoxelRequest request = requestFor(points, lattice, false);
-    request.levels = 3;
     request.chunkPoints = 5000;
     VoxelResampler resampler;
     CountingObserver observer;
@@ -349,24 +319,19 @@ TEST(VoxelResampler, FractionsAscendToOne)
 TEST(VoxelResampler, ScratchDoesNotGrowWhileASheetMovesThroughTheLattice)
 {
   // Layers of the lattice are partitions: each has most voxels at some time.
-  for (const int levels : { 1, 2 })
+  VoxelResampler resampler;
+  std::size_t least = ~std::size_t(0);
+  std::size_t most = 0;
+  for (double z = 0.5; z < 20.0; z += 1.0)
   {
-    VoxelResampler resampler;
-    std::size_t least = ~std::size_t(0);
-    std::size_t most = 0;
-    for (double z = 0.5; z < 20.0; z += 1.0)
-    {
-      const std::size_t chunks = levels == 1 ? 2 : 1; // with levels sums are kept of one chunk too
-      const std::vector<Vec3> points = randomBox(chunks * 21000, 31, { 0, 0, z }, { 200, 200, z + 0.25 });
-      VoxelRequest request = requestFor(points, latticeOf(200, 200, 20), false);
-      request.levels = levels;
-      request.chunkPoints = 21000;
-      ASSERT_EQ(resampler.run(request), Status::Ok);
-      least = std::min(least, resampler.scratchBytes());
-      most = std::max(most, resampler.scratchBytes());
-    }
-    EXPECT_LT(most, least + least / 8) << levels << " levels";
+    const std::vector<Vec3> points = randomBox(42000, 31, { 0, 0, z }, { 200, 200, z + 0.25 });
+    VoxelRequest request = requestFor(points, latticeOf(200, 200, 20), false);
+    request.chunkPoints = 21000;
+    ASSERT_EQ(resampler.run(request), Status::Ok);
+    least = std::min(least, resampler.scratchBytes());
+    most = std::max(most, resampler.scratchBytes());
   }
+  EXPECT_LT(most, least + least / 8);
 }
 
 TEST(VoxelResampler, HoldsFourChunksHoweverManyThereAre)
@@ -412,11 +377,6 @@ TEST(VoxelResampler, RefusesWhatItCannotDoAndHasNoVoxelsThen)
     EXPECT_EQ(resampler.size(), 0);
   };
   VoxelRequest bad = good;
-  bad.levels = 0;
-  expectRefused(bad, Status::InvalidParameter);
-  bad.levels = 23;
-  expectRefused(bad, Status::InvalidParameter);
-  bad = good;
   bad.transform = AffineTransform::scaling({ 1, 0, 1 });
   expectRefused(bad, Status::SingularTransform);
   bad.transform = AffineTransform::translation({ NAN, 0, 0 });
@@ -444,20 +404,17 @@ TEST(VoxelResampler, CloudsWithoutAPointInsideAreNoError)
     for (const auto* points : { &outside, &invalid })
     {
       VoxelRequest request = requestFor(*points, lattice);
-      request.levels = 3;
       VoxelResampler resampler;
       const RunResult result = runOf(resampler, request);
       EXPECT_EQ(result.clipped, points == &outside ? 5 : 0);
       EXPECT_EQ(result.invalid, points == &outside ? 0 : 4);
-      EXPECT_EQ(resampler.size(0) + resampler.size(1) + resampler.size(2), 0);
+      EXPECT_EQ(resampler.size(), 0);
     }
     VoxelRequest none = requestFor({}, lattice);
-    none.levels = 2;
     CountingObserver observer;
     VoxelResampler resampler;
     EXPECT_EQ(resampler.run(none, {}, &observer), Status::Ok);
-    EXPECT_EQ(resampler.size(0) + resampler.size(1), 0);
-    none.levels = 1;
+    EXPECT_EQ(resampler.size(), 0);
     none.voxelIndex = true;
     EXPECT_EQ(resampler.run(none), Status::Ok);
     EXPECT_TRUE(resampler.voxelIndex().empty());
@@ -475,13 +432,13 @@ TEST(VoxelResampler, OfAPartItsVoxelsAreTheSameBitForBit)
   request.transform = AffineTransform::scaling({ 0.01, 0.01, 0.01 }) * request.transform;
   request.index = &index;
   VoxelResampler resampler;
-  const LevelResult whole = runOf(resampler, request).levels[0];
+  const VoxelResult whole = runOf(resampler, request).voxels;
   request.part = lattice;
   request.part->origin =
     lattice.origin + Vec3{ 40 * lattice.spacing.x, 30 * lattice.spacing.y, 50 * lattice.spacing.z };
   request.part->dimensions = { 20, 35, 10 };
   const RunResult run = runOf(resampler, request);
-  const LevelResult& part = run.levels[0];
+  const VoxelResult& part = run.voxels;
   EXPECT_LT(part.keys.size(), whole.keys.size() / 10);
   EXPECT_GT(run.clipped, 200000);
   int inside = 0;

@@ -65,11 +65,11 @@ std::vector<float> randomValues(std::size_t points)
   return values;
 }
 
-/// Of the array of the last run.
+/// Means of the last run's array.
 std::vector<float> meansOf(const VoxelResampler& resampler)
 {
   std::vector<float> means(3 * std::size_t(resampler.size()));
-  resampler.copyAttribute(0, 0, means.data());
+  resampler.copyAttribute(0, means.data());
   return means;
 }
 

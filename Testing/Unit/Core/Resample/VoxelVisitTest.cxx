@@ -1,4 +1,4 @@
-// VoxelResampler beside means: coarser levels, and the voxel of each point.
+// VoxelResampler beside means: the voxel of each point, and indexed clouds.
 #include "Core/Neighbors/PointIndex.h"
 #include "Core/Resample/VoxelResampler.h"
 
@@ -15,23 +15,6 @@ using namespace pointhaptics::trial;
 namespace
 {
 
-/// Every level is what the resampling of the points at its lattice gives.
-void expectLevelsAreDirect(const VoxelRequest& request, const Executor& executor = {})
-{
-  VoxelResampler resampler;
-  const RunResult all = runOf(resampler, request, executor);
-  for (int l = 1; l < request.levels; ++l)
-  {
-    const Lattice& coarse = resampler.lattice(l);
-    VoxelRequest direct = request;
-    direct.lattice = coarse;
-    direct.levels = 1;
-    direct.chunkPoints = 0;
-    const std::string what = nameOf(request.lattice) + " at " + nameOf(coarse);
-    expectSameVoxels(all.levels[std::size_t(l)], runOf(direct).levels[0], what);
-  }
-}
-
 /// Each point inside knows its voxel, and no other.
 void expectIndexed(VoxelRequest request, const Executor& executor)
 {
@@ -39,7 +22,7 @@ void expectIndexed(VoxelRequest request, const Executor& executor)
   const std::string what = nameOf(request.lattice) + (request.index ? " with an index" : "");
   VoxelResampler resampler;
   const RunResult result = runOf(resampler, request, executor);
-  const LevelResult& level = result.levels[0];
+  const VoxelResult& level = result.voxels;
   const std::vector<std::int64_t> voxels = resampler.voxelIndex();
   ASSERT_EQ(voxels.size(), std::size_t(request.points.size()));
   std::vector<std::int64_t> counts(level.counts.size(), 0);
@@ -62,118 +45,6 @@ void expectIndexed(VoxelRequest request, const Executor& executor)
 }
 
 } // namespace
-
-TEST(VoxelLevels, AreWhatDirectResamplingGivesBitForBit)
-{
-  const std::vector<Vec3> points = randomBox(6000, 1, { -0.01, 0, 0 }, { 1, 1, 1.01 });
-  for (Lattice lattice : { latticeOf(300, 300, 300), latticeOf(7, 1, 33), latticeOf(1024, 1023, 1024),
-         latticeOf(4096, 4095, 300), latticeOf(3, 3, 3), latticeOf(1, 1, 1) })
-  {
-    lattice.origin = { 0.003, -0.001, 0.002 };
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      lattice.spacing[axis] = 0.99 / double(lattice.dimensions[std::size_t(axis)]);
-    }
-    VoxelRequest request = requestFor(points, lattice);
-    request.levels = 14;
-    request.transform = AffineTransform::rotation(3, { 1, 1, 0 });
-    expectLevelsAreDirect(request, ThreadedExecutor(2));
-    request.singlePrecision = true;
-    request.levels = 4;
-    expectLevelsAreDirect(request);
-  }
-}
-
-TEST(VoxelLevels, AreWhatDirectResamplingGivesOnTheFinestLattices)
-{
-  const Lattice lattice = latticeOf(kMaximumLatticeDimension, 5, 3);
-  const std::vector<Vec3> points =
-    randomBox(3000, 2, { 0, 0, 0 }, { double(kMaximumLatticeDimension), 5, 3 });
-  VoxelRequest request = requestFor(points, lattice);
-  request.levels = 9; // 8192 voxels: positions have as many bits on all of these.
-  expectLevelsAreDirect(request);
-}
-
-TEST(VoxelLevels, LoseNothingWherePointsFitTheQuantaOnBothSidesOfTheBorder)
-{
-  for (const Lattice& lattice : { latticeOf(5000, 3, 2), latticeOf(kMaximumLatticeDimension, 5, 3) })
-  {
-    const std::vector<Vec3> points = quantisedPoints(3000, 3, lattice, 0x1p-22);
-    VoxelRequest request = requestFor(points, lattice);
-    request.covariances = false; // Those are rounded from other quanta.
-    request.levels = 22;
-    expectLevelsAreDirect(request);
-  }
-}
-
-TEST(VoxelLevels, AreWhatDirectResamplingGivesForMoreThanAChunk)
-{
-  for (const Lattice& lattice : { latticeOf(20, 30, 40), latticeOf(1024, 1024, 1024) })
-  {
-    const std::vector<Vec3> points = quantisedPoints(12600, 3, lattice);
-    VoxelRequest request = requestFor(points, lattice);
-    request.levels = 2;
-    request.chunkPoints = 5000;
-    expectLevelsAreDirect(request);
-  }
-}
-
-TEST(VoxelLevels, AreWhatDirectResamplingGivesOnLatticesOfAllShapes)
-{
-  trial::Random random(6);
-  for (int i = 0; i < 60; ++i)
-  {
-    const auto largest = [&] { return std::int64_t(std::pow(300.5, random.uniform())); };
-    const Lattice lattice = latticeOf(largest(), largest(), largest());
-    const auto& d = lattice.dimensions;
-    std::vector<Vec3> points =
-      randomBox(1 + random.below(4000), 7 + i, { 0, 0, 0 }, Vec3(double(d[0]), double(d[1]), double(d[2])));
-    VoxelRequest request = requestFor(points, lattice);
-    request.levels = 4;
-    if (i % 2 == 1)
-    {
-      AffineTransform shear;
-      shear.m[0][1] = std::pow(10.0, random.uniform(-1, 5));
-      request.transform = AffineTransform::rotation(random.uniform(0, 360), random.direction()) * shear;
-      for (Vec3& p : points)
-      {
-        p = request.transform.inverse().apply(p);
-      }
-    }
-    expectLevelsAreDirect(request, ThreadedExecutor(3));
-  }
-}
-
-TEST(VoxelLevels, AreWhatDirectResamplingGivesBesideAnOverfullCell)
-{
-  const Lattice lattice = latticeOf(100, 101, 99);
-  // 19 of 20 points: more than the 2^21 whose coordinates a sum of 64 bits holds.
-  std::vector<Vec3> points = quantisedPoints(2600000, 8, lattice);
-  for (std::size_t i = 0; i < points.size(); ++i)
-  {
-    if (i % 20 != 0)
-    {
-      points[i] = { 7.0 + points[i].x / 128, 100.0 + points[i].y / 128, 98.0 + points[i].z / 128 };
-    }
-  }
-  VoxelRequest request = requestFor(points, lattice);
-  request.levels = 3;
-  expectLevelsAreDirect(request, ThreadedExecutor(2));
-}
-
-TEST(VoxelLevels, StopAtOneVoxelAndRepeatIt)
-{
-  const std::vector<Vec3> points = randomBox(100, 4, { 0, 0, 0 }, { 5, 5, 5 });
-  VoxelRequest request = requestFor(points, latticeOf(5, 5, 5));
-  request.levels = 22;
-  VoxelResampler resampler;
-  const RunResult result = runOf(resampler, request);
-  for (int l = 4; l < 22; ++l)
-  {
-    EXPECT_EQ(nameOf(resampler.lattice(l)), "1x1x1");
-    expectSameVoxels(result.levels[std::size_t(l)], result.levels[3], "level " + std::to_string(l));
-  }
-}
 
 TEST(VoxelVisit, ReachesEveryPointInsideOnceOnEveryPath)
 {

@@ -71,7 +71,7 @@ inline Real leastDistance(const HapticScene& scene, const LongVec& p)
   return std::sqrt(least2);
 }
 
-/// The same where it is below @p radius, else @p radius: looks at the points near by alone.
+/// The least distance where it is below @p radius, else @p radius: looks at the points near by alone.
 inline Real leastDistanceWithin(const HapticScene& scene, const Vec3& p, double radius)
 {
   Real least = radius;
@@ -157,9 +157,9 @@ public:
   ProxyBall& ball() { return ball_; }
   const ProxyBall& ball() const { return ball_; }
   const BallCells& cells() const { return *cells_; }
-  /// Of the last step.
+  /// True if the ball glided in the last step.
   bool hasGlided() const { return (tickStatus_ & kProxyGliding) != 0u; }
-  /// Bits since the last call.
+  /// Status bits since the last call.
   std::uint32_t takeStatus()
   {
     const std::uint32_t bits = status_;

@@ -13,7 +13,8 @@ namespace
 
 using Way = FootSearch::Way;
 
-/// What is left at a place: so much of the way to the end as a fit on a bent surface tells, turned a little.
+/// Remaining way at a place: the part of the way to the end that a fit on a bent surface sees, turned a
+/// little.
 Way left(const Way& place, const Way& end)
 {
   const double a = end.a - place.a;

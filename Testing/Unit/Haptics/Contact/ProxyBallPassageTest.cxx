@@ -369,7 +369,8 @@ TEST(ProxyBallPassage, FeelsStraysAboveASheetNearThemAloneAndIsLetOut)
     held += norm(states.back().force) > 0.05;
   }
   EXPECT_GT(trial::recorded("feltTicks", felt), 0);
-  // Of 72,180 ticks; without regard to the sheet 17,800. Strays may lie in a plane by chance.
+  // There are 72,180 felt ticks; without regard to the sheet 17,800 were far. Strays may lie in a plane by
+  // chance.
   EXPECT_LE(trial::recorded("feltFarFromPoints", far), 15);
   EXPECT_EQ(trial::recorded("heldOf60", held), 0);
 }
@@ -456,7 +457,7 @@ TEST(ProxyBallPassage, LetsGoAtTheEdgesOfABox)
     late += touched > 5e-4;
     latest = std::max(latest, touched);
   }
-  // Of 1,800 strokes 12 are late, by up to 0.97 mm; the points are 0.3 mm apart.
+  // With 1,800 strokes 12 are late, by up to 0.97 mm; the points are 0.3 mm apart.
   EXPECT_LE(trial::recorded("lateOf180", late), 4);
   EXPECT_LE(trial::recorded("latestRelease", latest), 1.2e-3);
 }

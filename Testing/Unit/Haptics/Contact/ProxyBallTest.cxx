@@ -89,8 +89,8 @@ double mostAway(
   return most;
 }
 
-/// What holds in every tick, also among more points than the ball can know. @param again the same under the
-/// same hand, in memory of its own.
+/// Checks that hold in every tick, also among more points than the ball can know. @param again another ball
+/// under the same hand, in memory of its own.
 void expectOrderly(
   const BallInScene& hand, const BallInScene& again, const ProxyBall& before, const Vec3& asked)
 {
@@ -111,7 +111,7 @@ double coveredBy(const BallInScene& hand)
   return double(deepestOnWay(hand.scene(), hand.ball().center(), hand.ball().center(), hand.ball().scale()));
 }
 
-/// Whether the ball followed in one stride, and neither glided nor grew: it only slid, which brings it no
+/// True if the ball followed in one stride, and neither glided nor grew: it only slid, which brings it no
 /// further from the HIP.
 bool hasOnlySlid(const ProxyBall& before, const BallInScene& hand, double moved)
 {
@@ -158,7 +158,7 @@ TEST_P(ProxyBallPromises, AreKeptOnRandomCloudsUnderRandomHands)
       const double most = mostAway(before, ball, norm(asked - last), asked, bound);
       expectOrderly(hand, again, before, asked);
       ASSERT_FALSE(::testing::Test::HasFatalFailure());
-      // What it did not know of it may cover until it comes off.
+      // Points that the ball did not know may stay covered until it comes off.
       isCrowded = (hand.takeStatus() & kProxyCellLimit) != 0u || (isCrowded && !ball.isFree());
       if (isCrowded)
       {

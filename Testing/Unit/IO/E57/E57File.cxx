@@ -84,7 +84,7 @@ void appendPackets(std::string& logical, const E57TestScan& scan)
       content += part;
     }
     appendPadded(logical, packet + content);
-    // What readers pass over: an empty packet, and an index that leads nowhere.
+    // Readers pass over an empty packet, and over an index that leads nowhere.
     appendPadded(logical, at % 2 ? std::string("\2\0\0\0", 4) : std::string(16, '\0'));
   }
 }

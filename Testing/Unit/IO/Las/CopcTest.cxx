@@ -105,7 +105,7 @@ TEST_F(Copc, HasMorePointsTheFinerTheResolution)
 TEST_F(Copc, LeavesOutFineLevelsWhereTheirPointsAreTooMany)
 {
   const std::string file = write("a.copc.laz", makeCopc().bytes);
-  // Of levels 0 to 3: 200, 400, 200 and 200 points.
+  // Levels 0 to 3 have 200, 400, 200 and 200 points.
   const auto expectPoints = [&](vtkIdType most, vtkIdType points)
   {
     SCOPED_TRACE(most);

@@ -103,7 +103,7 @@ TEST_F(LasWriting, WholeNumbersOfOtherTypesBecomeTheFieldsOfTheirNames)
   EXPECT_EQ(las.value("Intensity", 0), 65535);
   EXPECT_EQ(las.value("Classification", 1), 9);
   EXPECT_EQ(las.array("IntensityExtra"), nullptr);
-  // What does not fit stays an array of its own.
+  // Values that do not fit stay in an array of their own.
   text = readCloud(write("b.csv", "x,y,z,Intensity\n1,2,3,65536\n4,5,6,7\n"));
   ASSERT_EQ(writeCloud(text.cloud, path("b.las")), "");
   las = readCloud(path("b.las"));

@@ -1,7 +1,7 @@
 // One VTP file that ranks write in parts is, byte for byte, the one that vtkPointCloudWriter writes of all
 // points.
-#include "Unit/Core/ThreadRanks.h"
 #include "CloudFiles.h"
+#include "Unit/Core/ThreadRanks.h"
 
 #include "IO/Vtk/SharedVtp.h"
 

@@ -1,7 +1,7 @@
 // A list of VTP files (PVTP) is one cloud: for a reader alone, and for ranks that read it together. Lists
 // that are damaged or hostile are refused, with the piece.
-#include "Unit/Core/ThreadRanks.h"
 #include "CloudFiles.h"
+#include "Unit/Core/ThreadRanks.h"
 
 #include "vtkIntArray.h"
 #include "vtkLongLongArray.h"

@@ -50,7 +50,7 @@ public:
       Item::store(value, at);
     }
   }
-  /// Of an encoder: whether any value differs from the one before. Layers without changes are left out.
+  /// For an encoder: true if any value differs from the one before. Layers without changes are left out.
   bool hasChanges() const { return hasChanges_; }
   std::size_t offset() const { return offset_; }
   static constexpr std::size_t kSize = Item::kSize;

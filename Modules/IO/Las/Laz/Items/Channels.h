@@ -11,7 +11,7 @@
 namespace pointhaptics::io
 {
 
-/// What the layer of x and y says of a point to the layers behind it.
+/// Properties of a point that the layer of x and y passes to the layers behind it.
 struct PointLabel
 {
   std::uint8_t channel = 0;          ///< scanner channel, 0..3

@@ -65,8 +65,8 @@ private:
     return static_cast<std::uint64_t>(static_cast<std::int64_t>(static_cast<std::int32_t>(difference))) ==
       difference;
   }
-  /// What an encoder does where the difference needs more than 32 bits: a change to another sequence, or 0:
-  /// the time is stored.
+  /// For an encoder, where the difference needs more than 32 bits: the sequence to change to, or 0: the time
+  /// is stored.
   int otherSequence(std::uint64_t time) const
   {
     for (int i = 1; i < 4; ++i)

@@ -233,7 +233,7 @@ public:
       Field::store(value, record);
     }
   }
-  /// Of an encoder: whether any value differs from the one before. Layers without changes are left out.
+  /// For an encoder: true if any value differs from the one before. Layers without changes are left out.
   bool hasChanges() const { return hasChanges_; }
 
 private:

@@ -1,0 +1,251 @@
+/// How far is the felt force from the exact one, with each method and instruction set, and what does an
+/// update take?
+#include "Benchmark/Harness/Instructions.h"
+#include "Benchmark/Harness/Statistics.h"
+#include "Benchmark/Proxy/Scenes.h"
+#include "Benchmark/Proxy/Trial.h"
+#include "Benchmark/Tasks.h"
+#include "Options/OptionParsing.h"
+
+#include "Core/Surface/SurfaceFit.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pointhaptics::bench::proxy
+{
+namespace
+{
+
+using namespace app;
+
+constexpr double kMostPoints = 1e8;
+/// Percent of error that no clean shape may have with the default method; ten times what is measured.
+constexpr double kSurelyWrong = 1.0;
+constexpr int kFits = 200;
+constexpr int kRoundsOfFits = 50;
+
+struct Options
+{
+  std::vector<double> points;
+  std::vector<std::string> shapes;
+};
+
+/// Shapes with a course: the idol has none.
+const std::vector<Shape> kShapes{ Shape::Plane, Shape::Sphere, Shape::Torus, Shape::Ellipsoid, Shape::Saddle,
+  Shape::Box, Shape::Sheet, Shape::Hole, Shape::DensityStep };
+
+std::vector<std::string> shapeWords()
+{
+  std::vector<std::string> words;
+  std::transform(kShapes.begin(), kShapes.end(), std::back_inserter(words), shapeName);
+  return words;
+}
+
+ExactAnswer answerOf(Shape shape)
+{
+  return [shape](const Vec3& hip) { return exactContact(shape, hip, ContactParameters().stiffness); };
+}
+
+struct Contestant
+{
+  std::string name;
+  HapticParameters parameters;
+  SceneSettings scene;
+};
+
+HapticParameters gradientSteps(const GradientStepsParameters& gains)
+{
+  HapticParameters parameters;
+  parameters.method = ProxyMethod::GradientSteps;
+  parameters.gradientSteps = gains;
+  return parameters;
+}
+
+/// The default first.
+std::vector<Contestant> contestants()
+{
+  GradientStepsParameters few = GradientStepsParameters::tuned();
+  few.maximumStepsPerTick = 4;
+  std::vector<Contestant> all{ { "surface-fit (default)", {}, {} }, { "surface-fit, plain means", {}, {} },
+    { "surface-fit, raw points", {}, {} }, { "surface-fit, 2/3 mm voxels", {}, {} },
+    { "gradient-steps, tuned", gradientSteps(GradientStepsParameters::tuned()), {} },
+    { "gradient-steps, tuned, 4 steps", gradientSteps(few), {} },
+    { "gradient-steps, paper", gradientSteps(GradientStepsParameters::paper()), {} } };
+  all[1].scene.covariances = false;
+  all[2].scene.raw = true;
+  all[3].scene.voxelSize = 2e-3 / 3.0;
+  return all;
+}
+
+Json toJson(const TrialFigures& f)
+{
+  return { { "rms_percent", f.rmsPercent }, { "max_percent", f.maximumPercent },
+    { "direction_rms_degrees", f.directionRmsDegrees },
+    { "direction_max_degrees", f.directionMaximumDegrees }, { "largest_step", f.largestStep },
+    { "energy_joule", f.energyJoule }, { "pop_throughs", f.popThroughs }, { "false_ticks", f.falseTicks },
+    { "contact_ticks", f.contactTicks }, { "p50_us", f.p50 }, { "p99_us", f.p99 }, { "p999_us", f.p999 },
+    { "max_us", f.maximum }, { "first_contact_us", f.firstContact } };
+}
+
+/// The default on every shape, and all methods on the torus or on the first shape that was asked for.
+void studyMethods(Run& run, const std::vector<Shape>& shapes, const std::vector<double>& sizes,
+  const std::vector<double>& noises)
+{
+  const bool hasTorus = std::find(shapes.begin(), shapes.end(), Shape::Torus) != shapes.end();
+  const Shape compared = hasTorus ? Shape::Torus : shapes.front();
+  for (const Shape shape : shapes)
+  {
+    for (const double size : sizes)
+    {
+      for (const double noise : noises)
+      {
+        const std::vector<Vec3> points = pointsOf(shape, std::int64_t(size), noise);
+        for (const Contestant& contestant : contestants())
+        {
+          run.say(
+            fmt::format("{}, {}, {} points, {}", contestant.name, shapeName(shape), size, noiseName(noise)));
+          const Scene scene = sceneOf(points, contestant.scene);
+          const TrialFigures f =
+            runTrial(*scene, contestant.parameters, slideCourse(shape), answerOf(shape), run.repetitions)
+              .figures;
+          Json row{ { "shape", shapeName(shape) }, { "points", points.size() }, { "noise_metres", noise },
+            { "method", contestant.name } };
+          row.update(toJson(f));
+          run.add("methods", std::move(row));
+          const bool isDefault = contestant.name == contestants().front().name;
+          if (isDefault && noise == 0.0 && (f.popThroughs > 0 || !(f.rmsPercent < kSurelyWrong)))
+          {
+            run.fault(fmt::format("surface-fit on the {}: {} pops, RMS error {:.3g} %", shapeName(shape),
+              f.popThroughs, f.rmsPercent));
+          }
+          if (shape != compared)
+          {
+            break;
+          }
+        }
+      }
+    }
+  }
+}
+
+/// Microseconds of a fit with all its terms at the cell in the middle of the scene's list, its cells gathered
+/// already; the fastest of many rounds.
+double timeOfFit(const HapticScene& scene, InstructionSet set)
+{
+  const auto memory = std::make_unique<FitCells>(set);
+  const std::vector<Cell>& cells = scene.pyramid().level(0).cells;
+  const LocalScale scale = scene.fitScale(cells[cells.size() / 2].mean);
+  SurfaceFrame frame;
+  frame.origin = cells[cells.size() / 2].mean;
+  Vec3 normal = frame.normal;
+  static_cast<void>(principalNormal(scene.pyramid(), frame.origin, scale.radius, *memory, normal));
+  frame.turnTo(normal);
+  FitSettings settings;
+  settings.radius = scale.radius;
+  settings.gate = scale.gate;
+  TracedSlopes slopes;
+  slopes.strength = 1.0;
+  double best = INFINITY;
+  for (int round = 0; round < kRoundsOfFits; ++round)
+  {
+    const double before = secondsNow();
+    for (int i = 0; i < kFits; ++i)
+    {
+      static_cast<void>(fitSurface(scene.pyramid(), frame, settings, *memory, &slopes));
+    }
+    best = std::min(best, 1e6 * (secondsNow() - before) / kFits);
+  }
+  return best;
+}
+
+bool areSame(const std::vector<ProxyState>& a, const std::vector<ProxyState>& b)
+{
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+    [](const ProxyState& x, const ProxyState& y)
+    { return x.force == y.force && x.proxy == y.proxy && x.normal == y.normal && x.status == y.status; });
+}
+
+/// The slide on the sphere with each set of this machine; the forces must be the same to the last bit.
+void studyInstructions(Run& run, double size, const std::vector<double>& noises)
+{
+  for (const double noise : { 0.0, noises.back() })
+  {
+    const std::vector<Vec3> points = pointsOf(Shape::Sphere, std::int64_t(size), noise);
+    std::vector<ProxyState> expected;
+    for (const NamedInstructionSet& one : kInstructionSets)
+    {
+      if (!hasInstructions(one.set))
+      {
+        continue;
+      }
+      const std::string cloud = "sphere, " + noiseName(noise);
+      run.say(fmt::format("{} with {}", cloud, one.name));
+      SceneSettings settings;
+      settings.instructions = one.set;
+      const double before = secondsNow();
+      const Scene scene = sceneOf(points, settings);
+      const double built = secondsNow() - before;
+      const Trial trial =
+        runTrial(*scene, {}, slideCourse(Shape::Sphere), answerOf(Shape::Sphere), run.repetitions, one.set);
+      expected = expected.empty() ? trial.states : expected;
+      if (!areSame(trial.states, expected))
+      {
+        run.fault(fmt::format("{}: other forces with {} than with the first set", cloud, one.name));
+      }
+      const TrialFigures& f = trial.figures;
+      run.add("instructions",
+        { { "cloud", cloud }, { "points", points.size() }, { "instructions", one.name },
+          { "fit_us", timeOfFit(*scene, one.set) }, { "p50_us", f.p50 }, { "p99_us", f.p99 },
+          { "p999_us", f.p999 }, { "first_contact_us", f.firstContact }, { "built_seconds", built } });
+    }
+  }
+}
+
+TaskRun addOptions(CLI::App& command)
+{
+  auto options = std::make_shared<Options>();
+  addWholeNumbers(
+    command, "--points", options->points, kMostPoints, "Numbers of points; default 47516,543652");
+  addWords(command, "--shapes", options->shapes, shapeWords(), false, "Shapes to feel; default all");
+  return [options](Run& run)
+  {
+    const std::vector<double> points = run.chosen(options->points, { 47516, 543652 }, { 20000 });
+    const std::vector<double> noises =
+      run.quick ? std::vector<double>{ 0.0, 20e-6 } : std::vector<double>{ 0.0, 20e-6, 100e-6 };
+    std::vector<Shape> shapes = run.quick ? std::vector<Shape>{ Shape::Sphere, Shape::Torus } : kShapes;
+    if (!options->shapes.empty())
+    {
+      shapes.resize(options->shapes.size());
+      for (std::size_t i = 0; i < shapes.size(); ++i)
+      {
+        static_cast<void>(shapeFromName(options->shapes[i], shapes[i]));
+      }
+    }
+    if (run.wants("methods"))
+    {
+      studyMethods(run, shapes, points, noises);
+    }
+    if (run.wants("instructions"))
+    {
+      studyInstructions(run, points.back(), noises);
+    }
+  };
+}
+
+} // namespace
+} // namespace pointhaptics::bench::proxy
+
+namespace pointhaptics::bench
+{
+
+Task proxyTask()
+{
+  return { "proxy", "Compare the felt force with the exact one, and time the updates", 5, 1, false,
+    { "methods", "instructions" }, {}, proxy::addOptions };
+}
+
+} // namespace pointhaptics::bench
