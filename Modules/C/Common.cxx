@@ -2,12 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <new>
+
+#include <pthread.h>
+
 namespace pointhaptics::c
 {
 namespace
 {
-
-thread_local std::string problem;
 
 static_assert(PH_EMPTY == int(Status::Empty) && PH_INVALID_PARAMETER == int(Status::InvalidParameter) &&
     PH_STOPPED == int(Status::Aborted) && PH_OUT_OF_MEMORY == int(Status::OutOfMemory),
@@ -32,15 +35,39 @@ GradientStepsParameters gainsOf(const ph_gains& gains)
 
 } // namespace
 
+std::string* textOfThread(ThreadText which) noexcept
+{
+  // Variables of a thread with a destructor end the process where there is no memory for them.
+  using Texts = std::array<std::string, 2>;
+  static pthread_key_t key;
+  static const bool hasKey =
+    pthread_key_create(&key, [](void* texts) { delete static_cast<Texts*>(texts); }) == 0;
+  auto* texts = hasKey ? static_cast<Texts*>(pthread_getspecific(key)) : nullptr;
+  if (hasKey && !texts)
+  {
+    texts = new (std::nothrow) Texts;
+    if (texts && pthread_setspecific(key, texts) != 0)
+    {
+      delete texts;
+      texts = nullptr;
+    }
+  }
+  return texts ? &(*texts)[std::size_t(which)] : nullptr;
+}
+
 int fail(int status, std::string_view text) noexcept
 {
+  std::string* problem = textOfThread(ThreadText::Problem);
   try
   {
-    problem = text;
+    if (problem)
+    {
+      *problem = text;
+    }
   }
   catch (const std::exception&)
   {
-    problem.clear(); // no memory for the sentence
+    problem->clear(); // no memory for the sentence
   }
   return status;
 }
@@ -103,7 +130,8 @@ const char* ph_message(int status)
 
 const char* ph_problem(void)
 {
-  return problem.c_str();
+  const std::string* problem = textOfThread(ThreadText::Problem);
+  return problem ? problem->c_str() : message(Status::OutOfMemory);
 }
 
 int ph_stop_create(ph_stop** out)

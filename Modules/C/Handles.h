@@ -30,6 +30,13 @@ struct ph_scene
 namespace pointhaptics::c
 {
 
+enum class ThreadText
+{
+  Problem,
+  Units
+};
+/// The text that the calling thread was given last; null where there is no memory for one.
+std::string* textOfThread(ThreadText which) noexcept;
 /// Keeps @p text for ph_problem().
 int fail(int status, std::string_view text) noexcept;
 inline int fail(Status status) noexcept

@@ -5,6 +5,7 @@
 #include "vtkVoxelMeanResampler.h"
 
 #include "Devices/HipPath.h"
+#include "Devices/PathUnits.h"
 
 #include <vtkCommand.h>
 #include <vtkDoubleArray.h>
@@ -175,6 +176,25 @@ int ph_feel_steps(const double* path, size_t count, double rate, size_t* steps)
       *steps = std::size_t(number);
       return int(PH_OK);
     });
+}
+
+const char* ph_unlikely_units(const ph_scene* scene, const double* path, size_t count, int touched)
+{
+  std::string* odd = textOfThread(ThreadText::Units);
+  if (!odd || hasNull({ scene, count > 0 ? path : &kNothing }))
+  {
+    return "";
+  }
+  const int status = guarded(
+    [&]
+    {
+      HipPath hand;
+      *odd = readPath(path, count, hand)
+        ? unlikelyUnits(hand, scene->scenes->whole()->bounds(), {}, touched != 0)
+        : std::string();
+      return int(PH_OK);
+    });
+  return status == PH_OK ? odd->c_str() : "";
 }
 
 int ph_feel(const ph_scene* scene, const double* path, size_t count, double rate,

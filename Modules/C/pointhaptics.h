@@ -154,6 +154,11 @@ extern "C"
   PH_API int ph_feel(const ph_scene* scene, const double* path, size_t count, double rate,
     const ph_proxy_options* options, const ph_stop* stop, double* rows);
 
+  /** One sentence, with the cure, where the sizes of @p scene and of a path make other units than metres and
+   * seconds likely; else empty. @p touched: 0 where the path has passed the scene. Valid until the next call
+   * in this thread. Never null. */
+  PH_API const char* ph_unlikely_units(const ph_scene* scene, const double* path, size_t count, int touched);
+
   /** A servo loop in real time, with a thread of its own, over a simulated hand. */
   typedef struct ph_servo ph_servo;
   /** Called by the servo thread in each tick: the hand is at @p hand at @p time, seconds since the start, and

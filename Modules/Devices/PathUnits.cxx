@@ -41,27 +41,56 @@ Bounds boxOf(const HipPath& path)
   return box;
 }
 
+struct Unit
+{
+  const char* name;
+  double factor; ///< To metres or seconds.
+};
+
 /// The unit in which a length, taken for metres, is the nearest to a usual one.
-const char* likelyUnit(double length, double usual)
+Unit likelyUnit(double length, double usual)
 {
   const double ratio = length / usual;
-  return ratio > 0.03e6 ? "um" : ratio > 300.0 ? "mm" : ratio > 50.0 ? "cm" : "mm";
+  return ratio > 0.03e6 ? Unit{ "um", 1e-6 }
+    : ratio > 300.0     ? Unit{ "mm", 1e-3 }
+    : ratio > 50.0      ? Unit{ "cm", 1e-2 }
+                        : Unit{ "mm", 1e-3 };
+}
+
+/// @p option, or where there is none what @p numbers are to be multiplied by.
+std::string cure(const std::string& option, const char* numbers, const Unit& unit)
+{
+  return option.empty() ? "multiply " + std::string(numbers) + " by " + ratioText(unit.factor)
+                        : "give " + option + " " + unit.name;
 }
 
 std::string unlikelyLengths(double path, double cloud, const UnitNames& names)
 {
-  const bool isLarge = cloud > kReach;
-  if (path > kReach)
+  if (path <= kReach)
   {
-    const std::string unit = likelyUnit(path, isLarge || cloud == 0.0 ? kUsualReach : cloud);
-    const std::string cure = names.path + " " + unit;
-    return isLarge && areNear(path, cloud) ? "the path spans " + lengthText(path, 2) + " and the cloud " +
-        lengthText(cloud, 2) + ", more than a hand reaches; give " + names.cloud + " " + unit + " " + cure +
-        " if both are in " + unit
-                                           : "the path spans " + lengthText(path, 2) +
-        ", more than a hand reaches; give " + cure + " if it is in " + unit;
+    return {};
   }
-  return {};
+  const bool isLarge = cloud > kReach;
+  const Unit unit = likelyUnit(path, isLarge || cloud == 0.0 ? kUsualReach : cloud);
+  const std::string spans = "the path spans " + lengthText(path, 2);
+  if (isLarge && areNear(path, cloud))
+  {
+    const std::string both = names.path.empty() ? "" : names.cloud + " " + unit.name + " " + names.path;
+    return spans + " and the cloud " + lengthText(cloud, 2) + ", more than a hand reaches; " +
+      cure(both, "the points and the places of the path", unit) + " if both are in " + unit.name;
+  }
+  return spans + ", more than a hand reaches; " + cure(names.path, "the places of the path", unit) +
+    " if it is in " + unit.name;
+}
+
+/// A cloud that would be as large as a path which passed it.
+std::string unlikelyCloud(double path, double cloud, const UnitNames& names)
+{
+  const Unit unit = likelyUnit(cloud, std::max(path, kLeastTravel));
+  return cloud > kReach && path > kLeastTravel && areNear(unit.factor * cloud, path)
+    ? "the cloud spans " + lengthText(cloud, 2) + " and the path " + lengthText(path, 2) + "; " +
+      cure(names.cloud, "the points", unit) + " if the cloud is in " + unit.name
+    : std::string();
 }
 
 std::string unlikelyTimes(const HipPath& path, const UnitNames& names)
@@ -82,9 +111,9 @@ std::string unlikelyTimes(const HipPath& path, const UnitNames& names)
   {
     return {};
   }
-  const char* unit = speed * 1e3 < kSlow ? "us" : "ms";
+  const Unit unit = speed * 1e3 < kSlow ? Unit{ "us", 1e-6 } : Unit{ "ms", 1e-3 };
   return "the path takes " + ratioText(duration) + " s, at " + lengthText(speed, 2) +
-    " a second on average; give " + names.time + " " + unit + " if its times are in " + unit;
+    " a second on average; " + cure(names.time, "its times", unit) + " if they are in " + unit.name;
 }
 
 } // namespace
@@ -98,23 +127,13 @@ void applyUnits(const PathUnits& units, HipPath& path)
   }
 }
 
-std::string unlikelyCloudUnit(const HipPath& path, const Bounds& cloud, const UnitNames& names)
+std::string unlikelyUnits(const HipPath& path, const Bounds& cloud, const UnitNames& names, bool isTouched)
 {
   const double size = sizeOf(boxOf(path));
-  const double whole = sizeOf(cloud);
-  const std::string unit = likelyUnit(whole, std::max(size, kLeastTravel));
-  const double metres = unit == "um" ? 1e-6 : unit == "cm" ? 1e-2 : 1e-3;
-  return whole > kReach && size > kLeastTravel && areNear(metres * whole, size)
-    ? "the cloud spans " + lengthText(whole, 2) + " and the path " + lengthText(size, 2) + "; give " +
-      names.cloud + " " + unit + " if the cloud is in " + unit
-    : std::string();
-}
-
-std::string unlikelyUnits(const HipPath& path, const Bounds& cloud, const UnitNames& names)
-{
-  const std::string lengths = unlikelyLengths(sizeOf(boxOf(path)), sizeOf(cloud), names);
+  std::string odd = unlikelyLengths(size, sizeOf(cloud), names);
   // Speeds are wrong where lengths are.
-  return lengths.empty() ? unlikelyTimes(path, names) : lengths;
+  odd = odd.empty() ? unlikelyTimes(path, names) : odd;
+  return odd.empty() && !isTouched ? unlikelyCloud(size, sizeOf(cloud), names) : odd;
 }
 
 } // namespace pointhaptics

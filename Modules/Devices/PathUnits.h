@@ -17,12 +17,12 @@ struct PathUnits
   double seconds = 1.0; ///< Above 0.
 };
 
-/// What those who choose units call them: options of a program, arguments of a function.
+/// Options that choose units. Empty: there are none, and the cure is to multiply the numbers.
 struct UnitNames
 {
-  std::string cloud = "--unit";
-  std::string path = "--path-unit";
-  std::string time = "--path-time-unit";
+  std::string cloud;
+  std::string path;
+  std::string time;
 };
 
 /// Converts the numbers of @p path to metres and seconds.
@@ -30,11 +30,9 @@ void applyUnits(const PathUnits& units, HipPath& path);
 
 /// A hand reaches 2 m, moves by millimetres a second at least, and is told more often than once in half a
 /// second. Where @p path, in metres and seconds, does not, and would in other units, says so in one sentence
-/// with the cure; else empty. @p cloud: box of what is felt, metres; may be empty. Costs a pass over the
-/// path.
-std::string unlikelyUnits(const HipPath& path, const Bounds& cloud, const UnitNames& names = {});
-/// For a @p path that passes @p cloud without a touch: says so where the cloud would be as large as the path
-/// in another unit.
-std::string unlikelyCloudUnit(const HipPath& path, const Bounds& cloud, const UnitNames& names = {});
+/// with the cure; else empty. @p cloud: box of what is felt, metres; may be empty. @p isTouched: false where
+/// the path has passed the cloud, which then may be in another unit. Costs a pass over the path.
+std::string unlikelyUnits(
+  const HipPath& path, const Bounds& cloud, const UnitNames& names = {}, bool isTouched = true);
 
 } // namespace pointhaptics

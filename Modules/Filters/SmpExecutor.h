@@ -3,6 +3,7 @@
 #pragma once
 
 #include "Core/Base/Executor.h"
+#include "Core/Base/Host/OutOfMemory.h"
 
 #include "vtkSMPTools.h"
 
@@ -35,7 +36,11 @@ public:
       return;
     }
     const std::int64_t piece = std::max(grain, count / 64);
-    const auto work = [&](vtkIdType begin, vtkIdType end) { body(context, begin, end); };
+    const auto work = [&](vtkIdType begin, vtkIdType end)
+    {
+      prepareForExceptions();
+      body(context, begin, end);
+    };
     if (most_ == 0)
     {
       vtkSMPTools::For(0, vtkIdType(count), vtkIdType(piece), work);

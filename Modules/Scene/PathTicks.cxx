@@ -38,7 +38,7 @@ std::string pathProblem(const HipPath& path)
 }
 
 bool countTicks(const HipPath& path, const std::string& fileName, double rateHz, double most,
-  std::int64_t& ticks, std::string& message)
+  std::int64_t& ticks, std::string& message, const UnitNames& units)
 {
   // The last point counts even if rounding puts it just before its tick.
   const double count = std::floor(path.duration() * rateHz + 1e-6) + 1.0;
@@ -47,6 +47,8 @@ bool countTicks(const HipPath& path, const std::string& fileName, double rateHz,
     message =
       fmt::format("{}: {} s at {} Hz are more than {} ticks; check that t is in seconds, or cut the path",
         fileName, path.duration(), rateHz, most);
+    const std::string odd = unlikelyUnits(path, Bounds(), units);
+    message += odd.empty() ? "" : "; " + odd;
     return false;
   }
   ticks = static_cast<std::int64_t>(count);

@@ -6,6 +6,7 @@
 #include "vtkVoxelMeanResampler.h"
 
 #include "Core/Base/Host/GuardedWork.h"
+#include "Devices/PathUnits.h"
 
 #include "vtkCommand.h"
 #include "vtkDataArray.h"
@@ -116,7 +117,9 @@ public:
   bool MakeScenes(vtkHapticFeel* filter, vtkPointSet* cloud, std::string& message);
   bool Check(const vtkHapticFeel* filter, std::string& message) const;
   HapticParameters ParametersOf(const vtkHapticFeel* filter) const;
-  bool Feel(vtkHapticFeel* filter, const HipPath& path, std::int64_t ticks, vtkTable* output);
+  /// @p odd: see unlikelyUnits().
+  bool Feel(
+    vtkHapticFeel* filter, const HipPath& path, std::int64_t ticks, vtkTable* output, std::string& odd);
 
   vtkNew<vtkVoxelMeanResampler> Resampler;
   vtkNew<vtkKernelBandwidthFilter> Bandwidth;
@@ -193,7 +196,7 @@ bool vtkHapticFeel::Internals::Check(const vtkHapticFeel* filter, std::string& m
 }
 
 bool vtkHapticFeel::Internals::Feel(
-  vtkHapticFeel* filter, const HipPath& path, std::int64_t ticks, vtkTable* output)
+  vtkHapticFeel* filter, const HipPath& path, std::int64_t ticks, vtkTable* output, std::string& odd)
 {
   const auto columns = addColumns(output);
   for (const auto& column : columns)
@@ -201,9 +204,11 @@ bool vtkHapticFeel::Internals::Feel(
     column->Allocate(ticks);
   }
   std::int64_t tick = 0;
+  bool isTouched = false;
   feelPath(this->ParametersOf(filter), this->Scenes, path, filter->Rate, ticks,
     [&](double time, const ProxyState& state, double microseconds)
     {
+      isTouched = isTouched || state.contact;
       const auto row = feltRow(time, state, microseconds);
       for (std::size_t i = 0; i < row.size(); ++i)
       {
@@ -215,6 +220,7 @@ bool vtkHapticFeel::Internals::Feel(
       }
       return !filter->AbortExecute;
     });
+  odd = unlikelyUnits(path, this->Scenes.whole()->bounds(), {}, isTouched);
   return !filter->AbortExecute;
 }
 
@@ -267,13 +273,14 @@ int vtkHapticFeel::RequestData(
   HipPath path;
   std::int64_t ticks = 0;
   std::string message;
+  std::string odd;
   bool isFelt = false;
   const Status status = guardedWork(
     [&]
     {
       isFelt = pathOf(vtkTable::GetData(inputVector[1]), path, message) && this->Impl->Check(this, message) &&
         countTicks(path, "path", this->Rate, kMostTicks, ticks, message) &&
-        this->Impl->MakeScenes(this, cloud, message) && this->Impl->Feel(this, path, ticks, output);
+        this->Impl->MakeScenes(this, cloud, message) && this->Impl->Feel(this, path, ticks, output, odd);
     });
   message = status == Status::Ok ? message : pointhaptics::message(status);
   this->Impl->RunsAgain = !isFelt;
@@ -287,6 +294,10 @@ int vtkHapticFeel::RequestData(
     {
       vtkErrorMacro(<< message);
     }
+  }
+  else if (!odd.empty())
+  {
+    vtkWarningMacro(<< odd);
   }
   return 1;
 }

@@ -110,7 +110,7 @@ bool HapticViewer::Implementation::hasCloud()
 
 bool HapticViewer::Implementation::isDrawable()
 {
-  return this->hasCloud() && displayIsAvailable(this->message);
+  return this->hasCloud() && displayIsAvailable(this->message, this->scene.numberOfPoints());
 }
 
 bool HapticViewer::Implementation::awaitWithoutWindow(const CloudLoader& loader)

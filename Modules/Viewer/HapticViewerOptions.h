@@ -36,6 +36,7 @@ struct HapticViewerNames
   std::string felt = "felt";
   std::string firmware = "falcon.firmwareFile";
   std::string placement = "workspace and transform"; ///< Whatever may leave the cloud out of the workspace.
+  UnitNames units;
 };
 
 /// Lengths are metres of the workspace unless said otherwise.

@@ -235,23 +235,25 @@ bool feelPathOf(ViewScene& scene, const HapticViewerOptions& options, const Hapt
     return false;
   }
   applyUnits(options.pathUnits, path);
-  const std::string odd = unlikelyUnits(path, Bounds());
-  if (!odd.empty() && observer.message)
-  {
-    observer.message(HapticViewerObserver::Kind::Warning, options.path + ": " + odd);
-  }
-  if (!countTicks(path, options.path, kRateHz, kMostTicks, ticks, message) ||
+  if (!countTicks(path, options.path, kRateHz, kMostTicks, ticks, message, options.names.units) ||
     !makeFeelScenes(scene, options, scenes, message))
   {
     return false;
   }
   samples = samplesAlong(path, ticks, scenes, options.haptics, kRateHz);
+  const bool isTouched = std::any_of(
+    samples.begin(), samples.end(), [](const ServoSample& sample) { return sample.state.contact; });
+  const std::string odd = unlikelyUnitsIn(scene, options, path, isTouched);
+  if (!odd.empty() && observer.message)
+  {
+    observer.message(HapticViewerObserver::Kind::Warning, options.path + ": " + odd);
+  }
   return true;
 }
 
 /// Feels the recording in HapticViewerOptions::replay again.
 bool feelReplay(ViewScene& scene, const HapticViewerOptions& options, const HapticViewerObserver& observer,
-  std::vector<ServoSample>& samples, std::string& message)
+  IdealForce* ideal, std::vector<ServoSample>& samples, std::vector<double>& ideals, std::string& message)
 {
   Recording recording;
   auto* cloud = vtkPointSet::SafeDownCast(scene.resampler()->GetInputDataObject(0, 0));
@@ -259,31 +261,33 @@ bool feelReplay(ViewScene& scene, const HapticViewerOptions& options, const Hapt
   {
     return false;
   }
-  if (!RecordedScenes::isOf(recording, cloud, message))
+  if (!isOf(recording, cloud, message))
   {
     message.insert(0, scene.title() + ": ");
     return false;
   }
-  RecordedScenes scenes(recording, cloud);
-  Replay replay(recording, scenes);
-  ReplayDifference difference;
+  Replay replay(recording, cloud);
   while (!replay.isAtEnd())
   {
-    const RecordedTick& row = replay.row();
     samples.emplace_back();
     if (!replay.step(samples.back(), message))
     {
       message.insert(0, options.replay + ": ");
       return false;
     }
-    difference.add(row, samples.back());
+    if (ideal && replay.scene())
+    {
+      const AffineTransform& model = replay.scene()->modelToWorkspace();
+      ideals.push_back(idealForce(*ideal, model, samples.back().state.hip, replay.contact()));
+    }
+    ideals.resize(samples.size(), NAN);
     if (observer.shouldStop && observer.shouldStop())
     {
       message = options.replay + ": the replay was stopped on request";
       return false;
     }
   }
-  note(observer, "replay: " + difference.text());
+  note(observer, "replay: " + replay.difference().text());
   return true;
 }
 
@@ -293,8 +297,10 @@ bool feelAlongPath(ViewScene& scene, const HapticViewerOptions& options, const H
   ServoSample& shown, std::string& message)
 {
   std::vector<ServoSample> samples;
+  std::vector<double> ideals; // of a replay
+  const std::shared_ptr<IdealForce> ideal = options.forceChart.empty() ? nullptr : idealFor(scene, options);
   if (!(options.replay.empty() ? feelPathOf(scene, options, observer, samples, message)
-                               : feelReplay(scene, options, observer, samples, message)))
+                               : feelReplay(scene, options, observer, ideal.get(), samples, ideals, message)))
   {
     return false;
   }
@@ -316,11 +322,13 @@ bool feelAlongPath(ViewScene& scene, const HapticViewerOptions& options, const H
   if (!options.forceChart.empty())
   {
     vtkNew<vtkHapticChart> chart;
-    const std::shared_ptr<IdealForce> ideal = idealFor(scene, options);
-    for (const ServoSample& sample : samples)
+    for (std::size_t i = 0; i < samples.size(); ++i)
     {
-      chart->AddSample(sample.timeSeconds, norm(sample.state.force), sample.state.radius,
-        ideal ? idealForce(*ideal, scene, sample.state.hip, options.haptics.contact) : NAN);
+      const ProxyState& state = samples[i].state;
+      chart->AddSample(samples[i].timeSeconds, norm(state.force), state.radius,
+        !ideals.empty() ? ideals[i]
+          : ideal       ? idealForce(*ideal, scene, state.hip, options.haptics.contact)
+                        : NAN);
     }
     if (!chart->WriteImage(options.forceChart.c_str()))
     {

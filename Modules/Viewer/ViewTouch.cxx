@@ -7,6 +7,9 @@
 #include "PolyDataAccess.h"
 #include "vtkVoxelMeanResampler.h"
 
+#include "Core/Base/Boxes.h"
+#include "Devices/PathUnits.h"
+
 #include <vtkPointSet.h>
 
 #include <algorithm>
@@ -68,6 +71,17 @@ const ServoSample& mostTelling(const std::vector<ServoSample>& samples)
   return *best;
 }
 
+std::string unlikelyUnitsIn(
+  ViewScene& scene, const HapticViewerOptions& options, const HipPath& path, bool isTouched)
+{
+  AffineTransform model;
+  const Bounds& box = scene.cloudBounds();
+  const bool isPlaced = !box.empty() && affineFromTransform(scene.resampler()->GetTransform(), model);
+  return unlikelyUnits(path,
+    isPlaced ? boxOfCorners(box, [&model](const Vec3& p) { return model.apply(p); }) : Bounds(),
+    options.names.units, isTouched);
+}
+
 std::shared_ptr<IdealForce> idealFor(ViewScene& scene, const HapticViewerOptions& options)
 {
   Shape shape = Shape::Plane;
@@ -81,11 +95,17 @@ std::shared_ptr<IdealForce> idealFor(ViewScene& scene, const HapticViewerOptions
   return known ? std::make_shared<IdealForce>(shape) : nullptr;
 }
 
+double idealForce(
+  IdealForce& ideal, const AffineTransform& model, const Vec3& hip, const ContactParameters& contact)
+{
+  return std::min(ideal.at(hip, model, contact.stiffness), contact.forceLimit);
+}
+
 double idealForce(IdealForce& ideal, ViewScene& scene, const Vec3& hip, const ContactParameters& contact)
 {
   AffineTransform model;
   const bool isAffine = affineFromTransform(scene.resampler()->GetTransform(), model);
-  return isAffine ? std::min(ideal.at(hip, model, contact.stiffness), contact.forceLimit) : NAN;
+  return isAffine ? idealForce(ideal, model, hip, contact) : NAN;
 }
 
 std::string traceColumns()

@@ -29,13 +29,20 @@ std::vector<ServoSample> samplesAlong(const HipPath& path, std::int64_t ticks, F
 bool makeFeelScenes(
   ViewScene& scene, const HapticViewerOptions& options, FeelScenes& scenes, std::string& message);
 
+/// Judges the units of @p path and of the cloud, as it stands in @p scene, by unlikelyUnits().
+std::string unlikelyUnitsIn(
+  ViewScene& scene, const HapticViewerOptions& options, const HipPath& path, bool isTouched);
+
 /// The tick to show: that of the largest force, or the last one where nothing was touched. @pre not empty.
 const ServoSample& mostTelling(const std::vector<ServoSample>& samples);
 
 /// Finds the exact surface that --ideal names, or of which the cloud of @p scene is a sample. Null: none.
 std::shared_ptr<IdealForce> idealFor(ViewScene& scene, const HapticViewerOptions& options);
 
-/// Newtons where the model stands in @p scene at this moment, with the limit of @p contact; NaN: not known.
+/// Newtons where the model stands, with stiffness and limit of @p contact; NaN: not known.
+double idealForce(
+  IdealForce& ideal, const AffineTransform& model, const Vec3& hip, const ContactParameters& contact);
+/// As above, with the model where it stands in @p scene at this moment.
 double idealForce(IdealForce& ideal, ViewScene& scene, const Vec3& hip, const ContactParameters& contact);
 
 /// Columns of a trace: those of `feel`, and the status of the tick.

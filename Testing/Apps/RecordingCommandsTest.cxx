@@ -3,7 +3,15 @@
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <vtkDataArray.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPNGReader.h>
+#include <vtkPointData.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdlib>
 #include <sstream>
 #include <string>
@@ -282,6 +290,114 @@ TEST_F(RecordingCommands, WhatCannotBeReplayedIsRefused)
   this->refuse(2, { "feel", "-o", "x.csv" }, { "FILE" });
   this->refuse(2, { "view" }, { "FILE" });
   EXPECT_FALSE(this->exists("again.csv"));
+}
+
+TEST_F(RecordingCommands, UnlikelyUnitsAreSaidByFeelAndView)
+{
+  this->succeed({ "generate", "sphere", "-n", "20000", "-o", "sphere.ply" });
+  std::string cloud = "x,y,z\n";
+  constexpr int kCount = 5000;
+  for (int i = 0; i < kCount; ++i)
+  {
+    const double z = 1.0 - (2.0 * i + 1.0) / kCount;
+    const double ring = 25.0 * std::sqrt(1.0 - z * z);
+    cloud += std::to_string(ring * std::cos(2.4 * i)) + "," + std::to_string(ring * std::sin(2.4 * i)) + "," +
+      std::to_string(25.0 * z) + "\n";
+  }
+  this->write("mm.csv", cloud);
+  this->write("path-mm.csv", "t,x,y,z\n0,-40,0,30\n1,0,0,23\n2,40,0,30\n");
+  this->write("path.csv", "t,x,y,z\n0,-0.04,0,0.03\n1,0,0,0.023\n2,0.04,0,0.03\n");
+  struct Case
+  {
+    std::string cloud, path, cure;
+  };
+  for (const Case& each : { Case{ "mm.csv", "path-mm.csv", "give --unit mm --path-unit mm" },
+         Case{ "sphere.ply", "path-mm.csv", "give --path-unit mm" },
+         Case{ "mm.csv", "path.csv", "give --unit mm" } })
+  {
+    const std::vector<std::string> touch = { each.cloud, "--path", each.path, "--dims", "50" };
+    std::vector<std::string> feel = { "feel", "-o", "out.csv" };
+    std::vector<std::string> view = { "view", "--trace", "trace.csv", "--unit", "m", "--workspace",
+      "-50,50,-50,50,-50,50" };
+    for (std::vector<std::string>* words : { &feel, &view })
+    {
+      words->insert(words->end(), touch.begin(), touch.end());
+      const std::string said = this->run(*words).errors;
+      EXPECT_NE(said.find(each.cure), std::string::npos)
+        << words->front() << ": " << each.cure << ": " << said;
+    }
+  }
+}
+
+using Places = std::vector<std::array<int, 2>>;
+
+/// Pixels of about this color between the axes of a chart.
+Places placesOf(const std::string& fileName, const std::array<int, 3>& color)
+{
+  constexpr double kNear = 40.0;
+  vtkNew<vtkPNGReader> reader;
+  reader->SetFileName(fileName.c_str());
+  reader->Update();
+  vtkImageData* picture = reader->GetOutput();
+  const int width = picture->GetDimensions()[0];
+  Places places;
+  for (int i = 0; i < int(picture->GetNumberOfPoints()); ++i)
+  {
+    double distance = 0.0;
+    for (int c = 0; c < 3; ++c)
+    {
+      const double value = picture->GetPointData()->GetScalars()->GetComponent(i, c);
+      distance = std::max(distance, std::abs(value - color[std::size_t(c)]));
+    }
+    const double across = double(i % width) / width;
+    if (distance < kNear && across > 0.06 && across < 0.79)
+    {
+      places.push_back({ i % width, i / width });
+    }
+  }
+  return places;
+}
+
+/// Charts of a path, and of its recording, which was felt with other parameters than the viewer has.
+TEST_F(RecordingCommands, TheIdealForceOfAChartObeysTheLimitThatHeld)
+{
+  constexpr std::array<int, 3> kForce = { 205, 85, 0 };
+  constexpr std::array<int, 3> kIdeal = { 20, 90, 200 };
+  this->succeed({ "generate", "sphere", "-n", "100000", "-o", "sphere.ply" });
+  this->write("in.csv", "t,x,y,z\n0,0,0,0.03\n1,0,0,0.023\n");
+  for (const std::string limit : { "3", "inf" })
+  {
+    const std::vector<std::string> touch = { "--unit", "m", "--path", "in.csv", "--stiffness", "5000",
+      "--force-limit", limit };
+    std::vector<std::string> view = { "view", "sphere.ply", "--force-chart", "path.png" };
+    std::vector<std::string> feel = { "feel", "sphere.ply", "-o", "out.csv", "--record", "rec.csv",
+      "--force" };
+    view.insert(view.end(), touch.begin(), touch.end());
+    feel.insert(feel.end(), touch.begin(), touch.end());
+    const apptest::Outcome outcome = this->run(view);
+    if (outcome.errors.find("DISPLAY") != std::string::npos)
+    {
+      GTEST_SKIP() << "no display";
+    }
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.errors;
+    this->succeed(feel);
+    this->succeed({ "view", "--replay", "rec.csv", "--force-chart", "replay.png" });
+    for (const std::string chart : { "path.png", "replay.png" })
+    {
+      const Places force = placesOf(this->path(chart), kForce);
+      const Places ideal = placesOf(this->path(chart), kIdeal);
+      EXPECT_GT(ideal.size(), 50u) << chart;
+      // Dashes of the one curve lie between those of the other.
+      const auto isBesideForce = [&force](const std::array<int, 2>& place)
+      {
+        return std::any_of(force.begin(), force.end(),
+          [&place](const std::array<int, 2>& other)
+          { return std::abs(other[0] - place[0]) < 20 && std::abs(other[1] - place[1]) < 4; });
+      };
+      EXPECT_EQ(std::count_if(ideal.begin(), ideal.end(), isBesideForce), std::ptrdiff_t(ideal.size()))
+        << chart << ", limit " << limit;
+    }
+  }
 }
 
 } // namespace

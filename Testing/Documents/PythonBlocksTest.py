@@ -110,6 +110,13 @@ class Blocks(unittest.TestCase):
         for name in ("vtkVoxelMeanResampler", "vtkHapticFeel", "vtkInteractorStyleHaptic"):
             self.assertRegex(getattr(ph, name).__doc__, rf"\nvtkNew< {name} > \w+;", name)
 
+    def test_study(self) -> None:
+        """Run by View.AStudyIsRunAndAnalysed, in windows."""
+        for name, lines in (("Study.py", 25), ("Study.2.py", 40)):
+            text = (BLOCKS / name).read_text()
+            compile(text, name, "exec")
+            self.assertLessEqual(len(text.splitlines()), lines)
+
     def test_paraview(self) -> None:
         """Run by ParaView.Plugin, where there is a ParaView."""
         text = (BLOCKS / "ParaView.py").read_text()

@@ -64,6 +64,33 @@ class ProgramMemory(TestCase):
             file.write("t,x,y,z\n0,0,0,0.06\n0.3,0,0,0.04\n")
         self.check(["feel", "c.vtp", "--path", "h.csv", "-o", "out.csv"], 300 << 20, "out.csv")
 
+    def test_view(self):
+        if not os.environ.get("DISPLAY"):
+            self.skipTest("no display")
+        self.check(["view", "c.vtp", "--screenshot", "out.png"], 1300 << 20, "out.png")
+
+    def test_window(self):
+        """Ended by SIGTERM where it is shown."""
+        if not os.environ.get("DISPLAY"):
+            self.skipTest("no display")
+        least = self.least()
+        for i in range(SIZES):
+            limit = least + (1300 << 20) * i**2 // (SIZES - 1) ** 2 if i < SIZES - 1 else ENOUGH
+            with self.subTest(limit=limit):
+                window = subprocess.Popen(
+                    ["prlimit", f"--as={limit}", "--core=0", PROGRAM, "view", "c.vtp"],
+                    stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, cwd=self.folder,
+                )  # fmt: skip
+                try:
+                    said = window.communicate(timeout=10)[1]
+                    self.assertEqual((window.returncode, len(said.splitlines())), (1, 1), said)
+                    self.assertRegex(said, "^pointhaptics view: .*(memory|threads)")
+                except subprocess.TimeoutExpired:
+                    window.terminate()
+                    window.communicate(timeout=60)
+                    self.assertIn(window.returncode, (1, 143))
+        self.assertEqual(window.returncode, 143)
+
     def test_read_and_write(self):
         run_program("convert", self.path("c.vtp"), self.path("c.csv"))
         self.check(["info", "c.csv"], 200 << 20)

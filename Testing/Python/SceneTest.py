@@ -3,6 +3,7 @@
 import _thread
 import threading
 import unittest
+import warnings
 
 from support import TestCase, run_program, sphere
 
@@ -109,6 +110,52 @@ class Feel(TestCase):
         self.assert_raises(ValueError, ["workspace", "NaN"], ph.Scene(np.full((4, 3), np.nan)).feel, self.hand)
         far = ph.Scene(self.points, workspace=(1, 2, 1, 2, 1, 2))
         self.assert_raises(ValueError, "workspace", far.feel, self.hand)
+
+    def test_units_that_sizes_make_unlikely_are_a_warning(self):
+        scene = ph.Scene(self.points)
+        large = ph.Scene(1000 * self.points)
+        millimetres = self.hand * (1, 1000, 1000, 1000)
+        for words, call in (
+            ("multiply the places of the path by 0.001", lambda: scene.feel(millimetres)),
+            ("multiply the points and the places of the path by 0.001", lambda: large.feel(millimetres)),
+            ("multiply the points by 0.001", lambda: large.feel(self.hand)),
+            ("multiply its times by 0.001", lambda: scene.feel(self.hand * (1000, 1, 1, 1), rate=10)),
+            ("multiply the places of the path by 0.001", lambda: ph.ServoLoop(scene, path=millimetres).stop()),
+        ):
+            with self.subTest(words), self.assertWarnsRegex(UserWarning, words):
+                call()
+        proxy = ph.Proxy(scene)
+        with self.assertWarnsRegex(UserWarning, "multiply the places of the path"):
+            for place in np.linspace(millimetres[0, 1:], millimetres[-1, 1:], 300) * 2:
+                proxy.step(place)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            scene.feel(self.hand)
+
+    def test_the_filter_warns_of_units_too(self):
+        from vtkmodules.util.numpy_support import numpy_to_vtk
+        from vtkmodules.vtkCommonCore import vtkPoints
+        from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkTable
+
+        points, cloud, path = vtkPoints(), vtkPolyData(), vtkTable()
+        points.SetData(numpy_to_vtk(self.points, deep=True))
+        cloud.SetPoints(points)
+        for name, column in zip("txyz", (self.hand * (1, 1000, 1000, 1000)).T):
+            array = numpy_to_vtk(column.copy(), deep=True)
+            array.SetName(name)
+            path.AddColumn(array)
+        feel, said = ph.vtkHapticFeel(), []
+
+        def keep(caller, event, text):
+            said.append(text)
+
+        keep.CallDataType = "string0"
+        feel.AddObserver("WarningEvent", keep)
+        feel.SetInputDataObject(0, cloud)
+        feel.SetInputDataObject(1, path)
+        feel.Update()
+        self.assertEqual(len(said), 1)
+        self.assertIn("multiply the places of the path by 0.001", said[0])
 
     def test_ctrl_c_ends_a_long_path(self):
         scene = ph.Scene(self.points)

@@ -319,16 +319,14 @@ int runReplay(const FeelOptions& options, Files& files)
   CsvWriter table;
   FeltSound sound;
   openOutputs(options, files, table, sound);
-  RecordedScenes scenes(recording, cloud);
   std::optional<ProxyMethod> method;
   if (options.methodIsGiven)
   {
     method = options.touch.parameters.method;
   }
-  Replay replay(recording, scenes, method);
+  Replay replay(recording, cloud, method);
   RecordingWriter none;
   Rows rows(table, none, sound);
-  ReplayDifference difference;
   ProgressBar bar("feeling");
   while (!replay.isAtEnd() && !stopIsRequested())
   {
@@ -338,13 +336,12 @@ int runReplay(const FeelOptions& options, Files& files)
     {
       throw Failure(options.replay + ": " + message);
     }
-    difference.add(row, sample);
     rows.add(row.felt[0], sample.state, 1e6 * sample.updateSeconds);
-    bar.show(double(difference.ticks) / double(recording.ticks.size()));
+    bar.show(double(replay.difference().ticks) / double(recording.ticks.size()));
   }
   requireNoStop(options);
   require(table.commit(message) && sound.close(message) && files.commit(message), message);
-  printReplay(options, difference, rows.summary());
+  printReplay(options, replay.difference(), rows.summary());
   return kSuccess;
 }
 
@@ -359,7 +356,8 @@ void openRecordingOutput(
   const bool isCopied = files.isStream(options.file);
   const std::string felt = isCopied ? keptCloudName(options.record) : options.file;
   require(!isCopied || keepCloud(files.input(options.file), files.output(felt), message), message);
-  RecordingHeader header = headerOf(felt, 0.0, cloud);
+  RecordingHeader header = headerOf({ felt }, 0.0, cloud);
+  header.program = "pointhaptics " POINTHAPTICS_VERSION;
   header.settings = options.settings;
   header.limit = limitOf(options);
   header.origin = std::chrono::nanoseconds(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -384,11 +382,7 @@ void readPath(const FeelOptions& options, Files& files, HipPath& path, std::int6
   std::string message;
   require(readHipPath(files.input(options.path), path, message) == Status::Ok, message);
   applyUnits(options.pathUnits, path);
-  if (!countTicks(path, options.path, options.rateHz, kMostTicks, ticks, message))
-  {
-    const std::string odd = unlikelyUnits(path, Bounds());
-    throw Failure(message + (odd.empty() ? "" : "; " + odd));
-  }
+  require(countTicks(path, options.path, options.rateHz, kMostTicks, ticks, message, unitOptions()), message);
 }
 
 int runFeel(const FeelOptions& options, Files& files)
@@ -404,10 +398,6 @@ int runFeel(const FeelOptions& options, Files& files)
   const std::string input = options.record.empty() ? options.file : files.input(options.file);
   require(readCloud(input, cloud, message, options.reading), message);
   const Bounds box = feltBox(options, cloud.points);
-  if (const std::string odd = unlikelyUnits(path, box); !odd.empty())
-  {
-    warn(kFeelCommand, odd);
-  }
   FeelScenes scenes;
   require(makeFeelScenes(options, cloud.points, scenes, message), message);
   showWarnings(kFeelCommand);
@@ -428,7 +418,7 @@ int runFeel(const FeelOptions& options, Files& files)
     warn(kFeelCommand, fmt::format("{}: it ends early: {}", options.record, recording.problem()));
   }
   const Summary summary = rows.summary();
-  const std::string odd = summary.contactTicks == 0 ? unlikelyCloudUnit(path, box) : std::string();
+  const std::string odd = unlikelyUnits(path, box, unitOptions(), summary.contactTicks > 0);
   if (!odd.empty())
   {
     warn(kFeelCommand, odd);

@@ -8,7 +8,6 @@
 #include "Terminal/StopSignals.h"
 
 #include "CsvWriter.h"
-#include "RecordedScenes.h"
 #include "Replay.h"
 #include "ViewDisplay.h"
 #include "vtkHapticChart.h"
@@ -120,8 +119,7 @@ Comparison compared(const Recording& recording, const std::array<std::vector<Fel
 bool replayBy(const std::string& method, const Recording& recording, vtkPolyData* cloud,
   std::vector<Felt>& felt, std::string& message)
 {
-  RecordedScenes scenes(recording, cloud);
-  Replay replay(recording, scenes, methodOf(method));
+  Replay replay(recording, cloud, methodOf(method));
   ProgressBar bar("feeling by " + method);
   felt.reserve(recording.ticks.size());
   while (!replay.isAtEnd())

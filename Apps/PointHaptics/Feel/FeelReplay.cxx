@@ -6,11 +6,10 @@
 
 #include "ClippedCloud.h"
 #include "LoadedCloud.h"
-#include "RecordedScenes.h"
+#include "Recording.h"
 
 #include <vtkPolyData.h>
 
-#include <filesystem>
 #include <vector>
 
 namespace pointhaptics
@@ -20,13 +19,13 @@ namespace app
 
 void declareRecordedClouds(const std::string& fileName, const std::string& cloudFile, Files& files)
 {
-  RecordingHeader header;
+  Recording recording;
   std::string ignored;
-  if (!cloudFile.empty() || !readRecordingHeader(files.input(fileName), header, ignored))
+  if (!cloudFile.empty() || !readRecording(files.input(fileName), recording, ignored, true))
   {
     return;
   }
-  for (const std::string& file : header.cloud.files)
+  for (const std::string& file : recording.header.cloud.files)
   {
     files.addInput(file);
   }
@@ -63,25 +62,12 @@ bool openRecording(const std::string& fileName, const std::string& cloudFile, Fi
     return false;
   }
   cloud = clippedCloud(loaded.cloud, clipBox(numbersOf(recording.header.settings, "clip")));
-  if (!RecordedScenes::isOf(recording, cloud, message))
+  if (!isOf(recording, cloud, message))
   {
     message.insert(0, request.files.front() + ": ");
     return false;
   }
   return true;
-}
-
-RecordingHeader headerOf(const std::string& fileName, double resolution, vtkPolyData* cloud)
-{
-  RecordingHeader header;
-  std::error_code error;
-  const std::filesystem::path path = std::filesystem::absolute(fileName, error);
-  header.program = "pointhaptics " POINTHAPTICS_VERSION;
-  header.cloud.files = { error ? fileName : path.string() };
-  header.cloud.resolution = resolution;
-  header.cloud.points = cloud->GetNumberOfPoints();
-  header.cloud.checksum = checksumOf(cloud);
-  return header;
 }
 
 } // namespace app

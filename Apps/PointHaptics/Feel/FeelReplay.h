@@ -25,8 +25,5 @@ void declareRecordedClouds(const std::string& fileName, const std::string& cloud
 bool openRecording(const std::string& fileName, const std::string& cloudFile, Files& files,
   Recording& recording, vtkSmartPointer<vtkPolyData>& cloud, std::string& message);
 
-/// The header of a recording of @p cloud, which was read from @p fileName: all but settings and servo.
-RecordingHeader headerOf(const std::string& fileName, double resolution, vtkPolyData* cloud);
-
 } // namespace app
 } // namespace pointhaptics

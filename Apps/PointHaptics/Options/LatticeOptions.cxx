@@ -1,7 +1,5 @@
 #include "Options/LatticeOptions.h"
 
-#include "Devices/PathUnits.h"
-
 #include "Options/SettingOptions.h"
 
 #include "Core/Base/Lattice.h"
@@ -176,6 +174,11 @@ void addPathUnits(CLI::App& command, PathUnits& pathUnits)
     { "us", 1e-6 } };
   add("--path-unit", units(), pathUnits.metres, "Unit of the places in --path; default m");
   add("--path-time-unit", times, pathUnits.seconds, "Unit of the times in --path; default s");
+}
+
+UnitNames unitOptions()
+{
+  return { "--unit", "--path-unit", "--path-time-unit" };
 }
 
 double LatticeOptions::metresPerUnit() const

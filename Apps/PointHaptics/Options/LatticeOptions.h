@@ -6,6 +6,7 @@
 #include "Core/Base/AffineTransform.h"
 #include "Core/Base/PointView.h"
 #include "Core/Resample/VoxelMeanSettings.h"
+#include "Devices/PathUnits.h"
 
 #include <string>
 #include <vector>
@@ -18,14 +19,13 @@ class vtkVoxelMeanResampler;
 
 namespace pointhaptics
 {
-
-struct PathUnits;
-
 namespace app
 {
 
 /// Adds --path-unit and --path-time-unit, of the numbers in the file of --path.
 void addPathUnits(CLI::App& command, PathUnits& units);
+/// These options, and --unit.
+UnitNames unitOptions();
 
 /// The transform's options as given; empty vectors mean "not given".
 struct LatticeOptions

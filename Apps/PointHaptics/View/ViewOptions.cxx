@@ -323,8 +323,8 @@ void ViewOptions::completeViewer(CLI::App& command)
                                             : HapticViewerDevice::Auto;
   options.falcon = this->falcon.settings();
   options.showsReading = this->needsWindow();
-  options.names = { "--color-by", "--clip", "--felt", kFirmwareOption,
-    "--workspace, --scale and --translate" };
+  options.names = { "--color-by", "--clip", "--felt", kFirmwareOption, "--workspace, --scale and --translate",
+    unitOptions() };
 }
 
 void ViewOptions::declareMore(Files& taken) const

@@ -88,8 +88,7 @@ bool TouchDisplay::update(const std::vector<ServoSample>& samples, const ServoSa
   {
     for (const ServoSample& sample : samples)
     {
-      const double ideal =
-        idealForce_ ? idealForce_(sample.state.hip) : std::numeric_limits<double>::quiet_NaN();
+      const double ideal = idealForce_ ? idealForce_(sample) : std::numeric_limits<double>::quiet_NaN();
       chart_->AddSample(sample.timeSeconds, norm(sample.state.force), sample.state.radius, ideal);
     }
     // A chart that is drawn seldom costs little: it is updated only where a render would show it.

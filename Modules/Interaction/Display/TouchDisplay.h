@@ -41,7 +41,7 @@ public:
   ///@}
   /// What an exact surface would answer the hand of a tick, in newtons, for the chart; NaN: not known. Called
   /// for every tick in the order of time. Empty (default): none.
-  void setIdealForce(std::function<double(const Vec3& hip)> ideal) { idealForce_ = std::move(ideal); }
+  void setIdealForce(std::function<double(const ServoSample&)> ideal) { idealForce_ = std::move(ideal); }
   /// The chart is a strip along the lower edge; the picture takes the room that it leaves.
   void setChartVisibility(bool visible);
 
@@ -62,7 +62,7 @@ private:
   const ScreenView& screen_;
   vtkSmartPointer<vtkHapticProps> props_;
   vtkSmartPointer<vtkHapticChart> chart_;
-  std::function<double(const Vec3&)> idealForce_;
+  std::function<double(const ServoSample&)> idealForce_;
   bool isRequested_ = false;
   bool chartChanged_ = true;         ///< True if the chart changed since it was drawn.
   std::vector<double> chartPicture_; ///< Other values on which the chart's picture depends.

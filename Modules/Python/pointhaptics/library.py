@@ -94,6 +94,7 @@ proxy_step_row = _function("ph_proxy_step_row", c_void_p, c_void_p, c_double, c_
 proxy_destroy = _function("ph_proxy_destroy", c_void_p, result=None)
 feel_steps = _function("ph_feel_steps", c_void_p, c_size_t, c_double, POINTER(c_size_t))
 feel = _function("ph_feel", c_void_p, c_void_p, c_size_t, c_double, POINTER(ProxyOptions), c_void_p, c_void_p)
+unlikely_units = _function("ph_unlikely_units", c_void_p, c_void_p, c_size_t, c_int, result=c_char_p)
 servo_start = _function("ph_servo_start", c_void_p, POINTER(ProxyOptions), POINTER(ServoOptions), _OUT)
 servo_target = _function("ph_servo_target", c_void_p, c_void_p)
 servo_set_options = _function("ph_servo_set_options", c_void_p, POINTER(ProxyOptions))

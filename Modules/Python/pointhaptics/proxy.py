@@ -12,7 +12,7 @@ from . import library
 from .arrays import number
 from .calls import interruptible
 from .scene import Scene
-from .touch import FELT_TYPE, as_place, options_of
+from .touch import FELT_TYPE, as_place, options_of, warn_of_units
 
 _ROW = FELT_TYPE.itemsize
 _BLOCK = 256
@@ -54,6 +54,7 @@ class Proxy:
         options = options_of(stiffness, damping, mu_s, mu_d, method, force_limit, preset, gains)
         stop = library.Stop()
         made = interruptible(lambda: scene.made(stop), stop.request)
+        self._made = made
         self._handle = library.Handle(library.proxy_create, library.proxy_destroy, byref(options))
         library.check(library.proxy_set_scene(self._handle.value, made.value))
         self._hand = np.zeros(3)
@@ -61,6 +62,7 @@ class Proxy:
         self._rows = np.zeros(0, FELT_TYPE)
         self._next = 0
         self._address = 0
+        self._doubts = True
 
     def step(self, hand: ArrayLike, dt: float = 0.001) -> np.void:
         """The hand is at `hand` (x, y, z, metres), `dt` seconds after the last step. Returns what it feels.
@@ -74,6 +76,10 @@ class Proxy:
         handle, place = self._arguments
         i = self._next
         if i == len(self._rows):
+            if 0 < i and self._doubts:
+                rows = np.column_stack([self._rows[name] for name in ("t", "hip_x", "hip_y", "hip_z")])
+                self._doubts = False  # the first rows tell
+                warn_of_units(self._made, rows)
             # What was returned looks at rows of the block before: a copy of each takes longer.
             self._rows = np.zeros(_BLOCK, FELT_TYPE)
             self._address = self._rows.ctypes.data

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import library
 from .arrays import as_bounds, as_dims, as_points, number
 from .calls import interruptible
-from .touch import FELT_COLUMNS, FELT_TYPE, as_path, options_of
+from .touch import FELT_COLUMNS, FELT_TYPE, as_path, options_of, warn_of_units
 
 __all__ = ["FELT_COLUMNS", "Scene"]
 
@@ -131,6 +131,8 @@ class Scene:
         TypeError, ValueError : one line that names the argument, its value and the cure.
         MemoryError : there is no memory for the scene or the rows.
 
+        Warns where the sizes of cloud and path make other units than metres and seconds likely.
+
         The same rows as those of `pointhaptics feel`, bit for bit, update_us aside, from any number of threads at a
         time. Cost: about 10 us a tick, and the first time the resampling of the cloud.
         """
@@ -151,4 +153,6 @@ class Scene:
             )
             return felt
 
-        return interruptible(work, stop.request)
+        felt = interruptible(work, stop.request)
+        warn_of_units(self.made(stop), rows, bool(felt["contact"].any()))
+        return felt

@@ -16,7 +16,7 @@ from . import library
 from .arrays import as_bounds, number, whole
 from .calls import interruptible
 from .scene import Scene
-from .touch import FELT_TYPE, as_path, as_place, options_of
+from .touch import FELT_TYPE, as_path, as_place, options_of, warn_of_units
 
 #: (t, hand, force) -> the force to feel instead, or None.
 OnTick = Callable[[float, NDArray[np.float64], NDArray[np.float64]], Optional[Sequence[float]]]
@@ -102,6 +102,8 @@ class ServoLoop:
         )
         stop = library.Stop()
         made = interruptible(lambda: scene.made(stop), stop.request)
+        if len(rows) > 0:
+            warn_of_units(made, rows)
         self._handle = library.Handle(
             library.servo_start, library.servo_destroy, made.value, byref(self._options), byref(options)
         )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import warnings
 from ctypes import byref, pointer
 from typing import Mapping, Optional, Tuple
 
@@ -87,6 +88,13 @@ def as_path(path: object) -> NDArray[np.float64]:
     if array.ndim != 2 or array.shape[1] != 4 or len(array) == 0:
         raise ValueError(f"path: shape {array.shape}; give one row or more of t, x, y, z, (n, 4), in seconds and metres")
     return np.ascontiguousarray(array, np.float64)
+
+
+def warn_of_units(scene: library.Handle, path: NDArray[np.float64], touched: bool = True) -> None:
+    """Warns where the sizes of cloud and path make other units than metres and seconds likely."""
+    odd = library.unlikely_units(scene.value, path.ctypes.data, len(path), touched)
+    if odd:
+        warnings.warn(odd.decode(), UserWarning, stacklevel=3)
 
 
 def as_place(place: object, name: str) -> Tuple[float, float, float]:

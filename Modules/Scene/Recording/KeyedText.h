@@ -1,21 +1,24 @@
 /// @file
-/// Values as words of a line, "key=value": shortest digits that read back to the same doubles.
+/// Lines of words "name=value": shortest digits that read back to the same doubles.
 #pragma once
 
 #include "Core/Base/AffineTransform.h"
 #include "Core/Base/PointView.h"
 #include "Core/Base/SettingsMembers.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <map>
+#include <optional>
 #include <set>
+#include <sstream>
 #include <string>
 #include <system_error>
 #include <type_traits>
-#include <vector>
 
 namespace pointhaptics
 {
@@ -86,6 +89,10 @@ std::string toText(const Value& value)
   {
     return textOf(value);
   }
+  else if constexpr (std::is_same_v<Value, std::string>)
+  {
+    return value;
+  }
   else
   {
     return std::to_string(static_cast<std::int64_t>(value)); // of a bool, a whole number, an enumeration
@@ -123,9 +130,16 @@ bool fromText(const std::string& text, Value& value)
   {
     return parse(text, value) && !std::isnan(value);
   }
+  else if constexpr (std::is_same_v<Value, std::string>)
+  {
+    return !(value = text).empty();
+  }
   else
   {
-    constexpr std::int64_t kMost = std::is_same_v<Value, bool> ? 1 : std::is_enum_v<Value> ? 15 : 1 << 30;
+    constexpr std::int64_t kMost = std::is_same_v<Value, bool> ? 1
+      : std::is_enum_v<Value>                                  ? 15
+      : sizeof(Value) > sizeof(int)                            ? std::numeric_limits<std::int64_t>::max()
+                                                               : 1 << 30;
     std::int64_t number = 0;
     const bool isRead = parse(text, number) && number >= 0 && number <= kMost;
     value = isRead ? static_cast<Value>(number) : value;
@@ -134,71 +148,84 @@ bool fromText(const std::string& text, Value& value)
 }
 ///@}
 
-/// The words of a line, by their keys.
-using Words = std::map<std::string, std::string>;
-
-/// False: a word is not KEY=VALUE.
-inline bool split(const std::string& text, Words& words)
+/// Words "name=value", written or read: one description of a line, a sequence of calls, does both.
+class Line
 {
-  std::size_t begin = text.find_first_not_of(' ');
-  while (begin != std::string::npos)
+public:
+  /// A line that is written; it begins with @p head.
+  static Line startingWith(const std::string& head) { return Line(head, false); }
+  /// A line that was read, without its head.
+  static Line from(const std::string& words) { return Line(words, true); }
+
+  /// The line; of one that was read the word that is wrong, where there is one.
+  const std::string& text() const { return text_; }
+  /// True where all words were there and right.
+  bool isFine() const { return isFine_; }
+
+  /// @p isRequired false: stays as it is where a line that is read has no such word.
+  template <typename Value>
+  void value(const std::string& name, Value& value, bool isRequired = true)
   {
-    const std::size_t end = std::min(text.find(' ', begin), text.size());
-    const std::string word = text.substr(begin, end - begin);
-    const std::size_t equals = word.find('=');
-    if (equals == std::string::npos || equals == 0)
+    const auto word = words_.find(name);
+    if (!isRead_)
     {
-      return false;
+      text_ += " " + name + "=" + toText(value);
     }
-    words[word.substr(0, equals)] = word.substr(equals + 1);
-    begin = text.find_first_not_of(' ', end);
+    else if (word == words_.end() ? isRequired : !fromText(word->second, value))
+    {
+      text_ = isFine_ && word != words_.end() ? name + "=" + word->second : text_;
+      isFine_ = false;
+    }
   }
-  return true;
-}
-
-/// Whether what is felt depends on a member of this type: not on names.
-template <typename Member>
-constexpr bool matters = !std::is_same_v<std::remove_const_t<Member>, std::set<std::string>>;
-
-/// All members of @p settings as words " PREFIXname=value".
-template <typename Settings>
-std::string wordsOf(const Settings& settings, const std::string& prefix = {})
-{
-  std::string text;
-  visitSettings(
-    settings,
-    [&text](const std::string& name, const auto& member)
-    {
-      if constexpr (matters<std::remove_reference_t<decltype(member)>>)
+  /// All members of @p settings that what is felt depends on: not sets of names.
+  template <typename Settings>
+  void settings(Settings& settings, const std::string& prefix = {})
+  {
+    visitSettings(
+      settings,
+      [this](const std::string& name, auto& member)
       {
-        text += " " + name + "=" + toText(member);
-      }
-    },
-    prefix);
-  return text;
-}
-
-/// Takes the members that @p words have; the others stay. False: @p problem names a word with another value
-/// than its member can have.
-template <typename Settings>
-bool takeWords(const Words& words, Settings& settings, std::string& problem, const std::string& prefix = {})
-{
-  visitSettings(
-    settings,
-    [&](const std::string& name, auto& member)
-    {
-      if constexpr (matters<std::remove_reference_t<decltype(member)>>)
-      {
-        const auto word = words.find(name);
-        if (word != words.end() && !fromText(word->second, member))
+        if constexpr (!std::is_same_v<std::decay_t<decltype(member)>, std::set<std::string>>)
         {
-          problem = name + "=" + word->second;
+          this->value(name, member, false);
         }
-      }
-    },
-    prefix);
-  return problem.empty();
-}
+      },
+      prefix);
+  }
+  /// As settings(), where the line may lack all of them.
+  template <typename Settings>
+  void settings(std::optional<Settings>& settings, const std::string& prefix)
+  {
+    const auto first = words_.lower_bound(prefix);
+    if (first != words_.end() && first->first.rfind(prefix, 0) == 0)
+    {
+      settings.emplace();
+    }
+    if (settings)
+    {
+      this->settings(*settings, prefix);
+    }
+  }
+
+private:
+  Line(const std::string& text, bool isRead)
+    : text_(text)
+    , isRead_(isRead)
+  {
+    std::istringstream stream(isRead ? text : std::string());
+    for (std::string word; stream >> word;)
+    {
+      const std::size_t equals = std::min(word.find('='), word.size());
+      isFine_ = isFine_ && equals > 0 && equals < word.size();
+      words_[word.substr(0, equals)] = word.substr(std::min(equals + 1, word.size()));
+    }
+  }
+
+  std::string text_;
+  std::map<std::string, std::string> words_;
+  bool isRead_ = false;
+  bool isFine_ = true;
+};
 
 } // namespace keyed
 } // namespace pointhaptics

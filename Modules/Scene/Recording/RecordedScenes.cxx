@@ -1,4 +1,4 @@
-#include "RecordedScenes.h"
+#include "Replay.h"
 
 #include "HapticSceneBuilder.h"
 #include "LocalSceneProvider.h"
@@ -54,46 +54,9 @@ RecordedScenes::RecordedScenes(const Recording& recording, vtkPointSet* cloud)
   : recording_(recording)
   , maker_(std::make_unique<Maker>(cloud))
 {
-  const auto use = [this](std::uint64_t number, const RecordedEvent& event)
-  {
-    lastUse_[number] = &event;
-    const auto origin = recording_.clouds.find(number);
-    if (origin != recording_.clouds.end() && origin->second->globalCloud != 0)
-    {
-      lastUse_[origin->second->globalCloud] = &event;
-    }
-  };
-  for (const RecordedEvent& event : recording.events)
-  {
-    if (event.kind == RecordedEvent::Kind::Scene)
-    {
-      use(event.number, event);
-      use(event.fallback, event);
-    }
-  }
 }
 
 RecordedScenes::~RecordedScenes() = default;
-
-bool RecordedScenes::isOf(const Recording& recording, vtkPointSet* cloud, std::string& message)
-{
-  const RecordedFiles& felt = recording.header.cloud;
-  const vtkIdType points = cloud ? cloud->GetNumberOfPoints() : 0;
-  if (points != felt.points)
-  {
-    message = fmt::format("it has {} points, and the recording was made with {}; give that cloud ({})",
-      points, felt.points, felt.files.front());
-    return false;
-  }
-  if (checksumOf(cloud) != felt.checksum)
-  {
-    message =
-      fmt::format("its points are others than those the recording was made with; give that cloud ({})",
-        felt.files.front());
-    return false;
-  }
-  return true;
-}
 
 /// As it was made, before it was moved.
 std::shared_ptr<const HapticScene> RecordedScenes::cloudOf(std::uint64_t number)
@@ -108,30 +71,24 @@ std::shared_ptr<const HapticScene> RecordedScenes::cloudOf(std::uint64_t number)
   {
     return nullptr;
   }
-  std::shared_ptr<const HapticScene> made;
-  if (origin->second->kind == SceneOrigin::Kind::Whole)
-  {
-    made = maker_->makeWhole(*origin->second);
-  }
-  else if (origin->second->globalCloud == 0)
-  {
-    made = maker_->local.make(*origin->second, nullptr);
-  }
-  else if (const std::shared_ptr<const HapticScene> global = this->cloudOf(origin->second->globalCloud))
-  {
-    made = maker_->local.make(*origin->second, global);
-  }
-  clouds_[number] = made;
-  return made;
+  const SceneOrigin& how = *origin->second;
+  const bool isPart = how.kind != SceneOrigin::Kind::Whole;
+  const auto global = isPart && how.globalCloud != 0 ? this->cloudOf(how.globalCloud) : nullptr;
+  return clouds_[number] = !isPart   ? maker_->makeWhole(how)
+    : global || how.globalCloud == 0 ? maker_->local.make(how, global)
+                                     : nullptr;
 }
 
-void RecordedScenes::forgetBefore(const RecordedEvent& event)
+/// Forgets the scenes that @p event does not use: they would be made again.
+void RecordedScenes::keepThoseOf(const RecordedEvent& event)
 {
+  const auto origin = recording_.clouds.find(event.number);
+  const std::uint64_t global = origin == recording_.clouds.end() ? 0 : origin->second->globalCloud;
   for (auto cloud = clouds_.begin(); cloud != clouds_.end();)
   {
-    const auto last = lastUse_.find(cloud->first);
-    const bool isOver = last == lastUse_.end() || last->second < &event;
-    cloud = isOver ? clouds_.erase(cloud) : std::next(cloud);
+    const bool isUsed =
+      cloud->first == event.number || cloud->first == event.fallback || cloud->first == global;
+    cloud = isUsed ? std::next(cloud) : clouds_.erase(cloud);
   }
 }
 
@@ -139,7 +96,7 @@ bool RecordedScenes::make(
   const RecordedEvent& event, std::shared_ptr<const HapticScene>& scene, std::string& message)
 {
   scene.reset();
-  this->forgetBefore(event);
+  this->keepThoseOf(event);
   if (event.number == 0)
   {
     return true;

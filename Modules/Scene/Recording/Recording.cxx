@@ -1,7 +1,7 @@
 #include "Recording.h"
 
-#include "KeyedText.h"
 #include "PolyDataAccess.h"
+#include "RecordingLines.h"
 #include "VirtualTouch.h"
 
 #include "vtkPointSet.h"
@@ -23,8 +23,6 @@ namespace pointhaptics
 {
 namespace
 {
-
-constexpr std::size_t kLongestLabel = 1000;
 
 /// Not to be broken: it finds out that a file is another one, or in another order.
 template <typename Real>
@@ -90,19 +88,12 @@ std::vector<std::string> linesOf(const RecordingHeader& header)
   {
     lines.push_back("file: " + file);
   }
-  lines.push_back(fmt::format("cloud: points={} checksum={:016x} resolution={}", header.cloud.points,
-    header.cloud.checksum, keyed::textOf(header.cloud.resolution)));
+  lines.push_back(lineOf("cloud:", header.cloud));
   if (!header.settings.empty())
   {
     lines.push_back("settings: " + header.settings);
   }
-  const ServoStepSettings& step = header.step;
-  lines.push_back(fmt::format(
-    "servo: rate={} maximumForce={} maximumSlewRate={} rampDown={} rampUp={} clutchDown={} clutchUp={}",
-    keyed::textOf(step.rateHz), keyed::textOf(step.limits.maximumForce),
-    keyed::textOf(step.limits.maximumSlewRate), keyed::textOf(step.rampDownSeconds),
-    keyed::textOf(step.rampUpSeconds), keyed::textOf(step.clutchDownSeconds),
-    keyed::textOf(step.clutchUpSeconds)));
+  lines.push_back(lineOf("servo:", header.step));
   const ForceLimit& limit = header.limit;
   lines.push_back(
     fmt::format("limits: force={} of={} device={} user={} program={}", keyed::textOf(limit.newtons()),
@@ -110,57 +101,39 @@ std::vector<std::string> linesOf(const RecordingHeader& header)
   return lines;
 }
 
-std::string lineOf(const RecordedLabel& label)
+RecordingHeader headerOf(const std::vector<std::string>& files, double resolution, vtkPointSet* cloud)
 {
-  std::string text = label.text.substr(0, kLongestLabel);
-  std::replace_if(
-    text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
-  return fmt::format("marker {}: {}", label.marker, text);
-}
-
-std::string lineOf(std::uint64_t cloud, const SceneOrigin& origin)
-{
-  std::string line = fmt::format("made {}: kind={} model={}", cloud, kSceneOrigins[std::size_t(origin.kind)],
-    keyed::toText(origin.modelToWorkspace));
-  if (origin.kind != SceneOrigin::Kind::Whole)
+  RecordingHeader header;
+  for (const std::string& file : files)
   {
-    line += fmt::format(" beside={} hand={}", origin.globalCloud, keyed::toText(origin.hand));
+    std::error_code error;
+    const std::filesystem::path path = std::filesystem::absolute(file, error);
+    header.cloud.files.push_back(error ? file : path.string());
   }
-  line += fmt::format(" covariance={}", origin.useCovariance ? 1 : 0) +
-    (origin.kind == SceneOrigin::Kind::Fine ? keyed::wordsOf(origin.voxels.lattice, "lattice.")
-                                            : keyed::wordsOf(origin.voxels));
-  return line + (origin.bandwidth ? keyed::wordsOf(*origin.bandwidth, "bandwidth.") : std::string());
+  header.cloud.resolution = resolution;
+  header.cloud.points = cloud->GetNumberOfPoints();
+  header.cloud.checksum = checksumOf(cloud);
+  return header;
 }
 
-std::string lineOf(std::uint64_t number, const HapticParameters& parameters)
+bool isOf(const Recording& recording, vtkPointSet* cloud, std::string& message)
 {
-  return fmt::format("parameters {}:", number) + keyed::wordsOf(parameters);
-}
-
-std::string lineOf(const RecordedEvent& event)
-{
-  using Kind = RecordedEvent::Kind;
-  std::string line = fmt::format("tick {}: {}", event.tick, kEventKinds[std::size_t(event.kind)]);
-  switch (event.kind)
+  const RecordedFiles& felt = recording.header.cloud;
+  const vtkIdType points = cloud ? cloud->GetNumberOfPoints() : 0;
+  if (points != felt.points)
   {
-    case Kind::Scene:
-      line += event.number == 0
-        ? std::string(" none")
-        : fmt::format(" of={} beyond={} model={}", event.number, event.fallback, keyed::toText(event.model));
-      break;
-    case Kind::Parameters:
-      line += fmt::format(" {}", event.number);
-      break;
-    case Kind::Clutch:
-    case Kind::Gate:
-    case Kind::Reading:
-    case Kind::Writing:
-      line += event.on ? " on" : " off";
-      break;
-    default:
-      break;
+    message = fmt::format("it has {} points, and the recording was made with {}; give that cloud ({})",
+      points, felt.points, felt.files.front());
+    return false;
   }
-  return line;
+  if (checksumOf(cloud) != felt.checksum)
+  {
+    message =
+      fmt::format("its points are others than those the recording was made with; give that cloud ({})",
+        felt.files.front());
+    return false;
+  }
+  return true;
 }
 
 std::string keptCloudName(const std::string& recording)

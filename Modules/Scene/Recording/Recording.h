@@ -35,25 +35,23 @@ struct RecordedFiles
 /// Checksum of the coordinates of @p cloud, in their order and type.
 POINTHAPTICSSCENE_EXPORT std::uint64_t checksumOf(vtkPointSet* cloud);
 
+/// Beside TickFlags: the device did not take the force.
+constexpr std::uint32_t kTickNotWritten = 1u << 31;
+
 /// What changes before a tick is felt.
 struct RecordedEvent
 {
   enum class Kind
   {
-    Scene,      ///< Another scene: cloud, fallback, model.
+    Scene,      ///< Another scene: number, fallback, model.
     Parameters, ///< Others: number.
-    Clutch,     ///< The hand holds the model (on), or lets go.
-    Gate,       ///< The force may come (on), or goes.
-    Reading,    ///< The device can be read (on), or not.
-    Writing,    ///< The device takes the force (on), or not.
-    NewHand,    ///< In this tick the hand was found anew.
-    NoPosition, ///< In this tick the position was not finite.
-    Begins,     ///< The proxy begins anew.
+    Flag,       ///< A bit of TickFlags, or kTickNotWritten.
   };
 
   std::uint64_t tick = 0;
   Kind kind = Kind::Scene;
-  bool on = false;
+  std::uint32_t flag = 0;
+  bool isSet = false;         ///< The flag.
   std::uint64_t number = 0;   ///< Of parameters, or of the cloud of a scene; 0: there is no scene.
   std::uint64_t fallback = 0; ///< Cloud of what is felt where a scene of a part ends; 0: the scene is whole.
   AffineTransform model;      ///< From the file to the workspace.
@@ -65,7 +63,7 @@ struct RecordedTick
   std::uint64_t tick = 0;        ///< Number of the servo loop's tick: time * rate + 1.
   std::array<double, 16> felt{}; ///< kFeltColumns.
   std::uint32_t buttons = 0;
-  std::uint32_t marker = 0; ///< 1, 2, ... where one was set; else 0.
+  std::uint32_t marker = 0; ///< Number of the newest that was set in this tick, 1, 2, ...; else 0.
 
   Vec3 hip() const { return { felt[1], felt[2], felt[3] }; }
   Vec3 force() const { return { felt[10], felt[11], felt[12] }; }
@@ -82,56 +80,31 @@ struct RecordingHeader
   std::int64_t origin = 0; ///< Nanoseconds of the steady clock at which the time of the table is 0.
 };
 
-/// A marker with a text; its tick has its number.
-struct RecordedLabel
-{
-  std::uint32_t marker = 0;
-  std::string text;
-};
+/// All of a header but program, settings, step and limit: of @p cloud, read from @p files.
+POINTHAPTICSSCENE_EXPORT RecordingHeader headerOf(
+  const std::vector<std::string>& files, double resolution, vtkPointSet* cloud);
 
 struct Recording
 {
   RecordingHeader header;
   std::map<std::uint64_t, std::shared_ptr<const SceneOrigin>> clouds;
   std::map<std::uint64_t, HapticParameters> parameters;
-  std::vector<RecordedEvent> events; ///< By tick.
-  std::vector<RecordedTick> ticks;   ///< Ascending; not empty.
-  std::vector<RecordedLabel> labels;
+  std::vector<RecordedEvent> events;           ///< By tick.
+  std::vector<RecordedTick> ticks;             ///< Ascending; not empty.
+  std::map<std::uint32_t, std::string> labels; ///< Texts of markers.
   std::string note; ///< That the recording was not ended, in a sentence; empty: it was.
 };
 
 /// Reads a recording. False: @p message says file, line, value and cure. What it accepts can be replayed:
 /// ticks ascend, each event names clouds and parameters that are there, all numbers that matter are finite.
-/// The end of one that was not ended may be cut.
+/// The end of one that was not ended may be cut. @param isHeaderAlone only what comes before the second tick.
 POINTHAPTICSSCENE_EXPORT bool readRecording(
-  const std::string& fileName, Recording& recording, std::string& message);
-/// Reads what comes before the first tick.
-POINTHAPTICSSCENE_EXPORT bool readRecordingHeader(
-  const std::string& fileName, RecordingHeader& header, std::string& message);
+  const std::string& fileName, Recording& recording, std::string& message, bool isHeaderAlone = false);
+/// True where @p cloud is the one that was felt. False: @p message says what differs.
+POINTHAPTICSSCENE_EXPORT bool isOf(const Recording& recording, vtkPointSet* cloud, std::string& message);
 /// Where a copy of the cloud of a recording lies that came as a stream: rec.cloud beside rec.csv.
 POINTHAPTICSSCENE_EXPORT std::string keptCloudName(const std::string& recording);
 /// Copies a cloud. False: @p message says why not.
 POINTHAPTICSSCENE_EXPORT bool keepCloud(const std::string& from, const std::string& to, std::string& message);
-
-///@{
-/// The lines of a header, without their "# ".
-POINTHAPTICSSCENE_EXPORT std::vector<std::string> linesOf(const RecordingHeader& header);
-std::string lineOf(std::uint64_t cloud, const SceneOrigin& origin);
-std::string lineOf(std::uint64_t number, const HapticParameters& parameters);
-std::string lineOf(const RecordedEvent& event);
-std::string lineOf(const RecordedLabel& label);
-///@}
-/// In the place of the number of ticks, for the last line of a recording.
-constexpr const char* kRecordingEnd = "end";
-
-///@{
-/// The words for RecordedEvent::Kind and SceneOrigin::Kind, in their order.
-constexpr std::array<const char*, 9> kEventKinds = { "scene", "parameters", "clutch", "gate", "reading",
-  "writing", "new-hand", "no-position", "begins" };
-constexpr std::array<const char*, 3> kSceneOrigins = { "whole", "region", "fine" };
-///@}
-
-/// The first line: the columns.
-std::string recordedColumns();
 
 } // namespace pointhaptics

@@ -1,15 +1,12 @@
-#include "KeyedText.h"
-#include "Recording.h"
+#include "RecordingLines.h"
 #include "VirtualTouch.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 
 namespace pointhaptics
 {
@@ -28,11 +25,6 @@ std::string quote(const std::string& text)
     result += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
   }
   return "\"" + result + (text.size() > kLongestQuote ? "..." : "") + "\"";
-}
-
-bool startsWith(const std::string& text, const std::string& with)
-{
-  return text.rfind(with, 0) == 0;
 }
 
 /// Whether a scene of @p origin may have such a fallback: a part has one, unless it was made before there was
@@ -67,15 +59,11 @@ private:
     return false;
   }
   bool takeHeader(const std::string& text);
-  bool takeCloud(const std::string& text);
-  bool takeServo(const std::string& text);
   bool takeMade(std::uint64_t number, const std::string& text);
-  bool takeVoxels(const keyed::Words& words, SceneOrigin& origin, std::string& wrong);
   bool takeEvent(std::uint64_t tick, const std::string& text);
   bool takeRow(const std::string& text);
 
   Recording& recording_;
-  std::map<std::uint64_t, std::shared_ptr<SceneOrigin>> made_;
   std::string problem_;
   std::uint64_t line_ = 0;
   int version_ = 0; ///< 0: not known yet.
@@ -90,12 +78,12 @@ bool Reader::take(const std::string& line)
   {
     return this->fail("the line is too long: is this a text file?");
   }
-  const bool isHeader = startsWith(line, "#");
+  const bool isHeader = !line.empty() && line.front() == '#';
   if (version_ == 0 && (isHeader || hasColumns_ || line != recordedColumns()))
   {
     version_ = line == "# pointhaptics recording: 1" ? 1 : line == "# pointhaptics recording: 2" ? 2 : 0;
     return version_ > 0 ||
-      this->fail(startsWith(line, "# pointhaptics recording")
+      this->fail(line.rfind("# pointhaptics recording", 0) == 0
           ? quote(line) + " is of another version: use the program that wrote it"
           : (hasColumns_ ? "the second line is " : "the first line is ") + quote(line) +
             ": this is no recording; give what --record wrote, or follow other tables by --path");
@@ -126,25 +114,31 @@ bool Reader::takeHeader(const std::string& text)
   {
     return this->fail(quote(text) + ": a number is missing; take the header as it was written");
   }
-  if (key == "file")
-  {
-    recording_.header.cloud.files.push_back(rest);
-    return true;
-  }
-  if (key == "marker")
-  {
-    recording_.labels.push_back({ std::uint32_t(number), rest });
-    return true;
-  }
+  RecordingHeader& header = recording_.header;
   isEnded_ = isEnded_ || key == kRecordingEnd;
-  if (key == "program" || key == "settings")
+  if (key == "file" || key == "marker" || key == "program" || key == "settings")
   {
-    (key == "program" ? recording_.header.program : recording_.header.settings) = rest;
+    (key == "file"         ? header.cloud.files.emplace_back()
+        : key == "marker"  ? recording_.labels[std::uint32_t(number)]
+        : key == "program" ? header.program
+                           : header.settings) = rest;
     return true;
   }
-  if (key == "cloud" || key == "servo")
+  keyed::Line line = keyed::Line::from(rest);
+  if (key == "cloud")
   {
-    return key == "cloud" ? this->takeCloud(rest) : this->takeServo(rest);
+    describe(line, header.cloud);
+    return line.isFine() ||
+      this->fail(
+        quote(text) + ": points, checksum or resolution is missing; take the header as it was written");
+  }
+  if (key == "servo")
+  {
+    const ServoStepSettings& step = header.step;
+    describe(line, header.step);
+    return (line.isFine() && step.rateHz >= 1.0 && step.rateHz <= 1e5 && step.limits.check() == Status::Ok) ||
+      this->fail(
+        quote(text) + ": a servo setting is missing or out of range; take the header as it was written");
   }
   if (key == "made")
   {
@@ -152,127 +146,73 @@ bool Reader::takeHeader(const std::string& text)
   }
   if (key == "parameters")
   {
-    keyed::Words words;
     HapticParameters& parameters = recording_.parameters[number];
-    std::string wrong;
-    return (keyed::split(rest, words) && keyed::takeWords(words, parameters, wrong) &&
-             parameters.check() == Status::Ok) ||
-      this->fail(
-        quote(wrong.empty() ? text : wrong) + ": no such parameters; take them as they were written");
+    line.settings(parameters);
+    return (line.isFine() && parameters.check() == Status::Ok) ||
+      this->fail(quote(line.text()) + ": no such parameters; take them as they were written");
   }
   return key == "tick" ? this->takeEvent(number, rest) : true; // other lines are remarks
 }
 
-bool Reader::takeCloud(const std::string& text)
-{
-  keyed::Words words;
-  RecordedFiles& cloud = recording_.header.cloud;
-  const bool isSplit = keyed::split(text, words);
-  const std::string& sum = words["checksum"];
-  const auto end = std::from_chars(sum.data(), sum.data() + sum.size(), cloud.checksum, 16);
-  return (isSplit && end.ec == std::errc() && end.ptr == sum.data() + sum.size() &&
-           keyed::parse(words["points"], cloud.points) &&
-           keyed::fromText(words["resolution"], cloud.resolution)) ||
-    this->fail(
-      quote(text) + ": points, checksum or resolution is missing; take the header as it was written");
-}
-
-bool Reader::takeServo(const std::string& text)
-{
-  keyed::Words words;
-  ServoStepSettings& step = recording_.header.step;
-  const bool isRead = keyed::split(text, words) && keyed::fromText(words["rate"], step.rateHz) &&
-    keyed::fromText(words["maximumForce"], step.limits.maximumForce) &&
-    keyed::fromText(words["maximumSlewRate"], step.limits.maximumSlewRate) &&
-    keyed::fromText(words["rampDown"], step.rampDownSeconds) &&
-    keyed::fromText(words["rampUp"], step.rampUpSeconds) &&
-    keyed::fromText(words["clutchDown"], step.clutchDownSeconds) &&
-    keyed::fromText(words["clutchUp"], step.clutchUpSeconds);
-  return (isRead && step.rateHz >= 1.0 && step.rateHz <= 1e5 && step.limits.check() == Status::Ok) ||
-    this->fail(
-      quote(text) + ": a servo setting is missing or out of range; take the header as it was written");
-}
-
-/// What a scene is made of: means, and one level of them.
-bool Reader::takeVoxels(const keyed::Words& words, SceneOrigin& origin, std::string& wrong)
-{
-  VoxelMeanSettings& voxels = origin.voxels;
-  if (words.at("kind") == kSceneOrigins[std::size_t(SceneOrigin::Kind::Fine)])
-  {
-    return keyed::takeWords(words, voxels.lattice, wrong, "lattice.");
-  }
-  const bool isRead = keyed::takeWords(words, voxels, wrong) &&
-    voxels.outputPointsPrecision <= PointsPrecision::OfInput && voxels.representative == Representative::Mean;
-  voxels.instructionSet = InstructionSet::Automatic; // the bits are the same
-  voxels.computeVoxelIndex = voxels.keepOriginalPointIds = false;
-  return isRead;
-}
-
 bool Reader::takeMade(std::uint64_t number, const std::string& text)
 {
-  keyed::Words words;
+  keyed::Line line = keyed::Line::from(text);
   auto origin = std::make_shared<SceneOrigin>();
-  std::string wrong;
-  bool isRead = keyed::split(text, words) && number > 0 && made_.count(number) == 0;
-  const auto kind = std::find(std::begin(kSceneOrigins), std::end(kSceneOrigins), words["kind"]);
-  isRead = isRead && kind != std::end(kSceneOrigins) &&
-    keyed::fromText(words["model"], origin->modelToWorkspace) &&
-    keyed::fromText(words["covariance"], origin->useCovariance) && this->takeVoxels(words, *origin, wrong);
-  origin->kind = isRead ? SceneOrigin::Kind(kind - std::begin(kSceneOrigins)) : SceneOrigin::Kind::Whole;
+  bool isRead =
+    describe(line, *origin) && line.isFine() && number > 0 && recording_.clouds.count(number) == 0;
+  VoxelMeanSettings& voxels = origin->voxels;
+  isRead = isRead && voxels.outputPointsPrecision <= PointsPrecision::OfInput &&
+    voxels.representative == Representative::Mean;
+  voxels.instructionSet = InstructionSet::Automatic; // the bits are the same
+  voxels.computeVoxelIndex = voxels.keepOriginalPointIds = false;
   if (isRead && origin->kind != SceneOrigin::Kind::Whole)
   {
-    isRead = keyed::parse(words["beside"], origin->globalCloud) &&
-      keyed::fromText(words["hand"], origin->hand) && !origin->hand.empty();
+    const auto global = recording_.clouds.find(origin->globalCloud);
     const bool isAlone = origin->globalCloud == 0 && origin->kind == SceneOrigin::Kind::Region;
-    isRead = isRead && (isAlone || made_.count(origin->globalCloud) == 1);
-    origin->global = isRead && !isAlone ? made_[origin->globalCloud] : nullptr;
-    isRead = isRead && (isAlone || origin->global->kind == SceneOrigin::Kind::Whole);
+    isRead = !origin->hand.empty() &&
+      (isAlone || (global != recording_.clouds.end() && global->second->kind == SceneOrigin::Kind::Whole));
+    origin->global = isRead && !isAlone ? global->second : nullptr;
   }
-  if (isRead && words.lower_bound("bandwidth.") != words.lower_bound("bandwidth/"))
-  {
-    origin->bandwidth.emplace();
-    isRead = keyed::takeWords(words, *origin->bandwidth, wrong, "bandwidth.") &&
-      origin->bandwidth->rule <= BandwidthRule::SheatherJones && origin->bandwidth->check() == Status::Ok;
-  }
-  made_[number] = origin;
+  isRead = isRead &&
+    (!origin->bandwidth ||
+      (origin->bandwidth->rule <= BandwidthRule::SheatherJones && origin->bandwidth->check() == Status::Ok));
   recording_.clouds[number] = origin;
-  return isRead ||
-    this->fail(quote(wrong.empty() ? text : wrong) + ": no such scene; take the header as it was written");
+  return isRead || this->fail(quote(line.text()) + ": no such scene; take the header as it was written");
 }
 
+/// "scene", "parameters" or a flag, with what it says.
 bool Reader::takeEvent(std::uint64_t tick, const std::string& text)
 {
-  using Kind = RecordedEvent::Kind;
   const std::size_t blank = std::min(text.find(' '), text.size());
-  const auto kind = std::find(std::begin(kEventKinds), std::end(kEventKinds), text.substr(0, blank));
+  const std::string name = text.substr(0, blank);
   const std::string rest = text.substr(std::min(blank + 1, text.size()));
-  if (kind == std::end(kEventKinds))
-  {
-    return this->fail(quote(text) + ": no such event; take the header as it was written");
-  }
+  const auto flag = std::find_if(kRecordedFlags.begin(), kRecordedFlags.end(),
+    [&name](const RecordedFlag& each) { return name == each.name; });
+  const auto& clouds = recording_.clouds;
   RecordedEvent event;
   event.tick = tick;
-  event.kind = Kind(kind - std::begin(kEventKinds));
   bool isRead = recording_.events.empty() || recording_.events.back().tick <= tick;
-  if (event.kind == Kind::Scene && rest != "none")
+  if (name == "scene" && rest != "none")
   {
-    keyed::Words words;
-    isRead = isRead && keyed::split(rest, words) && keyed::parse(words["of"], event.number) &&
-      keyed::parse(words["beyond"], event.fallback) && keyed::fromText(words["model"], event.model) &&
-      recording_.clouds.count(event.number) == 1 &&
-      mayEnd(*recording_.clouds[event.number], event.fallback) &&
+    keyed::Line line = keyed::Line::from(rest);
+    describe(line, event);
+    const auto cloud = clouds.find(event.number);
+    const auto fallback = clouds.find(event.fallback);
+    isRead = isRead && line.isFine() && cloud != clouds.end() && mayEnd(*cloud->second, event.fallback) &&
       (event.fallback == 0 ||
-        (recording_.clouds.count(event.fallback) == 1 &&
-          recording_.clouds[event.fallback]->kind == SceneOrigin::Kind::Whole));
+        (fallback != clouds.end() && fallback->second->kind == SceneOrigin::Kind::Whole));
   }
-  else if (event.kind == Kind::Parameters)
+  else if (name == "parameters")
   {
+    event.kind = RecordedEvent::Kind::Parameters;
     isRead = isRead && keyed::parse(rest, event.number) && recording_.parameters.count(event.number) == 1;
   }
-  else if (event.kind >= Kind::Clutch && event.kind <= Kind::Writing)
+  else if (name != "scene")
   {
-    event.on = rest == "on";
-    isRead = isRead && (event.on || rest == "off");
+    event.kind = RecordedEvent::Kind::Flag;
+    isRead = isRead && flag != kRecordedFlags.end() && (flag->isOnce || rest == "on" || rest == "off");
+    event.flag = isRead ? flag->bit : 0;
+    event.isSet = isRead && (flag->isOnce || (rest == "on") == flag->isOnWhereSet);
   }
   recording_.events.push_back(event);
   return isRead ||
@@ -316,17 +256,15 @@ bool Reader::takeRow(const std::string& text)
 
 bool Reader::finish()
 {
-  if (recording_.ticks.empty())
+  const RecordedFiles& cloud = recording_.header.cloud;
+  const char* lack = recording_.ticks.empty() ? "there is no row; record some ticks"
+    : cloud.files.empty() || cloud.points == 0
+    ? "the header names no cloud; take the header as it was written"
+    : recording_.parameters.empty() ? "the header has no parameters; take the header as it was written"
+                                    : nullptr;
+  if (lack)
   {
-    return this->fail("there is no row; record some ticks");
-  }
-  if (recording_.header.cloud.files.empty() || recording_.header.cloud.points == 0)
-  {
-    return this->fail("the header names no cloud; take the header as it was written");
-  }
-  if (recording_.parameters.empty())
-  {
-    return this->fail("the header has no parameters; take the header as it was written");
+    return this->fail(lack);
   }
   if (this->mayBeCut())
   {
@@ -340,11 +278,8 @@ bool Reader::finish()
 
 } // namespace
 
-namespace
-{
-
-/// Takes all lines, or where @p isHeaderAlone those before the first tick.
-bool readLines(const std::string& fileName, bool isHeaderAlone, Recording& recording, std::string& message)
+bool readRecording(
+  const std::string& fileName, Recording& recording, std::string& message, bool isHeaderAlone)
 {
   recording = Recording();
   std::error_code ignored;
@@ -376,21 +311,6 @@ bool readLines(const std::string& fileName, bool isHeaderAlone, Recording& recor
     message = fmt::format("{}:{}: {}", fileName, reader.line(), reader.problem());
   }
   return isFine;
-}
-
-} // namespace
-
-bool readRecording(const std::string& fileName, Recording& recording, std::string& message)
-{
-  return readLines(fileName, false, recording, message);
-}
-
-bool readRecordingHeader(const std::string& fileName, RecordingHeader& header, std::string& message)
-{
-  Recording recording;
-  const bool isRead = readLines(fileName, true, recording, message);
-  header = recording.header;
-  return isRead;
 }
 
 } // namespace pointhaptics

@@ -1,5 +1,6 @@
 #include "RecordingWriter.h"
 
+#include "RecordingLines.h"
 #include "VirtualTouch.h"
 
 #include <fmt/format.h>
@@ -12,6 +13,8 @@ namespace pointhaptics
 {
 namespace
 {
+
+constexpr std::size_t kLongestLabel = 1000;
 
 /// Forgets what was published before the input @p number, which is in use.
 template <typename Input>
@@ -35,8 +38,8 @@ bool RecordingWriter::open(const std::string& fileName, const RecordingHeader& h
   header_ = header;
   clouds_.clear();
   marks_.clear();
-  labels_.clear();
   markers_ = 0;
+  lastMark_ = 0;
   numberOfTicks_ = 0;
   hasRow_ = false;
   problem_.clear();
@@ -49,18 +52,9 @@ std::uint32_t RecordingWriter::mark(std::uint64_t tick, const std::string& text)
   {
     return 0;
   }
-  const std::uint64_t marked = this->isWaiting() ? 0 : tick;
-  if (markers_ == 0 || marked > lastMark_) // a row has room for one
-  {
-    marks_.push_back(marked);
-    lastMark_ = marked;
-    ++markers_;
-  }
-  if (!text.empty())
-  {
-    labels_.push_back({ markers_, text });
-  }
-  return markers_;
+  lastMark_ = std::max(lastMark_, this->isWaiting() ? 0 : tick);
+  marks_.push_back({ lastMark_, text.substr(0, kLongestLabel) });
+  return ++markers_;
 }
 
 void RecordingWriter::end(const std::string& problem)
@@ -104,13 +98,9 @@ void RecordingWriter::add(const ServoSample& sample)
   last_ = sample;
 }
 
-void RecordingWriter::addEvent(std::uint64_t tick, RecordedEvent::Kind kind, bool on)
+void RecordingWriter::addEvent(std::uint64_t tick, const std::string& event)
 {
-  RecordedEvent event;
-  event.tick = tick;
-  event.kind = kind;
-  event.on = on;
-  table_.comment(lineOf(event));
+  table_.comment(fmt::format("tick {}: {}", tick, event));
 }
 
 void RecordingWriter::addCloud(std::uint64_t number, const std::shared_ptr<const SceneOrigin>& origin)
@@ -118,41 +108,34 @@ void RecordingWriter::addCloud(std::uint64_t number, const std::shared_ptr<const
   if (!origin)
   {
     this->end("a scene was felt of which nobody knows how it was made");
-    return;
   }
-  if (!clouds_.insert(number).second)
+  else if (clouds_.insert(number).second)
   {
-    return;
+    if (origin->globalCloud != 0)
+    {
+      this->addCloud(origin->globalCloud, origin->global);
+    }
+    table_.comment(lineOf(fmt::format("made {}:", number), *origin));
   }
-  if (origin->globalCloud != 0)
-  {
-    this->addCloud(origin->globalCloud, origin->global);
-  }
-  table_.comment(lineOf(number, *origin));
 }
 
 void RecordingWriter::addScene(const ServoSample& sample)
 {
-  RecordedEvent event;
-  event.tick = sample.tick;
-  if (sample.scene != 0)
+  if (sample.scene == 0)
   {
-    const PublishedScene* scene = inUse(published_.scenes, sample.scene);
-    if (!scene)
-    {
-      this->end("a scene was felt of which nobody knows how it was made");
-      return;
-    }
-    this->addCloud(scene->cloud, scene->origin);
-    event.number = scene->cloud;
-    event.model = scene->modelToWorkspace;
-    if (scene->fallbackCloud != 0)
-    {
-      this->addCloud(scene->fallbackCloud, scene->fallbackOrigin);
-      event.fallback = scene->fallbackCloud;
-    }
+    this->addEvent(sample.tick, "scene none");
+    return;
   }
-  table_.comment(lineOf(event));
+  const PublishedScene* known = inUse(published_.scenes, sample.scene);
+  const PublishedScene scene = known ? *known : PublishedScene();
+  this->addCloud(scene.cloud, scene.origin);
+  if (scene.fallbackCloud != 0)
+  {
+    this->addCloud(scene.fallbackCloud, scene.fallbackOrigin);
+  }
+  const RecordedEvent event{ sample.tick, RecordedEvent::Kind::Scene, 0, false, scene.cloud,
+    scene.fallbackCloud, scene.modelToWorkspace };
+  this->addEvent(sample.tick, lineOf("scene", event));
 }
 
 void RecordingWriter::addParameters(const ServoSample& sample)
@@ -163,56 +146,32 @@ void RecordingWriter::addParameters(const ServoSample& sample)
     this->end("parameters were in force that nobody knows");
     return;
   }
-  table_.comment(lineOf(parameters->number, parameters->parameters));
-  RecordedEvent event;
-  event.tick = sample.tick;
-  event.kind = RecordedEvent::Kind::Parameters;
-  event.number = parameters->number;
-  table_.comment(lineOf(event));
+  keyed::Line line = keyed::Line::startingWith(fmt::format("parameters {}:", parameters->number));
+  HapticParameters values = parameters->parameters;
+  line.settings(values);
+  table_.comment(line.text());
+  this->addEvent(sample.tick, fmt::format("parameters {}", parameters->number));
 }
 
 void RecordingWriter::addEvents(const ServoSample& sample)
 {
-  using Kind = RecordedEvent::Kind;
   const bool isFirst = numberOfTicks_ == 0;
-  const std::uint32_t flags = sample.tickFlags;
-  const bool writing = !(flags & kTickStepped) || sample.device == Status::Ok;
-  if (isFirst)
+  const bool isWritten = !(sample.tickFlags & kTickStepped) || sample.device == Status::Ok;
+  const std::uint32_t flags = sample.tickFlags | (isWritten ? 0u : kTickNotWritten);
+  const std::uint32_t before = isFirst ? kTickStepped | kTickBegins : lastFlags_;
+  for (const RecordedFlag& flag : kRecordedFlags)
   {
-    lastFlags_ = kTickStepped;
-    lastWriting_ = true;
+    const bool isSet = (flags & flag.bit) != 0;
+    if (isSet != ((before & flag.bit) != 0) && (isSet || !flag.isOnce))
+    {
+      this->addEvent(sample.tick,
+        flag.name +
+          std::string(flag.isOnce          ? ""
+              : isSet == flag.isOnWhereSet ? " on"
+                                           : " off"));
+    }
   }
-  else if (flags & kTickBegins)
-  {
-    this->addEvent(sample.tick, Kind::Begins);
-  }
-  const auto changes = [&](std::uint32_t bit) { return ((flags ^ lastFlags_) & bit) != 0; };
-  if (changes(kTickClutched))
-  {
-    this->addEvent(sample.tick, Kind::Clutch, (flags & kTickClutched) != 0);
-  }
-  if (changes(kTickGateClosed))
-  {
-    this->addEvent(sample.tick, Kind::Gate, (flags & kTickGateClosed) == 0);
-  }
-  if (changes(kTickStepped))
-  {
-    this->addEvent(sample.tick, Kind::Reading, (flags & kTickStepped) != 0);
-  }
-  if (writing != lastWriting_)
-  {
-    this->addEvent(sample.tick, Kind::Writing, writing);
-  }
-  if (flags & kTickNewHand)
-  {
-    this->addEvent(sample.tick, Kind::NewHand);
-  }
-  if (flags & kTickNonFinite)
-  {
-    this->addEvent(sample.tick, Kind::NoPosition);
-  }
-  lastFlags_ = flags;
-  lastWriting_ = writing;
+  lastFlags_ = flags & ~kOnceFlags;
   if (isFirst || sample.parameters != last_.parameters)
   {
     this->addParameters(sample);
@@ -251,7 +210,7 @@ void RecordingWriter::addRow(const ServoSample& sample)
   ++numberOfTicks_;
 }
 
-/// The newest row, with the newest marker of those set until @p marksUntil.
+/// The newest row, with the markers set until @p marksUntil.
 void RecordingWriter::writeRow(std::uint64_t marksUntil)
 {
   if (!hasRow_)
@@ -260,13 +219,16 @@ void RecordingWriter::writeRow(std::uint64_t marksUntil)
   }
   hasRow_ = false;
   std::uint32_t marker = 0;
-  for (; !marks_.empty() && marks_.front() <= marksUntil; marks_.pop_front())
+  for (; !marks_.empty() && marks_.front().tick <= marksUntil; marks_.pop_front())
   {
+    std::string& text = marks_.front().text;
     marker = markers_ - std::uint32_t(marks_.size()) + 1;
-  }
-  for (; !labels_.empty() && labels_.front().marker <= marker; labels_.pop_front())
-  {
-    table_.comment(lineOf(labels_.front()));
+    std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
+    if (!text.empty())
+    {
+      table_.comment(fmt::format("marker {}: {}", marker, text));
+    }
   }
   row_[kFelt + 1] = double(marker);
   table_.row(row_.data(), row_.size());

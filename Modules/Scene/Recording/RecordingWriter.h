@@ -43,8 +43,7 @@ public:
   void add(const ServoSample& sample);
   ///@}
   /// Sets a marker at @p tick, the newest that is finished, or at the first one while there is none. @return
-  /// its number, 1, 2, ..., of that tick's where it has one; 0: nothing is recorded. @p text: what the header
-  /// says of it.
+  /// its number, 1, 2, ...; 0: nothing is recorded. @p text: what the header says of it.
   std::uint32_t mark(std::uint64_t tick, const std::string& text = {});
   /// From here on add() sets the markers that come by @p socket, which outlives this; null: none.
   void follow(MarkerSocket* socket) { socket_ = socket; }
@@ -64,7 +63,7 @@ private:
   void addRow(const ServoSample& sample);
   void writeRow(std::uint64_t marksUntil);
   void addEvents(const ServoSample& sample);
-  void addEvent(std::uint64_t tick, RecordedEvent::Kind kind, bool on = false);
+  void addEvent(std::uint64_t tick, const std::string& event);
   void addScene(const ServoSample& sample);
   void addParameters(const ServoSample& sample);
   void addCloud(std::uint64_t number, const std::shared_ptr<const SceneOrigin>& origin);
@@ -77,15 +76,13 @@ private:
   std::set<std::uint64_t> clouds_;      ///< Whose lines are written.
   std::array<double, kFelt + 2> row_{}; ///< The newest; its marker may still come.
   bool hasRow_ = false;
-  std::deque<std::uint64_t> marks_;  ///< Ticks of markers that are not written yet, ascending.
-  std::deque<RecordedLabel> labels_; ///< Of markers that are not written yet.
-  std::uint64_t lastMark_ = 0;       ///< Tick of the newest marker, written or not.
+  std::deque<MarkerSocket::Marker> marks_; ///< Not written yet; their ticks ascend.
+  std::uint64_t lastMark_ = 0;             ///< Tick of the newest marker, written or not.
   std::uint32_t markers_ = 0;
   std::uint64_t numberOfTicks_ = 0;
   std::uint64_t lost_ = 0; ///< Samples the loop had lost when the recording began.
   ServoSample last_;
   std::uint32_t lastFlags_ = 0;
-  bool lastWriting_ = true;
   std::string problem_;
   ServoInputs published_; ///< From the inputs of the newest sample on.
 };

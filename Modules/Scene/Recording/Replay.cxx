@@ -1,5 +1,6 @@
 #include "Replay.h"
 
+#include "RecordingLines.h"
 #include "VirtualTouch.h"
 
 #include "Haptics/Servo/ServoThread.h"
@@ -14,16 +15,16 @@
 namespace pointhaptics
 {
 
-Replay::Replay(const Recording& recording, RecordedScenes& scenes, std::optional<ProxyMethod> method)
+Replay::Replay(const Recording& recording, vtkPointSet* cloud, std::optional<ProxyMethod> method)
   : recording_(recording)
-  , scenes_(scenes)
+  , scenes_(recording, cloud)
   , method_(method)
   , step_(recording.header.step)
 {
   step_.restart(recording.ticks.front().tick);
 }
 
-bool Replay::apply(const RecordedEvent& event, TickInput& input, std::string& message)
+bool Replay::apply(const RecordedEvent& event, std::string& message)
 {
   using Kind = RecordedEvent::Kind;
   switch (event.kind)
@@ -46,26 +47,12 @@ bool Replay::apply(const RecordedEvent& event, TickInput& input, std::string& me
       step_.setParameters(parameters);
       break;
     }
-    case Kind::Clutch:
-      clutched_ = event.on;
-      break;
-    case Kind::Gate:
-      gateIsOpen_ = event.on;
-      break;
-    case Kind::Reading:
-      reading_ = event.on;
-      break;
-    case Kind::Writing:
-      writing_ = event.on;
-      break;
-    case Kind::NewHand:
-      input.hand.isNew = true;
-      break;
-    case Kind::NoPosition:
-      input.hand.position = { NAN, NAN, NAN };
-      break;
-    case Kind::Begins:
-      step_.restart(event.tick);
+    case Kind::Flag:
+      flags_ = event.isSet ? flags_ | event.flag : flags_ & ~event.flag;
+      if (event.flag == kTickBegins)
+      {
+        step_.restart(event.tick);
+      }
       break;
   }
   return true;
@@ -76,26 +63,29 @@ bool Replay::step(ServoSample& sample, std::string& message)
   const RecordedTick& row = recording_.ticks[next_];
   TickInput input;
   input.number = row.tick;
-  input.hand.position = row.hip();
   input.hand.buttons = row.buttons;
   for (; nextEvent_ < recording_.events.size() && recording_.events[nextEvent_].tick <= row.tick;
        ++nextEvent_)
   {
-    if (!this->apply(recording_.events[nextEvent_], input, message))
+    if (!this->apply(recording_.events[nextEvent_], message))
     {
       return false;
     }
   }
-  input.holdsModel = clutched_;
-  input.gateIsOpen = gateIsOpen_;
-  input.reading = reading_ ? Status::Ok : Status::DeviceNotReady;
+  input.hand.isNew = (flags_ & kTickNewHand) != 0;
+  input.hand.position = flags_ & kTickNonFinite ? Vec3{ NAN, NAN, NAN } : row.hip();
+  input.holdsModel = (flags_ & kTickClutched) != 0;
+  input.gateIsOpen = !(flags_ & kTickGateClosed);
+  input.reading = flags_ & kTickStepped ? Status::Ok : Status::DeviceNotReady;
   const auto before = std::chrono::steady_clock::now();
   {
     const DenormalsAreZero asInTheServoThread;
     step_.step(input, sample_);
   }
-  step_.finish(input, writing_ ? Status::Ok : Status::DeviceNotReady, sample_);
+  step_.finish(input, flags_ & kTickNotWritten ? Status::DeviceNotReady : Status::Ok, sample_);
   sample_.updateSeconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
+  flags_ &= ~kOnceFlags;
+  difference_.add(row, sample_);
   ++next_;
   sample = sample_;
   return true;

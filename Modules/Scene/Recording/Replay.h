@@ -2,14 +2,14 @@
 /// A recording felt again, tick by tick: `feel --replay`, `view --replay` and `compare`.
 #pragma once
 
-#include "RecordedScenes.h"
 #include "Recording.h"
 
+#include "Haptics/HapticScene.h"
 #include "Haptics/Servo/ServoStep.h"
 
 #include "PointHapticsSceneModule.h" // For export macro
 
-#include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -17,38 +17,26 @@
 namespace pointhaptics
 {
 
-/// Does what the servo thread did (ServoStep) with the same scenes, parameters and hand: its samples have the
-/// bits of the recorded ones, updateSeconds aside. One thread.
-class POINTHAPTICSSCENE_EXPORT Replay
+/// Makes scene after scene as the events of a recording ask for them, and keeps those of the newest event.
+/// One thread.
+class RecordedScenes
 {
 public:
-  /// Both must outlive this. @param method felt instead of the recorded one, if given.
-  Replay(const Recording& recording, RecordedScenes& scenes, std::optional<ProxyMethod> method = {});
+  RecordedScenes(const Recording& recording, vtkPointSet* cloud);
+  ~RecordedScenes();
 
-  bool isAtEnd() const { return next_ == recording_.ticks.size(); }
-  /// The row that the next step is of.
-  const RecordedTick& row() const { return recording_.ticks[next_]; }
-  /// Feels the next tick. @pre not isAtEnd(). False: @p message says which scene cannot be made.
-  bool step(ServoSample& sample, std::string& message);
-  /// The scene in use; may be null.
-  const std::shared_ptr<const HapticScene>& scene() const { return scene_; }
+  /// Makes the scene of an event; events come in their order. Null where there was none. False: @p message
+  /// says why it cannot be made.
+  bool make(const RecordedEvent& event, std::shared_ptr<const HapticScene>& scene, std::string& message);
 
 private:
-  bool apply(const RecordedEvent& event, TickInput& input, std::string& message);
+  struct Maker;
+  std::shared_ptr<const HapticScene> cloudOf(std::uint64_t number);
+  void keepThoseOf(const RecordedEvent& event);
 
   const Recording& recording_;
-  RecordedScenes& scenes_;
-  std::optional<ProxyMethod> method_;
-  ServoStep step_;
-  ServoSample sample_;
-  std::shared_ptr<const HapticScene> scene_;
-  std::shared_ptr<const HapticScene> former_; ///< The proxy is in it until the next step.
-  std::size_t next_ = 0;
-  std::size_t nextEvent_ = 0;
-  bool clutched_ = false;
-  bool gateIsOpen_ = true;
-  bool reading_ = true;
-  bool writing_ = true;
+  std::unique_ptr<Maker> maker_;
+  std::map<std::uint64_t, std::shared_ptr<const HapticScene>> clouds_; ///< As they were made.
 };
 
 /// How a replay compares with what was recorded.
@@ -62,6 +50,43 @@ struct ReplayDifference
   POINTHAPTICSSCENE_EXPORT void add(const RecordedTick& row, const ServoSample& sample);
   /// In words, in one line.
   POINTHAPTICSSCENE_EXPORT std::string text() const;
+};
+
+/// Does what the servo thread did (ServoStep) with the same scenes, parameters and hand: its samples have the
+/// bits of the recorded ones, updateSeconds aside. One thread.
+class POINTHAPTICSSCENE_EXPORT Replay
+{
+public:
+  /// @param recording must outlive this. @param cloud as its files were read; shared, not changed.
+  /// @param method felt instead of the recorded one, if given.
+  Replay(const Recording& recording, vtkPointSet* cloud, std::optional<ProxyMethod> method = {});
+
+  bool isAtEnd() const { return next_ == recording_.ticks.size(); }
+  /// The row that the next step is of.
+  const RecordedTick& row() const { return recording_.ticks[next_]; }
+  /// Feels the next tick. @pre not isAtEnd(). False: @p message says which scene cannot be made.
+  bool step(ServoSample& sample, std::string& message);
+  /// Compares the ticks felt so far with the recorded ones.
+  const ReplayDifference& difference() const { return difference_; }
+  /// In force in the newest tick.
+  const ContactParameters& contact() const { return recording_.parameters.at(sample_.parameters).contact; }
+  /// The scene in use; may be null.
+  const std::shared_ptr<const HapticScene>& scene() const { return scene_; }
+
+private:
+  bool apply(const RecordedEvent& event, std::string& message);
+
+  const Recording& recording_;
+  RecordedScenes scenes_;
+  std::optional<ProxyMethod> method_;
+  ServoStep step_;
+  ServoSample sample_;
+  std::shared_ptr<const HapticScene> scene_;
+  std::shared_ptr<const HapticScene> former_; ///< The proxy is in it until the next step.
+  std::size_t next_ = 0;
+  std::size_t nextEvent_ = 0;
+  std::uint32_t flags_ = kTickStepped; ///< In force: see RecordedEvent::flag.
+  ReplayDifference difference_;
 };
 
 } // namespace pointhaptics

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <chrono>
 #include <thread>
+#include <utility>
 
 namespace pointhaptics
 {
@@ -25,7 +26,7 @@ bool ReplayPlayer::open(const std::string& fileName, vtkPointSet* cloud, std::st
   {
     return false;
   }
-  if (!RecordedScenes::isOf(recording_, cloud, message))
+  if (!isOf(recording_, cloud, message))
   {
     message = fmt::format("{}: the cloud is another one: {}", fileName, message);
     return false;
@@ -44,18 +45,14 @@ void ReplayPlayer::start(ServoLoop& loop)
 bool ReplayPlayer::takeModel(AffineTransform& model)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
-  const bool isThere = hasModel_;
   model = model_;
-  hasModel_ = false;
-  return isThere;
+  return std::exchange(hasModel_, false);
 }
 
 std::string ReplayPlayer::takeMessage()
 {
   const std::lock_guard<std::mutex> lock(mutex_);
-  std::string news;
-  news.swap(message_);
-  return news;
+  return std::exchange(message_, std::string());
 }
 
 void ReplayPlayer::say(const std::string& news)
@@ -69,9 +66,7 @@ void ReplayPlayer::run(ServoLoop& loop)
   using Clock = std::chrono::steady_clock;
   const auto secondsOf = [](double seconds)
   { return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds)); };
-  RecordedScenes scenes(recording_, cloud_);
-  Replay replay(recording_, scenes);
-  ReplayDifference difference;
+  Replay replay(recording_, cloud_);
   const double begin = recording_.ticks.front().felt[0];
   Clock::time_point start = Clock::now();
   const HapticScene* scene = nullptr;
@@ -95,7 +90,6 @@ void ReplayPlayer::run(ServoLoop& loop)
       return;
     }
     start = std::max(start, Clock::now() - secondsOf(row.felt[0] - begin) - kLongestSleep);
-    difference.add(row, sample);
     sample.buttons = 0; // they did what they did: the recording has it
     loop.feed(sample);
     if (replay.scene() && replay.scene().get() != scene)
@@ -112,7 +106,7 @@ void ReplayPlayer::run(ServoLoop& loop)
   }
   if (replay.isAtEnd())
   {
-    this->say("replay: " + difference.text());
+    this->say("replay: " + replay.difference().text());
   }
 }
 

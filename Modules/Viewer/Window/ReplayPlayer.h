@@ -35,6 +35,11 @@ public:
   /// Message since the last call: a marker, the end. Empty: none.
   std::string takeMessage();
   const ServoStepSettings& stepSettings() const { return recording_.header.step; }
+  /// Parameters that one of the samples fed was felt with.
+  const ContactParameters& contactOf(const ServoSample& sample) const
+  {
+    return recording_.parameters.at(sample.parameters).contact;
+  }
 
 private:
   void run(ServoLoop& loop);

@@ -64,7 +64,7 @@ bool ViewWindow::openDevice(std::string& message)
       return false;
     }
     applyUnits(options_.pathUnits, path);
-    if (const std::string odd = unlikelyUnits(path, Bounds()); !odd.empty())
+    if (const std::string odd = unlikelyUnitsIn(scene_, options_, path, true); !odd.empty())
     {
       this->report(HapticViewerObserver::Kind::Warning, options_.path + ": " + odd);
     }

@@ -1,5 +1,9 @@
 #include "ViewDisplay.h"
 
+#include "Core/Base/Host/OutOfMemory.h"
+#include "Core/Base/Status.h"
+
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <thread>
@@ -10,6 +14,28 @@
 
 namespace pointhaptics
 {
+namespace
+{
+
+///@{
+/// Bytes of address space that Mesa's drivers, their compiler and their threads take; they crash without.
+constexpr std::size_t kRoomOfDriver = std::size_t(768) << 20;
+constexpr std::size_t kRoomOfCore = std::size_t(96) << 20;
+constexpr std::size_t kRoomOfPoint = 100;
+///@}
+
+/// True where there is room to draw @p points. The driver keeps the room that it once had.
+bool hasRoomFor(std::int64_t points)
+{
+  static std::int64_t most = -1;
+  const std::size_t driver = most < 0 ? kRoomOfDriver + kRoomOfCore * std::thread::hardware_concurrency() : 0;
+  const std::int64_t more = points - std::max<std::int64_t>(most, 0);
+  const bool hasRoom = points <= most || hasAddressSpace(driver + kRoomOfPoint * std::size_t(more) + 1);
+  most = hasRoom ? std::max(most, points) : most;
+  return hasRoom;
+}
+
+} // namespace
 
 #if defined(__unix__) && !defined(__APPLE__)
 namespace
@@ -29,8 +55,13 @@ Function functionOfX(const char* name)
 
 }
 
-bool displayIsAvailable(std::string& message)
+bool displayIsAvailable(std::string& message, std::int64_t points)
 {
+  if (!hasRoomFor(points))
+  {
+    message = pointhaptics::message(Status::OutOfMemory);
+    return false;
+  }
   const char* const cure = "run it on a desktop, under `xvfb-run`, or try `./setup.sh demo`";
   const char* name = std::getenv("DISPLAY");
   if (!name || !*name)
@@ -71,10 +102,11 @@ std::array<int, 2> screenSize()
   return { width(keptDisplay, screen(keptDisplay)), height(keptDisplay, screen(keptDisplay)) };
 }
 #else
-bool displayIsAvailable(std::string& message)
+bool displayIsAvailable(std::string& message, std::int64_t points)
 {
-  message.clear();
-  return true;
+  const bool hasRoom = hasRoomFor(points);
+  message = hasRoom ? "" : pointhaptics::message(Status::OutOfMemory);
+  return hasRoom;
 }
 
 std::array<int, 2> screenSize()

@@ -21,27 +21,22 @@ namespace pointhaptics
 bool ViewWindow::startRecording(const std::string& fileName, std::string& message)
 {
   auto* cloud = vtkPointSet::SafeDownCast(scene_.resampler()->GetInputDataObject(0, 0));
-  RecordingHeader header;
-  header.program = observer_.program;
-  header.settings = observer_.describeState ? observer_.describeState(this->state()) : std::string();
-  std::error_code error;
-  for (std::string file : shown_.empty() ? std::vector<std::string>{ scene_.title() } : shown_)
+  std::vector<std::string> files = shown_.empty() ? std::vector<std::string>{ scene_.title() } : shown_;
+  for (std::string& file : files)
   {
     if (file == options_.passingFile && !file.empty())
     {
-      const std::string copy = keptCloudName(fileName);
-      if (!keepCloud(file, copy, message))
+      const std::string passing = std::exchange(file, keptCloudName(fileName));
+      if (!keepCloud(passing, file, message))
       {
         return false;
       }
-      file = copy;
     }
-    const std::filesystem::path path = std::filesystem::absolute(file, error);
-    header.cloud.files.push_back(error ? file : path.string());
   }
-  header.cloud.resolution = options_.resolution;
-  header.cloud.points = cloud->GetNumberOfPoints(); // of the clipping box, where there is one
-  header.cloud.checksum = checksumOf(cloud);
+  RecordingHeader header =
+    headerOf(files, options_.resolution, cloud); // of the clipping box, where there is one
+  header.program = observer_.program;
+  header.settings = observer_.describeState ? observer_.describeState(this->state()) : std::string();
   return recording_.open(fileName, header, message);
 }
 

@@ -300,7 +300,7 @@ void ViewWindow::onSamples(void* callData)
     {
       const double newtons = norm(sample.state.force);
       wholeChart_->AddSample(sample.timeSeconds, newtons, sample.state.radius,
-        wholeIdeal_ ? idealForce(*wholeIdeal_, scene_, sample.state.hip, this->contactInForce()) : NAN);
+        wholeIdeal_ ? idealForce(*wholeIdeal_, scene_, sample.state.hip, this->contactOf(sample)) : NAN);
     }
   }
 }
@@ -466,9 +466,10 @@ void ViewWindow::noteFile(bool isWritten, const std::string& note) const
   }
 }
 
-ContactParameters ViewWindow::contactInForce() const
+/// Parameters that @p sample was felt with.
+ContactParameters ViewWindow::contactOf(const ServoSample& sample) const
 {
-  ContactParameters contact = parameters_.contact;
+  ContactParameters contact = player_ ? player_->contactOf(sample) : parameters_.contact;
   contact.forceLimit = device_ && servo_.running() ? servo_.forceLimit().newtons() : contact.forceLimit;
   return contact;
 }

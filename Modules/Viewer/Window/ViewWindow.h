@@ -163,7 +163,7 @@ private:
   void noteFile(bool isWritten, const std::string& note) const;
   void findIdeal();
   /// Parameters with the limit of the force that holds.
-  ContactParameters contactInForce() const;
+  ContactParameters contactOf(const ServoSample& sample) const;
   HapticViewerState state();
   void onModelChanged(void*);
   void onSceneChanged(void*);

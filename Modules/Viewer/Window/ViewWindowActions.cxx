@@ -331,9 +331,9 @@ void ViewWindow::findIdeal()
 {
   const std::shared_ptr<IdealForce> ideal = idealFor(scene_, options_);
   wholeIdeal_ = ideal ? std::make_shared<IdealForce>(*ideal) : nullptr;
-  style_->GetDisplay().setIdealForce(ideal ? [this, ideal](const Vec3& hip)
-      { return idealForce(*ideal, scene_, hip, this->contactInForce()); }
-                                           : std::function<double(const Vec3&)>());
+  style_->GetDisplay().setIdealForce(ideal ? [this, ideal](const ServoSample& sample)
+      { return idealForce(*ideal, scene_, sample.state.hip, this->contactOf(sample)); }
+                                           : std::function<double(const ServoSample&)>());
 }
 
 void ViewWindow::showFile(std::size_t index)

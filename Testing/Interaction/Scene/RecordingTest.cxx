@@ -1,6 +1,5 @@
 // A recording of a running servo loop is felt again to the last bit, and a bad one is refused in one line.
 #include "Recording.h"
-#include "RecordedScenes.h"
 #include "RecordingWriter.h"
 #include "Replay.h"
 
@@ -150,17 +149,15 @@ protected:
   {
     Recording recording;
     ASSERT_TRUE(readRecording(file_, recording, message_)) << message_;
-    EXPECT_TRUE(RecordedScenes::isOf(recording, cloud_, message_)) << message_;
-    RecordedScenes scenes(recording, cloud_);
-    Replay replay(recording, scenes);
-    ReplayDifference difference;
+    EXPECT_TRUE(isOf(recording, cloud_, message_)) << message_;
+    Replay replay(recording, cloud_);
+    const ReplayDifference& difference = replay.difference();
     std::size_t contacts = 0;
     while (!replay.isAtEnd())
     {
       const RecordedTick& row = replay.row();
       ServoSample sample;
       ASSERT_TRUE(replay.step(sample, message_)) << message_;
-      difference.add(row, sample);
       contacts += sample.state.contact;
       EXPECT_EQ(sample.tick, row.tick);
     }
@@ -174,7 +171,7 @@ protected:
     stream << std::ifstream(file_).rdbuf();
     return stream.str();
   }
-  /// In the file; expects that they are numbered from 1 on.
+  /// In the file, one for each marker: a row has the number of its newest.
   std::vector<std::uint64_t> markedTicks()
   {
     Recording recording;
@@ -182,11 +179,8 @@ protected:
     std::vector<std::uint64_t> ticks;
     for (const RecordedTick& row : recording.ticks)
     {
-      if (row.marker > 0)
-      {
-        ticks.push_back(row.tick);
-        EXPECT_EQ(row.marker, ticks.size());
-      }
+      EXPECT_TRUE(row.marker == 0 || row.marker > ticks.size());
+      ticks.resize(std::max<std::size_t>(ticks.size(), row.marker), row.tick);
     }
     return ticks;
   }
@@ -319,7 +313,7 @@ TEST_F(RecordingTest, ItBeginsWhenTheHandIsFreeAndHasMarkers)
   this->take();
   ASSERT_TRUE(writer_.open(file_, header_, message_)) << message_;
   EXPECT_EQ(writer_.mark(loop_.latest().tick), 1u);
-  EXPECT_EQ(writer_.mark(loop_.latest().tick), 1u) << "the first tick has one";
+  EXPECT_EQ(writer_.mark(loop_.latest().tick), 2u) << "of the first tick, too";
   loop_.beginAnew();
   ASSERT_TRUE(trial::eventually(
     [&]
@@ -329,14 +323,15 @@ TEST_F(RecordingTest, ItBeginsWhenTheHandIsFreeAndHasMarkers)
     }));
   this->recordFor(300);
   const std::uint64_t marked = loop_.latest().tick;
-  EXPECT_EQ(writer_.mark(marked), 2u);
+  EXPECT_EQ(writer_.mark(marked), 3u);
   this->recordFor(300);
   this->stop();
   this->replay(100);
   Recording recording;
   ASSERT_TRUE(readRecording(file_, recording, message_)) << message_;
   EXPECT_GT(recording.ticks.front().tick, 1u);
-  EXPECT_EQ(this->markedTicks(), (std::vector<std::uint64_t>{ recording.ticks.front().tick, marked }));
+  EXPECT_EQ(this->markedTicks(),
+    (std::vector<std::uint64_t>{ recording.ticks.front().tick, recording.ticks.front().tick, marked }));
   EXPECT_EQ(recording.ticks.back().buttons, 5u);
   EXPECT_EQ(recording.header.settings, header_.settings);
   EXPECT_EQ(recording.header.program, header_.program);
@@ -352,11 +347,16 @@ TEST_F(RecordingTest, AMarkerAtTheLastTickIsWritten)
   EXPECT_EQ(writer_.mark(taken), 1u);
   loop_.stop();
   const std::uint64_t last = loop_.latest().tick;
-  EXPECT_EQ(writer_.mark(last), 2u);
-  EXPECT_EQ(writer_.mark(last), 2u) << "the tick has one";
+  EXPECT_EQ(writer_.mark(last, "end\nof trial"), 2u);
+  EXPECT_EQ(writer_.mark(last, "pause"), 3u) << "of the same tick";
   this->stop();
-  EXPECT_EQ(writer_.numberOfMarkers(), 2u);
-  EXPECT_EQ(this->markedTicks(), (std::vector<std::uint64_t>{ taken, last }));
+  EXPECT_EQ(writer_.numberOfMarkers(), 3u);
+  EXPECT_EQ(this->markedTicks(), (std::vector<std::uint64_t>{ taken, last, last }));
+  Recording recording;
+  ASSERT_TRUE(readRecording(file_, recording, message_)) << message_;
+  ASSERT_EQ(recording.labels.size(), 2u);
+  EXPECT_EQ(recording.labels[2], "end of trial");
+  EXPECT_EQ(recording.labels[3], "pause");
 }
 
 TEST_F(RecordingTest, AMarkerOfAnIdleHandIsWritten)
@@ -545,8 +545,8 @@ TEST_F(RecordingTest, LinesThatComeByASocketAreMarkers)
   Recording recording;
   ASSERT_TRUE(readRecording(file_, recording, message_)) << message_;
   ASSERT_EQ(recording.labels.size(), 2u);
-  EXPECT_EQ(recording.labels[0].text, "trial 1: rough");
-  EXPECT_EQ(recording.labels[1].text, "trial 2: smooth");
+  EXPECT_EQ(recording.labels[1], "trial 1: rough");
+  EXPECT_EQ(recording.labels[2], "trial 2: smooth");
   const std::vector<std::uint64_t> ticks = this->markedTicks();
   ASSERT_EQ(ticks.size(), 2u);
   EXPECT_LE(ticks[0], between);
@@ -567,10 +567,10 @@ TEST_F(RecordingTest, AnotherCloudIsRefused)
   cloud_->GetPoints()->GetPoint(7, p);
   p[0] = std::nextafter(float(p[0]), 1.0F);
   cloud_->GetPoints()->SetPoint(7, p);
-  EXPECT_FALSE(RecordedScenes::isOf(recording, cloud_, message_));
+  EXPECT_FALSE(isOf(recording, cloud_, message_));
   EXPECT_NE(message_.find("others"), std::string::npos) << message_;
   cloud_->GetPoints()->InsertNextPoint(p);
-  EXPECT_FALSE(RecordedScenes::isOf(recording, cloud_, message_));
+  EXPECT_FALSE(isOf(recording, cloud_, message_));
   EXPECT_NE(message_.find("100001 points"), std::string::npos) << message_;
 }
 

@@ -891,3 +891,47 @@ QuittingInTouchKeepsTheTrace() {
   has_value 15 1 trace.csv || fail "the trace has no contact"
   [[ ! -e trace.csv.part && ! -e pointhaptics-001.csv && ! -e pointhaptics-001.csv.part ]] || fail "a part is left"
 }
+
+# Study.md as it is, with two trials of each condition: a person slides over the sphere, presses Space and quits.
+AStudyIsRunAndAnalysed() {
+  local trial step
+  if ! "$PYTHON" -c "import numpy" 2>/dev/null; then
+    echo "skipped: no NumPy (package python3-numpy)"
+    exit 77
+  fi
+  make sphere sphere.ply
+  sed 's/REPEATS = 4/REPEATS = 2/' "$STUDY_BLOCKS/Study.py" >study.py
+  mkfifo answers
+  PATH="$(dirname -- "$program"):$PATH" "$PYTHON" study.py 7 --size 640x480 --device simulated <answers >said.txt 2>&1 &
+  viewer=$!
+  exec 9>answers
+  for trial in 1 2 3 4; do
+    said "trial $trial of 4"
+    echo >&9
+    shows sphere.ply
+    has_keys
+    move_to 175 180
+    key f
+    sleep 0.3
+    for ((step = 0; step < 40; ++step)); do
+      move_to $((step < 10 ? 175 + 6 * step : 235)) $((180 + 2 * step))
+      sleep 0.03
+    done
+    key space
+    until_true "there is no marker in trial $trial" said_times "$trial" "marker 1"
+    key q
+    until_true "the window stays" is_gone sphere.ply
+  done
+  ends_with 0 "the last trial"
+  for trial in 1 2 3 4; do
+    grep -qE "^# marker 1: trial $trial: (smooth|rough)$" "p07-0$trial.csv" || fail "recording $trial has no marker"
+  done
+  [[ "$(grep -c ",smooth," p07.csv) $(grep -c ",rough," p07.csv)" == "2 2" ]] || fail "$(cat p07.csv)"
+  "$PYTHON" "$STUDY_BLOCKS/Study.2.py" >said.txt 2>&1 || fail "the analysis ended with an error"
+  awk -F'[ ,]+' '/^friction/ { found = $3 > 0.05 && $3 < 0.2 && $5 > 0.4 && $5 < 0.7 } END { exit !found }' said.txt ||
+    fail "the friction is not that of the conditions"
+  [[ "$(wc -l <trials.csv)" == 5 ]] || fail "trials.csv: $(cat trials.csv)"
+}
+# said_times COUNT WORDS: so many lines have the words.
+said_times() { (($(grep -cF -- "$2" said.txt) == $1)); }
+is_gone() { [[ -z "$(xdotool search --name "PointHaptics: $1")" ]]; }

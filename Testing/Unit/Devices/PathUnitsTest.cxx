@@ -17,6 +17,8 @@ using namespace pointhaptics;
 namespace
 {
 
+const UnitNames kOptions{ "--unit", "--path-unit", "--path-time-unit" };
+
 /// To and fro over @p size, @p rows of them @p step apart.
 HipPath swing(double size, int rows, double step)
 {
@@ -52,16 +54,31 @@ TEST(PathUnits, ThatAreWrongAreSaidWithTheCure)
          Case{ swing(0.06, 100, 1e4), cube(0.05), "--path-time-unit us" },
          Case{ swing(0.5, 3, 1e3), cube(0.05), "--path-time-unit ms" } })
   {
-    const std::string said = unlikelyUnits(each.path, each.cloud);
+    const std::string said = unlikelyUnits(each.path, each.cloud, kOptions);
     EXPECT_NE(said.find(each.cure), std::string::npos) << each.cure << ": " << said;
     EXPECT_EQ(said.find('\n'), std::string::npos);
   }
-  EXPECT_NE(unlikelyCloudUnit(swing(0.06, 1000, 0.01), cube(50.0)).find("--unit mm"), std::string::npos);
-  EXPECT_EQ(unlikelyCloudUnit(swing(0.06, 100, 0.01), cube(0.05)), "");
-  EXPECT_EQ(unlikelyCloudUnit(HipPath(), Bounds()), "");
-  UnitNames names;
-  names.path = "path_unit";
-  EXPECT_NE(unlikelyUnits(swing(60.0, 1000, 0.01), Bounds(), names).find("path_unit mm"), std::string::npos);
+  const HipPath beside = swing(0.06, 1000, 0.01);
+  EXPECT_NE(unlikelyUnits(beside, cube(50.0), kOptions, false).find("give --unit mm"), std::string::npos);
+  EXPECT_EQ(unlikelyUnits(beside, cube(50.0), kOptions, true), "");
+  EXPECT_EQ(unlikelyUnits(beside, cube(0.05), kOptions, false), "");
+  EXPECT_EQ(unlikelyUnits(HipPath(), Bounds(), kOptions, false), "");
+}
+
+/// VTK and Python have no options for units.
+TEST(PathUnits, AreCuredByAFactorWhereThereAreNoOptions)
+{
+  EXPECT_NE(
+    unlikelyUnits(swing(60.0, 1000, 0.01), cube(0.05)).find("multiply the places of the path by 0.001 if"),
+    std::string::npos);
+  EXPECT_NE(unlikelyUnits(swing(60.0, 1000, 0.01), cube(50.0))
+              .find("multiply the points and the places of the path by 0.001 if both are in mm"),
+    std::string::npos);
+  EXPECT_NE(unlikelyUnits(swing(0.06, 1000, 1.0), cube(0.05)).find("multiply its times by 0.001 if"),
+    std::string::npos);
+  EXPECT_NE(
+    unlikelyUnits(swing(0.06, 1000, 0.01), cube(50.0), {}, false).find("multiply the points by 0.001 if"),
+    std::string::npos);
 }
 
 TEST(PathUnits, OfAnyHandAreNotDoubted)

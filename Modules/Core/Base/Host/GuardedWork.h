@@ -6,17 +6,27 @@
 #include "Core/Base/Host/OutOfMemory.h"
 #include "Core/Base/Status.h"
 
+#include <cstddef>
 #include <exception>
 #include <utility>
 
 namespace pointhaptics
 {
 
+/// Address space that long work begins with at least: VTK ends the process where an object finds no memory in
+/// its constructor.
+constexpr std::size_t kRoomOfWork = std::size_t(16) << 20;
+
 /// Calls @p work without the interpreter's lock. @return OutOfMemory where memory ran out in it, else Ok.
 /// Other exceptions pass.
 template <typename Work>
 Status guardedWork(Work&& work)
 {
+  prepareForExceptions();
+  if (!hasAddressSpace(kRoomOfWork))
+  {
+    return Status::OutOfMemory;
+  }
   const WithoutInterpreterLock unlocked;
   try
   {
