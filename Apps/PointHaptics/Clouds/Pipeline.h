@@ -44,6 +44,7 @@ struct ReadOptions
   std::vector<double> clip; ///< Box of what is read, in its coordinates: XMIN, XMAX, YMIN, ...; empty: all.
   std::vector<std::string> columns; ///< Names for those of a text; empty: as the file says.
   bool salvage = false;             ///< A file that is cut is read as far as it goes.
+  std::int64_t samples = 0;         ///< Of the faces of a mesh, as vtkPointCloudReader takes them.
   Ranks* ranks = nullptr; ///< That read it together, each its part of the points; null: this process alone.
 };
 

@@ -440,6 +440,7 @@ int runFeel(const FeelOptions& options, Files& files)
   {
     return fail(kFeelCommand, message);
   }
+  showNotes(kFeelCommand, options.file, cloud);
   const Bounds box = feltBox(options, cloud.points);
   if (const std::string odd = unlikelyUnits(path, box); !odd.empty())
   {

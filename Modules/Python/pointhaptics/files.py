@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import errno
+import operator
 import os
 import shutil
 import tempfile
@@ -92,10 +93,11 @@ def _check_readable(name: str) -> None:
         raise OSError(number, f"{os.strerror(number)}; name a file that may be read", name)
 
 
-def _read(name: str, shown: str) -> vtkPointCloudReader:
+def _read(name: str, shown: str, samples: int = 0) -> vtkPointCloudReader:
     _check_readable(name)
     reader = vtkPointCloudReader()
     reader.SetFileName(name)
+    reader.SetSamples(samples)
     errors = run(reader, reader.Update)
     if errors or reader.GetErrorMessage():
         _fail(reader.GetErrorMessage() or errors[0], name, shown, True)
@@ -104,10 +106,13 @@ def _read(name: str, shown: str) -> vtkPointCloudReader:
     return reader
 
 
-def read(path: Path) -> Tuple[NDArray[Any], Attributes]:
+def read(path: Path, *, samples: int = 0) -> Tuple[NDArray[Any], Attributes]:
     """Read a point cloud; the format goes by content (PLY, PCD, LAS, VTP, OBJ, columns of text ...).
 
     path: the name of a file, or a file object opened for bytes, which is read to its end.
+    samples: of a file with faces so many points on these, spread evenly, the same ones at each call; arrays are
+        interpolated, integers but colours and intensities are those of the nearest vertex. 0: the vertices, in their
+        order; a RuntimeWarning says that there are faces.
 
     Returns points, (n, 3) float64 where the file's numbers need it and float32 otherwise, in the file's frame and
     unit, and attributes, name -> (n,) or (n, components) of the file's type: "RGB", "Normals", "Intensity" ... What
@@ -117,8 +122,11 @@ def read(path: Path) -> Tuple[NDArray[Any], Attributes]:
     Raises OSError with errno and filename where it cannot be opened (FileNotFoundError ...), ValueError where it is
     damaged, empty or of an unknown format, each with file, format, place, value and cure in one line; MemoryError.
     """
+    number = operator.index(samples)
+    if not 0 <= number <= 100_000_000:
+        raise ValueError(f"samples: {samples!r}; give a number from 0 to 100,000,000")
     with _file_to_read(path) as (name, shown):
-        reader = _read(name, shown)
+        reader = _read(name, shown, number)
     for note in reader.GetNotes():
         warnings.warn(f"{shown}: {note}", RuntimeWarning, stacklevel=2)
     output = reader.GetOutput()

@@ -53,6 +53,7 @@ struct ShownRequest
 {
   CloudOrientation orientation;
   std::string keptArray;             ///< To keep beside those that the colours need; empty: none.
+  bool ignoresIntensity = false;     ///< Between samples of faces even noise is coherent.
   std::optional<CloudKind> kind;     ///< Instead of cloudKind(), where somebody says it.
   std::optional<CloudColors> colors; ///< Instead of chooseColors(): those of a coarse level shown before.
 };
