@@ -38,14 +38,14 @@ ROWS
   echo "This is what \`pointhaptics view FILE\` shows at first glance of clouds that nobody tuned it for: kind of cloud, size of the"
   echo "points, light, colours and camera are decided from the data alone. [Tour.md](Tour.md) says which key changes what. The files"
   echo "are other people's; below each picture stands whose, and under which terms. \`Documentation/MakeGallery.sh\` makes this page of a"
-  echo "folder of them. Corners mark the workspace that the hand reaches."
+  echo "folder of them; of meshes it shows the vertices (\`--vertices\`). Corners mark the workspace that the hand reaches."
 } >"$page"
 left=""
 while IFS='|' read -r file place seen source; do
   name="gallery-${file%.*}"
   folder="$documentation/Images"
   [[ "$place" == apart ]] && folder="$apart"
-  if ! "$program" view "$clouds/$file" --size 800x500 --screenshot "$apart/$name.png" </dev/null; then
+  if ! "$program" view "$clouds/$file" --vertices --size 800x500 --screenshot "$apart/$name.png" </dev/null; then
     echo "MakeGallery.sh: $clouds/$file could not be drawn" >&2
     exit 1
   fi

@@ -6,6 +6,9 @@
 #include "Progress.h"
 #include "SharedReading.h"
 
+#include "vtkCellArray.h"
+#include "vtkSmartPointer.h"
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -22,6 +25,8 @@ namespace pointhaptics::io
 
 /// Part of the progress that reading the bytes takes; parsing them takes the rest.
 constexpr double kReadingPart = 0.3;
+/// The last part of it, where faces are sampled.
+constexpr double kSamplingPart = 0.4;
 
 /// Part of a cloud to read: see vtkPointCloudReader.
 struct WantedPart
@@ -34,6 +39,23 @@ struct WantedPart
   bool hasBox() const { return box[0] <= box[1] && box[2] <= box[3] && box[4] <= box[5]; }
   /// True if a file that can be read in parts need not be read whole.
   bool isPart() const { return hasBox() || resolution > 0.0 || mostPoints > 0; }
+};
+
+/// The faces of a mesh while its file is read.
+struct MeshFaces
+{
+  std::uint64_t count = 0;             ///< out: of the file, whether or not they are kept
+  vtkSmartPointer<vtkCellArray> cells; ///< Those that are kept; null: none is wanted.
+
+  bool isWanted() const { return cells != nullptr; }
+  /// Keeps a face, whose corners are vertices of the file, counted from 0. Nobody has checked them.
+  void keep(const std::vector<vtkIdType>& corners)
+  {
+    if (isWanted() && corners.size() > 2)
+    {
+      cells->InsertNextCell(static_cast<vtkIdType>(corners.size()), corners.data());
+    }
+  }
 };
 
 /// Lives during one read, in one thread.
@@ -54,6 +76,7 @@ struct ReadTask
   std::function<void(std::size_t offset, std::size_t size)> load;
   /// Where ranks read the file together, and its format can be read in parts: null where it is read whole.
   SharedReading* shared = nullptr;
+  MeshFaces faces;
   bool isCut = false;                              ///< out: the cloud is this rank's part
   std::size_t bytesElsewhere = 0;                  ///< out: read of other files, which this one lists
   bool applyPoses = true;                          ///< scans of several positions in one frame
@@ -110,7 +133,10 @@ struct ReadTask
   /// Reports how much of the parsing is done, 0..1. @throws StoppedOnRequest when an observer asked to stop.
   void progress(double fraction) const { reportProgress(algorithm, overall(fraction)); }
   /// Part of the whole work that is done when @p fraction of the parsing is.
-  static double overall(double fraction) { return kReadingPart + (1.0 - kReadingPart) * fraction; }
+  double overall(double fraction) const
+  {
+    return kReadingPart + (1.0 - kReadingPart - (faces.isWanted() ? kSamplingPart : 0.0)) * fraction;
+  }
   /// Reports how much of the file's bytes is read.
   void readingProgress(double fraction) const { reportProgress(algorithm, kReadingPart * fraction); }
 };

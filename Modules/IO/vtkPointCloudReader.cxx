@@ -5,6 +5,7 @@
 #include "IO/Formats/FormatList.h"
 #include "IO/Formats/FormatLooks.h"
 #include "IO/Las/LasHeader.h"
+#include "IO/Mesh/FaceSamples.h"
 #include "IO/Raw/RawFormats.h"
 #include "ReadTask.h"
 
@@ -263,6 +264,10 @@ void vtkPointCloudReader::ReadInto(vtkPolyData* cloud)
   task.extension = this->ExtensionOf(task.path);
   task.columns = this->Columns;
   task.salvage = this->Salvage;
+  if (this->Samples != 0)
+  {
+    task.faces.cells = vtkSmartPointer<vtkCellArray>::New();
+  }
   task.algorithm = this;
   task.wanted.onlyPositions = this->OnlyPositions;
   task.wanted.resolution = this->Resolution;
@@ -283,6 +288,7 @@ void vtkPointCloudReader::ReadInto(vtkPolyData* cloud)
     this->ReadWhole(task, cloud);
   }
   this->Coarse = task.isCoarse;
+  cloud->SetPolys(nullptr);
   if (this->GenerateVertices)
   {
     io::setOneVertexPerPoint(cloud);
@@ -298,7 +304,7 @@ void vtkPointCloudReader::ReadTogether(io::ReadTask& task, vtkPolyData* cloud)
   try
   {
     const std::string start = io::startOfFile(task.path, kStart);
-    if (canBeCut(start, static_cast<std::size_t>(missing ? 0 : bytes), task.extension))
+    if (this->Samples == 0 && canBeCut(start, static_cast<std::size_t>(missing ? 0 : bytes), task.extension))
     {
       task.shared = &shared;
       this->ReadPart(task, cloud);
@@ -373,6 +379,7 @@ void vtkPointCloudReader::Finish(io::ReadTask& task, vtkPolyData* cloud)
     keepRows(cloud, 0, static_cast<vtkIdType>(task.pointsThere));
   }
   checkCoordinates(cloud);
+  this->FinishFaces(task, cloud);
   io::finishSplats(task, cloud);
   if (const std::string steps = coarseFloats(task, cloud); !steps.empty())
   {
@@ -384,6 +391,25 @@ void vtkPointCloudReader::Finish(io::ReadTask& task, vtkPolyData* cloud)
   {
     keepInside(task, cloud);
   }
+}
+
+/// Says of a mesh what the points are, which are samples of its faces where these are wanted.
+void vtkPointCloudReader::FinishFaces(io::ReadTask& task, vtkPolyData* cloud)
+{
+  if (task.faces.count == 0)
+  {
+    return;
+  }
+  if (!task.faces.isWanted() || task.faces.cells->GetNumberOfCells() == 0)
+  {
+    task.notes.push_back("the points are the vertices of " + io::facesText(task.faces.count) +
+      (task.faces.isWanted() ? ", which cannot be read" : ""));
+    return;
+  }
+  io::reportProgress(this, 1.0 - io::kSamplingPart);
+  cloud->SetPolys(task.faces.cells);
+  task.notes.emplace_back();
+  this->Sampled = io::sampleFaces(cloud, this->Samples, task.notes.back());
 }
 
 /// The one to go by where the content leaves the format open.
@@ -418,6 +444,7 @@ int vtkPointCloudReader::RequestData(
   this->OtherRankFailed = false;
   this->NumberOfBytesRead = 0;
   this->Coarse = false;
+  this->Sampled = false;
   this->SetErrorCode(vtkErrorCode::NoError);
   // The pipeline goes on with an empty cloud after a fault: returning 0 would add the executive's own
   // message, which callers cannot silence.
@@ -475,6 +502,7 @@ void vtkPointCloudReader::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "OnlyPositions: " << (this->OnlyPositions ? "On" : "Off") << "\n";
   os << indent << "GenerateVertices: " << (this->GenerateVertices ? "On" : "Off") << "\n";
   os << indent << "Extension: " << this->Extension << "\n";
+  os << indent << "Samples: " << this->Samples << "\n";
   os << indent << "Salvage: " << (this->Salvage ? "On" : "Off") << "\n";
   os << indent << "ApplyPoses: " << this->ApplyPoses << "\n";
   os << indent << "Format: " << this->Format << "\n";

@@ -10,7 +10,7 @@
  * its name and type. Fields that belong together become one array: red green blue [alpha] become "RGB" or
  * "RGBA" (unsigned char, the active scalars; colours of other types are kept as "Color16" or "Color" beside
  * an "RGB" made of them), nx ny nz or normal_x normal_y normal_z become "Normals" (the active normals),
- * name_0 name_1 ... become "name". Faces and lines are dropped.
+ * name_0 name_1 ... become "name". Lines are dropped, and faces but for SetSamples().
  *
  * Points are double where the file's numbers need it (double fields, LAS, E57 with scaled integers or poses,
  * text and OBJ with more than 6 significant digits), else float. Points that are NaN or infinite are kept; a
@@ -54,7 +54,7 @@
  * pieces in the order of the list. The pieces lie beside or below the list, and have the same arrays; ghost
  * levels are refused.
  * - VTP, VTU and legacy VTK (PolyData, UnstructuredGrid, StructuredGrid): points and point data; cells are
- *   dropped. Legacy files with strings or bits are refused.
+ * dropped, but for the polygons of PolyData with SetSamples(). Legacy files with strings or bits are refused.
  * - OFF, NOFF, COFF, CNOFF as text; STL, both kinds: each distinct vertex once, as float, without normals.
  * - OBJ: v x y z [r g b]; vn when there is one per v.
  * - PTX: all scans, their poses applied (SetApplyPoses), without rays that did not return. Esri ASCII grids:
@@ -202,6 +202,23 @@ public:
   vtkBooleanMacro(Salvage, bool);
   ///@}
 
+  ///@{
+  /**
+   * What the points of a file with faces are (STL, OBJ, OFF, PLY, VTK and VTP with polygons): 0, its vertices
+   * in their order; AUTOMATIC, samples of its faces, so many that their spacing is at most a quarter of the
+   * median edge, from 200,000 to 2 million, or the vertices where these are more; else so many samples. They
+   * lie evenly by area, and the same file gives the same ones, bit for bit. Arrays are interpolated, labels
+   * (integers but colours and intensities) are those of the nearest vertex, and normals those of the face
+   * where the vertices have none. Other files take no notice. Of a file with faces GetNotes() says what its
+   * points are. Default: 0.
+   */
+  static constexpr vtkIdType AUTOMATIC = -1;
+  vtkSetClampMacro(Samples, vtkIdType, -1, 100000000);
+  vtkGetMacro(Samples, vtkIdType);
+  /// Whether the points of the last update are samples.
+  bool HasSamples() const { return this->Sampled; }
+  ///@}
+
   /**
    * The extensions of all formats that are read, without dots.
    */
@@ -271,6 +288,7 @@ private:
   void ReadWhole(pointhaptics::io::ReadTask& task, vtkPolyData* cloud);
   void ReadTogether(pointhaptics::io::ReadTask& task, vtkPolyData* cloud);
   void Finish(pointhaptics::io::ReadTask& task, vtkPolyData* cloud);
+  void FinishFaces(pointhaptics::io::ReadTask& task, vtkPolyData* cloud);
   std::string ExtensionOf(const std::string& path) const;
   void Fail(unsigned long code, const std::string& message);
 
@@ -287,6 +305,8 @@ private:
   std::vector<std::string> Notes;
   std::vector<std::string> Columns;
   bool Salvage = false;
+  vtkIdType Samples = 0;
+  bool Sampled = false;
   bool ApplyPoses = true;
   bool ValidWithoutPoints = false;
   pointhaptics::Ranks* Ranks = nullptr;

@@ -167,6 +167,7 @@ void vtkInteractorStyleHaptic::Refresh()
   this->Hand.update();
   if (!this->Clutch.isHolding())
   {
+    this->Hand.followTouch(latest.state, [this](int x, int y) { return this->Picker.surfaceAt(x, y); });
     this->Hand.pushPointer(latest.state);
   }
   if (this->Status.update(this->Servo.get(), touchMoved) || touchMoved || commandRun)

@@ -45,6 +45,7 @@ struct HapticViewerOptions
   // The file.
   std::vector<std::string> columns; ///< Names for the columns of texts; empty: as the files say.
   bool salvage = false;             ///< Files that are cut are read as far as they go.
+  bool vertices = false;            ///< Meshes are their vertices; else samples of their faces.
   double resolution = 0.0;          ///< Resolution of cloud optimised files, in their units; 0: all points.
 
   // The picture.

@@ -505,4 +505,29 @@ TEST_F(Feel, CountsPointsThatAreInvalidOrDidNotReturn)
   EXPECT_EQ(feel({}).errors, "");
 }
 
+TEST_F(Feel, AMeshIsClosedUnlessItsVerticesAreAskedFor)
+{
+  this->write("box.off",
+    "OFF\n8 6 0\n-.03 -.02 -.005\n.03 -.02 -.005\n.03 .02 -.005\n-.03 .02 -.005\n-.03 -.02 .005\n.03 -.02 "
+    ".005\n.03 .02 .005\n-.03 .02 .005\n4 0 3 2 1\n4 4 5 6 7\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 "
+    "7\n");
+  this->write("path.csv", "t,x,y,z\n0,.01,.005,.01\n.5,.01,.005,.003\n1.5,-.02,-.01,.003\n");
+  apptest::Outcome outcome = this->run({ "feel", "box.off", "--path", "path.csv", "-o", "out.csv" });
+  EXPECT_EQ(outcome.exitCode, 0);
+  EXPECT_NE(outcome.errors.find("box.off: 200,000 samples of 6 faces"), std::string::npos) << outcome.errors;
+  const Table table = parseTable(this->read("out.csv"));
+  int held = 0;
+  for (std::size_t row = 500; row < table.at("t").size(); ++row)
+  {
+    const Vec3 force = vectorOf(table, "force", row);
+    held += norm(force - Vec3(0.0, 0.0, 0.002 * kStiffness)) < 0.05 * 0.002 * kStiffness ? 1 : 0;
+  }
+  EXPECT_EQ(held, 1001);
+  outcome = this->run({ "feel", "box.off", "--vertices", "--path", "path.csv", "-o", "out.csv" });
+  EXPECT_EQ(outcome.exitCode, 0);
+  EXPECT_NE(outcome.errors.find("the points are the vertices of 6 faces"), std::string::npos)
+    << outcome.errors;
+  EXPECT_EQ(parseTable(this->read("out.csv")).at("contact").back(), 0.0);
+}
+
 } // namespace

@@ -79,6 +79,24 @@ class Files(TestCase):
         with self.assertWarnsRegex(RuntimeWarning, "are taken as .*; columns=... says otherwise"):
             ph.read(self.path("rows.txt"))
 
+    def test_samples_of_a_mesh_are_those_of_the_program(self):
+        with open(self.path("tetrahedron.off"), "w") as file:
+            file.write("OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n")
+        mesh = self.path("tetrahedron.off")
+        with self.assertWarnsRegex(RuntimeWarning, "the points are the vertices of 4 faces"):
+            self.assertEqual(len(ph.read(mesh)[0]), 4)
+        with self.assertWarnsRegex(RuntimeWarning, "3,000 samples of 4 faces"):
+            points, arrays = ph.read(mesh, samples=3000)
+        run_program("convert", mesh, self.path("samples.vtp"), "--samples", 3000)
+        converted, others = ph.read(self.path("samples.vtp"))
+        self.assert_same_bits(points, converted)
+        self.assert_same_bits(arrays["Normals"], others["Normals"])
+        self.assertEqual((len(points), list(arrays)), (3000, ["Normals"]))
+        self.assertEqual(json.loads(run_program("info", mesh, "--samples", 7, "--json"))["files"][0]["points"], 7)
+        run_program("resample", mesh, "--samples", 3000, "--dims", 40, "-o", self.path("means.vtp"))
+        self.assert_same_bits(ph.resample(points, dims=40).points, ph.read(self.path("means.vtp"))[0])
+        self.assert_raises(ValueError, "samples: -1", ph.read, mesh, samples=-1)
+
     def test_info_is_that_of_the_program(self):
         points = sphere(5000)
         points[7] = np.nan

@@ -36,6 +36,7 @@ void CloudToCloudOptions::addTo(CLI::App& command, bool lastIsOutput)
   this->writing.addTo(command);
   addResolution(command, this->reading.resolution);
   addReading(command, this->reading.columns, this->reading.salvage);
+  addSamples(command, this->reading.samples);
   addInteger(command, "--threads", this->threads, 1, 1024, "Threads to use; default all");
   command.add_flag("--json", this->json, "Print the figures as JSON");
 }

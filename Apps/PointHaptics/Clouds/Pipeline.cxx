@@ -60,6 +60,7 @@ bool readFile(const std::string& path, const std::string& shown, Cloud& cloud, s
   reader->SetApplyPoses(options.applyPoses);
   reader->SetColumns(options.columns);
   reader->SetSalvage(options.salvage);
+  reader->SetSamples(vtkIdType(options.samples));
   if (!options.clip.empty())
   {
     reader->SetBox(options.clip.data());

@@ -46,6 +46,7 @@ struct ReadOptions
                             ///< ...; empty: all.
   std::vector<std::string> columns; ///< Names for the columns of a text; empty: as the file says.
   bool salvage = false;             ///< A file that is cut is read as far as it goes.
+  std::int64_t samples = 0;         ///< Samples of the faces of a mesh, as vtkPointCloudReader takes them.
   Ranks* ranks = nullptr; ///< Ranks that read it together, each its part of the points; null: this process
                           ///< alone.
 };

@@ -397,6 +397,7 @@ int runFeel(const FeelOptions& options, Files& files)
   Cloud cloud;
   const std::string input = options.record.empty() ? options.file : files.input(options.file);
   require(readCloud(input, cloud, message, options.reading), message);
+  showNotes(kFeelCommand, options.file, cloud);
   const Bounds box = feltBox(options, cloud.points);
   FeelScenes scenes;
   require(makeFeelScenes(options, cloud.points, scenes, message), message);

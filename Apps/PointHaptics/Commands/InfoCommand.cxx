@@ -264,6 +264,7 @@ void addInfoCommand(CLI::App& program, int& exitCode)
   addInput(*command, "FILE", options->files, "Point clouds to look at; - is standard input")->required();
   addResolution(*command, options->reading.resolution);
   addReading(*command, options->reading.columns, options->reading.salvage);
+  addSamples(*command, options->reading.samples);
   command->add_flag("--statistics", options->statistics,
     "Also the mean and the standard deviation of each array, and of the coordinates: x, y, z");
   command->add_flag("--json", options->json, "Print all of it as JSON");

@@ -135,7 +135,7 @@ bool canReadAll(const ViewOptions& options, std::string& message)
   Cloud cloud;
   ReadOptions reading;
   reading.columns = options.viewer.columns;
-  reading.salvage = options.viewer.salvage;
+  reading.salvage = options.viewer.salvage; // vertices or samples: both can be read or neither
   return options.needsWindow() || options.skipsUnreadable || options.files.size() < 2 ||
     std::all_of(options.files.begin(), options.files.end(),
       [&](const std::string& file) { return readCloud(file, cloud, message, reading); });

@@ -6,6 +6,8 @@
 #include "View/ViewOptions.h"
 #include "View/ViewSettings.h"
 
+#include "vtkPointCloudReader.h"
+
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
@@ -42,6 +44,7 @@ void FeelOptions::addTo(CLI::App& command)
   addInput(command, "FILE", this->file,
     "Point cloud to feel; with --replay the one that was recorded is the default");
   addReading(command, this->reading.columns, this->reading.salvage);
+  addVertices(command, this->vertices);
   addInput(command, "--path", this->path,
     "Path of the hand: t,x,y,z in seconds and metres, or what feel or view --trace wrote; needed unless "
     "--device is falcon")
@@ -154,6 +157,7 @@ void FeelOptions::complete(CLI::App& command)
       this->path.empty() ? "give the path of the hand, or --device falcon"
                          : "a Falcon's hand goes where it likes; leave out --path or --device falcon");
   }
+  this->reading.samples = this->vertices ? 0 : vtkPointCloudReader::AUTOMATIC;
   this->touch.complete(command);
   this->falcon.complete(command, this->touch.parameters.contact);
   this->warnOfIdle(command, given);

@@ -27,6 +27,7 @@ struct FeelOptions
 {
   std::string file;
   ReadOptions reading;
+  bool vertices = false; ///< Of a mesh its vertices are felt.
   std::string path;
   PathUnits pathUnits;
   std::string output;

@@ -46,6 +46,7 @@ bool openRecording(const std::string& fileName, const std::string& cloudFile, Fi
   CloudRequest request;
   request.files = cloudFile.empty() ? felt.files : std::vector<std::string>{ cloudFile };
   request.resolution = felt.resolution;
+  request.vertices = numbersOf(recording.header.settings, "vertices") == std::vector<double>{ 1.0 };
   for (std::string& file : request.files)
   {
     file = files.input(file);
@@ -57,17 +58,27 @@ bool openRecording(const std::string& fileName, const std::string& cloudFile, Fi
     bar.show(part);
     return !stopIsRequested();
   };
-  if (!loadCloud(request, goesOn, loaded, message))
+  const auto takeCloud = [&](std::string& problem)
   {
-    return false;
-  }
-  cloud = clippedCloud(loaded.cloud, clipBox(numbersOf(recording.header.settings, "clip")));
-  if (!isOf(recording, cloud, message))
+    if (!loadCloud(request, goesOn, loaded, problem))
+    {
+      return false;
+    }
+    cloud = clippedCloud(loaded.cloud, clipBox(numbersOf(recording.header.settings, "clip")));
+    const bool isRight = isOf(recording, cloud, problem);
+    problem.insert(0, isRight ? "" : request.files.front() + ": ");
+    return isRight;
+  };
+  std::string problem;
+  if (!takeCloud(problem) && !request.vertices)
   {
-    message.insert(0, request.files.front() + ": ");
-    return false;
+    // Before faces were sampled, meshes were felt by their vertices, and recordings did not say so.
+    request.vertices = true;
+    std::string ignored;
+    problem = takeCloud(ignored) ? "" : problem;
   }
-  return true;
+  message = problem;
+  return problem.empty();
 }
 
 } // namespace app

@@ -166,7 +166,7 @@ std::vector<double> numbersOf(const std::string& settings, const std::string& ke
   }
   for (const nlohmann::json& each : *found)
   {
-    if (each.is_number())
+    if (each.is_number() || each.is_boolean())
     {
       numbers.push_back(each.get<double>());
     }

@@ -166,6 +166,19 @@ void addReading(CLI::App& command, std::vector<std::string>& columns, bool& salv
   command.add_flag("--salvage", salvage, "Read a file that is cut as far as it goes");
 }
 
+void addSamples(CLI::App& command, std::int64_t& samples)
+{
+  addInteger(command, "--samples", samples, 1, 100000000,
+    "Take so many points evenly on the faces of a mesh; default: its vertices");
+}
+
+void addVertices(CLI::App& command, bool& vertices)
+{
+  command.add_flag("--vertices", vertices,
+    "Take the vertices of a mesh; default: 200,000 to 2,000,000 points on its faces, a quarter of an edge "
+    "apart");
+}
+
 CLI::Option* addResolution(CLI::App& command, double& value)
 {
   return addNumber(command, "--resolution", value, { 0.0, 1e30, true }, "UNITS",

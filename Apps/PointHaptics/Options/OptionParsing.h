@@ -70,6 +70,10 @@ CLI::Option* addClip(CLI::App& command, std::vector<double>& box, const std::str
 /// Adds --columns and --salvage: what columns of a text are called, and whether a cut file is read as far as
 /// it goes.
 void addReading(CLI::App& command, std::vector<std::string>& columns, bool& salvage);
+/// Adds --samples: points on the faces of a mesh in the place of its vertices.
+void addSamples(CLI::App& command, std::int64_t& samples);
+/// Adds --vertices: the vertices of a mesh in the place of samples of its faces.
+void addVertices(CLI::App& command, bool& vertices);
 /// Adds --resolution: how far a cloud optimised point cloud is read.
 CLI::Option* addResolution(CLI::App& command, double& value);
 /// Returns what is wrong with a list, and the cure, or an empty string.

@@ -176,6 +176,7 @@ void ViewOptions::addTo(CLI::App& command)
   addPictureOptions(command, this->viewer.picture);
   addResolution(command, this->viewer.resolution);
   addReading(command, this->viewer.columns, this->viewer.salvage);
+  addVertices(command, this->viewer.vertices);
   addWindowOptions(command, *this);
   this->touch.addTo(command);
   command.add_flag("--no-covariance", this->noCovariance, "Feel plain voxel means, without second moments")
@@ -280,6 +281,8 @@ void ViewOptions::takeRecording()
     this->viewer.together = this->files.size() > 1;
   }
   this->viewer.clip = numbersOf(recording.header.settings, "clip");
+  this->viewer.vertices =
+    this->viewer.vertices || numbersOf(recording.header.settings, "vertices") == std::vector<double>{ 1.0 };
 }
 
 void ViewOptions::complete(CLI::App& command)

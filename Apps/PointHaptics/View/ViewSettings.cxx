@@ -32,8 +32,8 @@ const std::set<std::string>& deeds()
 
 /// Options that belong to the cloud at hand, and to no other.
 constexpr const char* kOfTheCloud[] = { "matrix", "workspace", "voxel", "dims", "scale", "rotate",
-  "translate", "unit", "resolution", "columns", "salvage", "path", "path-unit", "path-time-unit", "up",
-  "color-by", "color-range", "clip", "measure", "together", "watch", "camera", "ideal" };
+  "translate", "unit", "resolution", "columns", "salvage", "vertices", "path", "path-unit", "path-time-unit",
+  "up", "color-by", "color-range", "clip", "measure", "together", "watch", "camera", "ideal" };
 
 /// A number where it reads back as it was written, else text: an array may be called 1e3.
 nlohmann::ordered_json valueOf(const CLI::Option& option)

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 
 namespace pointhaptics::io
@@ -49,7 +50,7 @@ Numbers parseNumbers(std::string_view line, std::size_t lineNumber)
   return numbers;
 }
 
-/// Shows each vertex and each normal to a sink: vertex(numbers), normal(numbers).
+/// Shows each vertex, normal and face to a sink: vertex(numbers), normal(numbers), face(rest of its line).
 template <typename Sink>
 void walkObj(const ReadTask& task, std::string_view text, Sink& sink, double from, double to)
 {
@@ -82,6 +83,10 @@ void walkObj(const ReadTask& task, std::string_view text, Sink& sink, double fro
       }
       sink.normal(numbers);
     }
+    else if (keyword == "f")
+    {
+      sink.face(line);
+    }
     if (number % static_cast<std::size_t>(kProgressRows) == 0)
     {
       task.progress(
@@ -97,6 +102,7 @@ struct ObjSurvey
   vtkIdType vertices = 0;
   vtkIdType colored = 0;
   vtkIdType normals = 0;
+  std::uint64_t faces = 0;
   double brightest = 0.0;
 
   bool isColored() const { return colored == vertices; }
@@ -120,6 +126,7 @@ struct ObjSurvey
       direction[axis].add(numbers.values[axis], numbers.shapes[axis]);
     }
   }
+  void face(std::string_view) { ++faces; }
   std::array<NumberColumn, 3> direction;
 };
 
@@ -155,6 +162,22 @@ struct ObjStore
     }
     ++normals;
   }
+  /// Corners are v, v/vt, v//vn or v/vt/vn, from 1, or below 0 from the last vertex so far.
+  void face(std::string_view line)
+  {
+    corners.clear();
+    for (std::string_view word = takeWord(line); faces->isWanted() && !word.empty() && word.front() != '#';
+         word = takeWord(line))
+    {
+      long long vertex = 0;
+      std::from_chars(word.data(), word.data() + word.size(), vertex);
+      corners.push_back(static_cast<vtkIdType>(vertex < 0 ? vertices + vertex : vertex - 1));
+    }
+    faces->keep(corners);
+  }
+
+  MeshFaces* faces = nullptr;
+  std::vector<vtkIdType> corners;
 };
 
 } // namespace
@@ -185,6 +208,8 @@ void readObj(ReadTask& task, vtkPolyData* cloud)
   }
   CloudColumns columns(names, survey.vertices);
   ObjStore store;
+  store.faces = &task.faces;
+  task.faces.count = survey.faces;
   store.colorScale = survey.brightest > 1.0 ? 1.0 : 255.0;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {

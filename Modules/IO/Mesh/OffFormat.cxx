@@ -47,6 +47,24 @@ std::vector<std::string> namesOf(std::string_view prefix, std::size_t columns)
   return names;
 }
 
+/// Lines of a number of corners and the corners, after the vertices.
+void readFaces(MeshFaces& faces, LineReader& lines)
+{
+  std::string_view line;
+  std::vector<vtkIdType> corners;
+  for (std::uint64_t i = 0; i < faces.count && faces.isWanted() && nextSignificant(lines, line); ++i)
+  {
+    unsigned long long count = 0;
+    unsigned long long corner = 0;
+    parseCount(takeWord(line), count);
+    for (corners.clear(); corners.size() < count && parseCount(takeWord(line), corner);)
+    {
+      corners.push_back(static_cast<vtkIdType>(corner));
+    }
+    faces.keep(corners);
+  }
+}
+
 } // namespace
 
 void readOff(ReadTask& task, vtkPolyData* cloud)
@@ -85,7 +103,8 @@ void readOff(ReadTask& task, vtkPolyData* cloud)
   {
     failNoPoints();
   }
-
+  unsigned long long faces = 0;
+  task.faces.count = parseCount(takeWord(line), faces) ? faces : 0;
   TextLayout layout;
   layout.bodyOffset = lines.position();
   layout.bodyLine = lines.lineNumber() + 1;
@@ -109,6 +128,7 @@ void readOff(ReadTask& task, vtkPolyData* cloud)
       "write x y z, then normals (N) and colours (C) as the letters before OFF say");
   }
   readTable(task, text.substr(0, lines.position()), layout, cloud);
+  readFaces(task.faces, lines);
 }
 
 } // namespace pointhaptics::io

@@ -27,7 +27,8 @@ using Vertex = std::array<float, 3>;
 class DistinctVertices
 {
 public:
-  void add(Vertex vertex)
+  /// @return the number of the vertex.
+  vtkIdType add(Vertex vertex)
   {
     for (float& value : vertex)
     {
@@ -43,6 +44,7 @@ public:
       slot = static_cast<std::uint32_t>(vertices_.size());
       vertices_.push_back(vertex);
     }
+    return static_cast<vtkIdType>(slot);
   }
   const std::vector<Vertex>& all() const { return vertices_; }
 
@@ -82,7 +84,7 @@ private:
   std::vector<std::uint32_t> slots_;
 };
 
-void readBinary(const ReadTask& task, DistinctVertices& vertices)
+void readBinary(ReadTask& task, DistinctVertices& vertices)
 {
   const std::uint32_t count = loadLittle<std::uint32_t>(task.bytes.data() + kCountAt);
   const std::size_t available = task.bytes.size() - kTrianglesAt;
@@ -92,14 +94,18 @@ void readBinary(const ReadTask& task, DistinctVertices& vertices)
       std::to_string(available) + " bytes follow (" + std::to_string(available / kTriangleSize) +
       " triangles)");
   }
+  task.faces.count = count;
+  std::vector<vtkIdType> corners(3);
   for (std::uint32_t i = 0; i < count; ++i)
   {
     const char* triangle = task.bytes.data() + kTrianglesAt + i * kTriangleSize;
     for (std::size_t corner = 0; corner < 3; ++corner)
     {
       const char* at = triangle + kFirstVertex + 12 * corner;
-      vertices.add({ loadLittle<float>(at), loadLittle<float>(at + 4), loadLittle<float>(at + 8) });
+      corners[corner] =
+        vertices.add({ loadLittle<float>(at), loadLittle<float>(at + 4), loadLittle<float>(at + 8) });
     }
+    task.faces.keep(corners);
     if (i % static_cast<std::uint32_t>(kProgressRows) == 0)
     {
       task.progress(static_cast<double>(i) / static_cast<double>(count));
@@ -107,8 +113,9 @@ void readBinary(const ReadTask& task, DistinctVertices& vertices)
   }
 }
 
-void readFacets(const ReadTask& task, DistinctVertices& vertices)
+void readFacets(ReadTask& task, DistinctVertices& vertices)
 {
+  std::vector<vtkIdType> corners;
   LineReader lines(task.bytes);
   std::string_view line;
   bool ended = false;
@@ -131,7 +138,13 @@ void readFacets(const ReadTask& task, DistinctVertices& vertices)
         }
         coordinate = static_cast<float>(value);
       }
-      vertices.add(vertex);
+      corners.push_back(vertices.add(vertex));
+    }
+    else if (equalNoCase(keyword, "endloop"))
+    {
+      ++task.faces.count;
+      task.faces.keep(corners);
+      corners.clear();
     }
     if (lines.lineNumber() % static_cast<std::size_t>(kProgressRows) == 0)
     {

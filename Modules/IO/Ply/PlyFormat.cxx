@@ -49,8 +49,9 @@ public:
     return data;
   }
   void skip(std::size_t size) { offset_ += size; }
-  /// Steps over a list property.
-  void skipList(const PlyProperty& list, const PlyElement& element, unsigned long long index)
+  /// Steps over a list property, and gives its items to @p items where there are any to fill.
+  void skipList(const PlyProperty& list, const PlyElement& element, unsigned long long index,
+    std::vector<vtkIdType>* items = nullptr)
   {
     const std::size_t at = offset_;
     double count = 0.0;
@@ -70,7 +71,15 @@ public:
           recordNumber(element.name.c_str(), index, element.count),
         "write the file again with another program");
     }
-    take(static_cast<std::size_t>(count) * static_cast<std::size_t>(sizeOfType(list.type)), element, index);
+    const std::ptrdiff_t size = sizeOfType(list.type);
+    data = take(static_cast<std::size_t>(count) * static_cast<std::size_t>(size), element, index);
+    if (items)
+    {
+      items->resize(static_cast<std::size_t>(count));
+      copyStrided({ data, size, list.type },
+        { reinterpret_cast<char*>(items->data()), sizeof(vtkIdType), VTK_ID_TYPE },
+        static_cast<vtkIdType>(count), swap_);
+    }
   }
 
 private:
@@ -79,8 +88,16 @@ private:
   bool swap_;
 };
 
-void skipBinaryElement(BinaryBody& body, const PlyElement& element)
+/// Whether @p list has the vertices of the faces.
+bool hasCorners(const PlyElement& element, const PlyProperty& list)
 {
+  return element.name == "face" && (list.name == "vertex_indices" || list.name == "vertex_index");
+}
+
+/// Keeps its faces where @p faces wants some.
+void skipBinaryElement(BinaryBody& body, const PlyElement& element, MeshFaces* faces = nullptr)
+{
+  std::vector<vtkIdType> corners;
   if (element.properties.empty())
   {
     return;
@@ -89,7 +106,12 @@ void skipBinaryElement(BinaryBody& body, const PlyElement& element)
   {
     for (const PlyProperty& property : element.properties)
     {
-      if (property.isList)
+      if (property.isList && faces && faces->isWanted() && hasCorners(element, property))
+      {
+        body.skipList(property, element, i, &corners);
+        faces->keep(corners);
+      }
+      else if (property.isList)
       {
         body.skipList(property, element, i);
       }
@@ -249,7 +271,8 @@ void readBinaryBody(ReadTask& task, const PlyHeader& header, vtkPolyData* cloud)
     task.need(body.offset(), static_cast<std::size_t>(rows.count()) * recordSize);
     fillFixedRecords(body, vertex, static_cast<vtkIdType>(rows.count()), columns, task);
   }
-  noteCutElements(task, header, [&](const PlyElement& element) { skipBinaryElement(body, element); });
+  noteCutElements(
+    task, header, [&](const PlyElement& element) { skipBinaryElement(body, element, &task.faces); });
   columns.moveTo(cloud, task.shared);
 }
 
@@ -309,12 +332,16 @@ public:
       ? storeInteger(takeWord(number_), target, row) // every digit counts
       : storeNumber(target, row, value);
   }
-  void skipList(const PlyProperty& list)
+  void skipList(const PlyProperty& list, std::vector<vtkIdType>* items = nullptr)
   {
     const double count = takeNumber(list);
     for (double i = 0.0; i < count; i += 1.0)
     {
-      takeNumber(list);
+      const double item = takeNumber(list);
+      if (items)
+      {
+        items->push_back(item >= 0.0 && item < 0x1p53 ? static_cast<vtkIdType>(item) : -1);
+      }
     }
   }
   void expectEnd()
@@ -439,38 +466,39 @@ void skipAsciiElement(LineReader& lines, const PlyElement& element)
   }
 }
 
-/// As skipAsciiElement(), and the last line must have all its numbers.
-void skipWholeAsciiElement(LineReader& lines, PlyElement element)
+/// As skipAsciiElement(), and the last line must have all its numbers. Keeps faces where they are wanted.
+void skipWholeAsciiElement(LineReader& lines, PlyElement element, MeshFaces& faces)
 {
   if (element.count == 0 || element.properties.empty())
   {
     return;
   }
-  --element.count;
+  const unsigned long long count = element.count;
+  element.count = faces.isWanted() && element.name == "face" ? 0 : count - 1;
   skipAsciiElement(lines, element);
   AsciiRecords record(lines, element);
-  if (!record.next())
+  std::vector<vtkIdType> corners;
+  for (unsigned long long i = element.count; i < count; ++i)
   {
-    failTruncated(
-      "the file ends before " + recordNumber(element.name.c_str(), element.count, element.count + 1));
-  }
-  bool isWhole = true;
-  try
-  {
-    for (std::size_t i = 0; i < element.properties.size() && isWhole; ++i)
+    if (!record.next())
     {
-      const PlyProperty& property = element.properties[i];
-      property.isList ? record.skipList(property) : void(record.takeNumber(property));
+      failTruncated("the file ends before " + recordNumber(element.name.c_str(), i, count));
     }
-  }
-  catch (const FileProblem&)
-  {
-    isWhole = false;
-  }
-  if (!isWhole)
-  {
-    failTruncated("the file ends at line " + std::to_string(lines.lineNumber()) + " inside " +
-      recordNumber(element.name.c_str(), element.count, element.count + 1));
+    try
+    {
+      for (const PlyProperty& property : element.properties)
+      {
+        corners.clear();
+        property.isList ? record.skipList(property, hasCorners(element, property) ? &corners : nullptr)
+                        : void(record.takeNumber(property));
+        faces.keep(corners);
+      }
+    }
+    catch (const FileProblem&)
+    {
+      failTruncated("the file ends at line " + std::to_string(lines.lineNumber()) + " inside " +
+        recordNumber(element.name.c_str(), i, count));
+    }
   }
 }
 
@@ -527,7 +555,8 @@ void readAsciiBody(ReadTask& task, const PlyHeader& header, vtkPolyData* cloud)
     targets.push_back(column == std::string::npos ? ColumnView{} : columns.target(column));
   }
   fillAsciiRows(task, lines, vertex, rows.count(), targets);
-  noteCutElements(task, header, [&](const PlyElement& element) { skipWholeAsciiElement(lines, element); });
+  noteCutElements(
+    task, header, [&](const PlyElement& element) { skipWholeAsciiElement(lines, element, task.faces); });
   columns.moveTo(cloud, task.shared);
 }
 
@@ -543,6 +572,10 @@ void readPly(ReadTask& task, vtkPolyData* cloud)
   const PlyHeader header = parsePlyHeader(task.bytes);
   task.format = std::string("PLY (") + nameOf(header.encoding) + ")";
   task.notes = header.notes;
+  for (const PlyElement& element : header.elements)
+  {
+    task.faces.count += element.name == "face" ? element.count : 0;
+  }
   for (const PlyProperty& property : header.elements[header.vertexElement()].properties)
   {
     if (property.isList)

@@ -26,8 +26,9 @@ namespace
 class LegacyParser : private VtkLegacyCursor
 {
 public:
-  LegacyParser(const ReadTask& task, vtkPolyData* cloud)
+  LegacyParser(ReadTask& task, vtkPolyData* cloud)
     : VtkLegacyCursor(task)
+    , faces_(task.faces)
     , cloud_(cloud)
   {
   }
@@ -37,7 +38,8 @@ private:
   void parseHeader();
   void parseSection(std::string_view keyword);
   void parsePoints();
-  void skipCells();
+  void parseCells(bool areFaces);
+  void keepFaces(vtkDataArray* offsets, vtkDataArray* corners);
   void parseAttribute(std::string_view keyword);
   void parseScalars();
   void parseColors();
@@ -45,6 +47,7 @@ private:
   void skipMetadata();
   void add(const std::string& name, vtkDataArray* array, Count tuples);
 
+  MeshFaces& faces_;
   vtkPolyData* cloud_;
   bool inPointData_ = false;
   Count tuples_ = 0; ///< of the section
@@ -105,20 +108,54 @@ void LegacyParser::parsePoints()
   cloud_->SetPoints(made);
 }
 
-void LegacyParser::skipCells()
+void LegacyParser::parseCells(bool areFaces)
 {
   const Count first = count("a number of cells");
   const Count second = count("the size of the cells");
+  const bool areKept = areFaces && faces_.isWanted();
   if (!equalNoCase(peek(), "OFFSETS"))
   {
-    skipValues(VTK_TYPE_INT32, second);
+    faces_.count += areFaces ? first : 0;
+    areKept ? keepFaces(nullptr, values("cells", VTK_TYPE_INT32, second, 1))
+            : skipValues(VTK_TYPE_INT32, second);
     return;
   }
   // Since version 5.1: offsets and connectivity, each with its type.
-  for (const Count size : { first, second })
+  faces_.count += areFaces && first > 0 ? first - 1 : 0;
+  vtkSmartPointer<vtkDataArray> arrays[2];
+  for (int i = 0; i < 2; ++i)
   {
     word();
-    skipValues(type(word()), size);
+    const int vtkType = type(word());
+    const Count size = i == 0 ? first : second;
+    areKept ? void(arrays[i] = values("cells", vtkType, size, 1)) : skipValues(vtkType, size);
+  }
+  if (areKept)
+  {
+    keepFaces(arrays[0], arrays[1]);
+  }
+}
+
+/// @p corners: of each face the number of its corners and these, or where there are @p offsets these alone.
+void LegacyParser::keepFaces(vtkDataArray* offsets, vtkDataArray* corners)
+{
+  std::vector<vtkIdType> face;
+  const auto keep = [&](vtkIdType begin, double end)
+  {
+    for (face.clear(); begin < end && begin < corners->GetNumberOfTuples() && begin >= 0; ++begin)
+    {
+      face.push_back(static_cast<vtkIdType>(corners->GetComponent(begin, 0)));
+    }
+    faces_.keep(face);
+    return begin;
+  };
+  for (vtkIdType at = 0; !offsets && at < corners->GetNumberOfTuples();)
+  {
+    at = keep(at + 1, static_cast<double>(at) + 1.0 + corners->GetComponent(at, 0));
+  }
+  for (vtkIdType i = 0; offsets && i + 1 < offsets->GetNumberOfTuples(); ++i)
+  {
+    keep(static_cast<vtkIdType>(offsets->GetComponent(i, 0)), offsets->GetComponent(i + 1, 0));
   }
 }
 
@@ -231,7 +268,7 @@ void LegacyParser::parseSection(std::string_view keyword)
   }
   else if (is("VERTICES") || is("LINES") || is("POLYGONS") || is("TRIANGLE_STRIPS") || is("CELLS"))
   {
-    skipCells();
+    parseCells(is("POLYGONS"));
   }
   else if (is("CELL_TYPES"))
   {

@@ -58,6 +58,16 @@ void checkArrays(vtkPointSet* read)
   }
 }
 
+void takeFaces(vtkPointSet* read, MeshFaces& faces)
+{
+  vtkPolyData* mesh = vtkPolyData::SafeDownCast(read);
+  if (mesh && mesh->GetPolys())
+  {
+    faces.count = static_cast<std::uint64_t>(mesh->GetPolys()->GetNumberOfCells());
+    faces.cells = faces.isWanted() ? mesh->GetPolys() : nullptr;
+  }
+}
+
 } // namespace
 
 void readVtkXml(ReadTask& task, vtkPolyData* cloud)
@@ -85,6 +95,7 @@ void readVtkXml(ReadTask& task, vtkPolyData* cloud)
     cloud->SetPoints(read->GetPoints());
     cloud->GetPointData()->ShallowCopy(read->GetPointData());
     cloud->GetFieldData()->ShallowCopy(read->GetFieldData());
+    takeFaces(read, task.faces);
     read->ReleaseData(); // its cells would lie beside those that take their place
   }
   if (!cloud->GetPointData()->GetScalars() || !cloud->GetPointData()->GetNormals())

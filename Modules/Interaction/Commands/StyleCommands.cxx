@@ -31,10 +31,11 @@ constexpr double kDepthPerWheelStep = 0.01;
 /// In hand mode a step covers this part of the distance to the cloud, within the two limits below.
 constexpr double kStepOfDistance = 0.3;
 constexpr double kShortestStep = 0.002;
-constexpr double kShortestStepAside = 0.01; ///< Least step along a surface that is touched.
+constexpr double kShortestStepToTouch = 0.01; ///< Two steps touch from where hand mode begins.
+constexpr double kShortestStepAside = 0.01;   ///< Least step along a surface that is touched.
 constexpr double kLongestStep = 0.05;
 /// Height above the surface at which hand mode begins.
-constexpr double kHoverHeight = 0.04;
+constexpr double kHoverHeight = 0.01;
 /// Radius of the ball that the hand rolls, and the way that scales by e.
 constexpr double kBallRadius = 0.25;
 constexpr double kWayPerScale = 0.25;
@@ -45,6 +46,7 @@ double handStep(vtkInteractorStyleHaptic& style, double usual, double shortest)
 {
   const std::optional<double> distance = style.GetDistance().distance();
   const double edge = style.GetModel().edge();
+  shortest = distance && *distance > 0.0 ? std::max(shortest, kShortestStepToTouch) : shortest;
   return distance ? std::clamp(kStepOfDistance * *distance, shortest * edge, kLongestStep * edge)
                   : usual * edge;
 }
@@ -161,13 +163,12 @@ void addModelCommands(CommandRegistry& commands, vtkInteractorStyleHaptic& style
     { "reset-model", "0 Home KP_0 KP_Home", group, "back to the start", [&model] { model.reset(); } });
 }
 
-/// Toggles hand mode, which begins above the surface under the pointer.
-void toggleHandMode(vtkInteractorStyleHaptic& style)
+/// Puts the hand above the surface under the pointer, where there is one.
+void hover(vtkInteractorStyleHaptic& style)
 {
   MouseHand& hand = style.GetHand();
-  hand.setFollowsMouse(!hand.followsMouse());
   vtkRenderWindowInteractor* interactor = style.GetInteractor();
-  if (!hand.followsMouse() || !hand.hasDevice() || !interactor)
+  if (!hand.hasDevice() || !interactor)
   {
     return;
   }
@@ -175,6 +176,17 @@ void toggleHandMode(vtkInteractorStyleHaptic& style)
   if (const std::optional<Vec3> surface = style.GetPicker().surfaceAt(pointer[0], pointer[1]))
   {
     hand.placeAt(*surface - kHoverHeight * style.GetModel().edge() * style.GetScreen().forward());
+  }
+}
+
+/// Hand mode begins above the surface under the pointer.
+void toggleHandMode(vtkInteractorStyleHaptic& style)
+{
+  MouseHand& hand = style.GetHand();
+  hand.setFollowsMouse(!hand.followsMouse());
+  if (hand.followsMouse())
+  {
+    hover(style);
   }
 }
 
@@ -188,8 +200,15 @@ void addHandCommands(CommandRegistry& commands, vtkInteractorStyleHaptic& style)
   const auto follow = [&style] { toggleHandMode(style); };
   const auto push = [&hand] { hand.setPushesPointer(!hand.pushesPointer()); };
   const char* const group = "Hand";
-  commands.add({ "move-hand-drag", "Ctrl+left", group, "move in the view plane",
-    DragAction{ {}, [&hand] { hand.drag(); }, {} }, hasHand });
+  const auto beginDrag = [&style]
+  {
+    if (!style.GetHand().isUnderPointer())
+    {
+      hover(style);
+    }
+  };
+  commands.add({ "move-hand-drag", "Ctrl+left", group, "comes to a click, moves in the view plane",
+    DragAction{ beginDrag, [&hand] { hand.drag(); }, {} }, hasHand });
   commands.add({ "hand-depth-wheel", "Ctrl+wheel", group, "depth", WheelAction{ wheel }, hasHand });
   commands.add(
     { "hand-away", "Prior KP_Prior Page_Up", group, "depth", [depth] { depth(+1, kDepthPerKey); }, hasHand });

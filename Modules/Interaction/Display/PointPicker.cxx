@@ -20,6 +20,10 @@ namespace
 constexpr double kPickPixels = 8.0;
 /// Reach of a pick on a surface, pixels: holes between sparse points must not let it through.
 constexpr double kSurfacePixels = 24.0;
+/// A slope is nearer to the person beside the pointer than under it: nearer points tell better,
+constexpr double kNearPixels[] = { 2.0, 4.0, 8.0 };
+/// unless they are deeper than this times those pixels, and so seen through a hole.
+constexpr double kSteepest = 3.0;
 
 } // namespace
 
@@ -59,10 +63,24 @@ PickedOfFile PointPicker::pickOfFile(int x, int y) const
 std::optional<Vec3> PointPicker::surfaceAt(int x, int y) const
 {
   PickedPoint picked;
-  const bool isThere = screen_.renderer() && scenes_.cloud() && !scenes_.isChanged() &&
-    pickPoint(scenes_.cloud(), screen_.renderer(), x, y, kSurfacePixels, picked);
-  return isThere ? std::optional<Vec3>(screen_.toWorkspace(x, y, screen_.toDisplay(picked.inWorkspace).z))
-                 : std::nullopt;
+  if (!screen_.renderer() || !scenes_.cloud() || scenes_.isChanged() ||
+    !pickPoint(scenes_.cloud(), screen_.renderer(), x, y, kSurfacePixels, picked))
+  {
+    return std::nullopt;
+  }
+  const auto asDeepAs = [&](const PickedPoint& point, double aside)
+  { return screen_.toWorkspace(x + aside, y, screen_.toDisplay(point.inWorkspace).z); };
+  const double reach = kSteepest * norm(asDeepAs(picked, kSurfacePixels) - asDeepAs(picked, 0.0));
+  for (const double pixels : kNearPixels)
+  {
+    PickedPoint near;
+    if (pickPoint(scenes_.cloud(), screen_.renderer(), x, y, pixels, near) &&
+      norm(near.inWorkspace - picked.inWorkspace) < reach)
+    {
+      return asDeepAs(near, 0.0);
+    }
+  }
+  return asDeepAs(picked, 0.0);
 }
 
 bool PointPicker::pickAt(int x, int y)

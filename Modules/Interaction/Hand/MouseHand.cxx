@@ -20,6 +20,12 @@ namespace
 
 /// A key that is pressed again within this time was held all along.
 constexpr double kKeyRepeatSeconds = 0.05;
+/// A pointer nearer to the hand than this, pixels, takes hold of it.
+constexpr double kReachOfHand = 20.0;
+/// Cosine between view and normal below which a plane is seen too flatly to say how deep the pointer is.
+constexpr double kFlattestView = 0.2;
+/// Longest way, metres, from the last contact to where a lost surface goes on; beyond it the hand has left.
+constexpr double kFarthestJump = 0.01;
 /// A pointer nearer to the hand than this, pixels, stays where it is.
 constexpr double kPointerSlack = 1.0;
 
@@ -39,12 +45,13 @@ void MouseHand::move(const Vec3& offset)
 {
   if (device_ && isFinite(offset))
   {
-    device_->setTarget(this->inWorkspace(device_->target() + offset));
+    device_->setTarget(this->inWorkspace(this->pressed(device_->target() + offset)));
   }
 }
 
 void MouseHand::moveInDepth(double metres)
 {
+  press_ = 0.0;
   if (screen_.renderer())
   {
     this->move(metres * screen_.forward());
@@ -62,6 +69,7 @@ void MouseHand::moveOnScreen(double right, double up)
 
 void MouseHand::placeAt(const Vec3& place)
 {
+  press_ = 0.0;
   if (device_ && isFinite(place))
   {
     device_->placeAt(this->inWorkspace(place));
@@ -76,6 +84,17 @@ void MouseHand::drag()
   }
 }
 
+bool MouseHand::isUnderPointer() const
+{
+  if (!device_ || !screen_.renderer())
+  {
+    return false;
+  }
+  const Vec3 hand = screen_.toDisplay(device_->target());
+  const int* pointer = screen_.interactor()->GetEventPosition();
+  return std::hypot(hand.x - pointer[0], hand.y - pointer[1]) < kReachOfHand;
+}
+
 void MouseHand::follow()
 {
   if (device_ && screen_.renderer())
@@ -83,6 +102,50 @@ void MouseHand::follow()
     const Vec3 target = device_->target();
     const int* pointer = screen_.interactor()->GetEventPosition();
     this->move(screen_.toWorkspace(pointer[0], pointer[1], screen_.toDisplay(target).z) - target);
+  }
+}
+
+/// @p place, moved along the line of sight to where it presses as deep as the hand is to press.
+Vec3 MouseHand::pressed(const Vec3& place) const
+{
+  if (!(press_ > 0.0) || !screen_.renderer())
+  {
+    return place;
+  }
+  const Vec3 deeper = place + model_.edge() * screen_.forward();
+  const Vec3 seen = screen_.toDisplay(place);
+  const Vec3 sight = normalized(screen_.toWorkspace(seen.x, seen.y, screen_.toDisplay(deeper).z) - place);
+  const double steepness = dot(sight, normal_);
+  const double missing = press_ - dot(contact_ - place, normal_);
+  return std::abs(steepness) > kFlattestView ? place - missing / steepness * sight : place;
+}
+
+void MouseHand::followTouch(
+  const ProxyState& latest, const std::function<std::optional<Vec3>(int x, int y)>& surfaceAt)
+{
+  if (!followsMouse_ || pushesPointer_ || !device_ || !screen_.renderer() || !isFinite(latest.proxy))
+  {
+    press_ = 0.0;
+    return;
+  }
+  if (latest.contact)
+  {
+    contact_ = latest.proxy;
+    normal_ = latest.normal;
+    press_ = press_ > 0.0 ? press_ : std::max(dot(contact_ - device_->target(), normal_), 0.0);
+  }
+  else if (press_ > 0.0)
+  {
+    const Vec3 seen = screen_.toDisplay(device_->target());
+    const std::optional<Vec3> surface = surfaceAt(int(std::lround(seen.x)), int(std::lround(seen.y)));
+    const bool goesOn = surface && norm(*surface - contact_) < kFarthestJump;
+    contact_ = goesOn ? *surface : contact_;
+    normal_ = goesOn ? -screen_.forward() : normal_;
+    press_ = goesOn ? press_ : 0.0;
+  }
+  if (press_ > 0.0)
+  {
+    this->move({});
   }
 }
 

@@ -9,6 +9,8 @@
 #include "PointHapticsInteractionModule.h" // For export macro
 
 #include <cstdint>
+#include <functional>
+#include <optional>
 
 namespace pointhaptics
 {
@@ -44,6 +46,8 @@ public:
   bool pushesPointer() const { return pushesPointer_; }
   ///@}
 
+  /// Whether the pointer is on the hand, as one sees it.
+  bool isUnderPointer() const;
   ///@{
   /// Moves the hand, metres in the workspace; clamped to it. Depth: away from the person (positive) or back,
   /// along the view direction.
@@ -59,6 +63,12 @@ public:
   /// Moves the hand in the view plane to the pointer.
   void follow();
   void setPointerInside(bool isInside) { isPointerInside_ = isInside; }
+  /// To be called from a timer with the newest tick. In contact hand mode holds how deep the hand presses
+  /// below the plane that is touched, so the hand neither leaves a surface that falls away nor digs into one
+  /// that rises; a move in depth changes it. Where contact is lost, @p surfaceAt says where on the line of
+  /// sight through a display position the surface goes on.
+  void followTouch(
+    const ProxyState& latest, const std::function<std::optional<Vec3>(int x, int y)>& surfaceAt);
   /// Moves the pointer to the hand, where the surface has pushed the hand away from it.
   void pushPointer(const ProxyState& latest);
   /// Moves the pointer to the hand, in hand mode.
@@ -72,6 +82,7 @@ public:
 
 private:
   Vec3 inWorkspace(Vec3 place) const;
+  Vec3 pressed(const Vec3& place) const;
   void placePointer(const Vec3& point);
 
   const ScreenView& screen_;
@@ -80,6 +91,9 @@ private:
   bool followsMouse_ = false;
   bool pushesPointer_ = false;
   bool isPointerInside_ = false;
+  Vec3 contact_;       ///< Where the surface was touched last,
+  Vec3 normal_;        ///< and its outward normal there.
+  double press_ = 0.0; ///< Metres that the target is kept below the plane of the contact; 0: it is free.
   std::uint32_t heldButtons_ = 0;
   std::uint32_t releasedButtons_ = 0; ///< Buttons that are released unless the key repeats.
   double releaseTime_ = -1e9;

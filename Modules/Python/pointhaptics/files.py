@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import errno
+import operator
 import os
 import shutil
 import tempfile
@@ -99,12 +100,15 @@ def _check_readable(name: str) -> None:
         raise OSError(number, f"{os.strerror(number)}; name a file that may be read", name)
 
 
-def _read(name: str, shown: str, salvage: bool = False, columns: Sequence[str] = ()) -> vtkPointCloudReader:
+def _read(
+    name: str, shown: str, salvage: bool = False, columns: Sequence[str] = (), samples: int = 0
+) -> vtkPointCloudReader:
     _check_readable(name)
     reader = vtkPointCloudReader()
     reader.SetFileName(name)
     reader.SetSalvage(bool(salvage))
     reader.SetColumns(list(columns))
+    reader.SetSamples(samples)
     errors = run(reader, reader.Update)
     if errors or reader.GetErrorMessage():
         _fail(reader.GetErrorMessage() or errors[0], name, shown, True)
@@ -113,12 +117,17 @@ def _read(name: str, shown: str, salvage: bool = False, columns: Sequence[str] =
     return reader
 
 
-def read(path: Path, *, salvage: bool = False, columns: Sequence[str] = ()) -> Tuple[NDArray[Any], Attributes]:
+def read(
+    path: Path, *, salvage: bool = False, columns: Sequence[str] = (), samples: int = 0
+) -> Tuple[NDArray[Any], Attributes]:
     """Read a point cloud; the format goes by content (PLY, PCD, LAS, VTP, OBJ, columns of text ...).
 
     path: the name of a file, or a file object opened for bytes, which is read to its end.
     salvage: read a file that is cut as far as it goes; a warning says how far.
     columns: names of the columns of a text, for one whose header says nothing or the wrong thing; "-" leaves one out.
+    samples: of a file with faces so many points on these, spread evenly, the same ones at each call; arrays are
+        interpolated, integers but colours and intensities are those of the nearest vertex. 0: the vertices, in their
+        order; a RuntimeWarning says that there are faces.
 
     Returns points, (n, 3) float64 where the file's numbers need it and float32 otherwise, in the file's frame and
     unit, and attributes, name -> (n,) or (n, components) of the file's type: "RGB", "Normals", "Intensity" ... What
@@ -130,8 +139,11 @@ def read(path: Path, *, salvage: bool = False, columns: Sequence[str] = ()) -> T
     """
     if isinstance(columns, str) or not all(isinstance(column, str) for column in columns):
         raise TypeError(f"columns: {columns!r}; give a list of names, such as ['x', 'y', 'z']")
+    number = operator.index(samples)
+    if not 0 <= number <= 100_000_000:
+        raise ValueError(f"samples: {samples!r}; give a number from 0 to 100,000,000")
     with _file_to_read(path) as (name, shown):
-        reader = _read(name, shown, salvage, columns)
+        reader = _read(name, shown, salvage, columns, number)
     for note in reader.GetNotes():
         warnings.warn(f"{shown}: {_spoken(note)}", RuntimeWarning, stacklevel=2)
     output = reader.GetOutput()

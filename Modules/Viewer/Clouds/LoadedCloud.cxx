@@ -56,6 +56,7 @@ struct Findings
   std::string format; ///< Format of the last file.
   std::vector<std::string> notes;
   bool isCoarse = false;
+  bool hasSamples = false; ///< Of faces.
 };
 
 /// The points of a file with all arrays, without its cells. Null: @p message says why.
@@ -85,6 +86,7 @@ vtkSmartPointer<vtkPolyData> readPoints(const std::string& fileName, const Cloud
   reader->SetResolution(request.resolution);
   reader->SetColumns(request.columns);
   reader->SetSalvage(request.salvage);
+  reader->SetSamples(request.vertices ? 0 : vtkPointCloudReader::AUTOMATIC);
   reader->SetMostPoints(request.mostPoints);
   reader->Update();
   message = reader->GetErrorMessage();
@@ -99,6 +101,7 @@ vtkSmartPointer<vtkPolyData> readPoints(const std::string& fileName, const Cloud
   }
   findings.format = reader->GetFormat();
   findings.isCoarse = findings.isCoarse || reader->IsCoarse();
+  findings.hasSamples = findings.hasSamples || reader->HasSamples();
   for (const std::string& note : reader->GetNotes())
   {
     findings.notes.push_back(baseName(fileName) + ": " + note);
@@ -369,6 +372,7 @@ CloudRequest CloudRequest::of(const std::vector<std::string>& files, const Hapti
   request.resolution = options.resolution;
   request.columns = options.columns;
   request.salvage = options.salvage;
+  request.vertices = options.vertices;
   request.colorBy = options.colorBy;
   request.colorByName = options.names.colorBy;
   request.up = options.up;
@@ -520,6 +524,7 @@ bool loadCloud(const CloudRequest& request, const std::function<bool(double)>& g
   const vtkSmartPointer<vtkPolyData> drawn = drawnPoints(request, result);
   result.showing = request.before ? *request.before : showingOf(request, drawn, findings.format);
   result.showing.keptArray = result.colorBy;
+  result.showing.ignoresIntensity = findings.hasSamples;
   result.orientation = result.showing.orientation;
   if (!hasColors(result.cloud) || !request.colorBy.empty())
   {

@@ -35,6 +35,7 @@ struct POINTHAPTICSVIEWER_EXPORT CloudRequest
   double resolution = 0.0;          ///< How far cloud optimised files are read; 0: all points.
   std::vector<std::string> columns; ///< Names for the columns of texts; empty: as the files say.
   bool salvage = false;             ///< Files that are cut are read as far as they go.
+  bool vertices = false;            ///< Meshes are their vertices; else samples of their faces.
   /// Points of a cloud optimised file that are read at most, by leaving out fine levels; see
   /// LoadedCloud::isCoarse. 0: all.
   vtkIdType mostPoints = 0;

@@ -69,20 +69,21 @@ private:
 };
 
 /// The arrays of @p cloud that a picture may need.
-std::vector<vtkDataArray*> neededArrays(vtkPolyData* cloud, const std::string& keptArray)
+std::vector<vtkDataArray*> neededArrays(vtkPolyData* cloud, const ShownRequest& request)
 {
-  const std::optional<ColorSource> source = findColorSource(cloud, keptArray);
+  const std::optional<ColorSource> source = findColorSource(cloud, request.keptArray);
   vtkPointData* data = cloud->GetPointData();
   std::vector<vtkDataArray*> arrays = { hasColors(cloud) ? data->GetScalars() : nullptr,
-    findArrayAnyCase(cloud, "intensity"), findArrayAnyCase(cloud, "classification"),
-    findArrayAnyCase(cloud, "returnnumber"), source ? data->GetArray(source->array.c_str()) : nullptr };
+    request.ignoresIntensity ? nullptr : findArrayAnyCase(cloud, "intensity"),
+    findArrayAnyCase(cloud, "classification"), findArrayAnyCase(cloud, "returnnumber"),
+    source ? data->GetArray(source->array.c_str()) : nullptr };
   arrays.erase(std::remove(arrays.begin(), arrays.end(), nullptr), arrays.end());
   return arrays;
 }
 
 /// The points @p drawn of @p cloud with these arrays; those of the cloud itself where all are drawn.
 vtkSmartPointer<vtkPolyData> pick(
-  vtkPolyData* cloud, const std::vector<std::uint32_t>& drawn, const std::string& keptArray)
+  vtkPolyData* cloud, const std::vector<std::uint32_t>& drawn, const ShownRequest& request)
 {
   auto result = vtkSmartPointer<vtkPolyData>::New();
   const bool all = std::int64_t(drawn.size()) == cloud->GetNumberOfPoints();
@@ -101,7 +102,7 @@ vtkSmartPointer<vtkPolyData> pick(
     result->SetPoints(cloud->GetPoints());
   }
   result->GetFieldData()->ShallowCopy(cloud->GetFieldData());
-  for (vtkDataArray* array : neededArrays(cloud, keptArray))
+  for (vtkDataArray* array : neededArrays(cloud, request))
   {
     vtkSmartPointer<vtkDataArray> kept = array;
     if (!all)
@@ -227,7 +228,7 @@ std::shared_ptr<ShownCloud> makeShownCloud(
   {
     return nullptr;
   }
-  shown->points = pick(cloud, drawn, request.keptArray);
+  shown->points = pick(cloud, drawn, request);
   const PointAccess access(shown->points->GetPoints());
   const PointView view = access.view();
   const SmpExecutor executor;
@@ -271,7 +272,7 @@ std::shared_ptr<ShownCloud> makePlainCloud(vtkPolyData* cloud, const ShownReques
   {
     return nullptr;
   }
-  shown->points = pick(cloud, drawn, request.keptArray);
+  shown->points = pick(cloud, drawn, request);
   const PointAccess access(shown->points->GetPoints());
   const Vec3 extent = boundsOf(access.view()).extent();
   const bool isLow = kLowParts * extent.z < std::max(extent.x, extent.y) && request.orientation.up.z > 0.5;

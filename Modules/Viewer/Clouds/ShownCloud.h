@@ -52,8 +52,9 @@ struct ShownCloud
 struct ShownRequest
 {
   CloudOrientation orientation;
-  std::string keptArray;             ///< Array that is kept beside those that the colours need; empty: none.
-  std::optional<CloudKind> kind;     ///< Kind in place of cloudKind(), where the user chose it.
+  std::string keptArray;         ///< Array that is kept beside those that the colours need; empty: none.
+  bool ignoresIntensity = false; ///< Colours take no intensity: between samples of faces noise is coherent.
+  std::optional<CloudKind> kind; ///< Kind in place of cloudKind(), where the user chose it.
   std::optional<CloudColors> colors; ///< Colours in place of chooseColors(): those of a coarse level shown
                                      ///< before.
 };

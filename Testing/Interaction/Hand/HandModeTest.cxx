@@ -8,6 +8,7 @@
 #include "Haptics/Proxy.h"
 
 #include <gtest/gtest.h>
+#include <vtkCamera.h>
 #include <vtkCommand.h>
 
 #include <chrono>
@@ -51,9 +52,9 @@ TEST_F(HandMode, BeginsAboveTheSurfaceUnderThePointer)
   this->press("f");
   EXPECT_LT(std::abs(device_.target().x), 0.02);
   EXPECT_LT(std::abs(device_.target().y), 0.02);
-  EXPECT_NEAR(device_.target().z, 0.004, 1e-3); // 4 % of the workspace
+  EXPECT_NEAR(device_.target().z, 0.001, 1e-4); // 1 % of the workspace
   this->press("f");
-  EXPECT_NEAR(device_.target().z, 0.004, 1e-3) << "it stays where it was when the mode ends";
+  EXPECT_NEAR(device_.target().z, 0.001, 1e-4) << "it stays where it was when the mode ends";
 }
 
 TEST_F(HandMode, LeavesTheHandWhereNothingIsUnderThePointer)
@@ -138,6 +139,56 @@ TEST_F(HandMode, SaysTheDistanceAndHowToTouchUntilItWasDone)
     << overlay->GetStatus();
   EXPECT_FALSE(says("nearest point"));
   EXPECT_FALSE(props->GetNearest(nearest));
+}
+
+TEST_F(HandMode, AClickWithCtrlBringsTheHandToTheSurfaceAndADragTakesHoldOfIt)
+{
+  this->drag(vtkCommand::LeftButtonPressEvent, vtkCommand::LeftButtonReleaseEvent, 0, 0, true, false);
+  EXPECT_NEAR(device_.target().x, 0.0, 1e-3);
+  EXPECT_NEAR(device_.target().z, 0.001, 1e-4);
+  device_.setTarget({ 0.0, 0.0, -0.002 });
+  this->drag(vtkCommand::LeftButtonPressEvent, vtkCommand::LeftButtonReleaseEvent, 10, 0, true, false);
+  EXPECT_GT(device_.target().x, 0.002);
+  EXPECT_NEAR(device_.target().z, -0.002, 1e-9) << "a hand that is under the pointer is dragged on";
+}
+
+/// Seen from the side, what slides along the view plane leaves the surface or digs into it.
+TEST_F(HandMode, TouchesAfterTwoStepsOfTheWheelAndHoldsHowDeepItPresses)
+{
+  window_->SetSize(800, 800);
+  renderer_->GetActiveCamera()->Azimuth(35.0);
+  renderer_->ResetCameraClippingRange();
+  window_->Render();
+  pointhaptics::trial::SteadyHand hand({ 0.0, 0.0, 0.03 });
+  hand.begin(style_);
+  interactor_->SetEventInformation(400, 400, 0, 0);
+  ASSERT_TRUE(this->eventually(
+    [&] { return hand.servo.latest().state.radius > 0.0 && style_->GetScenes().isSettled(); }));
+  ASSERT_TRUE(style_->GetPicker().surfaceAt(400, 400));
+  this->press("f");
+  const auto isTouching = [&] { return hand.servo.latest().state.contact; };
+  ASSERT_TRUE(this->eventually([&] { return style_->GetDistance().distance().value_or(1.0) < 0.002; }))
+    << hand.device.target().z << " " << hand.servo.latest().state.hip.z;
+  EXPECT_FALSE(isTouching());
+  interactor_->InvokeEvent(vtkCommand::MouseWheelForwardEvent);
+  ASSERT_TRUE(this->eventually([&] { return style_->GetDistance().distance().value_or(1.0) < 0.001; }))
+    << hand.device.target().z << " " << hand.servo.latest().state.hip.z;
+  interactor_->InvokeEvent(vtkCommand::MouseWheelForwardEvent);
+  ASSERT_TRUE(this->eventually(isTouching)) << hand.device.target().z;
+  interactor_->InvokeEvent(vtkCommand::MouseWheelForwardEvent); // deeper by a step
+  EXPECT_TRUE(this->eventually([&] { return hand.servo.latest().state.hip.z < -0.0003; }));
+  interactor_->InvokeEvent(vtkCommand::TimerEvent);
+  const double press = -hand.device.target().z;
+  for (int pixels = 15; pixels <= 75; pixels += 15)
+  {
+    const double before = hand.device.target().x;
+    interactor_->SetEventInformation(400 + pixels, 400, 0, 0);
+    interactor_->InvokeEvent(vtkCommand::MouseMoveEvent);
+    EXPECT_GT(hand.device.target().x, before + 0.0005);
+    EXPECT_NEAR(-hand.device.target().z, press, 1e-4) << pixels;
+    EXPECT_TRUE(this->eventually([&] { return hand.servo.latest().state.hip.x > before + 0.0005; }));
+    EXPECT_TRUE(isTouching()) << pixels;
+  }
 }
 
 } // namespace
