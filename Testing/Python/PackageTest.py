@@ -79,7 +79,7 @@ class Habits(TestCase):
     def test_every_field_has_help(self):
         for thing in (ph.Voxels, ph.Bandwidths):
             for field in dataclasses.fields(thing):
-                self.assertRegex(thing.__doc__, rf"(?m)^    {field.name} : \S", field.name)
+                self.assertRegex(thing.__doc__, rf"(?m)^ *{field.name} : \S", field.name)
         self.assertIn("-1", ph.Voxels.__doc__)
         self.assertIn("lower one", ph.resample.__doc__)
 

@@ -62,7 +62,7 @@ class Types(TestCase):
         with open(self.path("use.py"), "w") as file:
             file.write(USE)
         said = self.mypy(self.path("use.py"))
-        self.assertIn('"Tuple[builtins.int, builtins.int, builtins.int]"', said)
+        self.assertIn('"tuple[builtins.int, builtins.int, builtins.int]"', said.replace("Tuple[", "tuple["))
         self.assertIn('"builtins.dict[builtins.str, Any]"', said.replace("typing.Dict", "builtins.dict"))
         errors = [line for line in said.splitlines() if ": error:" in line]
         self.assertEqual(len(errors), 1, said)

@@ -22,8 +22,8 @@ def press(delay: int) -> Any:
     for _ in range(1000):
         felt.append(proxy.step(hand, DT))
         on_the_way.append(np.array([felt[-1]["force_x"], felt[-1]["force_y"], felt[-1]["force_z"]]))
-        speed = speed + DT / MASS * (PUSH + on_the_way.popleft() - DAMPER * speed)
-        hand = hand + DT * speed
+        speed += DT / MASS * (PUSH + on_the_way.popleft() - DAMPER * speed)
+        hand += DT * speed
     return np.array(felt)
 
 

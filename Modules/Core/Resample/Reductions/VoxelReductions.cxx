@@ -31,7 +31,8 @@ void VoxelReductions::fetch(const std::int64_t* points, int count) const
     fetchToWrite(voxelIndex_ + points[i]);
   }
   // Points in the order of their memory need no fetching.
-  const bool areScattered = count > 0 && points[count - 1] - points[0] != count - 1;
+  const bool readsArrays = std::size_t(payloads_.count) < views_.size(); // else points may have no numbers
+  const bool areScattered = readsArrays && count > 0 && points[count - 1] - points[0] != count - 1;
   for (auto a = std::size_t(payloads_.count); areScattered && a < views_.size(); ++a)
   {
     const AttributeView& view = views_[a];
