@@ -19,21 +19,31 @@ expect_end() {
   [[ ! -e out.ply ]] || fault "$*: a failed job left out.ply behind"
 }
 
+# rank_script NAME: what the ranks of a job run, $rank being the rank. A job of two programs, divided by a colon, makes
+# Open MPI 5.0's own launcher crash now and then.
+rank_script() {
+  {
+    printf '#!/bin/sh\nrank="${OMPI_COMM_WORLD_RANK:-$PMI_RANK}"\n'
+    cat
+  } >"$1"
+  chmod +x "$1"
+}
+
+export MPI_PROGRAM
 case "$1" in
   MissingFile)
-    expect_end 1 "pointhaptics-mpi resample: rank 2 of 3: absent.ply: " "$MPIRUN" \
-      -n 2 "$MPI_PROGRAM" resample idol.ply -o out.ply : -n 1 "$MPI_PROGRAM" resample absent.ply -o out.ply
+    rank_script last_misses <<<'exec "$MPI_PROGRAM" resample "$([ "$rank" = 2 ] && echo absent.ply || echo idol.ply)" -o out.ply'
+    expect_end 1 "pointhaptics-mpi resample: rank 2 of 3: absent.ply: " "$MPIRUN" -n 3 ./last_misses
     # Missing for all: one message, as from the plain program.
     expect_end 1 "pointhaptics-mpi bandwidth: absent.ply: " "$MPIRUN" -n 3 "$MPI_PROGRAM" bandwidth absent.ply -o out.ply
     (($(grep -c "absent.ply" output) == 1)) || fault "more than one message: $(cat output)"
     ;;
   KilledRank)
     # The second rank is killed while both work, or while they start: each of them waits for the other many times.
-    printf '#!/bin/sh\n(sleep 0.7; kill -9 $$) &\nexec "$@"\n' >killed
-    chmod +x killed
+    rank_script last_dies <<<'[ "$rank" = 0 ] || (sleep 0.7; kill -9 $$) &
+exec "$MPI_PROGRAM" bandwidth large.ply -o out.ply --neighbors 500'
     "$PROGRAM" generate idol -n 300000 -o large.ply >said
-    expect_end any "signal 9" "$MPIRUN" -n 1 "$MPI_PROGRAM" bandwidth large.ply -o out.ply --neighbors 500 : \
-      -n 1 ./killed "$MPI_PROGRAM" bandwidth large.ply -o out.ply --neighbors 500
+    expect_end any "signal 9" "$MPIRUN" -n 2 ./last_dies
     ;;
   BadInput)
     printf 'x,y,z\nnan,0,0\nnan,1,1\n' >invalid.csv
