@@ -396,7 +396,7 @@ void vtkPointCloudReader::Finish(io::ReadTask& task, vtkPolyData* cloud)
 /// Says of a mesh what the points are, which are samples of its faces where these are wanted.
 void vtkPointCloudReader::FinishFaces(io::ReadTask& task, vtkPolyData* cloud)
 {
-  if (task.faces.count == 0)
+  if (task.faces.count == 0 || task.isTorn()) // the faces of a torn file come after what is missing
   {
     return;
   }

@@ -14,6 +14,7 @@ namespace pointhaptics
 
 class Ranks;
 
+/// The points of a cloud that are far from all others, and the boxes with and without them.
 struct FarPoints
 {
   std::int64_t count = 0; ///< 0: there are none.

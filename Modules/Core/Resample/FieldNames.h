@@ -2,6 +2,7 @@
 /// Names of the fields of point clouds, in every format and for every filter.
 #pragma once
 
+#include <cstddef>
 #include <string_view>
 
 namespace pointhaptics
