@@ -220,7 +220,7 @@ std::vector<vtkSmartPointer<vtkPolyData>> inOneUnit(
     const bool isSaid = own.evidence == UnitEvidence::File;
     unit = first || !isSaid ? unit : own;
     first = first || !isSaid ? first : clouds[i];
-    const bool isUnlike = isSaid && own.name != unit.name;
+    const bool isUnlike = isSaid && own.metres != unit.metres;
     if (isUnlike && (own.name == "deg" || unit.name == "deg"))
     {
       notes.push_back(
@@ -237,8 +237,8 @@ std::vector<vtkSmartPointer<vtkPolyData>> inOneUnit(
     }
     if (isUnlike)
     {
-      notes.push_back(
-        fmt::format("the coordinates of input {} are converted from {} to {}", i + 1, own.name, unit.name));
+      notes.push_back(fmt::format("the coordinates of input {} are converted from {} ({} m) to {} ({} m)",
+        i + 1, own.name, own.metres, unit.name, unit.metres));
     }
   }
   return result;

@@ -58,9 +58,11 @@ bool openRecording(const std::string& fileName, const std::string& cloudFile, Fi
     bar.show(part);
     return !stopIsRequested();
   };
+  bool isLoaded = false;
   const auto takeCloud = [&](std::string& problem)
   {
-    if (!loadCloud(request, goesOn, loaded, problem))
+    isLoaded = loadCloud(request, goesOn, loaded, problem);
+    if (!isLoaded)
     {
       return false;
     }
@@ -70,7 +72,7 @@ bool openRecording(const std::string& fileName, const std::string& cloudFile, Fi
     return isRight;
   };
   std::string problem;
-  if (!takeCloud(problem) && !request.vertices)
+  if (!takeCloud(problem) && isLoaded && !request.vertices)
   {
     // Before faces were sampled, meshes were felt by their vertices, and recordings did not say so.
     request.vertices = true;

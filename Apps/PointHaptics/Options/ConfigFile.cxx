@@ -168,7 +168,7 @@ std::vector<double> numbersOf(const std::string& settings, const std::string& ke
   {
     if (each.is_number() || each.is_boolean())
     {
-      numbers.push_back(each.get<double>());
+      numbers.push_back(each.is_boolean() ? double(each.get<bool>()) : each.get<double>());
     }
   }
   return numbers;

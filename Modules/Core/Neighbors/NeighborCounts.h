@@ -15,7 +15,8 @@ namespace pointhaptics
 /// Cap on a count, as a multiple of the mean count of the nearest neighbours.
 constexpr double kLargestCountJump = 4.0;
 
-/// Counts of the means that a NeighborQuery was built on. What is below 1 or NaN counts as 1. Allocates
+/// Counts of the means that a NeighborQuery was built on. What is below 1 or NaN counts as 1; a place that
+/// several means have takes the largest of theirs. Allocates 8 bytes a place where means repeat places, else
 /// nothing. Any number of threads.
 class NeighborCounts
 {
@@ -25,6 +26,20 @@ public:
     : query_(query)
     , counts_(counts)
   {
+    if (!counts.empty() && query.finitePoints() > query.size())
+    {
+      places_.resize(std::size_t(query.size()));
+      for (std::size_t slot = 0; slot < places_.size(); ++slot)
+      {
+        places_[slot] = atLeastOne(counts[std::size_t(query.index(std::int64_t(slot)))]);
+      }
+      query.visitRepeats(
+        [&](std::int64_t repeated, std::int64_t slot)
+        {
+          double& place = places_[std::size_t(slot)];
+          place = std::max(place, atLeastOne(counts[std::size_t(repeated)]));
+        });
+    }
   }
   bool empty() const { return counts_.empty(); }
 
@@ -50,9 +65,10 @@ public:
 private:
   double at(std::int64_t slot) const
   {
-    const double count = counts_[std::size_t(query_.index(slot))];
-    return count > 1.0 ? count : 1.0;
+    return places_.empty() ? atLeastOne(counts_[std::size_t(query_.index(slot))])
+                           : places_[std::size_t(slot)];
   }
+  static double atLeastOne(double count) { return count > 1.0 ? count : 1.0; }
   double weightedMean(const NeighborList& list, double largest, bool narrow) const
   {
     const double reach = list.squaredDistances[list.count - 1];
@@ -70,6 +86,7 @@ private:
 
   const NeighborQuery& query_;
   const std::vector<double>& counts_;
+  std::vector<double> places_; ///< By slot; empty where no mean repeats a place.
 };
 
 } // namespace pointhaptics

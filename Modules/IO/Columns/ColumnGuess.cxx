@@ -35,8 +35,24 @@ bool isId(const Columns& columns)
     ids.end();
 }
 
+/// True if the values go on from row to row, as the coordinates of a path do.
+bool isSmooth(const ColumnEvidence& column)
+{
+  constexpr double kStep = 0.2; // of the range of the sample
+  const auto [least, most] = std::minmax_element(column.sample.begin(), column.sample.end());
+  for (std::size_t i = 1; i < column.sample.size(); ++i)
+  {
+    if (!(std::abs(column.sample[i] - column.sample[i - 1]) <= kStep * (*most - *least)))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
 /// Times before the coordinates: seconds since an epoch, which no coordinates beside them reach, or numbers
-/// that grow by the same step, as no coordinate does.
+/// that grow by the same step beside the three coordinates of a path. A profile of a scanner also has
+/// coordinates of one step, but nothing that goes on smoothly in all three columns after them.
 bool isClock(const Columns& columns)
 {
   constexpr double kEpoch = 1e8;
@@ -64,7 +80,8 @@ bool isClock(const Columns& columns)
   return isEpoch ||
     ((!columns[0].isWhole || columns[0].sample.size() >= kFewestWhole) && isSteady(columns[0]) &&
       columns[0].sample.back() > columns[0].sample.front() &&
-      std::none_of(columns.begin() + 1, columns.begin() + 4, isSteady));
+      std::none_of(columns.begin() + 1, columns.begin() + 4, isSteady) &&
+      std::all_of(columns.begin() + 1, columns.begin() + 4, isSmooth));
 }
 
 bool areColors(const Columns& columns, std::size_t first)

@@ -140,7 +140,7 @@ def read(
     if isinstance(columns, str) or not all(isinstance(column, str) for column in columns):
         raise TypeError(f"columns: {columns!r}; give a list of names, such as ['x', 'y', 'z']")
     number = operator.index(samples)
-    if not 0 <= number <= 100_000_000:
+    if isinstance(samples, bool) or not 0 <= number <= 100_000_000:
         raise ValueError(f"samples: {samples!r}; give a number from 0 to 100,000,000")
     with _file_to_read(path) as (name, shown):
         reader = _read(name, shown, salvage, columns, number)

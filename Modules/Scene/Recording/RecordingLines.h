@@ -40,7 +40,11 @@ inline void describe(keyed::Line& line, RecordedFiles& cloud)
   std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(cloud.checksum));
   std::string checksum = digits;
   line.value("checksum", checksum);
-  std::from_chars(checksum.data(), checksum.data() + checksum.size(), cloud.checksum, 16);
+  const char* const end = checksum.data() + checksum.size();
+  if (std::from_chars(checksum.data(), end, cloud.checksum, 16).ptr != end)
+  {
+    cloud.points = 0; // a header that names no cloud is refused
+  }
   line.value("resolution", cloud.resolution);
 }
 

@@ -242,6 +242,13 @@ bool Reader::takeRow(const std::string& text)
     return this->fail(
       quote(text) + ": time, place, force, buttons or marker is out of range; remove the row");
   }
+  const auto isParameters = [](const RecordedEvent& event)
+  { return event.kind == RecordedEvent::Kind::Parameters; };
+  if (recording_.ticks.empty() &&
+    std::none_of(recording_.events.begin(), recording_.events.end(), isParameters))
+  {
+    return this->fail("no parameters are in force at the first row; take the header as it was written");
+  }
   row.tick = std::uint64_t(tick);
   row.buttons = std::uint32_t(numbers[kFelt]);
   row.marker = std::uint32_t(numbers[kFelt + 1]);

@@ -204,8 +204,18 @@ void ViewWindow::leave()
     this->cancelLoading();
     return;
   }
+  if (overlay_->GetHelpVisibility())
+  {
+    overlay_->SetHelpVisibility(false);
+    return;
+  }
   if (now < escapeIsLate_ || measuring_.end() || clipping_.hide() || controls_.leaveFullScreen())
   {
+    return;
+  }
+  if (style_->GetHand().followsMouse())
+  {
+    style_->GetCommands().run("hand-mode");
     return;
   }
   if (recording_.isOpen() && now > escapeQuits_)

@@ -773,7 +773,7 @@ EscapeKeepsTheFormerCloud() {
 EscapeLeavesOneThingAfterTheOther() {
   make sphere cloud.ply
   open_viewer cloud.ply
-  key C
+  key h Escape f Escape C
   said "clipping box: drag its handles"
   key Escape
   said "clipping box: hidden"

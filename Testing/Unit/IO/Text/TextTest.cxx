@@ -333,8 +333,19 @@ TEST_F(Text, ObjKeepsColorsAndNormalsAndIgnoresFaces)
 
 TEST_F(Text, TimesBeforeTheCoordinatesAreTimes)
 {
-  for (const char* rows :
-    { "0.1 1 2 3\n0.2 2 2 4\n0.3 4 3 4\n", "1714564800.1 1 2 3\n1714564801 2 2 3\n1714564807 1 5 4\n" })
+  std::string path;
+  std::string profile;
+  for (int i = 1; i <= 40; ++i)
+  {
+    const double t = 0.1 * i;
+    const std::string begin = std::to_string(t) + " " + std::to_string(1.0 + 0.001 * (i * i - 1)) + " " +
+      std::to_string(2.0 + std::sin(t)) + " ";
+    path += begin + std::to_string(3.0 - t * t) + "\n";
+    profile += begin + std::to_string(i * i % 7) + "\n"; // heights of a scanner, and intensities
+  }
+  EXPECT_EQ(readCloud(write("profile.txt", profile)).array("time"), nullptr);
+  for (const std::string& rows :
+    { path, std::string("1714564800.1 1 2 3\n1714564801 2 2 3\n1714564807 1 5 4\n") })
   {
     const ReadResult result = readCloud(write("a.txt", rows));
     ASSERT_EQ(result.error, "");
