@@ -64,7 +64,7 @@ std::vector<Vec3> ringsOfPoints(double radius, double apart, int rings, int poin
   return points;
 }
 
-void appendLine(trial::Path& path, const Vec3& from, const Vec3& to, int ticks)
+void appendLine(trial::Path& path, Vec3 from, Vec3 to, int ticks) // copies: they may be of the path
 {
   for (int i = 0; i <= ticks; ++i)
   {
