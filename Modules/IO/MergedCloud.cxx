@@ -237,8 +237,9 @@ std::vector<vtkSmartPointer<vtkPolyData>> inOneUnit(
     }
     if (isUnlike)
     {
-      notes.push_back(fmt::format("the coordinates of input {} are converted from {} ({} m) to {} ({} m)",
-        i + 1, own.name, own.metres, unit.name, unit.metres));
+      notes.push_back(
+        fmt::format("the coordinates of input {} are converted from {} to {}", i + 1, own.name, unit.name) +
+        (own.name == unit.name ? fmt::format(" of {} m", unit.metres) : ""));
     }
   }
   return result;

@@ -299,7 +299,7 @@ TEST_F(CloudLoaderTest, MayGoWhileItReads)
 
 TEST_F(CloudLoaderTest, ChoosesAFinerLatticeWhereTheUsualOneLosesMostOfTheCloud)
 {
-  // A scanner's sweep: 40,000 points within half a metre of it, and more than one in a thousand 80 m away:
+  // A scanner's sweep: 40,000 points within half a metre of it, and more than one in twenty 80 m away:
   // fewer would be left out.
   const std::string sweep = (folder_ / "sweep.csv").string();
   {
@@ -309,9 +309,9 @@ TEST_F(CloudLoaderTest, ChoosesAFinerLatticeWhereTheUsualOneLosesMostOfTheCloud)
     {
       file << 0.0025 * (i % 200) << ',' << 0.0025 * (i / 200) << ",0.5\n";
     }
-    for (int i = 1; i <= 80; ++i)
+    for (int i = 1; i <= 2500; ++i)
     {
-      file << 80.0 + 0.0001 * i << ",0,0.5\n";
+      file << 80.0 + 0.00001 * i << ",0,0.5\n";
     }
   }
   const auto dimensionOf = [&](const std::string& path, bool chooses)
