@@ -36,8 +36,8 @@ constexpr double kCoarsest = 0.75;
 constexpr double kCellsInFit = 16.0;
 
 /// RMS residual, metres, of one surface through all cells within @p radius of the cell nearest to @p place.
-/// It is near zero where they are smooth, and large about edges and between sheets, of which other fits see
-/// one at a time.
+/// The residual is near zero on a smooth surface. At an edge or between two sheets it is large, where a fit
+/// of one sheet would see nothing of the other.
 double residualOfAll(const CellPyramid& pyramid, const Vec3& place, double radius, FitCells& memory)
 {
   double distance = 0.0;

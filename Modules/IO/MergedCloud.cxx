@@ -239,7 +239,8 @@ std::vector<vtkSmartPointer<vtkPolyData>> inOneUnit(
     {
       notes.push_back(
         fmt::format("the coordinates of input {} are converted from {} to {}", i + 1, own.name, unit.name) +
-        (own.name == unit.name ? fmt::format(" of {} m", unit.metres) : ""));
+        (own.name == unit.name ? fmt::format(" of {} m", unit.metres) : "") +
+        (clouds[i]->GetPointData()->GetNumberOfArrays() > 0 ? ", its arrays are not" : ""));
     }
   }
   return result;

@@ -181,6 +181,33 @@ TEST_F(Convert, FilesOfUnlikeUnitsAreMergedInOne)
   EXPECT_EQ(this->read("all.csv"), "x,y,z\n1,2,3\n4,5,6\n");
 }
 
+TEST_F(Convert, FeetThatDifferAreConvertedWithAWord)
+{
+  const auto cloudIn = [](const std::string& unit)
+  {
+    std::string codes;
+    for (const char letter : unit)
+    {
+      codes += std::to_string(int(letter)) + " ";
+    }
+    return "<VTKFile type=\"PolyData\" version=\"1.0\"><PolyData><FieldData><Array type=\"String\" "
+           "Name=\"LengthUnit\" NumberOfTuples=\"1\" format=\"ascii\">" +
+      codes +
+      "0</Array></FieldData><Piece NumberOfPoints=\"1\"><PointData><DataArray type=\"Float64\" "
+      "Name=\"ProxyRadius\" format=\"ascii\">5</DataArray></PointData><Points><DataArray type=\"Float64\" "
+      "NumberOfComponents=\"3\" format=\"ascii\">3000000 0 "
+      "0</DataArray></Points></Piece></PolyData></VTKFile>";
+  };
+  this->write("foot.vtp", cloudIn("foot"));
+  this->write("survey.vtp", cloudIn("US survey foot"));
+  const auto outcome = this->run({ "convert", "foot.vtp", "survey.vtp", "--merge", "-o", "all.csv" });
+  EXPECT_EQ(outcome.exitCode, 0) << outcome.errors;
+  EXPECT_NE(outcome.errors.find("input 2 are converted from ft to ft of 0.3048 m, its arrays are not"),
+    std::string::npos)
+    << outcome.errors;
+  EXPECT_NE(this->read("all.csv").find("\n3000006"), std::string::npos) << this->read("all.csv");
+}
+
 TEST_F(Convert, AVoxelIsSaidToBeInTheUnitOfTheFile)
 {
   this->write("mm.csv", "x [mm],y [mm],z [mm]\n4,5,6\n");

@@ -292,6 +292,34 @@ TEST_F(RecordingCommands, WhatCannotBeReplayedIsRefused)
   EXPECT_FALSE(this->exists("again.csv"));
 }
 
+TEST_F(RecordingCommands, AMeshIsFeltAgainByItsVerticesOrBySamples)
+{
+  this->succeed({ "generate", "idol", "-n", "20000", "-o", "idol.csv" });
+  std::istringstream rows(this->read("idol.csv"));
+  std::string vertices;
+  std::string row;
+  std::getline(rows, row); // the names
+  while (std::getline(rows, row))
+  {
+    const std::size_t second = row.find(',', row.find(',') + 1);
+    row.resize(row.find(',', second + 1)); // the coordinates
+    std::replace(row.begin(), row.end(), ',', ' ');
+    vertices += row + "\n";
+  }
+  this->write("mesh.off", "OFF\n20000 1 0\n" + vertices + "3 0 1 2\n");
+  for (const bool isByVertices : { true, false })
+  {
+    std::vector<std::string> words = { "feel", "mesh.off", "--path", apptest::kIdolPath, "-o", "out.csv",
+      "--record", "rec.csv", "--force" };
+    words.insert(words.end(), isByVertices ? 1 : 0, "--vertices");
+    EXPECT_EQ(this->run(words).exitCode, 0); // it warns of faces
+    const apptest::Outcome replay =
+      this->run({ "feel", "--replay", "rec.csv", "-o", "again.csv", "--force" });
+    EXPECT_NE(replay.output.find("to the last bit"), std::string::npos) << replay.output << replay.errors;
+    EXPECT_EQ(felt(this->read("again.csv")), felt(this->read("out.csv")));
+  }
+}
+
 TEST_F(RecordingCommands, UnlikelyUnitsAreSaidByFeelAndView)
 {
   this->succeed({ "generate", "sphere", "-n", "20000", "-o", "sphere.ply" });

@@ -26,7 +26,33 @@ using namespace pointhaptics;
 namespace
 {
 
-using HapticViewerPictures = HapticViewerTest;
+/// Pixels with red other than what the component @p other says.
+vtkIdType coloredPixels(const std::string& fileName, int other, double difference)
+{
+  vtkNew<vtkPNGReader> reader;
+  reader->SetFileName(fileName.c_str());
+  reader->Update();
+  vtkDataArray* pixels = reader->GetOutput()->GetPointData()->GetScalars();
+  vtkIdType colored = 0;
+  for (vtkIdType i = 0; i < pixels->GetNumberOfTuples(); ++i)
+  {
+    colored += std::abs(pixels->GetComponent(i, 0) - pixels->GetComponent(i, other)) > difference;
+  }
+  return colored;
+}
+
+class HapticViewerPictures : public HapticViewerTest
+{
+protected:
+  /// Draws @p cloud to the file @p name and counts its coloured pixels.
+  vtkIdType coloredPixelsOf(vtkPolyData* cloud, const char* name)
+  {
+    HapticViewer viewer(options_, observer_);
+    EXPECT_TRUE(viewer.open(cloud)) << viewer.message();
+    EXPECT_TRUE(viewer.renderToFile(this->path(name))) << viewer.message();
+    return coloredPixels(this->path(name), 2, 10.0);
+  }
+};
 
 TEST_F(HapticViewerPictures, LeavesTheBackgroundOutOfTransparentPictures)
 {
@@ -64,21 +90,6 @@ TEST_F(HapticViewerPictures, LeavesTheBackgroundOutOfTransparentPictures)
   EXPECT_EQ(got->GetComponent(0, 3), 0.0);
   EXPECT_GT(clear, got->GetNumberOfTuples() / 10);
   EXPECT_GT(solid, got->GetNumberOfTuples() / 10);
-}
-
-/// Pixels with red other than what the component @p other says.
-vtkIdType coloredPixels(const std::string& fileName, int other, double difference)
-{
-  vtkNew<vtkPNGReader> reader;
-  reader->SetFileName(fileName.c_str());
-  reader->Update();
-  vtkDataArray* pixels = reader->GetOutput()->GetPointData()->GetScalars();
-  vtkIdType colored = 0;
-  for (vtkIdType i = 0; i < pixels->GetNumberOfTuples(); ++i)
-  {
-    colored += std::abs(pixels->GetComponent(i, 0) - pixels->GetComponent(i, other)) > difference;
-  }
-  return colored;
 }
 
 /// Points have colours, the brackets of the workspace are grey.
@@ -145,13 +156,7 @@ TEST_F(HapticViewerPictures, IsThatOfAllPointsButAFarOne)
   options_.picture.background = "black";
   options_.colorBy = "height";
   vtkSmartPointer<vtkPolyData> cloud = makeSphere();
-  const auto picture = [&](const char* name)
-  {
-    HapticViewer viewer(options_, observer_);
-    EXPECT_TRUE(viewer.open(cloud.Get())) << viewer.message();
-    EXPECT_TRUE(viewer.renderToFile(this->path(name))) << viewer.message();
-    return coloredPixels(this->path(name), 2, 10.0);
-  };
+  const auto picture = [&](const char* name) { return this->coloredPixelsOf(cloud, name); };
   const vtkIdType before = picture("sphere.png");
   EXPECT_GT(before, 5000);
   EXPECT_TRUE(warnings_.empty());
@@ -178,13 +183,7 @@ TEST_F(HapticViewerPictures, IsThatOfTheObjectAmongStrays)
   SKIP_WITHOUT_DISPLAY();
   options_.picture.background = "black";
   vtkSmartPointer<vtkPolyData> cloud = makeSphere();
-  const auto picture = [&](const char* name)
-  {
-    HapticViewer viewer(options_, observer_);
-    EXPECT_TRUE(viewer.open(cloud.Get())) << viewer.message();
-    EXPECT_TRUE(viewer.renderToFile(this->path(name))) << viewer.message();
-    return coloredPixels(this->path(name), 2, 10.0);
-  };
+  const auto picture = [&](const char* name) { return this->coloredPixelsOf(cloud, name); };
   const vtkIdType before = picture("sphere.png");
   const double size = cloud->GetLength();
   for (int i = 0; i < 800; ++i) // spread over a ball by golden angles

@@ -61,7 +61,7 @@ bool findSheet(
   const double gate = std::max(2.0 * kGateDepth * scale.countRadius, scale.gate);
   bool found = false;
   double radius = scale.radius;
-  // A few badly placed points determine no fit: widen the radius.
+  // A few points, or points along a line, determine no fit: widen the radius.
   for (int widening = 0; widening <= kWidenings && !found; ++widening, radius *= kWidening)
   {
     found = findSheet(scene, memory, onSurface, radius, gate, tracker);

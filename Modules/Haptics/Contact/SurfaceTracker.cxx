@@ -79,7 +79,7 @@ bool SurfaceTracker::refit(const HapticScene& scene, FitCells& memory) noexcept
   settings.gate = scale.gate;
   std::copy(curvature_, curvature_ + 3, settings.curvature);
   SurfaceFit fit = fitSurface(scene.pyramid(), frame_, settings, memory, &slopes);
-  // A few badly placed points determine no more than a plane: widen the radius.
+  // A few points, or points along a line, determine no more than a plane: widen the radius.
   for (int i = 0; i < kWidenings && fit.quality != FitQuality::Quadric; ++i)
   {
     settings.radius *= kWidening;

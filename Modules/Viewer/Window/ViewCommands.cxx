@@ -61,7 +61,7 @@ void ViewWindow::addCommands(CommandRegistry& commands, ViewWindow* window)
   commands.add(
     { "record", "j", "Program", "start, stop recording the touch", call(&Window::toggleRecording), isOpen });
   commands.add({ "leave", "Escape", "Program",
-    "leave what is on: reading, help, a tool, hand mode ...; then quit", call(&Window::leave), isOpen });
+    "leave reading, help, tools, hand mode, full screen; then quit", call(&Window::leave), isOpen });
   commands.bind("hand-mode", "f");
   commands.add(
     { "marker", "space", "Program", "set a marker in the recording", call(&Window::setMarker), isOpen });

@@ -416,6 +416,15 @@ TEST_F(RecordingTest, WhatIsNoRecordingIsRefusedInOneLine)
   this->refuse(std::string(5000, 'x'), "no recording");
   this->refuse(with("recording: 2", "recording: 3"), "another version");
   this->refuse(head, "no row");
+  this->refuse(with(" checksum=", " checksum=g"), "names no cloud");
+  std::string late = good;
+  for (std::size_t at = 0; (at = late.find("# tick ", at)) != std::string::npos;)
+  {
+    const std::size_t end = late.find('\n', at) + 1;
+    const bool isParameters = late.substr(at, end - at).find(": parameters") != std::string::npos;
+    isParameters ? void(late.erase(at, end - at)) : void(at = end);
+  }
+  this->refuse(late, "no parameters are in force");
   this->refuse(with("buttons,marker", "buttons"), "no recording");
   this->refuse(head + rows.substr(0, rows.size() - 20) + "\n" + rows, "cut off");
   this->refuse(head + "nan" + rows.substr(rows.find(',')), "NaN");

@@ -302,3 +302,25 @@ TEST(LocalBandwidthCounts, OfAnotherNumberAreRefusedAndOfAnySizeUsable)
   expectUsable(localOfMeans({ { { 0, 0, 0 }, { 1, 0, 0 } }, { 9.0, 2.0 } }));
   expectUsable(localOfMeans({ std::vector<Vec3>(100, Vec3(1, 1, 1)), std::vector<double>(100, 5.0) }));
 }
+
+TEST(LocalBandwidthCounts, OfRepeatedMeansDoNotDependOnTheirOrder)
+{
+  Means means = { randomBox(400, 73, { 0, 0, 0 }, { 1, 1, 0 }), {} };
+  for (std::size_t i = 0; i < 400; ++i)
+  {
+    means.counts.push_back(1.0 + double(i % 7));
+  }
+  for (std::size_t i = 0; i < 400; i += 2)
+  {
+    means.points.push_back(means.points[i]);
+    means.counts.push_back(1.0 + double(i % 11));
+  }
+  const Local expected = localOfMeans(means);
+  std::reverse(means.points.begin(), means.points.end());
+  std::reverse(means.counts.begin(), means.counts.end());
+  Local reversed = localOfMeans(means);
+  std::reverse(reversed.radii.begin(), reversed.radii.end());
+  std::reverse(reversed.bandwidths.begin(), reversed.bandwidths.end());
+  EXPECT_EQ(reversed.radii, expected.radii);
+  EXPECT_EQ(reversed.bandwidths, expected.bandwidths);
+}
