@@ -66,7 +66,6 @@ public:
   /// Chooses between the points of the file (the default) and the felt means. Some colours belong to means
   /// alone: while one of them is shown, means are.
   void setShowsFelt(bool felt);
-  bool showsFelt() const { return showsFelt_; }
   /// Shows the finished measurement of a cloud that was opened plain; the camera follows, unless it was
   /// moved. @param waits until it is there. @return true if the picture changed.
   bool followMeasurement(bool waits);

@@ -180,11 +180,6 @@ void nameProgram(const std::string& name)
   speech().program = name;
 }
 
-const std::string& programName()
-{
-  return speech().program;
-}
-
 int failStandardOutput(const std::string& command, int error)
 {
   return isReaderGone()

@@ -30,7 +30,6 @@ inline void require(bool isDone, const std::string& message)
 
 /// Who speaks: the program's name in messages, `pointhaptics` unless main() says another at its beginning.
 void nameProgram(const std::string& name);
-const std::string& programName();
 /// Prints `PROGRAM COMMAND: message` on stderr, in one line, after the warnings so far. Says nothing where
 /// the reader of standard output has ended and that is the fault. @return kFailed, or 141, as a shell counts
 /// SIGPIPE.

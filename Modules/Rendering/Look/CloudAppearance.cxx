@@ -7,7 +7,6 @@
 #include "Core/Base/Boxes.h"
 
 #include "vtkActor.h"
-#include "vtkCamera.h"
 #include "vtkCameraPass.h"
 #include "vtkDataArray.h"
 #include "vtkDepthShadingPass.h"
@@ -294,19 +293,6 @@ double medianSpacing(vtkPolyData* cloud)
   const auto middle = radii.begin() + std::ptrdiff_t(radii.size() / 2);
   std::nth_element(radii.begin(), middle, radii.end());
   return *middle / kRadiusPerSpacing;
-}
-
-double pointSizeFor(double spacing, vtkRenderer* renderer, double largest)
-{
-  constexpr double kPixelsPerSpacing = 2.2;
-  constexpr double kSmallest = 3.0;
-  vtkCamera* camera = renderer->GetActiveCamera();
-  const int* size = renderer->GetSize();
-  const double height = camera->GetParallelProjection()
-    ? 2.0 * camera->GetParallelScale()
-    : 2.0 * camera->GetDistance() * std::tan(0.5 * camera->GetViewAngle() * 3.14159265358979323846 / 180.0);
-  const double pixels = kPixelsPerSpacing * spacing / height * size[1];
-  return std::isfinite(pixels) ? std::round(std::min(std::max(pixels, kSmallest), largest)) : kSmallest;
 }
 
 bool applyCloudAppearance(vtkPolyData* cloud, vtkPolyDataMapper* mapper, vtkActor* actor,

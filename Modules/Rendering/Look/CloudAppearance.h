@@ -133,7 +133,4 @@ POINTHAPTICSRENDERING_EXPORT void setDepthStrength(vtkRenderer* renderer, double
 /// Median distance between neighbours, of a sample of the points; 0 where there are none.
 POINTHAPTICSRENDERING_EXPORT double medianSpacing(vtkPolyData* cloud);
 
-/// Pixels at which points @p spacing apart, at the camera's focal point, close to a surface: 3 to @p largest.
-POINTHAPTICSRENDERING_EXPORT double pointSizeFor(double spacing, vtkRenderer* renderer, double largest = 9.0);
-
 } // namespace pointhaptics

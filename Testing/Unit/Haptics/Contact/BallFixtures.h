@@ -59,18 +59,6 @@ inline Real norm(const LongVec& a)
   return std::sqrt(dot(a, a));
 }
 
-/// Distance from @p p to the nearest of all points of the scene.
-inline Real leastDistance(const HapticScene& scene, const LongVec& p)
-{
-  Real least2 = HUGE_VALL;
-  for (const Cell& cell : scene.contactPyramid().level(0).cells)
-  {
-    const LongVec offset = LongVec(cell.mean) - p;
-    least2 = std::min(least2, dot(offset, offset));
-  }
-  return std::sqrt(least2);
-}
-
 /// The least distance where it is below @p radius, else @p radius: looks at the points near by alone.
 inline Real leastDistanceWithin(const HapticScene& scene, const Vec3& p, double radius)
 {
