@@ -165,6 +165,7 @@ void vtkInteractorStyleHaptic::Refresh()
     this->Clutch.letGo();
   }
   this->Hand.update();
+  this->HoverIfDue();
   if (!this->Clutch.isHolding())
   {
     this->Hand.followTouch(latest.state, [this](int x, int y) { return this->Picker.surfaceAt(x, y); });
@@ -175,6 +176,20 @@ void vtkInteractorStyleHaptic::Refresh()
     this->Display.requestRender();
   }
   this->Display.renderIfDue();
+}
+
+void vtkInteractorStyleHaptic::HoverHand()
+{
+  this->Hand.requestHover();
+  this->HoverIfDue();
+}
+
+void vtkInteractorStyleHaptic::HoverIfDue()
+{
+  if (!this->Scenes.isChanged())
+  {
+    this->Hand.hoverIfDue([this](int x, int y) { return this->Picker.surfaceAt(x, y); });
+  }
 }
 
 /// Measures while a person moves the hand; the mouse counts in hand mode only.

@@ -125,6 +125,12 @@ public:
   ///@}
 
   /**
+   * Puts the simulated hand above the surface under the pointer, as soon as the felt scene is that of the
+   * picture.
+   */
+  void HoverHand();
+
+  /**
    * Box of the hand, xmin, xmax, ymin, ymax, zmin, zmax: see pointhaptics::ModelTransform. Default: the 10 cm
    * cube about the origin.
    */
@@ -218,6 +224,7 @@ private:
   void Press(const char* button);
   std::string GestureOf(const char* name) const;
   void ModelMoved();
+  void HoverIfDue();
   void MeasureDistance(const pointhaptics::ServoSample& latest);
   void SceneShown(const pointhaptics::BuiltScene& built);
 

@@ -34,8 +34,6 @@ constexpr double kShortestStep = 0.002;
 constexpr double kShortestStepToTouch = 0.01; ///< Two steps touch from where hand mode begins.
 constexpr double kShortestStepAside = 0.01;   ///< Least step along a surface that is touched.
 constexpr double kLongestStep = 0.05;
-/// Height above the surface at which hand mode begins.
-constexpr double kHoverHeight = 0.01;
 /// Radius of the ball that the hand rolls, and the way that scales by e.
 constexpr double kBallRadius = 0.25;
 constexpr double kWayPerScale = 0.25;
@@ -163,22 +161,6 @@ void addModelCommands(CommandRegistry& commands, vtkInteractorStyleHaptic& style
     { "reset-model", "0 Home KP_0 KP_Home", group, "back to the start", [&model] { model.reset(); } });
 }
 
-/// Puts the hand above the surface under the pointer, where there is one.
-void hover(vtkInteractorStyleHaptic& style)
-{
-  MouseHand& hand = style.GetHand();
-  vtkRenderWindowInteractor* interactor = style.GetInteractor();
-  if (!hand.hasDevice() || !interactor)
-  {
-    return;
-  }
-  const int* pointer = interactor->GetEventPosition();
-  if (const std::optional<Vec3> surface = style.GetPicker().surfaceAt(pointer[0], pointer[1]))
-  {
-    hand.placeAt(*surface - kHoverHeight * style.GetModel().edge() * style.GetScreen().forward());
-  }
-}
-
 /// Hand mode begins above the surface under the pointer.
 void toggleHandMode(vtkInteractorStyleHaptic& style)
 {
@@ -186,7 +168,7 @@ void toggleHandMode(vtkInteractorStyleHaptic& style)
   hand.setFollowsMouse(!hand.followsMouse());
   if (hand.followsMouse())
   {
-    hover(style);
+    style.HoverHand();
   }
 }
 
@@ -204,7 +186,7 @@ void addHandCommands(CommandRegistry& commands, vtkInteractorStyleHaptic& style)
   {
     if (!style.GetHand().isUnderPointer())
     {
-      hover(style);
+      style.HoverHand();
     }
   };
   commands.add({ "move-hand-drag", "Ctrl+left", group, "comes to a click, moves in the view plane",

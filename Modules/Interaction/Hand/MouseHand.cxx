@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace pointhaptics
 {
@@ -20,6 +21,8 @@ namespace
 
 /// A key that is pressed again within this time was held all along.
 constexpr double kKeyRepeatSeconds = 0.05;
+/// Height above the surface at which the hand hovers, edges of the workspace.
+constexpr double kHoverHeight = 0.01;
 /// A pointer nearer to the hand than this, pixels, takes hold of it.
 constexpr double kReachOfHand = 20.0;
 /// Cosine between view and normal below which a plane is seen too flatly to say how deep the pointer is.
@@ -76,6 +79,19 @@ void MouseHand::placeAt(const Vec3& place)
   }
 }
 
+void MouseHand::hoverIfDue(const SurfaceAt& surfaceAt)
+{
+  if (!std::exchange(hoverIsDue_, false) || !device_ || !screen_.interactor())
+  {
+    return;
+  }
+  const int* pointer = screen_.interactor()->GetEventPosition();
+  if (const std::optional<Vec3> surface = surfaceAt(pointer[0], pointer[1]))
+  {
+    this->placeAt(*surface - kHoverHeight * model_.edge() * screen_.forward());
+  }
+}
+
 void MouseHand::drag()
 {
   if (device_ && screen_.renderer())
@@ -120,8 +136,7 @@ Vec3 MouseHand::pressed(const Vec3& place) const
   return std::abs(steepness) > kFlattestView ? place - missing / steepness * sight : place;
 }
 
-void MouseHand::followTouch(
-  const ProxyState& latest, const std::function<std::optional<Vec3>(int x, int y)>& surfaceAt)
+void MouseHand::followTouch(const ProxyState& latest, const SurfaceAt& surfaceAt)
 {
   if (!followsMouse_ || pushesPointer_ || !device_ || !screen_.renderer() || !isFinite(latest.proxy))
   {

@@ -23,6 +23,9 @@ struct ProxyState;
 class POINTHAPTICSINTERACTION_EXPORT MouseHand
 {
 public:
+  /// Where the line of sight through a display position meets the cloud, workspace; nothing: it misses.
+  using SurfaceAt = std::function<std::optional<Vec3>(int x, int y)>;
+
   /// Both must outlive this. The model's workspace bounds the hand.
   MouseHand(const ScreenView& screen, const ModelTransform& model)
     : screen_(screen)
@@ -58,6 +61,12 @@ public:
   /// Puts the hand to @p place without a way there: nothing in between is touched.
   void placeAt(const Vec3& place);
   ///@}
+  ///@{
+  /// Puts the hand above the surface under the pointer, where there is one: asked for at any time, done by
+  /// the first hoverIfDue(), which needs a scene that is that of the picture.
+  void requestHover() { hoverIsDue_ = true; }
+  void hoverIfDue(const SurfaceAt& surfaceAt);
+  ///@}
   /// Moves the hand in the view plane as far as the mouse has moved.
   void drag();
   /// Moves the hand in the view plane to the pointer.
@@ -65,10 +74,9 @@ public:
   void setPointerInside(bool isInside) { isPointerInside_ = isInside; }
   /// To be called from a timer with the newest tick. In contact hand mode holds how deep the hand presses
   /// below the plane that is touched, so the hand neither leaves a surface that falls away nor digs into one
-  /// that rises; a move in depth changes it. Where contact is lost, @p surfaceAt says where on the line of
-  /// sight through a display position the surface goes on.
-  void followTouch(
-    const ProxyState& latest, const std::function<std::optional<Vec3>(int x, int y)>& surfaceAt);
+  /// that rises; a move in depth changes it. Where contact is lost, @p surfaceAt says where the surface goes
+  /// on.
+  void followTouch(const ProxyState& latest, const SurfaceAt& surfaceAt);
   /// Moves the pointer to the hand, where the surface has pushed the hand away from it.
   void pushPointer(const ProxyState& latest);
   /// Moves the pointer to the hand, in hand mode.
@@ -91,6 +99,7 @@ private:
   bool followsMouse_ = false;
   bool pushesPointer_ = false;
   bool isPointerInside_ = false;
+  bool hoverIsDue_ = false;
   Vec3 contact_;       ///< Where the surface was touched last,
   Vec3 normal_;        ///< and its outward normal there.
   double press_ = 0.0; ///< Metres that the target is kept below the plane of the contact; 0: it is free.

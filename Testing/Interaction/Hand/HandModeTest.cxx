@@ -191,4 +191,16 @@ TEST_F(HandMode, TouchesAfterTwoStepsOfTheWheelAndHoldsHowDeepItPresses)
   }
 }
 
+TEST_F(HandMode, ComesToTheSurfaceOnceTheSceneIsThatOfThePicture)
+{
+  interactor_->SetEventInformation(110, 95, 0, 0);
+  style_->GetModel().scale(1.1);
+  ASSERT_TRUE(style_->GetScenes().isChanged());
+  this->press("f");
+  EXPECT_DOUBLE_EQ(device_.target().z, 0.045);
+  ASSERT_TRUE(this->eventually([&] { return style_->GetScenes().isSettled(); }));
+  style_->Refresh();
+  EXPECT_NEAR(device_.target().z, 0.001, 1e-4);
+}
+
 } // namespace

@@ -881,7 +881,7 @@ QuittingInTouchKeepsTheTrace() {
   open_viewer cloud.ply --device simulated --trace trace.csv
   move_to 320 180
   key f
-  for ((i = 0; i < 12; ++i)); do key Page_Up; sleep 0.2; done
+  until_true "the hand does not touch" presses_until_it_touches
   key j
   said "recording begins when the hand lets go"
   key q
@@ -890,6 +890,11 @@ QuittingInTouchKeepsTheTrace() {
   said "nothing was recorded"
   has_value 15 1 trace.csv || fail "the trace has no contact"
   [[ ! -e trace.csv.part && ! -e pointhaptics-001.csv && ! -e pointhaptics-001.csv.part ]] || fail "a part is left"
+}
+
+presses_until_it_touches() {
+  key Page_Up
+  has_value 15 1 trace.csv.part
 }
 
 # Study.md as it is, with two trials of each condition: a person slides over the sphere, presses Space and quits.
