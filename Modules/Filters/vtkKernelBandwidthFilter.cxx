@@ -45,13 +45,15 @@ public:
   {
     using Clock = std::chrono::steady_clock;
     const std::int64_t largest = std::max<std::int64_t>(grain, (count + Slices - 1) / Slices);
+    const std::int64_t shares = 4 * std::int64_t(this->concurrency());
     std::int64_t piece = 1; // a long one is heard of at once
     for (std::int64_t begin = 0; begin < count && !this->Filter->GetAbortExecute();)
     {
       const Clock::time_point start = Clock::now();
       const std::int64_t size = std::min(piece, count - begin);
       Shifted shifted{ context, body, begin };
-      SmpExecutor::run(size, grain, &shifted,
+      // A slice that is slow with few items is short of a grain for each thread.
+      SmpExecutor::run(size, std::clamp<std::int64_t>(size / shares, 1, grain), &shifted,
         [](void* here, std::int64_t first, std::int64_t last)
         {
           const auto* s = static_cast<const Shifted*>(here);
