@@ -221,4 +221,13 @@ TEST_F(Convert, AVoxelIsSaidToBeInTheUnitOfTheFile)
   EXPECT_EQ(errorsOf({ "--unit", "mm" }), "");
 }
 
+TEST_F(Convert, AFileThatIsMergedTwiceIsSaid)
+{
+  this->write("a.csv", "x,y,z\n1,2,3\n");
+  std::filesystem::create_symlink("a.csv", this->path("link.csv"));
+  const auto outcome = this->run({ "convert", "a.csv", "link.csv", "--merge", "-o", "all.csv" });
+  EXPECT_EQ(outcome.exitCode, 0) << outcome.errors;
+  EXPECT_NE(outcome.errors.find("link.csv: is the same file as a.csv"), std::string::npos) << outcome.errors;
+}
+
 } // namespace

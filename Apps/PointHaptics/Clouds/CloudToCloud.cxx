@@ -13,6 +13,10 @@
 #include <nlohmann/json.hpp>
 #include <vtkPolyData.h>
 
+#include <algorithm>
+#include <filesystem>
+#include <system_error>
+
 namespace pointhaptics::app
 {
 
@@ -53,6 +57,21 @@ void print(const CloudResult& result, bool isJson)
   isJson ? printJson(result.json) : printSummary(result.summary);
 }
 
+/// Warns of files that are merged twice: their points would count twice in every mean.
+static void warnOfRepeats(const std::string& command, const std::vector<std::string>& inputs)
+{
+  for (auto input = inputs.begin(); input != inputs.end(); ++input)
+  {
+    std::error_code problem;
+    const auto first = std::find_if(inputs.begin(), input,
+      [&](const std::string& earlier) { return std::filesystem::equivalent(earlier, *input, problem); });
+    if (first != input)
+    {
+      warn(command, "is the same file as " + *first + ", so its points count twice; leave one out", *input);
+    }
+  }
+}
+
 int runOnClouds(const std::string& command, const CloudToCloudOptions& options, Files& files,
   const std::function<CloudResult(const CloudToCloudOptions&, Cloud&)>& work)
 {
@@ -76,6 +95,7 @@ int runOnClouds(const std::string& command, const CloudToCloudOptions& options, 
   }
   if (options.merge)
   {
+    warnOfRepeats(command, options.inputs);
     Cloud all = mergedCloud(command, merged);
     each.input = fmt::format("{} merged inputs", merged.size());
     each.output = options.output;
