@@ -1,4 +1,4 @@
-# The build of the ParaView plugin: Core, Filters and IO from the same sources as everywhere, against the VTK that
+# The build of the ParaView plugin: Core, Haptics, Filters and IO from the same sources as everywhere, against the VTK that
 # ParaView brings along, and nothing else. One shared object, as a plugin is copied and loaded by itself.
 
 # ParaView's VTK needs MPI::MPI_C and does not look for it.
@@ -9,12 +9,17 @@ message(STATUS "ParaView plugin: for ParaView ${ParaView_VERSION} in ${ParaView_
 set(POINTHAPTICS_HAS_MPI ON)
 set(BUILD_SHARED_LIBS OFF)
 add_subdirectory(Modules/Core)
+add_subdirectory(Modules/Haptics)
+set(POINTHAPTICS_USE_LIBUSB OFF)
+set(POINTHAPTICS_USE_HIDAPI OFF)
+add_subdirectory(Modules/Devices)
 vtk_module_scan(
   MODULE_FILES
     "${CMAKE_CURRENT_SOURCE_DIR}/Modules/Filters/vtk.module"
     "${CMAKE_CURRENT_SOURCE_DIR}/Modules/IO/vtk.module"
     "${CMAKE_CURRENT_SOURCE_DIR}/Modules/Parallel/vtk.module"
     "${CMAKE_CURRENT_SOURCE_DIR}/Modules/ParaView/vtk.module"
+    "${CMAKE_CURRENT_SOURCE_DIR}/Modules/Scene/vtk.module"
   PROVIDES_MODULES pointhaptics_provided
   WANT_BY_DEFAULT ON)
 vtk_module_build(

@@ -2,7 +2,10 @@
 
 import unittest
 
+import numpy as np
 from paraview import servermanager, simple
+from vtkmodules.util.numpy_support import vtk_to_numpy
+
 from support import ErrorMessages, TestCase, load_plugin, read_vtp, run_program, shared_data
 
 load_plugin()
@@ -77,6 +80,32 @@ class Bandwidths(TestCase):
         )  # fmt: skip
         self.bandwidths(radii, self.path("means.vtp"), "--rule", "silverman-robust", "--beta", 3, "--r1", 0.0001,
                         "--r2", 0.002, "--neighbors", 12, "--density", "none")  # fmt: skip
+
+
+class Touch(TestCase):
+    def test_a_path_is_felt_as_by_the_program(self):
+        run_program("generate", "sphere", "-n", 20000, "-o", self.path("in.ply"))
+        with open(self.path("path.csv"), "w") as path:
+            path.write("t,x,y,z\n0,-0.005,0,0.03\n0.2,-0.005,0,0.022\n0.4,0.005,0,0.022\n")
+        feel = simple.HapticFeel(
+            Input=simple.PointHapticsReader(FileNames=[self.path("in.ply")]),
+            Path=simple.CSVReader(FileName=[self.path("path.csv")]), Stiffness=600, StaticFriction=0.4,
+            DynamicFriction=0.3,
+        )  # fmt: skip
+        for voxel in (0, 0.002):
+            with self.subTest(voxel):
+                feel.VoxelSize = voxel
+                options = ("--voxel", voxel) if voxel else ()
+                run_program("feel", self.path("in.ply"), "--path", self.path("path.csv"), "-o", self.path("felt.csv"),
+                            "--stiffness", 600, "--mu-s", 0.4, "--mu-d", 0.3, "--force", *options)  # fmt: skip
+                expected = np.genfromtxt(self.path("felt.csv"), delimiter=",", names=True)
+                found = servermanager.Fetch(feel)
+                self.assertEqual(found.GetNumberOfRows(), len(expected))
+                self.assertGreater(expected["contact"].sum(), 100)
+                for name in expected.dtype.names:
+                    if name not in ("update_us", "status"):
+                        column = vtk_to_numpy(found.GetRowData().GetArray(name))
+                        self.assertTrue((column == expected[name]).all(), name)
 
 
 class RealClouds(TestCase):

@@ -1,0 +1,25 @@
+#include "vtkPVHapticFeel.h"
+
+#include "vtkVoxelMeanResampler.h"
+
+#include "vtkObjectFactory.h"
+
+vtkStandardNewMacro(vtkPVHapticFeel);
+
+vtkPVHapticFeel::vtkPVHapticFeel()
+{
+  this->GetResampler()->SetAutomaticWorkspace(true);
+}
+
+void vtkPVHapticFeel::SetVoxelSize(double size)
+{
+  pointhaptics::VoxelMeanSettings settings = this->GetResampler()->GetSettings();
+  settings.lattice.voxelSize = size;
+  this->GetResampler()->SetSettings(settings);
+  this->SetRefineNearHand(!(size > 0.0));
+}
+
+void vtkPVHapticFeel::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+}
