@@ -46,7 +46,8 @@ public:
   bool ride(const HapticScene& scene, BallCells& cells, const Vec3& hip, const Vec3& foot, const Vec3& up,
     std::uint32_t& status) noexcept;
 
-  /// True if points within a radius lie on all sides of @p foot, in the face with the unit normal @p up.
+  /// True if points within a radius lie on all sides of @p foot, in no half plane, in the face with the unit
+  /// normal @p up: the ball cannot pass there.
   bool hasPointsAround(
     const HapticScene& scene, BallCells& cells, const Vec3& foot, const Vec3& up) const noexcept;
 

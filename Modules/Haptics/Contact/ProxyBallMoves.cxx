@@ -40,9 +40,6 @@ constexpr double kAboveBumps = 0.1;
 constexpr double kLongestRide = 0.5;
 /// A riding ball looks for the flat place again after this way, over the radius.
 constexpr double kFlatAgain = 0.5;
-/// A foot is on the surface, and not at its rim, if the middle of the points within a radius lies less than
-/// this aside of it, over the radius. A straight rim has 0.42; 18 points reach 0.12 by chance.
-constexpr double kMostAsideOfFoot = 0.2;
 /// Points further than this from the plane, over the radius, belong to another face.
 constexpr double kFace = 0.15;
 
@@ -188,16 +185,21 @@ bool ProxyBall::hasPointsAround(
   const HapticScene& scene, BallCells& cells, const Vec3& foot, const Vec3& up) const noexcept
 {
   cells.gather(scene.contactField(), foot, radius_, radius_, kReachOfTick * radius_);
-  Vec3 sum;
-  double count = 0.0;
+  // The points seen so far lie between two directions less than half a turn apart.
+  Vec3 right;
+  Vec3 left;
+  bool isAround = false;
   cells.visitBall(foot, radius_,
     [&](const Vec3& offset, double)
     {
-      const bool isOfFace = std::abs(dot(offset, up)) < kFace * radius_;
-      sum += isOfFace ? offset : Vec3();
-      count += isOfFace ? 1.0 : 0.0;
+      const Vec3 inFace = std::abs(dot(offset, up)) < kFace * radius_ ? offset : Vec3();
+      const double fromRight = dot(cross(right, inFace), up);
+      const double fromLeft = dot(cross(left, inFace), up);
+      isAround = isAround || (fromRight < 0.0 && fromLeft > 0.0);
+      right = fromRight < 0.0 || right == Vec3() ? inFace : right;
+      left = fromLeft > 0.0 || left == Vec3() ? inFace : left;
     });
-  return norm(sum) < kMostAsideOfFoot * radius_ * count;
+  return isAround;
 }
 
 bool ProxyBall::ride(const HapticScene& scene, BallCells& cells, const Vec3& hip, const Vec3& foot,

@@ -24,10 +24,6 @@ constexpr double kTrustDepths = 0.3;
 constexpr double kTrustPlain = 0.6;
 /// From this many times the trusted distance on the ball alone is felt.
 constexpr double kDistrust = 1.5;
-/// A HIP may be pressed while its offset to the fit is at most kTrustRadii of the ball's radius plus this
-/// slope times its depth below the ball, which is negative inside the ball: contact ends gradually as the
-/// ball rises.
-constexpr double kReleaseSlope = 1.25;
 /// A face counts as an exit of the HIP if it is within kOutNear and its residual below kOutResidual, both
 /// over the ball's radius, or below kOutNoise times the noise. A fit across two faces of a wedge has a larger
 /// residual.
@@ -64,11 +60,12 @@ bool SurfaceFitProxy::isSmooth() const noexcept
   return tracker_.height(ball_.center()) > 0.0 && tracker_.residual() < kSmoothResidual * ball_.radius();
 }
 
-/// True if the smooth surface continues on all sides, so that the ball sinks only into gaps between points,
-/// not over an edge.
-bool SurfaceFitProxy::isPlain() const noexcept
+/// True if the surface continues on all sides of the foot: the ball sinks into a gap between points, not over
+/// an edge. The fit's own centroid tells most such places; random samples lie aside of it by chance.
+bool SurfaceFitProxy::hasSurfaceAround(const HapticScene& scene, Memory& memory) const noexcept
 {
-  return isSmooth() && tracker_.continuesAround();
+  return tracker_.continuesAround() ||
+    ball_.hasPointsAround(scene, memory.ball, tracker_.point(), tracker_.normal());
 }
 
 /// True if the HIP came out through a smooth face beside the one that the ball lies on: it is in front of
@@ -129,9 +126,7 @@ bool SurfaceFitProxy::seek(const HapticScene& scene, Memory& memory, const Vec3&
 bool SurfaceFitProxy::ride(
   const HapticScene& scene, Memory& memory, const Vec3& hip, std::uint32_t& status) noexcept
 {
-  return isAlone_ && isSmooth() && tracker_.height(hip) < 0.0 &&
-    (tracker_.continuesAround() ||
-      ball_.hasPointsAround(scene, memory.ball, tracker_.point(), tracker_.normal())) &&
+  return isAlone_ && isSmooth() && tracker_.height(hip) < 0.0 && this->hasSurfaceAround(scene, memory) &&
     ball_.ride(scene, memory.ball, hip, tracker_.point(), tracker_.normal(), status);
 }
 
@@ -143,7 +138,7 @@ double SurfaceFitProxy::fitWeight(const HapticScene& scene, Memory& memory, cons
   {
     const double trust =
       std::max(kTrustRadii * ball_.radius() + kTrustDepths * std::max(0.0, ball_.depth(hip)),
-        isPlain() ? kTrustPlain * ball_.radius() : 0.0);
+        isSmooth() && tracker_.continuesAround() ? kTrustPlain * ball_.radius() : 0.0);
     const double apart = norm(tracker_.point() - ball_.nearestPoint(hip));
     // A HIP in front of the fit but deep below the ball belongs to another sheet.
     const bool agrees =
@@ -196,20 +191,18 @@ void SurfaceFitProxy::forgetFit() noexcept
 
 /// Blends the contacts of fit and ball: @p weight is the fit's part, the rest is the ball's. Each presses
 /// only a HIP below it; else its part of the offset is zero.
-SurfaceFitProxy::Contact SurfaceFitProxy::blended(const Vec3& hip, double weight) const noexcept
+SurfaceFitProxy::Contact SurfaceFitProxy::blended(
+  const HapticScene& scene, Memory& memory, const Vec3& hip, double weight) const noexcept
 {
   const double ballDepth = ball_.isFree() ? -ball_.radius() : ball_.depth(hip);
   Vec3 offset = (1.0 - weight) * (ballDepth > 0.0 ? ball_.nearestPoint(hip) - hip : Vec3());
   Vec3 normal = (1.0 - weight) * normalized(ball_.center() - hip, normal_);
   if (weight > 0.0)
   {
-    // Bumps hold the ball above the fit: the fit also presses a HIP just inside the ball, and on a surface
-    // without edges near by any HIP below it.
-    const double mostOffset = std::max(0.0, kTrustRadii * ball_.radius() + kReleaseSlope * ballDepth);
-    const Vec3 toFit = tracker_.point() - hip;
-    const bool isPressed = tracker_.height(hip) <= 0.0 &&
-      (ballDepth > 0.0 || norm2(toFit) <= mostOffset * mostOffset || isPlain());
-    offset += weight * (isPressed ? toFit : Vec3());
+    // The ball sinks into gaps between points. There the fit alone decides that the HIP is below it.
+    const bool isPressed =
+      tracker_.height(hip) <= 0.0 && (ballDepth > 0.0 || this->hasSurfaceAround(scene, memory));
+    offset += weight * (isPressed ? tracker_.point() - hip : Vec3());
     normal += weight * tracker_.normal();
   }
   return { hip + offset, normalized(normal, normal_), offset != Vec3() };
@@ -235,8 +228,8 @@ void SurfaceFitProxy::step(const HapticScene& scene, Memory& memory, const Conta
   {
     weight = refines ? fitWeight(scene, memory, hip, followed, state.status) : 0.0;
     isAlone_ = weight == 1.0;
-    isPatient_ = isAlone_ && isPlain();
-    contact = this->blended(hip, weight);
+    isPatient_ = isAlone_ && isSmooth() && tracker_.continuesAround();
+    contact = this->blended(scene, memory, hip, weight);
     state.status |= std::uint32_t(refines && weight < 1.0 && contact.pressed ? kProxyBallContact : kProxyOk);
   }
   state.status |= std::uint32_t(memory.fit.overflowed() ? kProxyCellLimit : kProxyOk);

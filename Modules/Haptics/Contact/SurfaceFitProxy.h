@@ -78,10 +78,10 @@ private:
   bool ride(const HapticScene& scene, Memory& memory, const Vec3& hip, std::uint32_t& status) noexcept;
   double fitWeight(const HapticScene& scene, Memory& memory, const Vec3& hip, TrackResult followed,
     std::uint32_t& status) noexcept;
-  Contact blended(const Vec3& hip, double weight) const noexcept;
+  Contact blended(const HapticScene& scene, Memory& memory, const Vec3& hip, double weight) const noexcept;
   bool comesOut(const HapticScene& scene, Memory& memory, const Vec3& hip, std::uint32_t& status) noexcept;
   bool isSmooth() const noexcept;
-  bool isPlain() const noexcept;
+  bool hasSurfaceAround(const HapticScene& scene, Memory& memory) const noexcept;
 
   ProxyBall ball_;
   SurfaceTracker tracker_;

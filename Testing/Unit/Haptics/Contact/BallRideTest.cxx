@@ -176,3 +176,27 @@ TEST(BallRide, GrowsBeforeThePointsAreSparse)
     EXPECT_GT(rides, 50);
   }
 }
+
+/// A ball sinks further between the points of a random sample than the hand presses here. Where the points
+/// lie to one side of the foot by chance the contact must not end, as it does at a rim.
+TEST(BallRide, KeepsALightPressOnARandomSample)
+{
+  for (const double depth : { 5e-5, 1e-4, 2e-4, 4e-4 })
+  {
+    Hand hand(trial::resampledScene(trial::spherePoints(18500, 75)));
+    for (int tick = 0; tick < 6000; ++tick)
+    {
+      const double angle = 2e-3 * std::max(0, tick - 100);
+      const double height = std::max(0.0, 1e-3 * (1.0 - tick / 100.0)) - depth;
+      const Vec3 hip = (trial::kSphereRadius + height) *
+        Vec3(std::cos(angle), std::sin(angle) * std::cos(1.0 + 0.1 * angle),
+          std::sin(angle) * std::sin(1.0 + 0.1 * angle));
+      hand.step(hip);
+      if (tick > 100)
+      {
+        ASSERT_TRUE(hand.state().contact) << depth << " at tick " << tick;
+        ASSERT_NEAR(norm(hand.state().proxy - hip), depth, 0.02 * depth) << "at tick " << tick;
+      }
+    }
+  }
+}
