@@ -61,6 +61,7 @@ void readFaces(MeshFaces& faces, LineReader& lines)
     {
       corners.push_back(static_cast<vtkIdType>(corner));
     }
+    corners.size() < count ? corners.push_back(-1) : void(); // such a face is wrong
     faces.keep(corners);
   }
 }
