@@ -362,6 +362,10 @@ void vtkPointCloudReader::ReadWhole(io::ReadTask& task, vtkPolyData* cloud)
   task.bytes = converted.empty() ? bytes.view() : std::string_view(converted);
   task.wasPacked = bytes.wasPacked();
   task.isPackedCut = bytes.isCut();
+  if (task.isPackedCut && io::isText(task.bytes))
+  {
+    task.bytes = task.bytes.substr(0, task.bytes.rfind('\n') + 1); // the last number may be torn
+  }
   std::error_code ignored;
   task.isStream = !std::filesystem::is_regular_file(task.path, ignored);
   format->read(task, cloud);

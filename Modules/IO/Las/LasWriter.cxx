@@ -138,7 +138,7 @@ const OutputArray* LasWriter::take(const char* name, int type, int components, d
   for (std::size_t i = 1; i < arrays_.size(); ++i)
   {
     const OutputArray& array = arrays_[i];
-    if (taken_[i] || !isSameField(array.name, name) || array.components() != components)
+    if (taken_[i] || !isLabelField(array.name, name) || array.components() != components)
     {
       continue;
     }
@@ -180,7 +180,14 @@ void LasWriter::takeStandardArrays()
   intensity_ = take("Intensity", VTK_TYPE_UINT16);
   returnNumber_ = take("ReturnNumber", VTK_TYPE_UINT8, 1, 15);
   numberOfReturns_ = take("NumberOfReturns", VTK_TYPE_UINT8, 1, 15);
-  classification_ = take("Classification", VTK_TYPE_UINT8);
+  for (const char* name : { "Classification", "Class", "Label" })
+  {
+    classification_ = classification_ ? classification_ : take(name, VTK_TYPE_UINT8);
+  }
+  if (classification_ && !isSameField(classification_->name, "Classification"))
+  {
+    notes_.add("array " + classification_->name + " is called Classification");
+  }
   flags_ = take("ClassificationFlags", VTK_TYPE_UINT8, 1, 15);
   scannerChannel_ = take("ScannerChannel", VTK_TYPE_UINT8, 1, 3);
   scanDirection_ = take("ScanDirection", VTK_TYPE_UINT8, 1, 1);
