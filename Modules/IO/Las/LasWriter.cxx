@@ -143,9 +143,12 @@ const OutputArray* LasWriter::take(const char* name, int type, int components, d
       continue;
     }
     const bool isWhole = !isFloatingType(type);
-    const double largest = std::min(most, std::ldexp(1.0, 8 * sizeOfType(type)) - 1.0);
+    const double largest = isWhole   ? std::min(most, std::ldexp(1.0, 8 * sizeOfType(type)) - 1.0)
+      : isFloatingType(array.type()) ? INFINITY
+      : type == VTK_FLOAT            ? 0x1p24
+                                     : 0x1p53 - 1.0;
     const auto fits = [&](double value)
-    { return !isWhole || (value >= 0.0 && value <= largest && value == std::floor(value)); };
+    { return !(std::abs(value) > largest) && (!isWhole || (value >= 0.0 && value == std::floor(value))); };
     OutputArray converted = array;
     if (fixedSizeType(array.type()) != type)
     {
@@ -180,10 +183,9 @@ void LasWriter::takeStandardArrays()
   intensity_ = take("Intensity", VTK_TYPE_UINT16);
   returnNumber_ = take("ReturnNumber", VTK_TYPE_UINT8, 1, 15);
   numberOfReturns_ = take("NumberOfReturns", VTK_TYPE_UINT8, 1, 15);
-  for (const char* name : { "Classification", "Class", "Label" })
-  {
-    classification_ = classification_ ? classification_ : take(name, VTK_TYPE_UINT8);
-  }
+  classification_ = take("Classification", VTK_TYPE_UINT8);
+  classification_ = classification_ ? classification_ : take("Class", VTK_TYPE_UINT8);
+  classification_ = classification_ ? classification_ : take("Label", VTK_TYPE_UINT8);
   if (classification_ && !isSameField(classification_->name, "Classification"))
   {
     notes_.add("array " + classification_->name + " is called Classification");
