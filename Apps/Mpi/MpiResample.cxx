@@ -69,11 +69,7 @@ int runResample(MpiResampleOptions& options, Job& job)
   resampler->SetInputData(piece.points);
   options.configure(resampler);
   resampler->SetComputeVoxelIndex(wantsIndex);
-  const bool isDone = updateFilter(resampler, "resampling", problem);
-  if (!isDone)
-  {
-    problem = options.files.input + ": " + problem;
-  }
+  updateResampler(options, piece.points, resampler, problem);
   if (!job.agree(kResampleCommand, problem))
   {
     return kFailed;

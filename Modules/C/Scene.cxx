@@ -153,6 +153,11 @@ int ph_scene_create_float(
     });
 }
 
+const char* ph_scene_note(const ph_scene* scene)
+{
+  return hasNull({ scene }) ? "" : scene->scenes->note().c_str();
+}
+
 void ph_scene_destroy(ph_scene* scene)
 {
   delete scene;

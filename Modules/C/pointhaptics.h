@@ -79,6 +79,9 @@ extern "C"
   /** As ph_scene_create(), for float; @p stride: bytes from a point to the next one, 0 for 12. */
   PH_API int ph_scene_create_float(
     const float* xyz, size_t count, size_t stride, const ph_scene_options* options, ph_scene** out);
+  /** One sentence on points far from all others, which a scene without a workspace leaves out; empty: there
+   * are none. Valid as long as the scene. Never null. */
+  PH_API const char* ph_scene_note(const ph_scene* scene);
   PH_API void ph_scene_destroy(ph_scene* scene);
 
   enum

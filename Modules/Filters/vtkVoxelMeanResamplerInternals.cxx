@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <deque>
 #include <string>
 
 using namespace pointhaptics;
@@ -52,16 +53,25 @@ bool vtkVoxelMeanResampler::Internals::Begin(const Clouds& clouds)
 }
 
 /// The box that an automatic lattice of the points is about.
-Bounds vtkVoxelMeanResampler::Internals::BoundsOf(const PointView& points)
+Bounds vtkVoxelMeanResampler::Internals::BoundsOf(const std::vector<PointView>& parts)
 {
-  const Bounds all = transformedBounds(points, this->Transform, this->Smp, this);
+  Bounds all;
+  for (const PointView& part : parts)
+  {
+    const Bounds own = transformedBounds(part, this->Transform, this->Smp, this);
+    if (!own.empty())
+    {
+      all.include(own.minimum);
+      all.include(own.maximum);
+    }
+  }
   if (this->Aborted)
   {
     return all;
   }
   Ranks alone;
   std::string note;
-  const Bounds bounds = boundsForLattice(this->Settings.lattice, points, all, alone, this->Transform, note);
+  const Bounds bounds = boundsForLattice(this->Settings.lattice, parts, all, alone, this->Transform, note);
   this->Filter->Warn(note);
   return bounds;
 }
@@ -73,18 +83,13 @@ bool vtkVoxelMeanResampler::Internals::FindWorkspace(const Clouds& clouds)
   {
     return true;
   }
-  Bounds all;
+  std::deque<PointAccess> points;
+  std::vector<PointView> parts;
   for (vtkPointSet* cloud : clouds)
   {
-    const PointAccess points(cloud->GetPoints());
-    const Bounds bounds = this->BoundsOf(points.view());
-    if (!bounds.empty())
-    {
-      all.include(bounds.minimum);
-      all.include(bounds.maximum);
-    }
+    parts.push_back(points.emplace_back(cloud->GetPoints()).view());
   }
-  this->Workspace = all;
+  this->Workspace = this->BoundsOf(parts);
   return !this->Aborted;
 }
 
@@ -180,7 +185,7 @@ bool vtkVoxelMeanResampler::Internals::MakeLattice(vtkPointSet* input)
   if (this->Settings.lattice.automaticWorkspace && !this->Workspace)
   {
     this->BeginPart(0.1);
-    cloud = this->BoundsOf(this->Request.points);
+    cloud = this->BoundsOf({ this->Request.points });
     if (this->Aborted)
     {
       return false;

@@ -94,7 +94,7 @@ private:
   void BeginPart(double end);
   // The steps of an update; false after an error was reported, or the execution aborted.
   bool FindWorkspace(const Clouds& clouds);
-  pointhaptics::Bounds BoundsOf(const pointhaptics::PointView& points);
+  pointhaptics::Bounds BoundsOf(const std::vector<pointhaptics::PointView>& parts);
   bool MakeLattice(vtkPointSet* input);
   bool AddArrays(vtkPointData* data);
   bool Fill(vtkPointSet* input, vtkPolyData* output);

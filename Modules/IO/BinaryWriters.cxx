@@ -277,7 +277,7 @@ double floatError(const OutputArray& array)
   return worst;
 }
 
-/// Errors below this part of a cloud's length cannot be seen.
+/// Errors below this part of a cloud's length, or of a normal's, cannot be seen.
 constexpr double kFeltPart = 1e-6;
 
 void notePcdArray(const OutputArray& array, const PcdArray& written, WriteTask& task)
@@ -287,16 +287,19 @@ void notePcdArray(const OutputArray& array, const PcdArray& written, WriteTask& 
     task.notes.add("array " + array.name + " is called " + written.name);
   }
   const bool mayRound = written.type == VTK_FLOAT && fixedSizeType(array.type()) != VTK_FLOAT;
-  const double error = mayRound && array.role != ArrayRole::Normals ? floatError(array) : 0.0;
-  const bool isFelt = error > 0.0 && !(error <= kFeltPart * task.cloud->GetLength()); // NaN: nobody knows
-  if (isFelt && array.role == ArrayRole::Points)
+  const double error = mayRound ? floatError(array) : 0.0;
+  const double unseen = array.role == ArrayRole::Points ? kFeltPart * task.cloud->GetLength()
+    : array.role == ArrayRole::Normals                  ? kFeltPart
+                                                        : 0.0;
+  const bool isLost = error > 0.0 && !(error <= unseen); // NaN: nobody knows
+  if (isLost && array.role == ArrayRole::Points)
   {
     task.notes.add(
       fmt::format("coordinates are rounded to floats, by at most {:.3g}, as PCL's point types read no "
                   "others; --double keeps every digit, --translate of resample takes a large offset away",
         error));
   }
-  else if (error > 0.0 && array.role == ArrayRole::Other)
+  else if (isLost)
   {
     task.notes.add(fmt::format("array {} is rounded to floats, by at most {:.3g}", array.name, error));
   }

@@ -45,6 +45,7 @@ struct WantedPart
 struct MeshFaces
 {
   std::uint64_t count = 0;             ///< out: of the file, whether or not they are kept
+  std::uint64_t others = 0;            ///< out: strips and cells of the file that are not read as faces
   vtkSmartPointer<vtkCellArray> cells; ///< Those that are kept; null: none is wanted.
 
   bool isWanted() const { return cells != nullptr; }

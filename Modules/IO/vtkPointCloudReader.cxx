@@ -4,12 +4,14 @@
 #include "IO/Columns/CloudColumns.h"
 #include "IO/Formats/FormatList.h"
 #include "IO/Formats/FormatLooks.h"
+#include "IO/Info/LengthUnit.h"
 #include "IO/Las/LasHeader.h"
 #include "IO/Mesh/FaceSamples.h"
 #include "IO/Raw/RawFormats.h"
 #include "ReadTask.h"
 
 #include "Core/Base/Host/GuardedWork.h"
+#include "Core/Base/QuantityText.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkFloatArray.h"
@@ -360,6 +362,10 @@ void vtkPointCloudReader::ReadWhole(io::ReadTask& task, vtkPolyData* cloud)
   task.bytes = converted.empty() ? bytes.view() : std::string_view(converted);
   task.wasPacked = bytes.wasPacked();
   task.isPackedCut = bytes.isCut();
+  if (task.isPackedCut && io::isText(task.bytes))
+  {
+    task.bytes = task.bytes.substr(0, task.bytes.rfind('\n') + 1); // the last number may be torn
+  }
   std::error_code ignored;
   task.isStream = !std::filesystem::is_regular_file(task.path, ignored);
   format->read(task, cloud);
@@ -387,6 +393,13 @@ void vtkPointCloudReader::Finish(io::ReadTask& task, vtkPolyData* cloud)
       "coordinates are floats so far from the origin that they lie on a grid of steps of " + steps +
       ", and no finer voxel means anything; export them as double, or with an offset taken away");
   }
+  if (pointhaptics::lengthUnitOf(cloud, pointhaptics::Bounds()).name == "deg")
+  {
+    task.notes.push_back(
+      "x and y are degrees of longitude and latitude, which are no lengths; what is shown and felt is in "
+      "metres about their middle. To project the cloud: pdal translate IN OUT reprojection "
+      "--filters.reprojection.out_srs=EPSG:UTM-ZONE");
+  }
   if (task.wanted.hasBox())
   {
     keepInside(task, cloud);
@@ -396,6 +409,12 @@ void vtkPointCloudReader::Finish(io::ReadTask& task, vtkPolyData* cloud)
 /// Says of a mesh what the points are, which are samples of its faces where these are wanted.
 void vtkPointCloudReader::FinishFaces(io::ReadTask& task, vtkPolyData* cloud)
 {
+  if (task.faces.others > 0)
+  {
+    task.notes.push_back(pointhaptics::countText(static_cast<std::int64_t>(task.faces.others)) +
+      " strips or cells are not read as faces, of which the points are the vertices; save their surface as "
+      "polygons, for example with ParaView's filters Extract Surface and Triangulate");
+  }
   if (task.faces.count == 0 || task.isTorn()) // the faces of a torn file come after what is missing
   {
     return;
@@ -406,10 +425,12 @@ void vtkPointCloudReader::FinishFaces(io::ReadTask& task, vtkPolyData* cloud)
       (task.faces.isWanted() ? ", which cannot be read" : ""));
     return;
   }
-  io::reportProgress(this, 1.0 - io::kSamplingPart);
+  const auto progress = [this](double done)
+  { io::reportProgress(this, 1.0 - io::kSamplingPart * (1.0 - done)); };
+  progress(0.0);
   cloud->SetPolys(task.faces.cells);
   task.notes.emplace_back();
-  this->Sampled = io::sampleFaces(cloud, this->Samples, task.notes.back());
+  this->Sampled = io::sampleFaces(cloud, this->Samples, task.faces.count, progress, task.notes.back());
 }
 
 /// The one to go by where the content leaves the format open.

@@ -103,7 +103,7 @@ std::string DistributedUpdate::prepare(vtkAbstractTransform* transform)
   if (settings_.lattice.automaticWorkspace)
   {
     std::string note;
-    cloud = boundsForLattice(settings_.lattice, points_.view(),
+    cloud = boundsForLattice(settings_.lattice, { points_.view() },
       transformedBounds(points_.view(), transform_, smp_), ranks_, transform_, note);
     if (!note.empty())
     {

@@ -5,6 +5,9 @@
 #include "vtkVoxelMeanResampler.h"
 
 #include "Core/Base/Host/OutOfMemory.h"
+#include "Core/Base/Lattice.h"
+#include "Core/Distributed/FarPoints.h"
+#include "Core/Resample/VoxelMean.h"
 
 #include "vtkCallbackCommand.h"
 #include "vtkNew.h"
@@ -18,6 +21,36 @@
 
 namespace pointhaptics
 {
+
+namespace
+{
+
+/// The rule of feel and view, whatever the size of the voxels: a lattice about the cloud leaves out the
+/// points that are far from all others. @return note on these; empty where there are none.
+std::string leaveOutFarPoints(vtkPoints* cloud, vtkVoxelMeanResampler* resampler)
+{
+  VoxelMeanSettings settings = resampler->GetSettings();
+  AffineTransform transform;
+  if (!cloud || !settings.lattice.automaticWorkspace ||
+    !readTransform(resampler->GetTransform(), transform).empty())
+  {
+    return {};
+  }
+  const PointAccess points(cloud);
+  const FarPoints far =
+    findFarPoints(points.view(), transformedBounds(points.view(), transform, SmpExecutor()), transform);
+  Lattice lattice;
+  if (far.count == 0 || makeLattice(settings.lattice, far.others, lattice) != Status::Ok)
+  {
+    return {};
+  }
+  settings.lattice.workspace = lattice.bounds();
+  settings.lattice.automaticWorkspace = false;
+  resampler->SetSettings(settings);
+  return far.note();
+}
+
+} // namespace
 
 void prepareForTouch(vtkVoxelMeanResampler* resampler, bool useCovariance)
 {
@@ -82,14 +115,18 @@ Status FeelScenes::resample(
   auto input = vtkSmartPointer<vtkPointSet>::Take(cloud->NewInstance());
   input->ShallowCopy(cloud);
   prepareForTouch(resampler, settings.useCovariance);
+  const VoxelMeanSettings asked = resampler->GetSettings();
+  note_ = leaveOutFarPoints(cloud->GetPoints(), resampler);
+  const LatticeSettings lattice = resampler->GetSettings().lattice;
   resampler->SetInputData(input);
-  // The caller reports errors and warnings of the resampler.
+  // The caller reports the errors of the resampler and note().
   vtkNew<vtkCallbackCommand> silence;
   resampler->AddObserver(vtkCommand::ErrorEvent, silence);
   resampler->AddObserver(vtkCommand::WarningEvent, silence);
   resampler->Update();
   resampler->RemoveObserver(silence);
   resampler->SetInputData(nullptr);
+  note_.empty() ? void() : resampler->SetSettings(asked);
   vtkPolyData* felt = resampler->GetOutput();
   message = resampler->GetErrorMessage();
   message.erase(message.find_last_not_of(" .") + 1);
@@ -113,13 +150,7 @@ Status FeelScenes::resample(
     return Status::Empty;
   }
   settings.refineNearHand = settings.refineNearHand && settings.useCovariance;
-  settings.workspace = Bounds();
-  if (!resampler->GetAutomaticWorkspace())
-  {
-    const double* b = resampler->GetWorkspaceBounds();
-    settings.workspace.include({ b[0], b[2], b[4] });
-    settings.workspace.include({ b[1], b[3], b[5] });
-  }
+  settings.workspace = lattice.automaticWorkspace ? Bounds() : lattice.workspace;
   const Status status = this->make(felt, cloud->GetPoints(), settings);
   message = pointhaptics::message(status);
   resampler->ReleaseScratch();

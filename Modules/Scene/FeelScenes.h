@@ -55,6 +55,8 @@ public:
   /// those of HapticScene::create(); @p message says which, with the cure.
   Status resample(
     vtkPointSet* cloud, vtkVoxelMeanResampler* resampler, FeelSceneSettings settings, std::string& message);
+  /// Note on the points that resample() left out, as they are far from all others; empty: there are none.
+  const std::string& note() const { return note_; }
   /// Forgets the hand: the next path is felt as the first one.
   void restart();
 
@@ -75,6 +77,7 @@ private:
   void follow();
 
   FeelSceneSettings settings_;
+  std::string note_;
   std::shared_ptr<const HapticScene> whole_;
   LocalSceneBuilder builder_;
   std::optional<LocalSceneFollower> follower_;

@@ -160,6 +160,10 @@ bool vtkHapticFeel::Internals::MakeScenes(vtkHapticFeel* filter, vtkPointSet* cl
     return false;
   }
   message.clear();
+  if (!this->Scenes.note().empty())
+  {
+    vtkWarningWithObjectMacro(filter, << this->Scenes.note());
+  }
   filter->NumberOfFeltPoints = this->Resampler->GetOutput()->GetNumberOfPoints();
   this->CloudTime = cloud->GetMTime();
   this->FilterTime = this->TimeOfFilters();

@@ -119,6 +119,23 @@ TEST(CloudAlgorithm, BlocksOfACompositeShareOneLatticeAndAreCountedTogether)
   EXPECT_LT(spacingOf(cloudsIn(resampler->GetOutputDataObject(0))[0]), 0.5 * spacingOf(clouds[0]));
 }
 
+TEST(CloudAlgorithm, FarPointsOfACompositeAreFarFromAllItsBlocks)
+{
+  const auto cloud = cloudAt(0, 2000, 1);
+  const auto strays = cloudAt(500, 10, 2); // too few to be judged by themselves
+  vtkNew<vtkVoxelMeanResampler> alone;
+  alone->SetInputData(cloud);
+  alone->Update();
+  vtkNew<vtkVoxelMeanResampler> resampler;
+  resampler->SetInputDataObject(treeOf(cloud, strays));
+  trial::Ear warnings(resampler, vtkCommand::WarningEvent);
+  resampler->Update();
+  EXPECT_EQ(warnings.count, 2);
+  EXPECT_NE(warnings.last.find("10 of 2,010 points are far from all others"), std::string::npos)
+    << warnings.last;
+  EXPECT_NEAR(spacingOf(cloudsIn(resampler->GetOutputDataObject(0))[0]), spacingOf(alone->GetOutput()), 1e-9);
+}
+
 TEST(CloudAlgorithm, CountersAreSumsInAnyOrder)
 {
   const auto nearer = cloudAt(0, 500, 3);

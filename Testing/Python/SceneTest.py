@@ -59,6 +59,15 @@ class Feel(TestCase):
         told = self.program("--voxel", 0.001, "--workspace=-0.05,0.05,-0.05,0.05,-0.05,0.05")
         self.compare(scene.feel(self.hand), told)
 
+    def test_points_far_from_all_others_are_left_out_as_in_the_program(self):
+        points = np.concatenate([self.points, [[5.0, 0.0, 0.0]]])
+        ph.write(self.path("in.vtp"), points)
+        for options in ((), ("--voxel", 0.005), ("--dims", 50)):
+            told = self.program(*options)
+            arguments = {options[0][2:]: options[1]} if options else {}
+            with self.assertWarnsRegex(RuntimeWarning, "1 of .* is far from all others; .* takes it in"):
+                self.compare(ph.Scene(points, **arguments).feel(self.hand), told)
+
     def test_it_says_how_many_points_it_has(self):
         self.assertEqual(repr(ph.Scene(self.points)), f"<pointhaptics.Scene of {len(self.points)} points>")
 

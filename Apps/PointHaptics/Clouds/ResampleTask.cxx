@@ -113,6 +113,24 @@ std::string noReturnsNote(
     : std::string();
 }
 
+bool updateResampler(
+  const ResampleOptions& options, vtkPolyData* cloud, vtkVoxelMeanResampler* resampler, std::string& message)
+{
+  if (lengthUnitOf(cloud, Bounds()).name == "deg" && !options.lattice.isScaled())
+  {
+    message = options.files.input +
+      ": x and y are degrees and z is a length, so no voxel is a cube; project the cloud to metres, or give "
+      "metres a degree, such as --scale 78000,111000,1";
+    return false;
+  }
+  if (updateFilter(resampler, "resampling", message))
+  {
+    return true;
+  }
+  message = options.files.input + ": " + message;
+  return false;
+}
+
 std::string voxelUnitNote(const ResampleOptions& options, vtkPolyData* cloud)
 {
   const LengthUnit unit = lengthUnitOf(cloud, Bounds());

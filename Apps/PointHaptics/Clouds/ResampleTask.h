@@ -44,6 +44,11 @@ struct ResampleOptions
 std::string noReturnsNote(
   const ResampleOptions& options, vtkPolyData* cloud, vtkPolyData* means, Ranks& ranks);
 
+/// Updates @p resampler, whose input is @p cloud. False: @p message says why, such as that x and y are
+/// degrees.
+bool updateResampler(
+  const ResampleOptions& options, vtkPolyData* cloud, vtkVoxelMeanResampler* resampler, std::string& message);
+
 /// In what unit --voxel is where @p cloud says that its own is no metre, and --unit does not; else empty.
 std::string voxelUnitNote(const ResampleOptions& options, vtkPolyData* cloud);
 

@@ -24,6 +24,7 @@
 #include "Core/Base/QuantityText.h"
 #include "Devices/HipPath.h"
 #include "Devices/SimulatedDevice.h"
+#include "IO/Info/LengthUnit.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -398,6 +399,7 @@ int runFeel(const FeelOptions& options, Files& files)
   const std::string input = options.record.empty() ? options.file : files.input(options.file);
   require(readCloud(input, cloud, message, options.reading), message);
   showNotes(kFeelCommand, options.file, cloud);
+  cloud.points = inLocalMetres(cloud.points); // as view has them
   const Bounds box = feltBox(options, cloud.points);
   FeelScenes scenes;
   require(makeFeelScenes(options, cloud.points, scenes, message), message);

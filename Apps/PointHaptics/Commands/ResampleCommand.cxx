@@ -34,11 +34,7 @@ CloudResult resample(const ResampleOptions& options, Cloud& cloud, Files& files)
   resampler->SetInputData(cloud.points);
   options.configure(resampler);
   resampler->SetComputeVoxelIndex(wantsIndex);
-  const bool isDone = updateFilter(resampler, "resampling", message);
-  if (!isDone)
-  {
-    throw Failure(options.files.input + ": " + message);
-  }
+  require(updateResampler(options, cloud.points, resampler, message), message);
   Ranks alone;
   for (const std::string& note : { noReturnsNote(options, cloud.points, resampler->GetOutput(), alone),
          voxelUnitNote(options, cloud.points) })

@@ -106,8 +106,8 @@ CellBox around(const std::array<int, 3>& cell)
 class CoreSearch
 {
 public:
-  CoreSearch(const PointView& points, const AffineTransform& transform, Ranks& ranks)
-    : points_(points)
+  CoreSearch(const std::vector<PointView>& parts, const AffineTransform& transform, Ranks& ranks)
+    : parts_(parts)
     , transform_(transform)
     , ranks_(ranks)
   {
@@ -116,14 +116,23 @@ public:
   template <typename Visitor>
   void forEach(std::int64_t first, std::int64_t step, Visitor&& visit) const
   {
-    for (std::int64_t i = first; i < points_.size(); i += step)
+    for (const PointView& part : parts_)
     {
-      const Vec3 p = points_[i];
-      if (isFinite(p))
+      for (; first < part.size(); first += step)
       {
-        visit(transform_.apply(p), isNoData(p));
+        const Vec3 p = part[first];
+        if (isFinite(p))
+        {
+          visit(transform_.apply(p), isNoData(p));
+        }
       }
+      first -= part.size();
     }
+  }
+  std::int64_t size() const
+  {
+    return std::accumulate(parts_.begin(), parts_.end(), std::int64_t{ 0 },
+      [](std::int64_t sum, const PointView& part) { return sum + part.size(); });
   }
 
   /// Whether most of the points may lie within a small part of @p longest.
@@ -134,14 +143,14 @@ private:
   std::vector<std::int64_t> count(const Bounds& box, double edge) const;
   static CellBox cellsOfCore(std::vector<std::int64_t>& cells);
 
-  const PointView& points_;
+  const std::vector<PointView>& parts_;
   const AffineTransform& transform_;
   Ranks& ranks_;
 };
 
 bool CoreSearch::mayBeSmall(double longest) const
 {
-  const std::int64_t count = points_.size();
+  const std::int64_t count = this->size();
   const std::int64_t before = sumBefore(ranks_, count);
   const std::int64_t step = std::max<std::int64_t>(1, commonSum(ranks_, count) / kLookedAt);
   std::vector<double> own[3];
@@ -301,17 +310,17 @@ std::string FarPoints::note() const
 FarPoints findFarPoints(const PointView& points, const Bounds& bounds, const AffineTransform& transform)
 {
   Ranks alone;
-  return findFarPoints(points, bounds, alone, transform);
+  return findFarPoints({ points }, bounds, alone, transform);
 }
 
 FarPoints findFarPoints(
-  const PointView& part, const Bounds& bounds, Ranks& ranks, const AffineTransform& transform)
+  const std::vector<PointView>& parts, const Bounds& bounds, Ranks& ranks, const AffineTransform& transform)
 {
   FarPoints none;
   none.all = none.others = commonBounds(ranks, bounds);
   const double longest = longestSide(none.all);
-  CoreSearch search(part, transform, ranks);
-  if (commonSum(ranks, part.size()) < kFewest || !(longest > 0.0) || !std::isfinite(longest) ||
+  CoreSearch search(parts, transform, ranks);
+  if (commonSum(ranks, search.size()) < kFewest || !(longest > 0.0) || !std::isfinite(longest) ||
     !search.mayBeSmall(longest))
   {
     return none;
@@ -335,8 +344,8 @@ FarPoints findFarPoints(
   return found.count > 0 && longestSide(found.others) <= kMostLength * longest ? found : none;
 }
 
-Bounds boundsForLattice(const LatticeSettings& settings, const PointView& part, const Bounds& bounds,
-  Ranks& ranks, const AffineTransform& transform, std::string& note)
+Bounds boundsForLattice(const LatticeSettings& settings, const std::vector<PointView>& parts,
+  const Bounds& bounds, Ranks& ranks, const AffineTransform& transform, std::string& note)
 {
   const Bounds all = commonBounds(ranks, bounds);
   Lattice lattice;
@@ -345,7 +354,7 @@ Bounds boundsForLattice(const LatticeSettings& settings, const PointView& part, 
   {
     return all;
   }
-  const FarPoints far = findFarPoints(part, bounds, ranks, transform);
+  const FarPoints far = findFarPoints(parts, bounds, ranks, transform);
   note = far.count > 0 ? far.note() : std::string();
   return far.others;
 }

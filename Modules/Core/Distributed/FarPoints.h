@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace pointhaptics
 {
@@ -38,15 +39,15 @@ struct FarPoints
 /// @param bounds of the transformed, finite points, all of them. Cost: a look at 1,000 points; where the
 /// cloud may have far ones, at all of them for each lattice.
 FarPoints findFarPoints(const PointView& points, const Bounds& bounds, const AffineTransform& transform = {});
-/// Collective: the same of a cloud of which each rank has a part, in its order. What is counted are points of
-/// all ranks, so that it does not matter how they are split. @param bounds of the own part.
-FarPoints findFarPoints(
-  const PointView& part, const Bounds& bounds, Ranks& ranks, const AffineTransform& transform = {});
+/// Collective: the same of a cloud of which each rank has parts, in its order. What is counted are points of
+/// all ranks, so that it does not matter how they are split. @param bounds of the own parts.
+FarPoints findFarPoints(const std::vector<PointView>& parts, const Bounds& bounds, Ranks& ranks,
+  const AffineTransform& transform = {});
 
 /// Collective: the box for an automatic lattice of transformed points: about those that are not far, or about
 /// all where voxels of a given size reach them all, as far ones make no other voxel coarser then.
 /// @param bounds as above. @param note what FarPoints::note() says where some are left out, else empty.
-Bounds boundsForLattice(const LatticeSettings& settings, const PointView& part, const Bounds& bounds,
-  Ranks& ranks, const AffineTransform& transform, std::string& note);
+Bounds boundsForLattice(const LatticeSettings& settings, const std::vector<PointView>& parts,
+  const Bounds& bounds, Ranks& ranks, const AffineTransform& transform, std::string& note);
 
 } // namespace pointhaptics

@@ -155,6 +155,11 @@ struct CoordinateName
       unit = isUnit ? word : unit;
       rest += isUnit || has(kFillers, word) ? "" : (rest.empty() || word.empty() ? "" : " ") + word;
     }
+    if (!rest.empty() && has(kXyz, rest.substr(0, 1)) && has(kUnitWords, rest.substr(1))) // "Xmm"
+    {
+      unit = rest.substr(1);
+      rest.resize(1);
+    }
     for (int i = 0; i < 3 && axis < 0; ++i)
     {
       axis = names(i) ? i : -1;

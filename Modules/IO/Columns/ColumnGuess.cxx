@@ -15,11 +15,17 @@ constexpr std::size_t kFewestIds = 3;
 
 using Columns = std::vector<ColumnEvidence>;
 
+std::size_t numberOfValues(const ColumnEvidence& column)
+{
+  return std::set<double>(column.sample.begin(), column.sample.end()).size();
+}
+
+/// Programs write labels with decimals, too: "2.000000".
 bool isLabel(const ColumnEvidence& column)
 {
-  const std::set<double> values(column.sample.begin(), column.sample.end());
-  return column.isWhole && column.least >= -1.0 && values.size() < column.sample.size() &&
-    values.size() <= kMostLabels;
+  const std::size_t values = numberOfValues(column);
+  return column.least >= -1.0 && values < column.sample.size() && values <= kMostLabels &&
+    std::all_of(column.sample.begin(), column.sample.end(), [](double v) { return v == std::floor(v); });
 }
 
 /// Whole numbers that count the rows, and coordinates that are not all whole.
@@ -145,11 +151,21 @@ private:
     std::copy(names.begin(), names.end(), names_.begin() + static_cast<std::ptrdiff_t>(at));
     return at + names.size();
   }
+  /// True if of four columns the last is less like the one beside it than a color is like another.
+  bool isLastOdd(std::size_t at) const
+  {
+    const ColumnEvidence* four = &columns_[at];
+    const std::size_t last = numberOfValues(four[3]);
+    const std::size_t beside = numberOfValues(four[2]);
+    const bool isBesideConstant =
+      beside == 1 && four[3].sample != four[2].sample && (last > 1 || four[0].sample == four[1].sample);
+    return !isLabel(four[0]) || 2 * last < beside || isBesideConstant;
+  }
   /// True if a number stands before the colours or normals that end here.
   bool isScalarFirst(std::size_t at) const
   {
     const std::size_t left = columns_.size() - at;
-    const bool isLastLabel = left >= 4 && isLabel(columns_[at + 3]) && !isLabel(columns_[at]);
+    const bool isLastLabel = left >= 4 && isLabel(columns_[at + 3]) && isLastOdd(at);
     const bool isWhole = columns_[at].isWhole && areColors(columns_, at + 1);
     return isWhole && !isLastLabel && (left == 4 || (left == 7 && areNormals(columns_, at + 4)));
   }

@@ -37,16 +37,6 @@ std::string_view firstSignificantLine(std::string_view bytes)
   return {};
 }
 
-bool isText(std::string_view head)
-{
-  return std::none_of(head.begin(), head.end(),
-    [](char c)
-    {
-      const unsigned char byte = static_cast<unsigned char>(c);
-      return (byte < 0x20 && !isBlank(c) && c != '\n') || byte == 0x7f;
-    });
-}
-
 /// Binary STL has no mark, but its length is that of the triangles it counts.
 bool looksLikeBinaryStl(std::string_view bytes, std::size_t size)
 {
@@ -87,6 +77,16 @@ void appendUtf8(std::string& text, std::uint32_t code)
 }
 
 } // namespace
+
+bool isText(std::string_view head)
+{
+  return std::none_of(head.begin(), head.end(),
+    [](char c)
+    {
+      const unsigned char byte = static_cast<unsigned char>(c);
+      return (byte < 0x20 && !isBlank(c) && c != '\n') || byte == 0x7f;
+    });
+}
 
 std::string_view withoutByteOrderMark(std::string_view bytes)
 {
@@ -179,7 +179,8 @@ bool looksLikeVtkLegacy(const FormatStart& start)
 bool looksLikeOff(const FormatStart& start)
 {
   std::string_view line = start.line;
-  const std::string_view word = takeWord(line);
+  std::string_view word = takeWord(line);
+  word = word.substr(0, word.find("OFF") + 3); // the first count may stick to it: "OFF8 12 0"
   return word.size() >= 3 && word.size() <= 8 && word.substr(word.size() - 3) == "OFF" &&
     word.find_first_not_of("STCN4nOF") == std::string_view::npos;
 }

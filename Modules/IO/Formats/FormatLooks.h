@@ -30,6 +30,9 @@ Look looksLikePly, looksLikePcd, looksLikeLas, looksLikeE57, looksLikeVtkXml, lo
 /// True if ASCII STL starts like @p bytes: "solid", then "facet" or "endsolid".
 bool looksLikeStlText(std::string_view bytes);
 
+/// Whether nothing in @p bytes but blanks and line ends is a control character.
+bool isText(std::string_view bytes);
+
 /// @p bytes without the UTF-8 byte order mark some editors put in front.
 std::string_view withoutByteOrderMark(std::string_view bytes);
 

@@ -2,12 +2,17 @@
 
 #include "IO/Info/FieldText.h"
 
+#include "vtkDataArray.h"
+#include "vtkFieldData.h"
+#include "vtkNew.h"
 #include "vtkPointData.h"
+#include "vtkPoints.h"
 #include "vtkPolyData.h"
 
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <vector>
 
 namespace pointhaptics
 {
@@ -125,6 +130,53 @@ LengthUnit lengthUnitOf(vtkPolyData* cloud, const Bounds& bounds)
     return { "m", 1.0, UnitEvidence::Shape };
   }
   return isThing(cloud, bounds) ? LengthUnit{ "mm", 1e-3, UnitEvidence::Shape } : unit;
+}
+
+vtkSmartPointer<vtkPolyData> inLocalMetres(vtkPolyData* cloud)
+{
+  constexpr double kRadian = 3.14159265358979323846 / 180.0;
+  constexpr double kMetresPerDegree = 6371008.8 * kRadian;
+  if (!cloud || lengthUnitOf(cloud, Bounds()).name != "deg" || !cloud->GetPoints())
+  {
+    return cloud;
+  }
+  const vtkIdType count = cloud->GetNumberOfPoints();
+  const auto medianOf = [&](int axis)
+  {
+    std::vector<double> finite;
+    for (vtkIdType i = 0; i < count; ++i)
+    {
+      const double value = cloud->GetPoints()->GetData()->GetComponent(i, axis);
+      std::isfinite(value) ? finite.push_back(value) : void();
+    }
+    const auto median = finite.begin() + std::ptrdiff_t(finite.size() / 2);
+    std::nth_element(finite.begin(), median, finite.end());
+    return finite.empty() ? 0.0 : *median;
+  };
+  const double middle[2] = { medianOf(0), medianOf(1) };
+  const double metres[2] = { kMetresPerDegree * std::cos(kRadian * middle[1]), kMetresPerDegree };
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  points->SetNumberOfPoints(count);
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    double p[3];
+    cloud->GetPoint(i, p);
+    points->SetPoint(i, metres[0] * (p[0] - middle[0]), metres[1] * (p[1] - middle[1]), p[2]);
+  }
+  auto local = vtkSmartPointer<vtkPolyData>::New();
+  local->ShallowCopy(cloud);
+  local->SetPoints(points);
+  vtkNew<vtkFieldData> fields;
+  fields->ShallowCopy(cloud->GetFieldData());
+  for (const char* ofDegrees : { "CoordinateSystem", "LasScale", "LasOffset", "LasHeader", "LasRecords" })
+  {
+    fields->RemoveArray(ofDegrees);
+  }
+  fields->RemoveArray("LengthUnit");
+  local->SetFieldData(fields);
+  io::addFieldText(local, "LengthUnit", "metre");
+  return local;
 }
 
 } // namespace pointhaptics

@@ -6,6 +6,8 @@
 
 #include "PointHapticsIOModule.h" // For export macro
 
+#include "vtkSmartPointer.h"
+
 #include <string>
 
 class vtkPolyData;
@@ -32,5 +34,10 @@ struct LengthUnit
 /// mean metres. A compact cloud of 100 to 10,000 units without intensities, not about its scanner, is a thing
 /// in millimetres: statues of 1600 units are, a street of 160 m is not. Cost: none a point.
 POINTHAPTICSIO_EXPORT LengthUnit lengthUnitOf(vtkPolyData* cloud, const Bounds& bounds);
+
+/// @p cloud, or where its x and y are degrees of longitude and latitude a copy of it in metres to the east
+/// and north of their medians, on a sphere of the WGS 84 ellipsoid's mean radius; z stays. What says where
+/// the degrees are on the Earth is not in the copy's field data.
+POINTHAPTICSIO_EXPORT vtkSmartPointer<vtkPolyData> inLocalMetres(vtkPolyData* cloud);
 
 } // namespace pointhaptics

@@ -152,12 +152,6 @@ void readLas(ReadTask& task, vtkPolyData* cloud)
   addFieldText(cloud, "Generator", header.generator);
   addFieldText(cloud, "CoordinateSystem", header.coordinateSystem);
   addFieldText(cloud, "LengthUnit", header.lengthUnit);
-  if (header.lengthUnit == "degree")
-  {
-    task.notes.push_back(
-      "x and y are degrees of longitude and latitude, which are no lengths; project the cloud to "
-      "metres: pdal translate IN OUT reprojection --filters.reprojection.out_srs=EPSG:UTM-ZONE");
-  }
 }
 
 } // namespace pointhaptics::io

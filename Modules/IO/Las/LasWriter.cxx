@@ -138,14 +138,17 @@ const OutputArray* LasWriter::take(const char* name, int type, int components, d
   for (std::size_t i = 1; i < arrays_.size(); ++i)
   {
     const OutputArray& array = arrays_[i];
-    if (taken_[i] || !isSameField(array.name, name) || array.components() != components)
+    if (taken_[i] || !isLabelField(array.name, name) || array.components() != components)
     {
       continue;
     }
     const bool isWhole = !isFloatingType(type);
-    const double largest = std::min(most, std::ldexp(1.0, 8 * sizeOfType(type)) - 1.0);
+    const double largest = isWhole   ? std::min(most, std::ldexp(1.0, 8 * sizeOfType(type)) - 1.0)
+      : isFloatingType(array.type()) ? INFINITY
+      : type == VTK_FLOAT            ? 0x1p24
+                                     : 0x1p53 - 1.0;
     const auto fits = [&](double value)
-    { return !isWhole || (value >= 0.0 && value <= largest && value == std::floor(value)); };
+    { return !(std::abs(value) > largest) && (!isWhole || (value >= 0.0 && value == std::floor(value))); };
     OutputArray converted = array;
     if (fixedSizeType(array.type()) != type)
     {
@@ -181,6 +184,12 @@ void LasWriter::takeStandardArrays()
   returnNumber_ = take("ReturnNumber", VTK_TYPE_UINT8, 1, 15);
   numberOfReturns_ = take("NumberOfReturns", VTK_TYPE_UINT8, 1, 15);
   classification_ = take("Classification", VTK_TYPE_UINT8);
+  classification_ = classification_ ? classification_ : take("Class", VTK_TYPE_UINT8);
+  classification_ = classification_ ? classification_ : take("Label", VTK_TYPE_UINT8);
+  if (classification_ && !isSameField(classification_->name, "Classification"))
+  {
+    notes_.add("array " + classification_->name + " is called Classification");
+  }
   flags_ = take("ClassificationFlags", VTK_TYPE_UINT8, 1, 15);
   scannerChannel_ = take("ScannerChannel", VTK_TYPE_UINT8, 1, 3);
   scanDirection_ = take("ScanDirection", VTK_TYPE_UINT8, 1, 1);

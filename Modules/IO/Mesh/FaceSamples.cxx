@@ -1,6 +1,7 @@
 #include "IO/Mesh/FaceSamples.h"
 
 #include "Bytes/NumericType.h"
+#include "Progress.h"
 
 #include "Core/Base/QuantityText.h"
 #include "Core/Neighbors/SpatialOrder.h"
@@ -53,13 +54,46 @@ struct Triangle
   }
 };
 
+using Progress = std::function<void(double)>;
+
+/// Tells @p progress of @p done rows, once in a while.
+void tell(const Progress& progress, double begin, double end, vtkIdType done, vtkIdType all)
+{
+  if (done % kProgressRows == 0)
+  {
+    progress(begin + (end - begin) * static_cast<double>(done) / static_cast<double>(all));
+  }
+}
+
+/// The polygons of @p mesh whose corners are all there.
+vtkSmartPointer<vtkCellArray> rightFaces(vtkPolyData* mesh)
+{
+  double range[2];
+  mesh->GetPolys()->GetConnectivityArray()->GetRange(range, 0);
+  const vtkIdType vertices = mesh->GetNumberOfPoints();
+  if (range[0] >= 0.0 && range[1] < double(vertices))
+  {
+    return mesh->GetPolys();
+  }
+  auto right = vtkSmartPointer<vtkCellArray>::New();
+  vtkNew<vtkIdList> corners;
+  for (vtkIdType i = 0; i < mesh->GetPolys()->GetNumberOfCells(); ++i)
+  {
+    mesh->GetPolys()->GetCellAtId(i, corners);
+    const bool isRight =
+      std::all_of(corners->begin(), corners->end(), [=](vtkIdType v) { return v >= 0 && v < vertices; });
+    isRight ? void(right->InsertNextCell(corners)) : void();
+  }
+  return right;
+}
+
 /// The faces in triangles, of those that have an area.
-std::vector<Triangle> trianglesOf(vtkPolyData* mesh)
+std::vector<Triangle> trianglesOf(vtkPolyData* mesh, vtkCellArray* polygons, const Progress& progress)
 {
   vtkNew<vtkTriangleFilter> filter;
   vtkNew<vtkPolyData> faces;
   faces->SetPoints(mesh->GetPoints());
-  faces->SetPolys(mesh->GetPolys());
+  faces->SetPolys(polygons);
   filter->SetInputData(faces);
   filter->Update();
   vtkCellArray* cells = filter->GetOutput()->GetPolys();
@@ -68,6 +102,7 @@ std::vector<Triangle> trianglesOf(vtkPolyData* mesh)
   vtkNew<vtkIdList> vertices;
   for (vtkIdType i = 0; i < cells->GetNumberOfCells(); ++i)
   {
+    tell(progress, 0.2, 0.3, i, cells->GetNumberOfCells());
     cells->GetCellAtId(i, vertices);
     Triangle triangle{};
     for (int corner = 0; corner < 3 && vertices->GetNumberOfIds() == 3; ++corner)
@@ -133,7 +168,8 @@ void cut(
 
 /// The piece of each of @p count samples: of those whose middle along the curve is in the sample's part of
 /// the area the one nearest to their common middle.
-std::vector<Piece> chosenOf(const std::vector<Piece>& pieces, double areaOfSample, vtkIdType count)
+std::vector<Piece> chosenOf(
+  const std::vector<Piece>& pieces, double areaOfSample, vtkIdType count, const Progress& progress)
 {
   constexpr std::int64_t kMostPerCell = 16;
   const std::vector<std::uint32_t> order = spatialOrder(
@@ -144,6 +180,7 @@ std::vector<Piece> chosenOf(const std::vector<Piece>& pieces, double areaOfSampl
   double done = 0.0;
   for (vtkIdType sample = 1; sample <= count; ++sample)
   {
+    tell(progress, 0.7, 0.8, sample, count);
     Vec3 sum;
     const double before = done;
     auto end = begin;
@@ -171,7 +208,8 @@ bool isLabel(vtkAbstractArray* array)
 }
 
 /// Gives @p cloud points, arrays and normals at the middles of the @p chosen pieces.
-void takeMiddles(vtkPolyData* cloud, const std::vector<Triangle>& triangles, const std::vector<Piece>& chosen)
+void takeMiddles(vtkPolyData* cloud, const std::vector<Triangle>& triangles, const std::vector<Piece>& chosen,
+  const Progress& progress)
 {
   const vtkIdType count = vtkIdType(chosen.size());
   vtkPointData* from = cloud->GetPointData();
@@ -195,6 +233,7 @@ void takeMiddles(vtkPolyData* cloud, const std::vector<Triangle>& triangles, con
   vertices->SetNumberOfIds(3);
   for (vtkIdType i = 0; i < count; ++i)
   {
+    tell(progress, 0.8, 1.0, i, count);
     const Piece& piece = chosen[std::size_t(i)];
     const Triangle& triangle = triangles[piece.triangle];
     std::array<double, 3> weights{};
@@ -228,18 +267,19 @@ std::string facesText(std::uint64_t count)
   return countText(static_cast<std::int64_t>(count)) + (count == 1 ? " face" : " faces");
 }
 
-bool sampleFaces(vtkPolyData* cloud, vtkIdType samples, std::string& told)
+bool sampleFaces(
+  vtkPolyData* cloud, vtkIdType samples, std::uint64_t count, const Progress& progress, std::string& told)
 {
-  const std::string faces = facesText(static_cast<std::uint64_t>(cloud->GetPolys()->GetNumberOfCells()));
+  const std::string faces = facesText(count);
   told = "the points are the vertices of " + faces;
-  double range[2];
-  cloud->GetPolys()->GetConnectivityArray()->GetRange(range, 0);
-  if (range[0] < 0.0 || range[1] >= double(cloud->GetNumberOfPoints()))
+  const vtkSmartPointer<vtkCellArray> polygons = rightFaces(cloud);
+  const auto right = static_cast<std::uint64_t>(polygons->GetNumberOfCells());
+  if (right == 0)
   {
     told += ", which name others that are not there";
     return false;
   }
-  const std::vector<Triangle> triangles = trianglesOf(cloud);
+  const std::vector<Triangle> triangles = trianglesOf(cloud, polygons, progress);
   double area = 0.0;
   for (const Triangle& triangle : triangles)
   {
@@ -263,10 +303,16 @@ bool sampleFaces(vtkPolyData* cloud, vtkIdType samples, std::string& told)
   std::vector<Piece> pieces;
   for (std::size_t i = 0; i < triangles.size(); ++i)
   {
+    tell(progress, 0.3, 0.5, vtkIdType(i), vtkIdType(triangles.size()));
     cut(i, triangles[i].corners, triangles[i].area(), area / double(samples), pieces);
   }
-  takeMiddles(cloud, triangles, chosenOf(pieces, area / double(samples), samples));
+  takeMiddles(cloud, triangles, chosenOf(pieces, area / double(samples), samples, progress), progress);
   told = countText(samples) + " samples of " + faces;
+  if (right < count)
+  {
+    told += ", but for " + countText(static_cast<std::int64_t>(count - right)) +
+      " that name vertices which are not there, or fewer than three";
+  }
   return true;
 }
 

@@ -5,6 +5,7 @@
 #include "vtkType.h"
 
 #include <cstdint>
+#include <functional>
 #include <string>
 
 class vtkPolyData;
@@ -26,10 +27,13 @@ constexpr vtkIdType kAutomaticSamples = -1;
 /// value of the nearest corner, and so do texts. Normals get unit length; where the vertices have none, the
 /// samples have those of the faces.
 ///
+/// Faces that name vertices which are not there are left out. @p count: faces of the file, of which the
+/// polygons are those that could be read. @p progress is told what part is done, 0..1, and may throw.
+///
 /// @return whether the points are samples; @p told gets what they are, in words. They stay as they are where
-/// faces name vertices that are not there or have no area, and with kAutomaticSamples where the vertices
-/// outnumber the samples.
-bool sampleFaces(vtkPolyData* cloud, vtkIdType samples, std::string& told);
+/// no face is right or has an area, and with kAutomaticSamples where the vertices outnumber the samples.
+bool sampleFaces(vtkPolyData* cloud, vtkIdType samples, std::uint64_t count,
+  const std::function<void(double)>& progress, std::string& told);
 
 /// "6,442 faces".
 std::string facesText(std::uint64_t count);

@@ -56,9 +56,17 @@ void walkObj(const ReadTask& task, std::string_view text, Sink& sink, double fro
 {
   LineReader lines(text);
   std::string_view line;
+  std::string joined;
   while (lines.next(line))
   {
     const std::size_t number = lines.lineNumber();
+    for (joined.clear(); !line.empty() && line.back() == '\\'; line = joined)
+    {
+      joined.assign(line).back() = ' ';
+      std::string_view next;
+      lines.next(next);
+      joined += next;
+    }
     const std::string_view keyword = takeWord(line);
     if (keyword == "v")
     {

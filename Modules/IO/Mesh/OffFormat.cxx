@@ -47,6 +47,17 @@ std::vector<std::string> namesOf(std::string_view prefix, std::size_t columns)
   return names;
 }
 
+/// OFF with its letters. The first count may stick to it: "OFF8 12 0".
+std::string_view takeKeyword(std::string_view& line)
+{
+  const std::string_view whole = line = trimmed(line);
+  const std::string_view word = takeWord(line);
+  const std::size_t off = word.find("OFF");
+  const std::size_t glued = off < word.size() ? word.find_first_of("0123456789", off) : off;
+  line = glued < word.size() ? whole.substr(glued) : line;
+  return word.substr(0, glued);
+}
+
 /// Lines of a number of corners and the corners, after the vertices.
 void readFaces(MeshFaces& faces, LineReader& lines)
 {
@@ -61,6 +72,7 @@ void readFaces(MeshFaces& faces, LineReader& lines)
     {
       corners.push_back(static_cast<vtkIdType>(corner));
     }
+    corners.size() < count ? corners.push_back(-1) : void(); // such a face is wrong
     faces.keep(corners);
   }
 }
@@ -73,7 +85,7 @@ void readOff(ReadTask& task, vtkPolyData* cloud)
   LineReader lines(text);
   std::string_view line;
   nextSignificant(lines, line);
-  const std::string_view keyword = takeWord(line);
+  const std::string_view keyword = takeKeyword(line);
   if (keyword.size() < 3 || keyword.substr(keyword.size() - 3) != "OFF")
   {
     failFormat(

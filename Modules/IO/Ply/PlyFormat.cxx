@@ -575,6 +575,7 @@ void readPly(ReadTask& task, vtkPolyData* cloud)
   for (const PlyElement& element : header.elements)
   {
     task.faces.count += element.name == "face" ? element.count : 0;
+    task.faces.others += element.name == "tristrips" ? element.count : 0;
   }
   for (const PlyProperty& property : header.elements[header.vertexElement()].properties)
   {

@@ -292,7 +292,7 @@ void noteColumns(
 
 void readTable(ReadTask& task, std::string_view text, TextLayout layout, vtkPolyData* cloud)
 {
-  if (task.isPackedCut || (task.salvage && layout.hasPointCount))
+  if (task.salvage && layout.hasPointCount)
   {
     text = text.substr(0, text.rfind('\n') + 1); // behind it the file may be cut within a number
   }
@@ -345,7 +345,8 @@ void readText(ReadTask& task, vtkPolyData* cloud)
 {
   task.format = "text";
   task.need(0, kStartOfText);
-  const std::string_view text = withoutByteOrderMark(task.bytes);
+  const std::string joined = task.shared ? std::string() : withJoinedCells(task.bytes);
+  const std::string_view text = withoutByteOrderMark(joined.empty() ? task.bytes : joined);
   const TextLayout layout = layoutOf(task, text);
   const bool isBlank = layout.columns == 0 && layout.names.empty();
   task.format = layout.hasPointCount ? "PTS"

@@ -173,6 +173,7 @@ private:
   void addLine(std::string_view line);
   void addWords(std::string_view line);
   void addSeparated(std::string_view line);
+  void addText(std::size_t column, std::string_view cell);
   void startBlock(std::string_view line);
   std::string where() const { return "line " + std::to_string(lineNumber_); }
   [[noreturn]] void failColumns(std::string_view line) const;
@@ -209,6 +210,17 @@ void TableWalk<Sink>::startBlock(std::string_view line)
   }
 }
 
+/// Programs write a word where they have no value.
+template <typename Sink>
+void TableWalk<Sink>::addText(std::size_t column, std::string_view cell)
+{
+  constexpr std::string_view kNoValue[] = { "NULL", "NA", "N/A", "#N/A", "none", "nil" };
+  const std::string_view word = withoutQuotes(cell);
+  const bool isValue = std::none_of(std::begin(kNoValue), std::end(kNoValue),
+    [word](std::string_view none) { return word.empty() || equalNoCase(word, none); });
+  isValue ? sink_.text(column, cell, lineNumber_) : sink_.empty(column);
+}
+
 template <typename Sink>
 void TableWalk<Sink>::addWords(std::string_view line)
 {
@@ -226,7 +238,7 @@ void TableWalk<Sink>::addWords(std::string_view line)
       }
       if (!parseCell(cell, value, &shape))
       {
-        sink_.text(column, cell, lineNumber_);
+        addText(column, cell);
         continue;
       }
     }
@@ -277,7 +289,7 @@ void TableWalk<Sink>::addSeparated(std::string_view line)
     }
     else
     {
-      sink_.text(column, cell, lineNumber_);
+      addText(column, cell);
     }
     ++column;
   }

@@ -5,6 +5,7 @@
 #include "IO/Text/TextScan.h"
 #include "IO/Vtk/VtkLegacyCursor.h"
 
+#include "vtkCellType.h"
 #include "vtkDataArray.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
@@ -38,7 +39,8 @@ private:
   void parseHeader();
   void parseSection(std::string_view keyword);
   void parsePoints();
-  void parseCells(bool areFaces);
+  void parseCells(bool areFaces, bool areStrips);
+  void parseCellTypes();
   void keepFaces(vtkDataArray* offsets, vtkDataArray* corners);
   void parseAttribute(std::string_view keyword);
   void parseScalars();
@@ -108,7 +110,18 @@ void LegacyParser::parsePoints()
   cloud_->SetPoints(made);
 }
 
-void LegacyParser::parseCells(bool areFaces)
+/// Those of one dimension or none are no faces.
+void LegacyParser::parseCellTypes()
+{
+  const vtkSmartPointer<vtkDataArray> types =
+    values("types", VTK_TYPE_INT32, count("the number of cells"), 1);
+  for (vtkIdType i = 0; i < types->GetNumberOfTuples(); ++i)
+  {
+    faces_.others += types->GetComponent(i, 0) > VTK_POLY_LINE ? 1 : 0;
+  }
+}
+
+void LegacyParser::parseCells(bool areFaces, bool areStrips)
 {
   const Count first = count("a number of cells");
   const Count second = count("the size of the cells");
@@ -116,12 +129,14 @@ void LegacyParser::parseCells(bool areFaces)
   if (!equalNoCase(peek(), "OFFSETS"))
   {
     faces_.count += areFaces ? first : 0;
+    faces_.others += areStrips ? first : 0;
     areKept ? keepFaces(nullptr, values("cells", VTK_TYPE_INT32, second, 1))
             : skipValues(VTK_TYPE_INT32, second);
     return;
   }
   // Since version 5.1: offsets and connectivity, each with its type.
   faces_.count += areFaces && first > 0 ? first - 1 : 0;
+  faces_.others += areStrips && first > 0 ? first - 1 : 0;
   vtkSmartPointer<vtkDataArray> arrays[2];
   for (int i = 0; i < 2; ++i)
   {
@@ -268,11 +283,11 @@ void LegacyParser::parseSection(std::string_view keyword)
   }
   else if (is("VERTICES") || is("LINES") || is("POLYGONS") || is("TRIANGLE_STRIPS") || is("CELLS"))
   {
-    parseCells(is("POLYGONS"));
+    parseCells(is("POLYGONS"), is("TRIANGLE_STRIPS"));
   }
   else if (is("CELL_TYPES"))
   {
-    skipValues(VTK_TYPE_INT32, count("the number of cells"));
+    parseCellTypes();
   }
   else if (is("POINT_DATA") || is("CELL_DATA"))
   {

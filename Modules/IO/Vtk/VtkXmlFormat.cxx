@@ -5,6 +5,7 @@
 #include "IO/Vtk/VtkPieces.h"
 #include "IO/Vtk/VtkXmlChecks.h"
 
+#include "vtkCellType.h"
 #include "vtkDataArray.h"
 #include "vtkExecutive.h"
 #include "vtkFieldData.h"
@@ -14,6 +15,7 @@
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
+#include "vtkUnstructuredGrid.h"
 #include "vtkXMLPolyDataReader.h"
 #include "vtkXMLUnstructuredDataReader.h"
 #include "vtkXMLUnstructuredGridReader.h"
@@ -61,6 +63,14 @@ void checkArrays(vtkPointSet* read)
 void takeFaces(vtkPointSet* read, MeshFaces& faces)
 {
   vtkPolyData* mesh = vtkPolyData::SafeDownCast(read);
+  if (const auto grid = vtkUnstructuredGrid::SafeDownCast(read))
+  {
+    for (vtkIdType i = 0; i < grid->GetNumberOfCells(); ++i)
+    {
+      faces.others += grid->GetCellType(i) > VTK_POLY_LINE ? 1 : 0;
+    }
+  }
+  faces.others += mesh && mesh->GetStrips() ? std::uint64_t(mesh->GetStrips()->GetNumberOfCells()) : 0;
   if (mesh && mesh->GetPolys())
   {
     faces.count = static_cast<std::uint64_t>(mesh->GetPolys()->GetNumberOfCells());

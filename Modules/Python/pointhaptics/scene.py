@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+import warnings
 from ctypes import byref, c_double, c_int, c_size_t
 from typing import Any, Mapping, Optional, Sequence, Tuple, Union
 
@@ -26,7 +27,8 @@ class Scene:
     voxel : edge of the voxels that are felt, metres, above 0; or
     dims : voxels on each axis, one number or three. Where neither is given: 300, and near the hand, where that tells
         more, voxels about as fine as the points, as in the program without --dims and --voxel.
-    workspace : x0, x1, y0, y1, z0, z1, metres: points outside are not felt. Default: a cube about the points.
+    workspace : x0, x1, y0, y1, z0, z1, metres: points outside are not felt. Default: a cube about the points, but
+        for a few far from all others, which the first call that feels them says in a RuntimeWarning.
 
     Raises TypeError or ValueError: one line that names the argument, its value and the cure. What is felt is made by
     the first call that needs it and kept for the next ones. Scenes can be pickled and copied: as these arguments.
@@ -91,7 +93,11 @@ class Scene:
         else:
             size = (len(points),)
             create = library.scene_create
-        return library.Handle(create, library.scene_destroy, points.ctypes.data, *size, byref(options))
+        made = library.Handle(create, library.scene_destroy, points.ctypes.data, *size, byref(options))
+        note = library.scene_note(made.value)
+        if note:
+            warnings.warn(note.decode(), RuntimeWarning, stacklevel=2)
+        return made
 
     def feel(
         self,

@@ -6,6 +6,7 @@
 #include "Core/Base/QuantityText.h"
 #include "Core/Distributed/FarPoints.h"
 #include "HapticViewerOptions.h"
+#include "IO/Info/LengthUnit.h"
 #include "MergedCloud.h"
 #include "PolyDataAccess.h"
 #include "ResampledCloud.h"
@@ -502,7 +503,7 @@ bool loadCloud(const CloudRequest& request, const std::function<bool(double)>& g
   LoadedCloud result;
   Findings findings;
   result.title = request.name();
-  result.cloud = readAll(request, goesOn, findings, message);
+  result.cloud = inLocalMetres(readAll(request, goesOn, findings, message));
   if (!result.cloud)
   {
     return false;

@@ -1,6 +1,8 @@
 // Arrays of any name, and what PCL's point types find in a PCD file.
 #include "CloudFiles.h"
 
+#include "vtkVariant.h"
+
 namespace
 {
 
@@ -72,6 +74,37 @@ TEST_F(WrittenNames, NamesThatAreCutInLasStayApart)
   cloud->GetPointData()->AddArray(named(std::string(40, 'a') + "2")->GetPointData()->GetArray(0));
   ASSERT_EQ(writeCloud(cloud, path("a.las")), "");
   EXPECT_NE(readCloud(path("a.las")).array((std::string(30, 'a') + "_2").c_str()), nullptr);
+}
+
+TEST_F(WrittenNames, NumbersThatAFieldCannotHoldAreSaid)
+{
+  vtkNew<vtkPolyData> cloud;
+  cloud->SetPoints(named("a")->GetPoints());
+  const auto normals = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(VTK_DOUBLE));
+  normals->SetName("Normals");
+  normals->SetNumberOfComponents(3);
+  normals->SetNumberOfTuples(2);
+  normals->Fill(1.0 / 3.0);
+  cloud->GetPointData()->AddArray(normals);
+  vtkNew<vtkPointCloudWriter> writer;
+  writer->SetInputData(cloud);
+  writer->SetFileName(path("a.pcd").c_str());
+  ASSERT_EQ(writer->Write(), 1);
+  EXPECT_EQ(writer->GetNotes().size(), 0u) << "rounding that nobody sees";
+  normals->Fill(1e7 / 3.0);
+  normals->Modified();
+  ASSERT_EQ(writer->Write(), 1);
+  EXPECT_TRUE(isNoted(writer->GetNotes(), "array Normals is rounded to floats"));
+  std::vector<std::string> notes;
+  const auto times = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(VTK_LONG_LONG));
+  times->SetName("GpsTime");
+  times->SetNumberOfTuples(2);
+  times->SetVariantValue(0, vtkVariant((1LL << 53) + 1));
+  times->SetVariantValue(1, vtkVariant(7));
+  cloud->GetPointData()->AddArray(times);
+  ASSERT_EQ(writeCloud(cloud, path("a.las"), &notes), "");
+  EXPECT_TRUE(isNoted(notes, "array GpsTime has values that its LAS field cannot hold"));
+  EXPECT_EQ(readCloud(path("a.las")).array("GpsTimeExtra")->GetVariantValue(0).ToLongLong(), (1LL << 53) + 1);
 }
 
 } // namespace

@@ -158,7 +158,7 @@ TEST(FarPoints, AreTheSameOnAnyNumberOfRanks)
         const std::size_t last = points.size() * std::size_t(ranks.rank() + 1) / std::size_t(size);
         const std::vector<Vec3> own(
           points.begin() + std::ptrdiff_t(first), points.begin() + std::ptrdiff_t(last));
-        const FarPoints found = findFarPoints(view(own), boundsOf(own), ranks);
+        const FarPoints found = findFarPoints({ view(own) }, boundsOf(own), ranks);
         EXPECT_EQ(found.note(), expected.note());
         EXPECT_EQ(found.others, expected.others);
       });

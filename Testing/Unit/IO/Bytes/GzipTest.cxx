@@ -92,6 +92,22 @@ TEST_F(Gzip, WhatIsCutIsSalvaged)
   ASSERT_EQ(points.error, "");
   EXPECT_GT(points.points(), 1000);
   EXPECT_EQ(points.notes.size(), 1u);
+  // Where the last number of an OBJ is torn, its vertex is left out.
+  std::string obj;
+  for (int i = 0; i < 5000; ++i)
+  {
+    obj += "v 1 2 123456789\n";
+  }
+  const std::string packed = gzip(obj);
+  for (std::size_t size = packed.size() / 2; size < packed.size() / 2 + 30; ++size)
+  {
+    const ReadResult torn = readCloudBy(reader, write("a.obj.gz", packed.substr(0, size)));
+    ASSERT_EQ(torn.error, "") << size;
+    for (vtkIdType i = 0; i < torn.points(); ++i)
+    {
+      ASSERT_FLOAT_EQ(torn.cloud->GetPoint(i)[2], 123456789.0) << size;
+    }
+  }
 }
 
 TEST_F(Gzip, TruncatedAndDamagedFilesAreRefused)

@@ -5,11 +5,13 @@
 #include "vtkNew.h"
 #include "vtkPointCloudReader.h"
 #include "vtkPointData.h"
+#include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkStringArray.h"
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <string>
 
@@ -129,6 +131,34 @@ TEST(LengthUnit, OfSharedCloudsIsRight)
   EXPECT_EQ(unitOf("Megaplot.las").evidence, UnitEvidence::File);
   EXPECT_EQ(unitOf("formats/autzen_trim.las").name, "ft");
   EXPECT_EQ(unitOf("formats/autzen_trim.las").evidence, UnitEvidence::File);
+}
+
+TEST(LengthUnit, DegreesBecomeMetresAboutTheMiddle)
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  for (int i = -5; i <= 5; ++i)
+  {
+    points->InsertNextPoint(11.5 + 1e-3 * i, 60.0 + 1e-3 * (i % 3), 100.0 + i);
+  }
+  points->InsertNextPoint(0.0, 0.0, 0.0); // a stray moves no middle
+  vtkNew<vtkPolyData> cloud;
+  cloud->SetPoints(points);
+  EXPECT_EQ(inLocalMetres(cloud).Get(), cloud.Get());
+  sayUnit(cloud, "degree");
+  const auto local = inLocalMetres(cloud);
+  EXPECT_EQ(lengthUnitOf(local, Bounds()).name, "m");
+  EXPECT_EQ(lengthUnitOf(cloud, Bounds()).name, "deg");
+  EXPECT_EQ(local->GetPoints()->GetDataType(), VTK_DOUBLE);
+  double first[3];
+  double last[3];
+  local->GetPoint(0, first);
+  local->GetPoint(10, last);
+  // 111,195 m a degree of a sphere of the mean radius; half of it along the parallel of 60 degrees.
+  EXPECT_NEAR(last[0] - first[0], 0.01 * 111195.0 / 2.0, 0.02);
+  EXPECT_NEAR(last[1] - first[1], 0.004 * 111195.0, 0.2);
+  EXPECT_EQ(last[2] - first[2], 10.0);
+  EXPECT_LT(std::abs(last[0] + first[0]), 120.0);
 }
 
 } // namespace

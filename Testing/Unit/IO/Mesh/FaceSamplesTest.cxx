@@ -1,6 +1,8 @@
 #include "CloudFiles.h"
 
+#include "vtkCallbackCommand.h"
 #include "vtkCellArray.h"
+#include "vtkCommand.h"
 #include "vtkDoubleArray.h"
 #include "vtkIntArray.h"
 #include "vtkNew.h"
@@ -9,6 +11,7 @@
 #include "vtkSMPTools.h"
 #include "vtkXMLPolyDataWriter.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <sstream>
@@ -321,7 +324,7 @@ TEST_F(FaceSamples, OfBrokenFacesAreTheVertices)
 {
   const std::string head = "OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n";
   const std::pair<const char*, const char*> cases[] = {
-    { "3 0 1 2\n3 0 1 9\n", "the points are the vertices of 2 faces, which name others that are not there" },
+    { "3 0 1 7\n3 0 1 9\n", "the points are the vertices of 2 faces, which name others that are not there" },
     { "3 0 1 1\n3 0 0 0\n", "the points are the vertices of 2 faces, which have no area" },
     { "x y z\n", "the points are the vertices of 2 faces, which cannot be read" },
   };
@@ -346,6 +349,73 @@ TEST_F(FaceSamples, AreNotFewerThanTheVertices)
   const std::string file = write("many.off", off + "3 0 499 200000\n");
   EXPECT_EQ(sample(file, vtkPointCloudReader::AUTOMATIC).points(), 200001);
   EXPECT_EQ(sample(file, 7).points(), 7);
+}
+
+TEST_F(FaceSamples, AreOfTheFacesThatAreRight)
+{
+  const std::string off = "OFF\n4 5 0\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n";
+  const ReadResult result =
+    sample(write("one.off", off + "3 0 1 2\n3 0 1 9\n3 1 3 2\n3 0 x 2\n2 0 1\n"), 100);
+  ASSERT_EQ(result.notes.size(), 1u);
+  EXPECT_EQ(result.notes[0],
+    "100 samples of 5 faces, but for 3 that name vertices which are not there, or fewer than three");
+  EXPECT_EQ(result.points(), 100);
+  const ReadResult obj =
+    sample(write("one.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 4\nf 1 a 2\n"), 50);
+  EXPECT_EQ(obj.points(), 50);
+  EXPECT_NE(obj.notes[0].find("but for 2 that"), std::string::npos) << obj.notes[0];
+}
+
+TEST_F(FaceSamples, OfStripsAndCellsAreMissed)
+{
+  const std::string ply =
+    "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+    "element tristrips 1\nproperty list int int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  const std::string vtk = "# vtk DataFile Version 3.0\na\nASCII\nDATASET ";
+  const std::string points = "POINTS 4 float\n0 0 0 1 0 0 0 1 0 0 0 1\n";
+  const std::string vtu =
+    "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\"><UnstructuredGrid><Piece "
+    "NumberOfPoints=\"4\" NumberOfCells=\"2\"><Points><DataArray type=\"Float32\" "
+    "NumberOfComponents=\"3\" format=\"ascii\">0 0 0 1 0 0 0 1 0 0 0 1</DataArray></Points>"
+    "<Cells><DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">0 1 2 3 0"
+    "</DataArray><DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">4 5"
+    "</DataArray><DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">10 1"
+    "</DataArray></Cells></Piece></UnstructuredGrid></VTKFile>";
+  const std::pair<const char*, std::string> files[] = { { "a.ply", ply },
+    { "a.vtk", vtk + "POLYDATA\n" + points + "TRIANGLE_STRIPS 1 5\n4 0 1 2 3\n" },
+    { "b.vtk", vtk + "UNSTRUCTURED_GRID\n" + points + "CELLS 2 7\n4 0 1 2 3\n1 0\nCELL_TYPES 2\n10\n1\n" },
+    { "a.vtu", vtu } };
+  for (const auto& [name, content] : files)
+  {
+    const ReadResult result = sample(write(name, content), vtkPointCloudReader::AUTOMATIC);
+    EXPECT_EQ(result.error, "") << name;
+    ASSERT_EQ(result.notes.size(), 1u) << name;
+    EXPECT_NE(result.notes[0].find("1 strips or cells are not read as faces"), std::string::npos) << name;
+  }
+}
+
+/// Sampling tells how far it is and ends where an observer says so.
+TEST_F(FaceSamples, StopOnRequest)
+{
+  const std::string file = write("plate.ply", Plate().ply());
+  vtkNew<vtkPointCloudReader> reader;
+  reader->SetSamples(1000000);
+  std::vector<double> reports;
+  vtkNew<vtkCallbackCommand> command;
+  command->SetClientData(&reports);
+  command->SetCallback(
+    [](vtkObject* caller, unsigned long, void* self, void* fraction)
+    {
+      auto& kept = *static_cast<std::vector<double>*>(self);
+      kept.push_back(*static_cast<double*>(fraction));
+      kept.back() > 0.93 ? vtkAlgorithm::SafeDownCast(caller)->SetAbortExecute(1) : void();
+    });
+  reader->AddObserver(vtkCommand::ProgressEvent, command);
+  const ReadResult result = readCloudBy(reader, file);
+  EXPECT_NE(result.error.find("stopped on request"), std::string::npos) << result.error;
+  EXPECT_GT(
+    std::count_if(reports.begin(), reports.end(), [](double at) { return at > 0.6 && at < 0.99; }), 20);
+  EXPECT_TRUE(std::is_sorted(reports.begin(), reports.end()));
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 #include "CloudFiles.h"
 
 #include "vtkFieldData.h"
+#include "vtkStringArray.h"
 #include "vtkVariant.h"
 
 #include <cmath>
@@ -161,13 +162,13 @@ TEST_F(Text, ColumnsOfTextsAreLeftOutAndNamed)
 
 TEST_F(Text, TextsAmongNumbersAreNanAndCounted)
 {
-  const ReadResult result = readCloud(write("a.csv", "x,y,z,gain\n1,2,3,4\n5,6,7,N/A\n8,9,10,11\n"));
+  const ReadResult result = readCloud(write("a.csv", "x,y,z,gain\n1,2,3,4\n5,6,7,gap\n8,9,10,11\n"));
   ASSERT_EQ(result.error, "");
   EXPECT_EQ(result.value("gain", 0), 4);
   EXPECT_TRUE(std::isnan(result.value("gain", 1)));
   ASSERT_EQ(result.notes.size(), 1U);
   EXPECT_EQ(result.notes[0],
-    "1 of 3 cells of column 'gain' hold no number, such as 'N/A' in line 3, and become NaN; write numbers in "
+    "1 of 3 cells of column 'gain' hold no number, such as 'gap' in line 3, and become NaN; write numbers in "
     "their place to keep them");
   expectRefused(
     readCloud(write("b.csv", "x,y,z,gain\n1,2,3,4\n5,6,-,7\n")), "line 3, column 3: '-' is not a number");
@@ -363,6 +364,90 @@ TEST_F(Text, CoordinatesOfUnlikeUnitsAreRefused)
   expectRefused(readCloud(write("a.csv", "x_m,y_m,z_mm\n1,2,3000\n4,5,6000\n")),
     "'z_mm' is in mm, other coordinates are in m");
   EXPECT_EQ(readCloud(write("b.csv", "x_m,y_m,depth_mm,z_m\n1,2,3000,7\n4,5,6000,8\n")).error, "");
+}
+
+TEST_F(Text, ColumnsThatAreOddAreLabels)
+{
+  std::string decimals, white, yellow, first, constant;
+  for (int i = 0; i < 40; ++i)
+  {
+    const std::string place = std::to_string(0.37 * i) + " " + std::to_string(0.5 * (i % 7)) + " 0.25 ";
+    const std::string label = std::to_string(i % 3);
+    decimals += place + "0.6 0 0.8 " + label + ".000000\n";
+    white += place + "255 255 255 " + label + "\n";
+    first += place + label + " 128 128 128\n";
+    yellow += place + label + " 255 255 0\n";
+    constant +=
+      place + std::to_string(6 * i) + " " + std::to_string(5 * i) + " " + std::to_string(i) + " 7\n";
+  }
+  const ReadResult normals = readCloud(write("a.txt", decimals));
+  ASSERT_TRUE(normals.array("label") && normals.array("Normals")) << normals.notes[0];
+  for (const std::string& text : { white, constant })
+  {
+    const ReadResult last = readCloud(write("b.txt", text));
+    EXPECT_NE(last.notes[0].find("x,y,z,red,green,blue,label"), std::string::npos) << last.notes[0];
+  }
+  for (const std::string& text : { first, yellow })
+  {
+    const ReadResult before = readCloud(write("c.txt", text));
+    EXPECT_NE(before.notes[0].find("x,y,z,label,red,green,blue"), std::string::npos) << before.notes[0];
+  }
+}
+
+TEST_F(Text, CellsMayHaveSeveralLinesAndNoValue)
+{
+  const ReadResult result = readCloud(write("a.csv",
+    "x,y,z,\"intensity\n(dn)\",name\n1,2,3,4,\"two\nlines, \"\"one\"\" "
+    "comma\"\n5,6,7,NULL,\"a\"\n8,9,1,n/a,b\n"));
+  ASSERT_EQ(result.error, "");
+  ASSERT_EQ(result.points(), 3);
+  ASSERT_TRUE(result.array("intensity (dn)"));
+  EXPECT_EQ(result.value("intensity (dn)", 0), 4.0);
+  EXPECT_TRUE(std::isnan(result.value("intensity (dn)", 1)));
+  ASSERT_EQ(result.notes.size(), 1u) << "of the names alone";
+  const ReadResult inches = readCloud(write("b.csv", "# pipe of 5\"\nx,y,z,size\n1,2,3,5\"\n4,5,6,7\"\n"));
+  EXPECT_EQ(inches.points(), 2);
+  const ReadResult most = readCloud(write("c.csv", "x,y,z,t\n1,2,3,NULL\n1,2,4,NA\n1,2,5,1.5\n"));
+  ASSERT_TRUE(most.array("t"));
+  EXPECT_EQ(most.value("t", 2), 1.5);
+}
+
+TEST_F(Text, UnitsMayStickToTheAxis)
+{
+  const ReadResult result = readCloud(write("a.csv", "Xmm,Ymm,Zmm\n1,2,3\n4,5,6\n"));
+  ASSERT_EQ(result.error, "");
+  EXPECT_EQ(result.points(), 2);
+  const auto unit =
+    vtkStringArray::SafeDownCast(result.cloud->GetFieldData()->GetAbstractArray("LengthUnit"));
+  ASSERT_TRUE(unit);
+  EXPECT_EQ(unit->GetValue(0), "mm");
+}
+
+TEST_F(Text, MeshesMayHaveAGluedCountAndContinuedLines)
+{
+  const ReadResult off = readCloud(write("a.off", "OFF3 1 0\n0 0 0\n1 0 0\n0 1 2\n3 0 1 2\n"));
+  ASSERT_EQ(off.error, "");
+  EXPECT_EQ(off.points(), 3);
+  EXPECT_EQ(off.cloud->GetPoint(2)[2], 2.0);
+  const ReadResult obj =
+    readCloud(write("a.obj", "v 0 0 \\\n 3\nv 1 \\\r\n0 \\\r\n0\nv 0 1 0\nf 1 \\\n2 3\n"));
+  ASSERT_EQ(obj.error, "");
+  EXPECT_EQ(obj.points(), 3);
+  EXPECT_EQ(obj.cloud->GetPoint(0)[2], 3.0);
+  EXPECT_EQ(obj.notes[0], "the points are the vertices of 1 face");
+}
+
+TEST_F(Text, LabelsBecomeTheClassesOfLas)
+{
+  const ReadResult text =
+    readCloud(write("a.csv", "x,y,z,scalar_Label,wide label\n1,2,3,2,300\n4,5,6,200,1\n"));
+  std::vector<std::string> notes;
+  ASSERT_EQ(writeCloud(text.cloud, path("a.las")), "");
+  const ReadResult las = readCloud(path("a.las"));
+  EXPECT_EQ(las.value("Classification", 0), 2.0);
+  EXPECT_EQ(las.value("Classification", 1), 200.0);
+  EXPECT_FALSE(las.array("scalar_Label"));
+  EXPECT_TRUE(las.array("wide label"));
 }
 
 } // namespace
