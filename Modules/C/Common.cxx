@@ -136,11 +136,7 @@ const char* ph_problem(void)
 
 int ph_stop_create(ph_stop** out)
 {
-  if (hasNull({ out }))
-  {
-    return PH_INVALID_PARAMETER;
-  }
-  return guarded(
+  return guarded({ out },
     [&]
     {
       *out = new ph_stop;

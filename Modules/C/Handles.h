@@ -74,6 +74,13 @@ int guarded(Work&& work) noexcept
   }
 }
 
+/// As guarded(work), where none of the pointers @p needed is null.
+template <typename Work>
+int guarded(std::initializer_list<const void*> needed, Work&& work) noexcept
+{
+  return hasNull(needed) ? int(PH_INVALID_PARAMETER) : guarded(work);
+}
+
 /// @p given, as far as the caller knows the struct; the rest is zero.
 template <typename Options>
 Options optionsOf(const Options* given)
@@ -88,5 +95,18 @@ Options optionsOf(const Options* given)
 
 /// False: one is out of range, and was passed to fail().
 bool parametersOf(const ph_proxy_options* options, HapticParameters& parameters);
+
+/// As guarded(needed, work), for work that takes the parameters of @p options.
+template <typename Work>
+int guardedWith(
+  std::initializer_list<const void*> needed, const ph_proxy_options* options, Work&& work) noexcept
+{
+  return guarded(needed,
+    [&]
+    {
+      HapticParameters parameters;
+      return parametersOf(options, parameters) ? int(work(parameters)) : int(PH_INVALID_PARAMETER);
+    });
+}
 
 } // namespace pointhaptics::c

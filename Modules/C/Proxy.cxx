@@ -108,18 +108,9 @@ void copy(const Vec3& from, double to[3])
 
 int ph_proxy_create(const ph_proxy_options* options, ph_proxy** out)
 {
-  if (hasNull({ out }))
-  {
-    return PH_INVALID_PARAMETER;
-  }
-  return guarded(
-    [&]
+  return guardedWith({ out }, options,
+    [&](const HapticParameters& parameters)
     {
-      HapticParameters parameters;
-      if (!parametersOf(options, parameters))
-      {
-        return int(PH_INVALID_PARAMETER);
-      }
       *out = new ph_proxy(parameters);
       return int(PH_OK);
     });
@@ -127,11 +118,7 @@ int ph_proxy_create(const ph_proxy_options* options, ph_proxy** out)
 
 int ph_proxy_set_scene(ph_proxy* proxy, const ph_scene* scene)
 {
-  if (hasNull({ proxy }))
-  {
-    return PH_INVALID_PARAMETER;
-  }
-  return guarded(
+  return guarded({ proxy },
     [&]
     {
       // Null first: the proxy lets go of the scene before that is freed.
@@ -147,18 +134,9 @@ int ph_proxy_set_scene(ph_proxy* proxy, const ph_scene* scene)
 
 int ph_proxy_set_options(ph_proxy* proxy, const ph_proxy_options* options)
 {
-  if (hasNull({ proxy }))
-  {
-    return PH_INVALID_PARAMETER;
-  }
-  return guarded(
-    [&]
+  return guardedWith({ proxy }, options,
+    [&](const HapticParameters& parameters)
     {
-      HapticParameters parameters;
-      if (!parametersOf(options, parameters))
-      {
-        return int(PH_INVALID_PARAMETER);
-      }
       proxy->proxy.setParameters(parameters);
       proxy->limit();
       return int(PH_OK);

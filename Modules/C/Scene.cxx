@@ -112,11 +112,7 @@ bool countSteps(const HipPath& path, double rate, std::int64_t& steps)
 
 int ph_scene_create(const double* xyz, size_t count, const ph_scene_options* options, ph_scene** out)
 {
-  if (hasNull({ out, count > 0 ? xyz : &kNothing }))
-  {
-    return PH_INVALID_PARAMETER;
-  }
-  return guarded(
+  return guarded({ out, count > 0 ? xyz : &kNothing },
     [&]
     {
       vtkNew<vtkDoubleArray> array;
@@ -129,11 +125,7 @@ int ph_scene_create(const double* xyz, size_t count, const ph_scene_options* opt
 int ph_scene_create_float(
   const float* xyz, size_t count, size_t stride, const ph_scene_options* options, ph_scene** out)
 {
-  if (hasNull({ out, count > 0 ? static_cast<const void*>(xyz) : &kNothing }))
-  {
-    return PH_INVALID_PARAMETER;
-  }
-  return guarded(
+  return guarded({ out, count > 0 ? static_cast<const void*>(xyz) : &kNothing },
     [&]
     {
       vtkNew<vtkFloatArray> array;
@@ -165,11 +157,7 @@ void ph_scene_destroy(ph_scene* scene)
 
 int ph_feel_steps(const double* path, size_t count, double rate, size_t* steps)
 {
-  if (hasNull({ steps, count > 0 ? path : &kNothing }))
-  {
-    return PH_INVALID_PARAMETER;
-  }
-  return guarded(
+  return guarded({ steps, count > 0 ? path : &kNothing },
     [&]
     {
       HipPath rows;
@@ -205,11 +193,7 @@ const char* ph_unlikely_units(const ph_scene* scene, const double* path, size_t 
 int ph_feel(const ph_scene* scene, const double* path, size_t count, double rate,
   const ph_proxy_options* options, const ph_stop* stop, double* rows)
 {
-  if (hasNull({ scene, rows, count > 0 ? path : &kNothing }))
-  {
-    return PH_INVALID_PARAMETER;
-  }
-  return guarded(
+  return guarded({ scene, rows, count > 0 ? path : &kNothing },
     [&]
     {
       FeelScenes scenes(*scene->scenes); // first: the scene may be destroyed from here on

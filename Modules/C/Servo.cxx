@@ -144,19 +144,10 @@ struct ph_servo
 int ph_servo_start(
   const ph_scene* scene, const ph_proxy_options* proxy, const ph_servo_options* given, ph_servo** out)
 {
-  if (hasNull({ scene, out }))
-  {
-    return PH_INVALID_PARAMETER;
-  }
-  return guarded(
-    [&]
+  return guardedWith({ scene, out }, proxy,
+    [&](const HapticParameters& parameters)
     {
       const ph_servo_options options = optionsOf(given);
-      HapticParameters parameters;
-      if (!parametersOf(proxy, parameters))
-      {
-        return int(PH_INVALID_PARAMETER);
-      }
       auto servo = std::make_unique<ph_servo>(*scene->scenes, options);
       HipPath path;
       for (std::size_t i = 0; i < options.path_count; ++i)
@@ -204,18 +195,9 @@ int ph_servo_target(ph_servo* servo, const double target[3])
 
 int ph_servo_set_options(ph_servo* servo, const ph_proxy_options* options)
 {
-  if (hasNull({ servo }))
-  {
-    return PH_INVALID_PARAMETER;
-  }
-  return guarded(
-    [&]
+  return guardedWith({ servo }, options,
+    [&](const HapticParameters& parameters)
     {
-      HapticParameters parameters;
-      if (!parametersOf(options, parameters))
-      {
-        return int(PH_INVALID_PARAMETER);
-      }
       std::string problem;
       const Status status = servo->loop.setParameters(parameters, &problem);
       return status == Status::Ok ? int(PH_OK)
@@ -230,11 +212,7 @@ int ph_servo_running(const ph_servo* servo)
 
 int ph_servo_trace(ph_servo* servo, double* rows, size_t most, size_t* count)
 {
-  if (hasNull({ servo, count, most > 0 ? rows : static_cast<const void*>(count) }))
-  {
-    return PH_INVALID_PARAMETER;
-  }
-  return guarded(
+  return guarded({ servo, count, most > 0 ? rows : static_cast<const void*>(count) },
     [&]
     {
       if (servo->taken == servo->samples.size())
@@ -256,11 +234,7 @@ int ph_servo_trace(ph_servo* servo, double* rows, size_t most, size_t* count)
 
 int ph_servo_statistics_of(const ph_servo* servo, ph_servo_statistics* out)
 {
-  if (hasNull({ servo, out }))
-  {
-    return PH_INVALID_PARAMETER;
-  }
-  return guarded(
+  return guarded({ servo, out },
     [&]
     {
       const ServoStatistics s = servo->loop.statistics();

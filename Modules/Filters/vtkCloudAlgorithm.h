@@ -31,12 +31,40 @@
 #include "vtkSmartPointer.h" // For clouds
 #include "vtkTimeStamp.h"    // For RetryTime
 
-#include <set>    // For Warnings
-#include <string> // For Fail
-#include <vector> // For clouds
+#include <algorithm> // For vtkSettingEnumMacro
+#include <set>       // For Warnings
+#include <string>    // For Fail
+#include <vector>    // For clouds
 
 class vtkDataObject;
 class vtkPointSet;
+
+/// Set and Get of the property @p name: the value @p member of the filter's Settings, which SetSettings()
+/// checks and takes.
+#define vtkSettingMacro(name, type, member)                                                                  \
+  virtual void Set##name(type value)                                                                         \
+  {                                                                                                          \
+    auto settings = this->Settings;                                                                          \
+    settings.member = value;                                                                                 \
+    this->SetSettings(settings);                                                                             \
+  }                                                                                                          \
+  virtual type Get##name() const                                                                             \
+  {                                                                                                          \
+    return this->Settings.member;                                                                            \
+  }
+
+/// As vtkSettingMacro, for an enumeration of Core, which is an int to VTK: from 0 to @p last.
+#define vtkSettingEnumMacro(name, member, last)                                                              \
+  virtual void Set##name(int value)                                                                          \
+  {                                                                                                          \
+    auto settings = this->Settings;                                                                          \
+    settings.member = static_cast<decltype(settings.member)>(std::clamp<int>(value, 0, last));               \
+    this->SetSettings(settings);                                                                             \
+  }                                                                                                          \
+  virtual int Get##name() const                                                                              \
+  {                                                                                                          \
+    return static_cast<int>(this->Settings.member);                                                          \
+  }
 
 class POINTHAPTICSFILTERS_EXPORT vtkCloudAlgorithm : public vtkPolyDataAlgorithm
 {

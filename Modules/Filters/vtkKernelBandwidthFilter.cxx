@@ -103,18 +103,6 @@ void vtkKernelBandwidthFilter::SetSettings(const BandwidthSettings& settings)
   }
 }
 
-void vtkKernelBandwidthFilter::SetRule(int value)
-{
-  this->SetMember(
-    &BandwidthSettings::rule, BandwidthRule(std::clamp<int>(value, NormalReference, SheatherJones)));
-}
-
-void vtkKernelBandwidthFilter::SetDensityKernel(int value)
-{
-  this->SetMember(&BandwidthSettings::densityKernel,
-    pointhaptics::DensityKernel(std::clamp<int>(value, Gaussian, Epanechnikov)));
-}
-
 bool vtkKernelBandwidthFilter::BeginRun(const Clouds&)
 {
   this->SettingsOfRun = this->Settings;

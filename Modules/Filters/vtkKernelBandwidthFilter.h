@@ -87,11 +87,7 @@ public:
    * Kind of a point's neighbourhood. In a fixed ball the spread hardly changes with density, so only KNearest
    * (default) makes the radius follow it.
    */
-  virtual void SetNeighborhood(int value)
-  {
-    this->SetMember(&pointhaptics::BandwidthSettings::fixedRadius, value >= FixedRadius);
-  }
-  virtual int GetNeighborhood() const { return this->Settings.fixedRadius ? FixedRadius : KNearest; }
+  vtkSettingEnumMacro(Neighborhood, fixedRadius, FixedRadius);
   void SetNeighborhoodToKNearest() { this->SetNeighborhood(KNearest); }
   void SetNeighborhoodToFixedRadius() { this->SetNeighborhood(FixedRadius); }
   ///@}
@@ -101,27 +97,21 @@ public:
    * Neighbours of KNearest, the point itself not counted; at least 1. More than the cloud has: all of it.
    * Default: 16.
    */
-  virtual void SetNumberOfNeighbors(int value)
-  {
-    this->SetMember(&pointhaptics::BandwidthSettings::numberOfNeighbors, value);
-  }
-  virtual int GetNumberOfNeighbors() const { return this->Settings.numberOfNeighbors; }
+  vtkSettingMacro(NumberOfNeighbors, int, numberOfNeighbors);
   ///@}
 
   ///@{
   /**
    * Radius of FixedRadius in the units of the points, above 0. Default: 0.001.
    */
-  virtual void SetRadius(double value) { this->SetMember(&pointhaptics::BandwidthSettings::radius, value); }
-  virtual double GetRadius() const { return this->Settings.radius; }
+  vtkSettingMacro(Radius, double, radius);
   ///@}
 
   ///@{
   /**
    * Rule from spread to bandwidth. Default: NormalReference.
    */
-  virtual void SetRule(int value);
-  virtual int GetRule() const { return static_cast<int>(this->Settings.rule); }
+  vtkSettingEnumMacro(Rule, rule, SheatherJones);
   void SetRuleToNormalReference() { this->SetRule(NormalReference); }
   void SetRuleToSilvermanRobust() { this->SetRule(SilvermanRobust); }
   void SetRuleToScottMultivariate() { this->SetRule(ScottMultivariate); }
@@ -134,11 +124,7 @@ public:
    * beta of the paper: proxy radius over bandwidth, above 0. Default: 4, which for 16 neighbours on a
    * uniformly sampled surface is about 2.8 point spacings.
    */
-  virtual void SetRadiusScale(double value)
-  {
-    this->SetMember(&pointhaptics::BandwidthSettings::radiusScale, value);
-  }
-  virtual double GetRadiusScale() const { return this->Settings.radiusScale; }
+  vtkSettingMacro(RadiusScale, double, radiusScale);
   ///@}
 
   ///@{
@@ -147,16 +133,8 @@ public:
    * automatic, 2.2 local spacings at each point, the radius at which a sphere no longer falls through the
    * widest gap of a random sample. 0 (default) for r2: no upper bound.
    */
-  virtual void SetMinimumRadius(double value)
-  {
-    this->SetMember(&pointhaptics::BandwidthSettings::minimumRadius, value);
-  }
-  virtual double GetMinimumRadius() const { return this->Settings.minimumRadius; }
-  virtual void SetMaximumRadius(double value)
-  {
-    this->SetMember(&pointhaptics::BandwidthSettings::maximumRadius, value);
-  }
-  virtual double GetMaximumRadius() const { return this->Settings.maximumRadius; }
+  vtkSettingMacro(MinimumRadius, double, minimumRadius);
+  vtkSettingMacro(MaximumRadius, double, maximumRadius);
   ///@}
 
   ///@{
@@ -166,11 +144,7 @@ public:
    * radius falls below the smallest of the cloud, but beside a denser region one may fall below the automatic
    * r1. Default: off.
    */
-  virtual void SetSmoothRadius(bool value)
-  {
-    this->SetMember(&pointhaptics::BandwidthSettings::smoothRadius, value);
-  }
-  virtual bool GetSmoothRadius() const { return this->Settings.smoothRadius; }
+  vtkSettingMacro(SmoothRadius, bool, smoothRadius);
   vtkBooleanMacro(SmoothRadius, bool);
   ///@}
 
@@ -180,8 +154,7 @@ public:
    * exp(-t_i^2 / 2), cut off at t = 6, which leaves out less than 2e-8 of a kernel's height for each point
    * beyond. Epanechnikov: 1/(N 3 pi b^2) sum_i (1 - t_i^2 / 6) over t_i^2 < 6, where nothing is cut off.
    */
-  virtual void SetDensityKernel(int value);
-  virtual int GetDensityKernel() const { return static_cast<int>(this->Settings.densityKernel); }
+  vtkSettingEnumMacro(DensityKernel, densityKernel, Epanechnikov);
   void SetDensityKernelToGaussian() { this->SetDensityKernel(Gaussian); }
   void SetDensityKernelToEpanechnikov() { this->SetDensityKernel(Epanechnikov); }
   ///@}
@@ -196,11 +169,7 @@ public:
    * themselves may be farther apart than such a radius: a sphere that is to stand on them needs about 2.8
    * voxels (pointhaptics::HapticScene::coveringRadius). Default: on.
    */
-  virtual void SetUsePointCounts(bool value)
-  {
-    this->SetMember(&pointhaptics::BandwidthSettings::usePointCounts, value);
-  }
-  virtual bool GetUsePointCounts() const { return this->Settings.usePointCounts; }
+  vtkSettingMacro(UsePointCounts, bool, usePointCounts);
   vtkBooleanMacro(UsePointCounts, bool);
   ///@}
 
@@ -210,11 +179,7 @@ public:
    * points they stand for. That is how far apart they are, and so the length for splats that are to close a
    * surface (vtkSplatMapper). Without VoxelPointCount it is Bandwidth. Default: off.
    */
-  virtual void SetComputeMeanBandwidth(bool value)
-  {
-    this->SetMember(&pointhaptics::BandwidthSettings::computeMeanBandwidth, value);
-  }
-  virtual bool GetComputeMeanBandwidth() const { return this->Settings.computeMeanBandwidth; }
+  vtkSettingMacro(ComputeMeanBandwidth, bool, computeMeanBandwidth);
   vtkBooleanMacro(ComputeMeanBandwidth, bool);
   ///@}
 
@@ -223,23 +188,11 @@ public:
    * Which arrays to add; what is off costs nothing. Default: Bandwidth and ProxyRadius. Density costs a
    * second search, five times the time of both: it is made when it is asked for.
    */
-  virtual void SetComputeBandwidth(bool value)
-  {
-    this->SetMember(&pointhaptics::BandwidthSettings::computeBandwidth, value);
-  }
-  virtual bool GetComputeBandwidth() const { return this->Settings.computeBandwidth; }
+  vtkSettingMacro(ComputeBandwidth, bool, computeBandwidth);
   vtkBooleanMacro(ComputeBandwidth, bool);
-  virtual void SetComputeProxyRadius(bool value)
-  {
-    this->SetMember(&pointhaptics::BandwidthSettings::computeProxyRadius, value);
-  }
-  virtual bool GetComputeProxyRadius() const { return this->Settings.computeProxyRadius; }
+  vtkSettingMacro(ComputeProxyRadius, bool, computeProxyRadius);
   vtkBooleanMacro(ComputeProxyRadius, bool);
-  virtual void SetComputeDensity(bool value)
-  {
-    this->SetMember(&pointhaptics::BandwidthSettings::computeDensity, value);
-  }
-  virtual bool GetComputeDensity() const { return this->Settings.computeDensity; }
+  vtkSettingMacro(ComputeDensity, bool, computeDensity);
   vtkBooleanMacro(ComputeDensity, bool);
   ///@}
 
@@ -263,15 +216,6 @@ protected:
 #endif
 
 private:
-#ifndef __VTK_WRAP__ // which cannot read pointers to members
-  template <typename Owner, typename Value>
-  void SetMember(Value Owner::*member, Value value)
-  {
-    pointhaptics::BandwidthSettings settings = this->Settings;
-    settings.*member = value;
-    this->SetSettings(settings);
-  }
-#endif
   bool Estimate(vtkPolyData* cloud);
 
   pointhaptics::BandwidthSettings Settings;

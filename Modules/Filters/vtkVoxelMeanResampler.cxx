@@ -76,10 +76,10 @@ void vtkVoxelMeanResampler::UpdateVectors()
 
 void vtkVoxelMeanResampler::SetWorkspaceBounds(const double bounds[6])
 {
-  LatticeSettings lattice = this->Settings.lattice;
-  lattice.workspace = { { bounds[0], bounds[2], bounds[4] }, { bounds[1], bounds[3], bounds[5] } };
-  lattice.automaticWorkspace = false;
-  this->SetMember(&VoxelMeanSettings::lattice, lattice);
+  VoxelMeanSettings settings = this->Settings;
+  settings.lattice.workspace = { { bounds[0], bounds[2], bounds[4] }, { bounds[1], bounds[3], bounds[5] } };
+  settings.lattice.automaticWorkspace = false;
+  this->SetSettings(settings);
 }
 
 void vtkVoxelMeanResampler::SetWorkspaceBounds(
@@ -89,44 +89,18 @@ void vtkVoxelMeanResampler::SetWorkspaceBounds(
   this->SetWorkspaceBounds(bounds);
 }
 
-void vtkVoxelMeanResampler::SetAutomaticWorkspace(bool value)
-{
-  LatticeSettings lattice = this->Settings.lattice;
-  lattice.automaticWorkspace = value;
-  this->SetMember(&VoxelMeanSettings::lattice, lattice);
-}
-
 void vtkVoxelMeanResampler::SetDimensions(const int dimensions[3])
 {
-  LatticeSettings lattice = this->Settings.lattice;
-  lattice.dimensions = { dimensions[0], dimensions[1], dimensions[2] };
-  lattice.voxelSize = 0.0;
-  this->SetMember(&VoxelMeanSettings::lattice, lattice);
+  VoxelMeanSettings settings = this->Settings;
+  settings.lattice.dimensions = { dimensions[0], dimensions[1], dimensions[2] };
+  settings.lattice.voxelSize = 0.0;
+  this->SetSettings(settings);
 }
 
 void vtkVoxelMeanResampler::SetDimensions(int nx, int ny, int nz)
 {
   const int dimensions[3] = { nx, ny, nz };
   this->SetDimensions(dimensions);
-}
-
-void vtkVoxelMeanResampler::SetVoxelSize(double size)
-{
-  LatticeSettings lattice = this->Settings.lattice;
-  lattice.voxelSize = size;
-  this->SetMember(&VoxelMeanSettings::lattice, lattice);
-}
-
-void vtkVoxelMeanResampler::SetOutputPointsPrecision(int value)
-{
-  this->SetMember(&VoxelMeanSettings::outputPointsPrecision,
-    PointsPrecision(std::clamp<int>(value, SINGLE_PRECISION, DEFAULT_PRECISION)));
-}
-
-void vtkVoxelMeanResampler::SetInstructionSet(int value)
-{
-  this->SetMember(&VoxelMeanSettings::instructionSet,
-    pointhaptics::InstructionSet(std::clamp<int>(value, InstructionSetAutomatic, InstructionSetAVX512)));
 }
 
 void vtkVoxelMeanResampler::AddCategoricalArray(const char* name)
@@ -157,12 +131,6 @@ bool vtkVoxelMeanResampler::IsCategoricalArray(const char* name) const
   return name &&
     std::any_of(all.begin(), all.end(),
       [name](const std::string& each) { return pointhaptics::isLabelField(name, each); });
-}
-
-void vtkVoxelMeanResampler::SetRepresentative(int representative)
-{
-  this->SetMember(&VoxelMeanSettings::representative,
-    static_cast<pointhaptics::Representative>(std::clamp(representative, int(Mean), int(Median))));
 }
 
 unsigned long vtkVoxelMeanResampler::GetScratchMemorySize() const

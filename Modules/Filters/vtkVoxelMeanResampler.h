@@ -130,8 +130,7 @@ public:
    * On: the workspace is a cube about the transformed cloud, half a voxel (on its finest axis) wider on
    * each side, so that nothing is clipped. Default: on.
    */
-  virtual void SetAutomaticWorkspace(bool value);
-  virtual bool GetAutomaticWorkspace() const { return this->Settings.lattice.automaticWorkspace; }
+  vtkSettingMacro(AutomaticWorkspace, bool, lattice.automaticWorkspace);
   vtkBooleanMacro(AutomaticWorkspace, bool);
   ///@}
 
@@ -150,8 +149,7 @@ public:
    * Edge of a cubic voxel in the units of the transformed cloud; 0 (default): Dimensions rule. The lattice
    * starts at the lower corner of the workspace and covers it with whole voxels.
    */
-  virtual void SetVoxelSize(double size);
-  virtual double GetVoxelSize() const { return this->Settings.lattice.voxelSize; }
+  vtkSettingMacro(VoxelSize, double, lattice.voxelSize);
   ///@}
 
   ///@{
@@ -159,22 +157,14 @@ public:
    * Type of the output points: vtkAlgorithm::SINGLE_PRECISION, DOUBLE_PRECISION or DEFAULT_PRECISION (that of
    * the input). Default: DEFAULT_PRECISION.
    */
-  virtual void SetOutputPointsPrecision(int value);
-  virtual int GetOutputPointsPrecision() const
-  {
-    return static_cast<int>(this->Settings.outputPointsPrecision);
-  }
+  vtkSettingEnumMacro(OutputPointsPrecision, outputPointsPrecision, DEFAULT_PRECISION);
   ///@}
 
   ///@{
   /**
    * Add the array VoxelCovariance: six second moments per voxel. Default: off.
    */
-  virtual void SetComputeCovariance(bool value)
-  {
-    this->SetMember(&pointhaptics::VoxelMeanSettings::computeCovariance, value);
-  }
-  virtual bool GetComputeCovariance() const { return this->Settings.computeCovariance; }
+  vtkSettingMacro(ComputeCovariance, bool, computeCovariance);
   vtkBooleanMacro(ComputeCovariance, bool);
   ///@}
 
@@ -183,11 +173,7 @@ public:
    * Average the point arrays of the input. Off: only the points and VoxelPointCount (and VoxelCovariance) are
    * made. Default: on.
    */
-  virtual void SetPassAttributes(bool value)
-  {
-    this->SetMember(&pointhaptics::VoxelMeanSettings::passAttributes, value);
-  }
-  virtual bool GetPassAttributes() const { return this->Settings.passAttributes; }
+  vtkSettingMacro(PassAttributes, bool, passAttributes);
   vtkBooleanMacro(PassAttributes, bool);
   ///@}
 
@@ -220,8 +206,7 @@ public:
    * arrays have the value most points have. VoxelPointCount and VoxelCovariance are those of all points of
    * the voxel. Results are the same for every order of the points and number of threads. Default: Mean.
    */
-  virtual void SetRepresentative(int representative);
-  virtual int GetRepresentative() const { return static_cast<int>(this->Settings.representative); }
+  vtkSettingEnumMacro(Representative, representative, Median);
   void SetRepresentativeToMean() { this->SetRepresentative(Mean); }
   void SetRepresentativeToNearestToMean() { this->SetRepresentative(NearestToMean); }
   void SetRepresentativeToNearestToCenter() { this->SetRepresentative(NearestToCenter); }
@@ -232,11 +217,7 @@ public:
   /**
    * Voxels with fewer points are left out. At least 1. Default: 1.
    */
-  virtual void SetMinimumPointsPerVoxel(int points)
-  {
-    this->SetMember(&pointhaptics::VoxelMeanSettings::minimumPointsPerVoxel, points);
-  }
-  virtual int GetMinimumPointsPerVoxel() const { return this->Settings.minimumPointsPerVoxel; }
+  vtkSettingMacro(MinimumPointsPerVoxel, int, minimumPointsPerVoxel);
   ///@}
 
   ///@{
@@ -245,11 +226,7 @@ public:
    * vtkIdTypeArray "VoxelIndex", the point of output 0 that each belongs to; -1 where it is clipped, invalid
    * or in a voxel that is left out. Default: off.
    */
-  virtual void SetComputeVoxelIndex(bool value)
-  {
-    this->SetMember(&pointhaptics::VoxelMeanSettings::computeVoxelIndex, value);
-  }
-  virtual bool GetComputeVoxelIndex() const { return this->Settings.computeVoxelIndex; }
+  vtkSettingMacro(ComputeVoxelIndex, bool, computeVoxelIndex);
   vtkBooleanMacro(ComputeVoxelIndex, bool);
   ///@}
 
@@ -259,11 +236,7 @@ public:
    * same points with the same values the first. Only NearestToMean and NearestToCenter have one. Default:
    * off.
    */
-  virtual void SetKeepOriginalPointIds(bool value)
-  {
-    this->SetMember(&pointhaptics::VoxelMeanSettings::keepOriginalPointIds, value);
-  }
-  virtual bool GetKeepOriginalPointIds() const { return this->Settings.keepOriginalPointIds; }
+  vtkSettingMacro(KeepOriginalPointIds, bool, keepOriginalPointIds);
   vtkBooleanMacro(KeepOriginalPointIds, bool);
   ///@}
 
@@ -283,11 +256,7 @@ public:
    * magnitudes in arrays. This changes only the cost of updates, provided that whoever writes to the points
    * or to an array calls Modified() on it, or on the input. Default: on.
    */
-  virtual void SetUsePointIndex(bool value)
-  {
-    this->SetMember(&pointhaptics::VoxelMeanSettings::usePointIndex, value);
-  }
-  virtual bool GetUsePointIndex() const { return this->Settings.usePointIndex; }
+  vtkSettingMacro(UsePointIndex, bool, usePointIndex);
   vtkBooleanMacro(UsePointIndex, bool);
   ///@}
 
@@ -303,8 +272,7 @@ public:
    * The vector instructions of the inner loops; one the machine lacks falls back to the best below. Changes
    * the speed only: for measurements. Default: InstructionSetAutomatic.
    */
-  virtual void SetInstructionSet(int value);
-  virtual int GetInstructionSet() const { return static_cast<int>(this->Settings.instructionSet); }
+  vtkSettingEnumMacro(InstructionSet, instructionSet, InstructionSetAVX512);
   ///@}
 
   ///@{
@@ -364,15 +332,6 @@ private:
   class Internals;
   std::unique_ptr<Internals> Impl;
 
-#ifndef __VTK_WRAP__ // which cannot read pointers to members
-  template <typename Value>
-  void SetMember(Value pointhaptics::VoxelMeanSettings::*member, Value value)
-  {
-    pointhaptics::VoxelMeanSettings settings = this->Settings;
-    settings.*member = value;
-    this->SetSettings(settings);
-  }
-#endif
   void UpdateVectors();
 
   pointhaptics::VoxelMeanSettings Settings;

@@ -16,8 +16,6 @@ using namespace pointhaptics;
 namespace
 {
 
-using ClosedSurfaces = HapticViewerTest;
-
 /// Pixels in the middle third of the picture, each way, that the black background shows through, and all.
 struct Holes
 {
@@ -44,6 +42,25 @@ Holes holesOf(const std::string& fileName)
   return holes;
 }
 
+class ClosedSurfaces : public HapticViewerTest
+{
+protected:
+  ClosedSurfaces()
+  {
+    options_.width = 400;
+    options_.height = 300;
+    options_.colorBy = "Clay";
+    options_.picture.background = "black";
+  }
+  Holes holesIn(vtkPolyData* cloud)
+  {
+    HapticViewer viewer(options_, observer_);
+    EXPECT_TRUE(viewer.open(cloud)) << viewer.message();
+    EXPECT_TRUE(viewer.renderToFile(this->path("picture.png"))) << viewer.message();
+    return holesOf(this->path("picture.png"));
+  }
+};
+
 /// At random on a square of edge 1 in the plane z = 0.
 vtkSmartPointer<vtkPolyData> randomSquare(int count)
 {
@@ -63,12 +80,8 @@ vtkSmartPointer<vtkPolyData> randomSquare(int count)
 TEST_F(ClosedSurfaces, PointsAtRandomCloseFromAboveAndAtASlant)
 {
   SKIP_WITHOUT_DISPLAY();
-  options_.width = 400;
-  options_.height = 300;
   options_.up = "z";
   options_.kind = "object";
-  options_.colorBy = "Clay";
-  options_.picture.background = "black";
   // Neighbours are about 1.5 pixels apart.
   for (const double elevation : { 90.0, 35.0, 20.0 })
   {
@@ -76,10 +89,7 @@ TEST_F(ClosedSurfaces, PointsAtRandomCloseFromAboveAndAtASlant)
     const double distance = 0.13; // the square is 10 cm wide in the workspace
     options_.camera = { 0.0, -distance * std::cos(a), distance * std::sin(a), 0, 0, 0, 0, std::sin(a),
       std::cos(a) };
-    HapticViewer viewer(options_, observer_);
-    ASSERT_TRUE(viewer.open(randomSquare(80000))) << viewer.message();
-    ASSERT_TRUE(viewer.renderToFile(this->path("square.png"))) << viewer.message();
-    const Holes holes = holesOf(this->path("square.png"));
+    const Holes holes = holesIn(randomSquare(80000));
     EXPECT_LT(holes.dark, holes.all / 5000) << "of " << holes.all << " pixels at " << elevation << " degrees";
   }
 }
@@ -107,32 +117,20 @@ TEST_F(ClosedSurfaces, FewPointsCloseInTheFirstView)
   SKIP_WITHOUT_DISPLAY();
   options_.width = 800;
   options_.height = 600;
-  options_.colorBy = "Clay";
-  options_.picture.background = "black";
-  HapticViewer viewer(options_, observer_);
-  ASSERT_TRUE(viewer.open(randomBall(10000))) << viewer.message();
-  ASSERT_TRUE(viewer.renderToFile(this->path("ball.png"))) << viewer.message();
-  const Holes holes = holesOf(this->path("ball.png"));
+  const Holes holes = holesIn(randomBall(10000));
   EXPECT_LT(holes.dark, holes.all / 200) << "of " << holes.all << " pixels";
 }
 
 TEST_F(ClosedSurfaces, APlaneStaysClosedHoweverNearItIs)
 {
   SKIP_WITHOUT_DISPLAY();
-  options_.width = 400;
-  options_.height = 300;
   options_.up = "z";
   options_.kind = "object";
-  options_.colorBy = "Clay";
-  options_.picture.background = "black";
   // The square is 10 cm wide, and neighbours are 30 to 400 pixels apart.
   for (const double distance : { 0.04, 0.015, 0.003 })
   {
     options_.camera = { 0.003, 0.004, distance, 0.003, 0.004, 0, 0, 1, 0 };
-    HapticViewer viewer(options_, observer_);
-    ASSERT_TRUE(viewer.open(randomSquare(2000))) << viewer.message();
-    ASSERT_TRUE(viewer.renderToFile(this->path("near.png"))) << viewer.message();
-    const Holes holes = holesOf(this->path("near.png"));
+    const Holes holes = holesIn(randomSquare(2000));
     EXPECT_LT(holes.dark, holes.all / 200) << "of " << holes.all << " pixels from " << distance << " m";
   }
 }
@@ -159,16 +157,10 @@ TEST_F(ClosedSurfaces, AFrameOfACameraClosesWhereItsWallsTurnAway)
 {
   SKIP_WITHOUT_DISPLAY();
   // Rays are about as far apart as pixels.
-  options_.width = 400;
   options_.height = 250;
   options_.up = "-y";
   options_.kind = "frame";
-  options_.colorBy = "Clay";
-  options_.picture.background = "black";
-  HapticViewer viewer(options_, observer_);
-  ASSERT_TRUE(viewer.open(slantedWall(320, 240))) << viewer.message();
-  ASSERT_TRUE(viewer.renderToFile(this->path("wall.png"))) << viewer.message();
-  const Holes holes = holesOf(this->path("wall.png"));
+  const Holes holes = holesIn(slantedWall(320, 240));
   EXPECT_EQ(holes.dark, 0) << "of " << holes.all << " pixels";
 }
 

@@ -64,21 +64,12 @@ void setPicture(nlohmann::ordered_json& settings, const PictureSettings& picture
   settings["font-scale"] = picture.fontScale;
   settings["color-map"] = picture.colorMap;
   settings["transparent"] = picture.transparent;
-  settings.erase("color-range");
-  if (!picture.colorRange.empty())
-  {
-    settings["color-range"] = picture.colorRange;
-  }
-  settings.erase("screenshot-size");
-  if (picture.screenshotSize[0] > 0)
-  {
-    settings["screenshot-size"] = fmt::format("{}x{}", picture.screenshotSize[0], picture.screenshotSize[1]);
-  }
-  settings.erase("measure");
-  if (picture.measure.size() == kNumbersOfDistance)
-  {
-    settings["measure"] = picture.measure;
-  }
+  setUnlessEmpty(settings, "color-range", picture.colorRange);
+  const auto& size = picture.screenshotSize;
+  setUnlessEmpty(
+    settings, "screenshot-size", size[0] > 0 ? fmt::format("{}x{}", size[0], size[1]) : std::string());
+  const bool isWhole = picture.measure.size() == kNumbersOfDistance;
+  setUnlessEmpty(settings, "measure", isWhole ? picture.measure : decltype(picture.measure)());
 }
 
 } // namespace pointhaptics::app

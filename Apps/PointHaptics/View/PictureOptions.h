@@ -23,4 +23,15 @@ void addPictureOptions(CLI::App& command, PictureSettings& picture);
 /// out.
 void setPicture(nlohmann::ordered_json& settings, const PictureSettings& picture);
 
+/// The setting @p name becomes @p value, as the last one, or goes where that is empty: then nobody chose any.
+template <typename Value>
+void setUnlessEmpty(nlohmann::ordered_json& settings, const char* name, const Value& value)
+{
+  settings.erase(name);
+  if (!value.empty())
+  {
+    settings[name] = value;
+  }
+}
+
 } // namespace pointhaptics::app

@@ -108,16 +108,8 @@ void setState(nlohmann::ordered_json& settings, const HapticViewerState& state, 
   settings["full-screen"] = state.fullScreen;
   settings["sound"] = state.sound;
   setPicture(settings, state.picture);
-  settings.erase("clip");
-  if (!state.clip.empty())
-  {
-    settings["clip"] = state.clip;
-  }
-  settings.erase("color-by");
-  if (!state.colorBy.empty())
-  {
-    settings["color-by"] = state.colorBy;
-  }
+  setUnlessEmpty(settings, "clip", state.clip);
+  setUnlessEmpty(settings, "color-by", state.colorBy);
   settings["size"] = fmt::format("{}x{}", state.width, state.height);
 }
 

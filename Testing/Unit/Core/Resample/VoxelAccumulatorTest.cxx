@@ -191,3 +191,31 @@ TEST(VoxelAccumulator, RefusesBytesThatNoneWrites)
   VoxelAccumulator sums = all.of(0, 500);
   EXPECT_GT(refusedOfChanged(sums.serialize(), 3000), 1000);
 }
+
+TEST(VoxelAccumulator, SumsPast64BitsKeepTheirMeans)
+{
+  for (const Lattice& lattice : { latticeOf(60, 50, 40), latticeOf(5000, 5000, 5000) })
+  {
+    // A place in a voxel has more than 31 bits: 33 doublings pass 64.
+    const std::vector<Vec3> points{ { 7.75, 8.75, 9.75 }, { 1.75, 2.75, 10.75 } };
+    VoxelAccumulator one(lattice);
+    VoxelAccumulator many(lattice);
+    ASSERT_EQ(one.add(PointView(points.data(), 1), AffineTransform()), Status::Ok);
+    ASSERT_EQ(many.add(PointView(points.data() + 1, 1), AffineTransform()), Status::Ok);
+    for (int doubling = 0; doubling < 33; ++doubling)
+    {
+      VoxelAccumulator same = many.withoutPoints();
+      ASSERT_EQ(same.merge(many), Status::Ok);
+      ASSERT_EQ(many.merge(same), Status::Ok);
+    }
+    ASSERT_EQ(many.merge(one), Status::Ok);
+    VoxelResampler result;
+    ASSERT_EQ(many.finish({}, result), Status::Ok);
+    ASSERT_EQ(result.size(), 2);
+    EXPECT_EQ(result.counts()[0], 1);
+    EXPECT_EQ(result.counts()[1], std::int64_t(1) << 33);
+    std::vector<Vec3> means(2);
+    result.copyMeans(&means[0].x);
+    EXPECT_EQ(means, points);
+  }
+}

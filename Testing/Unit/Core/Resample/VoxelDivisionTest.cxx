@@ -1,5 +1,5 @@
-// The divisions of the vector loops, by counts and by spacings, are correctly rounded: those of the baseline.
-#include "Core/Resample/Kernel/VoxelKernel.h"
+// The vector loops divide by spacings as the baseline does: correctly rounded.
+#include "Core/Resample/Kernel/VoxelKernel.h" // kWidest
 
 #include "RandomClouds.h"
 #include "ResamplerRuns.h"
@@ -19,32 +19,6 @@ namespace
 {
 
 const std::vector<InstructionSet> kSets = heldInstructionSets();
-
-struct Fraction
-{
-  std::int64_t sum;
-  std::int64_t count;
-};
-
-/// Fractions of all sizes, as many again next to midpoints of two doubles.
-std::vector<Fraction> fractions(std::size_t n)
-{
-  Random random(1);
-  std::vector<Fraction> all;
-  while (all.size() < n)
-  {
-    const auto bits = int(random.below(20)); // As many as a packed sum counts.
-    const std::int64_t count = 1 + std::int64_t(random.uniform() * std::ldexp(1.0, bits));
-    all.push_back({ std::int64_t(random.uniform() * std::ldexp(1.0, int(random.below(62)))), count });
-    const std::int64_t few = 1 + std::int64_t(random.below(255));
-    const std::int64_t midpoint = 2 * std::int64_t(random.uniform(0.5, 1.0) * 0x1p53) + 1;
-    all.push_back({ few * midpoint + std::int64_t(random.below(3)) - 1, few });
-    // So near that one correction of the product is needed, and enough.
-    const std::int64_t sum = std::int64_t(random.uniform(0.5, 1.0) * 0x1p53);
-    all.push_back({ sum, count });
-  }
-  return all;
-}
 
 /// A spacing, and a place whose quotient by it is as near to the midpoint of two doubles as any may be. One
 /// of these is a quantum of the lattice (300 voxels), so that a quotient rounded to the other shows.
@@ -80,48 +54,6 @@ NearMidpoint nearMidpoint(Random& random)
   }
 }
 
-}
-
-TEST(VoxelDivision, ByCountsIsCorrectlyRounded)
-{
-  MeanMap map{};
-  map.quantum = 1.0;
-  for (double& spacing : map.spacing)
-  {
-    spacing = 1.0;
-  }
-  const std::vector<Fraction> all = fractions(300000);
-  const CellMap cellMap = { 0, 1, 1, 0, 0 };
-  const std::vector<std::uint32_t> cells(kBatch + kWidest, 0);
-  std::vector<PackedSums> packed(kBatch + kWidest);
-  for (const InstructionSet set : kSets)
-  {
-    const Kernels& kernels = kernelsFor(set);
-    for (std::size_t first = 0; first + kBatch <= all.size(); first += kBatch)
-    {
-      for (std::size_t i = 0; i < kBatch; ++i)
-      {
-        const auto sum = std::uint64_t(all[first + i].sum);
-        packed[i] = { { sum, sum, sum, std::uint64_t(all[first + i].count) << kCountShift } };
-      }
-      double means[3 * kBatch];
-      std::int64_t counts[kBatch];
-      int nearFace[kBatch];
-      kernels.of<double>().packedMeans(
-        map, cellMap, cells.data(), packed.data(), kBatch, means, counts, nearFace);
-      for (int i = 0; i < kBatch; ++i)
-      {
-        const Fraction& fraction = all[first + std::size_t(i)];
-        const double expected = double(fraction.sum) / double(fraction.count);
-        ASSERT_EQ(counts[i], fraction.count);
-        for (int axis = 0; axis < 3; ++axis)
-        {
-          ASSERT_EQ(means[3 * i + axis], expected)
-            << fraction.sum << " / " << fraction.count << ", set " << int(set);
-        }
-      }
-    }
-  }
 }
 
 TEST(VoxelDivision, BySpacingsIsThatOfTheBaselineAtTheFaces)

@@ -123,6 +123,40 @@ TEST(VoxelMean, AgreesUnderAGeneralTransform)
   expectAgrees(view(points), generalTransform(), unitLattice(16));
 }
 
+/// Shears of condition numbers up to 10^6, whose products a double cannot hold: the promise stands without
+/// room for their rounding. The points are the way back from places in the lattice.
+TEST(VoxelMean, AgreesUnderTransformsOfEveryConditionNumber)
+{
+  trial::Random random(3);
+  const Lattice lattice = unitLattice(300);
+  for (int i = 0; i < 60; ++i)
+  {
+    AffineTransform shear;
+    shear.m[0][1] = std::pow(10.0, random.uniform(0, 3));
+    const AffineTransform transform = AffineTransform::rotation(random.uniform(0, 360), random.direction()) *
+      shear * AffineTransform::rotation(random.uniform(0, 360), random.direction());
+    std::vector<Vec3> points;
+    for (int j = 0; j < 200; ++j)
+    {
+      points.push_back(transform.inverse().apply(random.inBox({ 0.1, 0.1, 0.1 }, { 0.9, 0.9, 0.9 })));
+    }
+    const VoxelMeans result = meansOf(view(points), lattice, transform);
+    const reference::VoxelMap expected = reference::voxelMeans(view(points), transform, lattice);
+    ASSERT_EQ(result.keys.size(), expected.voxels.size());
+    std::size_t v = 0;
+    for (const auto& [key, voxel] : expected.voxels)
+    {
+      ASSERT_EQ(result.keys[v], key);
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        const double error = double(std::fabs(voxel.mean[axis] - result.means[v][axis]));
+        ASSERT_LE(error, 0x1.1p-31 * lattice.spacing[axis]) << "shear " << shear.m[0][1];
+      }
+      ++v;
+    }
+  }
+}
+
 TEST(VoxelMean, AgreesOnAnisotropicVoxels)
 {
   Lattice lattice;
