@@ -116,7 +116,7 @@ class Cloud:
     def _add_texts(self, name: str, texts: NDArray[Any], argument: str) -> None:
         if texts.shape != (len(self),) or not all(isinstance(text, str) for text in texts.tolist()):
             raise ValueError(f"{argument}: shape {texts.shape}; give one text for each of the {len(self)} points")
-        self.data.GetPointData().AddArray(texts_to_vtk(texts.tolist(), name))
+        self.data.GetPointData().AddArray(texts_to_vtk([str(text) for text in texts.tolist()], name))
 
     def _add_field(self, name: str, values: object) -> None:
         array = np.atleast_1d(np.asarray(values))

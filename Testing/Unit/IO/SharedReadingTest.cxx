@@ -146,7 +146,7 @@ TEST_F(SharedReading, TextsAreThoseOfAllParts)
   std::string rows = "x,y,z,class,gain\n";
   for (int i = 0; i < 300; ++i)
   {
-    rows += std::to_string(i) + ",0,0," + (i < 170 ? "ground," : "7,") + (i % 100 == 80 ? "none\n" : "1\n");
+    rows += std::to_string(i) + ",0,0," + (i < 170 ? "ground," : "7,") + (i % 100 == 80 ? "gap\n" : "1\n");
   }
   const std::string file = write("class.csv", rows);
   expectPartsOf(file, false);
@@ -154,7 +154,7 @@ TEST_F(SharedReading, TextsAreThoseOfAllParts)
   ASSERT_EQ(notes.size(), 2U);
   EXPECT_NE(notes[0].find("'class' holds texts, such as 'ground' in line 2"), std::string::npos) << notes[0];
   EXPECT_NE(notes[1].find("3 of 300 cells of column 'gain'"), std::string::npos) << notes[1];
-  EXPECT_NE(notes[1].find("'none' in line 82"), std::string::npos) << notes[1];
+  EXPECT_NE(notes[1].find("'gap' in line 82"), std::string::npos) << notes[1];
   for (const PartRead& part : readTogether(4, [&](int) { return file; }))
   {
     EXPECT_EQ(part.result.notes, notes);
