@@ -396,8 +396,8 @@ void vtkPointCloudReader::Finish(io::ReadTask& task, vtkPolyData* cloud)
   if (pointhaptics::lengthUnitOf(cloud, pointhaptics::Bounds()).name == "deg")
   {
     task.notes.push_back(
-      "x and y are degrees of longitude and latitude, which are no lengths; what is shown and felt is in "
-      "metres about their middle. To project the cloud: pdal translate IN OUT reprojection "
+      "x and y are degrees of longitude and latitude, which are no lengths; view and feel take metres "
+      "about their middle. To project the cloud: pdal translate IN OUT reprojection "
       "--filters.reprojection.out_srs=EPSG:UTM-ZONE");
   }
   if (task.wanted.hasBox())
@@ -411,9 +411,11 @@ void vtkPointCloudReader::FinishFaces(io::ReadTask& task, vtkPolyData* cloud)
 {
   if (task.faces.others > 0)
   {
-    task.notes.push_back(pointhaptics::countText(static_cast<std::int64_t>(task.faces.others)) +
-      " strips or cells are not read as faces, of which the points are the vertices; save their surface as "
-      "polygons, for example with ParaView's filters Extract Surface and Triangulate");
+    task.notes.push_back(
+      "the points are vertices: strips and cells are not read as faces, of which there are " +
+      pointhaptics::countText(static_cast<std::int64_t>(task.faces.others)) +
+      "; save their surface as polygons, for example with ParaView's filters Extract Surface and "
+      "Triangulate");
   }
   if (task.faces.count == 0 || task.isTorn()) // the faces of a torn file come after what is missing
   {

@@ -399,7 +399,9 @@ int runFeel(const FeelOptions& options, Files& files)
   const std::string input = options.record.empty() ? options.file : files.input(options.file);
   require(readCloud(input, cloud, message, options.reading), message);
   showNotes(kFeelCommand, options.file, cloud);
-  cloud.points = inLocalMetres(cloud.points); // as view has them
+  const vtkSmartPointer<vtkPolyData> local = inLocalMetres(cloud.points); // as view has them
+  require(local == cloud.points || options.clip.empty(), options.file + ": " + kNoClipOfDegrees);
+  cloud.points = local;
   const Bounds box = feltBox(options, cloud.points);
   FeelScenes scenes;
   require(makeFeelScenes(options, cloud.points, scenes, message), message);

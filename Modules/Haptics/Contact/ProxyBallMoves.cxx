@@ -42,6 +42,8 @@ constexpr double kLongestRide = 0.5;
 constexpr double kFlatAgain = 0.5;
 /// Points further than this from the plane, over the radius, belong to another face.
 constexpr double kFace = 0.15;
+/// Offsets shorter than this, radii, have no direction.
+constexpr double kRounding = 1e-9;
 
 }
 
@@ -192,12 +194,16 @@ bool ProxyBall::hasPointsAround(
   cells.visitBall(foot, radius_,
     [&](const Vec3& offset, double)
     {
-      const Vec3 inFace = std::abs(dot(offset, up)) < kFace * radius_ ? offset : Vec3();
+      const double height = dot(offset, up);
+      const Vec3 flat = offset - height * up;
+      const bool isInFace = std::abs(height) < kFace * radius_ && norm(flat) > kRounding * radius_;
+      const Vec3 inFace = isInFace ? flat : Vec3();
       const double fromRight = dot(cross(right, inFace), up);
       const double fromLeft = dot(cross(left, inFace), up);
       isAround = isAround || (fromRight < 0.0 && fromLeft > 0.0);
       right = fromRight < 0.0 || right == Vec3() ? inFace : right;
-      left = fromLeft > 0.0 || left == Vec3() ? inFace : left;
+      const bool isOpposite = fromRight == 0.0 && dot(right, inFace) < 0.0;
+      left = fromLeft > 0.0 || left == Vec3() || isOpposite ? inFace : left;
     });
   return isAround;
 }

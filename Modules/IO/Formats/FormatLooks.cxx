@@ -180,7 +180,8 @@ bool looksLikeOff(const FormatStart& start)
 {
   std::string_view line = start.line;
   std::string_view word = takeWord(line);
-  word = word.substr(0, word.find("OFF") + 3); // the first count may stick to it: "OFF8 12 0"
+  word = word.substr(
+    0, word.find_first_of("0123456789", word.find("OFF"))); // a count may stick to it: "OFF8 12 0"
   return word.size() >= 3 && word.size() <= 8 && word.substr(word.size() - 3) == "OFF" &&
     word.find_first_not_of("STCN4nOF") == std::string_view::npos;
 }

@@ -141,13 +141,18 @@ vtkSmartPointer<vtkPolyData> inLocalMetres(vtkPolyData* cloud)
     return cloud;
   }
   const vtkIdType count = cloud->GetNumberOfPoints();
+  const auto isNoReturn = [&](vtkIdType i)
+  {
+    const double* p = cloud->GetPoint(i);
+    return p[0] == 0.0 && p[1] == 0.0 && p[2] == 0.0;
+  };
   const auto medianOf = [&](int axis)
   {
     std::vector<double> finite;
     for (vtkIdType i = 0; i < count; ++i)
     {
       const double value = cloud->GetPoints()->GetData()->GetComponent(i, axis);
-      std::isfinite(value) ? finite.push_back(value) : void();
+      std::isfinite(value) && !isNoReturn(i) ? finite.push_back(value) : void();
     }
     const auto median = finite.begin() + std::ptrdiff_t(finite.size() / 2);
     std::nth_element(finite.begin(), median, finite.end());
@@ -162,7 +167,9 @@ vtkSmartPointer<vtkPolyData> inLocalMetres(vtkPolyData* cloud)
   {
     double p[3];
     cloud->GetPoint(i, p);
-    points->SetPoint(i, metres[0] * (p[0] - middle[0]), metres[1] * (p[1] - middle[1]), p[2]);
+    const double east = std::remainder(p[0] - middle[0], 360.0);
+    isNoReturn(i) ? points->SetPoint(i, p)
+                  : points->SetPoint(i, metres[0] * east, metres[1] * (p[1] - middle[1]), p[2]);
   }
   auto local = vtkSmartPointer<vtkPolyData>::New();
   local->ShallowCopy(cloud);

@@ -131,14 +131,13 @@ private:
   UnusedNames shortNames_;
 };
 
-/// The array of that field, converted to @p type where it has another one: other formats store values as they
-/// like. Null where there is none, or where whole numbers from 0 to @p most are needed and it has others.
+/// The array of that field as @p type. Null: none has it with whole values up to @p most.
 const OutputArray* LasWriter::take(const char* name, int type, int components, double most)
 {
   for (std::size_t i = 1; i < arrays_.size(); ++i)
   {
     const OutputArray& array = arrays_[i];
-    if (taken_[i] || !isLabelField(array.name, name) || array.components() != components)
+    if (taken_[i] || !isSameField(array.name, name) || array.components() != components)
     {
       continue;
     }
@@ -183,9 +182,10 @@ void LasWriter::takeStandardArrays()
   intensity_ = take("Intensity", VTK_TYPE_UINT16);
   returnNumber_ = take("ReturnNumber", VTK_TYPE_UINT8, 1, 15);
   numberOfReturns_ = take("NumberOfReturns", VTK_TYPE_UINT8, 1, 15);
-  classification_ = take("Classification", VTK_TYPE_UINT8);
-  classification_ = classification_ ? classification_ : take("Class", VTK_TYPE_UINT8);
-  classification_ = classification_ ? classification_ : take("Label", VTK_TYPE_UINT8);
+  for (const char* name : { "Classification", "scalar_Classification", "Class", "Label", "scalar_Label" })
+  {
+    classification_ = classification_ ? classification_ : take(name, VTK_TYPE_UINT8);
+  }
   if (classification_ && !isSameField(classification_->name, "Classification"))
   {
     notes_.add("array " + classification_->name + " is called Classification");

@@ -276,7 +276,7 @@ bool sampleFaces(
   const auto right = static_cast<std::uint64_t>(polygons->GetNumberOfCells());
   if (right == 0)
   {
-    told += ", which name others that are not there";
+    told += " that name missing ones";
     return false;
   }
   const std::vector<Triangle> triangles = trianglesOf(cloud, polygons, progress);

@@ -60,7 +60,9 @@ void walkObj(const ReadTask& task, std::string_view text, Sink& sink, double fro
   while (lines.next(line))
   {
     const std::size_t number = lines.lineNumber();
-    for (joined.clear(); !line.empty() && line.back() == '\\'; line = joined)
+    // Names and comments may end with a backslash, as folders do; numbers go on behind it.
+    const bool hasNumbers = !line.empty() && std::string_view("vflp").find(line.front()) < 4;
+    for (joined.clear(); hasNumbers && !line.empty() && line.back() == '\\'; line = joined)
     {
       joined.assign(line).back() = ' ';
       std::string_view next;

@@ -218,38 +218,6 @@ std::string_view withoutComment(std::string_view cell)
   return mark == std::string_view::npos ? cell : trimmed(cell.substr(0, mark));
 }
 
-std::string withJoinedCells(std::string_view text)
-{
-  constexpr std::size_t kLongestCell = 4096;
-  constexpr std::string_view kSeparators = ",;|\t\r\n";
-  std::string joined;
-  for (std::size_t begin = text.find('"'); begin != std::string_view::npos; begin = text.find('"', begin + 1))
-  {
-    const std::size_t before = begin == 0 ? std::string_view::npos : text.find_last_not_of(' ', begin - 1);
-    std::size_t end = text.find('"', begin + 1);
-    while (end < text.size() && end - begin < kLongestCell && text.substr(end + 1, 1) == "\"")
-    {
-      end = text.find('"', end + 2); // within quotation marks one stands twice
-    }
-    const bool isCell =
-      (before == std::string_view::npos || kSeparators.find(text[before]) < kSeparators.size()) &&
-      end != std::string_view::npos && end - begin < kLongestCell &&
-      (end + 1 == text.size() || kSeparators.find(text[end + 1]) < kSeparators.size());
-    if (!isCell)
-    {
-      continue;
-    }
-    const std::size_t size = end - begin;
-    if (text.substr(begin, size).find('\n') < size)
-    {
-      joined = joined.empty() ? std::string(text) : joined;
-      std::replace(joined.begin() + std::ptrdiff_t(begin), joined.begin() + std::ptrdiff_t(end), '\n', ' ');
-    }
-    begin = end;
-  }
-  return joined;
-}
-
 std::vector<std::string_view> cellsOf(std::string_view line, char separator, std::size_t lineNumber)
 {
   std::vector<std::string_view> cells;

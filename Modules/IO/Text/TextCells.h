@@ -65,10 +65,6 @@ inline bool takeCell(std::string_view& line, char separator, std::string_view& c
 /// The number before a comment, such as "3" for "3 # a corner". All of @p cell where it holds none.
 std::string_view withoutComment(std::string_view cell);
 
-/// @p text with blanks for the line ends in cells that begin and end with a quotation mark. Empty where it
-/// has none.
-std::string withJoinedCells(std::string_view text);
-
 /// All cells before a comment, without empty ones at the end. @throws FileProblem when they are more than
 /// kMostColumns.
 std::vector<std::string_view> cellsOf(std::string_view line, char separator, std::size_t lineNumber);

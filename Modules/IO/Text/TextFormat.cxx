@@ -345,8 +345,7 @@ void readText(ReadTask& task, vtkPolyData* cloud)
 {
   task.format = "text";
   task.need(0, kStartOfText);
-  const std::string joined = task.shared ? std::string() : withJoinedCells(task.bytes);
-  const std::string_view text = withoutByteOrderMark(joined.empty() ? task.bytes : joined);
+  const std::string_view text = withoutByteOrderMark(task.bytes);
   const TextLayout layout = layoutOf(task, text);
   const bool isBlank = layout.columns == 0 && layout.names.empty();
   task.format = layout.hasPointCount ? "PTS"

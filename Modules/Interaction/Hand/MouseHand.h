@@ -39,7 +39,11 @@ public:
 
   ///@{
   /// Hand mode: the hand follows the mouse pointer in the view plane at its depth. Default: off.
-  void setFollowsMouse(bool on) { followsMouse_ = on; }
+  void setFollowsMouse(bool on)
+  {
+    followsMouse_ = on;
+    hoverIsDue_ = hoverIsDue_ && on;
+  }
   bool followsMouse() const { return followsMouse_; }
   ///@}
   ///@{

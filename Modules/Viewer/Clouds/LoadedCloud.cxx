@@ -497,13 +497,27 @@ void noteNoReturns(const CloudRequest& request, LoadedCloud& loaded)
   loaded.notes.push_back(fmt::format("{}: {} {}", loaded.title, noReturnsText(loaded.noReturns), what));
 }
 
+/// All of readAll(), in metres where it is in degrees; null: @p message.
+static vtkSmartPointer<vtkPolyData> readInMetres(const CloudRequest& request,
+  const std::function<bool(double)>& goesOn, Findings& findings, std::string& message)
+{
+  const vtkSmartPointer<vtkPolyData> read = readAll(request, goesOn, findings, message);
+  vtkSmartPointer<vtkPolyData> local = inLocalMetres(read);
+  if (local != read && !request.options->clip.empty())
+  {
+    message = fmt::format("{}: {}", request.name(), kNoClipOfDegrees);
+    return nullptr;
+  }
+  return local;
+}
+
 bool loadCloud(const CloudRequest& request, const std::function<bool(double)>& goesOn, LoadedCloud& loaded,
   std::string& message)
 {
   LoadedCloud result;
   Findings findings;
   result.title = request.name();
-  result.cloud = inLocalMetres(readAll(request, goesOn, findings, message));
+  result.cloud = readInMetres(request, goesOn, findings, message);
   if (!result.cloud)
   {
     return false;

@@ -107,4 +107,16 @@ TEST_F(WrittenNames, NumbersThatAFieldCannotHoldAreSaid)
   EXPECT_EQ(readCloud(path("a.las")).array("GpsTimeExtra")->GetVariantValue(0).ToLongLong(), (1LL << 53) + 1);
 }
 
+TEST_F(WrittenNames, AClassificationIsNotTakenForAnother)
+{
+  const std::string rows =
+    "x,y,z,pred_classification,scalar_Classification,Classification\n1,2,3,-1,5,2\n4,5,6,1,6,9\n";
+  const ReadResult read = readCloud(write("a.csv", rows));
+  ASSERT_EQ(read.error, "");
+  ASSERT_EQ(writeCloud(read.cloud, path("a.las")), "");
+  const ReadResult result = readCloud(path("a.las"));
+  EXPECT_EQ(result.value("Classification", 0), 2.0);
+  EXPECT_EQ(result.value("Classification", 1), 9.0);
+}
+
 } // namespace

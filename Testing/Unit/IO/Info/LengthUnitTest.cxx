@@ -159,6 +159,25 @@ TEST(LengthUnit, DegreesBecomeMetresAboutTheMiddle)
   EXPECT_NEAR(last[1] - first[1], 0.004 * 111195.0, 0.2);
   EXPECT_EQ(last[2] - first[2], 10.0);
   EXPECT_LT(std::abs(last[0] + first[0]), 120.0);
+  local->GetPoint(11, last);
+  EXPECT_EQ(last[0], 0.0) << "no return stays one";
+  EXPECT_EQ(last[1], 0.0);
+}
+
+TEST(LengthUnit, DegreesGoOnAcrossTheAntimeridian)
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  for (const double longitude : { 179.999, 179.9995, -179.9995, -179.999 })
+  {
+    points->InsertNextPoint(longitude, -17.0, 5.0);
+  }
+  vtkNew<vtkPolyData> cloud;
+  cloud->SetPoints(points);
+  sayUnit(cloud, "degree");
+  double box[6];
+  inLocalMetres(cloud)->GetBounds(box);
+  EXPECT_NEAR(box[1] - box[0], 0.002 * 111195.0 * 0.9563, 0.5);
 }
 
 } // namespace

@@ -227,4 +227,22 @@ TEST_F(MeshFormats, OffGivesVerticesNormalsAndColors)
   EXPECT_EQ(readCloud(write("e.off", "// note\nOFF\n1 0 0\n1 2 3\n")).points(), 1);
 }
 
+TEST_F(MeshFormats, ABackslashEndsNamesAndContinuesNumbers)
+{
+  const ReadResult result =
+    readCloud(write("a.obj", "# saved in C:\\models\\\nv 0 0 0\nusemtl C:\\\nv 1 0 \\\n0\nv 0 1 0\n"));
+  ASSERT_EQ(result.error, "");
+  EXPECT_EQ(result.points(), 3);
+}
+
+TEST_F(MeshFormats, AWordThatBeginsAsOffIsText)
+{
+  for (const char* name : { "OFFSET,X,Y,Z\n7,1,2,3\n", "OFFSET X Y Z\n7 1 2 3\n" })
+  {
+    const ReadResult result = readCloud(write("a.csv", name));
+    ASSERT_EQ(result.error, "") << name;
+    EXPECT_EQ(result.cloud->GetPoint(0)[2], 3.0) << name;
+  }
+}
+
 } // namespace

@@ -394,19 +394,8 @@ TEST_F(Text, ColumnsThatAreOddAreLabels)
   }
 }
 
-TEST_F(Text, CellsMayHaveSeveralLinesAndNoValue)
+TEST_F(Text, CellsMayHaveNoValue)
 {
-  const ReadResult result = readCloud(write("a.csv",
-    "x,y,z,\"intensity\n(dn)\",name\n1,2,3,4,\"two\nlines, \"\"one\"\" "
-    "comma\"\n5,6,7,NULL,\"a\"\n8,9,1,n/a,b\n"));
-  ASSERT_EQ(result.error, "");
-  ASSERT_EQ(result.points(), 3);
-  ASSERT_TRUE(result.array("intensity (dn)"));
-  EXPECT_EQ(result.value("intensity (dn)", 0), 4.0);
-  EXPECT_TRUE(std::isnan(result.value("intensity (dn)", 1)));
-  ASSERT_EQ(result.notes.size(), 1u) << "of the names alone";
-  const ReadResult inches = readCloud(write("b.csv", "# pipe of 5\"\nx,y,z,size\n1,2,3,5\"\n4,5,6,7\"\n"));
-  EXPECT_EQ(inches.points(), 2);
   const ReadResult most = readCloud(write("c.csv", "x,y,z,t\n1,2,3,NULL\n1,2,4,NA\n1,2,5,1.5\n"));
   ASSERT_TRUE(most.array("t"));
   EXPECT_EQ(most.value("t", 2), 1.5);
