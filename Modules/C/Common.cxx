@@ -186,3 +186,8 @@ void ph_set_interpreter_lock(
 {
   setInterpreterLock({ is_held, release, take, is_ending });
 }
+
+void ph_end_interpreter(void)
+{
+  endInterpreter();
+}

@@ -190,6 +190,7 @@ int vtkCloudAlgorithm::RequestData(
     }
   }
   this->RunsAgain = false;
+  this->SetProgressShiftScale(0.0, 1.0);
   this->ErrorMessage.clear();
   this->SetErrorCode(vtkErrorCode::NoError);
   const vtkMTimeType begin = this->GetMTime();
@@ -203,20 +204,20 @@ int vtkCloudAlgorithm::RequestData(
     this->Fail(problem);
   }
   bool succeeded = problem.empty();
-  const pointhaptics::Status end =
-    pointhaptics::guardedWork([&] { succeeded = succeeded && this->RunParts(parts); });
+  const pointhaptics::Status end = pointhaptics::guardedWork(
+    [&] { succeeded = succeeded && this->RunParts(parts); }, [this] { this->AbortExecute = 1; });
   if (end != pointhaptics::Status::Ok)
   {
     succeeded = false;
     this->Fail(std::string(message(end)) + ".");
     this->SetErrorCode(pointhaptics::kOutOfMemoryCode);
   }
+  this->SetProgressShiftScale(0.0, 1.0);
   succeeded = !pointhaptics::shallStop(this, 0) && succeeded;
   if (!succeeded)
   {
     parts.Empty();
   }
-  this->SetProgressShiftScale(0.0, 1.0);
   this->EndRun(succeeded);
   this->RunsAgain = this->GetMTime() > begin;
   this->RunsAgain = this->RunsAgain || !succeeded;

@@ -469,6 +469,7 @@ int vtkPointCloudReader::RequestData(
   this->Coarse = false;
   this->Sampled = false;
   this->SetErrorCode(vtkErrorCode::NoError);
+  this->SetProgressShiftScale(0.0, 1.0);
   // The pipeline goes on with an empty cloud after a fault: returning 0 would add the executive's own
   // message, which callers cannot silence.
   if (!this->FileName || !*this->FileName)
@@ -476,7 +477,7 @@ int vtkPointCloudReader::RequestData(
     this->Fail(vtkErrorCode::NoFileNameError, "there is nothing to read; set a file name");
     return 1;
   }
-  const pointhaptics::WithoutInterpreterLock unlocked;
+  const pointhaptics::WithoutInterpreterLock unlocked([this] { this->AbortExecute = 1; });
   try
   {
     this->ReadInto(output);

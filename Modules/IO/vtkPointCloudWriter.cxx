@@ -197,12 +197,13 @@ void vtkPointCloudWriter::WriteCloud(vtkPointSet* cloud)
 
 void vtkPointCloudWriter::WriteData()
 {
+  this->SetProgressShiftScale(0.0, 1.0);
   if (!this->FileName || !*this->FileName)
   {
     this->Fail(vtkErrorCode::NoFileNameError, "there is nowhere to write to; set a file name");
     return;
   }
-  const pointhaptics::WithoutInterpreterLock unlocked;
+  const pointhaptics::WithoutInterpreterLock unlocked([this] { this->AbortExecute = 1; });
   try
   {
     this->WriteCloud(vtkPointSet::SafeDownCast(this->GetInput()));

@@ -285,7 +285,8 @@ int vtkHapticFeel::RequestData(
       isFelt = pathOf(vtkTable::GetData(inputVector[1]), path, message) && this->Impl->Check(this, message) &&
         countTicks(path, "path", this->Rate, kMostTicks, ticks, message) &&
         this->Impl->MakeScenes(this, cloud, message) && this->Impl->Feel(this, path, ticks, output, odd);
-    });
+    },
+    [this] { this->AbortExecute = 1; });
   message = status == Status::Ok ? message : pointhaptics::message(status);
   this->Impl->RunsAgain = !isFelt;
   const unsigned long code = message.empty() ? vtkErrorCode::NoError : vtkErrorCode::UserError;

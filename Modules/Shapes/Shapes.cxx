@@ -191,9 +191,9 @@ struct IdolBounds
       for (int i = 0; i < 60000; ++i)
       {
         const Vec3 q = random.sphere();
-        const double area = 1.4 * norm(IdolPatch<1>(q).areaNormal());
-        result.area[slice(q)] = std::max(result.area[slice(q)], area);
-        result.densityTimesArea = std::max(result.densityTimesArea, idolDensity(q) * area);
+        const double size = 1.4 * norm(IdolPatch<1>(q).areaNormal());
+        result.area[slice(q)] = std::max(result.area[slice(q)], size);
+        result.densityTimesArea = std::max(result.densityTimesArea, idolDensity(q) * size);
       }
       return result;
     }();

@@ -8,6 +8,8 @@ import threading
 import time
 from typing import Any, Callable, Generic, List, Optional, Set, TypeVar
 
+from .library import end_interpreter
+
 Result = TypeVar("Result")
 
 # Seconds that a call is waited for after a signal handler raised; it ends soon after that, and its result is dropped.
@@ -95,3 +97,4 @@ def _end() -> None:
         for call in list(_running):
             call.stop()
         time.sleep(_LOOK)
+    end_interpreter()  # filters that threads update themselves

@@ -104,6 +104,7 @@ servo_trace = _function("ph_servo_trace", c_void_p, c_void_p, c_size_t, POINTER(
 servo_statistics_of = _function("ph_servo_statistics_of", c_void_p, POINTER(ServoStatistics))
 servo_stop = _function("ph_servo_stop", c_void_p, result=None)
 servo_destroy = _function("ph_servo_destroy", c_void_p, result=None)
+end_interpreter = _function("ph_end_interpreter", result=None)
 
 
 def check(status: int) -> None:

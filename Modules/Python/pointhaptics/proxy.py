@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ctypes import byref
-from typing import Mapping, Optional
+from typing import Any, Mapping, Optional
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -86,7 +86,8 @@ class Proxy:
             i = 0
         self._next = i + 1
         try:
-            x, y, z = hand  # type: ignore[misc]
+            given: Any = hand
+            x, y, z = given
             self._hand[:] = (x, y, z)
         except (TypeError, ValueError):
             as_place(hand, "hand")

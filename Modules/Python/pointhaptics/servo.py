@@ -162,7 +162,7 @@ class ServoLoop:
         jitter_p50, jitter_p99, jitter_max, update_p50, update_p99 and update_max."""
         result = library.struct_of(library.ServoStatistics)
         library.check(library.servo_statistics_of(self._handle.value, byref(result)))
-        return {name: getattr(result, name) for name, _ in library.ServoStatistics._fields_[1:]}
+        return {field[0]: getattr(result, field[0]) for field in library.ServoStatistics._fields_[1:]}
 
     def stop(self) -> None:
         """Take the force away and end the thread. What is in the trace stays there."""

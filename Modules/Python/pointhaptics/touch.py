@@ -34,7 +34,7 @@ def gains_of(preset: str, gains: Optional[Mapping[str, float]]) -> library.Gains
     """The gains of a preset, some of them replaced; raises for names that there are not, and numbers out of range."""
     result = library.struct_of(library.Gains)
     library.check(library.gains_of(word(preset, "preset", PRESETS), byref(result)))
-    names = [name for name, _ in library.Gains._fields_[1:]]
+    names = [field[0] for field in library.Gains._fields_[1:]]
     for name, value in ({} if gains is None else gains).items():
         if name not in names:
             raise ValueError(f"gains: no gain is called {name!r}; give some of {', '.join(names)}")

@@ -1,5 +1,8 @@
 #include "CloudLoader.h"
 
+#include "Core/Base/Host/OutOfMemory.h"
+#include "Core/Base/Status.h"
+
 #include <vtkPolyData.h>
 
 #include <algorithm>
@@ -8,7 +11,6 @@
 #include <condition_variable>
 #include <exception>
 #include <mutex>
-#include <new>
 #include <thread>
 #include <utility>
 
@@ -55,13 +57,10 @@ void Load::run()
       message.clear();
     }
   }
-  catch (const std::bad_alloc&)
-  {
-    message = request.name() + ": not enough memory; close other programs or thin the cloud";
-  }
   catch (const std::exception& fault)
   {
-    message = request.name() + ": " + fault.what();
+    message = request.name() + ": " +
+      (isOutOfMemory(fault) ? pointhaptics::message(Status::OutOfMemory) : fault.what());
   }
 }
 

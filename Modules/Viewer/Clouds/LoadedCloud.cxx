@@ -72,7 +72,7 @@ vtkSmartPointer<vtkPolyData> readPoints(const std::string& fileName, const Cloud
     [](vtkObject*, unsigned long, void* client, void* fraction)
     {
       const auto& self = *static_cast<Listener*>(client);
-      if (fraction && !self.goesOn(*static_cast<double*>(fraction)))
+      if (fraction && !self.reader->GetAbortExecute() && !self.goesOn(*static_cast<double*>(fraction)))
       {
         self.reader->SetAbortExecute(1);
       }

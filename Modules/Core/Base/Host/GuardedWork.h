@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <exception>
+#include <functional>
 #include <utility>
 
 namespace pointhaptics
@@ -17,17 +18,17 @@ namespace pointhaptics
 /// its constructor.
 constexpr std::size_t kRoomOfWork = std::size_t(16) << 20;
 
-/// Calls @p work without the interpreter's lock. @return OutOfMemory where memory ran out in it, else Ok.
-/// Other exceptions pass.
+/// Calls @p work without the interpreter's lock, at whose end @p stop ends the work. @return OutOfMemory
+/// where memory ran out in it, else Ok. Other exceptions pass.
 template <typename Work>
-Status guardedWork(Work&& work)
+Status guardedWork(Work&& work, std::function<void()> stop = {})
 {
   prepareForExceptions();
   if (!hasAddressSpace(kRoomOfWork))
   {
     return Status::OutOfMemory;
   }
-  const WithoutInterpreterLock unlocked;
+  const WithoutInterpreterLock unlocked(std::move(stop));
   try
   {
     std::forward<Work>(work)();

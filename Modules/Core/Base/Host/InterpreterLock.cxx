@@ -1,7 +1,9 @@
 #include "Core/Base/Host/InterpreterLock.h"
 
 #include <chrono>
+#include <mutex>
 #include <thread>
+#include <utility>
 
 namespace pointhaptics
 {
@@ -9,6 +11,19 @@ namespace
 {
 
 InterpreterLock theLock;
+/// Guards what follows.
+std::mutex theMutex;
+/// First of the threads that work without the lock.
+WithoutInterpreterLock* theFirst = nullptr;
+bool isOver = false;
+
+[[noreturn]] void sleepToTheEnd()
+{
+  while (true)
+  {
+    std::this_thread::sleep_for(std::chrono::hours(1));
+  }
+}
 
 } // namespace
 
@@ -17,9 +32,41 @@ void setInterpreterLock(const InterpreterLock& lock) noexcept
   theLock = lock;
 }
 
-WithoutInterpreterLock::WithoutInterpreterLock() noexcept
-  : state_(theLock.isHeld && theLock.isHeld() ? theLock.release() : nullptr)
+void endInterpreter() noexcept
 {
+  std::unique_lock lock(theMutex);
+  isOver = true;
+  while (theFirst)
+  {
+    for (const WithoutInterpreterLock* thread = theFirst; thread; thread = thread->next_)
+    {
+      if (thread->stop_)
+      {
+        thread->stop_();
+      }
+    }
+    lock.unlock();
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    lock.lock();
+  }
+}
+
+WithoutInterpreterLock::WithoutInterpreterLock(std::function<void()> stop) noexcept
+  : state_(theLock.isHeld && theLock.isHeld() ? theLock.release() : nullptr)
+  , stop_(std::move(stop))
+{
+  if (!state_)
+  {
+    return;
+  }
+  std::unique_lock lock(theMutex);
+  if (isOver)
+  {
+    lock.unlock();
+    sleepToTheEnd();
+  }
+  next_ = theFirst;
+  theFirst = this;
 }
 
 WithoutInterpreterLock::~WithoutInterpreterLock()
@@ -28,9 +75,18 @@ WithoutInterpreterLock::~WithoutInterpreterLock()
   {
     return;
   }
-  while (theLock.isEnding && theLock.isEnding())
+  std::unique_lock lock(theMutex);
+  WithoutInterpreterLock** place = &theFirst;
+  while (*place != this)
   {
-    std::this_thread::sleep_for(std::chrono::hours(1));
+    place = &(*place)->next_;
+  }
+  *place = next_;
+  const bool ends = isOver;
+  lock.unlock();
+  if (ends || (theLock.isEnding && theLock.isEnding()))
+  {
+    sleepToTheEnd();
   }
   theLock.take(state_);
 }

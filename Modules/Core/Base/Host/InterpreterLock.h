@@ -2,6 +2,8 @@
 /// Gives up the lock of the interpreter that calls, such as Python's GIL, while long work runs.
 #pragma once
 
+#include <functional>
+
 namespace pointhaptics
 {
 
@@ -17,19 +19,30 @@ struct InterpreterLock
 /// Sets the lock of this process. Call it before other threads use this library.
 void setInterpreterLock(const InterpreterLock& lock) noexcept;
 
+/// Stops the work of all threads that are WithoutInterpreterLock, and waits until it has ended. From then on
+/// a thread that begins or ends such work sleeps until the process ends: its code and the data of the
+/// libraries go meanwhile. Call it without the lock.
+void endInterpreter() noexcept;
+
 /// While it lives the calling thread is without the interpreter's lock, so that other threads of the
 /// interpreter run. No effect where there is no interpreter, or the thread does not hold its lock. After the
 /// end of the interpreter the thread sleeps until the process ends, as the interpreter's own threads do.
 class WithoutInterpreterLock
 {
 public:
-  WithoutInterpreterLock() noexcept;
+  /// @param stop asks the work of this thread to end soon; endInterpreter() calls it from another thread,
+  /// again and again.
+  explicit WithoutInterpreterLock(std::function<void()> stop = {}) noexcept;
   ~WithoutInterpreterLock();
   WithoutInterpreterLock(const WithoutInterpreterLock&) = delete;
   WithoutInterpreterLock& operator=(const WithoutInterpreterLock&) = delete;
 
 private:
+  friend void endInterpreter() noexcept;
+
   void* state_ = nullptr;
+  std::function<void()> stop_;
+  WithoutInterpreterLock* next_ = nullptr;
 };
 
 } // namespace pointhaptics
