@@ -16,6 +16,7 @@ export PATH="$ROOT/usr/bin:$PATH"
 export POINTHAPTICS_PLUGIN="$PLUGIN"
 # Several ranks on few cores, in a container too.
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1
+export PRTE_ALLOW_RUN_AS_ROOT=1 PRTE_ALLOW_RUN_AS_ROOT_CONFIRM=1 PRTE_MCA_rmaps_default_mapping_policy=:oversubscribe
 # Ranks that wait give their core to the one that works, and to the client.
 export OMPI_MCA_mpi_yield_when_idle=1 OMPI_MCA_hwloc_base_binding_policy=none
 exec "$@"
