@@ -3,8 +3,8 @@
  * Feeling point clouds from C and every language that calls C: scenes, proxies, paths, and a servo loop.
  *
  * @code
- * ph_scene* scene;
- * ph_proxy* proxy;
+ * ph_scene* scene = NULL;
+ * ph_proxy* proxy = NULL;
  * ph_state state = { sizeof state };
  * if (ph_scene_create(points, count, NULL, &scene) || ph_proxy_create(NULL, &proxy))
  *   fprintf(stderr, "%s\n", ph_problem());

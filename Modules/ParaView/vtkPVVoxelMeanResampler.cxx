@@ -1,5 +1,10 @@
 #include "vtkPVVoxelMeanResampler.h"
 
+#include "Core/Resample/FieldNames.h"
+
+#include "vtkCommand.h"
+#include "vtkCompositeDataSet.h"
+#include "vtkCompositeDataSetRange.h"
 #include "vtkFieldData.h"
 #include "vtkIdTypeArray.h"
 #include "vtkNew.h"
@@ -16,24 +21,25 @@ vtkStandardNewMacro(vtkPVVoxelMeanResampler);
 vtkPVVoxelMeanResampler::vtkPVVoxelMeanResampler()
   : Chosen(this->GetSettings().lattice)
 {
+  this->Categorical->AddObserver(vtkCommand::ModifiedEvent, this, &vtkPVVoxelMeanResampler::ApplyChosen);
 }
 
 void vtkPVVoxelMeanResampler::SetLatticeMode(int mode)
 {
   this->LatticeMode = std::clamp<int>(mode, ByVoxelSize, ByDimensions);
-  this->ApplyLattice();
+  this->ApplyChosen();
 }
 
 void vtkPVVoxelMeanResampler::SetVoxelSize(double size)
 {
   this->Chosen.voxelSize = size;
-  this->ApplyLattice();
+  this->ApplyChosen();
 }
 
 void vtkPVVoxelMeanResampler::SetDimensions(int nx, int ny, int nz)
 {
   this->Chosen.dimensions = { nx, ny, nz };
-  this->ApplyLattice();
+  this->ApplyChosen();
 }
 
 void vtkPVVoxelMeanResampler::SetDimensions(const int dimensions[3])
@@ -44,28 +50,72 @@ void vtkPVVoxelMeanResampler::SetDimensions(const int dimensions[3])
 void vtkPVVoxelMeanResampler::SetAutomaticWorkspace(bool automatic)
 {
   this->Chosen.automaticWorkspace = automatic;
-  this->ApplyLattice();
+  this->ApplyChosen();
 }
 
-void vtkPVVoxelMeanResampler::SetWorkspaceBounds(
-  double x0, double x1, double y0, double y1, double z0, double z1)
+void vtkPVVoxelMeanResampler::SetWorkspacePosition(double x, double y, double z)
 {
-  this->Chosen.workspace = { { x0, y0, z0 }, { x1, y1, z1 } };
-  this->ApplyLattice();
+  this->Position = { x, y, z };
+  this->ApplyChosen();
 }
 
-void vtkPVVoxelMeanResampler::SetWorkspaceBounds(const double bounds[6])
+void vtkPVVoxelMeanResampler::SetWorkspaceSize(double x, double y, double z)
 {
-  this->SetWorkspaceBounds(bounds[0], bounds[1], bounds[2], bounds[3], bounds[4], bounds[5]);
+  this->Size = { x, y, z };
+  this->ApplyChosen();
 }
 
-void vtkPVVoxelMeanResampler::ApplyLattice()
+int vtkPVVoxelMeanResampler::RequestInformation(
+  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector*)
+{
+  const bool areFirst = this->Categorical->GetNumberOfArrays() == 0;
+  const auto add = [&](vtkDataObject* block)
+  {
+    vtkFieldData* arrays = block ? block->GetAttributesAsFieldData(vtkDataObject::POINT) : nullptr;
+    for (int i = 0; arrays && i < arrays->GetNumberOfArrays(); ++i)
+    {
+      const char* name = arrays->GetArrayName(i);
+      if (name)
+      {
+        const std::set<std::string>& labels = pointhaptics::VoxelMeanSettings().categoricalArrays;
+        this->Categorical->AddArray(name,
+          areFirst &&
+            std::any_of(labels.begin(), labels.end(),
+              [name](const std::string& label) { return pointhaptics::isLabelField(name, label); }));
+      }
+    }
+  };
+  vtkDataObject* input = vtkDataObject::GetData(inputs[0]);
+  add(input);
+  if (auto* blocks = vtkCompositeDataSet::SafeDownCast(input))
+  {
+    for (vtkDataObject* block : vtk::Range(blocks))
+    {
+      add(block);
+    }
+  }
+  return 1;
+}
+
+void vtkPVVoxelMeanResampler::ApplyChosen()
 {
   pointhaptics::VoxelMeanSettings settings = this->GetSettings();
   settings.lattice = this->Chosen;
+  settings.lattice.workspace = { this->Position, this->Position + this->Size };
   if (this->LatticeMode == ByDimensions)
   {
     settings.lattice.voxelSize = 0.0;
+  }
+  if (this->Categorical->GetNumberOfArrays() > 0)
+  {
+    settings.categoricalArrays.clear();
+  }
+  for (int i = 0; i < this->Categorical->GetNumberOfArrays(); ++i)
+  {
+    if (this->Categorical->GetArraySetting(i))
+    {
+      settings.categoricalArrays.insert(this->Categorical->GetArrayName(i));
+    }
   }
   this->SetSettings(settings);
 }

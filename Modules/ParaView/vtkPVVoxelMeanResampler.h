@@ -19,7 +19,9 @@
 
 #include "Core/Base/Lattice.h"          // For Chosen
 #include "PointHapticsParaViewModule.h" // For export macro
+#include "vtkDataArraySelection.h"      // For Categorical
 #include "vtkDistributedVoxelMeanResampler.h"
+#include "vtkNew.h" // For Categorical
 
 class POINTHAPTICSPARAVIEW_EXPORT vtkPVVoxelMeanResampler : public vtkDistributedVoxelMeanResampler
 {
@@ -51,20 +53,33 @@ public:
   void SetDimensions(const int dimensions[3]) override;
   ///@}
 
-  ///@{
   /**
-   * As in vtkVoxelMeanResampler, but bounds do not turn AutomaticWorkspace off.
+   * As in vtkVoxelMeanResampler.
    */
   void SetAutomaticWorkspace(bool automatic) override;
-  void SetWorkspaceBounds(double x0, double x1, double y0, double y1, double z0, double z1) override;
-  void SetWorkspaceBounds(const double bounds[6]) override;
+
+  ///@{
+  /**
+   * Least corner and edges of the box that is the workspace where AutomaticWorkspace is off: what a box in
+   * the view moves.
+   */
+  void SetWorkspacePosition(double x, double y, double z);
+  void SetWorkspaceSize(double x, double y, double z);
   ///@}
+
+  /**
+   * The input's point arrays, those with labels enabled: these are the CategoricalArrays. Arrays that it does
+   * not know yet come from the input before each update; the first, if none was set before, are enabled where
+   * CategoricalArrays takes them by default.
+   */
+  vtkDataArraySelection* GetCategoricalArraySelection() { return this->Categorical; }
 
 protected:
   vtkPVVoxelMeanResampler();
   ~vtkPVVoxelMeanResampler() override = default;
 
 #ifndef __VTK_WRAP__
+  int RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
   std::string ProblemOf(vtkDataObject* input) override;
   bool RunCloud(vtkPointSet* cloud, const Outputs& outputs) override;
 #endif
@@ -73,10 +88,13 @@ private:
   vtkPVVoxelMeanResampler(const vtkPVVoxelMeanResampler&) = delete;
   void operator=(const vtkPVVoxelMeanResampler&) = delete;
 
-  void ApplyLattice();
+  void ApplyChosen();
 
   int LatticeMode = ByDimensions;
   pointhaptics::LatticeSettings Chosen; // with the voxel size of both modes
+  pointhaptics::Vec3 Position{ -0.05, -0.05, -0.05 };
+  pointhaptics::Vec3 Size{ 0.1, 0.1, 0.1 };
+  vtkNew<vtkDataArraySelection> Categorical;
 };
 
 #endif

@@ -3,10 +3,10 @@
 import unittest
 
 import numpy as np
-from paraview import servermanager, simple
+from paraview import servermanager, simple, smstate, smtrace
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
-from support import ErrorMessages, TestCase, load_plugin, read_vtp, run_program, shared_data
+from support import ErrorMessages, TestCase, arrays_of, load_plugin, read_vtp, run_program, shared_data
 
 load_plugin()
 
@@ -34,10 +34,10 @@ class Resampling(TestCase):
         self.resampled(means, self.path("in.ply"), "--dims", "40,50,60")
         means.VoxelSize = 0.001
         self.resampled(means, self.path("in.ply"), "--dims", "40,50,60")
-        means.WorkspaceBounds = [-0.01, 0.02, -0.02, 0.03, -0.03, 0.04]
+        means.WorkspacePosition, means.WorkspaceSize = [-0.03125] * 3, [0.0625, 0.09375, 0.125]
         self.resampled(means, self.path("in.ply"), "--dims", "40,50,60")
         means.AutomaticWorkspace = 0
-        self.resampled(means, self.path("in.ply"), "--dims", "40,50,60", "--workspace=-0.01,0.02,-0.02,0.03,-0.03,0.04")
+        self.resampled(means, self.path("in.ply"), "--dims", "40,50,60", "--workspace=-0.03125,0.03125,-0.03125,0.0625,-0.03125,0.09375")
         means.UpdatePropertyInformation()
         self.assertGreater(means.GetPropertyValue("NumberOfClippedPoints"), 0)
         means.AutomaticWorkspace = 1
@@ -61,7 +61,9 @@ class Resampling(TestCase):
             bounds = scaled.GetDataInformation().GetBounds()
             longest = max(bounds[1] - bounds[0], bounds[3] - bounds[2], bounds[5] - bounds[4])
             self.assertAlmostEqual(means.VoxelSize / (longest / 100), 1, places=6)
-            self.assertEqual([round(x, 9) for x in means.WorkspaceBounds], [round(x, 9) for x in bounds])
+            self.assertEqual(list(means.WorkspacePosition), list(bounds[::2]))
+            for size, low, high in zip(means.WorkspaceSize, bounds[::2], bounds[1::2]):
+                self.assertAlmostEqual(size, high - low, places=9)
             found = servermanager.Fetch(means).GetNumberOfPoints()
             self.assertTrue(1000 < found < 20000, found)
 
@@ -162,20 +164,56 @@ class InPipelines(TestCase):
     def labels(self):
         with open(self.path("labels.csv"), "w") as file:
             file.write("x,y,z,Classification,ReturnNumber\n")
-            file.writelines(f"{i % 10},{i // 10 % 10},{i % 3 / 10},{i % 4},{i % 5}\n" for i in range(1000))
-        return simple.PointHapticsReader(FileNames=[self.path("labels.csv")])
+            file.writelines(f"{i % 10},{i // 10 % 10},{i % 3 / 10},{i % 4 * 10},{i % 5 * 10}\n" for i in range(1000))
+        cloud = simple.PointHapticsReader(registrationName="labels.csv", FileNames=[self.path("labels.csv")])
+        cloud.UpdatePipeline()
+        return cloud
 
     def test_grids_of_other_filters_are_clouds_too(self):
         grid = simple.Threshold(Input=self.labels(), Scalars=["POINTS", "Classification"],
-                                LowerThreshold=0, UpperThreshold=2, ThresholdMethod="Between")  # fmt: skip
+                                LowerThreshold=0, UpperThreshold=20, ThresholdMethod="Between")  # fmt: skip
         radii = simple.KernelBandwidth(Input=grid)
         self.assertEqual(servermanager.Fetch(radii).GetNumberOfPoints(), 750)
         simple.SaveData(self.path("grid.pcd"), proxy=grid)
         self.assertIn("750", run_program("info", self.path("grid.pcd")))
 
+    def test_the_arrays_with_labels_are_those_that_are_ticked(self):
+        means = simple.VoxelMeanResampler(Input=self.labels(), VoxelSize=3)
+        self.assertEqual(list(means.CategoricalArrays), ["Classification"])
+        for chosen in ([], ["ReturnNumber"], ["Classification", "ReturnNumber"]):
+            means.CategoricalArrays = chosen
+            found = arrays_of(servermanager.Fetch(means))
+            for name in ("Classification", "ReturnNumber"):
+                # A mean is none of the labels, which are multiples of ten.
+                self.assertEqual((found[name] % 10 == 0).all(), name in chosen, (name, chosen))
+
+    def test_a_saved_state_and_a_trace_give_the_same_points(self):
+        new_session()
+        cloud = self.labels()
+        smtrace.start_trace()
+        means = simple.VoxelMeanResampler(
+            registrationName="means", Input=cloud, VoxelSize=3, CategoricalArrays=["ReturnNumber"], AutomaticWorkspace=0,
+            WorkspacePosition=[0, 0, 0], WorkspaceSize=[6, 6, 6],
+        )  # fmt: skip
+        trace = smtrace.stop_trace()
+        expected = arrays_of(servermanager.Fetch(means))
+        simple.SaveState(self.path("state.pvsm"))
+        script = smstate.get_state()
+        self.same(expected, lambda: simple.LoadState(self.path("state.pvsm")))
+        self.same(expected, lambda: exec(script, {}))
+        self.same(expected, lambda: (self.labels(), exec(trace, {})))
+
+    def same(self, expected, load):
+        new_session()
+        load()
+        found = arrays_of(servermanager.Fetch(simple.FindSource("means")))
+        self.assertEqual(sorted(found), sorted(expected))
+        for name in expected:
+            self.assertTrue((found[name] == expected[name]).all(), name)
+
     def test_what_was_left_out_is_in_the_information(self):
         means = simple.VoxelMeanResampler(Input=self.labels(), VoxelSize=1, AutomaticWorkspace=0,
-                                          WorkspaceBounds=[0, 5, 0, 20, 0, 20])  # fmt: skip
+                                          WorkspacePosition=[0, 0, 0], WorkspaceSize=[5, 20, 20])  # fmt: skip
         field = servermanager.Fetch(means).GetFieldData()
         self.assertEqual(field.GetArray("ClippedPoints").GetValue(0), 500)
         self.assertEqual(field.GetArray("InvalidPoints").GetValue(0), 0)
@@ -205,9 +243,9 @@ class BadInput(TestCase):
         self.assert_error(simple.VoxelMeanResampler(Input=cloud, VoxelSize=1e-12), "voxel")
         self.assert_error(simple.VoxelMeanResampler(Input=cloud, LatticeMode="Dimensions", Dimensions=[0, 1, 1]), "0")
         self.assert_error(
-            simple.VoxelMeanResampler(Input=cloud, AutomaticWorkspace=0, WorkspaceBounds=[0, 0, 0, 1, 0, 1]), "workspace"
+            simple.VoxelMeanResampler(Input=cloud, AutomaticWorkspace=0, WorkspaceSize=[0, 1, 1]), "workspace"
         )
-        flat = simple.VoxelMeanResampler(Input=cloud)
+        flat = simple.VoxelMeanResampler(Input=cloud, Transform="Transform")
         flat.Transform.Scale = [1, 1, 0]
         self.assert_error(flat, "singular")
 
@@ -248,7 +286,7 @@ class BadInput(TestCase):
         )
         self.assert_error(
             simple.VoxelMeanResampler(Input=cloud, VoxelSize=1e-9, AutomaticWorkspace=0,
-                                      WorkspaceBounds=[-1e30, 1e30] * 3), "voxel"
+                                      WorkspacePosition=[-1e30] * 3, WorkspaceSize=[2e30] * 3), "voxel"
         )  # fmt: skip
 
     def test_a_file_that_cannot_be_written(self):
@@ -263,6 +301,11 @@ class BadInput(TestCase):
         for proxy in (simple.VoxelMeanResampler(Input=empty), simple.KernelBandwidth(Input=empty)):
             proxy.UpdatePipeline()
             self.assertEqual(proxy.GetDataInformation().GetNumberOfPoints(), 0)
+
+
+def new_session():
+    simple.ResetSession()
+    load_plugin()
 
 
 def read_sphere(test):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import _thread
 import atexit
+import mmap
 import threading
 import time
 from typing import Any, Callable, Generic, List, Optional, Set, TypeVar
@@ -16,6 +17,8 @@ Result = TypeVar("Result")
 _PATIENCE = 0.1
 _LOOK = 0.005
 _SIGNALS = 0.05
+# Bytes of address space: its stack, of 8 MiB by default, and frames.
+_ROOM_OF_THREAD = 16 << 20
 
 _running: Set["_Call[Any]"] = set()
 _is_ending = False
@@ -80,8 +83,10 @@ def _wait_for(call: "_Call[Result]") -> None:
         call()
         return
     try:
+        # A thread that finds no memory for its first frame ends without a word, and its call would be waited for in vain.
+        mmap.mmap(-1, _ROOM_OF_THREAD).close()
         _thread.start_new_thread(call, ())
-    except RuntimeError:  # no memory for a thread
+    except (OSError, RuntimeError):  # no memory for a thread
         call()
         return
     # In short waits: _thread.interrupt_main() wakes none.

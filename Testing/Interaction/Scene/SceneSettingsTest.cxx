@@ -33,7 +33,7 @@ vtkSmartPointer<vtkPolyData> makeUnevenCloud()
   vtkNew<vtkIntArray> labels;
   labels->SetName("Kind");
   double x = -0.03;
-  for (int i = 0; x < 0.03; ++i)
+  while (x < 0.03)
   {
     const double spacing = x < 0.0 ? 0.0003 : 0.003;
     for (double y = -0.03; y < 0.03; y += spacing)

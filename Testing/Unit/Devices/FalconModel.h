@@ -144,7 +144,6 @@ private:
   Vec3 forceOfMotors() const
   {
     FalconAngles angles;
-    std::array<Vec3, 3> d;
     if (!runs || !falcon::inverse(hand.position, angles))
     {
       return {};

@@ -19,7 +19,7 @@ using namespace pointhaptics::trial;
 namespace
 {
 
-constexpr std::size_t kPoints = 6000;
+constexpr std::size_t kCloudPoints = 6000;
 constexpr Representative kNearest[] = { Representative::NearestToMean, Representative::NearestToCenter };
 constexpr Representative kAll[] = { Representative::NearestToMean, Representative::NearestToCenter,
   Representative::Median };
@@ -36,15 +36,15 @@ struct Cloud
     {
       extent[axis] = std::min(double(lattice.dimensions[std::size_t(axis)]), 9.0);
     }
-    while (points.size() < kPoints)
+    while (points.size() < kCloudPoints)
     {
       const Vec3 p = random.inBox({ -0.3, -0.3, -0.3 }, extent + Vec3(0.3, 0.3, 0.3));
       points.push_back(0.125 * Vec3(std::floor(8 * p.x), std::floor(8 * p.y), std::floor(8 * p.z)));
       points.insert(points.end(), random.below(3), points.back());
     }
-    points.resize(kPoints);
+    points.resize(kCloudPoints);
     points[17].y = NAN;
-    for (std::size_t i = 0; i < kPoints; ++i)
+    for (std::size_t i = 0; i < kCloudPoints; ++i)
     {
       values.push_back(int(random.below(3)) - 1);
     }
@@ -264,9 +264,9 @@ TEST(VoxelRepresentative, IsTheSameForEveryOrderOfThePoints)
   for (const Lattice& lattice : lattices())
   {
     const Cloud cloud(lattice);
-    const std::vector<std::size_t> order = randomOrder(kPoints, 5);
+    const std::vector<std::size_t> order = randomOrder(kCloudPoints, 5);
     Cloud shuffled = cloud;
-    for (std::size_t i = 0; i < kPoints; ++i)
+    for (std::size_t i = 0; i < kCloudPoints; ++i)
     {
       shuffled.points[i] = cloud.points[order[i]];
       shuffled.values[i] = cloud.values[order[i]];
@@ -281,7 +281,7 @@ TEST(VoxelRepresentative, IsTheSameForEveryOrderOfThePoints)
         ASSERT_EQ(
           shuffled.values[std::size_t(found.points[v])], cloud.values[std::size_t(expected.points[v])]);
       }
-      for (std::size_t i = 0; i < kPoints; ++i)
+      for (std::size_t i = 0; i < kCloudPoints; ++i)
       {
         ASSERT_EQ(found.index[i], expected.index[order[i]]);
       }
@@ -321,7 +321,7 @@ TEST(VoxelRepresentative, OfFloatsIsAPointBitForBit)
   for (const Representative representative : kNearest)
   {
     VoxelRequest request = cloud.request(latticeOf(9, 9, 9), representative);
-    request.points = { floats.data(), std::int64_t(kPoints) };
+    request.points = { floats.data(), std::int64_t(kCloudPoints) };
     request.singlePrecision = true;
     VoxelResampler resampler;
     const RunResult result = runOf(resampler, request);
