@@ -213,7 +213,7 @@ extern "C"
   PH_API void ph_set_interpreter_lock(
     int (*is_held)(void), void* (*release)(void), void (*take)(void*), int (*is_ending)(void));
   /** At the end of such an interpreter: stops all work that gave the lock up, and returns when it has ended.
-   * A thread that begins or ends such work from then on sleeps until the process ends. Call it without the
+   * Its threads sleep until the process ends; what is begun from then on keeps the lock. Call it without the
    * lock. */
   PH_API void ph_end_interpreter(void);
 

@@ -480,6 +480,7 @@ int vtkPointCloudReader::RequestData(
   const pointhaptics::WithoutInterpreterLock unlocked([this] { this->AbortExecute = 1; });
   try
   {
+    pointhaptics::requireRoomOfWork();
     this->ReadInto(output);
     this->UpdateProgress(1.0);
     return 1;

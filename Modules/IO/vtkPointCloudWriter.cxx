@@ -206,6 +206,7 @@ void vtkPointCloudWriter::WriteData()
   const pointhaptics::WithoutInterpreterLock unlocked([this] { this->AbortExecute = 1; });
   try
   {
+    pointhaptics::requireRoomOfWork();
     this->WriteCloud(vtkPointSet::SafeDownCast(this->GetInput()));
   }
   catch (const io::FileProblem& problem)

@@ -9,28 +9,35 @@
 #include <cstddef>
 #include <exception>
 #include <functional>
+#include <new>
 #include <utility>
 
 namespace pointhaptics
 {
 
 /// Address space that long work begins with at least: VTK ends the process where an object finds no memory in
-/// its constructor.
+/// its constructor, and TBB's first allocation waits for ever.
 constexpr std::size_t kRoomOfWork = std::size_t(16) << 20;
+
+/// @throws std::bad_alloc where long work would have less.
+inline void requireRoomOfWork()
+{
+  prepareForExceptions();
+  if (!hasAddressSpace(kRoomOfWork))
+  {
+    throw std::bad_alloc();
+  }
+}
 
 /// Calls @p work without the interpreter's lock, at whose end @p stop ends the work. @return OutOfMemory
 /// where memory ran out in it, else Ok. Other exceptions pass.
 template <typename Work>
 Status guardedWork(Work&& work, std::function<void()> stop = {})
 {
-  prepareForExceptions();
-  if (!hasAddressSpace(kRoomOfWork))
-  {
-    return Status::OutOfMemory;
-  }
   const WithoutInterpreterLock unlocked(std::move(stop));
   try
   {
+    requireRoomOfWork();
     std::forward<Work>(work)();
     return Status::Ok;
   }

@@ -1,5 +1,6 @@
 #include "Core/Base/Host/InterpreterLock.h"
 
+#include <atomic>
 #include <chrono>
 #include <mutex>
 #include <thread>
@@ -15,7 +16,7 @@ InterpreterLock theLock;
 std::mutex theMutex;
 /// First of the threads that work without the lock.
 WithoutInterpreterLock* theFirst = nullptr;
-bool isOver = false;
+std::atomic<bool> isOver{ false };
 
 [[noreturn]] void sleepToTheEnd()
 {
@@ -52,7 +53,7 @@ void endInterpreter() noexcept
 }
 
 WithoutInterpreterLock::WithoutInterpreterLock(std::function<void()> stop) noexcept
-  : state_(theLock.isHeld && theLock.isHeld() ? theLock.release() : nullptr)
+  : state_(!isOver && theLock.isHeld && theLock.isHeld() ? theLock.release() : nullptr)
   , stop_(std::move(stop))
 {
   if (!state_)
@@ -82,9 +83,8 @@ WithoutInterpreterLock::~WithoutInterpreterLock()
     place = &(*place)->next_;
   }
   *place = next_;
-  const bool ends = isOver;
   lock.unlock();
-  if (ends || (theLock.isEnding && theLock.isEnding()))
+  if (isOver || (theLock.isEnding && theLock.isEnding()))
   {
     sleepToTheEnd();
   }

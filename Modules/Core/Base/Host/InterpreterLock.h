@@ -19,9 +19,9 @@ struct InterpreterLock
 /// Sets the lock of this process. Call it before other threads use this library.
 void setInterpreterLock(const InterpreterLock& lock) noexcept;
 
-/// Stops the work of all threads that are WithoutInterpreterLock, and waits until it has ended. From then on
-/// a thread that begins or ends such work sleeps until the process ends: its code and the data of the
-/// libraries go meanwhile. Call it without the lock.
+/// Stops the work of all threads that are WithoutInterpreterLock, and waits until it has ended: these threads
+/// sleep until the process ends, as libraries go meanwhile. From then on no thread gives the lock up, so that
+/// the interpreter waits for what a thread still begins. Call it without the lock.
 void endInterpreter() noexcept;
 
 /// While it lives the calling thread is without the interpreter's lock, so that other threads of the
