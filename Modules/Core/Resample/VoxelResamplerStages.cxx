@@ -96,7 +96,7 @@ Status VoxelResampler::Implementation::sumPoints(
   {
     if (isSum(array.statistic) && !array.range)
     {
-      array.range = rangeOf(array.view, executor, request.instructions);
+      array.range = rangeOf(array.view, executor);
     }
     wanted.arrays.push_back(array);
   }

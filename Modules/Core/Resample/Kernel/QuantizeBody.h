@@ -59,14 +59,13 @@ struct QuantizerVectors
   }
 };
 
-/// v / quantum, correctly rounded. @tparam Pair: PointQuantizer::pairDivides.
-template <bool Pair>
+/// v / quantum, correctly rounded.
 inline Pack quotient(const QuantizerVectors& c, const Pack& v, int axis)
 {
   if constexpr (kFuses)
   {
     const Pack u = multiplyAdd(v, c.reciprocal[axis], v * c.remainder[axis]);
-    return Pair ? u : corrected(u, v, c.quantum[axis], c.reciprocal[axis]);
+    return corrected(u, v, c.quantum[axis], c.reciprocal[axis]);
   }
   return v / c.quantum[axis];
 }
@@ -103,7 +102,6 @@ __attribute__((always_inline)) inline void move(const QuantizerVectors& c, const
   for (int axis = 0; axis < 3; ++axis)
   {
     v[axis] = motion == Motion::Compensated ? compensatedDot(c, p, axis)
-      : motion == Motion::Subtract          ? p[axis]
       : motion == Motion::Scale
       ? p[axis] * c.matrix[axis][axis] + c.offset[axis]
       : (p[0] * c.matrix[axis][0] + p[1] * c.matrix[axis][1]) + p[2] * c.matrix[axis][2] + c.offset[axis];
@@ -111,7 +109,7 @@ __attribute__((always_inline)) inline void move(const QuantizerVectors& c, const
 }
 
 /// @p u: kWidth points in quanta. Fetches points that come later.
-template <Motion motion, bool Pair, typename Real>
+template <Motion motion, typename Real>
 __attribute__((always_inline)) inline void locate(const QuantizerVectors& c, const Real* xyz, Pack u[3])
 {
   constexpr int kAhead = 2048 / int(sizeof(Real));
@@ -124,7 +122,7 @@ __attribute__((always_inline)) inline void locate(const QuantizerVectors& c, con
   move<motion>(c, xyz, v);
   for (int axis = 0; axis < 3; ++axis)
   {
-    u[axis] = quotient<Pair>(c, v[axis], axis);
+    u[axis] = quotient(c, v[axis], axis);
   }
 }
 
@@ -170,7 +168,7 @@ inline std::int64_t keepInside(
 
 /// Quantizes groups of kWidth points, no more than fill the batch. Bit i of @p present: a group has a point
 /// i. @return how many are not finite. A function of its own, without calls: the constants stay in registers.
-template <Motion motion, bool Pair, typename Real>
+template <Motion motion, typename Real>
 __attribute__((noinline)) int quantizeGroups(const QuantizerVectors& given, const Real* xyz, int groups,
   unsigned present, std::uint32_t index, QuantizedPoints& quantized)
 {
@@ -191,7 +189,7 @@ __attribute__((noinline)) int quantizeGroups(const QuantizerVectors& given, cons
     const int together = groups - first < kGroups ? groups - first : kGroups;
     for (int g = 0; g < together; ++g)
     {
-      locate<motion, Pair>(constants, xyz + 3 * kWidth * (first + g), u[g]);
+      locate<motion>(constants, xyz + 3 * kWidth * (first + g), u[g]);
     }
     for (int g = 0; g < together; ++g)
     {
@@ -314,7 +312,7 @@ inline void binPoints(QuantizedPoints& quantized, PointRecordWriter& writer)
   quantized.size = left;
 }
 
-template <Motion motion, bool Pair, typename Real>
+template <Motion motion, typename Real>
 void partitionAll(const PointQuantizer& quantizer, const Real* xyz, const PointRange* ranges,
   std::int64_t count, PointRecordWriter& writer)
 {
@@ -327,8 +325,8 @@ void partitionAll(const PointQuantizer& quantizer, const Real* xyz, const PointR
   const auto quantize = [&](const Real* from, std::int64_t first, int groups, unsigned present)
   {
     const int before = batch.size;
-    writer.invalid += quantizeGroups<motion, Pair>(
-      constants, from, groups, present, std::uint32_t(first - ranges[0].begin), batch);
+    writer.invalid +=
+      quantizeGroups<motion>(constants, from, groups, present, std::uint32_t(first - ranges[0].begin), batch);
     writer.inside += batch.size - before;
     if (batch.size >= kBatchPoints)
     {
@@ -359,30 +357,14 @@ void partitionAll(const PointQuantizer& quantizer, const Real* xyz, const PointR
   bin(batch, writer);
 }
 
-template <Motion motion, typename Real>
-void partitionMoved(const PointQuantizer& quantizer, const Real* xyz, const PointRange* ranges,
-  std::int64_t count, PointRecordWriter& writer)
-{
-  kFuses&& quantizer.pairDivides ? partitionAll<motion, true>(quantizer, xyz, ranges, count, writer)
-                                 : partitionAll<motion, false>(quantizer, xyz, ranges, count, writer);
-}
-
 template <typename Real>
 void partition(const PointQuantizer& quantizer, const Real* xyz, const PointRange* ranges, std::int64_t count,
   PointRecordWriter& writer)
 {
-  switch (quantizer.motion)
-  {
-    case Motion::Subtract:
-      return partitionMoved<Motion::Subtract>(quantizer, xyz, ranges, count, writer);
-    case Motion::Shift:
-    case Motion::Scale:
-      return partitionMoved<Motion::Scale>(quantizer, xyz, ranges, count, writer);
-    case Motion::General:
-      return partitionMoved<Motion::General>(quantizer, xyz, ranges, count, writer);
-    case Motion::Compensated:
-      return partitionMoved<Motion::Compensated>(quantizer, xyz, ranges, count, writer);
-  }
+  const auto partition = quantizer.motion == Motion::Scale ? &partitionAll<Motion::Scale, Real>
+    : quantizer.motion == Motion::General                  ? &partitionAll<Motion::General, Real>
+                                                           : &partitionAll<Motion::Compensated, Real>;
+  partition(quantizer, xyz, ranges, count, writer);
 }
 
 }

@@ -59,9 +59,7 @@ constexpr int kLineNumbers = 64 / sizeof(std::uint32_t);
 /// Parts of the matrix and the offset that must be applied.
 enum class Motion
 {
-  Subtract, ///< The matrix is one and the offset is 0. The pivot is not, so that v is never -0.
-  Shift,    ///< The matrix is one.
-  Scale,    ///< The matrix is diagonal.
+  Scale, ///< The matrix is diagonal.
   General,
   Compensated, ///< General, and rounding would cost digits: the pivot is 0, v a dot product in two words.
 };
@@ -77,9 +75,7 @@ struct PointQuantizer
   double quantum[3];    ///< The spacing over a power of two.
   double reciprocal[3]; ///< 1 / quantum, rounded.
   double remainder[3];  ///< Rounding error of the reciprocal, rounded.
-  /// fma(v, reciprocal, v remainder), which takes half the time, is v / quantum correctly rounded for all v.
-  bool pairDivides;
-  double limit[3]; ///< u below this is inside.
+  double limit[3];      ///< u below this is inside.
   Motion motion;
   int fractionBits;      ///< Bits of a position below the voxel.
   bool correctsRounding; ///< quantizePoint() does: see kUncorrectedIndexBits.
@@ -228,14 +224,6 @@ struct CovarianceMap
 /// Elements of the widest vectors.
 constexpr int kWidest = 8;
 
-/// Range of the absolute values of numbers.
-struct Magnitudes
-{
-  double largest;  ///< Largest finite one; 0 without any.
-  double smallest; ///< Smallest one but 0; infinite without any.
-  bool allFinite;
-};
-
 /// The inner loops over numbers of one type; coordinates are x y z interleaved.
 template <typename Real>
 struct PointKernels
@@ -252,30 +240,15 @@ struct PointKernels
   /// numbers from one point to the next.
   void (*bounds)(
     const double matrix[3][4], const Real* xyz, std::int64_t count, std::int64_t stride, double box[6]);
-  Magnitudes (*magnitudes)(const Real* values, std::int64_t count);
 };
 
-/// Consecutive lists of values, of one type.
-struct ValueLists
-{
-  const void* values; ///< Values of all lists of an array.
-  std::int64_t begin; ///< Index of the first list's first value.
-  const std::int64_t* ends;
-  int count;
-};
-/// Lists of more values are left to others.
+/// Longer lists are left to others.
 constexpr int kFewValues = 64;
 /// Bytes of the vectors that lists are read in.
 constexpr int kListVector = 32;
-
-/// The modes of lists, and the lower medians, in the order of ScalarType: see AttributeStatistic. The result
-/// of a list goes to @p to, @p step values after the one before. Lists of more than kFewValues are named in
-/// @p many. @return the number of these. Reads, but does not use, kListVector bytes past the end.
-struct SelectKernels
-{
-  int (*modes[10])(const ValueLists&, void* to, int step, int* many);
-  int (*medians[10])(const ValueLists&, void* to, int step, int* many);
-};
+/// The statistic of a list of up to kFewValues values of one type: see AttributeStatistic. Reads, but does
+/// not use, kListVector bytes past the end.
+using SelectKernel = void (*)(const void* values, int count, void* to);
 
 /// The inner loops for one instruction set.
 struct Kernels
@@ -313,7 +286,8 @@ struct Kernels
   /// these. Reads, but does not use, kWidest elements past the end.
   int (*covariances)(const CovarianceMap&, const PackedSums* sums, const SplitSecondMoments* secondMoments,
     int count, double* covariances, int* full);
-  SelectKernels select;
+  const SelectKernel* modes; ///< In the order of ScalarType.
+  const SelectKernel* medians;
 };
 
 /// The set that InstructionSet stands for on this machine.

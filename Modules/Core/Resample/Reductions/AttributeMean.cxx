@@ -29,65 +29,55 @@ bool isReal(ScalarType type)
   return type == ScalarType::Float || type == ScalarType::Double;
 }
 
-/// Calls body(values, count) for the tuples from @p begin to before @p end of a strided array, copied
-/// together in pieces that stay in the first cache.
-template <typename Real, typename Body>
-void forPackedTuples(const AttributeView& view, std::int64_t begin, std::int64_t end, Body&& body)
+/// Bits without the sign ascend with the magnitude, infinities and NaN above all.
+template <typename Real, typename Bits>
+AttributeRange rangeOfReals(const AttributeView& view, const Executor& executor)
 {
-  constexpr std::int64_t kBlock = 2048;
-  Real block[kBlock];
-  std::int64_t filled = 0;
-  const char* from = static_cast<const char*>(view.values) + view.stride * begin;
-  for (std::int64_t i = begin; i < end; ++i, from += view.stride)
+  constexpr Bits kMagnitude = ~(Bits(1) << (8 * sizeof(Bits) - 1));
+  const auto numberOf = [](Bits bits)
   {
-    for (int component = 0; component < view.components; ++component)
-    {
-      std::memcpy(block + filled, from + std::size_t(component) * sizeof(Real), sizeof(Real));
-      if (++filled == kBlock)
-      {
-        body(static_cast<const Real*>(block), filled);
-        filled = 0;
-      }
-    }
-  }
-  if (filled > 0)
-  {
-    body(static_cast<const Real*>(block), filled);
-  }
-}
-
-template <typename Real>
-AttributeRange rangeOfReals(const AttributeView& view, const Executor& executor, InstructionSet instructions)
-{
-  const auto magnitudes = simd::kernelsFor(instructions).of<Real>().magnitudes;
-  const auto* values = static_cast<const Real*>(view.values);
-  AttributeRange range;
-  double largest = 0.0;
-  double smallest = std::numeric_limits<double>::infinity();
-  std::mutex mutex;
-  const auto look = [&](const Real* first, std::int64_t count)
-  {
-    const simd::Magnitudes found = magnitudes(first, count);
-    const std::lock_guard<std::mutex> lock(mutex);
-    largest = std::max(largest, found.largest);
-    smallest = std::min(smallest, found.smallest);
-    range.hasNonFinite = range.hasNonFinite || !found.allFinite;
+    Real value;
+    std::memcpy(&value, &bits, sizeof value);
+    return value;
   };
-  if (view.stride == 0)
-  {
-    forRange(executor, view.tuples * view.components,
-      [&](std::int64_t begin, std::int64_t end) { look(values + begin, end - begin); });
-  }
-  else
-  {
-    forRange(executor, view.tuples,
-      [&](std::int64_t begin, std::int64_t end) { forPackedTuples<Real>(view, begin, end, look); });
-  }
-  if (largest > 0.0)
+  Bits infinite;
+  const Real infinity = std::numeric_limits<Real>::infinity();
+  std::memcpy(&infinite, &infinity, sizeof infinite);
+  std::mutex mutex;
+  Bits largest = 0;
+  Bits leastLessOne = infinite - 1; // Zero becomes the largest of all.
+  Bits above = 0;
+  forRange(executor, view.tuples,
+    [&](std::int64_t begin, std::int64_t end)
+    {
+      Bits ends[3] = { 0, infinite - 1, 0 };
+      const std::int64_t together = view.stride == 0 ? end - begin : 1;
+      for (std::int64_t i = begin; i < end; i += together)
+      {
+        const char* from = view.tuple(i);
+        const char* const last = from + together * view.tupleBytes();
+        for (; from != last; from += sizeof(Bits))
+        {
+          Bits bits;
+          std::memcpy(&bits, from, sizeof bits);
+          bits &= kMagnitude;
+          ends[0] = std::max(ends[0], bits < infinite ? bits : Bits(0));
+          ends[1] = std::min(ends[1], Bits(bits - 1));
+          ends[2] = std::max(ends[2], bits);
+        }
+      }
+      const std::lock_guard<std::mutex> lock(mutex);
+      largest = std::max(largest, ends[0]);
+      leastLessOne = std::min(leastLessOne, ends[1]);
+      above = std::max(above, ends[2]);
+    });
+  AttributeRange range;
+  range.hasNonFinite = above >= infinite;
+  if (largest > 0)
   {
     int exponent;
-    std::frexp(largest, &range.exponent);
-    std::frexp(smallest, &exponent);
+    std::frexp(numberOf(largest), &range.exponent);
+    std::frexp(numberOf(leastLessOne + 1), &exponent);
     range.lastBit = exponent - std::numeric_limits<Real>::digits;
   }
   return range;
@@ -95,10 +85,10 @@ AttributeRange rangeOfReals(const AttributeView& view, const Executor& executor,
 
 }
 
-AttributeRange rangeOf(const AttributeView& view, const Executor& executor, InstructionSet instructions)
+AttributeRange rangeOf(const AttributeView& view, const Executor& executor)
 {
-  return view.type == ScalarType::Float ? rangeOfReals<float>(view, executor, instructions)
-    : view.type == ScalarType::Double   ? rangeOfReals<double>(view, executor, instructions)
+  return view.type == ScalarType::Float ? rangeOfReals<float, std::uint32_t>(view, executor)
+    : view.type == ScalarType::Double   ? rangeOfReals<double, std::uint64_t>(view, executor)
                                         : AttributeRange();
 }
 

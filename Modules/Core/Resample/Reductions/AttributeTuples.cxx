@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 #include <type_traits>
 #include <utility>
 
@@ -12,29 +13,28 @@ namespace pointhaptics
 namespace
 {
 
-/// Statistic of more than simd::kFewValues values.
-template <typename Key>
-Key statisticOf(AttributeStatistic statistic, std::vector<Key>& keys)
+/// The statistic of a list, with memory for the keys of many.
+template <typename T, typename Key>
+T statisticOfMany(bool isMedian, const T* values, std::int64_t count, std::vector<Key>& keys)
 {
-  const auto at = keys.begin() + std::ptrdiff_t((keys.size() - 1) / 2);
-  if (statistic == AttributeStatistic::Median)
+  keys.resize(std::size_t(count));
+  std::transform(values, values + count, keys.begin(), &orderedKey<T>);
+  if (isMedian)
   {
-    std::nth_element(keys.begin(), at, keys.end());
-    return *at;
+    const auto middle = keys.begin() + (count - 1) / 2;
+    std::nth_element(keys.begin(), middle, keys.end());
+    return valueOfKey<T>(*middle);
   }
   std::sort(keys.begin(), keys.end());
-  Key best = keys[0];
-  for (auto first = keys.begin(), longest = keys.begin(); first != keys.end();)
+  Key mode = keys[0];
+  std::size_t most = 0;
+  for (std::size_t i = 0, equal = 0; i < keys.size(); ++i)
   {
-    const auto last = std::upper_bound(first, keys.end(), *first);
-    if (last - first > longest - keys.begin())
-    {
-      longest = keys.begin() + (last - first);
-      best = *first;
-    }
-    first = last;
+    equal = i > 0 && keys[i] == keys[i - 1] ? equal + 1 : 1;
+    mode = equal > most ? keys[i] : mode;
+    most = std::max(most, equal);
   }
-  return best;
+  return valueOfKey<T>(mode);
 }
 
 }
@@ -47,9 +47,7 @@ void AttributeTuples::prepare(const std::vector<std::int64_t>& counts)
   {
     tuples += std::exchange(end, tuples);
   }
-  // With what kernels read beyond the last value.
-  constexpr std::size_t kBeyond = simd::kListVector;
-  const std::size_t bytes = std::size_t(tuples * bytesOf(kind_.type)) + kBeyond;
+  const std::size_t bytes = std::size_t(tuples * bytesOf(kind_.type)) + simd::kListVector;
   componentBytes_ = (bytes + 63) / 64 * 64;
   values_.reserve(componentBytes_ * std::size_t(kind_.components), Pages::Huge);
 }
@@ -95,23 +93,15 @@ void AttributeTuples::writeValues(T* to) const
 {
   const bool isMedian = kind_.statistic == AttributeStatistic::Median;
   const auto select = (isMedian ? kernels_->medians : kernels_->modes)[std::size_t(kind_.type)];
-  int many[simd::kBatch];
   std::vector<decltype(orderedKey(T()))> keys;
-  for (std::int64_t v = 0; v < voxels(); v += simd::kBatch)
+  for (std::int64_t v = 0; v < voxels(); ++v)
   {
-    const auto size = int(std::min<std::int64_t>(voxels() - v, simd::kBatch));
-    for (int c = 0; c < kind_.components; ++c)
+    const std::int64_t count = end(v) - begin(v);
+    for (int c = 0; c < kind_.components; ++c, ++to)
     {
-      T* const selected = to + kind_.components * v + c;
-      const int found =
-        select({ values<T>(c), begin(v), ends_.data() + v, size }, selected, kind_.components, many);
-      for (int i = 0; i < found; ++i)
-      {
-        const std::int64_t voxel = v + many[i];
-        keys.resize(std::size_t(end(voxel) - begin(voxel)));
-        std::transform(values<T>(c) + begin(voxel), values<T>(c) + end(voxel), keys.begin(), &orderedKey<T>);
-        selected[kind_.components * many[i]] = valueOfKey<T>(statisticOf(kind_.statistic, keys));
-      }
+      const T* const list = values<T>(c) + begin(v);
+      count <= simd::kFewValues ? select(list, int(count), to)
+                                : void(*to = statisticOfMany(isMedian, list, count, keys));
     }
   }
 }

@@ -26,7 +26,7 @@ public:
   explicit AttributeTuples(
     const AccumulatedArray& kind, InstructionSet instructions = InstructionSet::Automatic)
     : kind_(kind)
-    , kernels_(&simd::kernelsFor(instructions).select)
+    , kernels_(&simd::kernelsFor(instructions))
   {
   }
 
@@ -56,7 +56,7 @@ private:
   void writeValues(T* to) const;
 
   AccumulatedArray kind_;
-  const simd::SelectKernels* kernels_;
+  const simd::Kernels* kernels_;
   Buffer<char> values_; ///< Those of a component together, and of these those of a voxel.
   std::size_t componentBytes_ = 0;
   std::vector<std::int64_t> ends_; ///< Where the next tuple of each voxel goes.

@@ -58,10 +58,6 @@ public:
           nearest_->add(block);
         }
       });
-    if (nearest_ && nearest_->hasTies())
-    {
-      voxels.visit([&](const auto& block, const auto&) { nearest_->resolve(block); });
-    }
   }
   /// Writes what became of the voxels, whose counts are there, from @p first on in @p writer.
   void write(VoxelWriter& writer, std::size_t first) const;

@@ -101,15 +101,6 @@ bool needsCompensation(const AffineTransform& transform, const PointQuantizer& q
   return false;
 }
 
-Motion motionOf(const AffineTransform& t)
-{
-  if (!isDiagonal(t.m))
-  {
-    return Motion::General;
-  }
-  return t.m[0][0] == 1.0 && t.m[1][1] == 1.0 && t.m[2][2] == 1.0 ? Motion::Shift : Motion::Scale;
-}
-
 /// Sets the transformed pivot, from the lattice's origin.
 void setOffset(const AffineTransform& transform, const Lattice& lattice, PointQuantizer& quantizer)
 {
@@ -124,19 +115,6 @@ void setOffset(const AffineTransform& transform, const Lattice& lattice, PointQu
       compensatedDot(quantizer.matrix[axis], quantizer.pivot, t - o, rest, left) + 0.0; // never -0
     quantizer.offsetRest[axis] = rest;
   }
-}
-
-/// Whether fma(v, r, v t), with r = 1 / d and t = 1 / d - r rounded, is v / d correctly rounded for all v:
-/// the idea of Brisebarre, Muller and Raina (IEEE Transactions on Computers 53, 2004). With d = D 2^e, D <
-/// 2^53 an integer, no quotient is nearer to the midpoint of two doubles than 2^-54 / D, relatively; what r
-/// and t leave of 1 / d and the rounding of v t are off by less, or not.
-bool dividesAsPair(double d, double r, double t)
-{
-  const double residual = std::fma(r, d, -1.0);
-  const double left = std::abs(std::fma(t, d, residual)) + std::ldexp(std::abs(t) * d, -53);
-  int exponent = 0;
-  const double integer = std::ldexp(std::frexp(d, &exponent), 53);
-  return left < 0.999 * std::ldexp(1.0, -54) / integer;
 }
 
 }
@@ -162,8 +140,7 @@ PointQuantizer makeQuantizer(
   const AffineTransform& transform, const Lattice& lattice, int indexBits, int positionBits)
 {
   PointQuantizer quantizer{};
-  quantizer.motion = motionOf(transform);
-  quantizer.pairDivides = true;
+  quantizer.motion = isDiagonal(transform.m) ? Motion::Scale : Motion::General;
   quantizer.fractionBits = positionBits - indexBits;
   quantizer.correctsRounding = indexBits > kUncorrectedIndexBits;
   Wide toOrigin[3];
@@ -191,18 +168,10 @@ PointQuantizer makeQuantizer(
     quantizer.quantum[axis] = quantum;
     quantizer.reciprocal[axis] = 1.0 / quantum;
     quantizer.remainder[axis] = -std::fma(quantizer.reciprocal[axis], quantum, -1.0) / quantum;
-    quantizer.pairDivides =
-      quantizer.pairDivides && dividesAsPair(quantum, quantizer.reciprocal[axis], quantizer.remainder[axis]);
     quantizer.limit[axis] = std::ldexp(
       std::min(double(lattice.dimensions[std::size_t(axis)]), lattice.end[axis]), quantizer.fractionBits);
   }
-  const auto isSubtraction = [&](int axis)
-  { return quantizer.offset[axis] == 0.0 && quantizer.pivot[axis] != 0.0; };
-  if (quantizer.motion == Motion::Shift && isSubtraction(0) && isSubtraction(1) && isSubtraction(2))
-  {
-    quantizer.motion = Motion::Subtract;
-  }
-  else if ((quantizer.motion == Motion::General || positionBits > kPositionBits) &&
+  if ((quantizer.motion == Motion::General || positionBits > kPositionBits) &&
     needsCompensation(transform, quantizer, positionBits))
   {
     quantizer.motion = Motion::Compensated;
@@ -261,8 +230,6 @@ PointLocation quantizePoint(const PointQuantizer& quantizer, const Vec3& point, 
     position[axis] = (position[axis] - (rounded - kToBits > u)) & kMantissa;
     if (quantizer.correctsRounding && inside)
     {
-      left =
-        quantizer.motion == Motion::Subtract ? leftOfDifference(point[axis], quantizer.pivot[axis]) : left;
       position[axis] = nearer(position[axis], v, left, quantizer.quantum[axis]);
     }
   }
