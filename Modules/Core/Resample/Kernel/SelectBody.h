@@ -42,6 +42,7 @@ void select(const void* list, int count, void* to)
 {
   using Key = decltype(orderedKey(T()));
   using Number = std::make_signed_t<Key>;
+  const T* const values = static_cast<const T*>(list);
   typedef Key Keys __attribute__((vector_size(kListVector), may_alias));
   typedef Number Numbers __attribute__((vector_size(kListVector)));
   constexpr int kInVector = kListVector / int(sizeof(Key));
@@ -57,8 +58,7 @@ void select(const void* list, int count, void* to)
   {
     const int left = count - first < kInVector ? count - first : kInVector;
     const auto are = Keys(lanes < Number(left));
-    *reinterpret_cast<Keys*>(keys + first) =
-      (keysAt<T, Keys>(static_cast<const T*>(list) + first) & are) | (kLargest & ~are);
+    *reinterpret_cast<Keys*>(keys + first) = (keysAt<T, Keys>(values + first) & are) | (kLargest & ~are);
   }
   const auto isBetter = [=](const auto& key, const auto& number, const auto& best, const auto& most)
   {
@@ -81,7 +81,7 @@ void select(const void* list, int count, void* to)
   }
   Key result = best[0];
   Number number = most[0];
-  for (int i = 1; i < kInVector; ++i)
+  for (int i = 1; i < kInVector && i < count; ++i)
   {
     const bool better = Median ? best[i] > result : isBetter(Key(best[i]), Number(most[i]), result, number);
     result = better ? best[i] : result;

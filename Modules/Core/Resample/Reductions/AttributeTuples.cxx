@@ -100,6 +100,11 @@ void AttributeTuples::writeValues(T* to) const
     for (int c = 0; c < kind_.components; ++c, ++to)
     {
       const T* const list = values<T>(c) + begin(v);
+      if (count <= 2) // The smaller one, as mode and as median.
+      {
+        *to = valueOfKey<T>(std::min(orderedKey(list[0]), orderedKey(list[count - 1])));
+        continue;
+      }
       count <= simd::kFewValues ? select(list, int(count), to)
                                 : void(*to = statisticOfMany(isMedian, list, count, keys));
     }

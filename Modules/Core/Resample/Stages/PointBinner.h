@@ -80,8 +80,7 @@ public:
   const PartitionPlan& plan() const { return plan_; }
   std::uint32_t partitions() const { return plan_.partitions; }
   int fractionBits() const { return plan_.fractionBits; }
-  /// Layout of a record's payload. Points in the order of a scan have only their numbers: where neighbours in
-  /// memory are in one partition, its tuples are read in order anyway.
+  /// Layout of a record's payload.
   const PayloadLayout& payloadLayout() const { return payloadLayout_; }
   const PointRecordPool& pool() const { return pool_; }
   /// An upper bound of a partition's voxels.
@@ -94,8 +93,6 @@ public:
   std::size_t bytes() const { return pool_.bytes(); }
 
 private:
-  bool areScattered(const PointView& points) const;
-
   alignas(kApart) PartitionPlan plan_;
   alignas(kApart) PointQuantizer quantizer_{};
   PayloadLayout payloadLayout_;
