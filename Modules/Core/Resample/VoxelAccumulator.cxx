@@ -226,10 +226,8 @@ VoxelAccumulator VoxelAccumulator::part(std::uint64_t first, std::uint64_t end)
   if (this->settle())
   {
     const Sums::Range range = added_->range(first, end);
-    VoxelRun copy;
-    copy.append(added_->runs.whole(), range.first, range.last);
     part.added_->counts = range.counts;
-    part.added_->runs.add(std::move(copy));
+    part.added_->runs.add(added_->runs.whole().part(range.first, range.last));
   }
   return part;
 }

@@ -2,7 +2,7 @@
 /// The sums of an accumulator. Private to Core.
 #pragma once
 
-#include "Core/Resample/Stages/VoxelRuns.h"
+#include "Core/Resample/Stages/VoxelRun.h"
 #include "Core/Resample/VoxelAccumulator.h"
 
 #include <cstddef>

@@ -7,7 +7,7 @@
 #include "Core/Resample/Stages/PartitionOrder.h"
 #include "Core/Resample/Stages/PointQuantizer.h"
 #include "Core/Resample/Stages/SortedVoxels.h"
-#include "Core/Resample/Stages/VoxelRuns.h"
+#include "Core/Resample/Stages/VoxelRun.h"
 #include "Core/Resample/VoxelResampler.h"
 
 #include <cstddef>

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <iterator>
 #include <memory>
 #include <new>
 #include <utility>
@@ -163,7 +164,9 @@ Status VoxelResampler::Implementation::runStages(Stages<Voxels>& stages, const T
   }
   else
   {
-    sums = concatenated(parts, executor);
+    std::vector<const VoxelRun*> all;
+    std::transform(parts.begin(), parts.end(), std::back_inserter(all), [](const VoxelRun& p) { return &p; });
+    sums = VoxelRun::concatenated(all);
   }
   return Status::Ok;
 }

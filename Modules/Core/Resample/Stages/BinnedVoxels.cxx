@@ -111,7 +111,7 @@ void BinnedVoxels::sum()
 {
   if (voxels_.size == 0)
   {
-    wide_.clear();
+    wide_.start(0, false);
     return;
   }
   // With what kernels read, but do not use, beyond the end.
@@ -147,8 +147,7 @@ void BinnedVoxels::sumPacked()
 
 void BinnedVoxels::sumWide()
 {
-  wide_.clear();
-  wide_.append(voxels_.size, covariances_);
+  wide_.start(voxels_.size, covariances_);
   const std::uint64_t mask = (std::uint64_t(1) << plan().fractionBits) - 1;
   forBlocks(
     [&](const PointRecordPool::Walk& block, std::uint32_t* cells)

@@ -135,8 +135,7 @@ std::size_t SortedVoxels::find(std::uint32_t range)
 
 void SortedVoxels::sum()
 {
-  run_.clear();
-  run_.append(size_, covariances_);
+  run_.start(size_, covariances_);
   std::size_t voxel = 0;
   for (std::size_t i = 0; i < points_.size(); ++i)
   {

@@ -1,7 +1,5 @@
 #include "Core/Resample/Stages/VoxelWriter.h"
 
-#include "Core/Resample/Stages/AttributeRounding.h"
-
 #include <algorithm>
 #include <cfloat>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include "Core/Base/Buffer.h"
 #include "Core/Base/Lattice.h"
 #include "Core/Base/Vector3.h"
-#include "Core/Resample/Stages/VoxelSums.h"
+#include "Core/Resample/Stages/VoxelRun.h"
 #include "Core/Resample/VoxelResampler.h"
 
 #include <array>
