@@ -8,9 +8,7 @@
 
 #include <cstdint>
 
-namespace pointhaptics
-{
-namespace simd
+namespace pointhaptics::simd
 {
 namespace
 {
@@ -77,5 +75,4 @@ void bounds(
 }
 
 }
-} // namespace simd
-} // namespace pointhaptics
+} // namespace pointhaptics::simd

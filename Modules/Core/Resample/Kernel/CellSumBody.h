@@ -3,14 +3,11 @@
 /// each.
 #pragma once
 
-#include "Core/Resample/Kernel/Fetch.h"
-#include "Core/Resample/Kernel/InFours.h"
+#include "Core/Resample/Kernel/Loops.h"
 #include "Core/Resample/Kernel/VoxelKernel.h"
 #include "Core/Simd/Words.h"
 
-namespace pointhaptics
-{
-namespace simd
+namespace pointhaptics::simd
 {
 namespace
 {
@@ -119,31 +116,6 @@ struct RecordAdder
   }
 };
 
-/// Adds the products of one record's offsets to the twelve words of the sums.
-struct ProductAdder
-{
-  std::uint64_t fractionMask;
-  int toTop; ///< Brings an offset to the top of a word, and its product with another, split, to the middle of
-             ///< two.
-
-  explicit ProductAdder(int fractionBits)
-    : fractionMask((std::uint64_t(1) << fractionBits) - 1)
-    , toTop(64 - fractionBits)
-  {
-  }
-  void add(SplitSecondMoments& sums, const PointRecord& r) const
-  {
-    const std::uint64_t fractions[3] = { xFraction(r, fractionMask), yFraction(r, fractionMask),
-      zFraction(r, fractionMask) };
-    for (int m = 0; m < 6; ++m)
-    {
-      const UInt128 product = UInt128(fractions[kFirstAxis[m]] << toTop) * fractions[kSecondAxis[m]];
-      sums.high[m] += std::uint64_t(product >> 64);
-      sums.low[m] += std::uint64_t(product) >> toTop;
-    }
-  }
-};
-
 /// @tparam KeepsRanks: cells become their ranks.
 template <bool KeepsRanks>
 inline void accumulateSums(const CellMap& map, const CellRanks& givenRanks, const PointRecord* records,
@@ -189,10 +161,15 @@ inline void accumulateSums(const CellMap& map, const CellRanks& givenRanks, cons
 
 /// A function of its own: its vectors would take registers from the loop over the sums.
 __attribute__((noinline)) void accumulateProducts(
-  int fractionBits, const PointRecord* records, const std::uint32_t* ranks, int count, SplitSecondMoments* to)
+  int fractionBits, const PointRecord* records, const std::uint32_t* ranks, int count, SecondMoments* to)
 {
-  const ProductAdder adder(fractionBits);
-  fromFourParts(count, [=](int i) { adder.add(to[ranks[i]], records[i]); });
+  const std::uint64_t mask = (std::uint64_t(1) << fractionBits) - 1;
+  fromFourParts(count,
+    [=](int i)
+    {
+      const PointRecord& r = records[i];
+      addProducts(to[ranks[i]], xFraction(r, mask), yFraction(r, mask), zFraction(r, mask));
+    });
 }
 
 void accumulate(const CellMap& map, const CellRanks& ranks, const PointRecord* records, std::uint32_t* cells,
@@ -211,5 +188,4 @@ void accumulate(const CellMap& map, const CellRanks& ranks, const PointRecord* r
 }
 
 }
-} // namespace simd
-} // namespace pointhaptics
+} // namespace pointhaptics::simd

@@ -4,9 +4,7 @@
 
 #include "Core/Resample/Kernel/CellSumBody.h"
 
-namespace pointhaptics
-{
-namespace simd
+namespace pointhaptics::simd
 {
 namespace
 {
@@ -136,22 +134,23 @@ inline Words truncated(const Pack& v, Pack& real)
   return bits ^ bitsOf(all(kToBits));
 }
 
+typedef std::uint64_t WordAt __attribute__((may_alias));
+
 /// Computes covarianceOf() in 64-bit arithmetic. About an integer m near the mean, with sum = n m + rest, the
 /// central sum of a product is S_ab - m_a sum_b - m_b rest_a. Modulo 2^64 integers give it exactly; doubles
 /// are nearer to it than 2^63 and show which multiple of 2^64 that leaves out. Both together make 53 bits and
 /// the last 32, whose sum is rounded once.
 inline void covariancesTogether(
-  const CovarianceMap& map, const PackedSums* packed, const SplitSecondMoments* secondMoments, Pack result[6])
+  const CovarianceMap& map, const PackedSums* packed, const SecondMoments* secondMoments, Pack result[6])
 {
   const PackedVectors voxels(packed);
-  Words split[3][4];
+  Words parts[3][4]; // low, high, low, high words of two sums
   for (std::size_t part = 0; part < 3; ++part)
   {
-    turnWords(
-      secondMoments->high + 4 * part, sizeof *secondMoments / sizeof secondMoments->high[0], split[part]);
+    turnWords(reinterpret_cast<const WordAt*>(secondMoments->lanes + 2 * part),
+      sizeof *secondMoments / sizeof(WordAt), parts[part]);
   }
   const Pack perPoint = 1.0 / toNumbers(voxels.count);
-  const double highUnit = double(std::int64_t(1) << map.fractionBits);
   Words m[3], rest[3];
   Pack mReal[3], sumReal[3], restReal[3];
   for (int axis = 0; axis < 3; ++axis)
@@ -165,10 +164,11 @@ inline void covariancesTogether(
   {
     const int a = kFirstAxis[i];
     const int b = kSecondAxis[i];
-    const Words& high = split[i / 4][i % 4];
-    const Words sum = (high << map.fractionBits) + split[(6 + i) / 4][(6 + i) % 4];
-    const Words bits = sum - m[a] * voxels.sums[b] - m[b] * rest[a];
-    const Pack near = toNumbers(high) * highUnit - mReal[a] * sumReal[b];
+    const Words& low = parts[i / 2][i % 2 * 2];
+    const Words& high = parts[i / 2][i % 2 * 2 + 1];
+    const Words bits = low - m[a] * voxels.sums[b] - m[b] * rest[a];
+    const Pack sum = (smallToNumbers(high) * 0x1p32 + smallToNumbers(low >> 32)) * 0x1p32;
+    const Pack near = sum - mReal[a] * sumReal[b];
     const Pack turns = nearest((near - toNumbers(bits)) * 0x1p-64);
     const Pack upper = smallToNumbers((bits >> 32) ^ 0x80000000u) - 0x1p31; // signed
     const Pack central = (turns * 0x1p32 + upper) * 0x1p32 + smallToNumbers(bits & 0xffffffffu);
@@ -177,7 +177,7 @@ inline void covariancesTogether(
   }
 }
 
-int covariances(const CovarianceMap& map, const PackedSums* sums, const SplitSecondMoments* secondMoments,
+int covariances(const CovarianceMap& map, const PackedSums* sums, const SecondMoments* secondMoments,
   int count, double* covariances, int* full)
 {
   const std::int64_t most = mostCovariancePoints(map.fractionBits);
@@ -200,5 +200,4 @@ int covariances(const CovarianceMap& map, const PackedSums* sums, const SplitSec
 }
 
 }
-} // namespace simd
-} // namespace pointhaptics
+} // namespace pointhaptics::simd

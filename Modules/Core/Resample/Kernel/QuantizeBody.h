@@ -2,15 +2,12 @@
 /// Part of VoxelKernelBody.h: quantizes points and bins their records into the partitions.
 #pragma once
 
-#include "Core/Resample/Kernel/Fetch.h"
-#include "Core/Resample/Kernel/InFours.h"
+#include "Core/Resample/Kernel/Loops.h"
 #include "Core/Resample/Kernel/PointRecordWriter.h"
 #include "Core/Resample/Kernel/VoxelKernel.h"
 #include "Core/Simd/Words.h"
 
-namespace pointhaptics
-{
-namespace simd
+namespace pointhaptics::simd
 {
 namespace
 {
@@ -368,5 +365,4 @@ void partition(const PointQuantizer& quantizer, const Real* xyz, const PointRang
 }
 
 }
-} // namespace simd
-} // namespace pointhaptics
+} // namespace pointhaptics::simd

@@ -5,9 +5,7 @@
 #include "Core/Resample/Kernel/OrderedKey.h"
 #include "Core/Resample/Kernel/VoxelKernel.h"
 
-namespace pointhaptics
-{
-namespace simd
+namespace pointhaptics::simd
 {
 namespace
 {
@@ -97,5 +95,4 @@ constexpr SelectKernel kSelect[] = { &select<Median, std::int8_t>, &select<Media
   &select<Median, float>, &select<Median, double> };
 
 }
-} // namespace simd
-} // namespace pointhaptics
+} // namespace pointhaptics::simd

@@ -9,9 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace pointhaptics
-{
-namespace simd
+namespace pointhaptics::simd
 {
 
 __extension__ typedef __int128 Int128;
@@ -132,24 +130,6 @@ struct SecondMoments
   UInt128 lanes[6];
 };
 
-/// Second moments, each as two sums that do not overflow where the sums of the offsets do not: one of the
-/// products shifted right by the bits of an offset, one of the bits shifted out.
-struct SplitSecondMoments
-{
-  std::uint64_t high[6];
-  std::uint64_t low[6];
-};
-
-static inline SecondMoments whole(const SplitSecondMoments& split, int fractionBits)
-{
-  SecondMoments sums;
-  for (int m = 0; m < 6; ++m)
-  {
-    sums.lanes[m] = (UInt128(split.high[m]) << fractionBits) + split.low[m];
-  }
-  return sums;
-}
-
 /// Which cells of a partition have points, and the rank of a cell among them: an occupancy bit for each cell
 /// and an entry of the rank table for each word of 64 bits. Both stay in the first-level cache.
 struct CellRanks
@@ -164,8 +144,8 @@ struct CellSums
 {
   std::uint32_t* cells;
   PackedSums* sums;
-  SplitSecondMoments* secondMoments; ///< Or null.
-  bool keepsRanks;                   ///< The cells of records become their ranks, as second moments need.
+  SecondMoments* secondMoments; ///< Or null.
+  bool keepsRanks;              ///< The cells of records become their ranks, as second moments need.
 };
 
 /// Whether the matrix of a transform scales and mirrors only.
@@ -284,7 +264,7 @@ struct Kernels
   /// Covariances of cells, six numbers each in the order of SecondMoments. Positions among them of those with
   /// too many points for this go to @p full, at most @p count: theirs are not valid. @return the number of
   /// these. Reads, but does not use, kWidest elements past the end.
-  int (*covariances)(const CovarianceMap&, const PackedSums* sums, const SplitSecondMoments* secondMoments,
+  int (*covariances)(const CovarianceMap&, const PackedSums* sums, const SecondMoments* secondMoments,
     int count, double* covariances, int* full);
   const SelectKernel* modes; ///< In the order of ScalarType.
   const SelectKernel* medians;
@@ -299,5 +279,4 @@ const Kernels& baselineKernels();
 const Kernels* avx2Kernels();
 const Kernels* avx512Kernels();
 
-} // namespace simd
-} // namespace pointhaptics
+} // namespace pointhaptics::simd

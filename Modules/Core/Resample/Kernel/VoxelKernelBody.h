@@ -11,9 +11,7 @@
 #include "Core/Resample/Kernel/SelectBody.h"
 #include "Core/Resample/Kernel/VoxelKernel.h"
 
-namespace pointhaptics
-{
-namespace simd
+namespace pointhaptics::simd
 {
 namespace
 {
@@ -25,5 +23,4 @@ constexpr Kernels kKernels = { kPointKernels<float>, kPointKernels<double>, &cel
   &rankWords, &rank, &accumulate, &covariances, kSelect<false>, kSelect<true> };
 
 }
-} // namespace simd
-} // namespace pointhaptics
+} // namespace pointhaptics::simd

@@ -11,9 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace pointhaptics
-{
-namespace simd
+namespace pointhaptics::simd
 {
 
 /// Compares the distances of quantized positions: see Representative.
@@ -95,5 +93,4 @@ private:
   Buffer<Nearest> nearest_;
 };
 
-} // namespace simd
-} // namespace pointhaptics
+} // namespace pointhaptics::simd

@@ -3,9 +3,7 @@
 #include <numeric>
 #include <utility>
 
-namespace pointhaptics
-{
-namespace simd
+namespace pointhaptics::simd
 {
 
 std::array<Vec3, 3> normalColumns(const AffineTransform& transform)
@@ -116,5 +114,4 @@ std::vector<VoxelTally> VoxelReductions::takeTallies()
   return tallies;
 }
 
-} // namespace simd
-} // namespace pointhaptics
+} // namespace pointhaptics::simd

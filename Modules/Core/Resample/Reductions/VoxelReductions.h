@@ -2,7 +2,7 @@
 /// Results of the points of voxels beside their sums.
 #pragma once
 
-#include "Core/Resample/Kernel/Fetch.h"
+#include "Core/Resample/Kernel/Loops.h"
 #include "Core/Resample/Kernel/PointRecordWriter.h"
 #include "Core/Resample/Reductions/AttributeTuples.h"
 #include "Core/Resample/Reductions/NearestPoints.h"
@@ -15,9 +15,7 @@
 #include <optional>
 #include <vector>
 
-namespace pointhaptics
-{
-namespace simd
+namespace pointhaptics::simd
 {
 
 /// Columns that turn normals: the products of a normal's components with these are added.
@@ -91,5 +89,4 @@ private:
   std::vector<std::int64_t> counts_; ///< Number of points of each voxel.
 };
 
-} // namespace simd
-} // namespace pointhaptics
+} // namespace pointhaptics::simd

@@ -1,10 +1,8 @@
 #include "Core/Resample/Stages/BinnedVoxels.h"
 
-#include "Core/Resample/Kernel/InFours.h"
+#include "Core/Resample/Kernel/Loops.h"
 
-namespace pointhaptics
-{
-namespace simd
+namespace pointhaptics::simd
 {
 namespace
 {
@@ -130,7 +128,7 @@ void BinnedVoxels::sumPacked()
   if (covariances_)
   {
     secondMoments_.resize(std::max(secondMoments_.size(), room));
-    std::fill_n(secondMoments_.data(), voxels_.size, SplitSecondMoments{});
+    std::fill_n(secondMoments_.data(), voxels_.size, SecondMoments{});
     voxels_.secondMoments = secondMoments_.data();
   }
   const CellSums sums = { cells_.data(), packed_.data(), covariances_ ? secondMoments_.data() : nullptr,
@@ -172,15 +170,12 @@ VoxelRun BinnedVoxels::wide() const
   }
   VoxelRun run;
   run.voxels.resize(voxels_.size);
-  run.secondMoments.resize(covariances_ ? voxels_.size : 0);
   for (std::size_t i = 0; i < voxels_.size; ++i)
   {
     run.voxels[i] = WideSums::of(voxels_.firstKey + voxels_.cells[i], voxels_.sums[i]);
   }
-  for (std::size_t i = 0; covariances_ && i < voxels_.size; ++i)
-  {
-    run.secondMoments[i] = whole(voxels_.secondMoments[i], plan().fractionBits);
-  }
+  run.secondMoments.assign(
+    secondMoments_.begin(), secondMoments_.begin() + std::ptrdiff_t(covariances_ ? voxels_.size : 0));
   return run;
 }
 
@@ -193,8 +188,7 @@ std::size_t BinnedVoxels::bytes() const
 {
   return occupancy_.bytes() + touched_.bytes() + rankTable_.bytes() + recordCells_.bytes() +
     cells_.capacity() * sizeof(std::uint32_t) + packed_.capacity() * sizeof(PackedSums) +
-    secondMoments_.capacity() * sizeof(SplitSecondMoments) + wide_.bytes();
+    secondMoments_.capacity() * sizeof(SecondMoments) + wide_.bytes();
 }
 
-} // namespace simd
-} // namespace pointhaptics
+} // namespace pointhaptics::simd

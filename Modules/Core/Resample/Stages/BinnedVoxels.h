@@ -12,9 +12,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace pointhaptics
-{
-namespace simd
+namespace pointhaptics::simd
 {
 
 /// Some points of a partition, and their voxels, counted from the first of the partition.
@@ -109,7 +107,7 @@ private:
   Buffer<std::uint32_t> recordCells_; ///< Where asked for, they become ranks.
   std::vector<std::uint32_t> cells_;
   std::vector<PackedSums> packed_;
-  std::vector<SplitSecondMoments> secondMoments_;
+  std::vector<SecondMoments> secondMoments_;
   bool isWide_ = false; ///< There may be too many points in a voxel for packed sums.
   VoxelRun wide_;
 };
@@ -140,5 +138,4 @@ void BinnedVoxels::visit(const Visit& visit) const
   visitOther();
 }
 
-} // namespace simd
-} // namespace pointhaptics
+} // namespace pointhaptics::simd

@@ -6,9 +6,7 @@
 #include <algorithm>
 #include <type_traits>
 
-namespace pointhaptics
-{
-namespace simd
+namespace pointhaptics::simd
 {
 namespace
 {
@@ -179,5 +177,4 @@ void PointBinner::add(
     });
 }
 
-} // namespace simd
-} // namespace pointhaptics
+} // namespace pointhaptics::simd

@@ -12,9 +12,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace pointhaptics
-{
-namespace simd
+namespace pointhaptics::simd
 {
 
 /// How the voxels of a lattice are divided into partitions: blocks of rows (voxels along x) of a layer, or
@@ -100,5 +98,4 @@ private:
   PointRecordPool pool_;
 };
 
-} // namespace simd
-} // namespace pointhaptics
+} // namespace pointhaptics::simd

@@ -4,9 +4,7 @@
 #include <cmath>
 #include <cstring>
 
-namespace pointhaptics
-{
-namespace simd
+namespace pointhaptics::simd
 {
 namespace
 {
@@ -236,5 +234,4 @@ PointLocation quantizePoint(const PointQuantizer& quantizer, const Vec3& point, 
   return inside ? PointLocation::Inside : finite ? PointLocation::Outside : PointLocation::Invalid;
 }
 
-} // namespace simd
-} // namespace pointhaptics
+} // namespace pointhaptics::simd

@@ -8,9 +8,7 @@
 
 #include <cstdint>
 
-namespace pointhaptics
-{
-namespace simd
+namespace pointhaptics::simd
 {
 
 /// Bits that index the voxels of a lattice's longest axis.
@@ -38,5 +36,4 @@ enum class PointLocation
 /// bits.
 PointLocation quantizePoint(const PointQuantizer& quantizer, const Vec3& point, std::uint64_t position[3]);
 
-} // namespace simd
-} // namespace pointhaptics
+} // namespace pointhaptics::simd

@@ -2,9 +2,7 @@
 
 #include <algorithm>
 
-namespace pointhaptics
-{
-namespace simd
+namespace pointhaptics::simd
 {
 
 namespace
@@ -112,5 +110,4 @@ std::size_t PointRecordPool::bytes() const
   return sum;
 }
 
-} // namespace simd
-} // namespace pointhaptics
+} // namespace pointhaptics::simd

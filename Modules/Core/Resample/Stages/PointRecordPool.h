@@ -3,7 +3,7 @@
 #pragma once
 
 #include "Core/Base/Buffer.h"
-#include "Core/Resample/Kernel/Fetch.h"
+#include "Core/Resample/Kernel/Loops.h"
 #include "Core/Resample/Kernel/PointRecordWriter.h"
 
 #include <algorithm>
@@ -11,9 +11,7 @@
 #include <memory>
 #include <vector>
 
-namespace pointhaptics
-{
-namespace simd
+namespace pointhaptics::simd
 {
 
 /// Blocks of point records in one piece of memory. A writer takes a block for each partition it has a point
@@ -135,5 +133,4 @@ inline bool PointRecordPool::Walk::next()
   return true;
 }
 
-} // namespace simd
-} // namespace pointhaptics
+} // namespace pointhaptics::simd

@@ -8,9 +8,7 @@
 #include <limits>
 #include <type_traits>
 
-namespace pointhaptics
-{
-namespace simd
+namespace pointhaptics::simd
 {
 namespace
 {
@@ -400,5 +398,4 @@ void TallySums::trim()
   nonFinite.shrink_to_fit();
 }
 
-} // namespace simd
-} // namespace pointhaptics
+} // namespace pointhaptics::simd

@@ -4,9 +4,7 @@
 #include <numeric>
 #include <utility>
 
-namespace pointhaptics
-{
-namespace simd
+namespace pointhaptics::simd
 {
 namespace
 {
@@ -149,5 +147,4 @@ void VoxelRuns::mergeLast()
   runs_.back() = std::move(both);
 }
 
-} // namespace simd
-} // namespace pointhaptics
+} // namespace pointhaptics::simd

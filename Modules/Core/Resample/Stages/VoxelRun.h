@@ -12,9 +12,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace pointhaptics
-{
-namespace simd
+namespace pointhaptics::simd
 {
 
 /// Rounded once, as the compiler's own conversion of 128 bits is; nearly all values take the quick way.
@@ -157,5 +155,4 @@ private:
   std::vector<VoxelRun> runs_; ///< Each far smaller than the one before.
 };
 
-} // namespace simd
-} // namespace pointhaptics
+} // namespace pointhaptics::simd

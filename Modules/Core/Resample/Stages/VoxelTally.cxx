@@ -5,9 +5,7 @@
 #include <limits>
 #include <type_traits>
 
-namespace pointhaptics
-{
-namespace simd
+namespace pointhaptics::simd
 {
 
 void VoxelGroups::add(int run, std::size_t first, std::size_t last)
@@ -197,5 +195,4 @@ std::size_t VoxelTally::bytes() const
     values.ends.capacity() * sizeof(std::size_t) + values.values.capacity() * sizeof(TallyValue);
 }
 
-} // namespace simd
-} // namespace pointhaptics
+} // namespace pointhaptics::simd

@@ -14,9 +14,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace pointhaptics
-{
-namespace simd
+namespace pointhaptics::simd
 {
 
 /// Voxels of some runs, in groups of which each becomes one.
@@ -164,5 +162,4 @@ public:
   std::size_t bytes() const;
 };
 
-} // namespace simd
-} // namespace pointhaptics
+} // namespace pointhaptics::simd

@@ -4,9 +4,7 @@
 #include <cfloat>
 #include <cmath>
 
-namespace pointhaptics
-{
-namespace simd
+namespace pointhaptics::simd
 {
 SymMat3 covarianceOf(std::int64_t count, const Int128 sums[3], const SecondMoments& secondMoments,
   double quantum, const Vec3& spacing)
@@ -132,15 +130,14 @@ void VoxelWriter::writeCovariances(const Kernels& kernels, std::size_t offset, c
   {
     const int size = int(std::min<std::size_t>(voxels.size - first, kBatch));
     const PackedSums* packed = voxels.sums + first;
-    const SplitSecondMoments* secondMoments = voxels.secondMoments + first;
+    const SecondMoments* secondMoments = voxels.secondMoments + first;
     SymMat3* to = covariances() + offset + first;
     const int found = kernels.covariances(map, packed, secondMoments, size, &to->xx, full);
     for (int j = 0; j < found; ++j)
     {
       const int i = full[j];
       const Int128 sums[3] = { Int128(packed[i].lanes[0]), Int128(packed[i].lanes[1]), packedZ(packed[i]) };
-      to[i] = covarianceOf(
-        packedCount(packed[i]), sums, whole(secondMoments[i], fractionBits), map_.quantum, lattice_.spacing);
+      to[i] = covarianceOf(packedCount(packed[i]), sums, secondMoments[i], map_.quantum, lattice_.spacing);
     }
   }
 }
@@ -179,5 +176,4 @@ void VoxelWriter::write(std::size_t offset, const VoxelRun& run, std::size_t fir
   }
 }
 
-} // namespace simd
-} // namespace pointhaptics
+} // namespace pointhaptics::simd

@@ -13,9 +13,7 @@
 #include <numeric>
 #include <vector>
 
-namespace pointhaptics
-{
-namespace simd
+namespace pointhaptics::simd
 {
 
 /// The voxels of a partition, in ascending order.
@@ -25,7 +23,7 @@ struct PartitionVoxels
   std::uint64_t firstKey = 0;
   const std::uint32_t* cells = nullptr;
   const PackedSums* sums = nullptr;
-  const SplitSecondMoments* secondMoments = nullptr; ///< Or null.
+  const SecondMoments* secondMoments = nullptr; ///< Or null.
   std::size_t size = 0;
 };
 
@@ -129,5 +127,4 @@ private:
   std::vector<Array> arrays_ = std::vector<Array>(kAttributes);
 };
 
-} // namespace simd
-} // namespace pointhaptics
+} // namespace pointhaptics::simd
