@@ -25,9 +25,14 @@ bool sumGroup(
     const int sign = groups.signOf(voxel);
     WideSums& sums = to.voxels[group];
     sums.key = run.voxels[voxel.number].key;
-    isRight =
-      (sign > 0 ? (sums.add(run.voxels[voxel.number]), true) : sums.subtract(run.voxels[voxel.number])) &&
-      isRight;
+    if (sign > 0)
+    {
+      sums.add(run.voxels[voxel.number]);
+    }
+    else
+    {
+      isRight = sums.subtract(run.voxels[voxel.number]) && isRight;
+    }
     if (run.hasMoments())
     {
       add(to.secondMoments[group], run.secondMoments[voxel.number], sign);
@@ -96,15 +101,18 @@ VoxelRun merged(const VoxelRun& a, const VoxelRun& b, int sign, bool& isRight)
 {
   VoxelGroups groups;
   groups.sign = sign;
+  groups.voxels.reserve(a.size() + b.size());
+  groups.ends.reserve(a.size() + b.size());
   for (std::size_t i = 0, j = 0; i < a.size() || j < b.size();)
   {
     const bool isIn = i < a.size() && (j == b.size() || a.voxels[i].key <= b.voxels[j].key);
     const bool isInOther = j < b.size() && (!isIn || b.voxels[j].key == a.voxels[i].key);
-    WideSums first = isIn ? a.voxels[i] : WideSums{};
-    // What is left without points has no sums either.
-    const bool isEmpty = sign < 0 && isIn && isInOther && first.count == b.voxels[j].count;
-    isRight = isRight && (!isEmpty || first.subtract(b.voxels[j]));
-    if (!isEmpty)
+    const bool isEmpty = sign < 0 && isIn && isInOther && a.voxels[i].count == b.voxels[j].count;
+    if (isEmpty) // has no sums either
+    {
+      isRight = WideSums(a.voxels[i]).subtract(b.voxels[j]) && isRight;
+    }
+    else
     {
       isIn ? groups.voxels.push_back({ 0, i }) : void();
       isInOther ? groups.voxels.push_back({ 1, j }) : void();
