@@ -311,12 +311,12 @@ using NumberOf = std::conditional_t<std::is_same_v<T, SecondMoments>, UInt128,
 template <typename T>
 constexpr std::size_t kNumbersOf = sizeof(T) / sizeof(NumberOf<T>);
 
-/// Writes numbers, the lowest byte first on every machine. Without memory it only counts bytes.
+/// Writes numbers, the lowest byte first on every machine.
 class Writer
 {
 public:
-  explicit Writer(char* memory)
-    : memory_(memory)
+  explicit Writer(std::string& bytes)
+    : bytes_(bytes)
   {
   }
   template <typename T>
@@ -325,12 +325,12 @@ public:
     static_assert(std::is_trivially_copyable_v<T> && sizeof(T) % sizeof(NumberOf<T>) == 0);
     NumberOf<T> numbers[kNumbersOf<T>];
     std::memcpy(numbers, &thing, sizeof thing);
-    char* to = memory_ ? memory_ + bytes_ : nullptr;
-    for (std::size_t i = 0; to && i < sizeof thing; ++i)
+    char bytes[sizeof thing];
+    for (std::size_t i = 0; i < sizeof thing; ++i)
     {
-      *to++ = char(numbers[i / sizeof *numbers] >> (8 * (i % sizeof *numbers)) & 255);
+      bytes[i] = char(numbers[i / sizeof *numbers] >> (8 * (i % sizeof *numbers)) & 255);
     }
-    bytes_ += sizeof thing;
+    bytes_.append(bytes, sizeof thing);
   }
   /// Elements @p first to before @p last. @return how many they are.
   template <typename Vector>
@@ -341,12 +341,10 @@ public:
       elements.data() + first, elements.data() + last, [this](const auto& element) { this->one(element); });
     return last - first;
   }
-  std::size_t bytes() const { return bytes_; }
   static constexpr bool isWhole() { return true; }
 
 private:
-  char* memory_;
-  std::size_t bytes_ = 0;
+  std::string& bytes_;
 };
 
 /// Reads what a Writer wrote; zeros beyond the end.
@@ -513,14 +511,10 @@ std::string VoxelAccumulator::serialize(std::uint64_t first, std::uint64_t end)
   const Sums::Range range = added_->range(first, end);
   VoxelRun& run = added_->runs.whole();
   std::for_each(run.tallies.begin(), run.tallies.end(), [](VoxelTally& tally) { tally.trim(); });
-  Content content{ { kMagic, lattice_, covariances_, VoxelResampler::Implementation::fractionBitsOf(lattice_),
-                     range.counts },
-    arrays_, {} };
+  Content content{ { kMagic, lattice_, covariances_, fractionBitsOf(lattice_), range.counts }, arrays_, {} };
   content.common.assign(common_.has_value(), common_.value_or(AffineTransform()));
-  Writer counter(nullptr);
-  exchange(counter, content, run, range.first, range.last);
-  std::string bytes(counter.bytes(), 0);
-  Writer writer(bytes.data());
+  std::string bytes;
+  Writer writer(bytes);
   exchange(writer, content, run, range.first, range.last);
   return bytes;
 }
@@ -537,7 +531,7 @@ Status VoxelAccumulator::deserialize(std::string_view bytes, VoxelAccumulator& r
   {
     return Status::InvalidParameter;
   }
-  const int fractionBits = VoxelResampler::Implementation::fractionBitsOf(header.lattice);
+  const int fractionBits = fractionBitsOf(header.lattice);
   bool areRight = (header.fractionBits == fractionBits || (run.size() == 0 && header.fractionBits == 0)) &&
     areOf(header, run);
   for (std::size_t i = 0; areRight && i < content.arrays.size(); ++i)

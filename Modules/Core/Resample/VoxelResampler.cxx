@@ -105,7 +105,7 @@ Status VoxelResampler::Implementation::finish(
   }
   lattice = request.lattice;
   size = std::int64_t(sums.size());
-  writer.prepare(sums.size(), layoutOf(request), lattice, fractionBitsOf(lattice), request.allocator);
+  writer.prepare(request, sums.size(), fractionBitsOf(lattice));
   PointProgress progress(observer, size, 1);
   const bool isDone = forReportedSlices(size, progress,
     [&](std::int64_t first, std::int64_t last)
@@ -123,23 +123,6 @@ void VoxelResampler::Implementation::clear()
   clipped = invalid = 0;
   chosenPoints.clear();
   voxelIndex.clear();
-}
-
-VoxelWriter::Layout VoxelResampler::Implementation::layoutOf(const VoxelRequest& request)
-{
-  VoxelWriter::Layout layout = { request.singlePrecision, request.keys, request.covariances,
-    keepsPoints(request.representative) };
-  for (const AttributeRequest& attribute : request.attributes)
-  {
-    layout.attributeBytes.push_back(std::size_t(attribute.view.tupleBytes()));
-  }
-  return layout;
-}
-
-int VoxelResampler::Implementation::fractionBitsOf(const Lattice& lattice)
-{
-  const int indexBits = indexBitsOf(lattice);
-  return positionBitsFor(indexBits) - indexBits;
 }
 
 /// Writes voxels @p first to before @p last of a run, whose voxels begin at @p offset of the result.
@@ -173,7 +156,7 @@ void VoxelResampler::Implementation::Stages<Voxels>::prepareWorkers(
   for (std::unique_ptr<Worker>& worker : workers)
   {
     worker = worker ? std::move(worker) : std::make_unique<Worker>();
-    worker->voxels.prepare(request, source, reduces);
+    worker->voxels.prepare(request, source);
     worker->reductions.reset();
     if (reduces)
     {
@@ -309,7 +292,7 @@ void VoxelResampler::Implementation::writeParts(
     firsts.push_back(firsts.back() + part.size());
   }
   size = std::int64_t(firsts.back());
-  writer.prepare(firsts.back(), layoutOf(request), lattice, fractionBitsOf(lattice), request.allocator);
+  writer.prepare(request, firsts.back(), fractionBitsOf(lattice));
   forEachItem(executor, parts.size(),
     [&](std::size_t p)
     {
@@ -324,10 +307,6 @@ template <typename Voxels>
 void VoxelResampler::Implementation::makeOutput(
   Stages<Voxels>& stages, const VoxelRequest& request, const Executor& executor)
 {
-  const auto prepare = [&](std::size_t room)
-  {
-    writer.prepare(room, layoutOf(request), request.lattice, stages.source.fractionBits(), request.allocator);
-  };
   std::size_t most = 0;
   for (std::uint32_t p = 0; p < stages.source.partitions(); ++p)
   {
@@ -335,7 +314,7 @@ void VoxelResampler::Implementation::makeOutput(
   }
   try
   {
-    prepare(most);
+    writer.prepare(request, most, stages.source.fractionBits());
   }
   catch (const std::bad_alloc&)
   {
@@ -349,7 +328,7 @@ void VoxelResampler::Implementation::makeOutput(
         voxels += found.find(std::uint32_t(p));
         found.drop();
       });
-    prepare(voxels);
+    writer.prepare(request, voxels, stages.source.fractionBits());
   }
 }
 

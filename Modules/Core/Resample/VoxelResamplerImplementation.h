@@ -79,8 +79,6 @@ public:
   /// For VoxelAccumulator: the result that such sums make.
   Status finish(const VoxelRequest& request, const simd::VoxelRun& sums, const Executor& executor,
     ProgressObserver* observer);
-  /// Bits of an offset in a voxel.
-  static int fractionBitsOf(const Lattice& lattice);
 
   Lattice lattice;
   simd::VoxelWriter writer; ///< The result's arrays.
@@ -137,7 +135,6 @@ private:
   template <typename Voxels>
   void makeOutput(Stages<Voxels>& stages, const VoxelRequest& request, const Executor& executor);
   AttributeView placesOf(const VoxelRequest& request, const Executor& executor);
-  static simd::VoxelWriter::Layout layoutOf(const VoxelRequest& request);
   void writeRun(const VoxelRequest& request, const simd::VoxelRun& run, std::size_t first, std::size_t last,
     std::size_t offset);
   void writeParts(const VoxelRequest& request, std::vector<simd::VoxelRun>& parts, const Executor& executor);

@@ -141,7 +141,6 @@ __attribute__((noinline)) int quantizeGroups(const PointQuantizer& given, const 
   unsigned present, std::uint32_t index, QuantizedPoints& quantized)
 {
   constexpr unsigned kFull = (1u << kWidth) - 1;
-  constexpr int kGroups = kWidth == 4 ? 8 : 1;
   const PointQuantizer constants = given; // A copy, which no store can change.
   std::int64_t size = quantized.size;     // A copy, which no store can change.
   int invalid = 0;
@@ -150,36 +149,27 @@ __attribute__((noinline)) int quantizeGroups(const PointQuantizer& given, const 
   {
     lanes[i] = i;
   }
-  // Two loops have chains of operations half as long, of which the processor works on more at a time.
-  Pack u[kGroups][3];
-  for (int first = 0; first < groups; first += kGroups)
+  for (int g = 0; g < groups; ++g, xyz += 3 * kWidth, index += kWidth)
   {
-    const int together = groups - first < kGroups ? groups - first : kGroups;
-    for (int g = 0; g < together; ++g)
+    Pack u[3];
+    locate<motion>(constants, xyz, u);
+    const unsigned kept = present & quantizeGroup(constants, u, quantized, size);
+    if (__builtin_expect(kept == kFull, true))
     {
-      locate<motion>(constants, xyz + 3 * kWidth * (first + g), u[g]);
+      *reinterpret_cast<IntsAt*>(quantized.indices + size) = lanes + std::int32_t(index);
+      size += kWidth;
+      continue;
     }
-    for (int g = 0; g < together; ++g)
+    if (kept != present)
     {
-      const std::uint32_t firstIndex = index + std::uint32_t(kWidth * (first + g));
-      const unsigned kept = present & quantizeGroup(constants, u[g], quantized, size);
-      if (__builtin_expect(kept == kFull, true))
-      {
-        *reinterpret_cast<IntsAt*>(quantized.indices + size) = lanes + std::int32_t(firstIndex);
-        size += kWidth;
-        continue;
-      }
-      if (kept != present)
-      {
-        Pack v[3];
-        move<motion>(constants, xyz + 3 * kWidth * (first + g), v);
-        // A coordinate that is not finite makes the difference NaN.
-        const Pack zero = (v[0] - v[0]) + (v[1] - v[1]) + (v[2] - v[2]);
-        const unsigned finite = highestBits(reinterpret_cast<Words>(zero == 0.0));
-        invalid += __builtin_popcount(present & ~finite);
-      }
-      size = keepInside(quantized, size, kept, firstIndex);
+      Pack v[3];
+      move<motion>(constants, xyz, v);
+      // A coordinate that is not finite makes the difference NaN.
+      const Pack zero = (v[0] - v[0]) + (v[1] - v[1]) + (v[2] - v[2]);
+      const unsigned finite = highestBits(reinterpret_cast<Words>(zero == 0.0));
+      invalid += __builtin_popcount(present & ~finite);
     }
+    size = keepInside(quantized, size, kept, index);
   }
   quantized.size = int(size);
   return invalid;

@@ -16,8 +16,7 @@ __extension__ typedef __int128 Int128;
 __extension__ typedef unsigned __int128 UInt128;
 
 /// A coordinate is a fixed-point number of this many bits over the power of two of voxels that covers the
-/// longest axis of the lattice. The quantum is thus the same on a lattice and on one twice as coarse, and the
-/// sums of the fine one are those of the coarse one.
+/// longest axis of the lattice.
 constexpr int kPositionBits = 43;
 /// Largest power of two of voxels on an axis these records hold with 31 bits left for the offset in the
 /// voxel.
@@ -92,13 +91,7 @@ struct CellMap
   std::uint32_t columns;
   std::uint32_t rowsPerLayer;
   std::uint32_t firstRow;
-  /// Rows in the half of the lattice that the bit of z left out of the records stands for; 0: it is never
-  /// set.
-  std::uint32_t upperRows;
-  /// Rows of its layer before the partition, if it has no other.
-  std::uint32_t firstInLayer = kSeveralLayers;
-
-  static constexpr std::uint32_t kSeveralLayers = ~std::uint32_t(0);
+  std::uint32_t firstRecordRow; ///< Without the bit of z that is left out of the records.
 };
 
 /// Sums of one chunk in one cell: x, y, low bits of z, count | high bits of z.
@@ -145,7 +138,6 @@ struct CellSums
   std::uint32_t* cells;
   PackedSums* sums;
   SecondMoments* secondMoments; ///< Or null.
-  bool keepsRanks;              ///< The cells of records become their ranks, as second moments need.
 };
 
 /// Whether the matrix of a transform scales and mirrors only.
@@ -256,9 +248,8 @@ struct Kernels
   /// Builds the rank table, of the words alone whose bits are set in @p touched, unless that is null.
   /// @return the number of occupied cells.
   std::uint32_t (*rankWords)(const CellRanks& ranks, const std::uint64_t* touched);
-  /// Replaces each cell by its rank among the occupied cells.
-  void (*rank)(const CellRanks& ranks, std::uint32_t* cells, int count);
-  /// Adds records to the sums of their @p cells; fetches @p next like cells().
+  /// Adds records to the sums of their @p cells, which become their ranks among the occupied cells; fetches
+  /// @p next like cells().
   void (*accumulate)(const CellMap&, const CellRanks& ranks, const PointRecord* records, std::uint32_t* cells,
     int count, const PointRecord* next, const CellSums& sums);
   /// Covariances of cells, six numbers each in the order of SecondMoments. Positions among them of those with

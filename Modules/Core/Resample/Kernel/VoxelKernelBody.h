@@ -20,7 +20,7 @@ template <typename Real>
 constexpr PointKernels<Real> kPointKernels = { &partition<Real>, &packedMeans<Real>, &bounds<Real> };
 
 constexpr Kernels kKernels = { kPointKernels<float>, kPointKernels<double>, &cellsOf, &setOccupied,
-  &rankWords, &rank, &accumulate, &covariances, kSelect<false>, kSelect<true> };
+  &rankWords, &accumulate, &covariances, kSelect<false>, kSelect<true> };
 
 }
 } // namespace pointhaptics::simd

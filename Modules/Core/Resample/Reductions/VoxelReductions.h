@@ -50,9 +50,9 @@ public:
       nearest_->prepare(voxels);
     }
     voxels.visit(
-      [&](const auto& block, const auto& next)
+      [&](const auto& block)
       {
-        this->fetch(next.points, next.count);
+        this->fetch(block.points, block.count);
         this->note(block.points, block.voxels, block.count, std::int64_t(first));
         this->addTuples(block.payloads, block.points, block.voxels, block.count);
         if (nearest_)

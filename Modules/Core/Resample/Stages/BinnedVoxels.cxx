@@ -19,12 +19,11 @@ constexpr std::size_t kWordsPerSparseRecord = 3;
 
 }
 
-void BinnedVoxels::prepare(const VoxelRequest& request, const PointBinner& binner, bool visits)
+void BinnedVoxels::prepare(const VoxelRequest& request, const PointBinner& binner)
 {
   binner_ = &binner;
   kernels_ = &kernelsFor(request.instructions);
   covariances_ = request.covariances;
-  visits_ = visits;
 }
 
 /// Grows the tables to the cells of a partition, with all bits 0. The thread that sums does this and not
@@ -131,8 +130,7 @@ void BinnedVoxels::sumPacked()
     std::fill_n(secondMoments_.data(), voxels_.size, SecondMoments{});
     voxels_.secondMoments = secondMoments_.data();
   }
-  const CellSums sums = { cells_.data(), packed_.data(), covariances_ ? secondMoments_.data() : nullptr,
-    covariances_ || visits_ };
+  const CellSums sums = { cells_.data(), packed_.data(), covariances_ ? secondMoments_.data() : nullptr };
   PointRecordPool::Walk following(binner_->pool(), binner_->pool().following(partition_));
   forBlocks(
     [&](const PointRecordPool::Walk& block, std::uint32_t* cells)
@@ -153,7 +151,8 @@ void BinnedVoxels::sumWide()
       for (int i = 0; i < block.count(); ++i)
       {
         const std::uint32_t cell = cells[i];
-        kernels_->rank(ranks(), cells + i, 1);
+        const std::uint64_t below = occupancy_[cell / 64] & ((std::uint64_t(1) << (cell % 64)) - 1);
+        cells[i] = rankTable_[cell / 64] + std::uint32_t(__builtin_popcountll(below));
         cells_[cells[i]] = cell;
         wide_.voxels[cells[i]].key = voxels_.firstKey + cell;
         const PointRecord& r = block.records()[i];

@@ -135,9 +135,8 @@ bool fitsPartitions(const Lattice& lattice, int indexBits)
 void PointBinner::prepare(
   const VoxelRequest& request, const Chunks& chunks, const std::vector<AttributeView>& arrays, bool numbered)
 {
-  const int indexBits = indexBitsOf(request.lattice);
-  plan_ = makePlan(request.lattice, indexBits, chunks.pointCount(0));
-  quantizer_ = makeQuantizer(request.transform, request.lattice, indexBits, kPositionBits);
+  plan_ = makePlan(request.lattice, indexBitsOf(request.lattice), chunks.pointCount(0));
+  quantizer_ = makeQuantizer(request.transform, request.lattice);
   quantizer_.blocksPerLayer = plan_.blocksPerLayer;
   quantizer_.rowShift = plan_.rowShift;
   quantizer_.layerShift = plan_.layerShift;

@@ -21,7 +21,8 @@ struct PartitionPlan
 {
   std::uint32_t columns = 1;
   std::uint32_t rowsPerLayer = 1;
-  std::uint32_t upperRows = 0; ///< See CellMap.
+  /// Rows in the half of the lattice that the bit of z left out of records stands for; 0: it is never set.
+  std::uint32_t upperRows = 0;
   int fractionBits = 0;
   std::uint32_t blocksPerLayer = 1;
   int rowShift = 0;   ///< Rows of a block, as a power of two.
@@ -35,9 +36,8 @@ struct PartitionPlan
   }
   CellMap cellMap(std::uint32_t partition) const
   {
-    const std::uint32_t firstInLayer =
-      layerShift == 0 ? (partition % blocksPerLayer) << rowShift : CellMap::kSeveralLayers;
-    return { fractionBits, columns, rowsPerLayer, firstRow(partition), upperRows, firstInLayer };
+    const std::uint32_t first = firstRow(partition);
+    return { fractionBits, columns, rowsPerLayer, first, upperRows > 0 ? first % upperRows : first };
   }
   std::uint64_t firstKey(std::uint32_t partition) const
   {
@@ -86,8 +86,8 @@ public:
   {
     return std::min(pool_.count(partition), plan_.cells());
   }
-  std::int64_t inside() const { return pool_.inside(); }
-  std::int64_t invalid() const { return pool_.invalid(); }
+  std::int64_t inside() const { return pool_.total(&PointRecordWriter::inside); }
+  std::int64_t invalid() const { return pool_.total(&PointRecordWriter::invalid); }
   std::size_t bytes() const { return pool_.bytes(); }
 
 private:

@@ -11,6 +11,9 @@ namespace
 
 using Wide = long double;
 
+/// Bits of a double below the highest.
+constexpr int kDoubleBits = 52;
+
 /// Solves T p = b by cofactors. Not by Eigen: one pivot of 170 would differ in its last bit, and positions
 /// with it, for a few solutions a run.
 void solve(const AffineTransform& transform, const Wide b[3], Wide p[3])
@@ -65,9 +68,8 @@ double leftOfDifference(double a, double b)
 }
 
 /// Where rounding p - pivot, the products and their sums could move a point inside by more than an eighth of
-/// a quantum: under matrices of a large condition number, and on the finest lattices. The same on a lattice
-/// and on one twice as coarse, whose sums would differ otherwise.
-bool needsCompensation(const AffineTransform& transform, const PointQuantizer& quantizer, int positionBits)
+/// a quantum: under matrices of a large condition number.
+bool needsCompensation(const AffineTransform& transform, const PointQuantizer& quantizer)
 {
   constexpr Wide kRounding = 0x1p-50L; // of a term of the sum, in total
   constexpr Wide kMostLost = 0.125L;
@@ -77,7 +79,7 @@ bool needsCompensation(const AffineTransform& transform, const PointQuantizer& q
     Wide extent[3] = { 0, 0, 0 };
     Wide edge[3];
     extent[axis] =
-      std::ldexp(Wide(quantizer.quantum[axis]), positionBits) + std::abs(Wide(quantizer.offset[axis]));
+      std::ldexp(Wide(quantizer.quantum[axis]), kPositionBits) + std::abs(Wide(quantizer.offset[axis]));
     solve(transform, extent, edge);
     for (int column = 0; column < 3; ++column)
     {
@@ -129,17 +131,18 @@ int indexBitsOf(const Lattice& lattice)
   return bits;
 }
 
-int positionBitsFor(int indexBits)
+int fractionBitsOf(const Lattice& lattice)
 {
-  return indexBits <= kMaximumIndexBits ? kPositionBits : 52;
+  const int indexBits = indexBitsOf(lattice);
+  return (indexBits <= kMaximumIndexBits ? kPositionBits : kDoubleBits) - indexBits;
 }
 
-PointQuantizer makeQuantizer(
-  const AffineTransform& transform, const Lattice& lattice, int indexBits, int positionBits)
+PointQuantizer makeQuantizer(const AffineTransform& transform, const Lattice& lattice)
 {
+  const int indexBits = indexBitsOf(lattice);
   PointQuantizer quantizer{};
   quantizer.motion = isDiagonal(transform.m) ? Motion::Scale : Motion::General;
-  quantizer.fractionBits = positionBits - indexBits;
+  quantizer.fractionBits = fractionBitsOf(lattice);
   quantizer.correctsRounding = indexBits > kUncorrectedIndexBits;
   Wide toOrigin[3];
   Wide pivot[3];
@@ -169,8 +172,8 @@ PointQuantizer makeQuantizer(
     quantizer.limit[axis] = std::ldexp(
       std::min(double(lattice.dimensions[std::size_t(axis)]), lattice.end[axis]), quantizer.fractionBits);
   }
-  if ((quantizer.motion == Motion::General || positionBits > kPositionBits) &&
-    needsCompensation(transform, quantizer, positionBits))
+  if (indexBits > kMaximumIndexBits ||
+    (quantizer.motion == Motion::General && needsCompensation(transform, quantizer)))
   {
     quantizer.motion = Motion::Compensated;
     std::fill(quantizer.pivot, quantizer.pivot + 3, 0.0);

@@ -84,8 +84,8 @@ public:
   /// number of partitions if there is none.
   std::uint32_t following(std::uint32_t partition) const;
   std::size_t count(std::uint32_t partition) const;
-  std::int64_t inside() const;
-  std::int64_t invalid() const;
+  /// Points that the writers counted.
+  std::int64_t total(std::int64_t PointRecordWriter::*count) const;
   std::size_t bytes() const;
 
 private:

@@ -19,8 +19,7 @@ constexpr std::size_t kMostRanges = 64;
 void PointSorter::prepare(
   const VoxelRequest& request, const Chunks& chunks, const std::vector<AttributeView>&, bool)
 {
-  const int indexBits = indexBitsOf(request.lattice);
-  quantizer_ = makeQuantizer(request.transform, request.lattice, indexBits, positionBitsFor(indexBits));
+  quantizer_ = makeQuantizer(request.transform, request.lattice);
   lattice_ = request.lattice;
   originals_ = chunks.originals();
   const PointView& points = chunks.points();
@@ -125,7 +124,7 @@ std::size_t PointSorter::bytes() const
   return sum;
 }
 
-void SortedVoxels::prepare(const VoxelRequest& request, const PointSorter& sorter, bool)
+void SortedVoxels::prepare(const VoxelRequest& request, const PointSorter& sorter)
 {
   sorter_ = &sorter;
   covariances_ = request.covariances;

@@ -93,7 +93,7 @@ class SortedVoxels
 public:
   using Source = PointSorter;
 
-  void prepare(const VoxelRequest& request, const PointSorter& sorter, bool visits);
+  void prepare(const VoxelRequest& request, const PointSorter& sorter);
   std::size_t find(std::uint32_t range);
   void sum();
   void drop() {}
@@ -125,7 +125,6 @@ private:
 template <typename Visit>
 void SortedVoxels::visit(const Visit& visit) const
 {
-  SortedBlock none; // Nothing is fetched in advance.
   SortedBlock block;
   std::int64_t voxel = -1;
   for (std::size_t first = 0; first < points_.size(); first += SortedBlock::kMostPoints)
@@ -139,7 +138,7 @@ void SortedVoxels::visit(const Visit& visit) const
       block.voxels[i] = voxel;
       block.points[i] = sorter_->originals() ? sorter_->originals()[points_[at].number] : points_[at].number;
     }
-    visit(block, none);
+    visit(block);
   }
 }
 

@@ -60,16 +60,20 @@ void VoxelWriter::Array::prepare(std::size_t room, std::size_t voxelBytes, void*
   values = given ? static_cast<char*>(given) : own.data();
 }
 
-void VoxelWriter::prepare(std::size_t room, const Layout& layout, const Lattice& lattice, int fractionBits,
-  OutputAllocator* allocator)
+void VoxelWriter::prepare(const VoxelRequest& request, std::size_t room, int fractionBits)
 {
-  layout_ = layout;
-  lattice_ = lattice;
-  map_ = makeMeanMap(lattice, fractionBits, layout.singlePrecision);
-  std::vector<std::size_t> bytes = { layout.keys ? sizeof(std::uint64_t) : 0,
-    layout.chosen ? sizeof(std::int64_t) : 0, 3 * (layout.singlePrecision ? sizeof(float) : sizeof(double)),
-    sizeof(std::int64_t), layout.covariances ? sizeof(SymMat3) : 0 };
-  bytes.insert(bytes.end(), layout.attributeBytes.begin(), layout.attributeBytes.end());
+  singlePrecision_ = request.singlePrecision;
+  lattice_ = request.lattice;
+  map_ = makeMeanMap(lattice_, fractionBits, singlePrecision_);
+  OutputAllocator* const allocator = request.allocator;
+  std::vector<std::size_t> bytes = { request.keys ? sizeof(std::uint64_t) : 0,
+    keepsPoints(request.representative) ? sizeof(std::int64_t) : 0,
+    3 * (singlePrecision_ ? sizeof(float) : sizeof(double)), sizeof(std::int64_t),
+    request.covariances ? sizeof(SymMat3) : 0 };
+  for (const AttributeRequest& attribute : request.attributes)
+  {
+    bytes.push_back(std::size_t(attribute.view.tupleBytes()));
+  }
   arrays_.resize(bytes.size());
   for (std::size_t i = 0; i < bytes.size(); ++i)
   {
@@ -106,14 +110,14 @@ void VoxelWriter::writeMeans(
 
 void VoxelWriter::write(const Kernels& kernels, std::size_t offset, const PartitionVoxels& voxels)
 {
-  layout_.singlePrecision ? writeMeans(kernels, offset, voxels, floats())
-                          : writeMeans(kernels, offset, voxels, doubles());
+  singlePrecision_ ? writeMeans(kernels, offset, voxels, floats())
+                   : writeMeans(kernels, offset, voxels, doubles());
   std::uint64_t* const to = keys() + offset;
-  for (std::size_t i = 0; layout_.keys && i < voxels.size; ++i)
+  for (std::size_t i = 0; arrays_[kKeys].bytes > 0 && i < voxels.size; ++i)
   {
     to[i] = voxels.firstKey + voxels.cells[i];
   }
-  if (layout_.covariances)
+  if (arrays_[kCovariances].bytes > 0)
   {
     writeCovariances(kernels, offset, voxels);
   }
@@ -158,17 +162,17 @@ void VoxelWriter::write(std::size_t offset, const VoxelRun& run, std::size_t fir
       const double margin = map_.faceMargin[axis];
       if (!(inVoxel > margin && inVoxel < 1.0 - margin))
       {
-        coordinate = layout_.singlePrecision ? double(lattice_.keptInVoxel(float(coordinate), axis, i))
-                                             : lattice_.keptInVoxel(coordinate, axis, i);
+        coordinate = singlePrecision_ ? double(lattice_.keptInVoxel(float(coordinate), axis, i))
+                                      : lattice_.keptInVoxel(coordinate, axis, i);
       }
       setCoordinate(offset, axis, coordinate);
     }
     counts()[offset] = voxel.count;
-    if (layout_.keys)
+    if (arrays_[kKeys].bytes > 0)
     {
       keys()[offset] = voxel.key;
     }
-    if (layout_.covariances)
+    if (arrays_[kCovariances].bytes > 0)
     {
       covariances()[offset] =
         covarianceOf(voxel.count, sums, run.secondMoments[v], map_.quantum, lattice_.spacing);

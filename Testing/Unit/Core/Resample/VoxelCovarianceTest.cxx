@@ -90,7 +90,7 @@ Sums sumsOf(const Kernels& kernels, const Cells& cells, int fractionBits)
     std::vector<SecondMoments>(kCells + kWidest, SecondMoments{}) };
   std::vector<std::uint32_t> order(kCells);
   kernels.accumulate(map, ranks, records.data(), cellsOf.data(), int(size), records.data(),
-    { order.data(), sums.packed.data(), sums.secondMoments.data(), true });
+    { order.data(), sums.packed.data(), sums.secondMoments.data() });
   return sums;
 }
 
