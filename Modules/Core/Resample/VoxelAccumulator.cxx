@@ -304,47 +304,29 @@ struct Content
   std::vector<AffineTransform> common; ///< One or none.
 };
 
-/// The numbers that a thing consists of, all of one size.
-template <typename T>
-using NumberOf = std::conditional_t<std::is_same_v<T, SecondMoments>, UInt128,
-  std::conditional_t<sizeof(T) % sizeof(std::uint64_t) == 0, std::uint64_t, std::uint32_t>>;
-template <typename T>
-constexpr std::size_t kNumbersOf = sizeof(T) / sizeof(NumberOf<T>);
-
-/// Writes numbers, the lowest byte first on every machine.
+/// Writes things as they lie in memory. What is written where numbers lie the other way round has another
+/// magic.
 class Writer
 {
 public:
-  explicit Writer(std::string& bytes)
-    : bytes_(bytes)
-  {
-  }
+  std::string bytes;
+
   template <typename T>
   void one(const T& thing)
   {
-    static_assert(std::is_trivially_copyable_v<T> && sizeof(T) % sizeof(NumberOf<T>) == 0);
-    NumberOf<T> numbers[kNumbersOf<T>];
-    std::memcpy(numbers, &thing, sizeof thing);
-    char bytes[sizeof thing];
-    for (std::size_t i = 0; i < sizeof thing; ++i)
-    {
-      bytes[i] = char(numbers[i / sizeof *numbers] >> (8 * (i % sizeof *numbers)) & 255);
-    }
-    bytes_.append(bytes, sizeof thing);
+    static_assert(std::is_trivially_copyable_v<T>);
+    bytes.append(reinterpret_cast<const char*>(&thing), sizeof thing);
   }
   /// Elements @p first to before @p last. @return how many they are.
   template <typename Vector>
   std::uint64_t part(const Vector& elements, std::size_t first, std::size_t last)
   {
     this->one(std::uint64_t(last - first));
-    std::for_each(
-      elements.data() + first, elements.data() + last, [this](const auto& element) { this->one(element); });
+    bytes.append(
+      reinterpret_cast<const char*>(elements.data() + first), (last - first) * sizeof(elements[0]));
     return last - first;
   }
   static constexpr bool isWhole() { return true; }
-
-private:
-  std::string& bytes_;
 };
 
 /// Reads what a Writer wrote; zeros beyond the end.
@@ -358,15 +340,7 @@ public:
   template <typename T>
   void one(T& thing)
   {
-    NumberOf<T> numbers[kNumbersOf<T>] = {};
-    isWhole_ = isWhole_ && left_.size() >= sizeof thing;
-    for (std::size_t i = 0; isWhole_ && i < sizeof thing; ++i)
-    {
-      const auto byte = static_cast<unsigned char>(left_[i]);
-      numbers[i / sizeof *numbers] |= NumberOf<T>(byte) << (8 * (i % sizeof *numbers));
-    }
-    std::memcpy(&thing, numbers, sizeof thing);
-    left_.remove_prefix(isWhole_ ? sizeof thing : 0);
+    this->copy(&thing, sizeof thing);
   }
   /// All elements of a part.
   template <typename Vector>
@@ -376,13 +350,21 @@ public:
     this->one(count);
     isWhole_ = isWhole_ && count <= left_.size() / sizeof(elements[0]);
     elements.resize(isWhole_ ? count : 0);
-    std::for_each(elements.begin(), elements.end(), [this](auto& element) { this->one(element); });
+    this->copy(elements.data(), elements.size() * sizeof(elements[0]));
     return elements.size();
   }
   bool isWhole() const { return isWhole_; }
   bool isAtEnd() const { return isWhole_ && left_.empty(); }
 
 private:
+  void copy(void* to, std::size_t size)
+  {
+    isWhole_ = isWhole_ && left_.size() >= size;
+    std::fill_n(static_cast<char*>(to), isWhole_ ? 0 : size, 0);
+    left_.copy(static_cast<char*>(to), isWhole_ ? size : 0);
+    left_.remove_prefix(isWhole_ ? size : 0);
+  }
+
   std::string_view left_;
   bool isWhole_ = true;
 };
@@ -513,10 +495,9 @@ std::string VoxelAccumulator::serialize(std::uint64_t first, std::uint64_t end)
   std::for_each(run.tallies.begin(), run.tallies.end(), [](VoxelTally& tally) { tally.trim(); });
   Content content{ { kMagic, lattice_, covariances_, fractionBitsOf(lattice_), range.counts }, arrays_, {} };
   content.common.assign(common_.has_value(), common_.value_or(AffineTransform()));
-  std::string bytes;
-  Writer writer(bytes);
+  Writer writer;
   exchange(writer, content, run, range.first, range.last);
-  return bytes;
+  return std::move(writer.bytes);
 }
 
 Status VoxelAccumulator::deserialize(std::string_view bytes, VoxelAccumulator& result)
