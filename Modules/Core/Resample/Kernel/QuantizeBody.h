@@ -76,36 +76,19 @@ __attribute__((always_inline)) inline void move(const PointQuantizer& c, const R
   }
 }
 
-/// @p u: kWidth points in quanta. Fetches points that come later.
-template <Motion motion, typename Real>
-__attribute__((always_inline)) inline void locate(const PointQuantizer& c, const Real* xyz, Pack u[3])
-{
-  constexpr int kAhead = 2048 / int(sizeof(Real));
-  __builtin_prefetch(xyz + kAhead);
-  if (kWidth * 3 * sizeof(Real) > 64)
-  {
-    __builtin_prefetch(xyz + kAhead + 64 / sizeof(Real));
-  }
-  Pack v[3];
-  move<motion>(c, xyz, v);
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    u[axis] = quotient(c, v[axis], axis);
-  }
-}
-
-/// Quantizes kWidth points, which are at @p u in quanta, into @p quantized, from @p to on. Bit i of the
-/// result: point i is inside.
+/// Quantizes kWidth points, which are at @p v in the lattice's frame, into @p quantized, from @p to on. Bit i
+/// of the result: point i is inside.
 __attribute__((always_inline)) inline unsigned quantizeGroup(
-  const PointQuantizer& c, const Pack u[3], QuantizedPoints& quantized, std::int64_t to)
+  const PointQuantizer& c, const Pack v[3], QuantizedPoints& quantized, std::int64_t to)
 {
   Words inside = allWords(~std::uint64_t(0));
   Words position[3];
   for (int axis = 0; axis < 3; ++axis)
   {
+    const Pack u = quotient(c, v[axis], axis);
     // 0 <= u < limit; u is not -0.
-    inside &= ~bitsOf(u[axis]) & reinterpret_cast<Words>(u[axis] < c.limit[axis]);
-    position[axis] = floorBits(u[axis]);
+    inside &= ~bitsOf(u) & reinterpret_cast<Words>(u < c.limit[axis]);
+    position[axis] = floorBits(u);
   }
   Words partition = (position[2] & kPositionMask) >> (c.fractionBits + c.layerShift);
   if (c.blocksPerLayer > 1)
@@ -141,6 +124,7 @@ __attribute__((noinline)) int quantizeGroups(const PointQuantizer& given, const 
   unsigned present, std::uint32_t index, QuantizedPoints& quantized)
 {
   constexpr unsigned kFull = (1u << kWidth) - 1;
+  constexpr int kAhead = 2048 / int(sizeof(Real));
   const PointQuantizer constants = given; // A copy, which no store can change.
   std::int64_t size = quantized.size;     // A copy, which no store can change.
   int invalid = 0;
@@ -151,9 +135,14 @@ __attribute__((noinline)) int quantizeGroups(const PointQuantizer& given, const 
   }
   for (int g = 0; g < groups; ++g, xyz += 3 * kWidth, index += kWidth)
   {
-    Pack u[3];
-    locate<motion>(constants, xyz, u);
-    const unsigned kept = present & quantizeGroup(constants, u, quantized, size);
+    __builtin_prefetch(xyz + kAhead);
+    if (kWidth * 3 * sizeof(Real) > 64)
+    {
+      __builtin_prefetch(xyz + kAhead + 64 / sizeof(Real));
+    }
+    Pack v[3];
+    move<motion>(constants, xyz, v);
+    const unsigned kept = present & quantizeGroup(constants, v, quantized, size);
     if (__builtin_expect(kept == kFull, true))
     {
       *reinterpret_cast<IntsAt*>(quantized.indices + size) = lanes + std::int32_t(index);
@@ -162,8 +151,6 @@ __attribute__((noinline)) int quantizeGroups(const PointQuantizer& given, const 
     }
     if (kept != present)
     {
-      Pack v[3];
-      move<motion>(constants, xyz, v);
       // A coordinate that is not finite makes the difference NaN.
       const Pack zero = (v[0] - v[0]) + (v[1] - v[1]) + (v[2] - v[2]);
       const unsigned finite = highestBits(reinterpret_cast<Words>(zero == 0.0));
