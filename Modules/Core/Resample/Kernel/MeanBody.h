@@ -26,52 +26,32 @@ struct PackedVectors
   }
 };
 
-/// Coordinates of means, from sums and voxels' indices.
-struct MeanVectors
+/// Coordinates of means, from sums and voxels' indices. Bit i of the result: that of voxel i is clear of the
+/// faces.
+inline unsigned meansOf(const MeanMap& map, const PackedVectors& packed, const Pack indices[3], Pack xyz[3])
 {
-  Pack origin[3], spacing[3];
-  // In quanta: from the lower face, and from there on to as much below the upper one.
-  Pack margin[3], clearance[3];
-  Pack quantum;
-
-  explicit MeanVectors(const MeanMap& map)
-    : quantum(all(map.quantum))
+  const Pack count = smallToNumbers(packed.count);
+  const Pack reciprocal = 1.0 / count;
+  Words clear = allWords(~std::uint64_t(0));
+  for (int axis = 0; axis < 3; ++axis)
   {
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      origin[axis] = all(map.origin[axis]);
-      spacing[axis] = all(map.spacing[axis]);
-      const double width = 1.0 - 2.0 * map.faceMargin[axis];
-      margin[axis] = all(map.faceMargin[axis] / map.quantum);
-      clearance[axis] = all(width > 0.0 ? width / map.quantum : 0.0);
-    }
+    // Correctly rounded, for counts below 2^48. The product is within 2^-52 of the quotient, relatively, and
+    // what is corrected within 2^-103: no quotient by such a count is that near to the midpoint of two
+    // doubles.
+    const Pack sum = toNumbers(packed.sums[axis]);
+    const Pack fraction = kFuses ? corrected(sum * reciprocal, sum, count, reciprocal) : sum / count;
+    xyz[axis] = map.origin[axis] + multiplyAdd(fraction, all(map.quantum), indices[axis]) * map.spacing[axis];
+    const Pack above = fraction - map.margin[axis];
+    clear &= ~bitsOf(above) & reinterpret_cast<Words>(above < map.clearance[axis]);
   }
-  /// Bit i of the result: that of voxel i is clear of the faces.
-  unsigned mean(const PackedVectors& packed, const Pack indices[3], Pack xyz[3]) const
-  {
-    const Pack count = smallToNumbers(packed.count);
-    const Pack reciprocal = 1.0 / count;
-    Words clear = allWords(~std::uint64_t(0));
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      // Correctly rounded, for counts below 2^48. The product is within 2^-52 of the quotient, relatively,
-      // and what is corrected within 2^-103: no quotient by such a count is that near to the midpoint of two
-      // doubles.
-      const Pack sum = toNumbers(packed.sums[axis]);
-      const Pack fraction = kFuses ? corrected(sum * reciprocal, sum, count, reciprocal) : sum / count;
-      xyz[axis] = origin[axis] + multiplyAdd(fraction, quantum, indices[axis]) * spacing[axis];
-      const Pack above = fraction - margin[axis];
-      clear &= ~bitsOf(above) & reinterpret_cast<Words>(above < clearance[axis]);
-    }
-    return highestBits(clear);
-  }
-};
+  return highestBits(clear);
+}
 
 template <typename Real>
-int packedMeans(const MeanMap& map, const CellMap& cellMap, const std::uint32_t* cells,
+int packedMeans(const MeanMap& given, const CellMap& cellMap, const std::uint32_t* cells,
   const PackedSums* packed, int size, Real* xyz, std::int64_t* counts, int* nearFace)
 {
-  const MeanVectors constants(map);
+  const MeanMap map = given; // A copy, which no store can change.
   const double columns = cellMap.columns;
   const double rows = cellMap.rowsPerLayer;
   // The integer below a quotient a / b of integers, from 1 / b: the one nearest to (a + 1/2) / b - 1/2, which
@@ -93,7 +73,7 @@ int packedMeans(const MeanMap& map, const CellMap& cellMap, const std::uint32_t*
     const Pack layer = nearest(multiplyAdd(row, perLayer, toLayer));
     const Pack indices[3] = { cell - localRow * columns, row - layer * rows, layer };
     Pack means[3];
-    unsigned nearFaces = ((1u << kWidth) - 1) & ~constants.mean(voxels, indices, means);
+    unsigned nearFaces = ((1u << kWidth) - 1) & ~meansOf(map, voxels, indices, means);
     const int last = size - i < kWidth ? size - i : kWidth;
     if (last == kWidth)
     {

@@ -182,8 +182,10 @@ struct MeanMap
   double origin[3];
   double spacing[3];
   double quantum; ///< 2^-fractionBits
-  /// Closer than this to a face, in voxels, rounding may carry a mean into the next voxel.
-  double faceMargin[3];
+  // Closer to a face rounding may carry a mean into the next voxel. In quanta: from the lower face, and from
+  // there on to as much below the upper one.
+  double margin[3];
+  double clearance[3];
 };
 
 /// How second moments become covariances.

@@ -46,9 +46,11 @@ MeanMap makeMeanMap(const Lattice& lattice, int fractionBits, bool singlePrecisi
     const double cells = double(lattice.dimensions[std::size_t(axis)]);
     const double largest = std::abs(lattice.origin[axis]) / lattice.spacing[axis] + cells;
     // A smallest normal number stands for what denormals lose.
-    map.faceMargin[axis] = singlePrecision
+    const double margin = singlePrecision
       ? 4.0 * (double(FLT_EPSILON) * largest + double(FLT_MIN) / lattice.spacing[axis])
       : 4.0 * (DBL_EPSILON * largest + DBL_MIN / lattice.spacing[axis]);
+    map.margin[axis] = margin / map.quantum;
+    map.clearance[axis] = std::max(1.0 - 2.0 * margin, 0.0) / map.quantum;
   }
   return map;
 }
@@ -157,10 +159,10 @@ void VoxelWriter::write(std::size_t offset, const VoxelRun& run, std::size_t fir
     for (int axis = 0; axis < 3; ++axis)
     {
       const std::int64_t i = index[std::size_t(axis)];
-      const double inVoxel = toDouble(sums[axis]) / double(voxel.count) * map_.quantum;
-      double coordinate = map_.origin[axis] + (double(i) + inVoxel) * map_.spacing[axis];
-      const double margin = map_.faceMargin[axis];
-      if (!(inVoxel > margin && inVoxel < 1.0 - margin))
+      const double fraction = toDouble(sums[axis]) / double(voxel.count);
+      double coordinate = map_.origin[axis] + (double(i) + fraction * map_.quantum) * map_.spacing[axis];
+      const double above = fraction - map_.margin[axis];
+      if (!(above >= 0.0 && above < map_.clearance[axis]))
       {
         coordinate = singlePrecision_ ? double(lattice_.keptInVoxel(float(coordinate), axis, i))
                                       : lattice_.keptInVoxel(coordinate, axis, i);
