@@ -116,6 +116,14 @@ int bitsOf(std::int64_t count)
 /// Adds a number, shifted left, to a sum whose words have room for the result.
 inline void addWide(std::uint64_t* sum, int words, UInt128 more, int shift, bool isNegative)
 {
+  if (words == 2) // as most sums of doubles have
+  {
+    const UInt128 shifted = more << shift;
+    const UInt128 both = (UInt128(sum[1]) << 64 | sum[0]) + (isNegative ? -shifted : shifted);
+    sum[0] = std::uint64_t(both);
+    sum[1] = std::uint64_t(both >> 64);
+    return;
+  }
   int word = shift / 64;
   const int bits = shift % 64;
   UInt128 carry = more << bits; // more has up to 64 bits
