@@ -111,11 +111,11 @@ VoxelAttribute::VoxelAttribute(vtkDataArray* input, AttributeKind kind, const At
   values_.range = known ? known->range : std::nullopt;
 }
 
-void VoxelAttribute::findRange(InstructionSet instructions, const Executor& executor)
+void VoxelAttribute::findRange(const Executor& executor)
 {
   if (!values_.range && (kind_ == AttributeKind::Mean || kind_ == AttributeKind::Normal))
   {
-    values_.range = rangeOf(view_, executor, instructions);
+    values_.range = rangeOf(view_, executor);
   }
 }
 

@@ -7,7 +7,6 @@
 #include "Core/Base/AffineTransform.h"
 #include "Core/Base/Executor.h"
 #include "Core/Resample/AttributeView.h"
-#include "Core/Simd/InstructionSet.h"
 
 #include "vtkSmartPointer.h"
 
@@ -44,7 +43,7 @@ public:
   /// known: values() of an earlier object of the same input and kind, or null.
   VoxelAttribute(vtkDataArray* input, AttributeKind kind, const AttributeValues* known = nullptr);
   /// Finds the range once, for many requests: without it each looks for it.
-  void findRange(InstructionSet instructions, const Executor& executor);
+  void findRange(const Executor& executor);
   const AttributeValues& values() const { return values_; }
 
   /// For the resampler. @pre it is not AttributeKind::Chosen.

@@ -400,7 +400,7 @@ void vtkVoxelMeanResampler::Internals::ChooseArrays(vtkPointSet* input)
     VoxelAttribute attribute(found.array, found.kind, old == known.end() ? nullptr : &old->values);
     if (this->Settings.usePointIndex)
     {
-      attribute.findRange(this->Settings.instructionSet, this->Smp);
+      attribute.findRange(this->Smp);
       this->Known.push_back({ seen, found.kind, attribute.values() });
     }
     this->Attributes.push_back({ std::move(attribute), found.roles, found.isNormal });

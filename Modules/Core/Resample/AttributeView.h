@@ -4,7 +4,6 @@
 
 #include "Core/Base/Executor.h"
 #include "Core/Base/ScalarType.h"
-#include "Core/Simd/InstructionSet.h"
 
 #include <cstdint>
 #include <optional>
@@ -37,8 +36,7 @@ struct AttributeRange
 };
 
 /// Scans the values of a floating-point array once; integers need no range.
-AttributeRange rangeOf(const AttributeView& view, const Executor& executor,
-  InstructionSet instructions = InstructionSet::Automatic);
+AttributeRange rangeOf(const AttributeView& view, const Executor& executor);
 
 /// How many numbers are not finite.
 struct NonFiniteCount

@@ -1,11 +1,12 @@
 #include "Core/Resample/VoxelAccumulator.h"
 
-#include "Core/Resample/VoxelAccumulatorSums.h"
 #include "Core/Resample/VoxelResamplerImplementation.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <numeric>
+#include <type_traits>
 #include <utility>
 
 namespace pointhaptics
@@ -15,6 +16,21 @@ using namespace simd;
 
 namespace
 {
+
+/// Points: all, and of these the ones that are in no voxel.
+struct PointCounts
+{
+  std::int64_t points = 0;
+  std::int64_t clipped = 0;
+  std::int64_t invalid = 0;
+
+  void add(const PointCounts& more, int sign = 1)
+  {
+    points += sign * more.points;
+    clipped += sign * more.clipped;
+    invalid += sign * more.invalid;
+  }
+};
 
 bool sameTransform(const AffineTransform& a, const AffineTransform& b)
 {
@@ -54,6 +70,24 @@ bool sameLattice(const Lattice& a, const Lattice& b)
 }
 
 }
+
+/// Sums of the points of some calls.
+class VoxelAccumulator::Sums
+{
+public:
+  /// Voxels of the whole run from @p first to before @p last, and their points.
+  struct Range
+  {
+    std::size_t first;
+    std::size_t last;
+    PointCounts counts;
+  };
+  /// See VoxelAccumulator::part().
+  Range range(std::uint64_t firstKey, std::uint64_t endKey);
+
+  simd::VoxelRuns runs;
+  PointCounts counts;
+};
 
 VoxelAccumulator::VoxelAccumulator(const Lattice& lattice, bool covariances, std::vector<Array> arrays,
   std::optional<AffineTransform> commonTransform)
@@ -226,10 +260,8 @@ VoxelAccumulator VoxelAccumulator::part(std::uint64_t first, std::uint64_t end)
   if (this->settle())
   {
     const Sums::Range range = added_->range(first, end);
-    VoxelRun copy;
-    copy.append(added_->runs.whole(), range.first, range.last);
     part.added_->counts = range.counts;
-    part.added_->runs.add(std::move(copy));
+    part.added_->runs.add(added_->runs.whole().part(range.first, range.last));
   }
   return part;
 }
@@ -247,6 +279,257 @@ std::vector<std::uint64_t> VoxelAccumulator::keys(std::int64_t step)
     }
   }
   return keys;
+}
+
+namespace
+{
+
+/// "PHVoxel4" in the bytes.
+constexpr std::uint64_t kMagic = 0x346c65786f564850;
+
+struct Header
+{
+  std::uint64_t magic;
+  Lattice lattice;
+  std::uint64_t covariances;
+  std::int64_t fractionBits;
+  PointCounts counts;
+};
+
+/// Content besides the voxels.
+struct Content
+{
+  Header header;
+  std::vector<AccumulatedArray> arrays;
+  std::vector<AffineTransform> common; ///< One or none.
+};
+
+/// Writes things as they lie in memory. What is written where numbers lie the other way round has another
+/// magic.
+class Writer
+{
+public:
+  std::string bytes;
+
+  template <typename T>
+  void one(const T& thing)
+  {
+    static_assert(std::is_trivially_copyable_v<T>);
+    bytes.append(reinterpret_cast<const char*>(&thing), sizeof thing);
+  }
+  /// Elements @p first to before @p last. @return how many they are.
+  template <typename Vector>
+  std::uint64_t part(const Vector& elements, std::size_t first, std::size_t last)
+  {
+    this->one(std::uint64_t(last - first));
+    bytes.append(
+      reinterpret_cast<const char*>(elements.data() + first), (last - first) * sizeof(elements[0]));
+    return last - first;
+  }
+  static constexpr bool isWhole() { return true; }
+};
+
+/// Reads what a Writer wrote; zeros beyond the end.
+class Reader
+{
+public:
+  explicit Reader(std::string_view bytes)
+    : left_(bytes)
+  {
+  }
+  template <typename T>
+  void one(T& thing)
+  {
+    this->copy(&thing, sizeof thing);
+  }
+  /// All elements of a part.
+  template <typename Vector>
+  std::uint64_t part(Vector& elements, std::size_t = 0, std::size_t = 0)
+  {
+    std::uint64_t count = 0;
+    this->one(count);
+    isWhole_ = isWhole_ && count <= left_.size() / sizeof(elements[0]);
+    elements.resize(isWhole_ ? count : 0);
+    this->copy(elements.data(), elements.size() * sizeof(elements[0]));
+    return elements.size();
+  }
+  bool isWhole() const { return isWhole_; }
+  bool isAtEnd() const { return isWhole_ && left_.empty(); }
+
+private:
+  void copy(void* to, std::size_t size)
+  {
+    isWhole_ = isWhole_ && left_.size() >= size;
+    std::fill_n(static_cast<char*>(to), isWhole_ ? 0 : size, 0);
+    left_.copy(static_cast<char*>(to), isWhole_ ? size : 0);
+    left_.remove_prefix(isWhole_ ? size : 0);
+  }
+
+  std::string_view left_;
+  bool isWhole_ = true;
+};
+
+template <typename Archive>
+void exchange(Archive& archive, VoxelTally& tally, std::size_t first, std::size_t last)
+{
+  TallySums& sums = tally.sums;
+  archive.one(sums.components);
+  archive.one(sums.unit);
+  archive.one(sums.words);
+  const auto ofSums = std::size_t(sums.components);
+  const std::size_t words = ofSums * std::size_t(sums.words);
+  const bool areFinite = sums.nonFinite.empty();
+  archive.part(sums.values, first * words, last * words);
+  archive.part(sums.nonFinite, areFinite ? 0 : first * ofSums, areFinite ? 0 : last * ofSums);
+  TallyValues& values = tally.values;
+  archive.one(values.components);
+  const auto ofValues = std::size_t(values.components);
+  archive.part(values.ends, first * ofValues, last * ofValues);
+  archive.part(values.values, values.beginOf(first * ofValues), values.beginOf(last * ofValues));
+}
+
+/// Writes voxels @p first to before @p last of a run, or reads a run.
+template <typename Archive>
+void exchange(Archive& archive, Content& content, VoxelRun& run, std::size_t first, std::size_t last)
+{
+  archive.one(content.header);
+  const std::uint64_t voxels = archive.part(run.voxels, first, last);
+  archive.part(run.secondMoments, run.hasMoments() ? first : 0, run.hasMoments() ? last : 0);
+  archive.part(content.arrays, 0, content.arrays.size());
+  archive.part(content.common, 0, content.common.size());
+  for (std::size_t i = 0; voxels > 0 && archive.isWhole() && i < content.arrays.size(); ++i)
+  {
+    run.tallies.resize(std::max(run.tallies.size(), i + 1));
+    exchange(archive, run.tallies[i], first, last);
+  }
+}
+
+bool isCount(std::int64_t n)
+{
+  return n >= 0 && n <= VoxelAccumulator::kMostPoints;
+}
+
+bool isRight(const Header& header)
+{
+  const Lattice& lattice = header.lattice;
+  return header.magic == kMagic && header.covariances <= 1 && isCount(header.counts.points) &&
+    isCount(header.counts.clipped) && isCount(header.counts.invalid) && lattice.check() == Status::Ok &&
+    !std::isnan(lattice.end.x) && !std::isnan(lattice.end.y) && !std::isnan(lattice.end.z);
+}
+
+/// @return false where a mean would not lie in its voxel.
+bool liesInVoxel(const WideSums& voxel, std::int64_t fractionBits)
+{
+  const auto lies = [&](int axis) { return voxel.sum(axis) < Int128(voxel.count) << fractionBits; };
+  return isCount(voxel.count) && voxel.count > 0 && lies(0) && lies(1) && lies(2);
+}
+
+/// @return false for voxels that the points of the header do not make. @pre the header is right.
+bool areOf(const Header& header, const VoxelRun& run)
+{
+  const std::uint64_t keys = header.lattice.key(0, 0, header.lattice.dimensions[2]);
+  std::int64_t points = header.counts.clipped + header.counts.invalid;
+  for (std::size_t v = 0; v < run.size(); ++v)
+  {
+    const WideSums& voxel = run.voxels[v];
+    if (!liesInVoxel(voxel, header.fractionBits) || voxel.high >> 3 * WideSums::kHighBits != 0 ||
+      voxel.key >= keys || (v > 0 && voxel.key <= run.voxels[v - 1].key) ||
+      voxel.count > header.counts.points - points)
+    {
+      return false;
+    }
+    points += voxel.count;
+  }
+  return points == header.counts.points &&
+    run.secondMoments.size() == (header.covariances == 1 ? run.size() : 0);
+}
+
+/// @return false for an array that there is not.
+bool isRight(const AccumulatedArray& array)
+{
+  constexpr int kMostComponents = 1 << 20;
+  return array.type >= ScalarType::Int8 && array.type <= ScalarType::Double && array.components > 0 &&
+    array.components <= kMostComponents && array.statistic >= AttributeStatistic::Mean &&
+    array.statistic <= AttributeStatistic::Median &&
+    (array.statistic != AttributeStatistic::Normal || array.components == 3);
+}
+
+/// Has what was read of a tally say where it lies. @return false for what an array does not have in the
+/// voxels.
+bool completeTally(const AccumulatedArray& kind, const VoxelRun& run, VoxelTally& tally)
+{
+  TallySums& sums = tally.sums;
+  TallyValues& values = tally.values;
+  sums.size = run.size() * std::size_t(sums.components);
+  const std::size_t lists = run.size() * std::size_t(values.components);
+  const bool isSummed = isSum(kind.statistic);
+  if (sums.components != (isSummed ? kind.components : 0) || sums.words < 1 ||
+    sums.words > TallySums::kMostWords || sums.unit < TallySums::kLeastUnit ||
+    sums.unit > -TallySums::kLeastUnit || sums.values.size() != sums.size * std::size_t(sums.words) ||
+    (!sums.nonFinite.empty() && sums.nonFinite.size() != sums.size) ||
+    values.components != (isSummed ? 0 : kind.components) || values.ends.size() != lists)
+  {
+    return false;
+  }
+  // Ends of a part are counted from the first value of all.
+  const std::size_t start = lists > 0 ? values.ends.back() - values.values.size() : 0;
+  std::for_each(values.ends.begin(), values.ends.end(), [=](std::size_t& end) { end -= start; });
+  bool isRight = std::is_sorted(values.ends.begin(), values.ends.end());
+  for (std::size_t v = 0; isRight && v < run.size(); ++v)
+  {
+    isRight = tally.isOf(kind, v, run.voxels[v].count);
+  }
+  return isRight;
+}
+
+}
+
+std::string VoxelAccumulator::serialize(std::uint64_t first, std::uint64_t end)
+{
+  if (!this->settle())
+  {
+    return {};
+  }
+  const Sums::Range range = added_->range(first, end);
+  VoxelRun& run = added_->runs.whole();
+  std::for_each(run.tallies.begin(), run.tallies.end(), [](VoxelTally& tally) { tally.trim(); });
+  Content content{ { kMagic, lattice_, covariances_, fractionBitsOf(lattice_), range.counts }, arrays_, {} };
+  content.common.assign(common_.has_value(), common_.value_or(AffineTransform()));
+  Writer writer;
+  exchange(writer, content, run, range.first, range.last);
+  return std::move(writer.bytes);
+}
+
+Status VoxelAccumulator::deserialize(std::string_view bytes, VoxelAccumulator& result)
+{
+  Reader reader(bytes);
+  Content content;
+  VoxelRun run;
+  exchange(reader, content, run, 0, 0);
+  const Header& header = content.header;
+  if (!reader.isAtEnd() || !isRight(header) || content.common.size() > 1 ||
+    (!content.common.empty() && content.common[0].check() != Status::Ok))
+  {
+    return Status::InvalidParameter;
+  }
+  const int fractionBits = fractionBitsOf(header.lattice);
+  bool areRight = (header.fractionBits == fractionBits || (run.size() == 0 && header.fractionBits == 0)) &&
+    areOf(header, run);
+  for (std::size_t i = 0; areRight && i < content.arrays.size(); ++i)
+  {
+    areRight = isRight(content.arrays[i]) &&
+      (run.size() == 0 || completeTally(content.arrays[i], run, run.tallies[i]));
+  }
+  if (!areRight)
+  {
+    return Status::InvalidParameter;
+  }
+  VoxelAccumulator read(header.lattice, header.covariances == 1, std::move(content.arrays),
+    content.common.empty() ? std::nullopt : std::make_optional(content.common[0]));
+  read.added_->counts = header.counts;
+  read.added_->runs.add(std::move(run));
+  result = std::move(read);
+  return Status::Ok;
 }
 
 } // namespace pointhaptics

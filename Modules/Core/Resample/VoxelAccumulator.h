@@ -113,8 +113,8 @@ public:
     ProgressObserver* observer = nullptr);
 
   /// The sums as bytes, for a file or another process: a version, the lattice, the voxels of part(@p first,
-  /// @p end); little-endian, those of all voxels the same for equal sums. Empty where points were subtracted
-  /// that had not been added.
+  /// @p end); those of all voxels are the same for equal sums. Machines with the other order of bytes refuse
+  /// them. Empty where points were subtracted that had not been added.
   std::string serialize(std::uint64_t first = 0, std::uint64_t end = ~std::uint64_t(0));
   /// The voxels whose keys are from @p first to before @p end, and their points alone; those clipped or
   /// invalid go with the first key, 0. The parts of all ranges merge to the whole. None where points were

@@ -5,6 +5,11 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
+#include <iterator>
+#include <memory>
+#include <new>
+#include <utility>
 
 namespace pointhaptics
 {
@@ -24,6 +29,22 @@ void copyArray(const T* from, std::int64_t count, T* to, const Executor& executo
     forRange(executor, count, kGrain,
       [&](std::int64_t begin, std::int64_t end) { std::copy(from + begin, from + end, to + begin); });
   }
+}
+
+static_assert(kChunkPoints <= kPointsPerReport, "progress is reported after each chunk");
+
+AttributeView viewOf(const PointView& points)
+{
+  const bool single = points.floats() != nullptr;
+  return { single ? static_cast<const void*>(points.floats()) : points.doubles(),
+    single ? ScalarType::Float : ScalarType::Double, 3, points.size(),
+    points.stride() * (single ? std::int64_t(sizeof(float)) : std::int64_t(sizeof(double))) };
+}
+
+/// Whether points are binned into partitions of the lattice, or sorted.
+bool usesPartitions(const Lattice& lattice)
+{
+  return fitsPartitions(lattice, indexBitsOf(lattice)) && hasOrdinarySpacing(lattice);
 }
 
 }
@@ -84,7 +105,7 @@ Status VoxelResampler::Implementation::finish(
   }
   lattice = request.lattice;
   size = std::int64_t(sums.size());
-  writer.prepare(sums.size(), layoutOf(request), lattice, fractionBitsOf(lattice), request.allocator);
+  writer.prepare(request, sums.size(), fractionBitsOf(lattice));
   PointProgress progress(observer, size, 1);
   const bool isDone = forReportedSlices(size, progress,
     [&](std::int64_t first, std::int64_t last)
@@ -102,23 +123,6 @@ void VoxelResampler::Implementation::clear()
   clipped = invalid = 0;
   chosenPoints.clear();
   voxelIndex.clear();
-}
-
-VoxelWriter::Layout VoxelResampler::Implementation::layoutOf(const VoxelRequest& request)
-{
-  VoxelWriter::Layout layout = { request.singlePrecision, request.keys, request.covariances,
-    keepsPoints(request.representative) };
-  for (const AttributeRequest& attribute : request.attributes)
-  {
-    layout.attributeBytes.push_back(std::size_t(attribute.view.tupleBytes()));
-  }
-  return layout;
-}
-
-int VoxelResampler::Implementation::fractionBitsOf(const Lattice& lattice)
-{
-  const int indexBits = indexBitsOf(lattice);
-  return positionBitsFor(indexBits) - indexBits;
 }
 
 /// Writes voxels @p first to before @p last of a run, whose voxels begin at @p offset of the result.
@@ -140,6 +144,272 @@ std::size_t VoxelResampler::Implementation::scratchBytes() const
 {
   return binned_.bytes() + sorted_.bytes() + places_.capacity() + writer.bytes() +
     (chosenPoints.capacity() + voxelIndex.capacity()) * sizeof(std::int64_t);
+}
+
+template <typename Voxels>
+void VoxelResampler::Implementation::Stages<Voxels>::prepareWorkers(
+  const Task& task, std::int64_t* indexOfPoints, int count)
+{
+  const VoxelRequest& request = task.request;
+  const bool reduces = choosesPoints(request) || !request.attributes.empty();
+  workers.resize(std::max(workers.size(), std::size_t(count)));
+  for (std::unique_ptr<Worker>& worker : workers)
+  {
+    worker = worker ? std::move(worker) : std::make_unique<Worker>();
+    worker->voxels.prepare(request, source);
+    worker->reductions.reset();
+    if (reduces)
+    {
+      worker->reductions.emplace(
+        request, task.arrays, source.payloadLayout(), source.fractionBits(), indexOfPoints);
+    }
+  }
+}
+
+/// The places of points, in the type that is asked for.
+AttributeView VoxelResampler::Implementation::placesOf(const VoxelRequest& request, const Executor& executor)
+{
+  const PointView& points = request.points;
+  if (request.transform.isIdentity() && request.singlePrecision == (points.floats() != nullptr))
+  {
+    return viewOf(points);
+  }
+  const auto move = [&](auto example)
+  {
+    using Real = decltype(example);
+    places_.resize(std::size_t(3 * points.size()) * sizeof(Real));
+    Real* const to = reinterpret_cast<Real*>(places_.data());
+    forRange(executor, points.size(),
+      [&](std::int64_t begin, std::int64_t end)
+      {
+        for (std::int64_t i = begin; i < end; ++i)
+        {
+          const Vec3 place = request.transform.apply(points[i]);
+          std::transform(&place.x, &place.x + 3, to + 3 * i, [](double x) { return Real(x); });
+        }
+      });
+    return viewOf(PointView(to, points.size()));
+  };
+  return request.singlePrecision ? move(float()) : move(double());
+}
+
+Status VoxelResampler::Implementation::sumPoints(
+  const Task& task, VoxelRun& sums, const Executor& executor, ProgressObserver* observer)
+{
+  clear();
+  const VoxelRequest& request = task.request;
+  const Status status = check(request);
+  if (status != Status::Ok)
+  {
+    return status;
+  }
+  Task wanted = task;
+  for (AttributeRequest array : request.attributes)
+  {
+    if (isSum(array.statistic) && !array.range)
+    {
+      array.range = rangeOf(array.view, executor);
+    }
+    wanted.arrays.push_back(array);
+  }
+  if (request.representative == Representative::Median)
+  {
+    wanted.arrays.push_back({ placesOf(request, executor), AttributeStatistic::Median });
+  }
+  voxelIndex.assign(request.voxelIndex ? std::size_t(request.points.size()) : 0, -1);
+  lattice = request.lattice;
+  return usesPartitions(request.lattice) ? runStages(binned_, wanted, sums, executor, observer)
+                                         : runStages(sorted_, wanted, sums, executor, observer);
+}
+
+/// The stages: quantize and bin, or sort; sum; write.
+template <typename Voxels>
+Status VoxelResampler::Implementation::runStages(Stages<Voxels>& stages, const Task& wanted, VoxelRun& sums,
+  const Executor& executor, ProgressObserver* observer)
+{
+  const VoxelRequest& request = wanted.request;
+  auto& source = stages.source;
+  const Chunks chunks(request, source.kChunkPoints, executor);
+  // Where points are chosen, all of a voxel must be there at once.
+  const std::size_t held = choosesPoints(request) ? chunks.count() : source.kHeldChunks;
+  const bool isWhole = chunks.count() <= held;
+  Task task = wanted;
+  task.writes = wanted.writes && isWhole;
+  std::vector<AttributeView> views;
+  for (const AttributeRequest& array : task.arrays)
+  {
+    views.push_back(array.view);
+  }
+  source.prepare(request, chunks, views, request.voxelIndex || keepsPoints(request.representative));
+  invalid = request.index ? request.points.size() - finitePoints(*request.index) : 0;
+  clipped = request.points.size() - invalid;
+  std::vector<VoxelRuns> runs(task.writes ? 0 : source.partitions());
+  for (std::size_t first = 0; first < chunks.count(); first += held)
+  {
+    const std::size_t last = std::min(first + held, chunks.count());
+    const auto progressAt = [&](std::size_t chunk) { return double(chunk) / double(chunks.count()); };
+    SubProgress part(observer, progressAt(first), progressAt(last));
+    SubProgress binning(&part, 0.0, 0.5);
+    SubProgress summing(&part, 0.5, 1.0);
+    source.start(chunks, first, last, executor);
+    for (std::size_t chunk = first; chunk < last; ++chunk)
+    {
+      source.add(request, chunks, chunk, executor);
+      if (!binning.report(double(chunk + 1 - first) / double(last - first)))
+      {
+        return Status::Aborted;
+      }
+    }
+    invalid += source.invalid();
+    clipped -= source.inside() + source.invalid();
+    if (!sumPartitions(stages, task, last - first, runs, executor, &summing))
+    {
+      return Status::Aborted;
+    }
+  }
+  std::vector<VoxelRun> parts(runs.size());
+  forEachItem(executor, runs.size(), [&](std::size_t p) { parts[p] = std::move(runs[p].whole()); });
+  if (wanted.writes && !task.writes)
+  {
+    writeParts(request, parts, executor);
+  }
+  else
+  {
+    std::vector<const VoxelRun*> all;
+    std::transform(parts.begin(), parts.end(), std::back_inserter(all), [](const VoxelRun& p) { return &p; });
+    sums = VoxelRun::concatenated(all);
+  }
+  return Status::Ok;
+}
+
+/// Writes runs whose keys ascend from one to the next to the result, and frees them.
+void VoxelResampler::Implementation::writeParts(
+  const VoxelRequest& request, std::vector<VoxelRun>& parts, const Executor& executor)
+{
+  std::vector<std::size_t> firsts = { 0 };
+  for (const VoxelRun& part : parts)
+  {
+    firsts.push_back(firsts.back() + part.size());
+  }
+  size = std::int64_t(firsts.back());
+  writer.prepare(request, firsts.back(), fractionBitsOf(lattice));
+  forEachItem(executor, parts.size(),
+    [&](std::size_t p)
+    {
+      writeRun(request, parts[p], 0, parts[p].size(), firsts[p]);
+      parts[p] = VoxelRun();
+    });
+}
+
+/// Makes room for the voxels: for as many as there may be, of which what is not written is never touched, or,
+/// where a machine or a limit counts that, too, for as many as there are.
+template <typename Voxels>
+void VoxelResampler::Implementation::makeOutput(
+  Stages<Voxels>& stages, const VoxelRequest& request, const Executor& executor)
+{
+  std::size_t most = 0;
+  for (std::uint32_t p = 0; p < stages.source.partitions(); ++p)
+  {
+    most += stages.source.mostVoxels(p);
+  }
+  try
+  {
+    writer.prepare(request, most, stages.source.fractionBits());
+  }
+  catch (const std::bad_alloc&)
+  {
+    writer = VoxelWriter();
+    std::atomic<std::size_t> voxels{ 0 };
+    forEachItemWith(
+      executor, stages.source.partitions(),
+      [&](std::size_t thread) -> Voxels& { return stages.workers[thread]->voxels; },
+      [&](std::size_t p, Voxels& found)
+      {
+        voxels += found.find(std::uint32_t(p));
+        found.drop();
+      });
+    writer.prepare(request, voxels, stages.source.fractionBits());
+  }
+}
+
+/// Sums the voxels of a partition, and makes of them what is asked for.
+template <typename Voxels>
+void VoxelResampler::Implementation::sumPartition(typename Stages<Voxels>::Worker& worker, const Task& task,
+  std::uint32_t partition, PartitionOrder& order, VoxelRuns* runs)
+{
+  Voxels& voxels = worker.voxels;
+  std::optional<VoxelReductions>& reductions = worker.reductions;
+  const std::size_t voxelCount = voxels.find(partition);
+  const std::size_t offset = order.append(partition, voxelCount);
+  voxels.sum();
+  if (reductions)
+  {
+    reductions->reduce(voxels, offset);
+  }
+  if (task.writes)
+  {
+    voxels.write(kernelsFor(task.request.instructions), writer, offset);
+    reductions ? reductions->write(writer, offset) : void();
+  }
+  if (!task.writes && voxelCount > 0)
+  {
+    VoxelRun run = voxels.wide();
+    run.tallies = reductions ? reductions->takeTallies() : std::vector<VoxelTally>();
+    runs[partition].add(std::move(run));
+  }
+}
+
+/// The voxels of the points that are held, partition by partition: each thread takes the next one, so that
+/// those before any are done or at work. With as many reports as @p rounds. @return false where the observer
+/// ended the work.
+template <typename Voxels>
+bool VoxelResampler::Implementation::sumPartitions(Stages<Voxels>& stages, const Task& task,
+  std::size_t rounds, std::vector<VoxelRuns>& runs, const Executor& executor, ProgressObserver* observer)
+{
+  using Worker = typename Stages<Voxels>::Worker;
+  const VoxelRequest& request = task.request;
+  stages.prepareWorkers(
+    task, request.voxelIndex ? voxelIndex.data() : nullptr, std::max(executor.concurrency(), 1));
+  PartitionOrder order;
+  const auto sumNext = [&](Worker& worker, std::uint32_t partition)
+  {
+    try
+    {
+      this->sumPartition<Voxels>(worker, task, partition, order, runs.data());
+    }
+    catch (...)
+    {
+      order.giveUp();
+      throw;
+    }
+  };
+  try
+  {
+    task.writes ? makeOutput(stages, request, executor) : void();
+    for (std::size_t round = 0; round < rounds; ++round)
+    {
+      const std::size_t first = stages.source.partitions() * round / rounds;
+      const std::size_t last = stages.source.partitions() * (round + 1) / rounds;
+      forEachItemWith(
+        executor, last - first, [&](std::size_t thread) -> Worker& { return *stages.workers[thread]; },
+        [&](std::size_t p, Worker& worker) { sumNext(worker, std::uint32_t(first + p)); });
+      if (observer && !observer->report(double(round + 1) / double(rounds)))
+      {
+        return false;
+      }
+    }
+  }
+  catch (...)
+  {
+    stages.workers.clear(); // The next run finds nothing half done.
+    throw;
+  }
+  for (const std::unique_ptr<Worker>& worker : stages.workers)
+  {
+    worker->reductions.reset();
+  }
+  size = task.writes ? std::int64_t(order.size()) : 0;
+  return true;
 }
 
 VoxelResampler::VoxelResampler()

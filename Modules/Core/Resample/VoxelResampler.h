@@ -91,13 +91,13 @@ struct VoxelRequest
 ///
 /// Time: a few nanoseconds a point; beyond 4096 voxels an axis or 8.6 billion in all, and where no axis has
 /// more than two, points are sorted: some tens of them, growing with the logarithm of the points. Memory
-/// beyond input and results: 16 bytes for each of at most 5 million points (with attributes 20, where they
-/// come in no order up to 52), and where there are more points 48 bytes an active voxel, 144 with
-/// covariances, and the sums and values of arrays (see VoxelAccumulator): those of 5 million are merged with
-/// the others. A few megabytes (of which up to 1.3 for each thread where a layer of the lattice has up to 4
-/// million voxels). Where points are sorted: 80 bytes for each of at most 262,144, and the sums. With
-/// representatives or VoxelRequest::voxelIndex all points are held at once, with medians under a transform
-/// their places too. One object is used by one thread at a time; the executor's threads may be many.
+/// beyond input and results: 16 bytes for each of at most 5 million points (with attributes up to 52), and
+/// where there are more points 48 bytes an active voxel, 144 with covariances, and the sums and values of
+/// arrays (see VoxelAccumulator): those of 5 million are merged with the others. A few megabytes (of which up
+/// to 1.3 for each thread where a layer of the lattice has up to 4 million voxels). Where points are sorted:
+/// 80 bytes for each of at most 262,144, and the sums. With representatives or VoxelRequest::voxelIndex all
+/// points are held at once, with medians under a transform their places too. One object is used by one thread
+/// at a time; the executor's threads may be many.
 class VoxelResampler
 {
 public:

@@ -4,17 +4,18 @@
 
 #include "Core/Resample/Reductions/VoxelReductions.h"
 #include "Core/Resample/Stages/BinnedVoxels.h"
-#include "Core/Resample/Stages/PartitionOrder.h"
 #include "Core/Resample/Stages/PointQuantizer.h"
 #include "Core/Resample/Stages/SortedVoxels.h"
-#include "Core/Resample/Stages/VoxelRuns.h"
+#include "Core/Resample/Stages/VoxelRun.h"
 #include "Core/Resample/VoxelResampler.h"
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <numeric>
 #include <optional>
+#include <thread>
 #include <vector>
 
 namespace pointhaptics
@@ -35,6 +36,39 @@ inline bool choosesPoints(const VoxelRequest& request)
   return request.representative != Representative::Mean || request.voxelIndex;
 }
 
+/// Gives partitions the offsets of their voxels among all. Threads take partitions in ascending order and
+/// find one's voxels before they do anything else with it: a thread that has found them waits, if at all, for
+/// one that is finding.
+class PartitionOrder
+{
+public:
+  /// The offset of a partition of @p size voxels. @pre those before it are done or at work.
+  std::size_t append(std::size_t partition, std::size_t size)
+  {
+    while (known_.load(std::memory_order_acquire) != partition && !givenUp_)
+    {
+      std::this_thread::yield();
+    }
+    if (givenUp_)
+    {
+      return 0;
+    }
+    const std::size_t offset = size_;
+    size_ += size;
+    known_.store(partition + 1, std::memory_order_release);
+    return offset;
+  }
+  /// Voxels of all partitions.
+  std::size_t size() const { return size_; }
+  /// Lets all threads go on after one of them failed; offsets are then of no use.
+  void giveUp() { givenUp_ = true; }
+
+private:
+  std::size_t size_ = 0;
+  std::atomic<std::size_t> known_{ 0 }; ///< Partitions whose end is known.
+  std::atomic<bool> givenUp_{ false };
+};
+
 class VoxelResampler::Implementation
 {
 public:
@@ -45,8 +79,6 @@ public:
   /// For VoxelAccumulator: the result that such sums make.
   Status finish(const VoxelRequest& request, const simd::VoxelRun& sums, const Executor& executor,
     ProgressObserver* observer);
-  /// Bits of an offset in a voxel.
-  static int fractionBitsOf(const Lattice& lattice);
 
   Lattice lattice;
   simd::VoxelWriter writer; ///< The result's arrays.
@@ -79,7 +111,7 @@ private:
     typename Voxels::Source source;
     std::vector<std::unique_ptr<Worker>> workers;
 
-    void prepareWorkers(const Task& task, std::int64_t* voxelIndex, int count);
+    void prepareWorkers(const Task& task, std::int64_t* indexOfPoints, int count);
     std::size_t bytes() const
     {
       return std::accumulate(workers.begin(), workers.end(), source.bytes(),
@@ -96,14 +128,13 @@ private:
     ProgressObserver* observer);
   template <typename Voxels>
   void sumPartition(typename Stages<Voxels>::Worker& worker, const Task& task, std::uint32_t partition,
-    simd::PartitionOrder& order, simd::VoxelRuns* runs);
+    PartitionOrder& order, simd::VoxelRuns* runs);
   template <typename Voxels>
   bool sumPartitions(Stages<Voxels>& stages, const Task& task, std::size_t rounds,
     std::vector<simd::VoxelRuns>& runs, const Executor& executor, ProgressObserver* observer);
   template <typename Voxels>
   void makeOutput(Stages<Voxels>& stages, const VoxelRequest& request, const Executor& executor);
   AttributeView placesOf(const VoxelRequest& request, const Executor& executor);
-  static simd::VoxelWriter::Layout layoutOf(const VoxelRequest& request);
   void writeRun(const VoxelRequest& request, const simd::VoxelRun& run, std::size_t first, std::size_t last,
     std::size_t offset);
   void writeParts(const VoxelRequest& request, std::vector<simd::VoxelRun>& parts, const Executor& executor);

@@ -3,14 +3,11 @@
 /// each.
 #pragma once
 
-#include "Core/Resample/Kernel/Fetch.h"
-#include "Core/Resample/Kernel/InFours.h"
+#include "Core/Resample/Kernel/Loops.h"
 #include "Core/Resample/Kernel/VoxelKernel.h"
 #include "Core/Simd/Words.h"
 
-namespace pointhaptics
-{
-namespace simd
+namespace pointhaptics::simd
 {
 namespace
 {
@@ -31,7 +28,6 @@ void cellsOf(
   const CellMap& given, const PointRecord* records, int count, const PointRecord* next, std::uint32_t* cells)
 {
   const CellMap map = given; // A copy, which no store can change.
-  const bool inLayer = map.firstInLayer != CellMap::kSeveralLayers;
   const int toIndex = kLowBits + map.fractionBits;
   const int toLayer = map.fractionBits - kLowBits;
   constexpr int kStep = 64;
@@ -39,19 +35,12 @@ void cellsOf(
   {
     const int last = count - first < kStep ? count : first + kStep;
     fetchRecords(next + first, last - first);
-    for (int i = first; inLayer && i < last; ++i)
-    {
-      const auto x = std::uint32_t(records[i].first >> toIndex);
-      const auto y = std::uint32_t(records[i].second >> toIndex);
-      cells[i] = x + map.columns * (y - map.firstInLayer);
-    }
-    for (int i = first; !inLayer && i < last; ++i)
+    for (int i = first; i < last; ++i)
     {
       const auto x = std::uint32_t(records[i].first >> toIndex);
       const auto y = std::uint32_t(records[i].second >> toIndex);
       const auto z = std::uint32_t((records[i].second & kLowMask) >> toLayer);
-      const std::uint32_t row = y + map.rowsPerLayer * z;
-      cells[i] = x + map.columns * ((row < map.firstRow ? row + map.upperRows : row) - map.firstRow);
+      cells[i] = x + map.columns * (y + map.rowsPerLayer * z - map.firstRecordRow);
     }
   }
 }
@@ -90,15 +79,6 @@ inline std::uint32_t rankOf(const CellRanks& ranks, std::uint32_t cell)
   return ranks.rankTable[cell / 64] + onesOf(ranks.occupancy[cell / 64] & below);
 }
 
-void rank(const CellRanks& given, std::uint32_t* cells, int count)
-{
-  const CellRanks ranks = given; // A copy, which no store can change.
-  for (int i = 0; i < count; ++i)
-  {
-    cells[i] = rankOf(ranks, cells[i]);
-  }
-}
-
 /// Adds the offsets of a record to the four lanes of its cell's sums.
 struct RecordAdder
 {
@@ -119,34 +99,20 @@ struct RecordAdder
   }
 };
 
-/// Adds the products of one record's offsets to the twelve words of the sums.
-struct ProductAdder
+/// A function of its own: its vectors would take registers from the loop over the sums.
+__attribute__((noinline)) void accumulateProducts(
+  int fractionBits, const PointRecord* records, const std::uint32_t* ranks, int count, SecondMoments* to)
 {
-  std::uint64_t fractionMask;
-  int toTop; ///< Brings an offset to the top of a word, and its product with another, split, to the middle of
-             ///< two.
-
-  explicit ProductAdder(int fractionBits)
-    : fractionMask((std::uint64_t(1) << fractionBits) - 1)
-    , toTop(64 - fractionBits)
-  {
-  }
-  void add(SplitSecondMoments& sums, const PointRecord& r) const
-  {
-    const std::uint64_t fractions[3] = { xFraction(r, fractionMask), yFraction(r, fractionMask),
-      zFraction(r, fractionMask) };
-    for (int m = 0; m < 6; ++m)
+  const std::uint64_t mask = (std::uint64_t(1) << fractionBits) - 1;
+  fromFourParts(count,
+    [=](int i)
     {
-      const UInt128 product = UInt128(fractions[kFirstAxis[m]] << toTop) * fractions[kSecondAxis[m]];
-      sums.high[m] += std::uint64_t(product >> 64);
-      sums.low[m] += std::uint64_t(product) >> toTop;
-    }
-  }
-};
+      const PointRecord& r = records[i];
+      addProducts(to[ranks[i]], xFraction(r, mask), yFraction(r, mask), zFraction(r, mask));
+    });
+}
 
-/// @tparam KeepsRanks: cells become their ranks.
-template <bool KeepsRanks>
-inline void accumulateSums(const CellMap& map, const CellRanks& givenRanks, const PointRecord* records,
+void accumulate(const CellMap& map, const CellRanks& givenRanks, const PointRecord* records,
   std::uint32_t* cells, int count, const PointRecord* next, const CellSums& given)
 {
   // Copies, which no store can change.
@@ -163,10 +129,7 @@ inline void accumulateSums(const CellMap& map, const CellRanks& givenRanks, cons
       const std::uint32_t cell = cells[first + i];
       const std::uint32_t rank = rankOf(ranks, cell);
       to.cells[rank] = cell;
-      if constexpr (KeepsRanks)
-      {
-        cells[first + i] = rank;
-      }
+      cells[first + i] = rank;
       adder.add(to.sums[rank], records[first + i]);
     };
     const int left = count - first;
@@ -185,25 +148,6 @@ inline void accumulateSums(const CellMap& map, const CellRanks& givenRanks, cons
       visitStrided<kPart, 0, kParts>(i, add);
     }
   }
-}
-
-/// A function of its own: its vectors would take registers from the loop over the sums.
-__attribute__((noinline)) void accumulateProducts(
-  int fractionBits, const PointRecord* records, const std::uint32_t* ranks, int count, SplitSecondMoments* to)
-{
-  const ProductAdder adder(fractionBits);
-  fromFourParts(count, [=](int i) { adder.add(to[ranks[i]], records[i]); });
-}
-
-void accumulate(const CellMap& map, const CellRanks& ranks, const PointRecord* records, std::uint32_t* cells,
-  int count, const PointRecord* next, const CellSums& to)
-{
-  if (!to.keepsRanks)
-  {
-    accumulateSums<false>(map, ranks, records, cells, count, next, to);
-    return;
-  }
-  accumulateSums<true>(map, ranks, records, cells, count, next, to);
   if (to.secondMoments)
   {
     accumulateProducts(map.fractionBits, records, cells, count, to.secondMoments);
@@ -211,5 +155,4 @@ void accumulate(const CellMap& map, const CellRanks& ranks, const PointRecord* r
 }
 
 }
-} // namespace simd
-} // namespace pointhaptics
+} // namespace pointhaptics::simd

@@ -4,9 +4,7 @@
 
 #include "Core/Resample/Kernel/CellSumBody.h"
 
-namespace pointhaptics
-{
-namespace simd
+namespace pointhaptics::simd
 {
 namespace
 {
@@ -28,52 +26,32 @@ struct PackedVectors
   }
 };
 
-/// Coordinates of means, from sums and voxels' indices.
-struct MeanVectors
+/// Coordinates of means, from sums and voxels' indices. Bit i of the result: that of voxel i is clear of the
+/// faces.
+inline unsigned meansOf(const MeanMap& map, const PackedVectors& packed, const Pack indices[3], Pack xyz[3])
 {
-  Pack origin[3], spacing[3];
-  // In quanta: from the lower face, and from there on to as much below the upper one.
-  Pack margin[3], clearance[3];
-  Pack quantum;
-
-  explicit MeanVectors(const MeanMap& map)
-    : quantum(all(map.quantum))
+  const Pack count = smallToNumbers(packed.count);
+  const Pack reciprocal = 1.0 / count;
+  Words clear = allWords(~std::uint64_t(0));
+  for (int axis = 0; axis < 3; ++axis)
   {
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      origin[axis] = all(map.origin[axis]);
-      spacing[axis] = all(map.spacing[axis]);
-      const double width = 1.0 - 2.0 * map.faceMargin[axis];
-      margin[axis] = all(map.faceMargin[axis] / map.quantum);
-      clearance[axis] = all(width > 0.0 ? width / map.quantum : 0.0);
-    }
+    // Correctly rounded, for counts below 2^48. The product is within 2^-52 of the quotient, relatively, and
+    // what is corrected within 2^-103: no quotient by such a count is that near to the midpoint of two
+    // doubles.
+    const Pack sum = toNumbers(packed.sums[axis]);
+    const Pack fraction = kFuses ? corrected(sum * reciprocal, sum, count, reciprocal) : sum / count;
+    xyz[axis] = map.origin[axis] + multiplyAdd(fraction, all(map.quantum), indices[axis]) * map.spacing[axis];
+    const Pack above = fraction - map.margin[axis];
+    clear &= ~bitsOf(above) & reinterpret_cast<Words>(above < map.clearance[axis]);
   }
-  /// Bit i of the result: that of voxel i is clear of the faces.
-  unsigned mean(const PackedVectors& packed, const Pack indices[3], Pack xyz[3]) const
-  {
-    const Pack count = smallToNumbers(packed.count);
-    const Pack reciprocal = 1.0 / count;
-    Words clear = allWords(~std::uint64_t(0));
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      // Correctly rounded, for counts below 2^48. The product is within 2^-52 of the quotient, relatively,
-      // and what is corrected within 2^-103: no quotient by such a count is that near to the midpoint of two
-      // doubles.
-      const Pack sum = toNumbers(packed.sums[axis]);
-      const Pack fraction = kFuses ? corrected(sum * reciprocal, sum, count, reciprocal) : sum / count;
-      xyz[axis] = origin[axis] + multiplyAdd(fraction, quantum, indices[axis]) * spacing[axis];
-      const Pack above = fraction - margin[axis];
-      clear &= ~bitsOf(above) & reinterpret_cast<Words>(above < clearance[axis]);
-    }
-    return highestBits(clear);
-  }
-};
+  return highestBits(clear);
+}
 
 template <typename Real>
-int packedMeans(const MeanMap& map, const CellMap& cellMap, const std::uint32_t* cells,
+int packedMeans(const MeanMap& given, const CellMap& cellMap, const std::uint32_t* cells,
   const PackedSums* packed, int size, Real* xyz, std::int64_t* counts, int* nearFace)
 {
-  const MeanVectors constants(map);
+  const MeanMap map = given; // A copy, which no store can change.
   const double columns = cellMap.columns;
   const double rows = cellMap.rowsPerLayer;
   // The integer below a quotient a / b of integers, from 1 / b: the one nearest to (a + 1/2) / b - 1/2, which
@@ -95,7 +73,7 @@ int packedMeans(const MeanMap& map, const CellMap& cellMap, const std::uint32_t*
     const Pack layer = nearest(multiplyAdd(row, perLayer, toLayer));
     const Pack indices[3] = { cell - localRow * columns, row - layer * rows, layer };
     Pack means[3];
-    unsigned nearFaces = ((1u << kWidth) - 1) & ~constants.mean(voxels, indices, means);
+    unsigned nearFaces = ((1u << kWidth) - 1) & ~meansOf(map, voxels, indices, means);
     const int last = size - i < kWidth ? size - i : kWidth;
     if (last == kWidth)
     {
@@ -136,22 +114,23 @@ inline Words truncated(const Pack& v, Pack& real)
   return bits ^ bitsOf(all(kToBits));
 }
 
+typedef std::uint64_t WordAt __attribute__((may_alias));
+
 /// Computes covarianceOf() in 64-bit arithmetic. About an integer m near the mean, with sum = n m + rest, the
 /// central sum of a product is S_ab - m_a sum_b - m_b rest_a. Modulo 2^64 integers give it exactly; doubles
 /// are nearer to it than 2^63 and show which multiple of 2^64 that leaves out. Both together make 53 bits and
 /// the last 32, whose sum is rounded once.
 inline void covariancesTogether(
-  const CovarianceMap& map, const PackedSums* packed, const SplitSecondMoments* secondMoments, Pack result[6])
+  const CovarianceMap& map, const PackedSums* packed, const SecondMoments* secondMoments, Pack result[6])
 {
   const PackedVectors voxels(packed);
-  Words split[3][4];
+  Words parts[3][4]; // low, high, low, high words of two sums
   for (std::size_t part = 0; part < 3; ++part)
   {
-    turnWords(
-      secondMoments->high + 4 * part, sizeof *secondMoments / sizeof secondMoments->high[0], split[part]);
+    turnWords(reinterpret_cast<const WordAt*>(secondMoments->lanes + 2 * part),
+      sizeof *secondMoments / sizeof(WordAt), parts[part]);
   }
   const Pack perPoint = 1.0 / toNumbers(voxels.count);
-  const double highUnit = double(std::int64_t(1) << map.fractionBits);
   Words m[3], rest[3];
   Pack mReal[3], sumReal[3], restReal[3];
   for (int axis = 0; axis < 3; ++axis)
@@ -165,10 +144,11 @@ inline void covariancesTogether(
   {
     const int a = kFirstAxis[i];
     const int b = kSecondAxis[i];
-    const Words& high = split[i / 4][i % 4];
-    const Words sum = (high << map.fractionBits) + split[(6 + i) / 4][(6 + i) % 4];
-    const Words bits = sum - m[a] * voxels.sums[b] - m[b] * rest[a];
-    const Pack near = toNumbers(high) * highUnit - mReal[a] * sumReal[b];
+    const Words& low = parts[i / 2][i % 2 * 2];
+    const Words& high = parts[i / 2][i % 2 * 2 + 1];
+    const Words bits = low - m[a] * voxels.sums[b] - m[b] * rest[a];
+    const Pack sum = (smallToNumbers(high) * 0x1p32 + smallToNumbers(low >> 32)) * 0x1p32;
+    const Pack near = sum - mReal[a] * sumReal[b];
     const Pack turns = nearest((near - toNumbers(bits)) * 0x1p-64);
     const Pack upper = smallToNumbers((bits >> 32) ^ 0x80000000u) - 0x1p31; // signed
     const Pack central = (turns * 0x1p32 + upper) * 0x1p32 + smallToNumbers(bits & 0xffffffffu);
@@ -177,7 +157,7 @@ inline void covariancesTogether(
   }
 }
 
-int covariances(const CovarianceMap& map, const PackedSums* sums, const SplitSecondMoments* secondMoments,
+int covariances(const CovarianceMap& map, const PackedSums* sums, const SecondMoments* secondMoments,
   int count, double* covariances, int* full)
 {
   const std::int64_t most = mostCovariancePoints(map.fractionBits);
@@ -200,5 +180,4 @@ int covariances(const CovarianceMap& map, const PackedSums* sums, const SplitSec
 }
 
 }
-} // namespace simd
-} // namespace pointhaptics
+} // namespace pointhaptics::simd

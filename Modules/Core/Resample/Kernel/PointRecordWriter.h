@@ -8,9 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace pointhaptics
-{
-namespace simd
+namespace pointhaptics::simd
 {
 
 constexpr std::uint32_t kNoBlock = ~std::uint32_t(0);
@@ -91,5 +89,4 @@ __attribute__((always_inline)) static inline PointRecord* cursorOf(
     (last == kNoBlock ? firstRecord(std::uint32_t(partition), blockRecords) : 0);
 }
 
-} // namespace simd
-} // namespace pointhaptics
+} // namespace pointhaptics::simd

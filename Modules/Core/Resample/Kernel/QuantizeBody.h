@@ -2,15 +2,12 @@
 /// Part of VoxelKernelBody.h: quantizes points and bins their records into the partitions.
 #pragma once
 
-#include "Core/Resample/Kernel/Fetch.h"
-#include "Core/Resample/Kernel/InFours.h"
+#include "Core/Resample/Kernel/Loops.h"
 #include "Core/Resample/Kernel/PointRecordWriter.h"
 #include "Core/Resample/Kernel/VoxelKernel.h"
 #include "Core/Simd/Words.h"
 
-namespace pointhaptics
-{
-namespace simd
+namespace pointhaptics::simd
 {
 namespace
 {
@@ -28,59 +25,29 @@ struct QuantizedPoints
   alignas(64) std::uint32_t indices[kBatchPoints + kWidest];
 };
 
-/// The vectors that stay the same over all points.
-struct QuantizerVectors
-{
-  Pack pivot[3], matrix[3][3], offset[3], offsetRest[3], quantum[3], reciprocal[3], remainder[3], limit[3];
-  Words blocksPerLayer;
-  int toRowBlock, toLayerBlock;
-  bool layersAreCut;
-
-  explicit QuantizerVectors(const PointQuantizer& p)
-    : blocksPerLayer(allWords(p.blocksPerLayer))
-    , toRowBlock(p.fractionBits + p.rowShift)
-    , toLayerBlock(p.fractionBits + p.layerShift)
-    , layersAreCut(p.blocksPerLayer > 1)
-  {
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      pivot[axis] = all(p.pivot[axis]);
-      offset[axis] = all(p.offset[axis]);
-      offsetRest[axis] = all(p.offsetRest[axis]);
-      quantum[axis] = all(p.quantum[axis]);
-      reciprocal[axis] = all(p.reciprocal[axis]);
-      remainder[axis] = all(p.remainder[axis]);
-      limit[axis] = all(p.limit[axis]);
-      for (int column = 0; column < 3; ++column)
-      {
-        matrix[axis][column] = all(p.matrix[axis][column]);
-      }
-    }
-  }
-};
-
-/// v / quantum, correctly rounded. @tparam Pair: PointQuantizer::pairDivides.
-template <bool Pair>
-inline Pack quotient(const QuantizerVectors& c, const Pack& v, int axis)
+/// v / quantum, correctly rounded.
+inline Pack quotient(const PointQuantizer& c, const Pack& v, int axis)
 {
   if constexpr (kFuses)
   {
-    const Pack u = multiplyAdd(v, c.reciprocal[axis], v * c.remainder[axis]);
-    return Pair ? u : corrected(u, v, c.quantum[axis], c.reciprocal[axis]);
+    const Pack reciprocal = all(c.reciprocal[axis]);
+    const Pack u = multiplyAdd(v, reciprocal, v * c.remainder[axis]);
+    return corrected(u, v, all(c.quantum[axis]), reciprocal);
   }
   return v / c.quantum[axis];
 }
 
 /// A row of the matrix times a point, and the offset: the sum of all terms rounded, and what that took from
 /// it (T. Ogita, S. M. Rump, S. Oishi, "Accurate sum and dot product", 2005).
-inline Pack compensatedDot(const QuantizerVectors& c, const Pack p[3], int axis)
+inline Pack compensatedDot(const PointQuantizer& c, const Pack p[3], int axis)
 {
-  Pack sum = c.offset[axis];
-  Pack rest = c.offsetRest[axis];
+  Pack sum = all(c.offset[axis]);
+  Pack rest = all(c.offsetRest[axis]);
   for (int column = 0; column < 3; ++column)
   {
-    const Pack term = p[column] * c.matrix[axis][column];
-    rest += productRest(p[column], c.matrix[axis][column], term);
+    const Pack factor = all(c.matrix[axis][column]);
+    const Pack term = p[column] * factor;
+    rest += productRest(p[column], factor, term);
     const Pack total = sum + term;
     const Pack added = total - sum;
     rest += (sum - (total - added)) + (term - added);
@@ -92,7 +59,7 @@ inline Pack compensatedDot(const QuantizerVectors& c, const Pack p[3], int axis)
 /// @p v: kWidth points in the lattice's frame. Part of the loop whatever the compiler thinks: a call would
 /// take the constants out of the registers.
 template <Motion motion, typename Real>
-__attribute__((always_inline)) inline void move(const QuantizerVectors& c, const Real* xyz, Pack v[3])
+__attribute__((always_inline)) inline void move(const PointQuantizer& c, const Real* xyz, Pack v[3])
 {
   Pack p[3];
   loadPoints(xyz, p);
@@ -103,49 +70,31 @@ __attribute__((always_inline)) inline void move(const QuantizerVectors& c, const
   for (int axis = 0; axis < 3; ++axis)
   {
     v[axis] = motion == Motion::Compensated ? compensatedDot(c, p, axis)
-      : motion == Motion::Subtract          ? p[axis]
       : motion == Motion::Scale
       ? p[axis] * c.matrix[axis][axis] + c.offset[axis]
       : (p[0] * c.matrix[axis][0] + p[1] * c.matrix[axis][1]) + p[2] * c.matrix[axis][2] + c.offset[axis];
   }
 }
 
-/// @p u: kWidth points in quanta. Fetches points that come later.
-template <Motion motion, bool Pair, typename Real>
-__attribute__((always_inline)) inline void locate(const QuantizerVectors& c, const Real* xyz, Pack u[3])
-{
-  constexpr int kAhead = 2048 / int(sizeof(Real));
-  __builtin_prefetch(xyz + kAhead);
-  if (kWidth * 3 * sizeof(Real) > 64)
-  {
-    __builtin_prefetch(xyz + kAhead + 64 / sizeof(Real));
-  }
-  Pack v[3];
-  move<motion>(c, xyz, v);
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    u[axis] = quotient<Pair>(c, v[axis], axis);
-  }
-}
-
-/// Quantizes kWidth points, which are at @p u in quanta, into @p quantized, from @p to on. Bit i of the
-/// result: point i is inside.
+/// Quantizes kWidth points, which are at @p v in the lattice's frame, into @p quantized, from @p to on. Bit i
+/// of the result: point i is inside.
 __attribute__((always_inline)) inline unsigned quantizeGroup(
-  const QuantizerVectors& c, const Pack u[3], QuantizedPoints& quantized, std::int64_t to)
+  const PointQuantizer& c, const Pack v[3], QuantizedPoints& quantized, std::int64_t to)
 {
   Words inside = allWords(~std::uint64_t(0));
   Words position[3];
   for (int axis = 0; axis < 3; ++axis)
   {
+    const Pack u = quotient(c, v[axis], axis);
     // 0 <= u < limit; u is not -0.
-    inside &= ~bitsOf(u[axis]) & reinterpret_cast<Words>(u[axis] < c.limit[axis]);
-    position[axis] = floorBits(u[axis]);
+    inside &= ~bitsOf(u) & reinterpret_cast<Words>(u < c.limit[axis]);
+    position[axis] = floorBits(u);
   }
-  Words partition = (position[2] & kPositionMask) >> c.toLayerBlock;
-  if (c.layersAreCut)
+  Words partition = (position[2] & kPositionMask) >> (c.fractionBits + c.layerShift);
+  if (c.blocksPerLayer > 1)
   {
-    partition =
-      productOfHalves(partition, c.blocksPerLayer) + ((position[1] & kPositionMask) >> c.toRowBlock);
+    partition = productOfHalves(partition, allWords(c.blocksPerLayer)) +
+      ((position[1] & kPositionMask) >> (c.fractionBits + c.rowShift));
   }
   *reinterpret_cast<WordsAt*>(quantized.partitions + to) = partition;
   storePairs(&quantized.records[to].first, position[0] << kLowBits | (position[2] & kLowMask),
@@ -170,50 +119,44 @@ inline std::int64_t keepInside(
 
 /// Quantizes groups of kWidth points, no more than fill the batch. Bit i of @p present: a group has a point
 /// i. @return how many are not finite. A function of its own, without calls: the constants stay in registers.
-template <Motion motion, bool Pair, typename Real>
-__attribute__((noinline)) int quantizeGroups(const QuantizerVectors& given, const Real* xyz, int groups,
+template <Motion motion, typename Real>
+__attribute__((noinline)) int quantizeGroups(const PointQuantizer& given, const Real* xyz, int groups,
   unsigned present, std::uint32_t index, QuantizedPoints& quantized)
 {
   constexpr unsigned kFull = (1u << kWidth) - 1;
-  constexpr int kGroups = kWidth == 4 ? 8 : 1;
-  const QuantizerVectors constants = given;
-  std::int64_t size = quantized.size; // A copy, which no store can change.
+  constexpr int kAhead = 2048 / int(sizeof(Real));
+  const PointQuantizer constants = given; // A copy, which no store can change.
+  std::int64_t size = quantized.size;     // A copy, which no store can change.
   int invalid = 0;
   IntsAt lanes;
   for (int i = 0; i < kWidth; ++i)
   {
     lanes[i] = i;
   }
-  // Two loops have chains of operations half as long, of which the processor works on more at a time.
-  Pack u[kGroups][3];
-  for (int first = 0; first < groups; first += kGroups)
+  for (int g = 0; g < groups; ++g, xyz += 3 * kWidth, index += kWidth)
   {
-    const int together = groups - first < kGroups ? groups - first : kGroups;
-    for (int g = 0; g < together; ++g)
+    __builtin_prefetch(xyz + kAhead);
+    if (kWidth * 3 * sizeof(Real) > 64)
     {
-      locate<motion, Pair>(constants, xyz + 3 * kWidth * (first + g), u[g]);
+      __builtin_prefetch(xyz + kAhead + 64 / sizeof(Real));
     }
-    for (int g = 0; g < together; ++g)
+    Pack v[3];
+    move<motion>(constants, xyz, v);
+    const unsigned kept = present & quantizeGroup(constants, v, quantized, size);
+    if (__builtin_expect(kept == kFull, true))
     {
-      const std::uint32_t firstIndex = index + std::uint32_t(kWidth * (first + g));
-      const unsigned kept = present & quantizeGroup(constants, u[g], quantized, size);
-      if (__builtin_expect(kept == kFull, true))
-      {
-        *reinterpret_cast<IntsAt*>(quantized.indices + size) = lanes + std::int32_t(firstIndex);
-        size += kWidth;
-        continue;
-      }
-      if (kept != present)
-      {
-        Pack v[3];
-        move<motion>(constants, xyz + 3 * kWidth * (first + g), v);
-        // A coordinate that is not finite makes the difference NaN.
-        const Pack zero = (v[0] - v[0]) + (v[1] - v[1]) + (v[2] - v[2]);
-        const unsigned finite = highestBits(reinterpret_cast<Words>(zero == 0.0));
-        invalid += __builtin_popcount(present & ~finite);
-      }
-      size = keepInside(quantized, size, kept, firstIndex);
+      *reinterpret_cast<IntsAt*>(quantized.indices + size) = lanes + std::int32_t(index);
+      size += kWidth;
+      continue;
     }
+    if (kept != present)
+    {
+      // A coordinate that is not finite makes the difference NaN.
+      const Pack zero = (v[0] - v[0]) + (v[1] - v[1]) + (v[2] - v[2]);
+      const unsigned finite = highestBits(reinterpret_cast<Words>(zero == 0.0));
+      invalid += __builtin_popcount(present & ~finite);
+    }
+    size = keepInside(quantized, size, kept, index);
   }
   quantized.size = int(size);
   return invalid;
@@ -314,11 +257,10 @@ inline void binPoints(QuantizedPoints& quantized, PointRecordWriter& writer)
   quantized.size = left;
 }
 
-template <Motion motion, bool Pair, typename Real>
+template <Motion motion, typename Real>
 void partitionAll(const PointQuantizer& quantizer, const Real* xyz, const PointRange* ranges,
   std::int64_t count, PointRecordWriter& writer)
 {
-  const QuantizerVectors constants(quantizer);
   constexpr decltype(&binPoints<0>) kBins[] = { &binPoints<0>, &binPoints<1>, &binPoints<2>, &binPoints<3>,
     &binPoints<4>, &binPoints<5>, &binPoints<6>, &binPoints<7>, &binPoints<8>, &binPoints<9> };
   static_assert(sizeof kBins / sizeof kBins[0] == PayloadLayout::kMostWords + 1, "one for each width");
@@ -327,8 +269,8 @@ void partitionAll(const PointQuantizer& quantizer, const Real* xyz, const PointR
   const auto quantize = [&](const Real* from, std::int64_t first, int groups, unsigned present)
   {
     const int before = batch.size;
-    writer.invalid += quantizeGroups<motion, Pair>(
-      constants, from, groups, present, std::uint32_t(first - ranges[0].begin), batch);
+    writer.invalid +=
+      quantizeGroups<motion>(quantizer, from, groups, present, std::uint32_t(first - ranges[0].begin), batch);
     writer.inside += batch.size - before;
     if (batch.size >= kBatchPoints)
     {
@@ -359,32 +301,15 @@ void partitionAll(const PointQuantizer& quantizer, const Real* xyz, const PointR
   bin(batch, writer);
 }
 
-template <Motion motion, typename Real>
-void partitionMoved(const PointQuantizer& quantizer, const Real* xyz, const PointRange* ranges,
-  std::int64_t count, PointRecordWriter& writer)
-{
-  kFuses&& quantizer.pairDivides ? partitionAll<motion, true>(quantizer, xyz, ranges, count, writer)
-                                 : partitionAll<motion, false>(quantizer, xyz, ranges, count, writer);
-}
-
 template <typename Real>
 void partition(const PointQuantizer& quantizer, const Real* xyz, const PointRange* ranges, std::int64_t count,
   PointRecordWriter& writer)
 {
-  switch (quantizer.motion)
-  {
-    case Motion::Subtract:
-      return partitionMoved<Motion::Subtract>(quantizer, xyz, ranges, count, writer);
-    case Motion::Shift:
-    case Motion::Scale:
-      return partitionMoved<Motion::Scale>(quantizer, xyz, ranges, count, writer);
-    case Motion::General:
-      return partitionMoved<Motion::General>(quantizer, xyz, ranges, count, writer);
-    case Motion::Compensated:
-      return partitionMoved<Motion::Compensated>(quantizer, xyz, ranges, count, writer);
-  }
+  const auto partition = quantizer.motion == Motion::Scale ? &partitionAll<Motion::Scale, Real>
+    : quantizer.motion == Motion::General                  ? &partitionAll<Motion::General, Real>
+                                                           : &partitionAll<Motion::Compensated, Real>;
+  partition(quantizer, xyz, ranges, count, writer);
 }
 
 }
-} // namespace simd
-} // namespace pointhaptics
+} // namespace pointhaptics::simd

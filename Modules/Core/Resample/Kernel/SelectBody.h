@@ -1,223 +1,98 @@
 /// @file
-/// Part of VoxelKernelBody.h: modes and medians of lists of values. Each value is compared with each, in
-/// vectors: without branches, which would be unpredictable.
+/// Part of VoxelKernelBody.h: modes and medians of short lists of values.
 #pragma once
 
 #include "Core/Resample/Kernel/OrderedKey.h"
 #include "Core/Resample/Kernel/VoxelKernel.h"
 
-namespace pointhaptics
-{
-namespace simd
+namespace pointhaptics::simd
 {
 namespace
 {
 
-/// The vectors of values of a type and of their keys.
-template <typename T>
-struct ListVectors
+/// The keys of as many values as a vector has, in that order of values that orderedKey() gives.
+template <typename T, typename Keys>
+inline Keys keysAt(const T* from)
 {
   using Key = decltype(orderedKey(T()));
-  using Sign = std::make_signed_t<Key>;
-  static constexpr int kLanes = kListVector / int(sizeof(Key));
-  static constexpr Key kLeast = std::numeric_limits<Key>::lowest();
-  static constexpr Key kMost = std::numeric_limits<Key>::max();
   typedef T Values __attribute__((vector_size(kListVector), aligned(sizeof(T)), may_alias));
+  Values values = *reinterpret_cast<const Values*>(from);
+  if constexpr (std::is_floating_point_v<T>)
+  {
+    const Keys isNumber = Keys(values == values);
+    values += T(0);
+    const Keys keys =
+      (Keys(values) & isNumber) | (Keys(Values{} + std::numeric_limits<T>::quiet_NaN()) & ~isNumber);
+    return keys ^ ((keys >> int(8 * sizeof(Key) - 1)) & std::numeric_limits<Key>::max());
+  }
+  else
+  {
+    return std::is_same_v<T, std::uint64_t> ? Keys(values) ^ std::numeric_limits<Key>::lowest()
+                                            : Keys(values);
+  }
+}
+
+/// Each key is compared with each, without branches, which would be unpredictable. The mode is the one that
+/// is there most often, the smallest of several; the median the lower middle one: of those that are greater
+/// more are below.
+template <bool Median, typename T>
+void select(const void* list, int count, void* to)
+{
+  using Key = decltype(orderedKey(T()));
+  using Number = std::make_signed_t<Key>;
+  const T* const values = static_cast<const T*>(list);
   typedef Key Keys __attribute__((vector_size(kListVector), may_alias));
-  typedef Sign Signs __attribute__((vector_size(kListVector), may_alias));
-
-  static Keys all(Key key) { return Keys{} + key; }
-  static Signs allSigns(int number) { return Signs{} + Sign(number); }
-  /// The larger, or the smaller, lane by lane.
-  template <bool Larger, typename Vector>
-  static Vector better(const Vector& a, const Vector& b)
+  typedef Number Numbers __attribute__((vector_size(kListVector)));
+  constexpr int kInVector = kListVector / int(sizeof(Key));
+  constexpr Key kLargest = std::numeric_limits<Key>::max();
+  Numbers lanes;
+  for (int i = 0; i < kInVector; ++i)
   {
-    if constexpr (Larger)
-    {
-      return a > b ? a : b;
-    }
-    return a < b ? a : b;
+    lanes[i] = Number(i);
   }
-  /// The largest, or the smallest, of all lanes: of halves, of halves of them and so on.
-  template <bool Largest, typename Vector>
-  static auto among(Vector v)
+  // Vectors are filled up with the largest key, which changes nothing.
+  alignas(kListVector) Key keys[kFewValues];
+  for (int first = 0; first < count; first += kInVector)
   {
-    typedef std::uint64_t Four __attribute__((vector_size(kListVector), may_alias));
-    v = better<Largest>(v, Vector(__builtin_shufflevector(Four(v), Four(v), 2, 3, 0, 1)));
-    v = better<Largest>(v, Vector(__builtin_shufflevector(Four(v), Four(v), 1, 0, 3, 2)));
-    for (int bits = 32; bits >= int(8 * sizeof(Key)); bits /= 2)
-    {
-      v = better<Largest>(v, Vector((Four(v) >> bits) | (Four(v) << (64 - bits))));
-    }
-    return v[0];
+    const int left = count - first < kInVector ? count - first : kInVector;
+    const auto are = Keys(lanes < Number(left));
+    *reinterpret_cast<Keys*>(keys + first) = (keysAt<T, Keys>(values + first) & are) | (kLargest & ~are);
   }
-  /// @p a where bits are set, else @p b.
-  static Keys chosen(const Signs& bits, const Keys& a, const Keys& b)
+  const auto isBetter = [=](const auto& key, const auto& number, const auto& best, const auto& most)
   {
-    return (a & Keys(bits)) | (b & Keys(~bits));
-  }
-  /// All bits in the first lanes, @p count at most.
-  static Signs firstLanes(int count)
+    return Median ? (number <= Number((count - 1) / 2)) & (key > best)
+                  : (number > most) | ((number == most) & (key < best));
+  };
+  Keys best = Keys{} + (Median ? std::numeric_limits<Key>::lowest() : kLargest);
+  Numbers most{};
+  for (int first = 0; first < count; first += kInVector)
   {
-    Signs lanes;
-    for (int lane = 0; lane < kLanes; ++lane)
+    const Keys those = *reinterpret_cast<const Keys*>(keys + first);
+    Numbers numbers{};
+    for (int j = 0; j < count; ++j)
     {
-      lanes[lane] = Sign(lane);
+      numbers -= Median ? Numbers(keys[j] < those) : Numbers(keys[j] == those);
     }
-    return lanes < allSigns(count < kLanes ? count : kLanes);
+    const auto better = Numbers(isBetter(those, numbers, best, most));
+    best = Keys((Numbers(those) & better) | (Numbers(best) & ~better));
+    most = (numbers & better) | (most & ~better);
   }
-  /// The keys of values, @p count at most; the largest there can be stands for others.
-  static Keys load(const T* values, int count)
+  Key result = best[0];
+  Number number = most[0];
+  for (int i = 1; i < kInVector && i < count; ++i)
   {
-    Values those = *reinterpret_cast<const Values*>(values);
-    Keys keys = Keys(those);
-    if constexpr (std::is_floating_point_v<T>)
-    {
-      // As orderedKey() does.
-      const auto isNumber = Signs(those == those);
-      those += T(0);
-      keys = chosen(isNumber, Keys(those), Keys(Values{} + std::numeric_limits<T>::quiet_NaN()));
-      keys ^= (keys >> int(8 * sizeof(Key) - 1)) & all(kMost);
-    }
-    else if constexpr (std::is_same_v<T, std::uint64_t>)
-    {
-      keys ^= all(kLeast);
-    }
-    return chosen(firstLanes(count), keys, all(kMost));
+    const bool better = Median ? best[i] > result : isBetter(Key(best[i]), Number(most[i]), result, number);
+    result = better ? best[i] : result;
+    number = better ? most[i] : number;
   }
-  /// Counts for each of a vector of keys how many of @p count keys are below it, or equal to it.
-  template <bool Below>
-  static Signs numbers(const Key* keys, int count, const Keys& those)
-  {
-    Signs numbers{};
-    for (int i = 0; i < count; i += kTogether)
-    {
-      for (int j = i; j < i + kTogether; ++j)
-      {
-        numbers -= Below ? Signs(all(keys[j]) < those) : Signs(all(keys[j]) == those);
-      }
-    }
-    return numbers;
-  }
-  static constexpr int kTogether = 4; ///< The ends of short loops are predicted more often.
-};
-
-/// The result of so many of the keys of a list.
-template <typename T>
-struct Selected
-{
-  typename ListVectors<T>::Key key;
-  int number; ///< Number of keys that are equal to it.
-};
-
-/// The lower middle one: of those that are greater more are below.
-template <typename T>
-inline Selected<T> medianAmong(const typename ListVectors<T>::Key* keys, int count, int compared, int first)
-{
-  using V = ListVectors<T>;
-  const auto those = *reinterpret_cast<const typename V::Keys*>(keys + first);
-  const auto few =
-    typename V::Signs(V::template numbers<true>(keys, compared, those) <= V::allSigns((count - 1) / 2));
-  const auto candidates = V::chosen(few, those, V::all(V::kLeast));
-  return { V::template among<true>(candidates), 0 };
+  *static_cast<T*>(to) = valueOfKey<T>(result);
 }
 
-/// The one that is there most often, the smallest of several.
-template <typename T>
-inline Selected<T> modeAmong(const typename ListVectors<T>::Key* keys, int count, int compared, int first)
-{
-  using V = ListVectors<T>;
-  const auto those = *reinterpret_cast<const typename V::Keys*>(keys + first);
-  // Less those that stand for no key.
-  const auto others = typename V::Signs(those == V::all(V::kMost)) & V::allSigns(compared - count);
-  const auto equal =
-    (V::template numbers<false>(keys, compared, those) - others) & V::firstLanes(count - first);
-  const auto most = V::template among<true>(equal);
-  const auto candidates = V::chosen(typename V::Signs(equal == V::allSigns(most)), those, V::all(V::kMost));
-  return { V::template among<false>(candidates), int(most) };
-}
-
-template <bool Median, typename T>
-inline Selected<T> selectAmong(const typename ListVectors<T>::Key* keys, int count, int compared, int first)
-{
-  return Median ? medianAmong<T>(keys, count, compared, first) : modeAmong<T>(keys, count, compared, first);
-}
-
-/// Selects from a list that takes several vectors. It is a function of its own, as the compiler would keep
-/// each of its keys in a vector.
-template <bool Median, typename T>
-__attribute__((noinline)) auto selectOfSeveral(const T* values, int count)
-{
-  using V = ListVectors<T>;
-  alignas(kListVector) typename V::Key keys[kFewValues];
-  int first = 0;
-  do
-  {
-    *reinterpret_cast<typename V::Keys*>(keys + first) = V::load(values + first, count - first);
-    first += V::kLanes;
-  } while (first < count);
-  const int compared = (count + V::kTogether - 1) / V::kTogether * V::kTogether;
-  Selected<T> best = selectAmong<Median, T>(keys, count, compared, 0);
-  for (first = V::kLanes; first < count; first += V::kLanes)
-  {
-    const Selected<T> next = selectAmong<Median, T>(keys, count, compared, first);
-    const bool isBetter = Median
-      ? next.key > best.key
-      : next.number > best.number || (next.number == best.number && next.key < best.key);
-    best = isBetter ? next : best;
-  }
-  return best.key;
-}
-
-template <typename T, bool Median>
-int select(const ValueLists& lists, void* given, int step, int* many)
-{
-  using V = ListVectors<T>;
-  T* to = static_cast<T*>(given);
-  std::int64_t begin = lists.begin;
-  int found = 0;
-  for (int i = 0; i < lists.count; ++i)
-  {
-    const std::int64_t size = lists.ends[i] - begin;
-    const T* const values = static_cast<const T*>(lists.values) + begin;
-    begin = lists.ends[i];
-    if (__builtin_expect(size > kFewValues, false))
-    {
-      many[found++] = i;
-      continue;
-    }
-    auto& result = to[std::int64_t(step) * i];
-    if (size <= 2)
-    {
-      // The smaller one, as mode and as median.
-      const auto first = orderedKey(values[0]);
-      const auto last = orderedKey(values[size > 1]);
-      result = valueOfKey<T>(first < last ? first : last);
-      continue;
-    }
-    if (size > V::kLanes)
-    {
-      result = valueOfKey<T>(selectOfSeveral<Median>(values, int(size)));
-      continue;
-    }
-    alignas(kListVector) typename V::Key keys[V::kLanes];
-    *reinterpret_cast<typename V::Keys*>(keys) = V::load(values, int(size));
-    const int compared = (int(size) + V::kTogether - 1) / V::kTogether * V::kTogether;
-    result = valueOfKey<T>(selectAmong<Median, T>(keys, int(size), compared, 0).key);
-  }
-  return found;
-}
-
-constexpr SelectKernels kSelectKernels = {
-  { &select<std::int8_t, false>, &select<std::uint8_t, false>, &select<std::int16_t, false>,
-    &select<std::uint16_t, false>, &select<std::int32_t, false>, &select<std::uint32_t, false>,
-    &select<std::int64_t, false>, &select<std::uint64_t, false>, &select<float, false>,
-    &select<double, false> },
-  { &select<std::int8_t, true>, &select<std::uint8_t, true>, &select<std::int16_t, true>,
-    &select<std::uint16_t, true>, &select<std::int32_t, true>, &select<std::uint32_t, true>,
-    &select<std::int64_t, true>, &select<std::uint64_t, true>, &select<float, true>, &select<double, true> }
-};
+template <bool Median>
+constexpr SelectKernel kSelect[] = { &select<Median, std::int8_t>, &select<Median, std::uint8_t>,
+  &select<Median, std::int16_t>, &select<Median, std::uint16_t>, &select<Median, std::int32_t>,
+  &select<Median, std::uint32_t>, &select<Median, std::int64_t>, &select<Median, std::uint64_t>,
+  &select<Median, float>, &select<Median, double> };
 
 }
-} // namespace simd
-} // namespace pointhaptics
+} // namespace pointhaptics::simd

@@ -9,17 +9,14 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace pointhaptics
-{
-namespace simd
+namespace pointhaptics::simd
 {
 
 __extension__ typedef __int128 Int128;
 __extension__ typedef unsigned __int128 UInt128;
 
 /// A coordinate is a fixed-point number of this many bits over the power of two of voxels that covers the
-/// longest axis of the lattice. The quantum is thus the same on a lattice and on one twice as coarse, and the
-/// sums of the fine one are those of the coarse one.
+/// longest axis of the lattice.
 constexpr int kPositionBits = 43;
 /// Largest power of two of voxels on an axis these records hold with 31 bits left for the offset in the
 /// voxel.
@@ -59,9 +56,7 @@ constexpr int kLineNumbers = 64 / sizeof(std::uint32_t);
 /// Parts of the matrix and the offset that must be applied.
 enum class Motion
 {
-  Subtract, ///< The matrix is one and the offset is 0. The pivot is not, so that v is never -0.
-  Shift,    ///< The matrix is one.
-  Scale,    ///< The matrix is diagonal.
+  Scale, ///< The matrix is diagonal.
   General,
   Compensated, ///< General, and rounding would cost digits: the pivot is 0, v a dot product in two words.
 };
@@ -77,9 +72,7 @@ struct PointQuantizer
   double quantum[3];    ///< The spacing over a power of two.
   double reciprocal[3]; ///< 1 / quantum, rounded.
   double remainder[3];  ///< Rounding error of the reciprocal, rounded.
-  /// fma(v, reciprocal, v remainder), which takes half the time, is v / quantum correctly rounded for all v.
-  bool pairDivides;
-  double limit[3]; ///< u below this is inside.
+  double limit[3];      ///< u below this is inside.
   Motion motion;
   int fractionBits;      ///< Bits of a position below the voxel.
   bool correctsRounding; ///< quantizePoint() does: see kUncorrectedIndexBits.
@@ -98,13 +91,7 @@ struct CellMap
   std::uint32_t columns;
   std::uint32_t rowsPerLayer;
   std::uint32_t firstRow;
-  /// Rows in the half of the lattice that the bit of z left out of the records stands for; 0: it is never
-  /// set.
-  std::uint32_t upperRows;
-  /// Rows of its layer before the partition, if it has no other.
-  std::uint32_t firstInLayer = kSeveralLayers;
-
-  static constexpr std::uint32_t kSeveralLayers = ~std::uint32_t(0);
+  std::uint32_t firstRecordRow; ///< Without the bit of z that is left out of the records.
 };
 
 /// Sums of one chunk in one cell: x, y, low bits of z, count | high bits of z.
@@ -136,24 +123,6 @@ struct SecondMoments
   UInt128 lanes[6];
 };
 
-/// Second moments, each as two sums that do not overflow where the sums of the offsets do not: one of the
-/// products shifted right by the bits of an offset, one of the bits shifted out.
-struct SplitSecondMoments
-{
-  std::uint64_t high[6];
-  std::uint64_t low[6];
-};
-
-static inline SecondMoments whole(const SplitSecondMoments& split, int fractionBits)
-{
-  SecondMoments sums;
-  for (int m = 0; m < 6; ++m)
-  {
-    sums.lanes[m] = (UInt128(split.high[m]) << fractionBits) + split.low[m];
-  }
-  return sums;
-}
-
 /// Which cells of a partition have points, and the rank of a cell among them: an occupancy bit for each cell
 /// and an entry of the rank table for each word of 64 bits. Both stay in the first-level cache.
 struct CellRanks
@@ -168,8 +137,7 @@ struct CellSums
 {
   std::uint32_t* cells;
   PackedSums* sums;
-  SplitSecondMoments* secondMoments; ///< Or null.
-  bool keepsRanks;                   ///< The cells of records become their ranks, as second moments need.
+  SecondMoments* secondMoments; ///< Or null.
 };
 
 /// Whether the matrix of a transform scales and mirrors only.
@@ -214,8 +182,10 @@ struct MeanMap
   double origin[3];
   double spacing[3];
   double quantum; ///< 2^-fractionBits
-  /// Closer than this to a face, in voxels, rounding may carry a mean into the next voxel.
-  double faceMargin[3];
+  // Closer to a face rounding may carry a mean into the next voxel. In quanta: from the lower face, and from
+  // there on to as much below the upper one.
+  double margin[3];
+  double clearance[3];
 };
 
 /// How second moments become covariances.
@@ -227,14 +197,6 @@ struct CovarianceMap
 
 /// Elements of the widest vectors.
 constexpr int kWidest = 8;
-
-/// Range of the absolute values of numbers.
-struct Magnitudes
-{
-  double largest;  ///< Largest finite one; 0 without any.
-  double smallest; ///< Smallest one but 0; infinite without any.
-  bool allFinite;
-};
 
 /// The inner loops over numbers of one type; coordinates are x y z interleaved.
 template <typename Real>
@@ -252,30 +214,15 @@ struct PointKernels
   /// numbers from one point to the next.
   void (*bounds)(
     const double matrix[3][4], const Real* xyz, std::int64_t count, std::int64_t stride, double box[6]);
-  Magnitudes (*magnitudes)(const Real* values, std::int64_t count);
 };
 
-/// Consecutive lists of values, of one type.
-struct ValueLists
-{
-  const void* values; ///< Values of all lists of an array.
-  std::int64_t begin; ///< Index of the first list's first value.
-  const std::int64_t* ends;
-  int count;
-};
-/// Lists of more values are left to others.
+/// Longer lists are left to others.
 constexpr int kFewValues = 64;
 /// Bytes of the vectors that lists are read in.
 constexpr int kListVector = 32;
-
-/// The modes of lists, and the lower medians, in the order of ScalarType: see AttributeStatistic. The result
-/// of a list goes to @p to, @p step values after the one before. Lists of more than kFewValues are named in
-/// @p many. @return the number of these. Reads, but does not use, kListVector bytes past the end.
-struct SelectKernels
-{
-  int (*modes[10])(const ValueLists&, void* to, int step, int* many);
-  int (*medians[10])(const ValueLists&, void* to, int step, int* many);
-};
+/// The statistic of a list of up to kFewValues values of one type: see AttributeStatistic. Reads, but does
+/// not use, kListVector bytes past the end.
+using SelectKernel = void (*)(const void* values, int count, void* to);
 
 /// The inner loops for one instruction set.
 struct Kernels
@@ -303,17 +250,17 @@ struct Kernels
   /// Builds the rank table, of the words alone whose bits are set in @p touched, unless that is null.
   /// @return the number of occupied cells.
   std::uint32_t (*rankWords)(const CellRanks& ranks, const std::uint64_t* touched);
-  /// Replaces each cell by its rank among the occupied cells.
-  void (*rank)(const CellRanks& ranks, std::uint32_t* cells, int count);
-  /// Adds records to the sums of their @p cells; fetches @p next like cells().
+  /// Adds records to the sums of their @p cells, which become their ranks among the occupied cells; fetches
+  /// @p next like cells().
   void (*accumulate)(const CellMap&, const CellRanks& ranks, const PointRecord* records, std::uint32_t* cells,
     int count, const PointRecord* next, const CellSums& sums);
   /// Covariances of cells, six numbers each in the order of SecondMoments. Positions among them of those with
   /// too many points for this go to @p full, at most @p count: theirs are not valid. @return the number of
   /// these. Reads, but does not use, kWidest elements past the end.
-  int (*covariances)(const CovarianceMap&, const PackedSums* sums, const SplitSecondMoments* secondMoments,
+  int (*covariances)(const CovarianceMap&, const PackedSums* sums, const SecondMoments* secondMoments,
     int count, double* covariances, int* full);
-  SelectKernels select;
+  const SelectKernel* modes; ///< In the order of ScalarType.
+  const SelectKernel* medians;
 };
 
 /// The set that InstructionSet stands for on this machine.
@@ -325,5 +272,4 @@ const Kernels& baselineKernels();
 const Kernels* avx2Kernels();
 const Kernels* avx512Kernels();
 
-} // namespace simd
-} // namespace pointhaptics
+} // namespace pointhaptics::simd

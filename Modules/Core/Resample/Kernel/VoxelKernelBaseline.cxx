@@ -1,9 +1,7 @@
 /// The loops of resampling for every machine.
 #include "Core/Resample/Kernel/VoxelKernelBody.h"
 
-namespace pointhaptics
-{
-namespace simd
+namespace pointhaptics::simd
 {
 
 const Kernels& baselineKernels()
@@ -16,5 +14,4 @@ const Kernels& kernelsFor(InstructionSet wanted)
   return loopsFor(wanted, baselineKernels, avx2Kernels, avx512Kernels);
 }
 
-} // namespace simd
-} // namespace pointhaptics
+} // namespace pointhaptics::simd

@@ -6,26 +6,21 @@
 
 #include "Core/Resample/Kernel/BoundsBody.h"
 #include "Core/Resample/Kernel/CellSumBody.h"
-#include "Core/Resample/Kernel/MagnitudesBody.h"
 #include "Core/Resample/Kernel/MeanBody.h"
 #include "Core/Resample/Kernel/QuantizeBody.h"
 #include "Core/Resample/Kernel/SelectBody.h"
 #include "Core/Resample/Kernel/VoxelKernel.h"
 
-namespace pointhaptics
-{
-namespace simd
+namespace pointhaptics::simd
 {
 namespace
 {
 
-template <typename Real, typename Bits>
-constexpr PointKernels<Real> kPointKernels = { &partition<Real>, &packedMeans<Real>, &bounds<Real>,
-  &magnitudes<Bits, Real> };
+template <typename Real>
+constexpr PointKernels<Real> kPointKernels = { &partition<Real>, &packedMeans<Real>, &bounds<Real> };
 
-constexpr Kernels kKernels = { kPointKernels<float, std::uint32_t>, kPointKernels<double, std::uint64_t>,
-  &cellsOf, &setOccupied, &rankWords, &rank, &accumulate, &covariances, kSelectKernels };
+constexpr Kernels kKernels = { kPointKernels<float>, kPointKernels<double>, &cellsOf, &setOccupied,
+  &rankWords, &accumulate, &covariances, kSelect<false>, kSelect<true> };
 
 }
-} // namespace simd
-} // namespace pointhaptics
+} // namespace pointhaptics::simd

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cstring>
-#include <type_traits>
+#include <limits>
 #include <utility>
 
 namespace pointhaptics
@@ -12,153 +12,130 @@ namespace pointhaptics
 namespace
 {
 
-/// Statistic of more than simd::kFewValues values.
-template <typename Key>
-Key statisticOf(AttributeStatistic statistic, std::vector<Key>& keys)
+/// The statistic of a list, with memory for the keys of many.
+template <typename T, typename Key>
+T statisticOfMany(bool isMedian, const T* values, std::int64_t count, std::vector<Key>& keys)
 {
-  const auto at = keys.begin() + std::ptrdiff_t((keys.size() - 1) / 2);
-  if (statistic == AttributeStatistic::Median)
+  keys.resize(std::size_t(count));
+  std::transform(values, values + count, keys.begin(), &orderedKey<T>);
+  if (isMedian)
   {
-    std::nth_element(keys.begin(), at, keys.end());
-    return *at;
+    const auto middle = keys.begin() + (count - 1) / 2;
+    std::nth_element(keys.begin(), middle, keys.end());
+    return valueOfKey<T>(*middle);
   }
   std::sort(keys.begin(), keys.end());
-  Key best = keys[0];
-  for (auto first = keys.begin(), longest = keys.begin(); first != keys.end();)
+  Key mode = keys[0];
+  std::size_t most = 0;
+  for (std::size_t i = 0, equal = 0; i < keys.size(); ++i)
   {
-    const auto last = std::upper_bound(first, keys.end(), *first);
-    if (last - first > longest - keys.begin())
-    {
-      longest = keys.begin() + (last - first);
-      best = *first;
-    }
-    first = last;
+    equal = i > 0 && keys[i] == keys[i - 1] ? equal + 1 : 1;
+    mode = equal > most ? keys[i] : mode;
+    most = std::max(most, equal);
   }
-  return best;
+  return valueOfKey<T>(mode);
 }
 
 }
 
-void AttributeTuples::prepare(const std::vector<std::int64_t>& counts)
+void AttributeTuples::prepare(const AccumulatedArray& kind, const std::vector<std::int64_t>& counts)
 {
+  kind_ = kind;
   ends_ = counts;
   std::int64_t tuples = 0;
   for (std::int64_t& end : ends_)
   {
     tuples += std::exchange(end, tuples);
   }
-  // With what kernels read beyond the last value.
-  constexpr std::size_t kBeyond = simd::kListVector;
-  const std::size_t bytes = std::size_t(tuples * bytesOf(kind_.type)) + kBeyond;
+  const std::size_t bytes = std::size_t(tuples * bytesOf(kind_.type)) + simd::kListVector;
   componentBytes_ = (bytes + 63) / 64 * 64;
   values_.reserve(componentBytes_ * std::size_t(kind_.components), Pages::Huge);
 }
 
-/// @p components: those of a tuple, which the compiler may know.
-template <typename T, typename Components>
-void AttributeTuples::keepTuples(const Tuples& tuples, const std::int64_t* numbers,
-  const std::int64_t* voxels, int count, Components components)
-{
-  // Copies, which no store can change.
-  char* const to = values_.data();
-  std::int64_t* const ends = ends_.data();
-  const std::size_t apart = componentBytes_;
-  const Tuples from = tuples;
-  for (int i = 0; i < count; ++i)
-  {
-    const char* const tuple = from.first + from.step * numbers[i];
-    char* const first = to + sizeof(T) * std::size_t(ends[voxels[i]]++);
-    for (int c = 0; c < components; ++c)
-    {
-      std::memcpy(first + apart * std::size_t(c), tuple + std::size_t(c) * sizeof(T), sizeof(T));
-    }
-  }
-}
-
 void AttributeTuples::add(
-  const Tuples& tuples, const std::int64_t* numbers, const std::int64_t* voxels, int count)
+  const simd::Tuples& tuples, const std::int64_t* numbers, const std::int64_t* voxels, int count)
 {
   withType(kind_.type,
     [&](auto example)
     {
       using T = decltype(example);
-      using One = std::integral_constant<int, 1>;
-      using Three = std::integral_constant<int, 3>;
-      kind_.components == 1     ? keepTuples<T>(tuples, numbers, voxels, count, One())
-        : kind_.components == 3 ? keepTuples<T>(tuples, numbers, voxels, count, Three())
-                                : keepTuples<T>(tuples, numbers, voxels, count, kind_.components);
+      // Copies, which no store can change.
+      char* const to = values_.data();
+      std::int64_t* const ends = ends_.data();
+      const std::size_t apart = componentBytes_;
+      const simd::Tuples from = tuples;
+      const auto keep = [=](auto components)
+      {
+        for (int i = 0; i < count; ++i)
+        {
+          const char* const tuple = from.first + from.step * numbers[i];
+          char* const first = to + sizeof(T) * std::size_t(ends[voxels[i]]++);
+          for (std::size_t c = 0; c < components; ++c)
+          {
+            std::memcpy(first + apart * c, tuple + c * sizeof(T), sizeof(T));
+          }
+        }
+      };
+      simd::withWidth(kind_.components, keep);
     });
 }
 
-template <typename T>
-void AttributeTuples::writeValues(T* to) const
+void AttributeTuples::write(const simd::Kernels& kernels, void* all) const
 {
   const bool isMedian = kind_.statistic == AttributeStatistic::Median;
-  const auto select = (isMedian ? kernels_->medians : kernels_->modes)[std::size_t(kind_.type)];
-  int many[simd::kBatch];
-  std::vector<decltype(orderedKey(T()))> keys;
-  for (std::int64_t v = 0; v < voxels(); v += simd::kBatch)
-  {
-    const auto size = int(std::min<std::int64_t>(voxels() - v, simd::kBatch));
-    for (int c = 0; c < kind_.components; ++c)
-    {
-      T* const selected = to + kind_.components * v + c;
-      const int found =
-        select({ values<T>(c), begin(v), ends_.data() + v, size }, selected, kind_.components, many);
-      for (int i = 0; i < found; ++i)
-      {
-        const std::int64_t voxel = v + many[i];
-        keys.resize(std::size_t(end(voxel) - begin(voxel)));
-        std::transform(values<T>(c) + begin(voxel), values<T>(c) + end(voxel), keys.begin(), &orderedKey<T>);
-        selected[kind_.components * many[i]] = valueOfKey<T>(statisticOf(kind_.statistic, keys));
-      }
-    }
-  }
-}
-
-template <typename T>
-void AttributeTuples::tallyValues(simd::TallyValues& to) const
-{
-  std::vector<decltype(orderedKey(T()))> keys;
-  for (std::int64_t v = 0; v < voxels(); ++v)
-  {
-    for (int c = 0; c < kind_.components; ++c)
-    {
-      keys.clear();
-      for (std::int64_t i = begin(v); i < end(v); ++i)
-      {
-        keys.push_back(orderedKey(values<T>(c)[i]));
-      }
-      std::sort(keys.begin(), keys.end());
-      for (std::size_t i = 0; i < keys.size(); ++i)
-      {
-        if (i == 0 || keys[i] != keys[i - 1])
-        {
-          to.values.push_back({ std::int64_t(keys[i]), 0 });
-        }
-        ++to.values.back().points;
-      }
-      to.ends.push_back(to.values.size());
-    }
-  }
-}
-
-simd::VoxelTally AttributeTuples::takeTally()
-{
-  simd::VoxelTally tally;
-  tally.values.components = kind_.components;
-  withType(kind_.type, [&](auto example) { tallyValues<decltype(example)>(tally.values); });
-  return tally;
-}
-
-void AttributeTuples::write(const std::int64_t*, void* values) const
-{
+  const auto select = (isMedian ? kernels.medians : kernels.modes)[std::size_t(kind_.type)];
   withType(kind_.type,
     [&](auto example)
     {
       using T = decltype(example);
-      writeValues(static_cast<T*>(values));
+      T* to = static_cast<T*>(all);
+      std::vector<decltype(orderedKey(T()))> keys;
+      for (std::int64_t v = 0; v < voxels(); ++v)
+      {
+        const std::int64_t count = end(v) - begin(v);
+        for (int c = 0; c < kind_.components; ++c, ++to)
+        {
+          const T* const list = values<T>(c) + begin(v);
+          if (count <= 2) // The smaller one, as mode and as median.
+          {
+            *to = valueOfKey<T>(std::min(orderedKey(list[0]), orderedKey(list[count - 1])));
+            continue;
+          }
+          count <= simd::kFewValues ? select(list, int(count), to)
+                                    : void(*to = statisticOfMany(isMedian, list, count, keys));
+        }
+      }
     });
+}
+
+simd::TallyValues AttributeTuples::tally() const
+{
+  simd::TallyValues tally;
+  tally.components = kind_.components;
+  withType(kind_.type,
+    [&](auto example)
+    {
+      using T = decltype(example);
+      std::vector<decltype(orderedKey(T()))> keys;
+      for (std::int64_t i = 0; i < voxels() * kind_.components; ++i)
+      {
+        const std::int64_t v = i / kind_.components;
+        const T* const list = values<T>(int(i % kind_.components));
+        keys.resize(std::size_t(end(v) - begin(v)));
+        std::transform(list + begin(v), list + end(v), keys.begin(), &orderedKey<T>);
+        std::sort(keys.begin(), keys.end());
+        for (std::size_t k = 0; k < keys.size(); ++k)
+        {
+          if (k == 0 || keys[k] != keys[k - 1])
+          {
+            tally.values.push_back({ std::int64_t(keys[k]), 0 });
+          }
+          ++tally.values.back().points;
+        }
+        tally.ends.push_back(tally.values.size());
+      }
+    });
+  return tally;
 }
 
 } // namespace pointhaptics

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "Core/Base/Buffer.h"
+#include "Core/Resample/AttributeView.h"
 #include "Core/Resample/Kernel/VoxelKernel.h"
-#include "Core/Resample/Reductions/AttributeReducer.h"
 #include "Core/Resample/Stages/VoxelTally.h"
 
 #include <cstddef>
@@ -19,27 +19,19 @@ namespace pointhaptics
 /// +0; nothing depends on the order of the points.
 ///
 /// Memory: the tuples themselves, and 8 bytes a voxel.
-class AttributeTuples final : public AttributeReducer
+class AttributeTuples
 {
 public:
-  /// @pre the statistic is Mode or Median
-  explicit AttributeTuples(
-    const AccumulatedArray& kind, InstructionSet instructions = InstructionSet::Automatic)
-    : kind_(kind)
-    , kernels_(&simd::kernelsFor(instructions).select)
-  {
-  }
-
-  void prepare(const std::vector<std::int64_t>& counts) override;
-  void add(const Tuples& tuples, const std::int64_t* numbers, const std::int64_t* voxels, int count) override;
-  simd::VoxelTally takeTally() override;
+  /// Drops all tuples and makes room for those of voxels with @p counts points. @pre the statistic of the
+  /// array is Mode or Median.
+  void prepare(const AccumulatedArray& kind, const std::vector<std::int64_t>& counts);
+  /// Adds tuple numbers[i] to voxels[i].
+  void add(const simd::Tuples& tuples, const std::int64_t* numbers, const std::int64_t* voxels, int count);
   /// @pre each voxel has as many tuples as it was said to get.
-  void write(const std::int64_t* counts, void* values) const override;
+  simd::TallyValues tally() const;
+  void write(const simd::Kernels& kernels, void* to) const;
 
 private:
-  template <typename T, typename Components>
-  void keepTuples(const Tuples& tuples, const std::int64_t* numbers, const std::int64_t* voxels, int count,
-    Components components);
   std::int64_t voxels() const { return std::int64_t(ends_.size()); }
   /// Begin of a voxel's tuples. @pre all have been added.
   std::int64_t begin(std::int64_t voxel) const { return voxel == 0 ? 0 : ends_[std::size_t(voxel - 1)]; }
@@ -50,13 +42,8 @@ private:
   {
     return reinterpret_cast<T*>(values_.data() + std::size_t(component) * componentBytes_);
   }
-  template <typename T>
-  void tallyValues(simd::TallyValues& to) const;
-  template <typename T>
-  void writeValues(T* to) const;
 
   AccumulatedArray kind_;
-  const simd::SelectKernels* kernels_;
   Buffer<char> values_; ///< Those of a component together, and of these those of a voxel.
   std::size_t componentBytes_ = 0;
   std::vector<std::int64_t> ends_; ///< Where the next tuple of each voxel goes.

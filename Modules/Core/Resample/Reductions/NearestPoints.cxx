@@ -1,15 +1,13 @@
 #include "Core/Resample/Reductions/NearestPoints.h"
 
-#include "Core/Resample/Kernel/Fetch.h"
+#include "Core/Resample/Kernel/Loops.h"
 #include "Core/Resample/Kernel/OrderedKey.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 
-namespace pointhaptics
-{
-namespace simd
+namespace pointhaptics::simd
 {
 namespace
 {
@@ -91,5 +89,4 @@ void NearestPoints::write(VoxelWriter& writer, std::size_t first) const
   }
 }
 
-} // namespace simd
-} // namespace pointhaptics
+} // namespace pointhaptics::simd

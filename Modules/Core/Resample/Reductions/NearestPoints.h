@@ -11,9 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace pointhaptics
-{
-namespace simd
+namespace pointhaptics::simd
 {
 
 /// Compares the distances of quantized positions: see Representative.
@@ -37,7 +35,7 @@ public:
       const std::array<double, 3> sums = byX ? std::array<double, 3>{}
         : toMean_                            ? voxels.sums(v)
                                              : std::array<double, 3>{ middle_, middle_, middle_ };
-      nearest_[v] = { sums, double(count), byX ? 0.0 : 1.0, INFINITY, -1, 0 };
+      nearest_[v] = { sums, double(count), byX ? 0.0 : 1.0, INFINITY, -1 };
     }
   }
   /// Compares the points of a block, which has points[i], voxels[i] and offset(i), with others of their
@@ -50,32 +48,14 @@ public:
     {
       Nearest& to = nearest[block.voxels[i]];
       const double square = squareOf(block.offset(i), to);
+      if (__builtin_expect(square == to.least, false))
+      {
+        to.point = goesBefore(block.points[i], to.point) ? block.points[i] : to.point;
+      }
       // Without branches, which would be unpredictable.
       const std::int64_t isLess = -std::int64_t(square < to.least);
-      to.ties = (to.ties & ~isLess) | std::int64_t(square == to.least);
       to.point ^= (to.point ^ block.points[i]) & isLess;
       to.least = square < to.least ? square : to.least;
-    }
-  }
-  /// Once all points are added. @return whether there are equal distances: resolve() decides then.
-  bool hasTies()
-  {
-    std::int64_t ties = 0;
-    for (std::size_t v = 0; v < size_; ++v)
-    {
-      ties |= nearest_[v].ties;
-    }
-    return ties != 0;
-  }
-  /// Resolves ties by a second look at all points.
-  template <typename Block>
-  void resolve(const Block& block)
-  {
-    for (int i = 0; i < block.count; ++i)
-    {
-      Nearest& to = nearest_[std::size_t(block.voxels[i])];
-      const bool isNearest = to.ties != 0 && squareOf(block.offset(i), to) == to.least;
-      to.point = isNearest && goesBefore(block.points[i], to.point) ? block.points[i] : to.point;
     }
   }
   /// Replaces the means of the voxels from @p first on in @p writer by the nearest points, and writes the
@@ -90,7 +70,6 @@ private:
     double yz;          ///< 0: distances are by x alone; else 1.
     double least;       ///< The square of the least distance so far, times as often.
     std::int64_t point; ///< That has it.
-    std::int64_t ties;  ///< 1: several have.
   };
 
   /// Always the same operations: where two distances are equal, or which is less, depends on the points
@@ -114,5 +93,4 @@ private:
   Buffer<Nearest> nearest_;
 };
 
-} // namespace simd
-} // namespace pointhaptics
+} // namespace pointhaptics::simd

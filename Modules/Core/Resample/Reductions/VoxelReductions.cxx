@@ -1,21 +1,29 @@
 #include "Core/Resample/Reductions/VoxelReductions.h"
 
 #include <numeric>
+#include <utility>
 
-namespace pointhaptics
+namespace pointhaptics::simd
 {
-namespace simd
+
+std::array<Vec3, 3> normalColumns(const AffineTransform& transform)
 {
+  return { transform.applyToNormal({ 1, 0, 0 }), transform.applyToNormal({ 0, 1, 0 }),
+    transform.applyToNormal({ 0, 0, 1 }) };
+}
 
 VoxelReductions::VoxelReductions(const VoxelRequest& request, const std::vector<AttributeRequest>& arrays,
   const PayloadLayout& payloads, int fractionBits, std::int64_t* voxelIndex)
   : payloads_(payloads)
   , voxelIndex_(voxelIndex)
+  , kernels_(kernelsFor(request.instructions))
+  , columns_(normalColumns(request.transform))
 {
   for (const AttributeRequest& array : arrays)
   {
-    reducers_.push_back(AttributeReducer::create(array, request.transform, request.instructions));
-    views_.push_back(array.view);
+    const AttributeView& view = array.view;
+    arrays_.push_back({ view, { view.type, view.components, array.statistic },
+      array.range.value_or(AttributeRange()), {}, {} });
   }
   if (keepsPoints(request.representative))
   {
@@ -31,11 +39,11 @@ void VoxelReductions::fetch(const std::int64_t* points, int count) const
     fetchToWrite(voxelIndex_ + points[i]);
   }
   // Points in the order of their memory need no fetching.
-  const bool readsArrays = std::size_t(payloads_.count) < views_.size(); // else points may have no numbers
+  const bool readsArrays = std::size_t(payloads_.count) < arrays_.size(); // else points may have no numbers
   const bool areScattered = readsArrays && count > 0 && points[count - 1] - points[0] != count - 1;
-  for (auto a = std::size_t(payloads_.count); areScattered && a < views_.size(); ++a)
+  for (auto a = std::size_t(payloads_.count); areScattered && a < arrays_.size(); ++a)
   {
-    const AttributeView& view = views_[a];
+    const AttributeView& view = arrays_[a].view;
     const auto* const first = static_cast<const char*>(view.values);
     const std::int64_t step = view.step();
     const std::int64_t last = view.tupleBytes() - 1;
@@ -63,25 +71,31 @@ void VoxelReductions::addTuples(
 {
   std::int64_t places[kBlockRecords];
   std::iota(places, places + (payloads_.count > 0 ? count : 0), 0);
-  for (std::size_t i = 0; i < reducers_.size(); ++i)
+  for (std::size_t i = 0; i < arrays_.size(); ++i)
   {
+    Array& array = arrays_[i];
     const bool isPayload = i < std::size_t(payloads_.count);
-    AttributeReducer::Tuples tuples = { static_cast<const char*>(views_[i].values), views_[i].step() };
+    Tuples tuples = { static_cast<const char*>(array.view.values), array.view.step() };
     if (isPayload)
     {
       tuples = { reinterpret_cast<const char*>(payloads) + payloads_.arrays[i].offset,
         std::int64_t(sizeof(std::uint32_t)) * payloads_.words };
     }
-    reducers_[i]->add(tuples, isPayload ? places : points, voxels, count);
+    const std::int64_t* const numbers = isPayload ? places : points;
+    isSum(array.kind.statistic) ? array.sums.add(array.kind.type, tuples, numbers, voxels, count)
+                                : array.tuples.add(tuples, numbers, voxels, count);
   }
 }
 
 void VoxelReductions::write(VoxelWriter& writer, std::size_t first) const
 {
-  for (std::size_t i = 0; i < reducers_.size(); ++i)
+  for (std::size_t i = 0; i < arrays_.size(); ++i)
   {
+    const Array& array = arrays_[i];
     void* const to = i < writer.attributes() ? writer.attribute(i, first) : writer.pointsFrom(first);
-    reducers_[i]->write(writer.counts() + first, to);
+    isSum(array.kind.statistic)
+      ? array.sums.write(array.kind, 0, counts_.size(), writer.counts() + first, columns_, to)
+      : array.tuples.write(kernels_, to);
   }
   if (nearest_)
   {
@@ -92,12 +106,12 @@ void VoxelReductions::write(VoxelWriter& writer, std::size_t first) const
 std::vector<VoxelTally> VoxelReductions::takeTallies()
 {
   std::vector<VoxelTally> tallies;
-  for (const auto& reducer : reducers_)
+  for (Array& array : arrays_)
   {
-    tallies.push_back(reducer->takeTally());
+    isSum(array.kind.statistic) ? tallies.push_back({ std::move(array.sums), {} })
+                                : tallies.push_back({ {}, array.tuples.tally() });
   }
   return tallies;
 }
 
-} // namespace simd
-} // namespace pointhaptics
+} // namespace pointhaptics::simd

@@ -2,23 +2,24 @@
 /// Results of the points of voxels beside their sums.
 #pragma once
 
-#include "Core/Resample/Kernel/Fetch.h"
+#include "Core/Resample/Kernel/Loops.h"
 #include "Core/Resample/Kernel/PointRecordWriter.h"
-#include "Core/Resample/Reductions/AttributeReducer.h"
+#include "Core/Resample/Reductions/AttributeTuples.h"
 #include "Core/Resample/Reductions/NearestPoints.h"
 #include "Core/Resample/Stages/VoxelTally.h"
 #include "Core/Resample/VoxelResampler.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <vector>
 
-namespace pointhaptics
+namespace pointhaptics::simd
 {
-namespace simd
-{
+
+/// Columns that turn normals: the products of a normal's components with these are added.
+std::array<Vec3, 3> normalColumns(const AffineTransform& transform);
 
 /// Reduces the points of the voxels of one partition at a time, in one visit: their arrays, the point that
 /// stands for each, and where each point went. For one thread at a time.
@@ -39,18 +40,19 @@ public:
     {
       counts_[v] = voxels.count(v);
     }
-    for (const auto& reducer : reducers_)
+    for (Array& array : arrays_)
     {
-      reducer->prepare(counts_);
+      isSum(array.kind.statistic) ? array.sums.prepare(array.kind, array.range, counts_)
+                                  : array.tuples.prepare(array.kind, counts_);
     }
     if (nearest_)
     {
       nearest_->prepare(voxels);
     }
     voxels.visit(
-      [&](const auto& block, const auto& next)
+      [&](const auto& block)
       {
-        this->fetch(next.points, next.count);
+        this->fetch(block.points, block.count);
         this->note(block.points, block.voxels, block.count, std::int64_t(first));
         this->addTuples(block.payloads, block.points, block.voxels, block.count);
         if (nearest_)
@@ -58,10 +60,6 @@ public:
           nearest_->add(block);
         }
       });
-    if (nearest_ && nearest_->hasTies())
-    {
-      voxels.visit([&](const auto& block, const auto&) { nearest_->resolve(block); });
-    }
   }
   /// Writes what became of the voxels, whose counts are there, from @p first on in @p writer.
   void write(VoxelWriter& writer, std::size_t first) const;
@@ -69,6 +67,14 @@ public:
   std::vector<VoxelTally> takeTallies();
 
 private:
+  struct Array
+  {
+    AttributeView view;
+    AccumulatedArray kind;
+    AttributeRange range;
+    TallySums sums;
+    AttributeTuples tuples; ///< Where they are not summed.
+  };
   void fetch(const std::int64_t* points, int count) const;
   void note(const std::int64_t* points, const std::int64_t* voxels, int count, std::int64_t first) const;
   void addTuples(
@@ -76,11 +82,11 @@ private:
 
   PayloadLayout payloads_;
   std::int64_t* voxelIndex_;
-  std::vector<AttributeView> views_; ///< Arrays that are read at points.
-  std::vector<std::unique_ptr<AttributeReducer>> reducers_;
+  const Kernels& kernels_;
+  std::array<Vec3, 3> columns_;
+  std::vector<Array> arrays_;
   std::optional<NearestPoints> nearest_;
   std::vector<std::int64_t> counts_; ///< Number of points of each voxel.
 };
 
-} // namespace simd
-} // namespace pointhaptics
+} // namespace pointhaptics::simd

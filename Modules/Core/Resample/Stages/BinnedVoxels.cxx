@@ -1,10 +1,8 @@
 #include "Core/Resample/Stages/BinnedVoxels.h"
 
-#include "Core/Resample/Kernel/InFours.h"
+#include "Core/Resample/Kernel/Loops.h"
 
-namespace pointhaptics
-{
-namespace simd
+namespace pointhaptics::simd
 {
 namespace
 {
@@ -21,12 +19,11 @@ constexpr std::size_t kWordsPerSparseRecord = 3;
 
 }
 
-void BinnedVoxels::prepare(const VoxelRequest& request, const PointBinner& binner, bool visits)
+void BinnedVoxels::prepare(const VoxelRequest& request, const PointBinner& binner)
 {
   binner_ = &binner;
   kernels_ = &kernelsFor(request.instructions);
   covariances_ = request.covariances;
-  visits_ = visits;
 }
 
 /// Grows the tables to the cells of a partition, with all bits 0. The thread that sums does this and not
@@ -111,7 +108,7 @@ void BinnedVoxels::sum()
 {
   if (voxels_.size == 0)
   {
-    wide_.clear();
+    wide_.start(0, false);
     return;
   }
   // With what kernels read, but do not use, beyond the end.
@@ -130,11 +127,10 @@ void BinnedVoxels::sumPacked()
   if (covariances_)
   {
     secondMoments_.resize(std::max(secondMoments_.size(), room));
-    std::fill_n(secondMoments_.data(), voxels_.size, SplitSecondMoments{});
+    std::fill_n(secondMoments_.data(), voxels_.size, SecondMoments{});
     voxels_.secondMoments = secondMoments_.data();
   }
-  const CellSums sums = { cells_.data(), packed_.data(), covariances_ ? secondMoments_.data() : nullptr,
-    covariances_ || visits_ };
+  const CellSums sums = { cells_.data(), packed_.data(), covariances_ ? secondMoments_.data() : nullptr };
   PointRecordPool::Walk following(binner_->pool(), binner_->pool().following(partition_));
   forBlocks(
     [&](const PointRecordPool::Walk& block, std::uint32_t* cells)
@@ -147,8 +143,7 @@ void BinnedVoxels::sumPacked()
 
 void BinnedVoxels::sumWide()
 {
-  wide_.clear();
-  wide_.append(voxels_.size, covariances_);
+  wide_.start(voxels_.size, covariances_);
   const std::uint64_t mask = (std::uint64_t(1) << plan().fractionBits) - 1;
   forBlocks(
     [&](const PointRecordPool::Walk& block, std::uint32_t* cells)
@@ -156,7 +151,8 @@ void BinnedVoxels::sumWide()
       for (int i = 0; i < block.count(); ++i)
       {
         const std::uint32_t cell = cells[i];
-        kernels_->rank(ranks(), cells + i, 1);
+        const std::uint64_t below = occupancy_[cell / 64] & ((std::uint64_t(1) << (cell % 64)) - 1);
+        cells[i] = rankTable_[cell / 64] + std::uint32_t(__builtin_popcountll(below));
         cells_[cells[i]] = cell;
         wide_.voxels[cells[i]].key = voxels_.firstKey + cell;
         const PointRecord& r = block.records()[i];
@@ -173,15 +169,12 @@ VoxelRun BinnedVoxels::wide() const
   }
   VoxelRun run;
   run.voxels.resize(voxels_.size);
-  run.secondMoments.resize(covariances_ ? voxels_.size : 0);
   for (std::size_t i = 0; i < voxels_.size; ++i)
   {
     run.voxels[i] = WideSums::of(voxels_.firstKey + voxels_.cells[i], voxels_.sums[i]);
   }
-  for (std::size_t i = 0; covariances_ && i < voxels_.size; ++i)
-  {
-    run.secondMoments[i] = whole(voxels_.secondMoments[i], plan().fractionBits);
-  }
+  run.secondMoments.assign(
+    secondMoments_.begin(), secondMoments_.begin() + std::ptrdiff_t(covariances_ ? voxels_.size : 0));
   return run;
 }
 
@@ -194,8 +187,7 @@ std::size_t BinnedVoxels::bytes() const
 {
   return occupancy_.bytes() + touched_.bytes() + rankTable_.bytes() + recordCells_.bytes() +
     cells_.capacity() * sizeof(std::uint32_t) + packed_.capacity() * sizeof(PackedSums) +
-    secondMoments_.capacity() * sizeof(SplitSecondMoments) + wide_.bytes();
+    secondMoments_.capacity() * sizeof(SecondMoments) + wide_.bytes();
 }
 
-} // namespace simd
-} // namespace pointhaptics
+} // namespace pointhaptics::simd

@@ -12,9 +12,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace pointhaptics
-{
-namespace simd
+namespace pointhaptics::simd
 {
 
 /// Some points of a partition, and their voxels, counted from the first of the partition.
@@ -42,9 +40,8 @@ class alignas(kApart) BinnedVoxels
 public:
   using Source = PointBinner;
 
-  /// For partitions that @p binner filled for @p request, which must outlive the work. @p visits: so that
-  /// visit() can be called.
-  void prepare(const VoxelRequest& request, const PointBinner& binner, bool visits);
+  /// For partitions that @p binner filled for @p request, which must outlive the work.
+  void prepare(const VoxelRequest& request, const PointBinner& binner);
   /// Finds the voxels of a partition. @return how many there are.
   std::size_t find(std::uint32_t partition);
   /// Sums their points; they are valid until the next find(). What was found is to be summed or dropped.
@@ -71,8 +68,7 @@ public:
   VoxelRun wide() const;
   /// Writes the voxels from @p offset on.
   void write(const Kernels& kernels, VoxelWriter& writer, std::size_t offset) const;
-  /// Calls visit(block, next) for the blocks of points. Blocks may be empty: the first one, and what follows
-  /// the last.
+  /// Calls visit(block) for the blocks of points.
   template <typename Visit>
   void visit(const Visit& visit) const;
   std::size_t bytes() const;
@@ -97,7 +93,6 @@ private:
 
   const PointBinner* binner_ = nullptr;
   const Kernels* kernels_ = nullptr;
-  bool visits_ = false;
   bool covariances_ = false;
   std::uint32_t partition_ = 0;
   std::size_t records_ = 0;
@@ -106,10 +101,10 @@ private:
   Buffer<std::uint64_t> touched_; ///< Likewise; a bit for each occupancy word in use, of a sparse partition.
   bool isSparse_ = false;
   Buffer<std::uint32_t> rankTable_;
-  Buffer<std::uint32_t> recordCells_; ///< Where asked for, they become ranks.
+  Buffer<std::uint32_t> recordCells_; ///< They become ranks.
   std::vector<std::uint32_t> cells_;
   std::vector<PackedSums> packed_;
-  std::vector<SplitSecondMoments> secondMoments_;
+  std::vector<SecondMoments> secondMoments_;
   bool isWide_ = false; ///< There may be too many points in a voxel for packed sums.
   VoxelRun wide_;
 };
@@ -117,28 +112,18 @@ private:
 template <typename Visit>
 void BinnedVoxels::visit(const Visit& visit) const
 {
-  BinnedBlock blocks[2]; // One is visited while the next one's tuples are on their way.
-  BinnedBlock* next = blocks;
-  const auto visitOther = [&]
-  {
-    BinnedBlock* const block = next == blocks ? blocks + 1 : blocks;
-    visit(*block, *next);
-    block->count = 0;
-    next = block;
-  };
+  BinnedBlock block;
+  block.fractionMask = (std::uint64_t(1) << plan().fractionBits) - 1;
   const std::uint32_t* ranks = recordCells_.data();
-  for (PointRecordPool::Walk block(binner_->pool(), partition_); block.next(); ranks += block.count())
+  for (PointRecordPool::Walk from(binner_->pool(), partition_); from.next(); ranks += from.count())
   {
-    next->records = block.records();
-    next->payloads = block.payloads();
-    next->fractionMask = (std::uint64_t(1) << plan().fractionBits) - 1;
-    next->count = block.count();
-    std::copy(ranks, ranks + block.count(), next->voxels);
-    block.copyNumbers(next->points);
-    visitOther();
+    block.records = from.records();
+    block.payloads = from.payloads();
+    block.count = from.count();
+    std::copy(ranks, ranks + from.count(), block.voxels);
+    from.copyNumbers(block.points);
+    visit(block);
   }
-  visitOther();
 }
 
-} // namespace simd
-} // namespace pointhaptics
+} // namespace pointhaptics::simd

@@ -6,9 +6,7 @@
 #include <algorithm>
 #include <type_traits>
 
-namespace pointhaptics
-{
-namespace simd
+namespace pointhaptics::simd
 {
 namespace
 {
@@ -23,8 +21,6 @@ constexpr std::uint32_t kMostLargePartitions = 2048;
 /// Fewer points than this in a partition on average do not pay its overhead: a dozen loops, each with a
 /// mispredicted end.
 constexpr std::int64_t kPointsPerPartition = 1024;
-
-constexpr PayloadLayout kNumbers = { 1, true };
 
 /// The payload of records: the tuples that have room there, and which are so read once, in the order of their
 /// memory; the number of the point where that, or others, are of use.
@@ -139,42 +135,12 @@ bool fitsPartitions(const Lattice& lattice, int indexBits)
 void PointBinner::prepare(
   const VoxelRequest& request, const Chunks& chunks, const std::vector<AttributeView>& arrays, bool numbered)
 {
-  const int indexBits = indexBitsOf(request.lattice);
-  plan_ = makePlan(request.lattice, indexBits, chunks.pointCount(0));
-  quantizer_ = makeQuantizer(request.transform, request.lattice, indexBits, kPositionBits);
+  plan_ = makePlan(request.lattice, indexBitsOf(request.lattice), chunks.pointCount(0));
+  quantizer_ = makeQuantizer(request.transform, request.lattice);
   quantizer_.blocksPerLayer = plan_.blocksPerLayer;
   quantizer_.rowShift = plan_.rowShift;
   quantizer_.layerShift = plan_.layerShift;
   payloadLayout_ = payloadLayoutOf(arrays, numbered);
-  if (payloadLayout_.count > 0 && !areScattered(request.points))
-  {
-    payloadLayout_ = kNumbers;
-  }
-}
-
-/// Whether most points are in another partition than the next one. A few are asked.
-bool PointBinner::areScattered(const PointView& points) const
-{
-  constexpr std::int64_t kPairs = 64;
-  const auto partitionOf = [&](std::int64_t point)
-  {
-    std::uint64_t position[3];
-    const bool isInside = quantizePoint(quantizer_, points[point], position) == PointLocation::Inside;
-    const std::uint64_t row = position[1] >> (quantizer_.fractionBits + plan_.rowShift);
-    const std::uint64_t layer = position[2] >> (quantizer_.fractionBits + plan_.layerShift);
-    return isInside ? std::int64_t(layer * plan_.blocksPerLayer + row) : -1;
-  };
-  int same = 0;
-  int others = 0;
-  for (std::int64_t pair = 0; points.size() > 1 && pair < kPairs; ++pair)
-  {
-    const std::int64_t point = (points.size() - 2) * pair / (kPairs - 1);
-    const std::int64_t partition = partitionOf(point);
-    const std::int64_t next = partitionOf(point + 1);
-    same += partition >= 0 && partition == next;
-    others += partition >= 0 && next >= 0 && partition != next;
-  }
-  return others > same;
 }
 
 void PointBinner::start(const Chunks& chunks, std::size_t first, std::size_t last, const Executor& executor)
@@ -210,5 +176,4 @@ void PointBinner::add(
     });
 }
 
-} // namespace simd
-} // namespace pointhaptics
+} // namespace pointhaptics::simd

@@ -12,9 +12,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace pointhaptics
-{
-namespace simd
+namespace pointhaptics::simd
 {
 
 /// How the voxels of a lattice are divided into partitions: blocks of rows (voxels along x) of a layer, or
@@ -23,7 +21,8 @@ struct PartitionPlan
 {
   std::uint32_t columns = 1;
   std::uint32_t rowsPerLayer = 1;
-  std::uint32_t upperRows = 0; ///< See CellMap.
+  /// Rows in the half of the lattice that the bit of z left out of records stands for; 0: it is never set.
+  std::uint32_t upperRows = 0;
   int fractionBits = 0;
   std::uint32_t blocksPerLayer = 1;
   int rowShift = 0;   ///< Rows of a block, as a power of two.
@@ -37,9 +36,8 @@ struct PartitionPlan
   }
   CellMap cellMap(std::uint32_t partition) const
   {
-    const std::uint32_t firstInLayer =
-      layerShift == 0 ? (partition % blocksPerLayer) << rowShift : CellMap::kSeveralLayers;
-    return { fractionBits, columns, rowsPerLayer, firstRow(partition), upperRows, firstInLayer };
+    const std::uint32_t first = firstRow(partition);
+    return { fractionBits, columns, rowsPerLayer, first, upperRows > 0 ? first % upperRows : first };
   }
   std::uint64_t firstKey(std::uint32_t partition) const
   {
@@ -80,8 +78,7 @@ public:
   const PartitionPlan& plan() const { return plan_; }
   std::uint32_t partitions() const { return plan_.partitions; }
   int fractionBits() const { return plan_.fractionBits; }
-  /// Layout of a record's payload. Points in the order of a scan have only their numbers: where neighbours in
-  /// memory are in one partition, its tuples are read in order anyway.
+  /// Layout of a record's payload.
   const PayloadLayout& payloadLayout() const { return payloadLayout_; }
   const PointRecordPool& pool() const { return pool_; }
   /// An upper bound of a partition's voxels.
@@ -89,13 +86,11 @@ public:
   {
     return std::min(pool_.count(partition), plan_.cells());
   }
-  std::int64_t inside() const { return pool_.inside(); }
-  std::int64_t invalid() const { return pool_.invalid(); }
+  std::int64_t inside() const { return pool_.total(&PointRecordWriter::inside); }
+  std::int64_t invalid() const { return pool_.total(&PointRecordWriter::invalid); }
   std::size_t bytes() const { return pool_.bytes(); }
 
 private:
-  bool areScattered(const PointView& points) const;
-
   alignas(kApart) PartitionPlan plan_;
   alignas(kApart) PointQuantizer quantizer_{};
   PayloadLayout payloadLayout_;
@@ -103,5 +98,4 @@ private:
   PointRecordPool pool_;
 };
 
-} // namespace simd
-} // namespace pointhaptics
+} // namespace pointhaptics::simd

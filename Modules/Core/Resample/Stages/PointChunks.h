@@ -10,9 +10,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace pointhaptics
-{
-namespace simd
+namespace pointhaptics::simd
 {
 
 /// Points of a piece: enough to make the cost of scheduling it negligible.
@@ -92,5 +90,4 @@ private:
   std::int64_t inChunk_ = 0;
 };
 
-} // namespace simd
-} // namespace pointhaptics
+} // namespace pointhaptics::simd

@@ -4,14 +4,15 @@
 #include <cmath>
 #include <cstring>
 
-namespace pointhaptics
-{
-namespace simd
+namespace pointhaptics::simd
 {
 namespace
 {
 
 using Wide = long double;
+
+/// Bits of a double below the highest.
+constexpr int kDoubleBits = 52;
 
 /// Solves T p = b by cofactors. Not by Eigen: one pivot of 170 would differ in its last bit, and positions
 /// with it, for a few solutions a run.
@@ -67,9 +68,8 @@ double leftOfDifference(double a, double b)
 }
 
 /// Where rounding p - pivot, the products and their sums could move a point inside by more than an eighth of
-/// a quantum: under matrices of a large condition number, and on the finest lattices. The same on a lattice
-/// and on one twice as coarse, whose sums would differ otherwise.
-bool needsCompensation(const AffineTransform& transform, const PointQuantizer& quantizer, int positionBits)
+/// a quantum: under matrices of a large condition number.
+bool needsCompensation(const AffineTransform& transform, const PointQuantizer& quantizer)
 {
   constexpr Wide kRounding = 0x1p-50L; // of a term of the sum, in total
   constexpr Wide kMostLost = 0.125L;
@@ -79,7 +79,7 @@ bool needsCompensation(const AffineTransform& transform, const PointQuantizer& q
     Wide extent[3] = { 0, 0, 0 };
     Wide edge[3];
     extent[axis] =
-      std::ldexp(Wide(quantizer.quantum[axis]), positionBits) + std::abs(Wide(quantizer.offset[axis]));
+      std::ldexp(Wide(quantizer.quantum[axis]), kPositionBits) + std::abs(Wide(quantizer.offset[axis]));
     solve(transform, extent, edge);
     for (int column = 0; column < 3; ++column)
     {
@@ -101,15 +101,6 @@ bool needsCompensation(const AffineTransform& transform, const PointQuantizer& q
   return false;
 }
 
-Motion motionOf(const AffineTransform& t)
-{
-  if (!isDiagonal(t.m))
-  {
-    return Motion::General;
-  }
-  return t.m[0][0] == 1.0 && t.m[1][1] == 1.0 && t.m[2][2] == 1.0 ? Motion::Shift : Motion::Scale;
-}
-
 /// Sets the transformed pivot, from the lattice's origin.
 void setOffset(const AffineTransform& transform, const Lattice& lattice, PointQuantizer& quantizer)
 {
@@ -126,19 +117,6 @@ void setOffset(const AffineTransform& transform, const Lattice& lattice, PointQu
   }
 }
 
-/// Whether fma(v, r, v t), with r = 1 / d and t = 1 / d - r rounded, is v / d correctly rounded for all v:
-/// the idea of Brisebarre, Muller and Raina (IEEE Transactions on Computers 53, 2004). With d = D 2^e, D <
-/// 2^53 an integer, no quotient is nearer to the midpoint of two doubles than 2^-54 / D, relatively; what r
-/// and t leave of 1 / d and the rounding of v t are off by less, or not.
-bool dividesAsPair(double d, double r, double t)
-{
-  const double residual = std::fma(r, d, -1.0);
-  const double left = std::abs(std::fma(t, d, residual)) + std::ldexp(std::abs(t) * d, -53);
-  int exponent = 0;
-  const double integer = std::ldexp(std::frexp(d, &exponent), 53);
-  return left < 0.999 * std::ldexp(1.0, -54) / integer;
-}
-
 }
 
 int indexBitsOf(const Lattice& lattice)
@@ -153,18 +131,18 @@ int indexBitsOf(const Lattice& lattice)
   return bits;
 }
 
-int positionBitsFor(int indexBits)
+int fractionBitsOf(const Lattice& lattice)
 {
-  return indexBits <= kMaximumIndexBits ? kPositionBits : 52;
+  const int indexBits = indexBitsOf(lattice);
+  return (indexBits <= kMaximumIndexBits ? kPositionBits : kDoubleBits) - indexBits;
 }
 
-PointQuantizer makeQuantizer(
-  const AffineTransform& transform, const Lattice& lattice, int indexBits, int positionBits)
+PointQuantizer makeQuantizer(const AffineTransform& transform, const Lattice& lattice)
 {
+  const int indexBits = indexBitsOf(lattice);
   PointQuantizer quantizer{};
-  quantizer.motion = motionOf(transform);
-  quantizer.pairDivides = true;
-  quantizer.fractionBits = positionBits - indexBits;
+  quantizer.motion = isDiagonal(transform.m) ? Motion::Scale : Motion::General;
+  quantizer.fractionBits = fractionBitsOf(lattice);
   quantizer.correctsRounding = indexBits > kUncorrectedIndexBits;
   Wide toOrigin[3];
   Wide pivot[3];
@@ -191,19 +169,11 @@ PointQuantizer makeQuantizer(
     quantizer.quantum[axis] = quantum;
     quantizer.reciprocal[axis] = 1.0 / quantum;
     quantizer.remainder[axis] = -std::fma(quantizer.reciprocal[axis], quantum, -1.0) / quantum;
-    quantizer.pairDivides =
-      quantizer.pairDivides && dividesAsPair(quantum, quantizer.reciprocal[axis], quantizer.remainder[axis]);
     quantizer.limit[axis] = std::ldexp(
       std::min(double(lattice.dimensions[std::size_t(axis)]), lattice.end[axis]), quantizer.fractionBits);
   }
-  const auto isSubtraction = [&](int axis)
-  { return quantizer.offset[axis] == 0.0 && quantizer.pivot[axis] != 0.0; };
-  if (quantizer.motion == Motion::Shift && isSubtraction(0) && isSubtraction(1) && isSubtraction(2))
-  {
-    quantizer.motion = Motion::Subtract;
-  }
-  else if ((quantizer.motion == Motion::General || positionBits > kPositionBits) &&
-    needsCompensation(transform, quantizer, positionBits))
+  if (indexBits > kMaximumIndexBits ||
+    (quantizer.motion == Motion::General && needsCompensation(transform, quantizer)))
   {
     quantizer.motion = Motion::Compensated;
     std::fill(quantizer.pivot, quantizer.pivot + 3, 0.0);
@@ -261,13 +231,10 @@ PointLocation quantizePoint(const PointQuantizer& quantizer, const Vec3& point, 
     position[axis] = (position[axis] - (rounded - kToBits > u)) & kMantissa;
     if (quantizer.correctsRounding && inside)
     {
-      left =
-        quantizer.motion == Motion::Subtract ? leftOfDifference(point[axis], quantizer.pivot[axis]) : left;
       position[axis] = nearer(position[axis], v, left, quantizer.quantum[axis]);
     }
   }
   return inside ? PointLocation::Inside : finite ? PointLocation::Outside : PointLocation::Invalid;
 }
 
-} // namespace simd
-} // namespace pointhaptics
+} // namespace pointhaptics::simd

@@ -8,9 +8,7 @@
 
 #include <cstdint>
 
-namespace pointhaptics
-{
-namespace simd
+namespace pointhaptics::simd
 {
 
 /// Bits that index the voxels of a lattice's longest axis.
@@ -18,12 +16,12 @@ int indexBitsOf(const Lattice& lattice);
 /// Lattices with more index bits use all fraction bits of a double for positions. Rounding could then cost a
 /// quarter of a quantum beside the quantum (2^-31 voxel) that truncation costs: it is corrected.
 constexpr int kUncorrectedIndexBits = 20;
-/// Bits of a position: kPositionBits, or all of a double's on lattices too fine for those.
-int positionBitsFor(int indexBits);
+/// Bits of an offset in a voxel: those that an index leaves of kPositionBits, or of all of a double's on
+/// lattices too fine for those.
+int fractionBitsOf(const Lattice& lattice);
 
 /// Leaves blocksPerLayer, rowShift and layerShift, which come from a PartitionPlan, to the caller.
-PointQuantizer makeQuantizer(
-  const AffineTransform& transform, const Lattice& lattice, int indexBits, int positionBits);
+PointQuantizer makeQuantizer(const AffineTransform& transform, const Lattice& lattice);
 
 /// False where the vector loops' division by way of the reciprocal could under- or overflow.
 bool hasOrdinarySpacing(const Lattice& lattice);
@@ -38,5 +36,4 @@ enum class PointLocation
 /// bits.
 PointLocation quantizePoint(const PointQuantizer& quantizer, const Vec3& point, std::uint64_t position[3]);
 
-} // namespace simd
-} // namespace pointhaptics
+} // namespace pointhaptics::simd

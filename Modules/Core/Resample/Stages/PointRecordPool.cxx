@@ -1,10 +1,9 @@
 #include "Core/Resample/Stages/PointRecordPool.h"
 
 #include <algorithm>
+#include <numeric>
 
-namespace pointhaptics
-{
-namespace simd
+namespace pointhaptics::simd
 {
 
 namespace
@@ -81,24 +80,10 @@ std::size_t PointRecordPool::count(std::uint32_t partition) const
   return sum;
 }
 
-std::int64_t PointRecordPool::inside() const
+std::int64_t PointRecordPool::total(std::int64_t PointRecordWriter::*count) const
 {
-  std::int64_t sum = 0;
-  for (const std::unique_ptr<Writer>& writer : writers_)
-  {
-    sum += writer->inside;
-  }
-  return sum;
-}
-
-std::int64_t PointRecordPool::invalid() const
-{
-  std::int64_t sum = 0;
-  for (const std::unique_ptr<Writer>& writer : writers_)
-  {
-    sum += writer->invalid;
-  }
-  return sum;
+  return std::accumulate(writers_.begin(), writers_.end(), std::int64_t(0),
+    [=](std::int64_t sum, const std::unique_ptr<Writer>& writer) { return sum + (*writer).*count; });
 }
 
 std::size_t PointRecordPool::bytes() const
@@ -112,5 +97,4 @@ std::size_t PointRecordPool::bytes() const
   return sum;
 }
 
-} // namespace simd
-} // namespace pointhaptics
+} // namespace pointhaptics::simd

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "Core/Base/Buffer.h"
-#include "Core/Resample/Kernel/Fetch.h"
+#include "Core/Resample/Kernel/Loops.h"
 #include "Core/Resample/Kernel/PointRecordWriter.h"
 
 #include <algorithm>
@@ -11,9 +11,7 @@
 #include <memory>
 #include <vector>
 
-namespace pointhaptics
-{
-namespace simd
+namespace pointhaptics::simd
 {
 
 /// Blocks of point records in one piece of memory. A writer takes a block for each partition it has a point
@@ -86,8 +84,8 @@ public:
   /// number of partitions if there is none.
   std::uint32_t following(std::uint32_t partition) const;
   std::size_t count(std::uint32_t partition) const;
-  std::int64_t inside() const;
-  std::int64_t invalid() const;
+  /// Points that the writers counted.
+  std::int64_t total(std::int64_t PointRecordWriter::*count) const;
   std::size_t bytes() const;
 
 private:
@@ -135,5 +133,4 @@ inline bool PointRecordPool::Walk::next()
   return true;
 }
 
-} // namespace simd
-} // namespace pointhaptics
+} // namespace pointhaptics::simd

@@ -4,15 +4,11 @@
 
 #include <numeric>
 
-namespace pointhaptics
-{
-namespace simd
+namespace pointhaptics::simd
 {
 namespace
 {
 
-/// Points of a piece, about: they stay in the second-level cache.
-constexpr std::int64_t kPiecePoints = 1 << 14;
 /// Points whose keys the ranges are chosen by, how many a range must have, and how many there are at most.
 constexpr std::int64_t kSamples = 1 << 14;
 constexpr std::size_t kSamplesPerRange = 16;
@@ -23,96 +19,112 @@ constexpr std::size_t kMostRanges = 64;
 void PointSorter::prepare(
   const VoxelRequest& request, const Chunks& chunks, const std::vector<AttributeView>&, bool)
 {
-  const int indexBits = indexBitsOf(request.lattice);
-  quantizer_ = makeQuantizer(request.transform, request.lattice, indexBits, positionBitsFor(indexBits));
+  quantizer_ = makeQuantizer(request.transform, request.lattice);
   lattice_ = request.lattice;
   originals_ = chunks.originals();
   const PointView& points = chunks.points();
-  Piece sample;
+  starts_ = { 0 };
+  Bins sample = { std::vector<std::vector<SortedPoint>>(1) };
   for (std::int64_t i = 0; i < points.size(); i += points.size() / kSamples + 1)
   {
     quantize(points, { i, i + 1 }, sample);
   }
-  std::sort(sample.points.begin(), sample.points.end(),
-    [](const SortedPoint& a, const SortedPoint& b) { return a.key < b.key; });
-  const std::size_t size = sample.points.size();
-  const std::size_t ranges = std::clamp<std::size_t>(size / kSamplesPerRange, 1, kMostRanges);
-  starts_.assign(1, 0);
+  std::vector<SortedPoint>& some = sample.ranges[0];
+  std::sort(
+    some.begin(), some.end(), [](const SortedPoint& a, const SortedPoint& b) { return a.key < b.key; });
+  const std::size_t ranges = std::clamp<std::size_t>(some.size() / kSamplesPerRange, 1, kMostRanges);
   for (std::size_t range = 1; range < ranges; ++range)
   {
-    starts_.push_back(sample.points[range * size / ranges].key);
+    starts_.push_back(some[range * some.size() / ranges].key);
   }
-  starts_.push_back(~std::uint64_t(0));
+}
+
+void PointSorter::start(const Chunks&, std::size_t, std::size_t, const Executor& executor)
+{
+  bins_.resize(std::max(bins_.size(), std::size_t(std::max(executor.concurrency(), 1))));
+  for (Bins& bins : bins_)
+  {
+    bins.ranges.resize(partitions());
+    bins.invalid = 0;
+    std::for_each(bins.ranges.begin(), bins.ranges.end(), [](auto& range) { range.clear(); });
+  }
 }
 
 void PointSorter::add(const VoxelRequest&, const Chunks& chunks, std::size_t chunk, const Executor& executor)
 {
-  const auto count = std::size_t(chunks.pointCount(chunk) / kPiecePoints + 1);
-  pieces_.resize(std::max(pieces_.size(), used_ + count));
-  forEachItem<std::vector<SortedPoint>>(executor, count,
-    [&](std::size_t p, std::vector<SortedPoint>& other)
-    {
-      const auto firstRange = [&](std::size_t number) {
-        return chunks.pieces(chunk) + chunks.pieceCount(chunk) * std::int64_t(number) / std::int64_t(count);
-      };
-      Piece& piece = pieces_[used_ + p];
-      piece.points.clear();
-      piece.invalid = 0;
-      for (const PointRange* range = firstRange(p); range != firstRange(p + 1); ++range)
-      {
-        quantize(chunks.points(), *range, piece);
-      }
-      piece.size = piece.points.size();
-      other.resize(std::max(other.size(), piece.size));
-      radixSort(piece.points, other, piece.size, [](const SortedPoint& point) { return point.key; });
-    });
-  used_ += count;
+  forEachItemWith(
+    executor, std::size_t(chunks.pieceCount(chunk)),
+    [&](std::size_t thread) -> Bins& { return bins_[thread]; },
+    [&](std::size_t piece, Bins& bins) { quantize(chunks.points(), chunks.pieces(chunk)[piece], bins); });
 }
 
-void PointSorter::quantize(const PointView& points, PointRange range, Piece& piece) const
+void PointSorter::quantize(const PointView& points, PointRange range, Bins& bins) const
 {
   const std::uint64_t mask = (std::uint64_t(1) << quantizer_.fractionBits) - 1;
   for (std::int64_t i = range.begin; i < range.end; ++i)
   {
     std::uint64_t position[3];
     const PointLocation location = quantizePoint(quantizer_, points[i], position);
-    piece.invalid += location == PointLocation::Invalid;
+    bins.invalid += location == PointLocation::Invalid;
     if (location == PointLocation::Inside)
     {
       const auto index = [&](int axis) { return std::int64_t(position[axis] >> quantizer_.fractionBits); };
-      piece.points.push_back({ lattice_.key(index(0), index(1), index(2)), i,
-        { position[0] & mask, position[1] & mask, position[2] & mask } });
+      const std::uint64_t key = lattice_.key(index(0), index(1), index(2));
+      const std::uint64_t* start = starts_.data();
+      for (std::size_t left = starts_.size(); left > 1; left -= left / 2)
+      {
+        start += start[left / 2] <= key ? left / 2 : 0; // Without a branch, which would be unpredictable.
+      }
+      bins.ranges[std::size_t(start - starts_.data())].push_back(
+        { key, i, { position[0] & mask, position[1] & mask, position[2] & mask } });
     }
   }
 }
 
-std::size_t PointSorter::count(std::uint32_t range) const
+void PointSorter::copyPoints(std::uint32_t range, std::vector<SortedPoint>& to) const
 {
-  std::size_t sum = 0;
-  forPoints(
-    range, [&](const SortedPoint* first, const SortedPoint* last) { sum += std::size_t(last - first); });
-  return sum;
+  for (const Bins& bins : bins_)
+  {
+    to.insert(to.end(), bins.ranges[range].begin(), bins.ranges[range].end());
+  }
+}
+
+std::size_t PointSorter::mostVoxels(std::uint32_t range) const
+{
+  return std::accumulate(bins_.begin(), bins_.end(), std::size_t(0),
+    [=](std::size_t sum, const Bins& bins) { return sum + bins.ranges[range].size(); });
 }
 
 std::int64_t PointSorter::inside() const
 {
-  return std::accumulate(pieces_.begin(), pieces_.begin() + std::ptrdiff_t(used_), std::int64_t(0),
-    [](std::int64_t sum, const Piece& piece) { return sum + std::int64_t(piece.size); });
+  std::size_t sum = 0;
+  for (std::uint32_t range = 0; range < partitions(); ++range)
+  {
+    sum += this->mostVoxels(range);
+  }
+  return std::int64_t(sum);
 }
 
 std::int64_t PointSorter::invalid() const
 {
-  return std::accumulate(pieces_.begin(), pieces_.begin() + std::ptrdiff_t(used_), std::int64_t(0),
-    [](std::int64_t sum, const Piece& piece) { return sum + piece.invalid; });
+  return std::accumulate(bins_.begin(), bins_.end(), std::int64_t(0),
+    [](std::int64_t sum, const Bins& bins) { return sum + bins.invalid; });
 }
 
 std::size_t PointSorter::bytes() const
 {
-  return std::accumulate(pieces_.begin(), pieces_.end(), std::size_t(0),
-    [](std::size_t sum, const Piece& piece) { return sum + piece.points.capacity() * sizeof(SortedPoint); });
+  std::size_t sum = 0;
+  for (const Bins& bins : bins_)
+  {
+    for (const std::vector<SortedPoint>& range : bins.ranges)
+    {
+      sum += range.capacity() * sizeof(SortedPoint);
+    }
+  }
+  return sum;
 }
 
-void SortedVoxels::prepare(const VoxelRequest& request, const PointSorter& sorter, bool)
+void SortedVoxels::prepare(const VoxelRequest& request, const PointSorter& sorter)
 {
   sorter_ = &sorter;
   covariances_ = request.covariances;
@@ -121,8 +133,7 @@ void SortedVoxels::prepare(const VoxelRequest& request, const PointSorter& sorte
 std::size_t SortedVoxels::find(std::uint32_t range)
 {
   points_.clear();
-  sorter_->forPoints(range,
-    [&](const SortedPoint* first, const SortedPoint* last) { points_.insert(points_.end(), first, last); });
+  sorter_->copyPoints(range, points_);
   other_.resize(points_.size());
   radixSort(points_, other_, points_.size(), [](const SortedPoint& point) { return point.key; });
   size_ = 0;
@@ -135,8 +146,7 @@ std::size_t SortedVoxels::find(std::uint32_t range)
 
 void SortedVoxels::sum()
 {
-  run_.clear();
-  run_.append(size_, covariances_);
+  run_.start(size_, covariances_);
   std::size_t voxel = 0;
   for (std::size_t i = 0; i < points_.size(); ++i)
   {
@@ -146,5 +156,4 @@ void SortedVoxels::sum()
   }
 }
 
-} // namespace simd
-} // namespace pointhaptics
+} // namespace pointhaptics::simd

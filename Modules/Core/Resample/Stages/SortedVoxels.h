@@ -15,9 +15,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace pointhaptics
-{
-namespace simd
+namespace pointhaptics::simd
 {
 
 /// A point inside: its voxel, its number among the chunks' points, and its offset in the voxel.
@@ -28,8 +26,8 @@ struct SortedPoint
   std::array<std::uint64_t, 3> offset;
 };
 
-/// Quantizes and sorts points piece by piece, and divides the keys into ranges with about as many points
-/// each: the partitions of this path.
+/// Quantizes points and bins them into ranges of keys with about as many points each: the partitions of this
+/// path.
 class PointSorter
 {
 public:
@@ -39,53 +37,36 @@ public:
 
   void prepare(const VoxelRequest& request, const Chunks& chunks, const std::vector<AttributeView>&, bool);
   /// Forgets the points.
-  void start(const Chunks&, std::size_t, std::size_t, const Executor&) { used_ = 0; }
-  /// Quantizes and sorts those of a chunk.
+  void start(const Chunks&, std::size_t, std::size_t, const Executor& executor);
+  /// Quantizes and bins those of a chunk.
   void add(const VoxelRequest& request, const Chunks& chunks, std::size_t chunk, const Executor& executor);
 
-  std::uint32_t partitions() const { return std::uint32_t(starts_.size() - 1); }
+  std::uint32_t partitions() const { return std::uint32_t(starts_.size()); }
   int fractionBits() const { return quantizer_.fractionBits; }
   PayloadLayout payloadLayout() const { return {}; }
   const std::uint32_t* originals() const { return originals_; }
-  /// Points of a range.
-  std::size_t count(std::uint32_t range) const;
-  std::size_t mostVoxels(std::uint32_t range) const { return count(range); }
-  /// Calls take(first, last) for those of each piece.
-  template <typename Take>
-  void forPoints(std::uint32_t range, const Take& take) const;
+  /// Appends the points of a range.
+  void copyPoints(std::uint32_t range, std::vector<SortedPoint>& to) const;
+  std::size_t mostVoxels(std::uint32_t range) const;
   std::int64_t inside() const;
   std::int64_t invalid() const;
   std::size_t bytes() const;
 
 private:
-  struct Piece
+  /// What one thread has found.
+  struct Bins
   {
-    std::vector<SortedPoint> points;
-    std::size_t size = 0;
+    std::vector<std::vector<SortedPoint>> ranges;
     std::int64_t invalid = 0;
   };
-  void quantize(const PointView& points, PointRange range, Piece& piece) const;
+  void quantize(const PointView& points, PointRange range, Bins& bins) const;
 
   PointQuantizer quantizer_{};
   Lattice lattice_;
   const std::uint32_t* originals_ = nullptr;
-  std::vector<Piece> pieces_;
-  std::size_t used_ = 0;
-  std::vector<std::uint64_t> starts_; ///< Starts of the ranges, and an end.
+  std::vector<Bins> bins_;
+  std::vector<std::uint64_t> starts_; ///< First keys of the ranges.
 };
-
-template <typename Take>
-void PointSorter::forPoints(std::uint32_t range, const Take& take) const
-{
-  for (std::size_t i = 0; i < used_; ++i)
-  {
-    const SortedPoint* const begin = pieces_[i].points.data();
-    const SortedPoint* const end = begin + pieces_[i].size;
-    const auto firstFrom = [=](std::uint64_t key)
-    { return std::partition_point(begin, end, [=](const SortedPoint& point) { return point.key < key; }); };
-    take(firstFrom(starts_[range]), firstFrom(starts_[range + 1]));
-  }
-}
 
 /// Some points of a range, and their voxels, counted from the first of the range.
 struct SortedBlock
@@ -112,7 +93,7 @@ class SortedVoxels
 public:
   using Source = PointSorter;
 
-  void prepare(const VoxelRequest& request, const PointSorter& sorter, bool visits);
+  void prepare(const VoxelRequest& request, const PointSorter& sorter);
   std::size_t find(std::uint32_t range);
   void sum();
   void drop() {}
@@ -144,7 +125,6 @@ private:
 template <typename Visit>
 void SortedVoxels::visit(const Visit& visit) const
 {
-  SortedBlock none; // Nothing is fetched in advance.
   SortedBlock block;
   std::int64_t voxel = -1;
   for (std::size_t first = 0; first < points_.size(); first += SortedBlock::kMostPoints)
@@ -158,9 +138,8 @@ void SortedVoxels::visit(const Visit& visit) const
       block.voxels[i] = voxel;
       block.points[i] = sorter_->originals() ? sorter_->originals()[points_[at].number] : points_[at].number;
     }
-    visit(block, none);
+    visit(block);
   }
 }
 
-} // namespace simd
-} // namespace pointhaptics
+} // namespace pointhaptics::simd

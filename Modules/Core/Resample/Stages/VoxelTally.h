@@ -11,18 +11,13 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 #include <vector>
 
-namespace pointhaptics
-{
-namespace simd
+namespace pointhaptics::simd
 {
 
-/// Adds @p sign times a number of @p count words to a sum of @p size words, shifted left by so many bits, or
-/// right where that loses no bit. @return false where the sum has no room for the result: its sign is wrong.
-bool addShifted(const std::uint64_t* number, int count, int shift, int sign, std::uint64_t* sum, int size);
-
-/// Voxels of one run or two, in groups of which each becomes one.
+/// Voxels of some runs, in groups of which each becomes one.
 struct VoxelGroups
 {
   struct Voxel
@@ -32,24 +27,38 @@ struct VoxelGroups
   };
   std::vector<Voxel> voxels;
   std::vector<std::size_t> ends; ///< End of each group among these.
-  int sign = 1;                  ///< -1: those of the second run are taken away.
+  int sign = 1;                  ///< -1: those of all runs but the first are taken away.
 
-  /// Calls visit(group, voxel, sign) for all of them.
-  template <typename Visit>
-  void forAll(const Visit& visit) const
-  {
-    for (std::size_t group = 0, i = 0; group < ends.size(); ++group)
-    {
-      for (; i < ends[group]; ++i)
-      {
-        visit(group, voxels[i], voxels[i].run == 0 ? 1 : sign);
-      }
-    }
-  }
+  std::size_t size() const { return ends.size(); }
+  std::size_t beginOf(std::size_t group) const { return group == 0 ? 0 : ends[group - 1]; }
+  int signOf(const Voxel& voxel) const { return voxel.run == 0 ? 1 : sign; }
+  /// Adds voxels of a run, each as a group.
+  void add(int run, std::size_t first, std::size_t last);
+};
+
+/// Calls body(width), of one and of three components as a number that the compiler knows.
+template <typename Body>
+void withWidth(int components, const Body& body)
+{
+  components == 1     ? body(std::integral_constant<std::size_t, 1>())
+    : components == 3 ? body(std::integral_constant<std::size_t, 3>())
+                      : body(std::size_t(components));
+}
+
+/// Where the tuples of points lie.
+struct Tuples
+{
+  const char* first;
+  std::int64_t step; ///< Bytes from one to the next.
 };
 
 /// Sums of numbers, one for each component of each voxel: integers in units of 2^unit, in two's complement.
-/// All have as many words. Memory: 8 bytes a word, of which most arrays have one.
+/// Floating-point numbers are summed in units of the last bit of the array's smallest. All sums have as many
+/// words as the largest magnitude and the most points of a voxel need: one for most arrays of floats, two for
+/// those of doubles whose magnitudes differ by less than about 2^60. Sums are exact, so a mean is within one
+/// rounding of the exact one (half a unit in the last place for the quotient, as much for the sum), and a
+/// lone point's is its value. NaN stands for no value: it is left out, and where there is nothing else the
+/// mean is NaN. Infinities count as in IEEE addition. Memory: 8 bytes a word.
 class TallySums
 {
 public:
@@ -64,30 +73,34 @@ public:
   static constexpr int kLeastUnit = -1200;
   static constexpr int kMostWords = 40;
 
-  std::uint64_t* at(std::size_t sum) { return values.data() + sum * std::size_t(words); }
-  const std::uint64_t* at(std::size_t sum) const { return values.data() + sum * std::size_t(words); }
-  /// Appends the sums from @p begin to before @p end of others.
-  void append(const TallySums& from, std::size_t begin, std::size_t end);
-  /// Gathers the sums of groups of the voxels of two tallies; one that is null has none. @p isRight becomes
-  /// false where fewer than no numbers are left that are not finite.
+  /// Drops all sums and makes room for those of voxels with @p counts points each. @p range: of all tuples.
+  void prepare(
+    const AccumulatedArray& kind, const AttributeRange& range, const std::vector<std::int64_t>& counts);
+  /// Adds tuple numbers[i] to voxels[i].
+  void add(ScalarType type, const Tuples& tuples, const std::int64_t* numbers, const std::int64_t* voxels,
+    int count);
+  /// The sums of groups of the voxels of some tallies. @p isRight becomes false where fewer than no numbers
+  /// are left that are not finite.
   static TallySums gathered(
-    const TallySums* first, const TallySums* second, const VoxelGroups& groups, bool& isRight);
-  /// The mean of @p count numbers; the sum is rounded once.
-  double mean(std::size_t sum, std::int64_t count) const;
-  /// @pre it has up to two words.
-  Int128 inUnits(std::size_t sum) const;
+    const std::vector<const TallySums*>& runs, const VoxelGroups& groups, bool& isRight);
   /// Writes the means of voxels @p first to before @p last, of @p counts numbers each; vectors turned by @p
   /// columns.
   void write(const AccumulatedArray& kind, std::size_t first, std::size_t last, const std::int64_t* counts,
     const std::array<Vec3, 3>& columns, void* tuples) const;
+  /// @pre it has up to two words.
+  Int128 inUnits(std::size_t sum) const;
   /// Takes the largest unit and the fewest words, so that equal sums are kept in the same way, and frees
   /// memory.
   void trim();
 
 private:
+  std::uint64_t* at(std::size_t sum) { return values.data() + sum * std::size_t(words); }
+  const std::uint64_t* at(std::size_t sum) const { return values.data() + sum * std::size_t(words); }
+  template <typename T>
+  void addNumber(T number, std::size_t sum);
   bool add(std::size_t sum, const TallySums& from, std::size_t other, int sign);
+  double mean(std::size_t sum, std::int64_t count) const;
   void fit(int newUnit, int newWords);
-  void cover(const TallySums& other);
 };
 
 /// So many points have a value, of which this is the orderedKey().
@@ -117,10 +130,9 @@ struct TallyValues
     /// That of the middle one of @p count points.
     std::int64_t middle(std::int64_t count) const;
   };
-  void append(const TallyValues& from, std::size_t begin, std::size_t end);
   /// As of TallySums: points with a value.
   static TallyValues gathered(
-    const TallyValues* first, const TallyValues* second, const VoxelGroups& groups, bool& isRight);
+    const std::vector<const TallyValues*>& runs, const VoxelGroups& groups, bool& isRight);
   std::size_t beginOf(std::size_t list) const { return list == 0 ? 0 : ends[list - 1]; }
   List operator[](std::size_t list) const
   {
@@ -136,11 +148,9 @@ public:
   TallySums sums;
   TallyValues values;
 
-  /// Appends voxels @p first to before @p last of another one like this; one without voxels becomes like it.
-  void append(const VoxelTally& from, std::size_t first, std::size_t last);
   /// As of TallySums.
   static VoxelTally gathered(
-    const VoxelTally* first, const VoxelTally* second, const VoxelGroups& groups, bool& isRight);
+    const std::vector<const VoxelTally*>& runs, const VoxelGroups& groups, bool& isRight);
   /// Writes the tuples of voxels @p first to before @p last, of @p counts points each; vectors turned by @p
   /// columns.
   void write(const AccumulatedArray& kind, std::size_t first, std::size_t last, const std::int64_t* counts,
@@ -152,5 +162,4 @@ public:
   std::size_t bytes() const;
 };
 
-} // namespace simd
-} // namespace pointhaptics
+} // namespace pointhaptics::simd

@@ -1,14 +1,10 @@
 #include "Core/Resample/Stages/VoxelWriter.h"
 
-#include "Core/Resample/Stages/AttributeRounding.h"
-
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
 
-namespace pointhaptics
-{
-namespace simd
+namespace pointhaptics::simd
 {
 SymMat3 covarianceOf(std::int64_t count, const Int128 sums[3], const SecondMoments& secondMoments,
   double quantum, const Vec3& spacing)
@@ -50,9 +46,11 @@ MeanMap makeMeanMap(const Lattice& lattice, int fractionBits, bool singlePrecisi
     const double cells = double(lattice.dimensions[std::size_t(axis)]);
     const double largest = std::abs(lattice.origin[axis]) / lattice.spacing[axis] + cells;
     // A smallest normal number stands for what denormals lose.
-    map.faceMargin[axis] = singlePrecision
+    const double margin = singlePrecision
       ? 4.0 * (double(FLT_EPSILON) * largest + double(FLT_MIN) / lattice.spacing[axis])
       : 4.0 * (DBL_EPSILON * largest + DBL_MIN / lattice.spacing[axis]);
+    map.margin[axis] = margin / map.quantum;
+    map.clearance[axis] = std::max(1.0 - 2.0 * margin, 0.0) / map.quantum;
   }
   return map;
 }
@@ -64,16 +62,20 @@ void VoxelWriter::Array::prepare(std::size_t room, std::size_t voxelBytes, void*
   values = given ? static_cast<char*>(given) : own.data();
 }
 
-void VoxelWriter::prepare(std::size_t room, const Layout& layout, const Lattice& lattice, int fractionBits,
-  OutputAllocator* allocator)
+void VoxelWriter::prepare(const VoxelRequest& request, std::size_t room, int fractionBits)
 {
-  layout_ = layout;
-  lattice_ = lattice;
-  map_ = makeMeanMap(lattice, fractionBits, layout.singlePrecision);
-  std::vector<std::size_t> bytes = { layout.keys ? sizeof(std::uint64_t) : 0,
-    layout.chosen ? sizeof(std::int64_t) : 0, 3 * (layout.singlePrecision ? sizeof(float) : sizeof(double)),
-    sizeof(std::int64_t), layout.covariances ? sizeof(SymMat3) : 0 };
-  bytes.insert(bytes.end(), layout.attributeBytes.begin(), layout.attributeBytes.end());
+  singlePrecision_ = request.singlePrecision;
+  lattice_ = request.lattice;
+  map_ = makeMeanMap(lattice_, fractionBits, singlePrecision_);
+  OutputAllocator* const allocator = request.allocator;
+  std::vector<std::size_t> bytes = { request.keys ? sizeof(std::uint64_t) : 0,
+    keepsPoints(request.representative) ? sizeof(std::int64_t) : 0,
+    3 * (singlePrecision_ ? sizeof(float) : sizeof(double)), sizeof(std::int64_t),
+    request.covariances ? sizeof(SymMat3) : 0 };
+  for (const AttributeRequest& attribute : request.attributes)
+  {
+    bytes.push_back(std::size_t(attribute.view.tupleBytes()));
+  }
   arrays_.resize(bytes.size());
   for (std::size_t i = 0; i < bytes.size(); ++i)
   {
@@ -110,14 +112,14 @@ void VoxelWriter::writeMeans(
 
 void VoxelWriter::write(const Kernels& kernels, std::size_t offset, const PartitionVoxels& voxels)
 {
-  layout_.singlePrecision ? writeMeans(kernels, offset, voxels, floats())
-                          : writeMeans(kernels, offset, voxels, doubles());
+  singlePrecision_ ? writeMeans(kernels, offset, voxels, floats())
+                   : writeMeans(kernels, offset, voxels, doubles());
   std::uint64_t* const to = keys() + offset;
-  for (std::size_t i = 0; layout_.keys && i < voxels.size; ++i)
+  for (std::size_t i = 0; arrays_[kKeys].bytes > 0 && i < voxels.size; ++i)
   {
     to[i] = voxels.firstKey + voxels.cells[i];
   }
-  if (layout_.covariances)
+  if (arrays_[kCovariances].bytes > 0)
   {
     writeCovariances(kernels, offset, voxels);
   }
@@ -134,15 +136,14 @@ void VoxelWriter::writeCovariances(const Kernels& kernels, std::size_t offset, c
   {
     const int size = int(std::min<std::size_t>(voxels.size - first, kBatch));
     const PackedSums* packed = voxels.sums + first;
-    const SplitSecondMoments* secondMoments = voxels.secondMoments + first;
+    const SecondMoments* secondMoments = voxels.secondMoments + first;
     SymMat3* to = covariances() + offset + first;
     const int found = kernels.covariances(map, packed, secondMoments, size, &to->xx, full);
     for (int j = 0; j < found; ++j)
     {
       const int i = full[j];
       const Int128 sums[3] = { Int128(packed[i].lanes[0]), Int128(packed[i].lanes[1]), packedZ(packed[i]) };
-      to[i] = covarianceOf(
-        packedCount(packed[i]), sums, whole(secondMoments[i], fractionBits), map_.quantum, lattice_.spacing);
+      to[i] = covarianceOf(packedCount(packed[i]), sums, secondMoments[i], map_.quantum, lattice_.spacing);
     }
   }
 }
@@ -158,22 +159,22 @@ void VoxelWriter::write(std::size_t offset, const VoxelRun& run, std::size_t fir
     for (int axis = 0; axis < 3; ++axis)
     {
       const std::int64_t i = index[std::size_t(axis)];
-      const double inVoxel = toDouble(sums[axis]) / double(voxel.count) * map_.quantum;
-      double coordinate = map_.origin[axis] + (double(i) + inVoxel) * map_.spacing[axis];
-      const double margin = map_.faceMargin[axis];
-      if (!(inVoxel > margin && inVoxel < 1.0 - margin))
+      const double fraction = toDouble(sums[axis]) / double(voxel.count);
+      double coordinate = map_.origin[axis] + (double(i) + fraction * map_.quantum) * map_.spacing[axis];
+      const double above = fraction - map_.margin[axis];
+      if (!(above >= 0.0 && above < map_.clearance[axis]))
       {
-        coordinate = layout_.singlePrecision ? double(lattice_.keptInVoxel(float(coordinate), axis, i))
-                                             : lattice_.keptInVoxel(coordinate, axis, i);
+        coordinate = singlePrecision_ ? double(lattice_.keptInVoxel(float(coordinate), axis, i))
+                                      : lattice_.keptInVoxel(coordinate, axis, i);
       }
       setCoordinate(offset, axis, coordinate);
     }
     counts()[offset] = voxel.count;
-    if (layout_.keys)
+    if (arrays_[kKeys].bytes > 0)
     {
       keys()[offset] = voxel.key;
     }
-    if (layout_.covariances)
+    if (arrays_[kCovariances].bytes > 0)
     {
       covariances()[offset] =
         covarianceOf(voxel.count, sums, run.secondMoments[v], map_.quantum, lattice_.spacing);
@@ -181,5 +182,4 @@ void VoxelWriter::write(std::size_t offset, const VoxelRun& run, std::size_t fir
   }
 }
 
-} // namespace simd
-} // namespace pointhaptics
+} // namespace pointhaptics::simd

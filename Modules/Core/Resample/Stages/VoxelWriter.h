@@ -5,7 +5,7 @@
 #include "Core/Base/Buffer.h"
 #include "Core/Base/Lattice.h"
 #include "Core/Base/Vector3.h"
-#include "Core/Resample/Stages/VoxelSums.h"
+#include "Core/Resample/Stages/VoxelRun.h"
 #include "Core/Resample/VoxelResampler.h"
 
 #include <array>
@@ -13,9 +13,7 @@
 #include <numeric>
 #include <vector>
 
-namespace pointhaptics
-{
-namespace simd
+namespace pointhaptics::simd
 {
 
 /// The voxels of a partition, in ascending order.
@@ -25,7 +23,7 @@ struct PartitionVoxels
   std::uint64_t firstKey = 0;
   const std::uint32_t* cells = nullptr;
   const PackedSums* sums = nullptr;
-  const SplitSecondMoments* secondMoments = nullptr; ///< Or null.
+  const SecondMoments* secondMoments = nullptr; ///< Or null.
   std::size_t size = 0;
 };
 
@@ -41,26 +39,12 @@ MeanMap makeMeanMap(const Lattice& lattice, int fractionBits, bool singlePrecisi
 class VoxelWriter
 {
 public:
-  struct Layout
-  {
-    bool singlePrecision = false;
-    bool keys = false;
-    bool covariances = false;
-    bool chosen = false;
-    std::vector<std::size_t> attributeBytes = {}; ///< Bytes of a voxel's tuple, by array.
-  };
-
-  void prepare(std::size_t room, const Layout& layout, const Lattice& lattice, int fractionBits,
-    OutputAllocator* allocator);
+  /// Room for so many voxels of what is asked for.
+  void prepare(const VoxelRequest& request, std::size_t room, int fractionBits);
   /// Writes the voxels of a partition, or voxels @p first to before @p last of a run, at @p offset.
   void write(const Kernels& kernels, std::size_t offset, const PartitionVoxels& voxels);
   void write(std::size_t offset, const VoxelRun& run, std::size_t first, std::size_t last);
 
-  Vec3 point(std::size_t voxel) const
-  {
-    const auto i = std::int64_t(voxel);
-    return layout_.singlePrecision ? PointView(floats(), i + 1)[i] : PointView(doubles(), i + 1)[i];
-  }
   /// Replaces the coordinates of a voxel's mean.
   void setPoint(std::size_t voxel, const Vec3& point)
   {
@@ -72,8 +56,8 @@ public:
   /// The coordinates from a voxel on, of the type that was asked for.
   void* pointsFrom(std::size_t voxel) const { return arrays_[kMeans].values + arrays_[kMeans].bytes * voxel; }
   /// Null where the others were asked for.
-  float* floats() const { return layout_.singlePrecision ? of<float>(kMeans) : nullptr; }
-  double* doubles() const { return layout_.singlePrecision ? nullptr : of<double>(kMeans); }
+  float* floats() const { return singlePrecision_ ? of<float>(kMeans) : nullptr; }
+  double* doubles() const { return singlePrecision_ ? nullptr : of<double>(kMeans); }
   std::int64_t* counts() const { return of<std::int64_t>(kCounts); }
   SymMat3* covariances() const { return of<SymMat3>(kCovariances); }
   std::uint64_t* keys() const { return of<std::uint64_t>(kKeys); }
@@ -117,17 +101,16 @@ private:
   void setCoordinate(std::size_t voxel, int axis, double x)
   {
     const std::size_t to = 3 * voxel + std::size_t(axis);
-    layout_.singlePrecision ? void(floats()[to] = float(x)) : void(doubles()[to] = x);
+    singlePrecision_ ? void(floats()[to] = float(x)) : void(doubles()[to] = x);
   }
   template <typename Real>
   void writeMeans(const Kernels& kernels, std::size_t offset, const PartitionVoxels& voxels, Real* xyz);
   void writeCovariances(const Kernels& kernels, std::size_t offset, const PartitionVoxels& voxels);
 
-  Layout layout_;
+  bool singlePrecision_ = false;
   Lattice lattice_;
   MeanMap map_{};
   std::vector<Array> arrays_ = std::vector<Array>(kAttributes);
 };
 
-} // namespace simd
-} // namespace pointhaptics
+} // namespace pointhaptics::simd

@@ -1,5 +1,4 @@
-#include "Core/Resample/Reductions/AttributeMean.h"
-
+// Means of arrays in voxels, of every type and range.
 #include "AttributePlans.h"
 #include "ExactSum.h"
 #include "RandomClouds.h"
@@ -19,6 +18,8 @@ using trial::countsOf;
 using trial::ExactSum;
 using trial::Plan;
 using trial::planFor;
+using trial::reducedTuples;
+using trial::reducedValues;
 using trial::sameBits;
 using trial::typeOf;
 
@@ -26,58 +27,6 @@ namespace
 {
 
 __extension__ typedef __int128 Int128;
-
-template <typename T>
-AccumulatedArray kindOf(int components, AttributeStatistic statistic = AttributeStatistic::Mean)
-{
-  return { typeOf<T>(), components, statistic };
-}
-
-template <typename T>
-AttributeReducer::Tuples tuplesOf(const std::vector<T>& values, int components)
-{
-  return { reinterpret_cast<const char*>(values.data()), std::int64_t(sizeof(T)) * components };
-}
-
-struct Made
-{
-  AttributeMean mean;
-  int components;
-};
-
-/// @p columns: turn the means, which become unit vectors. @p mostPoints: there is room for, in a voxel.
-template <typename T>
-Made meanOf(const std::vector<T>& values, int components, const Plan& plan, std::int64_t mostPoints = 0,
-  InstructionSet instructions = InstructionSet::Automatic, const std::array<Vec3, 3>* columns = nullptr)
-{
-  constexpr std::size_t kPiece = 100;
-  const AttributeView view = { values.data(), typeOf<T>(), components,
-    std::int64_t(values.size()) / components };
-  AttributeMean mean(kindOf<T>(components, columns ? AttributeStatistic::Normal : AttributeStatistic::Mean),
-    rangeOf(view, {}, instructions), columns ? *columns : std::array<Vec3, 3>());
-  std::vector<std::int64_t> counts = countsOf(plan);
-  counts[0] = std::max(counts[0], mostPoints);
-  mean.prepare(counts);
-  std::vector<std::int64_t> voxels;
-  for (const std::int64_t i : plan.order)
-  {
-    voxels.push_back(plan.voxels[std::size_t(i)]);
-  }
-  for (std::size_t first = 0; first < voxels.size(); first += kPiece)
-  {
-    mean.add(tuplesOf(values, components), plan.order.data() + first, voxels.data() + first,
-      int(std::min(kPiece, voxels.size() - first)));
-  }
-  return { std::move(mean), components };
-}
-
-template <typename T>
-std::vector<T> written(const Made& made, const Plan& plan)
-{
-  std::vector<T> means(std::size_t(plan.size) * std::size_t(made.components));
-  made.mean.write(countsOf(plan).data(), means.data());
-  return means;
-}
 
 /// Integers: exact sums of 128 bits, halves away from zero.
 template <typename T>
@@ -105,9 +54,9 @@ std::vector<T> roundedMeans(const std::vector<T>& values, int components, const 
 template <typename T>
 void expectExact(const std::vector<T>& values, int components, const Plan& plan)
 {
-  Made made = meanOf(values, components, plan);
-  const std::vector<T> means = written<T>(made, plan);
-  const simd::TallySums sumsOfMeans = made.mean.takeTally().sums;
+  const std::vector<T> means = reducedValues(values, components, plan);
+  const std::vector<double> doubles =
+    reducedValues(std::vector<double>(values.begin(), values.end()), components, plan);
   const std::vector<std::int64_t> counts = countsOf(plan);
   std::vector<ExactSum> sums(means.size());
   for (std::size_t i = 0; i < values.size(); ++i)
@@ -118,7 +67,7 @@ void expectExact(const std::vector<T>& values, int components, const Plan& plan)
   for (std::size_t s = 0; s < sums.size(); ++s)
   {
     const std::int64_t count = counts[s / std::size_t(components)];
-    const double got = sumsOfMeans.mean(s, count);
+    const double got = doubles[s];
     ASSERT_TRUE(sums[s].isMean(got, count)) << "sum " << s << " mean " << got;
     ASSERT_EQ(means[s], T(got)) << "sum " << s;
   }
@@ -127,7 +76,7 @@ void expectExact(const std::vector<T>& values, int components, const Plan& plan)
 template <typename T>
 void expectIndependentOfOrder(const std::vector<T>& values, int components, Plan plan)
 {
-  const std::vector<T> expected = written<T>(meanOf(values, components, plan), plan);
+  const std::vector<T> expected = reducedValues(values, components, plan);
   for (const std::uint64_t seed : { 1, 2 })
   {
     plan.order.clear();
@@ -135,7 +84,7 @@ void expectIndependentOfOrder(const std::vector<T>& values, int components, Plan
     {
       plan.order.push_back(std::int64_t(i));
     }
-    EXPECT_TRUE(sameBits(written<T>(meanOf(values, components, plan), plan), expected));
+    EXPECT_TRUE(sameBits(reducedValues(values, components, plan), expected));
   }
 }
 
@@ -182,8 +131,7 @@ TYPED_TEST(AttributeMeanOfIntegers, IsRoundedFromTheExactSumAtTheExtremes)
   {
     const std::vector<TypeParam> values = extremesOf<TypeParam>(2000 * std::size_t(components), 1);
     const Plan plan = planFor(2000, 300, std::uint64_t(components));
-    EXPECT_EQ(
-      written<TypeParam>(meanOf(values, components, plan), plan), roundedMeans(values, components, plan));
+    EXPECT_EQ(reducedValues(values, components, plan), roundedMeans(values, components, plan));
     expectIndependentOfOrder(values, components, plan);
   }
 }
@@ -195,7 +143,7 @@ TYPED_TEST(AttributeMeanOfIntegers, KeepsTheExtremesWhereAllAreTheSame)
   {
     const std::vector<TypeParam> values(3000, value);
     const Plan plan = planFor(3000, 2, 2);
-    EXPECT_EQ(written<TypeParam>(meanOf(values, 1, plan), plan), (std::vector<TypeParam>{ value, value }));
+    EXPECT_EQ(reducedValues(values, 1, plan), (std::vector<TypeParam>{ value, value }));
   }
 }
 
@@ -204,11 +152,9 @@ TEST(AttributeMean, RoundsHalvesAwayFromZero)
   const std::vector<std::int64_t> values{ 1, 2, -1, -2, -3, -2, -1, 0, 4, 5 };
   Plan plan = planFor(10, 5, 1);
   plan.voxels = { 0, 0, 1, 1, 2, 2, 3, 3, 4, 4 };
-  EXPECT_EQ(
-    written<std::int64_t>(meanOf(values, 1, plan), plan), (std::vector<std::int64_t>{ 2, -2, -3, -1, 5 }));
+  EXPECT_EQ(reducedValues(values, 1, plan), (std::vector<std::int64_t>{ 2, -2, -3, -1, 5 }));
   const std::vector<std::int16_t> shorts(values.begin(), values.end());
-  EXPECT_EQ(
-    written<std::int16_t>(meanOf(shorts, 1, plan), plan), (std::vector<std::int16_t>{ 2, -2, -3, -1, 5 }));
+  EXPECT_EQ(reducedValues(shorts, 1, plan), (std::vector<std::int16_t>{ 2, -2, -3, -1, 5 }));
 }
 
 TEST(AttributeMean, OfRealNumbersIsExactForEveryRangeAndWidth)
@@ -256,11 +202,11 @@ TEST(AttributeMean, RoundsTheSumOnceWhateverIsFarBelow)
   for (const double sign : { 1.0, -1.0 })
   {
     const std::vector<double> tie{ sign, sign * 0x1p-53, 0.0, 0.0 };
-    EXPECT_EQ(written<double>(meanOf(tie, 1, plan), plan)[0], sign * 0.25);
+    EXPECT_EQ(reducedValues(tie, 1, plan)[0], sign * 0.25);
     const std::vector<double> above{ sign, sign * 0x1p-53, sign * 0x1p-300, 0.0 };
-    EXPECT_EQ(written<double>(meanOf(above, 1, plan), plan)[0], sign * 0.25 * (1.0 + 0x1p-52));
+    EXPECT_EQ(reducedValues(above, 1, plan)[0], sign * 0.25 * (1.0 + 0x1p-52));
     const std::vector<double> below{ sign, sign * 0x1p-53, -sign * 0x1p-300, 0.0 };
-    EXPECT_EQ(written<double>(meanOf(below, 1, plan), plan)[0], sign * 0.25);
+    EXPECT_EQ(reducedValues(below, 1, plan)[0], sign * 0.25);
   }
 }
 
@@ -292,39 +238,36 @@ TEST(AttributeMean, OfALonePointIsItsValue)
   {
     const std::vector<double> doubles = magnitudes<double>(900, low, 0.0 - low > 300.0 ? 308.0 : -low, 12);
     const Plan plan = planFor(300, 300, 13);
-    EXPECT_EQ(written<double>(meanOf(doubles, 3, plan), plan), doubles);
+    EXPECT_EQ(reducedValues(doubles, 3, plan), doubles);
     const std::vector<float> floats = magnitudes<float>(300, std::max(low, -45.0), 38.0, 14);
-    EXPECT_EQ(written<float>(meanOf(floats, 1, plan), plan), floats);
+    EXPECT_EQ(reducedValues(floats, 1, plan), floats);
   }
 }
 
 TEST(AttributeMean, OfZerosIsZero)
 {
   const Plan plan = planFor(100, 10, 15);
-  EXPECT_EQ(
-    written<double>(meanOf(std::vector<double>(200, 0.0), 2, plan), plan), std::vector<double>(20, 0.0));
-  EXPECT_EQ(
-    written<float>(meanOf(std::vector<float>(100, -0.0F), 1, plan), plan), std::vector<float>(10, 0.0F));
+  EXPECT_EQ(reducedValues(std::vector<double>(200, 0.0), 2, plan), std::vector<double>(20, 0.0));
+  EXPECT_EQ(reducedValues(std::vector<float>(100, -0.0F), 1, plan), std::vector<float>(10, 0.0F));
 }
 
 namespace
 {
 
-/// With room for so many points that numbers are cut into parts.
-constexpr std::int64_t kManyPoints = std::int64_t(1) << 33;
-
-/// Means and, of three components, unit vectors: on all instruction sets and from parts what they are here.
+/// Means and, of three components, vectors: on all instruction sets and from parts what they are here.
 template <typename T>
 void expectSameOnAllPaths(const std::vector<T>& values, int components, const Plan& plan)
 {
-  const std::array<Vec3, 3> columns = { { { 0.1, 2, 0.3 }, { -1, 0.5, 0.2 }, { 0.4, -0.6, 3 } } };
-  const auto results = [&](InstructionSet set, std::int64_t mostPoints)
+  const AffineTransform transform =
+    AffineTransform::rotation(40, { 1, 2, 3 }) * AffineTransform::scaling({ 2, 3, 5 });
+  const auto results = [&](InstructionSet set, std::int64_t chunkPoints)
   {
-    std::vector<T> all = written<T>(meanOf(values, components, plan, mostPoints, set), plan);
-    if (std::is_floating_point_v<T> && components == 3)
+    std::vector<T> all =
+      reducedValues(values, components, plan, AttributeStatistic::Mean, { set, {}, chunkPoints });
+    if (components == 3)
     {
       const std::vector<T> vectors =
-        written<T>(meanOf(values, components, plan, mostPoints, set, &columns), plan);
+        reducedValues(values, components, plan, AttributeStatistic::Normal, { set, transform, chunkPoints });
       all.insert(all.end(), vectors.begin(), vectors.end());
     }
     return all;
@@ -334,7 +277,7 @@ void expectSameOnAllPaths(const std::vector<T>& values, int components, const Pl
   {
     EXPECT_TRUE(sameBits(results(set, 0), expected)) << components << " components";
   }
-  EXPECT_TRUE(sameBits(results(InstructionSet::Automatic, kManyPoints), expected))
+  EXPECT_TRUE(sameBits(results(InstructionSet::Automatic, 50), expected))
     << components << " components, in parts";
 }
 
@@ -390,9 +333,9 @@ TEST(AttributeMean, MakesUnitVectorsOfTurnedMeans)
   const std::vector<float> values{ 1, 2, 2, 3, 2, 2, 0, 0, 1, 0, 0, -1 };
   Plan plan = planFor(4, 2, 41);
   plan.voxels = { 0, 0, 1, 1 };
-  const std::array<Vec3, 3> columns = { { { 0, 1, 0 }, { -1, 0, 0 }, { 0, 0, 1 } } };
+  const AffineTransform quarterTurn = { { { 0, -1, 0, 0 }, { 1, 0, 0, 0 }, { 0, 0, 1, 0 } } };
   const std::vector<float> vectors =
-    written<float>(meanOf(values, 3, plan, 0, InstructionSet::Automatic, &columns), plan);
+    reducedValues(values, 3, plan, AttributeStatistic::Normal, { InstructionSet::Automatic, quarterTurn });
   const float third = float(2.0 / std::sqrt(12.0));
   EXPECT_EQ(vectors, (std::vector<float>{ -third, third, third, 0, 0, 0 }));
 }
@@ -406,7 +349,7 @@ TEST(AttributeMean, LeavesOutNaNAndTakesInfinitiesAsIeeeAdditionDoes)
       finite };
     Plan plan = planFor(12, 6, 16);
     plan.voxels = { 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5 };
-    const std::vector<double> means = written<double>(meanOf(values, 1, plan), plan);
+    const std::vector<double> means = reducedValues(values, 1, plan);
     EXPECT_EQ(means[0], finite);
     EXPECT_EQ(means[1], inf);
     EXPECT_EQ(means[2], -inf);
@@ -417,27 +360,10 @@ TEST(AttributeMean, LeavesOutNaNAndTakesInfinitiesAsIeeeAdditionDoes)
     plan.voxels.resize(10);
     plan.order.resize(10);
     plan.size = 5;
-    const std::vector<float> narrow = written<float>(meanOf(floats, 1, plan), plan);
+    const std::vector<float> narrow = reducedValues(floats, 1, plan);
     EXPECT_TRUE(std::isnan(narrow[3]) && narrow[4] == float(inf));
     EXPECT_TRUE(!std::isfinite(float(finite)) || narrow[0] == float(finite));
     EXPECT_TRUE(narrow[1] == float(inf) && narrow[2] == -float(inf));
-  }
-}
-
-TEST(AttributeMean, StartsFromNothingHoweverOftenItIsPrepared)
-{
-  const std::vector<float> values = magnitudes<float>(900, -3, 3, 23);
-  for (const std::int64_t voxels : { 5, 90, 300 })
-  {
-    const Plan plan = planFor(300, voxels, 24);
-    const std::vector<float> expected = written<float>(meanOf(values, 3, plan), plan);
-    Made made = meanOf(values, 3, planFor(300, 90, 25));
-    for (int turn = 0; turn < 2; ++turn)
-    {
-      made.mean.prepare(countsOf(plan));
-      made.mean.add(tuplesOf(values, 3), plan.order.data(), plan.voxels.data(), 300);
-      EXPECT_TRUE(sameBits(written<float>(made, plan), expected)) << "turn " << turn;
-    }
   }
 }
 
@@ -453,8 +379,7 @@ TEST(AttributeMean, ReadsFieldsOfPackedRecords)
   }
   const Plan plan = planFor(300, 40, 27);
   const AttributeView view = { records.data() + 1, ScalarType::Double, 3, 300, std::int64_t(kRecord) };
-  AttributeMean mean(kindOf<double>(3), rangeOf(view, {}));
-  mean.prepare(countsOf(plan));
-  mean.add({ records.data() + 1, view.stride }, plan.order.data(), plan.voxels.data(), 300);
-  EXPECT_TRUE(sameBits(written<double>({ mean, 3 }, plan), written<double>(meanOf(values, 3, plan), plan)));
+  const std::vector<char> means = reducedTuples({ view }, plan);
+  const std::vector<double> expected = reducedValues(values, 3, plan);
+  EXPECT_EQ(std::memcmp(means.data(), expected.data(), means.size()), 0);
 }

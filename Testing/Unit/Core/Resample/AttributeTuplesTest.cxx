@@ -1,7 +1,5 @@
-#include "Core/Resample/Reductions/AttributeTuples.h"
-
+// Modes and medians of arrays in voxels, of every count and type.
 #include "AttributePlans.h"
-#include "CountingObserver.h"
 #include "RandomClouds.h"
 #include "Unit/HeldInstructionSets.h"
 
@@ -13,51 +11,13 @@
 #include <map>
 
 using namespace pointhaptics;
-using trial::countsOf;
 using trial::Plan;
 using trial::planFor;
+using trial::reducedValues;
 using trial::sameBits;
-using trial::typeOf;
 
 namespace
 {
-
-/// Adds the tuples in the order of the plan, from an array that has others between them.
-template <typename T>
-AttributeTuples modeOf(const std::vector<T>& values, int components, const Plan& plan, int piece = 100,
-  AttributeStatistic statistic = AttributeStatistic::Mode, InstructionSet set = InstructionSet::Automatic)
-{
-  constexpr std::size_t kApart = 3;
-  const auto width = std::size_t(components);
-  std::vector<T> apart(values.size() * kApart);
-  for (std::size_t i = 0; i < values.size(); ++i)
-  {
-    apart[i / width * width * kApart + i % width] = values[i];
-  }
-  AttributeTuples mode({ typeOf<T>(), components, statistic }, set);
-  mode.prepare(countsOf(plan));
-  const AttributeReducer::Tuples from = { reinterpret_cast<const char*>(apart.data()),
-    std::int64_t(kApart * width * sizeof(T)) };
-  for (std::size_t first = 0; first < plan.order.size(); first += std::size_t(piece))
-  {
-    const std::size_t count = std::min(std::size_t(piece), plan.order.size() - first);
-    std::vector<std::int64_t> voxels;
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      voxels.push_back(plan.voxels[std::size_t(plan.order[first + i])]);
-    }
-    mode.add(from, plan.order.data() + first, voxels.data(), int(count));
-  }
-  return mode;
-}
-
-template <typename T>
-std::vector<T> written(const AttributeTuples& mode, int components, const Plan& plan)
-{
-  std::vector<T> modes(std::size_t(plan.size) * std::size_t(components));
-  mode.write(nullptr, modes.data());
-  return modes;
-}
 
 /// By the definition. @pre values are neither NaN nor -0.
 template <typename T>
@@ -118,7 +78,7 @@ void expectRightOfEveryCount(int components)
   for (const InstructionSet set : heldInstructionSets())
   {
     const auto found = [&](AttributeStatistic statistic)
-    { return written<T>(modeOf(tuples, components, plan, 100, statistic, set), components, plan); };
+    { return reducedValues(tuples, components, plan, statistic, { set }); };
     EXPECT_TRUE(sameBits(found(AttributeStatistic::Mode), modes)) << sizeof(T);
     EXPECT_TRUE(sameBits(found(AttributeStatistic::Median), medians)) << sizeof(T);
   }
@@ -152,7 +112,7 @@ TEST(AttributeTuples, TakesNaNsAsOneValueAndZerosAsOne)
   plan.voxels = { 0, 0, 0, 1, 1, 1, 2, 2, 2, 3 };
   for (int turn = 0; turn < 2; ++turn)
   {
-    const std::vector<double> modes = written<double>(modeOf(values, 1, plan), 1, plan);
+    const std::vector<double> modes = reducedValues(values, 1, plan, AttributeStatistic::Mode);
     EXPECT_TRUE(std::isnan(modes[0])) << "two of three";
     EXPECT_FALSE(std::signbit(modes[0]));
     EXPECT_TRUE(modes[1] == 0.0 && !std::signbit(modes[1]));
@@ -160,25 +120,4 @@ TEST(AttributeTuples, TakesNaNsAsOneValueAndZerosAsOne)
     EXPECT_TRUE(modes[3] == 0.0 && !std::signbit(modes[3])) << "alone";
     std::reverse(plan.order.begin(), plan.order.end());
   }
-}
-
-TEST(AttributeTuples, StartsFromNothingEachTime)
-{
-  trial::Random random(13);
-  std::vector<int> values(900);
-  for (int& value : values)
-  {
-    value = int(random.below(3));
-  }
-  AttributeTuples mode({ ScalarType::Int32, 1, AttributeStatistic::Mode });
-  for (const Plan& plan : { planFor(900, 500, 14), planFor(900, 30, 15) })
-  {
-    mode.prepare(countsOf(plan));
-    mode.add({ reinterpret_cast<const char*>(values.data()), sizeof(int) }, plan.order.data(),
-      plan.voxels.data(), 900);
-    EXPECT_TRUE(sameBits(written<int>(mode, 1, plan), expectedModes(values, 1, plan)));
-  }
-  AttributeTuples none({ ScalarType::Int32, 1, AttributeStatistic::Mode });
-  none.prepare({});
-  none.write(nullptr, nullptr);
 }

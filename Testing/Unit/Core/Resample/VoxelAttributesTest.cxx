@@ -1,8 +1,8 @@
 // VoxelResampler's attributes: whichever pass reduces them, they are what the points of each voxel give.
 #include "Core/Neighbors/PointIndex.h"
-#include "Core/Resample/Reductions/AttributeReducer.h"
 #include "Core/Resample/VoxelResampler.h"
 
+#include "AttributePlans.h"
 #include "RandomClouds.h"
 #include "ResamplerRuns.h"
 
@@ -94,23 +94,14 @@ std::vector<Tuples> expectedOf(const VoxelRequest& request)
   plain.voxelIndex = true;
   VoxelResampler resampler;
   EXPECT_EQ(resampler.run(plain), Status::Ok);
+  // The tuples of points in voxels, as many apart as they are.
+  Plan plan;
+  plan.size = resampler.size();
+  plan.voxels = resampler.voxelIndex();
   std::vector<Tuples> all;
   for (const AttributeRequest& attribute : request.attributes)
   {
-    AttributeRequest known = attribute;
-    known.range = rangeOf(attribute.view, {});
-    const auto reducer = AttributeReducer::create(known, request.transform, InstructionSet::Baseline);
-    reducer->prepare({ resampler.counts(), resampler.counts() + resampler.size() });
-    for (std::int64_t i = 0; i < request.points.size(); ++i)
-    {
-      const std::int64_t voxel = resampler.voxelIndex()[std::size_t(i)];
-      if (voxel >= 0)
-      {
-        reducer->add({ attribute.view.tuple(0), attribute.view.step() }, &i, &voxel, 1);
-      }
-    }
-    all.emplace_back(std::size_t(resampler.size() * attribute.view.tupleBytes()));
-    reducer->write(resampler.counts(), all.back().data());
+    all.push_back(reducedTuples(attribute, plan, { InstructionSet::Baseline, request.transform }));
   }
   return all;
 }

@@ -58,7 +58,7 @@ PointRecord recordOf(std::size_t cell, const Places& p, int fractionBits)
 struct Sums
 {
   std::vector<PackedSums> packed;
-  std::vector<SplitSecondMoments> secondMoments;
+  std::vector<SecondMoments> secondMoments;
 };
 
 Sums sumsOf(const Kernels& kernels, const Cells& cells, int fractionBits)
@@ -87,10 +87,10 @@ Sums sumsOf(const Kernels& kernels, const Cells& cells, int fractionBits)
   kernels.setOccupied(cellsOf.data(), int(size), &occupancy);
   EXPECT_EQ(kernels.rankWords(ranks, nullptr), kCells);
   Sums sums = { std::vector<PackedSums>(kCells + kWidest, PackedSums{}),
-    std::vector<SplitSecondMoments>(kCells + kWidest, SplitSecondMoments{}) };
+    std::vector<SecondMoments>(kCells + kWidest, SecondMoments{}) };
   std::vector<std::uint32_t> order(kCells);
   kernels.accumulate(map, ranks, records.data(), cellsOf.data(), int(size), records.data(),
-    { order.data(), sums.packed.data(), sums.secondMoments.data(), true });
+    { order.data(), sums.packed.data(), sums.secondMoments.data() });
   return sums;
 }
 
@@ -133,7 +133,7 @@ void expectSameAsWide(const Cells& cells, int fractionBits, bool allFit)
     for (std::size_t c = 0; c < kCells; ++c)
     {
       const WideVoxel wide = wideSumsOf(cells[c]);
-      const SecondMoments secondMoments = whole(sums.secondMoments[c], fractionBits);
+      const SecondMoments& secondMoments = sums.secondMoments[c];
       for (int m = 0; m < 6; ++m)
       {
         ASSERT_TRUE(secondMoments.lanes[m] == wide.secondMoments.lanes[m]) << "cell " << c << " sum " << m;

@@ -1,19 +1,17 @@
 /// @file
-/// Prefetches for loops that wait for memory.
+/// Prefetches for loops that wait for memory, and loops that are unrolled, in several orders. Internal
+/// linkage: sources of several instruction sets include them.
 #pragma once
 
 #include <cstddef>
 
-namespace pointhaptics
-{
-namespace simd
+namespace pointhaptics::simd
 {
 
 /// Fetches the line of memory at an address that is to be read soon, into the second-level cache. Fetched
 /// into the first, lines on their way take its few places for these (about two dozen), and the loop waits for
 /// one: on Zen 4 blocks of 4 KB in random order came at 9 GB/s that way, at 15 this way. Always inline: the
-/// compiler leaves out calls of functions that only fetch. Static: sources of several instruction sets
-/// include it.
+/// compiler leaves out calls of functions that only fetch.
 __attribute__((always_inline)) static inline void fetch(const void* address)
 {
   __builtin_prefetch(address, 0, 2);
@@ -38,5 +36,36 @@ __attribute__((always_inline)) static inline void fetchToWrite(const void* addre
   }
 }
 
-} // namespace simd
-} // namespace pointhaptics
+/// Calls visit(i) for all i below @p count, taking turns in four parts of the range. Neighbours in a scan are
+/// in one voxel and one partition, so that an update would wait for the one before: updates elsewhere hide
+/// this latency.
+template <typename Index, typename Visit>
+__attribute__((always_inline)) static inline void fromFourParts(Index count, Visit&& visit)
+{
+  const Index part = count / 4;
+  for (Index i = 0; i < part; ++i)
+  {
+    visit(i);
+    visit(i + part);
+    visit(i + 2 * part);
+    visit(i + 3 * part);
+  }
+  for (Index i = 4 * part; i < count; ++i)
+  {
+    visit(i);
+  }
+}
+
+/// Calls visit(i + index * Part) for all indices from @p Index on, below @p Count. The stride is known to the
+/// compiler: the indices take no registers.
+template <int Part, int Index, int Count, typename Visit>
+__attribute__((always_inline)) static inline void visitStrided(int i, const Visit& visit)
+{
+  visit(i + Index * Part);
+  if constexpr (Index + 1 < Count)
+  {
+    visitStrided<Part, Index + 1, Count>(i, visit);
+  }
+}
+
+} // namespace pointhaptics::simd

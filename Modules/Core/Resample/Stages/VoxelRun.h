@@ -1,0 +1,158 @@
+/// @file
+/// Exact sums of the points of voxels, and how they are merged where they come in several times.
+#pragma once
+
+#include "Core/Base/Buffer.h"
+#include "Core/Resample/Kernel/VoxelKernel.h"
+#include "Core/Resample/Stages/VoxelTally.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace pointhaptics::simd
+{
+
+/// Rounded once, as the compiler's own conversion of 128 bits is; nearly all values take the quick way.
+inline double toDouble(Int128 value)
+{
+  constexpr std::int64_t kExact = std::int64_t(1) << 53;
+  const auto high = std::int64_t(value >> 32);
+  if (Int128(high) == value >> 32 && high > -kExact && high < kExact)
+  {
+    return double(high) * 0x1p32 + double(std::uint32_t(value));
+  }
+  return double(value);
+}
+
+/// Sums over the points of a voxel of their offsets in it, in quanta: below 2^85.
+struct WideSums
+{
+  std::uint64_t key;
+  std::int64_t count;
+  std::uint64_t low[3];
+  std::uint64_t high; ///< Bits above the low 64: kHighBits for each axis.
+
+  static constexpr int kHighBits = 21;
+
+  static WideSums of(std::uint64_t key, const PackedSums& packed)
+  {
+    return { key, packedCount(packed), { packed.lanes[0], packed.lanes[1], std::uint64_t(packedZ(packed)) },
+      0 };
+  }
+  Int128 sum(int axis) const
+  {
+    constexpr std::uint64_t kMask = (std::uint64_t(1) << kHighBits) - 1;
+    return (Int128((high >> (kHighBits * axis)) & kMask) << 64) + Int128(low[axis]);
+  }
+  /// Adds the low and the high bits of a sum.
+  void add(int axis, std::uint64_t lowBits, std::uint64_t highBits)
+  {
+    low[axis] += lowBits;
+    high += (highBits + std::uint64_t(low[axis] < lowBits)) << (kHighBits * axis);
+  }
+  void add(const WideSums& other)
+  {
+    count += other.count;
+    high += other.high;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      this->add(axis, other.low[axis], 0);
+    }
+  }
+  /// Takes another's sums away. @return false where that leaves less than nothing.
+  bool subtract(const WideSums& other)
+  {
+    count -= other.count;
+    bool isRight = count >= 0;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const Int128 left = sum(axis) - other.sum(axis);
+      isRight = isRight && left >= 0 && (count > 0 || left == 0);
+      const Int128 less = -other.sum(axis);
+      this->add(axis, std::uint64_t(less), std::uint64_t(less >> 64));
+    }
+    return isRight;
+  }
+  /// Rounded.
+  std::array<double, 3> sums() const { return { double(sum(0)), double(sum(1)), double(sum(2)) }; }
+};
+
+inline void add(SecondMoments& to, const SecondMoments& moments, int sign = 1)
+{
+  for (int m = 0; m < 6; ++m)
+  {
+    to.lanes[m] += sign > 0 ? moments.lanes[m] : -moments.lanes[m];
+  }
+}
+
+/// Voxels in ascending order of their keys. Second moments are empty unless asked for, and tallies, one for
+/// each array, unless arrays are accumulated.
+struct VoxelRun
+{
+  PageVector<WideSums> voxels;
+  PageVector<SecondMoments> secondMoments;
+  std::vector<VoxelTally> tallies;
+
+  std::size_t size() const { return voxels.size(); }
+  bool hasMoments() const { return !secondMoments.empty(); }
+  /// The first voxel with a key of at least @p key.
+  std::size_t find(std::uint64_t key) const
+  {
+    return std::size_t(std::lower_bound(voxels.begin(), voxels.end(), key,
+                         [](const WideSums& voxel, std::uint64_t k) { return voxel.key < k; }) -
+      voxels.begin());
+  }
+  /// Makes it voxels without points, keys and what arrays have.
+  void start(std::size_t size, bool withMoments)
+  {
+    voxels.assign(size, WideSums{});
+    secondMoments.assign(withMoments ? size : 0, SecondMoments{});
+    tallies.clear();
+  }
+  /// Adds the offsets of a point to a voxel.
+  void addPoint(std::size_t voxel, const std::array<std::uint64_t, 3>& offset)
+  {
+    WideSums& sums = voxels[voxel];
+    ++sums.count;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      sums.add(axis, offset[std::size_t(axis)], 0);
+    }
+    if (hasMoments())
+    {
+      addProducts(secondMoments[voxel], offset[0], offset[1], offset[2]);
+    }
+  }
+  /// The sums of groups of the voxels of some runs. @p isRight becomes false where that leaves less than
+  /// nothing.
+  static VoxelRun gathered(
+    const std::vector<const VoxelRun*>& runs, const VoxelGroups& groups, bool& isRight);
+  /// Of several runs whose keys ascend from one to the next, or of some voxels of one.
+  static VoxelRun concatenated(const std::vector<const VoxelRun*>& runs);
+  VoxelRun part(std::size_t first, std::size_t last) const;
+  std::size_t bytes() const;
+};
+
+/// The sums of two runs, or, with a @p sign of -1, those of the first less those of the second; without
+/// voxels that have no points. @p isRight: becomes false where the second has more.
+VoxelRun merged(const VoxelRun& a, const VoxelRun& b, int sign, bool& isRight);
+
+/// The sums of the voxels of all points so far. Runs are merged when they are of like size, so that n of them
+/// take n log n time and hold little more than each voxel once.
+class VoxelRuns
+{
+public:
+  void add(VoxelRun run);
+  /// Makes one run of all.
+  VoxelRun& whole();
+
+private:
+  void mergeLast();
+
+  std::vector<VoxelRun> runs_; ///< Each far smaller than the one before.
+};
+
+} // namespace pointhaptics::simd
