@@ -58,7 +58,7 @@ int runResample(MpiResampleOptions& options, Job& job, Files& files)
   const bool wantsIndex = !options.voxelIndex.empty();
   if (wantsIndex && job.isRoot())
   {
-    openVoxelIndex(files.output(options.voxelIndex), index, problem);
+    index.open(files.output(options.voxelIndex), kVoxelIndexHeader, problem);
   }
   if (!job.agree(kResampleCommand, problem) ||
     !openPiece(job, kResampleCommand, options.files, options.traffic, piece))

@@ -182,10 +182,20 @@ void applyConfigFile(CLI::App& command, const std::string& fileName, const std::
   {
     throw Failure(fmt::format("{}: cannot be opened; check the name given to --config", fileName));
   }
-  const nlohmann::json keys = nlohmann::json::parse(file, nullptr, false, true);
+  nlohmann::json keys;
+  std::string place;
+  try
+  {
+    keys = nlohmann::json::parse(file, nullptr, true, true);
+  }
+  catch (const nlohmann::json::parse_error& fault)
+  {
+    place = fmt::format(" at byte {}", fault.byte);
+  }
   if (!keys.is_object())
   {
-    throwUsage(fileName, "", "not a JSON object; write {\"stiffness\": 600, \"up\": \"z\"} for example");
+    throwUsage(fileName, "",
+      fmt::format("not a JSON object{}; write {{\"stiffness\": 600, \"up\": \"z\"}} for example", place));
   }
   if (const std::string problem = applyKeys(command, keys, ignored); !problem.empty())
   {

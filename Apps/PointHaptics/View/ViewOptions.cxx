@@ -126,6 +126,18 @@ void addTouchFileOptions(CLI::App& command, HapticViewerOptions& viewer)
     ->type_name("OUT.csv");
 }
 
+/// Keys are looked up for a help that is shown: it takes longer than to add the options.
+void describeOptionsWhenShown(CLI::App& command, const std::vector<std::string>& bindings)
+{
+  command.formatter_fn(
+    [&command, &bindings, usual = command.get_formatter()](
+      const CLI::App* shown, const std::string& name, CLI::AppFormatMode mode)
+    {
+      describeKeyedOptions(command, bindings);
+      return usual->make_help(shown, name, mode);
+    });
+}
+
 } // namespace
 
 void ViewOptions::addTo(CLI::App& command)
@@ -182,13 +194,7 @@ void ViewOptions::addTo(CLI::App& command)
     ->group("Touch");
   this->bandwidth.addTo(command);
   this->lattice.addTo(command);
-  command.formatter_fn(
-    [this, &command, usual = command.get_formatter()](
-      const CLI::App* shown, const std::string& name, CLI::AppFormatMode mode)
-    {
-      describeKeyedOptions(command, this->viewer.bindings);
-      return usual->make_help(shown, name, mode);
-    });
+  describeOptionsWhenShown(command, this->viewer.bindings);
   command.get_option("--dims")->description(
     "Voxels on each axis of the lattice, everywhere; default 300, up to 1200 where these leave little of a "
     "cloud, and near the hand, where that tells more, voxels about as fine as the points");
