@@ -29,7 +29,7 @@ struct MpiBandwidthOptions : BandwidthCommandOptions
   Traffic traffic;
 };
 
-int runBandwidth(MpiBandwidthOptions& options, Job& job)
+int runBandwidth(MpiBandwidthOptions& options, Job& job, Files& files)
 {
   Piece piece;
   if (!openPiece(job, kBandwidthCommand, options.files, options.traffic, piece))
@@ -54,7 +54,8 @@ int runBandwidth(MpiBandwidthOptions& options, Job& job)
   }
   const BandwidthFigures figures = job.ranks().reduce(bandwidthFigures(filter->GetOutput()), together);
   if (!job.agree(kBandwidthCommand, whyNone(options, figures)) ||
-    !writePieces(job, kBandwidthCommand, options.files, filter->GetOutput()))
+    !writePieces(job, kBandwidthCommand, options.files, filter->GetOutput(), files) ||
+    !commitTogether(job, kBandwidthCommand, files))
   {
     return kFailed;
   }
@@ -68,7 +69,7 @@ int runBandwidth(MpiBandwidthOptions& options, Job& job)
 
 } // namespace
 
-void addMpiBandwidth(CLI::App& program, MpiWork& work)
+void addMpiBandwidth(CLI::App& program, int ranks, MpiWork& work)
 {
   CLI::App* command =
     program.add_subcommand("bandwidth", "Add kernel bandwidth, proxy radius and density to every point");
@@ -77,11 +78,12 @@ void addMpiBandwidth(CLI::App& program, MpiWork& work)
   options->traffic.addTo(*command);
   addOutputOptions(*command);
   command->callback(
-    [command, options, &work]
+    [command, options, ranks, &work]
     {
-      if (takeFiles(*command, options->files))
+      auto files = std::make_shared<Files>();
+      if (takeFiles(*command, options->files, ranks, *files))
       {
-        work = [options](Job& job) { return runBandwidth(*options, job); };
+        work = [options, files](Job& job) { return runBandwidth(*options, job, *files); };
       }
     });
 }

@@ -12,8 +12,8 @@ namespace pointhaptics::app
 /// Work of a command line, run after it was parsed on all ranks. @return an ExitCode.
 using MpiWork = std::function<int(Job&)>;
 
-/// Each adds its command to @p program; its callback stores what to run in @p work.
-void addMpiResample(CLI::App& program, MpiWork& work);
-void addMpiBandwidth(CLI::App& program, MpiWork& work);
+/// Each adds its command to @p program; its callback stores what @p ranks processes run in @p work.
+void addMpiResample(CLI::App& program, int ranks, MpiWork& work);
+void addMpiBandwidth(CLI::App& program, int ranks, MpiWork& work);
 
 } // namespace pointhaptics::app

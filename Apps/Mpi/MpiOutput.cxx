@@ -14,7 +14,6 @@
 #include <vtkPolyData.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <vector>
 
@@ -23,36 +22,24 @@ namespace pointhaptics::app
 namespace
 {
 
-/// Writes a file for each rank with points.
-bool writePerRank(Job& job, const std::string& command, const std::string& fileName, vtkPolyData* piece)
+/// Writes a file for each rank with points, and the list of them.
+bool writePerRank(
+  Job& job, const std::string& command, const std::string& fileName, vtkPolyData* piece, Files& files)
 {
   const int rank = job.ranks().rank();
-  const std::string own = pieceFileOf(fileName, rank);
   const bool hasPoints = piece->GetNumberOfPoints() > 0;
   std::string problem;
   if (hasPoints)
   {
-    writeCloud(piece, own, command, problem);
+    writeCloud(piece, pieceFileOf(fileName, rank), files, command, problem);
   }
-  std::vector<int> withPoints;
-  for (const int r : job.ranks().gatherValues(hasPoints ? rank : -1))
+  std::vector<int> withPoints = job.ranks().gatherValues(hasPoints ? rank : -1);
+  withPoints.erase(std::remove(withPoints.begin(), withPoints.end(), -1), withPoints.end());
+  if (job.isRoot() && problem.empty())
   {
-    if (r >= 0)
-    {
-      withPoints.push_back(r);
-    }
+    writePiecesFile(files.output(fileName), fileName, piece, withPoints, problem);
   }
-  bool isWritten = job.agree(command, problem);
-  if (isWritten && job.isRoot())
-  {
-    writePiecesFile(fileName, piece, withPoints, problem);
-  }
-  isWritten = isWritten && job.agree(command, problem);
-  if (!isWritten && hasPoints)
-  {
-    std::remove(own.c_str());
-  }
-  return isWritten;
+  return job.agree(command, problem);
 }
 
 } // namespace
@@ -65,7 +52,7 @@ void addOutputOptions(CLI::App& command)
   addCommonOptions(command, true);
 }
 
-bool takeFiles(CLI::App& command, CloudToCloudOptions& options)
+bool takeFiles(CLI::App& command, CloudToCloudOptions& options, int ranks, Files& files)
 {
   if (options.inputs.size() > 1)
   {
@@ -77,8 +64,11 @@ bool takeFiles(CLI::App& command, CloudToCloudOptions& options)
   {
     throwUsage("-", "", "standard input has no parts that ranks could read; give the name of a file");
   }
-  Files files;
   files.take(command);
+  for (int rank = 0; isPiecesFile(options.output) && rank < ranks; ++rank)
+  {
+    files.addOutput(pieceFileOf(options.output, rank));
+  }
   const bool isTrial = command.get_option("--dry-run")->count() > 0;
   if (isTrial)
   {
@@ -109,25 +99,46 @@ bool openPiece(
   return true;
 }
 
-bool writePieces(Job& job, const std::string& command, const CloudToCloudOptions& files, vtkPolyData* piece)
+bool writePieces(
+  Job& job, const std::string& command, const CloudToCloudOptions& options, vtkPolyData* piece, Files& files)
 {
-  const std::string& fileName = files.output;
+  const std::string& fileName = options.output;
   if (isPiecesFile(fileName))
   {
-    return writePerRank(job, command, fileName, piece);
+    return writePerRank(job, command, fileName, piece, files);
   }
   std::string problem;
   const bool isVtp = std::filesystem::path(fileName).extension() == ".vtp";
-  if (isVtp && job.ranks().size() > 1 && io::writeVtpTogether(job.ranks(), piece, fileName, problem))
+  const std::string path = isVtp && job.isRoot() ? files.output(fileName) : std::string();
+  if (isVtp && job.ranks().size() > 1 && io::writeVtpTogether(job.ranks(), piece, path, problem))
   {
     return job.agree(command, problem);
   }
   const vtkSmartPointer<vtkPolyData> all = gatherPieces(job.ranks(), piece);
   if (all)
   {
-    writeCloud(all, fileName, command, problem, files.writing);
+    writeCloud(all, fileName, files, command, problem, options.writing);
   }
   return job.agree(command, problem);
+}
+
+bool commitTogether(Job& job, const std::string& command, Files& files)
+{
+  std::string problem;
+  // Rank 0 has the list of the pieces, and comes last.
+  for (const bool isTurnOfRoot : { false, true })
+  {
+    if (job.isRoot() == isTurnOfRoot)
+    {
+      files.commit(problem);
+    }
+    if (!job.agree(command, problem))
+    {
+      files.revert();
+      return false;
+    }
+  }
+  return true;
 }
 
 } // namespace pointhaptics::app

@@ -50,7 +50,7 @@ bool writeIndex(Job& job, CsvWriter& file, vtkVoxelMeanResampler* resampler)
   return job.agree(kResampleCommand, problem);
 }
 
-int runResample(MpiResampleOptions& options, Job& job)
+int runResample(MpiResampleOptions& options, Job& job, Files& files)
 {
   Piece piece;
   CsvWriter index;
@@ -58,7 +58,7 @@ int runResample(MpiResampleOptions& options, Job& job)
   const bool wantsIndex = !options.voxelIndex.empty();
   if (wantsIndex && job.isRoot())
   {
-    openVoxelIndex(options.voxelIndex, index, problem);
+    index.open(files.output(options.voxelIndex), kVoxelIndexHeader, problem);
   }
   if (!job.agree(kResampleCommand, problem) ||
     !openPiece(job, kResampleCommand, options.files, options.traffic, piece))
@@ -95,8 +95,8 @@ int runResample(MpiResampleOptions& options, Job& job)
     return kFailed;
   }
   options.finish(resampler->GetOutput());
-  if (!writePieces(job, kResampleCommand, options.files, resampler->GetOutput()) ||
-    (wantsIndex && !writeIndex(job, index, resampler)))
+  if (!writePieces(job, kResampleCommand, options.files, resampler->GetOutput(), files) ||
+    (wantsIndex && !writeIndex(job, index, resampler)) || !commitTogether(job, kResampleCommand, files))
   {
     return kFailed;
   }
@@ -110,7 +110,7 @@ int runResample(MpiResampleOptions& options, Job& job)
 
 } // namespace
 
-void addMpiResample(CLI::App& program, MpiWork& work)
+void addMpiResample(CLI::App& program, int ranks, MpiWork& work)
 {
   CLI::App* command =
     program.add_subcommand("resample", "Replace the points in each voxel of a lattice by their mean");
@@ -119,12 +119,14 @@ void addMpiResample(CLI::App& program, MpiWork& work)
   options->traffic.addTo(*command);
   addOutputOptions(*command);
   command->callback(
-    [command, options, &work]
+    [command, options, ranks, &work]
     {
       options->check();
-      if (takeFiles(*command, options->files))
+      auto files = std::make_shared<Files>();
+      if (takeFiles(*command, options->files, ranks, *files))
       {
-        work = [options](Job& job) { return runResample(*options, job); };
+        options->voxelIndex = expandedName(options->voxelIndex, options->files.input);
+        work = [options, files](Job& job) { return runResample(*options, job, *files); };
       }
     });
 }

@@ -105,11 +105,11 @@ std::string pieceFileOf(const std::string& fileName, int rank)
   return path.replace_filename(fmt::format("{}_{}.vtp", path.stem().string(), rank)).string();
 }
 
-bool writePiecesFile(
-  const std::string& fileName, vtkPolyData* like, const std::vector<int>& ranks, std::string& message)
+bool writePiecesFile(const std::string& path, const std::string& fileName, vtkPolyData* like,
+  const std::vector<int>& ranks, std::string& message)
 {
   OutputFile file;
-  if (file.open(fileName) != Status::Ok || file.write(listOf(fileName, like, ranks)) != Status::Ok ||
+  if (file.open(path) != Status::Ok || file.write(listOf(fileName, like, ranks)) != Status::Ok ||
     file.commit() != Status::Ok)
   {
     message = fmt::format("{}: {}; {}", fileName, file.reason(), file.cure());

@@ -17,15 +17,19 @@ namespace
 
 using namespace pointhaptics::app;
 
-std::vector<std::string> commandNames(const CLI::App& program)
+constexpr const char* kManualCommand = "manual";
+const std::vector<std::string> kHelp = { "-h", "--help" };
+
+struct NamedCommand
 {
-  std::vector<std::string> names;
-  for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; }))
-  {
-    names.push_back(command->get_name());
-  }
-  return names;
-}
+  const char* name;
+  void (*add)(CLI::App& program, int& exitCode);
+};
+
+constexpr NamedCommand kCommands[] = { { "view", addViewCommand }, { "feel", addFeelCommand },
+  { "compare", addCompareCommand }, { "resample", addResampleCommand }, { "bandwidth", addBandwidthCommand },
+  { "convert", addConvertCommand }, { "info", addInfoCommand }, { "generate", addGenerateCommand },
+  { "devices", addDevicesCommand }, { "bench", addBenchCommand }, { kManualCommand, addManualCommand } };
 
 bool isOneOf(const std::vector<std::string>& words, const std::string& word)
 {
@@ -34,9 +38,13 @@ bool isOneOf(const std::vector<std::string>& words, const std::string& word)
 
 /// `pointhaptics FILE...` and `pointhaptics --size 800x600 FILE` mean `pointhaptics view ...`.
 /// False: the first word is neither a command nor a file; the usage error is printed.
-bool insertDefaultCommand(const CLI::App& program, std::vector<std::string>& arguments)
+bool insertDefaultCommand(std::vector<std::string>& arguments)
 {
-  const std::vector<std::string> names = commandNames(program);
+  std::vector<std::string> names;
+  for (const NamedCommand& command : kCommands)
+  {
+    names.emplace_back(command.name);
+  }
   if (arguments.empty())
   {
     failUsage("pointhaptics",
@@ -44,7 +52,7 @@ bool insertDefaultCommand(const CLI::App& program, std::vector<std::string>& arg
     return false;
   }
   const std::string& first = arguments.front();
-  if (isOneOf(names, first) || isOneOf({ "-h", "--help", "--version" }, first))
+  if (isOneOf(names, first) || isOneOf(kHelp, first) || first == "--version")
   {
     return true;
   }
@@ -64,22 +72,20 @@ bool insertDefaultCommand(const CLI::App& program, std::vector<std::string>& arg
 
 int run(std::vector<std::string> arguments)
 {
-  CLI::App program("See and feel raw point clouds.\nWithout a command: view.", "pointhaptics");
-  int exitCode = kSuccess;
-  addViewCommand(program, exitCode);
-  addFeelCommand(program, exitCode);
-  addCompareCommand(program, exitCode);
-  addResampleCommand(program, exitCode);
-  addBandwidthCommand(program, exitCode);
-  addConvertCommand(program, exitCode);
-  addInfoCommand(program, exitCode);
-  addGenerateCommand(program, exitCode);
-  addDevicesCommand(program, exitCode);
-  addBenchCommand(program, exitCode);
-  addManualCommand(program, exitCode);
-  if (!insertDefaultCommand(program, arguments))
+  if (!insertDefaultCommand(arguments))
   {
     return kUsage;
+  }
+  CLI::App program("See and feel raw point clouds.\nWithout a command: view.", "pointhaptics");
+  int exitCode = kSuccess;
+  // The options of all commands take a tenth of the time of a start.
+  const bool areAllShown = arguments.front() == kManualCommand || isOneOf(kHelp, arguments.front());
+  for (const NamedCommand& command : kCommands)
+  {
+    if (areAllShown || arguments.front() == command.name)
+    {
+      command.add(program, exitCode);
+    }
   }
   return runCommands(program, std::move(arguments), exitCode);
 }

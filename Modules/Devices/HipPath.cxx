@@ -1,7 +1,5 @@
 #include "Devices/HipPath.h"
 
-#include "Core/Base/OutputFile.h"
-
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
@@ -14,7 +12,6 @@ namespace pointhaptics
 {
 namespace
 {
-constexpr const char* kHeader = "t,x,y,z";
 /// Numbers of a point: time and position.
 constexpr std::size_t kNumbers = 4;
 /// Names of the columns in a path, and in a table of felt forces.
@@ -221,17 +218,6 @@ bool readRows(
   return true;
 }
 
-std::string textOf(const HipPath& path)
-{
-  std::string text = std::string(kHeader) + '\n';
-  for (const HipPathPoint& point : path.points)
-  {
-    text += shortestDigits(point.timeSeconds) + ',' + shortestDigits(point.position.x) + ',' +
-      shortestDigits(point.position.y) + ',' + shortestDigits(point.position.z) + '\n';
-  }
-  return text;
-}
-
 std::string systemReason(int error)
 {
   return error ? std::generic_category().message(error) : "unknown reason";
@@ -319,25 +305,6 @@ Status readHipPath(const std::string& fileName, HipPath& path, std::string& mess
   }
   message = fileName + ":" + std::to_string(lineNumber) + ": " + problem;
   return Status::FileMalformed;
-}
-
-Status writeHipPath(const std::string& fileName, const HipPath& path, std::string& message)
-{
-  message.clear();
-  if (path.check() != Status::Ok)
-  {
-    message = fileName +
-      ": the path holds a number that is not finite, or times that do not ascend: nothing is written";
-    return Status::InvalidParameter;
-  }
-  OutputFile file;
-  if (file.open(fileName) == Status::Ok && file.write(textOf(path)) == Status::Ok &&
-    file.commit() == Status::Ok)
-  {
-    return Status::Ok;
-  }
-  message = fileName + ": cannot be written (" + file.reason() + "): " + file.cure();
-  return Status::FileNotWritable;
 }
 
 } // namespace pointhaptics

@@ -43,10 +43,5 @@ struct HipPath
 /// recording has. Other columns are ignored. On an error @p message says file, line, value and cure, and @p
 /// path is empty: FileNotReadable, FileMalformed (no row among others).
 Status readHipPath(const std::string& fileName, HipPath& path, std::string& message);
-/// Writes such a table, with the shortest digits that read back to the same doubles. The file appears only
-/// when it is complete (it is written beside its place and renamed); a target that is no regular file, such
-/// as /dev/stdout, is written directly. InvalidParameter (see HipPath::check()), FileNotWritable; @p message
-/// then names fault, place and cure.
-Status writeHipPath(const std::string& fileName, const HipPath& path, std::string& message);
 
 } // namespace pointhaptics

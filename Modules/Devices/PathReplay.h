@@ -26,6 +26,7 @@ public:
   void close() override { open_ = false; }
   Status read(double timeSeconds, HandState& state) noexcept override;
   Status write(double timeSeconds, const Vec3& force) noexcept override;
+  const HipPath& path() const noexcept { return path_; }
 
 private:
   HipPath path_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace pointhaptics
 {
@@ -47,21 +48,37 @@ struct Unit
   double factor; ///< To metres or seconds.
 };
 
-/// The unit in which a length, taken for metres, is the nearest to a usual one.
-Unit likelyUnit(double length, double usual)
+/// The units in which a length, taken for metres, is not far from a usual one; the most usual unit first.
+std::vector<Unit> likelyUnits(double length, double usual)
 {
+  constexpr double kMostInCentimetres = 400.0;
+  constexpr double kLeastInMicrometres = 3e4;
   const double ratio = length / usual;
-  return ratio > 0.03e6 ? Unit{ "um", 1e-6 }
-    : ratio > 300.0     ? Unit{ "mm", 1e-3 }
-    : ratio > 50.0      ? Unit{ "cm", 1e-2 }
-                        : Unit{ "mm", 1e-3 };
+  std::vector<Unit> units = { ratio > kLeastInMicrometres ? Unit{ "um", 1e-6 } : Unit{ "mm", 1e-3 } };
+  if (ratio < kMostInCentimetres)
+  {
+    units.push_back({ "cm", 1e-2 });
+  }
+  return units;
 }
 
-/// @p option, or where there is none what @p numbers are to be multiplied by.
-std::string cure(const std::string& option, const char* numbers, const Unit& unit)
+/// For each of the @p units: give @p options, or where there are none multiply @p numbers, if @p what in it.
+std::string cure(const std::vector<std::string>& options, const std::string& numbers, const std::string& what,
+  const std::vector<Unit>& units)
 {
-  return option.empty() ? "multiply " + std::string(numbers) + " by " + ratioText(unit.factor)
-                        : "give " + option + " " + unit.name;
+  std::string text;
+  for (const Unit& unit : units)
+  {
+    std::string words;
+    for (const std::string& option : options)
+    {
+      words += option.empty() ? std::string() : " " + option + " " + unit.name;
+    }
+    text += (text.empty() ? "" : ", or ") +
+      (words.empty() ? "multiply " + numbers + " by " + ratioText(unit.factor) : "give" + words) + " if " +
+      what + " in " + unit.name;
+  }
+  return text;
 }
 
 std::string unlikelyLengths(double path, double cloud, const UnitNames& names)
@@ -71,25 +88,27 @@ std::string unlikelyLengths(double path, double cloud, const UnitNames& names)
     return {};
   }
   const bool isLarge = cloud > kReach;
-  const Unit unit = likelyUnit(path, isLarge || cloud == 0.0 ? kUsualReach : cloud);
+  const std::vector<Unit> units = likelyUnits(path, isLarge || cloud == 0.0 ? kUsualReach : cloud);
   const std::string spans = "the path spans " + lengthText(path, 2);
   if (isLarge && areNear(path, cloud))
   {
-    const std::string both = names.path.empty() ? "" : names.cloud + " " + unit.name + " " + names.path;
     return spans + " and the cloud " + lengthText(cloud, 2) + ", more than a hand reaches; " +
-      cure(both, "the points and the places of the path", unit) + " if both are in " + unit.name;
+      cure({ names.cloud, names.path }, "the points and the places of the path", "both are", units);
   }
-  return spans + ", more than a hand reaches; " + cure(names.path, "the places of the path", unit) +
-    " if it is in " + unit.name;
+  return spans + ", more than a hand reaches; " +
+    cure({ names.path }, "the places of the path", "it is", units);
 }
 
 /// A cloud that would be as large as a path which passed it.
 std::string unlikelyCloud(double path, double cloud, const UnitNames& names)
 {
-  const Unit unit = likelyUnit(cloud, std::max(path, kLeastTravel));
-  return cloud > kReach && path > kLeastTravel && areNear(unit.factor * cloud, path)
+  std::vector<Unit> units = likelyUnits(cloud, std::max(path, kLeastTravel));
+  units.erase(std::remove_if(units.begin(), units.end(),
+                [&](const Unit& unit) { return !areNear(unit.factor * cloud, path); }),
+    units.end());
+  return cloud > kReach && path > kLeastTravel && !units.empty()
     ? "the cloud spans " + lengthText(cloud, 2) + " and the path " + lengthText(path, 2) + "; " +
-      cure(names.cloud, "the points", unit) + " if the cloud is in " + unit.name
+      cure({ names.cloud }, "the points", "the cloud is", units)
     : std::string();
 }
 
@@ -113,7 +132,7 @@ std::string unlikelyTimes(const HipPath& path, const UnitNames& names)
   }
   const Unit unit = speed * 1e3 < kSlow ? Unit{ "us", 1e-6 } : Unit{ "ms", 1e-3 };
   return "the path takes " + ratioText(duration) + " s, at " + lengthText(speed, 2) +
-    " a second on average; " + cure(names.time, "its times", unit) + " if they are in " + unit.name;
+    " a second on average; " + cure({ names.time }, "its times", "they are", { unit });
 }
 
 } // namespace

@@ -7,9 +7,11 @@
 #include "vtkTDxInteractorStyleModel.h"
 
 #include "Devices/HapticDevice.h"
+#include "Devices/PathReplay.h"
 #include "Devices/SimulatedDevice.h"
 
 #include "vtkObjectFactory.h"
+#include "vtkPolyData.h"
 #include "vtkRenderWindowInteractor.h"
 #include "vtkStringArray.h"
 
@@ -61,6 +63,8 @@ void vtkInteractorStyleHaptic::SetServoLoop(pointhaptics::ServoLoop* servo)
 void vtkInteractorStyleHaptic::SetDevice(pointhaptics::HapticPort* device)
 {
   const auto* named = dynamic_cast<pointhaptics::HapticDevice*>(device);
+  this->Device = device;
+  this->UnitsAreJudged = false;
   this->Status.setDeviceName(named ? named->name() : device ? "without a name" : "");
   this->Hand.setDevice(dynamic_cast<pointhaptics::SimulatedDevice*>(device));
 }
@@ -130,9 +134,28 @@ void vtkInteractorStyleHaptic::SceneShown(const pointhaptics::BuiltScene& built)
   this->InvokeEvent(SceneChangedEvent);
 }
 
+std::string vtkInteractorStyleHaptic::JudgeUnits(const pointhaptics::UnitNames& names)
+{
+  this->UnitsAreJudged = true;
+  const auto* replay = dynamic_cast<pointhaptics::PathReplayDevice*>(this->Device.get());
+  vtkPolyData* cloud = this->Scenes.cloud();
+  pointhaptics::Bounds box;
+  if (cloud && cloud->GetNumberOfPoints() > 0)
+  {
+    const double* b = cloud->GetBounds();
+    box = { { b[0], b[2], b[4] }, { b[1], b[3], b[5] } };
+  }
+  return replay ? pointhaptics::unlikelyUnits(replay->path(), box, names) : std::string();
+}
+
 void vtkInteractorStyleHaptic::StartUpdates(unsigned long milliseconds)
 {
   this->StopUpdates();
+  const std::string odd = this->UnitsAreJudged ? std::string() : this->JudgeUnits();
+  if (!odd.empty())
+  {
+    vtkWarningMacro(<< odd);
+  }
   if (this->Interactor)
   {
     this->Timer = this->Interactor->CreateRepeatingTimer(std::max(1ul, milliseconds));

@@ -62,6 +62,7 @@
 #include "StatusText.h"           // For the texts
 #include "TouchDisplay.h"         // For props and chart
 
+#include "Devices/PathUnits.h"             // For names of units
 #include "PointHapticsInteractionModule.h" // For export macro
 #include "vtkCommand.h"                    // For UserEvent
 #include "vtkInteractorStyleTrackballCamera.h"
@@ -176,6 +177,12 @@ public:
   bool GetHandMode() const { return this->Hand.followsMouse(); }
   ///@}
 
+  /**
+   * What the sizes of the model and of the path of a pointhaptics::PathReplayDevice say of their units: see
+   * pointhaptics::unlikelyUnits(). Where nobody asks, StartUpdates() makes a warning of it.
+   */
+  std::string JudgeUnits(const pointhaptics::UnitNames& names = {});
+
   ///@{
   /**
    * Start and stop the repeating timer, after vtkRenderWindowInteractor::Initialize(). Milliseconds, at
@@ -244,6 +251,8 @@ private:
   pointhaptics::TouchDisplay Display;
   pointhaptics::PointPicker Picker;
   vtkSmartPointer<vtkHapticSliders> Sliders;
+  pointhaptics::WatchedPointer<pointhaptics::HapticPort> Device;
+  bool UnitsAreJudged = false;
   int Timer = -1;
 };
 

@@ -145,6 +145,10 @@ TEST_F(Feel, SaysHowFarAHandThatTouchesNothingStaysAway)
   this->write("deep.csv", "t,x,y,z\n0,0,0,0.01\n1,0,0,-0.002\n");
   const std::string touched = this->succeed({ "feel", "plane.ply", "--path", "deep.csv", "-o", "out.csv" });
   EXPECT_EQ(touched.find("nearest point"), std::string::npos) << touched;
+  this->succeed({ "generate", "sphere", "-n", "4000", "-o", "sphere.ply" });
+  this->write("inside.csv", "t,x,y,z\n0,0,0,0.024\n0.1,0,0,0.01\n");
+  const std::string inside = this->succeed({ "feel", "sphere.ply", "--path", "inside.csv", "-o", "out.csv" });
+  EXPECT_NE(inside.find("begin it outside"), std::string::npos) << inside;
 }
 
 TEST_F(Feel, RoundingErrorsAreNoForce)

@@ -166,9 +166,39 @@ TEST_F(RecordingCommands, AReplayRefusesWhatItsRecordingDecides)
   this->record();
   this->refuse(
     2, { "feel", "--replay", "rec.csv", "-o", "again.csv", "--stiffness", "3" }, { "leave out --stiffness" });
+  for (const std::vector<std::string>& option :
+    { std::vector<std::string>{ "--beta", "3" }, { "--voxel", "1" }, { "--mu-d", "1" }, { "--columns", "x" },
+      { "--path-unit", "mm" }, { "--device", "none" }, { "--record", "other.csv" } })
+  {
+    for (std::vector<std::string> words : { std::vector<std::string>{ "feel", "-o", "again.csv" },
+           std::vector<std::string>{ "view", "--trace", "again.csv" } })
+    {
+      words.insert(words.end(), { "--replay", "rec.csv" });
+      words.insert(words.end(), option.begin(), option.end());
+      this->refuse(2, words, { "leave out " + option.front() });
+    }
+  }
   EXPECT_NE(this->succeed({ "feel", "--replay", "rec.csv", "-o", "a.csv", "--dry-run" }).find("idol.ply"),
     std::string::npos);
   EXPECT_NE(this->succeed({ "compare", "rec.csv", "--dry-run" }).find("idol.ply"), std::string::npos);
+}
+
+TEST_F(RecordingCommands, ACloudIsReadForItsReplayAsItWasRecorded)
+{
+  std::string rows;
+  for (int i = 0; i < 400; ++i)
+  {
+    rows += "7 " + std::to_string(1e-4 * (i % 20)) + " 9 " + std::to_string(1e-4 * (i / 20)) + " 0\n";
+  }
+  this->write("odd.xyz", rows);
+  this->write("in.csv", "t,x,y,z\n0,0.001,0.001,0.01\n0.1,0.001,0.001,-0.001\n");
+  this->succeed({ "feel", "odd.xyz", "--columns", "-,x,-,y,z", "--path", "in.csv", "-o", "out.csv",
+    "--record", "rec.csv" });
+  this->succeed({ "feel", "--replay", "rec.csv", "-o", "again.csv" });
+  EXPECT_TRUE(felt(this->read("again.csv")) == felt(this->read("out.csv")));
+  EXPECT_NE(this->succeed({ "view", "--replay", "rec.csv", "--trace", "trace.csv" }).find("to the last bit"),
+    std::string::npos);
+  this->succeed({ "compare", "rec.csv" });
 }
 
 TEST_F(RecordingCommands, ACloudFromAStreamIsKeptForTheReplay)

@@ -192,4 +192,17 @@ TEST_F(ViewFiles, OfStandardInputSayWhatDoesNotGoWithIt)
   this->refuse(2, { "view", "-", "--write-config", "c.json" }, { "--write-config c.json: settings" });
 }
 
+TEST_F(ViewFiles, WithOptionsThatHaveNoEffectNameThem)
+{
+  const Outcome outcome = this->view({ "good.ply" },
+    { "--path-time-unit", "s", "--bind", "help=F2", "--skip-unreadable", "--falcon-firmware", "no.bin",
+      "--device", "none", "--sound" });
+  EXPECT_EQ(outcome.exitCode, 0) << outcome.errors;
+  EXPECT_TRUE(contains(outcome.errors, "--bind has no effect without a window")) << outcome.errors;
+  EXPECT_TRUE(contains(outcome.errors, "--sound has no effect without a window")) << outcome.errors;
+  EXPECT_FALSE(contains(outcome.errors, "--skip-unreadable")) << outcome.errors;
+  EXPECT_TRUE(contains(outcome.errors, "--falcon-firmware has no effect with --device none"));
+  EXPECT_FALSE(contains(outcome.errors, "--path-time-unit")) << outcome.errors;
+}
+
 } // namespace

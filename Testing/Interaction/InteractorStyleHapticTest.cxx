@@ -6,6 +6,7 @@
 #include "vtkHapticOverlay.h"
 #include "vtkHapticProps.h"
 
+#include "Devices/PathReplay.h"
 #include "Devices/SimulatedDevice.h"
 #include "Haptics/ServoLoop.h"
 
@@ -339,6 +340,26 @@ TEST_F(InteractorStyleHaptic, WorksWithoutAnyPart)
   }
   bare->Refresh();
   EXPECT_FALSE(bare->UpdateModel());
+}
+
+TEST_F(InteractorStyleHaptic, WarnsOfAPathInAnotherUnit)
+{
+  HipPath path;
+  path.points = { { 0.0, { 0.0, 0.0, 70.0 } }, { 1.0, { 10.0, 0.0, 10.0 } } };
+  PathReplayDevice inMillimetres(path);
+  applyUnits({ 1e-3, 1.0 }, path);
+  PathReplayDevice inMetres(path);
+  int warnings = 0;
+  this->count(vtkCommand::WarningEvent, warnings);
+  style_->SetDevice(&inMetres);
+  style_->StartUpdates();
+  EXPECT_EQ(warnings, 0);
+  style_->SetDevice(&inMillimetres);
+  style_->StartUpdates();
+  EXPECT_EQ(warnings, 1);
+  style_->StartUpdates();
+  EXPECT_EQ(warnings, 1);
+  EXPECT_NE(style_->JudgeUnits({ "--unit", "--path-unit", {} }).find("--path-unit mm"), std::string::npos);
 }
 
 } // namespace

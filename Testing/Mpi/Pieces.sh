@@ -64,3 +64,14 @@ run_ranks 4 resample idol.ply -o out.vtp --dims 60 --traffic >said 2>traffic
 read_most="$(sed -n 's/ bytes read by a rank at most$//p' traffic)"
 size="$(stat -c %s idol.ply)"
 ((read_most > size / 5 && read_most < size / 4 + 1200000)) || fault "a rank read $read_most of $size bytes: $(cat traffic)"
+
+# Outputs of a job appear together: where one cannot be written, none does.
+! run_ranks 2 resample idol.ply -o all.vtp --dims 20 --voxel-index /dev/full >said 2>warned || fault "a full disk is no fault"
+grep -q "No space left" warned && [[ ! -e all.vtp && -z "$(find . -name '*.part')" ]] || fault "$(cat warned): $(ls -A)"
+mkdir -p two.pvtp
+! run_ranks 2 resample idol.ply -o two.pvtp --dims 20 >said 2>warned || fault "a folder is no fault"
+[[ ! -e two_0.vtp && ! -e two_1.vtp ]] || fault "pieces without their list: $(ls)"
+# A piece is no input.
+run_ranks 2 resample idol.ply -o in.pvtp --dims 20 >said
+! run_ranks 2 resample in_0.vtp -o in.pvtp >said 2>warned || fault "the input is written over"
+grep -q "in_0.vtp: this is the input in_0.vtp" warned || fault "$(cat warned)"

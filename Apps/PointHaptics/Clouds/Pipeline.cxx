@@ -192,13 +192,6 @@ void WriteOptions::addTo(CLI::App& command)
     "large for that");
 }
 
-bool writeCloud(vtkPointSet* points, const std::string& fileName, const std::string& command,
-  std::string& message, const WriteOptions& options)
-{
-  Files none;
-  return writeCloud(points, fileName, none, command, message, options);
-}
-
 bool writeCloud(vtkPointSet* points, const std::string& fileName, Files& files, const std::string& command,
   std::string& message, const WriteOptions& options, vtkIdType* written)
 {

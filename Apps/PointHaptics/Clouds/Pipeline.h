@@ -78,10 +78,6 @@ struct WriteOptions
 /// @p written gets the number of points in the file.
 bool writeCloud(vtkPointSet* points, const std::string& fileName, Files& files, const std::string& command,
   std::string& message, const WriteOptions& options = {}, vtkIdType* written = nullptr);
-/// Writes a cloud that is not among the outputs of the run; the file appears at once.
-bool writeCloud(vtkPointSet* points, const std::string& fileName, const std::string& command,
-  std::string& message, const WriteOptions& options = {});
-
 /// Merges @p clouds, which are empty then, into one. Notes are shown as warnings of @p command.
 Cloud mergedCloud(const std::string& command, std::vector<Cloud>& clouds);
 

@@ -141,11 +141,6 @@ std::string voxelUnitNote(const ResampleOptions& options, vtkPolyData* cloud)
     : std::string();
 }
 
-bool openVoxelIndex(const std::string& fileName, CsvWriter& file, std::string& message)
-{
-  return file.open(fileName, "voxel", message);
-}
-
 std::vector<std::int64_t> voxelIndexOf(vtkVoxelMeanResampler* resampler)
 {
   auto* index = vtkIdTypeArray::SafeDownCast(resampler->GetOutput(1)->GetPointData()->GetArray("VoxelIndex"));

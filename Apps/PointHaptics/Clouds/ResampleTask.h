@@ -52,8 +52,8 @@ bool updateResampler(
 /// In what unit --voxel is where @p cloud says that its own is no metre, and --unit does not; else empty.
 std::string voxelUnitNote(const ResampleOptions& options, vtkPolyData* cloud);
 
-/// Opens the file of --voxel-index. False: @p message says why it cannot be written.
-bool openVoxelIndex(const std::string& fileName, CsvWriter& file, std::string& message);
+/// Header of the file of --voxel-index.
+constexpr const char* kVoxelIndexHeader = "voxel";
 /// Row in the output of each point's voxel, or -1. @pre ComputeVoxelIndex is on.
 std::vector<std::int64_t> voxelIndexOf(vtkVoxelMeanResampler* resampler);
 void addVoxelIndex(const std::vector<std::int64_t>& rows, CsvWriter& file);

@@ -248,9 +248,23 @@ nlohmann::ordered_json limitJson(const ForceLimit& limit)
   return std::isfinite(limit.newtons()) ? nlohmann::ordered_json(limit.newtons()) : nlohmann::ordered_json();
 }
 
-/// Prints the summary. @p nearest: how near a hand that touched nothing came, metres.
+/// What lets a hand touch that came along @p path as near as @p nearest, metres; empty: nothing is known.
+const char* cureOfNoContact(
+  const FeelOptions& options, const FeelScenes& scenes, const HipPath& path, double nearest)
+{
+  const bool isPlaced = options.fit || options.lattice.hasTransform() || !options.lattice.workspace().empty();
+  if (!isPlaced && nearest > kDefaultWorkspaceEdge)
+  {
+    return "; --fit brings the cloud into the 10 cm workspace";
+  }
+  return !path.points.empty() && contains(scenes.whole()->bounds(), path.points.front().position)
+    ? "; the path begins among the points, and a hand inside a body feels nothing: begin it outside"
+    : "";
+}
+
+/// Prints the summary. @p nearest: how near a hand that touched nothing came on @p path, metres.
 void print(const FeelOptions& options, const FeelScenes& scenes, std::int64_t invalid, const Summary& s,
-  const std::optional<double>& nearest)
+  const HipPath& path, const std::optional<double>& nearest)
 {
   if (options.json)
   {
@@ -279,12 +293,9 @@ void print(const FeelOptions& options, const FeelScenes& scenes, std::int64_t in
       options.output));
   if (nearest)
   {
-    const bool isPlaced =
-      options.fit || options.lattice.hasTransform() || !options.lattice.workspace().empty();
     printSummary(fmt::format("{} of {} ticks in contact; nearest point {} away{}", s.contactTicks, s.ticks,
       lengthText(*nearest < 1e-9 ? 0.0 : *nearest, 2), // rounding errors
-      !isPlaced && *nearest > kDefaultWorkspaceEdge ? "; --fit brings the cloud into the 10 cm workspace"
-                                                    : ""));
+      cureOfNoContact(options, scenes, path, *nearest)));
   }
 }
 
@@ -428,7 +439,7 @@ int runFeel(const FeelOptions& options, Files& files)
   {
     warn(kFeelCommand, odd);
   }
-  print(options, scenes, invalid, summary,
+  print(options, scenes, invalid, summary, path,
     summary.contactTicks == 0 ? rows.approach().distance(*scenes.whole()) : std::nullopt);
   return kSuccess;
 }

@@ -134,7 +134,9 @@ void printSpacing(const CloudSummary& s)
     "  spacing  {:.4g} (median distance to the nearest other point; 5 % {:.4g}, 25 % {:.4g}, 75 % {:.4g}, "
     "95 % {:.4g})\n",
     s.spacing[2], s.spacing[0], s.spacing[1], s.spacing[3], s.spacing[4]);
-  fmt::print("  density  spacing varies {:.3g} : 1 (95 % over 5 %)\n", s.densityVariation);
+  fmt::print(
+    "  density  spacing varies {:.3g} : 1 (medians from place to place; 95 % over 5 % of the surface)\n",
+    s.densityVariation);
   fmt::print("  voxel    {:.3g} holds a few points of a surface (--voxel)\n", s.suggestedVoxel);
 }
 

@@ -3,6 +3,7 @@
 #include "Commands/Commands.h"
 
 #include "Options/OptionParsing.h"
+#include "Terminal/KeyedHelp.h"
 
 #include "CommandRegistry.h"
 #include "HapticViewer.h"
@@ -320,6 +321,7 @@ void addManualCommand(CLI::App& program, int& exitCode)
     ->required();
   const auto run = [what, &program](Files&)
   {
+    describeKeyedOptions(*program.get_subcommand("view"), {});
     fmt::print("{}",
       *what == "man"         ? manPage(program)
         : *what == "bash"    ? bashCompletion(program)

@@ -29,7 +29,7 @@ CloudResult resample(const ResampleOptions& options, Cloud& cloud, Files& files)
   std::string message;
   CsvWriter index;
   const bool wantsIndex = !options.voxelIndex.empty();
-  require(!wantsIndex || openVoxelIndex(files.output(options.voxelIndex), index, message), message);
+  require(!wantsIndex || index.open(files.output(options.voxelIndex), kVoxelIndexHeader, message), message);
   vtkNew<vtkVoxelMeanResampler> resampler;
   resampler->SetInputData(cloud.points);
   options.configure(resampler);

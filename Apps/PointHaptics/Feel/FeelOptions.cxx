@@ -90,21 +90,6 @@ void FeelOptions::addTo(CLI::App& command)
   this->bandwidth.addTo(command);
 }
 
-/// Refuses options whose values a replay takes from its recording.
-void FeelOptions::checkReplay(const std::vector<std::string>& given) const
-{
-  std::set<std::string> others = { "replay", "output", "sound-file", "method", "json", "config" };
-  others.insert(commonOptions().begin(), commonOptions().end());
-  for (const std::string& name : given)
-  {
-    if (others.count(name) == 0)
-    {
-      throwUsage("--replay", this->replay,
-        fmt::format("the hand goes where it went, with the settings of then; leave out --{}", name));
-    }
-  }
-}
-
 void FeelOptions::warnOfIdle(const CLI::App& command, const std::vector<std::string>& given) const
 {
   if (this->path.empty())
@@ -140,7 +125,7 @@ void FeelOptions::complete(CLI::App& command)
   }
   if (!this->replay.empty())
   {
-    this->checkReplay(given);
+    refuseRecorded(command, given, this->replay, "method");
   }
   if (this->fit && (this->raw || this->lattice.hasTransform() || !this->lattice.workspace().empty()))
   {

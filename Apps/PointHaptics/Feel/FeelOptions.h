@@ -64,7 +64,6 @@ struct FeelOptions
   bool refinesNearHand() const { return !this->lattice.voxelsAreGiven && !this->raw && !this->noCovariance; }
 
 private:
-  void checkReplay(const std::vector<std::string>& given) const;
   void warnOfIdle(const CLI::App& command, const std::vector<std::string>& given) const;
 };
 

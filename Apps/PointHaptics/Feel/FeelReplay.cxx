@@ -46,7 +46,10 @@ bool openRecording(const std::string& fileName, const std::string& cloudFile, Fi
   CloudRequest request;
   request.files = cloudFile.empty() ? felt.files : std::vector<std::string>{ cloudFile };
   request.resolution = felt.resolution;
-  request.vertices = numbersOf(recording.header.settings, "vertices") == std::vector<double>{ 1.0 };
+  const RecordedReading reading = recordedReading(recording.header.settings);
+  request.columns = reading.columns;
+  request.salvage = reading.salvage;
+  request.vertices = reading.vertices;
   for (std::string& file : request.files)
   {
     file = files.input(file);
@@ -66,7 +69,7 @@ bool openRecording(const std::string& fileName, const std::string& cloudFile, Fi
     {
       return false;
     }
-    cloud = clippedCloud(loaded.cloud, clipBox(numbersOf(recording.header.settings, "clip")));
+    cloud = clippedCloud(loaded.cloud, clipBox(reading.clip));
     const bool isRight = isOf(recording, cloud, problem);
     problem.insert(0, isRight ? "" : request.files.front() + ": ");
     return isRight;

@@ -19,7 +19,7 @@ CLI::Option* addSetting(CLI::App& command, const SettingOption& row, BandwidthRu
 
 void BandwidthOptions::addTo(CLI::App& command)
 {
-  addSettings(command, this->settings, kBandwidthOptions, "Bandwidth and proxy radius");
+  addSettings(command, this->settings, kBandwidthOptions, kBandwidthGroup);
   CLI::Option* nearest = command.get_option("--neighbors");
   CLI::Option* ball = command.get_option("--radius");
   nearest->each([this](const std::string&) { this->settings.fixedRadius = false; });

@@ -151,27 +151,25 @@ std::string applyKeys(CLI::App& command, const nlohmann::json& keys, const std::
 
 } // namespace
 
-std::vector<double> numbersOf(const std::string& settings, const std::string& key)
+RecordedReading recordedReading(const std::string& settings)
 {
   const nlohmann::json keys = nlohmann::json::parse(settings, nullptr, false, true);
-  const auto found = keys.is_object() ? keys.find(key) : keys.end();
-  std::vector<double> numbers;
-  if (!keys.is_object() || found == keys.end())
+  // Lists and flags as the command line has them.
+  const auto text = [&keys](const char* key)
   {
-    return numbers;
-  }
-  if (found->is_string()) // as the command line has it
+    std::string value;
+    return keys.is_object() && keys.contains(key) && textOf(keys.at(key), value) ? value : std::string();
+  };
+  RecordedReading reading;
+  if (!parseNumbers(text("clip"), reading.clip))
   {
-    return parseNumbers(found->get<std::string>(), numbers) ? numbers : std::vector<double>();
+    reading.clip.clear();
   }
-  for (const nlohmann::json& each : *found)
-  {
-    if (each.is_number() || each.is_boolean())
-    {
-      numbers.push_back(each.is_boolean() ? double(each.get<bool>()) : each.get<double>());
-    }
-  }
-  return numbers;
+  const std::string columns = text("columns");
+  reading.columns = columns.empty() ? std::vector<std::string>() : CLI::detail::split(columns, ',');
+  reading.salvage = text("salvage") == "true";
+  reading.vertices = text("vertices") == "true";
+  return reading;
 }
 
 void applyConfigFile(CLI::App& command, const std::string& fileName, const std::vector<std::string>& ignored)
@@ -184,10 +182,20 @@ void applyConfigFile(CLI::App& command, const std::string& fileName, const std::
   {
     throw Failure(fmt::format("{}: cannot be opened; check the name given to --config", fileName));
   }
-  const nlohmann::json keys = nlohmann::json::parse(file, nullptr, false, true);
+  nlohmann::json keys;
+  std::string place;
+  try
+  {
+    keys = nlohmann::json::parse(file, nullptr, true, true);
+  }
+  catch (const nlohmann::json::parse_error& fault)
+  {
+    place = fmt::format(" at byte {}", fault.byte);
+  }
   if (!keys.is_object())
   {
-    throwUsage(fileName, "", "not a JSON object; write {\"stiffness\": 600, \"up\": \"z\"} for example");
+    throwUsage(fileName, "",
+      fmt::format("not a JSON object{}; write {{\"stiffness\": 600, \"up\": \"z\"}} for example", place));
   }
   if (const std::string problem = applyKeys(command, keys, ignored); !problem.empty())
   {

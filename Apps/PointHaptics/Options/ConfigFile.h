@@ -21,8 +21,16 @@ std::vector<std::string> configurableNames(CLI::App& command);
 /// value is wrong. @throws Failure where the file cannot be read.
 void applyConfigFile(CLI::App& command, const std::string& fileName, const std::vector<std::string>& ignored);
 
-/// The numbers of @p key in @p settings, a configuration in one line, 1 and 0 for true and false; empty: it
-/// has none.
-std::vector<double> numbersOf(const std::string& settings, const std::string& key);
+/// How the cloud of a recording was read and cut.
+struct RecordedReading
+{
+  std::vector<double> clip;
+  std::vector<std::string> columns;
+  bool salvage = false;
+  bool vertices = false;
+};
+
+/// @p settings: a configuration in one line, as recordings keep it.
+RecordedReading recordedReading(const std::string& settings);
 
 } // namespace pointhaptics::app

@@ -533,7 +533,6 @@ std::string Files::output(const std::string& name)
 
 bool Files::commit(std::string& message)
 {
-  std::vector<std::string> created;
   for (Entry& output : outputs_)
   {
     std::error_code ignored;
@@ -550,16 +549,21 @@ bool Files::commit(std::string& message)
     }
     if (!message.empty())
     {
-      break;
+      this->revert();
+      return false;
     }
     // The file, not a link to it.
-    created.insert(created.end(), output.file && isNew ? 1 : 0, fs::weakly_canonical(output.name, ignored));
+    created_.insert(created_.end(), output.file && isNew ? 1 : 0, fs::weakly_canonical(output.name, ignored));
   }
-  for (const std::string& name : message.empty() ? std::vector<std::string>() : created)
+  return true;
+}
+
+void Files::revert()
+{
+  for (const std::string& name : created_)
   {
     ::unlink(name.c_str());
   }
-  return message.empty();
 }
 
 void Files::printPlan(bool asJson) const

@@ -88,6 +88,8 @@ public:
   std::string output(const std::string& name);
   /// Gives all outputs their names. False: @p message; none has appeared.
   bool commit(std::string& message);
+  /// Removes the files that commit() has created, where another process could not give its outputs theirs.
+  void revert();
   /// Prints what would be read and written (--dry-run). @throws Failure where an input is not there.
   void printPlan(bool asJson) const;
 
@@ -125,6 +127,7 @@ private:
 
   std::list<Entry> inputs_;
   std::list<Entry> outputs_;
+  std::vector<std::string> created_;
   std::unique_ptr<TemporaryFolder> folder_;
   bool noClobber_ = false;
   bool isForced_ = false;

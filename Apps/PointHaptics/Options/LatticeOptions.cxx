@@ -100,8 +100,6 @@ std::string checkMatrix(const Numbers& m)
   return affineFrom(m).check() == Status::Ok ? "" : "the matrix is singular; give one that can be inverted";
 }
 
-constexpr const char* kLatticeGroup = "Lattice and transform";
-
 } // namespace
 
 CLI::Option* addSetting(CLI::App& command, const SettingOption& row, std::array<std::int64_t, 3>& dimensions)

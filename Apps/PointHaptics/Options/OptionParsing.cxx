@@ -11,6 +11,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <set>
 
 namespace pointhaptics::app
 {
@@ -88,6 +89,24 @@ std::vector<std::string> givenOptions(const CLI::App& command)
     }
   }
   return names;
+}
+
+void refuseRecorded(const CLI::App& command, const std::vector<std::string>& given,
+  const std::string& recording, const std::string& but)
+{
+  static const std::set<std::string> decided = { kTouchGroup, kLatticeGroup, kBandwidthGroup, "path",
+    "path-unit", "path-time-unit", "record", "marker-text", "marker-socket", "device", "seconds", "max-force",
+    "falcon-firmware", "rate", "fit", "raw", "no-covariance", "clip", "vertices", "columns", "salvage" };
+  for (const std::string& name : given)
+  {
+    const bool isDecided =
+      decided.count(name) > 0 || decided.count(command.get_option("--" + name)->get_group()) > 0;
+    if (isDecided && name != but)
+    {
+      throwUsage("--replay", recording,
+        fmt::format("the hand goes where it went, with the settings of then; leave out --{}", name));
+    }
+  }
 }
 
 void warnIdle(const CLI::App& command, const std::vector<std::string>& given,

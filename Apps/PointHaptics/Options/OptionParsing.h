@@ -47,6 +47,10 @@ bool parseNumbers(const std::string& text, std::vector<double>& values);
 
 /// The long names of the options given so far: on the command line, where no configuration was taken yet.
 std::vector<std::string> givenOptions(const CLI::App& command);
+/// Ends in a usage error for an option of @p given that the recording of --replay decides, which says where
+/// the hand goes and what it feels: all but @p but.
+void refuseRecorded(const CLI::App& command, const std::vector<std::string>& given,
+  const std::string& recording, const std::string& but = {});
 /// Warns of those of @p given that are among @p names and have no effect, @p why: "without --device falcon".
 void warnIdle(const CLI::App& command, const std::vector<std::string>& given,
   std::initializer_list<const char*> names, const std::string& why);

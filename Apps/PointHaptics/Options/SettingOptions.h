@@ -56,6 +56,13 @@ constexpr bool describesEveryMember(const SettingOption (&table)[Count])
     Settings::members());
 }
 
+///@{
+/// Groups of the help, of options that decide what is felt.
+constexpr const char* kTouchGroup = "Touch";
+constexpr const char* kLatticeGroup = "Lattice and transform";
+constexpr const char* kBandwidthGroup = "Bandwidth and proxy radius";
+///@}
+
 constexpr const char* kCostOnly = "changes the cost only; for programs and measurements";
 
 inline constexpr SettingOption kLatticeOptions[] = {

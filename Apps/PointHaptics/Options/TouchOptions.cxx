@@ -10,12 +10,6 @@
 
 namespace pointhaptics::app
 {
-namespace
-{
-
-constexpr const char* kTouchGroup = "Touch";
-
-} // namespace
 
 CLI::Option* addSetting(CLI::App& command, const SettingOption& row, ProxyMethod& method)
 {

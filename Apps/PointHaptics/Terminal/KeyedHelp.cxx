@@ -17,7 +17,7 @@ struct KeyedHelp
 {
   const char* option;
   const char* words;
-  std::vector<std::string> commands;
+  std::vector<std::string> commands = {}; ///< Empty: the command has the name of the option.
   const char* rest = "";
 };
 
@@ -33,42 +33,36 @@ const std::vector<KeyedHelp>& keyedHelps()
       "voxel mean from the surface that is felt) or one of the file, in upper or lower case, with :x, :0 or "
       ":magnitude for a component of a vector; default: rgb, classification, clay or height, what suits",
       { "colors" } },
-    { "--push-pointer", "The touch pushes the mouse pointer while the hand follows it", { "push-pointer" } },
-    { "--axes", "A box about the cloud with its bounds in metres of the file, and where its axes point",
-      { "axes" } },
-    { "--figure", "Nothing but the cloud in one colour on white, the workspace, proxy and normal",
-      { "figure" } },
-    { "--felt", "Show the voxel means that are felt instead of the points", { "felt" } },
+    { "--push-pointer", "The touch pushes the mouse pointer while the hand follows it" },
+    { "--axes", "A box about the cloud with its bounds in metres of the file, and where its axes point" },
+    { "--figure", "Nothing but the cloud in one colour on white, the workspace, proxy and normal" },
+    { "--felt", "Show the voxel means that are felt instead of the points" },
     { "--ambient",
       "Ambient light from the normals of the surface that is felt: shows the shape of a cloud without "
-      "colours",
-      { "ambient" } },
-    { "--sound", "Hear the touch: a tone as loud as the force, a click where contact begins", { "sound" } },
-    { "--full-screen", "The window covers the screen, without a border", { "full-screen" } },
-    { "--projection", "How the cloud is seen: perspective (the default), or parallel, without perspective",
-      { "projection" } },
+      "colours" },
+    { "--sound", "Hear the touch: a tone as loud as the force, a click where contact begins" },
+    { "--full-screen", "The window covers the screen, without a border" },
+    { "--projection", "How the cloud is seen: perspective (the default), or parallel, without perspective" },
     { "--stereo",
       "A picture for each eye: by colours for red and cyan, or red and blue glasses, by lines, by pixels, "
       "beside "
-      "each other, or on a screen that shows two",
-      { "stereo" } },
-    { "--background", "What is behind the cloud; default dark", { "background" } },
+      "each other, or on a screen that shows two" },
+    { "--background", "What is behind the cloud; default dark" },
     { "--theme",
       "high-contrast: black or white background, larger texts on opaque plates, thick outlines and other "
-      "colours of the marks of touch; default usual",
-      { "theme" } },
+      "colours of the marks of touch; default usual" },
     { "--point-scale", "All points are drawn this many times as large",
       { "points-larger", "points-smaller" } },
     { "--edl-strength",
       "How much darker points are that lie behind those around them (eye-dome lighting); 0: none; default "
       "1.6",
       { "depth-stronger", "depth-weaker" } },
-    { "--color-map", "The colours that stand for numbers", { "color-map" } },
+    { "--color-map", "The colours that stand for numbers" },
     { "--color-range",
       "The values that have the first and the last of these colours; default: nearly all that occur; drag on "
       "the "
       "colour bar to change them",
-      { "color-range" }, " takes all again" },
+      {}, " takes all again" },
     { "--clip",
       "Shows, lets feel and pick only what lies in this box, in coordinates of the file; default: all",
       { "clip-box" }, " shows its handles" },
@@ -77,10 +71,10 @@ const std::vector<KeyedHelp>& keyedHelps()
       "default: the window's, or --size",
       { "screenshot" }, " writes one" },
     { "--turntable",
-      "With --screenshot OUT.png: as many pictures, OUT-001.png and so on, from all around the cloud",
-      { "turntable" }, " turns in the window" },
-    { "--measure", "Shows the distance of two places of the file, in its coordinates and its unit",
-      { "measure" }, " measures between points that are clicked on" },
+      "With --screenshot OUT.png: as many pictures, OUT-001.png and so on, from all around the cloud", {},
+      " turns in the window" },
+    { "--measure", "Shows the distance of two places of the file, in its coordinates and its unit", {},
+      " measures between points that are clicked on" },
   };
   return helps;
 }
@@ -94,7 +88,8 @@ void describeKeyedOptions(CLI::App& command, const std::vector<std::string>& bin
   for (const KeyedHelp& help : keyedHelps())
   {
     std::vector<std::string> keys;
-    for (const std::string& name : help.commands)
+    const std::string own = std::string(help.option).substr(2);
+    for (const std::string& name : help.commands.empty() ? std::vector<std::string>{ own } : help.commands)
     {
       const std::string key = table.label(name);
       keys.insert(keys.end(), key.empty() ? 0 : 1, key);

@@ -260,11 +260,6 @@ void setVerbosity(Verbosity verbosity)
   speech().verbosity = verbosity;
 }
 
-Verbosity verbosity()
-{
-  return speech().verbosity;
-}
-
 void say(const std::string& command, const std::string& message)
 {
   if (speech().verbosity == Verbosity::Verbose)

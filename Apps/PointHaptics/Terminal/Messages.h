@@ -55,7 +55,6 @@ enum class Verbosity
   Verbose
 };
 void setVerbosity(Verbosity verbosity);
-Verbosity verbosity();
 /// Prints one line on stderr in a verbose run.
 void say(const std::string& command, const std::string& message);
 /// An output goes to standard output, where nothing else is printed then.

@@ -1,11 +1,11 @@
 #include "Terminal/StandardStreams.h"
 
+#include "Terminal/Messages.h"
 #include "Terminal/StopSignals.h"
 
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
-#include <stdexcept>
 #include <vector>
 
 #include <fcntl.h>
@@ -94,11 +94,12 @@ std::string reason()
 
 TemporaryFolder::TemporaryFolder()
 {
-  std::string name = (std::filesystem::temp_directory_path() / "pointhaptics-XXXXXX").string();
-  if (!::mkdtemp(name.data()))
+  std::error_code error;
+  std::string name = (std::filesystem::temp_directory_path(error) / "pointhaptics-XXXXXX").string();
+  if (error || !::mkdtemp(name.data()))
   {
-    throw std::runtime_error(
-      name + ": no temporary folder can be made: " + std::strerror(errno) + "; set TMPDIR to one with space");
+    throw Failure(std::string("no temporary folder can be made: ") +
+      (error ? error.message() : std::strerror(errno)) + "; set TMPDIR to one with space");
   }
   folder_ = name;
 }

@@ -12,7 +12,7 @@ namespace pointhaptics::app
 class TemporaryFolder
 {
 public:
-  /// Throws std::runtime_error, with the cure, where none can be made.
+  /// @throws Failure where none can be made.
   TemporaryFolder();
   ~TemporaryFolder();
   TemporaryFolder(const TemporaryFolder&) = delete;

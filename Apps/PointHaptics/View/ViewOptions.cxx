@@ -70,11 +70,10 @@ std::string checkCamera(const std::vector<double>& numbers)
 void addWindowOptions(CLI::App& command, ViewOptions& options)
 {
   const char* const group = "Window";
-  const auto keepBindings = [&options, &command](const std::vector<std::string>& bindings)
+  const auto keepBindings = [&options](const std::vector<std::string>& bindings)
   {
     std::for_each(bindings.begin(), bindings.end(), checkBinding);
     options.viewer.bindings = bindings;
-    describeKeyedOptions(command, bindings); // for a --help beside it
   };
   command
     .add_option_function<std::vector<std::string>>("--bind", keepBindings,
@@ -125,6 +124,18 @@ void addTouchFileOptions(CLI::App& command, HapticViewerOptions& viewer)
     ->type_name("REC.csv");
   addOutput(command, "--trace", viewer.trace, { "csv" }, "Write one row per tick, as feel does")
     ->type_name("OUT.csv");
+}
+
+/// Keys are looked up for a help that is shown: it takes longer than to add the options.
+void describeOptionsWhenShown(CLI::App& command, const std::vector<std::string>& bindings)
+{
+  command.formatter_fn(
+    [&command, &bindings, usual = command.get_formatter()](
+      const CLI::App* shown, const std::string& name, CLI::AppFormatMode mode)
+    {
+      describeKeyedOptions(command, bindings);
+      return usual->make_help(shown, name, mode);
+    });
 }
 
 } // namespace
@@ -183,7 +194,7 @@ void ViewOptions::addTo(CLI::App& command)
     ->group("Touch");
   this->bandwidth.addTo(command);
   this->lattice.addTo(command);
-  describeKeyedOptions(command, {});
+  describeOptionsWhenShown(command, this->viewer.bindings);
   command.get_option("--dims")->description(
     "Voxels on each axis of the lattice, everywhere; default 300, up to 1200 where these leave little of a "
     "cloud, and near the hand, where that tells more, voxels about as fine as the points");
@@ -217,10 +228,6 @@ void ViewOptions::checkFiles() const
   {
     throwUsage("FILE", "(none)", "name a point cloud to show, or a recording by --replay");
   }
-  if (!this->viewer.replay.empty() && (!this->viewer.path.empty() || !this->viewer.record.empty()))
-  {
-    throwUsage("--replay", this->viewer.replay, "the hand goes where it went; leave out --path and --record");
-  }
   if (!this->viewer.record.empty() && (!this->needsWindow() || this->device == "none"))
   {
     throwUsage("--record", this->viewer.record,
@@ -232,7 +239,7 @@ void ViewOptions::checkFiles() const
     checkForceLimitOfDevices(this->touch.parameters.contact,
       this->viewer.path.empty()
         ? ", or --device none"
-        : ", or --screenshot, --trace or --force-chart, which follow a path without a window");
+        : ", or --device none; --screenshot, --trace and --force-chart follow a path without a device, too");
   }
   if (!this->viewer.followsFile() && !this->screenshot.empty() && (!trace.empty() || !chart.empty()))
   {
@@ -280,19 +287,53 @@ void ViewOptions::takeRecording()
     this->viewer.resolution = recording.header.cloud.resolution;
     this->viewer.together = this->files.size() > 1;
   }
-  this->viewer.clip = numbersOf(recording.header.settings, "clip");
-  this->viewer.vertices =
-    this->viewer.vertices || numbersOf(recording.header.settings, "vertices") == std::vector<double>{ 1.0 };
+  RecordedReading reading = recordedReading(recording.header.settings);
+  this->viewer.clip = std::move(reading.clip);
+  this->viewer.columns = std::move(reading.columns);
+  this->viewer.salvage = reading.salvage;
+  this->viewer.vertices = reading.vertices;
+}
+
+/// Warns of options of the command line that have no effect beside the others.
+void ViewOptions::warnOfIdle(const CLI::App& command, const std::vector<std::string>& named) const
+{
+  if (this->viewer.path.empty())
+  {
+    warnIdle(command, named, { "path-unit", "path-time-unit" }, "without --path");
+  }
+  if (this->device == "simulated" || this->device == "none")
+  {
+    warnIdle(command, named, { "falcon-firmware" }, "with --device " + this->device);
+  }
+  if (this->needsWindow())
+  {
+    warnIdle(command, named, { "skip-unreadable" }, "in a window");
+  }
+  else
+  {
+    warnIdle(command, named,
+      { "bind", "full-screen", "marker-socket", "marker-text", "push-pointer", "sound", "watch" },
+      "without a window");
+  }
 }
 
 void ViewOptions::complete(CLI::App& command)
 {
+  const std::vector<std::string> named = givenOptions(command);
+  if (!this->viewer.replay.empty())
+  {
+    refuseRecorded(command, named, this->viewer.replay);
+  }
   this->readConfig(command);
   this->checkFiles();
   this->checkStandardInput();
   if (!this->viewer.replay.empty())
   {
     this->takeRecording();
+  }
+  if (this->writeConfig.empty())
+  {
+    this->warnOfIdle(command, named);
   }
   this->touch.complete(command);
   this->falcon.complete(command, this->touch.parameters.contact);

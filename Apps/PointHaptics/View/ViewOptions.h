@@ -55,6 +55,7 @@ struct ViewOptions
 
 private:
   void readConfig(CLI::App& command);
+  void warnOfIdle(const CLI::App& command, const std::vector<std::string>& named) const;
   void checkFiles() const;
   void checkStandardInput() const;
   void takeRecording();

@@ -22,7 +22,6 @@ constexpr Unit kMetric[] = { { "m", 1.0 }, { "mm", 1e-3 }, { "um", 1e-6 }, { "nm
 constexpr double kLeast = 0.0995;
 constexpr double kMost = 999.5;
 constexpr double kLargestWithCommas = 1e15;
-constexpr double kLeastNewtons = 0.0995;
 
 bool isReadable(double value)
 {
@@ -95,20 +94,6 @@ std::string lengthText(double metres, const std::string& unitName, double metres
   return std::isfinite(value) && isReadable(value)
     ? std::string(metres < 0.0 ? "-" : "") + significant(value, digits) + " " + unitName
     : lengthText(metres, digits);
-}
-
-std::string forceText(double newtons)
-{
-  if (!std::isfinite(newtons))
-  {
-    return "unknown";
-  }
-  if (std::abs(newtons) >= kLeastNewtons)
-  {
-    return fixed(newtons, std::abs(newtons) < 100.0 ? 2 : 0) + " N";
-  }
-  const double milli = std::round(1e3 * newtons);
-  return milli == 0.0 ? "0 N" : fixed(milli, 0) + " mN";
 }
 
 std::string ratioText(double ratio, int digits)

@@ -16,10 +16,6 @@ std::string lengthText(double metres, int digits = 3);
 /// else as lengthText(metres).
 std::string lengthText(double metres, const std::string& unitName, double metresPerUnit, int digits = 3);
 
-/// "1.25 N", "85 mN", "0 N": two decimals from 0.1 N on, whole millinewtons below, and zero below half of
-/// one.
-std::string forceText(double newtons);
-
 /// "12,200", "2.22": rounded to @p digits significant digits, with a comma for each thousand; from 1e15 on
 /// with an exponent. @pre above 0.
 std::string ratioText(double ratio, int digits = 3);

@@ -56,54 +56,19 @@ void checkIsReadable(const std::string& path)
   }
 }
 
-/// All that comes through a pipe.
-std::string contentOfStream(const std::string& path, const FileBytes::Progress& progress)
+/// Closes at the end.
+struct Descriptor
 {
-  constexpr int kPatience = 100; // ms between questions whether to go on
-  const int descriptor = path == kStandardInput
-    ? ::dup(STDIN_FILENO)
-    : ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK); // a pipe may have no writer yet
-  std::string content;
-  std::size_t size = 0;
-  ssize_t got = descriptor < 0 ? -1 : 1;
-  while (got > 0)
+  const int number;
+
+  explicit Descriptor(int opened)
+    : number(opened)
   {
-    struct pollfd input = { descriptor, POLLIN, 0 };
-    if (::poll(&input, 1, kPatience) <= 0)
-    {
-      try
-      {
-        progress(0.0);
-      }
-      catch (...)
-      {
-        ::close(descriptor);
-        throw;
-      }
-      continue;
-    }
-    if (content.size() < size + kReadAtOnce / 4)
-    {
-      content.resize(2 * size + kReadAtOnce);
-    }
-    got = ::read(descriptor, content.data() + size, content.size() - size);
-    const bool isInterrupted = got < 0 && (errno == EINTR || errno == EAGAIN);
-    size += got > 0 ? static_cast<std::size_t>(got) : 0;
-    got = isInterrupted ? 1 : got;
   }
-  const int problem = errno;
-  if (descriptor >= 0)
-  {
-    ::close(descriptor);
-  }
-  if (got < 0)
-  {
-    throw FileProblem(
-      vtkErrorCode::CannotOpenFileError, std::strerror(problem), "check the program that writes the pipe");
-  }
-  content.resize(size);
-  return content;
-}
+  ~Descriptor() { ::close(number); }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+};
 
 std::string lowerCase(std::string text)
 {
@@ -149,32 +114,20 @@ struct Inflater
 
 } // namespace
 
-/// A file that is read from its beginning to its end.
+/// Bytes that are read from their beginning to their end: of a file, or of a pipe's content in memory.
 class FileBytes::File
 {
 public:
-  /// @param progress is asked while a pipe is silent: it may throw to end the waiting.
-  File(const std::string& path, const Progress& progress)
-    : file_(nullptr, &std::fclose)
+  explicit File(const std::string& path)
+    : File(std::fopen(path.c_str(), "rb"))
   {
-    std::error_code ignored;
-    if (fs::is_regular_file(path, ignored))
-    {
-      file_.reset(std::fopen(path.c_str(), "rb"));
-      size_ = file_ ? static_cast<std::size_t>(fs::file_size(path)) : 0;
-    }
-    else
-    {
-      stream_ = contentOfStream(path, progress);
-      size_ = stream_.size();
-      file_.reset(::fmemopen(stream_.data(), std::max(size_, std::size_t{ 1 }), "rb"));
-    }
-    if (!file_)
-    {
-      throw FileProblem(
-        vtkErrorCode::CannotOpenFileError, std::strerror(errno), "check that you may read the file");
-    }
     std::setvbuf(file_.get(), nullptr, _IONBF, 0);
+    size_ = static_cast<std::size_t>(fs::file_size(path));
+  }
+  explicit File(std::string_view content)
+    : File(::fmemopen(const_cast<char*>(content.data()), std::max(content.size(), std::size_t{ 1 }), "rb"))
+  {
+    size_ = content.size();
   }
   std::size_t size() const { return size_; }
   std::size_t position() const { return position_; }
@@ -206,7 +159,16 @@ public:
   }
 
 private:
-  std::string stream_; ///< what a pipe gave
+  explicit File(std::FILE* opened)
+    : file_(opened, &std::fclose)
+  {
+    if (!file_)
+    {
+      throw FileProblem(
+        vtkErrorCode::CannotOpenFileError, std::strerror(errno), "check that you may read the file");
+    }
+  }
+
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
   std::size_t size_ = 0;
   std::size_t position_ = 0;
@@ -215,7 +177,13 @@ private:
 FileBytes::FileBytes(const std::string& path, const Progress& progress, const Inspect& inspect, bool salvages)
 {
   checkIsReadable(path);
-  File file(path, progress);
+  std::error_code ignored;
+  const bool isStream = !fs::is_regular_file(path, ignored);
+  if (isStream)
+  {
+    readStream(path, progress);
+  }
+  File file = isStream ? File(view()) : File(path);
   if (file.size() == 0)
   {
     throw FileProblem(vtkErrorCode::PrematureEndOfFileError, "the file is empty (0 bytes)",
@@ -225,7 +193,13 @@ FileBytes::FileBytes(const std::string& path, const Progress& progress, const In
   wasPacked_ = file.peek(start, sizeof(start)) == kGzipMagic;
   if (wasPacked_)
   {
+    const std::unique_ptr<char, Free> packed = std::move(data_);
+    size_ = 0;
     unpack(file, progress, inspect, salvages);
+  }
+  else if (isStream)
+  {
+    inspect(view(), size_);
   }
   else
   {
@@ -236,7 +210,7 @@ FileBytes::FileBytes(const std::string& path, const Progress& progress, const In
 FileBytes::FileBytes(const std::string& path)
 {
   checkIsReadable(path);
-  file_ = std::make_unique<File>(path, [](double) {});
+  file_ = std::make_unique<File>(path);
   size_ = file_->size();
   data_.reset(static_cast<char*>(std::calloc(std::max(size_, std::size_t{ 1 }), 1)));
   if (!data_)
@@ -263,6 +237,40 @@ void FileBytes::resize(std::size_t size)
   }
   static_cast<void>(data_.release());
   data_.reset(static_cast<char*>(grown));
+}
+
+/// @p progress is asked while the pipe is silent: it may throw to end the waiting.
+void FileBytes::readStream(const std::string& path, const Progress& progress)
+{
+  constexpr int kPatience = 100; // ms between questions whether to go on
+  const Descriptor pipe(path == kStandardInput
+      ? ::dup(STDIN_FILENO)
+      : ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)); // it may have no writer yet
+  std::size_t capacity = 0;
+  ssize_t got = pipe.number < 0 ? -1 : 1;
+  while (got > 0)
+  {
+    struct pollfd input = { pipe.number, POLLIN, 0 };
+    if (::poll(&input, 1, kPatience) <= 0)
+    {
+      progress(0.0);
+      continue;
+    }
+    if (capacity < size_ + kReadAtOnce / 4)
+    {
+      capacity = 2 * size_ + kReadAtOnce;
+      resize(capacity);
+    }
+    got = ::read(pipe.number, data_.get() + size_, capacity - size_);
+    size_ += got > 0 ? static_cast<std::size_t>(got) : 0;
+    got = got < 0 && (errno == EINTR || errno == EAGAIN) ? 1 : got;
+  }
+  if (got < 0)
+  {
+    throw FileProblem(
+      vtkErrorCode::CannotOpenFileError, std::strerror(errno), "check the program that writes the pipe");
+  }
+  resize(std::max(size_, std::size_t{ 1 }));
 }
 
 void FileBytes::readPlain(File& file, const Progress& progress, const Inspect& inspect)

@@ -52,6 +52,7 @@ private:
   };
   class File;
 
+  void readStream(const std::string& path, const Progress& progress);
   void readPlain(File& file, const Progress& progress, const Inspect& inspect);
   void unpack(File& file, const Progress& progress, const Inspect& inspect, bool salvages);
   void resize(std::size_t size);

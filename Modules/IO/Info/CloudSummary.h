@@ -50,7 +50,9 @@ struct CloudSummary
   /// Distance to the nearest distinct point, of a sample of the points: what 5, 25, 50, 75 and 95 percent of
   /// them do not exceed. Zero where there are no two places.
   std::array<double, 5> spacing{};
-  double densityVariation = 0.0; ///< Last of these over the first; 1 on a grid.
+  /// Spacing where the points are sparse over that where they are dense: the medians of that distance about
+  /// places which 95 and 5 percent of the surface do not exceed. 1 on a grid, about 1 of points at random.
+  double densityVariation = 0.0;
   double suggestedVoxel =
     0.0; ///< Edge of a voxel that holds a few points of a surface at the median spacing.
   std::string coordinateSystem; ///< As the file says it.

@@ -36,12 +36,6 @@ POINTHAPTICSRENDERING_EXPORT CloudOrientation guessCloudOrientation(
 /// The orientation for an up axis the user named: "x", "-x", "y", "-y", "z" or "-z" (anything else: z).
 POINTHAPTICSRENDERING_EXPORT CloudOrientation orientationForUpAxis(const std::string& axis);
 
-/// Finds the cube that a first picture should frame: @p workspace, or, where nearly all points lie in a small
-/// part of it (strays of a scan have set its size), a cube about those points. @p edge is at most the
-/// workspace's longest.
-POINTHAPTICSRENDERING_EXPORT void framingCube(
-  vtkPolyData* cloud, const Bounds& workspace, Vec3& center, double& edge);
-
 /// Places @p camera so that a cube of edge @p edge about @p center is wholly in view, seen from the front,
 /// turned by
 /// @p azimuthDegrees to the right and @p elevationDegrees up.

@@ -64,10 +64,6 @@ bool ViewWindow::openDevice(std::string& message)
       return false;
     }
     applyUnits(options_.pathUnits, path);
-    if (const std::string odd = unlikelyUnitsIn(scene_, options_, path, true); !odd.empty())
-    {
-      this->report(HapticViewerObserver::Kind::Warning, options_.path + ": " + odd);
-    }
     replay_ = std::make_unique<PathReplayDevice>(std::move(path), true);
     device_ = replay_.get();
   }
@@ -107,6 +103,10 @@ bool ViewWindow::openDevice(std::string& message)
 /// Starts the servo loop, after the first scene was published: a path must not begin in an empty world.
 bool ViewWindow::startServo(std::string& message)
 {
+  if (const std::string odd = style_->JudgeUnits(options_.names.units); !odd.empty())
+  {
+    this->report(HapticViewerObserver::Kind::Warning, options_.path + ": " + odd);
+  }
   if (player_)
   {
     const Status status = servo_.startFed(player_->stepSettings());

@@ -127,29 +127,4 @@ TEST(CloudOrientation, PlacesTheCameraInFrontOfTheWorkspace)
   }
 }
 
-TEST(CloudOrientation, FramesTheCloudAndNotItsStrays)
-{
-  Bounds workspace;
-  workspace.include({ -0.05, -0.05, -0.05 });
-  workspace.include({ 0.05, 0.05, 0.05 });
-  vtkNew<vtkPoints> points;
-  for (int i = 0; i < 1000; ++i)
-  {
-    points->InsertNextPoint(0.02 + 1e-5 * i, 0.01, 0.0);
-  }
-  points->InsertNextPoint(-0.045, 0.045, 0.0);
-  vtkNew<vtkPolyData> cloud;
-  cloud->SetPoints(points);
-  Vec3 center;
-  double edge = 0.0;
-  framingCube(cloud, workspace, center, edge);
-  EXPECT_NEAR(center.x, 0.025, 1e-3);
-  EXPECT_GT(edge, 0.010);
-  EXPECT_LT(edge, 0.015);
-
-  framingCube(makeCloud({ -0.045, -0.045, -0.045 }, { 0.045, 0.045, 0.045 }), workspace, center, edge);
-  EXPECT_EQ(center, Vec3());
-  EXPECT_NEAR(edge, 0.1, 1e-12);
-}
-
 } // namespace

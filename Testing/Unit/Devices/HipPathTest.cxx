@@ -33,10 +33,6 @@ protected:
     std::ofstream(name("path.csv"), std::ios::binary) << text;
     return name("path.csv");
   }
-  std::size_t filesInFolder() const
-  {
-    return std::size_t(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
-  }
   /// Reads @p text and expects a refusal whose message holds the file's name and every part.
   void expectRefused(const std::string& text, std::initializer_list<const char*> parts) const
   {
@@ -190,51 +186,4 @@ TEST_F(HipPathFile, SaysWhenAFileCannotBeOpened)
   EXPECT_EQ(readHipPath(name("absent.csv"), path, message), Status::FileNotReadable);
   EXPECT_NE(message.find("No such file"), std::string::npos) << message;
   EXPECT_EQ(readHipPath(folder_.string(), path, message), Status::FileNotReadable);
-}
-
-TEST_F(HipPathFile, ReadsBackTheVeryDoublesItWrote)
-{
-  HipPath path = threePoints();
-  path.points.push_back({ 4.000000000000001, { 0.1 + 0.2, -0.0, 5e-324 } });
-  path.points.push_back({ 1e300, { std::numeric_limits<double>::max(), 1.0 / 3.0, -1e-300 } });
-  std::string message;
-  ASSERT_EQ(writeHipPath(name("out.csv"), path, message), Status::Ok) << message;
-  HipPath read;
-  ASSERT_EQ(readHipPath(name("out.csv"), read, message), Status::Ok) << message;
-  ASSERT_EQ(read.points.size(), path.points.size());
-  for (std::size_t i = 0; i < path.points.size(); ++i)
-  {
-    EXPECT_EQ(read.points[i].timeSeconds, path.points[i].timeSeconds);
-    EXPECT_EQ(read.points[i].position, path.points[i].position);
-  }
-  EXPECT_EQ(filesInFolder(), 1u) << "no temporary file stays";
-}
-
-TEST_F(HipPathFile, LeavesTheOldFileWhenItCannotWriteTheNewOne)
-{
-  const std::string old = put("t,x,y,z\n0,0,0,0\n");
-  HipPath path = threePoints();
-  path.points[1].position.x = std::nan("");
-  std::string message;
-  EXPECT_EQ(writeHipPath(old, path, message), Status::InvalidParameter);
-  HipPath read;
-  EXPECT_EQ(readHipPath(old, read, message), Status::Ok);
-  EXPECT_EQ(read.points.size(), 1u);
-  EXPECT_EQ(writeHipPath(name("absent/out.csv"), threePoints(), message), Status::FileNotWritable);
-  EXPECT_NE(message.find("absent/out.csv"), std::string::npos) << message;
-  EXPECT_EQ(writeHipPath(folder_.string(), threePoints(), message), Status::FileNotWritable);
-  EXPECT_EQ(filesInFolder(), 1u);
-}
-
-TEST_F(HipPathFile, WritesThroughLinksAndDevicesInsteadOfReplacingThem)
-{
-  const std::string real = put("old");
-  fs::create_symlink(real, name("link.csv"));
-  std::string message;
-  ASSERT_EQ(writeHipPath(name("link.csv"), threePoints(), message), Status::Ok) << message;
-  EXPECT_TRUE(fs::is_symlink(name("link.csv")));
-  HipPath read;
-  EXPECT_EQ(readHipPath(real, read, message), Status::Ok);
-  EXPECT_EQ(writeHipPath("/dev/null", threePoints(), message), Status::Ok) << message;
-  EXPECT_TRUE(fs::is_character_file("/dev/null"));
 }

@@ -50,6 +50,8 @@ TEST(PathUnits, ThatAreWrongAreSaidWithTheCure)
          Case{ swing(60.0, 1000, 0.01), cube(50.0), "--unit mm --path-unit mm" },
          Case{ swing(60.0, 1000, 0.01), Bounds(), "--path-unit mm" },
          Case{ swing(6.0, 1000, 0.01), cube(0.05), "--path-unit cm" },
+         Case{ swing(6.0, 1000, 0.01), cube(0.05), "give --path-unit mm if it is in mm, or give" },
+         Case{ swing(10.0, 1000, 0.01), cube(8.0), "or give --unit cm --path-unit cm if both are in cm" },
          Case{ swing(0.06, 1000, 1.0), cube(0.05), "--path-time-unit ms" },
          Case{ swing(0.06, 100, 1e4), cube(0.05), "--path-time-unit us" },
          Case{ swing(0.5, 3, 1e3), cube(0.05), "--path-time-unit ms" } })

@@ -42,18 +42,6 @@ TEST(QuantityText, KeepsTheUnitOfTheFileWhereItCanBeRead)
   EXPECT_EQ(lengthText(1e-4 * 0.3048, "ft", 0.3048, 2), "30 um");
 }
 
-TEST(QuantityText, SaysAForceInNewtonsOrMillinewtons)
-{
-  EXPECT_EQ(forceText(1.254), "1.25 N");
-  EXPECT_EQ(forceText(0.1), "0.10 N");
-  EXPECT_EQ(forceText(0.0853), "85 mN");
-  EXPECT_EQ(forceText(0.0004), "0 N");
-  EXPECT_EQ(forceText(0.0), "0 N");
-  EXPECT_EQ(forceText(-0.004), "-4 mN");
-  EXPECT_EQ(forceText(250.0), "250 N");
-  EXPECT_EQ(forceText(std::nan("")), "unknown");
-}
-
 TEST(QuantityText, SaysRatiosAndCountsWithCommas)
 {
   EXPECT_EQ(ratioText(12204.0), "12,200");

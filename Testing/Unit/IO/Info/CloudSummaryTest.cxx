@@ -1,0 +1,33 @@
+#include "IO/Info/CloudSummary.h"
+
+#include <gtest/gtest.h>
+#include <vtkNew.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+
+#include <random>
+
+namespace
+{
+
+using namespace pointhaptics;
+
+TEST(CloudSummary, SaysHowTheDensityVariesAndNotHowPointsFall)
+{
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> part(0.0, 1.0);
+  for (const bool hasStep : { false, true })
+  {
+    vtkNew<vtkPoints> points;
+    for (int i = 0; i < 17000; ++i)
+    {
+      const double right = hasStep && i % 17 == 0 ? 1.0 : 0.0; // 16 times fewer there: 4 times as far apart
+      points->InsertNextPoint(right + part(random), part(random), 0.0);
+    }
+    vtkNew<vtkPolyData> cloud;
+    cloud->SetPoints(points);
+    EXPECT_NEAR(summarize(cloud, "csv", false).densityVariation, hasStep ? 4.5 : 1.25, hasStep ? 0.5 : 0.15);
+  }
+}
+
+} // namespace
