@@ -7,6 +7,8 @@
 
 #include "Core/Bandwidth/Density.h"
 #include "Core/Bandwidth/LocalBandwidth.h"
+#include "Core/Distributed/FarPoints.h"
+#include "Core/Resample/VoxelMean.h"
 
 #include "vtkObjectFactory.h"
 #include "vtkPointSet.h"
@@ -145,6 +147,12 @@ bool vtkKernelBandwidthFilter::Estimate(vtkPolyData* cloud)
   const std::vector<double> counts = voxelCounts(cloud, settings.usePointCounts, problem);
   this->Warn(problem);
   this->Warn(invalidPoints(points.view().size() - query.finitePoints(), points.view().size()));
+  if (const FarPoints far = findFarPoints(points.view(), transformedBounds(points.view(), {}, SmpExecutor()));
+      far.count > 0 && counts.empty())
+  {
+    this->Warn(
+      far.text() + "; density and bandwidth there are those of the gap: clip them off to leave them out");
+  }
   const bool wantsPoints = this->SettingsOfRun.computeBandwidth || this->SettingsOfRun.computeProxyRadius;
   const bool wantsMeans = this->SettingsOfRun.computeDensity || this->SettingsOfRun.computeMeanBandwidth;
   std::vector<double> bandwidths;

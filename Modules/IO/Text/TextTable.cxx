@@ -1,7 +1,6 @@
 #include "IO/Text/TextTable.h"
 
 #include "IO/Columns/CloudColumns.h"
-#include "IO/Info/FieldText.h"
 #include "IO/Text/TextCells.h"
 
 #include <algorithm>
@@ -75,10 +74,7 @@ void addTitle(const Title& title, std::vector<Title>& titles)
 
 void addComment(std::string_view comment, std::size_t number, TextLayout& layout, std::vector<Title>& titles)
 {
-  const std::string unit = unitOfComment(comment);
-  const bool isUnit = isUnitWord(unit);
-  layout.unit = isUnit ? unit : layout.unit;
-  if (!comment.empty() && !isUnit)
+  if (!layout.comments.add(comment) && !comment.empty())
   {
     addTitle({ comment, number, true }, titles);
   }
