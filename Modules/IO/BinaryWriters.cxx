@@ -13,6 +13,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <type_traits>
 
 namespace pointhaptics::io
 {
@@ -273,20 +274,22 @@ struct PcdArray
 /// The largest difference of a value of @p array from what is stored as a float; NaN and infinity aside.
 double floatError(const OutputArray& array)
 {
-  long double worst = 0.0; // whole numbers of 64 bits are more than a double holds
+  double worst = 0.0;
   withType(array.type(),
     [&](auto zero)
     {
       using T = decltype(zero);
+      constexpr bool isLong = std::is_integral_v<T> && sizeof(T) == 8; // more than a double holds
+      using Wide = std::conditional_t<isLong, long double, double>;
       const T* values = static_cast<const T*>(array.array->GetVoidPointer(0));
       for (vtkIdType i = 0; i < array.array->GetNumberOfValues(); ++i)
       {
-        const auto value = static_cast<long double>(values[i]);
-        const long double error = std::abs(static_cast<long double>(static_cast<float>(values[i])) - value);
-        worst = error > worst ? error : worst;
+        const Wide error =
+          std::abs(static_cast<Wide>(static_cast<float>(values[i])) - static_cast<Wide>(values[i]));
+        worst = error > static_cast<Wide>(worst) ? static_cast<double>(error) : worst;
       }
     });
-  return static_cast<double>(worst);
+  return worst;
 }
 
 /// Errors below this part of a cloud's length, or of a normal's, cannot be seen.

@@ -74,10 +74,10 @@ void noteWhatIsNoColumn(vtkPointSet* cloud, const io::CloudFormat& format, io::W
     if (!keeps(format, cloud, name) && cloud->GetFieldData()->HasArray(name.c_str()) &&
       !isIdentityPose(cloud, name))
     {
-      name == "LengthUnit"
-        ? notes.add("that the unit is " + io::fieldText(cloud->GetFieldData(), name.c_str()) +
-            " is not in the file: readers guess it by the cloud's size, or take --unit")
-        : void(lost += (lost.empty() ? "" : ", ") + name);
+      name == "LengthUnit" ? notes.add("the file does not say that the unit is " +
+                               io::fieldText(cloud->GetFieldData(), name.c_str()) +
+                               ": readers guess it by the cloud's size, or take --unit")
+                           : void(lost += (lost.empty() ? "" : ", ") + name);
     }
   }
   if (!lost.empty())

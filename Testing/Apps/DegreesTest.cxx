@@ -66,4 +66,12 @@ TEST_F(Lengths, BandwidthsSayThatPointsAreFar)
   EXPECT_EQ(this->run({ "bandwidth", "good.xyz", "-o", "o.vtp" }).errors, "");
 }
 
+TEST_F(Lengths, BallsThatHoldTheWholeCloudAreRefused)
+{
+  this->succeed({ "generate", "sphere", "-n", "1100000", "-o", "big.ply" });
+  this->refuse(1, { "bandwidth", "big.ply", "--radius", "100", "-o", "o.vtp" },
+    { "hold 1100000 points each", "give a smaller radius" });
+  EXPECT_FALSE(this->exists("o.vtp"));
+}
+
 } // namespace

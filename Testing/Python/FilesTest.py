@@ -12,6 +12,9 @@ from support import TestCase, run_program, sphere
 
 import numpy as np
 import pointhaptics as ph
+from pointhaptics import updates
+from vtkmodules.util.numpy_support import numpy_to_vtk
+from vtkmodules.vtkCommonDataModel import vtkTable
 
 
 def without_nothing(told):
@@ -180,6 +183,17 @@ class WholeClouds(TestCase):
             points, attributes = ph.read(self.path("a.csv"), local_metres=True)
         self.assertAlmostEqual(points[9, 0] - points[0, 0], 0.9 * 111195 * np.cos(np.radians(48.5)), delta=10)
         self.assertEqual(attributes.fields["LengthUnit"], "metre")
+        reader = ph.vtkPointCloudReader()
+        reader.SetFileName(self.path("a.csv"))
+        feel = ph.vtkHapticFeel()
+        feel.SetInputConnection(0, reader.GetOutputPort())
+        path = vtkTable()
+        for name, rows in zip("txyz", ([0, 1], [0, 0], [0, 0], [50, 40])):
+            column = numpy_to_vtk(np.array(rows, float), deep=True)
+            column.SetName(name)
+            path.AddColumn(column)
+        feel.SetInputData(1, path)
+        self.assertIn("let the reader give local metres", updates.run(feel, feel.Update)[0])
 
     def test_texts_are_kept_or_said(self):
         names = np.array(["tree", "road", "tree"])
