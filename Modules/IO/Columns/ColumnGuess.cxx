@@ -217,15 +217,32 @@ ColumnEvidence ColumnEvidence::of(std::vector<double> sample, bool isWhole)
   return evidence;
 }
 
+namespace
+{
+
+/// True if the first two columns number the rays of a scanner, before coordinates with decimals and colours.
+bool areRowAndColumn(const Columns& columns)
+{
+  const auto isWhole = [](const ColumnEvidence& c) { return c.isWhole && c.least >= 0.0; };
+  return columns.size() >= 8 && isWhole(columns[0]) && isWhole(columns[1]) && isWhole(columns[5]) &&
+    std::none_of(
+      columns.begin() + 2, columns.begin() + 5, [](const ColumnEvidence& c) { return c.isWhole; }) &&
+    areColors(columns, 5);
+}
+
+} // namespace
+
 std::vector<std::string> guessColumnNames(const std::vector<ColumnEvidence>& columns, bool prefersColors)
 {
   const bool hasId = isId(columns);
-  const std::size_t first = hasId || isClock(columns) ? 1 : 0;
+  const bool hasRays = !hasId && areRowAndColumn(columns);
+  const std::size_t first = hasRays ? 2 : hasId || isClock(columns) ? 1 : 0;
   std::vector<std::string> names =
     RestNames(columns, std::min(first + 3, columns.size()), prefersColors).take();
-  if (first == 1)
+  if (first > 0)
   {
-    names[0] = hasId ? "id" : "time";
+    names[0] = hasRays ? "row" : hasId ? "id" : "time";
+    names[first - 1] = hasRays ? "column" : names[0];
   }
   for (std::size_t i = 0; i < 3 && first + i < names.size(); ++i)
   {

@@ -304,7 +304,8 @@ TEST_F(Writer, TheUnitComesBackFromEveryFormat)
       ASSERT_EQ(writer->Write(), 1);
       const std::vector<std::string> notes = writer->GetNotes();
       const bool isNoted = std::any_of(notes.begin(), notes.end(),
-        [](const std::string& note) { return note.find("does not say that the unit is") != std::string::npos; });
+        [](const std::string& note)
+        { return note.find("does not say that the unit is") != std::string::npos; });
       EXPECT_EQ(isNoted, !isSaid);
       const ReadResult result = readCloud(path("a." + extension));
       ASSERT_EQ(result.error, "");

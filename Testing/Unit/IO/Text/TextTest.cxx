@@ -481,4 +481,30 @@ TEST_F(Text, ColumnsTellWhatTheyAre)
     6.0);
 }
 
+TEST_F(Text, LinesOfUnitsAndTitlesAreNoNames)
+{
+  const ReadResult units = readCloud(write("a.csv", "X,Y,Z,T\nmm,mm,mm,C\n1,2,3,4\n5,6,7,8\n"));
+  ASSERT_EQ(units.error, "");
+  EXPECT_EQ(units.value("T", 1), 8.0);
+  auto* unit = vtkStringArray::SafeDownCast(units.cloud->GetFieldData()->GetAbstractArray("LengthUnit"));
+  ASSERT_NE(unit, nullptr);
+  EXPECT_EQ(unit->GetValue(0), "mm");
+  const ReadResult titles =
+    readCloud(write("b.csv", "Export of scan 12\nDate;2024-01-01\n\nX;Y;Z;Temp\n1;2;3;20,5\n4;5;6;21,5\n"));
+  ASSERT_EQ(titles.error, "");
+  EXPECT_EQ(titles.value("Temp", 1), 21.5);
+  // FARO writes the ray's row and column first.
+  std::string rays;
+  for (int i = 0; i < 40; ++i)
+  {
+    const std::string k = std::to_string(i);
+    rays +=
+      std::to_string(i / 8) + " " + std::to_string(i % 8) + " 0." + k + " 1." + k + " 2.5 10 20 " + k + "\n";
+  }
+  const ReadResult faro = readCloud(write("c.xyz", rays));
+  EXPECT_FLOAT_EQ(faro.cloud->GetPoint(7)[2], 2.5f);
+  EXPECT_EQ(faro.value("column", 7), 7.0);
+  EXPECT_EQ(faro.value("RGB", 7, 2), 7.0);
+}
+
 } // namespace
