@@ -7,6 +7,8 @@
 
 #include "Core/Bandwidth/Density.h"
 #include "Core/Bandwidth/LocalBandwidth.h"
+#include "Core/Distributed/FarPoints.h"
+#include "Core/Resample/VoxelMean.h"
 
 #include "vtkObjectFactory.h"
 #include "vtkPointSet.h"
@@ -14,6 +16,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <string>
 
 using namespace pointhaptics;
@@ -131,6 +134,31 @@ bool vtkKernelBandwidthFilter::RunCloud(vtkPointSet* cloud, const Outputs& outpu
   return !wanted || this->Estimate(outputs[0]);
 }
 
+namespace
+{
+
+/// Why balls of @p radius about all points would be looked at for hours; empty: they would not.
+std::string tooManyPairs(const NeighborQuery& query, double radius)
+{
+  constexpr std::int64_t kSample = 64;
+  constexpr double kMostPairs = 1e12; // half an hour of two cores
+  const std::int64_t step = std::max<std::int64_t>(1, query.size() / kSample);
+  std::int64_t balls = 0;
+  std::int64_t found = 0;
+  for (std::int64_t slot = 0; slot < query.size(); slot += step)
+  {
+    ++balls;
+    query.visitBallSlots(query.point(slot), radius, [&](double, std::int64_t) { ++found; });
+  }
+  const double each = double(found) / double(std::max<std::int64_t>(1, balls));
+  return each * double(query.size()) <= kMostPairs
+    ? ""
+    : "balls of the radius " + std::to_string(radius) + " hold " + std::to_string(std::int64_t(each)) +
+      " points each, which takes hours; give a smaller radius, or a number of neighbors.";
+}
+
+} // namespace
+
 /// @return false where an abort was asked for.
 bool vtkKernelBandwidthFilter::Estimate(vtkPolyData* cloud)
 {
@@ -141,10 +169,21 @@ bool vtkKernelBandwidthFilter::Estimate(vtkPolyData* cloud)
   NeighborQuery query;
   query.build(points.view(), SmpExecutor());
   this->UpdateProgress(0.1);
-  std::string problem;
+  std::string problem = settings.fixedRadius ? tooManyPairs(query, settings.radius) : "";
+  if (!problem.empty())
+  {
+    this->Fail(problem);
+    return false;
+  }
   const std::vector<double> counts = voxelCounts(cloud, settings.usePointCounts, problem);
   this->Warn(problem);
   this->Warn(invalidPoints(points.view().size() - query.finitePoints(), points.view().size()));
+  if (const FarPoints far = findFarPoints(points.view(), transformedBounds(points.view(), {}, SmpExecutor()));
+      far.count > 0 && counts.empty())
+  {
+    this->Warn(
+      far.text() + "; density and bandwidth there are those of the gap: clip them off to leave them out");
+  }
   const bool wantsPoints = this->SettingsOfRun.computeBandwidth || this->SettingsOfRun.computeProxyRadius;
   const bool wantsMeans = this->SettingsOfRun.computeDensity || this->SettingsOfRun.computeMeanBandwidth;
   std::vector<double> bandwidths;

@@ -2,7 +2,7 @@
 
 #include "Bytes/NumericType.h"
 #include "Core/Resample/FieldNames.h"
-#include "IO/Info/FieldText.h"
+#include "IO/Pcd/PcdHeader.h"
 
 #include "vtkFieldData.h"
 #include "vtkVariant.h"
@@ -13,6 +13,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <type_traits>
 
 namespace pointhaptics::io
 {
@@ -153,11 +154,6 @@ void addRecordFields(
 
 } // namespace
 
-std::string unitLine(const std::string& mark, const WriteTask& task)
-{
-  return task.unit.empty() ? std::string() : mark + std::string(kUnitComment) + task.unit + "\n";
-}
-
 std::string shortestDecimal(double value)
 {
   char text[32];
@@ -197,21 +193,29 @@ void writeRecords(const std::vector<RecordField>& fields, std::size_t recordSize
 
 void writePly(WriteTask& task)
 {
-  const std::vector<OutputArray> arrays =
-    withoutLongIntegers(outputArrays(task.cloud, task.notes), task.notes);
+  std::vector<OutputArray> arrays = withoutLongIntegers(outputArrays(task.cloud, task.notes), task.notes);
+  const auto columnsOf = [](const OutputArray& array)
+  {
+    std::vector<Column> columns = columnsByComponent(array);
+    for (std::size_t i = 0; i < columns.size(); ++i)
+    {
+      columns[i] = { plyPropertyName(array, static_cast<int>(i)), writtenType(array) };
+    }
+    return columns;
+  };
+  chooseNames(arrays, columnsOf, { NameRule::Words, std::string::npos, &task.comments }, task.notes);
   const vtkIdType rows = arrays[0].array->GetNumberOfTuples();
   std::string header = "ply\nformat ";
   header += kIsLittleEndianHost ? "binary_little_endian" : "binary_big_endian";
-  header += " 1.0\ncomment written by PointHaptics\n" + unitLine("comment ", task);
+  header += " 1.0\ncomment written by PointHaptics\n" + task.comments.lines("comment ");
   header += "element vertex " + std::to_string(rows) + "\n";
   std::vector<RecordField> fields;
   std::size_t recordSize = 0;
   for (const OutputArray& array : arrays)
   {
-    for (int component = 0; component < array.components(); ++component)
+    for (const Column& column : columnsOf(array))
     {
-      header += std::string("property ") + plyTypeName(writtenType(array)) + " " +
-        plyPropertyName(array, component) + "\n";
+      header += std::string("property ") + plyTypeName(column.type) + " " + column.name + "\n";
     }
     addRecordFields(fields, recordSize, array, writtenType(array));
   }
@@ -227,7 +231,7 @@ struct PcdArray
   int type = VTK_FLOAT;
 
   PcdArray(const OutputArray& array, const WriteTask& task)
-    : name(array.name == "_" ? "unnamed" : array.name) // which stands for padding
+    : name(array.name)
     , type(writtenType(array))
   {
     const bool isScalar = array.role == ArrayRole::Other && array.components() == 1 && !task.keepsDoubles;
@@ -237,14 +241,23 @@ struct PcdArray
       name = isSameField(name, "Intensity") ? "intensity" : isFloat ? "curvature" : "label";
       type = isFloat ? VTK_FLOAT : VTK_TYPE_UINT32;
     }
-    else if (array.components() == 1 && sizeOfType(type) == 4 && (name == "rgb" || name == "rgba"))
-    {
-      name += "_2"; // of which readers would make colours
-    }
     if (array.role == ArrayRole::Points || array.role == ArrayRole::Normals)
     {
       type = task.keepsDoubles ? type : VTK_FLOAT;
     }
+  }
+  std::vector<PcdField> fields(const OutputArray& array) const
+  {
+    if (array.role == ArrayRole::Colors)
+    {
+      return { { array.components() == 4 ? "rgba" : "rgb", VTK_TYPE_UINT32 } };
+    }
+    if (array.role == ArrayRole::Other)
+    {
+      return { { name, type, array.components() } };
+    }
+    const std::string prefix = array.role == ArrayRole::Normals ? "normal_" : "";
+    return { { prefix + "x", type }, { prefix + "y", type }, { prefix + "z", type } };
   }
   bool isLabel(const OutputArray& array, bool isScalar) const
   {
@@ -266,12 +279,14 @@ double floatError(const OutputArray& array)
     [&](auto zero)
     {
       using T = decltype(zero);
+      constexpr bool isLong = std::is_integral_v<T> && sizeof(T) == 8; // more than a double holds
+      using Wide = std::conditional_t<isLong, long double, double>;
       const T* values = static_cast<const T*>(array.array->GetVoidPointer(0));
       for (vtkIdType i = 0; i < array.array->GetNumberOfValues(); ++i)
       {
-        const double value = static_cast<double>(values[i]);
-        const double error = std::abs(static_cast<double>(static_cast<float>(value)) - value);
-        worst = error > worst ? error : worst;
+        const Wide error =
+          std::abs(static_cast<Wide>(static_cast<float>(values[i])) - static_cast<Wide>(values[i]));
+        worst = error > static_cast<Wide>(worst) ? static_cast<double>(error) : worst;
       }
     });
   return worst;
@@ -282,10 +297,6 @@ constexpr double kFeltPart = 1e-6;
 
 void notePcdArray(const OutputArray& array, const PcdArray& written, WriteTask& task)
 {
-  if (array.role == ArrayRole::Other && !isSameField(written.name, array.name))
-  {
-    task.notes.add("array " + array.name + " is called " + written.name);
-  }
   const bool mayRound = written.type == VTK_FLOAT && fixedSizeType(array.type()) != VTK_FLOAT;
   const double error = mayRound ? floatError(array) : 0.0;
   const double unseen = array.role == ArrayRole::Points ? kFeltPart * task.cloud->GetLength()
@@ -307,7 +318,17 @@ void notePcdArray(const OutputArray& array, const PcdArray& written, WriteTask& 
 
 void writePcd(WriteTask& task)
 {
-  const std::vector<OutputArray> arrays = outputArrays(task.cloud, task.notes);
+  std::vector<OutputArray> arrays = outputArrays(task.cloud, task.notes);
+  const auto columnsOf = [&](const OutputArray& array)
+  {
+    std::vector<Column> columns;
+    for (const PcdField& field : PcdArray(array, task).fields(array))
+    {
+      field.isPadding() ? void() : columns.push_back(field.column());
+    }
+    return columns;
+  };
+  chooseNames(arrays, columnsOf, { NameRule::Words, std::string::npos, &task.comments }, task.notes);
   const vtkIdType rows = arrays[0].array->GetNumberOfTuples();
   PcdFieldLines lines;
   std::vector<RecordField> fields;
@@ -315,31 +336,26 @@ void writePcd(WriteTask& task)
   std::size_t recordSize = 0;
   for (const OutputArray& array : arrays)
   {
+    const PcdArray written(array, task);
+    for (const PcdField& field : written.fields(array))
+    {
+      lines.add(field.name, sizeOfType(field.type),
+        array.role == ArrayRole::Colors && array.components() == 3 ? "F" : pcdTypeLetter(field.type),
+        field.count);
+    }
     if (array.role == ArrayRole::Colors)
     {
       packed = packColors(array);
-      const bool hasAlpha = array.components() == 4;
-      lines.add(hasAlpha ? "rgba" : "rgb", 4, hasAlpha ? "U" : "F", 1);
       fields.push_back({ { reinterpret_cast<const char*>(packed.data()), 4, VTK_TYPE_UINT32 }, recordSize,
         VTK_TYPE_UINT32 });
       recordSize += 4;
       continue;
     }
-    const PcdArray written(array, task);
     notePcdArray(array, written, task);
-    if (array.role == ArrayRole::Other)
-    {
-      lines.add(written.name, sizeOfType(written.type), pcdTypeLetter(written.type), array.components());
-    }
-    for (int axis = 0; axis < 3 && array.role != ArrayRole::Other; ++axis)
-    {
-      const char* prefix = array.role == ArrayRole::Normals ? "normal_" : "";
-      lines.add(std::string(prefix) + "xyz"[axis], sizeOfType(written.type), "F", 1);
-    }
     addRecordFields(fields, recordSize, array, written.type);
   }
-  task.out.write("# .PCD v0.7 - Point Cloud Data file format\n" + unitLine("# ", task) + "VERSION 0.7\n" +
-    lines.text() + pcdShape(task.fieldData(), rows));
+  task.out.write("# .PCD v0.7 - Point Cloud Data file format\n" + task.comments.lines("# ") +
+    "VERSION 0.7\n" + lines.text() + pcdShape(task.fieldData(), rows));
   writeRecords(fields, recordSize, rows, task);
 }
 

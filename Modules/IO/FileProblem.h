@@ -31,6 +31,12 @@ public:
   unsigned long code; ///< One of vtkErrorCode::ErrorIds.
 };
 
+/// "a.ply: PLY: message"; without a format where it is not known.
+inline std::string messageOf(const char* fileName, const std::string& format, const std::string& message)
+{
+  return (fileName ? fileName : "no file name") + (": " + format) + (format.empty() ? "" : ": ") + message;
+}
+
 /// Reading or writing was stopped from a progress observer (vtkAlgorithm::AbortExecute).
 class StoppedOnRequest : public std::exception
 {

@@ -10,9 +10,6 @@
 namespace pointhaptics::io
 {
 
-/// The comment that says the unit, after its @p mark, with the end of its line; nothing where none is known.
-std::string unitLine(const std::string& mark, const WriteTask& task);
-
 /// The fewest digits that give @p value back.
 std::string shortestDecimal(double value);
 

@@ -1,5 +1,9 @@
 #include "MergedCloud.h"
 
+#include "Bytes/NumericType.h"
+#include "Core/Resample/FieldNames.h"
+#include "FileProblem.h"
+#include "IO/Columns/CloudColumns.h"
 #include "IO/Info/FieldText.h"
 #include "IO/Info/LengthUnit.h"
 
@@ -84,11 +88,31 @@ std::vector<MergedArray> planArrays(const std::vector<vtkPolyData*>& clouds, std
   return arrays;
 }
 
-vtkSmartPointer<vtkDataArray> filled(
-  const MergedArray& array, const std::vector<vtkPolyData*>& clouds, std::vector<std::string>& notes)
+/// "1 of 3 inputs, b.ply,".
+std::string lackingInputs(const MergedArray& array, const std::vector<std::string>& names)
 {
+  constexpr std::size_t kNamed = 3;
+  std::string list;
+  std::size_t lacking = 0;
+  for (std::size_t i = 0; i < names.size(); ++i)
+  {
+    lacking += array.sources[i] ? 0 : 1;
+    list += array.sources[i] || lacking > kNamed ? "" : ", " + inQuotes(names[i]);
+  }
+  return lacking == 0
+    ? std::string()
+    : fmt::format("{} of {} inputs{}{},", lacking, names.size(), list, lacking > kNamed ? " ..." : "");
+}
+
+vtkSmartPointer<vtkDataArray> filled(const MergedArray& array, const std::vector<vtkPolyData*>& clouds,
+  const std::vector<std::string>& names, std::vector<std::string>& notes)
+{
+  const std::string lacking = lackingInputs(array, names);
+  // What LAS and colours have for none is no label.
+  const bool hasNone = isFloatingType(array.type) || isPointField(array.name) || isColorName(array.name) ||
+    isSameField(array.name, "RGBA");
   vtkSmartPointer<vtkDataArray> result;
-  result.TakeReference(vtkDataArray::CreateDataArray(array.type));
+  result.TakeReference(vtkDataArray::CreateDataArray(lacking.empty() || hasNone ? array.type : VTK_DOUBLE));
   result->SetName(array.name.c_str());
   result->SetNumberOfComponents(array.components);
   vtkIdType rows = 0;
@@ -97,10 +121,9 @@ vtkSmartPointer<vtkDataArray> filled(
     rows += cloud->GetNumberOfPoints();
   }
   result->SetNumberOfTuples(rows);
-  const bool isFloating = array.type == VTK_FLOAT || array.type == VTK_DOUBLE;
+  const bool isFloating = isFloatingType(result->GetDataType());
   const double none = isFloating ? std::numeric_limits<double>::quiet_NaN() : 0.0;
   vtkIdType begin = 0;
-  std::size_t lacking = 0;
   for (std::size_t i = 0; i < clouds.size(); ++i)
   {
     const vtkIdType count = clouds[i]->GetNumberOfPoints();
@@ -115,13 +138,12 @@ vtkSmartPointer<vtkDataArray> filled(
         result->SetComponent(row, component, none);
       }
     }
-    lacking += array.sources[i] ? 0 : 1;
     begin += count;
   }
-  if (lacking > 0)
+  if (!lacking.empty())
   {
-    notes.push_back(fmt::format("{} of {} inputs have no {}: their points have {} there", lacking,
-      clouds.size(), array.name, isFloating ? "NaN" : "0"));
+    notes.push_back(fmt::format(
+      "{} have no {}: their points have {} there", lacking, array.name, isFloating ? "NaN" : "0"));
   }
   return result;
 }
@@ -208,8 +230,8 @@ vtkSmartPointer<vtkPolyData> converted(vtkPolyData* cloud, double factor, vtkPol
 }
 
 /// The clouds in the unit of the first one that says one; none where that cannot be.
-std::vector<vtkSmartPointer<vtkPolyData>> inOneUnit(
-  const std::vector<vtkPolyData*>& clouds, std::vector<std::string>& notes)
+std::vector<vtkSmartPointer<vtkPolyData>> inOneUnit(const std::vector<vtkPolyData*>& clouds,
+  const std::vector<std::string>& names, std::vector<std::string>& notes)
 {
   std::vector<vtkSmartPointer<vtkPolyData>> result;
   vtkPolyData* first = nullptr;
@@ -223,10 +245,9 @@ std::vector<vtkSmartPointer<vtkPolyData>> inOneUnit(
     const bool isUnlike = isSaid && own.metres != unit.metres;
     if (isUnlike && (own.name == "deg" || unit.name == "deg"))
     {
-      notes.push_back(
-        fmt::format("input {} is in {} and others are in {}, which cannot be one cloud: project "
-                    "degrees to metres first",
-          i + 1, own.name, unit.name));
+      notes.push_back(fmt::format("{} is in {} and others are in {}, which cannot be one cloud: project "
+                                  "degrees to metres first",
+        inQuotes(names[i]), own.name, unit.name));
       return {};
     }
     const double factor = own.metres / unit.metres;
@@ -237,8 +258,8 @@ std::vector<vtkSmartPointer<vtkPolyData>> inOneUnit(
     }
     if (isUnlike)
     {
-      notes.push_back(
-        fmt::format("the coordinates of input {} are converted from {} to {}", i + 1, own.name, unit.name) +
+      notes.push_back(fmt::format("the coordinates of {} are converted from {} to {}", inQuotes(names[i]),
+                        own.name, unit.name) +
         (own.name == unit.name ? fmt::format(" of {} m", unit.metres) : "") +
         (clouds[i]->GetPointData()->GetNumberOfArrays() > 0 ? ", its arrays are not" : ""));
     }
@@ -248,10 +269,10 @@ std::vector<vtkSmartPointer<vtkPolyData>> inOneUnit(
 
 } // namespace
 
-vtkSmartPointer<vtkPolyData> mergeClouds(
-  const std::vector<vtkPolyData*>& given, std::vector<std::string>& notes)
+vtkSmartPointer<vtkPolyData> mergeClouds(const std::vector<vtkPolyData*>& given,
+  const std::vector<std::string>& names, std::vector<std::string>& notes)
 {
-  const std::vector<vtkSmartPointer<vtkPolyData>> alike = inOneUnit(given, notes);
+  const std::vector<vtkSmartPointer<vtkPolyData>> alike = inOneUnit(given, names, notes);
   if (alike.empty())
   {
     return nullptr;
@@ -266,11 +287,11 @@ vtkSmartPointer<vtkPolyData> mergeClouds(
     coordinates.sources.push_back(points);
   }
   vtkNew<vtkPoints> points;
-  points->SetData(filled(coordinates, clouds, notes));
+  points->SetData(filled(coordinates, clouds, names, notes));
   merged->SetPoints(points);
   for (const MergedArray& array : planArrays(clouds, notes))
   {
-    merged->GetPointData()->AddArray(filled(array, clouds, notes));
+    merged->GetPointData()->AddArray(filled(array, clouds, names, notes));
   }
   for (vtkPolyData* cloud : clouds)
   {

@@ -4,6 +4,7 @@
 
 #include "Bytes/OutputStream.h"
 #include "IO/Columns/OutputColumns.h"
+#include "IO/Info/FileComments.h"
 #include "Progress.h"
 
 #include "vtkPointSet.h"
@@ -29,7 +30,7 @@ struct WriteTask
   vtkPointSet* cloud = nullptr; ///< with at least one point
   WriterNotes notes;
   vtkIdType points = 0;      ///< in and out: how many are written
-  std::string unit;          ///< of the coordinates, for headers that can say it; empty: none is known
+  FileComments comments;     ///< unit and names, for headers that can say them
   double lasScale = 0.0;     ///< step of the coordinates in LAS; 0: the writer chooses
   bool keepsDoubles = false; ///< types and names of PCD as they are, which PCL's point types may not read
   vtkAlgorithm* algorithm;

@@ -306,7 +306,8 @@ void vtkPointCloudReader::ReadTogether(io::ReadTask& task, vtkPolyData* cloud)
   try
   {
     const std::string start = io::startOfFile(task.path, kStart);
-    if (this->Samples == 0 && canBeCut(start, static_cast<std::size_t>(missing ? 0 : bytes), task.extension))
+    if (this->Samples == 0 && !this->LocalMetres &&
+      canBeCut(start, static_cast<std::size_t>(missing ? 0 : bytes), task.extension))
     {
       task.shared = &shared;
       this->ReadPart(task, cloud);
@@ -393,7 +394,8 @@ void vtkPointCloudReader::Finish(io::ReadTask& task, vtkPolyData* cloud)
       "coordinates are floats so far from the origin that they lie on a grid of steps of " + steps +
       ", and no finer voxel means anything; export them as double, or with an offset taken away");
   }
-  if (pointhaptics::lengthUnitOf(cloud, pointhaptics::Bounds()).name == "deg")
+  const bool isInDegrees = pointhaptics::lengthUnitOf(cloud, pointhaptics::Bounds()).name == "deg";
+  if (isInDegrees && !this->LocalMetres)
   {
     task.notes.push_back(
       "x and y are degrees of longitude and latitude, which are no lengths; view and feel take metres "
@@ -403,6 +405,12 @@ void vtkPointCloudReader::Finish(io::ReadTask& task, vtkPolyData* cloud)
   if (task.wanted.hasBox())
   {
     keepInside(task, cloud);
+  }
+  if (isInDegrees && this->LocalMetres)
+  {
+    cloud->ShallowCopy(pointhaptics::inLocalMetres(cloud));
+    task.notes.emplace_back("x and y were degrees of longitude and latitude, and are metres to the east and "
+                            "north of their medians");
   }
 }
 
@@ -445,13 +453,7 @@ std::string vtkPointCloudReader::ExtensionOf(const std::string& path) const
 
 void vtkPointCloudReader::Fail(unsigned long code, const std::string& message)
 {
-  this->ErrorMessage = this->FileName ? this->FileName : "no file name";
-  this->ErrorMessage += ": ";
-  if (!this->Format.empty())
-  {
-    this->ErrorMessage += this->Format + ": ";
-  }
-  this->ErrorMessage += message;
+  this->ErrorMessage = io::messageOf(this->FileName, this->Format, message);
   this->SetErrorCode(code);
   vtkErrorMacro(<< this->ErrorMessage);
 }
@@ -528,6 +530,7 @@ void vtkPointCloudReader::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "GenerateVertices: " << (this->GenerateVertices ? "On" : "Off") << "\n";
   os << indent << "Extension: " << this->Extension << "\n";
   os << indent << "Samples: " << this->Samples << "\n";
+  os << indent << "LocalMetres: " << (this->LocalMetres ? "On" : "Off") << "\n";
   os << indent << "Salvage: " << (this->Salvage ? "On" : "Off") << "\n";
   os << indent << "ApplyPoses: " << this->ApplyPoses << "\n";
   os << indent << "Format: " << this->Format << "\n";

@@ -66,9 +66,10 @@
  * in which texts outnumber numbers is left out, fewer texts read as NaN: GetNotes() names them. Coordinates
  * must be numbers; their columns may be called X [mm], x_m, xcoord, POINT_X, easting and the like, and their
  * unit becomes the field array LengthUnit; so does that of the comment "LengthUnit mm" which
- * vtkPointCloudWriter leaves here, in PLY and in PCD. Without a header the values tell (an id that counts the
- * rows, x y z, colours, normals, labels, an intensity, others are called column_4 and so on), GetNotes() says
- * what was taken as what, and SetColumns() says otherwise. Columns of integers become int arrays.
+ * vtkPointCloudWriter leaves here, in PLY and in PCD, with the names of arrays that the format cannot hold.
+ * Without a header the values tell (an id that counts the rows, x y z, colours, normals, labels, an
+ * intensity, others are called column_4 and so on), GetNotes() says what was taken as what, and SetColumns()
+ * says otherwise. Columns of integers become int arrays.
  *
  * Faults give an empty output, an error code (vtkErrorCode), a vtkErrorMacro, and GetErrorMessage() with
  * `file: format: what, where, value; cure`. Sizes that a file claims are checked against its length before
@@ -204,6 +205,17 @@ public:
 
   ///@{
   /**
+   * Gives points whose x and y are degrees of longitude and latitude in metres to the east and north of their
+   * medians, as view and feel take them; z stays. Box is in degrees all the same. Other files take no notice.
+   * Default: off.
+   */
+  vtkSetMacro(LocalMetres, bool);
+  vtkGetMacro(LocalMetres, bool);
+  vtkBooleanMacro(LocalMetres, bool);
+  ///@}
+
+  ///@{
+  /**
    * What the points of a file with faces are (STL, OBJ, OFF, PLY, VTK and VTP with polygons): 0, its vertices
    * in their order; AUTOMATIC, samples of its faces, so many that their spacing is at most a quarter of the
    * median edge, from 200,000 to 2 million, or the vertices where these are more; else so many samples. They
@@ -305,6 +317,7 @@ private:
   std::vector<std::string> Notes;
   std::vector<std::string> Columns;
   bool Salvage = false;
+  bool LocalMetres = false;
   vtkIdType Samples = 0;
   bool Sampled = false;
   bool ApplyPoses = true;

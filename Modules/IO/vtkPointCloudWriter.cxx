@@ -4,6 +4,7 @@
 #include "FileProblem.h"
 #include "IO/Formats/FormatList.h"
 #include "IO/Info/FieldText.h"
+#include "IO/Info/FileComments.h"
 #include "IO/Las/LasCoordinateSystem.h"
 #include "WriteTask.h"
 
@@ -73,7 +74,10 @@ void noteWhatIsNoColumn(vtkPointSet* cloud, const io::CloudFormat& format, io::W
     if (!keeps(format, cloud, name) && cloud->GetFieldData()->HasArray(name.c_str()) &&
       !isIdentityPose(cloud, name))
     {
-      lost += (lost.empty() ? "" : ", ") + name;
+      name == "LengthUnit" ? notes.add("the file does not say that the unit is " +
+                               io::fieldText(cloud->GetFieldData(), name.c_str()) +
+                               ": readers guess it by the cloud's size, or take --unit")
+                           : void(lost += (lost.empty() ? "" : ", ") + name);
     }
   }
   if (!lost.empty())
@@ -125,13 +129,7 @@ int vtkPointCloudWriter::FillInputPortInformation(int, vtkInformation* info)
 
 void vtkPointCloudWriter::Fail(unsigned long code, const std::string& message)
 {
-  this->ErrorMessage = this->FileName ? this->FileName : "no file name";
-  this->ErrorMessage += ": ";
-  if (!this->Format.empty())
-  {
-    this->ErrorMessage += this->Format + ": ";
-  }
-  this->ErrorMessage += message;
+  this->ErrorMessage = io::messageOf(this->FileName, this->Format, message);
   this->SetErrorCode(code);
   vtkErrorMacro(<< this->ErrorMessage);
 }
@@ -187,7 +185,7 @@ void vtkPointCloudWriter::WriteCloud(vtkPointSet* cloud)
   if (this->Format != "VTP") // which keeps all
   {
     noteWhatIsNoColumn(cloud, *format, task.notes);
-    task.unit = unitFor(*format, cloud);
+    task.comments.unit = unitFor(*format, cloud);
   }
   format->write(task);
   task.out.commit();

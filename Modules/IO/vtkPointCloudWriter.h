@@ -31,7 +31,9 @@
  * stands in brackets in the header of .csv: x [mm],y [mm],z [mm]; there metres, which nothing said means,
  * too, are left out, as programs look for x, y and z.
  *
- * Arrays of strings are left out, and white space, commas and quotes in names become '_' (not in .vtp).
+ * Arrays of strings are left out. Characters and names that a format cannot hold, or that mean something else
+ * to a reader, are changed: .ply, .pcd and .xyz say in comments "ArrayName" what they were, so that
+ * vtkPointCloudReader gives them back; of .las, .laz and .csv GetNotes() does.
  * GetNotes() lists whatever the format could not hold of this cloud.
  *
  * The file is written beside its target under a temporary name and renamed when complete: after a fault the

@@ -10,11 +10,13 @@
 #include "Core/Resample/VoxelMean.h"
 
 #include "vtkCallbackCommand.h"
+#include "vtkFieldData.h"
 #include "vtkNew.h"
 #include "vtkPointSet.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
+#include "vtkStringArray.h"
 
 #include <new>
 #include <utility>
@@ -111,6 +113,14 @@ void FeelScenes::restart()
 Status FeelScenes::resample(
   vtkPointSet* cloud, vtkVoxelMeanResampler* resampler, FeelSceneSettings settings, std::string& message)
 {
+  auto* unit = vtkStringArray::SafeDownCast(cloud->GetFieldData()->GetAbstractArray("LengthUnit"));
+  if (unit && unit->GetNumberOfValues() == 1 && unit->GetValue(0).rfind("deg", 0) == 0)
+  {
+    message =
+      "x and y are degrees of longitude and latitude, which are no lengths; let the reader give local "
+      "metres, or project the cloud";
+    return Status::InvalidParameter;
+  }
   // The input is a copy, as the original may belong to a pipeline that would update again.
   auto input = vtkSmartPointer<vtkPointSet>::Take(cloud->NewInstance());
   input->ShallowCopy(cloud);

@@ -570,27 +570,4 @@ TEST_F(CloudCommands, InfoGoesOnAfterABadFile)
   EXPECT_EQ(files[1]["points"], 50);
 }
 
-TEST_F(CloudCommands, DegreesAreFeltInMetresAndNotResampled)
-{
-  std::string rows;
-  for (int i = 0; i < 2500; ++i)
-  {
-    rows += fmt::format("{:.9f} {:.9f} 40\n", 8.0 + 4e-6 * (i % 50), 50.0 + 2.5e-6 * (i / 50));
-  }
-  const std::string header = "ply\nformat ascii 1.0\ncomment LengthUnit degree\nelement vertex 2500\n"
-                             "property double x\nproperty double y\nproperty double z\nend_header\n";
-  this->write("degrees.ply", header + rows);
-  this->write("path.csv", "t,x,y,z\n0,0,0,40.5\n0.5,0,0,39.99\n");
-  const auto said =
-    this->run({ "feel", "degrees.ply", "--path", "path.csv", "--voxel", "0.5", "-o", "f.csv" });
-  EXPECT_EQ(said.exitCode, 0) << said.errors;
-  EXPECT_NE(said.errors.find("degrees of longitude and latitude"), std::string::npos) << said.errors;
-  EXPECT_GT(parseTable(this->read("f.csv")).at("force_z").back(), 0.5) << "14 m of ground under the hand";
-  const auto refused = this->run({ "resample", "degrees.ply", "-o", "o.ply" });
-  EXPECT_EQ(refused.exitCode, 1);
-  EXPECT_NE(refused.errors.find("project the cloud to metres, or give metres a degree"), std::string::npos);
-  EXPECT_FALSE(this->exists("o.ply"));
-  EXPECT_EQ(this->run({ "resample", "degrees.ply", "--scale", "71000,111000,1", "-o", "o.ply" }).exitCode, 0);
-}
-
 } // namespace

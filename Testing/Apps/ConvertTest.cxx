@@ -115,12 +115,14 @@ TEST_F(Convert, MergesWithEveryArrayOfEach)
   this->write("b.csv", "x,y,z,Class\n7,8,9,2\n");
   const apptest::Outcome outcome = this->run({ "convert", "in.csv", "b.csv", "out.csv", "--together" });
   EXPECT_EQ(outcome.exitCode, 0);
-  EXPECT_NE(outcome.errors.find("1 of 2 inputs have no Class: their points have 0 there"), std::string::npos)
+  EXPECT_NE(outcome.errors.find("1 of 2 inputs, 'in.csv', have no Class: their points have NaN there"),
+    std::string::npos)
     << outcome.errors;
   const Table table = parseTable(this->read("out.csv"));
   EXPECT_EQ(table.at("x"), (std::vector<double>{ 1, 4, 7 }));
   EXPECT_EQ(table.at("Intensity"), (std::vector<double>{ 10, 20, 0 }));
-  EXPECT_EQ(table.at("Class"), (std::vector<double>{ 0, 0, 2 }));
+  EXPECT_TRUE(std::isnan(table.at("Class")[0]) && std::isnan(table.at("Class")[1])) << "no label is no label";
+  EXPECT_EQ(table.at("Class")[2], 2.0);
 }
 
 TEST_F(Convert, RefusesWhatWouldLoseAFile)
@@ -176,9 +178,25 @@ TEST_F(Convert, FilesOfUnlikeUnitsAreMergedInOne)
   this->write("mm.csv", "x [mm],y [mm],z [mm]\n4000,5000,6000\n");
   const auto outcome = this->run({ "convert", "m.csv", "mm.csv", "--merge", "-o", "all.csv" });
   EXPECT_EQ(outcome.exitCode, 0) << outcome.errors;
-  EXPECT_NE(outcome.errors.find("the coordinates of input 2 are converted from mm to m"), std::string::npos)
+  EXPECT_NE(outcome.errors.find("the coordinates of 'mm.csv' are converted from mm to m"), std::string::npos)
     << outcome.errors;
   EXPECT_EQ(this->read("all.csv"), "x,y,z\n1,2,3\n4,5,6\n");
+}
+
+TEST_F(Convert, EachFileThatIsConvertedIsNamed)
+{
+  this->write("m.csv", "x_m,y_m,z_m\n1,2,3\n");
+  this->write("scan1.csv", "x [mm],y [mm],z [mm]\n4000,5000,6000\n");
+  this->write("scan2.csv", "x [in],y [in],z [in]\n0,0,100\n");
+  const auto outcome =
+    this->run({ "convert", "m.csv", "scan1.csv", "scan2.csv", "--merge", "-o", "all.csv" });
+  for (const char* part :
+    { "'scan1.csv' are converted from mm to m\n", "'scan2.csv' are converted from in to m\n" })
+  {
+    EXPECT_NE(outcome.errors.find(part), std::string::npos) << outcome.errors;
+  }
+  EXPECT_EQ(this->read("all.csv"), "x,y,z\n1,2,3\n4,5,6\n0,0,2.54\n");
+  EXPECT_NE(outcome.errors.find("does not say that the unit is m:"), std::string::npos) << outcome.errors;
 }
 
 TEST_F(Convert, FeetThatDifferAreConvertedWithAWord)
@@ -202,7 +220,7 @@ TEST_F(Convert, FeetThatDifferAreConvertedWithAWord)
   this->write("survey.vtp", cloudIn("US survey foot"));
   const auto outcome = this->run({ "convert", "foot.vtp", "survey.vtp", "--merge", "-o", "all.csv" });
   EXPECT_EQ(outcome.exitCode, 0) << outcome.errors;
-  EXPECT_NE(outcome.errors.find("input 2 are converted from ft to ft of 0.3048 m, its arrays are not"),
+  EXPECT_NE(outcome.errors.find("'survey.vtp' are converted from ft to ft of 0.3048 m, its arrays are not"),
     std::string::npos)
     << outcome.errors;
   EXPECT_NE(this->read("all.csv").find("\n3000006"), std::string::npos) << this->read("all.csv");

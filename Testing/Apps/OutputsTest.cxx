@@ -397,7 +397,7 @@ TEST_F(Outputs, GoToStandardOutputByAnyOfItsNames)
 
 TEST_F(Outputs, OfAFormatThatTheNameDoesNotTellAreWarnedOf)
 {
-  this->write("in.csv", "x,y,z,Scan Angle\n1,2,3,4\n");
+  this->write("in.csv", "x,y,z,ScanAngle\n1,2,3,4\n");
   const Outcome outcome = this->run({ "convert", "in.csv", "-o", "a.ply", "--output-format", "csv" });
   EXPECT_NE(outcome.errors.find("a.ply: holds .csv"), std::string::npos) << outcome.errors;
   EXPECT_EQ(this->succeed({ "convert", "in.csv", "-o", "a.las", "--las-scale", "0.1" }), "1 point: a.las\n");

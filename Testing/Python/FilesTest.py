@@ -12,6 +12,9 @@ from support import TestCase, run_program, sphere
 
 import numpy as np
 import pointhaptics as ph
+from pointhaptics import updates
+from vtkmodules.util.numpy_support import numpy_to_vtk
+from vtkmodules.vtkCommonDataModel import vtkTable
 
 
 def without_nothing(told):
@@ -116,8 +119,9 @@ class Files(TestCase):
     def test_what_a_format_cannot_hold_is_a_warning(self):
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
-            ph.write(self.path("cloud.ply"), sphere(5), {"a b": np.arange(5)})
-        self.assertTrue(any("cloud.ply" in str(w.message) for w in caught), caught)
+            ph.write(self.path("cloud.las"), sphere(5), {"a" * 40: np.arange(5)})
+        self.assertTrue(any("cloud.las" in str(w.message) for w in caught), caught)
+        self.assertEqual({w.filename for w in caught}, {__file__})  # the user's line
 
     def test_bad_files(self):
         with open(self.path("bad.ply"), "w") as file:
@@ -167,6 +171,29 @@ class WholeClouds(TestCase):
         last, attributes = ph.read(self.path("b.laz"))
         self.assertEqual(attributes.fields["CoordinateSystem"], "EPSG:25832")
         self.assert_same_bits(last, again)
+
+    def test_degrees_become_metres_where_they_are_asked_for(self):
+        with open(self.path("a.csv"), "w") as file:
+            file.write("longitude,latitude,altitude\n" + "".join(f"8.{i},48.5,40\n" for i in range(10)))
+        with self.assertWarnsRegex(RuntimeWarning, "degrees .* local_metres=True gives metres"):
+            points, attributes = ph.read(self.path("a.csv"))
+        self.assertAlmostEqual(points[3, 0], 8.3, places=6)
+        self.assertEqual(attributes.fields["LengthUnit"], "degree")
+        with self.assertWarnsRegex(RuntimeWarning, "are metres to the east and north"):
+            points, attributes = ph.read(self.path("a.csv"), local_metres=True)
+        self.assertAlmostEqual(points[9, 0] - points[0, 0], 0.9 * 111195 * np.cos(np.radians(48.5)), delta=10)
+        self.assertEqual(attributes.fields["LengthUnit"], "metre")
+        reader = ph.vtkPointCloudReader()
+        reader.SetFileName(self.path("a.csv"))
+        feel = ph.vtkHapticFeel()
+        feel.SetInputConnection(0, reader.GetOutputPort())
+        path = vtkTable()
+        for name, rows in zip("txyz", ([0, 1], [0, 0], [0, 0], [50, 40])):
+            column = numpy_to_vtk(np.array(rows, float), deep=True)
+            column.SetName(name)
+            path.AddColumn(column)
+        feel.SetInputData(1, path)
+        self.assertIn("let the reader give local metres", updates.run(feel, feel.Update)[0])
 
     def test_texts_are_kept_or_said(self):
         names = np.array(["tree", "road", "tree"])

@@ -22,7 +22,7 @@ class Package(TestCase):
             (ph.resample, "points voxel dims workspace transform attributes covariance categorical threads "
              "representative minimum_points voxel_index"),
             (ph.bandwidth, "points k rule beta r1 r2 density counts"),
-            (ph.read, "path salvage columns samples"),
+            (ph.read, "path salvage columns samples local_metres"),
             (ph.write, "path points attributes fields extension"),
             (ph.info, "path"),
             (ph.Scene, "points voxel dims workspace"),

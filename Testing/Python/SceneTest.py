@@ -65,8 +65,9 @@ class Feel(TestCase):
         for options in ((), ("--voxel", 0.005), ("--dims", 50)):
             told = self.program(*options)
             arguments = {options[0][2:]: options[1]} if options else {}
-            with self.assertWarnsRegex(RuntimeWarning, "1 of .* is far from all others; .* takes it in"):
+            with self.assertWarnsRegex(RuntimeWarning, "1 of .* is far from all others; .* takes it in") as said:
                 self.compare(ph.Scene(points, **arguments).feel(self.hand), told)
+            self.assertEqual(said.filename, __file__)  # the line of the user, not of the package
 
     def test_it_says_how_many_points_it_has(self):
         self.assertEqual(repr(ph.Scene(self.points)), f"<pointhaptics.Scene of {len(self.points)} points>")

@@ -6,6 +6,7 @@
 #include "Terminal/StandardStreams.h"
 #include "Terminal/StopSignals.h"
 
+#include "IO/Info/LengthUnit.h"
 #include "MergedCloud.h"
 #include "vtkPointCloudReader.h"
 #include "vtkPointCloudWriter.h"
@@ -145,6 +146,7 @@ bool writeFile(vtkPointSet* points, const std::string& path, const std::string& 
 bool readCloud(const std::string& fileName, Cloud& cloud, std::string& message, const ReadOptions& options)
 {
   const bool isStandard = fileName == kStandardStream;
+  cloud.name = fileName;
   return readFile(
     isStandard ? "/dev/stdin" : fileName, isStandard ? "standard input" : fileName, cloud, message, options);
 }
@@ -230,12 +232,14 @@ Cloud mergedCloud(const std::string& command, std::vector<Cloud>& clouds)
   if (clouds.size() > 1)
   {
     std::vector<vtkPolyData*> parts;
+    std::vector<std::string> names;
     for (const Cloud& each : clouds)
     {
       parts.push_back(each.points);
+      names.push_back(each.name);
     }
     std::vector<std::string> notes;
-    merged.points = io::mergeClouds(parts, notes);
+    merged.points = io::mergeClouds(parts, names, notes);
     if (!merged.points)
     {
       throw Failure(notes.back());
@@ -250,6 +254,19 @@ Cloud mergedCloud(const std::string& command, std::vector<Cloud>& clouds)
     each = {};
   }
   return merged;
+}
+
+std::string whyNoLengths(vtkPolyData* cloud, const AffineTransform& transform)
+{
+  constexpr double kFewestPerLongitude = 100.0; // of a length: near the poles such a degree is short
+  constexpr double kFewestPerLatitude = 1e4;
+  const auto lengthOf = [&](const Vec3& v) { return norm(transform.applyToVector(v)); };
+  const double z = lengthOf({ 0, 0, 1 });
+  const bool areLengths =
+    lengthOf({ 1, 0, 0 }) > kFewestPerLongitude * z && lengthOf({ 0, 1, 0 }) > kFewestPerLatitude * z;
+  return lengthUnitOf(cloud, Bounds()).name == "deg" && !areLengths
+    ? "x and y are degrees and z is a length; project the cloud to metres"
+    : "";
 }
 
 vtkSmartPointer<vtkPolyData> transformedPoints(vtkPolyData* cloud, const AffineTransform& transform)

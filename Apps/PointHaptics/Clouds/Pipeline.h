@@ -30,6 +30,7 @@ namespace app
 struct Cloud
 {
   vtkSmartPointer<vtkPolyData> points;
+  std::string name;               ///< Of the file, as it was given.
   std::string format;             ///< Name of the format, as the reader gives it.
   std::vector<std::string> notes; ///< Parts of the file that the points lack.
   bool isValidWithoutPoints = false;
@@ -80,6 +81,10 @@ bool writeCloud(vtkPointSet* points, const std::string& fileName, Files& files, 
   std::string& message, const WriteOptions& options = {}, vtkIdType* written = nullptr);
 /// Merges @p clouds, which are empty then, into one. Notes are shown as warnings of @p command.
 Cloud mergedCloud(const std::string& command, std::vector<Cloud>& clouds);
+
+/// That no length can be computed of @p cloud, as x and y are degrees and z is a length, which @p transform
+/// does not change; empty: there can.
+std::string whyNoLengths(vtkPolyData* cloud, const AffineTransform& transform = {});
 
 /// The finite points of @p cloud, moved by @p transform, in double precision, without arrays.
 vtkSmartPointer<vtkPolyData> transformedPoints(vtkPolyData* cloud, const AffineTransform& transform);

@@ -116,11 +116,11 @@ std::string noReturnsNote(
 bool updateResampler(
   const ResampleOptions& options, vtkPolyData* cloud, vtkVoxelMeanResampler* resampler, std::string& message)
 {
-  if (lengthUnitOf(cloud, Bounds()).name == "deg" && !options.lattice.isScaled())
+  message = whyNoLengths(cloud, options.lattice.transform());
+  if (!message.empty())
   {
-    message = options.files.input +
-      ": x and y are degrees and z is a length, so no voxel is a cube; project the cloud to metres, or give "
-      "metres a degree, such as --scale 78000,111000,1";
+    message =
+      options.files.input + ": " + message + ", or give metres a degree, such as --scale 78000,111000,1";
     return false;
   }
   if (updateFilter(resampler, "resampling", message))

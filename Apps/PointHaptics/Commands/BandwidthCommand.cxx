@@ -23,7 +23,8 @@ constexpr const char* kBandwidthCommand = "bandwidth";
 /// Adds the arrays to @p cloud and writes it to the output in @p files.
 CloudResult addBandwidths(const BandwidthCommandOptions& options, Cloud& cloud, Files& files)
 {
-  std::string message;
+  std::string message = whyNoLengths(cloud.points);
+  require(message.empty(), options.files.input + ": " + message);
   vtkNew<vtkKernelBandwidthFilter> filter;
   filter->SetInputData(cloud.points);
   filter->SetSettings(options.bandwidth.settings);

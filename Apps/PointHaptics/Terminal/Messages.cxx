@@ -173,6 +173,23 @@ std::string lowerCase(std::string text)
   return text;
 }
 
+/// What is the same of warnings that count together. Names in quotes that differ in a number are others.
+std::string withoutNumbers(const std::string& text)
+{
+  std::string result;
+  bool isQuoted = false;
+  const auto isLetter = [&](std::size_t i)
+  { return i < text.size() && std::isalnum(static_cast<unsigned char>(text[i])) != 0; };
+  for (std::size_t i = 0; i < text.size(); ++i)
+  {
+    const bool isMark = text[i] == '\'' && !(isLetter(i - 1) && isLetter(i + 1)); // "PCL's" has none
+    isQuoted = isQuoted != isMark;
+    const bool isNumber = std::isdigit(static_cast<unsigned char>(text[i])) != 0 || text[i] == '.';
+    result += isNumber && !isQuoted ? "" : text.substr(i, 1);
+  }
+  return result;
+}
+
 } // namespace
 
 void nameProgram(const std::string& name)
@@ -205,13 +222,10 @@ int fail(const std::string& command, const std::string& message)
 void warn(const std::string& command, const std::string& message, const std::string& file)
 {
   KeptWarning warning{ command + ": " + message, command, file, message, 0, false };
-  std::string& key = warning.key;
-  key.erase(
-    std::remove_if(key.begin(), key.end(), [](unsigned char c) { return std::isdigit(c) || c == '.'; }),
-    key.end());
+  warning.key = withoutNumbers(warning.key);
   auto& all = speech().warnings;
   auto known =
-    std::find_if(all.begin(), all.end(), [&](const KeptWarning& other) { return other.key == key; });
+    std::find_if(all.begin(), all.end(), [&](const KeptWarning& other) { return other.key == warning.key; });
   known = known == all.end() ? all.insert(all.end(), std::move(warning)) : known;
   ++known->count;
 }

@@ -13,11 +13,11 @@ constexpr std::string_view kPointFields[] = { "Intensity", "ReturnNumber", "Numb
   "Classification", "ClassificationFlags", "ScannerChannel", "ScanDirection", "EdgeOfFlightLine", "ScanAngle",
   "UserData", "PointSourceId", "GpsTime", "Color16", "RGB", "NearInfrared" };
 
-/// Whether two names mean one field: in upper or lower case, with or without '_', ' ' and '-' between words.
-/// "gps_time" is "GpsTime".
+/// Whether two names mean one field: in upper or lower case, with or without '_', ' ', '-' and '.' between
+/// words. "gps_time" is "GpsTime".
 constexpr bool isSameField(std::string_view a, std::string_view b) noexcept
 {
-  const auto isFiller = [](char c) { return c == '_' || c == ' ' || c == '-'; };
+  const auto isFiller = [](char c) { return c == '_' || c == ' ' || c == '-' || c == '.'; };
   const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
   std::size_t i = 0;
   std::size_t j = 0;

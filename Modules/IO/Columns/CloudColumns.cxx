@@ -2,6 +2,7 @@
 
 #include "Bytes/NumericType.h"
 #include "Bytes/ShownColors.h"
+#include "Core/Resample/FieldNames.h"
 #include "FileProblem.h"
 #include "IO/Text/TextScan.h"
 
@@ -30,8 +31,9 @@ using Names = std::vector<std::vector<std::string>>;
 
 const std::vector<std::string> kXyz = { "x", "y", "z" };
 /// Other names of the three coordinates.
-const Names kCoordinateWords = { { "x", "easting", "east", "e", "rechtswert", "ost", "est", "este" },
-  { "y", "northing", "north", "n", "hochwert", "nord", "norte" },
+const Names kCoordinateWords = { { "x", "easting", "east", "e", "rechtswert", "ost", "est", "este",
+                                   "longitude", "lon", "long", "lng" },
+  { "y", "northing", "north", "n", "hochwert", "nord", "norte", "latitude", "lat" },
   { "z", "elevation", "elev", "height", "h", "altitude", "alt", "up", "hoehe", "h\xc3\xb6he", "cota" } };
 /// Words beside the name of a coordinate: "POINT_X", "x coordinate".
 const std::vector<std::string> kFillers = { "coord", "coords", "coordinate", "coordinates", "point", "points",
@@ -39,14 +41,13 @@ const std::vector<std::string> kFillers = { "coord", "coords", "coordinate", "co
   "cartesian", "value" };
 const std::vector<std::string> kUnitWords = { "m", "mm", "cm", "km", "um", "ft", "in", "metre", "metres",
   "meter", "meters", "feet", "foot" };
-const char* const kDegrees[] = { "lat", "lon", "latitude", "longitude", "long", "lng" };
+const std::vector<std::string> kDegrees = { "longitude", "lon", "long", "lng", "latitude", "lat" };
 const Names kColorsWithAlpha = { { "red", "green", "blue", "alpha" }, { "r", "g", "b", "a" },
   { "diffuse_red", "diffuse_green", "diffuse_blue", "diffuse_alpha" } };
 const Names kColors = { { "red", "green", "blue" }, { "r", "g", "b" }, { "rf", "gf", "bf" },
   { "diffuse_red", "diffuse_green", "diffuse_blue" }, { "color_r", "color_g", "color_b" },
   { "colour_r", "colour_g", "colour_b" }, { "rgb_r", "rgb_g", "rgb_b" } };
-const Names kNormals = { { "nx", "ny", "nz" }, { "normal_x", "normal_y", "normal_z" },
-  { "normalx", "normaly", "normalz" }, { "n_x", "n_y", "n_z" } };
+const Names kNormals = { { "nx", "ny", "nz" }, { "normal_x", "normal_y", "normal_z" } };
 
 bool isByte(int type)
 {
@@ -98,7 +99,7 @@ bool findNames(const std::vector<Column>& columns, const std::vector<bool>& plac
   {
     for (std::size_t i = 0; i < columns.size(); ++i)
     {
-      if (!placed[i] && columns[i].components == 1 && equalNoCase(columns[i].name, name))
+      if (!placed[i] && columns[i].components == 1 && isSameField(columns[i].name, name))
       {
         found.push_back(i);
         break;
@@ -164,6 +165,7 @@ struct CoordinateName
     {
       axis = names(i) ? i : -1;
     }
+    unit = has(kDegrees, rest) ? "degree" : unit;
   }
   bool names(int i) const
   {
@@ -184,7 +186,7 @@ bool isOneOf(const Names& lists, const std::string& name)
     [&](const std::vector<std::string>& list)
     {
       return std::any_of(
-        list.begin(), list.end(), [&](const std::string& each) { return equalNoCase(each, name); });
+        list.begin(), list.end(), [&](const std::string& each) { return isSameField(each, name); });
     });
 }
 
@@ -192,22 +194,16 @@ bool isOneOf(const Names& lists, const std::string& name)
 {
   constexpr std::size_t kListed = 6;
   std::string names;
-  bool hasDegrees = false;
   bool isPacked = false;
   for (std::size_t i = 0; i < columns.size(); ++i)
   {
     const std::string& name = columns[i].name;
     names += i < kListed ? (i == 0 ? " " : ", ") + inQuotes(name) : std::string(i == kListed ? " ..." : "");
     isPacked = isPacked || name == "packed_position";
-    hasDegrees = hasDegrees ||
-      std::any_of(
-        std::begin(kDegrees), std::end(kDegrees), [&](const char* each) { return equalNoCase(name, each); });
   }
   failFormat("no columns named x, y and z, but" + names,
     isPacked
       ? "this is SuperSplat's compressed PLY: save it uncompressed there, or splat-transform IN.ply OUT.ply"
-      : hasDegrees
-      ? "degrees are no lengths: project the cloud to metres, such as UTM, and name the columns x, y, z"
       : "name the three coordinates x, y and z in the header, or for columns of text by --columns");
 }
 

@@ -66,6 +66,9 @@ public:
   /// Where component @p component of column @p column is to be written.
   ColumnView target(std::size_t column, int component = 0) const;
 
+  /// The array of column @p column.
+  vtkDataArray* arrayOf(std::size_t column) const { return arrays_[places_[column].array]; }
+
   /// Gives points, arrays and one vertex per point to @p cloud. @p shared: the ranks that each have a part of
   /// the rows; collective.
   void moveTo(vtkPolyData* cloud, SharedReading* shared = nullptr);

@@ -28,7 +28,10 @@ bool isLabel(const ColumnEvidence& column)
     std::all_of(column.sample.begin(), column.sample.end(), [](double v) { return v == std::floor(v); });
 }
 
-/// Whole numbers that count the rows, and coordinates that are not all whole.
+bool areColors(const Columns& columns, std::size_t first);
+
+/// Whole numbers that count the rows, and coordinates that are not all whole; or any that differ, before
+/// three coordinates with decimals and three whole colours.
 bool isId(const Columns& columns)
 {
   if (columns.size() < 4 || !columns[0].isWhole || columns[0].sample.size() < kFewestIds ||
@@ -37,8 +40,10 @@ bool isId(const Columns& columns)
     return false;
   }
   const std::vector<double>& ids = columns[0].sample;
-  return std::adjacent_find(ids.begin(), ids.end(), [](double a, double b) { return b != a + 1.0; }) ==
-    ids.end();
+  const bool hasColors = columns.size() >= 7 && columns[4].isWhole && areColors(columns, 4) &&
+    std::none_of(columns.begin() + 1, columns.begin() + 4, [](const ColumnEvidence& c) { return c.isWhole; });
+  return (hasColors && numberOfValues(columns[0]) == ids.size()) ||
+    std::adjacent_find(ids.begin(), ids.end(), [](double a, double b) { return b != a + 1.0; }) == ids.end();
 }
 
 /// True if the values go on from row to row, as the coordinates of a path do.
@@ -212,33 +217,48 @@ ColumnEvidence ColumnEvidence::of(std::vector<double> sample, bool isWhole)
   return evidence;
 }
 
+namespace
+{
+
+/// True if the first two columns number the rays of a scanner, before coordinates with decimals and colours.
+bool areRowAndColumn(const Columns& columns)
+{
+  const auto isWhole = [](const ColumnEvidence& c) { return c.isWhole && c.least >= 0.0; };
+  return columns.size() >= 8 && isWhole(columns[0]) && isWhole(columns[1]) && isWhole(columns[5]) &&
+    std::none_of(
+      columns.begin() + 2, columns.begin() + 5, [](const ColumnEvidence& c) { return c.isWhole; }) &&
+    areColors(columns, 5);
+}
+
+} // namespace
+
 std::vector<std::string> guessColumnNames(const std::vector<ColumnEvidence>& columns, bool prefersColors)
 {
   const bool hasId = isId(columns);
-  const std::size_t first = hasId || isClock(columns) ? 1 : 0;
+  const bool hasRays = !hasId && areRowAndColumn(columns);
+  const std::size_t first = hasRays ? 2 : hasId || isClock(columns) ? 1 : 0;
   std::vector<std::string> names =
     RestNames(columns, std::min(first + 3, columns.size()), prefersColors).take();
-  if (first == 1)
+  if (first > 0)
   {
-    names[0] = hasId ? "id" : "time";
+    names[0] = hasRays ? "row" : hasId ? "id" : "time";
+    names[first - 1] = hasRays ? "column" : names[0];
   }
   for (std::size_t i = 0; i < 3 && first + i < names.size(); ++i)
   {
     names[first + i] = std::string(1, "xyz"[i]);
   }
   std::vector<std::size_t> scalars;
-  bool hasLabel = false;
+  std::size_t label = names.size(); // the one of fewest values
   for (std::size_t i = first + 3; i < names.size(); ++i)
   {
-    if (names[i].empty() && !hasLabel && isLabel(columns[i]))
-    {
-      names[i] = "label";
-      hasLabel = true;
-    }
-    else if (names[i].empty())
-    {
-      scalars.push_back(i);
-    }
+    const bool isFewer = label == names.size() || numberOfValues(columns[i]) < numberOfValues(columns[label]);
+    label = names[i].empty() && isLabel(columns[i]) && isFewer ? i : label;
+  }
+  for (std::size_t i = first + 3; i < names.size(); ++i)
+  {
+    names[i] = i == label ? "label" : names[i];
+    names[i].empty() ? scalars.push_back(i) : void();
   }
   for (const std::size_t i : scalars)
   {

@@ -3,8 +3,6 @@
 #include "Bytes/NumericType.h"
 #include "FileProblem.h"
 
-#include "Core/Resample/FieldNames.h"
-
 #include "vtkIdList.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
@@ -13,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <type_traits>
 
 namespace pointhaptics::io
@@ -35,9 +34,9 @@ vtkSmartPointer<vtkDataArray> inPlainMemory(vtkDataArray* array)
   return copy;
 }
 
-std::string plainName(const char* name, NameRule rule)
+std::string plainName(const std::string& name, NameRule rule)
 {
-  std::string result = name && *name ? name : "unnamed";
+  std::string result = name.empty() ? "unnamed" : name;
   for (char& c : result)
   {
     const auto byte = static_cast<unsigned char>(c);
@@ -64,6 +63,35 @@ ArrayRole roleOf(vtkDataArray* array, vtkPointData* data)
   }
   return ArrayRole::Other;
 }
+
+/// Names that differ.
+class UnusedNames
+{
+public:
+  /// @p wanted, or with a number behind it where it was given before, in at most @p longest bytes.
+  std::string unused(const std::string& wanted, std::size_t longest)
+  {
+    const auto cut = [&](std::size_t size)
+    {
+      std::size_t end = std::min(size, wanted.size());
+      while (end < wanted.size() && end > 0 && (static_cast<unsigned char>(wanted[end]) & 0xc0) == 0x80)
+      {
+        --end; // within a character of UTF-8
+      }
+      return wanted.substr(0, end);
+    };
+    std::string name = cut(longest);
+    for (int number = 2; !used_.insert(name).second; ++number)
+    {
+      const std::string suffix = "_" + std::to_string(number);
+      name = cut(longest == std::string::npos ? longest : longest - suffix.size()) + suffix;
+    }
+    return name;
+  }
+
+private:
+  std::set<std::string> used_ = { "Points", "x", "y", "z" };
+};
 
 /// Only one array may be the colours, and one the normals: the first found; the active one goes first.
 void keepFirstOfRole(std::vector<OutputArray>& arrays, ArrayRole role, vtkDataArray* active)
@@ -96,35 +124,10 @@ std::string OutputArray::componentName(int component) const
   return components() == 1 ? name : name + "_" + std::to_string(component);
 }
 
-std::string UnusedNames::unused(const std::string& wanted, std::size_t longest)
-{
-  const auto cut = [&](std::size_t size)
-  {
-    std::size_t end = std::min(size, wanted.size());
-    while (end < wanted.size() && end > 0 && (static_cast<unsigned char>(wanted[end]) & 0xc0) == 0x80)
-    {
-      --end; // within a character of UTF-8
-    }
-    return wanted.substr(0, end);
-  };
-  std::string name = cut(longest);
-  for (int number = 2; !used_.insert(name).second; ++number)
-  {
-    const std::string suffix = "_" + std::to_string(number);
-    name = cut(longest == std::string::npos ? longest : longest - suffix.size()) + suffix;
-  }
-  return name;
-}
-
-std::vector<OutputArray> outputArrays(vtkPointSet* cloud, WriterNotes& notes, NameRule names)
+std::vector<OutputArray> outputArrays(vtkPointSet* cloud, WriterNotes& notes)
 {
   std::vector<OutputArray> arrays;
-  arrays.push_back({ ArrayRole::Points, "Points", inPlainMemory(cloud->GetPoints()->GetData()) });
-  UnusedNames used;
-  for (const char* name : { "Points", "x", "y", "z" })
-  {
-    used.unused(name);
-  }
+  arrays.push_back({ ArrayRole::Points, "Points", inPlainMemory(cloud->GetPoints()->GetData()), "Points" });
   vtkPointData* data = cloud->GetPointData();
   for (int i = 0; i < data->GetNumberOfArrays(); ++i)
   {
@@ -135,24 +138,107 @@ std::vector<OutputArray> outputArrays(vtkPointSet* cloud, WriterNotes& notes, Na
       notes.add("array " + inQuotes(name ? name : "") + " holds no numbers and is left out");
       continue;
     }
-    OutputArray output{ roleOf(array, data), plainName(array->GetName(), names), inPlainMemory(array) };
+    const std::string name = array->GetName() ? array->GetName() : "";
+    OutputArray output{ roleOf(array, data), name, inPlainMemory(array), name };
     if (array->GetNumberOfTuples() < cloud->GetNumberOfPoints())
     {
       failFormat("array " + inQuotes(output.name) + " has " + std::to_string(array->GetNumberOfTuples()) +
           " values for " + std::to_string(cloud->GetNumberOfPoints()) + " points",
         "give every array one value per point");
     }
-    output.name = used.unused(output.name);
-    const std::string given = array->GetName() ? array->GetName() : "";
-    if (output.name != given && !isPointField(output.name)) // fields are known by any spelling
-    {
-      notes.add("array " + inQuotes(given) + " is called " + output.name);
-    }
     arrays.push_back(output);
   }
   keepFirstOfRole(arrays, ArrayRole::Colors, data->GetScalars());
   keepFirstOfRole(arrays, ArrayRole::Normals, data->GetNormals());
   return arrays;
+}
+
+std::vector<Column> columnsByComponent(const OutputArray& array)
+{
+  std::vector<Column> columns;
+  for (int component = 0; component < array.components(); ++component)
+  {
+    columns.push_back({ array.componentName(component), array.type() });
+  }
+  return columns;
+}
+
+namespace
+{
+
+/// Name that the reader gives each array; empty where its columns become something else.
+std::vector<std::string> namesRead(const std::vector<OutputArray>& arrays,
+  const std::function<std::vector<Column>(const OutputArray&)>& columnsOf)
+{
+  std::vector<Column> columns;
+  std::vector<std::size_t> firsts = { 0 };
+  for (const OutputArray& array : arrays)
+  {
+    const std::vector<Column> own = columnsOf(array);
+    columns.insert(columns.end(), own.begin(), own.end());
+    firsts.push_back(columns.size());
+  }
+  const CloudColumns plan(columns, 0);
+  std::set<std::string> seen;
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < arrays.size(); ++i)
+  {
+    const std::size_t count = firsts[i + 1] - firsts[i];
+    vtkDataArray* read = count > 0 ? plan.arrayOf(firsts[i]) : nullptr;
+    bool isOwn = read && read == plan.arrayOf(firsts[i + 1] - 1) &&
+      read->GetNumberOfComponents() == arrays[i].components();
+    for (std::size_t column = firsts[i]; column < firsts[i + 1]; ++column)
+    {
+      isOwn = seen.insert(columns[column].name).second && isOwn;
+    }
+    const bool isCalled = isOwn &&
+      (arrays[i].role != ArrayRole::Other ||
+        read->GetName() == (count == 1 ? columns[firsts[i]].name : arrays[i].name));
+    names.emplace_back(isCalled ? read->GetName() : "");
+  }
+  return names;
+}
+
+} // namespace
+
+void chooseNames(std::vector<OutputArray>& arrays,
+  const std::function<std::vector<Column>(const OutputArray&)>& columnsOf, const NameLimits& limits,
+  WriterNotes& notes)
+{
+  constexpr std::size_t kLongestNumber = 4; // of a component, with its '_'
+  constexpr int kMostRounds = 16;
+  UnusedNames used;
+  const auto choose = [&](OutputArray& array, const std::string& wanted)
+  {
+    const bool isCut = limits.longest != std::string::npos && array.components() > 1;
+    array.name = used.unused(plainName(wanted, limits.rule), limits.longest - (isCut ? kLongestNumber : 0));
+  };
+  for (std::size_t i = 1; i < arrays.size(); ++i)
+  {
+    choose(arrays[i], arrays[i].name);
+  }
+  std::vector<std::string> names = namesRead(arrays, columnsOf);
+  for (int round = 0; std::find(names.begin() + 1, names.end(), "") != names.end(); ++round)
+  {
+    if (round == kMostRounds)
+    {
+      failFormat("arrays whose names mean something else together", "give them other names");
+    }
+    for (std::size_t i = 1; i < arrays.size(); ++i)
+    {
+      names[i].empty() && arrays[i].role == ArrayRole::Other ? choose(arrays[i], arrays[i].name) : void();
+    }
+    names = namesRead(arrays, columnsOf);
+  }
+  for (std::size_t i = 1; i < arrays.size(); ++i)
+  {
+    if (names[i] != arrays[i].given)
+    {
+      limits.comments && !arrays[i].given.empty()
+        ? void(limits.comments->names.emplace_back(names[i], arrays[i].given))
+        : notes.add("array " + inQuotes(arrays[i].given) + " is called " + names[i]);
+    }
+  }
 }
 
 std::vector<OutputArray> withoutLongIntegers(std::vector<OutputArray> arrays, WriterNotes& notes)

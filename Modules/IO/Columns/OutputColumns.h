@@ -3,11 +3,13 @@
 #pragma once
 
 #include "Bytes/StridedCopy.h"
+#include "IO/Columns/CloudColumns.h"
+#include "IO/Info/FileComments.h"
 
 #include "vtkDataArray.h"
 #include "vtkSmartPointer.h"
 
-#include <set>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -32,23 +34,13 @@ enum class NameRule
   Any,   ///< All but control characters.
 };
 
-/// Names that differ.
-class UnusedNames
-{
-public:
-  /// @p wanted, or with a number behind it where it was given before, in at most @p longest bytes.
-  std::string unused(const std::string& wanted, std::size_t longest = std::string::npos);
-
-private:
-  std::set<std::string> used_;
-};
-
-/// One array in contiguous memory, under a name without white space, commas or quotes.
+/// One array in contiguous memory.
 struct OutputArray
 {
   ArrayRole role = ArrayRole::Other;
-  std::string name;
+  std::string name; ///< In the file.
   vtkSmartPointer<vtkDataArray> array;
+  std::string given; ///< Its name in the cloud.
 
   int components() const { return array->GetNumberOfComponents(); }
   int type() const { return array->GetDataType(); }
@@ -67,9 +59,25 @@ struct WriterNotes
 
 /// The points first, then every array of numbers in the point data, each under its own name; arrays of
 /// strings are left out. @throws FileProblem when an array is shorter than the cloud.
-/// @param names what they may be called.
-std::vector<OutputArray> outputArrays(
-  vtkPointSet* cloud, WriterNotes& notes, NameRule names = NameRule::Words);
+std::vector<OutputArray> outputArrays(vtkPointSet* cloud, WriterNotes& notes);
+
+/// What the names in a file may be.
+struct NameLimits
+{
+  NameRule rule = NameRule::Any;
+  std::size_t longest = std::string::npos; ///< Bytes of a column's name.
+  FileComments* comments = nullptr; ///< Gets the names that a reader must change back; null: these are noted.
+};
+
+/// Chooses the names of @p arrays in a file. They are right when CloudColumns, which plans what a reader
+/// makes of columns, gives each array its own columns back. @p columnsOf: those of an array, as the reader of
+/// the file sees them.
+void chooseNames(std::vector<OutputArray>& arrays,
+  const std::function<std::vector<Column>(const OutputArray&)>& columnsOf, const NameLimits& limits,
+  WriterNotes& notes);
+
+/// A column for each component of @p array.
+std::vector<Column> columnsByComponent(const OutputArray& array);
 
 /// Converts arrays of 64 bit integers to doubles, for formats without such integers.
 std::vector<OutputArray> withoutLongIntegers(std::vector<OutputArray> arrays, WriterNotes& notes);

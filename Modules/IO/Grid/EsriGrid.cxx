@@ -1,7 +1,7 @@
 #include "IO/Grid/GridFormats.h"
 
 #include "IO/Formats/FormatLooks.h"
-#include "IO/Text/TextScan.h"
+#include "IO/Text/TextCells.h"
 #include "ReadTask.h"
 
 #include "vtkNew.h"
@@ -55,7 +55,7 @@ EsriHeader parseHeader(LineReader& lines, std::string_view& line)
     {
       continue;
     }
-    if (parseNumber(word, value))
+    if (parseCell(word, value))
     {
       break;
     }
@@ -64,7 +64,7 @@ EsriHeader parseHeader(LineReader& lines, std::string_view& line)
     {
       c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
     }
-    if (!parseNumber(takeWord(rest), value) || header.values.size() > 16)
+    if (!parseCell(takeWord(rest), value) || header.values.size() > 16)
     {
       failLine(lines, inQuotes(word) + " has no number");
     }
@@ -125,7 +125,9 @@ void readEsriGrid(ReadTask& task, vtkPolyData* cloud)
     {
       if (!line.empty())
       {
-        failLine(lines, inQuotes(takeWord(line)) + " is no height");
+        const std::string_view word = takeWord(line);
+        parseCell(word, z) ? void() : failLine(lines, inQuotes(word) + " is no height");
+        break;
       }
       if (!lines.next(line))
       {

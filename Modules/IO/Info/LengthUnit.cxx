@@ -38,7 +38,9 @@ struct Metric
   double metres;
 };
 
-constexpr Metric kMetric[] = { { "m", "", 1.0 }, { "cm", "centi", 0.01 }, { "mm", "milli", 1e-3 } };
+constexpr Metric kMetric[] = { { "m", "", 1.0 }, { "cm", "centi", 0.01 }, { "mm", "milli", 1e-3 },
+  { "um", "micro", 1e-6 }, { "km", "kilo", 1e3 } };
+constexpr double kInch = 0.0254;
 
 std::string lower(std::string text)
 {
@@ -64,6 +66,11 @@ bool readUnit(vtkPolyData* cloud, LengthUnit& unit)
   if (has(said, "foot") || has(said, "feet") || said == "ft")
   {
     unit = { "ft", has(said, "survey") ? kSurveyFoot : kFoot, UnitEvidence::File };
+    return true;
+  }
+  if (said == "in" || said == "inch" || said == "inches")
+  {
+    unit = { "in", kInch, UnitEvidence::File };
     return true;
   }
   for (const Metric& metric : kMetric)

@@ -24,7 +24,7 @@ enum class UnitEvidence
 
 struct LengthUnit
 {
-  std::string name = "m"; ///< m, cm, mm, ft, or deg of longitude and latitude.
+  std::string name = "m"; ///< As --unit takes it, or deg of longitude and latitude.
   double metres = 1.0;    ///< Length of one unit; 1 for degrees, which have no length.
   UnitEvidence evidence = UnitEvidence::None;
 };

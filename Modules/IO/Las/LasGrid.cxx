@@ -214,6 +214,16 @@ bool takeDecimalSteps(const Axis& axis, LasGrid& grid)
 
 } // namespace
 
+double LasGrid::usualStep(const std::string& unit, int axis)
+{
+  const auto begins = [&unit](const char* word) { return unit.rfind(word, 0) == 0; };
+  const bool isDegrees = begins("deg") && axis < 2;
+  return begins("mm") || begins("milli") ? 0.1
+    : begins("cm") || begins("centi")    ? 0.01
+    : isDegrees                          ? 1e-7
+                                         : 0.0001;
+}
+
 LasGrid LasGrid::fit(ConstColumnView column, vtkIdType count, const WantedGrid& wanted)
 {
   const Axis axis = makeAxis(column, count);

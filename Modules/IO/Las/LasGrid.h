@@ -5,6 +5,7 @@
 #include "Bytes/StridedCopy.h"
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace pointhaptics::io
@@ -46,6 +47,9 @@ struct LasGrid
   ///
   /// @pre all are finite.
   static LasGrid fit(ConstColumnView column, vtkIdType count, const WantedGrid& wanted);
+
+  /// 0.1 mm in @p unit, at most, and 1 cm of longitude and latitude; metres where it is not known.
+  static double usualStep(const std::string& unit, int axis);
 
   static constexpr double kFewestSteps = 1000.0;
 };

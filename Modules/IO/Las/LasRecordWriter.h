@@ -25,6 +25,9 @@ void putLittle(std::string& bytes, std::size_t offset, T value)
   }
 }
 
+/// LAS's number for the type of an extra field, and for a VTK type.
+int lasTypeCode(int type);
+
 /// The header of a variable length record of @p size bytes. @p description: at most 32 bytes.
 std::string lasRecordHeader(
   const std::string& user, int id, std::size_t size, std::string_view description = {});

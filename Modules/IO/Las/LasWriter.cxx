@@ -38,47 +38,31 @@ constexpr double kScanAngleStep = 0.006;   ///< degrees, point formats 6 to 10
 constexpr double kGridPart = 0.6;          ///< of the work: finding the grid
 constexpr double kPlanningPart = 0.7;      ///< of the work: all that comes before the first record
 
-/// LAS's number for the type of an extra field.
-int codeOf(int type)
-{
-  const int codes[][2] = { { VTK_TYPE_UINT8, 1 }, { VTK_TYPE_INT8, 2 }, { VTK_TYPE_UINT16, 3 },
-    { VTK_TYPE_INT16, 4 }, { VTK_TYPE_UINT32, 5 }, { VTK_TYPE_INT32, 6 }, { VTK_TYPE_UINT64, 7 },
-    { VTK_TYPE_INT64, 8 }, { VTK_FLOAT, 9 }, { VTK_DOUBLE, 10 } };
-  const int plain = fixedSizeType(type);
-  return (*std::find_if(
-    std::begin(codes), std::end(codes), [&](const int(&entry)[2]) { return entry[0] == plain; }))[1];
-}
-
-/// 0.1 mm in @p unit, at most; metres where it is not known.
-double usualStep(const std::string& unit)
-{
-  const auto begins = [&unit](const char* word) { return unit.rfind(word, 0) == 0; };
-  return begins("mm") || begins("milli") ? 0.1 : begins("cm") || begins("centi") ? 0.01 : 0.0001;
-}
-
 /// Builds one file; one object per file.
 class LasWriter
 {
 public:
-  LasWriter(const std::vector<OutputArray>& arrays, WriteTask& task, bool isPacked)
-    : arrays_(arrays)
-    , taken_(arrays.size(), false)
+  LasWriter(std::vector<OutputArray> arrays, WriteTask& task, bool isPacked)
+    : arrays_(std::move(arrays))
+    , taken_(arrays_.size(), false)
     , fieldData_(task.fieldData())
     , origin_(LasOrigin::of(task.fieldData()))
     , task_(task)
     , notes_(task.notes)
-    , rows_(arrays[0].array->GetNumberOfTuples())
+    , rows_(arrays_[0].array->GetNumberOfTuples())
     , isPacked_(isPacked)
   {
   }
   void write();
 
 private:
-  const OutputArray* take(const char* name, int type, int components = 1, double most = INFINITY);
+  const OutputArray* take(
+    const char* name, int type, int components = 1, double most = INFINITY, const char* field = nullptr);
   template <typename T>
   T largestOf(const OutputArray* array) const;
   bool needsExtended() const;
   void takeStandardArrays();
+  void nameArrays();
   double largestExtent() const;
   void planPositions();
   void planBits();
@@ -93,7 +77,7 @@ private:
   std::string header(std::size_t pointsOffset, const LasDescription& description) const;
   double fieldValue(const char* name, int component, double otherwise) const;
 
-  const std::vector<OutputArray>& arrays_;
+  std::vector<OutputArray> arrays_;
   std::vector<bool> taken_;
   std::deque<OutputArray> converted_; ///< the references to them stay
   vtkFieldData* fieldData_;
@@ -128,11 +112,11 @@ private:
   std::vector<RecordField> fields_;
   std::size_t recordSize_ = 0;
   std::string descriptors_;
-  UnusedNames shortNames_;
 };
 
-/// The array of that field as @p type. Null: none has it with whole values up to @p most.
-const OutputArray* LasWriter::take(const char* name, int type, int components, double most)
+/// The array called @p name as @p type, which becomes the field @p field or the one of its name. Null: none
+/// has it with whole values up to @p most.
+const OutputArray* LasWriter::take(const char* name, int type, int components, double most, const char* field)
 {
   for (std::size_t i = 1; i < arrays_.size(); ++i)
   {
@@ -149,6 +133,7 @@ const OutputArray* LasWriter::take(const char* name, int type, int components, d
     const auto fits = [&](double value)
     { return !(std::abs(value) > largest) && (!isWhole || (value >= 0.0 && value == std::floor(value))); };
     OutputArray converted = array;
+    converted.name = field ? field : name;
     if (fixedSizeType(array.type()) != type)
     {
       converted.array.TakeReference(vtkDataArray::CreateDataArray(type));
@@ -171,6 +156,7 @@ const OutputArray* LasWriter::take(const char* name, int type, int components, d
       }
     }
     taken_[i] = true;
+    arrays_[i].name = converted.name;
     converted_.push_back(converted);
     return &converted_.back();
   }
@@ -184,11 +170,8 @@ void LasWriter::takeStandardArrays()
   numberOfReturns_ = take("NumberOfReturns", VTK_TYPE_UINT8, 1, 15);
   for (const char* name : { "Classification", "scalar_Classification", "Class", "Label", "scalar_Label" })
   {
-    classification_ = classification_ ? classification_ : take(name, VTK_TYPE_UINT8);
-  }
-  if (classification_ && !isSameField(classification_->name, "Classification"))
-  {
-    notes_.add("array " + classification_->name + " is called Classification");
+    classification_ =
+      classification_ ? classification_ : take(name, VTK_TYPE_UINT8, 1, INFINITY, "Classification");
   }
   flags_ = take("ClassificationFlags", VTK_TYPE_UINT8, 1, 15);
   scannerChannel_ = take("ScannerChannel", VTK_TYPE_UINT8, 1, 3);
@@ -201,6 +184,30 @@ void LasWriter::takeStandardArrays()
   wideColor_ = take("Color16", VTK_TYPE_UINT16, 3);
   color_ = take("RGB", VTK_TYPE_UINT8, 3);
   nearInfrared_ = take("NearInfrared", VTK_TYPE_UINT16);
+}
+
+void LasWriter::nameArrays()
+{
+  for (std::size_t i = 1; i < arrays_.size(); ++i)
+  {
+    if (!taken_[i] && isPointField(arrays_[i].name)) // each LAS point has that field, too
+    {
+      notes_.add("array " + arrays_[i].name + " has values that its LAS field cannot hold");
+      arrays_[i].name += "Extra";
+    }
+  }
+  const auto columnsOf = [&](const OutputArray& array)
+  {
+    std::vector<Column> columns = columnsByComponent(array);
+    const bool arePoints = &array == arrays_.data();
+    for (std::size_t i = 0; i < columns.size() && arePoints; ++i)
+    {
+      columns[i].name = "xyz"[i];
+    }
+    const bool isField = taken_[static_cast<std::size_t>(&array - arrays_.data())];
+    return isField ? std::vector<Column>{ { array.name, array.type(), array.components() } } : columns;
+  };
+  chooseNames(arrays_, columnsOf, { NameRule::Any, kLongestName }, notes_);
 }
 
 template <typename T>
@@ -269,7 +276,7 @@ double LasWriter::largestExtent() const
 void LasWriter::planPositions()
 {
   const double extent = largestExtent();
-  const double usual = usualStep(fieldText(fieldData_, "LengthUnit"));
+  const std::string unit = fieldText(fieldData_, "LengthUnit");
   double worst = 0.0;
   double step = 0.0;
   for (int axis = 0; axis < 3; ++axis)
@@ -278,7 +285,7 @@ void LasWriter::planPositions()
     LasGrid& grid = grids_[axis];
     grid = LasGrid::fit(column, rows_,
       { fieldValue("LasScale", axis, 0.0), fieldValue("LasOffset", axis, 0.0), extent, task_.lasScale,
-        usual });
+        LasGrid::usualStep(unit, axis) });
     fields_.push_back({ { reinterpret_cast<const char*>(grid.integers.data()), 4, VTK_TYPE_INT32 },
       static_cast<std::size_t>(4 * axis), VTK_TYPE_INT32 });
     const double error = grid.rounds ? grid.largestError : 0.0;
@@ -395,19 +402,9 @@ void LasWriter::addStored(const OutputArray& stored, const LasExtraField& field)
 /// @param origin what described the array in another file; empty: nothing did.
 void LasWriter::addDescriptor(const OutputArray& array, int component, const std::string& origin)
 {
-  std::string name = array.componentName(component);
-  if (isPointField(array.name)) // each LAS point has that field, too
-  {
-    name = array.name + "Extra" + name.substr(array.name.size());
-    notes_.add("array " + array.name + " has values that its LAS field cannot hold, and is called " + name);
-  }
-  const std::string kept = shortNames_.unused(name, kLongestName);
-  if (kept != name)
-  {
-    notes_.add("array " + name + " is called " + kept);
-  }
+  const std::string kept = array.componentName(component);
   std::string descriptor(kLasExtraDescriptor, '\0');
-  descriptor[2] = static_cast<char>(codeOf(array.type()));
+  descriptor[2] = static_cast<char>(lasTypeCode(array.type()));
   descriptor.replace(4, kept.size(), kept);
   if (!origin.empty())
   {
@@ -435,7 +432,7 @@ void LasWriter::planExtraFields()
     const OutputArray& array = arrays_[i];
     const auto field = std::find_if(known.begin(), known.end(),
       [&](const LasExtraField& each) { return each.name == array.name && !each.descriptor.empty(); });
-    OutputArray stored{ ArrayRole::Other, array.name, {} };
+    OutputArray stored{ ArrayRole::Other, array.name, {}, array.given };
     if (!taken_[i] && field != known.end() && storeAsBefore(array, *field, stored))
     {
       addStored(stored, *field);
@@ -535,6 +532,7 @@ std::string LasWriter::header(std::size_t pointsOffset, const LasDescription& re
 void LasWriter::write()
 {
   takeStandardArrays();
+  nameArrays();
   extended_ = needsExtended() || origin_.pointFormat() >= 6;
   const bool isColored = wideColor_ || color_;
   format_ = extended_ ? (nearInfrared_ ? 8 : isColored ? 7 : 6) : (gpsTime_ ? 1 : 0) + (isColored ? 2 : 0);
@@ -562,7 +560,7 @@ void LasWriter::write()
 
 void writeRecordsOf(WriteTask& task, bool isPacked)
 {
-  const std::vector<OutputArray> arrays = outputArrays(task.cloud, task.notes, NameRule::Any);
+  const std::vector<OutputArray> arrays = outputArrays(task.cloud, task.notes);
   const vtkIdType all = arrays[0].array->GetNumberOfTuples();
   const std::vector<vtkIdType> left = rowsNotFinite(arrays[0]);
   if (left.empty())

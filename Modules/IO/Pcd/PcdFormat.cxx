@@ -3,7 +3,6 @@
 #include "Bytes/NumericType.h"
 #include "IO/Bytes/TextPart.h"
 #include "IO/Columns/CloudColumns.h"
-#include "IO/Info/FieldText.h"
 #include "IO/Pcd/LzfStream.h"
 #include "IO/Pcd/PcdHeader.h"
 #include "IO/Text/TextScan.h"
@@ -61,14 +60,9 @@ struct PcdTable
     for (const PcdField& field : header.fields)
     {
       entries.push_back({ field, columns.size() });
-      if (field.isPackedColor())
+      if (!field.isPadding())
       {
-        const bool hasAlpha = field.name == "rgba";
-        columns.push_back({ hasAlpha ? "RGBA" : "RGB", VTK_TYPE_UINT8, hasAlpha ? 4 : 3 });
-      }
-      else if (!field.isPadding())
-      {
-        columns.push_back({ field.name, field.type, field.count });
+        columns.push_back(field.column());
       }
     }
   }
@@ -276,7 +270,7 @@ RowRange rowsIn(const TextPart& part, const PcdHeader& header)
 
 void addFieldData(const PcdHeader& header, vtkPolyData* cloud)
 {
-  addFieldText(cloud, "LengthUnit", header.lengthUnit);
+  header.comments.moveTo(cloud);
   vtkNew<vtkDoubleArray> viewpoint;
   viewpoint->SetName("Viewpoint");
   viewpoint->SetNumberOfComponents(7);

@@ -2,8 +2,6 @@
 
 #include "Bytes/NumericType.h"
 #include "FileProblem.h"
-#include "IO/Columns/CloudColumns.h"
-#include "IO/Info/FieldText.h"
 #include "IO/Text/TextScan.h"
 
 #include <algorithm>
@@ -223,12 +221,9 @@ PcdHeader HeaderParser::parse()
   while (!complete && lines_.next(line))
   {
     std::string keyword(takeWord(line));
-    if (const std::string unit = unitOfComment(trimmed(line)); keyword == "#" && isUnitWord(unit))
-    {
-      header_.lengthUnit = unit;
-    }
     if (keyword.empty() || keyword.front() == '#')
     {
+      header_.comments.add(line);
       continue;
     }
     keyword = keyword == "COLUMNS" ? "FIELDS" : keyword;
@@ -349,6 +344,13 @@ void checkSizes(std::string_view bytes, PcdHeader& header, const End& endAt)
 bool PcdField::isPackedColor() const
 {
   return count == 1 && sizeOfType(type) == 4 && (name == "rgb" || name == "rgba");
+}
+
+Column PcdField::column() const
+{
+  const bool hasAlpha = name == "rgba";
+  return isPackedColor() ? Column{ hasAlpha ? "RGBA" : "RGB", VTK_TYPE_UINT8, hasAlpha ? 4 : 3 }
+                         : Column{ name, type, count };
 }
 
 PcdHeader parsePcdHeader(std::string_view bytes, const End& endAt)

@@ -2,6 +2,9 @@
 /// The header of a PCD file, checked before anything of the claimed sizes is allocated.
 #pragma once
 
+#include "IO/Columns/CloudColumns.h"
+#include "IO/Info/FileComments.h"
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -30,6 +33,8 @@ struct PcdField
   bool isPadding() const { return name == "_"; }
   /// "rgb" or "rgba" of 4 bytes: three or four bytes packed into one number.
   bool isPackedColor() const;
+  /// What is made of it, unless it is padding.
+  Column column() const;
 };
 
 struct PcdHeader
@@ -40,7 +45,7 @@ struct PcdHeader
   unsigned long long height = 1;
   unsigned long long points = 0;
   std::array<double, 7> viewpoint{ 0, 0, 0, 1, 0, 0, 0 }; ///< position, then quaternion w x y z
-  std::string lengthUnit; ///< as the writer's comment says it; empty: nothing says it
+  FileComments comments;
   std::size_t bodyOffset = 0;
   std::size_t bodyLine = 0;
   std::size_t recordSize = 0;           ///< bytes of a binary record

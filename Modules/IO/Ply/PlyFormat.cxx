@@ -3,15 +3,12 @@
 #include "Bytes/NumericType.h"
 #include "IO/Bytes/TextPart.h"
 #include "IO/Columns/CloudColumns.h"
-#include "IO/Info/FieldText.h"
+#include "IO/Ply/AsciiRecords.h"
 #include "IO/Ply/PlyHeader.h"
 #include "IO/Text/TextScan.h"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <cstring>
-#include <type_traits>
 
 namespace pointhaptics::io
 {
@@ -276,128 +273,6 @@ void readBinaryBody(ReadTask& task, const PlyHeader& header, vtkPolyData* cloud)
   columns.moveTo(cloud, task.shared);
 }
 
-bool nextFilledLine(LineReader& lines, std::string_view& line)
-{
-  while (lines.next(line))
-  {
-    if (!trimmed(line).empty())
-    {
-      return true;
-    }
-  }
-  return false;
-}
-
-/// The numbers of ASCII records. A record is a line as a rule; one may go on in the lines behind, where it
-/// ends with a line, and several may stand in a line, where all of it belongs to them.
-class AsciiRecords
-{
-public:
-  AsciiRecords(LineReader& lines, const PlyElement& element)
-    : lines_(lines)
-    , element_(element)
-  {
-  }
-  /// @return false at the end of the file.
-  bool next()
-  {
-    goesOn_ = false;
-    const bool isThere = !rest_.empty() || nextFilledLine(lines_, rest_);
-    line_ = lines_.lineNumber();
-    return isThere;
-  }
-  double takeNumber(const PlyProperty& property)
-  {
-    double value = 0.0;
-    for (number_ = rest_; !io::takeNumber(rest_, value); number_ = rest_)
-    {
-      if (rest_.empty() && nextFilledLine(lines_, rest_))
-      {
-        missing_ = goesOn_ ? missing_ : property.name;
-        goesOn_ = true;
-        continue;
-      }
-      const std::string_view word = takeWord(rest_);
-      failFormat(where() + "property " + inQuotes(property.name) + " is " +
-          (word.empty() ? std::string("missing") : inQuotes(word) + ", not a number"),
-        "write one number per property and one vertex per line");
-    }
-    return value;
-  }
-  /// Stores the next number. @return false where the type of the property cannot hold it.
-  bool store(const PlyProperty& property, ColumnView target, vtkIdType row, double& value)
-  {
-    value = takeNumber(property);
-    return std::abs(value) >= 0x1p53 && !isFloatingType(property.type)
-      ? storeInteger(takeWord(number_), target, row) // every digit counts
-      : storeNumber(target, row, value);
-  }
-  void skipList(const PlyProperty& list, std::vector<vtkIdType>* items = nullptr)
-  {
-    const double count = takeNumber(list);
-    for (double i = 0.0; i < count; i += 1.0)
-    {
-      const double item = takeNumber(list);
-      if (items)
-      {
-        items->push_back(item >= 0.0 && item < 0x1p53 ? static_cast<vtkIdType>(item) : -1);
-      }
-    }
-  }
-  void expectEnd()
-  {
-    rest_ = trimmed(rest_);
-    if (rest_.empty())
-    {
-      return;
-    }
-    std::size_t extra = 0;
-    for (std::string_view copy = rest_; !takeWord(copy).empty();)
-    {
-      ++extra;
-    }
-    if (goesOn_)
-    {
-      failFormat("line " + std::to_string(line_) + ": property " + inQuotes(missing_) + " is missing",
-        "write one number per property and one vertex per line");
-    }
-    if (element_.hasList() || extra % element_.properties.size() != 0)
-    {
-      failFormat(where() + inQuotes(takeWord(rest_)) + " follows the last property",
-        "write as many numbers per line as the header has properties");
-    }
-  }
-  std::string where() const { return "line " + std::to_string(lines_.lineNumber()) + ": "; }
-
-private:
-  static bool storeInteger(std::string_view word, ColumnView target, vtkIdType row)
-  {
-    bool isStored = false;
-    withType(target.type,
-      [&](auto zero)
-      {
-        using T = decltype(zero);
-        T value{};
-        if constexpr (std::is_integral_v<T>)
-        {
-          const char* const end = word.data() + word.size();
-          const auto [last, error] = std::from_chars(word.data() + (word.front() == '+' ? 1 : 0), end, value);
-          isStored = error == std::errc() && last == end;
-          std::memcpy(target.first + row * target.stride, &value, sizeof(T));
-        }
-      });
-    return isStored;
-  }
-
-  LineReader& lines_;
-  const PlyElement& element_;
-  std::string_view rest_;
-  std::string_view number_; ///< Begins with the number that was taken last.
-  std::string missing_;     ///< First property that did not stand in the line of the others.
-  std::size_t line_ = 0;    ///< In which the record begins.
-  bool goesOn_ = false;     ///< Behind the line in which it begins.
-};
-
 void fillAsciiRow(
   AsciiRecords& record, vtkIdType row, const PlyElement& vertex, const std::vector<ColumnView>& targets)
 {
@@ -420,14 +295,15 @@ void fillAsciiRow(
   record.expectEnd();
 }
 
-void fillAsciiRows(ReadTask& task, LineReader& lines, const PlyElement& vertex, std::uint64_t rows,
-  const std::vector<ColumnView>& targets)
+void fillAsciiRows(ReadTask& task, LineReader& lines, const PlyElement& vertex, bool isLast,
+  std::uint64_t rows, const std::vector<ColumnView>& targets)
 {
-  AsciiRecords record(lines, vertex);
+  AsciiRecords record(lines, vertex, isLast);
   for (std::uint64_t row = 0; row < rows; ++row)
   {
     if (!record.next())
     {
+      task.salvage ? void() : record.throwDoubt();
       const bool isCut = task.salvage && row > 1 && task.bytes.back() != '\n'; // perhaps within a number
       task.endAt(row - (isCut ? 1 : 0), vertex.count,
         "the file ends at line " + std::to_string(lines.lineNumber()) + " before " +
@@ -452,6 +328,7 @@ void fillAsciiRows(ReadTask& task, LineReader& lines, const PlyElement& vertex, 
       task.progress(static_cast<double>(row) / static_cast<double>(rows));
     }
   }
+  record.isAtEndOfLine() ? void() : record.throwDoubt();
 }
 
 void skipAsciiElement(LineReader& lines, const PlyElement& element)
@@ -476,7 +353,7 @@ void skipWholeAsciiElement(LineReader& lines, PlyElement element, MeshFaces& fac
   const unsigned long long count = element.count;
   element.count = faces.isWanted() && element.name == "face" ? 0 : count - 1;
   skipAsciiElement(lines, element);
-  AsciiRecords record(lines, element);
+  AsciiRecords record(lines, element, false);
   std::vector<vtkIdType> corners;
   for (unsigned long long i = element.count; i < count; ++i)
   {
@@ -554,7 +431,10 @@ void readAsciiBody(ReadTask& task, const PlyHeader& header, vtkPolyData* cloud)
   {
     targets.push_back(column == std::string::npos ? ColumnView{} : columns.target(column));
   }
-  fillAsciiRows(task, lines, vertex, rows.count(), targets);
+  const bool isLast = !task.shared &&
+    std::all_of(header.elements.begin() + std::ptrdiff_t(vertexIndex) + 1, header.elements.end(),
+      [](const PlyElement& later) { return later.count == 0; });
+  fillAsciiRows(task, lines, vertex, isLast, rows.count(), targets);
   noteCutElements(
     task, header, [&](const PlyElement& element) { skipWholeAsciiElement(lines, element, task.faces); });
   columns.moveTo(cloud, task.shared);
@@ -585,7 +465,6 @@ void readPly(ReadTask& task, vtkPolyData* cloud)
         ", which each vertex has of its own length, is left out; arrays of points have one length");
     }
   }
-  addFieldText(cloud, "LengthUnit", header.lengthUnit);
   if (header.encoding == PlyEncoding::Ascii)
   {
     readAsciiBody(task, header, cloud);
@@ -594,6 +473,7 @@ void readPly(ReadTask& task, vtkPolyData* cloud)
   {
     readBinaryBody(task, header, cloud);
   }
+  header.comments.moveTo(cloud);
 }
 
 } // namespace pointhaptics::io

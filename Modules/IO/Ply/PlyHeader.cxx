@@ -4,7 +4,6 @@
 #include "FileProblem.h"
 #include "IO/Columns/CloudColumns.h"
 #include "IO/Formats/FormatLooks.h"
-#include "IO/Info/FieldText.h"
 #include "IO/Text/TextScan.h"
 
 #include <algorithm>
@@ -216,12 +215,11 @@ PlyHeader parsePlyHeader(std::string_view bytes)
       }
       header.elements.back().properties.push_back(parseProperty(line, number));
     }
-    else if (const std::string unit = unitOfComment(trimmed(line)); keyword == "comment" && isUnitWord(unit))
+    else if (keyword == "comment")
     {
-      header.lengthUnit = unit;
+      header.comments.add(line);
     }
-    else if (!keyword.empty() && !equalNoCase(keyword, "ply") && keyword != "comment" &&
-      keyword != "obj_info")
+    else if (!keyword.empty() && !equalNoCase(keyword, "ply") && keyword != "obj_info")
     {
       unknown.push_back(inQuotes(keyword) + " in line " + std::to_string(number));
     }

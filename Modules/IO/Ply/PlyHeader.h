@@ -2,6 +2,8 @@
 /// The header of a PLY file.
 #pragma once
 
+#include "IO/Info/FileComments.h"
+
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -41,9 +43,9 @@ struct PlyHeader
   PlyEncoding encoding = PlyEncoding::Ascii;
   std::vector<PlyElement> elements;
   std::vector<std::string> notes; ///< what was skipped
-  std::string lengthUnit;         ///< as the writer's comment says it; empty: nothing says it
-  std::size_t bodyOffset = 0;     ///< first byte after end_header's line
-  std::size_t bodyLine = 0;       ///< its line number, for ASCII
+  FileComments comments;
+  std::size_t bodyOffset = 0; ///< first byte after end_header's line
+  std::size_t bodyLine = 0;   ///< its line number, for ASCII
 
   /// Index of the element called vertex. @throws FileProblem when there is none.
   std::size_t vertexElement() const;

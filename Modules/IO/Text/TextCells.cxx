@@ -112,6 +112,36 @@ std::string_view withoutQuotes(std::string_view cell)
   return cell;
 }
 
+std::string withoutLineEndsInCells(std::string_view text)
+{
+  constexpr std::size_t kLongestCell = std::size_t{ 1 } << 16;
+  constexpr std::string_view kEnds = ",;|\t\r\n";
+  const auto isEnd = [&](std::size_t at)
+  { return at >= text.size() || kEnds.find(text[at]) != std::string_view::npos; };
+  std::string joined;
+  std::size_t open = text.find('"');
+  while (open != std::string_view::npos)
+  {
+    std::size_t close = text.find('"', open + 1);
+    while (close != std::string_view::npos && text.substr(close + 1, 1) == "\"")
+    {
+      close = text.find('"', close + 2); // two are one within quotation marks
+    }
+    const bool isFirst = open == 0 || isEnd(text.find_last_not_of(' ', open - 1));
+    const bool isCell =
+      isFirst && close != std::string_view::npos && isEnd(text.find_first_not_of(' ', close + 1));
+    const std::string_view cell = isCell ? text.substr(open, close - open) : std::string_view();
+    if (cell.size() < kLongestCell && cell.find_first_of("\r\n") != std::string_view::npos)
+    {
+      joined = joined.empty() ? std::string(text) : std::move(joined);
+      std::replace(joined.begin() + std::ptrdiff_t(open), joined.begin() + std::ptrdiff_t(close), '\n', ' ');
+      std::replace(joined.begin() + std::ptrdiff_t(open), joined.begin() + std::ptrdiff_t(close), '\r', ' ');
+    }
+    open = text.find('"', isCell ? close + 1 : open + 1);
+  }
+  return joined;
+}
+
 bool parseUnusualCell(std::string_view cell, double& value, NumberShape* shape)
 {
   cell = withoutQuotes(cell);
@@ -252,7 +282,7 @@ std::vector<std::string> columnNames(const std::vector<std::string_view>& cells)
   for (const std::string_view cell : cells)
   {
     const bool isQuoted = cell.size() > 1 && cell.front() == '"' && cell.back() == '"';
-    std::string& name = names.emplace_back(isQuoted ? trimmed(cell.substr(1, cell.size() - 2)) : cell);
+    std::string& name = names.emplace_back(isQuoted ? cell.substr(1, cell.size() - 2) : cell);
     for (std::size_t at = name.find("\"\""); at != std::string::npos; at = name.find("\"\"", at + 1))
     {
       name.erase(at, 1); // within quotation marks one stands twice

@@ -18,6 +18,10 @@ bool isComment(std::string_view text);
 /// @p cell without the quotation marks around it.
 std::string_view withoutQuotes(std::string_view cell);
 
+/// @p text with blanks in the place of line ends within cells in quotation marks, as spreadsheets write them;
+/// empty where there are none.
+std::string withoutLineEndsInCells(std::string_view text);
+
 /// parseCell() of what is no plain number.
 bool parseUnusualCell(std::string_view cell, double& value, NumberShape* shape);
 

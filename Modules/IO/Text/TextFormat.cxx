@@ -3,7 +3,6 @@
 #include "IO/Bytes/TextPart.h"
 #include "IO/Columns/CloudColumns.h"
 #include "IO/Formats/FormatLooks.h"
-#include "IO/Info/FieldText.h"
 #include "IO/Text/TextCells.h"
 
 #include <algorithm>
@@ -206,12 +205,14 @@ void failTornDecimals(std::string_view text, const TextLayout& layout)
   }
 }
 
-/// "mm" of "x [mm]", "y [mm]", "z [mm]"; empty where the header says no unit. @throws FileProblem where it
+/// "mm" of "x [mm]", "y [mm]", "z [mm]", "degree" of longitude and latitude; empty where the header says no
+/// unit. @throws FileProblem where it
 /// says unlike ones.
 std::string unitOf(const std::vector<std::string>& names)
 {
   std::string unit;
-  for (const std::size_t i : names.empty() ? std::vector<std::size_t>() : coordinatesOf(columnsCalled(names)))
+  const auto coordinates = names.empty() ? std::vector<std::size_t>() : coordinatesOf(columnsCalled(names));
+  for (const std::size_t i : coordinates)
   {
     const std::string own = coordinateUnit(names[i]);
     if (own.empty())
@@ -224,6 +225,10 @@ std::string unitOf(const std::vector<std::string>& names)
         "convert the columns to one unit, or name them by --columns where they are in one");
     }
     unit = own;
+    if (own == "degree" && i == coordinates[1])
+    {
+      return own; // heights are lengths
+    }
   }
   return unit;
 }
@@ -345,7 +350,9 @@ void readText(ReadTask& task, vtkPolyData* cloud)
 {
   task.format = "text";
   task.need(0, kStartOfText);
-  const std::string_view text = withoutByteOrderMark(task.bytes);
+  std::string_view text = withoutByteOrderMark(task.bytes);
+  const std::string joined = task.shared ? std::string() : withoutLineEndsInCells(text);
+  text = joined.empty() ? text : joined;
   const TextLayout layout = layoutOf(task, text);
   const bool isBlank = layout.columns == 0 && layout.names.empty();
   task.format = layout.hasPointCount ? "PTS"
@@ -371,9 +378,11 @@ void readText(ReadTask& task, vtkPolyData* cloud)
           "--columns");
   }
   failTornDecimals(text, layout);
+  FileComments comments = layout.comments;
   const std::string unit = unitOf(layout.names);
-  addFieldText(cloud, "LengthUnit", unit.empty() ? layout.unit : unit);
+  comments.unit = unit.empty() ? comments.unit : unit;
   readTable(task, text, layout, cloud);
+  comments.moveTo(cloud);
 }
 
 } // namespace pointhaptics::io

@@ -1,7 +1,6 @@
 #include "IO/Text/TextTable.h"
 
 #include "IO/Columns/CloudColumns.h"
-#include "IO/Info/FieldText.h"
 #include "IO/Text/TextCells.h"
 
 #include <algorithm>
@@ -75,10 +74,7 @@ void addTitle(const Title& title, std::vector<Title>& titles)
 
 void addComment(std::string_view comment, std::size_t number, TextLayout& layout, std::vector<Title>& titles)
 {
-  const std::string unit = unitOfComment(comment);
-  const bool isUnit = isUnitWord(unit);
-  layout.unit = isUnit ? unit : layout.unit;
-  if (!comment.empty() && !isUnit)
+  if (!layout.comments.add(comment) && !comment.empty())
   {
     addTitle({ comment, number, true }, titles);
   }
@@ -111,6 +107,21 @@ bool nameByComment(const Title& title, TextLayout& layout)
   return false;
 }
 
+/// "x [mm]" for x with mm in the line of units.
+std::vector<std::string> withUnits(std::vector<std::string> names, const std::vector<std::string>& units)
+{
+  constexpr std::size_t kLongestUnit = 8;
+  std::vector<std::size_t> found;
+  findCoordinates(columnsCalled(names), found);
+  for (const std::size_t i : found)
+  {
+    const bool isUnit =
+      units != names && i < units.size() && isUnitWord(units[i]) && units[i].size() <= kLongestUnit;
+    names[i] += isUnit ? " [" + units[i] + "]" : "";
+  }
+  return names;
+}
+
 void nameColumns(const std::vector<Title>& titles, const std::vector<std::string>& given, TextLayout& layout)
 {
   if (!given.empty())
@@ -121,6 +132,7 @@ void nameColumns(const std::vector<Title>& titles, const std::vector<std::string
     return;
   }
   std::vector<std::string> lastNames;
+  std::vector<std::string> lastFit; // may be a line of units under that of the names
   for (auto title = titles.rbegin(); title != titles.rend(); ++title)
   {
     if (title->isComment)
@@ -133,15 +145,22 @@ void nameColumns(const std::vector<Title>& titles, const std::vector<std::string
       const bool fits = names.cells.size() == layout.columns ||
         // A cell may be empty at the end of the first line: the header has the number of columns.
         (layout.separator != ' ' && separator == layout.separator && names.cells.size() > layout.columns);
-      const bool isFirst = lastNames.empty();
-      lastNames = isFirst && names.areNames() ? columnNames(names.cells) : lastNames;
-      if (fits && names.areNames() && (isFirst || LineCells::namesCoordinates(columnNames(names.cells))))
+      const std::vector<std::string> own = names.areNames() ? columnNames(names.cells) : lastFit;
+      lastFit = fits && lastNames.empty() ? own : lastFit;
+      lastNames = lastNames.empty() ? own : lastNames;
+      if (fits && names.areNames() && LineCells::namesCoordinates(own))
       {
-        layout.names = columnNames(names.cells);
-        layout.columns = layout.names.size();
+        layout.names = withUnits(own, lastFit);
+        layout.columns = own.size();
         return;
       }
     }
+  }
+  if (!lastFit.empty())
+  {
+    layout.names = lastFit;
+    layout.columns = lastFit.size();
+    return;
   }
   for (auto title = titles.rbegin(); title != titles.rend(); ++title)
   {
@@ -473,7 +492,7 @@ TextLayout inspectText(std::string_view text, const std::vector<std::string>& na
     }
     if (!cells.areNames() && (cells.isData() || faulty.columns == 0))
     {
-      if (cells.isData() && faulty.columns == cells.cells.size())
+      if (cells.isData() && faulty.columns == cells.cells.size() && faulty.separator == separator)
       {
         break; // the fault is no title: it has as many columns
       }

@@ -4,6 +4,7 @@
 
 #include "Bytes/StridedCopy.h"
 #include "IO/Columns/ColumnGuess.h"
+#include "IO/Info/FileComments.h"
 #include "IO/Text/NumberColumn.h"
 #include "ReadTask.h"
 
@@ -24,12 +25,12 @@ struct TextLayout
 {
   char separator = ' ';           ///< see separatorOf()
   std::vector<std::string> names; ///< of header, comment or user; empty when there are none
-  std::string unit;               ///< that a comment says; empty: none does
-  bool hasPointCount = false;     ///< PTS: lines that hold only a count stand before blocks of points
-  std::size_t bodyOffset = 0;     ///< first byte after the header, or the first byte of the data
-  std::size_t bodyLine = 1;       ///< its line number
-  std::size_t columns = 0;        ///< that are read of each line; 0 when there is no line of data
-  bool hasMore = false;           ///< lines may have more columns, which are left out
+  FileComments comments;
+  bool hasPointCount = false; ///< PTS: lines that hold only a count stand before blocks of points
+  std::size_t bodyOffset = 0; ///< first byte after the header, or the first byte of the data
+  std::size_t bodyLine = 1;   ///< its line number
+  std::size_t columns = 0;    ///< that are read of each line; 0 when there is no line of data
+  bool hasMore = false;       ///< lines may have more columns, which are left out
 
   bool isTable() const { return columns >= 3; }
   void beginAt(std::size_t offset, std::size_t line)

@@ -43,8 +43,9 @@ std::string nameOf(const OutputArray& array, int component, const WriteTask& tas
 {
   if (array.role == ArrayRole::Points)
   {
-    const bool saysUnit = separator == ',' && !task.unit.empty();
-    return std::string(1, "xyz"[component]) + (saysUnit ? " [" + task.unit + "]" : "");
+    const bool isHeight = component == 2 && task.comments.unit.rfind("deg", 0) == 0; // a length
+    const bool saysUnit = separator == ',' && !task.comments.unit.empty() && !isHeight;
+    return std::string(1, "xyz"[component]) + (saysUnit ? " [" + task.comments.unit + "]" : "");
   }
   const std::string name = array.componentName(component);
   const bool isBare =
@@ -63,12 +64,25 @@ std::string nameOf(const OutputArray& array, int component, const WriteTask& tas
 
 /// A column per component and a line of their names; each number with the fewest digits that give it back
 /// exactly. Between spaces the names are a comment ("//x y z ..."), which programs that take bare numbers
-/// leave out, and white space inside a name becomes '_'. A unit stands in a comment before them, and in
-/// brackets after x, y and z between commas.
+/// leave out, and white space inside a name becomes '_'. A unit and such names stand in comments behind it;
+/// between commas the unit stands in brackets after x, y and z.
 void writeTable(WriteTask& task, char separator)
 {
-  const std::vector<OutputArray> arrays =
-    outputArrays(task.cloud, task.notes, separator == ',' ? NameRule::Any : NameRule::Cells);
+  std::vector<OutputArray> arrays = outputArrays(task.cloud, task.notes);
+  const auto columnsOf = [](const OutputArray& array)
+  {
+    std::vector<Column> columns = columnsByComponent(array);
+    for (std::size_t i = 0; i < columns.size(); ++i)
+    {
+      columns[i].type = VTK_FLOAT; // columns of text have no types
+      columns[i].name = array.role == ArrayRole::Points ? std::string(1, "xyz"[i]) : columns[i].name;
+    }
+    return columns;
+  };
+  const bool isCsv = separator == ',';
+  chooseNames(arrays, columnsOf,
+    { isCsv ? NameRule::Any : NameRule::Cells, std::string::npos, isCsv ? nullptr : &task.comments },
+    task.notes);
   const std::string mark = separator == ' ' ? "//" : "";
   std::string header;
   std::vector<TableColumn> columns;
@@ -84,7 +98,7 @@ void writeTable(WriteTask& task, char separator)
       columns.push_back(column);
     }
   }
-  task.out.write((separator == ' ' ? unitLine("//", task) : "") + header + "\n");
+  task.out.write(header + "\n" + (isCsv ? "" : task.comments.lines("//")));
   std::vector<char> buffer(kFlushAt + columns.size() * (kLongestNumber + 1));
   char* end = buffer.data();
   const vtkIdType rows = arrays[0].array->GetNumberOfTuples();

@@ -16,6 +16,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <utility>
 
 namespace pointhaptics::io
 {
@@ -41,9 +43,9 @@ private:
   void parsePoints();
   void parseCells(bool areFaces, bool areStrips);
   void parseCellTypes();
+  void parseData(bool isOfPoints);
   void keepFaces(vtkDataArray* offsets, vtkDataArray* corners);
-  void parseAttribute(std::string_view keyword);
-  void parseScalars();
+  void parseAttribute(std::string_view keyword, Count components);
   void parseColors();
   void parseField();
   void skipMetadata();
@@ -121,34 +123,31 @@ void LegacyParser::parseCellTypes()
   }
 }
 
+void LegacyParser::parseData(bool isOfPoints)
+{
+  inPointData_ = isOfPoints;
+  tuples_ = count("a number of tuples");
+}
+
 void LegacyParser::parseCells(bool areFaces, bool areStrips)
 {
   const Count first = count("a number of cells");
   const Count second = count("the size of the cells");
-  const bool areKept = areFaces && faces_.isWanted();
-  if (!equalNoCase(peek(), "OFFSETS"))
-  {
-    faces_.count += areFaces ? first : 0;
-    faces_.others += areStrips ? first : 0;
-    areKept ? keepFaces(nullptr, values("cells", VTK_TYPE_INT32, second, 1))
-            : skipValues(VTK_TYPE_INT32, second);
-    return;
-  }
   // Since version 5.1: offsets and connectivity, each with its type.
-  faces_.count += areFaces && first > 0 ? first - 1 : 0;
-  faces_.others += areStrips && first > 0 ? first - 1 : 0;
-  vtkSmartPointer<vtkDataArray> arrays[2];
-  for (int i = 0; i < 2; ++i)
+  const bool hasOffsets = equalNoCase(peek(), "OFFSETS");
+  const bool isKept = areFaces && faces_.isWanted();
+  const auto cells = [&](Count size)
   {
-    word();
-    const int vtkType = type(word());
-    const Count size = i == 0 ? first : second;
-    areKept ? void(arrays[i] = values("cells", vtkType, size, 1)) : skipValues(vtkType, size);
-  }
-  if (areKept)
-  {
-    keepFaces(arrays[0], arrays[1]);
-  }
+    const int vtkType = hasOffsets ? (word(), type(word())) : VTK_TYPE_INT32;
+    isKept ? void() : skipValues(vtkType, size);
+    return isKept ? values("cells", vtkType, size, 1) : nullptr;
+  };
+  const Count number = hasOffsets && first > 0 ? first - 1 : first;
+  faces_.count += areFaces ? number : 0;
+  faces_.others += areStrips ? number : 0;
+  const auto offsets = hasOffsets ? cells(first) : nullptr;
+  const auto corners = cells(second);
+  isKept ? keepFaces(offsets, corners) : void();
 }
 
 /// @p corners: of each face the number of its corners and these, or where there are @p offsets these alone.
@@ -181,23 +180,6 @@ void LegacyParser::add(const std::string& name, vtkDataArray* array, Count tuple
     array->SetName(name.c_str());
     cloud_->GetPointData()->AddArray(array);
   }
-}
-
-void LegacyParser::parseScalars()
-{
-  const std::string name = decodedName(word());
-  const int vtkType = type(word());
-  Count components = 1;
-  if (parseCount(peek(), components))
-  {
-    word();
-  }
-  if (equalNoCase(peek(), "LOOKUP_TABLE"))
-  {
-    word();
-    word();
-  }
-  add(name, values(name, vtkType, tuples_, components), tuples_);
 }
 
 /// Bytes in binary files, 0..1 in texts.
@@ -256,75 +238,69 @@ void LegacyParser::skipMetadata()
   }
 }
 
-void LegacyParser::parseAttribute(std::string_view keyword)
+/// @param components 0: they are said before the type, or for SCALARS perhaps behind it.
+void LegacyParser::parseAttribute(std::string_view keyword, Count components)
 {
+  const bool areScalars = equalNoCase(keyword, "SCALARS");
   const std::string name = decodedName(word());
-  const Count components = equalNoCase(keyword, "TEXTURE_COORDINATES") ? count("the number of components")
-    : equalNoCase(keyword, "TENSORS")                                  ? 9
-    : equalNoCase(keyword, "TENSORS6")                                 ? 6
-    : equalNoCase(keyword, "GLOBAL_IDS") || equalNoCase(keyword, "PEDIGREE_IDS") ? 1
-                                                                                 : 3;
+  components = components > 0 || areScalars ? components : count("the number of components");
   const int vtkType = type(word());
-  const bool areNormals = equalNoCase(keyword, "NORMALS");
-  const vtkSmartPointer<vtkDataArray> array = values(name, vtkType, tuples_, components);
-  add(areNormals ? "Normals" : name, array, tuples_);
+  if (areScalars && !parseCount(peek(), components))
+  {
+    components = 1;
+  }
+  else if (areScalars)
+  {
+    word();
+  }
+  if (areScalars && equalNoCase(peek(), "LOOKUP_TABLE"))
+  {
+    word();
+    word();
+  }
+  add(
+    equalNoCase(keyword, "NORMALS") ? "Normals" : name, values(name, vtkType, tuples_, components), tuples_);
 }
 
 void LegacyParser::parseSection(std::string_view keyword)
 {
-  const auto is = [&](const char* known) { return equalNoCase(keyword, known); };
-  if (is("POINTS"))
-  {
-    parsePoints();
-  }
-  else if (is("DIMENSIONS"))
-  {
-    line();
-  }
-  else if (is("VERTICES") || is("LINES") || is("POLYGONS") || is("TRIANGLE_STRIPS") || is("CELLS"))
-  {
-    parseCells(is("POLYGONS"), is("TRIANGLE_STRIPS"));
-  }
-  else if (is("CELL_TYPES"))
-  {
-    parseCellTypes();
-  }
-  else if (is("POINT_DATA") || is("CELL_DATA"))
-  {
-    inPointData_ = is("POINT_DATA");
-    tuples_ = count("a number of tuples");
-  }
-  else if (is("SCALARS"))
-  {
-    parseScalars();
-  }
-  else if (is("COLOR_SCALARS"))
-  {
-    parseColors();
-  }
-  else if (is("LOOKUP_TABLE"))
-  {
-    word();
-    values("table", isBinary() ? VTK_TYPE_UINT8 : VTK_FLOAT, count("the size of the table"), 4);
-  }
-  else if (is("FIELD"))
-  {
-    parseField();
-  }
-  else if (is("METADATA"))
-  {
-    skipMetadata();
-  }
-  else if (is("VECTORS") || is("NORMALS") || is("TEXTURE_COORDINATES") || is("TENSORS") || is("TENSORS6") ||
-    is("GLOBAL_IDS") || is("PEDIGREE_IDS"))
-  {
-    parseAttribute(keyword);
-  }
-  else
+  const std::pair<const char*, std::function<void()>> kSections[] = {
+    { "POINTS", [&] { parsePoints(); } },
+    { "DIMENSIONS", [&] { line(); } },
+    { "VERTICES", [&] { parseCells(false, false); } },
+    { "LINES", [&] { parseCells(false, false); } },
+    { "POLYGONS", [&] { parseCells(true, false); } },
+    { "TRIANGLE_STRIPS", [&] { parseCells(false, true); } },
+    { "CELLS", [&] { parseCells(false, false); } },
+    { "CELL_TYPES", [&] { parseCellTypes(); } },
+    { "POINT_DATA", [&] { parseData(true); } },
+    { "CELL_DATA", [&] { parseData(false); } },
+    { "COLOR_SCALARS", [&] { parseColors(); } },
+    { "LOOKUP_TABLE",
+      [&]
+      {
+        word();
+        values("table", isBinary() ? VTK_TYPE_UINT8 : VTK_FLOAT, count("the size of the table"), 4);
+      } },
+    { "FIELD", [&] { parseField(); } },
+    { "METADATA", [&] { skipMetadata(); } },
+    { "SCALARS", [&] { parseAttribute(keyword, 0); } },
+    { "TEXTURE_COORDINATES", [&] { parseAttribute(keyword, 0); } },
+    { "VECTORS", [&] { parseAttribute(keyword, 3); } },
+    { "NORMALS", [&] { parseAttribute(keyword, 3); } },
+    { "TENSORS", [&] { parseAttribute(keyword, 9); } },
+    { "TENSORS6", [&] { parseAttribute(keyword, 6); } },
+    { "GLOBAL_IDS", [&] { parseAttribute(keyword, 1); } },
+    { "PEDIGREE_IDS", [&] { parseAttribute(keyword, 1); } },
+  };
+  const auto* const section = std::find_if(std::begin(kSections), std::end(kSections),
+    [&](const auto& known) { return equalNoCase(keyword, known.first); });
+  if (section == std::end(kSections))
   {
     failFormat(
       where() + "unknown keyword " + inQuotes(keyword), "save the file as .vtp, for example with ParaView");
   }
+  section->second();
 }
 
 void LegacyParser::parse()

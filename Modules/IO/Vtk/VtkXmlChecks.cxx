@@ -4,10 +4,12 @@
 #include "IO/Text/TextScan.h"
 #include "IO/Vtk/XmlTags.h"
 
+#include "vtkBase64Utilities.h"
+
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace pointhaptics::io
 {
@@ -44,101 +46,63 @@ struct DataLayout
   std::size_t wordSize = 4; ///< of the numbers before each array's bytes
 };
 
-int base64Value(char c)
+/// Words in front of the bytes of an array: how many bytes there are, or in how many blocks they are packed,
+/// of which size, and to which size each.
+struct ArrayWords
 {
-  return c >= 'A' && c <= 'Z' ? c - 'A'
-    : c >= 'a' && c <= 'z'    ? c - 'a' + 26
-    : c >= '0' && c <= '9'    ? c - '0' + 52
-    : c == '+'                ? 62
-    : c == '/'                ? 63
-                              : -1;
-}
+  std::vector<std::uint64_t> values;
+  std::uint64_t remaining = 0; ///< Most bytes that may still follow.
 
-/// Reads the words in front of an array's bytes one by one.
-class WordReader
-{
-public:
-  WordReader(const DataLayout& layout, std::size_t position, bool isBase64)
-    : layout_(layout)
-    , position_(position)
-    , isBase64_(isBase64)
+  /// The first @p count at @p position.
+  ArrayWords(const DataLayout& layout, std::size_t position, bool isBase64, std::size_t count)
+    : values(count)
   {
+    const std::string_view rest = layout.bytes.substr(std::min(position, layout.bytes.size()));
+    const std::size_t size = count * layout.wordSize;
+    const std::string_view text = rest.substr(0, isBase64 ? (size + 2) / 3 * 4 : size);
+    std::string raw(size, '\0');
+    auto* to = reinterpret_cast<unsigned char*>(&raw[0]);
+    const auto* from = reinterpret_cast<const unsigned char*>(text.data());
+    const std::size_t there =
+      isBase64 ? vtkBase64Utilities::DecodeSafely(from, text.size(), to, size) : text.copy(&raw[0], size);
+    if (there < size)
+    {
+      isBase64&& text.size() == (size + 2) / 3 * 4
+        ? failDamaged(position, "no base64 where an array starts")
+        : failTruncated("the file ends at byte " + std::to_string(layout.bytes.size()) + " inside its data");
+    }
+    for (std::size_t i = 0; i < size; ++i)
+    {
+      const std::size_t word = i / layout.wordSize;
+      const std::size_t byte =
+        layout.isBigEndian ? i : (word + 1) * layout.wordSize - 1 - i % layout.wordSize;
+      values[word] = values[word] << 8 | static_cast<unsigned char>(raw[byte]);
+    }
+    remaining = rest.size() - text.size();
   }
-  std::uint64_t next()
-  {
-    std::array<std::uint8_t, 8> raw{};
-    for (std::size_t i = 0; i < layout_.wordSize; ++i)
-    {
-      raw[layout_.isBigEndian ? layout_.wordSize - 1 - i : i] = nextByte();
-    }
-    std::uint64_t value = 0;
-    for (std::size_t i = layout_.wordSize; i > 0; --i)
-    {
-      value = value << 8 | raw[i - 1];
-    }
-    return value;
-  }
-  /// Most bytes that may still follow.
-  std::uint64_t remaining() const { return layout_.bytes.size() - std::min(position_, layout_.bytes.size()); }
-  std::size_t position() const { return position_; }
-
-private:
-  char nextChar()
-  {
-    if (position_ >= layout_.bytes.size())
-    {
-      failTruncated("the file ends at byte " + std::to_string(layout_.bytes.size()) + " inside its data");
-    }
-    return layout_.bytes[position_++];
-  }
-  std::uint8_t nextByte()
-  {
-    if (!isBase64_)
-    {
-      return static_cast<std::uint8_t>(nextChar());
-    }
-    while (bits_ < 8)
-    {
-      const int value = base64Value(nextChar());
-      if (value < 0)
-      {
-        failDamaged(position_ - 1, "no base64 where an array starts");
-      }
-      held_ = held_ << 6 | static_cast<unsigned>(value);
-      bits_ += 6;
-    }
-    bits_ -= 8;
-    return static_cast<std::uint8_t>(held_ >> bits_ & 0xff);
-  }
-
-  const DataLayout& layout_;
-  std::size_t position_;
-  bool isBase64_;
-  unsigned held_ = 0;
-  int bits_ = 0;
 };
 
-/// The number of bytes of an array, or how many blocks of which size it was packed in, and to what size each.
 void checkArrayBytes(const DataLayout& layout, std::size_t position, bool isBase64)
 {
-  WordReader words(layout, position, isBase64);
-  const std::uint64_t first = words.next();
+  const ArrayWords one(layout, position, isBase64, 1);
+  const std::uint64_t first = one.values[0];
   if (!layout.isPacked)
   {
-    if (first > words.remaining())
+    if (first > one.remaining)
     {
       failTruncated(at(position) + "an array of " + std::to_string(first) + " bytes, but only " +
-        std::to_string(words.remaining()) + " follow");
+        std::to_string(one.remaining) + " follow");
     }
     return;
   }
-  if (first > words.remaining() / layout.wordSize)
+  if (first > one.remaining / layout.wordSize)
   {
     failTruncated(at(position) + "an array of " + std::to_string(first) + " blocks, but only " +
-      std::to_string(words.remaining()) + " bytes follow");
+      std::to_string(one.remaining) + " bytes follow");
   }
-  const std::uint64_t blockSize = words.next();
-  const std::uint64_t lastSize = words.next();
+  const ArrayWords words(layout, position, isBase64, 3 + static_cast<std::size_t>(first));
+  const std::uint64_t blockSize = words.values[1];
+  const std::uint64_t lastSize = words.values[2];
   if (first == 0)
   {
     // VTK would take the last block's size for that of data which are there.
@@ -149,7 +113,7 @@ void checkArrayBytes(const DataLayout& layout, std::size_t position, bool isBase
     return;
   }
   const double unpacked = static_cast<double>(first) * static_cast<double>(blockSize);
-  const std::uint64_t most = words.remaining();
+  const std::uint64_t most = words.remaining;
   if (lastSize > blockSize ||
     unpacked > kMostUnpackedBytes * static_cast<double>(most) + static_cast<double>(blockSize - lastSize))
   {
@@ -163,14 +127,13 @@ void checkArrayBytes(const DataLayout& layout, std::size_t position, bool isBase
     failDamaged(position, "blocks of " + std::to_string(blockSize) + " bytes");
   }
   std::uint64_t packed = 0;
-  for (std::uint64_t i = 0; i < first; ++i)
+  for (std::size_t i = 3; i < words.values.size() && packed <= most; ++i)
   {
-    const std::uint64_t size = words.next();
-    packed += std::min(size, most + 1);
-    if (packed > most)
-    {
-      failTruncated(at(position) + "blocks of more than the " + std::to_string(most) + " bytes that follow");
-    }
+    packed += std::min(words.values[i], most + 1);
+  }
+  if (packed > most)
+  {
+    failTruncated(at(position) + "blocks of more than the " + std::to_string(most) + " bytes that follow");
   }
 }
 

@@ -4,10 +4,14 @@ from __future__ import annotations
 
 import _thread
 import atexit
+import itertools
 import mmap
+import sys
 import threading
 import time
-from typing import Any, Callable, Generic, List, Optional, Set, TypeVar
+import traceback
+import warnings
+from typing import Any, Callable, Generic, List, Optional, Set, Tuple, Type, TypeVar
 
 from .library import end_interpreter
 
@@ -21,6 +25,7 @@ _SIGNALS = 0.05
 _ROOM_OF_THREAD = 16 << 20
 
 _running: Set["_Call[Any]"] = set()
+_here = threading.local()  # .call: the one that this thread runs
 _is_ending = False
 
 
@@ -34,13 +39,17 @@ class _Call(Generic[Result]):
         self.done.acquire()
         self.result: List[Result] = []
         self.fault: Optional[BaseException] = None
+        self.warnings: List[Tuple[str, Type[Warning]]] = []
 
     def __call__(self) -> None:
+        outer = getattr(_here, "call", None)
+        _here.call = self
         try:
             self.result.append(self.work())
         except BaseException as fault:
             self.fault = fault
         finally:
+            _here.call = outer
             _running.discard(self)
             self.done.release()
 
@@ -50,6 +59,17 @@ class _Call(Generic[Result]):
         while self in _running and time.monotonic() < end:
             self.stop()
             self.done.acquire(timeout=_LOOK)
+
+
+def warn(text: str, category: Type[Warning] = RuntimeWarning) -> None:
+    """Warns at the line outside this package that led here; within a call, when it is over."""
+    call = getattr(_here, "call", None)
+    if call is not None:
+        call.warnings.append((text, category))
+        return
+    frames = traceback.walk_stack(sys._getframe())
+    inside = itertools.takewhile(lambda entry: entry[0].f_globals.get("__package__") == __package__, frames)
+    warnings.warn(text, category, stacklevel=len([None, *inside]))
 
 
 def interruptible(work: Callable[[], Result], stop: Callable[[], None]) -> Result:
@@ -69,6 +89,8 @@ def interruptible(work: Callable[[], Result], stop: Callable[[], None]) -> Resul
         raise
     if _is_ending:
         raise SystemExit
+    for text, category in call.warnings:
+        warn(text, category)
     if call.fault is not None:
         try:
             raise call.fault

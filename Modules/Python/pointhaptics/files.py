@@ -8,12 +8,12 @@ import operator
 import os
 import shutil
 import tempfile
-import warnings
 from typing import IO, Any, Dict, Iterator, Mapping, NoReturn, Optional, Sequence, Tuple, Union
 
 from numpy.typing import ArrayLike, NDArray
 
 from .arrays import Cloud, arrays_of, points_of
+from .calls import warn
 from .classes import vtkPointCloudInfo, vtkPointCloudReader, vtkPointCloudWriter
 from .filters import Voxels
 from .updates import run
@@ -73,6 +73,7 @@ def _file_to_read(path: object) -> Iterator[Tuple[str, str]]:
 
 def _spoken(message: str) -> str:
     """With the arguments of read() in the place of the program's options."""
+    message = message.replace("view and feel take metres about their middle", "local_metres=True gives metres")
     return message.replace("--salvage", "salvage=True").replace("--columns NAMES", "columns=...").replace(
         "--columns", "columns"
     )
@@ -101,7 +102,12 @@ def _check_readable(name: str) -> None:
 
 
 def _read(
-    name: str, shown: str, salvage: bool = False, columns: Sequence[str] = (), samples: int = 0
+    name: str,
+    shown: str,
+    salvage: bool = False,
+    columns: Sequence[str] = (),
+    samples: int = 0,
+    local_metres: bool = False,
 ) -> vtkPointCloudReader:
     _check_readable(name)
     reader = vtkPointCloudReader()
@@ -109,6 +115,7 @@ def _read(
     reader.SetSalvage(bool(salvage))
     reader.SetColumns(list(columns))
     reader.SetSamples(samples)
+    reader.SetLocalMetres(bool(local_metres))
     errors = run(reader, reader.Update)
     if errors or reader.GetErrorMessage():
         _fail(reader.GetErrorMessage() or errors[0], name, shown, True)
@@ -118,7 +125,12 @@ def _read(
 
 
 def read(
-    path: Path, *, salvage: bool = False, columns: Sequence[str] = (), samples: int = 0
+    path: Path,
+    *,
+    salvage: bool = False,
+    columns: Sequence[str] = (),
+    samples: int = 0,
+    local_metres: bool = False,
 ) -> Tuple[NDArray[Any], Attributes]:
     """Read a point cloud; the format goes by content (PLY, PCD, LAS, VTP, OBJ, columns of text ...).
 
@@ -128,6 +140,8 @@ def read(
     samples: of a file with faces so many points on these, spread evenly, the same ones at each call; arrays are
         interpolated, integers but colours and intensities are those of the nearest vertex. 0: the vertices, in their
         order; a RuntimeWarning says that there are faces.
+    local_metres: where x and y are degrees of longitude and latitude, give metres to the east and north of their
+        medians, as `feel` of the program takes them: a Scene takes metres.
 
     Returns points, (n, 3) float64 where the file's numbers need it and float32 otherwise, in the file's frame and
     unit, and attributes, name -> (n,) or (n, components) of the file's type: "RGB", "Normals", "Intensity" ... What
@@ -143,9 +157,9 @@ def read(
     if isinstance(samples, bool) or not 0 <= number <= 100_000_000:
         raise ValueError(f"samples: {samples!r}; give a number from 0 to 100,000,000")
     with _file_to_read(path) as (name, shown):
-        reader = _read(name, shown, salvage, columns, number)
+        reader = _read(name, shown, salvage, columns, number, local_metres)
     for note in reader.GetNotes():
-        warnings.warn(f"{shown}: {_spoken(note)}", RuntimeWarning, stacklevel=2)
+        warn(f"{shown}: {_spoken(note)}")
     output = reader.GetOutput()
     fields = {name: _field_value(values) for name, values in arrays_of(output.GetFieldData()).items()}
     return points_of(output), Attributes(arrays_of(output.GetPointData()), fields)
@@ -218,7 +232,7 @@ def _write(
     written = []
     errors = run(writer, lambda: written.append(writer.Write()))
     for note in writer.GetNotes():
-        warnings.warn(f"{shown}: {note}", RuntimeWarning, stacklevel=3)
+        warn(f"{shown}: {note}")
     if errors or written != [1]:
         message = writer.GetErrorMessage() or (errors[0] if errors else "cannot be written")
         _fail(message, name, shown, writer.GetErrorCode() in _CONTENT)

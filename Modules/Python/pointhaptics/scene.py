@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import threading
-import warnings
 from ctypes import byref, c_double, c_int, c_size_t
 from typing import Any, Mapping, Optional, Sequence, Tuple, Union
 
@@ -12,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import library
 from .arrays import as_bounds, as_dims, as_points, number
-from .calls import interruptible
+from .calls import interruptible, warn
 from .touch import FELT_COLUMNS, FELT_TYPE, as_path, options_of, warn_of_units
 
 __all__ = ["FELT_COLUMNS", "Scene"]
@@ -96,7 +95,7 @@ class Scene:
         made = library.Handle(create, library.scene_destroy, points.ctypes.data, *size, byref(options))
         note = library.scene_note(made.value)
         if note:
-            warnings.warn(note.decode(), RuntimeWarning, stacklevel=2)
+            warn(note.decode())
         return made
 
     def feel(

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import warnings
 from ctypes import byref, pointer
 from typing import Mapping, Optional, Tuple
 
@@ -12,6 +11,7 @@ from numpy.typing import NDArray
 
 from . import library
 from .arrays import number, whole
+from .calls import warn
 
 #: The columns of the program's OUT.csv, and of what Scene.feel() returns.
 FELT_COLUMNS = (
@@ -94,7 +94,7 @@ def warn_of_units(scene: library.Handle, path: NDArray[np.float64], touched: boo
     """Warns where the sizes of cloud and path make other units than metres and seconds likely."""
     odd = library.unlikely_units(scene.value, path.ctypes.data, len(path), touched)
     if odd:
-        warnings.warn(odd.decode(), UserWarning, stacklevel=3)
+        warn(odd.decode(), UserWarning)
 
 
 def as_place(place: object, name: str) -> Tuple[float, float, float]:

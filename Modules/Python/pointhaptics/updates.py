@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import re
-import warnings
 from typing import Callable, List
 
 from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm
 
-from .calls import interruptible
+from .calls import interruptible, warn
 
 _OUT_OF_MEMORY = 40012  # kOutOfMemoryCode of Core/Base/Host/OutOfMemory.h
 # "ERROR: In file, line n\nvtkClass (0x...): the message\n\n"
@@ -57,7 +56,7 @@ def run(algorithm: vtkAlgorithm, work: Callable[[], object]) -> List[str]:
     if algorithm.GetErrorCode() == _OUT_OF_MEMORY:
         raise MemoryError(messages.errors[0] if messages.errors else "not enough memory")
     for text in messages.warnings:
-        warnings.warn(text, RuntimeWarning, stacklevel=4)
+        warn(text)
     return messages.errors
 
 

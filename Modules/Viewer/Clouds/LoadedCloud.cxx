@@ -295,7 +295,7 @@ vtkSmartPointer<vtkPolyData> readAll(const CloudRequest& request, const std::fun
   {
     return clouds.front();
   }
-  vtkSmartPointer<vtkPolyData> merged = io::mergeClouds(inputs, findings.notes);
+  vtkSmartPointer<vtkPolyData> merged = io::mergeClouds(inputs, request.files, findings.notes);
   if (!merged)
   {
     message = findings.notes.back();

@@ -223,7 +223,8 @@ TEST_F(Exporters, RecordsOfPlyAreNumbersAndNotLines)
   const std::string colors = "property uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n";
   const std::string head = "ply\n" + kPlyHead + colors;
   for (const char* body : { "1 2 3 \n125 137 139 \n4 5 6 \n7 8 9 \n", "1 2 3 125 137 139 4 5 6 7 8 9\n",
-         "1 2 3 125 137 139\n4 5 6 7 8 9", "1\n2\n3\n125\n137\n139\n4 5\n6\n7 8 9\n" })
+         "1 2 3 125 137 139\n4 5 6 7 8 9", "1\n2\n3\n125\n137\n139\n4 5\n6\n7 8 9\n",
+         "1 2 3 125\n137 139 4 5 6 7\n8 9\n" })
   {
     const ReadResult result = readCloud(write("a.ply", head + body));
     ASSERT_EQ(result.error, "") << body;

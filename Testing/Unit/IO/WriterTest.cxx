@@ -240,7 +240,8 @@ TEST_P(BitRoundTrip, SaysWhatItCannotHold)
       [&](const std::string& note) { return note.find(part) != std::string::npos; });
   };
   EXPECT_EQ(isSaid("'words' holds no numbers"), extension != "vtp");
-  EXPECT_EQ(isSaid("is called a_b"), extension == "ply" || extension == "pcd");
+  EXPECT_FALSE(isSaid("is called a_b"));
+  EXPECT_NE(readCloud(path("a." + extension)).array("a b"), nullptr);
   EXPECT_EQ(isSaid("Viewpoint"), extension == "ply" || extension == "las");
   EXPECT_EQ(isSaid("beyond 2^53"), extension == "ply");
 }
@@ -302,8 +303,9 @@ TEST_F(Writer, TheUnitComesBackFromEveryFormat)
       writer->SetFileName(path("a." + extension).c_str());
       ASSERT_EQ(writer->Write(), 1);
       const std::vector<std::string> notes = writer->GetNotes();
-      const bool isNoted =
-        std::find(notes.begin(), notes.end(), "field data LengthUnit is left out") != notes.end();
+      const bool isNoted = std::any_of(notes.begin(), notes.end(),
+        [](const std::string& note)
+        { return note.find("does not say that the unit is") != std::string::npos; });
       EXPECT_EQ(isNoted, !isSaid);
       const ReadResult result = readCloud(path("a." + extension));
       ASSERT_EQ(result.error, "");

@@ -8,6 +8,7 @@
 #include "vtkFloatArray.h"
 #include "vtkIntArray.h"
 #include "vtkPointCloudWriter.h"
+#include "vtkStringArray.h"
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
@@ -550,6 +551,25 @@ TEST_F(LasWriting, RealAirborneCloudComesBackAsItWas)
       expectSameBits(array, second.array(array->GetName()));
     }
   }
+}
+
+TEST_F(LasWriting, DegreesGetStepsOfCentimetres)
+{
+  vtkNew<vtkPolyData> cloud;
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  points->InsertNextPoint(8.123456789, 47.987654321, 408.12345);
+  points->InsertNextPoint(9.5, 48.75, 1200.0);
+  cloud->SetPoints(points);
+  vtkNew<vtkStringArray> unit;
+  unit->SetName("LengthUnit");
+  unit->InsertNextValue("degree");
+  cloud->GetFieldData()->AddArray(unit);
+  ASSERT_EQ(writeCloud(cloud, path("a.las")), "");
+  const ReadResult result = readCloud(path("a.las"));
+  EXPECT_NEAR(result.cloud->GetPoint(0)[0], 8.123456789, 6e-8);
+  EXPECT_NEAR(result.cloud->GetPoint(0)[1], 47.987654321, 6e-8);
+  EXPECT_NEAR(result.cloud->GetPoint(0)[2], 408.12345, 6e-5);
 }
 
 } // namespace

@@ -299,7 +299,9 @@ TEST_F(Text, NamesTheLineOfWhatIsWrong)
   expectRefused(readCloud(write("a.xyz", "1 2 3\n1e999 5 6\n")), "1e999");
   expectRefused(
     readCloud(write("a.csv", "left,right,up\n1,2,3\n")), "x, y and z, but 'left', 'right', 'up'; name the");
-  expectRefused(readCloud(write("a.csv", "lon,lat,height\n11,48,3\n")), "degrees are no lengths");
+  const ReadResult degrees = readCloud(write("a.csv", "lat,lon,height\n48,11,3\n"));
+  EXPECT_EQ(degrees.cloud->GetPoint(0)[0], 11.0);
+  EXPECT_NE(degrees.notes.front().find("degrees of longitude and latitude"), std::string::npos);
   expectRefused(readCloud(write("a.csv",
                   "\xff\xfe"
                   "x")),
@@ -437,6 +439,72 @@ TEST_F(Text, LabelsBecomeTheClassesOfLas)
   EXPECT_EQ(las.value("Classification", 1), 200.0);
   EXPECT_FALSE(las.array("scalar_Label"));
   EXPECT_TRUE(las.array("wide label"));
+}
+
+TEST_F(Text, CellsInQuotationMarksMayHaveSeveralLines)
+{
+  const ReadResult result = readCloud(write("a.csv",
+    "x,y,z,note,w\r\n1,2,3,\"first\r\nsecond, third\",7\r\n4,5,6,\"say \"\"hi\"\"\n\",8\r\n7,8,9,\"5\" "
+    "pipe,9\r\n"));
+  ASSERT_EQ(result.error, "");
+  ASSERT_EQ(result.points(), 3);
+  EXPECT_EQ(result.value("w", 1), 8.0);
+  EXPECT_EQ(result.cloud->GetPoint(2)[2], 9.0);
+  EXPECT_EQ(readCloud(write("b.csv", "x,y,\"z\n[mm]\"\n1,2,3\n")).points(), 1);
+  expectRefused(readCloud(write("c.csv", "x,y,z,note\n1,2,3,\"open\n4,5\n")), "line 3: 2 columns");
+}
+
+TEST_F(Text, ColumnsTellWhatTheyAre)
+{
+  // COLMAP without its header: identifiers in no order.
+  const ReadResult colmap = readCloud(write("a.txt",
+    "63390 1.6 0.2 0.6 115 121 122 1.3\n63376 2.1 0.1 -0.2 102 209 250 1.7\n63371 1.7 0.3 0.5 245 251 249 "
+    "0.6\n"));
+  EXPECT_EQ(colmap.value("id", 0), 63390.0);
+  EXPECT_FLOAT_EQ(colmap.cloud->GetPoint(0)[0], 1.6f);
+  EXPECT_EQ(colmap.value("RGB", 1, 2), 250.0);
+  // The column of fewer values is the label.
+  std::string rows;
+  for (int i = 0; i < 40; ++i)
+  {
+    const auto text = [](int value) { return std::to_string(value) + " "; };
+    rows +=
+      "0." + text(i) + "1." + text(i) + "3.5 10 " + text(i % 3) + "30 " + text(i % 20) + text(i % 4) + "\n";
+  }
+  const ReadResult labels = readCloud(write("b.txt", rows));
+  ASSERT_NE(labels.array("label"), nullptr);
+  ASSERT_NE(labels.array("intensity"), nullptr);
+  EXPECT_EQ(labels.value("label", 7), 3.0);
+  EXPECT_EQ(labels.value("intensity", 7), 7.0);
+  EXPECT_EQ(
+    readCloud(write("c.csv", "pos.x,pos.y,pos.z,color.r,color.g,color.b\n1,2,3,4,5,6\n")).value("RGB", 0, 2),
+    6.0);
+}
+
+TEST_F(Text, LinesOfUnitsAndTitlesAreNoNames)
+{
+  const ReadResult units = readCloud(write("a.csv", "X,Y,Z,T\nmm,mm,mm,C\n1,2,3,4\n5,6,7,8\n"));
+  ASSERT_EQ(units.error, "");
+  EXPECT_EQ(units.value("T", 1), 8.0);
+  auto* unit = vtkStringArray::SafeDownCast(units.cloud->GetFieldData()->GetAbstractArray("LengthUnit"));
+  ASSERT_NE(unit, nullptr);
+  EXPECT_EQ(unit->GetValue(0), "mm");
+  const ReadResult titles =
+    readCloud(write("b.csv", "Export of scan 12\nDate;2024-01-01\n\nX;Y;Z;Temp\n1;2;3;20,5\n4;5;6;21,5\n"));
+  ASSERT_EQ(titles.error, "");
+  EXPECT_EQ(titles.value("Temp", 1), 21.5);
+  // FARO writes the ray's row and column first.
+  std::string rays;
+  for (int i = 0; i < 40; ++i)
+  {
+    const std::string k = std::to_string(i);
+    rays +=
+      std::to_string(i / 8) + " " + std::to_string(i % 8) + " 0." + k + " 1." + k + " 2.5 10 20 " + k + "\n";
+  }
+  const ReadResult faro = readCloud(write("c.xyz", rays));
+  EXPECT_FLOAT_EQ(faro.cloud->GetPoint(7)[2], 2.5f);
+  EXPECT_EQ(faro.value("column", 7), 7.0);
+  EXPECT_EQ(faro.value("RGB", 7, 2), 7.0);
 }
 
 } // namespace
