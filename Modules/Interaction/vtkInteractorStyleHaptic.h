@@ -244,6 +244,7 @@ private:
   pointhaptics::TouchDisplay Display;
   pointhaptics::PointPicker Picker;
   vtkSmartPointer<vtkHapticSliders> Sliders;
+  int PressedAt[2] = { 0, 0 }; // pixels: VTK counts clicks at different places as one double click
   int Timer = -1;
 };
 

@@ -66,7 +66,7 @@ bool openRecording(const std::string& fileName, const std::string& cloudFile, Fi
     {
       return false;
     }
-    cloud = clippedCloud(loaded.cloud, clipBox(numbersOf(recording.header.settings, "clip")));
+    cloud = clippedCloud(loaded.cloud, clipBox(numbersOf(recording.header.settings, "clip"), loaded.cloud));
     const bool isRight = isOf(recording, cloud, problem);
     problem.insert(0, isRight ? "" : request.files.front() + ": ");
     return isRight;

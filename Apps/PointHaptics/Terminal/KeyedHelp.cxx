@@ -29,8 +29,8 @@ const std::vector<KeyedHelp>& keyedHelps()
       " writes those of the window" },
     { "--color-by",
       "Array to colour by: rgb, clay (one colour), height, density, proxyradius, residual (the distance of "
-      "each "
-      "voxel mean from the surface that is felt) or one of the file, in upper or lower case, with :x, :0 or "
+      "each voxel mean from the surface that is felt) or one of the file, in upper or lower case, with :x, "
+      ":0 or "
       ":magnitude for a component of a vector; default: rgb, classification, clay or height, what suits",
       { "colors" } },
     { "--push-pointer", "The touch pushes the mouse pointer while the hand follows it", { "push-pointer" } },
@@ -39,9 +39,7 @@ const std::vector<KeyedHelp>& keyedHelps()
     { "--figure", "Nothing but the cloud in one colour on white, the workspace, proxy and normal",
       { "figure" } },
     { "--felt", "Show the voxel means that are felt instead of the points", { "felt" } },
-    { "--ambient",
-      "Ambient light from the normals of the surface that is felt: shows the shape of a cloud without "
-      "colours",
+    { "--ambient", "Light from the normals of the felt surface: the shape of a cloud without colours",
       { "ambient" } },
     { "--sound", "Hear the touch: a tone as loud as the force, a click where contact begins", { "sound" } },
     { "--full-screen", "The window covers the screen, without a border", { "full-screen" } },
@@ -49,8 +47,7 @@ const std::vector<KeyedHelp>& keyedHelps()
       { "projection" } },
     { "--stereo",
       "A picture for each eye: by colours for red and cyan, or red and blue glasses, by lines, by pixels, "
-      "beside "
-      "each other, or on a screen that shows two",
+      "beside each other, or on a screen that shows two",
       { "stereo" } },
     { "--background", "What is behind the cloud; default dark", { "background" } },
     { "--theme",
@@ -66,9 +63,10 @@ const std::vector<KeyedHelp>& keyedHelps()
     { "--color-map", "The colours that stand for numbers", { "color-map" } },
     { "--color-range",
       "The values that have the first and the last of these colours; default: nearly all that occur; drag on "
-      "the "
-      "colour bar to change them",
+      "the colour bar to change them",
       { "color-range" }, " takes all again" },
+    { "--hide", "Neither shows nor lets feel these values: Classification=7,intensity=:20",
+      { "hide-outside" } },
     { "--clip",
       "Shows, lets feel and pick only what lies in this box, in coordinates of the file; default: all",
       { "clip-box" }, " shows its handles" },

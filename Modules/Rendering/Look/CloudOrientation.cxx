@@ -1,5 +1,8 @@
 #include "CloudOrientation.h"
 
+#include "CloudParts.h"
+#include "UpEvidence.h"
+
 #include "Core/Base/PointView.h"
 
 #include "vtkCamera.h"
@@ -11,6 +14,7 @@
 #include <cctype>
 #include <cmath>
 #include <initializer_list>
+#include <optional>
 #include <vector>
 
 namespace pointhaptics
@@ -146,6 +150,16 @@ CloudOrientation orientationForUpAxis(const std::string& axis)
   return orientation;
 }
 
+std::string axisName(const Vec3& up)
+{
+  int axis = 2;
+  for (const int other : { 1, 0 })
+  {
+    axis = std::abs(up[other]) > std::abs(up[axis]) ? other : axis;
+  }
+  return std::string(up[axis] < 0.0 ? "-" : "") + "xyz"[axis];
+}
+
 CloudOrientation guessCloudOrientation(vtkPolyData* cloud, const std::string& format)
 {
   CloudOrientation orientation;
@@ -160,49 +174,18 @@ CloudOrientation guessCloudOrientation(vtkPolyData* cloud, const std::string& fo
   {
     orientation = orientationForUpAxis("y");
   }
+  if (cloud->GetNumberOfPoints() == 0 || isAnyOf({ "las", "laz", "copc", "e57" }, format))
+  {
+    return orientation; // surveys say what is up
+  }
+  std::vector<Vec3> copy;
+  const std::optional<Vec3> up = upByShape(viewOf(cloud, copy), orientation.up, orientation.isGuess);
+  if (up)
+  {
+    orientation = orientationForUpAxis(axisName(*up));
+    orientation.isGuess = true;
+  }
   return orientation;
-}
-
-void framingCube(vtkPolyData* cloud, const Bounds& workspace, Vec3& center, double& edge)
-{
-  // Strays are at most this part of the points at each end of an axis; room left about the others.
-  constexpr double kStrays = 0.03;
-  constexpr double kRoom = 1.35;
-  const Vec3 extent = workspace.extent();
-  center = workspace.center();
-  edge = std::max({ extent.x, extent.y, extent.z });
-  Bounds middle;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    std::vector<double> values;
-    for (vtkIdType i = 0; i < cloud->GetNumberOfPoints(); ++i)
-    {
-      double p[3];
-      cloud->GetPoint(i, p);
-      if (std::isfinite(p[axis]))
-      {
-        values.push_back(p[axis]);
-      }
-    }
-    if (values.empty())
-    {
-      return;
-    }
-    const std::size_t cut = std::size_t(kStrays * double(values.size()));
-    const auto low = values.begin() + std::ptrdiff_t(cut);
-    const auto high = values.end() - 1 - std::ptrdiff_t(cut);
-    std::nth_element(values.begin(), low, values.end());
-    middle.minimum[axis] = *low;
-    std::nth_element(values.begin(), high, values.end());
-    middle.maximum[axis] = *high;
-  }
-  const Vec3 core = middle.extent();
-  const double wanted = kRoom * std::max({ core.x, core.y, core.z });
-  if (wanted > 0.0 && wanted < edge)
-  {
-    center = middle.center();
-    edge = wanted;
-  }
 }
 
 void placeCamera(vtkCamera* camera, const CloudOrientation& orientation, const Vec3& center, double edge,
