@@ -65,6 +65,18 @@ std::string joinedLines(const std::vector<std::string>& lines)
   return text;
 }
 
+/// Two blanks between the columns of @p line.
+std::string withoutColumns(const std::string& line)
+{
+  std::string result;
+  for (const char letter : line)
+  {
+    const bool isWide = letter == ' ' && result.size() > 1 && result.compare(result.size() - 2, 2, "  ") == 0;
+    result.append(isWide ? 0 : 1, letter);
+  }
+  return result;
+}
+
 /// Lines of one length: centred as a block, their columns stay in line; with a margin around.
 std::string padded(const std::vector<std::string>& lines)
 {
@@ -300,10 +312,17 @@ int vtkHapticOverlay::FitHelpFont(
   return font;
 }
 
-/// Fills the page with as many of @p lines, the lines of the help, as fit in a font that is read well.
-void vtkHapticOverlay::FitHelpPage(const std::vector<std::string>& lines, double width, double height)
+/// Fills the page with as many of @p all, the lines of the help, as fit in a font that is read well. In a
+/// narrow window the columns give way.
+void vtkHapticOverlay::FitHelpPage(const std::vector<std::string>& all, double width, double height)
 {
-  this->FitHelpFont(padded(lines), kPageFont, kSmallestHelp, width, std::numeric_limits<double>::max());
+  constexpr double kAnyHeight = std::numeric_limits<double>::max();
+  std::vector<std::string> lines = all;
+  if (this->FitHelpFont(padded(lines), kPageFont, kSmallestHelp, width, kAnyHeight) == 0)
+  {
+    std::transform(all.begin(), all.end(), lines.begin(), withoutColumns);
+    this->FitHelpFont(padded(lines), kPageFont, kSmallestHelp, width, kAnyHeight);
+  }
   double needed[2] = { 0.0, 0.0 };
   this->Help->GetSize(this->Renderer, needed);
   const auto room = std::size_t(height * double(lines.size() + kPlateLines) / needed[1]);
