@@ -76,6 +76,9 @@ constexpr double kLargestEnlarged = 24.0;
 constexpr double kShaftRadius = 0.10;
 constexpr double kTipRadius = 0.24;
 constexpr double kTipLength = 0.3;
+/// Cosines between arrow and sight: the lift of the arrow begins, and is whole.
+constexpr double kNearlyEndOn = 0.9;
+constexpr double kEndOn = 0.98;
 /// Radius of the ring about the nearest point: of its distance, and at least, of the edge.
 constexpr double kRingPart = 0.3;
 constexpr double kSmallestRing = 0.012;
@@ -160,6 +163,7 @@ struct vtkHapticProps::Internals
 
   TouchMarks marks();
   void place();
+  Vec3 lift(const Vec3& center, const Vec3& along, double way) const;
   double drawnRadius() const;
 
   /// On the screen: the gauge stands where the arrow goes, not over what it comes from.
@@ -200,6 +204,27 @@ double vtkHapticProps::Internals::drawnRadius() const
   return std::max(this->state.radius, enlarged);
 }
 
+/// An arrow that is seen end-on starts above the sphere on the screen, by @p way, not in front of it or
+/// behind.
+Vec3 vtkHapticProps::Internals::lift(const Vec3& center, const Vec3& along, double way) const
+{
+  if (!this->renderer || !this->renderer->IsActiveCameraCreated())
+  {
+    return {};
+  }
+  vtkCamera* camera = this->renderer->GetActiveCamera();
+  Vec3 sight;
+  Vec3 eye;
+  Vec3 up;
+  camera->GetDirectionOfProjection(&sight.x);
+  camera->GetPosition(&eye.x);
+  camera->GetViewUp(&up.x);
+  sight = camera->GetParallelProjection() ? sight : normalized(center - eye, sight);
+  const double part =
+    std::clamp((std::abs(dot(along, sight)) - kNearlyEndOn) / (kEndOn - kNearlyEndOn), 0.0, 1.0);
+  return part * way * normalized(up - dot(up, sight) * sight);
+}
+
 /// The sphere, and what stands on it.
 void vtkHapticProps::Internals::place()
 {
@@ -213,11 +238,12 @@ void vtkHapticProps::Internals::place()
     : this->state.sphereCenter;
   const Vec3 along = normalized(this->state.force);
   setFrame(this->proxyMatrix, center, { 1, 0, 0 }, radius, radius);
-  setFrame(this->forceMatrix, center, along, this->arrowLength,
-    std::max(1e-9, std::min(this->arrowLength, kArrowThickness * this->edge)));
+  const double thickness = std::max(1e-9, std::min(this->arrowLength, kArrowThickness * this->edge));
+  const Vec3 foot = center + this->lift(center, along, radius + kTipRadius * thickness);
+  setFrame(this->forceMatrix, foot, along, this->arrowLength, thickness);
   if (this->gauge->GetVisibility())
   {
-    const Vec3 tip = center + this->arrowLength * along;
+    const Vec3 tip = foot + this->arrowLength * along;
     this->gauge->Show(&tip.x, norm(this->state.force));
   }
 }

@@ -16,9 +16,13 @@
 #include "vtkStringArray.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 using pointhaptics::ServoSample;
+
+/// Clicks of a double click lie within so many pixels.
+static constexpr double kSamePlace = 4.0;
 
 vtkStandardNewMacro(vtkInteractorStyleHaptic);
 
@@ -256,7 +260,14 @@ void vtkInteractorStyleHaptic::Press(const char* button)
   }
   const int* position = this->Interactor->GetEventPosition();
   this->FindPokedRenderer(position[0], position[1]);
-  this->Input.pressButton(this->GestureOf(button));
+  const double away = std::hypot(position[0] - this->PressedAt[0], position[1] - this->PressedAt[1]);
+  const bool isDouble =
+    button == std::string("left") && this->Interactor->GetRepeatCount() > 0 && away < kSamePlace;
+  std::copy_n(position, 2, this->PressedAt);
+  if (!isDouble || !runOnce(this->Commands.find(this->GestureOf(pointhaptics::kDoubleClick))))
+  {
+    this->Input.pressButton(this->GestureOf(button));
+  }
   this->Display.requestRender();
 }
 

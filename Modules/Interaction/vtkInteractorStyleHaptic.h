@@ -253,6 +253,7 @@ private:
   vtkSmartPointer<vtkHapticSliders> Sliders;
   pointhaptics::WatchedPointer<pointhaptics::HapticPort> Device;
   bool UnitsAreJudged = false;
+  int PressedAt[2] = { 0, 0 }; // pixels: VTK counts clicks at different places as one double click
   int Timer = -1;
 };
 

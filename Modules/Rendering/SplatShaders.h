@@ -119,7 +119,13 @@ inline constexpr const char* kFitStatements = R"(
   gl_Position.xy *= splatFit;
 )";
 
-/// Moves vertices outside of the box behind the far plane.
+/// Moves vertices outside of the box behind the far plane, and those of a negative length.
+inline constexpr const char* kHideStatements = R"(
+  if (splatLength < 0.0)
+  {
+    gl_Position = vec4(0.0, 0.0, 2.0, 1.0);
+  }
+)";
 inline constexpr const char* kClipStatements = R"(
   if (any(lessThan(vertexMC.xyz, splatLow)) || any(greaterThan(vertexMC.xyz, splatHigh)))
   {

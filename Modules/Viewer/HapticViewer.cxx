@@ -184,7 +184,10 @@ bool HapticViewer::Implementation::readFirst(LoadedCloud& loaded)
   {
     const std::vector<std::string> shown =
       this->options.together ? this->files : std::vector<std::string>{ this->files[this->cloud] };
-    if (this->read(CloudRequest::of(shown, this->options), loaded))
+    CloudRequest request = CloudRequest::of(shown, this->options);
+    const std::string up = this->observer.upOf ? this->observer.upOf(shown.front()) : std::string();
+    request.up = up.empty() || request.up != "auto" ? request.up : up;
+    if (this->read(std::move(request), loaded))
     {
       return true;
     }

@@ -149,6 +149,7 @@ struct HapticViewerState
   bool fullScreen = false;
   bool sound = false;
   std::string colorBy;
+  std::string up;   ///< As in the options.
   std::string unit; ///< Unit that the user took for the file's; empty: none.
   double metresPerUnit = 1.0;
   int width = 0;
@@ -184,6 +185,9 @@ struct HapticViewerObserver
   /// header of a recording, and either may be missing.
   std::function<std::string(const HapticViewerState& state)> describeState;
   std::string program;
+  /// Keeps that a person turned @p axis of @p file upwards; and the axis that was kept, or "".
+  std::function<void(const std::string& file, const std::string& axis)> keepUp;
+  std::function<std::string(const std::string& file)> upOf;
   /// Called when the window closes.
   std::function<void(const HapticViewerState& state)> rememberState;
 };

@@ -16,6 +16,18 @@ inline const std::vector<std::string>& themeNames()
   return names;
 }
 
+/// Points with a value of @c array from low to high are neither shown nor felt.
+struct HiddenValues
+{
+  std::string array; ///< As findColorSource() takes it.
+  double low = 0.0;
+  double high = 0.0;
+  bool operator==(const HiddenValues& other) const
+  {
+    return array == other.array && low == other.low && high == other.high;
+  }
+};
+
 /// Settings of a picture; each can be a command-line option, a key and a line of the configuration file.
 struct PictureSettings
 {
@@ -29,6 +41,7 @@ struct PictureSettings
   std::string colorMap = "auto";   ///< One of colorMapNames().
   /// Values that get the first and the last colour; empty: nearly all values that occur.
   std::vector<double> colorRange;
+  std::vector<HiddenValues> hidden; ///< None in a new cloud.
   /// Coordinates x, y, z in the frame of the file of two points whose distance is shown. One point: the other
   /// is still to be chosen; empty: none.
   std::vector<double> measure;

@@ -3,7 +3,6 @@
 #include "ResampledCloud.h"
 #include "ScaleNote.h"
 
-#include "AsprsClasses.h"
 #include "CloudAppearance.h"
 #include "HapticSceneBuilder.h"
 #include "PolyDataAccess.h"
@@ -316,6 +315,7 @@ ShownRequest ViewScene::showing() const
   request.orientation = cloudOrientation_;
   request.kind = shown_->look.kind;
   request.colors = shown_->colors;
+  request.hidden = picture_.hidden;
   return request;
 }
 
@@ -361,6 +361,7 @@ std::vector<std::string> ViewScene::colorChoices() const
     vtkDataArray* array = findArrayAnyCase(showsFelt_ ? cloud_ : shown_->points, name);
     add(array ? array->GetName() : "");
   }
+  add(shown_->points->GetPointData()->HasArray(kFileArrayName) ? kFileArrayName : "");
   add(ownColor_);
   for (const char* name : { kClayName, "Density", "ProxyRadius", kResidualArrayName })
   {
@@ -455,10 +456,12 @@ void ViewScene::applyLook()
   applyGround(renderer_, ground);
   scalarBar_->SetLookupTable(this->drawnMapper()->GetLookupTable());
   const std::optional<ColorSource> source = findColorSource(drawn, colorBy_);
-  if (source && holdsAsprsClasses(source->array))
+  if (source && holdsLabels(source->array))
   {
-    scalarBar_->SetLookupTable(vtkSmartPointer<vtkLookupTable>::Take(
-      newClassLegend(drawn->GetPointData()->GetArray(source->array.c_str()))));
+    const auto legend = vtkSmartPointer<vtkLookupTable>::Take(
+      newClassLegend(drawn->GetPointData()->GetArray(source->array.c_str()), this->fileNames()));
+    this->markHidden(legend, source->array);
+    scalarBar_->SetLookupTable(legend);
   }
   const std::string name = source ? describeColorSource(drawn, *source) : std::string();
   const bool isLength = this->wantsResiduals() || (source && source->array == kHeightArrayName);

@@ -2,6 +2,7 @@
 /// A cloud as a scene: read, fitted, resampled, coloured, with camera and props.
 #pragma once
 
+#include "ClippedCloud.h"
 #include "HapticViewerOptions.h"
 #include "LoadedCloud.h"
 #include "ShownCloud.h"
@@ -13,6 +14,7 @@
 #include "DistanceMark.h"
 #include "Haptics/HapticScene.h"
 #include "Haptics/Proxy.h"
+#include "HeightProfile.h"
 #include "IO/Info/LengthUnit.h"
 #include "LevelOfDetail.h"
 #include "PointHapticsViewerModule.h" // For export macro
@@ -35,6 +37,7 @@ class vtkActor;
 class vtkCloudAxes;
 class vtkHapticProps;
 class vtkKernelBandwidthFilter;
+class vtkLookupTable;
 class vtkMatrix4x4;
 class vtkPolyData;
 class vtkRenderer;
@@ -82,6 +85,12 @@ public:
   void fitView();
   /// Turns the camera by @p degrees about the vertical line through the middle of the cloud, to the left.
   void turnView(double degrees);
+  /// Makes @p place, in the frame of the file, the focal point, in the same direction.
+  void centerView(const Vec3& place);
+  /// Moves the camera along the horizon, and upwards; metres of the workspace.
+  void walk(double right, double up, double forward);
+  /// Turns the camera on its place, degrees to the right and downwards; the horizon stays level.
+  void lookAround(double right, double down);
   /// Distance from the camera to its focal point, as HapticViewerOptions::camera has it: see fitCamera().
   double viewDistance() const;
 
@@ -92,6 +101,8 @@ public:
   const PictureSettings& picture() const { return picture_; }
   /// True if a bar shows which values the colours stand for.
   bool isColoredByMap();
+  /// What the picture is coloured by, as findColorSource() takes it.
+  std::string colorArray() const { return coloredBy_.empty() ? shown_->colors.array : coloredBy_; }
   /// The values at the two ends of the bar.
   std::array<double, 2> shownColorRange();
   struct ColorBarPlace
@@ -106,6 +117,10 @@ public:
   /// Finds the nearest point drawn at a place of the window, in the frame of the file; a voxel mean while
   /// means are drawn. False: none is within 8 pixels.
   bool placeAt(int x, int y, Vec3& place);
+  /// Number in the legend of classes or files under a place of the window; nothing: none is there.
+  std::optional<double> labelOnColorBar(double x, double y);
+  /// Names of the files of a cloud of several; touch and picture have those that are not hidden.
+  std::vector<std::string> fileNames() const;
   /// Hides all outside of HapticViewerOptions::clip @p clip; touch follows with clipFelt() and the next
   /// scene.
   void setClip(const std::vector<double>& clip);
@@ -115,9 +130,16 @@ public:
   /// Bounds of the cloud's finite points, but for a few far ones, in the frame of the file; empty: there is
   /// none.
   const Bounds& cloudBounds();
+  /// Bounds of what setClip() leaves.
+  Bounds shownBox() { return clipBox(clip_, cloud_).value_or(this->cloudBounds()); }
+  /// In the frame that is drawn; its coordinates are the file's but for degrees: see toLocalFrame().
+  vtkPolyData* cloud() { return cloud_; }
   /// PictureSettings::measure in words: the distance, and in a second line that along each axis. Empty: there
   /// is none.
   std::vector<std::string> measuredText() const;
+
+  /// Heights of the shown points near the line of PictureSettings::measure; empty: there is none.
+  ProfilePoints profile() const;
 
   /// @p layout places the scalar bar and leaves room for the directions of the axes; numbers of axes and
   /// gauge give way to what it places. Without one the bar stands at the right edge. It must live until
@@ -157,6 +179,9 @@ public:
   /// pipeline; arrays of the file keep their colours.
   void meansChanged();
 
+  /// The up axis in the frame of the cloud.
+  const Vec3& cloudUp() const { return cloudOrientation_.up; }
+  bool isUpGuessed() const { return cloudOrientation_.isGuess; }
   /// Unit vector along an axis of the workspace, from its centre to the side the person looks from.
   Vec3 towardsViewer() const { return orientation_.front; }
   /// Scene of the shown means; takes the one that came with the cloud where there is one.
@@ -240,9 +265,15 @@ private:
   void applyProjection();
   void applyPointSizes();
   void applyMarks();
+  void applyHidden();
+  void markHidden(vtkLookupTable* legend, const std::string& array) const;
+  std::optional<ColorBarPlace> placeOnStrip(double x, double y);
   void placeCamera(const CameraFit& fit);
   CameraFit fitFrom(const CloudLook& look, double turn = 0.0) const;
   CloudLook axisLook() const;
+  Vec3 upward() const;
+  void turnCamera(const Vec3& about, double degrees, const Vec3& axis);
+  void moveCamera(const Vec3& way, const Vec3& wayOfFocus);
   void configure(const LoadedCloud& loaded, const HapticViewerOptions& options);
   void showMeans(const LoadedCloud& loaded, const HapticViewerOptions& options);
 

@@ -125,6 +125,7 @@ void ViewScene::colorPoints()
 
 void ViewScene::drawPoints()
 {
+  this->applyHidden();
   drawShown(*shown_, pointsMapper_);
   detail_.setOrder(shown_->order);
   this->applyPointSizes();

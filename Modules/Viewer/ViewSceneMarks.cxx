@@ -3,17 +3,26 @@
 #include "ViewScene.h"
 
 #include "ClippedCloud.h"
+#include "CloudAppearance.h"
 #include "CoordinateText.h"
+#include "IO/Info/LengthUnit.h"
 #include "PointPicking.h"
+#include "PolyDataAccess.h"
 #include "vtkKernelBandwidthFilter.h"
 #include "vtkVoxelMeanResampler.h"
 
+#include <vtkFieldData.h>
+#include <vtkFloatArray.h>
+#include <vtkLookupTable.h>
 #include <vtkMatrix4x4.h>
+#include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkRenderer.h>
+#include <vtkVariant.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <utility>
@@ -26,10 +35,16 @@ namespace
 
 /// Reaches of a pick, nearest first: the point under the pointer goes before those beside and in front of it.
 constexpr double kPickPixels[] = { 2.0, 4.0, 8.0 };
+/// A profile has the points beside its line up to this part of its length, or as many spacings if that is
+/// more.
+constexpr double kProfilePart = 0.005;
+constexpr double kProfileSpacings = 1.0;
+constexpr std::size_t kMostOfProfile = 20000;
 
-Vec3 placeOf(const std::vector<double>& numbers, std::size_t index)
+/// A place of the file where it is drawn.
+Vec3 placeOf(vtkPolyData* cloud, const std::vector<double>& numbers, std::size_t index)
 {
-  return { numbers[3 * index], numbers[3 * index + 1], numbers[3 * index + 2] };
+  return toLocalFrame(cloud, { numbers[3 * index], numbers[3 * index + 1], numbers[3 * index + 2] });
 }
 
 } // namespace
@@ -57,19 +72,34 @@ bool ViewScene::placeAt(int x, int y, Vec3& place)
 std::vector<std::string> ViewScene::measuredText() const
 {
   const std::vector<double>& ends = picture_.measure;
-  return cloud_ && ends.size() == 6 ? distanceText(cloud_, placeOf(ends, 0), placeOf(ends, 1), unit_.name,
-                                        shown_ ? shown_->medianSpacing : 0.0)
+  return cloud_ && ends.size() == 6 ? distanceText(cloud_, placeOf(cloud_, ends, 0), placeOf(cloud_, ends, 1),
+                                        unit_.name, shown_ ? shown_->medianSpacing : 0.0)
                                     : std::vector<std::string>();
+}
+
+ProfilePoints ViewScene::profile() const
+{
+  const std::vector<double>& ends = picture_.measure;
+  if (!shown_ || ends.size() != 6)
+  {
+    return {};
+  }
+  const Vec3 from = placeOf(cloud_, ends, 0);
+  const Vec3 to = placeOf(cloud_, ends, 1);
+  const double width = std::max(kProfilePart * norm(to - from), kProfileSpacings * shown_->medianSpacing);
+  const auto isShown = notHidden(shown_->points, picture_.hidden);
+  const PointAccess access(shown_->points->GetPoints());
+  return profileAlong(access.view(), from, to, cloudOrientation_.up, width, kMostOfProfile, isShown);
 }
 
 /// Shows the marks; a figure has none.
 void ViewScene::applyMarks()
 {
-  const std::size_t count = figure_ ? 0 : std::min<std::size_t>(2, picture_.measure.size() / 3);
+  const std::size_t count = figure_ || !cloud_ ? 0 : std::min<std::size_t>(2, picture_.measure.size() / 3);
   std::vector<Vec3> places;
   for (std::size_t i = 0; i < count; ++i)
   {
-    places.push_back(placeOf(picture_.measure, i));
+    places.push_back(placeOf(cloud_, picture_.measure, i));
   }
   distance_.setPlaces(std::move(places));
   distance_.setWords(this->measuredText());
@@ -88,18 +118,68 @@ const Bounds& ViewScene::cloudBounds()
 void ViewScene::setClip(const std::vector<double>& clip)
 {
   clip_ = clip;
-  const vtkNew<vtkSplatMapper> all;
-  const std::array<double, 6>& whole = all->GetClipBox();
-  pointsMapper_->SetClipBox(clip_.size() == whole.size() ? clip_.data() : whole.data());
+  const Vec3 infinite{ INFINITY, INFINITY, INFINITY };
+  const Bounds box = clipBox(clip_, cloud_).value_or(Bounds{ -1.0 * infinite, infinite });
+  const double numbers[6] = { box.minimum.x, box.maximum.x, box.minimum.y, box.maximum.y, box.minimum.z,
+    box.maximum.z };
+  pointsMapper_->SetClipBox(numbers);
 }
 
+/// Only the drawn points have the arrays that hide.
 void ViewScene::clipFelt()
 {
   if (cloud_)
   {
-    resampler_->SetInputData(clippedCloud(cloud_, clipBox(clip_)));
+    vtkPolyData* points = picture_.hidden.empty() ? cloud_ : shown_->points;
+    resampler_->SetInputData(shownPart(points, clip_, picture_.hidden));
     scene_.reset();
   }
+}
+
+/// Hidden points have negative lengths; a cloud that is not measured has none, and draws all.
+void ViewScene::applyHidden()
+{
+  auto* lengths = vtkFloatArray::SafeDownCast(shown_->points->GetPointData()->GetArray(kSplatLengthName));
+  if (!lengths)
+  {
+    return;
+  }
+  const auto isKept = notHidden(shown_->points, picture_.hidden);
+  for (vtkIdType i = 0; i < lengths->GetNumberOfValues(); ++i)
+  {
+    const float length = std::abs(lengths->GetValue(i));
+    lengths->SetValue(i, isKept(i) ? length : -length);
+  }
+  lengths->Modified();
+  shown_->points->Modified();
+}
+
+/// Greys what is hidden.
+void ViewScene::markHidden(vtkLookupTable* legend, const std::string& array) const
+{
+  for (vtkIdType row = 0; row < legend->GetNumberOfAnnotatedValues(); ++row)
+  {
+    const double value = legend->GetAnnotatedValue(row).ToDouble();
+    const bool isHidden = std::any_of(picture_.hidden.begin(), picture_.hidden.end(),
+      [&](const HiddenValues& each)
+      { return each.array == array && value >= each.low && value <= each.high; });
+    if (isHidden)
+    {
+      legend->SetAnnotation(legend->GetAnnotatedValue(row), legend->GetAnnotation(row) + " (hidden)");
+      legend->SetTableValue(row, 0.3, 0.3, 0.3, 1.0);
+    }
+  }
+}
+
+std::vector<std::string> ViewScene::fileNames() const
+{
+  vtkAbstractArray* names = cloud_ ? cloud_->GetFieldData()->GetAbstractArray(kFileArrayName) : nullptr;
+  std::vector<std::string> files;
+  for (vtkIdType i = 0; names && i < names->GetNumberOfValues(); ++i)
+  {
+    files.push_back(names->GetVariantValue(i).ToString());
+  }
+  return files;
 }
 
 } // namespace pointhaptics

@@ -1,7 +1,6 @@
 // Drawing and camera of the scene, as PictureSettings and the person say.
 #include "ViewScene.h"
 
-#include "AsprsClasses.h"
 #include "ClippedCloud.h"
 #include "CloudAppearance.h"
 #include "PolyDataAccess.h"
@@ -19,6 +18,7 @@
 #include <vtkScalarBarActor.h>
 #include <vtkScalarsToColors.h>
 #include <vtkTransform.h>
+#include <vtkVariant.h>
 
 #include <algorithm>
 #include <array>
@@ -48,6 +48,7 @@ constexpr double kFeltScale = 3.6;
 constexpr double kFeltLargest = 64.0;
 /// From straight above, the camera's own up vector decides how the view is turned.
 constexpr double kSteepest = 0.999;
+constexpr double kHighestLook = 85.0; ///< Degrees above and below the horizon while walking.
 /// Dots per inch at which a point is a pixel.
 constexpr double kPointsPerInch = 72.0;
 
@@ -121,7 +122,12 @@ void ViewScene::setPicture(const PictureSettings& picture)
   }
   const bool hasOtherColors =
     picture.colorMap != picture_.colorMap || picture.colorRange != picture_.colorRange;
+  const bool hidesOthers = picture.hidden != picture_.hidden;
   picture_ = picture;
+  if (shown_ && hidesOthers)
+  {
+    this->applyHidden();
+  }
   if (vtkRenderWindow* window = renderer_->GetRenderWindow())
   {
     static_cast<void>(applyStereo(window, picture.stereo)); // isStereo() tells
@@ -166,7 +172,7 @@ void ViewScene::applyProjection()
 bool ViewScene::isColoredByMap()
 {
   vtkMapper* mapper = this->drawnMapper();
-  return scalarBar_->GetVisibility() && mapper->GetArrayName() && !holdsAsprsClasses(mapper->GetArrayName());
+  return scalarBar_->GetVisibility() && mapper->GetArrayName() && !holdsLabels(mapper->GetArrayName());
 }
 
 std::array<double, 2> ViewScene::shownColorRange()
@@ -177,10 +183,21 @@ std::array<double, 2> ViewScene::shownColorRange()
 
 std::optional<ViewScene::ColorBarPlace> ViewScene::placeOnColorBar(double x, double y)
 {
-  if (!this->isColoredByMap())
-  {
-    return std::nullopt;
-  }
+  return this->isColoredByMap() ? this->placeOnStrip(x, y) : std::nullopt;
+}
+
+std::optional<double> ViewScene::labelOnColorBar(double x, double y)
+{
+  vtkScalarsToColors* legend = scalarBar_->GetLookupTable();
+  const bool isList = scalarBar_->GetVisibility() && legend->GetIndexedLookup();
+  const std::optional<ColorBarPlace> place = isList ? this->placeOnStrip(x, y) : std::nullopt;
+  const vtkIdType rows = legend->GetNumberOfAnnotatedValues();
+  const auto row = vtkIdType(place ? (1.0 - place->along) * double(rows) : 0.0); // the first is at the top
+  return place ? std::optional(legend->GetAnnotatedValue(std::min(row, rows - 1)).ToDouble()) : std::nullopt;
+}
+
+std::optional<ViewScene::ColorBarPlace> ViewScene::placeOnStrip(double x, double y)
+{
   std::array<int, 4> strip{}; // where it begins in the viewport, and its size
   scalarBar_->GetScalarBarRect(strip.data(), renderer_);
   const int* corner = renderer_->GetOrigin(); // a chart may lie below
@@ -283,7 +300,7 @@ void ViewScene::leaveLayout()
 CameraFit ViewScene::fitFrom(const CloudLook& look, double turn) const
 {
   // Points inside the clipping box, or all where it holds none.
-  const vtkSmartPointer<vtkPolyData> clipped = clippedCloud(shown_->points, clipBox(clip_));
+  const vtkSmartPointer<vtkPolyData> clipped = clippedCloud(shown_->points, clipBox(clip_, cloud_));
   const bool isEmpty = clipped->GetNumberOfPoints() == 0;
   const PointAccess access((isEmpty ? shown_->points : clipped)->GetPoints());
   vtkRenderer* renderer = renderer_;
@@ -341,28 +358,92 @@ void ViewScene::turnView(double degrees)
   {
     return;
   }
-  const AffineTransform model = transformOf(pointsMatrix_);
-  const Vec3 up = normalized(model.applyToVector(cloudOrientation_.up));
   Vec3 middle;
   shown_->points->GetCenter(&middle.x);
-  if (const std::optional<Bounds> box = clipBox(clip_))
+  if (const std::optional<Bounds> box = clipBox(clip_, cloud_))
   {
     middle = box->center();
   }
-  middle = model.apply(middle);
+  this->turnCamera(transformOf(pointsMatrix_).apply(middle), degrees, this->upward());
+}
+
+/// The up axis of the cloud in the workspace.
+Vec3 ViewScene::upward() const
+{
+  vtkMatrix4x4* matrix = pointsMatrix_;
+  return normalized(transformOf(matrix).applyToVector(cloudOrientation_.up));
+}
+
+void ViewScene::turnCamera(const Vec3& about, double degrees, const Vec3& axis)
+{
   vtkNew<vtkTransform> turn;
   turn->PostMultiply();
-  turn->Translate(-middle.x, -middle.y, -middle.z);
-  turn->RotateWXYZ(degrees, &up.x);
-  turn->Translate(&middle.x);
+  turn->Translate(-about.x, -about.y, -about.z);
+  turn->RotateWXYZ(degrees, &axis.x);
+  turn->Translate(&about.x);
   renderer_->GetActiveCamera()->ApplyTransform(turn);
   renderer_->ResetCameraClippingRange();
+}
+
+void ViewScene::moveCamera(const Vec3& way, const Vec3& wayOfFocus)
+{
+  vtkCamera* camera = renderer_->GetActiveCamera();
+  Vec3 eye;
+  Vec3 focus;
+  camera->GetPosition(&eye.x);
+  camera->GetFocalPoint(&focus.x);
+  eye += way;
+  focus += wayOfFocus;
+  camera->SetPosition(&eye.x);
+  camera->SetFocalPoint(&focus.x);
+  renderer_->ResetCameraClippingRange();
+}
+
+void ViewScene::centerView(const Vec3& place)
+{
+  vtkCamera* camera = renderer_->GetActiveCamera();
+  Vec3 focus;
+  Vec3 forward;
+  camera->GetFocalPoint(&focus.x);
+  camera->GetDirectionOfProjection(&forward.x);
+  const Vec3 way = transformOf(pointsMatrix_).apply(place) - focus;
+  this->moveCamera(way - dot(way, forward) * forward, way);
+}
+
+void ViewScene::walk(double right, double up, double forward)
+{
+  vtkCamera* camera = renderer_->GetActiveCamera();
+  Vec3 ahead;
+  Vec3 viewUp;
+  camera->GetDirectionOfProjection(&ahead.x);
+  camera->GetViewUp(&viewUp.x);
+  const Vec3 upward = this->upward();
+  const Vec3 aside = normalized(cross(ahead, viewUp));
+  const Vec3 along = normalized(ahead - dot(ahead, upward) * upward, viewUp);
+  const Vec3 way = right * aside + up * upward + forward * along;
+  this->moveCamera(way, way);
+}
+
+void ViewScene::lookAround(double right, double down)
+{
+  vtkCamera* camera = renderer_->GetActiveCamera();
+  Vec3 eye;
+  Vec3 ahead;
+  camera->GetPosition(&eye.x);
+  camera->GetDirectionOfProjection(&ahead.x);
+  const Vec3 upward = this->upward();
+  const Vec3 aside = normalized(cross(ahead, upward), { 1.0, 0.0, 0.0 });
+  const double height = std::asin(std::clamp(dot(ahead, upward), -1.0, 1.0)) / kDegree;
+  const double lowered = height - std::clamp(height - down, -kHighestLook, kHighestLook);
+  camera->SetViewUp(&upward.x);
+  this->turnCamera(eye, -lowered, aside);
+  this->turnCamera(eye, -right, upward);
 }
 
 void ViewScene::fitView()
 {
   const AffineTransform model = transformOf(pointsMatrix_);
-  const Vec3 up = normalized(model.applyToVector(cloudOrientation_.up));
+  const Vec3 up = this->upward();
   const Vec3 right = normalized(cross(up, model.applyToVector(cloudOrientation_.front)));
   const Vec3 front = cross(right, up);
   vtkCamera* camera = renderer_->GetActiveCamera();

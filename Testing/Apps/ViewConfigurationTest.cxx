@@ -65,7 +65,8 @@ const std::map<std::string, std::string>& valuesOfOptions()
     { "--full-screen", "" }, { "--sound", "" }, { "--projection", "parallel" }, { "--background", "white" },
     { "--theme", "high-contrast" }, { "--stereo", "red-blue" }, { "--point-scale", "2" },
     { "--edl-strength", "0.5" }, { "--font-scale", "1.5" }, { "--color-map", "greys" },
-    { "--color-range", "1,2" }, { "--measure", "0,0,0,1,1,1" }, { "--clip", "0,1,0,1,0,1" },
+    { "--color-range", "1,2" }, { "--measure", "0,0,0,1,1,1" },
+    { "--hide", "Classification=7,intensity=:20" }, { "--clip", "0,1,0,1,0,1" },
     { "--screenshot-size", "4000x3000" }, { "--transparent", "" }, { "--kind", "terrain" },
     { "--ideal", "torus" }, { "--method", "gradient-steps" }, { "--preset", "paper" },
     { "--stiffness", "500" }, { "--damping", "1.5" }, { "--mu-s", "0.5" }, { "--force-limit", "3" },
@@ -141,6 +142,7 @@ TEST_F(ViewConfiguration, RefusesBindingsAndCamerasThatCannotBe)
   this->refuse(2, { "view", "in.ply", "--clip", "0,1,2,1,0,1" }, { "--clip 0,1,2,1,0,1", "no box" });
   this->refuse(
     2, { "view", "in.ply", "--measure", "1,2,3,1,2,3" }, { "--measure 1,2,3,1,2,3", "same place" });
+  this->refuse(2, { "view", "in.ply", "--hide", "Height=2:1" }, { "--hide Height=2:1", "ARRAY=LOW:HIGH" });
   this->write("bad.json", R"({"bind": ["help=F1", "hepl=F2"]})");
   this->refuse(2, { "view", "in.ply", "--config", "bad.json" }, { "bad.json", "\"bind\"", "hepl=F2" });
 }

@@ -170,6 +170,25 @@ TEST(HapticProps, ShowTheGaugeOnTheArrowsSideAndOnlyWhereThereIsForce)
   EXPECT_FALSE(props->GetGauge()->GetVisibility()) << "there is nothing to gauge";
 }
 
+TEST(HapticProps, LiftAnArrowThatIsSeenEndOnOffTheSphere)
+{
+  vtkNew<vtkRenderer> renderer;
+  renderer->GetActiveCamera()->SetPosition(0, 0, 1);
+  renderer->GetActiveCamera()->SetViewUp(0, 1, 0);
+  vtkNew<vtkHapticProps> props;
+  props->AddTo(renderer);
+  props->Update(makeContact()); // its force is along z
+  vtkMatrix4x4* arrow = props->GetForceActor()->GetUserMatrix();
+  vtkMatrix4x4* sphere = props->GetProxyActor()->GetUserMatrix();
+  const auto above = [arrow, sphere] { return arrow->GetElement(1, 3) - sphere->GetElement(1, 3); };
+  EXPECT_GT(above(), sphere->GetElement(0, 0));
+  EXPECT_NEAR(arrow->GetElement(0, 3), sphere->GetElement(0, 3), 1e-9);
+  ProxyState aside = makeContact();
+  aside.force = { 1.6, 0.0, 0.0 };
+  props->Update(aside);
+  EXPECT_NEAR(above(), 0.0, 1e-9) << "it is seen from its side";
+}
+
 TEST(HapticProps, CutAnArrowThatWouldLeaveTheWorkspace)
 {
   vtkNew<vtkHapticProps> props;

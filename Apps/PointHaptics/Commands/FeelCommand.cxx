@@ -410,9 +410,7 @@ int runFeel(const FeelOptions& options, Files& files)
   const std::string input = options.record.empty() ? options.file : files.input(options.file);
   require(readCloud(input, cloud, message, options.reading), message);
   showNotes(kFeelCommand, options.file, cloud);
-  const vtkSmartPointer<vtkPolyData> local = inLocalMetres(cloud.points); // as view has them
-  require(local == cloud.points || options.clip.empty(), options.file + ": " + kNoClipOfDegrees);
-  cloud.points = local;
+  cloud.points = inLocalMetres(cloud.points); // as view has them
   const Bounds box = feltBox(options, cloud.points);
   FeelScenes scenes;
   require(makeFeelScenes(options, cloud.points, scenes, message), message);
@@ -421,7 +419,8 @@ int runFeel(const FeelOptions& options, Files& files)
   RecordingWriter recording;
   CsvWriter table;
   FeltSound sound;
-  openRecordingOutput(options, clippedCloud(cloud.points, clipBox(options.clip)), files, recording);
+  openRecordingOutput(
+    options, clippedCloud(cloud.points, clipBox(options.clip, cloud.points)), files, recording);
   openOutputs(options, files, table, sound);
   const std::int64_t invalid = extentOf(cloud.points).invalid;
   cloud = {};

@@ -101,6 +101,8 @@ HapticViewerObserver observerFor(const ViewOptions& options)
   observer.describeState = [settingsOf](const HapticViewerState& state) { return settingsOf(state).dump(); };
   observer.rememberState = [settingsOf](const HapticViewerState& state)
   { rememberSettings(settingsOf(state)); };
+  observer.keepUp = keepUp;
+  observer.upOf = options.needsWindow() ? keptUp : decltype(observer.upOf)();
   return observer;
 }
 

@@ -69,7 +69,7 @@ bool openRecording(const std::string& fileName, const std::string& cloudFile, Fi
     {
       return false;
     }
-    cloud = clippedCloud(loaded.cloud, clipBox(reading.clip));
+    cloud = clippedCloud(loaded.cloud, clipBox(reading.clip, loaded.cloud));
     const bool isRight = isOf(recording, cloud, problem);
     problem.insert(0, isRight ? "" : request.files.front() + ": ");
     return isRight;

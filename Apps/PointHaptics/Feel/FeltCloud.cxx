@@ -132,10 +132,10 @@ bool makeFeelScenes(const FeelOptions& options, vtkPolyData* cloud, FeelScenes& 
   {
     auto whole = resampledScene(options, cloud, settings.workspace, message);
     const bool isMade = whole != nullptr;
-    scenes.adopt(std::move(whole), clippedCloud(cloud, clipBox(options.clip))->GetPoints(), settings);
+    scenes.adopt(std::move(whole), clippedCloud(cloud, clipBox(options.clip, cloud))->GetPoints(), settings);
     return isMade;
   }
-  const vtkSmartPointer<vtkPolyData> felt = clippedCloud(cloud, clipBox(options.clip));
+  const vtkSmartPointer<vtkPolyData> felt = clippedCloud(cloud, clipBox(options.clip, cloud));
   const vtkSmartPointer<vtkPolyData> prepared = rawPoints(options, felt);
   if (prepared->GetNumberOfPoints() == 0)
   {

@@ -29,17 +29,15 @@ const std::vector<KeyedHelp>& keyedHelps()
       " writes those of the window" },
     { "--color-by",
       "Array to colour by: rgb, clay (one colour), height, density, proxyradius, residual (the distance of "
-      "each "
-      "voxel mean from the surface that is felt) or one of the file, in upper or lower case, with :x, :0 or "
+      "each voxel mean from the surface that is felt) or one of the file, in upper or lower case, with :x, "
+      ":0 or "
       ":magnitude for a component of a vector; default: rgb, classification, clay or height, what suits",
       { "colors" } },
     { "--push-pointer", "The touch pushes the mouse pointer while the hand follows it" },
     { "--axes", "A box about the cloud with its bounds in metres of the file, and where its axes point" },
     { "--figure", "Nothing but the cloud in one colour on white, the workspace, proxy and normal" },
     { "--felt", "Show the voxel means that are felt instead of the points" },
-    { "--ambient",
-      "Ambient light from the normals of the surface that is felt: shows the shape of a cloud without "
-      "colours" },
+    { "--ambient", "Light from the normals of the felt surface: the shape of a cloud without colours" },
     { "--sound", "Hear the touch: a tone as loud as the force, a click where contact begins" },
     { "--full-screen", "The window covers the screen, without a border" },
     { "--projection", "How the cloud is seen: perspective (the default), or parallel, without perspective" },
@@ -63,6 +61,8 @@ const std::vector<KeyedHelp>& keyedHelps()
       "the "
       "colour bar to change them",
       {}, " takes all again" },
+    { "--hide", "Neither shows nor lets feel these values: Classification=7,intensity=:20",
+      { "hide-outside" } },
     { "--clip",
       "Shows, lets feel and pick only what lies in this box, in coordinates of the file; default: all",
       { "clip-box" }, " shows its handles" },

@@ -2,6 +2,7 @@
 
 #include "Options/OptionParsing.h"
 
+#include "ClippedCloud.h"
 #include "CloudAppearance.h"
 #include "ColorMaps.h"
 #include "StereoPicture.h"
@@ -10,6 +11,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <vector>
 
 namespace pointhaptics::app
 {
@@ -38,6 +44,21 @@ void addPictureOptions(CLI::App& command, PictureSettings& picture)
   const auto checkRange = [](const std::vector<double>& range)
   { return range[0] < range[1] ? "" : "the first colour's value must be less than the last one's"; };
   addNumbers(command, "--color-range", picture.colorRange, { 2 }, checkRange, "LOW,HIGH", "")->group(group);
+  const auto hide = [&picture](const std::string& text)
+  {
+    picture.hidden.clear();
+    std::istringstream words(text);
+    for (std::string word; std::getline(words, word, ',');)
+    {
+      const std::optional<HiddenValues> hidden = hiddenValuesOf(word);
+      if (!hidden)
+      {
+        throwUsage("--hide", word, "no values; give ARRAY=VALUE or ARRAY=LOW:HIGH, such as Classification=7");
+      }
+      picture.hidden.push_back(*hidden);
+    }
+  };
+  command.add_option_function<std::string>("--hide", hide, "")->type_name("ARRAY=VALUE,...")->group(group);
   const auto checkEnds = [](const std::vector<double>& ends)
   {
     return std::equal(ends.begin(), ends.begin() + 3, ends.begin() + 3)
@@ -65,6 +86,9 @@ void setPicture(nlohmann::ordered_json& settings, const PictureSettings& picture
   settings["color-map"] = picture.colorMap;
   settings["transparent"] = picture.transparent;
   setUnlessEmpty(settings, "color-range", picture.colorRange);
+  std::vector<std::string> hidden;
+  std::transform(picture.hidden.begin(), picture.hidden.end(), std::back_inserter(hidden), textOf);
+  setUnlessEmpty(settings, "hide", fmt::format("{}", fmt::join(hidden, ",")));
   const auto& size = picture.screenshotSize;
   setUnlessEmpty(
     settings, "screenshot-size", size[0] > 0 ? fmt::format("{}x{}", size[0], size[1]) : std::string());

@@ -176,7 +176,7 @@ void ViewOptions::addTo(CLI::App& command)
   command.add_flag("--recent", this->recent, "Begin with the settings the last window ended with");
   addTouchFileOptions(command, this->viewer);
   addWord(command, "--up", this->viewer.up, { "auto", "x", "-x", "y", "-y", "z", "-z" },
-    "Axis of the cloud that points up; default: a guess");
+    "Axis of the cloud that points up; default: a guess, or as it was turned in a window before");
   addWord(command, "--kind", this->viewer.kind, { "auto", "object", "terrain", "sweep", "indoors", "frame" },
     "What the cloud is, and so from where it is seen and how it is drawn; default: a guess");
   addClip(command, this->viewer.clip, "");

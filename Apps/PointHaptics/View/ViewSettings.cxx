@@ -14,6 +14,7 @@
 #include <array>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <set>
 #include <vector>
 
@@ -33,7 +34,7 @@ const std::set<std::string>& deeds()
 /// Options that belong to the cloud at hand, and to no other.
 constexpr const char* kOfTheCloud[] = { "matrix", "workspace", "voxel", "dims", "scale", "rotate",
   "translate", "unit", "resolution", "columns", "salvage", "vertices", "path", "path-unit", "path-time-unit",
-  "up", "color-by", "color-range", "clip", "measure", "together", "watch", "camera", "ideal" };
+  "up", "color-by", "color-range", "clip", "hide", "measure", "together", "watch", "camera", "ideal" };
 
 /// A number where it reads back as it was written, else text: an array may be called 1e3.
 nlohmann::ordered_json valueOf(const CLI::Option& option)
@@ -108,6 +109,7 @@ void setState(nlohmann::ordered_json& settings, const HapticViewerState& state, 
   settings["full-screen"] = state.fullScreen;
   settings["sound"] = state.sound;
   setPicture(settings, state.picture);
+  setUnlessEmpty(settings, "up", state.up == "auto" ? std::string() : state.up);
   setUnlessEmpty(settings, "clip", state.clip);
   setUnlessEmpty(settings, "color-by", state.colorBy);
   settings["size"] = fmt::format("{}x{}", state.width, state.height);
@@ -138,6 +140,44 @@ std::string recentSettingsFile()
     return std::string(state) + "/pointhaptics/view.json";
   }
   return home && *home ? std::string(home) + "/.local/state/pointhaptics/view.json" : std::string();
+}
+
+/// The axes of all files; and the name of the one that keeps them.
+static nlohmann::ordered_json keptUps(std::filesystem::path& name)
+{
+  const std::string recent = recentSettingsFile();
+  name = recent.empty() ? std::filesystem::path() : std::filesystem::path(recent).replace_filename("up.json");
+  std::ifstream file(name);
+  nlohmann::ordered_json ups = nlohmann::ordered_json::parse(file, nullptr, false);
+  return ups.is_object() ? ups : nlohmann::ordered_json::object();
+}
+
+static std::string keyOf(const std::string& file)
+{
+  std::error_code error;
+  return std::filesystem::absolute(file, error).string();
+}
+
+std::string keptUp(const std::string& file)
+{
+  std::filesystem::path name;
+  const nlohmann::ordered_json ups = keptUps(name);
+  const auto found = ups.find(keyOf(file));
+  return found != ups.end() && found->is_string() ? found->get<std::string>() : std::string();
+}
+
+void keepUp(const std::string& file, const std::string& axis)
+{
+  std::filesystem::path name;
+  nlohmann::ordered_json ups = keptUps(name);
+  ups[keyOf(file)] = axis;
+  std::error_code error;
+  std::string message;
+  if (!name.empty())
+  {
+    std::filesystem::create_directories(name.parent_path(), error);
+    static_cast<void>(writeSettings(ups, name.string(), message));
+  }
 }
 
 void rememberSettings(nlohmann::ordered_json settings)

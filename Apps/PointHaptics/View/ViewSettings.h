@@ -33,6 +33,10 @@ bool writeSettings(const nlohmann::ordered_json& settings, const std::string& fi
 /// $XDG_STATE_HOME/pointhaptics/view.json, in ~/.local/state where that is not set. Empty without a home.
 std::string recentSettingsFile();
 
+/// The axis that points up in @p file, as keepUp() kept it beside recentSettingsFile(); "": none was kept.
+std::string keptUp(const std::string& file);
+void keepUp(const std::string& file, const std::string& axis);
+
 /// Writes to recentSettingsFile() what is worth keeping for another cloud: all but model, lattice and paths.
 /// A state that cannot be kept is no reason to complain.
 void rememberSettings(nlohmann::ordered_json settings);

@@ -3,6 +3,7 @@
 #include "IO/Info/FieldText.h"
 
 #include "vtkDataArray.h"
+#include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
@@ -28,6 +29,8 @@ constexpr double kLargestThing = 1e4;
 /// within.
 constexpr double kCompact = 0.2;
 constexpr double kCompactAboutOrigin = 0.45;
+/// Field data: longitude and latitude of the origin, and metres of a degree of each.
+constexpr const char* kLocalFrame = "LocalFrame";
 constexpr double kFoot = 0.3048;
 constexpr double kSurveyFoot = 1200.0 / 3937.0;
 
@@ -167,30 +170,52 @@ vtkSmartPointer<vtkPolyData> inLocalMetres(vtkPolyData* cloud)
   };
   const double middle[2] = { medianOf(0), medianOf(1) };
   const double metres[2] = { kMetresPerDegree * std::cos(kRadian * middle[1]), kMetresPerDegree };
+  vtkNew<vtkDoubleArray> frame;
+  frame->SetName(kLocalFrame);
+  for (const double number : { middle[0], middle[1], metres[0], metres[1] })
+  {
+    frame->InsertNextValue(number);
+  }
+  vtkNew<vtkFieldData> fields;
+  fields->ShallowCopy(cloud->GetFieldData());
+  fields->AddArray(frame);
+  auto local = vtkSmartPointer<vtkPolyData>::New();
+  local->ShallowCopy(cloud);
+  local->SetFieldData(fields);
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
   points->SetNumberOfPoints(count);
   for (vtkIdType i = 0; i < count; ++i)
   {
-    double p[3];
-    cloud->GetPoint(i, p);
-    const double east = std::remainder(p[0] - middle[0], 360.0);
-    isNoReturn(i) ? points->SetPoint(i, p)
-                  : points->SetPoint(i, metres[0] * east, metres[1] * (p[1] - middle[1]), p[2]);
+    Vec3 p;
+    cloud->GetPoint(i, &p.x);
+    p = isNoReturn(i) ? p : toLocalFrame(local, p);
+    points->SetPoint(i, &p.x);
   }
-  auto local = vtkSmartPointer<vtkPolyData>::New();
-  local->ShallowCopy(cloud);
   local->SetPoints(points);
-  vtkNew<vtkFieldData> fields;
-  fields->ShallowCopy(cloud->GetFieldData());
   for (const char* ofDegrees : { "CoordinateSystem", "LasScale", "LasOffset", "LasHeader", "LasRecords" })
   {
     fields->RemoveArray(ofDegrees);
   }
   fields->RemoveArray("LengthUnit");
-  local->SetFieldData(fields);
   io::addFieldText(local, "LengthUnit", "metre");
   return local;
+}
+
+Vec3 toLocalFrame(vtkPolyData* cloud, const Vec3& place)
+{
+  vtkDataArray* frame = cloud->GetFieldData()->GetArray(kLocalFrame);
+  return !frame ? place
+                : Vec3{ frame->GetTuple1(2) * std::remainder(place.x - frame->GetTuple1(0), 360.0),
+                    frame->GetTuple1(3) * (place.y - frame->GetTuple1(1)), place.z };
+}
+
+Vec3 fromLocalFrame(vtkPolyData* cloud, const Vec3& place)
+{
+  vtkDataArray* frame = cloud->GetFieldData()->GetArray(kLocalFrame);
+  return !frame ? place
+                : Vec3{ place.x / frame->GetTuple1(2) + frame->GetTuple1(0),
+                    place.y / frame->GetTuple1(3) + frame->GetTuple1(1), place.z };
 }
 
 } // namespace pointhaptics

@@ -311,7 +311,7 @@ bool sampleFaces(
   if (right < count)
   {
     told += ", but for " + countText(static_cast<std::int64_t>(count - right)) +
-      " that name vertices which are not there, or fewer than three";
+      " with missing vertices or fewer than three corners";
   }
   return true;
 }

@@ -207,10 +207,13 @@ const Command* CommandRegistry::findExactly(const std::string& gesture) const
 
 const Command* CommandRegistry::find(const std::string& gesture) const
 {
-  const Command* found = this->findExactly(gesture);
-  for (const std::string& other : fallbacksOf(gesture))
+  std::vector<std::string> names = fallbacksOf(gesture);
+  names.insert(names.begin(), gesture);
+  const Command* found = nullptr;
+  for (const std::string& name : names)
   {
-    found = found ? found : this->findExactly(other);
+    found = found || modifier_.empty() ? found : this->findExactly(modifier_ + name);
+    found = found ? found : this->findExactly(name);
   }
   return found;
 }

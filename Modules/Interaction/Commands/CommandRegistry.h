@@ -8,6 +8,7 @@
 
 #include <functional>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -58,6 +59,21 @@ struct Command
   /// True if the program has what the command works on; the help leaves it out otherwise. Empty: always.
   std::function<bool()> isAvailable = {};
 };
+
+/// Calls @p action, a function or member function, with the result of @p part and @p arguments, where @p part
+/// still returns one: commands may live for longer than what they work on.
+template <typename Part, typename Action, typename... Arguments>
+auto whileThere(std::function<Part*()> part, Action action, Arguments... arguments)
+{
+  return [part = std::move(part), action, arguments...](
+           auto... more) -> std::invoke_result_t<const Action&, Part&, Arguments..., decltype(more)...>
+  {
+    if (Part* there = part())
+    {
+      std::invoke(action, *there, arguments..., more...);
+    }
+  };
+}
 
 /// Calls the function of @p command if it is of the kind that happens once. False: it is null or of another
 /// kind.
@@ -116,6 +132,9 @@ public:
   /// their first command. Commands without a gesture are left out.
   std::string help(Scope scope = Scope::Available) const;
 
+  /// Gestures with @p modifier, such as "Walk+", go before those without, until it is set to "".
+  void setModifier(const std::string& modifier) { modifier_ = modifier; }
+
   /// Called after each change.
   void setObserver(std::function<void()> changed) { changed_ = std::move(changed); }
   /// Copies the commands without functions and observer, so that they can be bound and described, but not
@@ -138,6 +157,7 @@ private:
 
   std::vector<Entry> entries_;
   std::vector<std::string> conflicts_;
+  std::string modifier_;
   std::function<void()> changed_;
 };
 

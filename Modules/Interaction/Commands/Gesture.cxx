@@ -51,7 +51,7 @@ std::string gestureOf(const std::string& name, bool control, bool shift, bool al
 bool isGesture(const std::string& gesture)
 {
   std::string rest = gesture;
-  for (const char* modifier : { "Ctrl+", "Shift+" })
+  for (const char* modifier : { "Walk+", "Ctrl+", "Shift+" })
   {
     const std::size_t length = std::string(modifier).size();
     rest = rest.compare(0, length, modifier) == 0 ? rest.substr(length) : rest;
@@ -64,7 +64,8 @@ std::vector<std::string> fallbacksOf(const std::string& gesture)
 {
   std::string name = nameOf(gesture);
   const bool hasCommandModifier = gesture.compare(0, 5, "Ctrl+") == 0 || gesture.compare(0, 4, "Alt+") == 0;
-  if (name.empty() || isMouseButton(name) || name == "wheel" || (hasCommandModifier && isLetter(name)))
+  if (name.empty() || isMouseButton(name) || name == "wheel" || name == kDoubleClick ||
+    (hasCommandModifier && isLetter(name)))
   {
     return {};
   }
@@ -80,9 +81,11 @@ std::string gestureLabel(const std::string& gesture)
 {
   static const std::map<std::string, std::string> labels = { { "plus", "+" }, { "minus", "-" },
     { "Prior", "Page Up" }, { "Next", "Page Down" }, { "space", "Space" }, { "question", "?" },
-    { "equal", "=" }, { "underscore", "_" }, { "bracketleft", "[" }, { "bracketright", "]" } };
+    { "equal", "=" }, { kDoubleClick, "double click" }, { "underscore", "_" }, { "bracketleft", "[" },
+    { "bracketright", "]" } };
   const std::string name = nameOf(gesture);
-  const std::string modifiers = gesture.substr(0, gesture.size() - name.size());
+  std::string modifiers = gesture.substr(0, gesture.size() - name.size());
+  modifiers = modifiers == "Walk+" ? "" : modifiers; // the line of the help says so
   const auto known = labels.find(name);
   const std::string word = isDeviceButton(name) ? "device's button " + name.substr(4) : name;
   return modifiers + (known == labels.end() ? word : known->second);

@@ -11,8 +11,10 @@ namespace pointhaptics
 {
 
 /// A gesture is a button of the mouse (left, middle, right), wheel, a button of the haptic device (hand1 to
-/// hand4), or a key by its X11 name (h, H, Prior, Left, plus), after the modifiers it takes in this order:
-/// Ctrl+, Shift+. Letters carry Shift themselves: X, not Shift+x.
+/// hand4), doubleclick of the left button, or a key by its X11 name (h, H, Prior, Left, plus), after the
+/// modifiers it takes in this order: Ctrl+, Shift+. Letters carry Shift themselves: X, not Shift+x. In front
+/// of all, Walk+ makes it a gesture of the walk through a cloud alone: see CommandRegistry::setModifier().
+inline constexpr const char* kDoubleClick = "doubleclick";
 
 /// "Ctrl+Shift+left" and the like of an event; @p name is a button, wheel or a key. With @p alt it begins
 /// with Alt+, which no binding has. A capital letter with Ctrl and without Shift is one of Caps Lock, and

@@ -178,7 +178,7 @@ void findVoxel(vtkPolyData* cloud, PickedPoint& picked)
 
 } // namespace
 
-std::function<bool(const Vec3&)> drawnBy(vtkActor* actor)
+std::function<bool(vtkIdType, const Vec3&)> drawnBy(vtkActor* actor)
 {
   auto* mapper = vtkSplatMapper::SafeDownCast(actor->GetMapper());
   if (!mapper)
@@ -187,8 +187,14 @@ std::function<bool(const Vec3&)> drawnBy(vtkActor* actor)
   }
   vtkNew<vtkMatrix4x4> toPicture;
   toPicture->DeepCopy(actor->GetMatrix());
-  return [mapper, toPicture = vtkSmartPointer<vtkMatrix4x4>(toPicture)](const Vec3& p)
+  vtkDataArray* lengths = mapper->GetInput()->GetPointData()->GetArray(mapper->GetSizeArrayName().c_str());
+  return
+    [mapper, lengths, toPicture = vtkSmartPointer<vtkMatrix4x4>(toPicture)](vtkIdType index, const Vec3& p)
   {
+    if (lengths && lengths->GetComponent(index, 0) < 0.0)
+    {
+      return false;
+    }
     const std::array<double, 6>& box = mapper->GetClipBox();
     for (int axis = 0; axis < 3; ++axis)
     {
@@ -211,7 +217,7 @@ std::function<bool(const Vec3&)> drawnBy(vtkActor* actor)
 }
 
 bool pickPoint(vtkPolyData* cloud, vtkRenderer* renderer, double x, double y, double pixels,
-  PickedPoint& picked, vtkMatrix4x4* toWorkspace, const std::function<bool(const Vec3&)>& isDrawn)
+  PickedPoint& picked, vtkMatrix4x4* toWorkspace, const std::function<bool(vtkIdType, const Vec3&)>& isDrawn)
 {
   double viewport[4];
   renderer->GetViewport(viewport);
@@ -241,7 +247,7 @@ bool pickPoint(vtkPolyData* cloud, vtkRenderer* renderer, double x, double y, do
     }
     const double column = left + 0.5 * size[0] * (1.0 + (m[0] * p.x + m[1] * p.y + m[2] * p.z + m[3]) / w);
     const double row = bottom + 0.5 * size[1] * (1.0 + (m[4] * p.x + m[5] * p.y + m[6] * p.z + m[7]) / w);
-    if (std::hypot(column - pointer[0], row - pointer[1]) <= pixels && (!isDrawn || isDrawn(p)))
+    if (std::hypot(column - pointer[0], row - pointer[1]) <= pixels && (!isDrawn || isDrawn(i, p)))
     {
       best = depth;
       found = i;

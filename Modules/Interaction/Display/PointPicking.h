@@ -48,14 +48,14 @@ struct PickedOfFile
 /// are drawn within @p pixels of the display position (@p x, @p y) of @p renderer's window, the one nearest
 /// to the camera. False: there is none. Cost: a few ns a point. GUI thread only.
 /// @param toWorkspace of a cloud in another frame, as that of its file; null: it is in the workspace.
-/// @param isDrawn of places in the frame of @p cloud; empty: all are.
+/// @param isDrawn of points, by index and place in the frame of @p cloud; empty: all are.
 POINTHAPTICSINTERACTION_EXPORT bool pickPoint(vtkPolyData* cloud, vtkRenderer* renderer, double x, double y,
   double pixels, PickedPoint& picked, vtkMatrix4x4* toWorkspace = nullptr,
-  const std::function<bool(const Vec3&)>& isDrawn = {});
+  const std::function<bool(vtkIdType, const Vec3&)>& isDrawn = {});
 
-/// True if @p actor draws a place, in the frame of its points: its clipping planes, and the box of a
-/// vtkSplatMapper, leave it. Both must outlive the result.
-POINTHAPTICSINTERACTION_EXPORT std::function<bool(const Vec3&)> drawnBy(vtkActor* actor);
+/// True if @p actor draws a point, by its index and its place in the frame of the points: its clipping
+/// planes, and the box and the lengths of a vtkSplatMapper, leave it. Both must outlive the result.
+POINTHAPTICSINTERACTION_EXPORT std::function<bool(vtkIdType, const Vec3&)> drawnBy(vtkActor* actor);
 
 /// Fills in bandwidth and radius, as vtkKernelBandwidthFilter computes them with @p settings. Searches the
 /// point's neighbours among all points of @p cloud: about 0.1 s for a million. Errors: those of

@@ -32,9 +32,6 @@ namespace
 {
 
 constexpr int kSlices = 600;
-constexpr unsigned char kForceColor[3] = { 205, 85, 0 };
-constexpr unsigned char kRadiusColor[3] = { 190, 30, 110 };
-constexpr unsigned char kIdealColor[3] = { 20, 90, 200 };
 constexpr int kIdealPlot = 2; // of the chart; 0 and 1 are radius and force
 /// A chart lower than this, points, has few labels beside it.
 constexpr double kLow = 150.0;
@@ -61,7 +58,6 @@ void styleAxis(vtkAxis* axis, const char* title, const unsigned char color[3])
     text->SetFontSize(kFontSize);
     text->BoldOff();
   }
-  axis->GetGridPen()->SetColor(225, 225, 225);
   axis->GetPen()->SetColor(90, 90, 90);
 }
 
@@ -103,6 +99,7 @@ struct vtkHapticChart::Internals
   vtkNew<vtkFloatArray> ideal;
   std::deque<Sample> samples;
   bool paused = false;
+  bool isDark = false;
   bool wasFlat = false;
   std::string errorMessage;
   int fittedHeight = 0; // of the renderer whose texts fit, pixels,
@@ -231,16 +228,13 @@ vtkHapticChart::vtkHapticChart()
   parts.table->AddColumn(parts.ideal);
   vtkPlot* radius = parts.chart->AddPlot(vtkChart::LINE);
   radius->SetInputData(parts.table, 0, 2);
-  radius->SetColor(kRadiusColor[0], kRadiusColor[1], kRadiusColor[2], 255);
   radius->SetWidth(2.0f);
   parts.chart->SetPlotCorner(radius, 1); // bottom and right axes
   vtkPlot* force = parts.chart->AddPlot(vtkChart::LINE);
   force->SetInputData(parts.table, 0, 1);
-  force->SetColor(kForceColor[0], kForceColor[1], kForceColor[2], 255);
   force->SetWidth(2.0f);
   vtkPlot* ideal = parts.chart->AddPlot(vtkChart::LINE);
   ideal->SetInputData(parts.table, 0, 3);
-  ideal->SetColor(kIdealColor[0], kIdealColor[1], kIdealColor[2], 255);
   ideal->SetWidth(1.5f);
   ideal->GetPen()->SetLineType(vtkPen::DASH_LINE);
   ideal->SetVisible(false);
@@ -252,18 +246,13 @@ vtkHapticChart::vtkHapticChart()
   legend->GetLabelProperties()->SetFontSize(12);
   legend->GetBrush()->SetOpacityF(0.6);
   legend->GetPen()->SetLineType(vtkPen::NO_PEN);
-  const unsigned char dark[3] = { 60, 60, 60 };
-  styleAxis(parts.chart->GetAxis(vtkAxis::LEFT), "force (N)", kForceColor);
-  styleAxis(parts.chart->GetAxis(vtkAxis::BOTTOM), "time (s)", dark);
-  styleAxis(parts.chart->GetAxis(vtkAxis::RIGHT), "radius (mm)", kRadiusColor);
   parts.chart->GetAxis(vtkAxis::RIGHT)->SetGridVisible(false);
-  parts.chart->GetBackgroundBrush()->SetColor(255, 255, 255, 255);
   parts.chart->SetInteractive(false);
   parts.actor->GetScene()->AddItem(parts.chart);
   parts.renderer->AddActor(parts.actor);
-  parts.renderer->SetBackground(1.0, 1.0, 1.0);
   parts.renderer->InteractiveOff();
   parts.actor->GetScene()->SetRenderer(parts.renderer);
+  this->SetDark(false);
   this->Update();
 }
 
@@ -277,6 +266,36 @@ void vtkHapticChart::SetVisibility(bool visible)
 bool vtkHapticChart::GetVisibility() const
 {
   return this->Parts->renderer->GetDraw() != 0;
+}
+
+void vtkHapticChart::SetDark(bool dark)
+{
+  Internals& parts = *this->Parts;
+  parts.isDark = dark;
+  const unsigned char ground[2][3] = { { 255, 255, 255 }, { 32, 34, 40 } };
+  const unsigned char grid[2][3] = { { 225, 225, 225 }, { 62, 66, 74 } };
+  const unsigned char ink[2][3] = { { 60, 60, 60 }, { 224, 227, 232 } };
+  const unsigned char curves[2][3][3] = { { { 190, 30, 110 }, { 205, 85, 0 }, { 20, 90, 200 } },
+    { { 255, 120, 190 }, { 255, 140, 50 }, { 110, 175, 255 } } };
+  const int which = dark ? 1 : 0;
+  for (int plot = 0; plot < 3; ++plot)
+  {
+    const unsigned char* color = curves[which][plot];
+    parts.chart->GetPlot(plot)->SetColor(color[0], color[1], color[2], 255);
+  }
+  styleAxis(parts.chart->GetAxis(vtkAxis::LEFT), "force (N)", curves[which][1]);
+  styleAxis(parts.chart->GetAxis(vtkAxis::BOTTOM), "time (s)", ink[which]);
+  styleAxis(parts.chart->GetAxis(vtkAxis::RIGHT), "radius (mm)", curves[which][0]);
+  for (const int axis : { vtkAxis::LEFT, vtkAxis::BOTTOM, vtkAxis::RIGHT })
+  {
+    parts.chart->GetAxis(axis)->GetGridPen()->SetColor(grid[which][0], grid[which][1], grid[which][2]);
+  }
+  const unsigned char* back = ground[which];
+  parts.chart->GetBackgroundBrush()->SetColor(back[0], back[1], back[2], 255);
+  parts.renderer->SetBackground(back[0] / 255.0, back[1] / 255.0, back[2] / 255.0);
+  const double legend = dark ? 0.88 : 0.0;
+  parts.chart->GetLegend()->GetLabelProperties()->SetColor(legend, legend, legend);
+  parts.fittedHeight = 0;
 }
 
 void vtkHapticChart::SetPaused(bool paused)
@@ -383,6 +402,8 @@ bool vtkHapticChart::WriteImage(const char* fileName, int width, int height)
   this->TimeWindow = 0.0;
   this->Parts->wasFlat = false;
   this->Parts->paused = false;
+  const bool dark = this->Parts->isDark;
+  this->SetDark(false);
   this->Update();
   this->Parts->paused = paused;
   vtkNew<vtkRenderWindow> renderWindow;
@@ -397,6 +418,7 @@ bool vtkHapticChart::WriteImage(const char* fileName, int width, int height)
   grabber->Update();
   renderWindow->RemoveRenderer(this->Parts->renderer);
   this->TimeWindow = window;
+  this->SetDark(dark);
   std::string& message = this->Parts->errorMessage;
   message.clear();
   if (!pointhaptics::writePng(grabber->GetOutput(), fileName, message))

@@ -51,6 +51,11 @@ public:
    */
   void SetForceNames(const char* force, const char* other);
 
+  /**
+   * Light lines and texts on the dark ground of the viewer's picture; not in WriteImage(). Default: off.
+   */
+  void SetDark(bool dark);
+
   ///@{
   /**
    * Freeze the picture: samples that come are kept out of it until this is off again; then the chart goes on

@@ -55,6 +55,28 @@ std::vector<std::string> linesOf(const std::string& text)
   return lines;
 }
 
+std::string joinedLines(const std::vector<std::string>& lines)
+{
+  std::string text;
+  for (const std::string& line : lines)
+  {
+    text += (text.empty() ? "" : "\n") + line;
+  }
+  return text;
+}
+
+/// Two blanks between the columns of @p line.
+std::string withoutColumns(const std::string& line)
+{
+  std::string result;
+  for (const char letter : line)
+  {
+    const bool isWide = letter == ' ' && result.size() > 1 && result.compare(result.size() - 2, 2, "  ") == 0;
+    result.append(isWide ? 0 : 1, letter);
+  }
+  return result;
+}
+
 /// Lines of one length: centred as a block, their columns stay in line; with a margin around.
 std::string padded(const std::vector<std::string>& lines)
 {
@@ -228,8 +250,8 @@ void vtkHapticOverlay::FitHelp()
   int fonts[2] = { 0, 0 };
   for (int i = 0; i < 2; ++i)
   {
-    this->Help->SetInput(texts[i].c_str());
-    fonts[i] = this->FitHelpFont(kLargestHelp, kReadableHelp, kHelpPart * size[0], kHelpPart * size[1]);
+    fonts[i] =
+      this->FitHelpFont(texts[i], kLargestHelp, kReadableHelp, kHelpPart * size[0], kHelpPart * size[1]);
   }
   if (fonts[0] > fonts[1])
   {
@@ -242,15 +264,34 @@ void vtkHapticOverlay::FitHelp()
   }
 }
 
-/// The largest font from @p smallest to @p largest with which the plate is no larger; 0: none. To measure is
-/// to draw all of the text, so the first guess is made in proportion.
-int vtkHapticOverlay::FitHelpFont(int largest, int smallest, double width, double height)
+/// The largest font from @p smallest to @p largest with which the plate of @p text is no larger; 0: none. To
+/// measure is to draw, so two small blocks tell width and height of a letter, which all have.
+int vtkHapticOverlay::FitHelpFont(
+  const std::string& text, int largest, int smallest, double width, double height)
 {
+  constexpr std::size_t kColumns[2] = { 10, 50 };
+  constexpr std::size_t kLines[2] = { 2, 7 };
+  const std::vector<std::string> rows = linesOf(text);
+  const double measures[2] = { rows.empty() ? 0.0 : double(rows.front().size()), double(rows.size()) };
   double needed[2] = { 0.0, 0.0 };
   const auto fits = [&](int font)
   {
     this->Help->GetTextProperty()->SetFontSize(font);
-    this->Help->GetSize(this->Renderer, needed);
+    double sizes[2][2];
+    for (int i = 0; i < 2; ++i)
+    {
+      const std::string row(kColumns[i], 'M');
+      const std::vector<std::string> block(kLines[i], row);
+      this->Help->SetInput(joinedLines(block).c_str());
+      this->Help->GetSize(this->Renderer, sizes[i]);
+    }
+    for (int axis = 0; axis < 2; ++axis)
+    {
+      const auto* counts = axis == 0 ? kColumns : kLines;
+      const double each = (sizes[1][axis] - sizes[0][axis]) / double(counts[1] - counts[0]);
+      needed[axis] = sizes[0][axis] + (measures[axis] - double(counts[0])) * each;
+    }
+    this->Help->SetInput(text.c_str());
     return needed[0] <= width && needed[1] <= height;
   };
   if (!fits(smallest))
@@ -271,10 +312,17 @@ int vtkHapticOverlay::FitHelpFont(int largest, int smallest, double width, doubl
   return font;
 }
 
-/// Fills the page with as many of @p lines, the lines of the help, as fit in a font that is read well.
-void vtkHapticOverlay::FitHelpPage(const std::vector<std::string>& lines, double width, double height)
+/// Fills the page with as many of @p all, the lines of the help, as fit in a font that is read well. In a
+/// narrow window the columns give way.
+void vtkHapticOverlay::FitHelpPage(const std::vector<std::string>& all, double width, double height)
 {
-  this->FitHelpFont(kPageFont, kSmallestHelp, width, std::numeric_limits<double>::max());
+  constexpr double kAnyHeight = std::numeric_limits<double>::max();
+  std::vector<std::string> lines = all;
+  if (this->FitHelpFont(padded(lines), kPageFont, kSmallestHelp, width, kAnyHeight) == 0)
+  {
+    std::transform(all.begin(), all.end(), lines.begin(), withoutColumns);
+    this->FitHelpFont(padded(lines), kPageFont, kSmallestHelp, width, kAnyHeight);
+  }
   double needed[2] = { 0.0, 0.0 };
   this->Help->GetSize(this->Renderer, needed);
   const auto room = std::size_t(height * double(lines.size() + kPlateLines) / needed[1]);

@@ -138,7 +138,7 @@ protected:
   bool Opaque = false;
 
   void FitHelp();
-  int FitHelpFont(int largest, int smallest, double width, double height);
+  int FitHelpFont(const std::string& text, int largest, int smallest, double width, double height);
   void FitHelpPage(const std::vector<std::string>& lines, double width, double height);
   vtkTextActor* ActorOf(int block) const;
   const std::string& TextOf(int block) const;

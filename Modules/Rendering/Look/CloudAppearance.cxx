@@ -95,15 +95,22 @@ std::string componentName(vtkDataArray* array, int component)
   return array->GetNumberOfComponents() == 3 ? std::string(1, "xyz"[component]) : std::to_string(component);
 }
 
-/// Makes a table with a colour for each number of a class, 0 to 255. The caller owns the result.
-vtkLookupTable* newClassColorMap()
+/// Colour of a class or file. Those of files are as different as those of eight classes.
+const double* labelColor(const std::string& array, int number)
+{
+  constexpr int kFileColors[] = { 6, 9, 3, 14, 2, 10, 17, 5 };
+  return asprsClass(array == kFileArrayName ? kFileColors[number % 8] : number).color;
+}
+
+/// Makes a table with a colour for each number of a class or file, 0 to 255. The caller owns the result.
+vtkLookupTable* newClassColorMap(const std::string& array)
 {
   vtkLookupTable* colors = vtkLookupTable::New();
   colors->SetNumberOfTableValues(kNumberOfClasses);
   colors->SetTableRange(-0.5, kNumberOfClasses - 0.5);
   for (int i = 0; i < kNumberOfClasses; ++i)
   {
-    const double* color = asprsClass(i).color;
+    const double* color = labelColor(array, i);
     colors->SetTableValue(i, color[0], color[1], color[2], 1.0);
   }
   colors->SetNanColor(0.5, 0.5, 0.5, 1.0);
@@ -130,8 +137,8 @@ void robustRange(vtkDataArray* array, int component, double range[2])
 
 void colorByArray(vtkPolyDataMapper* mapper, vtkDataArray* array, int component)
 {
-  const bool areClasses = array->GetNumberOfComponents() == 1 && holdsAsprsClasses(array->GetName());
-  vtkLookupTable* colors = areClasses ? newClassColorMap() : newCloudColorMap();
+  const bool areClasses = array->GetNumberOfComponents() == 1 && holdsLabels(array->GetName());
+  vtkLookupTable* colors = areClasses ? newClassColorMap(array->GetName()) : newCloudColorMap();
   if (!areClasses)
   {
     double range[2];
@@ -232,12 +239,23 @@ bool followColorRange(vtkPolyData* cloud, const ColorSource& source, vtkLookupTa
   return isOther;
 }
 
-vtkLookupTable* newClassLegend(vtkDataArray* classes)
+double colorValue(vtkPolyData* cloud, const ColorSource& source, vtkIdType point)
 {
+  return valueOf(cloud->GetPointData()->GetArray(source.array.c_str()), point, source.component);
+}
+
+bool holdsLabels(const std::string& array)
+{
+  return array == kFileArrayName || holdsAsprsClasses(array);
+}
+
+vtkLookupTable* newClassLegend(vtkDataArray* labels, const std::vector<std::string>& files)
+{
+  const std::string array = labels->GetName() ? labels->GetName() : "";
   std::array<bool, kNumberOfClasses> found{};
-  for (vtkIdType i = 0; i < classes->GetNumberOfTuples(); ++i)
+  for (vtkIdType i = 0; i < labels->GetNumberOfTuples(); ++i)
   {
-    const double number = std::round(classes->GetComponent(i, 0));
+    const double number = std::round(labels->GetComponent(i, 0));
     if (number >= 0.0 && number < kNumberOfClasses)
     {
       found[std::size_t(number)] = true;
@@ -251,9 +269,11 @@ vtkLookupTable* newClassLegend(vtkDataArray* classes)
   {
     if (found[std::size_t(number)])
     {
-      const AsprsClass& each = asprsClass(number);
-      legend->SetAnnotation(number, std::to_string(number) + " " + each.name);
-      legend->SetTableValue(row++, each.color[0], each.color[1], each.color[2], 1.0);
+      const bool isFile = std::size_t(number) < files.size();
+      const double* color = labelColor(array, number);
+      legend->SetAnnotation(
+        number, isFile ? files[std::size_t(number)] : std::to_string(number) + " " + asprsClass(number).name);
+      legend->SetTableValue(row++, color[0], color[1], color[2], 1.0);
     }
   }
   return legend;
@@ -337,7 +357,7 @@ void applyBackground(vtkRenderer* renderer)
 void applyColorMap(vtkMapper* mapper, const std::string& name, const std::vector<double>& range)
 {
   auto* table = vtkLookupTable::SafeDownCast(mapper->GetLookupTable());
-  const bool areClasses = mapper->GetArrayName() && holdsAsprsClasses(mapper->GetArrayName());
+  const bool areClasses = mapper->GetArrayName() && holdsLabels(mapper->GetArrayName());
   if (!mapper->GetScalarVisibility() || mapper->GetColorMode() != VTK_COLOR_MODE_MAP_SCALARS || !table ||
     areClasses)
   {

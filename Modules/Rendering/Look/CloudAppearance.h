@@ -8,6 +8,8 @@
 
 #include "PointHapticsRenderingModule.h" // For export macro
 
+#include <vtkType.h>
+
 #include <optional>
 #include <string>
 #include <vector>
@@ -52,6 +54,10 @@ constexpr int kMagnitude = -1;
 POINTHAPTICSRENDERING_EXPORT std::optional<ColorSource> findColorSource(
   vtkPolyData* cloud, const std::string& colorBy);
 
+/// The value of @p source at a point.
+POINTHAPTICSRENDERING_EXPORT double colorValue(
+  vtkPolyData* cloud, const ColorSource& source, vtkIdType point);
+
 /// Text for a scalar bar: "ARRAY", or with its component as the user would write it where there are several.
 POINTHAPTICSRENDERING_EXPORT std::string describeColorSource(vtkPolyData* cloud, const ColorSource& source);
 
@@ -66,9 +72,15 @@ POINTHAPTICSRENDERING_EXPORT void colorRange(vtkPolyData* cloud, const ColorSour
 POINTHAPTICSRENDERING_EXPORT bool followColorRange(
   vtkPolyData* cloud, const ColorSource& source, vtkLookupTable* colors);
 
-/// The ASPRS classes that occur in the array @p classes, with their names and colours: for a scalar bar,
-/// which shows them as a list. The caller owns the result (Delete()).
-POINTHAPTICSRENDERING_EXPORT vtkLookupTable* newClassLegend(vtkDataArray* classes);
+/// Array with the number of the file, from 0, that a point of several is from.
+constexpr const char* kFileArrayName = "File";
+/// True for arrays whose numbers are names: ASPRS classes and files.
+POINTHAPTICSRENDERING_EXPORT bool holdsLabels(const std::string& array);
+
+/// The numbers that occur in the array @p labels, with their names and colours: for a scalar bar, which shows
+/// them as a list. Files have the names in @p files, in their order. The caller owns the result (Delete()).
+POINTHAPTICSRENDERING_EXPORT vtkLookupTable* newClassLegend(
+  vtkDataArray* labels, const std::vector<std::string>& files = {});
 
 /// Makes @p mapper and @p actor draw the points of the mapper's input as squares of @p pointSize pixels.
 /// @param colorBy what findColorSource() takes; "rgb" for the active colours; empty: colours if there, else

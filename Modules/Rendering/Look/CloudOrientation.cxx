@@ -1,5 +1,8 @@
 #include "CloudOrientation.h"
 
+#include "CloudParts.h"
+#include "UpEvidence.h"
+
 #include "Core/Base/PointView.h"
 
 #include "vtkCamera.h"
@@ -11,6 +14,7 @@
 #include <cctype>
 #include <cmath>
 #include <initializer_list>
+#include <optional>
 #include <vector>
 
 namespace pointhaptics
@@ -146,6 +150,16 @@ CloudOrientation orientationForUpAxis(const std::string& axis)
   return orientation;
 }
 
+std::string axisName(const Vec3& up)
+{
+  int axis = 2;
+  for (const int other : { 1, 0 })
+  {
+    axis = std::abs(up[other]) > std::abs(up[axis]) ? other : axis;
+  }
+  return std::string(up[axis] < 0.0 ? "-" : "") + "xyz"[axis];
+}
+
 CloudOrientation guessCloudOrientation(vtkPolyData* cloud, const std::string& format)
 {
   CloudOrientation orientation;
@@ -159,6 +173,17 @@ CloudOrientation guessCloudOrientation(vtkPolyData* cloud, const std::string& fo
   if (standsUp)
   {
     orientation = orientationForUpAxis("y");
+  }
+  if (cloud->GetNumberOfPoints() == 0 || isAnyOf({ "las", "laz", "copc", "e57" }, format))
+  {
+    return orientation; // surveys say what is up
+  }
+  std::vector<Vec3> copy;
+  const std::optional<Vec3> up = upByShape(viewOf(cloud, copy), orientation.up, orientation.isGuess);
+  if (up)
+  {
+    orientation = orientationForUpAxis(axisName(*up));
+    orientation.isGuess = true;
   }
   return orientation;
 }

@@ -3,12 +3,16 @@
 #pragma once
 
 #include "Core/Base/PointView.h"
+#include "PictureSettings.h"
 
 #include "PointHapticsViewerModule.h" // For export macro
 
 #include <vtkSmartPointer.h>
+#include <vtkType.h>
 
+#include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 class vtkPolyData;
@@ -16,12 +20,29 @@ class vtkPolyData;
 namespace pointhaptics
 {
 
-/// HapticViewerOptions::clip as a box; nothing: there is none.
-POINTHAPTICSVIEWER_EXPORT std::optional<Bounds> clipBox(const std::vector<double>& clip);
-/// HapticViewerOptions::clip of a box.
-std::vector<double> clipNumbers(const Bounds& box);
+/// HapticViewerOptions::clip, in the coordinates of the file, as a box in those of @p cloud (see
+/// inLocalMetres()); nothing: there is none.
+POINTHAPTICSVIEWER_EXPORT std::optional<Bounds> clipBox(const std::vector<double>& clip, vtkPolyData* cloud);
+/// HapticViewerOptions::clip of a box in the coordinates of @p cloud.
+std::vector<double> clipNumbers(const Bounds& box, vtkPolyData* cloud);
 
 bool isWithin(const Bounds& box, const Vec3& place);
+
+/// The points of @p cloud that @p isKept, with all arrays, in their order; @p cloud itself where all are.
+vtkSmartPointer<vtkPolyData> partOfCloud(
+  vtkPolyData* cloud, const std::function<bool(vtkIdType, const Vec3&)>& isKept);
+
+/// True for points, by their index, that none of @p hidden names; those whose array @p cloud lacks hide none.
+std::function<bool(vtkIdType)> notHidden(vtkPolyData* cloud, const std::vector<HiddenValues>& hidden);
+
+/// The points of @p cloud that are shown and felt: in the box of @p clip, and not @p hidden.
+vtkSmartPointer<vtkPolyData> shownPart(
+  vtkPolyData* cloud, const std::vector<double>& clip, const std::vector<HiddenValues>& hidden);
+
+/// "ARRAY=VALUE" or "ARRAY=LOW:HIGH", either of which may be missing, and back. Nothing: @p text is none of
+/// these.
+POINTHAPTICSVIEWER_EXPORT std::optional<HiddenValues> hiddenValuesOf(const std::string& text);
+POINTHAPTICSVIEWER_EXPORT std::string textOf(const HiddenValues& hidden);
 
 /// The points of @p cloud in @p box, the faces included, with all arrays, in their order; @p cloud itself
 /// where all are. Points that are not finite lie in no box. Cost: about 10 ns a point.

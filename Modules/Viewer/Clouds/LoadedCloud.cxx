@@ -2,24 +2,19 @@
 
 #include "ClippedCloud.h"
 #include "CloudAppearance.h"
+#include "CloudFiles.h"
 #include "Core/Base/Boxes.h"
 #include "Core/Base/QuantityText.h"
 #include "Core/Distributed/FarPoints.h"
 #include "HapticViewerOptions.h"
 #include "IO/Info/LengthUnit.h"
-#include "MergedCloud.h"
 #include "PolyDataAccess.h"
 #include "ResampledCloud.h"
 #include "ShownCloud.h"
 #include "SurfaceArrays.h"
-#include "vtkPointCloudReader.h"
 
 #include <fmt/format.h>
-#include <vtkCallbackCommand.h>
-#include <vtkCommand.h>
 #include <vtkDataArray.h>
-#include <vtkFieldData.h>
-#include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 
@@ -35,97 +30,25 @@ namespace pointhaptics
 namespace
 {
 
-std::string baseName(const std::string& fileName)
-{
-  const std::size_t slash = fileName.find_last_of('/');
-  return slash == std::string::npos ? fileName : fileName.substr(slash + 1);
-}
-
-/// Reports a reader's progress to goesOn and aborts the reader where goesOn returns false.
-struct Listener
-{
-  vtkPointCloudReader* reader;
-  std::function<bool(double)> goesOn;
-};
-
 /// Points that are measured before the first picture, which takes no longer than a frame or two.
 constexpr vtkIdType kMeasuredAtOnce = 60000;
 
-/// Findings collected while the files are read.
-struct Findings
-{
-  std::string format; ///< Format of the last file.
-  std::vector<std::string> notes;
-  bool isCoarse = false;
-  bool hasSamples = false; ///< Of faces.
-};
-
-/// The points of a file with all arrays, without its cells. Null: @p message says why.
-vtkSmartPointer<vtkPolyData> readPoints(const std::string& fileName, const CloudRequest& request,
-  const std::function<bool(double)>& goesOn, Findings& findings, std::string& message)
-{
-  vtkNew<vtkPointCloudReader> reader;
-  Listener listener{ reader, goesOn };
-  vtkNew<vtkCallbackCommand> progress;
-  progress->SetClientData(&listener);
-  progress->SetCallback(
-    [](vtkObject*, unsigned long, void* client, void* fraction)
-    {
-      const auto& self = *static_cast<Listener*>(client);
-      if (fraction && !self.reader->GetAbortExecute() && !self.goesOn(*static_cast<double*>(fraction)))
-      {
-        self.reader->SetAbortExecute(1);
-      }
-    });
-  reader->AddObserver(vtkCommand::ProgressEvent, progress);
-  // The reader's error is in its message; without an observer it would go where the errors of the scene are
-  // collected.
-  vtkNew<vtkCallbackCommand> silence;
-  silence->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
-  reader->AddObserver(vtkCommand::ErrorEvent, silence);
-  reader->SetFileName(fileName.c_str());
-  reader->SetResolution(request.resolution);
-  reader->SetColumns(request.columns);
-  reader->SetSalvage(request.salvage);
-  reader->SetSamples(request.vertices ? 0 : vtkPointCloudReader::AUTOMATIC);
-  reader->SetMostPoints(request.mostPoints);
-  reader->Update();
-  message = reader->GetErrorMessage();
-  vtkPolyData* read = reader->GetOutput();
-  if (message.empty() && read->GetNumberOfPoints() == 0)
-  {
-    message = fileName + ": holds no points; give a file with at least one";
-  }
-  if (!message.empty())
-  {
-    return nullptr;
-  }
-  findings.format = reader->GetFormat();
-  findings.isCoarse = findings.isCoarse || reader->IsCoarse();
-  findings.hasSamples = findings.hasSamples || reader->HasSamples();
-  for (const std::string& note : reader->GetNotes())
-  {
-    findings.notes.push_back(baseName(fileName) + ": " + note);
-  }
-  auto points = vtkSmartPointer<vtkPolyData>::New();
-  points->SetPoints(read->GetPoints());
-  points->GetPointData()->ShallowCopy(read->GetPointData());
-  points->GetFieldData()->ShallowCopy(read->GetFieldData());
-  return points;
-}
-
 /// Keeps only the arrays that are looked at: every array costs time at every zoom.
-void keepArrays(vtkPolyData* cloud, const std::string& colorBy)
+void keepArrays(vtkPolyData* cloud, const ShownRequest& request)
 {
   vtkPointData* data = cloud->GetPointData();
-  const std::optional<ColorSource> source = findColorSource(cloud, colorBy);
-  const std::string kept = source ? source->array : colorBy;
+  std::set<std::string> kept = { kHeightArrayName };
+  for (const std::string& each : request.keptArrays())
+  {
+    const std::optional<ColorSource> source = findColorSource(cloud, each);
+    kept.insert(source ? source->array : each);
+  }
   vtkDataArray* scalars = hasColors(cloud) ? data->GetScalars() : nullptr; // a key goes back to them
   for (int i = data->GetNumberOfArrays() - 1; i >= 0; --i)
   {
     vtkAbstractArray* array = data->GetAbstractArray(i);
     const std::string name = array->GetName() ? array->GetName() : "";
-    if (array != scalars && name != kept && name != kHeightArrayName)
+    if (array != scalars && kept.count(name) == 0)
     {
       data->RemoveArray(i);
     }
@@ -268,46 +191,6 @@ bool canColorBy(vtkPolyData* cloud, const std::string& option, const std::string
   return false;
 }
 
-/// One cloud of all files, or the points that are there already. Null: @p message says why.
-vtkSmartPointer<vtkPolyData> readAll(const CloudRequest& request, const std::function<bool(double)>& goesOn,
-  Findings& findings, std::string& message)
-{
-  if (request.points)
-  {
-    return request.points;
-  }
-  std::vector<vtkSmartPointer<vtkPolyData>> clouds;
-  std::vector<vtkPolyData*> inputs;
-  double begin = 0.0;
-  const double share = 1.0 / double(request.files.size());
-  for (const std::string& file : request.files)
-  {
-    const auto askOn = [&](double part) { return goesOn(begin + share * part); };
-    clouds.push_back(readPoints(file, request, askOn, findings, message));
-    inputs.push_back(clouds.back());
-    if (!inputs.back())
-    {
-      return nullptr;
-    }
-    begin += share;
-  }
-  if (clouds.size() == 1)
-  {
-    return clouds.front();
-  }
-  vtkSmartPointer<vtkPolyData> merged = io::mergeClouds(inputs, request.files, findings.notes);
-  if (!merged)
-  {
-    message = findings.notes.back();
-    return nullptr;
-  }
-  if (!std::all_of(inputs.begin(), inputs.end(), hasColors))
-  {
-    merged->GetPointData()->SetActiveScalars(nullptr); // those of some would leave the others black
-  }
-  return merged;
-}
-
 /// Request for a cloud of which no coarse level was shown before.
 ShownRequest showingOf(const CloudRequest& request, vtkPolyData* cloud, const std::string& format)
 {
@@ -330,7 +213,7 @@ vtkSmartPointer<vtkPolyData> drawnPoints(const CloudRequest& request, const Load
     return loaded.cloud;
   }
   Bounds box = loaded.near;
-  if (const std::optional<Bounds> clip = clipBox(request.options->clip))
+  if (const std::optional<Bounds> clip = clipBox(request.options->clip, loaded.cloud))
   {
     box.include(clip->minimum);
     box.include(clip->maximum);
@@ -384,8 +267,8 @@ CloudRequest CloudRequest::of(const std::vector<std::string>& files, const Hapti
 
 bool CloudRequest::canResampleLater() const
 {
-  return options->fitsWorkspace && options->clip.empty() && !options->felt && !options->followsFile() &&
-    options->record.empty();
+  return options->fitsWorkspace && options->clip.empty() && options->picture.hidden.empty() &&
+    !options->felt && !options->followsFile() && options->record.empty();
 }
 
 std::string CloudRequest::name() const
@@ -441,16 +324,6 @@ std::string colorWord(const std::string& name)
   return isMadeByPipeline(name) ? lowered(name) : name;
 }
 
-std::string titleOf(const std::vector<std::string>& files)
-{
-  std::string names;
-  for (const std::string& file : files)
-  {
-    names += (names.empty() ? "" : ", ") + baseName(file);
-  }
-  return names;
-}
-
 void findBounds(const CloudRequest& request, LoadedCloud& loaded)
 {
   const bool isMoved = !request.transform.isIdentity();
@@ -483,7 +356,7 @@ void findBounds(const CloudRequest& request, LoadedCloud& loaded)
 
 void noteNoReturns(const CloudRequest& request, LoadedCloud& loaded)
 {
-  const std::optional<Bounds> clip = clipBox(request.options->clip);
+  const std::optional<Bounds> clip = clipBox(request.options->clip, loaded.cloud);
   const bool isFar = !loaded.near.empty() && !isWithin(loaded.near, Vec3()); // that was said
   if (loaded.noReturns == 0 || request.options->felt || isFar || (clip && !isWithin(*clip, Vec3())))
   {
@@ -497,27 +370,13 @@ void noteNoReturns(const CloudRequest& request, LoadedCloud& loaded)
   loaded.notes.push_back(fmt::format("{}: {} {}", loaded.title, noReturnsText(loaded.noReturns), what));
 }
 
-/// All of readAll(), in metres where it is in degrees; null: @p message.
-static vtkSmartPointer<vtkPolyData> readInMetres(const CloudRequest& request,
-  const std::function<bool(double)>& goesOn, Findings& findings, std::string& message)
-{
-  const vtkSmartPointer<vtkPolyData> read = readAll(request, goesOn, findings, message);
-  vtkSmartPointer<vtkPolyData> local = inLocalMetres(read);
-  if (local != read && !request.options->clip.empty())
-  {
-    message = fmt::format("{}: {}", request.name(), kNoClipOfDegrees);
-    return nullptr;
-  }
-  return local;
-}
-
 bool loadCloud(const CloudRequest& request, const std::function<bool(double)>& goesOn, LoadedCloud& loaded,
   std::string& message)
 {
   LoadedCloud result;
   Findings findings;
   result.title = request.name();
-  result.cloud = readInMetres(request, goesOn, findings, message);
+  result.cloud = inLocalMetres(readFiles(request, goesOn, findings, message));
   if (!result.cloud)
   {
     return false;
@@ -539,6 +398,7 @@ bool loadCloud(const CloudRequest& request, const std::function<bool(double)>& g
   const vtkSmartPointer<vtkPolyData> drawn = drawnPoints(request, result);
   result.showing = request.before ? *request.before : showingOf(request, drawn, findings.format);
   result.showing.keptArray = result.colorBy;
+  result.showing.hidden = request.options ? request.options->picture.hidden : std::vector<HiddenValues>();
   result.showing.ignoresIntensity = findings.hasSamples;
   result.orientation = result.showing.orientation;
   if (!hasColors(result.cloud) || !request.colorBy.empty())
@@ -555,7 +415,7 @@ bool loadCloud(const CloudRequest& request, const std::function<bool(double)>& g
     message = result.title + ": reading was stopped on request; start it again";
     return false;
   }
-  keepArrays(result.cloud, result.colorBy);
+  keepArrays(result.cloud, result.showing);
   if (request.options)
   {
     placeCloud(request, result);

@@ -82,7 +82,7 @@ public:
     vtkNew<vtkMatrixToLinearTransform> transform;
     transform->SetInput(model);
     vtkNew<vtkPolyData> cloud; // the object itself belongs to the one that takes it
-    loaded.felt = clippedCloud(loaded.cloud, clipBox(request.options->clip));
+    loaded.felt = shownPart(loaded.cloud, request.options->clip, request.options->picture.hidden);
     cloud->ShallowCopy(loaded.felt);
     resampler_->SetInputData(cloud);
     resampler_->SetTransform(transform);
@@ -220,7 +220,8 @@ bool resampleCloud(
   {
     const Bounds all = extentOf(loaded.cloud).all;
     message = fmt::format("{}: no point lies in the box of {} {:.6g}; the cloud has {:.6g}", loaded.title,
-      request.options->names.clip, fmt::join(request.options->clip, ","), fmt::join(clipNumbers(all), ","));
+      request.options->names.clip, fmt::join(request.options->clip, ","),
+      fmt::join(clipNumbers(all, loaded.cloud), ","));
     return false;
   }
   const bool chooses = choosesLattice(*request.options);

@@ -71,12 +71,18 @@ private:
 /// The arrays of @p cloud that a picture may need.
 std::vector<vtkDataArray*> neededArrays(vtkPolyData* cloud, const ShownRequest& request)
 {
-  const std::optional<ColorSource> source = findColorSource(cloud, request.keptArray);
   vtkPointData* data = cloud->GetPointData();
   std::vector<vtkDataArray*> arrays = { hasColors(cloud) ? data->GetScalars() : nullptr,
     request.ignoresIntensity ? nullptr : findArrayAnyCase(cloud, "intensity"),
     findArrayAnyCase(cloud, "classification"), findArrayAnyCase(cloud, "returnnumber"),
-    source ? data->GetArray(source->array.c_str()) : nullptr };
+    data->GetArray(kFileArrayName) };
+  for (const std::string& name : request.keptArrays())
+  {
+    const std::optional<ColorSource> source = findColorSource(cloud, name);
+    arrays.push_back(source ? data->GetArray(source->array.c_str()) : nullptr);
+  }
+  std::sort(arrays.begin(), arrays.end());
+  arrays.erase(std::unique(arrays.begin(), arrays.end()), arrays.end());
   arrays.erase(std::remove(arrays.begin(), arrays.end(), nullptr), arrays.end());
   return arrays;
 }
@@ -219,6 +225,16 @@ void addColors(
 
 } // namespace
 
+std::vector<std::string> ShownRequest::keptArrays() const
+{
+  std::vector<std::string> names = { keptArray };
+  for (const HiddenValues& each : hidden)
+  {
+    names.push_back(each.array);
+  }
+  return names;
+}
+
 std::shared_ptr<ShownCloud> makeShownCloud(
   vtkPolyData* cloud, const ShownRequest& request, const std::function<bool(double)>& goesOn)
 {
@@ -356,7 +372,7 @@ void addDensity(vtkPolyData* points)
   {
     Vec3 n;
     normals->GetTuple(i, &n.x);
-    const double usual = lengths->GetComponent(i, 0) * kNoGrowth / growths->GetComponent(i, 0);
+    const double usual = std::abs(lengths->GetComponent(i, 0)) * kNoGrowth / growths->GetComponent(i, 0);
     const double spacing = usual / usualDiameter(norm(n) / kSplatNormalUnit, 1.0);
     density->SetValue(i, spacing > 0.0 ? float(1.0 / (spacing * spacing)) : NAN);
   }

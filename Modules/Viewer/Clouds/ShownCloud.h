@@ -5,6 +5,7 @@
 #include "CloudColors.h"
 #include "CloudLook.h"
 #include "CloudOrientation.h"
+#include "PictureSettings.h"
 
 #include "PointHapticsViewerModule.h" // For export macro
 
@@ -27,7 +28,8 @@ namespace pointhaptics
 {
 
 /// Names of the arrays of ShownCloud::points.
-constexpr const char* kSplatLengthName = "SplatLength"; ///< Diameter of each splat, unit of the file.
+constexpr const char* kSplatLengthName =
+  "SplatLength"; ///< Diameter of each splat, unit of the file; hidden: < 0.
 constexpr const char* kSplatNormalName = "SplatNormal"; ///< Short integers: kSplatNormalUnit is flat.
 constexpr const char* kSplatGrowthName = "SplatGrowth"; ///< Bytes: 64 where the spacing alone rules.
 constexpr const char* kLookColorName = "LookColor";
@@ -52,7 +54,10 @@ struct ShownCloud
 struct ShownRequest
 {
   CloudOrientation orientation;
-  std::string keptArray;         ///< Array that is kept beside those that the colours need; empty: none.
+  std::string keptArray;            ///< Array that is kept beside those that the colours need; empty: none.
+  std::vector<HiddenValues> hidden; ///< Their arrays are kept, too.
+  /// Names of all arrays that are kept, as findColorSource() takes them.
+  std::vector<std::string> keptArrays() const;
   bool ignoresIntensity = false; ///< Colours take no intensity: between samples of faces noise is coherent.
   std::optional<CloudKind> kind; ///< Kind in place of cloudKind(), where the user chose it.
   std::optional<CloudColors> colors; ///< Colours in place of chooseColors(): those of a coarse level shown

@@ -39,7 +39,7 @@ ClipBoxTool::ClipBoxTool(ViewScene& scene, HapticViewerOptions& options,
 
 Bounds ClipBoxTool::box() const
 {
-  return clipBox(options_.clip).value_or(scene_.cloudBounds());
+  return scene_.shownBox();
 }
 
 void ClipBoxTool::toggle()
@@ -125,7 +125,7 @@ void ClipBoxTool::move(int face, const Bounds& from, double way)
     const double least = std::min(most, from.minimum[axis] + thinnest);
     box.maximum[axis] = std::clamp(from.maximum[axis] + way, least, most);
   }
-  options_.clip = clipNumbers(box);
+  options_.clip = clipNumbers(box, scene_.cloud());
   scene_.setClip(options_.clip);
   scene_.clipMark().setBox(box);
 }
@@ -174,27 +174,18 @@ bool ClipBoxTool::takes(const LeftButton::Event& event)
 void ClipBoxTool::addCommands(CommandRegistry& commands, const std::function<ClipBoxTool*()>& tool)
 {
   const auto isOpen = [tool] { return tool() != nullptr; };
-  const auto call = [tool](const std::function<void(ClipBoxTool&)>& action)
-  {
-    return [tool, action]
-    {
-      if (ClipBoxTool* open = tool())
-      {
-        action(*open);
-      }
-    };
-  };
+  const auto call = [&tool](auto action, auto... arguments)
+  { return whileThere(tool, action, arguments...); };
   const char* const group = "Show";
-  commands.add({ "clip-box", "C", group, "clipping box: drag its handles",
-    call([](ClipBoxTool& open) { open.toggle(); }), isOpen });
+  commands.add(
+    { "clip-box", "C", group, "clipping box: drag its handles", call(&ClipBoxTool::toggle), isOpen });
   commands.add({ "clip-face", "Tab", group, "next face of the box; inward, outward",
-    call([](ClipBoxTool& open) { open.chooseNextFace(); }), isOpen });
+    call(&ClipBoxTool::chooseNextFace), isOpen });
   commands.add({ "clip-inward", "comma less", group, "next face of the box; inward, outward",
-    call([](ClipBoxTool& open) { open.moveFace(-1); }), isOpen });
+    call(&ClipBoxTool::moveFace, -1), isOpen });
   commands.add({ "clip-outward", "period greater", group, "next face of the box; inward, outward",
-    call([](ClipBoxTool& open) { open.moveFace(+1); }), isOpen });
-  commands.add({ "clip-nothing", "Delete", group, "clip nothing",
-    call([](ClipBoxTool& open) { open.clear(); }), isOpen });
+    call(&ClipBoxTool::moveFace, +1), isOpen });
+  commands.add({ "clip-nothing", "Delete", group, "clip nothing", call(&ClipBoxTool::clear), isOpen });
 }
 
 } // namespace pointhaptics

@@ -28,6 +28,12 @@ bool ColorBarDrag::takes(const LeftButton::Event& event)
   {
     const auto place = event.isPlain ? scene_.placeOnColorBar(event.x, event.y) : std::nullopt;
     drags_ = place.has_value();
+    if (const auto label = event.isPlain ? scene_.labelOnColorBar(event.x, event.y) : std::nullopt)
+    {
+      controls_.toggleLabel(*label);
+      button_.render();
+      return true;
+    }
     if (drags_)
     {
       from_ = place->along;

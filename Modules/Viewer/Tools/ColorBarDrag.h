@@ -14,8 +14,8 @@ namespace pointhaptics
 class PictureControls;
 class ViewScene;
 
-/// A drag that begins on the colour bar moves the value under the pointer; nothing else moves. GUI thread
-/// only.
+/// A drag that begins on the colour bar moves the value under the pointer; nothing else moves. A press on a
+/// class or file in its list hides or shows that. GUI thread only.
 class ColorBarDrag
 {
 public:

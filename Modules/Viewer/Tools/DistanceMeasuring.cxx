@@ -3,6 +3,8 @@
 #include "HapticViewerOptions.h"
 #include "ViewScene.h"
 
+#include "IO/Info/LengthUnit.h"
+
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -82,6 +84,7 @@ void DistanceMeasuring::choose()
     say_("measuring: no point is there; click on one");
     return;
   }
+  place = fromLocalFrame(scene_.cloud(), place);
   std::vector<double>& ends = options_.picture.measure;
   if (ends.size() >= kNumbersOfTwoEnds)
   {

@@ -27,6 +27,7 @@ public:
 
   /// Turns measuring on, or off where no distance is in the picture. @p key is the command's, for the words.
   void toggle(const std::string& key);
+  bool isOn() const { return isOn_; }
   /// Turns measuring off. False: it was off, and nothing was measured.
   bool end();
 

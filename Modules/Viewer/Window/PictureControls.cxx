@@ -3,10 +3,13 @@
 #include "StereoPicture.h"
 #include "ViewScene.h"
 
+#include "ClippedCloud.h"
 #include "CloudAppearance.h"
 #include "ColorMaps.h"
 
 #include <fmt/format.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderWindowInteractor.h>
 
 #include <algorithm>
 #include <array>
@@ -32,6 +35,8 @@ constexpr double kLongestStep = 0.2; // seconds
 /// Angles from which a cube shows three equal faces.
 constexpr double kIsometricAzimuth = 45.0;
 constexpr double kIsometricElevation = 35.2643896828;
+constexpr double kStepOfWalk = 0.02; ///< Step over the workspace's longest edge: 50 lead through a room.
+constexpr double kDegreesPerPixel = 0.2;
 
 /// The dragged value stays at least this far from the fixed end: this bounds how far one drag stretches a
 /// bar.
@@ -59,10 +64,13 @@ constexpr AxisView kViews[] = { { "view-front", "1 KP_1", 0.0, 0.0 }, { "view-ba
 } // namespace
 
 PictureControls::PictureControls(ViewScene& scene, HapticViewerOptions& options, vtkRenderWindow* window,
-  std::function<void(const std::string&)> say)
+  CommandRegistry& commands, std::function<void()> clipped, std::function<void(const std::string&)> say)
   : scene_(scene)
   , options_(options)
+  , window_(window)
   , fullScreen_(window)
+  , commands_(commands)
+  , clipped_(std::move(clipped))
   , say_(std::move(say))
 {
 }
@@ -130,6 +138,53 @@ void PictureControls::toggleTurntable()
   turns_ = !turns_;
   turnedAt_ = -1.0;
   say_(turns_ ? "turntable: turning" : "turntable: stopped");
+}
+
+void PictureControls::setPivot()
+{
+  const int* at = window_->GetInteractor()->GetEventPosition();
+  Vec3 place;
+  if (scene_.placeAt(at[0], at[1], place))
+  {
+    scene_.centerView(place);
+    say_("the view turns about the point in the middle");
+  }
+  else
+  {
+    say_("no point is there to turn about");
+  }
+}
+
+void PictureControls::toggleWalk()
+{
+  walks_ = !walks_;
+  commands_.setModifier(walks_ ? "Walk+" : "");
+  say_(walks_ ? "walking: w, a, s, d go, a drag looks around; " + commands_.label("walk") + " stops"
+              : "walking: stopped");
+}
+
+bool PictureControls::endWalk()
+{
+  const bool walked = walks_;
+  if (walked)
+  {
+    this->toggleWalk();
+  }
+  return walked;
+}
+
+void PictureControls::walk(double right, double up, double forward)
+{
+  const Vec3 extent = scene_.workspace().extent();
+  const double step = kStepOfWalk * std::max({ extent.x, extent.y, extent.z });
+  scene_.walk(step * right, step * up, step * forward);
+}
+
+void PictureControls::lookAround()
+{
+  const int* to = window_->GetInteractor()->GetEventPosition();
+  const int* from = window_->GetInteractor()->GetLastEventPosition();
+  scene_.lookAround(kDegreesPerPixel * (to[0] - from[0]), kDegreesPerPixel * (from[1] - to[1]));
 }
 
 bool PictureControls::turnTable(double seconds)
@@ -208,32 +263,73 @@ void PictureControls::resetColorRange()
   say_("colours over all values");
 }
 
+void PictureControls::hide(std::vector<HiddenValues> hidden)
+{
+  options_.picture.hidden = std::move(hidden);
+  this->apply();
+  clipped_();
+}
+
+void PictureControls::toggleLabel(double label)
+{
+  std::vector<HiddenValues> hidden = options_.picture.hidden;
+  const HiddenValues values{ scene_.colorArray(), label, label };
+  const auto found = std::find(hidden.begin(), hidden.end(), values);
+  const bool hides = found == hidden.end();
+  if (hides)
+  {
+    hidden.push_back(values);
+  }
+  else
+  {
+    hidden.erase(found);
+  }
+  this->hide(std::move(hidden));
+  say_((hides ? "hidden: " : "shown: ") + textOf(values));
+}
+
+void PictureControls::toggleOutside()
+{
+  if (!options_.picture.hidden.empty())
+  {
+    this->hide({});
+    say_("nothing is hidden");
+    return;
+  }
+  if (!scene_.isColoredByMap())
+  {
+    say_("colour by numbers first, by " + commands_.label("colors") + "; then drag on the colour bar");
+    return;
+  }
+  const std::array<double, 2> range = scene_.shownColorRange();
+  const std::string array = scene_.colorArray();
+  this->hide({ { array, -INFINITY, std::nextafter(range[0], -INFINITY) },
+    { array, std::nextafter(range[1], INFINITY), INFINITY } });
+  say_(fmt::format("hidden: {} outside of {:.4g} to {:.4g}", array, range[0], range[1]));
+}
+
+void PictureControls::showAlone(std::size_t file)
+{
+  const std::vector<std::string> names = scene_.fileNames();
+  const bool isOne = file < names.size();
+  const double number = double(file);
+  this->hide(isOne ? std::vector<HiddenValues>{ { kFileArrayName, -INFINITY, number - 1.0 },
+                       { kFileArrayName, number + 1.0, INFINITY } }
+                   : std::vector<HiddenValues>());
+  say_(isOne ? fmt::format("file {} of {}, alone: {}", file + 1, names.size(), names[file]) : "all files");
+}
+
 void PictureControls::addViewCommands(
   CommandRegistry& commands, const std::function<PictureControls*()>& controls)
 {
   const auto isOpen = [controls] { return controls() != nullptr; };
-  const auto call = [controls](void (PictureControls::*action)())
-  {
-    return [controls, action]
-    {
-      if (PictureControls* open = controls())
-      {
-        (open->*action)();
-      }
-    };
-  };
+  const auto call = [&controls](auto action, auto... arguments)
+  { return whileThere(controls, action, arguments...); };
   const char* const group = "Look";
   for (const AxisView& view : kViews)
   {
-    const auto look = [controls, view]
-    {
-      if (PictureControls* open = controls())
-      {
-        open->lookFrom(view.azimuth, view.elevation);
-      }
-    };
-    commands.add(
-      { view.name, view.keys, group, "front, back, left, right, top, bottom, isometric", look, isOpen });
+    commands.add({ view.name, view.keys, group, "front, back, left, right, top, bottom, isometric",
+      call(&PictureControls::lookFrom, view.azimuth, view.elevation), isOpen });
   }
   using Controls = PictureControls;
   commands.add({ "first-view", "e", group, "as it was first seen", call(&Controls::showFirstView), isOpen });
@@ -245,51 +341,67 @@ void PictureControls::addViewCommands(
     { "turntable", "T", group, "turn about the cloud, stop", call(&Controls::toggleTurntable), isOpen });
   commands.add(
     { "stereo", "S", group, "a picture for each eye, or one", call(&Controls::toggleStereo), isOpen });
+  addWalkCommands(commands, controls);
   commands.add({ "full-screen", "F11", group, "full screen", call(&Controls::toggleFullScreen), isOpen });
+}
+
+void PictureControls::addWalkCommands(
+  CommandRegistry& commands, const std::function<PictureControls*()>& controls)
+{
+  struct Step
+  {
+    const char* name;
+    const char* keys;
+    double right, up, forward;
+  };
+  constexpr Step kSteps[] = { { "walk-forward", "Walk+w Walk+Up", 0.0, 0.0, 1.0 },
+    { "walk-left", "Walk+a Walk+Left", -1.0, 0.0, 0.0 }, { "walk-back", "Walk+s Walk+Down", 0.0, 0.0, -1.0 },
+    { "walk-right", "Walk+d Walk+Right", 1.0, 0.0, 0.0 }, { "walk-up", "Walk+Prior", 0.0, 1.0, 0.0 },
+    { "walk-down", "Walk+Next", 0.0, -1.0, 0.0 } };
+  const char* const group = "Look";
+  const auto isOpen = [controls] { return controls() != nullptr; };
+  const auto call = [&controls](auto action, auto... arguments)
+  { return whileThere(controls, action, arguments...); };
+  commands.add(
+    { "walk", "F5", group, "walk through the cloud, stop", call(&PictureControls::toggleWalk), isOpen });
+  for (const Step& step : kSteps)
+  {
+    commands.add({ step.name, step.keys, group, "of the walk: forward, left, back, right, up, down",
+      call(&PictureControls::walk, step.right, step.up, step.forward), isOpen });
+  }
+  commands.add({ "look-around-drag", "Walk+left", group, "of the walk: look around",
+    DragAction{ {}, call(&PictureControls::lookAround), {} }, isOpen });
+  commands.add({ "walk-wheel", "Walk+wheel", group, "of the walk: forward, back",
+    WheelAction{ call(&PictureControls::walk, 0.0, 0.0) }, isOpen });
 }
 
 void PictureControls::addCommands(CommandRegistry& commands, std::function<PictureControls*()> controls)
 {
   addViewCommands(commands, controls);
   const auto isOpen = [controls] { return controls() != nullptr; };
-  const auto step = [controls](void (PictureControls::*action)(int), int direction)
-  {
-    return [controls, action, direction]
-    {
-      if (PictureControls* open = controls())
-      {
-        (open->*action)(direction);
-      }
-    };
-  };
+  const auto call = [&controls](auto action, auto... arguments)
+  { return whileThere(controls, action, arguments...); };
   using Controls = PictureControls;
   const char* const group = "Show";
   commands.bind("scale-up", "Ctrl+plus Ctrl+Shift+plus Ctrl+equal Ctrl+KP_Add");
   commands.bind("scale-down", "Ctrl+minus Ctrl+KP_Subtract");
   commands.add({ "points-larger", "plus equal KP_Add", group, "larger, smaller points",
-    step(&Controls::scalePoints, +1), isOpen });
+    call(&Controls::scalePoints, +1), isOpen });
   commands.add({ "points-smaller", "minus underscore KP_Subtract", group, "larger, smaller points",
-    step(&Controls::scalePoints, -1), isOpen });
+    call(&Controls::scalePoints, -1), isOpen });
   commands.add({ "depth-stronger", "bracketright", group, "stronger, weaker shading by depth",
-    step(&Controls::changeDepthStrength, +1), isOpen });
+    call(&Controls::changeDepthStrength, +1), isOpen });
   commands.add({ "depth-weaker", "bracketleft", group, "stronger, weaker shading by depth",
-    step(&Controls::changeDepthStrength, -1), isOpen });
-  const auto call = [controls](void (PictureControls::*action)())
-  {
-    return [controls, action]
-    {
-      if (PictureControls* open = controls())
-      {
-        (open->*action)();
-      }
-    };
-  };
+    call(&Controls::changeDepthStrength, -1), isOpen });
   commands.add({ "background", "G", group, "background: dark, light, white, black",
     call(&Controls::showNextBackground), isOpen });
   commands.add({ "theme", "F9", group, "high contrast", call(&Controls::showNextTheme), isOpen });
   commands.add({ "color-map", "k", group, "next colour map", call(&Controls::showNextColorMap), isOpen });
   commands.add(
     { "color-range", "K", group, "colours over all values", call(&Controls::resetColorRange), isOpen });
+  commands.add({ "hide-outside", "F10", group, "hide what is outside of the colours, show all",
+    call(&Controls::toggleOutside), isOpen });
+  commands.addNote(group, "click on a class or file", "hide, show; beside the colours");
   commands.addNote(group, "drag on the colour bar", "colours over fewer or more values");
 }
 

@@ -1,4 +1,5 @@
 // Commands of the viewer beside those of vtkInteractorStyleHaptic: one entry a command.
+#include "Gesture.h"
 #include "HapticViewer.h"
 #include "PictureControls.h"
 #include "ViewWindow.h"
@@ -12,18 +13,10 @@ void ViewWindow::addCommands(CommandRegistry& commands, ViewWindow* window)
 {
   const WatchedPointer<ViewWindow> self(window); // a host may keep the style for longer
   const auto isOpen = [self] { return bool(self); };
-  const auto hasOtherFiles = [self] { return self && !self->options_.together && self->files_.size() > 1; };
+  const auto hasOtherFiles = [self] { return self && self->files_.size() > 1; };
   const auto keepsSettings = [self] { return self && self->observer_.writeState; };
-  const auto call = [self](void (ViewWindow::*action)())
-  {
-    return [self, action]
-    {
-      if (ViewWindow* open = self.get())
-      {
-        (open->*action)();
-      }
-    };
-  };
+  const std::function<ViewWindow*()> there = [self] { return self.get(); };
+  const auto call = [&there](void (ViewWindow::*action)()) { return whileThere(there, action); };
   PictureControls::addCommands(commands,
     [self]() -> PictureControls*
     {
@@ -37,6 +30,8 @@ void ViewWindow::addCommands(CommandRegistry& commands, ViewWindow* window)
       return open ? &open->clipping_ : nullptr;
     });
   using Window = ViewWindow;
+  commands.add({ "pivot", kDoubleClick, "Look", "turn about the point under the mouse",
+    call(&Window::setPivot), isOpen });
   commands.add({ "axes", "a", "Show", "axes and bounds", call(&Window::toggleAxes), isOpen });
   commands.add(
     { "figure", "o", "Show", "figure: cloud, cube, touch only", call(&Window::toggleFigure), isOpen });
@@ -54,6 +49,12 @@ void ViewWindow::addCommands(CommandRegistry& commands, ViewWindow* window)
     { "take-unit", "u", "Show", "take the unit the file seems to have", call(&Window::toggleUnit), isOpen });
   commands.add(
     { "measure", "D", "Show", "measure: click on two points", call(&Window::toggleMeasuring), isOpen });
+  commands.add({ "profile", "F6", "Show", "height profile along the measured line",
+    call(&Window::toggleProfile), isOpen });
+  commands.add(
+    { "turn-up", "F7", "Look", "another axis points up, kept for the file", call(&Window::turnUp), isOpen });
+  commands.add(
+    { "save-part", "F12", "Program", "save the part that is shown", call(&Window::savePart), isOpen });
   commands.add({ "sound", "F8", "Hand", "hear the touch", call(&Window::toggleSound), isOpen });
   commands.add({ "screenshot", "s", "Program", "screenshot", call(&Window::writeScreenshot), isOpen });
   commands.add({ "write-settings", "w", "Program", "write the settings to a file",

@@ -15,7 +15,9 @@ std::string ViewWindow::scaleText()
   const std::string scale = describeScale(style_->GetModelTransform()->GetMatrix(), unit.name, unit.metres);
   const std::string key = style_->GetCommands().label("take-unit");
   const bool isOffered = !likely.name.empty() && likely.name != unit.name && !key.empty();
-  return isOffered ? scale + "    " + key + ": the file is in " + likely.name : scale;
+  return scale + (isOffered ? "    " + key + ": the file is in " + likely.name : std::string()) +
+    (scene_.isUpGuessed() ? "    up is a guess: " + style_->GetCommands().label("turn-up") + " turns it"
+                          : std::string());
 }
 
 /// Shows the scale and the last message.

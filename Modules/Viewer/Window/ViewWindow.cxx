@@ -39,7 +39,7 @@ namespace pointhaptics
 namespace
 {
 
-constexpr double kChartHeight = 0.24; // part of the window
+constexpr double kChartHeight = 0.15; // part of the window
 /// Timer events, 33 ms apart, between two looks at the files.
 constexpr int kLooksApart = 8;
 /// Frames that take longer than this, seconds, are announced in the title.
@@ -53,12 +53,20 @@ ViewWindow::ViewWindow(ViewScene& scene, const HapticViewerOptions& options,
   , options_(options)
   , askedColorBy_(options.colorBy)
   , askedColorRange_(options.picture.colorRange)
+  , askedUp_(options.up)
   , observer_(observer)
   , parameters_(options.haptics)
   , files_(std::move(files))
-  , controls_(scene, options_, window_, [this](const std::string& news) { this->say(news); })
+  , controls_(
+      scene, options_, window_, style_->GetCommands(), [this] { this->clipFelt(); },
+      [this](const std::string& news) { this->say(news); })
   , colorBar_(scene, controls_, interactor_)
-  , measuring_(scene, options_, interactor_, [this](const std::string& news) { this->say(news); })
+  , measuring_(scene, options_, interactor_,
+      [this](const std::string& news)
+      {
+        this->say(news);
+        this->followProfile();
+      })
   , clipping_(
       scene, options_, interactor_, [this] { this->clipFelt(); },
       [this](const std::string& news) { this->say(news); })
@@ -207,6 +215,7 @@ void ViewWindow::setUpRendering()
   layout_.follow(scene_.renderer());
   if (options_.device != HapticViewerDevice::None || options_.followsFile())
   {
+    chart_->SetDark(!isLightGround(groundOf(options_.picture)));
     window_->AddRenderer(chart_->GetRenderer());
     chart_->GetRenderer()->SetViewport(0.0, 0.0, 1.0, kChartHeight);
     scene_.renderer()->SetViewport(0.0, kChartHeight, 1.0, 1.0);
@@ -331,6 +340,7 @@ void ViewWindow::onTimer()
   this->followReplay();
   this->followSound();
   this->followLoading();
+  this->followSaving();
   if (options_.watch && ++sinceLook_ >= kLooksApart && !loader_.busy())
   {
     sinceLook_ = 0;
@@ -488,7 +498,7 @@ bool ViewWindow::start(std::size_t cloud, const std::string& news, std::string& 
     return false;
   }
   shown_ = options_.together || files_.empty() ? files_ : std::vector<std::string>{ files_[cloud] };
-  fileIndex_ = cloud;
+  fileIndex_ = options_.together ? files_.size() : cloud;
   watch_.watch(shown_);
   recording_.follow(&markers_);
   if (options_.markerPort >= 0 && !markers_.open(options_.markerPort, servo_, message))

@@ -10,6 +10,7 @@
 #include "DistanceMeasuring.h"
 #include "FileWatch.h"
 #include "HapticViewerOptions.h"
+#include "HeightProfile.h"
 #include "PictureControls.h"
 #include "RecordingWriter.h"
 #include "ReplayPlayer.h"
@@ -41,12 +42,18 @@
 
 #include <chrono>
 #include <functional>
+#include <future>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
 namespace pointhaptics
 {
+
+/// The first of pointhaptics-001.EXTENSION, pointhaptics-002.EXTENSION, ... after @p last that is not there
+/// yet.
+std::string freeFileName(const char* extension, int& last);
 
 /// All that the window needs while it is open, which may be before there is a cloud. The servo loop stops
 /// before its devices and scenes go.
@@ -131,11 +138,21 @@ private:
   void followReplay();
   void showNextFile();
   void showPreviousFile();
+  std::size_t fileChoices() const;
   void writeSettings();
   void toggleAxes();
   void toggleFigure();
   void toggleMeasuring();
+  void setPivot();
   void clipFelt();
+  void savePart();
+  void followSaving();
+  void toggleProfile();
+  bool endProfile();
+  void followProfile();
+  void setTop(double top);
+  void turnUp();
+  std::string upOf(const std::string& file);
   void showNextColors();
   void toggleFelt();
   void toggleAmbient();
@@ -179,6 +196,8 @@ private:
   HapticViewerOptions options_;
   const std::string askedColorBy_; ///< Colours of the options at the start, for each new cloud.
   const std::vector<double> askedColorRange_;
+  const std::string askedUp_;
+  std::map<std::string, std::string> ups_; ///< Axes that point up, of files.
   const HapticViewerObserver& observer_;
   HapticParameters parameters_; ///< Parameters of the servo loop.
   double voxelSize_ = 0.0;      ///< Voxel size of the slider, metres; 0: that of the options.
@@ -212,6 +231,7 @@ private:
   PictureControls controls_;
   ColorBarDrag colorBar_;
   DistanceMeasuring measuring_;
+  HeightProfile profile_;
   ClipBoxTool clipping_;
   std::shared_ptr<IdealForce> wholeIdeal_; // for the same
   CsvWriter trace_;
@@ -219,7 +239,9 @@ private:
   int recordings_ = 0;
   bool recordingWaits_ = false; ///< The user was told that the recording waits.
   int screenshots_ = 0;
-  bool chartBesideFigure_ = true; ///< Restores the chart when the figure goes.
+  int savedParts_ = 0;
+  std::future<std::string> saving_; ///< What it will say.
+  bool chartBesideFigure_ = true;   ///< Restores the chart when the figure goes.
   bool clipBoxBesideFigure_ = false;
   LengthUnit firstUnit_;      ///< Unit of the file before the user took another; no name: none was taken.
   std::string news_;          // last line of the status

@@ -33,18 +33,6 @@ constexpr auto kLateEscape = std::chrono::milliseconds(700);
 /// A second Escape within this time quits while the touch is recorded.
 constexpr auto kRepeatedEscape = std::chrono::seconds(5);
 
-/// The first of STEM-001.EXTENSION, STEM-002.EXTENSION, ... after @p last that is not there yet.
-std::string freeFileName(const char* extension, int& last)
-{
-  std::string name;
-  std::error_code error;
-  do
-  {
-    name = fmt::format("pointhaptics-{:03}.{}", ++last, extension);
-  } while (std::filesystem::exists(name, error));
-  return name;
-}
-
 } // namespace
 
 void ViewWindow::onFilesDropped(void* callData)
@@ -78,7 +66,9 @@ void ViewWindow::load(const std::vector<std::string>& files, Load kind, std::fun
     options.clip.clear(); // it is of another cloud, as are colours that nobody asked for on the way in
     options.colorBy = askedColorBy_;
     options.picture.colorRange = askedColorRange_;
+    options.picture.hidden.clear();
   }
+  options.up = this->upOf(files.front());
   if (voxelSize_ > 0.0)
   {
     options.voxels.lattice.voxelSize = voxelSize_;
@@ -209,7 +199,8 @@ void ViewWindow::leave()
     overlay_->SetHelpVisibility(false);
     return;
   }
-  if (now < escapeIsLate_ || measuring_.end() || clipping_.hide() || controls_.leaveFullScreen())
+  if (now < escapeIsLate_ || this->endProfile() || measuring_.end() || clipping_.hide() ||
+    controls_.endWalk() || controls_.leaveFullScreen())
   {
     return;
   }
@@ -256,6 +247,7 @@ void ViewWindow::show(LoadedCloud cloud)
     options_.colorBy = loading_.options.colorBy;
     options_.picture.colorRange = loading_.options.picture.colorRange;
     options_.picture.measure.clear(); // they were in the first cloud
+    options_.picture.hidden.clear();
     clipping_.forget();
   }
   this->setSceneOptions();
@@ -348,9 +340,14 @@ void ViewWindow::findIdeal()
 
 void ViewWindow::showFile(std::size_t index)
 {
-  if (options_.together || files_.size() < 2)
+  if (files_.size() < 2)
   {
     this->say("there is no other file");
+  }
+  else if (options_.together)
+  {
+    fileIndex_ = index;
+    controls_.showAlone(index);
   }
   else
   {
@@ -369,13 +366,19 @@ void ViewWindow::showFile(std::size_t index)
 
 void ViewWindow::showNextFile()
 {
-  this->showFile((fileIndex_ + 1) % std::max<std::size_t>(1, files_.size()));
+  this->showFile((fileIndex_ + 1) % this->fileChoices());
 }
 
 void ViewWindow::showPreviousFile()
 {
-  const std::size_t count = std::max<std::size_t>(1, files_.size());
+  const std::size_t count = this->fileChoices();
   this->showFile((fileIndex_ + count - 1) % count);
+}
+
+/// Each file, and all of them where they are shown together.
+std::size_t ViewWindow::fileChoices() const
+{
+  return std::max<std::size_t>(1, files_.size()) + (options_.together ? 1 : 0);
 }
 
 HapticViewerState ViewWindow::state()
@@ -407,6 +410,7 @@ HapticViewerState ViewWindow::state()
   state.sound = options_.sound;
   state.fullScreen = controls_.fullScreen().isFull();
   state.colorBy = options_.colorBy;
+  state.up = shown_.empty() ? std::string() : this->upOf(shown_.front());
   if (scene_.unit().name == scene_.likelyUnit().name)
   {
     state.unit = scene_.unit().name;
@@ -451,6 +455,15 @@ void ViewWindow::toggleFigure()
 void ViewWindow::toggleMeasuring()
 {
   measuring_.toggle(style_->GetCommands().label("measure"));
+}
+
+/// Clicks that measure set no pivot.
+void ViewWindow::setPivot()
+{
+  if (!measuring_.isOn())
+  {
+    controls_.setPivot();
+  }
 }
 
 /// Restricts touch to the present box. A recording ends, as it is of one cloud.

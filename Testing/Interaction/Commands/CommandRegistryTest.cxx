@@ -34,6 +34,26 @@ Command once(const std::string& name, const std::string& gestures, std::function
   return { name, gestures, "Show", "what " + name + " does", std::move(function) };
 }
 
+TEST(CommandRegistry, HasGesturesOfAModeBesideTheUsualOnes)
+{
+  CommandRegistry commands;
+  int walked = 0;
+  int written = 0;
+  commands.add({ "write", "w", "Program", "write", [&written] { ++written; } });
+  commands.add({ "go", "Walk+w", "Look", "walk", [&walked] { ++walked; } });
+  EXPECT_TRUE(isGesture("Walk+w"));
+  runOnce(commands.find("w"));
+  commands.setModifier("Walk+");
+  runOnce(commands.find("w"));
+  runOnce(commands.find("W")); // Caps Lock
+  EXPECT_EQ(commands.find("x"), nullptr);
+  commands.setModifier("");
+  runOnce(commands.find("w"));
+  EXPECT_EQ(walked, 2);
+  EXPECT_EQ(written, 2);
+  EXPECT_EQ(commands.label("go"), "w");
+}
+
 } // namespace
 
 TEST_F(StyleCommands, AreFoundByKeysWithWhateverModifiersAreHeld)

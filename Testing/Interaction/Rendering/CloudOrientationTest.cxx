@@ -8,7 +8,9 @@
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 
+#include <array>
 #include <cmath>
+#include <random>
 
 using namespace pointhaptics;
 
@@ -124,6 +126,88 @@ TEST(CloudOrientation, PlacesTheCameraInFrontOfTheWorkspace)
     const bool isDown = axis[0] == '-';
     const double up = orientation.up[axis[isDown ? 1 : 0] - 'x'];
     EXPECT_EQ(up, isDown ? -1.0 : 1.0) << axis;
+  }
+}
+
+/// A figure of 1.8 m on its feet: legs, a body, arms and a head, each the surface of an ellipsoid.
+vtkSmartPointer<vtkPolyData> makeFigure(const std::array<int, 3>& axes, bool isTurned)
+{
+  struct Part
+  {
+    Vec3 middle;
+    Vec3 half;
+    int count;
+  };
+  const Part parts[] = { { { -0.1, 0.0, 0.45 }, { 0.08, 0.08, 0.45 }, 3000 },
+    { { 0.1, 0.0, 0.45 }, { 0.08, 0.08, 0.45 }, 3000 }, { { -0.1, -0.06, 0.03 }, { 0.05, 0.13, 0.03 }, 500 },
+    { { 0.1, -0.06, 0.03 }, { 0.05, 0.13, 0.03 }, 500 }, { { 0.0, 0.0, 1.15 }, { 0.2, 0.12, 0.32 }, 5000 },
+    { { 0.0, 0.0, 1.62 }, { 0.09, 0.1, 0.13 }, 1500 }, { { -0.26, 0.0, 1.1 }, { 0.06, 0.06, 0.33 }, 1500 },
+    { { 0.26, 0.0, 1.1 }, { 0.06, 0.06, 0.33 }, 1500 } };
+  vtkNew<vtkPoints> points;
+  for (const Part& part : parts)
+  {
+    for (int i = 0; i < part.count; ++i)
+    {
+      const double z = 1.0 - (2.0 * i + 1.0) / part.count;
+      const double ring = std::sqrt(1.0 - z * z);
+      const Vec3 p = part.middle +
+        Vec3{ part.half.x * ring * std::cos(2.4 * i), part.half.y * ring * std::sin(2.4 * i),
+          part.half.z * z };
+      const double height = isTurned ? -p.z : p.z;
+      points->InsertNextPoint(Vec3{ p.x, p.y, height }[axes[0]], Vec3{ p.x, p.y, height }[axes[1]],
+        Vec3{ p.x, p.y, height }[axes[2]]);
+    }
+  }
+  auto cloud = vtkSmartPointer<vtkPolyData>::New();
+  cloud->SetPoints(points);
+  return cloud;
+}
+
+/// Floor, ceiling and walls of 6 by 2.6 by 4 m, y down, with a table on the floor, about a camera.
+vtkSmartPointer<vtkPolyData> makeRoom()
+{
+  std::mt19937 random(1);
+  const auto from = [&random](double low, double high)
+  { return std::uniform_real_distribution<>(low, high)(random); };
+  vtkNew<vtkPoints> points;
+  for (int i = 0; i < 4000; ++i)
+  {
+    points->InsertNextPoint(from(-3, 3), i % 2 ? 1.4 : -1.2, from(-2, 2));
+    points->InsertNextPoint(i % 2 ? 3.0 : -3.0, from(-1.2, 1.4), from(-2, 2));
+    points->InsertNextPoint(from(-3, 3), from(-1.2, 1.4), i % 2 ? 2.0 : -2.0);
+    points->InsertNextPoint(from(-2, 0), 0.65, from(-1, 1));
+  }
+  auto cloud = vtkSmartPointer<vtkPolyData>::New();
+  cloud->SetPoints(points);
+  return cloud;
+}
+
+TEST(CloudOrientation, StandsAFigureOnItsFeetWhereverItsHeadIs)
+{
+  const CloudOrientation usual = guessCloudOrientation(makeFigure({ 0, 1, 2 }, false), "pcd");
+  EXPECT_EQ(usual.up, Vec3(0, 0, 1));
+  EXPECT_FALSE(usual.isGuess);
+  const CloudOrientation tall = guessCloudOrientation(makeFigure({ 0, 2, 1 }, false), "pcd");
+  EXPECT_EQ(tall.up, Vec3(0, 1, 0)) << "y up in a format of z up";
+  EXPECT_TRUE(tall.isGuess);
+  EXPECT_EQ(guessCloudOrientation(makeFigure({ 0, 2, 1 }, true), "ply").up, Vec3(0, -1, 0)) << "y down";
+  EXPECT_EQ(guessCloudOrientation(makeFigure({ 2, 1, 0 }, false), "xyz").up, Vec3(1, 0, 0)) << "it lies";
+  EXPECT_EQ(guessCloudOrientation(makeFigure({ 0, 2, 1 }, false), "LAS").up, Vec3(0, 0, 1));
+}
+
+TEST(CloudOrientation, FindsTheFloorOfARoomInTheFrameOfACamera)
+{
+  const CloudOrientation orientation = guessCloudOrientation(makeRoom(), "ply");
+  EXPECT_EQ(orientation.up, Vec3(0, -1, 0));
+  EXPECT_TRUE(orientation.isGuess);
+  EXPECT_FALSE(orientation.fromSensor);
+}
+
+TEST(CloudOrientation, NamesTheAxisThatPointsUp)
+{
+  for (const char* axis : { "x", "-x", "y", "-y", "z", "-z" })
+  {
+    EXPECT_EQ(axisName(orientationForUpAxis(axis).up), axis);
   }
 }
 

@@ -49,6 +49,13 @@ pointhaptics_window_test(ARecordingOfStandardInputKeepsItsCloud)
 pointhaptics_window_test(TheSettingsAreRemembered)
 pointhaptics_window_test(WrittenSettingsBringTheViewBack)
 pointhaptics_window_test(CtrlCEndsTheProgram)
+pointhaptics_window_test(ADoubleClickSetsThePivot)
+pointhaptics_window_test(KeyF5WalksThroughTheCloud)
+pointhaptics_window_test(KeyF6ShowsAHeightProfile)
+pointhaptics_window_test(KeyF7TurnsAnotherAxisUpAndKeepsIt)
+pointhaptics_window_test(KeyF10HidesWhatIsOutsideOfTheColors)
+pointhaptics_window_test(KeyF12SavesThePartThatIsShown)
+pointhaptics_window_test(KeyNShowsFilesAlone)
 
 # Files dropped as a file manager does, and the close button as a window manager does; without Xlib these are left out.
 find_package(X11)

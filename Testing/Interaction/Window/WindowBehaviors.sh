@@ -940,3 +940,102 @@ AStudyIsRunAndAnalysed() {
 # said_times COUNT WORDS: so many lines have the words.
 said_times() { (($(grep -cF -- "$2" said.txt) == $1)); }
 is_gone() { [[ -z "$(xdotool search --name "PointHaptics: $1")" ]]; }
+
+ADoubleClickSetsThePivot() {
+  make sphere cloud.ply
+  open_viewer cloud.ply --up z --device none
+  key 1
+  write_settings
+  xdotool mousemove --window "$window" 380 200 click --repeat 2 --delay 60 1
+  said "the view turns about the point in the middle"
+  write_settings
+  changed camera || fail "the camera stays"
+  xdotool mousemove --window "$window" 20 400 click --repeat 2 --delay 60 1
+  said "no point is there to turn about"
+}
+
+KeyF5WalksThroughTheCloud() {
+  make sphere cloud.ply
+  open_viewer cloud.ply --up z --device none
+  key 1
+  write_settings
+  key F5
+  said "walking: w, a, s, d go"
+  key w w a Prior
+  drag 320 200 360 180
+  key F5
+  said "walking: stopped"
+  write_settings
+  changed camera || fail "nobody walked"
+  same matrix || fail "the model moved"
+  key F5 Escape
+  key w # writes settings again
+  said "settings: pointhaptics-003.json"
+  written=3
+}
+
+KeyF6ShowsAHeightProfile() {
+  make sphere cloud.ply
+  open_viewer cloud.ply --up z --device none --measure "-0.02,0,0,0.02,0,0"
+  key F6
+  said "profile: heights"
+  key Escape
+  write_settings
+  grep -q '"measure"' "$settings" || fail "Escape took the line, too"
+  key Escape F6
+  said "no profile: "
+}
+
+KeyF7TurnsAnotherAxisUpAndKeepsIt() {
+  make sphere cloud.ply
+  open_viewer cloud.ply --device none
+  key F7
+  said "up: "
+  write_settings
+  local up
+  up="$(setting up "$settings")"
+  [[ -n "$up" ]] || fail "the settings do not have the axis"
+  key q
+  ends_with 0 "key Q"
+  start_viewer cloud.ply --device none
+  shows cloud.ply
+  has_keys
+  write_settings
+  [[ "$(setting up "$settings")" == "$up" ]] || fail "the axis was not kept"
+}
+
+KeyF10HidesWhatIsOutsideOfTheColors() {
+  make sphere cloud.ply
+  open_viewer cloud.ply --device none --color-by Height --color-range 0.01,0.03
+  key F10
+  said "hidden: Height outside of 0.01 to 0.03"
+  write_settings
+  grep -q '"hide": "Height=:0.0' "$settings" || fail "the settings do not have what is hidden"
+  key F10
+  said "nothing is hidden"
+}
+
+KeyF12SavesThePartThatIsShown() {
+  make sphere cloud.ply
+  open_viewer cloud.ply --device none --clip=-1,1,-1,1,0,1
+  key F12
+  said "saved: pointhaptics-001.ply, 1451 of 3000 points"
+  [[ -s pointhaptics-001.ply ]] || fail "the file is empty"
+}
+
+KeyNShowsFilesAlone() {
+  make sphere first.ply
+  make plane second.ply
+  start_viewer first.ply second.ply --together --color-by File --device none
+  shows first.ply
+  has_keys
+  key n
+  said "file 1 of 2, alone: first.ply"
+  key n
+  said "file 2 of 2, alone: second.ply"
+  key n
+  said "all files"
+  key b
+  write_settings
+  grep -q '"hide": "File=:0,File=2:"' "$settings" || fail "the second file is not alone"
+}

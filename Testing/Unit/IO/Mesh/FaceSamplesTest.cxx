@@ -357,8 +357,8 @@ TEST_F(FaceSamples, AreOfTheFacesThatAreRight)
   const ReadResult result =
     sample(write("one.off", off + "3 0 1 2\n3 0 1 9\n3 1 3 2\n3 0 x 2\n2 0 1\n"), 100);
   ASSERT_EQ(result.notes.size(), 1u);
-  EXPECT_EQ(result.notes[0],
-    "100 samples of 5 faces, but for 3 that name vertices which are not there, or fewer than three");
+  EXPECT_EQ(
+    result.notes[0], "100 samples of 5 faces, but for 3 with missing vertices or fewer than three corners");
   EXPECT_EQ(result.points(), 100);
   const ReadResult obj =
     sample(write("one.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 4\nf 1 a 2\n"), 50);

@@ -1,0 +1,31 @@
+/// @file
+/// Reads the files of a cloud, and writes the part of them that is shown.
+#pragma once
+
+#include "LoadedCloud.h"
+
+namespace pointhaptics
+{
+
+/// Findings collected while files are read.
+struct Findings
+{
+  std::string format; ///< Format of the last file.
+  std::vector<std::string> notes;
+  bool isCoarse = false;
+  bool hasSamples = false; ///< Of faces.
+};
+
+/// One cloud of all files with all arrays, in their coordinates, or the points that are there already. Points
+/// of several files have the number of their file, kFileArrayName; the field data of that name has the files'
+/// names. Null: @p message says why.
+vtkSmartPointer<vtkPolyData> readFiles(const CloudRequest& request, const std::function<bool(double)>& goesOn,
+  Findings& findings, std::string& message);
+
+/// Reads the files of @p request again and writes what its options clip and hide to @p fileName, with all
+/// arrays, in their coordinates. @p up and @p near, as addHeightArray() takes them, are for heights that
+/// hide. @return what was written, or why it was not. Any thread.
+std::string writePart(
+  const CloudRequest& request, const Vec3& up, const Bounds& near, const std::string& fileName);
+
+} // namespace pointhaptics
