@@ -363,7 +363,7 @@ TEST_F(FaceSamples, AreOfTheFacesThatAreRight)
   const ReadResult obj =
     sample(write("one.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 4\nf 1 a 2\n"), 50);
   EXPECT_EQ(obj.points(), 50);
-  EXPECT_NE(obj.notes[0].find("but for 2 that"), std::string::npos) << obj.notes[0];
+  EXPECT_NE(obj.notes[0].find("but for 2 with"), std::string::npos) << obj.notes[0];
 }
 
 TEST_F(FaceSamples, OfStripsAndCellsAreMissed)
