@@ -108,9 +108,9 @@ vtkSmartPointer<vtkDataArray> filled(const MergedArray& array, const std::vector
   const std::vector<std::string>& names, std::vector<std::string>& notes)
 {
   const std::string lacking = lackingInputs(array, names);
-  // What LAS and colours have for none is no label.
-  const bool hasNone = isFloatingType(array.type) || isPointField(array.name) || isColorName(array.name) ||
-    isSameField(array.name, "RGBA");
+  // What LAS and colours have for none is no label; a double holds no long number.
+  const bool hasNone = isFloatingType(array.type) || sizeOfType(array.type) == 8 ||
+    isPointField(array.name) || isColorName(array.name) || isSameField(array.name, "RGBA");
   vtkSmartPointer<vtkDataArray> result;
   result.TakeReference(vtkDataArray::CreateDataArray(lacking.empty() || hasNone ? array.type : VTK_DOUBLE));
   result->SetName(array.name.c_str());

@@ -14,6 +14,7 @@
 #include "Core/Base/QuantityText.h"
 
 #include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
 #include "vtkFloatArray.h"
 #include "vtkIdList.h"
 #include "vtkInformation.h"
@@ -31,6 +32,7 @@
 #include <filesystem>
 #include <limits>
 #include <sstream>
+#include <string_view>
 
 namespace io = pointhaptics::io;
 
@@ -122,7 +124,10 @@ bool canBeCut(const std::string& start, std::size_t size, const std::string& ext
   {
     return false;
   }
-  return !io::isUtf16(start) && io::identifyFormat(start, size, extension).isReadInParts;
+  // A cell in quotation marks may go on in the next line.
+  const io::CloudFormat& format = io::identifyFormat(start, size, extension);
+  const bool isQuoted = std::string_view(format.name) == "text" && start.find('"') != std::string::npos;
+  return !io::isUtf16(start) && !isQuoted && format.isReadInParts;
 }
 
 /// Takes away the points outside the box that is wanted, with their values in all arrays.
@@ -386,6 +391,7 @@ void vtkPointCloudReader::Finish(io::ReadTask& task, vtkPolyData* cloud)
     keepRows(cloud, 0, static_cast<vtkIdType>(task.pointsThere));
   }
   checkCoordinates(cloud);
+  cloud->GetFieldData()->RemoveArray(pointhaptics::kLocalFrame); // of another cloud that a file was made of
   this->FinishFaces(task, cloud);
   io::finishSplats(task, cloud);
   if (const std::string steps = coarseFloats(task, cloud); !steps.empty())

@@ -397,6 +397,16 @@ void readPath(const FeelOptions& options, Files& files, HipPath& path, std::int6
   require(countTicks(path, options.path, options.rateHz, kMostTicks, ticks, message, unitOptions()), message);
 }
 
+/// What the file says of its unit where that is not the one that is felt; empty: nothing.
+std::string statedUnit(const FeelOptions& options, vtkPolyData* cloud)
+{
+  const LengthUnit unit = lengthUnitOf(cloud, Bounds());
+  return unit.name == "m" || options.lattice.isScaled()
+    ? std::string()
+    : fmt::format("{}: the file says that its unit is {}, and it is felt as metres: give --unit {}",
+        options.file, unit.name, unit.name);
+}
+
 int runFeel(const FeelOptions& options, Files& files)
 {
   std::string message;
@@ -411,6 +421,7 @@ int runFeel(const FeelOptions& options, Files& files)
   require(readCloud(input, cloud, message, options.reading), message);
   showNotes(kFeelCommand, options.file, cloud);
   cloud.points = inLocalMetres(cloud.points); // as view has them
+  const std::string stated = statedUnit(options, cloud.points);
   const Bounds box = feltBox(options, cloud.points);
   FeelScenes scenes;
   require(makeFeelScenes(options, cloud.points, scenes, message), message);
@@ -433,7 +444,8 @@ int runFeel(const FeelOptions& options, Files& files)
     warn(kFeelCommand, fmt::format("{}: it ends early: {}", options.record, recording.problem()));
   }
   const Summary summary = rows.summary();
-  const std::string odd = unlikelyUnits(path, box, unitOptions(), summary.contactTicks > 0);
+  const std::string odd =
+    stated.empty() ? unlikelyUnits(path, box, unitOptions(), summary.contactTicks > 0) : stated;
   if (!odd.empty())
   {
     warn(kFeelCommand, odd);

@@ -225,16 +225,25 @@ bool findCoordinates(const std::vector<Column>& columns, std::vector<std::size_t
   {
     return true;
   }
-  found.assign(3, columns.size());
-  for (std::size_t i = columns.size(); i-- > 0;)
+  // Degrees stand beside projected coordinates; x of one and y of the other are no place.
+  for (const bool inDegrees : { false, true })
   {
-    const int axis = columns[i].components == 1 ? CoordinateName(columns[i].name).axis : -1;
-    if (axis >= 0)
+    found.assign(3, columns.size());
+    for (std::size_t i = columns.size(); i-- > 0;)
     {
-      found[static_cast<std::size_t>(axis)] = i;
+      const CoordinateName name(columns[i].name);
+      if (columns[i].components == 1 && name.axis >= 0 &&
+        (name.axis == 2 || (name.unit == "degree") == inDegrees))
+      {
+        found[static_cast<std::size_t>(name.axis)] = i;
+      }
+    }
+    if (std::find(found.begin(), found.end(), columns.size()) == found.end())
+    {
+      return true;
     }
   }
-  return std::find(found.begin(), found.end(), columns.size()) == found.end();
+  return false;
 }
 
 std::vector<std::size_t> coordinatesOf(const std::vector<Column>& columns)

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <set>
 #include <type_traits>
 
@@ -180,8 +181,13 @@ std::vector<std::string> namesRead(const std::vector<OutputArray>& arrays,
   }
   const CloudColumns plan(columns, 0);
   std::set<std::string> seen;
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < arrays.size(); ++i)
+  std::vector<std::string> names(arrays.size());
+  std::vector<std::size_t> order(arrays.size());
+  std::iota(order.begin(), order.end(), std::size_t{ 0 });
+  // Another array gives way to colours and normals, whose names are fixed.
+  std::stable_partition(
+    order.begin(), order.end(), [&](std::size_t i) { return arrays[i].role != ArrayRole::Other; });
+  for (const std::size_t i : order)
   {
     const std::size_t count = firsts[i + 1] - firsts[i];
     vtkDataArray* read = count > 0 ? plan.arrayOf(firsts[i]) : nullptr;
@@ -194,7 +200,7 @@ std::vector<std::string> namesRead(const std::vector<OutputArray>& arrays,
     const bool isCalled = isOwn &&
       (arrays[i].role != ArrayRole::Other ||
         read->GetName() == (count == 1 ? columns[firsts[i]].name : arrays[i].name));
-    names.emplace_back(isCalled ? read->GetName() : "");
+    names[i] = isCalled ? read->GetName() : "";
   }
   return names;
 }

@@ -29,8 +29,6 @@ constexpr double kLargestThing = 1e4;
 /// within.
 constexpr double kCompact = 0.2;
 constexpr double kCompactAboutOrigin = 0.45;
-/// Field data: longitude and latitude of the origin, and metres of a degree of each.
-constexpr const char* kLocalFrame = "LocalFrame";
 constexpr double kFoot = 0.3048;
 constexpr double kSurveyFoot = 1200.0 / 3937.0;
 
@@ -57,10 +55,12 @@ bool has(const std::string& text, const char* part)
   return text.find(part) != std::string::npos;
 }
 
-/// Reads the unit that a file names; an unknown one counts as not named.
-bool readUnit(vtkPolyData* cloud, LengthUnit& unit)
+/// The unit that a file calls @p name; false: it is none that is known.
+bool findUnit(const std::string& name, LengthUnit& unit)
 {
-  const std::string said = lower(io::fieldText(cloud->GetFieldData(), "LengthUnit"));
+  // Two characters look like the letter mu.
+  const bool isMicro = name == "\xc2\xb5m" || name == "\xce\xbcm";
+  const std::string said = isMicro ? "um" : lower(name);
   if (has(said, "degree"))
   {
     unit = { "deg", 1.0, UnitEvidence::File };
@@ -127,7 +127,7 @@ LengthUnit lengthUnitOf(vtkPolyData* cloud, const Bounds& bounds)
   constexpr const char* kLidar[] = { "classification", "returnnumber", "gpstime", "gps_time", "ring",
     "timestamp" };
   LengthUnit unit;
-  if (!cloud || readUnit(cloud, unit) || bounds.empty())
+  if (!cloud || findUnit(io::fieldText(cloud->GetFieldData(), "LengthUnit"), unit) || bounds.empty())
   {
     return unit;
   }
@@ -200,6 +200,12 @@ vtkSmartPointer<vtkPolyData> inLocalMetres(vtkPolyData* cloud)
   fields->RemoveArray("LengthUnit");
   io::addFieldText(local, "LengthUnit", "metre");
   return local;
+}
+
+std::string lengthUnitCalled(const std::string& name)
+{
+  LengthUnit unit;
+  return findUnit(name, unit) ? unit.name : std::string();
 }
 
 Vec3 toLocalFrame(vtkPolyData* cloud, const Vec3& place)

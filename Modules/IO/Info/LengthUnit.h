@@ -35,11 +35,16 @@ struct LengthUnit
 /// in millimetres: statues of 1600 units are, a street of 160 m is not. Cost: none a point.
 POINTHAPTICSIO_EXPORT LengthUnit lengthUnitOf(vtkPolyData* cloud, const Bounds& bounds);
 
+/// lengthUnitOf()'s name of a unit that a file calls @p name, "m" of "Metres"; empty: it knows none.
+std::string lengthUnitCalled(const std::string& name);
+
 /// @p cloud, or where its x and y are degrees of longitude and latitude a copy of it in metres to the east
 /// and north of their medians, on a sphere of the WGS 84 ellipsoid's mean radius; z stays. What says where
 /// the degrees are on the Earth is not in the copy's field data. Points at 0, 0, 0, which are no returns,
 /// stay.
 POINTHAPTICSIO_EXPORT vtkSmartPointer<vtkPolyData> inLocalMetres(vtkPolyData* cloud);
+/// Field data of such a copy: longitude and latitude of the origin, and metres of a degree of each.
+inline constexpr const char* kLocalFrame = "LocalFrame";
 /// Place of @p place, in the coordinates of the file, in what inLocalMetres() made of it, and back. Clouds
 /// that are as in their file change nothing.
 POINTHAPTICSIO_EXPORT Vec3 toLocalFrame(vtkPolyData* cloud, const Vec3& place);

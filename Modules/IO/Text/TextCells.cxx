@@ -112,32 +112,72 @@ std::string_view withoutQuotes(std::string_view cell)
   return cell;
 }
 
+namespace
+{
+
+constexpr std::string_view kSeparators = ",;|\t";
+
+/// Separators on the line of text that holds the place @p at.
+std::size_t separatorsAbout(std::string_view text, std::size_t at)
+{
+  const std::size_t end = std::min(text.find('\n', at), text.size());
+  std::size_t count = 0;
+  for (std::size_t i = text.rfind('\n', at == 0 ? 0 : at - 1) + 1; i < end; ++i)
+  {
+    count += kSeparators.find(text[i]) == std::string_view::npos ? 0 : 1;
+  }
+  return count;
+}
+
+/// Whether the marks at @p open and @p close are inches of two rows, each of which is as long as the row
+/// before.
+bool areOfTwoRows(std::string_view text, std::size_t open, std::size_t close)
+{
+  const std::size_t before = text.rfind('\n', open);
+  const std::size_t count = separatorsAbout(text, open);
+  return before != std::string_view::npos && before > 0 && count > 0 &&
+    separatorsAbout(text, before - 1) == count && separatorsAbout(text, close) == count;
+}
+
+} // namespace
+
 std::string withoutLineEndsInCells(std::string_view text)
 {
   constexpr std::size_t kLongestCell = std::size_t{ 1 } << 16;
-  constexpr std::string_view kEnds = ",;|\t\r\n";
   const auto isEnd = [&](std::size_t at)
-  { return at >= text.size() || kEnds.find(text[at]) != std::string_view::npos; };
+  {
+    return at >= text.size() || text[at] == '\r' || text[at] == '\n' ||
+      kSeparators.find(text[at]) < kSeparators.size();
+  };
   std::string joined;
   std::size_t open = text.find('"');
   while (open != std::string_view::npos)
   {
-    std::size_t close = text.find('"', open + 1);
-    while (close != std::string_view::npos && text.substr(close + 1, 1) == "\"")
+    if (open > 0 && !isEnd(text.find_last_not_of(' ', open - 1)))
     {
-      close = text.find('"', close + 2); // two are one within quotation marks
+      open = text.find('"', open + 1);
+      continue;
     }
-    const bool isFirst = open == 0 || isEnd(text.find_last_not_of(' ', open - 1));
-    const bool isCell =
-      isFirst && close != std::string_view::npos && isEnd(text.find_first_not_of(' ', close + 1));
-    const std::string_view cell = isCell ? text.substr(open, close - open) : std::string_view();
-    if (cell.size() < kLongestCell && cell.find_first_of("\r\n") != std::string_view::npos)
+    const std::string_view rest = text.substr(0, open + kLongestCell);
+    std::size_t close = rest.find('"', open + 1);
+    while (close != std::string_view::npos && rest.substr(close + 1, 1) == "\"")
+    {
+      close = rest.find('"', close + 2); // two are one within quotation marks
+    }
+    if (close == std::string_view::npos)
+    {
+      open = text.find('"', rest.size()); // no cell begins within one that does not end
+      continue;
+    }
+    const std::string_view cell = text.substr(open, close - open);
+    if (isEnd(text.find_first_not_of(' ', close + 1)) &&
+      cell.find_first_of("\r\n") != std::string_view::npos && !areOfTwoRows(text, open, close))
     {
       joined = joined.empty() ? std::string(text) : std::move(joined);
       std::replace(joined.begin() + std::ptrdiff_t(open), joined.begin() + std::ptrdiff_t(close), '\n', ' ');
       std::replace(joined.begin() + std::ptrdiff_t(open), joined.begin() + std::ptrdiff_t(close), '\r', ' ');
     }
-    open = text.find('"', isCell ? close + 1 : open + 1);
+    open = text.find('"', close + 1);
   }
   return joined;
 }

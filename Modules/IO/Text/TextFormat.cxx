@@ -3,6 +3,7 @@
 #include "IO/Bytes/TextPart.h"
 #include "IO/Columns/CloudColumns.h"
 #include "IO/Formats/FormatLooks.h"
+#include "IO/Info/LengthUnit.h"
 #include "IO/Text/TextCells.h"
 
 #include <algorithm>
@@ -219,7 +220,8 @@ std::string unitOf(const std::vector<std::string>& names)
     {
       return {};
     }
-    if (!unit.empty() && own != unit)
+    const std::string known = lengthUnitCalled(own);
+    if (!unit.empty() && own != unit && (known.empty() || known != lengthUnitCalled(unit)))
     {
       failFormat(inQuotes(names[i]) + " is in " + own + ", other coordinates are in " + unit,
         "convert the columns to one unit, or name them by --columns where they are in one");

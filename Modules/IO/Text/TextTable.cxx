@@ -1,6 +1,7 @@
 #include "IO/Text/TextTable.h"
 
 #include "IO/Columns/CloudColumns.h"
+#include "IO/Info/LengthUnit.h"
 #include "IO/Text/TextCells.h"
 
 #include <algorithm>
@@ -110,13 +111,11 @@ bool nameByComment(const Title& title, TextLayout& layout)
 /// "x [mm]" for x with mm in the line of units.
 std::vector<std::string> withUnits(std::vector<std::string> names, const std::vector<std::string>& units)
 {
-  constexpr std::size_t kLongestUnit = 8;
   std::vector<std::size_t> found;
   findCoordinates(columnsCalled(names), found);
   for (const std::size_t i : found)
   {
-    const bool isUnit =
-      units != names && i < units.size() && isUnitWord(units[i]) && units[i].size() <= kLongestUnit;
+    const bool isUnit = units != names && i < units.size() && !lengthUnitCalled(units[i]).empty();
     names[i] += isUnit ? " [" + units[i] + "]" : "";
   }
   return names;

@@ -76,6 +76,11 @@ WithoutInterpreterLock::~WithoutInterpreterLock()
   {
     return;
   }
+  const bool isEnd = isOver || (theLock.isEnding && theLock.isEnding());
+  if (!isEnd)
+  {
+    theLock.take(state_); // endInterpreter() waits for it, without the lock
+  }
   std::unique_lock lock(theMutex);
   WithoutInterpreterLock** place = &theFirst;
   while (*place != this)
@@ -84,11 +89,10 @@ WithoutInterpreterLock::~WithoutInterpreterLock()
   }
   *place = next_;
   lock.unlock();
-  if (isOver || (theLock.isEnding && theLock.isEnding()))
+  if (isEnd)
   {
     sleepToTheEnd();
   }
-  theLock.take(state_);
 }
 
 } // namespace pointhaptics

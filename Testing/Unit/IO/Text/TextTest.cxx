@@ -507,4 +507,28 @@ TEST_F(Text, LinesOfUnitsAndTitlesAreNoNames)
   EXPECT_EQ(faro.value("RGB", 7, 2), 7.0);
 }
 
+TEST_F(Text, MarksOfInchesAreNoCells)
+{
+  std::string rows = "x,y,z,c\n";
+  for (int i = 0; i < 20; ++i)
+  {
+    rows += std::to_string(i) + (i % 2 ? ",3,4,\"6\n" : ",2,3,5\"\n");
+  }
+  EXPECT_EQ(readCloud(write("a.csv", rows)).points(), 20);
+  // A run of marks costs one pass.
+  EXPECT_EQ(readCloud(write("b.csv", "1,2,3,a\n4,5,6,a" + std::string(400000, '"') + "\n")).points(), 2);
+}
+
+TEST_F(Text, ProjectedCoordinatesGoBeforeDegrees)
+{
+  for (const char* header : { "lat,lon,easting,northing,elev", "easting,northing,lon,lat,elev" })
+  {
+    const ReadResult result = readCloud(write("a.csv", header + std::string("\n1,2,3,4,5\n")));
+    const bool isFirst = header[0] == 'e';
+    EXPECT_EQ(result.cloud->GetPoint(0)[0], isFirst ? 1.0 : 3.0) << header;
+    EXPECT_EQ(result.cloud->GetPoint(0)[1], isFirst ? 2.0 : 4.0) << header;
+  }
+  EXPECT_EQ(readCloud(write("b.csv", "x (m),y (metre),z (M)\n1,2,3\n")).error, "");
+}
+
 } // namespace
