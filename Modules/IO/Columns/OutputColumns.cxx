@@ -45,7 +45,16 @@ std::string plainName(const std::string& name, NameRule rule)
       (rule == NameRule::Cells && std::string_view(",;|\"#%!>").find(c) != std::string_view::npos);
     c = isOut || (rule == NameRule::Cells && c == '/' && &c == result.data()) ? '_' : c;
   }
-  return result;
+  // In the header of a text these are a column that is left out, and lists.
+  for (const std::string_view mark : { "[]", "..." })
+  {
+    for (std::size_t at = result.find(mark); rule == NameRule::Cells && at != std::string::npos;)
+    {
+      result.replace(at, mark.size(), mark.size(), '_');
+      at = result.find(mark);
+    }
+  }
+  return result == "-" ? "_" : result;
 }
 
 ArrayRole roleOf(vtkDataArray* array, vtkPointData* data)
