@@ -3,6 +3,8 @@
 #include "Bytes/NumericType.h"
 
 #include <algorithm>
+#include <cctype>
+#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -62,23 +64,41 @@ void copyStrided(ConstColumnView source, ColumnView target, vtkIdType count, boo
     });
 }
 
-bool storeNumber(ColumnView target, vtkIdType row, double value) noexcept
+namespace
+{
+
+/// Reads the integer that @p text begins with. @return false where its number has a point or an exponent.
+template <typename T>
+bool isWhole(std::string_view text, T& value)
+{
+  text.remove_prefix(text.substr(0, 1) == "+" ? 1 : 0);
+  const auto [last, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() &&
+    (last == text.data() + text.size() || std::isspace(static_cast<unsigned char>(*last)));
+}
+
+} // namespace
+
+bool storeNumber(ColumnView target, vtkIdType row, double value, std::string_view digits) noexcept
 {
   bool stored = true;
   withType(target.type,
     [&](auto zero)
     {
       using T = decltype(zero);
+      T converted{};
+      bool isExact = false;
       if constexpr (std::is_integral_v<T>)
       {
+        isExact = std::abs(value) >= 0x1p53 && isWhole(digits, converted);
         // The upper bound as a power of two: max() itself is not a double for 64 bit integers.
         const double above = std::ldexp(1.0, std::numeric_limits<T>::digits);
         const double below = std::is_signed_v<T> ? -above : 0.0;
-        stored = value >= below && value < above && value == std::floor(value);
+        stored = isExact || (value >= below && value < above && value == std::floor(value));
       }
       if (stored)
       {
-        const T converted = static_cast<T>(value);
+        converted = isExact ? converted : static_cast<T>(value);
         std::memcpy(target.first + row * target.stride, &converted, sizeof(T));
       }
     });

@@ -5,6 +5,7 @@
 #include "vtkType.h"
 
 #include <cstddef>
+#include <string_view>
 
 namespace pointhaptics::io
 {
@@ -39,7 +40,8 @@ void copyStrided(
   ConstColumnView source, ColumnView target, vtkIdType count, bool swapSource = false) noexcept;
 
 /// target[row] = value. @return false when an integer target cannot hold @p value exactly; then nothing is
-/// written.
-bool storeNumber(ColumnView target, vtkIdType row, double value) noexcept;
+/// written. @p digits: a text that begins with the number, of which an integer that no double holds takes
+/// every digit.
+bool storeNumber(ColumnView target, vtkIdType row, double value, std::string_view digits = {}) noexcept;
 
 } // namespace pointhaptics::io

@@ -173,7 +173,7 @@ std::vector<AsciiNumber> asciiNumbers(const PcdTable& table, const CloudColumns&
   return numbers;
 }
 
-bool storeAsciiNumber(const AsciiNumber& number, vtkIdType row, double value)
+bool storeAsciiNumber(const AsciiNumber& number, vtkIdType row, double value, std::string_view digits)
 {
   if (number.field->isPadding())
   {
@@ -181,7 +181,7 @@ bool storeAsciiNumber(const AsciiNumber& number, vtkIdType row, double value)
   }
   if (!number.field->isPackedColor())
   {
-    return storeNumber(number.target, row, value);
+    return storeNumber(number.target, row, value, digits);
   }
   std::uint32_t packed = 0;
   const bool stored = storeNumber({ reinterpret_cast<char*>(&packed), 0, number.field->type }, 0, value);
@@ -195,6 +195,7 @@ void parseAsciiRow(
   for (const AsciiNumber& number : numbers)
   {
     double value = 0.0;
+    const std::string_view digits = trimmed(line);
     if (!takeNumber(line, value))
     {
       const std::string_view word = takeWord(line);
@@ -202,7 +203,7 @@ void parseAsciiRow(
           (word.empty() ? std::string("missing") : inQuotes(word) + ", not a number"),
         "write one number per field and one point per line");
     }
-    if (!storeAsciiNumber(number, row, value))
+    if (!storeAsciiNumber(number, row, value, digits))
     {
       failFormat("line " + std::to_string(lineNumber) + ": field " + inQuotes(number.field->name) + " is " +
           std::to_string(value) + ", which its integer type cannot hold",

@@ -7,7 +7,6 @@
 #include "IO/Ply/PlyHeader.h"
 #include "IO/Text/TextScan.h"
 
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <string>
@@ -73,9 +72,7 @@ public:
   bool store(const PlyProperty& property, ColumnView target, vtkIdType row, double& value)
   {
     value = takeNumber(property);
-    return std::abs(value) >= 0x1p53 && !isFloatingType(property.type)
-      ? storeInteger(takeWord(number_), target, row) // every digit counts
-      : storeNumber(target, row, value);
+    return storeNumber(target, row, value, trimmed(number_));
   }
   void skipList(const PlyProperty& list, std::vector<vtkIdType>* items = nullptr)
   {
@@ -126,25 +123,6 @@ public:
   std::string where() const { return "line " + std::to_string(lines_.lineNumber()) + ": "; }
 
 private:
-  static bool storeInteger(std::string_view word, ColumnView target, vtkIdType row)
-  {
-    bool isStored = false;
-    withType(target.type,
-      [&](auto zero)
-      {
-        using T = decltype(zero);
-        T value{};
-        if constexpr (std::is_integral_v<T>)
-        {
-          const char* const end = word.data() + word.size();
-          const auto [last, error] = std::from_chars(word.data() + (word.front() == '+' ? 1 : 0), end, value);
-          isStored = error == std::errc() && last == end;
-          std::memcpy(target.first + row * target.stride, &value, sizeof(T));
-        }
-      });
-    return isStored;
-  }
-
   LineReader& lines_;
   const PlyElement& element_;
   const bool isLast_;

@@ -159,4 +159,17 @@ TEST_F(Pcd, CompressedSizesThatDoNotFitAreRefused)
   }
 }
 
+TEST_F(Pcd, AsciiKeepsEveryDigitOfLongIntegers)
+{
+  const ReadResult result = readCloud(write("a.pcd",
+    "VERSION 0.7\nFIELDS x y z id\nSIZE 4 4 4 8\nTYPE F F F U\nCOUNT 1 1 1 1\nWIDTH 3\nHEIGHT 1\n"
+    "POINTS 3\nDATA ascii\n1 2 3 9007199254740993\n1 2 4 18446744073709551615\n1 2 5 1e17\n"));
+  ASSERT_EQ(result.error, "");
+  vtkDataArray* ids = result.array("id");
+  ASSERT_NE(ids, nullptr);
+  EXPECT_EQ(ids->GetVariantValue(0).ToUnsignedLongLong(), 9007199254740993ULL);
+  EXPECT_EQ(ids->GetVariantValue(1).ToUnsignedLongLong(), 18446744073709551615ULL);
+  EXPECT_EQ(ids->GetVariantValue(2).ToUnsignedLongLong(), 100000000000000000ULL);
+}
+
 } // namespace
