@@ -1002,6 +1002,15 @@ KeyF7TurnsAnotherAxisUpAndKeepsIt() {
   has_keys
   write_settings
   [[ "$(setting up "$settings")" == "$up" ]] || fail "the axis was not kept"
+  key q
+  ends_with 0 "key Q"
+  start_viewer cloud.ply --device none --up "$up"
+  shows cloud.ply
+  has_keys
+  key F7
+  said "up: "
+  write_settings
+  [[ "$(setting up "$settings")" != "$up" ]] || fail "the key did not turn what --up asked for"
 }
 
 KeyF10HidesWhatIsOutsideOfTheColors() {
@@ -1026,7 +1035,7 @@ KeyF12SavesThePartThatIsShown() {
 KeyNShowsFilesAlone() {
   make sphere first.ply
   make plane second.ply
-  start_viewer first.ply second.ply --together --color-by File --device none
+  start_viewer first.ply second.ply --together --color-by File --hide height=:0 --device none
   shows first.ply
   has_keys
   key n
@@ -1037,5 +1046,5 @@ KeyNShowsFilesAlone() {
   said "all files"
   key b
   write_settings
-  grep -q '"hide": "File=:0,File=2:"' "$settings" || fail "the second file is not alone"
+  grep -q '"hide": "Height=:0,File=:0,File=2:"' "$settings" || fail "the second file is not alone"
 }
