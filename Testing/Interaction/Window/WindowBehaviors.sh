@@ -1004,7 +1004,7 @@ KeyF7TurnsAnotherAxisUpAndKeepsIt() {
   [[ "$(setting up "$settings")" == "$up" ]] || fail "the axis was not kept"
   key q
   ends_with 0 "key Q"
-  start_viewer cloud.ply --device none --up "$up"
+  start_viewer cloud.ply --device none --up "$(tr -d '"' <<<"${up#*:}")"
   shows cloud.ply
   has_keys
   key F7
@@ -1022,6 +1022,11 @@ KeyF10HidesWhatIsOutsideOfTheColors() {
   grep -q '"hide": "Height=:0.0' "$settings" || fail "the settings do not have what is hidden"
   key F10
   said "nothing is hidden"
+  key q
+  ends_with 0 "key Q"
+  open_viewer cloud.ply --device none --color-by ProxyRadius
+  key F10
+  said "ProxyRadius is computed for the picture and hides nothing"
 }
 
 KeyF12SavesThePartThatIsShown() {
