@@ -61,7 +61,7 @@ struct HapticViewer::Implementation
   {
   }
 
-  const HapticViewerOptions options;
+  HapticViewerOptions options;
   const HapticViewerObserver observer;
   ViewScene scene;
   std::vector<std::string> files;
@@ -214,6 +214,7 @@ bool HapticViewer::Implementation::show(LoadedCloud loaded)
   }
   this->news += (this->news.empty() || loaded.notes.empty() ? "" : "\n") + shortNote(loaded.notes);
   this->isOpen = this->scene.open(std::move(loaded), this->options, this->message);
+  this->options.picture.hidden = this->scene.picture().hidden; // as the arrays are written
   // Errors of VTK classes come first, since they may be the cause.
   const std::vector<std::string> errors =
     this->observer.takeVtkErrors ? this->observer.takeVtkErrors() : std::vector<std::string>();

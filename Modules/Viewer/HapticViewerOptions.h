@@ -37,6 +37,7 @@ struct HapticViewerNames
   std::string firmware = "falcon.firmwareFile";
   std::string placement = "workspace and transform"; ///< Whatever may leave the cloud out of the workspace.
   UnitNames units;
+  std::string hidden = "picture.hidden";
 };
 
 /// Lengths are metres of the workspace unless said otherwise.

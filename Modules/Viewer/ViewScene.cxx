@@ -186,6 +186,7 @@ bool ViewScene::open(LoadedCloud loaded, const HapticViewerOptions& options, std
   ownColor_ = colorBy_ != "rgb" && findColorSource(cloud_, colorBy_) ? colorBy_ : std::string();
   cloudOrientation_ = loaded.orientation;
   picture_ = options.picture;
+  picture_.hidden = loaded.showing.hidden; // as the arrays are written
   near_ = loaded.near;
   this->setClip(options.clip);
   orientation_ = loaded.orientation;
@@ -459,7 +460,8 @@ void ViewScene::applyLook()
   if (source && holdsLabels(source->array))
   {
     const auto legend = vtkSmartPointer<vtkLookupTable>::Take(
-      newClassLegend(drawn->GetPointData()->GetArray(source->array.c_str()), this->fileNames()));
+      newClassLegend(drawn->GetPointData()->GetArray(source->array.c_str()),
+        source->array == kFileArrayName ? this->fileNames() : std::vector<std::string>()));
     this->markHidden(legend, source->array);
     scalarBar_->SetLookupTable(legend);
   }

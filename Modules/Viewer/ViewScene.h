@@ -121,6 +121,8 @@ public:
   std::optional<double> labelOnColorBar(double x, double y);
   /// Names of the files of a cloud of several; touch and picture have those that are not hidden.
   std::vector<std::string> fileNames() const;
+  /// True for heights and arrays of the files; others are computed for the present picture alone.
+  bool canHideBy(const std::string& array) const;
   /// Hides all outside of HapticViewerOptions::clip @p clip; touch follows with clipFelt() and the next
   /// scene.
   void setClip(const std::vector<double>& clip);

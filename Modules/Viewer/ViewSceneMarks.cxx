@@ -24,6 +24,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -87,7 +88,14 @@ ProfilePoints ViewScene::profile() const
   const Vec3 from = placeOf(cloud_, ends, 0);
   const Vec3 to = placeOf(cloud_, ends, 1);
   const double width = std::max(kProfilePart * norm(to - from), kProfileSpacings * shown_->medianSpacing);
-  const auto isShown = notHidden(shown_->points, picture_.hidden);
+  const auto isKept = notHidden(shown_->points, picture_.hidden);
+  const std::optional<Bounds> box = clipBox(clip_, cloud_);
+  const auto isShown = [&](vtkIdType i)
+  {
+    Vec3 place;
+    shown_->points->GetPoint(i, &place.x);
+    return isKept(i) && (!box || isWithin(*box, place));
+  };
   const PointAccess access(shown_->points->GetPoints());
   return profileAlong(access.view(), from, to, cloudOrientation_.up, width, kMostOfProfile, isShown);
 }
@@ -169,6 +177,12 @@ void ViewScene::markHidden(vtkLookupTable* legend, const std::string& array) con
       legend->SetTableValue(row, 0.3, 0.3, 0.3, 1.0);
     }
   }
+}
+
+bool ViewScene::canHideBy(const std::string& array) const
+{
+  vtkPolyData* points = array == "Density" ? cloud_ : shown_->points;
+  return findColorSource(points, array).has_value();
 }
 
 std::vector<std::string> ViewScene::fileNames() const

@@ -322,6 +322,36 @@ TEST_F(RecordingCommands, WhatCannotBeReplayedIsRefused)
   EXPECT_FALSE(this->exists("again.csv"));
 }
 
+TEST_F(RecordingCommands, ARecordingWithHiddenPointsIsFeltWithoutThem)
+{
+  // As a window writes it that hides a fifth of the points: those are no part of the recorded cloud.
+  this->succeed({ "generate", "idol", "-n", "20000", "-o", "idol.csv" });
+  std::istringstream rows(this->read("idol.csv"));
+  std::string whole = "x,y,z,Classification\n";
+  std::string part = whole;
+  std::string row;
+  std::getline(rows, row); // the names
+  for (int i = 0; std::getline(rows, row); ++i)
+  {
+    row.resize(row.find(',', row.find(',', row.find(',') + 1) + 1));
+    whole += row + (i % 5 == 0 ? ",5\n" : ",2\n");
+    part += i % 5 == 0 ? "" : row + ",2\n";
+  }
+  this->write("idol.csv", part);
+  this->succeed({ "feel", "idol.csv", "--path", apptest::kIdolPath, "--record", "rec.csv", "-o", "out.csv" });
+  this->write("idol.csv", whole);
+  std::string recording = this->read("rec.csv");
+  const std::string settings = "# settings: {";
+  recording.insert(recording.find(settings) + settings.size(), "\"hide\":\"classification=5\",");
+  this->write("rec.csv", recording);
+  this->succeed({ "feel", "--replay", "rec.csv", "-o", "again.csv" });
+  EXPECT_TRUE(felt(this->read("again.csv")) == felt(recording));
+  this->succeed({ "view", "--replay", "rec.csv", "--trace", "trace.csv" });
+  EXPECT_TRUE(felt(this->read("trace.csv")) == felt(recording));
+  this->refuse(1, { "view", "idol.csv", "--hide", "bogus=3", "--screenshot", "bogus.png" },
+    { "--hide bogus", "Classification", "height" });
+}
+
 TEST_F(RecordingCommands, AMeshIsFeltAgainByItsVerticesOrBySamples)
 {
   this->succeed({ "generate", "idol", "-n", "20000", "-o", "idol.csv" });

@@ -52,11 +52,15 @@ TEST_F(HiddenPoints, NeitherDrawsNorFeelsHiddenValues)
   options_.colorBy = "Clay";
   options_.up = "z";
   const auto all = drawn();
-  options_.picture.hidden = { { "Height", 1.0, INFINITY } }; // the upper half
+  options_.picture.hidden = { { "height", 1.0, INFINITY } }; // the upper half
   const auto half = drawn();
   EXPECT_NEAR(half.second, 0.5 * all.second, 0.001 * kPoints);
   EXPECT_LT(half.first, 0.7 * all.first) << "of " << all.first << " pixels";
   EXPECT_GT(half.first, 0.2 * all.first);
+  options_.picture.hidden = { { "Density", 1.0, INFINITY } }; // no file has it
+  HapticViewer viewer(options_, observer_);
+  EXPECT_FALSE(viewer.open(makeSphere()));
+  EXPECT_NE(viewer.message().find("Density"), std::string::npos) << viewer.message();
 }
 
 TEST_F(HiddenPoints, ClipsACloudInDegreesByABoxInDegrees)

@@ -50,6 +50,9 @@ bool openRecording(const std::string& fileName, const std::string& cloudFile, Fi
   request.columns = reading.columns;
   request.salvage = reading.salvage;
   request.vertices = reading.vertices;
+  std::string wrong;
+  request.hidden = hiddenIn(reading.hide, wrong);
+  request.up = reading.up;
   for (std::string& file : request.files)
   {
     file = files.input(file);
@@ -69,7 +72,7 @@ bool openRecording(const std::string& fileName, const std::string& cloudFile, Fi
     {
       return false;
     }
-    cloud = clippedCloud(loaded.cloud, clipBox(reading.clip, loaded.cloud));
+    cloud = shownPart(loaded.cloud, reading.clip, loaded.showing.hidden);
     const bool isRight = isOf(recording, cloud, problem);
     problem.insert(0, isRight ? "" : request.files.front() + ": ");
     return isRight;

@@ -165,6 +165,8 @@ RecordedReading recordedReading(const std::string& settings)
   {
     reading.clip.clear();
   }
+  reading.hide = text("hide");
+  reading.up = keys.contains("up") ? text("up") : reading.up;
   const std::string columns = text("columns");
   reading.columns = columns.empty() ? std::vector<std::string>() : CLI::detail::split(columns, ',');
   reading.salvage = text("salvage") == "true";

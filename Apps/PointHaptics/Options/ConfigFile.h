@@ -25,6 +25,8 @@ void applyConfigFile(CLI::App& command, const std::string& fileName, const std::
 struct RecordedReading
 {
   std::vector<double> clip;
+  std::string hide; ///< As --hide takes it.
+  std::string up = "auto";
   std::vector<std::string> columns;
   bool salvage = false;
   bool vertices = false;

@@ -96,7 +96,8 @@ void refuseRecorded(const CLI::App& command, const std::vector<std::string>& giv
 {
   static const std::set<std::string> decided = { kTouchGroup, kLatticeGroup, kBandwidthGroup, "path",
     "path-unit", "path-time-unit", "record", "marker-text", "marker-socket", "device", "seconds", "max-force",
-    "falcon-firmware", "rate", "fit", "raw", "no-covariance", "clip", "vertices", "columns", "salvage" };
+    "falcon-firmware", "rate", "fit", "raw", "no-covariance", "clip", "hide", "vertices", "columns",
+    "salvage" };
   for (const std::string& name : given)
   {
     const bool isDecided =

@@ -12,8 +12,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <optional>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -46,16 +44,11 @@ void addPictureOptions(CLI::App& command, PictureSettings& picture)
   addNumbers(command, "--color-range", picture.colorRange, { 2 }, checkRange, "LOW,HIGH", "")->group(group);
   const auto hide = [&picture](const std::string& text)
   {
-    picture.hidden.clear();
-    std::istringstream words(text);
-    for (std::string word; std::getline(words, word, ',');)
+    std::string wrong;
+    picture.hidden = hiddenIn(text, wrong);
+    if (!wrong.empty())
     {
-      const std::optional<HiddenValues> hidden = hiddenValuesOf(word);
-      if (!hidden)
-      {
-        throwUsage("--hide", word, "no values; give ARRAY=VALUE or ARRAY=LOW:HIGH, such as Classification=7");
-      }
-      picture.hidden.push_back(*hidden);
+      throwUsage("--hide", wrong, "no values; give ARRAY=VALUE or ARRAY=LOW:HIGH, such as Classification=7");
     }
   };
   command.add_option_function<std::string>("--hide", hide, "")->type_name("ARRAY=VALUE,...")->group(group);

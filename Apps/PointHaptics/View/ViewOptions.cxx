@@ -289,6 +289,9 @@ void ViewOptions::takeRecording()
   }
   RecordedReading reading = recordedReading(recording.header.settings);
   this->viewer.clip = std::move(reading.clip);
+  std::string wrong;
+  this->viewer.picture.hidden = hiddenIn(reading.hide, wrong);
+  this->viewer.up = this->viewer.up == "auto" ? reading.up : this->viewer.up;
   this->viewer.columns = std::move(reading.columns);
   this->viewer.salvage = reading.salvage;
   this->viewer.vertices = reading.vertices;
@@ -368,7 +371,7 @@ void ViewOptions::completeViewer(CLI::App& command)
   options.falcon = this->falcon.settings();
   options.showsReading = this->needsWindow();
   options.names = { "--color-by", "--clip", "--felt", kFirmwareOption, "--workspace, --scale and --translate",
-    unitOptions() };
+    unitOptions(), "--hide" };
 }
 
 void ViewOptions::declareMore(Files& taken) const

@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <sstream>
 #include <utility>
 
 namespace pointhaptics
@@ -112,6 +113,18 @@ std::optional<HiddenValues> hiddenValuesOf(const std::string& text)
   hidden.high = colon == std::string::npos ? hidden.low : numberOf(values.substr(colon + 1), INFINITY);
   const bool isWhole = !hidden.array.empty() && values.find_first_not_of(':') != std::string::npos;
   return isWhole && hidden.low <= hidden.high ? std::optional(hidden) : std::nullopt;
+}
+
+std::vector<HiddenValues> hiddenIn(const std::string& list, std::string& wrong)
+{
+  std::vector<HiddenValues> all;
+  std::istringstream words(list);
+  for (std::string word; std::getline(words, word, ',');)
+  {
+    const std::optional<HiddenValues> hidden = hiddenValuesOf(word);
+    hidden ? all.push_back(*hidden) : void(wrong = wrong.empty() ? word : wrong);
+  }
+  return all;
 }
 
 std::string textOf(const HiddenValues& hidden)

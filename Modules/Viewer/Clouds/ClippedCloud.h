@@ -36,12 +36,14 @@ vtkSmartPointer<vtkPolyData> partOfCloud(
 std::function<bool(vtkIdType)> notHidden(vtkPolyData* cloud, const std::vector<HiddenValues>& hidden);
 
 /// The points of @p cloud that are shown and felt: in the box of @p clip, and not @p hidden.
-vtkSmartPointer<vtkPolyData> shownPart(
+POINTHAPTICSVIEWER_EXPORT vtkSmartPointer<vtkPolyData> shownPart(
   vtkPolyData* cloud, const std::vector<double>& clip, const std::vector<HiddenValues>& hidden);
 
 /// "ARRAY=VALUE" or "ARRAY=LOW:HIGH", either of which may be missing, and back. Nothing: @p text is none of
 /// these.
 POINTHAPTICSVIEWER_EXPORT std::optional<HiddenValues> hiddenValuesOf(const std::string& text);
+/// Those of a list with commas; @p wrong: the first word that is none.
+POINTHAPTICSVIEWER_EXPORT std::vector<HiddenValues> hiddenIn(const std::string& list, std::string& wrong);
 POINTHAPTICSVIEWER_EXPORT std::string textOf(const HiddenValues& hidden);
 
 /// The points of @p cloud in @p box, the faces included, with all arrays, in their order; @p cloud itself

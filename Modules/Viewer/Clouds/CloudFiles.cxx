@@ -2,6 +2,7 @@
 
 #include "ClippedCloud.h"
 #include "CloudAppearance.h"
+#include "Core/Base/Host/OutOfMemory.h"
 #include "HapticViewerOptions.h"
 #include "IO/Info/LengthUnit.h"
 #include "MergedCloud.h"
@@ -19,6 +20,7 @@
 #include <vtkUnsignedShortArray.h>
 
 #include <algorithm>
+#include <exception>
 
 namespace pointhaptics
 {
@@ -158,22 +160,27 @@ std::string titleOf(const std::vector<std::string>& files)
   return names;
 }
 
-std::string writePart(
-  const CloudRequest& request, const Vec3& up, const Bounds& near, const std::string& fileName)
+bool writePart(const CloudRequest& request, const Vec3& up, const Bounds& near, const std::string& fileName,
+  std::string& message)
+try
 {
   Findings findings;
-  std::string message;
   const auto cloud = readFiles(
     request, [](double) { return true; }, findings, message);
   if (!cloud)
   {
-    return message;
+    return false;
   }
   const vtkSmartPointer<vtkPolyData> local = inLocalMetres(cloud);
   auto measured = vtkSmartPointer<vtkPolyData>::New();
   measured->ShallowCopy(local);
   addHeightArray(measured, up, near);
-  const auto isShown = notHidden(measured, request.options->picture.hidden);
+  std::vector<HiddenValues> hidden = request.hidden;
+  if (!completeHidden(measured, request.hiddenName, hidden, message))
+  {
+    return false;
+  }
+  const auto isShown = notHidden(measured, hidden);
   const std::optional<Bounds> box = clipBox(request.options->clip, local);
   const auto part = partOfCloud(cloud,
     [&](vtkIdType i, const Vec3&)
@@ -189,9 +196,17 @@ std::string writePart(
   writer->SetFileName(fileName.c_str());
   writer->KeepDoublesOn();
   writer->SetInputData(part);
-  return writer->Write() ? fmt::format("saved: {}, {} of {} points", fileName, part->GetNumberOfPoints(),
-                             cloud->GetNumberOfPoints())
-                         : writer->GetErrorMessage();
+  const bool isWritten = writer->Write() != 0;
+  message = isWritten ? fmt::format("saved: {}, {} of {} points", fileName, part->GetNumberOfPoints(),
+                          cloud->GetNumberOfPoints())
+                      : writer->GetErrorMessage();
+  return isWritten;
+}
+catch (const std::exception& fault)
+{
+  message =
+    fileName + ": " + (isOutOfMemory(fault) ? pointhaptics::message(Status::OutOfMemory) : fault.what());
+  return false;
 }
 
 } // namespace pointhaptics

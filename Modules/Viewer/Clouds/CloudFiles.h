@@ -24,8 +24,8 @@ vtkSmartPointer<vtkPolyData> readFiles(const CloudRequest& request, const std::f
 
 /// Reads the files of @p request again and writes what its options clip and hide to @p fileName, with all
 /// arrays, in their coordinates. @p up and @p near, as addHeightArray() takes them, are for heights that
-/// hide. @return what was written, or why it was not. Any thread.
-std::string writePart(
-  const CloudRequest& request, const Vec3& up, const Bounds& near, const std::string& fileName);
+/// hide. False: @p message says why nothing was written; else what was. Any thread; nothing is thrown.
+bool writePart(const CloudRequest& request, const Vec3& up, const Bounds& near, const std::string& fileName,
+  std::string& message);
 
 } // namespace pointhaptics

@@ -160,6 +160,21 @@ std::string withComponents(vtkPolyData* cloud, vtkDataArray* array)
   return array->GetName() + (text.empty() ? text : " (" + text + ")");
 }
 
+/// " Intensity, Velocity (:x, :y, :z, :magnitude)," for messages.
+std::string arraysOf(vtkPolyData* cloud)
+{
+  std::string text;
+  vtkPointData* data = cloud->GetPointData();
+  for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+  {
+    if (vtkDataArray* each = data->GetArray(i); each && each->GetName())
+    {
+      text += fmt::format(" {},", withComponents(cloud, each));
+    }
+  }
+  return text;
+}
+
 /// False: @p message names the arrays and components there are.
 bool canColorBy(vtkPolyData* cloud, const std::string& option, const std::string& name, std::string& message)
 {
@@ -167,21 +182,13 @@ bool canColorBy(vtkPolyData* cloud, const std::string& option, const std::string
   {
     return true;
   }
-  vtkPointData* data = cloud->GetPointData();
   if (vtkDataArray* array = arrayWithComponents(cloud, name))
   {
     message = fmt::format(
       "{} {}: the array has no such component; give one of {}", option, name, withComponents(cloud, array));
     return false;
   }
-  message = fmt::format("{} {}: the cloud has no such array; it has", option, name);
-  for (int i = 0; i < data->GetNumberOfArrays(); ++i)
-  {
-    if (vtkDataArray* each = data->GetArray(i); each && each->GetName())
-    {
-      message += fmt::format(" {},", withComponents(cloud, each));
-    }
-  }
+  message = fmt::format("{} {}: the cloud has no such array; it has", option, name) + arraysOf(cloud);
   message += hasColors(cloud) ? " rgb," : "";
   for (const char* made : kMadeByPipeline)
   {
@@ -189,6 +196,12 @@ bool canColorBy(vtkPolyData* cloud, const std::string& option, const std::string
   }
   message.pop_back();
   return false;
+}
+
+bool hidesByHeight(const std::vector<HiddenValues>& hidden)
+{
+  return std::any_of(
+    hidden.begin(), hidden.end(), [](const HiddenValues& each) { return each.array == kHeightArrayName; });
 }
 
 /// Request for a cloud of which no coarse level was shown before.
@@ -249,6 +262,27 @@ bool show(
 
 } // namespace
 
+bool completeHidden(
+  vtkPolyData* cloud, const std::string& option, std::vector<HiddenValues>& hidden, std::string& message)
+{
+  for (HiddenValues& each : hidden)
+  {
+    if (!completeName(cloud, option, each.array, message))
+    {
+      return false;
+    }
+    if (each.array != kHeightArrayName && !findColorSource(cloud, each.array))
+    {
+      const std::string made = cloud->GetPointData()->HasArray(kHeightArrayName) ? "" : " height,";
+      message = fmt::format("{} {}: the cloud has no such array to hide by; it has{}", option, each.array,
+        arraysOf(cloud) + made);
+      message.pop_back();
+      return false;
+    }
+  }
+  return true;
+}
+
 CloudRequest CloudRequest::of(const std::vector<std::string>& files, const HapticViewerOptions& options)
 {
   CloudRequest request;
@@ -259,6 +293,8 @@ CloudRequest CloudRequest::of(const std::vector<std::string>& files, const Hapti
   request.vertices = options.vertices;
   request.colorBy = options.colorBy;
   request.colorByName = options.names.colorBy;
+  request.hidden = options.picture.hidden;
+  request.hiddenName = options.names.hidden;
   request.up = options.up;
   request.transform = options.transform;
   request.options = std::make_shared<const HapticViewerOptions>(options);
@@ -390,18 +426,20 @@ bool loadCloud(const CloudRequest& request, const std::function<bool(double)>& g
     return false;
   }
   result.colorBy = request.colorBy;
+  std::vector<HiddenValues> hidden = request.hidden;
   if (!completeName(result.cloud, request.colorByName, result.colorBy, message) ||
-    !canColorBy(result.cloud, request.colorByName, result.colorBy, message))
+    !canColorBy(result.cloud, request.colorByName, result.colorBy, message) ||
+    !completeHidden(result.cloud, request.hiddenName, hidden, message))
   {
     return false;
   }
   const vtkSmartPointer<vtkPolyData> drawn = drawnPoints(request, result);
   result.showing = request.before ? *request.before : showingOf(request, drawn, findings.format);
   result.showing.keptArray = result.colorBy;
-  result.showing.hidden = request.options ? request.options->picture.hidden : std::vector<HiddenValues>();
+  result.showing.hidden = std::move(hidden);
   result.showing.ignoresIntensity = findings.hasSamples;
   result.orientation = result.showing.orientation;
-  if (!hasColors(result.cloud) || !request.colorBy.empty())
+  if (!hasColors(result.cloud) || !request.colorBy.empty() || hidesByHeight(result.showing.hidden))
   {
     result.heightZero = addHeightArray(result.cloud, result.orientation.up, result.near);
     if (drawn != result.cloud)

@@ -43,6 +43,8 @@ struct POINTHAPTICSVIEWER_EXPORT CloudRequest
   std::string title;                   ///< Title of the points; files have their names.
   std::string colorBy; ///< An argument of findColorSource(), rgb, or empty; case does not matter.
   std::string colorByName = "colorBy"; ///< Name of that setting in messages.
+  std::vector<HiddenValues> hidden;    ///< Values whose points are not felt; case does not matter either.
+  std::string hiddenName = "hidden";   ///< Name of that setting in messages.
   std::string up = "auto";             ///< auto or an axis.
   AffineTransform transform;           ///< Transform of the cloud, for its bounds.
   /// Options of the resampling, with colorBy, up and transform as above. Null: the cloud is only read.
@@ -132,6 +134,11 @@ std::string colorWord(const std::string& name);
 
 /// The first of @p notes, and how many there are besides; empty where there is none.
 std::string shortNote(const std::vector<std::string>& notes);
+
+/// Writes the arrays of @p hidden as @p cloud has them, in any case; heights need not be there. False: @p
+/// message names the array there is not, or of which there are several; @p option is the setting's name.
+bool completeHidden(
+  vtkPolyData* cloud, const std::string& option, std::vector<HiddenValues>& hidden, std::string& message);
 
 /// Reads the files into one cloud, which has every array of each (io::mergeClouds()), and resamples it.
 /// @p goesOn is asked with the part of the work that is done, 0 to 1, which ascends; as soon as it answers

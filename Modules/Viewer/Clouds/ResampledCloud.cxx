@@ -82,7 +82,7 @@ public:
     vtkNew<vtkMatrixToLinearTransform> transform;
     transform->SetInput(model);
     vtkNew<vtkPolyData> cloud; // the object itself belongs to the one that takes it
-    loaded.felt = shownPart(loaded.cloud, request.options->clip, request.options->picture.hidden);
+    loaded.felt = shownPart(loaded.cloud, request.options->clip, loaded.showing.hidden);
     cloud->ShallowCopy(loaded.felt);
     resampler_->SetInputData(cloud);
     resampler_->SetTransform(transform);

@@ -272,18 +272,24 @@ void PictureControls::hide(std::vector<HiddenValues> hidden)
 
 void PictureControls::toggleLabel(double label)
 {
-  std::vector<HiddenValues> hidden = options_.picture.hidden;
   const HiddenValues values{ scene_.colorArray(), label, label };
-  const auto found = std::find(hidden.begin(), hidden.end(), values);
-  const bool hides = found == hidden.end();
-  if (hides)
+  std::vector<HiddenValues> hidden;
+  bool hides = true;
+  for (const HiddenValues& each : options_.picture.hidden)
   {
-    hidden.push_back(values);
+    if (each.array != values.array || label < each.low || label > each.high)
+    {
+      hidden.push_back(each);
+      continue;
+    }
+    hides = false; // labels are whole numbers: the others of the range stay hidden
+    for (const HiddenValues& rest :
+      { HiddenValues{ each.array, each.low, label - 1.0 }, { each.array, label + 1.0, each.high } })
+    {
+      rest.low <= rest.high ? hidden.push_back(rest) : void();
+    }
   }
-  else
-  {
-    hidden.erase(found);
-  }
+  hides ? hidden.push_back(values) : void();
   this->hide(std::move(hidden));
   say_((hides ? "hidden: " : "shown: ") + textOf(values));
 }
@@ -303,6 +309,12 @@ void PictureControls::toggleOutside()
   }
   const std::array<double, 2> range = scene_.shownColorRange();
   const std::string array = scene_.colorArray();
+  if (!scene_.canHideBy(array))
+  {
+    say_(
+      array + " is computed for the picture and hides nothing; colour by heights or by numbers of the file");
+    return;
+  }
   this->hide({ { array, -INFINITY, std::nextafter(range[0], -INFINITY) },
     { array, std::nextafter(range[1], INFINITY), INFINITY } });
   say_(fmt::format("hidden: {} outside of {:.4g} to {:.4g}", array, range[0], range[1]));
@@ -313,9 +325,16 @@ void PictureControls::showAlone(std::size_t file)
   const std::vector<std::string> names = scene_.fileNames();
   const bool isOne = file < names.size();
   const double number = double(file);
-  this->hide(isOne ? std::vector<HiddenValues>{ { kFileArrayName, -INFINITY, number - 1.0 },
-                       { kFileArrayName, number + 1.0, INFINITY } }
-                   : std::vector<HiddenValues>());
+  std::vector<HiddenValues> hidden = options_.picture.hidden;
+  hidden.erase(std::remove_if(hidden.begin(), hidden.end(),
+                 [](const HiddenValues& each) { return each.array == kFileArrayName; }),
+    hidden.end());
+  if (isOne)
+  {
+    hidden.push_back({ kFileArrayName, -INFINITY, number - 1.0 });
+    hidden.push_back({ kFileArrayName, number + 1.0, INFINITY });
+  }
+  this->hide(std::move(hidden));
   say_(isOne ? fmt::format("file {} of {}, alone: {}", file + 1, names.size(), names[file]) : "all files");
 }
 

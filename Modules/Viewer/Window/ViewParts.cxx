@@ -48,14 +48,19 @@ void ViewWindow::savePart()
   const std::string name = freeFileName(isWritable ? first.c_str() + dot + 1 : "ply", savedParts_);
   saving_ = std::async(std::launch::async,
     [request = CloudRequest::of(shown_, options_), up = scene_.cloudUp(), bounds = scene_.cloudBounds(), name]
-    { return writePart(request, up, bounds, name); });
+    {
+      std::string message;
+      const bool isWritten = writePart(request, up, bounds, name, message);
+      return std::make_pair(isWritten, message);
+    });
 }
 
 void ViewWindow::followSaving()
 {
   if (saving_.valid() && saving_.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
   {
-    this->say(saving_.get());
+    const auto [isWritten, message] = saving_.get();
+    isWritten ? this->say(message) : this->tell(message);
   }
 }
 
@@ -118,9 +123,9 @@ void ViewWindow::turnUp()
   const std::string present = axisName(scene_.cloudUp());
   const auto* found = std::find(std::begin(kAxes), std::end(kAxes), present);
   const std::string next = kAxes[(found - std::begin(kAxes) + 1) % std::size(kAxes)];
-  if (shown_.empty())
+  if (shown_.empty() || loader_.busy())
   {
-    this->say("the points are of no file");
+    this->say(shown_.empty() ? "the points are of no file" : "a file is being read; turn it after that");
     return;
   }
   ups_[shown_.front()] = next;
@@ -131,15 +136,15 @@ void ViewWindow::turnUp()
   this->load(shown_, Load::New, [this, next](bool isShown) { isShown ? this->say("up: " + next) : void(); });
 }
 
-/// The axis that points up in @p file, where a person has chosen it; else that of the options.
+/// The axis that points up in @p file: as it was turned here; else that of the options, else as it was kept.
 std::string ViewWindow::upOf(const std::string& file)
 {
-  if (ups_.count(file) == 0 && observer_.upOf)
+  if (askedUp_ == "auto" && ups_.count(file) == 0 && observer_.upOf)
   {
     ups_[file] = observer_.upOf(file);
   }
   const auto found = ups_.find(file);
-  return found == ups_.end() || found->second.empty() || askedUp_ != "auto" ? askedUp_ : found->second;
+  return found == ups_.end() || found->second.empty() ? askedUp_ : found->second;
 }
 
 } // namespace pointhaptics

@@ -486,6 +486,7 @@ ContactParameters ViewWindow::contactOf(const ServoSample& sample) const
 
 bool ViewWindow::start(std::size_t cloud, const std::string& news, std::string& message)
 {
+  options_.picture.hidden = scene_.picture().hidden; // as the arrays are written
   if (!options_.trace.empty() && !trace_.open(options_.trace, traceColumns(), message, true))
   {
     return false;

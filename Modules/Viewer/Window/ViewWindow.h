@@ -46,6 +46,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace pointhaptics
@@ -240,8 +241,8 @@ private:
   bool recordingWaits_ = false; ///< The user was told that the recording waits.
   int screenshots_ = 0;
   int savedParts_ = 0;
-  std::future<std::string> saving_; ///< What it will say.
-  bool chartBesideFigure_ = true;   ///< Restores the chart when the figure goes.
+  std::future<std::pair<bool, std::string>> saving_; ///< Success, and what it will say.
+  bool chartBesideFigure_ = true;                    ///< Restores the chart when the figure goes.
   bool clipBoxBesideFigure_ = false;
   LengthUnit firstUnit_;      ///< Unit of the file before the user took another; no name: none was taken.
   std::string news_;          // last line of the status

@@ -255,6 +255,10 @@ void ViewWindow::show(LoadedCloud cloud)
   this->followOptions();
   scene_.placeAxes(style_->GetModelTransform()->GetMatrix());
   scene_.setPicture(options_.picture); // as it is by now
+  if (options_.picture.hidden != loading_.options.picture.hidden)
+  {
+    this->clipFelt();
+  }
   if (!keepsModel)
   {
     options_.camera.clear(); // it was for the first cloud
@@ -264,6 +268,7 @@ void ViewWindow::show(LoadedCloud cloud)
   this->showSliderValues();
   style_->GetScenes().poll(); // what is near the hand, before the picture
   this->findIdeal();
+  this->followProfile();
 }
 
 /// Applies the options that keys changed while the cloud was read.
@@ -476,6 +481,7 @@ void ViewWindow::clipFelt()
   }
   scene_.clipFelt();
   style_->InvalidateModel();
+  this->followProfile();
 }
 
 /// Shows the next of the choices to colour by.

@@ -1002,6 +1002,15 @@ KeyF7TurnsAnotherAxisUpAndKeepsIt() {
   has_keys
   write_settings
   [[ "$(setting up "$settings")" == "$up" ]] || fail "the axis was not kept"
+  key q
+  ends_with 0 "key Q"
+  start_viewer cloud.ply --device none --up "$(tr -d '"' <<<"${up#*:}")"
+  shows cloud.ply
+  has_keys
+  key F7
+  said "up: "
+  write_settings
+  [[ "$(setting up "$settings")" != "$up" ]] || fail "the key did not turn what --up asked for"
 }
 
 KeyF10HidesWhatIsOutsideOfTheColors() {
@@ -1013,6 +1022,11 @@ KeyF10HidesWhatIsOutsideOfTheColors() {
   grep -q '"hide": "Height=:0.0' "$settings" || fail "the settings do not have what is hidden"
   key F10
   said "nothing is hidden"
+  key q
+  ends_with 0 "key Q"
+  open_viewer cloud.ply --device none --color-by ProxyRadius
+  key F10
+  said "ProxyRadius is computed for the picture and hides nothing"
 }
 
 KeyF12SavesThePartThatIsShown() {
@@ -1026,7 +1040,7 @@ KeyF12SavesThePartThatIsShown() {
 KeyNShowsFilesAlone() {
   make sphere first.ply
   make plane second.ply
-  start_viewer first.ply second.ply --together --color-by File --device none
+  start_viewer first.ply second.ply --together --color-by File --hide height=:0 --device none
   shows first.ply
   has_keys
   key n
@@ -1037,5 +1051,5 @@ KeyNShowsFilesAlone() {
   said "all files"
   key b
   write_settings
-  grep -q '"hide": "File=:0,File=2:"' "$settings" || fail "the second file is not alone"
+  grep -q '"hide": "Height=:0,File=:0,File=2:"' "$settings" || fail "the second file is not alone"
 }
