@@ -75,7 +75,7 @@ class Threads(TestCase):
             ("write", lambda: [ph.write(self.path("cloud.csv"), points) for _ in range(2)]),
             ("read", lambda: ph.read(self.path("cloud.csv"))),
             ("vtkKernelBandwidthFilter", estimator.Update),
-            ("vtkPointCloudReader", reader.Update),
+            ("vtkPointCloudReader", lambda: [(reader.Modified(), reader.Update()) for _ in range(30)]),  # 10 ms each
         ):
             with self.subTest(title):
                 turns, ends = [], threading.Event()
