@@ -17,7 +17,7 @@ using namespace pointhaptics::trial;
 namespace
 {
 
-constexpr std::size_t kPoints = 8000;
+constexpr std::size_t kAddedPoints = 8000;
 
 AffineTransform turned()
 {
@@ -28,10 +28,10 @@ struct Case
 {
   explicit Case(const Lattice& of)
     : lattice(of)
-    , points(quantisedPoints(kPoints, 3, of))
+    , points(quantisedPoints(kAddedPoints, 3, of))
   {
     points[5].z = NAN;
-    expected = runOf(request(0, kPoints));
+    expected = runOf(request(0, kAddedPoints));
   }
   PointView view(std::size_t first, std::size_t last) const
   {
@@ -85,16 +85,16 @@ TEST(VoxelAccumulator, GivesWhatOneRunGivesHoweverThePointsAreSplit)
   for (const Lattice& lattice : lattices())
   {
     const Case all(lattice);
-    VoxelAccumulator whole = all.of(0, kPoints);
+    VoxelAccumulator whole = all.of(0, kAddedPoints);
     expectFinishes(whole, all, "at once");
     VoxelAccumulator parts(lattice, true);
     for (const std::size_t part : randomOrder(100, 4))
     {
-      ASSERT_EQ(parts.add(all.view(kPoints * part / 100, kPoints * (part + 1) / 100), turned(),
+      ASSERT_EQ(parts.add(all.view(kAddedPoints * part / 100, kAddedPoints * (part + 1) / 100), turned(),
                   ThreadedExecutor(int(part % 3) + 1)),
         Status::Ok);
     }
-    EXPECT_EQ(parts.points(), std::int64_t(kPoints));
+    EXPECT_EQ(parts.points(), std::int64_t(kAddedPoints));
     for (const InstructionSet set : heldInstructionSets())
     {
       expectFinishes(parts, all, "in parts, instruction set", set, ThreadedExecutor(2));
@@ -109,7 +109,7 @@ TEST(VoxelAccumulator, MergesInAnyOrder)
     const Case all(lattice);
     VoxelAccumulator a = all.of(0, 1000);
     VoxelAccumulator b = all.of(1000, 7000);
-    VoxelAccumulator c = all.of(7000, kPoints);
+    VoxelAccumulator c = all.of(7000, kAddedPoints);
     ASSERT_EQ(b.merge(a), Status::Ok);
     ASSERT_EQ(c.merge(b), Status::Ok);
     expectFinishes(c, all, "merged");
@@ -117,7 +117,7 @@ TEST(VoxelAccumulator, MergesInAnyOrder)
     ASSERT_EQ(d.merge(c), Status::Ok);
     expectFinishes(d, all, "merged into none");
     VoxelAccumulator e = all.of(0, 1000);
-    VoxelAccumulator f = all.of(1000, kPoints);
+    VoxelAccumulator f = all.of(1000, kAddedPoints);
     ASSERT_EQ(e.merge(std::move(f)), Status::Ok);
     expectFinishes(e, all, "merged with what is no longer needed");
     EXPECT_EQ(f.points(), 0);
@@ -136,9 +136,9 @@ TEST(VoxelAccumulator, AWindowOfFramesIsThatOfItsFrames)
     VoxelAccumulator sums = all.of(0, 4000);
     ASSERT_EQ(sums.subtract(old, turned()), Status::Ok) << "before it is added";
     ASSERT_EQ(sums.add(old, turned()), Status::Ok);
-    ASSERT_EQ(sums.add(all.view(4000, kPoints), turned()), Status::Ok);
+    ASSERT_EQ(sums.add(all.view(4000, kAddedPoints), turned()), Status::Ok);
     expectFinishes(sums, all, "a frame that came and went");
-    ASSERT_EQ(sums.subtract(all.view(0, kPoints), turned()), Status::Ok);
+    ASSERT_EQ(sums.subtract(all.view(0, kAddedPoints), turned()), Status::Ok);
     VoxelResampler result;
     ASSERT_EQ(sums.finish({}, result), Status::Ok);
     EXPECT_EQ(result.size(), 0);
@@ -159,7 +159,7 @@ TEST(VoxelAccumulator, SubtractingWhatIsNotThereIsAnError)
 TEST(VoxelAccumulator, RefusesOtherLatticesAndMoments)
 {
   const Case all(latticeOf(60, 50, 40));
-  VoxelAccumulator sums = all.of(0, kPoints);
+  VoxelAccumulator sums = all.of(0, kAddedPoints);
   EXPECT_EQ(sums.merge(VoxelAccumulator(latticeOf(60, 50, 41), true)), Status::InvalidParameter);
   EXPECT_EQ(sums.merge(VoxelAccumulator(all.lattice, false)), Status::InvalidParameter);
   AffineTransform singular;
@@ -174,7 +174,7 @@ TEST(VoxelAccumulator, ComesBackFromBytes)
   {
     const Case all(lattice);
     VoxelAccumulator a = all.of(0, 3000);
-    VoxelAccumulator b = all.of(3000, kPoints);
+    VoxelAccumulator b = all.of(3000, kAddedPoints);
     VoxelAccumulator read(latticeOf(1, 1, 1));
     ASSERT_EQ(VoxelAccumulator::deserialize(a.serialize(), read), Status::Ok);
     ASSERT_EQ(read.merge(b), Status::Ok);
