@@ -173,7 +173,7 @@ std::string lowerCase(std::string text)
   return text;
 }
 
-/// What is the same of warnings that count together. Names in quotes that differ in a number are others.
+/// Text by which warnings are counted: two that differ only in a number outside quotation marks are one.
 std::string withoutNumbers(const std::string& text)
 {
   std::string result;

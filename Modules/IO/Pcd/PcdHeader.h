@@ -33,7 +33,7 @@ struct PcdField
   bool isPadding() const { return name == "_"; }
   /// "rgb" or "rgba" of 4 bytes: three or four bytes packed into one number.
   bool isPackedColor() const;
-  /// What is made of it, unless it is padding.
+  /// Name, type and components of the array that the field becomes. Padding becomes none.
   Column column() const;
 };
 

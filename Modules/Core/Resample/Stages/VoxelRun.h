@@ -130,8 +130,9 @@ struct VoxelRun
   /// nothing.
   static VoxelRun gathered(
     const std::vector<const VoxelRun*>& runs, const VoxelGroups& groups, bool& isRight);
-  /// Of several runs whose keys ascend from one to the next, or of some voxels of one.
+  /// Joins runs whose keys ascend from each to the next.
   static VoxelRun concatenated(const std::vector<const VoxelRun*>& runs);
+  /// The voxels from @p first to before @p last.
   VoxelRun part(std::size_t first, std::size_t last) const;
   std::size_t bytes() const;
 };
