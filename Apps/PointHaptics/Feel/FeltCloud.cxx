@@ -102,13 +102,14 @@ void FeelCommand::makeScenes(vtkPolyData* cloud, FeelScenes& scenes) const
   made.useCovariance = !this->noCovariance;
   // Where the user asked neither for other voxels nor for none.
   made.refineNearHand = !this->lattice.voxelsAreGiven && !this->raw && !this->noCovariance;
-  const vtkSmartPointer<vtkPolyData> felt = clippedCloud(cloud, clipBox(this->viewer.clip, cloud));
+  const auto clipped = [this, cloud] { return clippedCloud(cloud, clipBox(this->viewer.clip, cloud)); };
   if (!this->raw)
   {
     auto whole = resampledScene(*this, cloud, made.workspace);
-    scenes.adopt(std::move(whole), felt->GetPoints(), made);
+    scenes.adopt(std::move(whole), clipped()->GetPoints(), made); // after the memory of the resampling
     return;
   }
+  const vtkSmartPointer<vtkPolyData> felt = clipped();
   const vtkSmartPointer<vtkPolyData> prepared = rawPoints(*this, felt);
   requirePoints(prepared->GetNumberOfPoints() > 0, *this, cloud);
   made.workspace = this->lattice.workspace();

@@ -27,7 +27,7 @@ class Failure : public std::runtime_error
 public:
   using std::runtime_error::runtime_error;
 };
-/// Throws a Failure with @p message where something is not done, which has said why there.
+/// Throws a Failure unless @p isDone, whose call must not fill a text that @p message is a sum of.
 inline void require(bool isDone, const std::string& message)
 {
   if (!isDone)
