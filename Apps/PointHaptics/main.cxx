@@ -3,13 +3,17 @@
 #include "Terminal/Messages.h"
 #include "Terminal/StopSignals.h"
 
+#include "Core/Base/Host/OutOfMemory.h"
+
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <filesystem>
 #include <memory>
+#include <new>
 #include <string>
 #include <vector>
 
@@ -48,9 +52,18 @@ constexpr NamedCommand kCommands[] = {
     nullptr },
 };
 
+/// Address space that the libraries of the view are loaded in at least: what VTK's and TBB's first objects
+/// throw while they are loaded ends the process.
+constexpr std::size_t kRoomOfView = std::size_t(128) << 20;
+
 /// The command that the library of the view makes: loading VTK's rendering takes 20 ms.
+/// @throws std::bad_alloc where there is no room for it.
 Command* fromLibrary(const std::string& name)
 {
+  if (!pointhaptics::hasAddressSpace(kRoomOfView))
+  {
+    throw std::bad_alloc();
+  }
   void* const library = dlopen(POINTHAPTICS_VIEW_LIBRARY, RTLD_LAZY);
   void* const make = library ? dlsym(library, (name + "Command").c_str()) : nullptr;
   const char* const problem = make ? nullptr : dlerror();
