@@ -215,6 +215,16 @@ struct KeepFindings
   }
 };
 
+/// Files of other programs have names in Latin-1, which no host could show and no VTP file hold.
+void useUtf8Names(vtkFieldData* data)
+{
+  for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+  {
+    vtkAbstractArray* array = data->GetAbstractArray(i);
+    array->GetName() ? array->SetName(io::utf8Name(array->GetName()).c_str()) : void();
+  }
+}
+
 } // namespace
 
 vtkPointCloudReader::vtkPointCloudReader()
@@ -391,6 +401,8 @@ void vtkPointCloudReader::Finish(io::ReadTask& task, vtkPolyData* cloud)
     keepRows(cloud, 0, static_cast<vtkIdType>(task.pointsThere));
   }
   checkCoordinates(cloud);
+  useUtf8Names(cloud->GetPointData());
+  useUtf8Names(cloud->GetFieldData());
   cloud->GetFieldData()->RemoveArray(pointhaptics::kLocalFrame); // of another cloud that a file was made of
   this->FinishFaces(task, cloud);
   io::finishSplats(task, cloud);

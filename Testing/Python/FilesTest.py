@@ -231,6 +231,38 @@ class WholeClouds(TestCase):
         self.assert_raises(ValueError, "extension", ph.write, io.BytesIO(), points)
         self.assert_raises(ValueError, "<file object>", ph.read, io.BytesIO(b"no points"))
 
+    def test_names_of_files_may_be_no_utf8(self):
+        points = sphere(5)
+        for extension in ("ply", "vtp", "csv"):
+            name = os.fsdecode(os.path.join(os.fsencode(self.folder), b"h\xf6\xff." + extension.encode()))
+            ph.write(name, points)
+            self.assert_same_bits(ph.read(name)[0], points)
+            self.assertEqual(ph.info(name)["file"], name)
+            os.remove(name)
+            with self.assertRaises(FileNotFoundError) as caught:
+                ph.read(name)
+            self.assertEqual(caught.exception.filename, name)
+        damaged = os.fsdecode(os.path.join(os.fsencode(self.folder), b"\xff.ply"))
+        with open(damaged, "wb") as file:
+            file.write(b"ply\nnonsense\n")
+        self.assert_raises(ValueError, "PLY", ph.read, damaged)
+        self.assert_raises(ValueError, "surrogates", ph.read, damaged, columns=["\ud800"])
+        self.assert_raises(ValueError, "extension", ph.write, self.path("a"), points, extension="\udcff")
+
+    def test_latin_names_of_columns_become_utf8(self):
+        for extension, text in (
+            ("csv", "x,y,z,h\xf6he\n1,2,3,4\n"),
+            ("ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
+                    "property float h\xf6he\nend_header\n1 2 3 4\n"),
+        ):  # fmt: skip
+            with open(self.path("latin." + extension), "wb") as file:
+                file.write(text.encode("latin-1"))
+            points, attributes = ph.read(self.path("latin." + extension))
+            self.assertEqual(list(attributes), ["h\xf6he"])
+            for other in ("vtp", "ply", "pcd", "csv"):
+                ph.write(self.path("again." + other), points, attributes)
+                self.assertEqual(list(ph.read(self.path("again." + other))[1]), ["h\xf6he"])
+
     def test_errors_of_the_system_have_errno_and_filename(self):
         nowhere = self.path("nowhere/a.ply")
         for kind, code, name, work in (
