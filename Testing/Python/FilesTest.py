@@ -215,6 +215,16 @@ class WholeClouds(TestCase):
         self.assert_same_bits(arrays["VoxelCovariance"], voxels.covariance)
         np.testing.assert_array_equal(arrays.fields["LatticeSpacing"].ravel(), voxels.spacing)
 
+    def test_fields_that_a_format_has_no_place_for_are_said(self):
+        for extension in ("ply", "pcd", "csv", "las"):
+            with self.assertWarnsRegex(RuntimeWarning, "field data Owner, Run are left out"):
+                ph.write(self.path("a." + extension), sphere(5), fields={"Owner": "a name", "Run": 7})
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            ph.write(self.path("a.vtp"), sphere(5), fields={"Owner": "a name", "Run": 7})
+            ph.write(self.path("a.ply"), ph.resample(sphere(50)))
+        self.assertEqual(ph.read(self.path("a.vtp"))[1].fields["Owner"], "a name")
+
     def test_file_objects(self):
         points = sphere(100)
         memory = io.BytesIO()

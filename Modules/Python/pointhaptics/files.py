@@ -185,7 +185,8 @@ def write(
     """Write a point cloud with its attributes: .vtp, .ply, .pcd, .las or .csv by extension.
 
     path: the name of a file, or a file object opened for bytes.
-    points: (n, 3), or what resample() returned, which has its arrays with it, counts and covariances among them.
+    points: (n, 3), or what resample() returned, which has its arrays with it, counts and covariances among them,
+        and in .vtp its lattice.
     attributes: name -> (n,) or (n, components). "RGB" (uint8) and "Normals" become the format's own; texts go into
         .vtp alone.
     fields: name -> array or text, of the whole cloud. Default: those of the attributes, where they come from read().
