@@ -469,6 +469,16 @@ std::string vtkPointCloudReader::ExtensionOf(const std::string& path) const
                                  : this->Extension;
 }
 
+/// A file that was stopped is read again by the next Update().
+vtkMTimeType vtkPointCloudReader::GetMTime()
+{
+  if (this->WasStopped)
+  {
+    this->RetryTime.Modified();
+  }
+  return std::max(this->Superclass::GetMTime(), this->RetryTime.GetMTime());
+}
+
 void vtkPointCloudReader::Fail(unsigned long code, const std::string& message)
 {
   this->ErrorMessage = io::messageOf(this->FileName, this->Format, message);
@@ -485,6 +495,7 @@ int vtkPointCloudReader::RequestData(
   this->Notes.clear();
   this->ValidWithoutPoints = false;
   this->OtherRankFailed = false;
+  this->WasStopped = false;
   this->NumberOfBytesRead = 0;
   this->Coarse = false;
   this->Sampled = false;
@@ -522,6 +533,7 @@ int vtkPointCloudReader::RequestData(
   }
   catch (const io::StoppedOnRequest&)
   {
+    this->WasStopped = true;
     this->ErrorMessage = std::string(this->FileName) + ": reading was stopped on request; read it again";
     this->SetErrorCode(vtkErrorCode::UserError);
   }
