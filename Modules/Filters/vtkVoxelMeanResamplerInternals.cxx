@@ -393,8 +393,7 @@ void vtkVoxelMeanResampler::Internals::ChooseArrays(vtkPointSet* input)
   std::vector<KnownValues> known;
   known.swap(this->Known);
   std::vector<std::string> dropped;
-  for (const VoxelArray& found :
-    voxelArrays(input, this->Settings.categoricalArrays, this->Request.representative, dropped))
+  for (const VoxelArray& found : voxelArrays(input, this->Settings, dropped))
   {
     const ArraySeen seen(found.array, ownersTime);
     const auto old = std::find_if(known.begin(), known.end(),

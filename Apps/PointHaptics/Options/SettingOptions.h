@@ -81,6 +81,7 @@ inline constexpr SettingOption kVoxelMeanOptions[] = {
   { "computeCovariance", nullptr, "--covariance of resample, --no-covariance of feel and view" },
   { "passAttributes", nullptr, "only feel has no use for them" },
   { "categoricalArrays", nullptr, "the labels of LAS are known; others are named by programs" },
+  { "exactCategoricalNames", nullptr, "the labels of LAS are known" },
   { "representative", nullptr, "--representative of resample: what is felt are means" },
   { "minimumPointsPerVoxel", nullptr, "--minimum-points of resample" },
   { "computeVoxelIndex", nullptr, "--voxel-index of resample" },
