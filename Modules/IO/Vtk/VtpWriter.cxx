@@ -2,6 +2,7 @@
 
 #include "IO/Columns/CloudColumns.h"
 #include "IO/FileProblem.h"
+#include "IO/Formats/FormatLooks.h"
 #include "IO/Vtk/ErrorCollector.h"
 #include "IO/WriteTask.h"
 
@@ -97,10 +98,26 @@ private:
 };
 vtkStandardNewMacro(VtpWriter);
 
-/// An empty one is no name to VTK's reader.
+/// The name that XML can hold. An empty one is no name to VTK's reader.
+std::string xmlName(vtkAbstractArray* array)
+{
+  std::string name = utf8Name(array->GetName() ? array->GetName() : "");
+  std::replace_if(
+    name.begin(), name.end(), [](unsigned char c) { return c < 0x20 && c != '\t' && c != '\n' && c != '\r'; },
+    '_');
+  for (const char* none : { "\xef\xbf\xbe", "\xef\xbf\xbf" })
+  {
+    for (std::size_t at = name.find(none); at != std::string::npos; at = name.find(none))
+    {
+      name.replace(at, 3, "_");
+    }
+  }
+  return name.empty() ? "unnamed" : name;
+}
+
 std::string escaped(const std::string& name)
 {
-  std::string result = name.empty() ? "unnamed" : "";
+  std::string result;
   for (const char c : name)
   {
     const auto byte = static_cast<unsigned char>(c);
@@ -122,13 +139,13 @@ void escapeNames(vtkFieldData* data)
   {
     arrays.emplace_back(data->GetAbstractArray(i));
     roles.push_back(attributes ? attributes->IsArrayAnAttribute(i) : -1);
-    const std::string name = arrays.back()->GetName() ? arrays.back()->GetName() : "";
+    const std::string name = escaped(xmlName(arrays.back()));
     auto* numbers = vtkDataArray::SafeDownCast(arrays.back());
-    if (numbers && escaped(name) != name)
+    if (numbers && (!numbers->GetName() || name != numbers->GetName()))
     {
       const auto renamed = vtkSmartPointer<vtkDataArray>::Take(numbers->NewInstance());
       renamed->ShallowCopy(numbers);
-      renamed->SetName(escaped(name).c_str());
+      renamed->SetName(name.c_str());
       arrays.back() = renamed;
       isSame = false;
     }
@@ -174,9 +191,11 @@ void writeVtp(WriteTask& task)
   vtkPointData* data = cloud->GetPointData();
   for (int i = 0; i < data->GetNumberOfArrays(); ++i)
   {
-    if (const char* name = data->GetAbstractArray(i)->GetName(); !name || !*name)
+    vtkAbstractArray* array = data->GetAbstractArray(i);
+    const std::string given = utf8Name(array->GetName() ? array->GetName() : "");
+    if (xmlName(array) != given)
     {
-      task.notes.add("array '' is called unnamed");
+      task.notes.add("array " + inQuotes(given) + " is called " + xmlName(array));
     }
   }
   escapeNames(written->GetPointData());
