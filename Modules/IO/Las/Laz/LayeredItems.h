@@ -80,19 +80,7 @@ public:
     }
   }
   /// Codes @p count records of schema.recordLength bytes: those layers that are in use.
-  void code(char* records, std::size_t count)
-  {
-    labels_.resize(std::max(labels_.size(), count));
-    for (std::size_t point = 0; point < count && !Coder::kEncodes; ++point)
-    {
-      std::copy_n(first_.data(), first_.size(), records + point * first_.size());
-    }
-    for (CodedLayer& each : layers_)
-    {
-      each.isUsed ? std::visit([&](auto& layer) { codeLayer(layer, each.coder, records, count); }, each.layer)
-                  : void();
-    }
-  }
+  void code(char* records, std::size_t count);
   bool isDamaged() const
   {
     return std::any_of(layers_.begin(), layers_.end(),
@@ -136,15 +124,7 @@ private:
     offset != 0 ? layers_.push_back({ Layer<Item>(offset) }) : void();
   }
   template <typename OneLayer>
-  void codeLayer(OneLayer& layer, Coder& stored, char* records, std::size_t count)
-  {
-    Coder coder = std::move(stored); // a local one stays in registers
-    for (std::size_t point = 0; point < count; ++point)
-    {
-      layer.code(coder, labels_[point], records + point * first_.size());
-    }
-    stored = std::move(coder);
-  }
+  void codeLayer(OneLayer& layer, Coder& stored, char* records, std::size_t count);
 
   std::vector<CodedLayer> layers_;
   std::vector<PointLabel> labels_;

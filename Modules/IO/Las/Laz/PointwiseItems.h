@@ -87,18 +87,7 @@ public:
     }
   }
   /// Codes @p count records of schema.recordLength bytes.
-  void code(char* records, std::size_t count)
-  {
-    const char* end = records + count * schema_.recordLength;
-    for (char* record = records; record != end; record += schema_.recordLength)
-    {
-      point_.code(coder_, record);
-      schema_.gpsTime.offset != 0 ? gpsTime_.code(coder_, record) : void();
-      schema_.color.offset != 0 ? color_.code(coder_, record) : void();
-      schema_.wavePacket.offset != 0 ? wavePacket_.code(coder_, record) : void();
-      codeBytes(record + schema_.extraBytes.offset);
-    }
-  }
+  void code(char* records, std::size_t count);
   bool isDamaged() const { return coder_.isDamaged(); }
   /// Bytes of the stream that a decoder has read.
   std::size_t position() const { return coder_.position(); }
@@ -106,18 +95,7 @@ public:
   void finish(std::string& chunk, std::size_t) { chunk += coder_.finish(); }
 
 private:
-  void codeBytes(char* at)
-  {
-    for (std::size_t i = 0; i < bytes_.size(); ++i)
-    {
-      std::uint8_t& last = lastBytes_[i];
-      const std::uint8_t value = byteAt(at, i);
-      last = firstBytes_
-        ? static_cast<std::uint8_t>(firstBytes_->code(coder_, last, value, static_cast<unsigned>(i)))
-        : bytes_[i].code(coder_, PointLabel(), last, value);
-      at[i] = static_cast<char>(last);
-    }
-  }
+  void codeBytes(char* at);
 
   const LazSchema& schema_;
   Coder coder_;
