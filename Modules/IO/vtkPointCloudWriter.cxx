@@ -5,6 +5,7 @@
 #include "IO/Formats/FormatList.h"
 #include "IO/Info/FieldText.h"
 #include "IO/Info/FileComments.h"
+#include "IO/Info/LengthUnit.h"
 #include "IO/Las/LasCoordinateSystem.h"
 #include "WriteTask.h"
 
@@ -19,6 +20,7 @@
 #include "vtkPolyData.h"
 
 #include <algorithm>
+#include <string_view>
 
 namespace io = pointhaptics::io;
 
@@ -43,12 +45,16 @@ bool keeps(const io::CloudFormat& format, vtkPointSet* cloud, const std::string&
     const bool isLas = format.name == std::string("LAS") || format.name == std::string("LAZ");
     return isLas ? io::lasSaysUnit(cloud->GetFieldData()) : !unitFor(format, cloud).empty();
   }
+  if (fieldName == pointhaptics::kHeightUnit)
+  {
+    return std::string_view(format.keptFieldData).find("Las") == std::string_view::npos;
+  }
   return (" " + std::string(format.keptFieldData) + " ").find(" " + fieldName + " ") != std::string::npos;
 }
 
 /// Field data that vtkPointCloudReader adds to a cloud; that of filters is no loss.
 constexpr const char* kOfTheCloud[] = { "Viewpoint", "OrganizedDimensions", "CoordinateSystem", "LengthUnit",
-  "ScanPoses" };
+  pointhaptics::kHeightUnit, "ScanPoses" };
 
 /// True if @p name is a viewpoint or poses (tx ty tz qw qx qy qz) that change nothing.
 bool isIdentityPose(vtkPointSet* cloud, const std::string& name)
@@ -186,6 +192,7 @@ void vtkPointCloudWriter::WriteCloud(vtkPointSet* cloud)
   {
     noteWhatIsNoColumn(cloud, *format, task.notes);
     task.comments.unit = unitFor(*format, cloud);
+    task.comments.heightUnit = io::fieldText(cloud->GetFieldData(), pointhaptics::kHeightUnit);
   }
   format->write(task);
   task.out.commit();

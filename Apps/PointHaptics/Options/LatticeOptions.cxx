@@ -3,6 +3,7 @@
 #include "Options/SettingOptions.h"
 
 #include "Core/Base/Lattice.h"
+#include "IO/Info/LengthUnit.h"
 #include "PolyDataAccess.h"
 #include "vtkVoxelMeanResampler.h"
 
@@ -25,10 +26,14 @@ namespace
 
 using Numbers = std::vector<double>;
 
-const std::vector<std::pair<std::string, double>>& units()
+std::vector<std::pair<std::string, double>> units()
 {
-  static const std::vector<std::pair<std::string, double>> table = { { "m", 1.0 }, { "cm", 1e-2 },
-    { "mm", 1e-3 }, { "um", 1e-6 }, { "km", 1e3 }, { "in", 0.0254 }, { "ft", 0.3048 } };
+  std::vector<std::pair<std::string, double>> table;
+  for (const NamedUnit& unit : kLengthUnits)
+  {
+    const bool isKnown = !table.empty() && table.back().first == unit.name;
+    isKnown ? void() : void(table.emplace_back(unit.name, unit.metres));
+  }
   return table;
 }
 

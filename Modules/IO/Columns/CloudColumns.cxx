@@ -4,6 +4,7 @@
 #include "Bytes/ShownColors.h"
 #include "Core/Resample/FieldNames.h"
 #include "FileProblem.h"
+#include "IO/Info/LengthUnit.h"
 #include "IO/Text/TextScan.h"
 
 #include "vtkCellArray.h"
@@ -39,8 +40,6 @@ const Names kCoordinateWords = { { "x", "easting", "east", "e", "rechtswert", "o
 const std::vector<std::string> kFillers = { "coord", "coords", "coordinate", "coordinates", "point", "points",
   "pos", "position", "positions", "xyz", "field", "world", "global", "local", "utm", "map", "vertex",
   "cartesian", "value" };
-const std::vector<std::string> kUnitWords = { "m", "mm", "cm", "km", "um", "ft", "in", "metre", "metres",
-  "meter", "meters", "feet", "foot" };
 const std::vector<std::string> kDegrees = { "longitude", "lon", "long", "lng", "latitude", "lat" };
 const Names kColorsWithAlpha = { { "red", "green", "blue", "alpha" }, { "r", "g", "b", "a" },
   { "diffuse_red", "diffuse_green", "diffuse_blue", "diffuse_alpha" } };
@@ -151,12 +150,12 @@ struct CoordinateName
     }
     for (const std::string& word : wordsOf(name.substr(0, bracket)))
     {
-      const bool isUnit = !rest.empty() || isPosition ? has(kUnitWords, word) : false;
+      const bool isUnit = (!rest.empty() || isPosition) && findLengthUnit(word);
       isPosition = isPosition || has(kFillers, word);
       unit = isUnit ? word : unit;
       rest += isUnit || has(kFillers, word) ? "" : (rest.empty() || word.empty() ? "" : " ") + word;
     }
-    if (!rest.empty() && has(kXyz, rest.substr(0, 1)) && has(kUnitWords, rest.substr(1))) // "Xmm"
+    if (!rest.empty() && has(kXyz, rest.substr(0, 1)) && findLengthUnit(rest.substr(1))) // "Xmm"
     {
       unit = rest.substr(1);
       rest.resize(1);

@@ -100,13 +100,11 @@ LasOrigin LasOrigin::of(vtkFieldData* fieldData)
 
 void readLas(ReadTask& task, vtkPolyData* cloud)
 {
-  needLasHeader(task.bytes, [&](std::size_t offset, std::size_t size) { task.need(offset, size); });
+  needLasHeader(task);
   const std::string version =
     task.bytes.size() > 25 ? " 1." + std::to_string(byteAt(task.bytes.data(), 25)) : std::string();
   task.format = "LAS" + version;
-  LasHeader header = parseLasHeader(task.bytes,
-    [&](std::uint64_t there, std::uint64_t all, const std::string& what)
-    { return task.endAt(there, all, what); });
+  LasHeader header = parseLasHeader(task.bytes, &task);
   task.format = (header.packing.empty() ? "LAS" : header.packing) + version + " (point format " +
     std::to_string(header.pointFormat) + ")";
   std::optional<LazReader> packed;

@@ -23,6 +23,8 @@ class vtkPolyData;
 namespace pointhaptics::io
 {
 
+struct ReadTask;
+
 /// Byte offsets inside a record of each point format; 0 = the format has no such field.
 struct LasPointFormat
 {
@@ -129,14 +131,13 @@ struct LasHeader
 /// True if a file that begins with @p start, of which 400 bytes are enough, is a cloud optimised point cloud.
 bool startsLikeCopc(std::string_view start);
 
-/// Calls @p need(offset, size) for header and variable length records, which parseLasHeader() looks at.
-void needLasHeader(std::string_view bytes, const std::function<void(std::size_t, std::size_t)>& need);
+/// Has header and variable length records loaded, which parseLasHeader() looks at.
+void needLasHeader(const ReadTask& task);
 
 /// @throws FileProblem with byte offset and value; also when the file is too short for the points the header
-/// counts. Compressed points are only recognised: see Laz/LazSchema.h and Laz/LazChunks.h.
-/// With @p endAt(there, all, what) a file that is too short for them is read as far as it decides.
-using LasEnd = std::function<std::uint64_t(std::uint64_t, std::uint64_t, const std::string&)>;
-LasHeader parseLasHeader(std::string_view bytes, const LasEnd& endAt = {});
+/// counts: with @p task as its endAt() decides. Compressed points are only recognised: see Laz/LazSchema.h
+/// and Laz/LazChunks.h.
+LasHeader parseLasHeader(std::string_view bytes, ReadTask* task = nullptr);
 
 /// The fields that @p descriptors, the content of an extra bytes record, describe in a record of @p length
 /// bytes from @p first on. What they do not cover, or all where they cannot be right, is kept as
@@ -144,9 +145,24 @@ LasHeader parseLasHeader(std::string_view bytes, const LasEnd& endAt = {});
 std::vector<LasExtraField> lasExtraFields(
   std::string_view descriptors, std::size_t first, std::size_t length);
 
-/// Calls @p visit(record, user, id, content) for each record among @p records, as LasOrigin has them; @p far:
-/// extended ones.
-void forEachLasRecord(std::string_view records, bool far,
-  const std::function<void(std::string_view, std::string_view, int, std::string_view)>& visit);
+/// A variable length record.
+struct LasRecord
+{
+  std::size_t at = 0;     ///< byte at which it begins
+  std::string_view whole; ///< with its header; empty where it is cut
+  std::string_view user;
+  int id = 0;
+  std::string_view content; ///< as much of it as is there
+  bool isFar = false;       ///< an extended one, as they lie behind the points
+};
+
+/// Calls @p visit for each of @p count records, which lie in @p bytes from byte @p at on, as long as their
+/// headers are there. @p far: extended ones. @p need: called before a header is looked at.
+void forEachLasRecord(
+  std::string_view bytes, std::uint64_t at, std::uint32_t count, bool far,
+  const std::function<void(const LasRecord&)>& visit,
+  const std::function<void(std::size_t, std::size_t)>& need = [](std::size_t, std::size_t) {});
+/// As above, for all whole ones among those that @p origin keeps.
+void forEachLasRecord(const LasOrigin& origin, const std::function<void(const LasRecord&)>& visit);
 
 } // namespace pointhaptics::io

@@ -418,15 +418,12 @@ void LasWriter::addDescriptor(const OutputArray& array, int component, const std
 void LasWriter::planExtraFields()
 {
   std::vector<LasExtraField> known;
-  const auto describe = [&](std::string_view, std::string_view user, int id, std::string_view content)
-  {
-    if (user == "LASF_Spec" && id == kLasExtraBytesRecord)
+  forEachLasRecord(origin_,
+    [&](const LasRecord& record)
     {
-      known = lasExtraFields(content, 0, kMostRecord);
-    }
-  };
-  forEachLasRecord(origin_.records, false, describe);
-  forEachLasRecord(origin_.farRecords, true, describe);
+      const bool describes = record.user == "LASF_Spec" && record.id == kLasExtraBytesRecord;
+      known = describes ? lasExtraFields(record.content, 0, kMostRecord) : std::move(known);
+    });
   for (std::size_t i = 1; i < arrays_.size(); ++i)
   {
     const OutputArray& array = arrays_[i];

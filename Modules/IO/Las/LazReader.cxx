@@ -18,20 +18,9 @@ namespace
 
 LazChunks chunksOf(ReadTask& task, const LasHeader& header, const LazSchema& schema)
 {
-  const auto need = [&](std::size_t offset, std::size_t size) { task.need(offset, size); };
-  if (task.salvage && !task.shared)
+  if (!task.load || !task.wanted.isPart())
   {
-    return findLazChunks(task.bytes, header, schema, need,
-      [&](std::uint64_t there, std::uint64_t all, const std::string& what)
-      { return task.endAt(there, all, what); });
-  }
-  if (!task.load)
-  {
-    return findLazChunks(task.bytes, header, schema);
-  }
-  if (!task.wanted.isPart())
-  {
-    return findLazChunks(task.bytes, header, schema, need);
+    return findLazChunks(task.bytes, header, schema, &task);
   }
   checkLazCount(task.bytes, header);
   LazChunks part = findCopcChunks(task, header);

@@ -3,9 +3,9 @@
 #include "Bytes/NumericType.h"
 #include "IO/Bytes/TextPart.h"
 #include "IO/Columns/CloudColumns.h"
+#include "IO/Columns/TextRecords.h"
 #include "IO/Pcd/LzfStream.h"
 #include "IO/Pcd/PcdHeader.h"
-#include "IO/Text/TextScan.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
@@ -152,126 +152,41 @@ void fillFromCompressed(
   }
 }
 
-/// Where one number of an ASCII line goes.
-struct AsciiNumber
+/// A line of numbers for each point. Packed colours are read as the numbers that they are, and unpacked then.
+void fillFromAscii(ReadTask& task, const TextPart& part, const RowRange& wanted, const PcdHeader& header,
+  const PcdTable& table, const CloudColumns& columns)
 {
-  const PcdField* field;
-  ColumnView target; ///< of a packed colour: its bytes
-};
-
-std::vector<AsciiNumber> asciiNumbers(const PcdTable& table, const CloudColumns& columns)
-{
-  std::vector<AsciiNumber> numbers;
-  for (const PcdTable::Entry& entry : table.entries)
+  const vtkIdType rows = static_cast<vtkIdType>(wanted.count());
+  std::vector<TextField> fields;
+  std::vector<std::vector<std::uint32_t>> packed(table.entries.size());
+  for (std::size_t i = 0; i < table.entries.size(); ++i)
   {
+    const PcdTable::Entry& entry = table.entries[i];
+    packed[i].resize(entry.field.isPackedColor() ? static_cast<std::size_t>(rows) : 0);
     for (int component = 0; component < entry.field.count; ++component)
     {
-      numbers.push_back(
-        { &entry.field, entry.field.isPadding() ? ColumnView{} : columns.target(entry.column, component) });
+      fields.push_back({ entry.field.name,
+        entry.field.isPadding() ? ColumnView{}
+          : entry.field.isPackedColor()
+          ? ColumnView{ reinterpret_cast<char*>(packed[i].data()), 4, entry.field.type }
+          : columns.target(entry.column, component) });
     }
   }
-  return numbers;
-}
-
-bool storeAsciiNumber(const AsciiNumber& number, vtkIdType row, double value, std::string_view digits)
-{
-  if (number.field->isPadding())
-  {
-    return true;
-  }
-  if (!number.field->isPackedColor())
-  {
-    return storeNumber(number.target, row, value, digits);
-  }
-  std::uint32_t packed = 0;
-  const bool stored = storeNumber({ reinterpret_cast<char*>(&packed), 0, number.field->type }, 0, value);
-  unpackColors({ reinterpret_cast<const char*>(&packed), 0, VTK_TYPE_UINT32 }, number.target.fromRow(row), 1);
-  return stored;
-}
-
-void parseAsciiRow(
-  std::string_view line, std::size_t lineNumber, const std::vector<AsciiNumber>& numbers, vtkIdType row)
-{
-  for (const AsciiNumber& number : numbers)
-  {
-    double value = 0.0;
-    const std::string_view digits = trimmed(line);
-    if (!takeNumber(line, value))
-    {
-      const std::string_view word = takeWord(line);
-      failFormat("line " + std::to_string(lineNumber) + ": field " + inQuotes(number.field->name) + " is " +
-          (word.empty() ? std::string("missing") : inQuotes(word) + ", not a number"),
-        "write one number per field and one point per line");
-    }
-    if (!storeAsciiNumber(number, row, value, digits))
-    {
-      failFormat("line " + std::to_string(lineNumber) + ": field " + inQuotes(number.field->name) + " is " +
-          std::to_string(value) + ", which its integer type cannot hold",
-        "give the field TYPE F in the header");
-    }
-  }
-  const std::string_view extra = takeWord(line);
-  if (!extra.empty())
-  {
-    failFormat("line " + std::to_string(lineNumber) + ": " + inQuotes(extra) + " follows the last field",
-      "write as many numbers per line as the header has fields");
-  }
-}
-
-/// Not left to PCL, which names no line when a number is malformed.
-void fillFromAscii(
-  ReadTask& task, const TextPart& part, vtkIdType rows, const PcdTable& table, const CloudColumns& columns)
-{
-  const std::vector<AsciiNumber> numbers = asciiNumbers(table, columns);
   LineReader lines(task.bytes.substr(part.begin, part.end - part.begin), part.firstLine);
-  std::string_view line;
-  vtkIdType point = 0;
-  while (point < rows && lines.next(line))
+  TextRecords(
+    lines, fields, { "field", "point", "points", "give the field TYPE F in the header" }, !task.shared)
+    .storeAll(task, wanted.count(), header.points);
+  for (std::size_t i = 0; i < table.entries.size(); ++i)
   {
-    if (trimmed(line).empty())
-    {
-      continue;
-    }
-    try
-    {
-      parseAsciiRow(line, lines.lineNumber(), numbers, point);
-    }
-    catch (const FileProblem&)
-    {
-      if (!task.salvage || !lines.isAtEnd())
-      {
-        throw;
-      }
-      break; // it is cut
-    }
-    if (++point % kProgressRows == 0)
-    {
-      task.progress(static_cast<double>(point) / static_cast<double>(rows));
-    }
-  }
-  if (point < rows)
-  {
-    const bool isCut = task.salvage && point > 1 && task.bytes.back() != '\n'; // perhaps within a number
-    task.endAt(static_cast<std::uint64_t>(point - (isCut ? 1 : 0)), static_cast<std::uint64_t>(rows),
-      "the file ends at line " + std::to_string(lines.lineNumber()) + " after " + std::to_string(point) +
-        " of " + std::to_string(rows) + " points");
+    packed[i].empty() ? void()
+                      : unpackColors({ reinterpret_cast<const char*>(packed[i].data()), 4, VTK_TYPE_UINT32 },
+                          columns.target(table.entries[i].column), rows);
   }
 }
 
-/// @throws FileProblem where the lines of all ranks are too few.
-RowRange rowsIn(const TextPart& part, const PcdHeader& header)
+void addFieldData(ReadTask& task, const PcdHeader& header, vtkPolyData* cloud)
 {
-  if (part.filledOfAll < header.points)
-  {
-    failTruncated("the file ends after " + std::to_string(part.filledOfAll) + " of " +
-      std::to_string(header.points) + " points");
-  }
-  return part.rowsOf(header.points);
-}
-
-void addFieldData(const PcdHeader& header, vtkPolyData* cloud)
-{
-  header.comments.moveTo(cloud);
+  header.comments.moveTo(cloud, task.notes);
   vtkNew<vtkDoubleArray> viewpoint;
   viewpoint->SetName("Viewpoint");
   viewpoint->SetNumberOfComponents(7);
@@ -298,9 +213,7 @@ void readPcd(ReadTask& task, vtkPolyData* cloud)
   {
     task.takeWhole();
   }
-  PcdHeader header = parsePcdHeader(task.bytes,
-    [&](std::uint64_t there, std::uint64_t all, const std::string& what)
-    { return task.endAt(there, all, what); });
+  PcdHeader header = parsePcdHeader(task);
   task.format = std::string("PCD (") + nameOf(header.encoding) + ")";
   const PcdTable table(header);
   TextPart part;
@@ -308,7 +221,7 @@ void readPcd(ReadTask& task, vtkPolyData* cloud)
   if (header.encoding == PcdEncoding::Ascii)
   {
     part = partOfText(task, task.bytes, header.bodyOffset, header.bodyLine);
-    rows = rowsIn(part, header);
+    rows = part.rowsOf(header.points, "point");
   }
   else if (header.encoding == PcdEncoding::Binary)
   {
@@ -322,7 +235,7 @@ void readPcd(ReadTask& task, vtkPolyData* cloud)
   switch (header.encoding)
   {
     case PcdEncoding::Ascii:
-      fillFromAscii(task, part, static_cast<vtkIdType>(rows.count()), table, columns);
+      fillFromAscii(task, part, rows, header, table, columns);
       break;
     case PcdEncoding::Binary:
       fillFromRecords(task, header, rows, table, columns);
@@ -336,7 +249,7 @@ void readPcd(ReadTask& task, vtkPolyData* cloud)
   {
     header.height = 1;
   }
-  addFieldData(header, cloud);
+  addFieldData(task, header, cloud);
 }
 
 } // namespace pointhaptics::io

@@ -1,8 +1,8 @@
 #include "IO/Pcd/PcdHeader.h"
 
 #include "Bytes/NumericType.h"
-#include "FileProblem.h"
 #include "IO/Text/TextScan.h"
+#include "ReadTask.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -294,9 +294,7 @@ void checkCompressedSize(std::string_view bytes, PcdHeader& header, unsigned lon
   header.compressedSize = static_cast<std::size_t>(packed);
 }
 
-using End = std::function<std::uint64_t(std::uint64_t, std::uint64_t, const std::string&)>;
-
-void checkSizes(std::string_view bytes, PcdHeader& header, const End& endAt)
+void checkSizes(ReadTask& task, PcdHeader& header)
 {
   // Division, because the product of two claims may overflow.
   const bool matches = header.width == 0 || header.height == 0
@@ -312,7 +310,7 @@ void checkSizes(std::string_view bytes, PcdHeader& header, const End& endAt)
   {
     failNoPoints();
   }
-  const std::size_t available = bytes.size() - header.bodyOffset;
+  const std::size_t available = task.bytes.size() - header.bodyOffset;
   const bool isCompressed = header.encoding == PcdEncoding::Compressed;
   const unsigned long long least = std::max<std::size_t>(1,
     header.encoding == PcdEncoding::Ascii ? 2 * header.numbersPerLine
@@ -325,17 +323,17 @@ void checkSizes(std::string_view bytes, PcdHeader& header, const End& endAt)
   {
     const std::string what = "the header counts " + std::to_string(header.points) + " points of at least " +
       std::to_string(least) + " bytes, but only " + std::to_string(available) + " bytes follow";
-    if (!endAt || isCompressed)
+    if (isCompressed)
     {
       failTruncated(what);
     }
-    header.points = endAt(there, header.points, what);
+    header.points = task.endAt(there, header.points, what);
     header.width = header.points;
     header.height = 1;
   }
   if (isCompressed)
   {
-    checkCompressedSize(bytes, header, header.points * header.compressedRecordSize);
+    checkCompressedSize(task.bytes, header, header.points * header.compressedRecordSize);
   }
 }
 
@@ -353,10 +351,10 @@ Column PcdField::column() const
                          : Column{ name, type, count };
 }
 
-PcdHeader parsePcdHeader(std::string_view bytes, const End& endAt)
+PcdHeader parsePcdHeader(ReadTask& task)
 {
-  PcdHeader header = HeaderParser(bytes).parse();
-  checkSizes(bytes, header, endAt);
+  PcdHeader header = HeaderParser(task.bytes).parse();
+  checkSizes(task, header);
   return header;
 }
 
