@@ -1,5 +1,3 @@
-#include "IO/Grid/GridFormats.h"
-
 #include "IO/Columns/CloudColumns.h"
 #include "IO/Formats/FormatLooks.h"
 #include "IO/Text/TextScan.h"

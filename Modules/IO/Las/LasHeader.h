@@ -48,6 +48,41 @@ constexpr LasPointFormat kLasPointFormats[kMostLasFormat + 1] = {
   { 67, 22, 30, 36 },
 };
 
+/// Where a record has a field: a number, or fewer bits of a byte.
+struct LasPlace
+{
+  std::size_t offset = 0; ///< 0: the formats have no such field
+  int type = VTK_TYPE_UINT8;
+  int shift = 0;
+  int bits = 0; ///< 0: the whole number
+
+  int mask() const { return (1 << bits) - 1; }
+};
+/// A field of all formats that becomes an array of its name, and the array the field.
+struct LasField
+{
+  const char* name;
+  int type;            ///< of the array
+  LasPlace basic;      ///< point formats 0 to 5
+  LasPlace extended;   ///< 6 to 10
+  bool isRare = false; ///< most files leave it at zero
+};
+constexpr LasField kLasFields[] = {
+  { "Intensity", VTK_TYPE_UINT16, { 12, VTK_TYPE_UINT16 }, { 12, VTK_TYPE_UINT16 } },
+  { "ReturnNumber", VTK_TYPE_UINT8, { 14, VTK_TYPE_UINT8, 0, 3 }, { 14, VTK_TYPE_UINT8, 0, 4 } },
+  { "NumberOfReturns", VTK_TYPE_UINT8, { 14, VTK_TYPE_UINT8, 3, 3 }, { 14, VTK_TYPE_UINT8, 4, 4 } },
+  { "Classification", VTK_TYPE_UINT8, { 15, VTK_TYPE_UINT8, 0, 5 }, { 16, VTK_TYPE_UINT8, 0, 8 } },
+  { "ScanAngle", VTK_FLOAT, { 16, VTK_TYPE_INT8 }, { 18, VTK_TYPE_INT16 } },
+  { "UserData", VTK_TYPE_UINT8, { 17, VTK_TYPE_UINT8 }, { 17, VTK_TYPE_UINT8 } },
+  { "PointSourceId", VTK_TYPE_UINT16, { 18, VTK_TYPE_UINT16 }, { 20, VTK_TYPE_UINT16 } },
+  { "ClassificationFlags", VTK_TYPE_UINT8, { 15, VTK_TYPE_UINT8, 5, 3 }, { 15, VTK_TYPE_UINT8, 0, 4 }, true },
+  { "ScannerChannel", VTK_TYPE_UINT8, {}, { 15, VTK_TYPE_UINT8, 4, 2 }, true },
+  { "ScanDirection", VTK_TYPE_UINT8, { 14, VTK_TYPE_UINT8, 6, 1 }, { 15, VTK_TYPE_UINT8, 6, 1 }, true },
+  { "EdgeOfFlightLine", VTK_TYPE_UINT8, { 14, VTK_TYPE_UINT8, 7, 1 }, { 15, VTK_TYPE_UINT8, 7, 1 }, true },
+};
+constexpr std::size_t kNumberOfLasFields = sizeof(kLasFields) / sizeof(kLasFields[0]);
+constexpr double kLasScanAngleStep = 0.006; ///< degrees, extended formats
+
 constexpr std::size_t kLasHeaderOf12 = 227; ///< bytes, also of 1.0 and 1.1
 constexpr std::size_t kLasHeaderOf14 = 375;
 constexpr std::size_t kLasVlrHeader = 54;

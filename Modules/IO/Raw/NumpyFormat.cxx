@@ -1,5 +1,3 @@
-#include "IO/Raw/RawFormats.h"
-
 #include "Bytes/LittleEndian.h"
 #include "Bytes/NumericType.h"
 #include "IO/Columns/CloudColumns.h"
