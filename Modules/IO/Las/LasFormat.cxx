@@ -263,15 +263,6 @@ void LazReader::read(LasRecords& records)
   }
 }
 
-void addTriple(vtkPolyData* cloud, const char* name, const std::array<double, 3>& values)
-{
-  vtkNew<vtkDoubleArray> array;
-  array->SetName(name);
-  array->SetNumberOfComponents(3);
-  array->InsertNextTuple(values.data());
-  cloud->GetFieldData()->AddArray(array);
-}
-
 /// The records from number @p begin on, as many as @p header counts.
 void readPlain(const ReadTask& task, const LasHeader& header, std::uint64_t begin, LasRecords& records)
 {
@@ -376,18 +367,13 @@ void readLas(ReadTask& task, vtkPolyData* cloud)
   }
   records.moveTo(cloud);
   header.origin.addTo(cloud);
-  addTriple(cloud, "LasScale", header.scale);
-  addTriple(cloud, "LasOffset", header.offset);
-  vtkNew<vtkIntArray> encoding;
-  encoding->SetName("LasGlobalEncoding");
-  encoding->InsertNextValue(header.globalEncoding);
-  cloud->GetFieldData()->AddArray(encoding);
+  addFieldNumbers<vtkDoubleArray>(cloud, "LasScale", header.scale);
+  addFieldNumbers<vtkDoubleArray>(cloud, "LasOffset", header.offset);
+  addFieldNumbers<vtkIntArray>(cloud, "LasGlobalEncoding", std::array{ header.globalEncoding });
   if (packed)
   {
-    vtkNew<vtkTypeInt64Array> chunks;
-    chunks->SetName("Chunks");
-    chunks->InsertNextValue(packed->numberOfChunks());
-    cloud->GetFieldData()->AddArray(chunks);
+    addFieldNumbers<vtkTypeInt64Array>(
+      cloud, "Chunks", std::array<vtkTypeInt64, 1>{ packed->numberOfChunks() });
   }
   addFieldText(cloud, "Generator", header.generator);
   addFieldText(cloud, "CoordinateSystem", header.coordinateSystem);

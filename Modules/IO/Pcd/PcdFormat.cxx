@@ -4,6 +4,7 @@
 #include "IO/Bytes/TextPart.h"
 #include "IO/Columns/CloudColumns.h"
 #include "IO/Columns/TextRecords.h"
+#include "IO/Info/FieldText.h"
 #include "IO/Pcd/PcdHeader.h"
 
 #include "vtkDoubleArray.h"
@@ -300,20 +301,12 @@ void fillFromAscii(ReadTask& task, const TextPart& part, const RowRange& wanted,
 void addFieldData(ReadTask& task, const PcdHeader& header, vtkPolyData* cloud)
 {
   header.comments.moveTo(cloud, task.notes);
-  vtkNew<vtkDoubleArray> viewpoint;
-  viewpoint->SetName("Viewpoint");
-  viewpoint->SetNumberOfComponents(7);
-  viewpoint->InsertNextTuple(header.viewpoint.data());
-  cloud->GetFieldData()->AddArray(viewpoint);
+  addFieldNumbers<vtkDoubleArray>(cloud, "Viewpoint", header.viewpoint);
   const unsigned long long most = std::numeric_limits<int>::max();
   if (header.height > 1 && header.width <= most && header.height <= most)
   {
-    vtkNew<vtkIntArray> dimensions;
-    dimensions->SetName("OrganizedDimensions");
-    dimensions->SetNumberOfComponents(2);
-    const int values[2] = { static_cast<int>(header.width), static_cast<int>(header.height) };
-    dimensions->InsertNextTypedTuple(values);
-    cloud->GetFieldData()->AddArray(dimensions);
+    addFieldNumbers<vtkIntArray>(cloud, "OrganizedDimensions",
+      std::array{ static_cast<int>(header.width), static_cast<int>(header.height) });
   }
 }
 

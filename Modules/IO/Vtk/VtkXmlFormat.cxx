@@ -122,25 +122,26 @@ void takeFaces(vtkPointSet* read, MeshFaces& faces)
 void readVtkXml(ReadTask& task, vtkPolyData* cloud)
 {
   task.need(0, task.bytes.size());
-  const std::string_view type = xmlAttribute(vtkFileTag(task.bytes), "type");
-  const bool isList = type == "PPolyData";
-  task.format = isList           ? "PVTP (VTK XML PolyData in pieces)"
-    : type == "UnstructuredGrid" ? "VTU (VTK XML UnstructuredGrid)"
-                                 : "VTP (VTK XML PolyData)";
   if (task.wasPacked)
   {
     throw FileProblem(vtkErrorCode::UnrecognizedFileTypeError, "VTK's XML reader does not read gzip files",
       "unpack it first: gunzip -k FILE");
   }
+  const XmlElement root = vtkXml(task.bytes);
+  const std::string_view type = root.attribute("type");
+  const bool isList = type == "PPolyData";
+  task.format = isList           ? "PVTP (VTK XML PolyData in pieces)"
+    : type == "UnstructuredGrid" ? "VTU (VTK XML UnstructuredGrid)"
+                                 : "VTP (VTK XML PolyData)";
   if (isList)
   {
-    readVtkPieces(task, cloud);
+    readVtkPieces(task, root, cloud);
   }
   else
   {
     task.shared = nullptr; // all of it is there
     const vtkSmartPointer<vtkPointSet> read =
-      readVtkXmlFile(task, task.isStream ? "" : task.path, task.bytes, 0.0, 1.0);
+      readVtkXmlFile(task, task.isStream ? "" : task.path, task.bytes, root, 0.0, 1.0);
     cloud->SetPoints(read->GetPoints());
     cloud->GetPointData()->ShallowCopy(read->GetPointData());
     cloud->GetFieldData()->ShallowCopy(read->GetFieldData());
@@ -153,12 +154,11 @@ void readVtkXml(ReadTask& task, vtkPolyData* cloud)
   }
 }
 
-vtkSmartPointer<vtkPointSet> readVtkXmlFile(
-  const ReadTask& task, const std::string& path, std::string_view bytes, double begin, double end)
+vtkSmartPointer<vtkPointSet> readVtkXmlFile(const ReadTask& task, const std::string& path,
+  std::string_view bytes, const XmlElement& root, double begin, double end)
 {
-  const vtkSmartPointer<vtkXMLUnstructuredDataReader> reader =
-    makeReader(xmlAttribute(vtkFileTag(bytes), "type"));
-  checkVtkXml(bytes);
+  const vtkSmartPointer<vtkXMLUnstructuredDataReader> reader = makeReader(root.attribute("type"));
+  checkVtkXml(bytes, root);
   constexpr double kCheckPart = 0.1;
   const double checked = begin + kCheckPart * (end - begin);
   task.progress(checked);
