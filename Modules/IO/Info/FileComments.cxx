@@ -69,20 +69,22 @@ std::string saidUnit(std::string_view comment)
   return isSaid && !lengthUnitCalled(unit).empty() ? unit : std::string();
 }
 
-/// The number behind "EPSG:", "epsg::" or "EPSG code "; 0 where there is none.
-unsigned long long codeIn(std::string_view comment)
+/// Adds the numbers behind "EPSG:", "epsg::" or "EPSG = ", as "EPSG:26917", that @p systems lack.
+void addSystems(std::string_view comment, std::vector<std::string>& systems)
 {
-  constexpr unsigned long long kMost = 99999;
-  unsigned long long code = 0;
-  for (std::size_t at = 0; at + 5 < comment.size() && code == 0; ++at)
+  constexpr unsigned kMost = 99999;
+  for (std::size_t at = 0; at + 5 < comment.size(); ++at)
   {
+    unsigned code = 0;
     if (equalNoCase(comment.substr(at, 4), "EPSG"))
     {
       const std::size_t digits = std::min(comment.find_first_not_of(": =", at + 4), comment.size());
       std::from_chars(comment.data() + digits, comment.data() + comment.size(), code);
     }
+    const std::string system = "EPSG:" + std::to_string(code);
+    const bool isNew = std::find(systems.begin(), systems.end(), system) == systems.end();
+    code > 0 && code <= kMost&& isNew ? systems.push_back(system) : void();
   }
-  return code <= kMost ? code : 0;
 }
 
 /// True if x and y may be longitude and latitude.
@@ -124,12 +126,7 @@ bool FileComments::add(std::string_view comment)
     unit = std::move(said);
     return true;
   }
-  if (const unsigned long long code = codeIn(comment); code > 0)
-  {
-    const std::string system = "EPSG:" + std::to_string(code);
-    const bool isNew = std::find(systems.begin(), systems.end(), system) == systems.end();
-    isNew ? systems.push_back(system) : void();
-  }
+  addSystems(comment, systems);
   if (comment.substr(0, kName.size()) != kName || names.size() == kMostNames)
   {
     return false;

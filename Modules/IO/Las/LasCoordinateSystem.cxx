@@ -3,7 +3,6 @@
 #include "IO/Info/FieldText.h"
 #include "IO/Info/LengthUnit.h"
 #include "IO/Las/LasHeader.h"
-#include "IO/Las/LasRecordWriter.h"
 #include "IO/Text/TextScan.h"
 
 #include <algorithm>

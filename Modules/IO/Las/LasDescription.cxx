@@ -4,7 +4,6 @@
 #include "FileProblem.h"
 #include "IO/Info/FieldText.h"
 #include "IO/Las/LasCoordinateSystem.h"
-#include "IO/Las/LasRecordWriter.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,6 +6,7 @@
 #include "ReadTask.h"
 
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 namespace pointhaptics::io
@@ -60,13 +61,9 @@ std::string packingOf(std::string_view bytes, const LasHeader& header, int forma
   return found;
 }
 
-/// VTK's type for an extra field of data type @p code, 1..10.
-int typeOfExtra(int code)
-{
-  constexpr int kTypes[] = { VTK_TYPE_UINT8, VTK_TYPE_INT8, VTK_TYPE_UINT16, VTK_TYPE_INT16, VTK_TYPE_UINT32,
-    VTK_TYPE_INT32, VTK_TYPE_UINT64, VTK_TYPE_INT64, VTK_FLOAT, VTK_DOUBLE };
-  return kTypes[code - 1];
-}
+/// VTK's types for extra fields of data type 1 to 10.
+constexpr int kExtraTypes[] = { VTK_TYPE_UINT8, VTK_TYPE_INT8, VTK_TYPE_UINT16, VTK_TYPE_INT16,
+  VTK_TYPE_UINT32, VTK_TYPE_INT32, VTK_TYPE_UINT64, VTK_TYPE_INT64, VTK_FLOAT, VTK_DOUBLE };
 
 LasExtraField parseExtraField(std::string_view descriptor, std::size_t offset)
 {
@@ -87,7 +84,7 @@ LasExtraField parseExtraField(std::string_view descriptor, std::size_t offset)
     return field;
   }
   // 11..20 are pairs and 21..30 triples of the types 1..10.
-  field.type = typeOfExtra((code - 1) % 10 + 1);
+  field.type = kExtraTypes[(code - 1) % 10];
   field.components = (code - 1) / 10 + 1;
   field.isScaled = (options & 0x18) != 0;
   field.hasNoData = (options & 0x01) != 0;
@@ -257,6 +254,22 @@ void forEachLasRecord(const LasOrigin& origin, const std::function<void(const La
     forEachLasRecord(far ? origin.farRecords : origin.records, 0, ~std::uint32_t{ 0 }, far,
       [&](const LasRecord& record) { record.whole.empty() ? void() : visit(record); });
   }
+}
+
+int lasTypeCode(int type)
+{
+  const auto* const found = std::find(std::begin(kExtraTypes), std::end(kExtraTypes), fixedSizeType(type));
+  return static_cast<int>(found - std::begin(kExtraTypes)) + 1;
+}
+
+std::string lasRecordHeader(const std::string& user, int id, std::size_t size, std::string_view description)
+{
+  std::string header(kLasVlrHeader, '\0');
+  header.replace(2, user.size(), user);
+  putLittle(header, 18, static_cast<std::uint16_t>(id));
+  putLittle(header, 20, static_cast<std::uint16_t>(size));
+  header.replace(22, description.size(), description);
+  return header;
 }
 
 void needLasHeader(const ReadTask& task)

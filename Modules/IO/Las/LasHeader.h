@@ -200,4 +200,18 @@ void forEachLasRecord(
 /// As above, for all whole ones among those that @p origin keeps.
 void forEachLasRecord(const LasOrigin& origin, const std::function<void(const LasRecord&)>& visit);
 
+/// LAS's number for the type of an extra field, and for a VTK type.
+int lasTypeCode(int type);
+
+/// The header of a variable length record of @p size bytes. @p description: at most 32 bytes.
+std::string lasRecordHeader(
+  const std::string& user, int id, std::size_t size, std::string_view description = {});
+
+/// Writes @p value little-endian at @p offset. @pre it lies inside @p bytes.
+template <typename T>
+void putLittle(std::string& bytes, std::size_t offset, T value)
+{
+  storeLittle(value, &bytes[offset]);
+}
+
 } // namespace pointhaptics::io

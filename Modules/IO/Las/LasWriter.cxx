@@ -6,7 +6,6 @@
 #include "IO/Las/LasDescription.h"
 #include "IO/Las/LasGrid.h"
 #include "IO/Las/LasHeader.h"
-#include "IO/Las/LasRecordWriter.h"
 #include "IO/Las/LazWriter.h"
 
 #include "vtkDataArray.h"

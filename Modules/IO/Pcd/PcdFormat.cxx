@@ -39,15 +39,86 @@ public:
   {
   }
   /// Fills all of @p to. @return false when the packed bytes are damaged or end before.
-  bool read(char* to, std::size_t size);
+  bool read(char* to, std::size_t size)
+  {
+    while (size > 0)
+    {
+      if (begin_ == end_ && !this->fill())
+      {
+        return false;
+      }
+      const std::size_t piece = std::min(size, end_ - begin_);
+      std::memcpy(to, window_.get() + begin_, piece);
+      begin_ += piece;
+      to += piece;
+      size -= piece;
+    }
+    return true;
+  }
   /// True if everything was unpacked and handed out.
   bool isAtEnd() const { return at_ == packed_.size() && begin_ == end_; }
   /// How many packed bytes were used, up to the fault where there is one.
   std::size_t position() const { return at_; }
 
 private:
-  bool fill();
-  bool unpackOne();
+  bool fill()
+  {
+    if (end_ > kFarthest)
+    {
+      const std::size_t dropped = end_ - kFarthest;
+      std::memmove(window_.get(), window_.get() + dropped, kFarthest);
+      end_ = kFarthest;
+    }
+    begin_ = end_;
+    while (end_ < kFarthest + kBlock && at_ < packed_.size())
+    {
+      if (!this->unpackOne())
+      {
+        return false;
+      }
+    }
+    return end_ > begin_;
+  }
+  bool unpackOne()
+  {
+    const std::size_t left = packed_.size() - at_;
+    const auto byteAt = [&](std::size_t i) { return static_cast<std::uint8_t>(packed_[at_ + i]); };
+    const std::size_t control = byteAt(0);
+    if (control < 32)
+    {
+      const std::size_t length = control + 1;
+      if (length >= left)
+      {
+        return false;
+      }
+      std::memcpy(window_.get() + end_, packed_.data() + at_ + 1, length);
+      at_ += 1 + length;
+      end_ += length;
+      return true;
+    }
+    const bool isLong = control >> 5 == 7;
+    const std::size_t used = isLong ? 3 : 2;
+    if (used > left)
+    {
+      return false;
+    }
+    const std::size_t length = (control >> 5) + 2 + (isLong ? byteAt(1) : 0);
+    const std::size_t distance = ((control & 31) << 8 | byteAt(used - 1)) + 1;
+    if (distance > end_)
+    {
+      return false;
+    }
+    // A reference may reach into what it writes: byte by byte.
+    const std::uint8_t* from = window_.get() + end_ - distance;
+    std::uint8_t* to = window_.get() + end_;
+    for (std::size_t i = 0; i < length; ++i)
+    {
+      to[i] = from[i];
+    }
+    at_ += used;
+    end_ += length;
+    return true;
+  }
 
   static constexpr std::size_t kFarthest = 8192; ///< 13 bits of distance
   static constexpr std::size_t kLongest = 264;   ///< of one control byte
@@ -60,83 +131,6 @@ private:
   std::size_t begin_ = 0;                  ///< the first byte that was not handed out
   std::size_t end_ = 0;
 };
-
-bool LzfStream::unpackOne()
-{
-  const std::size_t left = packed_.size() - at_;
-  const auto byteAt = [&](std::size_t i) { return static_cast<std::uint8_t>(packed_[at_ + i]); };
-  const std::size_t control = byteAt(0);
-  if (control < 32)
-  {
-    const std::size_t length = control + 1;
-    if (length >= left)
-    {
-      return false;
-    }
-    std::memcpy(window_.get() + end_, packed_.data() + at_ + 1, length);
-    at_ += 1 + length;
-    end_ += length;
-    return true;
-  }
-  const bool isLong = control >> 5 == 7;
-  const std::size_t used = isLong ? 3 : 2;
-  if (used > left)
-  {
-    return false;
-  }
-  const std::size_t length = (control >> 5) + 2 + (isLong ? byteAt(1) : 0);
-  const std::size_t distance = ((control & 31) << 8 | byteAt(used - 1)) + 1;
-  if (distance > end_)
-  {
-    return false;
-  }
-  // A reference may reach into what it writes: byte by byte.
-  const std::uint8_t* from = window_.get() + end_ - distance;
-  std::uint8_t* to = window_.get() + end_;
-  for (std::size_t i = 0; i < length; ++i)
-  {
-    to[i] = from[i];
-  }
-  at_ += used;
-  end_ += length;
-  return true;
-}
-
-bool LzfStream::fill()
-{
-  if (end_ > kFarthest)
-  {
-    const std::size_t dropped = end_ - kFarthest;
-    std::memmove(window_.get(), window_.get() + dropped, kFarthest);
-    end_ = kFarthest;
-  }
-  begin_ = end_;
-  while (end_ < kFarthest + kBlock && at_ < packed_.size())
-  {
-    if (!this->unpackOne())
-    {
-      return false;
-    }
-  }
-  return end_ > begin_;
-}
-
-bool LzfStream::read(char* to, std::size_t size)
-{
-  while (size > 0)
-  {
-    if (begin_ == end_ && !this->fill())
-    {
-      return false;
-    }
-    const std::size_t piece = std::min(size, end_ - begin_);
-    std::memcpy(to, window_.get() + begin_, piece);
-    begin_ += piece;
-    to += piece;
-    size -= piece;
-  }
-  return true;
-}
 
 /// Bytes of one field that are unpacked at a time: they stay in the cache.
 constexpr std::size_t kBlockBytes = 1 << 18;

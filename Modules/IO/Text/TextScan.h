@@ -38,6 +38,12 @@ inline bool isBlank(char c)
   return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
 }
 
+/// A blank or the end of a line.
+inline bool isSpace(char c)
+{
+  return isBlank(c) || c == '\n';
+}
+
 /// @p text without white space at both ends.
 std::string_view trimmed(std::string_view text);
 

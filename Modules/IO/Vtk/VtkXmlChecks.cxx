@@ -19,11 +19,6 @@ namespace
 /// zlib packs at most 1032 bytes into one; a file that claims more, of any compressor, is refused.
 constexpr double kMostUnpackedBytes = 1032.0;
 
-bool isSpace(char c)
-{
-  return isBlank(c) || c == '\n';
-}
-
 std::string at(std::size_t offset)
 {
   return "byte " + std::to_string(offset) + ": ";
