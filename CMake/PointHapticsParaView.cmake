@@ -1,9 +1,10 @@
-# The build of the ParaView plugin: Core, Haptics, Filters and IO from the same sources as everywhere, against the VTK that
-# ParaView brings along, and nothing else. One shared object, as a plugin is copied and loaded by itself.
+# The build of the ParaView plugin: Core, Haptics, Filters, IO and Rendering from the same sources as everywhere, against
+# the VTK that ParaView brings along, and nothing else. One shared object, as a plugin is copied and loaded by itself.
 
 # ParaView's VTK needs MPI::MPI_C and does not look for it.
 find_package(MPI REQUIRED COMPONENTS C)
-find_package(ParaView 5.11 REQUIRED COMPONENTS WrapClientServer ProcessXML RemotingCore RemotingServerManager)
+find_package(ParaView 5.11 REQUIRED COMPONENTS WrapClientServer ProcessXML RemotingCore RemotingServerManager
+  RemotingViews)
 message(STATUS "ParaView plugin: for ParaView ${ParaView_VERSION} in ${ParaView_DIR}")
 
 set(POINTHAPTICS_HAS_MPI ON)
@@ -19,6 +20,7 @@ vtk_module_scan(
     "${CMAKE_CURRENT_SOURCE_DIR}/Modules/IO/vtk.module"
     "${CMAKE_CURRENT_SOURCE_DIR}/Modules/Parallel/vtk.module"
     "${CMAKE_CURRENT_SOURCE_DIR}/Modules/ParaView/vtk.module"
+    "${CMAKE_CURRENT_SOURCE_DIR}/Modules/Rendering/vtk.module"
     "${CMAKE_CURRENT_SOURCE_DIR}/Modules/Scene/vtk.module"
   PROVIDES_MODULES pointhaptics_provided
   WANT_BY_DEFAULT ON)

@@ -44,6 +44,9 @@ Task touchTask();
 /// Adds an option of file names with commas between.
 void addFiles(CLI::App& command, const std::string& name, std::vector<std::string>& files,
   const std::string& description);
+/// Adds an option taking comma-separated whole numbers from 1 to @p maximum; stored ascending, each once.
+void addWholeNumbers(CLI::App& command, const std::string& name, std::vector<double>& values, double maximum,
+  const std::string& description);
 /// Adds --instructions, which names an InstructionSet by its number.
 void addInstructions(CLI::App& command, int& set);
 

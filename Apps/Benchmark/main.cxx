@@ -12,6 +12,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -115,7 +116,7 @@ int runTask(const Task& task, const TaskRun& measure, Options& options, const CL
   }
   const std::vector<std::string> errors = takeVtkErrors();
   const std::string& wrong = errors.empty() ? run.faults() : errors.front();
-  return wrong.empty() ? kSuccess : fail(task.name, wrong);
+  return wrong.empty() ? kSuccess : fail(wrong);
 }
 
 void addTask(CLI::App& program, const Task& task, int& exitCode)
@@ -148,7 +149,11 @@ void addTask(CLI::App& program, const Task& task, int& exitCode)
   command->add_flag(
     "--json", options->json, "Print one JSON document at the end in the place of a row a line");
   command->callback(
-    [task, measure, options, command, &exitCode] { exitCode = runTask(task, measure, *options, *command); });
+    [task, measure, options, command, &exitCode]
+    {
+      nameCommand(task.name);
+      exitCode = runTask(task, measure, *options, *command);
+    });
 }
 
 } // namespace
@@ -160,6 +165,21 @@ void addFiles(
     .add_option_function<std::string>(
       name, [&files](const std::string& text) { files = CLI::detail::split(text, ','); }, description)
     ->type_name(kFiles);
+}
+
+void addWholeNumbers(CLI::App& command, const std::string& name, std::vector<double>& values, double maximum,
+  const std::string& description)
+{
+  const auto store = [&values, maximum, name](const std::string& text)
+  {
+    const auto isFit = [maximum](double x) { return x == std::floor(x) && x >= 1.0 && x <= maximum; };
+    const bool areFit = parseNumbers(text, values) && std::all_of(values.begin(), values.end(), isFit);
+    requireUsage(
+      areFit, name, text, fmt::format("give whole numbers from 1 to {:.0f}, separated by commas", maximum));
+    std::sort(values.begin(), values.end());
+    values.erase(std::unique(values.begin(), values.end()), values.end());
+  };
+  command.add_option_function<std::string>(name, store, description)->type_name("N,...");
 }
 
 void addInstructions(CLI::App& command, int& set)

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
+#include <string>
 #include <vector>
 
 namespace pointhaptics::app
@@ -50,23 +51,31 @@ Job::~Job()
   controller_->Finalize();
 }
 
-bool Job::agree(const std::string& command, const std::string& problem)
+void Job::attempt(const std::function<void()>& work)
 {
+  std::string problem;
+  try
+  {
+    work();
+  }
+  catch (const Failure& failure)
+  {
+    problem = failure.what();
+  }
   const std::vector<std::string> problems = ranks_.gather(problem);
   const auto first =
     std::find_if(problems.begin(), problems.end(), [](const std::string& text) { return !text.empty(); });
   if (first == problems.end())
   {
-    return true;
+    return;
   }
   const bool isEverywhere =
     std::all_of(problems.begin(), problems.end(), [&](const std::string& text) { return text == *first; });
   if (first - problems.begin() == ranks_.rank())
   {
-    fail(command,
-      isEverywhere ? problem : fmt::format("rank {} of {}: {}", ranks_.rank(), ranks_.size(), problem));
+    fail(isEverywhere ? problem : fmt::format("rank {} of {}: {}", ranks_.rank(), ranks_.size(), problem));
   }
-  return false;
+  throw EndOfJob();
 }
 
 int Job::finish(int exitCode)

@@ -6,12 +6,17 @@
 
 #include <vtkNew.h>
 
-#include <string>
+#include <functional>
 
 class vtkMPIController;
 
 namespace pointhaptics::app
 {
+
+/// A rank has failed, and said so.
+struct EndOfJob
+{
+};
 
 /// Starts MPI and ends it with main().
 class Job
@@ -25,9 +30,9 @@ public:
 
   MpiRanks& ranks() { return ranks_; }
   bool isRoot() const { return ranks_.rank() == 0; }
-  /// True if no rank has a @p problem. Else the first one that has prints it as fail() does, and says which
-  /// rank it is where not all have the same.
-  bool agree(const std::string& command, const std::string& problem);
+  /// Does @p work on this rank. Where one throws a Failure the first that did prints it as fail() does, and
+  /// says which rank it is where not all have the same. @throws EndOfJob on all ranks then.
+  void attempt(const std::function<void()>& work);
   /// Returns the largest exit code of all ranks: each ends with it. The last exchange of a job.
   int finish(int exitCode);
 

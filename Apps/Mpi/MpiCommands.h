@@ -9,8 +9,8 @@
 namespace pointhaptics::app
 {
 
-/// Work of a command line, run after it was parsed on all ranks. @return an ExitCode.
-using MpiWork = std::function<int(Job&)>;
+/// Work of a command line, run after it was parsed on all ranks. @throws EndOfJob
+using MpiWork = std::function<void(Job&)>;
 
 /// Each adds its command to @p program; its callback stores what @p ranks processes run in @p work.
 void addMpiResample(CLI::App& program, int ranks, MpiWork& work);

@@ -9,12 +9,15 @@
 #include "Clouds/Pipeline.h"
 #include "Options/OptionParsing.h"
 #include "Terminal/CommandLine.h"
+#include "Terminal/Messages.h"
 
 #include <CLI/CLI.hpp>
 #include <vtkPolyData.h>
 
 #include <algorithm>
 #include <filesystem>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace pointhaptics::app
@@ -23,26 +26,24 @@ namespace
 {
 
 /// Writes a file for each rank with points, and the list of them.
-bool writePerRank(
-  Job& job, const std::string& command, const std::string& fileName, vtkPolyData* piece, Files& files)
+void writePerRank(Job& job, const std::string& fileName, vtkPolyData* piece, Files& files)
 {
   const int rank = job.ranks().rank();
   const bool hasPoints = piece->GetNumberOfPoints() > 0;
-  std::string problem;
-  if (hasPoints)
-  {
-    writeCloud(piece, pieceFileOf(fileName, rank), files, command, problem);
-  }
   std::vector<int> withPoints = job.ranks().gatherValues(hasPoints ? rank : -1);
   withPoints.erase(std::remove(withPoints.begin(), withPoints.end(), -1), withPoints.end());
-  if (job.isRoot() && problem.empty())
-  {
-    writePiecesFile(files.output(fileName), fileName, piece, withPoints, problem);
-  }
-  return job.agree(command, problem);
+  job.attempt(
+    [&]
+    {
+      if (hasPoints)
+      {
+        writeCloud(piece, pieceFileOf(fileName, rank), files);
+      }
+      std::string problem;
+      require(!job.isRoot() || writePiecesFile(files.output(fileName), fileName, piece, withPoints, problem),
+        problem);
+    });
 }
-
-} // namespace
 
 void addOutputOptions(CLI::App& command)
 {
@@ -52,24 +53,21 @@ void addOutputOptions(CLI::App& command)
   addCommonOptions(command, true);
 }
 
-bool takeFiles(CLI::App& command, CloudToCloudOptions& options, int ranks, Files& files)
+/// Checks the files of the parsed @p command. False: there is nothing to do (--dry-run).
+bool takeFiles(CLI::App& command, CloudCommand& options, int ranks, Files& files)
 {
-  if (options.inputs.size() > 1)
-  {
-    throwUsage(options.inputs[1], "", "ranks read one cloud together; leave out the others");
-  }
+  requireUsage(options.inputs.size() == 1, options.inputs.back(), "",
+    "ranks read one cloud together; leave out the others");
   options.input = options.inputs.front();
   options.output = expandedName(options.output, options.input);
-  if (options.input == kStandardStream)
-  {
-    throwUsage("-", "", "standard input has no parts that ranks could read; give the name of a file");
-  }
+  requireUsage(options.input != kStandardStream, "-", "",
+    "standard input has no parts that ranks could read; give the name of a file");
   files.take(command);
   for (int rank = 0; isPiecesFile(options.output) && rank < ranks; ++rank)
   {
     files.addOutput(pieceFileOf(options.output, rank));
   }
-  const bool isTrial = command.get_option("--dry-run")->count() > 0;
+  const bool isTrial = isGiven(command, "--dry-run");
   if (isTrial)
   {
     files.printPlan(options.json);
@@ -77,68 +75,95 @@ bool takeFiles(CLI::App& command, CloudToCloudOptions& options, int ranks, Files
   return !isTrial;
 }
 
-bool openPiece(
-  Job& job, const std::string& command, const CloudToCloudOptions& files, Traffic& traffic, Piece& piece)
+} // namespace
+
+void addRankCommand(CLI::App& program, const char* name, const char* description, int ranks, MpiWork& work,
+  std::shared_ptr<CloudCommand> shared, std::shared_ptr<Traffic> traffic,
+  std::function<void(Job&, Files&)> run)
 {
-  useThreads(std::max<std::int64_t>(files.threads, 1));
-  std::string problem;
-  Cloud cloud;
-  files.read(cloud, problem, &job.ranks());
-  if (!job.agree(command, problem))
-  {
-    return false;
-  }
-  if (job.isRoot())
-  {
-    showNotes(command, files.input, cloud);
-  }
-  traffic.read = cloud.bytesRead;
-  piece.points = cloud.points;
-  piece.pointsOfAll =
-    job.ranks().reduce(cloud.points->GetNumberOfPoints(), [](vtkIdType a, vtkIdType b) { return a + b; });
-  return true;
+  CLI::App* command = program.add_subcommand(name, description);
+  shared->addTo(*command);
+  traffic->addTo(*command);
+  addOutputOptions(*command);
+  command->callback(
+    [=, &work]
+    {
+      nameCommand(name);
+      shared->complete(*command);
+      auto files = std::make_shared<Files>();
+      if (takeFiles(*command, *shared, ranks, *files))
+      {
+        work = [run, files](Job& job) { run(job, *files); };
+      }
+    });
 }
 
-bool writePieces(
-  Job& job, const std::string& command, const CloudToCloudOptions& options, vtkPolyData* piece, Files& files)
+Piece openPiece(Job& job, const CloudCommand& options, Traffic& traffic)
+{
+  useThreads(std::max<std::int64_t>(options.threads, 1));
+  Cloud cloud;
+  ReadOptions reading = options.reading;
+  reading.ranks = &job.ranks();
+  job.attempt([&] { cloud = readCloud(options.input, reading); });
+  if (job.isRoot())
+  {
+    showNotes(cloud);
+  }
+  traffic.read = cloud.bytesRead;
+  const vtkIdType all =
+    job.ranks().reduce(cloud.points->GetNumberOfPoints(), [](vtkIdType a, vtkIdType b) { return a + b; });
+  return { cloud.points, all };
+}
+
+void writePieces(Job& job, const CloudCommand& options, vtkPolyData* piece, Files& files)
 {
   const std::string& fileName = options.output;
   if (isPiecesFile(fileName))
   {
-    return writePerRank(job, command, fileName, piece, files);
+    writePerRank(job, fileName, piece, files);
+    return;
   }
   std::string problem;
   const bool isVtp = std::filesystem::path(fileName).extension() == ".vtp";
   const std::string path = isVtp && job.isRoot() ? files.output(fileName) : std::string();
   if (isVtp && job.ranks().size() > 1 && io::writeVtpTogether(job.ranks(), piece, path, problem))
   {
-    return job.agree(command, problem);
+    job.attempt([&] { require(problem.empty(), problem); });
+    return;
   }
   const vtkSmartPointer<vtkPolyData> all = gatherPieces(job.ranks(), piece);
-  if (all)
-  {
-    writeCloud(all, fileName, files, command, problem, options.writing);
-  }
-  return job.agree(command, problem);
+  job.attempt(
+    [&]
+    {
+      if (all)
+      {
+        writeCloud(all, fileName, files, options.writing);
+      }
+    });
 }
 
-bool commitTogether(Job& job, const std::string& command, Files& files)
+void commitTogether(Job& job, Files& files)
 {
-  std::string problem;
   // Rank 0 has the list of the pieces, and comes last.
   for (const bool isTurnOfRoot : { false, true })
   {
-    if (job.isRoot() == isTurnOfRoot)
+    try
     {
-      files.commit(problem);
+      job.attempt(
+        [&]
+        {
+          if (job.isRoot() == isTurnOfRoot)
+          {
+            files.commit();
+          }
+        });
     }
-    if (!job.agree(command, problem))
+    catch (const EndOfJob&)
     {
       files.revert();
-      return false;
+      throw;
     }
   }
-  return true;
 }
 
 } // namespace pointhaptics::app

@@ -2,15 +2,16 @@
 /// Clouds of a job: read in pieces, written as one file or as one per rank.
 #pragma once
 
-#include "Forward.h"
+#include "MpiCommands.h"
 #include "Traffic.h"
 
-#include "Clouds/CloudToCloud.h"
+#include "Clouds/CloudCommands.h"
 
 #include <vtkSmartPointer.h>
 #include <vtkType.h>
 
-#include <string>
+#include <functional>
+#include <memory>
 
 namespace pointhaptics::app
 {
@@ -22,24 +23,21 @@ struct Piece
   vtkIdType pointsOfAll = 0; ///< Number of points on all ranks.
 };
 
-/// Adds the options that a command of ranks has beside those of pointhaptics, and the common ones.
-void addOutputOptions(CLI::App& command);
-/// Checks the files of the parsed @p command, those of @p ranks processes among them, and fills in the input.
-/// False: there is nothing to do (--dry-run).
-bool takeFiles(CLI::App& command, CloudToCloudOptions& options, int ranks, Files& files);
+/// Adds a command to @p program, which has the options of @p shared beside those of ranks. Its callback
+/// checks the files, those of @p ranks processes among them, fills in the input, and stores what they run in
+/// @p work.
+void addRankCommand(CLI::App& program, const char* name, const char* description, int ranks, MpiWork& work,
+  std::shared_ptr<CloudCommand> shared, std::shared_ptr<Traffic> traffic,
+  std::function<void(Job&, Files&)> run);
 
-/// Sets the threads, one per rank unless the options say more, and
-/// reads this rank's points of the input: contiguous ones, as many on each rank. False on all ranks: the
-/// message is printed.
-bool openPiece(
-  Job& job, const std::string& command, const CloudToCloudOptions& files, Traffic& traffic, Piece& piece);
+/// Sets the threads, one per rank unless the options say more, and reads this rank's points of the input:
+/// contiguous ones, as many on each rank.
+Piece openPiece(Job& job, const CloudCommand& options, Traffic& traffic);
 
 /// Writes the pieces of all ranks: as one file by rank 0, or for a .pvtp a file of each rank beside it and
-/// the list of these. False on all ranks: the message is printed.
-bool writePieces(
-  Job& job, const std::string& command, const CloudToCloudOptions& options, vtkPolyData* piece, Files& files);
-/// Gives the outputs of all ranks their names. False on all ranks: none has appeared, and the message is
-/// printed.
-bool commitTogether(Job& job, const std::string& command, Files& files);
+/// the list of these.
+void writePieces(Job& job, const CloudCommand& options, vtkPolyData* piece, Files& files);
+/// Gives the outputs of all ranks their names, or none of them.
+void commitTogether(Job& job, Files& files);
 
 } // namespace pointhaptics::app

@@ -90,7 +90,15 @@ int run(Job& job, std::vector<std::string> arguments)
   {
     return ofAll; // help, version, or a rank whose command line is wrong
   }
-  return work(job);
+  try
+  {
+    work(job);
+  }
+  catch (const EndOfJob&)
+  {
+    return kFailed;
+  }
+  return kSuccess;
 }
 
 } // namespace

@@ -3,14 +3,21 @@
 #include "Terminal/Messages.h"
 #include "Terminal/StopSignals.h"
 
+#include "Core/Base/Host/OutOfMemory.h"
+
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <filesystem>
+#include <memory>
+#include <new>
 #include <string>
 #include <vector>
+
+#include <dlfcn.h>
 
 namespace
 {
@@ -23,13 +30,48 @@ const std::vector<std::string> kHelp = { "-h", "--help" };
 struct NamedCommand
 {
   const char* name;
-  void (*add)(CLI::App& program, int& exitCode);
+  const char* description;
+  Command* (*make)(); ///< Null: the library of the view makes it.
 };
 
-constexpr NamedCommand kCommands[] = { { "view", addViewCommand }, { "feel", addFeelCommand },
-  { "compare", addCompareCommand }, { "resample", addResampleCommand }, { "bandwidth", addBandwidthCommand },
-  { "convert", addConvertCommand }, { "info", addInfoCommand }, { "generate", addGenerateCommand },
-  { "devices", addDevicesCommand }, { "bench", addBenchCommand }, { kManualCommand, addManualCommand } };
+constexpr NamedCommand kCommands[] = {
+  { "view", "Show point clouds and feel them (the default command)", nullptr },
+  { "feel", "Feel a point cloud along a path, in virtual time, or with a Falcon", nullptr },
+  { "compare", "Feel a recording by two methods, and draw both forces side by side", nullptr },
+  { "resample", "Replace the points in each voxel of a lattice by their mean, or by one of them",
+    resampleCommand },
+  { "bandwidth", "Add kernel bandwidth, proxy radius and density to every point", bandwidthCommand },
+  { "convert", "Write point clouds in another format, with all they have", convertCommand },
+  { "info", "Say what is in point cloud files", infoCommand },
+  { "generate", "Make a point cloud of a shape with exact answers", generateCommand },
+  { "devices", "List haptic devices and SpaceMice; check a Falcon", devicesCommand },
+  { "bench", "Measure PointHaptics beside others (pointhaptics-bench)", benchCommand },
+  { kManualCommand,
+    "Print the man page, the bash completion, the cheat sheet, which options name files, or which formats "
+    "there are",
+    nullptr },
+};
+
+/// Address space that the libraries of the view are loaded in at least: what VTK's and TBB's first objects
+/// throw while they are loaded ends the process.
+constexpr std::size_t kRoomOfView = std::size_t(128) << 20;
+
+/// The command that the library of the view makes: loading VTK's rendering takes 20 ms.
+/// @throws std::bad_alloc where there is no room for it.
+Command* fromLibrary(const std::string& name)
+{
+  if (!pointhaptics::hasAddressSpace(kRoomOfView))
+  {
+    throw std::bad_alloc();
+  }
+  void* const library = dlopen(POINTHAPTICS_VIEW_LIBRARY, RTLD_LAZY);
+  void* const make = library ? dlsym(library, (name + "Command").c_str()) : nullptr;
+  const char* const problem = make ? nullptr : dlerror();
+  require(make,
+    fmt::format("{} cannot be loaded: {}; install the program again", POINTHAPTICS_VIEW_LIBRARY,
+      problem ? problem : "it lacks a command"));
+  return reinterpret_cast<Command* (*)()>(make)();
+}
 
 bool isOneOf(const std::vector<std::string>& words, const std::string& word)
 {
@@ -84,7 +126,8 @@ int run(std::vector<std::string> arguments)
   {
     if (areAllShown || arguments.front() == command.name)
     {
-      command.add(program, exitCode);
+      const std::shared_ptr<Command> made(command.make ? command.make() : fromLibrary(command.name));
+      addCommand(program, exitCode, command.name, command.description, made);
     }
   }
   return runCommands(program, std::move(arguments), exitCode);

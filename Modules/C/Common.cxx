@@ -181,10 +181,10 @@ int ph_gains_of(int preset, ph_gains* out)
   return PH_OK;
 }
 
-void ph_set_interpreter_lock(
-  int (*is_held)(void), void* (*release)(void), void (*take)(void*), int (*is_ending)(void))
+void ph_set_interpreter_lock(int (*is_held)(void), void* (*release)(void), void (*take)(void*),
+  int (*is_ending)(void), int (*run_handlers)(void))
 {
-  setInterpreterLock({ is_held, release, take, is_ending });
+  setInterpreterLock({ is_held, release, take, is_ending, run_handlers });
 }
 
 void ph_end_interpreter(void)

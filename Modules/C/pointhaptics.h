@@ -209,9 +209,10 @@ extern "C"
   /** For hosts that are interpreters with a lock, such as Python: long work of this process, VTK filters
    * included, gives it up. @p is_held: whether the calling thread has it; @p release gives it up, and @p take
    * gets it again with what that returned; @p is_ending, which may be null: whether it is given to nobody any
-   * more. */
-  PH_API void ph_set_interpreter_lock(
-    int (*is_held)(void), void* (*release)(void), void (*take)(void*), int (*is_ending)(void));
+   * more; @p run_handlers, which may be null: runs handlers of signals in the main thread, with the lock, and
+   * returns whether one has raised, which ends the work. */
+  PH_API void ph_set_interpreter_lock(int (*is_held)(void), void* (*release)(void), void (*take)(void*),
+    int (*is_ending)(void), int (*run_handlers)(void));
   /** At the end of such an interpreter: stops all work that gave the lock up, and returns when it has ended.
    * Its threads sleep until the process ends; what is begun from then on keeps the lock. Call it without the
    * lock. */

@@ -32,6 +32,17 @@ double sizeOf(const Bounds& box)
   return box.empty() ? 0.0 : norm(box.extent());
 }
 
+/// The farthest that @p box goes from the origin, about which a unit scales, on an axis.
+double reachOf(const Bounds& box)
+{
+  double reach = 0.0;
+  for (int axis = 0; axis < 3 && !box.empty(); ++axis)
+  {
+    reach = std::max({ reach, std::abs(box.minimum[axis]), std::abs(box.maximum[axis]) });
+  }
+  return reach;
+}
+
 Bounds boxOf(const HipPath& path)
 {
   Bounds box;
@@ -81,8 +92,10 @@ std::string cure(const std::vector<std::string>& options, const std::string& num
   return text;
 }
 
-std::string unlikelyLengths(double path, double cloud, const UnitNames& names)
+std::string unlikelyLengths(const Bounds& pathBox, const Bounds& cloudBox, const UnitNames& names)
 {
+  const double path = sizeOf(pathBox);
+  const double cloud = sizeOf(cloudBox);
   if (path <= kReach)
   {
     return {};
@@ -90,7 +103,7 @@ std::string unlikelyLengths(double path, double cloud, const UnitNames& names)
   const bool isLarge = cloud > kReach;
   const std::vector<Unit> units = likelyUnits(path, isLarge || cloud == 0.0 ? kUsualReach : cloud);
   const std::string spans = "the path spans " + lengthText(path, 2);
-  if (isLarge && areNear(path, cloud))
+  if (isLarge && areNear(reachOf(pathBox), reachOf(cloudBox)))
   {
     return spans + " and the cloud " + lengthText(cloud, 2) + ", more than a hand reaches; " +
       cure({ names.cloud, names.path }, "the points and the places of the path", "both are", units);
@@ -99,17 +112,23 @@ std::string unlikelyLengths(double path, double cloud, const UnitNames& names)
     cure({ names.path }, "the places of the path", "it is", units);
 }
 
-/// A cloud that would be as large as a path which passed it.
-std::string unlikelyCloud(double path, double cloud, const UnitNames& names)
+/// Places of a path and a cloud that it passed, one of which would be where the other is in another unit.
+std::string unlikelyPlaces(const Bounds& path, const Bounds& cloud, const UnitNames& names)
 {
-  std::vector<Unit> units = likelyUnits(cloud, std::max(path, kLeastTravel));
+  const double ofPath = reachOf(path);
+  const double ofCloud = reachOf(cloud);
+  const bool isCloud = ofCloud > ofPath;
+  const double far = std::max(ofPath, ofCloud);
+  const double near = std::min(ofPath, ofCloud);
+  std::vector<Unit> units = likelyUnits(far, std::max(near, kLeastTravel));
   units.erase(std::remove_if(units.begin(), units.end(),
-                [&](const Unit& unit) { return !areNear(unit.factor * cloud, path); }),
+                [&](const Unit& unit) { return !areNear(unit.factor * far, near); }),
     units.end());
-  return cloud > kReach && path > kLeastTravel && !units.empty()
-    ? "the cloud spans " + lengthText(cloud, 2) + " and the path " + lengthText(path, 2) + "; " +
-      cure({ names.cloud }, "the points", "the cloud is", units)
-    : std::string();
+  return far > kReach && near > kLeastTravel && !units.empty() ? "the cloud reaches " +
+      lengthText(ofCloud, 2) + " from the origin and the path " + lengthText(ofPath, 2) + "; " +
+      (isCloud ? cure({ names.cloud }, "the points", "the cloud is", units)
+               : cure({ names.path }, "the places of the path", "it is", units))
+                                                               : std::string();
 }
 
 std::string unlikelyTimes(const HipPath& path, const UnitNames& names)
@@ -148,11 +167,11 @@ void applyUnits(const PathUnits& units, HipPath& path)
 
 std::string unlikelyUnits(const HipPath& path, const Bounds& cloud, const UnitNames& names, bool isTouched)
 {
-  const double size = sizeOf(boxOf(path));
-  std::string odd = unlikelyLengths(size, sizeOf(cloud), names);
+  const Bounds box = boxOf(path);
+  std::string odd = unlikelyLengths(box, cloud, names);
   // Speeds are wrong where lengths are.
   odd = odd.empty() ? unlikelyTimes(path, names) : odd;
-  return odd.empty() && !isTouched ? unlikelyCloud(size, sizeOf(cloud), names) : odd;
+  return odd.empty() && !isTouched ? unlikelyPlaces(box, cloud, names) : odd;
 }
 
 } // namespace pointhaptics

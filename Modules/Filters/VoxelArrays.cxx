@@ -6,9 +6,6 @@
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 
-#include "Core/Resample/FieldNames.h"
-
-#include <algorithm>
 #include <sstream>
 
 namespace pointhaptics
@@ -68,20 +65,17 @@ std::vector<int> rolesOf(vtkDataSetAttributes* attributes, vtkAbstractArray* arr
   return roles;
 }
 
-AttributeKind kindOf(vtkDataArray* array, const std::set<std::string>& categoricalArrays,
-  Representative representative, bool isNormal)
+AttributeKind kindOf(vtkDataArray* array, const VoxelMeanSettings& settings, bool isNormal)
 {
-  if (keepsPoints(representative))
+  if (keepsPoints(settings.representative))
   {
     return AttributeKind::Chosen;
   }
-  const std::string name = array->GetName() ? array->GetName() : "";
-  if (std::any_of(categoricalArrays.begin(), categoricalArrays.end(),
-        [&](const std::string& each) { return isLabelField(name, each); }))
+  if (isCategorical(settings, nameOf(array)))
   {
     return AttributeKind::Category;
   }
-  if (representative == Representative::Median)
+  if (settings.representative == Representative::Median)
   {
     return AttributeKind::Median;
   }
@@ -90,8 +84,8 @@ AttributeKind kindOf(vtkDataArray* array, const std::set<std::string>& categoric
 
 }
 
-std::vector<VoxelArray> voxelArrays(vtkPointSet* input, const std::set<std::string>& categoricalArrays,
-  Representative representative, std::vector<std::string>& dropped)
+std::vector<VoxelArray> voxelArrays(
+  vtkPointSet* input, const VoxelMeanSettings& settings, std::vector<std::string>& dropped)
 {
   std::vector<VoxelArray> found;
   vtkPointData* data = input->GetPointData();
@@ -109,8 +103,7 @@ std::vector<VoxelArray> voxelArrays(vtkPointSet* input, const std::set<std::stri
       continue;
     }
     const bool isNormal = array == data->GetNormals() && array->GetNumberOfComponents() == 3;
-    found.push_back(
-      { array, kindOf(array, categoricalArrays, representative, isNormal), rolesOf(data, array), isNormal });
+    found.push_back({ array, kindOf(array, settings, isNormal), rolesOf(data, array), isNormal });
   }
   return found;
 }

@@ -4,9 +4,8 @@
 
 #include "VoxelAttribute.h"
 
-#include "Core/Resample/Representative.h"
+#include "Core/Resample/VoxelMeanSettings.h"
 
-#include <set>
 #include <string>
 #include <vector>
 
@@ -31,7 +30,7 @@ struct VoxelArray
 /// Arrays of @p input that have values in voxels, in its order; not identifiers, ghost flags and results of
 /// an earlier resampling.
 /// @p dropped: a sentence for each array that has no value in voxels.
-std::vector<VoxelArray> voxelArrays(vtkPointSet* input, const std::set<std::string>& categoricalArrays,
-  Representative representative, std::vector<std::string>& dropped);
+std::vector<VoxelArray> voxelArrays(
+  vtkPointSet* input, const VoxelMeanSettings& settings, std::vector<std::string>& dropped);
 
 } // namespace pointhaptics

@@ -7,6 +7,7 @@
 
 #include "Core/Bandwidth/Density.h"
 #include "Core/Bandwidth/LocalBandwidth.h"
+#include "Core/Base/Host/InterpreterLock.h"
 #include "Core/Distributed/FarPoints.h"
 #include "Core/Resample/VoxelMean.h"
 
@@ -86,6 +87,7 @@ private:
     {
       this->Now = progress;
       this->Filter->UpdateProgress(progress);
+      runSignalHandlers();
     }
   }
 

@@ -127,10 +127,7 @@ void vtkVoxelMeanResampler::ClearCategoricalArrays()
 
 bool vtkVoxelMeanResampler::IsCategoricalArray(const char* name) const
 {
-  const std::set<std::string>& all = this->Settings.categoricalArrays;
-  return name &&
-    std::any_of(all.begin(), all.end(),
-      [name](const std::string& each) { return pointhaptics::isLabelField(name, each); });
+  return name && pointhaptics::isCategorical(this->Settings, name);
 }
 
 unsigned long vtkVoxelMeanResampler::GetScratchMemorySize() const

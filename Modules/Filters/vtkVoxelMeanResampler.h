@@ -181,13 +181,16 @@ public:
   /**
    * Names of the arrays that hold labels: their voxel value is the one most points have, not a mean. Default:
    * none, but "Class", "Classification", "Instance", "Label" and "Segment" are in the list from the start.
-   * They mean also names that end with them, in the plural or with an id ("scalar_Label", "instance_ids").
+   * They mean also names that end with them, in the plural or with an id ("scalar_Label", "instance_ids"),
+   * unless ExactCategoricalNames is on. Default: off.
    */
-  void AddCategoricalArray(const char* name);
-  void RemoveCategoricalArray(const char* name);
-  void ClearCategoricalArrays();
+  virtual void AddCategoricalArray(const char* name);
+  virtual void RemoveCategoricalArray(const char* name);
+  virtual void ClearCategoricalArrays();
   bool IsCategoricalArray(const char* name) const;
   const std::set<std::string>& GetCategoricalArrays() const { return this->Settings.categoricalArrays; }
+  vtkSettingMacro(ExactCategoricalNames, bool, exactCategoricalNames);
+  vtkBooleanMacro(ExactCategoricalNames, bool);
   ///@}
 
   enum RepresentativeType

@@ -2,6 +2,7 @@
 
 #include "FieldPoses.h"
 
+#include "Core/Base/Host/InterpreterLock.h"
 #include "Core/Distributed/FarPoints.h"
 #include "Core/Distributed/Ranks.h"
 #include "Core/Resample/FieldNames.h"
@@ -369,6 +370,7 @@ void vtkVoxelMeanResampler::Internals::BeginPart(double end)
 bool vtkVoxelMeanResampler::Internals::report(double fraction)
 {
   this->Filter->UpdateProgress(this->PartBegin + (this->PartEnd - this->PartBegin) * fraction);
+  pointhaptics::runSignalHandlers();
   this->Aborted = this->Filter->GetAbortExecute() != 0;
   return !this->Aborted;
 }
@@ -391,8 +393,7 @@ void vtkVoxelMeanResampler::Internals::ChooseArrays(vtkPointSet* input)
   std::vector<KnownValues> known;
   known.swap(this->Known);
   std::vector<std::string> dropped;
-  for (const VoxelArray& found :
-    voxelArrays(input, this->Settings.categoricalArrays, this->Request.representative, dropped))
+  for (const VoxelArray& found : voxelArrays(input, this->Settings, dropped))
   {
     const ArraySeen seen(found.array, ownersTime);
     const auto old = std::find_if(known.begin(), known.end(),

@@ -71,6 +71,9 @@ public:
   throw NoPoints();
 }
 
+/// Bytes of the character of UTF-8 at the front of @p text; 0: none stands there.
+std::size_t characterBytes(std::string_view text);
+
 /// @p text in quotes, cut to 40 bytes, with what is no printable UTF-8 shown as '?': safe to print.
 std::string inQuotes(std::string_view text);
 

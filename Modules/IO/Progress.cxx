@@ -1,5 +1,6 @@
 #include "Progress.h"
 
+#include "Core/Base/Host/InterpreterLock.h"
 #include "Core/Base/Host/StopRequest.h"
 #include "FileProblem.h"
 
@@ -15,6 +16,7 @@ namespace pointhaptics::io
 void reportProgress(vtkAlgorithm* algorithm, double fraction)
 {
   algorithm->UpdateProgress(fraction);
+  runSignalHandlers();
   if (shallStop(algorithm, 0))
   {
     throw StoppedOnRequest();
@@ -53,6 +55,7 @@ void RelayedProgress::relay(double fraction)
   {
     reached_ = now;
     outer_->UpdateProgress(now);
+    runSignalHandlers();
   }
   // An exception must not pass through VTK: finish() throws it.
   if (outer_->GetAbortExecute())

@@ -215,6 +215,16 @@ struct KeepFindings
   }
 };
 
+/// Files of other programs have names in Latin-1, which no host could show and no VTP file hold.
+void useUtf8Names(vtkFieldData* data)
+{
+  for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+  {
+    vtkAbstractArray* array = data->GetAbstractArray(i);
+    array->GetName() ? array->SetName(io::utf8Name(array->GetName()).c_str()) : void();
+  }
+}
+
 } // namespace
 
 vtkPointCloudReader::vtkPointCloudReader()
@@ -391,6 +401,8 @@ void vtkPointCloudReader::Finish(io::ReadTask& task, vtkPolyData* cloud)
     keepRows(cloud, 0, static_cast<vtkIdType>(task.pointsThere));
   }
   checkCoordinates(cloud);
+  useUtf8Names(cloud->GetPointData());
+  useUtf8Names(cloud->GetFieldData());
   cloud->GetFieldData()->RemoveArray(pointhaptics::kLocalFrame); // of another cloud that a file was made of
   this->FinishFaces(task, cloud);
   io::finishSplats(task, cloud);
@@ -457,6 +469,16 @@ std::string vtkPointCloudReader::ExtensionOf(const std::string& path) const
                                  : this->Extension;
 }
 
+/// A file that was stopped is read again by the next Update().
+vtkMTimeType vtkPointCloudReader::GetMTime()
+{
+  if (this->WasStopped)
+  {
+    this->RetryTime.Modified();
+  }
+  return std::max(this->Superclass::GetMTime(), this->RetryTime.GetMTime());
+}
+
 void vtkPointCloudReader::Fail(unsigned long code, const std::string& message)
 {
   this->ErrorMessage = io::messageOf(this->FileName, this->Format, message);
@@ -473,6 +495,7 @@ int vtkPointCloudReader::RequestData(
   this->Notes.clear();
   this->ValidWithoutPoints = false;
   this->OtherRankFailed = false;
+  this->WasStopped = false;
   this->NumberOfBytesRead = 0;
   this->Coarse = false;
   this->Sampled = false;
@@ -510,6 +533,7 @@ int vtkPointCloudReader::RequestData(
   }
   catch (const io::StoppedOnRequest&)
   {
+    this->WasStopped = true;
     this->ErrorMessage = std::string(this->FileName) + ": reading was stopped on request; read it again";
     this->SetErrorCode(vtkErrorCode::UserError);
   }

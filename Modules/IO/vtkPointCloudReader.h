@@ -88,6 +88,7 @@
 
 #include "PointHapticsIOModule.h" // For export macro
 #include "vtkPolyDataAlgorithm.h"
+#include "vtkTimeStamp.h" // For RetryTime
 
 #include <string> // For std::string
 #include <vector> // For std::vector
@@ -305,6 +306,7 @@ private:
   void FinishFaces(pointhaptics::io::ReadTask& task, vtkPolyData* cloud);
   std::string ExtensionOf(const std::string& path) const;
   void Fail(unsigned long code, const std::string& message);
+  vtkMTimeType GetMTime() override;
 
   char* FileName = nullptr;
   double Resolution = 0.0;
@@ -326,6 +328,8 @@ private:
   bool ValidWithoutPoints = false;
   pointhaptics::Ranks* Ranks = nullptr;
   bool OtherRankFailed = false;
+  bool WasStopped = false;
+  vtkTimeStamp RetryTime;
   vtkTypeInt64 NumberOfBytesRead = 0;
 };
 

@@ -3,6 +3,7 @@
 #include "Bytes/FileBytes.h"
 #include "FileProblem.h"
 #include "IO/Formats/FormatList.h"
+#include "IO/Formats/FormatLooks.h"
 #include "IO/Info/FieldText.h"
 #include "IO/Info/FileComments.h"
 #include "IO/Info/LengthUnit.h"
@@ -52,9 +53,10 @@ bool keeps(const io::CloudFormat& format, vtkPointSet* cloud, const std::string&
   return (" " + std::string(format.keptFieldData) + " ").find(" " + fieldName + " ") != std::string::npos;
 }
 
-/// Field data that vtkPointCloudReader adds to a cloud; that of filters is no loss.
-constexpr const char* kOfTheCloud[] = { "Viewpoint", "OrganizedDimensions", "CoordinateSystem", "LengthUnit",
-  pointhaptics::kHeightUnit, "ScanPoses" };
+/// Field data that tells how a file was written or a cloud was made: without it nothing of the cloud is lost.
+constexpr std::string_view kOfTheMaking =
+  " LasScale LasOffset LasGlobalEncoding LasHeader LasRecords LasFarRecords Generator Chunks LocalFrame "
+  "ScanNames ScanPoints File LatticeOrigin LatticeSpacing LatticeDimensions ModelToWorkspace ";
 
 /// True if @p name is a viewpoint or poses (tx ty tz qw qx qy qz) that change nothing.
 bool isIdentityPose(vtkPointSet* cloud, const std::string& name)
@@ -75,9 +77,11 @@ bool isIdentityPose(vtkPointSet* cloud, const std::string& name)
 void noteWhatIsNoColumn(vtkPointSet* cloud, const io::CloudFormat& format, io::WriterNotes& notes)
 {
   std::string lost;
-  for (const std::string name : kOfTheCloud)
+  for (int i = 0; i < cloud->GetFieldData()->GetNumberOfArrays(); ++i)
   {
-    if (!keeps(format, cloud, name) && cloud->GetFieldData()->HasArray(name.c_str()) &&
+    const char* given = cloud->GetFieldData()->GetAbstractArray(i)->GetName();
+    const std::string name = io::utf8Name(given ? given : "");
+    if (!keeps(format, cloud, name) && kOfTheMaking.find(" " + name + " ") == std::string_view::npos &&
       !isIdentityPose(cloud, name))
     {
       name == "LengthUnit" ? notes.add("the file does not say that the unit is " +

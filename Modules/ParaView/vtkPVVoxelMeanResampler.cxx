@@ -1,7 +1,5 @@
 #include "vtkPVVoxelMeanResampler.h"
 
-#include "Core/Resample/FieldNames.h"
-
 #include "vtkCommand.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkCompositeDataSetRange.h"
@@ -53,22 +51,57 @@ void vtkPVVoxelMeanResampler::SetAutomaticWorkspace(bool automatic)
   this->ApplyChosen();
 }
 
+void vtkPVVoxelMeanResampler::SetWorkspaceBounds(const double bounds[6])
+{
+  this->Chosen.workspace = { { bounds[0], bounds[2], bounds[4] }, { bounds[1], bounds[3], bounds[5] } };
+  this->Size = this->Chosen.workspace.extent();
+  this->SetAutomaticWorkspace(false);
+}
+
 void vtkPVVoxelMeanResampler::SetWorkspacePosition(double x, double y, double z)
 {
-  this->Position = { x, y, z };
+  this->Chosen.workspace = { { x, y, z }, pointhaptics::Vec3{ x, y, z } + this->Size };
   this->ApplyChosen();
 }
 
 void vtkPVVoxelMeanResampler::SetWorkspaceSize(double x, double y, double z)
 {
   this->Size = { x, y, z };
+  this->Chosen.workspace.maximum = this->Chosen.workspace.minimum + this->Size;
   this->ApplyChosen();
+}
+
+void vtkPVVoxelMeanResampler::AddCategoricalArray(const char* name)
+{
+  this->Superclass::AddCategoricalArray(name);
+  this->Tick(name, true);
+}
+
+void vtkPVVoxelMeanResampler::RemoveCategoricalArray(const char* name)
+{
+  this->Superclass::RemoveCategoricalArray(name);
+  this->Tick(name, false);
+}
+
+void vtkPVVoxelMeanResampler::ClearCategoricalArrays()
+{
+  this->Superclass::ClearCategoricalArrays();
+  this->Categorical->DisableAllArrays();
+}
+
+/// Until arrays are known, the names of the superclass decide.
+void vtkPVVoxelMeanResampler::Tick(const char* name, bool isTicked)
+{
+  if (this->Categorical->GetNumberOfArrays() > 0)
+  {
+    this->Categorical->SetArraySetting(name, isTicked);
+  }
 }
 
 int vtkPVVoxelMeanResampler::RequestInformation(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector*)
 {
-  const bool areFirst = this->Categorical->GetNumberOfArrays() == 0;
+  const pointhaptics::VoxelMeanSettings before = this->GetSettings();
   const auto add = [&](vtkDataObject* block)
   {
     vtkFieldData* arrays = block ? block->GetAttributesAsFieldData(vtkDataObject::POINT) : nullptr;
@@ -77,11 +110,7 @@ int vtkPVVoxelMeanResampler::RequestInformation(
       const char* name = arrays->GetArrayName(i);
       if (name)
       {
-        const std::set<std::string>& labels = pointhaptics::VoxelMeanSettings().categoricalArrays;
-        this->Categorical->AddArray(name,
-          areFirst &&
-            std::any_of(labels.begin(), labels.end(),
-              [name](const std::string& label) { return pointhaptics::isLabelField(name, label); }));
+        this->Categorical->AddArray(name, pointhaptics::isCategorical(before, name));
       }
     }
   };
@@ -94,6 +123,7 @@ int vtkPVVoxelMeanResampler::RequestInformation(
       add(block);
     }
   }
+  this->ApplyChosen(); // The selection does not report what is added.
   return 1;
 }
 
@@ -101,7 +131,6 @@ void vtkPVVoxelMeanResampler::ApplyChosen()
 {
   pointhaptics::VoxelMeanSettings settings = this->GetSettings();
   settings.lattice = this->Chosen;
-  settings.lattice.workspace = { this->Position, this->Position + this->Size };
   if (this->LatticeMode == ByDimensions)
   {
     settings.lattice.voxelSize = 0.0;
@@ -109,6 +138,7 @@ void vtkPVVoxelMeanResampler::ApplyChosen()
   if (this->Categorical->GetNumberOfArrays() > 0)
   {
     settings.categoricalArrays.clear();
+    settings.exactCategoricalNames = true;
   }
   for (int i = 0; i < this->Categorical->GetNumberOfArrays(); ++i)
   {
@@ -126,7 +156,8 @@ std::string vtkPVVoxelMeanResampler::ProblemOf(vtkDataObject* input)
   if (this->LatticeMode == ByVoxelSize && !(this->Chosen.voxelSize > 0.0))
   {
     return "VoxelSize is " + vtkVariant(this->Chosen.voxelSize).ToString() +
-      "; give an edge above 0 in the unit of the points, or set the lattice by its dimensions";
+      "; give an edge above 0 in the unit of the points, set the lattice by its dimensions, or (in a script) "
+      "update the input before the filter is made, whose default is a part of its size";
   }
   return this->Superclass::ProblemOf(input);
 }

@@ -58,6 +58,8 @@ public:
    */
   void SetAutomaticWorkspace(bool automatic) override;
 
+  using vtkDistributedVoxelMeanResampler::SetWorkspaceBounds;
+  void SetWorkspaceBounds(const double bounds[6]) override;
   ///@{
   /**
    * Least corner and edges of the box that is the workspace where AutomaticWorkspace is off: what a box in
@@ -68,11 +70,14 @@ public:
   ///@}
 
   /**
-   * The input's point arrays, those with labels enabled: these are the CategoricalArrays. Arrays that it does
-   * not know yet come from the input before each update; the first, if none was set before, are enabled where
-   * CategoricalArrays takes them by default.
+   * The input's point arrays, those with labels enabled: these are the CategoricalArrays, by their exact
+   * names. Arrays that it does not know yet come from the input before each update, enabled where
+   * IsCategoricalArray() was true until then.
    */
   vtkDataArraySelection* GetCategoricalArraySelection() { return this->Categorical; }
+  void AddCategoricalArray(const char* name) override;
+  void RemoveCategoricalArray(const char* name) override;
+  void ClearCategoricalArrays() override;
 
 protected:
   vtkPVVoxelMeanResampler();
@@ -89,11 +94,11 @@ private:
   void operator=(const vtkPVVoxelMeanResampler&) = delete;
 
   void ApplyChosen();
+  void Tick(const char* name, bool isTicked);
 
   int LatticeMode = ByDimensions;
-  pointhaptics::LatticeSettings Chosen; // with the voxel size of both modes
-  pointhaptics::Vec3 Position{ -0.05, -0.05, -0.05 };
-  pointhaptics::Vec3 Size{ 0.1, 0.1, 0.1 };
+  pointhaptics::LatticeSettings Chosen;     // with the voxel size of both modes
+  pointhaptics::Vec3 Size{ 0.1, 0.1, 0.1 }; // as it was set: the workspace's own is rounded
   vtkNew<vtkDataArraySelection> Categorical;
 };
 

@@ -59,7 +59,7 @@ std::string DistributedUpdate::chooseArrays()
   {
     return {};
   }
-  found_ = voxelArrays(input_, settings_.categoricalArrays, settings_.representative, dropped_);
+  found_ = voxelArrays(input_, settings_, dropped_);
   const std::string signature = signatureOf(found_);
   if (!this->agree(signature))
   {

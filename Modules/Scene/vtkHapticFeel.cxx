@@ -221,6 +221,7 @@ bool vtkHapticFeel::Internals::Feel(
       if (++tick % kTicksBetweenReports == 0)
       {
         filter->UpdateProgress(kResampled + (1.0 - kResampled) * double(tick) / double(ticks));
+        runSignalHandlers();
       }
       return !filter->AbortExecute;
     });

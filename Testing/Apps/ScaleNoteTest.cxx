@@ -1,7 +1,7 @@
 #include "ScaleNote.h"
 #include "PolyDataAccess.h"
 
-#include "Options/LatticeOptions.h"
+#include "Options/SharedOptions.h"
 
 #include <gtest/gtest.h>
 #include <vtkMatrix4x4.h>

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <utility>
 
@@ -326,6 +327,35 @@ TEST_F(Usage, NegativeNumbersAreNumbersNotOptions)
   this->succeed({ "resample", "in.ply", "-o", "a.csv", "--translate", "-.01,-1e-3,-2" });
   this->succeed({ "resample", "in.ply", "-o", "b.csv", "--translate=-.01,-1e-3,-2" });
   EXPECT_EQ(this->read("a.csv"), this->read("b.csv"));
+}
+
+TEST_F(Usage, AMisspeltOptionIsToldBeforeWhatIsMissing)
+{
+  this->makeInputs();
+  this->refuse(2, { "resample", "in.ply", "--outptu", "out.ply" },
+    { "unexpected argument --outptu; did you mean --output?" });
+  this->refuse(2, { "generate", "sphere", "--piont=3", "-o", "out.ply" },
+    { "unexpected argument --piont=3; did you mean --points?" });
+}
+
+TEST_F(Usage, TheBeginningOfALongWordFindsIt)
+{
+  this->makeInputs();
+  this->refuse(2, { "resample", "in.ply", "-o", "out.ply", "--representative", "nearst" },
+    { "no such choice; did you mean nearest-to-mean?" });
+}
+
+TEST_F(Usage, TheProgramStartsWithoutTheLibrariesOfPictures)
+{
+  setenv("LD_TRACE_LOADED_OBJECTS", "1", 1); // the loader lists what it would load, and ends
+  const Outcome listed = this->run({ "--version" });
+  unsetenv("LD_TRACE_LOADED_OBJECTS");
+  if (listed.output.find("libpointhaptics_program") == std::string::npos)
+  {
+    GTEST_SKIP() << "the libraries are part of the program";
+  }
+  EXPECT_EQ(listed.output.find("libvtkRendering"), std::string::npos) << listed.output;
+  EXPECT_EQ(listed.output.find("libPointHapticsViewer"), std::string::npos) << listed.output;
 }
 
 } // namespace

@@ -1,6 +1,6 @@
 #include "View/ViewSettings.h"
 
-#include "Options/LatticeOptions.h"
+#include "Options/SharedOptions.h"
 
 #include "HapticViewerOptions.h"
 

@@ -118,7 +118,7 @@ class Blocks(unittest.TestCase):
             self.assertLessEqual(len(text.splitlines()), lines)
 
     def test_paraview(self) -> None:
-        """Run by ParaView.Plugin, where there is a ParaView."""
+        """Run by ParaView.Splats, where there is a ParaView."""
         text = (BLOCKS / "ParaView.py").read_text()
         compile(text, "ParaView.py", "exec")
         self.assertIn("LoadPlugin", text)

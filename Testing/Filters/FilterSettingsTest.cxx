@@ -46,6 +46,8 @@ const std::map<std::string, Property<Resampler>> kResamplerProperties = {
         to->AddCategoricalArray(name.c_str());
       }
     } },
+  { "exactCategoricalNames",
+    property(&Resampler::SetExactCategoricalNames, &Resampler::GetExactCategoricalNames) },
   { "lattice.voxelSize", property(&Resampler::SetVoxelSize, &Resampler::GetVoxelSize) },
   { "lattice.automaticWorkspace",
     property(&Resampler::SetAutomaticWorkspace, &Resampler::GetAutomaticWorkspace) },

@@ -198,6 +198,27 @@ TEST(VoxelMeanAttributes, FieldsThatAreCalledLabelsAreLabels)
   }
 }
 
+TEST(VoxelMeanAttributes, ExactNamesMeanThemselvesAlone)
+{
+  const auto cloud = trial::cloudAt({ { 0.1, 0.1, 0.1 }, { 0.1, 0.1, 0.1 }, { 0.1, 0.1, 0.1 } });
+  for (const char* name : { "Label", "label", "scalar_Label" })
+  {
+    trial::addArray(cloud, name, { 9, 0, 9 });
+  }
+  vtkNew<vtkVoxelMeanResampler> resampler;
+  trial::useUnitCube(resampler, 2);
+  resampler->SetInputData(cloud);
+  resampler->ExactCategoricalNamesOn();
+  resampler->Update();
+  vtkPointData* out = resampler->GetOutput()->GetPointData();
+  EXPECT_EQ(out->GetArray("Label")->GetTuple1(0), 9);
+  EXPECT_EQ(out->GetArray("label")->GetTuple1(0), 6);
+  EXPECT_EQ(out->GetArray("scalar_Label")->GetTuple1(0), 6);
+  resampler->ExactCategoricalNamesOff();
+  resampler->Update();
+  EXPECT_EQ(out->GetArray("scalar_Label")->GetTuple1(0), 9);
+}
+
 TEST(VoxelMeanAttributes, DropsStringArraysWithAWarning)
 {
   const auto cloud = trial::cloudAt({ { 0, 0, 0 }, { 1, 1, 1 } });

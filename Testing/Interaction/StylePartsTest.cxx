@@ -295,6 +295,10 @@ TEST_F(StyleParts, SayWhyTheTouchCannotBegin)
   interactor->SetInteractorStyle(style);
   EXPECT_FALSE(touch.start());
   EXPECT_NE(touch.message().find("no point lies in the workspace"), std::string::npos) << touch.message();
+  resampler->SetVoxelSize(1e-12);
+  style->SetResampler(resampler);
+  EXPECT_FALSE(touch.start());
+  EXPECT_NE(touch.message().find("voxel size 1e-12"), std::string::npos) << touch.message();
   EXPECT_FALSE(touch.servo().running());
   style = nullptr; // the touch keeps it until it ends itself
 }

@@ -44,6 +44,8 @@ use_program() {
   check_libraries "$ROOT/usr/bin/pointhaptics"
   "$ROOT/usr/bin/pointhaptics" generate sphere -n 1000 -o packaged.ply
   "$ROOT/usr/bin/pointhaptics" resample packaged.ply -o packaged.vtp --dims 10
+  "$ROOT/usr/bin/pointhaptics" view packaged.ply --write-config packaged.json # by the library that is loaded for it
+  check_libraries "$ROOT"/usr/lib/libpointhaptics_view.so.*.*.*
   "$ROOT/usr/bin/pointhaptics" info packaged.vtp | grep -q VoxelPointCount || fail "packaged.vtp has no VoxelPointCount"
   for file in share/man/man1/pointhaptics.1 share/bash-completion/completions/pointhaptics \
     share/applications/pointhaptics.desktop share/doc/pointhaptics/copyright lib/udev/rules.d/70-pointhaptics.rules; do

@@ -11,6 +11,25 @@ from support import ErrorMessages, TestCase, arrays_of, load_plugin, read_vtp, r
 load_plugin()
 
 
+OWN_PROXY = """
+<ServerManagerConfiguration>
+  <ProxyGroup name="filters">
+    <SourceProxy class="vtkPVVoxelMeanResampler" name="OwnResampler">
+      <InputProperty command="SetInputConnection" name="Input"/>
+      <IntVectorProperty command="SetDimensions" default_values="1 1 1" name="Dimensions" number_of_elements="3"/>
+      <StringVectorProperty command="AddCategoricalArray" name="Add" number_of_elements="1"/>
+      <StringVectorProperty command="RemoveCategoricalArray" name="Remove" number_of_elements="1"/>
+      <DoubleVectorProperty command="SetWorkspaceBounds" default_values="0 1 0 1 0 1" name="Bounds" number_of_elements="6"/>
+      <DoubleVectorProperty command="SetWorkspacePosition" default_values="0 0 0" name="Position" number_of_elements="3"/>
+      <DoubleVectorProperty command="GetWorkspaceBounds" information_only="1" name="FoundBounds">
+        <SimpleDoubleInformationHelper/>
+      </DoubleVectorProperty>
+    </SourceProxy>
+  </ProxyGroup>
+</ServerManagerConfiguration>
+"""
+
+
 class Resampling(TestCase):
     def cloud(self):
         run_program("generate", "idol", "-n", 20000, "-o", self.path("in.ply"))
@@ -43,6 +62,15 @@ class Resampling(TestCase):
         means.AutomaticWorkspace = 1
         means.LatticeMode = "Voxel Size"
         self.resampled(means, self.path("in.ply"), "--voxel", 0.001)
+
+    def test_a_given_value_is_no_default(self):
+        """ParaView takes a value for not given that is the default of the XML."""
+        cloud = self.cloud()
+        cloud.UpdatePipeline()
+        paper = {"WorkspacePosition": [-0.05] * 3, "WorkspaceSize": [0.1] * 3}
+        means = simple.VoxelMeanResampler(Input=cloud, VoxelSize=0.001, **paper)
+        self.assertEqual((means.VoxelSize, list(means.WorkspacePosition), list(means.WorkspaceSize)), (0.001, *paper.values()))
+        self.assertEqual(simple.KernelBandwidth(Input=cloud, Radius=0.001).Radius, 0.001)
 
     def test_representatives(self):
         means = simple.VoxelMeanResampler(Input=self.cloud(), VoxelSize=0.004, MinimumPointsPerVoxel=2)
@@ -186,6 +214,37 @@ class InPipelines(TestCase):
             for name in ("Classification", "ReturnNumber"):
                 # A mean is none of the labels, which are multiples of ten.
                 self.assertEqual((found[name] % 10 == 0).all(), name in chosen, (name, chosen))
+
+    def test_a_tick_means_one_array(self):
+        cloud = self.labels()
+        for name in ("Label", "scalar_Label"):
+            cloud = simple.Calculator(Input=cloud, Function="Classification", ResultArrayName=name)
+        cloud.UpdatePipeline()
+        means = simple.VoxelMeanResampler(Input=cloud, VoxelSize=3)
+        self.assertEqual(sorted(means.CategoricalArrays), ["Classification", "Label", "scalar_Label"])
+        for ticked in ("Label", "scalar_Label"):
+            means.CategoricalArrays = [ticked]
+            found = arrays_of(servermanager.Fetch(means))
+            for name in ("Label", "scalar_Label"):
+                self.assertEqual((found[name] % 10 == 0).all(), name == ticked, (name, ticked))
+
+    def test_each_value_has_one_owner(self):
+        """The functions of the superclass set what the panel's set: here they are properties of a proxy."""
+        with open(self.path("own.xml"), "w") as file:
+            file.write(OWN_PROXY)
+        simple.LoadPlugin(self.path("own.xml"), ns=vars(simple))
+        means = simple.OwnResampler(Input=self.labels(), Dimensions=[3, 3, 3], Add="ReturnNumber", Bounds=[0, 6, 0, 6, 0, 6])
+        found = arrays_of(servermanager.Fetch(means))
+        for name in ("Classification", "ReturnNumber"):
+            self.assertTrue((found[name] % 10 == 0).all(), name)
+        means.UpdatePropertyInformation()
+        self.assertEqual(list(means.GetPropertyValue("FoundBounds")), [0, 6, 0, 6, 0, 6])
+        means.Position, means.Remove = [1, 1, 0], "Classification"
+        found = arrays_of(servermanager.Fetch(means))
+        self.assertFalse((found["Classification"] % 10 == 0).all())
+        self.assertTrue((found["ReturnNumber"] % 10 == 0).all())
+        means.UpdatePropertyInformation()
+        self.assertEqual(list(means.GetPropertyValue("FoundBounds")), [1, 7, 1, 7, 0, 6])
 
     def test_a_saved_state_and_a_trace_give_the_same_points(self):
         new_session()

@@ -10,6 +10,7 @@ import unittest
 import numpy as np
 from paraview import servermanager, simple
 from support import ErrorMessages, TestCase, arrays_of, load_plugin, read_vtp, run_program, shared_data
+from vtkmodules.util.numpy_support import vtk_to_numpy
 
 RANKS = int(os.environ["POINTHAPTICS_SERVER_RANKS"])
 simple.Connect("localhost", int(os.environ["POINTHAPTICS_SERVER_PORT"]))
@@ -45,6 +46,28 @@ class Server(TestCase):
             with self.subTest(path):
                 run_program("convert", path, "-o", self.path("program.vtp"))
                 self.assert_same_bits(servermanager.Fetch(read(path)), read_vtp(self.path("program.vtp")))
+
+    def test_splats_are_drawn_here_and_there(self):
+        """By the client that gets the points, and by the server."""
+        if not os.environ.get("DISPLAY"):
+            self.skipTest("no display")
+        run_program("generate", "sphere", "-n", 5000, "-o", self.path("in.ply"))
+        cloud = read(self.path("in.ply"))
+        for threshold in (1000, 0):
+            lit = {}
+            view = simple.CreateRenderView(ViewSize=[300, 300])
+            self.addCleanup(simple.Delete, view)
+            view.OrientationAxesVisibility = view.UseColorPaletteForBackground = 0
+            view.Background, view.RemoteRenderThreshold = [0, 0, 0], threshold
+            shown = simple.Show(cloud, view)
+            shown.ColorArrayName = [None, ""]
+            view.ResetCamera()
+            for representation in ("Points", "Point Haptics Splats"):
+                shown.SetRepresentationType(representation)
+                simple.Render(view)
+                picture = vtk_to_numpy(view.CaptureWindow(1).GetPointData().GetScalars())
+                lit[representation] = (picture[:, :3].max(axis=1) > 0).sum()
+            self.assertGreater(lit["Point Haptics Splats"], 1.2 * lit["Points"])
 
     def test_blocks_on_many_ranks_are_an_error_and_no_hang(self):
         run_program("generate", "sphere", "-n", 5000, "-o", self.path("in.ply"))

@@ -102,6 +102,21 @@ TEST_F(PcdFiles, AreReadIntoThePointTypesOfPcl)
   EXPECT_EQ(labels[1].label, 70000U);
 }
 
+TEST_F(PcdFiles, HaveColorsAndNormalsOfArraysInLowerCase)
+{
+  vtkPointData* data = cloud_->GetPointData();
+  data->GetArray("RGB")->SetName("rgb");
+  data->GetArray("Normals")->SetName("normals");
+  data->SetActiveScalars(nullptr);
+  data->SetActiveNormals(nullptr);
+  vtkNew<vtkPointCloudWriter> writer;
+  writer->SetInputData(cloud_);
+  writer->SetFileName(file_.c_str());
+  ASSERT_EQ(writer->Write(), 1);
+  EXPECT_EQ(this->load<pcl::PointXYZRGB>()[1].g, 50);
+  EXPECT_EQ(this->load<pcl::PointNormal>()[1].normal_z, 0.8f);
+}
+
 TEST_F(PcdFiles, SayHowMuchCoordinatesAreRounded)
 {
   EXPECT_TRUE(notes_.empty()) << "0.08 in 5,000 km";

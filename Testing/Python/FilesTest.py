@@ -215,6 +215,16 @@ class WholeClouds(TestCase):
         self.assert_same_bits(arrays["VoxelCovariance"], voxels.covariance)
         np.testing.assert_array_equal(arrays.fields["LatticeSpacing"].ravel(), voxels.spacing)
 
+    def test_fields_that_a_format_has_no_place_for_are_said(self):
+        for extension in ("ply", "pcd", "csv", "las"):
+            with self.assertWarnsRegex(RuntimeWarning, "field data Owner, Run are left out"):
+                ph.write(self.path("a." + extension), sphere(5), fields={"Owner": "a name", "Run": 7})
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            ph.write(self.path("a.vtp"), sphere(5), fields={"Owner": "a name", "Run": 7})
+            ph.write(self.path("a.ply"), ph.resample(sphere(50)))
+        self.assertEqual(ph.read(self.path("a.vtp"))[1].fields["Owner"], "a name")
+
     def test_file_objects(self):
         points = sphere(100)
         memory = io.BytesIO()
@@ -230,6 +240,38 @@ class WholeClouds(TestCase):
         self.assert_raises(TypeError, "bytes", ph.read, io.StringIO("1 2 3"))
         self.assert_raises(ValueError, "extension", ph.write, io.BytesIO(), points)
         self.assert_raises(ValueError, "<file object>", ph.read, io.BytesIO(b"no points"))
+
+    def test_names_of_files_may_be_no_utf8(self):
+        points = sphere(5)
+        for extension in ("ply", "vtp", "csv"):
+            name = os.fsdecode(os.path.join(os.fsencode(self.folder), b"h\xf6\xff." + extension.encode()))
+            ph.write(name, points)
+            self.assert_same_bits(ph.read(name)[0], points)
+            self.assertEqual(ph.info(name)["file"], name)
+            os.remove(name)
+            with self.assertRaises(FileNotFoundError) as caught:
+                ph.read(name)
+            self.assertEqual(caught.exception.filename, name)
+        damaged = os.fsdecode(os.path.join(os.fsencode(self.folder), b"\xff.ply"))
+        with open(damaged, "wb") as file:
+            file.write(b"ply\nnonsense\n")
+        self.assert_raises(ValueError, "PLY", ph.read, damaged)
+        self.assert_raises(ValueError, "surrogates", ph.read, damaged, columns=["\ud800"])
+        self.assert_raises(ValueError, "extension", ph.write, self.path("a"), points, extension="\udcff")
+
+    def test_latin_names_of_columns_become_utf8(self):
+        for extension, text in (
+            ("csv", "x,y,z,h\xf6he\n1,2,3,4\n"),
+            ("ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
+                    "property float h\xf6he\nend_header\n1 2 3 4\n"),
+        ):  # fmt: skip
+            with open(self.path("latin." + extension), "wb") as file:
+                file.write(text.encode("latin-1"))
+            points, attributes = ph.read(self.path("latin." + extension))
+            self.assertEqual(list(attributes), ["h\xf6he"])
+            for other in ("vtp", "ply", "pcd", "csv"):
+                ph.write(self.path("again." + other), points, attributes)
+                self.assertEqual(list(ph.read(self.path("again." + other))[1]), ["h\xf6he"])
 
     def test_errors_of_the_system_have_errno_and_filename(self):
         nowhere = self.path("nowhere/a.ply")

@@ -14,7 +14,7 @@ NAMES = ["R&D", "a<b", 'say "x"', "it's", "two words", "Scan Angle", "Gps Time",
          "#", "//x", "a,b", "a;b", "a|b", "100 %", "_", "rgb", "RGBA", "n" * 300, "ä" * 150, "x", "X", "tab\there",
          "line\nend", "sep=;", "[m]", " lead", "trail ", "  ", "a_0", "name:0", "red", "nx", "Normals", "intensity",
          "Intensity", "label", "Label", "curvature", "classification", "Points", "Color16", "a%20b", "x [mm]", "E",
-         "end_header", "column_4"]  # fmt: skip
+         "end_header", "column_4", "\x01a", "\x1b[0m", "\ufffe"]  # fmt: skip
 # Names that mean something together.
 SETS = [["a_0", "a_1"], ["a", "a_0"], ["red", "green", "blue"], ["r", "g", "b", "a"], ["nx", "ny", "nz"],
         ["two words", "two_words", "two,words"], ["Intensity", "intensity"], ["label", "Label"], ["x", "y", "z"],

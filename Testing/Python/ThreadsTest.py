@@ -173,6 +173,30 @@ class Signals(TestCase):
             time.sleep(0.01)
         self.assertEqual(sorted(os.listdir(self.folder)), ["cloud.csv"])  # nothing half-written
 
+    def test_a_timer_ends_filters_of_vtk(self):
+        self.handle(signal.SIGALRM, TimeIsUp)
+        points = sphere(2000000)
+        ph.write(self.path("cloud.csv"), points[:500000])
+        reader, writer = ph.vtkPointCloudReader(), ph.vtkPointCloudWriter()
+        reader.SetFileName(self.path("cloud.csv"))
+        cloud = ph.arrays.Cloud(points)
+        estimator = ph.vtkKernelBandwidthFilter()
+        estimator.SetInputData(cloud.data)
+        writer.SetInputData(cloud.data)
+        writer.SetFileName(self.path("other.csv"))
+        for title, work in (("reader", reader.Update), ("bandwidth", estimator.Update), ("writer", writer.Write)):
+            with self.subTest(title):
+                signal.setitimer(signal.ITIMER_REAL, 0.1)
+                with self.assertRaises(TimeIsUp):
+                    work()
+                self.soon(title)
+        for algorithm in (reader, estimator):
+            self.assertEqual(algorithm.GetOutput().GetNumberOfPoints(), 0)  # it did not go on to its end
+        self.assertEqual(os.listdir(self.folder), ["cloud.csv"])
+        for algorithm, count in ((reader, 500000), (estimator, len(points))):
+            algorithm.Update()
+            self.assertEqual(algorithm.GetOutput().GetNumberOfPoints(), count)
+
     def test_a_handler_that_raises_nothing_disturbs_nothing(self):
         self.addCleanup(signal.signal, signal.SIGALRM, signal.signal(signal.SIGALRM, lambda *unused: None))
         signal.setitimer(signal.ITIMER_REAL, 0.01, 0.01)

@@ -94,11 +94,7 @@ NamedCloud shapeCloud(Shape shape, std::int64_t count)
 /// Every so many points of the file, so that about @p count are left.
 NamedCloud fileCloud(const std::string& fileName, std::int64_t count)
 {
-  Cloud cloud;
-  if (std::string message; !readCloud(fileName, cloud, message))
-  {
-    throw std::runtime_error(message);
-  }
+  const Cloud cloud = readCloud(fileName);
   const vtkIdType all = cloud.points->GetNumberOfPoints();
   std::vector<Vec3> points;
   for (vtkIdType i = 0; i < all; i += std::max<vtkIdType>(1, all / count))

@@ -5,6 +5,7 @@
 #include "Benchmark/Touch/Studies.h"
 #include "Clouds/Pipeline.h"
 #include "Options/OptionParsing.h"
+#include "Terminal/Messages.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -84,8 +85,13 @@ std::vector<std::uint32_t> trianglesOf(const std::string& fileName, std::size_t 
 bool readScan(const std::string& fileName, TouchMesh& scan, std::string& message)
 {
   Cloud cloud;
-  if (!readCloud(fileName, cloud, message))
+  try
   {
+    cloud = readCloud(fileName);
+  }
+  catch (const Failure& failure)
+  {
+    message = failure.what();
     return false;
   }
   scan.name = std::filesystem::path(fileName).filename().string();

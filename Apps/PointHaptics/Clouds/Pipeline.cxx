@@ -31,29 +31,61 @@ namespace pointhaptics::app
 namespace
 {
 
-/// Measures the seconds since it was made.
-class Stopwatch
-{
-public:
-  double seconds() const
-  {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
-  }
+using Clock = std::chrono::steady_clock;
 
-private:
-  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
-};
-
-std::string firstOf(const std::vector<std::string>& messages)
+double secondsSince(Clock::time_point begin)
 {
-  return messages.empty() ? std::string() : messages.front();
+  return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-/// Reads a file. @p shown: its name in messages.
-bool readFile(const std::string& path, const std::string& shown, Cloud& cloud, std::string& message,
-  const ReadOptions& options)
+/// The fault of a class that works on @p path, which the user calls @p shown: its @p message, or what another
+/// class said; empty: there is none.
+std::string faultOf(std::string message, const std::string& path, const std::string& shown)
 {
-  const Stopwatch watch;
+  const std::vector<std::string> others = takeVtkErrors();
+  if (!path.empty() && message.rfind(path, 0) == 0)
+  {
+    message.replace(0, path.size(), shown);
+  }
+  return !message.empty() || others.empty() ? message : shown + ": " + others.front();
+}
+
+vtkIdType writeFile(
+  vtkPointSet* points, const std::string& path, const std::string& shown, const WriteOptions& options)
+{
+  const Clock::time_point begin = Clock::now();
+  vtkNew<vtkPointCloudWriter> writer;
+  writer->SetFileName(path.c_str());
+  writer->SetExtension(options.format);
+  writer->SetLasScale(options.lasScale);
+  writer->SetKeepDoubles(options.keepsDoubles);
+  writer->SetInputDataObject(points);
+  bool written = false;
+  {
+    const ProgressBar bar("writing", writer);
+    written = writer->Write() == 1;
+  }
+  for (const std::string& note : writer->GetNotes())
+  {
+    warn(note, shown);
+  }
+  if (!written)
+  {
+    const std::string fault = faultOf(writer->GetErrorMessage(), path, shown);
+    throw Failure(fault.empty() ? shown + ": cannot be written; check the folder and the space left" : fault);
+  }
+  const vtkIdType count = writer->GetNumberOfPointsWritten();
+  say(fmt::format("{}: {} written in {:.2f} s", shown, countOfPoints(count), secondsSince(begin)));
+  return count;
+}
+
+} // namespace
+
+Cloud readCloud(const std::string& fileName, const ReadOptions& options)
+{
+  const Clock::time_point begin = Clock::now();
+  const std::string path = fileName == kStandardStream ? "/dev/stdin" : fileName;
+  const std::string shown = shownFile(fileName);
   vtkNew<vtkPointCloudReader> reader;
   reader->SetFileName(path.c_str());
   reader->SetExtension(options.extension);
@@ -72,99 +104,36 @@ bool readFile(const std::string& path, const std::string& shown, Cloud& cloud, s
     const ProgressBar bar("reading", reader);
     reader->Update();
   }
-  message = reader->GetErrorMessage();
-  if (message.compare(0, path.size(), path) == 0)
+  Cloud cloud{ reader->GetOutput(), fileName, reader->GetFormat(), reader->GetNotes(),
+    reader->GetNumberOfBytesRead() };
+  std::string fault = faultOf(reader->GetErrorMessage(), path, shown);
+  if (fault.empty() && !options.ranks && cloud.points->GetNumberOfPoints() == 0)
   {
-    message.replace(0, path.size(), shown);
+    fault = shown + ": holds no points; give a file with at least one";
   }
-  const std::string other = firstOf(takeVtkErrors());
-  if (message.empty() && !other.empty())
+  say(fmt::format("{}: {}, {} in {:.2f} s", shown, cloud.format,
+        countOfPoints(cloud.points->GetNumberOfPoints()), secondsSince(begin)),
+    "read");
+  if (!fault.empty())
   {
-    message = shown + ": " + other;
+    require(options.mayBeEmpty && reader->IsValidWithoutPoints(), fault);
+    const bool isNamed = fault.rfind(shown + ": ", 0) == 0;
+    cloud.notes.push_back(isNamed ? fault.substr(shown.size() + 2) : fault);
   }
-  if (message.empty() && !options.ranks && reader->GetOutput()->GetNumberOfPoints() == 0)
-  {
-    message = shown + ": holds no points; give a file with at least one";
-  }
-  cloud.points = reader->GetOutput();
-  cloud.format = reader->GetFormat();
-  cloud.notes = reader->GetNotes();
-  cloud.isValidWithoutPoints = reader->IsValidWithoutPoints();
-  cloud.bytesRead = reader->GetNumberOfBytesRead();
-  say("read",
-    fmt::format("{}: {}, {} in {:.2f} s", shown, cloud.format,
-      countOfPoints(cloud.points->GetNumberOfPoints()), watch.seconds()));
-  return message.empty() && !reader->FailedElsewhere();
+  return cloud;
 }
 
-bool writeFile(vtkPointSet* points, const std::string& path, const std::string& shown,
-  const std::string& command, std::string& message, const WriteOptions& options, vtkIdType* count)
+void updateFilter(vtkAlgorithm* filter, const std::string& label, const std::string& input)
 {
-  const Stopwatch watch;
-  vtkNew<vtkPointCloudWriter> writer;
-  writer->SetFileName(path.c_str());
-  writer->SetExtension(options.format);
-  writer->SetLasScale(options.lasScale);
-  writer->SetKeepDoubles(options.keepsDoubles);
-  writer->SetInputDataObject(points);
-  bool written = false;
-  {
-    const ProgressBar bar("writing", writer);
-    written = writer->Write() == 1;
-  }
-  for (const std::string& note : writer->GetNotes())
-  {
-    warn(command, note, shown);
-  }
-  if (count)
-  {
-    *count = writer->GetNumberOfPointsWritten();
-  }
-  if (written)
-  {
-    say(command,
-      fmt::format("{}: {} written in {:.2f} s", shown, countOfPoints(writer->GetNumberOfPointsWritten()),
-        watch.seconds()));
-    return true;
-  }
-  message = writer->GetErrorMessage();
-  const std::string other = firstOf(takeVtkErrors());
-  if (message.compare(0, path.size(), path) == 0)
-  {
-    message.replace(0, path.size(), shown);
-  }
-  if (message.empty())
-  {
-    message =
-      shown + ": " + (other.empty() ? "cannot be written; check the folder and the space left" : other);
-  }
-  return false;
-}
-
-} // namespace
-
-bool readCloud(const std::string& fileName, Cloud& cloud, std::string& message, const ReadOptions& options)
-{
-  const bool isStandard = fileName == kStandardStream;
-  cloud.name = fileName;
-  return readFile(
-    isStandard ? "/dev/stdin" : fileName, isStandard ? "standard input" : fileName, cloud, message, options);
-}
-
-bool updateFilter(vtkAlgorithm* filter, const std::string& label, std::string& message)
-{
-  const Stopwatch watch;
+  const Clock::time_point begin = Clock::now();
   {
     const ProgressBar bar(label, filter);
     filter->Update();
   }
-  say(label, fmt::format("done in {:.2f} s", watch.seconds()));
-  message = firstOf(takeVtkErrors());
-  if (stopIsRequested())
-  {
-    message = label + " was stopped on request; start it again";
-  }
-  return message.empty();
+  say(fmt::format("done in {:.2f} s", secondsSince(begin)), label);
+  const std::string fault = faultOf("", "", input);
+  require(!stopIsRequested(), input + ": " + label + " was stopped on request; start it again");
+  require(fault.empty(), fault);
 }
 
 std::vector<std::string> writableExtensions()
@@ -194,39 +163,37 @@ void WriteOptions::addTo(CLI::App& command)
     "large for that");
 }
 
-bool writeCloud(vtkPointSet* points, const std::string& fileName, Files& files, const std::string& command,
-  std::string& message, const WriteOptions& options, vtkIdType* written)
+vtkIdType writeCloud(
+  vtkPointSet* points, const std::string& fileName, Files& files, const WriteOptions& options)
 {
   rememberStopSignals();
   WriteOptions writing = options;
-  if (options.format.empty())
-  {
-    writing.format = lowerExtension(fileName); // its part has another one
-  }
-  const std::vector<std::string> known = writableExtensions();
   const std::string named = lowerExtension(fileName);
+  writing.format = options.format.empty() ? named : options.format; // its part has another one
+  const std::vector<std::string> known = writableExtensions();
   if (writing.format != named && std::find(known.begin(), known.end(), named) != known.end())
   {
-    warn(command, fmt::format("holds .{} as --output-format says, whatever its name ends in", writing.format),
-      fileName);
+    warn(
+      fmt::format("holds .{} as --output-format says, whatever its name ends in", writing.format), fileName);
   }
   if (options.lasScale > 0.0 && writing.format != "las" && writing.format != "laz")
   {
-    warn(command, fmt::format("--las-scale has no effect on .{}; leave it out", writing.format), fileName);
+    warn(fmt::format("--las-scale has no effect on .{}; leave it out", writing.format), fileName);
   }
+  const std::string shown = shownFile(fileName, "standard output");
   if (fileName != kStandardStream || writing.format != "vtp")
   {
-    const std::string shown = fileName == kStandardStream ? "standard output" : fileName;
-    return writeFile(points, files.output(fileName), shown, command, message, writing, written);
+    return writeFile(points, files.output(fileName), shown, writing);
   }
   // The writer of VTP seeks in the file.
   const TemporaryFolder folder;
   const std::string path = folder.path("output");
-  return writeFile(points, path, "standard output", command, message, writing, written) &&
-    copyToStandardOutput(path, message);
+  const vtkIdType count = writeFile(points, path, shown, writing);
+  copyToStandardOutput(path);
+  return count;
 }
 
-Cloud mergedCloud(const std::string& command, std::vector<Cloud>& clouds)
+Cloud mergedCloud(std::vector<Cloud>& clouds)
 {
   Cloud merged = clouds.front();
   if (clouds.size() > 1)
@@ -246,13 +213,10 @@ Cloud mergedCloud(const std::string& command, std::vector<Cloud>& clouds)
     }
     for (const std::string& note : notes)
     {
-      warn(command, note);
+      warn(note);
     }
   }
-  for (Cloud& each : clouds)
-  {
-    each = {};
-  }
+  std::fill(clouds.begin(), clouds.end(), Cloud());
   return merged;
 }
 
@@ -269,45 +233,25 @@ std::string whyNoLengths(vtkPolyData* cloud, const AffineTransform& transform)
     : "";
 }
 
-vtkSmartPointer<vtkPolyData> transformedPoints(vtkPolyData* cloud, const AffineTransform& transform)
-{
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  points->Allocate(cloud->GetNumberOfPoints());
-  for (vtkIdType i = 0; i < cloud->GetNumberOfPoints(); ++i)
-  {
-    Vec3 p;
-    cloud->GetPoint(i, &p.x);
-    const Vec3 moved = transform.apply(p);
-    if (isFinite(moved))
-    {
-      points->InsertNextPoint(moved.x, moved.y, moved.z);
-    }
-  }
-  auto result = vtkSmartPointer<vtkPolyData>::New();
-  result->SetPoints(points);
-  return result;
-}
-
 std::string noFinitePoint(const std::string& fileName, std::int64_t count)
 {
   return fmt::format("{}: no point is finite: {} with a coordinate that is NaN or infinite; mend the file",
     fileName, countOfPoints(count));
 }
 
-void showNotes(const std::string& command, const std::string& fileName, const Cloud& cloud)
+void showNotes(const Cloud& cloud)
 {
   for (const std::string& note : cloud.notes)
   {
-    warn(command, note, fileName == kStandardStream ? "standard input" : fileName);
+    warn(note, shownFile(cloud.name));
   }
 }
 
-void showWarnings(const std::string& command)
+void showWarnings()
 {
   for (const std::string& warning : takeVtkWarnings())
   {
-    warn(command, warning);
+    warn(warning);
   }
 }
 

@@ -1,33 +1,37 @@
 /// @file
-/// The commands of the program: each file adds one to the command line and runs it.
+/// The commands of the program. Those that draw or feel are in a library of their own, as they take most of
+/// the time of a start: main() loads it where it needs it, and looks them up by these names.
 #pragma once
 
 #include "Terminal/CommandLine.h"
 
-namespace CLI
-{
-class App;
-}
+#include <string>
 
 namespace pointhaptics::app
 {
 
-/// Each adds its subcommand to @p program; its callback runs the command and stores an ExitCode in @p
-/// exitCode, which must outlive the parsing.
-void addViewCommand(CLI::App& program, int& exitCode);
-void addFeelCommand(CLI::App& program, int& exitCode);
-void addCompareCommand(CLI::App& program, int& exitCode);
-void addResampleCommand(CLI::App& program, int& exitCode);
-void addBandwidthCommand(CLI::App& program, int& exitCode);
-void addConvertCommand(CLI::App& program, int& exitCode);
-void addInfoCommand(CLI::App& program, int& exitCode);
-void addGenerateCommand(CLI::App& program, int& exitCode);
-void addDevicesCommand(CLI::App& program, int& exitCode);
-/// Adds a hidden command for the build.
-void addManualCommand(CLI::App& program, int& exitCode);
+///@{
+/// Each makes a command, which the caller owns.
+extern "C" Command* viewCommand();
+extern "C" Command* feelCommand();
+extern "C" Command* compareCommand();
+/// A hidden command for the build.
+extern "C" Command* manualCommand();
+Command* resampleCommand();
+Command* bandwidthCommand();
+Command* convertCommand();
+Command* infoCommand();
+Command* generateCommand();
+Command* devicesCommand();
+/// Runs the program pointhaptics-bench, where it is installed.
+Command* benchCommand();
+///@}
+
 /// Adds a hidden command to a program beside pointhaptics, which prints its man page for the build.
 void addManPage(CLI::App& program);
-/// Adds a command that runs the program pointhaptics-bench, where it is installed.
-void addBenchCommand(CLI::App& program, int& exitCode);
+/// Man page of @p program; @p keys: its section about keys and all of the main program's own, or empty.
+std::string manPage(CLI::App& program, const std::string& keys);
+/// The commands of @p program that are not hidden.
+std::vector<CLI::App*> shownCommands(CLI::App& program);
 
 } // namespace pointhaptics::app

@@ -1,5 +1,6 @@
 #include "Commands/FalconDiagnosis.h"
 
+#include "Options/SharedOptions.h"
 #include "Terminal/Messages.h"
 #include "Terminal/StopSignals.h"
 
@@ -65,52 +66,32 @@ private:
   Vec3 newest_; ///< The servo thread's.
 };
 
-/// A push that ends with its scope, however that is left.
-class Push
-{
-public:
-  Push(FalconDevice& device, PushPort& port, const Vec3& force)
-    : device_(device)
-    , port_(port)
-  {
-    port_.push(force);
-    device_.setArmed(true);
-  }
-  ~Push()
-  {
-    device_.setArmed(false);
-    port_.push(Vec3());
-  }
-  Push(const Push&) = delete;
-  Push& operator=(const Push&) = delete;
-
-private:
-  FalconDevice& device_;
-  PushPort& port_;
-};
-
 class Diagnosis
 {
 public:
-  Diagnosis(const FalconOptions& options, bool yes, std::ostream& report)
-    : settings_(options.settings())
+  /// With little force, and none before it is homed.
+  Diagnosis(const FalconSettings& settings, bool yes, std::ostream& report)
+    : settings_(gentle(settings))
     , yes_(yes)
     , report_(report)
   {
-    settings_.armWhenHomed = false;
-    settings_.limits.maximumForce = std::min(settings_.limits.maximumForce, kTinyForce);
   }
 
-  bool run(std::string& message);
+  void run();
   int problems() const noexcept { return problems_; }
 
 private:
+  static FalconSettings gentle(FalconSettings settings)
+  {
+    settings.armWhenHomed = false;
+    settings.limits.maximumForce = std::min(settings.limits.maximumForce, kTinyForce);
+    return settings;
+  }
   void note(const std::string& line)
   {
     printNow(stdout, line + "\n");
     report_ << line << std::endl; // what was found stays, whatever comes next
   }
-  /// Prints @p result and if it is right, on one line.
   void judge(const std::string& result, bool isRight)
   {
     note(result + (isRight ? "as expected" : "NOT as expected"));
@@ -123,17 +104,19 @@ private:
     waitFor([] { return false; }, seconds);
   }
   double patience(double seconds) const { return yes_ ? kPartWithoutAPerson * seconds : seconds; }
-  void checkLeds(FalconDevice& device);
-  bool checkHoming(FalconDevice& device);
-  void checkEncoders(FalconDevice& device);
-  void checkRate(const FalconDevice& device, const ServoLoop& loop);
-  void checkMotors(FalconDevice& device, PushPort& port);
+  void checkLeds();
+  bool checkHoming();
+  void checkEncoders();
+  void checkRate();
+  void checkMotors();
 
   FalconSettings settings_;
+  FalconDevice device_{ settings_ };
+  PushPort port_{ device_ };
   bool yes_;
-  ServoLoop* loop_ = nullptr;
   std::ostream& report_;
   int problems_ = 0;
+  ServoLoop loop_; // last: it uses the port
 };
 
 /// Reads a line from the terminal, without its end; a part of it where the program is asked to stop.
@@ -160,16 +143,8 @@ std::string answerOfPerson()
 /// Asks a question and writes the answer into the report. The loop runs meanwhile.
 void Diagnosis::ask(const std::string& question)
 {
-  printNow(stdout, question + " ");
-  std::string answer;
-  if (yes_)
-  {
-    printNow(stdout, "\n");
-  }
-  else
-  {
-    answer = answerOfPerson();
-  }
+  printNow(stdout, question + (yes_ ? " \n" : " "));
+  const std::string answer = yes_ ? std::string() : answerOfPerson();
   report_ << question << " " << answer << std::endl;
 }
 
@@ -187,21 +162,21 @@ bool Diagnosis::waitFor(const std::function<bool()>& condition, double seconds)
   return true;
 }
 
-void Diagnosis::checkLeds(FalconDevice& device)
+void Diagnosis::checkLeds()
 {
   note("\n1. LEDs");
   const std::pair<int, const char*> leds[] = { { kFalconLedGreen, "green" }, { kFalconLedBlue, "blue" },
     { kFalconLedRed, "red" } };
   for (const auto& [bit, name] : leds)
   {
-    device.showLeds(bit);
+    device_.showLeds(bit);
     wait(patience(kLedSeconds));
     ask(fmt::format("   Bit {} should be {}. Which LED is on? [{}]", bit, name, name));
   }
-  device.showLeds(-1);
+  device_.showLeds(-1);
 }
 
-bool Diagnosis::checkHoming(FalconDevice& device)
+bool Diagnosis::checkHoming()
 {
   note("\n2. Homing");
   printNow(stdout,
@@ -210,13 +185,13 @@ bool Diagnosis::checkHoming(FalconDevice& device)
   const bool homed = waitFor(
     [&]
     {
-      const int bits = device.raw().reply.homed;
+      const int bits = device_.raw().reply.homed;
       if (bits != last)
       {
         note(fmt::format("   homing bits {}{}{}", bits & 1, (bits >> 1) & 1, (bits >> 2) & 1));
         last = bits;
       }
-      return device.state() == FalconState::Homed;
+      return device_.state() == FalconState::Homed;
     },
     patience(kLongestHoming));
   problems_ += homed ? 0 : 1;
@@ -224,7 +199,7 @@ bool Diagnosis::checkHoming(FalconDevice& device)
   return homed;
 }
 
-void Diagnosis::checkEncoders(FalconDevice& device)
+void Diagnosis::checkEncoders()
 {
   note("\n3. Encoders: positions should grow to the right (x), up (y) and towards you (z)");
   if (yes_)
@@ -236,11 +211,11 @@ void Diagnosis::checkEncoders(FalconDevice& device)
   for (int axis = 0; axis < 3 && !stopIsRequested(); ++axis)
   {
     ask("   Hold the grip in the middle, then press Enter.");
-    const Vec3 from = loop_->latest().state.hip;
-    const std::array<std::int16_t, 3> countsFrom = device.raw().reply.encoders;
+    const Vec3 from = loop_.latest().state.hip;
+    const std::array<std::int16_t, 3> countsFrom = device_.raw().reply.encoders;
     ask(fmt::format("   Move it {} by about 2 cm, hold, press Enter.", directions[axis]));
-    const Vec3 moved = loop_->latest().state.hip - from;
-    const std::array<std::int16_t, 3> counts = device.raw().reply.encoders;
+    const Vec3 moved = loop_.latest().state.hip - from;
+    const std::array<std::int16_t, 3> counts = device_.raw().reply.encoders;
     if (stopIsRequested())
     {
       return;
@@ -252,14 +227,14 @@ void Diagnosis::checkEncoders(FalconDevice& device)
   }
 }
 
-void Diagnosis::checkRate(const FalconDevice& device, const ServoLoop& loop)
+void Diagnosis::checkRate()
 {
   note("\n4. Rate");
-  const FalconStatistics before = device.statistics();
-  const ServoStatistics servoBefore = loop.statistics();
+  const FalconStatistics before = device_.statistics();
+  const ServoStatistics servoBefore = loop_.statistics();
   wait(patience(kRateSeconds));
-  const FalconStatistics after = device.statistics();
-  const ServoStatistics servo = loop.statistics();
+  const FalconStatistics after = device_.statistics();
+  const ServoStatistics servo = loop_.statistics();
   note(fmt::format(
     "   {} ticks, {} answers, {} late, {} timeouts, {} bad, {} bytes dropped, {} commands skipped",
     servo.ticks - servoBefore.ticks, after.replies - before.replies, after.lateReplies - before.lateReplies,
@@ -277,7 +252,7 @@ void Diagnosis::checkRate(const FalconDevice& device, const ServoLoop& loop)
     servo.realtime ? "yes" : "no"));
 }
 
-void Diagnosis::checkMotors(FalconDevice& device, PushPort& port)
+void Diagnosis::checkMotors()
 {
   note(fmt::format("\n5. Motors, at most {} N", settings_.limits.maximumForce));
   ask("   Hold the grip loosely in the middle, then press Enter.");
@@ -285,17 +260,16 @@ void Diagnosis::checkMotors(FalconDevice& device, PushPort& port)
   for (int axis = 0; axis < 3 && !stopIsRequested(); ++axis)
   {
     wait(kBackSeconds);
-    const Vec3 from = loop_->latest().state.hip;
+    const Vec3 from = loop_.latest().state.hip;
     Vec3 force;
     force[axis] = settings_.limits.maximumForce;
-    Vec3 moved;
-    std::array<std::int16_t, 3> motors{};
-    {
-      const Push push(device, port, force);
-      wait(std::max(patience(kPushSeconds), kShortestPush));
-      moved = loop_->latest().state.hip - from;
-      motors = device.raw().command.motors;
-    }
+    port_.push(force);
+    device_.setArmed(true);
+    wait(std::max(patience(kPushSeconds), kShortestPush));
+    const Vec3 moved = loop_.latest().state.hip - from;
+    const std::array<std::int16_t, 3> motors = device_.raw().command.motors;
+    device_.setArmed(false);
+    port_.push(Vec3());
     if (stopIsRequested())
     {
       return;
@@ -307,87 +281,70 @@ void Diagnosis::checkMotors(FalconDevice& device, PushPort& port)
   }
 }
 
-bool Diagnosis::run(std::string& message)
+void Diagnosis::run()
 {
   note(
     "Novint Falcon, checks with its owner. Nothing pushes with more than 0.5 N; Ctrl+C ends it at any time.");
-  FalconDevice device(settings_);
   printNow(stdout, "Starting the Falcon; loading its firmware takes some seconds.\n");
-  const Status status = device.open();
-  if (status != Status::Ok)
+  if (const Status status = device_.open(); status != Status::Ok)
   {
-    message = openProblem(device, status, kFirmwareOption);
-    note("NOT started: " + message);
-    return false;
+    const std::string problem = openProblem(device_, status, kFirmwareOption);
+    note("NOT started: " + problem);
+    throw Failure(problem);
   }
-  note("started" + (device.message().empty() ? "" : "; " + device.message()));
-  PushPort port(device);
-  ServoLoop loop;
-  loop_ = &loop;
-  if (loop.start(port, HapticParameters(), ServoSettings(), &message) != Status::Ok)
+  note("started" + (device_.message().empty() ? "" : "; " + device_.message()));
+  std::string problem;
+  require(loop_.start(port_, HapticParameters(), ServoSettings(), &problem) == Status::Ok, problem);
+  checkLeds();
+  const bool homed = checkHoming();
+  using Check = void (Diagnosis::*)();
+  for (const Check check : { &Diagnosis::checkEncoders, &Diagnosis::checkMotors, &Diagnosis::checkRate })
   {
-    return false;
+    if (!stopIsRequested() && (homed || check == &Diagnosis::checkRate))
+    {
+      (this->*check)();
+    }
   }
-  checkLeds(device);
-  const bool homed = checkHoming(device);
-  if (homed && !stopIsRequested())
-  {
-    checkEncoders(device);
-  }
-  if (homed && !stopIsRequested())
-  {
-    checkMotors(device, port);
-  }
-  if (!stopIsRequested())
-  {
-    checkRate(device, loop);
-  }
-  loop.stop();
-  if (const std::string refusals = describeRefusals(loop.statistics()); !refusals.empty())
+  loop_.stop();
+  if (const std::string refusals = describeRefusals(loop_.statistics()); !refusals.empty())
   {
     note(refusals);
   }
-  device.close();
+  device_.close();
   if (stopIsRequested())
   {
     note("stopped on request: not all was checked");
   }
-  return true;
 }
 
 } // namespace
 
-bool diagnoseFalcon(
-  const FalconOptions& options, const std::string& reportFile, bool yes, std::string& message)
+void diagnoseFalcon(const FalconSettings& settings, const std::string& reportFile, bool yes)
 {
   // The report is opened before anything moves: one that cannot be written is no use.
   std::ofstream file(reportFile);
-  if (!file)
-  {
-    message = reportFile + ": cannot be written; name another file with --report";
-    return false;
-  }
+  require(bool(file), reportFile + ": cannot be written; name another file with --report");
   rememberStopSignals();
-  Diagnosis diagnosis(options, yes, file);
-  const bool done = diagnosis.run(message);
-  file.close();
-  if (!file)
+  Diagnosis diagnosis(settings, yes, file);
+  const auto end = [&]
   {
-    message = reportFile + ": not all of it could be written; check the space left";
-    return false;
-  }
-  printNow(stdout, fmt::format("\nreport: {}\n", reportFile));
-  if (done && stopIsRequested())
+    file.close();
+    require(bool(file), reportFile + ": not all of it could be written; check the space left");
+    printNow(stdout, fmt::format("\nreport: {}\n", reportFile));
+  };
+  try
   {
-    message = "stopped on request; what was checked is in " + reportFile;
-    return false;
+    diagnosis.run();
   }
-  if (done && diagnosis.problems() > 0)
+  catch (const Failure&)
   {
-    message = fmt::format("{} checks found something wrong: see NOT in {}", diagnosis.problems(), reportFile);
-    return false;
+    end();
+    throw;
   }
-  return done;
+  end();
+  require(!stopIsRequested(), "stopped on request; what was checked is in " + reportFile);
+  require(diagnosis.problems() == 0,
+    fmt::format("{} checks found something wrong: see NOT in {}", diagnosis.problems(), reportFile));
 }
 
 } // namespace pointhaptics::app

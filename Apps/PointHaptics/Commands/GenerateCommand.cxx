@@ -1,6 +1,7 @@
 #include "Commands/Commands.h"
 
 #include "Clouds/Pipeline.h"
+#include "Options/Files.h"
 #include "Options/OptionParsing.h"
 #include "Terminal/Messages.h"
 
@@ -17,28 +18,17 @@
 #include <vtkPolyData.h>
 
 #include <cstring>
-#include <memory>
+#include <utility>
+#include <vector>
 
 namespace pointhaptics::app
 {
 namespace
 {
 
-constexpr const char* kGenerateCommand = "generate";
 constexpr std::int64_t kMostPoints = 100'000'000;
 /// Largest seed: JSON and most scripts hold whole numbers up to here in a double.
 constexpr std::int64_t kLargestSeed = std::int64_t(1) << 53;
-
-struct GenerateOptions
-{
-  int shape = 0;
-  std::int64_t count = 0;
-  std::int64_t seed = 1;
-  double noise = 0.0;
-  std::string output;
-  WriteOptions writing;
-  bool json = false;
-};
 
 vtkSmartPointer<vtkDoubleArray> arrayOf(const std::vector<Vec3>& vectors)
 {
@@ -49,66 +39,68 @@ vtkSmartPointer<vtkDoubleArray> arrayOf(const std::vector<Vec3>& vectors)
   return array;
 }
 
-int runGenerate(const GenerateOptions& options, Files& files)
+vtkSmartPointer<vtkPolyData> cloudOf(std::vector<Vec3> points, std::vector<Vec3> normals)
 {
-  std::string message;
-  const Shape shape = static_cast<Shape>(options.shape);
-  vtkNew<vtkPolyData> cloud;
-  {
-    std::vector<Vec3> points, normals;
-    const Status status = generateShape(
-      shape, options.count, static_cast<std::uint64_t>(options.seed), options.noise, points, &normals);
-    require(status == Status::Ok, pointhaptics::message(status));
-    vtkNew<vtkPoints> coordinates;
-    coordinates->SetData(arrayOf(points));
-    cloud->SetPoints(coordinates);
-    const vtkSmartPointer<vtkDoubleArray> normalArray = arrayOf(normals);
-    normalArray->SetName("Normals");
-    cloud->GetPointData()->SetNormals(normalArray);
-  }
-  require(writeCloud(cloud, options.output, files, kGenerateCommand, message, options.writing) &&
-      files.commit(message),
-    message);
-  if (options.json)
-  {
-    const nlohmann::ordered_json result = { { "output", options.output }, { "shape", shapeName(shape) },
-      { "points", options.count }, { "seed", options.seed }, { "noise", options.noise } };
-    printJson(result);
-  }
-  else
-  {
-    printSummary(fmt::format("{} of {}: {}", countOfPoints(options.count), shapeName(shape), options.output));
-  }
-  return kSuccess;
+  auto cloud = vtkSmartPointer<vtkPolyData>::New();
+  vtkNew<vtkPoints> coordinates;
+  coordinates->SetData(arrayOf(points));
+  cloud->SetPoints(coordinates);
+  cloud->GetPointData()->SetNormals(arrayOf(normals));
+  cloud->GetPointData()->GetNormals()->SetName("Normals");
+  return cloud;
 }
 
-std::vector<std::pair<std::string, int>> shapeChoices()
+struct GenerateCommand : Command
 {
-  std::vector<std::pair<std::string, int>> choices;
-  for (int shape = 0; shape < kNumberOfShapes; ++shape)
+  Shape shape = Shape::Plane;
+  std::int64_t count = 0;
+  std::int64_t seed = 1;
+  double noise = 0.0;
+  std::string output;
+  WriteOptions writing;
+  bool json = false;
+
+  void addTo(CLI::App& command) override
   {
-    choices.emplace_back(shapeName(static_cast<Shape>(shape)), shape);
+    std::vector<std::pair<std::string, Shape>> shapes;
+    for (int i = 0; i < kNumberOfShapes; ++i)
+    {
+      shapes.emplace_back(shapeName(Shape(i)), Shape(i));
+    }
+    addChoice(command, "SHAPE", this->shape, shapes, "Shape to sample")->required();
+    addInteger(command, "-n,--points", this->count, 1, kMostPoints, "Number of points")->required();
+    addInteger(command, "--seed", this->seed, 0, kLargestSeed, "Same seed, same points; default 1");
+    addNumber(command, "--noise", this->noise, { 0.0, 1.0 }, "SIGMA",
+      "Standard deviation of noise along the normal, metres; default 0");
+    addOutput(command, "-o,--output", this->output, writableExtensions(),
+      fmt::format("File to write: .{}; - is standard output", fmt::join(writableExtensions(), ", .")))
+      ->required();
+    this->writing.addTo(command);
+    command.add_flag("--json", this->json, "Print what was made as JSON");
   }
-  return choices;
-}
+
+  int run(Files& files) override
+  {
+    std::vector<Vec3> points, normals;
+    const Status status =
+      generateShape(this->shape, this->count, std::uint64_t(this->seed), this->noise, points, &normals);
+    require(status == Status::Ok, message(status));
+    const vtkSmartPointer<vtkPolyData> cloud = cloudOf(std::move(points), std::move(normals));
+    writeCloud(cloud, this->output, files, this->writing);
+    files.commit();
+    printResult(this->json,
+      { { "output", this->output }, { "shape", shapeName(this->shape) }, { "points", this->count },
+        { "seed", this->seed }, { "noise", this->noise } },
+      fmt::format("{} of {}: {}", countOfPoints(this->count), shapeName(this->shape), this->output));
+    return kSuccess;
+  }
+};
 
 } // namespace
 
-void addGenerateCommand(CLI::App& program, int& exitCode)
+Command* generateCommand()
 {
-  CLI::App* command = program.add_subcommand("generate", "Make a point cloud of a shape with exact answers");
-  auto options = std::make_shared<GenerateOptions>();
-  addChoice(*command, "SHAPE", options->shape, shapeChoices(), "Shape to sample")->required();
-  addInteger(*command, "-n,--points", options->count, 1, kMostPoints, "Number of points")->required();
-  addInteger(*command, "--seed", options->seed, 0, kLargestSeed, "Same seed, same points; default 1");
-  addNumber(*command, "--noise", options->noise, { 0.0, 1.0 }, "SIGMA",
-    "Standard deviation of noise along the normal, metres; default 0");
-  addOutput(*command, "-o,--output", options->output, writableExtensions(),
-    fmt::format("File to write: .{}; - is standard output", fmt::join(writableExtensions(), ", .")))
-    ->required();
-  options->writing.addTo(*command);
-  command->add_flag("--json", options->json, "Print what was made as JSON");
-  runAs(*command, exitCode, { [options](Files& files) { return runGenerate(*options, files); } });
+  return new GenerateCommand;
 }
 
 } // namespace pointhaptics::app

@@ -1,6 +1,7 @@
 #include "Commands/Commands.h"
 
 #include "Clouds/Pipeline.h"
+#include "Options/Files.h"
 #include "Options/OptionParsing.h"
 #include "Terminal/Messages.h"
 #include "Terminal/StopSignals.h"
@@ -13,22 +14,13 @@
 #include <nlohmann/json.hpp>
 #include <vtkPolyData.h>
 
-#include <memory>
+#include <array>
+#include <vector>
 
 namespace pointhaptics::app
 {
 namespace
 {
-
-constexpr const char* kInfoCommand = "info";
-
-struct InfoOptions
-{
-  std::vector<std::string> files;
-  ReadOptions reading;
-  bool statistics = false;
-  bool json = false;
-};
 
 std::vector<double> numbers(const Vec3& v)
 {
@@ -97,16 +89,23 @@ nlohmann::ordered_json toJson(const std::string& file, const std::string& error)
   return result;
 }
 
+void printLine(const std::string& name, const std::string& text)
+{
+  if (!text.empty())
+  {
+    fmt::print("  {:<8} {}\n", name, text);
+  }
+}
+
+std::string rangeText(const ArraySummary& array, std::size_t i)
+{
+  return fmt::format("mean {:.6g}, deviation {:.6g}", array.means[i], array.deviations[i]);
+}
+
 void printOrigin(const CloudSummary& s)
 {
-  if (!s.generator.empty())
-  {
-    fmt::print("  written  by {}\n", s.generator);
-  }
-  if (s.chunks > 0)
-  {
-    fmt::print("  chunks   {}\n", s.chunks);
-  }
+  printLine("written", s.generator.empty() ? "" : "by " + s.generator);
+  printLine("chunks", s.chunks > 0 ? std::to_string(s.chunks) : "");
   for (std::size_t i = 0; i < s.scans.size(); ++i)
   {
     const ScanSummary& scan = s.scans[i];
@@ -116,36 +115,41 @@ void printOrigin(const CloudSummary& s)
   }
 }
 
-/// Text of a coordinate with the digits that a float, or a double, has for certain: a multiple of 0.01 ends
-/// there, too.
-std::string coordinate(const CloudSummary& s, double value)
+void printPlace(const CloudSummary& s)
 {
-  return s.isFloat ? fmt::format("{}", float(value)) : fmt::format("{:.15g}", value);
-}
-
-void printSpacing(const CloudSummary& s)
-{
+  const Vec3 low = s.bounds.minimum, high = s.bounds.maximum, size = s.bounds.extent();
+  // With the digits that a float, or a double, has for certain: a multiple of 0.01 ends there, too.
+  const auto text = [&s](double value)
+  { return s.isFloat ? fmt::format("{}", float(value)) : fmt::format("{:.15g}", value); };
+  printLine("bounds",
+    fmt::format("x {} .. {}  y {} .. {}  z {} .. {}", text(low.x), text(high.x), text(low.y), text(high.y),
+      text(low.z), text(high.z)));
+  printLine("size", fmt::format("{:.6g} x {:.6g} x {:.6g}", size.x, size.y, size.z));
+  printLine("unit",
+    fmt::format("{} ({})", s.unit,
+      !s.unitIsGuess   ? "the file says so"
+        : s.unitIsTold ? "a guess by size and arrays"
+                       : "nothing tells the unit; --unit of view, feel and resample does"));
   if (!(s.spacing[2] > 0.0))
   {
-    fmt::print("  spacing  none: all points are at one place\n");
+    printLine("spacing", "none: all points are at one place");
     return;
   }
-  fmt::print(
-    "  spacing  {:.4g} (median distance to the nearest other point; 5 % {:.4g}, 25 % {:.4g}, 75 % {:.4g}, "
-    "95 % {:.4g})\n",
-    s.spacing[2], s.spacing[0], s.spacing[1], s.spacing[3], s.spacing[4]);
-  fmt::print(
-    "  density  spacing varies {:.3g} : 1 (medians from place to place; 95 % over 5 % of the surface)\n",
-    s.densityVariation);
-  fmt::print("  voxel    {:.3g} holds a few points of a surface (--voxel)\n", s.suggestedVoxel);
+  printLine("spacing",
+    fmt::format("{:.4g} (median distance to the nearest other point; 5 % {:.4g}, 25 % {:.4g}, 75 % {:.4g}, "
+                "95 % {:.4g})",
+      s.spacing[2], s.spacing[0], s.spacing[1], s.spacing[3], s.spacing[4]));
+  printLine("density",
+    fmt::format("spacing varies {:.3g} : 1 (medians from place to place; 95 % over 5 % of the surface)",
+      s.densityVariation));
+  printLine("voxel", fmt::format("{:.3g} holds a few points of a surface (--voxel)", s.suggestedVoxel));
 }
 
 void printArrays(const CloudSummary& s)
 {
   for (std::size_t axis = 0; axis < s.coordinates.means.size(); ++axis)
   {
-    fmt::print("  {}        mean {:.6g}, deviation {:.6g}\n", "xyz"[axis], s.coordinates.means[axis],
-      s.coordinates.deviations[axis]);
+    printLine(std::string(1, "xyz"[axis]), rangeText(s.coordinates, axis));
   }
   for (const ArraySummary& array : s.arrays)
   {
@@ -153,124 +157,93 @@ void printArrays(const CloudSummary& s)
     for (std::size_t i = 0; i < array.minima.size(); ++i)
     {
       ranges += fmt::format(" [{:.6g}, {:.6g}]", array.minima[i], array.maxima[i]);
-      ranges += array.means.empty()
-        ? std::string()
-        : fmt::format(" mean {:.6g}, deviation {:.6g}", array.means[i], array.deviations[i]);
+      ranges += array.means.empty() ? std::string() : " " + rangeText(array, i);
     }
-    fmt::print("  array    {}: {} x {}{}\n", array.name, array.type, array.components, ranges);
+    printLine("array", fmt::format("{}: {} x {}{}", array.name, array.type, array.components, ranges));
   }
 }
 
 void print(const std::string& file, const CloudSummary& s)
 {
-  fmt::print("{}\n  format   {}\n  points   {}{}{}\n", file, s.format, s.points, ofThemInvalid(s.invalid),
-    s.duplicates > 0 ? fmt::format(", {} at the place of another", s.duplicates) : "");
+  fmt::print("{}\n", file);
+  printLine("format", s.format);
+  printLine("points",
+    fmt::format("{}{}{}", s.points, ofThemInvalid(s.invalid),
+      s.duplicates > 0 ? fmt::format(", {} at the place of another", s.duplicates) : ""));
   printOrigin(s);
   if (!s.bounds.empty())
   {
-    const Vec3 low = s.bounds.minimum, high = s.bounds.maximum, size = s.bounds.extent();
-    fmt::print("  bounds  ");
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      fmt::print(" {}{} {} .. {}", axis > 0 ? " " : "", "xyz"[axis], coordinate(s, low[axis]),
-        coordinate(s, high[axis]));
-    }
-    fmt::print("\n");
-    fmt::print("  size     {:.6g} x {:.6g} x {:.6g}\n", size.x, size.y, size.z);
-    fmt::print("  unit     {} ({})\n", s.unit,
-      !s.unitIsGuess   ? "the file says so"
-        : s.unitIsTold ? "a guess by size and arrays"
-                       : "nothing tells the unit; --unit of view, feel and resample does");
-    printSpacing(s);
+    printPlace(s);
   }
-  if (!s.coordinateSystem.empty())
-  {
-    fmt::print("  system   {}\n", s.coordinateSystem);
-  }
+  printLine("system", s.coordinateSystem);
   printArrays(s);
   for (const std::string& note : s.notes)
   {
-    fmt::print("  note     {}\n", note);
+    printLine("note", note);
   }
-  if (!s.farPoints.empty())
-  {
-    fmt::print("  note     {}\n", s.farPoints);
-  }
-  if (s.noReturns > 0)
-  {
-    fmt::print("  note     {} are felt, but view draws them with --felt alone\n", noReturnsText(s.noReturns));
-  }
-  if (s.points > 0 && s.bounds.empty())
-  {
-    fmt::print(
-      "  note     no point is finite: view, feel, resample and bandwidth refuse it; mend the file\n");
-  }
-  if (!s.hint.empty())
-  {
-    fmt::print("  hint     {}\n", s.hint);
-  }
+  printLine("note", s.farPoints);
+  printLine("note",
+    s.noReturns > 0 ? noReturnsText(s.noReturns) + " are felt, but view draws them with --felt alone" : "");
+  printLine("note",
+    s.points > 0 && s.bounds.empty()
+      ? "no point is finite: view, feel, resample and bandwidth refuse it; mend the file"
+      : "");
+  printLine("hint", s.hint);
 }
 
-/// Removes the name, with which the reader's message begins.
-std::string withoutFileName(const std::string& message, const std::string& file)
+struct InfoCommand : Command
 {
-  return message.compare(0, file.size() + 2, file + ": ") == 0 ? message.substr(file.size() + 2) : message;
-}
+  std::vector<std::string> files;
+  ReadOptions reading;
+  bool statistics = false;
+  bool json = false;
 
-int runInfo(const InfoOptions& options)
-{
-  rememberStopSignals();
-  int exitCode = kSuccess;
-  nlohmann::ordered_json files = nlohmann::ordered_json::array();
-  for (const std::string& file : options.files)
+  void addTo(CLI::App& command) override
   {
-    Cloud cloud;
-    std::string message;
-    const bool hasPoints = readCloud(file, cloud, message, options.reading);
-    if (cloud.isValidWithoutPoints)
-    {
-      cloud.notes.push_back(withoutFileName(message, file));
-    }
-    else if (!hasPoints)
-    {
-      exitCode = fail(kInfoCommand, message);
-      files.push_back(toJson(file, message));
-      continue;
-    }
-    showWarnings(kInfoCommand);
-    CloudSummary summary = summarize(cloud.points, cloud.format, options.statistics);
-    summary.notes = cloud.notes;
-    if (options.json)
-    {
-      files.push_back(toJson(file, summary));
-    }
-    else
-    {
-      print(file, summary);
-    }
+    addInput(command, "FILE", this->files, "Point clouds to look at; - is standard input")->required();
+    addResolution(command, this->reading.resolution);
+    addReading(command, this->reading.columns, this->reading.salvage);
+    addSamples(command, this->reading.samples);
+    command.add_flag("--statistics", this->statistics,
+      "Also the mean and the standard deviation of each array, and of the coordinates: x, y, z");
+    command.add_flag("--json", this->json, "Print all of it as JSON");
   }
-  if (options.json)
+
+  int run(Files&) override
   {
-    const nlohmann::ordered_json result = { { "files", files } };
-    printJson(result);
+    rememberStopSignals();
+    int exitCode = kSuccess;
+    nlohmann::ordered_json all = nlohmann::ordered_json::array();
+    this->reading.mayBeEmpty = true;
+    for (const std::string& file : this->files)
+    {
+      try
+      {
+        const Cloud cloud = readCloud(file, this->reading);
+        showWarnings();
+        CloudSummary summary = summarize(cloud.points, cloud.format, this->statistics);
+        summary.notes = cloud.notes;
+        this->json ? all.push_back(toJson(file, summary)) : print(file, summary);
+      }
+      catch (const Failure& failure)
+      {
+        exitCode = fail(failure.what());
+        all.push_back(toJson(file, failure.what()));
+      }
+    }
+    if (this->json)
+    {
+      printJson({ { "files", all } });
+    }
+    return exitCode;
   }
-  return exitCode;
-}
+};
 
 } // namespace
 
-void addInfoCommand(CLI::App& program, int& exitCode)
+Command* infoCommand()
 {
-  CLI::App* command = program.add_subcommand("info", "Say what is in point cloud files");
-  auto options = std::make_shared<InfoOptions>();
-  addInput(*command, "FILE", options->files, "Point clouds to look at; - is standard input")->required();
-  addResolution(*command, options->reading.resolution);
-  addReading(*command, options->reading.columns, options->reading.salvage);
-  addSamples(*command, options->reading.samples);
-  command->add_flag("--statistics", options->statistics,
-    "Also the mean and the standard deviation of each array, and of the coordinates: x, y, z");
-  command->add_flag("--json", options->json, "Print all of it as JSON");
-  runAs(*command, exitCode, { [options](Files&) { return runInfo(*options); } });
+  return new InfoCommand;
 }
 
 } // namespace pointhaptics::app

@@ -1,4 +1,4 @@
-#include "Feel/FeelLive.h"
+#include "Feel/FeelCommand.h"
 
 #include "Terminal/Messages.h"
 #include "Terminal/StopSignals.h"
@@ -8,7 +8,6 @@
 #include <cstdio>
 #include <optional>
 #include <thread>
-#include <vector>
 
 namespace pointhaptics::app
 {
@@ -63,15 +62,12 @@ private:
 };
 
 /// Gives the samples that came since the last call to the recording and, where the device spoke, to onSample.
-void passSamples(ServoLoop& loop, const LiveSettings& settings, std::vector<ServoSample>& samples,
+void passSamples(ServoLoop& loop, RecordingWriter& recording, std::vector<ServoSample>& samples,
   const std::function<void(const ServoSample&)>& onSample)
 {
   samples.clear();
   loop.takeTrace(samples);
-  if (settings.recording)
-  {
-    settings.recording->add(loop, samples);
-  }
+  recording.add(loop, samples);
   for (const ServoSample& sample : samples)
   {
     if (sample.device == Status::Ok)
@@ -83,22 +79,19 @@ void passSamples(ServoLoop& loop, const LiveSettings& settings, std::vector<Serv
 
 } // namespace
 
-bool feelLive(const LiveSettings& settings, FeelScenes& scenes,
-  const std::function<void(const ServoSample&)>& onSample, ServoStatistics& statistics, std::string& message)
+ServoStatistics FeelCommand::feelLive(FeelScenes& scenes, RecordingWriter& recording,
+  const std::function<void(const ServoSample&)>& onSample) const
 {
   rememberStopSignals();
-  FalconDevice device(settings.falcon.settings());
-  if (const Status status = device.open(); status != Status::Ok)
-  {
-    message = openProblem(device, status, kFirmwareOption);
-    return false;
-  }
+  FalconDevice falconDevice(this->falcon.settings());
+  const Status status = falconDevice.open();
+  require(status == Status::Ok, openProblem(falconDevice, status, kFirmwareOption));
   ServoLoop loop; // after the device: stops before it closes
   loop.publishScene(scenes.whole());
-  if (loop.start(device, settings.parameters, pushingServoSettings(settings.rateHz), &message) != Status::Ok)
-  {
-    return false;
-  }
+  std::string problem;
+  const Status started =
+    loop.start(falconDevice, this->touch.parameters, pushingServoSettings(this->rateHz), &problem);
+  require(started == Status::Ok, problem);
   std::optional<SceneThread> sceneThread;
   if (LocalSceneFollower* follower = scenes.follower())
   {
@@ -106,18 +99,18 @@ bool feelLive(const LiveSettings& settings, FeelScenes& scenes,
   }
   FalconUpdates updates;
   std::vector<ServoSample> samples;
-  const auto pass = [&] { passSamples(loop, settings, samples, onSample); };
+  const auto pass = [&] { passSamples(loop, recording, samples, onSample); };
   double touchBegan = -1.0;
   while (loop.running() && !stopIsRequested())
   {
-    if (const std::string line = updates.next(device); !line.empty())
+    if (const std::string line = updates.next(falconDevice); !line.empty())
     {
       printNow(stderr, line + "\n");
     }
     pass();
     const double time = loop.latest().timeSeconds;
-    touchBegan = touchBegan < 0.0 && device.state() == FalconState::Armed ? time : touchBegan;
-    if (settings.seconds > 0.0 && touchBegan >= 0.0 && time - touchBegan >= settings.seconds)
+    touchBegan = touchBegan < 0.0 && falconDevice.state() == FalconState::Armed ? time : touchBegan;
+    if (this->seconds > 0.0 && touchBegan >= 0.0 && time - touchBegan >= this->seconds)
     {
       break;
     }
@@ -126,13 +119,9 @@ bool feelLive(const LiveSettings& settings, FeelScenes& scenes,
   sceneThread.reset();
   loop.stop();
   pass();
-  statistics = loop.statistics();
-  device.close();
-  if (const std::string refusals = describeRefusals(statistics); !refusals.empty())
-  {
-    warn("feel", refusals);
-  }
-  return true;
+  falconDevice.close();
+  warn(describeRefusals(loop.statistics()));
+  return loop.statistics();
 }
 
 } // namespace pointhaptics::app

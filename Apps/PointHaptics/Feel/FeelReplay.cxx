@@ -1,20 +1,16 @@
 #include "Feel/FeelReplay.h"
 
-#include "Options/ConfigFile.h"
+#include "Terminal/Messages.h"
 #include "Terminal/ProgressBar.h"
 #include "Terminal/StopSignals.h"
+#include "View/ViewSettings.h"
 
 #include "ClippedCloud.h"
 #include "LoadedCloud.h"
-#include "Recording.h"
 
 #include <vtkPolyData.h>
 
-#include <vector>
-
-namespace pointhaptics
-{
-namespace app
+namespace pointhaptics::app
 {
 
 void declareRecordedClouds(const std::string& fileName, const std::string& cloudFile, Files& files)
@@ -31,63 +27,86 @@ void declareRecordedClouds(const std::string& fileName, const std::string& cloud
   }
 }
 
-bool openRecording(const std::string& fileName, const std::string& cloudFile, Files& files,
-  Recording& recording, vtkSmartPointer<vtkPolyData>& cloud, std::string& message)
+Recording readRecordingFor(
+  HapticViewerOptions& viewer, std::vector<std::string>& files, const std::string& fileName)
 {
-  if (!readRecording(files.input(fileName), recording, message))
+  Recording recording;
+  std::string message;
+  require(readRecording(fileName, recording, message), message);
+  warn(recording.note, recording.note.empty() ? "" : fileName);
+  if (files.empty())
   {
-    return false;
+    files = recording.header.cloud.files;
+    viewer.together = files.size() > 1;
+    viewer.resolution = recording.header.cloud.resolution;
   }
-  if (!recording.note.empty())
-  {
-    warn("replay", recording.note, fileName);
-  }
-  const RecordedFiles& felt = recording.header.cloud;
-  CloudRequest request;
-  request.files = cloudFile.empty() ? felt.files : std::vector<std::string>{ cloudFile };
-  request.resolution = felt.resolution;
-  const RecordedReading reading = recordedReading(recording.header.settings);
-  request.columns = reading.columns;
-  request.salvage = reading.salvage;
-  request.vertices = reading.vertices;
-  std::string wrong;
-  request.hidden = hiddenIn(reading.hide, wrong);
-  request.up = reading.up;
+  takeRecordedReading(recording.header.settings, viewer);
+  return recording;
+}
+
+std::pair<Recording, vtkSmartPointer<vtkPolyData>> openRecording(
+  const std::string& fileName, const std::string& cloudFile, Files& files)
+{
+  HapticViewerOptions viewer;
+  std::vector<std::string> clouds;
+  Recording recording = readRecordingFor(viewer, clouds, files.input(fileName));
+  CloudRequest request =
+    CloudRequest::of(cloudFile.empty() ? clouds : std::vector<std::string>{ cloudFile }, viewer);
+  request.options = nullptr; // it is only read
   for (std::string& file : request.files)
   {
     file = files.input(file);
   }
   ProgressBar bar("reading");
-  LoadedCloud loaded;
+  vtkSmartPointer<vtkPolyData> cloud;
   const auto goesOn = [&bar](double part)
   {
     bar.show(part);
     return !stopIsRequested();
   };
   bool isLoaded = false;
-  const auto takeCloud = [&](std::string& problem)
+  const auto takeCloud = [&]
   {
+    std::string problem;
+    LoadedCloud loaded;
     isLoaded = loadCloud(request, goesOn, loaded, problem);
-    if (!isLoaded)
+    if (isLoaded)
     {
-      return false;
+      cloud = shownPart(loaded.cloud, viewer.clip, loaded.showing.hidden);
+      const bool isRight = isOf(recording, cloud, problem);
+      problem.insert(0, isRight ? "" : request.files.front() + ": ");
     }
-    cloud = shownPart(loaded.cloud, reading.clip, loaded.showing.hidden);
-    const bool isRight = isOf(recording, cloud, problem);
-    problem.insert(0, isRight ? "" : request.files.front() + ": ");
-    return isRight;
+    return problem;
   };
-  std::string problem;
-  if (!takeCloud(problem) && isLoaded && !request.vertices)
+  std::string problem = takeCloud();
+  if (!problem.empty() && isLoaded && !request.vertices)
   {
     // Before faces were sampled, meshes were felt by their vertices, and recordings did not say so.
     request.vertices = true;
-    std::string ignored;
-    problem = takeCloud(ignored) ? "" : problem;
+    problem = takeCloud().empty() ? "" : problem;
   }
-  message = problem;
-  return problem.empty();
+  require(problem.empty(), problem);
+  return { std::move(recording), cloud };
 }
 
-} // namespace app
-} // namespace pointhaptics
+ReplayDifference feelAgain(const std::string& fileName, const Recording& recording, vtkPolyData* cloud,
+  std::optional<ProxyMethod> method, const std::string& label,
+  const std::function<void(const RecordedTick&, const ServoSample&)>& onTick)
+{
+  Replay replay(recording, cloud, method);
+  ProgressBar bar(label);
+  while (!replay.isAtEnd())
+  {
+    const RecordedTick& row = replay.row();
+    ServoSample sample;
+    std::string problem;
+    const bool isFelt = replay.step(sample, problem);
+    require(isFelt, fileName + ": " + problem);
+    onTick(row, sample);
+    bar.show(double(replay.difference().ticks) / double(recording.ticks.size()));
+    require(!stopIsRequested(), fileName + ": feeling was stopped on request; start it again");
+  }
+  return replay.difference();
+}
+
+} // namespace pointhaptics::app

@@ -1,13 +1,10 @@
-#include "Feel/FeltCloud.h"
+#include "Feel/FeelCommand.h"
 
-#include "Clouds/Pipeline.h"
 #include "Terminal/Messages.h"
 #include "Terminal/ProgressBar.h"
 #include "Terminal/StopSignals.h"
 
 #include "ClippedCloud.h"
-#include "FeelScenes.h"
-#include "HapticViewerOptions.h"
 #include "LoadedCloud.h"
 #include "ResampledCloud.h"
 
@@ -20,68 +17,53 @@
 #include <vtkPolyData.h>
 
 #include <memory>
-#include <string>
 #include <utility>
-#include <vector>
 
 namespace pointhaptics::app
 {
 namespace
 {
 
-/// Points of @p cloud in the workspace frame, inside --workspace where that is given.
-vtkSmartPointer<vtkPolyData> rawPoints(const FeelOptions& options, vtkPolyData* cloud)
+/// The finite points of @p cloud in the workspace frame, inside --workspace where that is given, in double
+/// precision, without arrays.
+vtkSmartPointer<vtkPolyData> rawPoints(const FeelCommand& options, vtkPolyData* cloud)
 {
-  vtkSmartPointer<vtkPolyData> moved = transformedPoints(cloud, options.lattice.transform());
   const Bounds box = options.lattice.workspace();
-  if (box.empty())
-  {
-    return moved;
-  }
   vtkNew<vtkPoints> inside;
   inside->SetDataTypeToDouble();
-  for (vtkIdType i = 0; i < moved->GetNumberOfPoints(); ++i)
+  for (vtkIdType i = 0; i < cloud->GetNumberOfPoints(); ++i)
   {
     Vec3 p;
-    moved->GetPoint(i, &p.x);
-    if (p.x >= box.minimum.x && p.x < box.maximum.x && p.y >= box.minimum.y && p.y < box.maximum.y &&
-      p.z >= box.minimum.z && p.z < box.maximum.z)
+    cloud->GetPoint(i, &p.x);
+    p = options.viewer.transform.apply(p);
+    const bool isInside =
+      box.empty() || (contains(box, p) && p.x < box.maximum.x && p.y < box.maximum.y && p.z < box.maximum.z);
+    if (isFinite(p) && isInside)
     {
       inside->InsertNextPoint(&p.x);
     }
   }
+  auto moved = vtkSmartPointer<vtkPolyData>::New();
   moved->SetPoints(inside);
   return moved;
 }
 
-/// Reason why nothing can be felt.
-std::string whyEmpty(const FeelOptions& options, vtkPolyData* cloud)
+/// @throws Failure that says why nothing can be felt, unless @p canBeFelt.
+void requirePoints(bool canBeFelt, const FeelCommand& options, vtkPolyData* cloud)
 {
-  return extentOf(cloud).all.empty()
-    ? noFinitePoint(options.file, cloud->GetNumberOfPoints())
-    : options.file + ": no finite point lies in the workspace; leave out --workspace, or mend the transform";
+  if (!canBeFelt)
+  {
+    throw Failure(extentOf(cloud).all.empty() ? noFinitePoint(options.file, cloud->GetNumberOfPoints())
+                                              : options.file +
+          ": no finite point lies in the workspace; leave out --workspace, or mend the transform");
+  }
 }
 
-/// Makes the scene of the whole cloud, as the viewer does; @p box gets the felt part of the workspace. Null:
-/// @p message says why.
-std::shared_ptr<const HapticScene> resampledScene(
-  const FeelOptions& options, vtkPolyData* cloud, Bounds& box, std::string& message)
+/// Makes the scene of the whole cloud, as the viewer does; @p box gets the felt part of the workspace.
+std::shared_ptr<const HapticScene> resampledScene(const FeelCommand& options, vtkPolyData* cloud, Bounds& box)
 {
-  HapticViewerOptions viewer;
-  viewer.transform = options.lattice.transform();
-  viewer.fitsWorkspace = options.fit;
-  viewer.clip = options.clip;
-  viewer.names.clip = "--clip";
-  viewer.voxels = options.lattice.voxels;
-  if (!options.lattice.voxelsAreGiven)
-  {
-    viewer.voxels.lattice.dimensions = { 0, 0, 0 }; // as the viewer chooses
-  }
-  viewer.voxels.computeCovariance = !options.noCovariance;
-  viewer.voxels.passAttributes = false;
-  viewer.bandwidth = options.bandwidth.settings;
   ProgressBar bar("resampling");
-  CloudRequest request = CloudRequest::of({ options.file }, viewer);
+  CloudRequest request = CloudRequest::of({ options.file }, options.viewer);
   request.makesScene = true;
   request.isFeltOnly = true;
   request.working = [&bar](const char*, double part) { bar.show(part); };
@@ -89,12 +71,9 @@ std::shared_ptr<const HapticScene> resampledScene(
   loaded.cloud = cloud;
   loaded.title = options.file;
   findBounds(request, loaded);
-  if (loaded.bounds.empty())
-  {
-    message = whyEmpty(options, cloud);
-    return nullptr;
-  }
+  requirePoints(!loaded.bounds.empty(), options, cloud);
   placeCloud(request, loaded);
+  std::string message;
   const bool isMade = resampleCloud(
     request, [] { return !stopIsRequested(); }, loaded, message);
   if (isMade)
@@ -103,58 +82,45 @@ std::shared_ptr<const HapticScene> resampledScene(
   }
   for (const std::string& note : loaded.notes)
   {
-    warn("feel", note);
+    warn(note);
   }
-  if (const std::vector<std::string> errors = takeVtkErrors(); !errors.empty())
-  {
-    message = errors.front();
-    return nullptr;
-  }
-  if (isMade && !loaded.scene)
-  {
-    message = loaded.means->GetNumberOfPoints() == 0
-      ? whyEmpty(options, cloud)
-      : options.file + ": " + pointhaptics::message(loaded.sceneStatus);
-  }
+  const std::vector<std::string> errors = takeVtkErrors();
+  require(errors.empty(), errors.empty() ? "" : errors.front());
+  require(isMade, message);
+  requirePoints(loaded.scene || loaded.means->GetNumberOfPoints() > 0, options, cloud);
+  require(loaded.scene != nullptr, options.file + ": " + pointhaptics::message(loaded.sceneStatus));
   box = loaded.voxels.lattice.automaticWorkspace ? Bounds() : loaded.voxels.lattice.workspace;
-  return isMade ? loaded.scene : nullptr;
+  return loaded.scene;
 }
 
 } // namespace
 
-bool makeFeelScenes(const FeelOptions& options, vtkPolyData* cloud, FeelScenes& scenes, std::string& message)
+void FeelCommand::makeScenes(vtkPolyData* cloud, FeelScenes& scenes) const
 {
-  FeelSceneSettings settings;
-  settings.bandwidth = options.bandwidth.settings;
-  settings.useCovariance = !options.noCovariance;
-  settings.refineNearHand = options.refinesNearHand();
-  if (!options.raw)
+  FeelSceneSettings made;
+  made.bandwidth = this->bandwidth.settings;
+  made.useCovariance = !this->noCovariance;
+  // Where the user asked neither for other voxels nor for none.
+  made.refineNearHand = !this->lattice.voxelsAreGiven && !this->raw && !this->noCovariance;
+  const auto clipped = [this, cloud] { return clippedCloud(cloud, clipBox(this->viewer.clip, cloud)); };
+  if (!this->raw)
   {
-    auto whole = resampledScene(options, cloud, settings.workspace, message);
-    const bool isMade = whole != nullptr;
-    scenes.adopt(std::move(whole), clippedCloud(cloud, clipBox(options.clip, cloud))->GetPoints(), settings);
-    return isMade;
+    auto whole = resampledScene(*this, cloud, made.workspace);
+    scenes.adopt(std::move(whole), clipped()->GetPoints(), made); // after the memory of the resampling
+    return;
   }
-  const vtkSmartPointer<vtkPolyData> felt = clippedCloud(cloud, clipBox(options.clip, cloud));
-  const vtkSmartPointer<vtkPolyData> prepared = rawPoints(options, felt);
-  if (prepared->GetNumberOfPoints() == 0)
-  {
-    message = whyEmpty(options, cloud);
-    return false;
-  }
-  settings.workspace = options.lattice.workspace();
+  const vtkSmartPointer<vtkPolyData> felt = clipped();
+  const vtkSmartPointer<vtkPolyData> prepared = rawPoints(*this, felt);
+  requirePoints(prepared->GetNumberOfPoints() > 0, *this, cloud);
+  made.workspace = this->lattice.workspace();
   const std::int64_t noReturns = extentOf(felt).noReturns;
   if (noReturns > 0 &&
-    (settings.workspace.empty() || contains(settings.workspace, options.lattice.transform().apply(Vec3()))))
+    (made.workspace.empty() || contains(made.workspace, this->viewer.transform.apply(Vec3()))))
   {
-    warn("feel", fmt::format("{}: {} are felt", options.file, noReturnsText(noReturns)));
+    warn(fmt::format("{}: {} are felt", this->file, noReturnsText(noReturns)));
   }
-  if (const Status status = scenes.make(prepared, felt->GetPoints(), settings); status != Status::Ok)
-  {
-    message = options.file + ": " + pointhaptics::message(status);
-    return false;
-  }
-  return true;
+  const Status status = scenes.make(prepared, felt->GetPoints(), made);
+  require(status == Status::Ok, this->file + ": " + message(status));
 }
 
 } // namespace pointhaptics::app

@@ -81,10 +81,19 @@ std::vector<std::string> wordsOf(const std::string& text)
   return { std::istream_iterator<std::string>(words), {} };
 }
 
-bool isGiven(const CLI::App& command, const char* name)
+/// The entry of @p name among @p entries, or their end.
+template <typename Entries>
+auto find(Entries& entries, const std::string& name)
 {
-  const CLI::Option* option = command.get_option_no_throw(name);
-  return option && option->count() > 0;
+  return std::find_if(entries.begin(), entries.end(), [&](const auto& entry) { return entry.name == name; });
+}
+
+std::string startOfFile(const std::string& name, std::size_t size)
+{
+  std::ifstream file(name, std::ios::binary);
+  std::string start(size, ' ');
+  file.read(start.data(), std::streamsize(size));
+  return start;
 }
 
 /// Each unfinished output is an open file.
@@ -107,21 +116,18 @@ void checkPlaceholders(const std::string& option, const std::string& pattern)
   {
     const std::size_t end = pattern.find('}', begin);
     const std::string word = end == std::string::npos ? "" : pattern.substr(begin, end + 1 - begin);
-    if (!word.empty() && std::find(known.begin(), known.end(), word) == known.end())
-    {
-      throwUsage(option, pattern,
-        fmt::format(
-          "{} stands for nothing{}; there are {}", word, didYouMean(word, known), fmt::join(known, ", ")));
-    }
+    requireUsage(word.empty() || std::find(known.begin(), known.end(), word) != known.end(), option, pattern,
+      fmt::format(
+        "{} stands for nothing{}; there are {}", word, didYouMean(word, known), fmt::join(known, ", ")));
   }
 }
 
 } // namespace
 
-CLI::Option* addInput(
-  CLI::App& command, const std::string& name, std::string& file, const std::string& description)
+CLI::Option* addInput(CLI::App& command, const std::string& name, std::string& file,
+  const std::string& description, const std::string& form)
 {
-  return mark(command.add_option(name, file, description)->type_name(""), kReads);
+  return mark(command.add_option(name, file, description)->type_name(form), kReads);
 }
 
 CLI::Option* addInput(
@@ -138,9 +144,9 @@ CLI::Option* addInputsAndOutput(CLI::App& command, const std::string& name, std:
 }
 
 CLI::Option* addOutput(CLI::App& command, const std::string& name, std::string& file,
-  const std::vector<std::string>& extensions, const std::string& description)
+  const std::vector<std::string>& extensions, const std::string& description, const std::string& form)
 {
-  return mark(command.add_option(name, file, description)->type_name("OUT"),
+  return mark(command.add_option(name, file, description)->type_name(form),
     fmt::format("{} {}", kWrites, fmt::join(extensions, " ")));
 }
 
@@ -179,6 +185,17 @@ bool writesFiles(const CLI::App& command)
     [](const CLI::Option* option) { return fileRole(*option).find(kWrites) != std::string::npos; });
 }
 
+std::string writeFault(const std::string& name, const OutputFile& file)
+{
+  return fmt::format("{}: cannot be written: {}; {}", name, file.reason(), file.cure());
+}
+
+bool isGiven(const CLI::App& command, const char* name)
+{
+  const CLI::Option* option = command.get_option_no_throw(name);
+  return option && option->count() > 0;
+}
+
 bool isPattern(const std::string& name)
 {
   return std::any_of(std::begin(kPlaceholders), std::end(kPlaceholders),
@@ -190,27 +207,27 @@ std::string expandedName(const std::string& pattern, const std::string& input)
   const fs::path path = input == kStandardStream ? fs::path("stdin") : fs::path(input);
   const std::string folder = path.has_parent_path() ? path.parent_path().string() : ".";
   const std::string values[] = { path.stem().string(), path.filename().string(), folder };
-  std::string result;
-  for (std::size_t at = 0; at < pattern.size();)
+  std::string result = pattern;
+  for (std::size_t at = 0; (at = result.find('{', at)) != std::string::npos; ++at)
   {
-    std::size_t i = 0;
-    while (
-      i < std::size(values) && pattern.compare(at, std::string(kPlaceholders[i]).size(), kPlaceholders[i]))
+    for (std::size_t i = 0; i < std::size(values); ++i)
     {
-      ++i;
+      const std::string_view word = kPlaceholders[i];
+      if (result.compare(at, word.size(), word) == 0)
+      {
+        result.replace(at, word.size(), values[i]);
+        at += values[i].size() - 1;
+        break;
+      }
     }
-    result += i < std::size(values) ? values[i] : std::string(1, pattern[at]);
-    at += i < std::size(values) ? std::string(kPlaceholders[i]).size() : 1;
   }
   return result;
 }
 
 /// An output as the command line names it: maybe a pattern.
-struct Files::NamedOutput
+struct Files::NamedOutput : Named
 {
-  std::string option;
   std::string extensions;
-  std::string name;
 };
 
 /// Ends in a usage error where nothing tells the format of the output, or nobody writes it.
@@ -224,12 +241,9 @@ void Files::checkExtension(const CLI::App& command, const NamedOutput& output)
   const std::string extension = lowerExtension(output.name);
   const bool isKnown = std::find(known.begin(), known.end(), extension) != known.end();
   std::error_code ignored;
-  if (known.empty() || isKnown || (isCloud && isGiven(command, "--output-format")) ||
-    (isStream && !isCloud) || fs::is_directory(output.name, ignored))
-  {
-    return;
-  }
-  throwUsage(output.option + (output.option.empty() ? "" : " ") + output.name, "",
+  const bool isRight = known.empty() || isKnown || (isCloud && isGiven(command, "--output-format")) ||
+    (isStream && !isCloud) || fs::is_directory(output.name, ignored);
+  requireUsage(isRight, output.shown(), "",
     isStream
       ? fmt::format("a stream has no extension; give --output-format, one of {}", fmt::join(known, ", "))
       : fmt::format("unknown extension \"{}\"{}; end the name in .{}",
@@ -270,26 +284,19 @@ void Files::takeOutput(
   checkExtension(command, output);
   if (output.name == kStandardStream)
   {
-    if (isGiven(command, "--json"))
-    {
-      throwUsage("--json", "", "standard output is the file; leave it out, or name a file to write");
-    }
+    requireUsage(!isGiven(command, "--json"), "--json", "",
+      "standard output is the file; leave it out, or name a file to write");
     takeStandardOutput();
   }
   // Commands that can merge their inputs make one output of each else.
   const bool isOfEach = command.get_option_no_throw("--merge") != nullptr;
+  const bool isMerged = isGiven(command, "--merge");
   if (isOfEach)
   {
     checkPlaceholders(output.option, output.name);
-  }
-  if (isOfEach && isPattern(output.name) && isGiven(command, "--merge"))
-  {
-    throwUsage(
-      "--merge", "", "makes one cloud, and " + output.name + " stands for several; leave out one of them");
-  }
-  if (isOfEach && !isPattern(output.name) && clouds.size() > 1 && !isGiven(command, "--merge"))
-  {
-    throwUsage(output.option + (output.option.empty() ? "" : " ") + output.name, "",
+    requireUsage(!isMerged || !isPattern(output.name), "--merge", "",
+      "makes one cloud, and " + output.name + " stands for several; leave out one of them");
+    requireUsage(isMerged || isPattern(output.name) || clouds.size() < 2, output.shown(), "",
       fmt::format("{} inputs and one output; put {{stem}} into its name for one of each, or give --merge to "
                   "make one cloud of them",
         clouds.size()));
@@ -322,15 +329,12 @@ void Files::take(const CLI::App& command)
     const bool isBoth = role.rfind(kReadsAndWrites, 0) == 0;
     if (isBoth && names.size() > 1 && !isGiven(command, "--output"))
     {
-      outputs.push_back({ "", role.substr(std::string(kReadsAndWrites).size()), names.back() });
+      outputs.push_back({ { "", names.back() }, role.substr(std::string(kReadsAndWrites).size()) });
       names.pop_back();
       std::error_code ignored;
       // A list of inputs whose output was forgotten must not cost the last of them.
-      if (fs::is_regular_file(outputs.back().name, ignored) && !isForced_)
-      {
-        throwUsage(outputs.back().name, "",
-          "is there already, and may be one of the inputs; name the output by -o, or give --force");
-      }
+      requireUsage(isForced_ || !fs::is_regular_file(outputs.back().name, ignored), outputs.back().name, "",
+        "is there already, and may be one of the inputs; name the output by -o, or give --force");
     }
     for (const std::string& name : role == kReads || isBoth ? names : std::vector<std::string>())
     {
@@ -339,7 +343,7 @@ void Files::take(const CLI::App& command)
     }
     if (role.rfind(kWrites, 0) == 0 && !names.empty())
     {
-      outputs.push_back({ shown, role.substr(std::string(kWrites).size()), names.back() });
+      outputs.push_back({ { shown, names.back() }, role.substr(std::string(kWrites).size()) });
     }
   }
   for (const NamedOutput& output : outputs)
@@ -349,75 +353,49 @@ void Files::take(const CLI::App& command)
 }
 
 /// @p output is one of outputs_; those after it are checked against it.
-namespace
-{
-
-/// By the first lines of its header.
-bool isRecording(const std::string& name)
-{
-  std::ifstream file(name, std::ios::binary);
-  char start[1024];
-  file.read(start, sizeof start);
-  return std::string_view(start, std::size_t(file.gcount())).find("# pointhaptics recording: ") !=
-    std::string_view::npos;
-}
-
-} // namespace
-
 void Files::check(const Entry& output) const
 {
   const Identity& own = output.identity;
-  for (const Entry& input : inputs_)
-  {
-    const bool areStreams =
-      input.name == kStandardStream && output.name == kStandardStream && (own.isStream() || !own.exists);
-    if (own == input.identity && !areStreams)
+  const auto input = std::find_if(inputs_.begin(), inputs_.end(),
+    [&](const Entry& entry)
     {
-      throwUsage(output.shown(), "",
-        fmt::format(
-          "this is the input {}, which would be lost; choose another name for the output", input.shown()));
-    }
-  }
-  for (auto other = outputs_.begin(); &*other != &output; ++other)
-  {
-    if (other->name == output.name || own == other->identity)
-    {
-      throwUsage(output.shown(), "",
-        fmt::format(
-          "this is the same file as the output {}; give each output a name of its own", other->shown()));
-    }
-  }
+      const bool areStreams =
+        entry.name == kStandardStream && output.name == kStandardStream && (own.isStream() || !own.exists);
+      return own == entry.identity && !areStreams;
+    });
+  requireUsage(input == inputs_.end(), output.shown(), "",
+    fmt::format("this is the input {}, which would be lost; choose another name for the output",
+      input == inputs_.end() ? "" : input->shown()));
+  const auto other = std::find_if(outputs_.begin(), outputs_.end(),
+    [&](const Entry& entry)
+    { return &entry == &output || entry.name == output.name || own == entry.identity; });
+  requireUsage(&*other == &output, output.shown(), "",
+    fmt::format(
+      "this is the same file as the output {}; give each output a name of its own", other->shown()));
   if (output.name == kStandardStream)
   {
     return;
   }
-  if (!isForced_ && own.exists && !own.isStream() && isRecording(output.name))
-  {
-    throwUsage(output.shown(), "",
-      "is a recording, and a touch cannot be made again; choose another name, or give --force");
-  }
-  if (noClobber_ && own.exists && !own.isStream())
-  {
-    throwUsage(
-      output.shown(), "", "is there already, and --no-clobber forbids to replace it; choose another name");
-  }
+  const bool isThere = own.exists && !own.isStream();
+  constexpr std::size_t kHeader = 1024; // of a recording: its first lines
+  const bool isRecording = isThere && !isForced_ &&
+    startOfFile(output.name, kHeader).find("# pointhaptics recording: ") != std::string::npos;
+  requireUsage(!isRecording, output.shown(), "",
+    "is a recording, and a touch cannot be made again; choose another name, or give --force");
+  requireUsage(!noClobber_ || !isThere, output.shown(), "",
+    "is there already, and --no-clobber forbids to replace it; choose another name");
   OutputFile file;
-  if (file.check(output.name) != Status::Ok)
-  {
-    throw Failure(fmt::format("{}: cannot be written: {}; {}", output.name, file.reason(), file.cure()));
-  }
+  const bool canBeWritten = file.check(output.name) == Status::Ok;
+  require(canBeWritten, writeFault(output.name, file));
 }
 
 void Files::addInput(const std::string& name, const std::string& option)
 {
   Identity identity(name, STDIN_FILENO);
   const bool isReadOnce = name == kStandardStream || identity.isPipe;
-  if (isReadOnce &&
-    std::any_of(inputs_.begin(), inputs_.end(), [&](const Entry& e) { return e.name == name; }))
-  {
-    throwUsage(name, "", "standard input and pipes can be read once; leave out the second one");
-  }
-  inputs_.push_back({ option, name, std::move(identity) });
+  requireUsage(!isReadOnce || find(inputs_, name) == inputs_.end(), name, "",
+    "standard input and pipes can be read once; leave out the second one");
+  inputs_.push_back({ { option, name }, std::move(identity) });
   for (const Entry& output : outputs_)
   {
     this->check(output);
@@ -426,7 +404,7 @@ void Files::addInput(const std::string& name, const std::string& option)
 
 void Files::addOutput(const std::string& name, const std::string& option)
 {
-  outputs_.push_back({ option, name, Identity(name, STDOUT_FILENO) });
+  outputs_.push_back({ { option, name }, Identity(name, STDOUT_FILENO) });
   this->check(outputs_.back());
 }
 
@@ -437,8 +415,7 @@ void Files::dropOutput(const std::string& name)
 
 void Files::protect(const std::string& name)
 {
-  const auto output =
-    std::find_if(outputs_.begin(), outputs_.end(), [&](const Entry& e) { return e.name == name; });
+  const auto output = find(outputs_, name);
   if (output == outputs_.end() || name == kStandardStream || output->identity.isStream())
   {
     return;
@@ -447,22 +424,20 @@ void Files::protect(const std::string& name)
   for (const std::string& file : { name, part })
   {
     std::error_code ignored;
-    if (!isForced_ && fs::exists(file, ignored))
-    {
-      throwUsage(output->shown(), "",
-        fmt::format("{} is there, and a touch cannot be made again; choose another name, or give --force",
-          file == part ? part : "it"));
-    }
+    requireUsage(isForced_ || !fs::exists(file, ignored), output->shown(), "",
+      fmt::format("{} is there, and a touch cannot be made again; choose another name, or give --force",
+        file == part ? part : "it"));
   }
 }
 
 void Files::keep(const std::string& name)
 {
   this->protect(name);
-  for (Entry& output : outputs_)
+  const auto output = find(outputs_, name);
+  if (output != outputs_.end())
   {
-    output.isKept = output.isKept || output.name == name;
-    if (isForced_ && output.name == name)
+    output->isKept = true;
+    if (isForced_)
     {
       OutputFile::forgetKept(name);
     }
@@ -471,15 +446,13 @@ void Files::keep(const std::string& name)
 
 bool Files::isStream(const std::string& name) const
 {
-  return name == kStandardStream ||
-    std::any_of(inputs_.begin(), inputs_.end(),
-      [&](const Entry& input) { return input.name == name && input.identity.isPipe; });
+  const auto found = find(inputs_, name);
+  return name == kStandardStream || (found != inputs_.end() && found->identity.isPipe);
 }
 
 std::string Files::input(const std::string& name)
 {
-  const auto found =
-    std::find_if(inputs_.begin(), inputs_.end(), [&](const Entry& input) { return input.name == name; });
+  const auto found = find(inputs_, name);
   if (found == inputs_.end() || !this->isStream(name))
   {
     return name;
@@ -487,15 +460,10 @@ std::string Files::input(const std::string& name)
   if (found->path.empty())
   {
     folder_ = folder_ ? std::move(folder_) : std::make_unique<TemporaryFolder>();
-    const std::string shown = name == kStandardStream ? "standard input" : name;
     // The name is the title of a window, too.
-    found->path = folder_->path(name == kStandardStream ? shown : fs::path(name).filename().string());
-    std::string message;
-    if (!copyInput(name == kStandardStream ? std::string() : name, found->path, message))
-    {
-      throw Failure(shown + ": " + message);
-    }
-    showAs(found->path, shown);
+    found->path = folder_->path(fs::path(shownFile(name)).filename().string());
+    copyInput(name == kStandardStream ? std::string() : name, found->path);
+    showAs(found->path, shownFile(name));
   }
   return found->path;
 }
@@ -507,8 +475,7 @@ std::string Files::output(const std::string& name)
     showAs("/dev/stdout", "standard output");
     return "/dev/stdout";
   }
-  const auto found =
-    std::find_if(outputs_.begin(), outputs_.end(), [&](const Entry& output) { return output.name == name; });
+  const auto found = find(outputs_, name);
   if (found == outputs_.end())
   {
     return name;
@@ -531,8 +498,9 @@ std::string Files::output(const std::string& name)
   return found->path;
 }
 
-bool Files::commit(std::string& message)
+void Files::commit()
 {
+  std::string message;
   for (Entry& output : outputs_)
   {
     std::error_code ignored;
@@ -544,18 +512,16 @@ bool Files::commit(std::string& message)
     }
     else if (output.file && output.file->commit() != Status::Ok)
     {
-      message =
-        fmt::format("{}: cannot be written: {}; {}", output.name, output.file->reason(), output.file->cure());
+      message = writeFault(output.name, *output.file);
     }
     if (!message.empty())
     {
       this->revert();
-      return false;
+      throw Failure(message);
     }
     // The file, not a link to it.
     created_.insert(created_.end(), output.file && isNew ? 1 : 0, fs::weakly_canonical(output.name, ignored));
   }
-  return true;
 }
 
 void Files::revert()
@@ -573,20 +539,17 @@ void Files::printPlan(bool asJson) const
   std::string text;
   for (const Entry& input : inputs_)
   {
-    if (!input.identity.exists)
-    {
-      throw Failure(input.name + ": there is no such file; check the path");
-    }
+    require(input.identity.exists, input.name + ": there is no such file; check the path");
     plan["reads"].push_back(input.name);
-    text += fmt::format("would read {}\n", input.name == kStandardStream ? "standard input" : input.name);
+    text += fmt::format("would read {}\n", shownFile(input.name));
   }
   for (const Entry& output : outputs_)
   {
     const bool replaces =
       output.identity.exists && !output.identity.isStream() && output.name != kStandardStream;
     plan["writes"].push_back({ { "file", output.name }, { "replaces", replaces } });
-    text += fmt::format("would {} {}\n", replaces ? "replace" : "write",
-      output.name == kStandardStream ? "standard output" : output.name);
+    text +=
+      fmt::format("would {} {}\n", replaces ? "replace" : "write", shownFile(output.name, "standard output"));
   }
   asJson ? printJson(plan) : printNow(stdout, text);
 }

@@ -25,10 +25,15 @@ class TemporaryFolder;
 
 /// Standard input or output in place of a file.
 constexpr const char* kStandardStream = "-";
+/// The name of a file in messages.
+inline std::string shownFile(const std::string& name, const char* stream = "standard input")
+{
+  return name == kStandardStream ? stream : name;
+}
 
-/// Adds an option or argument that names files to read.
-CLI::Option* addInput(
-  CLI::App& command, const std::string& name, std::string& file, const std::string& description);
+/// Adds an option or argument that names files to read. @p form: of the value, for the help.
+CLI::Option* addInput(CLI::App& command, const std::string& name, std::string& file,
+  const std::string& description, const std::string& form = {});
 CLI::Option* addInput(CLI::App& command, const std::string& name, std::vector<std::string>& files,
   const std::string& description);
 /// As addInput(); the last of several files is written unless -o is given.
@@ -37,7 +42,8 @@ CLI::Option* addInputsAndOutput(CLI::App& command, const std::string& name, std:
 /// Adds an option that names a file to write. @p extensions: those that the name may have, without dots;
 /// empty: any. The name may have others where --output-format is given.
 CLI::Option* addOutput(CLI::App& command, const std::string& name, std::string& file,
-  const std::vector<std::string>& extensions, const std::string& description);
+  const std::vector<std::string>& extensions, const std::string& description,
+  const std::string& form = "OUT");
 /// Adds one more extension to those that an output option takes.
 void allowExtension(CLI::Option& output, const std::string& extension);
 
@@ -47,6 +53,12 @@ std::string lowerExtension(const std::string& name);
 std::string fileRole(const CLI::Option& option);
 /// True if an option of @p command names an output.
 bool writesFiles(const CLI::App& command);
+
+/// That @p file, which has failed, cannot be written under @p name.
+std::string writeFault(const std::string& name, const OutputFile& file);
+
+/// True if @p command has the option @p name, and it was given.
+bool isGiven(const CLI::App& command, const char* name);
 
 /// The output for @p input by a pattern: "{stem}" is the name of the input without folder and extension,
 /// "{name}" without its folder, "{folder}" its folder.
@@ -86,8 +98,8 @@ public:
   std::string input(const std::string& name);
   /// Where to write the content of an output.
   std::string output(const std::string& name);
-  /// Gives all outputs their names. False: @p message; none has appeared.
-  bool commit(std::string& message);
+  /// Gives all outputs their names. @throws Failure; none has appeared then.
+  void commit();
   /// Removes the files that commit() has created, where another process could not give its outputs theirs.
   void revert();
   /// Prints what would be read and written (--dry-run). @throws Failure where an input is not there.
@@ -109,16 +121,19 @@ private:
     bool isStream() const { return isDevice || isPipe; }
     bool operator==(const Identity& other) const;
   };
-  struct Entry
+  struct Named
   {
     std::string option;
     std::string name;
+
+    std::string shown() const { return option + (option.empty() ? "" : " ") + name; }
+  };
+  struct Entry : Named
+  {
     Identity identity;
     std::string path = {}; ///< Where it is read or written; empty until it is asked for.
     std::unique_ptr<OutputFile> file = {};
     bool isKept = false;
-
-    std::string shown() const { return option + (option.empty() ? "" : " ") + name; }
   };
   struct NamedOutput;
   static void checkExtension(const CLI::App& command, const NamedOutput& output);

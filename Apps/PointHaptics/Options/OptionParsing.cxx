@@ -27,14 +27,9 @@ std::string shownName(const std::string& name)
 
 std::string describe(const NumberRange& range, const std::string& unit)
 {
-  const std::string shownUnit = unit.empty() ? "" : " (" + unit + ")";
-  if (range.maximum >= kUnbounded)
-  {
-    return fmt::format(
-      "give a number {} {}{}", range.openMinimum ? "above" : "from", range.minimum, shownUnit);
-  }
-  return fmt::format("give a number {} {} and at most {}{}", range.openMinimum ? "above" : "from",
-    range.minimum, range.maximum, shownUnit);
+  return fmt::format("give a number {} {}{}{}", range.openMinimum ? "above" : "from", range.minimum,
+    range.maximum < kUnbounded ? fmt::format(" and at most {}", range.maximum) : "",
+    unit.empty() ? "" : " (" + unit + ")");
 }
 
 std::string describe(std::initializer_list<std::size_t> counts)
@@ -73,20 +68,34 @@ bool parseNumbers(const std::string& text, std::vector<double>& values)
   return true;
 }
 
-void throwUsage(const std::string& option, const std::string& value, const std::string& problem)
+void requireUsage(
+  bool isRight, const std::string& option, const std::string& value, const std::string& problem)
 {
-  throw CLI::ValidationError(option + (value.empty() ? "" : " " + value), problem);
+  if (!isRight)
+  {
+    throw CLI::ValidationError(option + (value.empty() ? "" : " " + value), problem);
+  }
+}
+
+std::vector<std::pair<std::string, const CLI::Option*>> longNames(const CLI::App& command)
+{
+  std::vector<std::pair<std::string, const CLI::Option*>> names;
+  for (const CLI::Option* option : command.get_options())
+  {
+    for (const std::string& name : option->get_lnames())
+    {
+      names.emplace_back(name, option);
+    }
+  }
+  return names;
 }
 
 std::vector<std::string> givenOptions(const CLI::App& command)
 {
   std::vector<std::string> names;
-  for (const CLI::Option* option : command.get_options())
+  for (const auto& [name, option] : longNames(command))
   {
-    if (option->count() > 0 && !option->get_lnames().empty())
-    {
-      names.push_back(option->get_lnames().front());
-    }
+    names.insert(names.end(), option->count() > 0 ? 1 : 0, name);
   }
   return names;
 }
@@ -102,24 +111,32 @@ void refuseRecorded(const CLI::App& command, const std::vector<std::string>& giv
   {
     const bool isDecided =
       decided.count(name) > 0 || decided.count(command.get_option("--" + name)->get_group()) > 0;
-    if (isDecided && name != but)
+    requireUsage(!isDecided || name == but, "--replay", recording,
+      fmt::format("the hand goes where it went, with the settings of then; leave out --{}", name));
+  }
+}
+
+void warnIdle(bool areIdle, const std::vector<std::string>& given, std::initializer_list<const char*> names,
+  const std::string& why)
+{
+  for (const std::string name : names)
+  {
+    if (areIdle && std::find(given.begin(), given.end(), name) != given.end())
     {
-      throwUsage("--replay", recording,
-        fmt::format("the hand goes where it went, with the settings of then; leave out --{}", name));
+      warn(fmt::format("--{} has no effect {}; leave it out", name, why));
     }
   }
 }
 
-void warnIdle(const CLI::App& command, const std::vector<std::string>& given,
-  std::initializer_list<const char*> names, const std::string& why)
+OptionGroup::OptionGroup(CLI::App& command, const std::string& name)
+  : command_(command)
 {
-  for (const std::string name : names)
-  {
-    if (std::find(given.begin(), given.end(), name) != given.end())
-    {
-      warn(command.get_name(), fmt::format("--{} has no effect {}; leave it out", name, why));
-    }
-  }
+  command_.option_defaults()->group(name);
+}
+
+OptionGroup::~OptionGroup()
+{
+  command_.option_defaults()->group("Options");
 }
 
 CLI::Option* addNumber(CLI::App& command, const std::string& name, double& value, const NumberRange& range,
@@ -128,50 +145,44 @@ CLI::Option* addNumber(CLI::App& command, const std::string& name, double& value
   const auto store = [&value, range, unit, shown = shownName(name)](const std::string& text)
   {
     double number = 0.0;
-    if (!parseNumber(text, number))
-    {
-      throwUsage(shown, text, "not a number; " + describe(range, unit));
-    }
+    requireUsage(parseNumber(text, number), shown, text, "not a number; " + describe(range, unit));
     const bool aboveMinimum = range.openMinimum ? number > range.minimum : number >= range.minimum;
-    if (!(aboveMinimum && number <= range.maximum))
-    {
-      throwUsage(shown, text, "out of range; " + describe(range, unit));
-    }
+    requireUsage(
+      aboveMinimum && number <= range.maximum, shown, text, "out of range; " + describe(range, unit));
     value = number;
   };
   return command.add_option_function<std::string>(name, store, description)
     ->type_name(unit.empty() ? "NUMBER" : unit);
 }
 
-CLI::Option* addSize(CLI::App& command, const std::string& name, std::function<void(int, int)> keep,
-  const std::string& description)
+CLI::Option* addSize(
+  CLI::App& command, const std::string& name, int& width, int& height, const std::string& description)
 {
   static constexpr int kSmallest = 16;
   static constexpr int kLargest = 16384;
   const auto isSize = [](int pixels) { return pixels >= kSmallest && pixels <= kLargest; };
-  const auto store = [keep = std::move(keep), isSize, name](const std::string& text)
+  const auto store = [&width, &height, isSize, name](const std::string& text)
   {
-    int width = 0;
-    int height = 0;
+    int given[2] = {};
     char rest = 0;
-    if (std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &rest) != 2 || !isSize(width) ||
-      !isSize(height))
-    {
-      throwUsage(name, text, fmt::format("give WIDTHxHEIGHT in pixels, {} to {}", kSmallest, kLargest));
-    }
-    keep(width, height);
+    const bool areTwo = std::sscanf(text.c_str(), "%dx%d%c", &given[0], &given[1], &rest) == 2;
+    requireUsage(areTwo && isSize(given[0]) && isSize(given[1]), name, text,
+      fmt::format("give WIDTHxHEIGHT in pixels, {} to {}", kSmallest, kLargest));
+    width = given[0];
+    height = given[1];
   };
   return command.add_option_function<std::string>(name, store, description)->type_name("WxH");
+}
+
+bool isBox(const std::vector<double>& ends)
+{
+  return ends[0] < ends[1] && ends[2] < ends[3] && ends[4] < ends[5];
 }
 
 CLI::Option* addClip(CLI::App& command, std::vector<double>& box, const std::string& description)
 {
   const auto check = [](const std::vector<double>& ends)
-  {
-    return ends[0] < ends[1] && ends[2] < ends[3] && ends[4] < ends[5]
-      ? ""
-      : "no box; each minimum must be less than its maximum";
-  };
+  { return isBox(ends) ? "" : "no box; each minimum must be less than its maximum"; };
   return addNumbers(command, "--clip", box, { 6 }, check, "XMIN,XMAX,YMIN,YMAX,ZMIN,ZMAX", description);
 }
 
@@ -205,13 +216,6 @@ CLI::Option* addResolution(CLI::App& command, double& value)
     "Read a COPC file no finer than this distance between points; others are read whole");
 }
 
-CLI::Option* addInteger(CLI::App& command, const std::string& name, std::int64_t& value, std::int64_t minimum,
-  std::int64_t maximum, const std::string& description)
-{
-  return addInteger(
-    command, name, [&value](std::int64_t given) { value = given; }, minimum, maximum, description);
-}
-
 CLI::Option* addInteger(CLI::App& command, const std::string& name, std::function<void(std::int64_t)> keep,
   std::int64_t minimum, std::int64_t maximum, const std::string& description)
 {
@@ -219,12 +223,9 @@ CLI::Option* addInteger(CLI::App& command, const std::string& name, std::functio
                        const std::string& text)
   {
     double number = 0.0;
-    if (!parseNumber(text, number) || number != std::floor(number) ||
-      !(number >= double(minimum) && number <= double(maximum)))
-    {
-      throwUsage(
-        shown, text, fmt::format("not a whole number in range; give one from {} to {}", minimum, maximum));
-    }
+    const bool isWhole = parseNumber(text, number) && number == std::floor(number);
+    requireUsage(isWhole && number >= double(minimum) && number <= double(maximum), shown, text,
+      fmt::format("not a whole number in range; give one from {} to {}", minimum, maximum));
     keep(static_cast<std::int64_t>(number));
   };
   return command.add_option_function<std::string>(name, store, description)->type_name("N");
@@ -239,25 +240,15 @@ CLI::Option* addNumbers(CLI::App& command, const std::string& name,
                        shown = shownName(name)](const std::string& text)
   {
     std::vector<double> numbers;
-    if (!parseNumbers(text, numbers))
-    {
-      throwUsage(
-        shown, text, "not a list of numbers; give " + howMany + " separated by commas, without blanks");
-    }
-    if (std::find(allowed.begin(), allowed.end(), numbers.size()) == allowed.end())
-    {
-      throwUsage(
-        shown, text, fmt::format("{} numbers; give {} separated by commas", numbers.size(), howMany));
-    }
-    if (!std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); }))
-    {
-      throwUsage(shown, text, "NaN or infinity; give finite numbers");
-    }
+    requireUsage(parseNumbers(text, numbers), shown, text,
+      "not a list of numbers; give " + howMany + " separated by commas, without blanks");
+    requireUsage(std::find(allowed.begin(), allowed.end(), numbers.size()) != allowed.end(), shown, text,
+      fmt::format("{} numbers; give {} separated by commas", numbers.size(), howMany));
+    const bool areFinite =
+      std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); });
+    requireUsage(areFinite, shown, text, "NaN or infinity; give finite numbers");
     const std::string problem = check ? check(numbers) : std::string();
-    if (!problem.empty())
-    {
-      throwUsage(shown, text, problem);
-    }
+    requireUsage(problem.empty(), shown, text, problem);
     keep(numbers);
   };
   return command.add_option_function<std::string>(name, store, description)->type_name(form);
@@ -272,43 +263,20 @@ CLI::Option* addNumbers(CLI::App& command, const std::string& name, std::vector<
     std::move(check), form, description);
 }
 
-CLI::Option* addWholeNumbers(CLI::App& command, const std::string& name, std::vector<double>& values,
-  double maximum, const std::string& description)
-{
-  const auto store = [&values, maximum, shown = shownName(name)](const std::string& text)
-  {
-    const auto isFit = [maximum](double x) { return x == std::floor(x) && x >= 1.0 && x <= maximum; };
-    if (!parseNumbers(text, values) || !std::all_of(values.begin(), values.end(), isFit))
-    {
-      throwUsage(
-        shown, text, fmt::format("give whole numbers from 1 to {:.0f}, separated by commas", maximum));
-    }
-    std::sort(values.begin(), values.end());
-    values.erase(std::unique(values.begin(), values.end()), values.end());
-  };
-  return command.add_option_function<std::string>(name, store, description)->type_name("N,...");
-}
-
-void throwNoChoice(
+std::size_t indexOfChoice(
   const std::string& option, const std::string& value, const std::vector<std::string>& choices)
 {
-  throwUsage(option, value,
+  const auto found = std::find(choices.begin(), choices.end(), value);
+  requireUsage(found != choices.end(), option, value,
     fmt::format("no such choice{}; give one of {}", didYouMean(value, choices), fmt::join(choices, ", ")));
+  return std::size_t(found - choices.begin());
 }
 
 CLI::Option* addWord(CLI::App& command, const std::string& name, std::string& value,
-  std::vector<std::string> words, const std::string& description)
+  const std::vector<std::string>& words, const std::string& description)
 {
-  const std::string form = fmt::format("{}", fmt::join(words, "|"));
-  const auto store = [&value, words = std::move(words), shown = shownName(name)](const std::string& text)
-  {
-    if (std::find(words.begin(), words.end(), text) == words.end())
-    {
-      throwNoChoice(shown, text, words);
-    }
-    value = text;
-  };
-  return command.add_option_function<std::string>(name, store, description)->type_name(form);
+  const auto keep = [&value, words](std::size_t i) { value = words[i]; };
+  return addChoice(command, name, std::function<void(std::size_t)>(keep), words, description);
 }
 
 CLI::Option* addWords(CLI::App& command, const std::string& name, std::vector<std::string>& values,
@@ -323,51 +291,26 @@ CLI::Option* addWords(CLI::App& command, const std::string& name, std::vector<st
       {
         continue;
       }
-      if (std::find(words.begin(), words.end(), word) == words.end())
-      {
-        throwNoChoice(shown, word, words);
-      }
-      values.push_back(word);
+      values.push_back(words[indexOfChoice(shown, word, words)]);
     }
   };
   return command.add_option_function<std::string>(name, store, description)
     ->type_name(fmt::format("{}", fmt::join(words, ",")));
 }
 
-CLI::Option* addChoice(CLI::App& command, const std::string& name, int& value,
-  std::vector<std::pair<std::string, int>> choices, const std::string& description)
+CLI::Option* addChoice(CLI::App& command, const std::string& name, std::function<void(std::size_t)> keep,
+  std::vector<std::string> words, const std::string& description)
 {
-  return addChoice(
-    command, name, [&value](int chosen) { value = chosen; }, std::move(choices), description);
-}
-
-CLI::Option* addChoice(CLI::App& command, const std::string& name, std::function<void(int)> keep,
-  std::vector<std::pair<std::string, int>> choices, const std::string& description)
-{
-  std::vector<std::string> words;
-  for (const auto& choice : choices)
-  {
-    words.push_back(choice.first);
-  }
-  const auto store = [keep = std::move(keep), choices = std::move(choices), words, shown = shownName(name)](
-                       const std::string& text)
-  {
-    const auto found = std::find(words.begin(), words.end(), text);
-    if (found == words.end())
-    {
-      throwNoChoice(shown, text, words);
-    }
-    keep(choices[static_cast<std::size_t>(found - words.begin())].second);
-  };
-  return command.add_option_function<std::string>(name, store, description)
-    ->type_name(fmt::format("{}", fmt::join(words, "|")));
+  const std::string form = fmt::format("{}", fmt::join(words, "|"));
+  const auto store = [keep = std::move(keep), words = std::move(words), shown = shownName(name)](
+                       const std::string& text) { keep(indexOfChoice(shown, text, words)); };
+  return command.add_option_function<std::string>(name, store, description)->type_name(form);
 }
 
 CLI::Option* addSetting(CLI::App& command, const SettingOption& row, int& member)
 {
-  return addInteger(
-    command, row.option, [&member](std::int64_t value) { member = static_cast<int>(value); },
-    static_cast<std::int64_t>(row.range.minimum), static_cast<std::int64_t>(row.range.maximum), row.text);
+  return addInteger(command, row.option, member, static_cast<std::int64_t>(row.range.minimum),
+    static_cast<std::int64_t>(row.range.maximum), row.text);
 }
 
 CLI::Option* addSetting(CLI::App& command, const SettingOption& row, bool& member)

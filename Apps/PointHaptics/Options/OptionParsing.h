@@ -3,10 +3,12 @@
 /// line.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <initializer_list>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -18,10 +20,6 @@ class Option;
 
 namespace pointhaptics::app
 {
-
-/// Warning for --preset with another method than the one that has gains.
-constexpr const char* kPresetIsIdle =
-  "--preset has no effect on --method surface-fit; give --method gradient-steps too, or leave it out";
 
 /// Stands for "any finite number" as a maximum.
 constexpr double kUnbounded = 1e300;
@@ -39,36 +37,67 @@ bool parseNumber(const std::string& text, double& value);
 /// Comma-separated numbers. False where one of them is none.
 bool parseNumbers(const std::string& text, std::vector<double>& values);
 
-/// Ends the parse with a usage error `OPTION VALUE: problem`. @p problem says what is wrong and the cure.
-[[noreturn]] void throwUsage(const std::string& option, const std::string& value, const std::string& problem);
-/// Ends in a usage error for a word that is none of @p choices.
-[[noreturn]] void throwNoChoice(
+/// Unless @p isRight, ends the parse with a usage error `OPTION VALUE: problem`. @p problem says what is
+/// wrong and the cure.
+void requireUsage(
+  bool isRight, const std::string& option, const std::string& value, const std::string& problem);
+/// The place of @p value among @p choices. Ends in a usage error for a word that is none of them.
+std::size_t indexOfChoice(
   const std::string& option, const std::string& value, const std::vector<std::string>& choices);
 
+/// The options of @p command by each of their long names, without the dashes, in their order.
+std::vector<std::pair<std::string, const CLI::Option*>> longNames(const CLI::App& command);
 /// The long names of the options given so far: on the command line, where no configuration was taken yet.
 std::vector<std::string> givenOptions(const CLI::App& command);
 /// Ends in a usage error for an option of @p given that the recording of --replay decides, which says where
 /// the hand goes and what it feels: all but @p but.
 void refuseRecorded(const CLI::App& command, const std::vector<std::string>& given,
   const std::string& recording, const std::string& but = {});
-/// Warns of those of @p given that are among @p names and have no effect, @p why: "without --device falcon".
-void warnIdle(const CLI::App& command, const std::vector<std::string>& given,
-  std::initializer_list<const char*> names, const std::string& why);
+/// If @p areIdle, warns of those of @p given that are among @p names and have no effect, @p why: "without
+/// --device falcon".
+void warnIdle(bool areIdle, const std::vector<std::string>& given, std::initializer_list<const char*> names,
+  const std::string& why);
+
+///@{
+/// Groups of the help, of options that decide what is felt.
+constexpr const char* kTouchGroup = "Touch";
+constexpr const char* kLatticeGroup = "Lattice and transform";
+constexpr const char* kBandwidthGroup = "Bandwidth and proxy radius";
+///@}
+
+/// While it lives, options that are added to a command are in this group of the help.
+class OptionGroup
+{
+public:
+  OptionGroup(CLI::App& command, const std::string& name);
+  ~OptionGroup();
+  OptionGroup(const OptionGroup&) = delete;
+  OptionGroup& operator=(const OptionGroup&) = delete;
+
+private:
+  CLI::App& command_;
+};
 
 /// Adds `--name` taking one number within @p range; @p unit is shown in the help and in the error.
 CLI::Option* addNumber(CLI::App& command, const std::string& name, double& value, const NumberRange& range,
   const std::string& unit, const std::string& description);
 ///@{
-/// Adds an option taking one whole number from @p minimum to @p maximum, which is stored or handed to @p
-/// keep. Forms such as 1e6 are taken.
-CLI::Option* addInteger(CLI::App& command, const std::string& name, std::int64_t& value, std::int64_t minimum,
-  std::int64_t maximum, const std::string& description);
+/// Adds an option taking one whole number from @p minimum to @p maximum. Forms such as 1e6 are taken.
 CLI::Option* addInteger(CLI::App& command, const std::string& name, std::function<void(std::int64_t)> keep,
   std::int64_t minimum, std::int64_t maximum, const std::string& description);
+template <typename Integer, typename = std::enable_if_t<std::is_integral_v<Integer>>>
+CLI::Option* addInteger(CLI::App& command, const std::string& name, Integer& value, std::int64_t minimum,
+  std::int64_t maximum, const std::string& description)
+{
+  const auto keep = [&value](std::int64_t given) { value = static_cast<Integer>(given); };
+  return addInteger(command, name, keep, minimum, maximum, description);
+}
 ///@}
-/// Adds an option taking a size in pixels, WxH, each from 16 to 16384, which is handed to @p keep.
-CLI::Option* addSize(CLI::App& command, const std::string& name, std::function<void(int, int)> keep,
-  const std::string& description);
+/// Adds an option taking a size in pixels, WxH, each from 16 to 16384.
+CLI::Option* addSize(
+  CLI::App& command, const std::string& name, int& width, int& height, const std::string& description);
+/// True if the six @p ends, x0,x1,y0,..., are those of a box.
+bool isBox(const std::vector<double>& ends);
 /// Adds --clip: the box of a cloud that is shown and felt, six numbers in the coordinates of its file.
 CLI::Option* addClip(CLI::App& command, std::vector<double>& box, const std::string& description);
 /// Adds --columns and --salvage: what columns of a text are called, and whether a cut file is read as far as
@@ -91,23 +120,30 @@ CLI::Option* addNumbers(CLI::App& command, const std::string& name, std::vector<
 CLI::Option* addNumbers(CLI::App& command, const std::string& name,
   std::function<void(const std::vector<double>&)> keep, std::initializer_list<std::size_t> counts,
   NumbersCheck check, const std::string& form, const std::string& description);
-/// Adds an option taking comma-separated whole numbers from 1 to @p maximum; stored ascending, each once.
-CLI::Option* addWholeNumbers(CLI::App& command, const std::string& name, std::vector<double>& values,
-  double maximum, const std::string& description);
 /// Adds an option taking one of @p words.
 CLI::Option* addWord(CLI::App& command, const std::string& name, std::string& value,
-  std::vector<std::string> words, const std::string& description);
+  const std::vector<std::string>& words, const std::string& description);
 /// Adds an option taking some of @p words, separated by commas; where @p mayBeNone "none" gives an empty
 /// list.
 CLI::Option* addWords(CLI::App& command, const std::string& name, std::vector<std::string>& values,
   const std::vector<std::string>& words, bool mayBeNone, const std::string& description);
 ///@{
-/// Adds an option taking one of the words in @p choices; @p value becomes the integer beside it, or @p keep
-/// is called with it.
-CLI::Option* addChoice(CLI::App& command, const std::string& name, int& value,
-  std::vector<std::pair<std::string, int>> choices, const std::string& description);
-CLI::Option* addChoice(CLI::App& command, const std::string& name, std::function<void(int)> keep,
-  std::vector<std::pair<std::string, int>> choices, const std::string& description);
+/// Adds an option taking one of the words in @p choices: @p keep gets its place, or @p value becomes what
+/// stands beside it.
+CLI::Option* addChoice(CLI::App& command, const std::string& name, std::function<void(std::size_t)> keep,
+  std::vector<std::string> words, const std::string& description);
+template <typename Value>
+CLI::Option* addChoice(CLI::App& command, const std::string& name, Value& value,
+  const std::vector<std::pair<std::string, Value>>& choices, const std::string& description)
+{
+  std::vector<std::string> words;
+  for (const auto& choice : choices)
+  {
+    words.push_back(choice.first);
+  }
+  const auto keep = [&value, choices](std::size_t i) { value = choices[i].second; };
+  return addChoice(command, name, std::function<void(std::size_t)>(keep), words, description);
+}
 ///@}
 
 } // namespace pointhaptics::app

@@ -56,15 +56,6 @@ constexpr bool describesEveryMember(const SettingOption (&table)[Count])
     Settings::members());
 }
 
-///@{
-/// Groups of the help, of options that decide what is felt.
-constexpr const char* kTouchGroup = "Touch";
-constexpr const char* kLatticeGroup = "Lattice and transform";
-constexpr const char* kBandwidthGroup = "Bandwidth and proxy radius";
-///@}
-
-constexpr const char* kCostOnly = "changes the cost only; for programs and measurements";
-
 inline constexpr SettingOption kLatticeOptions[] = {
   { "dimensions", "--dims", "Voxels on each axis of the lattice; default 300", "N|Nx,Ny,Nz" },
   { "voxelSize", "--voxel", "Edge of a cubic voxel, instead of --dims", "METRES", { 0.0, kUnbounded, true } },
@@ -73,22 +64,6 @@ inline constexpr SettingOption kLatticeOptions[] = {
     "x0,x1,y0,y1,z0,z1" },
 };
 static_assert(describesEveryMember<LatticeSettings>(kLatticeOptions));
-
-/// How the other settings of a resampling are given: none has an option of every command.
-inline constexpr SettingOption kVoxelMeanOptions[] = {
-  { "lattice", nullptr, "its members have options of their own" },
-  { "outputPointsPrecision", nullptr, "the file's, and double where the cloud is felt" },
-  { "computeCovariance", nullptr, "--covariance of resample, --no-covariance of feel and view" },
-  { "passAttributes", nullptr, "only feel has no use for them" },
-  { "categoricalArrays", nullptr, "the labels of LAS are known; others are named by programs" },
-  { "representative", nullptr, "--representative of resample: what is felt are means" },
-  { "minimumPointsPerVoxel", nullptr, "--minimum-points of resample" },
-  { "computeVoxelIndex", nullptr, "--voxel-index of resample" },
-  { "keepOriginalPointIds", nullptr, "--original-ids of resample" },
-  { "usePointIndex", nullptr, kCostOnly },
-  { "instructionSet", nullptr, kCostOnly },
-};
-static_assert(describesEveryMember<VoxelMeanSettings>(kVoxelMeanOptions));
 
 constexpr NumberRange kLength{ 0.0, kUnbounded, true };
 constexpr NumberRange kNeighbors{ 1.0, double(std::numeric_limits<int>::max()) };
@@ -164,33 +139,20 @@ CLI::Option* addSetting(CLI::App&, const SettingOption& row, Member&)
   throw std::logic_error(std::string(row.option) + ": its type needs an overload of addSetting()");
 }
 
-/// Adds an option taking one of the words in @p choices, for an enumeration.
-template <typename Enum>
-CLI::Option* addEnum(CLI::App& command, const SettingOption& row, Enum& member,
-  const std::vector<std::pair<std::string, Enum>>& choices)
-{
-  std::vector<std::pair<std::string, int>> numbered;
-  for (const auto& choice : choices)
-  {
-    numbered.emplace_back(choice.first, static_cast<int>(choice.second));
-  }
-  return addChoice(
-    command, row.option, [&member](int value) { member = static_cast<Enum>(value); }, numbered, row.text);
-}
-
 /// Adds the options of @p table to @p group of the help.
 template <typename Settings, std::size_t Count>
 void addSettings(
   CLI::App& command, Settings& settings, const SettingOption (&table)[Count], const std::string& group)
 {
   std::size_t i = 0;
+  const OptionGroup inGroup(command, group);
   visitMembers(settings,
     [&](const char*, auto& member)
     {
       const SettingOption& row = table[i++];
       if (row.option)
       {
-        addSetting(command, row, member)->group(group);
+        addSetting(command, row, member);
       }
     });
 }

@@ -1,7 +1,6 @@
 #include "Terminal/CommandLine.h"
 
-#include "Options/Files.h"
-#include "Terminal/LastResort.h"
+#include "Options/OptionParsing.h"
 #include "Terminal/Messages.h"
 #include "Terminal/StopSignals.h"
 
@@ -19,7 +18,6 @@
 #include <filesystem>
 #include <new>
 #include <system_error>
-#include <vector>
 
 namespace pointhaptics::app
 {
@@ -41,28 +39,13 @@ std::string fileLikeAnOption(const std::vector<std::string>& words)
 std::vector<std::string> optionNames(const CLI::App& command)
 {
   std::vector<std::string> names;
-  for (const CLI::Option* option : command.get_options())
+  for (const auto& option : longNames(command))
   {
-    for (const std::string& name : option->get_lnames())
-    {
-      names.push_back("--" + name);
-    }
+    names.push_back("--" + option.first);
   }
   return names;
 }
 
-/// The command that the words so far name.
-const CLI::App& parsedCommand(const CLI::App& program)
-{
-  const CLI::App* command = &program;
-  while (!command->get_subcommands().empty())
-  {
-    command = command->get_subcommands().front();
-  }
-  return *command;
-}
-
-/// How often an option was given, or that its value is missing.
 std::string mismatchMessage(const CLI::App& command, const std::string& text)
 {
   const std::string name = text.substr(0, text.find(':'));
@@ -80,9 +63,8 @@ std::string mismatchMessage(const CLI::App& command, const std::string& text)
 }
 
 /// Our wording in place of CLI11's, in one line.
-std::string usageMessage(const CLI::App& program, const CLI::ParseError& error)
+std::string usageMessage(const CLI::App& program, const CLI::App& command, const CLI::ParseError& error)
 {
-  const CLI::App& command = parsedCommand(program);
   // In the order in which they were given; the message has them from the last to the first.
   const std::vector<std::string> words = program.remaining(true);
   if (const std::string file = fileLikeAnOption(words); !file.empty())
@@ -91,10 +73,11 @@ std::string usageMessage(const CLI::App& program, const CLI::ParseError& error)
   }
   std::string message = error.what();
   std::replace(message.begin(), message.end(), '\n', ' ');
-  if (dynamic_cast<const CLI::ExtrasError*>(&error))
+  // An option that is missing may be there, misspelt.
+  if (!words.empty() &&
+    (dynamic_cast<const CLI::ExtrasError*>(&error) || dynamic_cast<const CLI::RequiredError*>(&error)))
   {
-    const std::string first =
-      words.empty() ? std::string() : words.front().substr(0, words.front().find('='));
+    const std::string first = words.front().substr(0, words.front().find('='));
     return fmt::format("unexpected argument{} {}{}", words.size() > 1 ? "s" : "", fmt::join(words, " "),
       first.rfind("--", 0) == 0 ? didYouMean(first, optionNames(command)) : "");
   }
@@ -115,41 +98,14 @@ std::string usageMessage(const CLI::App& program, const CLI::ParseError& error)
   return message;
 }
 
-int reportUsage(const CLI::App& program, const CLI::ParseError& error)
-{
-  std::string command = program.get_name();
-  for (const CLI::App* app = &program; !app->get_subcommands().empty();)
-  {
-    app = app->get_subcommands().front();
-    command += " " + app->get_name();
-  }
-  return failUsage(command, usageMessage(program, error));
-}
-
-/// To @p command and all below it, but where another program looks at the options.
-void addVersionFlags(CLI::App& command, const std::string& version)
-{
-  if (command.get_prefix_command())
-  {
-    return;
-  }
-  command.set_version_flag("--version", version, "Print the version and exit");
-  for (CLI::App* below : command.get_subcommands([](CLI::App*) { return true; }))
-  {
-    addVersionFlags(*below, version);
-  }
-}
-
-std::string commandName(const CLI::App& program)
-{
-  const CLI::App& command = parsedCommand(program);
-  return &command == &program ? std::string() : command.get_name();
-}
-
 /// The system's text of an error without the library's words around it.
 std::string sentenceOf(const std::exception& error)
 {
   const std::string text = error.what();
+  if (dynamic_cast<const Failure*>(&error))
+  {
+    return text;
+  }
   if (const auto* problem = dynamic_cast<const std::filesystem::filesystem_error*>(&error))
   {
     return fmt::format(
@@ -174,25 +130,20 @@ int runParsed(CLI::App& program, std::vector<std::string> arguments, const int& 
   {
     program.parse(std::move(arguments));
   }
-  catch (const CLI::CallForHelp& help)
-  {
-    return program.exit(help);
-  }
-  catch (const CLI::CallForVersion& asked)
+  catch (const CLI::Success& asked) // for help or version
   {
     return program.exit(asked);
   }
   catch (const CLI::ParseError& error)
   {
-    return reportUsage(program, error);
-  }
-  catch (const Failure& failure)
-  {
-    return fail(commandName(program), failure.what());
+    const std::vector<CLI::App*> named = program.get_subcommands();
+    const CLI::App& command = named.empty() ? program : *named.front();
+    const std::string name = named.empty() ? "" : " " + command.get_name();
+    return failUsage(program.get_name() + name, usageMessage(program, command, error));
   }
   catch (const std::exception& error)
   {
-    return fail(commandName(program), sentenceOf(error));
+    return fail(sentenceOf(error));
   }
   return exitCode;
 }
@@ -225,48 +176,46 @@ void addCommonOptions(CLI::App& command, bool writes)
   }
 }
 
-void runAs(CLI::App& command, int& exitCode, CommandRun run)
+void addCommand(
+  CLI::App& program, int& exitCode, const char* name, const char* description, std::shared_ptr<Command> work)
 {
-  addCommonOptions(command, writesFiles(command));
+  CLI::App& command = *program.add_subcommand(name, description);
+  work->addTo(command);
+  if (!command.get_prefix_command()) // another program looks at the options
+  {
+    addCommonOptions(command, writesFiles(command));
+  }
   command.callback(
-    [&command, &exitCode, run = std::move(run)]
+    [&command, &exitCode, work]
     {
-      const auto isGiven = [&command](const char* name)
-      {
-        const CLI::Option* option = command.get_option_no_throw(name);
-        return option && option->count() > 0;
-      };
+      nameCommand(command.get_name());
       Files files;
       files.take(command); // before anything is read
-      if (run.complete)
+      work->complete(command);
+      files.take(command); // with those of a configuration
+      work->declare(files);
+      if (isGiven(command, "--dry-run"))
       {
-        run.complete();
-        files.take(command); // with those of a configuration
-      }
-      if (run.declare)
-      {
-        run.declare(files);
-      }
-      if (isGiven("--dry-run"))
-      {
-        files.printPlan(isGiven("--json"));
+        files.printPlan(isGiven(command, "--json"));
         return;
       }
-      exitCode = run.run(files);
+      exitCode = work->run(files);
     });
-}
-
-int failUsage(const std::string& command, const std::string& message)
-{
-  keepError(message);
-  printNow(stderr, fmt::format("{}: {}; see {} --help\n", command, shownLine(message), command));
-  return kUsage;
 }
 
 int runCommands(CLI::App& program, std::vector<std::string> arguments, const int& exitCode)
 {
   program.require_subcommand(1);
-  addVersionFlags(program, program.get_name() + " " POINTHAPTICS_VERSION);
+  std::vector<CLI::App*> all = program.get_subcommands([](CLI::App*) { return true; });
+  all.push_back(&program);
+  for (CLI::App* command : all)
+  {
+    if (!command->get_prefix_command()) // another program looks at the options
+    {
+      command->set_version_flag(
+        "--version", program.get_name() + " " POINTHAPTICS_VERSION, "Print the version and exit");
+    }
+  }
   std::reverse(arguments.begin(), arguments.end()); // as CLI11 wants them
   const int code = runParsed(program, std::move(arguments), exitCode);
   return code == kFailed && stopIsRequested() ? stopExitCode() : code;
@@ -282,8 +231,8 @@ int runProgram(const std::vector<std::string>& arguments, const std::function<in
   {
     promiseJson();
   }
-  const std::string command = arguments.empty() ? std::string() : arguments.front();
-  endCleanlyOnAbort(command);
+  nameCommand(arguments.empty() ? std::string() : arguments.front());
+  endCleanlyOnAbort("pointhaptics" + (arguments.empty() ? "" : " " + arguments.front()));
   int exitCode = kSuccess;
   try
   {
@@ -293,12 +242,12 @@ int runProgram(const std::vector<std::string>& arguments, const std::function<in
   }
   catch (const std::exception& error)
   {
-    return fail(command, sentenceOf(error));
+    return fail(sentenceOf(error));
   }
   errno = 0;
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) // all of it, from the first line on
   {
-    return failStandardOutput(command, errno);
+    return failStandardOutput(errno);
   }
   return exitCode;
 }

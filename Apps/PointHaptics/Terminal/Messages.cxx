@@ -13,7 +13,6 @@
 #include <cctype>
 #include <cerrno>
 #include <csignal>
-#include <cstdio>
 #include <cstring>
 #include <mutex>
 #include <utility>
@@ -65,18 +64,24 @@ public:
   void DisplayGenericWarningText(const char* text) override { this->Keep(this->Warnings, text); }
   void DisplayDebugText(const char*) override {}
 
-  std::vector<std::string> TakeErrors() { return this->Take(this->Errors); }
-  std::vector<std::string> TakeWarnings() { return this->Take(this->Warnings); }
+  using Messages = std::vector<std::string>;
+  static Messages Take(Messages MessageCollector::*kind)
+  {
+    auto* own = MessageCollector::SafeDownCast(vtkOutputWindow::GetInstance());
+    Messages taken;
+    if (own)
+    {
+      const std::lock_guard<std::mutex> lock(own->Mutex);
+      taken.swap(own->*kind);
+    }
+    return taken;
+  }
 
-protected:
-  MessageCollector() = default;
-  ~MessageCollector() override = default;
+  Messages Errors;
+  Messages Warnings;
 
 private:
-  MessageCollector(const MessageCollector&) = delete;
-  void operator=(const MessageCollector&) = delete;
-
-  void Keep(std::vector<std::string>& messages, const char* text)
+  void Keep(Messages& messages, const char* text)
   {
     const std::lock_guard<std::mutex> lock(this->Mutex);
     if (messages.size() < kCapacity)
@@ -84,31 +89,16 @@ private:
       messages.push_back(sentenceOf(text));
     }
   }
-  std::vector<std::string> Take(std::vector<std::string>& messages)
-  {
-    const std::lock_guard<std::mutex> lock(this->Mutex);
-    std::vector<std::string> taken;
-    taken.swap(messages);
-    return taken;
-  }
 
   static constexpr std::size_t kCapacity = 100;
   std::mutex Mutex;
-  std::vector<std::string> Errors;
-  std::vector<std::string> Warnings;
 };
 
 vtkStandardNewMacro(MessageCollector);
 
-MessageCollector* collector()
-{
-  return MessageCollector::SafeDownCast(vtkOutputWindow::GetInstance());
-}
-
 struct KeptWarning
 {
   std::string key; ///< Without numbers.
-  std::string command;
   std::string file;
   std::string text;
   int count = 0;
@@ -119,12 +109,15 @@ struct KeptWarning
 struct Speech
 {
   std::string program = "pointhaptics";
+  std::string command;
   Verbosity verbosity = Verbosity::Usual;
   std::vector<KeptWarning> warnings;
   std::vector<std::pair<std::string, std::string>> shownAs;
   std::string firstError;
   bool isOutputTaken = false;
   bool promisesJson = false;
+
+  std::string name() const { return program + (command.empty() ? "" : " ") + command; }
 };
 
 Speech& speech()
@@ -135,7 +128,6 @@ Speech& speech()
 
 constexpr int kBrokenPipe = 128 + SIGPIPE; ///< As a shell counts it.
 
-/// Nobody reads standard output any more.
 bool isReaderGone()
 {
   struct pollfd output = { STDOUT_FILENO, 0, 0 };
@@ -190,6 +182,14 @@ std::string withoutNumbers(const std::string& text)
   return result;
 }
 
+/// Keeps the first error for printPromisedJson(), too.
+void printError(const std::string& speaker, const std::string& message, const std::string& end)
+{
+  const std::string line = shownLine(message);
+  speech().firstError = speech().firstError.empty() ? line : speech().firstError;
+  printNow(stderr, fmt::format("{}: {}{}\n", speaker, line, end));
+}
+
 } // namespace
 
 void nameProgram(const std::string& name)
@@ -197,36 +197,47 @@ void nameProgram(const std::string& name)
   speech().program = name;
 }
 
-int failStandardOutput(const std::string& command, int error)
+void nameCommand(const std::string& name)
+{
+  speech().command = name;
+}
+
+int failStandardOutput(int error)
 {
   return isReaderGone()
     ? kBrokenPipe
-    : fail(command,
-        fmt::format("the standard output cannot be written{}{}; check the space left, and who reads it",
-          error == 0 ? "" : ": ", error == 0 ? "" : std::strerror(error)));
+    : fail(fmt::format("the standard output cannot be written{}{}; check the space left, and who reads it",
+        error == 0 ? "" : ": ", error == 0 ? "" : std::strerror(error)));
 }
 
-int fail(const std::string& command, const std::string& message)
+int fail(const std::string& message)
 {
   if (message.find(std::strerror(EPIPE)) != std::string::npos && isReaderGone())
   {
     return kBrokenPipe;
   }
   showKeptWarnings();
-  keepError(message);
-  printNow(stderr,
-    fmt::format("{}{}{}: {}\n", speech().program, command.empty() ? "" : " ", command, shownLine(message)));
+  printError(speech().name(), message, "");
   return kFailed;
 }
 
-void warn(const std::string& command, const std::string& message, const std::string& file)
+int failUsage(const std::string& command, const std::string& message)
 {
-  KeptWarning warning{ command + ": " + message, command, file, message, 0, false };
-  warning.key = withoutNumbers(warning.key);
+  printError(command, message, "; see " + command + " --help");
+  return kUsage;
+}
+
+void warn(const std::string& message, const std::string& file)
+{
+  if (message.empty())
+  {
+    return;
+  }
   auto& all = speech().warnings;
+  const std::string key = withoutNumbers(message);
   auto known =
-    std::find_if(all.begin(), all.end(), [&](const KeptWarning& other) { return other.key == warning.key; });
-  known = known == all.end() ? all.insert(all.end(), std::move(warning)) : known;
+    std::find_if(all.begin(), all.end(), [&](const KeptWarning& other) { return other.key == key; });
+  known = known == all.end() ? all.insert(known, { key, file, message, 0, false }) : known;
   ++known->count;
 }
 
@@ -238,9 +249,8 @@ void showKeptWarnings()
     {
       const std::string file = warning.file.empty() ? "" : warning.file + ": ";
       const std::string count = warning.count > 1 ? fmt::format(" ({} times)", warning.count) : "";
-      printNow(stderr,
-        fmt::format("{} {}: warning: {}{}\n", speech().program, warning.command,
-          shownLine(file + warning.text), count));
+      printNow(
+        stderr, fmt::format("{}: warning: {}{}\n", speech().name(), shownLine(file + warning.text), count));
     }
     warning.isPrinted = true;
   }
@@ -249,11 +259,6 @@ void showKeptWarnings()
 void showAs(const std::string& path, const std::string& shown)
 {
   speech().shownAs.emplace_back(path, shown);
-}
-
-void keepError(const std::string& message)
-{
-  speech().firstError = speech().firstError.empty() ? shownLine(message) : speech().firstError;
 }
 
 std::string shownLine(const std::string& given)
@@ -274,11 +279,11 @@ void setVerbosity(Verbosity verbosity)
   speech().verbosity = verbosity;
 }
 
-void say(const std::string& command, const std::string& message)
+void say(const std::string& message, const std::string& label)
 {
   if (speech().verbosity == Verbosity::Verbose)
   {
-    printNow(stderr, fmt::format("{}: {}\n", command, shownLine(message)));
+    printNow(stderr, fmt::format("{}: {}\n", label.empty() ? speech().command : label, shownLine(message)));
   }
 }
 
@@ -311,15 +316,21 @@ void printPromisedJson(int exitCode)
 std::string didYouMean(const std::string& given, const std::vector<std::string>& words)
 {
   std::string nearest;
-  std::size_t least = std::max<std::size_t>(1, given.size() / 3); // a third of the letters
+  const std::size_t size = given.size();
+  std::size_t least = std::max<std::size_t>(1, size / 3); // a third of the letters
   for (const std::string& word : words)
   {
-    const std::size_t d = distance(lowerCase(given), lowerCase(word));
-    const bool isBeginning = given.size() > 2 && word.rfind(given, 0) == 0;
-    if (d < least || (d == least && nearest.empty()) || (isBeginning && nearest.empty()))
+    std::size_t d = distance(lowerCase(given), lowerCase(word));
+    for (const std::size_t length :
+      { size, size + 1 }) // the beginning of a long word; a fifth of its letters
+    {
+      const std::size_t part = distance(lowerCase(given), lowerCase(word.substr(0, length)));
+      d = size > 2 && part <= size / 5 ? std::min(d, part) : d;
+    }
+    if (d < least || (d == least && nearest.empty()))
     {
       nearest = word;
-      least = std::min(least, d);
+      least = d;
     }
   }
   return nearest.empty() || given.empty() ? std::string() : fmt::format("; did you mean {}?", nearest);
@@ -347,6 +358,11 @@ void printJson(const nlohmann::ordered_json& object)
   fmt::print("{}\n", object.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
 }
 
+void printResult(bool asJson, const nlohmann::ordered_json& object, const std::string& summary)
+{
+  asJson ? printJson(object) : printSummary(summary);
+}
+
 void collectVtkMessages()
 {
   vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
@@ -356,14 +372,12 @@ void collectVtkMessages()
 
 std::vector<std::string> takeVtkErrors()
 {
-  MessageCollector* window = collector();
-  return window ? window->TakeErrors() : std::vector<std::string>();
+  return MessageCollector::Take(&MessageCollector::Errors);
 }
 
 std::vector<std::string> takeVtkWarnings()
 {
-  MessageCollector* window = collector();
-  return window ? window->TakeWarnings() : std::vector<std::string>();
+  return MessageCollector::Take(&MessageCollector::Warnings);
 }
 
 } // namespace pointhaptics::app

@@ -13,13 +13,21 @@
 namespace pointhaptics::app
 {
 
+/// Exit codes of the programs.
+enum ExitCode : int
+{
+  kSuccess = 0,
+  kFailed = 1,
+  kUsage = 2, ///< beside these: stopExitCode() where a signal ended the work, and fail()'s of a closed pipe
+};
+
 /// A fault that ends the command with kFailed: what, where and the cure.
 class Failure : public std::runtime_error
 {
 public:
   using std::runtime_error::runtime_error;
 };
-/// Throws a Failure with @p message where something is not done, which has said why there.
+/// Throws a Failure unless @p isDone, whose call must not fill a text that @p message is a sum of.
 inline void require(bool isDone, const std::string& message)
 {
   if (!isDone)
@@ -28,24 +36,25 @@ inline void require(bool isDone, const std::string& message)
   }
 }
 
-/// Who speaks: the program's name in messages, `pointhaptics` unless main() says another at its beginning.
+/// Name the speaker of messages: `pointhaptics` unless main() says another at its beginning, and the command.
 void nameProgram(const std::string& name);
+void nameCommand(const std::string& name);
 /// Prints `PROGRAM COMMAND: message` on stderr, in one line, after the warnings so far. Says nothing where
 /// the reader of standard output has ended and that is the fault. @return kFailed, or 141, as a shell counts
 /// SIGPIPE.
-int fail(const std::string& command, const std::string& message);
+int fail(const std::string& message);
 /// As fail(), of a standard output that could not be written for the reason @p error (errno, 0: unknown).
-int failStandardOutput(const std::string& command, int error);
-/// Keeps `PROGRAM COMMAND: warning: FILE: message` for showKeptWarnings(). Warnings that differ in numbers
-/// and files alone are one, with their count.
-void warn(const std::string& command, const std::string& message, const std::string& file = {});
+int failStandardOutput(int error);
+/// Prints a usage error of @p command, "pointhaptics convert", in one line. @return kUsage.
+int failUsage(const std::string& command, const std::string& message);
+/// Keeps `PROGRAM COMMAND: warning: FILE: message` for showKeptWarnings(); no @p message: none. Warnings that
+/// differ in numbers and files alone are one, with their count.
+void warn(const std::string& message, const std::string& file = {});
 /// Prints the warnings kept since the last call. None in a quiet run, and none that was printed before.
 void showKeptWarnings();
 /// From here on messages say @p shown where they would say @p path.
 void showAs(const std::string& path, const std::string& shown);
 std::string shownLine(const std::string& text);
-/// Keeps the first error for printPromisedJson().
-void keepError(const std::string& message);
 
 /// --quiet: errors alone; --verbose: also what is read and written, and how long it takes, on stderr.
 enum class Verbosity
@@ -55,8 +64,8 @@ enum class Verbosity
   Verbose
 };
 void setVerbosity(Verbosity verbosity);
-/// Prints one line on stderr in a verbose run.
-void say(const std::string& command, const std::string& message);
+/// Prints `LABEL: message` on stderr in a verbose run. @p label: empty is the command.
+void say(const std::string& message, const std::string& label = {});
 /// An output goes to standard output, where nothing else is printed then.
 void takeStandardOutput();
 /// Prints the last line of a command on stdout; not in a quiet run, nor where stdout is taken.
@@ -80,6 +89,8 @@ std::string ofThemInvalid(std::int64_t count);
 
 /// Prints one object on stdout, in one line; names that are no UTF-8 get replacement characters.
 void printJson(const nlohmann::ordered_json& object);
+/// Prints the result of a command as it was asked for.
+void printResult(bool asJson, const nlohmann::ordered_json& object, const std::string& summary);
 
 /// From here on VTK's errors and warnings are kept, from all threads, instead of printed.
 void collectVtkMessages();

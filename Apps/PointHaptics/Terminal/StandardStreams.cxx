@@ -19,27 +19,10 @@ namespace
 
 constexpr std::size_t kBlock = std::size_t{ 1 } << 20;
 
-/// Closes at the end.
-class Descriptor
+struct Descriptor
 {
-public:
-  explicit Descriptor(int number)
-    : number_(number)
-  {
-  }
-  ~Descriptor()
-  {
-    if (number_ >= 0)
-    {
-      ::close(number_);
-    }
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  int number() const { return number_; }
-
-private:
-  int number_;
+  const int number;
+  ~Descriptor() { ::close(this->number); } // -1 fails
 };
 
 /// Waits, as a read cannot be ended by a signal that restarts it. False: a signal came.
@@ -110,28 +93,21 @@ TemporaryFolder::~TemporaryFolder()
   std::filesystem::remove_all(folder_, ignored);
 }
 
-bool copyInput(const std::string& from, const std::string& path, std::string& message)
+void copyInput(const std::string& from, const std::string& path)
 {
   rememberStopSignals();
-  const Descriptor source(from.empty() ? ::dup(STDIN_FILENO) : ::open(from.c_str(), O_RDONLY | O_CLOEXEC));
-  const Descriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600));
-  if (source.number() >= 0 && file.number() >= 0 && copyAll(source.number(), file.number()))
-  {
-    return true;
-  }
-  message = "cannot be read into " + path + ": " + reason();
-  return false;
+  const Descriptor source{ from.empty() ? ::dup(STDIN_FILENO) : ::open(from.c_str(), O_RDONLY | O_CLOEXEC) };
+  const Descriptor file{ ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600) };
+  const bool isCopied = source.number >= 0 && file.number >= 0 && copyAll(source.number, file.number);
+  require(
+    isCopied, (from.empty() ? "standard input" : from) + ": cannot be read into " + path + ": " + reason());
 }
 
-bool copyToStandardOutput(const std::string& path, std::string& message)
+void copyToStandardOutput(const std::string& path)
 {
-  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
-  if (file.number() >= 0 && copyAll(file.number(), STDOUT_FILENO))
-  {
-    return true;
-  }
-  message = "standard output cannot be written: " + reason();
-  return false;
+  const Descriptor file{ ::open(path.c_str(), O_RDONLY | O_CLOEXEC) };
+  const bool isCopied = file.number >= 0 && copyAll(file.number, STDOUT_FILENO);
+  require(isCopied, "standard output cannot be written: " + reason());
 }
 
 } // namespace pointhaptics::app

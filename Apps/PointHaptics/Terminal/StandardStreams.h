@@ -23,10 +23,10 @@ private:
   std::filesystem::path folder_;
 };
 
-/// Reads a pipe, or standard input where @p from is empty, to its end into a new file. A signal
-/// (StopSignals.h) ends it. False: @p message.
-bool copyInput(const std::string& from, const std::string& path, std::string& message);
-/// Writes the content of a file to standard output. False: @p message.
-bool copyToStandardOutput(const std::string& path, std::string& message);
+/// Reads a pipe, or standard input where @p from is empty, to its end into a new file. @throws Failure, also
+/// where a signal (StopSignals.h) ends it.
+void copyInput(const std::string& from, const std::string& path);
+/// Writes the content of a file to standard output. @throws Failure
+void copyToStandardOutput(const std::string& path);
 
 } // namespace pointhaptics::app

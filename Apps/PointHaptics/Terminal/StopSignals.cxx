@@ -1,7 +1,15 @@
 #include "Terminal/StopSignals.h"
 
+#include "Terminal/Messages.h"
+
+#include "Core/Base/OutputFile.h"
+#include "Core/Base/Status.h"
+
 #include <csignal>
+#include <exception>
 #include <initializer_list>
+
+#include <unistd.h>
 
 namespace pointhaptics::app
 {
@@ -9,6 +17,15 @@ namespace
 {
 
 volatile std::sig_atomic_t requested = 0;
+std::string lastWords; ///< Made before memory is short.
+
+/// abort() is called, not interrupted: what it finds is as whole as memory allows.
+void endNow(int)
+{
+  OutputFile::discardAll();
+  static_cast<void>(!::write(STDERR_FILENO, lastWords.data(), lastWords.size()));
+  ::_exit(kFailed);
+}
 
 } // namespace
 
@@ -41,6 +58,14 @@ int stopExitCode() noexcept
 {
   constexpr int kEndedBySignal = 128; // as shells count
   return kEndedBySignal + requested;
+}
+
+void endCleanlyOnAbort(const std::string& speaker)
+{
+  lastWords = speaker + ": the system gave no memory, or no OpenGL to a window; " +
+    message(Status::OutOfMemory) + ", or look which graphics driver is missing (glxinfo)\n";
+  std::signal(SIGABRT, endNow);
+  std::set_terminate([] { endNow(SIGABRT); });
 }
 
 } // namespace pointhaptics::app

@@ -1,20 +1,24 @@
 #include "View/ViewSettings.h"
 
-#include "Options/TouchOptions.h"
+#include "Options/Files.h"
 #include "Terminal/CommandLine.h"
-#include "View/PictureOptions.h"
+#include "Terminal/Messages.h"
 
+#include "ClippedCloud.h"
 #include "HapticViewerOptions.h"
 
 #include "Core/Base/OutputFile.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <set>
 #include <vector>
 
@@ -23,13 +27,9 @@ namespace pointhaptics::app
 namespace
 {
 
-const std::set<std::string>& deeds()
-{
-  static const std::set<std::string> names = { "help", "version", "config", "write-config", "recent",
-    "screenshot", "skip-unreadable", "turntable", "force-chart", "trace", "record", "replay", "output",
-    "sound-file", "marker-text", "marker-socket" };
-  return names;
-}
+const std::set<std::string> kDeeds = { "help", "version", "config", "write-config", "recent", "screenshot",
+  "skip-unreadable", "turntable", "force-chart", "trace", "record", "replay", "output", "sound-file",
+  "marker-text", "marker-socket" };
 
 /// Options that belong to the cloud at hand, and to no other.
 constexpr const char* kOfTheCloud[] = { "matrix", "workspace", "voxel", "dims", "scale", "rotate",
@@ -46,6 +46,44 @@ nlohmann::ordered_json valueOf(const CLI::Option& option)
   }
   const nlohmann::ordered_json value = nlohmann::ordered_json::parse(text, nullptr, false);
   return value.is_number() && value.dump() == text ? value : nlohmann::ordered_json(text);
+}
+
+/// x, y, z of both ends; while a person has chosen only one, there is none to keep.
+constexpr std::size_t kNumbersOfDistance = 6;
+
+/// The setting @p name becomes @p value, as the last one, or goes where that is empty: then nobody chose any.
+template <typename Value>
+void setUnlessEmpty(nlohmann::ordered_json& settings, const char* name, const Value& value)
+{
+  settings.erase(name);
+  if (!value.empty())
+  {
+    settings[name] = value;
+  }
+}
+
+/// Puts @p picture in @p settings, by the names of the options; what is as if it were never asked for is left
+/// out.
+void setPicture(nlohmann::ordered_json& settings, const PictureSettings& picture)
+{
+  settings["projection"] = picture.parallel ? "parallel" : "perspective";
+  settings["stereo"] = picture.stereo;
+  settings["background"] = picture.background;
+  settings["theme"] = picture.theme;
+  settings["point-scale"] = picture.pointScale;
+  settings["edl-strength"] = picture.depthStrength;
+  settings["font-scale"] = picture.fontScale;
+  settings["color-map"] = picture.colorMap;
+  settings["transparent"] = picture.transparent;
+  setUnlessEmpty(settings, "color-range", picture.colorRange);
+  std::vector<std::string> hidden;
+  std::transform(picture.hidden.begin(), picture.hidden.end(), std::back_inserter(hidden), textOf);
+  setUnlessEmpty(settings, "hide", fmt::format("{}", fmt::join(hidden, ",")));
+  const auto& size = picture.screenshotSize;
+  setUnlessEmpty(
+    settings, "screenshot-size", size[0] > 0 ? fmt::format("{}x{}", size[0], size[1]) : std::string());
+  const bool isWhole = picture.measure.size() == kNumbersOfDistance;
+  setUnlessEmpty(settings, "measure", isWhole ? picture.measure : decltype(picture.measure)());
 }
 
 /// Model matrix and workspace in place of the options that led to them.
@@ -68,19 +106,162 @@ void setModel(nlohmann::ordered_json& settings, const HapticViewerState& state, 
   settings["workspace"] = state.workspace;
 }
 
+/// One JSON value as it would stand on the command line. False: objects and null have no such form.
+bool argumentOf(const nlohmann::json& value, std::string& text)
+{
+  if (!value.is_array())
+  {
+    text = value.is_string() ? value.get<std::string>() : value.dump();
+    return value.is_primitive() && !value.is_null();
+  }
+  text.clear();
+  return std::all_of(value.begin(), value.end(),
+    [&](const nlohmann::json& element)
+    {
+      std::string part;
+      const bool isPlain = !element.is_array() && argumentOf(element, part);
+      text += (text.empty() ? "" : ",") + part;
+      return isPlain;
+    });
+}
+
+using Given = std::set<const CLI::Option*>; ///< On the command line.
+
+/// The command line wins: also over a key that cannot stand beside one of its options.
+bool isOverruled(CLI::Option* option, const Given& given)
+{
+  const std::set<CLI::Option*> others = option->get_excludes();
+  return given.count(option) > 0 ||
+    std::any_of(others.begin(), others.end(), [&](CLI::Option* other) { return given.count(other) > 0; });
+}
+
+std::string applyValue(CLI::Option* option, const std::string& key, const nlohmann::json& value)
+{
+  std::string text;
+  if (!argumentOf(value, text))
+  {
+    return fmt::format("key \"{}\": give a number, a text, true or false, or a list of numbers", key);
+  }
+  for (const CLI::Option* other : option->get_excludes())
+  {
+    if (other->count() > 0)
+    {
+      return fmt::format(
+        "key \"{}\" cannot stand beside \"{}\"; keep one of them", key, other->get_single_name());
+    }
+  }
+  try
+  {
+    option->add_result(text);
+    option->run_callback();
+  }
+  catch (const CLI::Error& error)
+  {
+    return fmt::format("key \"{}\": {}", key, error.what());
+  }
+  return {};
+}
+
+std::string applyKeys(CLI::App& command, const nlohmann::json& keys, const std::vector<std::string>& ignored)
+{
+  Given given;
+  for (const CLI::Option* option : command.get_options())
+  {
+    if (option->count() > 0)
+    {
+      given.insert(option);
+    }
+  }
+  const std::vector<std::string> names = configurableNames(command);
+  for (const auto& item : keys.items())
+  {
+    if (std::find(ignored.begin(), ignored.end(), item.key()) != ignored.end())
+    {
+      continue;
+    }
+    if (std::find(names.begin(), names.end(), item.key()) == names.end())
+    {
+      return fmt::format("unknown key \"{}\"{}; valid keys: {}", item.key(), didYouMean(item.key(), names),
+        fmt::join(names, ", "));
+    }
+    CLI::Option* option = command.get_option("--" + item.key());
+    const std::string problem =
+      isOverruled(option, given) ? std::string() : applyValue(option, item.key(), item.value());
+    if (!problem.empty())
+    {
+      return problem;
+    }
+  }
+  return {};
+}
+
 } // namespace
+
+std::vector<std::string> configurableNames(CLI::App& command)
+{
+  const std::set<std::string> others = { "help", "version", "config", "write-config", "recent" };
+  std::vector<std::string> names;
+  for (const auto& [name, option] : longNames(command))
+  {
+    names.insert(names.end(), others.count(name) + commonOptions().count(name) == 0 ? 1 : 0, name);
+  }
+  return names;
+}
+
+void takeRecordedReading(const std::string& settings, HapticViewerOptions& viewer)
+{
+  const nlohmann::json keys = nlohmann::json::parse(settings, nullptr, false, true);
+  // Lists and flags as the command line has them.
+  const auto text = [&keys](const char* key)
+  {
+    std::string value;
+    return keys.is_object() && keys.contains(key) && argumentOf(keys.at(key), value) ? value : std::string();
+  };
+  if (!parseNumbers(text("clip"), viewer.clip))
+  {
+    viewer.clip.clear();
+  }
+  std::string wrong;
+  viewer.picture.hidden = hiddenIn(text("hide"), wrong);
+  viewer.up = viewer.up == "auto" && keys.contains("up") ? text("up") : viewer.up;
+  const std::string columns = text("columns");
+  viewer.columns = columns.empty() ? std::vector<std::string>() : CLI::detail::split(columns, ',');
+  viewer.salvage = text("salvage") == "true";
+  viewer.vertices = text("vertices") == "true";
+}
+
+void applyConfigFile(CLI::App& command, const std::string& fileName, const std::vector<std::string>& ignored)
+{
+  Files files; // for a pipe
+  files.addInput(fileName);
+  std::error_code error;
+  std::ifstream file(files.input(fileName));
+  require(file && !std::filesystem::is_directory(fileName, error),
+    fileName + ": cannot be opened; check the name given to --config");
+  nlohmann::json keys;
+  std::string place;
+  try
+  {
+    keys = nlohmann::json::parse(file, nullptr, true, true);
+  }
+  catch (const nlohmann::json::parse_error& fault)
+  {
+    place = fmt::format(" at byte {}", fault.byte);
+  }
+  requireUsage(keys.is_object(), fileName, "",
+    fmt::format("not a JSON object{}; write {{\"stiffness\": 600, \"up\": \"z\"}} for example", place));
+  const std::string problem = applyKeys(command, keys, ignored);
+  requireUsage(problem.empty(), fileName, "", problem);
+}
 
 nlohmann::ordered_json givenSettings(CLI::App& command)
 {
   nlohmann::ordered_json settings = nlohmann::ordered_json::object();
-  for (const CLI::Option* option : command.get_options())
+  for (const auto& [name, option] : longNames(command))
   {
-    for (const std::string& name : option->get_lnames())
+    if (option->count() > 0 && kDeeds.count(name) + commonOptions().count(name) == 0)
     {
-      if (option->count() > 0 && deeds().count(name) == 0 && commonOptions().count(name) == 0)
-      {
-        settings[name] = valueOf(*option);
-      }
+      settings[name] = valueOf(*option);
     }
   }
   return settings;
@@ -115,20 +296,29 @@ void setState(nlohmann::ordered_json& settings, const HapticViewerState& state, 
   settings["size"] = fmt::format("{}x{}", state.width, state.height);
 }
 
-bool writeSettings(const nlohmann::ordered_json& settings, const std::string& fileName, std::string& message)
+void writeSettings(const nlohmann::ordered_json& settings, const std::string& fileName)
 {
   OutputFile file;
-  Status status = file.open(fileName);
-  if (status == Status::Ok)
+  const bool isWritten = file.open(fileName) == Status::Ok &&
+    file.write(settings.dump(2) + "\n") == Status::Ok && file.commit() == Status::Ok;
+  require(isWritten, writeFault(fileName, file));
+}
+
+void setFelt(HapticViewerOptions& viewer, const LatticeOptions& lattice, const BandwidthOptions& bandwidth,
+  bool noCovariance)
+{
+  viewer.transform = lattice.transform();
+  viewer.unit = lattice.unit;
+  viewer.metresPerUnit = lattice.metresPerUnit();
+  viewer.voxels = lattice.voxels;
+  if (!lattice.voxelsAreGiven)
   {
-    static_cast<void>(file.write(settings.dump(2) + "\n"));
-    status = file.commit();
+    viewer.voxels.lattice.dimensions = { 0, 0, 0 }; // the viewer chooses
   }
-  if (status != Status::Ok)
-  {
-    message = fmt::format("{}: cannot be written: {}; {}", fileName, file.reason(), file.cure());
-  }
-  return status == Status::Ok;
+  viewer.voxels.computeCovariance = !noCovariance;
+  viewer.bandwidth = bandwidth.settings;
+  viewer.names = { "--color-by", "--clip", "--felt", kFirmwareOption, "--workspace, --scale and --translate",
+    unitOptions(), "--hide" };
 }
 
 std::string recentSettingsFile()
@@ -142,42 +332,55 @@ std::string recentSettingsFile()
   return home && *home ? std::string(home) + "/.local/state/pointhaptics/view.json" : std::string();
 }
 
-/// The axes of all files; and the name of the one that keeps them.
-static nlohmann::ordered_json keptUps(std::filesystem::path& name)
+namespace
 {
-  const std::string recent = recentSettingsFile();
-  name = recent.empty() ? std::filesystem::path() : std::filesystem::path(recent).replace_filename("up.json");
-  std::ifstream file(name);
+
+/// Writes a file beside recentSettingsFile(); what cannot be kept is no reason to complain.
+void keep(const nlohmann::ordered_json& settings, const std::string& name)
+{
+  try
+  {
+    const std::filesystem::path file(recentSettingsFile());
+    if (!file.empty())
+    {
+      std::filesystem::create_directories(file.parent_path());
+      writeSettings(settings, file.parent_path() / name);
+    }
+  }
+  catch (const std::exception&)
+  {
+  }
+}
+
+constexpr const char* kUps = "up.json"; ///< The axes of all files.
+
+nlohmann::ordered_json keptUps()
+{
+  std::ifstream file(std::filesystem::path(recentSettingsFile()).replace_filename(kUps));
   nlohmann::ordered_json ups = nlohmann::ordered_json::parse(file, nullptr, false);
   return ups.is_object() ? ups : nlohmann::ordered_json::object();
 }
 
-static std::string keyOf(const std::string& file)
+std::string keyOf(const std::string& file)
 {
   std::error_code error;
   return std::filesystem::absolute(file, error).string();
 }
 
+} // namespace
+
 std::string keptUp(const std::string& file)
 {
-  std::filesystem::path name;
-  const nlohmann::ordered_json ups = keptUps(name);
+  const nlohmann::ordered_json ups = keptUps();
   const auto found = ups.find(keyOf(file));
   return found != ups.end() && found->is_string() ? found->get<std::string>() : std::string();
 }
 
 void keepUp(const std::string& file, const std::string& axis)
 {
-  std::filesystem::path name;
-  nlohmann::ordered_json ups = keptUps(name);
+  nlohmann::ordered_json ups = keptUps();
   ups[keyOf(file)] = axis;
-  std::error_code error;
-  std::string message;
-  if (!name.empty())
-  {
-    std::filesystem::create_directories(name.parent_path(), error);
-    static_cast<void>(writeSettings(ups, name.string(), message));
-  }
+  keep(ups, kUps);
 }
 
 void rememberSettings(nlohmann::ordered_json settings)
@@ -186,14 +389,7 @@ void rememberSettings(nlohmann::ordered_json settings)
   {
     settings.erase(name);
   }
-  const std::string file = recentSettingsFile();
-  std::error_code error;
-  std::string message;
-  if (!file.empty())
-  {
-    std::filesystem::create_directories(std::filesystem::path(file).parent_path(), error);
-    static_cast<void>(writeSettings(settings, file, message));
-  }
+  keep(settings, std::filesystem::path(recentSettingsFile()).filename());
 }
 
 } // namespace pointhaptics::app

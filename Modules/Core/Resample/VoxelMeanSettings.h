@@ -9,6 +9,7 @@
 #include "Core/Resample/Representative.h"
 #include "Core/Simd/InstructionSet.h"
 
+#include <algorithm>
 #include <iterator>
 #include <set>
 #include <string>
@@ -32,8 +33,9 @@ struct VoxelMeanSettings
   PointsPrecision outputPointsPrecision = PointsPrecision::OfInput;
   bool computeCovariance = false; ///< Six second moments a voxel.
   bool passAttributes = true;     ///< Average the arrays of the points.
-  /// Most frequent value instead of a mean: isLabelField().
+  /// Most frequent value instead of a mean: isCategorical().
   std::set<std::string> categoricalArrays{ std::begin(kLabelFields), std::end(kLabelFields) };
+  bool exactCategoricalNames = false; ///< The names above mean themselves alone, letter by letter.
   Representative representative = Representative::Mean;      ///< What stands for the points of a voxel.
   int minimumPointsPerVoxel = 1;                             ///< Voxels with fewer are left out; at least 1.
   bool computeVoxelIndex = false;                            ///< One more output: the voxel of each point.
@@ -49,6 +51,7 @@ struct VoxelMeanSettings
       settingsMember("computeCovariance", &S::computeCovariance),
       settingsMember("passAttributes", &S::passAttributes),
       settingsMember("categoricalArrays", &S::categoricalArrays),
+      settingsMember("exactCategoricalNames", &S::exactCategoricalNames),
       settingsMember("representative", &S::representative),
       settingsMember("minimumPointsPerVoxel", &S::minimumPointsPerVoxel),
       settingsMember("computeVoxelIndex", &S::computeVoxelIndex),
@@ -58,5 +61,13 @@ struct VoxelMeanSettings
   }
 };
 static_assert(listsEveryMember<VoxelMeanSettings>());
+
+/// Whether the array @p name holds labels.
+inline bool isCategorical(const VoxelMeanSettings& settings, const std::string& name)
+{
+  return std::any_of(settings.categoricalArrays.begin(), settings.categoricalArrays.end(),
+    [&](const std::string& each)
+    { return settings.exactCategoricalNames ? each == name : isLabelField(name, each); });
+}
 
 } // namespace pointhaptics

@@ -13,8 +13,10 @@ namespace
 /// failed a moment ago mostly fails again.
 constexpr int kSeekEvery = 4;
 constexpr double kSeekBelow = 0.5;
-/// RMS distance of the points from the fit, over the ball's radius, up to which the surface is smooth.
+/// RMS distance of the cells from the fit up to which the surface is smooth: over the ball's radius, or over
+/// the noise of single points, which cells average. Without the second a noisy sphere is rough.
 constexpr double kSmoothResidual = 0.03;
+constexpr double kSmoothNoise = 0.5;
 /// The fit's point may be this far from the ball's: kTrustRadii of the ball's radius and kTrustDepths of the
 /// depth, as bumps between points hold the ball back.
 constexpr double kTrustRadii = 0.2;
@@ -55,9 +57,11 @@ void SurfaceFitProxy::carry(const AffineTransform& from, const AffineTransform& 
 }
 
 /// True if the ball lies above a smooth surface.
-bool SurfaceFitProxy::isSmooth() const noexcept
+bool SurfaceFitProxy::isSmooth(const HapticScene& scene) const noexcept
 {
-  return tracker_.height(ball_.center()) > 0.0 && tracker_.residual() < kSmoothResidual * ball_.radius();
+  return tracker_.height(ball_.center()) > 0.0 &&
+    tracker_.residual() <
+    std::max(kSmoothResidual * ball_.radius(), kSmoothNoise * scene.noise(tracker_.point()));
 }
 
 /// True if the surface continues on all sides of the foot: the ball sinks into a gap between points, not over
@@ -126,7 +130,7 @@ bool SurfaceFitProxy::seek(const HapticScene& scene, Memory& memory, const Vec3&
 bool SurfaceFitProxy::ride(
   const HapticScene& scene, Memory& memory, const Vec3& hip, std::uint32_t& status) noexcept
 {
-  return isAlone_ && isSmooth() && tracker_.height(hip) < 0.0 && this->hasSurfaceAround(scene, memory) &&
+  return isAlone_ && isSmooth(scene) && tracker_.height(hip) < 0.0 && this->hasSurfaceAround(scene, memory) &&
     ball_.ride(scene, memory.ball, hip, tracker_.point(), tracker_.normal(), status);
 }
 
@@ -138,7 +142,7 @@ double SurfaceFitProxy::fitWeight(const HapticScene& scene, Memory& memory, cons
   {
     const double trust =
       std::max(kTrustRadii * ball_.radius() + kTrustDepths * std::max(0.0, ball_.depth(hip)),
-        isSmooth() && tracker_.continuesAround() ? kTrustPlain * ball_.radius() : 0.0);
+        isSmooth(scene) && tracker_.continuesAround() ? kTrustPlain * ball_.radius() : 0.0);
     const double apart = norm(tracker_.point() - ball_.nearestPoint(hip));
     // A HIP in front of the fit but deep below the ball belongs to another sheet.
     const bool agrees =
@@ -228,7 +232,7 @@ void SurfaceFitProxy::step(const HapticScene& scene, Memory& memory, const Conta
   {
     weight = refines ? fitWeight(scene, memory, hip, followed, state.status) : 0.0;
     isAlone_ = weight == 1.0;
-    isPatient_ = isAlone_ && isSmooth() && tracker_.continuesAround();
+    isPatient_ = isAlone_ && isSmooth(scene) && tracker_.continuesAround();
     contact = this->blended(scene, memory, hip, weight);
     state.status |= std::uint32_t(refines && weight < 1.0 && contact.pressed ? kProxyBallContact : kProxyOk);
   }

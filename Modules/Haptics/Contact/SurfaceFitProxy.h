@@ -80,7 +80,7 @@ private:
     std::uint32_t& status) noexcept;
   Contact blended(const HapticScene& scene, Memory& memory, const Vec3& hip, double weight) const noexcept;
   bool comesOut(const HapticScene& scene, Memory& memory, const Vec3& hip, std::uint32_t& status) noexcept;
-  bool isSmooth() const noexcept;
+  bool isSmooth(const HapticScene& scene) const noexcept;
   bool hasSurfaceAround(const HapticScene& scene, Memory& memory) const noexcept;
 
   ProxyBall ball_;

@@ -2,6 +2,9 @@
 
 #include "Bytes/NumericType.h"
 #include "FileProblem.h"
+#include "IO/Formats/FormatLooks.h"
+
+#include "Core/Resample/FieldNames.h"
 
 #include "vtkIdList.h"
 #include "vtkNew.h"
@@ -62,12 +65,12 @@ ArrayRole roleOf(vtkDataArray* array, vtkPointData* data)
   const std::string name = array->GetName() ? array->GetName() : "";
   const int components = array->GetNumberOfComponents();
   if (array->GetDataType() == VTK_UNSIGNED_CHAR && (components == 3 || components == 4) &&
-    (array == data->GetScalars() || name == "RGB" || name == "RGBA"))
+    (array == data->GetScalars() || isSameField(name, "RGB") || isSameField(name, "RGBA")))
   {
     return ArrayRole::Colors;
   }
   if (isFloatingType(array->GetDataType()) && components == 3 &&
-    (array == data->GetNormals() || name == "Normals"))
+    (array == data->GetNormals() || isSameField(name, "Normals")))
   {
     return ArrayRole::Normals;
   }
@@ -148,7 +151,7 @@ std::vector<OutputArray> outputArrays(vtkPointSet* cloud, WriterNotes& notes)
       notes.add("array " + inQuotes(name ? name : "") + " holds no numbers and is left out");
       continue;
     }
-    const std::string name = array->GetName() ? array->GetName() : "";
+    const std::string name = utf8Name(array->GetName() ? array->GetName() : "");
     OutputArray output{ roleOf(array, data), name, inPlainMemory(array), name };
     if (array->GetNumberOfTuples() < cloud->GetNumberOfPoints())
     {

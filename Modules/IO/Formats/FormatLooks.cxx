@@ -123,6 +123,21 @@ std::string utf8Of(std::string_view bytes)
   return text;
 }
 
+std::string utf8Name(const std::string& name)
+{
+  std::string latin;
+  for (const char c : name)
+  {
+    appendUtf8(latin, static_cast<unsigned char>(c));
+  }
+  std::string_view rest = name;
+  while (!rest.empty() && characterBytes(rest) > 0)
+  {
+    rest.remove_prefix(characterBytes(rest));
+  }
+  return rest.empty() ? name : latin;
+}
+
 FormatStart lookAt(
   std::string_view bytes, std::size_t size, const std::string& extension, std::string& converted)
 {

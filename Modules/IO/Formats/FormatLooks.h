@@ -57,4 +57,7 @@ bool isUtf16(std::string_view bytes);
 /// The text of @p bytes, which begin with that mark, in UTF-8; what is no UTF-16 becomes '?'.
 std::string utf8Of(std::string_view bytes);
 
+/// @p name as it is where it is UTF-8, else what it is in Latin-1, in UTF-8.
+std::string utf8Name(const std::string& name);
+
 } // namespace pointhaptics::io

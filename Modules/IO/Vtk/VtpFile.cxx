@@ -3,6 +3,7 @@
 #include "Bytes/NumericType.h"
 #include "FileProblem.h"
 #include "IO/Columns/CloudColumns.h"
+#include "IO/Formats/FormatLooks.h"
 #include "IO/WriteTask.h"
 
 #include "vtkCellArray.h"
@@ -14,6 +15,7 @@
 #include "vtkPolyData.h"
 #include "vtkStringArray.h"
 
+#include <algorithm>
 #include <type_traits>
 
 namespace pointhaptics::io
@@ -22,10 +24,26 @@ namespace pointhaptics::io
 namespace
 {
 
-/// An empty name is none to VTK's reader.
+/// The name that XML can hold. An empty one is no name to VTK's reader.
+std::string xmlName(vtkAbstractArray* array)
+{
+  std::string name = utf8Name(array->GetName() ? array->GetName() : "");
+  std::replace_if(
+    name.begin(), name.end(), [](unsigned char c) { return c < 0x20 && c != '\t' && c != '\n' && c != '\r'; },
+    '_');
+  for (const char* none : { "\xef\xbf\xbe", "\xef\xbf\xbf" })
+  {
+    for (std::size_t at = name.find(none); at != std::string::npos; at = name.find(none))
+    {
+      name.replace(at, 3, "_");
+    }
+  }
+  return name.empty() ? "unnamed" : name;
+}
+
 std::string escaped(const std::string& name)
 {
-  std::string result = name.empty() ? "unnamed" : "";
+  std::string result;
   for (const char c : name)
   {
     const auto byte = static_cast<unsigned char>(c);
@@ -42,7 +60,7 @@ std::string attribute(const std::string& name, const std::string& value)
 
 std::string nameOf(vtkAbstractArray* array)
 {
-  return escaped(array->GetName() ? array->GetName() : "");
+  return escaped(xmlName(array));
 }
 
 std::string typeName(int type)
@@ -196,8 +214,9 @@ void writeVtp(WriteTask& task)
   vtkPointData* data = written->GetPointData();
   for (int i = 0; i < data->GetNumberOfArrays(); ++i)
   {
-    const char* name = data->GetAbstractArray(i)->GetName();
-    name&&* name ? void() : task.notes.add("array '' is called unnamed");
+    const std::string given = utf8Name(data->GetArrayName(i) ? data->GetArrayName(i) : "");
+    const std::string name = xmlName(data->GetAbstractArray(i));
+    name == given ? void() : task.notes.add("array " + inQuotes(given) + " is called " + name);
   }
   const VtpFile file(written, written->GetNumberOfPoints());
   for (const std::string& name : file.leftOut)

@@ -91,8 +91,10 @@ bool HapticTouch::start(const HapticParameters& parameters, const ServoSettings&
   }
   if (!style_->UpdateModel())
   {
-    return this->fail(
-      "touch: no point lies in the workspace; check the resampler's input and the model matrix");
+    const std::string& problem = style_->GetScenes().problem();
+    return this->fail(problem.empty()
+        ? "touch: no point lies in the workspace; check the resampler's input and the model matrix"
+        : "touch: " + problem);
   }
   const std::string reach = this->problemOfReach();
   if (!reach.empty())

@@ -251,6 +251,7 @@ void ScenePipeline::show(const BuiltScene& built)
 {
   shownNumber_ = built.number;
   isEmpty_ = built.empty;
+  problem_ = built.problem;
   numberOfPoints_ = built.numberOfPoints;
   numberOfVoxels_ = built.means->GetNumberOfPoints();
   resampled_->SetMatrix(built.modelToWorkspace.data());

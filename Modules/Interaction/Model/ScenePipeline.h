@@ -18,6 +18,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <string>
 #include <utility>
 
 class vtkActor;
@@ -100,6 +101,8 @@ public:
   bool isSettled() const { return !this->isChanged() || !resampler_; }
   bool hasCloud() const { return resampler_ != nullptr; }
   bool isEmpty() const { return isEmpty_; }
+  /// Errors of the filters that made the scene; empty: none.
+  const std::string& problem() const { return problem_; }
   vtkIdType numberOfPoints() const { return numberOfPoints_; }
   vtkIdType numberOfVoxels() const { return numberOfVoxels_; }
   /// Number of times that the cloud was resampled here.
@@ -130,6 +133,7 @@ private:
   std::function<void(const BuiltScene&)> shownObserver_;
   bool isInvalid_ = true;
   bool isEmpty_ = true;
+  std::string problem_;
   bool findsLattice_ = false;
   std::uint64_t requested_ = 0; ///< Numbers of the newest request for a scene, and of the shown one.
   std::uint64_t shownNumber_ = 0;

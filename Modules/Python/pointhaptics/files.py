@@ -16,7 +16,7 @@ from .arrays import Cloud, arrays_of, points_of
 from .calls import warn
 from .classes import vtkPointCloudInfo, vtkPointCloudReader, vtkPointCloudWriter
 from .filters import Voxels
-from .updates import run
+from .updates import run, text_of
 
 #: The name of a file, or a binary file object.
 Path = Union[str, "os.PathLike[str]", IO[bytes]]
@@ -48,6 +48,11 @@ def _name(path: object) -> str:
     if not isinstance(name, str) or not name or "\0" in name:
         raise ValueError(f"path: {path!r}; give the name of a file")
     return name
+
+
+def _for_vtk(name: str) -> Any:
+    """Bytes: VTK's wrapping ends the process where a text is no UTF-8, as names of files may be."""
+    return os.fsencode(name)
 
 
 def _shown_name(file: object) -> str:
@@ -111,14 +116,14 @@ def _read(
 ) -> vtkPointCloudReader:
     _check_readable(name)
     reader = vtkPointCloudReader()
-    reader.SetFileName(name)
+    reader.SetFileName(_for_vtk(name))
     reader.SetSalvage(bool(salvage))
-    reader.SetColumns(list(columns))
+    reader.SetColumns([column.encode() for column in columns])
     reader.SetSamples(samples)
     reader.SetLocalMetres(bool(local_metres))
     errors = run(reader, reader.Update)
     if errors or reader.GetErrorMessage():
-        _fail(reader.GetErrorMessage() or errors[0], name, shown, True)
+        _fail(text_of(reader.GetErrorMessage()) or errors[0], name, shown, True)
     if reader.GetOutput().GetNumberOfPoints() == 0:
         raise ValueError(f"{shown}: holds no points; give a file with at least one")
     return reader
@@ -180,12 +185,15 @@ def write(
     """Write a point cloud with its attributes: .vtp, .ply, .pcd, .las or .csv by extension.
 
     path: the name of a file, or a file object opened for bytes.
-    points: (n, 3), or what resample() returned, which has its arrays with it, counts and covariances among them.
+    points: (n, 3), or what resample() returned, which has its arrays with it, counts and covariances among them,
+        and in .vtp its lattice.
     attributes: name -> (n,) or (n, components). "RGB" (uint8) and "Normals" become the format's own; texts go into
         .vtp alone.
     fields: name -> array or text, of the whole cloud. Default: those of the attributes, where they come from read().
     extension: such as "ply", where the name does not say it.
     The file appears when it is complete, with every digit. What its format cannot hold is said by a RuntimeWarning.
+    Texts (.csv, .xyz) have no types: read() gives small integers as int32 and float32 as float64; .astype(numpy.float32)
+    has the bits again.
 
     Raises TypeError or ValueError for bad arrays and unknown extensions, OSError with errno and filename where the file
     cannot be written, MemoryError.
@@ -218,14 +226,14 @@ def _write(
     fields: Mapping[str, Any],
     extension: Optional[str],
 ) -> None:
-    if not vtkPointCloudWriter.CanWrite(name if extension is None else f"cloud.{extension}"):
-        ending = os.path.splitext(name)[1] if extension is None else extension
+    ending = os.path.splitext(name)[1] if extension is None else extension
+    if not vtkPointCloudWriter.CanWrite(_for_vtk(name if extension is None else f"cloud.{extension}")):
         raise ValueError(
             f"{shown}: unknown extension {ending!r}; end the name in {vtkPointCloudWriter.GetExtensions()}"
         )
     cloud = Cloud(points, attributes, fields, texts=True)
     writer = vtkPointCloudWriter()
-    writer.SetFileName(name)
+    writer.SetFileName(_for_vtk(name))
     if extension is not None:
         writer.SetExtension(extension)
     writer.SetInputData(cloud.data)
@@ -234,7 +242,7 @@ def _write(
     for note in writer.GetNotes():
         warn(f"{shown}: {note}")
     if errors or written != [1]:
-        message = writer.GetErrorMessage() or (errors[0] if errors else "cannot be written")
+        message = text_of(writer.GetErrorMessage()) or (errors[0] if errors else "cannot be written")
         _fail(message, name, shown, writer.GetErrorCode() in _CONTENT)
 
 

@@ -143,12 +143,14 @@ class Stop(Handle):
 
 
 def _give_up_the_gil() -> None:
-    """Lets long work of VTK filters give up the GIL, too."""
+    """Lets long work of VTK filters give up the GIL, too, and run signal handlers."""
     python = ctypes.pythonapi
     is_ending = getattr(python, "Py_IsFinalizing", None) or getattr(python, "_Py_IsFinalizing", None)
-    functions = (python.PyGILState_Check, python.PyEval_SaveThread, python.PyEval_RestoreThread, is_ending)
+    functions = (
+        python.PyGILState_Check, python.PyEval_SaveThread, python.PyEval_RestoreThread, is_ending, python.PyErr_CheckSignals
+    )  # fmt: skip
     addresses = [None if function is None else ctypes.cast(function, c_void_p) for function in functions]
-    _function("ph_set_interpreter_lock", *[c_void_p] * 4, result=None)(*addresses)
+    _function("ph_set_interpreter_lock", *[c_void_p] * 5, result=None)(*addresses)
 
 
 _give_up_the_gil()

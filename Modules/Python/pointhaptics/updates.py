@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import os
 import re
-from typing import Callable, List
+from typing import Callable, List, Union
 
 from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm
 
@@ -14,8 +15,13 @@ _OUT_OF_MEMORY = 40012  # kOutOfMemoryCode of Core/Base/Host/OutOfMemory.h
 _PREFIX = re.compile(r"\A(?:ERROR|Warning): In .*\n(?:vtk\w+ \(\w+\): )?")
 
 
-def _sentence(text: str) -> str:
-    return " ".join(_PREFIX.sub("", text).split())
+def text_of(text: Union[str, bytes, None]) -> str:
+    """VTK gives what is no UTF-8, such as the name of a file, as bytes; observers get None."""
+    return os.fsdecode(text or "")
+
+
+def _sentence(text: Union[str, bytes, None]) -> str:
+    return " ".join(_PREFIX.sub("", text_of(text)).split())
 
 
 class _Messages:
@@ -27,7 +33,7 @@ class _Messages:
         self.errors: List[str] = []
         self.warnings: List[str] = []
 
-    def __call__(self, caller: object, event: str, text: str) -> None:
+    def __call__(self, caller: object, event: str, text: Union[str, bytes, None]) -> None:
         (self.errors if event == "ErrorEvent" else self.warnings).append(_sentence(text))
 
 

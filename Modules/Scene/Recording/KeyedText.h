@@ -25,7 +25,8 @@ namespace pointhaptics
 namespace keyed
 {
 
-inline std::string textOf(double value)
+template <typename Number>
+std::string textOf(Number value)
 {
   char digits[40];
   return std::string(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
@@ -39,7 +40,8 @@ bool parse(const std::string& text, Number& value)
   return parsed.ec == std::errc() && parsed.ptr == text.data() + text.size();
 }
 
-inline std::string joined(const double* values, std::size_t count)
+template <typename Number>
+std::string joined(const Number* values, std::size_t count)
 {
   std::string text;
   for (std::size_t i = 0; i < count; ++i)
@@ -50,7 +52,8 @@ inline std::string joined(const double* values, std::size_t count)
 }
 
 /// Exactly @p count numbers, none of them NaN.
-inline bool parseNumbers(const std::string& text, double* values, std::size_t count)
+template <typename Number>
+bool parseNumbers(const std::string& text, Number* values, std::size_t count)
 {
   std::size_t begin = 0;
   for (std::size_t i = 0; i < count; ++i)
@@ -83,7 +86,7 @@ std::string toText(const Value& value)
   }
   else if constexpr (std::is_same_v<Value, std::array<std::int64_t, 3>>)
   {
-    return std::to_string(value[0]) + "," + std::to_string(value[1]) + "," + std::to_string(value[2]);
+    return joined(value.data(), 3);
   }
   else if constexpr (std::is_floating_point_v<Value>)
   {
@@ -95,7 +98,7 @@ std::string toText(const Value& value)
   }
   else
   {
-    return std::to_string(static_cast<std::int64_t>(value)); // of a bool, a whole number, an enumeration
+    return textOf(static_cast<std::int64_t>(value)); // of a bool, a whole number, an enumeration
   }
 }
 
@@ -119,12 +122,7 @@ bool fromText(const std::string& text, Value& value)
   }
   else if constexpr (std::is_same_v<Value, std::array<std::int64_t, 3>>)
   {
-    double n[3];
-    constexpr double kMost = 1e15;
-    const bool isRead = parseNumbers(text, n, 3) && n[0] >= 0.0 && n[1] >= 0.0 && n[2] >= 0.0 &&
-      n[0] < kMost && n[1] < kMost && n[2] < kMost;
-    value = isRead ? Value{ std::int64_t(n[0]), std::int64_t(n[1]), std::int64_t(n[2]) } : value;
-    return isRead;
+    return parseNumbers(text, value.data(), 3) && *std::min_element(value.begin(), value.end()) >= 0;
   }
   else if constexpr (std::is_floating_point_v<Value>)
   {

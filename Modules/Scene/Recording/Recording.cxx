@@ -26,7 +26,7 @@ namespace
 
 /// Not to be broken: it finds out that a file is another one, or in another order.
 template <typename Real>
-std::uint64_t mixed(const Real* numbers, std::int64_t count)
+std::uint64_t checksumOf(const Real* numbers, std::int64_t count)
 {
   constexpr std::uint64_t kPrime = 0x100000001b3;
   std::uint64_t sum = 0xcbf29ce484222325;
@@ -44,23 +44,11 @@ std::uint64_t mixed(const Real* numbers, std::int64_t count)
 
 std::uint64_t checksumOf(vtkPointSet* cloud)
 {
-  if (!cloud || !cloud->GetPoints() || cloud->GetNumberOfPoints() == 0)
-  {
-    return 0;
-  }
-  const PointAccess access(cloud->GetPoints());
+  const PointAccess access(cloud ? cloud->GetPoints() : nullptr);
   const PointView view = access.view();
-  if (view.stride() == 3)
-  {
-    return view.floats() ? mixed(view.floats(), 3 * view.size()) : mixed(view.doubles(), 3 * view.size());
-  }
-  std::uint64_t sum = 0;
-  for (std::int64_t i = 0; i < view.size(); ++i)
-  {
-    const Vec3 p = view[i];
-    sum = sum * 31 + mixed(&p.x, 3);
-  }
-  return sum;
+  return view.size() == 0 ? 0
+    : view.floats()       ? checksumOf(view.floats(), 3 * view.size())
+                          : checksumOf(view.doubles(), 3 * view.size());
 }
 
 std::string recordedColumns()
@@ -120,20 +108,15 @@ bool isOf(const Recording& recording, vtkPointSet* cloud, std::string& message)
 {
   const RecordedFiles& felt = recording.header.cloud;
   const vtkIdType points = cloud ? cloud->GetNumberOfPoints() : 0;
-  if (points != felt.points)
-  {
-    message = fmt::format("it has {} points, and the recording was made with {}; give that cloud ({})",
-      points, felt.points, felt.files.front());
-    return false;
-  }
-  if (checksumOf(cloud) != felt.checksum)
-  {
-    message =
-      fmt::format("its points are others than those the recording was made with; give that cloud ({})",
+  const bool hasPoints = points == felt.points;
+  const bool isSame = hasPoints && checksumOf(cloud) == felt.checksum;
+  message = isSame
+    ? ""
+    : fmt::format("{}; give that cloud ({})",
+        hasPoints ? "its points are others than those the recording was made with"
+                  : fmt::format("it has {} points, and the recording was made with {}", points, felt.points),
         felt.files.front());
-    return false;
-  }
-  return true;
+  return isSame;
 }
 
 std::string keptCloudName(const std::string& recording)

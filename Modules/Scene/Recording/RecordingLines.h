@@ -5,6 +5,8 @@
 #include "KeyedText.h"
 #include "Recording.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -36,9 +38,7 @@ constexpr std::uint32_t kOnceFlags = kTickBegins | kTickNewHand | kTickNonFinite
 inline void describe(keyed::Line& line, RecordedFiles& cloud)
 {
   line.value("points", cloud.points);
-  char digits[17] = {};
-  std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(cloud.checksum));
-  std::string checksum = digits;
+  std::string checksum = fmt::format("{:016x}", cloud.checksum);
   line.value("checksum", checksum);
   const char* const end = checksum.data() + checksum.size();
   if (std::from_chars(checksum.data(), end, cloud.checksum, 16).ptr != end)

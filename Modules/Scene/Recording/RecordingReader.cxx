@@ -19,86 +19,75 @@ constexpr std::size_t kLongestQuote = 60;
 
 std::string quote(const std::string& text)
 {
-  std::string result;
-  for (const char c : text.substr(0, kLongestQuote))
-  {
-    result += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
-  }
+  std::string result = text.substr(0, kLongestQuote);
+  std::replace_if(
+    result.begin(), result.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, '?');
   return "\"" + result + (text.size() > kLongestQuote ? "..." : "") + "\"";
 }
 
-/// Whether a scene of @p origin may have such a fallback: a part has one, unless it was made before there was
-/// a whole.
-bool mayEnd(const SceneOrigin& origin, std::uint64_t fallback)
+/// Takes the lines of a file, one after the other, into a recording.
+struct Reader
 {
-  const bool isWhole = origin.kind == SceneOrigin::Kind::Whole;
-  return isWhole ? fallback == 0 : fallback != 0 || origin.globalCloud == 0;
-}
+  Recording& recording;
+  std::string problem = {}; ///< Why a function returned false.
+  std::uint64_t lines = 0;
+  int version = 0; ///< 0: not known yet.
+  bool hasColumns = false;
+  bool isEnded = false;
 
-class Reader
-{
-public:
-  explicit Reader(Recording& recording)
-    : recording_(recording)
-  {
-  }
-  /// False: problem() says why. An empty line ends the rows.
+  /// An empty line ends the rows.
   bool take(const std::string& line);
   /// True if the file may be cut after the lines taken so far: it is one that was written as it was felt, has
   /// a tick, and no end.
-  bool mayBeCut() const { return version_ > 1 && !isEnded_ && !recording_.ticks.empty(); }
+  bool mayBeCut() const { return version > 1 && !isEnded && !recording.ticks.empty(); }
   /// Once all lines were taken.
   bool finish();
-  const std::string& problem() const { return problem_; }
-  std::uint64_t line() const { return line_; }
 
 private:
-  bool fail(const std::string& problem)
+  bool fail(const std::string& why)
   {
-    problem_ = problem_.empty() ? problem : problem_;
+    problem = problem.empty() ? why : problem;
     return false;
+  }
+  /// Of a header that somebody has changed.
+  bool failUnless(bool isRead, const std::string& text, const char* why)
+  {
+    return isRead || this->fail(quote(text) + ": " + why + "; take the header as it was written");
   }
   bool takeHeader(const std::string& text);
   bool takeMade(std::uint64_t number, const std::string& text);
   bool takeEvent(std::uint64_t tick, const std::string& text);
   bool takeRow(const std::string& text);
-
-  Recording& recording_;
-  std::string problem_;
-  std::uint64_t line_ = 0;
-  int version_ = 0; ///< 0: not known yet.
-  bool hasColumns_ = false;
-  bool isEnded_ = false;
+  bool hasFallback(const RecordedEvent& event) const;
 };
 
 bool Reader::take(const std::string& line)
 {
-  ++line_;
+  ++lines;
   if (line.size() > kLongestLine)
   {
     return this->fail("the line is too long: is this a text file?");
   }
   const bool isHeader = !line.empty() && line.front() == '#';
-  if (version_ == 0 && (isHeader || hasColumns_ || line != recordedColumns()))
+  if (version == 0 && (isHeader || hasColumns || line != recordedColumns()))
   {
-    version_ = line == "# pointhaptics recording: 1" ? 1 : line == "# pointhaptics recording: 2" ? 2 : 0;
-    return version_ > 0 ||
+    version = line == "# pointhaptics recording: 1" ? 1 : line == "# pointhaptics recording: 2" ? 2 : 0;
+    return version > 0 ||
       this->fail(line.rfind("# pointhaptics recording", 0) == 0
           ? quote(line) + " is of another version: use the program that wrote it"
-          : (hasColumns_ ? "the second line is " : "the first line is ") + quote(line) +
+          : (hasColumns ? "the second line is " : "the first line is ") + quote(line) +
             ": this is no recording; give what --record wrote, or follow other tables by --path");
   }
   if (isHeader)
   {
     return this->takeHeader(line.substr(std::min(line.find_first_not_of("# "), line.size())));
   }
-  if (!hasColumns_)
+  if (hasColumns)
   {
-    hasColumns_ = line == recordedColumns();
-    return hasColumns_ ||
-      this->fail("the columns are " + quote(line) + ": they must be " + recordedColumns());
+    return this->takeRow(line);
   }
-  return this->takeRow(line);
+  hasColumns = line == recordedColumns();
+  return hasColumns || this->fail("the columns are " + quote(line) + ": they must be " + recordedColumns());
 }
 
 /// KEY: TEXT, or KEY NUMBER: TEXT.
@@ -112,54 +101,48 @@ bool Reader::takeHeader(const std::string& text)
   std::uint64_t number = 0;
   if (blank != std::string::npos && !keyed::parse(head.substr(blank + 1), number))
   {
-    return this->fail(quote(text) + ": a number is missing; take the header as it was written");
+    return this->failUnless(false, text, "a number is missing");
   }
-  RecordingHeader& header = recording_.header;
-  isEnded_ = isEnded_ || key == kRecordingEnd;
+  RecordingHeader& header = recording.header;
+  isEnded = isEnded || key == kRecordingEnd;
   if (key == "file" || key == "marker" || key == "program" || key == "settings")
   {
     (key == "file"         ? header.cloud.files.emplace_back()
-        : key == "marker"  ? recording_.labels[std::uint32_t(number)]
+        : key == "marker"  ? recording.labels[std::uint32_t(number)]
         : key == "program" ? header.program
                            : header.settings) = rest;
-    return true;
   }
   keyed::Line line = keyed::Line::from(rest);
   if (key == "cloud")
   {
     describe(line, header.cloud);
-    return line.isFine() ||
-      this->fail(
-        quote(text) + ": points, checksum or resolution is missing; take the header as it was written");
+    return this->failUnless(line.isFine(), text, "points, checksum or resolution is missing");
   }
   if (key == "servo")
   {
     const ServoStepSettings& step = header.step;
     describe(line, header.step);
-    return (line.isFine() && step.rateHz >= 1.0 && step.rateHz <= 1e5 && step.limits.check() == Status::Ok) ||
-      this->fail(
-        quote(text) + ": a servo setting is missing or out of range; take the header as it was written");
-  }
-  if (key == "made")
-  {
-    return this->takeMade(number, rest);
+    return this->failUnless(
+      line.isFine() && step.rateHz >= 1.0 && step.rateHz <= 1e5 && step.limits.check() == Status::Ok, text,
+      "a servo setting is missing or out of range");
   }
   if (key == "parameters")
   {
-    HapticParameters& parameters = recording_.parameters[number];
+    HapticParameters& parameters = recording.parameters[number];
     line.settings(parameters);
-    return (line.isFine() && parameters.check() == Status::Ok) ||
-      this->fail(quote(line.text()) + ": no such parameters; take them as they were written");
+    return this->failUnless(
+      line.isFine() && parameters.check() == Status::Ok, line.text(), "no such parameters");
   }
-  return key == "tick" ? this->takeEvent(number, rest) : true; // other lines are remarks
+  return key == "made" ? this->takeMade(number, rest)
+    : key == "tick"    ? this->takeEvent(number, rest)
+                       : true; // other lines are remarks
 }
 
 bool Reader::takeMade(std::uint64_t number, const std::string& text)
 {
   keyed::Line line = keyed::Line::from(text);
   auto origin = std::make_shared<SceneOrigin>();
-  bool isRead =
-    describe(line, *origin) && line.isFine() && number > 0 && recording_.clouds.count(number) == 0;
+  bool isRead = describe(line, *origin) && line.isFine() && number > 0 && recording.clouds.count(number) == 0;
   VoxelMeanSettings& voxels = origin->voxels;
   isRead = isRead && voxels.outputPointsPrecision <= PointsPrecision::OfInput &&
     voxels.representative == Representative::Mean;
@@ -167,17 +150,30 @@ bool Reader::takeMade(std::uint64_t number, const std::string& text)
   voxels.computeVoxelIndex = voxels.keepOriginalPointIds = false;
   if (isRead && origin->kind != SceneOrigin::Kind::Whole)
   {
-    const auto global = recording_.clouds.find(origin->globalCloud);
+    const auto global = recording.clouds.find(origin->globalCloud);
     const bool isAlone = origin->globalCloud == 0 && origin->kind == SceneOrigin::Kind::Region;
     isRead = !origin->hand.empty() &&
-      (isAlone || (global != recording_.clouds.end() && global->second->kind == SceneOrigin::Kind::Whole));
+      (isAlone || (global != recording.clouds.end() && global->second->kind == SceneOrigin::Kind::Whole));
     origin->global = isRead && !isAlone ? global->second : nullptr;
   }
+  const auto& bandwidth = origin->bandwidth;
   isRead = isRead &&
-    (!origin->bandwidth ||
-      (origin->bandwidth->rule <= BandwidthRule::SheatherJones && origin->bandwidth->check() == Status::Ok));
-  recording_.clouds[number] = origin;
-  return isRead || this->fail(quote(line.text()) + ": no such scene; take the header as it was written");
+    (!bandwidth || (bandwidth->rule <= BandwidthRule::SheatherJones && bandwidth->check() == Status::Ok));
+  recording.clouds[number] = origin;
+  return this->failUnless(isRead, line.text(), "no such scene");
+}
+
+/// True if the scene of @p event is there and ends as its kind does: a part has a fallback, unless it was
+/// made before there was a whole.
+bool Reader::hasFallback(const RecordedEvent& event) const
+{
+  const auto cloud = recording.clouds.find(event.number);
+  const auto fallback = recording.clouds.find(event.fallback);
+  const auto isWhole = [](const SceneOrigin& origin) { return origin.kind == SceneOrigin::Kind::Whole; };
+  return cloud != recording.clouds.end() &&
+    (event.fallback == 0
+        ? isWhole(*cloud->second) || cloud->second->globalCloud == 0
+        : !isWhole(*cloud->second) && fallback != recording.clouds.end() && isWhole(*fallback->second));
 }
 
 /// "scene", "parameters" or a flag, with what it says.
@@ -186,38 +182,31 @@ bool Reader::takeEvent(std::uint64_t tick, const std::string& text)
   const std::size_t blank = std::min(text.find(' '), text.size());
   const std::string name = text.substr(0, blank);
   const std::string rest = text.substr(std::min(blank + 1, text.size()));
-  const auto flag = std::find_if(kRecordedFlags.begin(), kRecordedFlags.end(),
-    [&name](const RecordedFlag& each) { return name == each.name; });
-  const auto& clouds = recording_.clouds;
   RecordedEvent event;
   event.tick = tick;
-  bool isRead = recording_.events.empty() || recording_.events.back().tick <= tick;
+  bool isRead = recording.events.empty() || recording.events.back().tick <= tick;
   if (name == "scene" && rest != "none")
   {
     keyed::Line line = keyed::Line::from(rest);
     describe(line, event);
-    const auto cloud = clouds.find(event.number);
-    const auto fallback = clouds.find(event.fallback);
-    isRead = isRead && line.isFine() && cloud != clouds.end() && mayEnd(*cloud->second, event.fallback) &&
-      (event.fallback == 0 ||
-        (fallback != clouds.end() && fallback->second->kind == SceneOrigin::Kind::Whole));
+    isRead = isRead && line.isFine() && this->hasFallback(event);
   }
   else if (name == "parameters")
   {
     event.kind = RecordedEvent::Kind::Parameters;
-    isRead = isRead && keyed::parse(rest, event.number) && recording_.parameters.count(event.number) == 1;
+    isRead = isRead && keyed::parse(rest, event.number) && recording.parameters.count(event.number) == 1;
   }
   else if (name != "scene")
   {
+    const auto flag = std::find_if(kRecordedFlags.begin(), kRecordedFlags.end(),
+      [&name](const RecordedFlag& each) { return name == each.name; });
     event.kind = RecordedEvent::Kind::Flag;
     isRead = isRead && flag != kRecordedFlags.end() && (flag->isOnce || rest == "on" || rest == "off");
     event.flag = isRead ? flag->bit : 0;
     event.isSet = isRead && (flag->isOnce || (rest == "on") == flag->isOnWhereSet);
   }
-  recording_.events.push_back(event);
-  return isRead ||
-    this->fail(
-      quote(text) + ": no such event, or not after the one before; take the header as it was written");
+  recording.events.push_back(event);
+  return this->failUnless(isRead, text, "no such event, or not after the one before");
 }
 
 bool Reader::takeRow(const std::string& text)
@@ -232,55 +221,46 @@ bool Reader::takeRow(const std::string& text)
       quote(text), kFelt + 2));
   }
   std::copy(numbers, numbers + kFelt, row.felt.begin());
-  const double tick = std::round(numbers[0] * recording_.header.step.rateHz) + 1.0;
-  constexpr double kMostCount = 4294967295.0;
-  const bool isFine = tick >= 1.0 && tick < 1e15 && isFinite(row.hip()) && isFinite(row.force()) &&
-    numbers[kFelt] >= 0.0 && numbers[kFelt] <= kMostCount && numbers[kFelt + 1] >= 0.0 &&
-    numbers[kFelt + 1] <= kMostCount;
-  if (!isFine)
+  const double tick = std::round(numbers[0] * recording.header.step.rateHz) + 1.0;
+  const auto isCount = [](double number) { return number >= 0.0 && number <= 4294967295.0; };
+  if (!(tick >= 1.0 && tick < 1e15 && isFinite(row.hip()) && isFinite(row.force()) &&
+        isCount(numbers[kFelt]) && isCount(numbers[kFelt + 1])))
   {
     return this->fail(
       quote(text) + ": time, place, force, buttons or marker is out of range; remove the row");
   }
-  const auto isParameters = [](const RecordedEvent& event)
-  { return event.kind == RecordedEvent::Kind::Parameters; };
-  if (recording_.ticks.empty() &&
-    std::none_of(recording_.events.begin(), recording_.events.end(), isParameters))
+  if (recording.ticks.empty() &&
+    std::none_of(recording.events.begin(), recording.events.end(),
+      [](const RecordedEvent& event) { return event.kind == RecordedEvent::Kind::Parameters; }))
   {
     return this->fail("no parameters are in force at the first row; take the header as it was written");
   }
   row.tick = std::uint64_t(tick);
   row.buttons = std::uint32_t(numbers[kFelt]);
   row.marker = std::uint32_t(numbers[kFelt + 1]);
-  if (!recording_.ticks.empty() && row.tick <= recording_.ticks.back().tick)
+  if (!recording.ticks.empty() && row.tick <= recording.ticks.back().tick)
   {
-    return this->fail(fmt::format(
-      "time {} is not after the one before it; sort the rows by time", keyed::textOf(numbers[0])));
+    return this->fail(
+      "time " + keyed::textOf(numbers[0]) + " is not after the one before it; sort the rows by time");
   }
-  recording_.ticks.push_back(row);
+  recording.ticks.push_back(row);
   return true;
 }
 
 bool Reader::finish()
 {
-  const RecordedFiles& cloud = recording_.header.cloud;
-  const char* lack = recording_.ticks.empty() ? "there is no row; record some ticks"
+  const RecordedFiles& cloud = recording.header.cloud;
+  const char* lack = recording.ticks.empty() ? "there is no row; record some ticks"
     : cloud.files.empty() || cloud.points == 0
     ? "the header names no cloud; take the header as it was written"
-    : recording_.parameters.empty() ? "the header has no parameters; take the header as it was written"
-                                    : nullptr;
-  if (lack)
-  {
-    return this->fail(lack);
-  }
+    : nullptr;
   if (this->mayBeCut())
   {
-    recording_.note =
-      fmt::format("it was not ended: the program stopped, or still writes it; its {} ticks until {:.3f} s "
-                  "are taken",
-        recording_.ticks.size(), recording_.ticks.back().felt[0]);
+    recording.note = fmt::format(
+      "it was not ended: the program stopped, or still writes it; its {} ticks until {:.3f} s are taken",
+      recording.ticks.size(), recording.ticks.back().felt[0]);
   }
-  return true;
+  return !lack || this->fail(lack);
 }
 
 } // namespace
@@ -296,26 +276,20 @@ bool readRecording(
     message = fileName + ": cannot be opened; check the name and its permissions";
     return false;
   }
-  Reader reader(recording);
+  Reader reader{ recording };
   std::string line;
   bool isFine = true;
-  while (isFine && !(isHeaderAlone && !recording.ticks.empty()) && std::getline(stream, line))
+  while (isFine && !(isHeaderAlone && !recording.ticks.empty()) && std::getline(stream, line) &&
+    !(stream.eof() && reader.mayBeCut())) // a line without an end is left out
   {
-    if (stream.eof() && reader.mayBeCut())
-    {
-      break; // the line has no end
-    }
-    if (!line.empty() && line.back() == '\r')
-    {
-      line.pop_back();
-    }
+    line.erase(line.size() - (!line.empty() && line.back() == '\r' ? 1 : 0));
     isFine = reader.take(line);
   }
-  isFine = isFine && (reader.line() > 0 || reader.take("")) && reader.finish();
+  isFine = isFine && (reader.lines > 0 || reader.take("")) && reader.finish();
   if (!isFine)
   {
     recording = Recording();
-    message = fmt::format("{}:{}: {}", fileName, reader.line(), reader.problem());
+    message = fmt::format("{}:{}: {}", fileName, reader.lines, reader.problem);
   }
   return isFine;
 }

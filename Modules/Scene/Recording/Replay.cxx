@@ -1,9 +1,19 @@
 #include "Replay.h"
 
+#include "HapticSceneBuilder.h"
+#include "LocalSceneProvider.h"
+#include "PolyDataAccess.h"
 #include "RecordingLines.h"
 #include "VirtualTouch.h"
+#include "vtkVoxelMeanResampler.h"
 
 #include "Haptics/Servo/ServoThread.h"
+
+#include "vtkMatrix4x4.h"
+#include "vtkMatrixToLinearTransform.h"
+#include "vtkNew.h"
+#include "vtkPointSet.h"
+#include "vtkPolyData.h"
 
 #include <fmt/format.h>
 
@@ -11,18 +21,130 @@
 #include <chrono>
 #include <cmath>
 #include <cstring>
+#include <map>
 
 namespace pointhaptics
 {
 
+/// Makes scene after scene as the events of a recording ask for them, and keeps those of the newest event.
+/// One thread.
+class RecordedScenes
+{
+public:
+  RecordedScenes(const Recording& recording, vtkPointSet* cloud)
+    : recording_(recording)
+  {
+    vtkNew<vtkMatrixToLinearTransform> transform;
+    transform->SetInput(matrix_);
+    resampler_->SetTransform(transform);
+    resampler_->SetInputDataObject(copyOf(cloud));
+    local_.setCloud(copyOf(cloud));
+  }
+  /// Makes the scene of an event; events come in their order. Null where there was none. False: @p message
+  /// says why it cannot be made.
+  bool make(const RecordedEvent& event, std::shared_ptr<const HapticScene>& scene, std::string& message);
+
+private:
+  /// An object of its own, whose points are shared.
+  static vtkSmartPointer<vtkPointSet> copyOf(vtkPointSet* cloud)
+  {
+    auto copy = vtkSmartPointer<vtkPointSet>::Take(cloud->NewInstance());
+    copy->SetPoints(cloud->GetPoints());
+    return copy;
+  }
+  std::shared_ptr<const HapticScene> cloudOf(std::uint64_t number);
+  std::shared_ptr<const HapticScene> makeWhole(const SceneOrigin& origin);
+  void keepThoseOf(const RecordedEvent& event);
+
+  const Recording& recording_;
+  vtkNew<vtkMatrix4x4> matrix_;
+  vtkNew<vtkVoxelMeanResampler> resampler_;
+  LocalSceneProvider local_;
+  std::map<std::uint64_t, std::shared_ptr<const HapticScene>> clouds_; ///< As they were made.
+};
+
+std::shared_ptr<const HapticScene> RecordedScenes::makeWhole(const SceneOrigin& origin)
+{
+  setElements(matrix_, origin.modelToWorkspace);
+  resampler_->SetSettings(origin.voxels);
+  resampler_->Update();
+  Status status = Status::Ok;
+  return makeHapticScene(
+    resampler_->GetOutput(), status, origin.useCovariance, origin.bandwidth, &origin.voxels);
+}
+
+/// As it was made, before it was moved.
+std::shared_ptr<const HapticScene> RecordedScenes::cloudOf(std::uint64_t number)
+{
+  const auto known = clouds_.find(number);
+  if (known != clouds_.end())
+  {
+    return known->second;
+  }
+  const auto origin = recording_.clouds.find(number);
+  if (origin == recording_.clouds.end())
+  {
+    return nullptr;
+  }
+  const SceneOrigin& how = *origin->second;
+  const bool isPart = how.kind != SceneOrigin::Kind::Whole;
+  const auto global = isPart && how.globalCloud != 0 ? this->cloudOf(how.globalCloud) : nullptr;
+  return clouds_[number] = !isPart   ? this->makeWhole(how)
+    : global || how.globalCloud == 0 ? local_.make(how, global)
+                                     : nullptr;
+}
+
+/// Forgets the scenes that @p event does not use: they would be made again.
+void RecordedScenes::keepThoseOf(const RecordedEvent& event)
+{
+  const auto origin = recording_.clouds.find(event.number);
+  const std::uint64_t global = origin == recording_.clouds.end() ? 0 : origin->second->globalCloud;
+  for (auto cloud = clouds_.begin(); cloud != clouds_.end();)
+  {
+    const bool isUsed =
+      cloud->first == event.number || cloud->first == event.fallback || cloud->first == global;
+    cloud = isUsed ? std::next(cloud) : clouds_.erase(cloud);
+  }
+}
+
+bool RecordedScenes::make(
+  const RecordedEvent& event, std::shared_ptr<const HapticScene>& scene, std::string& message)
+{
+  scene.reset();
+  this->keepThoseOf(event);
+  if (event.number == 0)
+  {
+    return true;
+  }
+  Status status = Status::Ok;
+  scene = this->cloudOf(event.number);
+  if (scene && event.fallback != 0 && recording_.clouds.at(event.number)->globalCloud != event.fallback)
+  {
+    const std::shared_ptr<const HapticScene> global = this->cloudOf(event.fallback);
+    scene = global ? scene->withFallback(*global, status) : nullptr;
+  }
+  if (scene && !(scene->modelToWorkspace() == event.model))
+  {
+    scene = scene->moved(event.model, status);
+  }
+  if (!scene)
+  {
+    message = fmt::format("tick {}: the scene cannot be made again{}; was the header changed?", event.tick,
+      status == Status::Ok ? "" : std::string(": ") + pointhaptics::message(status));
+  }
+  return scene != nullptr;
+}
+
 Replay::Replay(const Recording& recording, vtkPointSet* cloud, std::optional<ProxyMethod> method)
   : recording_(recording)
-  , scenes_(recording, cloud)
+  , scenes_(std::make_unique<RecordedScenes>(recording, cloud))
   , method_(method)
   , step_(recording.header.step)
 {
   step_.restart(recording.ticks.front().tick);
 }
+
+Replay::~Replay() = default;
 
 bool Replay::apply(const RecordedEvent& event, std::string& message)
 {
@@ -31,7 +153,7 @@ bool Replay::apply(const RecordedEvent& event, std::string& message)
   {
     case Kind::Scene:
       former_ = scene_;
-      if (!scenes_.make(event, scene_, message))
+      if (!scenes_->make(event, scene_, message))
       {
         return false;
       }

@@ -9,7 +9,6 @@
 
 #include "PointHapticsSceneModule.h" // For export macro
 
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -17,27 +16,7 @@
 namespace pointhaptics
 {
 
-/// Makes scene after scene as the events of a recording ask for them, and keeps those of the newest event.
-/// One thread.
-class RecordedScenes
-{
-public:
-  RecordedScenes(const Recording& recording, vtkPointSet* cloud);
-  ~RecordedScenes();
-
-  /// Makes the scene of an event; events come in their order. Null where there was none. False: @p message
-  /// says why it cannot be made.
-  bool make(const RecordedEvent& event, std::shared_ptr<const HapticScene>& scene, std::string& message);
-
-private:
-  struct Maker;
-  std::shared_ptr<const HapticScene> cloudOf(std::uint64_t number);
-  void keepThoseOf(const RecordedEvent& event);
-
-  const Recording& recording_;
-  std::unique_ptr<Maker> maker_;
-  std::map<std::uint64_t, std::shared_ptr<const HapticScene>> clouds_; ///< As they were made.
-};
+class RecordedScenes;
 
 /// How a replay compares with what was recorded.
 struct ReplayDifference
@@ -60,6 +39,7 @@ public:
   /// @param recording must outlive this. @param cloud as its files were read; shared, not changed.
   /// @param method felt instead of the recorded one, if given.
   Replay(const Recording& recording, vtkPointSet* cloud, std::optional<ProxyMethod> method = {});
+  ~Replay();
 
   bool isAtEnd() const { return next_ == recording_.ticks.size(); }
   /// The row that the next step is of.
@@ -77,7 +57,7 @@ private:
   bool apply(const RecordedEvent& event, std::string& message);
 
   const Recording& recording_;
-  RecordedScenes scenes_;
+  std::unique_ptr<RecordedScenes> scenes_;
   std::optional<ProxyMethod> method_;
   ServoStep step_;
   ServoSample sample_;

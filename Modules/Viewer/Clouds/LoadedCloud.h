@@ -6,6 +6,7 @@
 #include "Core/Base/PointView.h"
 #include "Core/Base/Status.h"
 #include "Core/Resample/VoxelMeanSettings.h"
+#include "IO/Info/CloudExtent.h"
 #include "ShownCloud.h"
 
 #include "PointHapticsViewerModule.h" // For export macro
@@ -103,20 +104,6 @@ struct LoadedCloud
   int resamplings = 0; ///< Number of runs of the resampler.
   double resampleSeconds = 0.0;
 };
-
-/// Bounds after a transform. The corners of a box would be too wide for a turned cloud.
-struct CloudExtent
-{
-  Bounds all;                 ///< Bounds of the finite points.
-  Bounds returned;            ///< Bounds without rays that did not return.
-  std::int64_t finite = 0;    ///< Points.
-  std::int64_t invalid = 0;   ///< The others.
-  std::int64_t atZero = 0;    ///< Points at (0, 0, 0),
-  std::int64_t noReturns = 0; ///< the same where areNoReturns(), else 0.
-};
-
-POINTHAPTICSVIEWER_EXPORT CloudExtent extentOf(
-  vtkPolyData* cloud, const AffineTransform& transform = AffineTransform());
 
 /// The names of @p files without their folders.
 POINTHAPTICSVIEWER_EXPORT std::string titleOf(const std::vector<std::string>& files);

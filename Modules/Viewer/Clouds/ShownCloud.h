@@ -6,12 +6,12 @@
 #include "CloudLook.h"
 #include "CloudOrientation.h"
 #include "PictureSettings.h"
+#include "SplatLook.h"
 
 #include "PointHapticsViewerModule.h" // For export macro
 
 #include <vtkSmartPointer.h>
 
-#include <array>
 #include <atomic>
 #include <cstdint>
 #include <functional>
@@ -26,17 +26,6 @@ class vtkSplatMapper;
 
 namespace pointhaptics
 {
-
-/// Names of the arrays of ShownCloud::points.
-constexpr const char* kSplatLengthName =
-  "SplatLength"; ///< Diameter of each splat, unit of the file; hidden: < 0.
-constexpr const char* kSplatNormalName = "SplatNormal"; ///< Short integers: kSplatNormalUnit is flat.
-constexpr const char* kSplatGrowthName = "SplatGrowth"; ///< Bytes: 64 where the spacing alone rules.
-constexpr const char* kLookColorName = "LookColor";
-/// All arrays of the picture: texts at a point leave them out.
-constexpr std::array<const char*, 4> kArraysOfPicture = { kSplatLengthName, kSplatNormalName,
-  kSplatGrowthName, kLookColorName };
-constexpr double kSplatNormalUnit = 32767.0;
 
 /// Memory beside the file's arrays: 10 bytes a point, 3 more for colours that are made, and as many as the
 /// coordinates where some points are not drawn.
@@ -101,8 +90,5 @@ private:
 
 /// Lets @p mapper draw @p shown: its input, sizes, normals and light. The colours are the caller's.
 POINTHAPTICSVIEWER_EXPORT void drawShown(const ShownCloud& shown, vtkSplatMapper* mapper);
-
-/// Adds "Density" to the points, where they were measured: points in a square of one unit of the file.
-POINTHAPTICSVIEWER_EXPORT void addDensity(vtkPolyData* points);
 
 } // namespace pointhaptics

@@ -46,6 +46,10 @@ vtkSmartPointer<vtkPolyData> makeUnevenCloud()
   auto cloud = vtkSmartPointer<vtkPolyData>::New();
   cloud->SetPoints(points);
   cloud->GetPointData()->AddArray(labels);
+  vtkNew<vtkIntArray> endingLabels;
+  endingLabels->DeepCopy(labels);
+  endingLabels->SetName("scalar_Label"); // only exactCategoricalNames makes it a number
+  cloud->GetPointData()->AddArray(endingLabels);
   return cloud;
 }
 

@@ -67,6 +67,32 @@ TEST(PathUnits, ThatAreWrongAreSaidWithTheCure)
   EXPECT_EQ(unlikelyUnits(HipPath(), Bounds(), kOptions, false), "");
 }
 
+/// A press is shorter than what it presses: places tell, as a unit scales about the origin.
+TEST(PathUnits, OfAPressBesideTheCloudAreToldByPlaces)
+{
+  const auto press = [](double factor)
+  {
+    HipPath path;
+    path.points = { { 0.0, { 0.0, 0.0, 0.030 * factor } }, { 0.4, { 0.0, 0.0, 0.0285 * factor } } };
+    return path;
+  };
+  const auto said = [](const HipPath& path, const Bounds& cloud)
+  { return unlikelyUnits(path, cloud, kOptions, false); };
+  EXPECT_NE(said(press(1.0), cube(50.0)).find("give --unit mm if the cloud is in mm"), std::string::npos);
+  EXPECT_NE(said(press(1.0), cube(5.0)).find("give --unit cm if the cloud is in cm"), std::string::npos);
+  EXPECT_NE(said(press(1e3), cube(0.05)).find("give --path-unit mm if it is in mm"), std::string::npos);
+  EXPECT_EQ(said(press(1.0), cube(0.05)), "");
+  EXPECT_NE(said(press(1e4), cube(500.0)).find("--unit mm --path-unit mm"), std::string::npos);
+  HipPath far = press(1.0);
+  Bounds site;
+  for (HipPathPoint& point : far.points)
+  {
+    point.position = point.position + Vec3{ 5e5, 5e6, 100.0 };
+    site.include(point.position + Vec3{ 10.0, 10.0, 10.0 });
+  }
+  EXPECT_EQ(said(far, site), "") << "a site far from the origin";
+}
+
 /// VTK and Python have no options for units.
 TEST(PathUnits, AreCuredByAFactorWhereThereAreNoOptions)
 {

@@ -68,6 +68,23 @@ TEST_F(WrittenNames, ArraysOfAnyNameComeBackOrAreRenamedAloud)
   }
 }
 
+TEST_F(WrittenNames, BytesThatAreNoTextAreRenamed)
+{
+  for (const char* extension : { "vtp", "ply", "pcd", "las", "csv", "xyz" })
+  {
+    for (const char* name : { "h\xf6he", "\xff\xfe", "\xed\xa0\x80", "\xf4\x90\x80\x80", "\xc3", "\x01z" })
+    {
+      ASSERT_EQ(writeCloud(named(name), path(std::string("a.") + extension)), "") << extension << " " << name;
+      const ReadResult result = readCloud(path(std::string("a.") + extension));
+      ASSERT_EQ(result.error, "") << extension << " " << name;
+      vtkPointData* data = result.cloud->GetPointData();
+      EXPECT_EQ(data->GetArray(data->GetNumberOfArrays() - 1)->GetComponent(1, 0), -2.5) << extension << name;
+    }
+  }
+  ASSERT_EQ(writeCloud(named("h\xf6he"), path("a.vtp")), "");
+  EXPECT_NE(readCloud(path("a.vtp")).array("h\xc3\xb6he"), nullptr);
+}
+
 TEST_F(WrittenNames, NamesThatAreCutInLasStayApart)
 {
   auto cloud = named(std::string(40, 'a') + "1");

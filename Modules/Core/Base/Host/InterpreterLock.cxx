@@ -6,6 +6,9 @@
 #include <thread>
 #include <utility>
 
+#include <sys/syscall.h>
+#include <unistd.h>
+
 namespace pointhaptics
 {
 namespace
@@ -17,6 +20,13 @@ std::mutex theMutex;
 /// First of the threads that work without the lock.
 WithoutInterpreterLock* theFirst = nullptr;
 std::atomic<bool> isOver{ false };
+/// The main thread's, while it works without the lock.
+WithoutInterpreterLock* theMain = nullptr;
+
+bool isMainThread()
+{
+  return ::syscall(SYS_gettid) == ::getpid();
+}
 
 [[noreturn]] void sleepToTheEnd()
 {
@@ -52,6 +62,27 @@ void endInterpreter() noexcept
   }
 }
 
+void runSignalHandlers() noexcept
+{
+  constexpr std::chrono::milliseconds kPeriod(50);
+  if (!theLock.runHandlers || !isMainThread() || !theMain)
+  {
+    return;
+  }
+  const auto now = std::chrono::steady_clock::now();
+  if (!theMain->hasRaised_ && now - theMain->handled_ >= kPeriod)
+  {
+    theMain->handled_ = now;
+    theLock.take(theMain->state_);
+    theMain->hasRaised_ = theLock.runHandlers() != 0;
+    theMain->state_ = theLock.release();
+  }
+  if (theMain->hasRaised_ && theMain->stop_)
+  {
+    theMain->stop_();
+  }
+}
+
 WithoutInterpreterLock::WithoutInterpreterLock(std::function<void()> stop) noexcept
   : state_(!isOver && theLock.isHeld && theLock.isHeld() ? theLock.release() : nullptr)
   , stop_(std::move(stop))
@@ -68,6 +99,10 @@ WithoutInterpreterLock::WithoutInterpreterLock(std::function<void()> stop) noexc
   }
   next_ = theFirst;
   theFirst = this;
+  if (isMainThread())
+  {
+    theMain = this;
+  }
 }
 
 WithoutInterpreterLock::~WithoutInterpreterLock()
@@ -88,6 +123,10 @@ WithoutInterpreterLock::~WithoutInterpreterLock()
     place = &(*place)->next_;
   }
   *place = next_;
+  if (theMain == this)
+  {
+    theMain = nullptr;
+  }
   lock.unlock();
   if (isEnd)
   {

@@ -2,6 +2,7 @@
 /// Gives up the lock of the interpreter that calls, such as Python's GIL, while long work runs.
 #pragma once
 
+#include <chrono>
 #include <functional>
 
 namespace pointhaptics
@@ -14,6 +15,9 @@ struct InterpreterLock
   void* (*release)() = nullptr;  ///< Gives the lock up; the result is for take().
   void (*take)(void*) = nullptr; ///< Waits for the lock.
   int (*isEnding)() = nullptr;   ///< True if the interpreter ends and gives the lock to nobody; may be null.
+  /// Runs the handlers of signals that came, under the lock and in the main thread; not 0: one has raised.
+  /// May be null.
+  int (*runHandlers)() = nullptr;
 };
 
 /// Sets the lock of this process. Call it before other threads use this library.
@@ -23,6 +27,10 @@ void setInterpreterLock(const InterpreterLock& lock) noexcept;
 /// sleep until the process ends, as libraries go meanwhile. From then on no thread gives the lock up, so that
 /// the interpreter waits for what a thread still begins. Call it without the lock.
 void endInterpreter() noexcept;
+
+/// Where the main thread works without the lock: runs the handlers of signals that came, at most 20 times a
+/// second, and stops the work if one raises. Called wherever work reports progress.
+void runSignalHandlers() noexcept;
 
 /// While it lives the calling thread is without the interpreter's lock, so that other threads of the
 /// interpreter run. No effect where there is no interpreter, or the thread does not hold its lock. After the
@@ -39,8 +47,11 @@ public:
 
 private:
   friend void endInterpreter() noexcept;
+  friend void runSignalHandlers() noexcept;
 
   void* state_ = nullptr;
+  bool hasRaised_ = false;
+  std::chrono::steady_clock::time_point handled_; ///< When handlers ran.
   std::function<void()> stop_;
   WithoutInterpreterLock* next_ = nullptr;
 };

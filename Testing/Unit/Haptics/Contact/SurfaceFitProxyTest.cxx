@@ -166,6 +166,14 @@ TEST(SurfaceFitProxy, BearsNoiseOfTwentyMicrometres)
   }
 }
 
+TEST(SurfaceFitProxy, IsNotHeldBackByNoisyPoints)
+{
+  // A third of a voxel: points of the noise stand out of the surface, and the ball meets them.
+  const trial::Scene scene = trial::resampledScene(trial::spherePoints(trial::kPaperLarge, 8, 100e-6));
+  const auto states = trial::feel(scene, {}, trial::sphereSlide(2e-3, 0.05, 4000));
+  EXPECT_LT(trial::recorded("noise100um", trial::forceError(states, trial::sphereForce, 100)), 0.01);
+}
+
 TEST(SurfaceFitProxy, NeverPopsThroughThinSheetsAtOneMetrePerSecond)
 {
   std::vector<Vec3> points = trial::planePoints(150000, 9);

@@ -1,16 +1,12 @@
-#include "Clouds/CloudToCloud.h"
+#include "Clouds/CloudCommands.h"
 
 #include "Options/OptionParsing.h"
-#include "Terminal/CommandLine.h"
 #include "Terminal/Messages.h"
 #include "Terminal/StopSignals.h"
-
-#include "MergedCloud.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 #include <vtkPolyData.h>
 
 #include <algorithm>
@@ -20,7 +16,12 @@
 namespace pointhaptics::app
 {
 
-void CloudToCloudOptions::addTo(CLI::App& command, bool lastIsOutput)
+void CloudCommand::addTo(CLI::App& command)
+{
+  this->addFiles(command, false);
+}
+
+void CloudCommand::addFiles(CLI::App& command, bool lastIsOutput)
 {
   CLI::Option* in = lastIsOutput
     ? addInputsAndOutput(command, "IN", this->inputs, writableExtensions(),
@@ -45,20 +46,13 @@ void CloudToCloudOptions::addTo(CLI::App& command, bool lastIsOutput)
   command.add_flag("--json", this->json, "Print the figures as JSON");
 }
 
-bool CloudToCloudOptions::read(Cloud& cloud, std::string& message, Ranks* ranks) const
+void CloudCommand::print(const CloudResult& result) const
 {
-  ReadOptions options = this->reading;
-  options.ranks = ranks;
-  return readCloud(this->input, cloud, message, options);
-}
-
-void print(const CloudResult& result, bool isJson)
-{
-  isJson ? printJson(result.json) : printSummary(result.summary);
+  printResult(this->json, result.json, result.summary);
 }
 
 /// Warns of files that are merged twice: their points would count twice in every mean.
-static void warnOfRepeats(const std::string& command, const std::vector<std::string>& inputs)
+static void warnOfRepeats(const std::vector<std::string>& inputs)
 {
   for (auto input = inputs.begin(); input != inputs.end(); ++input)
   {
@@ -67,49 +61,40 @@ static void warnOfRepeats(const std::string& command, const std::vector<std::str
       [&](const std::string& earlier) { return std::filesystem::equivalent(earlier, *input, problem); });
     if (first != input)
     {
-      warn(command, "is the same file as " + *first + ", so its points count twice; leave one out", *input);
+      warn("is the same file as " + *first + ", so its points count twice; leave one out", *input);
     }
   }
 }
 
-int runOnClouds(const std::string& command, const CloudToCloudOptions& options, Files& files,
-  const std::function<CloudResult(const CloudToCloudOptions&, Cloud&)>& work)
+int CloudCommand::run(Files& files)
 {
-  useThreads(options.threads);
+  useThreads(this->threads);
   rememberStopSignals();
-  std::string message;
   std::vector<Cloud> merged;
   std::vector<CloudResult> results;
-  CloudToCloudOptions each = options;
-  for (const std::string& input : options.inputs)
+  const std::string pattern = this->output;
+  for (const std::string& each : this->inputs)
   {
-    each.input = input;
-    each.output = expandedName(options.output, input);
-    Cloud cloud;
-    if (!each.read(cloud, message))
-    {
-      throw Failure(message);
-    }
-    showNotes(command, input, cloud);
-    options.merge ? merged.push_back(std::move(cloud)) : results.push_back(work(each, cloud));
+    this->input = each;
+    this->output = expandedName(pattern, each);
+    Cloud cloud = readCloud(each, this->reading);
+    showNotes(cloud);
+    this->merge ? merged.push_back(std::move(cloud)) : results.push_back(this->work(cloud, files));
   }
-  if (options.merge)
+  if (this->merge)
   {
-    warnOfRepeats(command, options.inputs);
-    Cloud all = mergedCloud(command, merged);
-    each.input = fmt::format("{} merged inputs", merged.size());
-    each.output = options.output;
-    results.push_back(work(each, all));
+    warnOfRepeats(this->inputs);
+    Cloud all = mergedCloud(merged);
+    this->input = fmt::format("{} merged inputs", merged.size());
+    this->output = pattern;
+    results.push_back(this->work(all, files));
   }
-  if (!files.commit(message))
-  {
-    throw Failure(message);
-  }
-  const bool isList = options.json && isPattern(options.output);
+  files.commit();
+  const bool isList = this->json && isPattern(pattern);
   nlohmann::ordered_json list = { { "files", nlohmann::ordered_json::array() } };
   for (const CloudResult& result : results)
   {
-    isList ? list["files"].push_back(result.json) : print(result, options.json);
+    isList ? list["files"].push_back(result.json) : this->print(result);
   }
   if (isList)
   {

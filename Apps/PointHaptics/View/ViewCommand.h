@@ -1,11 +1,9 @@
 /// @file
-/// Options of `pointhaptics view`, on the command line or in a configuration file.
+/// The command `view`: its options, on the command line or in a configuration file, and what it does.
 #pragma once
 
-#include "Options/BandwidthOptions.h"
-#include "Options/FalconOptions.h"
-#include "Options/LatticeOptions.h"
-#include "Options/TouchOptions.h"
+#include "Options/SharedOptions.h"
+#include "Terminal/CommandLine.h"
 
 #include "HapticViewerOptions.h"
 
@@ -14,17 +12,10 @@
 #include <string>
 #include <vector>
 
-namespace CLI
-{
-class App;
-}
-
 namespace pointhaptics::app
 {
 
-class Files;
-
-struct ViewOptions
+struct ViewCommand : Command
 {
   HapticViewerOptions viewer; ///< The parser fills in most of it, complete() the rest.
   std::vector<std::string> files;
@@ -41,12 +32,13 @@ struct ViewOptions
   nlohmann::ordered_json given; ///< Options with a value, filled in by complete(): see givenSettings().
   bool noCovariance = false;
 
-  void addTo(CLI::App& command);
+  void addTo(CLI::App& command) override;
   /// Takes the values of the JSON file config for the options the command line does not give, and fills in
   /// what the viewer needs. @throws Failure
-  void complete(CLI::App& command);
-  /// Takes the files that no option names: recorded clouds, and the pictures of a turntable.
-  void declareMore(Files& taken) const;
+  void complete(CLI::App& command) override;
+  /// Takes recorded clouds, and the pictures of a turntable.
+  void declare(Files& taken) const override;
+  int run(Files& files) override;
   /// A window is what these options ask for: files that a path fills are written at once; without one a
   /// session is what fills them.
   bool needsWindow() const;
@@ -55,11 +47,12 @@ struct ViewOptions
 
 private:
   void readConfig(CLI::App& command);
-  void warnOfIdle(const CLI::App& command, const std::vector<std::string>& named) const;
   void checkFiles() const;
-  void checkStandardInput() const;
-  void takeRecording();
   void completeViewer(CLI::App& command);
 };
+
+/// Names the keys in the help of the options of @p view that keys do too, as @p bindings change the usual
+/// ones: each ACTION=GESTURES, checked. Once.
+void describeKeys(CLI::App& view, const std::vector<std::string>& bindings);
 
 } // namespace pointhaptics::app

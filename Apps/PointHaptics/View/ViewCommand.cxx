@@ -1,48 +1,39 @@
-#include "Commands/Commands.h"
+#include "View/ViewCommand.h"
 
 #include "Clouds/Pipeline.h"
-#include "Terminal/CommandLine.h"
 #include "Terminal/Messages.h"
 #include "Terminal/ProgressBar.h"
 #include "Terminal/StopSignals.h"
-#include "View/ViewOptions.h"
 #include "View/ViewSettings.h"
 
 #include "HapticViewer.h"
 #include "ViewDisplay.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <vtkPolyData.h>
 
 #include <algorithm>
 #include <cstdio>
 #include <memory>
-#include <string>
-#include <vector>
 
 namespace pointhaptics::app
 {
 namespace
 {
 
-constexpr const char* kViewCommand = "view";
 /// Exit code as after Ctrl+C.
 constexpr int kCancelled = 130;
 
-/// Checks the device. False: the options cannot be met, whatever the clouds are; @p message says why.
-bool checkDevice(const ViewOptions& options, std::string& message)
+/// @throws Failure where the options cannot be met, whatever the clouds are.
+void checkDevice(const ViewCommand& options)
 {
   // If the hand follows a path or is in no window, nothing else would notice a missing Falcon.
   const bool opensFalcon = options.needsWindow() && !options.viewer.followsFile();
-  if (options.device == "falcon" && !opensFalcon && !falconIsUsable(message))
-  {
-    message = fmt::format("--device falcon: {}; {} does without a device: leave the option out, or give "
-                          "--device none",
-      message, options.viewer.followsFile() ? "a hand path" : "a picture");
-    return false;
-  }
-  return true;
+  std::string message;
+  const bool isRight = options.device != "falcon" || opensFalcon || falconIsUsable(message);
+  require(isRight,
+    fmt::format("--device falcon: {}; {} does without a device: leave the option out, or give --device none",
+      message, options.viewer.followsFile() ? "a hand path" : "a picture"));
 }
 
 void showMessage(HapticViewerObserver::Kind kind, const std::string& text)
@@ -54,17 +45,17 @@ void showMessage(HapticViewerObserver::Kind kind, const std::string& text)
       std::fflush(stdout);
       break;
     case HapticViewerObserver::Kind::Warning:
-      warn(kViewCommand, text);
+      warn(text);
       showKeptWarnings(); // a window may stay for hours
       break;
     case HapticViewerObserver::Kind::Error:
-      fail(kViewCommand, text);
+      fail(text);
   }
 }
 
 /// Sends the viewer's messages to the terminal, and its settings to JSON files. @p options must outlive the
 /// result.
-HapticViewerObserver observerFor(const ViewOptions& options)
+HapticViewerObserver observerFor(const ViewCommand& options)
 {
   HapticViewerObserver observer;
   observer.message = showMessage;
@@ -96,7 +87,17 @@ HapticViewerObserver observerFor(const ViewOptions& options)
   };
   observer.writeState = [settingsOf](
                           const HapticViewerState& state, const std::string& fileName, std::string& message)
-  { return writeSettings(settingsOf(state), fileName, message); };
+  {
+    try
+    {
+      writeSettings(settingsOf(state), fileName);
+    }
+    catch (const Failure& failure)
+    {
+      message = failure.what();
+    }
+    return message.empty();
+  };
   observer.program = "pointhaptics " POINTHAPTICS_VERSION;
   observer.describeState = [settingsOf](const HapticViewerState& state) { return settingsOf(state).dump(); };
   observer.rememberState = [settingsOf](const HapticViewerState& state)
@@ -106,21 +107,20 @@ HapticViewerObserver observerFor(const ViewOptions& options)
   return observer;
 }
 
-void reportTimes(const ViewOptions& options, HapticViewer& viewer)
+void reportTimes(const ViewCommand& options, HapticViewer& viewer)
 {
   if (!options.config.empty())
   {
-    say(kViewCommand, "settings from " + options.config);
+    say("settings from " + options.config);
   }
   const vtkIdType voxels = viewer.means()->GetNumberOfPoints();
-  say(kViewCommand,
-    fmt::format("read in {:.2f} s{}", viewer.readSeconds(),
-      voxels > 0 ? fmt::format(", resampled in {:.2f} s: {} active voxels", viewer.resampleSeconds(), voxels)
-                 : ""));
+  say(fmt::format("read in {:.2f} s{}", viewer.readSeconds(),
+    voxels > 0 ? fmt::format(", resampled in {:.2f} s: {} active voxels", viewer.resampleSeconds(), voxels)
+               : ""));
 }
 
 /// Shows the window, or writes the requested files.
-bool show(const ViewOptions& options, HapticViewer& viewer)
+bool show(const ViewCommand& options, HapticViewer& viewer)
 {
   if (options.needsWindow())
   {
@@ -131,21 +131,32 @@ bool show(const ViewOptions& options, HapticViewer& viewer)
     (options.screenshot.empty() || viewer.renderToFile(options.screenshot));
 }
 
-/// True if every file can be read: a picture of some of them is not the requested one.
-bool canReadAll(const ViewOptions& options, std::string& message)
+/// @throws Failure where a file cannot be read: a picture of some of them is not the requested one.
+void checkReadable(const ViewCommand& options)
 {
-  Cloud cloud;
+  if (options.needsWindow() || options.skipsUnreadable || options.files.size() < 2)
+  {
+    return;
+  }
   ReadOptions reading;
   reading.columns = options.viewer.columns;
   reading.salvage = options.viewer.salvage; // vertices or samples: both can be read or neither
-  return options.needsWindow() || options.skipsUnreadable || options.files.size() < 2 ||
-    std::all_of(options.files.begin(), options.files.end(),
-      [&](const std::string& file) { return readCloud(file, cloud, message, reading); });
+  try
+  {
+    for (const std::string& file : options.files)
+    {
+      readCloud(file, reading);
+    }
+  }
+  catch (const Failure& failure)
+  {
+    throw Failure(std::string(failure.what()) + "; --skip-unreadable shows the others");
+  }
 }
 
 /// Sets the places where the viewer reads and writes: pipes are read once, and files that are not of a
 /// session appear together.
-void placeFiles(ViewOptions& options, Files& files)
+void placeFiles(ViewCommand& options, Files& files)
 {
   HapticViewerOptions& viewer = options.viewer;
   for (std::string& file : options.files)
@@ -166,58 +177,41 @@ void placeFiles(ViewOptions& options, Files& files)
   }
 }
 
-int runView(ViewOptions& options, Files& files)
-{
-  std::string message;
-  if (!options.writeConfig.empty())
-  {
-    require(writeSettings(options.given, files.output(options.writeConfig), message) && files.commit(message),
-      message);
-    printSummary("settings: " + options.writeConfig);
-    return kSuccess;
-  }
-  require(checkDevice(options, message), message);
-  placeFiles(options, files);
-  if (!canReadAll(options, message))
-  {
-    return fail(kViewCommand, message + "; --skip-unreadable shows the others");
-  }
-  HapticViewerObserver observer = observerFor(options);
-  if (!options.needsWindow())
-  {
-    observer.placeOf = [&files](const std::string& name) { return files.output(name); };
-  }
-  HapticViewer viewer(options.viewer, observer);
-  if (!viewer.open(options.files))
-  {
-    fail(kViewCommand, viewer.message());
-    return viewer.isCancelled() ? kCancelled : kFailed;
-  }
-  reportTimes(options, viewer);
-  printSummary(fmt::format("{}{}, {}", countOfPoints(viewer.numberOfPoints()),
-    ofThemInvalid(viewer.numberOfInvalidPoints()), viewer.scaleNote()));
-  std::fflush(stdout);
-  require(!options.draws() || displayIsAvailable(message), message); // before a path is felt
-  message = show(options, viewer) ? std::string() : viewer.message();
-  require(message.empty() && files.commit(message), message);
-  return stopIsRequested() ? stopExitCode() : kSuccess;
-}
-
 } // namespace
 
-void addViewCommand(CLI::App& program, int& exitCode)
+int ViewCommand::run(Files& taken)
 {
-  CLI::App* command = program.add_subcommand("view", "Show point clouds and feel them (the default command)");
-  auto options = std::make_shared<ViewOptions>();
-  options->addTo(*command);
-  const auto complete = [command, options]
+  if (!this->writeConfig.empty())
   {
-    options->complete(*command);
-    collectVtkMessages();
-  };
-  runAs(*command, exitCode,
-    { [options](Files& files) { return runView(*options, files); }, complete,
-      [options](Files& files) { options->declareMore(files); } });
+    writeSettings(this->given, taken.output(this->writeConfig));
+    taken.commit();
+    printSummary("settings: " + this->writeConfig);
+    return kSuccess;
+  }
+  checkDevice(*this);
+  placeFiles(*this, taken);
+  checkReadable(*this);
+  HapticViewerObserver observer = observerFor(*this);
+  if (!this->needsWindow())
+  {
+    observer.placeOf = [&taken](const std::string& name) { return taken.output(name); };
+  }
+  HapticViewer shown(this->viewer, observer);
+  if (!shown.open(this->files))
+  {
+    fail(shown.message());
+    return shown.isCancelled() ? kCancelled : kFailed;
+  }
+  reportTimes(*this, shown);
+  printSummary(fmt::format("{}{}, {}", countOfPoints(shown.numberOfPoints()),
+    ofThemInvalid(shown.numberOfInvalidPoints()), shown.scaleNote()));
+  std::fflush(stdout);
+  std::string message;
+  require(!this->draws() || displayIsAvailable(message), message); // before a path is felt
+  message = show(*this, shown) ? std::string() : shown.message();
+  require(message.empty(), message);
+  taken.commit();
+  return stopIsRequested() ? stopExitCode() : kSuccess;
 }
 
 } // namespace pointhaptics::app

@@ -1,0 +1,192 @@
+#include "Clouds/CloudCommands.h"
+
+#include "Commands/Commands.h"
+#include "Options/OptionParsing.h"
+#include "Terminal/Messages.h"
+
+#include "Core/Base/Boxes.h"
+#include "Core/Base/Lattice.h"
+#include "Core/Base/QuantityText.h"
+#include "Core/Distributed/Ranks.h"
+#include "Core/Distributed/SharedVoxels.h"
+#include "CsvWriter.h"
+#include "IO/Info/CloudExtent.h"
+#include "IO/Info/LengthUnit.h"
+#include "vtkVoxelMeanResampler.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <vtkFieldData.h>
+#include <vtkIdTypeArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+
+namespace pointhaptics::app
+{
+
+namespace
+{
+
+/// As the resampler says it of its lattice; empty where it does not.
+Bounds latticeBounds(vtkPolyData* means)
+{
+  vtkFieldData* fields = means->GetFieldData();
+  vtkDataArray* origin = fields->GetArray("LatticeOrigin");
+  vtkDataArray* spacing = fields->GetArray("LatticeSpacing");
+  vtkDataArray* dimensions = fields->GetArray("LatticeDimensions");
+  Bounds box;
+  if (origin && spacing && dimensions)
+  {
+    Lattice lattice;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      lattice.origin[axis] = origin->GetComponent(0, axis);
+      lattice.spacing[axis] = spacing->GetComponent(0, axis);
+      lattice.dimensions[std::size_t(axis)] = std::int64_t(dimensions->GetComponent(0, axis));
+    }
+    box = lattice.bounds();
+  }
+  return box;
+}
+
+} // namespace
+
+void ResampleCommand::addTo(CLI::App& command)
+{
+  VoxelMeanSettings& voxels = this->lattice.voxels;
+  CloudCommand::addTo(command);
+  command.add_flag(
+    "--covariance", voxels.computeCovariance, "Add the second moments of each voxel: VoxelCovariance");
+  addChoice(command, "--representative", voxels.representative,
+    { { "mean", Representative::Mean }, { "nearest-to-mean", Representative::NearestToMean },
+      { "nearest-to-center", Representative::NearestToCenter }, { "median", Representative::Median } },
+    "What stands for the points of a voxel: one of them, or the median of each value; default mean");
+  addInteger(command, "--minimum-points", this->minimumPoints, 1, VTK_INT_MAX,
+    "Leave out voxels with fewer points; default 1");
+  command.add_flag("--original-ids", voxels.keepOriginalPointIds,
+    "Add vtkOriginalPointIds: the row in IN, from 0, of the nearest point that stands for each voxel");
+  addOutput(command, "--voxel-index", this->voxelIndex, { "csv" },
+    "File to write with the row in OUT of each point of IN, from 0, or -1: .csv", "FILE");
+  this->lattice.addTo(command);
+}
+
+void ResampleCommand::complete(CLI::App&)
+{
+  const VoxelMeanSettings& voxels = this->lattice.voxels;
+  requireUsage(!voxels.keepOriginalPointIds || keepsPoints(voxels.representative), "--original-ids", "",
+    "a mean or median is no point of IN; give --representative nearest-to-mean or nearest-to-center too");
+}
+
+/// Removes steps and coordinate system of the file from transformed points, and its unit from scaled ones.
+void ResampleCommand::finish(vtkPolyData* means) const
+{
+  for (const char* name : { "LasScale", "LasOffset", "CoordinateSystem", "LengthUnit" })
+  {
+    if (this->lattice.hasTransform() && (this->lattice.isScaled() || name != std::string("LengthUnit")))
+    {
+      means->GetFieldData()->RemoveArray(name);
+    }
+  }
+}
+
+void ResampleCommand::update(vtkVoxelMeanResampler* resampler, vtkPolyData* cloud) const
+{
+  const std::string why = whyNoLengths(cloud, this->lattice.transform());
+  require(
+    why.empty(), this->input + ": " + why + ", or give metres a degree, such as --scale 78000,111000,1");
+  resampler->SetInputData(cloud);
+  this->lattice.configure(resampler);
+  resampler->SetMinimumPointsPerVoxel(int(this->minimumPoints));
+  resampler->SetComputeVoxelIndex(!this->voxelIndex.empty());
+  updateFilter(resampler, "resampling", this->input);
+}
+
+std::vector<std::string> ResampleCommand::notes(vtkPolyData* cloud, vtkPolyData* means, Ranks& ranks) const
+{
+  std::vector<std::string> notes;
+  const CloudExtent own = extentOf(cloud);
+  const std::int64_t atZero = commonSum(ranks, own.atZero);
+  const bool areIn = contains(latticeBounds(means), this->lattice.transform().apply(Vec3()));
+  if (areIn && areNoReturns(atZero, commonSum(ranks, own.finite)))
+  {
+    notes.push_back(fmt::format("{}: {} are resampled as others are", this->input, noReturnsText(atZero)));
+  }
+  const LengthUnit unit = lengthUnitOf(cloud, Bounds());
+  const double voxel = this->lattice.voxels.lattice.voxelSize;
+  if (voxel > 0.0 && unit.name != "m" && !this->lattice.isScaled())
+  {
+    notes.push_back(
+      fmt::format("{}: --voxel {:.6g} is {:.6g} {}, the unit of the file; --unit {} makes metres of both",
+        this->input, voxel, voxel, unit.name, unit.name));
+  }
+  return notes;
+}
+
+std::vector<std::int64_t> voxelIndexOf(vtkVoxelMeanResampler* resampler)
+{
+  auto* index = vtkIdTypeArray::SafeDownCast(resampler->GetOutput(1)->GetPointData()->GetArray("VoxelIndex"));
+  return index
+    ? std::vector<std::int64_t>(index->GetPointer(0), index->GetPointer(0) + index->GetNumberOfTuples())
+    : std::vector<std::int64_t>();
+}
+
+void addVoxelIndex(const std::vector<std::int64_t>& rows, CsvWriter& file)
+{
+  for (const std::int64_t row : rows)
+  {
+    const auto value = double(row);
+    file.row(&value, 1);
+  }
+}
+
+CloudResult ResampleCommand::result(const ResampleFigures& figures) const
+{
+  require(figures.invalid < figures.in, noFinitePoint(this->input, figures.in));
+  require(figures.out > 0 || figures.clipped + figures.invalid == figures.in,
+    fmt::format("{}: no voxel has {} points; give fewer to --minimum-points, or larger voxels", this->input,
+      this->minimumPoints));
+  require(figures.out > 0,
+    fmt::format("{}: no point lies in the workspace: {} clipped, {} invalid; leave out --workspace, or mend "
+                "the transform",
+      this->input, figures.clipped, figures.invalid));
+  return { fmt::format("{} in, {} out, {} clipped, {} invalid: {}", countOfPoints(figures.in), figures.out,
+             figures.clipped, figures.invalid, this->output),
+    { { "input", this->input }, { "output", this->output }, { "points_in", figures.in },
+      { "points_out", figures.out }, { "points_clipped", figures.clipped },
+      { "points_invalid", figures.invalid } } };
+}
+
+CloudResult ResampleCommand::work(Cloud& cloud, Files& files)
+{
+  std::string message;
+  CsvWriter index;
+  const std::string indexFile = expandedName(this->voxelIndex, this->input);
+  require(indexFile.empty() || index.open(files.output(indexFile), kVoxelIndexHeader, message), message);
+  vtkNew<vtkVoxelMeanResampler> resampler;
+  this->update(resampler, cloud.points);
+  vtkPolyData* means = resampler->GetOutput();
+  Ranks alone;
+  for (const std::string& note : this->notes(cloud.points, means, alone))
+  {
+    warn(note);
+  }
+  const CloudResult result = this->result({ cloud.points->GetNumberOfPoints(), means->GetNumberOfPoints(),
+    resampler->GetNumberOfClippedPoints(), resampler->GetNumberOfInvalidPoints() });
+  showWarnings();
+  this->finish(means);
+  writeCloud(means, this->output, files, this->writing);
+  if (!indexFile.empty())
+  {
+    addVoxelIndex(voxelIndexOf(resampler), index);
+    require(index.commit(message), message);
+  }
+  return result;
+}
+
+Command* resampleCommand()
+{
+  return new ResampleCommand;
+}
+
+} // namespace pointhaptics::app

@@ -1,0 +1,59 @@
+/// @file
+/// Splats of a cloud: from the surface about each point follow their sizes, normals and light.
+#pragma once
+
+#include "CloudLook.h"
+#include "Core/Base/ProgressObserver.h"
+#include "Core/Neighbors/LocalShape.h"
+#include "Core/Neighbors/NeighborQuery.h"
+
+#include "PointHapticsRenderingModule.h" // For export macro
+
+#include <array>
+#include <optional>
+
+class vtkDataArray;
+class vtkPolyData;
+class vtkSplatMapper;
+
+namespace pointhaptics
+{
+
+/// Names of the point arrays of a picture.
+constexpr const char* kSplatLengthName =
+  "SplatLength"; ///< Diameter of each splat, unit of the file; hidden: < 0.
+constexpr const char* kSplatNormalName = "SplatNormal"; ///< Short integers: kSplatNormalUnit is flat.
+constexpr const char* kSplatGrowthName = "SplatGrowth"; ///< Bytes: 64 where the spacing alone rules.
+constexpr const char* kLookColorName = "LookColor";
+/// All arrays of the picture: texts at a point leave them out.
+constexpr std::array<const char*, 4> kArraysOfPicture = { kSplatLengthName, kSplatNormalName,
+  kSplatGrowthName, kLookColorName };
+constexpr double kSplatNormalUnit = 32767.0;
+
+/// Surface about each point of a cloud, and the look that follows from it.
+struct MeasuredCloud
+{
+  NeighborQuery query;
+  LocalShape shape;
+  CloudLook look;
+};
+
+/// Measures @p cloud, of which all points are finite. Of more than three million points those within half a
+/// pixel of the first view share one measurement. @param kind kind in place of cloudKind(), where the user
+/// chose it. @return false: @p observer aborted, or there is no point.
+POINTHAPTICSRENDERING_EXPORT bool measureCloud(const PointView& cloud, const CloudOrientation& orientation,
+  const std::optional<CloudKind>& kind, MeasuredCloud& measured, ProgressObserver* observer = nullptr);
+
+/// Adds the arrays kSplatLengthName, kSplatNormalName and kSplatGrowthName to @p points, 11 bytes a point.
+/// @param ownNormals normals in place of the measured ones; null: the measured ones.
+POINTHAPTICSRENDERING_EXPORT void addSplats(
+  vtkPolyData* points, const MeasuredCloud& measured, vtkDataArray* ownNormals);
+
+/// Lets @p mapper draw the arrays of addSplats(): sizes, normals and light. Input, colours and strength of
+/// the light are the caller's.
+POINTHAPTICSRENDERING_EXPORT void setUpSplats(vtkSplatMapper* mapper, const CloudLook& look);
+
+/// Adds "Density" to the points, where they were measured: points in a square of one unit of the file.
+POINTHAPTICSRENDERING_EXPORT void addDensity(vtkPolyData* points);
+
+} // namespace pointhaptics
