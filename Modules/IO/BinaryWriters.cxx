@@ -3,6 +3,7 @@
 #include "Bytes/NumericType.h"
 #include "Core/Resample/FieldNames.h"
 #include "IO/Pcd/PcdHeader.h"
+#include "IO/Ply/PlyHeader.h"
 
 #include "vtkFieldData.h"
 #include "vtkVariant.h"
@@ -20,29 +21,6 @@ namespace pointhaptics::io
 
 namespace
 {
-
-const char* plyTypeName(int type)
-{
-  switch (fixedSizeType(type))
-  {
-    case VTK_TYPE_INT8:
-      return "char";
-    case VTK_TYPE_UINT8:
-      return "uchar";
-    case VTK_TYPE_INT16:
-      return "short";
-    case VTK_TYPE_UINT16:
-      return "ushort";
-    case VTK_TYPE_INT32:
-      return "int";
-    case VTK_TYPE_UINT32:
-      return "uint";
-    case VTK_FLOAT:
-      return "float";
-    default:
-      return "double";
-  }
-}
 
 std::string plyPropertyName(const OutputArray& array, int component)
 {

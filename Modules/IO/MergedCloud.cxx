@@ -108,9 +108,12 @@ vtkSmartPointer<vtkDataArray> filled(const MergedArray& array, const std::vector
   const std::vector<std::string>& names, std::vector<std::string>& notes)
 {
   const std::string lacking = lackingInputs(array, names);
-  // What LAS and colours have for none is no label; a double holds no long number.
+  // 0 is what LAS and colours have for none, and the usual label of what has none; a double holds no long
+  // number.
   const bool hasNone = isFloatingType(array.type) || sizeOfType(array.type) == 8 ||
-    isPointField(array.name) || isColorName(array.name) || isSameField(array.name, "RGBA");
+    isPointField(array.name) || isColorName(array.name) || isSameField(array.name, "RGBA") ||
+    std::any_of(std::begin(kLabelFields), std::end(kLabelFields),
+      [&](const char* label) { return isLabelField(array.name, label); });
   vtkSmartPointer<vtkDataArray> result;
   result.TakeReference(vtkDataArray::CreateDataArray(lacking.empty() || hasNone ? array.type : VTK_DOUBLE));
   result->SetName(array.name.c_str());

@@ -65,8 +65,10 @@
  * number may have a comma for its point where that separates nothing, and stand in quotation marks. A column
  * in which texts outnumber numbers is left out, fewer texts read as NaN: GetNotes() names them. Coordinates
  * must be numbers; their columns may be called X [mm], x_m, xcoord, POINT_X, easting and the like, and their
- * unit becomes the field array LengthUnit; so does that of the comment "LengthUnit mm" which
- * vtkPointCloudWriter leaves here, in PLY and in PCD, with the names of arrays that the format cannot hold.
+ * unit becomes the field array LengthUnit; so does that of comments such as "units: mm" and the
+ * "LengthUnit mm" which vtkPointCloudWriter leaves here, in PLY and in PCD, with the names of arrays that the
+ * format cannot hold. HeightUnit is that of heights beside degrees. One code of EPSG in the comments becomes
+ * CoordinateSystem.
  * Without a header the values tell (an id that counts the rows, x y z, colours, normals, labels, an
  * intensity, others are called column_4 and so on), GetNotes() says what was taken as what, and SetColumns()
  * says otherwise. Columns of integers become int arrays.

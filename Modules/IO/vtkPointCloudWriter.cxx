@@ -6,6 +6,7 @@
 #include "IO/Formats/FormatLooks.h"
 #include "IO/Info/FieldText.h"
 #include "IO/Info/FileComments.h"
+#include "IO/Info/LengthUnit.h"
 #include "IO/Las/LasCoordinateSystem.h"
 #include "WriteTask.h"
 
@@ -44,6 +45,10 @@ bool keeps(const io::CloudFormat& format, vtkPointSet* cloud, const std::string&
   {
     const bool isLas = format.name == std::string("LAS") || format.name == std::string("LAZ");
     return isLas ? io::lasSaysUnit(cloud->GetFieldData()) : !unitFor(format, cloud).empty();
+  }
+  if (fieldName == pointhaptics::kHeightUnit)
+  {
+    return std::string_view(format.keptFieldData).find("Las") == std::string_view::npos;
   }
   return (" " + std::string(format.keptFieldData) + " ").find(" " + fieldName + " ") != std::string::npos;
 }
@@ -191,6 +196,7 @@ void vtkPointCloudWriter::WriteCloud(vtkPointSet* cloud)
   {
     noteWhatIsNoColumn(cloud, *format, task.notes);
     task.comments.unit = unitFor(*format, cloud);
+    task.comments.heightUnit = io::fieldText(cloud->GetFieldData(), pointhaptics::kHeightUnit);
   }
   format->write(task);
   task.out.commit();

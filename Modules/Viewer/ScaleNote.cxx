@@ -28,7 +28,7 @@ std::string describeScale(vtkMatrix4x4* modelMatrix, const std::string& unit, do
   const std::string ratio =
     reduction > 1.0 ? "1 : " + ratioText(reduction) : ratioText(1.0 / reduction) + " : 1";
   const double thing = kUnderTheHand * reduction;
-  const bool isImperial = unit == "ft" || unit == "in";
+  const bool isImperial = unit == "ft" || unit == "in" || unit == "yd";
   return ratio + "; 1 mm in the hand is " +
     (isImperial ? lengthText(thing, unit, metresPerUnit, kDigits) : lengthText(thing, kDigits));
 }

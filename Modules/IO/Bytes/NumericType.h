@@ -48,6 +48,22 @@ inline int fixedSizeType(int vtkType)
   }
 }
 
+/// The type of numbers of @p size bytes, of the kind 'f' floating, 'i' integer or 'u' unsigned integer;
+/// VTK_VOID where there is none.
+inline int typeOfKind(char kind, unsigned long long size)
+{
+  constexpr int kTypes[][4] = { { VTK_TYPE_INT8, VTK_TYPE_UINT8, VTK_VOID, 1 },
+    { VTK_TYPE_INT16, VTK_TYPE_UINT16, VTK_VOID, 2 }, { VTK_TYPE_INT32, VTK_TYPE_UINT32, VTK_FLOAT, 4 },
+    { VTK_TYPE_INT64, VTK_TYPE_UINT64, VTK_DOUBLE, 8 } };
+  int type = VTK_VOID;
+  for (const auto& row : kTypes)
+  {
+    const int found = kind == 'i' ? row[0] : kind == 'u' ? row[1] : kind == 'f' ? row[2] : VTK_VOID;
+    type = static_cast<unsigned long long>(row[3]) == size ? found : type;
+  }
+  return type;
+}
+
 /// Calls @p f with a value of the C++ type of @p vtkType: withType(VTK_FLOAT, [](auto zero) { ... }).
 /// Types without numbers do nothing.
 template <typename F>

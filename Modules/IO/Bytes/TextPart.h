@@ -4,8 +4,10 @@
 
 #include "ReadTask.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <string_view>
 
 namespace pointhaptics::io
@@ -23,10 +25,16 @@ struct TextPart
   RowRange filled;               ///< Which of the lines that are not blank.
   std::uint64_t filledOfAll = 0; ///< Number of such lines of all ranks.
 
-  /// Rows of this part, where the first @p all lines that are not blank are rows.
-  RowRange rowsOf(std::uint64_t all) const
+  /// Rows of this part, where the first @p all lines that are not blank are rows. @throws FileProblem where
+  /// the lines of all ranks are too few, of which each is a @p what.
+  RowRange rowsOf(std::uint64_t all, const char* what) const
   {
-    return { filled.first < all ? filled.first : all, filled.last < all ? filled.last : all };
+    if (filledOfAll < all)
+    {
+      failTruncated("the file ends before " + std::string(what) + " " + std::to_string(filledOfAll) + " of " +
+        std::to_string(all));
+    }
+    return { std::min(filled.first, all), std::min(filled.last, all) };
   }
 };
 

@@ -1,31 +1,107 @@
 #include "CloudColumns.h"
 
 #include "Bytes/NumericType.h"
-#include "Bytes/ShownColors.h"
 #include "Core/Resample/FieldNames.h"
 #include "FileProblem.h"
+#include "IO/Info/LengthUnit.h"
+#include "IO/SharedReading.h"
 #include "IO/Text/TextScan.h"
 
 #include "vtkCellArray.h"
+#include "vtkDataArray.h"
 #include "vtkIdList.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
 #include "vtkTypeInt32Array.h"
 #include "vtkTypeInt64Array.h"
+#include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
 #include <cctype>
 #include <cstdint>
 #include <limits>
 #include <numeric>
+#include <type_traits>
 
 namespace pointhaptics::io
 {
 
 namespace
 {
+
+/// An array "RGB" of bytes made of @p colors: integers up to 255 are bytes, of those up to 65535 the high
+/// byte is taken; other numbers are 0..1, or 0..255 or 0..65535 where one is larger. NaN is 0. The largest
+/// value is that of all ranks, where @p shared is there (collective). Null where a value is below 0 or
+/// larger: these are no colours.
+vtkSmartPointer<vtkDataArray> shownColors(vtkDataArray* colors, SharedReading* shared);
+
+struct ValueRange
+{
+  double least = 0.0;
+  double most = 0.0;
+};
+
+template <typename T>
+ValueRange rangeOf(const T* values, vtkIdType count)
+{
+  ValueRange range;
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    const double value = static_cast<double>(values[i]);
+    range.least = value < range.least ? value : range.least; // false for NaN
+    range.most = value > range.most ? value : range.most;
+  }
+  return range;
+}
+
+template <typename T>
+void fillBytes(const T* values, vtkIdType count, double most, unsigned char* bytes)
+{
+  constexpr bool isInteger = std::is_integral_v<T>;
+  const double factor = isInteger ? (most > 255.0 ? 1.0 / 256.0 : 1.0)
+                                  : (most > 255.0 ? 1.0 / 257.0 : (most > 1.0 ? 1.0 : 255.0));
+  const double rounding = isInteger ? 0.0 : 0.5;
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    const double value = factor * static_cast<double>(values[i]) + rounding;
+    bytes[i] =
+      value >= 0.0 ? static_cast<unsigned char>(std::min(value, 255.0)) : static_cast<unsigned char>(0);
+  }
+}
+
+vtkSmartPointer<vtkDataArray> shownColors(vtkDataArray* colors, SharedReading* shared)
+{
+  const vtkIdType count = colors->GetNumberOfValues();
+  ValueRange range;
+  withType(colors->GetDataType(),
+    [&](auto zero)
+    { range = rangeOf(static_cast<const decltype(zero)*>(colors->GetVoidPointer(0)), count); });
+  if (shared)
+  {
+    for (const ValueRange& each : shared->gatherValues(range))
+    {
+      range = { std::min(range.least, each.least), std::max(range.most, each.most) };
+    }
+  }
+  if (range.least < 0.0 || range.most > 65535.0)
+  {
+    return nullptr;
+  }
+  auto bytes = vtkSmartPointer<vtkUnsignedCharArray>::New();
+  bytes->SetName("RGB");
+  bytes->SetNumberOfComponents(colors->GetNumberOfComponents());
+  bytes->SetNumberOfTuples(colors->GetNumberOfTuples());
+  withType(colors->GetDataType(),
+    [&](auto zero)
+    {
+      fillBytes(static_cast<const decltype(zero)*>(colors->GetVoidPointer(0)), count, range.most,
+        bytes->GetPointer(0));
+    });
+  return bytes;
+}
 
 using Names = std::vector<std::vector<std::string>>;
 
@@ -39,8 +115,6 @@ const Names kCoordinateWords = { { "x", "easting", "east", "e", "rechtswert", "o
 const std::vector<std::string> kFillers = { "coord", "coords", "coordinate", "coordinates", "point", "points",
   "pos", "position", "positions", "xyz", "field", "world", "global", "local", "utm", "map", "vertex",
   "cartesian", "value" };
-const std::vector<std::string> kUnitWords = { "m", "mm", "cm", "km", "um", "ft", "in", "metre", "metres",
-  "meter", "meters", "feet", "foot" };
 const std::vector<std::string> kDegrees = { "longitude", "lon", "long", "lng", "latitude", "lat" };
 const Names kColorsWithAlpha = { { "red", "green", "blue", "alpha" }, { "r", "g", "b", "a" },
   { "diffuse_red", "diffuse_green", "diffuse_blue", "diffuse_alpha" } };
@@ -151,12 +225,12 @@ struct CoordinateName
     }
     for (const std::string& word : wordsOf(name.substr(0, bracket)))
     {
-      const bool isUnit = !rest.empty() || isPosition ? has(kUnitWords, word) : false;
+      const bool isUnit = (!rest.empty() || isPosition) && findLengthUnit(word);
       isPosition = isPosition || has(kFillers, word);
       unit = isUnit ? word : unit;
       rest += isUnit || has(kFillers, word) ? "" : (rest.empty() || word.empty() ? "" : " ") + word;
     }
-    if (!rest.empty() && has(kXyz, rest.substr(0, 1)) && has(kUnitWords, rest.substr(1))) // "Xmm"
+    if (!rest.empty() && has(kXyz, rest.substr(0, 1)) && findLengthUnit(rest.substr(1))) // "Xmm"
     {
       unit = rest.substr(1);
       rest.resize(1);
@@ -408,28 +482,30 @@ void CloudColumns::moveTo(vtkPolyData* cloud, SharedReading* shared)
 namespace
 {
 
-/// Cells of one point each, in the smallest integers that number them.
 template <typename Array>
-void fillVertices(vtkCellArray* vertices, vtkIdType count)
+vtkSmartPointer<vtkDataArray> counted(vtkIdType first, vtkIdType count)
 {
-  vtkNew<Array> offsets;
-  vtkNew<Array> connectivity;
-  offsets->SetNumberOfValues(count + 1);
-  connectivity->SetNumberOfValues(count);
-  std::iota(offsets->GetPointer(0), offsets->GetPointer(0) + count + 1, 0);
-  std::iota(connectivity->GetPointer(0), connectivity->GetPointer(0) + count, 0);
-  vertices->SetData(offsets, connectivity);
+  auto array = vtkSmartPointer<Array>::New();
+  array->SetNumberOfValues(count);
+  std::iota(
+    array->GetPointer(0), array->GetPointer(0) + count, static_cast<typename Array::ValueType>(first));
+  return array;
 }
 
 } // namespace
 
+vtkSmartPointer<vtkCellArray> numberedVertices(vtkIdType first, vtkIdType count, bool have64Bits)
+{
+  auto vertices = vtkSmartPointer<vtkCellArray>::New();
+  const auto make = have64Bits ? &counted<vtkTypeInt64Array> : &counted<vtkTypeInt32Array>;
+  vertices->SetData(make(first, count + 1), make(first, count));
+  return vertices;
+}
+
 void setOneVertexPerPoint(vtkPolyData* cloud)
 {
   const vtkIdType count = cloud->GetNumberOfPoints();
-  vtkNew<vtkCellArray> vertices;
-  count < std::numeric_limits<std::int32_t>::max() ? fillVertices<vtkTypeInt32Array>(vertices, count)
-                                                   : fillVertices<vtkTypeInt64Array>(vertices, count);
-  cloud->SetVerts(vertices);
+  cloud->SetVerts(numberedVertices(0, count, count >= std::numeric_limits<std::int32_t>::max()));
 }
 
 void keepPoints(vtkPolyData* cloud, vtkIdList* kept)

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+class vtkCellArray;
 class vtkIdList;
 class vtkPolyData;
 
@@ -94,6 +95,9 @@ private:
   std::vector<vtkSmartPointer<vtkDataArray>> arrays_; ///< the first one holds the points
   vtkSmartPointer<vtkDataArray> colors_;              ///< that are no bytes; null where there are none
 };
+
+/// A vertex for each of @p count points, which are numbered from @p first on.
+vtkSmartPointer<vtkCellArray> numberedVertices(vtkIdType first, vtkIdType count, bool have64Bits);
 
 /// Gives @p cloud one vertex cell per point and no other cell.
 void setOneVertexPerPoint(vtkPolyData* cloud);

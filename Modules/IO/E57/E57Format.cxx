@@ -1,13 +1,13 @@
 #include "ReadTask.h"
 
 #include "Bytes/NumericType.h"
+#include "IO/Bytes/XmlTree.h"
 #include "IO/Columns/CloudColumns.h"
 #include "IO/E57/E57Columns.h"
 #include "IO/E57/E57Decoder.h"
 #include "IO/E57/E57Packets.h"
 #include "IO/E57/E57Pages.h"
 #include "IO/E57/E57Scan.h"
-#include "IO/E57/E57Xml.h"
 #include "IO/Info/FieldText.h"
 
 #include "vtkDoubleArray.h"
@@ -21,6 +21,7 @@
 #include "vtkTypeInt64Array.h"
 
 #include <algorithm>
+#include <array>
 #include <deque>
 #include <limits>
 #include <map>
@@ -39,6 +40,21 @@ constexpr vtkIdType kReportedBlocks = 64;
 /// Most bytes of arrays for one byte of the file, as for gzip: constant fields take no bytes in the file.
 constexpr std::uint64_t kMostGrowth = 100;
 constexpr std::uint64_t kGrowthFloor = std::uint64_t{ 1 } << 26;
+
+XmlElement xmlOf(const E57Pages& pages)
+{
+  std::array<char, 65536> part;
+  std::uint64_t left = pages.xmlLength();
+  return parseXml(
+    [&]
+    {
+      const std::size_t size = static_cast<std::size_t>(std::min<std::uint64_t>(left, part.size()));
+      pages.copy(pages.xmlOffset() + pages.xmlLength() - left, size, part.data());
+      left -= size;
+      return std::string_view(part.data(), size);
+    },
+    true);
+}
 
 /// Adds the file's properties beside its points as field data.
 void addFieldData(const E57Contents& contents, vtkPolyData* cloud)
@@ -89,14 +105,8 @@ void addGrid(const std::vector<E57Scan>& scans, bool moves, vtkPolyData* cloud)
       offset[axis] = scan.fields[at].offset;
     }
   }
-  for (const auto& [name, values] : { std::pair{ "LasScale", scale }, std::pair{ "LasOffset", offset } })
-  {
-    vtkNew<vtkDoubleArray> array;
-    array->SetName(name);
-    array->SetNumberOfComponents(3);
-    array->InsertNextTuple(values);
-    cloud->GetFieldData()->AddArray(array);
-  }
+  addFieldNumbers<vtkDoubleArray>(cloud, "LasScale", scale);
+  addFieldNumbers<vtkDoubleArray>(cloud, "LasOffset", offset);
 }
 
 std::string described(const E57Scan& scan)
@@ -216,12 +226,8 @@ void addDimensions(vtkPolyData* cloud)
       return;
     }
   }
-  vtkNew<vtkIntArray> dimensions;
-  dimensions->SetName("OrganizedDimensions");
-  dimensions->SetNumberOfComponents(2);
-  const int values[2] = { static_cast<int>(width), static_cast<int>(height) };
-  dimensions->InsertNextTypedTuple(values);
-  cloud->GetFieldData()->AddArray(dimensions);
+  addFieldNumbers<vtkIntArray>(
+    cloud, "OrganizedDimensions", std::array{ static_cast<int>(width), static_cast<int>(height) });
 }
 
 /// Notes the parts of the file that the cloud lacks.
@@ -289,7 +295,7 @@ void readE57(ReadTask& task, vtkPolyData* cloud)
   const E57Pages pages(task.bytes);
   task.format = "E57 " + pages.version();
   pages.check(task, kCheckingPart);
-  const E57Contents contents = parseE57Contents(parseE57Xml(pages));
+  const E57Contents contents = parseE57Contents(xmlOf(pages));
   addFieldData(contents, cloud);
   std::vector<E57Scan> scans = scansWithPoints(contents);
   Sections sections;

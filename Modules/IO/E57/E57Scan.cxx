@@ -1,8 +1,8 @@
 #include "IO/E57/E57Scan.h"
 
 #include "FileProblem.h"
+#include "IO/Bytes/XmlTree.h"
 #include "IO/Columns/CloudColumns.h"
-#include "IO/E57/E57Xml.h"
 #include "IO/Text/TextScan.h"
 
 #include <algorithm>
@@ -71,7 +71,7 @@ private:
 };
 
 /// The value of an element that is Integer, ScaledInteger or Float.
-double numberOf(const E57Element& element, const Numbers& numbers)
+double numberOf(const XmlElement& element, const Numbers& numbers)
 {
   const double value = numbers.real(element.trimmedText(), element.name, 0.0);
   return element.attribute("type") == "ScaledInteger"
@@ -80,9 +80,9 @@ double numberOf(const E57Element& element, const Numbers& numbers)
     : value;
 }
 
-double numberOf(const E57Element* parent, const char* name, const Numbers& numbers)
+double numberOf(const XmlElement* parent, const char* name, const Numbers& numbers)
 {
-  const E57Element* element = parent ? parent->child(name) : nullptr;
+  const XmlElement* element = parent ? parent->child(name) : nullptr;
   return element ? numberOf(*element, numbers) : 0.0;
 }
 
@@ -106,7 +106,7 @@ unsigned bitsOfRange(std::int64_t minimum, std::int64_t maximum)
   return bits;
 }
 
-void setIntegerRange(E57Field& field, const E57Element& element, const Numbers& numbers)
+void setIntegerRange(E57Field& field, const XmlElement& element, const Numbers& numbers)
 {
   using Limits = std::numeric_limits<std::int64_t>;
   field.minimum = numbers.integer(element.attribute("minimum"), field.name + " minimum", Limits::min());
@@ -118,9 +118,9 @@ void setIntegerRange(E57Field& field, const E57Element& element, const Numbers& 
   field.bits = bitsOfRange(field.minimum, field.maximum);
 }
 
-void addFields(const E57Element& parent, const std::string& prefix, const Numbers& numbers, E57Scan& scan)
+void addFields(const XmlElement& parent, const std::string& prefix, const Numbers& numbers, E57Scan& scan)
 {
-  for (const E57Element& element : parent.children)
+  for (const XmlElement& element : parent.children)
   {
     const std::string_view type = element.attribute("type");
     E57Field field;
@@ -172,11 +172,11 @@ void checkNames(const E57Scan& scan, const Numbers& numbers)
   }
 }
 
-E57Pose poseOf(const E57Element* element, const Numbers& numbers)
+E57Pose poseOf(const XmlElement* element, const Numbers& numbers)
 {
   E57Pose pose;
-  const E57Element* rotation = element ? element->child("rotation") : nullptr;
-  const E57Element* translation = element ? element->child("translation") : nullptr;
+  const XmlElement* rotation = element ? element->child("rotation") : nullptr;
+  const XmlElement* translation = element ? element->child("translation") : nullptr;
   for (std::size_t i = 0; i < 3; ++i)
   {
     const char axis[] = { static_cast<char>('x' + i), '\0' };
@@ -208,7 +208,7 @@ E57Pose poseOf(const E57Element* element, const Numbers& numbers)
   return pose;
 }
 
-void setColorLimits(const E57Element* limits, const Numbers& numbers, E57Scan& scan)
+void setColorLimits(const XmlElement* limits, const Numbers& numbers, E57Scan& scan)
 {
   const char* const names[3] = { "colorRed", "colorGreen", "colorBlue" };
   for (std::size_t i = 0; limits && i < 3; ++i)
@@ -223,16 +223,16 @@ void setColorLimits(const E57Element* limits, const Numbers& numbers, E57Scan& s
 }
 
 /// The standard has one codec, which is used where none is named.
-void checkCodecs(const E57Element* codecs, const Numbers& numbers)
+void checkCodecs(const XmlElement* codecs, const Numbers& numbers)
 {
-  const auto isKnown = [](const E57Element& codec) { return codec.child("bitPackCodec") != nullptr; };
+  const auto isKnown = [](const XmlElement& codec) { return codec.child("bitPackCodec") != nullptr; };
   if (codecs && !std::all_of(codecs->children.begin(), codecs->children.end(), isKnown))
   {
     failFormat(numbers.where() + ": its points are packed by another codec than bitPackCodec", kCure);
   }
 }
 
-E57Scan scanOf(const E57Element& element, std::size_t number)
+E57Scan scanOf(const XmlElement& element, std::size_t number)
 {
   E57Scan scan;
   scan.number = number - 1;
@@ -242,12 +242,12 @@ E57Scan scanOf(const E57Element& element, std::size_t number)
   scan.name = scan.name.empty() ? ordinal : scan.name;
   scan.pose = poseOf(element.child("pose"), numbers);
   setColorLimits(element.child("colorLimits"), numbers, scan);
-  const E57Element* points = element.child("points");
+  const XmlElement* points = element.child("points");
   if (!points)
   {
     return scan;
   }
-  const E57Element* prototype = points->child("prototype");
+  const XmlElement* prototype = points->child("prototype");
   if (points->attribute("type") != "CompressedVector" || !prototype)
   {
     failFormat(numbers.where() + ": its points are no CompressedVector with a prototype", kCure);
@@ -275,7 +275,7 @@ std::size_t E57Scan::find(const std::string& fieldName) const
   return found == fields.end() ? npos : static_cast<std::size_t>(found - fields.begin());
 }
 
-E57Contents parseE57Contents(const E57Element& root)
+E57Contents parseE57Contents(const XmlElement& root)
 {
   if (root.name != "e57Root")
   {
@@ -284,11 +284,11 @@ E57Contents parseE57Contents(const E57Element& root)
   E57Contents contents;
   contents.generator = inOneLine(root.textOf("e57LibraryVersion"));
   contents.coordinateSystem = root.textOf("coordinateMetadata");
-  const E57Element* images = root.child("images2D");
+  const XmlElement* images = root.child("images2D");
   contents.images = images ? images->children.size() : 0;
-  if (const E57Element* scans = root.child("data3D"))
+  if (const XmlElement* scans = root.child("data3D"))
   {
-    for (const E57Element& scan : scans->children)
+    for (const XmlElement& scan : scans->children)
     {
       contents.scans.push_back(scanOf(scan, contents.scans.size() + 1));
     }

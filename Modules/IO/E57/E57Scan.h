@@ -12,7 +12,7 @@
 namespace pointhaptics::io
 {
 
-struct E57Element;
+struct XmlElement;
 
 /// One column of a scan's records, stored as a stream of its own.
 struct E57Field
@@ -75,6 +75,6 @@ struct E57Contents
 };
 
 /// @throws FileProblem with the scan, the field and the value for what is missing or cannot be.
-E57Contents parseE57Contents(const E57Element& root);
+E57Contents parseE57Contents(const XmlElement& root);
 
 } // namespace pointhaptics::io

@@ -1,5 +1,3 @@
-#include "IO/Formats/ForeignFormats.h"
-
 #include "FileProblem.h"
 #include "IO/Formats/FormatLooks.h"
 #include "IO/Text/TextScan.h"

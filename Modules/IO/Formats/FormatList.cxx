@@ -1,10 +1,7 @@
 #include "IO/Formats/FormatList.h"
 
 #include "FileProblem.h"
-#include "IO/Formats/ForeignFormats.h"
 #include "IO/Formats/FormatLooks.h"
-#include "IO/Grid/GridFormats.h"
-#include "IO/Raw/RawFormats.h"
 
 #include <algorithm>
 #include <iterator>

@@ -26,6 +26,21 @@ FormatStart lookAt(
 using Look = bool(const FormatStart&);
 Look looksLikePly, looksLikePcd, looksLikeLas, looksLikeE57, looksLikeVtkXml, looksLikeVtkLegacy,
   looksLikeOff, looksLikeStl, looksLikeObj, looksLikeColumns;
+/// True if the first line is that of an Esri grid, "ncols 300", in any case.
+Look looksLikeEsriGrid;
+/// True if two counts, for columns and rows, and twelve numbers for the scanner's place stand first.
+Look looksLikePtx;
+/// Float32 x y z intensity (KITTI), and the same with a ring (nuScenes): by size and values, as there is no
+/// mark.
+Look looksLikeKitti, looksLikeNuScenes;
+/// NumPy's .npy, and Gaussian splats of 32 bytes: place, size, colour, rotation.
+Look looksLikeNumpy, looksLikeSplat;
+
+/// Refuses formats that people take for point clouds and this program does not read, and names tools that
+/// convert them. @throws FileProblem where @p start is that of such a file.
+void refuseForeign(const FormatStart& start);
+/// As refuseForeign() by @p extension (lower case, no dot), for those that nobody knows by their first bytes.
+void refuseForeignName(const std::string& extension);
 
 /// True if ASCII STL starts like @p bytes: "solid", then "facet" or "endsolid".
 bool looksLikeStlText(std::string_view bytes);

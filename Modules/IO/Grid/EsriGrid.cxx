@@ -1,5 +1,3 @@
-#include "IO/Grid/GridFormats.h"
-
 #include "IO/Formats/FormatLooks.h"
 #include "IO/Text/TextCells.h"
 #include "ReadTask.h"

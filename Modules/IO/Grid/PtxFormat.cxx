@@ -1,5 +1,3 @@
-#include "IO/Grid/GridFormats.h"
-
 #include "IO/Columns/CloudColumns.h"
 #include "IO/Formats/FormatLooks.h"
 #include "IO/Text/TextScan.h"
@@ -22,18 +20,6 @@ namespace pointhaptics::io
 
 namespace
 {
-
-bool nextFilled(LineReader& lines, std::string_view& line)
-{
-  while (lines.next(line))
-  {
-    if (!trimmed(line).empty())
-    {
-      return true;
-    }
-  }
-  return false;
-}
 
 /// How many of up to @p most numbers @p line begins with.
 int takeNumbers(std::string_view line, double* values, int most)
@@ -62,7 +48,7 @@ public:
   }
   void read()
   {
-    while (nextFilled(lines_, line_) && readScan())
+    while (lines_.nextFilled(line_) && readScan())
     {
       ++scan_;
     }
@@ -87,7 +73,7 @@ private:
   }
   void nextNumbers(double* values, int wanted)
   {
-    if (!nextFilled(lines_, line_))
+    if (!lines_.nextFilled(line_))
     {
       failTruncated("the file ends at line " + std::to_string(lines_.lineNumber()) + " before its points");
     }
@@ -118,7 +104,7 @@ bool PtxReader::readScan()
 {
   constexpr std::uint64_t kShortestLine = 8; // "0 0 0 0" and its end
   const std::uint64_t columns = count();
-  if (!nextFilled(lines_, line_))
+  if (!lines_.nextFilled(line_))
   {
     failTruncated("the file ends at line " + std::to_string(lines_.lineNumber()) + " before its points");
   }
@@ -141,7 +127,7 @@ bool PtxReader::readScan()
   for (std::uint64_t i = 0; i < columns * rows; ++i)
   {
     double values[7];
-    const int found = nextFilled(lines_, line_) ? takeNumbers(line_, values, 7) : 0;
+    const int found = lines_.nextFilled(line_) ? takeNumbers(line_, values, 7) : 0;
     if (found != 4 && found != 7)
     {
       if (found == 0 && lines_.isAtEnd())
@@ -222,13 +208,13 @@ bool looksLikePtx(const FormatStart& start)
   unsigned long long count = 0;
   for (int i = 0; i < 2; ++i)
   {
-    if (!start.isText || !nextFilled(lines, line) || !parseCount(trimmed(line), count))
+    if (!start.isText || !lines.nextFilled(line) || !parseCount(trimmed(line), count))
     {
       return false;
     }
   }
   double values[4];
-  for (int i = 0; i < 5 && nextFilled(lines, line); ++i)
+  for (int i = 0; i < 5 && lines.nextFilled(line); ++i)
   {
     if (takeNumbers(line, values, 4) != (i < 4 ? 3 : 4))
     {

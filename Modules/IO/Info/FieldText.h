@@ -1,5 +1,5 @@
 /// @file
-/// Words about a whole cloud, in its field data: "CoordinateSystem", "LengthUnit" and the like.
+/// Words and numbers about a whole cloud, in its field data: "LengthUnit", "Viewpoint" and the like.
 #pragma once
 
 #include "vtkFieldData.h"
@@ -7,6 +7,7 @@
 #include "vtkPolyData.h"
 #include "vtkStringArray.h"
 
+#include <iterator>
 #include <string>
 
 namespace pointhaptics::io
@@ -29,6 +30,17 @@ inline void addFieldText(vtkPolyData* cloud, const char* name, const std::string
     array->InsertNextValue(text);
     cloud->GetFieldData()->AddArray(array);
   }
+}
+
+/// Adds one tuple of numbers.
+template <typename Array, typename Numbers>
+void addFieldNumbers(vtkPolyData* cloud, const char* name, const Numbers& numbers)
+{
+  vtkNew<Array> array;
+  array->SetName(name);
+  array->SetNumberOfComponents(static_cast<int>(std::size(numbers)));
+  array->InsertNextTypedTuple(std::data(numbers));
+  cloud->GetFieldData()->AddArray(array);
 }
 
 } // namespace pointhaptics::io

@@ -1,11 +1,13 @@
 #include "IO/Info/FileComments.h"
 
 #include "IO/Info/FieldText.h"
+#include "IO/Info/LengthUnit.h"
 #include "IO/Text/TextScan.h"
 
 #include "vtkDataArray.h"
 #include "vtkPointData.h"
 
+#include <algorithm>
 #include <cctype>
 #include <charconv>
 
@@ -16,6 +18,7 @@ namespace
 {
 
 constexpr std::string_view kUnit = "LengthUnit ";
+constexpr std::string_view kHeight = "HeightUnit ";
 constexpr std::string_view kName = "ArrayName ";
 
 /// One word in one line: blanks and control characters as %20.
@@ -47,6 +50,51 @@ std::string decoded(std::string_view word)
   return name;
 }
 
+/// "mm" of "units: mm" and "Coordinate Unit = mm"; empty where @p comment says no unit that is known.
+std::string saidUnit(std::string_view comment)
+{
+  const std::size_t mark = std::min(comment.find_first_of(":="), comment.size());
+  std::string_view words = comment.substr(0, mark);
+  std::string_view last;
+  std::size_t count = 0;
+  for (std::string_view word = takeWord(words); !word.empty() && count < 3; word = takeWord(words))
+  {
+    last = word;
+    ++count;
+  }
+  std::string_view rest = mark < comment.size() ? comment.substr(mark + 1) : comment;
+  last = mark < comment.size() ? last : takeWord(rest); // "units mm"
+  const std::string unit(trimmed(rest));
+  const bool isSaid = count < 3 && (equalNoCase(last, "unit") || equalNoCase(last, "units"));
+  return isSaid && !lengthUnitCalled(unit).empty() ? unit : std::string();
+}
+
+/// Adds the numbers behind "EPSG:", "epsg::" or "EPSG = ", as "EPSG:26917", that @p systems lack.
+void addSystems(std::string_view comment, std::vector<std::string>& systems)
+{
+  constexpr unsigned kMost = 99999;
+  for (std::size_t at = 0; at + 5 < comment.size(); ++at)
+  {
+    unsigned code = 0;
+    if (equalNoCase(comment.substr(at, 4), "EPSG"))
+    {
+      const std::size_t digits = std::min(comment.find_first_not_of(": =", at + 4), comment.size());
+      std::from_chars(comment.data() + digits, comment.data() + comment.size(), code);
+    }
+    const std::string system = "EPSG:" + std::to_string(code);
+    const bool isNew = std::find(systems.begin(), systems.end(), system) == systems.end();
+    code > 0 && code <= kMost&& isNew ? systems.push_back(system) : void();
+  }
+}
+
+/// True if x and y may be longitude and latitude.
+bool mayBeDegrees(vtkPolyData* cloud)
+{
+  double bounds[6];
+  cloud->GetBounds(bounds);
+  return bounds[0] >= -180.0 && bounds[1] <= 360.0 && bounds[2] >= -90.0 && bounds[3] <= 90.0;
+}
+
 } // namespace
 
 bool isUnitWord(std::string_view unit)
@@ -65,11 +113,20 @@ bool FileComments::add(std::string_view comment)
 {
   constexpr std::size_t kMostNames = 4096;
   comment = trimmed(comment);
-  if (comment.substr(0, kUnit.size()) == kUnit && isUnitWord(comment.substr(kUnit.size())))
+  for (const auto& [key, said] : { std::pair{ kUnit, &unit }, std::pair{ kHeight, &heightUnit } })
   {
-    unit = comment.substr(kUnit.size());
+    if (comment.substr(0, key.size()) == key && isUnitWord(comment.substr(key.size())))
+    {
+      *said = comment.substr(key.size());
+      return true;
+    }
+  }
+  if (std::string said = saidUnit(comment); !said.empty())
+  {
+    unit = std::move(said);
     return true;
   }
+  addSystems(comment, systems);
   if (comment.substr(0, kName.size()) != kName || names.size() == kMostNames)
   {
     return false;
@@ -85,6 +142,7 @@ bool FileComments::add(std::string_view comment)
 std::string FileComments::lines(const std::string& mark) const
 {
   std::string text = unit.empty() ? std::string() : mark + std::string(kUnit) + unit + "\n";
+  text += heightUnit.empty() ? std::string() : mark + std::string(kHeight) + heightUnit + "\n";
   for (const auto& [inFile, name] : names)
   {
     text += mark + std::string(kName) + encoded(inFile) + " " + encoded(name) + "\n";
@@ -92,9 +150,18 @@ std::string FileComments::lines(const std::string& mark) const
   return text;
 }
 
-void FileComments::moveTo(vtkPolyData* cloud) const
+void FileComments::moveTo(vtkPolyData* cloud, std::vector<std::string>& notes) const
 {
-  addFieldText(cloud, "LengthUnit", unit);
+  const std::string system = systems.size() == 1 ? systems.front() : std::string();
+  const bool isGeographic = system.size() == 9 && system[5] == '4'; // 4001 to 4999
+  addFieldText(cloud, "CoordinateSystem", system);
+  addFieldText(cloud, "LengthUnit", unit.empty() && isGeographic && mayBeDegrees(cloud) ? "degree" : unit);
+  addFieldText(cloud, kHeightUnit, heightUnit);
+  if (systems.size() > 1)
+  {
+    notes.push_back("comments name several coordinate systems, " + systems[0] + " and " + systems[1] +
+      ", of which none is taken");
+  }
   vtkPointData* data = cloud->GetPointData();
   for (const auto& [inFile, name] : names)
   {

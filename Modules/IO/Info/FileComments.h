@@ -1,5 +1,5 @@
 /// @file
-/// Comments that the writers of PLY, PCD and XYZ leave in a file for its reader.
+/// Comments that the writers of PLY, PCD and XYZ leave in a file for its reader, and what others say there.
 #pragma once
 
 #include <string>
@@ -16,19 +16,24 @@ namespace pointhaptics::io
 /// foot".
 bool isUnitWord(std::string_view unit);
 
-/// The unit of the coordinates, and the names of arrays that a file calls otherwise, as it allows no blanks
-/// in names or gives some names a meaning.
+/// The unit of the coordinates, their system, and the names of arrays that a file calls otherwise, as it
+/// allows no blanks in names or gives some names a meaning.
 struct FileComments
 {
   std::string unit;                                       ///< Empty: none is known.
+  std::string heightUnit;                                 ///< Where x and y are degrees.
+  std::vector<std::string> systems;                       ///< "EPSG:26917"; all that are named.
   std::vector<std::pair<std::string, std::string>> names; ///< In the file, and of the array.
 
-  /// Reads one without its mark. @return false where it is no such comment.
+  /// Reads one without its mark: "LengthUnit mm", "units: mm", "ArrayName a b", or a text with a code of
+  /// EPSG.
+  /// @return false where it is a title as well as a comment.
   bool add(std::string_view comment);
-  /// The lines that say all, each after @p mark.
+  /// The lines that say all but systems, each after @p mark.
   std::string lines(const std::string& mark) const;
-  /// Gives @p cloud the unit and its arrays their names.
-  void moveTo(vtkPolyData* cloud) const;
+  /// Gives @p cloud the units, the system and its arrays their names. Several systems are none: @p notes says
+  /// so. Coordinates of a geographic system that may be degrees are.
+  void moveTo(vtkPolyData* cloud, std::vector<std::string>& notes) const;
 };
 
 } // namespace pointhaptics::io

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <iterator>
 #include <vector>
 
 namespace pointhaptics
@@ -29,20 +30,6 @@ constexpr double kLargestThing = 1e4;
 /// within.
 constexpr double kCompact = 0.2;
 constexpr double kCompactAboutOrigin = 0.45;
-constexpr double kFoot = 0.3048;
-constexpr double kSurveyFoot = 1200.0 / 3937.0;
-
-struct Metric
-{
-  const char* name;
-  const char* prefix;
-  double metres;
-};
-
-constexpr Metric kMetric[] = { { "m", "", 1.0 }, { "cm", "centi", 0.01 }, { "mm", "milli", 1e-3 },
-  { "um", "micro", 1e-6 }, { "km", "kilo", 1e3 } };
-constexpr double kInch = 0.0254;
-
 std::string lower(std::string text)
 {
   std::transform(
@@ -55,38 +42,15 @@ bool has(const std::string& text, const char* part)
   return text.find(part) != std::string::npos;
 }
 
-/// The unit that a file calls @p name; false: it is none that is known.
+/// As findLengthUnit(), and degrees. False: none is known.
 bool findUnit(const std::string& name, LengthUnit& unit)
 {
-  // Two characters look like the letter mu.
-  const bool isMicro = name == "\xc2\xb5m" || name == "\xce\xbcm";
-  const std::string said = isMicro ? "um" : lower(name);
-  if (has(said, "degree"))
-  {
-    unit = { "deg", 1.0, UnitEvidence::File };
-    return true;
-  }
-  if (has(said, "foot") || has(said, "feet") || said == "ft")
-  {
-    unit = { "ft", has(said, "survey") ? kSurveyFoot : kFoot, UnitEvidence::File };
-    return true;
-  }
-  if (said == "in" || said == "inch" || said == "inches")
-  {
-    unit = { "in", kInch, UnitEvidence::File };
-    return true;
-  }
-  for (const Metric& metric : kMetric)
-  {
-    const std::string word = metric.prefix + std::string("met");
-    if (said == metric.name || said == word + "re" || said == word + "res" || said == word + "er" ||
-      said == word + "ers")
-    {
-      unit = { metric.name, metric.metres, UnitEvidence::File };
-      return true;
-    }
-  }
-  return false;
+  const NamedUnit* found = findLengthUnit(name);
+  const bool isDegree = has(lower(name), "degree");
+  unit = isDegree ? LengthUnit{ "deg", 1.0, UnitEvidence::File }
+    : found       ? LengthUnit{ found->name, found->metres, UnitEvidence::File }
+                  : unit;
+  return isDegree || found;
 }
 
 /// True if a point array of @p cloud has one of these words in its name.
@@ -121,6 +85,30 @@ bool isThing(vtkPolyData* cloud, const Bounds& bounds)
 }
 
 } // namespace
+
+const NamedUnit* findLengthUnit(const std::string& name)
+{
+  const std::string said = lower(name);
+  const auto isCalled = [&](const NamedUnit& unit)
+  {
+    return said == unit.name || said == lower(unit.word) ||
+      (!said.empty() && has(" " + std::string(unit.others) + " ", (" " + said + " ").c_str()));
+  };
+  const auto* found = std::find_if(std::begin(kLengthUnits), std::end(kLengthUnits), isCalled);
+  if (found != std::end(kLengthUnits))
+  {
+    return found;
+  }
+  const auto hasWord = [&](const char* word)
+  {
+    const std::size_t at = said.find(word);
+    const auto isLetter = [&](std::size_t i)
+    { return i < said.size() && std::isalpha(static_cast<unsigned char>(said[i])); };
+    return at != std::string::npos && !(at > 0 && isLetter(at - 1)) && !isLetter(at + 4);
+  };
+  const bool isFoot = hasWord("foot") || hasWord("feet");
+  return isFoot ? findLengthUnit(has(said, "survey") ? "US survey foot" : "foot") : nullptr;
+}
 
 LengthUnit lengthUnitOf(vtkPolyData* cloud, const Bounds& bounds)
 {
@@ -172,7 +160,8 @@ vtkSmartPointer<vtkPolyData> inLocalMetres(vtkPolyData* cloud)
   const double metres[2] = { kMetresPerDegree * std::cos(kRadian * middle[1]), kMetresPerDegree };
   vtkNew<vtkDoubleArray> frame;
   frame->SetName(kLocalFrame);
-  for (const double number : { middle[0], middle[1], metres[0], metres[1] })
+  const NamedUnit* height = findLengthUnit(io::fieldText(cloud->GetFieldData(), kHeightUnit));
+  for (const double number : { middle[0], middle[1], metres[0], metres[1], height ? height->metres : 1.0 })
   {
     frame->InsertNextValue(number);
   }
@@ -193,7 +182,8 @@ vtkSmartPointer<vtkPolyData> inLocalMetres(vtkPolyData* cloud)
     points->SetPoint(i, &p.x);
   }
   local->SetPoints(points);
-  for (const char* ofDegrees : { "CoordinateSystem", "LasScale", "LasOffset", "LasHeader", "LasRecords" })
+  for (const char* ofDegrees :
+    { kHeightUnit, "CoordinateSystem", "LasScale", "LasOffset", "LasHeader", "LasRecords" })
   {
     fields->RemoveArray(ofDegrees);
   }
@@ -213,7 +203,7 @@ Vec3 toLocalFrame(vtkPolyData* cloud, const Vec3& place)
   vtkDataArray* frame = cloud->GetFieldData()->GetArray(kLocalFrame);
   return !frame ? place
                 : Vec3{ frame->GetTuple1(2) * std::remainder(place.x - frame->GetTuple1(0), 360.0),
-                    frame->GetTuple1(3) * (place.y - frame->GetTuple1(1)), place.z };
+                    frame->GetTuple1(3) * (place.y - frame->GetTuple1(1)), place.z * frame->GetTuple1(4) };
 }
 
 Vec3 fromLocalFrame(vtkPolyData* cloud, const Vec3& place)
@@ -221,7 +211,7 @@ Vec3 fromLocalFrame(vtkPolyData* cloud, const Vec3& place)
   vtkDataArray* frame = cloud->GetFieldData()->GetArray(kLocalFrame);
   return !frame ? place
                 : Vec3{ place.x / frame->GetTuple1(2) + frame->GetTuple1(0),
-                    place.y / frame->GetTuple1(3) + frame->GetTuple1(1), place.z };
+                    place.y / frame->GetTuple1(3) + frame->GetTuple1(1), place.z / frame->GetTuple1(4) };
 }
 
 } // namespace pointhaptics

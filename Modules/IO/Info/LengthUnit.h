@@ -15,6 +15,32 @@ class vtkPolyData;
 namespace pointhaptics
 {
 
+/// A unit of length as files call it.
+struct NamedUnit
+{
+  const char* name; ///< As --unit takes it.
+  double metres;
+  int code;         ///< EPSG's; 0: none.
+  const char* word; ///< As LAS says it.
+  const char* others;
+};
+/// The first one of a name is meant where nothing more is said.
+inline constexpr NamedUnit kLengthUnits[] = {
+  { "m", 1.0, 9001, "metre", "metres meter meters" },
+  { "cm", 1e-2, 1033, "centimetre", "centimetres centimeter centimeters" },
+  { "mm", 1e-3, 1025, "millimetre", "millimetres millimeter millimeters" },
+  { "um", 1e-6, 0, "micrometre", "micrometres micrometer micrometers \xc2\xb5m \xce\xbcm" },
+  { "km", 1e3, 9036, "kilometre", "kilometres kilometer kilometers" },
+  { "in", 0.0254, 0, "inch", "inches" },
+  { "ft", 0.3048, 9002, "foot", "feet" },
+  { "ft", 1200.0 / 3937.0, 9003, "US survey foot", "ftus us-ft" },
+  { "yd", 0.9144, 9096, "yard", "yards yds" },
+};
+
+/// The unit that a file calls @p name, in upper or lower case, also in more words: "International Feet".
+/// Null: none is known.
+const NamedUnit* findLengthUnit(const std::string& name);
+
 enum class UnitEvidence
 {
   File,  ///< The file says it.
@@ -39,11 +65,14 @@ POINTHAPTICSIO_EXPORT LengthUnit lengthUnitOf(vtkPolyData* cloud, const Bounds& 
 std::string lengthUnitCalled(const std::string& name);
 
 /// @p cloud, or where its x and y are degrees of longitude and latitude a copy of it in metres to the east
-/// and north of their medians, on a sphere of the WGS 84 ellipsoid's mean radius; z stays. What says where
-/// the degrees are on the Earth is not in the copy's field data. Points at 0, 0, 0, which are no returns,
-/// stay.
+/// and north of their medians, on a sphere of the WGS 84 ellipsoid's mean radius; z becomes metres where
+/// kHeightUnit says another unit, else it stays. What says where the degrees are on the Earth is not in the
+/// copy's field data. Points at 0, 0, 0, which are no returns, stay.
 POINTHAPTICSIO_EXPORT vtkSmartPointer<vtkPolyData> inLocalMetres(vtkPolyData* cloud);
-/// Field data of such a copy: longitude and latitude of the origin, and metres of a degree of each.
+/// Field data of a cloud in degrees whose heights are in no metres: their unit.
+inline constexpr const char* kHeightUnit = "HeightUnit";
+/// Field data of such a copy: longitude and latitude of the origin, metres of a degree of each, and of a
+/// unit of height.
 inline constexpr const char* kLocalFrame = "LocalFrame";
 /// Place of @p place, in the coordinates of the file, in what inLocalMetres() made of it, and back. Clouds
 /// that are as in their file change nothing.

@@ -1,8 +1,8 @@
 #include "IO/Las/LasCoordinateSystem.h"
 
 #include "IO/Info/FieldText.h"
+#include "IO/Info/LengthUnit.h"
 #include "IO/Las/LasHeader.h"
-#include "IO/Las/LasRecordWriter.h"
 #include "IO/Text/TextScan.h"
 
 #include <algorithm>
@@ -30,32 +30,18 @@ constexpr const char* kDegree = "degree";
 constexpr std::size_t kMostText = 65535; ///< 16 bits hold the length of a record
 constexpr const char* kProjection = "LASF_Projection";
 
-struct CodedUnit
-{
-  int code; ///< Code of EPSG.
-  const char* name;
-  const char* others[2]; ///< As texts call it.
-};
-
-constexpr int kMetre = 9001;
-constexpr CodedUnit kUnits[] = { { kMetre, "metre", { "m", "meter" } }, { 9002, "foot", { "ft", "feet" } },
-  { 9003, "US survey foot", { "ftUS", "us-ft" } }, { 1025, "millimetre", { "mm", "millimeter" } },
-  { 1033, "centimetre", { "cm", "centimeter" } } };
-
 const char* nameOfUnit(int code)
 {
-  const auto* const unit = std::find_if(
-    std::begin(kUnits), std::end(kUnits), [&](const CodedUnit& each) { return each.code == code; });
-  return unit == std::end(kUnits) ? "" : unit->name;
+  const auto* const unit = std::find_if(std::begin(kLengthUnits), std::end(kLengthUnits),
+    [&](const NamedUnit& each) { return each.code == code; });
+  return unit == std::end(kLengthUnits) ? "" : unit->word;
 }
 
 /// @return 0 for a unit without a code.
 int codeOfUnit(const std::string& name)
 {
-  const auto* const unit = std::find_if(std::begin(kUnits), std::end(kUnits),
-    [&](const CodedUnit& each)
-    { return name == each.name || name == each.others[0] || name == each.others[1]; });
-  return unit == std::end(kUnits) ? 0 : unit->code;
+  const NamedUnit* unit = findLengthUnit(name);
+  return unit ? unit->code : 0;
 }
 
 /// The record of GeoTIFF keys. @param code of the system, 0 where only the unit is known; @param unit 0 where
@@ -142,7 +128,7 @@ std::string LasCoordinateSystem::lengthUnit() const
 
 bool isMetre(const std::string& unit)
 {
-  return codeOfUnit(unit) == kMetre;
+  return codeOfUnit(unit) == kLengthUnits[0].code;
 }
 
 bool lasSaysUnit(vtkFieldData* fieldData)

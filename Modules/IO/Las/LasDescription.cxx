@@ -4,7 +4,6 @@
 #include "FileProblem.h"
 #include "IO/Info/FieldText.h"
 #include "IO/Las/LasCoordinateSystem.h"
-#include "IO/Las/LasRecordWriter.h"
 
 #include <algorithm>
 #include <cmath>
@@ -26,17 +25,16 @@ constexpr std::size_t kLongestText = 32;
 bool keepsCoordinateSystem(const LasOrigin& origin, vtkFieldData* fieldData)
 {
   LasCoordinateSystem system;
-  const auto add = [&](std::string_view, std::string_view user, int id, std::string_view content)
-  {
-    if (user == kLasProjectionUser)
-    {
-      system.addRecord(id, content);
-    }
-  };
-  forEachLasRecord(origin.records, false, add);
-  forEachLasRecord(origin.farRecords, true, add);
+  forEachLasRecord(origin,
+    [&](const LasRecord& record)
+    { record.user == kLasProjectionUser ? system.addRecord(record.id, record.content) : void(); });
   return origin.isHere() && system.name() == fieldText(fieldData, "CoordinateSystem") &&
     system.lengthUnit() == fieldText(fieldData, "LengthUnit");
+}
+
+std::string_view descriptionOf(const LasRecord& record)
+{
+  return record.whole.substr(record.isFar ? kFarDescription : kDescription, kLongestText);
 }
 
 /// How gps time counts, and the like.
@@ -76,52 +74,46 @@ LasDescription::LasDescription(
                   : std::string());
     describes = false;
   };
-  for (const bool isFar : { false, true })
-  {
-    forEachLasRecord(isFar ? origin.farRecords : origin.records, isFar,
-      [&](std::string_view record, std::string_view user, int id, std::string_view)
+  forEachLasRecord(origin,
+    [&](const LasRecord& record)
+    {
+      if (record.user == "LASF_Spec" && record.id == kLasExtraBytesRecord)
       {
-        if (user == "LASF_Spec" && id == kLasExtraBytesRecord)
-        {
-          describe(record.substr(isFar ? kFarDescription : kDescription, kLongestText));
-        }
-        else if (user != kLasProjectionUser || keepsSystem)
-        {
-          keep(record, isFar, !points.packing.empty(), notes);
-        }
-      });
-  }
+        describe(descriptionOf(record));
+      }
+      else if (record.user != kLasProjectionUser || keepsSystem)
+      {
+        keep(record, !points.packing.empty(), notes);
+      }
+    });
   describe({});
   add(points.packing);
   isOf14 =
     points.isExtended || origin.minorVersion() == 4 || farCount > 0 || (encoding & kLasWellKnownTextBit) != 0;
 }
 
-void LasDescription::keep(std::string_view record, bool isFar, bool isPacked, WriterNotes& notes)
+void LasDescription::keep(const LasRecord& record, bool isPacked, WriterNotes& notes)
 {
-  constexpr std::size_t kFarHeader = 60;
-  if (!isFar)
+  if (!record.isFar)
   {
-    add(std::string(record));
-    return;
+    add(std::string(record.whole));
   }
-  if (!isPacked)
+  else if (!isPacked)
   {
-    far += record;
+    far += record.whole;
     ++farCount;
-    return;
   }
-  const std::string_view user = record.substr(2, 16);
-  const int id = loadLittle<std::uint16_t>(record.data() + 18);
-  const std::string_view content = record.substr(kFarHeader);
-  if (content.size() <= kMostContent)
+  else if (record.content.size() <= kMostContent)
   {
-    add(lasRecordHeader(std::string(user), id, content.size(), record.substr(kFarDescription, kLongestText)) +
-      std::string(content));
-    return;
+    add(lasRecordHeader(
+          std::string(record.whole.substr(2, 16)), record.id, record.content.size(), descriptionOf(record)) +
+      std::string(record.content));
   }
-  notes.add("the record " + std::to_string(id) + " of " + inQuotes(user.substr(0, user.find('\0'))) +
-    ", of " + std::to_string(content.size()) + " bytes, is left out; .las keeps it");
+  else
+  {
+    notes.add("the record " + std::to_string(record.id) + " of " + inQuotes(record.user) + ", of " +
+      std::to_string(record.content.size()) + " bytes, is left out; .las keeps it");
+  }
 }
 
 /// The values of @p array as the file had them where each comes back so: of its type, with its scale, and

@@ -41,7 +41,7 @@ private:
     bytes += record;
     count += record.empty() ? 0 : 1;
   }
-  void keep(std::string_view record, bool isFar, bool isPacked, WriterNotes& notes);
+  void keep(const LasRecord& record, bool isPacked, WriterNotes& notes);
 };
 
 /// Fills @p stored with the values of @p array as the file had them. @return whether each comes back so: of

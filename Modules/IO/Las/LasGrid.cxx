@@ -106,6 +106,13 @@ void findRoundOffset(const Axis& axis, LasGrid& grid)
   }
 }
 
+/// True if the steps of @p grid span the axis, perhaps from another offset.
+bool reaches(const Axis& axis, LasGrid& grid)
+{
+  spans(axis, grid.scale, grid.offset) ? void() : findRoundOffset(axis, grid);
+  return spans(axis, grid.scale, grid.offset);
+}
+
 /// On the coarsest of some grids of whole decimals that gives each coordinate back. False: there is none.
 template <typename Accepts>
 bool placeOnDecimals(const Axis& axis, const Accepts& accepts, LasGrid& grid)
@@ -150,11 +157,7 @@ bool takeWantedSteps(const Axis& axis, const WantedGrid& wanted, LasGrid& grid)
   }
   grid.scale = wanted.scale;
   grid.offset = wanted.offset;
-  if (!spans(axis, grid.scale, grid.offset))
-  {
-    findRoundOffset(axis, grid);
-  }
-  return spans(axis, grid.scale, grid.offset);
+  return reaches(axis, grid);
 }
 
 /// False: the cloud is too long for them.
@@ -167,12 +170,8 @@ bool takeUsualSteps(const Axis& axis, const WantedGrid& wanted, LasGrid& grid)
     grid.scale = powerOfTen(static_cast<int>(std::floor(std::log10(wanted.extent))) - kDigits);
   }
   grid.offset = 0.0;
-  if (!spans(axis, grid.scale, grid.offset))
-  {
-    findRoundOffset(axis, grid);
-  }
   // Steps finer than the last digit of a far coordinate are none.
-  return spans(axis, grid.scale, grid.offset) && grid.scale > std::ldexp(axis.farthest(), -52);
+  return reaches(axis, grid) && grid.scale > std::ldexp(axis.farthest(), -52);
 }
 
 /// Throws where the steps do not span the axis.
@@ -180,11 +179,7 @@ void takeForcedSteps(const Axis& axis, const WantedGrid& wanted, LasGrid& grid)
 {
   grid.scale = wanted.forced;
   grid.offset = wanted.offset;
-  if (!spans(axis, grid.scale, grid.offset))
-  {
-    findRoundOffset(axis, grid);
-  }
-  if (!spans(axis, grid.scale, grid.offset))
+  if (!reaches(axis, grid))
   {
     failFormat("steps of " + fmt::format("{}", grid.scale) + " do not span the cloud with 32 bits",
       "give larger ones, or none");

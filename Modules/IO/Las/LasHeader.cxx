@@ -3,8 +3,10 @@
 #include "Bytes/NumericType.h"
 #include "FileProblem.h"
 #include "IO/Las/LasCoordinateSystem.h"
+#include "ReadTask.h"
 
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 namespace pointhaptics::io
@@ -27,40 +29,16 @@ std::string_view untilZero(std::string_view text)
   return text.substr(0, text.find('\0'));
 }
 
-/// Calls @p visit(user, id, content, record), with an empty record where it is cut, for each variable length
-/// record that lies inside the file; a damaged list ends where it leaves it.
+/// For all records of a file; a damaged list ends where it leaves the file.
 template <typename Visit>
 void forEachRecord(std::string_view bytes, const LasHeader& header, Visit visit)
 {
-  const std::size_t end = std::min(bytes.size(), header.pointsOffset);
-  const std::uint32_t records = numberAt<std::uint32_t>(bytes, 100);
-  std::size_t at = header.headerSize;
-  for (std::uint32_t i = 0; i < records && at + kLasVlrHeader <= end; ++i)
+  forEachLasRecord(bytes.substr(0, header.pointsOffset), header.headerSize,
+    numberAt<std::uint32_t>(bytes, 100), false, visit);
+  if (header.minorVersion >= 4 && header.headerSize >= kLasHeaderOf14 && bytes.size() >= kLasHeaderOf14)
   {
-    const std::size_t size = numberAt<std::uint16_t>(bytes, at + 20);
-    const std::size_t content = at + kLasVlrHeader;
-    visit(untilZero(bytes.substr(at + 2, 16)), numberAt<std::uint16_t>(bytes, at + 18),
-      bytes.substr(content, std::min(size, end - content)),
-      size <= end - content ? bytes.substr(at, kLasVlrHeader + size) : std::string_view());
-    at = content + size;
-  }
-  if (header.minorVersion < 4 || header.headerSize < kLasHeaderOf14 || bytes.size() < kLasHeaderOf14)
-  {
-    return;
-  }
-  std::uint64_t far = numberAt<std::uint64_t>(bytes, 235);
-  const std::uint32_t farRecords = numberAt<std::uint32_t>(bytes, 243);
-  for (std::uint32_t i = 0; i < farRecords && far < bytes.size() && bytes.size() - far >= kEvlrHeader; ++i)
-  {
-    const std::size_t start = static_cast<std::size_t>(far);
-    const std::uint64_t left = bytes.size() - far - kEvlrHeader;
-    const std::uint64_t claimed = numberAt<std::uint64_t>(bytes, start + 20);
-    const std::uint64_t size = std::min(left, claimed);
-    visit(untilZero(bytes.substr(start + 2, 16)), numberAt<std::uint16_t>(bytes, start + 18),
-      bytes.substr(start + kEvlrHeader, static_cast<std::size_t>(size)),
-      claimed <= left ? bytes.substr(start, kEvlrHeader + static_cast<std::size_t>(size))
-                      : std::string_view());
-    far += kEvlrHeader + size;
+    forEachLasRecord(
+      bytes, numberAt<std::uint64_t>(bytes, 235), numberAt<std::uint32_t>(bytes, 243), true, visit);
   }
 }
 
@@ -69,13 +47,13 @@ std::string packingOf(std::string_view bytes, const LasHeader& header, int forma
 {
   std::string found = (formatByte & kLasPackedMark) != 0 ? "LAZ" : "";
   forEachRecord(bytes, header,
-    [&](std::string_view user, int id, std::string_view, std::string_view)
+    [&](const LasRecord& record)
     {
-      if (user == "copc" && id == 1)
+      if (record.user == "copc" && record.id == 1)
       {
         found = "COPC";
       }
-      else if (found.empty() && user == kLaszipUser && id == kLaszipRecord)
+      else if (found.empty() && record.user == kLaszipUser && record.id == kLaszipRecord)
       {
         found = "LAZ";
       }
@@ -83,13 +61,9 @@ std::string packingOf(std::string_view bytes, const LasHeader& header, int forma
   return found;
 }
 
-/// VTK's type for an extra field of data type @p code, 1..10.
-int typeOfExtra(int code)
-{
-  constexpr int kTypes[] = { VTK_TYPE_UINT8, VTK_TYPE_INT8, VTK_TYPE_UINT16, VTK_TYPE_INT16, VTK_TYPE_UINT32,
-    VTK_TYPE_INT32, VTK_TYPE_UINT64, VTK_TYPE_INT64, VTK_FLOAT, VTK_DOUBLE };
-  return kTypes[code - 1];
-}
+/// VTK's types for extra fields of data type 1 to 10.
+constexpr int kExtraTypes[] = { VTK_TYPE_UINT8, VTK_TYPE_INT8, VTK_TYPE_UINT16, VTK_TYPE_INT16,
+  VTK_TYPE_UINT32, VTK_TYPE_INT32, VTK_TYPE_UINT64, VTK_TYPE_INT64, VTK_FLOAT, VTK_DOUBLE };
 
 LasExtraField parseExtraField(std::string_view descriptor, std::size_t offset)
 {
@@ -110,7 +84,7 @@ LasExtraField parseExtraField(std::string_view descriptor, std::size_t offset)
     return field;
   }
   // 11..20 are pairs and 21..30 triples of the types 1..10.
-  field.type = typeOfExtra((code - 1) % 10 + 1);
+  field.type = kExtraTypes[(code - 1) % 10];
   field.components = (code - 1) / 10 + 1;
   field.isScaled = (options & 0x18) != 0;
   field.hasNoData = (options & 0x01) != 0;
@@ -141,20 +115,19 @@ void parseRecords(std::string_view bytes, LasHeader& header)
   std::string_view descriptors;
   LasCoordinateSystem system;
   forEachRecord(bytes, header,
-    [&](std::string_view user, int id, std::string_view content, std::string_view record)
+    [&](const LasRecord& record)
     {
-      if (!isOfPacking(user, id))
+      if (!isOfPacking(record.user, record.id))
       {
-        const bool isFar = record.data() >= bytes.data() + header.pointsOffset;
-        (isFar ? header.origin.farRecords : header.origin.records) += record;
+        (record.isFar ? header.origin.farRecords : header.origin.records) += record.whole;
       }
-      if (user == "LASF_Spec" && id == kLasExtraBytesRecord)
+      if (record.user == "LASF_Spec" && record.id == kLasExtraBytesRecord)
       {
-        descriptors = content;
+        descriptors = record.content;
       }
-      else if (user == "LASF_Projection")
+      else if (record.user == kLasProjectionUser)
       {
-        system.addRecord(id, content);
+        system.addRecord(record.id, record.content);
       }
     });
   header.extraFields = lasExtraFields(descriptors, header.fields().size, header.recordLength);
@@ -177,7 +150,7 @@ void checkScales(const LasHeader& header)
   }
 }
 
-void checkLayout(std::string_view bytes, LasHeader& header, const LasEnd& endAt)
+void checkLayout(std::string_view bytes, LasHeader& header, ReadTask* task)
 {
   const std::size_t needed = header.fields().size;
   if (header.recordLength < needed)
@@ -203,11 +176,11 @@ void checkLayout(std::string_view bytes, LasHeader& header, const LasEnd& endAt)
     const std::string what = "the header counts " + std::to_string(header.count) + " points of " +
       std::to_string(header.recordLength) + " bytes, but only " + std::to_string(available) +
       " bytes follow (" + std::to_string(there) + " points)";
-    if (!endAt)
+    if (!task)
     {
       failTruncated(what);
     }
-    header.count = endAt(there, header.count, what);
+    header.count = task->endAt(there, header.count, what);
   }
 }
 
@@ -254,27 +227,55 @@ std::vector<LasExtraField> lasExtraFields(std::string_view descriptors, std::siz
   return fields;
 }
 
-void forEachLasRecord(std::string_view records, bool far,
-  const std::function<void(std::string_view, std::string_view, int, std::string_view)>& visit)
+void forEachLasRecord(std::string_view bytes, std::uint64_t at, std::uint32_t count, bool far,
+  const std::function<void(const LasRecord&)>& visit,
+  const std::function<void(std::size_t, std::size_t)>& need)
 {
   const std::size_t head = far ? kEvlrHeader : kLasVlrHeader;
-  while (records.size() >= head)
+  for (std::uint32_t i = 0; i < count && at < bytes.size() && bytes.size() - at >= head; ++i)
   {
+    const std::size_t start = static_cast<std::size_t>(at);
+    need(start, head);
+    const std::size_t left = bytes.size() - start - head;
     const std::uint64_t claimed =
-      far ? numberAt<std::uint64_t>(records, 20) : numberAt<std::uint16_t>(records, 20);
-    if (claimed > records.size() - head)
-    {
-      return;
-    }
-    const std::size_t size = static_cast<std::size_t>(claimed);
-    visit(records.substr(0, head + size), untilZero(records.substr(2, 16)),
-      numberAt<std::uint16_t>(records, 18), records.substr(head, size));
-    records.remove_prefix(head + size);
+      far ? numberAt<std::uint64_t>(bytes, start + 20) : numberAt<std::uint16_t>(bytes, start + 20);
+    const std::size_t size = static_cast<std::size_t>(std::min<std::uint64_t>(left, claimed));
+    visit({ start, claimed <= left ? bytes.substr(start, head + size) : std::string_view(),
+      untilZero(bytes.substr(start + 2, 16)), numberAt<std::uint16_t>(bytes, start + 18),
+      bytes.substr(start + head, size), far });
+    at += head + size;
   }
 }
 
-void needLasHeader(std::string_view bytes, const std::function<void(std::size_t, std::size_t)>& need)
+void forEachLasRecord(const LasOrigin& origin, const std::function<void(const LasRecord&)>& visit)
 {
+  for (const bool far : { false, true })
+  {
+    forEachLasRecord(far ? origin.farRecords : origin.records, 0, ~std::uint32_t{ 0 }, far,
+      [&](const LasRecord& record) { record.whole.empty() ? void() : visit(record); });
+  }
+}
+
+int lasTypeCode(int type)
+{
+  const auto* const found = std::find(std::begin(kExtraTypes), std::end(kExtraTypes), fixedSizeType(type));
+  return static_cast<int>(found - std::begin(kExtraTypes)) + 1;
+}
+
+std::string lasRecordHeader(const std::string& user, int id, std::size_t size, std::string_view description)
+{
+  std::string header(kLasVlrHeader, '\0');
+  header.replace(2, user.size(), user);
+  putLittle(header, 18, static_cast<std::uint16_t>(id));
+  putLittle(header, 20, static_cast<std::uint16_t>(size));
+  header.replace(22, description.size(), description);
+  return header;
+}
+
+void needLasHeader(const ReadTask& task)
+{
+  const std::string_view bytes = task.bytes;
+  const auto need = [&](std::size_t offset, std::size_t size) { task.need(offset, size); };
   need(0, kLasHeaderOf14);
   if (bytes.size() < kLasHeaderOf14)
   {
@@ -285,23 +286,14 @@ void needLasHeader(std::string_view bytes, const std::function<void(std::size_t,
   {
     return; // no records behind the points
   }
-  std::uint64_t far = numberAt<std::uint64_t>(bytes, 235);
-  const std::uint32_t records = numberAt<std::uint32_t>(bytes, 243);
-  for (std::uint32_t i = 0; i < records && far < bytes.size() && bytes.size() - far >= kEvlrHeader; ++i)
-  {
-    const std::size_t start = static_cast<std::size_t>(far);
-    need(start, kEvlrHeader);
-    const std::uint64_t size =
-      std::min(bytes.size() - far - kEvlrHeader, numberAt<std::uint64_t>(bytes, start + 20));
-    if (untilZero(bytes.substr(start + 2, 16)) != "copc")
-    {
-      need(start + kEvlrHeader, static_cast<std::size_t>(size));
-    }
-    far += kEvlrHeader + size;
-  }
+  forEachLasRecord(
+    bytes, numberAt<std::uint64_t>(bytes, 235), numberAt<std::uint32_t>(bytes, 243), true,
+    [&](const LasRecord& record)
+    { record.user != "copc" ? need(record.at + kEvlrHeader, record.content.size()) : void(); },
+    need);
 }
 
-LasHeader parseLasHeader(std::string_view bytes, const LasEnd& endAt)
+LasHeader parseLasHeader(std::string_view bytes, ReadTask* task)
 {
   if (bytes.size() < kLasHeaderOf12)
   {
@@ -346,7 +338,7 @@ LasHeader parseLasHeader(std::string_view bytes, const LasEnd& endAt)
     header.scale[axis] = numberAt<double>(bytes, 131 + 8 * axis);
     header.offset[axis] = numberAt<double>(bytes, 155 + 8 * axis);
   }
-  checkLayout(bytes, header, endAt);
+  checkLayout(bytes, header, task);
   checkScales(header);
   parseRecords(bytes, header);
   return header;

@@ -23,6 +23,8 @@ class vtkPolyData;
 namespace pointhaptics::io
 {
 
+struct ReadTask;
+
 /// Byte offsets inside a record of each point format; 0 = the format has no such field.
 struct LasPointFormat
 {
@@ -45,6 +47,41 @@ constexpr LasPointFormat kLasPointFormats[kMostLasFormat + 1] = {
   { 59, 22, 0, 0 },
   { 67, 22, 30, 36 },
 };
+
+/// Where a record has a field: a number, or fewer bits of a byte.
+struct LasPlace
+{
+  std::size_t offset = 0; ///< 0: the formats have no such field
+  int type = VTK_TYPE_UINT8;
+  int shift = 0;
+  int bits = 0; ///< 0: the whole number
+
+  int mask() const { return (1 << bits) - 1; }
+};
+/// A field of all formats that becomes an array of its name, and the array the field.
+struct LasField
+{
+  const char* name;
+  int type;            ///< of the array
+  LasPlace basic;      ///< point formats 0 to 5
+  LasPlace extended;   ///< 6 to 10
+  bool isRare = false; ///< most files leave it at zero
+};
+constexpr LasField kLasFields[] = {
+  { "Intensity", VTK_TYPE_UINT16, { 12, VTK_TYPE_UINT16 }, { 12, VTK_TYPE_UINT16 } },
+  { "ReturnNumber", VTK_TYPE_UINT8, { 14, VTK_TYPE_UINT8, 0, 3 }, { 14, VTK_TYPE_UINT8, 0, 4 } },
+  { "NumberOfReturns", VTK_TYPE_UINT8, { 14, VTK_TYPE_UINT8, 3, 3 }, { 14, VTK_TYPE_UINT8, 4, 4 } },
+  { "Classification", VTK_TYPE_UINT8, { 15, VTK_TYPE_UINT8, 0, 5 }, { 16, VTK_TYPE_UINT8, 0, 8 } },
+  { "ScanAngle", VTK_FLOAT, { 16, VTK_TYPE_INT8 }, { 18, VTK_TYPE_INT16 } },
+  { "UserData", VTK_TYPE_UINT8, { 17, VTK_TYPE_UINT8 }, { 17, VTK_TYPE_UINT8 } },
+  { "PointSourceId", VTK_TYPE_UINT16, { 18, VTK_TYPE_UINT16 }, { 20, VTK_TYPE_UINT16 } },
+  { "ClassificationFlags", VTK_TYPE_UINT8, { 15, VTK_TYPE_UINT8, 5, 3 }, { 15, VTK_TYPE_UINT8, 0, 4 }, true },
+  { "ScannerChannel", VTK_TYPE_UINT8, {}, { 15, VTK_TYPE_UINT8, 4, 2 }, true },
+  { "ScanDirection", VTK_TYPE_UINT8, { 14, VTK_TYPE_UINT8, 6, 1 }, { 15, VTK_TYPE_UINT8, 6, 1 }, true },
+  { "EdgeOfFlightLine", VTK_TYPE_UINT8, { 14, VTK_TYPE_UINT8, 7, 1 }, { 15, VTK_TYPE_UINT8, 7, 1 }, true },
+};
+constexpr std::size_t kNumberOfLasFields = sizeof(kLasFields) / sizeof(kLasFields[0]);
+constexpr double kLasScanAngleStep = 0.006; ///< degrees, extended formats
 
 constexpr std::size_t kLasHeaderOf12 = 227; ///< bytes, also of 1.0 and 1.1
 constexpr std::size_t kLasHeaderOf14 = 375;
@@ -129,14 +166,13 @@ struct LasHeader
 /// True if a file that begins with @p start, of which 400 bytes are enough, is a cloud optimised point cloud.
 bool startsLikeCopc(std::string_view start);
 
-/// Calls @p need(offset, size) for header and variable length records, which parseLasHeader() looks at.
-void needLasHeader(std::string_view bytes, const std::function<void(std::size_t, std::size_t)>& need);
+/// Has header and variable length records loaded, which parseLasHeader() looks at.
+void needLasHeader(const ReadTask& task);
 
 /// @throws FileProblem with byte offset and value; also when the file is too short for the points the header
-/// counts. Compressed points are only recognised: see Laz/LazSchema.h and Laz/LazChunks.h.
-/// With @p endAt(there, all, what) a file that is too short for them is read as far as it decides.
-using LasEnd = std::function<std::uint64_t(std::uint64_t, std::uint64_t, const std::string&)>;
-LasHeader parseLasHeader(std::string_view bytes, const LasEnd& endAt = {});
+/// counts: with @p task as its endAt() decides. Compressed points are only recognised: see Laz/LazSchema.h
+/// and Laz/LazChunks.h.
+LasHeader parseLasHeader(std::string_view bytes, ReadTask* task = nullptr);
 
 /// The fields that @p descriptors, the content of an extra bytes record, describe in a record of @p length
 /// bytes from @p first on. What they do not cover, or all where they cannot be right, is kept as
@@ -144,9 +180,38 @@ LasHeader parseLasHeader(std::string_view bytes, const LasEnd& endAt = {});
 std::vector<LasExtraField> lasExtraFields(
   std::string_view descriptors, std::size_t first, std::size_t length);
 
-/// Calls @p visit(record, user, id, content) for each record among @p records, as LasOrigin has them; @p far:
-/// extended ones.
-void forEachLasRecord(std::string_view records, bool far,
-  const std::function<void(std::string_view, std::string_view, int, std::string_view)>& visit);
+/// A variable length record.
+struct LasRecord
+{
+  std::size_t at = 0;     ///< byte at which it begins
+  std::string_view whole; ///< with its header; empty where it is cut
+  std::string_view user;
+  int id = 0;
+  std::string_view content; ///< as much of it as is there
+  bool isFar = false;       ///< an extended one, as they lie behind the points
+};
+
+/// Calls @p visit for each of @p count records, which lie in @p bytes from byte @p at on, as long as their
+/// headers are there. @p far: extended ones. @p need: called before a header is looked at.
+void forEachLasRecord(
+  std::string_view bytes, std::uint64_t at, std::uint32_t count, bool far,
+  const std::function<void(const LasRecord&)>& visit,
+  const std::function<void(std::size_t, std::size_t)>& need = [](std::size_t, std::size_t) {});
+/// As above, for all whole ones among those that @p origin keeps.
+void forEachLasRecord(const LasOrigin& origin, const std::function<void(const LasRecord&)>& visit);
+
+/// LAS's number for the type of an extra field, and for a VTK type.
+int lasTypeCode(int type);
+
+/// The header of a variable length record of @p size bytes. @p description: at most 32 bytes.
+std::string lasRecordHeader(
+  const std::string& user, int id, std::size_t size, std::string_view description = {});
+
+/// Writes @p value little-endian at @p offset. @pre it lies inside @p bytes.
+template <typename T>
+void putLittle(std::string& bytes, std::size_t offset, T value)
+{
+  storeLittle(value, &bytes[offset]);
+}
 
 } // namespace pointhaptics::io

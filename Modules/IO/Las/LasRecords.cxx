@@ -18,56 +18,43 @@ namespace
 
 using Byte = std::uint8_t;
 
-/// Degrees of one step of the scan angle in point formats 6 to 10.
-constexpr double kScanAngleStep = 0.006;
-
-/// Indices into the list of columns, in its order.
-enum LasColumn : std::size_t
+/// The bits of @p place in a record.
+Byte bitsAt(const char* record, const LasPlace& place)
 {
-  kX,
-  kY,
-  kZ,
-  kIntensity,
-  kReturnNumber,
-  kNumberOfReturns,
-  kClassification,
-  kScanAngle,
-  kUserData,
-  kPointSourceId,
-};
+  return static_cast<Byte>(byteAt(record, place.offset) >> place.shift & place.mask());
+}
 
 } // namespace
 
-template <typename Bits>
-void RareBits::fill(const LasBlock& block, std::size_t stride, vtkIdType rows, Bits bits)
+void RareBits::fill(
+  const LasBlock& block, std::size_t stride, vtkIdType rows, const LasField& field, const LasPlace& place)
 {
   Byte* values = values_.load(std::memory_order_acquire);
-  if (!values)
+  const char* end = block.first + static_cast<std::size_t>(block.count) * stride;
+  const Byte bits = static_cast<Byte>(place.mask() << place.shift);
+  Byte any = values ? bits : Byte{ 0 };
+  for (const char* record = block.first; record != end && !values; record += stride)
   {
-    Byte any = 0;
-    for (vtkIdType i = 0; i < block.count; ++i)
-    {
-      any = static_cast<Byte>(any | bits(block.first + static_cast<std::size_t>(i) * stride));
-    }
-    if (any == 0)
-    {
-      return;
-    }
-    values = allocate(rows);
+    any = static_cast<Byte>(any | byteAt(record, place.offset));
   }
-  for (vtkIdType i = 0; i < block.count; ++i)
+  if ((any & bits) == 0)
   {
-    values[block.row + i] = bits(block.first + static_cast<std::size_t>(i) * stride);
+    return;
+  }
+  Byte* to = (values ? values : allocate(rows, field)) + block.row;
+  for (const char* record = block.first; record != end; record += stride)
+  {
+    *to++ = bitsAt(record, place);
   }
 }
 
-std::uint8_t* RareBits::allocate(vtkIdType rows)
+std::uint8_t* RareBits::allocate(vtkIdType rows, const LasField& field)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (!array_)
   {
     array_ = vtkSmartPointer<vtkUnsignedCharArray>::New();
-    array_->SetName(name_);
+    array_->SetName(field.name);
     array_->SetNumberOfValues(rows);
     std::fill_n(array_->GetPointer(0), rows, Byte{ 0 });
     values_.store(array_->GetPointer(0), std::memory_order_release);
@@ -84,24 +71,20 @@ void RareBits::moveTo(vtkPolyData* cloud) const
 }
 
 LasRecords::Columns::Columns(const LasHeader& header, bool onlyPositions)
-  : all{ { "x", VTK_DOUBLE }, { "y", VTK_DOUBLE }, { "z", VTK_DOUBLE } }
 {
   if (onlyPositions)
   {
     return;
   }
-  for (const Column& column : { Column{ "Intensity", VTK_TYPE_UINT16 },
-         Column{ "ReturnNumber", VTK_TYPE_UINT8 }, Column{ "NumberOfReturns", VTK_TYPE_UINT8 },
-         Column{ "Classification", VTK_TYPE_UINT8 }, Column{ "ScanAngle", VTK_FLOAT },
-         Column{ "UserData", VTK_TYPE_UINT8 }, Column{ "PointSourceId", VTK_TYPE_UINT16 } })
+  for (std::size_t i = 0; i < kNumberOfLasFields; ++i)
   {
-    all.push_back(column);
+    fields[i] = addIf(!kLasFields[i].isRare, { kLasFields[i].name, kLasFields[i].type });
   }
-  const LasPointFormat& fields = header.fields();
-  gpsTime = addIf(fields.gpsTime, { "GpsTime", VTK_DOUBLE });
-  wideColor = addIf(fields.rgb, { "Color16", VTK_TYPE_UINT16, 3 });
-  color = addIf(fields.rgb, { "RGB", VTK_TYPE_UINT8, 3 });
-  nearInfrared = addIf(fields.nearInfrared, { "NearInfrared", VTK_TYPE_UINT16 });
+  const LasPointFormat& format = header.fields();
+  gpsTime = addIf(format.gpsTime != 0, { "GpsTime", VTK_DOUBLE });
+  wideColor = addIf(format.rgb != 0, { "Color16", VTK_TYPE_UINT16, 3 });
+  color = addIf(format.rgb != 0, { "RGB", VTK_TYPE_UINT8, 3 });
+  nearInfrared = addIf(format.nearInfrared != 0, { "NearInfrared", VTK_TYPE_UINT16 });
   firstExtra = all.size();
   for (const LasExtraField& field : header.extraFields)
   {
@@ -109,12 +92,9 @@ LasRecords::Columns::Columns(const LasHeader& header, bool onlyPositions)
   }
 }
 
-std::size_t LasRecords::Columns::addIf(std::size_t offset, const Column& column)
+std::size_t LasRecords::Columns::addIf(bool isThere, const Column& column)
 {
-  if (offset != 0)
-  {
-    all.push_back(column);
-  }
+  isThere ? all.push_back(column) : void();
   return all.size() - 1;
 }
 
@@ -152,7 +132,7 @@ void LasRecords::copyColumn(
 
 void LasRecords::fillPosition(const LasBlock& block) const
 {
-  const ColumnView view = columns_.target(kX).fromRow(block.row);
+  const ColumnView view = columns_.target(0).fromRow(block.row);
   const std::array<double, 3> scale = header_.scale;
   const std::array<double, 3> offset = header_.offset;
   const char* from = block.first;
@@ -166,37 +146,39 @@ void LasRecords::fillPosition(const LasBlock& block) const
   }
 }
 
-void LasRecords::fillLegacy(const LasBlock& block)
+void LasRecords::fillField(const LasBlock& block, std::size_t index)
 {
-  fillColumn<Byte, Byte>(block, kReturnNumber, 14, [](Byte b) { return b & 0x07; });
-  fillColumn<Byte, Byte>(block, kNumberOfReturns, 14, [](Byte b) { return b >> 3 & 0x07; });
-  fillColumn<Byte, Byte>(block, kClassification, 15, [](Byte b) { return b & 0x1f; });
-  fillColumn<std::int8_t, float>(block, kScanAngle, 16, [](std::int8_t degrees) { return degrees; });
-  copyColumn<Byte>(block, kUserData, 17);
-  copyColumn<std::uint16_t>(block, kPointSourceId, 18);
-  fillRare(block, flags_, [](const char* record) { return static_cast<Byte>(byteAt(record, 15) >> 5); });
-  fillRare(
-    block, scanDirection_, [](const char* record) { return static_cast<Byte>(byteAt(record, 14) >> 6 & 1); });
-  fillRare(
-    block, edgeOfFlightLine_, [](const char* record) { return static_cast<Byte>(byteAt(record, 14) >> 7); });
-}
-
-void LasRecords::fillExtended(const LasBlock& block)
-{
-  fillColumn<Byte, Byte>(block, kReturnNumber, 14, [](Byte b) { return b & 0x0f; });
-  fillColumn<Byte, Byte>(block, kNumberOfReturns, 14, [](Byte b) { return b >> 4; });
-  copyColumn<Byte>(block, kClassification, 16);
-  copyColumn<Byte>(block, kUserData, 17);
-  fillColumn<std::int16_t, float>(
-    block, kScanAngle, 18, [](std::int16_t steps) { return kScanAngleStep * static_cast<double>(steps); });
-  copyColumn<std::uint16_t>(block, kPointSourceId, 20);
-  fillRare(block, flags_, [](const char* record) { return static_cast<Byte>(byteAt(record, 15) & 0x0f); });
-  fillRare(block, scannerChannel_,
-    [](const char* record) { return static_cast<Byte>(byteAt(record, 15) >> 4 & 3); });
-  fillRare(
-    block, scanDirection_, [](const char* record) { return static_cast<Byte>(byteAt(record, 15) >> 6 & 1); });
-  fillRare(
-    block, edgeOfFlightLine_, [](const char* record) { return static_cast<Byte>(byteAt(record, 15) >> 7); });
+  const LasField& field = kLasFields[index];
+  const LasPlace& place = header_.isExtended() ? field.extended : field.basic;
+  const std::size_t column = names_.fields[index];
+  if (place.offset == 0)
+  {
+    return;
+  }
+  if (field.isRare)
+  {
+    rare_[index].fill(block, header_.recordLength, rows_, field, place);
+  }
+  else if (place.bits > 0)
+  {
+    fillColumn<Byte, Byte>(block, column, place.offset,
+      [shift = place.shift, mask = place.mask()](Byte byte) { return byte >> shift & mask; });
+  }
+  else if (field.type == VTK_FLOAT)
+  {
+    const double step = header_.isExtended() ? kLasScanAngleStep : 1.0;
+    withType(place.type,
+      [&](auto zero)
+      {
+        using T = decltype(zero);
+        fillColumn<T, float>(
+          block, column, place.offset, [step](T steps) { return step * static_cast<double>(steps); });
+      });
+  }
+  else
+  {
+    withType(place.type, [&](auto zero) { copyColumn<decltype(zero)>(block, column, place.offset); });
+  }
 }
 
 void LasRecords::fillExtra(const LasBlock& block) const
@@ -244,8 +226,10 @@ void LasRecords::fill(const LasBlock& block)
     return;
   }
   const LasPointFormat& fields = header_.fields();
-  copyColumn<std::uint16_t>(block, kIntensity, 12);
-  header_.isExtended() ? fillExtended(block) : fillLegacy(block);
+  for (std::size_t i = 0; i < kNumberOfLasFields; ++i)
+  {
+    fillField(block, i);
+  }
   if (fields.gpsTime != 0)
   {
     copyColumn<double>(block, names_.gpsTime, fields.gpsTime);
@@ -277,22 +261,18 @@ void LasRecords::agree(SharedReading& shared)
 {
   struct Found
   {
-    bool rare[4];
+    bool rare[kNumberOfLasFields];
     bool wideColors;
   };
-  RareBits* const rare[4] = { &flags_, &scannerChannel_, &scanDirection_, &edgeOfFlightLine_ };
   Found own{};
-  std::transform(rare, rare + 4, own.rare, [](const RareBits* bits) { return bits->isHere(); });
+  std::transform(rare_.begin(), rare_.end(), own.rare, [](const RareBits& bits) { return bits.isHere(); });
   own.wideColors = hasWideColors();
   for (const Found& found : shared.gatherValues(own))
   {
     othersHaveWideColors_ = othersHaveWideColors_ || found.wideColors;
-    for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t i = 0; i < kNumberOfLasFields; ++i)
     {
-      if (found.rare[i])
-      {
-        rare[i]->allocate(rows_);
-      }
+      found.rare[i] ? void(rare_[i].allocate(rows_, kLasFields[i])) : void();
     }
   }
 }
@@ -315,9 +295,9 @@ void LasRecords::moveTo(vtkPolyData* cloud)
 {
   fillColors();
   columns_.moveTo(cloud);
-  for (const RareBits* bits : { &flags_, &scannerChannel_, &scanDirection_, &edgeOfFlightLine_ })
+  for (const RareBits& bits : rare_)
   {
-    bits->moveTo(cloud);
+    bits.moveTo(cloud);
   }
 }
 

@@ -10,6 +10,7 @@
 #include "vtkType.h"
 #include "vtkUnsignedCharArray.h"
 
+#include <array>
 #include <atomic>
 #include <mutex>
 #include <vector>
@@ -31,21 +32,16 @@ struct LasBlock
 class RareBits
 {
 public:
-  explicit RareBits(const char* name)
-    : name_(name)
-  {
-  }
-  /// values[i] = bits(record i) for the records of @p block, of @p rows in all. Blocks may come from several
-  /// threads at once.
-  template <typename Bits>
-  void fill(const LasBlock& block, std::size_t stride, vtkIdType rows, Bits bits);
+  /// Values of the records of @p block, @p stride bytes each and of @p rows in all, at @p place. Blocks may
+  /// come from several threads at once.
+  void fill(
+    const LasBlock& block, std::size_t stride, vtkIdType rows, const LasField& field, const LasPlace& place);
   void moveTo(vtkPolyData* cloud) const;
   bool isHere() const { return array_ != nullptr; }
   /// The array of zeros, where there is none yet.
-  std::uint8_t* allocate(vtkIdType rows);
+  std::uint8_t* allocate(vtkIdType rows, const LasField& field);
 
 private:
-  const char* name_;
   std::mutex mutex_;
   std::atomic<std::uint8_t*> values_{ nullptr };
   vtkSmartPointer<vtkUnsignedCharArray> array_;
@@ -66,10 +62,11 @@ public:
   void moveTo(vtkPolyData* cloud);
 
 private:
-  /// The columns, and which of them holds what only some files have.
+  /// The columns, and which of them holds what.
   struct Columns
   {
-    std::vector<Column> all;
+    std::vector<Column> all{ { "x", VTK_DOUBLE }, { "y", VTK_DOUBLE }, { "z", VTK_DOUBLE } };
+    std::array<std::size_t, kNumberOfLasFields> fields{};
     std::size_t gpsTime = 0;
     std::size_t wideColor = 0;
     std::size_t color = 0;
@@ -77,7 +74,7 @@ private:
     std::size_t firstExtra = 0;
 
     Columns(const LasHeader& header, bool onlyPositions);
-    std::size_t addIf(std::size_t offset, const Column& column);
+    std::size_t addIf(bool isThere, const Column& column);
   };
 
   template <typename From, typename To, typename Change>
@@ -86,16 +83,10 @@ private:
   template <typename T>
   void copyColumn(const LasBlock& block, std::size_t column, std::size_t offset, int component = 0) const;
   void fillPosition(const LasBlock& block) const;
-  void fillLegacy(const LasBlock& block);
-  void fillExtended(const LasBlock& block);
+  void fillField(const LasBlock& block, std::size_t field);
   void fillExtra(const LasBlock& block) const;
   bool hasWideColors() const;
   void fillColors();
-  template <typename Bits>
-  void fillRare(const LasBlock& block, RareBits& array, Bits bits) const
-  {
-    array.fill(block, header_.recordLength, rows_, bits);
-  }
 
   const LasHeader& header_;
   const bool onlyPositions_;
@@ -103,10 +94,7 @@ private:
   bool othersHaveWideColors_ = false;
   const vtkIdType rows_;
   CloudColumns columns_;
-  RareBits flags_{ "ClassificationFlags" };
-  RareBits scannerChannel_{ "ScannerChannel" };
-  RareBits scanDirection_{ "ScanDirection" };
-  RareBits edgeOfFlightLine_{ "EdgeOfFlightLine" };
+  std::array<RareBits, kNumberOfLasFields> rare_; ///< of those fields that are
 };
 
 } // namespace pointhaptics::io

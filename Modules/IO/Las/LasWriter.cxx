@@ -6,7 +6,6 @@
 #include "IO/Las/LasDescription.h"
 #include "IO/Las/LasGrid.h"
 #include "IO/Las/LasHeader.h"
-#include "IO/Las/LasRecordWriter.h"
 #include "IO/Las/LazWriter.h"
 
 #include "vtkDataArray.h"
@@ -15,11 +14,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <deque>
-#include <limits>
+#include <iterator>
+#include <map>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 
@@ -34,7 +36,6 @@ using Byte = std::uint8_t;
 constexpr std::size_t kLongestName = 32;
 constexpr std::size_t kExtraText = 160; ///< where in the descriptor of an extra field its description begins
 constexpr std::size_t kMostRecord = 65535; ///< 16 bits hold the length of a record
-constexpr double kScanAngleStep = 0.006;   ///< degrees, point formats 6 to 10
 constexpr double kGridPart = 0.6;          ///< of the work: finding the grid
 constexpr double kPlanningPart = 0.7;      ///< of the work: all that comes before the first record
 
@@ -58,21 +59,24 @@ public:
 private:
   const OutputArray* take(
     const char* name, int type, int components = 1, double most = INFINITY, const char* field = nullptr);
-  template <typename T>
-  T largestOf(const OutputArray* array) const;
+  const OutputArray* standard(const char* name) const;
+  const LasPlace& placeOf(std::size_t field) const
+  {
+    return extended_ ? kLasFields[field].extended : kLasFields[field].basic;
+  }
   bool needsExtended() const;
   void takeStandardArrays();
   void nameArrays();
   double largestExtent() const;
   void planPositions();
-  void planBits();
   void planStandardFields();
+  void planScanSteps(const OutputArray& angles, const LasPlace& place);
   void planColors();
   void planExtraFields();
   void addStored(const OutputArray& stored, const LasExtraField& field);
   void addDescriptor(const OutputArray& array, int component, const std::string& origin);
   void addField(const OutputArray* array, int component, std::size_t offset, int type);
-  std::vector<Byte>& newBytes(std::size_t offset);
+  std::vector<Byte>& bytesAt(std::size_t offset);
   void putCounts(std::string& bytes, bool isOf14) const;
   std::string header(std::size_t pointsOffset, const LasDescription& description) const;
   double fieldValue(const char* name, int component, double otherwise) const;
@@ -87,17 +91,7 @@ private:
   const vtkIdType rows_;
   const bool isPacked_;
 
-  const OutputArray* intensity_ = nullptr;
-  const OutputArray* returnNumber_ = nullptr;
-  const OutputArray* numberOfReturns_ = nullptr;
-  const OutputArray* classification_ = nullptr;
-  const OutputArray* flags_ = nullptr;
-  const OutputArray* scannerChannel_ = nullptr;
-  const OutputArray* scanDirection_ = nullptr;
-  const OutputArray* edge_ = nullptr;
-  const OutputArray* scanAngle_ = nullptr;
-  const OutputArray* userData_ = nullptr;
-  const OutputArray* pointSourceId_ = nullptr;
+  std::array<const OutputArray*, kNumberOfLasFields> standard_{}; ///< Of kLasFields; null: there is none.
   const OutputArray* gpsTime_ = nullptr;
   const OutputArray* wideColor_ = nullptr;
   const OutputArray* color_ = nullptr;
@@ -106,7 +100,7 @@ private:
   bool extended_ = false;
   int format_ = 0;
   LasGrid grids_[3];
-  std::deque<std::vector<Byte>> bytes_; ///< packed bit fields; the references to them stay
+  std::map<std::size_t, std::vector<Byte>> bytes_; ///< of bit fields, by their place; references stay
   std::vector<std::int16_t> scanSteps_;
   std::vector<std::uint16_t> widened_;
   std::vector<RecordField> fields_;
@@ -165,25 +159,28 @@ const OutputArray* LasWriter::take(const char* name, int type, int components, d
 
 void LasWriter::takeStandardArrays()
 {
-  intensity_ = take("Intensity", VTK_TYPE_UINT16);
-  returnNumber_ = take("ReturnNumber", VTK_TYPE_UINT8, 1, 15);
-  numberOfReturns_ = take("NumberOfReturns", VTK_TYPE_UINT8, 1, 15);
-  for (const char* name : { "Classification", "scalar_Classification", "Class", "Label", "scalar_Label" })
+  for (std::size_t i = 0; i < kNumberOfLasFields; ++i)
   {
-    classification_ =
-      classification_ ? classification_ : take(name, VTK_TYPE_UINT8, 1, INFINITY, "Classification");
+    const LasField& field = kLasFields[i];
+    const double most = field.extended.bits > 0 ? field.extended.mask() : INFINITY;
+    standard_[i] = take(field.name, field.type, 1, most);
+    const bool isClass = field.name == std::string_view("Classification");
+    for (const char* other : { "scalar_Classification", "Class", "Label", "scalar_Label" })
+    {
+      standard_[i] = !isClass || standard_[i] ? standard_[i] : take(other, field.type, 1, most, field.name);
+    }
   }
-  flags_ = take("ClassificationFlags", VTK_TYPE_UINT8, 1, 15);
-  scannerChannel_ = take("ScannerChannel", VTK_TYPE_UINT8, 1, 3);
-  scanDirection_ = take("ScanDirection", VTK_TYPE_UINT8, 1, 1);
-  edge_ = take("EdgeOfFlightLine", VTK_TYPE_UINT8, 1, 1);
-  scanAngle_ = take("ScanAngle", VTK_FLOAT);
-  userData_ = take("UserData", VTK_TYPE_UINT8);
-  pointSourceId_ = take("PointSourceId", VTK_TYPE_UINT16);
   gpsTime_ = take("GpsTime", VTK_DOUBLE);
   wideColor_ = take("Color16", VTK_TYPE_UINT16, 3);
   color_ = take("RGB", VTK_TYPE_UINT8, 3);
   nearInfrared_ = take("NearInfrared", VTK_TYPE_UINT16);
+}
+
+const OutputArray* LasWriter::standard(const char* name) const
+{
+  const auto* const field = std::find_if(std::begin(kLasFields), std::end(kLasFields),
+    [&](const LasField& each) { return each.name == std::string_view(name); });
+  return standard_[static_cast<std::size_t>(field - std::begin(kLasFields))];
 }
 
 void LasWriter::nameArrays()
@@ -210,31 +207,25 @@ void LasWriter::nameArrays()
   chooseNames(arrays_, columnsOf, { NameRule::Any, kLongestName }, notes_);
 }
 
-template <typename T>
-T LasWriter::largestOf(const OutputArray* array) const
-{
-  if (!array)
-  {
-    return T{ 0 };
-  }
-  const T* values = static_cast<const T*>(array->array->GetVoidPointer(0));
-  return *std::max_element(values, values + rows_);
-}
-
 /// True if the point formats 0 to 3 are too narrow.
 bool LasWriter::needsExtended() const
 {
-  bool wholeDegrees = true;
-  const float* angles =
-    scanAngle_ ? static_cast<const float*>(scanAngle_->array->GetVoidPointer(0)) : nullptr;
-  for (vtkIdType i = 0; i < rows_ && angles && wholeDegrees; ++i)
+  bool needs = nearInfrared_ || static_cast<std::uint64_t>(rows_) > 0xffffffffu;
+  for (std::size_t field = 0; field < kNumberOfLasFields; ++field)
   {
-    wholeDegrees = angles[i] >= -128.0f && angles[i] <= 127.0f && angles[i] == std::floor(angles[i]);
+    const LasPlace& place = kLasFields[field].basic;
+    const bool areBits = kLasFields[field].extended.bits > 0;
+    const auto* values = standard_[field] && areBits
+      ? static_cast<const Byte*>(standard_[field]->array->GetVoidPointer(0))
+      : nullptr;
+    needs = needs || (values && *std::max_element(values, values + rows_) > place.mask());
   }
-  return !wholeDegrees || nearInfrared_ || largestOf<Byte>(returnNumber_) > 7 ||
-    largestOf<Byte>(numberOfReturns_) > 7 || largestOf<Byte>(classification_) > 31 ||
-    largestOf<Byte>(flags_) > 7 || largestOf<Byte>(scannerChannel_) > 0 ||
-    static_cast<std::uint64_t>(rows_) > 0xffffffffu;
+  const OutputArray* angles = standard("ScanAngle");
+  const auto* degrees = angles ? static_cast<const float*>(angles->array->GetVoidPointer(0)) : nullptr;
+  return needs ||
+    (degrees &&
+      !std::all_of(
+        degrees, degrees + rows_, [](float d) { return d >= -128.0f && d <= 127.0f && d == std::floor(d); }));
 }
 
 double LasWriter::fieldValue(const char* name, int component, double otherwise) const
@@ -253,12 +244,16 @@ void LasWriter::addField(const OutputArray* array, int component, std::size_t of
   }
 }
 
-std::vector<Byte>& LasWriter::newBytes(std::size_t offset)
+/// The bytes at @p offset, which several fields may share.
+std::vector<Byte>& LasWriter::bytesAt(std::size_t offset)
 {
-  bytes_.emplace_back(static_cast<std::size_t>(rows_), Byte{ 0 });
-  fields_.push_back(
-    { { reinterpret_cast<const char*>(bytes_.back().data()), 1, VTK_TYPE_UINT8 }, offset, VTK_TYPE_UINT8 });
-  return bytes_.back();
+  const auto [at, isNew] = bytes_.try_emplace(offset, static_cast<std::size_t>(rows_), Byte{ 0 });
+  if (isNew)
+  {
+    fields_.push_back(
+      { { reinterpret_cast<const char*>(at->second.data()), 1, VTK_TYPE_UINT8 }, offset, VTK_TYPE_UINT8 });
+  }
+  return at->second;
 }
 
 double LasWriter::largestExtent() const
@@ -300,62 +295,48 @@ void LasWriter::planPositions()
   }
 }
 
-/// Bit fields: what several arrays share one byte for.
-void LasWriter::planBits()
-{
-  const auto add = [&](std::vector<Byte>& bytes, const OutputArray* array, int shift, int mask)
-  {
-    const Byte* from = array ? static_cast<const Byte*>(array->array->GetVoidPointer(0)) : nullptr;
-    for (std::size_t i = 0; i < bytes.size() && from; ++i)
-    {
-      bytes[i] = static_cast<Byte>(bytes[i] | (from[i] & mask) << shift);
-    }
-  };
-  std::vector<Byte>& returns = newBytes(14);
-  add(returns, returnNumber_, 0, extended_ ? 15 : 7);
-  add(returns, numberOfReturns_, extended_ ? 4 : 3, extended_ ? 15 : 7);
-  std::vector<Byte>& second = newBytes(15);
-  if (extended_)
-  {
-    add(second, flags_, 0, 15);
-    add(second, scannerChannel_, 4, 3);
-    addField(classification_, 0, 16, VTK_TYPE_UINT8);
-  }
-  else
-  {
-    add(second, classification_, 0, 31);
-    add(second, flags_, 5, 7);
-  }
-  std::vector<Byte>& lines = extended_ ? second : returns;
-  add(lines, scanDirection_, 6, 1);
-  add(lines, edge_, 7, 1);
-}
-
 void LasWriter::planStandardFields()
 {
-  addField(intensity_, 0, 12, VTK_TYPE_UINT16);
-  addField(userData_, 0, 17, VTK_TYPE_UINT8);
-  addField(pointSourceId_, 0, extended_ ? 20 : 18, VTK_TYPE_UINT16);
+  for (std::size_t i = 0; i < kNumberOfLasFields; ++i)
+  {
+    const LasPlace& place = placeOf(i);
+    const OutputArray* array = place.offset != 0 ? standard_[i] : nullptr;
+    if (array && place.bits > 0)
+    {
+      const Byte* from = static_cast<const Byte*>(array->array->GetVoidPointer(0));
+      for (Byte& byte : bytesAt(place.offset))
+      {
+        byte = static_cast<Byte>(byte | (*from++ & place.mask()) << place.shift);
+      }
+    }
+    else if (array && extended_ && kLasFields[i].type == VTK_FLOAT)
+    {
+      planScanSteps(*array, place);
+    }
+    else
+    {
+      addField(array, 0, place.offset, place.type);
+    }
+  }
   const LasPointFormat& places = kLasPointFormats[format_];
   addField(gpsTime_, 0, places.gpsTime, VTK_DOUBLE);
   addField(nearInfrared_, 0, places.nearInfrared, VTK_TYPE_UINT16);
-  if (!scanAngle_ || !extended_)
-  {
-    addField(scanAngle_, 0, 16, VTK_TYPE_INT8);
-    return;
-  }
-  const float* angles = static_cast<const float*>(scanAngle_->array->GetVoidPointer(0));
+}
+
+void LasWriter::planScanSteps(const OutputArray& array, const LasPlace& place)
+{
+  const float* angles = static_cast<const float*>(array.array->GetVoidPointer(0));
   bool rounded = false;
   for (vtkIdType i = 0; i < rows_; ++i)
   {
     const double steps = std::isfinite(angles[i])
-      ? std::clamp(std::nearbyint(static_cast<double>(angles[i]) / kScanAngleStep), -32768.0, 32767.0)
+      ? std::clamp(std::nearbyint(static_cast<double>(angles[i]) / kLasScanAngleStep), -32768.0, 32767.0)
       : 0.0;
     scanSteps_.push_back(static_cast<std::int16_t>(steps));
-    rounded = rounded || static_cast<float>(kScanAngleStep * steps) != angles[i];
+    rounded = rounded || static_cast<float>(kLasScanAngleStep * steps) != angles[i];
   }
   fields_.push_back(
-    { { reinterpret_cast<const char*>(scanSteps_.data()), 2, VTK_TYPE_INT16 }, 18, VTK_TYPE_INT16 });
+    { { reinterpret_cast<const char*>(scanSteps_.data()), 2, VTK_TYPE_INT16 }, place.offset, place.type });
   if (rounded)
   {
     notes_.add("scan angles are rounded to steps of 0.006 degrees");
@@ -418,15 +399,12 @@ void LasWriter::addDescriptor(const OutputArray& array, int component, const std
 void LasWriter::planExtraFields()
 {
   std::vector<LasExtraField> known;
-  const auto describe = [&](std::string_view, std::string_view user, int id, std::string_view content)
-  {
-    if (user == "LASF_Spec" && id == kLasExtraBytesRecord)
+  forEachLasRecord(origin_,
+    [&](const LasRecord& record)
     {
-      known = lasExtraFields(content, 0, kMostRecord);
-    }
-  };
-  forEachLasRecord(origin_.records, false, describe);
-  forEachLasRecord(origin_.farRecords, true, describe);
+      const bool describes = record.user == "LASF_Spec" && record.id == kLasExtraBytesRecord;
+      known = describes ? lasExtraFields(record.content, 0, kMostRecord) : std::move(known);
+    });
   for (std::size_t i = 1; i < arrays_.size(); ++i)
   {
     const OutputArray& array = arrays_[i];
@@ -455,8 +433,8 @@ void LasWriter::planExtraFields()
 void LasWriter::putCounts(std::string& bytes, bool isOf14) const
 {
   std::uint64_t byReturn[15] = {};
-  const Byte* returns =
-    returnNumber_ ? static_cast<const Byte*>(returnNumber_->array->GetVoidPointer(0)) : nullptr;
+  const OutputArray* numbers = standard("ReturnNumber");
+  const Byte* returns = numbers ? static_cast<const Byte*>(numbers->array->GetVoidPointer(0)) : nullptr;
   for (vtkIdType i = 0; i < rows_; ++i)
   {
     const int number = returns ? returns[i] : 0;
@@ -538,7 +516,6 @@ void LasWriter::write()
   format_ = extended_ ? (nearInfrared_ ? 8 : isColored ? 7 : 6) : (gpsTime_ ? 1 : 0) + (isColored ? 2 : 0);
   recordSize_ = kLasPointFormats[format_].size;
   planPositions();
-  planBits();
   planStandardFields();
   planColors();
   planExtraFields();

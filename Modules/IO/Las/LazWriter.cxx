@@ -1,7 +1,6 @@
 #include "IO/Las/LazWriter.h"
 
 #include "IO/Las/LasHeader.h"
-#include "IO/Las/LasRecordWriter.h"
 #include "IO/Las/Laz/ChunkEncoder.h"
 #include "IO/Las/Laz/LazChunks.h"
 

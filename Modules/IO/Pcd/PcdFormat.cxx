@@ -3,9 +3,9 @@
 #include "Bytes/NumericType.h"
 #include "IO/Bytes/TextPart.h"
 #include "IO/Columns/CloudColumns.h"
-#include "IO/Pcd/LzfStream.h"
+#include "IO/Columns/TextRecords.h"
+#include "IO/Info/FieldText.h"
 #include "IO/Pcd/PcdHeader.h"
-#include "IO/Text/TextScan.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
@@ -14,15 +14,123 @@
 #include "vtkPolyData.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <memory>
+#include <string_view>
 
 namespace pointhaptics::io
 {
 
 namespace
 {
+
+/// Format: a control byte below 32 stands before that many and one literal bytes; others hold 3 bits of
+/// length (7: one more byte adds to it) and, with the byte after, 13 bits of distance back.
+class LzfStream
+{
+public:
+  /// @p packed must outlive this object.
+  explicit LzfStream(std::string_view packed)
+    : packed_(packed)
+    , window_(new std::uint8_t[kCapacity])
+  {
+  }
+  /// Fills all of @p to. @return false when the packed bytes are damaged or end before.
+  bool read(char* to, std::size_t size)
+  {
+    while (size > 0)
+    {
+      if (begin_ == end_ && !this->fill())
+      {
+        return false;
+      }
+      const std::size_t piece = std::min(size, end_ - begin_);
+      std::memcpy(to, window_.get() + begin_, piece);
+      begin_ += piece;
+      to += piece;
+      size -= piece;
+    }
+    return true;
+  }
+  /// True if everything was unpacked and handed out.
+  bool isAtEnd() const { return at_ == packed_.size() && begin_ == end_; }
+  /// How many packed bytes were used, up to the fault where there is one.
+  std::size_t position() const { return at_; }
+
+private:
+  bool fill()
+  {
+    if (end_ > kFarthest)
+    {
+      const std::size_t dropped = end_ - kFarthest;
+      std::memmove(window_.get(), window_.get() + dropped, kFarthest);
+      end_ = kFarthest;
+    }
+    begin_ = end_;
+    while (end_ < kFarthest + kBlock && at_ < packed_.size())
+    {
+      if (!this->unpackOne())
+      {
+        return false;
+      }
+    }
+    return end_ > begin_;
+  }
+  bool unpackOne()
+  {
+    const std::size_t left = packed_.size() - at_;
+    const auto byteAt = [&](std::size_t i) { return static_cast<std::uint8_t>(packed_[at_ + i]); };
+    const std::size_t control = byteAt(0);
+    if (control < 32)
+    {
+      const std::size_t length = control + 1;
+      if (length >= left)
+      {
+        return false;
+      }
+      std::memcpy(window_.get() + end_, packed_.data() + at_ + 1, length);
+      at_ += 1 + length;
+      end_ += length;
+      return true;
+    }
+    const bool isLong = control >> 5 == 7;
+    const std::size_t used = isLong ? 3 : 2;
+    if (used > left)
+    {
+      return false;
+    }
+    const std::size_t length = (control >> 5) + 2 + (isLong ? byteAt(1) : 0);
+    const std::size_t distance = ((control & 31) << 8 | byteAt(used - 1)) + 1;
+    if (distance > end_)
+    {
+      return false;
+    }
+    // A reference may reach into what it writes: byte by byte.
+    const std::uint8_t* from = window_.get() + end_ - distance;
+    std::uint8_t* to = window_.get() + end_;
+    for (std::size_t i = 0; i < length; ++i)
+    {
+      to[i] = from[i];
+    }
+    at_ += used;
+    end_ += length;
+    return true;
+  }
+
+  static constexpr std::size_t kFarthest = 8192; ///< 13 bits of distance
+  static constexpr std::size_t kLongest = 264;   ///< of one control byte
+  static constexpr std::size_t kBlock = 65536;
+  static constexpr std::size_t kCapacity = kFarthest + kBlock + kLongest;
+
+  std::string_view packed_;
+  std::size_t at_ = 0;
+  std::unique_ptr<std::uint8_t[]> window_; ///< what references may reach, then what was not handed out yet
+  std::size_t begin_ = 0;                  ///< the first byte that was not handed out
+  std::size_t end_ = 0;
+};
 
 /// Bytes of one field that are unpacked at a time: they stay in the cache.
 constexpr std::size_t kBlockBytes = 1 << 18;
@@ -152,140 +260,47 @@ void fillFromCompressed(
   }
 }
 
-/// Where one number of an ASCII line goes.
-struct AsciiNumber
+/// A line of numbers for each point. Packed colours are read as the numbers that they are, and unpacked then.
+void fillFromAscii(ReadTask& task, const TextPart& part, const RowRange& wanted, const PcdHeader& header,
+  const PcdTable& table, const CloudColumns& columns)
 {
-  const PcdField* field;
-  ColumnView target; ///< of a packed colour: its bytes
-};
-
-std::vector<AsciiNumber> asciiNumbers(const PcdTable& table, const CloudColumns& columns)
-{
-  std::vector<AsciiNumber> numbers;
-  for (const PcdTable::Entry& entry : table.entries)
+  const vtkIdType rows = static_cast<vtkIdType>(wanted.count());
+  std::vector<TextField> fields;
+  std::vector<std::vector<std::uint32_t>> packed(table.entries.size());
+  for (std::size_t i = 0; i < table.entries.size(); ++i)
   {
+    const PcdTable::Entry& entry = table.entries[i];
+    packed[i].resize(entry.field.isPackedColor() ? static_cast<std::size_t>(rows) : 0);
     for (int component = 0; component < entry.field.count; ++component)
     {
-      numbers.push_back(
-        { &entry.field, entry.field.isPadding() ? ColumnView{} : columns.target(entry.column, component) });
+      fields.push_back({ entry.field.name,
+        entry.field.isPadding() ? ColumnView{}
+          : entry.field.isPackedColor()
+          ? ColumnView{ reinterpret_cast<char*>(packed[i].data()), 4, entry.field.type }
+          : columns.target(entry.column, component) });
     }
   }
-  return numbers;
-}
-
-bool storeAsciiNumber(const AsciiNumber& number, vtkIdType row, double value, std::string_view digits)
-{
-  if (number.field->isPadding())
-  {
-    return true;
-  }
-  if (!number.field->isPackedColor())
-  {
-    return storeNumber(number.target, row, value, digits);
-  }
-  std::uint32_t packed = 0;
-  const bool stored = storeNumber({ reinterpret_cast<char*>(&packed), 0, number.field->type }, 0, value);
-  unpackColors({ reinterpret_cast<const char*>(&packed), 0, VTK_TYPE_UINT32 }, number.target.fromRow(row), 1);
-  return stored;
-}
-
-void parseAsciiRow(
-  std::string_view line, std::size_t lineNumber, const std::vector<AsciiNumber>& numbers, vtkIdType row)
-{
-  for (const AsciiNumber& number : numbers)
-  {
-    double value = 0.0;
-    const std::string_view digits = trimmed(line);
-    if (!takeNumber(line, value))
-    {
-      const std::string_view word = takeWord(line);
-      failFormat("line " + std::to_string(lineNumber) + ": field " + inQuotes(number.field->name) + " is " +
-          (word.empty() ? std::string("missing") : inQuotes(word) + ", not a number"),
-        "write one number per field and one point per line");
-    }
-    if (!storeAsciiNumber(number, row, value, digits))
-    {
-      failFormat("line " + std::to_string(lineNumber) + ": field " + inQuotes(number.field->name) + " is " +
-          std::to_string(value) + ", which its integer type cannot hold",
-        "give the field TYPE F in the header");
-    }
-  }
-  const std::string_view extra = takeWord(line);
-  if (!extra.empty())
-  {
-    failFormat("line " + std::to_string(lineNumber) + ": " + inQuotes(extra) + " follows the last field",
-      "write as many numbers per line as the header has fields");
-  }
-}
-
-/// Not left to PCL, which names no line when a number is malformed.
-void fillFromAscii(
-  ReadTask& task, const TextPart& part, vtkIdType rows, const PcdTable& table, const CloudColumns& columns)
-{
-  const std::vector<AsciiNumber> numbers = asciiNumbers(table, columns);
   LineReader lines(task.bytes.substr(part.begin, part.end - part.begin), part.firstLine);
-  std::string_view line;
-  vtkIdType point = 0;
-  while (point < rows && lines.next(line))
+  TextRecords(
+    lines, fields, { "field", "point", "points", "give the field TYPE F in the header" }, !task.shared)
+    .storeAll(task, wanted.count(), header.points);
+  for (std::size_t i = 0; i < table.entries.size(); ++i)
   {
-    if (trimmed(line).empty())
-    {
-      continue;
-    }
-    try
-    {
-      parseAsciiRow(line, lines.lineNumber(), numbers, point);
-    }
-    catch (const FileProblem&)
-    {
-      if (!task.salvage || !lines.isAtEnd())
-      {
-        throw;
-      }
-      break; // it is cut
-    }
-    if (++point % kProgressRows == 0)
-    {
-      task.progress(static_cast<double>(point) / static_cast<double>(rows));
-    }
-  }
-  if (point < rows)
-  {
-    const bool isCut = task.salvage && point > 1 && task.bytes.back() != '\n'; // perhaps within a number
-    task.endAt(static_cast<std::uint64_t>(point - (isCut ? 1 : 0)), static_cast<std::uint64_t>(rows),
-      "the file ends at line " + std::to_string(lines.lineNumber()) + " after " + std::to_string(point) +
-        " of " + std::to_string(rows) + " points");
+    packed[i].empty() ? void()
+                      : unpackColors({ reinterpret_cast<const char*>(packed[i].data()), 4, VTK_TYPE_UINT32 },
+                          columns.target(table.entries[i].column), rows);
   }
 }
 
-/// @throws FileProblem where the lines of all ranks are too few.
-RowRange rowsIn(const TextPart& part, const PcdHeader& header)
+void addFieldData(ReadTask& task, const PcdHeader& header, vtkPolyData* cloud)
 {
-  if (part.filledOfAll < header.points)
-  {
-    failTruncated("the file ends after " + std::to_string(part.filledOfAll) + " of " +
-      std::to_string(header.points) + " points");
-  }
-  return part.rowsOf(header.points);
-}
-
-void addFieldData(const PcdHeader& header, vtkPolyData* cloud)
-{
-  header.comments.moveTo(cloud);
-  vtkNew<vtkDoubleArray> viewpoint;
-  viewpoint->SetName("Viewpoint");
-  viewpoint->SetNumberOfComponents(7);
-  viewpoint->InsertNextTuple(header.viewpoint.data());
-  cloud->GetFieldData()->AddArray(viewpoint);
+  header.comments.moveTo(cloud, task.notes);
+  addFieldNumbers<vtkDoubleArray>(cloud, "Viewpoint", header.viewpoint);
   const unsigned long long most = std::numeric_limits<int>::max();
   if (header.height > 1 && header.width <= most && header.height <= most)
   {
-    vtkNew<vtkIntArray> dimensions;
-    dimensions->SetName("OrganizedDimensions");
-    dimensions->SetNumberOfComponents(2);
-    const int values[2] = { static_cast<int>(header.width), static_cast<int>(header.height) };
-    dimensions->InsertNextTypedTuple(values);
-    cloud->GetFieldData()->AddArray(dimensions);
+    addFieldNumbers<vtkIntArray>(cloud, "OrganizedDimensions",
+      std::array{ static_cast<int>(header.width), static_cast<int>(header.height) });
   }
 }
 
@@ -298,9 +313,7 @@ void readPcd(ReadTask& task, vtkPolyData* cloud)
   {
     task.takeWhole();
   }
-  PcdHeader header = parsePcdHeader(task.bytes,
-    [&](std::uint64_t there, std::uint64_t all, const std::string& what)
-    { return task.endAt(there, all, what); });
+  PcdHeader header = parsePcdHeader(task);
   task.format = std::string("PCD (") + nameOf(header.encoding) + ")";
   const PcdTable table(header);
   TextPart part;
@@ -308,7 +321,7 @@ void readPcd(ReadTask& task, vtkPolyData* cloud)
   if (header.encoding == PcdEncoding::Ascii)
   {
     part = partOfText(task, task.bytes, header.bodyOffset, header.bodyLine);
-    rows = rowsIn(part, header);
+    rows = part.rowsOf(header.points, "point");
   }
   else if (header.encoding == PcdEncoding::Binary)
   {
@@ -322,7 +335,7 @@ void readPcd(ReadTask& task, vtkPolyData* cloud)
   switch (header.encoding)
   {
     case PcdEncoding::Ascii:
-      fillFromAscii(task, part, static_cast<vtkIdType>(rows.count()), table, columns);
+      fillFromAscii(task, part, rows, header, table, columns);
       break;
     case PcdEncoding::Binary:
       fillFromRecords(task, header, rows, table, columns);
@@ -336,7 +349,7 @@ void readPcd(ReadTask& task, vtkPolyData* cloud)
   {
     header.height = 1;
   }
-  addFieldData(header, cloud);
+  addFieldData(task, header, cloud);
 }
 
 } // namespace pointhaptics::io

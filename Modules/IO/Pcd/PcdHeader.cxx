@@ -1,12 +1,14 @@
 #include "IO/Pcd/PcdHeader.h"
 
 #include "Bytes/NumericType.h"
-#include "FileProblem.h"
 #include "IO/Text/TextScan.h"
+#include "ReadTask.h"
 
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <iterator>
+#include <map>
 #include <set>
 
 namespace pointhaptics::io
@@ -22,28 +24,14 @@ constexpr unsigned long long kMostLzfRatio = 90; ///< LZF packs at most 264 byte
   failFormat("line " + std::to_string(line) + ": " + what, cure);
 }
 
-int typeOf(char letter, unsigned long long size)
+struct EncodingName
 {
-  switch (letter)
-  {
-    case 'F':
-      return size == 4 ? VTK_FLOAT : size == 8 ? VTK_DOUBLE : VTK_VOID;
-    case 'I':
-      return size == 1 ? VTK_TYPE_INT8
-        : size == 2    ? VTK_TYPE_INT16
-        : size == 4    ? VTK_TYPE_INT32
-        : size == 8    ? VTK_TYPE_INT64
-                       : VTK_VOID;
-    case 'U':
-      return size == 1 ? VTK_TYPE_UINT8
-        : size == 2    ? VTK_TYPE_UINT16
-        : size == 4    ? VTK_TYPE_UINT32
-        : size == 8    ? VTK_TYPE_UINT64
-                       : VTK_VOID;
-    default:
-      return VTK_VOID;
-  }
-}
+  const char* word;
+  const char* name;
+};
+/// In the order of PcdEncoding.
+constexpr EncodingName kEncodings[] = { { "ascii", "ascii" }, { "binary", "binary" },
+  { "binary_compressed", "binary compressed" } };
 
 /// Reads the header's lines one by one.
 class HeaderParser
@@ -56,7 +44,8 @@ public:
   PcdHeader parse();
 
 private:
-  void parseEntry(std::string_view keyword, std::string_view rest);
+  void parseEntry(const std::string& keyword, std::string_view rest);
+  void parseViewpoint(std::string_view rest);
   void parseData(std::string_view word);
   unsigned long long parseOneCount(std::string_view rest) const;
   std::vector<std::string> wordsPerField(std::string_view rest) const;
@@ -105,70 +94,46 @@ unsigned long long HeaderParser::parseOneCount(std::string_view rest) const
 
 void HeaderParser::parseData(std::string_view word)
 {
-  if (word == "ascii")
-  {
-    header_.encoding = PcdEncoding::Ascii;
-  }
-  else if (word == "binary")
-  {
-    header_.encoding = PcdEncoding::Binary;
-  }
-  else if (word == "binary_compressed")
-  {
-    header_.encoding = PcdEncoding::Compressed;
-  }
-  else
+  const auto* const found = std::find_if(std::begin(kEncodings), std::end(kEncodings),
+    [&](const EncodingName& each) { return each.word == word; });
+  if (found == std::end(kEncodings))
   {
     failLine(
       lines_.lineNumber(), "unknown DATA " + inQuotes(word), "PCD has ascii, binary and binary_compressed");
   }
+  header_.encoding = static_cast<PcdEncoding>(found - std::begin(kEncodings));
 }
 
-void HeaderParser::parseEntry(std::string_view keyword, std::string_view rest)
+void HeaderParser::parseViewpoint(std::string_view rest)
 {
-  if (keyword == "FIELDS")
+  for (double& value : header_.viewpoint)
   {
-    names_ = wordsPerField(rest);
-  }
-  else if (keyword == "SIZE")
-  {
-    sizes_ = wordsPerField(rest);
-  }
-  else if (keyword == "TYPE")
-  {
-    types_ = wordsPerField(rest);
-  }
-  else if (keyword == "COUNT")
-  {
-    counts_ = wordsPerField(rest);
-  }
-  else if (keyword == "WIDTH")
-  {
-    header_.width = parseOneCount(rest);
-  }
-  else if (keyword == "HEIGHT")
-  {
-    header_.height = parseOneCount(rest);
-  }
-  else if (keyword == "POINTS")
-  {
-    header_.points = parseOneCount(rest);
-  }
-  else if (keyword == "VIEWPOINT")
-  {
-    for (double& value : header_.viewpoint)
+    const std::string_view word = takeWord(rest);
+    if (!parseNumber(word, value))
     {
-      const std::string_view word = takeWord(rest);
-      if (!parseNumber(word, value))
-      {
-        failLine(lines_.lineNumber(), "VIEWPOINT has " + inQuotes(word) + " where a number was expected",
-          "write 7 numbers: tx ty tz qw qx qy qz");
-      }
+      failLine(lines_.lineNumber(), "VIEWPOINT has " + inQuotes(word) + " where a number was expected",
+        "write 7 numbers: tx ty tz qw qx qy qz");
     }
   }
-  else if (keyword == "DATA")
+}
+
+void HeaderParser::parseEntry(const std::string& keyword, std::string_view rest)
+{
+  const std::map<std::string, std::vector<std::string>*> lists = { { "FIELDS", &names_ }, { "SIZE", &sizes_ },
+    { "TYPE", &types_ }, { "COUNT", &counts_ } };
+  const std::map<std::string, unsigned long long*> counts = { { "WIDTH", &header_.width },
+    { "HEIGHT", &header_.height }, { "POINTS", &header_.points } };
+  if (const auto list = lists.find(keyword); list != lists.end())
   {
-    parseData(takeWord(rest));
+    *list->second = wordsPerField(rest);
+  }
+  else if (const auto count = counts.find(keyword); count != counts.end())
+  {
+    *count->second = parseOneCount(rest);
+  }
+  else if (keyword == "VIEWPOINT" || keyword == "DATA")
+  {
+    keyword == "DATA" ? parseData(takeWord(rest)) : parseViewpoint(rest);
   }
   else if (keyword != "VERSION")
   {
@@ -197,7 +162,8 @@ void HeaderParser::buildFields()
     unsigned long long count = 1;
     const bool sized = sizes_.empty() || parseCount(sizes_[i], size);
     const bool counted = counts_.empty() || parseCount(counts_[i], count);
-    field.type = typeOf(types_.empty() ? 'F' : types_[i].size() == 1 ? types_[i][0] : '?', size);
+    const char letter = types_.empty() ? 'F' : types_[i].size() == 1 ? types_[i][0] : '?';
+    field.type = letter < 'a' ? typeOfKind(static_cast<char>(letter - 'A' + 'a'), size) : VTK_VOID;
     if (!sized || field.type == VTK_VOID || !counted || count < 1 || count > 65536)
     {
       failFormat("field " + inQuotes(field.name) + " has SIZE " + inQuotes(sizes_.empty() ? "4" : sizes_[i]) +
@@ -294,9 +260,7 @@ void checkCompressedSize(std::string_view bytes, PcdHeader& header, unsigned lon
   header.compressedSize = static_cast<std::size_t>(packed);
 }
 
-using End = std::function<std::uint64_t(std::uint64_t, std::uint64_t, const std::string&)>;
-
-void checkSizes(std::string_view bytes, PcdHeader& header, const End& endAt)
+void checkSizes(ReadTask& task, PcdHeader& header)
 {
   // Division, because the product of two claims may overflow.
   const bool matches = header.width == 0 || header.height == 0
@@ -312,7 +276,7 @@ void checkSizes(std::string_view bytes, PcdHeader& header, const End& endAt)
   {
     failNoPoints();
   }
-  const std::size_t available = bytes.size() - header.bodyOffset;
+  const std::size_t available = task.bytes.size() - header.bodyOffset;
   const bool isCompressed = header.encoding == PcdEncoding::Compressed;
   const unsigned long long least = std::max<std::size_t>(1,
     header.encoding == PcdEncoding::Ascii ? 2 * header.numbersPerLine
@@ -325,17 +289,17 @@ void checkSizes(std::string_view bytes, PcdHeader& header, const End& endAt)
   {
     const std::string what = "the header counts " + std::to_string(header.points) + " points of at least " +
       std::to_string(least) + " bytes, but only " + std::to_string(available) + " bytes follow";
-    if (!endAt || isCompressed)
+    if (isCompressed)
     {
       failTruncated(what);
     }
-    header.points = endAt(there, header.points, what);
+    header.points = task.endAt(there, header.points, what);
     header.width = header.points;
     header.height = 1;
   }
   if (isCompressed)
   {
-    checkCompressedSize(bytes, header, header.points * header.compressedRecordSize);
+    checkCompressedSize(task.bytes, header, header.points * header.compressedRecordSize);
   }
 }
 
@@ -353,25 +317,16 @@ Column PcdField::column() const
                          : Column{ name, type, count };
 }
 
-PcdHeader parsePcdHeader(std::string_view bytes, const End& endAt)
+PcdHeader parsePcdHeader(ReadTask& task)
 {
-  PcdHeader header = HeaderParser(bytes).parse();
-  checkSizes(bytes, header, endAt);
+  PcdHeader header = HeaderParser(task.bytes).parse();
+  checkSizes(task, header);
   return header;
 }
 
 const char* nameOf(PcdEncoding encoding)
 {
-  switch (encoding)
-  {
-    case PcdEncoding::Ascii:
-      return "ascii";
-    case PcdEncoding::Binary:
-      return "binary";
-    case PcdEncoding::Compressed:
-      return "binary compressed";
-  }
-  return "";
+  return kEncodings[static_cast<std::size_t>(encoding)].name;
 }
 
 } // namespace pointhaptics::io

@@ -8,13 +8,13 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace pointhaptics::io
 {
+
+struct ReadTask;
 
 enum class PcdEncoding
 {
@@ -54,10 +54,9 @@ struct PcdHeader
   std::size_t numbersPerLine = 0; ///< of an ASCII record
 };
 
-/// @throws FileProblem with line and value, also when the file is too short for what the header promises.
-/// With @p endAt(there, all, what) one that is not compressed is read as far as it decides.
-PcdHeader parsePcdHeader(std::string_view bytes,
-  const std::function<std::uint64_t(std::uint64_t, std::uint64_t, const std::string&)>& endAt = {});
+/// @throws FileProblem with line and value, also when the file is too short for what the header promises: one
+/// that is not compressed is read as far as task.endAt() decides.
+PcdHeader parsePcdHeader(ReadTask& task);
 
 const char* nameOf(PcdEncoding encoding);
 

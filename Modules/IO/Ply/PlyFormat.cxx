@@ -3,7 +3,7 @@
 #include "Bytes/NumericType.h"
 #include "IO/Bytes/TextPart.h"
 #include "IO/Columns/CloudColumns.h"
-#include "IO/Ply/AsciiRecords.h"
+#include "IO/Columns/TextRecords.h"
 #include "IO/Ply/PlyHeader.h"
 #include "IO/Text/TextScan.h"
 
@@ -273,62 +273,18 @@ void readBinaryBody(ReadTask& task, const PlyHeader& header, vtkPolyData* cloud)
   columns.moveTo(cloud, task.shared);
 }
 
-void fillAsciiRow(
-  AsciiRecords& record, vtkIdType row, const PlyElement& vertex, const std::vector<ColumnView>& targets)
-{
-  for (std::size_t i = 0; i < vertex.properties.size(); ++i)
-  {
-    const PlyProperty& property = vertex.properties[i];
-    if (property.isList)
-    {
-      record.skipList(property);
-      continue;
-    }
-    double value = 0.0;
-    if (!record.store(property, targets[i], row, value))
-    {
-      failFormat(record.where() + "property " + inQuotes(property.name) + " is " + std::to_string(value) +
-          ", which its integer type cannot hold",
-        "declare the property as float or double in the header");
-    }
-  }
-  record.expectEnd();
-}
+constexpr TextRecordWords kWords = { "property", "vertex", "vertices",
+  "declare the property as float or double in the header" };
 
-void fillAsciiRows(ReadTask& task, LineReader& lines, const PlyElement& vertex, bool isLast,
-  std::uint64_t rows, const std::vector<ColumnView>& targets)
+/// The numbers of an element, which are stored nowhere.
+std::vector<TextField> textFields(const PlyElement& element)
 {
-  AsciiRecords record(lines, vertex, isLast);
-  for (std::uint64_t row = 0; row < rows; ++row)
+  std::vector<TextField> fields;
+  for (const PlyProperty& property : element.properties)
   {
-    if (!record.next())
-    {
-      task.salvage ? void() : record.throwDoubt();
-      const bool isCut = task.salvage && row > 1 && task.bytes.back() != '\n'; // perhaps within a number
-      task.endAt(row - (isCut ? 1 : 0), vertex.count,
-        "the file ends at line " + std::to_string(lines.lineNumber()) + " before " +
-          recordNumber("vertex", row, vertex.count));
-      return;
-    }
-    try
-    {
-      fillAsciiRow(record, static_cast<vtkIdType>(row), vertex, targets);
-    }
-    catch (const FileProblem& problem)
-    {
-      if (!task.salvage || !lines.isAtEnd() || row == 0)
-      {
-        throw;
-      }
-      task.endAt(row, vertex.count, problem.what());
-      return;
-    }
-    if (row % kProgressRows == 0)
-    {
-      task.progress(static_cast<double>(row) / static_cast<double>(rows));
-    }
+    fields.push_back({ property.name, {}, property.isList });
   }
-  record.isAtEndOfLine() ? void() : record.throwDoubt();
+  return fields;
 }
 
 void skipAsciiElement(LineReader& lines, const PlyElement& element)
@@ -336,7 +292,7 @@ void skipAsciiElement(LineReader& lines, const PlyElement& element)
   std::string_view line;
   for (unsigned long long i = 0; i < element.count && !element.properties.empty(); ++i)
   {
-    if (!nextFilledLine(lines, line))
+    if (!lines.nextFilled(line))
     {
       failTruncated("the file ends before " + recordNumber(element.name.c_str(), i, element.count));
     }
@@ -353,7 +309,8 @@ void skipWholeAsciiElement(LineReader& lines, PlyElement element, MeshFaces& fac
   const unsigned long long count = element.count;
   element.count = faces.isWanted() && element.name == "face" ? 0 : count - 1;
   skipAsciiElement(lines, element);
-  AsciiRecords record(lines, element, false);
+  TextRecords record(lines, {}, kWords, false);
+  const std::vector<TextField> fields = textFields(element);
   std::vector<vtkIdType> corners;
   for (unsigned long long i = element.count; i < count; ++i)
   {
@@ -363,11 +320,12 @@ void skipWholeAsciiElement(LineReader& lines, PlyElement element, MeshFaces& fac
     }
     try
     {
-      for (const PlyProperty& property : element.properties)
+      for (std::size_t k = 0; k < fields.size(); ++k)
       {
         corners.clear();
-        property.isList ? record.skipList(property, hasCorners(element, property) ? &corners : nullptr)
-                        : void(record.takeNumber(property));
+        fields[k].isList
+          ? record.takeList(fields[k], hasCorners(element, element.properties[k]) ? &corners : nullptr)
+          : void(record.takeNumber(fields[k]));
         faces.keep(corners);
       }
     }
@@ -384,23 +342,13 @@ bool isByLines(std::string_view text, const PlyElement& vertex)
 {
   LineReader lines(text);
   std::string_view line;
-  nextFilledLine(lines, line);
+  lines.nextFilled(line);
   std::size_t words = 0;
   while (!takeWord(line).empty())
   {
     ++words;
   }
   return vertex.hasList() || words == vertex.properties.size();
-}
-
-/// @throws FileProblem where the lines of all ranks are too few.
-RowRange rowsIn(const TextPart& part, const PlyElement& vertex)
-{
-  if (part.filledOfAll < vertex.count)
-  {
-    failTruncated("the file ends before " + recordNumber("vertex", part.filledOfAll, vertex.count));
-  }
-  return part.rowsOf(vertex.count);
 }
 
 void readAsciiBody(ReadTask& task, const PlyHeader& header, vtkPolyData* cloud)
@@ -419,22 +367,22 @@ void readAsciiBody(ReadTask& task, const PlyHeader& header, vtkPolyData* cloud)
   {
     skipAsciiElement(lines, header.elements[i]);
   }
-  RowRange rows = rowsIn(part, vertex);
+  RowRange rows = part.rowsOf(vertex.count, "vertex");
   // Each number takes a digit and a separator; the last one may lack the separator.
   const std::size_t available = task.bytes.size() - header.bodyOffset - lines.position() + 1;
   const std::size_t least = 2 * vertex.properties.size();
   rows.last = std::min<std::uint64_t>(rows.last, checkedCount(task, vertex, available, least));
   const VertexPlan plan(vertex);
   CloudColumns columns(plan.columns, static_cast<vtkIdType>(rows.count()));
-  std::vector<ColumnView> targets;
-  for (const std::size_t column : plan.columnOfProperty)
+  std::vector<TextField> fields = textFields(vertex);
+  for (std::size_t i = 0; i < fields.size(); ++i)
   {
-    targets.push_back(column == std::string::npos ? ColumnView{} : columns.target(column));
+    fields[i].target = fields[i].isList ? ColumnView{} : columns.target(plan.columnOfProperty[i]);
   }
   const bool isLast = !task.shared &&
     std::all_of(header.elements.begin() + std::ptrdiff_t(vertexIndex) + 1, header.elements.end(),
       [](const PlyElement& later) { return later.count == 0; });
-  fillAsciiRows(task, lines, vertex, isLast, rows.count(), targets);
+  TextRecords(lines, fields, kWords, isLast).storeAll(task, rows.count(), vertex.count);
   noteCutElements(
     task, header, [&](const PlyElement& element) { skipWholeAsciiElement(lines, element, task.faces); });
   columns.moveTo(cloud, task.shared);
@@ -473,7 +421,7 @@ void readPly(ReadTask& task, vtkPolyData* cloud)
   {
     readBinaryBody(task, header, cloud);
   }
-  header.comments.moveTo(cloud);
+  header.comments.moveTo(cloud, task.notes);
 }
 
 } // namespace pointhaptics::io

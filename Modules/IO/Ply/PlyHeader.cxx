@@ -7,6 +7,7 @@
 #include "IO/Text/TextScan.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace pointhaptics::io
 {
@@ -20,29 +21,14 @@ struct TypeName
   int type;
 };
 
-const TypeName kTypeNames[] = {
-  { "char", VTK_TYPE_INT8 },
-  { "int8", VTK_TYPE_INT8 },
-  { "uchar", VTK_TYPE_UINT8 },
-  { "uint8", VTK_TYPE_UINT8 },
-  { "short", VTK_TYPE_INT16 },
-  { "int16", VTK_TYPE_INT16 },
-  { "ushort", VTK_TYPE_UINT16 },
-  { "uint16", VTK_TYPE_UINT16 },
-  { "int", VTK_TYPE_INT32 },
-  { "int32", VTK_TYPE_INT32 },
-  { "uint", VTK_TYPE_UINT32 },
-  { "uint32", VTK_TYPE_UINT32 },
-  { "bool", VTK_TYPE_UINT8 },
-  { "long", VTK_TYPE_INT64 },
-  { "int64", VTK_TYPE_INT64 },
-  { "ulong", VTK_TYPE_UINT64 },
-  { "uint64", VTK_TYPE_UINT64 },
-  { "float", VTK_FLOAT },
-  { "float32", VTK_FLOAT },
-  { "double", VTK_DOUBLE },
-  { "float64", VTK_DOUBLE },
-};
+/// The first name of a type is written.
+constexpr TypeName kTypeNames[] = { { "char", VTK_TYPE_INT8 }, { "int8", VTK_TYPE_INT8 },
+  { "uchar", VTK_TYPE_UINT8 }, { "uint8", VTK_TYPE_UINT8 }, { "short", VTK_TYPE_INT16 },
+  { "int16", VTK_TYPE_INT16 }, { "ushort", VTK_TYPE_UINT16 }, { "uint16", VTK_TYPE_UINT16 },
+  { "int", VTK_TYPE_INT32 }, { "int32", VTK_TYPE_INT32 }, { "uint", VTK_TYPE_UINT32 },
+  { "uint32", VTK_TYPE_UINT32 }, { "bool", VTK_TYPE_UINT8 }, { "long", VTK_TYPE_INT64 },
+  { "int64", VTK_TYPE_INT64 }, { "ulong", VTK_TYPE_UINT64 }, { "uint64", VTK_TYPE_UINT64 },
+  { "float", VTK_FLOAT }, { "float32", VTK_FLOAT }, { "double", VTK_DOUBLE }, { "float64", VTK_DOUBLE } };
 
 [[noreturn]] void failLine(std::size_t line, const std::string& what, const std::string& cure)
 {
@@ -64,22 +50,25 @@ int parseType(std::string_view word, std::size_t line)
     "too");
 }
 
+struct EncodingName
+{
+  const char* word;
+  const char* name;
+};
+/// In the order of PlyEncoding.
+constexpr EncodingName kEncodings[] = { { "ascii", "ascii" },
+  { "binary_little_endian", "binary little endian" }, { "binary_big_endian", "binary big endian" } };
+
 PlyEncoding parseEncoding(std::string_view word, std::size_t line)
 {
-  if (word == "ascii")
+  const auto* const found = std::find_if(std::begin(kEncodings), std::end(kEncodings),
+    [&](const EncodingName& each) { return each.word == word; });
+  if (found == std::end(kEncodings))
   {
-    return PlyEncoding::Ascii;
+    failLine(line, "unknown encoding " + inQuotes(word),
+      "PLY has ascii, binary_little_endian and binary_big_endian");
   }
-  if (word == "binary_little_endian")
-  {
-    return PlyEncoding::LittleEndian;
-  }
-  if (word == "binary_big_endian")
-  {
-    return PlyEncoding::BigEndian;
-  }
-  failLine(
-    line, "unknown encoding " + inQuotes(word), "PLY has ascii, binary_little_endian and binary_big_endian");
+  return static_cast<PlyEncoding>(found - std::begin(kEncodings));
 }
 
 PlyElement parseElement(std::string_view rest, std::size_t line)
@@ -236,16 +225,15 @@ PlyHeader parsePlyHeader(std::string_view bytes)
 
 const char* nameOf(PlyEncoding encoding)
 {
-  switch (encoding)
-  {
-    case PlyEncoding::Ascii:
-      return "ascii";
-    case PlyEncoding::LittleEndian:
-      return "binary little endian";
-    case PlyEncoding::BigEndian:
-      return "binary big endian";
-  }
-  return "";
+  return kEncodings[static_cast<std::size_t>(encoding)].name;
+}
+
+const char* plyTypeName(int type)
+{
+  const int plain = fixedSizeType(type);
+  const auto* const found = std::find_if(std::begin(kTypeNames), std::end(kTypeNames),
+    [&](const TypeName& each) { return each.type == plain && sizeOfType(plain) < 8; });
+  return found == std::end(kTypeNames) ? "double" : found->name.data();
 }
 
 } // namespace pointhaptics::io

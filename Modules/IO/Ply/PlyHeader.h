@@ -56,4 +56,7 @@ PlyHeader parsePlyHeader(std::string_view bytes);
 
 const char* nameOf(PlyEncoding encoding);
 
+/// The word of the format for numbers of the VTK type @p type; "double" for what it has none for.
+const char* plyTypeName(int type);
+
 } // namespace pointhaptics::io

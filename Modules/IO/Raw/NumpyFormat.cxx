@@ -1,5 +1,3 @@
-#include "IO/Raw/RawFormats.h"
-
 #include "Bytes/LittleEndian.h"
 #include "Bytes/NumericType.h"
 #include "IO/Columns/CloudColumns.h"
@@ -65,15 +63,7 @@ NumpyField fieldOf(std::string_view type)
   {
     failFormat("the values are of type " + inQuotes(type), kCure);
   }
-  const std::string kind(type.substr(1));
-  const std::pair<const char*, int> known[] = { { "f4", VTK_FLOAT }, { "f8", VTK_DOUBLE },
-    { "i1", VTK_TYPE_INT8 }, { "u1", VTK_TYPE_UINT8 }, { "b1", VTK_TYPE_UINT8 }, { "i2", VTK_TYPE_INT16 },
-    { "u2", VTK_TYPE_UINT16 }, { "i4", VTK_TYPE_INT32 }, { "u4", VTK_TYPE_UINT32 }, { "i8", VTK_TYPE_INT64 },
-    { "u8", VTK_TYPE_UINT64 } };
-  for (const auto& [name, vtkType] : known)
-  {
-    field.type = kind == name ? vtkType : field.type;
-  }
+  field.type = type.substr(1) == "b1" ? VTK_TYPE_UINT8 : typeOfKind(type[1], size);
   if (field.type == VTK_VOID)
   {
     failFormat("the values are of type " + inQuotes(type) + ", which is not read here", kCure);

@@ -206,33 +206,33 @@ void failTornDecimals(std::string_view text, const TextLayout& layout)
   }
 }
 
-/// "mm" of "x [mm]", "y [mm]", "z [mm]", "degree" of longitude and latitude; empty where the header says no
-/// unit. @throws FileProblem where it
-/// says unlike ones.
-std::string unitOf(const std::vector<std::string>& names)
+/// Takes the unit that the header says: "mm" of "x [mm]", "y [mm]", "z [mm]", "degree" of longitude and
+/// latitude, whose heights are lengths. @throws FileProblem where it says unlike ones.
+void takeUnits(const std::vector<std::string>& names, FileComments& comments)
 {
   std::string unit;
   const auto coordinates = names.empty() ? std::vector<std::size_t>() : coordinatesOf(columnsCalled(names));
   for (const std::size_t i : coordinates)
   {
     const std::string own = coordinateUnit(names[i]);
+    const std::string known = lengthUnitCalled(own);
+    if (unit == "degree" && i == coordinates[2])
+    {
+      comments.heightUnit = known.empty() || known == "deg" || known == "m" ? "" : own;
+      continue;
+    }
     if (own.empty())
     {
-      return {};
+      return;
     }
-    const std::string known = lengthUnitCalled(own);
     if (!unit.empty() && own != unit && (known.empty() || known != lengthUnitCalled(unit)))
     {
       failFormat(inQuotes(names[i]) + " is in " + own + ", other coordinates are in " + unit,
         "convert the columns to one unit, or name them by --columns where they are in one");
     }
     unit = own;
-    if (own == "degree" && i == coordinates[1])
-    {
-      return own; // heights are lengths
-    }
   }
-  return unit;
+  comments.unit = unit.empty() ? comments.unit : unit;
 }
 
 /// The layout of a text, of which the start may be all that was loaded.
@@ -381,10 +381,13 @@ void readText(ReadTask& task, vtkPolyData* cloud)
   }
   failTornDecimals(text, layout);
   FileComments comments = layout.comments;
-  const std::string unit = unitOf(layout.names);
-  comments.unit = unit.empty() ? comments.unit : unit;
+  takeUnits(layout.names, comments);
   readTable(task, text, layout, cloud);
-  comments.moveTo(cloud);
+  comments.moveTo(cloud, task.notes);
+  if (!comments.heightUnit.empty())
+  {
+    task.notes.push_back("heights are in " + comments.heightUnit + ", x and y in degrees");
+  }
 }
 
 } // namespace pointhaptics::io

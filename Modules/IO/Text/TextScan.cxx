@@ -27,6 +27,18 @@ bool LineReader::next(std::string_view& line)
   return true;
 }
 
+bool LineReader::nextFilled(std::string_view& line)
+{
+  while (next(line))
+  {
+    if (!trimmed(line).empty())
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
 std::string_view trimmed(std::string_view text)
 {
   while (!text.empty() && isBlank(text.front()))

@@ -20,6 +20,8 @@ public:
   }
   /// The next line without its end. @return false at the end of the text.
   bool next(std::string_view& line);
+  /// The next line that has more than blanks.
+  bool nextFilled(std::string_view& line);
   std::size_t lineNumber() const { return lineNumber_; } ///< of the line returned last; the first is 1
   bool isAtEnd() const { return position_ >= text_.size(); }
   std::size_t position() const { return position_; } ///< byte just after the line returned last
@@ -34,6 +36,12 @@ private:
 inline bool isBlank(char c)
 {
   return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
+}
+
+/// A blank or the end of a line.
+inline bool isSpace(char c)
+{
+  return isBlank(c) || c == '\n';
 }
 
 /// @p text without white space at both ends.

@@ -44,8 +44,8 @@ std::string nameOf(const OutputArray& array, int component, const WriteTask& tas
   if (array.role == ArrayRole::Points)
   {
     const bool isHeight = component == 2 && task.comments.unit.rfind("deg", 0) == 0; // a length
-    const bool saysUnit = separator == ',' && !task.comments.unit.empty() && !isHeight;
-    return std::string(1, "xyz"[component]) + (saysUnit ? " [" + task.comments.unit + "]" : "");
+    const std::string& unit = isHeight ? task.comments.heightUnit : task.comments.unit;
+    return std::string(1, "xyz"[component]) + (separator == ',' && !unit.empty() ? " [" + unit + "]" : "");
   }
   const std::string name = array.componentName(component);
   const bool isBare =

@@ -2,7 +2,6 @@
 
 #include "IO/Bytes/FileBytes.h"
 #include "IO/Vtk/VtkXmlChecks.h"
-#include "IO/Vtk/XmlTags.h"
 
 #include "vtkAbstractArray.h"
 #include "vtkFieldData.h"
@@ -35,23 +34,6 @@ struct PieceFile
   std::uint64_t points = 0;
 };
 
-/// The five entities that XML has without a declaration.
-std::string withoutEntities(std::string_view text)
-{
-  constexpr std::pair<std::string_view, char> kEntities[] = { { "&amp;", '&' }, { "&lt;", '<' },
-    { "&gt;", '>' }, { "&quot;", '"' }, { "&apos;", '\'' } };
-  std::string result;
-  while (!text.empty())
-  {
-    const auto* found = std::find_if(std::begin(kEntities), std::end(kEntities),
-      [&](const auto& entity) { return text.substr(0, entity.first.size()) == entity.first; });
-    const bool isEntity = found != std::end(kEntities);
-    result += isEntity ? found->second : text.front();
-    text.remove_prefix(isEntity ? found->first.size() : 1);
-  }
-  return result;
-}
-
 /// Lists come from anywhere: none may make the reader open other files of this machine.
 bool isBelow(const std::string& name)
 {
@@ -60,38 +42,40 @@ bool isBelow(const std::string& name)
     std::none_of(path.begin(), path.end(), [](const fs::path& part) { return part == ".."; });
 }
 
-std::vector<PieceFile> piecesOf(const ReadTask& task)
+void addPiece(const ReadTask& task, const XmlElement& element, std::set<std::string>& names,
+  std::vector<PieceFile>& pieces)
+{
+  const std::string name(element.attribute("Source"));
+  if (!isBelow(name))
+  {
+    failFormat("byte " + std::to_string(element.begin) + ": a piece called " + inQuotes(name) +
+        ", which does not lie beside or below the list",
+      "put the pieces there, and their names relative to the list into it");
+  }
+  const fs::path path = fs::path(task.path).parent_path() / name;
+  if (!names.insert(path.lexically_normal().string()).second)
+  {
+    failFormat("byte " + std::to_string(element.begin) + ": the piece " + inQuotes(name) + " is there twice",
+      "name each piece once");
+  }
+  pieces.push_back({ name, path.string() });
+}
+
+std::vector<PieceFile> piecesOf(const ReadTask& task, const XmlElement& root)
 {
   std::vector<PieceFile> pieces;
   std::set<std::string> names;
-  XmlTags tags(task.bytes);
-  while (tags.next())
-  {
-    const std::string_view level = xmlAttribute(tags.tag(), "GhostLevel");
-    if (tags.tag().substr(0, 10) == "<PPolyData" && !level.empty() && level != "0")
+  forEachElement(root,
+    [&](const XmlElement& element)
     {
-      failFormat("pieces with ghost points (GhostLevel is " + inQuotes(level) + "), which are there twice",
-        "write the pieces without ghost levels");
-    }
-    if (tags.tag().substr(0, 6) != "<Piece")
-    {
-      continue;
-    }
-    const std::string name = withoutEntities(xmlAttribute(tags.tag(), "Source"));
-    if (!isBelow(name))
-    {
-      failFormat("byte " + std::to_string(tags.begin()) + ": a piece called " + inQuotes(name) +
-          ", which does not lie beside or below the list",
-        "put the pieces there, and their names relative to the list into it");
-    }
-    const fs::path path = fs::path(task.path).parent_path() / name;
-    if (!names.insert(path.lexically_normal().string()).second)
-    {
-      failFormat("byte " + std::to_string(tags.begin()) + ": the piece " + inQuotes(name) + " is there twice",
-        "name each piece once");
-    }
-    pieces.push_back({ name, path.string() });
-  }
+      const std::string_view level = element.attribute("GhostLevel");
+      if (element.name == "PPolyData" && !level.empty() && level != "0")
+      {
+        failFormat("pieces with ghost points (GhostLevel is " + inQuotes(level) + "), which are there twice",
+          "write the pieces without ghost levels");
+      }
+      element.name == "Piece" ? addPiece(task, element, names, pieces) : void();
+    });
   return pieces;
 }
 
@@ -124,12 +108,13 @@ std::uint64_t pointsOf(ReadTask& task, const PieceFile& piece)
     start = bytes.view();
   }
   task.bytesElsewhere += bytes.loaded();
-  const std::string_view type = xmlAttribute(vtkFileTag(start), "type");
+  const XmlElement root = vtkXml(start);
+  const std::string_view type = root.attribute("type");
   if (type != "PolyData")
   {
     failFormat("a VTK file of the type " + inQuotes(type), "list VTP files, whose type is PolyData");
   }
-  return pointsOfVtkXml(start, bytes.view().size());
+  return pointsOfVtkXml(root, bytes.view().size());
 }
 
 /// Name, type and components of each array and of the points, a line each.
@@ -226,8 +211,8 @@ void readRows(ReadTask& task, const std::vector<PieceFile>& pieces, const RowRan
           bytes.load(0, bytes.view().size());
           task.bytesElsewhere += bytes.loaded();
           const auto size = static_cast<double>(pieces.size());
-          const vtkSmartPointer<vtkPointSet> read = readVtkXmlFile(
-            task, piece.path, bytes.view(), static_cast<double>(i) / size, static_cast<double>(i + 1) / size);
+          const vtkSmartPointer<vtkPointSet> read = readVtkXmlFile(task, piece.path, bytes.view(),
+            vtkXml(bytes.view()), static_cast<double>(i) / size, static_cast<double>(i + 1) / size);
           if (static_cast<std::uint64_t>(read->GetNumberOfPoints()) != piece.points)
           {
             failFormat(std::to_string(read->GetNumberOfPoints()) + " points, not the " +
@@ -258,10 +243,10 @@ void compareArrays(SharedReading& shared, const std::string& own)
 
 } // namespace
 
-void readVtkPieces(ReadTask& task, vtkPolyData* cloud)
+void readVtkPieces(ReadTask& task, const XmlElement& root, vtkPolyData* cloud)
 {
-  checkVtkXml(task.bytes);
-  std::vector<PieceFile> pieces = piecesOf(task);
+  checkVtkXml(task.bytes, root);
+  std::vector<PieceFile> pieces = piecesOf(task, root);
   std::uint64_t all = 0;
   for (std::size_t i = 0; i < pieces.size(); ++i)
   {

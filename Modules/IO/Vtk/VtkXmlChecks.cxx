@@ -2,7 +2,6 @@
 
 #include "FileProblem.h"
 #include "IO/Text/TextScan.h"
-#include "IO/Vtk/XmlTags.h"
 
 #include "vtkBase64Utilities.h"
 
@@ -19,11 +18,6 @@ namespace
 
 /// zlib packs at most 1032 bytes into one; a file that claims more, of any compressor, is refused.
 constexpr double kMostUnpackedBytes = 1032.0;
-
-bool isSpace(char c)
-{
-  return isBlank(c) || c == '\n';
-}
 
 std::string at(std::size_t offset)
 {
@@ -137,30 +131,30 @@ void checkArrayBytes(const DataLayout& layout, std::size_t position, bool isBase
   }
 }
 
-void checkArray(const DataLayout& layout, std::string_view tag, std::size_t tagAt, std::size_t tagEnd)
+void checkArray(const DataLayout& layout, const XmlElement& array)
 {
-  const std::string_view format = xmlAttribute(tag, "format");
+  const std::string_view format = array.attribute("format");
   if (format == "appended")
   {
-    const std::string_view text = xmlAttribute(tag, "offset");
+    const std::string_view text = array.attribute("offset");
     unsigned long long offset = 0;
     if (layout.appendedAt == 0 || !parseCount(text, offset) ||
       offset >= layout.bytes.size() - layout.appendedAt)
     {
-      failTruncated(
-        at(tagAt) + "an array at offset " + inQuotes(text) + " of the appended data, which is not there");
+      failTruncated(at(array.begin) + "an array at offset " + inQuotes(text) +
+        " of the appended data, which is not there");
     }
     checkArrayBytes(layout, layout.appendedAt + static_cast<std::size_t>(offset), layout.appendedIsBase64);
     return;
   }
   if (format == "binary")
   {
-    std::size_t start = tagEnd;
+    std::size_t start = array.end;
     while (start < layout.bytes.size() && isSpace(layout.bytes[start]))
     {
       ++start;
     }
-    const bool isEmpty = tag.back() == '/' || layout.bytes.substr(start, 1) == "<";
+    const bool isEmpty = layout.bytes[array.end - 2] == '/' || layout.bytes.substr(start, 1) == "<";
     if (!isEmpty)
     {
       checkArrayBytes(layout, start, true);
@@ -169,7 +163,7 @@ void checkArray(const DataLayout& layout, std::string_view tag, std::size_t tagA
   }
   if (format != "ascii")
   {
-    failDamaged(tagAt, "an array of the format " + inQuotes(format));
+    failDamaged(array.begin, "an array of the format " + inQuotes(format));
   }
 }
 
@@ -177,17 +171,17 @@ void checkArray(const DataLayout& layout, std::string_view tag, std::size_t tagA
 class CountCheck
 {
 public:
-  CountCheck(const DataLayout& layout, std::size_t fileSize)
-    : mostBytes_(static_cast<double>(fileSize) * (layout.isPacked ? kMostUnpackedBytes : 1.0))
+  CountCheck(bool isPacked, std::size_t fileSize)
+    : mostBytes_(static_cast<double>(fileSize) * (isPacked ? kMostUnpackedBytes : 1.0))
     , fileSize_(fileSize)
   {
   }
-  void check(std::string_view tag, std::size_t tagAt)
+  void check(const XmlElement& element)
   {
     for (const char* name : { "NumberOfPoints", "NumberOfVerts", "NumberOfLines", "NumberOfStrips",
            "NumberOfPolys", "NumberOfCells", "NumberOfTuples", "NumberOfComponents" })
     {
-      const std::string_view value = xmlAttribute(tag, name);
+      const std::string_view value = element.attribute(name);
       unsigned long long count = 0;
       if (value.empty())
       {
@@ -197,7 +191,7 @@ public:
       if (!parseCount(value, count) ||
         static_cast<double>(count) * (isComponents ? tuples_ : 1.0) > mostBytes_)
       {
-        failTruncated(at(tagAt) + name + " is " + inQuotes(value) + " in a file of " +
+        failTruncated(at(element.begin) + name + " is " + inQuotes(value) + " in a file of " +
           std::to_string(fileSize_) + " bytes");
       }
       if (!isComponents)
@@ -213,23 +207,18 @@ private:
   double tuples_ = 1.0;
 };
 
-DataLayout layoutOf(std::string_view bytes)
+DataLayout layoutOf(std::string_view bytes, const XmlElement& root)
 {
   DataLayout layout;
   layout.bytes = bytes;
-  const std::string_view file = vtkFileTag(bytes);
-  layout.isPacked = !xmlAttribute(file, "compressor").empty();
-  layout.isBigEndian = xmlAttribute(file, "byte_order") == "BigEndian";
-  layout.wordSize = xmlAttribute(file, "header_type") == "UInt64" ? 8 : 4;
-  XmlTags tags(bytes);
-  while (tags.next())
+  layout.isPacked = !root.attribute("compressor").empty();
+  layout.isBigEndian = root.attribute("byte_order") == "BigEndian";
+  layout.wordSize = root.attribute("header_type") == "UInt64" ? 8 : 4;
+  if (const XmlElement* appended = root.child("AppendedData"))
   {
-    if (tags.tag().substr(0, 13) == "<AppendedData")
-    {
-      layout.appendedIsBase64 = xmlAttribute(tags.tag(), "encoding") != "raw";
-      const std::size_t mark = bytes.find('_', tags.end());
-      layout.appendedAt = mark == std::string_view::npos ? 0 : mark + 1;
-    }
+    layout.appendedIsBase64 = appended->attribute("encoding") != "raw";
+    const std::size_t mark = bytes.find('_', appended->end);
+    layout.appendedAt = mark == std::string_view::npos ? 0 : mark + 1;
   }
   return layout;
 }
@@ -247,72 +236,63 @@ void checkIsComplete(std::string_view bytes)
 
 } // namespace
 
-std::string_view xmlAttribute(std::string_view tag, std::string_view name)
+XmlElement vtkXml(std::string_view bytes)
 {
-  constexpr std::string_view kSpaces = " \t\r\n";
-  std::size_t at = tag.find_first_of(kSpaces);
-  while (at != std::string_view::npos && (at = tag.find_first_not_of(kSpaces, at)) != std::string_view::npos)
+  constexpr std::string_view kAppended = "<AppendedData";
+  constexpr std::size_t kPiece = std::size_t{ 1 } << 24;
+  const std::size_t appended = bytes.find(kAppended);
+  const bool isPart = appended != std::string_view::npos;
+  isPart ? void() : checkIsComplete(bytes);
+  std::string_view left = bytes.substr(0, isPart ? bytes.find('>', appended) + 1 : bytes.size());
+  const XmlElement root = parseXml(
+    [&]
+    {
+      const std::string_view piece = left.substr(0, kPiece);
+      left.remove_prefix(piece.size());
+      return piece;
+    },
+    false, isPart ? XmlPart::Start : XmlPart::Whole);
+  const XmlElement* last = root.child("AppendedData");
+  if (isPart && !(last && last->begin == appended))
   {
-    const std::size_t nameEnd = std::min(tag.find_first_of(" \t\r\n=", at), tag.size());
-    const std::size_t quote = tag.find_first_of("\"'", nameEnd);
-    const std::size_t end =
-      quote == std::string_view::npos ? std::string_view::npos : tag.find(tag[quote], quote + 1);
-    if (end == std::string_view::npos)
-    {
-      break;
-    }
-    if (tag.substr(at, nameEnd - at) == name)
-    {
-      return tag.substr(quote + 1, end - quote - 1);
-    }
-    at = end + 1;
+    failDamaged(appended, inQuotes(kAppended) + " in a place where it is no tag");
   }
-  return {};
-}
-
-std::string_view vtkFileTag(std::string_view bytes)
-{
-  XmlTags tags(bytes);
-  if (!tags.next() || tags.tag().substr(0, 8) != "<VTKFile")
+  if (root.name != "VTKFile")
   {
     failDamaged(0, "the first XML element is not VTKFile");
   }
-  return tags.tag();
+  return root;
 }
 
-std::uint64_t pointsOfVtkXml(std::string_view start, std::size_t fileSize)
+std::uint64_t pointsOfVtkXml(const XmlElement& root, std::size_t fileSize)
 {
-  CountCheck counts(layoutOf(start), fileSize);
+  CountCheck counts(!root.attribute("compressor").empty(), fileSize);
   std::uint64_t points = 0;
-  XmlTags tags(start);
-  while (tags.next())
-  {
-    unsigned long long count = 0;
-    if (tags.tag().substr(0, 6) == "<Piece")
+  forEachElement(root,
+    [&](const XmlElement& element)
     {
-      counts.check(tags.tag(), tags.begin());
-      parseCount(xmlAttribute(tags.tag(), "NumberOfPoints"), count);
-      points += count;
-    }
-  }
+      unsigned long long count = 0;
+      if (element.name == "Piece")
+      {
+        counts.check(element);
+        parseCount(element.attribute("NumberOfPoints"), count);
+        points += count;
+      }
+    });
   return points;
 }
 
-void checkVtkXml(std::string_view bytes)
+void checkVtkXml(std::string_view bytes, const XmlElement& root)
 {
   checkIsComplete(bytes);
-  const DataLayout layout = layoutOf(bytes);
-  CountCheck counts(layout, bytes.size());
-  XmlTags tags(bytes);
-  while (tags.next())
-  {
-    const std::string_view tag = tags.tag();
-    counts.check(tag, tags.begin());
-    if (tag.substr(0, 10) == "<DataArray" || tag.substr(0, 6) == "<Array")
+  const DataLayout layout = layoutOf(bytes, root);
+  CountCheck counts(layout.isPacked, bytes.size());
+  forEachElement(root,
+    [&](const XmlElement& element)
     {
-      checkArray(layout, tag, tags.begin(), tags.end());
-    }
-  }
+      counts.check(element);
+      element.name == "DataArray" || element.name == "Array" ? checkArray(layout, element) : void();
+    });
 }
 
 } // namespace pointhaptics::io

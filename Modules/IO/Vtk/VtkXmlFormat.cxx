@@ -1,11 +1,12 @@
 #include "ReadTask.h"
 
 #include "IO/Columns/CloudColumns.h"
-#include "IO/Vtk/ErrorCollector.h"
+#include "IO/Text/TextScan.h"
 #include "IO/Vtk/VtkPieces.h"
 #include "IO/Vtk/VtkXmlChecks.h"
 
 #include "vtkCellType.h"
+#include "vtkCommand.h"
 #include "vtkDataArray.h"
 #include "vtkExecutive.h"
 #include "vtkFieldData.h"
@@ -21,12 +22,48 @@
 #include "vtkXMLUnstructuredGridReader.h"
 
 #include <algorithm>
+#include <string>
 
 namespace pointhaptics::io
 {
 
 namespace
 {
+
+/// Observer of ErrorEvent and WarningEvent: keeps the first error's own words, prints nothing.
+class ErrorCollector : public vtkCommand
+{
+public:
+  static ErrorCollector* New() { return new ErrorCollector; }
+  void Execute(vtkObject*, unsigned long event, void* callData) override
+  {
+    if (event != vtkCommand::ErrorEvent || !callData || !first_.empty())
+    {
+      return;
+    }
+    // VTK's text: "ERROR: In file, line n\nvtkClass (0x...): the message\n\n".
+    const std::string text = static_cast<const char*>(callData);
+    const std::size_t address = text.find("): ");
+    std::string message = address == std::string::npos ? text : text.substr(address + 3);
+    for (char& c : message)
+    {
+      c = c == '\n' ? ' ' : c;
+    }
+    first_ = std::string(trimmed(message));
+    while (!first_.empty() && first_.back() == '.')
+    {
+      first_.pop_back();
+    }
+    if (first_.empty())
+    {
+      first_ = "VTK reported an error without words";
+    }
+  }
+  const std::string& first() const { return first_; }
+
+private:
+  std::string first_;
+};
 
 /// The reader for @p type. @throws FileProblem when it holds no list of points.
 vtkSmartPointer<vtkXMLUnstructuredDataReader> makeReader(std::string_view type)
@@ -83,25 +120,26 @@ void takeFaces(vtkPointSet* read, MeshFaces& faces)
 void readVtkXml(ReadTask& task, vtkPolyData* cloud)
 {
   task.need(0, task.bytes.size());
-  const std::string_view type = xmlAttribute(vtkFileTag(task.bytes), "type");
-  const bool isList = type == "PPolyData";
-  task.format = isList           ? "PVTP (VTK XML PolyData in pieces)"
-    : type == "UnstructuredGrid" ? "VTU (VTK XML UnstructuredGrid)"
-                                 : "VTP (VTK XML PolyData)";
   if (task.wasPacked)
   {
     throw FileProblem(vtkErrorCode::UnrecognizedFileTypeError, "VTK's XML reader does not read gzip files",
       "unpack it first: gunzip -k FILE");
   }
+  const XmlElement root = vtkXml(task.bytes);
+  const std::string_view type = root.attribute("type");
+  const bool isList = type == "PPolyData";
+  task.format = isList           ? "PVTP (VTK XML PolyData in pieces)"
+    : type == "UnstructuredGrid" ? "VTU (VTK XML UnstructuredGrid)"
+                                 : "VTP (VTK XML PolyData)";
   if (isList)
   {
-    readVtkPieces(task, cloud);
+    readVtkPieces(task, root, cloud);
   }
   else
   {
     task.shared = nullptr; // all of it is there
     const vtkSmartPointer<vtkPointSet> read =
-      readVtkXmlFile(task, task.isStream ? "" : task.path, task.bytes, 0.0, 1.0);
+      readVtkXmlFile(task, task.isStream ? "" : task.path, task.bytes, root, 0.0, 1.0);
     cloud->SetPoints(read->GetPoints());
     cloud->GetPointData()->ShallowCopy(read->GetPointData());
     cloud->GetFieldData()->ShallowCopy(read->GetFieldData());
@@ -114,12 +152,11 @@ void readVtkXml(ReadTask& task, vtkPolyData* cloud)
   }
 }
 
-vtkSmartPointer<vtkPointSet> readVtkXmlFile(
-  const ReadTask& task, const std::string& path, std::string_view bytes, double begin, double end)
+vtkSmartPointer<vtkPointSet> readVtkXmlFile(const ReadTask& task, const std::string& path,
+  std::string_view bytes, const XmlElement& root, double begin, double end)
 {
-  const vtkSmartPointer<vtkXMLUnstructuredDataReader> reader =
-    makeReader(xmlAttribute(vtkFileTag(bytes), "type"));
-  checkVtkXml(bytes);
+  const vtkSmartPointer<vtkXMLUnstructuredDataReader> reader = makeReader(root.attribute("type"));
+  checkVtkXml(bytes, root);
   constexpr double kCheckPart = 0.1;
   const double checked = begin + kCheckPart * (end - begin);
   task.progress(checked);

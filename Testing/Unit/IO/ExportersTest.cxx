@@ -556,7 +556,7 @@ TEST_F(Exporters, WhatIsCutIsRefusedOrSalvaged)
   const std::string head =
     "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float "
     "z\nend_header\n";
-  expectSalvaged("a.ply", head + "1.00 2.00 3.00\n4 5 6\n", 2, "before vertex 2 of 3");
+  expectSalvaged("a.ply", head + "1.00 2.00 3.00\n4 5 6\n", 2, "after 2 of 3 vertices");
   EXPECT_EQ(salvage("b.ply", head + "1 2 3\n4 5 6\n7 8").points(), 2);
   std::string binary = head;
   binary.replace(binary.find("ascii"), 5, "binary_little_endian");

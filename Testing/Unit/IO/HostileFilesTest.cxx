@@ -174,7 +174,7 @@ TEST_F(HostileFiles, XmlIsCheckedAsVtkReadsItWhateverStandsAround)
   expectRefused(
     around("<!-- <VTKFile compressor='none'> -->\n", { 4000000000u }), "array of 4000000000 bytes");
   expectRefused(around("<!-- <AppendedData encoding='raw'>_ -->\n", { 4000000000u }), "where it is no tag");
-  expectRefused(around("<!-- no end "), "has no end");
+  expectRefused(around("<!-- no end "), "where it is no tag");
   vtp = makeVtp({ 24 }, points, false);
   vtp.replace(
     vtp.find("NumberOfPoints=\"2\""), 18, "x=\" NumberOfPoints='2'\" NumberOfPoints=\"1000000000000\"");

@@ -2,10 +2,12 @@
 /// Decodes the chunks of a LAZ file into the records that an uncompressed file would hold.
 #pragma once
 
+#include "IO/Las/Laz/ArithmeticDecoder.h"
+#include "IO/Las/Laz/LayeredItems.h"
 #include "IO/Las/Laz/LazChunks.h"
-#include "IO/Las/Laz/LazSchema.h"
+#include "IO/Las/Laz/PointwiseItems.h"
 
-#include <memory>
+#include <optional>
 
 namespace pointhaptics::io
 {
@@ -23,9 +25,6 @@ class ChunkDecoder
 public:
   /// @p schema must outlive this object.
   ChunkDecoder(const LazSchema& schema, LazFields fields);
-  ~ChunkDecoder();
-  ChunkDecoder(const ChunkDecoder&) = delete;
-  ChunkDecoder& operator=(const ChunkDecoder&) = delete;
 
   /// Begins @p chunk of the file @p bytes. @throws FileProblem where its layers do not lie inside it.
   void start(std::string_view bytes, const LazChunk& chunk);
@@ -33,19 +32,16 @@ public:
   /// data end too early or are damaged: found after the block, not at the point.
   void next(char* records, std::size_t count);
   /// Bytes of a chunk of a pointwise file whose points have all been decoded.
-  std::size_t chunkSize() const;
+  std::size_t chunkSize() const { return schema_.recordLength + pointwise_->position(); }
 
 private:
-  struct Pointwise;
-  struct Layered;
-
   const LazSchema& schema_;
   LazFields fields_;
   LazChunk chunk_;
   std::uint64_t done_ = 0;
   const char* first_ = nullptr;
-  std::unique_ptr<Pointwise> pointwise_;
-  std::unique_ptr<Layered> layered_;
+  std::optional<PointwiseItems<ArithmeticDecoder>> pointwise_; ///< One of the two is there.
+  std::optional<LayeredItems<ArithmeticDecoder>> layered_;
 };
 
 } // namespace pointhaptics::io

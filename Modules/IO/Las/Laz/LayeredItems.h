@@ -3,63 +3,132 @@
 /// are not wanted need not be looked at.
 #pragma once
 
-#include "IO/Las/Laz/Items/AttributeLayers.h"
-#include "IO/Las/Laz/Items/Point14Layers.h"
+#include "FileProblem.h"
+#include "IO/Las/Laz/Items/AttributeItems.h"
+#include "IO/Las/Laz/Items/Point14Items.h"
+#include "IO/Las/Laz/Items/WavePacketItem.h"
 #include "IO/Las/Laz/LazSchema.h"
 
-#include <optional>
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
 #include <vector>
 
 namespace pointhaptics::io
 {
 
-/// The layers of one chunk. Coder is ArithmeticDecoder or ArithmeticEncoder.
+/// The layers of one chunk. Coder is ArithmeticDecoder or ArithmeticEncoder. A chunk is its number of points,
+/// the sizes of the layers, and these.
 template <typename Coder>
 class LayeredItems
 {
 public:
-  explicit LayeredItems(const LazSchema& schema);
+  explicit LayeredItems(const LazSchema& schema)
+    : first_(schema.recordLength)
+  {
+    layers_.reserve(schema.numberOfLayers());
+    layers_.push_back({ PositionLayer() });
+    add<HeightItem>(kHeightOf14);
+    add<ClassificationItem>(kClassificationOf14);
+    add<FlagsItem>(kFlagsOf14);
+    add<IntensityItem>(kIntensityOf14);
+    add<ScanAngleItem>(kScanAngleOf14);
+    add<UserDataItem>(kUserDataOf14);
+    add<SourceItem>(kSourceOf14);
+    add<GpsTimeItem<false>>(kGpsTimeOf14);
+    add<ColorItem>(schema.color.offset);
+    add<NearInfraredItem>(schema.nearInfrared.offset);
+    add<WavePacketItem>(schema.wavePacket.offset);
+    for (std::size_t i = 0; i < schema.numberOfExtraBytes(); ++i)
+    {
+      add<ByteItem>(schema.extraBytes.offset + i);
+    }
+  }
+  /// For a decoder: begins to read the chunk whose content behind its first point is @p bytes. A layer that
+  /// is not wanted or left out has in all records what the first one has. @throws FileProblem.
+  void begin(std::string_view bytes, bool onlyPositions)
+  {
+    constexpr std::size_t kLayersOfPositions = 2;
+    std::size_t begin = kNumber * (1 + layers_.size());
+    for (std::size_t i = 0; i < layers_.size() && begin <= bytes.size(); ++i)
+    {
+      const std::size_t size = loadLittle<std::uint32_t>(bytes.data() + kNumber * (1 + i));
+      const bool isWanted = !onlyPositions || i < kLayersOfPositions;
+      layers_[i].isUsed = i == 0 || (isWanted && size > 0);
+      begin += size;
+      if (layers_[i].isUsed && begin <= bytes.size())
+      {
+        layers_[i].coder.start(bytes.substr(begin - size, size));
+      }
+    }
+    if (begin > bytes.size())
+    {
+      failTruncated("the layers of a chunk take more than its " +
+        std::to_string(first_.size() + bytes.size()) + " bytes");
+    }
+  }
   /// Begins a chunk whose first point is @p record.
-  void start(const char* record);
+  void start(const char* record)
+  {
+    std::copy_n(record, first_.size(), first_.data());
+    for (CodedLayer& each : layers_)
+    {
+      each.isUsed ? std::visit([&](auto& layer) { layer.start(record); }, each.layer) : void();
+    }
+  }
   /// Codes @p count records of schema.recordLength bytes: those layers that are in use.
   void code(char* records, std::size_t count);
-
-  std::size_t numberOfLayers() const { return layers_.size(); }
-  /// Layer @p i, 0 for x, y, returns and channels, 1 for z: the others in the order of the record.
-  Coder& coder(std::size_t i) { return layers_[i].coder; }
-  /// A layer that is not in use has in all records what the first one has. All are in use at first.
-  void setUsed(std::size_t i, bool isUsed) { layers_[i].isUsed = isUsed; }
-  bool isUsed(std::size_t i) const { return layers_[i].isUsed; }
-  /// For an encoder: true if layer @p i has any value that differs from the one before.
-  bool hasChanges(std::size_t i) const;
+  bool isDamaged() const
+  {
+    return std::any_of(layers_.begin(), layers_.end(),
+      [](const CodedLayer& each) { return each.isUsed && each.coder.isDamaged(); });
+  }
+  /// For an encoder: ends the chunk of @p count points, and adds it to @p chunk. Layers without changes have
+  /// no bytes.
+  void finish(std::string& chunk, std::size_t count)
+  {
+    std::string sizes(kNumber * (1 + layers_.size()), '\0');
+    storeLittle(static_cast<std::uint32_t>(count), &sizes[0]);
+    std::string content;
+    for (std::size_t i = 0; i < layers_.size(); ++i)
+    {
+      const bool hasChanges =
+        std::visit([](const auto& layer) { return layer.hasChanges(); }, layers_[i].layer);
+      const std::string bytes = layers_[i].coder.finish();
+      content += hasChanges ? bytes : "";
+      storeLittle(static_cast<std::uint32_t>(hasChanges ? bytes.size() : 0), &sizes[kNumber * (1 + i)]);
+    }
+    chunk += sizes + content;
+  }
 
 private:
-  struct Layer
+  static constexpr std::size_t kNumber = sizeof(std::uint32_t);
+  using AnyLayer = std::variant<PositionLayer, Layer<HeightItem>, Layer<ClassificationItem>, Layer<FlagsItem>,
+    Layer<IntensityItem>, Layer<ScanAngleItem>, Layer<UserDataItem>, Layer<SourceItem>,
+    Layer<GpsTimeItem<false>>, Layer<ColorItem>, Layer<NearInfraredItem>, Layer<WavePacketItem>,
+    Layer<ByteItem>>;
+  struct CodedLayer
   {
-    Coder coder;
+    AnyLayer layer;
+    Coder coder{};
     bool isUsed = true;
   };
-  /// Calls @p visit(layer) for each but the first, in their order.
-  template <typename Self, typename Visit>
-  static void forEachLayer(Self& self, Visit visit);
 
-  const LazSchema& schema_;
-  std::vector<Layer> layers_;
+  /// @p offset 0: the records have no such item.
+  template <typename Item>
+  void add(std::size_t offset)
+  {
+    offset != 0 ? layers_.push_back({ Layer<Item>(offset) }) : void();
+  }
+  template <typename OneLayer>
+  void codeLayer(OneLayer& layer, Coder& stored, char* records, std::size_t count);
+
+  std::vector<CodedLayer> layers_;
   std::vector<PointLabel> labels_;
   std::vector<char> first_; ///< record
-  PositionLayer positions_;
-  FieldLayer<ZField> z_;
-  FieldLayer<ClassificationField> classification_;
-  FieldLayer<FlagsField> flags_;
-  FieldLayer<IntensityField> intensity_;
-  FieldLayer<ScanAngleField> scanAngle_;
-  FieldLayer<UserDataField> userData_;
-  FieldLayer<SourceField> source_;
-  FieldLayer<GpsTimeField> gpsTime_;
-  std::optional<AttributeLayer<ColorAttribute>> color_;
-  std::optional<AttributeLayer<NearInfraredAttribute>> nearInfrared_;
-  std::optional<AttributeLayer<WavePacketAttribute>> wavePacket_;
-  std::vector<AttributeLayer<ByteAttribute>> bytes_;
 };
 
 } // namespace pointhaptics::io

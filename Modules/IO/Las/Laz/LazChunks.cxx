@@ -6,6 +6,7 @@
 #include "IO/Las/Laz/ArithmeticEncoder.h"
 #include "IO/Las/Laz/IntegerModels.h"
 #include "IO/Las/Laz/LazSchema.h"
+#include "ReadTask.h"
 
 namespace pointhaptics::io
 {
@@ -32,17 +33,17 @@ T numberAt(std::string_view bytes, std::size_t offset)
 class ChunkFinder
 {
 public:
-  using End = std::function<std::uint64_t(std::uint64_t, std::uint64_t, const std::string&)>;
-  ChunkFinder(std::string_view bytes, const LasHeader& header, const LazSchema& schema, const End& endAt)
+  ChunkFinder(std::string_view bytes, const LasHeader& header, const LazSchema& schema, ReadTask* task)
     : bytes_(bytes)
     , header_(header)
     , schema_(schema)
     , chunkSize_(schema.chunkSize)
-    , endAt_(endAt)
+    , task_(task)
+    , isSalvaged_(task && task->salvage && !task->shared)
     , first_(header.pointsOffset + sizeof(std::uint64_t))
   {
   }
-  LazChunks find(const std::function<void(std::size_t, std::size_t)>& need);
+  LazChunks find();
 
 private:
   bool hasVariableChunks() const { return chunkSize_ == LazSchema::kVariableChunks; }
@@ -60,7 +61,8 @@ private:
   const LasHeader& header_;
   const LazSchema& schema_;
   std::uint32_t chunkSize_; ///< points
-  const End& endAt_;
+  ReadTask* task_;
+  const bool isSalvaged_;
   std::size_t first_; ///< byte of the first chunk
 };
 
@@ -76,7 +78,7 @@ std::size_t ChunkFinder::tableOffset() const
     return 0;
   }
   table = table == kTableAtTheEnd ? numberAt<std::uint64_t>(bytes_, bytes_.size() - 8) : table;
-  if (endAt_ && (table < first_ || table > bytes_.size() - kTableHeader))
+  if (isSalvaged_ && (table < first_ || table > bytes_.size() - kTableHeader))
   {
     return 0; // it is cut off
   }
@@ -107,8 +109,8 @@ void ChunkFinder::checkSum(const LazChunks& chunks, std::size_t at) const
   {
     const std::string what = "the header counts " + std::to_string(header_.count) +
       " points, but the chunks hold " + std::to_string(sum);
-    endAt_ ? void(endAt_(sum, header_.count, "byte " + std::to_string(at) + ": " + what))
-           : failChunks(at, what);
+    isSalvaged_ ? void(task_->endAt(sum, header_.count, "byte " + std::to_string(at) + ": " + what))
+                : failChunks(at, what);
   }
 }
 
@@ -173,7 +175,7 @@ LazChunks ChunkFinder::walkLayers() const
     const std::uint32_t points = numberAt<std::uint32_t>(bytes_, offset + header_.recordLength);
     if (size > bytes_.size() - offset || points == 0)
     {
-      if (endAt_)
+      if (isSalvaged_)
       {
         checkSum(chunks, offset);
         break;
@@ -237,8 +239,9 @@ LazChunks ChunkFinder::countOnly() const
   return chunks;
 }
 
-LazChunks ChunkFinder::find(const std::function<void(std::size_t, std::size_t)>& need)
+LazChunks ChunkFinder::find()
 {
+  const auto need = [&](std::size_t offset, std::size_t size) { task_ ? task_->need(offset, size) : void(); };
   checkLazCount(bytes_, header_);
   if (schema_.compressor == LazSchema::Compressor::Pointwise)
   {
@@ -271,11 +274,10 @@ void checkLazCount(std::string_view bytes, const LasHeader& header)
   }
 }
 
-LazChunks findLazChunks(std::string_view bytes, const LasHeader& header, const LazSchema& schema,
-  const std::function<void(std::size_t offset, std::size_t size)>& need,
-  const std::function<std::uint64_t(std::uint64_t, std::uint64_t, const std::string&)>& endAt)
+LazChunks findLazChunks(
+  std::string_view bytes, const LasHeader& header, const LazSchema& schema, ReadTask* task)
 {
-  return ChunkFinder(bytes, header, schema, endAt).find(need);
+  return ChunkFinder(bytes, header, schema, task).find();
 }
 
 std::string lazChunkTable(const std::vector<LazChunk>& chunks, const LazSchema& schema)

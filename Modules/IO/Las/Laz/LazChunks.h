@@ -5,7 +5,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,6 +14,7 @@ namespace pointhaptics::io
 
 struct LasHeader;
 struct LazSchema;
+struct ReadTask;
 
 /// Points that are compressed together, apart from all others.
 struct LazChunk
@@ -40,13 +40,10 @@ constexpr std::size_t kMostLazRatio = 100;
 constexpr std::size_t kLazFloor = std::size_t{ 1 } << 26;
 
 /// The chunks of all points that @p header counts, each inside the file. @throws FileProblem with byte offset
-/// and value where table, sizes or counts cannot be true.
-/// @p need: called before bytes are looked at, where not all are there. @p endAt(there, all, what) decides
-/// what is done where the chunks hold fewer points (ReadTask::endAt()); null: it is a fault.
+/// and value where table, sizes or counts cannot be true. With @p task bytes are loaded before they are
+/// looked at, and where it salvages its endAt() decides what is done where the chunks hold fewer points.
 LazChunks findLazChunks(
-  std::string_view bytes, const LasHeader& header, const LazSchema& schema,
-  const std::function<void(std::size_t offset, std::size_t size)>& need = [](std::size_t, std::size_t) {},
-  const std::function<std::uint64_t(std::uint64_t, std::uint64_t, const std::string&)>& endAt = {});
+  std::string_view bytes, const LasHeader& header, const LazSchema& schema, ReadTask* task = nullptr);
 
 /// @throws FileProblem where @p header counts more points than a file of its size is expected to hold.
 void checkLazCount(std::string_view bytes, const LasHeader& header);

@@ -36,6 +36,9 @@ struct RecordItem
 {
   int type;
   std::size_t size;
+
+  /// The version that is written.
+  int version() const { return type >= kPoint14 ? 3 : type == kWavePacket13 ? 1 : 2; }
 };
 
 template <typename T>
@@ -49,49 +52,38 @@ T numberAt(std::string_view bytes, std::size_t offset)
   failFormat("byte " + std::to_string(byte) + ": " + what, "the file is damaged: copy or compress it again");
 }
 
-/// Where the content of LASzip's record begins, and its size.
-struct Description
-{
-  std::size_t at = 0;
-  std::size_t size = 0;
-};
-
-Description findDescription(std::string_view bytes, const LasHeader& header)
+/// LASzip's record.
+LasRecord findDescription(std::string_view bytes, const LasHeader& header)
 {
   const std::uint32_t records = numberAt<std::uint32_t>(bytes, 100);
-  const std::size_t end = header.pointsOffset;
-  std::size_t at = header.headerSize;
-  Description found;
-  for (std::uint32_t i = 0; i < records; ++i)
-  {
-    if (at + kLasVlrHeader > end || at + kLasVlrHeader + numberAt<std::uint16_t>(bytes, at + 20) > end)
+  std::uint32_t whole = 0;
+  LasRecord found;
+  forEachLasRecord(bytes.substr(0, header.pointsOffset), header.headerSize, records, false,
+    [&](const LasRecord& record)
     {
-      failSchema(100,
-        "the header counts " + std::to_string(records) + " variable length records, but only " +
-          std::to_string(i) + " lie before the points");
-    }
-    const std::string_view user = bytes.substr(at + 2, 16);
-    const std::size_t size = numberAt<std::uint16_t>(bytes, at + 20);
-    if (user.substr(0, user.find('\0')) == kLaszipUser &&
-      numberAt<std::uint16_t>(bytes, at + 18) == kLaszipRecord)
-    {
-      if (found.at != 0)
+      whole += record.whole.empty() ? 0 : 1;
+      if (record.user == kLaszipUser && record.id == kLaszipRecord)
       {
-        failSchema(at, "a second record says how the points are compressed");
+        found.at != 0 ? failSchema(record.at, "a second record says how the points are compressed") : void();
+        found = record;
       }
-      found = { at + kLasVlrHeader, size };
-    }
-    at += kLasVlrHeader + size;
+    });
+  if (whole < records)
+  {
+    failSchema(100,
+      "the header counts " + std::to_string(records) + " variable length records, but only " +
+        std::to_string(whole) + " lie before the points");
   }
   if (found.at == 0)
   {
     failSchema(104, "the points are marked as compressed, but no record says how");
   }
-  if (found.size < kDescriptionStart)
+  found.at += kLasVlrHeader; // to its content, of which messages speak
+  if (found.content.size() < kDescriptionStart)
   {
     failSchema(found.at,
-      "a description of the compression of " + std::to_string(found.size) + " bytes, which takes at least " +
-        std::to_string(kDescriptionStart));
+      "a description of the compression of " + std::to_string(found.content.size()) +
+        " bytes, which takes at least " + std::to_string(kDescriptionStart));
   }
   return found;
 }
@@ -168,11 +160,12 @@ void place(LazSchema& schema, const RecordItem& item, std::size_t offset, int ve
 }
 
 void placeItems(
-  std::string_view bytes, const Description& description, const LasHeader& header, LazSchema& schema)
+  std::string_view bytes, const LasRecord& description, const LasHeader& header, LazSchema& schema)
 {
   const std::vector<RecordItem> expected = itemsOf(header);
   const std::size_t count = numberAt<std::uint16_t>(bytes, description.at + 32);
-  bool same = count == expected.size() && description.size >= kDescriptionStart + kItemSize * expected.size();
+  bool same =
+    count == expected.size() && description.content.size() >= kDescriptionStart + kItemSize * expected.size();
   std::size_t offset = 0;
   for (std::size_t i = 0; same && i < count; ++i)
   {
@@ -216,7 +209,7 @@ std::size_t LazSchema::numberOfLayers() const
 
 LazSchema parseLazSchema(std::string_view bytes, const LasHeader& header)
 {
-  const Description description = findDescription(bytes, header);
+  const LasRecord description = findDescription(bytes, header);
   LazSchema schema;
   const int compressor = numberAt<std::uint16_t>(bytes, description.at);
   const int coder = numberAt<std::uint16_t>(bytes, description.at + 2);
@@ -248,7 +241,7 @@ LazSchema makeLazSchema(const LasHeader& header)
   std::size_t offset = 0;
   for (const RecordItem& item : itemsOf(header))
   {
-    place(schema, item, offset, item.type >= kPoint14 ? 3 : item.type == kWavePacket13 ? 1 : 2);
+    place(schema, item, offset, item.version());
     offset += item.size;
   }
   return schema;
@@ -274,10 +267,7 @@ std::string lazRecord(const LazSchema& schema, const LasHeader& header)
   {
     append(record, static_cast<std::uint16_t>(item.type));
     append(record, static_cast<std::uint16_t>(item.size));
-    append(record,
-      static_cast<std::uint16_t>(item.type >= kPoint14 ? 3
-          : item.type == kWavePacket13                 ? 1
-                                                       : 2));
+    append(record, static_cast<std::uint16_t>(item.version()));
   }
   return record;
 }

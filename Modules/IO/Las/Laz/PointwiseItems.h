@@ -8,41 +8,104 @@
 #include "IO/Las/Laz/Items/WavePacketItem.h"
 #include "IO/Las/Laz/LazSchema.h"
 
+#include <cstddef>
 #include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
 
 namespace pointhaptics::io
 {
+
+/// One item of the record, in one of the two forms that files have it in.
+template <typename Item, typename FirstItem>
+class PointwiseItem
+{
+public:
+  /// @p version 1: as FirstItem has it.
+  PointwiseItem(std::size_t offset, int version)
+    : offset_(offset)
+    , first_(version == 1 ? std::make_unique<FirstItem>() : nullptr)
+  {
+  }
+  void start(const char* record)
+  {
+    last_ = Item::load(record + offset_);
+    first_ ? first_->start(last_) : item_.start(last_);
+  }
+  template <typename Coder>
+  void code(Coder& coder, char* record)
+  {
+    char* at = record + offset_;
+    const Value value = Coder::kEncodes ? Item::load(at) : Value{};
+    last_ = first_ ? first_->code(coder, PointLabel(), last_, value)
+                   : item_.code(coder, PointLabel(), last_, value);
+    Item::store(last_, at);
+  }
+
+private:
+  using Value = typename Item::Value;
+
+  std::size_t offset_;
+  Item item_;
+  std::unique_ptr<FirstItem> first_; ///< Of files of 2010 and 2011 only.
+  Value last_{};
+};
 
 /// The items of one chunk. Coder is ArithmeticDecoder or ArithmeticEncoder.
 template <typename Coder>
 class PointwiseItems
 {
 public:
-  explicit PointwiseItems(const LazSchema& schema);
+  explicit PointwiseItems(const LazSchema& schema)
+    : schema_(schema)
+    , point_(0, schema.pointVersion)
+    , gpsTime_(schema.gpsTime.offset, schema.gpsTime.version)
+    , color_(schema.color.offset, schema.color.version)
+    , wavePacket_(schema.wavePacket.offset, 0)
+    , firstBytes_(schema.extraBytes.version == 1
+          ? std::make_unique<IntegerModels>(8, static_cast<unsigned>(schema.numberOfExtraBytes()))
+          : nullptr)
+    , bytes_(schema.numberOfExtraBytes())
+    , lastBytes_(schema.numberOfExtraBytes())
+  {
+  }
+  /// For a decoder: begins to read the chunk whose content behind its first point is @p bytes.
+  void begin(std::string_view bytes, bool) { coder_.start(bytes); }
   /// Begins a chunk whose first point is @p record.
-  void start(const char* record);
+  void start(const char* record)
+  {
+    point_.start(record);
+    schema_.gpsTime.offset != 0 ? gpsTime_.start(record) : void();
+    schema_.color.offset != 0 ? color_.start(record) : void();
+    schema_.wavePacket.offset != 0 ? wavePacket_.start(record) : void();
+    firstBytes_ ? firstBytes_->forget() : void();
+    for (std::size_t i = 0; i < bytes_.size(); ++i)
+    {
+      lastBytes_[i] = byteAt(record, schema_.extraBytes.offset + i);
+      bytes_[i].start(lastBytes_[i]);
+    }
+  }
   /// Codes @p count records of schema.recordLength bytes.
-  void code(Coder& coder, char* records, std::size_t count);
+  void code(char* records, std::size_t count);
+  bool isDamaged() const { return coder_.isDamaged(); }
+  /// Bytes of the stream that a decoder has read.
+  std::size_t position() const { return coder_.position(); }
+  /// For an encoder: ends the chunk of @p count points, and adds it to @p chunk.
+  void finish(std::string& chunk, std::size_t) { chunk += coder_.finish(); }
 
 private:
-  void codeGpsTime(Coder& coder, char* at);
-  void codeColor(Coder& coder, char* at);
-  void codeBytes(Coder& coder, char* at);
+  void codeBytes(char* at);
 
   const LazSchema& schema_;
-  Point10Item point_;
-  GpsTimeItem gpsTime_{ GpsTimeItem::Version::EachTime };
-  ColorItem color_;
-  ColorItem::Color lastColor_{};
-  WavePacketItem wavePacket_;
-  WavePacketItem::Bytes lastWavePacket_{};
-  ModelBank bytes_;
+  Coder coder_;
+  PointwiseItem<Point10Item, FirstPoint10Item> point_;
+  PointwiseItem<GpsTimeItem<true>, FirstGpsTimeItem> gpsTime_;
+  PointwiseItem<ColorItem, FirstColorItem> color_;
+  PointwiseItem<WavePacketItem, WavePacketItem> wavePacket_;
+  std::unique_ptr<IntegerModels> firstBytes_; ///< Of version 1, in the place of bytes_.
+  std::vector<ByteItem> bytes_;
   std::vector<std::uint8_t> lastBytes_;
-  /// Made for files of 2010 and 2011 only.
-  std::unique_ptr<FirstPoint10Item> firstPoint_;
-  std::unique_ptr<FirstGpsTimeItem> firstGpsTime_;
-  std::unique_ptr<FirstColorItem> firstColor_;
-  std::unique_ptr<IntegerModels> firstBytes_;
 };
 
 } // namespace pointhaptics::io

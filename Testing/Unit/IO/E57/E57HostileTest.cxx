@@ -141,14 +141,14 @@ TEST_F(HostileE57, XmlBombsAreRefused)
       file.xml.insert(0, "<a>");
       file.xml += depth == 65 ? "</a>" : "";
     }
-    refuse(read(file), "more than 64 elements inside each other");
+    refuse(read(file), "more than 64 XML elements inside each other");
   }
   file.xml.clear();
   for (int i = 0; i < 500001; ++i)
   {
     file.xml += "<a/>";
   }
-  refuse(read(file), "more than 500000 elements");
+  refuse(read(file), "more than 500000 XML elements");
   file.xml = "<a></b>";
   refuse(read(file), "XML line 3: mismatched tag");
 }

@@ -1,5 +1,7 @@
 #include "CloudFiles.h"
 
+#include "IO/Info/LengthUnit.h"
+
 #include "vtkFieldData.h"
 #include "vtkStringArray.h"
 #include "vtkVariant.h"
@@ -532,3 +534,51 @@ TEST_F(Text, ProjectedCoordinatesGoBeforeDegrees)
 }
 
 } // namespace
+
+TEST_F(Text, UnitsAndSystemsOfCommentsAreTaken)
+{
+  const auto said = [&](const std::string& text, const char* field)
+  {
+    const ReadResult result = readCloud(write("a.xyz", text));
+    auto* words = vtkStringArray::SafeDownCast(result.cloud->GetFieldData()->GetAbstractArray(field));
+    return words ? std::string(words->GetValue(0)) : result.error;
+  };
+  const std::string points = "1 2 3\n4 5 6\n";
+  for (const char* comment : { "# units: mm", "// Unit = mm", "# Coordinate units: mm", "# units mm" })
+  {
+    EXPECT_EQ(said(std::string(comment) + "\n" + points, "LengthUnit"), "mm") << comment;
+  }
+  EXPECT_EQ(said("# units: counts\n" + points, "LengthUnit"), "");
+  EXPECT_EQ(said("# EPSG:25832\n" + points, "CoordinateSystem"), "EPSG:25832");
+  EXPECT_EQ(said("# crs = epsg::25832\n" + points, "LengthUnit"), "");
+  EXPECT_EQ(said("# EPSG:4326\n" + points, "LengthUnit"), "degree");
+  EXPECT_EQ(said("# EPSG:4326\n700000 2 3\n4 5 6\n", "LengthUnit"), "") << "these are no degrees";
+  const ReadResult two = readCloud(write("b.xyz", "# from EPSG:4326 to EPSG:32617\n" + points));
+  ASSERT_FALSE(two.notes.empty());
+  EXPECT_EQ(two.notes[0],
+    "comments name several coordinate systems, EPSG:4326 and EPSG:32617, of which none is taken");
+}
+
+TEST_F(Text, YardsAreUnitsAsFeetAre)
+{
+  for (const char* header : { "x [yd],y [yd],z [yd]", "x_yds,y_yds,z_yds", "X (yards),Y (yards),Z (yards)" })
+  {
+    const ReadResult result = readCloud(write("a.csv", std::string(header) + "\n1,2,3\n"));
+    ASSERT_EQ(result.error, "") << header;
+    const auto unit = pointhaptics::lengthUnitOf(result.cloud, pointhaptics::Bounds());
+    EXPECT_EQ(unit.name, "yd") << header;
+    EXPECT_EQ(unit.metres, 0.9144) << header;
+  }
+}
+
+TEST_F(Text, HeightsOfDegreesKeepTheirUnit)
+{
+  const std::string text = "lon,lat,height [ft]\n8,47,1000\n8.001,47,1100\n";
+  const ReadResult result = readCloud(write("a.csv", text));
+  ASSERT_EQ(result.error, "");
+  ASSERT_FALSE(result.notes.empty());
+  EXPECT_EQ(result.notes[0], "heights are in ft, x and y in degrees");
+  const auto local = pointhaptics::inLocalMetres(result.cloud);
+  EXPECT_NEAR(local->GetPoint(1)[2] - local->GetPoint(0)[2], 30.48, 1e-9);
+  EXPECT_NEAR(pointhaptics::fromLocalFrame(local, { 0, 0, 30.48 }).z, 100.0, 1e-9);
+}

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "IO/Las/Laz/IntegerModels.h"
+#include "IO/Las/Laz/Items/Layer.h"
 
 #include <array>
 #include <cstdint>
@@ -11,24 +12,13 @@
 namespace pointhaptics::io
 {
 
-/// The gps times of one stream, or of one scanner channel of it. Times are the bits of their doubles.
-class GpsTimeItem
+/// The gps times of one stream, or of one scanner channel of it. Times are the bits of their doubles. Version
+/// 2 codes each time (@p kEachTime); version 3 only those that differ from the one before.
+template <bool kEachTime>
+class GpsTimeItem : public NumberItem<std::uint64_t>
 {
 public:
-  /// Version 2 codes each time; version 3 only those that differ from the one before.
-  enum class Version
-  {
-    EachTime,
-    ChangedOnly
-  };
-  explicit GpsTimeItem(Version version)
-    : unchanged_(version == Version::EachTime ? 1 : 0)
-    , zeroCases_(5 + unchanged_)
-    , multiples_(kMostMultiple + kLeastMultiple + 5 + unchanged_)
-    , differences_(32, 9)
-  {
-  }
-  void start(std::uint64_t first)
+  void start(Value first)
   {
     zeroCases_.start();
     multiples_.start();
@@ -37,22 +27,24 @@ public:
     sequences_[0].time = first;
     current_ = newest_ = 0;
   }
-  std::uint64_t last() const { return sequences_[current_].time; }
-
-  /// Codes @p time; returns the time.
   template <typename Coder>
-  std::uint64_t code(Coder& coder, std::uint64_t time)
+  Value code(Coder& coder, const PointLabel& label, Value last, Value time)
   {
+    if (!kEachTime && !label.hasNewTime)
+    {
+      return last;
+    }
     if (!codeInSequence(coder, time) && !codeInSequence(coder, time))
     {
       coder.markDamaged(); // an encoder changes sequences once at most
     }
-    return last();
+    return sequences_[current_].time;
   }
 
 private:
   static constexpr int kMostMultiple = 500;
   static constexpr int kLeastMultiple = 10; ///< its negative
+  static constexpr int kUnchanged = kEachTime ? 1 : 0;
   struct Sequence
   {
     std::uint64_t time = 0;
@@ -93,10 +85,10 @@ private:
     int choice = 0;
     if constexpr (Coder::kEncodes)
     {
-      choice = wanted == 0 && unchanged_ != 0 ? -1 : fits(wanted) ? 0 : 1 + otherSequence(time);
+      choice = wanted == 0 && kEachTime ? -1 : fits(wanted) ? 0 : 1 + otherSequence(time);
     }
     choice =
-      static_cast<int>(coder.symbol(zeroCases_, static_cast<unsigned>(choice + unchanged_))) - unchanged_;
+      static_cast<int>(coder.symbol(zeroCases_, static_cast<unsigned>(choice + kUnchanged))) - kUnchanged;
     if (choice == 0)
     {
       sequence.difference = differences_.code(coder, 0, static_cast<std::int32_t>(wanted), 0);
@@ -114,9 +106,9 @@ private:
     int choice = 0;
     if constexpr (Coder::kEncodes)
     {
-      choice = wanted == 0 && unchanged_ != 0 ? kAllMultiples
-        : fits(wanted)                        ? multipleFor(sequence, static_cast<std::int32_t>(wanted))
-                                              : kAllMultiples + unchanged_ + otherSequence(time);
+      choice = wanted == 0 && kEachTime ? kAllMultiples
+        : fits(wanted)                  ? multipleFor(sequence, static_cast<std::int32_t>(wanted))
+                                        : kAllMultiples + kUnchanged + otherSequence(time);
     }
     choice = static_cast<int>(coder.symbol(multiples_, static_cast<unsigned>(choice)));
     if (choice < kAllMultiples)
@@ -124,7 +116,7 @@ private:
       codeDifference(coder, sequence, choice, static_cast<std::int32_t>(wanted));
       return true;
     }
-    choice -= kAllMultiples + unchanged_;
+    choice -= kAllMultiples + kUnchanged;
     return choice < 0 || changeSequence(coder, time, choice);
   }
   /// The symbol for the multiple of the difference before that is nearest to @p wanted.
@@ -176,7 +168,7 @@ private:
       current_ = (current_ + static_cast<unsigned>(choice)) & 3;
       return false;
     }
-    const std::int32_t predicted = static_cast<std::int32_t>(last() >> 32);
+    const std::int32_t predicted = static_cast<std::int32_t>(sequences_[current_].time >> 32);
     newest_ = (newest_ + 1) & 3;
     const std::uint32_t high = static_cast<std::uint32_t>(
       differences_.code(coder, predicted, static_cast<std::int32_t>(time >> 32), 8));
@@ -187,10 +179,9 @@ private:
     return true;
   }
 
-  int unchanged_;
-  SymbolModel zeroCases_;
-  SymbolModel multiples_;
-  IntegerModels differences_;
+  SymbolModel zeroCases_{ 5 + kUnchanged };
+  SymbolModel multiples_{ kMostMultiple + kLeastMultiple + 5 + kUnchanged };
+  IntegerModels differences_{ 32, 9 };
   std::array<Sequence, 4> sequences_{};
   unsigned current_ = 0;
   unsigned newest_ = 0;

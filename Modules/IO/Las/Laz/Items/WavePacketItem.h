@@ -3,9 +3,10 @@
 /// 10). Source: LASzip's published format (M. Isenburg, 2013).
 #pragma once
 
-#include "Bytes/LittleEndian.h"
 #include "IO/Las/Laz/IntegerModels.h"
+#include "IO/Las/Laz/Items/Layer.h"
 
+#include <algorithm>
 #include <array>
 
 namespace pointhaptics::io
@@ -16,33 +17,40 @@ class WavePacketItem
 {
 public:
   static constexpr std::size_t kSize = 29;
-  using Bytes = std::array<char, kSize>;
+  static constexpr bool kIsAttribute = true;
+  using Value = std::array<char, kSize>;
 
-  void forget()
+  static Value load(const char* at)
+  {
+    Value value;
+    std::copy_n(at, kSize, value.data());
+    return value;
+  }
+  static void store(const Value& value, char* at) { std::copy_n(value.data(), kSize, at); }
+  void start(const Value&)
   {
     index_.forget();
     offsetCases_.forget();
-    offsets_.forget();
-    sizes_.forget();
-    places_.forget();
-    directions_.forget();
+    for (IntegerModels* models : { &offsets_, &sizes_, &places_, &directions_ })
+    {
+      models->forget();
+    }
     lastCase_ = 0;
     lastDifference_ = 0;
   }
-  /// Codes the packet at @p record, the one before which is @p last; writes it there and to @p last.
   template <typename Coder>
-  void code(Coder& coder, Bytes& last, char* record)
+  Value code(Coder& coder, const PointLabel&, const Value& last, Value value)
   {
-    record[0] = static_cast<char>(coder.symbol(index_.startIfForgotten(), byteAt(record, 0)));
-    const std::uint64_t offset = codeOffset(coder, last.data(), loadLittle<std::uint64_t>(record + 1));
-    storeLittle(offset, record + 1);
-    codeNumber(coder, sizes_, 9, 0, last, record);
-    codeNumber(coder, places_, 13, 0, last, record);
+    value[0] = static_cast<char>(coder.symbol(index_.startIfForgotten(), byteAt(value.data(), 0)));
+    storeLittle(
+      codeOffset(coder, last.data(), loadLittle<std::uint64_t>(value.data() + 1)), value.data() + 1);
+    codeNumber(coder, sizes_, 9, 0, last, value);
+    codeNumber(coder, places_, 13, 0, last, value);
     for (unsigned axis = 0; axis < 3; ++axis)
     {
-      codeNumber(coder, directions_, 17 + 4 * axis, axis, last, record);
+      codeNumber(coder, directions_, 17 + 4 * axis, axis, last, value);
     }
-    std::copy_n(record, kSize, last.data());
+    return value;
   }
 
 private:
@@ -78,11 +86,11 @@ private:
   }
   template <typename Coder>
   static void codeNumber(
-    Coder& coder, IntegerModels& models, std::size_t at, unsigned context, const Bytes& last, char* record)
+    Coder& coder, IntegerModels& models, std::size_t at, unsigned context, const Value& last, Value& value)
   {
     storeLittle(models.code(coder, loadLittle<std::int32_t>(last.data() + at),
-                  loadLittle<std::int32_t>(record + at), context),
-      record + at);
+                  loadLittle<std::int32_t>(value.data() + at), context),
+      value.data() + at);
   }
 
   SymbolModel index_{ 256 };

@@ -1,15 +1,15 @@
-#include "IO/E57/E57Xml.h"
+#include "IO/Bytes/XmlTree.h"
 
 #include "FileProblem.h"
-#include "IO/E57/E57Pages.h"
 
 #include "vtk_expat.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <exception>
 #include <memory>
+#include <new>
+#include <type_traits>
 
 namespace pointhaptics::io
 {
@@ -33,17 +33,17 @@ std::uint64_t lineOf(XML_Parser parser)
 class TreeBuilder
 {
 public:
-  explicit TreeBuilder(XML_Parser parser)
+  TreeBuilder(XML_Parser parser, bool wantsTexts)
     : parser_(parser)
   {
     XML_SetUserData(parser, this);
     XML_SetElementHandler(parser, &TreeBuilder::onStart, &TreeBuilder::onEnd);
-    XML_SetCharacterDataHandler(parser, &TreeBuilder::onText);
+    wantsTexts ? XML_SetCharacterDataHandler(parser, &TreeBuilder::onText) : void();
     XML_SetStartDoctypeDeclHandler(parser, &TreeBuilder::onDocumentType);
   }
-  void feed(const char* bytes, std::size_t size, bool isLast)
+  void feed(std::string_view bytes, bool isLast)
   {
-    const XML_Status status = XML_Parse(parser_, bytes, static_cast<int>(size), isLast);
+    const XML_Status status = XML_Parse(parser_, bytes.data(), static_cast<int>(bytes.size()), isLast);
     if (problem_)
     {
       std::rethrow_exception(problem_);
@@ -53,7 +53,10 @@ public:
       fail(XML_ErrorString(XML_GetErrorCode(parser_)));
     }
   }
-  E57Element takeRoot() { return std::move(document_.children.front()); }
+  XmlElement takeRoot()
+  {
+    return document_.children.empty() ? XmlElement() : std::move(document_.children.front());
+  }
 
 private:
   [[noreturn]] void fail(const std::string& what) const
@@ -79,17 +82,19 @@ private:
   }
   void start(const char* name, const char** attributes)
   {
-    if (open_.size() > kMostE57Depth)
+    if (open_.size() > kMostXmlDepth)
     {
-      fail("more than " + std::to_string(kMostE57Depth) + " elements inside each other");
+      fail("more than " + std::to_string(kMostXmlDepth) + " XML elements inside each other");
     }
-    if (++elements_ > kMostE57Elements)
+    if (++elements_ > kMostXmlElements)
     {
-      fail("more than " + std::to_string(kMostE57Elements) + " elements");
+      fail("more than " + std::to_string(kMostXmlElements) + " XML elements");
     }
     // An open element's siblings come after it is closed, so that the addresses of open ones stay.
-    E57Element& element = open_.back()->children.emplace_back();
+    XmlElement& element = open_.back()->children.emplace_back();
     element.name = name;
+    element.begin = static_cast<std::size_t>(XML_GetCurrentByteIndex(parser_));
+    element.end = element.begin + static_cast<std::size_t>(XML_GetCurrentByteCount(parser_));
     for (; attributes[0]; attributes += 2)
     {
       element.attributes.emplace_back(attributes[0], attributes[1]);
@@ -117,8 +122,8 @@ private:
   }
 
   XML_Parser parser_;
-  E57Element document_;
-  std::vector<E57Element*> open_{ &document_ };
+  XmlElement document_;
+  std::vector<XmlElement*> open_{ &document_ };
   std::size_t elements_ = 0;
   std::exception_ptr problem_;
 };
@@ -135,14 +140,14 @@ struct FreeParser
 
 } // namespace
 
-const E57Element* E57Element::child(std::string_view childName) const
+const XmlElement* XmlElement::child(std::string_view childName) const
 {
   const auto found = std::find_if(
-    children.begin(), children.end(), [&](const E57Element& element) { return element.name == childName; });
+    children.begin(), children.end(), [&](const XmlElement& element) { return element.name == childName; });
   return found == children.end() ? nullptr : &*found;
 }
 
-std::string_view E57Element::attribute(std::string_view attributeName) const
+std::string_view XmlElement::attribute(std::string_view attributeName) const
 {
   for (const auto& [key, value] : attributes)
   {
@@ -154,13 +159,13 @@ std::string_view E57Element::attribute(std::string_view attributeName) const
   return {};
 }
 
-std::string_view E57Element::textOf(std::string_view childName) const
+std::string_view XmlElement::textOf(std::string_view childName) const
 {
-  const E57Element* found = child(childName);
+  const XmlElement* found = child(childName);
   return found ? found->trimmedText() : std::string_view();
 }
 
-std::string_view E57Element::trimmedText() const
+std::string_view XmlElement::trimmedText() const
 {
   const auto first = std::find_if_not(text.begin(), text.end(), isXmlSpace);
   const auto last = std::find_if_not(text.rbegin(), text.rend(), isXmlSpace).base();
@@ -169,25 +174,28 @@ std::string_view E57Element::trimmedText() const
                                  static_cast<std::size_t>(last - first));
 }
 
-E57Element parseE57Xml(const E57Pages& pages)
+void forEachElement(const XmlElement& root, const std::function<void(const XmlElement&)>& visit)
+{
+  visit(root);
+  for (const XmlElement& child : root.children)
+  {
+    forEachElement(child, visit);
+  }
+}
+
+XmlElement parseXml(const std::function<std::string_view()>& next, bool wantsTexts, XmlPart part)
 {
   const std::unique_ptr<std::remove_pointer_t<XML_Parser>, FreeParser> parser(XML_ParserCreate(nullptr));
   if (!parser)
   {
     throw std::bad_alloc();
   }
-  TreeBuilder builder(parser.get());
-  std::array<char, 65536> part;
-  std::uint64_t left = pages.xmlLength();
-  std::uint64_t at = pages.xmlOffset();
-  do
+  TreeBuilder builder(parser.get(), wantsTexts);
+  for (std::string_view piece = next(); !piece.empty(); piece = next())
   {
-    const std::size_t size = static_cast<std::size_t>(std::min<std::uint64_t>(left, part.size()));
-    pages.copy(at, size, part.data());
-    at += size;
-    left -= size;
-    builder.feed(part.data(), size, left == 0);
-  } while (left > 0);
+    builder.feed(piece, false);
+  }
+  part == XmlPart::Whole ? builder.feed({}, true) : void();
   return builder.takeRoot();
 }
 

@@ -1,8 +1,9 @@
 /// @file
-/// LAZ's coding of colours, versions 2 and 3: each byte by its difference from the point before; green and
-/// blue as red changed. Source: LASzip's published format (M. Isenburg, 2013).
+/// LAZ's coding of colours, near infrared and extra bytes, versions 2 and 3: each byte by its difference from
+/// the point before. Source: LASzip's published format (M. Isenburg, 2013).
 #pragma once
 
+#include "IO/Las/Laz/Items/Layer.h"
 #include "IO/Las/Laz/SymbolModel.h"
 
 #include <algorithm>
@@ -19,19 +20,36 @@ inline std::uint8_t addToByte(unsigned byte, unsigned difference)
 }
 
 /// Red, green and blue of 16 bits.
-class ColorItem
+struct AnyColorItem
+{
+  using Value = std::array<std::uint16_t, 3>;
+  static constexpr bool kIsAttribute = true;
+
+  static Value load(const char* at)
+  {
+    return { loadLittle<std::uint16_t>(at), loadLittle<std::uint16_t>(at + 2),
+      loadLittle<std::uint16_t>(at + 4) };
+  }
+  static void store(const Value& value, char* at)
+  {
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      storeLittle(value[i], at + 2 * i);
+    }
+  }
+};
+
+/// Green and blue are predicted as red changed.
+class ColorItem : public AnyColorItem
 {
 public:
-  using Color = std::array<std::uint16_t, 3>;
-
-  void forget()
+  void start(const Value&)
   {
     changed_.forget();
     differences_.forget();
   }
-  /// Codes @p color, the one before which is @p last; returns the colour.
   template <typename Coder>
-  Color code(Coder& coder, const Color& last, const Color& color)
+  Value code(Coder& coder, const PointLabel&, const Value& last, const Value& color)
   {
     unsigned changed = 0;
     if constexpr (Coder::kEncodes)
@@ -39,7 +57,7 @@ public:
       changed = changedBytes(last, color);
     }
     changed = coder.symbol(changed_.startIfForgotten(), changed);
-    Color result{};
+    Value result{};
     const unsigned redLow = codeByte(coder, changed, 0, byteOf(last, 0), byteOf(color, 0));
     const unsigned redHigh = codeByte(coder, changed, 1, byteOf(last, 1), byteOf(color, 1));
     result[0] = word(redLow, redHigh);
@@ -69,12 +87,12 @@ private:
   static constexpr unsigned kIsColored = 1u << 6;
 
   /// Byte @p i of red low, red high, green low and so on.
-  static int byteOf(const Color& color, unsigned i) { return color[i >> 1] >> ((i & 1) * 8) & 0xff; }
+  static int byteOf(const Value& color, unsigned i) { return color[i >> 1] >> ((i & 1) * 8) & 0xff; }
   static std::uint16_t word(unsigned low, unsigned high)
   {
     return static_cast<std::uint16_t>(low | high << 8);
   }
-  static unsigned changedBytes(const Color& last, const Color& color)
+  static unsigned changedBytes(const Value& last, const Value& color)
   {
     unsigned changed = color[0] != color[1] || color[0] != color[2] ? kIsColored : 0;
     for (unsigned i = 0; i < 6; ++i)
@@ -102,6 +120,56 @@ private:
 
   SymbolModel changed_{ 128 };
   ModelBank differences_{ 6, 256 };
+};
+
+class NearInfraredItem : public NumberItem<std::uint16_t>
+{
+public:
+  static constexpr bool kIsAttribute = true;
+
+  void start(Value)
+  {
+    changed_.forget();
+    differences_.forget();
+  }
+  template <typename Coder>
+  Value code(Coder& coder, const PointLabel&, Value last, Value value)
+  {
+    const unsigned difference = last ^ value;
+    const unsigned which = coder.symbol(
+      changed_.startIfForgotten(), ((difference & 0xff) != 0 ? 1u : 0u) | (difference > 0xff ? 2u : 0u));
+    unsigned bytes[2] = { last & 0xffu, static_cast<unsigned>(last >> 8) };
+    for (unsigned half = 0; half < 2; ++half)
+    {
+      if ((which >> half & 1) != 0)
+      {
+        const unsigned step = static_cast<std::uint8_t>((value >> 8 * half) - static_cast<int>(bytes[half]));
+        bytes[half] = addToByte(bytes[half], coder.symbol(differences_[half], step));
+      }
+    }
+    return static_cast<Value>(bytes[0] | bytes[1] << 8);
+  }
+
+private:
+  SymbolModel changed_{ 4 };
+  ModelBank differences_{ 2, 256 };
+};
+
+class ByteItem : public NumberItem<std::uint8_t>
+{
+public:
+  static constexpr bool kIsAttribute = true;
+
+  void start(Value) { differences_.forget(); }
+  template <typename Coder>
+  Value code(Coder& coder, const PointLabel&, Value last, Value value)
+  {
+    const unsigned step = static_cast<std::uint8_t>(value - last);
+    return addToByte(last, coder.symbol(differences_.startIfForgotten(), step));
+  }
+
+private:
+  SymbolModel differences_{ 256 };
 };
 
 } // namespace pointhaptics::io

@@ -1,0 +1,157 @@
+/// @file
+/// Items of LAZ's records, and their layers in point formats 6 to 10, version 3. Source: LASzip's published
+/// format.
+///
+/// An item has a type Value, load(), store(), start(first) and code(coder, label, last, value), which gives
+/// back the value. What it learned is in it; the value before is given.
+#pragma once
+
+#include "Bytes/LittleEndian.h"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+
+namespace pointhaptics::io
+{
+
+/// Properties of a point that the layer of x and y passes to the layers behind it.
+struct PointLabel
+{
+  std::uint8_t channel = 0;          ///< scanner channel, 0..3
+  std::uint8_t attributeChannel = 0; ///< the one that counts for attributes: see Layer
+  std::uint8_t placeInPulse = 0;     ///< 1 first, 2 last, 3 single, 0 between
+  std::uint8_t level = 0;            ///< returnLevel()
+  std::uint8_t zContext = 0;
+  bool hasNewTime = false;
+  bool hasNewScanAngle = false;
+  bool hasNewSource = false;
+};
+
+/// Of items that are one number.
+template <typename T>
+struct NumberItem
+{
+  using Value = T;
+  static constexpr bool kIsAttribute = false;
+
+  static T load(const char* at) { return loadLittle<T>(at); }
+  static void store(T value, char* at) { storeLittle(value, at); }
+};
+
+/// The scanner channel of a record of point formats 6 to 10.
+inline unsigned channelOf14(const char* record)
+{
+  return byteAt(record, 15) >> 4 & 3u;
+}
+
+/// One State for each of the four channels, made when the first of its points comes. State has a member
+/// `last` and start(last): a new channel goes on from the last value of the one before.
+template <typename State>
+class Channels
+{
+public:
+  template <typename Value>
+  void start(unsigned channel, const Value& first)
+  {
+    isStarted_ = {};
+    current_ = channel;
+    begin(channel, first);
+  }
+  State& current() { return *states_[current_]; }
+  unsigned currentChannel() const { return current_; }
+  /// The state of @p channel, whether it is the current one or not.
+  State& at(unsigned channel)
+  {
+    if (!isStarted_[channel])
+    {
+      begin(channel, current().last);
+    }
+    return *states_[channel];
+  }
+  State& select(unsigned channel)
+  {
+    State& state = at(channel);
+    current_ = channel;
+    return state;
+  }
+  bool isStarted(unsigned channel) const { return isStarted_[channel]; }
+
+private:
+  template <typename Value>
+  void begin(unsigned channel, const Value& first)
+  {
+    if (!states_[channel])
+    {
+      states_[channel] = std::make_unique<State>();
+    }
+    states_[channel]->start(first);
+    isStarted_[channel] = true;
+  }
+
+  std::array<std::unique_ptr<State>, 4> states_;
+  std::array<bool, 4> isStarted_{};
+  unsigned current_ = 0;
+};
+
+/// One item at @p offset of the record in a layer of its own.
+///
+/// Version 3 has two peculiarities of attributes (Item::kIsAttribute: what lies behind the first 30 bytes),
+/// which readers and writers share. A point counts for its scanner channel only where it begins a chunk or
+/// its channel differs from that of the point before; all others count for channel 0. And the first point
+/// after a change to a channel that was there before is predicted from the last point of the channel that is
+/// left, and becomes the last point of that one.
+template <typename Item>
+class Layer
+{
+public:
+  explicit Layer(std::size_t offset)
+    : offset_(offset)
+  {
+  }
+  void start(const char* record)
+  {
+    channels_.start(channelOf14(record), Item::load(record + offset_));
+    hasChanges_ = false;
+  }
+  template <typename Coder>
+  void code(Coder& coder, const PointLabel& label, char* record)
+  {
+    const unsigned channel = Item::kIsAttribute ? label.attributeChannel : label.channel;
+    const bool isNew = !channels_.isStarted(channel);
+    State* before = &channels_.current();
+    State& state = channels_.select(channel);
+    before = isNew || !Item::kIsAttribute ? &state : before;
+    char* at = record + offset_;
+    const Value value =
+      state.item.code(coder, label, before->last, Coder::kEncodes ? Item::load(at) : Value{});
+    hasChanges_ = hasChanges_ || (Coder::kEncodes && value != before->last);
+    before->last = value;
+    if constexpr (!Coder::kEncodes)
+    {
+      Item::store(value, at);
+    }
+  }
+  /// For an encoder: true if any value differs from the one before. Layers without changes are left out.
+  bool hasChanges() const { return hasChanges_; }
+
+private:
+  using Value = typename Item::Value;
+  struct State
+  {
+    Value last{};
+    Item item;
+
+    void start(const Value& first)
+    {
+      last = first;
+      item.start(first);
+    }
+  };
+
+  std::size_t offset_;
+  Channels<State> channels_;
+  bool hasChanges_ = false;
+};
+
+} // namespace pointhaptics::io
