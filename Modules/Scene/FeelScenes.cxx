@@ -27,9 +27,10 @@ namespace pointhaptics
 namespace
 {
 
-/// The rule of feel and view, whatever the size of the voxels: a lattice about the cloud leaves out the
-/// points that are far from all others. @return note on these; empty where there are none.
-std::string leaveOutFarPoints(vtkPoints* cloud, vtkVoxelMeanResampler* resampler)
+/// Gives the resampler the lattice of feel and view: about the cloud without the points that are far from all
+/// others. Finer scenes are counted from its corner. @return note on the far points; empty where there are
+/// none.
+std::string setLattice(vtkPoints* cloud, vtkVoxelMeanResampler* resampler)
 {
   VoxelMeanSettings settings = resampler->GetSettings();
   AffineTransform transform;
@@ -42,14 +43,14 @@ std::string leaveOutFarPoints(vtkPoints* cloud, vtkVoxelMeanResampler* resampler
   const FarPoints far =
     findFarPoints(points.view(), transformedBounds(points.view(), transform, SmpExecutor()), transform);
   Lattice lattice;
-  if (far.count == 0 || makeLattice(settings.lattice, far.others, lattice) != Status::Ok)
+  if (makeLattice(settings.lattice, far.others, lattice) != Status::Ok)
   {
     return {};
   }
   settings.lattice.workspace = lattice.bounds();
   settings.lattice.automaticWorkspace = false;
   resampler->SetSettings(settings);
-  return far.note();
+  return far.count > 0 ? far.note() : std::string();
 }
 
 } // namespace
@@ -126,7 +127,7 @@ Status FeelScenes::resample(
   input->ShallowCopy(cloud);
   prepareForTouch(resampler, settings.useCovariance);
   const VoxelMeanSettings asked = resampler->GetSettings();
-  note_ = leaveOutFarPoints(cloud->GetPoints(), resampler);
+  note_ = setLattice(cloud->GetPoints(), resampler);
   const LatticeSettings lattice = resampler->GetSettings().lattice;
   resampler->SetInputData(input);
   // The caller reports the errors of the resampler and note().
@@ -136,7 +137,7 @@ Status FeelScenes::resample(
   resampler->Update();
   resampler->RemoveObserver(silence);
   resampler->SetInputData(nullptr);
-  note_.empty() ? void() : resampler->SetSettings(asked);
+  resampler->SetSettings(asked);
   vtkPolyData* felt = resampler->GetOutput();
   message = resampler->GetErrorMessage();
   message.erase(message.find_last_not_of(" .") + 1);

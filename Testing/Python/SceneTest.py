@@ -42,6 +42,12 @@ class Feel(TestCase):
     def test_default(self):
         self.compare(ph.Scene(self.points).feel(self.hand), self.program())
 
+    def test_finer_scenes_near_the_hand_are_those_of_the_program(self):
+        run_program("generate", "idol", "-n", 543652, "-o", self.path("in.vtp"), "--force")
+        self.hand = np.array([[0, 0, -0.06, 0], [1, 0, 0, 0]], float)
+        np.savetxt(self.path("hip.csv"), self.hand, "%.17g", ",", header="t,x,y,z", comments="")
+        self.compare(ph.Scene(ph.read(self.path("in.vtp"))[0]).feel(self.hand), self.program())
+
     def test_gains_methods_and_lattices(self):
         scene = ph.Scene(self.points, dims=100)
         for options, arguments in (
