@@ -52,19 +52,20 @@ constexpr NamedCommand kCommands[] = {
     nullptr },
 };
 
-/// Address space that the libraries of the view are loaded in at least: what VTK's and TBB's first objects
-/// throw while they are loaded ends the process.
-constexpr std::size_t kRoomOfView = std::size_t(128) << 20;
+/// Address space that the libraries of the view are loaded in at least, 46 MiB with VTK 9.1: what VTK's and
+/// TBB's first objects throw while they are loaded ends the process.
+constexpr std::size_t kRoomOfView = std::size_t(80) << 20;
 
 /// The command that the library of the view makes: loading VTK's rendering takes 20 ms.
 /// @throws std::bad_alloc where there is no room for it.
 Command* fromLibrary(const std::string& name)
 {
-  if (!pointhaptics::hasAddressSpace(kRoomOfView))
+  static void* library = nullptr;
+  if (!library && !pointhaptics::hasAddressSpace(kRoomOfView))
   {
     throw std::bad_alloc();
   }
-  void* const library = dlopen(POINTHAPTICS_VIEW_LIBRARY, RTLD_LAZY);
+  library = library ? library : dlopen(POINTHAPTICS_VIEW_LIBRARY, RTLD_LAZY);
   void* const make = library ? dlsym(library, (name + "Command").c_str()) : nullptr;
   const char* const problem = make ? nullptr : dlerror();
   require(make,
@@ -118,13 +119,17 @@ int run(std::vector<std::string> arguments)
   {
     return kUsage;
   }
+  nameCommand(isOneOf(kHelp, arguments.front()) ? std::string() : arguments.front());
   CLI::App program("See and feel raw point clouds.\nWithout a command: view.", "pointhaptics");
   int exitCode = kSuccess;
-  // The options of all commands take a tenth of the time of a start.
-  const bool areAllShown = arguments.front() == kManualCommand || isOneOf(kHelp, arguments.front());
+  const bool isHelp = isOneOf(kHelp, arguments.front());
   for (const NamedCommand& command : kCommands)
   {
-    if (areAllShown || arguments.front() == command.name)
+    if (isHelp)
+    {
+      program.add_subcommand(command.name, command.description);
+    }
+    else if (arguments.front() == kManualCommand || arguments.front() == command.name)
     {
       const std::shared_ptr<Command> made(command.make ? command.make() : fromLibrary(command.name));
       addCommand(program, exitCode, command.name, command.description, made);

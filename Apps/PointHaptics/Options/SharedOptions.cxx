@@ -6,6 +6,7 @@
 #include "Terminal/StopSignals.h"
 
 #include "Core/Base/Lattice.h"
+#include "IO/Info/LengthUnit.h"
 #include "PolyDataAccess.h"
 #include "vtkVoxelMeanResampler.h"
 
@@ -28,10 +29,16 @@ namespace
 using Numbers = std::vector<double>;
 using Units = std::vector<std::pair<std::string, double>>;
 
-const Units& units()
+Units units()
 {
-  static const Units table = { { "m", 1.0 }, { "cm", 1e-2 }, { "mm", 1e-3 }, { "um", 1e-6 }, { "km", 1e3 },
-    { "in", 0.0254 }, { "ft", 0.3048 } };
+  Units table;
+  for (const NamedUnit& unit : kLengthUnits)
+  {
+    if (table.empty() || table.back().first != unit.name)
+    {
+      table.emplace_back(unit.name, unit.metres);
+    }
+  }
   return table;
 }
 
@@ -151,9 +158,10 @@ UnitNames unitOptions()
 
 double LatticeOptions::metresPerUnit() const
 {
-  const auto found = std::find_if(
-    units().begin(), units().end(), [this](const auto& entry) { return entry.first == this->unit; });
-  return found == units().end() ? 1.0 : found->second;
+  const Units all = units();
+  const auto found =
+    std::find_if(all.begin(), all.end(), [this](const auto& entry) { return entry.first == this->unit; });
+  return found == all.end() ? 1.0 : found->second;
 }
 
 AffineTransform LatticeOptions::transform() const

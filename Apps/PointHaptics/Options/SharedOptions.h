@@ -38,7 +38,7 @@ struct LatticeOptions
   std::vector<double> rotate;    ///< 4: degrees, x, y, z.
   std::vector<double> translate; ///< 3.
   std::vector<double> matrix;    ///< 16, row by row; excludes scale, rotate and translate.
-  std::string unit = "m";        ///< m, cm, mm, um, km, in, ft: unit of the file's coordinates.
+  std::string unit = "m";        ///< m, cm, mm, um, km, in, ft, yd: unit of the file's coordinates.
 
   /// Adds the options to @p command; bad values end the parse with a usage error that names the cure.
   void addTo(CLI::App& command);

@@ -74,8 +74,8 @@ std::string usageMessage(const CLI::App& program, const CLI::App& command, const
   std::string message = error.what();
   std::replace(message.begin(), message.end(), '\n', ' ');
   // An option that is missing may be there, misspelt.
-  if (!words.empty() &&
-    (dynamic_cast<const CLI::ExtrasError*>(&error) || dynamic_cast<const CLI::RequiredError*>(&error)))
+  const bool isMissing = &command != &program && dynamic_cast<const CLI::RequiredError*>(&error);
+  if (!words.empty() && (dynamic_cast<const CLI::ExtrasError*>(&error) || isMissing))
   {
     const std::string first = words.front().substr(0, words.front().find('='));
     return fmt::format("unexpected argument{} {}{}", words.size() > 1 ? "s" : "", fmt::join(words, " "),
@@ -234,16 +234,24 @@ int runProgram(const std::vector<std::string>& arguments, const std::function<in
   nameCommand(arguments.empty() ? std::string() : arguments.front());
   endCleanlyOnAbort("pointhaptics" + (arguments.empty() ? "" : " " + arguments.front()));
   int exitCode = kSuccess;
-  try
+  const auto guarded = [&exitCode](const auto& step)
   {
-    exitCode = run();
-    showKeptWarnings();
-    printPromisedJson(exitCode);
-  }
-  catch (const std::exception& error)
-  {
-    return fail(sentenceOf(error));
-  }
+    try
+    {
+      step();
+    }
+    catch (const std::exception& error)
+    {
+      exitCode = fail(sentenceOf(error));
+    }
+  };
+  guarded([&] { exitCode = run(); });
+  guarded(
+    [&exitCode]
+    {
+      showKeptWarnings();
+      printPromisedJson(exitCode);
+    });
   errno = 0;
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) // all of it, from the first line on
   {

@@ -315,23 +315,28 @@ void printPromisedJson(int exitCode)
 
 std::string didYouMean(const std::string& given, const std::vector<std::string>& words)
 {
-  std::string nearest;
   const std::size_t size = given.size();
-  std::size_t least = std::max<std::size_t>(1, size / 3); // a third of the letters
-  for (const std::string& word : words)
+  const auto nearestOf = [&](std::size_t most, const auto& partOf)
   {
-    std::size_t d = distance(lowerCase(given), lowerCase(word));
-    for (const std::size_t length :
-      { size, size + 1 }) // the beginning of a long word; a fifth of its letters
+    std::string nearest;
+    for (const std::string& word : words)
     {
-      const std::size_t part = distance(lowerCase(given), lowerCase(word.substr(0, length)));
-      d = size > 2 && part <= size / 5 ? std::min(d, part) : d;
+      const std::size_t d = distance(lowerCase(given), lowerCase(partOf(word)));
+      if (d < most || (d == most && nearest.empty()))
+      {
+        nearest = word;
+        most = d;
+      }
     }
-    if (d < least || (d == least && nearest.empty()))
-    {
-      nearest = word;
-      least = d;
-    }
+    return nearest;
+  };
+  // A third of the letters; else the beginning of a long word, a fifth of them.
+  std::string nearest = nearestOf(std::max<std::size_t>(1, size / 3), [](const std::string& w) { return w; });
+  for (const std::size_t length : { size, size + 1 })
+  {
+    const bool isLong = nearest.empty() && size > 2;
+    nearest =
+      isLong ? nearestOf(size / 5, [&](const std::string& w) { return w.substr(0, length); }) : nearest;
   }
   return nearest.empty() || given.empty() ? std::string() : fmt::format("; did you mean {}?", nearest);
 }
