@@ -221,7 +221,13 @@ void useUtf8Names(vtkFieldData* data)
   for (int i = 0; i < data->GetNumberOfArrays(); ++i)
   {
     vtkAbstractArray* array = data->GetAbstractArray(i);
-    array->GetName() ? array->SetName(io::utf8Name(array->GetName()).c_str()) : void();
+    const std::string given = array->GetName() ? array->GetName() : "";
+    std::string name = io::utf8Name(given);
+    for (int k = 2; name != given && data->GetAbstractArray(name.c_str()); ++k)
+    {
+      name = io::utf8Name(given) + "_" + std::to_string(k);
+    }
+    name != given ? array->SetName(name.c_str()) : void();
   }
 }
 

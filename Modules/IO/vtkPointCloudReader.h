@@ -287,6 +287,7 @@ public:
    * was not recognised.
    */
   const char* GetFormat() const { return this->Format.c_str(); }
+  vtkMTimeType GetMTime() override;
 
 protected:
   vtkPointCloudReader();
@@ -306,7 +307,6 @@ private:
   void FinishFaces(pointhaptics::io::ReadTask& task, vtkPolyData* cloud);
   std::string ExtensionOf(const std::string& path) const;
   void Fail(unsigned long code, const std::string& message);
-  vtkMTimeType GetMTime() override;
 
   char* FileName = nullptr;
   double Resolution = 0.0;

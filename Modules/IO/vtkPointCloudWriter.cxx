@@ -85,9 +85,9 @@ void noteWhatIsNoColumn(vtkPointSet* cloud, const io::CloudFormat& format, io::W
       !isIdentityPose(cloud, name))
     {
       name == "LengthUnit" ? notes.add("the file does not say that the unit is " +
-                               io::fieldText(cloud->GetFieldData(), name.c_str()) +
+                               io::inQuotes(io::fieldText(cloud->GetFieldData(), name.c_str())) +
                                ": readers guess it by the cloud's size, or take --unit")
-                           : void(lost += (lost.empty() ? "" : ", ") + name);
+                           : void(lost += (lost.empty() ? "" : ", ") + io::inQuotes(name));
     }
   }
   if (!lost.empty())

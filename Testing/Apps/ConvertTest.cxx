@@ -195,7 +195,7 @@ TEST_F(Convert, EachFileThatIsConvertedIsNamed)
     EXPECT_NE(outcome.errors.find(part), std::string::npos) << outcome.errors;
   }
   EXPECT_EQ(this->read("all.csv"), "x,y,z\n1,2,3\n4,5,6\n0,0,2.54\n");
-  EXPECT_NE(outcome.errors.find("does not say that the unit is m:"), std::string::npos) << outcome.errors;
+  EXPECT_NE(outcome.errors.find("does not say that the unit is 'm':"), std::string::npos) << outcome.errors;
 }
 
 TEST_F(Convert, FeetThatDifferAreConvertedWithAWord)

@@ -217,7 +217,7 @@ class WholeClouds(TestCase):
 
     def test_fields_that_a_format_has_no_place_for_are_said(self):
         for extension in ("ply", "pcd", "csv", "las"):
-            with self.assertWarnsRegex(RuntimeWarning, "field data Owner, Run are left out"):
+            with self.assertWarnsRegex(RuntimeWarning, "field data 'Owner', 'Run' are left out"):
                 ph.write(self.path("a." + extension), sphere(5), fields={"Owner": "a name", "Run": 7})
         with warnings.catch_warnings():
             warnings.simplefilter("error")

@@ -206,6 +206,24 @@ class Signals(TestCase):
         expected = self.scene.feel([[0, 0, 0, 0.045], [20, 0, 0, 0.036]])
         self.assert_same_bits(felt["force_z"], expected["force_z"])
 
+    def test_a_handler_may_update_a_filter_while_another_is_updated(self):
+        ph.write(self.path("cloud.csv"), sphere(500000))
+        ph.write(self.path("small.ply"), sphere(1000))
+        read = []
+
+        def handler(*unused):
+            small = ph.vtkPointCloudReader()
+            small.SetFileName(self.path("small.ply"))
+            small.Update()
+            read.append(small.GetOutput().GetNumberOfPoints())
+
+        self.addCleanup(signal.signal, signal.SIGALRM, signal.signal(signal.SIGALRM, handler))
+        reader = ph.vtkPointCloudReader()
+        reader.SetFileName(self.path("cloud.csv"))
+        signal.setitimer(signal.ITIMER_REAL, 0.1)
+        reader.Update()
+        self.assertEqual((read, reader.GetOutput().GetNumberOfPoints()), ([1000], 500000))
+
 
 class TheEnd(TestCase):
     """Python ends while calls of daemon threads go on."""

@@ -36,7 +36,7 @@ constexpr double kOnFoot = 1.3;
 constexpr double kWallHeight = 0.2;
 constexpr double kLargestRise = 0.1;
 /// Height of a riding ball above the surface, over its radius and over the noise; the points of a noisy
-/// surface hold a lower one back. Its longest way in a tick without the latter, over the radius.
+/// surface hold a lower one back. Its longest way in a tick, over the radius.
 constexpr double kAboveBumps = 0.1;
 constexpr double kAboveNoise = 2.0;
 constexpr double kLongestRide = 0.5;
@@ -225,13 +225,12 @@ bool ProxyBall::ride(const HapticScene& scene, BallCells& cells, const Vec3& hip
     [&](const Vec3& offset, double radius)
     { largest = std::max(largest, norm2(offset) < radius_ * radius_ ? radius / kOnFoot : 0.0); });
   radius_ = largest > 0.0 ? largest : radius_;
-  const double bumps = kAboveBumps * radius_;
-  const double noise = std::max(0.0, kAboveNoise * scene.noise(foot) - bumps);
-  const Vec3 way = foot + (radius_ + bumps + noise) * up - center_;
+  const double above = std::max(kAboveBumps * radius_, kAboveNoise * scene.noise(foot));
+  const Vec3 way = foot + (radius_ + above) * up - center_;
   const double rise = std::max(0.0, dot(way, up));
   const Vec3 across = way - rise * up;
   const double length = norm(across);
-  bool isOut = rise + length <= kLongestRide * radius_ + noise;
+  bool isOut = rise + length <= kLongestRide * radius_;
   if (isOut)
   {
     gather(work, rise + length);

@@ -60,8 +60,8 @@ void SurfaceFitProxy::carry(const AffineTransform& from, const AffineTransform& 
 bool SurfaceFitProxy::isSmooth(const HapticScene& scene) const noexcept
 {
   return tracker_.height(ball_.center()) > 0.0 &&
-    tracker_.residual() <
-    std::max(kSmoothResidual * ball_.radius(), kSmoothNoise * scene.noise(tracker_.point()));
+    (tracker_.residual() < kSmoothResidual * ball_.radius() ||
+      tracker_.residual() < kSmoothNoise * scene.noise(tracker_.point()));
 }
 
 /// True if the surface continues on all sides of the foot: the ball sinks into a gap between points, not over

@@ -91,13 +91,14 @@ void TextRecords::expectEnd()
     doubt_ = where(line_) + words_.field + " " + inQuotes(missing_) + " is missing; write one number per " +
       words_.field + " and one " + words_.record + " per line";
   }
-  else if (doubt_.empty() && (hasList || extra % fields_.size() != 0))
+  else if (doubt_.empty())
   {
     std::string_view copy = rest_;
     doubt_ = where(lines_.lineNumber()) + inQuotes(takeWord(copy)) + " follows the last " + words_.field +
       "; write as many numbers per line as the header names";
   }
-  isLast_ ? void() : throwDoubt();
+  const bool isOdd = goesOn_ || hasList || extra % fields_.size() != 0;
+  isLast_ || !isOdd ? void() : throwDoubt();
 }
 
 /// Where lines end in odd places, and the numbers turn out not to be those of the records.
@@ -140,7 +141,21 @@ void TextRecords::storeAll(ReadTask& task, std::uint64_t rows, std::uint64_t all
       task.progress(static_cast<double>(row) / static_cast<double>(rows));
     }
   }
-  trimmed(rest_).empty() ? void() : throwDoubt();
+  const bool isMore = !trimmed(rest_).empty() || (isLast_ && !doubt_.empty() && lines_.nextFilled(rest_));
+  isMore ? throwDoubt() : void();
+}
+
+bool hasRecordALine(std::string_view text, std::size_t numbers)
+{
+  LineReader lines(text);
+  std::string_view line;
+  lines.nextFilled(line);
+  std::size_t words = 0;
+  while (!takeWord(line).empty())
+  {
+    ++words;
+  }
+  return words == numbers;
 }
 
 } // namespace pointhaptics::io

@@ -69,7 +69,7 @@ private:
   const std::vector<TextField> fields_;
   const TextRecordWords words_;
   const bool isLast_;
-  std::string doubt_; ///< About the first line that ends in an odd place.
+  std::string doubt_; ///< About the first line that ends in an odd place, or holds several records.
   std::string_view rest_;
   std::string_view number_;     ///< Begins with the number that was taken last.
   std::string missing_;         ///< First field that did not stand in the line of the others.
@@ -79,5 +79,8 @@ private:
   std::size_t countedLines_ = 0;
   bool goesOn_ = false; ///< Behind the line in which it begins.
 };
+
+/// True if each record of @p numbers in @p text, which ranks may cut at lines, has a line: so does the first.
+bool hasRecordALine(std::string_view text, std::size_t numbers);
 
 } // namespace pointhaptics::io

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <iterator>
 
 namespace pointhaptics::io
 {
@@ -17,6 +18,13 @@ namespace pointhaptics::io
 namespace
 {
 
+/// Words before "unit" that mean places; units of other things are none of theirs.
+constexpr std::string_view kOfPlaces[] = { "coordinate", "coordinates", "length", "linear", "model", "point",
+  "points", "position", "positions", "xyz" };
+/// Geographic systems that are in use; others among 4001 to 4999 are projected or geocentric.
+constexpr std::string_view kGeographic[] = { "EPSG:4258", "EPSG:4267", "EPSG:4269", "EPSG:4277", "EPSG:4283",
+  "EPSG:4326", "EPSG:4490", "EPSG:4612", "EPSG:4937", "EPSG:4979", "EPSG:6318", "EPSG:6319", "EPSG:6668",
+  "EPSG:7844" };
 constexpr std::string_view kUnit = "LengthUnit ";
 constexpr std::string_view kHeight = "HeightUnit ";
 constexpr std::string_view kName = "ArrayName ";
@@ -54,18 +62,21 @@ std::string decoded(std::string_view word)
 std::string saidUnit(std::string_view comment)
 {
   const std::size_t mark = std::min(comment.find_first_of(":="), comment.size());
-  std::string_view words = comment.substr(0, mark);
+  std::string_view words = mark < comment.size() ? comment.substr(0, mark) : std::string_view();
   std::string_view last;
-  std::size_t count = 0;
-  for (std::string_view word = takeWord(words); !word.empty() && count < 3; word = takeWord(words))
+  bool isOfPlaces = true;
+  for (std::string_view word = takeWord(words); !word.empty(); word = takeWord(words))
   {
+    isOfPlaces = isOfPlaces &&
+      (last.empty() ||
+        std::any_of(std::begin(kOfPlaces), std::end(kOfPlaces),
+          [last](std::string_view known) { return equalNoCase(last, known); }));
     last = word;
-    ++count;
   }
   std::string_view rest = mark < comment.size() ? comment.substr(mark + 1) : comment;
   last = mark < comment.size() ? last : takeWord(rest); // "units mm"
   const std::string unit(trimmed(rest));
-  const bool isSaid = count < 3 && (equalNoCase(last, "unit") || equalNoCase(last, "units"));
+  const bool isSaid = isOfPlaces && (equalNoCase(last, "unit") || equalNoCase(last, "units"));
   return isSaid && !lengthUnitCalled(unit).empty() ? unit : std::string();
 }
 
@@ -153,7 +164,8 @@ std::string FileComments::lines(const std::string& mark) const
 void FileComments::moveTo(vtkPolyData* cloud, std::vector<std::string>& notes) const
 {
   const std::string system = systems.size() == 1 ? systems.front() : std::string();
-  const bool isGeographic = system.size() == 9 && system[5] == '4'; // 4001 to 4999
+  const bool isGeographic =
+    std::find(std::begin(kGeographic), std::end(kGeographic), system) != std::end(kGeographic);
   addFieldText(cloud, "CoordinateSystem", system);
   addFieldText(cloud, "LengthUnit", unit.empty() && isGeographic && mayBeDegrees(cloud) ? "degree" : unit);
   addFieldText(cloud, kHeightUnit, heightUnit);

@@ -162,12 +162,14 @@ struct PcdTable
   };
   std::vector<Entry> entries;
   std::vector<Column> columns;
+  std::size_t numbers = 0; ///< of a record of text
 
   explicit PcdTable(const PcdHeader& header)
   {
     for (const PcdField& field : header.fields)
     {
       entries.push_back({ field, columns.size() });
+      numbers += static_cast<std::size_t>(field.count);
       if (!field.isPadding())
       {
         columns.push_back(field.column());
@@ -320,6 +322,10 @@ void readPcd(ReadTask& task, vtkPolyData* cloud)
   RowRange rows{ 0, header.points };
   if (header.encoding == PcdEncoding::Ascii)
   {
+    if (task.shared && !hasRecordALine(task.bytes.substr(header.bodyOffset, kStartOfText), table.numbers))
+    {
+      task.takeWhole();
+    }
     part = partOfText(task, task.bytes, header.bodyOffset, header.bodyLine);
     rows = part.rowsOf(header.points, "point");
   }

@@ -337,26 +337,13 @@ void skipWholeAsciiElement(LineReader& lines, PlyElement element, MeshFaces& fac
   }
 }
 
-/// True if each record of @p text that ranks may cut at lines has a line: so does the first.
-bool isByLines(std::string_view text, const PlyElement& vertex)
-{
-  LineReader lines(text);
-  std::string_view line;
-  lines.nextFilled(line);
-  std::size_t words = 0;
-  while (!takeWord(line).empty())
-  {
-    ++words;
-  }
-  return vertex.hasList() || words == vertex.properties.size();
-}
-
 void readAsciiBody(ReadTask& task, const PlyHeader& header, vtkPolyData* cloud)
 {
   const std::size_t vertexIndex = header.vertexElement();
   const PlyElement& vertex = header.elements[vertexIndex];
   if (vertexIndex > 0 ||
-    (task.shared && !isByLines(task.bytes.substr(header.bodyOffset, kStartOfText), vertex)))
+    (task.shared && !vertex.hasList() &&
+      !hasRecordALine(task.bytes.substr(header.bodyOffset, kStartOfText), vertex.properties.size())))
   {
     task.takeWhole();
   }

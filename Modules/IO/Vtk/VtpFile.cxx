@@ -215,7 +215,22 @@ void writeVtp(WriteTask& task)
   for (int i = 0; i < data->GetNumberOfArrays(); ++i)
   {
     const std::string given = utf8Name(data->GetArrayName(i) ? data->GetArrayName(i) : "");
-    const std::string name = xmlName(data->GetAbstractArray(i));
+    vtkAbstractArray* array = data->GetAbstractArray(i);
+    const std::string name = xmlName(array);
+    const vtkIdType points = written->GetNumberOfPoints();
+    if (array->GetNumberOfTuples() < points)
+    {
+      failFormat("array " + inQuotes(given) + " has " + std::to_string(array->GetNumberOfTuples()) +
+          " values for " + std::to_string(points) + " points",
+        "give every array one value per point");
+    }
+    if (array->GetNumberOfTuples() > points)
+    {
+      const auto part = vtkSmartPointer<vtkAbstractArray>::Take(array->NewInstance());
+      part->DeepCopy(array);
+      part->SetNumberOfTuples(points);
+      data->AddArray(part);
+    }
     name == given ? void() : task.notes.add("array " + inQuotes(given) + " is called " + name);
   }
   const VtpFile file(written, written->GetNumberOfPoints());

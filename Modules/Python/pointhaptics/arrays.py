@@ -133,14 +133,15 @@ def texts_to_vtk(texts: List[str], name: str) -> core.vtkStringArray:
     result = core.vtkStringArray()
     result.SetName(name)
     for text in texts:
-        result.InsertNextValue(text)
+        result.InsertNextValue(text.encode("utf-8", "surrogateescape"))
     return result
 
 
 def from_vtk(array: core.vtkAbstractArray) -> NDArray[Any]:
     """A NumPy array that looks at the memory of `array` and keeps it; strings and bits are copied."""
     if isinstance(array, core.vtkStringArray):
-        return np.array([array.GetValue(i) for i in range(array.GetNumberOfValues())])
+        texts = (array.GetValue(i) for i in range(array.GetNumberOfValues()))
+        return np.array([t.decode("utf-8", "surrogateescape") if isinstance(t, bytes) else t for t in texts])
     if isinstance(array, core.vtkBitArray):
         bytes_ = core.vtkUnsignedCharArray()
         bytes_.DeepCopy(array)

@@ -417,4 +417,24 @@ TEST_F(Writer, VtpPointsWithoutCellsGetVertices)
   EXPECT_EQ(result.cloud->GetPoint(1)[2], 3.0);
 }
 
+TEST_F(Writer, VtpHasOneValueOfEachArrayPerPoint)
+{
+  const vtkSmartPointer<vtkPolyData> cloud = makeCloud(VTK_FLOAT);
+  const vtkIdType points = cloud->GetNumberOfPoints();
+  vtkNew<vtkIntArray> longer;
+  longer->SetName("longer");
+  for (int i = 0; i < points + 2; ++i)
+  {
+    longer->InsertNextValue(i);
+  }
+  cloud->GetPointData()->AddArray(longer);
+  ASSERT_EQ(writeCloud(cloud, path("a.vtp")), "");
+  const ReadResult result = readCloud(path("a.vtp"));
+  ASSERT_EQ(result.error, "");
+  ASSERT_EQ(result.points(), points);
+  EXPECT_EQ(result.value("longer", points - 1), double(points - 1));
+  longer->SetNumberOfTuples(points - 1);
+  EXPECT_NE(writeCloud(cloud, path("b.vtp")).find("give every array one value per point"), std::string::npos);
+}
+
 } // namespace

@@ -69,17 +69,20 @@ void runSignalHandlers() noexcept
   {
     return;
   }
+  WithoutInterpreterLock* const here = theMain;
   const auto now = std::chrono::steady_clock::now();
-  if (!theMain->hasRaised_ && now - theMain->handled_ >= kPeriod)
+  if (!here->hasRaised_ && now - here->handled_ >= kPeriod)
   {
-    theMain->handled_ = now;
-    theLock.take(theMain->state_);
-    theMain->hasRaised_ = theLock.runHandlers() != 0;
-    theMain->state_ = theLock.release();
+    here->handled_ = now;
+    theLock.take(here->state_);
+    theMain = nullptr; // a handler may work without the lock, too
+    here->hasRaised_ = theLock.runHandlers() != 0;
+    theMain = here;
+    here->state_ = theLock.release();
   }
-  if (theMain->hasRaised_ && theMain->stop_)
+  if (here->hasRaised_ && here->stop_)
   {
-    theMain->stop_();
+    here->stop_();
   }
 }
 

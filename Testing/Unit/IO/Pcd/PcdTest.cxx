@@ -172,4 +172,17 @@ TEST_F(Pcd, AsciiKeepsEveryDigitOfLongIntegers)
   EXPECT_EQ(ids->GetVariantValue(2).ToUnsignedLongLong(), 100000000000000000ULL);
 }
 
+TEST_F(Pcd, MoreNumbersInALineThanFieldsAreRefused)
+{
+  const std::string start = "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 2\nHEIGHT "
+                            "1\nPOINTS 2\nDATA ascii\n";
+  expectRefused(
+    readCloud(write("six.pcd", start + "1 2 3 0.1 0.2 0.3\n4 5 6 0.1 0.2 0.3\n")), "follows the last");
+  expectRefused(
+    readCloud(write("four.pcd", start + "1 2 3 0.1\n4 5 6 0.1\n7 8 9 0.1\n")), "follows the last");
+  const ReadResult both = readCloud(write("both.pcd", start + "1 2 3 4 5 6\n"));
+  EXPECT_EQ(both.error, "");
+  EXPECT_EQ(both.points(), 2);
+}
+
 } // namespace

@@ -548,11 +548,15 @@ TEST_F(Text, UnitsAndSystemsOfCommentsAreTaken)
   {
     EXPECT_EQ(said(std::string(comment) + "\n" + points, "LengthUnit"), "mm") << comment;
   }
-  EXPECT_EQ(said("# units: counts\n" + points, "LengthUnit"), "");
+  for (const char* comment : { "# units: counts", "# angle unit: degrees", "# Intensity units: mm" })
+  {
+    EXPECT_EQ(said(std::string(comment) + "\n" + points, "LengthUnit"), "") << comment;
+  }
   EXPECT_EQ(said("# EPSG:25832\n" + points, "CoordinateSystem"), "EPSG:25832");
   EXPECT_EQ(said("# crs = epsg::25832\n" + points, "LengthUnit"), "");
   EXPECT_EQ(said("# EPSG:4326\n" + points, "LengthUnit"), "degree");
   EXPECT_EQ(said("# EPSG:4326\n700000 2 3\n4 5 6\n", "LengthUnit"), "") << "these are no degrees";
+  EXPECT_EQ(said("# EPSG:4647\n" + points, "LengthUnit"), "") << "this one is projected";
   const ReadResult two = readCloud(write("b.xyz", "# from EPSG:4326 to EPSG:32617\n" + points));
   ASSERT_FALSE(two.notes.empty());
   EXPECT_EQ(two.notes[0],
