@@ -192,8 +192,8 @@ def write(
     fields: name -> array or text, of the whole cloud. Default: those of the attributes, where they come from read().
     extension: such as "ply", where the name does not say it.
     The file appears when it is complete, with every digit. What its format cannot hold is said by a RuntimeWarning.
-    Texts (.csv, .xyz) have no types: read() gives small integers as int32 and float32 as float64; .astype(numpy.float32)
-    has the bits again.
+    Texts (.csv, .xyz) have no types: read() gives small integers as int32, columns of at most 6 digits as float32 and
+    others as float64; .astype(numpy.float32) of what was float32 has the bits again.
 
     Raises TypeError or ValueError for bad arrays and unknown extensions, OSError with errno and filename where the file
     cannot be written, MemoryError.
