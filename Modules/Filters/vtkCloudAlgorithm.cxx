@@ -204,8 +204,9 @@ int vtkCloudAlgorithm::RequestData(
     this->Fail(problem);
   }
   bool succeeded = problem.empty();
-  const pointhaptics::Status end = pointhaptics::guardedWork(
-    [&] { succeeded = succeeded && this->RunParts(parts); }, [this] { this->AbortExecute = 1; });
+  pointhaptics::HostStop stop(this->AbortExecute);
+  const pointhaptics::Status end =
+    pointhaptics::guardedWork([&] { succeeded = succeeded && this->RunParts(parts); }, stop.request());
   if (end != pointhaptics::Status::Ok)
   {
     succeeded = false;

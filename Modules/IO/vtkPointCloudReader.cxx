@@ -11,6 +11,7 @@
 #include "ReadTask.h"
 
 #include "Core/Base/Host/GuardedWork.h"
+#include "Core/Base/Host/StopRequest.h"
 #include "Core/Base/QuantityText.h"
 
 #include "vtkDoubleArray.h"
@@ -514,7 +515,8 @@ int vtkPointCloudReader::RequestData(
     this->Fail(vtkErrorCode::NoFileNameError, "there is nothing to read; set a file name");
     return 1;
   }
-  const pointhaptics::WithoutInterpreterLock unlocked([this] { this->AbortExecute = 1; });
+  pointhaptics::HostStop stop(this->AbortExecute);
+  const pointhaptics::WithoutInterpreterLock unlocked(stop.request());
   try
   {
     pointhaptics::requireRoomOfWork();

@@ -11,6 +11,7 @@
 #include "WriteTask.h"
 
 #include "Core/Base/Host/GuardedWork.h"
+#include "Core/Base/Host/StopRequest.h"
 
 #include "vtkFieldData.h"
 #include "vtkInformation.h"
@@ -212,7 +213,8 @@ void vtkPointCloudWriter::WriteData()
     this->Fail(vtkErrorCode::NoFileNameError, "there is nowhere to write to; set a file name");
     return;
   }
-  const pointhaptics::WithoutInterpreterLock unlocked([this] { this->AbortExecute = 1; });
+  pointhaptics::HostStop stop(this->AbortExecute);
+  const pointhaptics::WithoutInterpreterLock unlocked(stop.request());
   try
   {
     pointhaptics::requireRoomOfWork();

@@ -6,6 +6,7 @@
 #include "vtkVoxelMeanResampler.h"
 
 #include "Core/Base/Host/GuardedWork.h"
+#include "Core/Base/Host/StopRequest.h"
 #include "Devices/PathUnits.h"
 
 #include "vtkCommand.h"
@@ -280,6 +281,7 @@ int vtkHapticFeel::RequestData(
   std::string message;
   std::string odd;
   bool isFelt = false;
+  HostStop stop(this->AbortExecute);
   const Status status = guardedWork(
     [&]
     {
@@ -287,7 +289,7 @@ int vtkHapticFeel::RequestData(
         countTicks(path, "path", this->Rate, kMostTicks, ticks, message) &&
         this->Impl->MakeScenes(this, cloud, message) && this->Impl->Feel(this, path, ticks, output, odd);
     },
-    [this] { this->AbortExecute = 1; });
+    stop.request());
   message = status == Status::Ok ? message : pointhaptics::message(status);
   this->Impl->RunsAgain = !isFelt;
   const unsigned long code = message.empty() ? vtkErrorCode::NoError : vtkErrorCode::UserError;

@@ -2,6 +2,9 @@
 /// Whether a host's algorithm shall stop, for all versions of VTK.
 #pragma once
 
+#include <atomic>
+#include <functional>
+
 namespace pointhaptics
 {
 
@@ -23,5 +26,40 @@ bool shallStop(Algorithm* algorithm, long = 0)
 {
   return algorithm->GetAbortExecute() != 0;
 }
+
+/// Stops an algorithm for the host, and takes that back behind the run: from version 9.3 on VTK would stop
+/// the next run, too. The flag is an int or an atomic one.
+template <typename Flag>
+class HostStop
+{
+public:
+  /// @param abortExecute of the algorithm.
+  explicit HostStop(Flag& abortExecute)
+    : abortExecute_(abortExecute)
+  {
+  }
+  ~HostStop()
+  {
+    if (isRequested_)
+    {
+      abortExecute_ = 0;
+    }
+  }
+  HostStop(const HostStop&) = delete;
+  HostStop& operator=(const HostStop&) = delete;
+  /// For WithoutInterpreterLock, which must end before this object does.
+  std::function<void()> request()
+  {
+    return [this]
+    {
+      isRequested_ = true;
+      abortExecute_ = 1;
+    };
+  }
+
+private:
+  Flag& abortExecute_;
+  std::atomic<bool> isRequested_{ false };
+};
 
 } // namespace pointhaptics
