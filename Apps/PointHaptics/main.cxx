@@ -119,10 +119,10 @@ int run(std::vector<std::string> arguments)
   {
     return kUsage;
   }
-  nameCommand(isOneOf(kHelp, arguments.front()) ? std::string() : arguments.front());
+  const bool isHelp = isOneOf(kHelp, arguments.front());
+  nameCommand(isHelp ? std::string() : arguments.front());
   CLI::App program("See and feel raw point clouds.\nWithout a command: view.", "pointhaptics");
   int exitCode = kSuccess;
-  const bool isHelp = isOneOf(kHelp, arguments.front());
   for (const NamedCommand& command : kCommands)
   {
     if (isHelp)

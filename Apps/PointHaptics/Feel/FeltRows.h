@@ -1,5 +1,5 @@
 /// @file
-/// What is kept of a touch: rows, recording and sound in files, and figures that commands print.
+/// Keeps a touch: its rows, recording and sound in files, and the figures that commands print.
 #pragma once
 
 #include "Feel/FeelCommand.h"

@@ -49,7 +49,7 @@ private:
     problem = problem.empty() ? why : problem;
     return false;
   }
-  /// Of a header that somebody has changed.
+  /// Refuses a header that somebody has changed.
   bool failUnless(bool isRead, const std::string& text, const char* why)
   {
     return isRead || this->fail(quote(text) + ": " + why + "; take the header as it was written");

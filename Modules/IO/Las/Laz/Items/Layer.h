@@ -28,7 +28,7 @@ struct PointLabel
   bool hasNewSource = false;
 };
 
-/// Of items that are one number.
+/// Loads and stores items that are one number.
 template <typename T>
 struct NumberItem
 {
