@@ -80,7 +80,7 @@ TEST(ServoLoop, PushesNoHarderThanTheLeastOfThreeLimits)
   };
   for (const Case& each : { Case{ 0.5, 8.0, 8.0, 0.5, "device" }, Case{ 2.0, 1e9, 1e9, 2.0, "device" },
          Case{ 20.0, INFINITY, 1e9, 8.0, "program" }, Case{ 20.0, 1.0, INFINITY, 1.0, "user" },
-         Case{ 4.0, 6.0, 0.25, 0.25, "program" }, Case{ INFINITY, 8.0, INFINITY, 8.0, "user" } })
+         Case{ 4.0, 6.0, 0.25, 0.25, "program" }, Case{ INFINITY, 8.0, INFINITY, 8.0, "program" } })
   {
     ScriptedPort port;
     port.declared = each.device;
