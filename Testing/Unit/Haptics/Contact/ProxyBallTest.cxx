@@ -216,10 +216,10 @@ TEST(ProxyBall, LooksAtABoundedNumberOfPointsInATick)
     hand.step({ random.uniform(-0.03, -0.01), random.uniform(-0.01, 0.01), 0.03 });
     for (int tick = 0; tick < 300; ++tick)
     {
-      const std::uint64_t before = hand.cells().looked();
+      const std::uint64_t before = hand.cells().pointsExamined();
       hand.step(hand.hip() +
         Vec3(random.uniform(-0.001, 0.002), random.uniform(-0.001, 0.001), tick < 100 ? -0.0004 : 0.0));
-      most = std::max(most, hand.cells().looked() - before);
+      most = std::max(most, hand.cells().pointsExamined() - before);
     }
   }
   trial::recorded("mostLookedAt", double(most));
