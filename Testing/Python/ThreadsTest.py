@@ -1,5 +1,6 @@
 """Calls from several threads, signals that raise, other threads of Python, and the end of Python with calls inside."""
 
+import operator
 import os
 import signal
 import subprocess
@@ -261,6 +262,17 @@ class Signals(TestCase):
         self.assertEqual(os.listdir(self.folder), ["cloud.csv"])
         estimator.Update()
         self.assertGreater(estimator.GetOutput().GetNumberOfPoints(), 10000)
+
+    def test_calls_that_no_frame_of_python_makes_end_too(self):
+        self.handle(signal.SIGALRM, TimeIsUp)
+        cloud = ph.arrays.Cloud(sphere(200000))
+        filters = [ph.vtkKernelBandwidthFilter() for _ in range(1000)]
+        for algorithm in filters:
+            algorithm.SetInputData(cloud.data)
+        signal.setitimer(signal.ITIMER_REAL, 0.1)
+        with self.assertRaises(TimeIsUp):
+            list(map(operator.methodcaller("Update"), filters))
+        self.soon("map")
 
     def test_an_observer_may_set_the_handler(self):
         self.handle(signal.SIGALRM, TimeIsUp)

@@ -217,6 +217,13 @@ WithoutInterpreterLock::WithoutInterpreterLock(std::function<void()> stop) noexc
   {
     outer_ = std::exchange(theMain, this);
   }
+  // Code of the interpreter that is no frame, such as map(), calls on.
+  hasRaised_ = isMain && caller_ && caller_ == theFault.frame;
+  lock.unlock();
+  if (hasRaised_ && stop_)
+  {
+    stop_();
+  }
 }
 
 WithoutInterpreterLock::~WithoutInterpreterLock()
