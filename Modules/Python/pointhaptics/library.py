@@ -5,7 +5,7 @@ from __future__ import annotations
 import ctypes
 import os
 from ctypes import POINTER, ArgumentError, byref, c_char_p, c_double, c_int, c_size_t, c_ulonglong, c_void_p
-from typing import Any, Callable, Type, TypeVar
+from typing import Any, Callable, NoReturn, Type, TypeVar
 
 from .version import LIBRARY
 
@@ -117,7 +117,14 @@ def check(status: int) -> None:
         raise ValueError(problem().decode())
 
 
-class Handle:
+class NotCopied:
+    """Base of what has a state of its own: a copy would share it."""
+
+    def __reduce_ex__(self, protocol: object) -> NoReturn:
+        raise TypeError(f"a {type(self).__name__} cannot be copied or pickled; make another one, as of its Scene")
+
+
+class Handle(NotCopied):
     """Owns an object of the library and destroys it."""
 
     def __init__(self, create: Callable[..., int], destroy: Callable[[c_void_p], None], *arguments: Any) -> None:
