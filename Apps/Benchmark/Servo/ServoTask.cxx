@@ -4,7 +4,7 @@
 #include "Benchmark/Servo/EmptyLoop.h"
 #include "Benchmark/Tasks.h"
 #include "Options/OptionParsing.h"
-#include "Unit/Devices/MemoryLink.h"
+#include "Unit/Devices/FalconWire.h"
 #include "ViewDisplay.h"
 
 #include "Devices/Falcon/FalconDevice.h"
@@ -106,15 +106,15 @@ std::unique_ptr<HapticDevice> makeDevice(const Setting& setting)
 {
   if (setting.hand == Hand::Falcon)
   {
-    auto model = std::make_shared<trial::FalconModel>();
-    model->runs = true;
-    const auto onCommand = [time = 0.0](trial::FalconModel& moved) mutable
+    auto wire = std::make_shared<trial::FalconOnAWire>();
+    wire->model.runs = true;
+    wire->onCommand = [time = 0.0](trial::FalconModel& moved) mutable
     {
       time += 1e-3;
       moved.hand.position = handAt(time) + falcon::kCenter;
     };
     return std::make_unique<FalconDevice>(
-      FalconSettings(), std::make_unique<trial::MemoryBus<>>(std::move(model), onCommand));
+      FalconSettings(), std::make_unique<trial::WiredBus<>>(std::move(wire)));
   }
   auto hand = std::make_unique<SimulatedDevice>();
   HipPath path;
