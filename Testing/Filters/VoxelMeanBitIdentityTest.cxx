@@ -94,24 +94,6 @@ TEST_P(VoxelMeanBits, DoNotDependOnBackEndOrThreads)
   }
 }
 
-TEST_P(VoxelMeanBits, DoNotDependOnEarlierRuns)
-{
-  const auto expected = resampled(cloud_);
-  vtkNew<vtkVoxelMeanResampler> resampler;
-  prepare(resampler, cloud_);
-  for (int run = 0; run < 3; ++run)
-  {
-    resampler->Modified();
-    resampler->Update();
-    trial::expectSame(resampler->GetOutput(), expected);
-    // Another lattice and another cloud in between.
-    resampler->SetDimensions(7, 70, 7);
-    resampler->SetInputData(trial::cloudOf(trial::randomPoints(100 * run, 19)));
-    resampler->Update();
-    prepare(resampler, cloud_);
-  }
-}
-
 TEST_P(VoxelMeanBits, DoNotDependOnTheTypeOfEqualCoordinates)
 {
   const auto floats = trial::copyOf(cloud_);
