@@ -135,17 +135,18 @@ void addSplats(vtkPolyData* points, const MeasuredCloud& measured, vtkDataArray*
 
 void setUpSplats(vtkSplatMapper* mapper, const CloudLook& look)
 {
-  mapper->SetSizeArrayName(kSplatLengthName);
-  mapper->SetSizeScale(1.0);
-  mapper->SetLargestRatio(kFarthestRatio);
-  mapper->SetPixelRange(kSmallestShownPixels, look.largestPixels);
-  mapper->SetNormalArrayName(kSplatNormalName);
-  mapper->SetNormalUnit(kSplatNormalUnit);
-  mapper->SetAmbientLight(true);
-  mapper->SetSurfaces(true);
-  mapper->SetHidesBackFaces(look.hidesBackFaces);
-  mapper->SetClosesAll(look.closesAll);
-  mapper->SetForeshortens(look.kind != CloudKind::Frame);
+  SplatSettings& settings = mapper->Settings();
+  settings.sizeArray = kSplatLengthName;
+  settings.sizeScale = 1.0;
+  settings.largestRatio = kFarthestRatio;
+  settings.smallestPixels = kSmallestShownPixels;
+  settings.largestPixels = look.largestPixels;
+  settings.normalArray = kSplatNormalName;
+  settings.normalUnit = kSplatNormalUnit;
+  settings.ambientLight = settings.surfaces = true;
+  settings.hidesBackFaces = look.hidesBackFaces;
+  settings.closesAll = look.closesAll;
+  settings.foreshortens = look.kind != CloudKind::Frame;
 }
 
 void addDensity(vtkPolyData* points)

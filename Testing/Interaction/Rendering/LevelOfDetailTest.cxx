@@ -77,6 +77,7 @@ protected:
     SKIP_WITHOUT_DISPLAY();
     cloud_ = makeSphere();
     mapper_->SetInputData(cloud_);
+    mapper_->Settings().fixedPixels = 3.0;
     actor_->SetMapper(mapper_);
     applyCloudAppearance(cloud_, mapper_, actor_);
     renderer_->AddActor(actor_);
@@ -90,7 +91,6 @@ protected:
     renderer_->GetActiveCamera()->SetFocalPoint(0, 0, 0);
     renderer_->ResetCameraClippingRange();
     detail_.setEnabled(true);
-    detail_.setCoarsePointSize(5.0);
     begin_->SetClientData(this);
     begin_->SetCallback(
       [](vtkObject*, unsigned long, void* self, void*)
@@ -135,7 +135,7 @@ protected:
 
   double now_ = 100.0;
   vtkSmartPointer<vtkPolyData> cloud_;
-  vtkNew<vtkPolyDataMapper> mapper_;
+  vtkNew<vtkSplatMapper> mapper_;
   vtkNew<vtkActor> actor_;
   vtkNew<vtkRenderer> renderer_;
   vtkNew<vtkRenderWindow> window_;
@@ -442,7 +442,7 @@ TEST_F(LevelOfDetailTest, LeavesOutOfThePictureAtRestWhatIsOutOfViewWithoutChang
   {
     for (const double pixels : { 0.0, 9.0 })
     {
-      splats->SetFixedPixels(pixels);
+      splats->Settings().fixedPixels = pixels;
       splats->Modified();
       camera->SetParallelProjection(parallel);
       camera->SetParallelScale(0.012);

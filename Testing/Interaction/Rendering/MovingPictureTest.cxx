@@ -75,7 +75,7 @@ protected:
     vtkNew<vtkActor> actor;
     actor->SetMapper(mapper);
     applyCloudAppearance(cloud, mapper, actor);
-    mapper->SetFixedPixels(5.0);
+    mapper->Settings().fixedPixels = 5.0;
     renderer_->AddActor(actor);
   }
 

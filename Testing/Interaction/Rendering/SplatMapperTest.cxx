@@ -70,8 +70,8 @@ TEST(SplatMapper, SplatsAreDiscsAsLargeAsTheirLengthSays)
   SKIP_WITHOUT_DISPLAY();
   vtkNew<vtkSplatMapper> splats;
   splats->SetInputData(threePoints());
-  splats->SetSizeArrayName("Length");
-  splats->SetSizeScale(2.0);
+  splats->Settings().sizeArray = "Length";
+  splats->Settings().sizeScale = 2.0;
   splats->ScalarVisibilityOff();
   vtkNew<vtkActor> actor;
   actor->SetMapper(splats);
@@ -108,7 +108,7 @@ TEST(SplatMapper, SplatsAreDiscsAsLargeAsTheirLengthSays)
     }
   }
   // A point far from all others is no ball.
-  splats->SetLargestRatio(1.0);
+  splats->Settings().largestRatio = 1.0;
   const std::vector<unsigned char> cut = pixels();
   EXPECT_LT(std::count(cut.begin(), cut.end(), 0), 3 * 900);
 }
