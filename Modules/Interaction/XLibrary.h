@@ -9,9 +9,21 @@ class vtkRenderWindow;
 namespace pointhaptics
 {
 
-/// The function @p name of libX11, to be cast to its type; null where there is none, as on systems without X.
-/// Any thread.
+/// True if windows are those of an X server.
+#if defined(__unix__) && !defined(__APPLE__)
+constexpr bool kUsesX = true;
+#else
+constexpr bool kUsesX = false;
+#endif
+
+/// The function @p name of libX11, and the same as its type; null where there is none, as on systems without
+/// X. Any thread.
 POINTHAPTICSINTERACTION_EXPORT void* findXFunction(const char* name);
+template <typename Function>
+Function xFunction(const char* name)
+{
+  return reinterpret_cast<Function>(findXFunction(name));
+}
 
 /// The Display of @p window; null where it is not one on an X server.
 POINTHAPTICSINTERACTION_EXPORT void* xDisplayOf(vtkRenderWindow* window);

@@ -4,7 +4,6 @@
 #include "SteadyTime.h"
 #include "StyleCommands.h"
 #include "vtkHapticSliders.h"
-#include "vtkTDxInteractorStyleModel.h"
 
 #include "Devices/HapticDevice.h"
 #include "Devices/PathReplay.h"
@@ -34,13 +33,10 @@ vtkInteractorStyleHaptic::vtkInteractorStyleHaptic()
   , Clutch(this->Commands, this->Screen, this->Model)
   , Distance(this->Scenes)
   , Cap(this->Model, this->Screen)
-  , Tdx(vtkSmartPointer<vtkTDxInteractorStyleModel>::New())
   , Status(this->Commands, this->Scenes, this->Hand, this->Clutch)
   , Display(this->Screen)
   , Picker(this->Screen, this->Scenes, this->Status)
 {
-  this->Tdx->SetModel(&this->Model, &this->Screen);
-  this->SetTDxStyle(this->Tdx);
   pointhaptics::addStyleCommands(*this);
   this->Commands.setObserver(
     [this]
@@ -52,10 +48,7 @@ vtkInteractorStyleHaptic::vtkInteractorStyleHaptic()
   this->Scenes.setObserver([this](const pointhaptics::BuiltScene& built) { this->SceneShown(built); });
 }
 
-vtkInteractorStyleHaptic::~vtkInteractorStyleHaptic()
-{
-  this->Tdx->SetModel(nullptr, nullptr); // others may hold it still
-}
+vtkInteractorStyleHaptic::~vtkInteractorStyleHaptic() = default;
 
 void vtkInteractorStyleHaptic::SetServoLoop(pointhaptics::ServoLoop* servo)
 {
@@ -178,7 +171,6 @@ void vtkInteractorStyleHaptic::StopUpdates()
 void vtkInteractorStyleHaptic::Refresh()
 {
   this->Cap.update(pointhaptics::steadySeconds());
-  this->Tdx->CheckForRest();
   this->Scenes.poll();
   this->CollectSamples();
   const std::vector<ServoSample> samples = std::exchange(this->Samples, {});

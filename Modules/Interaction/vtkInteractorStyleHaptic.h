@@ -27,8 +27,7 @@
  * The default commands: drags turn, pan and dolly the camera; with Shift they move the model, with Ctrl the
  * simulated hand. In hand mode that follows the mouse without a button. While a button of the haptic device
  * is held the hand holds the model instead of feeling it (pointhaptics::DeviceClutch). A 3D mouse moves the
- * model, by our own driver (SetSpaceMouse()) or by VTK's (vtkTDxInteractorStyleModel, which is the TDxStyle
- * here).
+ * model (SetSpaceMouse()).
  *
  * The 33 ms timer makes scenes, reads the servo loop and moves the props; a frame is drawn only when
  * something has changed, and drawing leaves at least half of the time to events.
@@ -73,7 +72,6 @@
 #include <vector> // For samples
 
 class vtkHapticSliders;
-class vtkTDxInteractorStyleModel;
 
 class POINTHAPTICSINTERACTION_EXPORT vtkInteractorStyleHaptic : public vtkInteractorStyleTrackballCamera
 {
@@ -246,7 +244,6 @@ private:
   pointhaptics::DeviceClutch Clutch;
   pointhaptics::HandDistance Distance;
   pointhaptics::SpaceMouseController Cap;
-  vtkSmartPointer<vtkTDxInteractorStyleModel> Tdx;
   pointhaptics::StatusText Status;
   pointhaptics::TouchDisplay Display;
   pointhaptics::PointPicker Picker;

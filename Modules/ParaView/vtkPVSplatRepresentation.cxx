@@ -129,7 +129,7 @@ void vtkPVSplatRepresentation::SetSplatScale(double scale)
 
 void vtkPVSplatRepresentation::SetSplatLight(double strength)
 {
-  this->Splats->SetLightStrength(strength);
+  this->Splats->Settings().lightStrength = std::clamp(strength, 0.0, 1.0);
 }
 
 void vtkPVSplatRepresentation::SetArrayIdNames(const char* pointArray, const char* cellArray)
@@ -163,7 +163,7 @@ int vtkPVSplatRepresentation::ProcessViewRequest(
     this->SetDrawnData(vtkPVView::GetDeliveredPiece(inInfo, this));
     this->Splats->vtkMapper::ShallowCopy(this->Mapper);
     this->Splats->SetSelection(this->Mapper->GetSelection());
-    this->Splats->SetSizeScale(this->SplatScale);
+    this->Splats->Settings().sizeScale = this->SplatScale;
   }
   return 1;
 }
@@ -191,7 +191,7 @@ void vtkPVSplatRepresentation::SetDrawnData(vtkDataObject* data)
   }
   this->Splats->SetInputData(drawn);
   pointhaptics::setUpSplats(this->Splats, look);
-  this->Splats->SetSkyDirection(&look.up.x);
+  this->Splats->Settings().sky = { look.up.x, look.up.y, look.up.z };
 }
 
 void vtkPVSplatRepresentation::PrintSelf(ostream& os, vtkIndent indent)

@@ -15,6 +15,8 @@
 #include "vtkRenderer.h"
 
 #include <cstdint>
+#include <functional>
+#include <string>
 
 namespace pointhaptics
 {
@@ -46,16 +48,15 @@ void addProp(std::vector<double>& state, vtkProp* prop)
   auto* actor = vtkActor::SafeDownCast(prop);
   if (auto* splats = actor ? vtkSplatMapper::SafeDownCast(actor->GetMapper()) : nullptr)
   {
+    const SplatSettings& drawn = splats->Settings();
     state.insert(state.end(),
-      { splats->GetSizeScale(), splats->GetSmallestPixels(), splats->GetLargestPixels(),
-        splats->GetLargestRatio(), splats->GetNormalUnit(), splats->GetFixedPixels(),
-        splats->GetPointPixels(), splats->GetSurfacePixels(), splats->GetLightStrength(),
-        double(splats->GetHidesBackFaces()), double(splats->GetForeshortens()),
-        double(splats->GetClosesAll()) });
-    double sky[3];
-    splats->GetSkyDirection(sky);
-    add(state, sky, 3);
-    add(state, splats->GetClipBox().data(), 6);
+      { drawn.sizeScale, drawn.smallestPixels, drawn.largestPixels, drawn.largestRatio, drawn.normalUnit,
+        drawn.fixedPixels, drawn.pointPixels, drawn.surfacePixels, drawn.lightStrength,
+        double(drawn.ambientLight), double(drawn.surfaces), double(drawn.hidesBackFaces),
+        double(drawn.foreshortens), double(drawn.closesAll),
+        double(std::hash<std::string>()(drawn.sizeArray + '\n' + drawn.normalArray)) });
+    add(state, drawn.sky.data(), 3);
+    add(state, drawn.clipBox.data(), 6);
     for (const auto& range : splats->GetRanges())
     {
       state.insert(state.end(), { double(range[0]), double(range[1]) });

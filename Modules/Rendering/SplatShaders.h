@@ -58,7 +58,8 @@ inline constexpr const char* kSurfaceStatements = R"(
     : vec3(gl_Position.xy / gl_Position.w / splatTerms.xy, -1.0);
   vec3 splatTilted = splatTurn * splatAxis;
   float splatAcross = dot(splatTilted, splatRay);
-  splatSlope = abs(splatAcross) > 1e-4 ? splatTilted.xy / splatAcross : vec2(0.0);
+  // A disc seen edge-on is steep, it does not face the viewer.
+  splatSlope = splatTilted.xy / (splatAcross < 0.0 ? min(splatAcross, -1e-4) : max(splatAcross, 1e-4));
   float splatSteep = length(splatSlope);
   splatSlope *= min(1.0, 3.0 / max(splatSteep, 1e-6)) * splatTilts;
   // The rims of blended splats are a pixel wide: about those of points, beyond those of surfaces.

@@ -89,10 +89,39 @@ struct Edge
   Vec3 end;
   Pixel beginPixel;
   Pixel endPixel;
+  Pixel seenBegin; // ends of what lies in the picture
+  Pixel seenEnd;
   double length = 0.0; // pixels
   double outX = 0.0;   // across the edge, away from the box
   double outY = 0.0;
 };
+
+Pixel between(const Pixel& a, const Pixel& b, double part)
+{
+  return { a.x + part * (b.x - a.x), a.y + part * (b.y - a.y), true };
+}
+
+/// Finds the part of @p edge in a picture of @p size. False: it is too short to be read.
+bool findSeenPart(Edge& edge, const int* size)
+{
+  const Pixel& a = edge.beginPixel;
+  const Pixel& b = edge.endPixel;
+  double from = 0.0;
+  double to = 1.0;
+  const auto cut = [&](double begin, double end, double most)
+  {
+    const double way = end - begin;
+    const double first = way != 0.0 ? -begin / way : (begin >= 0.0 ? -INFINITY : INFINITY);
+    const double last = way != 0.0 ? (most - begin) / way : (begin <= most ? INFINITY : -INFINITY);
+    from = std::max(from, std::min(first, last));
+    to = std::min(to, std::max(first, last));
+  };
+  cut(a.x, b.x, size[0]);
+  cut(a.y, b.y, size[1]);
+  edge.seenBegin = between(a, b, from);
+  edge.seenEnd = between(a, b, to);
+  return (to - from) * edge.length >= kShortestEdge;
+}
 
 } // namespace
 
@@ -153,7 +182,7 @@ bool vtkCloudAxes::Internals::findEdge(const ScreenProjection& project, int axis
     edge.beginPixel = a;
     edge.endPixel = b;
     edge.length = std::hypot(b.x - a.x, b.y - a.y);
-    if (edge.length < kShortestEdge)
+    if (!findSeenPart(edge, this->renderer->GetSize()))
     {
       continue;
     }
@@ -181,6 +210,7 @@ void vtkCloudAxes::Internals::label(
   const ScreenProjection& project, const Edge& edge, double low, double high, const std::string& unit)
 {
   static const unsigned char dark[3] = { 40, 40, 45 };
+  static const unsigned char grey[3] = { 135, 138, 145 }; // seen on dark and light grounds
   const double range = high - low;
   const double pixels = this->texts.pixelsPerPoint();
   const double least = pixels * kLeastStep;
@@ -204,24 +234,27 @@ void vtkCloudAxes::Internals::label(
   {
     const double part = std::clamp((i * step - low) / range, 0.0, 1.0);
     const Pixel p = project(edge.begin + part * (edge.end - edge.begin));
-    this->ticks.add(p.x, p.y, p.x + pixels * kTick * edge.outX, p.y + pixels * kTick * edge.outY, dark);
+    this->ticks.add(p.x, p.y, p.x + pixels * kTick * edge.outX, p.y + pixels * kTick * edge.outY, grey);
     this->texts.put(numberText(i * step, decimals), p.x + pixels * (kTick + kGap) * edge.outX,
       p.y + pixels * (kTick + kGap) * edge.outY, edge.outX, edge.outY, dark);
   }
   const int finer = decimalsFor(0.1 * step);
   const std::string bounds = std::string(1, "xyz"[edge.axis]) + "  " + numberText(low, finer) + " to " +
     numberText(high, finer) + " " + unit;
-  const Pixel middle = project(0.5 * (edge.begin + edge.end));
-  // The bounds go farther out until the numbers leave room; where the picture ends before that, the letter
-  // must do.
-  for (const std::string& words : { bounds, bounds.substr(0, 1) })
+  // The bounds go farther out until the numbers leave room, along the edge where the picture ends before
+  // that, and over the box where there is none beside it.
+  for (const double side : { 1.0, -1.0 })
   {
-    for (double away = pixels * (kTick + 2.0 * kGap); away < pixels * kFarthest; away += pixels * kGap)
+    for (const double part : { 0.5, 0.3, 0.7, 0.1, 0.9 })
     {
-      if (this->texts.put(words, middle.x + away * edge.outX, middle.y + away * edge.outY, edge.outX,
-            edge.outY, kAxisColors[edge.axis]))
+      const Pixel place = between(edge.seenBegin, edge.seenEnd, part);
+      for (double away = pixels * (kTick + 2.0 * kGap); away < pixels * kFarthest; away += pixels * kGap)
       {
-        return;
+        if (this->texts.put(bounds, place.x + side * away * edge.outX, place.y + side * away * edge.outY,
+              side * edge.outX, side * edge.outY, kAxisColors[edge.axis]))
+        {
+          return;
+        }
       }
     }
   }

@@ -59,103 +59,26 @@ void setAttributeDivisor(vtkOpenGLHelper& points, GLuint divisor)
 
 vtkStandardNewMacro(vtkSplatMapper);
 
-vtkSplatMapper::vtkSplatMapper()
-{
-  for (std::size_t side = 0; side < this->ClipBox.size(); ++side)
-  {
-    this->ClipBox[side] = side % 2 == 0 ? -INFINITY : INFINITY;
-  }
-}
+vtkSplatMapper::vtkSplatMapper() = default;
 vtkSplatMapper::~vtkSplatMapper() = default;
-
-void vtkSplatMapper::SetSizeArrayName(const std::string& name)
-{
-  if (name != this->SizeArrayName)
-  {
-    this->SizeArrayName = name;
-    this->HasSizes = false;
-    this->RemoveVertexAttributeMapping(kAttribute);
-    this->Modified();
-  }
-}
-
-// The sizes are uniforms of the shader: Modified() would upload the points again.
-void vtkSplatMapper::SetSizeScale(double scale)
-{
-  this->SizeScale = scale > 0.0 && std::isfinite(scale) ? scale : this->SizeScale;
-}
-
-void vtkSplatMapper::SetLargestRatio(double ratio)
-{
-  this->LargestRatio = ratio > 0.0 ? ratio : this->LargestRatio;
-}
 
 void vtkSplatMapper::SetPixelRange(double smallest, double largest)
 {
   if (smallest > 0.0 && largest >= smallest && std::isfinite(largest))
   {
-    this->SmallestPixels = smallest;
-    this->LargestPixels = largest;
+    this->Now.smallestPixels = smallest;
+    this->Now.largestPixels = largest;
   }
-}
-
-void vtkSplatMapper::SetSurfacePixels(double pixels)
-{
-  this->SurfacePixels = pixels > 0.0 ? pixels : this->SurfacePixels;
 }
 
 void vtkSplatMapper::SetFixedPixels(double pixels)
 {
-  this->FixedPixels = pixels >= 0.0 && std::isfinite(pixels) ? pixels : this->FixedPixels;
-}
-
-void vtkSplatMapper::SetAmbientLight(bool on)
-{
-  if (on != this->AmbientLight)
-  {
-    this->AmbientLight = on;
-    this->Modified();
-  }
-}
-
-void vtkSplatMapper::SetSurfaces(bool on)
-{
-  if (on != this->Surfaces)
-  {
-    this->Surfaces = on;
-    this->Modified();
-  }
-}
-
-void vtkSplatMapper::SetPointPixels(double pixels)
-{
-  this->PointPixels = pixels > 0.0 && std::isfinite(pixels) ? pixels : this->PointPixels;
+  this->Now.fixedPixels = pixels >= 0.0 && std::isfinite(pixels) ? pixels : this->Now.fixedPixels;
 }
 
 void vtkSplatMapper::SetLightStrength(double strength)
 {
-  this->LightStrength = strength >= 0.0 && strength <= 1.0 ? strength : this->LightStrength;
-}
-
-void vtkSplatMapper::SetNormalUnit(double unit)
-{
-  this->NormalUnit = unit > 0.0 && std::isfinite(unit) ? unit : this->NormalUnit;
-}
-
-void vtkSplatMapper::SetHidesBackFaces(bool on)
-{
-  this->HidesBackFaces = on;
-}
-
-void vtkSplatMapper::SetNormalArrayName(const std::string& name)
-{
-  if (name != this->NormalArrayName)
-  {
-    this->NormalArrayName = name;
-    this->HasNormals = false;
-    this->RemoveVertexAttributeMapping(kNormalAttribute);
-    this->Modified();
-  }
+  this->Now.lightStrength = strength >= 0.0 && strength <= 1.0 ? strength : this->Now.lightStrength;
 }
 
 void vtkSplatMapper::SetSkyDirection(const double direction[3])
@@ -163,18 +86,13 @@ void vtkSplatMapper::SetSkyDirection(const double direction[3])
   const double length = vtkMath::Norm(direction);
   for (std::size_t axis = 0; axis < 3 && length > 0.0 && std::isfinite(length); ++axis)
   {
-    this->SkyDirection[axis] = direction[axis] / length;
+    this->Now.sky[axis] = direction[axis] / length;
   }
 }
 
 void vtkSplatMapper::GetSkyDirection(double direction[3]) const
 {
-  std::copy(this->SkyDirection.begin(), this->SkyDirection.end(), direction);
-}
-
-void vtkSplatMapper::SetClipBox(const double box[6])
-{
-  std::copy(box, box + 6, this->ClipBox.begin());
+  std::copy(this->Now.sky.begin(), this->Now.sky.end(), direction);
 }
 
 void vtkSplatMapper::SetRanges(std::vector<std::array<vtkIdType, 2>> ranges)
@@ -184,24 +102,13 @@ void vtkSplatMapper::SetRanges(std::vector<std::array<vtkIdType, 2>> ranges)
 
 void vtkSplatMapper::CopySizes(const vtkSplatMapper* other, double factor)
 {
-  this->SetSizeArrayName(other->SizeArrayName);
-  this->SetSizeScale(factor * other->SizeScale);
-  this->SetLargestRatio(other->LargestRatio);
-  const double wider = other->Surfaces ? factor : 1.0;
-  this->SetPixelRange(other->SmallestPixels, wider * other->LargestPixels);
-  this->SetPointPixels(wider * other->PointPixels);
-  this->SetSurfacePixels(wider * other->SurfacePixels);
-  this->SetFixedPixels(factor * other->FixedPixels);
-  this->SetAmbientLight(other->AmbientLight);
-  this->SetNormalArrayName(other->NormalArrayName);
-  this->SkyDirection = other->SkyDirection;
-  this->SetSurfaces(other->Surfaces);
-  this->SetForeshortens(other->Foreshortens);
-  this->SetClosesAll(other->ClosesAll);
-  this->SetLightStrength(other->LightStrength);
-  this->SetNormalUnit(other->NormalUnit);
-  this->SetHidesBackFaces(other->HidesBackFaces);
-  this->ClipBox = other->ClipBox;
+  this->Now = other->Now;
+  this->Now.sizeScale *= factor;
+  this->Now.fixedPixels *= factor;
+  const double wider = other->Now.surfaces ? factor : 1.0;
+  this->Now.largestPixels *= wider;
+  this->Now.pointPixels *= wider;
+  this->Now.surfacePixels *= wider;
   this->SetClippingPlanes(other->ClippingPlanes);
 }
 
@@ -229,9 +136,22 @@ void vtkSplatMapper::RenderPieceStart(vtkRenderer* renderer, vtkActor* actor)
       this->CurrentInput ? this->CurrentInput->GetPointData()->GetArray(name.c_str()) : nullptr;
     return array && array->GetNumberOfComponents() == components ? array : nullptr;
   };
-  vtkDataArray* sizes = arrayOf(this->SizeArrayName, 1);
-  this->MapArray(sizes, this->SizeArrayName, kAttribute, this->HasSizes);
-  this->MapArray(this->AmbientLight ? arrayOf(this->NormalArrayName, 3) : nullptr, this->NormalArrayName,
+  if (this->Now.sizeArray != this->Drawn.sizeArray)
+  {
+    this->MapArray(nullptr, "", kAttribute, this->HasSizes);
+  }
+  if (this->Now.normalArray != this->Drawn.normalArray)
+  {
+    this->MapArray(nullptr, "", kNormalAttribute, this->HasNormals);
+  }
+  if (this->Now.surfaces != this->Drawn.surfaces)
+  {
+    this->Modified();
+  }
+  this->Drawn = this->Now;
+  vtkDataArray* sizes = arrayOf(this->Now.sizeArray, 1);
+  this->MapArray(sizes, this->Now.sizeArray, kAttribute, this->HasSizes);
+  this->MapArray(this->Now.ambientLight ? arrayOf(this->Now.normalArray, 3) : nullptr, this->Now.normalArray,
     kNormalAttribute, this->HasNormals);
   if (sizes && sizes->GetMTime() != this->MedianTime)
   {
@@ -255,7 +175,7 @@ void vtkSplatMapper::RenderPieceStart(vtkRenderer* renderer, vtkActor* actor)
 bool vtkSplatMapper::WantsQuads(vtkRenderer* renderer, vtkActor* actor)
 {
   constexpr double kLargePixels = 60.0;
-  return this->Surfaces && this->HasNormals && this->HasSizes && this->FixedPixels == 0.0 &&
+  return this->Now.surfaces && this->HasNormals && this->HasSizes && this->Now.fixedPixels == 0.0 &&
     this->CurrentInput->GetNumberOfCells() == 0 && glDrawArraysInstancedBaseInstance &&
     this->GetMedianPixels(renderer, actor) > kLargePixels;
 }
@@ -357,7 +277,7 @@ void vtkSplatMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* actor)
 {
   using Stage = vtkDepthShadingPass::Stage;
   const Stage stage = vtkDepthShadingPass::StageOf(renderer);
-  const bool blends = this->Surfaces && this->HasNormals;
+  const bool blends = this->Now.surfaces && this->HasNormals;
   if (stage == Stage::Blending && !blends)
   {
     return; // it is in the picture already
@@ -424,7 +344,7 @@ void vtkSplatMapper::ReplaceShaderValues(
 {
   // In front of the superclass, which takes the marks away.
   std::string vertex = shaders[vtkShader::Vertex]->GetSource();
-  const bool tilts = this->Surfaces && this->HasNormals;
+  const bool tilts = this->Now.surfaces && this->HasNormals;
   const std::string declared = (this->HasSizes ? std::string("in float ") + kAttribute + ";\n" : "") +
     (this->HasNormals ? pointhaptics::kLightFunctions : "") +
     (tilts ? pointhaptics::kSurfaceDeclarations : "");
@@ -478,24 +398,8 @@ void vtkSplatMapper::ReplaceShaderValues(
 void vtkSplatMapper::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "SizeArrayName: " << this->SizeArrayName << "\n";
-  os << indent << "SizeScale: " << this->SizeScale << "\n";
-  os << indent << "LargestRatio: " << this->LargestRatio << "\n";
-  os << indent << "SmallestPixels: " << this->SmallestPixels << "\n";
-  os << indent << "LargestPixels: " << this->LargestPixels << "\n";
-  os << indent << "FixedPixels: " << this->FixedPixels << "\n";
-  os << indent << "AmbientLight: " << this->AmbientLight << "\n";
-  os << indent << "Surfaces: " << this->Surfaces << "\n";
-  os << indent << "Foreshortens: " << this->Foreshortens << "\n";
-  os << indent << "ClosesAll: " << this->ClosesAll << "\n";
-  os << indent << "PointPixels: " << this->PointPixels << "\n";
-  os << indent << "SurfacePixels: " << this->SurfacePixels << "\n";
-  os << indent << "LightStrength: " << this->LightStrength << "\n";
-  os << indent << "NormalUnit: " << this->NormalUnit << "\n";
-  os << indent << "HidesBackFaces: " << this->HidesBackFaces << "\n";
-  os << indent << "NormalArrayName: " << this->NormalArrayName << "\n";
-  os << indent << "ClipBox: " << this->ClipBox[0] << ", " << this->ClipBox[1] << ", " << this->ClipBox[2]
-     << ", " << this->ClipBox[3] << ", " << this->ClipBox[4] << ", " << this->ClipBox[5] << "\n";
-  os << indent << "SkyDirection: " << this->SkyDirection[0] << ", " << this->SkyDirection[1] << ", "
-     << this->SkyDirection[2] << "\n";
+  os << indent << "SizeArray: " << this->Now.sizeArray << "\n";
+  os << indent << "SizeScale: " << this->Now.sizeScale << "\n";
+  os << indent << "FixedPixels: " << this->Now.fixedPixels << "\n";
+  os << indent << "Surfaces: " << this->Now.surfaces << "\n";
 }

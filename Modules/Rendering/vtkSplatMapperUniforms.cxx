@@ -89,7 +89,7 @@ double vtkSplatMapper::PixelsPerLength(vtkRenderer* renderer, vtkActor* actor)
   vtkMatrix4x4* projection =
     renderer->GetActiveCamera()->GetProjectionTransformMatrix(renderer->GetTiledAspectRatio(), -1, 1);
   const double modelScale = std::cbrt(std::abs(actor->GetMatrix()->Determinant()));
-  return this->SizeScale * modelScale * 0.5 * renderer->GetSize()[1] * projection->GetElement(1, 1);
+  return this->Now.sizeScale * modelScale * 0.5 * renderer->GetSize()[1] * projection->GetElement(1, 1);
 }
 
 void vtkSplatMapper::SetMapperShaderParameters(vtkOpenGLHelper& cells, vtkRenderer* renderer, vtkActor* actor)
@@ -108,23 +108,23 @@ void vtkSplatMapper::SetMapperShaderParameters(vtkOpenGLHelper& cells, vtkRender
   {
     this->SetLightParameters(cells, renderer, actor);
   }
-  if (this->HasNormals && this->Surfaces)
+  if (this->HasNormals && this->Now.surfaces)
   {
     this->SetSurfaceParameters(cells, renderer, actor);
   }
   const double resolution = vtkDepthShadingPass::ResolutionOf(renderer);
-  double pixels = resolution * (this->FixedPixels > 0.0 ? this->FixedPixels : kPixelsWithoutArray);
+  double pixels = resolution * (this->Now.fixedPixels > 0.0 ? this->Now.fixedPixels : kPixelsWithoutArray);
   const double most = this->DrawsQuads ? kMostQuadPixels : kMostPixels;
-  double range[4] = { 1.0, resolution * std::max(this->FixedPixels, this->LargestPixels), 0.0, most };
-  if (this->HasSizes && this->FixedPixels == 0.0)
+  double range[4] = { 1.0, resolution * std::max(this->Now.fixedPixels, this->Now.largestPixels), 0.0, most };
+  if (this->HasSizes && this->Now.fixedPixels == 0.0)
   {
     const double lines = resolution * renderer->GetSize()[1];
     pixels = resolution * this->PixelsPerLength(renderer, actor);
-    const double scale = this->Surfaces ? lines / kUsualHeight : resolution;
-    range[0] = std::max(1.0, scale * this->SmallestPixels);
-    range[1] = scale * this->LargestPixels;
-    range[2] = scale * this->PointPixels;
-    range[3] = this->Surfaces ? std::min(most, scale * this->SurfacePixels) : most;
+    const double scale = this->Now.surfaces ? lines / kUsualHeight : resolution;
+    range[0] = std::max(1.0, scale * this->Now.smallestPixels);
+    range[1] = scale * this->Now.largestPixels;
+    range[2] = scale * this->Now.pointPixels;
+    range[3] = this->Now.surfaces ? std::min(most, scale * this->Now.surfacePixels) : most;
   }
   else if (this->HasSizes)
   {
@@ -135,7 +135,7 @@ void vtkSplatMapper::SetMapperShaderParameters(vtkOpenGLHelper& cells, vtkRender
   uniforms.set("splatFit", this->Fit);
   uniforms.set("splatPixel", this->DrawsQuads ? this->Pixel : points);
   uniforms.set("splatPixels", pixels);
-  uniforms.set("splatLongest", this->LargestRatio * this->MedianLength);
+  uniforms.set("splatLongest", this->Now.largestRatio * this->MedianLength);
   uniforms.set("splatRange", range);
 }
 
@@ -146,12 +146,12 @@ void vtkSplatMapper::SetClipParameters(vtkOpenGLHelper& cells)
   vtkOpenGLVertexBufferObject* points = this->VBOs->GetVBO("vertexMC");
   const bool isShifted = points && points->GetCoordShiftAndScaleEnabled();
   double ends[2][3];
-  for (std::size_t side = 0; side < this->ClipBox.size(); ++side)
+  for (std::size_t side = 0; side < this->Now.clipBox.size(); ++side)
   {
     const std::size_t axis = side / 2;
     const double shift = isShifted ? points->GetShift()[axis] : 0.0;
     const double scale = isShifted ? points->GetScale()[axis] : 1.0;
-    ends[side % 2][axis] = std::clamp((this->ClipBox[side] - shift) * scale, -kLargest, kLargest);
+    ends[side % 2][axis] = std::clamp((this->Now.clipBox[side] - shift) * scale, -kLargest, kLargest);
   }
   Uniforms uniforms(cells);
   uniforms.set("splatLow", ends[0]);
@@ -198,8 +198,8 @@ void vtkSplatMapper::SetSurfaceParameters(vtkOpenGLHelper& cells, vtkRenderer* r
   Uniforms uniforms(cells);
   uniforms.set("splatTerms", terms);
   uniforms.set("splatHalfPixel", 1.0 / (projection->GetElement(1, 1) * lines));
-  uniforms.set("splatNarrow", this->Foreshortens ? 1.0 : 0.0);
-  uniforms.set("splatAll", this->ClosesAll ? 1.0 : 0.0);
+  uniforms.set("splatNarrow", this->Now.foreshortens ? 1.0 : 0.0);
+  uniforms.set("splatAll", this->Now.closesAll ? 1.0 : 0.0);
   uniforms.set("splatIsParallel", camera->GetParallelProjection() ? 1 : 0);
   uniforms.set("splatStage", static_cast<int>(vtkDepthShadingPass::StageOf(renderer)));
 }
@@ -231,7 +231,7 @@ void vtkSplatMapper::SetLightParameters(vtkOpenGLHelper& cells, vtkRenderer* ren
   taken(toModel, lamp, 0.0, lamp);
   vtkMath::Normalize(lamp);
   double sky[3];
-  taken(toModel, this->SkyDirection.data(), 0.0, sky);
+  taken(toModel, this->Now.sky.data(), 0.0, sky);
   vtkMath::Normalize(sky);
   const bool isParallel = camera->GetParallelProjection() != 0;
   double eye[3];
@@ -250,9 +250,9 @@ void vtkSplatMapper::SetLightParameters(vtkOpenGLHelper& cells, vtkRenderer* ren
   }
   const double place[4] = { eye[0], eye[1], eye[2], isParallel ? 0.0 : 1.0 };
   Uniforms uniforms(cells);
-  uniforms.set("splatUnit", 1.0 / this->NormalUnit);
-  uniforms.set("splatStrength", this->LightStrength);
-  uniforms.set("splatHides", this->HidesBackFaces ? 1 : 0);
+  uniforms.set("splatUnit", 1.0 / this->Now.normalUnit);
+  uniforms.set("splatStrength", this->Now.lightStrength);
+  uniforms.set("splatHides", this->Now.hidesBackFaces ? 1 : 0);
   uniforms.set("splatLamp", lamp);
   uniforms.set("splatSky", sky);
   uniforms.set("splatUnscale", unscale);

@@ -111,8 +111,8 @@ void ViewScene::beginFrame()
     // Gaps between the lines of a sweep stay open when the camera comes nearer: sizes stay as in the first
     // view. Surfaces close.
     const bool isSweep = shown_->look.kind == CloudKind::Sweep || shown_->look.kind == CloudKind::Indoors;
-    pointsMapper_->SetSurfacePixels(
-      isSweep ? pointsMapper_->GetLargestPixels() * placedDistance_ / this->viewDistance() : INFINITY);
+    pointsMapper_->Settings().surfacePixels =
+      isSweep ? pointsMapper_->Settings().largestPixels * placedDistance_ / this->viewDistance() : INFINITY;
   }
   this->detail().beginFrame(steadySeconds());
   if (vtkDepthShadingPass* shading = vtkDepthShadingPass::GetPassOf(renderer_))
@@ -130,7 +130,7 @@ double ViewScene::fragments()
   const bool closes = shown_ && shown_->look.closesAll && !drawsFelt_;
   const double pixels = this->detail().spacingFactor() *
     std::min(this->drawnMapper()->GetMedianPixels(renderer_, actor),
-      closes ? INFINITY : this->drawnMapper()->GetLargestPixels());
+      closes ? INFINITY : this->drawnMapper()->Settings().largestPixels);
   return double(this->detail().visiblePoints()) * pixels * pixels;
 }
 
@@ -261,7 +261,7 @@ void ViewScene::showMeans(const LoadedCloud& loaded, const HapticViewerOptions& 
 {
   // The output looks as if the filters had run, which they shall not.
   bandwidth_->GetOutput()->ShallowCopy(loaded.means);
-  mapper_->SetSizeArrayName("MeanBandwidth");
+  mapper_->Settings().sizeArray = "MeanBandwidth";
   this->drawPoints();
   workspace_ = loaded.workspace;
   double bounds[6];
@@ -276,7 +276,7 @@ void ViewScene::showMeans(const LoadedCloud& loaded, const HapticViewerOptions& 
   props_->SetSmallestSphereRadius(kSmallestSphere * edge);
   for (vtkSplatMapper* mapper : { mapper_.Get(), pointsMapper_.Get() })
   {
-    mapper->SetSkyDirection(&orientation_.up.x);
+    mapper->Settings().sky = { orientation_.up.x, orientation_.up.y, orientation_.up.z };
   }
   fixedPixels_ = options.pointSize;
   this->applyPicture();
@@ -381,7 +381,7 @@ bool ViewScene::setColorBy(const std::string& name)
 void ViewScene::showAmbient(bool ambient)
 {
   ambient_ = ambient;
-  mapper_->SetAmbientLight(ambient);
+  mapper_->Settings().ambientLight = ambient;
   if (shown_)
   {
     this->colorPoints();

@@ -2,6 +2,7 @@
 #include "ViewScene.h"
 
 #include "CloudAppearance.h"
+#include "CloudParts.h"
 #include "PolyDataAccess.h"
 #include "SteadyTime.h"
 #include "SurfaceArrays.h"
@@ -9,6 +10,7 @@
 
 #include <vtkActor.h>
 #include <vtkCamera.h>
+#include <vtkDataArray.h>
 #include <vtkMatrix4x4.h>
 #include <vtkPlane.h>
 #include <vtkPointData.h>
@@ -28,8 +30,8 @@ namespace pointhaptics
 namespace
 {
 
-/// Depth differences up to this fraction of the spacing count as one surface where means are drawn.
-constexpr double kStepsOfMeans = 0.75;
+/// Depth differences up to this multiple of the median bandwidth count as one surface where means are drawn.
+constexpr double kStepsOfMeans = 1.1;
 /// A model that was enlarged by more than this factor is shown within the workspace only.
 constexpr double kShownWhole = 1.05;
 
@@ -119,7 +121,7 @@ void ViewScene::colorPoints()
     applyColorMap(pointsMapper_, picture_.colorMap, picture_.colorRange);
     light = name == "rgb" ? colors.lightStrength : 1.0;
   }
-  pointsMapper_->SetLightStrength(ambient_ ? 1.0 : light);
+  pointsMapper_->Settings().lightStrength = ambient_ ? 1.0 : light;
   pointsActor_->GetProperty()->SetColor(kClayColor[0], kClayColor[1], kClayColor[2]);
 }
 
@@ -169,8 +171,10 @@ bool ViewScene::followMeasurement(bool waits)
 /// Sets the noise of the shading. Discs of means face the viewer, so they form steps on steep surfaces.
 void ViewScene::applyNoise()
 {
-  const double noise = drawsFelt_ ? kStepsOfMeans * medianSpacing(bandwidth_->GetOutput())
-                                  : scaleOf(pointsMatrix_) * shown_->look.noiseLength;
+  vtkDataArray* bandwidths = bandwidth_->GetOutput()->GetPointData()->GetArray("MeanBandwidth");
+  const double noise = !drawsFelt_ ? scaleOf(pointsMatrix_) * shown_->look.noiseLength
+    : bandwidths                   ? kStepsOfMeans * quantileOfPositive(bandwidths, 5)
+                                   : 0.0;
   applyDepthShading(renderer_, noise, shown_->look.noisePerDistance);
 }
 

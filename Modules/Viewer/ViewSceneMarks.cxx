@@ -128,9 +128,8 @@ void ViewScene::setClip(const std::vector<double>& clip)
   clip_ = clip;
   const Vec3 infinite{ INFINITY, INFINITY, INFINITY };
   const Bounds box = clipBox(clip_, cloud_).value_or(Bounds{ -1.0 * infinite, infinite });
-  const double numbers[6] = { box.minimum.x, box.maximum.x, box.minimum.y, box.maximum.y, box.minimum.z,
-    box.maximum.z };
-  pointsMapper_->SetClipBox(numbers);
+  pointsMapper_->Settings().clipBox = { box.minimum.x, box.maximum.x, box.minimum.y, box.maximum.y,
+    box.minimum.z, box.maximum.z };
 }
 
 /// Only the drawn points have the arrays that hide.

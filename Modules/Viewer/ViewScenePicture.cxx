@@ -223,19 +223,19 @@ void ViewScene::applyPicture()
 void ViewScene::applyPointSizes()
 {
   const double scale = picture_.pointScale;
-  pointsMapper_->SetSizeScale(scale);
+  SplatSettings& points = pointsMapper_->Settings();
+  points.sizeScale = scale;
   const double smallest = smallestPixels(shown_ ? shown_->points->GetNumberOfPoints() : 0);
-  pointsMapper_->SetPixelRange(
-    smallest * std::min(1.0, scale), std::max(smallest, scale * (shown_ ? shown_->look.largestPixels : 1.0)));
-  mapper_->SetSizeScale(kFeltScale * scale);
-  mapper_->SetPixelRange(kSmallestPixels * std::min(1.0, scale), kFeltLargest * std::max(1.0, scale));
+  points.smallestPixels = smallest * std::min(1.0, scale);
+  points.largestPixels = std::max(smallest, scale * (shown_ ? shown_->look.largestPixels : 1.0));
+  SplatSettings& felt = mapper_->Settings();
+  felt.sizeScale = kFeltScale * scale;
+  felt.smallestPixels = kSmallestPixels * std::min(1.0, scale);
+  felt.largestPixels = kFeltLargest * std::max(1.0, scale);
   const bool isLone = shown_ && hasFewPlaces(PointAccess(shown_->points->GetPoints()).view(), kFewPlaces);
   const double fixed = fixedPixels_ == 0.0 && isLone ? kLonePixels : fixedPixels_;
-  for (vtkSplatMapper* mapper : { mapper_.Get(), pointsMapper_.Get() })
-  {
-    mapper->SetPointPixels(std::max(kPointPixels, smallest) * scale);
-    mapper->SetFixedPixels(fixed * scale);
-  }
+  points.pointPixels = felt.pointPixels = std::max(kPointPixels, smallest) * scale;
+  points.fixedPixels = felt.fixedPixels = fixed * scale;
 }
 
 /// Callbacks by which a ScreenLayout measures and places the scalar bar; the scene outlives their use.

@@ -2,6 +2,7 @@
 
 #include "CloudAppearance.h"
 #include "CloudOrientation.h"
+#include "CloudParts.h"
 #include "HapticSceneBuilder.h"
 #include "LevelOfDetail.h"
 #include "PolyDataAccess.h"
@@ -65,15 +66,16 @@ vtkSmartPointer<vtkActor> showStatue(vtkRenderer* renderer, std::int64_t count, 
   bandwidth->ComputeMeanBandwidthOn();
   bandwidth->Update();
   vtkNew<vtkSplatMapper> mapper;
-  mapper->SetSizeArrayName("MeanBandwidth");
+  mapper->Settings().sizeArray = "MeanBandwidth";
   mapper->SetInputData(bandwidth->GetOutput());
   auto actor = vtkSmartPointer<vtkActor>::New();
   actor->SetMapper(mapper);
   applyCloudAppearance(bandwidth->GetOutput(), mapper, actor, kHeightArrayName);
-  mapper->SetFixedPixels(equalSizes ? 3.0 : 0.0);
+  mapper->Settings().fixedPixels = equalSizes ? 3.0 : 0.0;
   renderer->AddActor(actor);
   applyBackground(renderer);
-  applyDepthShading(renderer, 0.75 * medianSpacing(bandwidth->GetOutput()));
+  applyDepthShading(
+    renderer, 1.1 * quantileOfPositive(bandwidth->GetOutput()->GetPointData()->GetArray("MeanBandwidth"), 5));
   // From below and behind, where it is sparse.
   placeCamera(renderer->GetActiveCamera(), CloudOrientation(), {}, 0.1, 200.0, 12.0);
   renderer->GetActiveCamera()->Zoom(1.6);
@@ -113,9 +115,9 @@ vtkSmartPointer<vtkActor> showLitStatue(vtkRenderer* renderer, std::int64_t coun
   }
   mapper->ScalarVisibilityOff();
   actor->GetProperty()->SetColor(0.60, 0.68, 0.80);
-  mapper->SetAmbientLight(fault != "no-light");
+  mapper->Settings().ambientLight = fault != "no-light";
   const double sky[3] = { 0.0, 0.0, fault == "sky-below" ? -1.0 : 1.0 };
-  mapper->SetSkyDirection(sky);
+  mapper->Settings().sky = { sky[0], sky[1], sky[2] };
   placeCamera(renderer->GetActiveCamera(), CloudOrientation(), {}, 0.1, 28.0, 12.0);
   renderer->GetActiveCamera()->Zoom(1.6);
   return actor;
@@ -149,7 +151,7 @@ void buildResiduals(const std::string& fault, vtkRenderer* renderer)
   resampler->Update();
   vtkNew<vtkSplatMapper> mapper;
   mapper->SetInputData(resampler->GetOutput());
-  mapper->SetFixedPixels(5.0);
+  mapper->Settings().fixedPixels = 5.0;
   vtkNew<vtkActor> actor;
   actor->SetMapper(mapper);
   addSurface(actor, true, false);
@@ -196,8 +198,8 @@ void buildFirstGlance(const std::string& fault, vtkRenderer* renderer)
   vtkNew<vtkSplatMapper> mapper;
   drawShown(*shown, mapper);
   mapper->ScalarVisibilityOff();
-  mapper->SetSurfaces(fault != "no-tilt");
-  mapper->SetLightStrength(fault == "no-light" ? 0.0 : 1.0);
+  mapper->Settings().surfaces = fault != "no-tilt";
+  mapper->Settings().lightStrength = fault == "no-light" ? 0.0 : 1.0;
   vtkNew<vtkActor> actor;
   actor->SetMapper(mapper);
   actor->GetProperty()->LightingOff();

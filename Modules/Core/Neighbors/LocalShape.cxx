@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 
 namespace pointhaptics
 {
@@ -19,7 +20,14 @@ constexpr int kNear = 8; ///< Neighbours that flatness and normal are averaged o
 constexpr std::int64_t kSample = 512;
 constexpr double kDiscRadius = 5.0; ///< Pixels.
 constexpr double kCrowdedDisc = 24.0;
+/// Neighbours that tell the spacing of the surroundings, and how much larger a point's own may be.
+constexpr int kSurroundings[] = { 10, 12, 14, 16 };
+constexpr double kLoneRatio = 2.5;
 constexpr double kPi = 3.14159265358979323846;
+/// Reach over the spacing that discs have anyway: what is farther away is looked for.
+constexpr double kUsualReach = 1.1;
+constexpr int kMostAcross = 12;
+constexpr double kNearer = 1.0 - 1e-6;
 constexpr double kFlatEnough = 0.5; ///< Neighbourhoods whose thickness is noise.
 
 double ramp(double x, double from, double to)
@@ -165,6 +173,7 @@ public:
     , neighbors_(neighbors)
     , size_(std::size_t(query_.size()))
     , near_(size_)
+    , around_(size_)
     , thickness_(size_)
     , agreed_(size_)
     , raw_(size_)
@@ -253,6 +262,8 @@ private:
     std::array<std::uint32_t, kNear>& near = near_[slot];
     near.fill(std::uint32_t(slot));
     std::copy_n(list.slots + (others > 0 ? 1 : 0), std::min(kNear, others), near.begin());
+    std::transform(std::begin(kSurroundings), std::end(kSurroundings), around_[slot].begin(),
+      [&](int rank) { return list.slots[std::min(rank, others)]; });
     if (others < 3)
     {
       return;
@@ -306,12 +317,21 @@ private:
     }
     const Vec3 here = query.point(list.slot);
     TangentCell cell(normal, PointShape::kLargestReach * double(shape.spacing));
-    for (int i = 1; i < list.count; ++i)
+    bool goesOn = true;
+    for (int i = 1; goesOn && i < list.count; ++i)
     {
-      if (!cell.add(query.point(std::int64_t(list.slots[i])) - here))
-      {
-        break;
-      }
+      goesOn = cell.add(query.point(std::int64_t(list.slots[i])) - here);
+    }
+    // Points on the other side of a gap are farther away than those of the list: no corner has one nearer to
+    // it.
+    Vec3 corner;
+    for (int i = 0;
+         goesOn && i < kMostAcross && cell.farthestCorner(corner) > kUsualReach * double(shape.spacing); ++i)
+    {
+      Neighbor across;
+      query.nearestSlots(here + corner, 1, &across);
+      goesOn = across.squaredDistance < kNearer * norm2(corner) &&
+        cell.add(query.point(NeighborQuery::slotOf(across)) - here);
     }
     return float(cell.reach());
   }
@@ -321,6 +341,17 @@ private:
     const float* p = raw_[a].normal;
     const float* q = raw_[b].normal;
     return p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
+  }
+  /// Part of its spacing that a point keeps, up to 1: a lone one, or one of a few, belongs to no surface.
+  float keptPart(std::size_t slot) const
+  {
+    std::array<float, std::size(kSurroundings)> spacings;
+    std::transform(around_[slot].begin(), around_[slot].end(), spacings.begin(),
+      [this](std::uint32_t other) { return raw_[other].spacing; });
+    std::sort(spacings.begin(), spacings.end());
+    const float most = float(kLoneRatio) * spacings[spacings.size() / 2];
+    const float part = raw_[slot].spacing > most ? most / raw_[slot].spacing : 1.0F;
+    return part * part;
   }
   void compareOne(std::size_t slot)
   {
@@ -346,10 +377,11 @@ private:
       }
     }
     const float length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    const float kept = this->keptPart(slot);
     PointShape& shape = smooth_[slot];
-    shape.spacing = raw_[slot].spacing;
-    shape.reach = raw_[slot].reach;
-    shape.flatness = flatness / float(1 + kNear);
+    shape.spacing = kept * raw_[slot].spacing;
+    shape.reach = kept * raw_[slot].reach;
+    shape.flatness = kept * flatness / float(1 + kNear);
     for (int axis = 0; axis < 3 && length > 0.0F; ++axis)
     {
       shape.normal[axis] = n[axis] / length;
@@ -361,6 +393,7 @@ private:
   const int neighbors_;
   const std::size_t size_;
   std::vector<std::array<std::uint32_t, kNear>> near_;
+  std::vector<std::array<std::uint32_t, std::size(kSurroundings)>> around_;
   std::vector<float> thickness_; ///< Root mean square distance from the plane.
   std::vector<float> agreed_;    ///< Flatness before it is averaged.
   std::vector<PointShape> raw_;

@@ -70,6 +70,18 @@ bool TangentCell::add(const Vec3& place)
   return true;
 }
 
+double TangentCell::farthestCorner(Vec3& place) const
+{
+  double most2 = 0.0;
+  for (int i = 0; i < count_; ++i)
+  {
+    const Vec3 corner = corners_[i].x * u_ + corners_[i].y * v_;
+    place = norm2(corner) > most2 ? corner : place;
+    most2 = std::max(most2, norm2(corner));
+  }
+  return std::sqrt(most2);
+}
+
 double TangentCell::reach() const
 {
   const double edge2 = largest_ * largest_ * (1.0 - 1e-12);
@@ -77,7 +89,11 @@ double TangentCell::reach() const
   for (int i = 0; i < count_; ++i)
   {
     const double length2 = corners_[i].x * corners_[i].x + corners_[i].y * corners_[i].y;
-    most2 = std::max(most2, length2 < edge2 ? length2 : 0.0);
+    if (length2 >= edge2)
+    {
+      return 0.0;
+    }
+    most2 = std::max(most2, length2);
   }
   return std::sqrt(most2);
 }

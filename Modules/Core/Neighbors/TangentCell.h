@@ -20,7 +20,10 @@ public:
   /// Cuts away what is nearer to @p place. False: this and all that are farther away cut nothing any more.
   bool add(const Vec3& place);
 
-  /// Distance of the farthest corner that is nearer than the largest; 0: there is none.
+  /// Gets the corner that is farthest away. @return its distance.
+  double farthestCorner(Vec3& place) const;
+
+  /// Distance of the farthest corner; 0: one is as far away as the largest, or farther, so the cell is open.
   double reach() const;
 
   /// Whether a side of the cell, or a corner, is half way to @p place, or nearly so: points of a square grid

@@ -187,7 +187,7 @@ std::function<bool(vtkIdType, const Vec3&)> drawnBy(vtkActor* actor)
   }
   vtkNew<vtkMatrix4x4> toPicture;
   toPicture->DeepCopy(actor->GetMatrix());
-  vtkDataArray* lengths = mapper->GetInput()->GetPointData()->GetArray(mapper->GetSizeArrayName().c_str());
+  vtkDataArray* lengths = mapper->GetInput()->GetPointData()->GetArray(mapper->Settings().sizeArray.c_str());
   return
     [mapper, lengths, toPicture = vtkSmartPointer<vtkMatrix4x4>(toPicture)](vtkIdType index, const Vec3& p)
   {
@@ -195,7 +195,7 @@ std::function<bool(vtkIdType, const Vec3&)> drawnBy(vtkActor* actor)
     {
       return false;
     }
-    const std::array<double, 6>& box = mapper->GetClipBox();
+    const std::array<double, 6>& box = mapper->Settings().clipBox;
     for (int axis = 0; axis < 3; ++axis)
     {
       if (p[axis] < box[std::size_t(2 * axis)] || p[axis] > box[std::size_t(2 * axis + 1)])

@@ -57,7 +57,7 @@ double screenScale(vtkRenderWindow* window)
   }
   else if (void* display = xDisplayOf(window))
   {
-    const auto resources = reinterpret_cast<char* (*)(void*)>(findXFunction("XResourceManagerString"));
+    const auto resources = xFunction<char* (*)(void*)>("XResourceManagerString");
     const double dots = resources ? dotsPerInchOf(resources(display)) : 0.0;
     scale =
       dots > 0.0 ? dots / kUsualDotsPerInch : scaleOfScreen(window->GetScreenSize()[1], window->GetSize()[1]);

@@ -16,6 +16,9 @@ namespace pointhaptics
 namespace
 {
 
+/// A background darker than this has light texts.
+constexpr double kDarkGround = 0.5;
+
 /// Keeps an unchanged chart from being drawn while it lives: the window keeps its picture.
 class ChartPause
 {
@@ -74,9 +77,8 @@ void TouchDisplay::setChartVisibility(bool visible)
   {
     chart_->SetVisibility(visible);
     chartChanged_ = true;
-    double viewport[4] = { 0.0, 0.0, 1.0, 1.0 };
-    chart_->GetRenderer()->GetViewport(viewport);
-    renderer->SetViewport(0.0, visible ? viewport[3] : 0.0, 1.0, 1.0);
+    const double* strip = chart_->GetRenderer()->GetViewport();
+    renderer->SetViewport(0.0, visible ? strip[3] : 0.0, 1.0, renderer->GetViewport()[3]);
     this->requestRender();
   }
 }
@@ -142,6 +144,9 @@ void TouchDisplay::render()
   std::optional<ChartPause> pause;
   if (chart_)
   {
+    // The chart has the ground of the picture above it, which a key may change.
+    const double* ground = screen_.renderer() ? screen_.renderer()->GetBackground() : nullptr;
+    chartChanged_ = (ground && chart_->SetDark(ground[0] < kDarkGround)) || chartChanged_;
     pause.emplace(chart_->GetRenderer(), chartChanged_, chartPicture_);
   }
   chartChanged_ = false;

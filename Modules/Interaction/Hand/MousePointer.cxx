@@ -19,9 +19,8 @@ void movePointer(vtkRenderWindow* window, int x, int y)
   }
   using WarpPointer =
     int (*)(void*, unsigned long, unsigned long, int, int, unsigned int, unsigned int, int, int);
-  using Flush = int (*)(void*);
-  const auto warp = reinterpret_cast<WarpPointer>(findXFunction("XWarpPointer"));
-  const auto flush = reinterpret_cast<Flush>(findXFunction("XFlush"));
+  const auto warp = xFunction<WarpPointer>("XWarpPointer");
+  const auto flush = xFunction<int (*)(void*)>("XFlush");
   const auto place =
     static_cast<unsigned long>(reinterpret_cast<std::uintptr_t>(window->GetGenericWindowId()));
   if (warp && flush && place)

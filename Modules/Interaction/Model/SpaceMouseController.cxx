@@ -1,5 +1,11 @@
 #include "SpaceMouseController.h"
 
+#include "ModelTransform.h"
+#include "ScreenView.h"
+
+#include <algorithm>
+#include <cmath>
+
 namespace pointhaptics
 {
 namespace
@@ -7,8 +13,36 @@ namespace
 
 constexpr std::uint32_t kScaleButton = 1;
 constexpr std::uint32_t kResetButton = 2;
+/// Motion of the model in a second with the puck at its end: edges of the workspace, degrees, factor.
+constexpr double kEdgesPerSecond = 0.5;
+constexpr double kDegreesPerSecond = 90.0;
+constexpr double kScalePerSecond = 2.0;
+/// Longest time between two reports that counts, seconds: the model must not jump after a pause.
+constexpr double kLongestStep = 0.2;
 
 } // namespace
+
+/// The puck's axes are those of the screen: x right, y up, z towards the person.
+void SpaceMouseController::move(const SpaceMouseMotion& motion, double seconds)
+{
+  const double step = std::min(seconds, kLongestStep);
+  const ScreenAxes screen = screen_.axes();
+  const auto onScreen = [&](const Vec3& v)
+  { return v.x * screen.right + v.y * screen.up - v.z * screen.forward; };
+  if (motion.buttons & kScaleButton)
+  {
+    model_.scale(std::pow(kScalePerSecond, motion.shift.z * step));
+    return;
+  }
+  if (motion.shift != Vec3())
+  {
+    model_.translate(kEdgesPerSecond * model_.edge() * step * onScreen(motion.shift));
+  }
+  if (motion.turn != Vec3())
+  {
+    model_.rotate(kDegreesPerSecond * step * norm(motion.turn), onScreen(motion.turn));
+  }
+}
 
 void SpaceMouseController::update(double timeSeconds)
 {
@@ -19,15 +53,17 @@ void SpaceMouseController::update(double timeSeconds)
   lastButtons_ = motion.buttons;
   if (pressed & kResetButton)
   {
-    cap_.reset();
+    model_.reset();
   }
-  if (motion.resting())
+  const bool moves = !motion.resting() && screen_.renderer();
+  if (moves != isMoving_)
   {
-    cap_.rest();
+    isMoving_ = moves;
+    moves ? model_.beginGesture() : model_.endGesture();
   }
-  else
+  if (moves)
   {
-    cap_.move(motion.shift, motion.turn, (motion.buttons & kScaleButton) != 0, seconds);
+    this->move(motion, seconds);
   }
 }
 

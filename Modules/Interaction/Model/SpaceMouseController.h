@@ -2,8 +2,6 @@
 /// Moves the model by a SpaceMouse of the project's own driver.
 #pragma once
 
-#include "CapMotion.h"
-
 #include "Core/Base/Lifetime.h"
 #include "Devices/SpaceMouse/SpaceMouse.h"
 
@@ -14,14 +12,19 @@
 namespace pointhaptics
 {
 
+class ModelTransform;
+class ScreenView;
+
 /// Rotates and translates the model as the puck is turned and pushed on the screen. With the first button
-/// held, pushing and pulling scales it; the second one resets it. GUI thread only.
+/// held, pushing and pulling scales it and nothing else moves; the second one resets it. All moves until the
+/// puck rests are one to ModelTransform::undo(). GUI thread only.
 class POINTHAPTICSINTERACTION_EXPORT SpaceMouseController
 {
 public:
   /// Both must outlive this.
   SpaceMouseController(ModelTransform& model, const ScreenView& screen)
-    : cap_(model, screen)
+    : model_(model)
+    , screen_(screen)
   {
   }
 
@@ -31,7 +34,11 @@ public:
   void update(double timeSeconds);
 
 private:
-  CapMotion cap_;
+  void move(const SpaceMouseMotion& motion, double seconds);
+
+  ModelTransform& model_;
+  const ScreenView& screen_;
+  bool isMoving_ = false;
   WatchedPointer<SpaceMouse> mouse_;
   double lastTime_ = -1e9;
   std::uint32_t lastButtons_ = 0;

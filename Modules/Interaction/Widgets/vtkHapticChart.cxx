@@ -252,7 +252,7 @@ vtkHapticChart::vtkHapticChart()
   parts.renderer->AddActor(parts.actor);
   parts.renderer->InteractiveOff();
   parts.actor->GetScene()->SetRenderer(parts.renderer);
-  this->SetDark(false);
+  this->ApplyColors();
   this->Update();
 }
 
@@ -268,16 +268,26 @@ bool vtkHapticChart::GetVisibility() const
   return this->Parts->renderer->GetDraw() != 0;
 }
 
-void vtkHapticChart::SetDark(bool dark)
+bool vtkHapticChart::SetDark(bool dark)
+{
+  const bool changes = dark != this->Parts->isDark;
+  if (changes)
+  {
+    this->Parts->isDark = dark;
+    this->ApplyColors();
+  }
+  return changes;
+}
+
+void vtkHapticChart::ApplyColors()
 {
   Internals& parts = *this->Parts;
-  parts.isDark = dark;
   const unsigned char ground[2][3] = { { 255, 255, 255 }, { 32, 34, 40 } };
   const unsigned char grid[2][3] = { { 225, 225, 225 }, { 62, 66, 74 } };
   const unsigned char ink[2][3] = { { 60, 60, 60 }, { 224, 227, 232 } };
   const unsigned char curves[2][3][3] = { { { 190, 30, 110 }, { 205, 85, 0 }, { 20, 90, 200 } },
     { { 255, 120, 190 }, { 255, 140, 50 }, { 110, 175, 255 } } };
-  const int which = dark ? 1 : 0;
+  const int which = parts.isDark ? 1 : 0;
   for (int plot = 0; plot < 3; ++plot)
   {
     const unsigned char* color = curves[which][plot];
@@ -293,8 +303,9 @@ void vtkHapticChart::SetDark(bool dark)
   const unsigned char* back = ground[which];
   parts.chart->GetBackgroundBrush()->SetColor(back[0], back[1], back[2], 255);
   parts.renderer->SetBackground(back[0] / 255.0, back[1] / 255.0, back[2] / 255.0);
-  const double legend = dark ? 0.88 : 0.0;
-  parts.chart->GetLegend()->GetLabelProperties()->SetColor(legend, legend, legend);
+  const double words = parts.isDark ? 0.88 : 0.0;
+  parts.chart->GetLegend()->GetLabelProperties()->SetColor(words, words, words);
+  parts.chart->GetLegend()->GetBrush()->SetColor(back[0], back[1], back[2]);
   parts.fittedHeight = 0;
 }
 

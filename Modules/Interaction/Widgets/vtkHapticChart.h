@@ -53,8 +53,9 @@ public:
 
   /**
    * Light lines and texts on the dark ground of the viewer's picture; not in WriteImage(). Default: off.
+   * @return whether it was the other before.
    */
-  void SetDark(bool dark);
+  bool SetDark(bool dark);
 
   ///@{
   /**
@@ -95,6 +96,8 @@ public:
 protected:
   vtkHapticChart();
   ~vtkHapticChart() override;
+
+  void ApplyColors();
 
   double TimeWindow = 5.0;
 

@@ -126,7 +126,7 @@ void colorAlike(vtkMapper* from, vtkMapper* to)
   }
 }
 
-vtkSmartPointer<vtkPolyData> pickPoints(vtkPolyData* cloud, vtkMapper* mapper, vtkIdList* ids)
+vtkSmartPointer<vtkPolyData> pickPoints(vtkPolyData* cloud, vtkSplatMapper* mapper, vtkIdList* ids)
 {
   auto part = vtkSmartPointer<vtkPolyData>::New();
   vtkNew<vtkPoints> points;
@@ -141,9 +141,8 @@ vtkSmartPointer<vtkPolyData> pickPoints(vtkPolyData* cloud, vtkMapper* mapper, v
       part->GetPointData()->SetActiveAttribute(index, vtkDataSetAttributes::SCALARS);
     }
   }
-  auto* splats = vtkSplatMapper::SafeDownCast(mapper);
-  const std::string names[] = { splats ? splats->GetSizeArrayName() : std::string(),
-    splats && splats->GetAmbientLight() ? splats->GetNormalArrayName() : std::string() };
+  const std::string names[] = { mapper->Settings().sizeArray,
+    mapper->Settings().ambientLight ? mapper->Settings().normalArray : std::string() };
   for (const std::string& name : names)
   {
     vtkDataArray* array = name.empty() ? nullptr : cloud->GetPointData()->GetArray(name.c_str());

@@ -4,6 +4,8 @@
 
 #include "Core/Base/PointView.h"
 
+#include "PointHapticsRenderingModule.h" // For export macro
+
 #include "vtkSmartPointer.h"
 
 #include <cstddef>
@@ -13,6 +15,7 @@ class vtkDataArray;
 class vtkIdList;
 class vtkMapper;
 class vtkPolyData;
+class vtkSplatMapper;
 
 namespace pointhaptics
 {
@@ -23,7 +26,7 @@ PointView viewOf(vtkPolyData* cloud, std::vector<Vec3>& copy);
 
 /// Quantile of the values above 0 among at most about 10,000: @p tenths tenths are below it; 0 where there is
 /// none. @param tenths 0 to 9.
-double quantileOfPositive(vtkDataArray* array, std::size_t tenths);
+POINTHAPTICSRENDERING_EXPORT double quantileOfPositive(vtkDataArray* array, std::size_t tenths);
 
 /// True if @p cloud has no cells, or vertices at all of its points, first to last.
 bool drawsInOrder(vtkPolyData* cloud);
@@ -34,6 +37,6 @@ void colorAlike(vtkMapper* from, vtkMapper* to);
 
 /// The points @p ids of @p cloud with the arrays that @p mapper draws them with: colours, sizes and normals;
 /// without cells where the cloud has none.
-vtkSmartPointer<vtkPolyData> pickPoints(vtkPolyData* cloud, vtkMapper* mapper, vtkIdList* ids);
+vtkSmartPointer<vtkPolyData> pickPoints(vtkPolyData* cloud, vtkSplatMapper* mapper, vtkIdList* ids);
 
 } // namespace pointhaptics

@@ -14,7 +14,6 @@
 #include "vtkMatrix4x4.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
-#include "vtkPolyDataMapper.h"
 #include "vtkProperty.h"
 #include "vtkRenderWindow.h"
 #include "vtkRenderer.h"
@@ -74,21 +73,18 @@ void LevelOfDetail::setEnabled(bool enabled)
   {
     this->dropLevels();
     actor_->VisibilityOn();
-    if (auto* splats = vtkSplatMapper::SafeDownCast(actor_->GetMapper()))
-    {
-      splats->SetRanges({});
-    }
+    this->splats()->SetRanges({});
   }
+}
+
+vtkSplatMapper* LevelOfDetail::splats() const
+{
+  return vtkSplatMapper::SafeDownCast(actor_->GetMapper());
 }
 
 double LevelOfDetail::spacingFactor() const
 {
   return drawn_ > 0 ? std::sqrt(double(total_) / double(drawn_)) : 1.0;
-}
-
-void LevelOfDetail::setCoarsePointSize(double pixels)
-{
-  coarse_->SetPointSize(static_cast<float>(pixels));
 }
 
 bool LevelOfDetail::refinementDue(double now) const
@@ -130,10 +126,8 @@ bool LevelOfDetail::sceneChanged(vtkPolyData* cloud)
   add(actor_->GetMatrix());
   placement.push_back(renderer_->GetSize()[0]);
   placement.push_back(renderer_->GetSize()[1]);
-  if (auto* splats = vtkSplatMapper::SafeDownCast(actor_->GetMapper()))
-  {
-    placement.insert(placement.end(), splats->GetClipBox().begin(), splats->GetClipBox().end());
-  }
+  const std::array<double, 6>& box = this->splats()->Settings().clipBox;
+  placement.insert(placement.end(), box.begin(), box.end());
 
   unsigned long long propsTime = 0;
   vtkActorCollection* actors = renderer_->GetActors();
@@ -186,8 +180,7 @@ std::int64_t LevelOfDetail::wanted(double now)
 
 void LevelOfDetail::beginFrame(double now)
 {
-  auto* mapper = vtkPolyDataMapper::SafeDownCast(actor_->GetMapper());
-  vtkPolyData* cloud = mapper ? mapper->GetInput() : nullptr;
+  vtkPolyData* cloud = this->splats()->GetInput();
   frameIsTypical_ = inMotion_ = false;
   if (!enabled_ || !renderer_ || !cloud || cloud->GetNumberOfPoints() == 0)
   {
@@ -253,15 +246,11 @@ void LevelOfDetail::show(vtkPolyData* cloud, std::int64_t points)
   }
   actor_->SetVisibility(all);
   std::int64_t begin = 0;
-  auto* whole = vtkSplatMapper::SafeDownCast(actor_->GetMapper());
   for (const Level& level : levels_)
   {
     level.actor->SetVisibility(!all && begin < drawn_);
     level.actor->SetUserMatrix(actor_->GetUserMatrix());
-    if (auto* splats = vtkSplatMapper::SafeDownCast(level.actor->GetMapper()))
-    {
-      splats->CopySizes(whole, this->spacingFactor());
-    }
+    level.splats->CopySizes(this->splats(), this->spacingFactor());
     begin = level.end;
   }
   visible_ = drawn_;
@@ -323,11 +312,7 @@ std::vector<HalfSpace> LevelOfDetail::view() const
 /// Leaves out the rows of the cloud that no pixel shows, where its own mapper draws it.
 void LevelOfDetail::leaveOutOfView(vtkPolyData* cloud)
 {
-  auto* splats = vtkSplatMapper::SafeDownCast(actor_->GetMapper());
-  if (!splats)
-  {
-    return;
-  }
+  vtkSplatMapper* splats = this->splats();
   if (!hasRows_)
   {
     std::vector<Vec3> copy;
@@ -339,9 +324,10 @@ void LevelOfDetail::leaveOutOfView(vtkPolyData* cloud)
     splats->SetRanges({});
     return;
   }
-  vtkDataArray* lengths = cloud->GetPointData()->GetArray(splats->GetSizeArrayName().c_str());
-  const double margin = lengths ? 0.5 * splats->GetSizeScale() * lengths->GetRange()[1] : 0.0;
-  const double pixels = 1.0 + 0.5 * std::max(splats->GetSmallestPixels(), splats->GetFixedPixels());
+  vtkDataArray* lengths = cloud->GetPointData()->GetArray(splats->Settings().sizeArray.c_str());
+  const double margin = lengths ? 0.5 * splats->Settings().sizeScale * lengths->GetRange()[1] : 0.0;
+  const double pixels =
+    1.0 + 0.5 * std::max(splats->Settings().smallestPixels, splats->Settings().fixedPixels);
   std::vector<std::array<vtkIdType, 2>> ranges =
     visibleRanges(rows_, this->sides(pixels), actor_->GetMatrix(), margin);
   visible_ = 0;
@@ -360,16 +346,15 @@ void LevelOfDetail::leaveOutOfView(vtkPolyData* cloud)
 /// kFinestPixels apart where the cloud is nearest.
 std::int64_t LevelOfDetail::finestFor(vtkPolyData* cloud)
 {
-  auto* splats = vtkSplatMapper::SafeDownCast(actor_->GetMapper());
-  vtkDataArray* lengths =
-    splats ? cloud->GetPointData()->GetArray(splats->GetSizeArrayName().c_str()) : nullptr;
-  if (!lengths || splats->GetFixedPixels() > 0.0)
+  vtkSplatMapper* splats = this->splats();
+  vtkDataArray* lengths = cloud->GetPointData()->GetArray(splats->Settings().sizeArray.c_str());
+  if (!lengths || splats->Settings().fixedPixels > 0.0)
   {
     return total_;
   }
   if (spacing_ < 0.0)
   {
-    spacing_ = splats->GetSizeScale() / kDiameterPerSpacing * quantileOfPositive(lengths, 9);
+    spacing_ = splats->Settings().sizeScale / kDiameterPerSpacing * quantileOfPositive(lengths, 9);
   }
   vtkMatrix4x4* toClip = renderer_->GetActiveCamera()->GetCompositeProjectionTransformMatrix(
     renderer_->GetTiledAspectRatio(), -1, 1);
@@ -409,20 +394,13 @@ void LevelOfDetail::cullOutsideFrustum()
   std::int64_t begin = 0;
   for (const Level& level : levels_)
   {
-    const std::int64_t size = level.end - begin;
     const bool isDrawn = begin < drawn_;
     begin = level.end;
-    auto* splats = vtkSplatMapper::SafeDownCast(level.actor->GetMapper());
     if (!isDrawn)
     {
       continue;
     }
-    if (!splats)
-    {
-      visible_ += size;
-      continue;
-    }
-    const double margin = 0.5 * splats->GetSizeScale() * level.largestLength;
+    const double margin = 0.5 * level.splats->Settings().sizeScale * level.largestLength;
     std::vector<std::array<vtkIdType, 2>> ranges =
       visibleRanges(level.bricks, halfSpaces, actor_->GetMatrix(), margin);
     for (const auto& range : ranges)
@@ -430,7 +408,7 @@ void LevelOfDetail::cullOutsideFrustum()
       visible_ += range[1] - range[0];
     }
     level.actor->SetVisibility(!ranges.empty());
-    splats->SetRanges(std::move(ranges));
+    level.splats->SetRanges(std::move(ranges));
   }
 }
 
@@ -457,18 +435,14 @@ void LevelOfDetail::addLevel(vtkPolyData* cloud)
   vtkNew<vtkIdList> ids;
   ids->SetNumberOfIds(level.end - begin);
   std::copy(members.begin(), members.end(), ids->GetPointer(0));
-  const auto mapper = vtkSmartPointer<vtkPolyDataMapper>::Take(
-    vtkSplatMapper::SafeDownCast(actor_->GetMapper()) ? vtkSplatMapper::New() : vtkPolyDataMapper::New());
-  colorAlike(actor_->GetMapper(), mapper);
-  const vtkSmartPointer<vtkPolyData> part = pickPoints(cloud, actor_->GetMapper(), ids);
-  mapper->SetInputData(part);
-  if (auto* splats = vtkSplatMapper::SafeDownCast(actor_->GetMapper()))
-  {
-    vtkDataArray* sizes = part->GetPointData()->GetArray(splats->GetSizeArrayName().c_str());
-    level.largestLength = sizes ? sizes->GetRange()[1] : 0.0;
-  }
+  level.splats = vtkSmartPointer<vtkSplatMapper>::New();
+  colorAlike(this->splats(), level.splats);
+  const vtkSmartPointer<vtkPolyData> part = pickPoints(cloud, this->splats(), ids);
+  level.splats->SetInputData(part);
+  vtkDataArray* sizes = part->GetPointData()->GetArray(this->splats()->Settings().sizeArray.c_str());
+  level.largestLength = sizes ? sizes->GetRange()[1] : 0.0;
   level.actor = vtkSmartPointer<vtkActor>::New();
-  level.actor->SetMapper(mapper);
+  level.actor->SetMapper(level.splats);
   level.actor->SetProperty(coarse_);
   level.actor->SetForceOpaque(actor_->GetForceOpaque());
   level.actor->PickableOff();

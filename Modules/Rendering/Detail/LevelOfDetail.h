@@ -20,25 +20,24 @@
 class vtkActor;
 class vtkCallbackCommand;
 class vtkPolyData;
-class vtkPolyDataMapper;
 class vtkProperty;
 class vtkRenderWindow;
 class vtkRenderer;
+class vtkSplatMapper;
 
 namespace pointhaptics
 {
 
 /// Stands beside the actor of a cloud in a renderer. A frame that differs from the last one by its camera,
 /// its cloud or another actor is drawn with as many points, in progressiveOrder(), as fit the frame budget,
-/// which is learnt from the times such frames take; the splats of a vtkSplatMapper grow so that surfaces stay
-/// closed. After kRestSeconds without such a frame refinementDue() asks for frames with four times as many
-/// points each, until the cloud's own actor is drawn: the picture at rest is the one without this class. Of
-/// the splats of a vtkSplatMapper only the bricks in view, and in the workspace if there is one, are drawn in
-/// such a frame, and only they count: a part of the cloud seen from near by is shown with more points. In the
-/// picture at rest what is out of view is left out too, which changes no pixel. From so far that neighbours
-/// are much less than a pixel apart the picture is as fine as it gets with a part of the points: the others
-/// are neither drawn nor uploaded. Text may change without the detail changing. Points are uploaded when they
-/// are first drawn.
+/// which is learnt from the times such frames take; the splats grow so that surfaces stay closed. After
+/// kRestSeconds without such a frame refinementDue() asks for frames with four times as many points each,
+/// until the cloud's own actor is drawn: the picture at rest is the one without this class. Of the splats
+/// only the bricks in view, and in the workspace if there is one, are drawn in such a frame, and only they
+/// count: a part of the cloud seen from near by is shown with more points. In the picture at rest what is out
+/// of view is left out too, which changes no pixel. From so far that neighbours are much less than a pixel
+/// apart the picture is as fine as it gets with a part of the points: the others are neither drawn nor
+/// uploaded. Text may change without the detail changing. Points are uploaded when they are first drawn.
 ///
 /// The picture only gets finer when somebody renders: call refinementDue() from a timer. A frame that its
 /// window gives up (vtkRenderWindow::SetAbortRender()) does not count, and is due again. GUI thread only. To
@@ -48,7 +47,7 @@ class POINTHAPTICSRENDERING_EXPORT LevelOfDetail
 public:
   static constexpr double kRestSeconds = 0.15;
 
-  /// @param actor draws the whole cloud with a vtkPolyDataMapper, in @p renderer.
+  /// @param actor draws the whole cloud with a vtkSplatMapper, in @p renderer.
   LevelOfDetail(vtkRenderer* renderer, vtkActor* actor);
   ~LevelOfDetail();
   LevelOfDetail(const LevelOfDetail&) = delete;
@@ -94,9 +93,6 @@ public:
   std::int64_t keptPoints() const { return levels_.empty() ? 0 : levels_.back().end; }
   /// Distance of the drawn points over that of all points on a surface: the square root of their ratio.
   double spacingFactor() const;
-  /// Sets the size in pixels of the coming frame's points, if it does not show all and the actor's mapper is
-  /// no vtkSplatMapper.
-  void setCoarsePointSize(double pixels);
   const FrameBudget& budget() const { return budget_; }
 
 private:
@@ -104,10 +100,12 @@ private:
   {
     std::int64_t end = 0; // points in this level and those before
     vtkSmartPointer<vtkActor> actor;
-    std::vector<SplatBrick> bricks; // where the mapper draws splats
-    double largestLength = 0.0;     // of a splat, in the array
+    vtkSmartPointer<vtkSplatMapper> splats;
+    std::vector<SplatBrick> bricks;
+    double largestLength = 0.0; // of a splat, in the array
   };
 
+  vtkSplatMapper* splats() const;
   void watchWindow();
   void endFrame();
   bool sceneChanged(vtkPolyData* cloud);

@@ -1,9 +1,7 @@
 #include "CloudAppearance.h"
 
 #include "AsprsClasses.h"
-#include "SmpExecutor.h"
 
-#include "Core/Bandwidth/LocalBandwidth.h"
 #include "Core/Base/Boxes.h"
 
 #include "vtkActor.h"
@@ -284,35 +282,6 @@ bool hasColors(vtkPolyData* cloud)
   vtkDataArray* scalars = cloud ? cloud->GetPointData()->GetScalars() : nullptr;
   return scalars && scalars->GetDataType() == VTK_UNSIGNED_CHAR &&
     (scalars->GetNumberOfComponents() == 3 || scalars->GetNumberOfComponents() == 4);
-}
-
-double medianSpacing(vtkPolyData* cloud)
-{
-  // The default radius of the proxy is 2.8 local spacings.
-  constexpr double kRadiusPerSpacing = 2.8;
-  constexpr std::int64_t kSample = 1000;
-  std::vector<Vec3> places(std::size_t(cloud->GetNumberOfPoints()));
-  for (std::size_t i = 0; i < places.size(); ++i)
-  {
-    cloud->GetPoint(vtkIdType(i), &places[i].x);
-  }
-  const PointView points(places.data(), std::int64_t(places.size()));
-  NeighborQuery query;
-  query.build(points, SmpExecutor());
-  std::vector<std::int64_t> slots;
-  for (std::int64_t slot = 0; slot < query.size(); slot += 1 + query.size() / kSample)
-  {
-    slots.push_back(slot);
-  }
-  std::vector<double> radii;
-  if (localRadiiAt(points, query, LocalBandwidthSettings(), slots, radii, SmpExecutor()) != Status::Ok ||
-    radii.empty())
-  {
-    return 0.0;
-  }
-  const auto middle = radii.begin() + std::ptrdiff_t(radii.size() / 2);
-  std::nth_element(radii.begin(), middle, radii.end());
-  return *middle / kRadiusPerSpacing;
 }
 
 bool applyCloudAppearance(vtkPolyData* cloud, vtkPolyDataMapper* mapper, vtkActor* actor,

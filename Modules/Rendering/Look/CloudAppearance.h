@@ -142,7 +142,4 @@ POINTHAPTICSRENDERING_EXPORT void applyDepthShading(
 /// none.
 POINTHAPTICSRENDERING_EXPORT void setDepthStrength(vtkRenderer* renderer, double strength);
 
-/// Median distance between neighbours, of a sample of the points; 0 where there are none.
-POINTHAPTICSRENDERING_EXPORT double medianSpacing(vtkPolyData* cloud);
-
 } // namespace pointhaptics

@@ -35,7 +35,7 @@ struct CloudColors
   ColorRule rule = ColorRule::Height;
   std::string array;          ///< Array of the classes.
   std::string intensity;      ///< Array whose rank makes the colours lighter and darker; empty: none does.
-  double lightStrength = 1.0; ///< See vtkSplatMapper::SetLightStrength().
+  double lightStrength = 1.0; ///< See SplatSettings::lightStrength.
   double low = 0.0;           ///< Height and Depth: where the map begins, along the axis or the view,
   double high = 1.0;          ///< and where it ends.
   std::vector<double> ranks;  ///< Sample of the intensities, ascending.

@@ -29,6 +29,8 @@ constexpr double kFlatDiameter = 1.1;
 /// Diameter of a splat over the spacing of the rays of a frame, flat or not: the rays lie in a grid, whose
 /// diagonals must close.
 constexpr double kGridDiameter = 1.5;
+/// Radius of a disc over its reach: discs that just meet leave holes where the surface bends.
+constexpr double kOverlap = 1.1;
 constexpr double kNoGrowth = 64.0;
 constexpr double kSmallestShownPixels = 2.0;
 /// The pixels bound the splats, not the median of their lengths: a sweep is sparse far away.
@@ -108,7 +110,8 @@ void addSplats(vtkPolyData* points, const MeasuredCloud& measured, vtkDataArray*
     const double least = isFrame ? kGridDiameter * double(each.spacing)
       : look.closesAll           ? usualDiameter(1.0, std::min(double(each.spacing), widest))
                                  : 0.0;
-    const double length = std::max({ usual, least, 2.0 * double(each.flatness) * double(each.reach) });
+    const double closed = look.closesAll ? 1.0 : double(each.flatness);
+    const double length = std::max({ usual, least, 2.0 * kOverlap * closed * double(each.reach) });
     lengths->SetValue(i, float(length));
     growths->SetValue(
       i, static_cast<unsigned char>(usual > 0.0 ? kNoGrowth * length / usual + 0.5 : kNoGrowth));
@@ -135,17 +138,18 @@ void addSplats(vtkPolyData* points, const MeasuredCloud& measured, vtkDataArray*
 
 void setUpSplats(vtkSplatMapper* mapper, const CloudLook& look)
 {
-  mapper->SetSizeArrayName(kSplatLengthName);
-  mapper->SetSizeScale(1.0);
-  mapper->SetLargestRatio(kFarthestRatio);
-  mapper->SetPixelRange(kSmallestShownPixels, look.largestPixels);
-  mapper->SetNormalArrayName(kSplatNormalName);
-  mapper->SetNormalUnit(kSplatNormalUnit);
-  mapper->SetAmbientLight(true);
-  mapper->SetSurfaces(true);
-  mapper->SetHidesBackFaces(look.hidesBackFaces);
-  mapper->SetClosesAll(look.closesAll);
-  mapper->SetForeshortens(look.kind != CloudKind::Frame);
+  SplatSettings& settings = mapper->Settings();
+  settings.sizeArray = kSplatLengthName;
+  settings.sizeScale = 1.0;
+  settings.largestRatio = kFarthestRatio;
+  settings.smallestPixels = kSmallestShownPixels;
+  settings.largestPixels = look.largestPixels;
+  settings.normalArray = kSplatNormalName;
+  settings.normalUnit = kSplatNormalUnit;
+  settings.ambientLight = settings.surfaces = true;
+  settings.hidesBackFaces = look.hidesBackFaces;
+  settings.closesAll = look.closesAll;
+  settings.foreshortens = look.kind != CloudKind::Frame;
 }
 
 void addDensity(vtkPolyData* points)

@@ -61,6 +61,12 @@ bool isWithin(const Bounds& box, const Vec3& place)
     place.y <= box.maximum.y && place.z >= box.minimum.z && place.z <= box.maximum.z;
 }
 
+bool areAlike(const Bounds& one, const Bounds& other)
+{
+  const double ratio = norm(one.extent()) / norm(other.extent());
+  return isWithin(other, one.center()) && ratio > 0.5 && ratio < 2.0;
+}
+
 vtkSmartPointer<vtkPolyData> clippedCloud(vtkPolyData* cloud, const std::optional<Bounds>& box)
 {
   return box ? partOfCloud(cloud, [&box](vtkIdType, const Vec3& place) { return isWithin(*box, place); })

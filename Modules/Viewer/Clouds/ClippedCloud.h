@@ -27,6 +27,8 @@ POINTHAPTICSVIEWER_EXPORT std::optional<Bounds> clipBox(const std::vector<double
 std::vector<double> clipNumbers(const Bounds& box, vtkPolyData* cloud);
 
 bool isWithin(const Bounds& box, const Vec3& place);
+/// True if one box is about as long as the other and their middles are near.
+bool areAlike(const Bounds& one, const Bounds& other);
 
 /// The points of @p cloud that @p isKept, with all arrays, in their order; @p cloud itself where all are.
 vtkSmartPointer<vtkPolyData> partOfCloud(

@@ -50,10 +50,13 @@ struct POINTHAPTICSVIEWER_EXPORT CloudRequest
   AffineTransform transform;           ///< Transform of the cloud, for its bounds.
   /// Options of the resampling, with colorBy, up and transform as above. Null: the cloud is only read.
   std::shared_ptr<const HapticViewerOptions> options;
-  std::optional<AffineTransform> model; ///< Transform of the resampling; empty: the one of the options.
-  bool makesScene = false;              ///< True where the cloud will be felt.
-  std::optional<ShownRequest> before;   ///< Look of a coarse level of the same files: all points get it, too.
-  bool isFeltOnly = false;              ///< Nothing is made for a picture: LoadedCloud::means have no arrays.
+  /// Placement of the cloud that is shown, and its transform now: both are kept where the new one fits the
+  /// workspace as well. Empty: those of the options.
+  std::optional<AffineTransform> placement;
+  std::optional<AffineTransform> model;
+  bool makesScene = false;            ///< True where the cloud will be felt.
+  std::optional<ShownRequest> before; ///< Look of a coarse level of the same files: all points get it, too.
+  bool isFeltOnly = false;            ///< Nothing is made for a picture: LoadedCloud::means have no arrays.
   /// Receives the step after the reading, "measuring" or "resampling", and its progress, 0 to 1; may be
   /// empty.
   std::function<void(const char* step, double part)> working;

@@ -9,6 +9,7 @@
 #include "vtkKernelBandwidthFilter.h"
 #include "vtkVoxelMeanResampler.h"
 
+#include "Core/Base/Boxes.h"
 #include "Core/Base/Lattice.h"
 
 #include <fmt/format.h>
@@ -160,6 +161,17 @@ private:
   vtkNew<vtkKernelBandwidthFilter> bandwidth_;
 };
 
+/// True while the cloud lies in the workspace where @p placement puts it, at least half as long as it could
+/// be.
+bool fitsStill(const CloudRequest& request, const LoadedCloud& loaded, const AffineTransform& placement)
+{
+  const AffineTransform fit = placement * request.options->transform.inverse();
+  const Bounds box = boxOfCorners(loaded.bounds, [&](const Vec3& p) { return fit.apply(p); });
+  const Vec3 extent = box.extent();
+  return isWithin(defaultWorkspace(), box.minimum) && isWithin(defaultWorkspace(), box.maximum) &&
+    2.0 * std::max({ extent.x, extent.y, extent.z }) > kFittedPart * kDefaultWorkspaceEdge;
+}
+
 } // namespace
 
 void placeCloud(const CloudRequest& request, LoadedCloud& loaded)
@@ -173,7 +185,10 @@ void placeCloud(const CloudRequest& request, LoadedCloud& loaded)
     loaded.placement = AffineTransform::scaling({ factor, factor, factor }) *
       AffineTransform::translation(-loaded.bounds.center()) * loaded.placement;
   }
-  loaded.model = request.model ? *request.model : loaded.placement;
+  const bool isKept =
+    request.placement && (!request.options->fitsWorkspace || fitsStill(request, loaded, *request.placement));
+  loaded.placement = isKept ? *request.placement : loaded.placement;
+  loaded.model = isKept && request.model ? *request.model : loaded.placement;
 }
 
 void configureFilters(const HapticViewerOptions& options, const LoadedCloud& loaded,

@@ -228,7 +228,7 @@ void drawShown(const ShownCloud& shown, vtkSplatMapper* mapper)
 {
   mapper->SetInputData(shown.points);
   setUpSplats(mapper, shown.look);
-  mapper->SetLightStrength(shown.colors.lightStrength);
+  mapper->Settings().lightStrength = shown.colors.lightStrength;
 }
 
 } // namespace pointhaptics

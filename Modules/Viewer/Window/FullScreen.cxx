@@ -36,12 +36,6 @@ union ClientMessage
   long room[24];
 };
 
-template <typename Function>
-Function xFunction(const char* name)
-{
-  return reinterpret_cast<Function>(findXFunction(name));
-}
-
 /// The window on its server. Nothing is open: no display.
 struct Place
 {

@@ -1,5 +1,7 @@
 #include "ViewDisplay.h"
 
+#include "XLibrary.h"
+
 #include "Core/Base/Host/OutOfMemory.h"
 #include "Core/Base/Status.h"
 
@@ -7,10 +9,6 @@
 #include <chrono>
 #include <cstdlib>
 #include <thread>
-
-#if defined(__unix__) && !defined(__APPLE__)
-#include <dlfcn.h>
-#endif
 
 namespace pointhaptics
 {
@@ -35,25 +33,11 @@ bool hasRoomFor(std::int64_t points)
   return hasRoom;
 }
 
-} // namespace
-
-#if defined(__unix__) && !defined(__APPLE__)
-namespace
-{
-
 /// Connection that is kept until the program ends. A server whose last client goes may reset, as that of
 /// xvfb-run does, and cut the connection that VTK opens meanwhile.
 void* keptDisplay = nullptr;
 
-/// Gets a function of libX11, which VTK loads: a look-up by name saves a dependency.
-template <typename Function>
-Function functionOfX(const char* name)
-{
-  void* library = dlopen("libX11.so.6", RTLD_LAZY | RTLD_LOCAL);
-  return library ? reinterpret_cast<Function>(dlsym(library, name)) : nullptr;
-}
-
-}
+} // namespace
 
 bool displayIsAvailable(std::string& message, std::int64_t points)
 {
@@ -62,6 +46,10 @@ bool displayIsAvailable(std::string& message, std::int64_t points)
     message = pointhaptics::message(Status::OutOfMemory);
     return false;
   }
+  if (!kUsesX)
+  {
+    return true;
+  }
   const char* const cure = "run it on a desktop, under `xvfb-run`, or try `./setup.sh demo`";
   const char* name = std::getenv("DISPLAY");
   if (!name || !*name)
@@ -69,7 +57,7 @@ bool displayIsAvailable(std::string& message, std::int64_t points)
     message = std::string("no display: the environment variable DISPLAY is not set; ") + cure;
     return false;
   }
-  const auto openDisplay = functionOfX<void* (*)(const char*)>("XOpenDisplay");
+  const auto openDisplay = xFunction<void* (*)(const char*)>("XOpenDisplay");
   if (!openDisplay)
   {
     message = "no display: libX11.so.6 cannot be loaded; install libx11-6";
@@ -92,27 +80,14 @@ bool displayIsAvailable(std::string& message, std::int64_t points)
 
 std::array<int, 2> screenSize()
 {
-  const auto screen = functionOfX<int (*)(void*)>("XDefaultScreen");
-  const auto width = functionOfX<int (*)(void*, int)>("XDisplayWidth");
-  const auto height = functionOfX<int (*)(void*, int)>("XDisplayHeight");
+  const auto screen = xFunction<int (*)(void*)>("XDefaultScreen");
+  const auto width = xFunction<int (*)(void*, int)>("XDisplayWidth");
+  const auto height = xFunction<int (*)(void*, int)>("XDisplayHeight");
   if (!keptDisplay || !screen || !width || !height)
   {
     return {};
   }
   return { width(keptDisplay, screen(keptDisplay)), height(keptDisplay, screen(keptDisplay)) };
 }
-#else
-bool displayIsAvailable(std::string& message, std::int64_t points)
-{
-  const bool hasRoom = hasRoomFor(points);
-  message = hasRoom ? "" : pointhaptics::message(Status::OutOfMemory);
-  return hasRoom;
-}
-
-std::array<int, 2> screenSize()
-{
-  return {};
-}
-#endif
 
 } // namespace pointhaptics

@@ -24,14 +24,12 @@ constexpr auto kTimerPeriod = std::chrono::milliseconds(33);
 /// Socket on which the X server's events of @p window arrive; -1: there is none.
 int eventSocket(vtkRenderWindow* window)
 {
-  using ConnectionNumber = int (*)(void*);
-  const auto connectionNumber = reinterpret_cast<ConnectionNumber>(findXFunction("XConnectionNumber"));
+  const auto connectionNumber = xFunction<int (*)(void*)>("XConnectionNumber");
   void* display = xDisplayOf(window);
   return connectionNumber && display ? connectionNumber(display) : -1;
 }
 #endif
 
-#if defined(__unix__) && !defined(__APPLE__)
 /// Notes a key, a button of the mouse, or a message of the window manager, such as to close the window.
 /// XCheckIfEvent() calls it; it takes no event out of the queue.
 int noteInput(void*, void* event, char* found)
@@ -44,15 +42,13 @@ int noteInput(void*, void* event, char* found)
   isThere = isThere || type == kKeyPress || type == kButtonPress || type == kClientMessage;
   return 0;
 }
-#endif
 
 } // namespace
 
 bool inputWaits(vtkRenderWindow* window)
 {
-#if defined(__unix__) && !defined(__APPLE__)
   using CheckIfEvent = int (*)(void*, void*, int (*)(void*, void*, char*), char*);
-  const auto checkIfEvent = reinterpret_cast<CheckIfEvent>(findXFunction("XCheckIfEvent"));
+  const auto checkIfEvent = xFunction<CheckIfEvent>("XCheckIfEvent");
   void* display = xDisplayOf(window);
   if (checkIfEvent && display)
   {
@@ -61,9 +57,6 @@ bool inputWaits(vtkRenderWindow* window)
     checkIfEvent(display, event, noteInput, reinterpret_cast<char*>(&isThere));
     return isThere;
   }
-#else
-  static_cast<void>(window);
-#endif
   return false;
 }
 

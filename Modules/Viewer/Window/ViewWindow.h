@@ -174,7 +174,7 @@ private:
   void show(LoadedCloud cloud);
   void warn(const std::vector<std::string>& notes);
   void followOptions();
-  void adoptModel(const AffineTransform& model);
+  void adoptModel(const AffineTransform& model, bool keepsModel);
   void giveModel(vtkMatrix4x4* matrix);
   void showFile(std::size_t index);
   bool endFiles(std::string& message);

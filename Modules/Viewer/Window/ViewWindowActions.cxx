@@ -1,6 +1,7 @@
 #include "ViewPicture.h"
 #include "ViewWindow.h"
 
+#include "ClippedCloud.h"
 #include "PolyDataAccess.h"
 #include "vtkKernelBandwidthFilter.h"
 #include "vtkVoxelMeanResampler.h"
@@ -88,6 +89,7 @@ void ViewWindow::load(const std::vector<std::string>& files, Load kind, std::fun
   AffineTransform model;
   if (kind != Load::New && affineFromTransform(style_->GetModelTransform(), model))
   {
+    request.placement = transformOf(scene_.modelMatrix());
     request.model = model;
   }
   loader_.start(std::move(request));
@@ -220,7 +222,9 @@ void ViewWindow::leave()
 
 void ViewWindow::show(LoadedCloud cloud)
 {
-  const bool keepsModel = loading_.kind != Load::New;
+  // A file that changed so much that it is placed anew is seen as a new one.
+  const bool keepsModel = loading_.kind != Load::New &&
+    cloud.placement == transformOf(scene_.modelMatrix()) && areAlike(cloud.workspace, scene_.workspace());
   const AffineTransform model = cloud.model;
   std::string message;
   if (!this->endRecording(message)) // of the former cloud
@@ -251,7 +255,7 @@ void ViewWindow::show(LoadedCloud cloud)
     clipping_.forget();
   }
   this->setSceneOptions();
-  this->adoptModel(model);
+  this->adoptModel(model, keepsModel);
   this->followOptions();
   scene_.placeAxes(style_->GetModelTransform()->GetMatrix());
   scene_.setPicture(options_.picture); // as it is by now
@@ -305,14 +309,14 @@ void ViewWindow::giveModel(vtkMatrix4x4* matrix)
 }
 
 /// Shows the cloud that was read in the frame in which it was resampled. Moves that the user made meanwhile
-/// are repeated.
-void ViewWindow::adoptModel(const AffineTransform& model)
+/// are repeated where @p keepsModel.
+void ViewWindow::adoptModel(const AffineTransform& model, bool keepsModel)
 {
   vtkNew<vtkMatrix4x4> kept;
   kept->DeepCopy(style_->GetModelTransform()->GetMatrix());
   AffineTransform keptModel;
-  const bool isMoved = loading_.kind != Load::New &&
-    affineFromTransform(style_->GetModelTransform(), keptModel) && !(keptModel == model);
+  const bool isMoved =
+    keepsModel && affineFromTransform(style_->GetModelTransform(), keptModel) && !(keptModel == model);
   vtkNew<vtkMatrix4x4> matrix;
   setElements(matrix, model);
   this->giveModel(matrix);

@@ -74,9 +74,9 @@ protected:
     const vtkSmartPointer<vtkPolyData> wall = makeWall();
     splats->SetInputData(wall);
     applyCloudAppearance(wall, splats, actor_);
-    splats->SetSizeScale(1.0);
-    splats->SetAmbientLight(true);
-    splats->SetSurfaces(true);
+    splats->Settings().sizeScale = 1.0;
+    splats->Settings().ambientLight = true;
+    splats->Settings().surfaces = true;
     actor_->SetMapper(splats);
     renderer->AddActor(actor_);
     applyBackground(renderer);

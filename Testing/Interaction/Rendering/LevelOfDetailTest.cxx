@@ -80,6 +80,7 @@ protected:
     SKIP_WITHOUT_DISPLAY();
     cloud_ = makeSphere();
     mapper_->SetInputData(cloud_);
+    mapper_->Settings().fixedPixels = 3.0;
     actor_->SetMapper(mapper_);
     applyCloudAppearance(cloud_, mapper_, actor_);
     renderer->AddActor(actor_);
@@ -87,7 +88,6 @@ protected:
     applyDepthShading(renderer);
     renderer->ResetCameraClippingRange();
     detail_.setEnabled(true);
-    detail_.setCoarsePointSize(5.0);
     begin_->SetClientData(this);
     begin_->SetCallback(
       [](vtkObject*, unsigned long, void* self, void*)
@@ -125,7 +125,7 @@ protected:
 
   double now_ = 100.0;
   vtkSmartPointer<vtkPolyData> cloud_;
-  vtkNew<vtkPolyDataMapper> mapper_;
+  vtkNew<vtkSplatMapper> mapper_;
   vtkNew<vtkActor> actor_;
   vtkNew<vtkCallbackCommand> begin_;
   LevelOfDetail detail_{ renderer, actor_ };
@@ -430,7 +430,7 @@ TEST_F(LevelOfDetailTest, LeavesOutOfThePictureAtRestWhatIsOutOfViewWithoutChang
   {
     for (const double pixels : { 0.0, 9.0 })
     {
-      splats->SetFixedPixels(pixels);
+      splats->Settings().fixedPixels = pixels;
       splats->Modified();
       camera->SetParallelProjection(parallel);
       camera->SetParallelScale(0.012);

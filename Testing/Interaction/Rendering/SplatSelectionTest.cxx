@@ -121,8 +121,8 @@ struct SplatActor
   SplatActor(vtkPolyData* input, bool surfaces, double opacity)
   {
     splats->SetInputData(input);
-    splats->SetAmbientLight(surfaces);
-    splats->SetSurfaces(surfaces);
+    splats->Settings().ambientLight = surfaces;
+    splats->Settings().surfaces = surfaces;
     actor->SetMapper(splats);
     actor->GetProperty()->SetColor(0.1, 0.4, 0.7);
     actor->GetProperty()->SetOpacity(opacity);
@@ -228,7 +228,7 @@ TEST(SplatSelection, WhatIsHiddenIsNotSelected)
     vtkNew<vtkPolyData> two;
     two->SetPoints(points);
     SplatActor cloud(two, false, 1.0);
-    cloud.splats->SetFixedPixels(30);
+    cloud.splats->Settings().fixedPixels = 30;
     SelectionWindow view(cloud.actor);
     view.renderer->ResetCamera(-0.05, 0.05, -0.05, 0.05, -0.05, 0.05);
     EXPECT_EQ(view.idsIn(0, kSelectionSize - 1, kPoints), std::set<vtkIdType>{ isNearFirst ? 0 : 1 });
@@ -246,7 +246,7 @@ TEST(SplatSelection, TranslucentSplatsAreDiscsWhereDepthsArePeeled)
   SplatActor cloud(two, false, 0.5);
   cloud.actor->GetProperty()->SetColor(0, 0, 0);
   cloud.actor->GetProperty()->SetLighting(false);
-  cloud.splats->SetFixedPixels(60);
+  cloud.splats->Settings().fixedPixels = 60;
   SelectionWindow view(cloud.actor);
   view.renderer->ResetCamera(-0.05, 0.05, -0.05, 0.05, -0.05, 0.05);
   view.renderer->SetUseDepthPeeling(true);

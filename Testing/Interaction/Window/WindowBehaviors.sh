@@ -1053,3 +1053,22 @@ KeyNShowsFilesAlone() {
   write_settings
   grep -q '"hide": "Height=:0,File=:0,File=2:"' "$settings" || fail "the second file is not alone"
 }
+
+# A little longer, it stays where it is; fifty times as large, it would fill the view with one spot.
+AGrownFileIsFittedAgain() {
+  make sphere first.csv
+  open_viewer first.csv --watch
+  write_settings
+  grow 1.05 && mv grown.csv first.csv
+  said "read again: first.csv"
+  write_settings
+  same matrix || fail "a small change moved the model"
+  same camera || fail "a small change moved the view"
+  grow 50 && mv grown.csv first.csv
+  until_true "the model keeps the fit of the small file" is_fitted_anew
+}
+grow() { awk -F, -v factor="$1" 'NR == 1 { print "x,y,z"; next } { print factor * $1 "," $2 * factor "," $3 * factor }' first.csv >grown.csv; }
+is_fitted_anew() {
+  write_settings
+  changed matrix
+}

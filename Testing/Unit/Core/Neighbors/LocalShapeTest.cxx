@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -314,6 +315,53 @@ TEST(LocalShape, EndsSoonWhereItIsAskedTo)
   ImpatientObserver observer;
   EXPECT_EQ(measureLocalShape(view, query, {}, shape, {}, &observer), Status::Aborted);
   EXPECT_LT(observer.last_, 0.5);
+}
+
+/// Discs of the reach, grown by a tenth as SplatLook draws them, leave one place in 100,000 open at most.
+TEST(LocalShape, ReachClosesTheWideGapsOfPointsAtRandom)
+{
+  trial::Random random(12);
+  std::vector<Vec3> points;
+  for (int i = 0; i < 20000; ++i)
+  {
+    points.emplace_back(random.uniform(), random.uniform(), 0.0);
+  }
+  const PointView view(points.data(), std::int64_t(points.size()));
+  NeighborQuery query;
+  query.build(view);
+  const LocalShape shape = measured(points);
+  int open = 0;
+  for (int i = 0; i < 200000; ++i)
+  {
+    const Vec3 place{ 0.1 + 0.8 * random.uniform(), 0.1 + 0.8 * random.uniform(), 0.0 };
+    Neighbor near[8];
+    const int count = query.nearest(place, 8, near);
+    open += std::none_of(near, near + count,
+      [&](const Neighbor& each)
+      {
+        const PointShape& disc = shape.points[std::size_t(each.index)];
+        return std::sqrt(each.squaredDistance) <= 1.1 * double(std::max(disc.spacing, disc.reach));
+      });
+  }
+  EXPECT_LE(open, 2);
+}
+
+TEST(LocalShape, OfAFewPointsFarFromASurfaceIsThatOfTheSurface)
+{
+  std::vector<Vec3> points = grid(60, 0.5);
+  const std::size_t first = points.size();
+  points.emplace_back(15.0, 15.0, 20.0); // alone
+  for (int i = 0; i < 9; ++i)
+  {
+    points.emplace_back(5.0 + 4.0 * (i % 3), 25.0, 10.0 + 4.0 * (i / 3)); // a sparse wall of a few
+  }
+  const LocalShape shape = measured(points);
+  for (std::size_t i = first; i < points.size(); ++i)
+  {
+    EXPECT_LT(shape.points[i].spacing, 2.5F) << i;
+    EXPECT_LT(shape.points[i].flatness * shape.points[i].reach, 1.5F) << i;
+  }
+  EXPECT_NEAR(shape.points[1830].spacing, 0.5, 0.08);
 }
 
 } // namespace
