@@ -21,11 +21,19 @@ void runBandwidth(const BandwidthCommand& options, Traffic& traffic, Job& job, F
 {
   const Piece piece = openPiece(job, options, traffic);
   vtkNew<vtkDistributedKernelBandwidthFilter> filter;
-  filter->SetInputData(piece.points);
   filter->SetSettings(options.bandwidth.settings);
-  job.attempt([&] { updateFilter(filter, "bandwidth", options.input); });
+  job.attempt(
+    [&]
+    {
+      filter->SetInputData(options.prepared(piece.points));
+      updateFilter(filter, "bandwidth", options.input);
+    });
   if (job.isRoot())
   {
+    for (const std::string& note : options.lengthNotes(piece.points))
+    {
+      warn(note);
+    }
     showWarnings();
   }
   const BandwidthFigures figures = job.ranks().reduce(bandwidthFigures(filter->GetOutput()), together);

@@ -89,8 +89,8 @@ void addRankCommand(CLI::App& program, const char* name, const char* description
     [=, &work]
     {
       nameCommand(name);
-      shared->complete(*command);
       auto files = std::make_shared<Files>();
+      shared->complete(*command, *files);
       if (takeFiles(*command, *shared, ranks, *files))
       {
         work = [run, files](Job& job) { run(job, *files); };
