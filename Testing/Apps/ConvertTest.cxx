@@ -301,7 +301,7 @@ TEST_F(Convert, TheBoundsThatInfoPrintsHoldEveryPoint)
   this->write("double.xyz",
     "0.30000000000000004 -0.7999999999999999 1234567.1\n0.1 0.1 0.1\n0.7999999999999999 0.30000000000000004 "
     "-0.30000000000000004\n");
-  this->write("float.xyz", "0.1 -0.1 0.3\n0.7 16777.21 0.9\n-0.6 -5.3 -0.3\n");
+  this->write("float.xyz", "0.1 -0.1 0.3\n0.7 16777.2 0.9\n-0.6 -5.3 -0.3\n");
   this->succeed({ "convert", "float.xyz", "-o", "float.ply" });
   for (const std::string file : { "double.xyz", "float.ply" })
   {

@@ -40,7 +40,7 @@ void checkBinding(const std::string& text)
   const CommandRegistry commands = HapticViewer::commands();
   const bool isAction = commands.get(action) != nullptr;
   requireUsage(isAction && equals != std::string::npos, "--bind", text,
-    fmt::format("{}{}; give ACTION=KEY, such as help=F1, with one of: {}",
+    fmt::format("{}{}; give ACTION=KEY, such as help=Ctrl+h, with one of: {}",
       isAction ? "no key" : "no such action", isAction ? "" : didYouMean(action, commands.names()),
       fmt::join(commands.names(), ", ")));
   std::istringstream gestures(text.substr(equals + 1));
@@ -161,7 +161,7 @@ void addWindowOptions(CLI::App& command, ViewCommand& options)
   };
   command
     .add_option_function<std::vector<std::string>>("--bind", keepBindings,
-      "Gives an action other keys or gestures, such as help=F1 or translate-model-by-hand=hand2; several "
+      "Gives an action other keys or gestures, such as help=Ctrl+h or rotate-x=Ctrl+x; several "
       "separated by commas")
     ->delimiter(',')
     ->type_name("ACTION=KEY,...");
