@@ -51,12 +51,12 @@ else ()
       TEXT "The program: viewer with haptic rendering, resampling, kernel bandwidths, conversion of files."
       DEPENDS "libpointhaptics0 ${_same}")
   endif ()
-  # Apart, as the plain program needs no mpirun. It shares the library of the commands with that.
+  # Apart, as the plain program needs no mpirun. The library of the commands, which it shares with that, is in runtime.
   if (TARGET pointhaptics-mpi)
     pointhaptics_package(mpi pointhaptics-mpi SECTION science
       SUMMARY "See and feel raw point clouds: on many processes"
       TEXT "The program pointhaptics-mpi: resampling and kernel bandwidths under mpirun."
-      DEPENDS "pointhaptics ${_same}" "libpointhaptics0 ${_same}" "libpointhaptics-mpi0 ${_same}" RECOMMENDS "openmpi-bin | mpi-default-bin")
+      DEPENDS "libpointhaptics0 ${_same}" "libpointhaptics-mpi0 ${_same}" RECOMMENDS "openmpi-bin | mpi-default-bin")
   endif ()
   pointhaptics_package(runtime libpointhaptics0 SECTION libs
     SUMMARY "See and feel raw point clouds: libraries"

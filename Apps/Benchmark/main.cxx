@@ -76,7 +76,7 @@ struct Options
 
 void printLine(const Json& line)
 {
-  fmt::print("{}\n", line.dump());
+  fmt::print("{}\n", jsonText(line));
   std::fflush(stdout);
 }
 
@@ -204,22 +204,11 @@ int runBench(std::vector<std::string> arguments)
     "line; Documentation/MakeTables.py makes tables and pictures of them.",
     "pointhaptics-bench");
   int exitCode = kSuccess;
-  std::vector<std::string> names;
   for (const Task& task : allTasks())
   {
     addTask(program, task, exitCode);
-    names.push_back(task.name);
   }
   addManPage(program);
-  if (arguments.empty() ||
-    (arguments.front() != "manual" && arguments.front().rfind("-", 0) != 0 &&
-      std::find(names.begin(), names.end(), arguments.front()) == names.end()))
-  {
-    const std::string what = arguments.empty() ? "name a task" : "no task '" + arguments.front() + "'";
-    return failUsage("pointhaptics-bench",
-      fmt::format("{}{}; tasks are {}", what, arguments.empty() ? "" : didYouMean(arguments.front(), names),
-        fmt::join(names, ", ")));
-  }
   return runCommands(program, std::move(arguments), exitCode);
 }
 

@@ -71,9 +71,10 @@ void Job::attempt(const std::function<void()>& work)
   }
   const bool isEverywhere =
     std::all_of(problems.begin(), problems.end(), [&](const std::string& text) { return text == *first; });
-  if (first - problems.begin() == ranks_.rank())
+  if (this->isRoot())
   {
-    fail(isEverywhere ? problem : fmt::format("rank {} of {}: {}", ranks_.rank(), ranks_.size(), problem));
+    fail(isEverywhere ? *first
+                      : fmt::format("rank {} of {}: {}", first - problems.begin(), ranks_.size(), *first));
   }
   throw EndOfJob();
 }

@@ -30,8 +30,8 @@ public:
 
   MpiRanks& ranks() { return ranks_; }
   bool isRoot() const { return ranks_.rank() == 0; }
-  /// Does @p work on this rank. Where one throws a Failure the first that did prints it as fail() does, and
-  /// says which rank it is where not all have the same. @throws EndOfJob on all ranks then.
+  /// Does @p work on this rank. Where one throws a Failure rank 0 prints that of the first as fail() does,
+  /// and says which rank it is where not all have the same. @throws EndOfJob on all ranks then.
   void attempt(const std::function<void()>& work);
   /// Returns the largest exit code of all ranks: each ends with it. The last exchange of a job.
   int finish(int exitCode);

@@ -230,9 +230,17 @@ void runBandwidth(RankRun<BandwidthCommand>& run)
 {
   const vtkSmartPointer<vtkPolyData> piece = run.readPiece();
   vtkNew<vtkDistributedKernelBandwidthFilter> filter;
-  filter->SetInputData(piece);
   filter->SetSettings(run.options.bandwidth.settings);
-  run.job.attempt([&] { updateFilter(filter, "bandwidth", run.options.input); });
+  run.job.attempt(
+    [&]
+    {
+      filter->SetInputData(run.options.prepared(piece));
+      updateFilter(filter, "bandwidth", run.options.input);
+    });
+  for (const std::string& note : run.options.lengthNotes(piece))
+  {
+    warn(run.job.isRoot() ? note : "");
+  }
   const BandwidthFigures figures = run.job.ranks().reduce(bandwidthFigures(filter->GetOutput()), together);
   run.finish(filter->GetOutput(), figures, filter->GetNumberOfBytesSent(), [] {});
 }
@@ -279,8 +287,8 @@ void addRankCommand(CLI::App& program, const char* name, const char* description
     [=, &work]
     {
       nameCommand(name);
-      options->complete(*command);
       auto files = std::make_shared<Files>();
+      options->complete(*command, *files);
       if (takeFiles(*command, *options, ranks, *files))
       {
         work = [=](Job& job)

@@ -8,7 +8,6 @@
 
 #include <CLI/CLI.hpp>
 
-#include <cstdio>
 #include <limits>
 #include <string>
 #include <vector>
@@ -22,42 +21,15 @@ namespace
 
 using namespace pointhaptics::app;
 
-/// Silences all ranks but one: help, version and usage errors are the same on all.
-class Silence
+/// Sends what is written to @p stream from here on nowhere. @return a descriptor of where it went before.
+int silence(int stream)
 {
-public:
-  explicit Silence(bool isWanted)
-  {
-    const int nowhere = isWanted ? open("/dev/null", O_WRONLY | O_CLOEXEC) : -1;
-    for (int stream = 0; stream < 2 && nowhere >= 0; ++stream)
-    {
-      std::fflush(stream == 0 ? stdout : stderr);
-      kept_[stream] = dup(stream + 1);
-      dup2(nowhere, stream + 1);
-    }
-    if (nowhere >= 0)
-    {
-      close(nowhere);
-    }
-  }
-  ~Silence()
-  {
-    for (int stream = 0; stream < 2; ++stream)
-    {
-      std::fflush(stream == 0 ? stdout : stderr);
-      if (kept_[stream] >= 0)
-      {
-        dup2(kept_[stream], stream + 1);
-        close(kept_[stream]);
-      }
-    }
-  }
-  Silence(const Silence&) = delete;
-  Silence& operator=(const Silence&) = delete;
-
-private:
-  int kept_[2] = { -1, -1 };
-};
+  const int before = dup(stream);
+  const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
+  dup2(nowhere, stream);
+  close(nowhere);
+  return before;
+}
 
 /// Keeps freed memory for the next allocation. Ranks send and receive their sums in large pieces one after
 /// the other; the system would clear the memory for each anew, which takes longer than filling it.
@@ -76,11 +48,11 @@ int run(Job& job, std::vector<std::string> arguments)
   addMpiCommands(program, job.ranks().size(), work);
   addManPage(program);
   int exitCode = kSuccess;
-  int parsed = kSuccess;
-  {
-    const Silence silence(!job.isRoot());
-    parsed = runCommands(program, std::move(arguments), exitCode);
-  }
+  // Help, version and usage errors are the same on all ranks.
+  const int errors = job.isRoot() ? dup(STDERR_FILENO) : silence(STDERR_FILENO);
+  const int parsed = runCommands(program, std::move(arguments), exitCode);
+  dup2(errors, STDERR_FILENO);
+  close(errors);
   const int ofAll = job.ranks().reduce(parsed != kSuccess ? parsed
       : work                                              ? -1
                                                           : kSuccess,
@@ -107,6 +79,10 @@ int main(int argc, char* argv[])
   nameProgram("pointhaptics-mpi");
   keepFreedMemory();
   Job job(&argc, &argv);
+  if (!job.isRoot())
+  {
+    close(silence(STDOUT_FILENO)); // figures and JSON are rank 0's
+  }
   const std::vector<std::string> arguments(argv + 1, argv + argc);
   return runProgram(arguments, [&] { return job.finish(run(job, arguments)); });
 }

@@ -121,8 +121,9 @@ std::string unlikelyPlaces(const Bounds& path, const Bounds& cloud, const UnitNa
   const double far = std::max(ofPath, ofCloud);
   const double near = std::min(ofPath, ofCloud);
   std::vector<Unit> units = likelyUnits(far, std::max(near, kLeastTravel));
-  units.erase(std::remove_if(units.begin(), units.end(),
-                [&](const Unit& unit) { return !areNear(unit.factor * far, near); }),
+  units.erase(
+    std::remove_if(units.begin(), units.end(),
+      [&](const Unit& unit) { return unit.factor * far > kReach || kNear * unit.factor * far < near; }),
     units.end());
   return far > kReach && near > kLeastTravel && !units.empty() ? "the cloud reaches " +
       lengthText(ofCloud, 2) + " from the origin and the path " + lengthText(ofPath, 2) + "; " +

@@ -2,11 +2,13 @@
 
 #include "vtkAbstractTransform.h"
 #include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
 #include "vtkFloatArray.h"
 #include "vtkHomogeneousTransform.h"
 #include "vtkMatrix4x4.h"
 #include "vtkNew.h"
 #include "vtkPoints.h"
+#include "vtkPolyData.h"
 
 #include <algorithm>
 #include <array>
@@ -92,6 +94,26 @@ AffineTransform transformOf(const vtkMatrix4x4* matrix)
     }
   }
   return transform;
+}
+
+std::optional<Lattice> latticeOf(vtkPolyData* means)
+{
+  vtkFieldData* fields = means->GetFieldData();
+  vtkDataArray* origin = fields->GetArray("LatticeOrigin");
+  vtkDataArray* spacing = fields->GetArray("LatticeSpacing");
+  vtkDataArray* dimensions = fields->GetArray("LatticeDimensions");
+  if (!origin || !spacing || !dimensions)
+  {
+    return std::nullopt;
+  }
+  Lattice lattice;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    lattice.origin[axis] = origin->GetComponent(0, axis);
+    lattice.spacing[axis] = spacing->GetComponent(0, axis);
+    lattice.dimensions[std::size_t(axis)] = std::int64_t(dimensions->GetComponent(0, axis));
+  }
+  return lattice;
 }
 
 namespace

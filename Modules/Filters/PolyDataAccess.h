@@ -10,12 +10,14 @@
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
 
+#include <optional>
 #include <string>
 
 class vtkAbstractTransform;
 class vtkDataArray;
 class vtkMatrix4x4;
 class vtkPoints;
+class vtkPolyData;
 
 namespace pointhaptics
 {
@@ -38,6 +40,8 @@ private:
 bool affineFromTransform(vtkAbstractTransform* transform, AffineTransform& result);
 /// Null gives the identity. @return empty, or why @p transform is of no use.
 std::string readTransform(vtkAbstractTransform* transform, AffineTransform& result);
+/// The lattice that vtkVoxelMeanResampler says in the field data of its output; nothing where it says none.
+std::optional<Lattice> latticeOf(vtkPolyData* means);
 /// Why makeLattice() gave @p status for @p settings.
 std::string latticeProblem(const LatticeSettings& settings, Status status);
 

@@ -210,28 +210,6 @@ void mergeFieldData(
   }
 }
 
-/// A cloud that says it is in the unit of @p to, and is.
-vtkSmartPointer<vtkPolyData> converted(vtkPolyData* cloud, double factor, vtkPolyData* to)
-{
-  auto result = vtkSmartPointer<vtkPolyData>::New();
-  result->ShallowCopy(cloud);
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  points->SetNumberOfPoints(cloud->GetNumberOfPoints());
-  for (vtkIdType i = 0; i < cloud->GetNumberOfPoints(); ++i)
-  {
-    double p[3];
-    cloud->GetPoint(i, p);
-    points->SetPoint(i, p[0] * factor, p[1] * factor, p[2] * factor);
-  }
-  result->SetPoints(points);
-  vtkNew<vtkFieldData> fields;
-  fields->ShallowCopy(cloud->GetFieldData());
-  fields->AddArray(to->GetFieldData()->GetAbstractArray("LengthUnit"));
-  result->SetFieldData(fields);
-  return result;
-}
-
 /// The clouds in the unit of the first one that says one; none where that cannot be.
 std::vector<vtkSmartPointer<vtkPolyData>> inOneUnit(const std::vector<vtkPolyData*>& clouds,
   const std::vector<std::string>& names, std::vector<std::string>& notes)
@@ -257,13 +235,12 @@ std::vector<vtkSmartPointer<vtkPolyData>> inOneUnit(const std::vector<vtkPolyDat
     result.emplace_back(clouds[i]);
     if (isSaid && factor != 1.0)
     {
-      result.back() = converted(clouds[i], factor, first);
+      result.back() = scaledCloud(clouds[i], factor, fieldText(first->GetFieldData(), "LengthUnit"));
     }
     if (isUnlike)
     {
       notes.push_back(fmt::format("the coordinates of {} are converted from {} to {}", inQuotes(names[i]),
                         own.name, unit.name) +
-        (own.name == unit.name ? fmt::format(" of {} m", unit.metres) : "") +
         (clouds[i]->GetPointData()->GetNumberOfArrays() > 0 ? ", its arrays are not" : ""));
     }
   }

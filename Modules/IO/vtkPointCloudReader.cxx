@@ -132,12 +132,17 @@ bool canBeCut(const std::string& start, std::size_t size, const std::string& ext
   return !io::isUtf16(start) && !isQuoted && format.isReadInParts;
 }
 
-/// Takes away the points outside the box that is wanted, with their values in all arrays.
+/// Takes away the points outside the box that is wanted, with their values in all arrays. Among floats its
+/// ends are floats, too: 0.2 is no less than the 0.2 of a point.
 void keepInside(const io::ReadTask& task, vtkPolyData* cloud)
 {
-  const std::array<double, 6>& box = task.wanted.box;
+  std::array<double, 6> box = task.wanted.box;
   vtkNew<vtkIdList> kept;
   vtkPoints* points = cloud->GetPoints();
+  for (double& end : box)
+  {
+    end = points->GetDataType() == VTK_FLOAT ? double(float(end)) : end;
+  }
   for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
   {
     double at[3];

@@ -351,4 +351,11 @@ TEST_F(Bench, ServoLoopRunsOnlyTheRowsThatWereAskedFor)
     { "1000 Hz only", "--rates" });
 }
 
+TEST_F(Bench, AMisspeltTaskIsToldWhichIsMeant)
+{
+  this->refuse(
+    2, { "bench", "resampel" }, { "pointhaptics-bench: no command 'resampel'; did you mean resample?" });
+  this->refuse(2, { "bench" }, { "nothing to do; commands are bandwidth, resample" });
+}
+
 } // namespace

@@ -2,10 +2,12 @@
 
 #include "../Unit/IO/E57/E57File.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <cstdio>
 
 namespace
 {
@@ -219,8 +221,8 @@ TEST_F(Convert, FeetThatDifferAreConvertedWithAWord)
   this->write("survey.vtp", cloudIn("US survey foot"));
   const auto outcome = this->run({ "convert", "foot.vtp", "survey.vtp", "--merge", "-o", "all.csv" });
   EXPECT_EQ(outcome.exitCode, 0) << outcome.errors;
-  EXPECT_NE(outcome.errors.find("'survey.vtp' are converted from ft to ft of 0.3048 m, its arrays are not"),
-    std::string::npos)
+  EXPECT_NE(
+    outcome.errors.find("'survey.vtp' are converted from us-ft to ft, its arrays are not"), std::string::npos)
     << outcome.errors;
   EXPECT_NE(this->read("all.csv").find("\n3000006"), std::string::npos) << this->read("all.csv");
 }
@@ -245,6 +247,77 @@ TEST_F(Convert, AFileThatIsMergedTwiceIsSaid)
   const auto outcome = this->run({ "convert", "a.csv", "link.csv", "--merge", "-o", "all.csv" });
   EXPECT_EQ(outcome.exitCode, 0) << outcome.errors;
   EXPECT_NE(outcome.errors.find("link.csv: is the same file as a.csv"), std::string::npos) << outcome.errors;
+}
+
+TEST_F(Convert, LengthsAreInTheUnitOfTheFileOrInMetresAndThatIsSaid)
+{
+  std::string cloud = "x [mm],y [mm],z [mm]\n";
+  for (int i = 0; i < 100; ++i)
+  {
+    cloud += fmt::format("{},{},0\n", i % 10, i / 10);
+  }
+  this->write("mm.csv", cloud);
+  const auto radii = [&](std::vector<std::string> words, const std::string& said)
+  {
+    words.insert(words.begin(), { "bandwidth", "mm.csv", "-o", "out.csv", "--density", "none" });
+    const auto outcome = this->run(words);
+    EXPECT_EQ(outcome.exitCode, 0) << outcome.errors;
+    EXPECT_NE((outcome.errors + outcome.output).find(said), std::string::npos)
+      << said << ": " << outcome.errors << outcome.output;
+    return parseTable(this->read("out.csv")).at("ProxyRadius");
+  };
+  const std::string word = "--radius 3.5 is 3.5 mm, the unit of the file; --unit mm makes metres of both";
+  const std::vector<double> millimetres = radii({ "--radius", "3.5" }, word);
+  const std::vector<double> metres = radii({ "--unit", "mm", "--radius", "0.0035" }, "proxy radius 0.00");
+  ASSERT_EQ(metres.size(), 100u);
+  for (std::size_t i = 0; i < metres.size(); ++i)
+  {
+    EXPECT_NEAR(1e3 * metres[i], millimetres.at(i), 1e-9);
+  }
+  radii({ "--unit", "mm", "--radius", "0.0035" }, "out.csv, in metres\n");
+  radii({ "--r2", "3" }, "--r2 3 is 3 mm, the unit of the file");
+  EXPECT_EQ(this->succeed({ "resample", "mm.csv", "--unit", "mm", "-o", "out.csv" }),
+    "100 points in, 100 out, 0 clipped, 0 invalid: out.csv, in metres\n");
+}
+
+TEST_F(Convert, FeetOfTheUsSurveyAreFeetOfTheirOwn)
+{
+  this->write(
+    "feet.csv", "x [US survey foot],y [US survey foot],z [US survey foot]\n3937000,0,0\n0,3937000,1\n");
+  for (const std::string file : { "feet.ply", "feet.pcd", "feet.vtp", "feet.las", "feet.xyz", "again.csv" })
+  {
+    this->succeed({ "convert", "feet.csv", "-o", file });
+    const std::string text = this->succeed({ "info", file });
+    EXPECT_NE(text.find("US survey foot (the file says so)"), std::string::npos) << text;
+    EXPECT_NE(text.find("--unit us-ft as the file says"), std::string::npos) << text;
+    this->succeed({ "resample", file, "--unit", "us-ft", "-o", "m.csv", "--force" });
+    EXPECT_NE(this->read("m.csv").find("\n1200000,"), std::string::npos) << this->read("m.csv");
+  }
+}
+
+TEST_F(Convert, TheBoundsThatInfoPrintsHoldEveryPoint)
+{
+  // Neighbours of decimal numbers, as sums of steps make them; and floats, which --clip reads as doubles.
+  this->write("double.xyz",
+    "0.30000000000000004 -0.7999999999999999 1234567.1\n0.1 0.1 0.1\n0.7999999999999999 0.30000000000000004 "
+    "-0.30000000000000004\n");
+  this->write("float.xyz", "0.1 -0.1 0.3\n0.7 16777.2 0.9\n-0.6 -5.3 -0.3\n");
+  this->succeed({ "convert", "float.xyz", "-o", "float.ply" });
+  for (const std::string file : { "double.xyz", "float.ply" })
+  {
+    const std::string text = this->succeed({ "info", file });
+    char words[6][40];
+    ASSERT_EQ(
+      std::sscanf(text.c_str() + text.find("bounds"), "bounds x %39s .. %39s y %39s .. %39s z %39s .. %39s",
+        words[0], words[1], words[2], words[3], words[4], words[5]),
+      6)
+      << text;
+    const std::string box =
+      fmt::format("{},{},{},{},{},{}", words[0], words[1], words[2], words[3], words[4], words[5]);
+    EXPECT_EQ(
+      this->succeed({ "convert", file, "-o", "part.ply", "--clip", box, "--force" }), "3 points: part.ply\n")
+      << text;
+  }
 }
 
 } // namespace

@@ -443,4 +443,32 @@ TEST_F(Outputs, OfJsonSayErrors)
   EXPECT_EQ(json::parse(this->run({ "resample", "a.ply", "-o", "x.doc", "--json" }).output)["exit_code"], 2);
 }
 
+TEST_F(Outputs, OfEndedRunsAreNamedWhereTheyAreMissed)
+{
+  this->write("kill.csv.part", "t,hip_x\n");
+  for (const Words& words :
+    { Words{ "feel", "--replay", "kill.csv", "-o", "o.csv" }, { "compare", "kill.csv" },
+      { "info", "kill.csv" }, { "view", "--replay", "kill.csv", "--trace", "t.csv" } })
+  {
+    this->refuse(
+      1, words, { "kill.csv: there is no such file, but what an ended run kept of it: give kill.csv.part" });
+  }
+}
+
+TEST_F(Outputs, OfAllCloudCommandsNameTheirInputs)
+{
+  this->write("a.xyz", "0 0 0\n0 0 1\n0 1 0\n");
+  this->write("b.xyz", "1 0 0\n1 0 1\n1 1 0\n");
+  for (const std::string command : { "resample", "bandwidth", "convert" })
+  {
+    const json one = json::parse(this->succeed({ command, "a.xyz", "-o", "o.ply", "--json" }));
+    EXPECT_EQ(one["input"], "a.xyz");
+    EXPECT_EQ(one["inputs"], json::array({ "a.xyz" }));
+    const json both =
+      json::parse(this->succeed({ command, "a.xyz", "b.xyz", "--merge", "-o", "o.ply", "--json" }));
+    EXPECT_EQ(both["inputs"], json::array({ "a.xyz", "b.xyz" })) << command;
+    EXPECT_EQ(both["output"], "o.ply");
+  }
+}
+
 } // namespace

@@ -13,6 +13,7 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -505,6 +506,25 @@ TEST_F(RecordingCommands, AHandThatWasFoundAnewTouchesNothingOnItsWayInAPath)
   EXPECT_GT(contacts(""), 20);
   EXPECT_EQ(contacts("# tick 101: new-hand\n"), 0);
   EXPECT_NE(this->read("rec.csv").find("# tick 101: new-hand"), std::string::npos);
+}
+
+TEST_F(RecordingCommands, ARecordingComesThroughAPipeAsWell)
+{
+  this->succeed({ "generate", "sphere", "-n", "5000", "-o", "sphere.ply" });
+  this->write("hip.csv", "t,x,y,z\n0,0,0,0.03\n0.05,0,0,0.019\n");
+  this->succeed({ "feel", "sphere.ply", "--path", "hip.csv", "-o", "out.csv", "--record", "rec.csv" });
+  const std::string expected = felt(this->read("out.csv"));
+  const auto expectSame = [&](const std::vector<std::string>& words)
+  {
+    const apptest::InputFrom input(this->path("rec.csv"));
+    this->succeed(words);
+    EXPECT_EQ(felt(this->read("again.csv")), expected) << words.front();
+    std::filesystem::remove(this->path("again.csv"));
+  };
+  expectSame({ "feel", "--replay", "-", "-o", "again.csv" });
+  expectSame({ "view", "--replay", "-", "--trace", "again.csv" });
+  expectSame({ "view", "--replay", "-", "sphere.ply", "--trace", "again.csv" });
+  expectSame({ "feel", "--replay", "/dev/stdin", "sphere.ply", "-o", "again.csv" });
 }
 
 } // namespace

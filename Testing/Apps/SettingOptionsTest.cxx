@@ -60,7 +60,8 @@ struct Parsed
     arguments.insert(arguments.begin(), "cloud.ply");
     std::reverse(arguments.begin(), arguments.end());
     command.parse(arguments);
-    options.complete(command);
+    Files files;
+    options.complete(command, files);
   }
 
   CLI::App command{ "", "view" };

@@ -76,7 +76,7 @@ TEST_F(Usage, HelpNamesTheKeysThatAreBound)
 TEST_F(Usage, NothingOrNoCommandIsAUsageError)
 {
   this->refuse(2, {}, { "--help" });
-  this->refuse(2, { "resampel", "in.ply" }, { "'resampel'", "resample", "--help" });
+  this->refuse(2, { "resampel", "in.ply" }, { "'resampel'; did you mean resample?", "--help" });
   this->refuse(2, { "resample" }, { "pointhaptics resample: ", "IN", "--help" });
   this->refuse(2, { "resample", "in.ply" }, { "--output", "--help" });
   this->refuse(2, { "feel", "in.ply", "-o", "out.csv" }, { "--path" });
@@ -347,15 +347,66 @@ TEST_F(Usage, TheBeginningOfALongWordFindsIt)
 
 TEST_F(Usage, TheProgramStartsWithoutTheLibrariesOfPictures)
 {
-  setenv("LD_TRACE_LOADED_OBJECTS", "1", 1); // the loader lists what it would load, and ends
+  setenv("LD_DEBUG", "files", 1); // the loader lists on stderr what it loads
   const Outcome listed = this->run({ "--version" });
-  unsetenv("LD_TRACE_LOADED_OBJECTS");
-  if (listed.output.find("libpointhaptics_program") == std::string::npos)
+  unsetenv("LD_DEBUG");
+  if (listed.errors.find("libpointhaptics_program") == std::string::npos)
   {
     GTEST_SKIP() << "the libraries are part of the program";
   }
-  EXPECT_EQ(listed.output.find("libvtkRendering"), std::string::npos) << listed.output;
-  EXPECT_EQ(listed.output.find("libPointHapticsViewer"), std::string::npos) << listed.output;
+  EXPECT_EQ(listed.errors.find("libvtkRendering"), std::string::npos) << listed.errors;
+  EXPECT_EQ(listed.errors.find("libPointHapticsViewer"), std::string::npos) << listed.errors;
+}
+
+TEST_F(Usage, AStandardOutputThatIsFullIsSaidOnce)
+{
+  const int full = ::open("/dev/full", O_WRONLY);
+  ASSERT_GE(full, 0);
+  this->makeInputs();
+  for (const Words& words :
+    { Words{ "manual", "man" }, { "info", "in.ply" }, { "info", "in.ply", "--json" }, { "--version" } })
+  {
+    const Outcome outcome = this->finish(this->start(words, full));
+    EXPECT_EQ(outcome.exitCode, 1) << words.front();
+    EXPECT_EQ(std::count(outcome.errors.begin(), outcome.errors.end(), '\n'), 1) << outcome.errors;
+    EXPECT_NE(outcome.errors.find("the standard output cannot be written"), std::string::npos)
+      << outcome.errors;
+  }
+  ::close(full);
+}
+
+TEST_F(Usage, ACommandThatLosesItsOnlyKeyIsSaid)
+{
+  this->makeInputs();
+  const auto errorsOf = [this](const std::string& bindings) {
+    return this->run({ "view", "in.ply", "--bind", bindings, "--write-config", "c.json", "--force" }).errors;
+  };
+  EXPECT_NE(errorsOf("help=q").find("--bind takes q, all the keys it has, from quit"), std::string::npos)
+    << errorsOf("help=q");
+  EXPECT_EQ(errorsOf("help=q,quit=Ctrl+q"), "");
+  EXPECT_EQ(errorsOf("help=q,quit="), "");
+}
+
+TEST_F(Usage, NamesThatAreNoUtf8AreKeptAsFarAsTheyCanBe)
+{
+  this->makeInputs();
+  const std::string cloud = "f\xfcr.ply";
+  const std::string path = "h\xe4nd.csv";
+  std::filesystem::rename(this->path("in.ply"), this->path(cloud));
+  std::filesystem::rename(this->path("hip.csv"), this->path(path));
+  const auto said = [this](const Words& words)
+  {
+    const Outcome outcome = this->run(words);
+    EXPECT_EQ(outcome.exitCode, 0) << words.front() << ": " << outcome.errors;
+    return nlohmann::json::parse(outcome.output, nullptr, false);
+  };
+  EXPECT_FALSE(said({ "info", cloud, "--json" }).is_discarded());
+  EXPECT_FALSE(said({ "convert", cloud, "-o", "{stem}.csv", "--json" }).is_discarded());
+  const Words feel = { "feel", cloud, "--path", path, "--record", "r\xe9.csv", "-o", "o\xf6.csv", "--json" };
+  EXPECT_FALSE(said(feel).is_discarded());
+  EXPECT_FALSE(said({ "feel", "--replay", "r\xe9.csv", "-o", "again.csv", "--json" }).is_discarded());
+  EXPECT_FALSE(said({ "view", cloud, "--path", path, "--write-config", "-" }).is_discarded());
+  EXPECT_EQ(this->run({ "view", cloud, "--path", path, "--trace", "t\xe4.csv" }).exitCode, 0);
 }
 
 } // namespace

@@ -60,22 +60,22 @@ const std::map<std::string, std::string>& valuesOfOptions()
     { "--size", "320x240" }, { "--path", "hip.csv" }, { "--device", "none" },
     { "--falcon-firmware", "image.bin" }, { "--max-force", "3" }, { "--up", "y" }, { "--color-by", "Height" },
     { "--point-size", "4" }, { "--resolution", "0.5" }, { "--columns", "x,y,z" }, { "--salvage", "" },
-    { "--vertices", "" }, { "--bind", "help=F1 F2,rotate-x=Ctrl+x" }, { "--camera", "0,0,1,0,0,0,0,1,0" },
-    { "--push-pointer", "" }, { "--axes", "" }, { "--figure", "" }, { "--ambient", "" }, { "--felt", "" },
-    { "--full-screen", "" }, { "--sound", "" }, { "--projection", "parallel" }, { "--background", "white" },
-    { "--theme", "high-contrast" }, { "--stereo", "red-blue" }, { "--point-scale", "2" },
-    { "--edl-strength", "0.5" }, { "--font-scale", "1.5" }, { "--color-map", "greys" },
-    { "--color-range", "1,2" }, { "--measure", "0,0,0,1,1,1" },
-    { "--hide", "Classification=7,intensity=:20" }, { "--clip", "0,1,0,1,0,1" },
-    { "--screenshot-size", "4000x3000" }, { "--transparent", "" }, { "--kind", "terrain" },
-    { "--ideal", "torus" }, { "--method", "gradient-steps" }, { "--preset", "paper" },
-    { "--stiffness", "500" }, { "--damping", "1.5" }, { "--mu-s", "0.5" }, { "--force-limit", "3" },
-    { "--mu-d", "0.25" }, { "--no-covariance", "" }, { "--neighbors", "20" }, { "--radius", "0.002" },
-    { "--rule", "scott" }, { "--beta", "3" }, { "--r1", "0.001" }, { "--r2", "0.01" }, { "--smooth", "" },
-    { "--dims", "100,50,25" }, { "--voxel", "0.002" }, { "--workspace", "0,1,0,1,0,1" },
-    { "--scale", "1,2,3" }, { "--rotate", "30,0,0,1" }, { "--translate", "0,0,0.5" },
-    { "--matrix", "2,0,0,0,0,2,0,0,0,0,2,0,0,0,0,1" }, { "--unit", "mm" }, { "--path-unit", "mm" },
-    { "--path-time-unit", "ms" } };
+    { "--vertices", "" }, { "--bind", "help=Ctrl+h Ctrl+j,rotate-x=Ctrl+x" },
+    { "--camera", "0,0,1,0,0,0,0,1,0" }, { "--push-pointer", "" }, { "--axes", "" }, { "--figure", "" },
+    { "--ambient", "" }, { "--felt", "" }, { "--full-screen", "" }, { "--sound", "" },
+    { "--projection", "parallel" }, { "--background", "white" }, { "--theme", "high-contrast" },
+    { "--stereo", "red-blue" }, { "--point-scale", "2" }, { "--edl-strength", "0.5" },
+    { "--font-scale", "1.5" }, { "--color-map", "greys" }, { "--color-range", "1,2" },
+    { "--measure", "0,0,0,1,1,1" }, { "--hide", "Classification=7,intensity=:20" },
+    { "--clip", "0,1,0,1,0,1" }, { "--screenshot-size", "4000x3000" }, { "--transparent", "" },
+    { "--kind", "terrain" }, { "--ideal", "torus" }, { "--method", "gradient-steps" },
+    { "--preset", "paper" }, { "--stiffness", "500" }, { "--damping", "1.5" }, { "--mu-s", "0.5" },
+    { "--force-limit", "3" }, { "--mu-d", "0.25" }, { "--no-covariance", "" }, { "--neighbors", "20" },
+    { "--radius", "0.002" }, { "--rule", "scott" }, { "--beta", "3" }, { "--r1", "0.001" },
+    { "--r2", "0.01" }, { "--smooth", "" }, { "--dims", "100,50,25" }, { "--voxel", "0.002" },
+    { "--workspace", "0,1,0,1,0,1" }, { "--scale", "1,2,3" }, { "--rotate", "30,0,0,1" },
+    { "--translate", "0,0,0.5" }, { "--matrix", "2,0,0,0,0,2,0,0,0,0,2,0,0,0,0,1" }, { "--unit", "mm" },
+    { "--path-unit", "mm" }, { "--path-time-unit", "ms" } };
   return values;
 }
 
@@ -130,7 +130,7 @@ TEST_F(ViewConfiguration, HasEveryOptionOfTheProgram)
 TEST_F(ViewConfiguration, RefusesBindingsAndCamerasThatCannotBe)
 {
   this->refuse(2, { "view", "in.ply", "--bind", "hepl=F1" }, { "--bind hepl=F1", "no such action", "help," });
-  this->refuse(2, { "view", "in.ply", "--bind", "help" }, { "--bind help", "no key", "help=F1" });
+  this->refuse(2, { "view", "in.ply", "--bind", "help" }, { "--bind help", "no key", "help=Ctrl+h" });
   this->refuse(2, { "view", "in.ply", "--bind", "help=Alt+F1" }, { "Alt+F1", "Ctrl+z" });
   this->refuse(2, { "view", "in.ply", "--camera", "0,0,1,0,0,0,0,0,2" }, { "no view", "upward" });
   this->refuse(2, { "view", "in.ply", "--camera", "0,0,1" }, { "3 numbers", "9" });

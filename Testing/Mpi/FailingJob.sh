@@ -60,6 +60,13 @@ exec "$MPI_PROGRAM" bandwidth large.ply -o out.ply --neighbors 500'
     expect_end 2 "standard input" "$MPIRUN" -n 2 "$MPI_PROGRAM" resample - -o out.ply
     expect_end 2 "pointhaptics-mpi resample: " "$MPIRUN" -n 2 "$MPI_PROGRAM" resample idol.ply -o out.ply --dims 0
     (($(grep -c "^pointhaptics-mpi" output) == 1)) || fault "more than one message: $(cat output)"
+    # One JSON object a run, not one a rank.
+    for words in "resample absent.ply -o out.ply" "bandwidth idol.ply -o out.xls" "resampel idol.ply -o out.ply"; do
+      # shellcheck disable=SC2086 # several words
+      ! "$MPIRUN" -n 3 "$MPI_PROGRAM" $words --json >json 2>output || fault "$words: no error"
+      (($(wc -l <json) == 1)) && grep -q '^{"error":"[^"].*"exit_code":[12]}$' json || fault "$words: $(cat json)"
+    done
+    grep -q "no command 'resampel'; did you mean resample?" output || fault "$(cat output)"
     ;;
   *) fault "unknown case $1" ;;
 esac

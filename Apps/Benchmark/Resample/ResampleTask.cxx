@@ -5,6 +5,7 @@
 #include "Benchmark/Tasks.h"
 #include "Options/OptionParsing.h"
 
+#include "PolyDataAccess.h"
 #include "vtkVoxelMeanResampler.h"
 
 #include "Core/Base/PointView.h"
@@ -14,7 +15,6 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <vtkDataArray.h>
-#include <vtkFieldData.h>
 #include <vtkFloatArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -210,20 +210,14 @@ public:
   {
     ResampleAnswer answer;
     vtkPolyData* output = filter_->GetOutput();
-    vtkFieldData* field = output->GetFieldData();
+    const std::optional<Lattice> lattice = latticeOf(output);
     vtkDataArray* counts = output->GetPointData()->GetArray("VoxelPointCount");
-    if (!field->GetArray("LatticeOrigin") || !counts)
+    if (!lattice || !counts)
     {
       answer.fault = "no result";
       return answer;
     }
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      const auto of = [&](const char* name) { return field->GetArray(name)->GetComponent(0, axis); };
-      answer.lattice.origin[axis] = of("LatticeOrigin");
-      answer.lattice.spacing[axis] = of("LatticeSpacing");
-      answer.lattice.dimensions[std::size_t(axis)] = std::int64_t(of("LatticeDimensions"));
-    }
+    answer.lattice = *lattice;
     for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
     {
       const double* p = output->GetPoint(i);

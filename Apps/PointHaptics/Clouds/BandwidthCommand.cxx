@@ -4,6 +4,7 @@
 #include "Options/OptionParsing.h"
 #include "Terminal/Messages.h"
 
+#include "IO/Info/LengthUnit.h"
 #include "vtkKernelBandwidthFilter.h"
 
 #include <CLI/CLI.hpp>
@@ -22,6 +23,7 @@ void BandwidthCommand::addTo(CLI::App& command)
 {
   CloudCommand::addTo(command);
   this->bandwidth.addTo(command);
+  addUnit(command, this->unit);
   BandwidthSettings& settings = this->bandwidth.settings;
   settings.computeDensity = true;
   const auto keep = [&settings](std::size_t kernel)
@@ -64,19 +66,29 @@ BandwidthFigures together(const BandwidthFigures& a, const BandwidthFigures& b)
 CloudResult BandwidthCommand::result(const BandwidthFigures& figures) const
 {
   require(figures.invalid < figures.points, noFinitePoint(this->input, figures.points));
-  return { fmt::format("{}, {} invalid, proxy radius {:.6g} to {:.6g}: {}", countOfPoints(figures.points),
-             figures.invalid, figures.smallestRadius, figures.largestRadius, this->output),
-    { { "input", this->input }, { "output", this->output }, { "points", figures.points },
-      { "points_invalid", figures.invalid },
-      { "proxy_radius", { { "min", figures.smallestRadius }, { "max", figures.largestRadius } } } } };
+  return this->resultOf(
+    fmt::format("{}, {} invalid, proxy radius {:.6g} to {:.6g}", countOfPoints(figures.points),
+      figures.invalid, figures.smallestRadius, figures.largestRadius),
+    { { "points", figures.points }, { "points_invalid", figures.invalid },
+      { "proxy_radius", { { "min", figures.smallestRadius }, { "max", figures.largestRadius } } } });
+}
+
+vtkSmartPointer<vtkPolyData> BandwidthCommand::prepared(vtkPolyData* cloud) const
+{
+  const std::string why = whyNoLengths(cloud);
+  require(why.empty(), this->input + ": " + why);
+  const vtkSmartPointer<vtkPolyData> given = cloud;
+  return this->unit == "m" ? given : scaledCloud(cloud, findLengthUnit(this->unit)->metres);
 }
 
 CloudResult BandwidthCommand::work(Cloud& cloud, Files& files)
 {
-  const std::string why = whyNoLengths(cloud.points);
-  require(why.empty(), this->input + ": " + why);
+  for (const std::string& note : this->lengthNotes(cloud.points))
+  {
+    warn(note);
+  }
   vtkNew<vtkKernelBandwidthFilter> filter;
-  filter->SetInputData(cloud.points);
+  filter->SetInputData(this->prepared(cloud.points));
   filter->SetSettings(this->bandwidth.settings);
   updateFilter(filter, "bandwidth", this->input);
   const CloudResult figures = this->result(bandwidthFigures(filter->GetOutput()));

@@ -4,14 +4,12 @@
 #include "Terminal/Messages.h"
 #include "Terminal/StopSignals.h"
 
+#include "IO/Info/LengthUnit.h"
+
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <vtkPolyData.h>
-
-#include <algorithm>
-#include <filesystem>
-#include <system_error>
 
 namespace pointhaptics::app
 {
@@ -34,8 +32,10 @@ void CloudCommand::addFiles(CLI::App& command, bool lastIsOutput)
       "{{stem}}, {{name}} or {{folder}} of each",
       fmt::join(writableExtensions(), ", .")))
     ->required(!lastIsOutput);
-  command.add_flag(
-    "--merge,--together", this->merge, "Make one cloud of several IN, with every array of each");
+  command.add_flag("--merge,--together", this->merge,
+    "Make one cloud of several IN, with every array of each; points of a cloud that lacks one have NaN "
+    "there, or "
+    "0 in colours, labels and fields of LAS, where that means none");
   addClip(command, this->reading.clip,
     "Only what lies in this box is read, in coordinates of the file; default: all");
   this->writing.addTo(command);
@@ -51,19 +51,39 @@ void CloudCommand::print(const CloudResult& result) const
   printResult(this->json, result.json, result.summary);
 }
 
-/// Warns of files that are merged twice: their points would count twice in every mean.
-static void warnOfRepeats(const std::vector<std::string>& inputs)
+CloudResult CloudCommand::resultOf(const std::string& figures, const nlohmann::ordered_json& numbers) const
 {
-  for (auto input = inputs.begin(); input != inputs.end(); ++input)
+  nlohmann::ordered_json all = { { "input", this->input },
+    { "inputs", this->merge ? this->inputs : std::vector<std::string>{ this->input } },
+    { "output", this->output } };
+  all.update(numbers);
+  return { fmt::format("{}: {}{}", figures, this->output, this->unitOfFile() == "m" ? "" : ", in metres"),
+    all };
+}
+
+void CloudCommand::complete(CLI::App& command, Files&)
+{
+  for (const CLI::Option* option : command.get_options())
   {
-    std::error_code problem;
-    const auto first = std::find_if(inputs.begin(), input,
-      [&](const std::string& earlier) { return std::filesystem::equivalent(earlier, *input, problem); });
-    if (first != input)
+    const bool isLength = option->count() > 0 && option->get_type_name() == kMetres;
+    this->lengths.insert(this->lengths.end(), isLength ? 1 : 0,
+      isLength ? option->get_name() + " " + option->results().front() : std::string());
+  }
+}
+
+std::vector<std::string> CloudCommand::lengthNotes(vtkPolyData* cloud) const
+{
+  std::vector<std::string> notes;
+  const std::string unit = lengthUnitOf(cloud, Bounds()).name;
+  for (const std::string& length : this->lengths)
+  {
+    if (unit != "m" && this->unitOfFile() == "m")
     {
-      warn("is the same file as " + *first + ", so its points count twice; leave one out", *input);
+      notes.push_back(fmt::format("{}: {} is {} {}, the unit of the file; --unit {} makes metres of both",
+        this->input, length, length.substr(length.find(' ') + 1), unit, unit));
     }
   }
+  return notes;
 }
 
 int CloudCommand::run(Files& files)
@@ -83,7 +103,6 @@ int CloudCommand::run(Files& files)
   }
   if (this->merge)
   {
-    warnOfRepeats(this->inputs);
     Cloud all = mergedCloud(merged);
     this->input = fmt::format("{} merged inputs", merged.size());
     this->output = pattern;

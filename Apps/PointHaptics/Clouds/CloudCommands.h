@@ -4,6 +4,7 @@
 #pragma once
 
 #include "Clouds/Pipeline.h"
+#include "Options/SettingOptions.h"
 #include "Options/SharedOptions.h"
 #include "Terminal/CommandLine.h"
 
@@ -40,14 +41,22 @@ struct CloudCommand : Command
   WriteOptions writing;
   std::int64_t threads = 0; ///< Number of threads; 0: all.
   bool json = false;
+  std::vector<std::string> lengths; ///< Options of lengths, "--voxel 5"; filled in by complete().
 
   void addTo(CLI::App& command) override;
+  void complete(CLI::App& command, Files& files) override;
   /// Once all clouds are done the outputs appear, and the results are printed.
   int run(Files& files) final;
   /// Adds the outputs of @p cloud, the present input. @throws Failure
   virtual CloudResult work(Cloud& cloud, Files& files) = 0;
   /// Prints a result as JSON or as a line.
   void print(const CloudResult& result) const;
+  /// The result of the present cloud: @p figures, the same as @p numbers, and which files they are of.
+  CloudResult resultOf(const std::string& figures, const nlohmann::ordered_json& numbers) const;
+  /// The unit of the files' coordinates that --unit says, which become metres.
+  virtual std::string unitOfFile() const { return "m"; }
+  /// For each given length: its unit, where @p cloud says that its own is no metre, and --unit does not.
+  std::vector<std::string> lengthNotes(vtkPolyData* cloud) const;
 
 protected:
   /// @param lastIsOutput true if the last of several IN is OUT where -o is not given.
@@ -70,9 +79,13 @@ BandwidthFigures together(const BandwidthFigures& a, const BandwidthFigures& b);
 struct BandwidthCommand : CloudCommand
 {
   BandwidthOptions bandwidth;
+  std::string unit = "m"; ///< --unit
 
   void addTo(CLI::App& command) override;
   CloudResult work(Cloud& cloud, Files& files) override;
+  std::string unitOfFile() const override { return this->unit; }
+  /// @p cloud in metres where --unit is given. @throws Failure where lengths mean nothing in it.
+  vtkSmartPointer<vtkPolyData> prepared(vtkPolyData* cloud) const;
   /// @throws Failure where no point is finite.
   CloudResult result(const BandwidthFigures& figures) const;
 };
@@ -99,14 +112,14 @@ struct ResampleCommand : CloudCommand
   std::string voxelIndex; ///< File to write; empty: none.
 
   void addTo(CLI::App& command) override;
-  void complete(CLI::App& command) override;
+  void complete(CLI::App& command, Files& files) override;
   CloudResult work(Cloud& cloud, Files& files) override;
+  std::string unitOfFile() const override { return this->lattice.unit; }
 
   /// Sets all options on @p resampler and updates it with @p cloud. @throws Failure
   void update(vtkVoxelMeanResampler* resampler, vtkPolyData* cloud) const;
-  /// In what unit --voxel is where @p cloud says that its own is no metre, and --unit does not; and that rays
-  /// of @p cloud which did not return are among the points of @p means. Each may be empty. Collective where
-  /// @p ranks have parts of the cloud: the same on all.
+  /// lengthNotes(), and that rays of @p cloud which did not return are among the points of @p means.
+  /// Collective where @p ranks have parts of the cloud: the same on all.
   std::vector<std::string> notes(vtkPolyData* cloud, vtkPolyData* means, Ranks& ranks) const;
   /// @throws Failure where no voxel is left.
   CloudResult result(const ResampleFigures& figures) const;

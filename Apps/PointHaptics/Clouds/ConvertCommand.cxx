@@ -28,7 +28,7 @@ struct ConvertCommand : CloudCommand
       "Leave each scan of an E57 file in its scanner's frame; .vtp keeps the poses: ScanPoses");
   }
 
-  void complete(CLI::App&) override
+  void complete(CLI::App&, Files&) override
   {
     requireUsage(!this->output.empty() || this->inputs.size() > 1, this->inputs.front(), "",
       "nothing says what to write; give a second name, or -o and a name");
@@ -44,10 +44,7 @@ struct ConvertCommand : CloudCommand
   {
     showWarnings();
     const vtkIdType written = writeCloud(cloud.points, this->output, files, this->writing);
-    const std::vector<std::string> read =
-      this->merge ? this->inputs : std::vector<std::string>{ this->input };
-    return { fmt::format("{}: {}", countOfPoints(written), this->output),
-      { { "inputs", read }, { "output", this->output }, { "points", written } } };
+    return this->resultOf(countOfPoints(written), { { "points", written } });
   }
 };
 

@@ -5,13 +5,12 @@
 #include "Terminal/Messages.h"
 
 #include "Core/Base/Boxes.h"
-#include "Core/Base/Lattice.h"
 #include "Core/Base/QuantityText.h"
 #include "Core/Distributed/Ranks.h"
 #include "Core/Distributed/SharedVoxels.h"
 #include "CsvWriter.h"
 #include "IO/Info/CloudExtent.h"
-#include "IO/Info/LengthUnit.h"
+#include "PolyDataAccess.h"
 #include "vtkVoxelMeanResampler.h"
 
 #include <CLI/CLI.hpp>
@@ -24,33 +23,6 @@
 
 namespace pointhaptics::app
 {
-
-namespace
-{
-
-/// As the resampler says it of its lattice; empty where it does not.
-Bounds latticeBounds(vtkPolyData* means)
-{
-  vtkFieldData* fields = means->GetFieldData();
-  vtkDataArray* origin = fields->GetArray("LatticeOrigin");
-  vtkDataArray* spacing = fields->GetArray("LatticeSpacing");
-  vtkDataArray* dimensions = fields->GetArray("LatticeDimensions");
-  Bounds box;
-  if (origin && spacing && dimensions)
-  {
-    Lattice lattice;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      lattice.origin[axis] = origin->GetComponent(0, axis);
-      lattice.spacing[axis] = spacing->GetComponent(0, axis);
-      lattice.dimensions[std::size_t(axis)] = std::int64_t(dimensions->GetComponent(0, axis));
-    }
-    box = lattice.bounds();
-  }
-  return box;
-}
-
-} // namespace
 
 void ResampleCommand::addTo(CLI::App& command)
 {
@@ -65,14 +37,17 @@ void ResampleCommand::addTo(CLI::App& command)
   addInteger(command, "--minimum-points", this->minimumPoints, 1, VTK_INT_MAX,
     "Leave out voxels with fewer points; default 1");
   command.add_flag("--original-ids", voxels.keepOriginalPointIds,
-    "Add vtkOriginalPointIds: the row in IN, from 0, of the nearest point that stands for each voxel");
+    "With --representative nearest-to-mean or nearest-to-center: add vtkOriginalPointIds, the row in IN, "
+    "from 0, "
+    "of the point that stands for each voxel");
   addOutput(command, "--voxel-index", this->voxelIndex, { "csv" },
     "File to write with the row in OUT of each point of IN, from 0, or -1: .csv", "FILE");
   this->lattice.addTo(command);
 }
 
-void ResampleCommand::complete(CLI::App&)
+void ResampleCommand::complete(CLI::App& command, Files& files)
 {
+  CloudCommand::complete(command, files);
   const VoxelMeanSettings& voxels = this->lattice.voxels;
   requireUsage(!voxels.keepOriginalPointIds || keepsPoints(voxels.representative), "--original-ids", "",
     "a mean or median is no point of IN; give --representative nearest-to-mean or nearest-to-center too");
@@ -104,21 +79,15 @@ void ResampleCommand::update(vtkVoxelMeanResampler* resampler, vtkPolyData* clou
 
 std::vector<std::string> ResampleCommand::notes(vtkPolyData* cloud, vtkPolyData* means, Ranks& ranks) const
 {
-  std::vector<std::string> notes;
+  const bool isScaled = this->lattice.isScaled();
+  std::vector<std::string> notes = isScaled ? std::vector<std::string>() : this->lengthNotes(cloud);
   const CloudExtent own = extentOf(cloud);
   const std::int64_t atZero = commonSum(ranks, own.atZero);
-  const bool areIn = contains(latticeBounds(means), this->lattice.transform().apply(Vec3()));
+  const std::optional<Lattice> made = latticeOf(means);
+  const bool areIn = made && contains(made->bounds(), this->lattice.transform().apply(Vec3()));
   if (areIn && areNoReturns(atZero, commonSum(ranks, own.finite)))
   {
     notes.push_back(fmt::format("{}: {} are resampled as others are", this->input, noReturnsText(atZero)));
-  }
-  const LengthUnit unit = lengthUnitOf(cloud, Bounds());
-  const double voxel = this->lattice.voxels.lattice.voxelSize;
-  if (voxel > 0.0 && unit.name != "m" && !this->lattice.isScaled())
-  {
-    notes.push_back(
-      fmt::format("{}: --voxel {:.6g} is {:.6g} {}, the unit of the file; --unit {} makes metres of both",
-        this->input, voxel, voxel, unit.name, unit.name));
   }
   return notes;
 }
@@ -150,11 +119,10 @@ CloudResult ResampleCommand::result(const ResampleFigures& figures) const
     fmt::format("{}: no point lies in the workspace: {} clipped, {} invalid; leave out --workspace, or mend "
                 "the transform",
       this->input, figures.clipped, figures.invalid));
-  return { fmt::format("{} in, {} out, {} clipped, {} invalid: {}", countOfPoints(figures.in), figures.out,
-             figures.clipped, figures.invalid, this->output),
-    { { "input", this->input }, { "output", this->output }, { "points_in", figures.in },
-      { "points_out", figures.out }, { "points_clipped", figures.clipped },
-      { "points_invalid", figures.invalid } } };
+  return this->resultOf(fmt::format("{} in, {} out, {} clipped, {} invalid", countOfPoints(figures.in),
+                          figures.out, figures.clipped, figures.invalid),
+    { { "points_in", figures.in }, { "points_out", figures.out }, { "points_clipped", figures.clipped },
+      { "points_invalid", figures.invalid } });
 }
 
 CloudResult ResampleCommand::work(Cloud& cloud, Files& files)

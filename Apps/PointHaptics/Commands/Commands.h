@@ -1,6 +1,6 @@
 /// @file
 /// The commands of the program. Those that draw or feel are in a library of their own, as they take most of
-/// the time of a start: main() loads it where it needs it, and looks them up by these names.
+/// the time of a start: it is loaded where it is needed, and they are looked up by these names.
 #pragma once
 
 #include "Terminal/CommandLine.h"
@@ -26,6 +26,9 @@ Command* devicesCommand();
 /// Runs the program pointhaptics-bench, where it is installed.
 Command* benchCommand();
 ///@}
+
+/// The whole program, as main() would be. @return its exit code.
+extern "C" int runPointHaptics(int argc, char* argv[]);
 
 /// Adds a hidden command to a program beside pointhaptics, which prints its man page for the build.
 void addManPage(CLI::App& program);

@@ -15,6 +15,7 @@
 #include <vtkPolyData.h>
 
 #include <array>
+#include <cmath>
 #include <vector>
 
 namespace pointhaptics::app
@@ -115,15 +116,27 @@ void printOrigin(const CloudSummary& s)
   }
 }
 
+/// The end @p value of a box, so that --clip with this text keeps the point there: with the digits that a
+/// double has for certain, where these end @p outward of it, as a multiple of 0.01 mostly does. The ends of
+/// floats are floats.
+std::string outwardText(double value, double outward, bool isFloat)
+{
+  const std::string text = isFloat ? fmt::format("{}", float(value)) : fmt::format("{:.15g}", value);
+  double read = value;
+  const bool isInward = !isFloat && parseNumber(text, read) && (read - value) * outward < 0.0;
+  return isInward ? fmt::format("{}", value) : text;
+}
+
 void printPlace(const CloudSummary& s)
 {
   const Vec3 low = s.bounds.minimum, high = s.bounds.maximum, size = s.bounds.extent();
-  // With the digits that a float, or a double, has for certain: a multiple of 0.01 ends there, too.
-  const auto text = [&s](double value)
-  { return s.isFloat ? fmt::format("{}", float(value)) : fmt::format("{:.15g}", value); };
-  printLine("bounds",
-    fmt::format("x {} .. {}  y {} .. {}  z {} .. {}", text(low.x), text(high.x), text(low.y), text(high.y),
-      text(low.z), text(high.z)));
+  std::string bounds;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    bounds += fmt::format("{}{} {} .. {}", axis == 0 ? "" : "  ", "xyz"[axis],
+      outwardText(low[axis], -INFINITY, s.isFloat), outwardText(high[axis], INFINITY, s.isFloat));
+  }
+  printLine("bounds", bounds);
   printLine("size", fmt::format("{:.6g} x {:.6g} x {:.6g}", size.x, size.y, size.z));
   printLine("unit",
     fmt::format("{} ({})", s.unit,

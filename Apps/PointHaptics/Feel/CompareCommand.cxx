@@ -137,20 +137,19 @@ struct CompareCommand : Command
     {
       names.push_back(method.first);
     }
-    addWords(command, "--methods", this->methods, names, false,
-      "The two methods; default surface-fit,gradient-steps");
+    addWords(
+      command, "--methods", this->methods, names, false, "Two of them; default surface-fit,gradient-steps");
     addOutput(command, "-o,--output", this->chart, { "png" }, "Chart of both forces over time", "OUT.png");
     addOutput(command, "--csv", this->table, { "csv" }, "Both forces, one row a tick", "OUT.csv");
     command.add_flag("--json", this->json, "Print the figures as JSON");
   }
 
-  void complete(CLI::App&) override
+  void complete(CLI::App&, Files& files) override
   {
     requireUsage(this->methods.size() == 2 && this->methods[0] != this->methods[1], "--methods",
       fmt::format("{}", fmt::join(this->methods, ",")), "give two methods");
+    declareRecordedClouds(this->file, this->cloud, files);
   }
-
-  void declare(Files& files) const override { declareRecordedClouds(this->file, this->cloud, files); }
 
   int run(Files& files) override
   {

@@ -88,12 +88,12 @@ void FeelCommand::addTo(CLI::App& command)
   this->bandwidth.addTo(command);
 }
 
-void FeelCommand::complete(CLI::App& command)
+void FeelCommand::complete(CLI::App& command, Files& files)
 {
   const std::vector<std::string> given = givenOptions(command);
   if (!this->config.empty())
   {
-    applyConfigFile(command, this->config, namesOfTheViewAlone(command));
+    applyConfigFile(command, this->config, namesOfTheViewAlone(command), files);
   }
   const std::string& path = this->viewer.path;
   const std::string& replay = this->viewer.replay;
@@ -128,7 +128,8 @@ void FeelCommand::complete(CLI::App& command)
   }
   setFelt(this->viewer, this->lattice, this->bandwidth, this->noCovariance);
   this->viewer.voxels.passAttributes = false;
-  this->settings = givenSettings(command).dump();
+  this->settings = jsonText(givenSettings(command));
+  this->declare(files);
 }
 
 void FeelCommand::declare(Files& files) const

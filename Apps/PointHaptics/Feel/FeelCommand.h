@@ -41,10 +41,9 @@ struct FeelCommand : Command
 
   FeelCommand() { this->viewer.fitsWorkspace = false; }
   void addTo(CLI::App& command) override;
-  /// Takes the values of --config, and completes those that depend on several options.
-  void complete(CLI::App& command) override;
-  /// Takes recorded clouds, and the copy of one that comes as a stream.
-  void declare(Files& files) const override;
+  /// Takes the values of --config, recorded clouds and the copy of a cloud that comes as a stream, and
+  /// completes what depends on several options.
+  void complete(CLI::App& command, Files& files) override;
   int run(Files& files) override;
 
   /// Resamples @p cloud, or the part that --clip leaves, or takes its points as they are (--raw), and makes
@@ -55,6 +54,9 @@ struct FeelCommand : Command
   /// whole cloud's is felt. @throws Failure
   ServoStatistics feelLive(FeelScenes& scenes, RecordingWriter& recording,
     const std::function<void(const ServoSample&)>& onSample) const;
+
+private:
+  void declare(Files& files) const;
 };
 
 } // namespace pointhaptics::app

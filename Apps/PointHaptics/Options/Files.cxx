@@ -259,20 +259,28 @@ Files::Identity::Identity(const std::string& name, int standardStream)
   isPipe = exists && (S_ISFIFO(status.st_mode) || S_ISSOCK(status.st_mode));
   device = status.st_dev;
   number = status.st_ino;
+  if (exists || isStandard)
+  {
+    place = exists ? std::string() : name;
+    return;
+  }
   std::error_code error;
-  fs::path target = fs::absolute(name, error);
+  fs::path target = name;
   // A link to nothing is written through: two of them may name one file.
-  for (int link = 0; !exists && link < kMostLinks && fs::is_symlink(target, error); ++link)
+  for (int link = 0; link < kMostLinks && fs::is_symlink(target, error); ++link)
   {
     target = target.parent_path() / fs::read_symlink(target, error);
   }
-  place = exists || isStandard ? name : fs::weakly_canonical(target, error).string();
+  const bool hasFolder = ::stat((target.parent_path() / ".").c_str(), &status) == 0;
+  device = hasFolder ? status.st_dev : 0;
+  number = hasFolder ? status.st_ino : 0;
+  place = hasFolder ? target.filename().string() : fs::weakly_canonical(target, error).string();
 }
 
 bool Files::Identity::operator==(const Identity& other) const
 {
-  return exists && other.exists ? device == other.device && number == other.number && !isDevice
-                                : exists == other.exists && !place.empty() && place == other.place;
+  return !isDevice && exists == other.exists && device == other.device && number == other.number &&
+    place == other.place;
 }
 
 Files::Files() = default;
@@ -290,13 +298,12 @@ void Files::takeOutput(
   }
   // Commands that can merge their inputs make one output of each else.
   const bool isOfEach = command.get_option_no_throw("--merge") != nullptr;
-  const bool isMerged = isGiven(command, "--merge");
   if (isOfEach)
   {
     checkPlaceholders(output.option, output.name);
-    requireUsage(!isMerged || !isPattern(output.name), "--merge", "",
+    requireUsage(!isMerged_ || !isPattern(output.name), "--merge", "",
       "makes one cloud, and " + output.name + " stands for several; leave out one of them");
-    requireUsage(isMerged || isPattern(output.name) || clouds.size() < 2, output.shown(), "",
+    requireUsage(isMerged_ || isPattern(output.name) || clouds.size() < 2, output.shown(), "",
       fmt::format("{} inputs and one output; put {{stem}} into its name for one of each, or give --merge to "
                   "make one cloud of them",
         clouds.size()));
@@ -317,6 +324,7 @@ void Files::take(const CLI::App& command)
 {
   inputs_.clear();
   outputs_.clear();
+  isMerged_ = isGiven(command, "--merge");
   noClobber_ = isGiven(command, "--no-clobber");
   isForced_ = isGiven(command, "--force");
   std::vector<NamedOutput> outputs;
@@ -392,9 +400,18 @@ void Files::check(const Entry& output) const
 void Files::addInput(const std::string& name, const std::string& option)
 {
   Identity identity(name, STDIN_FILENO);
-  const bool isReadOnce = name == kStandardStream || identity.isPipe;
-  requireUsage(!isReadOnce || find(inputs_, name) == inputs_.end(), name, "",
+  std::error_code ignored;
+  const std::string part = OutputFile::keptPartOf(name);
+  require(identity.exists || !fs::exists(part, ignored),
+    fmt::format("{}: there is no such file, but what an ended run kept of it: give {}", name, part));
+  const auto twin = std::find_if(inputs_.begin(), inputs_.end(),
+    [&](const Entry& entry) { return entry.name == name || entry.identity == identity; });
+  requireUsage(twin == inputs_.end() || !this->isStream(twin->name), name, "",
     "standard input and pipes can be read once; leave out the second one");
+  warn(isMerged_ && twin != inputs_.end()
+      ? "is the same file as " + twin->name + ", so its points count twice; leave one out"
+      : "",
+    name);
   inputs_.push_back({ { option, name }, std::move(identity) });
   for (const Entry& output : outputs_)
   {
@@ -452,20 +469,20 @@ bool Files::isStream(const std::string& name) const
 
 std::string Files::input(const std::string& name)
 {
-  const auto found = find(inputs_, name);
-  if (found == inputs_.end() || !this->isStream(name))
+  if (!this->isStream(name))
   {
     return name;
   }
-  if (found->path.empty())
+  std::string& path = copies_[name];
+  if (path.empty())
   {
     folder_ = folder_ ? std::move(folder_) : std::make_unique<TemporaryFolder>();
     // The name is the title of a window, too.
-    found->path = folder_->path(fs::path(shownFile(name)).filename().string());
-    copyInput(name == kStandardStream ? std::string() : name, found->path);
-    showAs(found->path, shownFile(name));
+    path = folder_->path(fs::path(shownFile(name)).filename().string());
+    copyInput(name == kStandardStream ? std::string() : name, path);
+    showAs(path, shownFile(name));
   }
-  return found->path;
+  return path;
 }
 
 std::string Files::output(const std::string& name)
@@ -519,8 +536,10 @@ void Files::commit()
       this->revert();
       throw Failure(message);
     }
-    // The file, not a link to it.
-    created_.insert(created_.end(), output.file && isNew ? 1 : 0, fs::weakly_canonical(output.name, ignored));
+    if (output.file && isNew)
+    {
+      created_.push_back(output.file->path()); // the file, not a link to it
+    }
   }
 }
 

@@ -6,6 +6,7 @@
 #include "Core/Base/OutputFile.h"
 
 #include <list>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -75,7 +76,8 @@ public:
   Files(const Files&) = delete;
   Files& operator=(const Files&) = delete;
 
-  /// Takes the files that the options of @p command name; what was taken before is forgotten. Ends in a usage
+  /// Takes the files that the options of @p command name; what was taken before is forgotten, but for streams
+  /// that were copied. Ends in a usage
   /// error where an output is an input or another output, whatever it is called, has an extension that cannot
   /// be written, or exists although --no-clobber forbids it. @throws Failure where one cannot be written.
   void take(const CLI::App& command);
@@ -106,7 +108,8 @@ public:
   void printPlan(bool asJson) const;
 
 private:
-  /// Which file a name means. Files that do not exist have the folder and the name that they would get.
+  /// Which file a name means: its number. Files that do not exist have the number of their folder, and a name
+  /// there.
   struct Identity
   {
     bool exists = false;
@@ -114,9 +117,8 @@ private:
     bool isPipe = false;
     dev_t device = 0;
     ino_t number = 0;
-    std::string place;
+    std::string place; ///< Empty where it exists.
 
-    Identity() = default;
     Identity(const std::string& name, int standardStream);
     bool isStream() const { return isDevice || isPipe; }
     bool operator==(const Identity& other) const;
@@ -131,7 +133,7 @@ private:
   struct Entry : Named
   {
     Identity identity;
-    std::string path = {}; ///< Where it is read or written; empty until it is asked for.
+    std::string path = {}; ///< Where it is written; empty until it is asked for.
     std::unique_ptr<OutputFile> file = {};
     bool isKept = false;
   };
@@ -142,8 +144,10 @@ private:
 
   std::list<Entry> inputs_;
   std::list<Entry> outputs_;
+  std::map<std::string, std::string> copies_; ///< Of streams, by their names.
   std::vector<std::string> created_;
   std::unique_ptr<TemporaryFolder> folder_;
+  bool isMerged_ = false;
   bool noClobber_ = false;
   bool isForced_ = false;
 };

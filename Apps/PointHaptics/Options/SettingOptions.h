@@ -56,9 +56,11 @@ constexpr bool describesEveryMember(const SettingOption (&table)[Count])
     Settings::members());
 }
 
+constexpr const char* kMetres = "METRES"; ///< Form of an option that takes a length.
+
 inline constexpr SettingOption kLatticeOptions[] = {
   { "dimensions", "--dims", "Voxels on each axis of the lattice; default 300", "N|Nx,Ny,Nz" },
-  { "voxelSize", "--voxel", "Edge of a cubic voxel, instead of --dims", "METRES", { 0.0, kUnbounded, true } },
+  { "voxelSize", "--voxel", "Edge of a cubic voxel, instead of --dims", kMetres, { 0.0, kUnbounded, true } },
   { "automaticWorkspace", nullptr, "cleared by --workspace" },
   { "workspace", "--workspace", "Box of the lattice; default: a cube about the transformed cloud",
     "x0,x1,y0,y1,z0,z1" },
@@ -73,11 +75,11 @@ inline constexpr SettingOption kBandwidthOptions[] = {
   { "fixedRadius", nullptr, "set by --radius and cleared by --neighbors" },
   { "numberOfNeighbors", "--neighbors", "Nearest neighbours the spread is taken from; default 16", "N",
     kNeighbors },
-  { "radius", "--radius", "All points in a ball of this radius, instead of --neighbors", "METRES", kLength },
+  { "radius", "--radius", "All points in a ball of this radius, instead of --neighbors", kMetres, kLength },
   { "rule", "--rule", "From spread to bandwidth; default normal-reference" },
   { "radiusScale", "--beta", "Proxy radius over bandwidth; default 4", "B", { 0.0, 1e6, true } },
-  { "minimumRadius", "--r1", "Smallest proxy radius; default 2.2 local spacings", "METRES", kLength },
-  { "maximumRadius", "--r2", "Largest proxy radius; default none", "METRES", kLength },
+  { "minimumRadius", "--r1", "Smallest proxy radius; default 2.2 local spacings", kMetres, kLength },
+  { "maximumRadius", "--r2", "Largest proxy radius; default none", kMetres, kLength },
   { "smoothRadius", "--smooth",
     "Cut radii so that no two differ by more than half the distance of their points" },
   { "usePointCounts", nullptr, "the radius is to follow the density of the points, never that of the means" },

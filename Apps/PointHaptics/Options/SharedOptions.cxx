@@ -34,10 +34,7 @@ Units units()
   Units table;
   for (const NamedUnit& unit : kLengthUnits)
   {
-    if (table.empty() || table.back().first != unit.name)
-    {
-      table.emplace_back(unit.name, unit.metres);
-    }
+    table.emplace_back(unit.name, unit.metres);
   }
   return table;
 }
@@ -134,14 +131,19 @@ void LatticeOptions::addTo(CLI::App& command)
     command, "--translate", this->translate, { 3 }, {}, "x,y,z", "Shift the cloud in metres, after --rotate");
   CLI::Option* affine = addNumbers(command, "--matrix", this->matrix, { 16 }, checkMatrix, "m00,m01,...,m33",
     "Affine 4x4 matrix, row by row, instead of --scale, --rotate and --translate");
-  std::vector<std::string> names;
-  for (const auto& entry : units())
-  {
-    names.push_back(entry.first);
-  }
-  addWord(command, "--unit", this->unit, names, "Unit of the file's coordinates; default m");
+  addUnit(command, this->unit);
   voxel->excludes(dims);
   affine->excludes(scaling)->excludes(rotation)->excludes(shift);
+}
+
+void addUnit(CLI::App& command, std::string& unit)
+{
+  std::vector<std::string> names;
+  for (const NamedUnit& each : kLengthUnits)
+  {
+    names.emplace_back(each.name);
+  }
+  addWord(command, "--unit", unit, names, "Unit of the file's coordinates, which become metres; default m");
 }
 
 void addPathUnits(CLI::App& command, PathUnits& pathUnits)
@@ -158,10 +160,7 @@ UnitNames unitOptions()
 
 double LatticeOptions::metresPerUnit() const
 {
-  const Units all = units();
-  const auto found =
-    std::find_if(all.begin(), all.end(), [this](const auto& entry) { return entry.first == this->unit; });
-  return found == all.end() ? 1.0 : found->second;
+  return findLengthUnit(this->unit)->metres;
 }
 
 AffineTransform LatticeOptions::transform() const

@@ -24,6 +24,8 @@ class vtkVoxelMeanResampler;
 namespace pointhaptics::app
 {
 
+/// Adds --unit, of the file's coordinates.
+void addUnit(CLI::App& command, std::string& unit);
 /// Adds --path-unit and --path-time-unit, of the numbers in the file of --path.
 void addPathUnits(CLI::App& command, PathUnits& units);
 /// These options, and --unit.
@@ -38,7 +40,7 @@ struct LatticeOptions
   std::vector<double> rotate;    ///< 4: degrees, x, y, z.
   std::vector<double> translate; ///< 3.
   std::vector<double> matrix;    ///< 16, row by row; excludes scale, rotate and translate.
-  std::string unit = "m";        ///< m, cm, mm, um, km, in, ft, yd: unit of the file's coordinates.
+  std::string unit = "m";        ///< Unit of the file's coordinates, one of kLengthUnits.
 
   /// Adds the options to @p command; bad values end the parse with a usage error that names the cure.
   void addTo(CLI::App& command);

@@ -124,6 +124,12 @@ std::string sentenceOf(const std::exception& error)
                  : "an unexpected fault, \"" + text + "\"; please report it with the command line";
 }
 
+/// As fail(); a standard output that failed is said once, at the end.
+int failBy(const std::exception& error)
+{
+  return std::ferror(stdout) != 0 ? kFailed : fail(sentenceOf(error));
+}
+
 int runParsed(CLI::App& program, std::vector<std::string> arguments, const int& exitCode)
 {
   try
@@ -132,6 +138,7 @@ int runParsed(CLI::App& program, std::vector<std::string> arguments, const int& 
   }
   catch (const CLI::Success& asked) // for help or version
   {
+    setVerbosity(Verbosity::Quiet);
     return program.exit(asked);
   }
   catch (const CLI::ParseError& error)
@@ -143,7 +150,7 @@ int runParsed(CLI::App& program, std::vector<std::string> arguments, const int& 
   }
   catch (const std::exception& error)
   {
-    return fail(sentenceOf(error));
+    return failBy(error);
   }
   return exitCode;
 }
@@ -191,9 +198,7 @@ void addCommand(
       nameCommand(command.get_name());
       Files files;
       files.take(command); // before anything is read
-      work->complete(command);
-      files.take(command); // with those of a configuration
-      work->declare(files);
+      work->complete(command, files);
       if (isGiven(command, "--dry-run"))
       {
         files.printPlan(isGiven(command, "--json"));
@@ -203,11 +208,25 @@ void addCommand(
     });
 }
 
-int runCommands(CLI::App& program, std::vector<std::string> arguments, const int& exitCode)
+int runCommands(
+  CLI::App& program, std::vector<std::string> arguments, const int& exitCode, std::vector<std::string> names)
 {
   program.require_subcommand(1);
   std::vector<CLI::App*> all = program.get_subcommands([](CLI::App*) { return true; });
+  const std::string kinds = names.empty() ? "command" : "command or file";
+  for (const CLI::App* command : names.empty() ? all : std::vector<CLI::App*>())
+  {
+    names.push_back(command->get_name());
+  }
   all.push_back(&program);
+  const std::string first = arguments.empty() ? std::string() : arguments.front();
+  if (first.rfind('-', 0) != 0 && std::find(names.begin(), names.end(), first) == names.end())
+  {
+    return failUsage(program.get_name(),
+      fmt::format("{}{}; commands are {}",
+        first.empty() ? "nothing to do" : "no " + kinds + " '" + first + "'", didYouMean(first, names),
+        fmt::join(names, ", ")));
+  }
   for (CLI::App* command : all)
   {
     if (!command->get_prefix_command()) // another program looks at the options
@@ -224,15 +243,15 @@ int runCommands(CLI::App& program, std::vector<std::string> arguments, const int
 int runProgram(const std::vector<std::string>& arguments, const std::function<int()>& run)
 {
   collectVtkMessages();
-  // Writing fails instead, and OutputFile says why.
+  // Writing fails instead, and OutputFile says why. A reader that ends - view ... | head - must not end a
+  // program that pushes.
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
   if (std::find(arguments.begin(), arguments.end(), "--json") != arguments.end())
   {
     promiseJson();
   }
-  nameCommand(arguments.empty() ? std::string() : arguments.front());
-  endCleanlyOnAbort("pointhaptics" + (arguments.empty() ? "" : " " + arguments.front()));
+  nameCommand({}); // until it is known
   int exitCode = kSuccess;
   const auto guarded = [&exitCode](const auto& step)
   {
@@ -242,7 +261,7 @@ int runProgram(const std::vector<std::string>& arguments, const std::function<in
     }
     catch (const std::exception& error)
     {
-      exitCode = fail(sentenceOf(error));
+      exitCode = failBy(error);
     }
   };
   guarded([&] { exitCode = run(); });

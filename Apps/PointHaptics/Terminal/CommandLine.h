@@ -20,10 +20,9 @@ public:
   virtual ~Command() = default;
   /// Adds the options to @p command; bad values end the parse with a usage error.
   virtual void addTo(CLI::App& command) = 0;
-  /// Checks that need all options: ends in a usage error, or throws Failure.
-  virtual void complete(CLI::App&) {}
-  /// Adds the files that no option names, and says which outputs cannot be made again.
-  virtual void declare(Files&) const {}
+  /// Checks that need all options, adds files that no option names, and says which outputs cannot be made
+  /// again: ends in a usage error, or throws Failure.
+  virtual void complete(CLI::App&, Files&) {}
   /// Does the work. The files that the options name are taken and checked. @return an ExitCode.
   virtual int run(Files& files) = 0;
 };
@@ -38,10 +37,12 @@ void addCommonOptions(CLI::App& command, bool writes);
 /// Names of the options that say how a run goes, not what it makes: they are in no configuration file.
 const std::set<std::string>& commonOptions();
 
-/// Runs what @p arguments (without the program's name) ask of @p program, which must name a command. Prints
-/// help, version and usage errors. @param exitCode where the callbacks of the commands leave theirs. @return
-/// an ExitCode, or stopExitCode().
-int runCommands(CLI::App& program, std::vector<std::string> arguments, const int& exitCode);
+/// Runs what @p arguments (without the program's name) ask of @p program, which must name a command: the
+/// first word, one of @p names, or of its own commands where these are empty. Prints help, version and usage
+/// errors.
+/// @param exitCode where the callbacks of the commands leave theirs. @return an ExitCode, or stopExitCode().
+int runCommands(CLI::App& program, std::vector<std::string> arguments, const int& exitCode,
+  std::vector<std::string> names = {});
 
 /// Calls @p run; what it throws, and a standard output that took not everything, become messages. To be
 /// called once, by main(), with the words of the command line. @return the exit code.

@@ -1,6 +1,6 @@
 #include "Terminal/Messages.h"
 
-#include "Terminal/CommandLine.h"
+#include "Terminal/StopSignals.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -200,6 +200,7 @@ void nameProgram(const std::string& name)
 void nameCommand(const std::string& name)
 {
   speech().command = name;
+  endCleanlyOnAbort(speech().name());
 }
 
 int failStandardOutput(int error)
@@ -357,10 +358,15 @@ void printNow(std::FILE* stream, const std::string& text) noexcept
   static_cast<void>(std::fflush(stream));
 }
 
+std::string jsonText(const nlohmann::ordered_json& object, int indent)
+{
+  return object.dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
 void printJson(const nlohmann::ordered_json& object)
 {
   speech().promisesJson = false;
-  fmt::print("{}\n", object.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+  fmt::print("{}\n", jsonText(object));
 }
 
 void printResult(bool asJson, const nlohmann::ordered_json& object, const std::string& summary)

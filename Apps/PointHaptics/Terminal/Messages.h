@@ -36,7 +36,8 @@ inline void require(bool isDone, const std::string& message)
   }
 }
 
-/// Name the speaker of messages: `pointhaptics` unless main() says another at its beginning, and the command.
+/// Name the speaker of messages, also of the last one (endCleanlyOnAbort()): `pointhaptics` unless main()
+/// says another at its beginning, and the command.
 void nameProgram(const std::string& name);
 void nameCommand(const std::string& name);
 /// Prints `PROGRAM COMMAND: message` on stderr, in one line, after the warnings so far. Says nothing where
@@ -87,7 +88,9 @@ std::string countOfPoints(std::int64_t count);
 /// ", 2 of them NaN or infinite", to follow that; nothing of none.
 std::string ofThemInvalid(std::int64_t count);
 
-/// Prints one object on stdout, in one line; names that are no UTF-8 get replacement characters.
+/// The text of @p object, in one line or indented; names that are no UTF-8 get replacement characters.
+std::string jsonText(const nlohmann::ordered_json& object, int indent = -1);
+/// Prints one object on stdout, in one line.
 void printJson(const nlohmann::ordered_json& object);
 /// Prints the result of a command as it was asked for.
 void printResult(bool asJson, const nlohmann::ordered_json& object, const std::string& summary);

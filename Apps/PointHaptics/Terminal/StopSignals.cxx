@@ -8,6 +8,7 @@
 #include <csignal>
 #include <exception>
 #include <initializer_list>
+#include <utility>
 
 #include <unistd.h>
 
@@ -31,8 +32,11 @@ void endNow(int)
 
 void rememberStopSignals()
 {
-  // A reader that ends - view ... | head - must not end a program that pushes.
-  std::signal(SIGPIPE, SIG_IGN);
+  static bool isRemembered = false;
+  if (std::exchange(isRemembered, true))
+  {
+    return;
+  }
   struct sigaction action = {};
   action.sa_handler = [](int signal) { requested = signal; };
   // Once: whoever presses Ctrl+C again means it.

@@ -9,7 +9,7 @@ namespace pointhaptics::app
 {
 
 /// From here on SIGINT, SIGTERM and SIGHUP are remembered instead of ending the program; a second one of the
-/// same kind ends it. SIGPIPE is ignored: writing to a pipe that nobody reads fails instead (printNow()).
+/// same kind ends it.
 void rememberStopSignals();
 /// A signal has come since. Any thread.
 bool stopIsRequested() noexcept;

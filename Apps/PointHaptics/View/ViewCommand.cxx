@@ -99,7 +99,8 @@ HapticViewerObserver observerFor(const ViewCommand& options)
     return message.empty();
   };
   observer.program = "pointhaptics " POINTHAPTICS_VERSION;
-  observer.describeState = [settingsOf](const HapticViewerState& state) { return settingsOf(state).dump(); };
+  observer.describeState = [settingsOf](const HapticViewerState& state)
+  { return jsonText(settingsOf(state)); };
   observer.rememberState = [settingsOf](const HapticViewerState& state)
   { rememberSettings(settingsOf(state)); };
   observer.keepUp = keepUp;
@@ -166,7 +167,6 @@ void placeFiles(ViewCommand& options, Files& files)
     viewer.passingFile = file != given ? file : viewer.passingFile;
   }
   viewer.path = files.input(viewer.path);
-  viewer.replay = files.input(viewer.replay);
   // Outputs of a session appear when they are written: the session may last for hours.
   for (std::string* output : { &viewer.forceChart, &viewer.trace, &viewer.record })
   {

@@ -34,10 +34,8 @@ struct ViewCommand : Command
 
   void addTo(CLI::App& command) override;
   /// Takes the values of the JSON file config for the options the command line does not give, and fills in
-  /// what the viewer needs. @throws Failure
-  void complete(CLI::App& command) override;
-  /// Takes recorded clouds, and the pictures of a turntable.
-  void declare(Files& taken) const override;
+  /// what the viewer needs. Takes recorded clouds, and the pictures of a turntable. @throws Failure
+  void complete(CLI::App& command, Files& taken) override;
   int run(Files& files) override;
   /// A window is what these options ask for: files that a path fills are written at once; without one a
   /// session is what fills them.
@@ -46,7 +44,8 @@ struct ViewCommand : Command
   bool draws() const;
 
 private:
-  void readConfig(CLI::App& command);
+  void readConfig(CLI::App& command, Files& taken);
+  void declare(Files& taken) const;
   void checkFiles() const;
   void completeViewer(CLI::App& command);
 };

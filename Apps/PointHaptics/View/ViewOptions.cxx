@@ -40,7 +40,7 @@ void checkBinding(const std::string& text)
   const CommandRegistry commands = HapticViewer::commands();
   const bool isAction = commands.get(action) != nullptr;
   requireUsage(isAction && equals != std::string::npos, "--bind", text,
-    fmt::format("{}{}; give ACTION=KEY, such as help=F1, with one of: {}",
+    fmt::format("{}{}; give ACTION=KEY, such as help=Ctrl+h, with one of: {}",
       isAction ? "no key" : "no such action", isAction ? "" : didYouMean(action, commands.names()),
       fmt::join(commands.names(), ", ")));
   std::istringstream gestures(text.substr(equals + 1));
@@ -50,6 +50,24 @@ void checkBinding(const std::string& text)
       fmt::format("\"{}\" is no key or gesture; give names such as F1, plus, Ctrl+z, Shift+left or hand1, "
                   "with blanks between them",
         gesture));
+  }
+}
+
+/// Warns of commands that lose their last key to @p bindings, unless these say so.
+void warnOfLostKeys(const std::vector<std::string>& bindings)
+{
+  const CommandRegistry usual = HapticViewer::commands();
+  CommandRegistry table = HapticViewer::commands();
+  table.bind(bindings);
+  for (const std::string& name : table.names())
+  {
+    const bool isMeant = std::any_of(bindings.begin(), bindings.end(),
+      [&](const std::string& binding) { return binding.rfind(name + "=", 0) == 0; });
+    const std::string lost = isMeant || !table.bindings(name).empty() ? "" : usual.bindings(name);
+    warn(lost.empty()
+        ? lost
+        : fmt::format("--bind takes {}, all the keys it has, from {}; give that another, too, or {}=", lost,
+            name, name));
   }
 }
 
@@ -138,11 +156,12 @@ void addWindowOptions(CLI::App& command, ViewCommand& options)
   const auto keepBindings = [&options](const std::vector<std::string>& bindings)
   {
     std::for_each(bindings.begin(), bindings.end(), checkBinding);
+    warnOfLostKeys(bindings);
     options.viewer.bindings = bindings;
   };
   command
     .add_option_function<std::vector<std::string>>("--bind", keepBindings,
-      "Gives an action other keys or gestures, such as help=F1 or translate-model-by-hand=hand2; several "
+      "Gives an action other keys or gestures, such as help=Ctrl+h or rotate-x=Ctrl+x; several "
       "separated by commas")
     ->delimiter(',')
     ->type_name("ACTION=KEY,...");
@@ -304,7 +323,7 @@ void ViewCommand::addTo(CLI::App& command)
     "cloud, and near the hand, where that tells more, voxels about as fine as the points");
 }
 
-void ViewCommand::readConfig(CLI::App& command)
+void ViewCommand::readConfig(CLI::App& command, Files& taken)
 {
   std::error_code missing;
   if (this->recent && this->config.empty() && std::filesystem::exists(recentSettingsFile(), missing))
@@ -313,7 +332,7 @@ void ViewCommand::readConfig(CLI::App& command)
   }
   if (!this->config.empty())
   {
-    applyConfigFile(command, this->config, {});
+    applyConfigFile(command, this->config, {}, taken);
   }
 }
 
@@ -347,18 +366,24 @@ void ViewCommand::checkFiles() const
     "settings are written without reading a cloud; leave out -, or --write-config");
 }
 
-void ViewCommand::complete(CLI::App& command)
+void ViewCommand::complete(CLI::App& command, Files& taken)
 {
   const std::vector<std::string> named = givenOptions(command);
   if (!this->viewer.replay.empty())
   {
     refuseRecorded(command, named, this->viewer.replay);
   }
-  this->readConfig(command);
+  this->readConfig(command, taken);
   this->checkFiles();
   if (!this->viewer.replay.empty())
   {
+    const bool areNamed = !this->files.empty();
+    this->viewer.replay = taken.input(this->viewer.replay);
     readRecordingFor(this->viewer, this->files, this->viewer.replay);
+    for (const std::string& file : areNamed ? std::vector<std::string>() : this->files)
+    {
+      taken.addInput(file);
+    }
   }
   if (this->writeConfig.empty())
   {
@@ -375,6 +400,7 @@ void ViewCommand::complete(CLI::App& command)
   this->falcon.complete(command, this->touch.parameters.contact);
   this->completeViewer(command);
   this->given = givenSettings(command);
+  this->declare(taken);
 }
 
 /// Sets options that follow from several others, or have another form in the viewer.
@@ -398,10 +424,6 @@ void ViewCommand::completeViewer(CLI::App& command)
 
 void ViewCommand::declare(Files& taken) const
 {
-  for (const std::string& file : this->viewer.replay.empty() ? std::vector<std::string>() : this->files)
-  {
-    taken.addInput(file);
-  }
   if (this->viewer.turntable > 0)
   {
     taken.dropOutput(this->screenshot);

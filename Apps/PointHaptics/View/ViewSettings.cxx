@@ -1,6 +1,5 @@
 #include "View/ViewSettings.h"
 
-#include "Options/Files.h"
 #include "Terminal/CommandLine.h"
 #include "Terminal/Messages.h"
 
@@ -230,10 +229,9 @@ void takeRecordedReading(const std::string& settings, HapticViewerOptions& viewe
   viewer.vertices = text("vertices") == "true";
 }
 
-void applyConfigFile(CLI::App& command, const std::string& fileName, const std::vector<std::string>& ignored)
+void applyConfigFile(
+  CLI::App& command, const std::string& fileName, const std::vector<std::string>& ignored, Files& files)
 {
-  Files files; // for a pipe
-  files.addInput(fileName);
   std::error_code error;
   std::ifstream file(files.input(fileName));
   require(file && !std::filesystem::is_directory(fileName, error),
@@ -252,6 +250,7 @@ void applyConfigFile(CLI::App& command, const std::string& fileName, const std::
     fmt::format("not a JSON object{}; write {{\"stiffness\": 600, \"up\": \"z\"}} for example", place));
   const std::string problem = applyKeys(command, keys, ignored);
   requireUsage(problem.empty(), fileName, "", problem);
+  files.take(command);
 }
 
 nlohmann::ordered_json givenSettings(CLI::App& command)
@@ -300,7 +299,7 @@ void writeSettings(const nlohmann::ordered_json& settings, const std::string& fi
 {
   OutputFile file;
   const bool isWritten = file.open(fileName) == Status::Ok &&
-    file.write(settings.dump(2) + "\n") == Status::Ok && file.commit() == Status::Ok;
+    file.write(jsonText(settings, 2) + "\n") == Status::Ok && file.commit() == Status::Ok;
   require(isWritten, writeFault(fileName, file));
 }
 

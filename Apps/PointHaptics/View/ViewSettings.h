@@ -2,6 +2,7 @@
 /// Options as a JSON object: --config reads it, and `view` writes what was given and what the window changed.
 #pragma once
 
+#include "Options/Files.h"
 #include "Options/SharedOptions.h"
 
 #include <nlohmann/json.hpp>
@@ -21,10 +22,12 @@ namespace app
 /// Long names of the options a configuration file may set, without the dashes.
 std::vector<std::string> configurableNames(CLI::App& command);
 
-/// Takes the values of the JSON file for the options of @p command that the command line does not give. Keys
-/// among @p ignored are of another command, and mean nothing here. Ends in a usage error where a key or a
-/// value is wrong. @throws Failure where the file cannot be read.
-void applyConfigFile(CLI::App& command, const std::string& fileName, const std::vector<std::string>& ignored);
+/// Takes the values of the JSON file for the options of @p command that the command line does not give, and
+/// the
+/// @p files that they name. Keys among @p ignored are of another command, and mean nothing here. Ends in a
+/// usage error where a key or a value is wrong. @throws Failure where the file cannot be read.
+void applyConfigFile(
+  CLI::App& command, const std::string& fileName, const std::vector<std::string>& ignored, Files& files);
 
 /// Takes how the cloud of a recording was read, cut and turned from @p settings, a configuration in one line.
 /// An axis that was chosen for @p viewer stays.

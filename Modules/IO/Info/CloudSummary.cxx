@@ -28,8 +28,8 @@ constexpr std::size_t kSamples = 10000;
 constexpr double kSpacingsPerVoxel = 2.0;
 /// Points in one search tree; larger clouds are searched piece by piece.
 constexpr std::int64_t kPiece = 4'000'000;
-/// A place and the nearest other one; a few more, as squares of tiny distances underflow.
-constexpr int kNeighbors = 16;
+/// A place and the nearest other one; a few more where squares of tiny distances underflow.
+constexpr int kNeighbors[] = { 2, 16 };
 /// Part of the workspace's edge the suggested scale fills.
 constexpr double kFilledPart = 0.9;
 /// Longest side of a cloud that needs no hint, in edges of the workspace.
@@ -97,8 +97,8 @@ std::array<double, 5> percentilesOf(std::vector<double> distances)
 std::vector<double> smoothed(const std::vector<Vec3>& samples, const std::vector<double>& distances)
 {
   constexpr std::size_t kMost = 128;
-  constexpr std::size_t kPlaces = 1200;
-  constexpr std::size_t kPart = 50; // no more than this part of the samples are about one
+  constexpr std::size_t kPlaces = 300; // each sample is about four of them
+  constexpr std::size_t kPart = 50;    // no more than this part of the samples are about one
   const std::size_t count = std::clamp<std::size_t>(samples.size() / kPart, 1, kMost);
   NeighborQuery query;
   query.build(PointView(samples.data(), std::int64_t(samples.size())));
@@ -145,7 +145,7 @@ void addSpacing(const std::vector<Vec3>& places, CloudSummary& summary)
 {
   const std::size_t samples = std::min(kSamples, places.size());
   std::vector<double> nearest(samples, std::numeric_limits<double>::infinity());
-  Neighbor neighbors[kNeighbors];
+  Neighbor neighbors[kNeighbors[1]];
   for (std::int64_t begin = 0; begin < std::int64_t(places.size()); begin += kPiece)
   {
     NeighborQuery query;
@@ -153,12 +153,16 @@ void addSpacing(const std::vector<Vec3>& places, CloudSummary& summary)
     for (std::size_t i = 0; i < samples; ++i)
     {
       const Vec3& center = places[sampled(i, samples, places.size())];
-      const int found = query.nearest(center, kNeighbors, neighbors);
-      const Neighbor* other = std::find_if(neighbors, neighbors + found,
-        [](const Neighbor& neighbor) { return neighbor.squaredDistance > 0.0; });
-      if (other != neighbors + found)
+      for (const int most : kNeighbors)
       {
-        nearest[i] = std::min(nearest[i], std::sqrt(other->squaredDistance));
+        const int found = query.nearest(center, most, neighbors);
+        const Neighbor* other = std::find_if(neighbors, neighbors + found,
+          [](const Neighbor& neighbor) { return neighbor.squaredDistance > 0.0; });
+        if (other != neighbors + found)
+        {
+          nearest[i] = std::min(nearest[i], std::sqrt(other->squaredDistance));
+          break;
+        }
       }
     }
   }

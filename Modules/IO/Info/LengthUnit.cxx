@@ -2,6 +2,8 @@
 
 #include "IO/Info/FieldText.h"
 
+#include "Core/Base/Boxes.h"
+
 #include "vtkDataArray.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
@@ -84,6 +86,36 @@ bool isThing(vtkPolyData* cloud, const Bounds& bounds)
     shortest >= (isAboutOrigin ? kCompactAboutOrigin : kCompact) * longest && !hasArray(cloud, kMeasured);
 }
 
+/// A copy of @p cloud with field data of its own, whose points @p move places, as doubles in @p unit. What
+/// tells of the file's own coordinates is left out.
+template <typename Move>
+vtkSmartPointer<vtkPolyData> movedCloud(vtkPolyData* cloud, const std::string& unit, const Move& move)
+{
+  vtkNew<vtkFieldData> fields;
+  fields->ShallowCopy(cloud->GetFieldData());
+  for (const char* ofTheFile :
+    { "LengthUnit", kHeightUnit, "CoordinateSystem", "LasScale", "LasOffset", "LasHeader", "LasRecords" })
+  {
+    fields->RemoveArray(ofTheFile);
+  }
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  points->SetNumberOfPoints(cloud->GetNumberOfPoints());
+  for (vtkIdType i = 0; i < cloud->GetNumberOfPoints(); ++i)
+  {
+    Vec3 p;
+    cloud->GetPoint(i, &p.x);
+    p = move(p);
+    points->SetPoint(i, &p.x);
+  }
+  auto moved = vtkSmartPointer<vtkPolyData>::New();
+  moved->ShallowCopy(cloud);
+  moved->SetFieldData(fields);
+  moved->SetPoints(points);
+  io::addFieldText(moved, "LengthUnit", unit);
+  return moved;
+}
+
 } // namespace
 
 const NamedUnit* findLengthUnit(const std::string& name)
@@ -138,19 +170,14 @@ vtkSmartPointer<vtkPolyData> inLocalMetres(vtkPolyData* cloud)
   {
     return cloud;
   }
-  const vtkIdType count = cloud->GetNumberOfPoints();
-  const auto isNoReturn = [&](vtkIdType i)
-  {
-    const double* p = cloud->GetPoint(i);
-    return p[0] == 0.0 && p[1] == 0.0 && p[2] == 0.0;
-  };
   const auto medianOf = [&](int axis)
   {
     std::vector<double> finite;
-    for (vtkIdType i = 0; i < count; ++i)
+    for (vtkIdType i = 0; i < cloud->GetNumberOfPoints(); ++i)
     {
-      const double value = cloud->GetPoints()->GetData()->GetComponent(i, axis);
-      std::isfinite(value) && !isNoReturn(i) ? finite.push_back(value) : void();
+      Vec3 p;
+      cloud->GetPoint(i, &p.x);
+      std::isfinite(p[axis]) && !isAtZero(p) ? finite.push_back(p[axis]) : void();
     }
     const auto median = finite.begin() + std::ptrdiff_t(finite.size() / 2);
     std::nth_element(finite.begin(), median, finite.end());
@@ -165,31 +192,17 @@ vtkSmartPointer<vtkPolyData> inLocalMetres(vtkPolyData* cloud)
   {
     frame->InsertNextValue(number);
   }
-  vtkNew<vtkFieldData> fields;
-  fields->ShallowCopy(cloud->GetFieldData());
-  fields->AddArray(frame);
-  auto local = vtkSmartPointer<vtkPolyData>::New();
-  local->ShallowCopy(cloud);
-  local->SetFieldData(fields);
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  points->SetNumberOfPoints(count);
-  for (vtkIdType i = 0; i < count; ++i)
-  {
-    Vec3 p;
-    cloud->GetPoint(i, &p.x);
-    p = isNoReturn(i) ? p : toLocalFrame(local, p);
-    points->SetPoint(i, &p.x);
-  }
-  local->SetPoints(points);
-  for (const char* ofDegrees :
-    { kHeightUnit, "CoordinateSystem", "LasScale", "LasOffset", "LasHeader", "LasRecords" })
-  {
-    fields->RemoveArray(ofDegrees);
-  }
-  fields->RemoveArray("LengthUnit");
-  io::addFieldText(local, "LengthUnit", "metre");
+  vtkNew<vtkPolyData> framed;
+  framed->GetFieldData()->AddArray(frame);
+  auto local =
+    movedCloud(cloud, "metre", [&](const Vec3& p) { return isAtZero(p) ? p : toLocalFrame(framed, p); });
+  local->GetFieldData()->AddArray(frame);
   return local;
+}
+
+vtkSmartPointer<vtkPolyData> scaledCloud(vtkPolyData* cloud, double factor, const std::string& unit)
+{
+  return movedCloud(cloud, unit, [factor](const Vec3& p) { return factor * p; });
 }
 
 std::string lengthUnitCalled(const std::string& name)

@@ -24,7 +24,6 @@ struct NamedUnit
   const char* word; ///< As LAS says it.
   const char* others;
 };
-/// The first one of a name is meant where nothing more is said.
 inline constexpr NamedUnit kLengthUnits[] = {
   { "m", 1.0, 9001, "metre", "metres meter meters" },
   { "cm", 1e-2, 1033, "centimetre", "centimetres centimeter centimeters" },
@@ -33,13 +32,13 @@ inline constexpr NamedUnit kLengthUnits[] = {
   { "km", 1e3, 9036, "kilometre", "kilometres kilometer kilometers" },
   { "in", 0.0254, 0, "inch", "inches" },
   { "ft", 0.3048, 9002, "foot", "feet" },
-  { "ft", 1200.0 / 3937.0, 9003, "US survey foot", "ftus us-ft" },
+  { "us-ft", 1200.0 / 3937.0, 9003, "US survey foot", "ftus" },
   { "yd", 0.9144, 9096, "yard", "yards yds" },
 };
 
 /// The unit that a file calls @p name, in upper or lower case, also in more words: "International Feet".
 /// Null: none is known.
-const NamedUnit* findLengthUnit(const std::string& name);
+POINTHAPTICSIO_EXPORT const NamedUnit* findLengthUnit(const std::string& name);
 
 enum class UnitEvidence
 {
@@ -63,6 +62,11 @@ POINTHAPTICSIO_EXPORT LengthUnit lengthUnitOf(vtkPolyData* cloud, const Bounds& 
 
 /// lengthUnitOf()'s name of a unit that a file calls @p name, "m" of "Metres"; empty: it knows none.
 std::string lengthUnitCalled(const std::string& name);
+
+/// @p cloud with its coordinates, and no arrays, times @p factor, as doubles in @p unit; empty: none is said.
+/// Steps and coordinate system of the file are left out.
+POINTHAPTICSIO_EXPORT vtkSmartPointer<vtkPolyData> scaledCloud(
+  vtkPolyData* cloud, double factor, const std::string& unit = {});
 
 /// @p cloud, or where its x and y are degrees of longitude and latitude a copy of it in metres to the east
 /// and north of their medians, on a sphere of the WGS 84 ellipsoid's mean radius; z becomes metres where

@@ -79,6 +79,8 @@ TEST(PathUnits, OfAPressBesideTheCloudAreToldByPlaces)
   const auto said = [](const HipPath& path, const Bounds& cloud)
   { return unlikelyUnits(path, cloud, kOptions, false); };
   EXPECT_NE(said(press(1.0), cube(50.0)).find("give --unit mm if the cloud is in mm"), std::string::npos);
+  EXPECT_NE(said(press(1.0), cube(600.0)).find("give --unit mm if the cloud is in mm"), std::string::npos)
+    << "a statue of 60 cm";
   EXPECT_NE(said(press(1.0), cube(5.0)).find("give --unit cm if the cloud is in cm"), std::string::npos);
   EXPECT_NE(said(press(1e3), cube(0.05)).find("give --path-unit mm if it is in mm"), std::string::npos);
   EXPECT_EQ(said(press(1.0), cube(0.05)), "");

@@ -60,7 +60,7 @@ TEST(LengthUnit, IsWhatTheFileSays)
   EXPECT_EQ(lengthUnitOf(thing, kMap).metres, 0.01);
   vtkNew<vtkPolyData> survey;
   sayUnit(survey, "US survey foot");
-  EXPECT_EQ(lengthUnitOf(survey, kMap).name, "ft");
+  EXPECT_EQ(lengthUnitOf(survey, kMap).name, "us-ft");
   EXPECT_NEAR(lengthUnitOf(survey, kMap).metres, 0.3048006096, 1e-10);
   vtkNew<vtkPolyData> feet;
   sayUnit(feet, "foot");
