@@ -21,8 +21,8 @@ enum ProxyStatus : std::uint32_t
                                   ///< the device.
   kProxyRoundLimit = 1u << 1, ///< The foot point or the ball did not come to rest within a step's rounds; it
                               ///< goes on in the next. Cure: larger voxels (a noisy cloud), or a higher rate.
-  kProxyStepLimit = 1u << 2,   ///< The HIP moved further than one step can follow; it is caught up over the
-                               ///< next. Cure: a higher rate; with GradientSteps maximumStepsPerTick.
+  kProxyStepLimit = 1u << 2,  ///< The HIP moved further than one step can follow; it is caught up over the
+                              ///< next. Cure: a higher rate; with GradientSteps maximumStepsPerTick.
   kProxyBallContact = 1u << 3, ///< The fitted surface and the ball disagree, as at edges and folds: the
                                ///< ball's contact is felt, in part or alone. No cure needed.
   kProxyLetGo = 1u << 4,   ///< The hand went so far away from its contact that it was let go, and has touched
