@@ -285,8 +285,8 @@ struct PointKernels
 constexpr int kFewValues = 64;
 /// Bytes of the vectors that lists are read in.
 constexpr int kListVector = 32;
-/// The statistic of a list of up to kFewValues values of one type: see AttributeStatistic. Reads, but does
-/// not use, kListVector bytes past the end.
+/// The statistic of up to kFewValues orderedKey()s of values of one type: see AttributeStatistic. Reads, but
+/// does not use, kListVector bytes past the end.
 using SelectKernel = void (*)(const void* values, int count, void* to);
 
 /// The inner loops for one instruction set.

@@ -16,28 +16,25 @@ namespace pointhaptics::simd
 namespace
 {
 
-/// The statistic of a list, with memory for the keys of many.
-template <typename T, typename Key>
-T statisticOfMany(bool isMedian, const T* values, std::int64_t count, std::vector<Key>& keys)
+/// The statistic of a list of any length, which this sorts.
+template <typename Key>
+Key statisticOfMany(bool isMedian, Key* keys, std::int64_t count)
 {
-  keys.resize(std::size_t(count));
-  std::transform(values, values + count, keys.begin(), &orderedKey<T>);
   if (isMedian)
   {
-    const auto middle = keys.begin() + (count - 1) / 2;
-    std::nth_element(keys.begin(), middle, keys.end());
-    return valueOfKey<T>(*middle);
+    std::nth_element(keys, keys + (count - 1) / 2, keys + count);
+    return keys[(count - 1) / 2];
   }
-  std::sort(keys.begin(), keys.end());
+  std::sort(keys, keys + count);
   Key mode = keys[0];
-  std::size_t most = 0;
-  for (std::size_t i = 0, equal = 0; i < keys.size(); ++i)
+  std::int64_t most = 0;
+  for (std::int64_t i = 0, equal = 0; i < count; ++i)
   {
     equal = i > 0 && keys[i] == keys[i - 1] ? equal + 1 : 1;
     mode = equal > most ? keys[i] : mode;
     most = std::max(most, equal);
   }
-  return valueOfKey<T>(mode);
+  return mode;
 }
 
 }
@@ -53,7 +50,7 @@ void AttributeTuples::prepare(const AccumulatedArray& kind, const std::vector<st
   }
   const std::size_t bytes = std::size_t(tuples * bytesOf(kind_.type)) + kListVector;
   componentBytes_ = (bytes + 63) / 64 * 64;
-  values_.reserve(componentBytes_ * std::size_t(kind_.components), Pages::Huge);
+  keys_.reserve(componentBytes_ * std::size_t(kind_.components), Pages::Huge);
 }
 
 void AttributeTuples::add(
@@ -64,7 +61,7 @@ void AttributeTuples::add(
     {
       using T = decltype(example);
       // Copies, which no store can change.
-      char* const to = values_.data();
+      char* const to = keys_.data();
       std::int64_t* const ends = ends_.data();
       const std::size_t apart = componentBytes_;
       const Tuples from = tuples;
@@ -76,7 +73,10 @@ void AttributeTuples::add(
           char* const first = to + sizeof(T) * std::size_t(ends[voxels[i]]++);
           for (std::size_t c = 0; c < components; ++c)
           {
-            std::memcpy(first + apart * c, tuple + c * sizeof(T), sizeof(T));
+            T value;
+            std::memcpy(&value, tuple + c * sizeof(T), sizeof(T));
+            const auto key = orderedKey(value);
+            std::memcpy(first + apart * c, &key, sizeof(T));
           }
         }
       };
@@ -93,22 +93,17 @@ void AttributeTuples::write(const Kernels& kernels, void* all) const
     {
       using T = decltype(example);
       T* to = static_cast<T*>(all);
-      std::vector<decltype(orderedKey(T()))> keys;
-      for (std::int64_t v = 0; v < voxels(); ++v)
-      {
-        const std::int64_t count = end(v) - begin(v);
-        for (int c = 0; c < kind_.components; ++c, ++to)
+      forLists<decltype(orderedKey(T()))>(
+        [&](auto* keys, std::int64_t count)
         {
-          const T* const list = values<T>(c) + begin(v);
-          if (count <= 2) // The smaller one, as mode and as median.
+          auto key = std::min(keys[0], keys[count - 1]); // Of one or two it is mode and median.
+          if (count > 2)
           {
-            *to = valueOfKey<T>(std::min(orderedKey(list[0]), orderedKey(list[count - 1])));
-            continue;
+            count <= kFewValues ? select(keys, int(count), &key)
+                                : void(key = statisticOfMany(isMedian, keys, count));
           }
-          count <= kFewValues ? select(list, int(count), to)
-                              : void(*to = statisticOfMany(isMedian, list, count, keys));
-        }
-      }
+          *to++ = valueOfKey<T>(key);
+        });
     });
 }
 
@@ -119,25 +114,20 @@ TallyValues AttributeTuples::tally() const
   withType(kind_.type,
     [&](auto example)
     {
-      using T = decltype(example);
-      std::vector<decltype(orderedKey(T()))> keys;
-      for (std::int64_t i = 0; i < voxels() * kind_.components; ++i)
-      {
-        const std::int64_t v = i / kind_.components;
-        const T* const list = values<T>(int(i % kind_.components));
-        keys.resize(std::size_t(end(v) - begin(v)));
-        std::transform(list + begin(v), list + end(v), keys.begin(), &orderedKey<T>);
-        std::sort(keys.begin(), keys.end());
-        for (std::size_t k = 0; k < keys.size(); ++k)
+      forLists<decltype(orderedKey(example))>(
+        [&](auto* keys, std::int64_t count)
         {
-          if (k == 0 || keys[k] != keys[k - 1])
+          std::sort(keys, keys + count);
+          for (std::int64_t k = 0; k < count; ++k)
           {
-            tally.values.push_back({ std::int64_t(keys[k]), 0 });
+            if (k == 0 || keys[k] != keys[k - 1])
+            {
+              tally.values.push_back({ std::int64_t(keys[k]), 0 });
+            }
+            ++tally.values.back().points;
           }
-          ++tally.values.back().points;
-        }
-        tally.ends.push_back(tally.values.size());
-      }
+          tally.ends.push_back(tally.values.size());
+        });
     });
   return tally;
 }

@@ -39,19 +39,22 @@ public:
   void write(const Kernels& kernels, void* to) const;
 
 private:
-  std::int64_t voxels() const { return std::int64_t(ends_.size()); }
-  /// Begin of a voxel's tuples. @pre all have been added.
-  std::int64_t begin(std::int64_t voxel) const { return voxel == 0 ? 0 : ends_[std::size_t(voxel - 1)]; }
-  std::int64_t end(std::int64_t voxel) const { return ends_[std::size_t(voxel)]; }
-  /// Those of a component, of all points.
-  template <typename T>
-  T* values(int component) const
+  /// Calls visit(keys, count) for each component of each voxel. @pre all tuples have been added.
+  template <typename Key, typename Visit>
+  void forLists(const Visit& visit) const
   {
-    return reinterpret_cast<T*>(values_.data() + std::size_t(component) * componentBytes_);
+    for (std::size_t v = 0; v < ends_.size(); ++v)
+    {
+      const std::int64_t begin = v == 0 ? 0 : ends_[v - 1];
+      for (std::size_t c = 0; c < std::size_t(kind_.components); ++c)
+      {
+        visit(reinterpret_cast<Key*>(keys_.data() + c * componentBytes_) + begin, ends_[v] - begin);
+      }
+    }
   }
 
   AccumulatedArray kind_;
-  Buffer<char> values_; ///< Those of a component together, and of these those of a voxel.
+  Buffer<char> keys_; ///< Of the values; those of a component together, and of these those of a voxel.
   std::size_t componentBytes_ = 0;
   std::vector<std::int64_t> ends_; ///< Where the next tuple of each voxel goes.
 };
