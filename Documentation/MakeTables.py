@@ -25,8 +25,6 @@ PERFORMANCE = {
     "resample points": "points,voxels on an axis=dimension,threads,contestant," + TIMES +
                        ",ns/point=ns_per_point,x ours=times_ours,voxels,answer",
     "resample modes": "points,contestant," + TIMES + ",ns/point=ns_per_point,x points alone=times_ours,voxels,answer",
-    "proxy instructions": "cloud,points,instructions,fit us=fit_us,p50 us=p50_us,p99=p99_us,p99.9=p999_us,"
-                          "finding us=first_contact_us,built s=built_seconds",
     "io read": "file,MB=1e-6*bytes,contestant," + TIMES + ",first ms=1e3*first_seconds,x ours=times_ours,answer=right",
     "io write": "file,MB=1e-6*bytes,contestant," + TIMES + ",first ms=1e3*first_seconds,x ours=times_ours,answer=right",
     "io memory": "file,file MB=1e-6*file_bytes,result MB=1e-6*output_bytes,peak MB=1e-6*peak_bytes,"
@@ -37,9 +35,6 @@ PERFORMANCE = {
                   "p99=1e6*jitter_seconds.p99,p99.9=1e6*jitter_seconds.p999,max=1e6*jitter_seconds.max,ticks,"
                   "deadline misses=deadline_misses,misses of an empty loop=empty_loop.deadline_misses,fps="
                   "frames_per_second,force=right",
-    "servo round_trip": "exchanges,us p50=1e6*round_trip_seconds.p50,p99=1e6*round_trip_seconds.p99,"
-                        "p99.9=1e6*round_trip_seconds.p999,max=1e6*round_trip_seconds.max,"
-                        "later than 100 ms=lost,answers=right",
     "render turning": "file,kind,points=all,level of detail=detail,drawn," + TIMES +
                       ",fps=frames_per_second,refined ms=1e3*refining_seconds,frames=refining_frames,"
                       "still ms=1e3*still_seconds",
@@ -54,10 +49,6 @@ ACCURACY = {
     "friction ratio": "method,shape,speed mm/s=1e3*speed_metres_per_second,mean ratio=mean_ratio,"
                       "RMS error %=rms_error_percent,max error %=max_error_percent,peak",
     "touch scans": "mesh,cloud,points,method,built s=built_seconds," + FIGURES,
-    "touch edges": "points,noise um=1e6*noise_metres,box,over,method,to 0.1 mm N=to_100_um_newton,"
-                   "to 0.25 mm=to_250_um_newton,to 0.5 mm=to_500_um_newton,outside N=outside_newton,"
-                   "late=strokes_late,ticks=most_ticks_late,above=strokes_above,stuck," + FIGURES,
-    "touch thin": "part,method," + FIGURES,
     "touch hard": "scene=name,strokes,held,not let go=not_let_go,truth=truth_held,through=fell_through,"
                   "phantom %=phantom_percent,N=phantom_newton,lost %=lost_percent,median %=median_percent,"
                   "p95 %=p95_percent,energy mJ=energy_mj,force N=largest_newton,contact=contact_spacings,"
@@ -282,16 +273,6 @@ def summary_of(study, rows):
         balls = [row["median_percent"] for row in rows if row["method"] == "sphere"]
         yield ("Force beside a god object on the mesh itself, scans and machined parts",
                f"median error {span(fits)} %; without the fit {span(balls)} %")
-    elif study == "touch edges":
-        above = lambda method: sum(row["strokes_above"] for row in rows if row["method"] == method)
-        strokes = sum(row["strokes"] for row in rows if row["method"] == "surface-fit")
-        yield ("Slides over edges and corners of a box with a force above 0.05 N outside",
-               f"{above('surface-fit'):,} of {strokes:,}; the paper's method {above('gradient-steps-tuned'):,}")
-    elif study == "touch thin":
-        pops = lambda method: last(rows, part="through plate 0.6 mm", method=method)["pops"]
-        yield ("Hands that go right through a plate of 0.6 mm, at up to 1 m/s, and are let go or pushed on",
-               f"{pops('surface-fit')} of {last(rows, part='through plate 0.6 mm')['strokes']}; the paper's method "
-               f"{pops('gradient-steps-tuned')}")
 
 
 def with_block(page, study, block):

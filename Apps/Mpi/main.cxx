@@ -73,8 +73,7 @@ int run(Job& job, std::vector<std::string> arguments)
                    "Usage: mpirun -n RANKS pointhaptics-mpi COMMAND ...",
     "pointhaptics-mpi");
   MpiWork work;
-  addMpiResample(program, job.ranks().size(), work);
-  addMpiBandwidth(program, job.ranks().size(), work);
+  addMpiCommands(program, job.ranks().size(), work);
   addManPage(program);
   int exitCode = kSuccess;
   int parsed = kSuccess;

@@ -166,12 +166,25 @@ bool parseRow(const std::string& line, const Columns& columns, HipPathPoint& poi
   return true;
 }
 
-/// Reads the next line that is no remark. False: there is none.
-bool readTableLine(std::istream& stream, std::string& line, std::size_t& lineNumber)
+/// True if a recording says by @p remark that the hand did not come to the next row by moving.
+bool saysNewHand(const std::string& remark)
 {
+  const std::string event = remark.substr(std::min(remark.rfind(' '), remark.size() - 1) + 1);
+  return remark.rfind("# tick ", 0) == 0 && (event == "new-hand" || event == "begins");
+}
+
+/// Reads the next line that is no remark. @p isNew: a remark before it says so. False: there is none.
+bool readTableLine(std::istream& stream, std::string& line, std::size_t& lineNumber, bool& isNew)
+{
+  isNew = false;
   for (++lineNumber; stream.peek() == '#'; ++lineNumber)
   {
-    stream.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
+    readLine(stream, line);
+    isNew |= saysNewHand(line);
+    if (line.size() > kLongestLine)
+    {
+      stream.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
+    }
   }
   const bool isRead = readLine(stream, line);
   lineNumber -= isRead || lineNumber == 1 ? 0 : 1;
@@ -184,7 +197,8 @@ bool readRows(
 {
   std::string line;
   std::size_t blankLine = 0;
-  while (readTableLine(stream, line, lineNumber))
+  bool isNew = false;
+  while (readTableLine(stream, line, lineNumber, isNew))
   {
     if (trimmed(line).empty())
     {
@@ -208,6 +222,7 @@ bool readRows(
         shortestDigits(path.points.back().timeSeconds) + ": sort the rows by time and remove duplicates";
       return false;
     }
+    point.isNew = isNew;
     path.points.push_back(point);
   }
   if (path.points.empty())
@@ -246,6 +261,7 @@ Vec3 HipPath::position(double timeSeconds, std::size_t& hint) const noexcept
   }
   if (timeSeconds >= points.back().timeSeconds)
   {
+    hint = points.size() - 1;
     return points.back().position;
   }
   // Most calls stay in the hint's interval or move on to the next one.
@@ -266,8 +282,24 @@ Vec3 HipPath::position(double timeSeconds, std::size_t& hint) const noexcept
   hint = i;
   const HipPathPoint& from = points[i];
   const HipPathPoint& to = points[i + 1];
+  if (to.isNew)
+  {
+    return from.position;
+  }
   const double part = (timeSeconds - from.timeSeconds) / (to.timeSeconds - from.timeSeconds);
   return from.position + part * (to.position - from.position);
+}
+
+HandState HipPath::hand(double timeSeconds, std::size_t& hint) const noexcept
+{
+  HandState state;
+  const std::size_t before = hint;
+  state.position = this->position(timeSeconds, hint);
+  for (std::size_t i = before + 1; i <= hint && !state.isNew; ++i)
+  {
+    state.isNew = points[i].isNew;
+  }
+  return state;
 }
 
 Status readHipPath(const std::string& fileName, HipPath& path, std::string& message)
@@ -287,7 +319,8 @@ Status readHipPath(const std::string& fileName, HipPath& path, std::string& mess
   std::size_t lineNumber = 0;
   std::string problem;
   Columns columns;
-  if (!readTableLine(stream, line, lineNumber) || !findColumns(line, columns))
+  bool isNew = false;
+  if (!readTableLine(stream, line, lineNumber, isNew) || !findColumns(line, columns))
   {
     problem = "the header is " + quote(line) +
       ": make the first line t,x,y,z (seconds and metres), or give a table of felt forces, which has t,hip_x,"

@@ -5,6 +5,7 @@
 
 #include "Core/Base/Status.h"
 #include "Core/Base/Vector3.h"
+#include "Haptics/HapticPort.h"
 
 #include <string>
 #include <vector>
@@ -17,6 +18,9 @@ struct HipPathPoint
 {
   double timeSeconds = 0.0;
   Vec3 position; ///< Metres, frame of the transformed cloud.
+  /// The hand was found anew here (HandState::isNew): nothing between the point before and this one is
+  /// touched.
+  bool isNew = false;
 };
 
 /// Times strictly ascending, all numbers finite. Plain data; position() may run in any number of threads,
@@ -32,16 +36,20 @@ struct HipPath
   {
     return points.empty() ? 0.0 : points.back().timeSeconds - points.front().timeSeconds;
   }
-  /// Interpolates linearly between two points; before the first and after the last it holds their positions.
+  /// Interpolates linearly between two points, and holds the position before a new one until its time; before
+  /// the first and after the last it holds their positions.
   /// @pre not empty. @p hint speeds up ascending times: pass the same variable, first 0.
   Vec3 position(double timeSeconds, std::size_t& hint) const noexcept;
+  /// As position(); new where a new point lies between the time of the last call with @p hint and this one.
+  HandState hand(double timeSeconds, std::size_t& hint) const noexcept;
 };
 
 /// Reads the columns t, x, y and z that the header line names, or t, hip_x, hip_y and hip_z as the tables of
 /// felt forces have them: seconds and metres, one row a line, decimal point, spaces about numbers and CRLF
-/// line ends allowed, blank lines at the end only. Lines before it that begin with # are remarks, as a
-/// recording has. Other columns are ignored. On an error @p message says file, line, value and cure, and @p
-/// path is empty: FileNotReadable, FileMalformed (no row among others).
+/// line ends allowed, blank lines at the end only. Lines that begin with # are remarks; those of a recording
+/// that say `new-hand` or `begins` make the next row new. Other columns are ignored. On an error @p message
+/// says file, line, value and cure, and @p path is empty: FileNotReadable, FileMalformed (no row among
+/// others).
 Status readHipPath(const std::string& fileName, HipPath& path, std::string& message);
 
 } // namespace pointhaptics

@@ -47,8 +47,7 @@ Status PathReplayDevice::read(double timeSeconds, HandState& state) noexcept
   {
     return Status::EndOfPath;
   }
-  state.position = path_.position(path_.points.front().timeSeconds + timeSeconds, hint_);
-  state.buttons = 0;
+  state = path_.hand(path_.points.front().timeSeconds + timeSeconds, hint_);
   return Status::Ok;
 }
 
@@ -74,7 +73,7 @@ Status RecordingDevice::read(double timeSeconds, HandState& state) noexcept
   const bool later = points.empty() || timeSeconds > points.back().timeSeconds;
   if (points.size() < points.capacity() && later && std::isfinite(timeSeconds) && isFinite(state.position))
   {
-    points.push_back({ timeSeconds, state.position });
+    points.push_back({ timeSeconds, state.position, state.isNew });
   }
   else
   {

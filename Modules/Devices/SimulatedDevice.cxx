@@ -105,7 +105,9 @@ Status SimulatedDevice::read(double timeSeconds, HandState& state) noexcept
       return Status::EndOfPath;
     }
     const double pathTime = path_.points.front().timeSeconds + timeSeconds;
-    lastTarget_ = clamped(path_.position(pathTime, hint_), settings_.workspace);
+    const HandState next = path_.hand(pathTime, hint_);
+    lastTarget_ = clamped(next.position, settings_.workspace);
+    state.isNew = next.isNew;
   }
   else
   {

@@ -11,6 +11,7 @@
 #include "vtkIntArray.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
+#include "vtkPointSet.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkTypeInt64Array.h"
@@ -61,46 +62,6 @@ void ArrayAllocator::release()
   }
 }
 
-vtkSmartPointer<vtkPoints> makePoints(
-  const VoxelResampler& engine, bool singlePrecision, ArrayAllocator& allocator, const Executor& executor)
-{
-  auto points = vtkSmartPointer<vtkPoints>::New();
-  points->SetDataType(singlePrecision ? VTK_FLOAT : VTK_DOUBLE);
-  allocator.take(OutputAllocator::Means, points->GetData(), engine.size());
-  if (singlePrecision)
-  {
-    engine.copyMeans(vtkFloatArray::FastDownCast(points->GetData())->GetPointer(0), executor);
-  }
-  else
-  {
-    engine.copyMeans(vtkDoubleArray::FastDownCast(points->GetData())->GetPointer(0), executor);
-  }
-  return points;
-}
-
-vtkSmartPointer<vtkDataArray> reducedArray(const VoxelResampler& engine, std::size_t i,
-  const VoxelAttribute& attribute, bool isNormal, const VoxelRequest& request, ArrayPool& pool,
-  ArrayAllocator& allocator, const Executor& executor)
-{
-  vtkSmartPointer<vtkDataArray> array;
-  if (keepsPoints(request.representative))
-  {
-    array = attribute.chosen(engine.chosenPoints(), pool, executor);
-  }
-  else
-  {
-    array = attribute.emptyArray();
-    allocator.take(OutputAllocator::Attributes + i, array, engine.size());
-    engine.copyAttribute(i, array->GetVoidPointer(0), executor);
-    array = attribute.inOwnType(array);
-  }
-  if (request.representative != Representative::Mean && isNormal && !request.transform.isIdentity())
-  {
-    turnNormals(array, request.transform);
-  }
-  return array;
-}
-
 vtkSmartPointer<vtkCellArray> makeVertices(vtkIdType count, ArrayPool& pool, const Executor& executor)
 {
   vtkNew<vtkTypeInt64Array> offsets;
@@ -120,34 +81,6 @@ vtkSmartPointer<vtkCellArray> makeVertices(vtkIdType count, ArrayPool& pool, con
   auto cells = vtkSmartPointer<vtkCellArray>::New();
   cells->SetData(offsets, connectivity);
   return cells;
-}
-
-vtkSmartPointer<vtkIdTypeArray> makeCounts(
-  const VoxelResampler& engine, ArrayAllocator& allocator, const Executor& executor)
-{
-  static_assert(sizeof(vtkIdType) == sizeof(std::int64_t), "VTK must be built with 64-bit ids");
-  auto counts = vtkSmartPointer<vtkIdTypeArray>::New();
-  counts->SetName("VoxelPointCount");
-  allocator.take(OutputAllocator::Counts, counts, engine.size());
-  engine.copyCounts(reinterpret_cast<std::int64_t*>(counts->GetPointer(0)), executor);
-  return counts;
-}
-
-vtkSmartPointer<vtkDoubleArray> makeCovariances(
-  const VoxelResampler& engine, ArrayAllocator& allocator, const Executor& executor)
-{
-  static_assert(sizeof(SymMat3) == 6 * sizeof(double), "six numbers, xx yy zz xy yz xz");
-  auto array = vtkSmartPointer<vtkDoubleArray>::New();
-  array->SetName("VoxelCovariance");
-  array->SetNumberOfComponents(6);
-  const char* names[6] = { "XX", "YY", "ZZ", "XY", "YZ", "XZ" };
-  for (int c = 0; c < 6; ++c)
-  {
-    array->SetComponentName(c, names[c]);
-  }
-  allocator.take(OutputAllocator::Covariances, array, engine.size());
-  engine.copyCovariances(reinterpret_cast<SymMat3*>(array->GetPointer(0)), executor);
-  return array;
 }
 
 namespace
@@ -173,8 +106,55 @@ void addField(vtkFieldData* field, const char* name, const double* values, int c
   field->AddArray(array);
 }
 
+/// Makes points of the means.
+vtkSmartPointer<vtkPoints> makePoints(
+  const VoxelResampler& engine, bool singlePrecision, ArrayAllocator& allocator, const Executor& executor)
+{
+  auto points = vtkSmartPointer<vtkPoints>::New();
+  points->SetDataType(singlePrecision ? VTK_FLOAT : VTK_DOUBLE);
+  allocator.take(OutputAllocator::Means, points->GetData(), engine.size());
+  if (singlePrecision)
+  {
+    engine.copyMeans(vtkFloatArray::FastDownCast(points->GetData())->GetPointer(0), executor);
+  }
+  else
+  {
+    engine.copyMeans(vtkDoubleArray::FastDownCast(points->GetData())->GetPointer(0), executor);
+  }
+  return points;
 }
 
+/// The array VoxelPointCount.
+vtkSmartPointer<vtkIdTypeArray> makeCounts(
+  const VoxelResampler& engine, ArrayAllocator& allocator, const Executor& executor)
+{
+  static_assert(sizeof(vtkIdType) == sizeof(std::int64_t), "VTK must be built with 64-bit ids");
+  auto counts = vtkSmartPointer<vtkIdTypeArray>::New();
+  counts->SetName("VoxelPointCount");
+  allocator.take(OutputAllocator::Counts, counts, engine.size());
+  engine.copyCounts(reinterpret_cast<std::int64_t*>(counts->GetPointer(0)), executor);
+  return counts;
+}
+
+/// The array VoxelCovariance.
+vtkSmartPointer<vtkDoubleArray> makeCovariances(
+  const VoxelResampler& engine, ArrayAllocator& allocator, const Executor& executor)
+{
+  static_assert(sizeof(SymMat3) == 6 * sizeof(double), "six numbers, xx yy zz xy yz xz");
+  auto array = vtkSmartPointer<vtkDoubleArray>::New();
+  array->SetName("VoxelCovariance");
+  array->SetNumberOfComponents(6);
+  const char* names[6] = { "XX", "YY", "ZZ", "XY", "YZ", "XZ" };
+  for (int c = 0; c < 6; ++c)
+  {
+    array->SetComponentName(c, names[c]);
+  }
+  allocator.take(OutputAllocator::Covariances, array, engine.size());
+  engine.copyCovariances(reinterpret_cast<SymMat3*>(array->GetPointer(0)), executor);
+  return array;
+}
+
+/// An array of ids. @p numbers: what becomes of each id that is not negative; empty: they stay.
 vtkSmartPointer<vtkIdTypeArray> makeIds(const std::vector<std::int64_t>& ids, const char* name,
   const std::vector<std::int64_t>& numbers, ArrayPool& pool, const Executor& executor)
 {
@@ -191,6 +171,8 @@ vtkSmartPointer<vtkIdTypeArray> makeIds(const std::vector<std::int64_t>& ids, co
   return array;
 }
 
+/// Leaves out the points of @p cloud whose @p counts, one of its arrays, are below @p minimum. @return those
+/// that stay; nothing for a minimum of 1, with which all do.
 std::optional<std::vector<std::int64_t>> keepVoxels(
   vtkPolyData* cloud, vtkIdTypeArray* counts, vtkIdType minimum, ArrayPool& pool, const Executor& executor)
 {
@@ -216,6 +198,7 @@ std::optional<std::vector<std::int64_t>> keepVoxels(
   return kept;
 }
 
+/// Records the lattice and the transform: a scene is built from them.
 void addLattice(const Lattice& lattice, const AffineTransform& transform, vtkFieldData* field)
 {
   addField(field, "LatticeOrigin", &lattice.origin.x, 3);
@@ -235,13 +218,15 @@ void addLattice(const Lattice& lattice, const AffineTransform& transform, vtkFie
   addField(field, "ModelToWorkspace", matrix, 16);
 }
 
-void addArray(vtkPointData* data, vtkDataArray* array, const std::vector<int>& roles)
+}
+
+void fillVoxelIndex(vtkPolyData* output, vtkPointSet* input, const std::vector<std::int64_t>& voxels,
+  const std::vector<std::int64_t>& rows, ArrayPool& pool, const Executor& executor)
 {
-  const int index = data->AddArray(array);
-  for (const int role : roles)
-  {
-    data->SetActiveAttribute(index, role);
-  }
+  output->SetPoints(input->GetPoints());
+  output->GetPointData()->PassData(input->GetPointData());
+  output->GetPointData()->AddArray(makeIds(voxels, "VoxelIndex", rows, pool, executor));
+  output->GetFieldData()->PassData(input->GetFieldData());
 }
 
 bool OutputFiller::fill(
@@ -251,7 +236,7 @@ bool OutputFiller::fill(
   output->SetPoints(makePoints(engine, singlePrecision, allocator, executor));
   output->SetVerts(makeVertices(vtkIdType(engine.size()), pool, executor));
   const auto counts = makeCounts(engine, allocator, executor);
-  if (!addArrays(counts, data))
+  if (!addArrays(data))
   {
     return false;
   }
@@ -268,6 +253,32 @@ bool OutputFiller::fill(
   movePoses(transform, output->GetFieldData());
   addLattice(engine.lattice(), transform, output->GetFieldData());
   return true;
+}
+
+void OutputFiller::addReduced(vtkPointData* data, std::size_t i, const VoxelAttribute& attribute,
+  const VoxelArray& found, const VoxelRequest& request) const
+{
+  vtkSmartPointer<vtkDataArray> array;
+  if (keepsPoints(request.representative))
+  {
+    array = attribute.chosen(engine.chosenPoints(), pool, executor);
+  }
+  else
+  {
+    array = attribute.emptyArray();
+    allocator.take(OutputAllocator::Attributes + i, array, engine.size());
+    engine.copyAttribute(i, array->GetVoidPointer(0), executor);
+    array = attribute.inOwnType(array);
+  }
+  if (request.representative != Representative::Mean && found.isNormal && !request.transform.isIdentity())
+  {
+    turnNormals(array, request.transform);
+  }
+  const int index = data->AddArray(array);
+  for (const int role : found.roles)
+  {
+    data->SetActiveAttribute(index, role);
+  }
 }
 
 } // namespace pointhaptics

@@ -6,7 +6,6 @@
 
 #include "Core/Base/AffineTransform.h"
 #include "Core/Base/Executor.h"
-#include "Core/Base/Lattice.h"
 #include "Core/Resample/VoxelResampler.h"
 
 #include "vtkSmartPointer.h"
@@ -19,17 +18,15 @@
 
 class vtkCellArray;
 class vtkDataArray;
-class vtkDoubleArray;
-class vtkFieldData;
-class vtkIdTypeArray;
 class vtkPointData;
-class vtkPoints;
+class vtkPointSet;
 class vtkPolyData;
 
 namespace pointhaptics
 {
 
 class VoxelAttribute;
+struct VoxelArray;
 
 /// Lets the engine write its results in memory that VTK arrays then take over.
 class ArrayAllocator : public OutputAllocator
@@ -56,35 +53,12 @@ private:
   std::vector<void*> memory_; ///< Memory of each part, or null.
 };
 
-// Memory comes from the @p allocator that the engine wrote to.
-
-/// Makes points of the means. @p singlePrecision: that of the request.
-vtkSmartPointer<vtkPoints> makePoints(
-  const VoxelResampler& engine, bool singlePrecision, ArrayAllocator& allocator, const Executor& executor);
-/// The engine's result for the array of @p attribute: the tuples of points where a representative is a point
-/// of the input, else those of attribute @p i of @p request.
-vtkSmartPointer<vtkDataArray> reducedArray(const VoxelResampler& engine, std::size_t i,
-  const VoxelAttribute& attribute, bool isNormal, const VoxelRequest& request, ArrayPool& pool,
-  ArrayAllocator& allocator, const Executor& executor);
 /// @p count vertex cells, one per point, in order.
 vtkSmartPointer<vtkCellArray> makeVertices(vtkIdType count, ArrayPool& pool, const Executor& executor);
-/// The array VoxelPointCount.
-vtkSmartPointer<vtkIdTypeArray> makeCounts(
-  const VoxelResampler& engine, ArrayAllocator& allocator, const Executor& executor);
-/// The array VoxelCovariance.
-vtkSmartPointer<vtkDoubleArray> makeCovariances(
-  const VoxelResampler& engine, ArrayAllocator& allocator, const Executor& executor);
-/// An array of ids. @p numbers: what becomes of each id that is not negative; empty: they stay.
-vtkSmartPointer<vtkIdTypeArray> makeIds(const std::vector<std::int64_t>& ids, const char* name,
-  const std::vector<std::int64_t>& numbers, ArrayPool& pool, const Executor& executor);
-/// Leaves out the points of @p cloud whose @p counts, one of its arrays, are below @p minimum. @return those
-/// that stay; nothing for a minimum of 1, with which all do.
-std::optional<std::vector<std::int64_t>> keepVoxels(
-  vtkPolyData* cloud, vtkIdTypeArray* counts, vtkIdType minimum, ArrayPool& pool, const Executor& executor);
-/// Records the lattice and the transform: a scene is built from them.
-void addLattice(const Lattice& lattice, const AffineTransform& transform, vtkFieldData* field);
-/// Adds @p array, as the active one of the @p roles of vtkDataSetAttributes::AttributeTypes.
-void addArray(vtkPointData* data, vtkDataArray* array, const std::vector<int>& roles);
+/// Makes @p output the points of @p input with the array VoxelIndex: what @p rows says of the voxel of each,
+/// -1 without a voxel; empty: its number.
+void fillVoxelIndex(vtkPolyData* output, vtkPointSet* input, const std::vector<std::int64_t>& voxels,
+  const std::vector<std::int64_t>& rows, ArrayPool& pool, const Executor& executor);
 
 /// Fills outputs with what the engine made. Their field data is already that of the input; poses in it move
 /// with the points.
@@ -101,10 +75,15 @@ struct OutputFiller
   std::optional<std::vector<std::int64_t>> pointIds; ///< The array of KeepOriginalPointIds, if there is one.
 
   /// Adds the arrays of the points' attributes. @return false where the work was aborted.
-  using AddArrays = std::function<bool(vtkIdTypeArray* counts, vtkPointData* data)>;
-  /// @p kept: of keepVoxels(). @return false where @p addArrays did; the output is not complete then.
+  using AddArrays = std::function<bool(vtkPointData* data)>;
+  /// @p kept: the voxels that stay, where a minimum above 1 may leave some out. @return false where @p
+  /// addArrays did; the output is not complete then.
   bool fill(
     vtkPolyData* output, const AddArrays& addArrays, std::optional<std::vector<std::int64_t>>& kept) const;
+  /// The engine's result for @p found: the tuples of points where a representative is a point of the input,
+  /// else those of attribute @p i of @p request.
+  void addReduced(vtkPointData* data, std::size_t i, const VoxelAttribute& attribute, const VoxelArray& found,
+    const VoxelRequest& request) const;
 };
 
 } // namespace pointhaptics

@@ -36,14 +36,7 @@ vtkVoxelMeanResampler::vtkVoxelMeanResampler()
 
 vtkVoxelMeanResampler::~vtkVoxelMeanResampler() = default;
 
-void vtkVoxelMeanResampler::SetTransform(vtkAbstractTransform* transform)
-{
-  if (this->Transform != transform)
-  {
-    this->Transform = transform;
-    this->Modified();
-  }
-}
+vtkCxxSetSmartPointerMacro(vtkVoxelMeanResampler, Transform, vtkAbstractTransform);
 
 vtkAbstractTransform* vtkVoxelMeanResampler::GetTransform()
 {

@@ -2,16 +2,14 @@
 
 #include "FieldPoses.h"
 
-#include "Core/Base/Host/InterpreterLock.h"
+#include "Core/Base/Host/ProgressReport.h"
 #include "Core/Distributed/FarPoints.h"
 #include "Core/Distributed/Ranks.h"
 #include "Core/Resample/FieldNames.h"
 #include "Core/Resample/VoxelMean.h"
 
 #include "vtkDataArray.h"
-#include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
-#include "vtkIdTypeArray.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 #include "vtkPoints.h"
@@ -293,22 +291,6 @@ void vtkVoxelMeanResampler::Internals::Release()
   this->Points.reset();
 }
 
-bool vtkVoxelMeanResampler::Internals::AddArrays(vtkPointData* data)
-{
-  const auto steps = double(this->Attributes.size() + 1);
-  for (std::size_t i = 0; i < this->Attributes.size(); ++i)
-  {
-    this->BeginPart(kRunEnd + (kFillEnd - kRunEnd) * double(i + 1) / steps);
-    const vtkSmartPointer<vtkDataArray> array = this->ReducedArray(i);
-    if (!this->report(1.0))
-    {
-      return false;
-    }
-    addArray(data, array, this->Attributes[i].roles);
-  }
-  return true;
-}
-
 bool vtkVoxelMeanResampler::Internals::Fill(vtkPointSet* input, vtkPolyData* output)
 {
   OutputFiller filler{ this->Engine, this->Transform, this->Pool, this->Allocator, this->Smp,
@@ -318,8 +300,18 @@ bool vtkVoxelMeanResampler::Internals::Fill(vtkPointSet* input, vtkPolyData* out
     filler.pointIds = this->Engine.chosenPoints();
   }
   output->GetFieldData()->PassData(input->GetFieldData());
-  return filler.fill(
-    output, [&](vtkIdTypeArray*, vtkPointData* data) { return this->AddArrays(data); }, this->Kept);
+  const auto addArrays = [&](vtkPointData* data)
+  {
+    const auto steps = double(this->Attributes.size() + 1);
+    for (std::size_t i = 0; i < this->Attributes.size() && !this->Aborted; ++i)
+    {
+      this->BeginPart(kRunEnd + (kFillEnd - kRunEnd) * double(i + 1) / steps);
+      filler.addReduced(data, i, this->Attributes[i].attribute, this->Attributes[i].found, this->Request);
+      this->report(1.0);
+    }
+    return !this->Aborted;
+  };
+  return filler.fill(output, addArrays, this->Kept);
 }
 
 void vtkVoxelMeanResampler::Internals::FillIndex(vtkPointSet* input, vtkPolyData* output)
@@ -329,11 +321,7 @@ void vtkVoxelMeanResampler::Internals::FillIndex(vtkPointSet* input, vtkPolyData
   {
     places[std::size_t((*this->Kept)[i])] = std::int64_t(i);
   }
-  output->SetPoints(input->GetPoints());
-  output->GetPointData()->PassData(input->GetPointData());
-  output->GetPointData()->AddArray(
-    makeIds(this->Engine.voxelIndex(), "VoxelIndex", places, this->Pool, this->Smp));
-  output->GetFieldData()->PassData(input->GetFieldData());
+  fillVoxelIndex(output, input, this->Engine.voxelIndex(), places, this->Pool, this->Smp);
 }
 
 std::size_t vtkVoxelMeanResampler::Internals::ScratchBytes() const
@@ -369,8 +357,7 @@ void vtkVoxelMeanResampler::Internals::BeginPart(double end)
 
 bool vtkVoxelMeanResampler::Internals::report(double fraction)
 {
-  this->Filter->UpdateProgress(this->PartBegin + (this->PartEnd - this->PartBegin) * fraction);
-  pointhaptics::runSignalHandlers();
+  updateProgress(this->Filter, this->PartBegin + (this->PartEnd - this->PartBegin) * fraction);
   this->Aborted = this->Filter->GetAbortExecute() != 0;
   return !this->Aborted;
 }
@@ -404,17 +391,10 @@ void vtkVoxelMeanResampler::Internals::ChooseArrays(vtkPointSet* input)
       attribute.findRange(this->Smp);
       this->Known.push_back({ seen, found.kind, attribute.values() });
     }
-    this->Attributes.push_back({ std::move(attribute), found.roles, found.isNormal });
+    this->Attributes.push_back({ std::move(attribute), found });
   }
   for (const std::string& text : dropped)
   {
     this->Filter->Warn(text);
   }
-}
-
-vtkSmartPointer<vtkDataArray> vtkVoxelMeanResampler::Internals::ReducedArray(std::size_t i)
-{
-  const NamedAttribute& named = this->Attributes[i];
-  return reducedArray(
-    this->Engine, i, named.attribute, named.isNormal, this->Request, this->Pool, this->Allocator, this->Smp);
 }

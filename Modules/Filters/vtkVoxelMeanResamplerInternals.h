@@ -65,8 +65,7 @@ private:
   struct NamedAttribute
   {
     pointhaptics::VoxelAttribute attribute;
-    std::vector<int> roles; ///< vtkDataSetAttributes::AttributeTypes it is the active one of.
-    bool isNormal;
+    pointhaptics::VoxelArray found;
   };
   /// An array as it was when something was learned of it.
   struct ArraySeen
@@ -96,7 +95,6 @@ private:
   bool FindWorkspace(const Clouds& clouds);
   pointhaptics::Bounds BoundsOf(const std::vector<pointhaptics::PointView>& parts);
   bool MakeLattice(vtkPointSet* input);
-  bool AddArrays(vtkPointData* data);
   bool Fill(vtkPointSet* input, vtkPolyData* output);
   void FillIndex(vtkPointSet* input, vtkPolyData* output);
   /// Says which categories no cloud has, and that no point is left.
@@ -107,8 +105,6 @@ private:
 
   /// A point of the input stands for each voxel.
   bool KeepsPoints() const;
-  /// The array of attribute @p i with one tuple a voxel.
-  vtkSmartPointer<vtkDataArray> ReducedArray(std::size_t i);
   void ChooseArrays(vtkPointSet* input);
   bool UseIndex(vtkPointSet* input);
   bool Resample(vtkPointSet* input);

@@ -19,8 +19,8 @@ enum ProxyStatus : std::uint32_t
   kProxyOk = 0,
   kProxyNonFiniteInput = 1u << 0, ///< The HIP was NaN or infinite: last state held, force faded out. Cure:
                                   ///< the device.
-  kProxyRoundLimit = 1u << 1,  ///< The foot point did not converge within a step's rounds; it goes on in the
-                               ///< next. Cure: larger voxels (a noisy cloud), or a higher rate.
+  kProxyRoundLimit = 1u << 1, ///< The foot point or the ball did not come to rest within a step's rounds; it
+                              ///< goes on in the next. Cure: larger voxels (a noisy cloud), or a higher rate.
   kProxyStepLimit = 1u << 2,   ///< The HIP moved further than one step can follow; it is caught up over the
                                ///< next. Cure: a higher rate; with GradientSteps maximumStepsPerTick.
   kProxyBallContact = 1u << 3, ///< The fitted surface and the ball disagree, as at edges and folds: the

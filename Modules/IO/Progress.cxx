@@ -1,6 +1,6 @@
 #include "Progress.h"
 
-#include "Core/Base/Host/InterpreterLock.h"
+#include "Core/Base/Host/ProgressReport.h"
 #include "Core/Base/Host/StopRequest.h"
 #include "FileProblem.h"
 
@@ -15,8 +15,7 @@ namespace pointhaptics::io
 
 void reportProgress(vtkAlgorithm* algorithm, double fraction)
 {
-  algorithm->UpdateProgress(fraction);
-  runSignalHandlers();
+  updateProgress(algorithm, fraction);
   if (shallStop(algorithm, 0))
   {
     throw StoppedOnRequest();
@@ -54,8 +53,7 @@ void RelayedProgress::relay(double fraction)
   if (now > reached_)
   {
     reached_ = now;
-    outer_->UpdateProgress(now);
-    runSignalHandlers();
+    updateProgress(outer_, now);
   }
   // An exception must not pass through VTK: finish() throws it.
   if (outer_->GetAbortExecute())

@@ -20,11 +20,9 @@
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
-#include "vtkUnsignedIntArray.h"
 
 #include <algorithm>
 #include <optional>
-#include <utility>
 #include <vector>
 
 vtkStandardNewMacro(vtkPVSplatRepresentation);
@@ -35,13 +33,11 @@ namespace
 /// Field data with the look of a block, which may be drawn by another process.
 constexpr const char* kLookName = "SplatLook";
 constexpr int kLookValues = 7;
-/// Point data with the block of a point, by which selections name it.
-constexpr const char* kBlockName = "vtkCompositeIndex";
 
-/// The blocks of @p data that have points, with their flat indices.
-std::vector<std::pair<unsigned int, vtkPolyData*>> blocksOf(vtkDataObject* data)
+/// The blocks of @p data that have points.
+std::vector<vtkPolyData*> blocksOf(vtkDataObject* data)
 {
-  std::vector<std::pair<unsigned int, vtkPolyData*>> blocks;
+  std::vector<vtkPolyData*> blocks;
   auto* tree = vtkCompositeDataSet::SafeDownCast(data);
   if (!tree)
   {
@@ -53,7 +49,7 @@ std::vector<std::pair<unsigned int, vtkPolyData*>> blocksOf(vtkDataObject* data)
     auto* block = vtkPolyData::SafeDownCast(each->GetCurrentDataObject());
     if (block && block->GetNumberOfPoints() > 0)
     {
-      blocks.emplace_back(each->GetCurrentFlatIndex(), block);
+      blocks.push_back(block);
     }
   }
   return blocks;
@@ -118,7 +114,7 @@ vtkPVSplatRepresentation::vtkPVSplatRepresentation()
   // The superclass keeps its mapper: colours and selections are set there, and handed on before each render.
   this->Actor->SetMapper(this->Splats);
   this->Splats->SetProcessIdArrayName("vtkProcessId");
-  this->Splats->SetCompositeIdArrayName(kBlockName);
+  this->Splats->SetCompositeIdArrayName("vtkCompositeIndex"); // of vtkPVGeometryFilter
   this->SetArrayIdNames(nullptr, nullptr);
   this->SuppressLOD = true;
   this->Representation = POINTS;
@@ -147,9 +143,8 @@ int vtkPVSplatRepresentation::RequestData(
   vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   const int result = this->Superclass::RequestData(request, inputs, outputs);
-  for (const auto& [index, block] : blocksOf(this->MultiBlockMaker->GetOutputDataObject(0)))
+  for (vtkPolyData* block : blocksOf(this->MultiBlockMaker->GetOutputDataObject(0)))
   {
-    static_cast<void>(index);
     keepVertices(block);
     measure(block);
   }
@@ -182,18 +177,12 @@ void vtkPVSplatRepresentation::SetDrawnData(vtkDataObject* data)
   this->DrawnTime = data->GetMTime();
   pointhaptics::CloudLook look;
   vtkNew<vtkAppendPolyData> all;
-  auto drawn = vtkSmartPointer<vtkPolyData>::New();
-  for (const auto& [index, block] : blocksOf(data))
+  vtkSmartPointer<vtkPolyData> drawn = vtkSmartPointer<vtkPolyData>::New();
+  for (vtkPolyData* block : blocksOf(data))
   {
     look = lookOf(block);
-    vtkNew<vtkUnsignedIntArray> indices;
-    indices->SetName(kBlockName);
-    indices->SetNumberOfValues(block->GetNumberOfPoints());
-    indices->FillValue(index);
-    drawn = vtkSmartPointer<vtkPolyData>::New();
     drawn->ShallowCopy(block);
-    drawn->GetPointData()->AddArray(indices);
-    all->AddInputData(drawn);
+    all->AddInputData(block);
   }
   if (all->GetNumberOfInputConnections(0) > 1)
   {

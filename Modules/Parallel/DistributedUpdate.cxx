@@ -160,22 +160,12 @@ std::string DistributedUpdate::runOfSums(vtkPolyData* output)
   clipped_ = shared_.clippedPoints();
   invalid_ = shared_.invalidPoints();
   ranges_ = shared_.ranges();
-  this->fill(output, [&](vtkIdTypeArray*, vtkPointData* data) { this->addMeans(data); });
+  this->fill(output, arrays_, VoxelRequest());
   return {};
 }
 
-void DistributedUpdate::addMeans(vtkPointData* data)
-{
-  for (std::size_t i = 0; i < arrays_.size(); ++i)
-  {
-    addArray(data,
-      reducedArray(made_, i, arrays_[i], found_[i].isNormal, VoxelRequest(), pool_, allocator_, smp_),
-      found_[i].roles);
-  }
-}
-
-template <typename Function>
-void DistributedUpdate::fill(vtkPolyData* output, Function&& addArrays)
+void DistributedUpdate::fill(
+  vtkPolyData* output, const std::vector<VoxelAttribute>& arrays, const VoxelRequest& request)
 {
   OutputFiller filler{ made_, transform_, pool_, allocator_, smp_, singlePrecision_,
     settings_.computeCovariance, settings_.minimumPointsPerVoxel, {} };
@@ -189,9 +179,12 @@ void DistributedUpdate::fill(vtkPolyData* output, Function&& addArrays)
   }
   static_cast<void>(filler.fill(
     output,
-    [&](vtkIdTypeArray* counts, vtkPointData* data)
+    [&](vtkPointData* data)
     {
-      addArrays(counts, data);
+      for (std::size_t i = 0; i < arrays.size(); ++i)
+      {
+        filler.addReduced(data, i, arrays[i], found_[i], request);
+      }
       return true;
     },
     kept_));
@@ -277,16 +270,7 @@ std::string DistributedUpdate::runOfPoints(vtkPolyData* output)
   {
     return problemOf(status);
   }
-  this->fill(output,
-    [&](vtkIdTypeArray*, vtkPointData* data)
-    {
-      for (std::size_t i = 0; i < found_.size(); ++i)
-      {
-        addArray(data,
-          reducedArray(made_, i, attributes[i], found_[i].isNormal, request, pool_, allocator_, smp_),
-          found_[i].roles);
-      }
-    });
+  this->fill(output, attributes, request);
   return {};
 }
 
@@ -305,10 +289,7 @@ std::string DistributedUpdate::fillIndex(vtkPolyData* output, vtkIdType voxels)
     rows[kept_ ? std::size_t((*kept_)[i]) : i] = first + std::int64_t(i);
   }
   const std::vector<std::int64_t> ofOwn = numbersOfKeys(ranks_, ranges_, keysOf(own), keysOf(made_), rows);
-  output->SetPoints(input_->GetPoints());
-  output->GetPointData()->PassData(input_->GetPointData());
-  output->GetPointData()->AddArray(makeIds(own.voxelIndex(), "VoxelIndex", ofOwn, pool_, smp_));
-  output->GetFieldData()->PassData(input_->GetFieldData());
+  fillVoxelIndex(output, input_, own.voxelIndex(), ofOwn, pool_, smp_);
   return {};
 }
 

@@ -65,13 +65,11 @@ private:
   std::string findOwnVoxels(const Lattice& lattice, VoxelResampler& own);
   // Means: sums are shared.
   std::string runOfSums(vtkPolyData* output);
-  void addMeans(vtkPointData* data);
   // Others: points go to the rank that has their voxel.
   std::string runOfPoints(vtkPolyData* output);
   vtkSmartPointer<vtkPolyData> sharePoints(const VoxelResampler& own);
-  /// @p addArrays adds what points have beside places, counts and covariances.
-  template <typename Function>
-  void fill(vtkPolyData* output, Function&& addArrays);
+  /// @p arrays: what points have beside places, counts and covariances.
+  void fill(vtkPolyData* output, const std::vector<VoxelAttribute>& arrays, const VoxelRequest& request);
 
   Ranks& ranks_;
   const VoxelMeanSettings& settings_;

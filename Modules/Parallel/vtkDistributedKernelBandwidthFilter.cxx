@@ -28,14 +28,7 @@ vtkDistributedKernelBandwidthFilter::vtkDistributedKernelBandwidthFilter()
 
 vtkDistributedKernelBandwidthFilter::~vtkDistributedKernelBandwidthFilter() = default;
 
-void vtkDistributedKernelBandwidthFilter::SetController(vtkMultiProcessController* controller)
-{
-  if (this->Controller != controller)
-  {
-    this->Controller = controller;
-    this->Modified();
-  }
-}
+vtkCxxSetSmartPointerMacro(vtkDistributedKernelBandwidthFilter, Controller, vtkMultiProcessController);
 
 vtkMultiProcessController* vtkDistributedKernelBandwidthFilter::GetController()
 {

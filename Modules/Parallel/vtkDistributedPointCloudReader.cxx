@@ -24,14 +24,7 @@ vtkDistributedPointCloudReader::vtkDistributedPointCloudReader()
 
 vtkDistributedPointCloudReader::~vtkDistributedPointCloudReader() = default;
 
-void vtkDistributedPointCloudReader::SetController(vtkMultiProcessController* controller)
-{
-  if (this->Controller != controller)
-  {
-    this->Controller = controller;
-    this->Modified();
-  }
-}
+vtkCxxSetSmartPointerMacro(vtkDistributedPointCloudReader, Controller, vtkMultiProcessController);
 
 vtkMultiProcessController* vtkDistributedPointCloudReader::GetController()
 {

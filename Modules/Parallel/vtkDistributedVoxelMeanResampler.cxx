@@ -25,14 +25,7 @@ vtkDistributedVoxelMeanResampler::vtkDistributedVoxelMeanResampler()
 
 vtkDistributedVoxelMeanResampler::~vtkDistributedVoxelMeanResampler() = default;
 
-void vtkDistributedVoxelMeanResampler::SetController(vtkMultiProcessController* controller)
-{
-  if (this->Controller != controller)
-  {
-    this->Controller = controller;
-    this->Modified();
-  }
-}
+vtkCxxSetSmartPointerMacro(vtkDistributedVoxelMeanResampler, Controller, vtkMultiProcessController);
 
 vtkMultiProcessController* vtkDistributedVoxelMeanResampler::GetController()
 {

@@ -31,9 +31,10 @@ VirtualTouch::VirtualTouch(const HapticParameters& parameters, FeelScenes& scene
   sample_.parameters = 1;
 }
 
-const ProxyState& VirtualTouch::step(const Vec3& hip, double& microseconds)
+const ProxyState& VirtualTouch::step(const HandState& hand, double& microseconds)
 {
-  const HapticScene* scene = scenes_.at(hip, sample_.state.contact ? sample_.state.proxy : hip);
+  const HapticScene* scene =
+    scenes_.at(hand.position, sample_.state.contact && !hand.isNew ? sample_.state.proxy : hand.position);
   if (scene != scene_)
   {
     scene_ = scene;
@@ -43,7 +44,7 @@ const ProxyState& VirtualTouch::step(const Vec3& hip, double& microseconds)
   }
   TickInput input;
   input.number = sample_.tick + 1;
-  input.hand.position = hip;
+  input.hand = hand;
   const auto before = std::chrono::steady_clock::now();
   step_.step(input, sample_);
   step_.finish(input, Status::Ok, sample_);
@@ -64,7 +65,7 @@ void feelPathWith(const HapticParameters& parameters, FeelScenes& scenes, const 
   {
     const double time = std::min(start + double(tick) / rateHz, end);
     double microseconds = 0.0;
-    touch.step(path.position(time, hint), microseconds);
+    touch.step(path.hand(time, hint), microseconds);
     if (!onTouch(time, touch))
     {
       return;

@@ -34,9 +34,9 @@ class POINTHAPTICSSCENE_EXPORT VirtualTouch
 public:
   /// @param scenes outlives this.
   VirtualTouch(const HapticParameters& parameters, FeelScenes& scenes, double rateHz);
-  /// Steps with the hand at @p hip. @param microseconds gets the duration of the tick alone: a scene that it
+  /// Steps with @p hand. @param microseconds gets the duration of the tick alone: a scene that it
   /// needs is there in time.
-  const ProxyState& step(const Vec3& hip, double& microseconds);
+  const ProxyState& step(const HandState& hand, double& microseconds);
   /// Sample of the last step; its tick is the step's number, 1, 2, ...
   const ServoSample& sample() const { return sample_; }
   /// Scene in which the last step was felt; may be null.

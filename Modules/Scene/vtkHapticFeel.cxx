@@ -6,6 +6,7 @@
 #include "vtkVoxelMeanResampler.h"
 
 #include "Core/Base/Host/GuardedWork.h"
+#include "Core/Base/Host/ProgressReport.h"
 #include "Core/Base/Host/StopRequest.h"
 #include "Devices/PathUnits.h"
 
@@ -221,8 +222,7 @@ bool vtkHapticFeel::Internals::Feel(
       }
       if (++tick % kTicksBetweenReports == 0)
       {
-        filter->UpdateProgress(kResampled + (1.0 - kResampled) * double(tick) / double(ticks));
-        runSignalHandlers();
+        updateProgress(filter, kResampled + (1.0 - kResampled) * double(tick) / double(ticks));
       }
       return !filter->AbortExecute;
     });

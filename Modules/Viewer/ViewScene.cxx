@@ -341,8 +341,7 @@ void ViewScene::keepColorRange(const ColorRange& before)
 
 std::vector<std::string> ViewScene::colorChoices() const
 {
-  // The default choice comes first.
-  std::vector<std::string> names;
+  std::vector<std::string> names; // the default choice first, where it has a name
   const auto add = [&names](const std::string& name)
   {
     if (!name.empty() && std::find(names.begin(), names.end(), name) == names.end())
@@ -358,7 +357,7 @@ std::vector<std::string> ViewScene::colorChoices() const
   add(hasColors(shown_->points) ? "rgb" : "");
   for (const char* name : { "classification", "intensity", "returnnumber" })
   {
-    // The means lack arrays that only the points have, and never get them.
+    // Arrays that were added for drawing are never averaged: with the means only the file's are offered.
     vtkDataArray* array = findArrayAnyCase(showsFelt_ ? cloud_ : shown_->points, name);
     add(array ? array->GetName() : "");
   }

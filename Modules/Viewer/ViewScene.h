@@ -144,8 +144,8 @@ public:
   ProfilePoints profile() const;
 
   /// @p layout places the scalar bar and leaves room for the directions of the axes; numbers of axes and
-  /// gauge give way to what it places. Without one the bar stands at the right edge. It must live until
-  /// leaveLayout().
+  /// gauge give way to what it places. Without one the bar stands at the right edge. The layout must live
+  /// until leaveLayout().
   void join(ScreenLayout& layout);
   void leaveLayout();
 
@@ -166,8 +166,10 @@ public:
   const std::string& colorBy() const { return colorBy_; }
   /// True while the picture waits for the colours of setColorBy().
   bool awaitsColors() const { return coloredBy_ != colorBy_; }
-  /// Names to colour by: rgb where there are colours, Height, the array that the user named, and the arrays
-  /// of the pipeline.
+  /// Names that setColorBy() takes, each once. The default choice comes first where it has a name; Height,
+  /// rgb, known arrays of the file, the array that the user named, Clay and the arrays of the pipeline
+  /// follow.
+  /// @pre a cloud is shown.
   std::vector<std::string> colorChoices() const;
   /// Lights clouds with photographed colours fully too, and means that have normals.
   void showAmbient(bool ambient);
@@ -293,15 +295,15 @@ private:
   vtkNew<vtkSplatMapper> pointsMapper_;
   vtkNew<vtkActor> pointsActor_;
   vtkNew<vtkMatrix4x4> pointsMatrix_; ///< From the file to the workspace.
-  bool showsFelt_ = false;            ///< The requested choice.
-  bool drawsFelt_ = false;            ///< The present choice.
+  bool showsFelt_ = false;            ///< The user asked for the means.
+  bool drawsFelt_ = false;            ///< The means are drawn now.
   bool ambient_ = false;
   double loadedScale_ = 1.0; ///< Scale of the model as it was opened.
   vtkNew<vtkWorkspaceBrackets> brackets_;
   vtkNew<vtkScalarBarActor> scalarBar_;
-  bool wantsScalarBar_ = false;
-  bool layoutPlacesBar_ = false;
-  bool barHasRoom_ = true;
+  bool wantsScalarBar_ = false;  ///< The colours have a scale to show.
+  bool layoutPlacesBar_ = false; ///< A ScreenLayout places the bar.
+  bool barHasRoom_ = true;       ///< The layout gave the bar a box.
   vtkNew<vtkHapticProps> props_;
   vtkNew<vtkCloudAxes> axes_;
   bool wantsAxes_ = false;

@@ -49,7 +49,7 @@ constexpr double kFeltLargest = 64.0;
 /// From straight above, the camera's own up vector decides how the view is turned.
 constexpr double kSteepest = 0.999;
 constexpr double kHighestLook = 85.0; ///< Degrees above and below the horizon while walking.
-/// Dots per inch at which a point is a pixel.
+/// Typographic points in an inch: at 72 dots per inch a point of a font is a pixel.
 constexpr double kPointsPerInch = 72.0;
 
 /// Least diameter of the points in a file of @p count points, pixels.
@@ -238,6 +238,7 @@ void ViewScene::applyPointSizes()
   }
 }
 
+/// Callbacks by which a ScreenLayout measures and places the scalar bar; the scene outlives their use.
 ScreenBlock ViewScene::scalarBarBlock()
 {
   ScreenBlock block;

@@ -224,7 +224,7 @@ TEST_F(RecordingCommands, OneForceLimitHoldsInEveryMode)
     std::string name;
   };
   for (const Case& each : { Case{ { "--max-force", "1" }, 1.0, "user" },
-         Case{ { "--force-limit", "2", "--max-force", "3" }, 2.0, "user" }, Case{ {}, 8.0, "user" },
+         Case{ { "--force-limit", "2", "--max-force", "3" }, 2.0, "user" }, Case{ {}, 8.0, "program" },
          Case{ { "--force-limit", "inf", "--device", "simulated", "--stiffness", "800" }, 8.0, "device" } })
   {
     std::vector<std::string> words = feel;
@@ -486,6 +486,25 @@ TEST_F(RecordingCommands, TheIdealForceOfAChartObeysTheLimitThatHeld)
         << chart << ", limit " << limit;
     }
   }
+}
+
+TEST_F(RecordingCommands, AHandThatWasFoundAnewTouchesNothingOnItsWayInAPath)
+{
+  this->succeed({ "generate", "sphere", "-n", "20000", "-o", "sphere.ply" });
+  const auto contacts = [this](const std::string& between)
+  {
+    this->write(
+      "in.csv", "t,hip_x,hip_y,hip_z\n# tick 1: begins\n0,0,0,0.06\n" + between + "0.1,0,0,-0.06\n");
+    const std::vector<std::string> words = { "feel", "sphere.ply", "--path", "in.csv", "-o", "out.csv",
+      "--force", "--record", "rec.csv", "--json" };
+    const nlohmann::json said = nlohmann::json::parse(this->succeed(words));
+    this->succeed({ "feel", "--replay", "rec.csv", "-o", "again.csv", "--force" });
+    EXPECT_TRUE(felt(this->read("again.csv")) == felt(this->read("out.csv")));
+    return said["contact_ticks"].get<int>();
+  };
+  EXPECT_GT(contacts(""), 20);
+  EXPECT_EQ(contacts("# tick 101: new-hand\n"), 0);
+  EXPECT_NE(this->read("rec.csv").find("# tick 101: new-hand"), std::string::npos);
 }
 
 } // namespace

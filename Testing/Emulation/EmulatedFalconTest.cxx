@@ -17,14 +17,11 @@
 #include <linux/usbdevice_fs.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
-
 using namespace pointhaptics;
 using namespace pointhaptics::trial;
 
 namespace
 {
-
-constexpr std::array<std::int16_t, kFalconLegs> kNoTorque{};
 
 /// An emulated machine with one Falcon, and the driver on the real libusb.
 class EmulatedUsb : public UnderUmockdev
@@ -91,57 +88,6 @@ TEST_F(EmulatedUsb, SaysWhoHoldsADeviceThatIsBusy)
   const std::vector<ListedDevice> list = listDevices(notes);
   ASSERT_EQ(list.size(), 2u);
   EXPECT_NE(list[0].problem.find("another program"), std::string::npos) << list[0].problem;
-}
-
-TEST_F(EmulatedUsb, TheServoLoopFeelsASphereAndTheHandSettlesInBalance)
-{
-  falcon.plugIn();
-  desk.comeFromOutside();
-  FalconDevice device(settings());
-  ASSERT_EQ(device.open(), Status::Ok) << device.message();
-  ServoLoop loop;
-  loop.publishScene(desk.sphere(40000, 0.0005));
-  HapticParameters parameters;
-  ASSERT_EQ(loop.start(device, parameters), Status::Ok);
-  ASSERT_TRUE(eventually([&] { return device.state() == FalconState::Armed; }));
-  ASSERT_TRUE(desk.touch(loop));
-  const double stiffness = parameters.contact.stiffness;
-  EXPECT_TRUE(eventually([&] { return desk.rests(loop, stiffness, 0.03); }))
-    << loop.latest().state.hip.z << " " << norm(loop.latest().state.force);
-  desk.expectAtRest(stiffness);
-  loop.stop();
-  device.close();
-  desk.expectShutDown(device);
-}
-
-TEST_F(EmulatedUsb, SurvivesGarbageAndSilence)
-{
-  falcon.plugIn();
-  desk.comeFromOutside();
-  FalconDevice device(settings());
-  ASSERT_EQ(device.open(), Status::Ok) << device.message();
-  ServoLoop loop;
-  loop.publishScene(desk.sphere(40000, 0.0005));
-  ASSERT_EQ(loop.start(device, HapticParameters()), Status::Ok);
-  ASSERT_TRUE(eventually([&] { return device.state() == FalconState::Armed; }));
-  for (int i = 0; i < 20; ++i)
-  {
-    falcon.garbage({ '<', 'A', 0xff, '>', '<', '<', 'Z' });
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));
-  }
-  EXPECT_TRUE(eventually([&] { return device.statistics().droppedBytes > 20; }));
-  ASSERT_TRUE(desk.touch(loop));
-  ASSERT_NE(device.raw().command.motors, kNoTorque);
-  const std::uint64_t timeouts = device.statistics().timeouts;
-  falcon.with([](FalconModel& model) { model.silent = true; });
-  EXPECT_TRUE(eventually([&] { return device.statistics().timeouts >= timeouts + 2; }));
-  EXPECT_EQ(norm(loop.latest().state.force), 0.0);
-  EXPECT_EQ(device.raw().command.motors, kNoTorque);
-  falcon.with([](FalconModel& model) { model.silent = false; });
-  const std::uint64_t replies = device.statistics().replies;
-  EXPECT_TRUE(eventually([&] { return device.statistics().replies > replies + 20; }));
-  EXPECT_TRUE(loop.running());
-  loop.stop();
 }
 
 TEST_F(EmulatedUsb, SurvivesUnpluggingInContactThreeTimes)

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <vtkCompositeDataIterator.h>
 #include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
 #include <vtkIdTypeArray.h>
 #include <vtkImageData.h>
 #include <vtkInformation.h>
@@ -70,6 +71,20 @@ void setPlaces(vtkPointSet* grid, vtkPolyData* cloud)
   grid->GetPointData()->ShallowCopy(cloud->GetPointData());
 }
 
+vtkSmartPointer<vtkPolyData> cloudOfBoth(vtkPolyData* first, vtkPolyData* second)
+{
+  vtkNew<vtkPoints> all;
+  all->SetDataTypeToDouble();
+  for (vtkPolyData* cloud : { first, second })
+  {
+    for (vtkIdType i = 0; i < cloud->GetNumberOfPoints(); ++i)
+    {
+      all->InsertNextPoint(cloud->GetPoint(i));
+    }
+  }
+  return trial::cloudOf(all);
+}
+
 double spacingOf(vtkPolyData* means)
 {
   return means->GetFieldData()->GetArray("LatticeSpacing")->GetComponent(0, 0);
@@ -99,16 +114,7 @@ TEST(CloudAlgorithm, BlocksOfACompositeShareOneLatticeAndAreCountedTogether)
   const auto clouds = cloudsIn(output);
   ASSERT_EQ(clouds.size(), 2u);
   // The lattice of both is that of all points, and each is what those points give on it.
-  vtkNew<vtkPoints> all;
-  all->SetDataTypeToDouble();
-  for (vtkPolyData* cloud : { near.Get(), far.Get() })
-  {
-    for (vtkIdType i = 0; i < cloud->GetNumberOfPoints(); ++i)
-    {
-      all->InsertNextPoint(cloud->GetPoint(i));
-    }
-  }
-  whole->SetInputData(trial::cloudOf(all));
+  whole->SetInputData(cloudOfBoth(near, far));
   whole->Update();
   EXPECT_EQ(spacingOf(clouds[0]), spacingOf(whole->GetOutput()));
   EXPECT_EQ(spacingOf(clouds[1]), spacingOf(whole->GetOutput()));
@@ -117,6 +123,66 @@ TEST(CloudAlgorithm, BlocksOfACompositeShareOneLatticeAndAreCountedTogether)
   resampler->LatticePerBlockOn();
   resampler->Update();
   EXPECT_LT(spacingOf(cloudsIn(resampler->GetOutputDataObject(0))[0]), 0.5 * spacingOf(clouds[0]));
+}
+
+/// @p first and @p second in each kind of composite, with what the kind is called.
+std::vector<std::pair<std::string, vtkSmartPointer<vtkDataObject>>> compositesOf(
+  vtkPolyData* first, vtkPolyData* second)
+{
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  blocks->SetBlock(0, first);
+  blocks->SetBlock(1, second);
+  vtkNew<vtkPartitionedDataSet> parts;
+  parts->SetPartition(0, first);
+  parts->SetPartition(1, second);
+  vtkNew<vtkPartitionedDataSetCollection> collection;
+  collection->SetPartition(0, 0, first);
+  collection->SetPartition(1, 0, second);
+  vtkNew<vtkPartitionedDataSetCollection> both;
+  both->SetPartitionedDataSet(1, parts);
+  vtkNew<vtkMultiBlockDataSet> tree;
+  vtkNew<vtkMultiBlockDataSet> inner;
+  inner->SetBlock(1, second);
+  tree->SetBlock(0, first);
+  tree->SetBlock(2, inner);
+  return { { "blocks", blocks.Get() }, { "partitions", parts.Get() }, { "collection", collection.Get() },
+    { "tree of partitions", both.Get() }, { "tree of blocks", tree.Get() } };
+}
+
+TEST(CloudAlgorithm, EveryKindOfCompositeHasOneLatticeByDefault)
+{
+  const auto near = cloudAt(0, 2000, 1);
+  const auto far = cloudAt(3, 1000, 2);
+  vtkNew<vtkVoxelMeanResampler> whole;
+  whole->SetDimensions(20, 20, 20);
+  whole->SetInputData(cloudOfBoth(near, far));
+  whole->Update();
+  vtkFieldData* const expected = whole->GetOutput()->GetFieldData();
+  for (const auto& [kind, composite] : compositesOf(near, far))
+  {
+    SCOPED_TRACE(kind);
+    vtkNew<vtkVoxelMeanResampler> resampler;
+    resampler->SetDimensions(20, 20, 20);
+    resampler->SetInputDataObject(composite);
+    resampler->Update();
+    const auto clouds = cloudsIn(resampler->GetOutputDataObject(0));
+    ASSERT_EQ(clouds.size(), 2u);
+    vtkIdType means = 0;
+    for (vtkPolyData* cloud : clouds)
+    {
+      means += cloud->GetNumberOfPoints();
+      for (const char* name : { "LatticeOrigin", "LatticeSpacing", "LatticeDimensions" })
+      {
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          EXPECT_EQ(cloud->GetFieldData()->GetArray(name)->GetComponent(0, axis),
+            expected->GetArray(name)->GetComponent(0, axis))
+            << name;
+        }
+      }
+    }
+    EXPECT_EQ(means, whole->GetOutput()->GetNumberOfPoints()); // no voxel has points of both
+  }
 }
 
 TEST(CloudAlgorithm, FarPointsOfACompositeAreFarFromAllItsBlocks)

@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 
 namespace
@@ -198,20 +197,6 @@ TEST(KernelBandwidthFilter, DegenerateCloudsGetUsableRadii)
   }
 }
 
-TEST(KernelBandwidthFilter, PointsThatAreNotFiniteGetZero)
-{
-  const auto points = trial::randomPoints(100, 6);
-  points->SetPoint(3, std::numeric_limits<double>::quiet_NaN(), 0, 0);
-  vtkNew<vtkKernelBandwidthFilter> filter;
-  filter->SetInputData(trial::cloudOf(points));
-  filter->ComputeDensityOn();
-  filter->Update();
-  EXPECT_EQ(arrayOf(filter, "Bandwidth")->GetTuple1(3), 0.0);
-  EXPECT_EQ(arrayOf(filter, "ProxyRadius")->GetTuple1(3), 0.0);
-  EXPECT_EQ(arrayOf(filter, "Density")->GetTuple1(3), 0.0);
-  EXPECT_GT(arrayOf(filter, "Bandwidth")->GetTuple1(4), 0.0);
-}
-
 TEST(KernelBandwidthFilter, EmptyInputIsNoError)
 {
   vtkNew<vtkPolyData> empty;
@@ -391,28 +376,6 @@ TEST(KernelBandwidthFilter, EpanechnikovDensityAgreesWithTheDirectSum)
   }
 }
 
-TEST(KernelBandwidthFilter, EveryOptionCountsAsAChange)
-{
-  vtkNew<vtkKernelBandwidthFilter> filter;
-  const std::vector<std::function<void()>> changes{ [&] { filter->SetNeighborhoodToFixedRadius(); },
-    [&] { filter->SetNumberOfNeighbors(5); }, [&] { filter->SetRadius(0.5); },
-    [&] { filter->SetRuleToSheatherJones(); }, [&] { filter->SetRadiusScale(2); },
-    [&] { filter->SetMinimumRadius(0.1); }, [&] { filter->SetMaximumRadius(0.2); },
-    [&] { filter->SmoothRadiusOn(); }, [&] { filter->UsePointCountsOff(); },
-    [&] { filter->SetDensityKernelToEpanechnikov(); }, [&] { filter->ComputeBandwidthOff(); },
-    [&] { filter->ComputeProxyRadiusOff(); }, [&] { filter->ComputeDensityOn(); },
-    [&] { filter->ComputeMeanBandwidthOn(); } };
-  for (std::size_t i = 0; i < changes.size(); ++i)
-  {
-    const vtkMTimeType before = filter->GetMTime();
-    changes[i]();
-    const vtkMTimeType after = filter->GetMTime();
-    EXPECT_GT(after, before) << "option " << i;
-    changes[i]();
-    EXPECT_EQ(filter->GetMTime(), after) << "option " << i;
-  }
-}
-
 namespace
 {
 
@@ -547,43 +510,4 @@ TEST(Pipeline, RadiiOfAResampledCloudAreThoseOfThePoints)
       ASSERT_EQ(arrayOf(filter, name)->GetTuple1(i), arrayOf(ofMeans, name)->GetTuple1(i)) << name;
     }
   }
-}
-
-TEST(Pipeline, ResampledCloudsGetTheirRadii)
-{
-  std::mt19937_64 engine(10);
-  vtkNew<vtkPoints> points;
-  for (int i = 0; i < 17000; ++i)
-  {
-    // Sixteen times the density where x < 0.
-    const double x = i < 16000 ? trial::uniform(engine, -1, 0) : trial::uniform(engine, 0, 1);
-    points->InsertNextPoint(0.05 * x, 0.05 * trial::uniform(engine), 0.0);
-  }
-  vtkNew<vtkVoxelMeanResampler> resampler;
-  resampler->SetInputData(trial::cloudOf(points));
-  resampler->ComputeCovarianceOn();
-  vtkNew<vtkKernelBandwidthFilter> filter;
-  filter->SetInputConnection(resampler->GetOutputPort());
-  filter->Update();
-  vtkPolyData* output = filter->GetOutput();
-  ASSERT_GT(output->GetNumberOfPoints(), 1000);
-  EXPECT_EQ(output->GetNumberOfVerts(), output->GetNumberOfPoints());
-  for (const char* name : { "VoxelPointCount", "VoxelCovariance", "Bandwidth", "ProxyRadius" })
-  {
-    ASSERT_NE(arrayOf(filter, name), nullptr) << name;
-    EXPECT_EQ(arrayOf(filter, name)->GetNumberOfTuples(), output->GetNumberOfPoints());
-  }
-  double radius[2] = { 0, 0 };
-  double count[2] = { 0, 0 };
-  for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
-  {
-    const int side = output->GetPoint(i)[0] > 0;
-    radius[side] += arrayOf(filter, "ProxyRadius")->GetTuple1(i);
-    count[side] += 1;
-  }
-  EXPECT_GT(radius[1] / count[1], 2.5 * radius[0] / count[0]) << "large where the cloud is sparse";
-  trial::Ear runs(filter, vtkCommand::StartEvent);
-  resampler->SetDimensions(100, 100, 100);
-  filter->Update();
-  EXPECT_EQ(runs.count, 1) << "a change upstream runs the chain";
 }

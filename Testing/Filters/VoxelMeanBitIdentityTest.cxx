@@ -1,4 +1,4 @@
-// Results have equal bits, whatever the order of the points, the threads, the back end or the run.
+// Results have equal bits, whatever the order of the points, the threads or the back end.
 #include "VoxelMeanCases.h"
 
 #include "vtkSMPTools.h"
@@ -38,18 +38,14 @@ protected:
   vtkSmartPointer<vtkPolyData> resampled(vtkPolyData* cloud) const
   {
     vtkNew<vtkVoxelMeanResampler> resampler;
-    prepare(resampler, cloud);
-    resampler->Update();
-    EXPECT_GT(resampler->GetOutput()->GetNumberOfPoints(), 5000);
-    EXPECT_GT(resampler->GetNumberOfClippedPoints(), 100);
-    return trial::copyOf(resampler->GetOutput());
-  }
-  void prepare(vtkVoxelMeanResampler* resampler, vtkPolyData* cloud) const
-  {
     resampler->SetInputData(cloud);
     resampler->SetTransform(transform_);
     trial::useUnitCube(resampler, 24);
     resampler->ComputeCovarianceOn();
+    resampler->Update();
+    EXPECT_GT(resampler->GetOutput()->GetNumberOfPoints(), 5000);
+    EXPECT_GT(resampler->GetNumberOfClippedPoints(), 100);
+    return trial::copyOf(resampler->GetOutput());
   }
 
   vtkSmartPointer<vtkPolyData> cloud_;
@@ -91,57 +87,6 @@ TEST_P(VoxelMeanBits, DoNotDependOnBackEndOrThreads)
       SCOPED_TRACE(std::string(backend) + " " + std::to_string(threads));
       trial::expectSame(resampled(cloud_), expected);
     }
-  }
-}
-
-TEST_P(VoxelMeanBits, DoNotDependOnEarlierRuns)
-{
-  const auto expected = resampled(cloud_);
-  vtkNew<vtkVoxelMeanResampler> resampler;
-  prepare(resampler, cloud_);
-  for (int run = 0; run < 3; ++run)
-  {
-    resampler->Modified();
-    resampler->Update();
-    trial::expectSame(resampler->GetOutput(), expected);
-    // Another lattice and another cloud in between.
-    resampler->SetDimensions(7, 70, 7);
-    resampler->SetInputData(trial::cloudOf(trial::randomPoints(100 * run, 19)));
-    resampler->Update();
-    prepare(resampler, cloud_);
-  }
-}
-
-TEST_P(VoxelMeanBits, DoNotDependOnTheTypeOfEqualCoordinates)
-{
-  const auto floats = trial::copyOf(cloud_);
-  const auto doubles = trial::copyOf(cloud_);
-  for (const int type : { VTK_FLOAT, VTK_DOUBLE })
-  {
-    vtkNew<vtkPoints> points;
-    points->SetDataType(type);
-    points->SetNumberOfPoints(kPoints);
-    for (vtkIdType i = 0; i < kPoints; ++i)
-    {
-      double p[3];
-      cloud_->GetPoint(i, p);
-      // Stored as float: g++ 12.2 optimises double(float(x)) away where it vectorises three of them.
-      const float rounded[3] = { float(p[0]), float(p[1]), float(p[2]) };
-      points->SetPoint(i, rounded);
-    }
-    (type == VTK_FLOAT ? floats : doubles)->SetPoints(points);
-  }
-  vtkNew<vtkVoxelMeanResampler> fromFloat;
-  vtkNew<vtkVoxelMeanResampler> fromDouble;
-  prepare(fromFloat, floats);
-  prepare(fromDouble, doubles);
-  for (const int precision : { vtkAlgorithm::SINGLE_PRECISION, vtkAlgorithm::DOUBLE_PRECISION })
-  {
-    fromFloat->SetOutputPointsPrecision(precision);
-    fromDouble->SetOutputPointsPrecision(precision);
-    fromFloat->Update();
-    fromDouble->Update();
-    trial::expectSame(fromFloat->GetOutput(), fromDouble->GetOutput());
   }
 }
 

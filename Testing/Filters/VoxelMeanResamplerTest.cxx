@@ -2,32 +2,12 @@
 
 #include "vtkMatrix4x4.h"
 #include "vtkStructuredGrid.h"
-#include "vtkThinPlateSplineTransform.h"
 #include "vtkTransform.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <gtest/gtest.h>
 
 #include <array>
-#include <cmath>
-#include <limits>
-
-TEST(VoxelMeanResampler, AgreesWithTheDefinition)
-{
-  for (const int type : { VTK_FLOAT, VTK_DOUBLE })
-  {
-    const auto cloud = trial::cloudOf(trial::randomPoints(5000, 1, type));
-    vtkNew<vtkVoxelMeanResampler> resampler;
-    resampler->SetInputData(cloud);
-    trial::useUnitCube(resampler, 9);
-    resampler->ComputeCovarianceOn();
-    resampler->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
-    resampler->Update();
-    trial::expectAgrees(resampler, cloud);
-    EXPECT_EQ(resampler->GetOutput()->GetNumberOfPoints(), 9 * 9 * 9);
-    EXPECT_EQ(trial::sum(trial::countsOf(resampler->GetOutput())), 5000);
-  }
-}
 
 TEST(VoxelMeanResampler, FieldDataStateLatticeAndTransform)
 {
@@ -85,24 +65,6 @@ TEST(VoxelMeanResampler, TakesAnyPointSet)
   }
 }
 
-TEST(VoxelMeanResampler, OrdersItsOutputByVoxelXFastest)
-{
-  const auto cloud = trial::cloudOf(trial::randomPoints(4000, 8));
-  vtkNew<vtkVoxelMeanResampler> resampler;
-  resampler->SetInputData(cloud);
-  trial::useUnitCube(resampler, 6);
-  resampler->Update();
-  vtkPolyData* output = resampler->GetOutput();
-  int last = -1;
-  for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
-  {
-    const double* p = output->GetPoint(i);
-    const int key = int(p[0] * 6) + 6 * (int(p[1] * 6) + 6 * int(p[2] * 6));
-    EXPECT_GT(key, last);
-    last = key;
-  }
-}
-
 TEST(VoxelMeanResampler, OutputPrecisionFollowsVtksConvention)
 {
   for (const int type : { VTK_FLOAT, VTK_DOUBLE })
@@ -144,36 +106,6 @@ TEST(VoxelMeanResampler, OfDimensionsAndVoxelSizeTheOneSetLastRules)
   resampler->SetVoxelSize(0.3);
   resampler->Update();
   EXPECT_EQ(resampler->GetOutput()->GetNumberOfPoints(), 64) << "rounded up, never truncated";
-}
-
-TEST(VoxelMeanResampler, AutomaticWorkspaceClipsNothing)
-{
-  for (const double scale : { 1e-9, 1.0, 1e9 })
-  {
-    vtkNew<vtkTransform> transform;
-    transform->RotateWXYZ(30, 1, 2, 3);
-    transform->Scale(scale, scale, scale);
-    vtkNew<vtkVoxelMeanResampler> resampler;
-    resampler->SetInputData(trial::cloudOf(trial::randomPoints(2000, 11)));
-    resampler->SetTransform(transform);
-    resampler->Update();
-    EXPECT_EQ(resampler->GetNumberOfClippedPoints(), 0);
-    EXPECT_EQ(trial::sum(trial::countsOf(resampler->GetOutput())), 2000);
-  }
-}
-
-TEST(VoxelMeanResampler, CountsClippedAndInvalidPoints)
-{
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  const auto cloud = trial::cloudAt(
-    { { 0.5, 0.5, 0.5 }, { 2, 0, 0 }, { nan, 0, 0 }, { 0, HUGE_VAL, 0 }, { 1, 0, 0 }, { 0, 0, 0 } });
-  vtkNew<vtkVoxelMeanResampler> resampler;
-  resampler->SetInputData(cloud);
-  trial::useUnitCube(resampler, 4);
-  resampler->Update();
-  EXPECT_EQ(resampler->GetNumberOfClippedPoints(), 2);
-  EXPECT_EQ(resampler->GetNumberOfInvalidPoints(), 2);
-  EXPECT_EQ(trial::sum(trial::countsOf(resampler->GetOutput())), 2);
 }
 
 TEST(VoxelMeanResampler, RunsAgainWhenSomethingChangedAndOnlyThen)
@@ -246,40 +178,4 @@ TEST(VoxelMeanResampler, LeavesItsInputAlone)
   resampler->Update();
   trial::expectSame(cloud, before);
   EXPECT_EQ(cloud->GetPointData()->GetNumberOfArrays(), 1);
-}
-
-TEST(VoxelMeanResampler, ErrorsNameTheCureAndGiveAValidEmptyOutput)
-{
-  vtkNew<vtkVoxelMeanResampler> resampler;
-  resampler->SetInputData(trial::cloudOf(trial::randomPoints(100, 15)));
-  resampler->Update();
-  ASSERT_GT(resampler->GetOutput()->GetNumberOfPoints(), 0);
-  vtkNew<vtkTransform> singular;
-  singular->Scale(1, 1, 1);
-  vtkNew<vtkMatrix4x4> matrix;
-  matrix->SetElement(2, 2, 0.0);
-  singular->SetMatrix(matrix);
-  resampler->SetTransform(singular);
-  trial::expectError(resampler, "use scales other than 0");
-  matrix->SetElement(2, 2, std::numeric_limits<double>::quiet_NaN());
-  singular->SetMatrix(matrix);
-  trial::expectError(resampler, "use finite numbers");
-  vtkNew<vtkThinPlateSplineTransform> bent;
-  resampler->SetTransform(bent);
-  trial::expectError(resampler, "use a vtkTransform");
-  resampler->SetTransform(nullptr);
-  resampler->SetWorkspaceBounds(1, 0, 0, 1, 0, 1);
-  trial::expectError(resampler, "must be finite with maximum above minimum");
-  resampler->SetWorkspaceBounds(0, 1, 0, 1, 0, std::numeric_limits<double>::infinity());
-  trial::expectError(resampler, "must be finite with maximum above minimum");
-  resampler->SetWorkspaceBounds(0, 1, 0, 1, 0, 1);
-  resampler->SetVoxelSize(1e-9);
-  trial::expectError(resampler, "use a larger voxel size");
-  resampler->SetVoxelSize(-1);
-  trial::expectError(resampler, "voxel size must be finite and above 0");
-  resampler->SetDimensions(0, 10, 10);
-  trial::expectError(resampler, "must be between 1 and 2097152");
-  resampler->SetDimensions(10, 10, 10);
-  resampler->Update();
-  EXPECT_GT(resampler->GetOutput()->GetNumberOfPoints(), 0) << "it recovers";
 }

@@ -18,19 +18,10 @@ namespace
 vtkSmartPointer<vtkPolyData> fromScratch(vtkVoxelMeanResampler* resampler, vtkPolyData* cloud)
 {
   vtkNew<vtkVoxelMeanResampler> fresh;
+  fresh->SetSettings(resampler->GetSettings());
   fresh->SetUsePointIndex(false);
   fresh->SetInputData(trial::copyOf(cloud));
   fresh->SetTransform(resampler->GetTransform());
-  fresh->SetWorkspaceBounds(resampler->GetWorkspaceBounds());
-  fresh->SetDimensions(resampler->GetDimensions());
-  if (resampler->GetVoxelSize() > 0)
-  {
-    fresh->SetVoxelSize(resampler->GetVoxelSize());
-  }
-  fresh->SetAutomaticWorkspace(resampler->GetAutomaticWorkspace());
-  fresh->SetComputeCovariance(resampler->GetComputeCovariance());
-  fresh->SetPassAttributes(resampler->GetPassAttributes());
-  fresh->SetOutputPointsPrecision(resampler->GetOutputPointsPrecision());
   fresh->Update();
   EXPECT_EQ(fresh->GetNumberOfClippedPoints(), resampler->GetNumberOfClippedPoints());
   EXPECT_EQ(fresh->GetNumberOfInvalidPoints(), resampler->GetNumberOfInvalidPoints());

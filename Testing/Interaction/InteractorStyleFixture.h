@@ -6,7 +6,7 @@
 #include "vtkKernelBandwidthFilter.h"
 #include "vtkVoxelMeanResampler.h"
 
-#include "FlatCloud.h"
+#include "MadeClouds.h"
 #include "Unit/SkipWithoutDisplay.h"
 
 #include <gtest/gtest.h>

@@ -6,7 +6,7 @@
 #include "vtkKernelBandwidthFilter.h"
 #include "vtkVoxelMeanResampler.h"
 
-#include "FlatCloud.h"
+#include "MadeClouds.h"
 #include "Unit/Eventually.h"
 
 #include "Devices/SimulatedDevice.h"

@@ -30,6 +30,20 @@ OWN_PROXY = """
 """
 
 
+def blocks_of(data):
+    """The clouds of a dataset: itself, or those in a composite."""
+    if data.IsA("vtkPolyData"):
+        return [data]
+    each = data.NewIterator()
+    each.UnRegister(None)
+    blocks = []
+    each.InitTraversal()
+    while not each.IsDoneWithTraversal():
+        blocks.append(each.GetCurrentDataObject())
+        each.GoToNextItem()
+    return blocks
+
+
 class Resampling(TestCase):
     def cloud(self):
         run_program("generate", "idol", "-n", 20000, "-o", self.path("in.ply"))
@@ -204,6 +218,33 @@ class InPipelines(TestCase):
         self.assertEqual(servermanager.Fetch(radii).GetNumberOfPoints(), 750)
         simple.SaveData(self.path("grid.pcd"), proxy=grid)
         self.assertIn("750", run_program("info", self.path("grid.pcd")))
+
+    def test_every_kind_of_composite_has_one_lattice(self):
+        run_program("generate", "sphere", "-n", 3000, "-o", self.path("near.ply"))
+        near = simple.PointHapticsReader(registrationName="near", FileNames=[self.path("near.ply")])
+        far = simple.Transform(registrationName="far", Input=near)
+        far.Transform.Translate = [0.3, 0, 0]
+        lattice = ("LatticeOrigin", "LatticeSpacing", "LatticeDimensions")
+
+        def lattices(source):
+            means = simple.VoxelMeanResampler(Input=source, LatticeMode="Dimensions")
+            means.UpdatePipeline()
+            # Fetch() of ParaView 5.11 gives nothing of partitions.
+            blocks = blocks_of(means.SMProxy.GetClientSideObject().GetOutputDataObject(0))
+            fields = [[vtk_to_numpy(block.GetFieldData().GetArray(name)).tolist() for name in lattice] for block in blocks]
+            return fields, sum(block.GetNumberOfPoints() for block in blocks)
+
+        expected, count = lattices(simple.MergeBlocks(Input=simple.GroupDatasets(Input=[near, far])))
+        blocks, partitions, collection = "vtkMultiBlockDataSet", "vtkPartitionedDataSet", "vtkPartitionedDataSetCollection"
+        for kind, outer in ((blocks, blocks), (partitions, collection), (collection, None)):
+            group = simple.GroupDatasets(Input=[near, far], OutputType=kind)
+            tree = simple.GroupDatasets(Input=[group, group], OutputType=outer) if outer else group
+            for source in (group, tree):
+                with self.subTest(kind, tree=source is not group):
+                    found, points = lattices(source)
+                    self.assertEqual(len(found), 2 if source is group else 4)
+                    self.assertTrue(all(fields == expected[0] for fields in found), found)
+                    self.assertEqual(points, count * len(found) // 2)  # no voxel has points of both
 
     def test_the_arrays_with_labels_are_those_that_are_ticked(self):
         means = simple.VoxelMeanResampler(Input=self.labels(), VoxelSize=3)

@@ -97,9 +97,12 @@ class Splats(TestCase):
         cloud = self.cloud()
         alone = pixels(self.show(cloud)[0])
         grid = simple.AppendDatasets(Input=[cloud])
-        blocks = simple.GroupDatasets(Input=[cloud, simple.Transform(Input=cloud)])
-        for source in (grid, blocks):
-            self.assertGreater(lit(pixels(self.show(source)[0])).sum(), 0.95 * lit(alone).sum())
+        beside = simple.Transform(Input=cloud)
+        beside.Transform.Translate = [0.2, 0, 0]
+        self.assertGreater(lit(pixels(self.show(grid)[0])).sum(), 0.95 * lit(alone).sum())
+        blocks = lit(pixels(self.show(simple.GroupDatasets(Input=[cloud, beside]))[0])).sum(axis=0)
+        self.assertGreater(blocks[: SIZE // 2].max(), 0.1 * SIZE)
+        self.assertGreater(blocks[SIZE // 2 :].max(), 0.1 * SIZE)
         with open(self.path("some.csv"), "w") as file:
             file.write("x,y,z\n" + "".join(f"{i % 30},{i // 30},{i % 2 / 10}\nnan,1,inf\n" for i in range(900)))
         some = simple.PointHapticsReader(FileNames=[self.path("some.csv")])

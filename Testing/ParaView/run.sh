@@ -10,7 +10,9 @@ if [[ ! -e "$ROOT/complete" ]]; then
   exit 77
 fi
 libraries="$(dirname -- "$(find "$ROOT/usr/lib" -maxdepth 2 -name 'libvtkRemotingCore-pv*.so' -print -quit)")"
-export LD_LIBRARY_PATH="$libraries${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}"
+# The window needs Qt's plugins, and on Debian 13 what libproxy keeps in a folder of its own.
+export LD_LIBRARY_PATH="$libraries:$libraries/libproxy${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}"
+export QT_PLUGIN_PATH="$(find "$ROOT/usr/lib" -maxdepth 4 -path '*/plugins/platforms' -printf '%h' -quit)${QT_PLUGIN_PATH:+:$QT_PLUGIN_PATH}"
 export PYTHONPATH="$ROOT/usr/lib/python3/dist-packages${PYTHONPATH:+:$PYTHONPATH}"
 export PATH="$ROOT/usr/bin:$PATH"
 export POINTHAPTICS_PLUGIN="$PLUGIN"

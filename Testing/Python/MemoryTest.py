@@ -94,6 +94,30 @@ class Memory(TestCase):
         ends = self.check(lambda: ph.Scene(points).feel([[0, 0, 0, 0.045], [0.5, 0, 0, 0.036]]), 800 << 20)
         self.assertIn(NO_MEMORY, ends)
 
+    def test_info(self):
+        ph.write(self.path("cloud.ply"), sphere(300000))
+        self.assertIn(NO_MEMORY, self.check(lambda: ph.info(self.path("cloud.ply")), 400 << 20))
+
+    def test_touch_step_by_step(self):
+        scene = ph.Scene(sphere(300000))
+        scene.feel([[0, 0, 0, 0.045]])
+
+        def steps():
+            proxy = ph.Proxy(scene)
+            for i in range(1000):
+                proxy.step((0, 0, 0.045 - 1e-5 * i))
+
+        def loop():
+            with ph.ServoLoop(scene, path=[[0, 0, 0, 0.045], [0.1, 0, 0, 0.038]]) as running:
+                running.wait(5)
+                running.trace()
+
+        for work in (steps, loop):
+            self.assertIn(NO_MEMORY, self.check(work, 300 << 20))
+
+    def test_the_classes_that_draw(self):
+        self.assertIn(NO_MEMORY, self.check(lambda: ph.vtkSplatMapper(), 300 << 20))
+
     def test_read_and_write(self):
         points = sphere(300000)
         attributes = {"Time": np.arange(300000.0)}

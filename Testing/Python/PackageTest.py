@@ -94,6 +94,25 @@ class Habits(TestCase):
         for name, values in voxels.arrays.items():
             self.assert_same_bits(again.arrays[name], values)
 
+    def test_what_has_a_state_of_its_own_is_not_copied(self):
+        scene = ph.Scene(sphere(3000))
+        with ph.ServoLoop(scene, start=(0, 0, 0.05)) as loop:
+            for thing in (ph.Proxy(scene), loop):
+                for copied in (copy.copy, copy.deepcopy, pickle.dumps):
+                    self.assert_raises(TypeError, [type(thing).__name__, "Scene"], copied, thing)
+
+    def test_attributes_keep_what_the_file_says_of_all(self):
+        attributes = ph.Attributes({"a": np.arange(3)}, {"Viewpoint": np.arange(7)})
+        for joined in (attributes | {"b": np.arange(3)}, {"b": np.arange(3)} | attributes, copy.copy(attributes)):
+            self.assertEqual((type(joined), list(joined.fields)), (ph.Attributes, ["Viewpoint"]))
+            self.assertIn("a", joined)
+
+    def test_messages_name_no_option_of_the_program(self):
+        for extension, words in (("las", "SetLasScale"), ("pcd", "KeepDoublesOn")):
+            with self.assertWarnsRegex(RuntimeWarning, words) as said:
+                ph.write(self.path("cloud." + extension), 1e5 + sphere(1000) / 7)
+            self.assertNotIn("--", str(said.warning))
+
     def test_input_without_points_is_refused_everywhere(self):
         nothing = np.empty((0, 3))
         for function in (ph.resample, ph.bandwidth, ph.Scene, lambda points: ph.write(self.path("a.ply"), points)):

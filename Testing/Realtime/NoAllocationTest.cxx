@@ -1,6 +1,6 @@
 #include "CountedCalls.h"
 
-#include "../Unit/Devices/MemoryLink.h"
+#include "../Unit/Devices/FalconWire.h"
 
 #include "Devices/Falcon/FalconDevice.h"
 #include "Devices/PathReplay.h"
@@ -220,12 +220,11 @@ TEST(NoAllocation, InTheServoLoopWhileScenesAndParametersChange)
 
 TEST(NoAllocation, InAHundredThousandTicksOfTheFalconsDriver)
 {
-  const auto shared = std::make_shared<trial::FalconModel>();
-  trial::FalconModel& model = *shared;
+  trial::FalconOnAWire wire;
+  trial::FalconModel& model = wire.model;
   model.runs = true;
-  FalconDevice device(FalconSettings(),
-    std::make_unique<trial::MemoryBus<countedcalls::Pause>>(
-      shared, [](trial::FalconModel& m) { m.move(kTick); }));
+  wire.onCommand = [](trial::FalconModel& m) { m.move(kTick); };
+  FalconDevice device(FalconSettings(), std::make_unique<trial::WiredBus<countedcalls::Pause>>(wire));
   ASSERT_EQ(device.open(), Status::Ok) << device.message();
   long calls = -1;
   const char* function = nullptr;

@@ -1,19 +1,13 @@
-/// How far is the felt force from the exact one, with each method and instruction set, and what does an
-/// update take?
-#include "Benchmark/Harness/Instructions.h"
-#include "Benchmark/Harness/Statistics.h"
+/// How far is the felt force from the exact one with each method, and what does an update take?
 #include "Benchmark/Proxy/Scenes.h"
 #include "Benchmark/Proxy/Trial.h"
 #include "Benchmark/Tasks.h"
 #include "Options/OptionParsing.h"
 
-#include "Core/Surface/SurfaceFit.h"
-
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace pointhaptics::bench::proxy
 {
@@ -25,8 +19,6 @@ using namespace app;
 constexpr double kMostPoints = 1e8;
 /// Percent of error that no clean shape may have with the default method; ten times what is measured.
 constexpr double kSurelyWrong = 1.0;
-constexpr int kFits = 200;
-constexpr int kRoundsOfFits = 50;
 
 struct Options
 {
@@ -110,8 +102,7 @@ void studyMethods(Run& run, const std::vector<Shape>& shapes, const std::vector<
             fmt::format("{}, {}, {} points, {}", contestant.name, shapeName(shape), size, noiseName(noise)));
           const Scene scene = sceneOf(points, contestant.scene);
           const TrialFigures f =
-            runTrial(*scene, contestant.parameters, slideCourse(shape), answerOf(shape), run.repetitions)
-              .figures;
+            runTrial(*scene, contestant.parameters, slideCourse(shape), answerOf(shape), run.repetitions);
           Json row{ { "shape", shapeName(shape) }, { "points", points.size() }, { "noise_metres", noise },
             { "method", contestant.name } };
           row.update(toJson(f));
@@ -128,79 +119,6 @@ void studyMethods(Run& run, const std::vector<Shape>& shapes, const std::vector<
           }
         }
       }
-    }
-  }
-}
-
-/// Microseconds of a fit with all its terms at the cell in the middle of the scene's list, its cells gathered
-/// already; the fastest of many rounds.
-double timeOfFit(const HapticScene& scene, InstructionSet set)
-{
-  const auto memory = std::make_unique<FitCells>(set);
-  const std::vector<Cell>& cells = scene.pyramid().level(0).cells;
-  const LocalScale scale = scene.fitScale(cells[cells.size() / 2].mean);
-  SurfaceFrame frame;
-  frame.origin = cells[cells.size() / 2].mean;
-  Vec3 normal = frame.normal;
-  static_cast<void>(principalNormal(scene.pyramid(), frame.origin, scale.radius, *memory, normal));
-  frame.turnTo(normal);
-  FitSettings settings;
-  settings.radius = scale.radius;
-  settings.gate = scale.gate;
-  TracedSlopes slopes;
-  slopes.strength = 1.0;
-  double best = INFINITY;
-  for (int round = 0; round < kRoundsOfFits; ++round)
-  {
-    const double before = secondsNow();
-    for (int i = 0; i < kFits; ++i)
-    {
-      static_cast<void>(fitSurface(scene.pyramid(), frame, settings, *memory, &slopes));
-    }
-    best = std::min(best, 1e6 * (secondsNow() - before) / kFits);
-  }
-  return best;
-}
-
-bool areSame(const std::vector<ProxyState>& a, const std::vector<ProxyState>& b)
-{
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-    [](const ProxyState& x, const ProxyState& y)
-    { return x.force == y.force && x.proxy == y.proxy && x.normal == y.normal && x.status == y.status; });
-}
-
-/// The slide on the sphere with each set of this machine; the forces must be the same to the last bit.
-void studyInstructions(Run& run, double size, const std::vector<double>& noises)
-{
-  for (const double noise : { 0.0, noises.back() })
-  {
-    const std::vector<Vec3> points = pointsOf(Shape::Sphere, std::int64_t(size), noise);
-    std::vector<ProxyState> expected;
-    for (const NamedInstructionSet& one : kInstructionSets)
-    {
-      if (!hasInstructions(one.set))
-      {
-        continue;
-      }
-      const std::string cloud = "sphere, " + noiseName(noise);
-      run.say(fmt::format("{} with {}", cloud, one.name));
-      SceneSettings settings;
-      settings.instructions = one.set;
-      const double before = secondsNow();
-      const Scene scene = sceneOf(points, settings);
-      const double built = secondsNow() - before;
-      const Trial trial =
-        runTrial(*scene, {}, slideCourse(Shape::Sphere), answerOf(Shape::Sphere), run.repetitions, one.set);
-      expected = expected.empty() ? trial.states : expected;
-      if (!areSame(trial.states, expected))
-      {
-        run.fault(fmt::format("{}: other forces with {} than with the first set", cloud, one.name));
-      }
-      const TrialFigures& f = trial.figures;
-      run.add("instructions",
-        { { "cloud", cloud }, { "points", points.size() }, { "instructions", one.name },
-          { "fit_us", timeOfFit(*scene, one.set) }, { "p50_us", f.p50 }, { "p99_us", f.p99 },
-          { "p999_us", f.p999 }, { "first_contact_us", f.firstContact }, { "built_seconds", built } });
     }
   }
 }
@@ -225,14 +143,7 @@ TaskRun addOptions(CLI::App& command)
         static_cast<void>(shapeFromName(options->shapes[i], shapes[i]));
       }
     }
-    if (run.wants("methods"))
-    {
-      studyMethods(run, shapes, points, noises);
-    }
-    if (run.wants("instructions"))
-    {
-      studyInstructions(run, points.back(), noises);
-    }
+    studyMethods(run, shapes, points, noises);
   };
 }
 
@@ -245,7 +156,7 @@ namespace pointhaptics::bench
 Task proxyTask()
 {
   return { "proxy", "Compare the felt force with the exact one, and time the updates", 5, 1, false,
-    { "methods", "instructions" }, {}, proxy::addOptions };
+    { "methods" }, {}, proxy::addOptions };
 }
 
 } // namespace pointhaptics::bench

@@ -45,7 +45,6 @@ Scene sceneOf(const std::vector<Vec3>& points, const SceneSettings& settings)
 {
   HapticSceneInput input;
   input.modelToWorkspace = settings.transform;
-  input.instructions = settings.instructions;
   if (settings.raw)
   {
     input.points.reserve(points.size());

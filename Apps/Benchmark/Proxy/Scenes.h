@@ -20,7 +20,6 @@ struct SceneSettings
   bool covariances = true;
   bool raw = false; ///< The points themselves, no voxels.
   AffineTransform transform;
-  InstructionSet instructions = InstructionSet::Automatic; ///< Instructions of the scene itself.
 };
 
 /// Null where the cloud has no finite point or the lattice cannot be had.

@@ -16,9 +16,9 @@ constexpr double kClear = 20e-6;
 
 /// Walks the course; the update time of each tick in microseconds, the least over all walks so far.
 std::vector<ProxyState> walk(const HapticScene& scene, const HapticParameters& parameters,
-  const Course& course, InstructionSet wanted, std::vector<double>& microseconds)
+  const Course& course, std::vector<double>& microseconds)
 {
-  Proxy proxy(parameters, wanted);
+  Proxy proxy(parameters);
   proxy.setScene(&scene);
   std::vector<ProxyState> states;
   states.reserve(course.hip.size());
@@ -117,14 +117,14 @@ void judgeTimes(
 
 } // namespace
 
-Trial runTrial(const HapticScene& scene, const HapticParameters& parameters, const Course& course,
-  const ExactAnswer& exact, int repetitions, InstructionSet wanted)
+TrialFigures runTrial(const HapticScene& scene, const HapticParameters& parameters, const Course& course,
+  const ExactAnswer& exact, int repetitions)
 {
-  Trial trial;
+  std::vector<ProxyState> states;
   std::vector<double> microseconds(course.hip.size(), INFINITY);
   for (int i = 0; i < std::max(1, repetitions); ++i)
   {
-    trial.states = walk(scene, parameters, course, wanted, microseconds);
+    states = walk(scene, parameters, course, microseconds);
   }
   std::vector<ExactContact> answers;
   answers.reserve(course.hip.size());
@@ -132,10 +132,11 @@ Trial runTrial(const HapticScene& scene, const HapticParameters& parameters, con
   {
     answers.push_back(exact(hip));
   }
-  judgeForces(trial.states, answers, parameters.contact.stiffness, trial.figures);
-  judgeTurn(trial.states, answers, course, trial.figures);
-  judgeTimes(trial.states, microseconds, trial.figures);
-  return trial;
+  TrialFigures figures;
+  judgeForces(states, answers, parameters.contact.stiffness, figures);
+  judgeTurn(states, answers, course, figures);
+  judgeTimes(states, microseconds, figures);
+  return figures;
 }
 
 } // namespace pointhaptics::bench::proxy

@@ -32,15 +32,9 @@ struct TrialFigures
   double firstContact = 0.0; ///< The longest update out of contact or into it: finding the surface.
 };
 
-struct Trial
-{
-  TrialFigures figures;
-  std::vector<ProxyState> states;
-};
-
 /// Runs @p course from a fresh proxy. @p repetitions: the fastest of that many runs tells the time of each
-/// tick. @param wanted the proxy's instructions.
-Trial runTrial(const HapticScene& scene, const HapticParameters& parameters, const Course& course,
-  const ExactAnswer& exact, int repetitions, InstructionSet wanted = InstructionSet::Automatic);
+/// tick.
+TrialFigures runTrial(const HapticScene& scene, const HapticParameters& parameters, const Course& course,
+  const ExactAnswer& exact, int repetitions);
 
 } // namespace pointhaptics::bench::proxy

@@ -16,7 +16,7 @@ extern char** environ;
 namespace pointhaptics::bench::render
 {
 
-ProcessRun runProcess(const std::vector<std::string>& words, std::string* output)
+ProcessRun runProcess(const std::vector<std::string>& words)
 {
   std::vector<char*> arguments;
   for (const std::string& word : words)
@@ -26,15 +26,7 @@ ProcessRun runProcess(const std::vector<std::string>& words, std::string* output
   arguments.push_back(nullptr);
   posix_spawn_file_actions_t actions;
   ::posix_spawn_file_actions_init(&actions);
-  int ends[2] = { -1, -1 };
-  if (output && ::pipe2(ends, O_CLOEXEC) == 0)
-  {
-    ::posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
-  }
-  else
-  {
-    ::posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  }
+  ::posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
   ::posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
   ProcessRun run;
   pid_t child = 0;
@@ -42,16 +34,6 @@ ProcessRun runProcess(const std::vector<std::string>& words, std::string* output
   const bool started =
     ::posix_spawnp(&child, arguments[0], &actions, nullptr, arguments.data(), environ) == 0;
   ::posix_spawn_file_actions_destroy(&actions);
-  if (ends[0] >= 0)
-  {
-    ::close(ends[1]);
-    char buffer[512];
-    for (ssize_t got = 1; (got = ::read(ends[0], buffer, sizeof(buffer))) > 0;)
-    {
-      output->append(buffer, std::size_t(got));
-    }
-    ::close(ends[0]);
-  }
   int status = 0;
   struct rusage usage = {};
   if (started && ::wait4(child, &status, 0, &usage) == child)

@@ -17,8 +17,8 @@ struct ProcessRun
 };
 
 /// Runs @p words[0], searched in PATH where it has no slash, with the other words as arguments. What it
-/// prints goes into @p output, or nowhere. @pre words is not empty.
-ProcessRun runProcess(const std::vector<std::string>& words, std::string* output = nullptr);
+/// prints goes nowhere. @pre words is not empty.
+ProcessRun runProcess(const std::vector<std::string>& words);
 
 /// Whether a program of that name is in PATH.
 bool programExists(const std::string& name);

@@ -4,7 +4,7 @@
 #include "Benchmark/Servo/EmptyLoop.h"
 #include "Benchmark/Tasks.h"
 #include "Options/OptionParsing.h"
-#include "Unit/Devices/MemoryLink.h"
+#include "Unit/Devices/FalconWire.h"
 #include "ViewDisplay.h"
 
 #include "Devices/Falcon/FalconDevice.h"
@@ -34,12 +34,9 @@ namespace
 using namespace app;
 
 constexpr std::int64_t kMostPoints = 100000000;
-constexpr double kLongestRun = 86400.0;    ///< Seconds.
-constexpr double kLongestRoundTrip = 10.0; ///< Seconds.
-constexpr double kLargestError = 0.08;     ///< N; 2 mm at 800 N/m are 1.6 N.
-constexpr double kLeastContact = 0.3;      ///< Fraction of the ticks.
-/// The tests build it where umockdev is found; it lies beside this program.
-constexpr const char* kRoundTripProgram = "PointHapticsRoundTrip";
+constexpr double kLongestRun = 86400.0; ///< Seconds.
+constexpr double kLargestError = 0.08;  ///< N; 2 mm at 800 N/m are 1.6 N.
+constexpr double kLeastContact = 0.3;   ///< Fraction of the ticks.
 
 enum class Hand
 {
@@ -109,15 +106,15 @@ std::unique_ptr<HapticDevice> makeDevice(const Setting& setting)
 {
   if (setting.hand == Hand::Falcon)
   {
-    auto model = std::make_shared<trial::FalconModel>();
-    model->runs = true;
-    const auto onCommand = [time = 0.0](trial::FalconModel& moved) mutable
+    auto wire = std::make_shared<trial::FalconOnAWire>();
+    wire->model.runs = true;
+    wire->onCommand = [time = 0.0](trial::FalconModel& moved) mutable
     {
       time += 1e-3;
       moved.hand.position = handAt(time) + falcon::kCenter;
     };
     return std::make_unique<FalconDevice>(
-      FalconSettings(), std::make_unique<trial::MemoryBus<>>(std::move(model), onCommand));
+      FalconSettings(), std::make_unique<trial::WiredBus<>>(std::move(wire)));
   }
   auto hand = std::make_unique<SimulatedDevice>();
   HipPath path;
@@ -357,41 +354,6 @@ std::vector<Setting> settingsOf(const Options& options, double seconds, const st
   return settings;
 }
 
-/// From the driver's command to its whole answer, through libusb to an emulated Falcon: by another program.
-void studyRoundTrip(Run& run, double seconds)
-{
-  std::error_code error;
-  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", error);
-  const std::string program = (self.parent_path() / kRoundTripProgram).string();
-  if (error || !std::filesystem::exists(program, error))
-  {
-    run.remark("loop",
-      fmt::format("The round trip against an emulated Falcon was left out: {}, which the tests build where "
-                  "umockdev is found, is not beside this program.",
-        kRoundTripProgram));
-    return;
-  }
-  run.say("round trip against an emulated Falcon");
-  std::string text;
-  const render::ProcessRun process = render::runProcess({ program, std::to_string(seconds) }, &text);
-  const Json found = Json::parse(text, nullptr, false);
-  const bool isRead = process.exitCode == 0 && found.is_object();
-  const bool right = isRead && found["exchanges"] > 0 && found["wrong"] == 0;
-  if (!right)
-  {
-    run.fault("the round trip is wrong; run it by hand: " + program);
-  }
-  if (isRead)
-  {
-    run.add("round_trip",
-      { { "exchanges", found["exchanges"] }, { "lost", found["lost"] },
-        { "round_trip_seconds",
-          { { "p50", found["p50"] }, { "p99", found["p99"] }, { "p999", found["p999"] },
-            { "max", found["max"] } } },
-        { "right", right } });
-  }
-}
-
 void measure(const Options& options, Run& run)
 {
   const std::int64_t points = run.chosen<std::int64_t>(options.points, 543652, 30000);
@@ -419,7 +381,6 @@ void measure(const Options& options, Run& run)
   {
     run.remark("loop", "The rows with drawing were left out: they need a display and more than a quick run.");
   }
-  studyRoundTrip(run, std::min(seconds, kLongestRoundTrip));
 }
 
 TaskRun addOptions(CLI::App& command)

@@ -15,11 +15,8 @@ struct StudyContext
   Run& run;
 };
 
-/// A row of @p study: @p leading, then the figures. States that are not finite are a fault.
-void addFigures(StudyContext& context, const char* study, Json leading, const TouchFigures& figures);
-
-/// The name in JSON of a bit of ProxyState::status.
-std::string statusName(std::size_t bit);
+/// The per cent of the ticks with each bit of ProxyState::status, by the bit's name.
+Json statusOf(const std::array<double, kStatusBits>& percent);
 
 /// The scans, fitted into the workspace, and the generated meshes.
 std::vector<TouchMesh> meshesOf(const TouchBenchmarkOptions& options);
@@ -37,16 +34,11 @@ struct TouchTask
 /// Truths of the strokes on the mesh of @p tree; the same for the same strokes.
 std::vector<TouchTask> tasksOn(const TriangleTree& tree, std::vector<TouchStroke> strokes);
 
-/// Told of each stroke's states beside its truth.
-using TouchObserver = std::function<void(std::size_t stroke, const TouchTrace& trace)>;
-
 /// One method on one scene over all strokes.
 TouchFigures judge(StudyContext& context, const Contestant& contestant, const TouchScene& scene,
-  const std::vector<TouchTask>& tasks, const TouchObserver& observer = {});
+  const std::vector<TouchTask>& tasks);
 
 void studyScans(StudyContext& context);
-void studyEdges(StudyContext& context);
-void studyThin(StudyContext& context);
 /// Runs only where it is named. The fault of the run says how many rows miss a limit.
 void studyHard(StudyContext& context);
 

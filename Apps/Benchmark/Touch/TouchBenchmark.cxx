@@ -1,9 +1,6 @@
 #include "Benchmark/Touch/TouchBenchmark.h"
 
-#include "Benchmark/Harness/Instructions.h"
 #include "Benchmark/Touch/Studies.h"
-
-#include <fmt/format.h>
 
 namespace pointhaptics::bench::touch
 {
@@ -11,8 +8,9 @@ namespace
 {
 
 /// Names of the bits of ProxyState::status, in their order.
-constexpr const char* kStatusNames[] = { "non-finite", "rounds", "step-limit", "ball", "bit4", "no-scene",
-  "cells", "settling", "stiffness", "led", "around", "seeking", "gliding", "crowded", "fallback" };
+constexpr const char* kStatusNames[kStatusBits] = { "non-finite", "rounds", "step-limit", "ball", "bit4",
+  "no-scene", "cells", "settling", "stiffness", "led", "around", "seeking", "gliding", "crowded", "fallback",
+  "bit15" };
 
 } // namespace
 
@@ -24,37 +22,14 @@ void TouchBenchmarkOptions::makeQuick()
   meshes = { "box" };
 }
 
-std::string statusName(std::size_t bit)
+Json statusOf(const std::array<double, kStatusBits>& percent)
 {
-  return bit < std::size(kStatusNames) ? kStatusNames[bit] : fmt::format("bit{}", bit);
-}
-
-void addFigures(StudyContext& context, const char* study, Json row, const TouchFigures& f)
-{
-  if (f.nonFinite > 0)
-  {
-    context.run.fault(fmt::format("{}: {} states that are not finite", row.dump(), f.nonFinite));
-  }
-  row.update(
-    { { "median_percent", f.medianPercent }, { "p95_percent", f.p95Percent }, { "rms_percent", f.rmsPercent },
-      { "direction_p95_degrees", f.directionP95Degrees }, { "lost_percent", f.lostPercent },
-      { "pops", f.pops }, { "phantom_newton", f.phantomNewton }, { "held", f.held },
-      { "phantom_after_leap_newton", f.laterPhantomNewton }, { "held_after_leap", f.laterHeld },
-      { "strokes", f.strokes }, { "leaps", f.leaps }, { "releases", f.releases }, { "ticks", f.ticks },
-      { "contact_ticks", f.contacts }, { "judged_ticks", f.judged }, { "judged_percent", f.judgedPercent },
-      { "step_p99", f.stepP99 }, { "largest_step", f.largestStep }, { "energy_joule", f.energyJoule },
-      { "p50_us", f.p50 }, { "p99_us", f.p99 }, { "first_contact_us", f.firstContact },
-      { "max_us", f.maximum }, { "instructions", usedInstructions(context.options.instructions) } });
   Json status = Json::object();
   for (std::size_t bit = 0; bit < kStatusBits; ++bit)
   {
-    if (bit < std::size(kStatusNames) || f.statusPercent[bit] > 0.0)
-    {
-      status[statusName(bit)] = f.statusPercent[bit];
-    }
+    status[kStatusNames[bit]] = percent[bit];
   }
-  row["status_percent"] = std::move(status);
-  context.run.add(study, std::move(row));
+  return status;
 }
 
 std::vector<TouchMesh> meshesOf(const TouchBenchmarkOptions& options)
@@ -96,7 +71,7 @@ std::vector<TouchTask> tasksOn(const TriangleTree& tree, std::vector<TouchStroke
 }
 
 TouchFigures judge(StudyContext& context, const Contestant& contestant, const TouchScene& scene,
-  const std::vector<TouchTask>& tasks, const TouchObserver& observer)
+  const std::vector<TouchTask>& tasks)
 {
   const std::unique_ptr<TouchMethod> method = contestant.make();
   TouchJudge judge(ContactParameters().stiffness);
@@ -105,10 +80,6 @@ TouchFigures judge(StudyContext& context, const Contestant& contestant, const To
     const TouchTrace trace =
       walk(*method, scene, tasks[i].stroke, tasks[i].truth.ticks.size(), context.run.repetitions);
     judge.add(trace, tasks[i].truth);
-    if (observer)
-    {
-      observer(i, trace);
-    }
   }
   return judge.figures();
 }

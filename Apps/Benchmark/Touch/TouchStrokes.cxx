@@ -79,22 +79,6 @@ void stay(TouchStroke& stroke, int ticks)
   stroke.hip.insert(stroke.hip.end(), std::size_t(ticks), Vec3(stroke.hip.back()));
 }
 
-TouchStroke strokeThrough(
-  const Vec3& place, const Vec3& up, double height, double depth, const Vec3& aside, double speed)
-{
-  constexpr int kWait = 20;
-  const Vec3 high = place + height * up;
-  const Vec3 low = place - depth * up;
-  TouchStroke stroke;
-  moveTo(stroke, high, low, speed);
-  stay(stroke, kWait);
-  moveTo(stroke, low, low + aside, kFastSpeed);
-  moveTo(stroke, low + aside, low, kFastSpeed);
-  moveTo(stroke, low, high, speed);
-  stay(stroke, kRestTicks);
-  return stroke;
-}
-
 std::vector<TouchStroke> strokesOn(const TriangleTree& tree, int count, StrokeSet set)
 {
   std::vector<TouchStroke> strokes;

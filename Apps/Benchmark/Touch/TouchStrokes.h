@@ -36,12 +36,6 @@ std::vector<TouchStroke> strokesOn(const TriangleTree& tree, int count, StrokeSe
 void moveTo(TouchStroke& stroke, const Vec3& from, const Vec3& to, double speed);
 void stay(TouchStroke& stroke, int ticks);
 
-/// Straight from @p height above @p place, along the unit vector @p up, to @p depth below it at @p speed;
-/// there by @p aside and back at 50 mm/s; out the way it came, and stay. A depth beyond the thickness of what
-/// is there goes right through.
-TouchStroke strokeThrough(
-  const Vec3& place, const Vec3& up, double height, double depth, const Vec3& aside, double speed);
-
 /// The force of the god object along a stroke, and where it can be relied on.
 struct TouchTruth
 {

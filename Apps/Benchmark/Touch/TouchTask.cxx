@@ -38,8 +38,7 @@ struct Study
 };
 
 /// In their order; hard runs only where it is named.
-constexpr Study kStudies[] = { { "scans", studyScans }, { "edges", studyEdges }, { "thin", studyThin },
-  { kHard, studyHard } };
+constexpr Study kStudies[] = { { "scans", studyScans }, { kHard, studyHard } };
 
 struct Options
 {
@@ -180,8 +179,8 @@ namespace pointhaptics::bench
 
 Task touchTask()
 {
-  return { "touch", "Judge the touch of edges, thin parts and scans by a god object on their meshes", 2, 1,
-    false, { "scans", "edges", "thin", "hard" }, {}, touch::addOptions };
+  return { "touch", "Judge the touch of edges, scans and hard scenes by a god object on their meshes", 2, 1,
+    false, { "scans", "hard" }, {}, touch::addOptions };
 }
 
 } // namespace pointhaptics::bench

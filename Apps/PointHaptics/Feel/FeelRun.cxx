@@ -43,7 +43,8 @@ ForceLimit limitOf(const FeelCommand& options)
   limit.device = isFalcon           ? options.falcon.maximumForce
     : options.device == "simulated" ? SimulatedDevice().maximumForce()
                                     : limit.device;
-  limit.program = isFalcon ? kMostServoForce : limit.program;
+  const bool isDefault = limit.user == ContactParameters().forceLimit;
+  limit.program = isFalcon || isDefault ? kMostServoForce : limit.program;
   return limit;
 }
 
@@ -81,7 +82,7 @@ void walkYielding(
       break;
     }
     double microseconds = 0.0;
-    const ProxyState& felt = touch.step(state.position, microseconds);
+    const ProxyState& felt = touch.step(state, microseconds);
     static_cast<void>(hand.write(time, felt.force));
     rows.add(path.points.front().timeSeconds + time, touch);
     bar.show(double(tick) / double(ticks));

@@ -9,30 +9,32 @@ namespace pointhaptics
 namespace
 {
 
-/// Points are gathered further than asked for, so that a sliding hand stays inside for some ticks. These are
-/// the factors on radius and way; the first with room is used, and the first of all is applied to the way
-/// that will be asked for soon.
+/// Points are gathered further than requested, so that a sliding hand stays inside for some ticks. The
+/// factors apply to the requested way plus the typical radius; they are tried in order until the points fit.
+/// Index 0 covers the way that will be requested soon, too; index 1 drops that way alone.
 constexpr double kMargins[] = { 1.35, 1.35, 1.1, 1.0 + 1e-9 };
 /// If points were left out, a way shorter than this fraction of the last one is gathered anew: all may have
 /// room.
 constexpr double kShorterWay = 0.8;
-/// Margin around the points near the focus, over radius and way.
+/// Margin around the points near the focus, as a fraction of way plus typical radius.
 constexpr double kNearMargin = 0.25;
 /// Padding coordinate behind the last point: no ball reaches it, and its square is finite.
 constexpr double kFarAway = 1e100;
-/// A way may lead this part of a touched point's radius towards that point and still count as past it:
-/// rounding.
+/// Tolerance over the radius of a touched point: a way that comes nearer to that point by less is tangential.
+/// Without it rounding would stop a sliding ball.
 constexpr double kTangential = 1e-6;
 
 }
 
-/// The reach, with its margin, for a requested way of @p way metres.
+/// The reach for a requested way of @p way metres. The margin scales way plus typical radius; gather() adds
+/// the radius of each point itself, so the typical one is subtracted again.
 double BallCells::reachOf(double way) const noexcept
 {
-  return kMargins[margin_] * (way + ball_) - ball_;
+  return kMargins[margin_] * (way + typicalRadius_) - typicalRadius_;
 }
 
-/// Drops the points beyond the next smaller margin. False: there is no smaller one.
+/// Lowers the reach to the next smaller margin and removes the points beyond it, as add() does without a
+/// branch. Called when more than kCapacity points were found. False: there is no smaller margin.
 bool BallCells::shrink() noexcept
 {
   if (margin_ + 1 == std::size(kMargins))
@@ -40,7 +42,7 @@ bool BallCells::shrink() noexcept
     return false;
   }
   ++margin_;
-  reach_ = this->reachOf(askedWay_);
+  reach_ = this->reachOf(requestedWay_);
   const int all = size_;
   size_ = 0;
   for (int i = 0; i < all; ++i)
@@ -102,12 +104,12 @@ bool BallCells::gatherFrom(const ContactField& field, int level, double likely, 
   bool fits = true;
   size_ = 0;
   margin_ = 0;
-  reach_ = this->reachOf(std::max(askedWay_, likely));
+  reach_ = this->reachOf(std::max(requestedWay_, likely));
   ++passes_;
   field.visitRuns(level, center_, reach_,
     [&](std::uint32_t first, std::uint32_t last)
     {
-      looked_ += last - first;
+      pointsExamined_ += last - first;
       if (!onePerVoxel)
       {
         fits = this->add(field, level, last - first, [first](std::uint32_t i) { return first + i; });
@@ -127,14 +129,14 @@ bool BallCells::gather(
 {
   const double left = reach_ - way;
   const bool isInside = pyramid_ == &field.pyramid() && left >= 0.0 && norm2(center - center_) <= left * left;
-  if (isInside && (complete_ || way + ball >= kShorterWay * (askedWay_ + ball_)))
+  if (isInside && (complete_ || way + ball >= kShorterWay * (requestedWay_ + typicalRadius_)))
   {
     return complete_;
   }
   pyramid_ = &field.pyramid();
   center_ = center;
-  askedWay_ = way;
-  ball_ = ball;
+  requestedWay_ = way;
+  typicalRadius_ = ball;
   complete_ = gatherFrom(field, 0, likely, false);
   bool fits = complete_ || gatherFrom(field, 0, likely, true);
   for (int level = 1;
@@ -165,7 +167,7 @@ void BallCells::focus(const Vec3& center, double way) noexcept
     return;
   }
   nearCenter_ = center;
-  nearReach_ = way + kNearMargin * (way + ball_);
+  nearReach_ = way + kNearMargin * (way + typicalRadius_);
   int indices[kCapacity];
   nearSize_ =
     kernels_->ballsWithin(points({ 0, size_ }), center - center_, 1.0, nearReach_, indices, kCapacity);

@@ -40,13 +40,14 @@ public:
   /// where more points were gathered.
   void focus(const Vec3& center, double way) noexcept;
 
-  /// Longest way from @p p for which all points are here; below 0: none.
+  /// Longest way from @p p, metres, for which the gathered points are valid: all points, or their
+  /// representatives where isComplete() is false. Below 0: none.
   double reachAbout(const Vec3& p) const noexcept { return reach_ - norm(p - center_); }
 
   /// Number of visits of the pyramid so far, which is what costs time.
   int passes() const noexcept { return passes_; }
   /// Number of points of the pyramid that were looked at so far.
-  std::uint64_t looked() const noexcept { return looked_; }
+  std::uint64_t pointsExamined() const noexcept { return pointsExamined_; }
 
   int size() const noexcept { return size_; }
   Vec3 point(int i) const noexcept { return center_ + Vec3(x_[i], y_[i], z_[i]); }
@@ -145,10 +146,10 @@ private:
   double reach_ = 0.0;
   std::size_t margin_ = 0; ///< Which of the margins, from large to small, reach_ has.
   bool complete_ = true;   ///< All points of the cloud, not some or means of them.
-  double askedWay_ = 0.0;
-  double ball_ = 0.0;
+  double requestedWay_ = 0.0;
+  double typicalRadius_ = 0.0;
   int passes_ = 0;
-  std::uint64_t looked_ = 0;
+  std::uint64_t pointsExamined_ = 0;
   const simd::FitKernels* kernels_;
   const CellPyramid* pyramid_ = nullptr;
 };

@@ -44,8 +44,8 @@ public:
   double height(const Vec3& p) const noexcept { return dot(p - point_, normal_); }
   /// @p v without its part along the normal. @pre known
   Vec3 along(const Vec3& v) const noexcept { return v - dot(v, normal_) * normal_; }
-  /// True if points of the plane lie about the foot of @p hip on the side of @p slipped, to which bumps
-  /// pushed a ball of @p radius. @pre known
+  /// True if a point of the plane lies near the foot of @p hip in the direction of @p slipped, the place to
+  /// which bumps pushed a ball of @p radius. @pre known
   bool continuesUnder(
     const HapticScene& scene, const Vec3& hip, const Vec3& slipped, double radius) const noexcept;
   /// Length that a ball at @p center may go along the unit vector @p direction until it is @p most aside of

@@ -12,8 +12,8 @@ namespace
 
 /// Moves of one slide.
 constexpr int kMostSlides = 24;
-/// A visit of the pyramid counts as so many rounds, and one more for each kPointsOfRound points that it looks
-/// at: a large ball among dense points looks at thousands.
+/// A visit of the pyramid costs so many rounds of the budget, and one more for each kPointsOfRound points
+/// that it examines: a large ball among dense points examines thousands.
 constexpr int kRoundsOfPass = 3;
 constexpr std::uint64_t kPointsOfRound = 128;
 /// Glides of one step.
@@ -111,11 +111,11 @@ void ProxyBall::carry(const AffineTransform& change, double scale) noexcept
 void ProxyBall::gather(Work& work, double way) noexcept
 {
   const int passes = work.cells.passes();
-  const std::uint64_t looked = work.cells.looked();
+  const std::uint64_t looked = work.cells.pointsExamined();
   const double likely = isFree_ ? 0.0 : kReachOfTick * radius_;
   const bool all = work.cells.gather(work.scene.contactField(), center_, way, radius_, likely);
-  work.rounds -=
-    kRoundsOfPass * (work.cells.passes() - passes) + int((work.cells.looked() - looked) / kPointsOfRound);
+  work.rounds -= kRoundsOfPass * (work.cells.passes() - passes) +
+    int((work.cells.pointsExamined() - looked) / kPointsOfRound);
   work.status |= std::uint32_t(all ? kProxyOk : kProxyCellLimit);
 }
 
@@ -244,29 +244,36 @@ void ProxyBall::touchDown(Work& work) noexcept
   }
 }
 
+/// Moves a touching ball towards the HIP in at most kMostSlides moves. Each takes the parts of the pull that
+/// lead into touched points away, goes up to the next point, and leaves what rounding made it cover. Sets
+/// isFree_ where the ball reaches the HIP, and kProxyRoundLimit where moves or rounds run out.
 void ProxyBall::slide(Work& work, const Vec3& hip) noexcept
 {
   const bool isOnFlat =
     flat_.isNear(center_, kFlatNear * radius_) && dot(hip - center_, flat_.normal()) < 0.0;
   const auto aside = [&] { return norm(flat_.along(hip - center_)); };
+  // Bumps may not push the ball further aside than kMostAside, or than it was at the start.
   const double mostAside = isOnFlat ? std::max(kMostAside * radius_, aside()) : 0.0;
   for (int i = 0; i < kMostSlides && work.rounds > 0; ++i, --work.rounds)
   {
     const Vec3 pull = hip - center_;
-    const double here = work.cells.reachAbout(center_) - (kTouch - 1.0 + kNoWay) * radius_;
-    const double longest = std::min({ norm(pull), radius_, here > kShortMove * radius_ ? here : radius_ });
+    // A move ends where the gathered points end; where that is too short, points are gathered for a radius.
+    // The margin of kTouch keeps the points that are touched after the move.
+    const double gathered = work.cells.reachAbout(center_) - (kTouch - 1.0 + kNoWay) * radius_;
+    const double longest =
+      std::min({ norm(pull), radius_, gathered > kShortMove * radius_ ? gathered : radius_ });
     gather(work, (kTouch - 1.0) * work.scene.contactField().largest() + longest);
     work.cells.focus(center_, kFocus * radius_);
     Vec3 normals[kMostTouched];
     int touched = 0;
-    double least = 0.0;
+    double mostOpposed = 0.0; // the ball takes the radius of the touched point that opposes the pull most
     work.cells.visitTouched(center_, kTouch * scale_,
       [&](const Vec3& offset, double radius)
       {
         const Vec3 normal = normalized(offset);
         const double against = dot(normal, pull);
-        radius_ = against < least ? radius / kTouch : radius_;
-        least = std::min(least, against);
+        radius_ = against < mostOpposed ? radius / kTouch : radius_;
+        mostOpposed = std::min(mostOpposed, against);
         if (touched < kMostTouched)
         {
           normals[touched++] = normal;
@@ -274,15 +281,17 @@ void ProxyBall::slide(Work& work, const Vec3& hip) noexcept
       });
     const Vec3 way = withinPlanes(pull, normals, touched);
     const double length = norm(way);
-    const bool isOpen = way == pull;
-    if (length < kNoWay * radius_ && !(isOpen && length < kNoWay * work.scene.contactCell()))
+    const bool isUnobstructed = way == pull;
+    // A way too short to matter ends the slide; but an unobstructed ball within kNoWay cells of the HIP goes
+    // onto it and is free.
+    if (length < kNoWay * radius_ && !(isUnobstructed && length < kNoWay * work.scene.contactCell()))
     {
       return;
     }
     const Vec3 direction = normalized(way);
     const double wanted = std::min(length, longest);
     const double reached = work.cells.sweep(center_, direction, wanted, scale_);
-    if (isOpen && reached == length)
+    if (isUnobstructed && reached == length)
     {
       center_ = hip;
       isFree_ = true;
@@ -291,7 +300,8 @@ void ProxyBall::slide(Work& work, const Vec3& hip) noexcept
     const Vec3 before = center_;
     center_ += reached * direction;
     pushOut(work.cells);
-    // Bumps would lead the ball around an edge that the hand has not passed.
+    // Where the flat place continues under the HIP, bumps would push the ball around an edge that the hand
+    // has not passed: the move ends at mostAside.
     if (isOnFlat && aside() > mostAside && flat_.continuesUnder(work.scene, hip, center_, radius_))
     {
       center_ = before + std::min(reached, flat_.wayAside(before, hip, direction, mostAside)) * direction;

@@ -17,8 +17,8 @@ namespace pointhaptics
 /// not depend on how it came there. Nothing else decides about contact: no rims, edges, holes or sides. It is
 /// free exactly when its center is the HIP.
 ///
-/// Each tick it slides: the way to the HIP, with what points into the points it touches taken out (up to
-/// three planes; Zilles and Salisbury 1995), cut where it would meet the next one. Where the bumps between
+/// Each tick it slides: the way to the HIP loses the parts that lead into the points it touches (up to three
+/// planes; Zilles and Salisbury 1995), and ends where it would meet the next point. Where the bumps between
 /// the points hold it although the pull leans, it glides: a slightly smaller ball goes along the smoothed
 /// surface, and the ball follows where that brings it nearer to the HIP. Beside an edge the bumps would lead
 /// it around: it does not leave the flat place that it lies on while that goes on under the HIP.
@@ -88,7 +88,7 @@ private:
   static constexpr double kReachOfTick = 1.1;
   static constexpr double kFocus = 0.2;
   static constexpr double kClear = 1.0 - 1e-9;
-  /// Moves of one step: a hand at 1 m/s needs some ten.
+  /// Budget of one step, in rounds; a move costs one. A hand at 1 m/s needs some ten.
   static constexpr int kMostRounds = 192;
   /// Reach of the points that decide whether the place is flat, over the radius. A flat place serves so many
   /// radii further.

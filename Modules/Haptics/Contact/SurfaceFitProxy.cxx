@@ -9,16 +9,17 @@ namespace pointhaptics
 namespace
 {
 
-/// A lost fit is sought at once, then every kSeekEvery ticks, a third of the work a tick: a search that
-/// failed a moment ago mostly fails again.
+/// A lost fit is sought at once. Later searches take three ticks, and one begins every kSeekEvery ticks: a
+/// search that failed a moment ago mostly fails again.
 constexpr int kSeekEvery = 4;
+/// A fit is sought where the present one decides less than this part of the contact.
 constexpr double kSeekBelow = 0.5;
 /// RMS distance of the cells from the fit up to which the surface is smooth: over the ball's radius, or over
 /// the noise of single points, which cells average. Without the second a noisy sphere is rough.
 constexpr double kSmoothResidual = 0.03;
 constexpr double kSmoothNoise = 0.5;
-/// The fit's point may be this far from the ball's: kTrustRadii of the ball's radius and kTrustDepths of the
-/// depth, as bumps between points hold the ball back.
+/// The fit alone is felt up to this distance of its point from the ball's: kTrustRadii of the ball's radius
+/// plus kTrustDepths of the depth, as bumps between points hold the ball back.
 constexpr double kTrustRadii = 0.2;
 constexpr double kTrustDepths = 0.3;
 /// Largest distance of the fit's point from the ball's where the ball lies on a smooth surface, over the
@@ -111,7 +112,7 @@ bool SurfaceFitProxy::comesOut(
 /// @return true if it has come to the foot of the HIP.
 bool SurfaceFitProxy::seek(const HapticScene& scene, Memory& memory, const Vec3& hip) noexcept
 {
-  const int tick = ticksWithoutFit_++;
+  const int tick = searchTicks_++;
   Vec3 nearest;
   if (tick == 0 || tick % kSeekEvery == 1)
   {
@@ -130,12 +131,15 @@ bool SurfaceFitProxy::seek(const HapticScene& scene, Memory& memory, const Vec3&
 bool SurfaceFitProxy::ride(
   const HapticScene& scene, Memory& memory, const Vec3& hip, std::uint32_t& status) noexcept
 {
-  return isAlone_ && isSmooth(scene) && tracker_.height(hip) < 0.0 && this->hasSurfaceAround(scene, memory) &&
+  return isFitAlone_ && isSmooth(scene) && tracker_.height(hip) < 0.0 &&
+    this->hasSurfaceAround(scene, memory) &&
     ball_.ride(scene, memory.ball, hip, tracker_.point(), tracker_.normal(), status);
 }
 
-/// Returns the fit's part of the answer, 0 to 1. @param followed how the fit came to the foot of the HIP.
-double SurfaceFitProxy::fitWeight(const HapticScene& scene, Memory& memory, const Vec3& hip,
+/// Updates ball, fit and search, and returns the fit's part of the contact, 0 to 1. The fit is smoother, but
+/// the ball alone decides about contact, so the fit counts only near the ball. @param followed result of
+/// SurfaceTracker::follow() in this tick.
+double SurfaceFitProxy::updateFit(const HapticScene& scene, Memory& memory, const Vec3& hip,
   TrackResult followed, std::uint32_t& status) noexcept
 {
   const auto weight = [&]
@@ -143,17 +147,18 @@ double SurfaceFitProxy::fitWeight(const HapticScene& scene, Memory& memory, cons
     const double trust =
       std::max(kTrustRadii * ball_.radius() + kTrustDepths * std::max(0.0, ball_.depth(hip)),
         isSmooth(scene) && tracker_.continuesAround() ? kTrustPlain * ball_.radius() : 0.0);
-    const double apart = norm(tracker_.point() - ball_.nearestPoint(hip));
+    const double distance = norm(tracker_.point() - ball_.nearestPoint(hip));
     // A HIP in front of the fit but deep below the ball belongs to another sheet.
     const bool agrees =
       tracker_.height(ball_.center()) > 0.0 && !(tracker_.height(hip) > 0.0 && ball_.depth(hip) > trust);
-    return agrees ? 1.0 - smoothStep((apart - trust) / ((kDistrust - 1.0) * trust)) : 0.0;
+    return agrees ? 1.0 - smoothStep((distance - trust) / ((kDistrust - 1.0) * trust)) : 0.0;
   };
   double result = 0.0;
   if (hasFit_)
   {
     status |= std::uint32_t(followed != TrackResult::Converged ? kProxyRoundLimit : kProxyOk);
-    // Where the foot leaps on a ridge it leads the ball, which bumps between points would hold back.
+    // A foot may leap across a ridge in one tick. The ball follows it: bumps between points would hold it
+    // back.
     const bool isLed = followed == TrackResult::Far &&
       ball_.goTo(scene, memory.ball, tracker_.point(), tracker_.normal(), status);
     status |= std::uint32_t(isLed ? kProxyLed : kProxyOk);
@@ -161,23 +166,24 @@ double SurfaceFitProxy::fitWeight(const HapticScene& scene, Memory& memory, cons
     hasFit_ = result > 0.0;
   }
   const bool seeks = result < kSeekBelow;
-  status |= std::uint32_t(seeks && ticksWithoutFit_ > 0 ? kProxySeeking : kProxyOk);
+  status |= std::uint32_t(seeks && searchTicks_ > 0 ? kProxySeeking : kProxyOk);
   if (seeks && seek(scene, memory, hip))
   {
     const SurfaceTracker before = std::exchange(tracker_, search_.found());
-    const double sought = weight();
-    hasFit_ = hasFit_ || sought > result;
-    tracker_ = sought > result ? tracker_ : before;
-    result = std::max(result, sought);
+    const double newWeight = weight();
+    hasFit_ = hasFit_ || newWeight > result;
+    tracker_ = newWeight > result ? tracker_ : before;
+    result = std::max(result, newWeight);
   }
   if (result == 1.0)
   {
-    ticksWithoutFit_ = 0;
+    searchTicks_ = 0;
   }
+  // Another face is looked for unless the fit is trusted, exact, and has surface on all sides.
   if ((result < 1.0 || followed == TrackResult::RoundLimit || !tracker_.continuesAround()) &&
     ball_.depth(hip) > 0.0 && comesOut(scene, memory, hip, status))
   {
-    status |= kProxyAround;
+    status |= kProxyAround; // the new face alone is felt; nothing where the ball became free
     return ball_.isFree() ? 0.0 : 1.0;
   }
   return result;
@@ -186,11 +192,11 @@ double SurfaceFitProxy::fitWeight(const HapticScene& scene, Memory& memory, cons
 void SurfaceFitProxy::forgetFit() noexcept
 {
   hasFit_ = false;
-  isAlone_ = false;
+  isFitAlone_ = false;
   isPatient_ = false;
   isRough_ = false;
   search_.giveUp();
-  ticksWithoutFit_ = 0;
+  searchTicks_ = 0;
 }
 
 /// Blends the contacts of fit and ball: @p weight is the fit's part, the rest is the ball's. Each presses
@@ -230,9 +236,9 @@ void SurfaceFitProxy::step(const HapticScene& scene, Memory& memory, const Conta
   }
   else
   {
-    weight = refines ? fitWeight(scene, memory, hip, followed, state.status) : 0.0;
-    isAlone_ = weight == 1.0;
-    isPatient_ = isAlone_ && isSmooth(scene) && tracker_.continuesAround();
+    weight = refines ? updateFit(scene, memory, hip, followed, state.status) : 0.0;
+    isFitAlone_ = weight == 1.0;
+    isPatient_ = isFitAlone_ && isSmooth(scene) && tracker_.continuesAround();
     contact = this->blended(scene, memory, hip, weight);
     state.status |= std::uint32_t(refines && weight < 1.0 && contact.pressed ? kProxyBallContact : kProxyOk);
   }

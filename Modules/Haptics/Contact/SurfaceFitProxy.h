@@ -76,7 +76,7 @@ private:
 
   bool seek(const HapticScene& scene, Memory& memory, const Vec3& hip) noexcept;
   bool ride(const HapticScene& scene, Memory& memory, const Vec3& hip, std::uint32_t& status) noexcept;
-  double fitWeight(const HapticScene& scene, Memory& memory, const Vec3& hip, TrackResult followed,
+  double updateFit(const HapticScene& scene, Memory& memory, const Vec3& hip, TrackResult followed,
     std::uint32_t& status) noexcept;
   Contact blended(const HapticScene& scene, Memory& memory, const Vec3& hip, double weight) const noexcept;
   bool comesOut(const HapticScene& scene, Memory& memory, const Vec3& hip, std::uint32_t& status) noexcept;
@@ -89,11 +89,11 @@ private:
   FrictionCone friction_;
   Vec3 normal_{ 0.0, 0.0, 1.0 };
   bool hasFit_ = false;
-  bool isAlone_ = false;   ///< The fit alone was felt.
-  bool isPatient_ = false; ///< The fit followed a smooth surface that continues on all sides.
-  Vec3 roughAt_;           ///< The HIP when the surface beside it was last found not to be a flat face.
+  bool isFitAlone_ = false; ///< The fit alone was felt.
+  bool isPatient_ = false;  ///< The fit followed a smooth surface that continues on all sides.
+  Vec3 roughAt_;            ///< The HIP when the surface beside it was last found not to be a flat face.
   bool isRough_ = false;
-  int ticksWithoutFit_ = 0;
+  int searchTicks_ = 0; ///< Ticks of the search since the fit alone was felt.
 };
 
 } // namespace pointhaptics

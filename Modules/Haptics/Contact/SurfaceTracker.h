@@ -9,7 +9,8 @@
 namespace pointhaptics
 {
 
-/// The result of following the surface to the point nearest to a target.
+/// The result of following the surface to the point nearest to a target, from best to worst: up to RoundLimit
+/// the point may be used.
 enum class TrackResult
 {
   Converged,

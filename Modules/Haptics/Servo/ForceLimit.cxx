@@ -16,7 +16,7 @@ double ForceLimit::newtons() const noexcept
 const char* ForceLimit::name() const noexcept
 {
   const double least = this->newtons();
-  return !std::isfinite(least) ? "none" : least == device ? "device" : least == user ? "user" : "program";
+  return !std::isfinite(least) ? "none" : least == device ? "device" : least == program ? "program" : "user";
 }
 
 std::string ForceLimit::text() const

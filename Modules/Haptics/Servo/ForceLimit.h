@@ -20,7 +20,7 @@ struct ForceLimit
                                                             ///< loop.
 
   double newtons() const noexcept;
-  /// Name of the least limit: "device", "user" or "program"; "none".
+  /// Name of the least limit: "device", "user" or "program"; "none". Of equal ones: device, program, user.
   const char* name() const noexcept;
   /// "2 N (device)", or "none".
   std::string text() const;

@@ -73,8 +73,12 @@ __all__ = [
 def __getattr__(name: str) -> Any:
     # The classes that draw need VTK's rendering modules, which take most of the time of an import.
     if name.startswith("vtk"):
-        from . import PointHapticsInteraction, PointHapticsRendering
-
+        try:
+            from . import PointHapticsInteraction, PointHapticsRendering
+        except ImportError as fault:
+            if "failed to map segment" in str(fault):
+                raise MemoryError(f"{name}: not enough memory for VTK's rendering modules") from None
+            raise
         for module in (PointHapticsRendering, PointHapticsInteraction):
             if hasattr(module, name):
                 return getattr(module, name)

@@ -40,6 +40,12 @@ class Attributes(Dict[str, NDArray[Any]]):
     def copy(self) -> "Attributes":
         return Attributes(self, self.fields)
 
+    def __or__(self, other: Mapping[str, NDArray[Any]]) -> "Attributes":  # type: ignore[override]
+        return Attributes({**self, **other}, {**self.fields, **getattr(other, "fields", {})})
+
+    def __ror__(self, other: Mapping[str, NDArray[Any]]) -> "Attributes":  # type: ignore[override]
+        return Attributes({**other, **self}, self.fields)
+
 
 def _name(path: object) -> str:
     if not isinstance(path, (str, os.PathLike)):
@@ -76,12 +82,23 @@ def _file_to_read(path: object) -> Iterator[Tuple[str, str]]:
         yield copy.name, shown
 
 
+# Options of the program in messages, and what does the same here.
+_SPOKEN = {
+    "view and feel take metres about their middle": "local_metres=True gives metres",
+    "--salvage": "salvage=True",
+    "--columns NAMES": "columns=...",
+    "--columns": "columns",
+    "--las-scale": "vtkPointCloudWriter.SetLasScale()",
+    "--double keeps": "vtkPointCloudWriter.KeepDoublesOn() keeps",
+    "--translate of resample takes": "the transform of resample() takes",
+    ", or take --unit": "",
+}
+
+
 def _spoken(message: str) -> str:
-    """With the arguments of read() in the place of the program's options."""
-    message = message.replace("view and feel take metres about their middle", "local_metres=True gives metres")
-    return message.replace("--salvage", "salvage=True").replace("--columns NAMES", "columns=...").replace(
-        "--columns", "columns"
-    )
+    for option, here in _SPOKEN.items():
+        message = message.replace(option, here)
+    return message
 
 
 def _fail(message: str, name: str, shown: str, is_content: bool) -> NoReturn:
@@ -240,7 +257,7 @@ def _write(
     written = []
     errors = run(writer, lambda: written.append(writer.Write()))
     for note in writer.GetNotes():
-        warn(f"{shown}: {note}")
+        warn(f"{shown}: {_spoken(note)}")
     if errors or written != [1]:
         message = text_of(writer.GetErrorMessage()) or (errors[0] if errors else "cannot be written")
         _fail(message, name, shown, writer.GetErrorCode() in _CONTENT)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ctypes
 import os
 from ctypes import POINTER, ArgumentError, byref, c_char_p, c_double, c_int, c_size_t, c_ulonglong, c_void_p
-from typing import Any, Callable, Type, TypeVar
+from typing import Any, Callable, NoReturn, Type, TypeVar
 
 from .version import LIBRARY
 
@@ -117,7 +117,14 @@ def check(status: int) -> None:
         raise ValueError(problem().decode())
 
 
-class Handle:
+class NotCopied:
+    """Base of what has a state of its own: a copy would share it."""
+
+    def __reduce_ex__(self, protocol: object) -> NoReturn:
+        raise TypeError(f"a {type(self).__name__} cannot be copied or pickled; make another one, as of its Scene")
+
+
+class Handle(NotCopied):
     """Owns an object of the library and destroys it."""
 
     def __init__(self, create: Callable[..., int], destroy: Callable[[c_void_p], None], *arguments: Any) -> None:
@@ -146,11 +153,16 @@ def _give_up_the_gil() -> None:
     """Lets long work of VTK filters give up the GIL, too, and run signal handlers."""
     python = ctypes.pythonapi
     is_ending = getattr(python, "Py_IsFinalizing", None) or getattr(python, "_Py_IsFinalizing", None)
-    functions = (
+    lock = (
         python.PyGILState_Check, python.PyEval_SaveThread, python.PyEval_RestoreThread, is_ending, python.PyErr_CheckSignals
     )  # fmt: skip
-    addresses = [None if function is None else ctypes.cast(function, c_void_p) for function in functions]
-    _function("ph_set_interpreter_lock", *[c_void_p] * 5, result=None)(*addresses)
+    faults = (
+        python.PyErr_Fetch, python.PyErr_Restore, python.Py_AddPendingCall, python.PyEval_GetFrame,
+        python.PyFrame_GetBack, python.Py_IncRef, python.Py_DecRef,
+    )  # fmt: skip
+    for name, functions in (("lock", lock), ("faults", faults)):
+        addresses = [None if function is None else ctypes.cast(function, c_void_p) for function in functions]
+        _function(f"ph_set_interpreter_{name}", *[c_void_p] * len(functions), result=None)(*addresses)
 
 
 _give_up_the_gil()

@@ -18,7 +18,7 @@ _ROW = FELT_TYPE.itemsize
 _BLOCK = 256
 
 
-class Proxy:
+class Proxy(library.NotCopied):
     """The proxy of a hand: it stays on the surface while the hand goes inside; the spring between is the force.
 
     scene : what is felt. It may serve any number of proxies at a time.

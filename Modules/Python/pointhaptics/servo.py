@@ -31,7 +31,7 @@ def _end() -> None:
         library.servo_stop(loop._handle.value)
 
 
-class ServoLoop:
+class ServoLoop(library.NotCopied):
     """A thread that reads a simulated hand, steps a proxy and pushes the hand, `rate` times a second.
 
     The hand is a mass on a spring and a damper, pulled to where the person wants it: along a path, or to target().

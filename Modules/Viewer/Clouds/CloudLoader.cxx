@@ -21,14 +21,14 @@ namespace
 
 using Clock = std::chrono::steady_clock;
 
-/// One load. Members that are not atomic belong to the loader's thread until it is finished, then to the
-/// other one.
+/// One load. The GUI's thread fills request before the load is queued; then members that are not atomic
+/// belong to the loader's thread until finished, and to the GUI's thread from then on.
 struct Load
 {
   CloudRequest request;
   Clock::time_point begin = Clock::now();
   std::atomic<double> progress{ 0.0 };
-  std::atomic<const char*> step{ nullptr }; // after reading
+  std::atomic<const char*> step{ nullptr }; // null while files are read
   std::atomic<double> partOfStep{ 0.0 };
   std::atomic<bool> cancelled{ false };
   bool finished = false; // under the mutex
@@ -40,7 +40,7 @@ struct Load
 
 void Load::run()
 {
-  const auto goesOn = [this](double part)
+  const auto shouldContinue = [this](double part)
   {
     progress = std::max(progress.load(), std::clamp(part, 0.0, 1.0));
     return !cancelled;
@@ -52,7 +52,7 @@ void Load::run()
       partOfStep = std::clamp(part, 0.0, 1.0);
       step = name;
     };
-    if (loadCloud(request, goesOn, loaded, message))
+    if (loadCloud(request, shouldContinue, loaded, message))
     {
       message.clear();
     }
@@ -69,10 +69,12 @@ void Load::run()
 struct CloudLoader::Implementation
 {
   mutable std::mutex mutex;
+  /// Notified when `queued` or `shouldEnd` changes, for the loader, and when a load is finished, for
+  /// waitFor().
   mutable std::condition_variable changed;
   // Under the mutex.
-  std::shared_ptr<Load> waiting;
-  bool ending = false;
+  std::shared_ptr<Load> queued;
+  bool shouldEnd = false;
 
   std::shared_ptr<Load> present; // the GUI thread's
   std::thread thread;
@@ -85,19 +87,19 @@ void CloudLoader::Implementation::run()
   std::unique_lock<std::mutex> lock(this->mutex);
   while (true)
   {
-    this->changed.wait(lock, [this] { return this->ending || this->waiting; });
-    if (this->ending)
+    this->changed.wait(lock, [this] { return this->shouldEnd || this->queued; });
+    if (this->shouldEnd)
     {
       return;
     }
-    std::shared_ptr<Load> load = std::move(this->waiting);
+    std::shared_ptr<Load> load = std::move(this->queued);
     lock.unlock();
     load->run();
     lock.lock();
     load->finished = true;
     lock.unlock();
     this->changed.notify_all();
-    load.reset(); // the points of one that was given up, without keeping the others waiting
+    load.reset(); // frees a cloud that was given up outside the lock: this may take long
     lock.lock();
   }
 }
@@ -113,7 +115,7 @@ CloudLoader::~CloudLoader()
   this->cancel();
   {
     const std::lock_guard<std::mutex> lock(self.mutex);
-    self.ending = true;
+    self.shouldEnd = true;
   }
   self.changed.notify_all();
   if (self.thread.joinable())
@@ -130,7 +132,7 @@ void CloudLoader::start(CloudRequest request)
   self.present->request = std::move(request);
   {
     const std::lock_guard<std::mutex> lock(self.mutex);
-    self.waiting = self.present;
+    self.queued = self.present;
   }
   if (!self.thread.joinable())
   {
@@ -149,7 +151,7 @@ void CloudLoader::cancel()
   self.present->cancelled = true;
   self.present.reset();
   const std::lock_guard<std::mutex> lock(self.mutex);
-  self.waiting.reset();
+  self.queued.reset();
 }
 
 bool CloudLoader::busy() const
@@ -198,7 +200,7 @@ bool CloudLoader::take(LoadedCloud& loaded, std::string& message)
   if (message.empty())
   {
     loaded = std::move(load->loaded);
-    load->loaded = LoadedCloud(); // vtkSmartPointer copies where it is assigned: the thread must not hold it
+    load->loaded = LoadedCloud(); // the caller alone shall hold the VTK objects
   }
   return true;
 }

@@ -1,5 +1,5 @@
 /// @file
-/// Clouds read in a thread of their own, so that a window goes on while they are.
+/// Clouds read in a thread of their own, so that a window answers meanwhile.
 #pragma once
 
 #include "LoadedCloud.h"
@@ -13,8 +13,8 @@ namespace pointhaptics
 {
 
 /// One load counts at a time: start() and cancel() give up the one before, whose reader ends at its next
-/// report of progress, and whose result nobody gets. The cloud is made in the loader's thread and passes
-/// whole to the one that takes it. All functions belong to one thread, the GUI's.
+/// report of progress, and whose result nobody gets. The cloud is made in the loader's thread, which keeps no
+/// reference to one that was taken. All functions belong to one thread, the GUI's.
 class POINTHAPTICSVIEWER_EXPORT CloudLoader
 {
 public:
@@ -42,8 +42,9 @@ public:
   double seconds() const;
   /// Waits for the present load, @p seconds at most. True: take() has a result.
   bool waitFor(double seconds) const;
-  /// True: the present load has ended, and is over with this call. An empty @p message: @p loaded is what it
-  /// made; otherwise @p message says which file cannot be read and why, and @p loaded is as it was.
+  /// True: the present load has ended and is handed over; busy() is false from now on. An empty @p message:
+  /// @p loaded is what it made; otherwise @p message says which file cannot be read and why, and @p loaded is
+  /// as it was.
   bool take(LoadedCloud& loaded, std::string& message);
 
 private:

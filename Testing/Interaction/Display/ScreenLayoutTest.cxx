@@ -49,7 +49,7 @@ const char* const kStatus =
 const char* const kPanel =
   "servo loop: running, SCHED_FIFO\nrate: 1000.0 Hz\njitter: p50 0 us, p99 82 us, max 279 us\n"
   "step time: p50 1 us, p99 29 us, max 42 us\nticks: 1234567, deadline misses: 0, idle: 88\n"
-  "device faults: 0, waiting: 0\nforce limit: 8 N (user)\ndevice: simulated hand";
+  "device faults: 0, waiting: 0\nforce limit: 8 N (program)\ndevice: simulated hand";
 
 /// A window with everything that the viewer writes over its picture.
 struct Screen

@@ -1,6 +1,8 @@
 #include "CloudAppearance.h"
+
 #include "AsprsClasses.h"
 #include "ColorMaps.h"
+#include "MadeClouds.h"
 
 #include <gtest/gtest.h>
 #include <vtkActor.h>
@@ -9,7 +11,6 @@
 #include <vtkLookupTable.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
-#include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkRenderer.h>
@@ -28,14 +29,7 @@ namespace
 
 vtkSmartPointer<vtkPolyData> makeColumn()
 {
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  points->InsertNextPoint(0, 0, 5);
-  points->InsertNextPoint(0, 0, 7);
-  points->InsertNextPoint(NAN, 0, 0);
-  auto cloud = vtkSmartPointer<vtkPolyData>::New();
-  cloud->SetPoints(points);
-  return cloud;
+  return trial::cloudOf({ { 0, 0, 5 }, { 0, 0, 7 }, { NAN, 0, 0 } });
 }
 
 TEST(CloudAppearance, MeasuresHeightFromTheLowestFinitePoint)

@@ -1,11 +1,12 @@
 #include "CloudOrientation.h"
 
+#include "MadeClouds.h"
+
 #include <gtest/gtest.h>
 #include <vtkCamera.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
 #include <vtkNew.h>
-#include <vtkPoints.h>
 #include <vtkPolyData.h>
 
 #include <array>
@@ -20,14 +21,7 @@ namespace
 /// A cloud of two opposite corners and a point that is no number.
 vtkSmartPointer<vtkPolyData> makeCloud(const Vec3& minimum, const Vec3& maximum)
 {
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  points->InsertNextPoint(minimum.x, minimum.y, minimum.z);
-  points->InsertNextPoint(NAN, NAN, NAN);
-  points->InsertNextPoint(maximum.x, maximum.y, maximum.z);
-  auto cloud = vtkSmartPointer<vtkPolyData>::New();
-  cloud->SetPoints(points);
-  return cloud;
+  return trial::cloudOf({ minimum, { NAN, NAN, NAN }, maximum });
 }
 
 void setViewpoint(vtkPolyData* cloud, const double (&values)[7])
@@ -143,7 +137,7 @@ vtkSmartPointer<vtkPolyData> makeFigure(const std::array<int, 3>& axes, bool isT
     { { 0.1, -0.06, 0.03 }, { 0.05, 0.13, 0.03 }, 500 }, { { 0.0, 0.0, 1.15 }, { 0.2, 0.12, 0.32 }, 5000 },
     { { 0.0, 0.0, 1.62 }, { 0.09, 0.1, 0.13 }, 1500 }, { { -0.26, 0.0, 1.1 }, { 0.06, 0.06, 0.33 }, 1500 },
     { { 0.26, 0.0, 1.1 }, { 0.06, 0.06, 0.33 }, 1500 } };
-  vtkNew<vtkPoints> points;
+  std::vector<Vec3> points;
   for (const Part& part : parts)
   {
     for (int i = 0; i < part.count; ++i)
@@ -154,13 +148,11 @@ vtkSmartPointer<vtkPolyData> makeFigure(const std::array<int, 3>& axes, bool isT
         Vec3{ part.half.x * ring * std::cos(2.4 * i), part.half.y * ring * std::sin(2.4 * i),
           part.half.z * z };
       const double height = isTurned ? -p.z : p.z;
-      points->InsertNextPoint(Vec3{ p.x, p.y, height }[axes[0]], Vec3{ p.x, p.y, height }[axes[1]],
+      points.emplace_back(Vec3{ p.x, p.y, height }[axes[0]], Vec3{ p.x, p.y, height }[axes[1]],
         Vec3{ p.x, p.y, height }[axes[2]]);
     }
   }
-  auto cloud = vtkSmartPointer<vtkPolyData>::New();
-  cloud->SetPoints(points);
-  return cloud;
+  return trial::cloudOf(points, VTK_FLOAT);
 }
 
 /// Floor, ceiling and walls of 6 by 2.6 by 4 m, y down, with a table on the floor, about a camera.
@@ -169,17 +161,15 @@ vtkSmartPointer<vtkPolyData> makeRoom()
   std::mt19937 random(1);
   const auto from = [&random](double low, double high)
   { return std::uniform_real_distribution<>(low, high)(random); };
-  vtkNew<vtkPoints> points;
+  std::vector<Vec3> points;
   for (int i = 0; i < 4000; ++i)
   {
-    points->InsertNextPoint(from(-3, 3), i % 2 ? 1.4 : -1.2, from(-2, 2));
-    points->InsertNextPoint(i % 2 ? 3.0 : -3.0, from(-1.2, 1.4), from(-2, 2));
-    points->InsertNextPoint(from(-3, 3), from(-1.2, 1.4), i % 2 ? 2.0 : -2.0);
-    points->InsertNextPoint(from(-2, 0), 0.65, from(-1, 1));
+    points.emplace_back(from(-3, 3), i % 2 ? 1.4 : -1.2, from(-2, 2));
+    points.emplace_back(i % 2 ? 3.0 : -3.0, from(-1.2, 1.4), from(-2, 2));
+    points.emplace_back(from(-3, 3), from(-1.2, 1.4), i % 2 ? 2.0 : -2.0);
+    points.emplace_back(from(-2, 0), 0.65, from(-1, 1));
   }
-  auto cloud = vtkSmartPointer<vtkPolyData>::New();
-  cloud->SetPoints(points);
-  return cloud;
+  return trial::cloudOf(points, VTK_FLOAT);
 }
 
 TEST(CloudOrientation, StandsAFigureOnItsFeetWhereverItsHeadIs)

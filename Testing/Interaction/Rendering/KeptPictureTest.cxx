@@ -7,20 +7,17 @@
 #include "vtkPickMarker.h"
 #include "vtkSplatMapper.h"
 
+#include "OffscreenWindow.h"
 #include "Unit/SkipWithoutDisplay.h"
 
 #include <gtest/gtest.h>
 #include <vtkActor.h>
 #include <vtkCallbackCommand.h>
-#include <vtkCamera.h>
 #include <vtkFloatArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkUnsignedCharArray.h>
 
 #include <array>
 #include <cmath>
@@ -61,9 +58,15 @@ vtkSmartPointer<vtkPolyData> makeWall()
   return wall;
 }
 
-class KeptPicture : public ::testing::Test
+class KeptPicture
+  : public ::testing::Test
+  , protected OffscreenWindow
 {
 protected:
+  KeptPicture()
+    : OffscreenWindow(kSize, kSize)
+  {
+  }
   void SetUp() override
   {
     SKIP_WITHOUT_DISPLAY();
@@ -75,47 +78,38 @@ protected:
     splats->SetAmbientLight(true);
     splats->SetSurfaces(true);
     actor_->SetMapper(splats);
-    renderer_->AddActor(actor_);
-    applyBackground(renderer_);
-    applyDepthShading(renderer_);
-    props_->AddTo(renderer_);
-    marker_->AddTo(renderer_);
+    renderer->AddActor(actor_);
+    applyBackground(renderer);
+    applyDepthShading(renderer);
+    props_->AddTo(renderer);
+    marker_->AddTo(renderer);
     props_->GetWorkspaceActor()->VisibilityOff();
     props_->SetSmallestSphereRadius(0.002);
-    window_->SetOffScreenRendering(1);
-    window_->SetMultiSamples(0);
-    window_->SetSize(kSize, kSize);
-    window_->AddRenderer(renderer_);
-    renderer_->GetActiveCamera()->SetPosition(0, 0, 0.2);
-    renderer_->GetActiveCamera()->SetFocalPoint(0, 0, 0);
     detail_.setEnabled(true);
     begin_->SetClientData(this);
     begin_->SetCallback(
       [](vtkObject*, unsigned long, void* self, void*) { static_cast<KeptPicture*>(self)->beginFrame(); });
-    renderer_->AddObserver(vtkCommand::StartEvent, begin_);
+    renderer->AddObserver(vtkCommand::StartEvent, begin_);
     for (int frame = 0; frame < 4; ++frame)
     {
       this->picture();
     }
   }
-  void TearDown() override { renderer_->RemoveObserver(begin_); }
+  void TearDown() override { renderer->RemoveObserver(begin_); }
 
   void beginFrame()
   {
     detail_.beginFrame(now_);
     this->pass()->SetBlendsSplats(detail_.isFinest());
   }
-  vtkDepthShadingPass* pass() { return vtkDepthShadingPass::GetPassOf(renderer_); }
+  vtkDepthShadingPass* pass() { return vtkDepthShadingPass::GetPassOf(renderer); }
 
   /// A second later.
   std::vector<unsigned char> picture()
   {
     now_ += 1.0;
-    renderer_->ResetCameraClippingRange();
-    window_->Render();
-    vtkNew<vtkUnsignedCharArray> pixels;
-    window_->GetPixelData(0, 0, kSize - 1, kSize - 1, 0, pixels);
-    return { pixels->GetPointer(0), pixels->GetPointer(0) + pixels->GetNumberOfValues() };
+    renderer->ResetCameraClippingRange();
+    return OffscreenWindow::picture();
   }
 
   /// The picture where a hand at @p x, @p y presses with its HIP at @p z.
@@ -135,12 +129,10 @@ protected:
 
   double now_ = 100.0;
   vtkNew<vtkActor> actor_;
-  vtkNew<vtkRenderer> renderer_;
-  vtkNew<vtkRenderWindow> window_;
   vtkNew<vtkHapticProps> props_;
   vtkNew<vtkPickMarker> marker_;
   vtkNew<vtkCallbackCommand> begin_;
-  LevelOfDetail detail_{ renderer_, actor_ };
+  LevelOfDetail detail_{ renderer, actor_ };
 };
 
 std::array<int, 3> pixel(const std::vector<unsigned char>& picture, int x, int y)

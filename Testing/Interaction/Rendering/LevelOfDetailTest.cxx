@@ -3,13 +3,13 @@
 #include "vtkDepthShadingPass.h"
 #include "vtkSplatMapper.h"
 
+#include "OffscreenWindow.h"
 #include "Unit/SkipWithoutDisplay.h"
 
 #include <gtest/gtest.h>
 #include <vtkActor.h>
 #include <vtkActorCollection.h>
 #include <vtkCallbackCommand.h>
-#include <vtkCamera.h>
 #include <vtkCellArray.h>
 #include <vtkCommand.h>
 #include <vtkDataArray.h>
@@ -23,12 +23,9 @@
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
 #include <vtkRenderPassCollection.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
 #include <vtkSequencePass.h>
 #include <vtkTextActor.h>
 #include <vtkTextProperty.h>
-#include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
 #include <array>
@@ -69,9 +66,15 @@ vtkSmartPointer<vtkPolyData> makeSphere()
 }
 
 /// A window that shows a cloud, with the detail that belongs to it; time passes as the test says.
-class LevelOfDetailTest : public ::testing::Test
+class LevelOfDetailTest
+  : public ::testing::Test
+  , protected OffscreenWindow
 {
 protected:
+  LevelOfDetailTest()
+    : OffscreenWindow(kSize, kSize)
+  {
+  }
   void SetUp() override
   {
     SKIP_WITHOUT_DISPLAY();
@@ -79,16 +82,10 @@ protected:
     mapper_->SetInputData(cloud_);
     actor_->SetMapper(mapper_);
     applyCloudAppearance(cloud_, mapper_, actor_);
-    renderer_->AddActor(actor_);
-    applyBackground(renderer_);
-    applyDepthShading(renderer_);
-    window_->SetOffScreenRendering(1);
-    window_->SetMultiSamples(0);
-    window_->SetSize(kSize, kSize);
-    window_->AddRenderer(renderer_);
-    renderer_->GetActiveCamera()->SetPosition(0, 0, 0.2);
-    renderer_->GetActiveCamera()->SetFocalPoint(0, 0, 0);
-    renderer_->ResetCameraClippingRange();
+    renderer->AddActor(actor_);
+    applyBackground(renderer);
+    applyDepthShading(renderer);
+    renderer->ResetCameraClippingRange();
     detail_.setEnabled(true);
     detail_.setCoarsePointSize(5.0);
     begin_->SetClientData(this);
@@ -98,22 +95,15 @@ protected:
         auto* test = static_cast<LevelOfDetailTest*>(self);
         test->detail_.beginFrame(test->now_);
       });
-    renderer_->AddObserver(vtkCommand::StartEvent, begin_);
+    renderer->AddObserver(vtkCommand::StartEvent, begin_);
   }
 
-  void TearDown() override { renderer_->RemoveObserver(begin_); }
+  void TearDown() override { renderer->RemoveObserver(begin_); }
 
   void render(double later)
   {
     now_ += later;
-    window_->Render();
-  }
-
-  std::vector<unsigned char> pixels()
-  {
-    vtkNew<vtkUnsignedCharArray> data;
-    window_->GetPixelData(0, 0, kSize - 1, kSize - 1, 0, data);
-    return { data->GetPointer(0), data->GetPointer(0) + data->GetNumberOfValues() };
+    window->Render();
   }
 
   vtkSmartPointer<vtkSplatMapper> drawSplats()
@@ -137,10 +127,8 @@ protected:
   vtkSmartPointer<vtkPolyData> cloud_;
   vtkNew<vtkPolyDataMapper> mapper_;
   vtkNew<vtkActor> actor_;
-  vtkNew<vtkRenderer> renderer_;
-  vtkNew<vtkRenderWindow> window_;
   vtkNew<vtkCallbackCommand> begin_;
-  LevelOfDetail detail_{ renderer_, actor_ };
+  LevelOfDetail detail_{ renderer, actor_ };
 };
 
 TEST_F(LevelOfDetailTest, MovesWithFewPointsAndRestsWithThePictureOfAllPoints)
@@ -217,10 +205,10 @@ TEST_F(LevelOfDetailTest, KeepsItsDetailWhereNothingButTextChanges)
 TEST_F(LevelOfDetailTest, CameraCloudModelAndOtherActorsAreMotion)
 {
   vtkNew<vtkActor> proxy;
-  renderer_->AddActor(proxy);
+  renderer->AddActor(proxy);
   this->render(0.0);
   const std::vector<std::pair<const char*, std::function<void()>>> motions = {
-    { "camera", [this] { renderer_->GetActiveCamera()->Azimuth(3); } },
+    { "camera", [this] { renderer->GetActiveCamera()->Azimuth(3); } },
     { "model", [this] { actor_->SetPosition(0.001, 0, 0); } },
     { "cloud", [this] { cloud_->Modified(); } },
     { "proxy", [&proxy] { proxy->SetPosition(0, 0, 0.01); } },
@@ -239,7 +227,7 @@ TEST_F(LevelOfDetailTest, ShowsAllForAPictureThatIsKept)
 {
   this->render(0.0);
   ASSERT_FALSE(detail_.showsAll());
-  renderer_->GetActiveCamera()->Azimuth(3);
+  renderer->GetActiveCamera()->Azimuth(3);
   detail_.showAllOnce();
   this->render(0.01);
   EXPECT_TRUE(detail_.showsAll());
@@ -248,13 +236,13 @@ TEST_F(LevelOfDetailTest, ShowsAllForAPictureThatIsKept)
 TEST_F(LevelOfDetailTest, DepthShadingLeavesTheBackgroundAsItIs)
 {
   detail_.setEnabled(false);
-  renderer_->GradientBackgroundOff();
-  renderer_->SetBackground(1.0, 1.0, 1.0);
+  renderer->GradientBackgroundOff();
+  renderer->SetBackground(1.0, 1.0, 1.0);
   mapper_->ScalarVisibilityOff();
   actor_->GetProperty()->SetColor(0.5, 0.5, 0.5);
   this->render(0.0);
   const std::vector<unsigned char> shaded = this->pixels();
-  renderer_->SetPass(nullptr);
+  renderer->SetPass(nullptr);
   this->render(0.0);
   const std::vector<unsigned char> plain = this->pixels();
   int darker = 0;
@@ -276,7 +264,7 @@ TEST_F(LevelOfDetailTest, DepthShadingLeavesTheBackgroundAsItIs)
 TEST_F(LevelOfDetailTest, DrawsTheCloudAnewOnlyWhereMoreThanTextChanged)
 {
   detail_.setEnabled(false);
-  auto* passes = vtkSequencePass::SafeDownCast(renderer_->GetPass())->GetPasses();
+  auto* passes = vtkSequencePass::SafeDownCast(renderer->GetPass())->GetPasses();
   auto* shading = vtkDepthShadingPass::SafeDownCast(passes->GetItemAsObject(0));
   ASSERT_NE(shading, nullptr);
   vtkNew<vtkTextActor> text;
@@ -289,7 +277,7 @@ TEST_F(LevelOfDetailTest, DrawsTheCloudAnewOnlyWhereMoreThanTextChanged)
   proxy->SetMapper(sphere);
   vtkNew<vtkMatrix4x4> place;
   proxy->SetUserMatrix(place);
-  renderer_->AddActor(proxy);
+  renderer->AddActor(proxy);
   this->render(0.0);
   this->render(0.0); // the first one makes a light
   const std::vector<unsigned char> first = this->pixels();
@@ -297,21 +285,21 @@ TEST_F(LevelOfDetailTest, DrawsTheCloudAnewOnlyWhereMoreThanTextChanged)
   this->render(0.0); // keeps what it has shaded
   this->render(0.0);
   EXPECT_EQ(this->pixels(), first);
-  renderer_->AddActor2D(text);
+  renderer->AddActor2D(text);
   this->render(0.0);
   EXPECT_NE(this->pixels(), first);
-  renderer_->RemoveActor2D(text);
+  renderer->RemoveActor2D(text);
   this->render(0.0);
   EXPECT_EQ(this->pixels(), first);
   EXPECT_EQ(shading->GetNumberOfPictures(), drawn);
   const std::vector<std::pair<const char*, std::function<void()>>> changes = {
-    { "camera", [this] { renderer_->GetActiveCamera()->Azimuth(3); } },
+    { "camera", [this] { renderer->GetActiveCamera()->Azimuth(3); } },
     { "matrix in place", [&place] { place->SetElement(0, 3, 0.01); } },
     { "colour", [&proxy] { proxy->GetProperty()->SetColor(1, 0, 0); } },
     { "visibility", [&proxy] { proxy->VisibilityOff(); } },
     { "strength", [shading] { shading->SetStrength(3.0); } },
-    { "background", [this] { renderer_->SetBackground(1, 0, 0); } },
-    { "size", [this] { window_->SetSize(kSize + 10, kSize); } },
+    { "background", [this] { renderer->SetBackground(1, 0, 0); } },
+    { "size", [this] { window->SetSize(kSize + 10, kSize); } },
   };
   for (const auto& [name, change] : changes)
   {
@@ -336,16 +324,16 @@ TEST_F(LevelOfDetailTest, LeavesOutWhatIsOutOfViewWithoutChangingThePicture)
   ASSERT_FALSE(detail_.showsAll());
   EXPECT_EQ(detail_.visiblePoints(), detail_.drawnPoints());
   // Near the upper part of the sphere.
-  renderer_->GetActiveCamera()->SetPosition(0.0, 0.03, 0.12);
-  renderer_->GetActiveCamera()->SetFocalPoint(0.0, 0.035, 0.0);
-  renderer_->GetActiveCamera()->SetViewAngle(15.0);
-  renderer_->ResetCameraClippingRange();
+  renderer->GetActiveCamera()->SetPosition(0.0, 0.03, 0.12);
+  renderer->GetActiveCamera()->SetFocalPoint(0.0, 0.035, 0.0);
+  renderer->GetActiveCamera()->SetViewAngle(15.0);
+  renderer->ResetCameraClippingRange();
   this->render(0.01);
   ASSERT_FALSE(detail_.showsAll());
   EXPECT_LT(double(detail_.visiblePoints()), 0.65 * double(detail_.drawnPoints()));
   EXPECT_GT(detail_.visiblePoints(), 100);
   const std::vector<unsigned char> few = this->pixels();
-  vtkActorCollection* actors = renderer_->GetActors();
+  vtkActorCollection* actors = renderer->GetActors();
   vtkCollectionSimpleIterator cookie;
   actors->InitTraversal(cookie);
   while (vtkActor* actor = actors->GetNextActor(cookie))
@@ -355,7 +343,7 @@ TEST_F(LevelOfDetailTest, LeavesOutWhatIsOutOfViewWithoutChangingThePicture)
       mapper->SetRanges({});
     }
   }
-  renderer_->RemoveObserver(begin_);
+  renderer->RemoveObserver(begin_);
   this->render(0.0);
   EXPECT_EQ(this->pixels(), few);
 }
@@ -437,7 +425,7 @@ TEST_F(LevelOfDetailTest, LeavesOutOfThePictureAtRestWhatIsOutOfViewWithoutChang
   cloud_->GetPointData()->AddArray(lengths);
   sortAsMeans(cloud_);
   const vtkSmartPointer<vtkSplatMapper> splats = this->drawSplats();
-  vtkCamera* camera = renderer_->GetActiveCamera();
+  vtkCamera* camera = renderer->GetActiveCamera();
   for (const bool parallel : { false, true })
   {
     for (const double pixels : { 0.0, 9.0 })
@@ -449,7 +437,7 @@ TEST_F(LevelOfDetailTest, LeavesOutOfThePictureAtRestWhatIsOutOfViewWithoutChang
       camera->SetPosition(0.12, 0.03, 0.02);
       camera->SetFocalPoint(0.03, 0.02, 0.01);
       camera->SetViewAngle(12.0);
-      renderer_->ResetCameraClippingRange();
+      renderer->ResetCameraClippingRange();
       this->render(0.01);
       this->renderUntilFine();
       EXPECT_EQ(detail_.drawnPoints(), kPoints);
@@ -482,7 +470,7 @@ TEST_F(LevelOfDetailTest, DrawsPointsInAnotherOrderThanTheirOwnAll)
   }
   cloud_->SetVerts(backwards);
   const vtkSmartPointer<vtkSplatMapper> splats = this->drawSplats();
-  renderer_->GetActiveCamera()->SetViewAngle(5.0);
+  renderer->GetActiveCamera()->SetViewAngle(5.0);
   this->render(0.01);
   this->renderUntilFine();
   EXPECT_EQ(detail_.visiblePoints(), kPoints);
@@ -496,7 +484,7 @@ TEST_F(LevelOfDetailTest, LeavesOutWhatIsBelowAPixelFromAfar)
   lengths->FillValue(0.0003f); // 0.43 mm apart
   cloud_->GetPointData()->AddArray(lengths);
   const vtkSmartPointer<vtkSplatMapper> splats = this->drawSplats();
-  vtkCamera* camera = renderer_->GetActiveCamera();
+  vtkCamera* camera = renderer->GetActiveCamera();
   std::int64_t last = kPoints + 1;
   for (const bool parallel : { false, true })
   {
@@ -505,7 +493,7 @@ TEST_F(LevelOfDetailTest, LeavesOutWhatIsBelowAPixelFromAfar)
       camera->SetParallelProjection(parallel);
       camera->SetParallelScale(distance * std::tan(vtkMath::RadiansFromDegrees(15.0)));
       camera->SetPosition(0, 0, distance);
-      renderer_->ResetCameraClippingRange();
+      renderer->ResetCameraClippingRange();
       this->render(0.01);
       this->renderUntilFine();
       EXPECT_TRUE(detail_.showsAll());
@@ -557,16 +545,16 @@ TEST_F(LevelOfDetailTest, AFrameThatIsGivenUpIsDrawnAgain)
   this->render(0.01); // few points
   EXPECT_FALSE(detail_.restingFrame());
   vtkNew<vtkCallbackCommand> giveUp;
-  giveUp->SetClientData(window_);
-  giveUp->SetCallback([](vtkObject*, unsigned long, void* window, void*)
-    { static_cast<vtkRenderWindow*>(window)->SetAbortRender(1); });
+  giveUp->SetClientData(window);
+  giveUp->SetCallback([](vtkObject*, unsigned long, void* shown, void*)
+    { static_cast<vtkRenderWindow*>(shown)->SetAbortRender(1); });
   const std::int64_t drawn = detail_.drawnPoints();
-  const unsigned long atStart = renderer_->AddObserver(vtkCommand::StartEvent, giveUp);
+  const unsigned long atStart = renderer->AddObserver(vtkCommand::StartEvent, giveUp);
   this->render(1.0);
   EXPECT_EQ(detail_.drawnPoints(), drawn);
   EXPECT_TRUE(detail_.refinementDue(now_));
   EXPECT_TRUE(detail_.restingFrame());
-  renderer_->RemoveObserver(atStart);
+  renderer->RemoveObserver(atStart);
   this->renderUntilFine();
   EXPECT_EQ(this->pixels(), whole);
   EXPECT_TRUE(detail_.isFinest());

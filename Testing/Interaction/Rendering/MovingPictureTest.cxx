@@ -6,20 +6,17 @@
 #include "vtkDepthShadingPass.h"
 #include "vtkSplatMapper.h"
 
+#include "OffscreenWindow.h"
 #include "Unit/SkipWithoutDisplay.h"
 
 #include <gtest/gtest.h>
 #include <vtkActor.h>
-#include <vtkCamera.h>
 #include <vtkNew.h>
 #include <vtkOpenGLRenderWindow.h>
 #include <vtkPlaneSource.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
 #include <vtkSmartPointer.h>
-#include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
 #include <cmath>
@@ -32,28 +29,29 @@ namespace
 {
 
 /// Splats apart from each other, and a closed wall before their middle.
-class MovingPicture : public ::testing::Test
+class MovingPicture
+  : public ::testing::Test
+  , protected OffscreenWindow
 {
 protected:
   static constexpr int kWidth = 1000;
   static constexpr int kHeight = 800;
 
+  MovingPicture()
+    : OffscreenWindow(kWidth, kHeight)
+  {
+  }
   void SetUp() override
   {
     SKIP_WITHOUT_DISPLAY();
     this->addWall(0.04, 0.0, 40);
     this->addWall(0.01, 0.01, 80);
-    applyBackground(renderer_);
-    applyDepthShading(renderer_);
-    window_->SetOffScreenRendering(1);
-    window_->SetMultiSamples(0);
-    window_->SetSize(kWidth, kHeight);
-    window_->AddRenderer(renderer_);
-    renderer_->GetActiveCamera()->SetPosition(0.05, 0.02, 0.25);
-    renderer_->GetActiveCamera()->SetFocalPoint(0, 0, 0);
-    renderer_->ResetCameraClippingRange();
-    window_->Render();
-    if (!DrawPace::of(vtkOpenGLRenderWindow::SafeDownCast(window_)).isNeeded())
+    applyBackground(renderer);
+    applyDepthShading(renderer);
+    renderer->GetActiveCamera()->SetPosition(0.05, 0.02, 0.25);
+    renderer->ResetCameraClippingRange();
+    window->Render();
+    if (!DrawPace::of(vtkOpenGLRenderWindow::SafeDownCast(window)).isNeeded())
     {
       GTEST_SKIP() << "a graphics card draws all pixels in motion, too";
     }
@@ -76,22 +74,16 @@ protected:
     actor->SetMapper(mapper);
     applyCloudAppearance(cloud, mapper, actor);
     mapper->SetFixedPixels(5.0);
-    renderer_->AddActor(actor);
+    renderer->AddActor(actor);
   }
 
-  vtkDepthShadingPass* pass() { return vtkDepthShadingPass::GetPassOf(renderer_); }
+  vtkDepthShadingPass* pass() { return vtkDepthShadingPass::GetPassOf(renderer); }
 
   std::vector<unsigned char> picture(bool isMoving)
   {
     this->pass()->SetIsMoving(isMoving);
-    window_->Render();
-    vtkNew<vtkUnsignedCharArray> pixels;
-    window_->GetPixelData(0, 0, window_->GetSize()[0] - 1, window_->GetSize()[1] - 1, 0, pixels);
-    return { pixels->GetPointer(0), pixels->GetPointer(0) + pixels->GetNumberOfValues() };
+    return OffscreenWindow::picture();
   }
-
-  vtkNew<vtkRenderer> renderer_;
-  vtkNew<vtkRenderWindow> window_;
 };
 
 double meanDifference(const std::vector<unsigned char>& a, const std::vector<unsigned char>& b)
@@ -112,9 +104,9 @@ double mean(const std::vector<unsigned char>& picture)
 TEST_F(MovingPicture, HasFewerPixelsAndLooksAlike)
 {
   const std::vector<unsigned char> still = this->picture(false);
-  EXPECT_EQ(vtkDepthShadingPass::ResolutionOf(renderer_), 1.0);
+  EXPECT_EQ(vtkDepthShadingPass::ResolutionOf(renderer), 1.0);
   const std::vector<unsigned char> moving = this->picture(true);
-  const double resolution = vtkDepthShadingPass::ResolutionOf(renderer_);
+  const double resolution = vtkDepthShadingPass::ResolutionOf(renderer);
   EXPECT_LE(resolution * resolution * kWidth * kHeight, vtkDepthShadingPass::kMostMovingPixels + 1e-6);
   EXPECT_GT(resolution, 0.7);
   EXPECT_NE(moving, still);
@@ -127,16 +119,16 @@ TEST_F(MovingPicture, HasFewerPixelsAndLooksAlike)
 
 TEST_F(MovingPicture, IsThatAtRestInASmallWindow)
 {
-  window_->SetSize(640, 480);
+  window->SetSize(640, 480);
   const std::vector<unsigned char> still = this->picture(false);
   EXPECT_EQ(this->picture(true), still);
-  EXPECT_EQ(vtkDepthShadingPass::ResolutionOf(renderer_), 1.0);
+  EXPECT_EQ(vtkDepthShadingPass::ResolutionOf(renderer), 1.0);
 }
 
 TEST_F(MovingPicture, GivesWayToOneOfAllPixelsAtRest)
 {
-  vtkActor* cloud = vtkActor::SafeDownCast(renderer_->GetActors()->GetItemAsObject(0));
-  LevelOfDetail detail(renderer_, cloud);
+  vtkActor* cloud = vtkActor::SafeDownCast(renderer->GetActors()->GetItemAsObject(0));
+  LevelOfDetail detail(renderer, cloud);
   detail.setEnabled(true);
   detail.beginFrame(1.0);
   EXPECT_TRUE(detail.isInMotion()) << "the first frame differs from none";
@@ -144,11 +136,11 @@ TEST_F(MovingPicture, GivesWayToOneOfAllPixelsAtRest)
   EXPECT_TRUE(detail.isInMotion());
   detail.beginFrame(2.0);
   EXPECT_FALSE(detail.isInMotion());
-  renderer_->GetActiveCamera()->Azimuth(1.0);
+  renderer->GetActiveCamera()->Azimuth(1.0);
   detail.showAllOnce();
   detail.beginFrame(3.0);
   EXPECT_FALSE(detail.isInMotion()) << "a picture that is kept";
-  renderer_->GetActiveCamera()->Azimuth(1.0);
+  renderer->GetActiveCamera()->Azimuth(1.0);
   detail.beginFrame(4.0);
   EXPECT_TRUE(detail.isInMotion());
   detail.setEnabled(false);

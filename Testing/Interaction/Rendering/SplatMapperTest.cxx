@@ -1,11 +1,11 @@
 #include "DrawPace.h"
 #include "vtkSplatMapper.h"
 
+#include "OffscreenWindow.h"
 #include "Unit/SkipWithoutDisplay.h"
 
 #include <gtest/gtest.h>
 #include <vtkActor.h>
-#include <vtkCamera.h>
 #include <vtkCellArray.h>
 #include <vtkFloatArray.h>
 #include <vtkNew.h>
@@ -14,9 +14,6 @@
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkProperty.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
 #include <cmath>
@@ -51,6 +48,24 @@ vtkSmartPointer<vtkPolyData> threePoints()
   return three;
 }
 
+/// An actor of black splats in a white window.
+struct SplatWindow : pointhaptics::OffscreenWindow
+{
+  explicit SplatWindow(vtkPolyData* input)
+    : OffscreenWindow(kSplatSize, kSplatSize)
+  {
+    splats->SetInputData(input);
+    splats->ScalarVisibilityOff();
+    actor->SetMapper(splats);
+    actor->GetProperty()->SetColor(0, 0, 0);
+    renderer->AddActor(actor);
+    renderer->SetBackground(1, 1, 1);
+  }
+
+  vtkNew<vtkSplatMapper> splats;
+  vtkNew<vtkActor> actor;
+};
+
 /// Dark pixels within 25 columns of @p middle.
 int darkPixels(const std::vector<unsigned char>& seen, int middle)
 {
@@ -68,37 +83,17 @@ int darkPixels(const std::vector<unsigned char>& seen, int middle)
 TEST(SplatMapper, SplatsAreDiscsAsLargeAsTheirLengthSays)
 {
   SKIP_WITHOUT_DISPLAY();
-  vtkNew<vtkSplatMapper> splats;
-  splats->SetInputData(threePoints());
+  SplatWindow view(threePoints());
+  vtkSplatMapper* const splats = view.splats;
+  vtkRenderer* const renderer = view.renderer;
   splats->SetSizeArrayName("Length");
   splats->SetSizeScale(2.0);
-  splats->ScalarVisibilityOff();
-  vtkNew<vtkActor> actor;
-  actor->SetMapper(splats);
-  actor->GetProperty()->SetColor(0, 0, 0);
-  vtkNew<vtkRenderer> renderer;
-  renderer->AddActor(actor);
-  renderer->SetBackground(1, 1, 1);
-  renderer->GetActiveCamera()->SetPosition(0, 0, 0.2);
-  renderer->GetActiveCamera()->SetFocalPoint(0, 0, 0);
-  vtkNew<vtkRenderWindow> window;
-  window->SetOffScreenRendering(1);
-  window->SetMultiSamples(0);
-  window->SetSize(kSplatSize, kSplatSize);
-  window->AddRenderer(renderer);
-  const auto pixels = [&]
-  {
-    window->Render();
-    vtkNew<vtkUnsignedCharArray> data;
-    window->GetPixelData(0, 0, kSplatSize - 1, kSplatSize - 1, 0, data);
-    return std::vector<unsigned char>(data->GetPointer(0), data->GetPointer(0) + data->GetNumberOfValues());
-  };
   for (const bool parallel : { false, true })
   {
     renderer->GetActiveCamera()->SetParallelProjection(parallel);
     renderer->GetActiveCamera()->SetParallelScale(0.2 * std::tan(0.5 * 30.0 * 3.14159265358979 / 180.0));
     renderer->ResetCameraClippingRange();
-    const std::vector<unsigned char> seen = pixels();
+    const std::vector<unsigned char> seen = view.picture();
     const double perMetre = kSplatSize / (2.0 * 0.2 * std::tan(0.5 * 30.0 * 3.14159265358979 / 180.0));
     for (int i = 0; i < 3; ++i)
     {
@@ -109,7 +104,7 @@ TEST(SplatMapper, SplatsAreDiscsAsLargeAsTheirLengthSays)
   }
   // A point far from all others is no ball.
   splats->SetLargestRatio(1.0);
-  const std::vector<unsigned char> cut = pixels();
+  const std::vector<unsigned char> cut = view.picture();
   EXPECT_LT(std::count(cut.begin(), cut.end(), 0), 3 * 900);
 }
 
@@ -132,36 +127,6 @@ vtkSmartPointer<vtkPolyData> ring(vtkIdType count, bool hasCells)
   }
   return result;
 }
-
-/// An actor of splats in a window.
-struct SplatWindow
-{
-  explicit SplatWindow(vtkPolyData* input)
-  {
-    splats->SetInputData(input);
-    actor->SetMapper(splats);
-    renderer->AddActor(actor);
-    renderer->SetBackground(1, 1, 1);
-    actor->GetProperty()->SetColor(0, 0, 0);
-    window->SetOffScreenRendering(1);
-    window->SetMultiSamples(0);
-    window->SetSize(kSplatSize, kSplatSize);
-    window->AddRenderer(renderer);
-  }
-
-  std::vector<unsigned char> pixels()
-  {
-    window->Render();
-    vtkNew<vtkUnsignedCharArray> data;
-    window->GetPixelData(0, 0, kSplatSize - 1, kSplatSize - 1, 0, data);
-    return { data->GetPointer(0), data->GetPointer(0) + data->GetNumberOfValues() };
-  }
-
-  vtkNew<vtkSplatMapper> splats;
-  vtkNew<vtkActor> actor;
-  vtkNew<vtkRenderer> renderer;
-  vtkNew<vtkRenderWindow> window;
-};
 
 /// Only a few points at a time are under way where the processor draws many.
 TEST(SplatMapper, PointsAreDrawnInStepsWhereTheProcessorDrawsThem)
@@ -202,10 +167,10 @@ TEST(SplatMapper, WithoutCellsAllPointsAreDrawn)
   constexpr vtkIdType kCount = 200;
   SplatWindow with(ring(kCount, true));
   SplatWindow without(ring(kCount, false));
-  const std::vector<unsigned char> expected = with.pixels();
+  const std::vector<unsigned char> expected = with.picture();
   const auto dark = std::size_t(std::count(expected.begin(), expected.end(), 0));
   EXPECT_GT(dark, 500u);
-  EXPECT_LT(differences(without.pixels(), expected), dark / 20);
+  EXPECT_LT(differences(without.picture(), expected), dark / 20);
   for (int i = 0; i < 6; ++i)
   {
     EXPECT_EQ(without.splats->GetBounds()[i], with.splats->GetBounds()[i]);
@@ -214,9 +179,9 @@ TEST(SplatMapper, WithoutCellsAllPointsAreDrawn)
   {
     view->splats->SetRanges({ { 10, 30 }, { 120, kCount } });
   }
-  const std::vector<unsigned char> parts = with.pixels();
+  const std::vector<unsigned char> parts = with.picture();
   EXPECT_GT(differences(parts, expected), dark / 5);
-  EXPECT_LT(differences(without.pixels(), parts), dark / 20);
+  EXPECT_LT(differences(without.picture(), parts), dark / 20);
 }
 
 } // namespace

@@ -1,11 +1,11 @@
 #include "vtkInteractorStyleHaptic.h"
 #include "vtkSplatMapper.h"
 
+#include "OffscreenWindow.h"
 #include "Unit/SkipWithoutDisplay.h"
 
 #include <gtest/gtest.h>
 #include <vtkActor.h>
-#include <vtkCamera.h>
 #include <vtkCellArray.h>
 #include <vtkFloatArray.h>
 #include <vtkHardwareSelector.h>
@@ -17,9 +17,7 @@
 #include <vtkPolyData.h>
 #include <vtkPropPicker.h>
 #include <vtkProperty.h>
-#include <vtkRenderWindow.h>
 #include <vtkRenderWindowInteractor.h>
-#include <vtkRenderer.h>
 #include <vtkSelection.h>
 #include <vtkSelectionNode.h>
 #include <vtkUnsignedCharArray.h>
@@ -87,25 +85,14 @@ vtkSmartPointer<vtkPolyData> wave(Cells kind, bool isColored)
 }
 
 /// A window of its own, with the actors of another where they are given.
-struct SelectionWindow
+struct SelectionWindow : pointhaptics::OffscreenWindow
 {
   explicit SelectionWindow(vtkActor* actor, vtkCamera* camera = nullptr)
+    : OffscreenWindow(kSelectionSize, kSelectionSize)
   {
     renderer->AddActor(actor);
     renderer->SetBackground(1, 1, 1);
-    window->SetOffScreenRendering(1);
-    window->SetMultiSamples(0);
-    window->SetSize(kSelectionSize, kSelectionSize);
-    window->AddRenderer(renderer);
     camera ? renderer->SetActiveCamera(camera) : renderer->ResetCamera();
-  }
-
-  std::vector<unsigned char> pixels()
-  {
-    window->Render();
-    vtkNew<vtkUnsignedCharArray> data;
-    window->GetPixelData(0, 0, kSelectionSize - 1, kSelectionSize - 1, 0, data);
-    return { data->GetPointer(0), data->GetPointer(0) + data->GetNumberOfValues() };
   }
 
   /// Ids of points, or of cells, in a rectangle; both ends belong to it.
@@ -127,9 +114,6 @@ struct SelectionWindow
     }
     return ids;
   }
-
-  vtkNew<vtkRenderer> renderer;
-  vtkNew<vtkRenderWindow> window;
 };
 
 struct SplatActor
@@ -163,7 +147,7 @@ TEST(SplatSelection, PicksAndSelectionsLeaveThePictureAsItWas)
     SCOPED_TRACE(variant);
     SplatActor cloud(wave(kind, isColored), surfaces, (variant & 16) != 0 ? 0.5 : 1.0);
     SelectionWindow view(cloud.actor);
-    const std::vector<unsigned char> before = view.pixels();
+    const std::vector<unsigned char> before = view.picture();
     ASSERT_GT(std::count_if(before.begin(), before.end(), [](unsigned char c) { return c < 250; }), 5000);
     int place = 100;
     while (before[std::size_t(3 * place * (kSelectionSize + 1))] == 255)
@@ -173,9 +157,9 @@ TEST(SplatSelection, PicksAndSelectionsLeaveThePictureAsItWas)
     vtkNew<vtkPropPicker> picker;
     EXPECT_TRUE(picker->Pick(place, place, 0, view.renderer));
     EXPECT_EQ(picker->GetActor(), cloud.actor);
-    EXPECT_EQ(view.pixels(), before) << "after a pick";
+    EXPECT_EQ(view.picture(), before) << "after a pick";
     EXPECT_FALSE(picker->Pick(2, 2, 0, view.renderer));
-    EXPECT_EQ(view.pixels(), before) << "after a pick beside it";
+    EXPECT_EQ(view.picture(), before) << "after a pick beside it";
     for (int time = 0; time < 3; ++time)
     {
       const std::set<vtkIdType> ids = view.idsIn(0, kSelectionSize - 1, kPoints);
@@ -183,17 +167,17 @@ TEST(SplatSelection, PicksAndSelectionsLeaveThePictureAsItWas)
       EXPECT_EQ(*ids.rbegin(), kColumns * kColumns - 1);
       EXPECT_EQ(view.idsIn(0, kSelectionSize - 1, kCells).size(),
         std::size_t(kind == Cells::None || kind == Cells::OneOfAll ? 1 : kColumns * kColumns));
-      EXPECT_EQ(view.pixels(), before) << "after a selection";
+      EXPECT_EQ(view.picture(), before) << "after a selection";
     }
     cloud.splats->ReleaseGraphicsResources(view.window);
-    EXPECT_EQ(view.pixels(), before) << "after a release";
+    EXPECT_EQ(view.picture(), before) << "after a release";
     {
       SelectionWindow other(cloud.actor, view.renderer->GetActiveCamera());
-      EXPECT_EQ(other.pixels(), before) << "in two windows";
-      EXPECT_EQ(view.pixels(), before) << "in two windows";
+      EXPECT_EQ(other.picture(), before) << "in two windows";
+      EXPECT_EQ(view.picture(), before) << "in two windows";
       EXPECT_EQ(other.idsIn(0, kSelectionSize - 1, kPoints).size(), std::size_t(kColumns * kColumns));
     }
-    EXPECT_EQ(view.pixels(), before) << "after the other window";
+    EXPECT_EQ(view.picture(), before) << "after the other window";
   }
 }
 
@@ -267,7 +251,7 @@ TEST(SplatSelection, TranslucentSplatsAreDiscsWhereDepthsArePeeled)
   view.renderer->ResetCamera(-0.05, 0.05, -0.05, 0.05, -0.05, 0.05);
   view.renderer->SetUseDepthPeeling(true);
   view.window->SetAlphaBitPlanes(1);
-  const std::vector<unsigned char> seen = view.pixels();
+  const std::vector<unsigned char> seen = view.picture();
   const auto valueAt = [&](int x, int y) { return int(seen[std::size_t(3 * (y * kSelectionSize + x))]); };
   EXPECT_NEAR(valueAt(100, 100), 64, 3) << "both are seen";
   EXPECT_EQ(valueAt(124, 124), 255) << "no corner of a square";
@@ -279,7 +263,7 @@ TEST(SplatSelection, SelectedPointsAreShownInTheirColor)
   SKIP_WITHOUT_DISPLAY();
   SplatActor cloud(wave(Cells::OfOnePoint, false), false, 1.0);
   SelectionWindow view(cloud.actor);
-  const std::vector<unsigned char> before = view.pixels();
+  const std::vector<unsigned char> before = view.picture();
   vtkNew<vtkIdTypeArray> ids;
   ids->InsertNextValue(kColumns * kColumns / 2);
   vtkNew<vtkSelectionNode> node;
@@ -289,7 +273,7 @@ TEST(SplatSelection, SelectedPointsAreShownInTheirColor)
   vtkNew<vtkSelection> selection;
   selection->AddNode(node);
   cloud.splats->SetSelection(selection);
-  const std::vector<unsigned char> after = view.pixels();
+  const std::vector<unsigned char> after = view.picture();
   std::size_t red = 0;
   for (std::size_t i = 0; i < after.size(); i += 3)
   {
@@ -297,7 +281,7 @@ TEST(SplatSelection, SelectedPointsAreShownInTheirColor)
   }
   EXPECT_GT(red, 5u);
   EXPECT_LT(red, 60u);
-  EXPECT_EQ(view.pixels(), after);
+  EXPECT_EQ(view.picture(), after);
 }
 
 /// Key P of VTK's styles, on the cloud and beside it.
@@ -315,14 +299,14 @@ TEST(SplatSelection, KeyOfTheStylesLeavesThePictureAsItWas)
     interactor->SetRenderWindow(view.window);
     interactor->SetInteractorStyle(style);
     interactor->Initialize();
-    const std::vector<unsigned char> before = view.pixels();
+    const std::vector<unsigned char> before = view.picture();
     for (const int place : { 100, 3, 100 })
     {
       interactor->SetEventInformation(place, place, 0, 0, 'p', 1, "p");
       interactor->InvokeEvent(vtkCommand::KeyPressEvent);
       interactor->InvokeEvent(vtkCommand::CharEvent);
       style->HighlightProp(nullptr); // the box about what was picked
-      EXPECT_EQ(view.pixels(), before) << style->GetClassName() << " at " << place;
+      EXPECT_EQ(view.picture(), before) << style->GetClassName() << " at " << place;
     }
     interactor->SetInteractorStyle(nullptr);
   }

@@ -2,7 +2,7 @@
 #include "vtkKernelBandwidthFilter.h"
 #include "vtkVoxelMeanResampler.h"
 
-#include "FlatCloud.h"
+#include "MadeClouds.h"
 
 #include <gtest/gtest.h>
 #include <vtkNew.h>

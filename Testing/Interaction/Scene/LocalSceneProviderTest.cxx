@@ -6,12 +6,11 @@
 #include "vtkVoxelMeanResampler.h"
 
 #include "Haptics/Proxy.h"
-#include "Shapes/Shapes.h"
+#include "MadeClouds.h"
 
 #include <gtest/gtest.h>
 #include <vtkFloatArray.h>
 #include <vtkNew.h>
-#include <vtkPoints.h>
 #include <vtkPolyData.h>
 
 #include <algorithm>
@@ -26,21 +25,6 @@ namespace
 {
 
 constexpr double kTick = 0.001;
-
-vtkSmartPointer<vtkPolyData> makeCloud(Shape shape, std::int64_t size, double noise)
-{
-  std::vector<Vec3> drawn;
-  EXPECT_EQ(generateShape(shape, size, 1, noise, drawn), Status::Ok);
-  vtkNew<vtkPoints> points;
-  points->SetNumberOfPoints(vtkIdType(drawn.size()));
-  for (std::size_t i = 0; i < drawn.size(); ++i)
-  {
-    points->SetPoint(vtkIdType(i), &drawn[i].x);
-  }
-  auto cloud = vtkSmartPointer<vtkPolyData>::New();
-  cloud->SetPoints(points);
-  return cloud;
-}
 
 /// A turn about z by @p degrees, then so much larger, then along x.
 AffineTransform placed(double degrees, double scale, double x)
@@ -149,7 +133,7 @@ Difference compare(const Scenes& scenes, const Vec3& at, const Vec3& outward)
 
 TEST_F(LocalSceneProviderTest, HasTheCellsOfTheWholeCloudWithinReachBitForBit)
 {
-  worker_.setCloud(makeCloud(Shape::Torus, 200000, 0.0));
+  worker_.setCloud(trial::shapeCloud(Shape::Torus, 200000, 0.0));
   const Vec3 hand{ 0.036, 0.0, 0.0 };
   const Scenes before = this->request({}, hand);
   ASSERT_NE(before.whole, nullptr);
@@ -194,7 +178,7 @@ TEST_F(LocalSceneProviderTest, WithinReachItIsFeltAsTheWholeCloud)
   };
   for (const Case& one : { Case{ 150000, 0.0, 1e-13 }, Case{ 150000, 4e-5, 1e-13 }, Case{ 25000, 0.0, 0.4 } })
   {
-    worker_.setCloud(makeCloud(Shape::Torus, one.points, one.noise));
+    worker_.setCloud(trial::shapeCloud(Shape::Torus, one.points, one.noise));
     for (const AffineTransform& place :
       { AffineTransform(), placed(5.0, 1.0, 0.002), placed(-3.0, 1.1, -0.003), placed(3.0, 0.95, -0.001) })
     {
@@ -216,7 +200,7 @@ TEST_F(LocalSceneProviderTest, WithinReachItIsFeltAsTheWholeCloud)
 
 TEST_F(LocalSceneProviderTest, AHandThatIsFasterThanTheScenesLosesNoContact)
 {
-  worker_.setCloud(makeCloud(Shape::Torus, 100000, 0.0));
+  worker_.setCloud(trial::shapeCloud(Shape::Torus, 100000, 0.0));
   const auto handAt = [](double time)
   {
     // 1 mm deep around the outside of the torus, 0.4 m/s.
@@ -271,7 +255,7 @@ TEST_F(LocalSceneProviderTest, AHandThatIsFasterThanTheScenesLosesNoContact)
 
 TEST_F(LocalSceneProviderTest, AHandThatIsTakenFarAwayFeelsWhatIsThere)
 {
-  worker_.setCloud(makeCloud(Shape::Torus, 100000, 0.0));
+  worker_.setCloud(trial::shapeCloud(Shape::Torus, 100000, 0.0));
   const Vec3 hand{ 0.036, 0.0, 0.0 };
   ASSERT_NE(this->request({}, hand).whole, nullptr);
   const Scenes scenes = this->request(placed(4.0, 1.0, 0.0), hand);
@@ -301,7 +285,7 @@ TEST_F(LocalSceneProviderTest, AHandThatIsTakenFarAwayFeelsWhatIsThere)
 
 TEST_F(LocalSceneProviderTest, IndexesNoPointsBeforeThereIsASceneToMake)
 {
-  const vtkSmartPointer<vtkPolyData> cloud = makeCloud(Shape::Torus, 150000, 0.0);
+  const vtkSmartPointer<vtkPolyData> cloud = trial::shapeCloud(Shape::Torus, 150000, 0.0);
   const Vec3 hand{ 0.036, 0.0, 0.0 };
   worker_.setCloud(cloud);
   const std::shared_ptr<const HapticScene> whole = this->request({}, hand).whole;
@@ -324,7 +308,7 @@ TEST_F(LocalSceneProviderTest, IndexesNoPointsBeforeThereIsASceneToMake)
 
 TEST_F(LocalSceneProviderTest, IndexesNoPointsForAHandThatFeelsNothing)
 {
-  const vtkSmartPointer<vtkPolyData> cloud = makeCloud(Shape::Idol, 150000, 0.0);
+  const vtkSmartPointer<vtkPolyData> cloud = trial::shapeCloud(Shape::Idol, 150000, 0.0);
   worker_.setCloud(cloud);
   const Vec3 far{ 0.049, 0.049, 0.049 };
   const std::shared_ptr<const HapticScene> whole = this->request({}, far).whole;
@@ -353,7 +337,7 @@ TEST_F(LocalSceneProviderTest, IndexesNoPointsForAHandThatFeelsNothing)
 
 TEST_F(LocalSceneProviderTest, IsLeftOutWhereItDoesNotPayOrCannotBe)
 {
-  worker_.setCloud(makeCloud(Shape::Torus, 50000, 0.0));
+  worker_.setCloud(trial::shapeCloud(Shape::Torus, 50000, 0.0));
   const Vec3 hand{ 0.036, 0.0, 0.0 };
   ASSERT_NE(this->request({}, hand).whole, nullptr);
   EXPECT_NE(this->request(placed(1.0, 1.0, 0.0), hand).near, nullptr);
@@ -365,7 +349,7 @@ TEST_F(LocalSceneProviderTest, IsLeftOutWhereItDoesNotPayOrCannotBe)
   resampler_->SetDimensions(40, 40, 40);
   ASSERT_NE(this->request({}, hand).whole, nullptr);
   EXPECT_EQ(this->request(placed(1.0, 1.0, 0.0), hand).near, nullptr) << "most of the cloud is near";
-  worker_.setCloud(makeCloud(Shape::Sphere, 50000, 0.0));
+  worker_.setCloud(trial::shapeCloud(Shape::Sphere, 50000, 0.0));
   const Scenes other = this->request({}, hand);
   EXPECT_TRUE(!other.near || !other.near->fallback()) << "the whole one is of another cloud";
 }
@@ -377,7 +361,7 @@ TEST_F(LocalSceneProviderTest, BeforeThereIsAWholeCloudWhatIsNearTheHandIsFeltAl
   {
     for (const AffineTransform& place : { AffineTransform(), placed(5.0, 1.1, 0.001) })
     {
-      worker_.setCloud(makeCloud(Shape::Torus, 150000, noise));
+      worker_.setCloud(trial::shapeCloud(Shape::Torus, 150000, noise));
       const Vec3 surface = place.apply(closestPoint(Shape::Torus, place.inverse().apply(hand)).point);
       const Scenes scenes = this->request(place, hand, surface);
       ASSERT_TRUE(scenes.near && scenes.whole);
@@ -395,7 +379,7 @@ TEST_F(LocalSceneProviderTest, BeforeThereIsAWholeCloudWhatIsNearTheHandIsFeltAl
 
 TEST_F(LocalSceneProviderTest, AWholeCloudTakesOverFromAPartThatWasAloneWithoutAKick)
 {
-  worker_.setCloud(makeCloud(Shape::Torus, 150000, 4e-5));
+  worker_.setCloud(trial::shapeCloud(Shape::Torus, 150000, 4e-5));
   const Vec3 hand{ 0.036, 0.0, 0.0 };
   const Scenes scenes = this->request({}, hand);
   ASSERT_TRUE(scenes.near && scenes.whole);
@@ -416,7 +400,7 @@ TEST_F(LocalSceneProviderTest, AWholeCloudTakesOverFromAPartThatWasAloneWithoutA
 
 TEST_F(LocalSceneProviderTest, AHandThatLeavesAPartThatIsAloneFeelsNothing)
 {
-  worker_.setCloud(makeCloud(Shape::Torus, 150000, 0.0));
+  worker_.setCloud(trial::shapeCloud(Shape::Torus, 150000, 0.0));
   const Vec3 hand{ 0.036, 0.0, 0.0 };
   const Scenes scenes = this->request({}, hand);
   ASSERT_TRUE(scenes.near && scenes.whole);
@@ -454,10 +438,10 @@ TEST_F(LocalSceneProviderTest, AHandThatLeavesAPartThatIsAloneFeelsNothing)
 
 TEST_F(LocalSceneProviderTest, NoPartIsAloneFarFromThePointsOrWhereTheyAreSparse)
 {
-  worker_.setCloud(makeCloud(Shape::Torus, 150000, 0.0));
+  worker_.setCloud(trial::shapeCloud(Shape::Torus, 150000, 0.0));
   EXPECT_EQ(this->request({}, { 0.0, 0.0, 0.3 }).near, nullptr);
   EXPECT_EQ(this->request({}, { 0.049, 0.049, 0.049 }).near, nullptr);
-  worker_.setCloud(makeCloud(Shape::Torus, 15000, 0.0));
+  worker_.setCloud(trial::shapeCloud(Shape::Torus, 15000, 0.0));
   EXPECT_EQ(this->request({}, { 0.036, 0.0, 0.0 }).near, nullptr);
 }
 

@@ -138,30 +138,6 @@ protected:
   SceneWorker worker_;
 };
 
-TEST_F(SceneSettingsTest, AreThoseOfTheFiltersWhenTheRequestIsMade)
-{
-  forEachChange(resampler_->GetSettings(),
-    [&](const std::string& name, const VoxelMeanSettings& changed)
-    {
-      vtkNew<vtkVoxelMeanResampler> resampler;
-      resampler->SetSettings(changed);
-      const SceneRequest request = SceneRequest::of(resampler, nullptr);
-      resampler->SetSettings({});
-      EXPECT_TRUE(equalSettings(request.voxels, changed)) << name;
-      EXPECT_FALSE(request.bandwidth.has_value());
-    });
-  forEachChange(bandwidth_->GetSettings(),
-    [&](const std::string& name, const BandwidthSettings& changed)
-    {
-      vtkNew<vtkKernelBandwidthFilter> filter;
-      filter->SetSettings(changed);
-      const SceneRequest request = SceneRequest::of(resampler_, filter);
-      filter->SetSettings({});
-      ASSERT_TRUE(request.bandwidth.has_value());
-      EXPECT_TRUE(equalSettings(*request.bandwidth, changed)) << name;
-    });
-}
-
 TEST_F(SceneSettingsTest, OfTheResamplerReachTheWorkersPicture)
 {
   this->walk(

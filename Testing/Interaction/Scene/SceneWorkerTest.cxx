@@ -1,6 +1,7 @@
 #include "SceneWorker.h"
 #include "ScenePublisher.h"
 
+#include "MadeClouds.h"
 #include "SurfaceArrays.h"
 #include "Unit/Eventually.h"
 
@@ -15,7 +16,6 @@
 #include <vtkMatrixToLinearTransform.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
-#include <vtkPoints.h>
 #include <vtkPolyData.h>
 
 #include <atomic>
@@ -36,19 +36,16 @@ namespace
 /// A wavy square of 6 cm, points so far apart.
 vtkSmartPointer<vtkPolyData> makeCloud(double spacing = 0.0005)
 {
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
+  std::vector<Vec3> points;
   const int half = int(std::lround(0.03 / spacing));
   for (int i = -half; i <= half; ++i)
   {
     for (int j = -half; j <= half; ++j)
     {
-      points->InsertNextPoint(spacing * i, spacing * j, 0.002 * std::sin(200.0 * spacing * i));
+      points.emplace_back(spacing * i, spacing * j, 0.002 * std::sin(200.0 * spacing * i));
     }
   }
-  auto cloud = vtkSmartPointer<vtkPolyData>::New();
-  cloud->SetPoints(points);
-  return cloud;
+  return trial::cloudOf(points);
 }
 
 /// The filters of a program, with the scenes that were published.
@@ -471,18 +468,16 @@ TEST_F(SceneWorkerTest, PublishesWhileTheServoLoopFeelsAndTheWindowLooks)
 /// 0.3 mm voxels hold many points each of a plane of 1 cm; the dimensions of finer ones are said.
 TEST_F(SceneWorkerTest, FindsAFinerLatticeWhereTheUsualOneLosesMostOfTheCloud)
 {
-  vtkNew<vtkPoints> points;
+  std::vector<Vec3> points;
   for (int i = 0; i < 40000; ++i)
   {
-    points->InsertNextPoint(5e-5 * double(i % 200), 5e-5 * double(i / 200), 0.0); // NOLINT
+    points.emplace_back(5e-5 * double(i % 200), 5e-5 * double(i / 200), 0.0); // NOLINT
   }
-  auto cloud = vtkSmartPointer<vtkPolyData>::New();
-  cloud->SetPoints(points);
   vtkNew<vtkVoxelMeanResampler> resampler;
   resampler->SetWorkspaceBounds(-0.05, 0.05, -0.05, 0.05, -0.05, 0.05);
   SceneRequest request = SceneRequest::of(resampler, nullptr);
   SceneWorker worker;
-  worker.setCloud(cloud);
+  worker.setCloud(trial::cloudOf(points, VTK_FLOAT));
   for (const bool finds : { false, true })
   {
     request.findsLattice = finds;

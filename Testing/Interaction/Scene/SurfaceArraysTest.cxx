@@ -1,13 +1,13 @@
 #include "SurfaceArrays.h"
 
 #include "HapticSceneBuilder.h"
+#include "MadeClouds.h"
 #include "vtkVoxelMeanResampler.h"
 
 #include <gtest/gtest.h>
 #include <vtkDataArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
-#include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkTransform.h>
 
@@ -22,19 +22,16 @@ namespace
 /// point is far from all.
 vtkSmartPointer<vtkPolyData> makeRidge(double height)
 {
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
+  std::vector<Vec3> points;
   for (int i = -20; i <= 20; ++i)
   {
     for (int j = -20; j <= 20; ++j)
     {
-      points->InsertNextPoint(i, j, i == 0 ? height : 0.0);
+      points.emplace_back(i, j, i == 0 ? height : 0.0);
     }
   }
-  points->InsertNextPoint(0.0, 0.0, 40.0);
-  auto cloud = vtkSmartPointer<vtkPolyData>::New();
-  cloud->SetPoints(points);
-  return cloud;
+  points.emplace_back(0.0, 0.0, 40.0);
+  return trial::cloudOf(points);
 }
 
 /// Its means, each of one point, after a scale of @p scale and a turn that takes z to x.

@@ -24,7 +24,7 @@ ExactAnswer answerOf(Shape shape)
 TEST(ProxyTrial, FindsNothingWrongOnAPlane)
 {
   const Scene scene = sceneOf(pointsOf(Shape::Plane, 20000, 0.0));
-  const TrialFigures f = runTrial(*scene, {}, slideCourse(Shape::Plane), answerOf(Shape::Plane), 1).figures;
+  const TrialFigures f = runTrial(*scene, {}, slideCourse(Shape::Plane), answerOf(Shape::Plane), 1);
   EXPECT_LT(f.maximumPercent, 1e-6);
   EXPECT_LT(f.directionMaximumDegrees, 1e-5);
   EXPECT_NEAR(f.largestStep, 1.0, 1e-6);
@@ -44,7 +44,7 @@ TEST(ProxyTrial, MeasuresTheErrorThatIsThere)
     contact.force = 1.01 * contact.force.z * Vec3(std::sin(turn), 0.0, std::cos(turn));
     return contact;
   };
-  const TrialFigures f = runTrial(*scene, {}, slideCourse(Shape::Plane), other, 1).figures;
+  const TrialFigures f = runTrial(*scene, {}, slideCourse(Shape::Plane), other, 1);
   EXPECT_NEAR(f.directionRmsDegrees, 0.5, 1e-6);
   EXPECT_NEAR(f.rmsPercent, 100.0 * std::hypot(0.01, 1.01 * turn) / 1.01, 0.01);
   EXPECT_LT(f.energyJoule, 1e-3);
@@ -56,7 +56,7 @@ TEST(ProxyTrial, CountsTicksWithoutContactInside)
   SceneSettings settings;
   settings.transform = AffineTransform::translation({ 0.0, 0.0, -0.2 });
   const Scene scene = sceneOf(pointsOf(Shape::Plane, 20000, 0.0), settings);
-  const TrialFigures f = runTrial(*scene, {}, slideCourse(Shape::Plane), answerOf(Shape::Plane), 1).figures;
+  const TrialFigures f = runTrial(*scene, {}, slideCourse(Shape::Plane), answerOf(Shape::Plane), 1);
   EXPECT_EQ(f.popThroughs, f.contactTicks);
   EXPECT_NEAR(f.rmsPercent, 100.0, 1e-9);
 }
@@ -67,7 +67,7 @@ TEST(ProxyTrial, CountsTicksWithoutContactInside)
 TEST(ProxyTrial, NeverPopsThroughASheetWithMuchNoise)
 {
   const Scene scene = sceneOf(pointsOf(Shape::Sheet, 543652, 100e-6));
-  const TrialFigures f = runTrial(*scene, {}, slideCourse(Shape::Sheet), answerOf(Shape::Sheet), 1).figures;
+  const TrialFigures f = runTrial(*scene, {}, slideCourse(Shape::Sheet), answerOf(Shape::Sheet), 1);
   EXPECT_EQ(f.popThroughs, 0);
   EXPECT_EQ(f.falseTicks, 0);
   EXPECT_LT(f.rmsPercent, 2.2);
@@ -84,7 +84,7 @@ TEST(ProxyTrial, FeelsNoisyShapesAsExactlyAsAskedFor)
   for (const auto& [shape, rmsPercent] : cases)
   {
     const Scene scene = sceneOf(pointsOf(shape, 543652, 20e-6));
-    EXPECT_LT(runTrial(*scene, {}, slideCourse(shape), answerOf(shape), 1).figures.rmsPercent, rmsPercent);
+    EXPECT_LT(runTrial(*scene, {}, slideCourse(shape), answerOf(shape), 1).rmsPercent, rmsPercent);
   }
 }
 

@@ -94,8 +94,17 @@ std::vector<TouchStroke> strokesThrough(double thickness)
     const double up = i % 2 == 0 ? 1.0 : -1.0;
     const Vec3 place{ 1.3e-3 * i - 8e-3, 0.7e-3 * i, 0.5 * up * thickness };
     const Vec3 aside = i < 6 ? Vec3() : Vec3(8e-3, 0.0, 0.0);
-    strokes.push_back(
-      strokeThrough(place, { 0.0, 0.0, up }, 5e-3, thickness + 3e-3, aside, speeds[(i / 2) % 3]));
+    const double speed = speeds[(i / 2) % 3];
+    const Vec3 high = place + Vec3(0.0, 0.0, 5e-3 * up);
+    const Vec3 low = place - Vec3(0.0, 0.0, (thickness + 3e-3) * up);
+    TouchStroke stroke;
+    moveTo(stroke, high, low, speed);
+    stay(stroke, 20);
+    moveTo(stroke, low, low + aside, 0.05);
+    moveTo(stroke, low + aside, low, 0.05);
+    moveTo(stroke, low, high, speed);
+    stay(stroke, kRestTicks);
+    strokes.push_back(std::move(stroke));
   }
   return strokes;
 }

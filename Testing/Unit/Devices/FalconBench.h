@@ -1,8 +1,8 @@
 /// @file
-/// A bus of one FalconModel, in process: plugged in and out, and distorting what the model says.
+/// A Falcon on its wire, with the driver and a made-up firmware.
 #pragma once
 
-#include "FalconModel.h"
+#include "FalconWire.h"
 
 #include "../Eventually.h"
 
@@ -10,12 +10,10 @@
 
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <chrono>
 #include <cstdio>
 #include <fstream>
 #include <functional>
-#include <mutex>
 #include <random>
 #include <string>
 #include <thread>
@@ -24,96 +22,6 @@ namespace pointhaptics
 {
 namespace trial
 {
-
-/// The model and its cable. The mutex stands for the wire: both the driver's threads and the test use it.
-struct FalconOnAWire
-{
-  std::mutex mutex;
-  FalconModel model;
-  bool plugged = true;
-  Status openStatus = Status::Ok; ///< Answer of the bus in place of opening.
-  std::atomic<int> openLinks{ 0 };
-  std::function<void(std::vector<std::uint8_t>&)> distort = [](std::vector<std::uint8_t>&) {};
-  bool receivesSlowly = false; ///< While booting, 10 ms for no answer.
-  bool busy = false;           ///< Commands are refused as if the one before were still under way.
-};
-
-class WiredLink : public FtdiLink
-{
-public:
-  explicit WiredLink(FalconOnAWire& wire)
-    : wire_(wire)
-  {
-    ++wire_.openLinks;
-  }
-  ~WiredLink() override { --wire_.openLinks; }
-
-  Status control(std::uint8_t request, std::uint16_t value) override
-  {
-    const std::lock_guard<std::mutex> lock(wire_.mutex);
-    wire_.model.control(request, value);
-    return here();
-  }
-  Status send(const std::uint8_t* bytes, int count, int) override
-  {
-    const std::lock_guard<std::mutex> lock(wire_.mutex);
-    wire_.model.write(bytes, std::size_t(count));
-    return here();
-  }
-  Status receive(std::uint8_t* bytes, int& count, int) override
-  {
-    const std::lock_guard<std::mutex> lock(wire_.mutex);
-    count = int(wire_.model.read(bytes, kFtdiPacket));
-    if (count == 0 && wire_.receivesSlowly)
-    {
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
-    return here();
-  }
-  Status submit(const std::uint8_t* bytes, int count) noexcept override
-  {
-    const std::lock_guard<std::mutex> lock(wire_.mutex);
-    if (wire_.busy)
-    {
-      return Status::DeviceNotReady;
-    }
-    wire_.model.write(bytes, std::size_t(count));
-    return here();
-  }
-  Status poll(std::uint8_t* bytes, int capacity, int& count, double) noexcept override
-  {
-    const std::lock_guard<std::mutex> lock(wire_.mutex);
-    std::vector<std::uint8_t> all(std::size_t(capacity), 0);
-    all.resize(wire_.model.read(all.data(), all.size()));
-    wire_.distort(all);
-    count = int(std::min(all.size(), std::size_t(capacity)));
-    std::copy(all.begin(), all.begin() + count, bytes);
-    return here();
-  }
-
-private:
-  Status here() const { return wire_.plugged ? Status::Ok : Status::DeviceLost; }
-  FalconOnAWire& wire_;
-};
-
-class WiredBus : public FtdiBus
-{
-public:
-  explicit WiredBus(FalconOnAWire& wire)
-    : wire_(wire)
-  {
-  }
-  std::unique_ptr<FtdiLink> open(Status& status, std::string& message) override
-  {
-    const std::lock_guard<std::mutex> lock(wire_.mutex);
-    status = wire_.plugged ? wire_.openStatus : Status::DeviceNotFound;
-    message = status == Status::Ok ? "" : "the test's bus refuses";
-    return status == Status::Ok ? std::make_unique<WiredLink>(wire_) : nullptr;
-  }
-
-private:
-  FalconOnAWire& wire_;
-};
 
 /// Random bytes, as nobody's firmware.
 inline std::vector<std::uint8_t> madeUpFirmware(std::size_t size = 8492)
@@ -155,7 +63,7 @@ public:
     wire.model.expectedFirmware = madeUpFirmware();
     settings.firmwareFile = settings.firmwareFile.empty() ? file.path() : settings.firmwareFile;
     settings.retrySeconds = 0.002;
-    device = std::make_unique<FalconDevice>(settings, std::make_unique<WiredBus>(wire));
+    device = std::make_unique<FalconDevice>(settings, std::make_unique<WiredBus<>>(wire));
   }
 
   /// One tick: read, @p force of the last position, write, a millisecond of the hand's life. The force is

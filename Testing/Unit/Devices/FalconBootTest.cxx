@@ -57,7 +57,7 @@ protected:
   const std::vector<Asked> forRunning{ k1Millisecond, k1500000Baud, kPurgeReceived, kPurgeSent };
 
   FalconOnAWire wire;
-  WiredLink link{ wire };
+  WiredLink<> link{ wire };
   std::atomic<bool> cancelled{ false };
   FalconBoot boot{ link, FalconBootSettings(), cancelled };
   std::size_t seen = 0;

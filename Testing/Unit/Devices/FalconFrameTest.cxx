@@ -28,21 +28,6 @@ FalconReply randomReply(std::mt19937_64& random)
   return reply;
 }
 
-std::vector<FalconReply> found(const std::vector<std::uint8_t>& bytes, FalconFrameFinder& finder)
-{
-  std::vector<FalconReply> replies;
-  for (std::uint8_t byte : bytes)
-  {
-    FalconReply reply;
-    if (finder.take(byte))
-    {
-      EXPECT_TRUE(decode(finder.frame(), reply));
-      replies.push_back(reply);
-    }
-  }
-  return replies;
-}
-
 struct Found
 {
   std::size_t end; ///< The place of its last byte.
@@ -175,74 +160,6 @@ TEST(FalconFrame, RefusesEveryDamagedByte)
       const bool mark = (place == 0 && byte == '<') || (place == 15 && byte == '>');
       EXPECT_EQ(decode(frame, reply), nibble || flags || unknown || mark) << place << " " << byte;
     }
-  }
-}
-
-TEST(FalconFrameFinder, FindsAFrameAfterAnyGarbage)
-{
-  std::mt19937_64 random(5);
-  for (int trial = 0; trial < 2000; ++trial)
-  {
-    FalconFrameFinder finder;
-    std::vector<std::uint8_t> bytes;
-    for (std::size_t i = random() % 40; i > 0; --i)
-    {
-      bytes.push_back(random() % 4 ? std::uint8_t(random()) : '<');
-    }
-    found(bytes, finder);
-    // Garbage swallows nothing but itself: a '<' always begins anew.
-    const FalconReply reply = randomReply(random);
-    const FalconFrame frame = encode(reply);
-    const std::vector<FalconReply> replies = found({ frame.begin(), frame.end() }, finder);
-    ASSERT_EQ(replies.size(), 1u);
-    EXPECT_TRUE(same(replies[0], reply));
-  }
-}
-
-TEST(FalconFrameFinder, LosesOnlyFramesThatWereCutReorderedOrDamaged)
-{
-  std::mt19937_64 random(11);
-  for (int trial = 0; trial < 500; ++trial)
-  {
-    FalconFrameFinder finder;
-    std::vector<std::uint8_t> bytes;
-    std::vector<FalconReply> whole;
-    std::uint64_t damaged = 0;
-    for (int i = 0; i < 20; ++i)
-    {
-      const FalconReply reply = randomReply(random);
-      const FalconFrame frame = encode(reply);
-      std::vector<std::uint8_t> piece(frame.begin(), frame.end());
-      switch (random() % 6)
-      {
-        case 0: // Cut short, at least the last byte.
-          piece.resize(random() % (kFalconFrameSize - 1));
-          damaged += piece.size();
-          break;
-        case 1: // Two different bytes of the head and the middle swapped: no frame any more.
-          std::swap(piece[0], piece[1 + random() % 12]);
-          damaged += piece.size();
-          break;
-        case 2: // Doubled.
-          piece.insert(piece.end(), frame.begin(), frame.end());
-          whole.push_back(reply);
-          whole.push_back(reply);
-          break;
-        default:
-          whole.push_back(reply);
-      }
-      bytes.insert(bytes.end(), piece.begin(), piece.end());
-    }
-    const FalconFrame last = encode(FalconReply());
-    bytes.insert(bytes.end(), last.begin(), last.end());
-    whole.push_back(FalconReply());
-    const std::vector<FalconReply> replies = found(bytes, finder);
-    ASSERT_EQ(replies.size(), whole.size()) << trial;
-    for (std::size_t i = 0; i < whole.size(); ++i)
-    {
-      EXPECT_TRUE(same(replies[i], whole[i]));
-    }
-    EXPECT_EQ(finder.droppedBytes(), damaged);
   }
 }
 

@@ -187,3 +187,29 @@ TEST_F(HipPathFile, SaysWhenAFileCannotBeOpened)
   EXPECT_NE(message.find("No such file"), std::string::npos) << message;
   EXPECT_EQ(readHipPath(folder_.string(), path, message), Status::FileNotReadable);
 }
+
+TEST_F(HipPathFile, ARecordingSaysWhereTheHandIsNew)
+{
+  const std::string text =
+    "t,hip_x,hip_y,hip_z\n# tick 1: begins\n0,0,0,1\n1,0,0,2\n# tick 3: clutch on\n2,0,0,3\n"
+    "# tick 4: gate off\n# tick 4: new-hand\n3,0,0,9\n# a remark: new-hand\n4,0,0,10\n# tick 6: begins\n"
+    "5,0,0,20\n";
+  HipPath path;
+  std::string message;
+  ASSERT_EQ(readHipPath(put(text), path, message), Status::Ok) << message;
+  std::vector<bool> isNew;
+  for (const HipPathPoint& point : path.points)
+  {
+    isNew.push_back(point.isNew);
+  }
+  EXPECT_EQ(isNew, (std::vector<bool>{ true, false, false, true, false, true }));
+  std::size_t hint = 0;
+  EXPECT_FALSE(path.hand(0.0, hint).isNew);
+  EXPECT_EQ(path.hand(2.9, hint).position.z, 3.0);
+  EXPECT_TRUE(path.hand(3.25, hint).isNew);
+  EXPECT_FALSE(path.hand(3.5, hint).isNew);
+  EXPECT_EQ(path.hand(3.5, hint).position.z, 9.5);
+  EXPECT_EQ(path.hand(4.999, hint).position.z, 10.0);
+  EXPECT_TRUE(path.hand(5.0, hint).isNew);
+  EXPECT_FALSE(path.hand(6.0, hint).isNew);
+}

@@ -2,7 +2,6 @@
 #include "Haptics/ContactEnergy.h"
 #include "Haptics/ContactSpring.h"
 
-#include "Unit/Eventually.h"
 #include "Unit/Haptics/HapticFixtures.h"
 #include "Unit/Haptics/ServoLoopFixtures.h"
 
@@ -159,28 +158,6 @@ TEST(BreakAway, AHandThatComesBackFindsAllAsItLeftIt)
   }
 }
 
-TEST(BreakAway, ALowLimitHoldsForEveryMethodWithDampingAndWhileParametersSettle)
-{
-  const trial::Scene sphere = trial::resampledScene(trial::spherePoints(100000, 9));
-  for (const ProxyMethod method : kMethods)
-  {
-    for (const double limit : { 0.5, 2.0 })
-    {
-      HapticParameters parameters = withLimit(method, limit);
-      parameters.contact.damping = 2.0;
-      Proxy proxy(parameters);
-      proxy.setScene(sphere.get());
-      std::size_t i = 0;
-      for (const Vec3& hip : pressAndBack(0.006))
-      {
-        parameters.contact.stiffness = ++i % 50 < 25 ? 800.0 : 1500.0;
-        proxy.setParameters(parameters);
-        ASSERT_LE(norm(proxy.step(hip, trial::kTick).force), limit * (1.0 + 1e-12)) << limit;
-      }
-    }
-  }
-}
-
 TEST(BreakAway, EndsWithoutAForceWhereTheStiffnessIsLimited)
 {
   const trial::Scene plane = trial::resampledScene(trial::planePoints(100000, 7));
@@ -213,30 +190,6 @@ TEST(BreakAway, AServoLoopRefusesAPortThatDeclaresNoForce)
     ServoLoop loop;
     EXPECT_EQ(loop.start(port, HapticParameters(), trial::plainSettings()), Status::InvalidParameter)
       << declared;
-  }
-}
-
-TEST(BreakAway, AServoLoopKeepsToTheForceThatThePortDeclares)
-{
-  for (const double declared : { 0.5, 2.0, 20.0 })
-  {
-    trial::ScriptedPort port;
-    port.path = [](double seconds) { return Vec3(0, 0, std::max(-0.015, 0.001 - 0.2 * seconds)); };
-    port.bounds.maximumForce = declared;
-    ServoLoop loop;
-    loop.publishScene(trial::plane());
-    ASSERT_EQ(loop.start(port, HapticParameters(), trial::plainSettings()), Status::Ok);
-    ASSERT_TRUE(trial::eventually([&] { return loop.latest().timeSeconds > 0.15; }));
-    loop.stop();
-    std::vector<ServoSample> samples;
-    loop.takeTrace(samples);
-    double most = 0.0;
-    for (const ServoSample& sample : samples)
-    {
-      most = std::max(most, norm(sample.state.force));
-    }
-    EXPECT_LE(most, std::min(declared, 8.0)) << declared;
-    EXPECT_GT(most, 0.4) << declared;
   }
 }
 

@@ -246,18 +246,6 @@ TEST(HapticScene, DoesNotDependOnTheExecutor)
   }
 }
 
-TEST(HapticScene, FitRadiusGrowsWithTheNoise)
-{
-  const trial::Scene clean = trial::resampledScene(trial::spherePoints(200000, 10));
-  const trial::Scene noisy = trial::resampledScene(trial::spherePoints(200000, 10, 20e-6));
-  trial::Random random(11);
-  for (int i = 0; i < 50; ++i)
-  {
-    const Vec3 p = trial::kSphereRadius * random.direction();
-    EXPECT_GT(noisy->fitRadius(p), clean->fitRadius(p));
-  }
-}
-
 TEST(HapticScene, SparsePointsGetOthersBetweenThemForTheBall)
 {
   // A spiral, as even as the vertices of a mesh.

@@ -13,28 +13,6 @@ double largestStep(const HapticParameters& parameters, double moved)
 
 } // namespace
 
-TEST(ModelMotion, IsCarriedAlongWhenTheModelTurnsInContact)
-{
-  const std::vector<Vec3> points = trial::torusPoints(200000, 21);
-  const trial::Scene before = trial::resampledScene(points);
-  Proxy proxy;
-  proxy.setScene(before.get());
-  const Vec3 hip = trial::torusCourse(0.0);
-  trial::feel(proxy, trial::closedPath(trial::torusCourse, { 0.04, 0, 0.01 }, 4000, 0));
-  ASSERT_TRUE(proxy.step(hip, trial::kTick).contact);
-  trial::Scene keep = before;
-  for (int i = 1; i <= 20; ++i)
-  {
-    const AffineTransform turn = AffineTransform::rotation(0.5 * i, { 0, 0, 1 });
-    const trial::Scene next = trial::resampledScene(points, turn);
-    proxy.setScene(next.get());
-    const ProxyState s = proxy.step(hip, trial::kTick);
-    ASSERT_TRUE(s.contact) << i;
-    ASSERT_LE(norm(s.force - trial::torusForce(hip)), 2e-3 * norm(trial::torusForce(hip))) << i;
-    keep = next;
-  }
-}
-
 TEST(ModelMotion, KeepsItsSideWhenTheModelIsZoomedInContact)
 {
   const std::vector<Vec3> points = trial::spherePoints(200000, 22);
@@ -89,29 +67,6 @@ TEST(ModelMotion, MeetsASurfaceThatGrowsPastAFreeHand)
     ASSERT_TRUE(s.contact) << steps;
     EXPECT_NEAR(norm(s.force), 800.0 * 0.1 * trial::kSphereRadius, 1e-3);
     EXPECT_GT(dot(s.force, hip), 0.0) << "pushed out, the way it came from";
-  }
-}
-
-TEST(ModelMotion, MeetsASurfaceThatIsShiftedOrTurnedOntoAFreeHand)
-{
-  const std::vector<Vec3> points = trial::torusPoints(200000, 25);
-  const trial::Scene before = trial::resampledScene(points);
-  // Above the tube; the ring comes up, or the whole torus turns about the x axis into the hand.
-  const Vec3 hip{ 0.0, trial::kRingRadius, trial::kTubeRadius + 1e-3 };
-  const AffineTransform shift = AffineTransform::translation({ 0.0, 0.0, 2e-3 });
-  const AffineTransform turn = AffineTransform::rotation(5.0, { 1, 0, 0 });
-  for (const AffineTransform& change : { shift, turn })
-  {
-    Proxy proxy;
-    proxy.setScene(before.get());
-    ASSERT_FALSE(trial::feel(proxy, trial::Path(3, hip)).back().contact);
-    const trial::Scene after = trial::resampledScene(points, change);
-    proxy.setScene(after.get());
-    const ProxyState s = trial::feel(proxy, trial::Path(60, hip)).back();
-    const Vec3 inModel = change.inverse().apply(hip);
-    const Vec3 exact = change.applyToNormal(trial::torusForce(inModel));
-    ASSERT_TRUE(s.contact);
-    EXPECT_LE(norm(s.force - norm(trial::torusForce(inModel)) * normalized(exact)), 2e-3);
   }
 }
 
@@ -187,42 +142,6 @@ TEST(ModelMotion, LetsGoAtOnceWhereTheHandSlidesOffAnEdgeMeanwhile)
       EXPECT_GT(changes, 30);
     }
   }
-}
-
-TEST(SurfaceFitSettling, LetsGoPastAnEdgeAtOnce)
-{
-  // A force that goes on where there is nothing is a lie, however gently it ends.
-  const trial::Scene scene = trial::resampledScene(trial::planePoints(60000, 8));
-  const auto states = trial::feel(scene, {}, trial::planeSlide(1e-3, 0.05, 1200));
-  bool released = false;
-  for (const ProxyState& state : states)
-  {
-    const double outside = state.hip.x - 0.03;
-    ASSERT_TRUE(outside < 5e-4 || norm(state.force) == 0.0) << outside;
-    ASSERT_TRUE(outside > -5e-4 || state.hip.z > -1e-3 || state.contact) << outside;
-    released = released || (outside > 0.0 && !state.contact);
-  }
-  EXPECT_TRUE(released);
-}
-
-TEST(SurfaceFitSettling, GrowsBackAtTheSettleRateAfterAHandThatWasNoNumber)
-{
-  const trial::Scene scene = trial::resampledScene(trial::planePoints(60000, 31));
-  Proxy proxy;
-  proxy.setScene(scene.get());
-  const Vec3 hip = trial::feel(proxy, trial::planeSlide(1e-3, 0.05, 10)).back().hip;
-  for (int i = 0; i < 20; ++i)
-  {
-    static_cast<void>(proxy.step({ NAN, 0.0, 0.0 }, trial::kTick));
-  }
-  Vec3 last;
-  for (int i = 0; i < 10; ++i)
-  {
-    const ProxyState s = proxy.step(hip, trial::kTick);
-    ASSERT_LE(norm(s.force - last), largestStep({}, 0.0)) << "tick " << i;
-    last = s.force;
-  }
-  EXPECT_NEAR(last.z, 0.8, 1e-6);
 }
 
 TEST(Passivity, KeepsTheStiffnessThatTheDeviceCanBear)

@@ -123,24 +123,6 @@ TEST(ServoLoop, CountsTicksOfADeviceThatIsNotReadyApartFromFaults)
   EXPECT_FALSE(port.forceAfterFault);
 }
 
-TEST(ServoLoop, SkipsAndCountsTicksThatASlowDeviceHasMissed)
-{
-  ScriptedPort port;
-  port.onRead = [](int n)
-  {
-    if (n == 3)
-    {
-      std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    }
-  };
-  ServoLoop loop;
-  ASSERT_EQ(loop.start(port, HapticParameters(), plainSettings()), Status::Ok);
-  ASSERT_TRUE(eventually([&] { return loop.statistics().ticks >= 10; }));
-  loop.stop();
-  EXPECT_GE(loop.statistics().deadlineMisses, 18u);
-  EXPECT_GE(loop.statistics().update.maximum, 0.02);
-}
-
 TEST(ServoLoop, ReportsWhatTheSystemRefuses)
 {
   ScriptedPort port;

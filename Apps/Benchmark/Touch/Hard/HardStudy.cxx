@@ -162,15 +162,7 @@ Json toJson(const Row& row)
   json.update({ { "build_seconds", numberOrNull(row.buildSeconds) },
     { "local_build_ms", numberOrNull(row.localBuildMs) }, { "oscillating", numberOrNull(row.oscillating) },
     { "energy_over_plane_mj", numberOrNull(row.energyOverPlane) } });
-  Json status = Json::object();
-  for (std::size_t bit = 0; bit < kStatusBits; ++bit)
-  {
-    if (f.statusPercent[bit] > 0.0)
-    {
-      status[statusName(bit)] = f.statusPercent[bit];
-    }
-  }
-  json["status_percent"] = std::move(status);
+  json["status_percent"] = statusOf(f.statusPercent);
   return json;
 }
 

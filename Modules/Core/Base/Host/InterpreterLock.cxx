@@ -2,10 +2,12 @@
 
 #include <atomic>
 #include <chrono>
+#include <csignal>
 #include <mutex>
 #include <thread>
 #include <utility>
 
+#include <dlfcn.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
@@ -20,12 +22,58 @@ std::mutex theMutex;
 /// First of the threads that work without the lock.
 WithoutInterpreterLock* theFirst = nullptr;
 std::atomic<bool> isOver{ false };
+// For the main thread alone.
+
+InterpreterFaults theFaults;
 /// The main thread's, while it works without the lock.
 WithoutInterpreterLock* theMain = nullptr;
+/// What a handler raised, and the frame that is to get it; no frame: nothing.
+struct
+{
+  void* frame = nullptr;
+  void* kind = nullptr;
+  void* value = nullptr;
+  void* trace = nullptr;
+} theFault;
 
 bool isMainThread()
 {
   return ::syscall(SYS_gettid) == ::getpid();
+}
+
+/// True if @p caller waits for interpreted code that it called, such as an observer.
+bool isWaiting(void* caller)
+{
+  bool waits = false;
+  void* frame = theFaults.frame();
+  if (frame && frame != caller)
+  {
+    theFaults.keep(frame);
+    while (frame && !waits)
+    {
+      void* const next = theFaults.callerOf(frame);
+      theFaults.letGo(frame);
+      frame = next;
+      waits = frame == caller;
+    }
+    if (frame)
+    {
+      theFaults.letGo(frame);
+    }
+  }
+  return waits;
+}
+
+/// Raises theFault once its frame goes on. For callSoon(); @return not 0: it is raised.
+int raiseFault(void*)
+{
+  if (isWaiting(theFault.frame) && theFaults.callSoon(&raiseFault, nullptr) == 0)
+  {
+    return 0;
+  }
+  theFaults.restore(theFault.kind, theFault.value, theFault.trace);
+  theFaults.letGo(std::exchange(theFault.frame, nullptr));
+  return -1;
 }
 
 [[noreturn]] void sleepToTheEnd()
@@ -62,22 +110,46 @@ void endInterpreter() noexcept
   }
 }
 
-void runSignalHandlers() noexcept
+void setInterpreterFaults(const InterpreterFaults& faults) noexcept
+{
+  theFaults = faults;
+}
+
+bool runsSignalHandlers() noexcept
+{
+  return theLock.runHandlers && isMainThread() && theMain;
+}
+
+bool isHandlerOfInterpreter(void (*handler)(int)) noexcept
+{
+  Dl_info ofHandler{};
+  Dl_info ofInterpreter{};
+  return handler != SIG_DFL && handler != SIG_IGN &&
+    ::dladdr(reinterpret_cast<void*>(handler), &ofHandler) != 0 &&
+    ::dladdr(reinterpret_cast<void*>(theLock.runHandlers), &ofInterpreter) != 0 &&
+    ofHandler.dli_fbase == ofInterpreter.dli_fbase;
+}
+
+void runSignalHandlers(bool now) noexcept
 {
   constexpr std::chrono::milliseconds kPeriod(50);
-  if (!theLock.runHandlers || !isMainThread() || !theMain)
+  if (!runsSignalHandlers())
   {
     return;
   }
   WithoutInterpreterLock* const here = theMain;
-  const auto now = std::chrono::steady_clock::now();
-  if (!here->hasRaised_ && now - here->handled_ >= kPeriod)
+  const auto time = std::chrono::steady_clock::now();
+  if (!here->hasRaised_ && !theFault.frame && (now || time - here->handled_ >= kPeriod))
   {
-    here->handled_ = now;
+    here->handled_ = time;
     theLock.take(here->state_);
     theMain = nullptr; // a handler may work without the lock, too
-    here->hasRaised_ = theLock.runHandlers() != 0;
+    const bool hasRaised = theLock.runHandlers() != 0;
     theMain = here;
+    if (hasRaised)
+    {
+      here->keepFault();
+    }
     here->state_ = theLock.release();
   }
   if (here->hasRaised_ && here->stop_)
@@ -86,14 +158,53 @@ void runSignalHandlers() noexcept
   }
 }
 
-WithoutInterpreterLock::WithoutInterpreterLock(std::function<void()> stop) noexcept
-  : state_(!isOver && theLock.isHeld && theLock.isHeld() ? theLock.release() : nullptr)
-  , stop_(std::move(stop))
+/// Keeps what a handler raised for the frame that waits for all of this work, and ends the work. Without such
+/// a frame it stays with the interpreter.
+void WithoutInterpreterLock::keepFault() noexcept
 {
-  if (!state_)
+  WithoutInterpreterLock* first = this;
+  first->hasRaised_ = true;
+  while (first->outer_)
+  {
+    first = first->outer_;
+    first->hasRaised_ = true;
+  }
+  if (first->caller_ && theFaults.callSoon(&raiseFault, nullptr) == 0)
+  {
+    theFaults.fetch(&theFault.kind, &theFault.value, &theFault.trace);
+    theFaults.keep(first->caller_);
+    theFault.frame = first->caller_;
+  }
+}
+
+/// The observers of the end would run them, and lose what they raise.
+void WithoutInterpreterLock::runLastHandlers() noexcept
+{
+  if (!theFault.frame && caller_ && theLock.runHandlers)
+  {
+    theMain = nullptr;
+    if (theLock.runHandlers() != 0)
+    {
+      keepFault();
+    }
+    theMain = this;
+  }
+}
+
+WithoutInterpreterLock::WithoutInterpreterLock(std::function<void()> stop) noexcept
+  : stop_(std::move(stop))
+{
+  if (isOver || !theLock.isHeld || !theLock.isHeld())
   {
     return;
   }
+  const bool isMain = isMainThread();
+  caller_ = isMain && theFaults.frame ? theFaults.frame() : nullptr;
+  if (caller_)
+  {
+    theFaults.keep(caller_);
+  }
+  state_ = theLock.release();
   std::unique_lock lock(theMutex);
   if (isOver)
   {
@@ -102,9 +213,16 @@ WithoutInterpreterLock::WithoutInterpreterLock(std::function<void()> stop) noexc
   }
   next_ = theFirst;
   theFirst = this;
-  if (isMainThread())
+  if (isMain)
   {
-    theMain = this;
+    outer_ = std::exchange(theMain, this);
+  }
+  // Code of the interpreter that is no frame, such as map(), calls on.
+  hasRaised_ = isMain && caller_ && caller_ == theFault.frame;
+  lock.unlock();
+  if (hasRaised_ && stop_)
+  {
+    stop_();
   }
 }
 
@@ -118,6 +236,14 @@ WithoutInterpreterLock::~WithoutInterpreterLock()
   if (!isEnd)
   {
     theLock.take(state_); // endInterpreter() waits for it, without the lock
+    if (theMain == this)
+    {
+      runLastHandlers();
+    }
+    if (caller_)
+    {
+      theFaults.letGo(caller_);
+    }
   }
   std::unique_lock lock(theMutex);
   WithoutInterpreterLock** place = &theFirst;
@@ -126,10 +252,7 @@ WithoutInterpreterLock::~WithoutInterpreterLock()
     place = &(*place)->next_;
   }
   *place = next_;
-  if (theMain == this)
-  {
-    theMain = nullptr;
-  }
+  theMain = theMain == this ? outer_ : theMain;
   lock.unlock();
   if (isEnd)
   {

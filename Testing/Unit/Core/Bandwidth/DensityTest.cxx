@@ -46,20 +46,6 @@ TEST(SurfaceDensities, WithTheEpanechnikovKernelMatchTheDirectSum)
   }
 }
 
-TEST(SurfaceDensities, OfBothKernelsAgreeOnAUniformSquare)
-{
-  const std::vector<Vec3> points = trial::randomBox(10000, 50, { 0, 0, 0 }, { 2, 2, 0 });
-  const std::vector<double> bandwidths(points.size(), 0.1);
-  const std::vector<double> gaussian = densitiesOf(points, bandwidths);
-  const std::vector<double> other = densitiesOf(points, bandwidths, {}, DensityKernel::Epanechnikov);
-  double worst = 0.0;
-  for (std::size_t i = 0; i < points.size(); ++i)
-  {
-    worst = std::max(worst, std::fabs(other[i] / gaussian[i] - 1.0));
-  }
-  EXPECT_LT(worst, 0.2);
-}
-
 TEST(SurfaceDensities, MatchTheDirectSumToTheStatedTruncation)
 {
   const std::vector<Vec3> points = trial::randomBox(4000, 41, { 0, 0, 0 }, { 1, 1, 0.02 });
@@ -80,24 +66,6 @@ TEST(SurfaceDensities, MatchTheDirectSumToTheStatedTruncation)
   }
 }
 
-TEST(SurfaceDensities, FindTheDensityOfAUniformSquare)
-{
-  const std::vector<Vec3> points = trial::randomBox(40000, 43, { 0, 0, 0 }, { 2, 2, 0 });
-  const std::vector<double> densities = densitiesOf(points, std::vector<double>(points.size(), 0.05));
-  double sum = 0.0;
-  int inner = 0;
-  for (std::size_t i = 0; i < points.size(); ++i)
-  {
-    const Vec3& p = points[i];
-    if (p.x > 0.4 && p.x < 1.6 && p.y > 0.4 && p.y < 1.6)
-    {
-      sum += densities[i];
-      ++inner;
-    }
-  }
-  EXPECT_NEAR(sum / inner, 0.25, 0.005) << "one over the area";
-}
-
 TEST(SurfaceDensities, GiveZeroWhereThereIsNothingToSum)
 {
   std::vector<Vec3> points = trial::randomBox(50, 44, { 0, 0, 0 }, { 1, 1, 0 });
@@ -113,12 +81,6 @@ TEST(SurfaceDensities, GiveZeroWhereThereIsNothingToSum)
   }
   EXPECT_GT(densities[0], 0.0);
   EXPECT_TRUE(densitiesOf({}, {}).empty());
-}
-
-TEST(SurfaceDensities, OfALonePointIsTheKernelsHeight)
-{
-  const std::vector<double> densities = densitiesOf({ { 5, 6, 7 } }, { 0.5 });
-  EXPECT_NEAR(densities[0], 1.0 / (2 * 3.14159265358979323846 * 0.25), 1e-12);
 }
 
 TEST(SurfaceDensities, DoNotDependOnTheExecutor)

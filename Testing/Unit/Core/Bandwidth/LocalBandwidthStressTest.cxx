@@ -60,46 +60,6 @@ TEST(LocalBandwidths, ScaleWithTheCloudFromPicometresToTerametres)
   }
 }
 
-TEST(LocalBandwidths, FallAsTheDensityOfTheShapesRises)
-{
-  // The density step has 16 times as many points per area on one side. The idol's density falls from its face
-  // to behind its foot, and the median radius rises from each sixth of the spacings to the next.
-  LocalBandwidthSettings settings;
-  for (const Shape shape : { Shape::DensityStep, Shape::Idol })
-  {
-    std::vector<Vec3> points;
-    ASSERT_EQ(generateShape(shape, 20000, 2, 0.0, points), Status::Ok);
-    const Local local = localOf(points, settings);
-    NeighborQuery query;
-    query.build(view(points));
-    // An independent measure of density: points in a ball of 3 mm.
-    std::vector<std::pair<int, double>> byCount;
-    for (std::size_t i = 0; i < points.size(); ++i)
-    {
-      int count = 0;
-      query.visitBall(points[i], 0.003, [&](const Vec3&, double, std::int64_t) { ++count; });
-      byCount.emplace_back(count, local.radii[i]);
-    }
-    std::sort(byCount.begin(), byCount.end());
-    double before = INFINITY;
-    const std::size_t parts = shape == Shape::Idol ? 6 : 2;
-    for (std::size_t part = 0; part < parts; ++part)
-    {
-      const std::size_t begin = part == 1 && parts == 2 ? points.size() / 4 : part * points.size() / parts;
-      const std::size_t end =
-        parts == 2 && part == 0 ? points.size() / 20 : (part + 1) * points.size() / parts;
-      std::vector<double> radii;
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        radii.push_back(byCount[i].second);
-      }
-      const double now = median(radii);
-      EXPECT_LT(now, parts == 2 ? 0.35 * before : 0.97 * before) << shapeName(shape) << " part " << part;
-      before = now;
-    }
-  }
-}
-
 TEST(LocalBandwidths, SurviveEveryCloudWithUsableRadii)
 {
   trial::Random random(41);
@@ -148,6 +108,9 @@ TEST(LocalBandwidths, SurviveEveryCloudWithUsableRadii)
         settings.rule = rule;
         settings.numberOfNeighbors = k;
         settings.smoothRadius = k == 16;
+        expectUsable(localOf(clouds[c], settings));
+        settings.fixedRadius = true;
+        settings.minimumRadius = k == 1 ? 0.0 : 0.25;
         expectUsable(localOf(clouds[c], settings));
       }
     }

@@ -155,28 +155,6 @@ TEST(NeighborSweep, EqualsBruteForceOnEveryKindOfCloud)
   }
 }
 
-TEST(NeighborSweep, GivesTheWholeCloudWhenAskedForMore)
-{
-  for (const std::size_t n : { 3, 16, 17, 40, 200 })
-  {
-    expectBruteForce(trial::randomBox(n, 15, { 0, 0, 0 }, { 1, 1, 1 }), 300, 1);
-  }
-}
-
-TEST(NeighborSweep, AgreesWithSingleQueriesAtEveryPoint)
-{
-  const std::vector<Vec3> points = trial::randomBox(20000, 16, { 0, 0, 0 }, { 1, 1, 0.05 });
-  const All all = nearestOf(points, 17);
-  NeighborQuery query;
-  query.build(view(points));
-  All single{ std::vector<Neighbor>(points.size() * 17), {} };
-  for (std::size_t i = 0; i < points.size(); ++i)
-  {
-    single.counts.push_back(query.nearest(points[i], 17, single.neighbors.data() + 17 * i));
-  }
-  expectEqual(all, single);
-}
-
 TEST(NeighborSweep, GivesTheSameBitsWithEveryInstructionSet)
 {
   SKIP_WITHOUT_OTHER_INSTRUCTION_SETS();
@@ -221,27 +199,4 @@ TEST(NeighborSweep, DoesNotDependOnThreadsNorOnTheTypeOfNumber)
   All all{ std::vector<Neighbor>(200000), std::vector<int>(20000) };
   nearestOfAll(query, 10, all.neighbors.data(), all.counts.data());
   expectEqual(all, expected);
-}
-
-TEST(NeighborSweep, FindsTheSameNeighborsInEveryOrderOfThePoints)
-{
-  const std::vector<Vec3> points = trial::randomBox(3000, 18, { 0, 0, 0 }, { 1, 1, 0 });
-  const std::vector<std::size_t> order = trial::randomOrder(points.size(), 19);
-  std::vector<Vec3> shuffled;
-  for (const std::size_t i : order)
-  {
-    shuffled.push_back(points[i]);
-  }
-  const All a = nearestOf(points, 12);
-  const All b = nearestOf(shuffled, 12);
-  for (std::size_t i = 0; i < order.size(); ++i)
-  {
-    for (std::size_t j = 0; j < 12; ++j)
-    {
-      const Neighbor& expected = a.neighbors[12 * order[i] + j];
-      const Neighbor& found = b.neighbors[12 * i + j];
-      ASSERT_EQ(std::int64_t(order[std::size_t(found.index)]), expected.index);
-      ASSERT_EQ(found.squaredDistance, expected.squaredDistance);
-    }
-  }
 }

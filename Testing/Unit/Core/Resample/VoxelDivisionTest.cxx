@@ -56,43 +56,6 @@ NearMidpoint nearMidpoint(Random& random)
 
 }
 
-TEST(VoxelDivision, BySpacingsIsThatOfTheBaselineAtTheFaces)
-{
-  Random random(2);
-  Lattice lattice = latticeOf(300, 300, 300);
-  for (int i = 0; i < 60; ++i)
-  {
-    const double spacing = std::exp(random.uniform(-9.0, 9.0));
-    lattice.spacing = { spacing, spacing, spacing };
-    const double corner = i % 2 == 0 ? 0.0 : spacing * random.uniform(-400.0, 400.0);
-    lattice.origin = { corner, corner, corner };
-    std::vector<Vec3> points;
-    for (int j = 0; j < 1000; ++j)
-    {
-      Vec3 point;
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        const double face = corner + double(random.below(301)) * spacing;
-        const double to = random.below(2) == 0 ? -HUGE_VAL : HUGE_VAL;
-        point[axis] = random.below(3) == 0 ? face : std::nextafter(face, to);
-      }
-      points.push_back(point);
-    }
-    VoxelRequest request;
-    request.points = { points.data(), std::int64_t(points.size()) };
-    request.lattice = lattice;
-    request.keys = true;
-    request.instructions = InstructionSet::Baseline;
-    const RunResult expected = runOf(request);
-    for (const InstructionSet set : kSets)
-    {
-      request.instructions = set;
-      expectSame(
-        runOf(request), expected, "spacing " + std::to_string(spacing) + " set " + std::to_string(int(set)));
-    }
-  }
-}
-
 TEST(VoxelDivision, BySpacingsIsCorrectlyRoundedNextToMidpoints)
 {
   Random random(3);

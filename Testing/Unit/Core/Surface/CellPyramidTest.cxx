@@ -405,44 +405,6 @@ TEST(CellPyramid, RefusesWhatItCannotHold)
     pyramid.build({ cellAt({ 0, 0, 0 }), cellAt({ 1, 0, 0 }) }, 1e-9, source), Status::LatticeNotAddressable);
 }
 
-TEST(CellPyramid, CountedFromACornerAPartOfTheCellsHasTheSameBlocks)
-{
-  constexpr double kVoxel = 2e-4;
-  constexpr int kBlock = 1 << (CellPyramid::kCellLevels - 1);
-  const Vec3 corner{ -0.0231, -0.0217, -0.0109 };
-  const std::vector<Cell> cells = variedCells(20000, 4);
-  const auto blockOf = [&](const Vec3& mean, int axis)
-  { return int(std::floor((mean[axis] - corner[axis]) / kVoxel)) / kBlock; };
-  // Blocks from 7 to 8 along x and 5 along y: less than a brick of the coarsest cells.
-  const auto isInside = [&](const Vec3& mean)
-  { return blockOf(mean, 0) >= 7 && blockOf(mean, 0) <= 8 && blockOf(mean, 1) == 5; };
-  std::vector<Cell> part;
-  std::copy_if(cells.begin(), cells.end(), std::back_inserter(part),
-    [&](const Cell& cell) { return isInside(cell.mean); });
-  ASSERT_GT(part.size(), 10u);
-  std::vector<std::uint32_t> source;
-  CellPyramid whole;
-  CellPyramid small;
-  ASSERT_EQ(whole.build(cells, kVoxel, source, &corner), Status::Ok);
-  ASSERT_EQ(small.build(part, kVoxel, source, &corner), Status::Ok);
-  ASSERT_EQ(small.numberOfCellLevels(), CellPyramid::kCellLevels);
-  for (int level = 0; level < CellPyramid::kCellLevels; ++level)
-  {
-    std::vector<Cell> expected;
-    const std::vector<Cell>& all = whole.level(level).cells;
-    std::copy_if(all.begin(), all.end(), std::back_inserter(expected),
-      [&](const Cell& cell) { return isInside(cell.mean); });
-    const std::vector<Cell>& found = small.level(level).cells;
-    ASSERT_EQ(found.size(), expected.size()) << level;
-    for (std::size_t i = 0; i < found.size(); ++i)
-    {
-      EXPECT_EQ(found[i].mean, expected[i].mean);
-      EXPECT_EQ(found[i].count, expected[i].count);
-      EXPECT_EQ(found[i].mixed, expected[i].mixed);
-    }
-  }
-}
-
 TEST(CellPyramid, RefusesACornerThatAMeanIsBelow)
 {
   CellPyramid pyramid;

@@ -15,11 +15,11 @@ using namespace pointhaptics;
 namespace
 {
 
-constexpr double kVoxel = 1e-3 / 3;
+constexpr double kCloudVoxel = 1e-3 / 3;
 
 CellPyramid resampled(const std::vector<Vec3>& points)
 {
-  return trial::resampled(points, kVoxel);
+  return trial::resampled(points, kCloudVoxel);
 }
 
 CellPyramid sphere(int n, double noise, std::uint64_t seed)
@@ -58,7 +58,7 @@ std::vector<FitScale> scalesOf(const CellPyramid& pyramid)
 }
 
 template <typename Member>
-double median(const std::vector<FitScale>& scales, Member member)
+double medianOf(const std::vector<FitScale>& scales, Member member)
 {
   std::vector<double> values;
   for (const FitScale& scale : scales)
@@ -76,7 +76,7 @@ TEST(FitRadius, HoldsEnoughPointsAndCells)
   const CellPyramid pyramid = sphere(200000, 0.0, 1);
   for (const FitScale& scale : scalesOf(pyramid))
   {
-    EXPECT_GE(scale.countRadius, 3.6 * kVoxel * (1 - 1e-9));
+    EXPECT_GE(scale.countRadius, 3.6 * kCloudVoxel * (1 - 1e-9));
     EXPECT_LE(scale.countRadius, 8e-3);
     EXPECT_GE(scale.radius, scale.countRadius);
     EXPECT_LE(scale.radius, 8e-3 * (1 + 1e-9));
@@ -85,8 +85,8 @@ TEST(FitRadius, HoldsEnoughPointsAndCells)
 
 TEST(FitRadius, IsLargerWhereTheCloudIsSparse)
 {
-  const double dense = median(scalesOf(sphere(200000, 0.0, 2)), &FitScale::countRadius);
-  const double sparse = median(scalesOf(sphere(10000, 0.0, 3)), &FitScale::countRadius);
+  const double dense = medianOf(scalesOf(sphere(200000, 0.0, 2)), &FitScale::countRadius);
+  const double sparse = medianOf(scalesOf(sphere(10000, 0.0, 3)), &FitScale::countRadius);
   EXPECT_GT(sparse, 1.3 * dense);
 }
 
@@ -95,13 +95,13 @@ TEST(FitRadius, GrowsWithTheNoise)
   const std::vector<FitScale> clean = scalesOf(sphere(200000, 0.0, 4));
   const std::vector<FitScale> noisy = scalesOf(sphere(200000, 3e-6, 4));
   const std::vector<FitScale> noisier = scalesOf(sphere(200000, 20e-6, 4));
-  const double cleanRadius = median(clean, &FitScale::radius);
-  EXPECT_LE(cleanRadius, 1.6 * median(clean, &FitScale::countRadius)) << "no growth without noise";
-  EXPECT_GT(median(noisy, &FitScale::radius), 1.2 * cleanRadius);
-  EXPECT_GT(median(noisier, &FitScale::radius), median(noisy, &FitScale::radius));
-  EXPECT_NEAR(median(noisy, &FitScale::noise), 3e-6, 1e-6);
-  EXPECT_NEAR(median(noisier, &FitScale::noise), 20e-6, 7e-6);
-  EXPECT_LT(median(clean, &FitScale::noise), 1e-6);
+  const double cleanRadius = medianOf(clean, &FitScale::radius);
+  EXPECT_LE(cleanRadius, 1.6 * medianOf(clean, &FitScale::countRadius)) << "no growth without noise";
+  EXPECT_GT(medianOf(noisy, &FitScale::radius), 1.2 * cleanRadius);
+  EXPECT_GT(medianOf(noisier, &FitScale::radius), medianOf(noisy, &FitScale::radius));
+  EXPECT_NEAR(medianOf(noisy, &FitScale::noise), 3e-6, 1e-6);
+  EXPECT_NEAR(medianOf(noisier, &FitScale::noise), 20e-6, 7e-6);
+  EXPECT_LT(medianOf(clean, &FitScale::noise), 1e-6);
 }
 
 // On a plane every radius agrees with every other: it grows to the largest, and rims are then seen too late.
@@ -115,7 +115,7 @@ TEST(FitRadius, StaysNearTheCountRadiusOnACleanPlane)
   }
   CellPyramid pyramid;
   std::vector<std::uint32_t> source;
-  ASSERT_EQ(pyramid.build(cells, kVoxel, source), Status::Ok);
+  ASSERT_EQ(pyramid.build(cells, kCloudVoxel, source), Status::Ok);
   const FitScale scale =
     chooseFitRadius(pyramid, pyramid.level(0).cells[10000].mean, 8e-3, 8e-3, *std::make_unique<FitCells>());
   EXPECT_LE(scale.radius, 1.6 * scale.countRadius);
@@ -128,42 +128,6 @@ TEST(FitScales, PreferCubicTermsWhereNoiseHidesAChangeOfCurvature)
   EXPECT_LT(cubicShare(Shape::Sphere, 20e-6), 0.45) << "no change of curvature: they would only add noise";
   EXPECT_EQ(cubicShare(Shape::Torus, 0.0), 0.0) << "clean clouds have them anyway";
   EXPECT_LT(cubicShare(Shape::Sheet, 20e-6), 0.1) << "the other sheet is in reach";
-}
-
-TEST(FitRadius, OfDegenerateCloudsIsUsable)
-{
-  for (const int n : { 1, 2, 11 })
-  {
-    trial::Random random(5);
-    std::vector<Cell> cells(static_cast<std::size_t>(n));
-    for (Cell& cell : cells)
-    {
-      cell.mean = random.inBox({ 0, 0, 0 }, { 0.01, 0.01, 0.01 });
-    }
-    CellPyramid pyramid;
-    std::vector<std::uint32_t> source;
-    ASSERT_EQ(pyramid.build(cells, kVoxel, source), Status::Ok);
-    const FitScale scale = chooseFitRadius(pyramid, cells[0].mean, 8e-3, 8e-3, *std::make_unique<FitCells>());
-    EXPECT_GT(scale.radius, 0.0);
-    EXPECT_TRUE(std::isfinite(scale.radius));
-    EXPECT_TRUE(std::isfinite(scale.noise));
-  }
-}
-
-TEST(FitScales, AreOnePerNodeAndDoNotDependOnTheExecutor)
-{
-  const CellPyramid pyramid = sphere(50000, 20e-6, 6);
-  const std::vector<LocalScale> expected = fitScales(pyramid, 8e-3, 8e-3);
-  EXPECT_EQ(expected.size(), pyramid.level(RadiusField::nodeLevel(pyramid)).cells.size());
-  const std::vector<LocalScale> threaded = fitScales(pyramid, 8e-3, 8e-3, trial::ThreadedExecutor(3));
-  ASSERT_EQ(threaded.size(), expected.size());
-  for (std::size_t i = 0; i < expected.size(); ++i)
-  {
-    EXPECT_EQ(threaded[i].radius, expected[i].radius);
-    EXPECT_EQ(threaded[i].gate, expected[i].gate);
-    EXPECT_GT(expected[i].radius, 0.0);
-    EXPECT_GT(expected[i].gate, 0.0);
-  }
 }
 
 // Cells gathered for one node must not serve another, which would round otherwise.
@@ -211,7 +175,7 @@ TEST(FitScales, AreSmallWhereBarePointsHaveShapeAndNoNoise)
     }
     CellPyramid pyramid;
     std::vector<std::uint32_t> source;
-    EXPECT_EQ(pyramid.build(cells, kVoxel, source), Status::Ok);
+    EXPECT_EQ(pyramid.build(cells, kCloudVoxel, source), Status::Ok);
     FitNeeds needs;
     needs.finerWhereShaped = finer;
     std::vector<double> radii;

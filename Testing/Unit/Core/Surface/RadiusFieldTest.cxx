@@ -44,49 +44,6 @@ std::size_t nodes(const CellPyramid& pyramid)
 
 } // namespace
 
-TEST(RadiusField, NodesAreEightVoxelsApart)
-{
-  EXPECT_EQ(RadiusField::nodeLevel(sheet()), 3);
-  Cell lone;
-  CellPyramid small;
-  std::vector<std::uint32_t> source;
-  ASSERT_EQ(small.build({ lone }, kVoxel, source), Status::Ok);
-  EXPECT_LT(RadiusField::nodeLevel(small), small.numberOfCellLevels());
-}
-
-TEST(RadiusField, OfEqualValuesIsConstant)
-{
-  const CellPyramid pyramid = sheet();
-  RadiusField field;
-  field.build(pyramid, std::vector<LocalScale>(nodes(pyramid), scaleOf(0.003, 0.001)));
-  for (const Vec3& p : trial::randomBox(500, 2, { -0.05, -0.05, -0.05 }, { 0.15, 0.15, 0.05 }))
-  {
-    EXPECT_NEAR(field.at(pyramid, p).radius, 0.003, 1e-15);
-    EXPECT_NEAR(field.at(pyramid, p).gate, 0.001, 1e-15);
-  }
-}
-
-TEST(RadiusField, StaysBetweenItsSmallestAndLargestValue)
-{
-  const CellPyramid pyramid = sheet();
-  trial::Random random(3);
-  std::vector<LocalScale> values;
-  for (std::size_t i = 0; i < nodes(pyramid); ++i)
-  {
-    values.push_back(scaleOf(random.uniform(0.002, 0.02), random.uniform(0.0, 0.001)));
-  }
-  RadiusField field;
-  field.build(pyramid, values);
-  for (const Vec3& p : trial::randomBox(2000, 4, { -0.05, -0.05, -0.02 }, { 0.15, 0.15, 0.02 }))
-  {
-    const LocalScale at = field.at(pyramid, p);
-    EXPECT_GE(at.radius, 0.002 * (1 - 1e-12));
-    EXPECT_LE(at.radius, 0.02 * (1 + 1e-12));
-    EXPECT_GE(at.gate, 0.0);
-    EXPECT_LE(at.gate, 0.001 * (1 + 1e-12));
-  }
-}
-
 TEST(RadiusField, IsTypicalFarFromEveryNode)
 {
   const CellPyramid pyramid = sheet();

@@ -75,17 +75,6 @@ TEST(FootPoint, StaysFiniteOnStrongCurvature)
   }
 }
 
-TEST(PrincipalNormal, IsThatOfAPlane)
-{
-  const Vec3 n = normalized({ 1, 2, -3 });
-  const std::vector<Vec3> points =
-    sampled({ { 0, 0, 0, 0, 0, 0 } }, frameAlong(n, { 0.1, 0.2, 0.3 }), 0.01, 5000, 9);
-  Vec3 normal;
-  ASSERT_TRUE(
-    principalNormal(resampled(points, 5e-4), { 0.1, 0.2, 0.3 }, 3e-3, *std::make_unique<FitCells>(), normal));
-  EXPECT_NEAR(std::fabs(dot(n, normal)), 1.0, 1e-9);
-}
-
 TEST(PrincipalNormal, RefusesLinesAndEmptiness)
 {
   std::vector<Vec3> line;

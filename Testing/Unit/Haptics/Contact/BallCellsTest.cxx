@@ -114,27 +114,6 @@ Meeting exactMeeting(const std::vector<Vec3>& points, const Vec3& from, const Ve
 
 } // namespace
 
-TEST(BallCells, GathersEveryPointInReachWhereverTheBallGoes)
-{
-  trial::Random random(11);
-  BallCells cells;
-  for (int cloud = 0; cloud < 60; ++cloud)
-  {
-    const std::vector<Vec3> points = randomPoints(random, 1 + random.below(BallCells::kCapacity), 0.01);
-    const CellPyramid pyramid = pyramidOf(points, random.uniform(1e-4, 2e-3));
-    cells.invalidate();
-    Vec3 center = points[0];
-    for (int move = 0; move < 200; ++move)
-    {
-      center = random.below(20) == 0 ? points[random.below(points.size())]
-                                     : center + random.uniform(0.0, 1e-3) * random.direction();
-      const double radius = random.uniform(1e-5, 8e-3);
-      ASSERT_TRUE(cells.gather(fieldOf(pyramid), center, radius, kBall));
-      ASSERT_LE(worstGap(points, cells, center, radius), 1e-16) << cloud << ' ' << move;
-    }
-  }
-}
-
 TEST(BallCells, GathersEveryPointInReachOfALargeCloudWhereNotTooManyAre)
 {
   trial::Random random(12);
@@ -167,35 +146,6 @@ TEST(BallCells, GathersEveryPointInReachOfALargeCloudWhereNotTooManyAre)
     }
   }
   EXPECT_GT(exact, 300);
-}
-
-TEST(BallCells, AnswersTheSameBitForBitWhereItWasFocused)
-{
-  trial::Random random(17);
-  for (int cloud = 0; cloud < 60; ++cloud)
-  {
-    const std::vector<Vec3> points = randomPoints(random, 1 + random.below(BallCells::kCapacity), 0.01);
-    const CellPyramid pyramid = pyramidOf(points, 1e-3);
-    BallCells all;
-    ASSERT_TRUE(all.gather(fieldOf(pyramid, kUnitRadius), points[0], 0.01, kBall));
-    BallCells focused = all;
-    for (int i = 0; i < 50; ++i)
-    {
-      const Vec3 p = points[0] + random.uniform(0.0, 2e-3) * random.direction();
-      const double radius = random.uniform(1e-4, 3e-3);
-      const double length = random.uniform(0.0, 1e-3);
-      const Vec3 direction = random.direction();
-      focused.focus(p, radius + random.uniform(0.0, 1.0) * length);
-      EXPECT_EQ(all.sweep(p, direction, length, radius), focused.sweep(p, direction, length, radius));
-      const int nearest[2] = { all.nearestWithin(p, radius), focused.nearestWithin(p, radius) };
-      ASSERT_EQ(nearest[0] < 0, nearest[1] < 0);
-      EXPECT_TRUE(nearest[0] < 0 || all.point(nearest[0]) == focused.point(nearest[1]));
-      std::vector<Vec3> visited[2];
-      all.visitBall(p, radius, [&](const Vec3& offset, double) { visited[0].push_back(offset); });
-      focused.visitBall(p, radius, [&](const Vec3& offset, double) { visited[1].push_back(offset); });
-      EXPECT_EQ(visited[0], visited[1]);
-    }
-  }
 }
 
 TEST(BallCells, FindsTheNearestPointOfThePyramidWhereverThatIs)
@@ -295,87 +245,6 @@ TEST(BallCells, TakesMeansOfCoarserVoxelsWhereVoxelsAreTooManyAndSaysWhenEvenThe
   EXPECT_FALSE(cells.gather(fieldOf(pyramid), Vec3(), 1e-3, 4 * kFine)) << "and it says so each time";
 }
 
-TEST(BallCells, HoldsAPointRepeatedWithoutEnd)
-{
-  std::vector<Vec3> points(100000, Vec3(0.01, -0.02, 0.03));
-  points.emplace_back(0.01, -0.02, 0.0305);
-  const CellPyramid pyramid = pyramidOf(points, 1e-4);
-  BallCells cells;
-  EXPECT_FALSE(cells.gather(fieldOf(pyramid), { 0.01, -0.02, 0.0301 }, 1e-3, kBall)) << "copies are left out";
-  EXPECT_LE(worstGap(points, cells, { 0.01, -0.02, 0.0301 }, 1e-3), 1e-16);
-}
-
-TEST(BallCells, ForgetsAPyramid)
-{
-  trial::Random random(15);
-  std::vector<Vec3> points = randomPoints(random, 300, 1e-3);
-  CellPyramid pyramid = pyramidOf(points, 2e-4);
-  BallCells cells;
-  ASSERT_TRUE(cells.gather(fieldOf(pyramid), points[0], 1e-3, kBall));
-  for (Vec3& p : points)
-  {
-    p += Vec3(1e-4, 0, 0);
-  }
-  pyramid = pyramidOf(points, 2e-4);
-  cells.invalidate();
-  ASSERT_TRUE(cells.gather(fieldOf(pyramid), points[0], 1e-3, kBall));
-  EXPECT_LE(worstGap(points, cells, points[0], 1e-3), 1e-16);
-}
-
-TEST(BallCells, HasNothingNearWhereNothingIs)
-{
-  const CellPyramid pyramid = pyramidOf({ Vec3(1e-3, 0, 0) }, 1e-4);
-  BallCells cells;
-  for (const Vec3& far : { Vec3(1, 0, 0), Vec3(1e3, 1e3, -1e3), Vec3(0, 1e300, 0) })
-  {
-    EXPECT_TRUE(cells.gather(fieldOf(pyramid), far, 1e-3, kBall));
-    EXPECT_EQ(cells.nearestWithin(far, 1e-3), -1);
-    EXPECT_EQ(cells.sweep(far, { 0, 0, 1 }, 1e-4, 5e-4), 1e-4);
-  }
-}
-
-TEST(BallCells, FindsTheNearestPointAndTheBall)
-{
-  trial::Random random(16);
-  BallCells cells;
-  for (int cloud = 0; cloud < 40; ++cloud)
-  {
-    const std::vector<Vec3> points = randomPoints(random, 1 + random.below(256), 1e-3);
-    const CellPyramid pyramid = pyramidOf(points, 3e-4);
-    const Vec3 center = points[0] + random.uniform(0.0, 1e-3) * random.direction();
-    cells.invalidate();
-    ASSERT_TRUE(cells.gather(fieldOf(pyramid), center, 0.02, kBall));
-    for (int query = 0; query < 500; ++query)
-    {
-      const Vec3 p = center + random.uniform(0.0, 2e-3) * random.direction();
-      const double radius = random.uniform(0.0, 2e-3);
-      Real least = HUGE_VALL;
-      int surely = 0;
-      int perhaps = 0;
-      for (const Vec3& q : points)
-      {
-        const Real distance = norm(LongVec(q) - LongVec(p));
-        least = std::min(least, distance);
-        surely += distance < radius * (1 - 1e-12L);
-        perhaps += distance < radius * (1 + 1e-12L);
-      }
-      const int i = cells.nearestWithin(p, 1.0);
-      ASSERT_GE(i, 0);
-      ASSERT_NEAR(double(norm(LongVec(cells.point(i)) - LongVec(p)) - least), 0.0, 1e-15);
-      int visited = 0;
-      cells.visitBall(p, radius,
-        [&](const Vec3& offset, double d2)
-        {
-          ++visited;
-          ASSERT_NEAR(norm2(offset), d2, 1e-15 * d2);
-          ASSERT_LT(d2, radius * radius);
-        });
-      ASSERT_LE(surely, visited);
-      ASSERT_GE(perhaps, visited);
-    }
-  }
-}
-
 TEST(BallCells, SweepsABallExactlyToTheFirstPointInItsWay)
 {
   constexpr int kClouds = 300;
@@ -432,21 +301,4 @@ TEST(BallCells, SweepsABallExactlyToTheFirstPointInItsWay)
   EXPECT_GT(atOnce, kClouds * kRays / 20);
   EXPECT_LT(atOnce, stopped);
   EXPECT_GT(exact, kClouds * kRays * 9 / 10);
-}
-
-TEST(BallCells, SweepsAwayFromWhatItCovers)
-{
-  const CellPyramid pyramid = pyramidOf({ Vec3(0, 0, 0) }, 1e-4);
-  BallCells cells;
-  ASSERT_TRUE(cells.gather(fieldOf(pyramid, kUnitRadius), Vec3(), 0.01, kBall));
-  const double r = 1e-3;
-  for (const double z : { r, 0.999 * r, 0.5 * r, 0.01 * r })
-  {
-    EXPECT_EQ(cells.sweep({ 0, 0, z }, { 0, 0, 1 }, 5e-3, r), 5e-3) << z << ": it leaves";
-    EXPECT_EQ(cells.sweep({ 0, 0, z }, { 1, 0, 0 }, 5e-3, r), 5e-3) << z << ": it goes no deeper";
-    EXPECT_EQ(cells.sweep({ 0, 0, z }, { 0, 0, -1 }, 5e-3, r), 0.0) << z << ": it goes deeper";
-  }
-  EXPECT_NEAR(cells.sweep({ 0, 0, 3e-3 }, { 0, 0, -1 }, 5e-3, r), 2e-3, 1e-17);
-  EXPECT_EQ(cells.sweep({ 0, 0, 3e-3 }, { 0, 0, -1 }, 1e-3, r), 1e-3) << "not that far";
-  EXPECT_EQ(cells.sweep({ 0, 0, 3e-3 }, { 0, 0, -1 }, 0.0, r), 0.0);
 }

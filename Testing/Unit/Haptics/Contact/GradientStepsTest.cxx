@@ -6,19 +6,14 @@ using namespace pointhaptics;
 
 TEST(GradientSteps, TunedGainsTrackAHandAtFiftyMillimetresPerSecond)
 {
-  const trial::Scene scene = trial::resampledScene(trial::spherePoints(trial::kPaperLarge, 1));
-  const auto states = trial::feel(
-    scene, trial::gradientSteps(GradientStepsParameters::tuned()), trial::sphereSlide(1e-3, 0.05, 2000));
-  EXPECT_LT(trial::recorded("tunedLarge", trial::forceError(states, trial::sphereForce, 200)), 0.15);
-}
-
-// 17.6 % was measured: on 47,516 points the sphere sinks further into wider gaps.
-TEST(GradientSteps, TunedGainsTrackOnTheSmallCloudToo)
-{
-  const trial::Scene scene = trial::resampledScene(trial::spherePoints(trial::kPaperSmall, 2));
-  const auto states = trial::feel(
-    scene, trial::gradientSteps(GradientStepsParameters::tuned()), trial::sphereSlide(1e-3, 0.05, 2000));
-  EXPECT_LT(trial::recorded("tunedSmall", trial::forceError(states, trial::sphereForce, 200)), 0.25);
+  // 17.6 % was measured on the small cloud: the sphere sinks further into wider gaps.
+  for (const auto& [points, bound] : { std::pair(trial::kPaperLarge, 0.15), { trial::kPaperSmall, 0.25 } })
+  {
+    const trial::Scene scene = trial::resampledScene(trial::spherePoints(points, 1));
+    const auto states = trial::feel(
+      scene, trial::gradientSteps(GradientStepsParameters::tuned()), trial::sphereSlide(1e-3, 0.05, 2000));
+    EXPECT_LT(trial::recorded("tuned", trial::forceError(states, trial::sphereForce, 200)), bound) << points;
+  }
 }
 
 TEST(GradientSteps, PrintedGainsCannotFollowAHand)
@@ -67,17 +62,5 @@ TEST(GradientSteps, NeverPopsThroughTheSphereAtHandSpeed)
   for (std::size_t i = 120; i < states.size(); ++i)
   {
     ASSERT_GT(norm(states[i].proxy), 0.9 * trial::kSphereRadius) << "tick " << i;
-  }
-}
-
-TEST(GradientSteps, IsFreeAndForcelessFarFromTheCloud)
-{
-  const trial::Scene scene = trial::resampledScene(trial::spherePoints(20000, 5));
-  for (const ProxyState& s : trial::feel(scene, trial::gradientSteps(GradientStepsParameters::tuned()),
-         trial::Path(50, Vec3(0.06, 0.06, 0.06))))
-  {
-    EXPECT_FALSE(s.contact);
-    EXPECT_EQ(s.force, Vec3());
-    EXPECT_EQ(s.proxy, s.hip);
   }
 }

@@ -120,6 +120,12 @@ bool hasOnlySlid(const ProxyBall& before, const BallInScene& hand, double moved)
     ball.radius() <= before.radius() && moved < 0.9 * ball.radius();
 }
 
+double quantile(std::vector<double> values, double part)
+{
+  std::sort(values.begin(), values.end());
+  return values.empty() ? 0.0 : values[std::size_t(part * double(values.size() - 1))];
+}
+
 class ProxyBallPromises : public ::testing::TestWithParam<int>
 {
 };
@@ -216,10 +222,10 @@ TEST(ProxyBall, LooksAtABoundedNumberOfPointsInATick)
     hand.step({ random.uniform(-0.03, -0.01), random.uniform(-0.01, 0.01), 0.03 });
     for (int tick = 0; tick < 300; ++tick)
     {
-      const std::uint64_t before = hand.cells().looked();
+      const std::uint64_t before = hand.cells().pointsExamined();
       hand.step(hand.hip() +
         Vec3(random.uniform(-0.001, 0.002), random.uniform(-0.001, 0.001), tick < 100 ? -0.0004 : 0.0));
-      most = std::max(most, hand.cells().looked() - before);
+      most = std::max(most, hand.cells().pointsExamined() - before);
     }
   }
   trial::recorded("mostLookedAt", double(most));
@@ -440,4 +446,38 @@ TEST(ProxyBall, LooksForItsPointsAFewTimesToBegin)
   EXPECT_FALSE(hand.ball().isFree()) << "there is no room for it";
   EXPECT_EQ(hand.takeStatus() & kProxyCellLimit, 0u);
   EXPECT_LE(hand.cells().passes(), 3);
+}
+
+TEST(ProxyBall, FindsThePlaneAndTheSphere)
+{
+  trial::Random random(32);
+  const BallInScene plane(trial::rawScene(trial::jitteredPlane(100, 0.02, 0.0, random)));
+  const BallInScene sphere(trial::rawScene(trial::spherePoints(20000, 0.01, random)));
+  for (const bool flat : { true, false })
+  {
+    std::vector<double> off;
+    std::vector<double> aside;
+    for (int run = 0; run < 100; ++run)
+    {
+      BallInScene hand = (flat ? plane : sphere).copy();
+      const Vec3 up = flat ? Vec3(0, 0, 1) : random.direction();
+      const Vec3 foot = flat ? random.inBox({ -0.006, -0.006, 0 }, { 0.006, 0.006, 0 }) : 0.01 * up;
+      const double depth = random.uniform(2e-4, 3e-3);
+      hand.step(foot + 0.003 * up + 0.001 * random.direction());
+      hand.go(foot - depth * up, random.uniform(0.02, 0.3));
+      hand.rest(100);
+      ASSERT_FALSE(hand.ball().isFree());
+      const Vec3 found = hand.ball().nearestPoint(hand.hip());
+      ASSERT_NEAR(hand.ball().depth(hand.hip()), norm(found - hand.hip()), 1e-15);
+      const double r = hand.ball().radius();
+      const Vec3 lean = found - foot - dot(found - foot, up) * up;
+      off.push_back(std::abs(flat ? found.z : norm(found) - 0.01) / r);
+      aside.push_back(norm(lean) / r);
+    }
+    const char* names[2][2] = { { "sphereOff", "sphereAside" }, { "planeOff", "planeAside" } };
+    EXPECT_LE(trial::recorded(names[flat][0], quantile(off, 1.0)), 0.3);
+    // The bumps between points hold it aside where gliding does not help.
+    EXPECT_LE(quantile(aside, 0.5), 0.3);
+    EXPECT_LE(trial::recorded(names[flat][1], quantile(aside, 1.0)), 1.2);
+  }
 }

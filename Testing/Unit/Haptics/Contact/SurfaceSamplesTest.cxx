@@ -104,21 +104,6 @@ TEST(SurfaceSamples, AreLargerWhereTheMeansAreNoisier)
   EXPECT_NEAR(std::sqrt(noisy / noisyCount), 5e-5, 5e-6);
 }
 
-TEST(SurfaceSamples, AreNotANumberWhereThereIsNoSurface)
-{
-  std::vector<Vec3> points = planePoints(5000, 7);
-  points.emplace_back(0.0, 0.0, 0.05); // alone
-  const Scene scene = rawScene(points);
-  points.emplace_back(std::numeric_limits<double>::quiet_NaN(), 0.0, 0.0);
-  const Samples samples = sampled(*scene, points);
-  for (const std::size_t i : { std::size_t(5000), std::size_t(5001) })
-  {
-    EXPECT_TRUE(std::isnan(samples.distances[i])) << i;
-    EXPECT_EQ(norm(samples.normals[i]), 0.0) << i;
-  }
-  EXPECT_FALSE(std::isnan(samples.distances[0]));
-}
-
 // Ten points that lie badly determine no surface, and a splat without a normal is lit wrongly: more of them
 // do.
 TEST(SurfaceSamples, AreThereAtNearlyAllPointsOfASparseStatue)
