@@ -75,16 +75,6 @@ bool sameLattice(const Lattice& a, const Lattice& b)
 class VoxelAccumulator::Sums
 {
 public:
-  /// Voxels of the whole run from @p first to before @p last, and their points.
-  struct Range
-  {
-    std::size_t first;
-    std::size_t last;
-    PointCounts counts;
-  };
-  /// See VoxelAccumulator::part().
-  Range range(std::uint64_t firstKey, std::uint64_t endKey);
-
   simd::VoxelRuns runs;
   PointCounts counts;
 };
@@ -239,30 +229,25 @@ Status VoxelAccumulator::finish(
   return status;
 }
 
-VoxelAccumulator::Sums::Range VoxelAccumulator::Sums::range(std::uint64_t firstKey, std::uint64_t endKey)
-{
-  const VoxelRun& run = runs.whole();
-  const std::size_t first = run.find(firstKey);
-  Range range = { first, std::max(first, run.find(endKey)), {} };
-  if (firstKey == 0 && endKey > 0)
-  {
-    range.counts = { counts.clipped + counts.invalid, counts.clipped, counts.invalid };
-  }
-  range.counts.points = std::accumulate(run.voxels.begin() + std::ptrdiff_t(first),
-    run.voxels.begin() + std::ptrdiff_t(range.last), range.counts.points,
-    [](std::int64_t sum, const WideSums& voxel) { return sum + voxel.count; });
-  return range;
-}
-
 VoxelAccumulator VoxelAccumulator::part(std::uint64_t first, std::uint64_t end)
 {
   VoxelAccumulator part = this->withoutPoints();
-  if (this->settle())
+  if (!this->settle())
   {
-    const Sums::Range range = added_->range(first, end);
-    part.added_->counts = range.counts;
-    part.added_->runs.add(added_->runs.whole().part(range.first, range.last));
+    return part;
   }
+  const VoxelRun& all = added_->runs.whole();
+  PointCounts& counts = part.added_->counts;
+  if (first == 0 && end > 0)
+  {
+    counts = added_->counts;
+    counts.points = counts.clipped + counts.invalid;
+  }
+  VoxelRun run;
+  run.append(all, all.find(first), std::max(all.find(first), all.find(end)));
+  counts.points = std::accumulate(run.voxels.begin(), run.voxels.end(), counts.points,
+    [](std::int64_t sum, const WideSums& voxel) { return sum + voxel.count; });
+  part.added_->runs.add(std::move(run));
   return part;
 }
 
@@ -317,14 +302,12 @@ public:
     static_assert(std::is_trivially_copyable_v<T>);
     bytes.append(reinterpret_cast<const char*>(&thing), sizeof thing);
   }
-  /// Elements @p first to before @p last. @return how many they are.
+  /// All elements, after their number.
   template <typename Vector>
-  std::uint64_t part(const Vector& elements, std::size_t first, std::size_t last)
+  void all(const Vector& elements)
   {
-    this->one(std::uint64_t(last - first));
-    bytes.append(
-      reinterpret_cast<const char*>(elements.data() + first), (last - first) * sizeof(elements[0]));
-    return last - first;
+    this->one(std::uint64_t(elements.size()));
+    bytes.append(reinterpret_cast<const char*>(elements.data()), elements.size() * sizeof(elements[0]));
   }
   static constexpr bool isWhole() { return true; }
 };
@@ -342,16 +325,14 @@ public:
   {
     this->copy(&thing, sizeof thing);
   }
-  /// All elements of a part.
   template <typename Vector>
-  std::uint64_t part(Vector& elements, std::size_t = 0, std::size_t = 0)
+  void all(Vector& elements)
   {
     std::uint64_t count = 0;
     this->one(count);
     isWhole_ = isWhole_ && count <= left_.size() / sizeof(elements[0]);
     elements.resize(isWhole_ ? count : 0);
     this->copy(elements.data(), elements.size() * sizeof(elements[0]));
-    return elements.size();
   }
   bool isWhole() const { return isWhole_; }
   bool isAtEnd() const { return isWhole_ && left_.empty(); }
@@ -369,38 +350,28 @@ private:
   bool isWhole_ = true;
 };
 
+/// Writes a run, or reads one.
 template <typename Archive>
-void exchange(Archive& archive, VoxelTally& tally, std::size_t first, std::size_t last)
-{
-  TallySums& sums = tally.sums;
-  archive.one(sums.components);
-  archive.one(sums.unit);
-  archive.one(sums.words);
-  const auto ofSums = std::size_t(sums.components);
-  const std::size_t words = ofSums * std::size_t(sums.words);
-  const bool areFinite = sums.nonFinite.empty();
-  archive.part(sums.values, first * words, last * words);
-  archive.part(sums.nonFinite, areFinite ? 0 : first * ofSums, areFinite ? 0 : last * ofSums);
-  TallyValues& values = tally.values;
-  archive.one(values.components);
-  const auto ofValues = std::size_t(values.components);
-  archive.part(values.ends, first * ofValues, last * ofValues);
-  archive.part(values.values, values.beginOf(first * ofValues), values.beginOf(last * ofValues));
-}
-
-/// Writes voxels @p first to before @p last of a run, or reads a run.
-template <typename Archive>
-void exchange(Archive& archive, Content& content, VoxelRun& run, std::size_t first, std::size_t last)
+void exchange(Archive& archive, Content& content, VoxelRun& run)
 {
   archive.one(content.header);
-  const std::uint64_t voxels = archive.part(run.voxels, first, last);
-  archive.part(run.secondMoments, run.hasMoments() ? first : 0, run.hasMoments() ? last : 0);
-  archive.part(content.arrays, 0, content.arrays.size());
-  archive.part(content.common, 0, content.common.size());
-  for (std::size_t i = 0; voxels > 0 && archive.isWhole() && i < content.arrays.size(); ++i)
+  archive.all(run.voxels);
+  archive.all(run.secondMoments);
+  archive.all(content.arrays);
+  archive.all(content.common);
+  for (std::size_t i = 0; run.size() > 0 && archive.isWhole() && i < content.arrays.size(); ++i)
   {
     run.tallies.resize(std::max(run.tallies.size(), i + 1));
-    exchange(archive, run.tallies[i], first, last);
+    TallySums& sums = run.tallies[i].sums;
+    archive.one(sums.components);
+    archive.one(sums.unit);
+    archive.one(sums.words);
+    archive.all(sums.values);
+    archive.all(sums.nonFinite);
+    TallyValues& values = run.tallies[i].values;
+    archive.one(values.components);
+    archive.all(values.ends);
+    archive.all(values.values);
   }
 }
 
@@ -467,13 +438,11 @@ bool completeTally(const AccumulatedArray& kind, const VoxelRun& run, VoxelTally
     sums.words > TallySums::kMostWords || sums.unit < TallySums::kLeastUnit ||
     sums.unit > -TallySums::kLeastUnit || sums.values.size() != sums.size * std::size_t(sums.words) ||
     (!sums.nonFinite.empty() && sums.nonFinite.size() != sums.size) ||
-    values.components != (isSummed ? 0 : kind.components) || values.ends.size() != lists)
+    values.components != (isSummed ? 0 : kind.components) || values.ends.size() != lists ||
+    values.values.size() != (lists > 0 ? values.ends.back() : 0))
   {
     return false;
   }
-  // Ends of a part are counted from the first value of all.
-  const std::size_t start = lists > 0 ? values.ends.back() - values.values.size() : 0;
-  std::for_each(values.ends.begin(), values.ends.end(), [=](std::size_t& end) { end -= start; });
   bool isRight = std::is_sorted(values.ends.begin(), values.ends.end());
   for (std::size_t v = 0; isRight && v < run.size(); ++v)
   {
@@ -490,13 +459,14 @@ std::string VoxelAccumulator::serialize(std::uint64_t first, std::uint64_t end)
   {
     return {};
   }
-  const Sums::Range range = added_->range(first, end);
-  VoxelRun& run = added_->runs.whole();
+  const VoxelAccumulator part = this->part(first, end);
+  VoxelRun& run = part.added_->runs.whole();
   std::for_each(run.tallies.begin(), run.tallies.end(), [](VoxelTally& tally) { tally.trim(); });
-  Content content{ { kMagic, lattice_, covariances_, fractionBitsOf(lattice_), range.counts }, arrays_, {} };
+  Content content{ { kMagic, lattice_, covariances_, fractionBitsOf(lattice_), part.added_->counts }, arrays_,
+    {} };
   content.common.assign(common_.has_value(), common_.value_or(AffineTransform()));
   Writer writer;
-  exchange(writer, content, run, range.first, range.last);
+  exchange(writer, content, run);
   return std::move(writer.bytes);
 }
 
@@ -505,7 +475,7 @@ Status VoxelAccumulator::deserialize(std::string_view bytes, VoxelAccumulator& r
   Reader reader(bytes);
   Content content;
   VoxelRun run;
-  exchange(reader, content, run, 0, 0);
+  exchange(reader, content, run);
   const Header& header = content.header;
   if (!reader.isAtEnd() || !isRight(header) || content.common.size() > 1 ||
     (!content.common.empty() && content.common[0].check() != Status::Ok))

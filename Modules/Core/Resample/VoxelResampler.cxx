@@ -41,12 +41,6 @@ AttributeView viewOf(const PointView& points)
     points.stride() * (single ? std::int64_t(sizeof(float)) : std::int64_t(sizeof(double))) };
 }
 
-/// Whether points are binned into partitions of the lattice, or sorted.
-bool usesPartitions(const Lattice& lattice)
-{
-  return fitsPartitions(lattice, indexBitsOf(lattice)) && hasOrdinarySpacing(lattice);
-}
-
 }
 
 Status VoxelResampler::Implementation::check(const VoxelRequest& request)
@@ -73,25 +67,28 @@ Status VoxelResampler::Implementation::check(const VoxelRequest& request)
 Status VoxelResampler::Implementation::run(
   const VoxelRequest& request, const Executor& executor, ProgressObserver* observer)
 {
-  VoxelRequest wanted = request;
-  wanted.keys = request.keys || choosesPoints(request);
+  Task task = { request, true };
+  task.request.keys = request.keys || choosesPoints(request);
   VoxelRun sums;
-  const Status status = sumPoints({ wanted, true }, sums, executor, observer);
+  const Status status = sumPoints(task, sums, executor, observer);
   if (status != Status::Ok)
   {
     clear();
+    return status;
   }
-  else if (keepsPoints(request.representative))
+  task.writes ? void() : static_cast<void>(writeRun(task.request, sums, executor, nullptr));
+  if (keepsPoints(request.representative))
   {
     chosenPoints.assign(writer.chosen(), writer.chosen() + size);
   }
-  return status;
+  return Status::Ok;
 }
 
 Status VoxelResampler::Implementation::sum(
   const VoxelRequest& request, VoxelRun& sums, const Executor& executor, ProgressObserver* observer)
 {
-  return sumPoints({ request, false }, sums, executor, observer);
+  Task task = { request, false };
+  return sumPoints(task, sums, executor, observer);
 }
 
 Status VoxelResampler::Implementation::finish(
@@ -99,22 +96,8 @@ Status VoxelResampler::Implementation::finish(
 {
   clear();
   const Status status = check(request);
-  if (status != Status::Ok)
-  {
-    return status;
-  }
   lattice = request.lattice;
-  size = std::int64_t(sums.size());
-  writer.prepare(request, sums.size(), fractionBitsOf(lattice));
-  PointProgress progress(observer, size, 1);
-  const bool isDone = forReportedSlices(size, progress,
-    [&](std::int64_t first, std::int64_t last)
-    {
-      forRange(executor, last - first,
-        [&](std::int64_t begin, std::int64_t end)
-        { writeRun(request, sums, std::size_t(first + begin), std::size_t(first + end), 0); });
-    });
-  return isDone ? Status::Ok : (clear(), Status::Aborted);
+  return status == Status::Ok ? writeRun(request, sums, executor, observer) : status;
 }
 
 void VoxelResampler::Implementation::clear()
@@ -125,43 +108,56 @@ void VoxelResampler::Implementation::clear()
   voxelIndex.clear();
 }
 
-/// Writes voxels @p first to before @p last of a run, whose voxels begin at @p offset of the result.
-void VoxelResampler::Implementation::writeRun(
-  const VoxelRequest& request, const VoxelRun& run, std::size_t first, std::size_t last, std::size_t offset)
+/// Makes the result that sums give.
+Status VoxelResampler::Implementation::writeRun(
+  const VoxelRequest& request, const VoxelRun& run, const Executor& executor, ProgressObserver* observer)
 {
-  const std::size_t to = offset + first;
-  writer.write(to, run, first, last);
+  size = std::int64_t(run.size());
+  writer.prepare(request, run.size(), fractionBitsOf(lattice));
   const std::array<Vec3, 3> columns = normalColumns(request.transform);
-  for (std::size_t i = 0; i < run.tallies.size(); ++i)
+  const auto write = [&](std::size_t first, std::size_t last)
   {
-    const AttributeRequest& array = request.attributes[i];
-    run.tallies[i].write({ array.view.type, array.view.components, array.statistic }, first, last,
-      writer.counts() + to, columns, writer.attribute(i, to));
-  }
+    writer.write(first, run, first, last);
+    for (std::size_t i = 0; i < run.tallies.size(); ++i)
+    {
+      const AttributeRequest& array = request.attributes[i];
+      run.tallies[i].write({ array.view.type, array.view.components, array.statistic }, first, last,
+        writer.counts() + first, columns, writer.attribute(i, first));
+    }
+  };
+  PointProgress progress(observer, size, 1);
+  const bool isDone = forReportedSlices(size, progress,
+    [&](std::int64_t first, std::int64_t last)
+    {
+      forRange(executor, last - first,
+        [&](std::int64_t begin, std::int64_t end)
+        { write(std::size_t(first + begin), std::size_t(first + end)); });
+    });
+  return isDone ? Status::Ok : (clear(), Status::Aborted);
 }
 
 std::size_t VoxelResampler::Implementation::scratchBytes() const
 {
-  return binned_.bytes() + sorted_.bytes() + places_.capacity() + writer.bytes() +
-    (chosenPoints.capacity() + voxelIndex.capacity()) * sizeof(std::int64_t);
+  return std::accumulate(workers_.begin(), workers_.end(),
+    binner_.bytes() + places_.capacity() + writer.bytes() +
+      (chosenPoints.capacity() + voxelIndex.capacity()) * sizeof(std::int64_t),
+    [](std::size_t sum, const auto& worker) { return sum + worker->voxels.bytes(); });
 }
 
-template <typename Voxels>
-void VoxelResampler::Implementation::Stages<Voxels>::prepareWorkers(
-  const Task& task, std::int64_t* indexOfPoints, int count)
+void VoxelResampler::Implementation::prepareWorkers(
+  const Task& task, const Chunks& chunks, const Executor& executor)
 {
   const VoxelRequest& request = task.request;
-  const bool reduces = choosesPoints(request) || !request.attributes.empty();
-  workers.resize(std::max(workers.size(), std::size_t(count)));
-  for (std::unique_ptr<Worker>& worker : workers)
+  workers_.resize(std::max<std::size_t>({ workers_.size(), std::size_t(executor.concurrency()), 1 }));
+  for (std::unique_ptr<Worker>& worker : workers_)
   {
     worker = worker ? std::move(worker) : std::make_unique<Worker>();
-    worker->voxels.prepare(request, source);
+    worker->voxels.prepare(request, chunks, binner_);
     worker->reductions.reset();
-    if (reduces)
+    if (choosesPoints(request) || !request.attributes.empty())
     {
-      worker->reductions.emplace(
-        request, task.arrays, source.payloadLayout(), source.fractionBits(), indexOfPoints);
+      worker->reductions.emplace(request, task.arrays, binner_.payloadLayout(), binner_.plan().fractionBits,
+        request.voxelIndex ? voxelIndex.data() : nullptr);
     }
   }
 }
@@ -194,56 +190,53 @@ AttributeView VoxelResampler::Implementation::placesOf(const VoxelRequest& reque
 }
 
 Status VoxelResampler::Implementation::sumPoints(
-  const Task& task, VoxelRun& sums, const Executor& executor, ProgressObserver* observer)
+  Task& task, VoxelRun& sums, const Executor& executor, ProgressObserver* observer)
 {
   clear();
-  const VoxelRequest& request = task.request;
+  VoxelRequest& request = task.request;
   const Status status = check(request);
   if (status != Status::Ok)
   {
     return status;
   }
-  Task wanted = task;
   for (AttributeRequest array : request.attributes)
   {
     if (isSum(array.statistic) && !array.range)
     {
       array.range = rangeOf(array.view, executor);
     }
-    wanted.arrays.push_back(array);
+    task.arrays.push_back(array);
   }
   if (request.representative == Representative::Median)
   {
-    wanted.arrays.push_back({ placesOf(request, executor), AttributeStatistic::Median });
+    task.arrays.push_back({ placesOf(request, executor), AttributeStatistic::Median });
   }
   voxelIndex.assign(request.voxelIndex ? std::size_t(request.points.size()) : 0, -1);
   lattice = request.lattice;
-  return usesPartitions(request.lattice) ? runStages(binned_, wanted, sums, executor, observer)
-                                         : runStages(sorted_, wanted, sums, executor, observer);
+  // Other sets divide by way of the reciprocal.
+  request.instructions = hasOrdinarySpacing(lattice) ? request.instructions : InstructionSet::Baseline;
+  return runStages(task, sums, executor, observer);
 }
 
-/// The stages: quantize and bin, or sort; sum; write.
-template <typename Voxels>
-Status VoxelResampler::Implementation::runStages(Stages<Voxels>& stages, const Task& wanted, VoxelRun& sums,
-  const Executor& executor, ProgressObserver* observer)
+/// The stages: quantize and bin; sum; write.
+Status VoxelResampler::Implementation::runStages(
+  Task& task, VoxelRun& sums, const Executor& executor, ProgressObserver* observer)
 {
-  const VoxelRequest& request = wanted.request;
-  auto& source = stages.source;
-  const Chunks chunks(request, source.kChunkPoints, executor);
+  const VoxelRequest& request = task.request;
+  const Chunks chunks(request, executor);
   // Where points are chosen, all of a voxel must be there at once.
-  const std::size_t held = choosesPoints(request) ? chunks.count() : source.kHeldChunks;
-  const bool isWhole = chunks.count() <= held;
-  Task task = wanted;
-  task.writes = wanted.writes && isWhole;
+  const std::size_t held = choosesPoints(request) ? chunks.count() : kHeldChunks;
+  task.writes = task.writes && chunks.count() <= held; // The sums of more are merged.
   std::vector<AttributeView> views;
   for (const AttributeRequest& array : task.arrays)
   {
     views.push_back(array.view);
   }
-  source.prepare(request, chunks, views, request.voxelIndex || keepsPoints(request.representative));
+  binner_.prepare(request, chunks, views, request.voxelIndex || keepsPoints(request.representative));
+  prepareWorkers(task, chunks, executor);
   invalid = request.index ? request.points.size() - finitePoints(*request.index) : 0;
   clipped = request.points.size() - invalid;
-  std::vector<VoxelRuns> runs(task.writes ? 0 : source.partitions());
+  std::vector<VoxelRuns> runs(task.writes ? 0 : binner_.plan().partitions);
   for (std::size_t first = 0; first < chunks.count(); first += held)
   {
     const std::size_t last = std::min(first + held, chunks.count());
@@ -251,96 +244,66 @@ Status VoxelResampler::Implementation::runStages(Stages<Voxels>& stages, const T
     SubProgress part(observer, progressAt(first), progressAt(last));
     SubProgress binning(&part, 0.0, 0.5);
     SubProgress summing(&part, 0.5, 1.0);
-    source.start(chunks, first, last, executor);
+    binner_.start(chunks, first, last, executor);
     for (std::size_t chunk = first; chunk < last; ++chunk)
     {
-      source.add(request, chunks, chunk, executor);
+      binner_.add(request, chunks, chunk, executor);
       if (!binning.report(double(chunk + 1 - first) / double(last - first)))
       {
         return Status::Aborted;
       }
     }
-    invalid += source.invalid();
-    clipped -= source.inside() + source.invalid();
-    if (!sumPartitions(stages, task, last - first, runs, executor, &summing))
+    const std::int64_t notFinite = binner_.total(&PointRecordWriter::invalid);
+    invalid += notFinite;
+    clipped -= binner_.total(&PointRecordWriter::inside) + notFinite;
+    if (!sumPartitions(task, last - first, runs, executor, &summing))
     {
       return Status::Aborted;
     }
   }
-  std::vector<VoxelRun> parts(runs.size());
-  forEachItem(executor, runs.size(), [&](std::size_t p) { parts[p] = std::move(runs[p].whole()); });
-  if (wanted.writes && !task.writes)
+  std::for_each(workers_.begin(), workers_.end(), [](const auto& worker) { worker->reductions.reset(); });
+  forEachItem(executor, runs.size(), [&](std::size_t p) { static_cast<void>(runs[p].whole()); });
+  const auto sumSizes = [](std::size_t sum, VoxelRuns& part) { return sum + part.whole().size(); };
+  sums.voxels.reserve(std::accumulate(runs.begin(), runs.end(), std::size_t(0), sumSizes));
+  for (VoxelRuns& part : runs)
   {
-    writeParts(request, parts, executor);
-  }
-  else
-  {
-    std::vector<const VoxelRun*> all;
-    std::transform(parts.begin(), parts.end(), std::back_inserter(all), [](const VoxelRun& p) { return &p; });
-    sums = VoxelRun::concatenated(all);
+    sums.append(part.whole(), 0, part.whole().size());
+    part = VoxelRuns();
   }
   return Status::Ok;
 }
 
-/// Writes runs whose keys ascend from one to the next to the result, and frees them.
-void VoxelResampler::Implementation::writeParts(
-  const VoxelRequest& request, std::vector<VoxelRun>& parts, const Executor& executor)
-{
-  std::vector<std::size_t> firsts = { 0 };
-  for (const VoxelRun& part : parts)
-  {
-    firsts.push_back(firsts.back() + part.size());
-  }
-  size = std::int64_t(firsts.back());
-  writer.prepare(request, firsts.back(), fractionBitsOf(lattice));
-  forEachItem(executor, parts.size(),
-    [&](std::size_t p)
-    {
-      writeRun(request, parts[p], 0, parts[p].size(), firsts[p]);
-      parts[p] = VoxelRun();
-    });
-}
-
 /// Makes room for the voxels: for as many as there may be, of which what is not written is never touched, or,
 /// where a machine or a limit counts that, too, for as many as there are.
-template <typename Voxels>
-void VoxelResampler::Implementation::makeOutput(
-  Stages<Voxels>& stages, const VoxelRequest& request, const Executor& executor)
+void VoxelResampler::Implementation::makeOutput(const VoxelRequest& request, const Executor& executor)
 {
   std::size_t most = 0;
-  for (std::uint32_t p = 0; p < stages.source.partitions(); ++p)
+  for (std::uint32_t p = 0; p < binner_.plan().partitions; ++p)
   {
-    most += stages.source.mostVoxels(p);
+    most += std::min(binner_.count(p), binner_.plan().cells());
   }
   try
   {
-    writer.prepare(request, most, stages.source.fractionBits());
+    writer.prepare(request, most, binner_.plan().fractionBits);
   }
   catch (const std::bad_alloc&)
   {
     writer = VoxelWriter();
     std::atomic<std::size_t> voxels{ 0 };
     forEachItemWith(
-      executor, stages.source.partitions(),
-      [&](std::size_t thread) -> Voxels& { return stages.workers[thread]->voxels; },
-      [&](std::size_t p, Voxels& found)
-      {
-        voxels += found.find(std::uint32_t(p));
-        found.drop();
-      });
-    writer.prepare(request, voxels, stages.source.fractionBits());
+      executor, binner_.plan().partitions, [&](std::size_t thread) -> Worker& { return *workers_[thread]; },
+      [&](std::size_t p, Worker& worker) { voxels += worker.voxels.find(std::uint32_t(p)); });
+    writer.prepare(request, voxels, binner_.plan().fractionBits);
   }
 }
 
 /// Sums the voxels of a partition, and makes of them what is asked for.
-template <typename Voxels>
-void VoxelResampler::Implementation::sumPartition(typename Stages<Voxels>::Worker& worker, const Task& task,
-  std::uint32_t partition, PartitionOrder& order, VoxelRuns* runs)
+void VoxelResampler::Implementation::sumPartition(
+  Worker& worker, const Task& task, std::uint32_t partition, PartitionOrder& order, VoxelRuns* runs)
 {
-  Voxels& voxels = worker.voxels;
+  BinnedVoxels& voxels = worker.voxels;
   std::optional<VoxelReductions>& reductions = worker.reductions;
-  const std::size_t voxelCount = voxels.find(partition);
-  const std::size_t offset = order.append(partition, voxelCount);
+  const std::size_t offset = order.append(partition, voxels.find(partition));
   voxels.sum();
   if (reductions)
   {
@@ -351,7 +314,7 @@ void VoxelResampler::Implementation::sumPartition(typename Stages<Voxels>::Worke
     voxels.write(kernelsFor(task.request.instructions), writer, offset);
     reductions ? reductions->write(writer, offset) : void();
   }
-  if (!task.writes && voxelCount > 0)
+  else if (voxels.size() > 0)
   {
     VoxelRun run = voxels.wide();
     run.tallies = reductions ? reductions->takeTallies() : std::vector<VoxelTally>();
@@ -362,20 +325,15 @@ void VoxelResampler::Implementation::sumPartition(typename Stages<Voxels>::Worke
 /// The voxels of the points that are held, partition by partition: each thread takes the next one, so that
 /// those before any are done or at work. With as many reports as @p rounds. @return false where the observer
 /// ended the work.
-template <typename Voxels>
-bool VoxelResampler::Implementation::sumPartitions(Stages<Voxels>& stages, const Task& task,
-  std::size_t rounds, std::vector<VoxelRuns>& runs, const Executor& executor, ProgressObserver* observer)
+bool VoxelResampler::Implementation::sumPartitions(const Task& task, std::size_t rounds,
+  std::vector<VoxelRuns>& runs, const Executor& executor, ProgressObserver* observer)
 {
-  using Worker = typename Stages<Voxels>::Worker;
-  const VoxelRequest& request = task.request;
-  stages.prepareWorkers(
-    task, request.voxelIndex ? voxelIndex.data() : nullptr, std::max(executor.concurrency(), 1));
   PartitionOrder order;
   const auto sumNext = [&](Worker& worker, std::uint32_t partition)
   {
     try
     {
-      this->sumPartition<Voxels>(worker, task, partition, order, runs.data());
+      this->sumPartition(worker, task, partition, order, runs.data());
     }
     catch (...)
     {
@@ -385,13 +343,13 @@ bool VoxelResampler::Implementation::sumPartitions(Stages<Voxels>& stages, const
   };
   try
   {
-    task.writes ? makeOutput(stages, request, executor) : void();
+    task.writes ? makeOutput(task.request, executor) : void();
     for (std::size_t round = 0; round < rounds; ++round)
     {
-      const std::size_t first = stages.source.partitions() * round / rounds;
-      const std::size_t last = stages.source.partitions() * (round + 1) / rounds;
+      const std::size_t first = binner_.plan().partitions * round / rounds;
+      const std::size_t last = binner_.plan().partitions * (round + 1) / rounds;
       forEachItemWith(
-        executor, last - first, [&](std::size_t thread) -> Worker& { return *stages.workers[thread]; },
+        executor, last - first, [&](std::size_t thread) -> Worker& { return *workers_[thread]; },
         [&](std::size_t p, Worker& worker) { sumNext(worker, std::uint32_t(first + p)); });
       if (observer && !observer->report(double(round + 1) / double(rounds)))
       {
@@ -401,12 +359,8 @@ bool VoxelResampler::Implementation::sumPartitions(Stages<Voxels>& stages, const
   }
   catch (...)
   {
-    stages.workers.clear(); // The next run finds nothing half done.
+    workers_.clear(); // The next run finds nothing half done.
     throw;
-  }
-  for (const std::unique_ptr<Worker>& worker : stages.workers)
-  {
-    worker->reductions.reset();
   }
   size = task.writes ? std::int64_t(order.size()) : 0;
   return true;

@@ -67,9 +67,8 @@ struct VoxelRequest
   std::vector<AttributeView> tieBreakers;
   /// For voxelIndex(). Conditions as for a representative.
   bool voxelIndex = false;
-  /// Points between two reports, at least 1; 0 or more than the default: the default (1.25 million; 262,144
-  /// on lattices where points are sorted). Four chunks are summed at once, where points are sorted one. It
-  /// changes memory and time, not the results.
+  /// Points between two reports, at least 1; 0 or more than the default: the default (1.25 million). Four
+  /// chunks are summed at once. It changes memory and time, not the results.
   std::int64_t chunkPoints = 0;
   InstructionSet instructions = InstructionSet::Automatic;
   OutputAllocator* allocator = nullptr; ///< Null: the resampler's own memory.
@@ -84,20 +83,17 @@ struct VoxelRequest
 /// exact. Hence results are the same bit for bit for every order of the points, every executor, instruction
 /// set and PointIndex.
 ///
-/// Accuracy: a mean is off by at most 2^-31 voxel, then rounded once to the output's type; it lies in its
-/// voxel. Counts are 64-bit. Under a matrix whose condition number would cost digits, the products are summed
-/// in two words each. That takes about half as much time again (several times as much on processors without a
-/// fused multiplication).
+/// Accuracy: a mean is off by at most 2^-31 voxel (a quarter more beyond 2^20 voxels an axis), then rounded
+/// once to the output's type; it lies in its voxel. Counts are 64-bit. Under a matrix whose condition number
+/// would cost digits, the products are summed in two words each. That takes about half as much time again
+/// (several times as much on processors without a fused multiplication).
 ///
-/// Time: a few nanoseconds a point; beyond 4096 voxels an axis or 8.6 billion in all, and where no axis has
-/// more than two, points are sorted: some tens of them, growing with the logarithm of the points. Memory
-/// beyond input and results: 16 bytes for each of at most 5 million points (with attributes up to 52), and
+/// Time: a few nanoseconds a point; beyond 4096 voxels an axis some tens of them. Memory beyond input and
+/// results: 16 bytes for each of at most 5 million points (with attributes up to 52), a few megabytes, and
 /// where there are more points 48 bytes an active voxel, 144 with covariances, and the sums and values of
-/// arrays (see VoxelAccumulator): those of 5 million are merged with the others. A few megabytes (of which up
-/// to 1.3 for each thread where a layer of the lattice has up to 4 million voxels). Where points are sorted:
-/// 80 bytes for each of at most 262,144, and the sums. With representatives or VoxelRequest::voxelIndex all
-/// points are held at once, with medians under a transform their places too. One object is used by one thread
-/// at a time; the executor's threads may be many.
+/// arrays (see VoxelAccumulator): those of 5 million are merged with the others. With representatives or
+/// VoxelRequest::voxelIndex all points are held at once, with medians under a transform their places too. One
+/// object is used by one thread at a time; the executor's threads may be many.
 class VoxelResampler
 {
 public:

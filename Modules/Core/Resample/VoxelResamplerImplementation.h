@@ -5,7 +5,6 @@
 #include "Core/Resample/Reductions/VoxelReductions.h"
 #include "Core/Resample/Stages/BinnedVoxels.h"
 #include "Core/Resample/Stages/PointQuantizer.h"
-#include "Core/Resample/Stages/SortedVoxels.h"
 #include "Core/Resample/Stages/VoxelRun.h"
 #include "Core/Resample/VoxelResampler.h"
 
@@ -94,54 +93,34 @@ private:
   /// Use of the voxels of points.
   struct Task
   {
-    const VoxelRequest& request;
-    bool writes; ///< They are written to the result; else their sums are kept.
+    VoxelRequest request;
+    bool writes; ///< They are written to the result at once; else their sums are kept.
     /// The attributes of the request, and what is reduced like them.
     std::vector<AttributeRequest> arrays = {};
   };
-  /// Where the voxels of points are found: BinnedVoxels or SortedVoxels, one for each thread.
-  template <typename Voxels>
-  struct Stages
+  struct Worker
   {
-    struct Worker
-    {
-      Voxels voxels;
-      std::optional<simd::VoxelReductions> reductions; ///< Where points are wanted.
-    };
-    typename Voxels::Source source;
-    std::vector<std::unique_ptr<Worker>> workers;
-
-    void prepareWorkers(const Task& task, std::int64_t* indexOfPoints, int count);
-    std::size_t bytes() const
-    {
-      return std::accumulate(workers.begin(), workers.end(), source.bytes(),
-        [](std::size_t sum, const auto& worker) { return sum + worker->voxels.bytes(); });
-    }
+    simd::BinnedVoxels voxels;
+    std::optional<simd::VoxelReductions> reductions; ///< Where points are wanted.
   };
 
   void clear();
   static Status check(const VoxelRequest& request);
-  Status sumPoints(
-    const Task& task, simd::VoxelRun& sums, const Executor& executor, ProgressObserver* observer);
-  template <typename Voxels>
-  Status runStages(Stages<Voxels>& stages, const Task& wanted, simd::VoxelRun& sums, const Executor& executor,
-    ProgressObserver* observer);
-  template <typename Voxels>
-  void sumPartition(typename Stages<Voxels>::Worker& worker, const Task& task, std::uint32_t partition,
-    PartitionOrder& order, simd::VoxelRuns* runs);
-  template <typename Voxels>
-  bool sumPartitions(Stages<Voxels>& stages, const Task& task, std::size_t rounds,
-    std::vector<simd::VoxelRuns>& runs, const Executor& executor, ProgressObserver* observer);
-  template <typename Voxels>
-  void makeOutput(Stages<Voxels>& stages, const VoxelRequest& request, const Executor& executor);
+  Status sumPoints(Task& task, simd::VoxelRun& sums, const Executor& executor, ProgressObserver* observer);
+  Status runStages(Task& task, simd::VoxelRun& sums, const Executor& executor, ProgressObserver* observer);
+  void prepareWorkers(const Task& task, const simd::Chunks& chunks, const Executor& executor);
+  void sumPartition(
+    Worker& worker, const Task& task, std::uint32_t partition, PartitionOrder& order, simd::VoxelRuns* runs);
+  bool sumPartitions(const Task& task, std::size_t rounds, std::vector<simd::VoxelRuns>& runs,
+    const Executor& executor, ProgressObserver* observer);
+  void makeOutput(const VoxelRequest& request, const Executor& executor);
   AttributeView placesOf(const VoxelRequest& request, const Executor& executor);
-  void writeRun(const VoxelRequest& request, const simd::VoxelRun& run, std::size_t first, std::size_t last,
-    std::size_t offset);
-  void writeParts(const VoxelRequest& request, std::vector<simd::VoxelRun>& parts, const Executor& executor);
+  Status writeRun(const VoxelRequest& request, const simd::VoxelRun& run, const Executor& executor,
+    ProgressObserver* observer);
 
-  Stages<simd::BinnedVoxels> binned_;
-  Stages<simd::SortedVoxels> sorted_;
-  PageVector<char> places_; ///< Memory of points, for medians.
+  simd::PointBinner binner_;
+  std::vector<std::unique_ptr<Worker>> workers_; ///< One for each thread.
+  PageVector<char> places_;                      ///< Memory of points, for medians.
 };
 
 } // namespace pointhaptics

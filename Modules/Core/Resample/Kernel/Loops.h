@@ -1,6 +1,6 @@
 /// @file
-/// Prefetches for loops that wait for memory, and loops that are unrolled, in several orders. Internal
-/// linkage: sources of several instruction sets include them.
+/// Prefetches for loops that wait for memory, and a loop in another order. Internal linkage: sources of
+/// several instruction sets include them.
 #pragma once
 
 #include <cstddef>
@@ -53,18 +53,6 @@ __attribute__((always_inline)) static inline void fromFourParts(Index count, Vis
   for (Index i = 4 * part; i < count; ++i)
   {
     visit(i);
-  }
-}
-
-/// Calls visit(i + index * Part) for all indices from @p Index on, below @p Count. The stride is known to the
-/// compiler: the indices take no registers.
-template <int Part, int Index, int Count, typename Visit>
-__attribute__((always_inline)) static inline void visitStrided(int i, const Visit& visit)
-{
-  visit(i + Index * Part);
-  if constexpr (Index + 1 < Count)
-  {
-    visitStrided<Part, Index + 1, Count>(i, visit);
   }
 }
 

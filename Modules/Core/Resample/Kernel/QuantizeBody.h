@@ -3,7 +3,6 @@
 #pragma once
 
 #include "Core/Resample/Kernel/Loops.h"
-#include "Core/Resample/Kernel/PointRecordWriter.h"
 #include "Core/Resample/Kernel/VoxelKernel.h"
 #include "Core/Simd/Words.h"
 
@@ -63,13 +62,14 @@ __attribute__((always_inline)) inline void move(const PointQuantizer& c, const R
 {
   Pack p[3];
   loadPoints(xyz, p);
-  for (int axis = 0; motion != Motion::Compensated && axis < 3; ++axis)
+  constexpr bool kCompensates = motion == Motion::Compensated || motion == Motion::Fine;
+  for (int axis = 0; !kCompensates && axis < 3; ++axis)
   {
     p[axis] -= c.pivot[axis];
   }
   for (int axis = 0; axis < 3; ++axis)
   {
-    v[axis] = motion == Motion::Compensated ? compensatedDot(c, p, axis)
+    v[axis] = kCompensates ? compensatedDot(c, p, axis)
       : motion == Motion::Scale
       ? p[axis] * c.matrix[axis][axis] + c.offset[axis]
       : (p[0] * c.matrix[axis][0] + p[1] * c.matrix[axis][1]) + p[2] * c.matrix[axis][2] + c.offset[axis];
@@ -78,6 +78,7 @@ __attribute__((always_inline)) inline void move(const PointQuantizer& c, const R
 
 /// Quantizes kWidth points, which are at @p v in the lattice's frame, into @p quantized, from @p to on. Bit i
 /// of the result: point i is inside.
+template <bool Fine>
 __attribute__((always_inline)) inline unsigned quantizeGroup(
   const PointQuantizer& c, const Pack v[3], QuantizedPoints& quantized, std::int64_t to)
 {
@@ -97,8 +98,11 @@ __attribute__((always_inline)) inline unsigned quantizeGroup(
       ((position[1] & kPositionMask) >> (c.fractionBits + c.rowShift));
   }
   *reinterpret_cast<WordsAt*>(quantized.partitions + to) = partition;
-  storePairs(&quantized.records[to].first, position[0] << kLowBits | (position[2] & kLowMask),
-    position[1] << kLowBits | (position[2] >> kLowBits & kLowMask));
+  const auto index = [&](int axis) { return (position[axis] & kPositionMask) >> c.fractionBits; };
+  Fine ? storePairs(&quantized.records[to].first,
+           index(2) << 2 * kFineBits | index(1) << kFineBits | index(0), Words{})
+       : storePairs(&quantized.records[to].first, position[0] << kLowBits | (position[2] & kLowMask),
+           position[1] << kLowBits | (position[2] >> kLowBits & kLowMask));
   return highestBits(inside);
 }
 
@@ -142,7 +146,7 @@ __attribute__((noinline)) int quantizeGroups(const PointQuantizer& given, const 
     }
     Pack v[3];
     move<motion>(constants, xyz, v);
-    const unsigned kept = present & quantizeGroup(constants, v, quantized, size);
+    const unsigned kept = present & quantizeGroup<motion == Motion::Fine>(constants, v, quantized, size);
     if (__builtin_expect(kept == kFull, true))
     {
       *reinterpret_cast<IntsAt*>(quantized.indices + size) = lanes + std::int32_t(index);
@@ -190,7 +194,7 @@ inline void makePayloads(
   }
   for (int i = 0; writer.layout.numbered && i < quantized.size; ++i)
   {
-    payloads[words * i] = numbers[i];
+    payloads[words * i] = writer.firstNumber + quantized.indices[i];
   }
   for (int a = 0; a < writer.layout.count; ++a)
   {
@@ -204,8 +208,7 @@ inline void makePayloads(
   }
 }
 
-/// Bins quantized points: appends their records to the partitions. It takes turns over the batch: neighbours
-/// in a scan go to one partition, and a record would wait for the cursor that the record before has moved.
+/// Bins quantized points: appends their records to the partitions.
 /// @tparam PayloadWords: of a record.
 template <int PayloadWords>
 inline void binPoints(QuantizedPoints& quantized, PointRecordWriter& writer)
@@ -235,14 +238,8 @@ inline void binPoints(QuantizedPoints& quantized, PointRecordWriter& writer)
       __builtin_memcpy(payload, batchPayloads + PayloadWords * i, sizeof(std::uint32_t) * PayloadWords);
     }
   };
-  constexpr int kParts = 16;
-  constexpr int kTurns = kBatchPoints / kParts;
   const bool isFull = quantized.size >= kBatchPoints;
-  for (int turn = 0; isFull && turn < kTurns; ++turn)
-  {
-    visitStrided<kTurns, 0, kParts>(turn, bin);
-  }
-  for (int i = 0; !isFull && i < quantized.size; ++i)
+  for (int i = 0; i < (isFull ? kBatchPoints : quantized.size); ++i)
   {
     bin(i);
   }
@@ -305,10 +302,27 @@ template <typename Real>
 void partition(const PointQuantizer& quantizer, const Real* xyz, const PointRange* ranges, std::int64_t count,
   PointRecordWriter& writer)
 {
-  const auto partition = quantizer.motion == Motion::Scale ? &partitionAll<Motion::Scale, Real>
-    : quantizer.motion == Motion::General                  ? &partitionAll<Motion::General, Real>
-                                                           : &partitionAll<Motion::Compensated, Real>;
-  partition(quantizer, xyz, ranges, count, writer);
+  constexpr decltype(&partition<Real>) kPartitions[] = { &partitionAll<Motion::Scale, Real>,
+    &partitionAll<Motion::General, Real>, &partitionAll<Motion::Compensated, Real>,
+    &partitionAll<Motion::Fine, Real> };
+  kPartitions[int(quantizer.motion)](quantizer, xyz, ranges, count, writer);
+}
+
+void fineOffsets(const PointQuantizer& c, const double* xyz, int count, std::uint64_t* offsets)
+{
+  for (int i = 0; i < count; i += kWidth, xyz += 3 * kWidth, offsets += 3 * kWidth)
+  {
+    Pack v[3];
+    move<Motion::Fine>(c, xyz, v);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const Words offset = floorBits(quotient(c, v[axis], axis)) & ((std::uint64_t(1) << c.fractionBits) - 1);
+      for (int j = 0; j < kWidth; ++j)
+      {
+        offsets[3 * j + axis] = offset[j];
+      }
+    }
+  }
 }
 
 }

@@ -18,11 +18,13 @@ __extension__ typedef unsigned __int128 UInt128;
 /// A coordinate is a fixed-point number of this many bits over the power of two of voxels that covers the
 /// longest axis of the lattice.
 constexpr int kPositionBits = 43;
-/// Largest power of two of voxels on an axis these records hold with 31 bits left for the offset in the
-/// voxel.
+/// Largest power of two of voxels on an axis that records hold with 31 bits left for the offset in the voxel.
+/// Those of finer lattices have the index of the voxel alone; points are quantized again for their sums.
 constexpr int kMaximumIndexBits = kPositionBits - 31;
 /// And the smallest: one bit of an index is not in the record.
 constexpr int kMinimumIndexBits = 2;
+/// Bits of the index of a voxel of a fine lattice, on each axis: z above y above x, in the order of keys.
+constexpr int kFineBits = 21;
 /// Points of a chunk.
 constexpr std::int64_t kChunkPoints = 1250000;
 
@@ -33,14 +35,16 @@ constexpr std::size_t kApart = 128;
 /// Added to an integer below it this leaves the integer in the low bits of the sum.
 constexpr double kToBits = 0x1p52;
 
-constexpr std::uint64_t kPositionMask = (std::uint64_t(1) << kPositionBits) - 1;
+/// Of a position: a double's below its highest.
+constexpr int kDoubleBits = 52;
+constexpr std::uint64_t kPositionMask = (std::uint64_t(1) << kDoubleBits) - 1;
 /// Low bits of z in the first word of a record, below x; as many more are in the second. The top bit of z is
 /// left out: it follows from the partition, as no partition spans half the layers.
 constexpr int kLowBits = 64 - kPositionBits;
 constexpr std::uint64_t kLowMask = (std::uint64_t(1) << kLowBits) - 1;
 
-/// A point record: the quantized position of one point, as low bits of z | x, high bits of z | y. Where more
-/// than sums is wanted, it has a payload (PayloadLayout).
+/// A point record: the quantized position of one point, as low bits of z | x, high bits of z | y; on fine
+/// lattices the index of its voxel, first. Where more than sums is wanted, it has a payload (PayloadLayout).
 struct alignas(16) PointRecord
 {
   std::uint64_t first;
@@ -59,6 +63,7 @@ enum class Motion
   Scale, ///< The matrix is diagonal.
   General,
   Compensated, ///< General, and rounding would cost digits: the pivot is 0, v a dot product in two words.
+  Fine,        ///< Likewise, with more bits than a record has.
 };
 
 /// The constants that quantize points: from coordinates to positions in the lattice, and to partitions.
@@ -68,21 +73,96 @@ struct PointQuantizer
   double pivot[3];
   double matrix[3][3];
   double offset[3];
-  double offsetRest[3]; ///< Rounding error of the offset; only Motion::Compensated uses it.
+  double offsetRest[3]; ///< Rounding error of the offset; only compensated motions use it.
   double quantum[3];    ///< The spacing over a power of two.
   double reciprocal[3]; ///< 1 / quantum, rounded.
   double remainder[3];  ///< Rounding error of the reciprocal, rounded.
   double limit[3];      ///< u below this is inside.
   Motion motion;
-  int fractionBits;      ///< Bits of a position below the voxel.
-  bool correctsRounding; ///< quantizePoint() does: see kUncorrectedIndexBits.
+  int fractionBits; ///< Bits of a position below the voxel.
   // Which partition: (z >> layerShift) * blocksPerLayer + (y >> rowShift).
   std::uint32_t blocksPerLayer;
   int rowShift;
   int layerShift;
 };
 
-struct PointRecordWriter;
+constexpr std::uint32_t kNoBlock = ~std::uint32_t(0);
+
+/// An array whose tuples go with the records of their points.
+struct PayloadArray
+{
+  const char* values; ///< Address of the first number.
+  std::int64_t step;  ///< Bytes from one tuple to the next.
+  int bytes;          ///< Bytes of a tuple.
+  int offset;         ///< In bytes, of a tuple in a payload.
+};
+
+/// Layout of a record's payload: its first word is the number of the point, if that is of use; tuples follow.
+struct PayloadLayout
+{
+  static constexpr int kMostWords = 9;
+  static constexpr int kMostArrays = 8;
+
+  int words = 0; ///< Number of 32-bit words; 0: no payload.
+  bool numbered = false;
+  int count = 0;
+  PayloadArray arrays[kMostArrays] = {};
+};
+
+/// The write position of one thread in each partition.
+struct PointRecordWriter
+{
+  PointRecord** cursors;
+  std::uintptr_t blockMask;  ///< Bytes of a block, less one.
+  PointRecord* records;      ///< Start of all blocks.
+  std::uint32_t* lastBlocks; ///< Last block of each partition, or kNoBlock.
+  std::uint32_t* previous;   ///< For each block, the block before it in its partition, or
+                             ///< kNoBlock.
+  std::uint32_t* taken;      ///< Blocks that all writers have taken: they share it.
+  std::uint32_t nextBlock;   ///< Next of the blocks that were taken in advance.
+  std::uint32_t endBlock;
+  std::uint32_t* payloads;        ///< Payload of each record.
+  PayloadLayout layout;           ///< Layout of a payload.
+  const std::uint32_t* originals; ///< Numbers from the first range's begin on; or null: they ascend.
+  std::uint32_t firstNumber;      ///< Number of the first range's begin.
+  std::int64_t inside;
+  std::int64_t invalid;
+};
+
+/// Blocks a writer takes at once: an atomic operation waits for all stores before it.
+constexpr std::uint32_t kTakenBlocks = 32;
+
+/// Where a partition's first block begins to be filled. All cursors advance at about the same pace: without
+/// this stagger they would compete for the same few sets of the first-level cache. @pre blockRecords: a power
+/// of two.
+static inline std::size_t firstRecord(std::uint32_t partition, std::size_t blockRecords)
+{
+  return kLineRecords * (partition & (blockRecords / kLineRecords - 1));
+}
+
+/// The cursor of a partition: at first, and where it stands at the end of its block, in a new block. Always
+/// inline: a call would take what loops keep in vector registers out of them.
+__attribute__((always_inline)) static inline PointRecord* cursorOf(
+  PointRecordWriter& writer, PointRecord* const* cursors, std::uintptr_t blockMask, std::uint64_t partition)
+{
+  PointRecord* const cursor = cursors[partition];
+  if (__builtin_expect((reinterpret_cast<std::uintptr_t>(cursor) & blockMask) != 0, true))
+  {
+    return cursor;
+  }
+  if (writer.nextBlock == writer.endBlock)
+  {
+    writer.nextBlock = __atomic_fetch_add(writer.taken, kTakenBlocks, __ATOMIC_RELAXED);
+    writer.endBlock = writer.nextBlock + kTakenBlocks;
+  }
+  const std::uint32_t block = writer.nextBlock++;
+  const std::uint32_t last = writer.lastBlocks[partition];
+  writer.previous[block] = last;
+  writer.lastBlocks[partition] = block;
+  const std::size_t blockRecords = (blockMask + 1) / sizeof(PointRecord);
+  return writer.records + block * blockRecords +
+    (last == kNoBlock ? firstRecord(std::uint32_t(partition), blockRecords) : 0);
+}
 
 /// Which cell of a partition a record is in: x + columns (row - firstRow).
 struct CellMap
@@ -123,21 +203,13 @@ struct SecondMoments
   UInt128 lanes[6];
 };
 
-/// Which cells of a partition have points, and the rank of a cell among them: an occupancy bit for each cell
-/// and an entry of the rank table for each word of 64 bits. Both stay in the first-level cache.
-struct CellRanks
+/// Tables to rank the cells of a partition: an occupancy bit for each cell, 0 between partitions, and an
+/// entry of the rank table for each word of 64 bits. Both stay in the first-level cache.
+struct CellTables
 {
   std::uint64_t* occupancy;
   std::uint32_t* rankTable; ///< Occupied cells in the words before.
   std::size_t words;
-};
-
-/// The sums of a partition's occupied cells, in ascending order.
-struct CellSums
-{
-  std::uint32_t* cells;
-  PackedSums* sums;
-  SecondMoments* secondMoments; ///< Or null.
 };
 
 /// Whether the matrix of a transform scales and mirrors only.
@@ -188,13 +260,6 @@ struct MeanMap
   double clearance[3];
 };
 
-/// How second moments become covariances.
-struct CovarianceMap
-{
-  int fractionBits;
-  double unit[3]; ///< A quantum in the frame of the lattice.
-};
-
 /// Elements of the widest vectors.
 constexpr int kWidest = 8;
 
@@ -220,8 +285,8 @@ struct PointKernels
 constexpr int kFewValues = 64;
 /// Bytes of the vectors that lists are read in.
 constexpr int kListVector = 32;
-/// The statistic of a list of up to kFewValues values of one type: see AttributeStatistic. Reads, but does
-/// not use, kListVector bytes past the end.
+/// The statistic of up to kFewValues orderedKey()s of values of one type: see AttributeStatistic. Reads, but
+/// does not use, kListVector bytes past the end.
 using SelectKernel = void (*)(const void* values, int count, void* to);
 
 /// The inner loops for one instruction set.
@@ -245,20 +310,16 @@ struct Kernels
   /// often enough for the hardware's prefetcher.
   void (*cells)(
     const CellMap&, const PointRecord* records, int count, const PointRecord* next, std::uint32_t* cells);
-  /// Sets the occupancy bits of cells.
-  void (*setOccupied)(const std::uint32_t* cells, std::size_t count, std::uint64_t* occupancy);
-  /// Builds the rank table, of the words alone whose bits are set in @p touched, unless that is null.
-  /// @return the number of occupied cells.
-  std::uint32_t (*rankWords)(const CellRanks& ranks, const std::uint64_t* touched);
-  /// Adds records to the sums of their @p cells, which become their ranks among the occupied cells; fetches
-  /// @p next like cells().
-  void (*accumulate)(const CellMap&, const CellRanks& ranks, const PointRecord* records, std::uint32_t* cells,
-    int count, const PointRecord* next, const CellSums& sums);
-  /// Covariances of cells, six numbers each in the order of SecondMoments. Positions among them of those with
-  /// too many points for this go to @p full, at most @p count: theirs are not valid. @return the number of
-  /// these. Reads, but does not use, kWidest elements past the end.
-  int (*covariances)(const CovarianceMap&, const PackedSums* sums, const SecondMoments* secondMoments,
-    int count, double* covariances, int* full);
+  /// Turns the cells of @p count records into ranks among the cells that have records. These go to
+  /// @p occupied in ascending order. @return their number.
+  std::uint32_t (*rank)(
+    const CellTables& tables, std::uint32_t* cells, std::size_t count, std::uint32_t* occupied);
+  /// Adds records to the sums of their ranks, and to the second moments unless these are null; fetches @p
+  /// next like cells().
+  void (*accumulate)(int fractionBits, const PointRecord* records, const std::uint32_t* ranks, int count,
+    const PointRecord* next, PackedSums* sums, SecondMoments* secondMoments);
+  /// Offsets x y z in their voxels of points of a fine lattice. Reads and writes kWidest points past the end.
+  void (*fineOffsets)(const PointQuantizer&, const double* xyz, int count, std::uint64_t* offsets);
   const SelectKernel* modes; ///< In the order of ScalarType.
   const SelectKernel* medians;
 };

@@ -1,10 +1,216 @@
 #include "Core/Resample/Reductions/VoxelReductions.h"
 
+#include "Core/Resample/Kernel/Loops.h"
+#include "Core/Resample/Kernel/OrderedKey.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
 #include <numeric>
 #include <utility>
 
 namespace pointhaptics::simd
 {
+
+namespace
+{
+
+/// The statistic of a list of any length, which this sorts.
+template <typename Key>
+Key statisticOfMany(bool isMedian, Key* keys, std::int64_t count)
+{
+  if (isMedian)
+  {
+    std::nth_element(keys, keys + (count - 1) / 2, keys + count);
+    return keys[(count - 1) / 2];
+  }
+  std::sort(keys, keys + count);
+  Key mode = keys[0];
+  std::int64_t most = 0;
+  for (std::int64_t i = 0, equal = 0; i < count; ++i)
+  {
+    equal = i > 0 && keys[i] == keys[i - 1] ? equal + 1 : 1;
+    mode = equal > most ? keys[i] : mode;
+    most = std::max(most, equal);
+  }
+  return mode;
+}
+
+}
+
+void AttributeTuples::prepare(const AccumulatedArray& kind, const std::vector<std::int64_t>& counts)
+{
+  kind_ = kind;
+  ends_ = counts;
+  std::int64_t tuples = 0;
+  for (std::int64_t& end : ends_)
+  {
+    tuples += std::exchange(end, tuples);
+  }
+  const std::size_t bytes = std::size_t(tuples * bytesOf(kind_.type)) + kListVector;
+  componentBytes_ = (bytes + 63) / 64 * 64;
+  keys_.reserve(componentBytes_ * std::size_t(kind_.components), Pages::Huge);
+}
+
+void AttributeTuples::add(
+  const Tuples& tuples, const std::int64_t* numbers, const std::uint32_t* voxels, int count)
+{
+  withType(kind_.type,
+    [&](auto example)
+    {
+      using T = decltype(example);
+      // Copies, which no store can change.
+      char* const to = keys_.data();
+      std::int64_t* const ends = ends_.data();
+      const std::size_t apart = componentBytes_;
+      const Tuples from = tuples;
+      const auto keep = [=](auto components)
+      {
+        for (int i = 0; i < count; ++i)
+        {
+          const char* const tuple = from.first + from.step * numbers[i];
+          char* const first = to + sizeof(T) * std::size_t(ends[voxels[i]]++);
+          for (std::size_t c = 0; c < components; ++c)
+          {
+            T value;
+            std::memcpy(&value, tuple + c * sizeof(T), sizeof(T));
+            const auto key = orderedKey(value);
+            std::memcpy(first + apart * c, &key, sizeof(T));
+          }
+        }
+      };
+      withWidth(kind_.components, keep);
+    });
+}
+
+void AttributeTuples::write(const Kernels& kernels, void* all) const
+{
+  const bool isMedian = kind_.statistic == AttributeStatistic::Median;
+  const auto select = (isMedian ? kernels.medians : kernels.modes)[std::size_t(kind_.type)];
+  withType(kind_.type,
+    [&](auto example)
+    {
+      using T = decltype(example);
+      T* to = static_cast<T*>(all);
+      forLists<decltype(orderedKey(T()))>(
+        [&](auto* keys, std::int64_t count)
+        {
+          auto key = std::min(keys[0], keys[count - 1]); // Of one or two it is mode and median.
+          if (count > 2)
+          {
+            count <= kFewValues ? select(keys, int(count), &key)
+                                : void(key = statisticOfMany(isMedian, keys, count));
+          }
+          *to++ = valueOfKey<T>(key);
+        });
+    });
+}
+
+TallyValues AttributeTuples::tally() const
+{
+  TallyValues tally;
+  tally.components = kind_.components;
+  withType(kind_.type,
+    [&](auto example)
+    {
+      forLists<decltype(orderedKey(example))>(
+        [&](auto* keys, std::int64_t count)
+        {
+          std::sort(keys, keys + count);
+          for (std::int64_t k = 0; k < count; ++k)
+          {
+            if (k == 0 || keys[k] != keys[k - 1])
+            {
+              tally.values.push_back({ std::int64_t(keys[k]), 0 });
+            }
+            ++tally.values.back().points;
+          }
+          tally.ends.push_back(tally.values.size());
+        });
+    });
+  return tally;
+}
+
+namespace
+{
+
+/// -1, 0 or 1 where point @p a has the smaller value, the same values, or the larger one.
+int compareValues(const AttributeView& view, std::int64_t a, std::int64_t b)
+{
+  int order = 0;
+  withType(view.type,
+    [&](auto example)
+    {
+      using T = decltype(example);
+      for (int c = 0; c < view.components && order == 0; ++c)
+      {
+        T ofA;
+        T ofB;
+        std::memcpy(&ofA, view.tuple(a) + c * std::int64_t(sizeof(T)), sizeof(T));
+        std::memcpy(&ofB, view.tuple(b) + c * std::int64_t(sizeof(T)), sizeof(T));
+        order = int(orderedKey(ofB) < orderedKey(ofA)) - int(orderedKey(ofA) < orderedKey(ofB));
+      }
+    });
+  return order;
+}
+
+const void* addressOf(const PointView& points, std::int64_t i)
+{
+  return points.floats() ? static_cast<const void*>(points.floats() + points.stride() * i)
+                         : points.doubles() + points.stride() * i;
+}
+
+}
+
+NearestPoints::NearestPoints(const VoxelRequest& request, int fractionBits)
+  : request_(&request)
+  , toMean_(request.representative == Representative::NearestToMean)
+  , isIdentity_(request.transform.isIdentity())
+  , middle_(std::ldexp(0.5, fractionBits))
+{
+  const Vec3& spacing = request.lattice.spacing;
+  scale_ = spacing / std::max({ spacing.x, spacing.y, spacing.z });
+}
+
+inline Vec3 NearestPoints::placeOf(std::int64_t point) const
+{
+  const Vec3 p = request_->points[point];
+  return isIdentity_ ? p : request_->transform.apply(p);
+}
+
+bool NearestPoints::goesBefore(std::int64_t a, std::int64_t b) const
+{
+  const Vec3 ofA = placeOf(a);
+  const Vec3 ofB = placeOf(b);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    if (ofA[axis] != ofB[axis])
+    {
+      return ofA[axis] < ofB[axis];
+    }
+  }
+  for (const AttributeView& values : request_->tieBreakers)
+  {
+    const int order = compareValues(values, a, b);
+    if (order != 0)
+    {
+      return order < 0;
+    }
+  }
+  return a < b;
+}
+
+void NearestPoints::write(VoxelWriter& writer, std::size_t first) const
+{
+  constexpr std::size_t kAhead = 32;
+  for (std::size_t v = 0; v < size_; ++v)
+  {
+    fetch(addressOf(request_->points, nearest_[std::min(v + kAhead, size_ - 1)].point));
+    writer.setPoint(first + v, placeOf(nearest_[v].point));
+    writer.chosen()[first + v] = nearest_[v].point;
+  }
+}
 
 std::array<Vec3, 3> normalColumns(const AffineTransform& transform)
 {
@@ -31,46 +237,62 @@ VoxelReductions::VoxelReductions(const VoxelRequest& request, const std::vector<
   }
 }
 
-/// Fetches what addTuples() and note() touch, in time for that.
-void VoxelReductions::fetch(const std::int64_t* points, int count) const
+void VoxelReductions::reduce(const BinnedVoxels& voxels, std::size_t first)
 {
-  for (int i = 0; voxelIndex_ && i < count; ++i)
+  counts_.resize(voxels.size());
+  for (std::size_t v = 0; v < counts_.size(); ++v)
   {
-    fetchToWrite(voxelIndex_ + points[i]);
+    counts_[v] = voxels.count(v);
+  }
+  for (Array& array : arrays_)
+  {
+    isSum(array.kind.statistic) ? array.sums.prepare(array.kind, array.range, counts_)
+                                : array.tuples.prepare(array.kind, counts_);
+  }
+  if (nearest_)
+  {
+    nearest_->prepare(voxels);
+  }
+  voxels.visit(nearest_.has_value(),
+    [&](const PointBlock& block)
+    {
+      fetch(block);
+      for (int i = 0; voxelIndex_ && i < block.count; ++i)
+      {
+        voxelIndex_[block.points[i]] = std::int64_t(first + block.voxels[i]);
+      }
+      addTuples(block);
+      nearest_ ? nearest_->add(block) : void();
+    });
+}
+
+/// Fetches what is touched of each point, in time for that.
+void VoxelReductions::fetch(const PointBlock& block) const
+{
+  for (int i = 0; voxelIndex_ && i < block.count; ++i)
+  {
+    fetchToWrite(voxelIndex_ + block.points[i]);
   }
   // Points in the order of their memory need no fetching.
   const bool readsArrays = std::size_t(payloads_.count) < arrays_.size(); // else points may have no numbers
-  const bool areScattered = readsArrays && count > 0 && points[count - 1] - points[0] != count - 1;
+  const bool areScattered =
+    readsArrays && block.count > 0 && block.points[block.count - 1] - block.points[0] != block.count - 1;
   for (auto a = std::size_t(payloads_.count); areScattered && a < arrays_.size(); ++a)
   {
     const AttributeView& view = arrays_[a].view;
-    const auto* const first = static_cast<const char*>(view.values);
-    const std::int64_t step = view.step();
-    const std::int64_t last = view.tupleBytes() - 1;
-    for (int i = 0; i < count; ++i)
+    for (int i = 0; i < block.count; ++i)
     {
-      const char* const tuple = first + step * points[i];
-      simd::fetch(tuple);
-      simd::fetch(tuple + last);
+      simd::fetch(view.tuple(block.points[i]));
+      simd::fetch(view.tuple(block.points[i]) + view.tupleBytes() - 1);
     }
   }
 }
 
-void VoxelReductions::note(
-  const std::int64_t* points, const std::int64_t* voxels, int count, std::int64_t first) const
-{
-  for (int i = 0; voxelIndex_ && i < count; ++i)
-  {
-    voxelIndex_[points[i]] = first + voxels[i];
-  }
-}
-
-/// Tuples that are in @p payloads are taken from there.
-void VoxelReductions::addTuples(
-  const std::uint32_t* payloads, const std::int64_t* points, const std::int64_t* voxels, int count)
+/// Tuples that are in payloads are taken from there.
+void VoxelReductions::addTuples(const PointBlock& block)
 {
   std::int64_t places[kBlockRecords];
-  std::iota(places, places + (payloads_.count > 0 ? count : 0), 0);
+  std::iota(places, places + (payloads_.count > 0 ? block.count : 0), 0);
   for (std::size_t i = 0; i < arrays_.size(); ++i)
   {
     Array& array = arrays_[i];
@@ -78,12 +300,12 @@ void VoxelReductions::addTuples(
     Tuples tuples = { static_cast<const char*>(array.view.values), array.view.step() };
     if (isPayload)
     {
-      tuples = { reinterpret_cast<const char*>(payloads) + payloads_.arrays[i].offset,
+      tuples = { reinterpret_cast<const char*>(block.payloads) + payloads_.arrays[i].offset,
         std::int64_t(sizeof(std::uint32_t)) * payloads_.words };
     }
-    const std::int64_t* const numbers = isPayload ? places : points;
-    isSum(array.kind.statistic) ? array.sums.add(array.kind.type, tuples, numbers, voxels, count)
-                                : array.tuples.add(tuples, numbers, voxels, count);
+    const std::int64_t* const numbers = isPayload ? places : block.points;
+    isSum(array.kind.statistic) ? array.sums.add(array.kind.type, tuples, numbers, block.voxels, block.count)
+                                : array.tuples.add(tuples, numbers, block.voxels, block.count);
   }
 }
 

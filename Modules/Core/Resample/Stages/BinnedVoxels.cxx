@@ -1,121 +1,99 @@
 #include "Core/Resample/Stages/BinnedVoxels.h"
 
+#include "Core/Base/RadixSort.h"
 #include "Core/Resample/Kernel/Loops.h"
+
+#include <algorithm>
 
 namespace pointhaptics::simd
 {
 namespace
 {
 
-/// Number of 64-bit words that hold an occupancy bit for each cell of a partition.
-std::size_t occupancyWords(const PartitionPlan& plan)
-{
-  return (plan.cells() - 1) / 64 + 1;
-}
-
-/// A partition with less than one record for so many occupancy words is sparse: to visit the words in use
-/// takes less time than to count and clear all.
+/// Where a partition has less than one record for so many words of occupancy bits, to sort the records takes
+/// less time than to visit all words.
 constexpr std::size_t kWordsPerSparseRecord = 3;
 
 }
 
-void BinnedVoxels::prepare(const VoxelRequest& request, const PointBinner& binner)
+void BinnedVoxels::prepare(const VoxelRequest& request, const Chunks& chunks, const PointBinner& binner)
 {
+  request_ = &request;
+  chunks_ = &chunks;
   binner_ = &binner;
   kernels_ = &kernelsFor(request.instructions);
-  covariances_ = request.covariances;
-}
-
-/// Grows the tables to the cells of a partition, with all bits 0. The thread that sums does this and not
-/// prepare(), since whoever writes to a page first gets it near its own core.
-void BinnedVoxels::makeTables()
-{
-  const std::size_t words = occupancyWords(plan());
-  if (occupancy_.reserve(words))
-  {
-    std::fill(occupancy_.data(), occupancy_.data() + words, 0);
-  }
-  const std::size_t touchedWords = (words + 63) / 64; // a bit for each occupancy word
-  if (touched_.reserve(touchedWords))
-  {
-    std::fill(touched_.data(), touched_.data() + touchedWords, 0);
-  }
-  rankTable_.reserve(words);
-}
-
-CellRanks BinnedVoxels::ranks() const
-{
-  return { occupancy_.data(), rankTable_.data(), occupancyWords(plan()) };
-}
-
-/// Builds the rank table for the occupied cells, which are those of the records.
-void BinnedVoxels::rankOccupied()
-{
-  isSparse_ = kWordsPerSparseRecord * records_ < occupancyWords(plan());
-  std::uint64_t* const touched = touched_.data(); // which no store can change
-  const std::uint32_t* const cells = recordCells_.data();
-  if (isSparse_)
-  {
-    fromFourParts(
-      records_, [=](std::size_t i) { touched[cells[i] / 4096] |= std::uint64_t(1) << (cells[i] / 64 % 64); });
-  }
-  voxels_.size = kernels_->rankWords(ranks(), isSparse_ ? touched : nullptr);
 }
 
 std::size_t BinnedVoxels::find(std::uint32_t partition)
 {
   partition_ = partition;
   voxels_ = { plan().cellMap(partition), plan().firstKey(partition), nullptr, nullptr, nullptr, 0 };
-  records_ = binner_->pool().count(partition);
-  isWide_ = records_ > kMostPackedPoints;
+  records_ = binner_->count(partition);
+  isWide_ = plan().isFine || records_ > kMostPackedPoints;
   if (records_ == 0)
   {
     return 0;
   }
-  makeTables();
-  recordCells_.reserve(records_);
-  forBlocks([&](const PointRecordPool::Walk& block, std::uint32_t* cells)
-    { kernels_->cells(voxels_.map, block.records(), block.count(), block.recordsAhead(), cells); });
-  // All blocks go in one call: records of one block of a scan share words and would wait for each other.
-  kernels_->setOccupied(recordCells_.data(), records_, occupancy_.data());
-  rankOccupied();
+  ranks_.reserve(records_);
+  const std::size_t words = (plan().cells() - 1) / 64 + 1;
+  const bool isSparse = kWordsPerSparseRecord * records_ < words;
+  // With what kernels read, but do not use, beyond the end.
+  cells_.reserve(records_ + kWidest);
+  plan().isFine ? void() : findCells();
+  if (plan().isFine || isSparse)
+  {
+    sortKeys();
+    return voxels_.size;
+  }
+  // By the thread that sums, not by prepare(): whoever writes to a page first gets it near its own core.
+  if (occupancy_.reserve(words))
+  {
+    std::fill_n(occupancy_.data(), words, 0);
+  }
+  rankTable_.reserve(words);
+  const CellTables tables = { occupancy_.data(), rankTable_.data(), words };
+  voxels_.size = kernels_->rank(tables, ranks_.data(), records_, cells_.data());
   return voxels_.size;
 }
 
-/// Clears the occupancy bits, by the cells of the records or of the voxels.
-void BinnedVoxels::drop()
+/// The cells of the records.
+void BinnedVoxels::findCells()
 {
-  if (voxels_.size == 0)
+  std::uint32_t* cells = ranks_.data();
+  for (PointBinner::Walk block(*binner_, partition_); block.next(); cells += block.count())
   {
-    return;
+    kernels_->cells(voxels_.map, block.records(), block.count(), block.recordsAhead(), cells);
   }
-  const std::size_t words = occupancyWords(plan());
-  if (!isSparse_)
+}
+
+/// Ranks the voxels of the records by sorting these.
+void BinnedVoxels::sortKeys()
+{
+  keys_.resize(records_);
+  otherKeys_.resize(records_);
+  std::uint32_t record = 0;
+  for (PointBinner::Walk block(*binner_, partition_); block.next();)
   {
-    std::fill(occupancy_.data(), occupancy_.data() + words, 0);
-    return;
+    for (int i = 0; i < block.count(); ++i, ++record)
+    {
+      keys_[record] = { plan().isFine ? block.records()[i].first : ranks_[record], record };
+    }
   }
-  const std::uint32_t* const cells = voxels_.cells ? voxels_.cells : recordCells_.data();
-  const std::size_t count = voxels_.cells ? voxels_.size : records_;
-  for (std::size_t i = 0; i < count; ++i)
+  radixSort(keys_, otherKeys_, records_, [](const Key& key) { return key.voxel; });
+  for (std::size_t i = 0; i < records_; ++i)
   {
-    occupancy_[cells[i] / 64] = 0;
+    voxels_.size += i == 0 || keys_[i].voxel != keys_[voxels_.size - 1].voxel;
+    const std::size_t rank = voxels_.size - 1;
+    keys_[rank].voxel = keys_[i].voxel;
+    cells_[rank] = std::uint32_t(keys_[i].voxel);
+    ranks_[keys_[i].record] = std::uint32_t(rank);
   }
-  std::fill(touched_.data(), touched_.data() + (words + 63) / 64, 0);
 }
 
 void BinnedVoxels::sum()
 {
-  if (voxels_.size == 0)
-  {
-    wide_.start(0, false);
-    return;
-  }
-  // With what kernels read, but do not use, beyond the end.
-  cells_.resize(std::max(cells_.size(), voxels_.size + kWidest));
-  isWide_ ? sumWide() : sumPacked();
   voxels_.cells = cells_.data();
-  drop();
+  isWide_ ? sumWide() : sumPacked();
 }
 
 void BinnedVoxels::sumPacked()
@@ -124,41 +102,60 @@ void BinnedVoxels::sumPacked()
   packed_.resize(std::max(packed_.size(), room));
   std::fill_n(packed_.data(), voxels_.size, PackedSums{});
   voxels_.sums = packed_.data();
-  if (covariances_)
+  if (request_->covariances)
   {
     secondMoments_.resize(std::max(secondMoments_.size(), room));
     std::fill_n(secondMoments_.data(), voxels_.size, SecondMoments{});
     voxels_.secondMoments = secondMoments_.data();
   }
-  const CellSums sums = { cells_.data(), packed_.data(), covariances_ ? secondMoments_.data() : nullptr };
-  PointRecordPool::Walk following(binner_->pool(), binner_->pool().following(partition_));
-  forBlocks(
-    [&](const PointRecordPool::Walk& block, std::uint32_t* cells)
-    {
-      const PointRecord* const next = following.next() ? following.records() : block.records();
-      block.fetchPayloads(); // for visit()
-      kernels_->accumulate(voxels_.map, ranks(), block.records(), cells, block.count(), next, sums);
-    });
+  PointBinner::Walk following(*binner_, binner_->following(partition_));
+  const std::uint32_t* ranks = ranks_.data();
+  for (PointBinner::Walk block(*binner_, partition_); block.next(); ranks += block.count())
+  {
+    const PointRecord* const next = following.next() ? following.records() : block.records();
+    block.fetchPayloads(); // for visit()
+    kernels_->accumulate(plan().fractionBits, block.records(), ranks, block.count(), next, packed_.data(),
+      request_->covariances ? secondMoments_.data() : nullptr);
+  }
 }
 
 void BinnedVoxels::sumWide()
 {
-  wide_.start(voxels_.size, covariances_);
-  const std::uint64_t mask = (std::uint64_t(1) << plan().fractionBits) - 1;
-  forBlocks(
-    [&](const PointRecordPool::Walk& block, std::uint32_t* cells)
+  wide_.start(voxels_.size, request_->covariances);
+  constexpr std::uint64_t kMask = (std::uint64_t(1) << kFineBits) - 1;
+  for (std::size_t v = 0; v < voxels_.size; ++v)
+  {
+    const auto index = [&](int axis) { return std::int64_t(keys_[v].voxel >> axis * kFineBits & kMask); };
+    wide_.voxels[v].key =
+      plan().isFine ? request_->lattice.key(index(0), index(1), index(2)) : voxels_.firstKey + cells_[v];
+  }
+  visit(true,
+    [&](const PointBlock& block)
     {
-      for (int i = 0; i < block.count(); ++i)
+      for (int i = 0; i < block.count; ++i)
       {
-        const std::uint32_t cell = cells[i];
-        const std::uint64_t below = occupancy_[cell / 64] & ((std::uint64_t(1) << (cell % 64)) - 1);
-        cells[i] = rankTable_[cell / 64] + std::uint32_t(__builtin_popcountll(below));
-        cells_[cells[i]] = cell;
-        wide_.voxels[cells[i]].key = voxels_.firstKey + cell;
-        const PointRecord& r = block.records()[i];
-        wide_.addPoint(cells[i], { xFraction(r, mask), yFraction(r, mask), zFraction(r, mask) });
+        wide_.addPoint(block.voxels[i], block.offsets[i]);
       }
     });
+}
+
+/// Of points whose numbers the block has.
+void BinnedVoxels::copyOffsets(const PointBinner::Walk& from, PointBlock& block) const
+{
+  if (plan().isFine)
+  {
+    Vec3 points[kBlockRecords + kWidest];
+    std::transform(block.points, block.points + block.count, points,
+      [&](std::int64_t point) { return chunks_->points()[point]; });
+    kernels_->fineOffsets(binner_->quantizer(), &points[0].x, block.count, block.offsets[0].data());
+    return;
+  }
+  const std::uint64_t mask = (std::uint64_t(1) << plan().fractionBits) - 1;
+  for (int i = 0; i < block.count; ++i)
+  {
+    const PointRecord& r = from.records()[i];
+    block.offsets[i] = { xFraction(r, mask), yFraction(r, mask), zFraction(r, mask) };
+  }
 }
 
 VoxelRun BinnedVoxels::wide() const
@@ -173,8 +170,8 @@ VoxelRun BinnedVoxels::wide() const
   {
     run.voxels[i] = WideSums::of(voxels_.firstKey + voxels_.cells[i], voxels_.sums[i]);
   }
-  run.secondMoments.assign(
-    secondMoments_.begin(), secondMoments_.begin() + std::ptrdiff_t(covariances_ ? voxels_.size : 0));
+  run.secondMoments.assign(secondMoments_.begin(),
+    secondMoments_.begin() + std::ptrdiff_t(request_->covariances ? voxels_.size : 0));
   return run;
 }
 
@@ -185,8 +182,8 @@ void BinnedVoxels::write(const Kernels& kernels, VoxelWriter& writer, std::size_
 
 std::size_t BinnedVoxels::bytes() const
 {
-  return occupancy_.bytes() + touched_.bytes() + rankTable_.bytes() + recordCells_.bytes() +
-    cells_.capacity() * sizeof(std::uint32_t) + packed_.capacity() * sizeof(PackedSums) +
+  return occupancy_.bytes() + rankTable_.bytes() + ranks_.bytes() + cells_.bytes() +
+    (keys_.capacity() + otherKeys_.capacity()) * sizeof(Key) + packed_.capacity() * sizeof(PackedSums) +
     secondMoments_.capacity() * sizeof(SecondMoments) + wide_.bytes();
 }
 

@@ -4,6 +4,7 @@
 #include "Core/Resample/Stages/PointQuantizer.h"
 
 #include <algorithm>
+#include <numeric>
 #include <type_traits>
 
 namespace pointhaptics::simd
@@ -11,13 +12,10 @@ namespace pointhaptics::simd
 namespace
 {
 
-/// Most cells of a partition: their occupancy bits should stay in the second-level cache. (The sums do
-/// anyway: a chunk has a few thousand records in a partition.)
-constexpr std::size_t kMostCells = std::size_t(1) << 22;
 /// While records are binned, the cursors of more partitions than this do not fit the first-level cache.
 constexpr std::uint32_t kMostPartitions = 512;
-/// On large lattices they are more: points would be sorted otherwise.
-constexpr std::uint32_t kMostLargePartitions = 2048;
+/// Cells of a partition whose numbers vectors convert.
+constexpr std::size_t kMostCells = std::size_t(1) << 31;
 /// Fewer points than this in a partition on average do not pay its overhead: a dozen loops, each with a
 /// mispredicted end.
 constexpr std::int64_t kPointsPerPartition = 1024;
@@ -51,6 +49,19 @@ PayloadLayout payloadLayoutOf(const std::vector<AttributeView>& arrays, bool num
 std::uint32_t blocks(std::uint32_t count, int shift)
 {
   return ((count - 1) >> shift) + 1;
+}
+
+/// A writer leaves the first and the last block of a partition partly empty: many writers get small ones.
+std::size_t blockRecordsFor(std::size_t writers)
+{
+  constexpr std::size_t kFewWriters = 4;
+  constexpr std::size_t kLeastRecords = kBlockRecords / 8;
+  std::size_t records = kBlockRecords;
+  for (std::size_t few = kFewWriters; few < writers && records > kLeastRecords; few *= 2)
+  {
+    records /= 2;
+  }
+  return records;
 }
 
 /// Bins ranges of points: all at once, or block by block where other fields lie between points.
@@ -90,30 +101,28 @@ void binRanges(const Kernels& kernels, const PointQuantizer& quantizer, const Ch
 
 }
 
-PartitionPlan makePlan(const Lattice& lattice, int indexBits, std::int64_t points)
+PartitionPlan makePlan(const Lattice& lattice, std::int64_t points)
 {
+  const int indexBits = indexBitsOf(lattice);
   PartitionPlan plan;
   plan.columns = std::uint32_t(lattice.dimensions[0]);
   plan.rowsPerLayer = std::uint32_t(lattice.dimensions[1]);
   const auto layers = std::uint32_t(lattice.dimensions[2]);
-  plan.fractionBits = kPositionBits - indexBits;
+  plan.fractionBits = fractionBitsOf(lattice);
+  plan.isFine = indexBits > kMaximumIndexBits;
   const std::uint32_t half = std::uint32_t(1) << (indexBits - 1);
   plan.upperRows = layers > half ? plan.rowsPerLayer * half : 0;
 
   const auto wanted = std::uint32_t(
     std::min<std::int64_t>(std::max<std::int64_t>(points / kPointsPerPartition, 1), kMostPartitions));
   // No partition may span more than half the layers.
-  while (blocks(layers, plan.layerShift) > wanted && plan.layerShift < indexBits - 1)
+  while (blocks(layers, plan.layerShift) > wanted && plan.layerShift < indexBits - 1 &&
+    (plan.isFine || 2 * plan.cells() <= kMostCells))
   {
     ++plan.layerShift;
   }
-  while (plan.layerShift > 0 && plan.cells() > kMostCells)
-  {
-    --plan.layerShift;
-  }
   plan.rowShift = indexBits;
-  while (plan.layerShift == 0 && plan.rowShift > 0 &&
-    (plan.cells() > kMostCells || 2 * layers * plan.blocksPerLayer <= wanted))
+  while (plan.layerShift == 0 && plan.rowShift > 0 && 2 * layers * plan.blocksPerLayer <= wanted)
   {
     --plan.rowShift;
     plan.blocksPerLayer = blocks(plan.rowsPerLayer, plan.rowShift);
@@ -122,25 +131,16 @@ PartitionPlan makePlan(const Lattice& lattice, int indexBits, std::int64_t point
   return plan;
 }
 
-bool fitsPartitions(const Lattice& lattice, int indexBits)
-{
-  if (indexBits < kMinimumIndexBits || indexBits > kMaximumIndexBits)
-  {
-    return false;
-  }
-  const PartitionPlan plan = makePlan(lattice, indexBits, kChunkPoints);
-  return plan.cells() <= kMostCells && plan.partitions <= kMostLargePartitions;
-}
-
 void PointBinner::prepare(
   const VoxelRequest& request, const Chunks& chunks, const std::vector<AttributeView>& arrays, bool numbered)
 {
-  plan_ = makePlan(request.lattice, indexBitsOf(request.lattice), chunks.pointCount(0));
+  plan_ = makePlan(request.lattice, chunks.pointCount(0));
   quantizer_ = makeQuantizer(request.transform, request.lattice);
   quantizer_.blocksPerLayer = plan_.blocksPerLayer;
   quantizer_.rowShift = plan_.rowShift;
   quantizer_.layerShift = plan_.layerShift;
-  payloadLayout_ = payloadLayoutOf(arrays, numbered);
+  // Points of fine lattices are quantized again: their numbers are all that goes with them.
+  payloadLayout_ = plan_.isFine ? payloadLayoutOf({}, true) : payloadLayoutOf(arrays, numbered);
 }
 
 void PointBinner::start(const Chunks& chunks, std::size_t first, std::size_t last, const Executor& executor)
@@ -157,7 +157,23 @@ void PointBinner::start(const Chunks& chunks, std::size_t first, std::size_t las
   {
     points += chunks.pointCount(chunk);
   }
-  pool_.prepare(points, plan_.partitions, executor.concurrency(), layout, firstNumber_);
+  writers_.resize(std::size_t(std::max(executor.concurrency(), 1)));
+  blockRecords_ = blockRecordsFor(writers_.size());
+  const std::size_t blocks =
+    std::size_t(points) / blockRecords_ + writers_.size() * (2 * plan_.partitions + kTakenBlocks);
+  records_.reserve(blocks * blockRecords_, Pages::Huge);
+  previous_.reserve(blocks);
+  payloads_.reserve(std::size_t(layout.words) * blocks * blockRecords_, Pages::Huge);
+  takenBlocks_ = 0;
+  for (std::unique_ptr<Writer>& writer : writers_)
+  {
+    writer = writer ? std::move(writer) : std::make_unique<Writer>();
+    writer->cursorStorage.assign(plan_.partitions, nullptr);
+    writer->lastStorage.assign(plan_.partitions, kNoBlock);
+    static_cast<PointRecordWriter&>(*writer) = { writer->cursorStorage.data(),
+      blockRecords_ * sizeof(PointRecord) - 1, records_.data(), writer->lastStorage.data(), previous_.data(),
+      &takenBlocks_, 0, 0, payloads_.data(), layout, nullptr, 0, 0, 0 };
+  }
 }
 
 void PointBinner::add(
@@ -167,12 +183,48 @@ void PointBinner::add(
   const std::int64_t grain = std::max<std::int64_t>(1, pieces / (16 * executor.concurrency()));
   forEachItemWith(
     executor, std::size_t((pieces + grain - 1) / grain),
-    [&](std::size_t thread) -> PointRecordWriter& { return pool_.writer(thread); },
+    [&](std::size_t thread) -> PointRecordWriter& { return *writers_[thread]; },
     [&](std::size_t item, PointRecordWriter& writer)
     {
       const std::int64_t first = std::int64_t(item) * grain;
       binRanges(kernelsFor(request.instructions), quantizer_, chunks, chunks.pieces(chunk) + first,
         std::min(grain, pieces - first), firstNumber_, writer);
+    });
+}
+
+std::uint32_t PointBinner::following(std::uint32_t partition) const
+{
+  do
+  {
+    partition += std::uint32_t(writers_.size());
+  } while (partition < plan_.partitions && !Walk(*this, partition).next());
+  return std::min(partition, plan_.partitions);
+}
+
+std::size_t PointBinner::count(std::uint32_t partition) const
+{
+  std::size_t sum = 0;
+  for (Walk walk(*this, partition); walk.next();)
+  {
+    sum += std::size_t(walk.count());
+  }
+  return sum;
+}
+
+std::int64_t PointBinner::total(std::int64_t PointRecordWriter::*count) const
+{
+  return std::accumulate(writers_.begin(), writers_.end(), std::int64_t(0),
+    [=](std::int64_t sum, const std::unique_ptr<Writer>& writer) { return sum + (*writer).*count; });
+}
+
+std::size_t PointBinner::bytes() const
+{
+  return std::accumulate(writers_.begin(), writers_.end(),
+    records_.bytes() + payloads_.bytes() + previous_.bytes(),
+    [](std::size_t sum, const std::unique_ptr<Writer>& writer)
+    {
+      return sum + writer->cursorStorage.capacity() * sizeof(PointRecord*) +
+        writer->lastStorage.capacity() * sizeof(kNoBlock);
     });
 }
 

@@ -13,81 +13,53 @@ namespace
 /// at most a third larger than the largest, and no voxel is copied more than a few times.
 constexpr std::size_t kRunRatio = 4;
 
-/// Sums of the voxels of a group. @return false where less than nothing is left.
-bool sumGroup(
-  const std::vector<const VoxelRun*>& runs, const VoxelGroups& groups, std::size_t group, VoxelRun& to)
+}
+
+bool VoxelRun::append(const VoxelRun* a, std::size_t i, const VoxelRun* b, std::size_t j, int sign)
 {
+  const VoxelRun& either = a ? *a : *b;
+  WideSums sums = a ? a->voxels[i] : WideSums{ b->voxels[j].key, 0, { 0, 0, 0 }, 0 };
   bool isRight = true;
-  for (std::size_t i = groups.beginOf(group); i < groups.ends[group]; ++i)
+  if (b)
   {
-    const VoxelGroups::Voxel& voxel = groups.voxels[i];
-    const VoxelRun& run = *runs[std::size_t(voxel.run)];
-    const int sign = groups.signOf(voxel);
-    WideSums& sums = to.voxels[group];
-    sums.key = run.voxels[voxel.number].key;
-    if (sign > 0)
+    sign > 0 ? sums.add(b->voxels[j]) : void(isRight = sums.subtract(b->voxels[j]));
+  }
+  voxels.push_back(sums);
+  if (either.hasMoments())
+  {
+    SecondMoments moments = a ? a->secondMoments[i] : SecondMoments{};
+    for (int m = 0; b && m < 6; ++m)
     {
-      sums.add(run.voxels[voxel.number]);
+      moments.lanes[m] += sign > 0 ? b->secondMoments[j].lanes[m] : -b->secondMoments[j].lanes[m];
     }
-    else
-    {
-      isRight = sums.subtract(run.voxels[voxel.number]) && isRight;
-    }
-    if (run.hasMoments())
-    {
-      add(to.secondMoments[group], run.secondMoments[voxel.number], sign);
-    }
+    secondMoments.push_back(moments);
+  }
+  tallies.resize(either.tallies.size());
+  for (std::size_t array = 0; array < tallies.size(); ++array)
+  {
+    isRight =
+      tallies[array].append(a ? &a->tallies[array] : nullptr, i, b ? &b->tallies[array] : nullptr, j, sign) &&
+      isRight;
   }
   return isRight;
 }
 
-}
-
-VoxelRun VoxelRun::gathered(
-  const std::vector<const VoxelRun*>& runs, const VoxelGroups& groups, bool& isRight)
+void VoxelRun::append(const VoxelRun& run, std::size_t first, std::size_t last)
 {
-  VoxelRun all;
-  all.start(groups.size(),
-    std::any_of(runs.begin(), runs.end(), [](const VoxelRun* run) { return run->hasMoments(); }));
-  for (std::size_t group = 0; group < groups.size(); ++group)
+  const auto at = [](const auto& of, std::size_t i) { return of.begin() + std::ptrdiff_t(i); };
+  voxels.insert(voxels.end(), at(run.voxels, first), at(run.voxels, last));
+  if (run.hasMoments())
   {
-    isRight = sumGroup(runs, groups, group, all) && isRight;
+    secondMoments.insert(secondMoments.end(), at(run.secondMoments, first), at(run.secondMoments, last));
   }
-  std::size_t arrays = 0;
-  for (const VoxelRun* run : runs)
+  tallies.resize(std::max(tallies.size(), run.tallies.size()));
+  for (std::size_t array = 0; array < run.tallies.size(); ++array)
   {
-    arrays = std::max(arrays, run->tallies.size());
-  }
-  const VoxelTally none; // A run without voxels has none.
-  for (std::size_t array = 0; array < arrays; ++array)
-  {
-    std::vector<const VoxelTally*> tallies;
-    for (const VoxelRun* run : runs)
+    for (std::size_t voxel = first; voxel < last; ++voxel)
     {
-      tallies.push_back(run->tallies.empty() ? &none : &run->tallies[array]);
+      static_cast<void>(tallies[array].append(&run.tallies[array], voxel, nullptr, 0, 1));
     }
-    all.tallies.push_back(VoxelTally::gathered(tallies, groups, isRight));
   }
-  return all;
-}
-
-VoxelRun VoxelRun::concatenated(const std::vector<const VoxelRun*>& runs)
-{
-  VoxelGroups groups;
-  for (std::size_t run = 0; run < runs.size(); ++run)
-  {
-    groups.add(int(run), 0, runs[run]->size());
-  }
-  bool isRight = true; // Sums of points are.
-  return gathered(runs, groups, isRight);
-}
-
-VoxelRun VoxelRun::part(std::size_t first, std::size_t last) const
-{
-  VoxelGroups groups;
-  groups.add(0, first, last);
-  bool isRight = true;
-  return gathered({ this }, groups, isRight);
 }
 
 std::size_t VoxelRun::bytes() const
@@ -99,29 +71,22 @@ std::size_t VoxelRun::bytes() const
 
 VoxelRun merged(const VoxelRun& a, const VoxelRun& b, int sign, bool& isRight)
 {
-  VoxelGroups groups;
-  groups.sign = sign;
-  groups.voxels.reserve(a.size() + b.size());
-  groups.ends.reserve(a.size() + b.size());
+  VoxelRun all;
+  all.voxels.reserve(a.size() + b.size());
+  all.secondMoments.reserve(a.secondMoments.size() + b.secondMoments.size());
   for (std::size_t i = 0, j = 0; i < a.size() || j < b.size();)
   {
     const bool isIn = i < a.size() && (j == b.size() || a.voxels[i].key <= b.voxels[j].key);
     const bool isInOther = j < b.size() && (!isIn || b.voxels[j].key == a.voxels[i].key);
     const bool isEmpty = sign < 0 && isIn && isInOther && a.voxels[i].count == b.voxels[j].count;
-    if (isEmpty) // has no sums either
-    {
-      isRight = WideSums(a.voxels[i]).subtract(b.voxels[j]) && isRight;
-    }
-    else
-    {
-      isIn ? groups.voxels.push_back({ 0, i }) : void();
-      isInOther ? groups.voxels.push_back({ 1, j }) : void();
-      groups.ends.push_back(groups.voxels.size());
-    }
+    // What is empty has no sums either.
+    const bool isLeft = isEmpty ? WideSums(a.voxels[i]).subtract(b.voxels[j])
+                                : all.append(isIn ? &a : nullptr, i, isInOther ? &b : nullptr, j, sign);
+    isRight = isRight && isLeft;
     i += isIn;
     j += isInOther;
   }
-  return VoxelRun::gathered({ &a, &b }, groups, isRight);
+  return all;
 }
 
 void VoxelRuns::add(VoxelRun run)

@@ -15,18 +15,6 @@
 namespace pointhaptics::simd
 {
 
-/// Rounded once, as the compiler's own conversion of 128 bits is; nearly all values take the quick way.
-inline double toDouble(Int128 value)
-{
-  constexpr std::int64_t kExact = std::int64_t(1) << 53;
-  const auto high = std::int64_t(value >> 32);
-  if (Int128(high) == value >> 32 && high > -kExact && high < kExact)
-  {
-    return double(high) * 0x1p32 + double(std::uint32_t(value));
-  }
-  return double(value);
-}
-
 /// Sums over the points of a voxel of their offsets in it, in quanta: below 2^85.
 struct WideSums
 {
@@ -80,14 +68,6 @@ struct WideSums
   std::array<double, 3> sums() const { return { double(sum(0)), double(sum(1)), double(sum(2)) }; }
 };
 
-inline void add(SecondMoments& to, const SecondMoments& moments, int sign = 1)
-{
-  for (int m = 0; m < 6; ++m)
-  {
-    to.lanes[m] += sign > 0 ? moments.lanes[m] : -moments.lanes[m];
-  }
-}
-
 /// Voxels in ascending order of their keys. Second moments are empty unless asked for, and tallies, one for
 /// each array, unless arrays are accumulated.
 struct VoxelRun
@@ -126,14 +106,11 @@ struct VoxelRun
       addProducts(secondMoments[voxel], offset[0], offset[1], offset[2]);
     }
   }
-  /// The sums of groups of the voxels of some runs. @p isRight becomes false where that leaves less than
-  /// nothing.
-  static VoxelRun gathered(
-    const std::vector<const VoxelRun*>& runs, const VoxelGroups& groups, bool& isRight);
-  /// Joins runs whose keys ascend from each to the next.
-  static VoxelRun concatenated(const std::vector<const VoxelRun*>& runs);
-  /// The voxels from @p first to before @p last.
-  VoxelRun part(std::size_t first, std::size_t last) const;
+  /// Appends voxel @p i of @p a and @p sign times voxel @p j of @p b, the same voxel; either may be null.
+  /// @return false where that leaves less than nothing.
+  bool append(const VoxelRun* a, std::size_t i, const VoxelRun* b, std::size_t j, int sign);
+  /// Appends the voxels from @p first to before @p last of a run whose keys are above all here.
+  void append(const VoxelRun& run, std::size_t first, std::size_t last);
   std::size_t bytes() const;
 };
 

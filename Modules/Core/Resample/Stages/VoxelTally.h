@@ -17,24 +17,17 @@
 namespace pointhaptics::simd
 {
 
-/// Voxels of some runs, in groups of which each becomes one.
-struct VoxelGroups
+/// Rounded once, as the compiler's own conversion of 128 bits is; nearly all values take the quick way.
+inline double toDouble(Int128 value)
 {
-  struct Voxel
+  constexpr std::int64_t kExact = std::int64_t(1) << 53;
+  const auto high = std::int64_t(value >> 32);
+  if (Int128(high) == value >> 32 && high > -kExact && high < kExact)
   {
-    int run;
-    std::size_t number;
-  };
-  std::vector<Voxel> voxels;
-  std::vector<std::size_t> ends; ///< End of each group among these.
-  int sign = 1;                  ///< -1: those of all runs but the first are taken away.
-
-  std::size_t size() const { return ends.size(); }
-  std::size_t beginOf(std::size_t group) const { return group == 0 ? 0 : ends[group - 1]; }
-  int signOf(const Voxel& voxel) const { return voxel.run == 0 ? 1 : sign; }
-  /// Adds voxels of a run, each as a group.
-  void add(int run, std::size_t first, std::size_t last);
-};
+    return double(high) * 0x1p32 + double(std::uint32_t(value));
+  }
+  return double(value);
+}
 
 /// Calls body(width), of one and of three components as a number that the compiler knows.
 template <typename Body>
@@ -77,12 +70,11 @@ public:
   void prepare(
     const AccumulatedArray& kind, const AttributeRange& range, const std::vector<std::int64_t>& counts);
   /// Adds tuple numbers[i] to voxels[i].
-  void add(ScalarType type, const Tuples& tuples, const std::int64_t* numbers, const std::int64_t* voxels,
+  void add(ScalarType type, const Tuples& tuples, const std::int64_t* numbers, const std::uint32_t* voxels,
     int count);
-  /// The sums of groups of the voxels of some tallies. @p isRight becomes false where fewer than no numbers
-  /// are left that are not finite.
-  static TallySums gathered(
-    const std::vector<const TallySums*>& runs, const VoxelGroups& groups, bool& isRight);
+  /// Appends the sum of voxel @p i of @p a and @p sign times voxel @p j of @p b; either may be null. @return
+  /// false where fewer than no numbers are left that are not finite.
+  bool append(const TallySums* a, std::size_t i, const TallySums* b, std::size_t j, int sign);
   /// Writes the means of voxels @p first to before @p last, of @p counts numbers each; vectors turned by @p
   /// columns.
   void write(const AccumulatedArray& kind, std::size_t first, std::size_t last, const std::int64_t* counts,
@@ -96,11 +88,13 @@ public:
 private:
   std::uint64_t* at(std::size_t sum) { return values.data() + sum * std::size_t(words); }
   const std::uint64_t* at(std::size_t sum) const { return values.data() + sum * std::size_t(words); }
+  void addWide(Int128 number, int shift, std::size_t sum);
   template <typename T>
   void addNumber(T number, std::size_t sum);
   bool add(std::size_t sum, const TallySums& from, std::size_t other, int sign);
-  double mean(std::size_t sum, std::int64_t count) const;
+  double mean(std::size_t sum, std::int64_t count, double scale) const;
   void fit(int newUnit, int newWords);
+  void cover(const TallySums& other);
 };
 
 /// So many points have a value, of which this is the orderedKey().
@@ -131,8 +125,7 @@ struct TallyValues
     std::int64_t middle(std::int64_t count) const;
   };
   /// As of TallySums: points with a value.
-  static TallyValues gathered(
-    const std::vector<const TallyValues*>& runs, const VoxelGroups& groups, bool& isRight);
+  bool append(const TallyValues* a, std::size_t i, const TallyValues* b, std::size_t j, int sign);
   std::size_t beginOf(std::size_t list) const { return list == 0 ? 0 : ends[list - 1]; }
   List operator[](std::size_t list) const
   {
@@ -149,8 +142,7 @@ public:
   TallyValues values;
 
   /// As of TallySums.
-  static VoxelTally gathered(
-    const std::vector<const VoxelTally*>& runs, const VoxelGroups& groups, bool& isRight);
+  bool append(const VoxelTally* a, std::size_t i, const VoxelTally* b, std::size_t j, int sign);
   /// Writes the tuples of voxels @p first to before @p last, of @p counts points each; vectors turned by @p
   /// columns.
   void write(const AccumulatedArray& kind, std::size_t first, std::size_t last, const std::int64_t* counts,

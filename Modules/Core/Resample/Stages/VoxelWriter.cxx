@@ -21,13 +21,13 @@ SymMat3 covarianceOf(std::int64_t count, const Int128 sums[3], const SecondMomen
   for (int axis = 0; axis < 3; ++axis)
   {
     m[axis] = std::int64_t(toDouble(sums[axis]) * perPoint);
-    rest[axis] = std::int64_t(sums[axis] - Int128(m[axis]) * count);
+    rest[axis] = std::int64_t(std::uint64_t(sums[axis]) - std::uint64_t(m[axis]) * std::uint64_t(count));
   }
   const Vec3 unit = quantum * spacing;
   const auto moment = [&](int i, int a, int b)
   {
-    const auto central =
-      Int128(secondMoments.lanes[i] - UInt128(m[a]) * UInt128(sums[b]) - UInt128(Int128(m[b]) * rest[a]));
+    const auto central = Int128(
+      secondMoments.lanes[i] - UInt128(sums[b]) * std::uint64_t(m[a]) - UInt128(Int128(m[b]) * rest[a]));
     const double value = (toDouble(central) - double(rest[a]) * double(rest[b]) * perPoint) * perPoint;
     return (a == b ? std::max(value, 0.0) : value) * unit[a] * unit[b];
   };
@@ -119,32 +119,12 @@ void VoxelWriter::write(const Kernels& kernels, std::size_t offset, const Partit
   {
     to[i] = voxels.firstKey + voxels.cells[i];
   }
-  if (arrays_[kCovariances].bytes > 0)
+  for (std::size_t i = 0; arrays_[kCovariances].bytes > 0 && i < voxels.size; ++i)
   {
-    writeCovariances(kernels, offset, voxels);
-  }
-}
-
-void VoxelWriter::writeCovariances(const Kernels& kernels, std::size_t offset, const PartitionVoxels& voxels)
-{
-  static_assert(sizeof(SymMat3) == 6 * sizeof(double), "six numbers, xx yy zz xy yz xz");
-  const int fractionBits = voxels.map.fractionBits;
-  const Vec3 unit = map_.quantum * lattice_.spacing;
-  const CovarianceMap map = { fractionBits, { unit.x, unit.y, unit.z } };
-  int full[kBatch];
-  for (std::size_t first = 0; first < voxels.size; first += kBatch)
-  {
-    const int size = int(std::min<std::size_t>(voxels.size - first, kBatch));
-    const PackedSums* packed = voxels.sums + first;
-    const SecondMoments* secondMoments = voxels.secondMoments + first;
-    SymMat3* to = covariances() + offset + first;
-    const int found = kernels.covariances(map, packed, secondMoments, size, &to->xx, full);
-    for (int j = 0; j < found; ++j)
-    {
-      const int i = full[j];
-      const Int128 sums[3] = { Int128(packed[i].lanes[0]), Int128(packed[i].lanes[1]), packedZ(packed[i]) };
-      to[i] = covarianceOf(packedCount(packed[i]), sums, secondMoments[i], map_.quantum, lattice_.spacing);
-    }
+    const PackedSums& packed = voxels.sums[i];
+    const Int128 sums[3] = { Int128(packed.lanes[0]), Int128(packed.lanes[1]), packedZ(packed) };
+    covariances()[offset + i] =
+      covarianceOf(packedCount(packed), sums, voxels.secondMoments[i], map_.quantum, lattice_.spacing);
   }
 }
 

@@ -105,7 +105,6 @@ private:
   }
   template <typename Real>
   void writeMeans(const Kernels& kernels, std::size_t offset, const PartitionVoxels& voxels, Real* xyz);
-  void writeCovariances(const Kernels& kernels, std::size_t offset, const PartitionVoxels& voxels);
 
   bool singlePrecision_ = false;
   Lattice lattice_;
