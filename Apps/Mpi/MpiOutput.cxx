@@ -4,8 +4,6 @@
 #include "PieceOfCloud.h"
 #include "PiecesFile.h"
 
-#include "IO/Vtk/SharedVtp.h"
-
 #include "Clouds/Pipeline.h"
 #include "Options/OptionParsing.h"
 #include "Terminal/CommandLine.h"
@@ -15,7 +13,6 @@
 #include <vtkPolyData.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
@@ -121,14 +118,6 @@ void writePieces(Job& job, const CloudCommand& options, vtkPolyData* piece, File
   if (isPiecesFile(fileName))
   {
     writePerRank(job, fileName, piece, files);
-    return;
-  }
-  std::string problem;
-  const bool isVtp = std::filesystem::path(fileName).extension() == ".vtp";
-  const std::string path = isVtp && job.isRoot() ? files.output(fileName) : std::string();
-  if (isVtp && job.ranks().size() > 1 && io::writeVtpTogether(job.ranks(), piece, path, problem))
-  {
-    job.attempt([&] { require(problem.empty(), problem); });
     return;
   }
   const vtkSmartPointer<vtkPolyData> all = gatherPieces(job.ranks(), piece);

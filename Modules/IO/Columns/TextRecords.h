@@ -80,7 +80,4 @@ private:
   bool goesOn_ = false; ///< Behind the line in which it begins.
 };
 
-/// True if each record of @p numbers in @p text, which ranks may cut at lines, has a line: so does the first.
-bool hasRecordALine(std::string_view text, std::size_t numbers);
-
 } // namespace pointhaptics::io

@@ -41,17 +41,6 @@ struct RecordItem
   int version() const { return type >= kPoint14 ? 3 : type == kWavePacket13 ? 1 : 2; }
 };
 
-template <typename T>
-T numberAt(std::string_view bytes, std::size_t offset)
-{
-  return loadLittle<T>(bytes.data() + offset);
-}
-
-[[noreturn]] void failSchema(std::size_t byte, const std::string& what)
-{
-  failFormat("byte " + std::to_string(byte) + ": " + what, "the file is damaged: copy or compress it again");
-}
-
 /// LASzip's record.
 LasRecord findDescription(std::string_view bytes, const LasHeader& header)
 {
@@ -64,24 +53,24 @@ LasRecord findDescription(std::string_view bytes, const LasHeader& header)
       whole += record.whole.empty() ? 0 : 1;
       if (record.user == kLaszipUser && record.id == kLaszipRecord)
       {
-        found.at != 0 ? failSchema(record.at, "a second record says how the points are compressed") : void();
+        found.at != 0 ? failDamaged(record.at, "a second record says how the points are compressed") : void();
         found = record;
       }
     });
   if (whole < records)
   {
-    failSchema(100,
+    failDamaged(100,
       "the header counts " + std::to_string(records) + " variable length records, but only " +
         std::to_string(whole) + " lie before the points");
   }
   if (found.at == 0)
   {
-    failSchema(104, "the points are marked as compressed, but no record says how");
+    failDamaged(104, "the points are marked as compressed, but no record says how");
   }
   found.at += kLasVlrHeader; // to its content, of which messages speak
   if (found.content.size() < kDescriptionStart)
   {
-    failSchema(found.at,
+    failDamaged(found.at,
       "a description of the compression of " + std::to_string(found.content.size()) +
         " bytes, which takes at least " + std::to_string(kDescriptionStart));
   }
@@ -175,8 +164,8 @@ void placeItems(
     const int version = numberAt<std::uint16_t>(bytes, at + 4);
     if (same && !isKnownVersion(expected[i].type, version))
     {
-      failFormat("byte " + std::to_string(at + 4) + ": item " + std::to_string(expected[i].type) +
-          " is compressed in version " + std::to_string(version) + ", which is not supported: 1 to 3 are",
+      failFormat(atByte(at + 4) + "item " + std::to_string(expected[i].type) + " is compressed in version " +
+          std::to_string(version) + ", which is not supported: 1 to 3 are",
         "unpack it with the program that wrote it, or compress it with LASzip 3");
     }
     place(schema, expected[i], offset, version);
@@ -184,7 +173,7 @@ void placeItems(
   }
   if (!same)
   {
-    failSchema(description.at + 32,
+    failDamaged(description.at + 32,
       "what is compressed is not a record of point format " + std::to_string(header.pointFormat) + " with " +
         std::to_string(header.recordLength) + " bytes");
   }
@@ -216,13 +205,13 @@ LazSchema parseLazSchema(std::string_view bytes, const LasHeader& header)
   const bool isLayered = compressor == static_cast<int>(LazSchema::Compressor::Layered);
   if (compressor < 1 || compressor > 3 || isLayered != header.isExtended())
   {
-    failSchema(description.at,
+    failDamaged(description.at,
       "unknown compressor " + std::to_string(compressor) + " for point format " +
         std::to_string(header.pointFormat));
   }
   if (coder != 0)
   {
-    failSchema(description.at + 2, "unknown coder " + std::to_string(coder));
+    failDamaged(description.at + 2, "unknown coder " + std::to_string(coder));
   }
   schema.compressor = static_cast<LazSchema::Compressor>(compressor);
   schema.chunkSize = numberAt<std::uint32_t>(bytes, description.at + 12);
