@@ -3,8 +3,8 @@
 #include "Bytes/NumericType.h"
 #include "Core/Resample/FieldNames.h"
 #include "FileProblem.h"
+#include "IO/Bytes/TextScan.h"
 #include "IO/Info/LengthUnit.h"
-#include "IO/Text/TextScan.h"
 #include "ReadTask.h"
 
 #include "vtkCellArray.h"
@@ -91,7 +91,7 @@ vtkSmartPointer<vtkDataArray> shownColors(vtkDataArray* colors, double most, Sha
     return nullptr;
   }
   const bool areBytes = range.most > 1.0 || !isFloatingType(colors->GetDataType());
-  most = range.most <= most ? most : range.most > 255.0 ? 65535.0 : areBytes ? 255.0 : 1.0;
+  most = most > 0.0 && range.most <= most ? most : range.most > 255.0 ? 65535.0 : areBytes ? 255.0 : 1.0;
   auto bytes = vtkSmartPointer<vtkUnsignedCharArray>::New();
   bytes->SetName("RGB");
   bytes->SetNumberOfComponents(colors->GetNumberOfComponents());

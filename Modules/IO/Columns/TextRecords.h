@@ -3,7 +3,7 @@
 #pragma once
 
 #include "IO/Bytes/StridedCopy.h"
-#include "IO/Text/TextScan.h"
+#include "IO/Bytes/TextScan.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,9 +1,9 @@
 #include "IO/E57/E57Scan.h"
 
 #include "FileProblem.h"
+#include "IO/Bytes/TextScan.h"
 #include "IO/Bytes/XmlTree.h"
 #include "IO/Columns/CloudColumns.h"
-#include "IO/Text/TextScan.h"
 
 #include <algorithm>
 #include <charconv>

@@ -1,8 +1,8 @@
 #include "IO/Info/FileComments.h"
 
+#include "IO/Bytes/TextScan.h"
 #include "IO/Info/FieldText.h"
 #include "IO/Info/LengthUnit.h"
-#include "IO/Text/TextScan.h"
 
 #include "vtkDataArray.h"
 #include "vtkPointData.h"

@@ -2,7 +2,7 @@
 
 #include "Bytes/LittleEndian.h"
 #include "Bytes/NumericType.h"
-#include "IO/Text/TextScan.h"
+#include "IO/Bytes/TextScan.h"
 #include "ReadTask.h"
 
 #include <algorithm>

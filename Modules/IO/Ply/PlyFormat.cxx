@@ -1,10 +1,10 @@
 #include "ReadTask.h"
 
 #include "Bytes/NumericType.h"
+#include "IO/Bytes/TextScan.h"
 #include "IO/Columns/CloudColumns.h"
 #include "IO/Columns/TextRecords.h"
 #include "IO/Ply/PlyHeader.h"
-#include "IO/Text/TextScan.h"
 
 #include <algorithm>
 #include <cstring>

@@ -1,9 +1,9 @@
 #include "Bytes/LittleEndian.h"
 #include "Bytes/NumericType.h"
+#include "IO/Bytes/TextScan.h"
 #include "IO/Columns/CloudColumns.h"
 #include "IO/Columns/ColumnGuess.h"
 #include "IO/Formats/FormatLooks.h"
-#include "IO/Text/TextScan.h"
 #include "ReadTask.h"
 
 #include <algorithm>

@@ -93,26 +93,6 @@ bool parseForeign(std::string_view cell, double& value, NumberShape* shape)
   return parseWith('e', cell.find_first_of("dDqQ"), cell, value, shape);
 }
 
-} // namespace
-
-bool isComment(std::string_view text)
-{
-  return !text.empty() &&
-    (std::string_view("#%!;>").find(text.front()) != std::string_view::npos || text.substr(0, 2) == "//");
-}
-
-std::string_view withoutQuotes(std::string_view cell)
-{
-  while (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"')
-  {
-    cell = trimmed(cell.substr(1, cell.size() - 2));
-  }
-  return cell;
-}
-
-namespace
-{
-
 constexpr std::string_view kSeparators = ",;|\t";
 
 /// Separators on the line of text that holds the place @p at.
@@ -138,6 +118,21 @@ bool areOfTwoRows(std::string_view text, std::size_t open, std::size_t close)
 }
 
 } // namespace
+
+bool isComment(std::string_view text)
+{
+  return !text.empty() &&
+    (std::string_view("#%!;>").find(text.front()) != std::string_view::npos || text.substr(0, 2) == "//");
+}
+
+std::string_view withoutQuotes(std::string_view cell)
+{
+  while (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"')
+  {
+    cell = trimmed(cell.substr(1, cell.size() - 2));
+  }
+  return cell;
+}
 
 std::string withoutLineEndsInCells(std::string_view text)
 {

@@ -3,9 +3,9 @@
 #pragma once
 
 #include "Bytes/StridedCopy.h"
+#include "IO/Bytes/TextScan.h"
 #include "IO/Columns/ColumnGuess.h"
 #include "IO/Info/FileComments.h"
-#include "IO/Text/TextScan.h"
 #include "ReadTask.h"
 
 #include <algorithm>

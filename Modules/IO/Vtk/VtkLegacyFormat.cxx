@@ -1,9 +1,9 @@
 #include "ReadTask.h"
 
 #include "Bytes/NumericType.h"
+#include "IO/Bytes/TextScan.h"
 #include "IO/Columns/CloudColumns.h"
 #include "IO/Info/FileComments.h"
-#include "IO/Text/TextScan.h"
 
 #include "vtkCellType.h"
 #include "vtkDataArray.h"

@@ -1,7 +1,7 @@
 #include "IO/Vtk/VtkXmlChecks.h"
 
 #include "FileProblem.h"
-#include "IO/Text/TextScan.h"
+#include "IO/Bytes/TextScan.h"
 
 #include "vtkBase64Utilities.h"
 

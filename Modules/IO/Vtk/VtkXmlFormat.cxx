@@ -1,8 +1,8 @@
 #include "ReadTask.h"
 
 #include "IO/Bytes/FileBytes.h"
+#include "IO/Bytes/TextScan.h"
 #include "IO/Columns/CloudColumns.h"
-#include "IO/Text/TextScan.h"
 #include "IO/Vtk/VtkXmlChecks.h"
 
 #include "vtkCellType.h"
@@ -46,22 +46,12 @@ public:
       return;
     }
     // VTK's text: "ERROR: In file, line n\nvtkClass (0x...): the message\n\n".
-    const std::string text = static_cast<const char*>(callData);
-    const std::size_t address = text.find("): ");
-    std::string message = address == std::string::npos ? text : text.substr(address + 3);
-    for (char& c : message)
-    {
-      c = c == '\n' ? ' ' : c;
-    }
-    first_ = std::string(trimmed(message));
-    while (!first_.empty() && first_.back() == '.')
-    {
-      first_.pop_back();
-    }
-    if (first_.empty())
-    {
-      first_ = "VTK reported an error without words";
-    }
+    first_ = static_cast<const char*>(callData);
+    const std::size_t address = first_.find("): ");
+    first_.erase(0, address == std::string::npos ? 0 : address + 3);
+    std::replace(first_.begin(), first_.end(), '\n', ' ');
+    first_.erase(first_.find_last_not_of(" .") + 1);
+    first_ = first_.empty() ? "VTK reported an error without words" : first_;
   }
   const std::string& first() const { return first_; }
 

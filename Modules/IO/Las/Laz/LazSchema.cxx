@@ -36,6 +36,7 @@ struct RecordItem
 {
   int type;
   std::size_t size;
+  LazSchema::Item LazSchema::*place; ///< Its place in a schema.
 
   /// The version that is written.
   int version() const { return type >= kPoint14 ? 3 : type == kWavePacket13 ? 1 : 2; }
@@ -84,32 +85,21 @@ std::vector<RecordItem> itemsOf(const LasHeader& header)
   const bool isExtended = header.isExtended();
   std::vector<RecordItem> items;
   std::size_t sum = 0;
-  const auto add = [&](int type, std::size_t size)
+  const auto addIf = [&](bool isThere, RecordItem item)
   {
-    items.push_back({ type, size });
-    sum += size;
+    isThere ? items.push_back(item) : void();
+    sum += isThere ? item.size : 0;
   };
-  isExtended ? add(kPoint14, 30) : add(kPoint10, 20);
-  if (fields.gpsTime != 0 && !isExtended)
-  {
-    add(kGpsTime11, 8);
-  }
-  if (fields.nearInfrared != 0)
-  {
-    add(kColorNearInfrared14, 8);
-  }
-  else if (fields.rgb != 0)
-  {
-    add(isExtended ? kColor14 : kColor12, 6);
-  }
-  if (fields.size == sum + kWavePacketSize)
-  {
-    add(isExtended ? kWavePacket14 : kWavePacket13, kWavePacketSize);
-  }
-  if (header.recordLength > fields.size)
-  {
-    add(isExtended ? kBytes14 : kBytes, header.recordLength - fields.size);
-  }
+  addIf(!isExtended, { kPoint10, 20, &LazSchema::point });
+  addIf(isExtended, { kPoint14, 30, &LazSchema::point });
+  addIf(fields.gpsTime != 0 && !isExtended, { kGpsTime11, 8, &LazSchema::gpsTime });
+  addIf(fields.nearInfrared != 0, { kColorNearInfrared14, 8, &LazSchema::color });
+  addIf(
+    fields.rgb != 0 && fields.nearInfrared == 0, { isExtended ? kColor14 : kColor12, 6, &LazSchema::color });
+  addIf(fields.size == sum + kWavePacketSize,
+    { isExtended ? kWavePacket14 : kWavePacket13, kWavePacketSize, &LazSchema::wavePacket });
+  addIf(header.recordLength > fields.size,
+    { isExtended ? kBytes14 : kBytes, header.recordLength - fields.size, &LazSchema::extraBytes });
   return items;
 }
 
@@ -121,31 +111,9 @@ bool isKnownVersion(int type, int version)
 
 void place(LazSchema& schema, const RecordItem& item, std::size_t offset, int version)
 {
-  const LazSchema::Item placed{ offset, version };
-  switch (item.type)
-  {
-    case kPoint10:
-    case kPoint14:
-      schema.pointVersion = version;
-      break;
-    case kGpsTime11:
-      schema.gpsTime = placed;
-      break;
-    case kColor12:
-    case kColor14:
-      schema.color = placed;
-      break;
-    case kColorNearInfrared14:
-      schema.color = placed;
-      schema.nearInfrared = { offset + 6, version };
-      break;
-    case kWavePacket13:
-    case kWavePacket14:
-      schema.wavePacket = placed;
-      break;
-    default:
-      schema.extraBytes = placed;
-  }
+  schema.*item.place = { offset, version };
+  schema.nearInfrared =
+    item.type == kColorNearInfrared14 ? LazSchema::Item{ offset + 6, version } : schema.nearInfrared;
 }
 
 void placeItems(
