@@ -6,7 +6,6 @@
 #include "PiecesFile.h"
 
 #include "Clouds/CloudCommands.h"
-#include "IO/Vtk/SharedVtp.h"
 #include "Options/OptionParsing.h"
 #include "Terminal/Messages.h"
 
@@ -21,7 +20,6 @@
 #include <vtkSmartPointer.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <memory>
 #include <string>
 #include <utility>
@@ -65,14 +63,6 @@ void writePieces(Job& job, const CloudCommand& options, vtkPolyData* piece, File
   if (isPiecesFile(fileName))
   {
     writePerRank(job, fileName, piece, files);
-    return;
-  }
-  std::string problem;
-  const bool isVtp = std::filesystem::path(fileName).extension() == ".vtp";
-  const std::string path = isVtp && job.isRoot() ? files.output(fileName) : std::string();
-  if (isVtp && job.ranks().size() > 1 && io::writeVtpTogether(job.ranks(), piece, path, problem))
-  {
-    job.attempt([&] { require(problem.empty(), problem); });
     return;
   }
   const vtkSmartPointer<vtkPolyData> all = gatherPieces(job.ranks(), piece);

@@ -1,4 +1,4 @@
-#include "FormatWriters.h"
+#include "IO/WriteTask.h"
 
 #include "Bytes/NumericType.h"
 #include "Core/Resample/FieldNames.h"

@@ -6,6 +6,7 @@
 #include "vtkErrorCode.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -46,6 +47,18 @@ class StoppedOnRequest : public std::exception
 [[noreturn]] inline void failFormat(const std::string& what, const std::string& cure)
 {
   throw FileProblem(vtkErrorCode::FileFormatError, what, cure);
+}
+
+/// "byte 12: ", in front of what is there.
+inline std::string atByte(std::uint64_t offset)
+{
+  return "byte " + std::to_string(offset) + ": ";
+}
+
+/// What stands at @p offset cannot be.
+[[noreturn]] inline void failDamaged(std::uint64_t offset, const std::string& what)
+{
+  failFormat(atByte(offset) + what, "the file is damaged: copy or write it again");
 }
 
 /// The file ends before the points its header promises. @param more of the cure.

@@ -125,7 +125,7 @@ vtkSmartPointer<vtkDataArray> filled(const MergedArray& array, const std::vector
   }
   result->SetNumberOfTuples(rows);
   const bool isFloating = isFloatingType(result->GetDataType());
-  const double none = isFloating ? std::numeric_limits<double>::quiet_NaN() : 0.0;
+  result->Fill(isFloating ? std::numeric_limits<double>::quiet_NaN() : 0.0);
   vtkIdType begin = 0;
   for (std::size_t i = 0; i < clouds.size(); ++i)
   {
@@ -133,13 +133,6 @@ vtkSmartPointer<vtkDataArray> filled(const MergedArray& array, const std::vector
     if (array.sources[i])
     {
       result->InsertTuples(begin, count, 0, array.sources[i]);
-    }
-    for (vtkIdType row = begin; row < begin + count && !array.sources[i]; ++row)
-    {
-      for (int component = 0; component < array.components; ++component)
-      {
-        result->SetComponent(row, component, none);
-      }
     }
     begin += count;
   }

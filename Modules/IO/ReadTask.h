@@ -28,6 +28,9 @@ constexpr double kReadingPart = 0.3;
 /// The last part of it, where faces are sampled.
 constexpr double kSamplingPart = 0.4;
 
+/// Bytes of a file that are looked at before it is known what else is needed: headers are much shorter.
+constexpr std::size_t kStartOfText = std::size_t{ 1 } << 20;
+
 /// Part of a cloud to read: see vtkPointCloudReader.
 struct WantedPart
 {

@@ -16,130 +16,26 @@ using namespace pointhaptics;
 
 vtkStandardNewMacro(vtkPointCloudInfo);
 
-struct vtkPointCloudInfo::Internals
-{
-  CloudSummary Summary;
-
-  /// Null where there is no such array.
-  const ArraySummary* ArrayAt(int i) const
-  {
-    return i >= 0 && std::size_t(i) < this->Summary.arrays.size() ? &this->Summary.arrays[std::size_t(i)]
-                                                                  : nullptr;
-  }
-};
-
-vtkPointCloudInfo::vtkPointCloudInfo()
-  : Impl(std::make_unique<Internals>())
-{
-}
+vtkPointCloudInfo::vtkPointCloudInfo() = default;
 
 vtkPointCloudInfo::~vtkPointCloudInfo() = default;
 
-vtkIdType vtkPointCloudInfo::GetNumberOfPoints() const
+const vtkPointCloudInfo::ArrayInfo& vtkPointCloudInfo::ArrayAt(int array) const
 {
-  return vtkIdType(this->Impl->Summary.points);
-}
-
-vtkIdType vtkPointCloudInfo::GetNumberOfInvalidPoints() const
-{
-  return vtkIdType(this->Impl->Summary.invalid);
-}
-
-vtkIdType vtkPointCloudInfo::GetNumberOfDuplicatePoints() const
-{
-  return vtkIdType(this->Impl->Summary.duplicates);
-}
-
-std::string vtkPointCloudInfo::GetFormat() const
-{
-  return this->Impl->Summary.format;
-}
-
-bool vtkPointCloudInfo::HasBounds() const
-{
-  return !this->Impl->Summary.bounds.empty();
-}
-
-void vtkPointCloudInfo::GetBounds(double bounds[6]) const
-{
-  const Bounds& b = this->Impl->Summary.bounds;
-  const double values[6] = { b.minimum.x, b.maximum.x, b.minimum.y, b.maximum.y, b.minimum.z, b.maximum.z };
-  std::copy(values, values + 6, bounds);
-}
-
-void vtkPointCloudInfo::GetSpacingPercentiles(double spacing[5]) const
-{
-  std::copy(this->Impl->Summary.spacing.begin(), this->Impl->Summary.spacing.end(), spacing);
-}
-
-double vtkPointCloudInfo::GetDensityVariation() const
-{
-  return this->Impl->Summary.densityVariation;
-}
-
-double vtkPointCloudInfo::GetSuggestedVoxelSize() const
-{
-  return this->Impl->Summary.suggestedVoxel;
-}
-
-std::string vtkPointCloudInfo::GetHint() const
-{
-  return this->Impl->Summary.hint;
-}
-
-double vtkPointCloudInfo::GetSuggestedScale() const
-{
-  return this->Impl->Summary.suggestedScale;
-}
-
-std::string vtkPointCloudInfo::GetUnit() const
-{
-  return this->Impl->Summary.unit;
-}
-
-bool vtkPointCloudInfo::GetUnitIsGuess() const
-{
-  return this->Impl->Summary.unitIsGuess;
-}
-
-std::string vtkPointCloudInfo::GetCoordinateSystem() const
-{
-  return this->Impl->Summary.coordinateSystem;
-}
-
-int vtkPointCloudInfo::GetNumberOfArrays() const
-{
-  return int(this->Impl->Summary.arrays.size());
-}
-
-std::string vtkPointCloudInfo::GetArrayName(int array) const
-{
-  const ArraySummary* summary = this->Impl->ArrayAt(array);
-  return summary ? summary->name : std::string();
-}
-
-std::string vtkPointCloudInfo::GetArrayType(int array) const
-{
-  const ArraySummary* summary = this->Impl->ArrayAt(array);
-  return summary ? summary->type : std::string();
-}
-
-int vtkPointCloudInfo::GetNumberOfComponents(int array) const
-{
-  const ArraySummary* summary = this->Impl->ArrayAt(array);
-  return summary ? summary->components : 0;
+  static const ArrayInfo none;
+  return array >= 0 && array < this->GetNumberOfArrays() ? this->Arrays[std::size_t(array)] : none;
 }
 
 bool vtkPointCloudInfo::GetArrayRange(int array, int component, double range[2]) const
 {
-  const ArraySummary* summary = this->Impl->ArrayAt(array);
-  if (!summary || component < 0 || std::size_t(component) >= summary->minima.size())
+  const ArrayInfo& info = this->ArrayAt(array);
+  const bool isThere = component >= 0 && std::size_t(component) < info.Minima.size();
+  if (isThere)
   {
-    return false;
+    range[0] = info.Minima[std::size_t(component)];
+    range[1] = info.Maxima[std::size_t(component)];
   }
-  range[0] = summary->minima[std::size_t(component)];
-  range[1] = summary->maxima[std::size_t(component)];
-  return true;
+  return isThere;
 }
 
 int vtkPointCloudInfo::RequestData(
@@ -149,13 +45,34 @@ int vtkPointCloudInfo::RequestData(
   auto* reader = vtkPointCloudReader::SafeDownCast(this->GetInputAlgorithm());
   this->SetErrorCode(0);
   vtkPolyData::GetData(outputVector)->ShallowCopy(input);
-  const Status status =
-    guardedWork([&] { this->Impl->Summary = summarize(input, reader ? reader->GetFormat() : ""); });
+  CloudSummary summary;
+  const Status status = guardedWork([&] { summary = summarize(input, reader ? reader->GetFormat() : ""); });
   if (status != Status::Ok)
   {
-    this->Impl->Summary = {};
     this->SetErrorCode(kOutOfMemoryCode);
     vtkErrorMacro(<< message(status) << ".");
+  }
+  this->NumberOfPoints = vtkIdType(summary.points);
+  this->NumberOfInvalidPoints = vtkIdType(summary.invalid);
+  this->NumberOfDuplicatePoints = vtkIdType(summary.duplicates);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    this->Bounds[2 * axis] = summary.bounds.minimum[axis];
+    this->Bounds[2 * axis + 1] = summary.bounds.maximum[axis];
+  }
+  std::copy(summary.spacing.begin(), summary.spacing.end(), this->Spacing);
+  this->DensityVariation = summary.densityVariation;
+  this->SuggestedVoxelSize = summary.suggestedVoxel;
+  this->SuggestedScale = summary.suggestedScale;
+  this->UnitIsGuess = summary.unitIsGuess;
+  this->Format = summary.format;
+  this->Hint = summary.hint;
+  this->Unit = summary.unit;
+  this->CoordinateSystem = summary.coordinateSystem;
+  this->Arrays.clear();
+  for (const ArraySummary& array : summary.arrays)
+  {
+    this->Arrays.push_back({ array.name, array.type, array.components, array.minima, array.maxima });
   }
   return 1;
 }

@@ -7,7 +7,6 @@
 #include "IO/Info/LengthUnit.h"
 #include "IO/Las/LasHeader.h"
 #include "IO/Mesh/FaceSamples.h"
-#include "IO/Raw/RawFormats.h"
 #include "ReadTask.h"
 
 #include "Core/Base/Host/GuardedWork.h"
@@ -126,10 +125,7 @@ bool canBeCut(const std::string& start, std::size_t size, const std::string& ext
   {
     return false;
   }
-  // A cell in quotation marks may go on in the next line.
-  const io::CloudFormat& format = io::identifyFormat(start, size, extension);
-  const bool isQuoted = std::string_view(format.name) == "text" && start.find('"') != std::string::npos;
-  return !io::isUtf16(start) && !isQuoted && format.isReadInParts;
+  return io::identifyFormat(start, size, extension).isReadInParts;
 }
 
 /// Takes away the points outside the box that is wanted, with their values in all arrays. Among floats its

@@ -17,61 +17,7 @@
  * finite coordinate beyond 1e30 is taken for damage. Coordinates are those of the file: nothing is moved,
  * scaled or turned, but for the poses of E57's scans.
  *
- * - PLY: ascii and both binary orders, all scalar types, int64, uint64 and bool too; other elements are
- * skipped. GetNotes() names lists of vertices, which are left out, lines of the header that cannot be
- * understood, and tells where a file ends within elements that follow the points. Gaussian splats get "RGB"
- * of their constant harmonics, and those with an opacity below 0.05 are left out with a note.
- * - PCD: ascii, binary and binary_compressed. rgb and rgba are unpacked. The viewpoint is kept, not applied:
- *   field data "Viewpoint" (tx ty tz qw qx qy qz). Organised clouds keep their shape in
- *   "OrganizedDimensions" (width, height).
- * - LAS 1.0 to 1.4, point formats 0 to 10, uncompressed: Intensity, ReturnNumber, NumberOfReturns,
- *   Classification, ScanAngle (float, degrees), UserData, PointSourceId, and where the format has them
- *   GpsTime, Color16 (as stored), RGB (8 bit), NearInfrared. ClassificationFlags (1 synthetic, 2 key point,
- *   4 withheld, 8 overlap), ScannerChannel, ScanDirection and EdgeOfFlightLine are there where one point
- *   sets them. Extra bytes become arrays of their names, scaled ones as double, and as floating numbers with
- * NaN where a value stands for none; those without a description become "ExtraBytes". Field data: LasScale,
- *   LasOffset, LasGlobalEncoding, CoordinateSystem (well-known text or "EPSG:26917"), LengthUnit ("degree" of
- * a geographic system), and LasHeader, LasRecords and LasFarRecords (bytes that the writer keeps). Waveforms
- * are skipped.
- * - LAZ and COPC give the same arrays, in the file's order of points: pointwise compression (versions 1 and
- *   2, point formats 0 to 5) and layered compression (version 3, 6 to 10). Chunks are decoded in parallel, by
- *   as many threads as vtkSMPTools has. More than 100 times the file's size (64 MB at least) is not unpacked.
- * - E57 1.0: all scans as one cloud. Cartesian coordinates, or those made of spherical ones, which are
- *   kept as SphericalRange, SphericalAzimuth and SphericalElevation (metres, radians). Each scan's pose
- *   is applied (SetApplyPoses); field data "ScanPoses" (tx ty tz qw qx qy qz), "ScanNames" and
- *   "ScanPoints" have a row per scan of the file, and the array ScanIndex says which one a point is of
- *   where there are several. Points whose invalid state is set are NaN; InvalidState,
- *   SphericalInvalidState, IntensityInvalid, ColorInvalid and TimeStampInvalid are there where one point
- *   sets them. Intensity, RowIndex, ColumnIndex, ReturnNumber (counted from 1, as in LAS; the file
- *   counts from 0), NumberOfReturns, TimeStamp, Normals of the extension nor; others keep their names.
- *   Integers get the smallest type that holds their limits, scaled integers are double. Colours of bytes
- *   are RGB; others are kept as Color16 (integers of 16 bits) or Color, beside an RGB made by the file's
- *   colour limits. OrganizedDimensions where the points are all cells of the scanner's grid, row by row.
- *   What a scan lacks that others have is NaN, or 0 for integers. Generator, CoordinateSystem and
- *   LengthUnit are field data, and so are LasScale and LasOffset where scaled integers stay on their
- *   grid. Images and texts are not read: GetNotes(). All checksums are checked.
- * - PVTP, a list of VTP files as vtkXMLPPolyDataWriter and pointhaptics-mpi write it: the points of all
- * pieces in the order of the list. The pieces lie beside or below the list, and have the same arrays; ghost
- * levels are refused.
- * - VTP, VTU and legacy VTK (PolyData, UnstructuredGrid, StructuredGrid): points and point data; cells are
- * dropped, but for the polygons of PolyData with SetSamples(). Legacy files with strings or bits are refused.
- * - OFF, NOFF, COFF, CNOFF as text; STL, both kinds: each distinct vertex once, as float, without normals.
- * - OBJ: v x y z [r g b]; vn when there is one per v.
- * - PTX: all scans, their poses applied (SetApplyPoses), without rays that did not return. Esri ASCII grids:
- * the middle of each cell with a height. NumPy: arrays of n rows, or of records with names. KITTI and
- * nuScenes: float32 records, known by size and values. Gaussian splats of 32 bytes (.splat).
- * - Text (XYZ, TXT, CSV, PTS), also in UTF-16: separator, header, titles and PTS point count are found by
- * looking; comments start with # // % ! ; or >, and may name the columns; an empty cell reads as NaN; a
- * number may have a comma for its point where that separates nothing, and stand in quotation marks. A column
- * in which texts outnumber numbers is left out, fewer texts read as NaN: GetNotes() names them. Coordinates
- * must be numbers; their columns may be called X [mm], x_m, xcoord, POINT_X, easting and the like, and their
- * unit becomes the field array LengthUnit; so does that of comments such as "units: mm" and the
- * "LengthUnit mm" which vtkPointCloudWriter leaves here, in PLY and in PCD, with the names of arrays that the
- * format cannot hold. HeightUnit is that of heights beside degrees. One code of EPSG in the comments becomes
- * CoordinateSystem.
- * Without a header the values tell (an id that counts the rows, x y z, colours, normals, labels, an
- * intensity, others are called column_4 and so on), GetNotes() says what was taken as what, and SetColumns()
- * says otherwise. Columns of integers become int arrays.
+ * What becomes of each format is in Documentation/Formats.md.
  *
  * Faults give an empty output, an error code (vtkErrorCode), a vtkErrorMacro, and GetErrorMessage() with
  * `file: format: what, where, value; cure`. Sizes that a file claims are checked against its length before
@@ -246,10 +192,9 @@ public:
 
   /**
    * The processes that read the file together: each gets its part of the points, as many on each, one after
-   * the other in the order of the file, with the same arrays. Update() is then collective. PLY, PCD, LAS,
-   * LAZ, COPC and columns of text are read in parts: a process reads headers and its own bytes; of a PVTP the
-   * starts of all pieces, and those pieces that have its points. Other
-   * formats, compressed PCD, PLY with lists, PTS and what gzip has packed are read whole by each, and cut. A
+   * the other in the order of the file, with the same arrays. Update() is then collective. Binary PLY and
+   * PCD, LAS, LAZ and COPC are read in parts: a process reads headers and its own bytes; of a PVTP the starts
+   * of all pieces, and those pieces that have its points. Other files are read whole by each, and cut. A
    * fault of one ends the reading of all. Null (the default): this process reads all. The ranks must outlive
    * updates.
    */

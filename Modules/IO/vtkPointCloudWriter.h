@@ -5,31 +5,7 @@
  * Input: any vtkPointSet with at least one point. Points keep their precision (float or double).
  * vtkPointCloudReader gives the same points and arrays back, within what the format can say:
  *
- * - .vtp: everything, cells and field data included (appended raw, uncompressed). A vtkPolyData without
- *   cells gets one vertex per point.
- * - .ply: binary. Colours ("RGB", "RGBA" or unsigned char scalars) as red green blue [alpha], normals as nx
- *   ny nz, other arrays of several components as name_0 name_1 ... ; 64 bit integers as double, exact up to
- *   2^53.
- * - .pcd: binary. Colours as packed rgb or rgba, normals as normal_x normal_y normal_z; the field data
- *   "Viewpoint" and "OrganizedDimensions" as the header's VIEWPOINT, WIDTH and HEIGHT.
- * - .las: LAS 1.2, or 1.4 where needed. Coordinates become integers: on the grid of the file they come from
- *   (field data "LasScale", "LasOffset"), or on one of whole decimals from 1 to 0.0001 where that gives every
- *   coordinate back. Others, such as means of points, are rounded, by at most half a step, to the scale of
- *   that file, or to 0.1 mm (by "LengthUnit"; without it the unit is taken for metres). A cloud shorter than
- *   1000 such steps gets finer ones, 10^5 to 10^6 for its length; one too long for 32 bits the finest power
- * of ten that spans it. LasScale sets the step for any cloud. Whoever transforms a cloud takes "LasScale" and
- *   "LasOffset" away. Arrays under the names of LAS fields, in any case and with or without '_'
- *   (Core/Resample/FieldNames.h), become these, of whatever type where their values fit. "RGB" becomes the
- *   colour, and all others become extra bytes. NaN points are refused.
- * - .laz: the same records, compressed: pointwise for LAS 1.2, layered for 1.4, in chunks of 50,000 points
- *   that are encoded in parallel. Costs the compressed size in memory.
- * - .csv: header x,y,z and the names of the arrays, arrays of several components as name_0,name_1,...; each
- * number with the fewest digits that give back the same value. Types are not stored: float arrays may be read
- * as double.
- *
- * The field data "LengthUnit" is a comment "LengthUnit mm" of .ply, .pcd and .xyz, a GeoTIFF key of .las, and
- * stands in brackets in the header of .csv: x [mm],y [mm],z [mm]; there metres, which nothing said means,
- * too, are left out, as programs look for x, y and z.
+ * Documentation/Formats.md says what that is: types, grids of coordinates, units, names.
  *
  * Arrays of strings are left out. Characters and names that a format cannot hold, or that mean something else
  * to a reader, are changed: .ply, .pcd and .xyz say in comments "ArrayName" what they were, so that

@@ -357,17 +357,6 @@ Status OutputFile::write(std::string_view bytes)
   return buffer_.size() < kFlushAt ? Status::Ok : this->flush();
 }
 
-Status OutputFile::join(const std::string& unfinished)
-{
-  this->discard();
-  reason_.clear();
-  cure_.clear();
-  target_ = unfinished;
-  isRegular_ = true;
-  descriptor_ = ::open(target_.c_str(), O_WRONLY | O_CLOEXEC);
-  return descriptor_ >= 0 ? Status::Ok : this->fail(errno);
-}
-
 Status OutputFile::writeAt(std::uint64_t place, std::string_view bytes)
 {
   while (descriptor_ >= 0 && !bytes.empty())

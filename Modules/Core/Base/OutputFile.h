@@ -46,13 +46,10 @@ public:
   Status check(const std::string& target);
   /// Adds bytes to a buffer. A fault is kept: later calls do nothing, commit() returns it.
   Status write(std::string_view bytes);
-  /// Opens the unfinished file, path(), that an OutputFile of another process has open and will commit: this
-  /// one adds parts to it with writeAt(), and its own commit() only closes.
-  Status join(const std::string& unfinished);
   /// Hands the buffer to the system, so that its bytes survive the end of this process.
   Status flush();
-  /// Writes @p bytes to a place of the file, unbuffered; files may have several writers then, and each place
-  /// one of them. Not for pipes and devices. A place that write() has filled needs a flush() before.
+  /// Writes @p bytes to a place of the file, unbuffered. Not for pipes and devices. A place that write() has
+  /// filled needs a flush() before.
   Status writeAt(std::uint64_t place, std::string_view bytes);
   /// Writes the buffer, closes, renames.
   Status commit();

@@ -11,6 +11,7 @@
 #include <cstring>
 #include <filesystem>
 #include <new>
+#include <utility>
 
 #include <fcntl.h>
 #include <poll.h>
@@ -114,64 +115,38 @@ struct Inflater
 
 } // namespace
 
-/// Bytes that are read from their beginning to their end: of a file, or of a pipe's content in memory.
+/// A file that is open for reading.
 class FileBytes::File
 {
 public:
   explicit File(const std::string& path)
-    : File(std::fopen(path.c_str(), "rb"))
-  {
-    std::setvbuf(file_.get(), nullptr, _IONBF, 0);
-    size_ = static_cast<std::size_t>(fs::file_size(path));
-  }
-  explicit File(std::string_view content)
-    : File(::fmemopen(const_cast<char*>(content.data()), std::max(content.size(), std::size_t{ 1 }), "rb"))
-  {
-    size_ = content.size();
-  }
-  std::size_t size() const { return size_; }
-  std::size_t position() const { return position_; }
-  double done() const { return static_cast<double>(position_) / static_cast<double>(size_); }
-  /// Reads exactly @p size bytes. @throws FileProblem when there are fewer.
-  void read(char* to, std::size_t size)
-  {
-    const std::size_t got = std::fread(to, 1, size, file_.get());
-    position_ += got;
-    if (got != size)
-    {
-      throw FileProblem(vtkErrorCode::CannotOpenFileError,
-        "reading stopped at byte " + std::to_string(position_) + " of " + std::to_string(size_),
-        "check the disk, or wait until the file is completely written");
-    }
-  }
-  /// Reads @p size bytes from byte @p offset on.
-  void read(std::size_t offset, char* to, std::size_t size)
-  {
-    std::fseek(file_.get(), static_cast<long>(offset), SEEK_SET);
-    position_ = offset;
-    read(to, size);
-  }
-  std::string_view peek(char* to, std::size_t size)
-  {
-    const std::size_t got = std::fread(to, 1, std::min(size, size_), file_.get());
-    std::rewind(file_.get());
-    return { to, got };
-  }
-
-private:
-  explicit File(std::FILE* opened)
-    : file_(opened, &std::fclose)
+    : file_(std::fopen(path.c_str(), "rb"), &std::fclose)
   {
     if (!file_)
     {
       throw FileProblem(
         vtkErrorCode::CannotOpenFileError, std::strerror(errno), "check that you may read the file");
     }
+    std::setvbuf(file_.get(), nullptr, _IONBF, 0);
+    size_ = static_cast<std::size_t>(fs::file_size(path));
+  }
+  std::size_t size() const { return size_; }
+  /// Reads exactly @p size bytes from byte @p offset on. @throws FileProblem when there are fewer.
+  void read(std::size_t offset, char* to, std::size_t size)
+  {
+    std::fseek(file_.get(), static_cast<long>(offset), SEEK_SET);
+    const std::size_t got = std::fread(to, 1, size, file_.get());
+    if (got != size)
+    {
+      throw FileProblem(vtkErrorCode::CannotOpenFileError,
+        "reading stopped at byte " + std::to_string(offset + got) + " of " + std::to_string(size_),
+        "check the disk, or wait until the file is completely written");
+    }
   }
 
+private:
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
   std::size_t size_ = 0;
-  std::size_t position_ = 0;
 };
 
 FileBytes::FileBytes(const std::string& path, const Progress& progress, const Inspect& inspect, bool salvages)
@@ -179,31 +154,20 @@ FileBytes::FileBytes(const std::string& path, const Progress& progress, const In
   checkIsReadable(path);
   std::error_code ignored;
   const bool isStream = !fs::is_regular_file(path, ignored);
-  if (isStream)
-  {
-    readStream(path, progress);
-  }
-  File file = isStream ? File(view()) : File(path);
-  if (file.size() == 0)
+  isStream ? readStream(path, progress) : readPlain(path, progress, inspect);
+  if (size_ == 0)
   {
     throw FileProblem(vtkErrorCode::PrematureEndOfFileError, "the file is empty (0 bytes)",
       "export the cloud again or copy the file again");
   }
-  char start[2];
-  wasPacked_ = file.peek(start, sizeof(start)) == kGzipMagic;
+  wasPacked_ = view().substr(0, 2) == kGzipMagic;
   if (wasPacked_)
   {
-    const std::unique_ptr<char, Free> packed = std::move(data_);
-    size_ = 0;
-    unpack(file, progress, inspect, salvages);
+    unpack(progress, inspect, salvages);
   }
   else if (isStream)
   {
     inspect(view(), size_);
-  }
-  else
-  {
-    readPlain(file, progress, inspect);
   }
 }
 
@@ -273,66 +237,68 @@ void FileBytes::readStream(const std::string& path, const Progress& progress)
   resize(std::max(size_, std::size_t{ 1 }));
 }
 
-void FileBytes::readPlain(File& file, const Progress& progress, const Inspect& inspect)
+void FileBytes::readPlain(const std::string& path, const Progress& progress, const Inspect& inspect)
 {
-  resize(file.size());
+  File file(path);
+  resize(std::max(file.size(), std::size_t{ 1 }));
+  bool isPacked = false;
   while (size_ < file.size())
   {
     const std::size_t piece = std::min(kReadAtOnce, file.size() - size_);
-    file.read(data_.get() + size_, piece);
+    file.read(size_, data_.get() + size_, piece);
     if (size_ == 0)
     {
-      inspect({ data_.get(), piece }, file.size());
+      isPacked = std::string_view(data_.get(), piece).substr(0, 2) == kGzipMagic;
+      isPacked ? void() : inspect({ data_.get(), piece }, file.size());
     }
     size_ += piece;
-    progress(file.done());
+    progress(isPacked ? 0.0 : static_cast<double>(size_) / static_cast<double>(file.size()));
   }
 }
 
-void FileBytes::unpack(File& file, const Progress& progress, const Inspect& inspect, bool salvages)
+/// Takes the bytes for those of a gzip file.
+void FileBytes::unpack(const Progress& progress, const Inspect& inspect, bool salvages)
 {
-  const std::size_t limit = std::max(kGzipFloor, kMostGzipRatio * file.size());
+  const std::unique_ptr<char, Free> packed = std::move(data_);
+  const std::size_t packedSize = std::exchange(size_, 0);
+  const std::size_t limit = std::max(kGzipFloor, kMostGzipRatio * packedSize);
   Inflater inflater;
+  std::size_t taken = 0; // by zlib
   const auto where = [&]
-  { return "byte " + std::to_string(file.position() - inflater.stream.avail_in) + " of the gzip file: "; };
-  const auto unread = [&] { return inflater.stream.avail_in > 0 || file.position() < file.size(); };
-  std::unique_ptr<char[]> packed(new char[kPackedAtOnce]);
+  { return "byte " + std::to_string(taken - inflater.stream.avail_in) + " of the gzip file: "; };
+  const auto unread = [&] { return inflater.stream.avail_in > 0 || taken < packedSize; };
   std::size_t capacity = kInspected;
   resize(capacity);
   bool inspected = false;
   bool ended = false;
   while (!ended || unread())
   {
-    if (inflater.stream.avail_in == 0 && file.position() < file.size())
+    if (inflater.stream.avail_in == 0 && taken < packedSize)
     {
-      const std::size_t piece = std::min(kPackedAtOnce, file.size() - file.position());
-      file.read(packed.get(), piece);
-      inflater.stream.next_in = reinterpret_cast<Bytef*>(packed.get());
-      inflater.stream.avail_in = static_cast<uInt>(piece);
-      progress(file.done());
+      inflater.stream.next_in = reinterpret_cast<Bytef*>(packed.get() + taken);
+      inflater.stream.avail_in = static_cast<uInt>(std::min(kPackedAtOnce, packedSize - taken));
+      taken += inflater.stream.avail_in;
+      progress(static_cast<double>(taken) / static_cast<double>(packedSize));
     }
     if (ended)
     {
       inflateReset(&inflater.stream); // another member follows
     }
     size_ += inflater.unpack(data_.get() + size_, std::min(capacity - size_, kReadAtOnce), ended, where);
-    if (!inspected && size_ > 0 && (size_ == kInspected || ended))
+    const bool isCut = !ended && size_ < capacity && !unread();
+    if (isCut && (!salvages || size_ == 0))
     {
-      inspect(view(), ended && file.position() == file.size() ? size_ : 0);
+      failTruncated(where() + "the compressed data end too early",
+        size_ > 0 ? ", or read what is there by --salvage" : "");
+    }
+    if (!inspected && size_ > 0 && (size_ == kInspected || ended || isCut))
+    {
+      inspect(view(), (ended && taken == packedSize) || isCut ? size_ : 0);
       inspected = true;
     }
-    if (!ended && size_ < capacity && !unread())
+    if (isCut)
     {
-      if (!salvages || size_ == 0)
-      {
-        failTruncated(where() + "the compressed data end too early",
-          size_ > 0 ? ", or read what is there by --salvage" : "");
-      }
       isCut_ = true;
-      if (!inspected)
-      {
-        inspect(view(), size_);
-      }
       return;
     }
     if (size_ == capacity)
@@ -340,7 +306,7 @@ void FileBytes::unpack(File& file, const Progress& progress, const Inspect& insp
       if (capacity == limit)
       {
         failFormat(where() + "unpacks to more than " + std::to_string(limit) + " bytes from " +
-            std::to_string(file.size()),
+            std::to_string(packedSize),
           "if this is no attack, unpack it first: gunzip -k FILE");
       }
       capacity = std::min(limit, 2 * capacity);

@@ -12,7 +12,8 @@
 namespace pointhaptics::io
 {
 
-/// Owns the bytes. Costs the size of the (unpacked) content in memory while it lives.
+/// Owns the bytes. Costs the size of the (unpacked) content in memory while it lives, and that of a packed
+/// file while it is unpacked.
 class FileBytes
 {
 public:
@@ -53,8 +54,8 @@ private:
   class File;
 
   void readStream(const std::string& path, const Progress& progress);
-  void readPlain(File& file, const Progress& progress, const Inspect& inspect);
-  void unpack(File& file, const Progress& progress, const Inspect& inspect, bool salvages);
+  void readPlain(const std::string& path, const Progress& progress, const Inspect& inspect);
+  void unpack(const Progress& progress, const Inspect& inspect, bool salvages);
   void resize(std::size_t size);
 
   std::unique_ptr<char, Free> data_;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <string_view>
 
 namespace pointhaptics::io
 {
@@ -27,6 +28,13 @@ T loadLittle(const char* at) noexcept
     std::memcpy(&value, raw, sizeof(T));
   }
   return value;
+}
+
+/// Number at @p offset. @pre it lies inside @p bytes.
+template <typename T>
+T numberAt(std::string_view bytes, std::size_t offset) noexcept
+{
+  return loadLittle<T>(bytes.data() + offset);
 }
 
 /// Writes @p value little-endian to @p at, which need not be aligned.

@@ -52,6 +52,14 @@ public:
     {
       fail(XML_ErrorString(XML_GetErrorCode(parser_)));
     }
+    fed_ += static_cast<std::int64_t>(bytes.size());
+    const std::int64_t at = XML_GetCurrentByteIndex(parser_);
+    if (!isLast && at >= 0 && fed_ - at > static_cast<std::int64_t>(kLongestXmlTag))
+    {
+      failFormat("XML line " + std::to_string(lineOf(parser_)) + ": a tag or comment of more than " +
+          std::to_string(kLongestXmlTag) + " bytes",
+        "write it with shorter ones; texts belong between tags");
+    }
   }
   XmlElement takeRoot()
   {
@@ -125,6 +133,7 @@ private:
   XmlElement document_;
   std::vector<XmlElement*> open_{ &document_ };
   std::size_t elements_ = 0;
+  std::int64_t fed_ = 0; ///< Bytes so far.
   std::exception_ptr problem_;
 };
 

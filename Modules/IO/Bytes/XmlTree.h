@@ -17,6 +17,9 @@ namespace pointhaptics::io
 constexpr std::size_t kMostXmlDepth = 64;
 /// Elements of the whole text: scans and images of E57 have about fifty each.
 constexpr std::size_t kMostXmlElements = 500000;
+/// Bytes of a tag or a comment: parsers that are given less at once, as VTK's are, look at each one again and
+/// again.
+constexpr std::size_t kLongestXmlTag = std::size_t{ 1 } << 16;
 
 /// One element: <name attribute="value">text<child/></name>.
 struct XmlElement
@@ -47,9 +50,9 @@ enum class XmlPart
   Start, ///< It ends behind a tag, which need not be closed.
 };
 
-/// The root of the text that @p next gives, piece by piece, until it is empty; the start of a text may have
-/// none, and then it has no name. @throws FileProblem with the
-/// line of a fault, for document types (and with them for entities), and beyond the limits above.
+/// The root of the text that @p next gives, in pieces of at most kLongestXmlTag bytes, until it is empty; the
+/// start of a text may have none, and then it has no name. @throws FileProblem with the line of a fault, for
+/// document types (and with them for entities), and beyond the limits above.
 XmlElement parseXml(
   const std::function<std::string_view()>& next, bool wantsTexts, XmlPart part = XmlPart::Whole);
 

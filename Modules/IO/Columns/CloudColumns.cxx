@@ -3,9 +3,9 @@
 #include "Bytes/NumericType.h"
 #include "Core/Resample/FieldNames.h"
 #include "FileProblem.h"
+#include "IO/Bytes/TextScan.h"
 #include "IO/Info/LengthUnit.h"
-#include "IO/SharedReading.h"
-#include "IO/Text/TextScan.h"
+#include "ReadTask.h"
 
 #include "vtkCellArray.h"
 #include "vtkDataArray.h"
@@ -33,10 +33,10 @@ namespace
 {
 
 /// An array "RGB" of bytes made of @p colors: integers up to 255 are bytes, of those up to 65535 the high
-/// byte is taken; other numbers are 0..1, or 0..255 or 0..65535 where one is larger. NaN is 0. The largest
-/// value is that of all ranks, where @p shared is there (collective). Null where a value is below 0 or
-/// larger: these are no colours.
-vtkSmartPointer<vtkDataArray> shownColors(vtkDataArray* colors, SharedReading* shared);
+/// byte is taken; other numbers are 0..1, or 0..255 or 0..65535 where one is larger. NaN is 0. @p most says
+/// how far they go where it is above 0. The largest value is that of all ranks, where @p shared is there
+/// (collective). Null where a value is below 0 or larger: these are no colours.
+vtkSmartPointer<vtkDataArray> shownColors(vtkDataArray* colors, double most, SharedReading* shared);
 
 struct ValueRange
 {
@@ -61,8 +61,8 @@ template <typename T>
 void fillBytes(const T* values, vtkIdType count, double most, unsigned char* bytes)
 {
   constexpr bool isInteger = std::is_integral_v<T>;
-  const double factor = isInteger ? (most > 255.0 ? 1.0 / 256.0 : 1.0)
-                                  : (most > 255.0 ? 1.0 / 257.0 : (most > 1.0 ? 1.0 : 255.0));
+  // Integers in 256 steps of equal width, so that 65535 is 255 and the byte is the value's first.
+  const double factor = isInteger ? 256.0 / (most + 1.0) : 255.0 / most;
   const double rounding = isInteger ? 0.0 : 0.5;
   for (vtkIdType i = 0; i < count; ++i)
   {
@@ -72,7 +72,7 @@ void fillBytes(const T* values, vtkIdType count, double most, unsigned char* byt
   }
 }
 
-vtkSmartPointer<vtkDataArray> shownColors(vtkDataArray* colors, SharedReading* shared)
+vtkSmartPointer<vtkDataArray> shownColors(vtkDataArray* colors, double most, SharedReading* shared)
 {
   const vtkIdType count = colors->GetNumberOfValues();
   ValueRange range;
@@ -86,10 +86,12 @@ vtkSmartPointer<vtkDataArray> shownColors(vtkDataArray* colors, SharedReading* s
       range = { std::min(range.least, each.least), std::max(range.most, each.most) };
     }
   }
-  if (range.least < 0.0 || range.most > 65535.0)
+  if (range.least < 0.0 || std::max(range.most, most) > 65535.0)
   {
     return nullptr;
   }
+  const bool areBytes = range.most > 1.0 || !isFloatingType(colors->GetDataType());
+  most = most > 0.0 && range.most <= most ? most : range.most > 255.0 ? 65535.0 : areBytes ? 255.0 : 1.0;
   auto bytes = vtkSmartPointer<vtkUnsignedCharArray>::New();
   bytes->SetName("RGB");
   bytes->SetNumberOfComponents(colors->GetNumberOfComponents());
@@ -97,8 +99,8 @@ vtkSmartPointer<vtkDataArray> shownColors(vtkDataArray* colors, SharedReading* s
   withType(colors->GetDataType(),
     [&](auto zero)
     {
-      fillBytes(static_cast<const decltype(zero)*>(colors->GetVoidPointer(0)), count, range.most,
-        bytes->GetPointer(0));
+      fillBytes(
+        static_cast<const decltype(zero)*>(colors->GetVoidPointer(0)), count, most, bytes->GetPointer(0));
     });
   return bytes;
 }
@@ -462,6 +464,21 @@ ColumnView CloudColumns::target(std::size_t column, int component) const
     std::ptrdiff_t{ size } * array->GetNumberOfComponents(), array->GetDataType() };
 }
 
+void CloudColumns::fill(const std::vector<StoredColumn>& stored, const ReadTask& task) const
+{
+  for (vtkIdType row = 0; row < rows_; row += kProgressRows)
+  {
+    const vtkIdType count = std::min(kProgressRows, rows_ - row);
+    for (const StoredColumn& each : stored)
+    {
+      const ConstColumnView& source = each.source;
+      copyStrided({ source.first + row * source.stride, source.stride, source.type },
+        target(each.column, each.component).fromRow(row), count, each.isSwapped);
+    }
+    task.progress(static_cast<double>(row + count) / static_cast<double>(rows_));
+  }
+}
+
 void CloudColumns::moveTo(vtkPolyData* cloud, SharedReading* shared)
 {
   vtkNew<vtkPoints> points;
@@ -471,7 +488,7 @@ void CloudColumns::moveTo(vtkPolyData* cloud, SharedReading* shared)
   {
     cloud->GetPointData()->AddArray(arrays_[i]);
   }
-  if (const auto shown = colors_ ? shownColors(colors_, shared) : nullptr)
+  if (const auto shown = colors_ ? shownColors(colors_, mostColor_, shared) : nullptr)
   {
     shown->SetName(unusedName(shown->GetName()).c_str());
     cloud->GetPointData()->AddArray(shown);

@@ -7,6 +7,7 @@
 #include "vtkDataArray.h"
 #include "vtkSmartPointer.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -19,6 +20,7 @@ namespace pointhaptics::io
 {
 
 class SharedReading;
+struct ReadTask;
 
 /// More columns than any cloud has: headers with more are refused before names are compared.
 constexpr std::size_t kMostColumns = 4096;
@@ -47,6 +49,15 @@ std::string coordinateUnit(const std::string& name);
 bool isColorName(const std::string& name);
 bool isNormalName(const std::string& name);
 
+/// The values of one component of a column where a file has them.
+struct StoredColumn
+{
+  ConstColumnView source; ///< From the first row on.
+  std::size_t column = 0;
+  int component = 0;
+  bool isSwapped = false; ///< The bytes of each value stand the other way round.
+};
+
 /// Plans where each column goes, owns the arrays, and hands them over when they are filled:
 /// - x y z, or what coordinatesOf() finds, become the points: double when one of them is double or
 /// an integer of 4 bytes and more, else float;
@@ -70,6 +81,10 @@ public:
   /// The array of column @p column.
   vtkDataArray* arrayOf(std::size_t column) const { return arrays_[places_[column].array]; }
 
+  /// Copies all rows, in blocks of records that stay in the cache, with progress of @p task.
+  void fill(const std::vector<StoredColumn>& stored, const ReadTask& task) const;
+  /// Says that colours which are no bytes go up to @p most at least; 0 says nothing.
+  void setMostColor(double most) { mostColor_ = std::max(mostColor_, most); }
   /// Gives points, arrays and one vertex per point to @p cloud. @p shared: the ranks that each have a part of
   /// the rows; collective.
   void moveTo(vtkPolyData* cloud, SharedReading* shared = nullptr);
@@ -94,6 +109,7 @@ private:
   std::vector<Place> places_;
   std::vector<vtkSmartPointer<vtkDataArray>> arrays_; ///< the first one holds the points
   vtkSmartPointer<vtkDataArray> colors_;              ///< that are no bytes; null where there are none
+  double mostColor_ = 0.0;
 };
 
 /// A vertex for each of @p count points, which are numbered from @p first on.

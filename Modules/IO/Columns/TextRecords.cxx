@@ -145,17 +145,4 @@ void TextRecords::storeAll(ReadTask& task, std::uint64_t rows, std::uint64_t all
   isMore ? throwDoubt() : void();
 }
 
-bool hasRecordALine(std::string_view text, std::size_t numbers)
-{
-  LineReader lines(text);
-  std::string_view line;
-  lines.nextFilled(line);
-  std::size_t words = 0;
-  while (!takeWord(line).empty())
-  {
-    ++words;
-  }
-  return words == numbers;
-}
-
 } // namespace pointhaptics::io

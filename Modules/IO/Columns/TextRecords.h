@@ -3,7 +3,7 @@
 #pragma once
 
 #include "IO/Bytes/StridedCopy.h"
-#include "IO/Text/TextScan.h"
+#include "IO/Bytes/TextScan.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -79,8 +79,5 @@ private:
   std::size_t countedLines_ = 0;
   bool goesOn_ = false; ///< Behind the line in which it begins.
 };
-
-/// True if each record of @p numbers in @p text, which ranks may cut at lines, has a line: so does the first.
-bool hasRecordALine(std::string_view text, std::size_t numbers);
 
 } // namespace pointhaptics::io

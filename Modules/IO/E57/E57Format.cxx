@@ -6,7 +6,6 @@
 #include "IO/E57/E57Columns.h"
 #include "IO/E57/E57Decoder.h"
 #include "IO/E57/E57Packets.h"
-#include "IO/E57/E57Pages.h"
 #include "IO/E57/E57Scan.h"
 #include "IO/Info/FieldText.h"
 
@@ -126,7 +125,7 @@ public:
     if (!isNew || (at != ends_.begin() && std::prev(at)->second > section.first) ||
       (next != ends_.end() && next->first < section.second))
     {
-      failFormat("byte " + std::to_string(E57Pages::physical(section.first)) + ": a section of " +
+      failFormat(atByte(E57Pages::physical(section.first)) + "a section of " +
           std::to_string(section.second - section.first) + " bytes that overlaps another one",
         "the file is damaged: copy or write it again");
     }
@@ -317,6 +316,10 @@ void readE57(ReadTask& task, vtkPolyData* cloud)
     const E57Decoder decoder(plan, columns, scans[i], i, packets[i], first, task.applyPoses);
     decode(task, decoder, first, rows);
     first += static_cast<vtkIdType>(scans[i].records);
+  }
+  for (const E57Scan& scan : scans)
+  {
+    columns.setMostColor(scan.mostColor);
   }
   columns.moveTo(cloud);
   dropUnsetFlags(cloud);

@@ -1,9 +1,9 @@
 #include "IO/E57/E57Scan.h"
 
 #include "FileProblem.h"
+#include "IO/Bytes/TextScan.h"
 #include "IO/Bytes/XmlTree.h"
 #include "IO/Columns/CloudColumns.h"
-#include "IO/Text/TextScan.h"
 
 #include <algorithm>
 #include <charconv>
@@ -208,18 +208,15 @@ E57Pose poseOf(const XmlElement* element, const Numbers& numbers)
   return pose;
 }
 
-void setColorLimits(const XmlElement* limits, const Numbers& numbers, E57Scan& scan)
+/// The greatest of the limits of colours.
+double mostColorOf(const XmlElement* limits, const Numbers& numbers)
 {
-  const char* const names[3] = { "colorRed", "colorGreen", "colorBlue" };
-  for (std::size_t i = 0; limits && i < 3; ++i)
+  double most = 0.0;
+  for (const char* name : { "colorRedMaximum", "colorGreenMaximum", "colorBlueMaximum" })
   {
-    const std::string name = names[i];
-    if (limits->child(name + "Maximum"))
-    {
-      scan.colorLimits[i] = E57Limits{ numberOf(limits, (name + "Minimum").c_str(), numbers),
-        numberOf(limits, (name + "Maximum").c_str(), numbers) };
-    }
+    most = std::max(most, numberOf(limits, name, numbers));
   }
+  return most;
 }
 
 /// The standard has one codec, which is used where none is named.
@@ -241,7 +238,7 @@ E57Scan scanOf(const XmlElement& element, std::size_t number)
   const Numbers numbers(scan.name.empty() ? ordinal : ordinal + " " + inQuotes(scan.name));
   scan.name = scan.name.empty() ? ordinal : scan.name;
   scan.pose = poseOf(element.child("pose"), numbers);
-  setColorLimits(element.child("colorLimits"), numbers, scan);
+  scan.mostColor = mostColorOf(element.child("colorLimits"), numbers);
   const XmlElement* points = element.child("points");
   if (!points)
   {

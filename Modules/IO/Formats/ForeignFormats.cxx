@@ -1,6 +1,6 @@
 #include "FileProblem.h"
+#include "IO/Bytes/TextScan.h"
 #include "IO/Formats/FormatLooks.h"
-#include "IO/Text/TextScan.h"
 
 #include <algorithm>
 #include <sstream>

@@ -43,7 +43,7 @@ const CloudFormat kFormats[] = {
   { "KITTI", "bin", looksLikeKitti, readKitti },
   { "Gaussian splats", "splat", looksLikeSplat, readSplat },
   { "CSV", "csv", nullptr, nullptr, false, writeCsv },
-  { "text", "xyz txt pts tsv dat xyzn xyzrgb", looksLikeColumns, readText, true, writeXyz },
+  { "text", "xyz txt pts tsv dat xyzn xyzrgb", looksLikeColumns, readText, false, writeXyz },
 };
 
 std::vector<std::string> wordsOf(const char* text)

@@ -49,4 +49,8 @@ std::vector<std::string> formatExtensions(bool written);
 /// The table of all formats, in Markdown.
 std::string formatTable();
 
+/// Gaussian splats are a cloud of ellipsoids: of one with the arrays "f_dc" and "opacity", adds their colours
+/// as "RGB" and leaves out those that can hardly be seen, with a note. Collective where ranks read the file.
+void finishSplats(ReadTask& task, vtkPolyData* cloud);
+
 } // namespace pointhaptics::io

@@ -1,6 +1,6 @@
+#include "IO/Bytes/TextScan.h"
 #include "IO/Columns/CloudColumns.h"
 #include "IO/Formats/FormatLooks.h"
-#include "IO/Text/TextScan.h"
 #include "ReadTask.h"
 
 #include "vtkFloatArray.h"

@@ -1,5 +1,6 @@
 #include "IO/Info/CloudSummary.h"
 
+#include "IO/Info/CloudExtent.h"
 #include "IO/Info/FieldText.h"
 #include "IO/Info/LengthUnit.h"
 
@@ -328,14 +329,10 @@ CloudSummary summarize(vtkPolyData* cloud, const std::string& format, bool stati
   }
   summary.isFloat = cloud->GetPoints() && cloud->GetPoints()->GetDataType() == VTK_FLOAT;
   const std::vector<Vec3> points = finitePoints(cloud);
-  summary.invalid = summary.points - std::int64_t(points.size());
-  std::int64_t atZero = 0;
-  for (const Vec3& p : points)
-  {
-    summary.bounds.include(p);
-    atZero += isAtZero(p) ? 1 : 0;
-  }
-  summary.noReturns = areNoReturns(atZero, std::int64_t(points.size())) ? atZero : 0;
+  const CloudExtent extent = extentOf(cloud);
+  summary.invalid = extent.invalid;
+  summary.bounds = extent.all;
+  summary.noReturns = extent.noReturns;
   const FarPoints far = findFarPoints(PointView(points.data(), std::int64_t(points.size())), summary.bounds);
   std::vector<Vec3> places = placesOf(points);
   summary.duplicates = std::int64_t(points.size() - places.size());

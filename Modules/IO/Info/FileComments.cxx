@@ -1,8 +1,8 @@
 #include "IO/Info/FileComments.h"
 
+#include "IO/Bytes/TextScan.h"
 #include "IO/Info/FieldText.h"
 #include "IO/Info/LengthUnit.h"
-#include "IO/Text/TextScan.h"
 
 #include "vtkDataArray.h"
 #include "vtkPointData.h"
@@ -41,21 +41,6 @@ std::string encoded(const std::string& name)
     word += isPlain ? std::string(1, c) : std::string{ '%', kDigits[byte >> 4], kDigits[byte & 15] };
   }
   return word;
-}
-
-std::string decoded(std::string_view word)
-{
-  std::string name;
-  for (std::size_t i = 0; i < word.size(); ++i)
-  {
-    unsigned char byte = 0;
-    const std::string_view code = word[i] == '%' ? word.substr(i + 1, 2) : std::string_view();
-    const bool isCode = code.size() == 2 &&
-      std::from_chars(code.data(), code.data() + 2, byte, 16).ptr == code.data() + 2 && byte != 0;
-    name += isCode ? static_cast<char>(byte) : word[i];
-    i += isCode ? 2 : 0;
-  }
-  return name;
 }
 
 /// "mm" of "units: mm" and "Coordinate Unit = mm"; empty where @p comment says no unit that is known.
@@ -108,6 +93,21 @@ bool mayBeDegrees(vtkPolyData* cloud)
 
 } // namespace
 
+std::string percentDecoded(std::string_view word)
+{
+  std::string name;
+  for (std::size_t i = 0; i < word.size(); ++i)
+  {
+    unsigned char byte = 0;
+    const std::string_view code = word[i] == '%' ? word.substr(i + 1, 2) : std::string_view();
+    const bool isCode = code.size() == 2 &&
+      std::from_chars(code.data(), code.data() + 2, byte, 16).ptr == code.data() + 2 && byte != 0;
+    name += isCode ? static_cast<char>(byte) : word[i];
+    i += isCode ? 2 : 0;
+  }
+  return name;
+}
+
 bool isUnitWord(std::string_view unit)
 {
   constexpr std::size_t kLongest = 40;
@@ -143,8 +143,8 @@ bool FileComments::add(std::string_view comment)
     return false;
   }
   comment.remove_prefix(kName.size());
-  const std::string inFile = decoded(takeWord(comment));
-  const std::string name = decoded(takeWord(comment));
+  const std::string inFile = percentDecoded(takeWord(comment));
+  const std::string name = percentDecoded(takeWord(comment));
   const bool isName = !name.empty() && trimmed(comment).empty();
   isName ? void(names.emplace_back(inFile, name)) : void();
   return isName;

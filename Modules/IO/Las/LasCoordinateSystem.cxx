@@ -1,9 +1,9 @@
 #include "IO/Las/LasCoordinateSystem.h"
 
+#include "IO/Bytes/TextScan.h"
 #include "IO/Info/FieldText.h"
 #include "IO/Info/LengthUnit.h"
 #include "IO/Las/LasHeader.h"
-#include "IO/Text/TextScan.h"
 
 #include <algorithm>
 #include <iterator>

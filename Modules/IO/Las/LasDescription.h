@@ -2,8 +2,8 @@
 /// Records and extra bytes of a LAS file, as the file had them that the cloud came from.
 #pragma once
 
-#include "IO/Columns/OutputColumns.h"
 #include "IO/Las/LasHeader.h"
+#include "IO/WriteTask.h"
 
 #include <cstdint>
 #include <string>
@@ -47,5 +47,15 @@ private:
 /// Fills @p stored with the values of @p array as the file had them. @return whether each comes back so: of
 /// its type, with its scale, and what it has for none.
 bool storeAsBefore(const OutputArray& array, const LasExtraField& field, OutputArray& stored);
+
+/// The variable length record, with its header, that a LAZ file of this point format and record length needs.
+std::string lazDescription(int pointFormat, std::size_t recordLength);
+
+/// Writes @p rows records of @p recordLength bytes in chunks of 50,000 behind the offset of their table, and
+/// the table behind them, with progress from @p begin to 1. @p pointsOffset: where they begin in the file.
+/// Costs the size of the compressed points in memory: a pipe, too, gets the offset of the table before the
+/// points.
+void writeLazRecords(const std::vector<RecordField>& fields, int pointFormat, std::size_t recordLength,
+  std::size_t pointsOffset, vtkIdType rows, WriteTask& task, double begin);
 
 } // namespace pointhaptics::io

@@ -4,7 +4,7 @@
 #include "IO/Las/LasHeader.h"
 #include "IO/Las/LasRecords.h"
 #include "IO/Las/Laz/ChunkDecoder.h"
-#include "IO/Las/Laz/CopcHierarchy.h"
+#include "IO/Las/Laz/LazChunks.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"

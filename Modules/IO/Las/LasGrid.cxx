@@ -132,13 +132,6 @@ bool placeOnDecimals(const Axis& axis, const Accepts& accepts, LasGrid& grid)
   return false;
 }
 
-bool placeExactly(const Axis& axis, const WantedGrid& wanted, LasGrid& grid)
-{
-  grid.scale = wanted.scale;
-  grid.offset = wanted.offset;
-  return (wanted.scale > 0.0 && place(axis, isSame, grid)) || placeOnDecimals(axis, isSame, grid);
-}
-
 /// The finest steps of a power of two: at most 2^31 of them to either side of a centre that is itself a
 /// multiple of the step, and one of fewer than 2^53 steps: else it would be no double.
 void takeBinarySteps(const Axis& axis, LasGrid& grid)
@@ -151,7 +144,7 @@ void takeBinarySteps(const Axis& axis, LasGrid& grid)
 /// False: the cloud is too small or too large for steps of the wanted scale.
 bool takeWantedSteps(const Axis& axis, const WantedGrid& wanted, LasGrid& grid)
 {
-  if (!(wanted.scale > 0.0 && wanted.extent >= LasGrid::kFewestSteps * wanted.scale))
+  if (!(wanted.extent >= LasGrid::kFewestSteps * wanted.scale))
   {
     return false;
   }
@@ -172,18 +165,6 @@ bool takeUsualSteps(const Axis& axis, const WantedGrid& wanted, LasGrid& grid)
   grid.offset = 0.0;
   // Steps finer than the last digit of a far coordinate are none.
   return reaches(axis, grid) && grid.scale > std::ldexp(axis.farthest(), -52);
-}
-
-/// Throws where the steps do not span the axis.
-void takeForcedSteps(const Axis& axis, const WantedGrid& wanted, LasGrid& grid)
-{
-  grid.scale = wanted.forced;
-  grid.offset = wanted.offset;
-  if (!reaches(axis, grid))
-  {
-    failFormat("steps of " + fmt::format("{}", grid.scale) + " do not span the cloud with 32 bits",
-      "give larger ones, or none");
-  }
 }
 
 /// The finest steps of a power of ten. False: there are none that doubles can hold well.
@@ -222,44 +203,36 @@ double LasGrid::usualStep(const std::string& unit, int axis)
 LasGrid LasGrid::fit(ConstColumnView column, vtkIdType count, const WantedGrid& wanted)
 {
   const Axis axis = makeAxis(column, count);
-  WantedGrid usable = wanted;
-  if (!(wanted.scale > 0.0 && std::isfinite(wanted.scale) && std::isfinite(wanted.offset)))
-  {
-    usable.scale = 0.0;
-  }
-  LasGrid grid;
+  const bool isWanted = wanted.scale > 0.0 && std::isfinite(wanted.scale) && std::isfinite(wanted.offset);
   // 17.31 of a text is not 1731 times 0.01, but next to it.
   const double lastDigits = 2.0 * std::numeric_limits<double>::epsilon() * axis.farthest();
   const auto isNearby = [=](double given, double coordinate)
   { return std::abs(given - coordinate) <= lastDigits; };
-  if (wanted.forced > 0.0)
+  const auto isAny = [](double, double) { return true; };
+  const bool isForced = wanted.forced > 0.0;
+  LasGrid grid;
+  grid.scale = isForced ? wanted.forced : wanted.scale;
+  grid.offset = wanted.offset;
+  if (isForced && !reaches(axis, grid))
   {
-    takeForcedSteps(axis, wanted, grid);
-    place(
-      axis, [](double, double) { return true; }, grid);
-    grid.rounds = grid.largestError > lastDigits;
+    failFormat("steps of " + fmt::format("{}", grid.scale) + " do not span the cloud with 32 bits",
+      "give larger ones, or none");
+  }
+  const bool isExact = !isForced &&
+    ((isWanted && place(axis, isSame, grid)) || placeOnDecimals(axis, isSame, grid) ||
+      (!isWanted && placeOnDecimals(axis, isNearby, grid)) ||
+      (!isWanted && column.type == VTK_FLOAT && placeOnDecimals(axis, isSameFloat, grid)));
+  if (isExact)
+  {
     return grid;
   }
-  if (placeExactly(axis, usable, grid))
-  {
-    return grid;
-  }
-  if (usable.scale == 0.0)
-  {
-    if (placeOnDecimals(axis, isNearby, grid) ||
-      (column.type == VTK_FLOAT && placeOnDecimals(axis, isSameFloat, grid)))
-    {
-      return grid;
-    }
-  }
-  if (!takeWantedSteps(axis, usable, grid) && !takeUsualSteps(axis, wanted, grid) &&
-    !takeDecimalSteps(axis, grid))
+  if (!isForced && !(isWanted && takeWantedSteps(axis, wanted, grid)) &&
+    !takeUsualSteps(axis, wanted, grid) && !takeDecimalSteps(axis, grid))
   {
     takeBinarySteps(axis, grid);
   }
-  place(
-    axis, [](double, double) { return true; }, grid);
-  grid.rounds = grid.largestError > 0.0;
+  place(axis, isAny, grid);
+  grid.rounds = grid.largestError > (isForced ? lastDigits : 0.0);
   return grid;
 }
 

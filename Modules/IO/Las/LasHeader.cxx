@@ -17,13 +17,6 @@ namespace
 
 constexpr std::size_t kEvlrHeader = 60;
 
-/// Number at @p offset. @pre it lies inside @p bytes.
-template <typename T>
-T numberAt(std::string_view bytes, std::size_t offset)
-{
-  return loadLittle<T>(bytes.data() + offset);
-}
-
 std::string_view untilZero(std::string_view text)
 {
   return text.substr(0, text.find('\0'));
@@ -143,8 +136,8 @@ void checkScales(const LasHeader& header)
     if (!std::isfinite(header.scale[axis]) || header.scale[axis] == 0.0 ||
       !std::isfinite(header.offset[axis]))
     {
-      failFormat("byte " + std::to_string(131 + 8 * axis) + ": scale " + std::to_string(header.scale[axis]) +
-          " and offset " + std::to_string(header.offset[axis]) + " of axis " + "xyz"[axis] + " are unusable",
+      failFormat(atByte(131 + 8 * axis) + "scale " + std::to_string(header.scale[axis]) + " and offset " +
+          std::to_string(header.offset[axis]) + " of axis " + "xyz"[axis] + " are unusable",
         "write the file again with finite scales other than 0");
     }
   }

@@ -1,4 +1,4 @@
-#include "FormatWriters.h"
+#include "IO/WriteTask.h"
 
 #include "Bytes/NumericType.h"
 #include "Core/Resample/FieldNames.h"
@@ -6,7 +6,6 @@
 #include "IO/Las/LasDescription.h"
 #include "IO/Las/LasGrid.h"
 #include "IO/Las/LasHeader.h"
-#include "IO/Las/LazWriter.h"
 
 #include "vtkDataArray.h"
 #include "vtkFieldData.h"

@@ -1,4 +1,4 @@
-#include "IO/Las/LazWriter.h"
+#include "IO/Las/LasDescription.h"
 
 #include "IO/Las/LasHeader.h"
 #include "IO/Las/Laz/ChunkEncoder.h"

@@ -2,7 +2,7 @@
 
 #include "IO/Columns/CloudColumns.h"
 #include "IO/Formats/FormatLooks.h"
-#include "IO/Text/NumberColumn.h"
+#include "IO/Text/TextTable.h"
 
 #include <algorithm>
 #include <array>
@@ -15,220 +15,181 @@ namespace pointhaptics::io
 namespace
 {
 
-constexpr std::size_t kMostNumbers = 7;
-
-/// The numbers of one line, at most kMostNumbers of them.
-struct Numbers
+/// Three columns of numbers, row by row.
+struct Triples
 {
-  std::array<NumberShape, kMostNumbers> shapes;
-  std::array<double, kMostNumbers> values{};
-  std::size_t count = 0;
+  std::array<NumberColumn, 3> columns;
+  std::vector<double> values;
+
+  vtkIdType rows() const { return static_cast<vtkIdType>(values.size() / 3); }
+  ConstColumnView column(std::size_t i) const
+  {
+    return { reinterpret_cast<const char*>(values.data() + i), 3 * sizeof(double), VTK_DOUBLE };
+  }
 };
 
-Numbers parseNumbers(std::string_view line, std::size_t lineNumber)
+/// Reads the lines of one file.
+class ObjReader
 {
-  Numbers numbers;
-  double value = 0.0;
-  NumberShape shape;
-  while (takeNumber(line, value, &shape))
+public:
+  explicit ObjReader(ReadTask& task)
+    : task_(task)
+    , lines_(withoutByteOrderMark(task.bytes))
   {
-    if (numbers.count == kMostNumbers)
-    {
-      failFormat(
-        "line " + std::to_string(lineNumber) + ": more than " + std::to_string(kMostNumbers) + " numbers",
-        "a vertex is: v x y z, with r g b after it if it is coloured");
-    }
-    numbers.values[numbers.count] = value;
-    numbers.shapes[numbers.count++] = shape;
+  }
+  void read();
+  void moveTo(vtkPolyData* cloud);
+
+private:
+  void addLine(std::string_view line);
+  void addNumbers(std::string_view line, Triples& triples, std::size_t most);
+  void addFace(std::string_view line);
+  [[noreturn]] void fail(const std::string& what, bool isNormal) const
+  {
+    failFormat("line " + std::to_string(lines_.lineNumber()) + ": " + what,
+      isNormal ? "a normal is: vn x y z" : "a vertex is: v x y z, with r g b after it if it is coloured");
+  }
+
+  ReadTask& task_;
+  LineReader lines_;
+  Triples places_;
+  Triples colors_;
+  Triples normals_;
+  std::vector<vtkIdType> corners_;
+};
+
+/// Adds up to @p most numbers: x y z, x y z w, x y z r g b, x y z w r g b.
+void ObjReader::addNumbers(std::string_view line, Triples& triples, std::size_t most)
+{
+  const bool isNormal = most == 3;
+  std::array<double, 8> values{};
+  std::array<NumberShape, 8> shapes;
+  std::size_t count = 0;
+  while (count <= most && takeNumber(line, values[count], &shapes[count]))
+  {
+    ++count;
   }
   const std::string_view word = takeWord(line);
-  if (!word.empty() && word.front() != '#')
+  if (count <= most && !word.empty() && word.front() != '#')
   {
-    failFormat("line " + std::to_string(lineNumber) + ": " + inQuotes(word) + " is not a number",
-      "a vertex is: v x y z, with r g b after it if it is coloured");
+    fail(inQuotes(word) + " is not a number", isNormal);
   }
-  return numbers;
+  if (count < 3 || count == 5 || count > most)
+  {
+    fail((isNormal ? "a normal of " : "a vertex of ") + std::to_string(count) + " numbers", isNormal);
+  }
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    triples.columns[i].add(values[i], shapes[i]);
+    triples.values.push_back(values[i]);
+  }
+  for (std::size_t i = count - 3; count >= 6 && i < count; ++i)
+  {
+    colors_.columns[0].add(values[i], shapes[i]);
+    colors_.values.push_back(values[i]);
+  }
 }
 
-/// Shows each vertex, normal and face to a sink: vertex(numbers), normal(numbers), face(rest of its line).
-template <typename Sink>
-void walkObj(const ReadTask& task, std::string_view text, Sink& sink, double from, double to)
+/// Corners are v, v/vt, v//vn or v/vt/vn, from 1, or below 0 from the last vertex so far.
+void ObjReader::addFace(std::string_view line)
 {
-  LineReader lines(text);
+  ++task_.faces.count;
+  corners_.clear();
+  for (std::string_view word = takeWord(line); task_.faces.isWanted() && !word.empty() && word.front() != '#';
+       word = takeWord(line))
+  {
+    long long vertex = 0;
+    std::from_chars(word.data(), word.data() + word.size(), vertex);
+    corners_.push_back(static_cast<vtkIdType>(vertex < 0 ? places_.rows() + vertex : vertex - 1));
+  }
+  task_.faces.keep(corners_);
+}
+
+void ObjReader::addLine(std::string_view line)
+{
+  const std::string_view keyword = takeWord(line);
+  if (keyword == "f")
+  {
+    addFace(line);
+  }
+  else if (keyword == "v" || keyword == "vn")
+  {
+    addNumbers(line, keyword == "v" ? places_ : normals_, keyword == "v" ? 7 : 3);
+  }
+}
+
+void ObjReader::read()
+{
   std::string_view line;
   std::string joined;
-  while (lines.next(line))
+  while (lines_.next(line))
   {
-    const std::size_t number = lines.lineNumber();
     // Names and comments may end with a backslash, as folders do; numbers go on behind it.
     const bool hasNumbers = !line.empty() && std::string_view("vflp").find(line.front()) < 4;
     for (joined.clear(); hasNumbers && !line.empty() && line.back() == '\\'; line = joined)
     {
       joined.assign(line).back() = ' ';
       std::string_view next;
-      lines.next(next);
+      lines_.next(next);
       joined += next;
     }
-    const std::string_view keyword = takeWord(line);
-    if (keyword == "v")
+    addLine(line);
+    if (lines_.lineNumber() % static_cast<std::size_t>(kProgressRows) == 0)
     {
-      const Numbers numbers = parseNumbers(line, number);
-      // x y z, x y z w, x y z r g b, x y z w r g b
-      if (numbers.count < 3 || numbers.count == 5)
-      {
-        failFormat(
-          "line " + std::to_string(number) + ": a vertex of " + std::to_string(numbers.count) + " numbers",
-          "a vertex is: v x y z, with r g b after it if it is coloured");
-      }
-      sink.vertex(numbers);
-    }
-    else if (keyword == "vn")
-    {
-      const Numbers numbers = parseNumbers(line, number);
-      if (numbers.count != 3)
-      {
-        failFormat(
-          "line " + std::to_string(number) + ": a normal of " + std::to_string(numbers.count) + " numbers",
-          "a normal is: vn x y z");
-      }
-      sink.normal(numbers);
-    }
-    else if (keyword == "f")
-    {
-      sink.face(line);
-    }
-    if (number % static_cast<std::size_t>(kProgressRows) == 0)
-    {
-      task.progress(
-        from + (to - from) * static_cast<double>(lines.position()) / static_cast<double>(text.size()));
+      task_.progress(static_cast<double>(lines_.position()) / static_cast<double>(task_.bytes.size()));
     }
   }
 }
 
-/// Findings of a first pass.
-struct ObjSurvey
+/// Colours and normals count where each vertex has one.
+void ObjReader::moveTo(vtkPolyData* cloud)
 {
-  std::array<NumberColumn, 3> position;
-  vtkIdType vertices = 0;
-  vtkIdType colored = 0;
-  vtkIdType normals = 0;
-  std::uint64_t faces = 0;
-  double brightest = 0.0;
-
-  bool isColored() const { return colored == vertices; }
-  bool hasNormalPerVertex() const { return normals == vertices; }
-  void vertex(const Numbers& numbers)
+  const vtkIdType rows = places_.rows();
+  if (rows == 0)
   {
-    ++vertices;
-    colored += numbers.count >= 6 ? 1 : 0;
-    for (std::size_t axis = 0; axis < 3; ++axis)
+    failNoPoints();
+  }
+  const bool hasNormals = normals_.rows() == rows;
+  std::vector<Column> names;
+  for (const Triples* each : { &places_, hasNormals ? &normals_ : nullptr })
+  {
+    for (std::size_t axis = 0; each && axis < 3; ++axis)
     {
-      position[axis].add(numbers.values[axis], numbers.shapes[axis]);
-      brightest =
-        numbers.count >= 6 ? std::max(brightest, numbers.values[numbers.count - 3 + axis]) : brightest;
+      names.push_back(
+        { (each == &normals_ ? "n" : "") + std::string(1, "xyz"[axis]), each->columns[axis].floatingType() });
     }
   }
-  void normal(const Numbers& numbers)
+  const std::size_t colors = names.size();
+  if (colors_.rows() == rows)
   {
-    ++normals;
-    for (std::size_t axis = 0; axis < 3; ++axis)
+    names.push_back({ "RGB", VTK_TYPE_UINT8, 3 });
+    const double scale = colors_.columns[0].largest() > 1.0 ? 1.0 : 255.0;
+    for (double& value : colors_.values)
     {
-      direction[axis].add(numbers.values[axis], numbers.shapes[axis]);
+      value = std::isfinite(value) ? std::clamp(std::round(scale * value), 0.0, 255.0) : 0.0;
     }
   }
-  void face(std::string_view) { ++faces; }
-  std::array<NumberColumn, 3> direction;
-};
-
-/// The second pass: what the survey did not find has no target.
-struct ObjStore
-{
-  std::array<ColumnView, 3> position;
-  std::array<ColumnView, 3> color;
-  std::array<ColumnView, 3> direction;
-  double colorScale = 255.0; ///< Files hold 0..1; some programs write 0..255.
-  vtkIdType vertices = 0;
-  vtkIdType normals = 0;
-
-  void vertex(const Numbers& numbers)
+  CloudColumns columns(names, rows);
+  for (std::size_t i = 0; i < names.size(); ++i)
   {
-    for (std::size_t axis = 0; axis < 3; ++axis)
+    for (int component = 0; component < names[i].components; ++component)
     {
-      storeNumber(position[axis], vertices, numbers.values[axis]);
-      if (color[axis].first)
-      {
-        const double value = colorScale * numbers.values[numbers.count - 3 + axis];
-        storeNumber(
-          color[axis], vertices, std::isfinite(value) ? std::clamp(std::round(value), 0.0, 255.0) : 0.0);
-      }
+      const Triples& from = i < 3 ? places_ : i < colors ? normals_ : colors_;
+      copyStrided(from.column(i < colors ? i % 3 : static_cast<std::size_t>(component)),
+        columns.target(i, component), rows);
     }
-    ++vertices;
   }
-  void normal(const Numbers& numbers)
-  {
-    for (std::size_t axis = 0; axis < 3 && direction[axis].first; ++axis)
-    {
-      storeNumber(direction[axis], normals, numbers.values[axis]);
-    }
-    ++normals;
-  }
-  /// Corners are v, v/vt, v//vn or v/vt/vn, from 1, or below 0 from the last vertex so far.
-  void face(std::string_view line)
-  {
-    corners.clear();
-    for (std::string_view word = takeWord(line); faces->isWanted() && !word.empty() && word.front() != '#';
-         word = takeWord(line))
-    {
-      long long vertex = 0;
-      std::from_chars(word.data(), word.data() + word.size(), vertex);
-      corners.push_back(static_cast<vtkIdType>(vertex < 0 ? vertices + vertex : vertex - 1));
-    }
-    faces->keep(corners);
-  }
-
-  MeshFaces* faces = nullptr;
-  std::vector<vtkIdType> corners;
-};
+  columns.moveTo(cloud);
+}
 
 } // namespace
 
 void readObj(ReadTask& task, vtkPolyData* cloud)
 {
   task.format = "OBJ";
-  const std::string_view text = withoutByteOrderMark(task.bytes);
-  ObjSurvey survey;
-  walkObj(task, text, survey, 0.0, 0.5);
-  if (survey.vertices == 0)
-  {
-    failNoPoints();
-  }
-  std::vector<Column> names;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    names.push_back({ std::string(1, "xyz"[axis]), survey.position[axis].floatingType() });
-  }
-  for (std::size_t axis = 0; axis < 3 && survey.hasNormalPerVertex(); ++axis)
-  {
-    names.push_back({ std::string("n") + "xyz"[axis], survey.direction[axis].floatingType() });
-  }
-  const std::size_t colors = names.size();
-  if (survey.isColored())
-  {
-    names.push_back({ "RGB", VTK_TYPE_UINT8, 3 });
-  }
-  CloudColumns columns(names, survey.vertices);
-  ObjStore store;
-  store.faces = &task.faces;
-  task.faces.count = survey.faces;
-  store.colorScale = survey.brightest > 1.0 ? 1.0 : 255.0;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    store.position[axis] = columns.target(axis);
-    store.direction[axis] = survey.hasNormalPerVertex() ? columns.target(3 + axis) : ColumnView{};
-    store.color[axis] = survey.isColored() ? columns.target(colors, static_cast<int>(axis)) : ColumnView{};
-  }
-  walkObj(task, text, store, 0.5, 1.0);
-  columns.moveTo(cloud);
+  ObjReader reader(task);
+  reader.read();
+  reader.moveTo(cloud);
 }
 
 } // namespace pointhaptics::io

@@ -1,9 +1,9 @@
 #include "ReadTask.h"
 
 #include "FileProblem.h"
+#include "IO/Bytes/TextScan.h"
 #include "IO/Columns/CloudColumns.h"
 #include "IO/Formats/FormatLooks.h"
-#include "IO/Text/TextScan.h"
 #include "IO/Text/TextTable.h"
 
 namespace pointhaptics::io

@@ -1,9 +1,9 @@
 #include "ReadTask.h"
 
 #include "Bytes/LittleEndian.h"
+#include "IO/Bytes/TextScan.h"
 #include "IO/Columns/CloudColumns.h"
 #include "IO/Formats/FormatLooks.h"
-#include "IO/Text/TextScan.h"
 
 #include <array>
 #include <cstdint>

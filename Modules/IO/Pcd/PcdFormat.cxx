@@ -1,7 +1,6 @@
 #include "ReadTask.h"
 
 #include "Bytes/NumericType.h"
-#include "IO/Bytes/TextPart.h"
 #include "IO/Columns/CloudColumns.h"
 #include "IO/Columns/TextRecords.h"
 #include "IO/Info/FieldText.h"
@@ -135,23 +134,6 @@ private:
 /// Bytes of one field that are unpacked at a time: they stay in the cache.
 constexpr std::size_t kBlockBytes = 1 << 18;
 
-/// PCD packs colours as 0xAARRGGBB. Copies @p count of them into bytes R G B [A].
-void unpackColors(ConstColumnView packed, ColumnView target, vtkIdType count)
-{
-  const char* from = packed.first;
-  char* to = target.first;
-  for (vtkIdType i = 0; i < count; ++i, from += packed.stride, to += target.stride)
-  {
-    std::uint32_t color = 0;
-    std::memcpy(&color, from, sizeof(color));
-    const std::uint32_t bytes[4] = { color >> 16, color >> 8, color, color >> 24 };
-    for (std::ptrdiff_t channel = 0; channel < target.stride; ++channel)
-    {
-      to[channel] = static_cast<char>(static_cast<std::uint8_t>(bytes[channel] & 0xff));
-    }
-  }
-}
-
 /// The fields that are read, each with its place in the output.
 struct PcdTable
 {
@@ -162,14 +144,12 @@ struct PcdTable
   };
   std::vector<Entry> entries;
   std::vector<Column> columns;
-  std::size_t numbers = 0; ///< of a record of text
 
   explicit PcdTable(const PcdHeader& header)
   {
     for (const PcdField& field : header.fields)
     {
       entries.push_back({ field, columns.size() });
-      numbers += static_cast<std::size_t>(field.count);
       if (!field.isPadding())
       {
         columns.push_back(field.column());
@@ -178,20 +158,19 @@ struct PcdTable
   }
 };
 
-/// Copies one field of @p count records, the first of which has it at @p first.
-void copyField(const PcdTable::Entry& entry, const char* first, std::ptrdiff_t stride,
-  const CloudColumns& columns, vtkIdType row, vtkIdType count)
+/// Adds the columns of one field, whose first value lies at @p first: of colours, packed as 0xAARRGGBB, each
+/// byte; of padding none.
+void addStored(
+  const PcdTable::Entry& entry, const char* first, std::ptrdiff_t stride, std::vector<StoredColumn>& stored)
 {
+  constexpr std::ptrdiff_t kBytes[] = { 2, 1, 0, 3 }; // of red, green, blue and alpha
   const PcdField& field = entry.field;
-  if (field.isPackedColor())
+  const bool isPacked = field.isPackedColor();
+  for (int i = 0; !field.isPadding() && i < field.column().components; ++i)
   {
-    unpackColors({ first, stride, field.type }, columns.target(entry.column).fromRow(row), count);
-    return;
-  }
-  for (int component = 0; component < field.count; ++component)
-  {
-    copyStrided({ first + component * sizeOfType(field.type), stride, field.type },
-      columns.target(entry.column, component).fromRow(row), count);
+    stored.push_back({ { first + (isPacked ? kBytes[i] : i * sizeOfType(field.type)), stride,
+                         isPacked ? VTK_TYPE_UINT8 : field.type },
+      entry.column, i });
   }
 }
 
@@ -200,21 +179,13 @@ void fillFromRecords(const ReadTask& task, const PcdHeader& header, const RowRan
 {
   const std::size_t begin = header.bodyOffset + static_cast<std::size_t>(wanted.first) * header.recordSize;
   task.need(begin, static_cast<std::size_t>(wanted.count()) * header.recordSize);
-  const char* records = task.bytes.data() + begin;
-  const vtkIdType rows = static_cast<vtkIdType>(wanted.count());
-  const std::ptrdiff_t stride = static_cast<std::ptrdiff_t>(header.recordSize);
-  for (vtkIdType row = 0; row < rows; row += kProgressRows)
+  std::vector<StoredColumn> stored;
+  for (const PcdTable::Entry& entry : table.entries)
   {
-    const vtkIdType count = std::min(kProgressRows, rows - row);
-    for (const PcdTable::Entry& entry : table.entries)
-    {
-      if (!entry.field.isPadding())
-      {
-        copyField(entry, records + row * stride + entry.field.offset, stride, columns, row, count);
-      }
-    }
-    task.progress(static_cast<double>(row + count) / static_cast<double>(rows));
+    addStored(entry, task.bytes.data() + begin + entry.field.offset,
+      static_cast<std::ptrdiff_t>(header.recordSize), stored);
   }
+  columns.fill(stored, task);
 }
 
 /// Compressed files hold field after field, as a rule without padding.
@@ -242,13 +213,14 @@ void fillFromCompressed(
       block.resize(size * static_cast<std::size_t>(count));
       if (!stream.read(block.data(), block.size()))
       {
-        failFormat("byte " + std::to_string(packedAt + stream.position()) + ": damaged LZF data in field " +
-            inQuotes(field.name),
+        failFormat(atByte(packedAt + stream.position()) + "damaged LZF data in field " + inQuotes(field.name),
           "the file is damaged: copy or write it again");
       }
-      if (!field.isPadding())
+      std::vector<StoredColumn> stored;
+      addStored(entry, block.data(), static_cast<std::ptrdiff_t>(size), stored);
+      for (const StoredColumn& each : stored)
       {
-        copyField(entry, block.data(), static_cast<std::ptrdiff_t>(size), columns, row, count);
+        copyStrided(each.source, columns.target(each.column, each.component).fromRow(row), count);
       }
       done += block.size();
       task.progress(
@@ -257,16 +229,16 @@ void fillFromCompressed(
   }
   if (!stream.isAtEnd())
   {
-    failFormat("byte " + std::to_string(packedAt + stream.position()) + ": more compressed data than points",
+    failFormat(atByte(packedAt + stream.position()) + "more compressed data than points",
       "the file is damaged or its header is wrong: copy it again");
   }
 }
 
 /// A line of numbers for each point. Packed colours are read as the numbers that they are, and unpacked then.
-void fillFromAscii(ReadTask& task, const TextPart& part, const RowRange& wanted, const PcdHeader& header,
-  const PcdTable& table, const CloudColumns& columns)
+void fillFromAscii(
+  ReadTask& task, const PcdHeader& header, const PcdTable& table, const CloudColumns& columns)
 {
-  const vtkIdType rows = static_cast<vtkIdType>(wanted.count());
+  const vtkIdType rows = static_cast<vtkIdType>(header.points);
   std::vector<TextField> fields;
   std::vector<std::vector<std::uint32_t>> packed(table.entries.size());
   for (std::size_t i = 0; i < table.entries.size(); ++i)
@@ -282,16 +254,17 @@ void fillFromAscii(ReadTask& task, const TextPart& part, const RowRange& wanted,
           : columns.target(entry.column, component) });
     }
   }
-  LineReader lines(task.bytes.substr(part.begin, part.end - part.begin), part.firstLine);
-  TextRecords(
-    lines, fields, { "field", "point", "points", "give the field TYPE F in the header" }, !task.shared)
-    .storeAll(task, wanted.count(), header.points);
+  LineReader lines(task.bytes.substr(header.bodyOffset), header.bodyLine);
+  TextRecords(lines, fields, { "field", "point", "points", "give the field TYPE F in the header" }, true)
+    .storeAll(task, header.points, header.points);
+  std::vector<StoredColumn> colors;
   for (std::size_t i = 0; i < table.entries.size(); ++i)
   {
-    packed[i].empty() ? void()
-                      : unpackColors({ reinterpret_cast<const char*>(packed[i].data()), 4, VTK_TYPE_UINT32 },
-                          columns.target(table.entries[i].column), rows);
+    packed[i].empty()
+      ? void()
+      : addStored(table.entries[i], reinterpret_cast<const char*>(packed[i].data()), 4, colors);
   }
+  columns.fill(colors, task);
 }
 
 void addFieldData(ReadTask& task, const PcdHeader& header, vtkPolyData* cloud)
@@ -318,30 +291,16 @@ void readPcd(ReadTask& task, vtkPolyData* cloud)
   PcdHeader header = parsePcdHeader(task);
   task.format = std::string("PCD (") + nameOf(header.encoding) + ")";
   const PcdTable table(header);
-  TextPart part;
-  RowRange rows{ 0, header.points };
-  if (header.encoding == PcdEncoding::Ascii)
+  if (header.encoding != PcdEncoding::Binary)
   {
-    if (task.shared && !hasRecordALine(task.bytes.substr(header.bodyOffset, kStartOfText), table.numbers))
-    {
-      task.takeWhole();
-    }
-    part = partOfText(task, task.bytes, header.bodyOffset, header.bodyLine);
-    rows = part.rowsOf(header.points, "point");
+    task.takeWhole(); // text has no records of one size, compressed files have field after field
   }
-  else if (header.encoding == PcdEncoding::Binary)
-  {
-    rows = task.rowsOf(header.points);
-  }
-  else
-  {
-    task.takeWhole(); // field after field, packed as one
-  }
+  const RowRange rows = task.rowsOf(header.points);
   CloudColumns columns(table.columns, static_cast<vtkIdType>(rows.count()));
   switch (header.encoding)
   {
     case PcdEncoding::Ascii:
-      fillFromAscii(task, part, rows, header, table, columns);
+      fillFromAscii(task, header, table, columns);
       break;
     case PcdEncoding::Binary:
       fillFromRecords(task, header, rows, table, columns);

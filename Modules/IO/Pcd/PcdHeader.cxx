@@ -1,12 +1,12 @@
 #include "IO/Pcd/PcdHeader.h"
 
+#include "Bytes/LittleEndian.h"
 #include "Bytes/NumericType.h"
-#include "IO/Text/TextScan.h"
+#include "IO/Bytes/TextScan.h"
 #include "ReadTask.h"
 
 #include <algorithm>
 #include <cstdint>
-#include <cstring>
 #include <iterator>
 #include <map>
 #include <set>
@@ -222,13 +222,6 @@ PcdHeader HeaderParser::parse()
   return header_;
 }
 
-std::uint32_t numberAt(std::string_view bytes, std::size_t offset)
-{
-  std::uint32_t value = 0;
-  std::memcpy(&value, bytes.data() + offset, sizeof(value));
-  return value;
-}
-
 void checkCompressedSize(std::string_view bytes, PcdHeader& header, unsigned long long unpacked)
 {
   const std::size_t available = bytes.size() - header.bodyOffset;
@@ -237,8 +230,8 @@ void checkCompressedSize(std::string_view bytes, PcdHeader& header, unsigned lon
     failTruncated("the file ends at byte " + std::to_string(bytes.size()) +
       " before its compressed points, which are stored field after field: a part holds no whole point");
   }
-  const unsigned long long packed = numberAt(bytes, header.bodyOffset);
-  const unsigned long long claimed = numberAt(bytes, header.bodyOffset + 4);
+  const unsigned long long packed = numberAt<std::uint32_t>(bytes, header.bodyOffset);
+  const unsigned long long claimed = numberAt<std::uint32_t>(bytes, header.bodyOffset + 4);
   if (claimed != unpacked && claimed == header.points * header.recordSize)
   {
     header.compressedRecordSize = header.recordSize; // with the padding, as some programs write it
@@ -246,13 +239,13 @@ void checkCompressedSize(std::string_view bytes, PcdHeader& header, unsigned lon
   }
   if (packed > available - 8)
   {
-    failTruncated("byte " + std::to_string(header.bodyOffset) + ": " + std::to_string(packed) +
+    failTruncated(atByte(header.bodyOffset) + std::to_string(packed) +
       " compressed bytes announced, but only " + std::to_string(available - 8) +
       " follow, and as fields are stored one after the other these hold no whole point");
   }
   if (claimed != unpacked || unpacked > kMostLzfRatio * packed)
   {
-    failFormat("byte " + std::to_string(header.bodyOffset + 4) + ": " + std::to_string(packed) +
+    failFormat(atByte(header.bodyOffset + 4) + std::to_string(packed) +
         " compressed bytes are said to hold " + std::to_string(claimed) + " where the header needs " +
         std::to_string(unpacked),
       "the file is damaged or its header is wrong: copy it again");

@@ -1,11 +1,10 @@
 #include "ReadTask.h"
 
 #include "Bytes/NumericType.h"
-#include "IO/Bytes/TextPart.h"
+#include "IO/Bytes/TextScan.h"
 #include "IO/Columns/CloudColumns.h"
 #include "IO/Columns/TextRecords.h"
 #include "IO/Ply/PlyHeader.h"
-#include "IO/Text/TextScan.h"
 
 #include <algorithm>
 #include <cstring>
@@ -63,8 +62,7 @@ public:
     }
     if (count < 0.0)
     {
-      failFormat("byte " + std::to_string(at) + ": a list of " +
-          std::to_string(static_cast<long long>(count)) + " items in " +
+      failFormat(atByte(at) + "a list of " + std::to_string(static_cast<long long>(count)) + " items in " +
           recordNumber(element.name.c_str(), index, element.count),
         "write the file again with another program");
     }
@@ -177,24 +175,20 @@ unsigned long long checkedCount(
                               : vertex.count;
 }
 
-/// Records of fixed size: one pass per column over blocks that stay in the cache.
-void fillFixedRecords(BinaryBody& body, const PlyElement& vertex, vtkIdType rows, const CloudColumns& columns,
-  const ReadTask& task)
+/// Records of fixed size.
+void fillFixedRecords(
+  const BinaryBody& body, const PlyElement& vertex, const CloudColumns& columns, const ReadTask& task)
 {
-  const std::size_t recordSize = vertex.minimumRecordSize();
-  for (vtkIdType row = 0; row < rows; row += kProgressRows)
+  std::vector<StoredColumn> stored;
+  const char* field = task.bytes.data() + body.offset();
+  for (std::size_t i = 0; i < vertex.properties.size(); ++i)
   {
-    const vtkIdType count = std::min(kProgressRows, rows - row);
-    const char* field = body.take(recordSize * static_cast<std::size_t>(count), vertex, vertex.count);
-    for (std::size_t i = 0; i < vertex.properties.size(); ++i)
-    {
-      const int type = vertex.properties[i].type;
-      copyStrided({ field, static_cast<std::ptrdiff_t>(recordSize), type }, columns.target(i).fromRow(row),
-        count, body.swap());
-      field += sizeOfType(type);
-    }
-    task.progress(static_cast<double>(row + count) / static_cast<double>(rows));
+    const int type = vertex.properties[i].type;
+    stored.push_back(
+      { { field, static_cast<std::ptrdiff_t>(vertex.minimumRecordSize()), type }, i, 0, body.swap() });
+    field += sizeOfType(type);
   }
+  columns.fill(stored, task);
 }
 
 void fillRecordWithLists(BinaryBody& body, const PlyElement& vertex, const VertexPlan& plan,
@@ -266,7 +260,8 @@ void readBinaryBody(ReadTask& task, const PlyHeader& header, vtkPolyData* cloud)
   {
     body.skip(static_cast<std::size_t>(rows.first) * recordSize);
     task.need(body.offset(), static_cast<std::size_t>(rows.count()) * recordSize);
-    fillFixedRecords(body, vertex, static_cast<vtkIdType>(rows.count()), columns, task);
+    fillFixedRecords(body, vertex, columns, task);
+    body.skip(static_cast<std::size_t>(rows.count()) * recordSize);
   }
   noteCutElements(
     task, header, [&](const PlyElement& element) { skipBinaryElement(body, element, &task.faces); });
@@ -341,35 +336,26 @@ void readAsciiBody(ReadTask& task, const PlyHeader& header, vtkPolyData* cloud)
 {
   const std::size_t vertexIndex = header.vertexElement();
   const PlyElement& vertex = header.elements[vertexIndex];
-  if (vertexIndex > 0 ||
-    (task.shared && !vertex.hasList() &&
-      !hasRecordALine(task.bytes.substr(header.bodyOffset, kStartOfText), vertex.properties.size())))
-  {
-    task.takeWhole();
-  }
-  const TextPart part = partOfText(task, task.bytes, header.bodyOffset, header.bodyLine);
-  const std::string_view text = task.bytes.substr(part.begin, part.end - part.begin);
-  LineReader lines(text, part.firstLine);
+  task.takeWhole();
+  LineReader lines(task.bytes.substr(header.bodyOffset), header.bodyLine);
   for (std::size_t i = 0; i < vertexIndex; ++i)
   {
     skipAsciiElement(lines, header.elements[i]);
   }
-  RowRange rows = part.rowsOf(vertex.count, "vertex");
   // Each number takes a digit and a separator; the last one may lack the separator.
   const std::size_t available = task.bytes.size() - header.bodyOffset - lines.position() + 1;
   const std::size_t least = 2 * vertex.properties.size();
-  rows.last = std::min<std::uint64_t>(rows.last, checkedCount(task, vertex, available, least));
+  const std::uint64_t rows = checkedCount(task, vertex, available, least);
   const VertexPlan plan(vertex);
-  CloudColumns columns(plan.columns, static_cast<vtkIdType>(rows.count()));
+  CloudColumns columns(plan.columns, static_cast<vtkIdType>(rows));
   std::vector<TextField> fields = textFields(vertex);
   for (std::size_t i = 0; i < fields.size(); ++i)
   {
     fields[i].target = fields[i].isList ? ColumnView{} : columns.target(plan.columnOfProperty[i]);
   }
-  const bool isLast = !task.shared &&
-    std::all_of(header.elements.begin() + std::ptrdiff_t(vertexIndex) + 1, header.elements.end(),
-      [](const PlyElement& later) { return later.count == 0; });
-  TextRecords(lines, fields, kWords, isLast).storeAll(task, rows.count(), vertex.count);
+  const bool isLast = std::all_of(header.elements.begin() + std::ptrdiff_t(vertexIndex) + 1,
+    header.elements.end(), [](const PlyElement& later) { return later.count == 0; });
+  TextRecords(lines, fields, kWords, isLast).storeAll(task, rows, vertex.count);
   noteCutElements(
     task, header, [&](const PlyElement& element) { skipWholeAsciiElement(lines, element, task.faces); });
   columns.moveTo(cloud, task.shared);

@@ -2,9 +2,9 @@
 
 #include "Bytes/NumericType.h"
 #include "FileProblem.h"
+#include "IO/Bytes/TextScan.h"
 #include "IO/Columns/CloudColumns.h"
 #include "IO/Formats/FormatLooks.h"
-#include "IO/Text/TextScan.h"
 
 #include <algorithm>
 #include <iterator>

@@ -1,9 +1,9 @@
 #include "Bytes/LittleEndian.h"
 #include "Bytes/NumericType.h"
+#include "IO/Bytes/TextScan.h"
 #include "IO/Columns/CloudColumns.h"
 #include "IO/Columns/ColumnGuess.h"
 #include "IO/Formats/FormatLooks.h"
-#include "IO/Text/TextScan.h"
 #include "ReadTask.h"
 
 #include <algorithm>
@@ -234,11 +234,12 @@ void readNumpy(ReadTask& task, vtkPolyData* cloud)
     }
   }
   CloudColumns target(planned, count);
+  std::vector<StoredColumn> stored;
   for (std::size_t i = 0; i < columns; ++i)
   {
-    copyStrided(sources[i], target.target(i), count, (hasNames ? header.fields[i] : last).isSwapped);
-    task.progress(static_cast<double>(i + 1) / static_cast<double>(columns));
+    stored.push_back({ sources[i], i, 0, (hasNames ? header.fields[i] : last).isSwapped });
   }
+  target.fill(stored, task);
   target.moveTo(cloud);
 }
 

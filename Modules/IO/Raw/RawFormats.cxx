@@ -1,4 +1,4 @@
-#include "IO/Raw/RawFormats.h"
+#include "IO/Formats/FormatList.h"
 
 #include "Bytes/LittleEndian.h"
 #include "Bytes/NumericType.h"
@@ -78,18 +78,19 @@ void readRecords(ReadTask& task, const std::vector<RawColumn>& fields, std::size
   {
     planned.push_back(field.column);
   }
-  CloudColumns columns(planned, rows);
+  std::vector<StoredColumn> stored;
   for (std::size_t i = 0; i < fields.size(); ++i)
   {
     const int type = fields[i].column.type;
     for (int component = 0; component < fields[i].column.components; ++component)
     {
       const std::size_t at = fields[i].offset + static_cast<std::size_t>(component * sizeOfType(type));
-      copyStrided({ task.bytes.data() + at, static_cast<std::ptrdiff_t>(record), type },
-        columns.target(i, component), rows, !kIsLittleEndianHost);
+      stored.push_back({ { task.bytes.data() + at, static_cast<std::ptrdiff_t>(record), type }, i, component,
+        !kIsLittleEndianHost });
     }
-    task.progress(static_cast<double>(i + 1) / static_cast<double>(fields.size()));
   }
+  CloudColumns columns(planned, rows);
+  columns.fill(stored, task);
   columns.moveTo(cloud);
 }
 

@@ -12,19 +12,25 @@ namespace pointhaptics::io
 namespace
 {
 
-/// "0,25" as a spreadsheet of many countries writes it. @return false when it is no such number.
-bool parseWithComma(std::string_view cell, double& value, NumberShape* shape)
+/// parseNumber() with @p mark in the place of the character at @p at. @return false where there is none.
+bool parseWith(char mark, std::size_t at, std::string_view cell, double& value, NumberShape* shape)
 {
   char copy[64];
-  const std::size_t comma = cell.find(',');
-  if (comma == std::string_view::npos || comma == 0 || comma + 1 == cell.size() ||
-    cell.size() > sizeof(copy) || cell.find('.') != std::string_view::npos)
+  if (at == 0 || at >= cell.size() || cell.size() > sizeof(copy))
   {
     return false;
   }
   std::copy(cell.begin(), cell.end(), copy);
-  copy[comma] = '.';
+  copy[at] = mark;
   return parseNumber(std::string_view(copy, cell.size()), value, shape);
+}
+
+/// "0,25" as a spreadsheet of many countries writes it. @return false when it is no such number.
+bool parseWithComma(std::string_view cell, double& value, NumberShape* shape)
+{
+  const std::size_t comma = cell.find(',');
+  return comma + 1 != cell.size() && cell.find('.') == std::string_view::npos &&
+    parseWith('.', comma, cell, value, shape);
 }
 
 /// One past the cell at the front of @p line that stands in quotation marks; 0 where none does.
@@ -84,36 +90,8 @@ bool parseForeign(std::string_view cell, double& value, NumberShape* shape)
     return isInfinite || equalNoCase(word.substr(0, 4), "QNAN") || equalNoCase(word.substr(0, 4), "SNAN") ||
       equalNoCase(word.substr(0, 3), "IND");
   }
-  char copy[64];
-  const std::size_t exponent = cell.find_first_of("dDqQ");
-  if (exponent == std::string_view::npos || exponent == 0 || cell.size() > sizeof(copy))
-  {
-    return false;
-  }
-  std::copy(cell.begin(), cell.end(), copy);
-  copy[exponent] = 'e';
-  return parseNumber(std::string_view(copy, cell.size()), value, shape);
+  return parseWith('e', cell.find_first_of("dDqQ"), cell, value, shape);
 }
-
-} // namespace
-
-bool isComment(std::string_view text)
-{
-  return !text.empty() &&
-    (std::string_view("#%!;>").find(text.front()) != std::string_view::npos || text.substr(0, 2) == "//");
-}
-
-std::string_view withoutQuotes(std::string_view cell)
-{
-  while (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"')
-  {
-    cell = trimmed(cell.substr(1, cell.size() - 2));
-  }
-  return cell;
-}
-
-namespace
-{
 
 constexpr std::string_view kSeparators = ",;|\t";
 
@@ -140,6 +118,21 @@ bool areOfTwoRows(std::string_view text, std::size_t open, std::size_t close)
 }
 
 } // namespace
+
+bool isComment(std::string_view text)
+{
+  return !text.empty() &&
+    (std::string_view("#%!;>").find(text.front()) != std::string_view::npos || text.substr(0, 2) == "//");
+}
+
+std::string_view withoutQuotes(std::string_view cell)
+{
+  while (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"')
+  {
+    cell = trimmed(cell.substr(1, cell.size() - 2));
+  }
+  return cell;
+}
 
 std::string withoutLineEndsInCells(std::string_view text)
 {

@@ -2,7 +2,7 @@
 /// The cells of a line of text: what separates them, and the numbers in them.
 #pragma once
 
-#include "IO/Text/TextScan.h"
+#include "IO/Bytes/TextScan.h"
 
 #include <cstddef>
 #include <string>

@@ -1,6 +1,5 @@
 #include "IO/Text/TextTable.h"
 
-#include "IO/Bytes/TextPart.h"
 #include "IO/Columns/CloudColumns.h"
 #include "IO/Formats/FormatLooks.h"
 #include "IO/Info/LengthUnit.h"
@@ -37,37 +36,16 @@ const char* separatorName(char separator)
                           : "space separated";
 }
 
-/// Joins the tables of all ranks, each of its own lines.
-TextTable ofAll(SharedReading& shared, const TextTable& own)
-{
-  TextTable all;
-  all.hasMore = own.hasMore;
-  all.columns.resize(own.columns.size());
-  for (const std::string& bytes : shared.gather(bytesOfValues(own.columns)))
-  {
-    const auto columns = valuesOfBytes<TextColumn>(bytes);
-    for (std::size_t i = 0; i < columns.size() && i < all.columns.size(); ++i)
-    {
-      all.columns[i].add(columns[i]);
-    }
-  }
-  for (const std::int64_t rows : shared.gatherValues(std::int64_t{ own.rows }))
-  {
-    all.rows += static_cast<vtkIdType>(rows);
-  }
-  return all;
-}
-
 /// Refuses a table with "1.234,56" in the line of @p texts, whatever the cells were taken to be: commas and
 /// points may have been taken for separators.
-void failThousands(std::string_view text, const TextLayout& layout, const CellTexts& texts)
+void failThousands(std::string_view text, const TextLayout& layout, const TextColumn& texts)
 {
   LineReader lines(text.substr(layout.bodyOffset), layout.bodyLine);
   std::string_view line;
-  while (lines.next(line) && lines.lineNumber() < texts.line())
+  while (lines.next(line) && lines.lineNumber() < texts.line)
   {
   }
-  while (!line.empty() && lines.lineNumber() == texts.line())
+  while (!line.empty() && lines.lineNumber() == texts.line)
   {
     const std::size_t end = std::min(line.find_first_of(" \t;|\""), line.size());
     if (const std::string plain = withoutThousandsMarks(line.substr(0, end)); !plain.empty())
@@ -84,9 +62,9 @@ void failThousands(std::string_view text, const TextLayout& layout, const CellTe
 [[noreturn]] void failText(
   std::string_view text, const TextLayout& layout, const TextTable& table, std::size_t column)
 {
-  const CellTexts& texts = table.columns[column].texts;
+  const TextColumn& texts = table.columns[column];
   failThousands(text, layout, texts);
-  failFormat(texts.where() + ", column " + std::to_string(column + 1) + ": " + inQuotes(texts.first()) +
+  failFormat(texts.where() + ", column " + std::to_string(column + 1) + ": " + inQuotes(texts.firstText) +
       " is not a number",
     "write x, y and z as numbers with the same separator on every line, and comments after #");
 }
@@ -108,18 +86,18 @@ std::vector<std::size_t> columnsOfNumbers(const TextTable& table, const TextLayo
 }
 
 /// The names of all columns, of which @p read are read.
-std::vector<std::string> namesOf(std::string_view text, const TextTable& table, const TextLayout& layout,
-  const std::vector<std::size_t>& read, ReadTask& task)
+std::vector<std::string> namesOf(
+  const TextTable& table, const TextLayout& layout, const std::vector<std::size_t>& read, ReadTask& task)
 {
   if (!layout.names.empty())
   {
     return layout.names;
   }
-  const std::vector<ColumnEvidence> all = evidenceOf(text, layout, table);
   std::vector<ColumnEvidence> evidence;
   for (const std::size_t i : read)
   {
-    evidence.push_back(all[i]);
+    const NumberColumn& numbers = table.columns[i].numbers;
+    evidence.push_back({ table.columns[i].sample, numbers.smallest(), numbers.largest(), numbers.isWhole() });
   }
   const std::vector<std::string> guessed = guessColumnNames(evidence, task.extension == "xyzrgb");
   std::vector<std::string> names(table.columns.size());
@@ -144,7 +122,7 @@ void checkCoordinates(std::string_view text, const TextTable& table, const TextL
   for (std::size_t i = 0; i < (areTooFew ? table.columns.size() : 3); ++i)
   {
     const std::size_t column = areTooFew ? i : places[i];
-    if (table.columns[column].texts.count() > 0)
+    if (table.columns[column].texts > 0)
     {
       failText(text, layout, table, column);
     }
@@ -154,16 +132,16 @@ void checkCoordinates(std::string_view text, const TextTable& table, const TextL
 /// Note on the texts in column @p i; empty where it has none.
 std::string noteOf(const TextTable& table, std::size_t i, const std::string& name)
 {
-  const CellTexts& texts = table.columns[i].texts;
-  if (texts.count() == 0)
+  const TextColumn& texts = table.columns[i];
+  if (texts.texts == 0)
   {
     return {};
   }
   const std::string column = "column " + (name.empty() ? std::to_string(i + 1) : inQuotes(name));
-  const std::string first = inQuotes(texts.first()) + " in " + texts.where();
+  const std::string first = inQuotes(texts.firstText) + " in " + texts.where();
   return table.isOfTexts(i)
     ? column + " holds texts, such as " + first + ", and is left out; write numbers in their place to keep it"
-    : std::to_string(texts.count()) + " of " + std::to_string(table.rows) + " cells of " + column +
+    : std::to_string(texts.texts) + " of " + std::to_string(table.rows) + " cells of " + column +
       " hold no number, such as " + first + ", and become NaN; write numbers in their place to keep them";
 }
 
@@ -235,23 +213,6 @@ void takeUnits(const std::vector<std::string>& names, FileComments& comments)
   comments.unit = unit.empty() ? comments.unit : unit;
 }
 
-/// The layout of a text, of which the start may be all that was loaded.
-TextLayout layoutOf(ReadTask& task, std::string_view text)
-{
-  const std::string_view start = text.substr(0, kStartOfText);
-  TextLayout layout;
-  if (task.shared)
-  {
-    layout = inspectText(start.substr(0, start.rfind('\n') + 1), task.columns);
-  }
-  if (layout.columns == 0 || layout.hasPointCount)
-  {
-    task.takeWhole();
-    layout = inspectText(text, task.columns);
-  }
-  return layout;
-}
-
 /// The first pass. Lines of many lengths, such as those that end with a list, are read as far as all go.
 TextTable surveyLines(const ReadTask& task, std::string_view text, TextLayout& layout)
 {
@@ -262,7 +223,7 @@ TextTable surveyLines(const ReadTask& task, std::string_view text, TextLayout& l
   catch (const ColumnsDiffer&)
   {
     constexpr std::size_t kFewest = 4;
-    const std::size_t columns = layout.names.empty() && !task.shared ? columnsOfAll(text, layout) : 0;
+    const std::size_t columns = layout.names.empty() ? columnsOfAll(text, layout) : 0;
     if (columns < kFewest)
     {
       throw;
@@ -303,29 +264,20 @@ void readTable(ReadTask& task, std::string_view text, TextLayout layout, vtkPoly
   {
     text = text.substr(0, text.rfind('\n') + 1); // behind it the file may be cut within a number
   }
-  const std::string_view all = text;
-  TextLayout first = layout;
-  const TextPart part = partOfText(task, text, layout.bodyOffset, layout.bodyLine);
-  text = text.substr(0, part.end);
-  layout.bodyOffset = part.begin;
-  layout.bodyLine = part.firstLine;
-  const TextTable own = surveyLines(task, text, layout);
-  const TextTable table = task.shared ? ofAll(*task.shared, own) : own;
+  const TextTable table = surveyLines(task, text, layout);
   if (table.rows == 0)
   {
     failNoPoints();
   }
-  if (own.missing > 0)
+  if (table.missing > 0)
   {
-    task.endAt(static_cast<std::uint64_t>(own.rows), static_cast<std::uint64_t>(own.rows) + own.missing,
-      "the file ends " + std::to_string(own.missing) +
+    task.endAt(static_cast<std::uint64_t>(table.rows), static_cast<std::uint64_t>(table.rows) + table.missing,
+      "the file ends " + std::to_string(table.missing) +
         " points before the count in its first line is reached");
   }
   const std::vector<std::size_t> read = columnsOfNumbers(table, layout);
   checkCoordinates(text, table, layout, read);
-  first.columns = layout.columns;
-  const std::vector<std::string> names =
-    namesOf(task.shared ? all.substr(0, kStartOfText) : all, table, first, read, task);
+  const std::vector<std::string> names = namesOf(table, layout, read, task);
   noteColumns(table, names, task.notes);
   std::vector<Column> planned;
   for (const std::size_t i : read)
@@ -338,24 +290,23 @@ void readTable(ReadTask& task, std::string_view text, TextLayout layout, vtkPoly
     const bool isCoordinate = std::find(coordinates.begin(), coordinates.end(), i) != coordinates.end();
     planned[i].type = typeOf(names[read[i]], table.columns[read[i]].numbers, isCoordinate);
   }
-  CloudColumns columns(planned, own.rows);
+  CloudColumns columns(planned, table.rows);
   std::vector<ColumnView> targets(names.size(), ColumnView{ nullptr, 0, VTK_DOUBLE });
   for (std::size_t i = 0; i < read.size(); ++i)
   {
     targets[read[i]] = columns.target(i);
   }
   storeTable(task, text, layout, targets);
-  columns.moveTo(cloud, task.shared);
+  columns.moveTo(cloud);
 }
 
 void readText(ReadTask& task, vtkPolyData* cloud)
 {
   task.format = "text";
-  task.need(0, kStartOfText);
   std::string_view text = withoutByteOrderMark(task.bytes);
-  const std::string joined = task.shared ? std::string() : withoutLineEndsInCells(text);
+  const std::string joined = withoutLineEndsInCells(text);
   text = joined.empty() ? text : joined;
-  const TextLayout layout = layoutOf(task, text);
+  const TextLayout layout = inspectText(text, task.columns);
   const bool isBlank = layout.columns == 0 && layout.names.empty();
   task.format = layout.hasPointCount ? "PTS"
     : isBlank                        ? "text"

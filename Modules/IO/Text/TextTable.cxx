@@ -363,11 +363,25 @@ struct SurveySink
   void number(std::size_t column, double value, NumberShape shape)
   {
     table.columns[column].numbers.add(value, shape);
+    sample(column, value);
   }
-  void empty(std::size_t column) { table.columns[column].numbers.addEmpty(); }
+  void empty(std::size_t column)
+  {
+    table.columns[column].numbers.addEmpty();
+    sample(column, std::numeric_limits<double>::quiet_NaN());
+  }
+  void sample(std::size_t column, double value)
+  {
+    table.rows < vtkIdType(kGuessedRows) ? table.columns[column].sample.push_back(value) : void();
+  }
   void text(std::size_t column, std::string_view cell, std::size_t line)
   {
-    table.columns[column].texts.add(cell, line);
+    TextColumn& texts = table.columns[column];
+    if (texts.texts++ == 0)
+    {
+      texts.line = line;
+      texts.firstText = withoutQuotes(cell);
+    }
     this->empty(column);
   }
   void more() { table.hasMore = true; }
@@ -417,41 +431,9 @@ struct StoreSink
 
 } // namespace
 
-void CellTexts::add(std::string_view cell, std::size_t line)
-{
-  if (count_++ == 0)
-  {
-    line_ = line;
-    cell = withoutQuotes(cell);
-    std::copy_n(cell.data(), std::min(cell.size(), first_.size() - 1), first_.data());
-  }
-}
-
-void CellTexts::add(const CellTexts& later)
-{
-  if (count_ == 0)
-  {
-    *this = later;
-    return;
-  }
-  count_ += later.count_;
-}
-
-std::string CellTexts::first() const
-{
-  return first_.data();
-}
-
-void TextColumn::add(const TextColumn& later)
-{
-  numbers.add(later.numbers);
-  texts.add(later.texts);
-}
-
 bool TextTable::isOfTexts(std::size_t i) const
 {
-  const std::int64_t texts = columns[i].texts.count();
-  return texts > rows - columns[i].numbers.empty();
+  return columns[i].texts > rows - columns[i].numbers.empty();
 }
 
 TextLayout inspectText(std::string_view text, const std::vector<std::string>& names)
@@ -537,33 +519,6 @@ std::size_t columnsOfAll(std::string_view text, const TextLayout& layout)
   }
   const bool isCut = !text.empty() && text.back() != '\n' && last == fewest;
   return 100 * different > rows && !isCut ? fewest : 0;
-}
-
-std::vector<ColumnEvidence> evidenceOf(
-  std::string_view text, const TextLayout& layout, const TextTable& table)
-{
-  std::vector<ColumnEvidence> evidence(layout.columns);
-  LineReader lines(text.substr(layout.bodyOffset), layout.bodyLine);
-  std::string_view line;
-  for (std::size_t rows = 0; rows < kGuessedRows && lines.next(line);)
-  {
-    line = trimmed(line, layout.separator);
-    const auto cells =
-      isComment(line) ? std::vector<std::string_view>() : cellsOf(line, layout.separator, lines.lineNumber());
-    for (std::size_t i = 0; i < layout.columns && cells.size() >= layout.columns; ++i)
-    {
-      double value = std::numeric_limits<double>::quiet_NaN();
-      parseCell(cells[i], value);
-      evidence[i].sample.push_back(value);
-    }
-    rows += cells.size() >= layout.columns ? 1 : 0;
-  }
-  for (std::size_t i = 0; i < layout.columns; ++i)
-  {
-    const NumberColumn& numbers = table.columns[i].numbers;
-    evidence[i] = { std::move(evidence[i].sample), numbers.smallest(), numbers.largest(), numbers.isWhole() };
-  }
-  return evidence;
 }
 
 TextTable surveyTable(const ReadTask& task, std::string_view text, const TextLayout& layout)

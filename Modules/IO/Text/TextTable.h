@@ -3,14 +3,15 @@
 #pragma once
 
 #include "Bytes/StridedCopy.h"
+#include "IO/Bytes/TextScan.h"
 #include "IO/Columns/ColumnGuess.h"
 #include "IO/Info/FileComments.h"
-#include "IO/Text/NumberColumn.h"
 #include "ReadTask.h"
 
-#include <array>
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -45,32 +46,60 @@ struct TextLayout
 /// gave. @throws FileProblem when a line has more than kMostColumns columns.
 TextLayout inspectText(std::string_view text, const std::vector<std::string>& names = {});
 
-/// The cells of a column that hold something else than a number.
-class CellTexts
+/// Summarises the numbers that were added; stores none. Integers beyond 2^53 lose their last digits.
+class NumberColumn
 {
 public:
-  void add(std::string_view cell, std::size_t line);
-  /// Adds those of later lines.
-  void add(const CellTexts& later);
-  std::int64_t count() const { return count_; }
-  /// "line 2"; of the first one.
-  std::string where() const { return "line " + std::to_string(line_); }
-  std::uint64_t line() const { return line_; }
-  /// The first one, or its start.
-  std::string first() const;
+  void add(double value, NumberShape shape)
+  {
+    fitsFloat_ = fitsFloat_ && shape.fitsFloat;
+    isInteger_ = isInteger_ && shape.isInteger;
+    smallest_ = std::min(smallest_, value);
+    largest_ = std::max(largest_, value);
+  }
+  /// A cell without a number reads as NaN.
+  void addEmpty()
+  {
+    isInteger_ = false;
+    ++empty_;
+  }
+  /// True if all are integers in 0..@p most.
+  bool isInteger(double most) const { return isInteger_ && smallest_ >= 0.0 && largest_ <= most; }
+  /// True if all are written without a point.
+  bool isWhole() const { return isInteger_; }
+  /// True if whole numbers are so large that doubles cannot hold each of them.
+  bool losesDigits() const { return isInteger_ && std::max(largest_, -smallest_) >= 0x1p53; }
+  double smallest() const { return smallest_; }
+  double largest() const { return largest_; }
+  /// How often addEmpty() was called.
+  std::int64_t empty() const { return empty_; }
+  /// VTK_FLOAT when a float keeps every digit, else VTK_DOUBLE.
+  int floatingType() const { return fitsFloat_ ? VTK_FLOAT : VTK_DOUBLE; }
+  /// VTK_INT for integers that fit it, else floatingType().
+  int type() const
+  {
+    const bool fitsInt =
+      smallest_ >= std::numeric_limits<int>::min() && largest_ <= std::numeric_limits<int>::max();
+    return isInteger_ && fitsInt ? VTK_INT : floatingType();
+  }
 
 private:
-  std::int64_t count_ = 0;
-  std::uint64_t line_ = 0;
-  std::array<char, 64> first_{};
+  bool fitsFloat_ = true;
+  bool isInteger_ = true;
+  double smallest_ = std::numeric_limits<double>::infinity();
+  double largest_ = -std::numeric_limits<double>::infinity();
+  std::int64_t empty_ = 0;
 };
 
 struct TextColumn
 {
-  NumberColumn numbers; ///< Texts are empty cells here.
-  CellTexts texts;
+  NumberColumn numbers;       ///< Texts are empty cells here.
+  std::vector<double> sample; ///< Numbers of the first kGuessedRows rows.
+  std::int64_t texts = 0;     ///< Cells that hold something else than a number,
+  std::size_t line = 0;       ///< the line of the first one,
+  std::string firstText;      ///< and its content.
 
-  void add(const TextColumn& later);
+  std::string where() const { return "line " + std::to_string(line); }
 };
 
 /// The results of a first pass over the text.
@@ -101,20 +130,15 @@ public:
 /// the first, or the last line is cut.
 std::size_t columnsOfAll(std::string_view text, const TextLayout& layout);
 
-/// The numbers of the first rows, for each column of @p table.
-std::vector<ColumnEvidence> evidenceOf(
-  std::string_view text, const TextLayout& layout, const TextTable& table);
-
 /// Stores every number in its place, one target per column; a target without a place leaves its column out.
 /// Of texts NaN is stored. @pre surveyTable() succeeded.
 void storeTable(const ReadTask& task, std::string_view text, const TextLayout& layout,
   const std::vector<ColumnView>& targets);
 
 /// Fills @p cloud with the points and arrays of a table: the columns are called as in @p layout ("-" skips
-/// one), or as their values suggest (ColumnGuess.h), which task.notes then tells. Where ranks read it
-/// together: of this rank's lines, with names and types that suit those of all. Columns of texts are left
+/// one), or as their values suggest (ColumnGuess.h), which task.notes then tells. Columns of texts are left
 /// out, and a few texts among numbers are NaN: task.notes says so; coordinates must be numbers. @throws
-/// FileProblem; StoppedOnRequest; OtherRankFailed.
+/// FileProblem; StoppedOnRequest.
 void readTable(ReadTask& task, std::string_view text, TextLayout layout, vtkPolyData* cloud);
 
 } // namespace pointhaptics::io

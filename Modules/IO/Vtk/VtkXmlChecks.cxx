@@ -1,7 +1,7 @@
 #include "IO/Vtk/VtkXmlChecks.h"
 
 #include "FileProblem.h"
-#include "IO/Text/TextScan.h"
+#include "IO/Bytes/TextScan.h"
 
 #include "vtkBase64Utilities.h"
 
@@ -18,16 +18,6 @@ namespace
 
 /// zlib packs at most 1032 bytes into one; a file that claims more, of any compressor, is refused.
 constexpr double kMostUnpackedBytes = 1032.0;
-
-std::string at(std::size_t offset)
-{
-  return "byte " + std::to_string(offset) + ": ";
-}
-
-[[noreturn]] void failDamaged(std::size_t offset, const std::string& what)
-{
-  failFormat(at(offset) + what, "the file is damaged: copy or write it again");
-}
 
 /// Where arrays that are not text keep their bytes, and how.
 struct DataLayout
@@ -84,14 +74,14 @@ void checkArrayBytes(const DataLayout& layout, std::size_t position, bool isBase
   {
     if (first > one.remaining)
     {
-      failTruncated(at(position) + "an array of " + std::to_string(first) + " bytes, but only " +
+      failTruncated(atByte(position) + "an array of " + std::to_string(first) + " bytes, but only " +
         std::to_string(one.remaining) + " follow");
     }
     return;
   }
   if (first > one.remaining / layout.wordSize)
   {
-    failTruncated(at(position) + "an array of " + std::to_string(first) + " blocks, but only " +
+    failTruncated(atByte(position) + "an array of " + std::to_string(first) + " blocks, but only " +
       std::to_string(one.remaining) + " bytes follow");
   }
   const ArrayWords words(layout, position, isBase64, 3 + static_cast<std::size_t>(first));
@@ -127,7 +117,8 @@ void checkArrayBytes(const DataLayout& layout, std::size_t position, bool isBase
   }
   if (packed > most)
   {
-    failTruncated(at(position) + "blocks of more than the " + std::to_string(most) + " bytes that follow");
+    failTruncated(
+      atByte(position) + "blocks of more than the " + std::to_string(most) + " bytes that follow");
   }
 }
 
@@ -141,7 +132,7 @@ void checkArray(const DataLayout& layout, const XmlElement& array)
     if (layout.appendedAt == 0 || !parseCount(text, offset) ||
       offset >= layout.bytes.size() - layout.appendedAt)
     {
-      failTruncated(at(array.begin) + "an array at offset " + inQuotes(text) +
+      failTruncated(atByte(array.begin) + "an array at offset " + inQuotes(text) +
         " of the appended data, which is not there");
     }
     checkArrayBytes(layout, layout.appendedAt + static_cast<std::size_t>(offset), layout.appendedIsBase64);
@@ -191,7 +182,7 @@ public:
       if (!parseCount(value, count) ||
         static_cast<double>(count) * (isComponents ? tuples_ : 1.0) > mostBytes_)
       {
-        failTruncated(at(element.begin) + name + " is " + inQuotes(value) + " in a file of " +
+        failTruncated(atByte(element.begin) + name + " is " + inQuotes(value) + " in a file of " +
           std::to_string(fileSize_) + " bytes");
       }
       if (!isComponents)
@@ -239,7 +230,6 @@ void checkIsComplete(std::string_view bytes)
 XmlElement vtkXml(std::string_view bytes)
 {
   constexpr std::string_view kAppended = "<AppendedData";
-  constexpr std::size_t kPiece = std::size_t{ 1 } << 24;
   const std::size_t appended = bytes.find(kAppended);
   const bool isPart = appended != std::string_view::npos;
   isPart ? void() : checkIsComplete(bytes);
@@ -247,7 +237,7 @@ XmlElement vtkXml(std::string_view bytes)
   const XmlElement root = parseXml(
     [&]
     {
-      const std::string_view piece = left.substr(0, kPiece);
+      const std::string_view piece = left.substr(0, kLongestXmlTag);
       left.remove_prefix(piece.size());
       return piece;
     },

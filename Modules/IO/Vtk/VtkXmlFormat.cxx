@@ -1,8 +1,8 @@
 #include "ReadTask.h"
 
+#include "IO/Bytes/FileBytes.h"
+#include "IO/Bytes/TextScan.h"
 #include "IO/Columns/CloudColumns.h"
-#include "IO/Text/TextScan.h"
-#include "IO/Vtk/VtkPieces.h"
 #include "IO/Vtk/VtkXmlChecks.h"
 
 #include "vtkCellType.h"
@@ -22,7 +22,11 @@
 #include "vtkXMLUnstructuredGridReader.h"
 
 #include <algorithm>
+#include <filesystem>
+#include <set>
 #include <string>
+
+namespace fs = std::filesystem;
 
 namespace pointhaptics::io
 {
@@ -42,22 +46,12 @@ public:
       return;
     }
     // VTK's text: "ERROR: In file, line n\nvtkClass (0x...): the message\n\n".
-    const std::string text = static_cast<const char*>(callData);
-    const std::size_t address = text.find("): ");
-    std::string message = address == std::string::npos ? text : text.substr(address + 3);
-    for (char& c : message)
-    {
-      c = c == '\n' ? ' ' : c;
-    }
-    first_ = std::string(trimmed(message));
-    while (!first_.empty() && first_.back() == '.')
-    {
-      first_.pop_back();
-    }
-    if (first_.empty())
-    {
-      first_ = "VTK reported an error without words";
-    }
+    first_ = static_cast<const char*>(callData);
+    const std::size_t address = first_.find("): ");
+    first_.erase(0, address == std::string::npos ? 0 : address + 3);
+    std::replace(first_.begin(), first_.end(), '\n', ' ');
+    first_.erase(first_.find_last_not_of(" .") + 1);
+    first_ = first_.empty() ? "VTK reported an error without words" : first_;
   }
   const std::string& first() const { return first_; }
 
@@ -115,43 +109,8 @@ void takeFaces(vtkPointSet* read, MeshFaces& faces)
   }
 }
 
-} // namespace
-
-void readVtkXml(ReadTask& task, vtkPolyData* cloud)
-{
-  task.need(0, task.bytes.size());
-  if (task.wasPacked)
-  {
-    throw FileProblem(vtkErrorCode::UnrecognizedFileTypeError, "VTK's XML reader does not read gzip files",
-      "unpack it first: gunzip -k FILE");
-  }
-  const XmlElement root = vtkXml(task.bytes);
-  const std::string_view type = root.attribute("type");
-  const bool isList = type == "PPolyData";
-  task.format = isList           ? "PVTP (VTK XML PolyData in pieces)"
-    : type == "UnstructuredGrid" ? "VTU (VTK XML UnstructuredGrid)"
-                                 : "VTP (VTK XML PolyData)";
-  if (isList)
-  {
-    readVtkPieces(task, root, cloud);
-  }
-  else
-  {
-    task.shared = nullptr; // all of it is there
-    const vtkSmartPointer<vtkPointSet> read =
-      readVtkXmlFile(task, task.isStream ? "" : task.path, task.bytes, root, 0.0, 1.0);
-    cloud->SetPoints(read->GetPoints());
-    cloud->GetPointData()->ShallowCopy(read->GetPointData());
-    cloud->GetFieldData()->ShallowCopy(read->GetFieldData());
-    takeFaces(read, task.faces);
-    read->ReleaseData(); // its cells would lie beside those that take their place
-  }
-  if (!cloud->GetPointData()->GetScalars() || !cloud->GetPointData()->GetNormals())
-  {
-    setActiveAttributes(cloud);
-  }
-}
-
+/// The points and arrays of one VTP or VTU file, @p bytes with the content @p root, which lie at @p path; an
+/// empty path: nobody can read them again. Progress goes from @p begin to @p end of the parsing.
 vtkSmartPointer<vtkPointSet> readVtkXmlFile(const ReadTask& task, const std::string& path,
   std::string_view bytes, const XmlElement& root, double begin, double end)
 {
@@ -191,6 +150,281 @@ vtkSmartPointer<vtkPointSet> readVtkXmlFile(const ReadTask& task, const std::str
   }
   checkArrays(read);
   return read;
+}
+
+/// Bytes that show how many points a file has, if its arrays are appended.
+constexpr std::size_t kPieceStart = 65536;
+
+struct PieceFile
+{
+  std::string name; ///< As the list says it.
+  std::string path;
+  std::uint64_t points = 0;
+};
+
+/// Lists come from anywhere: none may make the reader open other files of this machine.
+bool isBelow(const std::string& name)
+{
+  const fs::path path(name);
+  return !name.empty() && name.find('\0') == std::string::npos && !path.is_absolute() &&
+    std::none_of(path.begin(), path.end(), [](const fs::path& part) { return part == ".."; });
+}
+
+void addPiece(const ReadTask& task, const XmlElement& element, std::set<std::string>& names,
+  std::vector<PieceFile>& pieces)
+{
+  const std::string name(element.attribute("Source"));
+  if (!isBelow(name))
+  {
+    failFormat(atByte(element.begin) + "a piece called " + inQuotes(name) +
+        ", which does not lie beside or below the list",
+      "put the pieces there, and their names relative to the list into it");
+  }
+  const fs::path path = fs::path(task.path).parent_path() / name;
+  if (!names.insert(path.lexically_normal().string()).second)
+  {
+    failFormat(
+      atByte(element.begin) + "the piece " + inQuotes(name) + " is there twice", "name each piece once");
+  }
+  pieces.push_back({ name, path.string() });
+}
+
+std::vector<PieceFile> piecesOf(const ReadTask& task, const XmlElement& root)
+{
+  std::vector<PieceFile> pieces;
+  std::set<std::string> names;
+  forEachElement(root,
+    [&](const XmlElement& element)
+    {
+      const std::string_view level = element.attribute("GhostLevel");
+      if (element.name == "PPolyData" && !level.empty() && level != "0")
+      {
+        failFormat("pieces with ghost points (GhostLevel is " + inQuotes(level) + "), which are there twice",
+          "write the pieces without ghost levels");
+      }
+      element.name == "Piece" ? addPiece(task, element, names, pieces) : void();
+    });
+  return pieces;
+}
+
+/// Does @p work with a piece, and says of faults which one it was.
+template <typename Work>
+void withPiece(const std::vector<PieceFile>& pieces, std::size_t index, Work&& work)
+{
+  try
+  {
+    work();
+  }
+  catch (const FileProblem& problem)
+  {
+    throw FileProblem(problem.code,
+      "piece " + std::to_string(index + 1) + " of " + std::to_string(pieces.size()) + ", " +
+        inQuotes(pieces[index].name) + ": " + problem.what());
+  }
+}
+
+/// How many points a piece has, from as little of it as says so.
+std::uint64_t pointsOf(ReadTask& task, const PieceFile& piece)
+{
+  FileBytes bytes(piece.path);
+  bytes.load(0, std::min(bytes.view().size(), kPieceStart));
+  std::string_view start = bytes.view().substr(0, kPieceStart);
+  const std::size_t appended = start.find("<AppendedData");
+  if (appended == std::string_view::npos || start.find('>', appended) == std::string_view::npos)
+  {
+    bytes.load(0, bytes.view().size());
+    start = bytes.view();
+  }
+  task.bytesElsewhere += bytes.loaded();
+  const XmlElement root = vtkXml(start);
+  const std::string_view type = root.attribute("type");
+  if (type != "PolyData")
+  {
+    failFormat("a VTK file of the type " + inQuotes(type), "list VTP files, whose type is PolyData");
+  }
+  return pointsOfVtkXml(root, bytes.view().size());
+}
+
+/// Name, type and components of the points and of each array.
+std::vector<std::string> arraysOf(vtkPointSet* cloud)
+{
+  std::vector<std::string> arrays = { std::string("points ") +
+    cloud->GetPoints()->GetData()->GetDataTypeAsString() };
+  for (int i = 0; i < cloud->GetPointData()->GetNumberOfArrays(); ++i)
+  {
+    vtkAbstractArray* array = cloud->GetPointData()->GetAbstractArray(i);
+    arrays.push_back(inQuotes(array->GetName() ? array->GetName() : "") + " " + array->GetDataTypeAsString() +
+      " " + std::to_string(array->GetNumberOfComponents()));
+  }
+  return arrays;
+}
+
+void checkSameArrays(std::vector<std::string> first, std::vector<std::string> other)
+{
+  if (first != other)
+  {
+    first.resize(std::max(first.size(), other.size()), "none");
+    other.resize(first.size(), "none");
+    const auto at = std::mismatch(first.begin(), first.end(), other.begin());
+    failFormat("other arrays than in the pieces before: " + *at.second + " instead of " + *at.first,
+      "write all pieces with the same arrays, in the same order");
+  }
+}
+
+/// Rows of pieces, one after the other.
+class JoinedRows
+{
+public:
+  JoinedRows(vtkPolyData* cloud, vtkIdType count)
+    : cloud_(cloud)
+    , count_(count)
+  {
+  }
+  void add(vtkPointSet* piece, vtkIdType first, vtkIdType count)
+  {
+    if (arrays_.empty())
+    {
+      arrays_ = arraysOf(piece);
+      points_->SetDataType(piece->GetPoints()->GetDataType());
+      points_->SetNumberOfPoints(count_);
+      data_->CopyAllOn();
+      data_->CopyAllocate(piece->GetPointData(), count_);
+      cloud_->GetFieldData()->ShallowCopy(piece->GetFieldData());
+    }
+    checkSameArrays(arrays_, arraysOf(piece));
+    if (count > 0)
+    {
+      points_->InsertPoints(next_, count, first, piece->GetPoints());
+      data_->CopyData(piece->GetPointData(), next_, count, first);
+      next_ += count;
+    }
+  }
+  void finish()
+  {
+    cloud_->SetPoints(points_);
+    cloud_->GetPointData()->ShallowCopy(data_);
+  }
+  const std::vector<std::string>& arrays() const { return arrays_; }
+
+private:
+  vtkPolyData* cloud_;
+  vtkIdType count_;
+  vtkIdType next_ = 0;
+  std::vector<std::string> arrays_;
+  vtkNew<vtkPoints> points_;
+  vtkNew<vtkPointData> data_;
+};
+
+/// Puts @p rows of all pieces into @p joined. Without rows the first piece shows the arrays.
+void readRows(ReadTask& task, const std::vector<PieceFile>& pieces, const RowRange& rows, JoinedRows& joined)
+{
+  std::uint64_t begin = 0;
+  for (std::size_t i = 0; i < pieces.size(); ++i)
+  {
+    const PieceFile& piece = pieces[i];
+    const RowRange own{ std::max(rows.first, begin), std::min(rows.last, begin + piece.points) };
+    const bool showsArrays = rows.count() == 0 && joined.arrays().empty();
+    if (piece.points > 0 && (own.first < own.last || showsArrays))
+    {
+      withPiece(pieces, i,
+        [&]
+        {
+          FileBytes bytes(piece.path);
+          bytes.load(0, bytes.view().size());
+          task.bytesElsewhere += bytes.loaded();
+          const auto size = static_cast<double>(pieces.size());
+          const vtkSmartPointer<vtkPointSet> read = readVtkXmlFile(task, piece.path, bytes.view(),
+            vtkXml(bytes.view()), static_cast<double>(i) / size, static_cast<double>(i + 1) / size);
+          if (static_cast<std::uint64_t>(read->GetNumberOfPoints()) != piece.points)
+          {
+            failFormat(std::to_string(read->GetNumberOfPoints()) + " points, not the " +
+                std::to_string(piece.points) + " that its start says",
+              "the file is damaged, or was written meanwhile: copy or write it again");
+          }
+          const bool hasRows = own.first < own.last;
+          joined.add(read, static_cast<vtkIdType>(hasRows ? own.first - begin : 0),
+            static_cast<vtkIdType>(hasRows ? own.count() : 0));
+        });
+    }
+    begin += piece.points;
+  }
+}
+
+/// A rank that does not read two pieces cannot see that they differ.
+void compareArrays(SharedReading& shared, const std::vector<std::string>& own)
+{
+  std::string joined;
+  for (const std::string& array : own)
+  {
+    joined += (joined.empty() ? "" : ", ") + array;
+  }
+  const std::vector<std::string> all = shared.gather(joined);
+  for (const std::string& arrays : all)
+  {
+    checkSameArrays({ all.front() }, { arrays });
+  }
+}
+
+/// Points and arrays of the list in task.bytes: those of all pieces in the order of the list, or this rank's.
+void readVtkPieces(ReadTask& task, const XmlElement& root, vtkPolyData* cloud)
+{
+  checkVtkXml(task.bytes, root);
+  std::vector<PieceFile> pieces = piecesOf(task, root);
+  std::uint64_t all = 0;
+  for (std::size_t i = 0; i < pieces.size(); ++i)
+  {
+    withPiece(pieces, i, [&] { pieces[i].points = pointsOf(task, pieces[i]); });
+    all += pieces[i].points;
+  }
+  if (all == 0)
+  {
+    failNoPoints();
+  }
+  const RowRange rows = task.rowsOf(all);
+  JoinedRows joined(cloud, static_cast<vtkIdType>(rows.count()));
+  readRows(task, pieces, rows, joined);
+  if (task.shared)
+  {
+    compareArrays(*task.shared, joined.arrays());
+  }
+  joined.finish();
+}
+
+} // namespace
+
+void readVtkXml(ReadTask& task, vtkPolyData* cloud)
+{
+  task.need(0, task.bytes.size());
+  if (task.wasPacked)
+  {
+    throw FileProblem(vtkErrorCode::UnrecognizedFileTypeError, "VTK's XML reader does not read gzip files",
+      "unpack it first: gunzip -k FILE");
+  }
+  const XmlElement root = vtkXml(task.bytes);
+  const std::string_view type = root.attribute("type");
+  const bool isList = type == "PPolyData";
+  task.format = isList           ? "PVTP (VTK XML PolyData in pieces)"
+    : type == "UnstructuredGrid" ? "VTU (VTK XML UnstructuredGrid)"
+                                 : "VTP (VTK XML PolyData)";
+  if (isList)
+  {
+    readVtkPieces(task, root, cloud);
+  }
+  else
+  {
+    task.shared = nullptr; // all of it is there
+    const vtkSmartPointer<vtkPointSet> read =
+      readVtkXmlFile(task, task.isStream ? "" : task.path, task.bytes, root, 0.0, 1.0);
+    cloud->SetPoints(read->GetPoints());
+    cloud->GetPointData()->ShallowCopy(read->GetPointData());
+    cloud->GetFieldData()->ShallowCopy(read->GetFieldData());
+    takeFaces(read, task.faces);
+    read->ReleaseData(); // its cells would lie beside those that take their place
+  }
+  if (!cloud->GetPointData()->GetScalars() || !cloud->GetPointData()->GetNormals())
+  {
+    setActiveAttributes(cloud);
+  }
 }
 
 } // namespace pointhaptics::io

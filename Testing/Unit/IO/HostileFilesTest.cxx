@@ -181,6 +181,28 @@ TEST_F(HostileFiles, XmlIsCheckedAsVtkReadsItWhateverStandsAround)
   expectRefused(readCloud(write("a.vtp", vtp)), "NumberOfPoints is '1000000000000'");
 }
 
+TEST_F(HostileFiles, TagsThatVtksParserWouldReadAgainAndAgainAreRefused)
+{
+  std::string points;
+  for (const float value : { 1.0f, 2.0f, 3.0f, 4.0f, 5.0f, 6.0f })
+  {
+    append(points, value);
+  }
+  const std::string many(30000000, '>');
+  const auto with = [&](const std::string& inserted)
+  {
+    std::string vtp = makeVtp({ 24 }, points, false);
+    vtp.insert(vtp.find("<Points>"), inserted);
+    return readCloud(write("a.vtp", vtp));
+  };
+  for (const std::string& tag : { "<!-- " + many + " -->", "<?a " + many + "?>", "<a b='" + many + "'/>",
+         "<a></a" + std::string(many.size(), ' ') + ">" })
+  {
+    expectRefused(with(tag), "a tag or comment of more than 65536 bytes");
+  }
+  EXPECT_EQ(with("<!-- " + many.substr(0, 60000) + " -->").points(), 2);
+}
+
 TEST_F(HostileFiles, LasRecordsThatLieAreKeptAsBytes)
 {
   // A description of 8 bytes where a record has 2 to spare.

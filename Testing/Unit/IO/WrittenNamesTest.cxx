@@ -1,6 +1,9 @@
 // Arrays of any name, and what PCL's point types find in a PCD file.
 #include "CloudFiles.h"
 
+#include "vtkDataArray.h"
+#include "vtkInformation.h"
+#include "vtkInformationStringKey.h"
 #include "vtkVariant.h"
 
 namespace
@@ -134,6 +137,32 @@ TEST_F(WrittenNames, AClassificationIsNotTakenForAnother)
   const ReadResult result = readCloud(path("a.las"));
   EXPECT_EQ(result.value("Classification", 0), 2.0);
   EXPECT_EQ(result.value("Classification", 1), 9.0);
+}
+
+TEST_F(WrittenNames, VtpKeepsArraysApartWhoseNamesXmlMakesOne)
+{
+  auto cloud = named("a\x01");
+  cloud->GetPointData()->AddArray(named("a\x02")->GetPointData()->GetArray(0));
+  cloud->GetPointData()->AddArray(named("a_")->GetPointData()->GetArray(0));
+  vtkDataArray* last = cloud->GetPointData()->GetArray(2);
+  last->SetComponent(1, 0, 7.0);
+  last->SetComponentName(0, "up & \x03 down");
+  last->GetInformation()->Set(vtkDataArray::UNITS_LABEL(), "metre");
+  double range[2];
+  last->GetRange(range); // VTK notes it with the array
+  cloud->GetPointData()->SetActiveScalars("a_");
+  std::vector<std::string> notes;
+  ASSERT_EQ(writeCloud(cloud, path("a.vtp"), &notes), "");
+  const ReadResult result = readCloud(path("a.vtp"));
+  ASSERT_EQ(result.error, "");
+  EXPECT_EQ(result.cloud->GetPointData()->GetNumberOfArrays(), 3);
+  ASSERT_NE(result.array("a__3"), nullptr);
+  EXPECT_EQ(result.array("a__3")->GetComponent(1, 0), 7.0);
+  EXPECT_STREQ(result.array("a__3")->GetComponentName(0), "up & _ down");
+  EXPECT_EQ(result.cloud->GetPointData()->GetScalars(), result.array("a__3"));
+  EXPECT_TRUE(isNoted(notes, "array 'a_' is called a__3"));
+  EXPECT_TRUE(isNoted(notes, "what is noted of array 'a__3' as UNITS_LABEL is left out"));
+  EXPECT_EQ(notes.size(), 4u);
 }
 
 } // namespace

@@ -19,7 +19,7 @@ void ChunkDecoder::start(std::string_view bytes, const LazChunk& chunk)
   const std::string_view content = bytes.substr(chunk.offset, chunk.size);
   if (content.size() < length + (layered_ ? sizeof(std::uint32_t) : 0))
   {
-    failTruncated("byte " + std::to_string(chunk.offset) + ": a chunk of " + std::to_string(content.size()) +
+    failTruncated(atByte(chunk.offset) + "a chunk of " + std::to_string(content.size()) +
       " bytes does not hold its first point");
   }
   chunk_ = chunk;

@@ -1,4 +1,4 @@
-#include "IO/Las/Laz/CopcHierarchy.h"
+#include "IO/Las/Laz/LazChunks.h"
 
 #include "FileProblem.h"
 #include "IO/Las/LasHeader.h"
@@ -18,11 +18,6 @@ constexpr std::size_t kInfoAt = 375 + kLasVlrHeader; ///< the specification says
 constexpr std::size_t kInfoSize = 160;
 constexpr std::size_t kEntrySize = 32;
 constexpr int kMostLevel = 30; ///< cells of a level are counted by 32 bits
-
-[[noreturn]] void failHierarchy(std::size_t byte, const std::string& what)
-{
-  failFormat("byte " + std::to_string(byte) + ": " + what, "the file is damaged: copy or write it again");
-}
 
 /// One line of a page: a node, or with count -1 the page of all that is below it.
 struct Entry
@@ -82,7 +77,7 @@ void Hierarchy::readInfo()
     bytes.substr(377, 4) == "copc" && numberAt<std::uint16_t>(393) == 1;
   if (!isHere)
   {
-    failHierarchy(375, "the first variable length record does not describe the octree");
+    failDamaged(375, "the first variable length record does not describe the octree");
   }
   const double half = numberAt<double>(kInfoAt + 24);
   const double spacing = numberAt<double>(kInfoAt + 32);
@@ -94,7 +89,7 @@ void Hierarchy::readInfo()
   if (!std::isfinite(origin_[0] + origin_[1] + origin_[2] + side_) || !(half > 0.0) || !(spacing > 0.0) ||
     !std::isfinite(spacing))
   {
-    failHierarchy(
+    failDamaged(
       kInfoAt, "an octree of half size " + std::to_string(half) + " and spacing " + std::to_string(spacing));
   }
   if (task_.wanted.resolution > 0.0)
@@ -117,7 +112,7 @@ void Hierarchy::take(std::uint64_t offset, std::uint64_t size, std::size_t at, c
   if (size == 0 || offset < kInfoAt + kInfoSize || offset > task_.bytes.size() ||
     size > task_.bytes.size() - offset)
   {
-    failHierarchy(at, shown + ", which is outside the file's " + std::to_string(task_.bytes.size()));
+    failDamaged(at, shown + ", which is outside the file's " + std::to_string(task_.bytes.size()));
   }
   auto& taken = *what == 'p' ? pages_ : nodes_;
   const auto next = taken.lower_bound(offset);
@@ -125,7 +120,7 @@ void Hierarchy::take(std::uint64_t offset, std::uint64_t size, std::size_t at, c
   const bool meetsBefore = next != taken.begin() && std::prev(next)->second > offset;
   if (meetsNext || meetsBefore)
   {
-    failHierarchy(at, shown + " overlaps another");
+    failDamaged(at, shown + " overlaps another");
   }
   taken.emplace(offset, offset + size);
 }
@@ -160,7 +155,7 @@ void Hierarchy::readEntry(std::size_t at)
     if (entry.level < 0 || entry.level > kMostLevel || entry.cell[axis] < 0 ||
       entry.cell[axis] >> entry.level != 0)
     {
-      failHierarchy(
+      failDamaged(
         at, "cell " + std::to_string(entry.cell[axis]) + " of level " + std::to_string(entry.level));
     }
   }
@@ -169,7 +164,7 @@ void Hierarchy::readEntry(std::size_t at)
   entry.count = numberAt<std::int32_t>(at + 28);
   if (entry.count < -1 || entry.size < 0)
   {
-    failHierarchy(
+    failDamaged(
       at, "a node of " + std::to_string(entry.count) + " points in " + std::to_string(entry.size) + " bytes");
   }
   if (entry.count == 0 || !isWanted(entry))
@@ -243,7 +238,7 @@ LazChunks Hierarchy::find()
   }
   if (sum > header_.count)
   {
-    failHierarchy(kInfoAt + 40,
+    failDamaged(kInfoAt + 40,
       "the nodes hold " + std::to_string(sum) + " points, but the header counts " +
         std::to_string(header_.count));
   }

@@ -18,17 +18,6 @@ constexpr std::uint64_t kTableAtTheEnd = 0xffffffffffffffff;
 constexpr std::uint64_t kMostPoints = 0xfffffffe; ///< of a chunk
 constexpr std::size_t kTableHeader = 8;           ///< bytes: version and number of chunks
 
-template <typename T>
-T numberAt(std::string_view bytes, std::size_t offset)
-{
-  return loadLittle<T>(bytes.data() + offset);
-}
-
-[[noreturn]] void failChunks(std::size_t byte, const std::string& what)
-{
-  failFormat("byte " + std::to_string(byte) + ": " + what, "the file is damaged: copy or compress it again");
-}
-
 /// Finds the chunks of one file; one object per file.
 class ChunkFinder
 {
@@ -84,8 +73,8 @@ std::size_t ChunkFinder::tableOffset() const
   }
   if (table < first_ || table > bytes_.size() - kTableHeader)
   {
-    failTruncated("byte " + std::to_string(header_.pointsOffset) + ": the table of chunks is at byte " +
-      std::to_string(table) + " of a file of " + std::to_string(bytes_.size()) + " bytes");
+    failTruncated(atByte(header_.pointsOffset) + "the table of chunks is at byte " + std::to_string(table) +
+      " of a file of " + std::to_string(bytes_.size()) + " bytes");
   }
   return static_cast<std::size_t>(table);
 }
@@ -109,8 +98,7 @@ void ChunkFinder::checkSum(const LazChunks& chunks, std::size_t at) const
   {
     const std::string what = "the header counts " + std::to_string(header_.count) +
       " points, but the chunks hold " + std::to_string(sum);
-    isSalvaged_ ? void(task_->endAt(sum, header_.count, "byte " + std::to_string(at) + ": " + what))
-                : failChunks(at, what);
+    isSalvaged_ ? void(task_->endAt(sum, header_.count, atByte(at) + what)) : failDamaged(at, what);
   }
 }
 
@@ -120,7 +108,7 @@ LazChunks ChunkFinder::readTable(std::size_t table) const
   const std::size_t count = numberAt<std::uint32_t>(bytes_, table + 4);
   if (numberAt<std::uint32_t>(bytes_, table) != 0 || count > (table - first_) / header_.recordLength)
   {
-    failChunks(table,
+    failDamaged(table,
       "a table of " + std::to_string(count) + " chunks, which " + std::to_string(table - first_) +
         " compressed bytes cannot be");
   }
@@ -140,7 +128,7 @@ LazChunks ChunkFinder::readTable(std::size_t table) const
     size = static_cast<std::uint32_t>(numbers.code(decoder, static_cast<std::int32_t>(size), 0, 1));
     if (decoder.isDamaged() || size > table - offset || (points > 0 && size < header_.recordLength))
     {
-      failChunks(table,
+      failDamaged(table,
         "chunk " + std::to_string(i) + " of " + std::to_string(count) + " has " + std::to_string(size) +
           " bytes at byte " + std::to_string(offset) + ", which " + std::to_string(points) +
           " points cannot be");
@@ -180,7 +168,7 @@ LazChunks ChunkFinder::walkLayers() const
         checkSum(chunks, offset);
         break;
       }
-      failChunks(offset,
+      failDamaged(offset,
         "a chunk of " + std::to_string(points) + " points in " + std::to_string(size) + " bytes, of which " +
           std::to_string(bytes_.size() - offset) + " are there");
     }
@@ -220,8 +208,7 @@ LazChunks ChunkFinder::countOnly() const
 {
   if (hasVariableChunks())
   {
-    failFormat("byte " + std::to_string(header_.pointsOffset) +
-        ": there is no table of chunks, whose numbers of points vary",
+    failFormat(atByte(header_.pointsOffset) + "there is no table of chunks, whose numbers of points vary",
       "the file was not completely written: write it again");
   }
   const std::size_t available = bytes_.size() - first_;

@@ -36,21 +36,11 @@ struct RecordItem
 {
   int type;
   std::size_t size;
+  LazSchema::Item LazSchema::*place; ///< Its place in a schema.
 
   /// The version that is written.
   int version() const { return type >= kPoint14 ? 3 : type == kWavePacket13 ? 1 : 2; }
 };
-
-template <typename T>
-T numberAt(std::string_view bytes, std::size_t offset)
-{
-  return loadLittle<T>(bytes.data() + offset);
-}
-
-[[noreturn]] void failSchema(std::size_t byte, const std::string& what)
-{
-  failFormat("byte " + std::to_string(byte) + ": " + what, "the file is damaged: copy or compress it again");
-}
 
 /// LASzip's record.
 LasRecord findDescription(std::string_view bytes, const LasHeader& header)
@@ -64,24 +54,24 @@ LasRecord findDescription(std::string_view bytes, const LasHeader& header)
       whole += record.whole.empty() ? 0 : 1;
       if (record.user == kLaszipUser && record.id == kLaszipRecord)
       {
-        found.at != 0 ? failSchema(record.at, "a second record says how the points are compressed") : void();
+        found.at != 0 ? failDamaged(record.at, "a second record says how the points are compressed") : void();
         found = record;
       }
     });
   if (whole < records)
   {
-    failSchema(100,
+    failDamaged(100,
       "the header counts " + std::to_string(records) + " variable length records, but only " +
         std::to_string(whole) + " lie before the points");
   }
   if (found.at == 0)
   {
-    failSchema(104, "the points are marked as compressed, but no record says how");
+    failDamaged(104, "the points are marked as compressed, but no record says how");
   }
   found.at += kLasVlrHeader; // to its content, of which messages speak
   if (found.content.size() < kDescriptionStart)
   {
-    failSchema(found.at,
+    failDamaged(found.at,
       "a description of the compression of " + std::to_string(found.content.size()) +
         " bytes, which takes at least " + std::to_string(kDescriptionStart));
   }
@@ -95,32 +85,21 @@ std::vector<RecordItem> itemsOf(const LasHeader& header)
   const bool isExtended = header.isExtended();
   std::vector<RecordItem> items;
   std::size_t sum = 0;
-  const auto add = [&](int type, std::size_t size)
+  const auto addIf = [&](bool isThere, RecordItem item)
   {
-    items.push_back({ type, size });
-    sum += size;
+    isThere ? items.push_back(item) : void();
+    sum += isThere ? item.size : 0;
   };
-  isExtended ? add(kPoint14, 30) : add(kPoint10, 20);
-  if (fields.gpsTime != 0 && !isExtended)
-  {
-    add(kGpsTime11, 8);
-  }
-  if (fields.nearInfrared != 0)
-  {
-    add(kColorNearInfrared14, 8);
-  }
-  else if (fields.rgb != 0)
-  {
-    add(isExtended ? kColor14 : kColor12, 6);
-  }
-  if (fields.size == sum + kWavePacketSize)
-  {
-    add(isExtended ? kWavePacket14 : kWavePacket13, kWavePacketSize);
-  }
-  if (header.recordLength > fields.size)
-  {
-    add(isExtended ? kBytes14 : kBytes, header.recordLength - fields.size);
-  }
+  addIf(!isExtended, { kPoint10, 20, &LazSchema::point });
+  addIf(isExtended, { kPoint14, 30, &LazSchema::point });
+  addIf(fields.gpsTime != 0 && !isExtended, { kGpsTime11, 8, &LazSchema::gpsTime });
+  addIf(fields.nearInfrared != 0, { kColorNearInfrared14, 8, &LazSchema::color });
+  addIf(
+    fields.rgb != 0 && fields.nearInfrared == 0, { isExtended ? kColor14 : kColor12, 6, &LazSchema::color });
+  addIf(fields.size == sum + kWavePacketSize,
+    { isExtended ? kWavePacket14 : kWavePacket13, kWavePacketSize, &LazSchema::wavePacket });
+  addIf(header.recordLength > fields.size,
+    { isExtended ? kBytes14 : kBytes, header.recordLength - fields.size, &LazSchema::extraBytes });
   return items;
 }
 
@@ -132,31 +111,9 @@ bool isKnownVersion(int type, int version)
 
 void place(LazSchema& schema, const RecordItem& item, std::size_t offset, int version)
 {
-  const LazSchema::Item placed{ offset, version };
-  switch (item.type)
-  {
-    case kPoint10:
-    case kPoint14:
-      schema.pointVersion = version;
-      break;
-    case kGpsTime11:
-      schema.gpsTime = placed;
-      break;
-    case kColor12:
-    case kColor14:
-      schema.color = placed;
-      break;
-    case kColorNearInfrared14:
-      schema.color = placed;
-      schema.nearInfrared = { offset + 6, version };
-      break;
-    case kWavePacket13:
-    case kWavePacket14:
-      schema.wavePacket = placed;
-      break;
-    default:
-      schema.extraBytes = placed;
-  }
+  schema.*item.place = { offset, version };
+  schema.nearInfrared =
+    item.type == kColorNearInfrared14 ? LazSchema::Item{ offset + 6, version } : schema.nearInfrared;
 }
 
 void placeItems(
@@ -175,8 +132,8 @@ void placeItems(
     const int version = numberAt<std::uint16_t>(bytes, at + 4);
     if (same && !isKnownVersion(expected[i].type, version))
     {
-      failFormat("byte " + std::to_string(at + 4) + ": item " + std::to_string(expected[i].type) +
-          " is compressed in version " + std::to_string(version) + ", which is not supported: 1 to 3 are",
+      failFormat(atByte(at + 4) + "item " + std::to_string(expected[i].type) + " is compressed in version " +
+          std::to_string(version) + ", which is not supported: 1 to 3 are",
         "unpack it with the program that wrote it, or compress it with LASzip 3");
     }
     place(schema, expected[i], offset, version);
@@ -184,7 +141,7 @@ void placeItems(
   }
   if (!same)
   {
-    failSchema(description.at + 32,
+    failDamaged(description.at + 32,
       "what is compressed is not a record of point format " + std::to_string(header.pointFormat) + " with " +
         std::to_string(header.recordLength) + " bytes");
   }
@@ -216,13 +173,13 @@ LazSchema parseLazSchema(std::string_view bytes, const LasHeader& header)
   const bool isLayered = compressor == static_cast<int>(LazSchema::Compressor::Layered);
   if (compressor < 1 || compressor > 3 || isLayered != header.isExtended())
   {
-    failSchema(description.at,
+    failDamaged(description.at,
       "unknown compressor " + std::to_string(compressor) + " for point format " +
         std::to_string(header.pointFormat));
   }
   if (coder != 0)
   {
-    failSchema(description.at + 2, "unknown coder " + std::to_string(coder));
+    failDamaged(description.at + 2, "unknown coder " + std::to_string(coder));
   }
   schema.compressor = static_cast<LazSchema::Compressor>(compressor);
   schema.chunkSize = numberAt<std::uint32_t>(bytes, description.at + 12);

@@ -31,8 +31,8 @@ struct LazSchema
   Compressor compressor = Compressor::Chunked;
   std::uint32_t chunkSize = 50000; ///< points; kVariableChunks: the table of chunks says
   std::size_t recordLength = 0;
-  int pointVersion = 2; ///< 1 or 2; 3 of layered files
-  Item gpsTime;         ///< of pointwise files
+  Item point;   ///< at 0
+  Item gpsTime; ///< of pointwise files
   Item color;
   Item nearInfrared;
   Item wavePacket;

@@ -59,7 +59,7 @@ class PointwiseItems
 public:
   explicit PointwiseItems(const LazSchema& schema)
     : schema_(schema)
-    , point_(0, schema.pointVersion)
+    , point_(0, schema.point.version)
     , gpsTime_(schema.gpsTime.offset, schema.gpsTime.version)
     , color_(schema.color.offset, schema.color.version)
     , wavePacket_(schema.wavePacket.offset, 0)

@@ -139,33 +139,15 @@ TEST_F(OutputFileTest, WritesADeviceAsItStands)
   EXPECT_TRUE(fs::is_character_file("/dev/null"));
 }
 
-TEST_F(OutputFileTest, TakesPartsOfSeveralWriters)
+TEST_F(OutputFileTest, TakesBytesAtAnyPlace)
 {
-  {
-    OutputFile file;
-    OutputFile other;
-    ASSERT_EQ(file.open(name("a.txt")), Status::Ok);
-    ASSERT_EQ(other.join(file.path()), Status::Ok);
-    EXPECT_EQ(other.writeAt(4, "late"), Status::Ok);
-    EXPECT_EQ(file.writeAt(0, "soon"), Status::Ok);
-    EXPECT_EQ(other.commit(), Status::Ok);
-    EXPECT_FALSE(fs::exists(name("a.txt")));
-    EXPECT_EQ(file.commit(), Status::Ok);
-    EXPECT_EQ(read("a.txt"), "soonlate");
-  }
-  {
-    OutputFile file;
-    ASSERT_EQ(file.open(name("b.txt")), Status::Ok);
-    {
-      OutputFile other;
-      ASSERT_EQ(other.join(file.path()), Status::Ok);
-    }
-    EXPECT_TRUE(fs::exists(file.path())) << "it is not the other's to remove";
-  }
-  EXPECT_EQ(entries(), 1);
+  OutputFile file;
+  ASSERT_EQ(file.open(name("a.txt")), Status::Ok);
+  EXPECT_EQ(file.writeAt(4, "late"), Status::Ok);
+  EXPECT_EQ(file.writeAt(0, "soon"), Status::Ok);
+  EXPECT_EQ(file.commit(), Status::Ok);
+  EXPECT_EQ(read("a.txt"), "soonlate");
   OutputFile none;
-  EXPECT_EQ(none.join(name("no/file")), Status::FileNotWritable);
-  EXPECT_NE(none.cure(), "");
   EXPECT_EQ(none.writeAt(0, "x"), Status::FileNotWritable);
 }
 

@@ -350,14 +350,26 @@ TEST_F(E57, WideColorsAreKeptBesideBytes)
   EXPECT_EQ(result.value("RGB", 2, 0), 255);
   EXPECT_EQ(result.value("RGB", 0, 2), 255);
 
-  scan.xml = "<colorLimits type=\"Structure\"><colorRedMinimum type=\"Float\">2</colorRedMinimum>"
-             "<colorRedMaximum type=\"Float\">4</colorRedMaximum></colorLimits>";
-  scan.fields[3] = e57Float("colorRed", { 2, 3, 4 });
-  scan.fields[4] = e57Float("colorGreen", { 0, 0.5f, 1 });
-  scan.fields[5] = e57Float("colorBlue", { -1, std::numeric_limits<float>::quiet_NaN(), 2 });
+  scan.xml = "<colorLimits type=\"Structure\"><colorRedMaximum type=\"Integer\">1023</colorRedMaximum>"
+             "<colorGreenMaximum type=\"Integer\">1023</colorGreenMaximum></colorLimits>";
+  scan.fields[3] = e57Integer("colorRed", 0, 65535, { 0, 512, 1023 });
+  scan.fields[4] = e57Integer("colorGreen", 0, 65535, { 4, 511, 1020 });
   result = read({ { scan } });
   ASSERT_EQ(result.error, "");
-  EXPECT_EQ(result.value("Color", 1, 0), 3);
+  EXPECT_EQ(result.value("RGB", 0, 2), 255) << "a value beyond the limits makes these void";
+  scan.fields[5] = e57Integer("colorBlue", 0, 65535, { 3, 255, 1 });
+  result = read({ { scan } });
+  EXPECT_EQ(result.value("RGB", 1, 0), 128);
+  EXPECT_EQ(result.value("RGB", 0, 1), 1);
+  EXPECT_EQ(result.value("RGB", 2, 0), 255);
+
+  scan.xml.clear();
+  scan.fields[3] = e57Float("colorRed", { 0, 0.5f, 1 });
+  scan.fields[4] = e57Float("colorGreen", { 0, 0.5f, 1 });
+  scan.fields[5] = e57Float("colorBlue", { 0, std::numeric_limits<float>::quiet_NaN(), 1 });
+  result = read({ { scan } });
+  ASSERT_EQ(result.error, "");
+  EXPECT_EQ(result.value("Color", 1, 0), 0.5);
   const double expected[3][3] = { { 0, 0, 0 }, { 128, 128, 0 }, { 255, 255, 255 } };
   for (int i = 0; i < 3; ++i)
   {

@@ -1,4 +1,4 @@
-#include "IO/Text/TextScan.h"
+#include "IO/Bytes/TextScan.h"
 
 #include <cctype>
 #include <charconv>
