@@ -15,7 +15,7 @@
 namespace pointhaptics
 {
 
-/// The active voxels, in order of their keys (x fastest).
+/// The voxels with at least one point, in order of their keys (x fastest).
 struct VoxelMeans
 {
   Lattice lattice;
@@ -27,14 +27,14 @@ struct VoxelMeans
   std::int64_t invalidPoints = 0;   ///< NaN or infinite points.
 };
 
-/// Bounds of the transformed points that are finite before and after the transform. Of no use where
-/// @p observer has ended the work.
+/// Bounds of the transformed points that are finite before and after the transform. Not valid
+/// where @p observer has ended the work.
 Bounds transformedBounds(const PointView& points, const AffineTransform& transform,
   const Executor& executor = {}, ProgressObserver* observer = nullptr);
 
-/// Maps @p points by @p transform and averages them voxel by voxel: VoxelResampler for once, in double.
-/// Errors: the transform's, the lattice's; @p result is then empty. A cloud without a point inside is no
-/// error: the result has no voxels.
+/// Maps @p points by @p transform and averages them voxel by voxel, in double, with a VoxelResampler made for
+/// this call. Errors: an invalid transform or lattice; @p result is then empty. A cloud without
+/// a point inside is no error: the result has no voxels.
 Status voxelMeans(const PointView& points, const AffineTransform& transform, const Lattice& lattice,
   bool withCovariances, VoxelMeans& result, const Executor& executor = {});
 

@@ -62,12 +62,14 @@ enum class Motion
 {
   Scale, ///< The matrix is diagonal.
   General,
-  Compensated, ///< General, and rounding would cost digits: the pivot is 0, v a dot product in two words.
+  Compensated, ///< General, and rounding would cost digits: the pivot is 0, v is summed with its rounding
+               ///< error.
   Fine,        ///< Likewise, with more bits than a record has.
 };
 
 /// The constants that quantize points: from coordinates to positions in the lattice, and to partitions.
-/// v = M (p - pivot) + offset in units of the workspace, from the lattice's origin; u = v / quantum.
+/// The pivot is the cloud's point that maps to the lattice's origin. v = M (p - pivot) + offset in units of
+/// the workspace, from the lattice's origin; u = v / quantum.
 struct PointQuantizer
 {
   double pivot[3];

@@ -25,13 +25,14 @@ double compensatedDot(const double row[3], const double p[3], double offset, dou
   return sum + rest;
 }
 
-/// Where rounding p - pivot, the products and their sums could move a point inside by more than an eighth of
-/// a quantum: under matrices of a large condition number.
+/// True if the rounding of M (p - pivot) + offset could move a point of the lattice by more than an eighth of
+/// a quantum, as under matrices of a large condition number.
 bool needsCompensation(const AffineTransform& inverse, const PointQuantizer& quantizer)
 {
-  constexpr double kRounding = 0x1p-50; // of a term of the sum, in total
-  constexpr double kMostLost = 0.125;
-  double largest[3] = { 0, 0, 0 }; // |p - pivot| of the points inside
+  constexpr double kRounding = 0x1p-50;   // of all operations of a row, over the sum of its terms'
+                                          // magnitudes: 8 units in the last place
+  constexpr double kLargestError = 0.125; // quanta
+  double largest[3] = { 0, 0, 0 };        // |p - pivot| of points of the lattice, at most
   for (int axis = 0; axis < 3; ++axis)
   {
     const double extent =
@@ -50,7 +51,7 @@ bool needsCompensation(const AffineTransform& inverse, const PointQuantizer& qua
       {
         terms += std::abs(row[column]) * largest[column];
       }
-      return kRounding * terms <= kMostLost * quantizer.quantum[axis];
+      return kRounding * terms <= kLargestError * quantizer.quantum[axis];
     });
 }
 
