@@ -187,13 +187,6 @@ void ph_set_interpreter_lock(int (*is_held)(void), void* (*release)(void), void 
   setInterpreterLock({ is_held, release, take, is_ending, run_handlers });
 }
 
-void ph_set_interpreter_faults(void (*fetch)(void**, void**, void**), void (*restore)(void*, void*, void*),
-  int (*call_soon)(int (*)(void*), void*), void* (*frame)(void), void* (*caller_of)(void*),
-  void (*keep)(void*), void (*let_go)(void*))
-{
-  setInterpreterFaults({ fetch, restore, call_soon, frame, caller_of, keep, let_go });
-}
-
 void ph_end_interpreter(void)
 {
   endInterpreter();

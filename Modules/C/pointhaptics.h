@@ -213,15 +213,6 @@ extern "C"
    * returns whether one has raised, which ends the work. */
   PH_API void ph_set_interpreter_lock(int (*is_held)(void), void* (*release)(void), void (*take)(void*),
     int (*is_ending)(void), int (*run_handlers)(void));
-  /** What a handler raised is kept until the interpreted code that called for the work goes on, as code that
-   * observes the work would lose it. @p fetch takes it away and @p restore raises it; @p call_soon has a
-   * function called in the main thread before its next step of interpreted code, not 0: there is no room;
-   * @p frame is the innermost frame of such code, @p caller_of the one that called a frame, to be let go;
-   * @p keep and @p let_go hold a frame. For Python: PyErr_Fetch, PyErr_Restore, Py_AddPendingCall,
-   * PyEval_GetFrame, PyFrame_GetBack, Py_IncRef, Py_DecRef. */
-  PH_API void ph_set_interpreter_faults(void (*fetch)(void**, void**, void**),
-    void (*restore)(void*, void*, void*), int (*call_soon)(int (*)(void*), void*), void* (*frame)(void),
-    void* (*caller_of)(void*), void (*keep)(void*), void (*let_go)(void*));
   /** At the end of such an interpreter: stops all work that gave the lock up, and returns when it has ended.
    * Its threads sleep until the process ends; what is begun from then on keeps the lock. Call it without the
    * lock. */

@@ -7,7 +7,7 @@
 
 #include "Core/Bandwidth/Density.h"
 #include "Core/Bandwidth/LocalBandwidth.h"
-#include "Core/Base/Host/ProgressReport.h"
+#include "Core/Base/Host/InterpreterLock.h"
 #include "Core/Distributed/FarPoints.h"
 #include "Core/Resample/VoxelMean.h"
 
@@ -86,7 +86,8 @@ private:
     if (progress > this->Now)
     {
       this->Now = progress;
-      updateProgress(this->Filter, progress);
+      this->Filter->UpdateProgress(progress);
+      runSignalHandlers();
     }
   }
 
@@ -169,7 +170,7 @@ bool vtkKernelBandwidthFilter::Estimate(vtkPolyData* cloud)
   const double found = this->SettingsOfRun.computeDensity ? 0.4 : 0.95;
   NeighborQuery query;
   query.build(points.view(), SmpExecutor());
-  updateProgress(this, 0.1);
+  this->UpdateProgress(0.1);
   std::string problem = settings.fixedRadius ? tooManyPairs(query, settings.radius) : "";
   if (!problem.empty())
   {

@@ -2,7 +2,7 @@
 
 #include "FieldPoses.h"
 
-#include "Core/Base/Host/ProgressReport.h"
+#include "Core/Base/Host/InterpreterLock.h"
 #include "Core/Distributed/FarPoints.h"
 #include "Core/Distributed/Ranks.h"
 #include "Core/Resample/FieldNames.h"
@@ -357,7 +357,8 @@ void vtkVoxelMeanResampler::Internals::BeginPart(double end)
 
 bool vtkVoxelMeanResampler::Internals::report(double fraction)
 {
-  updateProgress(this->Filter, this->PartBegin + (this->PartEnd - this->PartBegin) * fraction);
+  this->Filter->UpdateProgress(this->PartBegin + (this->PartEnd - this->PartBegin) * fraction);
+  pointhaptics::runSignalHandlers();
   this->Aborted = this->Filter->GetAbortExecute() != 0;
   return !this->Aborted;
 }

@@ -1,6 +1,6 @@
 #include "Progress.h"
 
-#include "Core/Base/Host/ProgressReport.h"
+#include "Core/Base/Host/InterpreterLock.h"
 #include "Core/Base/Host/StopRequest.h"
 #include "FileProblem.h"
 
@@ -15,7 +15,8 @@ namespace pointhaptics::io
 
 void reportProgress(vtkAlgorithm* algorithm, double fraction)
 {
-  updateProgress(algorithm, fraction);
+  algorithm->UpdateProgress(fraction);
+  runSignalHandlers();
   if (shallStop(algorithm, 0))
   {
     throw StoppedOnRequest();
@@ -53,7 +54,8 @@ void RelayedProgress::relay(double fraction)
   if (now > reached_)
   {
     reached_ = now;
-    updateProgress(outer_, now);
+    outer_->UpdateProgress(now);
+    runSignalHandlers();
   }
   // An exception must not pass through VTK: finish() throws it.
   if (outer_->GetAbortExecute())

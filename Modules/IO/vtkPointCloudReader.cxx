@@ -10,7 +10,6 @@
 #include "ReadTask.h"
 
 #include "Core/Base/Host/GuardedWork.h"
-#include "Core/Base/Host/ProgressReport.h"
 #include "Core/Base/Host/StopRequest.h"
 #include "Core/Base/QuantityText.h"
 
@@ -523,7 +522,7 @@ int vtkPointCloudReader::RequestData(
   {
     pointhaptics::requireRoomOfWork();
     this->ReadInto(output);
-    pointhaptics::updateProgress(this, 1.0);
+    this->UpdateProgress(1.0);
     return 1;
   }
   catch (const io::NoPoints& problem)

@@ -6,7 +6,6 @@
 #include "vtkVoxelMeanResampler.h"
 
 #include "Core/Base/Host/GuardedWork.h"
-#include "Core/Base/Host/ProgressReport.h"
 #include "Core/Base/Host/StopRequest.h"
 #include "Devices/PathUnits.h"
 
@@ -222,7 +221,8 @@ bool vtkHapticFeel::Internals::Feel(
       }
       if (++tick % kTicksBetweenReports == 0)
       {
-        updateProgress(filter, kResampled + (1.0 - kResampled) * double(tick) / double(ticks));
+        filter->UpdateProgress(kResampled + (1.0 - kResampled) * double(tick) / double(ticks));
+        runSignalHandlers();
       }
       return !filter->AbortExecute;
     });

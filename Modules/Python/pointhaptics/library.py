@@ -153,16 +153,11 @@ def _give_up_the_gil() -> None:
     """Lets long work of VTK filters give up the GIL, too, and run signal handlers."""
     python = ctypes.pythonapi
     is_ending = getattr(python, "Py_IsFinalizing", None) or getattr(python, "_Py_IsFinalizing", None)
-    lock = (
+    functions = (
         python.PyGILState_Check, python.PyEval_SaveThread, python.PyEval_RestoreThread, is_ending, python.PyErr_CheckSignals
     )  # fmt: skip
-    faults = (
-        python.PyErr_Fetch, python.PyErr_Restore, python.Py_AddPendingCall, python.PyEval_GetFrame,
-        python.PyFrame_GetBack, python.Py_IncRef, python.Py_DecRef,
-    )  # fmt: skip
-    for name, functions in (("lock", lock), ("faults", faults)):
-        addresses = [None if function is None else ctypes.cast(function, c_void_p) for function in functions]
-        _function(f"ph_set_interpreter_{name}", *[c_void_p] * len(functions), result=None)(*addresses)
+    addresses = [None if function is None else ctypes.cast(function, c_void_p) for function in functions]
+    _function("ph_set_interpreter_lock", *[c_void_p] * 5, result=None)(*addresses)
 
 
 _give_up_the_gil()

@@ -20,26 +20,8 @@ struct InterpreterLock
   int (*runHandlers)() = nullptr;
 };
 
-/// How what a handler raised is kept until the code that called for work goes on: observers of the work are
-/// the interpreter's, too, and must find nothing raised. Functions of the interpreter, under its lock; none
-/// throws.
-struct InterpreterFaults
-{
-  void (*fetch)(void** kind, void** value, void** trace) = nullptr; ///< Takes what was raised away.
-  void (*restore)(void* kind, void* value, void* trace) = nullptr;  ///< Raises it again.
-  /// Calls @p call in the main thread before its next step of interpreted code; not 0: there is no room.
-  int (*callSoon)(int (*call)(void*), void* argument) = nullptr;
-  void* (*frame)() = nullptr;          ///< Innermost frame of interpreted code, not to be let go; null: none.
-  void* (*callerOf)(void*) = nullptr;  ///< The frame that called a frame, to be let go; null: none.
-  void (*keep)(void* frame) = nullptr; ///< As often as letGo().
-  void (*letGo)(void* frame) = nullptr;
-};
-
 /// Sets the lock of this process. Call it before other threads use this library.
 void setInterpreterLock(const InterpreterLock& lock) noexcept;
-/// As setInterpreterLock(). Without it what a handler raised stays with the interpreter, whose observers lose
-/// it.
-void setInterpreterFaults(const InterpreterFaults& faults) noexcept;
 
 /// Stops the work of all threads that are WithoutInterpreterLock, and waits until it has ended: these threads
 /// sleep until the process ends, as libraries go meanwhile. From then on no thread gives the lock up, so that
@@ -47,14 +29,8 @@ void setInterpreterFaults(const InterpreterFaults& faults) noexcept;
 void endInterpreter() noexcept;
 
 /// Where the main thread works without the lock: runs the handlers of signals that came, at most 20 times a
-/// second or @p now, and stops the work if one raises. What it raised comes from the call that gave the lock
-/// up first. Called wherever work reports progress: see updateProgress().
-void runSignalHandlers(bool now = false) noexcept;
-
-/// True in the main thread where it works without the lock.
-bool runsSignalHandlers() noexcept;
-/// True if @p handler of a signal is code of the interpreter, which notes the signal for runSignalHandlers().
-bool isHandlerOfInterpreter(void (*handler)(int)) noexcept;
+/// second, and stops the work if one raises. Called wherever work reports progress.
+void runSignalHandlers() noexcept;
 
 /// While it lives the calling thread is without the interpreter's lock, so that other threads of the
 /// interpreter run. No effect where there is no interpreter, or the thread does not hold its lock. After the
@@ -71,18 +47,13 @@ public:
 
 private:
   friend void endInterpreter() noexcept;
-  friend void runSignalHandlers(bool now) noexcept;
+  friend void runSignalHandlers() noexcept;
 
-  void keepFault() noexcept;
-  void runLastHandlers() noexcept;
-
-  void* caller_ = nullptr; ///< Frame that gets what a handler raises.
   void* state_ = nullptr;
   bool hasRaised_ = false;
   std::chrono::steady_clock::time_point handled_; ///< When handlers ran.
   std::function<void()> stop_;
   WithoutInterpreterLock* next_ = nullptr;
-  WithoutInterpreterLock* outer_ = nullptr; ///< Work of the main thread whose observer began this one.
 };
 
 } // namespace pointhaptics
