@@ -102,10 +102,11 @@ void vtkSplatMapper::SetRanges(std::vector<std::array<vtkIdType, 2>> ranges)
 
 void vtkSplatMapper::CopySizes(const vtkSplatMapper* other, double factor)
 {
+  const double valid = factor > 0.0 && std::isfinite(factor) ? factor : 1.0;
   this->Now = other->Now;
-  this->Now.sizeScale *= factor;
-  this->Now.fixedPixels *= factor;
-  const double wider = other->Now.surfaces ? factor : 1.0;
+  this->Now.sizeScale *= valid;
+  this->Now.fixedPixels *= valid;
+  const double wider = other->Now.surfaces ? valid : 1.0;
   this->Now.largestPixels *= wider;
   this->Now.pointPixels *= wider;
   this->Now.surfacePixels *= wider;

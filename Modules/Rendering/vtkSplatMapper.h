@@ -43,6 +43,7 @@
 
 #include <algorithm> // For copies
 #include <array>     // For ranges
+#include <limits>    // For ranges
 #include <string>    // For the names of arrays
 #include <vector>    // For ranges
 
@@ -65,30 +66,30 @@ public:
    * The settings one by one, with the units, ranges and defaults of SplatSettings. A setter ignores a value
    * out of its range.
    */
-  void SetSizeArrayName(const std::string& name) { this->Now.sizeArray = name; }
+  void SetSizeArrayName(const std::string& name) { this->Change(this->Now.sizeArray, name); }
   const std::string& GetSizeArrayName() const { return this->Now.sizeArray; }
   void SetSizeScale(double scale) { this->SetPositive(this->Now.sizeScale, scale); }
   double GetSizeScale() const { return this->Now.sizeScale; }
-  void SetLargestRatio(double ratio) { this->SetPositive(this->Now.largestRatio, ratio); }
+  void SetLargestRatio(double ratio) { this->SetPositive(this->Now.largestRatio, ratio, INFINITY); }
   double GetLargestRatio() const { return this->Now.largestRatio; }
   void SetPixelRange(double smallest, double largest);
   double GetSmallestPixels() const { return this->Now.smallestPixels; }
   double GetLargestPixels() const { return this->Now.largestPixels; }
   void SetFixedPixels(double pixels); // 0 or more
   double GetFixedPixels() const { return this->Now.fixedPixels; }
-  void SetAmbientLight(bool on) { this->Now.ambientLight = on; }
+  void SetAmbientLight(bool on) { this->Change(this->Now.ambientLight, on); }
   bool GetAmbientLight() const { return this->Now.ambientLight; }
-  void SetNormalArrayName(const std::string& name) { this->Now.normalArray = name; }
+  void SetNormalArrayName(const std::string& name) { this->Change(this->Now.normalArray, name); }
   const std::string& GetNormalArrayName() const { return this->Now.normalArray; }
   void SetSkyDirection(const double direction[3]); // of any length above 0
   void GetSkyDirection(double direction[3]) const;
-  void SetSurfaces(bool on) { this->Now.surfaces = on; }
+  void SetSurfaces(bool on) { this->Change(this->Now.surfaces, on); }
   bool GetSurfaces() const { return this->Now.surfaces; }
   void SetForeshortens(bool on) { this->Now.foreshortens = on; }
   bool GetForeshortens() const { return this->Now.foreshortens; }
   void SetPointPixels(double pixels) { this->SetPositive(this->Now.pointPixels, pixels); }
   double GetPointPixels() const { return this->Now.pointPixels; }
-  void SetSurfacePixels(double pixels) { this->SetPositive(this->Now.surfacePixels, pixels); }
+  void SetSurfacePixels(double pixels) { this->SetPositive(this->Now.surfacePixels, pixels, INFINITY); }
   double GetSurfacePixels() const { return this->Now.surfacePixels; }
   void SetClosesAll(bool on) { this->Now.closesAll = on; }
   bool GetClosesAll() const { return this->Now.closesAll; }
@@ -147,9 +148,19 @@ private:
   vtkSplatMapper(const vtkSplatMapper&) = delete;
   void operator=(const vtkSplatMapper&) = delete;
 
-  static void SetPositive(double& setting, double value)
+  /// Sets what uploads the points again.
+  template <typename T>
+  void Change(T& setting, const T& value)
   {
-    setting = value > 0.0 && std::isfinite(value) ? value : setting;
+    if (setting != value)
+    {
+      setting = value;
+      this->Modified();
+    }
+  }
+  static void SetPositive(double& setting, double value, double most = std::numeric_limits<double>::max())
+  {
+    setting = value > 0.0 && value <= most ? value : setting;
   }
 
   pointhaptics::SplatSettings Now;

@@ -215,6 +215,14 @@ class WholeClouds(TestCase):
         self.assert_same_bits(arrays["VoxelCovariance"], voxels.covariance)
         np.testing.assert_array_equal(arrays.fields["LatticeSpacing"].ravel(), voxels.spacing)
 
+    def test_attributes_join_with_their_fields(self):
+        first = ph.Attributes({"x": np.zeros(2)}, {"f": 1})
+        second = ph.Attributes({"y": np.ones(2)}, {"g": 2})
+        joined = first | second
+        first |= second
+        for each in (joined, first):
+            self.assertEqual((sorted(each), each.fields), (["x", "y"], {"f": 1, "g": 2}))
+
     def test_fields_that_a_format_has_no_place_for_are_said(self):
         for extension in ("ply", "pcd", "csv", "las"):
             with self.assertWarnsRegex(RuntimeWarning, "field data 'Owner', 'Run' are left out"):

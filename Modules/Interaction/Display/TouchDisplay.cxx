@@ -146,7 +146,10 @@ void TouchDisplay::render()
   {
     // The chart has the ground of the picture above it, which a key may change.
     const double* ground = screen_.renderer() ? screen_.renderer()->GetBackground() : nullptr;
-    chartChanged_ = (ground && chart_->SetDark(ground[0] < kDarkGround)) || chartChanged_;
+    chartChanged_ =
+      (ground &&
+        chart_->SetDark(0.2126 * ground[0] + 0.7152 * ground[1] + 0.0722 * ground[2] < kDarkGround)) ||
+      chartChanged_;
     pause.emplace(chart_->GetRenderer(), chartChanged_, chartPicture_);
   }
   chartChanged_ = false;

@@ -307,6 +307,7 @@ void vtkHapticChart::ApplyColors()
   parts.chart->GetLegend()->GetLabelProperties()->SetColor(words, words, words);
   parts.chart->GetLegend()->GetBrush()->SetColor(back[0], back[1], back[2]);
   parts.fittedHeight = 0;
+  parts.fitTexts(); // at once: Update() may find nothing else to change
 }
 
 void vtkHapticChart::SetPaused(bool paused)

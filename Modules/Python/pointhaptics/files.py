@@ -43,6 +43,11 @@ class Attributes(Dict[str, NDArray[Any]]):
     def __or__(self, other: Mapping[str, NDArray[Any]]) -> "Attributes":  # type: ignore[override]
         return Attributes({**self, **other}, {**self.fields, **getattr(other, "fields", {})})
 
+    def __ior__(self, other: Mapping[str, NDArray[Any]]) -> "Attributes":  # type: ignore[override,misc]
+        self.update(other)
+        self.fields.update(getattr(other, "fields", {}))
+        return self
+
     def __ror__(self, other: Mapping[str, NDArray[Any]]) -> "Attributes":  # type: ignore[override]
         return Attributes({**other, **self}, self.fields)
 

@@ -222,9 +222,10 @@ void ViewWindow::leave()
 
 void ViewWindow::show(LoadedCloud cloud)
 {
-  // A file that changed so much that it is placed anew is seen as a new one.
-  const bool keepsModel = loading_.kind != Load::New &&
-    cloud.placement == transformOf(scene_.modelMatrix()) && areAlike(cloud.workspace, scene_.workspace());
+  const bool isNew = loading_.kind == Load::New;
+  // A file that changed so much that it is placed anew is looked at anew; what was chosen for it stays.
+  const bool keepsModel = !isNew && cloud.placement == transformOf(scene_.modelMatrix()) &&
+    areAlike(cloud.workspace, scene_.workspace());
   const AffineTransform model = cloud.model;
   std::string message;
   if (!this->endRecording(message)) // of the former cloud
@@ -246,7 +247,7 @@ void ViewWindow::show(LoadedCloud cloud)
   scene_.getWorkspaceBounds(bounds);
   style_->SetWorkspaceBounds(bounds);
   style_->SetResampler(scene_.resampler());
-  if (!keepsModel)
+  if (isNew)
   {
     options_.colorBy = loading_.options.colorBy;
     options_.picture.colorRange = loading_.options.picture.colorRange;
@@ -263,9 +264,12 @@ void ViewWindow::show(LoadedCloud cloud)
   {
     this->clipFelt();
   }
-  if (!keepsModel)
+  if (isNew)
   {
     options_.camera.clear(); // it was for the first cloud
+  }
+  if (!keepsModel && options_.camera.empty())
+  {
     scene_.placeCamera();
   }
   window_->SetWindowName(("PointHaptics: " + scene_.title()).c_str());

@@ -184,4 +184,38 @@ TEST(SplatMapper, WithoutCellsAllPointsAreDrawn)
   EXPECT_LT(differences(without.picture(), parts), dark / 20);
 }
 
+TEST(SplatMapper, SettersKeepToTheirRangesAndMoveTheTimeOfWhatIsUploaded)
+{
+  vtkNew<vtkSplatMapper> splats;
+  for (const double wrong : { 0.0, -1.0, double(NAN) })
+  {
+    splats->SetSizeScale(wrong);
+    splats->SetLargestRatio(wrong);
+    splats->SetSurfacePixels(wrong);
+    splats->SetPixelRange(wrong, 5.0);
+    splats->CopySizes(splats, wrong);
+  }
+  splats->SetSizeScale(INFINITY);
+  splats->SetLightStrength(1.5);
+  EXPECT_EQ(splats->GetSizeScale(), 3.6);
+  EXPECT_EQ(splats->GetLargestRatio(), 2.5);
+  EXPECT_EQ(splats->GetSmallestPixels(), 2.0);
+  EXPECT_EQ(splats->GetLightStrength(), 1.0);
+  splats->SetSurfacePixels(10.0);
+  splats->SetSurfacePixels(INFINITY); // the default
+  EXPECT_EQ(splats->GetSurfacePixels(), INFINITY);
+  const auto moves = [&splats](const auto& set)
+  {
+    const vtkMTimeType before = splats->GetMTime();
+    set();
+    return splats->GetMTime() > before;
+  };
+  EXPECT_TRUE(moves([&] { splats->SetSizeArrayName("Length"); }));
+  EXPECT_FALSE(moves([&] { splats->SetSizeArrayName("Length"); }));
+  EXPECT_TRUE(moves([&] { splats->SetNormalArrayName("N"); }));
+  EXPECT_TRUE(moves([&] { splats->SetAmbientLight(true); }));
+  EXPECT_TRUE(moves([&] { splats->SetSurfaces(true); }));
+  EXPECT_FALSE(moves([&] { splats->SetSizeScale(2.0); })); // a uniform of the shader
+}
+
 } // namespace

@@ -1057,7 +1057,7 @@ KeyNShowsFilesAlone() {
 # A little longer, it stays where it is; fifty times as large, it would fill the view with one spot.
 AGrownFileIsFittedAgain() {
   make sphere first.csv
-  open_viewer first.csv --watch
+  open_viewer first.csv --watch --clip=-9,9,-9,9,-0.01,9
   write_settings
   grow 1.05 && mv grown.csv first.csv
   said "read again: first.csv"
@@ -1066,6 +1066,7 @@ AGrownFileIsFittedAgain() {
   same camera || fail "a small change moved the view"
   grow 50 && mv grown.csv first.csv
   until_true "the model keeps the fit of the small file" is_fitted_anew
+  same clip || fail "the clip is gone"
 }
 grow() { awk -F, -v factor="$1" 'NR == 1 { print "x,y,z"; next } { print factor * $1 "," $2 * factor "," $3 * factor }' first.csv >grown.csv; }
 is_fitted_anew() {

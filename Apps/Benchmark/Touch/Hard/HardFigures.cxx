@@ -68,21 +68,25 @@ double energyOf(const std::vector<ProxyState>& states)
 } // namespace
 
 CloudDistance::CloudDistance(const std::vector<Vec3>& points)
+  : points_(points)
 {
   const PointView view(points.data(), std::int64_t(points.size()));
   query_.build(view);
-  static_cast<void>(measureLocalShape(view, query_, {}, shape_)); // Without a finite point there is no scene.
 }
 
 double CloudDistance::operator()(const Vec3& p, double& spacing) const
 {
+  constexpr int kNeighbors = 9; // with the point itself
   Neighbor nearest;
+  Neighbor around[kNeighbors];
   if (query_.nearest(p, 1, &nearest) == 0)
   {
     spacing = 0.0;
     return INFINITY;
   }
-  spacing = double(shape_.points[std::size_t(nearest.index)].spacing);
+  const int found = query_.nearest(points_[std::size_t(nearest.index)], kNeighbors, around);
+  const auto distance = [&](int k) { return std::sqrt(around[std::min(k, found - 1)].squaredDistance); };
+  spacing = std::max(0.886 * distance(4), 0.627 * distance(8)); // as PointShape::spacing of a point not alone
   return std::sqrt(nearest.squaredDistance);
 }
 

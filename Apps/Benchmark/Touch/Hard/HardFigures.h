@@ -6,7 +6,6 @@
 #include "Benchmark/Touch/Hard/HardScenes.h"
 #include "Benchmark/Touch/TouchJudge.h"
 
-#include "Core/Neighbors/LocalShape.h"
 #include "Core/Neighbors/NeighborQuery.h"
 
 #include <array>
@@ -25,13 +24,14 @@ constexpr double kFeltForce = 0.05;
 class CloudDistance
 {
 public:
+  /// @param points outlives this.
   explicit CloudDistance(const std::vector<Vec3>& points);
   /// Metres to the nearest point. @param spacing its local spacing, metres.
   double operator()(const Vec3& p, double& spacing) const;
 
 private:
   NeighborQuery query_;
-  LocalShape shape_;
+  const std::vector<Vec3>& points_;
 };
 
 /// Truths of the strokes of a scene: of solids those of truthOf(), of open meshes one god object that meets
