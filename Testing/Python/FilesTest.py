@@ -223,6 +223,17 @@ class WholeClouds(TestCase):
         for each in (joined, first):
             self.assertEqual((sorted(each), each.fields), (["x", "y"], {"f": 1, "g": 2}))
 
+    def test_voxels_keep_the_unit_and_the_coordinate_system(self):
+        fields = {"CoordinateSystem": "EPSG:25832", "LengthUnit": "foot"}
+        points = np.random.default_rng(3).random((500, 3))
+        attributes = ph.Attributes({"intensity": np.arange(500.0)}, fields)
+        voxels = ph.resample(points, voxel=0.2, attributes=attributes)
+        self.assertEqual(voxels.attributes.fields, fields)
+        ph.write(self.path("v.las"), voxels)
+        self.assertEqual(ph.read(self.path("v.las"))[1].fields["LengthUnit"], "foot")
+        moved = ph.resample(points, voxel=0.2, attributes=attributes, transform=np.diag([2.0, 2.0, 2.0, 1.0]))
+        self.assertEqual(moved.attributes.fields, {})
+
     def test_fields_that_a_format_has_no_place_for_are_said(self):
         for extension in ("ply", "pcd", "csv", "las"):
             with self.assertWarnsRegex(RuntimeWarning, "field data 'Owner', 'Run' are left out"):

@@ -40,7 +40,8 @@ from .classes import (
     vtkPointCloudWriter,
     vtkVoxelMeanResampler,
 )
-from .files import Attributes, info, read, write
+from .arrays import Attributes
+from .files import info, read, write
 from .filters import Bandwidths, Voxels, bandwidth, resample
 from .proxy import Proxy
 from .scene import FELT_COLUMNS, Scene

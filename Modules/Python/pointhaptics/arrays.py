@@ -69,6 +69,33 @@ def to_vtk(array: NDArray[Any], name: Optional[str] = None) -> core.vtkDataArray
     return result
 
 
+class Attributes(Dict[str, NDArray[Any]]):
+    """The attributes of a cloud: name -> (n,) or (n, components); and in .fields what its file says of the whole cloud.
+
+    fields : name -> array, or text: CoordinateSystem, LengthUnit, Viewpoint (tx ty tz qw qx qy qz), OrganizedDimensions
+        (width, height), ScanPoses, LasScale ... write() writes them where the format has a place, and warns where not.
+        Whoever moves, scales or sorts the points removes those that are then wrong.
+    """
+
+    def __init__(self, attributes: Mapping[str, NDArray[Any]] = {}, fields: Mapping[str, Any] = {}) -> None:
+        super().__init__(attributes)
+        self.fields: Dict[str, Any] = dict(fields)
+
+    def copy(self) -> "Attributes":
+        return Attributes(self, self.fields)
+
+    def __or__(self, other: Mapping[str, NDArray[Any]]) -> "Attributes":  # type: ignore[override]
+        return Attributes({**self, **other}, {**self.fields, **getattr(other, "fields", {})})
+
+    def __ior__(self, other: Mapping[str, NDArray[Any]]) -> "Attributes":  # type: ignore[override]
+        self.update(other)
+        self.fields.update(getattr(other, "fields", {}))
+        return self
+
+    def __ror__(self, other: Mapping[str, NDArray[Any]]) -> "Attributes":  # type: ignore[override]
+        return Attributes({**other, **self}, self.fields)
+
+
 class Cloud:
     """A vtkPolyData that looks at NumPy's memory, and keeps that memory."""
 

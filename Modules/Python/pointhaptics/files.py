@@ -12,7 +12,7 @@ from typing import IO, Any, Dict, Iterator, Mapping, NoReturn, Optional, Sequenc
 
 from numpy.typing import ArrayLike, NDArray
 
-from .arrays import Cloud, arrays_of, points_of
+from .arrays import Attributes, Cloud, arrays_of, points_of
 from .calls import warn
 from .classes import vtkPointCloudInfo, vtkPointCloudReader, vtkPointCloudWriter
 from .filters import Voxels
@@ -23,33 +23,6 @@ Path = Union[str, "os.PathLike[str]", IO[bytes]]
 # vtkErrorCode: what a file holds, not the system, is at fault.
 _CONTENT = (20003, 20004, 20005)  # UnrecognizedFileType, PrematureEndOfFile, FileFormat
 _ERRNOS = {os.strerror(code): code for code in errno.errorcode}
-
-
-class Attributes(Dict[str, NDArray[Any]]):
-    """The attributes of a cloud: name -> (n,) or (n, components); and in .fields what its file says of the whole cloud.
-
-    fields : name -> array, or text: CoordinateSystem, LengthUnit, Viewpoint (tx ty tz qw qx qy qz), OrganizedDimensions
-        (width, height), ScanPoses, LasScale ... write() writes them where the format has a place, and warns where not.
-        Whoever moves, scales or sorts the points removes those that are then wrong.
-    """
-
-    def __init__(self, attributes: Mapping[str, NDArray[Any]] = {}, fields: Mapping[str, Any] = {}) -> None:
-        super().__init__(attributes)
-        self.fields: Dict[str, Any] = dict(fields)
-
-    def copy(self) -> "Attributes":
-        return Attributes(self, self.fields)
-
-    def __or__(self, other: Mapping[str, NDArray[Any]]) -> "Attributes":  # type: ignore[override]
-        return Attributes({**self, **other}, {**self.fields, **getattr(other, "fields", {})})
-
-    def __ior__(self, other: Mapping[str, NDArray[Any]]) -> "Attributes":  # type: ignore[override,misc]
-        self.update(other)
-        self.fields.update(getattr(other, "fields", {}))
-        return self
-
-    def __ror__(self, other: Mapping[str, NDArray[Any]]) -> "Attributes":  # type: ignore[override]
-        return Attributes({**other, **self}, self.fields)
 
 
 def _name(path: object) -> str:
@@ -222,7 +195,7 @@ def write(
     """
     if isinstance(points, Voxels):
         lattice = {"LatticeOrigin": points.origin, "LatticeSpacing": points.spacing}
-        fields = {**lattice, "LatticeDimensions": points.dimensions, **(fields or {})}
+        fields = {**lattice, "LatticeDimensions": points.dimensions, **points.attributes.fields, **(fields or {})}
         attributes = {**points.arrays, **attributes}
         points = points.points
     if fields is None:

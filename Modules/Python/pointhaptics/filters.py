@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from vtkmodules.vtkCommonTransforms import vtkAbstractTransform
 
-from .arrays import Cloud, arrays_of, as_bounds, as_dims, as_transform, field_name, from_vtk, number, points_of, whole
+from .arrays import Attributes, Cloud, arrays_of, as_bounds, as_dims, as_transform, field_name, from_vtk, number
+from .arrays import points_of, whole
 from .classes import vtkKernelBandwidthFilter, vtkVoxelMeanResampler
 from .updates import update
 
@@ -39,7 +40,8 @@ class Voxels:
     points : (n, 3), the means of the points, or what else stands for them, of the input's type, in the workspace frame.
     counts : (n,) int64, points of each voxel.
     covariance : (n, 6) float64, XX YY ZZ XY YZ XZ in squared units of the points, or None where not asked for.
-    attributes : dict of (n,) or (n, components), each in the input's type.
+    attributes : dict of (n,) or (n, components), each in the input's type; its .fields have the unit and the coordinate
+        system of the input's attributes, where no transform was given.
     clipped : finite points outside the workspace, in none of the voxels.
     invalid : points that are NaN or infinite.
     point_ids : (n,) int64, the row of the input that stands for each voxel, where it is one of them, or None.
@@ -57,7 +59,7 @@ class Voxels:
     points: NDArray[Any]
     counts: NDArray[np.int64]
     covariance: Optional[NDArray[np.float64]]
-    attributes: Dict[str, NDArray[Any]] = field(repr=False)
+    attributes: Attributes = field(repr=False)
     clipped: int
     invalid: int
     point_ids: Optional[NDArray[np.int64]] = field(default=None, repr=False)
@@ -189,12 +191,14 @@ def resample(
     own = (_COUNTS, _COVARIANCE, _POINT_IDS)
     fields = output.GetFieldData()
     point_ids = data.GetArray(_POINT_IDS)
+    of_file = getattr(attributes, "fields", {}) if transform is None else {}
+    kept = {name: of_file[name] for name in ("CoordinateSystem", "LengthUnit", "HeightUnit") if name in of_file}
     places = resampler.GetOutput(1).GetPointData().GetArray("VoxelIndex") if voxel_index else None
     return Voxels(
         points=points_of(output),
         counts=from_vtk(data.GetArray(_COUNTS)),
         covariance=from_vtk(data.GetArray(_COVARIANCE)) if covariance else None,
-        attributes=arrays_of(data, without=own),
+        attributes=Attributes(arrays_of(data, without=own), kept),
         clipped=resampler.GetNumberOfClippedPoints(),
         invalid=resampler.GetNumberOfInvalidPoints(),
         point_ids=from_vtk(point_ids) if point_ids else None,
