@@ -61,47 +61,60 @@ public:
    */
   pointhaptics::SplatSettings& Settings() { return this->Now; }
   const pointhaptics::SplatSettings& Settings() const { return this->Now; }
-  ///@{
-  /**
-   * The settings one by one, with the units, ranges and defaults of SplatSettings. A setter ignores a value
-   * out of its range.
-   */
+  // The settings one by one; see SplatSettings. A setter ignores a value out of its range.
+
+  /** Point array of one component with a length for each point. Default: "Bandwidth". */
   void SetSizeArrayName(const std::string& name) { this->Change(this->Now.sizeArray, name); }
   const std::string& GetSizeArrayName() const { return this->Now.sizeArray; }
+  /** Diameter of a splat over its length in the array, above 0. Default: 3.6. */
   void SetSizeScale(double scale) { this->SetPositive(this->Now.sizeScale, scale); }
   double GetSizeScale() const { return this->Now.sizeScale; }
+  /** A length counts for no more than so many times the median of all, above 0. Default: 2.5. */
   void SetLargestRatio(double ratio) { this->SetPositive(this->Now.largestRatio, ratio, INFINITY); }
   double GetLargestRatio() const { return this->Now.largestRatio; }
+  /** Bounds of a diameter, pixels, above 0; flat surfaces may be larger. Default: 2 and 64. */
   void SetPixelRange(double smallest, double largest);
   double GetSmallestPixels() const { return this->Now.smallestPixels; }
   double GetLargestPixels() const { return this->Now.largestPixels; }
-  void SetFixedPixels(double pixels); // 0 or more
+  /** Diameter of all splats, pixels; 0, the default: the array rules, and 3 where there is none. */
+  void SetFixedPixels(double pixels);
   double GetFixedPixels() const { return this->Now.fixedPixels; }
+  /** Shades the splats by their normals, where the input has them. Default: off. */
   void SetAmbientLight(bool on) { this->Change(this->Now.ambientLight, on); }
   bool GetAmbientLight() const { return this->Now.ambientLight; }
+  /** Point array of three components with a unit normal on either side. Default: "SurfaceNormal". */
   void SetNormalArrayName(const std::string& name) { this->Change(this->Now.normalArray, name); }
   const std::string& GetNormalArrayName() const { return this->Now.normalArray; }
-  void SetSkyDirection(const double direction[3]); // of any length above 0
+  /** Where the sky is, in the frame of the scene; any length above 0. Default: 0, 0, 1. */
+  void SetSkyDirection(const double direction[3]);
   void GetSkyDirection(double direction[3]) const;
+  /** Draws what is flat as surfaces, by the length of the normals; needs the light. Default: off. */
   void SetSurfaces(bool on) { this->Change(this->Now.surfaces, on); }
   bool GetSurfaces() const { return this->Now.surfaces; }
+  /** Discs that tilt away get narrow. Default: on. */
   void SetForeshortens(bool on) { this->Now.foreshortens = on; }
   bool GetForeshortens() const { return this->Now.foreshortens; }
+  /** Largest diameter, pixels, of a splat whose neighbourhood is not flat. Default: 4. */
   void SetPointPixels(double pixels) { this->SetPositive(this->Now.pointPixels, pixels); }
   double GetPointPixels() const { return this->Now.pointPixels; }
+  /** Largest diameter, pixels, of a splat whose neighbourhood is flat. Default: infinity. */
   void SetSurfacePixels(double pixels) { this->SetPositive(this->Now.surfacePixels, pixels, INFINITY); }
   double GetSurfacePixels() const { return this->Now.surfacePixels; }
+  /** What is not flat counts as part of a surface, too. Default: off. */
   void SetClosesAll(bool on) { this->Now.closesAll = on; }
   bool GetClosesAll() const { return this->Now.closesAll; }
-  void SetLightStrength(double strength); // 0 to 1
+  /** How much of the light is seen, 0 (the colours themselves) to 1, the default. */
+  void SetLightStrength(double strength);
   double GetLightStrength() const { return this->Now.lightStrength; }
+  /** Length of a normal of 1 in the array: 32767 for short integers. Default: 1. */
   void SetNormalUnit(double unit) { this->SetPositive(this->Now.normalUnit, unit); }
   double GetNormalUnit() const { return this->Now.normalUnit; }
+  /** Leaves out what looks away from the viewer. Default: off. */
   void SetHidesBackFaces(bool on) { this->Now.hidesBackFaces = on; }
   bool GetHidesBackFaces() const { return this->Now.hidesBackFaces; }
+  /** Draws only what lies in xmin, xmax, ymin ... zmax, frame of the input. Default: everything. */
   void SetClipBox(const double box[6]) { std::copy(box, box + 6, this->Now.clipBox.begin()); }
   const std::array<double, 6>& GetClipBox() const { return this->Now.clipBox; }
-  ///@}
 
   /**
    * Parts of the input's vertices that are drawn, in the order of its cells: the first and the one after the
