@@ -146,8 +146,8 @@ Status VoxelAccumulator::change(Sums& sums, const PointView& points, const std::
   {
     return status;
   }
+  sums.runs.add(std::move(run)); // First: it may throw.
   sums.counts.add({ points.size(), engine.clipped, engine.invalid });
-  sums.runs.add(std::move(run));
   return Status::Ok;
 }
 
@@ -163,12 +163,13 @@ Status VoxelAccumulator::merge(VoxelAccumulator&& other)
   }
   const auto mergeSums = [](Sums& to, Sums& from)
   {
-    to.counts.add(from.counts);
     to.runs.add(std::move(from.runs.whole()));
+    to.counts.add(from.counts);
+    from = {};
   };
   mergeSums(*added_, *other.added_);
   mergeSums(*subtracted_, *other.subtracted_);
-  other = this->withoutPoints();
+  other.releaseScratch();
   return Status::Ok;
 }
 
@@ -193,10 +194,11 @@ bool VoxelAccumulator::settle()
   {
     return false;
   }
+  VoxelRuns left;
+  left.add(std::move(difference));
+  added_->runs = std::move(left);
   added_->counts.add(subtracted_->counts, -1);
-  added_->runs = {};
-  added_->runs.add(std::move(difference));
-  subtracted_ = std::make_unique<Sums>();
+  *subtracted_ = {};
   return true;
 }
 

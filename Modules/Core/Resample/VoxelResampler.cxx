@@ -31,6 +31,17 @@ void copyArray(const T* from, std::int64_t count, T* to, const Executor& executo
   }
 }
 
+/// Where the voxels of each partition start among all; at the end their number.
+std::vector<std::size_t> startsOf(std::vector<VoxelRuns>& parts)
+{
+  std::vector<std::size_t> starts = { 0 };
+  for (VoxelRuns& part : parts)
+  {
+    starts.push_back(starts.back() + part.whole().size());
+  }
+  return starts;
+}
+
 static_assert(kChunkPoints <= kPointsPerReport, "progress is reported after each chunk");
 
 AttributeView viewOf(const PointView& points)
@@ -69,14 +80,14 @@ Status VoxelResampler::Implementation::run(
 {
   Task task = { request, true };
   task.request.keys = request.keys || choosesPoints(request);
-  VoxelRun sums;
-  const Status status = sumPoints(task, sums, executor, observer);
+  std::vector<VoxelRuns> parts;
+  const Status status = sumPoints(task, parts, executor, observer);
   if (status != Status::Ok)
   {
     clear();
     return status;
   }
-  task.writes ? void() : static_cast<void>(writeRun(task.request, sums, executor, nullptr));
+  task.writes ? void() : writeParts(task.request, parts, executor);
   if (keepsPoints(request.representative))
   {
     chosenPoints.assign(writer.chosen(), writer.chosen() + size);
@@ -88,7 +99,21 @@ Status VoxelResampler::Implementation::sum(
   const VoxelRequest& request, VoxelRun& sums, const Executor& executor, ProgressObserver* observer)
 {
   Task task = { request, false };
-  return sumPoints(task, sums, executor, observer);
+  std::vector<VoxelRuns> parts;
+  const Status status = sumPoints(task, parts, executor, observer);
+  if (status != Status::Ok)
+  {
+    return status;
+  }
+  const std::size_t room = startsOf(parts).back();
+  sums.voxels.reserve(room);
+  sums.secondMoments.reserve(request.covariances ? room : 0);
+  for (VoxelRuns& part : parts)
+  {
+    sums.append(part.whole(), 0, part.whole().size());
+    part = VoxelRuns();
+  }
+  return Status::Ok;
 }
 
 Status VoxelResampler::Implementation::finish(
@@ -108,32 +133,53 @@ void VoxelResampler::Implementation::clear()
   voxelIndex.clear();
 }
 
+/// Writes the voxels that sums give, from @p first to before @p last, to the result from voxel @p to on.
+void VoxelResampler::Implementation::writeSlice(
+  const VoxelRequest& request, const VoxelRun& run, std::size_t first, std::size_t last, std::size_t to)
+{
+  const std::array<Vec3, 3> columns = normalColumns(request.transform);
+  writer.write(to, run, first, last);
+  for (std::size_t i = 0; i < run.tallies.size(); ++i)
+  {
+    const AttributeRequest& array = request.attributes[i];
+    run.tallies[i].write({ array.view.type, array.view.components, array.statistic }, first, last,
+      writer.counts() + to, columns, writer.attribute(i, to));
+  }
+}
+
 /// Makes the result that sums give.
 Status VoxelResampler::Implementation::writeRun(
   const VoxelRequest& request, const VoxelRun& run, const Executor& executor, ProgressObserver* observer)
 {
-  size = std::int64_t(run.size());
   writer.prepare(request, run.size(), fractionBitsOf(lattice));
-  const std::array<Vec3, 3> columns = normalColumns(request.transform);
-  const auto write = [&](std::size_t first, std::size_t last)
-  {
-    writer.write(first, run, first, last);
-    for (std::size_t i = 0; i < run.tallies.size(); ++i)
-    {
-      const AttributeRequest& array = request.attributes[i];
-      run.tallies[i].write({ array.view.type, array.view.components, array.statistic }, first, last,
-        writer.counts() + first, columns, writer.attribute(i, first));
-    }
-  };
-  PointProgress progress(observer, size, 1);
-  const bool isDone = forReportedSlices(size, progress,
+  PointProgress progress(observer, std::int64_t(run.size()), 1);
+  const bool isDone = forReportedSlices(std::int64_t(run.size()), progress,
     [&](std::int64_t first, std::int64_t last)
     {
       forRange(executor, last - first,
         [&](std::int64_t begin, std::int64_t end)
-        { write(std::size_t(first + begin), std::size_t(first + end)); });
+        {
+          const std::size_t to = std::size_t(first + begin);
+          this->writeSlice(request, run, to, std::size_t(first + end), to);
+        });
     });
+  size = isDone ? std::int64_t(run.size()) : 0;
   return isDone ? Status::Ok : (clear(), Status::Aborted);
+}
+
+/// Makes the result that the sums of all partitions give, and frees the sums of each once they are written.
+void VoxelResampler::Implementation::writeParts(
+  const VoxelRequest& request, std::vector<VoxelRuns>& parts, const Executor& executor)
+{
+  const std::vector<std::size_t> starts = startsOf(parts);
+  writer.prepare(request, starts.back(), fractionBitsOf(lattice));
+  forEachItem(executor, parts.size(),
+    [&](std::size_t p)
+    {
+      this->writeSlice(request, parts[p].whole(), 0, parts[p].whole().size(), starts[p]);
+      parts[p] = VoxelRuns();
+    });
+  size = std::int64_t(starts.back());
 }
 
 std::size_t VoxelResampler::Implementation::scratchBytes() const
@@ -190,7 +236,7 @@ AttributeView VoxelResampler::Implementation::placesOf(const VoxelRequest& reque
 }
 
 Status VoxelResampler::Implementation::sumPoints(
-  Task& task, VoxelRun& sums, const Executor& executor, ProgressObserver* observer)
+  Task& task, std::vector<VoxelRuns>& parts, const Executor& executor, ProgressObserver* observer)
 {
   clear();
   VoxelRequest& request = task.request;
@@ -215,12 +261,12 @@ Status VoxelResampler::Implementation::sumPoints(
   lattice = request.lattice;
   // Other sets divide by way of the reciprocal.
   request.instructions = hasOrdinarySpacing(lattice) ? request.instructions : InstructionSet::Baseline;
-  return runStages(task, sums, executor, observer);
+  return runStages(task, parts, executor, observer);
 }
 
-/// The stages: quantize and bin; sum; write.
+/// The stages: quantize and bin; sum; write, or keep the sums of each partition, merged.
 Status VoxelResampler::Implementation::runStages(
-  Task& task, VoxelRun& sums, const Executor& executor, ProgressObserver* observer)
+  Task& task, std::vector<VoxelRuns>& parts, const Executor& executor, ProgressObserver* observer)
 {
   const VoxelRequest& request = task.request;
   const Chunks chunks(request, executor);
@@ -236,7 +282,7 @@ Status VoxelResampler::Implementation::runStages(
   prepareWorkers(task, chunks, executor);
   invalid = request.index ? request.points.size() - finitePoints(*request.index) : 0;
   clipped = request.points.size() - invalid;
-  std::vector<VoxelRuns> runs(task.writes ? 0 : binner_.plan().partitions);
+  parts.resize(task.writes ? 0 : binner_.plan().partitions);
   for (std::size_t first = 0; first < chunks.count(); first += held)
   {
     const std::size_t last = std::min(first + held, chunks.count());
@@ -256,20 +302,13 @@ Status VoxelResampler::Implementation::runStages(
     const std::int64_t notFinite = binner_.total(&PointRecordWriter::invalid);
     invalid += notFinite;
     clipped -= binner_.total(&PointRecordWriter::inside) + notFinite;
-    if (!sumPartitions(task, last - first, runs, executor, &summing))
+    if (!sumPartitions(task, last - first, parts, executor, &summing))
     {
       return Status::Aborted;
     }
   }
   std::for_each(workers_.begin(), workers_.end(), [](const auto& worker) { worker->reductions.reset(); });
-  forEachItem(executor, runs.size(), [&](std::size_t p) { static_cast<void>(runs[p].whole()); });
-  const auto sumSizes = [](std::size_t sum, VoxelRuns& part) { return sum + part.whole().size(); };
-  sums.voxels.reserve(std::accumulate(runs.begin(), runs.end(), std::size_t(0), sumSizes));
-  for (VoxelRuns& part : runs)
-  {
-    sums.append(part.whole(), 0, part.whole().size());
-    part = VoxelRuns();
-  }
+  forEachItem(executor, parts.size(), [&](std::size_t p) { static_cast<void>(parts[p].whole()); });
   return Status::Ok;
 }
 

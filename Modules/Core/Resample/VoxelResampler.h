@@ -84,9 +84,10 @@ struct VoxelRequest
 /// set and PointIndex.
 ///
 /// Accuracy: a mean is off by at most 2^-31 voxel (a quarter more beyond 2^20 voxels an axis), then rounded
-/// once to the output's type; it lies in its voxel. Counts are 64-bit. Under a matrix whose condition number
-/// would cost digits, the products are summed in two words each. That takes about half as much time again
-/// (several times as much on processors without a fused multiplication).
+/// once to the output's type; it lies in its voxel. Counts are 64-bit. Under a rotation or a scale the point
+/// near the lattice's origin is solved in double: another version may differ within that bound. Under a
+/// matrix whose condition number would cost digits, the products are summed in two words each. That takes
+/// about half as much time again (several times as much on processors without a fused multiplication).
 ///
 /// Time: a few nanoseconds a point; beyond 4096 voxels an axis some tens of them. Memory beyond input and
 /// results: 16 bytes for each of at most 5 million points (with attributes up to 52), a few megabytes, and

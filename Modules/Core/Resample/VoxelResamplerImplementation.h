@@ -106,8 +106,10 @@ private:
 
   void clear();
   static Status check(const VoxelRequest& request);
-  Status sumPoints(Task& task, simd::VoxelRun& sums, const Executor& executor, ProgressObserver* observer);
-  Status runStages(Task& task, simd::VoxelRun& sums, const Executor& executor, ProgressObserver* observer);
+  Status sumPoints(
+    Task& task, std::vector<simd::VoxelRuns>& parts, const Executor& executor, ProgressObserver* observer);
+  Status runStages(
+    Task& task, std::vector<simd::VoxelRuns>& parts, const Executor& executor, ProgressObserver* observer);
   void prepareWorkers(const Task& task, const simd::Chunks& chunks, const Executor& executor);
   void sumPartition(
     Worker& worker, const Task& task, std::uint32_t partition, PartitionOrder& order, simd::VoxelRuns* runs);
@@ -115,6 +117,9 @@ private:
     const Executor& executor, ProgressObserver* observer);
   void makeOutput(const VoxelRequest& request, const Executor& executor);
   AttributeView placesOf(const VoxelRequest& request, const Executor& executor);
+  void writeSlice(const VoxelRequest& request, const simd::VoxelRun& run, std::size_t first, std::size_t last,
+    std::size_t to);
+  void writeParts(const VoxelRequest& request, std::vector<simd::VoxelRuns>& parts, const Executor& executor);
   Status writeRun(const VoxelRequest& request, const simd::VoxelRun& run, const Executor& executor,
     ProgressObserver* observer);
 

@@ -1,6 +1,7 @@
 #include "Core/Resample/Stages/VoxelRun.h"
 
 #include <algorithm>
+#include <new>
 #include <numeric>
 #include <utility>
 
@@ -89,16 +90,23 @@ VoxelRun merged(const VoxelRun& a, const VoxelRun& b, int sign, bool& isRight)
   return all;
 }
 
-void VoxelRuns::add(VoxelRun run)
+void VoxelRuns::add(VoxelRun&& run)
 {
   if (run.size() == 0)
   {
     return;
   }
   runs_.push_back(std::move(run));
-  while (runs_.size() > 1 && runs_[runs_.size() - 2].size() <= kRunRatio * runs_.back().size())
+  try
   {
-    mergeLast();
+    while (runs_.size() > 1 && runs_[runs_.size() - 2].size() <= kRunRatio * runs_.back().size())
+    {
+      mergeLast();
+    }
+  }
+  catch (const std::bad_alloc&)
+  {
+    // The run is added; the next add() or whole() merges it.
   }
 }
 

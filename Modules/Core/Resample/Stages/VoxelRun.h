@@ -123,14 +123,15 @@ VoxelRun merged(const VoxelRun& a, const VoxelRun& b, int sign, bool& isRight);
 class VoxelRuns
 {
 public:
-  void add(VoxelRun run);
-  /// Makes one run of all.
+  /// Where it throws, nothing is added. Too little memory to merge is no error here.
+  void add(VoxelRun&& run);
+  /// Makes one run of all. Where it throws, the sums are unchanged.
   VoxelRun& whole();
 
 private:
   void mergeLast();
 
-  std::vector<VoxelRun> runs_; ///< Each far smaller than the one before.
+  std::vector<VoxelRun> runs_; ///< Each far smaller than the one before, where there was memory to merge.
 };
 
 } // namespace pointhaptics::simd
