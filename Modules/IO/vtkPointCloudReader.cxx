@@ -404,10 +404,6 @@ void vtkPointCloudReader::Finish(io::ReadTask& task, vtkPolyData* cloud)
   {
     task.notes.push_back("the gzip file is cut: what is there of it is read");
   }
-  if (task.pointsThere < static_cast<std::uint64_t>(cloud->GetNumberOfPoints()))
-  {
-    keepRows(cloud, 0, static_cast<vtkIdType>(task.pointsThere));
-  }
   checkCoordinates(cloud);
   useUtf8Names(cloud->GetPointData());
   useUtf8Names(cloud->GetFieldData());

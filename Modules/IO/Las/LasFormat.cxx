@@ -365,7 +365,7 @@ void readLas(ReadTask& task, vtkPolyData* cloud)
   {
     records.agree(*task.shared);
   }
-  records.moveTo(cloud);
+  records.moveTo(cloud, task);
   header.origin.addTo(cloud);
   addFieldNumbers<vtkDoubleArray>(cloud, "LasScale", header.scale);
   addFieldNumbers<vtkDoubleArray>(cloud, "LasOffset", header.offset);

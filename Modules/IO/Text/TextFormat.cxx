@@ -297,7 +297,7 @@ void readTable(ReadTask& task, std::string_view text, TextLayout layout, vtkPoly
     targets[read[i]] = columns.target(i);
   }
   storeTable(task, text, layout, targets);
-  columns.moveTo(cloud);
+  columns.moveTo(cloud, task);
 }
 
 void readText(ReadTask& task, vtkPolyData* cloud)
