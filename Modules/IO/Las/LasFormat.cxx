@@ -1,6 +1,7 @@
 #include "ReadTask.h"
 
 #include "IO/Info/FieldText.h"
+#include "IO/Info/LengthUnit.h"
 #include "IO/Las/LasHeader.h"
 #include "IO/Las/LasRecords.h"
 #include "IO/Las/Laz/ChunkDecoder.h"
@@ -378,6 +379,7 @@ void readLas(ReadTask& task, vtkPolyData* cloud)
   addFieldText(cloud, "Generator", header.generator);
   addFieldText(cloud, "CoordinateSystem", header.coordinateSystem);
   addFieldText(cloud, "LengthUnit", header.lengthUnit);
+  addFieldText(cloud, kHeightUnit, header.heightUnit);
 }
 
 } // namespace pointhaptics::io

@@ -335,10 +335,6 @@ void readText(ReadTask& task, vtkPolyData* cloud)
   takeUnits(layout.names, comments);
   readTable(task, text, layout, cloud);
   comments.moveTo(cloud, task.notes);
-  if (!comments.heightUnit.empty())
-  {
-    task.notes.push_back("heights are in " + comments.heightUnit + ", x and y in degrees");
-  }
 }
 
 } // namespace pointhaptics::io
