@@ -269,4 +269,17 @@ TEST_F(HostileFiles, ArraysOfVtkThatItCannotMakeAreRefused)
   expectRefused(with("<Foo type=\"Int32\"/>"), "'Foo' in the place of an array");
 }
 
+TEST_F(HostileFiles, TextsOfVtkThatHaveNoEndAreRefused)
+{
+  const auto with = [&](const std::string& texts)
+  {
+    std::string vtp = inlineVtp("GAAAAAAAgD8AAABAAABAQAAAgEAAAKBAAADAQA==");
+    vtp.insert(vtp.find("<Points>"),
+      "<PointData><Array type=\"String\" Name=\"words\" format=\"ascii\">" + texts + "</Array></PointData>");
+    return readCloud(write("a.vtp", vtp));
+  };
+  EXPECT_EQ(with("97 0 98 0").points(), 2);
+  expectRefused(with("97 98"), "Cannot read the texts of 'words'");
+}
+
 } // namespace
