@@ -203,6 +203,12 @@ void mergeFieldData(
   }
 }
 
+/// As lengthUnitCalled(); empty where it is that of x and y.
+std::string heightUnitOf(vtkPolyData* cloud)
+{
+  return lengthUnitCalled(fieldText(cloud->GetFieldData(), kHeightUnit));
+}
+
 /// The clouds in the unit of the first one that says one; none where that cannot be.
 std::vector<vtkSmartPointer<vtkPolyData>> inOneUnit(const std::vector<vtkPolyData*>& clouds,
   const std::vector<std::string>& names, std::vector<std::string>& notes)
@@ -225,6 +231,14 @@ std::vector<vtkSmartPointer<vtkPolyData>> inOneUnit(const std::vector<vtkPolyDat
       return {};
     }
     const double factor = own.metres / unit.metres;
+    if (heightUnitOf(clouds[i]) != heightUnitOf(clouds[0]) || (isUnlike && !heightUnitOf(clouds[i]).empty()))
+    {
+      notes.push_back(
+        fmt::format("{} and {} cannot be one cloud, as heights are in another unit than x and y: "
+                    "convert heights first",
+          inQuotes(names[0]), inQuotes(names[i])));
+      return {};
+    }
     result.emplace_back(clouds[i]);
     if (isSaid && factor != 1.0)
     {

@@ -21,7 +21,8 @@ namespace pointhaptics::io
 /// the same in all. Clouds that say another unit of length than the first one that says one are converted to
 /// that.
 /// @param names what @p notes calls the clouds: it gets what was made up, converted or left out.
-/// @return null where some are in degrees and others in lengths: the last of @p notes says so.
+/// @return null where some are in degrees and others in lengths, or heights are in another unit: the last of
+/// @p notes says so.
 POINTHAPTICSIO_EXPORT vtkSmartPointer<vtkPolyData> mergeClouds(const std::vector<vtkPolyData*>& clouds,
   const std::vector<std::string>& names, std::vector<std::string>& notes);
 

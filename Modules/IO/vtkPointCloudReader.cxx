@@ -4,6 +4,7 @@
 #include "IO/Columns/CloudColumns.h"
 #include "IO/Formats/FormatList.h"
 #include "IO/Formats/FormatLooks.h"
+#include "IO/Info/FieldText.h"
 #include "IO/Info/LengthUnit.h"
 #include "IO/Las/LasHeader.h"
 #include "IO/Mesh/FaceSamples.h"
@@ -404,10 +405,6 @@ void vtkPointCloudReader::Finish(io::ReadTask& task, vtkPolyData* cloud)
   {
     task.notes.push_back("the gzip file is cut: what is there of it is read");
   }
-  if (task.pointsThere < static_cast<std::uint64_t>(cloud->GetNumberOfPoints()))
-  {
-    keepRows(cloud, 0, static_cast<vtkIdType>(task.pointsThere));
-  }
   checkCoordinates(cloud);
   useUtf8Names(cloud->GetPointData());
   useUtf8Names(cloud->GetFieldData());
@@ -421,6 +418,14 @@ void vtkPointCloudReader::Finish(io::ReadTask& task, vtkPolyData* cloud)
       ", and no finer voxel means anything; export them as double, or with an offset taken away");
   }
   const bool isInDegrees = pointhaptics::lengthUnitOf(cloud, pointhaptics::Bounds()).name == "deg";
+  if (const std::string heights = io::fieldText(cloud->GetFieldData(), pointhaptics::kHeightUnit);
+      !heights.empty())
+  {
+    task.notes.push_back("heights are in " + heights + ", x and y in " +
+      (isInDegrees ? std::string("degrees")
+                   : io::fieldText(cloud->GetFieldData(), "LengthUnit") +
+            ": lengths and voxels are wrong until heights are converted"));
+  }
   if (isInDegrees && !this->LocalMetres)
   {
     task.notes.push_back(

@@ -24,8 +24,8 @@
  * anything is allocated, so hostile files fail cleanly.
  *
  * Costs the file's (unpacked) size in memory beside the output, and less than 64 MB more; STL needs its
- * vertices twice. A gzip file may unpack to 100 times its size (64 MB at least), no more. One reader serves
- * one thread at a time.
+ * vertices twice, and OBJ all its numbers as doubles, up to twice the file's size. A gzip file may unpack to
+ * 100 times its size (64 MB at least), no more. One reader serves one thread at a time.
  *
  * @sa vtkPointCloudWriter
  */

@@ -49,7 +49,8 @@ bool keeps(const io::CloudFormat& format, vtkPointSet* cloud, const std::string&
   }
   if (fieldName == pointhaptics::kHeightUnit)
   {
-    return std::string_view(format.keptFieldData).find("Las") == std::string_view::npos;
+    return std::string_view(format.keptFieldData).find("Las") == std::string_view::npos ||
+      io::fieldText(cloud->GetFieldData(), "CoordinateSystem").find("VERT") != std::string::npos;
   }
   return (" " + std::string(format.keptFieldData) + " ").find(" " + fieldName + " ") != std::string::npos;
 }

@@ -36,10 +36,10 @@ inline Bounds grown(const Bounds& box, double margin) noexcept
   return result;
 }
 
-/// True for the origin, at which scanners write rays that did not return.
+/// True for the origin, at which scanners write rays that did not return. Squares of denormals are 0.
 inline bool isAtZero(const Vec3& p) noexcept
 {
-  return norm2(p) == 0.0;
+  return p.x == 0.0 && p.y == 0.0 && p.z == 0.0;
 }
 
 /// True if @p atZero of @p finite points stand for rays that did not return: one may well be a point, and all

@@ -113,6 +113,20 @@ struct Inflater
   }
 };
 
+/// Unpacks the start of a gzip file that starts with @p packed: one that is no cloud need not be read whole.
+void inspectPacked(std::string_view packed, const FileBytes::Inspect& inspect)
+{
+  Inflater inflater;
+  inflater.stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data()));
+  inflater.stream.avail_in = static_cast<uInt>(packed.size());
+  const auto where = [&]
+  { return "byte " + std::to_string(packed.size() - inflater.stream.avail_in) + " of the gzip file: "; };
+  std::string start(kInspected, '\0');
+  bool ended = false;
+  const bool isFull = inflater.unpack(start.data(), start.size(), ended, where) == start.size();
+  isFull && !ended ? inspect(start, 0) : void(); // a shorter one is seen whole
+}
+
 } // namespace
 
 /// A file that is open for reading.
@@ -249,7 +263,8 @@ void FileBytes::readPlain(const std::string& path, const Progress& progress, con
     if (size_ == 0)
     {
       isPacked = std::string_view(data_.get(), piece).substr(0, 2) == kGzipMagic;
-      isPacked ? void() : inspect({ data_.get(), piece }, file.size());
+      const std::string_view start(data_.get(), piece);
+      isPacked ? inspectPacked(start, inspect) : inspect(start, file.size());
     }
     size_ += piece;
     progress(isPacked ? 0.0 : static_cast<double>(size_) / static_cast<double>(file.size()));

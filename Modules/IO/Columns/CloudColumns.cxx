@@ -33,10 +33,10 @@ namespace
 {
 
 /// An array "RGB" of bytes made of @p colors: integers up to 255 are bytes, of those up to 65535 the high
-/// byte is taken; other numbers are 0..1, or 0..255 or 0..65535 where one is larger. NaN is 0. @p most says
-/// how far they go where it is above 0. The largest value is that of all ranks, where @p shared is there
-/// (collective). Null where a value is below 0 or larger: these are no colours.
-vtkSmartPointer<vtkDataArray> shownColors(vtkDataArray* colors, double most, SharedReading* shared);
+/// byte is taken; other numbers are 0..1, or 0..255 or 0..65535 where one is larger. NaN is 0. The largest
+/// value is that of all ranks, where @p shared is there (collective). Null where a value is below 0 or
+/// larger: these are no colours.
+vtkSmartPointer<vtkDataArray> shownColors(vtkDataArray* colors, SharedReading* shared);
 
 struct ValueRange
 {
@@ -72,7 +72,7 @@ void fillBytes(const T* values, vtkIdType count, double most, unsigned char* byt
   }
 }
 
-vtkSmartPointer<vtkDataArray> shownColors(vtkDataArray* colors, double most, SharedReading* shared)
+vtkSmartPointer<vtkDataArray> shownColors(vtkDataArray* colors, SharedReading* shared)
 {
   const vtkIdType count = colors->GetNumberOfValues();
   ValueRange range;
@@ -86,12 +86,12 @@ vtkSmartPointer<vtkDataArray> shownColors(vtkDataArray* colors, double most, Sha
       range = { std::min(range.least, each.least), std::max(range.most, each.most) };
     }
   }
-  if (range.least < 0.0 || std::max(range.most, most) > 65535.0)
+  if (range.least < 0.0 || range.most > 65535.0)
   {
     return nullptr;
   }
   const bool areBytes = range.most > 1.0 || !isFloatingType(colors->GetDataType());
-  most = most > 0.0 && range.most <= most ? most : range.most > 255.0 ? 65535.0 : areBytes ? 255.0 : 1.0;
+  const double most = range.most > 255.0 ? 65535.0 : areBytes ? 255.0 : 1.0;
   auto bytes = vtkSmartPointer<vtkUnsignedCharArray>::New();
   bytes->SetName("RGB");
   bytes->SetNumberOfComponents(colors->GetNumberOfComponents());
@@ -479,8 +479,21 @@ void CloudColumns::fill(const std::vector<StoredColumn>& stored, const ReadTask&
   }
 }
 
-void CloudColumns::moveTo(vtkPolyData* cloud, SharedReading* shared)
+void CloudColumns::cut(std::uint64_t rows)
 {
+  if (rows < static_cast<std::uint64_t>(rows_))
+  {
+    rows_ = static_cast<vtkIdType>(rows);
+    for (const vtkSmartPointer<vtkDataArray>& array : arrays_)
+    {
+      array->Resize(rows_);
+    }
+  }
+}
+
+void CloudColumns::moveTo(vtkPolyData* cloud, const ReadTask& task)
+{
+  cut(task.pointsThere);
   vtkNew<vtkPoints> points;
   points->SetData(arrays_[0]);
   cloud->SetPoints(points);
@@ -488,7 +501,7 @@ void CloudColumns::moveTo(vtkPolyData* cloud, SharedReading* shared)
   {
     cloud->GetPointData()->AddArray(arrays_[i]);
   }
-  if (const auto shown = colors_ ? shownColors(colors_, mostColor_, shared) : nullptr)
+  if (const auto shown = colors_ ? shownColors(colors_, task.shared) : nullptr)
   {
     shown->SetName(unusedName(shown->GetName()).c_str());
     cloud->GetPointData()->AddArray(shown);

@@ -7,8 +7,8 @@
 #include "vtkDataArray.h"
 #include "vtkSmartPointer.h"
 
-#include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -19,7 +19,6 @@ class vtkPolyData;
 namespace pointhaptics::io
 {
 
-class SharedReading;
 struct ReadTask;
 
 /// More columns than any cloud has: headers with more are refused before names are compared.
@@ -83,11 +82,12 @@ public:
 
   /// Copies all rows, in blocks of records that stay in the cache, with progress of @p task.
   void fill(const std::vector<StoredColumn>& stored, const ReadTask& task) const;
-  /// Says that colours which are no bytes go up to @p most at least; 0 says nothing.
-  void setMostColor(double most) { mostColor_ = std::max(mostColor_, most); }
-  /// Gives points, arrays and one vertex per point to @p cloud. @p shared: the ranks that each have a part of
-  /// the rows; collective.
-  void moveTo(vtkPolyData* cloud, SharedReading* shared = nullptr);
+  /// Takes away all rows but the first @p rows. Rows that a torn file lacks are undefined: nothing may look
+  /// at them.
+  void cut(std::uint64_t rows);
+  /// Gives points and arrays to @p cloud, of the rows that are there. Collective where ranks read the file of
+  /// @p task together.
+  void moveTo(vtkPolyData* cloud, const ReadTask& task);
 
 private:
   struct Place
@@ -104,12 +104,11 @@ private:
   std::string unusedName(const std::string& name) const;
 
   const std::vector<Column> columns_;
-  const vtkIdType rows_;
+  vtkIdType rows_;
   std::vector<bool> placed_;
   std::vector<Place> places_;
   std::vector<vtkSmartPointer<vtkDataArray>> arrays_; ///< the first one holds the points
   vtkSmartPointer<vtkDataArray> colors_;              ///< that are no bytes; null where there are none
-  double mostColor_ = 0.0;
 };
 
 /// A vertex for each of @p count points, which are numbered from @p first on.

@@ -24,18 +24,20 @@ constexpr Name kNames[] = { { "cartesianX", "x" }, { "cartesianY", "y" }, { "car
   { "columnIndex", "ColumnIndex" }, { "returnIndex", "ReturnNumber" }, { "returnCount", "NumberOfReturns" },
   { "timeStamp", "TimeStamp" }, { "cartesianInvalidState", "InvalidState" },
   { "sphericalInvalidState", "SphericalInvalidState" }, { "isIntensityInvalid", "IntensityInvalid" },
-  { "isColorInvalid", "ColorInvalid" }, { "isTimeStampInvalid", "TimeStampInvalid" }, { "colorRed", "red" },
-  { "colorGreen", "green" }, { "colorBlue", "blue" } };
+  { "isColorInvalid", "ColorInvalid" }, { "isTimeStampInvalid", "TimeStampInvalid" } };
 
 constexpr const char* kFlags[] = { "InvalidState", "SphericalInvalidState", "IntensityInvalid",
   "ColorInvalid", "TimeStampInvalid" };
 
 /// Names that no field of an extension may take.
-constexpr const char* kOtherColumns[] = { "Color16", "Color", "RGB", "ScanIndex", "nx", "ny", "nz" };
+constexpr const char* kOtherColumns[] = { "red", "green", "blue", "Color16", "Color", "RGB", "ScanIndex",
+  "nx", "ny", "nz" };
 constexpr const char* kSecond = "_2";
 
 const std::string kCartesian[] = { "cartesianX", "cartesianY", "cartesianZ" };
 const std::string kSpherical[] = { "sphericalRange", "sphericalAzimuth", "sphericalElevation" };
+const std::string kColors[] = { "colorRed", "colorGreen", "colorBlue" };
+constexpr const char* kByteColors[] = { "red", "green", "blue" };
 
 template <std::size_t N>
 bool hasAll(const E57Scan& scan, const std::string (&names)[N])
@@ -46,6 +48,11 @@ bool hasAll(const E57Scan& scan, const std::string (&names)[N])
       const std::size_t field = scan.find(name);
       return field != E57Scan::npos && scan.fields[field].kind != E57Field::Kind::Text;
     });
+}
+
+bool isIntegerWithin(const E57Field& field, std::int64_t most)
+{
+  return field.kind == E57Field::Kind::Integer && field.minimum >= 0 && field.maximum <= most;
 }
 
 /// The normals of the extension "nor", whose prefix a file may choose.
@@ -109,6 +116,11 @@ bool isE57Flag(const std::string& column)
   return std::find(std::begin(kFlags), std::end(kFlags), column) != std::end(kFlags);
 }
 
+bool hasE57Colors(const E57Scan& scan)
+{
+  return hasAll(scan, kColors);
+}
+
 int E57Columns::Values::type() const
 {
   if (!hasInteger)
@@ -125,6 +137,7 @@ E57Columns::E57Columns(const std::vector<E57Scan>& scans, bool movesPoints)
   {
     columnNamed(axis);
   }
+  chooseColors(scans);
   for (const E57Scan& scan : scans)
   {
     addScan(scan);
@@ -135,10 +148,29 @@ E57Columns::E57Columns(const std::vector<E57Scan>& scans, bool movesPoints)
   {
     columns_[i].type = i < 3 && computes ? VTK_DOUBLE : values_[i].type();
   }
+  if (storedColor_ != npos)
+  {
+    madeColor_ = columnNamed("RGB", 3);
+    columns_[madeColor_].type = VTK_TYPE_UINT8;
+  }
   if (scans.size() > 1)
   {
     scanIndex_ = columnNamed("ScanIndex");
     columns_[scanIndex_].type = VTK_TYPE_INT32;
+  }
+}
+
+/// All scans must agree on how colours are kept: as bytes, as words, or as what they are.
+void E57Columns::chooseColors(const std::vector<E57Scan>& scans)
+{
+  for (const E57Scan& scan : scans)
+  {
+    for (std::size_t i = 0; i < 3 && hasE57Colors(scan); ++i)
+    {
+      const E57Field& field = scan.fields[scan.find(kColors[i])];
+      hasByteColors_ = hasByteColors_ && isIntegerWithin(field, 255);
+      hasWordColors_ = hasWordColors_ && isIntegerWithin(field, 65535);
+    }
   }
 }
 
@@ -153,31 +185,49 @@ void E57Columns::addScan(const E57Scan& scan)
       "export it with coordinates");
   }
   isSpherical_.push_back(!isCartesian);
+  const bool hasColors = hasE57Colors(scan);
   std::vector<Place>& places = places_.emplace_back();
   std::set<std::size_t> taken;
   for (const E57Field& field : scan.fields)
   {
-    places.push_back(field.kind == E57Field::Kind::Text ? Place{} : placeOf(field, taken));
+    places.push_back(field.kind == E57Field::Kind::Text ? Place{} : placeOf(field, hasColors, taken));
   }
 }
 
-E57Columns::Place E57Columns::placeOf(const E57Field& field, std::set<std::size_t>& taken)
+E57Columns::Place E57Columns::placeOf(const E57Field& field, bool hasColors, std::set<std::size_t>& taken)
 {
   Place place;
-  std::string name = columnOf(field.name);
-  place.column = columnNamed(name);
-  while (!taken.insert(place.column).second)
+  const auto color = std::find(std::begin(kColors), std::end(kColors), field.name);
+  if (hasColors && color != std::end(kColors))
   {
-    name += kSecond;
-    place.column = columnNamed(name);
+    const int channel = static_cast<int>(color - std::begin(kColors));
+    if (hasByteColors_)
+    {
+      place.column = columnNamed(kByteColors[channel]);
+    }
+    else
+    {
+      storedColor_ = columnNamed(hasWordColors_ ? "Color16" : "Color", 3);
+      place = { storedColor_, channel, 0 };
+    }
   }
-  place.added =
-    field.name == "returnIndex" && field.maximum < std::numeric_limits<std::int64_t>::max() ? 1 : 0;
+  else
+  {
+    std::string name = columnOf(field.name);
+    place.column = columnNamed(name);
+    while (!taken.insert(place.column).second)
+    {
+      name += kSecond;
+      place.column = columnNamed(name);
+    }
+    place.added =
+      field.name == "returnIndex" && field.maximum < std::numeric_limits<std::int64_t>::max() ? 1 : 0;
+  }
   hold(place.column, field, place.added);
   return place;
 }
 
-std::size_t E57Columns::columnNamed(const std::string& name)
+std::size_t E57Columns::columnNamed(const std::string& name, int components)
 {
   const auto found = indices_.find(name);
   if (found != indices_.end())
@@ -189,7 +239,7 @@ std::size_t E57Columns::columnNamed(const std::string& name)
     failFormat("the scans have more than " + std::to_string(kMostColumns) + " different fields",
       "export fewer fields");
   }
-  columns_.push_back({ name, VTK_DOUBLE });
+  columns_.push_back({ name, VTK_DOUBLE, components });
   values_.emplace_back();
   indices_[name] = columns_.size() - 1;
   return columns_.size() - 1;
@@ -232,7 +282,7 @@ std::vector<std::size_t> E57Columns::missing(std::size_t scan) const
   std::vector<std::size_t> result;
   for (std::size_t i = 0; i < columns_.size(); ++i)
   {
-    const bool isComputed = i == scanIndex_ || (i < 3 && isSpherical_[scan]);
+    const bool isComputed = i == scanIndex_ || i == madeColor_ || (i < 3 && isSpherical_[scan]);
     if (!isThere[i] && !isComputed)
     {
       result.push_back(i);

@@ -24,7 +24,8 @@ public:
   struct Place
   {
     std::size_t column = npos; ///< npos: the field is not read
-    std::int64_t added = 0;    ///< to each value: returns count from 1 here, from 0 in E57
+    int component = 0;
+    std::int64_t added = 0; ///< to each value: returns count from 1 here, from 0 in E57
   };
 
   /// The first three columns are x, y and z. @p movesPoints: coordinates will not stay those of the file.
@@ -39,6 +40,10 @@ public:
   bool isSpherical(std::size_t scan) const { return isSpherical_[scan]; }
   /// The number of the scan, from 0; npos where there is one scan.
   std::size_t scanIndex() const { return scanIndex_; }
+  /// Colours as stored (3 components), where these are not bytes; npos where they are, or there are none.
+  std::size_t storedColor() const { return storedColor_; }
+  /// The bytes made of them.
+  std::size_t madeColor() const { return madeColor_; }
 
 private:
   struct Values ///< what one column has to hold
@@ -50,9 +55,10 @@ private:
     std::int64_t maximum = 0;
     int type() const;
   };
+  void chooseColors(const std::vector<E57Scan>& scans);
   void addScan(const E57Scan& scan);
-  Place placeOf(const E57Field& field, std::set<std::size_t>& taken);
-  std::size_t columnNamed(const std::string& name);
+  Place placeOf(const E57Field& field, bool hasColors, std::set<std::size_t>& taken);
+  std::size_t columnNamed(const std::string& name, int components = 1);
   void hold(std::size_t column, const E57Field& field, std::int64_t added);
 
   std::vector<Column> columns_;
@@ -60,10 +66,17 @@ private:
   std::map<std::string, std::size_t> indices_; ///< of the columns by their names
   std::vector<std::vector<Place>> places_;
   std::vector<bool> isSpherical_;
+  bool hasByteColors_ = true;
+  bool hasWordColors_ = true;
   std::size_t scanIndex_ = npos;
+  std::size_t storedColor_ = npos;
+  std::size_t madeColor_ = npos;
 };
 
 /// Arrays of flags that most files leave at zero: dropped where they are.
 bool isE57Flag(const std::string& column);
+
+/// True if a scan has the three fields of a colour.
+bool hasE57Colors(const E57Scan& scan);
 
 } // namespace pointhaptics::io

@@ -112,6 +112,19 @@ E57Decoder::E57Decoder(const E57Columns& plan, const CloudColumns& columns, cons
     { 2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x) },
     { 2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y) } };
   std::copy(&rotation[0][0], &rotation[0][0] + 9, &matrix_[0][0]);
+  const char* const channels[3] = { "colorRed", "colorGreen", "colorBlue" };
+  for (std::size_t i = 0; i < 3 && hasE57Colors(scan); ++i)
+  {
+    const E57Field& field = scan.fields[scan.find(channels[i])];
+    colorIsInteger_ = field.kind == E57Field::Kind::Integer;
+    const E57Limits own{ colorIsInteger_ ? static_cast<double>(field.minimum) : 0.0,
+      colorIsInteger_ ? static_cast<double>(field.maximum) : 1.0 };
+    const E57Limits limits = scan.colorLimits[i].value_or(own);
+    // 256 steps of equal width for integers, so that 65535 is 255 and the byte is the value's first.
+    const double range = limits.most - limits.least + (colorIsInteger_ ? 1.0 : 0.0);
+    colorLeast_[i] = limits.least;
+    colorFactor_[i] = range > 0.0 ? (colorIsInteger_ ? 256.0 : 255.0) / range : 0.0;
+  }
 }
 
 std::size_t E57Decoder::columnOf(const char* fieldName) const
@@ -120,9 +133,9 @@ std::size_t E57Decoder::columnOf(const char* fieldName) const
   return field == E57Scan::npos ? E57Columns::npos : plan_.place(scanNumber_, field).column;
 }
 
-ColumnView E57Decoder::target(std::size_t column, const Block& block) const
+ColumnView E57Decoder::target(std::size_t column, int component, const Block& block) const
 {
-  return columns_.target(column).fromRow(first_ + block.row);
+  return columns_.target(column, component).fromRow(first_ + block.row);
 }
 
 void E57Decoder::decode(vtkIdType number) const
@@ -145,13 +158,17 @@ void E57Decoder::decode(vtkIdType number) const
   {
     turnNormals(block);
   }
+  if (plan_.madeColor() != E57Columns::npos)
+  {
+    makeColors(block);
+  }
 }
 
 void E57Decoder::decodeField(std::size_t index, const Block& block) const
 {
   const E57Field& field = scan_.fields[index];
   const E57Columns::Place& place = plan_.place(scanNumber_, index);
-  const ColumnView column = target(place.column, block);
+  const ColumnView column = target(place.column, place.component, block);
   const std::uint64_t firstBit = static_cast<std::uint64_t>(block.row) * field.bits;
   const unsigned inByte = static_cast<unsigned>(firstBit % 8);
   const std::size_t size = (inByte + static_cast<std::size_t>(block.count) * field.bits + 7) / 8;
@@ -187,11 +204,15 @@ void E57Decoder::fillMissing(const Block& block) const
 {
   for (const std::size_t column : missing_)
   {
-    fillConstant(target(column, block), block.count, isFloatingType(plan_.all()[column].type) ? kNaN : 0.0);
+    const Column& missing = plan_.all()[column];
+    for (int component = 0; component < missing.components; ++component)
+    {
+      fillConstant(target(column, component, block), block.count, isFloatingType(missing.type) ? kNaN : 0.0);
+    }
   }
   if (plan_.scanIndex() != E57Columns::npos)
   {
-    fillConstant(target(plan_.scanIndex(), block), block.count, static_cast<double>(scan_.number));
+    fillConstant(target(plan_.scanIndex(), 0, block), block.count, static_cast<double>(scan_.number));
   }
 }
 
@@ -200,7 +221,7 @@ void E57Decoder::placePoints(const Block& block) const
   Values p[3];
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    load(target(isSpherical_ ? spherical_[axis] : axis, block), block.count, p[axis]);
+    load(target(isSpherical_ ? spherical_[axis] : axis, 0, block), block.count, p[axis]);
   }
   for (vtkIdType i = 0; i < block.count && isSpherical_; ++i)
   {
@@ -221,7 +242,7 @@ void E57Decoder::placePoints(const Block& block) const
   if (state_ != E57Columns::npos)
   {
     Values state;
-    load(target(state_, block), block.count, state);
+    load(target(state_, 0, block), block.count, state);
     for (vtkIdType i = 0; i < block.count; ++i)
     {
       if (state[i] != 0.0)
@@ -232,7 +253,7 @@ void E57Decoder::placePoints(const Block& block) const
   }
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    store(p[axis], block.count, target(axis, block));
+    store(p[axis], block.count, target(axis, 0, block));
   }
 }
 
@@ -241,7 +262,7 @@ void E57Decoder::turnNormals(const Block& block) const
   Values n[3];
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    load(target(normals_[axis], block), block.count, n[axis]);
+    load(target(normals_[axis], 0, block), block.count, n[axis]);
   }
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
@@ -251,7 +272,27 @@ void E57Decoder::turnNormals(const Block& block) const
     {
       turned[i] = row[0] * n[0][i] + row[1] * n[1][i] + row[2] * n[2][i];
     }
-    store(turned, block.count, target(normals_[axis], block));
+    store(turned, block.count, target(normals_[axis], 0, block));
+  }
+}
+
+void E57Decoder::makeColors(const Block& block) const
+{
+  for (int channel = 0; channel < 3; ++channel)
+  {
+    Values color;
+    std::fill_n(color, block.count, 0.0);
+    if (hasE57Colors(scan_))
+    {
+      load(target(plan_.storedColor(), channel, block), block.count, color);
+      const double rounding = colorIsInteger_ ? 0.0 : 0.5;
+      for (vtkIdType i = 0; i < block.count; ++i)
+      {
+        const double scaled = (color[i] - colorLeast_[channel]) * colorFactor_[channel] + rounding;
+        color[i] = scaled > 0.0 ? std::min(std::floor(scaled), 255.0) : 0.0; // NaN is black
+      }
+    }
+    store(color, block.count, target(plan_.madeColor(), channel, block));
   }
 }
 

@@ -31,11 +31,12 @@ public:
 
 private:
   struct Block;
-  ColumnView target(std::size_t column, const Block& block) const;
+  ColumnView target(std::size_t column, int component, const Block& block) const;
   void decodeField(std::size_t field, const Block& block) const;
   void fillMissing(const Block& block) const;
   void placePoints(const Block& block) const;
   void turnNormals(const Block& block) const;
+  void makeColors(const Block& block) const;
   std::size_t columnOf(const char* fieldName) const;
 
   const E57Columns& plan_;
@@ -52,6 +53,9 @@ private:
   std::size_t normals_[3];   ///< columns of the normal; npos
   std::vector<std::size_t> missing_;
   double matrix_[3][3];
+  double colorLeast_[3];
+  double colorFactor_[3];
+  bool colorIsInteger_ = false;
 };
 
 } // namespace pointhaptics::io

@@ -317,11 +317,7 @@ void readE57(ReadTask& task, vtkPolyData* cloud)
     decode(task, decoder, first, rows);
     first += static_cast<vtkIdType>(scans[i].records);
   }
-  for (const E57Scan& scan : scans)
-  {
-    columns.setMostColor(scan.mostColor);
-  }
-  columns.moveTo(cloud);
+  columns.moveTo(cloud, task);
   dropUnsetFlags(cloud);
   addDimensions(cloud);
   addGrid(scans, moves, cloud);

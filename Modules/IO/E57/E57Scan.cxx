@@ -208,15 +208,18 @@ E57Pose poseOf(const XmlElement* element, const Numbers& numbers)
   return pose;
 }
 
-/// The greatest of the limits of colours.
-double mostColorOf(const XmlElement* limits, const Numbers& numbers)
+void setColorLimits(const XmlElement* limits, const Numbers& numbers, E57Scan& scan)
 {
-  double most = 0.0;
-  for (const char* name : { "colorRedMaximum", "colorGreenMaximum", "colorBlueMaximum" })
+  const char* const names[3] = { "colorRed", "colorGreen", "colorBlue" };
+  for (std::size_t i = 0; limits && i < 3; ++i)
   {
-    most = std::max(most, numberOf(limits, name, numbers));
+    const std::string name = names[i];
+    if (limits->child(name + "Maximum"))
+    {
+      scan.colorLimits[i] = E57Limits{ numberOf(limits, (name + "Minimum").c_str(), numbers),
+        numberOf(limits, (name + "Maximum").c_str(), numbers) };
+    }
   }
-  return most;
 }
 
 /// The standard has one codec, which is used where none is named.
@@ -238,7 +241,7 @@ E57Scan scanOf(const XmlElement& element, std::size_t number)
   const Numbers numbers(scan.name.empty() ? ordinal : ordinal + " " + inQuotes(scan.name));
   scan.name = scan.name.empty() ? ordinal : scan.name;
   scan.pose = poseOf(element.child("pose"), numbers);
-  scan.mostColor = mostColorOf(element.child("colorLimits"), numbers);
+  setColorLimits(element.child("colorLimits"), numbers, scan);
   const XmlElement* points = element.child("points");
   if (!points)
   {

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,13 +43,20 @@ struct E57Pose
   bool isIdentity() const;
 };
 
+/// Least and greatest value of a colour that the scanner can give.
+struct E57Limits
+{
+  double least = 0.0;
+  double most = 0.0;
+};
+
 struct E57Scan
 {
   std::string name;       ///< the file's, or "scan 3" (counted from 1) where it has none
   std::size_t number = 0; ///< in the file, from 0
   std::vector<E57Field> fields;
   E57Pose pose;
-  double mostColor = 0.0; ///< The largest value that a colour can have; 0: the file does not say.
+  std::array<std::optional<E57Limits>, 3> colorLimits; ///< red, green, blue
   std::uint64_t records = 0;
   std::uint64_t fileOffset = 0; ///< physical, of the section with the records
 

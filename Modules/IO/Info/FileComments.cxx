@@ -115,7 +115,7 @@ bool isUnitWord(std::string_view unit)
   for (const char c : unit)
   {
     const auto byte = static_cast<unsigned char>(c);
-    result = result && (c == ' ' || byte >= 0x80 || std::isalnum(byte) != 0);
+    result = result && (c == ' ' || c == '-' || byte >= 0x80 || std::isalnum(byte) != 0);
   }
   return result;
 }

@@ -73,7 +73,8 @@ POINTHAPTICSIO_EXPORT vtkSmartPointer<vtkPolyData> scaledCloud(
 /// kHeightUnit says another unit, else it stays. What says where the degrees are on the Earth is not in the
 /// copy's field data. Points at 0, 0, 0, which are no returns, stay.
 POINTHAPTICSIO_EXPORT vtkSmartPointer<vtkPolyData> inLocalMetres(vtkPolyData* cloud);
-/// Field data of a cloud in degrees whose heights are in no metres: their unit.
+/// Field data of a cloud whose heights are in another unit than x and y, or with degrees in no metres:
+/// theirs.
 inline constexpr const char* kHeightUnit = "HeightUnit";
 /// Field data of such a copy: longitude and latitude of the origin, metres of a degree of each, and of a
 /// unit of height.

@@ -6,6 +6,7 @@
 #include "IO/Las/LasHeader.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <utility>
 #include <vector>
@@ -24,6 +25,7 @@ constexpr int kGeographicModel = 2;
 constexpr int kGeographicSystem = 2048;
 constexpr int kProjectedSystem = 3072;
 constexpr int kProjectedUnit = 3076;
+constexpr int kVerticalUnit = 4099;
 constexpr int kUserDefined = 32767;
 
 constexpr const char* kDegree = "degree";
@@ -42,6 +44,14 @@ int codeOfUnit(const std::string& name)
 {
   const NamedUnit* unit = findLengthUnit(name);
   return unit ? unit->code : 0;
+}
+
+/// The last unit that well-known @p text names; empty where it names none.
+std::string lastUnit(const std::string& text)
+{
+  const std::size_t unit = text.rfind("UNIT[\"");
+  const std::size_t name = unit == std::string::npos ? text.size() : text.find('"', unit) + 1;
+  return text.substr(name, text.find('"', name) - name);
 }
 
 /// The record of GeoTIFF keys. @param code of the system, 0 where only the unit is known; @param unit 0 where
@@ -105,6 +115,10 @@ void LasCoordinateSystem::addKeys(std::string_view content)
     {
       unit_ = nameOfUnit(value);
     }
+    else if (key == kVerticalUnit)
+    {
+      heightUnit_ = nameOfUnit(value);
+    }
   }
 }
 
@@ -120,15 +134,27 @@ std::string LasCoordinateSystem::lengthUnit() const
       text_.find("GEOG") != std::string::npos || text_.find("GEODCRS") != std::string::npos;
     return unit_.empty() && ((text_.empty() && isGeographic_) || (isText && hasDegrees)) ? kDegree : unit_;
   }
-  const std::string part = text_.substr(projected, text_.find("VERT") - projected);
-  const std::size_t unit = part.rfind("UNIT[\"");
-  const std::size_t name = unit == std::string::npos ? unit : part.find('"', unit) + 1;
-  return name == std::string::npos ? unit_ : part.substr(name, part.find('"', name) - name);
+  const std::string unit = lastUnit(text_.substr(projected, text_.find("VERT") - projected));
+  return unit.empty() ? unit_ : unit;
+}
+
+std::string LasCoordinateSystem::heightUnit() const
+{
+  const std::size_t vertical = text_.find("VERT");
+  return text_.empty() ? heightUnit_ : lastUnit(text_.substr(std::min(vertical, text_.size())));
 }
 
 bool isMetre(const std::string& unit)
 {
   return codeOfUnit(unit) == kLengthUnits[0].code;
+}
+
+bool isOtherUnit(const std::string& unit, const std::string& other)
+{
+  constexpr double kFeetDiffer = 1e-5; // the foot and the US survey foot do by 2e-6
+  const NamedUnit* const known = findLengthUnit(unit);
+  const NamedUnit* const beside = findLengthUnit(other == kDegree ? "m" : other);
+  return known && beside && std::abs(known->metres / beside->metres - 1.0) > kFeetDiffer;
 }
 
 bool lasSaysUnit(vtkFieldData* fieldData)

@@ -24,6 +24,8 @@ public:
   /// The unit of a projected system ("metre", "US survey foot"), "degree" of a geographic one, empty when the
   /// file names none.
   std::string lengthUnit() const;
+  /// The unit of heights of a compound system; empty when the file names none.
+  std::string heightUnit() const;
 
 private:
   void addKeys(std::string_view content);
@@ -31,11 +33,15 @@ private:
   std::string text_;
   std::string code_;
   std::string unit_;
+  std::string heightUnit_;
   bool isGeographic_ = false;
 };
 
 /// True if @p unit is one of the names of a metre, as files write them.
 bool isMetre(const std::string& unit);
+
+/// True if lengths in @p unit and @p other, both known, differ by more than feet do; degrees go with metres.
+bool isOtherUnit(const std::string& unit, const std::string& other);
 
 /// True if that record says the field data's LengthUnit.
 bool lasSaysUnit(vtkFieldData* fieldData);

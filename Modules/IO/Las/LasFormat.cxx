@@ -1,6 +1,7 @@
 #include "ReadTask.h"
 
 #include "IO/Info/FieldText.h"
+#include "IO/Info/LengthUnit.h"
 #include "IO/Las/LasHeader.h"
 #include "IO/Las/LasRecords.h"
 #include "IO/Las/Laz/ChunkDecoder.h"
@@ -365,7 +366,7 @@ void readLas(ReadTask& task, vtkPolyData* cloud)
   {
     records.agree(*task.shared);
   }
-  records.moveTo(cloud);
+  records.moveTo(cloud, task);
   header.origin.addTo(cloud);
   addFieldNumbers<vtkDoubleArray>(cloud, "LasScale", header.scale);
   addFieldNumbers<vtkDoubleArray>(cloud, "LasOffset", header.offset);
@@ -378,6 +379,7 @@ void readLas(ReadTask& task, vtkPolyData* cloud)
   addFieldText(cloud, "Generator", header.generator);
   addFieldText(cloud, "CoordinateSystem", header.coordinateSystem);
   addFieldText(cloud, "LengthUnit", header.lengthUnit);
+  addFieldText(cloud, kHeightUnit, header.heightUnit);
 }
 
 } // namespace pointhaptics::io

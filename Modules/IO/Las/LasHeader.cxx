@@ -127,6 +127,7 @@ void parseRecords(std::string_view bytes, LasHeader& header)
   header.origin.header = bytes.substr(0, std::min(header.headerSize, kLasHeaderOf14));
   header.coordinateSystem = system.name();
   header.lengthUnit = system.lengthUnit();
+  header.heightUnit = isOtherUnit(system.heightUnit(), header.lengthUnit) ? system.heightUnit() : "";
 }
 
 void checkScales(const LasHeader& header)

@@ -157,6 +157,7 @@ struct LasHeader
   std::string generator;        ///< the program that wrote the file; empty when it does not say
   std::string coordinateSystem; ///< WKT or "EPSG:26917"; empty when the file does not say
   std::string lengthUnit;       ///< of a projected system: "metre"; empty when the file does not say
+  std::string heightUnit;       ///< where it is said, and another one than lengthUnit (metres with degrees)
   std::string packing;          ///< "LAZ" or "COPC" where the points are compressed, else empty
 
   bool isExtended() const { return pointFormat >= 6; }

@@ -1,6 +1,7 @@
 #include "IO/Las/LasRecords.h"
 
 #include "Bytes/NumericType.h"
+#include "ReadTask.h"
 
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
@@ -62,10 +63,11 @@ std::uint8_t* RareBits::allocate(vtkIdType rows, const LasField& field)
   return array_->GetPointer(0);
 }
 
-void RareBits::moveTo(vtkPolyData* cloud) const
+void RareBits::moveTo(vtkPolyData* cloud, vtkIdType rows) const
 {
   if (array_)
   {
+    rows < array_->GetNumberOfTuples() ? void(array_->Resize(rows)) : void();
     cloud->GetPointData()->AddArray(array_);
   }
 }
@@ -291,13 +293,15 @@ void LasRecords::fillColors()
   std::transform(from, from + values, to, [=](std::uint16_t v) { return static_cast<Byte>(v >> shift); });
 }
 
-void LasRecords::moveTo(vtkPolyData* cloud)
+void LasRecords::moveTo(vtkPolyData* cloud, const ReadTask& task)
 {
+  columns_.cut(task.pointsThere);
+  rows_ = static_cast<vtkIdType>(std::min(task.pointsThere, static_cast<std::uint64_t>(rows_)));
   fillColors();
-  columns_.moveTo(cloud);
+  columns_.moveTo(cloud, task);
   for (const RareBits& bits : rare_)
   {
-    bits.moveTo(cloud);
+    bits.moveTo(cloud, rows_);
   }
 }
 

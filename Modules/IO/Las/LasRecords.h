@@ -36,7 +36,7 @@ public:
   /// come from several threads at once.
   void fill(
     const LasBlock& block, std::size_t stride, vtkIdType rows, const LasField& field, const LasPlace& place);
-  void moveTo(vtkPolyData* cloud) const;
+  void moveTo(vtkPolyData* cloud, vtkIdType rows) const;
   bool isHere() const { return array_ != nullptr; }
   /// The array of zeros, where there is none yet.
   std::uint8_t* allocate(vtkIdType rows, const LasField& field);
@@ -58,8 +58,8 @@ public:
   /// Collective, when all blocks are filled, where ranks read a file together: the same arrays on each, and
   /// colours of the same bits.
   void agree(SharedReading& shared);
-  /// Gives the arrays to @p cloud when all blocks are filled.
-  void moveTo(vtkPolyData* cloud);
+  /// Gives the arrays to @p cloud when all blocks are filled that are there.
+  void moveTo(vtkPolyData* cloud, const ReadTask& task);
 
 private:
   /// The columns, and which of them holds what.
@@ -92,7 +92,7 @@ private:
   const bool onlyPositions_;
   const Columns names_;
   bool othersHaveWideColors_ = false;
-  const vtkIdType rows_;
+  vtkIdType rows_;
   CloudColumns columns_;
   std::array<RareBits, kNumberOfLasFields> rare_; ///< of those fields that are
 };

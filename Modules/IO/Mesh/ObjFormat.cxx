@@ -179,7 +179,7 @@ void ObjReader::moveTo(vtkPolyData* cloud)
         columns.target(i, component), rows);
     }
   }
-  columns.moveTo(cloud);
+  columns.moveTo(cloud, task_);
 }
 
 } // namespace

@@ -184,7 +184,7 @@ void readStl(ReadTask& task, vtkPolyData* cloud)
     copyStrided({ reinterpret_cast<const char*>(all.data()) + 4 * axis, sizeof(Vertex), VTK_FLOAT },
       columns.target(axis), rows);
   }
-  columns.moveTo(cloud);
+  columns.moveTo(cloud, task);
 }
 
 } // namespace pointhaptics::io

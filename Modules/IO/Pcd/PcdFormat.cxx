@@ -309,7 +309,7 @@ void readPcd(ReadTask& task, vtkPolyData* cloud)
       fillFromCompressed(task, header, table, columns);
       break;
   }
-  columns.moveTo(cloud, task.shared);
+  columns.moveTo(cloud, task);
   if (task.pointsThere < header.points) // no grid of the scanner
   {
     header.height = 1;

@@ -265,7 +265,7 @@ void readBinaryBody(ReadTask& task, const PlyHeader& header, vtkPolyData* cloud)
   }
   noteCutElements(
     task, header, [&](const PlyElement& element) { skipBinaryElement(body, element, &task.faces); });
-  columns.moveTo(cloud, task.shared);
+  columns.moveTo(cloud, task);
 }
 
 constexpr TextRecordWords kWords = { "property", "vertex", "vertices",
@@ -358,7 +358,7 @@ void readAsciiBody(ReadTask& task, const PlyHeader& header, vtkPolyData* cloud)
   TextRecords(lines, fields, kWords, isLast).storeAll(task, rows, vertex.count);
   noteCutElements(
     task, header, [&](const PlyElement& element) { skipWholeAsciiElement(lines, element, task.faces); });
-  columns.moveTo(cloud, task.shared);
+  columns.moveTo(cloud, task);
 }
 
 } // namespace

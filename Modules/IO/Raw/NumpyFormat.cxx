@@ -240,7 +240,7 @@ void readNumpy(ReadTask& task, vtkPolyData* cloud)
     stored.push_back({ sources[i], i, 0, (hasNames ? header.fields[i] : last).isSwapped });
   }
   target.fill(stored, task);
-  target.moveTo(cloud);
+  target.moveTo(cloud, task);
 }
 
 } // namespace pointhaptics::io

@@ -91,7 +91,7 @@ void readRecords(ReadTask& task, const std::vector<RawColumn>& fields, std::size
   }
   CloudColumns columns(planned, rows);
   columns.fill(stored, task);
-  columns.moveTo(cloud);
+  columns.moveTo(cloud, task);
 }
 
 /// Leaves out what lets through nearly all light.

@@ -297,7 +297,7 @@ void readTable(ReadTask& task, std::string_view text, TextLayout layout, vtkPoly
     targets[read[i]] = columns.target(i);
   }
   storeTable(task, text, layout, targets);
-  columns.moveTo(cloud);
+  columns.moveTo(cloud, task);
 }
 
 void readText(ReadTask& task, vtkPolyData* cloud)
@@ -335,10 +335,6 @@ void readText(ReadTask& task, vtkPolyData* cloud)
   takeUnits(layout.names, comments);
   readTable(task, text, layout, cloud);
   comments.moveTo(cloud, task.notes);
-  if (!comments.heightUnit.empty())
-  {
-    task.notes.push_back("heights are in " + comments.heightUnit + ", x and y in degrees");
-  }
 }
 
 } // namespace pointhaptics::io

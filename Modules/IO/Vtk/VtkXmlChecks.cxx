@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,10 @@ namespace
 
 /// zlib packs at most 1032 bytes into one; a file that claims more, of any compressor, is refused.
 constexpr double kMostUnpackedBytes = 1032.0;
+
+/// Elements that hold nothing but arrays.
+constexpr std::string_view kParents[] = { "FieldData", "PointData", "CellData", "Points", "Verts", "Lines",
+  "Strips", "Polys", "Cells" };
 
 /// Where arrays that are not text keep their bytes, and how.
 struct DataLayout
@@ -66,6 +71,30 @@ struct ArrayWords
   }
 };
 
+bool isBase64Digit(char c)
+{
+  return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '+' || c == '/';
+}
+
+/// VTK takes memory that nobody filled for the bytes behind a character that is no base64.
+void checkBase64(const DataLayout& layout, std::size_t position, std::uint64_t size)
+{
+  const auto digits = static_cast<std::size_t>((size * 4 + 2) / 3);
+  const std::string_view text = layout.bytes.substr(std::min(position, layout.bytes.size()), digits);
+  const auto wrong = std::find_if_not(text.begin(), text.end(), &isBase64Digit);
+  if (wrong != text.end())
+  {
+    failDamaged(position + static_cast<std::size_t>(wrong - text.begin()),
+      inQuotes(std::string_view(&*wrong, 1)) + " is no digit of base64");
+  }
+  const std::string_view padding =
+    layout.bytes.substr(std::min(position + digits, layout.bytes.size()), (4 - digits % 4) % 4);
+  if (!std::all_of(padding.begin(), padding.end(), [](char c) { return c == '=' || isBase64Digit(c); }))
+  {
+    failDamaged(position + digits, "base64 that does not end with '='");
+  }
+}
+
 void checkArrayBytes(const DataLayout& layout, std::size_t position, bool isBase64)
 {
   const ArrayWords one(layout, position, isBase64, 1);
@@ -77,6 +106,7 @@ void checkArrayBytes(const DataLayout& layout, std::size_t position, bool isBase
       failTruncated(atByte(position) + "an array of " + std::to_string(first) + " bytes, but only " +
         std::to_string(one.remaining) + " follow");
     }
+    isBase64 ? checkBase64(layout, position, layout.wordSize + first) : void();
     return;
   }
   if (first > one.remaining / layout.wordSize)
@@ -119,6 +149,26 @@ void checkArrayBytes(const DataLayout& layout, std::size_t position, bool isBase
   {
     failTruncated(
       atByte(position) + "blocks of more than the " + std::to_string(most) + " bytes that follow");
+  }
+  isBase64 ? checkBase64(layout, layout.bytes.size() - static_cast<std::size_t>(most), packed) : void();
+}
+
+/// VTK's reader makes an array of each of @p children, and goes on with none where it knows no such type.
+void checkAreArrays(const std::vector<XmlElement>& children)
+{
+  constexpr std::string_view kTypes[] = { "Float32", "Float64", "Int8", "UInt8", "Int16", "UInt16", "Int32",
+    "UInt32", "Int64", "UInt64", "String", "Bit" };
+  for (const XmlElement& child : children)
+  {
+    const std::string_view type = child.attribute("type");
+    if (child.name != "DataArray" && child.name != "Array")
+    {
+      failDamaged(child.begin, inQuotes(child.name) + " in the place of an array");
+    }
+    if (std::find(std::begin(kTypes), std::end(kTypes), type) == std::end(kTypes))
+    {
+      failDamaged(child.begin, "an array of the type " + inQuotes(type));
+    }
   }
 }
 
@@ -281,6 +331,9 @@ void checkVtkXml(std::string_view bytes, const XmlElement& root)
     [&](const XmlElement& element)
     {
       counts.check(element);
+      std::find(std::begin(kParents), std::end(kParents), element.name) != std::end(kParents)
+        ? checkAreArrays(element.children)
+        : void();
       element.name == "DataArray" || element.name == "Array" ? checkArray(layout, element) : void();
     });
 }

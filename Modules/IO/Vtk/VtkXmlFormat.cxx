@@ -59,16 +59,46 @@ private:
   std::string first_;
 };
 
+/// VTK's own error of an array of texts that cannot be read asks for its name as that of one of numbers,
+/// which is not there.
+template <class Reader>
+class TextSafe : public Reader
+{
+public:
+  static TextSafe* New() { VTK_STANDARD_NEW_BODY(TextSafe); }
+
+protected:
+  int ReadArrayForPoints(vtkXMLDataElement* element, vtkAbstractArray* array) override
+  {
+    return this->HasRead(Reader::ReadArrayForPoints(element, array), array);
+  }
+  int ReadArrayForCells(vtkXMLDataElement* element, vtkAbstractArray* array) override
+  {
+    return this->HasRead(Reader::ReadArrayForCells(element, array), array);
+  }
+
+private:
+  int HasRead(int result, vtkAbstractArray* array)
+  {
+    if (result != 0 || vtkDataArray::SafeDownCast(array))
+    {
+      return result;
+    }
+    vtkErrorMacro(<< "Cannot read the texts of " << inQuotes(array->GetName() ? array->GetName() : ""));
+    return 1;
+  }
+};
+
 /// The reader for @p type. @throws FileProblem when it holds no list of points.
 vtkSmartPointer<vtkXMLUnstructuredDataReader> makeReader(std::string_view type)
 {
   if (type == "PolyData")
   {
-    return vtkSmartPointer<vtkXMLPolyDataReader>::New();
+    return vtkSmartPointer<TextSafe<vtkXMLPolyDataReader>>::New();
   }
   if (type == "UnstructuredGrid")
   {
-    return vtkSmartPointer<vtkXMLUnstructuredGridReader>::New();
+    return vtkSmartPointer<TextSafe<vtkXMLUnstructuredGridReader>>::New();
   }
   throw FileProblem(vtkErrorCode::UnrecognizedFileTypeError, "a VTK file of the type " + inQuotes(type),
     "save it as PolyData (.vtp), for example with ParaView's filter Extract Surface");

@@ -223,4 +223,63 @@ TEST_F(HostileFiles, LasRecordsThatLieAreKeptAsBytes)
   EXPECT_EQ(result.array("ExtraBytes")->GetNumberOfComponents(), 2);
 }
 
+/// Two points whose coordinates are @p base64 with an array's size before them, and @p inserted before them.
+std::string inlineVtp(const std::string& base64, const std::string& inserted = "")
+{
+  return "<?xml version=\"1.0\"?><VTKFile type=\"PolyData\" version=\"0.1\" byte_order=\"LittleEndian\">"
+         "<PolyData>" +
+    inserted +
+    "<Piece NumberOfPoints=\"2\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" "
+    "NumberOfPolys=\"0\"><Points><DataArray type=\"Float32\" NumberOfComponents=\"3\" format=\"binary\">" +
+    base64 + "</DataArray></Points></Piece></PolyData></VTKFile>";
+}
+
+TEST_F(HostileFiles, Base64ThatIsNoneIsNotReadAsPoints)
+{
+  const std::string base64 = "GAAAAAAAgD8AAABAAABAQAAAgEAAAKBAAADAQA==";
+  const ReadResult good = readCloud(write("a.vtp", inlineVtp(base64)));
+  ASSERT_EQ(good.error, "");
+  EXPECT_EQ(good.cloud->GetPoint(1)[2], 6.0);
+  for (std::size_t at = 8; at < base64.size(); ++at)
+  {
+    for (const char wrong : { '*', '\n', '-' })
+    {
+      std::string changed = base64;
+      changed[at] = wrong;
+      expectRefused(readCloud(write("a.vtp", inlineVtp(changed))), "base64");
+    }
+  }
+  expectRefused(readCloud(write("a.vtp", inlineVtp(base64.substr(0, 20)))), "base64");
+  std::string early = base64;
+  early[20] = '=';
+  expectRefused(readCloud(write("a.vtp", inlineVtp(early))), "'=' is no digit of base64");
+}
+
+TEST_F(HostileFiles, ArraysOfVtkThatItCannotMakeAreRefused)
+{
+  const std::string base64 = "GAAAAAAAgD8AAABAAABAQAAAgEAAAKBAAADAQA==";
+  const auto with = [&](const std::string& inserted)
+  { return readCloud(write("a.vtp", inlineVtp(base64, "<FieldData>" + inserted + "</FieldData>"))); };
+  const std::string rest = "Name=\"a\" NumberOfTuples=\"1\" format=\"ascii\">1</DataArray>";
+  const ReadResult good = with("<DataArray type=\"Int32\" " + rest);
+  ASSERT_EQ(good.error, "");
+  EXPECT_EQ(good.points(), 2);
+  expectRefused(with("<DataArray type=\"Foo\" " + rest), "an array of the type 'Foo'");
+  expectRefused(with("<DataArray " + rest), "an array of the type ''");
+  expectRefused(with("<Foo type=\"Int32\"/>"), "'Foo' in the place of an array");
+}
+
+TEST_F(HostileFiles, TextsOfVtkThatHaveNoEndAreRefused)
+{
+  const auto with = [&](const std::string& texts)
+  {
+    std::string vtp = inlineVtp("GAAAAAAAgD8AAABAAABAQAAAgEAAAKBAAADAQA==");
+    vtp.insert(vtp.find("<Points>"),
+      "<PointData><Array type=\"String\" Name=\"words\" format=\"ascii\">" + texts + "</Array></PointData>");
+    return readCloud(write("a.vtp", vtp));
+  };
+  EXPECT_EQ(with("97 0 98 0").points(), 2);
+  expectRefused(with("97 98"), "Cannot read the texts of 'words'");
+}
+
 } // namespace

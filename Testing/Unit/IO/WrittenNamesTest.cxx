@@ -1,6 +1,8 @@
 // Arrays of any name, and what PCL's point types find in a PCD file.
 #include "CloudFiles.h"
 
+#include "IO/Info/FieldText.h"
+
 #include "vtkDataArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationStringKey.h"
@@ -163,6 +165,23 @@ TEST_F(WrittenNames, VtpKeepsArraysApartWhoseNamesXmlMakesOne)
   EXPECT_TRUE(isNoted(notes, "array 'a_' is called a__3"));
   EXPECT_TRUE(isNoted(notes, "what is noted of array 'a__3' as UNITS_LABEL is left out"));
   EXPECT_EQ(notes.size(), 4u);
+}
+
+TEST_F(WrittenNames, UnitsWithAHyphenAreKept)
+{
+  for (const char* text :
+    { "x [us-ft],y [us-ft],z [us-ft]\n1,2,3\n4,5,6\n", "# units: us-ft\n1 2 3\n4 5 6\n" })
+  {
+    const ReadResult feet = readCloud(write("feet.txt", text));
+    ASSERT_EQ(feet.error, "");
+    for (const char* name : { "a.xyz", "a.ply" })
+    {
+      ASSERT_EQ(writeCloud(feet.cloud, path(name)), "");
+      EXPECT_EQ(
+        pointhaptics::io::fieldText(readCloud(path(name)).cloud->GetFieldData(), "LengthUnit"), "us-ft")
+        << name;
+    }
+  }
 }
 
 } // namespace

@@ -142,4 +142,26 @@ TEST_F(Gzip, XmlOfVtkAsksToBeUnpacked)
     readCloud(write("a.vtp.gz", gzip("<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\">"))), "gunzip");
 }
 
+TEST_F(Gzip, ThatIsNoCloudIsRefusedByItsStart)
+{
+  std::mt19937 random(5);
+  std::string noise(12000000, '\0');
+  for (char& c : noise)
+  {
+    c = static_cast<char>(random());
+  }
+  const auto reportsOf = [&](std::size_t size)
+  {
+    int reports = 0;
+    vtkNew<vtkCallbackCommand> observer;
+    observer->SetCallback(&countEvent);
+    observer->SetClientData(&reports);
+    vtkNew<vtkPointCloudReader> reader;
+    reader->AddObserver(vtkCommand::ProgressEvent, observer);
+    expectRefused(readCloudBy(reader, write("noise.gz", gzip(noise.substr(0, size)))), "unknown format");
+    return reports;
+  };
+  EXPECT_EQ(reportsOf(noise.size()), reportsOf(noise.size() / 2)) << "nothing behind the start is read";
+}
+
 } // namespace

@@ -350,26 +350,14 @@ TEST_F(E57, WideColorsAreKeptBesideBytes)
   EXPECT_EQ(result.value("RGB", 2, 0), 255);
   EXPECT_EQ(result.value("RGB", 0, 2), 255);
 
-  scan.xml = "<colorLimits type=\"Structure\"><colorRedMaximum type=\"Integer\">1023</colorRedMaximum>"
-             "<colorGreenMaximum type=\"Integer\">1023</colorGreenMaximum></colorLimits>";
-  scan.fields[3] = e57Integer("colorRed", 0, 65535, { 0, 512, 1023 });
-  scan.fields[4] = e57Integer("colorGreen", 0, 65535, { 4, 511, 1020 });
-  result = read({ { scan } });
-  ASSERT_EQ(result.error, "");
-  EXPECT_EQ(result.value("RGB", 0, 2), 255) << "a value beyond the limits makes these void";
-  scan.fields[5] = e57Integer("colorBlue", 0, 65535, { 3, 255, 1 });
-  result = read({ { scan } });
-  EXPECT_EQ(result.value("RGB", 1, 0), 128);
-  EXPECT_EQ(result.value("RGB", 0, 1), 1);
-  EXPECT_EQ(result.value("RGB", 2, 0), 255);
-
-  scan.xml.clear();
-  scan.fields[3] = e57Float("colorRed", { 0, 0.5f, 1 });
+  scan.xml = "<colorLimits type=\"Structure\"><colorRedMinimum type=\"Float\">2</colorRedMinimum>"
+             "<colorRedMaximum type=\"Float\">4</colorRedMaximum></colorLimits>";
+  scan.fields[3] = e57Float("colorRed", { 2, 3, 4 });
   scan.fields[4] = e57Float("colorGreen", { 0, 0.5f, 1 });
-  scan.fields[5] = e57Float("colorBlue", { 0, std::numeric_limits<float>::quiet_NaN(), 1 });
+  scan.fields[5] = e57Float("colorBlue", { -1, std::numeric_limits<float>::quiet_NaN(), 2 });
   result = read({ { scan } });
   ASSERT_EQ(result.error, "");
-  EXPECT_EQ(result.value("Color", 1, 0), 0.5);
+  EXPECT_EQ(result.value("Color", 1, 0), 3);
   const double expected[3][3] = { { 0, 0, 0 }, { 128, 128, 0 }, { 255, 255, 255 } };
   for (int i = 0; i < 3; ++i)
   {
@@ -408,6 +396,36 @@ TEST_F(E57, FieldsOfExtensionsNeverTakeTheNamesOfCoordinates)
   EXPECT_EQ(result.value("x_2", 1), 71);
   EXPECT_EQ(result.value("Intensity_2", 1), 81);
   EXPECT_EQ(result.value("Intensity", 1), 91);
+}
+
+TEST_F(E57, ColorsOfEachScanGoByItsOwnLimits)
+{
+  const auto scanOf = [](double most, bool isFloat, const std::vector<std::int64_t>& values)
+  {
+    E57TestScan scan = rampScan(values.size());
+    for (const char* name : { "colorRed", "colorGreen", "colorBlue" })
+    {
+      const std::vector<float> parts(values.begin(), values.end());
+      scan.fields.push_back(
+        isFloat ? e57Float(name, parts) : e57Integer(name, 0, static_cast<std::int64_t>(most), values));
+    }
+    return scan;
+  };
+  const auto expectRed = [](const ReadResult& result, const std::vector<double>& expected)
+  {
+    ASSERT_EQ(result.error, "");
+    ASSERT_NE(result.array("RGB"), nullptr);
+    for (std::size_t i = 0; i < expected.size(); ++i)
+    {
+      EXPECT_EQ(result.value("RGB", static_cast<vtkIdType>(i), 0), expected[i]) << i;
+    }
+  };
+  const E57TestScan bytes = scanOf(255, false, { 0, 100, 255 });
+  const E57TestScan words = scanOf(65535, false, { 0, 256, 65535 });
+  expectRed(read({ { bytes, words } }), { 0, 100, 255, 0, 1, 255 });
+  expectRed(read({ { bytes, scanOf(1, true, { 0, 1 }) } }), { 0, 100, 255, 0, 255 });
+  expectRed(read({ { scanOf(4095, false, { 0, 2048, 4095 }) } }), { 0, 128, 255 });
+  expectRed(read({ { scanOf(65535, false, { 0, 200, 199 }) } }), { 0, 0, 0 });
 }
 
 } // namespace

@@ -1,4 +1,5 @@
 #include "IO/Info/CloudSummary.h"
+#include "IO/Info/CloudExtent.h"
 
 #include <gtest/gtest.h>
 #include <vtkNew.h>
@@ -28,6 +29,22 @@ TEST(CloudSummary, SaysHowTheDensityVariesAndNotHowPointsFall)
     cloud->SetPoints(points);
     EXPECT_NEAR(summarize(cloud, "csv", false).densityVariation, hasStep ? 4.5 : 1.25, hasStep ? 0.5 : 0.15);
   }
+}
+
+TEST(CloudSummary, PointsWhoseSquaresAreZeroAreNotAtZero)
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  for (const double tiny : { -2e-200, 1e-310, 3e-200 })
+  {
+    points->InsertNextPoint(tiny, 0.0, tiny);
+  }
+  vtkNew<vtkPolyData> cloud;
+  cloud->SetPoints(points);
+  const CloudExtent extent = extentOf(cloud);
+  EXPECT_EQ(extent.atZero, 0);
+  EXPECT_EQ(extent.returned.minimum.x, -2e-200);
+  EXPECT_EQ(extent.returned.maximum.z, 3e-200);
 }
 
 } // namespace

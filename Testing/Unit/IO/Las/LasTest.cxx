@@ -1,9 +1,16 @@
 #include "CloudFiles.h"
 
+#include "IO/Info/FieldText.h"
+#include "IO/MergedCloud.h"
+
 #include <cstdint>
 
 namespace
 {
+
+using pointhaptics::io::addFieldText;
+using pointhaptics::io::fieldText;
+using pointhaptics::io::mergeClouds;
 
 class Las : public CloudFiles
 {
@@ -120,6 +127,57 @@ TEST_F(Las, TruncationsAndHostileHeadersAreRefused)
   put(las, 100, std::uint32_t{ 0xffffffffu });
   EXPECT_EQ(readCloud(write("h.las", las)).points(), 2);
   expectRefused(readCloud(write("h.las", makeLas(2, 11, 80))), "point format 11");
+}
+
+TEST_F(Las, HeightsInAnotherUnitAreSaidToBeSo)
+{
+  const std::string ground = "PROJCS[\"p\",GEOGCS[\"g\",UNIT[\"degree\",0.017]],UNIT[\"metre\",1]]";
+  const auto systemOf = [&](const std::string& unit)
+  { return "COMPD_CS[\"c\"," + ground + ",VERT_CS[\"v\",VERT_DATUM[\"d\",2005],UNIT[\"" + unit + "\",1]]]"; };
+  const ReadResult plain = readCloud(write("plain.las", makeLas(2, 0, 20)));
+  const auto readWith = [&](const std::string& system)
+  {
+    addFieldText(plain.cloud, "CoordinateSystem", system);
+    EXPECT_EQ(writeCloud(plain.cloud, path("a.las")), "");
+    return readCloud(path("a.las"));
+  };
+  for (const std::string& level : { ground, systemOf("metre") })
+  {
+    const ReadResult result = readWith(level);
+    EXPECT_TRUE(result.notes.empty());
+    EXPECT_EQ(fieldText(result.cloud->GetFieldData(), "HeightUnit"), "");
+  }
+  const ReadResult feet = readWith(systemOf("US survey foot"));
+  ASSERT_EQ(feet.notes.size(), 1u);
+  EXPECT_EQ(feet.notes[0],
+    "heights are in US survey foot, x and y in metre: lengths and voxels are wrong until heights are "
+    "converted");
+  std::vector<std::string> notes;
+  EXPECT_EQ(writeCloud(feet.cloud, path("b.las"), &notes), "");
+  EXPECT_TRUE(notes.empty()) << "the coordinate system says it";
+  EXPECT_EQ(mergeClouds({ plain.cloud, feet.cloud }, { "plain", "feet" }, notes), nullptr);
+  EXPECT_NE(notes.back().find("'plain' and 'feet' cannot be one cloud"), std::string::npos);
+  EXPECT_NE(mergeClouds({ feet.cloud, feet.cloud }, { "feet", "feet" }, notes), nullptr);
+}
+
+TEST_F(Las, HeightsOfGeoTiffKeysHaveTheirUnit)
+{
+  std::string record(54, '\0');
+  record.replace(2, 15, "LASF_Projection");
+  put(record, 18, std::uint16_t{ 34735 });
+  for (const int number : { 1, 1, 0, 3, 1024, 0, 1, 1, 3076, 0, 1, 9001, 4099, 0, 1, 9003 })
+  {
+    append(record, static_cast<std::uint16_t>(number));
+  }
+  put(record, 20, static_cast<std::uint16_t>(record.size() - 54));
+  std::string las = makeLas(2, 0, 20);
+  las.insert(227, record);
+  put(las, 96, static_cast<std::uint32_t>(227 + record.size()));
+  put(las, 100, std::uint32_t{ 1 });
+  const ReadResult result = readCloud(write("a.las", las));
+  ASSERT_EQ(result.error, "");
+  EXPECT_EQ(fieldText(result.cloud->GetFieldData(), "LengthUnit"), "metre");
+  EXPECT_EQ(fieldText(result.cloud->GetFieldData(), "HeightUnit"), "US survey foot");
 }
 
 } // namespace

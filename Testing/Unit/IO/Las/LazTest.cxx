@@ -14,6 +14,8 @@
 #include <cstdlib>
 #include <random>
 
+#include <malloc.h>
+
 namespace
 {
 
@@ -431,6 +433,46 @@ TEST_F(Laz, MutationsKeepThePromises)
       bytes[at] = static_cast<char>(random() % 2 ? random() : bytes[at] ^ (1 << random() % 8));
     }
     LLVMFuzzerTestOneInput(reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
+  }
+}
+
+/// Fills all memory that is allocated while it lives, as if it had been used before.
+struct UsedMemory
+{
+  explicit UsedMemory(int byte) { mallopt(M_PERTURB, byte); }
+  ~UsedMemory() { mallopt(M_PERTURB, 0); }
+  UsedMemory(const UsedMemory&) = delete;
+  UsedMemory& operator=(const UsedMemory&) = delete;
+};
+
+TEST_F(Laz, ColorsOfOneThatIsCutAreThoseOfItsPoints)
+{
+  std::string records = randomRecords(2, 0, 20000, 3);
+  for (std::size_t at = 20; at < records.size(); at += kRecordLengths[2])
+  {
+    for (const std::size_t high : { 1, 3, 5 })
+    {
+      records[at + high] = 0; // bytes, which some writers store as they are
+    }
+  }
+  LazLayout layout;
+  layout.chunkSize = 500;
+  const LazFile laz = lazOf(2, 0, records, layout);
+  const std::string file = write("cut.laz", laz.bytes.substr(0, laz.bytes.size() / 2));
+  for (const int byte : { 1, 77, 170 })
+  {
+    const UsedMemory used(byte);
+    vtkNew<vtkPointCloudReader> reader;
+    reader->SalvageOn();
+    const ReadResult cut = readCloudBy(reader, file);
+    ASSERT_EQ(cut.error, "");
+    ASSERT_GT(cut.points(), 40);
+    ASSERT_LT(cut.points(), 20000);
+    for (vtkIdType i = 0; i + 2 < cut.points(); ++i)
+    {
+      ASSERT_EQ(cut.value("RGB", i, 1), cut.value("Color16", i, 1)) << i << " " << byte;
+    }
+    EXPECT_EQ(cut.array("Intensity")->GetNumberOfTuples(), cut.points());
   }
 }
 
