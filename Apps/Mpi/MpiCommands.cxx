@@ -227,10 +227,7 @@ void runBandwidth(RankRun<BandwidthCommand>& run)
       filter->SetInputData(run.options.prepared(piece));
       updateFilter(filter, "bandwidth", run.options.input);
     });
-  for (const std::string& note : run.options.lengthNotes(piece))
-  {
-    warn(run.job.isRoot() ? note : "");
-  }
+  warn(run.job.isRoot() ? run.options.unitNote(piece) : "");
   const BandwidthFigures figures = run.job.ranks().reduce(bandwidthFigures(filter->GetOutput()), together);
   run.finish(filter->GetOutput(), figures, filter->GetNumberOfBytesSent(), [] {});
 }
@@ -242,9 +239,9 @@ bool takeFiles(CLI::App& command, CloudCommand& options, int ranks, Files& files
     "ranks read one cloud together; leave out the others");
   options.input = options.inputs.front();
   options.output = expandedName(options.output, options.input);
-  requireUsage(options.input != kStandardStream, "-", "",
-    "standard input has no parts that ranks could read; give the name of a file");
   files.take(command);
+  requireUsage(!files.isStream(options.input), options.input, "",
+    "standard input and pipes have no parts that ranks could read; give the name of a file");
   for (int rank = 0; isPiecesFile(options.output) && rank < ranks; ++rank)
   {
     files.addOutput(pieceFileOf(options.output, rank));

@@ -7,13 +7,16 @@
 #include "Terminal/Messages.h"
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 #include <string>
 #include <vector>
 
 #include <fcntl.h>
 #include <malloc.h>
+#include <sys/mman.h>
 #include <unistd.h>
 
 namespace
@@ -29,6 +32,17 @@ int silence(int stream)
   dup2(nowhere, stream);
   close(nowhere);
   return before;
+}
+
+/// The last line of @p file, which is closed, without the name of the program.
+std::string lastMessageOf(int file)
+{
+  std::string text(std::size_t(lseek(file, 0, SEEK_END)), ' ');
+  text.resize(std::size_t(std::max<ssize_t>(0, pread(file, text.data(), text.size(), 0))));
+  close(file);
+  text.erase(text.find_last_not_of('\n') + 1);
+  text.erase(0, text.rfind('\n') + 1);
+  return text.substr(std::min(text.size(), text.find(": ") + 2));
 }
 
 /// Keeps freed memory for the next allocation. Ranks send and receive their sums in large pieces one after
@@ -48,11 +62,22 @@ int run(Job& job, std::vector<std::string> arguments)
   addMpiCommands(program, job.ranks().size(), work);
   addManPage(program);
   int exitCode = kSuccess;
-  // Help, version and usage errors are the same on all ranks.
-  const int errors = job.isRoot() ? dup(STDERR_FILENO) : silence(STDERR_FILENO);
+  // Help, version and most usage errors are the same on all ranks; rank 0 says what another one refuses
+  // alone.
+  const int errors = dup(STDERR_FILENO);
+  const int kept = memfd_create("errors", MFD_CLOEXEC);
+  dup2(job.isRoot() ? errors : kept, STDERR_FILENO);
   const int parsed = runCommands(program, std::move(arguments), exitCode);
   dup2(errors, STDERR_FILENO);
   close(errors);
+  const std::string message = lastMessageOf(kept);
+  const std::vector<std::string> problems = job.ranks().gather(parsed == kSuccess ? std::string() : message);
+  const auto problem =
+    std::find_if(problems.begin(), problems.end(), [](const std::string& text) { return !text.empty(); });
+  if (job.isRoot() && parsed == kSuccess && problem != problems.end())
+  {
+    fail(fmt::format("rank {} of {}: {}", problem - problems.begin(), problems.size(), *problem));
+  }
   const int ofAll = job.ranks().reduce(parsed != kSuccess ? parsed
       : work                                              ? -1
                                                           : kSuccess,

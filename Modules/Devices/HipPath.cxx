@@ -1,5 +1,7 @@
 #include "Devices/HipPath.h"
 
+#include "Core/Base/OutputFile.h"
+
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
@@ -48,20 +50,22 @@ std::string trimmed(const std::string& text)
                                     : text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
-/// Reads one line without its LF or CRLF, at most kLongestLine + 1 bytes. False at the end of the file.
+/// Reads one line without its LF or CRLF, at most kLongestLine + 1 bytes; the rest of a longer remark is
+/// skipped. False at the end of the file.
 bool readLine(std::istream& stream, std::string& line)
 {
+  constexpr int kEnd = std::char_traits<char>::eof();
   line.clear();
-  int c = stream.get();
-  if (c == std::char_traits<char>::eof())
+  if (stream.peek() == kEnd)
   {
     return false;
   }
-  while (c != std::char_traits<char>::eof() && c != '\n' && line.size() <= kLongestLine)
+  while (line.size() <= kLongestLine && stream.peek() != kEnd && stream.peek() != '\n')
   {
-    line += char(c);
-    c = stream.get();
+    line += char(stream.get());
   }
+  const bool isRemark = !line.empty() && line.front() == '#';
+  stream.ignore(isRemark ? std::numeric_limits<std::streamsize>::max() : stream.peek() == '\n' ? 1 : 0, '\n');
   if (!line.empty() && line.back() == '\r')
   {
     line.pop_back();
@@ -181,10 +185,6 @@ bool readTableLine(std::istream& stream, std::string& line, std::size_t& lineNum
   {
     readLine(stream, line);
     isNew |= saysNewHand(line);
-    if (line.size() > kLongestLine)
-    {
-      stream.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
-    }
   }
   const bool isRead = readLine(stream, line);
   lineNumber -= isRead || lineNumber == 1 ? 0 : 1;
@@ -312,7 +312,9 @@ Status readHipPath(const std::string& fileName, HipPath& path, std::string& mess
   if (!stream || std::filesystem::is_directory(fileName, ignored))
   {
     const std::string reason = errno ? systemReason(errno) : "it is a folder";
-    message = fileName + ": cannot be opened (" + reason + "): check the name and its permissions";
+    const std::string missed = OutputFile::missedPart(fileName);
+    message = fileName + ": " +
+      (missed.empty() ? "cannot be opened (" + reason + "): check the name and its permissions" : missed);
     return Status::FileNotReadable;
   }
   std::string line;

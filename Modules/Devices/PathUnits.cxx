@@ -21,6 +21,7 @@ constexpr double kSparse = 0.5;         ///< Seconds from row to row.
 constexpr double kLong = 60.0;          ///< Seconds.
 constexpr std::size_t kFewestRows = 10; ///< Fewest rows whose spacing in time counts.
 constexpr double kLeastTravel = 1e-3;   ///< A hand that rests has no speed.
+constexpr double kOfMaps = 1e5;         ///< Metres from the origin: map coordinates.
 
 bool areNear(double a, double b)
 {
@@ -125,11 +126,11 @@ std::string unlikelyPlaces(const Bounds& path, const Bounds& cloud, const UnitNa
     std::remove_if(units.begin(), units.end(),
       [&](const Unit& unit) { return unit.factor * far > kReach || kNear * unit.factor * far < near; }),
     units.end());
-  return far > kReach && near > kLeastTravel && !units.empty() ? "the cloud reaches " +
+  return far > kReach && far < kOfMaps && near > kLeastTravel && !units.empty() ? "the cloud reaches " +
       lengthText(ofCloud, 2) + " from the origin and the path " + lengthText(ofPath, 2) + "; " +
       (isCloud ? cure({ names.cloud }, "the points", "the cloud is", units)
                : cure({ names.path }, "the places of the path", "it is", units))
-                                                               : std::string();
+                                                                                : std::string();
 }
 
 std::string unlikelyTimes(const HipPath& path, const UnitNames& names)

@@ -79,7 +79,7 @@ std::string unlikelyUnitsIn(
   const bool isPlaced = !box.empty() && affineFromTransform(scene.resampler()->GetTransform(), model);
   return unlikelyUnits(path,
     isPlaced ? boxOfCorners(box, [&model](const Vec3& p) { return model.apply(p); }) : Bounds(),
-    options.names.units, isTouched);
+    options.names.units, isTouched || options.unitIsChosen);
 }
 
 std::shared_ptr<IdealForce> idealFor(ViewScene& scene, const HapticViewerOptions& options)

@@ -358,4 +358,12 @@ TEST_F(Bench, AMisspeltTaskIsToldWhichIsMeant)
   this->refuse(2, { "bench" }, { "nothing to do; commands are bandwidth, resample" });
 }
 
+TEST_F(Bench, AMisplacedOptionIsToldWhichCommandsThereAre)
+{
+  this->refuse(
+    2, { "bench", "--quik" }, { "pointhaptics-bench: no command '--quik'; commands are bandwidth" });
+  this->refuse(2, { "bench", "--versio" }, { "no command '--versio'; did you mean --version?" });
+  EXPECT_EQ(this->run({ "bench" }).errors.find("manual"), std::string::npos);
+}
+
 } // namespace

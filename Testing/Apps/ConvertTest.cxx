@@ -320,4 +320,65 @@ TEST_F(Convert, TheBoundsThatInfoPrintsHoldEveryPoint)
   }
 }
 
+TEST_F(Convert, TheBoxOfAFlatCloudKeepsAllItsPoints)
+{
+  this->write("flat.csv", "x,y,z\n0,0,0\n1,0,0\n1,2,0\n");
+  for (const std::string file : { "flat.csv", "flat.ply", "flat.las", "flat.vtp", "flat.pcd" })
+  {
+    if (!this->exists(file))
+    {
+      this->succeed({ "convert", "flat.csv", file });
+    }
+    EXPECT_EQ(this->succeed({ "convert", file, "-o", "part.csv", "--clip", "0,1,0,2,0,0", "--force" }),
+      "3 points: part.csv\n")
+      << file;
+  }
+  this->refuse(2, { "convert", "flat.csv", "-o", "x.csv", "--clip", "0,1,0,2,0,-1" }, { "no box" });
+}
+
+TEST_F(Convert, AllLengthsInTheUnitOfTheFileAreSaidInOneNote)
+{
+  std::string cloud = "x [mm],y [mm],z [mm]\n";
+  for (int i = 0; i < 100; ++i)
+  {
+    cloud += fmt::format("{},{},0\n", i % 10, i / 10);
+  }
+  this->write("mm.csv", cloud);
+  const auto errorsOf = [&](std::vector<std::string> more)
+  {
+    more.insert(more.begin(), { "bandwidth", "mm.csv", "-o", "out.csv", "--density", "none" });
+    const auto outcome = this->run(more);
+    EXPECT_EQ(outcome.exitCode, 0) << outcome.errors;
+    return outcome.errors;
+  };
+  EXPECT_NE(errorsOf({ "--r1", "2", "--r2", "3" })
+              .find("--r1 2 is 2 mm, --r2 3 is 3 mm, the unit of the file; --unit mm makes metres of all"),
+    std::string::npos);
+  EXPECT_EQ(errorsOf({ "--r2", "3", "--unit", "mm" }), "");
+}
+
+TEST_F(Convert, AUnitThatContradictsTheFileIsSaid)
+{
+  std::string cloud = "x [ftUS],y [ftUS],z [ftUS]\n";
+  for (int i = 0; i < 100; ++i)
+  {
+    cloud += fmt::format("{},{},0\n", i % 10, i / 10);
+  }
+  this->write("feet.csv", cloud);
+  this->write("hip.csv", "t,x,y,z\n0,0,0,0.03\n0.05,0,0,0.019\n");
+  for (std::vector<std::string> words :
+    { std::vector<std::string>{ "bandwidth", "feet.csv", "-o", "out.csv", "--density", "none" },
+      { "resample", "feet.csv", "-o", "out.csv", "--voxel", "1" },
+      { "feel", "feet.csv", "--path", "hip.csv", "-o", "out.csv" },
+      { "view", "feet.csv", "--path", "hip.csv", "--trace", "out.csv", "--dims", "9" } })
+  {
+    words.insert(words.end(), { "--force", "--unit", "us-ft" });
+    EXPECT_EQ(this->run(words).errors.find("its unit is"), std::string::npos) << words.front();
+    words.back() = "ft";
+    const auto outcome = this->run(words);
+    EXPECT_NE(outcome.errors.find("the file says that its unit is us-ft, and ft is taken"), std::string::npos)
+      << words.front() << ": " << outcome.errors;
+  }
+}
+
 } // namespace

@@ -534,4 +534,17 @@ TEST_F(Feel, AMeshIsClosedUnlessItsVerticesAreAskedFor)
   EXPECT_EQ(parseTable(this->read("out.csv")).at("contact").back(), 0.0);
 }
 
+TEST_F(Feel, ACloudWhoseUnitWasChosenIsNotDoubted)
+{
+  this->write("cloud.xyz", "50 0 0\n50 0 1\n50 1 0\n50 1 1\n");
+  this->write("hip.csv", "t,x,y,z\n0,0,0,0.03\n0.05,0,0,0.029\n");
+  const auto errorsOf = [this](std::vector<std::string> more)
+  {
+    more.insert(more.begin(), { "feel", "cloud.xyz", "--path", "hip.csv", "-o", "out.csv", "--force" });
+    return this->run(more).errors;
+  };
+  EXPECT_NE(errorsOf({}).find("give --unit"), std::string::npos) << errorsOf({});
+  EXPECT_EQ(errorsOf({ "--unit", "m" }).find("give --unit"), std::string::npos);
+}
+
 } // namespace

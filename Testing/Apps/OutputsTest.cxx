@@ -471,4 +471,28 @@ TEST_F(Outputs, OfAllCloudCommandsNameTheirInputs)
   }
 }
 
+TEST_F(Outputs, OfEndedRunsThatAreMissedLeaveTheOthersAlone)
+{
+  this->write("a.xyz", "0 0 0\n0 0 1\n");
+  this->write("kill.csv.part", "t,hip_x\n");
+  const Outcome outcome = this->run({ "info", "kill.csv", "a.xyz", "--json" });
+  EXPECT_EQ(outcome.exitCode, 1);
+  const json files = json::parse(outcome.output)["files"];
+  ASSERT_EQ(files.size(), 2u);
+  EXPECT_NE(files[0]["error"].get<std::string>().find("give kill.csv.part"), std::string::npos) << files[0];
+  EXPECT_EQ(files[1]["points"], 2);
+  this->refuse(1, { "feel", "a.xyz", "--path", "kill.csv", "-o", "o.csv" }, { "give kill.csv.part" });
+}
+
+TEST_F(Outputs, OfAFileAndStandardInputFromItAreMerged)
+{
+  this->write("keep.xyz", "0 0 0\n0 0 1\n0 1 0\n");
+  const apptest::InputFrom input(this->path("keep.xyz"));
+  const Outcome outcome =
+    this->run({ "convert", "-", "keep.xyz", "-o", "x.ply", "--merge", "--input-format", "xyz", "--force" });
+  EXPECT_EQ(outcome.exitCode, 0) << outcome.errors;
+  EXPECT_NE(outcome.errors.find("is the same file as -"), std::string::npos) << outcome.errors;
+  this->refuse(2, { "convert", "-", "/dev/stdin", "-o", "y.ply", "--merge" }, { "can be read once" });
+}
+
 } // namespace

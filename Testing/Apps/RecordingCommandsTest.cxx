@@ -406,8 +406,7 @@ TEST_F(RecordingCommands, UnlikelyUnitsAreSaidByFeelAndView)
   {
     const std::vector<std::string> touch = { each.cloud, "--path", each.path, "--dims", "50" };
     std::vector<std::string> feel = { "feel", "-o", "out.csv" };
-    std::vector<std::string> view = { "view", "--trace", "trace.csv", "--unit", "m", "--workspace",
-      "-50,50,-50,50,-50,50" };
+    std::vector<std::string> view = { "view", "--trace", "trace.csv", "--workspace", "-50,50,-50,50,-50,50" };
     for (std::vector<std::string>* words : { &feel, &view })
     {
       words->insert(words->end(), touch.begin(), touch.end());

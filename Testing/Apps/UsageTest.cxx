@@ -405,7 +405,7 @@ TEST_F(Usage, NamesThatAreNoUtf8AreKeptAsFarAsTheyCanBe)
   const Words feel = { "feel", cloud, "--path", path, "--record", "r\xe9.csv", "-o", "o\xf6.csv", "--json" };
   EXPECT_FALSE(said(feel).is_discarded());
   EXPECT_FALSE(said({ "feel", "--replay", "r\xe9.csv", "-o", "again.csv", "--json" }).is_discarded());
-  EXPECT_FALSE(said({ "view", cloud, "--path", path, "--write-config", "-" }).is_discarded());
+  this->refuse(1, { "view", cloud, "--path", path, "--write-config", "c.json" }, { "--path: ", "no UTF-8" });
   EXPECT_EQ(this->run({ "view", cloud, "--path", path, "--trace", "t\xe4.csv" }).exitCode, 0);
 }
 

@@ -58,6 +58,8 @@ exec "$MPI_PROGRAM" bandwidth large.ply -o out.ply --neighbors 500'
     expect_end 1 "letters.csv: text (comma separated): line 202, column 3: 'x'" \
       "$MPIRUN" -n 2 "$MPI_PROGRAM" resample letters.csv -o out.ply
     expect_end 2 "standard input" "$MPIRUN" -n 2 "$MPI_PROGRAM" resample - -o out.ply
+    mkfifo pipe.ply
+    expect_end 2 "pipes have no parts" "$MPIRUN" -n 2 "$MPI_PROGRAM" resample pipe.ply -o out.ply
     expect_end 2 "pointhaptics-mpi resample: " "$MPIRUN" -n 2 "$MPI_PROGRAM" resample idol.ply -o out.ply --dims 0
     (($(grep -c "^pointhaptics-mpi" output) == 1)) || fault "more than one message: $(cat output)"
     # One JSON object a run, not one a rank.
@@ -67,6 +69,12 @@ exec "$MPI_PROGRAM" bandwidth large.ply -o out.ply --neighbors 500'
       (($(wc -l <json) == 1)) && grep -q '^{"error":"[^"].*"exit_code":[12]}$' json || fault "$words: $(cat json)"
     done
     grep -q "no command 'resampel'; did you mean resample?" output || fault "$(cat output)"
+    ! grep -q "manual" output || fault "a hidden command is listed: $(cat output)"
+    expect_end 2 "pointhaptics-mpi: no command '--traffi'; commands are resample, bandwidth" \
+      "$MPIRUN" -n 2 "$MPI_PROGRAM" --traffi
+    # shellcheck disable=SC2016 # for the script
+    rank_script last_is_wrong <<<'exec "$MPI_PROGRAM" resample idol.ply -o out.ply --dims $((1 - rank))'
+    expect_end 2 "rank 1 of 2: --dims 0" "$MPIRUN" -n 2 ./last_is_wrong
     ;;
   *) fault "unknown case $1" ;;
 esac

@@ -83,10 +83,7 @@ vtkSmartPointer<vtkPolyData> BandwidthCommand::prepared(vtkPolyData* cloud) cons
 
 CloudResult BandwidthCommand::work(Cloud& cloud, Files& files)
 {
-  for (const std::string& note : this->lengthNotes(cloud.points))
-  {
-    warn(note);
-  }
+  warn(this->unitNote(cloud.points));
   vtkNew<vtkKernelBandwidthFilter> filter;
   filter->SetInputData(this->prepared(cloud.points));
   filter->SetSettings(this->bandwidth.settings);

@@ -63,6 +63,7 @@ CloudResult CloudCommand::resultOf(const std::string& figures, const nlohmann::o
 
 void CloudCommand::complete(CLI::App& command, Files&)
 {
+  this->unitIsGiven = isGiven(command, "--unit");
   for (const CLI::Option* option : command.get_options())
   {
     const bool isLength = option->count() > 0 && option->get_type_name() == kMetres;
@@ -71,19 +72,18 @@ void CloudCommand::complete(CLI::App& command, Files&)
   }
 }
 
-std::vector<std::string> CloudCommand::lengthNotes(vtkPolyData* cloud) const
+std::string CloudCommand::unitNote(vtkPolyData* cloud) const
 {
-  std::vector<std::string> notes;
   const std::string unit = lengthUnitOf(cloud, Bounds()).name;
-  for (const std::string& length : this->lengths)
+  std::string given;
+  for (const std::string& each : this->lengths)
   {
-    if (unit != "m" && this->unitOfFile() == "m")
-    {
-      notes.push_back(fmt::format("{}: {} is {} {}, the unit of the file; --unit {} makes metres of both",
-        this->input, length, length.substr(length.find(' ') + 1), unit, unit));
-    }
+    given += fmt::format("{} is {} {}, ", each, each.substr(each.find(' ') + 1), unit);
   }
-  return notes;
+  return this->unitIsGiven         ? contradictedUnit(this->input, cloud, this->unitOfFile())
+    : unit == "m" || given.empty() ? ""
+                                   : fmt::format("{}: {}the unit of the file; --unit {} makes metres of {}",
+                                       this->input, given, unit, this->lengths.size() == 1 ? "both" : "all");
 }
 
 int CloudCommand::run(Files& files)

@@ -42,6 +42,7 @@ struct CloudCommand : Command
   std::int64_t threads = 0; ///< Number of threads; 0: all.
   bool json = false;
   std::vector<std::string> lengths; ///< Options of lengths, "--voxel 5"; filled in by complete().
+  bool unitIsGiven = false;         ///< --unit; filled in by complete().
 
   void addTo(CLI::App& command) override;
   void complete(CLI::App& command, Files& files) override;
@@ -55,8 +56,9 @@ struct CloudCommand : Command
   CloudResult resultOf(const std::string& figures, const nlohmann::ordered_json& numbers) const;
   /// The unit of the files' coordinates that --unit says, which become metres.
   virtual std::string unitOfFile() const { return "m"; }
-  /// For each given length: its unit, where @p cloud says that its own is no metre, and --unit does not.
-  std::vector<std::string> lengthNotes(vtkPolyData* cloud) const;
+  /// The unit of the given lengths, where @p cloud says that its own is no metre, or that --unit contradicts
+  /// the cloud's; else empty.
+  std::string unitNote(vtkPolyData* cloud) const;
 
 protected:
   /// @param lastIsOutput true if the last of several IN is OUT where -o is not given.
@@ -118,7 +120,7 @@ struct ResampleCommand : CloudCommand
 
   /// Sets all options on @p resampler and updates it with @p cloud. @throws Failure
   void update(vtkVoxelMeanResampler* resampler, vtkPolyData* cloud) const;
-  /// lengthNotes(), and that rays of @p cloud which did not return are among the points of @p means.
+  /// unitNote(), and that rays of @p cloud which did not return are among the points of @p means.
   /// Collective where @p ranks have parts of the cloud: the same on all.
   std::vector<std::string> notes(vtkPolyData* cloud, vtkPolyData* means, Ranks& ranks) const;
   /// @throws Failure where no voxel is left.

@@ -79,8 +79,8 @@ void ResampleCommand::update(vtkVoxelMeanResampler* resampler, vtkPolyData* clou
 
 std::vector<std::string> ResampleCommand::notes(vtkPolyData* cloud, vtkPolyData* means, Ranks& ranks) const
 {
-  const bool isScaled = this->lattice.isScaled();
-  std::vector<std::string> notes = isScaled ? std::vector<std::string>() : this->lengthNotes(cloud);
+  const bool areScaled = this->lattice.isScaled() && !this->unitIsGiven;
+  std::vector<std::string> notes = { areScaled ? std::string() : this->unitNote(cloud) };
   const CloudExtent own = extentOf(cloud);
   const std::int64_t atZero = commonSum(ranks, own.atZero);
   const std::optional<Lattice> made = latticeOf(means);

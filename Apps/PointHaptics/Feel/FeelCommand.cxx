@@ -127,6 +127,7 @@ void FeelCommand::complete(CLI::App& command, Files& files)
     checkForceLimitOfDevices(this->touch.parameters.contact, ", or feel a --path");
   }
   setFelt(this->viewer, this->lattice, this->bandwidth, this->noCovariance);
+  this->viewer.unitIsChosen = isGiven(command, "--unit");
   this->viewer.voxels.passAttributes = false;
   this->settings = jsonText(givenSettings(command));
   this->declare(files);

@@ -243,8 +243,9 @@ void readPath(const FeelCommand& options, Files& files, HipPath& path, std::int6
 std::string statedUnit(const FeelCommand& options, vtkPolyData* cloud)
 {
   const LengthUnit unit = lengthUnitOf(cloud, Bounds());
-  return unit.name == "m" || options.lattice.isScaled()
-    ? std::string()
+  return options.viewer.unitIsChosen ? contradictedUnit(options.file, cloud, options.lattice.unit)
+    : unit.name == "m" || options.lattice.isScaled()
+    ? ""
     : fmt::format("{}: the file says that its unit is {}, and it is felt as metres: give --unit {}",
         options.file, unit.name, unit.name);
 }
@@ -278,7 +279,9 @@ int runFeel(const FeelCommand& options, Files& files)
   const std::string& problem = rows.recording.problem();
   warn(problem.empty() ? "" : fmt::format("{}: it ends early: {}", record, problem));
   const FeltSummary summary = rows.summary();
-  warn(stated.empty() ? unlikelyUnits(path, box, unitOptions(), summary.contactTicks > 0) : stated);
+  warn(stated.empty()
+      ? unlikelyUnits(path, box, unitOptions(), options.viewer.unitIsChosen || summary.contactTicks > 0)
+      : stated);
   print(options, scenes, invalid, summary, path,
     summary.contactTicks == 0 ? rows.approach().distance(*scenes.whole()) : std::nullopt);
   return kSuccess;

@@ -400,14 +400,11 @@ void Files::check(const Entry& output) const
 void Files::addInput(const std::string& name, const std::string& option)
 {
   Identity identity(name, STDIN_FILENO);
-  std::error_code ignored;
-  const std::string part = OutputFile::keptPartOf(name);
-  require(identity.exists || !fs::exists(part, ignored),
-    fmt::format("{}: there is no such file, but what an ended run kept of it: give {}", name, part));
   const auto twin = std::find_if(inputs_.begin(), inputs_.end(),
     [&](const Entry& entry) { return entry.name == name || entry.identity == identity; });
-  requireUsage(twin == inputs_.end() || !this->isStream(twin->name), name, "",
-    "standard input and pipes can be read once; leave out the second one");
+  const bool isDrained =
+    name == kStandardStream ? find(inputs_, name) != inputs_.end() : twin != inputs_.end() && identity.isPipe;
+  requireUsage(!isDrained, name, "", "standard input and pipes can be read once; leave out the second one");
   warn(isMerged_ && twin != inputs_.end()
       ? "is the same file as " + twin->name + ", so its points count twice; leave one out"
       : "",

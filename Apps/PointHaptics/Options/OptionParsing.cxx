@@ -174,15 +174,13 @@ CLI::Option* addSize(
   return command.add_option_function<std::string>(name, store, description)->type_name("WxH");
 }
 
-bool isBox(const std::vector<double>& ends)
-{
-  return ends[0] < ends[1] && ends[2] < ends[3] && ends[4] < ends[5];
-}
-
 CLI::Option* addClip(CLI::App& command, std::vector<double>& box, const std::string& description)
 {
-  const auto check = [](const std::vector<double>& ends)
-  { return isBox(ends) ? "" : "no box; each minimum must be less than its maximum"; };
+  const auto check = [](const std::vector<double>& ends) // those of a flat cloud, too
+  {
+    const bool isBox = ends[0] <= ends[1] && ends[2] <= ends[3] && ends[4] <= ends[5];
+    return isBox ? "" : "no box; a minimum must not be above its maximum";
+  };
   return addNumbers(command, "--clip", box, { 6 }, check, "XMIN,XMAX,YMIN,YMAX,ZMIN,ZMAX", description);
 }
 

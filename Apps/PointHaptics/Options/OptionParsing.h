@@ -96,8 +96,6 @@ CLI::Option* addInteger(CLI::App& command, const std::string& name, Integer& val
 /// Adds an option taking a size in pixels, WxH, each from 16 to 16384.
 CLI::Option* addSize(
   CLI::App& command, const std::string& name, int& width, int& height, const std::string& description);
-/// True if the six @p ends, x0,x1,y0,..., are those of a box.
-bool isBox(const std::vector<double>& ends);
 /// Adds --clip: the box of a cloud that is shown and felt, six numbers in the coordinates of its file.
 CLI::Option* addClip(CLI::App& command, std::vector<double>& box, const std::string& description);
 /// Adds --columns and --salvage: what columns of a text are called, and whether a cut file is read as far as

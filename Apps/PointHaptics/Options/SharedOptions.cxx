@@ -51,7 +51,7 @@ std::string checkDimensions(const Numbers& numbers)
 
 std::string checkWorkspace(const Numbers& ends)
 {
-  return isBox(ends)
+  return ends[0] < ends[1] && ends[2] < ends[3] && ends[4] < ends[5]
     ? ""
     : "a maximum is not above its minimum; give x0,x1,y0,y1,z0,z1 with x0 < x1, y0 < y1, z0 < z1";
 }

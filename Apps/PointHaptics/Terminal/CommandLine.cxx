@@ -213,20 +213,16 @@ int runCommands(
 {
   program.require_subcommand(1);
   std::vector<CLI::App*> all = program.get_subcommands([](CLI::App*) { return true; });
-  const std::string kinds = names.empty() ? "command" : "command or file";
-  for (const CLI::App* command : names.empty() ? all : std::vector<CLI::App*>())
+  const bool listsAll = names.empty();
+  const std::string kinds = listsAll ? "command" : "command or file";
+  const std::string first = arguments.empty() ? std::string() : arguments.front();
+  bool isKnown = false;
+  for (const CLI::App* command : all)
   {
-    names.push_back(command->get_name());
+    isKnown = isKnown || command->get_name() == first;
+    names.insert(names.end(), listsAll && !command->get_group().empty() ? 1 : 0, command->get_name());
   }
   all.push_back(&program);
-  const std::string first = arguments.empty() ? std::string() : arguments.front();
-  if (first.rfind('-', 0) != 0 && std::find(names.begin(), names.end(), first) == names.end())
-  {
-    return failUsage(program.get_name(),
-      fmt::format("{}{}; commands are {}",
-        first.empty() ? "nothing to do" : "no " + kinds + " '" + first + "'", didYouMean(first, names),
-        fmt::join(names, ", ")));
-  }
   for (CLI::App* command : all)
   {
     if (!command->get_prefix_command()) // another program looks at the options
@@ -234,6 +230,13 @@ int runCommands(
       command->set_version_flag(
         "--version", program.get_name() + " " POINTHAPTICS_VERSION, "Print the version and exit");
     }
+  }
+  if (!isKnown && !program.get_option_no_throw(first))
+  {
+    return failUsage(program.get_name(),
+      fmt::format("{}{}; commands are {}",
+        first.empty() ? "nothing to do" : "no " + kinds + " '" + first + "'",
+        didYouMean(first, first.rfind('-', 0) == 0 ? optionNames(program) : names), fmt::join(names, ", ")));
   }
   std::reverse(arguments.begin(), arguments.end()); // as CLI11 wants them
   const int code = runParsed(program, std::move(arguments), exitCode);

@@ -297,6 +297,11 @@ void setState(nlohmann::ordered_json& settings, const HapticViewerState& state, 
 
 void writeSettings(const nlohmann::ordered_json& settings, const std::string& fileName)
 {
+  for (const auto& [name, value] : settings.items())
+  {
+    require(!value.is_string() || nlohmann::ordered_json::parse(jsonText(value)) == value,
+      fmt::format("--{}: its text is no UTF-8, which JSON needs; give another name", name));
+  }
   OutputFile file;
   const bool isWritten = file.open(fileName) == Status::Ok &&
     file.write(jsonText(settings, 2) + "\n") == Status::Ok && file.commit() == Status::Ok;

@@ -286,6 +286,13 @@ std::string OutputFile::keptPartOf(const std::string& target)
   return target + kPartEnding;
 }
 
+std::string OutputFile::missedPart(const std::string& target)
+{
+  const std::string part = keptPartOf(target);
+  const bool isMissed = ::access(target.c_str(), F_OK) != 0 && ::access(part.c_str(), F_OK) == 0;
+  return isMissed ? "there is no such file, but what an ended run kept of it: give " + part : std::string();
+}
+
 void OutputFile::forgetKept(const std::string& target)
 {
   const std::string part = keptPartOf(target);

@@ -42,6 +42,8 @@ public:
   /// Removes the NAME.part of @p target that no process writes any more.
   static void forgetKept(const std::string& target);
   static std::string keptPartOf(const std::string& target);
+  /// The fault of a reader that missed @p target where its NAME.part is there; empty: it is not.
+  static std::string missedPart(const std::string& target);
   /// Returns what open() would, as far as can be told without touching anything.
   Status check(const std::string& target);
   /// Adds bytes to a buffer. A fault is kept: later calls do nothing, commit() returns it.

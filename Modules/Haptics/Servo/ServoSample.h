@@ -14,7 +14,7 @@ enum TickFlags : std::uint32_t
 {
   kTickBegins = 1u << 0,     ///< The proxy began anew: nothing before this tick matters for it.
   kTickStepped = 1u << 1,    ///< The device was read, and the proxy stepped.
-  kTickNewHand = 1u << 2,    ///< HandState::isNew.
+  kTickNewHand = 1u << 2,    ///< HandState::isNew, or the hand was lost for too long.
   kTickClutched = 1u << 3,   ///< ServoLoop::setClutched().
   kTickGateClosed = 1u << 4, ///< The loop was stopping, or without a heartbeat.
   kTickNonFinite = 1u << 5,  ///< The device gave a position that is not finite.

@@ -58,7 +58,10 @@ Vec3 ServoStep::answer(const TickInput& input, ServoSample& sample) noexcept
   const double failed =
     firstFailedTick_ != 0 ? double(input.number - firstFailedTick_) / settings_.rateHz : 0.0;
   const bool stoodStill = input.number - lastSteppedTick_ > 1 && elapsed > kNewHandAfterStallSeconds;
-  if (lastSteppedTick_ != 0 && (input.hand.isNew || stoodStill || failed > kNewHandAfterSeconds))
+  const bool wasLost = lastSteppedTick_ != 0 && (stoodStill || failed > kNewHandAfterSeconds);
+  const bool isNew = input.hand.isNew || wasLost;
+  sample.tickFlags |= isNew ? std::uint32_t(kTickNewHand) : 0u;
+  if (lastSteppedTick_ != 0 && isNew)
   {
     proxy_.reset();
   }
@@ -81,8 +84,7 @@ void ServoStep::step(const TickInput& input, ServoSample& sample) noexcept
   pending_ = 0;
   if (isRead)
   {
-    sample.tickFlags |= (input.hand.isNew ? kTickNewHand : 0u) |
-      (isFinite(input.hand.position) ? 0u : std::uint32_t(kTickNonFinite));
+    sample.tickFlags |= isFinite(input.hand.position) ? 0u : std::uint32_t(kTickNonFinite);
     sample.buttons = input.hand.buttons;
     // One period even after deadline misses: a force that the hand did not feel grow must not arrive all at
     // once.

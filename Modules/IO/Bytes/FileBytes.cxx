@@ -2,6 +2,8 @@
 
 #include "FileProblem.h"
 
+#include "Core/Base/OutputFile.h"
+
 #include "vtk_zlib.h"
 
 #include <algorithm>
@@ -40,7 +42,9 @@ void checkIsReadable(const std::string& path)
   const fs::file_status status = fs::status(path, error);
   if (status.type() == fs::file_type::not_found)
   {
-    throw FileProblem(vtkErrorCode::FileNotFoundError, "there is no such file", "check the path");
+    const std::string missed = OutputFile::missedPart(path);
+    throw FileProblem(
+      vtkErrorCode::FileNotFoundError, missed.empty() ? "there is no such file; check the path" : missed);
   }
   if (status.type() == fs::file_type::none)
   {

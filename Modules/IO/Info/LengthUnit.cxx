@@ -162,6 +162,14 @@ LengthUnit lengthUnitOf(vtkPolyData* cloud, const Bounds& bounds)
   return isThing(cloud, bounds) ? LengthUnit{ "mm", 1e-3, UnitEvidence::Shape } : unit;
 }
 
+std::string contradictedUnit(const std::string& file, vtkPolyData* cloud, const std::string& chosen)
+{
+  const LengthUnit own = lengthUnitOf(cloud, Bounds());
+  return own.evidence == UnitEvidence::File && own.name != chosen ? file +
+      ": the file says that its unit is " + own.name + ", and " + chosen + " is taken; check which is right"
+                                                                  : std::string();
+}
+
 vtkSmartPointer<vtkPolyData> inLocalMetres(vtkPolyData* cloud)
 {
   constexpr double kRadian = 3.14159265358979323846 / 180.0;

@@ -60,6 +60,10 @@ struct LengthUnit
 /// in millimetres: statues of 1600 units are, a street of 160 m is not. Cost: none a point.
 POINTHAPTICSIO_EXPORT LengthUnit lengthUnitOf(vtkPolyData* cloud, const Bounds& bounds);
 
+/// Says with @p file that @p cloud, which comes from it, has another unit than @p chosen; empty: it does not.
+POINTHAPTICSIO_EXPORT std::string contradictedUnit(
+  const std::string& file, vtkPolyData* cloud, const std::string& chosen);
+
 /// lengthUnitOf()'s name of a unit that a file calls @p name, "m" of "Metres"; empty: it knows none.
 std::string lengthUnitCalled(const std::string& name);
 

@@ -1,6 +1,8 @@
 #include "RecordingLines.h"
 #include "VirtualTouch.h"
 
+#include "Core/Base/OutputFile.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -273,7 +275,9 @@ bool readRecording(
   std::ifstream stream(fileName, std::ios::binary);
   if (!stream || std::filesystem::is_directory(fileName, ignored))
   {
-    message = fileName + ": cannot be opened; check the name and its permissions";
+    const std::string missed = OutputFile::missedPart(fileName);
+    message =
+      fileName + ": " + (missed.empty() ? "cannot be opened; check the name and its permissions" : missed);
     return false;
   }
   Reader reader{ recording };

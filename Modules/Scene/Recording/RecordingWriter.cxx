@@ -234,7 +234,7 @@ void RecordingWriter::writeRow(std::uint64_t marksUntil)
   table_.row(row_.data(), row_.size());
 }
 
-bool RecordingWriter::close(std::string& message)
+bool RecordingWriter::close(std::string& message, const std::string& why)
 {
   if (!this->isOpen())
   {
@@ -246,8 +246,10 @@ bool RecordingWriter::close(std::string& message)
     table_.abandon();
     return true;
   }
+  this->end(why);
   this->writeRow(std::numeric_limits<std::uint64_t>::max());
-  table_.comment(fmt::format("{}: {} ticks", kRecordingEnd, numberOfTicks_));
+  table_.comment(fmt::format(
+    "{}: {} ticks{}", kRecordingEnd, numberOfTicks_, problem_.empty() ? "" : "; it ends early: " + problem_));
   return table_.commit(message);
 }
 

@@ -51,8 +51,9 @@ public:
   std::uint32_t numberOfMarkers() const { return markers_; }
   const std::string& fileName() const { return fileName_; }
   /// Ends the recording. False: @p message says why not all could be written. One without a tick leaves no
-  /// file: problem() says so. Of no effect where none is open.
-  bool close(std::string& message);
+  /// file: problem() says so. Of no effect where none is open. @p why: reason for which it ends early; empty:
+  /// problem(). The last line of the file says it.
+  bool close(std::string& message, const std::string& why = {});
   /// Reason for which the recording ended before close(): lost ticks, a loop that started again, a full disk;
   /// empty: it did not.
   const std::string& problem() const { return problem_; }

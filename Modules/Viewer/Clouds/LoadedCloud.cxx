@@ -369,6 +369,16 @@ void noteNoReturns(const CloudRequest& request, LoadedCloud& loaded)
   loaded.notes.push_back(fmt::format("{}: {} {}", loaded.title, noReturnsText(loaded.noReturns), what));
 }
 
+/// Adds @p notes of the readers, and that the chosen unit contradicts the file's.
+void addNotes(const CloudRequest& request, std::vector<std::string> notes, LoadedCloud& loaded)
+{
+  const bool isChosen = request.options && request.options->unitIsChosen;
+  const std::string odd =
+    isChosen ? contradictedUnit(loaded.title, loaded.cloud, request.options->unit) : std::string();
+  loaded.notes = std::move(notes);
+  loaded.notes.insert(loaded.notes.end(), odd.empty() ? 0 : 1, odd);
+}
+
 bool loadCloud(const CloudRequest& request, const std::function<bool(double)>& goesOn, LoadedCloud& loaded,
   std::string& message)
 {
@@ -381,7 +391,7 @@ bool loadCloud(const CloudRequest& request, const std::function<bool(double)>& g
     return false;
   }
   result.isCoarse = findings.isCoarse;
-  result.notes = std::move(findings.notes);
+  addNotes(request, std::move(findings.notes), result);
   findBounds(request, result);
   if (result.bounds.empty())
   {

@@ -65,11 +65,11 @@ void ClipBoxTool::clear()
   const bool wasClipped = !options_.clip.empty();
   this->forget();
   scene_.setClip({});
+  say_("clipping box: none, the whole cloud is shown");
   if (wasClipped)
   {
     clipped_();
   }
-  say_("clipping box: none, the whole cloud is shown");
 }
 
 void ClipBoxTool::forget()
@@ -133,11 +133,11 @@ void ClipBoxTool::move(int face, const Bounds& from, double way)
 /// Publishes the new box to touch: the felt points are those that are shown.
 void ClipBoxTool::finish()
 {
-  clipped_();
   const int face = scene_.clipMark().activeFace();
   const std::vector<double>& clip = options_.clip;
   say_(
     fmt::format("clipping box: {} {:.6g} {}", kFaceNames[face], clip[std::size_t(face)], scene_.unit().name));
+  clipped_(); // after what was said: a recording that ends says so
 }
 
 bool ClipBoxTool::takes(const LeftButton::Event& event)

@@ -267,7 +267,7 @@ void PictureControls::hide(std::vector<HiddenValues> hidden)
 {
   options_.picture.hidden = std::move(hidden);
   this->apply();
-  clipped_();
+  clipped_(); // after what was said: a recording that ends says so
 }
 
 void PictureControls::toggleLabel(double label)
@@ -290,16 +290,16 @@ void PictureControls::toggleLabel(double label)
     }
   }
   hides ? hidden.push_back(values) : void();
-  this->hide(std::move(hidden));
   say_((hides ? "hidden: " : "shown: ") + textOf(values));
+  this->hide(std::move(hidden));
 }
 
 void PictureControls::toggleOutside()
 {
   if (!options_.picture.hidden.empty())
   {
-    this->hide({});
     say_("nothing is hidden");
+    this->hide({});
     return;
   }
   if (!scene_.isColoredByMap())
@@ -315,9 +315,9 @@ void PictureControls::toggleOutside()
       array + " is computed for the picture and hides nothing; colour by heights or by numbers of the file");
     return;
   }
+  say_(fmt::format("hidden: {} outside of {:.4g} to {:.4g}", array, range[0], range[1]));
   this->hide({ { array, -INFINITY, std::nextafter(range[0], -INFINITY) },
     { array, std::nextafter(range[1], INFINITY), INFINITY } });
-  say_(fmt::format("hidden: {} outside of {:.4g} to {:.4g}", array, range[0], range[1]));
 }
 
 void PictureControls::showAlone(std::size_t file)
@@ -334,8 +334,8 @@ void PictureControls::showAlone(std::size_t file)
     hidden.push_back({ kFileArrayName, -INFINITY, number - 1.0 });
     hidden.push_back({ kFileArrayName, number + 1.0, INFINITY });
   }
-  this->hide(std::move(hidden));
   say_(isOne ? fmt::format("file {} of {}, alone: {}", file + 1, names.size(), names[file]) : "all files");
+  this->hide(std::move(hidden));
 }
 
 void PictureControls::addViewCommands(

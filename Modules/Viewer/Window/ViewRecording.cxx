@@ -40,19 +40,21 @@ bool ViewWindow::startRecording(const std::string& fileName, std::string& messag
   return recording_.open(fileName, header, message);
 }
 
-/// Ends the recording and says where it is. False: @p message says what is lost.
-bool ViewWindow::endRecording(std::string& message)
+/// Ends the recording and says where it is, and @p cause where that ends it early. False: @p message says
+/// what is lost.
+bool ViewWindow::endRecording(std::string& message, const std::string& cause)
 {
   if (!recording_.isOpen())
   {
     return true;
   }
   style_->CollectSamples();
-  const bool isWritten = recording_.close(message);
+  const bool isWritten = recording_.close(message, cause);
   const std::string why = recording_.problem();
-  if (recording_.numberOfTicks() == 0)
+  if (!why.empty())
   {
-    this->report(HapticViewerObserver::Kind::Warning, recording_.fileName() + ": " + why);
+    const std::string verb = recording_.numberOfTicks() == 0 ? "" : "it ends early: ";
+    this->report(HapticViewerObserver::Kind::Warning, recording_.fileName() + ": " + verb + why);
   }
   if (!isWritten || recording_.numberOfTicks() == 0)
   {

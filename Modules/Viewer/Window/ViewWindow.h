@@ -129,7 +129,7 @@ private:
   void writeScreenshot();
   // ViewRecording.cxx
   bool startRecording(const std::string& fileName, std::string& message);
-  bool endRecording(std::string& message);
+  bool endRecording(std::string& message, const std::string& cause = {});
   void toggleRecording();
   void setMarker();
   void followRecording();

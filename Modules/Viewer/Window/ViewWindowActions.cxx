@@ -228,7 +228,7 @@ void ViewWindow::show(LoadedCloud cloud)
     areAlike(cloud.workspace, scene_.workspace());
   const AffineTransform model = cloud.model;
   std::string message;
-  if (!this->endRecording(message)) // of the former cloud
+  if (!this->endRecording(message, "another cloud is shown"))
   {
     this->tell(message);
   }
@@ -483,7 +483,7 @@ void ViewWindow::setPivot()
 void ViewWindow::clipFelt()
 {
   std::string message;
-  if (!this->endRecording(message))
+  if (!this->endRecording(message, "what is felt was clipped or hidden"))
   {
     this->tell(message);
   }

@@ -569,4 +569,29 @@ TEST_F(RecordingTest, AnotherCloudIsRefused)
   EXPECT_NE(message_.find("100001 points"), std::string::npos) << message_;
 }
 
+TEST_F(RecordingTest, TheLastLineSaysWhyItEndsEarly)
+{
+  for (const std::string why : { "", "what is felt was clipped" })
+  {
+    this->start();
+    this->recordFor(100);
+    this->take();
+    ASSERT_TRUE(writer_.close(message_, why)) << message_;
+    loop_.stop();
+    EXPECT_EQ(writer_.problem(), why);
+    std::ifstream file(file_);
+    std::string last;
+    for (std::string line; std::getline(file, line);)
+    {
+      last = line;
+    }
+    const std::string end = why.empty() ? " ticks" : " ticks; it ends early: " + why;
+    EXPECT_EQ(last.rfind("# end: ", 0), 0u) << last;
+    EXPECT_EQ(last.substr(last.size() - std::min(last.size(), end.size())), end);
+    Recording recording;
+    ASSERT_TRUE(readRecording(file_, recording, message_)) << message_;
+    EXPECT_EQ(recording.note, "");
+  }
+}
+
 } // namespace

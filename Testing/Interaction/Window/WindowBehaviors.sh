@@ -1073,3 +1073,15 @@ is_fitted_anew() {
   write_settings
   changed matrix
 }
+
+AHiddenPartEndsTheRecordingAndSaysWhy() {
+  make sphere cloud.ply
+  open_viewer cloud.ply --device simulated --record rec.csv --color-by Height --color-range 0.01,0.03
+  move_to 175 180
+  key f
+  touches
+  key F10
+  said "rec.csv: it ends early: what is felt was clipped or hidden"
+  tail -n 1 rec.csv | grep -q "^# end: .*it ends early: what is felt was clipped or hidden" || fail "the file does not say why"
+  feels_again rec.csv
+}

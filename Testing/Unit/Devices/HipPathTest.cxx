@@ -213,3 +213,20 @@ TEST_F(HipPathFile, ARecordingSaysWhereTheHandIsNew)
   EXPECT_TRUE(path.hand(5.0, hint).isNew);
   EXPECT_FALSE(path.hand(6.0, hint).isNew);
 }
+
+TEST_F(HipPathFile, ALongRemarkTakesNoRowWithIt)
+{
+  for (const std::size_t length : { 999, 1000, 1001, 1002, 1003, 5000 })
+  {
+    for (const char* end : { "\n", "\r\n" })
+    {
+      const std::string remark = "#" + std::string(length - 1, 'x') + end;
+      HipPath path;
+      std::string message;
+      ASSERT_EQ(
+        readHipPath(put("t,x,y,z\n0,0,0,0\n" + remark + "1,0,0,0\n2,0,0,0\n"), path, message), Status::Ok)
+        << length << ": " << message;
+      EXPECT_EQ(path.points.size(), 3u) << length;
+    }
+  }
+}

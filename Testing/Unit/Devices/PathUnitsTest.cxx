@@ -173,4 +173,14 @@ TEST(DeviceForce, IsTheOneOfTheCapabilities)
   loop.stop();
 }
 
+TEST(PathUnits, OfACloudAtMapCoordinatesAreNotDoubtedByPlaces)
+{
+  HipPath path;
+  path.points = { { 0.0, { 0.0, 0.0, 0.03 } }, { 0.4, { 0.0, 0.0, 0.0285 } } };
+  Bounds site;
+  site.include({ 6e5, 2e5, 500.0 });
+  site.include({ 6.001e5, 2.001e5, 520.0 });
+  EXPECT_EQ(unlikelyUnits(path, site, kOptions, false), "");
+}
+
 } // namespace

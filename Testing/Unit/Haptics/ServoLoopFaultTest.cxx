@@ -150,3 +150,38 @@ TEST(ServoLoop, ReportsWhatTheSystemRefuses)
   EXPECT_NE(describeRefusals(refused).find("memlock unlimited"), std::string::npos);
   EXPECT_NE(describeRefusals(refused).find("/dev/cpu_dma_latency"), std::string::npos);
 }
+
+/// A recording is taken as a path by these flags.
+TEST(ServoStep, SaysInTheSampleWhereTheHandIsTakenAsNew)
+{
+  const std::shared_ptr<const HapticScene> scene = plane();
+  const auto flagsAt = [&scene](std::uint64_t number, int failures)
+  {
+    ServoStep step;
+    step.setScene(scene.get());
+    ServoSample sample;
+    const auto tick = [&](std::uint64_t n, Status reading, double z)
+    {
+      TickInput input;
+      input.number = n;
+      input.reading = reading;
+      input.hand.position = { 0.0, 0.0, z };
+      step.step(input, sample);
+      step.finish(input, Status::Ok, sample);
+    };
+    tick(1, Status::Ok, 0.005);
+    EXPECT_EQ(sample.tickFlags & kTickNewHand, 0u);
+    for (int i = 0; i < failures; ++i)
+    {
+      tick(2 + std::uint64_t(i), Status::DeviceLost, 0.0);
+    }
+    tick(number, Status::Ok, -0.001);
+    EXPECT_NE(sample.state.contact, (sample.tickFlags & kTickNewHand) != 0) << number;
+    return sample.tickFlags & kTickNewHand;
+  };
+  EXPECT_EQ(flagsAt(2, 0), 0u);
+  EXPECT_EQ(flagsAt(1001, 0), 0u);
+  EXPECT_NE(flagsAt(1003, 0), 0u) << "stood still for more than 1 s";
+  EXPECT_EQ(flagsAt(52, 50), 0u);
+  EXPECT_NE(flagsAt(152, 150), 0u) << "no reading for more than 0.1 s";
+}
