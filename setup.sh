@@ -246,10 +246,6 @@ run_test() {
     tests="$(sed -nE 's/^[0-9]+% tests passed, ([0-9]+) tests failed out of ([0-9]+)$/\1 of \2/p' "$log")"
     fail "${tests:-no} tests failed; the list is above"
   fi
-  # ctest shows what a test printed only where that fails.
-  step="timing the proxy with each instruction set"
-  say "The proxy with each instruction set of this machine, for the log"
-  "$BUILD/bin/pointhaptics-bench" proxy --quick --studies instructions
   if [[ -n "${CI:-}" ]]; then
     run_sanitized
   fi
