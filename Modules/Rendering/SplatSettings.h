@@ -41,7 +41,7 @@ struct SplatSettings
   /// Discs that tilt away get narrow, as the spacing of points on a surface does. Off: they stay round, for
   /// points that are evenly apart on the screen as those of a camera are.
   bool foreshortens = true;
-  /// What is not flat counts as part of a surface, too: only its discs face the camera.
+  /// Splats that are not flat close like a surface, too; their discs still face the camera.
   bool closesAll = false;
   double pointPixels = 4.0; ///< Largest diameter, pixels, of a splat whose neighbourhood is not flat at all.
   /// Largest diameter, pixels, of a splat whose neighbourhood is flat: as large as its length says.

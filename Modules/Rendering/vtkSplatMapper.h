@@ -100,7 +100,7 @@ public:
   /** Largest diameter, pixels, of a splat whose neighbourhood is flat. Default: infinity. */
   void SetSurfacePixels(double pixels) { this->SetPositive(this->Now.surfacePixels, pixels, INFINITY); }
   double GetSurfacePixels() const { return this->Now.surfacePixels; }
-  /** What is not flat counts as part of a surface, too. Default: off. */
+  /** Splats that are not flat close like a surface, too. Default: off. */
   void SetClosesAll(bool on) { this->Now.closesAll = on; }
   bool GetClosesAll() const { return this->Now.closesAll; }
   /** How much of the light is seen, 0 (the colours themselves) to 1, the default. */

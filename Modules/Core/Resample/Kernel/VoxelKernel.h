@@ -35,7 +35,7 @@ constexpr std::size_t kApart = 128;
 /// Added to an integer below it this leaves the integer in the low bits of the sum.
 constexpr double kToBits = 0x1p52;
 
-/// Of a position: a double's below its highest.
+/// Bits of a position: those of a double's mantissa without the leading one.
 constexpr int kDoubleBits = 52;
 constexpr std::uint64_t kPositionMask = (std::uint64_t(1) << kDoubleBits) - 1;
 /// Low bits of z in the first word of a record, below x; as many more are in the second. The top bit of z is

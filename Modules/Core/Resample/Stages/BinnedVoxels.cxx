@@ -139,7 +139,7 @@ void BinnedVoxels::sumWide()
     });
 }
 
-/// Of points whose numbers the block has.
+/// Fills the offsets of the block's points. @pre on fine lattices the block has the numbers of its points.
 void BinnedVoxels::copyOffsets(const PointBinner::Walk& from, PointBlock& block) const
 {
   if (plan().isFine)

@@ -22,7 +22,7 @@ namespace pointhaptics::simd
 
 /// Points of a piece: enough to make the cost of scheduling it negligible.
 constexpr std::int64_t kPieceSize = 1 << 12;
-/// So many chunks are summed together; the sums of more are merged.
+/// Chunks whose points are summed together. The sums of further chunks are merged into theirs.
 constexpr std::size_t kHeldChunks = 4;
 
 /// Points between two reports; threads take the pieces of a chunk one by one. There is at least one, which

@@ -80,7 +80,7 @@ VoxelRun merged(const VoxelRun& a, const VoxelRun& b, int sign, bool& isRight)
     const bool isIn = i < a.size() && (j == b.size() || a.voxels[i].key <= b.voxels[j].key);
     const bool isInOther = j < b.size() && (!isIn || b.voxels[j].key == a.voxels[i].key);
     const bool isEmpty = sign < 0 && isIn && isInOther && a.voxels[i].count == b.voxels[j].count;
-    // What is empty has no sums either.
+    // A voxel without points is left out; its sums must then be zero, or other points were subtracted.
     const bool isLeft = isEmpty ? WideSums(a.voxels[i]).subtract(b.voxels[j])
                                 : all.append(isIn ? &a : nullptr, i, isInOther ? &b : nullptr, j, sign);
     isRight = isRight && isLeft;
