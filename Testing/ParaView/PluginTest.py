@@ -1,5 +1,6 @@
 """The ParaView plugin in pvpython: results are the program's bit for bit, defaults fit, bad input is an error."""
 
+import re
 import unittest
 
 import numpy as np
@@ -181,16 +182,22 @@ class Files(TestCase):
         self.assert_same_bits(servermanager.Fetch(cloud), read_vtp(self.path("program.vtp")))
 
     def test_saving_data_finds_the_writer(self):
-        simple.SaveData(self.path("out.laz"), proxy=read_sphere(self))
-        self.assertIn("LAZ", run_program("info", self.path("out.laz")))
+        for extension, name in (("laz", "LAZ"), ("xyz", "text")):
+            simple.SaveData(self.path(f"out.{extension}"), proxy=read_sphere(self))
+            self.assertIn(name, run_program("info", self.path(f"out.{extension}")))
 
-    def test_the_reader_is_offered_for_its_formats(self):
-        factory = servermanager.vtkSMProxyManager.GetProxyManager().GetReaderFactory()
-        shown = factory.GetSupportedFileTypes(servermanager.ActiveConnection.Session)
-        ours = [line for line in shown.split(";;") if "PointHaptics" in line]
-        self.assertEqual(len(ours), 1, shown)
-        for extension in "ply pcd las laz e57 vtp vtu vtk obj off stl xyz txt csv pts".split():
-            self.assertIn(f"*.{extension}", ours[0])
+    def test_the_formats_of_the_program_are_offered(self):
+        """The reader for all of them, and one writer for each that is written."""
+        rows = [line.split("|") for line in run_program("manual", "formats").splitlines()[2:]]
+        manager = servermanager.vtkSMProxyManager.GetProxyManager()
+        readers = manager.GetReaderFactory().GetSupportedFileTypes(servermanager.ActiveConnection.Session)
+        ours = [line for line in readers.split(";;") if "PointHaptics" in line]
+        self.assertEqual(len(ours), 1, readers)
+        self.assertEqual(set(re.findall(r"\*\.(\w+)", ours[0])), {"gz", *re.findall(r"\w+", " ".join(row[2] for row in rows))})
+        writers = manager.GetWriterFactory().GetSupportedFileTypes(read_sphere(self).SMProxy, 0)
+        offered = re.findall(r"\*\.(\w+)", writers.split(";;", 1)[1] if writers.startswith("Supported") else writers)
+        for extension in re.findall(r"\w+", " ".join(row[3] for row in rows)):
+            self.assertEqual(offered.count(extension), 1, (extension, writers))
 
     def test_several_files_are_a_time_series(self):
         for points in (100, 200):
