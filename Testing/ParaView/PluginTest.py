@@ -403,6 +403,32 @@ class BadInput(TestCase):
             writer.UpdatePipeline()
         self.assertIn("out.pcd", " ".join(messages.found))
 
+    def test_each_is_one_message(self):
+        """However often ParaView updates for one action, and whatever comes after."""
+        with open(self.path("turned.csv"), "w") as file:
+            file.write("t,x,y,z\n1,0,0,0\n0,0,0,0\n")
+        path = simple.CSVReader(FileName=[self.path("turned.csv")])
+        cloud, absent = read_sphere(self), simple.PointHapticsReader(FileNames=[self.path("absent.las")])
+        path.UpdatePipeline()
+        resampler, bandwidth, feel = simple.VoxelMeanResampler, simple.KernelBandwidth, simple.HapticFeel
+        for make in (
+            lambda: absent,
+            lambda: resampler(Input=cloud, VoxelSize=0),
+            lambda: resampler(Input=simple.GroupDatasets(Input=[cloud, path]), VoxelSize=1e-12),
+            lambda: resampler(Input=cloud, AutomaticWorkspace=0, WorkspacePosition=[9, 9, 9], WorkspaceSize=[1, 1, 1]),
+            lambda: bandwidth(Input=cloud, NumberOfNeighbors=0),
+            lambda: feel(Input=cloud, Path=path),
+            lambda: feel(Input=simple.PointHapticsReader(FileNames=[self.path("missing.las")]), Path=path),
+        ):
+            proxy = make()
+            with ErrorMessages() as messages, ErrorMessages("WarningEvent") as warnings:
+                for _ in range(3):
+                    proxy.UpdatePipeline()
+                    servermanager.Fetch(proxy)
+                if proxy.SMProxy.GetXMLName() != "HapticFeel":
+                    bandwidth(Input=proxy).UpdatePipeline()
+            self.assertEqual(len(messages.found + warnings.found), 1, messages.found + warnings.found)
+
     def test_nothing_at_all(self):
         empty = simple.ProgrammableSource(OutputDataSetType="vtkPolyData", Script="")
         for proxy in (simple.VoxelMeanResampler(Input=empty), simple.KernelBandwidth(Input=empty)):
