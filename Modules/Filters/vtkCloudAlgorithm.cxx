@@ -53,7 +53,8 @@ struct vtkCloudAlgorithm::Parts
     auto* composite = vtkCompositeDataSet::SafeDownCast(input);
     if (!composite)
     {
-      this->Add(vtkPointSet::SafeDownCast(input));
+      auto* cloud = vtkPointSet::SafeDownCast(input);
+      this->Add(cloud ? cloud : vtkSmartPointer<vtkPolyData>::New().Get()); // an observer took it away
       for (vtkDataObject* result : results)
       {
         this->outputs.back().emplace_back(vtkPolyData::SafeDownCast(result));
@@ -115,16 +116,16 @@ vtkTypeBool vtkCloudAlgorithm::ProcessRequest(
 
 void vtkCloudAlgorithm::Fail(const std::string& problem)
 {
-  this->SetErrorCode(vtkErrorCode::UserError);
+  this->ErrorCode = vtkErrorCode::UserError; // without Modified(): nothing was set
   this->ErrorMessage = problem;
   vtkErrorMacro(<< problem);
 }
 
 void vtkCloudAlgorithm::Warn(const std::string& text)
 {
-  if (!text.empty() && this->Warnings.insert(text).second)
+  if (!text.empty() && std::find(this->Warnings.begin(), this->Warnings.end(), text) == this->Warnings.end())
   {
-    vtkWarningMacro(<< text);
+    this->Warnings.push_back(text);
   }
 }
 
@@ -192,9 +193,9 @@ int vtkCloudAlgorithm::RequestData(
   this->RunsAgain = false;
   this->SetProgressShiftScale(0.0, 1.0);
   this->ErrorMessage.clear();
-  this->SetErrorCode(vtkErrorCode::NoError);
+  this->ErrorCode = vtkErrorCode::NoError;
   const vtkMTimeType begin = this->GetMTime();
-  const Parts parts(input, tree || vtkPointSet::SafeDownCast(input) ? results : decltype(results)());
+  const Parts parts(input, tree || !vtkCompositeDataSet::SafeDownCast(input) ? results : decltype(results)());
   this->Warnings.clear();
   this->Warn(parts.others.empty() ? "" : "Blocks without points are left empty: " + parts.others + ".");
   parts.Empty();
@@ -211,7 +212,7 @@ int vtkCloudAlgorithm::RequestData(
   {
     succeeded = false;
     this->Fail(std::string(message(end)) + ".");
-    this->SetErrorCode(pointhaptics::kOutOfMemoryCode);
+    this->ErrorCode = pointhaptics::kOutOfMemoryCode;
   }
   this->SetProgressShiftScale(0.0, 1.0);
   succeeded = !pointhaptics::shallStop(this, 0) && succeeded;
@@ -221,9 +222,13 @@ int vtkCloudAlgorithm::RequestData(
   }
   this->EndRun(succeeded);
   this->RunsAgain = this->GetMTime() > begin;
-  this->RunsAgain = this->RunsAgain || !succeeded;
+  this->RunsAgain = this->RunsAgain || (!succeeded && (this->RepeatsErrors || this->ErrorMessage.empty()));
   if (succeeded)
   {
+    for (const std::string& text : std::vector<std::string>(this->Warnings))
+    {
+      vtkWarningMacro(<< text);
+    }
     this->UpdateProgress(1.0);
   }
   return 1;

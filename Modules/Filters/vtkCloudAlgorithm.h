@@ -11,7 +11,8 @@
  * Errors: vtkErrorMacro with what, where, value and cure. GetErrorCode() is then not 0, GetErrorMessage() has
  * the sentence, the output is valid and empty (its points are never null), and each further Update() runs
  * again and says so again until the cause is mended. An aborted update gives an empty output without an error
- * and starts anew next time.
+ * and starts anew next time. An error is the only message of its update; an empty input gives an empty output
+ * without one, as whatever left it empty has said why.
  *
  * What an observer sets while the filter runs, its connections included, counts from the next update on.
  * Output ports are fixed from construction.
@@ -32,9 +33,8 @@
 #include "vtkTimeStamp.h"    // For RetryTime
 
 #include <algorithm> // For vtkSettingEnumMacro
-#include <set>       // For Warnings
 #include <string>    // For Fail
-#include <vector>    // For clouds
+#include <vector>    // For clouds and warnings
 
 class vtkDataObject;
 class vtkPointSet;
@@ -103,11 +103,16 @@ protected:
 
   /// Reports the error @p problem; the outputs become empty.
   void Fail(const std::string& problem);
-  /// Warns once in a run, however many clouds are concerned.
+  /// Warns at the end of a run that succeeds, once however many clouds are concerned.
   void Warn(const std::string& text);
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
   virtual int RequestDataObject(vtkInformation*, vtkInformationVector**, vtkInformationVector*);
+
+  /// Off: after an error nothing runs again until something is set. For hosts that update several times for
+  /// one action of a person, and ranks that run together or not at all.
+  bool RepeatsErrors = true;
+
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
 private:
@@ -116,7 +121,7 @@ private:
 
   bool RunsAgain = false;
   std::string ErrorMessage;
-  std::set<std::string> Warnings; ///< Warnings of this run.
+  std::vector<std::string> Warnings; ///< Warnings of this run.
   vtkTimeStamp RetryTime;
 
   vtkCloudAlgorithm(const vtkCloudAlgorithm&) = delete;

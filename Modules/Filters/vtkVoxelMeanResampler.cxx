@@ -12,6 +12,7 @@
 #include "vtkPolyData.h"
 
 #include <algorithm>
+#include <string>
 #include <utility>
 
 using namespace pointhaptics;
@@ -153,6 +154,16 @@ bool vtkVoxelMeanResampler::BeginRun(const Clouds& clouds)
 bool vtkVoxelMeanResampler::RunCloud(vtkPointSet* cloud, const Outputs& outputs)
 {
   return this->Impl->Update(cloud, outputs[0], outputs[1]);
+}
+
+void vtkVoxelMeanResampler::WarnOfNothing(vtkIdType points)
+{
+  if (points > 0 && this->NumberOfClippedPoints + this->NumberOfInvalidPoints == points)
+  {
+    this->Warn("No point is left: " + std::to_string(this->NumberOfClippedPoints) +
+      " lie outside of the workspace, " + std::to_string(this->NumberOfInvalidPoints) +
+      " are NaN or infinite. Give a workspace about the points, or none for an automatic one.");
+  }
 }
 
 void vtkVoxelMeanResampler::EndRun(bool succeeded)

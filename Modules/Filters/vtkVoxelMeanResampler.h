@@ -325,6 +325,8 @@ protected:
   bool BeginRun(const Clouds& clouds) override;
   bool RunCloud(vtkPointSet* cloud, const Outputs& outputs) override;
   void EndRun(bool succeeded) override;
+  /// Warns where the counters say that none of @p points is left.
+  void WarnOfNothing(vtkIdType points);
 #endif
 
   vtkSmartPointer<vtkAbstractTransform> Transform;

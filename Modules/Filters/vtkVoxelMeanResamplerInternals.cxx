@@ -120,18 +120,6 @@ void vtkVoxelMeanResampler::Internals::WarnOfNames(const Clouds& clouds)
   }
 }
 
-void vtkVoxelMeanResampler::Internals::WarnOfNothing()
-{
-  const vtkIdType clipped = this->Filter->NumberOfClippedPoints;
-  const vtkIdType invalid = this->Filter->NumberOfInvalidPoints;
-  if (this->NumberOfPoints > 0 && clipped + invalid == this->NumberOfPoints)
-  {
-    this->Filter->Warn("No point is left: " + std::to_string(clipped) + " lie outside of the workspace, " +
-      std::to_string(invalid) +
-      " are NaN or infinite. Give a workspace about the points, or none for an automatic one.");
-  }
-}
-
 bool vtkVoxelMeanResampler::Internals::Update(vtkPointSet* input, vtkPolyData* means, vtkPolyData* index)
 {
   this->PartBegin = this->PartEnd = 0.0;
@@ -166,7 +154,7 @@ void vtkVoxelMeanResampler::Internals::End(bool succeeded)
 {
   if (succeeded)
   {
-    this->WarnOfNothing();
+    this->Filter->WarnOfNothing(this->NumberOfPoints);
   }
   this->Release();
   this->IsRunning = false;

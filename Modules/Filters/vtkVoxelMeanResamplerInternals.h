@@ -99,7 +99,6 @@ private:
   void FillIndex(vtkPointSet* input, vtkPolyData* output);
   /// Says which categories no cloud has, and that no point is left.
   void WarnOfNames(const Clouds& clouds);
-  void WarnOfNothing();
   /// Lets go of the input and its arrays.
   void Release();
 

@@ -503,6 +503,7 @@ int vtkPointCloudReader::RequestData(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {
   vtkPolyData* output = vtkPolyData::GetData(outputVector);
+  output->SetPoints(vtkNew<vtkPoints>()); // never null, whatever fails
   this->ErrorMessage.clear();
   this->Format.clear();
   this->Notes.clear();
@@ -559,6 +560,7 @@ int vtkPointCloudReader::RequestData(
           std::string(fault.what()) + "; the file is probably damaged: copy it again");
   }
   output->Initialize();
+  output->SetPoints(vtkNew<vtkPoints>());
   return 1;
 }
 

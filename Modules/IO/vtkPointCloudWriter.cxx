@@ -13,6 +13,7 @@
 #include "Core/Base/Host/GuardedWork.h"
 #include "Core/Base/Host/StopRequest.h"
 
+#include "vtkCompositeDataSet.h"
 #include "vtkFieldData.h"
 #include "vtkInformation.h"
 #include "vtkNew.h"
@@ -136,6 +137,7 @@ vtkPointCloudWriter::~vtkPointCloudWriter()
 int vtkPointCloudWriter::FillInputPortInformation(int, vtkInformation* info)
 {
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet"); // which WriteData() refuses
   return 1;
 }
 
@@ -219,6 +221,10 @@ void vtkPointCloudWriter::WriteData()
   try
   {
     pointhaptics::requireRoomOfWork();
+    if (vtkCompositeDataSet::SafeDownCast(this->GetInput()))
+    {
+      io::failFormat("the input has blocks, and a file holds one cloud", "merge them first (vtkMergeBlocks)");
+    }
     this->WriteCloud(vtkPointSet::SafeDownCast(this->GetInput()));
   }
   catch (const io::FileProblem& problem)

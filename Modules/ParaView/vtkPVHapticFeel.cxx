@@ -9,6 +9,7 @@ vtkStandardNewMacro(vtkPVHapticFeel);
 vtkPVHapticFeel::vtkPVHapticFeel()
 {
   this->GetResampler()->SetAutomaticWorkspace(true);
+  this->RepeatsErrors = false;
 }
 
 void vtkPVHapticFeel::SetVoxelSize(double size)

@@ -24,6 +24,7 @@ vtkStandardNewMacro(vtkDistributedKernelBandwidthFilter);
 vtkDistributedKernelBandwidthFilter::vtkDistributedKernelBandwidthFilter()
   : Controller(vtkMultiProcessController::GetGlobalController())
 {
+  this->RepeatsErrors = false;
 }
 
 vtkDistributedKernelBandwidthFilter::~vtkDistributedKernelBandwidthFilter() = default;

@@ -5,7 +5,9 @@
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkMultiProcessController.h"
+#include "vtkNew.h"
 #include "vtkObjectFactory.h"
+#include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
@@ -49,6 +51,7 @@ int vtkDistributedPointCloudReader::RequestData(
   if (!isShared && asked->Get(Pipeline::UPDATE_PIECE_NUMBER()) > 0)
   {
     vtkPolyData::GetData(outputs)->Initialize();
+    vtkPolyData::GetData(outputs)->SetPoints(vtkNew<vtkPoints>());
     return 1;
   }
   this->SetRanks(isShared ? &ranks : nullptr);

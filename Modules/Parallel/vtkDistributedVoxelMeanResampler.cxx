@@ -21,6 +21,7 @@ vtkStandardNewMacro(vtkDistributedVoxelMeanResampler);
 vtkDistributedVoxelMeanResampler::vtkDistributedVoxelMeanResampler()
   : Controller(vtkMultiProcessController::GetGlobalController())
 {
+  this->RepeatsErrors = false;
 }
 
 vtkDistributedVoxelMeanResampler::~vtkDistributedVoxelMeanResampler() = default;
@@ -64,6 +65,7 @@ bool vtkDistributedVoxelMeanResampler::RunCloud(vtkPointSet* cloud, const Output
   this->NumberOfBytesSent = ranks.bytesSent();
   this->NumberOfClippedPoints = vtkIdType(update.clippedPoints());
   this->NumberOfInvalidPoints = vtkIdType(update.invalidPoints());
+  this->WarnOfNothing(vtkIdType(commonSum(ranks, cloud->GetNumberOfPoints())));
   for (const std::string& dropped : update.dropped())
   {
     this->Warn(dropped);

@@ -275,7 +275,9 @@ int vtkHapticFeel::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   const vtkSmartPointer<vtkPointSet> cloud = vtkPointSet::GetData(inputVector[0]);
+  const vtkSmartPointer<vtkTable> table = vtkTable::GetData(inputVector[1]);
   const vtkSmartPointer<vtkTable> output = vtkTable::GetData(outputVector);
+  const bool hasPoints = cloud && table && cloud->GetNumberOfPoints() > 0;
   HipPath path;
   std::int64_t ticks = 0;
   std::string message;
@@ -285,13 +287,13 @@ int vtkHapticFeel::RequestData(
   const Status status = guardedWork(
     [&]
     {
-      isFelt = pathOf(vtkTable::GetData(inputVector[1]), path, message) && this->Impl->Check(this, message) &&
+      isFelt = hasPoints && pathOf(table, path, message) && this->Impl->Check(this, message) &&
         countTicks(path, "path", this->Rate, kMostTicks, ticks, message) &&
         this->Impl->MakeScenes(this, cloud, message) && this->Impl->Feel(this, path, ticks, output, odd);
     },
     stop.request());
   message = status == Status::Ok ? message : pointhaptics::message(status);
-  this->Impl->RunsAgain = !isFelt;
+  this->Impl->RunsAgain = !isFelt && hasPoints && (this->RepeatsErrors || message.empty());
   const unsigned long code = message.empty() ? vtkErrorCode::NoError : vtkErrorCode::UserError;
   this->SetErrorCode(status == Status::Ok ? code : kOutOfMemoryCode);
   if (!isFelt)

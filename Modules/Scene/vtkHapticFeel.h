@@ -27,7 +27,8 @@
  * @warning A path without rows or columns, times that do not ascend, numbers that are not finite, more than
  * 1e8 ticks, gains out of range and a cloud without a finite point in the workspace are reported by
  * vtkErrorMacro with the cure, and the output has no rows. Sizes and times that make other units likely
- * are said by vtkWarningMacro.
+ * are said by vtkWarningMacro. A cloud without points gives no rows without a message: whatever left it empty
+ * has said why.
  *
  * Cost: the resampling, some 10 us a tick and 128 bytes a row. Progress is reported; AbortExecute ends the
  * work within 256 ticks, with an output without rows. One object is used by one thread at a time.
@@ -151,6 +152,7 @@ protected:
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
+  bool RepeatsErrors = true; ///< As in vtkCloudAlgorithm.
   int Method = SurfaceFit;
   double Stiffness = 800.0;
   double Damping = 0.0;

@@ -308,10 +308,12 @@ TEST(CloudAlgorithm, AnErrorIsSaidOnEachUpdateAndLeavesEmptyPoints)
       }
       filter->SetInputDataObject(input);
       trial::Ear errors(filter, vtkCommand::ErrorEvent);
+      trial::Ear warnings(filter, vtkCommand::WarningEvent);
       for (int time = 1; time <= 3; ++time)
       {
         filter->Update();
         EXPECT_EQ(errors.count, time);
+        EXPECT_EQ(warnings.count, 0) << "the error is the only message";
         EXPECT_NE(filter->GetErrorCode(), 0u);
       }
       const std::vector<vtkSmartPointer<vtkPolyData>> outputs = isComposite
@@ -401,6 +403,32 @@ TEST(CloudAlgorithm, WhatIsSetInARunCountsFromTheNextOn)
   {
     resampler->Update();
     EXPECT_EQ(resampler->GetOutput()->GetPointData()->HasArray("VoxelCovariance") != 0, has);
+  }
+}
+
+/// Observers of the first events may take away the only reference to the input.
+TEST(CloudAlgorithm, AnInputThatIsTakenAwayIsAnEmptyOne)
+{
+  for (const auto event : { vtkCommand::StartEvent, vtkCommand::ProgressEvent, vtkCommand::EndEvent })
+  {
+    const std::vector<vtkSmartPointer<vtkCloudAlgorithm>> filters{
+      vtkSmartPointer<vtkVoxelMeanResampler>::New(), vtkSmartPointer<vtkKernelBandwidthFilter>::New()
+    };
+    for (vtkCloudAlgorithm* filter : filters)
+    {
+      SCOPED_TRACE(filter->GetClassName());
+      filter->SetInputDataObject(cloudAt(0, 2000, 16));
+      vtkNew<vtkCallbackCommand> take;
+      take->SetCallback([](vtkObject* caller, unsigned long, void*, void*)
+        { vtkAlgorithm::SafeDownCast(caller)->RemoveAllInputs(); });
+      const unsigned long tag = filter->AddObserver(event, take);
+      filter->Update();
+      ASSERT_NE(filter->GetOutput()->GetPoints(), nullptr);
+      filter->RemoveObserver(tag);
+      filter->SetInputDataObject(cloudAt(0, 2000, 16));
+      filter->Update();
+      EXPECT_GT(filter->GetOutput()->GetNumberOfPoints(), 0);
+    }
   }
 }
 

@@ -1,5 +1,6 @@
 """The ParaView plugin in pvpython: results are the program's bit for bit, defaults fit, bad input is an error."""
 
+import re
 import unittest
 
 import numpy as np
@@ -181,16 +182,22 @@ class Files(TestCase):
         self.assert_same_bits(servermanager.Fetch(cloud), read_vtp(self.path("program.vtp")))
 
     def test_saving_data_finds_the_writer(self):
-        simple.SaveData(self.path("out.laz"), proxy=read_sphere(self))
-        self.assertIn("LAZ", run_program("info", self.path("out.laz")))
+        for extension, name in (("laz", "LAZ"), ("xyz", "text")):
+            simple.SaveData(self.path(f"out.{extension}"), proxy=read_sphere(self))
+            self.assertIn(name, run_program("info", self.path(f"out.{extension}")))
 
-    def test_the_reader_is_offered_for_its_formats(self):
-        factory = servermanager.vtkSMProxyManager.GetProxyManager().GetReaderFactory()
-        shown = factory.GetSupportedFileTypes(servermanager.ActiveConnection.Session)
-        ours = [line for line in shown.split(";;") if "PointHaptics" in line]
-        self.assertEqual(len(ours), 1, shown)
-        for extension in "ply pcd las laz e57 vtp vtu vtk obj off stl xyz txt csv pts".split():
-            self.assertIn(f"*.{extension}", ours[0])
+    def test_the_formats_of_the_program_are_offered(self):
+        """The reader for all of them, and one writer for each that is written."""
+        rows = [line.split("|") for line in run_program("manual", "formats").splitlines()[2:]]
+        manager = servermanager.vtkSMProxyManager.GetProxyManager()
+        readers = manager.GetReaderFactory().GetSupportedFileTypes(servermanager.ActiveConnection.Session)
+        ours = [line for line in readers.split(";;") if "PointHaptics" in line]
+        self.assertEqual(len(ours), 1, readers)
+        self.assertEqual(set(re.findall(r"\*\.(\w+)", ours[0])), {"gz", *re.findall(r"\w+", " ".join(row[2] for row in rows))})
+        writers = manager.GetWriterFactory().GetSupportedFileTypes(read_sphere(self).SMProxy, 0)
+        offered = re.findall(r"\*\.(\w+)", writers.split(";;", 1)[1] if writers.startswith("Supported") else writers)
+        for extension in re.findall(r"\w+", " ".join(row[3] for row in rows)):
+            self.assertEqual(offered.count(extension), 1, (extension, writers))
 
     def test_several_files_are_a_time_series(self):
         for points in (100, 200):
@@ -395,6 +402,32 @@ class BadInput(TestCase):
             writer = simple.CreateWriter(self.path("no/such/folder/out.pcd"), cloud)
             writer.UpdatePipeline()
         self.assertIn("out.pcd", " ".join(messages.found))
+
+    def test_each_is_one_message(self):
+        """However often ParaView updates for one action, and whatever comes after."""
+        with open(self.path("turned.csv"), "w") as file:
+            file.write("t,x,y,z\n1,0,0,0\n0,0,0,0\n")
+        path = simple.CSVReader(FileName=[self.path("turned.csv")])
+        cloud, absent = read_sphere(self), simple.PointHapticsReader(FileNames=[self.path("absent.las")])
+        path.UpdatePipeline()
+        resampler, bandwidth, feel = simple.VoxelMeanResampler, simple.KernelBandwidth, simple.HapticFeel
+        for make in (
+            lambda: absent,
+            lambda: resampler(Input=cloud, VoxelSize=0),
+            lambda: resampler(Input=simple.GroupDatasets(Input=[cloud, path]), VoxelSize=1e-12),
+            lambda: resampler(Input=cloud, AutomaticWorkspace=0, WorkspacePosition=[9, 9, 9], WorkspaceSize=[1, 1, 1]),
+            lambda: bandwidth(Input=cloud, NumberOfNeighbors=0),
+            lambda: feel(Input=cloud, Path=path),
+            lambda: feel(Input=simple.PointHapticsReader(FileNames=[self.path("missing.las")]), Path=path),
+        ):
+            proxy = make()
+            with ErrorMessages() as messages, ErrorMessages("WarningEvent") as warnings:
+                for _ in range(3):
+                    proxy.UpdatePipeline()
+                    servermanager.Fetch(proxy)
+                if proxy.SMProxy.GetXMLName() != "HapticFeel":
+                    bandwidth(Input=proxy).UpdatePipeline()
+            self.assertEqual(len(messages.found + warnings.found), 1, messages.found + warnings.found)
 
     def test_nothing_at_all(self):
         empty = simple.ProgrammableSource(OutputDataSetType="vtkPolyData", Script="")

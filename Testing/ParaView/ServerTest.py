@@ -120,11 +120,17 @@ class Server(TestCase):
 
     def test_bad_input_is_an_error_and_the_server_lives_on(self):
         run_program("generate", "sphere", "-n", 5000, "-o", self.path("in.ply"))
-        with ErrorMessages():
-            bad = simple.VoxelMeanResampler(Input=read(self.path("in.ply")), VoxelSize=-1)
-            bad.UpdatePipeline()
-            self.assertEqual(bad.GetDataInformation().GetNumberOfPoints(), 0)
-        bad.VoxelSize = 0.002
+        box = {"WorkspacePosition": [9, 9, 9], "WorkspaceSize": [1, 1, 1]}
+        with ErrorMessages() as errors, ErrorMessages("WarningEvent") as warnings:
+            bad = simple.VoxelMeanResampler(Input=read(self.path("in.ply")), VoxelSize=-1, **box)
+            for size, automatic in ((-1, 1), (0.002, 0)):
+                bad.VoxelSize, bad.AutomaticWorkspace = size, automatic
+                for _ in range(2):
+                    bad.UpdatePipeline()
+                    self.assertEqual(servermanager.Fetch(bad).GetNumberOfPoints(), 0)
+        self.assertEqual((len(errors.found), len(warnings.found)), (1, 1), errors.found + warnings.found)
+        self.assertIn("No point is left: 5000 lie outside", warnings.found[0])
+        bad.AutomaticWorkspace = 1
         self.resampled(bad, self.path("in.ply"), "--voxel", 0.002)
 
 

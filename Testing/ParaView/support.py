@@ -63,10 +63,13 @@ def arrays_of(cloud):
 class ErrorMessages:
     """Collects what goes to the message window meanwhile: with ErrorMessages() as messages: ... messages.found"""
 
+    def __init__(self, event="ErrorEvent"):
+        self.event = event
+
     def __enter__(self):
         self.found = []
         self.window = vtkOutputWindow.GetInstance()
-        self.tag = self.window.AddObserver("ErrorEvent", self.add)
+        self.tag = self.window.AddObserver(self.event, self.add)
         return self
 
     def __exit__(self, *_):

@@ -172,6 +172,13 @@ class Feel(TestCase):
         feel.Update()
         self.assertEqual(len(said), 1)
         self.assertIn("multiply the places of the path by 0.001", said[0])
+        for kind in ("ErrorEvent", "WarningEvent"):
+            feel.AddObserver(kind, keep)
+        said.clear()
+        feel.SetInputDataObject(0, vtkPolyData())  # whatever left it empty has said why
+        feel.Update()
+        self.assertEqual((said, feel.GetErrorCode(), feel.GetOutput().GetNumberOfRows()), ([], 0, 0))
+        self.assertGreater(feel.GetOutput().GetNumberOfColumns(), 10)
 
     def test_ctrl_c_ends_a_long_path(self):
         scene = ph.Scene(self.points)

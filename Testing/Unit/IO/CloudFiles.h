@@ -142,6 +142,7 @@ inline void expectRefused(const ReadResult& result, const std::string& part)
   EXPECT_NE(result.code, 0u);
   EXPECT_GT(result.errorEvents, 0);
   EXPECT_EQ(result.points(), 0);
+  EXPECT_NE(result.cloud->GetPoints(), nullptr);
   EXPECT_EQ(result.cloud->GetNumberOfCells(), 0);
 }
 

@@ -6,6 +6,7 @@
 #include "vtkFloatArray.h"
 #include "vtkIdTypeArray.h"
 #include "vtkIntArray.h"
+#include "vtkMultiBlockDataSet.h"
 #include "vtkStringArray.h"
 #include "vtkTypeInt64Array.h"
 #include "vtkUnsignedCharArray.h"
@@ -350,6 +351,9 @@ TEST_F(Writer, SaysWhatIsWrongAndLeavesNothingBehind)
   EXPECT_NE(writeCloud(cloud, "").find("file name"), std::string::npos);
   vtkNew<vtkPolyData> empty;
   EXPECT_NE(writeCloud(empty, path("a.ply")).find("no points"), std::string::npos);
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  blocks->SetBlock(0, cloud);
+  EXPECT_NE(writeCloud(blocks, path("a.ply")).find("merge them first"), std::string::npos);
   std::filesystem::create_directory(path("d.ply"));
   EXPECT_NE(writeCloud(cloud, path("d.ply")).find("folder"), std::string::npos);
   std::filesystem::remove(path("d.ply"));
