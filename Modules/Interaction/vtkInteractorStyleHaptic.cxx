@@ -176,6 +176,10 @@ void vtkInteractorStyleHaptic::Refresh()
   const std::vector<ServoSample> samples = std::exchange(this->Samples, {});
   const ServoSample latest = this->Servo ? this->Servo->latest() : ServoSample();
   bool touchMoved = this->Servo && this->Display.update(samples, latest);
+  if (this->Display.showChartIfFelt(samples))
+  {
+    this->Hand.putPointerOnHand(); // the picture is smaller now
+  }
   this->MeasureDistance(latest);
   touchMoved = this->Display.showDistance(this->Distance) || touchMoved;
   const bool commandRun = this->Clutch.take(samples);

@@ -1,5 +1,6 @@
 // The parts of the style: any device, in any order, for as long as they live. No window, no display.
 #include "HapticTouch.h"
+#include "vtkHapticChart.h"
 #include "vtkHapticOverlay.h"
 #include "vtkHapticProps.h"
 #include "vtkInteractorStyleHaptic.h"
@@ -128,6 +129,27 @@ protected:
   vtkNew<vtkRenderer> renderer;
   vtkSmartPointer<vtkInteractorStyleHaptic> style = vtkSmartPointer<vtkInteractorStyleHaptic>::New();
 };
+
+TEST_F(StyleParts, ShowTheChartOnceAForceIsFelt)
+{
+  vtkNew<vtkHapticChart> chart;
+  chart->GetRenderer()->SetViewport(0.0, 0.0, 1.0, 0.25);
+  style->SetChart(chart);
+  style->SetCurrentRenderer(renderer);
+  TouchDisplay& display = style->GetDisplay();
+  display.hideChartUntilTouch();
+  ServoSample sample;
+  EXPECT_FALSE(display.showChartIfFelt({ sample }));
+  EXPECT_FALSE(chart->GetVisibility());
+  EXPECT_EQ(renderer->GetViewport()[1], 0.0);
+  sample.state.force = { 0.0, 0.0, 1.0 };
+  EXPECT_TRUE(display.showChartIfFelt({ ServoSample(), sample }));
+  EXPECT_TRUE(chart->GetVisibility());
+  EXPECT_EQ(renderer->GetViewport()[1], 0.25);
+  display.setChartVisibility(false); // the user does not want it
+  EXPECT_FALSE(display.showChartIfFelt({ sample }));
+  EXPECT_FALSE(chart->GetVisibility());
+}
 
 } // namespace
 

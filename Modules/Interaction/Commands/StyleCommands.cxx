@@ -188,9 +188,10 @@ void addHandCommands(CommandRegistry& commands, vtkInteractorStyleHaptic& style)
     {
       style.HoverHand();
     }
+    style.GetHand().setDragged(true);
   };
   commands.add({ "move-hand-drag", "Ctrl+left", group, "comes to a click, moves in the view plane",
-    DragAction{ beginDrag, [&hand] { hand.drag(); }, {} }, hasHand });
+    DragAction{ beginDrag, [&hand] { hand.drag(); }, [&hand] { hand.setDragged(false); } }, hasHand });
   commands.add({ "hand-depth-wheel", "Ctrl+wheel", group, "depth", WheelAction{ wheel }, hasHand });
   commands.add(
     { "hand-away", "Prior KP_Prior Page_Up", group, "depth", [depth] { depth(+1, kDepthPerKey); }, hasHand });

@@ -8,6 +8,7 @@
 #include "vtkRenderWindowInteractor.h"
 #include "vtkRenderer.h"
 
+#include <algorithm>
 #include <limits>
 #include <optional>
 
@@ -76,11 +77,32 @@ void TouchDisplay::setChartVisibility(bool visible)
   if (chart_ && renderer && chart_->GetVisibility() != visible)
   {
     chart_->SetVisibility(visible);
+    chartWaits_ = false;
     chartChanged_ = true;
     const double* strip = chart_->GetRenderer()->GetViewport();
     renderer->SetViewport(0.0, visible ? strip[3] : 0.0, 1.0, renderer->GetViewport()[3]);
     this->requestRender();
   }
+}
+
+void TouchDisplay::hideChartUntilTouch()
+{
+  if (chart_)
+  {
+    chart_->SetVisibility(false);
+    chartWaits_ = true;
+  }
+}
+
+bool TouchDisplay::showChartIfFelt(const std::vector<ServoSample>& samples)
+{
+  const auto isFelt = [](const ServoSample& sample) { return norm(sample.state.force) > 0.0; };
+  if (!chartWaits_ || std::none_of(samples.begin(), samples.end(), isFelt))
+  {
+    return false;
+  }
+  this->setChartVisibility(true);
+  return true;
 }
 
 bool TouchDisplay::update(const std::vector<ServoSample>& samples, const ServoSample& latest)

@@ -44,6 +44,10 @@ public:
   void setIdealForce(std::function<double(const ServoSample&)> ideal) { idealForce_ = std::move(ideal); }
   /// The chart is a strip along the lower edge; the picture takes the room that it leaves.
   void setChartVisibility(bool visible);
+  /// Hides the chart, which no picture has made room for yet, until a force is felt or the user asks for it.
+  void hideChartUntilTouch();
+  /// Shows the chart that was hidden until a force is felt. True: the picture gave it room just now.
+  bool showChartIfFelt(const std::vector<ServoSample>& samples);
 
   /// Takes the new ticks, and the newest one. True: the picture has changed.
   bool update(const std::vector<ServoSample>& samples, const ServoSample& latest);
@@ -64,6 +68,7 @@ private:
   vtkSmartPointer<vtkHapticChart> chart_;
   std::function<double(const ServoSample&)> idealForce_;
   bool isRequested_ = false;
+  bool chartWaits_ = false;          ///< True until a force is felt or the chart is shown.
   bool chartChanged_ = true;         ///< True if the chart changed since it was drawn.
   std::vector<double> chartPicture_; ///< Other values on which the chart's picture depends.
   double frameSeconds_ = 0.0;        ///< Duration of the last frame.

@@ -138,7 +138,8 @@ Vec3 MouseHand::pressed(const Vec3& place) const
 
 void MouseHand::followTouch(const ProxyState& latest, const SurfaceAt& surfaceAt)
 {
-  if (!followsMouse_ || pushesPointer_ || !device_ || !screen_.renderer() || !isFinite(latest.proxy))
+  const bool isHeld = isDragged_ || (followsMouse_ && !pushesPointer_);
+  if (!isHeld || !device_ || !screen_.renderer() || !isFinite(latest.proxy))
   {
     press_ = 0.0;
     return;

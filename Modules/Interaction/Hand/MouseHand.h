@@ -73,13 +73,15 @@ public:
   ///@}
   /// Moves the hand in the view plane as far as the mouse has moved.
   void drag();
+  /// Between true and false the mouse holds the hand.
+  void setDragged(bool on) { isDragged_ = on; }
   /// Moves the hand in the view plane to the pointer.
   void follow();
   void setPointerInside(bool isInside) { isPointerInside_ = isInside; }
-  /// To be called from a timer with the newest tick. In contact hand mode holds how deep the hand presses
-  /// below the plane that is touched, so the hand neither leaves a surface that falls away nor digs into one
-  /// that rises; a move in depth changes it. Where contact is lost, @p surfaceAt says where the surface goes
-  /// on.
+  /// To be called from a timer with the newest tick. In contact hand mode or a drag holds how deep the hand
+  /// presses below the plane that is touched, so the hand neither leaves a surface that falls away nor digs
+  /// into one that rises; a move in depth changes it. Where contact is lost, @p surfaceAt says where the
+  /// surface goes on.
   void followTouch(const ProxyState& latest, const SurfaceAt& surfaceAt);
   /// Moves the pointer to the hand, where the surface has pushed the hand away from it.
   void pushPointer(const ProxyState& latest);
@@ -101,6 +103,7 @@ private:
   const ModelTransform& model_;
   WatchedPointer<SimulatedDevice> device_;
   bool followsMouse_ = false;
+  bool isDragged_ = false;
   bool pushesPointer_ = false;
   bool isPointerInside_ = false;
   bool hoverIsDue_ = false;

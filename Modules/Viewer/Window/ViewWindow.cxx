@@ -218,8 +218,8 @@ void ViewWindow::setUpRendering()
     chart_->SetDark(!isLightGround(groundOf(options_.picture)));
     window_->AddRenderer(chart_->GetRenderer());
     chart_->GetRenderer()->SetViewport(0.0, 0.0, 1.0, kChartHeight);
-    scene_.renderer()->SetViewport(0.0, kChartHeight, 1.0, 1.0);
     style_->SetChart(chart_);
+    style_->GetDisplay().hideChartUntilTouch();
   }
   scene_.detail().setEnabled(true);
   scene_.setPicture(options_.picture);

@@ -153,36 +153,52 @@ TEST_F(HandMode, AClickWithCtrlBringsTheHandToTheSurfaceAndADragTakesHoldOfIt)
 }
 
 /// Seen from the side, what slides along the view plane leaves the surface or digs into it.
-TEST_F(HandMode, TouchesAfterTwoStepsOfTheWheelAndHoldsHowDeepItPresses)
+/// Hand mode and a drag with Ctrl hold the press both.
+class HandThatPresses
+  : public HandMode
+  , public ::testing::WithParamInterface<bool>
 {
+};
+
+TEST_P(HandThatPresses, TouchesAfterTwoStepsOfTheWheelAndHoldsHowDeepItPresses)
+{
+  const int control = this->GetParam() ? 1 : 0;
   window_->SetSize(800, 800);
   renderer_->GetActiveCamera()->Azimuth(35.0);
   renderer_->ResetCameraClippingRange();
   window_->Render();
   pointhaptics::trial::SteadyHand hand({ 0.0, 0.0, 0.03 });
   hand.begin(style_);
-  interactor_->SetEventInformation(400, 400, 0, 0);
+  interactor_->SetEventInformation(400, 400, control, 0);
   ASSERT_TRUE(this->eventually(
     [&] { return hand.servo.latest().state.radius > 0.0 && style_->GetScenes().isSettled(); }));
   ASSERT_TRUE(style_->GetPicker().surfaceAt(400, 400));
-  this->press("f");
+  if (control)
+  {
+    interactor_->InvokeEvent(vtkCommand::LeftButtonPressEvent);
+  }
+  else
+  {
+    this->press("f");
+  }
   const auto isTouching = [&] { return hand.servo.latest().state.contact; };
-  ASSERT_TRUE(this->eventually([&] { return style_->GetDistance().distance().value_or(1.0) < 0.002; }))
-    << hand.device.target().z << " " << hand.servo.latest().state.hip.z;
+  const auto height = [&] { return hand.servo.latest().state.hip.z; };
+  ASSERT_TRUE(this->eventually([&] { return height() < 0.002; }))
+    << hand.device.target().z << " " << height();
   EXPECT_FALSE(isTouching());
   interactor_->InvokeEvent(vtkCommand::MouseWheelForwardEvent);
-  ASSERT_TRUE(this->eventually([&] { return style_->GetDistance().distance().value_or(1.0) < 0.001; }))
-    << hand.device.target().z << " " << hand.servo.latest().state.hip.z;
+  ASSERT_TRUE(this->eventually([&] { return height() < 0.0007; }))
+    << hand.device.target().z << " " << height();
   interactor_->InvokeEvent(vtkCommand::MouseWheelForwardEvent);
   ASSERT_TRUE(this->eventually(isTouching)) << hand.device.target().z;
   interactor_->InvokeEvent(vtkCommand::MouseWheelForwardEvent); // deeper by a step
-  EXPECT_TRUE(this->eventually([&] { return hand.servo.latest().state.hip.z < -0.0003; }));
+  EXPECT_TRUE(this->eventually([&] { return height() < -0.0003; }));
   interactor_->InvokeEvent(vtkCommand::TimerEvent);
   const double press = -hand.device.target().z;
   for (int pixels = 15; pixels <= 75; pixels += 15)
   {
     const double before = hand.device.target().x;
-    interactor_->SetEventInformation(400 + pixels, 400, 0, 0);
+    interactor_->SetEventInformation(400 + pixels, 400, control, 0);
     interactor_->InvokeEvent(vtkCommand::MouseMoveEvent);
     EXPECT_GT(hand.device.target().x, before + 0.0005);
     EXPECT_NEAR(-hand.device.target().z, press, 1e-4) << pixels;
@@ -190,6 +206,8 @@ TEST_F(HandMode, TouchesAfterTwoStepsOfTheWheelAndHoldsHowDeepItPresses)
     EXPECT_TRUE(isTouching()) << pixels;
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(ByModeAndByDrag, HandThatPresses, ::testing::Bool());
 
 TEST_F(HandMode, ComesToTheSurfaceOnceTheSceneIsThatOfThePicture)
 {
