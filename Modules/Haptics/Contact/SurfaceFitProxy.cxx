@@ -9,6 +9,8 @@ namespace pointhaptics
 namespace
 {
 
+/// The contact point of a ball wanders by this part of the noise while the hand rests.
+constexpr double kWander = 0.2;
 /// A lost fit is sought at once. Later searches take three ticks, and one begins every kSeekEvery ticks: a
 /// search that failed a moment ago mostly fails again.
 constexpr int kSeekEvery = 4;
@@ -56,6 +58,15 @@ bool SurfaceFitProxy::isSmooth() const noexcept
   return tracker_.height(ball_.center()) > 0.0 &&
     (tracker_.residual() < kSmoothResidual * ball_.radius() ||
       tracker_.residual() < kSmoothNoise * tracker_.noise());
+}
+
+/// Length by which noise lets the contact point wander, metres: a smooth fit averages it, a ball lies on
+/// single points. 0 where the noise is too small to matter to the ball. @param weight the fit's part of the
+/// contact.
+double SurfaceFitProxy::uncertainty(const HapticScene& scene, double weight) const noexcept
+{
+  const double noise = weight < 1.0 || !isSmooth() ? scene.noise(ball_.center()) : 0.0;
+  return noise > kSmoothResidual * ball_.radius() ? kWander * noise : 0.0;
 }
 
 /// True if the surface continues on all sides of the foot: the ball sinks into a gap between points, not over
@@ -248,8 +259,8 @@ void SurfaceFitProxy::step(const HapticScene& scene, Memory& memory, const Conta
       point = contact.point + t;
       normal = contact.normal;
     };
-    state.proxy = friction_.contactPoint(
-      parameters, contact.point, contact.normal, norm(contact.point - hip), hip, along);
+    state.proxy = friction_.contactPoint(parameters, contact.point, contact.normal, norm(contact.point - hip),
+      this->uncertainty(scene, weight), hip, along);
   }
   else
   {

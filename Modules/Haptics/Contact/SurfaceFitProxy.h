@@ -81,6 +81,7 @@ private:
   Contact blended(const HapticScene& scene, Memory& memory, const Vec3& hip, double weight) const noexcept;
   bool comesOut(const HapticScene& scene, Memory& memory, const Vec3& hip, std::uint32_t& status) noexcept;
   bool isSmooth() const noexcept;
+  double uncertainty(const HapticScene& scene, double weight) const noexcept;
   bool hasSurfaceAround(const HapticScene& scene, Memory& memory) const noexcept;
 
   ProxyBall ball_;
