@@ -28,6 +28,7 @@ constexpr double kShapeOverNoise = 2.0;
 constexpr double kPointsForThickness = 6.0;
 constexpr double kPointsOfPlane = 3.0;
 constexpr std::size_t kCellsForThickness = 5;
+constexpr int kThicknessLevels = 2;
 /// Levels whose cells show edges and second sheets.
 constexpr int kMixedLevels = 2;
 /// A finer scene is worth it only if its cell is at most this part of the global one.
@@ -60,49 +61,63 @@ double residualOfAll(const CellPyramid& pyramid, const Vec3& place, double radiu
   return fit.quality == FitQuality::Quadric ? fit.residual : INFINITY;
 }
 
+/// Median thickness of the voxels within @p reach of @p seed, over their edge: of the finest voxels that hold
+/// enough points to have one. Negative: too few do. Noise of more than a cell leaves a point or two in each
+/// finest voxel, and shows in the next ones.
+double thicknessOf(const CellPyramid& pyramid, const Vec3& seed, double reach)
+{
+  for (int level = 0; level < std::min(kThicknessLevels, pyramid.numberOfCellLevels()); ++level)
+  {
+    std::vector<double> thicknesses;
+    pyramid.visitBall(level, seed, reach,
+      [&](std::uint32_t, const Cell& cell, double)
+      {
+        if (cell.count >= kPointsForThickness)
+        {
+          const double variance = std::max(0.0, symmetricEigen(cell.covariance).values[0]);
+          thicknesses.push_back(std::sqrt(variance * cell.count / (cell.count - kPointsOfPlane)));
+        }
+      });
+    if (thicknesses.size() >= kCellsForThickness)
+    {
+      const auto middle = thicknesses.begin() + std::ptrdiff_t(thicknesses.size() / 2);
+      std::nth_element(thicknesses.begin(), middle, thicknesses.end());
+      return *middle / pyramid.level(level).voxelSize;
+    }
+  }
+  return -1.0;
+}
+
 /// True if smaller fits would resolve more within @p reach of @p seed. Points lie on the fits of the global
 /// scene where it is smooth, and off them by their noise where it is noisy. Noise is as large within a voxel
 /// as in a whole fit; a larger distance in a fit than in its voxels is shape.
 bool hasFineShape(const HapticScene& global, const Vec3& seed, double reach)
 {
   const CellPyramid& pyramid = global.pyramid();
-  const auto memory = std::make_unique<FitCells>();
-  double off = 0.0;
-  double offWide = 0.0;
-  const int nodes = RadiusField::nodeLevel(pyramid);
-  pyramid.visitBall(nodes, seed, reach + pyramid.level(nodes).voxelSize,
-    [&](std::uint32_t, const Cell& node, double)
-    {
-      const double wide = kWide * global.fitScale(node.mean).countRadius;
-      off = std::max(off, global.noise(node.mean));
-      offWide = std::max(offWide, residualOfAll(pyramid, node.mean, wide, *memory));
-    });
+  const double thickness = thicknessOf(pyramid, seed, reach);
+  if (thickness < 0.0 || !(thickness < kThick))
+  {
+    return thickness < 0.0;
+  }
   bool isMixed = false;
   for (int level = 1; level <= std::min(kMixedLevels, pyramid.numberOfCellLevels() - 1); ++level)
   {
     pyramid.visitBall(
       level, seed, reach, [&](std::uint32_t, const Cell& cell, double) { isMixed |= cell.mixed; });
   }
-  std::vector<double> thicknesses;
-  pyramid.visitBall(0, seed, reach,
-    [&](std::uint32_t, const Cell& cell, double)
-    {
-      if (cell.count >= kPointsForThickness)
-      {
-        const double variance = std::max(0.0, symmetricEigen(cell.covariance).values[0]);
-        thicknesses.push_back(std::sqrt(variance * cell.count / (cell.count - kPointsOfPlane)));
-      }
-    });
-  if (thicknesses.size() < kCellsForThickness)
-  {
-    return true;
-  }
-  const auto middle = thicknesses.begin() + std::ptrdiff_t(thicknesses.size() / 2);
-  std::nth_element(thicknesses.begin(), middle, thicknesses.end());
   const double cell = global.cellSize();
-  const double noise = kShapeOverNoise * *middle;
-  return *middle < kThick * cell &&
-    (isMixed || off > std::max(kSmooth * cell, noise) || offWide > std::max(kSmoothWide * cell, noise));
+  const double noise = kShapeOverNoise * thickness * cell;
+  const auto memory = std::make_unique<FitCells>();
+  bool isShaped = isMixed;
+  const int nodes = RadiusField::nodeLevel(pyramid);
+  pyramid.visitBall(nodes, seed, reach + pyramid.level(nodes).voxelSize,
+    [&](std::uint32_t, const Cell& node, double)
+    {
+      const double wide = kWide * global.fitScale(node.mean).countRadius;
+      isShaped = isShaped || global.noise(node.mean) > std::max(kSmooth * cell, noise) ||
+        residualOfAll(pyramid, node.mean, wide, *memory) > std::max(kSmoothWide * cell, noise);
+    });
+  return isShaped;
 }
 
 /// The voxels of @p lattice about @p box, in whole cells of the levels that a fit may see there; none where

@@ -66,6 +66,7 @@ struct alignas(64) FieldBlock
   double gate[kCapacity];
   double countRadius[kCapacity];
   double proxyRadius[kCapacity];
+  double noise[kCapacity];
   double cubic[kCapacity];
   int size = 0;
   Vec3 center;
@@ -73,7 +74,8 @@ struct alignas(64) FieldBlock
 
   void clear(int i)
   {
-    x[i] = y[i] = z[i] = present[i] = radius[i] = gate[i] = countRadius[i] = proxyRadius[i] = cubic[i] = 0.0;
+    x[i] = y[i] = z[i] = present[i] = 0.0;
+    radius[i] = gate[i] = countRadius[i] = proxyRadius[i] = noise[i] = cubic[i] = 0.0;
   }
 };
 
@@ -84,6 +86,7 @@ struct FieldSums
   double gate = 0.0;
   double countRadius = 0.0;
   double proxyRadius = 0.0;
+  double noise = 0.0;
   double cubic = 0.0;
   double weightGradient[3] = { 0.0, 0.0, 0.0 };
   double radiusGradient[3] = { 0.0, 0.0, 0.0 }; ///< Gradient of the sum of weight times radius.

@@ -403,8 +403,8 @@ double sweepBall(const BallPoints& points, const Vec3& from, const Vec3& directi
 void sumField(const FieldBlock& block, const Vec3& position, double reach, FieldSums& sums)
 {
   const double perReach2 = 1.0 / (reach * reach);
-  const simd::LaneSums<12> to = simd::sumLanes<12>(block.size,
-    [&](int i, Pack(&s)[12])
+  const simd::LaneSums<13> to = simd::sumLanes<13>(block.size,
+    [&](int i, Pack(&s)[13])
     {
       const Pack d[3] = { position.x - load(block.x + i), position.y - load(block.y + i),
         position.z - load(block.z + i) };
@@ -426,6 +426,7 @@ void sumField(const FieldBlock& block, const Vec3& position, double reach, Field
         s[6 + axis] += slope * d[axis];
         s[9 + axis] += slope * d[axis] * value;
       }
+      s[12] += weight * load(block.noise + i);
     });
   sums.weights = to[0];
   sums.radius = to[1];
@@ -433,6 +434,7 @@ void sumField(const FieldBlock& block, const Vec3& position, double reach, Field
   sums.countRadius = to[3];
   sums.proxyRadius = to[4];
   sums.cubic = to[5];
+  sums.noise = to[12];
   for (int axis = 0; axis < 3; ++axis)
   {
     sums.weightGradient[axis] = to[6 + axis];

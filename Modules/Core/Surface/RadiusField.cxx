@@ -111,6 +111,7 @@ LocalScale RadiusField::at(
       sums.gate += weight * values_[i].gate;
       sums.countRadius += weight * values_[i].countRadius;
       sums.proxyRadius += weight * values_[i].proxyRadius;
+      sums.noise += weight * values_[i].noise;
       sums.cubic += weight * values_[i].cubic;
       for (int axis = 0; axis < 3; ++axis)
       {
@@ -153,6 +154,7 @@ bool RadiusField::gather(
       block.gate[at] = values_[i].gate;
       block.countRadius[at] = values_[i].countRadius;
       block.proxyRadius[at] = values_[i].proxyRadius;
+      block.noise[at] = values_[i].noise;
       block.cubic[at] = values_[i].cubic;
     });
   return fits;
@@ -171,7 +173,8 @@ LocalScale RadiusField::scaleFrom(const simd::FieldSums& sums, Vec3& radiusGradi
   {
     radiusGradient[axis] = (sums.radiusGradient[axis] - radius * sums.weightGradient[axis]) * per;
   }
-  return { radius, sums.gate * per, sums.countRadius * per, sums.proxyRadius * per, 0.0, sums.cubic * per };
+  return { radius, sums.gate * per, sums.countRadius * per, sums.proxyRadius * per, sums.noise * per,
+    sums.cubic * per };
 }
 
 } // namespace pointhaptics

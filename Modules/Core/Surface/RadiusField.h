@@ -39,7 +39,7 @@ public:
   /// nothing.
   void build(const CellPyramid& pyramid, std::vector<LocalScale> values);
 
-  /// Blended values (all but the noise) at @p position, typical() where no node is within reach(). @p pyramid
+  /// Blended values at @p position, typical() where no node is within reach(). @p pyramid
   /// is the one of build().
   LocalScale at(const CellPyramid& pyramid, const Vec3& position) const noexcept;
 

@@ -1,7 +1,8 @@
 #include "Haptics/Contact/FlatPlace.h"
 
-#include "Haptics/Contact/PointMoments.h"
+#include "Haptics/Contact/BallLengths.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace pointhaptics
@@ -17,9 +18,8 @@ constexpr double kPlanePoints = 6.0;
 constexpr double kLine = 0.1;
 /// Points further from the plane than the RMS belong to another face: they are left out this many times.
 constexpr int kTrims = 3;
-/// The place continues where a point lies within kUnder of the foot of the HIP and kAhead beyond it; both
-/// over the radius.
-constexpr double kUnder = 0.5;
+/// The place continues where a point lies within a stride of the foot of the HIP and this far beyond it, over
+/// the radius.
 constexpr double kAhead = 0.04;
 
 }
@@ -27,34 +27,41 @@ constexpr double kAhead = 0.04;
 bool FlatPlace::find(
   const BallCells& cells, const Vec3& center, double radius, double reach, Vec3& away) noexcept
 {
-  PointMoments all;
-  cells.visitBall(center, reach, [&](const Vec3& offset, double) { all.add(offset); });
-  Vec3 mean = all.mean();
-  away = normalized(mean);
-  SymEigen eigen = symmetricEigen(all.covariance());
-  if (all.count < kPlanePoints || eigen.values[0] > kFlat * kFlat * radius * radius ||
-    eigen.values[1] < kLine * kLine * radius * radius)
+  Vec3 mean;
+  SymEigen eigen;
+  for (int trim = 0; trim <= kTrims; ++trim)
   {
-    return false;
-  }
-  for (int trim = 0; trim < kTrims; ++trim)
-  {
-    const double gate = std::sqrt(std::max(0.0, eigen.values[0]));
-    PointMoments rest;
+    const double gate = trim > 0 ? std::sqrt(std::max(0.0, eigen.values[0])) : INFINITY;
+    double count = 0.0;
+    Vec3 sum;
+    SymMat3 squares;
     cells.visitBall(center, reach,
       [&](const Vec3& offset, double)
       {
-        if (std::abs(dot(offset - mean, eigen.vectors[0])) <= gate)
+        if (trim == 0 || std::abs(dot(offset - mean, eigen.vectors[0])) <= gate)
         {
-          rest.add(offset);
+          count += 1.0;
+          sum += offset;
+          squares += outerProduct(offset);
         }
       });
-    if (rest.count < kPlanePoints)
+    if (count < kPlanePoints && trim > 0)
     {
       break;
     }
-    mean = rest.mean();
-    eigen = symmetricEigen(rest.covariance());
+    mean = count > 0.0 ? sum / count : Vec3();
+    SymMat3 middle = outerProduct(mean);
+    middle *= -1.0;
+    squares *= count > 0.0 ? 1.0 / count : 0.0;
+    squares += middle;
+    eigen = symmetricEigen(squares);
+    away = trim == 0 ? normalized(mean) : away;
+    if (trim == 0 &&
+      (count < kPlanePoints || eigen.values[0] > kFlat * kFlat * radius * radius ||
+        eigen.values[1] < kLine * kLine * radius * radius))
+    {
+      return false;
+    }
   }
   this->set(center - mean, dot(eigen.vectors[0], away) < 0.0 ? -eigen.vectors[0] : eigen.vectors[0], center);
   return true;
@@ -72,7 +79,7 @@ bool FlatPlace::continuesUnder(
 {
   const Vec3 foot = hip - height(hip) * normal_;
   const Vec3 ahead = normalized(this->along(slipped - hip));
-  return scene.contactPyramid().anyWithin(0, foot, kUnder * radius,
+  return scene.contactPyramid().anyWithin(0, foot, ball::kStride * radius,
     [&](const Cell& cell)
     {
       const Vec3 beyond = cell.mean - foot;

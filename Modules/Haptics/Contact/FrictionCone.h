@@ -28,12 +28,14 @@ public:
   }
 
   /// @param foot the point nearest to @p hip on the surface, and @p normal there, unit. @param depth of the
-  /// hip below it, metres. @param along receives (tangent offset from the foot, point, normal): the surface
-  /// there.
+  /// hip below it, metres. @param uncertain metres by which noise lets the foot move though the surface does
+  /// not: a contact point so near stays, so that a hand at rest feels a spring to a fixed point, and forces
+  /// that are no gradient cannot drive it in circles. @param along receives (tangent offset from the foot,
+  /// point, normal): the surface there.
   /// @return the contact point.
   template <typename Surface>
   Vec3 contactPoint(const ContactParameters& parameters, const Vec3& foot, const Vec3& normal, double depth,
-    const Vec3& hip, Surface&& along) noexcept
+    double uncertain, const Vec3& hip, Surface&& along) noexcept
   {
     const bool isFirst = !touched_;
     touched_ = true;
@@ -41,7 +43,12 @@ public:
     {
       // The first foot point: friction has nothing to hold yet.
       sticking_ = isFirst || sticking_;
-      return contact_ = foot;
+      const Vec3 lag = contact_ - foot;
+      const double length = norm(lag);
+      contact_ = isFirst || !(uncertain > 0.0) ? foot
+        : length > uncertain                   ? foot + (uncertain / length) * lag
+                                               : contact_;
+      return contact_;
     }
     const Vec3 offset = contact_ - foot;
     const Vec3 tangential = offset - dot(offset, normal) * normal;

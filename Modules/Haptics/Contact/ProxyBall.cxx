@@ -10,6 +10,8 @@ namespace pointhaptics
 namespace
 {
 
+using namespace ball;
+
 /// Moves of one slide.
 constexpr int kMostSlides = 24;
 /// A visit of the pyramid costs so many rounds of the budget, and one more for each kPointsOfRound points
@@ -18,28 +20,20 @@ constexpr int kRoundsOfPass = 3;
 constexpr std::uint64_t kPointsOfRound = 128;
 /// Glides of one step.
 constexpr int kMostGlides = 3;
-constexpr int kMostPushes = 16;
 /// A point nearer than this many radii is touched.
 constexpr double kTouch = 1.002;
-constexpr int kMostTouched = 16;
-/// A slide moves as far as points are gathered; it gathers more only if that is less than this, over the
-/// radius.
-constexpr double kShortMove = 0.25;
+constexpr int kMostTouched = 16; ///< Also pushes out of points.
 /// Least scale of a ball that begins where it has no room.
 constexpr double kSmallestScale = 1e-3;
 /// The scale of a ball that has nearly its full size.
 constexpr double kNearlyFull = 0.8;
+/// Reach of the points that decide whether the place is flat for the first touch beside an edge, over the
+/// radius. With kPlaneReach a hand falls off a sharp wedge.
+constexpr double kTouchReach = 1.2;
 /// Places further away than this many times the cloud's extent are free without a look at the way there.
 constexpr double kFarAway = 1e6;
 /// Ways shorter than this, over the radius, count as none.
 constexpr double kNoWay = 1e-4;
-/// Reach of the points that decide whether the place is flat for the first touch beside an edge, over the
-/// radius.
-constexpr double kTouchReach = 1.2;
-/// Bumps may push the ball this far aside of the HIP, seen along the normal of a flat place; over the radius.
-constexpr double kMostAside = 0.25;
-/// After a useless glide the next one waits until the HIP has moved by this many radii.
-constexpr double kGlideAgain = 0.05;
 
 /// The vector nearest to @p pull that points into none of the @p count planes with unit normals @p n.
 Vec3 withinPlanes(const Vec3& pull, const Vec3* n, int count) noexcept
@@ -122,7 +116,7 @@ void ProxyBall::gather(Work& work, double way) noexcept
 /// Moves the ball out of the points that it covers. False: they enclose it.
 bool ProxyBall::pushOut(const BallCells& cells) noexcept
 {
-  for (int push = 0; push < kMostPushes; ++push)
+  for (int push = 0; push < kMostTouched; ++push)
   {
     const int deepest = cells.deepest(center_, kClear * scale_);
     if (deepest < 0)
@@ -135,6 +129,20 @@ bool ProxyBall::pushOut(const BallCells& cells) noexcept
   return false;
 }
 
+/// Moves a ball whose full radius is @p full out of the points that it covers, by a diameter at most; where
+/// that is not enough, it stays and becomes as small as there is room.
+void ProxyBall::makeRoom(Work& work, double full) noexcept
+{
+  gather(work, 2.0 * radius_);
+  const Vec3 before = center_;
+  if (!pushOut(work.cells) || norm(center_ - before) > 2.0 * radius_)
+  {
+    center_ = before;
+    scale_ = std::max(kSmallestScale, std::min(scale_, work.cells.roomAt(center_)));
+    radius_ = scale_ * full;
+  }
+}
+
 /// Places the ball near @p hip, outside of all points, or a smaller ball where it has no room.
 void ProxyBall::place(Work& work, const Vec3& hip) noexcept
 {
@@ -145,13 +153,7 @@ void ProxyBall::place(Work& work, const Vec3& hip) noexcept
   gather(work, 2.0 * radius_);
   const int nearest = work.cells.deepest(center_, 1.0);
   radius_ = nearest >= 0 ? work.cells.radius(nearest) : radius_;
-  gather(work, 2.0 * radius_);
-  if (!pushOut(work.cells) || norm(center_ - hip) > 2.0 * radius_)
-  {
-    center_ = hip;
-    scale_ = std::max(kSmallestScale, work.cells.roomAt(hip));
-    radius_ *= scale_;
-  }
+  makeRoom(work, radius_);
   isFree_ = center_ == hip;
 }
 
@@ -173,14 +175,7 @@ void ProxyBall::placeAmongOthers(Work& work) noexcept
   // A larger ball stands above the contact point; a smaller one goes down by itself.
   center_ = contact + scale_ * wanted * up;
   radius_ = scale_ * wanted;
-  gather(work, 2.0 * radius_);
-  const Vec3 above = center_;
-  if (!pushOut(work.cells) || norm(center_ - above) > radius_)
-  {
-    center_ = above;
-    scale_ = std::max(kSmallestScale, std::min(scale_, work.cells.roomAt(center_)));
-    radius_ = scale_ * wanted;
-  }
+  makeRoom(work, wanted);
 }
 
 /// Lets a free ball that began too small grow as far as there is room.
@@ -252,8 +247,8 @@ void ProxyBall::slide(Work& work, const Vec3& hip) noexcept
   const bool isOnFlat =
     flat_.isNear(center_, kFlatNear * radius_) && dot(hip - center_, flat_.normal()) < 0.0;
   const auto aside = [&] { return norm(flat_.along(hip - center_)); };
-  // Bumps may not push the ball further aside than kMostAside, or than it was at the start.
-  const double mostAside = isOnFlat ? std::max(kMostAside * radius_, aside()) : 0.0;
+  // Bumps may not push the ball further aside than kAside, or than it was at the start.
+  const double mostAside = isOnFlat ? std::max(kAside * radius_, aside()) : 0.0;
   for (int i = 0; i < kMostSlides && work.rounds > 0; ++i, --work.rounds)
   {
     const Vec3 pull = hip - center_;
@@ -261,9 +256,9 @@ void ProxyBall::slide(Work& work, const Vec3& hip) noexcept
     // The margin of kTouch keeps the points that are touched after the move.
     const double gathered = work.cells.reachAbout(center_) - (kTouch - 1.0 + kNoWay) * radius_;
     const double longest =
-      std::min({ norm(pull), radius_, gathered > kShortMove * radius_ ? gathered : radius_ });
+      std::min({ norm(pull), radius_, gathered > kAside * radius_ ? gathered : radius_ });
     gather(work, (kTouch - 1.0) * work.scene.contactField().largest() + longest);
-    work.cells.focus(center_, kFocus * radius_);
+    work.cells.focus(center_, kAside * radius_);
     Vec3 normals[kMostTouched];
     int touched = 0;
     double mostOpposed = 0.0; // the ball takes the radius of the touched point that opposes the pull most
@@ -370,7 +365,7 @@ void ProxyBall::step(
   hasReachedHip_ = hip_ == hip;
   status |= std::uint32_t(hasReachedHip_ ? kProxyOk : kProxyStepLimit);
   status |= std::uint32_t(scale_ < kNearlyFull && !isFree_ ? kProxyCrowded : kProxyOk);
-  const double again = kGlideAgain * radius_;
+  const double again = kTryAgain * radius_;
   if (isFree_ || norm2(hip - heldAt_) < again * again || mayWait(hip, isPatient))
   {
     return;

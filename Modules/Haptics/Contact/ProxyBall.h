@@ -3,6 +3,7 @@
 #pragma once
 
 #include "Haptics/Contact/BallCells.h"
+#include "Haptics/Contact/BallLengths.h"
 #include "Haptics/Contact/FlatPlace.h"
 #include "Haptics/HapticScene.h"
 
@@ -41,10 +42,11 @@ public:
   void step(const HapticScene& scene, BallCells& cells, const Vec3& hip, bool isPatient,
     std::uint32_t& status) noexcept;
 
-  /// Replaces a step: moves the ball above the bumps of a smooth surface to the foot @p foot of @p hip on it,
-  /// with the unit normal @p up, if no point is in its way. False: it stays, and must step.
+  /// Replaces a step: moves the ball above the bumps and the noise of a smooth surface to the foot @p foot of
+  /// @p hip on it, with the unit normal @p up, if no point is in its way. @param noise standard deviation of
+  /// the points about the surface, metres. False: it stays, and must step.
   bool ride(const HapticScene& scene, BallCells& cells, const Vec3& hip, const Vec3& foot, const Vec3& up,
-    std::uint32_t& status) noexcept;
+    double noise, std::uint32_t& status) noexcept;
 
   /// True if points within a radius lie on all sides of @p foot, in no half plane, in the face with the unit
   /// normal @p up: the ball cannot pass there.
@@ -53,15 +55,10 @@ public:
 
   /// The ball is at the HIP.
   bool isFree() const noexcept { return isFree_; }
-  /// Moves the ball over the bumps between points and down to @p foot, on a surface with the unit normal @p
-  /// up. False, and it stays: a point is in its way, or it would get further from the HIP than bumps are
-  /// high.
+  /// Moves the ball off its points, over bumps or around an edge, and down to the surface through @p foot
+  /// with the unit normal @p up. False, and it stays: a point is in its way, it would get further from the
+  /// HIP than bumps are high, or a HIP in front of that surface is not yet past the edge.
   bool goTo(const HapticScene& scene, BallCells& cells, const Vec3& foot, const Vec3& up,
-    std::uint32_t& status) noexcept;
-  /// Moves the ball over the edge of the face that it lies on, and down to the surface through @p foot with
-  /// the unit normal @p up. False, and it stays: a point is in its way, or the HIP is not inside the ball
-  /// then, so it did not come out there.
-  bool goAround(const HapticScene& scene, BallCells& cells, const Vec3& foot, const Vec3& up,
     std::uint32_t& status) noexcept;
   /// False: the HIP moved further than one step can follow; the ball is on its way.
   bool isThere() const noexcept { return hasReachedHip_; }
@@ -83,17 +80,12 @@ public:
   double depth(const Vec3& hip) const noexcept { return norm(hip - center_) - radius_; }
 
 private:
-  /// Reaches over the radius: kReachOfTick for a tick in contact, as far as a glide; kFocus for the points
-  /// that most moves look at, as most are short. kClear allows for the rounding of a covered point.
+  /// Reach of a tick in contact over the radius, as far as a glide. kClear allows for the rounding of a
+  /// covered point.
   static constexpr double kReachOfTick = 1.1;
-  static constexpr double kFocus = 0.2;
   static constexpr double kClear = 1.0 - 1e-9;
   /// Budget of one step, in rounds; a move costs one. A hand at 1 m/s needs some ten.
   static constexpr int kMostRounds = 192;
-  /// Reach of the points that decide whether the place is flat, over the radius. A flat place serves so many
-  /// radii further.
-  static constexpr double kPlaneReach = 1.4;
-  static constexpr double kFlatNear = 2.0;
 
   /// The scene, the gathered points and the budget of one step.
   struct Work
@@ -104,6 +96,7 @@ private:
     int rounds = kMostRounds;
   };
 
+  void makeRoom(Work& work, double full) noexcept;
   void place(Work& work, const Vec3& hip) noexcept;
   void placeAmongOthers(Work& work) noexcept;
   void grow(Work& work) noexcept;
@@ -113,8 +106,6 @@ private:
   void slide(Work& work, const Vec3& hip) noexcept;
   bool mayWait(const Vec3& hip, bool isPatient) const noexcept;
   bool glide(Work& work, const Vec3& hip) noexcept;
-  template <typename IsGood>
-  bool moveAbove(Work& work, const Vec3& foot, const Vec3& up, IsGood&& isGood) noexcept;
   void touchDown(Work& work) noexcept;
   Vec3 surfaceNormal(const BallCells& cells) noexcept;
   bool pushOut(const BallCells& cells) noexcept;

@@ -8,42 +8,24 @@ namespace pointhaptics
 namespace
 {
 
+using namespace ball;
+
 /// Cosine of the largest angle between a remembered flat place and the direction away from the points.
 constexpr double kFlatCosine = 0.5;
-/// Limits of a glide, over the radius: radius of the gliding ball, least pull along the surface, longest way,
-/// least gain.
+/// Radius and least gain of a glide, over the radius.
 constexpr double kGlideRadius = 0.9;
-constexpr double kLeastLean = 0.02;
-constexpr double kLongestGlide = 0.5;
 constexpr double kLeastGain = 1e-3;
 /// A ball within kWaitNear of a flat place that leans by less than kWaitLean waits; over the radius.
 constexpr double kWaitNear = 0.3;
 constexpr double kWaitLean = 0.2;
-/// Limits as the two above for a patient ball, which another part leads along the surface.
+/// Limit as the first for a patient ball, which another part leads along the surface; it may lean by a
+/// stride.
 constexpr double kPatientNear = 1.0;
-constexpr double kPatientLean = 0.5;
 constexpr int kMostLifts = 3;
 constexpr double kLifts[kMostLifts] = { 0.0, 0.3, 0.6 };
-/// How far beside an edge a ball may pass around it, how near it must come to the HIP, and how far the HIP
-/// may still be before the edge, along the face that the ball comes from; all over the radius.
-constexpr double kMostBeside = 2.0;
-constexpr double kAround = 0.1;
-constexpr double kBeforeEdge = 0.02;
-/// A ball whose center is this near to a foot, over the radius, lies on it.
-constexpr double kOnFoot = 1.3;
-/// Points higher than kWallHeight above the surface belong to a wall; a glide may lift the ball by
-/// kLargestRise.
-constexpr double kWallHeight = 0.2;
-constexpr double kLargestRise = 0.1;
-/// Height of a riding ball above the surface, over its radius and over the noise; the points of a noisy
-/// surface hold a lower one back. Its longest way in a tick, over the radius.
-constexpr double kAboveBumps = 0.1;
+/// Height of a riding ball above the surface, over the noise: the points of a noisy surface hold a lower one
+/// back.
 constexpr double kAboveNoise = 2.0;
-constexpr double kLongestRide = 0.5;
-/// A riding ball looks for the flat place again after this way, over the radius.
-constexpr double kFlatAgain = 0.5;
-/// Points further than this from the plane, over the radius, belong to another face.
-constexpr double kFace = 0.15;
 /// Offsets shorter than this, radii, have no direction.
 constexpr double kRounding = 1e-9;
 
@@ -66,7 +48,7 @@ Vec3 ProxyBall::surfaceNormal(const BallCells& cells) noexcept
 bool ProxyBall::mayWait(const Vec3& hip, bool isPatient) const noexcept
 {
   return !hasRidden_ && flat_.isNear(center_, (isPatient ? kPatientNear : kWaitNear) * radius_) &&
-    norm(flat_.along(hip - center_)) < (isPatient ? kPatientLean : kWaitLean) * radius_;
+    norm(flat_.along(hip - center_)) < (isPatient ? kStride : kWaitLean) * radius_;
 }
 
 bool ProxyBall::glide(Work& work, const Vec3& hip) noexcept
@@ -77,26 +59,25 @@ bool ProxyBall::glide(Work& work, const Vec3& hip) noexcept
   const Vec3 pull = hip - center_;
   const Vec3 lean = pull - dot(pull, up) * up;
   const double leaning = norm(lean);
-  if (leaning < kLeastLean * radius_)
+  if (leaning < kNoLean * radius_)
   {
     return false;
   }
   // Points that rise from the surface are a wall. Beside a wall a move counts as progress only if it brings
   // the ball nearer to the HIP.
   bool isWalled = !flat_.isKnown();
-  const double highest = isWalled ? 0.0 : flat_.height(center_) - kWallHeight * radius_;
+  const double highest = isWalled ? 0.0 : flat_.height(center_) - kFace * radius_;
   work.cells.visitBall(center_, kPlaneReach * radius_,
     [&](const Vec3& offset, double) { isWalled = isWalled || dot(offset, up) < highest; });
   const ProxyBall before = *this;
   const Vec3 direction = lean / leaning;
-  gather(work, (kLongestGlide + kLifts[kMostLifts - 1]) * radius_);
+  gather(work, (kStride + kLifts[kMostLifts - 1]) * radius_);
   for (const double lift : kLifts)
   {
     // A smaller ball passes bumps; a lift takes the ball out of deeper gaps.
     const double ball = lift > 0.0 ? scale_ : kGlideRadius * scale_;
     center_ += work.cells.sweep(center_, up, lift * radius_, ball) * up;
-    center_ +=
-      work.cells.sweep(center_, direction, std::min(leaning, kLongestGlide * radius_), ball) * direction;
+    center_ += work.cells.sweep(center_, direction, std::min(leaning, kStride * radius_), ball) * direction;
     const bool isOut = pushOut(work.cells);
     if (lift > 0.0)
     {
@@ -105,7 +86,7 @@ bool ProxyBall::glide(Work& work, const Vec3& hip) noexcept
     const Vec3 left = hip - center_;
     const double stillLeaning = isWalled ? norm(left) : norm(left - dot(left, up) * up);
     if (isOut && stillLeaning <= (isWalled ? norm(pull) : leaning) - kLeastGain * radius_ &&
-      norm(left) <= norm(pull) + kLargestRise * radius_)
+      norm(left) <= norm(pull) + kBump * radius_)
     {
       if (lift == 0.0)
       {
@@ -139,32 +120,16 @@ double ProxyBall::advance(Work& work, const Vec3& direction, double length) noex
 bool ProxyBall::goTo(const HapticScene& scene, BallCells& cells, const Vec3& foot, const Vec3& up,
   std::uint32_t& status) noexcept
 {
-  Work work{ scene, cells, status };
-  const double furthest = norm(hip_ - center_) + kLargestRise * radius_;
-  return this->moveAbove(work, foot, up,
-    [&] { return norm(hip_ - center_) < furthest && norm(center_ - foot) < kOnFoot * radius_; });
-}
-
-bool ProxyBall::goAround(const HapticScene& scene, BallCells& cells, const Vec3& foot, const Vec3& up,
-  std::uint32_t& status) noexcept
-{
   // At an edge sharper than a right angle the HIP passes the other face before it is past the edge.
-  if (flat_.isNear(center_, kFlatNear * radius_) &&
-    dot(hip_ - flat_.height(hip_) * flat_.normal() - foot, up) < -kBeforeEdge * radius_)
+  if (dot(hip_ - foot, up) >= 0.0 && flat_.isNear(center_, kFlatNear * radius_) &&
+    dot(hip_ - flat_.height(hip_) * flat_.normal() - foot, up) < -kNoLean * radius_)
   {
     return false;
   }
   Work work{ scene, cells, status };
-  return this->moveAbove(work, foot, up, [&] { return isFree_ || depth(hip_) <= kAround * radius_; });
-}
-
-/// Lifts the ball, moves it over edges and bumps, and lowers it to the surface through @p foot with the unit
-/// normal @p up, as far as no point is in the way. Restores it unless @p isGood then.
-template <typename IsGood>
-bool ProxyBall::moveAbove(Work& work, const Vec3& foot, const Vec3& up, IsGood&& isGood) noexcept
-{
   const ProxyBall before = *this;
-  const double beside = std::clamp(radius_ - dot(center_ - foot, up), 0.0, kMostBeside * radius_);
+  const double furthest = norm(hip_ - center_) + kBump * radius_;
+  const double beside = std::clamp(radius_ - dot(center_ - foot, up), 0.0, kFlatNear * radius_);
   for (int i = 1; i < kMostLifts; ++i)
   {
     const double lift = kLifts[i] * radius_;
@@ -176,7 +141,7 @@ bool ProxyBall::moveAbove(Work& work, const Vec3& foot, const Vec3& up, IsGood&&
     const Vec3 way = foot + (radius_ + lift) * up - center_;
     advance(work, normalized(way), norm(way));
     slide(work, hip_);
-    if (isGood())
+    if (isFree_ || (norm(hip_ - center_) < furthest && norm(center_ - foot) < kPlaneReach * radius_))
     {
       return true;
     }
@@ -211,7 +176,7 @@ bool ProxyBall::hasPointsAround(
 }
 
 bool ProxyBall::ride(const HapticScene& scene, BallCells& cells, const Vec3& hip, const Vec3& foot,
-  const Vec3& up, std::uint32_t& status) noexcept
+  const Vec3& up, double noise, std::uint32_t& status) noexcept
 {
   if (isFree_ || !hasReachedHip_ || scale_ < 1.0 || isAmongOthers_)
   {
@@ -219,22 +184,22 @@ bool ProxyBall::ride(const HapticScene& scene, BallCells& cells, const Vec3& hip
   }
   Work work{ scene, cells, status };
   const ProxyBall before = *this;
-  gather(work, norm(foot - center_) + (kOnFoot - 1.0) * scene.contactField().largest());
+  gather(work, norm(foot - center_) + (kPlaneReach - 1.0) * scene.contactField().largest());
   double largest = 0.0;
-  cells.visitTouched(foot, kOnFoot,
+  cells.visitTouched(foot, kPlaneReach,
     [&](const Vec3& offset, double radius)
-    { largest = std::max(largest, norm2(offset) < radius_ * radius_ ? radius / kOnFoot : 0.0); });
+    { largest = std::max(largest, norm2(offset) < radius_ * radius_ ? radius / kPlaneReach : 0.0); });
   radius_ = largest > 0.0 ? largest : radius_;
-  const double above = std::max(kAboveBumps * radius_, kAboveNoise * scene.noise(foot));
+  const double above = std::max(kBump * radius_, kAboveNoise * noise);
   const Vec3 way = foot + (radius_ + above) * up - center_;
   const double rise = std::max(0.0, dot(way, up));
   const Vec3 across = way - rise * up;
   const double length = norm(across);
-  bool isOut = rise + length <= kLongestRide * radius_;
+  bool isOut = rise + length <= kStride * radius_;
   if (isOut)
   {
     gather(work, rise + length);
-    cells.focus(center_, kFocus * radius_);
+    cells.focus(center_, kAside * radius_);
     const auto goes = [&](const Vec3& direction, double distance)
     {
       const bool isClear = cells.sweep(center_, direction, distance, scale_) == distance;
@@ -254,7 +219,7 @@ bool ProxyBall::ride(const HapticScene& scene, BallCells& cells, const Vec3& hip
   hasRidden_ = true;
   // A fit leans towards an edge before it ends there; a plane through the points does not.
   Vec3 ignored;
-  if (!flat_.isNear(center_, kFlatAgain * radius_))
+  if (!flat_.isNear(center_, kStride * radius_))
   {
     gather(work, kPlaneReach * radius_);
     if (!flat_.find(work.cells, center_, radius_, kPlaneReach * radius_, ignored) &&

@@ -9,6 +9,8 @@ namespace pointhaptics
 namespace
 {
 
+/// The contact point of a ball wanders by this part of the noise while the hand rests.
+constexpr double kWander = 0.2;
 /// A lost fit is sought at once. Later searches take three ticks, and one begins every kSeekEvery ticks: a
 /// search that failed a moment ago mostly fails again.
 constexpr int kSeekEvery = 4;
@@ -22,21 +24,14 @@ constexpr double kSmoothNoise = 0.5;
 /// plus kTrustDepths of the depth, as bumps between points hold the ball back.
 constexpr double kTrustRadii = 0.2;
 constexpr double kTrustDepths = 0.3;
-/// Largest distance of the fit's point from the ball's where the ball lies on a smooth surface, over the
-/// radius.
-constexpr double kTrustPlain = 0.6;
 /// From this many times the trusted distance on the ball alone is felt.
 constexpr double kDistrust = 1.5;
-/// A face counts as an exit of the HIP if it is within kOutNear and its residual below kOutResidual, both
-/// over the ball's radius, or below kOutNoise times the noise. A fit across two faces of a wedge has a larger
-/// residual.
-constexpr double kOutNear = 0.5;
+/// A face is an exit of the HIP if its residual is below kOutResidual, over the ball's radius, or kOutNoise,
+/// over the noise. A fit across two faces of a wedge has a larger residual.
 constexpr double kOutResidual = 0.01;
 constexpr double kOutNoise = 1.5;
-/// After a face that is not flat the HIP moves by this many radii before the next is looked at.
-constexpr double kOutAgain = 0.1;
-/// A point within this distance of the fit, over the ball's radius, lies on it.
-constexpr double kOnFit = 0.1;
+
+constexpr Vec3 kNowhere{ NAN, NAN, NAN };
 
 double smoothStep(double t) noexcept
 {
@@ -53,16 +48,25 @@ void SurfaceFitProxy::carry(const AffineTransform& from, const AffineTransform& 
   tracker_.carry(from, to);
   search_.carry(from, to);
   friction_.carry(change);
-  isRough_ = false;
+  roughAt_ = kNowhere;
   normal_ = normalized(change.applyToNormal(normal_), normal_);
 }
 
 /// True if the ball lies above a smooth surface.
-bool SurfaceFitProxy::isSmooth(const HapticScene& scene) const noexcept
+bool SurfaceFitProxy::isSmooth() const noexcept
 {
   return tracker_.height(ball_.center()) > 0.0 &&
     (tracker_.residual() < kSmoothResidual * ball_.radius() ||
-      tracker_.residual() < kSmoothNoise * scene.noise(tracker_.point()));
+      tracker_.residual() < kSmoothNoise * tracker_.noise());
+}
+
+/// Length by which noise lets the contact point wander, metres: a smooth fit averages it, a ball lies on
+/// single points. 0 where the noise is too small to matter to the ball. @param weight the fit's part of the
+/// contact.
+double SurfaceFitProxy::uncertainty(const HapticScene& scene, double weight) const noexcept
+{
+  const double noise = weight < 1.0 || !isSmooth() ? scene.noise(ball_.center()) : 0.0;
+  return noise > kSmoothResidual * ball_.radius() ? kWander * noise : 0.0;
 }
 
 /// True if the surface continues on all sides of the foot: the ball sinks into a gap between points, not over
@@ -79,26 +83,25 @@ bool SurfaceFitProxy::hasSurfaceAround(const HapticScene& scene, Memory& memory)
 bool SurfaceFitProxy::comesOut(
   const HapticScene& scene, Memory& memory, const Vec3& hip, std::uint32_t& status) noexcept
 {
-  const double near = kOutNear * ball_.radius();
-  const double again = kOutAgain * ball_.radius();
+  const double near = ball::kStride * ball_.radius();
+  const double again = ball::kTryAgain * ball_.radius();
   Vec3 nearest;
   if (!memory.ball.nearestOf(scene.contactPyramid(), hip, near, nearest) ||
     (hasFit_ && tracker_.height(hip) <= 0.0 &&
-      std::abs(tracker_.heightAboveFit(nearest)) < kOnFit * ball_.radius()) ||
-    (isRough_ && norm2(hip - roughAt_) < again * again))
+      std::abs(tracker_.heightAboveFit(nearest)) < ball::kBump * ball_.radius()) ||
+    norm2(hip - roughAt_) < again * again)
   {
     return false;
   }
   SurfaceSearch search;
   search.begin(nearest);
-  const double flat = std::max(kOutResidual * ball_.radius(), kOutNoise * scene.noise(nearest));
-  isRough_ = !search.finish(scene, memory.fit, hip, hip) || search.found().residual() >= flat;
-  roughAt_ = hip;
   const SurfaceTracker& face = search.found();
+  const bool isRough = !search.finish(scene, memory.fit, hip, hip) ||
+    face.residual() >= std::max(kOutResidual * ball_.radius(), kOutNoise * face.noise());
+  roughAt_ = isRough ? hip : kNowhere;
   const ProxyBall before = ball_;
-  if (isRough_ || face.height(hip) < 0.0 ||
-    !ball_.goAround(scene, memory.ball, face.point(), face.normal(), status) ||
-    face.height(ball_.center()) < 0.0)
+  if (isRough || face.height(hip) < 0.0 ||
+    !ball_.goTo(scene, memory.ball, face.point(), face.normal(), status) || face.height(ball_.center()) < 0.0)
   {
     ball_ = before;
     return false;
@@ -131,9 +134,8 @@ bool SurfaceFitProxy::seek(const HapticScene& scene, Memory& memory, const Vec3&
 bool SurfaceFitProxy::ride(
   const HapticScene& scene, Memory& memory, const Vec3& hip, std::uint32_t& status) noexcept
 {
-  return isFitAlone_ && isSmooth(scene) && tracker_.height(hip) < 0.0 &&
-    this->hasSurfaceAround(scene, memory) &&
-    ball_.ride(scene, memory.ball, hip, tracker_.point(), tracker_.normal(), status);
+  return isFitAlone_ && isSmooth() && tracker_.height(hip) < 0.0 && this->hasSurfaceAround(scene, memory) &&
+    ball_.ride(scene, memory.ball, hip, tracker_.point(), tracker_.normal(), tracker_.noise(), status);
 }
 
 /// Updates ball, fit and search, and returns the fit's part of the contact, 0 to 1. The fit is smoother, but
@@ -146,7 +148,7 @@ double SurfaceFitProxy::updateFit(const HapticScene& scene, Memory& memory, cons
   {
     const double trust =
       std::max(kTrustRadii * ball_.radius() + kTrustDepths * std::max(0.0, ball_.depth(hip)),
-        isSmooth(scene) && tracker_.continuesAround() ? kTrustPlain * ball_.radius() : 0.0);
+        isSmooth() && tracker_.continuesAround() ? ball::kStride * ball_.radius() : 0.0);
     const double distance = norm(tracker_.point() - ball_.nearestPoint(hip));
     // A HIP in front of the fit but deep below the ball belongs to another sheet.
     const bool agrees =
@@ -194,7 +196,7 @@ void SurfaceFitProxy::forgetFit() noexcept
   hasFit_ = false;
   isFitAlone_ = false;
   isPatient_ = false;
-  isRough_ = false;
+  roughAt_ = kNowhere;
   search_.giveUp();
   searchTicks_ = 0;
 }
@@ -238,7 +240,7 @@ void SurfaceFitProxy::step(const HapticScene& scene, Memory& memory, const Conta
   {
     weight = refines ? updateFit(scene, memory, hip, followed, state.status) : 0.0;
     isFitAlone_ = weight == 1.0;
-    isPatient_ = isFitAlone_ && isSmooth(scene) && tracker_.continuesAround();
+    isPatient_ = isFitAlone_ && isSmooth() && tracker_.continuesAround();
     contact = this->blended(scene, memory, hip, weight);
     state.status |= std::uint32_t(refines && weight < 1.0 && contact.pressed ? kProxyBallContact : kProxyOk);
   }
@@ -257,8 +259,8 @@ void SurfaceFitProxy::step(const HapticScene& scene, Memory& memory, const Conta
       point = contact.point + t;
       normal = contact.normal;
     };
-    state.proxy = friction_.contactPoint(
-      parameters, contact.point, contact.normal, norm(contact.point - hip), hip, along);
+    state.proxy = friction_.contactPoint(parameters, contact.point, contact.normal, norm(contact.point - hip),
+      this->uncertainty(scene, weight), hip, along);
   }
   else
   {

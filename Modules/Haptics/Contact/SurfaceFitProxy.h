@@ -80,7 +80,8 @@ private:
     std::uint32_t& status) noexcept;
   Contact blended(const HapticScene& scene, Memory& memory, const Vec3& hip, double weight) const noexcept;
   bool comesOut(const HapticScene& scene, Memory& memory, const Vec3& hip, std::uint32_t& status) noexcept;
-  bool isSmooth(const HapticScene& scene) const noexcept;
+  bool isSmooth() const noexcept;
+  double uncertainty(const HapticScene& scene, double weight) const noexcept;
   bool hasSurfaceAround(const HapticScene& scene, Memory& memory) const noexcept;
 
   ProxyBall ball_;
@@ -91,8 +92,8 @@ private:
   bool hasFit_ = false;
   bool isFitAlone_ = false; ///< The fit alone was felt.
   bool isPatient_ = false;  ///< The fit followed a smooth surface that continues on all sides.
-  Vec3 roughAt_;            ///< The HIP when the surface beside it was last found not to be a flat face.
-  bool isRough_ = false;
+  /// The HIP when the surface beside it was last found not to be a flat face; not finite: it was not.
+  Vec3 roughAt_{ NAN, NAN, NAN };
   int searchTicks_ = 0; ///< Ticks of the search since the fit alone was felt.
 };
 

@@ -8,8 +8,6 @@ namespace pointhaptics
 namespace
 {
 
-constexpr int kWidenings = 2;
-constexpr double kWidening = 1.4;
 /// RMS distance of the points over the fit radius: below kCleanSheet no second try is made; a second try
 /// replaces the first if its residual is below kBetter of that.
 constexpr double kCleanSheet = 0.05;
@@ -61,8 +59,8 @@ bool findSheet(
   const double gate = std::max(2.0 * kGateDepth * scale.countRadius, scale.gate);
   bool found = false;
   double radius = scale.radius;
-  // A few points, or points along a line, determine no fit: widen the radius.
-  for (int widening = 0; widening <= kWidenings && !found; ++widening, radius *= kWidening)
+  for (int widening = 0; widening <= SurfaceTracker::kWidenings && !found;
+       ++widening, radius *= SurfaceTracker::kWidening)
   {
     found = findSheet(scene, memory, onSurface, radius, gate, tracker);
   }

@@ -22,8 +22,6 @@ constexpr double kFar = 1.0;
 /// Slopes of a fit may differ from those that the last one predicted by this much; at edges they differ by
 /// 0.07 and more.
 constexpr double kForeseen = 0.03;
-constexpr int kWidenings = 2;
-constexpr double kWidening = 1.4;
 /// Part of the fit radius within which the fit represents the surface.
 constexpr double kReach = 0.5;
 /// The surface continues on all sides if the weighted centroid of the cells is nearer than this, over the fit
@@ -79,7 +77,6 @@ bool SurfaceTracker::refit(const HapticScene& scene, FitCells& memory) noexcept
   settings.gate = scale.gate;
   std::copy(curvature_, curvature_ + 3, settings.curvature);
   SurfaceFit fit = fitSurface(scene.pyramid(), frame_, settings, memory, &slopes);
-  // A few points, or points along a line, determine no more than a plane: widen the radius.
   for (int i = 0; i < kWidenings && fit.quality != FitQuality::Quadric; ++i)
   {
     settings.radius *= kWidening;

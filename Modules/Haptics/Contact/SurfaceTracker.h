@@ -24,6 +24,10 @@ enum class TrackResult
 class SurfaceTracker
 {
 public:
+  /// A few points, or points along a line, determine no fit: the radius is widened so often by this factor.
+  static constexpr int kWidenings = 2;
+  static constexpr double kWidening = 1.4;
+
   /// Starts at the origin of @p frame, on a surface of this curvature there, per metre, as fits have it.
   void start(const SurfaceFrame& frame, const double (&curvature)[3]) noexcept;
   /// Turns the normal towards @p side.
@@ -47,7 +51,9 @@ public:
   /// Finds the surface point above the tangent offset @p t from point(), and the normal there, by the last
   /// fit; beyond half a fit radius along the tangent there.
   void alongSurface(const Vec3& t, Vec3& point, Vec3& normal) const noexcept;
-  /// RMS distance of the cells from the last fit: the noise, metres.
+  /// Standard deviation of the points about the surface here, metres: what a fit averages.
+  double noise() const noexcept { return scale_.noise; }
+  /// RMS distance of the cells from the last fit, metres.
   double residual() const noexcept { return fit_.residual; }
   /// True if the surface continues on all sides: the cells lie about the point, and not on one side of it.
   bool continuesAround() const noexcept;

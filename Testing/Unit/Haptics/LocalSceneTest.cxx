@@ -184,6 +184,9 @@ TEST(LocalScene, IsOfNoUseWherePointsAreSparseOrSmoothOrNoisyOrFar)
   EXPECT_EQ(smooth.builder.build(hand, smooth.whole), nullptr);
   Cloud noisy(spherePoints(kPaperLarge, 1, 2e-5));
   EXPECT_EQ(noisy.builder.build(handAt({ 0.0, 0.0, kSphereRadius }), noisy.whole), nullptr);
+  // Noise of two spacings leaves a point or two in each voxel.
+  Cloud thick(waves(18000, 3.6e-4));
+  EXPECT_EQ(thick.builder.build(hand, thick.whole), nullptr);
   Cloud dense(waves(kDense));
   EXPECT_NE(dense.builder.build(hand, dense.whole), nullptr);
   EXPECT_EQ(dense.builder.build(handAt({ 0.0, 0.0, 0.02 }), dense.whole), nullptr);

@@ -506,3 +506,38 @@ TEST(Proxy, AChangeOfMethodStartsWithoutContact)
   EXPECT_FALSE(s.contact);
   EXPECT_EQ(s.force, Vec3());
 }
+
+TEST(Proxy, TheContactPointOnNoiseStaysUnderAHandThatTrembles)
+{
+  trial::Random random(31);
+  std::vector<Vec3> points = trial::planePoints(112000, 30); // 0.18 mm apart
+  for (Vec3& p : points)
+  {
+    p.z = 3.6e-4 * random.normal();
+  }
+  const trial::Scene scene = trial::resampledScene(points);
+  for (int place = 0; place < 12; ++place)
+  {
+    const Vec3 side = random.inBox({ -0.02, -0.02, 0.0 }, { 0.02, 0.02, 0.0 });
+    trial::Path path;
+    for (int i = 0; i <= 200; ++i)
+    {
+      path.push_back(side + Vec3(0, 0, 5e-3 - 4e-5 * i));
+    }
+    const Vec3 rest = path.back();
+    for (int i = 0; i < 400; ++i)
+    {
+      const double angle = 2.0 * trial::kPi * i / 100.0;
+      path.push_back(rest + 5e-6 * Vec3(std::cos(angle) - 1.0, std::sin(angle), 0.0));
+    }
+    const auto states = trial::feel(scene, {}, path);
+    Bounds contact;
+    for (std::size_t i = states.size() - 200; i < states.size(); ++i)
+    {
+      ASSERT_TRUE(states[i].contact) << place;
+      contact.include(states[i].proxy);
+    }
+    // Fits of noise moved it by up to twice the hand's way.
+    EXPECT_LT(norm(contact.extent()), 1e-6) << place;
+  }
+}

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <map>
 
 namespace pointhaptics::bench::touch
@@ -72,13 +73,21 @@ struct Row
   std::size_t points = 0;
   HardFigures figures;
   double buildSeconds = HardFigures::kNone;
-  double localBuildMs = HardFigures::kNone; ///< Longest of a local scene.
+  double localBuildMs = HardFigures::kNone; ///< Longest of a local scene, processor time.
   double oscillating = HardFigures::kNone;  ///< Runs of the hand in the loop that tremble.
   double energyOverPlane = HardFigures::kNone;
   bool isLoop() const { return std::isfinite(oscillating); }
 };
 
-/// Measures how long prepare() takes, which makes the scenes near the hand.
+/// Processor time of this thread: other work on the machine does not count.
+double threadSeconds()
+{
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
+}
+
+/// Measures the processor time of prepare(), which makes the scenes near the hand.
 class TimedMethod : public TouchMethod
 {
 public:
@@ -89,9 +98,9 @@ public:
   void reset(const TouchScene& scene) override { method_->reset(scene); }
   void prepare(const Vec3& hip) override
   {
-    const double before = secondsNow();
+    const double before = threadSeconds();
     method_->prepare(hip);
-    longest_ = std::max(longest_, 1e3 * (secondsNow() - before));
+    longest_ = std::max(longest_, 1e3 * (threadSeconds() - before));
   }
   ProxyState step(const Vec3& hip, double dt) override { return method_->step(hip, dt); }
   double longest() const { return longest_; }

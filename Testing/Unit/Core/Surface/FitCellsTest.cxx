@@ -138,6 +138,7 @@ TEST(FitCells, ScalesAreThoseOfTheField)
     value.gate = random.uniform(1e-4, 4e-4);
     value.countRadius = random.uniform(1e-3, 2e-3);
     value.proxyRadius = random.uniform(2e-3, 5e-3);
+    value.noise = random.uniform(1e-4, 5e-4);
   }
   RadiusField field;
   field.build(pyramid, values);
@@ -157,6 +158,7 @@ TEST(FitCells, ScalesAreThoseOfTheField)
       ASSERT_NEAR(found.gate, expected.gate, 1e-12);
       ASSERT_NEAR(found.countRadius, expected.countRadius, 1e-12);
       ASSERT_NEAR(found.proxyRadius, expected.proxyRadius, 1e-12);
+      ASSERT_NEAR(found.noise, expected.noise, 1e-12);
       ASSERT_LE(norm(gradient - expectedGradient), 1e-9);
     }
     ASSERT_GE(found.radius, 1e-3 * (1 - 1e-9));

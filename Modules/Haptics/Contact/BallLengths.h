@@ -1,0 +1,27 @@
+/// @file
+/// Lengths of the ball's moves, over its radius: each has one meaning wherever the ball or its fit looks.
+#pragma once
+
+namespace pointhaptics::ball
+{
+
+/// Height of the bumps between points. A riding ball keeps as far above the surface, a move may end so much
+/// further from the HIP, and a place so near counts as reached.
+constexpr double kBump = 0.1;
+/// Shorter ways along the surface are none: the ball does not lean, the HIP is not past an edge.
+constexpr double kNoLean = 0.02;
+/// Bumps push the ball aside by so much: it may wait there, and a move that gets further is worth a look.
+constexpr double kAside = 0.25;
+/// Points further than this above or below a surface belong to another face.
+constexpr double kFace = 0.2;
+/// Longest way that is judged from one place: of a glide or a ride, to a point under the HIP, to the next
+/// look for a flat place.
+constexpr double kStride = 0.5;
+/// A flat place serves so far, and a ball may pass an edge so far beside it.
+constexpr double kFlatNear = 2.0;
+/// Reach of the points about a ball that touch it or tell whether its place is flat.
+constexpr double kPlaneReach = 1.4;
+/// After a try that did not help the next one waits until the HIP has gone this far.
+constexpr double kTryAgain = 0.05;
+
+} // namespace pointhaptics::ball
