@@ -207,9 +207,9 @@ int ph_feel(const ph_scene* scene, const double* path, size_t count, double rate
       }
       std::int64_t step = 0;
       feelPath(parameters, scenes, hand, rate, steps,
-        [&](double time, const ProxyState& state, double microseconds)
+        [&](double time, const VirtualTouch& touch)
         {
-          const auto row = feltRow(time, state, microseconds);
+          const auto row = feltRow(time, touch.sample());
           std::copy(row.begin(), row.end(), rows + PH_COLUMNS * step);
           return ++step % kStepsBetweenLooks != 0 || !isStopped(stop);
         });

@@ -3,6 +3,7 @@
 #include "PathTicks.h"
 #include "VirtualTouch.h"
 
+#include "Core/Base/StoppableThread.h"
 #include "Devices/SimulatedDevice.h"
 #include "Haptics/ServoLoop.h"
 
@@ -99,7 +100,7 @@ struct ph_servo
   void follow(LocalSceneFollower& follower)
   {
     double lastLook = 0.0;
-    while (!isEnding)
+    while (!sceneThread.stopIsRequested())
     {
       const ServoSample latest = loop.latest();
       Bounds place;
@@ -123,11 +124,7 @@ struct ph_servo
 
   void stop()
   {
-    isEnding = true;
-    if (sceneThread.joinable())
-    {
-      sceneThread.join();
-    }
+    sceneThread.stop();
     loop.stop();
     hand.close();
   }
@@ -137,8 +134,7 @@ struct ph_servo
   ServoLoop loop; ///< After the hand: stops before that is gone.
   std::vector<ServoSample> samples;
   std::size_t taken = 0; ///< Number of samples that were taken.
-  std::atomic<bool> isEnding{ false };
-  std::thread sceneThread;
+  StoppableThread sceneThread;
 };
 
 int ph_servo_start(
@@ -176,7 +172,7 @@ int ph_servo_start(
       }
       if (LocalSceneFollower* follower = servo->scenes.follower())
       {
-        servo->sceneThread = std::thread([self = servo.get(), follower] { self->follow(*follower); });
+        servo->sceneThread.start([self = servo.get(), follower] { self->follow(*follower); });
       }
       *out = servo.release();
       return int(PH_OK);
@@ -225,7 +221,7 @@ int ph_servo_trace(ph_servo* servo, double* rows, size_t most, size_t* count)
       for (std::size_t i = 0; i < *count; ++i)
       {
         const ServoSample& sample = servo->samples[servo->taken++];
-        const auto row = feltRow(sample.timeSeconds, sample.state, 1e6 * sample.updateSeconds);
+        const auto row = feltRow(sample.timeSeconds, sample);
         std::copy(row.begin(), row.end(), rows + PH_COLUMNS * i);
       }
       return PH_OK;

@@ -56,35 +56,4 @@ Status PathReplayDevice::write(double, const Vec3&) noexcept
   return open_ ? Status::Ok : Status::DeviceNotOpen;
 }
 
-RecordingDevice::RecordingDevice(HapticDevice& device, std::size_t capacity)
-  : device_(device)
-{
-  path_.points.reserve(capacity);
-}
-
-Status RecordingDevice::read(double timeSeconds, HandState& state) noexcept
-{
-  const Status status = device_.read(timeSeconds, state);
-  if (status != Status::Ok)
-  {
-    return status;
-  }
-  std::vector<HipPathPoint>& points = path_.points;
-  const bool later = points.empty() || timeSeconds > points.back().timeSeconds;
-  if (points.size() < points.capacity() && later && std::isfinite(timeSeconds) && isFinite(state.position))
-  {
-    points.push_back({ timeSeconds, state.position, state.isNew });
-  }
-  else
-  {
-    ++lost_;
-  }
-  return status;
-}
-
-Status RecordingDevice::write(double timeSeconds, const Vec3& force) noexcept
-{
-  return device_.write(timeSeconds, force);
-}
-
 } // namespace pointhaptics

@@ -1,11 +1,9 @@
 /// @file
-/// Devices made of paths: one replays a HIP path, one records another device's motion.
+/// A device that replays a HIP path.
 #pragma once
 
 #include "Devices/HapticDevice.h"
 #include "Devices/HipPath.h"
-
-#include <cstdint>
 
 namespace pointhaptics
 {
@@ -33,35 +31,6 @@ private:
   std::size_t hint_ = 0;
   bool holdAtEnd_ = false;
   bool open_ = false;
-};
-
-/// Passes everything through to another device and keeps the positions read, up to a capacity fixed at
-/// construction (the servo thread does not allocate). Later ones, those that are not finite and those whose
-/// time does not ascend (a servo loop started again begins at 0) are counted and lost, so that what is
-/// recorded is always a valid path.
-class RecordingDevice : public HapticDevice
-{
-public:
-  /// @p device must outlive this one.
-  RecordingDevice(HapticDevice& device, std::size_t capacity);
-
-  const char* name() const noexcept override { return device_.name(); }
-  DeviceCapabilities capabilities() const noexcept override { return device_.capabilities(); }
-  HandLimits limits() const noexcept override { return device_.limits(); }
-  std::string message() const override { return device_.message(); }
-  Status open() override { return device_.open(); }
-  void close() override { device_.close(); }
-  Status read(double timeSeconds, HandState& state) noexcept override;
-  Status write(double timeSeconds, const Vec3& force) noexcept override;
-
-  /// The recorded path. Call it only while the servo loop is stopped.
-  const HipPath& recorded() const noexcept { return path_; }
-  std::uint64_t lostSamples() const noexcept { return lost_; }
-
-private:
-  HapticDevice& device_;
-  HipPath path_;
-  std::uint64_t lost_ = 0;
 };
 
 } // namespace pointhaptics

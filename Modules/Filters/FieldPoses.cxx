@@ -3,11 +3,11 @@
 #include "vtkDataArray.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
+#include "vtkMath.h"
 #include "vtkNew.h"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -51,42 +51,17 @@ std::vector<double> movedPosesIn(vtkFieldData* field, const char* name)
   return values;
 }
 
-/// Quaternion of the rotation whose matrix is T over @p scale: Shepperd's method, by its largest part.
+/// Quaternion of the rotation whose matrix is T over @p scale.
 Quaternion rotationOf(const AffineTransform& transform, double scale)
 {
-  const auto& m = transform.m;
-  const double trace = m[0][0] + m[1][1] + m[2][2];
+  double rotation[3][3];
+  for (int i = 0; i < 9; ++i)
+  {
+    rotation[i / 3][i % 3] = transform.m[i / 3][i % 3] / scale;
+  }
   Quaternion result;
-  if (trace >= std::max({ m[0][0], m[1][1], m[2][2] }))
-  {
-    result = { scale + trace, m[2][1] - m[1][2], m[0][2] - m[2][0], m[1][0] - m[0][1] };
-  }
-  else
-  {
-    const std::size_t i = m[0][0] >= m[1][1] ? (m[0][0] >= m[2][2] ? 0 : 2) : (m[1][1] >= m[2][2] ? 1 : 2);
-    const std::size_t j = (i + 1) % 3;
-    const std::size_t k = (i + 2) % 3;
-    result[0] = m[k][j] - m[j][k];
-    result[1 + i] = scale + m[i][i] - m[j][j] - m[k][k];
-    result[1 + j] = m[j][i] + m[i][j];
-    result[1 + k] = m[k][i] + m[i][k];
-  }
-  const double length =
-    std::sqrt(result[0] * result[0] + result[1] * result[1] + result[2] * result[2] + result[3] * result[3]);
-  for (double& part : result)
-  {
-    part /= length;
-  }
+  vtkMath::Matrix3x3ToQuaternion(rotation, result.data());
   return result;
-}
-
-/// The rotation @p a after @p b.
-Quaternion product(const Quaternion& a, const double* b)
-{
-  return { a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3],
-    a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],
-    a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1],
-    a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0] };
 }
 
 /// @p scale receives what @p transform does to lengths. False: there is no rotation in it.
@@ -121,7 +96,8 @@ void movePoses(const AffineTransform& transform, vtkFieldData* field)
     for (std::size_t i = 0; i < poses.size(); i += kPoseSize)
     {
       const Vec3 position = transform.apply({ poses[i], poses[i + 1], poses[i + 2] });
-      const Quaternion turned = product(rotation, &poses[i + 3]);
+      Quaternion turned;
+      vtkMath::MultiplyQuaternion(rotation.data(), &poses[i + 3], turned.data());
       std::copy(&position.x, &position.x + 3, &poses[i]);
       std::copy(turned.begin(), turned.end(), &poses[i + 3]);
     }

@@ -41,6 +41,27 @@ PointAccess::PointAccess(vtkPoints* points)
   view_ = PointView(vtkDoubleArray::FastDownCast(keep_)->GetPointer(0), count);
 }
 
+ScalarType scalarTypeOf(vtkDataArray* array)
+{
+  const int type = array->GetDataType();
+  if (type == VTK_FLOAT || type == VTK_DOUBLE)
+  {
+    return type == VTK_FLOAT ? ScalarType::Float : ScalarType::Double;
+  }
+  const bool isSigned = array->GetDataTypeMin() < 0.0;
+  switch (array->GetDataTypeSize())
+  {
+    case 1:
+      return isSigned ? ScalarType::Int8 : ScalarType::UInt8;
+    case 2:
+      return isSigned ? ScalarType::Int16 : ScalarType::UInt16;
+    case 4:
+      return isSigned ? ScalarType::Int32 : ScalarType::UInt32;
+    default:
+      return isSigned ? ScalarType::Int64 : ScalarType::UInt64;
+  }
+}
+
 bool affineFromTransform(vtkAbstractTransform* transform, AffineTransform& result)
 {
   result = AffineTransform();
@@ -61,39 +82,22 @@ bool affineFromTransform(vtkAbstractTransform* transform, AffineTransform& resul
   {
     return false;
   }
-  for (int r = 0; r < 3; ++r)
-  {
-    for (int c = 0; c < 4; ++c)
-    {
-      result.m[r][c] = matrix->GetElement(r, c) / w;
-    }
-  }
+  result = transformOf(matrix);
+  std::for_each(result.m[0], result.m[0] + 12, [w](double& element) { element /= w; });
   return true;
 }
 
 void setElements(vtkMatrix4x4* matrix, const AffineTransform& transform)
 {
-  matrix->Identity();
-  for (int row = 0; row < 3; ++row)
-  {
-    for (int column = 0; column < 4; ++column)
-    {
-      matrix->SetElement(row, column, transform.m[row][column]);
-    }
-  }
+  double rows[16] = {};
+  std::copy_n(transform.m[0], 12, rows);
+  rows[15] = 1.0;
+  matrix->DeepCopy(rows);
 }
 
 AffineTransform transformOf(const vtkMatrix4x4* matrix)
 {
-  AffineTransform transform;
-  for (int row = 0; row < 3; ++row)
-  {
-    for (int column = 0; column < 4; ++column)
-    {
-      transform.m[row][column] = matrix->GetElement(row, column);
-    }
-  }
-  return transform;
+  return AffineTransform::fromRows(matrix->Element[0]);
 }
 
 std::optional<Lattice> latticeOf(vtkPolyData* means)

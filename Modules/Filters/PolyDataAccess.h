@@ -5,6 +5,7 @@
 #include "Core/Base/AffineTransform.h"
 #include "Core/Base/Lattice.h"
 #include "Core/Base/PointView.h"
+#include "Core/Base/ScalarType.h"
 #include "Core/Base/Status.h"
 
 #include "vtkSmartPointer.h"
@@ -35,6 +36,8 @@ private:
   PointView view_;
 };
 
+/// Core's type of the numbers of @p array. @pre they are no bits.
+ScalarType scalarTypeOf(vtkDataArray* array);
 /// The matrix of a linear transform; null gives the identity. @return false for a transform that is not
 /// affine.
 bool affineFromTransform(vtkAbstractTransform* transform, AffineTransform& result);

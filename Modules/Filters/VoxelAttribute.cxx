@@ -1,5 +1,7 @@
 #include "VoxelAttribute.h"
 
+#include "PolyDataAccess.h"
+
 #include "Core/Resample/AttributeView.h"
 
 #include "vtkDataArray.h"
@@ -9,43 +11,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <type_traits>
 
 namespace pointhaptics
 {
 namespace
 {
-
-template <typename T>
-ScalarType typeOf()
-{
-  if (std::is_floating_point<T>::value)
-  {
-    return sizeof(T) == sizeof(float) ? ScalarType::Float : ScalarType::Double;
-  }
-  constexpr bool isSigned = std::is_signed<T>::value;
-  switch (sizeof(T))
-  {
-    case 1:
-      return isSigned ? ScalarType::Int8 : ScalarType::UInt8;
-    case 2:
-      return isSigned ? ScalarType::Int16 : ScalarType::UInt16;
-    case 4:
-      return isSigned ? ScalarType::Int32 : ScalarType::UInt32;
-    default:
-      return isSigned ? ScalarType::Int64 : ScalarType::UInt64;
-  }
-}
-
-ScalarType scalarType(int vtkType)
-{
-  switch (vtkType)
-  {
-    vtkTemplateMacro(return typeOf<VTK_TT>());
-    default:
-      return ScalarType::Double;
-  }
-}
 
 /// VTK packs bits; everything else is one number after the other once it is in VTK's usual arrays.
 int plainType(int vtkType)
@@ -72,7 +42,7 @@ vtkSmartPointer<vtkDataArray> plainArray(vtkDataArray* array)
   }
   auto copy =
     vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(plainType(array->GetDataType())));
-  const ScalarType type = scalarType(copy->GetDataType());
+  const ScalarType type = scalarTypeOf(copy);
   if (type != ScalarType::Int64 && type != ScalarType::UInt64)
   {
     copy->DeepCopy(array);
@@ -104,7 +74,7 @@ VoxelAttribute::VoxelAttribute(vtkDataArray* input, AttributeKind kind, const At
   : input_(input)
   , plain_(known && known->copy ? known->copy : plainArray(input))
   , kind_(kind)
-  , view_{ plain_->GetVoidPointer(0), scalarType(plain_->GetDataType()), plain_->GetNumberOfComponents(),
+  , view_{ plain_->GetVoidPointer(0), scalarTypeOf(plain_), plain_->GetNumberOfComponents(),
     std::int64_t(plain_->GetNumberOfTuples()) }
 {
   values_.copy = plain_ == input_ ? nullptr : plain_;

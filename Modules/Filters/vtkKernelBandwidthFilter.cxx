@@ -2,7 +2,7 @@
 
 #include "BandwidthArrays.h"
 #include "PolyDataAccess.h"
-#include "PrintSettings.h"
+#include "SettingText.h"
 #include "SmpExecutor.h"
 
 #include "Core/Bandwidth/Density.h"
@@ -225,5 +225,5 @@ bool vtkKernelBandwidthFilter::Estimate(vtkPolyData* cloud)
 void vtkKernelBandwidthFilter::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  printSettings(os, indent, this->Settings);
+  keyed::printSettings(os, indent, this->Settings);
 }

@@ -1,6 +1,6 @@
 #include "vtkVoxelMeanResampler.h"
 
-#include "PrintSettings.h"
+#include "SettingText.h"
 #include "vtkVoxelMeanResamplerInternals.h"
 
 #include "Core/Base/Host/OutOfMemory.h"
@@ -184,7 +184,7 @@ void vtkVoxelMeanResampler::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Transform: " << (this->Transform ? this->Transform->GetClassName() : "(none)") << "\n";
-  printSettings(os, indent, this->Settings);
+  keyed::printSettings(os, indent, this->Settings);
   os << indent << "LatticePerBlock: " << this->LatticePerBlock << "\n";
   os << indent << "NumberOfClippedPoints: " << this->NumberOfClippedPoints << "\n";
   os << indent << "NumberOfInvalidPoints: " << this->NumberOfInvalidPoints << "\n";

@@ -5,6 +5,7 @@
 #include "Core/Base/SettingsMembers.h"
 #include "Core/Base/Status.h"
 
+#include <limits>
 #include <tuple>
 
 namespace pointhaptics
@@ -42,10 +43,24 @@ struct ContactParameters
   static constexpr auto members()
   {
     using S = ContactParameters;
-    return std::make_tuple(settingsMember("stiffness", &S::stiffness), settingsMember("damping", &S::damping),
-      settingsMember("staticFriction", &S::staticFriction),
-      settingsMember("dynamicFriction", &S::dynamicFriction), settingsMember("settleRate", &S::settleRate),
-      settingsMember("deviceDamping", &S::deviceDamping), settingsMember("forceLimit", &S::forceLimit));
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    return std::make_tuple(
+      settingsMember("stiffness", &S::stiffness,
+        { "--stiffness", "Stiffness of the surface; default 800", "N_PER_M", { 0.0, 1e5 } }),
+      settingsMember("damping", &S::damping,
+        { "--damping", "Of the hand's speed along the normal, in contact; default 0", "N_S_PER_M",
+          { 0.0, 1e3 } }),
+      settingsMember("staticFriction", &S::staticFriction,
+        { "--mu-s", "Static friction; default that of --mu-d", "X", { 0.0, 10.0 } }),
+      settingsMember("dynamicFriction", &S::dynamicFriction,
+        { "--mu-d", "Dynamic friction; default 0", "X", { 0.0, 10.0 } }),
+      settingsMember("settleRate", &S::settleRate, { nullptr, "", "N/s", { 0.0, kInfinity, true } }),
+      settingsMember("deviceDamping", &S::deviceDamping, { nullptr, "", "N s/m", { 0.0, 1e3 } }),
+      settingsMember("forceLimit", &S::forceLimit,
+        { "--force-limit",
+          "The force never exceeds this, fades where the hand is far from its contact, and lets it go; above "
+          "0, inf: none, in virtual time only; default 8",
+          "N", { 0.0, kInfinity, true } }));
   }
 };
 static_assert(listsEveryMember<ContactParameters>());
@@ -72,12 +87,16 @@ struct GradientStepsParameters
   static constexpr auto members()
   {
     using S = GradientStepsParameters;
-    return std::make_tuple(settingsMember("freeGain", &S::freeGain),
-      settingsMember("normalGain", &S::normalGain), settingsMember("tangentGain", &S::tangentGain),
-      settingsMember("sinkTolerance", &S::sinkTolerance),
-      settingsMember("stepPeriodSeconds", &S::stepPeriodSeconds),
-      settingsMember("maximumStepsPerTick", &S::maximumStepsPerTick),
-      settingsMember("largestStep", &S::largestStep),
+    const auto within = [](double minimum, double maximum) {
+      return SettingOption{ nullptr, "", "", { minimum, maximum } };
+    };
+    return std::make_tuple(settingsMember("freeGain", &S::freeGain, within(0.0, 1.0)),
+      settingsMember("normalGain", &S::normalGain, within(0.0, 10.0)),
+      settingsMember("tangentGain", &S::tangentGain, within(0.0, 1.0)),
+      settingsMember("sinkTolerance", &S::sinkTolerance, within(0.0, 1.0)),
+      settingsMember("stepPeriodSeconds", &S::stepPeriodSeconds, within(1e-7, 1.0)),
+      settingsMember("maximumStepsPerTick", &S::maximumStepsPerTick, within(1.0, 10000.0)),
+      settingsMember("largestStep", &S::largestStep, within(1e-6, 10.0)),
       settingsMember("normalizedByDensity", &S::normalizedByDensity));
   }
 };
@@ -105,8 +124,14 @@ struct HapticParameters
   static constexpr auto members()
   {
     using S = HapticParameters;
-    return std::make_tuple(settingsMember("method", &S::method), settingsMember("contact", &S::contact),
-      settingsMember("gradientSteps", &S::gradientSteps));
+    return std::make_tuple(
+      settingsMember("method", &S::method,
+        { "--method",
+          "How the proxy meets the surface: a fit (the default), a sphere among the points, or the paper's "
+          "steps" }),
+      settingsMember("contact", &S::contact),
+      settingsMember("gradientSteps", &S::gradientSteps,
+        { "--preset", "Gains of --method gradient-steps; default tuned, paper for the printed ones" }));
   }
 };
 static_assert(listsEveryMember<HapticParameters>());

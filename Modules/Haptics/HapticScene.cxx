@@ -1,8 +1,7 @@
 #include "Haptics/HapticScene.h"
 
-#include "Haptics/NodeRadii.h"
-
 #include "Core/Base/Boxes.h"
+#include "Core/Neighbors/NeighborQuery.h"
 #include "Core/Neighbors/SurfaceMidpoints.h"
 #include "Core/Surface/FitRadius.h"
 
@@ -165,6 +164,61 @@ double pointsPerCell(const CellPyramid& pyramid)
   const double points = std::accumulate(
     cells.begin(), cells.end(), 0.0, [](double sum, const Cell& cell) { return sum + cell.count; });
   return points / double(cells.size());
+}
+
+/// Finds one radius per cell of @p nodes: that of the point of @p input nearest to the cell's mean (ties: the
+/// smaller index), taken from input.proxyRadii, or, where those are empty, computed by input.bandwidth for
+/// these points alone; the result is the same bit for bit. @p uses where given, one per node: others than
+/// NodeUse::All get 0.
+Status nodeRadii(const CellPyramid::Level& nodes, const HapticSceneInput& input, std::vector<double>& radii,
+  const Executor& executor, const std::vector<NodeUse>* uses)
+{
+  const PointView points(input.points.data(), std::int64_t(input.points.size()));
+  NeighborQuery query;
+  query.build(points, executor);
+  std::vector<std::size_t> asked;
+  for (std::size_t i = 0; i < nodes.cells.size(); ++i)
+  {
+    if (!uses || (*uses)[i] == NodeUse::All)
+    {
+      asked.push_back(i);
+    }
+  }
+  std::vector<std::int64_t> slots(asked.size(), 0);
+  forRange(executor, std::int64_t(slots.size()),
+    [&](std::int64_t begin, std::int64_t end)
+    {
+      for (std::int64_t i = begin; i < end; ++i)
+      {
+        Neighbor nearest;
+        if (query.nearestSlots(nodes.cells[asked[std::size_t(i)]].mean, 1, &nearest) == 1)
+        {
+          slots[std::size_t(i)] = NeighborQuery::slotOf(nearest);
+        }
+      }
+    });
+  std::vector<double> found;
+  if (input.proxyRadii.empty())
+  {
+    const Status status = localRadiiAt(points, input.counts, query, *input.bandwidth, slots, found, executor);
+    if (status != Status::Ok)
+    {
+      return status;
+    }
+  }
+  else
+  {
+    for (const std::int64_t slot : slots)
+    {
+      found.push_back(input.proxyRadii[std::size_t(query.index(slot))]);
+    }
+  }
+  radii.assign(nodes.cells.size(), 0.0);
+  for (std::size_t i = 0; i < asked.size(); ++i)
+  {
+    radii[asked[i]] = found[i];
+  }
+  return Status::Ok;
 }
 
 /// Computes the fields at their nodes; in a local scene at those nodes that have enough cells.

@@ -142,6 +142,35 @@ Lattice partOf(const Lattice& lattice, const Bounds& box)
 
 } // namespace
 
+void takeVoxels(const VoxelResampler& voxels, const VoxelRequest& request, HapticSceneInput& input)
+{
+  const std::size_t size = std::size_t(voxels.size());
+  std::vector<float> floats(request.singlePrecision ? 3 * size : 0);
+  input.points.resize(size);
+  if (request.singlePrecision)
+  {
+    voxels.copyMeans(floats.data());
+    for (std::size_t i = 0; i < floats.size(); ++i)
+    {
+      input.points[i / 3][int(i % 3)] = double(floats[i]);
+    }
+  }
+  else
+  {
+    voxels.copyMeans(&input.points.data()->x);
+  }
+  input.counts.assign(voxels.counts(), voxels.counts() + size);
+  if (request.covariances)
+  {
+    input.covariances.resize(size);
+    voxels.copyCovariances(input.covariances.data());
+  }
+  const Vec3& spacing = request.lattice.spacing;
+  input.cellSize = std::max({ spacing.x, spacing.y, spacing.z });
+  input.corner = request.lattice.origin;
+  input.modelToWorkspace = request.transform;
+}
+
 Status LocalSceneBuilder::setCloud(const PointView& points, const Executor& executor)
 {
   const auto index = std::make_shared<PointIndex>();
@@ -252,23 +281,13 @@ std::shared_ptr<const HapticScene> LocalSceneBuilder::build(
   {
     return nullptr;
   }
-  const std::size_t size = std::size_t(resampler_.size());
-  input.points.resize(size);
-  resampler_.copyMeans(&input.points[0].x);
+  takeVoxels(resampler_, request, input);
   // Voxels beside the part may lack points.
   const Bounds whole = part.bounds();
   std::replace_if(
     input.points.begin(), input.points.end(), [&](const Vec3& mean) { return !contains(whole, mean); },
     Vec3{ NAN, NAN, NAN });
-  std::vector<std::int64_t> counts(size);
-  resampler_.copyCounts(counts.data());
-  input.counts.assign(counts.begin(), counts.end());
-  input.covariances.resize(size);
-  resampler_.copyCovariances(input.covariances.data());
   input.bandwidth = bandwidth_;
-  input.cellSize = cell;
-  input.corner = lattice.origin;
-  input.modelToWorkspace = request.transform;
   input.origin = this->originOf(hand, *global);
   Status status = Status::Ok;
   return HapticScene::create(std::move(input), status, executor);

@@ -12,6 +12,9 @@
 namespace pointhaptics
 {
 
+/// Gives @p input what @p voxels, resampled by @p request, are, where they lie, and in which frame.
+void takeVoxels(const VoxelResampler& voxels, const VoxelRequest& request, HapticSceneInput& input);
+
 /// Resamples the points of a cloud about a hand into cells about as fine as their spacing, and makes a scene
 /// of them. Its fallback for a hand that leaves is the global scene (HapticScene::fallback()). The cells are
 /// those of one lattice over the whole cloud: overlapping scenes of one cell size have equal cells, bit for

@@ -61,12 +61,6 @@ Status checkSpring(const HandLimits& limits, const HapticParameters& parameters,
     : status;
 }
 
-/// One writer; read by any thread.
-void increase(std::atomic<std::uint64_t>& counter, std::uint64_t amount) noexcept
-{
-  counter.store(counter.load(std::memory_order_relaxed) + amount, std::memory_order_relaxed);
-}
-
 template <typename Input>
 void keep(std::vector<Input>& inputs, Input input)
 {
@@ -108,21 +102,8 @@ struct ServoLoop::Implementation
   TraceRing<ServoSample> trace;
   LatencyHistogram jitter;
   LatencyHistogram update;
-  std::atomic<std::uint64_t> ticks{ 0 };
-  std::atomic<std::uint64_t> deadlineMisses{ 0 };
-  std::atomic<std::uint64_t> deviceFaults{ 0 };
-  std::atomic<std::uint64_t> waitingTicks{ 0 };
-  std::atomic<std::uint64_t> idleTicks{ 0 };
-  std::atomic<std::uint64_t> staleTicks{ 0 };
+  LatestValue<ServoStatistics> statistics;        ///< Without what the trace and the histograms know.
   std::atomic<std::int64_t> newestHeartbeat{ 0 }; ///< steadyNanoseconds().
-  std::atomic<std::int64_t> firstWake{ 0 };
-  std::atomic<std::int64_t> newestWake{ 0 };
-  std::atomic<bool> realtime{ false };
-  std::atomic<int> realtimeRefusal{ 0 };
-  std::atomic<bool> memoryLocked{ false };
-  std::atomic<int> memoryRefusal{ 0 };
-  std::atomic<bool> coresAwake{ false };
-  std::atomic<int> awakeRefusal{ 0 };
   std::atomic<bool> running{ false };
   std::atomic<bool> stopRequested{ false };
   std::atomic<bool> clutched{ false };
@@ -140,6 +121,8 @@ struct ServoLoop::Implementation
   ServoStepSettings stepSettings;
   ServoStep step;
   const HapticScene* scene = nullptr;
+  ServoStatistics count;
+  std::int64_t firstWake = 0;
   bool isFed = false; ///< By feed(): the thread does not run. Of the thread that starts and stops.
   std::uint64_t parametersVersion = 0;
   Vec3 lastHip;
@@ -182,14 +165,9 @@ void ServoLoop::Implementation::clear()
   trace.resize(std::size_t(settings.traceCapacity));
   jitter.clear();
   update.clear();
-  for (auto* counter : { &ticks, &deadlineMisses, &deviceFaults, &waitingTicks, &idleTicks, &staleTicks })
-  {
-    counter->store(0, std::memory_order_relaxed);
-  }
-  firstWake.store(0, std::memory_order_relaxed);
-  newestWake.store(0, std::memory_order_relaxed);
-  realtime.store(false, std::memory_order_relaxed);
-  realtimeRefusal.store(0, std::memory_order_relaxed);
+  count = ServoStatistics();
+  statistics.write(count);
+  firstWake = 0;
   stopRequested.store(false, std::memory_order_relaxed);
 }
 
@@ -219,12 +197,11 @@ void ServoLoop::Implementation::prepare(
   parametersVersion = parameters.version();
   sample.parameters = parametersVersion;
   clear();
-  const int refusal = settings.lockMemory ? lockMemory() : 0;
-  memoryRefusal.store(refusal, std::memory_order_relaxed);
-  memoryLocked.store(settings.lockMemory && refusal == 0, std::memory_order_relaxed);
-  const int awakeError = settings.keepCoresAwake ? wakefulCores.request() : 0;
-  awakeRefusal.store(awakeError, std::memory_order_relaxed);
-  coresAwake.store(settings.keepCoresAwake && awakeError == 0, std::memory_order_relaxed);
+  count.memoryRefusal = settings.lockMemory ? lockMemory() : 0;
+  count.memoryLocked = settings.lockMemory && count.memoryRefusal == 0;
+  count.awakeRefusal = settings.keepCoresAwake ? wakefulCores.request() : 0;
+  count.coresAwake = settings.keepCoresAwake && count.awakeRefusal == 0;
+  statistics.write(count);
   newestHeartbeat.store(steadyNanoseconds(), std::memory_order_relaxed);
   stopRequested.store(false, std::memory_order_relaxed);
   running.store(true, std::memory_order_release);
@@ -237,9 +214,9 @@ void ServoLoop::Implementation::run() noexcept
   touchStack();
   if (settings.realtimePriority)
   {
-    const int refusal = requestRealtimePriority();
-    realtimeRefusal.store(refusal, std::memory_order_relaxed);
-    realtime.store(refusal == 0, std::memory_order_relaxed);
+    count.realtimeRefusal = requestRealtimePriority();
+    count.realtime = count.realtimeRefusal == 0;
+    statistics.write(count);
   }
 
   const double period = 1e9 / settings.rateHz;
@@ -264,8 +241,8 @@ void ServoLoop::Implementation::run() noexcept
       // only.
       missed = std::uint64_t(double(wake - deadline(number)) / period);
     }
-    increase(deadlineMisses, missed);
-    increase(idleTicks, idle);
+    count.deadlineMisses += missed;
+    count.idleTicks += idle;
     number += missed;
     if (tick(number, wake) == Status::EndOfPath)
     {
@@ -274,6 +251,7 @@ void ServoLoop::Implementation::run() noexcept
     idle = ticksToIdle();
     number += 1 + idle;
   }
+  statistics.write(count);
   static_cast<void>(port->write(double(number - 1) / settings.rateHz, Vec3()));
   running.store(false, std::memory_order_release);
 }
@@ -320,7 +298,7 @@ Status ServoLoop::Implementation::tick(std::uint64_t number, std::int64_t wake) 
   {
     const bool waits = (healthy || input.reading == Status::DeviceNotReady) &&
       (writing == Status::Ok || writing == Status::DeviceNotReady);
-    increase(waits ? waitingTicks : deviceFaults, 1);
+    ++(waits ? count.waitingTicks : count.deviceFaults);
   }
   sample.updateSeconds = 1e-9 * double(steadyNanoseconds() - wake);
   update.record(sample.updateSeconds);
@@ -332,19 +310,19 @@ void ServoLoop::Implementation::publish(const ServoSample& newSample, std::int64
 {
   trace.push(newSample);
   newest.write(newSample);
-  if (firstWake.load(std::memory_order_relaxed) == 0)
-  {
-    firstWake.store(wake, std::memory_order_relaxed);
-  }
-  newestWake.store(wake, std::memory_order_relaxed);
-  increase(ticks, 1);
+  firstWake = firstWake == 0 ? wake : firstWake;
+  ++count.ticks;
+  const double answered = double(count.ticks + count.idleTicks);
+  count.rateHz =
+    count.ticks > 1 && wake > firstWake ? (answered - 1.0) * 1e9 / double(wake - firstWake) : 0.0;
+  statistics.write(count);
 }
 
 bool ServoLoop::Implementation::gateIsOpen(std::int64_t wake) noexcept
 {
   const double age = 1e-9 * double(wake - newestHeartbeat.load(std::memory_order_relaxed));
   const bool stale = settings.watchdogSeconds > 0.0 && age > settings.watchdogSeconds;
-  increase(staleTicks, stale ? 1 : 0);
+  count.staleTicks += stale ? 1 : 0;
   return !stale && !stopRequested.load(std::memory_order_acquire);
 }
 
@@ -515,26 +493,10 @@ ServoSample ServoLoop::latest() const noexcept
 ServoStatistics ServoLoop::statistics() const noexcept
 {
   const Implementation& self = *implementation_;
-  ServoStatistics result;
-  result.ticks = self.ticks.load(std::memory_order_relaxed);
-  result.deadlineMisses = self.deadlineMisses.load(std::memory_order_relaxed);
-  result.deviceFaults = self.deviceFaults.load(std::memory_order_relaxed);
+  ServoStatistics result = self.statistics.read();
   result.lostTraceSamples = self.trace.lost();
-  const std::int64_t elapsed =
-    self.newestWake.load(std::memory_order_relaxed) - self.firstWake.load(std::memory_order_relaxed);
-  result.idleTicks = self.idleTicks.load(std::memory_order_relaxed);
-  const double answered = double(result.ticks + result.idleTicks);
-  result.rateHz = elapsed > 0 && result.ticks > 1 ? (answered - 1.0) * 1e9 / double(elapsed) : 0.0;
   result.jitter = self.jitter.summary();
   result.update = self.update.summary();
-  result.waitingTicks = self.waitingTicks.load(std::memory_order_relaxed);
-  result.staleTicks = self.staleTicks.load(std::memory_order_relaxed);
-  result.realtime = self.realtime.load(std::memory_order_relaxed);
-  result.realtimeRefusal = self.realtimeRefusal.load(std::memory_order_relaxed);
-  result.memoryLocked = self.memoryLocked.load(std::memory_order_relaxed);
-  result.memoryRefusal = self.memoryRefusal.load(std::memory_order_relaxed);
-  result.coresAwake = self.coresAwake.load(std::memory_order_relaxed);
-  result.awakeRefusal = self.awakeRefusal.load(std::memory_order_relaxed);
   return result;
 }
 

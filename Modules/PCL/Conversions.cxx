@@ -3,6 +3,8 @@
 
 #include "PCL/FieldLayout.h"
 
+#include "PolyDataAccess.h"
+
 #include "vtkCellArray.h"
 #include "vtkDataArray.h"
 #include "vtkDoubleArray.h"
@@ -40,55 +42,17 @@ constexpr const char* kViewpoint = "Viewpoint";
 
 int vtkTypeOf(ScalarType type)
 {
-  switch (type)
-  {
-    case ScalarType::Int8:
-      return VTK_SIGNED_CHAR;
-    case ScalarType::UInt8:
-      return VTK_UNSIGNED_CHAR;
-    case ScalarType::Int16:
-      return VTK_SHORT;
-    case ScalarType::UInt16:
-      return VTK_UNSIGNED_SHORT;
-    case ScalarType::Int32:
-      return VTK_INT;
-    case ScalarType::UInt32:
-      return VTK_UNSIGNED_INT;
-    case ScalarType::Int64:
-      return VTK_LONG_LONG;
-    case ScalarType::UInt64:
-      return VTK_UNSIGNED_LONG_LONG;
-    case ScalarType::Float:
-      return VTK_FLOAT;
-    default:
-      return VTK_DOUBLE;
-  }
+  return std::find_if(
+    kFieldTypes.begin(), kFieldTypes.end(), [type](const FieldType& each) { return each.scalar == type; })
+    ->vtk;
 }
 
 /// 0: PCL has no such type.
 std::uint8_t pclTypeOf(vtkDataArray* array)
 {
-  const int type = array->GetDataType();
-  const bool isSigned = array->GetDataTypeMin() < 0.0;
-  if (type == VTK_FLOAT || type == VTK_DOUBLE)
-  {
-    return type == VTK_FLOAT ? Field::FLOAT32 : Field::FLOAT64;
-  }
-  if (type == VTK_BIT)
-  {
-    return 0;
-  }
-  switch (array->GetDataTypeSize())
-  {
-    case 1:
-      return isSigned ? Field::INT8 : Field::UINT8;
-    case 2:
-      return isSigned ? Field::INT16 : Field::UINT16;
-    case 4:
-      return isSigned ? Field::INT32 : Field::UINT32;
-    default:
-      return isSigned ? Field::INT64 : Field::UINT64;
-  }
+  const auto isThat = [array](const FieldType& each) { return each.scalar == scalarTypeOf(array); };
+  return array->GetDataType() == VTK_BIT ? std::uint8_t(0)
+                                         : std::find_if(kFieldTypes.begin(), kFieldTypes.end(), isThat)->pcl;
 }
 
 /// Copies @p bytes bytes of each record to an array without gaps.

@@ -80,42 +80,10 @@ bool readCoordinates(const std::vector<Field>& fields, FieldLayout& layout, std:
 
 bool scalarTypeOf(const Field& field, ScalarType& type)
 {
-  switch (field.datatype)
-  {
-    case Field::INT8:
-      type = ScalarType::Int8;
-      return true;
-    case Field::UINT8:
-    case Field::BOOL:
-      type = ScalarType::UInt8;
-      return true;
-    case Field::INT16:
-      type = ScalarType::Int16;
-      return true;
-    case Field::UINT16:
-      type = ScalarType::UInt16;
-      return true;
-    case Field::INT32:
-      type = ScalarType::Int32;
-      return true;
-    case Field::UINT32:
-      type = ScalarType::UInt32;
-      return true;
-    case Field::INT64:
-      type = ScalarType::Int64;
-      return true;
-    case Field::UINT64:
-      type = ScalarType::UInt64;
-      return true;
-    case Field::FLOAT32:
-      type = ScalarType::Float;
-      return true;
-    case Field::FLOAT64:
-      type = ScalarType::Double;
-      return true;
-    default:
-      return false;
-  }
+  const auto found = std::find_if(kFieldTypes.begin(), kFieldTypes.end(),
+    [&field](const FieldType& each) { return each.pcl == field.datatype; });
+  type = found == kFieldTypes.end() ? type : found->scalar;
+  return found != kFieldTypes.end();
 }
 
 const Field* fieldNamed(const std::vector<Field>& fields, const std::string& name)

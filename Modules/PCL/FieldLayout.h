@@ -4,9 +4,12 @@
 
 #include "PCL/RecordVoxels.h"
 
+#include "vtkType.h"
+
 #include <pcl/PCLPointField.h>
 
 #include <array>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -21,7 +24,29 @@ struct FieldLayout
   std::vector<RecordField> others;
 };
 
-/// PCL's type of a field; false: it is none. BOOL counts as UInt8.
+/// A type of numbers, as PCL, Core and VTK call it.
+struct FieldType
+{
+  std::uint8_t pcl;
+  ScalarType scalar;
+  int vtk;
+};
+/// BOOL, which counts as UInt8, comes last.
+inline constexpr std::array<FieldType, 11> kFieldTypes = { {
+  { ::pcl::PCLPointField::INT8, ScalarType::Int8, VTK_SIGNED_CHAR },
+  { ::pcl::PCLPointField::UINT8, ScalarType::UInt8, VTK_UNSIGNED_CHAR },
+  { ::pcl::PCLPointField::INT16, ScalarType::Int16, VTK_SHORT },
+  { ::pcl::PCLPointField::UINT16, ScalarType::UInt16, VTK_UNSIGNED_SHORT },
+  { ::pcl::PCLPointField::INT32, ScalarType::Int32, VTK_INT },
+  { ::pcl::PCLPointField::UINT32, ScalarType::UInt32, VTK_UNSIGNED_INT },
+  { ::pcl::PCLPointField::INT64, ScalarType::Int64, VTK_LONG_LONG },
+  { ::pcl::PCLPointField::UINT64, ScalarType::UInt64, VTK_UNSIGNED_LONG_LONG },
+  { ::pcl::PCLPointField::FLOAT32, ScalarType::Float, VTK_FLOAT },
+  { ::pcl::PCLPointField::FLOAT64, ScalarType::Double, VTK_DOUBLE },
+  { ::pcl::PCLPointField::BOOL, ScalarType::UInt8, VTK_UNSIGNED_CHAR },
+} };
+
+/// PCL's type of a field; false: it is none.
 bool scalarTypeOf(const ::pcl::PCLPointField& field, ScalarType& type);
 
 /// Reads the layout of records of @p step bytes. Packed colours ("rgb", "rgba") become four bytes, normal_x,

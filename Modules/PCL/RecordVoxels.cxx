@@ -2,7 +2,6 @@
 
 #include "SmpExecutor.h"
 
-#include "Core/Base/Buffer.h"
 #include "Core/Distributed/SharedVoxels.h"
 #include "Core/Resample/AttributeView.h"
 #include "Core/Resample/VoxelMean.h"
@@ -10,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <mutex>
 
 namespace pointhaptics
 {
@@ -57,25 +55,14 @@ PointView viewOf(const RecordCloud& cloud, std::vector<Real>& copy)
   return { copy.data(), cloud.size };
 }
 
-/// Where the engine writes the means.
-class MeansAllocator : public OutputAllocator
+/// The means, copied to @p copy.
+template <typename Real>
+const char* meansOf(const VoxelResampler& engine, std::vector<Real>& copy, const Executor& executor)
 {
-public:
-  void* allocate(std::size_t part, std::size_t bytes) override
-  {
-    if (part >= buffers_.size())
-    {
-      return nullptr;
-    }
-    Buffer<std::uint64_t>& buffer = buffers_[part];
-    buffer.reserve(bytes / sizeof(std::uint64_t) + 1);
-    return buffer.data();
-  }
-  const void* memory() const { return buffers_[Means].data(); }
-
-private:
-  std::array<Buffer<std::uint64_t>, Attributes> buffers_; ///< One for each part before these.
-};
+  copy.resize(3 * std::size_t(engine.size()));
+  engine.copyMeans(copy.data(), executor);
+  return reinterpret_cast<const char*>(copy.data());
+}
 
 AttributeRequest requestFor(const RecordCloud& cloud, const RecordField& field)
 {
@@ -88,68 +75,8 @@ AttributeRequest requestFor(const RecordCloud& cloud, const RecordField& field)
   return request;
 }
 
-/// Records that are read together stay in the first cache until all of their fields have been.
+/// Records that are written together stay in the first cache until all of their fields have been.
 constexpr std::int64_t kBlock = 1024;
-
-/// Properties of a cloud that must be known before its points are summed.
-struct Survey
-{
-  Bounds box;
-  std::vector<AttributeRange> ranges;
-
-  void include(const Survey& other)
-  {
-    if (!other.box.empty())
-    {
-      box.include(other.box.minimum);
-      box.include(other.box.maximum);
-    }
-    for (std::size_t i = 0; i < ranges.size(); ++i)
-    {
-      ranges[i] = joinedRange(ranges[i], other.ranges[i]);
-    }
-  }
-};
-
-PointView partOf(const PointView& points, std::int64_t first, std::int64_t count)
-{
-  const std::int64_t at = points.stride() * first;
-  return points.floats() ? PointView(points.floats() + at, count, points.stride())
-                         : PointView(points.doubles() + at, count, points.stride());
-}
-
-/// The fields of a record lie together: each record is read once.
-Survey surveyOf(
-  const PointView& points, const std::vector<AttributeRequest>& attributes, const Executor& executor)
-{
-  Survey all;
-  all.ranges.resize(attributes.size());
-  std::mutex mutex;
-  forRange(executor, (points.size() + kBlock - 1) / kBlock, 16,
-    [&](std::int64_t begin, std::int64_t end)
-    {
-      const Executor alone;
-      Survey own;
-      own.ranges.resize(attributes.size());
-      for (std::int64_t first = kBlock * begin; first < std::min(kBlock * end, points.size());
-           first += kBlock)
-      {
-        const std::int64_t count = std::min(kBlock, points.size() - first);
-        Survey block{ transformedBounds(partOf(points, first, count), {}, alone), {} };
-        for (const AttributeRequest& attribute : attributes)
-        {
-          AttributeView view = attribute.view;
-          view.values = static_cast<const char*>(view.values) + view.stride * first;
-          view.tuples = count;
-          block.ranges.push_back(rangeOf(view, alone));
-        }
-        own.include(block);
-      }
-      const std::lock_guard<std::mutex> lock(mutex);
-      all.include(own);
-    });
-  return all;
-}
 
 /// A field of the voxels, and where it goes.
 struct Written
@@ -162,21 +89,9 @@ struct Written
   /// To records @p first to before @p last, the tuples of the voxels @p kept, or of all where that is null.
   void copy(const std::int64_t* kept, std::int64_t first, std::int64_t last, std::size_t step) const
   {
-    // The compiler is to know the usual sizes.
-    bytes == 4      ? copyBytes<4>(kept, first, last, step)
-      : bytes == 8  ? copyBytes<8>(kept, first, last, step)
-      : bytes == 12 ? copyBytes<12>(kept, first, last, step)
-                    : copyBytes<0>(kept, first, last, step);
-  }
-
-private:
-  template <std::size_t Bytes>
-  void copyBytes(const std::int64_t* kept, std::int64_t first, std::int64_t last, std::size_t step) const
-  {
     for (std::int64_t i = first; i < last; ++i)
     {
-      std::memcpy(to + step * std::size_t(i), tuples + every * std::size_t(kept ? kept[i] : i),
-        Bytes > 0 ? Bytes : bytes);
+      std::memcpy(to + step * std::size_t(i), tuples + every * std::size_t(kept ? kept[i] : i), bytes);
     }
   }
 };
@@ -201,7 +116,6 @@ void addMeans(const char* xyz, std::size_t bytes, char* records, const std::arra
 struct RecordVoxels::Implementation
 {
   VoxelResampler engine;
-  MeansAllocator means;
   RecordVoxelSettings settings;
   VoxelRequest request;
   std::vector<RecordField> fields;
@@ -268,21 +182,16 @@ Status RecordVoxels::Implementation::run(const RecordCloud& cloud, const Executo
   {
     request.attributes.push_back(requestFor(cloud, field));
   }
-  const Survey survey = surveyOf(request.points, request.attributes, executor);
-  if (survey.box.empty())
+  const Bounds box = transformedBounds(request.points, {}, executor);
+  if (box.empty())
   {
     return Status::Empty;
   }
-  Status status = alignedLattice(settings.leaf, survey.box, request.lattice, first);
+  Status status = alignedLattice(settings.leaf, box, request.lattice, first);
   if (status != Status::Ok)
   {
     return status;
   }
-  for (std::size_t i = 0; i < fields.size(); ++i)
-  {
-    request.attributes[i].range = survey.ranges[i];
-  }
-  request.allocator = &means;
   request.keys = settings.keepKeys;
   status = engine.run(request, executor);
   if (status == Status::Ok)
@@ -320,19 +229,22 @@ void RecordVoxels::write(char* records, std::size_t step, const std::array<std::
   {
     return;
   }
-  std::vector<Written> written;
-  addMeans(static_cast<const char*>(mine.means.memory()),
-    mine.request.singlePrecision ? sizeof(float) : sizeof(double), records, xyz, written);
-  for (std::size_t i = 0; i < offsets.size(); ++i)
-  {
-    const std::size_t bytes = bytesOf(mine.fields[i]);
-    written.push_back(
-      { static_cast<const char*>(mine.engine.attribute(i)), bytes, bytes, records + offsets[i] });
-  }
   const std::int64_t* kept = mine.kept.empty() ? nullptr : mine.kept.data();
   withThreads(mine.settings.threads,
     [&](const Executor& executor)
     {
+      std::vector<float> floats;
+      std::vector<double> doubles;
+      std::vector<Written> written;
+      mine.request.singlePrecision
+        ? addMeans(meansOf(mine.engine, floats, executor), sizeof(float), records, xyz, written)
+        : addMeans(meansOf(mine.engine, doubles, executor), sizeof(double), records, xyz, written);
+      for (std::size_t i = 0; i < offsets.size(); ++i)
+      {
+        const std::size_t bytes = bytesOf(mine.fields[i]);
+        written.push_back(
+          { static_cast<const char*>(mine.engine.attribute(i)), bytes, bytes, records + offsets[i] });
+      }
       forRange(executor, mine.size, 16 * kBlock,
         [&](std::int64_t begin, std::int64_t end)
         {

@@ -99,12 +99,9 @@ std::shared_ptr<const HapticScene> makeHapticScene(vtkPolyData* cloud, Status& s
   }
   if (vtkDataArray* matrix = fieldArray(cloud, "ModelToWorkspace", 16))
   {
-    for (int row = 0; row < 3; ++row)
+    for (vtkIdType i = 0; i < 12; ++i)
     {
-      for (int column = 0; column < 4; ++column)
-      {
-        input.modelToWorkspace.m[row][column] = fieldValue(matrix, 4 * row + column);
-      }
+      input.modelToWorkspace.m[i / 4][i % 4] = fieldValue(matrix, i);
     }
   }
   if (voxels)

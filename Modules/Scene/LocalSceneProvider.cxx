@@ -3,14 +3,13 @@
 #include "PolyDataAccess.h"
 
 #include "Core/Base/Boxes.h"
-#include "Core/Base/PointBlocks.h"
 
 #include "vtkPointSet.h"
 #include "vtkPoints.h"
 
 #include <algorithm>
 #include <array>
-#include <numeric>
+#include <mutex>
 #include <utility>
 #include <vector>
 
@@ -21,72 +20,30 @@ namespace
 
 /// A local scene with more than this fraction of the cells does not pay.
 constexpr double kLargestFraction = 0.7;
-constexpr std::int64_t kBlocksAPiece = 32;
+constexpr std::int64_t kPointsAPiece = 1 << 15;
 
-AffineTransform affineFromRows(const std::array<double, 16>& rows)
-{
-  AffineTransform transform;
-  for (int row = 0; row < 3; ++row)
-  {
-    for (int column = 0; column < 4; ++column)
-    {
-      transform.m[row][column] = rows[std::size_t(4 * row + column)];
-    }
-  }
-  return transform;
-}
-
-/// Counts the points from @p begin to before @p end in @p box, and writes their numbers to @p inside, which
-/// has room for all. It has no branches, as they would be mispredicted.
-template <typename Real>
-std::size_t findWithin(const Real* first, std::int64_t stride, const Bounds& box, std::int64_t begin,
-  std::int64_t end, std::int64_t* inside)
-{
-  std::size_t count = 0;
-  for (std::int64_t i = begin; i < end; ++i)
-  {
-    const Real* p = first + stride * i;
-    inside[count] = i;
-    count += std::size_t((p[0] >= box.minimum.x) & (p[0] <= box.maximum.x) & (p[1] >= box.minimum.y) &
-      (p[1] <= box.maximum.y) & (p[2] >= box.minimum.z) & (p[2] <= box.maximum.z));
-  }
-  return count;
-}
-
-/// Returns the points of @p points in @p box, x y z together. They are found twice, as memory that grows
-/// costs more than a second look.
+/// The points of @p points in @p box, x y z together, in any order: sums of voxels are exact.
 template <typename Real>
 std::vector<Real> pointsWithin(
   const Real* first, const PointView& points, const Bounds& box, const Executor& executor)
 {
-  const std::int64_t blocks = (points.size() + kPointBlock - 1) / kPointBlock;
-  std::vector<std::size_t> begins(std::size_t(blocks) + 1, 0);
-  const auto forBlocks = [&](auto&& use)
-  {
-    forRange(executor, blocks, kBlocksAPiece,
-      [&](std::int64_t block, std::int64_t end)
-      {
-        std::array<std::int64_t, kPointBlock> inside;
-        for (; block < end; ++block)
-        {
-          const std::int64_t from = block * kPointBlock;
-          const std::int64_t to = std::min(points.size(), from + kPointBlock);
-          use(block, inside.data(), findWithin(first, points.stride(), box, from, to, inside.data()));
-        }
-      });
-  };
-  forBlocks([&](std::int64_t block, const std::int64_t*, std::size_t count)
-    { begins[std::size_t(block) + 1] = count; });
-  std::partial_sum(begins.begin(), begins.end(), begins.begin());
-  std::vector<Real> found(3 * begins.back());
-  forBlocks(
-    [&](std::int64_t block, const std::int64_t* inside, std::size_t count)
+  std::vector<Real> found;
+  std::mutex mutex;
+  forRange(executor, points.size(), kPointsAPiece,
+    [&](std::int64_t begin, std::int64_t end)
     {
-      Real* to = found.data() + 3 * begins[std::size_t(block)];
-      for (std::size_t i = 0; i < count; ++i)
+      std::vector<Real> own;
+      for (const Real* p = first + points.stride() * begin; begin < end; ++begin, p += points.stride())
       {
-        std::copy_n(first + points.stride() * inside[i], 3, to + 3 * i);
+        // One branch that is rarely taken: six would be mispredicted.
+        if ((p[0] >= box.minimum.x) & (p[0] <= box.maximum.x) & (p[1] >= box.minimum.y) &
+          (p[1] <= box.maximum.y) & (p[2] >= box.minimum.z) & (p[2] <= box.maximum.z))
+        {
+          own.insert(own.end(), p, p + 3);
+        }
       }
+      const std::lock_guard<std::mutex> lock(mutex);
+      found.insert(found.end(), own.begin(), own.end());
     });
   return found;
 }
@@ -96,20 +53,6 @@ Bounds boxOfModel(const AffineTransform& transform, const Bounds& box)
 {
   const AffineTransform back = transform.inverse();
   return boxOfCorners(box, [&](const Vec3& p) { return back.apply(p); });
-}
-
-template <typename Real>
-std::vector<Vec3> meansOf(const VoxelResampler& engine)
-{
-  const std::size_t size = std::size_t(engine.size());
-  std::vector<Real> coordinates(3 * size);
-  engine.copyMeans(coordinates.data());
-  std::vector<Vec3> means(size);
-  for (std::size_t i = 0; i < size; ++i)
-  {
-    means[i] = { double(coordinates[3 * i]), double(coordinates[3 * i + 1]), double(coordinates[3 * i + 2]) };
-  }
-  return means;
 }
 
 } // namespace
@@ -140,7 +83,9 @@ std::shared_ptr<const HapticScene> LocalSceneProvider::build(
   {
     return nullptr;
   }
-  HapticSceneInput input = this->input(request);
+  HapticSceneInput input;
+  takeVoxels(engine_, voxels_, input);
+  input.bandwidth = request.bandwidth;
   auto origin = std::make_shared<SceneOrigin>();
   origin->kind = SceneOrigin::Kind::Region;
   origin->voxels = request.voxels;
@@ -225,10 +170,7 @@ std::shared_ptr<const HapticScene> LocalSceneProvider::make(
   const AffineTransform& model = origin.modelToWorkspace;
   if (origin.kind == SceneOrigin::Kind::Region)
   {
-    for (int row = 0; row < 3; ++row)
-    {
-      std::copy_n(model.m[row], 4, request.modelToWorkspace.begin() + 4 * row);
-    }
+    std::copy_n(model.m[0], 12, request.modelToWorkspace.begin());
     return this->build(request, global);
   }
   Status status = Status::Ok;
@@ -278,36 +220,14 @@ bool LocalSceneProvider::prepare(const SceneRequest& request)
     return false;
   }
   voxels_ = VoxelRequest();
-  voxels_.transform = affineFromRows(request.modelToWorkspace);
+  voxels_.transform = AffineTransform::fromRows(request.modelToWorkspace.data());
   voxels_.singlePrecision = settings.outputPointsPrecision == PointsPrecision::OfInput
     ? cloud_->GetPoints()->GetDataType() == VTK_FLOAT
     : settings.outputPointsPrecision == PointsPrecision::Single;
-  voxels_.covariances = settings.computeCovariance;
+  voxels_.covariances = settings.computeCovariance && request.useCovariance;
   voxels_.instructions = settings.instructionSet;
   return voxels_.transform.check() == Status::Ok &&
     makeLattice(settings.lattice, Bounds(), voxels_.lattice) == Status::Ok;
-}
-
-/// Input of a scene, as makeHapticScene() reads it from the filter's output.
-HapticSceneInput LocalSceneProvider::input(const SceneRequest& request) const
-{
-  const std::size_t size = std::size_t(engine_.size());
-  HapticSceneInput input;
-  input.points = voxels_.singlePrecision ? meansOf<float>(engine_) : meansOf<double>(engine_);
-  std::vector<std::int64_t> counts(size);
-  engine_.copyCounts(counts.data());
-  input.counts.assign(counts.begin(), counts.end());
-  if (request.useCovariance && voxels_.covariances)
-  {
-    input.covariances.resize(size);
-    engine_.copyCovariances(input.covariances.data());
-  }
-  input.bandwidth = request.bandwidth;
-  const Vec3& spacing = voxels_.lattice.spacing;
-  input.cellSize = std::max({ spacing.x, spacing.y, spacing.z });
-  input.corner = voxels_.lattice.origin;
-  input.modelToWorkspace = voxels_.transform;
-  return input;
 }
 
 } // namespace pointhaptics

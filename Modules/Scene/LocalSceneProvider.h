@@ -60,7 +60,6 @@ private:
   bool resample(const LocalRegion& region);
   bool follow(const SceneRequest& request, const std::shared_ptr<const HapticScene>& global);
   bool prepare(const SceneRequest& request);
-  HapticSceneInput input(const SceneRequest& request) const;
 
   SmpExecutor smp_;
   vtkSmartPointer<vtkPointSet> cloud_;

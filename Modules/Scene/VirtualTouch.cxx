@@ -31,7 +31,7 @@ VirtualTouch::VirtualTouch(const HapticParameters& parameters, FeelScenes& scene
   sample_.parameters = 1;
 }
 
-const ProxyState& VirtualTouch::step(const HandState& hand, double& microseconds)
+const ServoSample& VirtualTouch::step(const HandState& hand)
 {
   const HapticScene* scene =
     scenes_.at(hand.position, sample_.state.contact && !hand.isNew ? sample_.state.proxy : hand.position);
@@ -50,12 +50,11 @@ const ProxyState& VirtualTouch::step(const HandState& hand, double& microseconds
   step_.finish(input, Status::Ok, sample_);
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - before;
   sample_.updateSeconds = took.count();
-  microseconds = 1e6 * took.count();
-  return sample_.state;
+  return sample_;
 }
 
-void feelPathWith(const HapticParameters& parameters, FeelScenes& scenes, const HipPath& path, double rateHz,
-  std::int64_t ticks, const OnTouch& onTouch)
+void feelPath(const HapticParameters& parameters, FeelScenes& scenes, const HipPath& path, double rateHz,
+  std::int64_t ticks, const OnTick& onTick)
 {
   VirtualTouch touch(parameters, scenes, rateHz);
   const double start = path.points.front().timeSeconds;
@@ -64,21 +63,12 @@ void feelPathWith(const HapticParameters& parameters, FeelScenes& scenes, const 
   for (std::int64_t tick = 0; tick < ticks; ++tick)
   {
     const double time = std::min(start + double(tick) / rateHz, end);
-    double microseconds = 0.0;
-    touch.step(path.hand(time, hint), microseconds);
-    if (!onTouch(time, touch))
+    touch.step(path.hand(time, hint));
+    if (!onTick(time, touch))
     {
       return;
     }
   }
-}
-
-void feelPath(const HapticParameters& parameters, FeelScenes& scenes, const HipPath& path, double rateHz,
-  std::int64_t ticks, const OnTick& onTick)
-{
-  feelPathWith(parameters, scenes, path, rateHz, ticks,
-    [&onTick](double time, const VirtualTouch& touch)
-    { return onTick(time, touch.sample().state, 1e6 * touch.sample().updateSeconds); });
 }
 
 } // namespace pointhaptics

@@ -27,6 +27,10 @@ constexpr std::array<const char*, 16> kFeltColumns = { "t", "hip_x", "hip_y", "h
 /// One tick as a row of these columns.
 POINTHAPTICSSCENE_EXPORT std::array<double, kFeltColumns.size()> feltRow(
   double timeSeconds, const ProxyState& state, double microseconds);
+inline auto feltRow(double timeSeconds, const ServoSample& sample)
+{
+  return feltRow(timeSeconds, sample.state, 1e6 * sample.updateSeconds);
+}
 
 /// A servo step without force limits, in the scenes along the hand's way. One thread at a time.
 class POINTHAPTICSSCENE_EXPORT VirtualTouch
@@ -34,9 +38,9 @@ class POINTHAPTICSSCENE_EXPORT VirtualTouch
 public:
   /// @param scenes outlives this.
   VirtualTouch(const HapticParameters& parameters, FeelScenes& scenes, double rateHz);
-  /// Steps with @p hand. @param microseconds gets the duration of the tick alone: a scene that it
-  /// needs is there in time.
-  const ProxyState& step(const HandState& hand, double& microseconds);
+  /// Steps with @p hand. @return sample(), whose duration is that of the tick alone: a scene that it needs is
+  /// there in time.
+  const ServoSample& step(const HandState& hand);
   /// Sample of the last step; its tick is the step's number, 1, 2, ...
   const ServoSample& sample() const { return sample_; }
   /// Scene in which the last step was felt; may be null.
@@ -51,16 +55,12 @@ private:
   ServoSample sample_;
 };
 
-/// Called by feelPath() with each tick; false stops it.
-using OnTick = std::function<bool(double timeSeconds, const ProxyState& state, double microseconds)>;
-/// Called with each tick and all that is known of it; the time of its sample counts from the first tick.
-using OnTouch = std::function<bool(double timeSeconds, const VirtualTouch& touch)>;
+/// Called with each tick; the time of its sample counts from the first tick. False stops feelPath().
+using OnTick = std::function<bool(double timeSeconds, const VirtualTouch& touch)>;
 
 /// Moves the hand along @p path, whatever the force, linearly between its points, for so many ticks (see
 /// countTicks()). @pre the path is checked and not empty.
 POINTHAPTICSSCENE_EXPORT void feelPath(const HapticParameters& parameters, FeelScenes& scenes,
   const HipPath& path, double rateHz, std::int64_t ticks, const OnTick& onTick);
-POINTHAPTICSSCENE_EXPORT void feelPathWith(const HapticParameters& parameters, FeelScenes& scenes,
-  const HipPath& path, double rateHz, std::int64_t ticks, const OnTouch& onTouch);
 
 } // namespace pointhaptics

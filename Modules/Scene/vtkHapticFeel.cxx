@@ -1,6 +1,7 @@
 #include "vtkHapticFeel.h"
 
 #include "PathTicks.h"
+#include "SettingText.h"
 #include "VirtualTouch.h"
 #include "vtkKernelBandwidthFilter.h"
 #include "vtkVoxelMeanResampler.h"
@@ -117,7 +118,6 @@ public:
   /// False: @p message says why, or is empty where the work was aborted.
   bool MakeScenes(vtkHapticFeel* filter, vtkPointSet* cloud, std::string& message);
   bool Check(const vtkHapticFeel* filter, std::string& message) const;
-  HapticParameters ParametersOf(const vtkHapticFeel* filter) const;
   /// @p odd: see unlikelyUnits().
   bool Feel(
     vtkHapticFeel* filter, const HipPath& path, std::int64_t ticks, vtkTable* output, std::string& odd);
@@ -173,25 +173,15 @@ bool vtkHapticFeel::Internals::MakeScenes(vtkHapticFeel* filter, vtkPointSet* cl
   return true;
 }
 
-HapticParameters vtkHapticFeel::Internals::ParametersOf(const vtkHapticFeel* filter) const
-{
-  HapticParameters parameters;
-  parameters.method = static_cast<ProxyMethod>(filter->Method);
-  parameters.contact.stiffness = filter->Stiffness;
-  parameters.contact.damping = filter->Damping;
-  parameters.contact.staticFriction = filter->StaticFriction;
-  parameters.contact.dynamicFriction = filter->DynamicFriction;
-  return parameters;
-}
-
 bool vtkHapticFeel::Internals::Check(const vtkHapticFeel* filter, std::string& message) const
 {
-  if (this->ParametersOf(filter).check() != Status::Ok)
+  const ContactParameters& contact = filter->Settings.contact;
+  if (filter->Settings.check() != Status::Ok)
   {
     message =
       fmt::format("stiffness {} N/m, damping {} N s/m, mu_s {}, mu_d {}; give 0 to 1e5, 0 to 1e3, 0 to "
                   "10 and 0 to mu_s",
-        filter->Stiffness, filter->Damping, filter->StaticFriction, filter->DynamicFriction);
+        contact.stiffness, contact.damping, contact.staticFriction, contact.dynamicFriction);
   }
   else if (!(filter->Rate >= 1.0 && filter->Rate <= 1e5))
   {
@@ -210,11 +200,11 @@ bool vtkHapticFeel::Internals::Feel(
   }
   std::int64_t tick = 0;
   bool isTouched = false;
-  feelPath(this->ParametersOf(filter), this->Scenes, path, filter->Rate, ticks,
-    [&](double time, const ProxyState& state, double microseconds)
+  feelPath(filter->Settings, this->Scenes, path, filter->Rate, ticks,
+    [&](double time, const VirtualTouch& touch)
     {
-      isTouched = isTouched || state.contact;
-      const auto row = feltRow(time, state, microseconds);
+      isTouched = isTouched || touch.sample().state.contact;
+      const auto row = feltRow(time, touch.sample());
       for (std::size_t i = 0; i < row.size(); ++i)
       {
         columns[i]->InsertNextValue(row[i]);
@@ -242,6 +232,15 @@ vtkHapticFeel::~vtkHapticFeel()
 {
   // Others may hold the resampler longer.
   this->Impl->Resampler->RemoveObserver(this->Impl->Observer);
+}
+
+void vtkHapticFeel::SetSettings(const HapticParameters& settings)
+{
+  if (!equalSettings(this->Settings, settings))
+  {
+    this->Settings = settings;
+    this->Modified();
+  }
 }
 
 vtkVoxelMeanResampler* vtkHapticFeel::GetResampler()
@@ -315,11 +314,7 @@ int vtkHapticFeel::RequestData(
 void vtkHapticFeel::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Method: " << this->Method << "\n";
-  os << indent << "Stiffness: " << this->Stiffness << "\n";
-  os << indent << "Damping: " << this->Damping << "\n";
-  os << indent << "StaticFriction: " << this->StaticFriction << "\n";
-  os << indent << "DynamicFriction: " << this->DynamicFriction << "\n";
+  keyed::printSettings(os, indent, this->Settings);
   os << indent << "Rate: " << this->Rate << "\n";
   os << indent << "UseCovariance: " << this->UseCovariance << "\n";
   os << indent << "RefineNearHand: " << this->RefineNearHand << "\n";

@@ -38,7 +38,9 @@
 #ifndef vtkHapticFeel_h
 #define vtkHapticFeel_h
 
-#include "PointHapticsSceneModule.h" // For export macro
+#include "Haptics/HapticParameters.h" // For Settings
+#include "PointHapticsSceneModule.h"  // For export macro
+#include "vtkCloudAlgorithm.h"        // For vtkSettingMacro
 #include "vtkTableAlgorithm.h"
 
 #include <memory> // For Internals
@@ -65,8 +67,7 @@ public:
    * How the proxy meets the surface: by a local fit, by the paper's iteration, or as a sphere among the
    * points. Default: SurfaceFit.
    */
-  vtkSetClampMacro(Method, int, SurfaceFit, Sphere);
-  vtkGetMacro(Method, int);
+  vtkSettingEnumMacro(Method, method, Sphere);
   void SetMethodToSurfaceFit() { this->SetMethod(SurfaceFit); }
   void SetMethodToGradientSteps() { this->SetMethod(GradientSteps); }
   void SetMethodToSphere() { this->SetMethod(Sphere); }
@@ -76,26 +77,30 @@ public:
   /**
    * Spring between hand and proxy, N/m, 0 to 1e5. Default: 800.
    */
-  vtkSetMacro(Stiffness, double);
-  vtkGetMacro(Stiffness, double);
+  vtkSettingMacro(Stiffness, double, contact.stiffness);
   ///@}
 
   ///@{
   /**
    * Damping of the hand's speed along the normal, in contact, N s/m, 0 to 1e3. Default: 0.
    */
-  vtkSetMacro(Damping, double);
-  vtkGetMacro(Damping, double);
+  vtkSettingMacro(Damping, double, contact.damping);
   ///@}
 
   ///@{
   /**
    * mu_s and mu_d of the paper, 0 to 10, the dynamic one not above the static one. Default: 0.
    */
-  vtkSetMacro(StaticFriction, double);
-  vtkGetMacro(StaticFriction, double);
-  vtkSetMacro(DynamicFriction, double);
-  vtkGetMacro(DynamicFriction, double);
+  vtkSettingMacro(StaticFriction, double, contact.staticFriction);
+  vtkSettingMacro(DynamicFriction, double, contact.dynamicFriction);
+  ///@}
+
+  ///@{
+  /**
+   * All of the above as one plain value, with the other parameters of a Proxy.
+   */
+  virtual void SetSettings(const pointhaptics::HapticParameters& settings);
+  const pointhaptics::HapticParameters& GetSettings() const { return this->Settings; }
   ///@}
 
   ///@{
@@ -153,11 +158,7 @@ protected:
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
   bool RepeatsErrors = true; ///< As in vtkCloudAlgorithm.
-  int Method = SurfaceFit;
-  double Stiffness = 800.0;
-  double Damping = 0.0;
-  double StaticFriction = 0.0;
-  double DynamicFriction = 0.0;
+  pointhaptics::HapticParameters Settings;
   double Rate = 1000.0;
   bool UseCovariance = true;
   bool RefineNearHand = true;

@@ -15,7 +15,6 @@ constexpr double kHoleRadius = 0.010;
 constexpr double kHalfEdge = 0.05; ///< Half the edge of the cube that holds all shapes, metres.
 /// A foot point this far off the normal's line, over the distance, lies on a rim.
 constexpr double kRimSlope = 1e-4;
-constexpr double kEvenZoom = 1e-6;
 
 double largestCoordinate(const Vec3& p)
 {
@@ -40,24 +39,6 @@ bool holdsForSample(const PointView& points, Condition&& condition)
     }
   }
   return seen > 0;
-}
-
-/// The factor of a turn, shift and even zoom; 0 where it is none.
-double evenScale(const AffineTransform& transform)
-{
-  const Vec3 axes[3] = { transform.applyToVector({ 1, 0, 0 }), transform.applyToVector({ 0, 1, 0 }),
-    transform.applyToVector({ 0, 0, 1 }) };
-  const double square = dot(axes[0], axes[0]);
-  for (int i = 0; i < 3; ++i)
-  {
-    const double length = dot(axes[i], axes[i]);
-    if (!(std::abs(length - square) <= kEvenZoom * square) ||
-      !(std::abs(dot(axes[i], axes[(i + 1) % 3])) <= kEvenZoom * square))
-    {
-      return 0.0;
-    }
-  }
-  return std::sqrt(square);
 }
 
 } // namespace
@@ -89,8 +70,8 @@ bool recognizeShape(const PointView& points, Shape& shape)
 
 double IdealForce::at(const Vec3& hip, const AffineTransform& modelToWorkspace, double stiffness) noexcept
 {
-  const double scale = evenScale(modelToWorkspace);
-  if (!(scale > 0.0) || !isFinite(hip) || shape_ == Shape::Sheet)
+  double scale = 1.0;
+  if (!modelToWorkspace.isSimilarity(scale) || !isFinite(hip) || shape_ == Shape::Sheet)
   {
     return std::numeric_limits<double>::quiet_NaN();
   }

@@ -24,7 +24,7 @@ std::vector<ServoSample> samplesAlong(const HipPath& path, std::int64_t ticks, F
 {
   std::vector<ServoSample> samples;
   samples.reserve(std::size_t(ticks));
-  feelPathWith(parameters, scenes, path, rateHz, ticks,
+  feelPath(parameters, scenes, path, rateHz, ticks,
     [&samples](double time, const VirtualTouch& touch)
     {
       samples.push_back(touch.sample());
@@ -124,7 +124,7 @@ void addTrace(CsvWriter& trace, const std::vector<ServoSample>& samples)
 {
   for (const ServoSample& sample : samples)
   {
-    const auto felt = feltRow(sample.timeSeconds, sample.state, 1e6 * sample.updateSeconds);
+    const auto felt = feltRow(sample.timeSeconds, sample);
     std::array<double, kFeltColumns.size() + 1> row;
     std::copy(felt.begin(), felt.end() - 1, row.begin());
     row[felt.size() - 1] = double(sample.state.status);

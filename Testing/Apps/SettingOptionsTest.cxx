@@ -3,9 +3,7 @@
 #include "View/ViewCommand.h"
 #include "View/ViewSettings.h"
 
-#include "../Unit/ChangedSettings.h"
-
-#include "Core/Resample/VoxelMeanSettings.h"
+#include "Core/Base/SettingsMembers.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -23,25 +21,6 @@ using namespace pointhaptics::app;
 
 namespace
 {
-
-constexpr const char* kCostOnly = "changes the cost only; for programs and measurements";
-
-/// How the other settings of a resampling are given: none has an option of every command.
-inline constexpr SettingOption kVoxelMeanOptions[] = {
-  { "lattice", nullptr, "its members have options of their own" },
-  { "outputPointsPrecision", nullptr, "the file's, and double where the cloud is felt" },
-  { "computeCovariance", nullptr, "--covariance of resample, --no-covariance of feel and view" },
-  { "passAttributes", nullptr, "only feel has no use for them" },
-  { "categoricalArrays", nullptr, "the labels of LAS are known; others are named by programs" },
-  { "exactCategoricalNames", nullptr, "the labels of LAS are known" },
-  { "representative", nullptr, "--representative of resample: what is felt are means" },
-  { "minimumPointsPerVoxel", nullptr, "--minimum-points of resample" },
-  { "computeVoxelIndex", nullptr, "--voxel-index of resample" },
-  { "keepOriginalPointIds", nullptr, "--original-ids of resample" },
-  { "usePointIndex", nullptr, kCostOnly },
-  { "instructionSet", nullptr, kCostOnly },
-};
-static_assert(describesEveryMember<VoxelMeanSettings>(kVoxelMeanOptions));
 
 /// `view cloud.ply ...`, parsed and completed.
 struct Parsed
@@ -115,89 +94,64 @@ const std::map<std::string, std::string>& values()
   return table;
 }
 
-/// Gives each option of @p table on the command line, and then by the configuration file that is written of
-/// it. @p settings is what of the viewer's options @p table is about.
-template <typename Settings, std::size_t Count, typename Find>
-void walk(const SettingOption (&table)[Count], Find settings)
+/// Gives each option of the members of @p Settings on the command line, and then by the configuration file
+/// that is written of it. @p settings: what of the viewer's options they set.
+template <typename Settings, typename Find>
+void walk(Find settings)
 {
-  Settings untouched = settings(Parsed({}).options);
-  std::vector<std::string> names;
-  visitMembers(untouched, [&](const char* name, const auto&) { names.emplace_back(name); });
-  for (std::size_t i = 0; i < Count; ++i)
+  const Settings untouched = settings(Parsed({}).options);
+  const auto give = [&](const char* member, const SettingOption& row)
   {
-    const SettingOption& row = table[i];
-    SCOPED_TRACE(row.member);
-    EXPECT_EQ(names[i], row.member);
-    EXPECT_GT(std::strlen(row.text), 10u) << "a help text, or why there is no option";
-    if (!row.option)
+    SCOPED_TRACE(member);
+    if (!row.name)
     {
-      continue;
+      return;
     }
-    const auto value = values().find(row.option);
-    ASSERT_NE(value, values().end()) << "give " << row.option << " a value in this test";
-    std::vector<std::string> arguments = { row.option };
+    EXPECT_GT(std::strlen(row.help), 10u);
+    const auto value = values().find(row.name);
+    ASSERT_NE(value, values().end()) << "give " << row.name << " a value in this test";
+    std::vector<std::string> arguments = { row.name };
     if (!value->second.empty())
     {
       arguments.push_back(value->second);
     }
     const Parsed given(arguments);
     const Settings& changed = settings(given.options);
-    EXPECT_EQ(differing(untouched, changed).count(row.member), 1u) << row.option;
-    EXPECT_EQ(given.options.given.count(std::string(row.option).substr(2)), 1u);
+    EXPECT_EQ(differing(untouched, changed).count(member), 1u) << row.name;
+    EXPECT_EQ(given.options.given.count(std::string(row.name).substr(2)), 1u);
     const Parsed again({}, given.options.given);
     EXPECT_TRUE(equal(given.options, again.options)) << given.options.given.dump();
-  }
+  };
+  std::apply([&](const auto&... member) { (give(member.name, member.option), ...); }, Settings::members());
 }
 
-TEST(SettingOptions, OfTheLatticeReachTheViewerFromCommandLineAndConfiguration)
+TEST(SettingOptions, ReachTheViewerFromCommandLineAndConfiguration)
 {
-  walk<LatticeSettings>(
-    kLatticeOptions, [](const ViewCommand& o) -> const LatticeSettings& { return o.viewer.voxels.lattice; });
+  using O = ViewCommand;
+  walk<LatticeSettings>([](const O& o) -> const LatticeSettings& { return o.viewer.voxels.lattice; });
+  walk<BandwidthSettings>([](const O& o) -> const BandwidthSettings& { return o.viewer.bandwidth; });
+  walk<HapticParameters>([](const O& o) -> const HapticParameters& { return o.viewer.haptics; });
+  walk<ContactParameters>([](const O& o) -> const ContactParameters& { return o.viewer.haptics.contact; });
 }
 
-TEST(SettingOptions, OfTheResamplingReachTheViewerFromCommandLineAndConfiguration)
+TEST(SettingOptions, SetMembersThatAreNotTheirOwn)
 {
-  walk<VoxelMeanSettings>(
-    kVoxelMeanOptions, [](const ViewCommand& o) -> const VoxelMeanSettings& { return o.viewer.voxels; });
   EXPECT_TRUE(Parsed({}).options.viewer.voxels.computeCovariance);
   const Parsed plain({ "--no-covariance" });
   EXPECT_FALSE(plain.options.viewer.voxels.computeCovariance);
   EXPECT_TRUE(equal(plain.options, Parsed({}, plain.options.given).options));
-}
-
-TEST(SettingOptions, OfTheBandwidthReachTheViewerFromCommandLineAndConfiguration)
-{
-  walk<BandwidthSettings>(
-    kBandwidthOptions, [](const ViewCommand& o) -> const BandwidthSettings& { return o.viewer.bandwidth; });
   EXPECT_TRUE(Parsed({ "--radius", "0.002" }).options.viewer.bandwidth.fixedRadius);
   EXPECT_FALSE(Parsed({ "--neighbors", "20" }).options.viewer.bandwidth.fixedRadius);
 }
 
-TEST(SettingOptions, OfTheTouchReachTheViewerFromCommandLineAndConfiguration)
-{
-  walk<HapticParameters>(
-    kTouchOptions, [](const ViewCommand& o) -> const HapticParameters& { return o.viewer.haptics; });
-  walk<ContactParameters>(kContactOptions,
-    [](const ViewCommand& o) -> const ContactParameters& { return o.viewer.haptics.contact; });
-}
-
 TEST(SettingOptions, OfTheContactComeBackFromWhatTheWindowWrites)
 {
-  forEachChange(ContactParameters(),
-    [](const std::string& name, ContactParameters changed)
-    {
-      changed.staticFriction = std::max(changed.staticFriction, changed.dynamicFriction);
-      nlohmann::ordered_json written = nlohmann::ordered_json::object();
-      setContact(written, changed);
-      const ContactParameters& read = Parsed({}, written).options.viewer.haptics.contact;
-      for (const SettingOption& row : kContactOptions)
-      {
-        if (name == row.member)
-        {
-          EXPECT_EQ(equalSettings(read, changed), row.option != nullptr) << name;
-        }
-      }
-    });
+  const Parsed given(
+    { "--stiffness", "500", "--damping", "1.5", "--mu-s", "0.5", "--mu-d", "0.25", "--force-limit", "3" });
+  nlohmann::ordered_json written = nlohmann::ordered_json::object();
+  setContact(written, given.options.viewer.haptics.contact);
+  EXPECT_EQ(written.size(), 5u);
+  EXPECT_TRUE(equal(given.options, Parsed({}, written).options));
 }
 
 TEST(SettingOptions, LeaveTheVoxelsToTheViewerWhereNobodyChoseThem)

@@ -512,4 +512,20 @@ TEST(CloudAlgorithm, ALongSearchCanBeStopped)
   EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
 }
 
+TEST(CloudAlgorithm, SettingsStayInTheirRanges)
+{
+  vtkNew<vtkVoxelMeanResampler> resampler;
+  resampler->SetMinimumPointsPerVoxel(-3);
+  EXPECT_EQ(resampler->GetMinimumPointsPerVoxel(), 1);
+  resampler->SetOutputPointsPrecision(7);
+  EXPECT_EQ(resampler->GetOutputPointsPrecision(), int(vtkAlgorithm::DEFAULT_PRECISION));
+  resampler->SetInstructionSet(-1);
+  EXPECT_EQ(resampler->GetInstructionSet(), int(vtkVoxelMeanResampler::InstructionSetAutomatic));
+  vtkNew<vtkKernelBandwidthFilter> filter;
+  filter->SetNeighborhood(5);
+  EXPECT_EQ(filter->GetNeighborhood(), int(vtkKernelBandwidthFilter::FixedRadius));
+  filter->SetRule(9);
+  EXPECT_EQ(filter->GetRule(), int(vtkKernelBandwidthFilter::SheatherJones));
+}
+
 } // namespace

@@ -7,6 +7,7 @@ from support import TestCase, run_program, sphere
 
 import numpy as np
 import pointhaptics as ph
+from vtkmodules.vtkCommonExecutionModel import vtkTrivialProducer
 from vtkmodules.vtkCommonTransforms import vtkTransform
 
 
@@ -268,6 +269,48 @@ class BadInput(TestCase):
         ):
             with self.subTest(options):
                 self.assert_raises(kind, words, ph.bandwidth, points, **options)
+
+
+def headings(filter):
+    return {line.split(":")[0].strip() for line in str(filter).splitlines() if ":" in line}
+
+
+def another(value):
+    if value is None:
+        return vtkTransform()
+    if isinstance(value, tuple):
+        return tuple(another(each) for each in value)
+    if isinstance(value, bool):
+        return not value
+    if isinstance(value, int):
+        return value - 1 if value > 1 else value + 1
+    return 0.5 * value if value else 0.001
+
+
+class Properties(TestCase):
+    """Each setting of a filter is a property: set, kept, printed, and a reason to run again."""
+
+    PRINTED_AS = {"Neighborhood": "FixedRadius", "WorkspaceBounds": "Workspace"}
+    NOT_SET = {"CategoricalArrays", "NumberOfClippedPoints", "NumberOfInvalidPoints", "NumberOfFeltPoints"}
+
+    def test_of_every_filter(self):
+        for kind in (ph.vtkVoxelMeanResampler, ph.vtkKernelBandwidthFilter, ph.vtkHapticFeel):
+            names = {name[3:] for name in dir(kind) if name.startswith("Set") and hasattr(kind, "Get" + name[3:])}
+            names -= {name[3:] for name in dir(vtkTrivialProducer)}
+            settings = {self.PRINTED_AS.get(name, name) for name in names}
+            printed = headings(kind()) - headings(vtkTrivialProducer()) - self.NOT_SET
+            self.assertGreater(len(names), 5)
+            self.assertLessEqual(settings, printed)
+            if kind is not ph.vtkHapticFeel:  # of whose parameters some are for programs alone
+                self.assertEqual(settings, printed)
+            for name in names:
+                with self.subTest(name):
+                    filter = kind()
+                    time = filter.GetMTime()
+                    value = another(getattr(filter, "Get" + name)())
+                    getattr(filter, "Set" + name)(value)
+                    self.assertEqual(getattr(filter, "Get" + name)(), value)
+                    self.assertGreater(filter.GetMTime(), time)
 
 
 if __name__ == "__main__":

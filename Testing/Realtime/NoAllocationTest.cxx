@@ -3,7 +3,6 @@
 #include "../Unit/Devices/FalconWire.h"
 
 #include "Devices/Falcon/FalconDevice.h"
-#include "Devices/PathReplay.h"
 #include "Devices/SimulatedDevice.h"
 #include "Haptics/Proxy.h"
 #include "Haptics/ServoLoop.h"
@@ -191,8 +190,7 @@ TEST(NoAllocation, InTheServoLoopWhileScenesAndParametersChange)
   SimulatedDevice hand(settings);
   ASSERT_EQ(hand.open(), Status::Ok);
   hand.setTarget({ 0.0, 0.0, 0.02 });
-  RecordingDevice recorder(hand, 100000);
-  WatchingPort port(recorder, 3000);
+  WatchingPort port(hand, 3000);
   ServoSettings servo;
   servo.rateHz = 2000.0;
   servo.traceCapacity = 500;

@@ -81,9 +81,7 @@ void walkYielding(
     {
       break;
     }
-    double microseconds = 0.0;
-    const ProxyState& felt = touch.step(state, microseconds);
-    static_cast<void>(hand.write(time, felt.force));
+    static_cast<void>(hand.write(time, touch.step(state).state.force));
     rows.add(path.points.front().timeSeconds + time, touch);
     bar.show(double(tick) / double(ticks));
   }
@@ -94,7 +92,7 @@ void walk(
 {
   ProgressBar bar("feeling");
   std::int64_t tick = 0;
-  feelPathWith(options.touch.parameters, scenes, path, options.rateHz, ticks,
+  feelPath(options.touch.parameters, scenes, path, options.rateHz, ticks,
     [&](double time, const VirtualTouch& touch)
     {
       rows.add(time, touch);
@@ -106,9 +104,8 @@ void walk(
 /// Feels with the hand in the device, until the time is over or the user ends it.
 void touch(const FeelCommand& options, FeelScenes& scenes, FeltRows& rows)
 {
-  const ServoStatistics statistics = options.feelLive(scenes, rows.recording,
-    [&rows](const ServoSample& sample)
-    { rows.add(sample.timeSeconds, sample.state, 1e6 * sample.updateSeconds); });
+  const ServoStatistics statistics = options.feelLive(
+    scenes, rows.recording, [&rows](const ServoSample& sample) { rows.add(sample.timeSeconds, sample); });
   printNow(stderr,
     fmt::format("{:.0f} Hz, {} deadline misses, {} device faults, jitter p99 {:.0f} us\n", statistics.rateHz,
       statistics.deadlineMisses, statistics.deviceFaults, 1e6 * statistics.jitter.p99));
@@ -186,8 +183,7 @@ int runReplay(const FeelCommand& options, Files& files)
   }
   FeltRows rows(options, files);
   const ReplayDifference difference = feelAgain(file, recording, cloud, method, "feeling",
-    [&rows](const RecordedTick& row, const ServoSample& sample)
-    { rows.add(row.felt[0], sample.state, 1e6 * sample.updateSeconds); });
+    [&rows](const RecordedTick& row, const ServoSample& sample) { rows.add(row.felt[0], sample); });
   rows.commit(files);
   const FeltSummary s = rows.summary();
   printResult(options.json,

@@ -45,11 +45,12 @@ void FeltRows::add(double time, const VirtualTouch& touch)
     scene_ = sample.scene;
   }
   recording.add(sample);
-  this->add(time, sample.state, 1e6 * sample.updateSeconds);
+  this->add(time, sample);
 }
 
-void FeltRows::add(double time, const ProxyState& state, double microseconds)
+void FeltRows::add(double time, const ServoSample& sample)
 {
+  const ProxyState& state = sample.state;
   ++summary_.ticks;
   if (summary_.contactTicks == 0)
   {
@@ -57,9 +58,9 @@ void FeltRows::add(double time, const ProxyState& state, double microseconds)
   }
   summary_.contactTicks += state.contact;
   summary_.maximumForce = std::max(summary_.maximumForce, forceFigure(norm(state.force)));
-  durations_.push_back(static_cast<float>(microseconds));
+  durations_.push_back(static_cast<float>(1e6 * sample.updateSeconds));
   sound_.add(time, { norm(state.force), state.contact });
-  const auto row = feltRow(time, state, microseconds);
+  const auto row = feltRow(time, sample);
   table_.row(row.data(), row.size());
 }
 

@@ -43,7 +43,7 @@ public:
   void commit(Files& files);
   /// Adds a row with another time than the sample's, which counts from the first tick.
   void add(double time, const VirtualTouch& touch);
-  void add(double time, const ProxyState& state, double microseconds);
+  void add(double time, const ServoSample& sample);
   FeltSummary summary();
   /// Nearest approach of a hand that has touched nothing.
   const ClosestApproach& approach() const { return approach_; }

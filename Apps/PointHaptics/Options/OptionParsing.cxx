@@ -146,9 +146,7 @@ CLI::Option* addNumber(CLI::App& command, const std::string& name, double& value
   {
     double number = 0.0;
     requireUsage(parseNumber(text, number), shown, text, "not a number; " + describe(range, unit));
-    const bool aboveMinimum = range.openMinimum ? number > range.minimum : number >= range.minimum;
-    requireUsage(
-      aboveMinimum && number <= range.maximum, shown, text, "out of range; " + describe(range, unit));
+    requireUsage(range.holds(number), shown, text, "out of range; " + describe(range, unit));
     value = number;
   };
   return command.add_option_function<std::string>(name, store, description)
@@ -307,14 +305,14 @@ CLI::Option* addChoice(CLI::App& command, const std::string& name, std::function
 
 CLI::Option* addSetting(CLI::App& command, const SettingOption& row, int& member)
 {
-  return addInteger(command, row.option, member, static_cast<std::int64_t>(row.range.minimum),
-    static_cast<std::int64_t>(row.range.maximum), row.text);
+  return addInteger(command, row.name, member, static_cast<std::int64_t>(row.range.minimum),
+    static_cast<std::int64_t>(row.range.maximum), row.help);
 }
 
 CLI::Option* addSetting(CLI::App& command, const SettingOption& row, bool& member)
 {
   const auto store = [&member, given = !member](std::int64_t count) { member = (count > 0) == given; };
-  return command.add_flag_function(row.option, store, row.text);
+  return command.add_flag_function(row.name, store, row.help);
 }
 
 } // namespace pointhaptics::app

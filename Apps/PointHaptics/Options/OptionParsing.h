@@ -3,6 +3,8 @@
 /// line.
 #pragma once
 
+#include "Core/Base/SettingsMembers.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -23,14 +25,7 @@ namespace pointhaptics::app
 
 /// Stands for "any finite number" as a maximum.
 constexpr double kUnbounded = 1e300;
-
-/// A closed range of finite numbers; openMinimum takes the minimum itself out.
-struct NumberRange
-{
-  double minimum;
-  double maximum;
-  bool openMinimum = false;
-};
+constexpr const char* kMetres = "METRES"; ///< Form of an option that takes a length.
 
 /// The whole of @p text as one decimal number, "inf" and "nan" included. False: it is not one.
 bool parseNumber(const std::string& text, double& value);

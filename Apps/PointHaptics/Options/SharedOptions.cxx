@@ -69,26 +69,15 @@ std::string checkRotation(const Numbers& r)
                                               : "the axis has no length; give DEGREES,x,y,z with an axis";
 }
 
-AffineTransform affineFrom(const Numbers& rows)
-{
-  AffineTransform transform;
-  for (int row = 0; row < 3; ++row)
-  {
-    for (int column = 0; column < 4; ++column)
-    {
-      transform.m[row][column] = rows[static_cast<std::size_t>(4 * row + column)];
-    }
-  }
-  return transform;
-}
-
 std::string checkMatrix(const Numbers& m)
 {
   if (m[12] != 0.0 || m[13] != 0.0 || m[14] != 0.0 || m[15] != 1.0)
   {
     return "not an affine matrix; the last row must be 0,0,0,1";
   }
-  return affineFrom(m).check() == Status::Ok ? "" : "the matrix is singular; give one that can be inverted";
+  return AffineTransform::fromRows(m.data()).check() == Status::Ok
+    ? ""
+    : "the matrix is singular; give one that can be inverted";
 }
 
 } // namespace
@@ -102,18 +91,18 @@ CLI::Option* addSetting(CLI::App& command, const SettingOption& row, std::array<
       dimensions[axis] = static_cast<std::int64_t>(n[n.size() == 3 ? axis : 0]);
     }
   };
-  return addNumbers(command, row.option, keep, { 1, 3 }, checkDimensions, row.form, row.text);
+  return addNumbers(command, row.name, keep, { 1, 3 }, checkDimensions, row.form, row.help);
 }
 
 CLI::Option* addSetting(CLI::App& command, const SettingOption& row, Bounds& box)
 {
   const auto keep = [&box](const Numbers& n) { box = { { n[0], n[2], n[4] }, { n[1], n[3], n[5] } }; };
-  return addNumbers(command, row.option, keep, { 6 }, checkWorkspace, row.form, row.text);
+  return addNumbers(command, row.name, keep, { 6 }, checkWorkspace, row.form, row.help);
 }
 
 void LatticeOptions::addTo(CLI::App& command)
 {
-  addSettings(command, this->voxels.lattice, kLatticeOptions, kLatticeGroup);
+  addSettings(command, this->voxels.lattice, kLatticeGroup);
   CLI::Option* dims = command.get_option("--dims");
   CLI::Option* voxel = command.get_option("--voxel");
   for (CLI::Option* option : { dims, voxel })
@@ -169,7 +158,7 @@ AffineTransform LatticeOptions::transform() const
   AffineTransform result = AffineTransform::scaling({ metres, metres, metres });
   if (!this->matrix.empty())
   {
-    return affineFrom(this->matrix) * result;
+    return AffineTransform::fromRows(this->matrix.data()) * result;
   }
   const std::vector<double>& s = this->scale;
   if (!s.empty())
@@ -216,17 +205,17 @@ void LatticeOptions::configure(vtkVoxelMeanResampler* resampler) const
 
 CLI::Option* addSetting(CLI::App& command, const SettingOption& row, BandwidthRule& rule)
 {
-  return addChoice(command, row.option, rule,
+  return addChoice(command, row.name, rule,
     { { "normal-reference", BandwidthRule::NormalReference },
       { "silverman-robust", BandwidthRule::SilvermanRobust }, { "scott", BandwidthRule::ScottMultivariate },
       { "silverman", BandwidthRule::SilvermanMultivariate },
       { "sheather-jones", BandwidthRule::SheatherJones } },
-    row.text);
+    row.help);
 }
 
 void BandwidthOptions::addTo(CLI::App& command)
 {
-  addSettings(command, this->settings, kBandwidthOptions, kBandwidthGroup);
+  addSettings(command, this->settings, kBandwidthGroup);
   CLI::Option* nearest = command.get_option("--neighbors");
   CLI::Option* ball = command.get_option("--radius");
   nearest->each([this](const std::string&) { this->settings.fixedRadius = false; });
@@ -257,20 +246,20 @@ const std::vector<std::pair<std::string, ProxyMethod>>& proxyMethods()
 
 CLI::Option* addSetting(CLI::App& command, const SettingOption& row, ProxyMethod& method)
 {
-  return addChoice(command, row.option, method, proxyMethods(), row.text);
+  return addChoice(command, row.name, method, proxyMethods(), row.help);
 }
 
 CLI::Option* addSetting(CLI::App& command, const SettingOption& row, GradientStepsParameters& steps)
 {
-  return addChoice(command, row.option, steps,
+  return addChoice(command, row.name, steps,
     { { "tuned", GradientStepsParameters::tuned() }, { "paper", GradientStepsParameters::paper() } },
-    row.text);
+    row.help);
 }
 
 void TouchOptions::addTo(CLI::App& command)
 {
-  addSettings(command, this->parameters, kTouchOptions, kTouchGroup);
-  addSettings(command, this->parameters.contact, kContactOptions, kTouchGroup);
+  addSettings(command, this->parameters, kTouchGroup);
+  addSettings(command, this->parameters.contact, kTouchGroup);
 }
 
 void TouchOptions::complete(const CLI::App& command)
@@ -298,17 +287,16 @@ void checkForceLimitOfDevices(const ContactParameters& contact, const std::strin
 
 void setContact(nlohmann::ordered_json& settings, const ContactParameters& contact)
 {
-  std::size_t i = 0;
-  visitMembers(contact,
-    [&](const char*, double member)
+  const auto set = [&](const char* option, double member)
+  {
+    if (option)
     {
-      const SettingOption& row = kContactOptions[i++];
-      if (row.option)
-      {
-        nlohmann::ordered_json& setting = settings[std::string(row.option).substr(2)];
-        setting = std::isfinite(member) ? nlohmann::ordered_json(member) : nlohmann::ordered_json("inf");
-      }
-    });
+      nlohmann::ordered_json& setting = settings[std::string(option).substr(2)];
+      setting = std::isfinite(member) ? nlohmann::ordered_json(member) : nlohmann::ordered_json("inf");
+    }
+  };
+  std::apply([&](const auto&... member) { (set(member.option.name, contact.*(member.pointer)), ...); },
+    ContactParameters::members());
 }
 
 void FalconOptions::addTo(CLI::App& command)

@@ -7,6 +7,7 @@
 #include "Core/Base/SettingsMembers.h"
 #include "Core/Base/Status.h"
 
+#include <limits>
 #include <tuple>
 
 namespace pointhaptics
@@ -29,11 +30,24 @@ struct LocalBandwidthSettings
   static constexpr auto members()
   {
     using S = LocalBandwidthSettings;
-    return std::make_tuple(settingsMember("fixedRadius", &S::fixedRadius),
-      settingsMember("numberOfNeighbors", &S::numberOfNeighbors), settingsMember("radius", &S::radius),
-      settingsMember("rule", &S::rule), settingsMember("radiusScale", &S::radiusScale),
-      settingsMember("minimumRadius", &S::minimumRadius), settingsMember("maximumRadius", &S::maximumRadius),
-      settingsMember("smoothRadius", &S::smoothRadius), settingsMember("usePointCounts", &S::usePointCounts));
+    constexpr const char* kMetres = "METRES";
+    constexpr NumberRange kLength{ 0.0, 1e300, true };
+    return std::make_tuple(settingsMember("fixedRadius", &S::fixedRadius), // by --radius and --neighbors
+      settingsMember("numberOfNeighbors", &S::numberOfNeighbors,
+        { "--neighbors", "Nearest neighbours the spread is taken from; default 16", "N",
+          { 1.0, double(std::numeric_limits<int>::max()) } }),
+      settingsMember("radius", &S::radius,
+        { "--radius", "All points in a ball of this radius, instead of --neighbors", kMetres, kLength }),
+      settingsMember("rule", &S::rule, { "--rule", "From spread to bandwidth; default normal-reference" }),
+      settingsMember("radiusScale", &S::radiusScale,
+        { "--beta", "Proxy radius over bandwidth; default 4", "B", { 0.0, 1e6, true } }),
+      settingsMember("minimumRadius", &S::minimumRadius,
+        { "--r1", "Smallest proxy radius; default 2.2 local spacings", kMetres, kLength }),
+      settingsMember("maximumRadius", &S::maximumRadius,
+        { "--r2", "Largest proxy radius; default none", kMetres, kLength }),
+      settingsMember("smoothRadius", &S::smoothRadius,
+        { "--smooth", "Cut radii so that no two differ by more than half the distance of their points" }),
+      settingsMember("usePointCounts", &S::usePointCounts));
   }
 };
 static_assert(listsEveryMember<LocalBandwidthSettings>());

@@ -145,6 +145,13 @@ AffineTransform AffineTransform::inverse() const noexcept
   return result;
 }
 
+AffineTransform AffineTransform::fromRows(const double* rows) noexcept
+{
+  AffineTransform result;
+  std::copy_n(rows, 12, result.m[0]);
+  return result;
+}
+
 AffineTransform AffineTransform::scaling(const Vec3& factors) noexcept
 {
   AffineTransform result;

@@ -39,6 +39,8 @@ struct AffineTransform
   /// The inverse; identity when check() is not Ok.
   AffineTransform inverse() const noexcept;
 
+  /// From the first three rows of a matrix, one after the other.
+  static AffineTransform fromRows(const double* rows) noexcept;
   static AffineTransform scaling(const Vec3& factors) noexcept;
   /// Right-handed turn about @p axis (any length above 0) through the origin; angle in degrees.
   static AffineTransform rotation(double degrees, const Vec3& axis) noexcept;

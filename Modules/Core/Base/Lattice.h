@@ -126,10 +126,14 @@ struct LatticeSettings
   static constexpr auto members()
   {
     using S = LatticeSettings;
-    return std::make_tuple(settingsMember("dimensions", &S::dimensions),
-      settingsMember("voxelSize", &S::voxelSize),
-      settingsMember("automaticWorkspace", &S::automaticWorkspace),
-      settingsMember("workspace", &S::workspace));
+    return std::make_tuple(settingsMember("dimensions", &S::dimensions,
+                             { "--dims", "Voxels on each axis of the lattice; default 300", "N|Nx,Ny,Nz" }),
+      settingsMember("voxelSize", &S::voxelSize,
+        { "--voxel", "Edge of a cubic voxel, instead of --dims", "METRES", { 0.0, 1e300, true } }),
+      settingsMember("automaticWorkspace", &S::automaticWorkspace), // cleared by --workspace
+      settingsMember("workspace", &S::workspace,
+        { "--workspace", "Box of the lattice; default: a cube about the transformed cloud",
+          "x0,x1,y0,y1,z0,z1" }));
   }
 };
 static_assert(listsEveryMember<LatticeSettings>());

@@ -13,6 +13,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <tuple>
 #include <type_traits>
@@ -21,18 +22,43 @@
 namespace pointhaptics
 {
 
+/// A closed range of numbers; openMinimum takes the minimum itself out. Default: all numbers.
+struct NumberRange
+{
+  double minimum = -std::numeric_limits<double>::infinity();
+  double maximum = std::numeric_limits<double>::infinity();
+  bool openMinimum = false;
+
+  /// False for NaN.
+  constexpr bool holds(double value) const
+  {
+    return (openMinimum ? value > minimum : value >= minimum) && value <= maximum;
+  }
+};
+
+/// A setting on the command line, and by the option's name in a configuration file.
+struct SettingOption
+{
+  const char* name = nullptr; ///< Such as "--beta"; null: the setting is for programs, or another option's.
+  const char* help = "";
+  const char* form = "";  ///< Unit or form of the value, for the help.
+  NumberRange range = {}; ///< Range of numbers.
+};
+
 /// A member of the settings struct @p Owner.
 template <typename Owner, typename Value>
 struct SettingsMember
 {
   const char* name;
   Value Owner::*pointer;
+  SettingOption option;
 };
 
 template <typename Owner, typename Value>
-constexpr SettingsMember<Owner, Value> settingsMember(const char* name, Value Owner::*pointer)
+constexpr SettingsMember<Owner, Value> settingsMember(
+  const char* name, Value Owner::*pointer, SettingOption option = {})
 {
-  return { name, pointer };
+  return { name, pointer, option };
 }
 
 namespace detail
@@ -129,6 +155,31 @@ void visitSettings(Settings& settings, Visitor&& visit, const std::string& prefi
         visit(prefix + name, member);
       }
     });
+}
+
+/// True if all numbers of @p settings, of all levels, lie in their ranges.
+template <typename Settings>
+bool areInRange(const Settings& settings)
+{
+  const auto isInRange = [](const auto& value, const NumberRange& range)
+  {
+    using Value = std::decay_t<decltype(value)>;
+    if constexpr (isSettings<Value>)
+    {
+      return areInRange(value);
+    }
+    else if constexpr (std::is_arithmetic_v<Value>)
+    {
+      return range.holds(double(value));
+    }
+    else
+    {
+      return true;
+    }
+  };
+  return std::apply([&](const auto&... member)
+    { return (isInRange(settings.*(member.pointer), member.option.range) && ...); },
+    Settings::members());
 }
 
 /// True if all members are equal. NaN is not equal to itself.

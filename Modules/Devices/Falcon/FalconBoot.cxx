@@ -49,41 +49,27 @@ FalconBoot::FalconBoot(FtdiLink& link, const FalconBootSettings& settings, const
 {
 }
 
-Status FalconBoot::control(std::uint8_t request, std::uint16_t value)
+Status FalconBoot::control(std::initializer_list<ControlRequest> requests)
 {
-  return cancelled_ ? Status::Aborted : link_.control(request, value);
+  Status status = Status::Ok;
+  for (const auto& [request, value] : requests)
+  {
+    status = status != Status::Ok ? status : cancelled_ ? Status::Aborted : link_.control(request, value);
+  }
+  return status;
 }
 
 Status FalconBoot::serialForBoot()
 {
-  const std::pair<Request, std::uint16_t> requests[] = { { kReset, kResetAll }, { kReset, kPurgeReceived },
-    { kReset, kPurgeSent }, { kLatency, kBootLatency }, { kDivisor, k9600Baud },
-    { kData, kEightBitsNoParity }, { kFlow, kNoFlowControl }, { kModem, kRtsLow }, { kModem, kDtrLow },
-    { kModem, kDtrHigh } };
-  for (const auto& [request, value] : requests)
-  {
-    const Status status = control(request, value);
-    if (status != Status::Ok)
-    {
-      return status;
-    }
-  }
-  return Status::Ok;
+  return control({ { kReset, kResetAll }, { kReset, kPurgeReceived }, { kReset, kPurgeSent },
+    { kLatency, kBootLatency }, { kDivisor, k9600Baud }, { kData, kEightBitsNoParity },
+    { kFlow, kNoFlowControl }, { kModem, kRtsLow }, { kModem, kDtrLow }, { kModem, kDtrHigh } });
 }
 
 Status FalconBoot::serialForRun()
 {
-  const std::pair<Request, std::uint16_t> requests[] = { { kLatency, kRunLatency },
-    { kDivisor, k1500000Baud }, { kReset, kPurgeReceived }, { kReset, kPurgeSent } };
-  for (const auto& [request, value] : requests)
-  {
-    const Status status = control(request, value);
-    if (status != Status::Ok)
-    {
-      return status;
-    }
-  }
-  return Status::Ok;
+  return control({ { kLatency, kRunLatency }, { kDivisor, k1500000Baud }, { kReset, kPurgeReceived },
+    { kReset, kPurgeSent } });
 }
 
 /// Collects bytes until @p bytes have come. Bytes before them, such as a 00, are skipped.
@@ -111,8 +97,7 @@ Status FalconBoot::expect(const std::uint8_t* bytes, int count, int timeoutMilli
 
 Status FalconBoot::probe()
 {
-  Status status = control(kData, kEightBitsNoParity);
-  status = status == Status::Ok ? control(kFlow, kNoFlowControl) : status;
+  Status status = control({ { kData, kEightBitsNoParity }, { kFlow, kNoFlowControl } });
   status = status == Status::Ok ? serialForRun() : status;
   FalconFrameFinder finder;
   for (int i = 0; i < kProbes && status == Status::Ok; ++i)
@@ -149,11 +134,9 @@ Status FalconBoot::greet()
   return status == Status::Ok && !found ? Status::DeviceSilent : status;
 }
 
-Status FalconBoot::load(
-  const std::vector<std::uint8_t>& firmware, const std::function<void(double)>& progress)
+Status FalconBoot::load(const std::vector<std::uint8_t>& firmware)
 {
-  Status status = control(kModem, kDtrLow);
-  status = status == Status::Ok ? control(kDivisor, k142857Baud) : status;
+  Status status = control({ { kModem, kDtrLow }, { kDivisor, k142857Baud } });
   status = status == Status::Ok ? link_.send(&kReady, 1, settings_.replyMilliseconds) : status;
   bool echoed = false;
   status = status == Status::Ok ? expect(&kReady, 1, settings_.replyMilliseconds, echoed) : status;
@@ -164,7 +147,6 @@ Status FalconBoot::load(
     status = status == Status::Ok ? expect(firmware.data() + sent, count, settings_.blockMilliseconds, echoed)
                                   : status;
     sent += std::size_t(count);
-    progress(double(sent) / double(firmware.size()));
   }
   if (status == Status::Ok && !echoed)
   {
@@ -175,7 +157,7 @@ Status FalconBoot::load(
 
 Status bootFalcon(FtdiLink& link, const FalconBootSettings& settings,
   const std::vector<std::uint8_t>& firmware, const std::atomic<bool>& cancelled,
-  const std::function<void()>& onLoading, const std::function<void(double)>& progress)
+  const std::function<void()>& onLoading)
 {
   FalconBoot boot(link, settings, cancelled);
   Status status = boot.probe();
@@ -193,7 +175,7 @@ Status bootFalcon(FtdiLink& link, const FalconBootSettings& settings,
   {
     status = boot.greet();
     timeouts = status == Status::DeviceSilent ? timeouts + 1 : 0;
-    status = status == Status::Ok ? boot.load(firmware, progress) : status;
+    status = status == Status::Ok ? boot.load(firmware) : status;
     status = status == Status::Ok ? boot.probe() : status;
     // A silent device may wake at the next try; one that is gone will not.
     if (status == Status::Ok || status == Status::DeviceLost || status == Status::Aborted)

@@ -9,7 +9,8 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
-#include <string>
+#include <initializer_list>
+#include <utility>
 #include <vector>
 
 namespace pointhaptics
@@ -37,11 +38,13 @@ public:
   /// Raises the boot loader. DeviceSilent: no answer in all tries.
   Status greet();
   /// Sends @p firmware block by block, each echoed and compared, and switches to run mode.
-  /// FirmwareNotTaken: an echo was missing or wrong; DeviceLost. @p progress gets parts, 0 to 1.
-  Status load(const std::vector<std::uint8_t>& firmware, const std::function<void(double)>& progress);
+  /// FirmwareNotTaken: an echo was missing or wrong; DeviceLost.
+  Status load(const std::vector<std::uint8_t>& firmware);
 
 private:
-  Status control(std::uint8_t request, std::uint16_t value);
+  using ControlRequest = std::pair<std::uint8_t, std::uint16_t>;
+  /// Ends with the first that fails.
+  Status control(std::initializer_list<ControlRequest> requests);
   Status serialForBoot();
   Status serialForRun();
   Status expect(const std::uint8_t* bytes, int count, int timeoutMilliseconds, bool& found);
@@ -52,11 +55,10 @@ private:
 };
 
 /// Probes the device, and where no firmware answers, greets and loads as often as the settings say. @p
-/// firmware may be empty: FirmwareMissing where it is needed. @p onLoading is called when the loading begins,
-/// @p progress with its progress. DeviceSilent: twice in a row no greeting was answered (10 s with the
-/// default settings).
+/// firmware may be empty: FirmwareMissing where it is needed. @p onLoading is called when the loading begins.
+/// DeviceSilent: twice in a row no greeting was answered (10 s with the default settings).
 Status bootFalcon(FtdiLink& link, const FalconBootSettings& settings,
   const std::vector<std::uint8_t>& firmware, const std::atomic<bool>& cancelled,
-  const std::function<void()>& onLoading, const std::function<void(double)>& progress);
+  const std::function<void()>& onLoading);
 
 } // namespace pointhaptics

@@ -52,7 +52,6 @@ struct FalconDevice::Implementation
   std::atomic<bool> quit{ false };
   std::atomic<bool> armed{ true };
   std::atomic<int> leds{ -1 };
-  std::atomic<double> progress{ 0.0 };
   std::thread supervisor;
   mutable std::mutex mutex; ///< Guards the members below; the servo thread never takes it.
   std::condition_variable changed;
@@ -63,7 +62,24 @@ struct FalconDevice::Implementation
   void supervise();
   Status start(std::string& text);
   void report(Status status, const std::string& text);
-  void fail() noexcept;
+  /// Works on the connection if it is the servo thread's, and gives it up where it is lost. Servo thread.
+  template <typename Work>
+  Status serve(Work&& work) noexcept
+  {
+    if (owner.load(std::memory_order_acquire) != kServo)
+    {
+      return FalconState(state.load(std::memory_order_relaxed)) == FalconState::Closed
+        ? Status::DeviceNotOpen
+        : Status::DeviceNotReady;
+    }
+    const Status status = work();
+    if (status == Status::DeviceLost)
+    {
+      state.store(int(FalconState::Fault), std::memory_order_relaxed);
+      owner.store(kSupervisor, std::memory_order_release);
+    }
+    return status;
+  }
 };
 
 /// Finds and starts the device. Ok: the link is ready for the servo thread.
@@ -82,9 +98,8 @@ Status FalconDevice::Implementation::start(std::string& text)
   {
     return read;
   }
-  status = bootFalcon(
-    *link, settings.boot, firmware.bytes, quit, [this] { transition(FalconEvent::BootDone); },
-    [this](double part) { progress = part; });
+  status =
+    bootFalcon(*link, settings.boot, firmware.bytes, quit, [this] { transition(FalconEvent::BootDone); });
   if (status != Status::FirmwareMissing)
   {
     text = status == Status::Ok ? firmware.note : std::string("falcon: ") + pointhaptics::message(status);
@@ -134,13 +149,6 @@ void FalconDevice::Implementation::supervise()
     std::unique_lock<std::mutex> lock(mutex);
     changed.wait_for(lock, pause, [this] { return quit.load(); });
   }
-}
-
-/// Gives up the connection. Servo thread.
-void FalconDevice::Implementation::fail() noexcept
-{
-  state.store(int(FalconState::Fault), std::memory_order_relaxed);
-  owner.store(kSupervisor, std::memory_order_release);
 }
 
 FalconDevice::FalconDevice(const FalconSettings& settings)
@@ -204,7 +212,6 @@ Status FalconDevice::open()
     return Status::DeviceNotFound;
   }
   self.quit = false;
-  self.progress = 0.0;
   self.protocol.clearStatistics();
   self.report(Status::DeviceNotReady, {});
   self.supervisor = std::thread([&self] { self.supervise(); });
@@ -258,37 +265,19 @@ void FalconDevice::close()
 Status FalconDevice::read(double timeSeconds, HandState& state) noexcept
 {
   Implementation& self = *implementation_;
-  if (self.owner.load(std::memory_order_acquire) != Implementation::kServo)
-  {
-    return FalconState(self.state.load(std::memory_order_relaxed)) == FalconState::Closed
-      ? Status::DeviceNotOpen
-      : Status::DeviceNotReady;
-  }
-  const Status status =
-    self.protocol.read(*self.link, timeSeconds, self.armed.load(std::memory_order_relaxed), state);
-  if (status == Status::DeviceLost)
-  {
-    self.fail();
-  }
-  return status;
+  return self.serve(
+    [&] {
+      return self.protocol.read(*self.link, timeSeconds, self.armed.load(std::memory_order_relaxed), state);
+    });
 }
 
 Status FalconDevice::write(double timeSeconds, const Vec3& force) noexcept
 {
   Implementation& self = *implementation_;
-  if (self.owner.load(std::memory_order_acquire) != Implementation::kServo)
-  {
-    return FalconState(self.state.load(std::memory_order_relaxed)) == FalconState::Closed
-      ? Status::DeviceNotOpen
-      : Status::DeviceNotReady;
-  }
-  const Status status =
-    self.protocol.write(*self.link, timeSeconds, force, self.leds.load(std::memory_order_relaxed));
-  if (status == Status::DeviceLost)
-  {
-    self.fail();
-  }
-  return status;
+  return self.serve(
+    [&] {
+      return self.protocol.write(*self.link, timeSeconds, force, self.leds.load(std::memory_order_relaxed));
+    });
 }
 
 std::string FalconDevice::message() const
@@ -318,11 +307,6 @@ FalconStatistics FalconDevice::statistics() const noexcept
 FalconRaw FalconDevice::raw() const noexcept
 {
   return implementation_->protocol.raw();
-}
-
-double FalconDevice::loadProgress() const noexcept
-{
-  return implementation_->progress.load(std::memory_order_relaxed);
 }
 
 void FalconDevice::showLeds(int leds) noexcept

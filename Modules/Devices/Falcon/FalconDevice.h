@@ -104,8 +104,6 @@ public:
   FalconStatistics statistics() const noexcept;
   /// The newest exchange, for diagnosis.
   FalconRaw raw() const noexcept;
-  /// Part of the firmware that was sent, 0 to 1.
-  double loadProgress() const noexcept;
   /// Shows these LEDs in place of the usual ones, for diagnosis (FalconLed bits; -1: the usual ones).
   void showLeds(int leds) noexcept;
 

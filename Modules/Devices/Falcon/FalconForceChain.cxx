@@ -18,11 +18,6 @@ constexpr double kLongestRamp = 60.0;
 constexpr double kLongestStep = 0.1;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-bool within(double value, double minimum, double maximum) noexcept
-{
-  return value >= minimum && value <= maximum;
-}
-
 bool isFinite(const FalconAngles& a) noexcept
 {
   return std::isfinite(a[0]) && std::isfinite(a[1]) && std::isfinite(a[2]);
@@ -31,8 +26,9 @@ bool isFinite(const FalconAngles& a) noexcept
 
 Status FalconForceLimits::check() const noexcept
 {
-  const bool valid = within(maximumForce, 0.0, kLargestForce) && within(maximumTorque, 0.0, kLargestTorque) &&
-    within(maximumTorqueRate, 0.0, kInfinity) && within(rampSeconds, kShortestRamp, kLongestRamp);
+  const bool valid = NumberRange{ 0.0, kLargestForce }.holds(maximumForce) &&
+    NumberRange{ 0.0, kLargestTorque }.holds(maximumTorque) && maximumTorqueRate >= 0.0 &&
+    NumberRange{ kShortestRamp, kLongestRamp }.holds(rampSeconds);
   return valid ? Status::Ok : Status::InvalidParameter;
 }
 
@@ -77,7 +73,6 @@ std::array<std::int16_t, kFalconLegs> FalconForceChain::step(
   if (!finite || !falcon::torques(position, angles, force_.limit(ramp * force, elapsed), wanted) ||
     !isFinite(wanted))
   {
-    ++rejected_;
     restart();
     return {};
   }

@@ -26,11 +26,11 @@ struct FalconForceLimits
 };
 
 /// Newtons to motor values, in this order:
-/// 1. A force or a pose that is not finite gives zero, is counted and restarts the ramp.
+/// 1. A force or a pose that is not finite gives zero and restarts the ramp.
 /// 2. Not homed or not armed: zero, and the ramp begins anew.
 /// 3. Ramp: the force is multiplied by the time since arming over rampSeconds, at most 1.
 /// 4. A force longer than maximumForce keeps its direction and gets that length.
-/// 5. Torques by the Jacobian at the pose; a singular pose gives zero, is counted and restarts the ramp.
+/// 5. Torques by the Jacobian at the pose; a singular pose gives zero and restarts the ramp.
 /// 6. Torques beyond maximumTorque are scaled together, so that the force keeps its direction.
 /// 7. Slew: the torques grow by at most maximumTorqueRate; letting go is never delayed.
 /// 8. Motor value = -10000 * torque, rounded, within +-4096.
@@ -54,7 +54,6 @@ public:
   double ramp() const noexcept { return ramp_; }
   /// Torques behind the last motor values, N m.
   const FalconAngles& torques() const noexcept { return torques_; }
-  std::uint64_t rejectedForces() const noexcept { return rejected_; }
 
 private:
   FalconForceLimits limits_;
@@ -62,7 +61,6 @@ private:
   ForceGuard slew_;
   FalconAngles torques_{};
   double ramp_ = 0.0;
-  std::uint64_t rejected_ = 0;
 };
 
 /// Motor value of a joint torque in N m, within +-4096.

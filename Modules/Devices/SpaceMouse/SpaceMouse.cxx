@@ -175,11 +175,6 @@ SpaceMouseMotion SpaceMouse::motion() const noexcept
   return result;
 }
 
-int SpaceMouse::battery() const noexcept
-{
-  return implementation_->newest.read().decoder.battery();
-}
-
 std::string SpaceMouse::message() const
 {
   const std::lock_guard<std::mutex> lock(implementation_->mutex);

@@ -16,7 +16,7 @@ namespace pointhaptics
 
 /// A thread of its own waits for reports, 20 ms at a time, and looks for the device while there is none, so
 /// that it may be plugged in at any time. Its LED is on while it is in use.
-/// Thread safety: start() and stop() from one thread; motion(), battery() and message() from any, without
+/// Thread safety: start() and stop() from one thread; motion() and message() from any, without
 /// waiting for the device.
 class SpaceMouse
 {
@@ -36,7 +36,6 @@ public:
 
   /// The puck's present motion; at rest where no report came for staleSeconds or none is plugged in.
   SpaceMouseMotion motion() const noexcept;
-  int battery() const noexcept; ///< Per cent; -1: unknown.
   /// Name of the device in use, or a message to the user: one sentence with its cure.
   std::string message() const;
   /// Text of message() while none is plugged in.

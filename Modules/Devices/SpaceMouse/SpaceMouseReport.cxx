@@ -21,7 +21,6 @@ enum Report : std::uint8_t
   kShift = 1,
   kTurn = 2,
   kButtons = 3,
-  kBattery = 0x17,
 };
 constexpr int kThreeAxes = 7;
 constexpr int kSixAxes = 13;
@@ -97,9 +96,6 @@ bool SpaceMouseDecoder::take(const std::uint8_t* bytes, int count, double timeSe
       {
         buttons_ |= std::uint32_t(bytes[1 + i]) << (8 * i);
       }
-      return true;
-    case kBattery:
-      battery_ = std::min<int>(bytes[1], 100);
       return true;
     default:
       return false;

@@ -35,7 +35,7 @@ bool isSpaceMouse(std::uint16_t vendor, std::uint16_t product) noexcept;
 /// Keeps the newest values of each kind of report. One thread; no allocation.
 ///
 /// Report 1 holds the shift (7 bytes) or shift and turn (13 bytes or more), report 2 the turn, report 3 the
-/// buttons, report 0x17 the battery. Numbers are little-endian 16 bit, +-350, absolute. The device's axes are
+/// buttons. Numbers are little-endian 16 bit, +-350, absolute. The device's axes are
 /// X right, Y towards the person, Z down. Anything else is ignored.
 class SpaceMouseDecoder
 {
@@ -45,8 +45,6 @@ public:
   bool take(const std::uint8_t* bytes, int count, double timeSeconds) noexcept;
   /// The motion at @p timeSeconds; buttons do not become stale.
   SpaceMouseMotion motion(double timeSeconds) const noexcept;
-  /// Per cent; -1: unknown.
-  int battery() const noexcept { return battery_; }
 
 private:
   SpaceMouseSettings settings_;
@@ -55,7 +53,6 @@ private:
   double shiftTime_ = -1e9;
   double turnTime_ = -1e9;
   std::uint32_t buttons_ = 0;
-  int battery_ = -1;
 };
 
 } // namespace pointhaptics

@@ -37,7 +37,6 @@ Vec3 ForceGuard::limit(const Vec3& force, double dt) noexcept
   double requestLength = length(request);
   if (!std::isfinite(requestLength))
   {
-    ++nonFinite_;
     request = {};
     requestLength = 0.0;
   }
@@ -51,7 +50,6 @@ Vec3 ForceGuard::limit(const Vec3& force, double dt) noexcept
   {
     result = base + shortened(change, length(change), maximumChange);
   }
-  limited_ += result != request ? 1 : 0;
   last_ = result;
   return result;
 }

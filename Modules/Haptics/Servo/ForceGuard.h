@@ -6,13 +6,11 @@
 
 #include "Core/Base/Vector3.h"
 
-#include <cstdint>
-
 namespace pointhaptics
 {
 
 /// Inside its limits the force passes unchanged, bit for bit; outside it comes out inside. In this order:
-/// 1. A force that is not finite counts as zero, and is counted.
+/// 1. A force that is not finite counts as zero.
 /// 2. A force longer than maximumForce keeps its direction and gets that length.
 /// 3. Slew: the vector may change by maximumSlewRate * dt. Letting go is free: what the last force is longer
 /// than the
@@ -32,18 +30,12 @@ public:
   Vec3 limit(const Vec3& force, double dt) noexcept;
   /// As ForceLimits::maximumForce, from the next call on.
   void setMaximumForce(double newtons) noexcept;
-  /// The last force counts as zero again: for a fault, after which nothing is known of the motors. Counters
-  /// stay.
+  /// The last force counts as zero again: for a fault, after which nothing is known of the motors.
   void reset() noexcept;
-  std::uint64_t nonFiniteForces() const noexcept { return nonFinite_; }
-  /// Calls whose result was not the request because of the clamp or the slew limit.
-  std::uint64_t limitedForces() const noexcept { return limited_; }
 
 private:
   ForceLimits limits_;
   Vec3 last_;
-  std::uint64_t nonFinite_ = 0;
-  std::uint64_t limited_ = 0;
 };
 
 } // namespace pointhaptics

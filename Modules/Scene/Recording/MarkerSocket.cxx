@@ -54,11 +54,7 @@ bool isUtf8(const std::string& text)
 
 MarkerSocket::~MarkerSocket()
 {
-  isEnding_ = true;
-  if (thread_.joinable())
-  {
-    thread_.join();
-  }
+  thread_.stop();
   if (listener_ >= 0)
   {
     ::close(listener_);
@@ -85,7 +81,7 @@ bool MarkerSocket::open(int port, const ServoLoop& loop, std::string& message)
   }
   port_ = ntohs(address.sin_port);
   loop_ = &loop;
-  thread_ = std::thread([this] { this->run(); });
+  thread_.start([this] { this->run(); });
   return true;
 }
 
@@ -140,7 +136,7 @@ bool MarkerSocket::read(Client& client)
 void MarkerSocket::run()
 {
   std::vector<Client> clients;
-  while (!isEnding_)
+  while (!thread_.stopIsRequested())
   {
     std::vector<pollfd> waits = { { listener_, POLLIN, 0 } };
     for (const Client& client : clients)

@@ -2,13 +2,13 @@
 /// Markers of a recording from other programs, such as the one that shows a stimulus.
 #pragma once
 
+#include "Core/Base/StoppableThread.h"
+
 #include "PointHapticsSceneModule.h" // For export macro
 
-#include <atomic>
 #include <cstdint>
 #include <mutex>
 #include <string>
-#include <thread>
 #include <vector>
 
 namespace pointhaptics
@@ -53,10 +53,9 @@ private:
   const ServoLoop* loop_ = nullptr;
   int listener_ = -1;
   int port_ = 0;
-  std::atomic<bool> isEnding_{ false };
   std::mutex mutex_;
   std::vector<Marker> markers_;
-  std::thread thread_;
+  StoppableThread thread_;
 };
 
 } // namespace pointhaptics

@@ -203,7 +203,7 @@ void RecordingWriter::addRow(const ServoSample& sample)
   {
     return;
   }
-  const auto felt = feltRow(sample.timeSeconds, sample.state, 1e6 * sample.updateSeconds);
+  const auto felt = feltRow(sample.timeSeconds, sample);
   std::copy(felt.begin(), felt.end(), row_.begin());
   row_[kFelt] = double(sample.buttons);
   hasRow_ = true;

@@ -77,7 +77,7 @@ TEST_F(FalconBooting, ChangesTheRateBeforeItLoadsAndToRunModeOnlyAfterTheLastByt
 {
   ASSERT_EQ(boot.greet(), Status::Ok);
   EXPECT_EQ(asked(0), forGreeting);
-  ASSERT_EQ(boot.load(madeUpFirmware(200), [](double) {}), Status::Ok);
+  ASSERT_EQ(boot.load(madeUpFirmware(200)), Status::Ok);
   EXPECT_EQ(asked(kGreetingSize), forLoading);
   EXPECT_EQ(asked(kGreetingSize + 1 + 200), forRunning);
   expectNothingElse();
@@ -89,7 +89,7 @@ TEST_F(FalconBooting, LeavesRunModeAloneWhereALoadFailed)
   wire.model.wrongEchoes = 1;
   ASSERT_EQ(boot.greet(), Status::Ok);
   EXPECT_EQ(asked(0), forGreeting);
-  EXPECT_EQ(boot.load(madeUpFirmware(200), [](double) {}), Status::FirmwareNotTaken);
+  EXPECT_EQ(boot.load(madeUpFirmware(200)), Status::FirmwareNotTaken);
   EXPECT_EQ(asked(kGreetingSize), forLoading);
   expectNothingElse();
 }

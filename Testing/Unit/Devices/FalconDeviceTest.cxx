@@ -45,7 +45,6 @@ TEST(FalconDevice, LoadsItsFirmwareHomesAndArms)
   EXPECT_EQ(bench.device->write(0.0, Vec3()), Status::DeviceNotOpen);
   ASSERT_EQ(bench.device->open(), Status::Ok) << bench.device->message();
   EXPECT_EQ(bench.wire.model.firmware, madeUpFirmware());
-  EXPECT_EQ(bench.device->loadProgress(), 1.0);
   EXPECT_EQ(bench.device->state(), FalconState::Unhomed);
   EXPECT_TRUE(bench.arm());
   EXPECT_NEAR(norm(bench.hand.position), 0.0, 40e-6) << "within the encoders' steps";

@@ -212,14 +212,6 @@ TEST(SpaceMouseReport, RestsWhenTheLastReportIsStale)
   EXPECT_EQ(decoder.motion(100.0).buttons, 5u) << "a button is down until it is said to be up";
 }
 
-TEST(SpaceMouseReport, TellsItsBattery)
-{
-  SpaceMouseDecoder decoder;
-  EXPECT_EQ(decoder.battery(), -1);
-  EXPECT_TRUE(take(decoder, { 0x17, 83 }));
-  EXPECT_EQ(decoder.battery(), 83);
-}
-
 TEST(SpaceMouseReport, IgnoresCutUnknownAndRandomReports)
 {
   SpaceMouseDecoder decoder;

@@ -5,7 +5,8 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <vector>
+#include <set>
+#include <string>
 
 using namespace pointhaptics;
 
@@ -29,27 +30,27 @@ TEST(HapticParameters, AcceptsItsDefaultsAndPresets)
 
 TEST(HapticParameters, RefusesEachNumberOutsideItsRange)
 {
-  using Change = std::function<void(HapticParameters&, double)>;
-  const std::vector<Change> numbers = {
-    [](auto& p, double value) { p.contact.stiffness = value; },
-    [](auto& p, double value) { p.contact.damping = value; },
-    [](auto& p, double value) { p.contact.staticFriction = value; },
-    [](auto& p, double value) { p.contact.dynamicFriction = value; },
-    [](auto& p, double value) { p.gradientSteps.freeGain = value; },
-    [](auto& p, double value) { p.gradientSteps.normalGain = value; },
-    [](auto& p, double value) { p.gradientSteps.tangentGain = value; },
-    [](auto& p, double value) { p.gradientSteps.sinkTolerance = value; },
-    [](auto& p, double value) { p.gradientSteps.stepPeriodSeconds = value; },
-    [](auto& p, double value) { p.gradientSteps.largestStep = value; },
-  };
-  for (std::size_t i = 0; i < numbers.size(); ++i)
-  {
-    for (double value : { -1.0, 1e9, std::nan(""), std::numeric_limits<double>::infinity() })
+  const std::set<std::string> unbounded = { "contact.settleRate", "contact.forceLimit" };
+  HapticParameters parameters;
+  int numbers = 0;
+  visitSettings(parameters,
+    [&](const std::string& name, auto& member)
     {
-      EXPECT_EQ(checkWith([&](auto& p) { numbers[i](p, value); }), Status::InvalidParameter)
-        << i << ' ' << value;
-    }
-  }
+      if constexpr (std::is_same_v<std::decay_t<decltype(member)>, double>)
+      {
+        const double before = member;
+        for (double value : { -1.0, 1e9, std::nan(""), std::numeric_limits<double>::infinity() })
+        {
+          member = value;
+          const bool isValid = value > 0.0 && unbounded.count(name) > 0;
+          EXPECT_EQ(parameters.check(), isValid ? Status::Ok : Status::InvalidParameter)
+            << name << ' ' << value;
+        }
+        member = before;
+        ++numbers;
+      }
+    });
+  EXPECT_EQ(numbers, 13);
   for (int steps : { -1, 0, 1000000 })
   {
     EXPECT_EQ(

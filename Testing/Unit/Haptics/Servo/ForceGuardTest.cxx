@@ -41,7 +41,6 @@ TEST(ForceGuard, PassesForcesInsideItsLimitsBitForBit)
       force = next;
     }
   }
-  EXPECT_EQ(guard.limitedForces(), 0u);
 }
 
 TEST(ForceGuard, KeepsItsLimitsForEveryRequest)
@@ -100,7 +99,6 @@ TEST(ForceGuard, ClampKeepsTheDirection)
   ForceGuard guard(ForceLimits{ 8.0, kInfinity });
   const Vec3 sent = guard.limit({ 300.0, -400.0, 1200.0 }, kTick);
   EXPECT_NEAR(norm(sent - (8.0 / 1300.0) * Vec3(300.0, -400.0, 1200.0)), 0.0, 1e-12);
-  EXPECT_EQ(guard.limitedForces(), 1u);
 }
 
 TEST(ForceGuard, CountsForcesThatAreNotFiniteAsZero)
@@ -110,8 +108,6 @@ TEST(ForceGuard, CountsForcesThatAreNotFiniteAsZero)
   EXPECT_EQ(guard.limit({ kNaN, 1.0, 1.0 }, kTick), Vec3());
   EXPECT_EQ(guard.limit({ 1.0, kInfinity, 1.0 }, kTick), Vec3());
   EXPECT_EQ(guard.limit({ 1.0, 1.0, -kInfinity }, kTick), Vec3());
-  EXPECT_EQ(guard.nonFiniteForces(), 3u);
-  EXPECT_EQ(guard.limitedForces(), 0u);
 }
 
 TEST(ForceGuard, SurvivesTheLargestNumbers)
