@@ -25,7 +25,7 @@ struct ColumnEvidence
 
 /// Names for columns that have none:
 /// - whole numbers that count the rows, before three coordinates: id;
-/// - x, y, z;
+/// - x, y, z; behind an id y, x, z where these can only be a northing and an easting;
 /// - three of unit length together: nx ny nz; three within 0..1 or 0..255 together, or of 16 bits: red green
 ///   blue;
 /// - whole numbers of few values: label; one other number: intensity; more: column_4 and so on.

@@ -282,4 +282,16 @@ TEST_F(HostileFiles, TextsOfVtkThatHaveNoEndAreRefused)
   expectRefused(with("97 98"), "Cannot read the texts of 'words'");
 }
 
+TEST_F(HostileFiles, MarksWithinAttributesOfVtkEndNoTag)
+{
+  std::string vtp = inlineVtp("GAAAAAAAgD8AAABAAABAQAAAgEAAAKBAAADAQA==");
+  vtp.insert(vtp.find("<Points>"),
+    "<PointData><DataArray type=\"Float32\" Name=\"a > b\" format=\"ascii\">7 8</DataArray></PointData>");
+  vtp.insert(vtp.find("format=\"binary\""), "Note=\">>\" ");
+  const ReadResult result = readCloud(write("a.vtp", vtp));
+  ASSERT_EQ(result.error, "");
+  EXPECT_EQ(result.cloud->GetPoint(1)[2], 6.0);
+  EXPECT_EQ(result.value("a > b", 1), 8.0);
+}
+
 } // namespace
