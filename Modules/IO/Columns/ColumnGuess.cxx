@@ -230,16 +230,14 @@ bool areRowAndColumn(const Columns& columns)
     areColors(columns, 5);
 }
 
-/// True if the columns from @p at on are northing and easting of UTM, whose eastings have a digit less. Only
-/// survey points have numbers and may come in this order: feet of an easting would look like a northing.
-bool isNorthingFirst(const Columns& columns, std::size_t at)
+} // namespace
+
+bool mayBeNorthingFirst(const std::vector<ColumnEvidence>& columns, std::size_t at)
 {
   const auto isWithin = [&](std::size_t i, double least, double most)
   { return i < columns.size() && columns[i].least >= least && columns[i].most < most; };
   return isWithin(at, 1e6, 1e7) && isWithin(at + 1, 1e5, 1e6);
 }
-
-} // namespace
 
 std::vector<std::string> guessColumnNames(const std::vector<ColumnEvidence>& columns, bool prefersColors)
 {
@@ -253,7 +251,7 @@ std::vector<std::string> guessColumnNames(const std::vector<ColumnEvidence>& col
     names[0] = hasRays ? "row" : hasId ? "id" : "time";
     names[first - 1] = hasRays ? "column" : names[0];
   }
-  const char* const order = hasId && isNorthingFirst(columns, first) ? "yxz" : "xyz";
+  const char* const order = hasId && mayBeNorthingFirst(columns, first) ? "yxz" : "xyz";
   for (std::size_t i = 0; i < 3 && first + i < names.size(); ++i)
   {
     names[first + i] = std::string(1, order[i]);

@@ -33,6 +33,11 @@ struct ColumnEvidence
 /// @param prefersColors whether vectors that may be both are colours.
 std::vector<std::string> guessColumnNames(const std::vector<ColumnEvidence>& columns, bool prefersColors);
 
+/// True if the columns from @p at on may be northing and easting of UTM, whose eastings have a digit less.
+/// Feet of a state plane look so, too, the other way round; those of numbered points hardly come in this
+/// order.
+bool mayBeNorthingFirst(const std::vector<ColumnEvidence>& columns, std::size_t at = 0);
+
 /// "columns are taken as x,y,z,intensity, which no header says; --columns NAMES names them otherwise".
 std::string guessNote(const std::vector<std::string>& names);
 

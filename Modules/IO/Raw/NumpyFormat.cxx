@@ -18,7 +18,7 @@ namespace
 constexpr const char* kCure =
   "write an array of n rows with x, y, z: numpy.save('cloud.npy', points.astype('f4'))";
 /// An array of no more rows and of more columns has its points in columns.
-constexpr std::uint64_t kMostTurned = 64;
+constexpr std::uint64_t kMostTurned = 16;
 
 /// One column as the array stores it.
 struct NumpyField

@@ -50,6 +50,8 @@ TEST_F(Survey, NumberedPointsOfUtmAreTakenByTheirDigits)
   // Without numbers these may be feet of a state plane, whose eastings have a digit more.
   expectSecond(write("c.xyz", "2100000.1 712345.2 530\n2100003.1 712347.2 531\n2100001.1 712341.2 532\n"),
     2100003.1, 712347.2, 531);
+  EXPECT_EQ(readCloud(path("c.xyz")).notes.size(), 1u) << "it is said";
+  EXPECT_TRUE(readCloud(write("d.xyz", "412345.2 5350000.1 530\n412347.2 5350003.1 531\n")).notes.empty());
 }
 
 TEST_F(Survey, GermanHeadersAreKnown)
