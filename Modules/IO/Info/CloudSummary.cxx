@@ -93,6 +93,28 @@ std::array<double, 5> percentilesOf(std::vector<double> distances)
   return result;
 }
 
+/// The @p count nearest about @p center, in any order. Those within @p reach of it are looked at alone, where
+/// they are enough: @p reach becomes a little more than was needed, for the next center.
+void findAbout(const NeighborQuery& query, const Vec3& center, std::size_t count, double& reach,
+  std::vector<Neighbor>& about)
+{
+  constexpr double kSpare = 1.2;
+  about.clear();
+  query.visitBall(center, reach,
+    [&](const Vec3&, double squaredDistance, std::int64_t index) {
+      about.push_back({ squaredDistance, index });
+    });
+  if (about.size() < count)
+  {
+    about.resize(count);
+    about.resize(std::size_t(query.nearest(center, int(count), about.data())));
+  }
+  std::nth_element(
+    about.begin(), about.begin() + std::ptrdiff_t(std::min(count, about.size())) - 1, about.end());
+  about.resize(std::min(count, about.size()));
+  reach = kSpare * std::sqrt(about.back().squaredDistance);
+}
+
 /// The median of the @p distances of the @p samples about some of them. Of points at random the
 /// distance to the nearest one varies 8 : 1 by chance; the median varies where the density does.
 /// @param query of the samples.
@@ -103,16 +125,18 @@ std::vector<double> smoothed(
   constexpr std::size_t kPlaces = 300; // each sample is about four of them
   constexpr std::size_t kPart = 50;    // no more than this part of the samples are about one
   const std::size_t count = std::clamp<std::size_t>(samples.size() / kPart, 1, kMost);
-  std::vector<Neighbor> about(count);
+  std::vector<Neighbor> about;
+  double reach = 0.0;
   std::vector<double> medians;
   std::vector<double> values(count);
   for (std::size_t i = 0; i < samples.size(); i += 1 + samples.size() / kPlaces)
   {
-    const int found = query.nearest(samples[i], int(count), about.data());
-    std::transform(about.begin(), about.begin() + found, values.begin(),
+    findAbout(query, samples[i], count, reach, about);
+    const auto middle = values.begin() + std::ptrdiff_t(about.size() / 2);
+    const auto end = std::transform(about.begin(), about.end(), values.begin(),
       [&](const Neighbor& neighbor) { return distances[std::size_t(neighbor.index)]; });
-    std::nth_element(values.begin(), values.begin() + found / 2, values.begin() + found);
-    medians.push_back(values[std::size_t(found / 2)]);
+    std::nth_element(values.begin(), middle, end);
+    medians.push_back(*middle);
   }
   return medians;
 }
