@@ -192,7 +192,11 @@ void readNumpy(ReadTask& task, vtkPolyData* cloud)
   std::vector<std::uint64_t> shape = header.shape;
   const bool isTurned =
     !hasNames && shape.size() == 2 && shape[0] >= 3 && shape[0] <= kMostTurned && shape[1] > kMostTurned;
-  isTurned ? std::swap(shape[0], shape[1]) : void(); // x, y and z in rows
+  if (isTurned)
+  {
+    std::swap(shape[0], shape[1]);
+    task.notes.emplace_back("the points are the columns of the array, not its rows");
+  }
   const std::uint64_t columns = hasNames ? header.fields.size() : shape.size() > 1 ? shape.back() : 0;
   if (!hasNames && !shape.empty())
   {

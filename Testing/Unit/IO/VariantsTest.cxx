@@ -39,6 +39,7 @@ TEST_F(Variants, NumpyWithPointsInColumnsIsTurned)
     const ReadResult result = readCloud(write("a.npy", numpy(50, isTurned)));
     ASSERT_EQ(result.error, "");
     ASSERT_EQ(result.points(), 50);
+    EXPECT_EQ(result.notes.size(), isTurned ? 1u : 0u);
     EXPECT_EQ(result.cloud->GetPoint(49)[2], 492.0);
   }
 }

@@ -47,6 +47,9 @@ TEST_F(Survey, NumberedPointsOfUtmAreTakenByTheirDigits)
   expectSecond(
     write("b.csv", "1,412345.2,5350000.1,530\n2,412347.2,5350003.1,531\n3,412341.2,5350001.1,532\n"),
     412347.2, 5350003.1, 531);
+  expectSecond(
+    write("e.csv", "17,5350000.1,412345.2,530.5\n4,5350003.1,412347.2,531.5\n9,5350001.1,412341.2,532.5\n"),
+    412347.2, 5350003.1, 531.5);
   // Without numbers these may be feet of a state plane, whose eastings have a digit more.
   expectSecond(write("c.xyz", "2100000.1 712345.2 530\n2100003.1 712347.2 531\n2100001.1 712341.2 532\n"),
     2100003.1, 712347.2, 531);
