@@ -267,6 +267,9 @@ TEST_F(HostileFiles, ArraysOfVtkThatItCannotMakeAreRefused)
   expectRefused(with("<DataArray type=\"Foo\" " + rest), "an array of the type 'Foo'");
   expectRefused(with("<DataArray " + rest), "an array of the type ''");
   expectRefused(with("<Foo type=\"Int32\"/>"), "'Foo' in the place of an array");
+  std::string flat = inlineVtp(base64);
+  flat.replace(flat.find("Components=\"3"), 13, "Components=\"2");
+  expectRefused(readCloud(write("a.vtp", flat)), "points of '2' components");
 }
 
 TEST_F(HostileFiles, TextsOfVtkThatHaveNoEndAreRefused)
