@@ -43,10 +43,22 @@ class StoppedOnRequest : public std::exception
 {
 };
 
+/// "line 12: ", in front of what is there.
+inline std::string atLine(std::size_t line)
+{
+  return "line " + std::to_string(line) + ": ";
+}
+
 /// The content is not what the format asks for.
 [[noreturn]] inline void failFormat(const std::string& what, const std::string& cure)
 {
   throw FileProblem(vtkErrorCode::FileFormatError, what, cure);
+}
+
+/// As failFormat(), of a line of text.
+[[noreturn]] inline void failLine(std::size_t line, const std::string& what, const std::string& cure)
+{
+  failFormat(atLine(line) + what, cure);
 }
 
 /// "byte 12: ", in front of what is there.

@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 namespace pointhaptics::io
 {
@@ -114,16 +115,10 @@ vtkSmartPointer<vtkDataArray> filled(const MergedArray& array, const std::vector
     isPointField(array.name) || isColorName(array.name) || isSameField(array.name, "RGBA") ||
     std::any_of(std::begin(kLabelFields), std::end(kLabelFields),
       [&](const char* label) { return isLabelField(array.name, label); });
-  vtkSmartPointer<vtkDataArray> result;
-  result.TakeReference(vtkDataArray::CreateDataArray(lacking.empty() || hasNone ? array.type : VTK_DOUBLE));
-  result->SetName(array.name.c_str());
-  result->SetNumberOfComponents(array.components);
-  vtkIdType rows = 0;
-  for (vtkPolyData* cloud : clouds)
-  {
-    rows += cloud->GetNumberOfPoints();
-  }
-  result->SetNumberOfTuples(rows);
+  const vtkIdType rows = std::accumulate(clouds.begin(), clouds.end(), vtkIdType{ 0 },
+    [](vtkIdType sum, vtkPolyData* cloud) { return sum + cloud->GetNumberOfPoints(); });
+  const vtkSmartPointer<vtkDataArray> result =
+    makeArray(lacking.empty() || hasNone ? array.type : VTK_DOUBLE, array.components, rows, array.name);
   const bool isFloating = isFloatingType(result->GetDataType());
   result->Fill(isFloating ? std::numeric_limits<double>::quiet_NaN() : 0.0);
   vtkIdType begin = 0;

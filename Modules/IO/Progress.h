@@ -16,28 +16,4 @@ constexpr vtkIdType kProgressRows = 32768;
 /// @throws StoppedOnRequest when AbortExecute is set. Call it from the thread that runs the algorithm.
 void reportProgress(vtkAlgorithm* algorithm, double fraction);
 
-/// While this lives, the progress of one of VTK's own algorithms is that of @p outer from @p begin to @p end,
-/// never falling, and AbortExecute of @p outer becomes that of @p inner. Both must outlive it. One thread.
-class RelayedProgress
-{
-public:
-  RelayedProgress(vtkAlgorithm* inner, vtkAlgorithm* outer, double begin, double end);
-  ~RelayedProgress();
-  RelayedProgress(const RelayedProgress&) = delete;
-  RelayedProgress& operator=(const RelayedProgress&) = delete;
-
-  /// Call it when @p inner is done, before its faults are looked at. @throws StoppedOnRequest.
-  void finish();
-
-private:
-  void relay(double fraction);
-
-  vtkAlgorithm* inner_;
-  vtkAlgorithm* outer_;
-  double begin_;
-  double end_;
-  double reached_;
-  unsigned long observer_ = 0;
-};
-
 } // namespace pointhaptics::io

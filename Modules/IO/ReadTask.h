@@ -67,10 +67,9 @@ struct ReadTask
 {
   std::string path;
   std::string_view bytes;
-  bool wasPacked = false;   ///< the bytes are the unpacked content of a gzip file
-  bool isPackedCut = false; ///< and it ends too early: so do they
-  bool isStream = false;    ///< the bytes came through a pipe: nobody can read them again
-  std::string extension;    ///< decides what the content leaves open
+  bool isPackedCut = false; ///< the bytes are those of a gzip file that ends too early
+  bool isStream = false; ///< the bytes came through a pipe, or packed: nobody can read them so from the file
+  std::string extension; ///< decides what the content leaves open
   WantedPart wanted;
   std::vector<std::string>
     columns;            ///< names for those of text, "-" for one that is left out; empty: none given
@@ -136,6 +135,14 @@ struct ReadTask
   }
   /// Reports how much of the parsing is done, 0..1. @throws StoppedOnRequest when an observer asked to stop.
   void progress(double fraction) const { reportProgress(algorithm, overall(fraction)); }
+  /// progress() of @p done of @p all, once in kProgressRows times that @p count rises.
+  void step(std::uint64_t count, std::uint64_t done, std::uint64_t all) const
+  {
+    if (count % kProgressRows == 0)
+    {
+      progress(static_cast<double>(done) / static_cast<double>(all));
+    }
+  }
   /// Part of the whole work that is done when @p fraction of the parsing is.
   double overall(double fraction) const
   {

@@ -32,6 +32,7 @@
 #include <exception>
 #include <filesystem>
 #include <limits>
+#include <numeric>
 #include <sstream>
 #include <string_view>
 
@@ -100,22 +101,13 @@ void checkCoordinates(vtkPolyData* cloud)
   }
 }
 
-/// Takes away all but @p count points from @p first on, with their values in all arrays.
-void keepRows(vtkPolyData* cloud, vtkIdType first, vtkIdType count)
+/// Takes away all but these points, with their values in all arrays.
+void keepRows(vtkPolyData* cloud, const io::RowRange& rows)
 {
-  vtkNew<vtkPoints> points;
-  points->SetDataType(cloud->GetPoints()->GetDataType());
-  points->SetNumberOfPoints(count);
-  vtkNew<vtkPointData> values;
-  values->CopyAllOn();
-  values->CopyAllocate(cloud->GetPointData(), count);
-  if (count > 0)
-  {
-    points->InsertPoints(0, count, first, cloud->GetPoints());
-    values->CopyData(cloud->GetPointData(), 0, count, first);
-  }
-  cloud->SetPoints(points);
-  cloud->GetPointData()->ShallowCopy(values);
+  vtkNew<vtkIdList> kept;
+  kept->SetNumberOfIds(static_cast<vtkIdType>(rows.count()));
+  std::iota(kept->begin(), kept->end(), static_cast<vtkIdType>(rows.first));
+  io::keepPoints(cloud, kept);
 }
 
 /// True if the format, told by the file's @p start, can be read in parts.
@@ -342,8 +334,7 @@ void vtkPointCloudReader::ReadTogether(io::ReadTask& task, vtkPolyData* cloud)
     }
     if (!task.isCut)
     {
-      const io::RowRange own = shared.rowsOf(static_cast<std::uint64_t>(cloud->GetNumberOfPoints()));
-      keepRows(cloud, static_cast<vtkIdType>(own.first), static_cast<vtkIdType>(own.count()));
+      keepRows(cloud, shared.rowsOf(static_cast<std::uint64_t>(cloud->GetNumberOfPoints())));
     }
     shared.gather({});
   }
@@ -385,14 +376,13 @@ void vtkPointCloudReader::ReadWhole(io::ReadTask& task, vtkPolyData* cloud)
     task.salvage);
   const std::string converted = io::isUtf16(bytes.view()) ? io::utf8Of(bytes.view()) : std::string();
   task.bytes = converted.empty() ? bytes.view() : std::string_view(converted);
-  task.wasPacked = bytes.wasPacked();
   task.isPackedCut = bytes.isCut();
   if (task.isPackedCut && io::isText(task.bytes))
   {
     task.bytes = task.bytes.substr(0, task.bytes.rfind('\n') + 1); // the last number may be torn
   }
   std::error_code ignored;
-  task.isStream = !std::filesystem::is_regular_file(task.path, ignored);
+  task.isStream = bytes.wasPacked() || !std::filesystem::is_regular_file(task.path, ignored);
   format->read(task, cloud);
   this->NumberOfBytesRead = static_cast<vtkTypeInt64>(bytes.view().size() + task.bytesElsewhere);
   this->Finish(task, cloud);

@@ -16,6 +16,8 @@
 #include "vtkCompositeDataSet.h"
 #include "vtkFieldData.h"
 #include "vtkInformation.h"
+#include "vtkInformationIterator.h"
+#include "vtkInformationKey.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
@@ -75,6 +77,41 @@ bool isIdentityPose(vtkPointSet* cloud, const std::string& name)
     }
   }
   return same;
+}
+
+/// Names of what others noted about @p array; ranges, which VTK notes itself, are none of them.
+std::string informationOf(vtkAbstractArray* array)
+{
+  std::string names;
+  if (!array->HasInformation())
+  {
+    return names;
+  }
+  vtkNew<vtkInformationIterator> keys;
+  keys->SetInformationWeak(array->GetInformation());
+  for (keys->InitTraversal(); !keys->IsDoneWithTraversal(); keys->GoToNextItem())
+  {
+    const std::string name = keys->GetCurrentKey()->GetName();
+    const bool isRange = name.find("RANGE") != std::string::npos || name.rfind("PER_", 0) == 0;
+    names += isRange ? "" : (names.empty() ? "" : ", ") + name;
+  }
+  return names;
+}
+
+void noteInformation(vtkPointSet* cloud, io::WriterNotes& notes)
+{
+  for (vtkFieldData* data : { static_cast<vtkFieldData*>(cloud->GetPointData()), cloud->GetFieldData() })
+  {
+    for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+    {
+      vtkAbstractArray* array = data->GetAbstractArray(i);
+      const std::string keys = informationOf(array);
+      keys.empty()
+        ? void()
+        : notes.add("what is noted of array " + io::inQuotes(array->GetName() ? array->GetName() : "") +
+            " as " + keys + " is left out");
+    }
+  }
 }
 
 void noteWhatIsNoColumn(vtkPointSet* cloud, const io::CloudFormat& format, io::WriterNotes& notes)
@@ -196,7 +233,8 @@ void vtkPointCloudWriter::WriteCloud(vtkPointSet* cloud)
   task.keepsDoubles = this->KeepDoubles;
   task.progress(0.0);
   task.cloud = cloud;
-  if (this->Format != "VTP") // which keeps all
+  noteInformation(cloud, task.notes);
+  if (this->Format != "VTP") // which keeps all else
   {
     noteWhatIsNoColumn(cloud, *format, task.notes);
     task.comments.unit = unitFor(*format, cloud);

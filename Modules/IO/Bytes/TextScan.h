@@ -53,6 +53,18 @@ std::string_view takeWord(std::string_view& line);
 /// Without regard to case, for ASCII.
 bool equalNoCase(std::string_view a, std::string_view b);
 
+/// Index of @p word among @p words; their number where it is none of them.
+template <std::size_t Count>
+std::size_t indexOf(const std::string_view (&words)[Count], std::string_view word)
+{
+  std::size_t i = 0;
+  while (i < Count && words[i] != word)
+  {
+    ++i;
+  }
+  return i;
+}
+
 /// How a number was written, which determines the type that holds it.
 struct NumberShape
 {

@@ -4,6 +4,7 @@
 #include "Core/Resample/FieldNames.h"
 #include "FileProblem.h"
 #include "IO/Bytes/TextScan.h"
+#include "IO/Formats/FormatLooks.h"
 #include "IO/Info/LengthUnit.h"
 #include "ReadTask.h"
 
@@ -109,9 +110,9 @@ using Names = std::vector<std::vector<std::string>>;
 
 const std::vector<std::string> kXyz = { "x", "y", "z" };
 /// Other names of the three coordinates.
-const Names kCoordinateWords = { { "x", "easting", "east", "e", "rechtswert", "ost", "est", "este",
-                                   "longitude", "lon", "long", "lng" },
-  { "y", "northing", "north", "n", "hochwert", "nord", "norte", "latitude", "lat" },
+const Names kCoordinateWords = { { "x", "easting", "east", "e", "rechtswert", "rechts", "rw", "ost", "est",
+                                   "este", "longitude", "lon", "long", "lng" },
+  { "y", "northing", "north", "n", "hochwert", "hoch", "hw", "nord", "norte", "latitude", "lat" },
   { "z", "elevation", "elev", "height", "h", "altitude", "alt", "up", "hoehe", "h\xc3\xb6he", "cota" } };
 /// Words beside the name of a coordinate: "POINT_X", "x coordinate".
 const std::vector<std::string> kFillers = { "coord", "coords", "coordinate", "coordinates", "point", "points",
@@ -190,16 +191,18 @@ bool has(const std::vector<std::string>& words, const std::string& word)
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-/// Lower case; what is neither letter nor digit ends a word.
+/// Lower case, also of the letters of Latin-1; what is neither letter nor digit ends a word.
 std::vector<std::string> wordsOf(const std::string& name)
 {
   std::vector<std::string> words(1);
-  for (const char c : name)
+  for (const char c : utf8Name(name))
   {
     const auto byte = static_cast<unsigned char>(c);
+    const bool isLatin =
+      byte >= 0x80 && byte < 0x9f && !words.back().empty() && words.back().back() == '\xc3';
     if (byte >= 0x80 || std::isalnum(byte))
     {
-      words.back() += static_cast<char>(std::tolower(byte));
+      words.back() += static_cast<char>(isLatin ? byte | 0x20 : std::tolower(byte));
     }
     else if (!words.back().empty())
     {
@@ -284,6 +287,15 @@ bool isOneOf(const Names& lists, const std::string& name)
 }
 
 } // namespace
+
+vtkSmartPointer<vtkDataArray> makeArray(int type, int components, vtkIdType tuples, const std::string& name)
+{
+  auto array = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(type));
+  name.empty() ? void() : array->SetName(name.c_str());
+  array->SetNumberOfComponents(components);
+  array->SetNumberOfTuples(tuples);
+  return array;
+}
 
 std::vector<Column> columnsCalled(const std::vector<std::string>& names)
 {
@@ -441,17 +453,12 @@ void CloudColumns::add(const std::string& name, const std::vector<std::size_t>& 
 {
   const int components =
     columns.size() == 1 ? columns_[columns[0]].components : static_cast<int>(columns.size());
-  vtkSmartPointer<vtkDataArray> array;
-  array.TakeReference(vtkDataArray::CreateDataArray(type));
-  array->SetName(unusedName(name).c_str());
-  array->SetNumberOfComponents(components);
-  array->SetNumberOfTuples(rows_);
   for (std::size_t i = 0; i < columns.size(); ++i)
   {
     placed_[columns[i]] = true;
     places_[columns[i]] = { arrays_.size(), static_cast<int>(i) };
   }
-  arrays_.push_back(array);
+  arrays_.push_back(makeArray(type, components, rows_, unusedName(name)));
 }
 
 ColumnView CloudColumns::target(std::size_t column, int component) const

@@ -32,6 +32,10 @@ struct Column
   int components = 1;
 };
 
+/// An array of the VTK type @p type, whose values are undefined.
+vtkSmartPointer<vtkDataArray> makeArray(
+  int type, int components, vtkIdType tuples, const std::string& name = {});
+
 /// Columns with these names.
 std::vector<Column> columnsCalled(const std::vector<std::string>& names);
 

@@ -31,7 +31,7 @@ bool isLabel(const ColumnEvidence& column)
 bool areColors(const Columns& columns, std::size_t first);
 
 /// Whole numbers that count the rows, and coordinates that are not all whole; or any that differ, before
-/// three coordinates with decimals and three whole colours.
+/// three coordinates with decimals which are those of a map, or stand before three whole colours.
 bool isId(const Columns& columns)
 {
   if (columns.size() < 4 || !columns[0].isWhole || columns[0].sample.size() < kFewestIds ||
@@ -40,9 +40,12 @@ bool isId(const Columns& columns)
     return false;
   }
   const std::vector<double>& ids = columns[0].sample;
-  const bool hasColors = columns.size() >= 7 && columns[4].isWhole && areColors(columns, 4) &&
+  constexpr double kMapCoordinate = 1e5;
+  const bool hasDecimals =
     std::none_of(columns.begin() + 1, columns.begin() + 4, [](const ColumnEvidence& c) { return c.isWhole; });
-  return (hasColors && numberOfValues(columns[0]) == ids.size()) ||
+  const bool hasColors = columns.size() >= 7 && columns[4].isWhole && areColors(columns, 4);
+  const bool isMap = columns[1].least >= kMapCoordinate && columns[2].least >= kMapCoordinate;
+  return (hasDecimals && (hasColors || isMap) && numberOfValues(columns[0]) == ids.size()) ||
     std::adjacent_find(ids.begin(), ids.end(), [](double a, double b) { return b != a + 1.0; }) == ids.end();
 }
 
@@ -232,6 +235,13 @@ bool areRowAndColumn(const Columns& columns)
 
 } // namespace
 
+bool mayBeNorthingFirst(const std::vector<ColumnEvidence>& columns, std::size_t at)
+{
+  const auto isWithin = [&](std::size_t i, double least, double most)
+  { return i < columns.size() && columns[i].least >= least && columns[i].most < most; };
+  return isWithin(at, 1e6, 1e7) && isWithin(at + 1, 1e5, 1e6);
+}
+
 std::vector<std::string> guessColumnNames(const std::vector<ColumnEvidence>& columns, bool prefersColors)
 {
   const bool hasId = isId(columns);
@@ -244,9 +254,10 @@ std::vector<std::string> guessColumnNames(const std::vector<ColumnEvidence>& col
     names[0] = hasRays ? "row" : hasId ? "id" : "time";
     names[first - 1] = hasRays ? "column" : names[0];
   }
+  const char* const order = hasId && mayBeNorthingFirst(columns, first) ? "yxz" : "xyz";
   for (std::size_t i = 0; i < 3 && first + i < names.size(); ++i)
   {
-    names[first + i] = std::string(1, "xyz"[i]);
+    names[first + i] = std::string(1, order[i]);
   }
   std::vector<std::size_t> scalars;
   std::size_t label = names.size(); // the one of fewest values

@@ -29,7 +29,7 @@ double TextRecords::takeNumber(const TextField& field)
     }
     const std::string_view word = takeWord(rest_);
     throwDoubt();
-    failFormat(where(filledLine_) + words_.field + " " + inQuotes(field.name) + " is " +
+    failFormat(atLine(filledLine_) + words_.field + " " + inQuotes(field.name) + " is " +
         (word.empty() ? std::string("missing") : inQuotes(word) + ", not a number"),
       std::string("write one number per ") + words_.field + " and one " + words_.record + " per line");
   }
@@ -61,7 +61,7 @@ void TextRecords::store(vtkIdType row)
     const double value = takeNumber(field);
     if (field.target.first && !storeNumber(field.target, row, value, trimmed(number_)))
     {
-      failFormat(where(lines_.lineNumber()) + words_.field + " " + inQuotes(field.name) + " is " +
+      failFormat(atLine(lines_.lineNumber()) + words_.field + " " + inQuotes(field.name) + " is " +
           std::to_string(value) + ", which its integer type cannot hold",
         words_.cureOfType);
     }
@@ -88,13 +88,13 @@ void TextRecords::expectEnd()
     std::any_of(fields_.begin(), fields_.end(), [](const TextField& field) { return field.isList; });
   if (doubt_.empty() && goesOn_)
   {
-    doubt_ = where(line_) + words_.field + " " + inQuotes(missing_) + " is missing; write one number per " +
+    doubt_ = atLine(line_) + words_.field + " " + inQuotes(missing_) + " is missing; write one number per " +
       words_.field + " and one " + words_.record + " per line";
   }
   else if (doubt_.empty())
   {
     std::string_view copy = rest_;
-    doubt_ = where(lines_.lineNumber()) + inQuotes(takeWord(copy)) + " follows the last " + words_.field +
+    doubt_ = atLine(lines_.lineNumber()) + inQuotes(takeWord(copy)) + " follows the last " + words_.field +
       "; write as many numbers per line as the header names";
   }
   const bool isOdd = goesOn_ || hasList || extra % fields_.size() != 0;
@@ -136,10 +136,7 @@ void TextRecords::storeAll(ReadTask& task, std::uint64_t rows, std::uint64_t all
       task.endAt(row, all, problem.what());
       return;
     }
-    if (row % kProgressRows == 0)
-    {
-      task.progress(static_cast<double>(row) / static_cast<double>(rows));
-    }
+    task.step(row, row, rows);
   }
   const bool isMore = !trimmed(rest_).empty() || (isLast_ && !doubt_.empty() && lines_.nextFilled(rest_));
   isMore ? throwDoubt() : void();

@@ -63,7 +63,6 @@ public:
 private:
   void expectEnd();
   void throwDoubt() const;
-  std::string where(std::size_t line) const { return "line " + std::to_string(line) + ": "; }
 
   LineReader& lines_;
   const std::vector<TextField> fields_;

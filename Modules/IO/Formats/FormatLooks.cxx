@@ -60,6 +60,24 @@ bool isColumnExtension(const std::string& extension)
   return std::find(std::begin(known), std::end(known), extension) != std::end(known);
 }
 
+bool hasUtf16Mark(std::string_view bytes)
+{
+  return startsWith(bytes, "\xff\xfe") || startsWith(bytes, "\xfe\xff");
+}
+
+/// True if each second byte from @p first on is zero in the first ones, as it is in Latin text of UTF-16.
+bool hasZeros(std::string_view bytes, std::size_t first)
+{
+  constexpr std::size_t kShown = 64;
+  const std::size_t size = std::min(bytes.size(), kShown);
+  bool result = size >= 8;
+  for (std::size_t i = 0; i < size; ++i)
+  {
+    result = result && (bytes[i] == '\0') == (i % 2 == first);
+  }
+  return result;
+}
+
 void appendUtf8(std::string& text, std::uint32_t code)
 {
   if (code < 0x80)
@@ -95,12 +113,12 @@ std::string_view withoutByteOrderMark(std::string_view bytes)
 
 bool isUtf16(std::string_view bytes)
 {
-  return startsWith(bytes, "\xff\xfe") || startsWith(bytes, "\xfe\xff");
+  return hasUtf16Mark(bytes) || hasZeros(bytes, 1) || hasZeros(bytes, 0);
 }
 
 std::string utf8Of(std::string_view bytes)
 {
-  const std::size_t low = bytes[0] == '\xff' ? 0 : 1; // of the two bytes of a unit
+  const std::size_t low = bytes[0] == '\xfe' || bytes[0] == '\0' ? 1 : 0; // of the two bytes of a unit
   const auto unit = [&](std::size_t i)
   {
     return std::uint32_t{ static_cast<unsigned char>(bytes[i + low]) } |
@@ -108,7 +126,7 @@ std::string utf8Of(std::string_view bytes)
   };
   std::string text;
   text.reserve(bytes.size() / 2);
-  for (std::size_t i = 2; i + 1 < bytes.size(); i += 2)
+  for (std::size_t i = hasUtf16Mark(bytes) ? 2 : 0; i + 1 < bytes.size(); i += 2)
   {
     std::uint32_t code = unit(i);
     if (code >= 0xd800 && code < 0xe000)

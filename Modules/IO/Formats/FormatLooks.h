@@ -51,10 +51,10 @@ bool isText(std::string_view bytes);
 /// @p bytes without the UTF-8 byte order mark some editors put in front.
 std::string_view withoutByteOrderMark(std::string_view bytes);
 
-/// True if @p bytes begin with the byte order mark of UTF-16.
+/// True if @p bytes begin with the byte order mark of UTF-16, or as Latin text of UTF-16 without it.
 bool isUtf16(std::string_view bytes);
 
-/// The text of @p bytes, which begin with that mark, in UTF-8; what is no UTF-16 becomes '?'.
+/// The text of @p bytes, which are such, in UTF-8; what is no UTF-16 becomes '?'.
 std::string utf8Of(std::string_view bytes);
 
 /// @p name as it is where it is UTF-8, else what it is in Latin-1, in UTF-8.

@@ -36,7 +36,7 @@ struct EsriHeader
 
 [[noreturn]] void failLine(const LineReader& lines, const std::string& what)
 {
-  failFormat("line " + std::to_string(lines.lineNumber()) + ": " + what,
+  failFormat(atLine(lines.lineNumber()) + what,
     "write ncols, nrows, xllcorner, yllcorner, cellsize and NODATA_value, then a height for each cell");
 }
 
@@ -100,8 +100,8 @@ void readEsriGrid(ReadTask& task, vtkPolyData* cloud)
   const EsriHeader header = parseHeader(lines, line);
   if (header.rows > text.size() / header.columns)
   {
-    failTruncated("line " + std::to_string(lines.lineNumber()) + ": " + std::to_string(header.columns) +
-      " x " + std::to_string(header.rows) + " cells in a file of " + std::to_string(text.size()) + " bytes");
+    failTruncated(atLine(lines.lineNumber()) + std::to_string(header.columns) + " x " +
+      std::to_string(header.rows) + " cells in a file of " + std::to_string(text.size()) + " bytes");
   }
   const double cell = header.value("cellsize", 0.0);
   const double width = header.value("dx", cell);
@@ -141,10 +141,7 @@ void readEsriGrid(ReadTask& task, vtkPolyData* cloud)
       const double row = static_cast<double>(header.rows - 1 - i / header.columns);
       points->InsertNextPoint(west + width * column, south + height * row, z);
     }
-    if (i % static_cast<std::size_t>(kProgressRows) == 0)
-    {
-      task.progress(static_cast<double>(i) / static_cast<double>(cells));
-    }
+    task.step(i, i, cells);
   }
   if (points->GetNumberOfPoints() == 0)
   {

@@ -58,8 +58,7 @@ public:
 private:
   [[noreturn]] void fail(const std::string& expected) const
   {
-    failFormat("line " + std::to_string(lines_.lineNumber()) + ": " + inQuotes(line_) + " stands where " +
-        expected + " was expected",
+    failFormat(atLine(lines_.lineNumber()) + inQuotes(line_) + " stands where " + expected + " was expected",
       "write the scan again, as PTX or E57");
   }
   std::uint64_t count()
@@ -140,10 +139,7 @@ bool PtxReader::readScan()
       fail("x y z intensity, and perhaps red green blue,");
     }
     addPoint(values, found);
-    if (i % static_cast<std::uint64_t>(kProgressRows) == 0)
-    {
-      task_.progress(static_cast<double>(lines_.position()) / static_cast<double>(task_.bytes.size()));
-    }
+    task_.step(i, lines_.position(), task_.bytes.size());
   }
   return true;
 }

@@ -7,7 +7,7 @@
 #include "Core/Base/Boxes.h"
 #include "Core/Base/Lattice.h"
 #include "Core/Distributed/FarPoints.h"
-#include "Core/Neighbors/NeighborQuery.h"
+#include "Core/Neighbors/NeighborSweep.h"
 
 #include "vtkDataArray.h"
 #include "vtkFieldData.h"
@@ -93,26 +93,50 @@ std::array<double, 5> percentilesOf(std::vector<double> distances)
   return result;
 }
 
+/// The @p count nearest about @p center, in any order. Those within @p reach of it are looked at alone, where
+/// they are enough: @p reach becomes a little more than was needed, for the next center.
+void findAbout(const NeighborQuery& query, const Vec3& center, std::size_t count, double& reach,
+  std::vector<Neighbor>& about)
+{
+  constexpr double kSpare = 1.2;
+  about.clear();
+  query.visitBall(center, reach,
+    [&](const Vec3&, double squaredDistance, std::int64_t index) {
+      about.push_back({ squaredDistance, index });
+    });
+  if (about.size() < count)
+  {
+    about.resize(count);
+    about.resize(std::size_t(query.nearest(center, int(count), about.data())));
+  }
+  std::nth_element(
+    about.begin(), about.begin() + std::ptrdiff_t(std::min(count, about.size())) - 1, about.end());
+  about.resize(std::min(count, about.size()));
+  reach = kSpare * std::sqrt(about.back().squaredDistance);
+}
+
 /// The median of the @p distances of the @p samples about some of them. Of points at random the
 /// distance to the nearest one varies 8 : 1 by chance; the median varies where the density does.
-std::vector<double> smoothed(const std::vector<Vec3>& samples, const std::vector<double>& distances)
+/// @param query of the samples.
+std::vector<double> smoothed(
+  const NeighborQuery& query, const std::vector<Vec3>& samples, const std::vector<double>& distances)
 {
   constexpr std::size_t kMost = 128;
   constexpr std::size_t kPlaces = 300; // each sample is about four of them
   constexpr std::size_t kPart = 50;    // no more than this part of the samples are about one
   const std::size_t count = std::clamp<std::size_t>(samples.size() / kPart, 1, kMost);
-  NeighborQuery query;
-  query.build(PointView(samples.data(), std::int64_t(samples.size())));
-  std::vector<Neighbor> about(count);
+  std::vector<Neighbor> about;
+  double reach = 0.0;
   std::vector<double> medians;
   std::vector<double> values(count);
   for (std::size_t i = 0; i < samples.size(); i += 1 + samples.size() / kPlaces)
   {
-    const int found = query.nearest(samples[i], int(count), about.data());
-    std::transform(about.begin(), about.begin() + found, values.begin(),
+    findAbout(query, samples[i], count, reach, about);
+    const auto middle = values.begin() + std::ptrdiff_t(about.size() / 2);
+    const auto end = std::transform(about.begin(), about.end(), values.begin(),
       [&](const Neighbor& neighbor) { return distances[std::size_t(neighbor.index)]; });
-    std::nth_element(values.begin(), values.begin() + found / 2, values.begin() + found);
-    medians.push_back(values[std::size_t(found / 2)]);
+    std::nth_element(values.begin(), middle, end);
+    medians.push_back(*middle);
   }
   return medians;
 }
@@ -140,32 +164,46 @@ double variationOf(std::vector<double> spacings)
   return low > 0.0 ? high / low : 0.0;
 }
 
+/// Lowers each of @p nearest to the distance of its sample of @p places from the nearest other one in @p
+/// query: of all places at once where all are samples.
+void takeNearest(const NeighborQuery& query, const std::vector<Vec3>& places, std::vector<double>& nearest)
+{
+  const std::size_t samples = nearest.size();
+  const auto others = static_cast<std::size_t>(kNeighbors[0]);
+  std::vector<Neighbor> firsts(samples == places.size() ? others * samples : 0);
+  std::vector<int> counts(samples, 0);
+  firsts.empty() ? void() : nearestOfAll(query, kNeighbors[0], firsts.data(), counts.data());
+  Neighbor neighbors[kNeighbors[1]];
+  for (std::size_t i = 0; i < samples; ++i)
+  {
+    const Vec3& center = places[sampled(i, samples, places.size())];
+    for (const int most : kNeighbors)
+    {
+      const bool isKnown = !firsts.empty() && most == kNeighbors[0];
+      const Neighbor* list = isKnown ? &firsts[others * i] : neighbors;
+      const int found = isKnown ? counts[i] : query.nearest(center, most, neighbors);
+      const Neighbor* other =
+        std::find_if(list, list + found, [](const Neighbor& each) { return each.squaredDistance > 0.0; });
+      if (other != list + found)
+      {
+        nearest[i] = std::min(nearest[i], std::sqrt(other->squaredDistance));
+        break;
+      }
+    }
+  }
+}
+
 /// Sets spacing and densityVariation. @param places of the points, each once: how often a point stands there
 /// tells nothing of a surface.
 void addSpacing(const std::vector<Vec3>& places, CloudSummary& summary)
 {
   const std::size_t samples = std::min(kSamples, places.size());
   std::vector<double> nearest(samples, std::numeric_limits<double>::infinity());
-  Neighbor neighbors[kNeighbors[1]];
+  NeighborQuery query;
   for (std::int64_t begin = 0; begin < std::int64_t(places.size()); begin += kPiece)
   {
-    NeighborQuery query;
     query.build(PointView(places.data() + begin, std::min(kPiece, std::int64_t(places.size()) - begin)));
-    for (std::size_t i = 0; i < samples; ++i)
-    {
-      const Vec3& center = places[sampled(i, samples, places.size())];
-      for (const int most : kNeighbors)
-      {
-        const int found = query.nearest(center, most, neighbors);
-        const Neighbor* other = std::find_if(neighbors, neighbors + found,
-          [](const Neighbor& neighbor) { return neighbor.squaredDistance > 0.0; });
-        if (other != neighbors + found)
-        {
-          nearest[i] = std::min(nearest[i], std::sqrt(other->squaredDistance));
-          break;
-        }
-      }
-    }
+    takeNearest(query, places, nearest);
   }
   std::vector<Vec3> centers;
   std::vector<double> distances;
@@ -177,8 +215,12 @@ void addSpacing(const std::vector<Vec3>& places, CloudSummary& summary)
       distances.push_back(nearest[i]);
     }
   }
+  if (centers.size() < places.size())
+  {
+    query.build(PointView(centers.data(), std::int64_t(centers.size())));
+  }
   summary.spacing = percentilesOf(distances);
-  summary.densityVariation = variationOf(smoothed(centers, distances));
+  summary.densityVariation = variationOf(smoothed(query, centers, distances));
 }
 
 /// The step between neighbouring floats at the farthest corner.

@@ -131,9 +131,7 @@ bool storeAsBefore(const OutputArray& array, const LasExtraField& field, OutputA
     stored.array = array.array; // whole numbers of 64 bits are more than a double holds
     return true;
   }
-  stored.array.TakeReference(vtkDataArray::CreateDataArray(field.type));
-  stored.array->SetNumberOfComponents(field.components);
-  stored.array->SetNumberOfTuples(rows);
+  stored.array = makeArray(field.type, field.components, rows);
   bool isSame = true;
   withType(field.type,
     [&](auto zero)

@@ -129,9 +129,7 @@ const OutputArray* LasWriter::take(const char* name, int type, int components, d
     converted.name = field ? field : name;
     if (fixedSizeType(array.type()) != type)
     {
-      converted.array.TakeReference(vtkDataArray::CreateDataArray(type));
-      converted.array->SetNumberOfComponents(components);
-      converted.array->SetNumberOfTuples(rows_);
+      converted.array = makeArray(type, components, rows_);
     }
     for (vtkIdType row = 0; row < rows_ && (isWhole || converted.array != array.array); ++row)
     {

@@ -15,16 +15,38 @@ namespace pointhaptics::io
 namespace
 {
 
-/// Three columns of numbers, row by row.
+/// Three columns of numbers, row by row, in blocks: nothing moves while they grow, and each block is freed
+/// when it is copied.
 struct Triples
 {
-  std::array<NumberColumn, 3> columns;
-  std::vector<double> values;
+  static constexpr vtkIdType kBlock = 3 * 32768; ///< numbers
 
-  vtkIdType rows() const { return static_cast<vtkIdType>(values.size() / 3); }
-  ConstColumnView column(std::size_t i) const
+  std::array<NumberColumn, 3> columns;
+  std::vector<std::vector<double>> blocks;
+  vtkIdType numbers = 0;
+
+  vtkIdType rows() const { return numbers / 3; }
+  void add(double value)
   {
-    return { reinterpret_cast<const char*>(values.data() + i), 3 * sizeof(double), VTK_DOUBLE };
+    numbers++ % kBlock == 0 ? blocks.emplace_back().reserve(std::size_t(kBlock)) : void();
+    blocks.back().push_back(value);
+  }
+  /// Calls @p copy with each block as three columns, its first row and its number of rows.
+  template <typename Copy>
+  void take(Copy&& copy)
+  {
+    vtkIdType row = 0;
+    for (std::vector<double>& block : blocks)
+    {
+      const auto count = static_cast<vtkIdType>(block.size() / 3);
+      for (std::size_t i = 0; i < 3; ++i)
+      {
+        copy(
+          i, ConstColumnView{ reinterpret_cast<const char*>(block.data() + i), 24, VTK_DOUBLE }, row, count);
+      }
+      row += count;
+      std::vector<double>().swap(block);
+    }
   }
 };
 
@@ -46,7 +68,7 @@ private:
   void addFace(std::string_view line);
   [[noreturn]] void fail(const std::string& what, bool isNormal) const
   {
-    failFormat("line " + std::to_string(lines_.lineNumber()) + ": " + what,
+    failFormat(atLine(lines_.lineNumber()) + what,
       isNormal ? "a normal is: vn x y z" : "a vertex is: v x y z, with r g b after it if it is coloured");
   }
 
@@ -81,12 +103,12 @@ void ObjReader::addNumbers(std::string_view line, Triples& triples, std::size_t 
   for (std::size_t i = 0; i < 3; ++i)
   {
     triples.columns[i].add(values[i], shapes[i]);
-    triples.values.push_back(values[i]);
+    triples.add(values[i]);
   }
   for (std::size_t i = count - 3; count >= 6 && i < count; ++i)
   {
     colors_.columns[0].add(values[i], shapes[i]);
-    colors_.values.push_back(values[i]);
+    colors_.add(values[i]);
   }
 }
 
@@ -134,10 +156,7 @@ void ObjReader::read()
       joined += next;
     }
     addLine(line);
-    if (lines_.lineNumber() % static_cast<std::size_t>(kProgressRows) == 0)
-    {
-      task_.progress(static_cast<double>(lines_.position()) / static_cast<double>(task_.bytes.size()));
-    }
+    task_.step(lines_.lineNumber(), lines_.position(), task_.bytes.size());
   }
 }
 
@@ -164,20 +183,24 @@ void ObjReader::moveTo(vtkPolyData* cloud)
   {
     names.push_back({ "RGB", VTK_TYPE_UINT8, 3 });
     const double scale = colors_.columns[0].largest() > 1.0 ? 1.0 : 255.0;
-    for (double& value : colors_.values)
+    for (std::vector<double>& block : colors_.blocks)
     {
-      value = std::isfinite(value) ? std::clamp(std::round(scale * value), 0.0, 255.0) : 0.0;
+      std::transform(block.begin(), block.end(), block.begin(),
+        [scale](double value)
+        { return std::isfinite(value) ? std::clamp(std::round(scale * value), 0.0, 255.0) : 0.0; });
     }
   }
   CloudColumns columns(names, rows);
-  for (std::size_t i = 0; i < names.size(); ++i)
+  for (std::size_t first = 0; first < names.size(); first += 3)
   {
-    for (int component = 0; component < names[i].components; ++component)
-    {
-      const Triples& from = i < 3 ? places_ : i < colors ? normals_ : colors_;
-      copyStrided(from.column(i < colors ? i % 3 : static_cast<std::size_t>(component)),
-        columns.target(i, component), rows);
-    }
+    Triples& from = first == 0 ? places_ : first < colors ? normals_ : colors_;
+    from.take(
+      [&](std::size_t i, ConstColumnView source, vtkIdType row, vtkIdType count)
+      {
+        const bool isColor = first == colors;
+        copyStrided(
+          source, columns.target(isColor ? first : first + i, isColor ? int(i) : 0).fromRow(row), count);
+      });
   }
   columns.moveTo(cloud, task_);
 }

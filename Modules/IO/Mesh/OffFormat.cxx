@@ -88,8 +88,7 @@ void readOff(ReadTask& task, vtkPolyData* cloud)
   const std::string_view keyword = takeKeyword(line);
   if (keyword.size() < 3 || keyword.substr(keyword.size() - 3) != "OFF")
   {
-    failFormat(
-      "line " + std::to_string(lines.lineNumber()) + ": " + inQuotes(keyword) + " where OFF was expected",
+    failFormat(atLine(lines.lineNumber()) + inQuotes(keyword) + " where OFF was expected",
       "make the first line OFF, NOFF, COFF or CNOFF");
   }
   const std::string_view prefix = keyword.substr(0, keyword.size() - 3);
@@ -107,8 +106,8 @@ void readOff(ReadTask& task, vtkPolyData* cloud)
   unsigned long long count = 0;
   if (!parseCount(word, count))
   {
-    failFormat("line " + std::to_string(lines.lineNumber()) + ": " + inQuotes(word) +
-        " stands where the number of vertices was expected",
+    failFormat(
+      atLine(lines.lineNumber()) + inQuotes(word) + " stands where the number of vertices was expected",
       "write three counts after OFF: vertices, faces, edges");
   }
   if (count == 0)

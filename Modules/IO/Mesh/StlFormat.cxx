@@ -106,10 +106,7 @@ void readBinary(ReadTask& task, DistinctVertices& vertices)
         vertices.add({ loadLittle<float>(at), loadLittle<float>(at + 4), loadLittle<float>(at + 8) });
     }
     task.faces.keep(corners);
-    if (i % static_cast<std::uint32_t>(kProgressRows) == 0)
-    {
-      task.progress(static_cast<double>(i) / static_cast<double>(count));
-    }
+    task.step(i, i, count);
   }
 }
 
@@ -146,10 +143,7 @@ void readFacets(ReadTask& task, DistinctVertices& vertices)
       task.faces.keep(corners);
       corners.clear();
     }
-    if (lines.lineNumber() % static_cast<std::size_t>(kProgressRows) == 0)
-    {
-      task.progress(static_cast<double>(lines.position()) / static_cast<double>(task.bytes.size()));
-    }
+    task.step(lines.lineNumber(), lines.position(), task.bytes.size());
   }
   if (!ended)
   {

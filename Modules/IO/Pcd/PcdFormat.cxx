@@ -289,7 +289,7 @@ void readPcd(ReadTask& task, vtkPolyData* cloud)
     task.takeWhole();
   }
   PcdHeader header = parsePcdHeader(task);
-  task.format = std::string("PCD (") + nameOf(header.encoding) + ")";
+  task.format = "PCD (" + nameOf(header.encoding) + ")";
   const PcdTable table(header);
   if (header.encoding != PcdEncoding::Binary)
   {

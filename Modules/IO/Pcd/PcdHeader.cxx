@@ -19,19 +19,8 @@ namespace
 
 constexpr unsigned long long kMostLzfRatio = 90; ///< LZF packs at most 264 bytes into 3
 
-[[noreturn]] void failLine(std::size_t line, const std::string& what, const std::string& cure)
-{
-  failFormat("line " + std::to_string(line) + ": " + what, cure);
-}
-
-struct EncodingName
-{
-  const char* word;
-  const char* name;
-};
 /// In the order of PcdEncoding.
-constexpr EncodingName kEncodings[] = { { "ascii", "ascii" }, { "binary", "binary" },
-  { "binary_compressed", "binary compressed" } };
+constexpr std::string_view kEncodings[] = { "ascii", "binary", "binary_compressed" };
 
 /// Reads the header's lines one by one.
 class HeaderParser
@@ -94,14 +83,13 @@ unsigned long long HeaderParser::parseOneCount(std::string_view rest) const
 
 void HeaderParser::parseData(std::string_view word)
 {
-  const auto* const found = std::find_if(std::begin(kEncodings), std::end(kEncodings),
-    [&](const EncodingName& each) { return each.word == word; });
-  if (found == std::end(kEncodings))
+  const std::size_t found = indexOf(kEncodings, word);
+  if (found == std::size(kEncodings))
   {
     failLine(
       lines_.lineNumber(), "unknown DATA " + inQuotes(word), "PCD has ascii, binary and binary_compressed");
   }
-  header_.encoding = static_cast<PcdEncoding>(found - std::begin(kEncodings));
+  header_.encoding = static_cast<PcdEncoding>(found);
 }
 
 void HeaderParser::parseViewpoint(std::string_view rest)
@@ -317,9 +305,11 @@ PcdHeader parsePcdHeader(ReadTask& task)
   return header;
 }
 
-const char* nameOf(PcdEncoding encoding)
+std::string nameOf(PcdEncoding encoding)
 {
-  return kEncodings[static_cast<std::size_t>(encoding)].name;
+  std::string name(kEncodings[static_cast<std::size_t>(encoding)]);
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
 }
 
 } // namespace pointhaptics::io

@@ -58,6 +58,6 @@ struct PcdHeader
 /// that is not compressed is read as far as task.endAt() decides.
 PcdHeader parsePcdHeader(ReadTask& task);
 
-const char* nameOf(PcdEncoding encoding);
+std::string nameOf(PcdEncoding encoding);
 
 } // namespace pointhaptics::io

@@ -227,10 +227,7 @@ void fillRecordsWithLists(BinaryBody& body, const PlyElement& vertex, const Vert
       task.endAt(row, vertex.count, problem.what());
       return;
     }
-    if (row % kProgressRows == 0)
-    {
-      task.progress(static_cast<double>(row) / static_cast<double>(vertex.count));
-    }
+    task.step(row, row, vertex.count);
   }
 }
 
@@ -371,7 +368,7 @@ void readPly(ReadTask& task, vtkPolyData* cloud)
     task.takeWhole();
   }
   const PlyHeader header = parsePlyHeader(task.bytes);
-  task.format = std::string("PLY (") + nameOf(header.encoding) + ")";
+  task.format = "PLY (" + nameOf(header.encoding) + ")";
   task.notes = header.notes;
   for (const PlyElement& element : header.elements)
   {

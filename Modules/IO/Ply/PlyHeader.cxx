@@ -30,11 +30,6 @@ constexpr TypeName kTypeNames[] = { { "char", VTK_TYPE_INT8 }, { "int8", VTK_TYP
   { "int64", VTK_TYPE_INT64 }, { "ulong", VTK_TYPE_UINT64 }, { "uint64", VTK_TYPE_UINT64 },
   { "float", VTK_FLOAT }, { "float32", VTK_FLOAT }, { "double", VTK_DOUBLE }, { "float64", VTK_DOUBLE } };
 
-[[noreturn]] void failLine(std::size_t line, const std::string& what, const std::string& cure)
-{
-  failFormat("line " + std::to_string(line) + ": " + what, cure);
-}
-
 int parseType(std::string_view word, std::size_t line)
 {
   for (const TypeName& known : kTypeNames)
@@ -50,25 +45,18 @@ int parseType(std::string_view word, std::size_t line)
     "too");
 }
 
-struct EncodingName
-{
-  const char* word;
-  const char* name;
-};
 /// In the order of PlyEncoding.
-constexpr EncodingName kEncodings[] = { { "ascii", "ascii" },
-  { "binary_little_endian", "binary little endian" }, { "binary_big_endian", "binary big endian" } };
+constexpr std::string_view kEncodings[] = { "ascii", "binary_little_endian", "binary_big_endian" };
 
 PlyEncoding parseEncoding(std::string_view word, std::size_t line)
 {
-  const auto* const found = std::find_if(std::begin(kEncodings), std::end(kEncodings),
-    [&](const EncodingName& each) { return each.word == word; });
-  if (found == std::end(kEncodings))
+  const std::size_t found = indexOf(kEncodings, word);
+  if (found == std::size(kEncodings))
   {
     failLine(line, "unknown encoding " + inQuotes(word),
       "PLY has ascii, binary_little_endian and binary_big_endian");
   }
-  return static_cast<PlyEncoding>(found - std::begin(kEncodings));
+  return static_cast<PlyEncoding>(found);
 }
 
 PlyElement parseElement(std::string_view rest, std::size_t line)
@@ -132,14 +120,8 @@ void noteUnknown(const std::vector<std::string>& unknown, PlyHeader& header)
 
 bool PlyElement::hasList() const
 {
-  for (const PlyProperty& property : properties)
-  {
-    if (property.isList)
-    {
-      return true;
-    }
-  }
-  return false;
+  return std::any_of(
+    properties.begin(), properties.end(), [](const PlyProperty& property) { return property.isList; });
 }
 
 std::size_t PlyElement::minimumRecordSize() const
@@ -223,9 +205,11 @@ PlyHeader parsePlyHeader(std::string_view bytes)
   return header;
 }
 
-const char* nameOf(PlyEncoding encoding)
+std::string nameOf(PlyEncoding encoding)
 {
-  return kEncodings[static_cast<std::size_t>(encoding)].name;
+  std::string name(kEncodings[static_cast<std::size_t>(encoding)]);
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
 }
 
 const char* plyTypeName(int type)

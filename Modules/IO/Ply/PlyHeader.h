@@ -54,7 +54,7 @@ struct PlyHeader
 /// @throws FileProblem with line and value.
 PlyHeader parsePlyHeader(std::string_view bytes);
 
-const char* nameOf(PlyEncoding encoding);
+std::string nameOf(PlyEncoding encoding);
 
 /// The word of the format for numbers of the VTK type @p type; "double" for what it has none for.
 const char* plyTypeName(int type);

@@ -15,7 +15,10 @@ namespace pointhaptics::io
 namespace
 {
 
-constexpr const char* kCure = "write an array of n rows with x, y, z: numpy.save('cloud.npy', points)";
+constexpr const char* kCure =
+  "write an array of n rows with x, y, z: numpy.save('cloud.npy', points.astype('f4'))";
+/// An array of no more rows and of more columns has its points in columns.
+constexpr std::uint64_t kMostTurned = 16;
 
 /// One column as the array stores it.
 struct NumpyField
@@ -138,27 +141,20 @@ NumpyHeader parseHeader(std::string_view bytes)
   return header;
 }
 
-/// @param most that the file has room for.
-std::uint64_t rowsOf(const std::vector<std::uint64_t>& shape, std::uint64_t most)
+/// @param most that the file has room for. One that is stored by columns is not read in part.
+std::uint64_t rowsOf(
+  ReadTask& task, const std::vector<std::uint64_t>& shape, std::uint64_t most, bool isByColumns)
 {
+  constexpr std::uint64_t kMany = std::uint64_t{ 1 } << 62;
   std::uint64_t rows = 1;
   for (const std::uint64_t length : shape)
   {
-    if (length == 0)
-    {
-      failNoPoints();
-    }
-    if (length > most / rows)
-    {
-      failTruncated("the header has more rows than the " + std::to_string(most) + " that follow");
-    }
-    rows *= length;
+    length == 0 ? failNoPoints() : void();
+    rows = length > kMany / rows ? kMany : rows * length;
   }
-  if (most == 0)
-  {
-    failTruncated("the file ends before the first row");
-  }
-  return rows;
+  return rows <= most ? rows
+                      : task.endAt(isByColumns ? 0 : most, rows,
+                          "the header has more rows than the " + std::to_string(most) + " that follow");
 }
 
 /// Values of @p sources, for names: all of them for the range, the first ones as a sample.
@@ -194,6 +190,13 @@ void readNumpy(ReadTask& task, vtkPolyData* cloud)
   const NumpyHeader header = parseHeader(task.bytes);
   const bool hasNames = !header.fields.empty() && !header.fields[0].name.empty();
   std::vector<std::uint64_t> shape = header.shape;
+  const bool isTurned =
+    !hasNames && shape.size() == 2 && shape[0] >= 3 && shape[0] <= kMostTurned && shape[1] > kMostTurned;
+  if (isTurned)
+  {
+    std::swap(shape[0], shape[1]);
+    task.notes.emplace_back("the points are the columns of the array, not its rows");
+  }
   const std::uint64_t columns = hasNames ? header.fields.size() : shape.size() > 1 ? shape.back() : 0;
   if (!hasNames && !shape.empty())
   {
@@ -206,10 +209,11 @@ void readNumpy(ReadTask& task, vtkPolyData* cloud)
   const NumpyField& last = header.fields.back();
   const std::size_t value = static_cast<std::size_t>(sizeOfType(last.type));
   const std::size_t record = hasNames ? last.offset + value : static_cast<std::size_t>(columns) * value;
-  const std::uint64_t rows = rowsOf(shape, (task.bytes.size() - header.bodyOffset) / record);
+  const bool isByColumns = header.isByColumns != isTurned && !hasNames;
+  const std::uint64_t rows =
+    rowsOf(task, shape, (task.bytes.size() - header.bodyOffset) / record, isByColumns);
   std::vector<Column> planned;
   std::vector<ConstColumnView> sources;
-  const bool isByColumns = header.isByColumns && !hasNames;
   for (std::size_t i = 0; i < columns; ++i)
   {
     const NumpyField& field = hasNames ? header.fields[i] : header.fields[0];

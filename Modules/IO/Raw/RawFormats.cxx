@@ -72,7 +72,10 @@ struct RawColumn
 
 void readRecords(ReadTask& task, const std::vector<RawColumn>& fields, std::size_t record, vtkPolyData* cloud)
 {
-  const vtkIdType rows = static_cast<vtkIdType>(task.bytes.size() / record);
+  const std::size_t count = task.bytes.size() / record;
+  const vtkIdType rows = static_cast<vtkIdType>(task.bytes.size() % record == 0
+      ? count
+      : task.endAt(count, count + 1, "the file ends within its record " + std::to_string(count + 1)));
   std::vector<Column> planned;
   for (const RawColumn& field : fields)
   {
@@ -132,7 +135,8 @@ bool looksLikeNuScenes(const FormatStart& start)
 bool looksLikeSplat(const FormatStart& start)
 {
   const std::size_t records = start.bytes.size() / kSplat;
-  if (start.isText || start.size % kSplat != 0 || records < (start.extension == "splat" ? 1 : kFewest))
+  const bool isNamed = start.extension == "splat"; // one that is cut, too
+  if (start.isText || (start.size % kSplat != 0 && !isNamed) || records < (isNamed ? 1 : kFewest))
   {
     return false;
   }

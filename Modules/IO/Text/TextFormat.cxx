@@ -105,7 +105,7 @@ std::vector<std::string> namesOf(
   {
     names[read[i]] = guessed[i];
   }
-  if (read.size() > 3 && !layout.hasPointCount) // of PTS it is known
+  if ((read.size() > 3 && !layout.hasPointCount) || mayBeNorthingFirst(evidence)) // of PTS it is known
   {
     task.notes.push_back(guessNote(names));
   }

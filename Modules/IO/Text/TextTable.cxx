@@ -108,6 +108,32 @@ bool nameByComment(const Title& title, TextLayout& layout)
   return false;
 }
 
+/// The names that the letters of a word such as PNEZD stand for, as surveyors call an order of columns; empty
+/// where @p line has no such word for @p columns columns. The description at the end may be missing.
+std::vector<std::string> namesOfOrder(std::string_view line, std::size_t columns)
+{
+  constexpr std::string_view kLetters = "PNEXYZHDC";
+  constexpr const char* kNames[] = { "point", "northing", "easting", "x", "y", "z", "height", "description",
+    "code" };
+  while (!line.empty())
+  {
+    const std::string_view word = line.substr(0, line.find_first_of(" \t,;:()"));
+    line.remove_prefix(std::min(word.size() + 1, line.size()));
+    if ((word.size() == columns || word.size() == columns + 1) &&
+      word.find_first_not_of(kLetters) == std::string_view::npos)
+    {
+      std::vector<std::string> names(columns);
+      std::transform(word.begin(), word.begin() + std::ptrdiff_t(columns), names.begin(),
+        [&](char letter) { return kNames[kLetters.find(letter)]; });
+      if (LineCells::namesCoordinates(names))
+      {
+        return names;
+      }
+    }
+  }
+  return {};
+}
+
 /// "x [mm]" for x with mm in the line of units.
 std::vector<std::string> withUnits(std::vector<std::string> names, const std::vector<std::string>& units)
 {
@@ -154,6 +180,14 @@ void nameColumns(const std::vector<Title>& titles, const std::vector<std::string
         return;
       }
     }
+  }
+  for (auto title = titles.rbegin(); title != titles.rend() && layout.names.empty(); ++title)
+  {
+    layout.names = namesOfOrder(title->line, layout.columns);
+  }
+  if (!layout.names.empty())
+  {
+    return;
   }
   if (!lastFit.empty())
   {

@@ -197,10 +197,7 @@ LegacyParser::Array LegacyParser::values(
   Array array;
   if (isKept)
   {
-    array.TakeReference(vtkDataArray::CreateDataArray(vtkType));
-    array->SetName(name.c_str());
-    array->SetNumberOfComponents(static_cast<int>(components));
-    array->SetNumberOfTuples(static_cast<vtkIdType>(tuples));
+    array = makeArray(vtkType, static_cast<int>(components), static_cast<vtkIdType>(tuples), name);
   }
   for (Count i = 0; !isBinary_ && !isKept && i < count; ++i)
   {
@@ -230,10 +227,7 @@ void LegacyParser::readText(vtkDataArray* array)
       failFormat(
         where() + "a number that its integer type cannot hold", "write the array as float or double");
     }
-    if (i % kProgressRows == 0)
-    {
-      task_.progress(static_cast<double>(at_) / static_cast<double>(bytes_.size()));
-    }
+    task_.step(static_cast<std::uint64_t>(i), at_, bytes_.size());
   }
 }
 

@@ -153,14 +153,20 @@ void checkArrayBytes(const DataLayout& layout, std::size_t position, bool isBase
   isBase64 ? checkBase64(layout, layout.bytes.size() - static_cast<std::size_t>(most), packed) : void();
 }
 
-/// VTK's reader makes an array of each of @p children, and goes on with none where it knows no such type.
-void checkAreArrays(const std::vector<XmlElement>& children)
+/// VTK's reader makes an array of each child of @p parent, and goes on with none where it knows no such type,
+/// or where points have not three coordinates.
+void checkAreArrays(const XmlElement& parent)
 {
   constexpr std::string_view kTypes[] = { "Float32", "Float64", "Int8", "UInt8", "Int16", "UInt16", "Int32",
     "UInt32", "Int64", "UInt64", "String", "Bit" };
-  for (const XmlElement& child : children)
+  for (const XmlElement& child : parent.children)
   {
     const std::string_view type = child.attribute("type");
+    if (parent.name == "Points" && child.attribute("NumberOfComponents") != "3")
+    {
+      failDamaged(
+        child.begin, "points of " + inQuotes(child.attribute("NumberOfComponents")) + " components");
+    }
     if (child.name != "DataArray" && child.name != "Array")
     {
       failDamaged(child.begin, inQuotes(child.name) + " in the place of an array");
@@ -332,7 +338,7 @@ void checkVtkXml(std::string_view bytes, const XmlElement& root)
     {
       counts.check(element);
       std::find(std::begin(kParents), std::end(kParents), element.name) != std::end(kParents)
-        ? checkAreArrays(element.children)
+        ? checkAreArrays(element)
         : void();
       element.name == "DataArray" || element.name == "Array" ? checkArray(layout, element) : void();
     });

@@ -1,10 +1,12 @@
 #include "ReadTask.h"
 
+#include "Core/Base/Host/InterpreterLock.h"
 #include "IO/Bytes/FileBytes.h"
 #include "IO/Bytes/TextScan.h"
 #include "IO/Columns/CloudColumns.h"
 #include "IO/Vtk/VtkXmlChecks.h"
 
+#include "vtkAlgorithm.h"
 #include "vtkCellType.h"
 #include "vtkCommand.h"
 #include "vtkDataArray.h"
@@ -34,19 +36,27 @@ namespace pointhaptics::io
 namespace
 {
 
-/// Observer of ErrorEvent and WarningEvent: keeps the first error's own words, prints nothing.
-class ErrorCollector : public vtkCommand
+/// Observes one of VTK's readers: keeps the first error's own words, prints nothing, and makes its progress
+/// that of the task from one part to another, never falling. A task that is to stop stops it.
+class ReaderObserver : public vtkCommand
 {
 public:
-  static ErrorCollector* New() { return new ErrorCollector; }
-  void Execute(vtkObject*, unsigned long event, void* callData) override
+  static ReaderObserver* New() { return new ReaderObserver; }
+  void relayTo(vtkAlgorithm* task, double begin, double end)
   {
-    if (event != vtkCommand::ErrorEvent || !callData || !first_.empty())
+    task_ = task;
+    reached_ = begin_ = begin;
+    end_ = end;
+  }
+  void Execute(vtkObject* reader, unsigned long event, void* data) override
+  {
+    event == vtkCommand::ProgressEvent&& data ? relay(*static_cast<double*>(data), reader) : void();
+    if (event != vtkCommand::ErrorEvent || !data || !first_.empty())
     {
       return;
     }
     // VTK's text: "ERROR: In file, line n\nvtkClass (0x...): the message\n\n".
-    first_ = static_cast<const char*>(callData);
+    first_ = static_cast<const char*>(data);
     const std::size_t address = first_.find("): ");
     first_.erase(0, address == std::string::npos ? 0 : address + 3);
     std::replace(first_.begin(), first_.end(), '\n', ' ');
@@ -56,6 +66,23 @@ public:
   const std::string& first() const { return first_; }
 
 private:
+  /// An exception must not pass through VTK: reportProgress() throws it behind.
+  void relay(double fraction, vtkObject* reader)
+  {
+    const double now = begin_ + (end_ - begin_) * std::clamp(fraction, 0.0, 1.0);
+    if (now > reached_)
+    {
+      reached_ = now;
+      task_->UpdateProgress(now);
+      runSignalHandlers();
+    }
+    task_->GetAbortExecute() ? vtkAlgorithm::SafeDownCast(reader)->SetAbortExecute(1) : void();
+  }
+
+  vtkAlgorithm* task_ = nullptr;
+  double begin_ = 0.0;
+  double end_ = 0.0;
+  double reached_ = 0.0;
   std::string first_;
 };
 
@@ -139,6 +166,25 @@ void takeFaces(vtkPointSet* read, MeshFaces& faces)
   }
 }
 
+/// @p bytes with "&gt;" for each '>' within an attribute: VTK's reader looks for the values of an array
+/// behind the first one of its tag. Empty where there is none.
+std::string withoutInnerMarks(std::string_view bytes, const XmlElement& root)
+{
+  std::string changed;
+  std::size_t copied = 0;
+  forEachElement(root,
+    [&](const XmlElement& element)
+    {
+      for (std::size_t at = bytes.find('>', element.begin); at + 1 < element.end;
+           at = bytes.find('>', at + 1))
+      {
+        changed.append(bytes, copied, at - copied).append("&gt;");
+        copied = at + 1;
+      }
+    });
+  return copied == 0 ? changed : changed.append(bytes, copied, std::string_view::npos);
+}
+
 /// The points and arrays of one VTP or VTU file, @p bytes with the content @p root, which lie at @p path; an
 /// empty path: nobody can read them again. Progress goes from @p begin to @p end of the parsing.
 vtkSmartPointer<vtkPointSet> readVtkXmlFile(const ReadTask& task, const std::string& path,
@@ -149,25 +195,27 @@ vtkSmartPointer<vtkPointSet> readVtkXmlFile(const ReadTask& task, const std::str
   constexpr double kCheckPart = 0.1;
   const double checked = begin + kCheckPart * (end - begin);
   task.progress(checked);
-  vtkNew<ErrorCollector> errors;
+  vtkNew<ReaderObserver> errors;
+  errors->relayTo(task.algorithm, task.overall(checked), task.overall(end));
   // The executive adds a message of its own to each failure of its algorithm.
   reader->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, errors);
   reader->AddObserver(vtkCommand::ErrorEvent, errors);
   reader->AddObserver(vtkCommand::WarningEvent, errors);
   reader->SetReaderErrorObserver(errors);
   reader->SetParserErrorObserver(errors);
-  if (path.empty())
+  const std::string changed = withoutInnerMarks(bytes, root);
+  if (path.empty() || !changed.empty())
   {
     reader->ReadFromInputStringOn();
-    reader->SetInputString(std::string(bytes));
+    reader->SetInputString(changed.empty() ? std::string(bytes) : changed);
   }
   else
   {
     reader->SetFileName(path.c_str());
   }
-  RelayedProgress progress(reader, task.algorithm, task.overall(checked), task.overall(end));
+  reader->AddObserver(vtkCommand::ProgressEvent, errors);
   reader->Update();
-  progress.finish();
+  task.progress(end);
   const vtkSmartPointer<vtkPointSet> read = vtkPointSet::SafeDownCast(reader->GetOutputDataObject(0));
   if (!errors->first().empty() || reader->GetErrorCode() != vtkErrorCode::NoError)
   {
@@ -425,11 +473,6 @@ void readVtkPieces(ReadTask& task, const XmlElement& root, vtkPolyData* cloud)
 void readVtkXml(ReadTask& task, vtkPolyData* cloud)
 {
   task.need(0, task.bytes.size());
-  if (task.wasPacked)
-  {
-    throw FileProblem(vtkErrorCode::UnrecognizedFileTypeError, "VTK's XML reader does not read gzip files",
-      "unpack it first: gunzip -k FILE");
-  }
   const XmlElement root = vtkXml(task.bytes);
   const std::string_view type = root.attribute("type");
   const bool isList = type == "PPolyData";

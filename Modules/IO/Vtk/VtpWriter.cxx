@@ -7,9 +7,6 @@
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkFieldData.h"
-#include "vtkInformation.h"
-#include "vtkInformationIterator.h"
-#include "vtkInformationKey.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
@@ -76,25 +73,6 @@ std::string typeName(int type)
         std::to_string(8 * sizeof(T));
     });
   return name;
-}
-
-/// Names of what others noted about @p array; ranges, which VTK notes itself, are none of them.
-std::string informationOf(vtkAbstractArray* array)
-{
-  std::string names;
-  if (!array->HasInformation())
-  {
-    return names;
-  }
-  vtkNew<vtkInformationIterator> keys;
-  keys->SetInformationWeak(array->GetInformation());
-  for (keys->InitTraversal(); !keys->IsDoneWithTraversal(); keys->GoToNextItem())
-  {
-    const std::string name = keys->GetCurrentKey()->GetName();
-    const bool isRange = name.find("RANGE") != std::string::npos || name.rfind("PER_", 0) == 0;
-    names += isRange ? "" : (names.empty() ? "" : ", ") + name;
-  }
-  return names;
 }
 
 /// VTK's XML format for poly data: text, and behind it the arrays as they are in memory, each after the
@@ -240,10 +218,6 @@ void VtpFile::addArray(
   {
     const char* component = array->GetComponentName(i);
     head_ += component ? attribute("ComponentName" + std::to_string(i), xmlText(component)) : "";
-  }
-  if (const std::string information = informationOf(array); !information.empty())
-  {
-    notes_.add("what is noted of array " + inQuotes(name) + " as " + information + " is left out");
   }
   head_ += saysTuples ? attribute("NumberOfTuples", std::to_string(tuples)) : "";
   head_ += attribute("format", "appended") + attribute("offset", std::to_string(end_)) + "/>\n";

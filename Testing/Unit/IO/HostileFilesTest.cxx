@@ -267,6 +267,9 @@ TEST_F(HostileFiles, ArraysOfVtkThatItCannotMakeAreRefused)
   expectRefused(with("<DataArray type=\"Foo\" " + rest), "an array of the type 'Foo'");
   expectRefused(with("<DataArray " + rest), "an array of the type ''");
   expectRefused(with("<Foo type=\"Int32\"/>"), "'Foo' in the place of an array");
+  std::string flat = inlineVtp(base64);
+  flat.replace(flat.find("Components=\"3"), 13, "Components=\"2");
+  expectRefused(readCloud(write("a.vtp", flat)), "points of '2' components");
 }
 
 TEST_F(HostileFiles, TextsOfVtkThatHaveNoEndAreRefused)
@@ -280,6 +283,18 @@ TEST_F(HostileFiles, TextsOfVtkThatHaveNoEndAreRefused)
   };
   EXPECT_EQ(with("97 0 98 0").points(), 2);
   expectRefused(with("97 98"), "Cannot read the texts of 'words'");
+}
+
+TEST_F(HostileFiles, MarksWithinAttributesOfVtkEndNoTag)
+{
+  std::string vtp = inlineVtp("GAAAAAAAgD8AAABAAABAQAAAgEAAAKBAAADAQA==");
+  vtp.insert(vtp.find("<Points>"),
+    "<PointData><DataArray type=\"Float32\" Name=\"a > b\" format=\"ascii\">7 8</DataArray></PointData>");
+  vtp.insert(vtp.find("format=\"binary\""), "Note=\">>\" ");
+  const ReadResult result = readCloud(write("a.vtp", vtp));
+  ASSERT_EQ(result.error, "");
+  EXPECT_EQ(result.cloud->GetPoint(1)[2], 6.0);
+  EXPECT_EQ(result.value("a > b", 1), 8.0);
 }
 
 } // namespace

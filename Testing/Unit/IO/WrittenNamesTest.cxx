@@ -163,8 +163,10 @@ TEST_F(WrittenNames, VtpKeepsArraysApartWhoseNamesXmlMakesOne)
   EXPECT_STREQ(result.array("a__3")->GetComponentName(0), "up & _ down");
   EXPECT_EQ(result.cloud->GetPointData()->GetScalars(), result.array("a__3"));
   EXPECT_TRUE(isNoted(notes, "array 'a_' is called a__3"));
-  EXPECT_TRUE(isNoted(notes, "what is noted of array 'a__3' as UNITS_LABEL is left out"));
+  EXPECT_TRUE(isNoted(notes, "what is noted of array 'a_' as UNITS_LABEL is left out"));
   EXPECT_EQ(notes.size(), 4u);
+  ASSERT_EQ(writeCloud(cloud, path("a.ply"), &notes), "");
+  EXPECT_TRUE(isNoted(notes, "what is noted of array 'a_' as UNITS_LABEL is left out"));
 }
 
 TEST_F(WrittenNames, UnitsWithAHyphenAreKept)

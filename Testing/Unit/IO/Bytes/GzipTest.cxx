@@ -136,10 +136,17 @@ TEST_F(Gzip, BombsAreRefusedBeforeTheyFillTheMemory)
     readCloud(write("bomb.gz", gzip("1 2 3\n" + std::string(80000000, '\n')))), "unpacks to more than");
 }
 
-TEST_F(Gzip, XmlOfVtkAsksToBeUnpacked)
+TEST_F(Gzip, XmlOfVtkIsReadAsAnyOtherFormat)
 {
-  expectRefused(
-    readCloud(write("a.vtp.gz", gzip("<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\">"))), "gunzip");
+  const std::string start = "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\">";
+  expectRefused(readCloud(write("a.vtp.gz", gzip(start))), "without </VTKFile>");
+  const ReadResult result = readCloud(write("b.vtp.gz",
+    gzip(start +
+      "<PolyData><Piece NumberOfPoints=\"1\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" "
+      "NumberOfPolys=\"0\"><Points><DataArray type=\"Float32\" NumberOfComponents=\"3\" format=\"ascii\">1 2 "
+      "3</DataArray></Points></Piece></PolyData></VTKFile>")));
+  ASSERT_EQ(result.error, "");
+  EXPECT_EQ(result.cloud->GetPoint(0)[2], 3.0);
 }
 
 TEST_F(Gzip, ThatIsNoCloudIsRefusedByItsStart)

@@ -1,0 +1,73 @@
+// Points of surveyors: the order of northing and easting, and the names that other languages give them.
+#include "CloudFiles.h"
+
+#include <algorithm>
+
+namespace
+{
+
+using Survey = CloudFiles;
+
+/// Where the second point of @p text lies.
+void expectSecond(const std::string& file, double x, double y, double z)
+{
+  const ReadResult result = readCloud(file);
+  ASSERT_EQ(result.error, "");
+  double p[3];
+  result.cloud->GetPoint(1, p);
+  EXPECT_NEAR(p[0], x, 1e-3);
+  EXPECT_NEAR(p[1], y, 1e-3);
+  EXPECT_NEAR(p[2], z, 1e-3);
+}
+
+TEST_F(Survey, AWordOfLettersNamesTheColumns)
+{
+  const std::string rows = "1,20.5,100.25,5,GRND\n2,21.5,101.25,6,GRND\n";
+  for (const char* title : { "PNEZD\n", "# PNEZD (comma delimited)\n", "Point file, PNEZD:\n" })
+  {
+    SCOPED_TRACE(title);
+    expectSecond(write("a.csv", title + rows), 101.25, 21.5, 6);
+  }
+  expectSecond(write("b.csv", "# PENZD\n" + rows), 21.5, 101.25, 6);
+  expectSecond(write("c.csv", "PNEZ\n1,20.5,100.25,5\n2,21.5,101.25,6\n"), 101.25, 21.5, 6);
+  expectSecond(write("d.txt", "# NEZ\n20.5 100.25 5\n21.5 101.25 6\n"), 101.25, 21.5, 6);
+  expectSecond(write("e.txt", "# YXH\n20.5 100.25 5\n21.5 101.25 6\n"), 101.25, 21.5, 6);
+  expectSecond(write("f.txt", "# ENZ\n20.5 100.25 5\n21.5 101.25 6\n"), 21.5, 101.25, 6);
+  expectSecond(write("g.txt", "# PEN of Zoe\n20.5 100.25 5\n21.5 101.25 6\n"), 21.5, 101.25, 6);
+}
+
+TEST_F(Survey, NumberedPointsOfUtmAreTakenByTheirDigits)
+{
+  const std::string northing = "1,5350000.1,412345.2,530,GRND\n2,5350003.1,412347.2,531,GRND\n"
+                               "3,5350001.1,412341.2,532,EDGE\n";
+  expectSecond(write("a.csv", northing), 412347.2, 5350003.1, 531);
+  const std::vector<std::string> notes = readCloud(path("a.csv")).notes;
+  EXPECT_TRUE(std::any_of(notes.begin(), notes.end(),
+    [](const std::string& note) { return note.find("taken as id,y,x,z,-") != std::string::npos; }));
+  expectSecond(
+    write("b.csv", "1,412345.2,5350000.1,530\n2,412347.2,5350003.1,531\n3,412341.2,5350001.1,532\n"),
+    412347.2, 5350003.1, 531);
+  expectSecond(
+    write("e.csv", "17,5350000.1,412345.2,530.5\n4,5350003.1,412347.2,531.5\n9,5350001.1,412341.2,532.5\n"),
+    412347.2, 5350003.1, 531.5);
+  // Without numbers these may be feet of a state plane, whose eastings have a digit more.
+  expectSecond(write("c.xyz", "2100000.1 712345.2 530\n2100003.1 712347.2 531\n2100001.1 712341.2 532\n"),
+    2100003.1, 712347.2, 531);
+  EXPECT_EQ(readCloud(path("c.xyz")).notes.size(), 1u) << "it is said";
+  EXPECT_TRUE(readCloud(write("d.xyz", "412345.2 5350000.1 530\n412347.2 5350003.1 531\n")).notes.empty());
+}
+
+TEST_F(Survey, GermanHeadersAreKnown)
+{
+  const std::string rows = "1;20.5;100.25;5\n2;21.5;101.25;6\n";
+  for (const char* header : { "Punktnummer;Rechtswert;Hochwert;H\xc3\xb6he\n",
+         "NR;RECHTSWERT;HOCHWERT;H\xc3\x96HE\n", "Nr;Rechtswert;Hochwert;H\xf6he\n",
+         "Pkt;Rechts;Hoch;Hoehe\n", "Nr;RW;HW;H\n", "Nr;Rechtswert [m];Hochwert [m];H\xc3\xb6he [m]\n" })
+  {
+    SCOPED_TRACE(header);
+    expectSecond(write("a.csv", header + rows), 21.5, 101.25, 6);
+  }
+  expectSecond(write("b.csv", "Nr;Hochwert;Rechtswert;Hoehe\n" + rows), 101.25, 21.5, 6);
+}
+
+} // namespace

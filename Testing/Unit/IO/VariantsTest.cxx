@@ -1,0 +1,83 @@
+// Other files of the kinds in ExportersTest.cxx: what programs write where they write it a little otherwise.
+#include "CloudFiles.h"
+
+namespace
+{
+
+class Variants : public CloudFiles
+{
+protected:
+  ReadResult salvage(const std::string& file) const
+  {
+    vtkNew<vtkPointCloudReader> reader;
+    reader->SalvageOn();
+    return readCloudBy(reader, file);
+  }
+};
+
+/// An array of floats: x y z for each row of points, or with @p isTurned in three rows.
+std::string numpy(int points, bool isTurned)
+{
+  const std::string shape = isTurned ? "3, " + std::to_string(points) : std::to_string(points) + ", 3";
+  const std::string header = "{'descr': '<f4', 'fortran_order': False, 'shape': (" + shape + "), }\n";
+  std::string bytes("\x93NUMPY\1\0", 8);
+  append(bytes, static_cast<std::uint16_t>(header.size()));
+  bytes += header;
+  for (int i = 0; i < 3 * points; ++i)
+  {
+    const int point = isTurned ? i % points : i / 3;
+    const int axis = isTurned ? i / points : i % 3;
+    append(bytes, static_cast<float>(10 * point + axis));
+  }
+  return bytes;
+}
+
+TEST_F(Variants, NumpyWithPointsInColumnsIsTurned)
+{
+  for (const bool isTurned : { false, true })
+  {
+    const ReadResult result = readCloud(write("a.npy", numpy(50, isTurned)));
+    ASSERT_EQ(result.error, "");
+    ASSERT_EQ(result.points(), 50);
+    EXPECT_EQ(result.notes.size(), isTurned ? 1u : 0u);
+    EXPECT_EQ(result.cloud->GetPoint(49)[2], 492.0);
+  }
+}
+
+TEST_F(Variants, CutNumpyAndSplatsAreSalvaged)
+{
+  const std::string array = numpy(4, false);
+  const std::string file = write("a.npy", array.substr(0, array.size() - 5));
+  expectRefused(readCloud(file), "--salvage");
+  EXPECT_EQ(salvage(file).points(), 3);
+  std::string splats;
+  for (int i = 0; i < 3; ++i)
+  {
+    for (const float value : { 1.0f, 2.0f, 3.0f + static_cast<float>(i), 0.1f, 0.1f, 0.1f })
+    {
+      append(splats, value);
+    }
+    splats += std::string("\x10\x20\x30\xff\xff\x80\x80\x80", 8);
+  }
+  const std::string cut = write("a.splat", splats.substr(0, splats.size() - 5));
+  expectRefused(readCloud(cut), "within its record 3");
+  EXPECT_EQ(salvage(cut).points(), 2);
+}
+
+TEST_F(Variants, Utf16WithoutAMarkIsText)
+{
+  const std::string text = "x,y,z\n1,2,3\n4,5,6.5\n";
+  for (const bool isBig : { false, true })
+  {
+    std::string wide;
+    for (const char c : text)
+    {
+      wide += isBig ? std::string{ '\0', c } : std::string{ c, '\0' };
+    }
+    const ReadResult result = readCloud(write("a.csv", wide));
+    ASSERT_EQ(result.error, "") << isBig;
+    EXPECT_EQ(result.cloud->GetPoint(1)[2], 6.5) << isBig;
+  }
+}
+
+} // namespace
