@@ -4,16 +4,16 @@
  *
  * A trackball camera style that turns events into commands. They also move the model in the haptic workspace,
  * drive a simulated hand, and show what the servo loop feels. Every part is optional; set those the program
- * has, in any order. With a resampler, whose points lie in the box of the hand, pointhaptics::HapticTouch
- * brings the others (vtkHapticTouch in Python):
+ * has, in any order. With a resampler, whose points lie in the box of the hand, vtkHapticTouch brings the
+ * others:
  *
  * @code
  * vtkNew< vtkInteractorStyleHaptic > style;
  * style->SetResampler(resampler);       // its Transform becomes the style's
  * style->SetCloudActor(actor);          // moves at once while the pipeline catches up
  * interactor->SetInteractorStyle(style);
- * pointhaptics::HapticTouch touch(style);
- * touch.run();                          // until the window is closed
+ * vtkNew< vtkHapticTouch > touch;
+ * touch->Run(style);                    // until the window is closed
  * @endcode
  * A program with parts of its own gives them by SetServoLoop(), SetDevice(), SetProps() and the other
  * functions below, adds the props to its renderer (vtkHapticProps::AddTo), starts the device and the servo

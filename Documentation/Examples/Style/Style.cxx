@@ -1,12 +1,14 @@
 // A ball of points is touched with the mouse: F: the hand follows the pointer, J: what it feels, Q: the end.
-#include <HapticTouch.h>
 #include <vtkActor.h>
+#include <vtkHapticTouch.h>
+#include <vtkInteractorStyleHaptic.h>
 #include <vtkNew.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderWindowInteractor.h>
 #include <vtkRenderer.h>
 #include <vtkSphereSource.h>
+#include <vtkVoxelMeanResampler.h>
 
 #include <cstdio>
 
@@ -33,8 +35,9 @@ int main()
   vtkNew<vtkInteractorStyleHaptic> style;
   style->SetResampler(resampler);
   interactor->SetInteractorStyle(style);
-  pointhaptics::HapticTouch touch(style); // a simulated hand, its servo loop and what is seen of them
+  vtkNew<vtkHapticTouch> touch; // a simulated hand, its servo loop and what is seen of them
+  double force[3];
   style->GetCommands().add({ "say-force", "j", "Touch", "say what the hand feels",
-    [&touch] { std::printf("%.2f N to the right\n", touch.servo().latest().state.force.x); } });
-  return touch.run() ? 0 : 1;
+    [&] { touch->GetForce(force), std::printf("%.2f N to the right\n", force[0]); } });
+  return touch->Run(style) ? 0 : 1;
 }

@@ -1,8 +1,9 @@
 /**
  * @class   vtkHapticTouch
- * @brief   pointhaptics::HapticTouch as a VTK object, for programs in Python
+ * @brief   the touch of a program that has none yet: device, servo loop and props for an interactor style
  *
- * Use, where a vtkInteractorStyleHaptic has a resampler and is that of an interactor with a window:
+ * Use, where a vtkInteractorStyleHaptic has a resampler and is that of an interactor with a window; the same
+ * calls in C++ and Python:
  *
  * @code{.py}
  * touch = ph.vtkHapticTouch()
@@ -11,7 +12,8 @@
  *
  * GUI thread only. Lengths are metres in the frame of the workspace, forces newtons.
  *
- * @warning What fails is an error of the style (vtkErrorMacro) in Run(), and GetMessage() after Start().
+ * @warning What fails is an error of the style (vtkErrorMacro) in Run(), and GetMessage() after Start(). The
+ * style may end before or after this.
  * @sa vtkInteractorStyleHaptic
  */
 #ifndef vtkHapticTouch_h
@@ -25,6 +27,12 @@
 #include <string> // For names
 
 class vtkInteractorStyleHaptic;
+
+namespace pointhaptics
+{
+class HapticDevice;
+class ServoLoop;
+}
 
 class POINTHAPTICSINTERACTION_EXPORT vtkHapticTouch : public vtkObject
 {
@@ -42,10 +50,18 @@ public:
   const std::string& GetDeviceName() const { return this->DeviceName; }
   ///@}
 
+  /**
+   * A device in the place of the named one; not owned, closed, it must outlive this. Null: the named one.
+   */
+  void SetDevice(pointhaptics::HapticDevice* device);
+
   ///@{
   /**
-   * As of pointhaptics::HapticTouch: shows the window of the style and touches its model; false: GetMessage()
-   * says why. Run() returns when the window was closed.
+   * Start() gives the style device, servo loop and props, shows the window, makes the scene, opens the
+   * device, and starts the servo loop and the style's timer. False: GetMessage() says what failed, and the
+   * touch is stopped; or it was on already and stays so. A model without a mean in the hand's box is a
+   * failure, as nothing could be touched. In a window that shows nothing yet, the means are drawn. Run()
+   * returns when the window was closed.
    */
   bool Start(vtkInteractorStyleHaptic* style);
   void Stop();
@@ -67,13 +83,17 @@ public:
   void GetHand(double position[3]) const;
   void GetForce(double force[3]) const;
   ///@}
+  pointhaptics::ServoLoop& Servo();
 
 protected:
   vtkHapticTouch();
   ~vtkHapticTouch() override;
 
 private:
-  bool Make(vtkInteractorStyleHaptic* style);
+  bool Adopt(vtkInteractorStyleHaptic* style);
+  bool Fail(const std::string& message);
+  std::string ProblemOfReach() const;
+  void ShowMeans();
 
   struct Internals;
   std::unique_ptr<Internals> Impl;

@@ -1,13 +1,16 @@
 // Hand mode before anything is touched.
+#include "CloudAppearance.h"
 #include "HandDistance.h"
 #include "InteractorStyleFixture.h"
 #include "SteadyHand.h"
 #include "vtkHapticOverlay.h"
 #include "vtkHapticProps.h"
+#include "vtkSplatMapper.h"
 
 #include "Haptics/Proxy.h"
 
 #include <gtest/gtest.h>
+#include <vtkActor.h>
 #include <vtkCamera.h>
 #include <vtkCommand.h>
 
@@ -156,6 +159,13 @@ TEST_F(HandMode, AClickWithCtrlBringsTheHandToTheSurfaceAndADragTakesHoldOfIt)
 TEST_F(HandMode, TouchesAfterTwoStepsOfTheWheelAndHoldsHowDeepItPresses)
 {
   window_->SetSize(800, 800);
+  vtkNew<vtkSplatMapper> mapper;
+  mapper->SetInputConnection(resampler_->GetOutputPort());
+  mapper->SetFixedPixels(5.0);
+  vtkNew<vtkActor> cloud;
+  cloud->SetMapper(mapper);
+  renderer_->AddActor(cloud);
+  applyDepthShading(renderer_);
   renderer_->GetActiveCamera()->Azimuth(35.0);
   renderer_->ResetCameraClippingRange();
   window_->Render();
