@@ -1,7 +1,7 @@
 #include "vtkHapticProps.h"
 
+#include "EventLink.h"
 #include "ScreenMarks.h"
-#include "TouchOutlines.h"
 #include "vtkHapticGauge.h"
 
 #include "vtkActor.h"
@@ -16,6 +16,7 @@
 #include "vtkOverlayActor.h"
 #include "vtkPolyDataMapper.h"
 #include "vtkProperty.h"
+#include "vtkRegularPolygonSource.h"
 #include "vtkRenderer.h"
 #include "vtkSphereSource.h"
 #include "vtkWeakPointer.h"
@@ -32,8 +33,6 @@ VTK_MODULE_INIT(vtkRenderingOpenGL2);
 VTK_MODULE_INIT(vtkRenderingUI);
 
 using pointhaptics::ProxyState;
-using pointhaptics::TouchMarks;
-using pointhaptics::TouchOutlines;
 using pointhaptics::Vec3;
 
 namespace
@@ -54,8 +53,14 @@ constexpr Colors kUsual = { { 1.0, 0.30, 0.62 }, { 1.0, 0.55, 0.78 }, { 0.05, 0.
 /// Colors of Okabe and Ito's palette; they differ in lightness too.
 constexpr Colors kHighContrast = { { 0.94, 0.89, 0.26 }, { 0.97, 0.94, 0.60 }, { 1.0, 1.0, 1.0 },
   { 0.34, 0.71, 0.91 }, { 0.84, 0.37, 0.0 }, 6.0f };
-/// Width of outlines with high contrast, as a factor.
+/// Widths of the light rim about a mark and of the dark one beyond it, points; and with high contrast.
+constexpr double kRims[2] = { 1.75, 3.0 };
 constexpr double kThicker = 1.6;
+constexpr double kRimColors[2][3] = { { 1.0, 1.0, 1.0 }, { 0.05, 0.05, 0.06 } };
+constexpr double kNearWidths[2] = { 2.0, 4.0 };
+constexpr double kNearColors[2][3] = { { 1.0, 0.85, 0.10 }, { 0.05, 0.05, 0.06 } };
+/// Priority after all observers that set the camera and the window's dots per inch.
+constexpr float kLast = -2.0F;
 constexpr double kSmallestForce = 0.01; // newtons: shorter arrows are not drawn
 
 /// Sizes as parts of the workspace's edge.
@@ -138,10 +143,20 @@ struct vtkHapticProps::Internals
   /// Drawn in this order: what stands in the sphere is seen through it, and the force hides the normal that
   /// it lies along.
   std::array<vtkOverlayActor*, 4> all() { return { normal, proxy, hip, force }; }
-  TouchOutlines outlines{ [this]
+  /// The back of a larger shape, seen beside the mark alone; or a line.
+  struct Rim
+  {
+    vtkNew<vtkOverlayActor> actor;
+    vtkNew<vtkMatrix4x4> matrix;
+  };
+  /// Light and dark ones of these marks, in their order, of the way to the nearest point and of its ring.
+  std::array<std::array<Rim, 2>, 6> rims;
+  vtkNew<vtkArrowSource> rimArrows[2];
+  vtkNew<vtkRegularPolygonSource> circle;
+  pointhaptics::EventLink onStart{ [this]
     {
       this->place();
-      return this->marks();
+      this->placeRims();
     } };
   Colors colors = kUsual;
   bool outlined = false;
@@ -161,8 +176,23 @@ struct vtkHapticProps::Internals
   double smallestRadius = 0.0; ///< As was set.
   double arrowLength = 0.0;
 
-  TouchMarks marks();
+  template <typename Visit>
+  void forEach(Visit&& visit)
+  {
+    for (std::size_t k = 0; k < this->rims.size(); ++k)
+    {
+      visit(this->rims[k][1].actor);
+      visit(this->rims[k][0].actor);
+      for (std::size_t i = 0; i < 4 && k == 0; ++i)
+      {
+        visit(this->all()[i]); // after the lines beside the normal, before what stands behind them
+      }
+    }
+  }
+  void setUpRims();
+  void placeRims();
   void place();
+  double pointAt(const Vec3& place) const;
   Vec3 lift(const Vec3& center, const Vec3& along, double way) const;
   double drawnRadius() const;
 
@@ -182,26 +212,34 @@ struct vtkHapticProps::Internals
   }
 };
 
+/// Length of a point of the screen at @p place, for the present camera; 0: not known.
+double vtkHapticProps::Internals::pointAt(const Vec3& place) const
+{
+  if (!this->renderer || !this->renderer->GetRenderWindow() || !this->renderer->IsActiveCameraCreated())
+  {
+    return 0.0;
+  }
+  vtkCamera* camera = this->renderer->GetActiveCamera();
+  Vec3 forward;
+  Vec3 up;
+  camera->GetDirectionOfProjection(&forward.x);
+  camera->GetViewUp(&up.x);
+  const pointhaptics::ScreenProjection project(this->renderer);
+  const double way = 0.01 * this->edge;
+  const auto middle = project(place);
+  const auto side = project(place + way * normalized(cross(forward, up)));
+  const double pixels = std::hypot(side.x - middle.x, side.y - middle.y);
+  return middle.seen && side.seen && pixels > 0.0
+    ? way / pixels * pointhaptics::pixelsPerPoint(this->renderer)
+    : 0.0;
+}
+
 /// Radius of the drawn sphere, for the present camera.
 double vtkHapticProps::Internals::drawnRadius() const
 {
-  double enlarged = this->smallestRadius;
-  if (this->renderer && this->renderer->GetRenderWindow() && this->renderer->IsActiveCameraCreated())
-  {
-    vtkCamera* camera = this->renderer->GetActiveCamera();
-    Vec3 forward;
-    Vec3 up;
-    camera->GetDirectionOfProjection(&forward.x);
-    camera->GetViewUp(&up.x);
-    const pointhaptics::ScreenProjection project(this->renderer);
-    const Vec3& center = this->state.sphereCenter;
-    const auto middle = project(center);
-    const auto side = project(center + enlarged * normalized(cross(forward, up)));
-    const double pixels = std::hypot(side.x - middle.x, side.y - middle.y);
-    const double most = kLargestEnlarged * pointhaptics::pixelsPerPoint(this->renderer);
-    enlarged *= middle.seen && side.seen && pixels > most ? most / pixels : 1.0;
-  }
-  return std::max(this->state.radius, enlarged);
+  const double most = kLargestEnlarged * this->pointAt(this->state.sphereCenter);
+  return std::max(
+    this->state.radius, most > 0.0 ? std::min(this->smallestRadius, most) : this->smallestRadius);
 }
 
 /// An arrow that is seen end-on starts above the sphere on the screen, by @p way, not in front of it or
@@ -248,48 +286,66 @@ void vtkHapticProps::Internals::place()
   }
 }
 
-/// The marks that are outlined, as they are shown.
-TouchMarks vtkHapticProps::Internals::marks()
+void vtkHapticProps::Internals::setUpRims()
 {
-  TouchMarks marks;
-  marks.width = this->highContrast ? kThicker : 1.0;
-  if (this->showsNearest)
+  this->circle->SetNumberOfSides(32);
+  this->circle->GeneratePolygonOff();
+  this->circle->SetRadius(1.0);
+  this->circle->SetNormal(1.0, 0.0, 0.0);
+  for (std::size_t i = 0; i < 2; ++i)
   {
-    const double away = norm(this->nearestTo - this->nearest);
-    marks.hand = this->nearestTo;
-    marks.nearest = this->nearest;
-    marks.ringRadius = std::max(kSmallestRing * this->edge, kRingPart * away);
+    this->rimArrows[i]->SetShaftResolution(20);
+    this->rimArrows[i]->SetTipResolution(20);
+    vtkAlgorithmOutput* shapes[6] = { this->line->GetOutputPort(), this->sphere->GetOutputPort(),
+      this->ball->GetOutputPort(), this->rimArrows[i]->GetOutputPort(), this->line->GetOutputPort(),
+      this->circle->GetOutputPort() };
+    for (std::size_t k = 0; k < 6; ++k)
+    {
+      Rim& rim = this->rims[k][i];
+      setUpMark(rim.actor, shapes[k], k < 4 ? kRimColors[i] : kNearColors[i], false, k < 4 ? 0.0 : 1.0);
+      rim.actor->GetProperty()->SetFrontfaceCulling(k > 0 && k < 4);
+      rim.actor->SetUserMatrix(rim.matrix);
+      rim.actor->VisibilityOff();
+    }
   }
-  if (!this->outlined)
+}
+
+/// Rims of the marks as they are shown, and the line to the nearest point.
+void vtkHapticProps::Internals::placeRims()
+{
+  const double thicker = this->highContrast ? kThicker : 1.0;
+  const double pixels = this->renderer ? pointhaptics::pixelsPerPoint(this->renderer) : 1.0;
+  const double point = thicker * this->pointAt(this->state.sphereCenter);
+  const Vec3 way = this->nearestTo - this->nearest;
+  const double ring = std::max(kSmallestRing * this->edge, kRingPart * norm(way));
+  const Vec3 ahead = columnOf(this->forceMatrix, 0);
+  const double length = norm(ahead);
+  const double thickness = std::max(1e-12, norm(columnOf(this->forceMatrix, 1)));
+  for (std::size_t i = 0; i < 2; ++i)
   {
-    return marks;
+    const double width = kRims[i] * point;
+    for (std::size_t k = 0; k < 6; ++k)
+    {
+      const bool isRim = k < 4 && this->outlined && point > 0.0 && this->all()[k]->GetVisibility();
+      this->rims[k][i].actor->SetVisibility(isRim || (k >= 4 && this->showsNearest));
+      const double inside = k < 4 ? double(this->colors.lineWidth) : 0.0;
+      const double beside = k < 4 ? 2.0 * kRims[i] : kNearWidths[i];
+      this->rims[k][i].actor->GetProperty()->SetLineWidth(float(inside + beside * thicker * pixels));
+    }
+    this->rims[0][i].matrix->DeepCopy(this->normalMatrix);
+    const double radius = norm(columnOf(this->proxyMatrix, 0)) + width;
+    setFrame(this->rims[1][i].matrix, originOf(this->proxyMatrix), { 1, 0, 0 }, radius, radius);
+    const double hipRadius = norm(columnOf(this->hipMatrix, 0)) + width;
+    setFrame(this->rims[2][i].matrix, originOf(this->hipMatrix), { 1, 0, 0 }, hipRadius, hipRadius);
+    const double longer = length + 2.0 * width;
+    setFrame(this->rims[3][i].matrix, originOf(this->forceMatrix) - width * normalized(ahead),
+      normalized(ahead), longer, thickness);
+    this->rimArrows[i]->SetShaftRadius(kShaftRadius + width / thickness);
+    this->rimArrows[i]->SetTipRadius(kTipRadius + width / thickness);
+    this->rimArrows[i]->SetTipLength((kTipLength * length + 2.0 * width) / longer);
+    setFrame(this->rims[4][i].matrix, this->nearest, normalized(way), norm(way), 1.0);
+    setFrame(this->rims[5][i].matrix, this->nearest, normalized(way), 1.0, ring);
   }
-  if (this->proxy->GetVisibility())
-  {
-    marks.proxy = originOf(this->proxyMatrix);
-    marks.proxyRadius = norm(columnOf(this->proxyMatrix, 0));
-  }
-  if (this->hip->GetVisibility())
-  {
-    marks.hip = originOf(this->hipMatrix);
-    marks.hipRadius = norm(columnOf(this->hipMatrix, 0));
-  }
-  if (this->normal->GetVisibility())
-  {
-    marks.normalBegin = originOf(this->normalMatrix);
-    marks.normalEnd = marks.normalBegin + columnOf(this->normalMatrix, 0);
-  }
-  if (this->force->GetVisibility())
-  {
-    const Vec3 along = columnOf(this->forceMatrix, 0);
-    const double thickness = norm(columnOf(this->forceMatrix, 1));
-    marks.arrowBegin = originOf(this->forceMatrix);
-    marks.arrowEnd = marks.arrowBegin + along;
-    marks.arrowNeck = marks.arrowEnd - kTipLength * along;
-    marks.shaftRadius = kShaftRadius * thickness;
-    marks.tipRadius = kTipRadius * thickness;
-  }
-  return marks;
 }
 
 vtkStandardNewMacro(vtkHapticProps);
@@ -326,6 +382,7 @@ vtkHapticProps::vtkHapticProps()
   parts.normal->SetUserMatrix(parts.normalMatrix);
   parts.hip->SetUserMatrix(parts.hipMatrix);
   parts.force->SetUserMatrix(parts.forceMatrix);
+  parts.setUpRims();
   const double cube[6] = { -0.05, 0.05, -0.05, 0.05, -0.05, 0.05 };
   this->SetWorkspaceBounds(cube);
   this->SetTouchVisibility(false);
@@ -368,6 +425,11 @@ void vtkHapticProps::SetHandVisibility(bool visible)
   {
     this->HideNearest();
   }
+  this->UpdateAgain();
+}
+
+void vtkHapticProps::UpdateAgain()
+{
   if (this->Parts->shown)
   {
     this->Parts->shown = false;
@@ -385,22 +447,16 @@ void vtkHapticProps::AddTo(vtkRenderer* renderer)
 {
   this->Parts->renderer = renderer;
   renderer->AddActor(this->Parts->outlineActor);
-  for (vtkOverlayActor* mark : this->Parts->all())
-  {
-    renderer->AddActor(mark);
-  }
-  this->Parts->outlines.addTo(renderer);
+  this->Parts->forEach([renderer](vtkOverlayActor* mark) { renderer->AddActor(mark); });
+  this->Parts->onStart.follow(renderer, vtkCommand::StartEvent, kLast);
   this->Parts->gauge->AddTo(renderer);
 }
 
 void vtkHapticProps::RemoveFrom(vtkRenderer* renderer)
 {
   renderer->RemoveActor(this->Parts->outlineActor);
-  for (vtkOverlayActor* mark : this->Parts->all())
-  {
-    renderer->RemoveActor(mark);
-  }
-  this->Parts->outlines.removeFrom(renderer);
+  this->Parts->forEach([renderer](vtkOverlayActor* mark) { renderer->RemoveActor(mark); });
+  this->Parts->onStart.follow(nullptr);
   this->Parts->gauge->RemoveFrom(renderer);
 }
 
@@ -425,12 +481,7 @@ void vtkHapticProps::SetHighContrast(bool high)
   parts.hip->GetProperty()->SetColor(const_cast<double*>(parts.colors.hip));
   parts.force->GetProperty()->SetColor(const_cast<double*>(parts.colors.force));
   parts.gauge->SetOpaque(high);
-  if (parts.shown)
-  {
-    parts.shown = false;
-    this->Update(parts.state);
-  }
-  this->Modified();
+  this->UpdateAgain();
 }
 
 bool vtkHapticProps::ShowNearest(const double hip[3], const double point[3])

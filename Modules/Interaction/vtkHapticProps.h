@@ -171,6 +171,8 @@ private:
   vtkHapticProps(const vtkHapticProps&) = delete;
   void operator=(const vtkHapticProps&) = delete;
 
+  void UpdateAgain();
+
   struct Internals;
   std::unique_ptr<Internals> Parts;
 };

@@ -102,7 +102,8 @@ void measure(vtkPolyData* block)
   if (pointhaptics::measureCloud(
         access.view(), pointhaptics::guessCloudOrientation(block, {}), std::nullopt, measured))
   {
-    pointhaptics::addSplats(block, measured, block->GetPointData()->GetNormals());
+    pointhaptics::takeOwnShapes(block, {}, measured);
+    pointhaptics::addSplats(block, measured);
     setLook(block, measured.look);
   }
 }

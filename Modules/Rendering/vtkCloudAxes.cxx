@@ -1,14 +1,13 @@
 #include "vtkCloudAxes.h"
 
+#include "EventLink.h"
 #include "ScreenMarks.h"
 #include "vtkOverlayActor.h"
 
 #include "Core/Base/Vector3.h"
 
-#include "vtkCallbackCommand.h"
 #include "vtkCamera.h"
 #include "vtkCellArray.h"
-#include "vtkCommand.h"
 #include "vtkMatrix4x4.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
@@ -27,6 +26,7 @@
 #include <string>
 #include <utility>
 
+using pointhaptics::EventLink;
 using pointhaptics::Pixel;
 using pointhaptics::ScreenLines;
 using pointhaptics::ScreenProjection;
@@ -127,6 +127,10 @@ bool findSeenPart(Edge& edge, const int* size)
 
 struct vtkCloudAxes::Internals
 {
+  explicit Internals(vtkCloudAxes* self)
+    : onStart([self] { self->PlaceLabels(); })
+  {
+  }
   vtkNew<vtkMatrix4x4> model;
   vtkNew<vtkPoints> corners;
   vtkNew<vtkPolyData> box;
@@ -134,7 +138,7 @@ struct vtkCloudAxes::Internals
   ScreenLines ticks{ kTickWidth };
   ScreenLines marker{ kArmWidth };
   ScreenTexts texts;
-  vtkNew<vtkCallbackCommand> onStart;
+  EventLink onStart;
   vtkWeakPointer<vtkRenderer> renderer;
   std::function<std::vector<std::array<double, 4>>()> taken;
 
@@ -296,7 +300,7 @@ void vtkCloudAxes::Internals::drawMarker()
 vtkStandardNewMacro(vtkCloudAxes);
 
 vtkCloudAxes::vtkCloudAxes()
-  : Parts(new Internals)
+  : Parts(new Internals(this))
 {
   Internals& parts = *this->Parts;
   parts.corners->SetDataTypeToDouble();
@@ -318,9 +322,6 @@ vtkCloudAxes::vtkCloudAxes()
   parts.boxLines->SetShape(parts.box);
   parts.boxLines->GetProperty()->SetColor(0.35, 0.35, 0.40);
   parts.boxLines->VisibilityOff();
-  parts.onStart->SetClientData(this);
-  parts.onStart->SetCallback(
-    [](vtkObject*, unsigned long, void* self, void*) { static_cast<vtkCloudAxes*>(self)->PlaceLabels(); });
   this->PlaceBox();
 }
 
@@ -438,13 +439,13 @@ void vtkCloudAxes::AddTo(vtkRenderer* renderer)
   renderer->AddActor2D(parts.ticks.actor());
   renderer->AddActor2D(parts.marker.actor());
   parts.texts.addTo(renderer);
-  renderer->AddObserver(vtkCommand::StartEvent, parts.onStart, kLast);
+  parts.onStart.follow(renderer, vtkCommand::StartEvent, kLast);
 }
 
 void vtkCloudAxes::RemoveFrom(vtkRenderer* renderer)
 {
   Internals& parts = *this->Parts;
-  renderer->RemoveObserver(parts.onStart);
+  parts.onStart.follow(nullptr);
   renderer->RemoveActor(parts.boxLines);
   renderer->RemoveActor2D(parts.ticks.actor());
   renderer->RemoveActor2D(parts.marker.actor());

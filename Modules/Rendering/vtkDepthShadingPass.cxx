@@ -293,6 +293,9 @@ void vtkDepthShadingPass::RenderEye(const vtkRenderState* state)
     }
     this->Shade(renderer, window);
     this->Kept = renderer->GetSelector() ? std::vector<double>() : std::move(wanted);
+    this->FromShown->DeepCopy(renderer->GetActiveCamera()->GetCompositeProjectionTransformMatrix(
+      renderer->GetTiledAspectRatio(), -1.0, 1.0));
+    this->FromShown->Invert();
     ++this->NumberOfPictures;
   }
   else
@@ -496,6 +499,54 @@ void vtkDepthShadingPass::Show(vtkRenderer* renderer, vtkOpenGLRenderWindow* win
     this->Resolution < 1.0 ? vtkTextureObject::Linear : vtkTextureObject::Nearest);
   this->Draw(*this->CopyQuad, this->Shown, renderer);
   state->vtkglDepthFunc(GL_LEQUAL);
+}
+
+bool vtkDepthShadingPass::FindShown(vtkRenderer* renderer, double x, double y, double reach, double place[3])
+{
+  const vtkDepthShadingPass* pass = GetPassOf(renderer);
+  auto* window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
+  if (!pass || pass->Kept.empty() || !window || window->GetStereoRender())
+  {
+    return false;
+  }
+  const double at[2] = { pass->Resolution * (x + 0.5 - renderer->GetOrigin()[0]),
+    pass->Resolution * (y + 0.5 - renderer->GetOrigin()[1]) };
+  const int size[2] = { pass->W, pass->H };
+  int low[2];
+  int high[2];
+  for (int axis = 0; axis < 2; ++axis)
+  {
+    low[axis] = std::max(0, int(std::floor(at[axis] - pass->Resolution * reach)));
+    high[axis] = std::min(size[axis] - 1, int(std::floor(at[axis] + pass->Resolution * reach)));
+  }
+  if (low[0] > high[0] || low[1] > high[1])
+  {
+    return false;
+  }
+  const int width = high[0] - low[0] + 1;
+  std::vector<float> depths(std::size_t(width) * std::size_t(high[1] - low[1] + 1), 1.0F);
+  window->MakeCurrent();
+  window->GetState()->PushReadFramebufferBinding();
+  pass->Shown.Frame->Bind(GL_READ_FRAMEBUFFER);
+  glReadPixels(low[0], low[1], width, high[1] - low[1] + 1, GL_DEPTH_COMPONENT, GL_FLOAT, depths.data());
+  window->GetState()->PopReadFramebufferBinding();
+  double nearest = INFINITY;
+  for (std::size_t i = 0; i < depths.size(); ++i)
+  {
+    const double column = low[0] + int(i) % width + 0.5;
+    const double row = low[1] + int(i) / width + 0.5;
+    const double away = std::hypot(column - at[0], row - at[1]);
+    if (depths[i] < 1.0F && away < nearest && away <= std::max(1.0, pass->Resolution * reach))
+    {
+      nearest = away;
+      const double in[4] = { 2.0 * column / size[0] - 1.0, 2.0 * row / size[1] - 1.0,
+        2.0 * double(depths[i]) - 1.0, 1.0 };
+      double out[4];
+      pass->FromShown->MultiplyPoint(in, out);
+      std::transform(out, out + 3, place, [&out](double each) { return each / out[3]; });
+    }
+  }
+  return nearest < INFINITY;
 }
 
 void vtkDepthShadingPass::ReleaseGraphicsResources(vtkWindow* window)

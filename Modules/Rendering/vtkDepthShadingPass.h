@@ -37,6 +37,8 @@
 #include "PointHapticsRenderingModule.h" // For export macro
 
 #include "vtkDepthImageProcessingPass.h"
+#include "vtkMatrix4x4.h"    // For members
+#include "vtkNew.h"          // For members
 #include "vtkSmartPointer.h" // For members
 
 #include <memory> // For std::unique_ptr
@@ -137,6 +139,13 @@ public:
   static Stage StageOf(vtkRenderer* renderer);
 
   /**
+   * Finds what the last picture of @p renderer shows within @p reach pixels of a place of its window, the
+   * nearest to it: @p place in the scene. False: background is there, or the renderer has no such picture; a
+   * window with a picture for each eye has none.
+   */
+  static bool FindShown(vtkRenderer* renderer, double x, double y, double reach, double place[3]);
+
+  /**
    * How often the delegate has drawn another picture.
    */
   vtkGetMacro(NumberOfPictures, vtkTypeUInt64);
@@ -190,7 +199,8 @@ private:
   std::unique_ptr<vtkOpenGLQuadHelper> DivideQuad;
   std::unique_ptr<vtkOpenGLQuadHelper> CopyQuad;
   std::unique_ptr<vtkOpenGLQuadHelper> ShadeQuad;
-  std::vector<double> Kept; // what is shown, see pictureState()
+  std::vector<double> Kept;       // what is shown, see pictureState()
+  vtkNew<vtkMatrix4x4> FromShown; // from its pixels and depths, each from -1 to 1, to the scene
   vtkSmartPointer<vtkDepthShadingPass> RightEye;
   bool IsRightEye = false;
   vtkTypeUInt64 NumberOfPictures = 0;

@@ -20,7 +20,6 @@
 #include "Core/Base/Lattice.h"
 
 #include <vtkActor.h>
-#include <vtkCallbackCommand.h>
 #include <vtkCamera.h>
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
@@ -75,27 +74,15 @@ ViewScene::ViewScene()
   distance_.addTo(renderer_);
   applyGround(renderer_);
   applyDepthShading(renderer_);
-  vtkNew<vtkCallbackCommand> sizing;
-  sizing->SetClientData(this);
-  sizing->SetCallback(
-    [](vtkObject*, unsigned long, void* self, void*) { static_cast<ViewScene*>(self)->beginFrame(); });
-  renderer_->AddObserver(vtkCommand::StartEvent, sizing, 1.0F); // before what is placed for each eye
-  vtkNew<vtkCallbackCommand> counting;
-  counting->SetClientData(this);
-  counting->SetCallback(
-    [](vtkObject*, unsigned long, void* self, void*) { ++static_cast<ViewScene*>(self)->resamplings_; });
-  resampler_->AddObserver(vtkCommand::StartEvent, counting);
+  sizing_.follow(renderer_, vtkCommand::StartEvent, 1.0F); // before what is placed for each eye
+  counting_.follow(resampler_);
   setUpScalarBar(scalarBar_);
   scalarBar_->SetLookupTable(mapper_->GetLookupTable());
   scalarBar_->VisibilityOff();
   renderer_->AddActor2D(scalarBar_);
 }
 
-ViewScene::~ViewScene()
-{
-  renderer_->RemoveObservers(vtkCommand::StartEvent);
-  resampler_->RemoveObservers(vtkCommand::StartEvent);
-}
+ViewScene::~ViewScene() = default;
 
 /// Chooses before every render how many points it shows, and leaves room for the scalar bar.
 void ViewScene::beginFrame()
@@ -202,7 +189,6 @@ bool ViewScene::open(LoadedCloud loaded, const HapticViewerOptions& options, std
   placedCamera_.clear();
   isCoarse_ = loaded.isCoarse;
   invalidPoints_ = loaded.invalid;
-  heightZero_ = loaded.heightZero;
   scene_ = loaded.scene;
   resamplings_ += loaded.resamplings;
   setElements(modelMatrix_, loaded.placement);
@@ -322,7 +308,7 @@ ShownRequest ViewScene::showing() const
 
 ViewScene::ColorRange ViewScene::colorRange()
 {
-  ColorRange range{ coloredBy_, heightZero_, {}, {} };
+  ColorRange range{ coloredBy_, {}, {} };
   std::copy_n(mapper_->GetLookupTable()->GetRange(), 2, range.ofMeans);
   std::copy_n(pointsMapper_->GetLookupTable()->GetRange(), 2, range.ofPoints);
   return range;
@@ -333,9 +319,8 @@ void ViewScene::keepColorRange(const ColorRange& before)
 {
   if (before.coloredBy == coloredBy_ && picture_.colorRange.empty())
   {
-    const double shift = coloredBy_ == kHeightArrayName ? before.heightZero - heightZero_ : 0.0;
-    mapper_->GetLookupTable()->SetRange(before.ofMeans[0] + shift, before.ofMeans[1] + shift);
-    pointsMapper_->GetLookupTable()->SetRange(before.ofPoints[0] + shift, before.ofPoints[1] + shift);
+    mapper_->GetLookupTable()->SetRange(before.ofMeans[0], before.ofMeans[1]);
+    pointsMapper_->GetLookupTable()->SetRange(before.ofPoints[0], before.ofPoints[1]);
   }
 }
 

@@ -12,6 +12,7 @@
 #include "Core/Base/AffineTransform.h"
 #include "Core/Base/PointView.h"
 #include "DistanceMark.h"
+#include "EventLink.h"
 #include "Haptics/HapticScene.h"
 #include "Haptics/Proxy.h"
 #include "HeightProfile.h"
@@ -117,7 +118,8 @@ public:
   /// Finds the nearest point drawn at a place of the window, in the frame of the file; a voxel mean while
   /// means are drawn. False: none is within 8 pixels.
   bool placeAt(int x, int y, Vec3& place);
-  /// Number in the legend of classes or files under a place of the window; nothing: none is there.
+  /// Number in the legend of classes or files whose colour or name is at a place of the window; nothing: none
+  /// is there.
   std::optional<double> labelOnColorBar(double x, double y);
   /// Names of the files of a cloud of several; touch and picture have those that are not hidden.
   std::vector<std::string> fileNames() const;
@@ -246,7 +248,6 @@ private:
   struct ColorRange
   {
     std::string coloredBy;
-    double heightZero;
     double ofMeans[2];
     double ofPoints[2];
   };
@@ -271,7 +272,7 @@ private:
   void applyMarks();
   void applyHidden();
   void markHidden(vtkLookupTable* legend, const std::string& array) const;
-  std::optional<ColorBarPlace> placeOnStrip(double x, double y);
+  std::optional<ColorBarPlace> placeOnBar(double x, double y, bool besideStrip);
   void placeCamera(const CameraFit& fit);
   CameraFit fitFrom(const CloudLook& look, double turn = 0.0) const;
   CloudLook axisLook() const;
@@ -304,6 +305,7 @@ private:
   bool wantsScalarBar_ = false;  ///< The colours have a scale to show.
   bool layoutPlacesBar_ = false; ///< A ScreenLayout places the bar.
   bool barHasRoom_ = true;       ///< The layout gave the bar a box.
+  ScreenRectangle barBox_;       ///< That box.
   vtkNew<vtkHapticProps> props_;
   vtkNew<vtkCloudAxes> axes_;
   bool wantsAxes_ = false;
@@ -317,7 +319,6 @@ private:
   PictureSettings picture_;
   bool isCoarse_ = false;
   vtkIdType invalidPoints_ = 0;
-  double heightZero_ = 0.0;  ///< See LoadedCloud.
   double fixedPixels_ = 0.0; ///< HapticViewerOptions::pointSize.
   Bounds cloudBounds_;       ///< Bounds of the finite points, as in the file; empty until somebody asks.
   vtkNew<vtkRenderer> renderer_;
@@ -335,6 +336,8 @@ private:
   int resamplings_ = 0;
   bool isResampled_ = true;
   bool findsLattice_ = false;
+  EventLink sizing_{ [this] { this->beginFrame(); } };
+  EventLink counting_{ [this] { ++resamplings_; } };
 };
 
 } // namespace pointhaptics

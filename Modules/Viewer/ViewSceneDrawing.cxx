@@ -95,7 +95,7 @@ void ViewScene::colorPoints()
   double light = 1.0;
   if (colorBy_ == kHeightArrayName && !data->HasArray(kHeightArrayName))
   {
-    heightZero_ = addHeightArray(points, cloudOrientation_.up);
+    addHeightArray(points, cloudOrientation_.up);
   }
   if (colorBy_ == "Density" && !data->HasArray("Density"))
   {

@@ -34,8 +34,7 @@ namespace pointhaptics
 namespace
 {
 
-/// Reaches of a pick, nearest first: the point under the pointer goes before those beside and in front of it.
-constexpr double kPickPixels[] = { 2.0, 4.0, 8.0 };
+constexpr double kPickPixels = 8.0; ///< Reach of a pick.
 /// A profile has the points beside its line up to this part of its length, or as many spacings if that is
 /// more.
 constexpr double kProfilePart = 0.005;
@@ -53,19 +52,16 @@ Vec3 placeOf(vtkPolyData* cloud, const std::vector<double>& numbers, std::size_t
 bool ViewScene::placeAt(int x, int y, Vec3& place)
 {
   PickedPoint picked;
-  for (const double pixels : kPickPixels)
+  if (!drawsFelt_ &&
+    pickPoint(shown_->points, renderer_, x, y, kPickPixels, picked, pointsMatrix_, drawnBy(pointsActor_)))
   {
-    if (!drawsFelt_ &&
-      pickPoint(shown_->points, renderer_, x, y, pixels, picked, pointsMatrix_, drawnBy(pointsActor_)))
-    {
-      shown_->points->GetPoint(picked.index, &place.x);
-      return true;
-    }
-    if (drawsFelt_ && pickPoint(bandwidth_->GetOutput(), renderer_, x, y, pixels, picked) && picked.inCloud)
-    {
-      place = *picked.inCloud;
-      return true;
-    }
+    shown_->points->GetPoint(picked.index, &place.x);
+    return true;
+  }
+  if (drawsFelt_ && pickPoint(bandwidth_->GetOutput(), renderer_, x, y, kPickPixels, picked))
+  {
+    place = picked.inCloud.value_or(place);
+    return picked.inCloud.has_value();
   }
   return false;
 }

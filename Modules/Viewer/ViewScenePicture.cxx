@@ -183,27 +183,29 @@ std::array<double, 2> ViewScene::shownColorRange()
 
 std::optional<ViewScene::ColorBarPlace> ViewScene::placeOnColorBar(double x, double y)
 {
-  return this->isColoredByMap() ? this->placeOnStrip(x, y) : std::nullopt;
+  return this->isColoredByMap() ? this->placeOnBar(x, y, false) : std::nullopt;
 }
 
 std::optional<double> ViewScene::labelOnColorBar(double x, double y)
 {
   vtkScalarsToColors* legend = scalarBar_->GetLookupTable();
   const bool isList = scalarBar_->GetVisibility() && legend->GetIndexedLookup();
-  const std::optional<ColorBarPlace> place = isList ? this->placeOnStrip(x, y) : std::nullopt;
+  const std::optional<ColorBarPlace> place = isList ? this->placeOnBar(x, y, true) : std::nullopt;
   const vtkIdType rows = legend->GetNumberOfAnnotatedValues();
   const auto row = vtkIdType(place ? (1.0 - place->along) * double(rows) : 0.0); // the first is at the top
   return place ? std::optional(legend->GetAnnotatedValue(std::min(row, rows - 1)).ToDouble()) : std::nullopt;
 }
 
-std::optional<ViewScene::ColorBarPlace> ViewScene::placeOnStrip(double x, double y)
+/// As high as the strip of colours, and as wide or, @p besideStrip, with its words.
+std::optional<ViewScene::ColorBarPlace> ViewScene::placeOnBar(double x, double y, bool besideStrip)
 {
   std::array<int, 4> strip{}; // where it begins in the viewport, and its size
   scalarBar_->GetScalarBarRect(strip.data(), renderer_);
   const int* corner = renderer_->GetOrigin(); // a chart may lie below
-  const double across = x - corner[0] - strip[0];
+  const double across = x - corner[0];
   const double along = y - corner[1] - strip[1];
-  const bool isInside = across >= 0.0 && across <= strip[2] && along >= 0.0 && along <= strip[3];
+  const double left = besideStrip ? std::min<double>(barBox_.left, strip[0]) : strip[0];
+  const bool isInside = across >= left && across <= strip[0] + strip[2] && along >= 0.0 && along <= strip[3];
   return isInside ? std::optional(ColorBarPlace{ along / strip[3], double(strip[3]) }) : std::nullopt;
 }
 
@@ -253,6 +255,7 @@ ScreenBlock ViewScene::scalarBarBlock()
   block.place = [this](const ScreenRectangle& box, double font)
   {
     barHasRoom_ = !box.empty();
+    barBox_ = box;
     scalarBar_->SetVisibility(wantsScalarBar_ && barHasRoom_);
     const double edges[4] = { box.left, box.bottom, box.right, box.top };
     if (barHasRoom_)

@@ -273,7 +273,7 @@ TEST_F(CloudLoaderTest, FindsAnArrayInUpperOrLowerCaseWhereOnlyOneCanBeMeant)
   EXPECT_EQ(nameFor("GPStime"), "refused");
   EXPECT_NE(message.find("colorBy GPStime: means any of GpsTime, gpstime; give one"), std::string::npos)
     << message;
-  EXPECT_EQ(nameFor("height"), "refused"); // the file's, or that above the lowest point
+  EXPECT_EQ(nameFor("height"), "refused"); // the file's, or its coordinate upwards
   EXPECT_NE(message.find("HEIGHT, Height"), std::string::npos) << message;
   EXPECT_EQ(nameFor("warmth"), "refused");
   EXPECT_NE(message.find("no such array; it has Normals (:x, :y, :z, :magnitude), Intensity, GpsTime"),

@@ -290,7 +290,7 @@ TEST_F(Convert, FeetOfTheUsSurveyAreFeetOfTheirOwn)
     const std::string text = this->succeed({ "info", file });
     EXPECT_NE(text.find("US survey foot (the file says so)"), std::string::npos) << text;
     EXPECT_NE(text.find("--unit us-ft as the file says"), std::string::npos) << text;
-    this->succeed({ "resample", file, "--unit", "us-ft", "-o", "m.csv", "--force" });
+    EXPECT_EQ(this->run({ "resample", file, "--unit", "us-ft", "-o", "m.csv", "--force" }).exitCode, 0);
     EXPECT_NE(this->read("m.csv").find("\n1200000,"), std::string::npos) << this->read("m.csv");
   }
 }
@@ -379,6 +379,31 @@ TEST_F(Convert, AUnitThatContradictsTheFileIsSaid)
     EXPECT_NE(outcome.errors.find("the file says that its unit is us-ft, and ft is taken"), std::string::npos)
       << words.front() << ": " << outcome.errors;
   }
+}
+
+/// What info says of a file's unit is what --unit takes, and what is written says the unit that it has.
+TEST_F(Convert, AUnitHasItsNamesReadAndWritten)
+{
+  this->write("feet.ply",
+    "ply\nformat ascii 1.0\ncomment LengthUnit foot\nelement vertex 2\nproperty double x\n"
+    "property double y\nproperty double z\nend_header\n10 0 0\n0 10 5\n");
+  const auto unit = [this](const std::string& file) {
+    return json::parse(this->succeed({ "info", file, "--json" }))["files"][0]["unit"].get<std::string>();
+  };
+  const std::string said = unit("feet.ply");
+  EXPECT_EQ(said, "foot");
+  for (const std::string& name : { said, std::string("ft"), std::string("Feet") })
+  {
+    this->succeed({ "resample", "feet.ply", "--unit", name, "-o", "m.ply", "--force" });
+    EXPECT_EQ(unit("m.ply"), "metre") << name;
+    this->succeed({ "bandwidth", "feet.ply", "--unit", name, "-o", "b.ply", "--force" });
+    EXPECT_EQ(unit("b.ply"), "metre") << name;
+  }
+  this->succeed({ "resample", "feet.ply", "--unit", "ft", "--scale", "2", "-o", "m.ply", "--force" });
+  EXPECT_NE(unit("m.ply"), "foot");
+  const auto refused = this->run({ "resample", "feet.ply", "--unit", "ell", "-o", "x.ply" });
+  EXPECT_EQ(refused.exitCode, 2);
+  EXPECT_NE(refused.errors.find("us-ft"), std::string::npos) << refused.errors;
 }
 
 } // namespace

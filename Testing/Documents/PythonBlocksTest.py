@@ -83,6 +83,8 @@ class Blocks(unittest.TestCase):
         exec("touch.Run" + last, names)
         self.assertGreater(max(forces), 0.1)
         self.assertGreater(touch_fixture.lit(names["window"]), 1000)
+        colors = touch_fixture.pixels(names["window"])
+        self.assertLess(int((colors.min(axis=1) > 240).sum()), 200, "a cloud without normals is no white spot")
 
     def test_touch_says_what_is_wrong(self) -> None:
         if not os.environ.get("DISPLAY"):

@@ -43,12 +43,17 @@ def close_soon(interactor, events: int = 10, then=lambda event: None) -> list:
     return seen
 
 
-def lit(window) -> int:
-    """Pixels of the window that are not black."""
+def pixels(window) -> np.ndarray:
+    """(n, 3) of the window."""
     from vtkmodules.util.numpy_support import vtk_to_numpy
     from vtkmodules.vtkRenderingCore import vtkWindowToImageFilter
 
     picture = vtkWindowToImageFilter()
     picture.SetInput(window)
     picture.Update()
-    return int((vtk_to_numpy(picture.GetOutput().GetPointData().GetScalars()).max(axis=1) > 30).sum())
+    return vtk_to_numpy(picture.GetOutput().GetPointData().GetScalars())
+
+
+def lit(window) -> int:
+    """Pixels of the window that are not black."""
+    return int((pixels(window).max(axis=1) > 30).sum())

@@ -52,7 +52,7 @@ TEST_F(HiddenPoints, NeitherDrawsNorFeelsHiddenValues)
   options_.colorBy = "Clay";
   options_.up = "z";
   const auto all = drawn();
-  options_.picture.hidden = { { "height", 1.0, INFINITY } }; // the upper half
+  options_.picture.hidden = { { "height", 0.0, INFINITY } }; // the upper half
   const auto half = drawn();
   EXPECT_NEAR(half.second, 0.5 * all.second, 0.001 * kPoints);
   EXPECT_LT(half.first, 0.7 * all.first) << "of " << all.first << " pixels";

@@ -78,7 +78,8 @@ vtkSmartPointer<vtkPolyData> BandwidthCommand::prepared(vtkPolyData* cloud) cons
   const std::string why = whyNoLengths(cloud);
   require(why.empty(), this->input + ": " + why);
   const vtkSmartPointer<vtkPolyData> given = cloud;
-  return this->unit == "m" ? given : scaledCloud(cloud, findLengthUnit(this->unit)->metres);
+  return this->unit == "m" ? given
+                           : scaledCloud(cloud, findLengthUnit(this->unit)->metres, kLengthUnits[0].word);
 }
 
 CloudResult BandwidthCommand::work(Cloud& cloud, Files& files)

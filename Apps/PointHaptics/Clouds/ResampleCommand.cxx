@@ -10,6 +10,8 @@
 #include "Core/Distributed/SharedVoxels.h"
 #include "CsvWriter.h"
 #include "IO/Info/CloudExtent.h"
+#include "IO/Info/FieldText.h"
+#include "IO/Info/LengthUnit.h"
 #include "PolyDataAccess.h"
 #include "vtkVoxelMeanResampler.h"
 
@@ -54,6 +56,8 @@ void ResampleCommand::complete(CLI::App& command, Files& files)
 }
 
 /// Removes steps and coordinate system of the file from transformed points, and its unit from scaled ones.
+/// With
+/// --unit the points are in metres.
 void ResampleCommand::finish(vtkPolyData* means) const
 {
   for (const char* name : { "LasScale", "LasOffset", "CoordinateSystem", "LengthUnit" })
@@ -63,13 +67,21 @@ void ResampleCommand::finish(vtkPolyData* means) const
       means->GetFieldData()->RemoveArray(name);
     }
   }
+  const bool areMetres = this->unitIsGiven && this->lattice.scale.empty() && this->lattice.matrix.empty();
+  io::addFieldText(means, "LengthUnit", areMetres ? kLengthUnits[0].word : "");
 }
 
 void ResampleCommand::update(vtkVoxelMeanResampler* resampler, vtkPolyData* cloud) const
 {
   const std::string why = whyNoLengths(cloud, this->lattice.transform());
-  require(
-    why.empty(), this->input + ": " + why + ", or give metres a degree, such as --scale 78000,111000,1");
+  if (!why.empty())
+  {
+    const vtkSmartPointer<vtkPolyData> local = inLocalMetres(cloud);
+    vtkDataArray* frame = local->GetFieldData()->GetArray(kLocalFrame);
+    throw Failure(
+      fmt::format("{}: {}, or give metres a degree and of a unit of height: --scale {:.0f},{:.0f},{:.6g}",
+        this->input, why, frame->GetTuple1(2), frame->GetTuple1(3), frame->GetTuple1(4)));
+  }
   resampler->SetInputData(cloud);
   this->lattice.configure(resampler);
   resampler->SetMinimumPointsPerVoxel(int(this->minimumPoints));

@@ -12,6 +12,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <vtkMatrix4x4.h>
 #include <vtkMatrixToLinearTransform.h>
 #include <vtkNew.h>
@@ -20,6 +21,8 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
+#include <utility>
 
 namespace pointhaptics::app
 {
@@ -27,16 +30,23 @@ namespace
 {
 
 using Numbers = std::vector<double>;
-using Units = std::vector<std::pair<std::string, double>>;
 
-Units units()
+/// Adds an option for a unit of length, under any name that files have for it.
+void addLengthUnit(CLI::App& command, const char* option, std::function<void(const NamedUnit&)> keep,
+  const std::string& description)
 {
-  Units table;
-  for (const NamedUnit& unit : kLengthUnits)
+  std::vector<std::string> names;
+  for (const NamedUnit& each : kLengthUnits)
   {
-    table.emplace_back(unit.name, unit.metres);
+    names.emplace_back(each.name);
   }
-  return table;
+  const std::string form = fmt::format("{}", fmt::join(names, "|"));
+  const auto store = [option, names = std::move(names), keep = std::move(keep)](const std::string& word)
+  {
+    const NamedUnit* known = findLengthUnit(word);
+    keep(known ? *known : kLengthUnits[indexOfChoice(option, word, names)]);
+  };
+  command.add_option_function<std::string>(option, store, description)->type_name(form);
 }
 
 std::string checkDimensions(const Numbers& numbers)
@@ -127,19 +137,18 @@ void LatticeOptions::addTo(CLI::App& command)
 
 void addUnit(CLI::App& command, std::string& unit)
 {
-  std::vector<std::string> names;
-  for (const NamedUnit& each : kLengthUnits)
-  {
-    names.emplace_back(each.name);
-  }
-  addWord(command, "--unit", unit, names, "Unit of the file's coordinates, which become metres; default m");
+  addLengthUnit(
+    command, "--unit", [&unit](const NamedUnit& each) { unit = each.name; },
+    "Unit of the file's coordinates, which become metres; default m");
 }
 
 void addPathUnits(CLI::App& command, PathUnits& pathUnits)
 {
-  addChoice(command, "--path-unit", pathUnits.metres, units(), "Unit of the places in --path; default m");
-  addChoice(command, "--path-time-unit", pathUnits.seconds,
-    Units{ { "s", 1.0 }, { "ms", 1e-3 }, { "us", 1e-6 } }, "Unit of the times in --path; default s");
+  addLengthUnit(
+    command, "--path-unit", [&pathUnits](const NamedUnit& each) { pathUnits.metres = each.metres; },
+    "Unit of the places in --path; default m");
+  addChoice(command, "--path-time-unit", pathUnits.seconds, { { "s", 1.0 }, { "ms", 1e-3 }, { "us", 1e-6 } },
+    "Unit of the times in --path; default s");
 }
 
 UnitNames unitOptions()

@@ -4,6 +4,7 @@
 #include "ScenePipeline.h"
 #include "ScreenView.h"
 #include "StatusText.h"
+#include "vtkDepthShadingPass.h"
 #include "vtkPickMarker.h"
 
 #include "vtkActor.h"
@@ -20,7 +21,8 @@ namespace
 constexpr double kPickPixels = 8.0;
 /// Reach of a pick on a surface, pixels: holes between sparse points must not let it through.
 constexpr double kSurfacePixels = 24.0;
-/// A slope is nearer to the person beside the pointer than under it: nearer points tell better,
+/// Without a picture of depths: a slope is nearer to the person beside the pointer than under it, so nearer
+/// points tell better,
 constexpr double kNearPixels[] = { 2.0, 4.0, 8.0 };
 /// unless they are deeper than this times those pixels, and so seen through a hole.
 constexpr double kSteepest = 3.0;
@@ -62,9 +64,18 @@ PickedOfFile PointPicker::pickOfFile(int x, int y) const
 
 std::optional<Vec3> PointPicker::surfaceAt(int x, int y) const
 {
+  vtkRenderer* renderer = screen_.renderer();
+  Vec3 shown;
+  if (!renderer || !scenes_.cloud() || scenes_.isChanged())
+  {
+    return std::nullopt;
+  }
+  if (vtkDepthShadingPass::FindShown(renderer, x, y, kSurfacePixels, &shown.x))
+  {
+    return screen_.toWorkspace(x, y, screen_.toDisplay(shown).z);
+  }
   PickedPoint picked;
-  if (!screen_.renderer() || !scenes_.cloud() || scenes_.isChanged() ||
-    !pickPoint(scenes_.cloud(), screen_.renderer(), x, y, kSurfacePixels, picked))
+  if (!pickPoint(scenes_.cloud(), renderer, x, y, kSurfacePixels, picked))
   {
     return std::nullopt;
   }
@@ -74,7 +85,7 @@ std::optional<Vec3> PointPicker::surfaceAt(int x, int y) const
   for (const double pixels : kNearPixels)
   {
     PickedPoint near;
-    if (pickPoint(scenes_.cloud(), screen_.renderer(), x, y, pixels, near) &&
+    if (pickPoint(scenes_.cloud(), renderer, x, y, pixels, near) &&
       norm(near.inWorkspace - picked.inWorkspace) < reach)
     {
       return asDeepAs(near, 0.0);

@@ -44,8 +44,8 @@ public:
   /// Removes the marks, as voxel and bandwidth belong to one resampling. True: something was shown.
   bool forget();
 
-  /// Finds the place at a display position that is as deep as the nearest mean about it; workspace. Marks and
-  /// shows nothing.
+  /// Finds the place at a display position that is as deep as what the picture shows there or beside it, or
+  /// as the nearest mean where there is no picture; workspace. Marks and shows nothing.
   std::optional<Vec3> surfaceAt(int x, int y) const;
 
 private:

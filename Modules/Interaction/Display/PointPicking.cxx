@@ -6,12 +6,14 @@
 #include "PolyDataAccess.h"
 #include "ScreenMarks.h"
 #include "SmpExecutor.h"
+#include "vtkDepthShadingPass.h"
 #include "vtkSplatMapper.h"
 
 #include "Core/Base/AffineTransform.h"
 #include "Core/Neighbors/NeighborQuery.h"
 
 #include "vtkActor.h"
+#include "vtkCamera.h"
 #include "vtkDataArray.h"
 #include "vtkFieldData.h"
 #include "vtkMatrix4x4.h"
@@ -219,37 +221,32 @@ std::function<bool(vtkIdType, const Vec3&)> drawnBy(vtkActor* actor)
 bool pickPoint(vtkPolyData* cloud, vtkRenderer* renderer, double x, double y, double pixels,
   PickedPoint& picked, vtkMatrix4x4* toWorkspace, const std::function<bool(vtkIdType, const Vec3&)>& isDrawn)
 {
-  double viewport[4];
-  renderer->GetViewport(viewport);
-  const int* window = renderer->GetVTKWindow()->GetSize();
-  const int* size = renderer->GetSize();
-  const double left = viewport[0] * window[0];
-  const double bottom = viewport[1] * window[1];
-  vtkNew<vtkMatrix4x4> projection;
-  pointerProjection(renderer, x, 0.0, 1.0, projection);
+  Vec3 shown;
+  const bool isShown = vtkDepthShadingPass::FindShown(renderer, x, y, pixels, &shown.x);
+  const ScreenProjection project(renderer, x);
   const std::array<double, 2> pointer = placeInPicture(renderer, x, y);
-  if (toWorkspace)
-  {
-    vtkMatrix4x4::Multiply4x4(projection, toWorkspace, projection);
-  }
+  const double pointerX = pointer[0] - renderer->GetViewport()[0] * renderer->GetVTKWindow()->GetSize()[0];
+  const double pointerY = pointer[1] - renderer->GetViewport()[1] * renderer->GetVTKWindow()->GetSize()[1];
+  Vec3 eye;
+  Vec3 forward;
+  renderer->GetActiveCamera()->GetPosition(&eye.x);
+  renderer->GetActiveCamera()->GetDirectionOfProjection(&forward.x);
   double best = INFINITY;
   vtkIdType found = -1;
-  Vec3 p;
-  const double* m = projection->GetData();
   for (vtkIdType i = 0; i < cloud->GetNumberOfPoints(); ++i)
   {
+    Vec3 p;
     cloud->GetPoint(i, &p.x);
-    const double w = m[12] * p.x + m[13] * p.y + m[14] * p.z + m[15];
-    const double depth = (m[8] * p.x + m[9] * p.y + m[10] * p.z + m[11]) / w;
-    if (!(w > 0.0) || !(depth < best))
+    const Vec3 at = toWorkspace ? transformed(toWorkspace, p) : p;
+    const double away = isShown ? norm2(at - shown) : dot(at - eye, forward);
+    if (!(away < best) || (isDrawn && !isDrawn(i, p)))
     {
       continue;
     }
-    const double column = left + 0.5 * size[0] * (1.0 + (m[0] * p.x + m[1] * p.y + m[2] * p.z + m[3]) / w);
-    const double row = bottom + 0.5 * size[1] * (1.0 + (m[4] * p.x + m[5] * p.y + m[6] * p.z + m[7]) / w);
-    if (std::hypot(column - pointer[0], row - pointer[1]) <= pixels && (!isDrawn || isDrawn(i, p)))
+    const Pixel pixel = isShown ? Pixel() : project(at);
+    if (isShown || (pixel.seen && std::hypot(pixel.x - pointerX, pixel.y - pointerY) <= pixels))
     {
-      best = depth;
+      best = away;
       found = i;
     }
   }

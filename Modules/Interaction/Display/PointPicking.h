@@ -44,9 +44,10 @@ struct PickedOfFile
   std::set<std::string> leftOut; ///< Arrays that were made for the picture.
 };
 
-/// Picks, among the points of @p cloud (in the workspace's frame: the output of vtkVoxelMeanResampler) that
-/// are drawn within @p pixels of the display position (@p x, @p y) of @p renderer's window, the one nearest
-/// to the camera. False: there is none. Cost: a few ns a point. GUI thread only.
+/// Picks the point of @p cloud (in the workspace's frame: the output of vtkVoxelMeanResampler) that is drawn
+/// at the display position (@p x, @p y) of @p renderer's window, or within @p pixels of it: the one nearest
+/// to what the picture shows there, see vtkDepthShadingPass::FindShown(); without such a picture the one
+/// nearest to the camera. False: there is none. Cost: a few ns a point. GUI thread only.
 /// @param toWorkspace of a cloud in another frame, as that of its file; null: it is in the workspace.
 /// @param isDrawn of points, by index and place in the frame of @p cloud; empty: all are.
 POINTHAPTICSINTERACTION_EXPORT bool pickPoint(vtkPolyData* cloud, vtkRenderer* renderer, double x, double y,

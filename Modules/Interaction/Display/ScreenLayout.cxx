@@ -1,11 +1,10 @@
 #include "ScreenLayout.h"
 
+#include "ScreenMarks.h"
 #include "vtkHapticOverlay.h"
 #include "vtkHapticProgress.h"
 #include "vtkHapticSliders.h"
 
-#include "vtkCallbackCommand.h"
-#include "vtkCommand.h"
 #include "vtkRenderWindow.h"
 #include "vtkRenderer.h"
 
@@ -24,11 +23,13 @@ constexpr double kLargestFont = 15.0;
 constexpr double kSmallestFont = 8.0;
 constexpr double kMargin = 8.0;
 constexpr double kGap = 8.0;
-constexpr double kPointsPerInch = 72.0;
 /// Begin and end of the column at the right if nothing is in its way, over the renderer's height.
 constexpr double kColumnBottom = 0.28;
 constexpr double kColumnTop = 0.78;
 constexpr int kAllLines = 1000;
+/// Part of the height that a text may take in a window too small for all.
+constexpr double kTextPart = 0.3;
+constexpr double kMostOfTexts = 0.4; ///< Part that the texts at the left may take before their font shrinks.
 /// Part of the width that the status may take beside the panel.
 constexpr double kStatusPart = 0.62;
 /// Priority after every other observer of the render, which may change the blocks.
@@ -53,17 +54,11 @@ struct ScreenLayout::Room
 };
 
 ScreenLayout::ScreenLayout()
-  : before_(vtkSmartPointer<vtkCallbackCommand>::New())
+  : before_([this] { this->arrange(renderer_); })
 {
-  before_->SetClientData(this);
-  before_->SetCallback([](vtkObject* caller, unsigned long, void* self, void*)
-    { static_cast<ScreenLayout*>(self)->arrange(vtkRenderer::SafeDownCast(caller)); });
 }
 
-ScreenLayout::~ScreenLayout()
-{
-  this->follow(nullptr);
-}
+ScreenLayout::~ScreenLayout() = default;
 
 void ScreenLayout::setOverlay(vtkHapticOverlay* overlay)
 {
@@ -82,16 +77,9 @@ void ScreenLayout::setProgress(vtkHapticProgress* progress)
 
 void ScreenLayout::follow(vtkRenderer* renderer)
 {
-  if (renderer_)
-  {
-    renderer_->RemoveObserver(before_);
-  }
   renderer_ = renderer;
   arranged_.clear();
-  if (renderer)
-  {
-    renderer->AddObserver(vtkCommand::StartEvent, before_, kLast);
-  }
+  before_.follow(renderer, vtkCommand::StartEvent, kLast);
 }
 
 std::vector<std::array<double, 4>> ScreenLayout::boxes() const
@@ -189,7 +177,7 @@ bool ScreenLayout::tryFont(vtkRenderer* renderer, double font, bool isLast)
   Room room;
   room.renderer = renderer;
   room.font = font;
-  room.pixels = renderer->GetRenderWindow()->GetDPI() / kPointsPerInch;
+  room.pixels = pixelsPerPoint(renderer);
   const double margin = kMargin * room.pixels;
   room.free = { margin, margin, renderer->GetSize()[0] - margin, renderer->GetSize()[1] - margin };
   room.leftTop = room.rightTop = room.free.top;
@@ -208,7 +196,7 @@ void ScreenLayout::placeTop(Room& room, bool isLast)
   const double width = room.free.width();
   const bool hasPanel = overlay_ && overlay_->IsBlockShown(Overlay::PanelBlock);
   const int lines =
-    isLast ? std::max(1, int(0.5 * room.free.height() / (1.4 * room.font * room.pixels))) : kAllLines;
+    isLast ? std::max(1, int(kTextPart * room.free.height() / (1.4 * room.font * room.pixels))) : kAllLines;
   double status[2] = { 0.0, 0.0 };
   if (overlay_ && overlay_->IsBlockShown(Overlay::StatusBlock))
   {
@@ -238,8 +226,9 @@ void ScreenLayout::placeTop(Room& room, bool isLast)
     room.rightTop = box.bottom - room.gap();
     room.leftTop = isBeside ? room.leftTop : room.rightTop;
   }
-  // The column must not run into a status that is as wide as the window.
-  room.fits = room.fits && std::min(room.leftTop, room.rightTop) > 0.4 * room.free.height();
+  // The picture comes first, and the column must not run into a status that is as wide as the window.
+  room.fits = room.fits && room.free.top - room.leftTop < kMostOfTexts * room.free.height() &&
+    std::min(room.leftTop, room.rightTop) > 0.4 * room.free.height();
 }
 
 /// Places the sliders at the right edge and the scalar bar beside them.

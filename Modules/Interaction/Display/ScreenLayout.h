@@ -2,6 +2,8 @@
 /// Places the words and controls over the picture, so that none lies over another.
 #pragma once
 
+#include "EventLink.h"
+
 #include "PointHapticsInteractionModule.h" // For export macro
 
 #include "vtkSmartPointer.h"
@@ -12,7 +14,6 @@
 #include <string>
 #include <vector>
 
-class vtkCallbackCommand;
 class vtkHapticOverlay;
 class vtkHapticProgress;
 class vtkHapticSliders;
@@ -109,7 +110,7 @@ private:
   ScreenBlock bar_;
   std::function<double()> corner_;
   std::function<bool()> opaque_;
-  vtkSmartPointer<vtkCallbackCommand> before_;
+  EventLink before_;
   vtkWeakPointer<vtkRenderer> renderer_;
   std::vector<double> arranged_; ///< Values on which the places depend, at the last arrangement.
   std::string arrangedTexts_;

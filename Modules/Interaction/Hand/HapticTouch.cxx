@@ -1,9 +1,12 @@
 #include "HapticTouch.h"
 
+#include "CloudAppearance.h"
+#include "CloudColors.h"
 #include "vtkSplatMapper.h"
 
 #include "vtkActor.h"
 #include "vtkPolyData.h"
+#include "vtkProperty.h"
 #include "vtkRenderWindow.h"
 #include "vtkRenderWindowInteractor.h"
 #include "vtkRenderer.h"
@@ -70,6 +73,9 @@ void HapticTouch::showMeans()
   mapper->SetInputData(style_->GetScenes().cloud());
   vtkNew<vtkActor> actor;
   actor->SetMapper(mapper);
+  applyCloudAppearance(style_->GetScenes().cloud(), mapper, actor);
+  actor->GetProperty()->SetColor(kClayColor[0], kClayColor[1], kClayColor[2]);
+  applyDepthShading(renderer); // means have no normals: depths show their shape
   renderer->AddActor(actor);
   style_->SetCloudActor(actor);
 }

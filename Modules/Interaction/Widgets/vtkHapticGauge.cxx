@@ -1,11 +1,10 @@
 #include "vtkHapticGauge.h"
 
+#include "EventLink.h"
 #include "ScreenMarks.h"
 
 #include "vtkActor2D.h"
-#include "vtkCallbackCommand.h"
 #include "vtkCellArray.h"
-#include "vtkCommand.h"
 #include "vtkCoordinate.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
@@ -39,7 +38,6 @@ constexpr double kBarGround = 0.75;
 constexpr double kNumberGround = 0.6;
 /// Step of the search for a free place, points.
 constexpr double kStep = 12.0;
-constexpr double kPointsPerInch = 72.0;
 /// After ScreenLayout, which says what is taken.
 constexpr float kLast = -2.0F;
 
@@ -108,6 +106,10 @@ struct Bar
 
 struct vtkHapticGauge::Internals
 {
+  explicit Internals(vtkHapticGauge* self)
+    : onStart([self] { self->Arrange(); })
+  {
+  }
   Bar ground;
   Bar fill;
   Bar frame;
@@ -122,7 +124,7 @@ struct vtkHapticGauge::Internals
   std::function<std::vector<std::array<double, 4>>()> taken;
   pointhaptics::Vec3 lineBegin; // kept off; equal: there is none
   pointhaptics::Vec3 lineEnd;
-  vtkNew<vtkCallbackCommand> onStart;
+  pointhaptics::EventLink onStart;
   vtkWeakPointer<vtkRenderer> renderer;
   std::array<double, 4> box{};
 
@@ -158,7 +160,7 @@ std::array<double, 4> vtkHapticGauge::Internals::boxAt(
 vtkStandardNewMacro(vtkHapticGauge);
 
 vtkHapticGauge::vtkHapticGauge()
-  : Parts(new Internals)
+  : Parts(new Internals(this))
 {
   Internals& parts = *this->Parts;
   parts.ground.setUp(true, 1.0, 1.0, 1.0, kBarGround);
@@ -175,19 +177,10 @@ vtkHapticGauge::vtkHapticGauge()
   parts.number->GetPositionCoordinate()->SetCoordinateSystemToViewport();
   parts.number->GetPositionCoordinate()->SetReferenceCoordinate(parts.anchor);
   parts.number->VisibilityOff();
-  parts.onStart->SetClientData(this);
-  parts.onStart->SetCallback(
-    [](vtkObject*, unsigned long, void* self, void*) { static_cast<vtkHapticGauge*>(self)->Arrange(); });
   parts.place();
 }
 
-vtkHapticGauge::~vtkHapticGauge()
-{
-  if (this->Parts->renderer)
-  {
-    this->Parts->renderer->RemoveObserver(this->Parts->onStart);
-  }
-}
+vtkHapticGauge::~vtkHapticGauge() = default;
 
 void vtkHapticGauge::SetOpaque(bool opaque)
 {
@@ -220,7 +213,7 @@ void vtkHapticGauge::Arrange()
   {
     return;
   }
-  parts.pixels = renderer->GetRenderWindow()->GetDPI() / kPointsPerInch;
+  parts.pixels = pointhaptics::pixelsPerPoint(renderer);
   const double* point = parts.anchor->GetValue();
   const pointhaptics::ScreenProjection project(renderer);
   const pointhaptics::Pixel anchor = project({ point[0], point[1], point[2] });
@@ -317,7 +310,7 @@ void vtkHapticGauge::AddTo(vtkRenderer* renderer)
   }
   renderer->AddActor2D(this->Parts->number);
   this->Parts->renderer = renderer;
-  renderer->AddObserver(vtkCommand::StartEvent, this->Parts->onStart, kLast);
+  this->Parts->onStart.follow(renderer, vtkCommand::StartEvent, kLast);
 }
 
 void vtkHapticGauge::RemoveFrom(vtkRenderer* renderer)
@@ -327,7 +320,7 @@ void vtkHapticGauge::RemoveFrom(vtkRenderer* renderer)
     renderer->RemoveActor2D(bar->actor);
   }
   renderer->RemoveActor2D(this->Parts->number);
-  renderer->RemoveObserver(this->Parts->onStart);
+  this->Parts->onStart.follow(nullptr);
   this->Parts->renderer = nullptr;
 }
 

@@ -1,7 +1,5 @@
 #include "vtkHapticOverlay.h"
 
-#include "vtkCallbackCommand.h"
-#include "vtkCommand.h"
 #include "vtkCoordinate.h"
 #include "vtkObjectFactory.h"
 #include "vtkRenderer.h"
@@ -218,18 +216,9 @@ vtkHapticOverlay::vtkHapticOverlay()
   this->Help->GetPositionCoordinate()->SetCoordinateSystemToNormalizedViewport();
   this->Help->SetPosition(0.5, 0.5);
   this->Help->VisibilityOff();
-  this->Fitting->SetClientData(this);
-  this->Fitting->SetCallback(
-    [](vtkObject*, unsigned long, void* self, void*) { static_cast<vtkHapticOverlay*>(self)->FitHelp(); });
 }
 
-vtkHapticOverlay::~vtkHapticOverlay()
-{
-  if (this->Renderer)
-  {
-    this->Renderer->RemoveObserver(this->Fitting);
-  }
-}
+vtkHapticOverlay::~vtkHapticOverlay() = default;
 
 /// Before every render: the largest font with which all lines are seen, in one column or two, else a page of
 /// them.
@@ -475,7 +464,7 @@ void vtkHapticOverlay::AddTo(vtkRenderer* renderer)
 {
   this->Renderer = renderer;
   this->FittedTo[0] = 0;
-  renderer->AddObserver(vtkCommand::StartEvent, this->Fitting);
+  this->Fitting.follow(renderer);
   renderer->AddActor2D(this->Status);
   renderer->AddActor2D(this->Panel);
   renderer->AddActor2D(this->Detail);
@@ -484,7 +473,7 @@ void vtkHapticOverlay::AddTo(vtkRenderer* renderer)
 
 void vtkHapticOverlay::RemoveFrom(vtkRenderer* renderer)
 {
-  renderer->RemoveObserver(this->Fitting);
+  this->Fitting.follow(nullptr);
   renderer->RemoveActor2D(this->Status);
   renderer->RemoveActor2D(this->Panel);
   renderer->RemoveActor2D(this->Detail);

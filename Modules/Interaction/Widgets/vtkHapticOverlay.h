@@ -10,6 +10,7 @@
 #ifndef vtkHapticOverlay_h
 #define vtkHapticOverlay_h
 
+#include "EventLink.h"                     // For the fit before a render
 #include "PointHapticsInteractionModule.h" // For export macro
 #include "vtkNew.h"                        // For the actors
 #include "vtkObject.h"
@@ -18,7 +19,6 @@
 #include <string> // For the texts
 #include <vector> // For lines
 
-class vtkCallbackCommand;
 class vtkRenderer;
 class vtkTextActor;
 
@@ -143,7 +143,7 @@ protected:
   vtkTextActor* ActorOf(int block) const;
   const std::string& TextOf(int block) const;
 
-  vtkNew<vtkCallbackCommand> Fitting;
+  pointhaptics::EventLink Fitting{ [this] { this->FitHelp(); } };
   vtkWeakPointer<vtkRenderer> Renderer;
   int FittedTo[3] = { 0, 0, 0 }; ///< Width, height, dots per inch.
 

@@ -7,9 +7,7 @@
 
 #include "vtkActor.h"
 #include "vtkActorCollection.h"
-#include "vtkCallbackCommand.h"
 #include "vtkCamera.h"
-#include "vtkCommand.h"
 #include "vtkIdList.h"
 #include "vtkMatrix4x4.h"
 #include "vtkPointData.h"
@@ -52,18 +50,11 @@ LevelOfDetail::LevelOfDetail(vtkRenderer* renderer, vtkActor* actor)
   : renderer_(renderer)
   , actor_(actor)
 {
-  onEnd_->SetClientData(this);
-  onEnd_->SetCallback(
-    [](vtkObject*, unsigned long, void* self, void*) { static_cast<LevelOfDetail*>(self)->endFrame(); });
 }
 
 LevelOfDetail::~LevelOfDetail()
 {
   this->dropLevels();
-  if (window_)
-  {
-    window_->RemoveObserver(onEnd_);
-  }
 }
 
 void LevelOfDetail::setEnabled(bool enabled)
@@ -103,15 +94,8 @@ void LevelOfDetail::watchWindow()
   vtkRenderWindow* window = renderer_->GetRenderWindow();
   if (window != window_)
   {
-    if (window_)
-    {
-      window_->RemoveObserver(onEnd_);
-    }
     window_ = window;
-    if (window)
-    {
-      window->AddObserver(vtkCommand::EndEvent, onEnd_);
-    }
+    onEnd_.follow(window, vtkCommand::EndEvent);
   }
 }
 

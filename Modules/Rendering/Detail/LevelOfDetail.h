@@ -2,6 +2,7 @@
 /// Draws fewer points while the picture moves, so that it keeps moving, and all of them when it rests.
 #pragma once
 
+#include "EventLink.h"
 #include "FrameBudget.h"
 #include "SplatBricks.h"
 
@@ -18,7 +19,6 @@
 #include <vector>
 
 class vtkActor;
-class vtkCallbackCommand;
 class vtkPolyData;
 class vtkProperty;
 class vtkRenderWindow;
@@ -124,7 +124,7 @@ private:
   vtkWeakPointer<vtkRenderer> renderer_;
   vtkSmartPointer<vtkActor> actor_;
   vtkNew<vtkProperty> coarse_;
-  vtkNew<vtkCallbackCommand> onEnd_;
+  EventLink onEnd_{ [this] { this->endFrame(); } };
   vtkWeakPointer<vtkRenderWindow> window_;
   std::shared_ptr<const std::vector<std::uint32_t>> givenOrder_;
   std::shared_ptr<const std::vector<std::uint32_t>> order_;

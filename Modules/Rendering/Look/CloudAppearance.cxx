@@ -2,19 +2,17 @@
 
 #include "AsprsClasses.h"
 
-#include "Core/Base/Boxes.h"
-
 #include "vtkActor.h"
 #include "vtkCameraPass.h"
 #include "vtkDataArray.h"
 #include "vtkDepthShadingPass.h"
-#include "vtkFloatArray.h"
 #include "vtkLightsPass.h"
 #include "vtkLookupTable.h"
 #include "vtkNew.h"
 #include "vtkOpaquePass.h"
 #include "vtkOverlayPass.h"
 #include "vtkPointData.h"
+#include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkPolyDataMapper.h"
 #include "vtkProperty.h"
@@ -163,30 +161,19 @@ void colorByArray(vtkPolyDataMapper* mapper, vtkDataArray* array, int component)
 
 } // namespace
 
-double addHeightArray(vtkPolyData* cloud, const Vec3& up, const Bounds& box)
+void addHeightArray(vtkPolyData* cloud, const Vec3& up)
 {
-  const vtkIdType count = cloud->GetNumberOfPoints();
-  std::vector<double> heights(static_cast<std::size_t>(count));
-  double lowest = INFINITY;
+  const auto heights =
+    vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(cloud->GetPoints()->GetDataType()));
+  heights->SetName(kHeightArrayName);
+  heights->SetNumberOfTuples(cloud->GetNumberOfPoints());
   Vec3 p;
-  for (vtkIdType i = 0; i < count; ++i)
+  for (vtkIdType i = 0; i < cloud->GetNumberOfPoints(); ++i)
   {
     cloud->GetPoint(i, &p.x);
-    const double height = isFinite(p) ? dot(p, up) : NAN;
-    heights[static_cast<std::size_t>(i)] = height;
-    const bool counts = !std::isnan(height) && (box.empty() || contains(box, p));
-    lowest = std::min(lowest, counts ? height : INFINITY);
+    heights->SetComponent(i, 0, isFinite(p) ? dot(p, up) : NAN);
   }
-  vtkNew<vtkFloatArray> array;
-  array->SetName(kHeightArrayName);
-  array->SetNumberOfTuples(count);
-  for (vtkIdType i = 0; i < count; ++i)
-  {
-    const double height = heights[static_cast<std::size_t>(i)];
-    array->SetValue(i, std::isnan(height) ? 0.0f : static_cast<float>(height - lowest));
-  }
-  cloud->GetPointData()->AddArray(array);
-  return lowest;
+  cloud->GetPointData()->AddArray(heights);
 }
 
 std::optional<ColorSource> findColorSource(vtkPolyData* cloud, const std::string& colorBy)

@@ -29,12 +29,9 @@ namespace pointhaptics
 /// Name of the array addHeightArray() makes.
 constexpr const char* kHeightArrayName = "Height";
 
-/// Adds the float array "Height": the position along @p up, metres above the lowest finite point, of those in
-/// @p box where it is not empty (0 for points that are not finite). Taken before the cloud is transformed, so
-/// the colours turn with the model.
-/// @return that lowest position along @p up; infinite where no point is finite.
-POINTHAPTICSRENDERING_EXPORT double addHeightArray(
-  vtkPolyData* cloud, const Vec3& up, const Bounds& box = {});
+/// Adds the array "Height", of the type of the coordinates: the coordinate along @p up, NaN for points that
+/// are not finite. Taken before the cloud is transformed, so the colours turn with the model.
+POINTHAPTICSRENDERING_EXPORT void addHeightArray(vtkPolyData* cloud, const Vec3& up);
 
 /// True where the active scalars are colours: unsigned char with 3 or 4 components.
 POINTHAPTICSRENDERING_EXPORT bool hasColors(vtkPolyData* cloud);

@@ -197,7 +197,7 @@ CloudColors chooseColors(
   if (hasColors(cloud) && rgbIsUseful(cloud->GetPointData()->GetScalars(), lightStrength))
   {
     colors.rule = ColorRule::Rgb;
-    colors.lightStrength = isFrame ? 0.0 : lightStrength;
+    colors.lightStrength = look.hasOwnLight ? 0.0 : lightStrength;
     return colors;
   }
   vtkDataArray* intensity = findArrayAnyCase(cloud, "intensity");

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
+#include <unordered_map>
 
 namespace pointhaptics
 {
@@ -183,6 +184,64 @@ void lookAtTerrain(CloudLook& look, const PointView& cloud, const LocalShape& sh
   }
 }
 
+/// Box about the points of a sample that are no floaters: those that lie on a surface, or have company in a
+/// lattice of some spacings. Empty: none is a floater, or more are than floaters can be.
+Bounds coreOf(const PointView& cloud, const LocalShape& shape)
+{
+  constexpr double kSpacings = 2.0; // so a surface has 4 points in a cell
+  constexpr int kFewest = 5;        // in 27 cells; a surface has 36 there, a line 6
+  constexpr float kOnSurface = 0.3F;
+  constexpr double kMostFloaters = 0.1;
+  constexpr double kCells = 1 << 20; // along an axis
+  const std::int64_t step = 1 + cloud.size() / kSample;
+  const double edge = kSpacings * shape.medianSpacing * std::sqrt(double(step));
+  Bounds all;
+  for (std::int64_t i = 0; i < cloud.size(); i += step)
+  {
+    all.include(cloud[i]);
+  }
+  const Vec3 size = all.extent();
+  if (!(edge > 0.0) || !(std::max({ size.x, size.y, size.z }) < kCells * edge))
+  {
+    return {};
+  }
+  const auto cellOf = [&](const Vec3& p)
+  {
+    std::int64_t cell = 0;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      cell = (cell << 21) + 1 + std::int64_t((p[axis] - all.minimum[axis]) / edge);
+    }
+    return cell;
+  };
+  std::unordered_map<std::int64_t, int> counts;
+  for (std::int64_t i = 0; i < cloud.size(); i += step)
+  {
+    ++counts[cellOf(cloud[i])];
+  }
+  const auto hasCompany = [&](const Vec3& p)
+  {
+    int count = 0;
+    for (int i = 0; i < 27 && count < kFewest; ++i)
+    {
+      const std::int64_t beside =
+        (std::int64_t(i / 9 - 1) << 42) + (std::int64_t(i / 3 % 3 - 1) << 21) + i % 3 - 1;
+      const auto found = counts.find(cellOf(p) + beside);
+      count += found == counts.end() ? 0 : found->second;
+    }
+    return count >= kFewest;
+  };
+  Bounds core;
+  double floaters = 0.0;
+  double looked = 0.0;
+  for (std::int64_t i = 0; i < cloud.size(); i += step, looked += 1.0)
+  {
+    const bool isCore = shape.points[std::size_t(i)].flatness > kOnSurface || hasCompany(cloud[i]);
+    isCore ? core.include(cloud[i]) : void(floaters += 1.0);
+  }
+  return floaters == 0.0 || floaters > kMostFloaters * looked ? Bounds() : grown(core, 0.5 * edge);
+}
+
 /// The axes of a view.
 struct View
 {
@@ -231,10 +290,9 @@ struct Extremes
 constexpr double kViewAngle = 30.0;
 constexpr double kFilledPart = 0.92;
 constexpr double kStrayFactor = 1.5;
-constexpr std::ptrdiff_t kMostStrays = 1000; ///< One point in so many may be a stray.
 
-/// Finds the part of a sample without strays on any axis of the view: from, to on each.
-void coreOf(std::vector<Vec3>& sample, double share, Vec3& from, Vec3& to)
+/// Finds the part of a sample without its outskirts on any axis of the view: from, to on each.
+void middleOf(std::vector<Vec3>& sample, double share, Vec3& from, Vec3& to)
 {
   std::vector<double> values(sample.size());
   for (int axis = 0; axis < 3; ++axis)
@@ -245,45 +303,9 @@ void coreOf(std::vector<Vec3>& sample, double share, Vec3& from, Vec3& to)
   }
 }
 
-/// Moves @p end outward over the values from @p first on, until a gap divides one from it.
-template <typename Iterator>
-void growOver(Iterator first, Iterator last, double& extent, double& end)
-{
-  for (; first != last && std::abs(*first - end) <= (kStrayFactor - 1.0) * extent; ++first)
-  {
-    extent += std::abs(*first - end);
-    end = *first;
-  }
-}
-
-/// Grows the box of a dense object over its surroundings, which may be few of the points but go on from it.
-void growCore(const std::vector<Vec3>& sample, Vec3& from, Vec3& to)
-{
-  const Vec3 size = to - from;
-  const double longest = std::max({ size.x, size.y, size.z });
-  std::vector<double> values(sample.size());
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    std::transform(sample.begin(), sample.end(), values.begin(), [axis](const Vec3& p) { return p[axis]; });
-    std::sort(values.begin(), values.end());
-    double extent = longest;
-    growOver(std::upper_bound(values.begin(), values.end(), to[axis]), values.end(), extent, to[axis]);
-    growOver(std::make_reverse_iterator(std::lower_bound(values.begin(), values.end(), from[axis])),
-      values.rend(), extent, from[axis]);
-  }
-}
-
 bool isBetween(const Vec3& p, const Vec3& from, const Vec3& to)
 {
   return p.x >= from.x && p.x <= to.x && p.y >= from.y && p.y <= to.y && p.z >= from.z && p.z <= to.z;
-}
-
-/// Whether more of the points are outside the box than a few strays.
-bool hasManyOutside(const std::vector<Vec3>& sample, const Vec3& from, const Vec3& to)
-{
-  const auto outside =
-    std::count_if(sample.begin(), sample.end(), [&](const Vec3& p) { return !isBetween(p, from, to); });
-  return outside * kMostStrays > std::max<std::ptrdiff_t>(std::ptrdiff_t(sample.size()), kMostStrays);
 }
 
 /// Extremes of the points of @p sample in the box; none for many equal points, which give nothing to fit.
@@ -409,11 +431,14 @@ CloudLook cloudLook(
   look.front = orientation.front;
   look.noiseLength = 2.0 * shape.noise * shape.medianSpacing;
   look.meanFlatness = shape.meanFlatness;
+  look.hasOwnLight = kind == CloudKind::Frame;
   switch (kind)
   {
     case CloudKind::Object:
+      look.core = coreOf(cloud, shape);
       break;
     case CloudKind::Terrain:
+      look.core = coreOf(cloud, shape);
       lookAtTerrain(look, cloud, shape);
       break;
     case CloudKind::Sweep:
@@ -424,7 +449,7 @@ CloudLook cloudLook(
       look.hidesBackFaces = kind == CloudKind::Indoors;
       look.largestPixels = kind == CloudKind::Sweep ? 8.0 : 16.0;
       look.strayShare = kind == CloudKind::Sweep ? 0.06 : 0.03;
-      look.cutsSparse = true; // rays get ever fewer, and most of what is looked at is near
+      look.cutsSparse = true;
       break;
     case CloudKind::Frame:
       look.azimuth = look.elevation = 0.0;
@@ -467,6 +492,7 @@ CameraFit fitCamera(const PointView& cloud, const CloudLook& look, const AffineT
   const double ty = parallel ? 0.0 : tangent; // rays that do not diverge
   const double tx = ty * aspect;
   Extremes extremes;
+  Extremes ofCore;
   std::vector<Vec3> sample;
   const std::int64_t step = 1 + cloud.size() / kSample;
   for (std::int64_t i = 0; i < cloud.size(); ++i)
@@ -474,6 +500,10 @@ CameraFit fitCamera(const PointView& cloud, const CloudLook& look, const AffineT
     const Vec3 q = toWorld.apply(cloud[i]);
     const Vec3 p{ dot(q, view.right), dot(q, view.up), dot(q, view.back) };
     extremes.include(p, tx, ty);
+    if (contains(look.core, cloud[i]))
+    {
+      ofCore.include(p, tx, ty);
+    }
     if (i % step == 0)
     {
       sample.push_back(p);
@@ -489,23 +519,14 @@ CameraFit fitCamera(const PointView& cloud, const CloudLook& look, const AffineT
   }
   Vec3 from;
   Vec3 to;
-  coreOf(sample, look.strayShare, from, to);
+  middleOf(sample, look.strayShare, from, to);
   // The camera turns about the focal point.
   const double depth = 0.5 * (from.z + to.z);
   const auto distanceOf = [&](const Extremes& each)
   { return parallel ? depth + each.distance(tangent * aspect, tangent) : each.distance(tx, ty); };
-  const auto makesSmall = [&](const Extremes& core)
-  {
-    return std::isfinite(core.most[0]) &&
-      distanceOf(extremes) - depth >= kStrayFactor * (distanceOf(core) - depth);
-  };
-  Extremes core = extremesBetween(sample, from, to, tx, ty);
-  if (makesSmall(core) && !look.cutsSparse)
-  {
-    growCore(sample, from, to);
-    core = hasManyOutside(sample, from, to) ? extremes : extremesBetween(sample, from, to, tx, ty);
-  }
-  extremes = makesSmall(core) ? core : extremes;
+  const Extremes middle = look.cutsSparse ? extremesBetween(sample, from, to, tx, ty) : ofCore;
+  const bool isSmall = distanceOf(extremes) - depth >= kStrayFactor * (distanceOf(middle) - depth);
+  extremes = std::isfinite(middle.most[0]) && (isSmall || !look.cutsSparse) ? middle : extremes;
   const double distance = std::max(distanceOf(extremes), depth + 1e-6 * (1.0 + std::abs(depth)));
   const double x = 0.5 * (extremes.most[0] - extremes.most[1]);
   const double y = 0.5 * (extremes.most[2] - extremes.most[3]);

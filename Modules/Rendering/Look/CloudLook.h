@@ -36,17 +36,20 @@ struct CloudLook
 {
   CloudKind kind = CloudKind::Object;
   Vec3 up{ 0.0, 0.0, 1.0 };
-  Vec3 front{ 0.0, -1.0, 0.0 };  ///< From the cloud towards the viewer, before it is turned.
-  double azimuth = 25.0;         ///< Degrees the viewer stands to the right of the front,
-  double elevation = 12.0;       ///< and above.
-  double tilt = 0.0;             ///< Ratio of the horizontal variances of a strip; 0: the elevation holds.
-  double strayShare = 0.03;      ///< Part at each end of an axis that may be strays,
-  bool cutsSparse = false;       ///< also where they go on from the others or are more than a few.
+  Vec3 front{ 0.0, -1.0, 0.0 }; ///< From the cloud towards the viewer, before it is turned.
+  double azimuth = 25.0;        ///< Degrees the viewer stands to the right of the front,
+  double elevation = 12.0;      ///< and above.
+  double tilt = 0.0;            ///< Ratio of the horizontal variances of a strip; 0: the elevation holds.
+  /// Box about the mass of the cloud, without floaters; empty: all points are of it.
+  Bounds core;
+  double strayShare = 0.03; ///< Part at each end of an axis that is left out where the cloud would be small,
+  bool cutsSparse = false;  ///< as rays get ever fewer, and most of what is looked at is near.
   double largestPixels = 16.0;   ///< Largest size of a surface's splats, pixels in a window of 800 lines.
   double noiseLength = 0.0;      ///< Depths that differ by less are one surface,
   double noisePerDistance = 0.0; ///< the same over the distance from the camera.
   bool closesAll = false;        ///< A surface, flat everywhere or not: no splat is kept small on the screen.
   bool hidesBackFaces = false;
+  bool hasOwnLight = false; ///< Its colours are those a camera saw: no light is added to them.
   double meanFlatness = 0.0;
 };
 
@@ -77,8 +80,8 @@ struct CameraFit
 };
 
 /// The camera that sees the points of @p cloud after @p toWorld, all of them finite, from where @p look says,
-/// turned to the right by @p turn degrees more. The cloud takes 92 % of the width or the height of the
-/// window, exactly, unless strays would make it much smaller.
+/// turned to the right by @p turn degrees more. Its core takes 92 % of the width or the height of the window,
+/// exactly; a sweep is cut where its thin outskirts would make it much smaller.
 /// @param aspect width of the window over its height, above 0.
 /// @param parallel for a parallel projection, in which the distance tells the scale: half the height of the
 /// picture is the distance from position to focal point times the tangent of half the view angle.

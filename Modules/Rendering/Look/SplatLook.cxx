@@ -37,19 +37,69 @@ constexpr double kSmallestShownPixels = 2.0;
 constexpr double kFarthestRatio = 1e6;
 /// An object is a surface from this mean flatness on.
 constexpr double kSurfaceFlatness = 0.63;
-/// Gaps up to this many median spacings are closed where a surface is not flat: single points beside it stay
-/// small.
+/// Gaps up to this many median spacings are closed where a surface is not flat.
 constexpr double kWidestGap = 3.0;
+/// Over the widest gap: a point farther from its neighbours closes nothing where nothing is flat.
+constexpr double kApart = 2.0;
 /// Height, pixels, of the window that the first picture is computed for.
 constexpr double kUsualHeight = 800.0;
 /// Clouds of more points are sampled: one point is measured in every place that the first picture can show.
 constexpr std::int64_t kAllMeasured = 3000000;
 constexpr double kFinestPixels = 0.5; ///< As LevelOfDetail has it.
 
+/// Radius of a Gaussian splat that is drawn, in standard deviations.
+constexpr double kDeviations = 1.5;
+/// Depths of discs of one bent surface differ by this part of their median diameter.
+constexpr double kStepsOfSplats = 0.15;
+
 /// Usual diameter for a spacing.
 double usualDiameter(double flatness, double spacing)
 {
   return (kPointDiameter + kFlatDiameter * flatness) * spacing;
+}
+
+/// The disc that is drawn for a Gaussian splat.
+struct OwnDisc
+{
+  double diameter = 0.0;
+  double flatness = 0.0; ///< 1: a plane; 0: its two short axes are alike.
+  Vec3 normal;
+};
+
+OwnDisc discOf(vtkDataArray* scales, vtkDataArray* turns, vtkIdType i)
+{
+  const bool isOfBytes = turns->GetDataType() == VTK_UNSIGNED_CHAR; // of a .splat, with lengths
+  Vec3 lengths;
+  double q[4]; // w, x, y, z
+  scales->GetTuple(i, &lengths.x);
+  turns->GetTuple(i, q);
+  int order[3] = { 0, 1, 2 };
+  double size = 0.0;
+  for (int k = 0; k < 4; ++k)
+  {
+    q[k] = isOfBytes ? (q[k] - 128.0) / 128.0 : q[k];
+    size += q[k] * q[k];
+  }
+  for (int axis = 0; axis < 3 && !isOfBytes; ++axis)
+  {
+    lengths[axis] = std::exp(lengths[axis]);
+  }
+  std::sort(order, order + 3, [&lengths](int a, int b) { return lengths[a] < lengths[b]; });
+  OwnDisc disc;
+  const double longest = lengths[order[2]];
+  if (!(size > 0.0) || !(longest > 0.0) || !std::isfinite(longest * size))
+  {
+    return disc;
+  }
+  disc.diameter = 2.0 * kDeviations * std::sqrt(longest * lengths[order[1]]);
+  disc.flatness = lengths[order[1]] > 0.0 ? 1.0 - lengths[order[0]] / lengths[order[1]] : 0.0;
+  // The column of the rotation's matrix.
+  const int k = order[0];
+  const Vec3 v{ q[1], q[2], q[3] };
+  Vec3 axis;
+  axis[k] = 1.0;
+  disc.normal = normalized((q[0] * q[0] - norm2(v)) * axis + 2.0 * v[k] * v + 2.0 * q[0] * cross(v, axis));
+  return disc;
 }
 
 } // namespace
@@ -84,7 +134,52 @@ bool measureCloud(const PointView& cloud, const CloudOrientation& orientation,
   return true;
 }
 
-void addSplats(vtkPolyData* points, const MeasuredCloud& measured, vtkDataArray* ownNormals)
+void takeOwnShapes(vtkPolyData* cloud, const std::vector<std::uint32_t>& drawn, MeasuredCloud& measured)
+{
+  vtkPointData* data = cloud->GetPointData();
+  vtkDataArray* normals = data->GetNormals();
+  vtkDataArray* scales = data->GetArray("scale");
+  vtkDataArray* turns = data->GetArray("rot") ? data->GetArray("rot") : data->GetArray("rotation");
+  const bool areSplats =
+    scales && turns && scales->GetNumberOfComponents() == 3 && turns->GetNumberOfComponents() == 4;
+  std::vector<PointShape>& shapes = measured.shape.points;
+  if (areSplats)
+  {
+    measured.diameters.resize(shapes.size());
+    measured.look.closesAll = measured.look.hasOwnLight = true;
+  }
+  for (std::size_t i = 0; i < shapes.size() && (areSplats || normals); ++i)
+  {
+    const auto of = vtkIdType(drawn.empty() ? i : drawn[i]);
+    Vec3 normal{ double(shapes[i].normal[0]), double(shapes[i].normal[1]), double(shapes[i].normal[2]) };
+    if (areSplats)
+    {
+      const OwnDisc disc = discOf(scales, turns, of);
+      const double most = 2.0 * double(PointShape::kLargestReach) * double(shapes[i].spacing);
+      const double least = std::max(2.0 * kOverlap * double(shapes[i].reach), // where it closes a surface
+        double(shapes[i].flatness) * usualDiameter(1.0, double(shapes[i].spacing)));
+      measured.diameters[i] = float(std::max(std::min(disc.diameter, most), least));
+      shapes[i].flatness = float(disc.flatness);
+      normal = disc.normal;
+    }
+    else
+    {
+      Vec3 own;
+      normals->GetTuple(of, &own.x);
+      normal = normalized(own, normal);
+    }
+    std::copy(&normal.x, &normal.x + 3, shapes[i].normal);
+  }
+  if (areSplats && !measured.diameters.empty())
+  {
+    std::vector<float> sorted = measured.diameters;
+    const auto median = sorted.begin() + std::ptrdiff_t(sorted.size() / 2);
+    std::nth_element(sorted.begin(), median, sorted.end());
+    measured.look.noiseLength = std::max(measured.look.noiseLength, kStepsOfSplats * double(*median));
+  }
+}
+
+void addSplats(vtkPolyData* points, const MeasuredCloud& measured)
 {
   const LocalShape& shape = measured.shape;
   const CloudLook& look = measured.look;
@@ -106,22 +201,26 @@ void addSplats(vtkPolyData* points, const MeasuredCloud& measured, vtkDataArray*
   for (vtkIdType i = 0; i < count; ++i)
   {
     const PointShape& each = shape.points[std::size_t(i)];
-    const double usual = usualDiameter(double(each.flatness), double(each.spacing));
-    const double least = isFrame ? kGridDiameter * double(each.spacing)
-      : look.closesAll           ? usualDiameter(1.0, std::min(double(each.spacing), widest))
+    const double spacing = double(each.spacing);
+    const double usual = usualDiameter(double(each.flatness), spacing);
+    // Where all is closed, what is no surface and beyond the widest gap is the smaller the farther it is
+    // apart: a floater is no wall.
+    const bool isApart = look.closesAll && !isFrame && spacing > kApart * widest;
+    const double surface = std::clamp(2.0 * double(each.flatness) - 0.6, 0.0, 1.0);
+    const double filled = isApart ? kApart * widest * widest / spacing : std::min(spacing, widest);
+    const double bounded =
+      usualDiameter(double(each.flatness), isApart ? std::max(filled, surface * spacing) : spacing);
+    const double least = isFrame ? kGridDiameter * spacing
+      : look.closesAll           ? usualDiameter(1.0, filled)
                                  : 0.0;
-    const double closed = look.closesAll ? 1.0 : double(each.flatness);
-    const double length = std::max({ usual, least, 2.0 * kOverlap * closed * double(each.reach) });
+    const double closed = isApart ? surface : look.closesAll ? 1.0 : double(each.flatness);
+    const double length = measured.diameters.empty()
+      ? std::max({ bounded, least, 2.0 * kOverlap * closed * double(each.reach) })
+      : double(measured.diameters[std::size_t(i)]);
     lengths->SetValue(i, float(length));
-    growths->SetValue(
-      i, static_cast<unsigned char>(usual > 0.0 ? kNoGrowth * length / usual + 0.5 : kNoGrowth));
-    Vec3 n{ double(each.normal[0]), double(each.normal[1]), double(each.normal[2]) };
-    if (ownNormals)
-    {
-      Vec3 own;
-      ownNormals->GetTuple(i, &own.x);
-      n = normalized(own, n);
-    }
+    const double growth = usual > 0.0 ? std::clamp(kNoGrowth * length / usual, 1.0, 255.0) : kNoGrowth;
+    growths->SetValue(i, static_cast<unsigned char>(std::lround(growth)));
+    const Vec3 n{ double(each.normal[0]), double(each.normal[1]), double(each.normal[2]) };
     Vec3 p;
     points->GetPoint(i, &p.x);
     const double side = facesSensor && dot(n, p) > 0.0 ? -1.0 : 1.0;

@@ -10,9 +10,10 @@
 #include "PointHapticsRenderingModule.h" // For export macro
 
 #include <array>
+#include <cstdint>
 #include <optional>
+#include <vector>
 
-class vtkDataArray;
 class vtkPolyData;
 class vtkSplatMapper;
 
@@ -36,6 +37,7 @@ struct MeasuredCloud
   NeighborQuery query;
   LocalShape shape;
   CloudLook look;
+  std::vector<float> diameters; ///< Of the splats, as the file says; empty: the shape tells.
 };
 
 /// Measures @p cloud, of which all points are finite. Of more than three million points those within half a
@@ -44,10 +46,15 @@ struct MeasuredCloud
 POINTHAPTICSRENDERING_EXPORT bool measureCloud(const PointView& cloud, const CloudOrientation& orientation,
   const std::optional<CloudKind>& kind, MeasuredCloud& measured, ProgressObserver* observer = nullptr);
 
+/// Takes what @p cloud says of its points in place of what was measured: its normals, and of Gaussian splats,
+/// which have the arrays "scale" and "rot" (as trainers write them) or "rotation" (.splat), sizes and tilts.
+/// Splats close what is a surface, and are no larger than the widest reach of PointShape.
+/// @param drawn indices of the measured points in @p cloud; empty: all were measured.
+POINTHAPTICSRENDERING_EXPORT void takeOwnShapes(
+  vtkPolyData* cloud, const std::vector<std::uint32_t>& drawn, MeasuredCloud& measured);
+
 /// Adds the arrays kSplatLengthName, kSplatNormalName and kSplatGrowthName to @p points, 11 bytes a point.
-/// @param ownNormals normals in place of the measured ones; null: the measured ones.
-POINTHAPTICSRENDERING_EXPORT void addSplats(
-  vtkPolyData* points, const MeasuredCloud& measured, vtkDataArray* ownNormals);
+POINTHAPTICSRENDERING_EXPORT void addSplats(vtkPolyData* points, const MeasuredCloud& measured);
 
 /// Lets @p mapper draw the arrays of addSplats(): sizes, normals and light. Input, colours and strength of
 /// the light are the caller's.

@@ -1,9 +1,8 @@
 #include "ClipBoxMark.h"
 
+#include "EventLink.h"
 #include "ScreenMarks.h"
 
-#include "vtkCallbackCommand.h"
-#include "vtkCommand.h"
 #include "vtkMatrix4x4.h"
 #include "vtkNew.h"
 #include "vtkRenderer.h"
@@ -42,7 +41,13 @@ struct ClipBoxMark::Parts
   ScreenLines edges{ kWidth };
   ScreenLines rims{ kRimWidth };
   ScreenLines handles{ kHandleWidth };
-  vtkNew<vtkCallbackCommand> onStart;
+  EventLink onStart{ [this]
+    {
+      if (this->isVisible)
+      {
+        this->draw();
+      }
+    } };
   vtkWeakPointer<vtkRenderer> renderer;
 
   double pixels() const { return pixelsPerPoint(this->renderer); }
@@ -115,23 +120,12 @@ void ClipBoxMark::Parts::draw()
 ClipBoxMark::ClipBoxMark()
   : parts_(std::make_unique<Parts>())
 {
-  parts_->onStart->SetClientData(this);
-  parts_->onStart->SetCallback(
-    [](vtkObject*, unsigned long, void* self, void*)
-    {
-      Parts& parts = *static_cast<ClipBoxMark*>(self)->parts_;
-      if (parts.renderer && parts.isVisible)
-      {
-        parts.draw();
-      }
-    });
 }
 
 ClipBoxMark::~ClipBoxMark()
 {
   if (vtkRenderer* renderer = parts_->renderer)
   {
-    renderer->RemoveObserver(parts_->onStart);
     for (ScreenLines* lines : { &parts_->edges, &parts_->rims, &parts_->handles })
     {
       renderer->RemoveActor2D(lines->actor());
@@ -146,7 +140,7 @@ void ClipBoxMark::addTo(vtkRenderer* renderer)
   {
     renderer->AddActor2D(lines->actor());
   }
-  renderer->AddObserver(vtkCommand::StartEvent, parts_->onStart);
+  parts_->onStart.follow(renderer);
 }
 
 void ClipBoxMark::setBox(const Bounds& box)

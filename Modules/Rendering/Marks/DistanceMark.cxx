@@ -1,9 +1,8 @@
 #include "DistanceMark.h"
 
+#include "EventLink.h"
 #include "ScreenMarks.h"
 
-#include "vtkCallbackCommand.h"
-#include "vtkCommand.h"
 #include "vtkMatrix4x4.h"
 #include "vtkNew.h"
 #include "vtkRenderer.h"
@@ -44,7 +43,13 @@ struct DistanceMark::Parts
   ScreenLines rim{ kRimWidth };
   ScreenLines line{ kWidth };
   ScreenTexts texts;
-  vtkNew<vtkCallbackCommand> onStart;
+  EventLink onStart{ [this]
+    {
+      if (!this->places.empty())
+      {
+        this->place();
+      }
+    } };
   vtkWeakPointer<vtkRenderer> renderer;
   std::function<std::vector<std::array<double, 4>>()> taken;
 
@@ -132,23 +137,12 @@ void DistanceMark::Parts::place()
 DistanceMark::DistanceMark()
   : parts_(std::make_unique<Parts>())
 {
-  parts_->onStart->SetClientData(this);
-  parts_->onStart->SetCallback(
-    [](vtkObject*, unsigned long, void* self, void*)
-    {
-      Parts& parts = *static_cast<DistanceMark*>(self)->parts_;
-      if (parts.renderer && !parts.places.empty())
-      {
-        parts.place();
-      }
-    });
 }
 
 DistanceMark::~DistanceMark()
 {
   if (vtkRenderer* renderer = parts_->renderer)
   {
-    renderer->RemoveObserver(parts_->onStart);
     renderer->RemoveActor2D(parts_->rim.actor());
     renderer->RemoveActor2D(parts_->line.actor());
     parts_->texts.removeFrom(renderer);
@@ -161,7 +155,7 @@ void DistanceMark::addTo(vtkRenderer* renderer)
   renderer->AddActor2D(parts_->rim.actor());
   renderer->AddActor2D(parts_->line.actor());
   parts_->texts.addTo(renderer);
-  renderer->AddObserver(vtkCommand::StartEvent, parts_->onStart, kLast);
+  parts_->onStart.follow(renderer, vtkCommand::StartEvent, kLast);
 }
 
 void DistanceMark::setPlaces(std::vector<Vec3> places)

@@ -160,8 +160,7 @@ std::string titleOf(const std::vector<std::string>& files)
   return names;
 }
 
-bool writePart(const CloudRequest& request, const Vec3& up, const Bounds& near, const std::string& fileName,
-  std::string& message)
+bool writePart(const CloudRequest& request, const Vec3& up, const std::string& fileName, std::string& message)
 try
 {
   Findings findings;
@@ -174,7 +173,7 @@ try
   const vtkSmartPointer<vtkPolyData> local = inLocalMetres(cloud);
   auto measured = vtkSmartPointer<vtkPolyData>::New();
   measured->ShallowCopy(local);
-  addHeightArray(measured, up, near);
+  addHeightArray(measured, up);
   std::vector<HiddenValues> hidden = request.hidden;
   if (!completeHidden(measured, request.hiddenName, hidden, message))
   {

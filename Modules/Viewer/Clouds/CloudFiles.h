@@ -23,9 +23,9 @@ vtkSmartPointer<vtkPolyData> readFiles(const CloudRequest& request, const std::f
   Findings& findings, std::string& message);
 
 /// Reads the files of @p request again and writes what its options clip and hide to @p fileName, with all
-/// arrays, in their coordinates. @p up and @p near, as addHeightArray() takes them, are for heights that
-/// hide. False: @p message says why nothing was written; else what was. Any thread; nothing is thrown.
-bool writePart(const CloudRequest& request, const Vec3& up, const Bounds& near, const std::string& fileName,
-  std::string& message);
+/// arrays, in their coordinates. @p up is for heights that hide. False: @p message says why nothing was
+/// written; else what was. Any thread; nothing is thrown.
+bool writePart(
+  const CloudRequest& request, const Vec3& up, const std::string& fileName, std::string& message);
 
 } // namespace pointhaptics

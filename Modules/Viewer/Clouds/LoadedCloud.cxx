@@ -414,11 +414,8 @@ bool loadCloud(const CloudRequest& request, const std::function<bool(double)>& g
   result.orientation = result.showing.orientation;
   if (!hasColors(result.cloud) || !request.colorBy.empty() || hidesByHeight(result.showing.hidden))
   {
-    result.heightZero = addHeightArray(result.cloud, result.orientation.up, result.near);
-    if (drawn != result.cloud)
-    {
-      addHeightArray(drawn, result.orientation.up, result.near);
-    }
+    addHeightArray(result.cloud, result.orientation.up);
+    addHeightArray(drawn, result.orientation.up);
   }
   const auto askOn = [&goesOn] { return goesOn(1.0); };
   if (request.options && !show(request, drawn, askOn, result))

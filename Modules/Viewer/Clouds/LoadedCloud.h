@@ -84,7 +84,6 @@ struct LoadedCloud
   std::string colorBy;            ///< The requested array, spelt as the cloud or the pipeline writes it.
   std::string title;              ///< The names of the files, without their folders.
   bool isCoarse = false;          ///< CloudRequest::mostPoints left out points.
-  double heightZero = 0.0;        ///< Origin of the array of heights, along the up axis; 0: it has none.
   std::vector<std::string> notes; ///< Parts of the files that the cloud lacks, a line each.
 
   std::shared_ptr<ShownCloud> shown; ///< How its points are drawn; null: it was only read.

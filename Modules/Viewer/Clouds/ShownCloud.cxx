@@ -156,12 +156,11 @@ std::shared_ptr<ShownCloud> makeShownCloud(
   {
     return nullptr;
   }
+  takeOwnShapes(cloud, drawn, measured);
   shown->look = measured.look;
   shown->medianSpacing = measured.shape.medianSpacing;
   addColors(*shown, request, measured.query, measured.shape);
-  vtkDataArray* own =
-    std::int64_t(drawn.size()) == cloud->GetNumberOfPoints() ? cloud->GetPointData()->GetNormals() : nullptr;
-  addSplats(shown->points, measured, own);
+  addSplats(shown->points, measured);
   return shown;
 }
 

@@ -47,10 +47,10 @@ void ViewWindow::savePart()
   const bool isWritable = dot != std::string::npos && vtkPointCloudWriter::CanWrite(first);
   const std::string name = freeFileName(isWritable ? first.c_str() + dot + 1 : "ply", savedParts_);
   saving_ = std::async(std::launch::async,
-    [request = CloudRequest::of(shown_, options_), up = scene_.cloudUp(), bounds = scene_.cloudBounds(), name]
+    [request = CloudRequest::of(shown_, options_), up = scene_.cloudUp(), name]
     {
       std::string message;
-      const bool isWritten = writePart(request, up, bounds, name, message);
+      const bool isWritten = writePart(request, up, name, message);
       return std::make_pair(isWritten, message);
     });
 }

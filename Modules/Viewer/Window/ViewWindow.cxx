@@ -86,7 +86,6 @@ ViewWindow::~ViewWindow()
   {
     this->report(HapticViewerObserver::Kind::Error, message);
   }
-  window_->RemoveObserver(abortCheck_);
   layout_.follow(nullptr);
   scene_.leaveLayout();
   if (isOpen_)
@@ -278,16 +277,8 @@ void ViewWindow::connectStyle()
   {
     this->showFigure(true);
   }
-  vtkNew<vtkCallbackCommand> timer;
-  timer->SetClientData(this);
-  timer->SetCallback(
-    [](vtkObject*, unsigned long, void* window, void*) { static_cast<ViewWindow*>(window)->onTimer(); });
-  interactor_->AddObserver(vtkCommand::TimerEvent, timer);
-  vtkNew<vtkCallbackCommand> check;
-  check->SetClientData(this);
-  check->SetCallback(
-    [](vtkObject*, unsigned long, void* window, void*) { static_cast<ViewWindow*>(window)->onAbortCheck(); });
-  abortCheck_ = window_->AddObserver(vtkCommand::AbortCheckEvent, check);
+  timer_.follow(interactor_, vtkCommand::TimerEvent);
+  abortCheck_.follow(window_, vtkCommand::AbortCheckEvent);
 }
 
 void ViewWindow::onSamples(void* callData)

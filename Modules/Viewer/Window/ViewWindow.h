@@ -207,7 +207,8 @@ private:
   std::vector<std::string> shown_; ///< The shown files: one of files_, or all together.
   FileWatch watch_;
   int sinceLook_ = 0;
-  unsigned long abortCheck_ = 0;
+  EventLink timer_{ [this] { this->onTimer(); } };
+  EventLink abortCheck_{ [this] { this->onAbortCheck(); } };
   bool isGivenUp_ = false;   ///< A frame was given up and must be drawn again.
   bool saysDrawing_ = false; ///< The window's title says "drawing".
   Loading loading_;          ///< Valid while loader_ is busy.

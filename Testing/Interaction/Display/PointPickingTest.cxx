@@ -1,7 +1,12 @@
 #include "PointPicking.h"
+#include "CloudAppearance.h"
 #include "CoordinateText.h"
+#include "Interaction/OffscreenWindow.h"
+#include "Unit/SkipWithoutDisplay.h"
+#include "vtkSplatMapper.h"
 
 #include <gtest/gtest.h>
+#include <vtkActor.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
 #include <vtkNew.h>
@@ -233,6 +238,39 @@ TEST(PointPicking, TellsNoDigitsThatSinglePrecisionDoesNotHold)
   // Neighbouring numbers there are 0.06 apart.
   EXPECT_EQ(distanceIn(VTK_FLOAT, { 500000, 0, 0 }, { 500012, 0, 0 }, 0.001)[0], "12.0 m");
   EXPECT_EQ(distanceIn(VTK_DOUBLE, { 500000, 0, 0 }, { 500012, 0, 0 }, 0.001)[0], "12.00 m");
+}
+
+/// Close by, a disc is many times as wide as the reach of a pick.
+TEST(PointPicking, TakesADiscWhereverItIsSeen)
+{
+  SKIP_WITHOUT_DISPLAY();
+  pointhaptics::OffscreenWindow seen(200, 200);
+  vtkNew<vtkPoints> points;
+  points->InsertNextPoint(0.0, 0.0, 0.0);
+  points->InsertNextPoint(0.01, 0.0, -0.3); // behind the disc of the first
+  vtkNew<vtkPolyData> cloud;
+  cloud->SetPoints(points);
+  vtkNew<vtkSplatMapper> mapper;
+  mapper->SetInputData(cloud);
+  mapper->SetFixedPixels(80.0);
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  seen.renderer->AddActor(actor);
+  pointhaptics::applyDepthShading(seen.renderer);
+  seen.window->Render();
+  const auto pickedAt = [&](double x, double y)
+  {
+    PickedPoint picked;
+    return pickPoint(cloud, seen.renderer, x, y, 4.0, picked) ? picked.index : vtkIdType(-1);
+  };
+  EXPECT_EQ(pickedAt(100, 100), 0);
+  EXPECT_EQ(pickedAt(100, 135), 0);
+  EXPECT_EQ(pickedAt(75, 80), 0);
+  EXPECT_EQ(pickedAt(106, 100), 0) << "the middle of the other is hidden";
+  EXPECT_EQ(pickedAt(145, 100), 1) << "its rim is seen";
+  EXPECT_EQ(pickedAt(100, 143), 0) << "four pixels beside it";
+  EXPECT_EQ(pickedAt(100, 150), -1);
+  EXPECT_EQ(pickedAt(190, 10), -1);
 }
 
 } // namespace

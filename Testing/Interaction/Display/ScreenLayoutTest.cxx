@@ -583,4 +583,17 @@ TEST(ScreenScale, GoesByTheLinesOfAScreenWhoseDotsNobodySays)
   EXPECT_NEAR(scaleOfScreen(2160, 800), 4.0 / 3.0, 1e-12);
 }
 
+TEST_F(ScreenLayoutTest, ASmallWindowIsThePicturesFirst)
+{
+  Screen screen(360, 300, 1.0, false);
+  for (const std::string more : { "", "\na\nb", "\na\nb\nc\nd\ne\nf\ng\nh\ni\nj\nk\nl" })
+  {
+    screen.overlay->SetStatus(kStatus + more);
+    screen.window->Render();
+    const double height = screen.renderer->GetSize()[1];
+    ASSERT_EQ(screen.layout.places().front().name, "status");
+    EXPECT_LT(screen.layout.places().front().box.height(), 0.42 * height);
+  }
+}
+
 } // namespace

@@ -1,13 +1,16 @@
 // Hand mode before anything is touched.
+#include "CloudAppearance.h"
 #include "HandDistance.h"
 #include "InteractorStyleFixture.h"
 #include "SteadyHand.h"
 #include "vtkHapticOverlay.h"
 #include "vtkHapticProps.h"
+#include "vtkSplatMapper.h"
 
 #include "Haptics/Proxy.h"
 
 #include <gtest/gtest.h>
+#include <vtkActor.h>
 #include <vtkCamera.h>
 #include <vtkCommand.h>
 
@@ -164,6 +167,13 @@ TEST_P(HandThatPresses, TouchesAfterTwoStepsOfTheWheelAndHoldsHowDeepItPresses)
 {
   const int control = this->GetParam() ? 1 : 0;
   window_->SetSize(800, 800);
+  vtkNew<vtkSplatMapper> mapper;
+  mapper->SetInputConnection(resampler_->GetOutputPort());
+  mapper->SetFixedPixels(5.0);
+  vtkNew<vtkActor> cloud;
+  cloud->SetMapper(mapper);
+  renderer_->AddActor(cloud);
+  applyDepthShading(renderer_);
   renderer_->GetActiveCamera()->Azimuth(35.0);
   renderer_->ResetCameraClippingRange();
   window_->Render();

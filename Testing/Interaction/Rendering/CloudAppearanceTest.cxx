@@ -32,15 +32,15 @@ vtkSmartPointer<vtkPolyData> makeColumn()
   return trial::cloudOf({ { 0, 0, 5 }, { 0, 0, 7 }, { NAN, 0, 0 } });
 }
 
-TEST(CloudAppearance, MeasuresHeightFromTheLowestFinitePoint)
+TEST(CloudAppearance, TakesTheCoordinatesOfTheFileForHeights)
 {
   const auto cloud = makeColumn();
   addHeightArray(cloud, { 0, 0, 1 });
   vtkDataArray* height = cloud->GetPointData()->GetArray(kHeightArrayName);
   ASSERT_TRUE(height);
-  EXPECT_EQ(height->GetTuple1(0), 0.0);
-  EXPECT_EQ(height->GetTuple1(1), 2.0);
-  EXPECT_EQ(height->GetTuple1(2), 0.0);
+  EXPECT_EQ(height->GetTuple1(0), 5.0);
+  EXPECT_EQ(height->GetTuple1(1), 7.0);
+  EXPECT_TRUE(std::isnan(height->GetTuple1(2)));
 }
 
 TEST(CloudAppearance, PrefersTheCloudsOwnColors)

@@ -1,6 +1,7 @@
 #include "CloudLook.h"
 
 #include "CloudColors.h"
+#include "SplatLook.h"
 
 #include "Core/Neighbors/LocalShape.h"
 
@@ -15,6 +16,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <random>
 
 using namespace pointhaptics;
@@ -178,13 +180,16 @@ TEST(CloudLook, IsNotMadeSmallByStrays)
   std::vector<Vec3> strays = points;
   strays.emplace_back(2000.0, 0.0, 0.0);
   strays.emplace_back(0.0, 0.0, -900.0);
-  const CameraFit other = fitCamera(viewOf(strays), look, AffineTransform(), 1.6);
-  const Vec3 most = spread(points, other, 1.6);
-  EXPECT_GT(most.y, 0.85);
-  EXPECT_LT(most.y, 1.1);
+  const CloudLook ofAll = cloudLook(CloudKind::Object, viewOf(strays), measured(strays), {});
+  EXPECT_NEAR(
+    norm(fitCamera(viewOf(strays), ofAll, AffineTransform(), 1.6).position - fit.position), 0.0, 0.1);
   // A wire that is part of it is no stray.
-  points.emplace_back(10.0, -20.0, 5.0);
-  EXPECT_GT(norm(fitCamera(viewOf(points), look, AffineTransform(), 1.6).position - fit.position), 0.05);
+  for (int i = 0; i < 40; ++i)
+  {
+    points.emplace_back(10.0, -20.0, 4.0 + 0.05 * i);
+  }
+  const CloudLook ofWire = cloudLook(CloudKind::Object, viewOf(points), measured(points), {});
+  EXPECT_GT(norm(fitCamera(viewOf(points), ofWire, AffineTransform(), 1.6).position - fit.position), 0.5);
 }
 
 TEST(CloudLook, ShowsTheSparseSurroundingsOfADenseObject)
@@ -207,7 +212,8 @@ TEST(CloudLook, ShowsTheSparseSurroundingsOfADenseObject)
   }
   for (const std::vector<Vec3>& points : { ground, few, apart })
   {
-    const Vec3 most = spread(points, fitCamera(viewOf(points), look, AffineTransform(), 1.6), 1.6);
+    const CloudLook ofPoints = cloudLook(CloudKind::Object, viewOf(points), measured(points), {});
+    const Vec3 most = spread(points, fitCamera(viewOf(points), ofPoints, AffineTransform(), 1.6), 1.6);
     EXPECT_NEAR(std::max(most.x, most.y), 0.92, 1e-6);
   }
   // A sensor sees ever less of the far end, which is not worth a small picture.
@@ -429,6 +435,63 @@ TEST_F(Colors, OfAPlaceStayWhereMorePointsComeIn)
   {
     ASSERT_EQ(before->GetValue(i), after->GetValue(i)) << i / 3;
   }
+}
+
+/// Floaters about a splat or a scan from photographs: the more of them, the nearer they are to each other.
+TEST(CloudLook, FollowsTheCoreAmongNearFloaters)
+{
+  for (const int floaters : { 30, 300, 1000 })
+  {
+    std::vector<Vec3> points = ball(20000);
+    Random random;
+    for (int i = 0; i < floaters; ++i)
+    {
+      points.emplace_back(
+        10.0 + random.between(-3, 3), -20.0 + random.between(-3, 3), 3.0 + random.between(-3, 3));
+    }
+    const CloudLook look = cloudLook(CloudKind::Object, viewOf(points), measured(points), {});
+    const CameraFit fit = fitCamera(viewOf(points), look, AffineTransform(), 1.6);
+    const Vec3 most = spread(ball(20000), fit, 1.6);
+    EXPECT_GT(most.y, 0.82) << floaters;
+    EXPECT_LT(most.y, 0.93) << floaters;
+  }
+}
+
+/// An ellipsoid flat across x, turned by 90 degrees about y: it is flat across z.
+TEST(CloudLook, TakesSizeAndTiltOfGaussianSplats)
+{
+  const std::vector<Vec3> points = ball(3000);
+  vtkNew<vtkPoints> places;
+  vtkNew<vtkFloatArray> scales;
+  scales->SetName("scale");
+  scales->SetNumberOfComponents(3);
+  vtkNew<vtkFloatArray> turns;
+  turns->SetName("rot");
+  turns->SetNumberOfComponents(4);
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    places->InsertNextPoint(&points[i].x);
+    const double size = i == 0 ? 5.0 : 0.05;
+    scales->InsertNextTuple3(std::log(0.001), std::log(size), std::log(2.0 * size));
+    turns->InsertNextTuple4(2.0, 0.0, 2.0, 0.0); // of any length
+  }
+  vtkNew<vtkPolyData> cloud;
+  cloud->SetPoints(places);
+  cloud->GetPointData()->AddArray(scales);
+  cloud->GetPointData()->AddArray(turns);
+  MeasuredCloud measured;
+  ASSERT_TRUE(measureCloud(viewOf(points), {}, std::nullopt, measured));
+  takeOwnShapes(cloud, {}, measured);
+  EXPECT_TRUE(measured.look.closesAll);
+  EXPECT_TRUE(measured.look.hasOwnLight) << "its colours have the light of its pictures";
+  addSplats(cloud, measured);
+  vtkDataArray* lengths = cloud->GetPointData()->GetArray(kSplatLengthName);
+  EXPECT_NEAR(lengths->GetComponent(7, 0), 2.0 * 1.5 * 0.05 * std::sqrt(2.0), 1e-6);
+  EXPECT_LT(lengths->GetComponent(0, 0), 1.0) << "no splat covers what is beside its neighbours";
+  double normal[3];
+  cloud->GetPointData()->GetArray(kSplatNormalName)->GetTuple(7, normal);
+  EXPECT_NEAR(std::abs(normal[2]) / kSplatNormalUnit, 0.98, 1e-3);
+  EXPECT_NEAR(normal[0], 0.0, 2.0);
 }
 
 } // namespace
