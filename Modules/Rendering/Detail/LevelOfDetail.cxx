@@ -35,9 +35,9 @@ constexpr double kMostShare = 1.6;
 /// Least part in view that is assumed: the next frame may show more.
 constexpr double kLeastSeen = 0.1;
 
-/// Points nearer to each other on the screen than this many pixels cannot be told apart: half of the smallest
-/// splat lies on its neighbour.
-constexpr double kFinestPixels = 0.5;
+/// Points nearer to each other on the screen than this many pixels cannot be told apart: more than half of
+/// the smallest splat lies on its neighbour.
+constexpr double kFinestPixels = 0.8;
 /// Least diameter, over their spacing, of splats that close to a surface.
 constexpr double kDiameterPerSpacing = 1.8;
 
@@ -152,11 +152,10 @@ bool LevelOfDetail::sceneChanged(vtkPolyData* cloud)
 /// Number of points that the coming frame may draw.
 std::int64_t LevelOfDetail::wanted(double now)
 {
-  if (allOnce_)
+  if (finestOnce_)
   {
-    allOnce_ = false;
-    finest_ = total_;
-    return total_;
+    finestOnce_ = false;
+    return finest_;
   }
   if (moving_)
   {
@@ -196,9 +195,9 @@ void LevelOfDetail::beginFrame(double now)
   total_ = cloud->GetNumberOfPoints();
   finest_ = this->finestFor(cloud);
   before_ = drawn_;
-  isKept_ = allOnce_;
+  isKept_ = finestOnce_;
   const std::int64_t before = cloudChanged_ ? -1 : drawn_;
-  inMotion_ = !allOnce_ && (moving_ || now - lastMotion_ < kRestSeconds);
+  inMotion_ = !finestOnce_ && (moving_ || now - lastMotion_ < kRestSeconds);
   this->show(cloud, this->wanted(now));
   // A frame at rest may reuse the last picture, or draw it several times.
   frameIsTypical_ = moving_ && drawn_ == before;

@@ -1,6 +1,8 @@
 #include "CloudAppearance.h"
 
 #include "AsprsClasses.h"
+#include "CloudParts.h"
+#include "SmpExecutor.h"
 
 #include "Core/Base/Boxes.h"
 
@@ -28,6 +30,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -165,26 +168,37 @@ void colorByArray(vtkPolyDataMapper* mapper, vtkDataArray* array, int component)
 
 double addHeightArray(vtkPolyData* cloud, const Vec3& up, const Bounds& box)
 {
-  const vtkIdType count = cloud->GetNumberOfPoints();
-  std::vector<double> heights(static_cast<std::size_t>(count));
+  const SmpExecutor executor;
+  std::vector<Vec3> copy;
+  const PointView points = cloud->GetNumberOfPoints() > 0 ? viewOf(cloud, copy) : PointView();
   double lowest = INFINITY;
-  Vec3 p;
-  for (vtkIdType i = 0; i < count; ++i)
-  {
-    cloud->GetPoint(i, &p.x);
-    const double height = isFinite(p) ? dot(p, up) : NAN;
-    heights[static_cast<std::size_t>(i)] = height;
-    const bool counts = !std::isnan(height) && (box.empty() || contains(box, p));
-    lowest = std::min(lowest, counts ? height : INFINITY);
-  }
+  std::mutex mutex;
+  forRange(executor, points.size(),
+    [&](std::int64_t begin, std::int64_t end)
+    {
+      double least = INFINITY;
+      for (; begin < end; ++begin)
+      {
+        const Vec3 p = points[begin];
+        const bool counts = isFinite(p) && (box.empty() || contains(box, p));
+        least = std::min(least, counts ? dot(p, up) : INFINITY);
+      }
+      const std::lock_guard<std::mutex> lock(mutex);
+      lowest = std::min(lowest, least);
+    });
   vtkNew<vtkFloatArray> array;
   array->SetName(kHeightArrayName);
-  array->SetNumberOfTuples(count);
-  for (vtkIdType i = 0; i < count; ++i)
-  {
-    const double height = heights[static_cast<std::size_t>(i)];
-    array->SetValue(i, std::isnan(height) ? 0.0f : static_cast<float>(height - lowest));
-  }
+  array->SetNumberOfTuples(points.size());
+  float* heights = array->GetPointer(0);
+  forRange(executor, points.size(),
+    [&](std::int64_t begin, std::int64_t end)
+    {
+      for (; begin < end; ++begin)
+      {
+        const Vec3 p = points[begin];
+        heights[begin] = isFinite(p) ? static_cast<float>(dot(p, up) - lowest) : 0.0F;
+      }
+    });
   cloud->GetPointData()->AddArray(array);
   return lowest;
 }

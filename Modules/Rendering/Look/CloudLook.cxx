@@ -1,5 +1,7 @@
 #include "CloudLook.h"
 
+#include "SmpExecutor.h"
+
 #include "Core/Base/Boxes.h"
 
 #include <algorithm>
@@ -7,6 +9,7 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
+#include <mutex>
 
 namespace pointhaptics
 {
@@ -222,6 +225,10 @@ struct Extremes
     most[2] = std::max(most[2], p.y + ty * p.z);
     most[3] = std::max(most[3], -p.y + ty * p.z);
   }
+  void include(const Extremes& other)
+  {
+    std::transform(most, most + 4, other.most, most, [](double a, double b) { return std::max(a, b); });
+  }
   double distance(double tx, double ty) const
   {
     return std::max((most[0] + most[1]) / (2.0 * tx), (most[2] + most[3]) / (2.0 * ty));
@@ -284,6 +291,26 @@ bool hasManyOutside(const std::vector<Vec3>& sample, const Vec3& from, const Vec
   const auto outside =
     std::count_if(sample.begin(), sample.end(), [&](const Vec3& p) { return !isBetween(p, from, to); });
   return outside * kMostStrays > std::max<std::ptrdiff_t>(std::ptrdiff_t(sample.size()), kMostStrays);
+}
+
+/// Extremes of @p seen(i) over @p count.
+template <typename Seen>
+Extremes extremesOf(std::int64_t count, const Seen& seen, double tx, double ty)
+{
+  Extremes extremes;
+  std::mutex mutex;
+  forRange(SmpExecutor(), count,
+    [&](std::int64_t begin, std::int64_t end)
+    {
+      Extremes part;
+      for (; begin < end; ++begin)
+      {
+        part.include(seen(begin), tx, ty);
+      }
+      const std::lock_guard<std::mutex> lock(mutex);
+      extremes.include(part);
+    });
+  return extremes;
 }
 
 /// Extremes of the points of @p sample in the box; none for many equal points, which give nothing to fit.
@@ -466,18 +493,16 @@ CameraFit fitCamera(const PointView& cloud, const CloudLook& look, const AffineT
   const double tangent = kFilledPart * std::tan(0.5 * kViewAngle * kDegree);
   const double ty = parallel ? 0.0 : tangent; // rays that do not diverge
   const double tx = ty * aspect;
-  Extremes extremes;
-  std::vector<Vec3> sample;
-  const std::int64_t step = 1 + cloud.size() / kSample;
-  for (std::int64_t i = 0; i < cloud.size(); ++i)
+  const auto seen = [&](std::int64_t i)
   {
     const Vec3 q = toWorld.apply(cloud[i]);
-    const Vec3 p{ dot(q, view.right), dot(q, view.up), dot(q, view.back) };
-    extremes.include(p, tx, ty);
-    if (i % step == 0)
-    {
-      sample.push_back(p);
-    }
+    return Vec3{ dot(q, view.right), dot(q, view.up), dot(q, view.back) };
+  };
+  Extremes extremes = extremesOf(cloud.size(), seen, tx, ty);
+  std::vector<Vec3> sample;
+  for (std::int64_t i = 0; i < cloud.size(); i += 1 + cloud.size() / kSample)
+  {
+    sample.push_back(seen(i));
   }
   CameraFit fit;
   fit.viewAngle = kViewAngle;

@@ -1,5 +1,6 @@
 #include "SplatLook.h"
 
+#include "CloudParts.h"
 #include "SmpExecutor.h"
 #include "vtkSplatMapper.h"
 
@@ -44,7 +45,7 @@ constexpr double kWidestGap = 3.0;
 constexpr double kUsualHeight = 800.0;
 /// Clouds of more points are sampled: one point is measured in every place that the first picture can show.
 constexpr std::int64_t kAllMeasured = 3000000;
-constexpr double kFinestPixels = 0.5; ///< As LevelOfDetail has it.
+constexpr double kSharedPixels = 0.5;
 
 /// Usual diameter for a spacing.
 double usualDiameter(double flatness, double spacing)
@@ -65,7 +66,7 @@ bool measureCloud(const PointView& cloud, const CloudOrientation& orientation,
   if (cloud.size() > kAllMeasured)
   {
     // A few neighbours that are apart reach as far as many that are close.
-    settings.apart = kFinestPixels * settings.pixel;
+    settings.apart = kSharedPixels * settings.pixel;
     settings.numberOfNeighbors = LocalShapeSettings::kFewest;
   }
   LocalShape& shape = measured.shape;
@@ -88,6 +89,8 @@ void addSplats(vtkPolyData* points, const MeasuredCloud& measured, vtkDataArray*
 {
   const LocalShape& shape = measured.shape;
   const CloudLook& look = measured.look;
+  std::vector<Vec3> copy;
+  const PointView places = viewOf(points, copy);
   const bool isFrame = look.kind == CloudKind::Frame;
   const bool facesSensor = look.kind == CloudKind::Sweep || look.kind == CloudKind::Indoors;
   const double widest = kWidestGap * shape.medianSpacing;
@@ -99,11 +102,10 @@ void addSplats(vtkPolyData* points, const MeasuredCloud& measured, vtkDataArray*
   normals->SetName(kSplatNormalName);
   normals->SetNumberOfComponents(3);
   normals->SetNumberOfTuples(count);
-  short* out = normals->GetPointer(0);
   vtkNew<vtkUnsignedCharArray> growths;
   growths->SetName(kSplatGrowthName);
   growths->SetNumberOfValues(count);
-  for (vtkIdType i = 0; i < count; ++i)
+  const auto addOne = [&](std::int64_t i)
   {
     const PointShape& each = shape.points[std::size_t(i)];
     const double usual = usualDiameter(double(each.flatness), double(each.spacing));
@@ -122,15 +124,21 @@ void addSplats(vtkPolyData* points, const MeasuredCloud& measured, vtkDataArray*
       ownNormals->GetTuple(i, &own.x);
       n = normalized(own, n);
     }
-    Vec3 p;
-    points->GetPoint(i, &p.x);
-    const double side = facesSensor && dot(n, p) > 0.0 ? -1.0 : 1.0;
+    const double side = facesSensor && dot(n, places[i]) > 0.0 ? -1.0 : 1.0;
     for (int axis = 0; axis < 3; ++axis)
     {
-      *out++ =
-        short(std::lround(side * kSplatNormalUnit * std::clamp(double(each.flatness) * n[axis], -1.0, 1.0)));
+      normals->SetValue(3 * i + axis,
+        short(std::lround(side * kSplatNormalUnit * std::clamp(double(each.flatness) * n[axis], -1.0, 1.0))));
     }
-  }
+  };
+  forRange(SmpExecutor(), count,
+    [&addOne](std::int64_t begin, std::int64_t end)
+    {
+      for (; begin < end; ++begin)
+      {
+        addOne(begin);
+      }
+    });
   points->GetPointData()->AddArray(lengths);
   points->GetPointData()->AddArray(growths);
   points->GetPointData()->AddArray(normals);
