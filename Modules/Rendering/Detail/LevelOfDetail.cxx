@@ -3,6 +3,7 @@
 #include "CloudParts.h"
 #include "PictureState.h"
 #include "ProgressiveOrder.h"
+#include "SplatLook.h"
 #include "vtkSplatMapper.h"
 
 #include "vtkActor.h"
@@ -353,7 +354,10 @@ std::int64_t LevelOfDetail::finestFor(vtkPolyData* cloud)
   }
   if (spacing_ < 0.0)
   {
-    spacing_ = splats->Settings().sizeScale / kDiameterPerSpacing * quantileOfPositive(lengths, 9);
+    // Splats that close wide gaps are larger than their spacing says.
+    vtkDataArray* growths = cloud->GetPointData()->GetArray(kSplatGrowthName);
+    spacing_ = splats->Settings().sizeScale / kDiameterPerSpacing * (growths ? kNoSplatGrowth : 1.0) *
+      quantileOfPositive(lengths, 9, growths);
   }
   vtkMatrix4x4* toClip = renderer_->GetActiveCamera()->GetCompositeProjectionTransformMatrix(
     renderer_->GetTiledAspectRatio(), -1, 1);

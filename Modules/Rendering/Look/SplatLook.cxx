@@ -32,7 +32,6 @@ constexpr double kFlatDiameter = 1.1;
 constexpr double kGridDiameter = 1.5;
 /// Radius of a disc over its reach: discs that just meet leave holes where the surface bends.
 constexpr double kOverlap = 1.1;
-constexpr double kNoGrowth = 64.0;
 constexpr double kSmallestShownPixels = 2.0;
 /// The pixels bound the splats, not the median of their lengths: a sweep is sparse far away.
 constexpr double kFarthestRatio = 1e6;
@@ -116,7 +115,7 @@ void addSplats(vtkPolyData* points, const MeasuredCloud& measured, vtkDataArray*
     const double length = std::max({ usual, least, 2.0 * kOverlap * closed * double(each.reach) });
     lengths->SetValue(i, float(length));
     growths->SetValue(
-      i, static_cast<unsigned char>(usual > 0.0 ? kNoGrowth * length / usual + 0.5 : kNoGrowth));
+      i, static_cast<unsigned char>(usual > 0.0 ? kNoSplatGrowth * length / usual + 0.5 : kNoSplatGrowth));
     Vec3 n{ double(each.normal[0]), double(each.normal[1]), double(each.normal[2]) };
     if (ownNormals)
     {
@@ -176,7 +175,7 @@ void addDensity(vtkPolyData* points)
   {
     Vec3 n;
     normals->GetTuple(i, &n.x);
-    const double usual = std::abs(lengths->GetComponent(i, 0)) * kNoGrowth / growths->GetComponent(i, 0);
+    const double usual = std::abs(lengths->GetComponent(i, 0)) * kNoSplatGrowth / growths->GetComponent(i, 0);
     const double spacing = usual / usualDiameter(norm(n) / kSplatNormalUnit, 1.0);
     density->SetValue(i, spacing > 0.0 ? float(1.0 / (spacing * spacing)) : NAN);
   }
