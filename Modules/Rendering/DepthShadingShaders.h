@@ -32,6 +32,20 @@ float depthAt(ivec2 place, ivec2 last)
 }
 )";
 
+/// Depth of the farthest pixel of each tile.
+constexpr const char* kTileShader = R"(
+void main()
+{
+  ivec2 last = textureSize(depths, 0) - ivec2(1);
+  float farthest = 0.0;
+  for (int i = 0; i < 64; ++i)
+  {
+    farthest = max(farthest, depthAt(8 * ivec2(gl_FragCoord.xy) + ivec2(i % 8, i / 8), last));
+  }
+  gl_FragData[0] = vec4(farthest);
+}
+)";
+
 /// Divides weighted sums by their weights. The colours' alpha is 1 where a splat is in the middle of the
 /// pixel; where a splat only comes near, it makes the rim smooth on what lies behind, without a depth.
 constexpr const char* kDivideShader = R"(

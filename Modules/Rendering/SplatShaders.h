@@ -50,6 +50,8 @@ uniform vec2 splatPixel; // of quads; 0: points are drawn
 out vec3 splatCorner;
 uniform int splatIsParallel;
 uniform int splatStage; // vtkDepthShadingPass::Stage
+uniform sampler2D splatTiles; // vtkDepthShadingPass::TilesOf
+uniform vec2 splatTileCount; // of the picture
 out vec2 splatSlope;
 out vec4 splatReach;
 )";
@@ -72,6 +74,30 @@ inline constexpr const char* kSurfaceStatements = R"(
     gl_PointSize += 2.0;
   }
   splatCorner = vec3(2 * (gl_VertexID & 1) - 1, (gl_VertexID & 2) - 1, splatPixel.x > 0.0 ? 1.0 : 0.0);
+)";
+/// Moves blended splats that are behind all pixels they could be seen in behind the far plane: the fragments
+/// of half of the points of an object need not be shaded.
+inline constexpr const char* kTileStatements = R"(
+  if (splatStage == 2)
+  {
+    float splatNearest = splatReach.y * splatReach.z * length(splatSlope) + splatReach.w;
+    float splatFront = splatIsParallel != 0
+      ? 0.5 + 0.5 * (gl_Position.z / gl_Position.w + splatTerms.z * splatNearest)
+      : 0.5 + 0.5 * (-splatTerms.z + splatTerms.w / max(1e-6 * splatReach.x, splatReach.x - splatNearest));
+    vec2 splatMiddle = (0.5 + 0.5 * gl_Position.xy / gl_Position.w) * splatTileCount;
+    ivec2 splatLast = textureSize(splatTiles, 0) - ivec2(1);
+    vec2 splatHalf = vec2(gl_PointSize / 16.0);
+    ivec2 splatFrom = clamp(ivec2(floor(splatMiddle - splatHalf)), ivec2(0), splatLast);
+    ivec2 splatTo = clamp(ivec2(floor(splatMiddle + splatHalf)), ivec2(0), splatLast);
+    float splatFarthest = max(
+      max(texelFetch(splatTiles, splatFrom, 0).r, texelFetch(splatTiles, splatTo, 0).r),
+      max(texelFetch(splatTiles, ivec2(splatFrom.x, splatTo.y), 0).r,
+        texelFetch(splatTiles, ivec2(splatTo.x, splatFrom.y), 0).r));
+    if (all(lessThan(splatTo - splatFrom, ivec2(2))) && splatFront > splatFarthest + 2e-6)
+    {
+      gl_Position = vec4(0.0, 0.0, 2.0, 1.0);
+    }
+  }
 )";
 inline constexpr const char* kQuadStatements = R"(
   gl_Position.xy += 0.5 * splatCorner.xy * gl_PointSize * splatPixel * gl_Position.w;

@@ -167,6 +167,12 @@ vtkDepthShadingPass::Stage vtkDepthShadingPass::StageOf(vtkRenderer* renderer)
   return pass ? pass->DrawnStage : Stage::Picture;
 }
 
+vtkTextureObject* vtkDepthShadingPass::TilesOf(vtkRenderer* renderer)
+{
+  const vtkDepthShadingPass* pass = GetPassOf(renderer);
+  return pass ? pass->DrawnTiles : nullptr;
+}
+
 double vtkDepthShadingPass::ResolutionOf(vtkRenderer* renderer)
 {
   const vtkDepthShadingPass* pass = GetPassOf(renderer);
@@ -188,12 +194,12 @@ void vtkDepthShadingPass::ChooseResolution(const vtkRenderState* state, vtkOpenG
 
 void vtkDepthShadingPass::PrepareTargets(vtkOpenGLRenderWindow* window)
 {
-  const auto width = static_cast<unsigned int>(this->W);
-  const auto height = static_cast<unsigned int>(this->H);
   this->WindowFormat = depthFormatOfTarget();
   const int format = this->WindowFormat < 0 ? int(vtkTextureObject::Float32) : this->WindowFormat;
-  const auto prepare = [&](Target& target, int type, int depthFormat)
+  const auto prepare = [&](Target& target, int type, int depthFormat, int pixel = 1)
   {
+    const auto width = static_cast<unsigned int>((this->W + pixel - 1) / pixel);
+    const auto height = static_cast<unsigned int>((this->H + pixel - 1) / pixel);
     if (!target.Frame)
     {
       target.Frame = vtkSmartPointer<vtkOpenGLFramebufferObject>::New();
@@ -222,6 +228,7 @@ void vtkDepthShadingPass::PrepareTargets(vtkOpenGLRenderWindow* window)
   if (this->BlendsSplats)
   {
     prepare(this->Sums, VTK_FLOAT, -1);
+    prepare(this->Tiles, VTK_FLOAT, vtkTextureObject::Float32, kTile);
   }
 }
 
@@ -319,12 +326,24 @@ void vtkDepthShadingPass::DrawPicture(const vtkRenderState* state, vtkOpenGLRend
   this->RenderDelegate(state, this->W, this->H, this->W, this->H, drawn.Frame, drawn.Colors, drawn.Depths);
   if (blends && !window->GetAbortRender())
   {
+    this->FindFarthest(state->GetRenderer(), window);
     asked->DrawnStage = Stage::Blending;
+    asked->DrawnTiles = this->Tiles.Colors;
     this->SumSplats(state, window);
     this->DivideSums(state->GetRenderer(), window);
   }
   asked->DrawnStage = Stage::Picture;
+  asked->DrawnTiles = nullptr;
   window->GetState()->PopFramebufferBindings();
+}
+
+void vtkDepthShadingPass::FindFarthest(vtkRenderer* renderer, vtkOpenGLRenderWindow* window)
+{
+  if (this->PrepareQuad(this->TileQuad, pointhaptics::kTileShader, window))
+  {
+    const DrawingInto into(this->Tiles, window->GetState());
+    this->Draw(*this->TileQuad, this->Drawn, renderer);
+  }
 }
 
 void vtkDepthShadingPass::SumSplats(const vtkRenderState* state, vtkOpenGLRenderWindow* window)
@@ -352,6 +371,7 @@ void vtkDepthShadingPass::SumSplats(const vtkRenderState* state, vtkOpenGLRender
   gl->vtkglEnable(GL_BLEND);
   gl->vtkglBlendFuncSeparate(GL_ONE, GL_ONE, GL_ONE, GL_ONE);
   gl->vtkglBlendEquationSeparate(GL_FUNC_ADD, GL_MAX);
+  this->Tiles.Colors->Activate();
   for (int i = 0; i < state->GetPropArrayCount() && !window->GetAbortRender(); ++i)
   {
     auto* actor = vtkActor::SafeDownCast(state->GetPropArray()[i]);
@@ -362,6 +382,7 @@ void vtkDepthShadingPass::SumSplats(const vtkRenderState* state, vtkOpenGLRender
       splats->Render(state->GetRenderer(), actor);
     }
   }
+  this->Tiles.Colors->Deactivate();
   gl->vtkglBlendEquationSeparate(GL_FUNC_ADD, GL_FUNC_ADD);
   gl->vtkglDepthMask(GL_TRUE);
 }
@@ -556,11 +577,11 @@ void vtkDepthShadingPass::ReleaseGraphicsResources(vtkWindow* window)
   {
     this->RightEye->ReleaseGraphicsResources(window);
   }
-  for (auto* quad : { &this->DivideQuad, &this->CopyQuad, &this->ShadeQuad })
+  for (auto* quad : { &this->TileQuad, &this->DivideQuad, &this->CopyQuad, &this->ShadeQuad })
   {
     quad->reset();
   }
-  for (Target* target : { &this->Drawn, &this->Sums, &this->Shown })
+  for (Target* target : { &this->Drawn, &this->Sums, &this->Tiles, &this->Shown })
   {
     if (target->Frame)
     {

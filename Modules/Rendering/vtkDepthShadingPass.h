@@ -137,6 +137,11 @@ public:
   };
   /// At present, of the picture that @p renderer draws.
   static Stage StageOf(vtkRenderer* renderer);
+  /// Pixels of a tile, see TilesOf().
+  static constexpr int kTile = 8;
+  /// While splats are blended: depth of the farthest pixel of each tile, of which a splat that lies behind
+  /// is hidden. Null at other stages.
+  static vtkTextureObject* TilesOf(vtkRenderer* renderer);
 
   /**
    * Finds what the last picture of @p renderer shows within @p reach pixels of a place of its window, the
@@ -176,6 +181,7 @@ private:
     vtkOpenGLRenderWindow* window, bool isBehindAll = false);
   void SetUniforms(vtkShaderProgram* program, const Target& source, vtkRenderer* renderer);
   void DrawPicture(const vtkRenderState* state, vtkOpenGLRenderWindow* window);
+  void FindFarthest(vtkRenderer* renderer, vtkOpenGLRenderWindow* window);
   void SumSplats(const vtkRenderState* state, vtkOpenGLRenderWindow* window);
   void DivideSums(vtkRenderer* renderer, vtkOpenGLRenderWindow* window);
   void Shade(vtkRenderer* renderer, vtkOpenGLRenderWindow* window);
@@ -190,12 +196,15 @@ private:
   double MovingFragments = 0.0;
   bool BlendsSplats = false;
   Stage DrawnStage = Stage::Picture;
+  vtkTextureObject* DrawnTiles = nullptr;
   double Resolution = 1.0;
   Target Drawn;
   Target Sums;
+  Target Tiles;
   Target Shown;          // kept
   int ShownFormat = -1;  // of its depths
   int WindowFormat = -1; // of those it is shown in; below 0: its bytes cannot be copied
+  std::unique_ptr<vtkOpenGLQuadHelper> TileQuad;
   std::unique_ptr<vtkOpenGLQuadHelper> DivideQuad;
   std::unique_ptr<vtkOpenGLQuadHelper> CopyQuad;
   std::unique_ptr<vtkOpenGLQuadHelper> ShadeQuad;

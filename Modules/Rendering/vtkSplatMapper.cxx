@@ -367,9 +367,9 @@ void vtkSplatMapper::ReplaceShaderValues(
              : "") +
       "  float splatSize = " + size + ";\n  gl_PointSize = clamp(" + bounded +
       ", splatRange.x, max(splatRange.x, splatRange.w));\n" +
-      (tilts ? pointhaptics::kSurfaceStatements : "") + pointhaptics::kFitStatements +
-      (tilts ? pointhaptics::kQuadStatements : "") + pointhaptics::kClipStatements +
-      (this->HasSizes ? pointhaptics::kHideStatements : ""));
+      (tilts ? std::string(pointhaptics::kSurfaceStatements) + pointhaptics::kTileStatements : "") +
+      pointhaptics::kFitStatements + (tilts ? pointhaptics::kQuadStatements : "") +
+      pointhaptics::kClipStatements + (this->HasSizes ? pointhaptics::kHideStatements : ""));
   shaders[vtkShader::Vertex]->SetSource(vertex);
   std::string fragment = shaders[vtkShader::Fragment]->GetSource();
   // Depth peeling may return after the depths: what is outside of the disc is discarded before.

@@ -13,6 +13,7 @@
 #include "vtkOpenGLVertexBufferObjectGroup.h"
 #include "vtkRenderer.h"
 #include "vtkShaderProgram.h"
+#include "vtkTextureObject.h"
 
 #include <algorithm>
 #include <cmath>
@@ -202,6 +203,13 @@ void vtkSplatMapper::SetSurfaceParameters(vtkOpenGLHelper& cells, vtkRenderer* r
   uniforms.set("splatAll", this->Now.closesAll ? 1.0 : 0.0);
   uniforms.set("splatIsParallel", camera->GetParallelProjection() ? 1 : 0);
   uniforms.set("splatStage", static_cast<int>(vtkDepthShadingPass::StageOf(renderer)));
+  constexpr int kUnusedUnit =
+    15; // of a sampler that nothing reads: unit 0 may have a texture of another kind
+  vtkTextureObject* tiles = vtkDepthShadingPass::TilesOf(renderer);
+  const double tile = vtkDepthShadingPass::kTile;
+  const double tileCount[2] = { renderer->GetSize()[0] / tile, renderer->GetSize()[1] / tile };
+  uniforms.set("splatTiles", tiles ? tiles->GetTextureUnit() : kUnusedUnit);
+  uniforms.set("splatTileCount", tileCount);
 }
 
 namespace

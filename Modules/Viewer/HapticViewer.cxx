@@ -159,7 +159,7 @@ void HapticViewer::Implementation::skip(const std::string& title)
 bool HapticViewer::Implementation::read(CloudRequest request, LoadedCloud& loaded)
 {
   request.measuresLater = this->options.showsReading;
-  request.resamplesLater = this->options.showsReading;
+  request.resamplesLater = this->options.showsReading || !this->options.makesMeans;
   // A recording needs all points.
   const bool needsAll = !this->options.replay.empty() || !this->options.record.empty();
   request.mostPoints = this->options.showsReading && !needsAll ? this->options.coarsePoints : 0;

@@ -110,6 +110,9 @@ struct HapticViewerOptions
   /// Show the window while the first file is read, if that takes longer than 0.2 s and there is a display;
   /// for programs that call HapticViewer::run() next.
   bool showsReading = false;
+  /// Means are made although neither picture nor path needs them: HapticViewer::means() has them after
+  /// open(). With showsReading they come after the first picture.
+  bool makesMeans = true;
 
   HapticViewerNames names;
 

@@ -395,6 +395,7 @@ bool makePicture(ViewScene& scene, const HapticViewerOptions& options, const Hap
   scene.setPicture(options.picture);
   scene.completeMeans(options.voxels.computeCovariance);
   scene.followMeasurement(true);
+  scene.detail().setEnabled(true);
   scene.showAxes(options.axes);
   scene.showFigure(options.figure);
   scene.placeAxes(scene.modelMatrix());

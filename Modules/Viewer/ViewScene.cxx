@@ -37,6 +37,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <utility>
 
@@ -49,6 +50,9 @@ namespace
 constexpr double kSmallestSphere = 0.022;
 /// Opacity of the plates behind texts that lie over points.
 constexpr double kPlateOpacity = 0.6;
+/// Points of a cloud that is not measured yet from which on its picture gets no finer.
+constexpr std::int64_t kMostPlain = 50000;
+
 } // namespace
 
 ViewScene::ViewScene()
@@ -121,14 +125,16 @@ double ViewScene::fragments()
   return double(this->detail().visiblePoints()) * pixels * pixels;
 }
 
+/// A picture that is soon replaced stays coarse.
 bool ViewScene::refinementDue()
 {
-  return this->detail().refinementDue(steadySeconds());
+  return !(measurement_ && this->detail().drawnPoints() > kMostPlain) &&
+    this->detail().refinementDue(steadySeconds());
 }
 
 void ViewScene::completeNextFrame()
 {
-  this->detail().showAllOnce();
+  this->detail().showFinestOnce();
 }
 
 vtkIdType ViewScene::numberOfPoints() const
@@ -180,11 +186,7 @@ bool ViewScene::open(LoadedCloud loaded, const HapticViewerOptions& options, std
   orientation_.up = normalized(loaded.placement.applyToVector(orientation_.up));
   title_ = loaded.title;
   shown_ = loaded.shown;
-  measurement_.cancel();
-  if (loaded.toMeasure)
-  {
-    measurement_.start(loaded.toMeasure, loaded.showing);
-  }
+  measurement_ = loaded.measurement;
   memoryDue_ = steadySeconds() + kMemorySeconds;
   placedCamera_.clear();
   isCoarse_ = loaded.isCoarse;
@@ -383,8 +385,8 @@ void ViewScene::completeMeans(bool useCovariance)
 {
   vtkPolyData* output = bandwidth_->GetOutput();
   vtkPointData* data = output->GetPointData();
-  const bool residuals = this->wantsResiduals() && !data->HasArray(kResidualArrayName);
-  const bool normals = this->isAmbient() && !data->HasArray(kSurfaceNormalArrayName);
+  const bool residuals = isResampled_ && this->wantsResiduals() && !data->HasArray(kResidualArrayName);
+  const bool normals = isResampled_ && this->isAmbient() && !data->HasArray(kSurfaceNormalArrayName);
   Status status = Status::Ok;
   if (const auto scene = residuals || normals ? this->makeScene(useCovariance, status) : nullptr)
   {

@@ -73,6 +73,11 @@ public:
   /// Shows the finished measurement of a cloud that was opened plain; the camera follows, unless it was
   /// moved. @param waits until it is there. @return true if the picture changed.
   bool followMeasurement(bool waits);
+  /// Part of the measurement that is done, 0 to 1; nothing: none is under way.
+  std::optional<double> measuredPart() const
+  {
+    return measurement_ ? std::optional(measurement_->part()) : std::nullopt;
+  }
   /// Draws the model where @p model, from the file to the workspace, puts it.
   void placeModel(vtkMatrix4x4* model);
   /// Puts the camera where it sees all of the cloud. @p contact, if given, is turned into view.
@@ -289,10 +294,10 @@ private:
   vtkNew<vtkSplatMapper> mapper_;
   vtkNew<vtkActor> actor_;
   std::shared_ptr<ShownCloud> shown_;
-  ShownMeasurement measurement_;
-  double memoryDue_ = INFINITY;      ///< Time at which returnMemory() acts, by steadySeconds().
-  std::vector<double> placedCamera_; ///< Camera as placeCamera() left it.
-  double placedDistance_ = 1.0;      ///< viewDistance() of that camera.
+  std::shared_ptr<ShownMeasurement> measurement_; ///< Null: none is under way.
+  double memoryDue_ = INFINITY;                   ///< Time at which returnMemory() acts, by steadySeconds().
+  std::vector<double> placedCamera_;              ///< Camera as placeCamera() left it.
+  double placedDistance_ = 1.0;                   ///< viewDistance() of that camera.
   vtkNew<vtkSplatMapper> pointsMapper_;
   vtkNew<vtkActor> pointsActor_;
   vtkNew<vtkMatrix4x4> pointsMatrix_; ///< From the file to the workspace.

@@ -35,13 +35,6 @@ constexpr double kStepsOfMeans = 1.1;
 /// A model that was enlarged by more than this factor is shown within the workspace only.
 constexpr double kShownWhole = 1.05;
 
-/// True for arrays that means alone have.
-bool isFeltOnly(const std::string& name)
-{
-  return name == "ProxyRadius" || name == kResidualArrayName || name == "Bandwidth" ||
-    name == "MeanBandwidth" || name == "VoxelPointCount";
-}
-
 std::vector<double> pictureCamera(vtkCamera* camera)
 {
   const double* view = camera->GetViewTransformMatrix()->GetData();
@@ -65,7 +58,7 @@ constexpr double kFacingEnough = 0.25;
 void ViewScene::chooseDrawn()
 {
   const bool drawsFelt =
-    showsFelt_ || (isFeltOnly(colorBy_) && !shown_->points->GetPointData()->HasArray(colorBy_.c_str()));
+    showsFelt_ || (isOfMeans(colorBy_) && !shown_->points->GetPointData()->HasArray(colorBy_.c_str()));
   if (drawsFelt != drawsFelt_)
   {
     const bool isEnabled = this->detail().isEnabled();
@@ -101,7 +94,7 @@ void ViewScene::colorPoints()
   {
     addDensity(points);
   }
-  const bool isAutomatic = colorBy_.empty() || isFeltOnly(colorBy_);
+  const bool isAutomatic = colorBy_.empty() || isOfMeans(colorBy_);
   if (isAutomatic && data->HasArray(kLookColorName))
   {
     pointsMapper_->SetScalarModeToUsePointFieldData();
@@ -138,7 +131,7 @@ void ViewScene::drawPoints()
 /// are over.
 void ViewScene::returnMemory()
 {
-  if (steadySeconds() >= memoryDue_ && !measurement_.busy())
+  if (steadySeconds() >= memoryDue_ && !measurement_)
   {
     memoryDue_ = INFINITY;
 #ifdef __GLIBC__
@@ -150,7 +143,12 @@ void ViewScene::returnMemory()
 bool ViewScene::followMeasurement(bool waits)
 {
   this->returnMemory();
-  const std::shared_ptr<ShownCloud> measured = measurement_.take(waits);
+  if (!measurement_ || !measurement_->isReady(waits))
+  {
+    return false;
+  }
+  const std::shared_ptr<ShownCloud> measured = measurement_->take();
+  measurement_.reset();
   if (!measured)
   {
     return false;

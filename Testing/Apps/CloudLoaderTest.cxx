@@ -121,7 +121,7 @@ TEST_F(CloudLoaderTest, NamesTheStepThatRuns)
   ASSERT_TRUE(loadCloud(
     request, [](double) { return true; }, loaded, message))
     << message;
-  EXPECT_EQ(steps, (std::vector<std::string>{ "reading", "measuring", "resampling" }));
+  EXPECT_EQ(steps, (std::vector<std::string>{ "reading", "preparing", "measuring", "resampling" }));
 }
 
 TEST_F(CloudLoaderTest, ProgressAscendsOverAllFiles)

@@ -2,6 +2,7 @@
 
 #include "CloudAppearance.h"
 #include "CloudOrientation.h"
+#include "Pictures.h"
 #include "vtkHapticChart.h"
 #include "vtkHapticOverlay.h"
 #include "vtkHapticProps.h"
@@ -110,7 +111,7 @@ void build(vtkRenderer* renderer)
   s.style->SetSliders(s.sliders);
   static_cast<void>(s.hand.open());
   CloudOrientation orientation;
-  placeCamera(renderer->GetActiveCamera(), orientation, {}, 0.1, 28.0, 18.0);
+  placeCamera(renderer->GetActiveCamera(), orientation, 0.1, 28.0, 18.0);
   renderer->ResetCameraClippingRange();
   s.interactor->SetInteractorStyle(s.style);
   renderer->GetRenderWindow()->Render();

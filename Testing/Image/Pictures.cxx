@@ -99,7 +99,7 @@ vtkSmartPointer<vtkPolyData> resample(vtkPolyData* cloud, double voxelSize)
 void look(vtkRenderer* renderer)
 {
   CloudOrientation orientation;
-  placeCamera(renderer->GetActiveCamera(), orientation, {}, 0.1, 28.0, 18.0);
+  placeCamera(renderer->GetActiveCamera(), orientation, 0.1, 28.0, 18.0);
   applyBackground(renderer);
 }
 
@@ -446,6 +446,29 @@ void buildIdolRadius(const std::string& fault, vtkRenderer* renderer)
 }
 
 } // namespace
+
+void placeCamera(vtkCamera* camera, const CloudOrientation& orientation, double edge, double azimuthDegrees,
+  double elevationDegrees)
+{
+  constexpr double kDegree = 3.14159265358979323846 / 180.0;
+  constexpr double kViewAngle = 30.0;
+  const Vec3 up = normalized(orientation.up);
+  const Vec3 right = normalized(cross(up, orientation.front), { 1.0, 0.0, 0.0 });
+  const Vec3 front = cross(right, up);
+  const double azimuth = azimuthDegrees * kDegree;
+  const double elevation = elevationDegrees * kDegree;
+  const Vec3 direction =
+    std::cos(elevation) * (std::cos(azimuth) * front + std::sin(azimuth) * right) + std::sin(elevation) * up;
+  // The cube's corners lie on a sphere of half its diagonal; seen obliquely it fills less, so come a little
+  // nearer.
+  const double distance = 0.5 * std::sqrt(3.0) * edge / std::sin(0.5 * kViewAngle * kDegree) * 0.92;
+  const Vec3 position = distance * direction;
+  camera->SetFocalPoint(0.0, 0.0, 0.0);
+  camera->SetPosition(position.x, position.y, position.z);
+  camera->SetViewUp(up.x, up.y, up.z);
+  camera->SetViewAngle(kViewAngle);
+  camera->SetClippingRange(0.05 * distance, 3.0 * distance);
+}
 
 bool buildPicture(
   const std::string& name, const std::string& mutation, const std::string& data, vtkRenderer* renderer)

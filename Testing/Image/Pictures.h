@@ -5,10 +5,14 @@
 
 #include <string>
 
+class vtkCamera;
 class vtkRenderer;
 
 namespace pointhaptics
 {
+
+struct CloudOrientation;
+
 namespace testing
 {
 
@@ -17,6 +21,11 @@ namespace testing
 /// it does not know that fault. @p data: the folder Data.
 bool buildPicture(
   const std::string& name, const std::string& mutation, const std::string& data, vtkRenderer* renderer);
+
+/// Places @p camera so that a cube of edge @p edge about the origin is wholly in view, seen from the front,
+/// turned by @p azimuthDegrees to the right and @p elevationDegrees up.
+void placeCamera(vtkCamera* camera, const CloudOrientation& orientation, double edge, double azimuthDegrees,
+  double elevationDegrees);
 
 } // namespace testing
 } // namespace pointhaptics

@@ -5,6 +5,7 @@
 #include "CloudParts.h"
 #include "HapticSceneBuilder.h"
 #include "LevelOfDetail.h"
+#include "Pictures.h"
 #include "PolyDataAccess.h"
 #include "ShownCloud.h"
 #include "SurfaceArrays.h"
@@ -77,7 +78,7 @@ vtkSmartPointer<vtkActor> showStatue(vtkRenderer* renderer, std::int64_t count, 
   applyDepthShading(
     renderer, 1.1 * quantileOfPositive(bandwidth->GetOutput()->GetPointData()->GetArray("MeanBandwidth"), 5));
   // From below and behind, where it is sparse.
-  placeCamera(renderer->GetActiveCamera(), CloudOrientation(), {}, 0.1, 200.0, 12.0);
+  placeCamera(renderer->GetActiveCamera(), CloudOrientation(), 0.1, 200.0, 12.0);
   renderer->GetActiveCamera()->Zoom(1.6);
   return actor;
 }
@@ -118,7 +119,7 @@ vtkSmartPointer<vtkActor> showLitStatue(vtkRenderer* renderer, std::int64_t coun
   mapper->Settings().ambientLight = fault != "no-light";
   const double sky[3] = { 0.0, 0.0, fault == "sky-below" ? -1.0 : 1.0 };
   mapper->Settings().sky = { sky[0], sky[1], sky[2] };
-  placeCamera(renderer->GetActiveCamera(), CloudOrientation(), {}, 0.1, 28.0, 12.0);
+  placeCamera(renderer->GetActiveCamera(), CloudOrientation(), 0.1, 28.0, 12.0);
   renderer->GetActiveCamera()->Zoom(1.6);
   return actor;
 }
@@ -166,7 +167,7 @@ void buildResiduals(const std::string& fault, vtkRenderer* renderer)
   vtkLookupTable::SafeDownCast(mapper->GetLookupTable())->SetTableRange(0.0, 5e-5);
   renderer->AddActor(actor);
   applyBackground(renderer);
-  placeCamera(renderer->GetActiveCamera(), CloudOrientation(), {}, 0.1, 28.0, 18.0);
+  placeCamera(renderer->GetActiveCamera(), CloudOrientation(), 0.1, 28.0, 18.0);
   renderer->GetActiveCamera()->Zoom(1.7);
 }
 

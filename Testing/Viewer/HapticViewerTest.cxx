@@ -329,6 +329,20 @@ TEST_F(HapticViewerTest, WhatIsRecordedOrShowsMeansIsResampledBeforeTheFirstPict
   EXPECT_GT(recorded.means()->GetNumberOfPoints(), 10000);
 }
 
+TEST_F(HapticViewerTest, APictureThatShowsNoMeansMakesNone)
+{
+  SKIP_WITHOUT_DISPLAY();
+  options_.makesMeans = false;
+  HapticViewer viewer(options_, observer_);
+  ASSERT_TRUE(viewer.open(makeSphere())) << viewer.message();
+  ASSERT_TRUE(viewer.renderToFile(this->path("points.png"))) << viewer.message();
+  EXPECT_EQ(viewer.numberOfResamplings(), 0u);
+  options_.colorBy = "proxyradius";
+  HapticViewer radii(options_, observer_);
+  ASSERT_TRUE(radii.open(makeSphere())) << radii.message();
+  EXPECT_GT(radii.numberOfResamplings(), 0u);
+}
+
 TEST_F(HapticViewerTest, LooksAtFinerVoxelsOnlyWhereTheUsualOnesTellLittle)
 {
   HapticViewer viewer(options_, observer_);

@@ -420,6 +420,7 @@ void ViewCommand::completeViewer(CLI::App& command)
                                             : HapticViewerDevice::Auto;
   options.falcon = this->falcon.settings();
   options.showsReading = this->needsWindow();
+  options.makesMeans = this->needsWindow();
 }
 
 void ViewCommand::declare(Files& taken) const

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
+#include <memory>
 
 namespace pointhaptics
 {
@@ -172,8 +173,8 @@ public:
     , query_(places.query())
     , neighbors_(neighbors)
     , size_(std::size_t(query_.size()))
-    , near_(size_)
-    , around_(size_)
+    , near_(new Near[size_])
+    , around_(new Around[size_])
     , thickness_(size_)
     , agreed_(size_)
     , raw_(size_)
@@ -234,6 +235,9 @@ public:
   }
 
 private:
+  using Near = std::array<std::uint32_t, kNear>;
+  using Around = std::array<std::uint32_t, std::size(kSurroundings)>;
+
   template <typename GoesOn, typename Visit>
   static bool sweep(
     const NeighborQuery& query, int count, const Executor& executor, const GoesOn& goesOn, const Visit& visit)
@@ -259,7 +263,7 @@ private:
     const int others = list.count - 1;
     PointShape& shape = raw_[slot];
     shape.spacing = float(spacingOf(list.squaredDistances, others));
-    std::array<std::uint32_t, kNear>& near = near_[slot];
+    Near& near = near_[slot];
     near.fill(std::uint32_t(slot));
     std::copy_n(list.slots + (others > 0 ? 1 : 0), std::min(kNear, others), near.begin());
     std::transform(std::begin(kSurroundings), std::end(kSurroundings), around_[slot].begin(),
@@ -392,8 +396,9 @@ private:
   const NeighborQuery& query_;
   const int neighbors_;
   const std::size_t size_;
-  std::vector<std::array<std::uint32_t, kNear>> near_;
-  std::vector<std::array<std::uint32_t, std::size(kSurroundings)>> around_;
+  // Filled in by fit() before anything reads them.
+  std::unique_ptr<Near[]> near_;
+  std::unique_ptr<Around[]> around_;
   std::vector<float> thickness_; ///< Root mean square distance from the plane.
   std::vector<float> agreed_;    ///< Flatness before it is averaged.
   std::vector<PointShape> raw_;
@@ -402,16 +407,23 @@ private:
 
 /// From what was measured back to the points of the cloud, with the sums over them.
 LocalShape collect(const PointView& cloud, const NeighborQuery& query, const ThinnedQuery& measured,
-  const Measurement& measurement)
+  const Measurement& measurement, const Executor& executor)
 {
   LocalShape shape;
   shape.points.resize(std::size_t(cloud.size()));
+  forRange(executor, query.size(),
+    [&](std::int64_t begin, std::int64_t end)
+    {
+      for (; begin < end; ++begin)
+      {
+        shape.points[std::size_t(query.index(begin))] = measurement.result(measured.slotFor(begin));
+      }
+    });
   double flatness = 0.0;
   std::vector<float> spacings;
   for (std::int64_t slot = 0; slot < query.size(); ++slot)
   {
     const PointShape& each = measurement.result(measured.slotFor(slot));
-    shape.points[std::size_t(query.index(slot))] = each;
     flatness += double(each.flatness);
     if (slot % (1 + query.size() / 20000) == 0)
     {
@@ -454,7 +466,7 @@ Status measureLocalShape(const PointView& cloud, const NeighborQuery& query,
   }
   measurement.compareNormals(executor);
   measurement.average(executor);
-  shape = collect(cloud, query, measured, measurement);
+  shape = collect(cloud, query, measured, measurement, executor);
   shape.numberOfNeighbors = neighbors;
   return goesOn(1.0) ? Status::Ok : Status::Aborted;
 }

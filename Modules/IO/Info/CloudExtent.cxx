@@ -4,29 +4,39 @@
 
 #include <vtkPolyData.h>
 
+#include <mutex>
+
 namespace pointhaptics
 {
 
-CloudExtent extentOf(vtkPolyData* cloud, const AffineTransform& transform)
+CloudExtent extentOf(vtkPolyData* cloud, const AffineTransform& transform, const Executor& executor)
 {
   CloudExtent extent;
-  Vec3 p;
-  for (vtkIdType i = 0; i < cloud->GetNumberOfPoints(); ++i)
-  {
-    cloud->GetPoint(i, &p.x);
-    if (isFinite(p))
+  std::mutex mutex;
+  forRange(executor, cloud->GetNumberOfPoints(),
+    [&](std::int64_t begin, std::int64_t end)
     {
-      ++extent.finite;
-      if (isAtZero(p))
+      CloudExtent part;
+      for (Vec3 p; begin < end; ++begin)
       {
-        ++extent.atZero;
+        cloud->GetPoint(begin, &p.x);
+        const bool isPlace = isFinite(p);
+        part.finite += isPlace ? 1 : 0;
+        part.atZero += isAtZero(p) ? 1 : 0;
+        if (isPlace && !isAtZero(p))
+        {
+          part.returned.include(transform.apply(p));
+        }
       }
-      else
+      const std::lock_guard<std::mutex> lock(mutex);
+      extent.finite += part.finite;
+      extent.atZero += part.atZero;
+      if (!part.returned.empty())
       {
-        extent.returned.include(transform.apply(p));
+        extent.returned.include(part.returned.minimum);
+        extent.returned.include(part.returned.maximum);
       }
-    }
-  }
+    });
   extent.invalid = cloud->GetNumberOfPoints() - extent.finite;
   extent.all = extent.returned;
   if (extent.atZero > 0)

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "Core/Base/AffineTransform.h"
+#include "Core/Base/Executor.h"
 #include "Core/Base/PointView.h"
 
 #include "PointHapticsIOModule.h" // For export macro
@@ -25,7 +26,8 @@ struct CloudExtent
   std::int64_t noReturns = 0; ///< the same where areNoReturns(), else 0.
 };
 
-POINTHAPTICSIO_EXPORT CloudExtent extentOf(
-  vtkPolyData* cloud, const AffineTransform& transform = AffineTransform());
+/// Independent of @p executor.
+POINTHAPTICSIO_EXPORT CloudExtent extentOf(vtkPolyData* cloud,
+  const AffineTransform& transform = AffineTransform(), const Executor& executor = Executor());
 
 } // namespace pointhaptics

@@ -3,6 +3,7 @@
 #include "CloudParts.h"
 #include "PictureState.h"
 #include "ProgressiveOrder.h"
+#include "SplatLook.h"
 #include "vtkSplatMapper.h"
 
 #include "vtkActor.h"
@@ -33,9 +34,9 @@ constexpr double kMostShare = 1.6;
 /// Least part in view that is assumed: the next frame may show more.
 constexpr double kLeastSeen = 0.1;
 
-/// Points nearer to each other on the screen than this many pixels cannot be told apart: half of the smallest
-/// splat lies on its neighbour.
-constexpr double kFinestPixels = 0.5;
+/// Points nearer to each other on the screen than this many pixels cannot be told apart: more than half of
+/// the smallest splat lies on its neighbour.
+constexpr double kFinestPixels = 0.8;
 /// Least diameter, over their spacing, of splats that close to a surface.
 constexpr double kDiameterPerSpacing = 1.8;
 
@@ -136,11 +137,10 @@ bool LevelOfDetail::sceneChanged(vtkPolyData* cloud)
 /// Number of points that the coming frame may draw.
 std::int64_t LevelOfDetail::wanted(double now)
 {
-  if (allOnce_)
+  if (finestOnce_)
   {
-    allOnce_ = false;
-    finest_ = total_;
-    return total_;
+    finestOnce_ = false;
+    return finest_;
   }
   if (moving_)
   {
@@ -180,9 +180,9 @@ void LevelOfDetail::beginFrame(double now)
   total_ = cloud->GetNumberOfPoints();
   finest_ = this->finestFor(cloud);
   before_ = drawn_;
-  isKept_ = allOnce_;
+  isKept_ = finestOnce_;
   const std::int64_t before = cloudChanged_ ? -1 : drawn_;
-  inMotion_ = !allOnce_ && (moving_ || now - lastMotion_ < kRestSeconds);
+  inMotion_ = !finestOnce_ && (moving_ || now - lastMotion_ < kRestSeconds);
   this->show(cloud, this->wanted(now));
   // A frame at rest may reuse the last picture, or draw it several times.
   frameIsTypical_ = moving_ && drawn_ == before;
@@ -338,7 +338,10 @@ std::int64_t LevelOfDetail::finestFor(vtkPolyData* cloud)
   }
   if (spacing_ < 0.0)
   {
-    spacing_ = splats->Settings().sizeScale / kDiameterPerSpacing * quantileOfPositive(lengths, 9);
+    // Splats that close wide gaps are larger than their spacing says.
+    vtkDataArray* growths = cloud->GetPointData()->GetArray(kSplatGrowthName);
+    spacing_ = splats->Settings().sizeScale / kDiameterPerSpacing * (growths ? kNoSplatGrowth : 1.0) *
+      quantileOfPositive(lengths, 9, growths);
   }
   vtkMatrix4x4* toClip = renderer_->GetActiveCamera()->GetCompositeProjectionTransformMatrix(
     renderer_->GetTiledAspectRatio(), -1, 1);

@@ -71,8 +71,8 @@ public:
   /// Gives it progressiveOrder() of the cloud's points, which takes a second for some millions. If it is null
   /// or has another size, the order is made here when it is first needed.
   void setOrder(std::shared_ptr<const std::vector<std::uint32_t>> order) { givenOrder_ = std::move(order); }
-  /// Makes the next frame show all points, whatever moves: for pictures that are kept.
-  void showAllOnce() { allOnce_ = true; }
+  /// Makes the next frame as fine as possible, whatever moves: for pictures that are kept.
+  void showFinestOnce() { finestOnce_ = true; }
 
   /// Notes that the actor's mapper has other colours: the parts for moving pictures are made anew.
   void recolor() { this->removeLevels(); }
@@ -131,7 +131,7 @@ private:
   std::vector<Level> levels_;
   FrameBudget budget_;
   bool enabled_ = false;
-  bool allOnce_ = false;
+  bool finestOnce_ = false;
   bool isKept_ = false; // it was asked for the frame that is drawn
   bool moving_ = false;
   bool inMotion_ = false;

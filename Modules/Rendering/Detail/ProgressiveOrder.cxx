@@ -1,8 +1,13 @@
 #include "ProgressiveOrder.h"
 
+#include "SmpExecutor.h"
+
+#include "Core/Resample/VoxelMean.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 
 namespace pointhaptics
 {
@@ -36,42 +41,40 @@ std::uint32_t cubeOf(const Vec3& p, const Bounds& bounds, double perEdge)
   return cube;
 }
 
-std::int64_t reversedBits(std::int64_t value, int bits)
+/// The lowest @p bits of @p value, at most 32, in reverse.
+std::uint64_t reversedBits(std::uint64_t value, int bits)
 {
-  std::int64_t result = 0;
-  for (int bit = 0; bit < bits; ++bit)
-  {
-    result |= ((value >> bit) & 1) << (bits - 1 - bit);
-  }
-  return result;
+  value = (value >> 1 & 0x55555555u) | (value & 0x55555555u) << 1;
+  value = (value >> 2 & 0x33333333u) | (value & 0x33333333u) << 2;
+  value = (value >> 4 & 0x0f0f0f0fu) | (value & 0x0f0f0f0fu) << 4;
+  value = (value >> 8 & 0x00ff00ffu) | (value & 0x00ff00ffu) << 8;
+  value = value >> 16 | (value & 0xffffu) << 16;
+  return value >> (32 - bits);
 }
 
 /// Indices in the order of the curve.
 std::vector<std::uint32_t> alongCurve(const PointView& points)
 {
-  Bounds bounds;
-  for (std::int64_t i = 0; i < points.size(); ++i)
-  {
-    const Vec3 p = points[i];
-    if (isFinite(p))
-    {
-      bounds.include(p);
-    }
-  }
+  const SmpExecutor executor;
+  const Bounds bounds = transformedBounds(points, AffineTransform(), executor);
   const Vec3 extent = bounds.empty() ? Vec3() : bounds.extent();
   const double longest = std::max({ extent.x, extent.y, extent.z });
   const double perEdge = longest > 0.0 ? double(1 << kDepth) / longest : 0.0;
   std::vector<std::uint32_t> cubes(std::size_t(points.size()));
+  forRange(executor, points.size(),
+    [&](std::int64_t begin, std::int64_t end)
+    {
+      for (; begin < end; ++begin)
+      {
+        cubes[std::size_t(begin)] = cubeOf(points[begin], bounds, perEdge);
+      }
+    });
   std::vector<std::int64_t> starts(std::size_t(kCubes) + 1, 0);
-  for (std::size_t i = 0; i < cubes.size(); ++i)
+  for (const std::uint32_t cube : cubes)
   {
-    cubes[i] = cubeOf(points[std::int64_t(i)], bounds, perEdge);
-    ++starts[cubes[i] + 1];
+    ++starts[cube + 1];
   }
-  for (std::size_t cube = 0; cube < kCubes; ++cube)
-  {
-    starts[cube + 1] += starts[cube];
-  }
+  std::partial_sum(starts.begin(), starts.end(), starts.begin());
   std::vector<std::uint32_t> order(cubes.size());
   for (std::size_t i = 0; i < cubes.size(); ++i)
   {
@@ -85,21 +88,21 @@ std::vector<std::uint32_t> alongCurve(const PointView& points)
 std::vector<std::uint32_t> progressiveOrder(const PointView& points)
 {
   const std::vector<std::uint32_t> curve = alongCurve(points);
-  const auto size = std::int64_t(curve.size());
+  const std::uint64_t size = curve.size();
   int bits = 0;
-  while ((std::int64_t(1) << bits) < size)
+  while ((std::uint64_t(1) << bits) < size)
   {
     ++bits;
   }
   // Numbers with their bits reversed fill an interval evenly, however many of them are taken.
   std::vector<std::uint32_t> order;
   order.reserve(curve.size());
-  for (std::int64_t i = 0; i < std::int64_t(1) << bits; ++i)
+  for (std::uint64_t i = 0; i < std::uint64_t(1) << bits; ++i)
   {
-    const std::int64_t place = reversedBits(i, bits);
+    const std::uint64_t place = reversedBits(i, bits);
     if (place < size)
     {
-      order.push_back(curve[std::size_t(place)]);
+      order.push_back(curve[place]);
     }
   }
   return order;

@@ -1,6 +1,8 @@
 #include "CloudAppearance.h"
 
 #include "AsprsClasses.h"
+#include "CloudParts.h"
+#include "SmpExecutor.h"
 
 #include "vtkActor.h"
 #include "vtkCameraPass.h"
@@ -26,6 +28,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -167,12 +170,17 @@ void addHeightArray(vtkPolyData* cloud, const Vec3& up)
     vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(cloud->GetPoints()->GetDataType()));
   heights->SetName(kHeightArrayName);
   heights->SetNumberOfTuples(cloud->GetNumberOfPoints());
-  Vec3 p;
-  for (vtkIdType i = 0; i < cloud->GetNumberOfPoints(); ++i)
-  {
-    cloud->GetPoint(i, &p.x);
-    heights->SetComponent(i, 0, isFinite(p) ? dot(p, up) : NAN);
-  }
+  std::vector<Vec3> copy;
+  const PointView points = cloud->GetNumberOfPoints() > 0 ? viewOf(cloud, copy) : PointView();
+  forRange(SmpExecutor(), points.size(),
+    [&](std::int64_t begin, std::int64_t end)
+    {
+      for (; begin < end; ++begin)
+      {
+        const Vec3 p = points[begin];
+        heights->SetComponent(begin, 0, isFinite(p) ? dot(p, up) : NAN);
+      }
+    });
   cloud->GetPointData()->AddArray(heights);
 }
 

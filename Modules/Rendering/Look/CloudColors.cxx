@@ -2,6 +2,7 @@
 
 #include "AsprsClasses.h"
 #include "CloudAppearance.h"
+#include "SmpExecutor.h"
 
 #include "vtkDataArray.h"
 #include "vtkPointData.h"
@@ -243,8 +244,7 @@ vtkSmartPointer<vtkUnsignedCharArray> makeColors(
   auto result = vtkSmartPointer<vtkUnsignedCharArray>::New();
   result->SetNumberOfComponents(3);
   result->SetNumberOfTuples(count);
-  unsigned char* out = result->GetPointer(0);
-  for (vtkIdType i = 0; i < count; ++i)
+  const auto colorOne = [&](vtkIdType i)
   {
     Vec3 color{ kClayColor[0], kClayColor[1], kClayColor[2] };
     if (classes)
@@ -259,9 +259,18 @@ vtkSmartPointer<vtkUnsignedCharArray> makeColors(
     color *= intensity ? 0.75 + 0.40 * rankOf(colors.ranks, intensity->GetComponent(i, 0)) : 1.0;
     for (int channel = 0; channel < 3; ++channel)
     {
-      *out++ = static_cast<unsigned char>(std::lround(255.0 * std::clamp(color[channel], 0.0, 1.0)));
+      result->SetValue(3 * i + channel,
+        static_cast<unsigned char>(std::lround(255.0 * std::clamp(color[channel], 0.0, 1.0))));
     }
-  }
+  };
+  forRange(SmpExecutor(), count,
+    [&colorOne](std::int64_t begin, std::int64_t end)
+    {
+      for (; begin < end; ++begin)
+      {
+        colorOne(begin);
+      }
+    });
   return result;
 }
 

@@ -1,5 +1,7 @@
 #include "CloudLook.h"
 
+#include "SmpExecutor.h"
+
 #include "Core/Base/Boxes.h"
 
 #include <algorithm>
@@ -7,6 +9,7 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
+#include <mutex>
 #include <unordered_map>
 
 namespace pointhaptics
@@ -281,6 +284,10 @@ struct Extremes
     most[2] = std::max(most[2], p.y + ty * p.z);
     most[3] = std::max(most[3], -p.y + ty * p.z);
   }
+  void include(const Extremes& other)
+  {
+    std::transform(most, most + 4, other.most, most, [](double a, double b) { return std::max(a, b); });
+  }
   double distance(double tx, double ty) const
   {
     return std::max((most[0] + most[1]) / (2.0 * tx), (most[2] + most[3]) / (2.0 * ty));
@@ -306,6 +313,29 @@ void middleOf(std::vector<Vec3>& sample, double share, Vec3& from, Vec3& to)
 bool isBetween(const Vec3& p, const Vec3& from, const Vec3& to)
 {
   return p.x >= from.x && p.x <= to.x && p.y >= from.y && p.y <= to.y && p.z >= from.z && p.z <= to.z;
+}
+
+/// Extremes of @p seen(i) over those of @p count that @p counts(i).
+template <typename Seen, typename Counts>
+Extremes extremesOf(std::int64_t count, const Seen& seen, const Counts& counts, double tx, double ty)
+{
+  Extremes extremes;
+  std::mutex mutex;
+  forRange(SmpExecutor(), count,
+    [&](std::int64_t begin, std::int64_t end)
+    {
+      Extremes part;
+      for (; begin < end; ++begin)
+      {
+        if (counts(begin))
+        {
+          part.include(seen(begin), tx, ty);
+        }
+      }
+      const std::lock_guard<std::mutex> lock(mutex);
+      extremes.include(part);
+    });
+  return extremes;
 }
 
 /// Extremes of the points of @p sample in the box; none for many equal points, which give nothing to fit.
@@ -491,23 +521,19 @@ CameraFit fitCamera(const PointView& cloud, const CloudLook& look, const AffineT
   const double tangent = kFilledPart * std::tan(0.5 * kViewAngle * kDegree);
   const double ty = parallel ? 0.0 : tangent; // rays that do not diverge
   const double tx = ty * aspect;
-  Extremes extremes;
-  Extremes ofCore;
-  std::vector<Vec3> sample;
-  const std::int64_t step = 1 + cloud.size() / kSample;
-  for (std::int64_t i = 0; i < cloud.size(); ++i)
+  const auto seen = [&](std::int64_t i)
   {
     const Vec3 q = toWorld.apply(cloud[i]);
-    const Vec3 p{ dot(q, view.right), dot(q, view.up), dot(q, view.back) };
-    extremes.include(p, tx, ty);
-    if (contains(look.core, cloud[i]))
-    {
-      ofCore.include(p, tx, ty);
-    }
-    if (i % step == 0)
-    {
-      sample.push_back(p);
-    }
+    return Vec3{ dot(q, view.right), dot(q, view.up), dot(q, view.back) };
+  };
+  const auto isInCore = [&](std::int64_t i) { return contains(look.core, cloud[i]); };
+  Extremes extremes = extremesOf(
+    cloud.size(), seen, [](std::int64_t) { return true; }, tx, ty);
+  const Extremes ofCore = extremesOf(cloud.size(), seen, isInCore, tx, ty);
+  std::vector<Vec3> sample;
+  for (std::int64_t i = 0; i < cloud.size(); i += 1 + cloud.size() / kSample)
+  {
+    sample.push_back(seen(i));
   }
   CameraFit fit;
   fit.viewAngle = kViewAngle;

@@ -1,11 +1,12 @@
 #include "CloudOrientation.h"
 
 #include "CloudParts.h"
+#include "SmpExecutor.h"
 #include "UpEvidence.h"
 
 #include "Core/Base/PointView.h"
+#include "Core/Resample/VoxelMean.h"
 
-#include "vtkCamera.h"
 #include "vtkDataArray.h"
 #include "vtkFieldData.h"
 #include "vtkPolyData.h"
@@ -27,21 +28,6 @@ constexpr double kLongestScannedObject = 2.0;
 /// Largest ratio of an object's extents; and of its distance from the origin to its length.
 constexpr double kLongestObject = 4.0;
 constexpr double kFarthestObject = 10.0;
-
-Bounds finiteBounds(vtkPolyData* cloud)
-{
-  Bounds bounds;
-  Vec3 p;
-  for (vtkIdType i = 0; i < cloud->GetNumberOfPoints(); ++i)
-  {
-    cloud->GetPoint(i, &p.x);
-    if (isFinite(p))
-    {
-      bounds.include(p);
-    }
-  }
-  return bounds;
-}
 
 double fieldValue(vtkDataArray* array, int i)
 {
@@ -71,9 +57,8 @@ bool comesFromCamera(vtkFieldData* field)
 /// it, z backward and y up; the viewpoint
 /// places that frame in a world we do not show. Points behind the camera mean that they are in the world's
 /// frame already.
-bool sensorOrientation(vtkPolyData* cloud, CloudOrientation& orientation)
+bool sensorOrientation(vtkPolyData* cloud, const Bounds& bounds, CloudOrientation& orientation)
 {
-  const Bounds bounds = finiteBounds(cloud);
   const double ahead = bounds.minimum.z > 0.0 ? 1.0 : bounds.maximum.z < 0.0 ? -1.0 : 0.0;
   if (!comesFromCamera(cloud->GetFieldData()) || ahead == 0.0)
   {
@@ -163,52 +148,35 @@ std::string axisName(const Vec3& up)
 CloudOrientation guessCloudOrientation(vtkPolyData* cloud, const std::string& format)
 {
   CloudOrientation orientation;
-  if (!cloud || sensorOrientation(cloud, orientation))
+  if (!cloud || cloud->GetNumberOfPoints() == 0)
+  {
+    return orientation;
+  }
+  std::vector<Vec3> copy;
+  const PointView points = viewOf(cloud, copy);
+  const Bounds bounds = transformedBounds(points, AffineTransform(), SmpExecutor());
+  if (sensorOrientation(cloud, bounds, orientation))
   {
     return orientation;
   }
   const bool standsUp = isAnyOf({ "ply", "obj", "stl", "off" }, format)
-    ? standsAlongY(finiteBounds(cloud))
-    : isAnyOf({ "e57" }, format) && standsAboveFloor(finiteBounds(cloud));
+    ? standsAlongY(bounds)
+    : isAnyOf({ "e57" }, format) && standsAboveFloor(bounds);
   if (standsUp)
   {
     orientation = orientationForUpAxis("y");
   }
-  if (cloud->GetNumberOfPoints() == 0 || isAnyOf({ "las", "laz", "copc", "e57" }, format))
+  if (isAnyOf({ "las", "laz", "copc", "e57" }, format))
   {
     return orientation; // surveys say what is up
   }
-  std::vector<Vec3> copy;
-  const std::optional<Vec3> up = upByShape(viewOf(cloud, copy), orientation.up, orientation.isGuess);
+  const std::optional<Vec3> up = upByShape(points, orientation.up, orientation.isGuess);
   if (up)
   {
     orientation = orientationForUpAxis(axisName(*up));
     orientation.isGuess = true;
   }
   return orientation;
-}
-
-void placeCamera(vtkCamera* camera, const CloudOrientation& orientation, const Vec3& center, double edge,
-  double azimuthDegrees, double elevationDegrees)
-{
-  constexpr double kDegree = 3.14159265358979323846 / 180.0;
-  constexpr double kViewAngle = 30.0;
-  const Vec3 up = normalized(orientation.up);
-  const Vec3 right = normalized(cross(up, orientation.front), { 1.0, 0.0, 0.0 });
-  const Vec3 front = cross(right, up);
-  const double azimuth = azimuthDegrees * kDegree;
-  const double elevation = elevationDegrees * kDegree;
-  const Vec3 direction =
-    std::cos(elevation) * (std::cos(azimuth) * front + std::sin(azimuth) * right) + std::sin(elevation) * up;
-  // The cube's corners lie on a sphere of half its diagonal; seen obliquely it fills less, so come a little
-  // nearer.
-  const double distance = 0.5 * std::sqrt(3.0) * edge / std::sin(0.5 * kViewAngle * kDegree) * 0.92;
-  const Vec3 position = center + distance * direction;
-  camera->SetFocalPoint(center.x, center.y, center.z);
-  camera->SetPosition(position.x, position.y, position.z);
-  camera->SetViewUp(up.x, up.y, up.z);
-  camera->SetViewAngle(kViewAngle);
-  camera->SetClippingRange(0.05 * distance, 3.0 * distance);
 }
 
 } // namespace pointhaptics

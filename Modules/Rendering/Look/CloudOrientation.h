@@ -8,7 +8,6 @@
 
 #include <string>
 
-class vtkCamera;
 class vtkPolyData;
 
 namespace pointhaptics
@@ -40,11 +39,5 @@ POINTHAPTICSRENDERING_EXPORT CloudOrientation orientationForUpAxis(const std::st
 
 /// Name of the axis that is nearest to @p up: x, -x, ... -z.
 POINTHAPTICSRENDERING_EXPORT std::string axisName(const Vec3& up);
-
-/// Places @p camera so that a cube of edge @p edge about @p center is wholly in view, seen from the front,
-/// turned by
-/// @p azimuthDegrees to the right and @p elevationDegrees up.
-POINTHAPTICSRENDERING_EXPORT void placeCamera(vtkCamera* camera, const CloudOrientation& orientation,
-  const Vec3& center, double edge, double azimuthDegrees, double elevationDegrees);
 
 } // namespace pointhaptics

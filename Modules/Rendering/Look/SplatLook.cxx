@@ -1,5 +1,6 @@
 #include "SplatLook.h"
 
+#include "CloudParts.h"
 #include "SmpExecutor.h"
 #include "vtkSplatMapper.h"
 
@@ -31,7 +32,6 @@ constexpr double kFlatDiameter = 1.1;
 constexpr double kGridDiameter = 1.5;
 /// Radius of a disc over its reach: discs that just meet leave holes where the surface bends.
 constexpr double kOverlap = 1.1;
-constexpr double kNoGrowth = 64.0;
 constexpr double kSmallestShownPixels = 2.0;
 /// The pixels bound the splats, not the median of their lengths: a sweep is sparse far away.
 constexpr double kFarthestRatio = 1e6;
@@ -45,7 +45,7 @@ constexpr double kApart = 2.0;
 constexpr double kUsualHeight = 800.0;
 /// Clouds of more points are sampled: one point is measured in every place that the first picture can show.
 constexpr std::int64_t kAllMeasured = 3000000;
-constexpr double kFinestPixels = 0.5; ///< As LevelOfDetail has it.
+constexpr double kSharedPixels = 0.5;
 
 /// Radius of a Gaussian splat that is drawn, in standard deviations.
 constexpr double kDeviations = 1.5;
@@ -115,7 +115,7 @@ bool measureCloud(const PointView& cloud, const CloudOrientation& orientation,
   if (cloud.size() > kAllMeasured)
   {
     // A few neighbours that are apart reach as far as many that are close.
-    settings.apart = kFinestPixels * settings.pixel;
+    settings.apart = kSharedPixels * settings.pixel;
     settings.numberOfNeighbors = LocalShapeSettings::kFewest;
   }
   LocalShape& shape = measured.shape;
@@ -183,6 +183,8 @@ void addSplats(vtkPolyData* points, const MeasuredCloud& measured)
 {
   const LocalShape& shape = measured.shape;
   const CloudLook& look = measured.look;
+  std::vector<Vec3> copy;
+  const PointView places = viewOf(points, copy);
   const bool isFrame = look.kind == CloudKind::Frame;
   const bool facesSensor = look.kind == CloudKind::Sweep || look.kind == CloudKind::Indoors;
   const double widest = kWidestGap * shape.medianSpacing;
@@ -194,11 +196,10 @@ void addSplats(vtkPolyData* points, const MeasuredCloud& measured)
   normals->SetName(kSplatNormalName);
   normals->SetNumberOfComponents(3);
   normals->SetNumberOfTuples(count);
-  short* out = normals->GetPointer(0);
   vtkNew<vtkUnsignedCharArray> growths;
   growths->SetName(kSplatGrowthName);
   growths->SetNumberOfValues(count);
-  for (vtkIdType i = 0; i < count; ++i)
+  const auto addOne = [&](std::int64_t i)
   {
     const PointShape& each = shape.points[std::size_t(i)];
     const double spacing = double(each.spacing);
@@ -218,18 +219,25 @@ void addSplats(vtkPolyData* points, const MeasuredCloud& measured)
       ? std::max({ bounded, least, 2.0 * kOverlap * closed * double(each.reach) })
       : double(measured.diameters[std::size_t(i)]);
     lengths->SetValue(i, float(length));
-    const double growth = usual > 0.0 ? std::clamp(kNoGrowth * length / usual, 1.0, 255.0) : kNoGrowth;
+    const double growth =
+      usual > 0.0 ? std::clamp(kNoSplatGrowth * length / usual, 1.0, 255.0) : kNoSplatGrowth;
     growths->SetValue(i, static_cast<unsigned char>(std::lround(growth)));
     const Vec3 n{ double(each.normal[0]), double(each.normal[1]), double(each.normal[2]) };
-    Vec3 p;
-    points->GetPoint(i, &p.x);
-    const double side = facesSensor && dot(n, p) > 0.0 ? -1.0 : 1.0;
+    const double side = facesSensor && dot(n, places[i]) > 0.0 ? -1.0 : 1.0;
     for (int axis = 0; axis < 3; ++axis)
     {
-      *out++ =
-        short(std::lround(side * kSplatNormalUnit * std::clamp(double(each.flatness) * n[axis], -1.0, 1.0)));
+      normals->SetValue(3 * i + axis,
+        short(std::lround(side * kSplatNormalUnit * std::clamp(double(each.flatness) * n[axis], -1.0, 1.0))));
     }
-  }
+  };
+  forRange(SmpExecutor(), count,
+    [&addOne](std::int64_t begin, std::int64_t end)
+    {
+      for (; begin < end; ++begin)
+      {
+        addOne(begin);
+      }
+    });
   points->GetPointData()->AddArray(lengths);
   points->GetPointData()->AddArray(growths);
   points->GetPointData()->AddArray(normals);
@@ -267,7 +275,7 @@ void addDensity(vtkPolyData* points)
   {
     Vec3 n;
     normals->GetTuple(i, &n.x);
-    const double usual = std::abs(lengths->GetComponent(i, 0)) * kNoGrowth / growths->GetComponent(i, 0);
+    const double usual = std::abs(lengths->GetComponent(i, 0)) * kNoSplatGrowth / growths->GetComponent(i, 0);
     const double spacing = usual / usualDiameter(norm(n) / kSplatNormalUnit, 1.0);
     density->SetValue(i, spacing > 0.0 ? float(1.0 / (spacing * spacing)) : NAN);
   }

@@ -24,12 +24,13 @@ namespace pointhaptics
 constexpr const char* kSplatLengthName =
   "SplatLength"; ///< Diameter of each splat, unit of the file; hidden: < 0.
 constexpr const char* kSplatNormalName = "SplatNormal"; ///< Short integers: kSplatNormalUnit is flat.
-constexpr const char* kSplatGrowthName = "SplatGrowth"; ///< Bytes: 64 where the spacing alone rules.
+constexpr const char* kSplatGrowthName = "SplatGrowth"; ///< Bytes: kNoSplatGrowth where spacing rules.
 constexpr const char* kLookColorName = "LookColor";
 /// All arrays of the picture: texts at a point leave them out.
 constexpr std::array<const char*, 4> kArraysOfPicture = { kSplatLengthName, kSplatNormalName,
   kSplatGrowthName, kLookColorName };
 constexpr double kSplatNormalUnit = 32767.0;
+constexpr double kNoSplatGrowth = 64.0;
 
 /// Surface about each point of a cloud, and the look that follows from it.
 struct MeasuredCloud

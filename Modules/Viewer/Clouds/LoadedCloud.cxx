@@ -11,6 +11,7 @@
 #include "PolyDataAccess.h"
 #include "ResampledCloud.h"
 #include "ShownCloud.h"
+#include "SmpExecutor.h"
 #include "SurfaceArrays.h"
 
 #include <fmt/format.h>
@@ -234,23 +235,50 @@ vtkSmartPointer<vtkPolyData> drawnPoints(const CloudRequest& request, const Load
   return clippedCloud(loaded.cloud, box);
 }
 
-/// Fills in LoadedCloud::shown from the points that are @p drawn, or what must be measured for it. False: @p
-/// goesOn said no.
+void report(const CloudRequest& request, const char* step, double part)
+{
+  if (request.working)
+  {
+    request.working(step, part);
+  }
+}
+
+/// True if the means come after the picture, or are not needed.
+bool isResampledLater(const CloudRequest& request, const LoadedCloud& loaded)
+{
+  const bool showsMeans = isOfMeans(loaded.colorBy) && !findColorSource(loaded.cloud, loaded.colorBy);
+  return request.options && request.resamplesLater && request.canResampleLater() && !showsMeans;
+}
+
+/// Adds the array of heights where means or points are coloured or hidden by it.
+void addHeights(const CloudRequest& request, vtkPolyData* drawn, LoadedCloud& loaded)
+{
+  if (!hasColors(loaded.cloud) || !request.colorBy.empty() || hidesByHeight(loaded.showing.hidden))
+  {
+    addHeightArray(loaded.cloud, loaded.orientation.up);
+    if (drawn != loaded.cloud)
+    {
+      addHeightArray(drawn, loaded.orientation.up);
+    }
+  }
+}
+
+/// Fills in LoadedCloud::shown from the points that are @p drawn, or begins to measure what it needs. False:
+/// @p goesOn said no.
 bool show(
   const CloudRequest& request, vtkPolyData* drawn, const std::function<bool()>& goesOn, LoadedCloud& loaded)
 {
   const auto measured = [&request, &goesOn](double part)
   {
-    if (request.working)
-    {
-      request.working("measuring", part);
-    }
+    report(request, "measuring", part);
     return goesOn();
   };
   if (request.measuresLater && drawn->GetNumberOfPoints() > kMeasuredAtOnce)
   {
-    loaded.toMeasure = vtkSmartPointer<vtkPolyData>::New();
-    loaded.toMeasure->ShallowCopy(drawn);
+    const auto all = vtkSmartPointer<vtkPolyData>::New();
+    all->ShallowCopy(drawn);
+    loaded.measurement = std::make_shared<ShownMeasurement>();
+    loaded.measurement->start(all, loaded.showing);
     loaded.shown = makePlainCloud(drawn, loaded.showing);
   }
   else
@@ -318,6 +346,11 @@ std::string shortNote(const std::vector<std::string>& notes)
                           : fmt::format("{} (and {} more)", notes.front(), notes.size() - 1);
 }
 
+bool isOfMeans(const std::string& name)
+{
+  return isMadeByPipeline(name) && name != kClayName && name != kHeightArrayName && name != "Density";
+}
+
 std::string colorWord(const std::string& name)
 {
   return isMadeByPipeline(name) ? lowered(name) : name;
@@ -327,7 +360,7 @@ void findBounds(const CloudRequest& request, LoadedCloud& loaded)
 {
   const bool isMoved = !request.transform.isIdentity();
   const bool isFitted = request.options && request.options->fitsWorkspace;
-  const CloudExtent extent = extentOf(loaded.cloud, request.transform);
+  const CloudExtent extent = extentOf(loaded.cloud, request.transform, SmpExecutor());
   loaded.bounds = isFitted ? extent.returned : extent.all;
   loaded.invalid = extent.invalid;
   loaded.noReturns = extent.noReturns;
@@ -337,8 +370,8 @@ void findBounds(const CloudRequest& request, LoadedCloud& loaded)
     return;
   }
   const PointAccess points(loaded.cloud->GetPoints());
-  FarPoints far =
-    findFarPoints(points.view(), isMoved ? extentOf(loaded.cloud, AffineTransform()).all : extent.all);
+  FarPoints far = findFarPoints(
+    points.view(), isMoved ? extentOf(loaded.cloud, AffineTransform(), SmpExecutor()).all : extent.all);
   if (far.count == 0)
   {
     return;
@@ -390,6 +423,7 @@ bool loadCloud(const CloudRequest& request, const std::function<bool(double)>& g
   {
     return false;
   }
+  report(request, "preparing", 0.0);
   result.isCoarse = findings.isCoarse;
   addNotes(request, std::move(findings.notes), result);
   findBounds(request, result);
@@ -398,6 +432,7 @@ bool loadCloud(const CloudRequest& request, const std::function<bool(double)>& g
     message = fmt::format("{}: no point is finite (all are NaN or infinite); nothing to show", result.title);
     return false;
   }
+  report(request, "preparing", 0.2);
   result.colorBy = request.colorBy;
   std::vector<HiddenValues> hidden = request.hidden;
   if (!completeName(result.cloud, request.colorByName, result.colorBy, message) ||
@@ -412,11 +447,12 @@ bool loadCloud(const CloudRequest& request, const std::function<bool(double)>& g
   result.showing.hidden = std::move(hidden);
   result.showing.ignoresIntensity = findings.hasSamples;
   result.orientation = result.showing.orientation;
-  if (!hasColors(result.cloud) || !request.colorBy.empty() || hidesByHeight(result.showing.hidden))
+  const bool isLater = isResampledLater(request, result);
+  if (!isLater || request.makesScene || result.colorBy == kHeightArrayName)
   {
-    addHeightArray(result.cloud, result.orientation.up);
-    addHeightArray(drawn, result.orientation.up);
+    addHeights(request, drawn, result);
   }
+  report(request, "preparing", 0.6);
   const auto askOn = [&goesOn] { return goesOn(1.0); };
   if (request.options && !show(request, drawn, askOn, result))
   {
@@ -427,7 +463,7 @@ bool loadCloud(const CloudRequest& request, const std::function<bool(double)>& g
   if (request.options)
   {
     placeCloud(request, result);
-    if (request.resamplesLater && request.canResampleLater())
+    if (isLater)
     {
       resampleLater(request, result);
     }

@@ -57,13 +57,13 @@ struct POINTHAPTICSVIEWER_EXPORT CloudRequest
   bool makesScene = false;            ///< True where the cloud will be felt.
   std::optional<ShownRequest> before; ///< Look of a coarse level of the same files: all points get it, too.
   bool isFeltOnly = false;            ///< Nothing is made for a picture: LoadedCloud::means have no arrays.
-  /// Receives the step after the reading, "measuring" or "resampling", and its progress, 0 to 1; may be
-  /// empty.
+  /// Receives the step after the reading, "preparing", "measuring" or "resampling", and its progress, 0 to 1;
+  /// may be empty.
   std::function<void(const char* step, double part)> working;
   /// Do not wait for the means before the first picture and the scene near the hand:
   /// LoadedCloud::isResampled. Effective where canResampleLater().
   bool resamplesLater = false;
-  bool measuresLater = false; ///< Show large clouds plain first: LoadedCloud::toMeasure.
+  bool measuresLater = false; ///< Show large clouds plain first: LoadedCloud::measurement.
 
   std::string name() const; ///< For messages.
   /// True if the options neither show or record means, nor place the cloud, so that it may have no points in
@@ -88,8 +88,9 @@ struct LoadedCloud
 
   std::shared_ptr<ShownCloud> shown; ///< How its points are drawn; null: it was only read.
 
-  ShownRequest showing;                   ///< Request from which @c shown was made.
-  vtkSmartPointer<vtkPolyData> toMeasure; ///< With all arrays, where @c shown is plain; else null.
+  ShownRequest showing; ///< Request from which @c shown was made.
+  /// Measures the points while the loader goes on, where @c shown is plain; else null.
+  std::shared_ptr<ShownMeasurement> measurement;
 
   bool isResampled = true;   ///< If false, only placement, model and workspace below are set.
   bool findsLattice = false; ///< True if the lattice of the later resampling is still to be chosen.
@@ -117,6 +118,9 @@ POINTHAPTICSVIEWER_EXPORT void findBounds(const CloudRequest& request, LoadedClo
 /// Adds a note on rays that did not return: it explains why points of the file are missing. @pre
 /// LoadedCloud::workspace is that of the scene.
 POINTHAPTICSVIEWER_EXPORT void noteNoReturns(const CloudRequest& request, LoadedCloud& loaded);
+
+/// True for arrays that means alone have.
+bool isOfMeans(const std::string& name);
 
 /// Name of an array in options and messages: arrays that the pipeline makes are in lower case.
 std::string colorWord(const std::string& name);

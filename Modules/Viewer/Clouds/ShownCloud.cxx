@@ -30,6 +30,8 @@ namespace
 
 /// A cloud this many times as wide as it is high may be terrain.
 constexpr double kLowParts = 3.0;
+/// Part of making a ShownCloud that is measuring; colours and sizes follow.
+constexpr double kMeasuring = 0.9;
 
 class AbortQuestion : public ProgressObserver
 {
@@ -38,7 +40,7 @@ public:
     : goesOn_(goesOn)
   {
   }
-  bool report(double part) override { return goesOn_(part); }
+  bool report(double part) override { return goesOn_(kMeasuring * part); }
 
 private:
   const std::function<bool(double)>& goesOn_;
@@ -190,13 +192,16 @@ std::shared_ptr<ShownCloud> makePlainCloud(vtkPolyData* cloud, const ShownReques
 
 void ShownMeasurement::start(vtkSmartPointer<vtkPolyData> cloud, const ShownRequest& request)
 {
-  this->cancel();
-  cancelled_ = false;
   const auto measure = [this, cloud = std::move(cloud), request]() -> std::shared_ptr<ShownCloud>
   {
     try
     {
-      return makeShownCloud(cloud, request, [this](double) { return !cancelled_; });
+      return makeShownCloud(cloud, request,
+        [this](double part)
+        {
+          part_ = part;
+          return !cancelled_;
+        });
     }
     catch (const std::bad_alloc&)
     {
@@ -206,20 +211,21 @@ void ShownMeasurement::start(vtkSmartPointer<vtkPolyData> cloud, const ShownRequ
   result_ = std::async(std::launch::async, measure);
 }
 
-std::shared_ptr<ShownCloud> ShownMeasurement::take(bool waits)
+bool ShownMeasurement::isReady(bool waits) const
 {
-  const bool isThere =
-    result_.valid() && (waits || result_.wait_for(std::chrono::seconds(0)) == std::future_status::ready);
-  return isThere ? result_.get() : nullptr;
+  if (waits)
+  {
+    result_.wait();
+  }
+  return result_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
 }
 
-void ShownMeasurement::cancel()
+ShownMeasurement::~ShownMeasurement()
 {
   cancelled_ = true;
   if (result_.valid())
   {
     result_.wait();
-    result_ = {};
   }
 }
 

@@ -64,27 +64,28 @@ POINTHAPTICSVIEWER_EXPORT std::shared_ptr<ShownCloud> makeShownCloud(
 POINTHAPTICSVIEWER_EXPORT std::shared_ptr<ShownCloud> makePlainCloud(
   vtkPolyData* cloud, const ShownRequest& request);
 
-/// makeShownCloud() in a thread of its own. All functions belong to one thread, the GUI's.
+/// makeShownCloud() in a thread of its own, once. One thread at a time asks for it.
 class POINTHAPTICSVIEWER_EXPORT ShownMeasurement
 {
 public:
-  /// Starts to measure @p cloud, which nobody else holds; others may read its arrays. Gives up the former
-  /// measurement.
+  /// Starts to measure @p cloud, which nobody else holds; others may read its arrays.
   void start(vtkSmartPointer<vtkPolyData> cloud, const ShownRequest& request);
-  bool busy() const { return result_.valid(); }
-  /// Returns the measured cloud once; null: it is not ready, or none is measured. @param waits until it is
-  /// there.
-  std::shared_ptr<ShownCloud> take(bool waits);
-  /// Gives up the measurement and waits for the thread.
-  void cancel();
+  /// @param waits until it is.
+  bool isReady(bool waits) const;
+  /// Part that is done, 0 to 1.
+  double part() const { return part_; }
+  /// The measured cloud, once; null: memory ran out. @pre isReady().
+  std::shared_ptr<ShownCloud> take() { return result_.get(); }
 
   ShownMeasurement() = default;
-  ~ShownMeasurement() { this->cancel(); }
+  /// Gives up the measurement and waits for the thread.
+  ~ShownMeasurement();
   ShownMeasurement(const ShownMeasurement&) = delete;
   ShownMeasurement& operator=(const ShownMeasurement&) = delete;
 
 private:
   std::atomic<bool> cancelled_{ false };
+  std::atomic<double> part_{ 0.0 };
   std::future<std::shared_ptr<ShownCloud>> result_;
 };
 

@@ -314,9 +314,10 @@ void ViewWindow::onTimer()
   {
     interactor_->Render();
   }
-  if (std::exchange(saysDrawing_, false) && !loader_.busy())
+  saysDrawing_ = false;
+  if (!loader_.busy())
   {
-    window_->SetWindowName(("PointHaptics: " + scene_.title()).c_str());
+    this->nameWork();
   }
   if (controls_.turnTable(steadySeconds()))
   {
@@ -346,6 +347,18 @@ void ViewWindow::onTimer()
           }
         });
     }
+  }
+}
+
+/// Names in the title what is done in the background.
+void ViewWindow::nameWork()
+{
+  const std::optional<double> part = scene_.measuredPart();
+  const std::string title = "PointHaptics: " +
+    (part ? fmt::format("measuring {} {:.0f} %", scene_.title(), std::floor(100.0 * *part)) : scene_.title());
+  if (title != window_->GetWindowName())
+  {
+    window_->SetWindowName(title.c_str());
   }
 }
 

@@ -121,6 +121,7 @@ private:
   void openFalcon();
   void onTimer();
   void onAbortCheck();
+  void nameWork();
   bool startServo(std::string& message);
   void connectStyle();
   void observe(unsigned long event, void (ViewWindow::*handler)(void*));

@@ -3,7 +3,6 @@
 #include "MadeClouds.h"
 
 #include <gtest/gtest.h>
-#include <vtkCamera.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
 #include <vtkNew.h>
@@ -106,17 +105,11 @@ TEST(CloudOrientation, HasAnAnswerForNothing)
   EXPECT_EQ(guessCloudOrientation(nullptr, "").up, Vec3(0, 0, 1));
 }
 
-TEST(CloudOrientation, PlacesTheCameraInFrontOfTheWorkspace)
+TEST(CloudOrientation, TurnsTheNamedAxisUp)
 {
-  vtkNew<vtkCamera> camera;
   for (const char* axis : { "x", "-x", "y", "-y", "z", "-z" })
   {
     const CloudOrientation orientation = orientationForUpAxis(axis);
-    placeCamera(camera, orientation, { 1, 2, 3 }, 0.1, 0.0, 0.0);
-    Vec3 forward;
-    camera->GetDirectionOfProjection(&forward.x);
-    EXPECT_NEAR(dot(forward, orientation.front), -1.0, 1e-12) << axis;
-    EXPECT_GT(camera->GetDistance(), 0.1) << axis;
     const bool isDown = axis[0] == '-';
     const double up = orientation.up[axis[isDown ? 1 : 0] - 'x'];
     EXPECT_EQ(up, isDown ? -1.0 : 1.0) << axis;

@@ -228,7 +228,7 @@ TEST_F(LevelOfDetailTest, ShowsAllForAPictureThatIsKept)
   this->render(0.0);
   ASSERT_FALSE(detail_.showsAll());
   renderer->GetActiveCamera()->Azimuth(3);
-  detail_.showAllOnce();
+  detail_.showFinestOnce();
   this->render(0.01);
   EXPECT_TRUE(detail_.showsAll());
 }
@@ -500,9 +500,13 @@ TEST_F(LevelOfDetailTest, LeavesOutWhatIsBelowAPixelFromAfar)
       EXPECT_FALSE(detail_.refinementDue(now_ + 10.0));
       const std::int64_t drawn = detail_.drawnPoints();
       const std::vector<unsigned char> part = this->pixels();
-      detail_.showAllOnce();
+      detail_.showFinestOnce();
       this->render(0.01);
-      EXPECT_EQ(detail_.drawnPoints(), kPoints) << "a picture that is kept has all";
+      EXPECT_EQ(detail_.drawnPoints(), drawn) << "a picture that is kept needs no more";
+      detail_.setEnabled(false);
+      this->render(0.01);
+      EXPECT_EQ(detail_.drawnPoints(), kPoints);
+      detail_.setEnabled(true);
       const Difference difference = differenceOf(part, this->pixels());
       const double radius = 0.04 / distance / std::tan(vtkMath::RadiansFromDegrees(15.0)) * kSize / 2;
       const double covered = vtkMath::Pi() * radius * radius;

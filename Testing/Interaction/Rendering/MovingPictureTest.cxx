@@ -137,7 +137,7 @@ TEST_F(MovingPicture, GivesWayToOneOfAllPixelsAtRest)
   detail.beginFrame(2.0);
   EXPECT_FALSE(detail.isInMotion());
   renderer->GetActiveCamera()->Azimuth(1.0);
-  detail.showAllOnce();
+  detail.showFinestOnce();
   detail.beginFrame(3.0);
   EXPECT_FALSE(detail.isInMotion()) << "a picture that is kept";
   renderer->GetActiveCamera()->Azimuth(1.0);
