@@ -4,7 +4,7 @@
 #include "vtkVoxelMeanResamplerInternals.h"
 
 #include "Core/Base/Host/OutOfMemory.h"
-#include "Core/Resample/FieldNames.h"
+#include "Core/Base/FieldNames.h"
 
 #include "vtkAbstractTransform.h"
 #include "vtkObjectFactory.h"

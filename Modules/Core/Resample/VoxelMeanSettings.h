@@ -5,7 +5,7 @@
 
 #include "Core/Base/Lattice.h"
 #include "Core/Base/SettingsMembers.h"
-#include "Core/Resample/FieldNames.h"
+#include "Core/Base/FieldNames.h"
 #include "Core/Resample/Representative.h"
 #include "Core/Simd/InstructionSet.h"
 

@@ -5,7 +5,7 @@
 
 #include "Core/Base/QuantityText.h"
 #include "Core/Neighbors/SpatialOrder.h"
-#include "Core/Resample/FieldNames.h"
+#include "Core/Base/FieldNames.h"
 
 #include "vtkCellArray.h"
 #include "vtkDataArray.h"
