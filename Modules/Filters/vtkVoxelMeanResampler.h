@@ -267,15 +267,14 @@ public:
   {
     InstructionSetAutomatic = 0, ///< The best the machine has.
     InstructionSetBaseline,
-    InstructionSetAVX2,
-    InstructionSetAVX512
+    InstructionSetAVX2
   };
   ///@{
   /**
    * The vector instructions of the inner loops; one the machine lacks falls back to the best below. Changes
    * the speed only: for measurements. Default: InstructionSetAutomatic.
    */
-  vtkSettingEnumMacro(InstructionSet, instructionSet, InstructionSetAVX512);
+  vtkSettingEnumMacro(InstructionSet, instructionSet, InstructionSetAVX2);
   ///@}
 
   ///@{

@@ -239,17 +239,14 @@ std::shared_ptr<const HapticScene> LocalSceneBuilder::build(
   }
   const std::size_t size = std::size_t(resampler_.size());
   input.points.resize(size);
-  resampler_.copyMeans(&input.points[0].x);
+  std::copy_n(resampler_.doubles(), 3 * size, &input.points[0].x);
   // Voxels beside the part may lack points.
   const Bounds whole = part.bounds();
   std::replace_if(
     input.points.begin(), input.points.end(), [&](const Vec3& mean) { return !contains(whole, mean); },
     Vec3{ NAN, NAN, NAN });
-  std::vector<std::int64_t> counts(size);
-  resampler_.copyCounts(counts.data());
-  input.counts.assign(counts.begin(), counts.end());
-  input.covariances.resize(size);
-  resampler_.copyCovariances(input.covariances.data());
+  input.counts.assign(resampler_.counts(), resampler_.counts() + size);
+  input.covariances.assign(resampler_.covariances(), resampler_.covariances() + size);
   input.bandwidth = bandwidth_;
   input.cellSize = cell;
   input.corner = lattice.origin;

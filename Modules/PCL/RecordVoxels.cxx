@@ -247,8 +247,7 @@ void RecordVoxels::Implementation::choose()
   size = settings.minimumPoints > 1 ? std::int64_t(kept.size()) : engine.size();
   if (settings.keepKeys)
   {
-    keys.resize(std::size_t(engine.size()));
-    engine.copyKeys(keys.data());
+    keys.assign(engine.keys(), engine.keys() + engine.size());
     for (std::size_t i = 0; i < kept.size(); ++i)
     {
       keys[i] = keys[std::size_t(kept[i])];

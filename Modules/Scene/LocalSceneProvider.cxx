@@ -98,16 +98,15 @@ Bounds boxOfModel(const AffineTransform& transform, const Bounds& box)
   return boxOfCorners(box, [&](const Vec3& p) { return back.apply(p); });
 }
 
-template <typename Real>
 std::vector<Vec3> meansOf(const VoxelResampler& engine)
 {
-  const std::size_t size = std::size_t(engine.size());
-  std::vector<Real> coordinates(3 * size);
-  engine.copyMeans(coordinates.data());
-  std::vector<Vec3> means(size);
-  for (std::size_t i = 0; i < size; ++i)
+  const PointView points =
+    engine.floats() ? PointView(engine.floats(), engine.size()) : PointView(engine.doubles(), engine.size());
+  std::vector<Vec3> means;
+  means.reserve(std::size_t(points.size()));
+  for (std::int64_t i = 0; i < points.size(); ++i)
   {
-    means[i] = { double(coordinates[3 * i]), double(coordinates[3 * i + 1]), double(coordinates[3 * i + 2]) };
+    means.push_back(points[i]);
   }
   return means;
 }
@@ -293,14 +292,11 @@ HapticSceneInput LocalSceneProvider::input(const SceneRequest& request) const
 {
   const std::size_t size = std::size_t(engine_.size());
   HapticSceneInput input;
-  input.points = voxels_.singlePrecision ? meansOf<float>(engine_) : meansOf<double>(engine_);
-  std::vector<std::int64_t> counts(size);
-  engine_.copyCounts(counts.data());
-  input.counts.assign(counts.begin(), counts.end());
+  input.points = meansOf(engine_);
+  input.counts.assign(engine_.counts(), engine_.counts() + size);
   if (request.useCovariance && voxels_.covariances)
   {
-    input.covariances.resize(size);
-    engine_.copyCovariances(input.covariances.data());
+    input.covariances.assign(engine_.covariances(), engine_.covariances() + size);
   }
   input.bandwidth = request.bandwidth;
   const Vec3& spacing = voxels_.lattice.spacing;
