@@ -3,7 +3,7 @@
 /// them. All sets give the same bits.
 #pragma once
 
-#include "Core/Base/PointRange.h"
+#include "Core/Base/PointBlocks.h"
 #include "Core/Simd/InstructionSet.h"
 
 #include <cstddef>
