@@ -17,6 +17,7 @@
 #include "vtkTypeInt64Array.h"
 
 #include <algorithm>
+#include <cstring>
 #include <numeric>
 #include <utility>
 
@@ -106,39 +107,41 @@ void addField(vtkFieldData* field, const char* name, const double* values, int c
   field->AddArray(array);
 }
 
+/// Gives an array its memory and the @p results, which mostly are there already.
+void take(
+  ArrayAllocator& allocator, std::size_t part, vtkDataArray* array, std::int64_t tuples, const void* results)
+{
+  allocator.take(part, array, tuples);
+  void* const to = array->GetVoidPointer(0);
+  if (to != results && tuples > 0)
+  {
+    std::memcpy(to, results, std::size_t(tuples * array->GetNumberOfComponents() * array->GetDataTypeSize()));
+  }
+}
+
 /// Makes points of the means.
 vtkSmartPointer<vtkPoints> makePoints(
-  const VoxelResampler& engine, bool singlePrecision, ArrayAllocator& allocator, const Executor& executor)
+  const VoxelResampler& engine, bool singlePrecision, ArrayAllocator& allocator)
 {
   auto points = vtkSmartPointer<vtkPoints>::New();
   points->SetDataType(singlePrecision ? VTK_FLOAT : VTK_DOUBLE);
-  allocator.take(OutputAllocator::Means, points->GetData(), engine.size());
-  if (singlePrecision)
-  {
-    engine.copyMeans(vtkFloatArray::FastDownCast(points->GetData())->GetPointer(0), executor);
-  }
-  else
-  {
-    engine.copyMeans(vtkDoubleArray::FastDownCast(points->GetData())->GetPointer(0), executor);
-  }
+  take(allocator, OutputAllocator::Means, points->GetData(), engine.size(),
+    singlePrecision ? static_cast<const void*>(engine.floats()) : engine.doubles());
   return points;
 }
 
 /// The array VoxelPointCount.
-vtkSmartPointer<vtkIdTypeArray> makeCounts(
-  const VoxelResampler& engine, ArrayAllocator& allocator, const Executor& executor)
+vtkSmartPointer<vtkIdTypeArray> makeCounts(const VoxelResampler& engine, ArrayAllocator& allocator)
 {
   static_assert(sizeof(vtkIdType) == sizeof(std::int64_t), "VTK must be built with 64-bit ids");
   auto counts = vtkSmartPointer<vtkIdTypeArray>::New();
   counts->SetName("VoxelPointCount");
-  allocator.take(OutputAllocator::Counts, counts, engine.size());
-  engine.copyCounts(reinterpret_cast<std::int64_t*>(counts->GetPointer(0)), executor);
+  take(allocator, OutputAllocator::Counts, counts, engine.size(), engine.counts());
   return counts;
 }
 
 /// The array VoxelCovariance.
-vtkSmartPointer<vtkDoubleArray> makeCovariances(
-  const VoxelResampler& engine, ArrayAllocator& allocator, const Executor& executor)
+vtkSmartPointer<vtkDoubleArray> makeCovariances(const VoxelResampler& engine, ArrayAllocator& allocator)
 {
   static_assert(sizeof(SymMat3) == 6 * sizeof(double), "six numbers, xx yy zz xy yz xz");
   auto array = vtkSmartPointer<vtkDoubleArray>::New();
@@ -149,8 +152,7 @@ vtkSmartPointer<vtkDoubleArray> makeCovariances(
   {
     array->SetComponentName(c, names[c]);
   }
-  allocator.take(OutputAllocator::Covariances, array, engine.size());
-  engine.copyCovariances(reinterpret_cast<SymMat3*>(array->GetPointer(0)), executor);
+  take(allocator, OutputAllocator::Covariances, array, engine.size(), engine.covariances());
   return array;
 }
 
@@ -233,9 +235,9 @@ bool OutputFiller::fill(
   vtkPolyData* output, const AddArrays& addArrays, std::optional<std::vector<std::int64_t>>& kept) const
 {
   vtkPointData* data = output->GetPointData();
-  output->SetPoints(makePoints(engine, singlePrecision, allocator, executor));
+  output->SetPoints(makePoints(engine, singlePrecision, allocator));
   output->SetVerts(makeVertices(vtkIdType(engine.size()), pool, executor));
-  const auto counts = makeCounts(engine, allocator, executor);
+  const auto counts = makeCounts(engine, allocator);
   if (!addArrays(data))
   {
     return false;
@@ -243,7 +245,7 @@ bool OutputFiller::fill(
   data->AddArray(counts);
   if (covariances)
   {
-    data->AddArray(makeCovariances(engine, allocator, executor));
+    data->AddArray(makeCovariances(engine, allocator));
   }
   if (pointIds)
   {
@@ -266,8 +268,7 @@ void OutputFiller::addReduced(vtkPointData* data, std::size_t i, const VoxelAttr
   else
   {
     array = attribute.emptyArray();
-    allocator.take(OutputAllocator::Attributes + i, array, engine.size());
-    engine.copyAttribute(i, array->GetVoidPointer(0), executor);
+    take(allocator, OutputAllocator::Attributes + i, array, engine.size(), engine.attribute(i));
     array = attribute.inOwnType(array);
   }
   if (request.representative != Representative::Mean && found.isNormal && !request.transform.isIdentity())

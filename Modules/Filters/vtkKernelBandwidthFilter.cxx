@@ -205,7 +205,7 @@ bool vtkKernelBandwidthFilter::Estimate(vtkPolyData* cloud)
     LocalBandwidthSettings alone = settings;
     alone.smoothRadius = false;
     std::vector<double> unused;
-    (void)localBandwidths(points.view(), query, alone, ofMeans, unused,
+    (void)localBandwidths(points.view(), {}, query, alone, ofMeans, unused,
       ReportingExecutor(this, wantsPoints ? found : 0.1, found));
   }
   const std::vector<double>& widths = counts.empty() ? bandwidths : ofMeans;

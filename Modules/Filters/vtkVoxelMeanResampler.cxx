@@ -3,8 +3,8 @@
 #include "SettingText.h"
 #include "vtkVoxelMeanResamplerInternals.h"
 
+#include "Core/Base/FieldNames.h"
 #include "Core/Base/Host/OutOfMemory.h"
-#include "Core/Resample/FieldNames.h"
 
 #include "vtkAbstractTransform.h"
 #include "vtkObjectFactory.h"
@@ -23,7 +23,7 @@ static_assert(int(vtkAlgorithm::SINGLE_PRECISION) == int(PointsPrecision::Single
     int(vtkAlgorithm::DOUBLE_PRECISION) == int(PointsPrecision::Double) &&
     int(vtkAlgorithm::DEFAULT_PRECISION) == int(PointsPrecision::OfInput),
   "Core's precisions are VTK's, in the same order");
-static_assert(int(vtkVoxelMeanResampler::InstructionSetAVX512) == int(InstructionSet::Avx512),
+static_assert(int(vtkVoxelMeanResampler::InstructionSetAVX2) == int(InstructionSet::Avx2),
   "the filter's instruction sets are Core's, in the same order");
 
 vtkVoxelMeanResampler::vtkVoxelMeanResampler()

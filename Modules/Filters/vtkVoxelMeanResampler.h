@@ -32,7 +32,7 @@
  * Arrays: numeric arrays of any type and number of components are averaged and rounded to their own type
  * (integers to nearest, exactly), and keep their lookup table and information keys; the active normals are
  * transformed by the inverse transpose and re-normalised, those in integers keep the length of their mean;
- * arrays named in CategoricalArrays, in upper or lower case (Core/Resample/FieldNames.h), take the value most
+ * arrays named in CategoricalArrays, in upper or lower case (Core/Base/FieldNames.h), take the value most
  * points of the voxel have (the smallest one on a tie; NaN counts as the largest, and both zeroes as one);
  * string arrays, other non-numeric arrays, global and pedigree ids and arrays of another number of tuples are
  * dropped with a warning; ghost flags and what an earlier resampling made (VoxelPointCount, VoxelCovariance,
@@ -267,15 +267,14 @@ public:
   {
     InstructionSetAutomatic = 0, ///< The best the machine has.
     InstructionSetBaseline,
-    InstructionSetAVX2,
-    InstructionSetAVX512
+    InstructionSetAVX2
   };
   ///@{
   /**
    * The vector instructions of the inner loops; one the machine lacks falls back to the best below. Changes
    * the speed only: for measurements. Default: InstructionSetAutomatic.
    */
-  vtkSettingEnumMacro(InstructionSet, instructionSet, InstructionSetAVX512);
+  vtkSettingEnumMacro(InstructionSet, instructionSet, InstructionSetAVX2);
   ///@}
 
   ///@{

@@ -2,10 +2,10 @@
 
 #include "FieldPoses.h"
 
+#include "Core/Base/FieldNames.h"
 #include "Core/Base/Host/InterpreterLock.h"
 #include "Core/Distributed/FarPoints.h"
 #include "Core/Distributed/Ranks.h"
-#include "Core/Resample/FieldNames.h"
 #include "Core/Resample/VoxelMean.h"
 
 #include "vtkDataArray.h"

@@ -185,16 +185,13 @@ Status nodeRadii(const CellPyramid::Level& nodes, const HapticSceneInput& input,
     }
   }
   std::vector<std::int64_t> slots(asked.size(), 0);
-  forRange(executor, std::int64_t(slots.size()),
-    [&](std::int64_t begin, std::int64_t end)
+  forEachIndex(executor, std::int64_t(slots.size()),
+    [&](std::int64_t i)
     {
-      for (std::int64_t i = begin; i < end; ++i)
+      Neighbor nearest;
+      if (query.nearestSlots(nodes.cells[asked[std::size_t(i)]].mean, 1, &nearest) == 1)
       {
-        Neighbor nearest;
-        if (query.nearestSlots(nodes.cells[asked[std::size_t(i)]].mean, 1, &nearest) == 1)
-        {
-          slots[std::size_t(i)] = NeighborQuery::slotOf(nearest);
-        }
+        slots[std::size_t(i)] = NeighborQuery::slotOf(nearest);
       }
     });
   std::vector<double> found;

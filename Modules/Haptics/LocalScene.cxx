@@ -145,25 +145,17 @@ Lattice partOf(const Lattice& lattice, const Bounds& box)
 void takeVoxels(const VoxelResampler& voxels, const VoxelRequest& request, HapticSceneInput& input)
 {
   const std::size_t size = std::size_t(voxels.size());
-  std::vector<float> floats(request.singlePrecision ? 3 * size : 0);
+  const PointView means =
+    voxels.floats() ? PointView(voxels.floats(), voxels.size()) : PointView(voxels.doubles(), voxels.size());
   input.points.resize(size);
-  if (request.singlePrecision)
+  for (std::size_t i = 0; i < size; ++i)
   {
-    voxels.copyMeans(floats.data());
-    for (std::size_t i = 0; i < floats.size(); ++i)
-    {
-      input.points[i / 3][int(i % 3)] = double(floats[i]);
-    }
-  }
-  else
-  {
-    voxels.copyMeans(&input.points.data()->x);
+    input.points[i] = means[std::int64_t(i)];
   }
   input.counts.assign(voxels.counts(), voxels.counts() + size);
   if (request.covariances)
   {
-    input.covariances.resize(size);
-    voxels.copyCovariances(input.covariances.data());
+    input.covariances.assign(voxels.covariances(), voxels.covariances() + size);
   }
   const Vec3& spacing = request.lattice.spacing;
   input.cellSize = std::max({ spacing.x, spacing.y, spacing.z });

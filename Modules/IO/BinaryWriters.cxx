@@ -1,7 +1,7 @@
 #include "IO/WriteTask.h"
 
 #include "Bytes/NumericType.h"
-#include "Core/Resample/FieldNames.h"
+#include "Core/Base/FieldNames.h"
 #include "IO/Pcd/PcdHeader.h"
 #include "IO/Ply/PlyHeader.h"
 

@@ -1,7 +1,7 @@
 #include "MergedCloud.h"
 
 #include "Bytes/NumericType.h"
-#include "Core/Resample/FieldNames.h"
+#include "Core/Base/FieldNames.h"
 #include "FileProblem.h"
 #include "IO/Columns/CloudColumns.h"
 #include "IO/Info/FieldText.h"

@@ -55,15 +55,6 @@ PointView viewOf(const RecordCloud& cloud, std::vector<Real>& copy)
   return { copy.data(), cloud.size };
 }
 
-/// The means, copied to @p copy.
-template <typename Real>
-const char* meansOf(const VoxelResampler& engine, std::vector<Real>& copy, const Executor& executor)
-{
-  copy.resize(3 * std::size_t(engine.size()));
-  engine.copyMeans(copy.data(), executor);
-  return reinterpret_cast<const char*>(copy.data());
-}
-
 AttributeRequest requestFor(const RecordCloud& cloud, const RecordField& field)
 {
   AttributeRequest request;
@@ -161,8 +152,7 @@ void RecordVoxels::Implementation::choose()
   size = settings.minimumPoints > 1 ? std::int64_t(kept.size()) : engine.size();
   if (settings.keepKeys)
   {
-    keys.resize(std::size_t(engine.size()));
-    engine.copyKeys(keys.data());
+    keys.assign(engine.keys(), engine.keys() + engine.size());
     for (std::size_t i = 0; i < kept.size(); ++i)
     {
       keys[i] = keys[std::size_t(kept[i])];
@@ -233,12 +223,11 @@ void RecordVoxels::write(char* records, std::size_t step, const std::array<std::
   withThreads(mine.settings.threads,
     [&](const Executor& executor)
     {
-      std::vector<float> floats;
-      std::vector<double> doubles;
       std::vector<Written> written;
       mine.request.singlePrecision
-        ? addMeans(meansOf(mine.engine, floats, executor), sizeof(float), records, xyz, written)
-        : addMeans(meansOf(mine.engine, doubles, executor), sizeof(double), records, xyz, written);
+        ? addMeans(reinterpret_cast<const char*>(mine.engine.floats()), sizeof(float), records, xyz, written)
+        : addMeans(
+            reinterpret_cast<const char*>(mine.engine.doubles()), sizeof(double), records, xyz, written);
       for (std::size_t i = 0; i < offsets.size(); ++i)
       {
         const std::size_t bytes = bytesOf(mine.fields[i]);

@@ -29,9 +29,7 @@ namespace
 
 std::vector<std::uint64_t> keysOf(const VoxelResampler& voxels)
 {
-  std::vector<std::uint64_t> keys(std::size_t(voxels.size()));
-  voxels.copyKeys(keys.data());
-  return keys;
+  return { voxels.keys(), voxels.keys() + voxels.size() };
 }
 
 /// Where all ranks share a status that is not Ok.
@@ -141,13 +139,13 @@ std::string DistributedUpdate::runOfSums(vtkPolyData* output)
     views.push_back(request.view);
   }
   VoxelAccumulator own(lattice_, settings_.computeCovariance, kinds, transform_);
-  Status status = own.add(points_.view(), views, transform_, smp_);
+  Status status = own.add(points_.view(), views, smp_);
   if (!this->all(status == Status::Ok))
   {
     return problemOf(status);
   }
   status = shared_.share(ranks_, std::move(own));
-  VoxelAccumulator::Request wanted;
+  VoxelRequest wanted;
   wanted.singlePrecision = singlePrecision_;
   wanted.keys = true;
   wanted.instructions = settings_.instructionSet;

@@ -291,15 +291,8 @@ TEST(VoxelMeanPointIndex, StaysWhenOnlyAnArrayChanges)
 
 int filterSet(pointhaptics::InstructionSet set)
 {
-  switch (set)
-  {
-    case pointhaptics::InstructionSet::Avx2:
-      return vtkVoxelMeanResampler::InstructionSetAVX2;
-    case pointhaptics::InstructionSet::Avx512:
-      return vtkVoxelMeanResampler::InstructionSetAVX512;
-    default:
-      return vtkVoxelMeanResampler::InstructionSetBaseline;
-  }
+  return set == pointhaptics::InstructionSet::Avx2 ? vtkVoxelMeanResampler::InstructionSetAVX2
+                                                   : vtkVoxelMeanResampler::InstructionSetBaseline;
 }
 
 TEST_P(VoxelMeanVariants, EveryInstructionSetGivesTheSameBits)

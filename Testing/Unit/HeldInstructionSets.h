@@ -16,7 +16,7 @@ namespace pointhaptics
 inline std::vector<InstructionSet> heldInstructionSets()
 {
   std::vector<InstructionSet> held;
-  for (const InstructionSet set : { InstructionSet::Baseline, InstructionSet::Avx2, InstructionSet::Avx512 })
+  for (const InstructionSet set : { InstructionSet::Baseline, InstructionSet::Avx2 })
   {
     if (usableInstructionSet(set) == set)
     {

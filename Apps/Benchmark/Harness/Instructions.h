@@ -15,8 +15,8 @@ struct NamedInstructionSet
 };
 
 /// The fastest first.
-constexpr NamedInstructionSet kInstructionSets[] = { { InstructionSet::Avx512, "avx512", "AVX-512" },
-  { InstructionSet::Avx2, "avx2", "AVX2" }, { InstructionSet::Baseline, "baseline", "baseline" } };
+constexpr NamedInstructionSet kInstructionSets[] = { { InstructionSet::Avx2, "avx2", "AVX2" },
+  { InstructionSet::Baseline, "baseline", "baseline" } };
 
 /// Whether this machine has all of @p wanted; true for the best that it has.
 inline bool hasInstructions(InstructionSet wanted) noexcept

@@ -1,5 +1,7 @@
 #include "Core/Bandwidth/Bandwidth.h"
 
+#include "Core/Bandwidth/SheatherJones.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -117,32 +119,24 @@ Status bandwidth(
   return Status::Ok;
 }
 
-Status univariateBandwidth(
-  BandwidthRule rule, const SampleSpread& spread, double& result, double fallback) noexcept
-{
-  const bool robust = rule == BandwidthRule::SilvermanRobust;
-  const double s = robust ? spread.robustDeviation(kSilvermanQuartiles) : spread.standardDeviation;
-  return bandwidth(rule, s, double(spread.count), 1, result, fallback);
-}
-
 Status sampleBandwidth(BandwidthRule rule, const double* sample, std::int64_t count,
-  BandwidthScratch& scratch, double& result, double fallback)
+  std::vector<double>& scratch, double& result, double fallback)
 {
-  scratch.values.assign(sample, sample + std::max<std::int64_t>(count, 0));
-  const SampleSpread spread = sampleSpread(scratch.values);
-  if (spread.count != std::int64_t(scratch.values.size()))
+  scratch.assign(sample, sample + std::max<std::int64_t>(count, 0));
+  const SampleSpread spread = sampleSpread(scratch);
+  if (spread.count != std::int64_t(scratch.size()))
   {
     result = usableFallback(fallback);
     return Status::InvalidParameter;
   }
-  if (rule != BandwidthRule::SheatherJones)
-  {
-    return univariateBandwidth(rule, spread, result, fallback);
-  }
-  const Status status = univariateBandwidth(BandwidthRule::SilvermanRobust, spread, result, fallback);
-  return status != Status::Ok ? status
-                              : scratch.sheatherJones.solveTheEquation(scratch.values.data(), spread.count,
-                                  spread.robustDeviation(kSheatherJonesQuartiles), result);
+  const bool solves = rule == BandwidthRule::SheatherJones;
+  const bool robust = solves || rule == BandwidthRule::SilvermanRobust;
+  const double s = robust ? spread.robustDeviation(kSilvermanQuartiles) : spread.standardDeviation;
+  const Status status =
+    bandwidth(solves ? BandwidthRule::SilvermanRobust : rule, s, double(spread.count), 1, result, fallback);
+  return status == Status::Ok && solves
+    ? sheatherJones(scratch.data(), spread.count, spread.robustDeviation(kSheatherJonesQuartiles), result)
+    : status;
 }
 
 } // namespace pointhaptics

@@ -2,7 +2,6 @@
 /// Rules of kernel density estimation: from the spread of a sample to a kernel bandwidth.
 #pragma once
 
-#include "Core/Bandwidth/SheatherJones.h"
 #include "Core/Base/Status.h"
 
 #include <cstdint>
@@ -48,23 +47,13 @@ SampleSpread sampleSpread(std::vector<double>& values);
 Status bandwidth(BandwidthRule rule, double s, double n, int dimensions, double& result,
   double fallback = kBandwidthWithoutSpread) noexcept;
 
-/// b of @p rule for a univariate sample (d = 1) of the given spread; for SilvermanRobust from
-/// min(s, IQR / 1.34), s alone where the quartiles coincide. Errors and @p fallback as for bandwidth().
-Status univariateBandwidth(BandwidthRule rule, const SampleSpread& spread, double& result,
-  double fallback = kBandwidthWithoutSpread) noexcept;
-
-/// Memory of sampleBandwidth, one for each thread: later samples of no greater size allocate nothing.
-struct BandwidthScratch
-{
-  std::vector<double> values;
-  SheatherJones sheatherJones;
-};
-
 /// b of any @p rule (d = 1) for the @p count values of @p sample, in their unit; independent of their order.
+/// For SilvermanRobust from min(s, IQR / 1.34), s alone where the quartiles coincide. @p scratch: memory of
+/// the caller's, one for each thread; later samples of no greater size allocate nothing.
 /// Errors and @p fallback as for bandwidth(), and a value that is not finite is an InvalidParameter. Where
 /// the equation of SheatherJones cannot be solved in double numbers: EquationUnsolved, and the bandwidth of
 /// SilvermanRobust instead of @p fallback. Cost: a sort; for SheatherJones see there.
 Status sampleBandwidth(BandwidthRule rule, const double* sample, std::int64_t count,
-  BandwidthScratch& scratch, double& result, double fallback = kBandwidthWithoutSpread);
+  std::vector<double>& scratch, double& result, double fallback = kBandwidthWithoutSpread);
 
 } // namespace pointhaptics

@@ -97,13 +97,6 @@ double epanechnikovOnSurface(const Weights& weights, const Vec3& center, double 
 
 }
 
-void surfaceDensities(const PointView& points, const NeighborQuery& query,
-  const std::vector<double>& bandwidths, std::vector<double>& densities, const Executor& executor,
-  DensityKernel kernel)
-{
-  surfaceDensities(points, {}, query, bandwidths, densities, executor, kernel);
-}
-
 void surfaceDensities(const PointView& points, const std::vector<double>& counts, const NeighborQuery& query,
   const std::vector<double>& bandwidths, std::vector<double>& densities, const Executor& executor,
   DensityKernel kernel)
@@ -143,16 +136,13 @@ void surfaceDensitiesOfPart(const PointView& points, const std::vector<double>& 
   }
   const auto density = kernel == DensityKernel::Epanechnikov ? &epanechnikovOnSurface : &gaussianOnSurface;
   // In spatial order, where the points of one ball after the other are close in memory.
-  forRange(executor, query.size(),
-    [&](std::int64_t begin, std::int64_t end)
+  forEachIndex(executor, query.size(),
+    [&](std::int64_t slot)
     {
-      for (std::int64_t slot = begin; slot < end; ++slot)
+      const std::size_t i = std::size_t(query.index(slot));
+      if (bandwidths[i] > 0.0)
       {
-        const std::size_t i = std::size_t(query.index(slot));
-        if (bandwidths[i] > 0.0)
-        {
-          densities[i] = density(weights, query.point(slot), bandwidths[i]);
-        }
+        densities[i] = density(weights, query.point(slot), bandwidths[i]);
       }
     });
   query.copyToRepeats(densities);

@@ -27,12 +27,9 @@ constexpr double kDensityCutoff = 6.0;
 /// finite, or whose bandwidth is not above 0, get 0; points at one place get the density of the first of
 /// them. Independent of @p executor, and of the order in which the query has the points: terms are summed as
 /// whole multiples of 2^-60 of a kernel's height.
-void surfaceDensities(const PointView& points, const NeighborQuery& query,
-  const std::vector<double>& bandwidths, std::vector<double>& densities, const Executor& executor = {},
-  DensityKernel kernel = DensityKernel::Gaussian);
-/// The density of the points that voxel means represent: each kernel times its voxel's count (one per point;
-/// empty: 1 each), N the sum of the counts. The bandwidths are to be those of the means: narrower kernels
-/// would leave gaps between them.
+/// @p counts, for voxel means: the density of the points that these represent, each kernel times its voxel's
+/// count (one per point; empty: 1 each), N the sum of the counts. The bandwidths are to be those of the
+/// means: narrower kernels would leave gaps between them.
 void surfaceDensities(const PointView& points, const std::vector<double>& counts, const NeighborQuery& query,
   const std::vector<double>& bandwidths, std::vector<double>& densities, const Executor& executor = {},
   DensityKernel kernel = DensityKernel::Gaussian);

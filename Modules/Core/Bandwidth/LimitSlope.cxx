@@ -98,14 +98,8 @@ void limitSlope(
     return;
   }
   const SlopeLimiter limiter(query, slope, radii);
-  forRange(executor, query.size(),
-    [&](std::int64_t begin, std::int64_t end)
-    {
-      for (std::int64_t slot = begin; slot < end; ++slot)
-      {
-        radii[std::size_t(query.index(slot))] = limiter.limited(slot);
-      }
-    });
+  forEachIndex(executor, query.size(),
+    [&](std::int64_t slot) { radii[std::size_t(query.index(slot))] = limiter.limited(slot); });
   query.copyToRepeats(radii);
 }
 

@@ -120,7 +120,7 @@ private:
   double countOfFactor_ = 0.0;
   Status statusOfFactor_ = Status::DegenerateSample;
   std::vector<double> distances_;
-  BandwidthScratch scratch_;
+  std::vector<double> scratch_;
 };
 
 /// The neighbours in a ball about each point, as NeighborSweep gives the nearest.
@@ -346,13 +346,6 @@ Status LocalBandwidthSettings::check() const noexcept
   return radiusScale > 0.0 && std::isfinite(radiusScale) ? Status::Ok : Status::InvalidParameter;
 }
 
-Status localBandwidths(const PointView& points, const NeighborQuery& query,
-  const LocalBandwidthSettings& settings, std::vector<double>& bandwidths, std::vector<double>& radii,
-  const Executor& executor)
-{
-  return localBandwidths(points, {}, query, settings, bandwidths, radii, executor);
-}
-
 Status localBandwidths(const PointView& points, const std::vector<double>& counts, const NeighborQuery& query,
   const LocalBandwidthSettings& settings, std::vector<double>& bandwidths, std::vector<double>& radii,
   const Executor& executor)
@@ -394,13 +387,6 @@ void completeBandwidths(const PointView& points, const LocalBandwidthSettings& s
       part.bandwidths[std::size_t(i)] = fallback / settings.radiusScale;
     }
   }
-}
-
-Status localRadiiAt(const PointView& points, const NeighborQuery& query,
-  const LocalBandwidthSettings& settings, const std::vector<std::int64_t>& slots, std::vector<double>& radii,
-  const Executor& executor)
-{
-  return localRadiiAt(points, {}, query, settings, slots, radii, executor);
 }
 
 Status localRadiiAt(const PointView& points, const std::vector<double>& counts, const NeighborQuery& query,

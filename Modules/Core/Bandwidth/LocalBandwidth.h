@@ -32,12 +32,9 @@ constexpr double kRadiusSlope = 0.5;
 /// Cost: for the k nearest, k up to 71, about 200 ns a point at k = 16; else that of a query for each point.
 /// Results are the same bit for bit for every @p executor, and for float and double points of equal values; b
 /// is within 1e-9 relative of the definition (LocalBandwidthTest), and scales with the cloud.
-Status localBandwidths(const PointView& points, const NeighborQuery& query,
-  const LocalBandwidthSettings& settings, std::vector<double>& bandwidths, std::vector<double>& radii,
-  const Executor& executor = {});
-
-/// As localBandwidths() above, for means of voxels: bandwidths and radii of the points in them. @p points are
-/// the means, @p counts the number of points in each. The paper takes the bandwidth from the density of the
+///
+/// @p counts, for means of voxels: bandwidths and radii of the points in them. @p points are the means,
+/// @p counts the number of points in each. The paper takes the bandwidth from the density of the
 /// points, so that the proxy is large where they are sparse and small where they are dense. Means do not show
 /// that density: on a surface they stand about a voxel apart wherever there are points, and a cloud of 3.9:1
 /// in spacing has means of 1.6:1.
@@ -83,10 +80,6 @@ void completeBandwidths(const PointView& points, const LocalBandwidthSettings& s
 /// bit, without its work for all the others. For a few of many points: about 2 us each at k = 16. All points
 /// are processed only with smoothRadius, or where one of the neighbourhoods has no spread. Errors as for
 /// localBandwidths. Independent of @p executor.
-Status localRadiiAt(const PointView& points, const NeighborQuery& query,
-  const LocalBandwidthSettings& settings, const std::vector<std::int64_t>& slots, std::vector<double>& radii,
-  const Executor& executor = {});
-/// As localRadiiAt() above, for means of voxels, with the counts of localBandwidths.
 Status localRadiiAt(const PointView& points, const std::vector<double>& counts, const NeighborQuery& query,
   const LocalBandwidthSettings& settings, const std::vector<std::int64_t>& slots, std::vector<double>& radii,
   const Executor& executor = {});

@@ -18,54 +18,79 @@ constexpr int kLargestNumberOfRefinements = 100;
 /// Steps of the logarithm of b as short as this end the refinement, which by then converges superlinearly.
 constexpr double kTolerance = 1e-12;
 
+/// Pairs farther apart than so many bandwidths have |H_r| < 1e-20.
+constexpr double kReach = 11.0;
+
 bool isUsable(double value)
 {
   return value > 0.0 && std::isfinite(value);
 }
 
+/// H_4(t), or H_6(t).
+double derivative(double t, bool fourth)
+{
+  const double q = t * t;
+  const double height = std::exp(-0.5 * q);
+  return fourth ? ((q - 6.0) * q + 3.0) * height : (((q - 15.0) * q + 45.0) * q - 15.0) * height;
 }
 
-Status SheatherJones::begin(const double* sorted, std::int64_t count, double scale)
+/// A sample and the constants of its equation. Bandwidths are in units of the scale, which keeps their powers
+/// in range.
+class Equation
 {
-  if (count < 2 || !isUsable(scale))
+public:
+  Equation(const double* sorted, std::int64_t count, double scale)
+    : sorted_(sorted)
+    , count_(count)
+    , n_(double(count))
+    , scale_(scale)
+    , thirdDerivative_(roughness(1.23 * std::pow(n_, -1.0 / 9.0), false))
+    , pilotFactor_(
+        1.357 * std::pow(roughness(1.24 * std::pow(n_, -1.0 / 7.0), true) / thirdDerivative_, 1.0 / 7.0))
   {
-    return Status::DegenerateSample;
   }
-  sorted_ = sorted;
-  count_ = count;
-  n_ = double(count);
-  scale_ = scale;
-  thirdDerivative_ = roughness(1.23 * std::pow(n_, -1.0 / 9.0), 3);
-  pilotFactor_ =
-    1.357 * std::pow(roughness(1.24 * std::pow(n_, -1.0 / 7.0), 2) / thirdDerivative_, 1.0 / 7.0);
-  return isUsable(thirdDerivative_) && isUsable(pilotFactor_) ? Status::Ok : Status::EquationUnsolved;
-}
+  bool isSolvable() const { return isUsable(thirdDerivative_) && isUsable(pilotFactor_); }
+  bool bracket(double& low, double& high, double& atLow, double& atHigh) const;
+  double root(double low, double high, double atLow, double atHigh) const;
+
+private:
+  double roughness(double g, bool second) const;
+  double excess(double logarithm) const;
+
+  const double* sorted_;
+  std::int64_t count_;
+  double n_;
+  double scale_;
+  double thirdDerivative_; ///< T(b).
+  double pilotFactor_;     ///< 1.357 (S(a) / T(b))^(1/7).
+};
 
 /// Integral of the squared second or third derivative of the density with unit scale.
-double SheatherJones::roughness(double g, int derivative)
+double Equation::roughness(double g, bool second) const
 {
-  const bool second = derivative == 2;
-  const double sum =
-    sums_.sum(sorted_, count_, g * scale_, second ? GaussianDerivative::Fourth : GaussianDerivative::Sixth);
-  const double power = std::pow(g, second ? 5.0 : 7.0);
-  return (second ? sum : -sum) / (n_ * (n_ - 1.0) * kSqrtTwoPi * power);
-}
-
-/// The bandwidth that is best where the integral of f''^2 is S(g).
-double SheatherJones::optimal(double g)
-{
-  return std::pow(2.0 * kSqrtPi * n_ * roughness(g, 2), -0.2);
+  const double width = g * scale_;
+  double sum = n_ * derivative(0.0, second);
+  for (std::int64_t i = 0; i < count_ && width > 0.0; ++i)
+  {
+    double ofRow = 0.0;
+    for (std::int64_t j = i + 1; j < count_ && (sorted_[j] - sorted_[i]) / width <= kReach; ++j)
+    {
+      ofRow += derivative((sorted_[j] - sorted_[i]) / width, second);
+    }
+    sum += 2.0 * ofRow;
+  }
+  return (second ? sum : -sum) / (n_ * (n_ - 1.0) * kSqrtTwoPi * std::pow(g, second ? 5.0 : 7.0));
 }
 
 /// log of right-hand side over left-hand side of the equation at bandwidth exp(logarithm); falls to 0 at a
 /// solution.
-double SheatherJones::excess(double logarithm)
+double Equation::excess(double logarithm) const
 {
   const double g = pilotFactor_ * std::exp(5.0 / 7.0 * logarithm);
-  return std::log(optimal(g)) - logarithm;
+  return std::log(std::pow(2.0 * kSqrtPi * n_ * roughness(g, true), -0.2)) - logarithm;
 }
 
-bool SheatherJones::bracket(double& low, double& high, double& atLow, double& atHigh)
+bool Equation::bracket(double& low, double& high, double& atLow, double& atHigh) const
 {
   const double step = std::log(kStepRatio);
   low = high = std::log(kStart * std::pow(n_, -0.2));
@@ -96,7 +121,7 @@ bool SheatherJones::bracket(double& low, double& high, double& atLow, double& at
 }
 
 /// Regula falsi where the end that stays has its value halved (Illinois): never leaves the bracket.
-double SheatherJones::root(double low, double high, double atLow, double atHigh)
+double Equation::root(double low, double high, double atLow, double atHigh) const
 {
   double last = low;
   int side = 0;
@@ -128,34 +153,21 @@ double SheatherJones::root(double low, double high, double atLow, double atHigh)
   return last;
 }
 
-Status SheatherJones::solveTheEquation(
-  const double* sorted, std::int64_t count, double scale, double& bandwidth)
-{
-  if (const Status status = begin(sorted, count, scale); status != Status::Ok)
-  {
-    return status;
-  }
-  double low = 0.0, high = 0.0, atLow = 0.0, atHigh = 0.0;
-  if (!bracket(low, high, atLow, atHigh))
-  {
-    return Status::EquationUnsolved;
-  }
-  const double result = std::exp(root(low, high, atLow, atHigh)) * scale_;
-  if (!isUsable(result))
-  {
-    return Status::EquationUnsolved;
-  }
-  bandwidth = result;
-  return Status::Ok;
 }
 
-Status SheatherJones::directPlugIn(const double* sorted, std::int64_t count, double scale, double& bandwidth)
+Status sheatherJones(const double* sorted, std::int64_t count, double scale, double& bandwidth)
 {
-  if (const Status status = begin(sorted, count, scale); status != Status::Ok)
+  if (count < 2 || !isUsable(scale))
   {
-    return status;
+    return Status::DegenerateSample;
   }
-  const double result = optimal(std::pow(2.394 / (n_ * thirdDerivative_), 1.0 / 7.0)) * scale_;
+  const Equation equation(sorted, count, scale);
+  double low = 0.0, high = 0.0, atLow = 0.0, atHigh = 0.0;
+  if (!equation.isSolvable() || !equation.bracket(low, high, atLow, atHigh))
+  {
+    return Status::EquationUnsolved;
+  }
+  const double result = std::exp(equation.root(low, high, atLow, atHigh)) * scale;
   if (!isUsable(result))
   {
     return Status::EquationUnsolved;

@@ -103,14 +103,7 @@ private:
   template <typename Visitor>
   void forEachSlot(const Visitor& visit) const
   {
-    forRange(executor_, query_.size(),
-      [&visit](std::int64_t begin, std::int64_t end)
-      {
-        for (std::int64_t slot = begin; slot < end; ++slot)
-        {
-          visit(std::uint32_t(slot));
-        }
-      });
+    forEachIndex(executor_, query_.size(), [&visit](std::int64_t slot) { visit(std::uint32_t(slot)); });
   }
 
   Vec3 normalOf(std::uint32_t slot) const

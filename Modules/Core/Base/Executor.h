@@ -49,6 +49,20 @@ void forRange(const Executor& executor, std::int64_t count, Function&& function)
   forRange(executor, count, kSmallestPiece, std::forward<Function>(function));
 }
 
+/// Calls visit(i) for all i below @p count.
+template <typename Visit>
+void forEachIndex(const Executor& executor, std::int64_t count, Visit&& visit)
+{
+  forRange(executor, count,
+    [&](std::int64_t begin, std::int64_t end)
+    {
+      for (std::int64_t i = begin; i < end; ++i)
+      {
+        visit(i);
+      }
+    });
+}
+
 /// Calls work(item, own) for all items below @p count: each thread takes the next one, and has begin(number)
 /// as its own. No two threads at a time have the same number, which is below the concurrency.
 template <typename Begin, typename Work>

@@ -1,5 +1,5 @@
 /// @file
-/// Strided coordinates as blocks without gaps, for loops that read x y z interleaved.
+/// Ranges of points, and strided coordinates as blocks without gaps, for loops that read x y z interleaved.
 #pragma once
 
 #include "Core/Base/PointView.h"
@@ -10,6 +10,13 @@
 
 namespace pointhaptics
 {
+
+/// Points [begin, end) of an array.
+struct PointRange
+{
+  std::int64_t begin;
+  std::int64_t end;
+};
 
 /// Points of a block, so few that a copy stays in the first cache.
 constexpr std::int64_t kPointBlock = 1024;

@@ -199,25 +199,11 @@ public:
   }
   void compareNormals(const Executor& executor)
   {
-    forRange(executor, query_.size(),
-      [this](std::int64_t begin, std::int64_t end)
-      {
-        for (std::int64_t slot = begin; slot < end; ++slot)
-        {
-          this->compareOne(std::size_t(slot));
-        }
-      });
+    forEachIndex(executor, query_.size(), [this](std::int64_t slot) { this->compareOne(std::size_t(slot)); });
   }
   void average(const Executor& executor)
   {
-    forRange(executor, query_.size(),
-      [this](std::int64_t begin, std::int64_t end)
-      {
-        for (std::int64_t slot = begin; slot < end; ++slot)
-        {
-          this->averageOne(std::size_t(slot));
-        }
-      });
+    forEachIndex(executor, query_.size(), [this](std::int64_t slot) { this->averageOne(std::size_t(slot)); });
   }
 
   const PointShape& result(std::int64_t slot) const { return smooth_[std::size_t(slot)]; }

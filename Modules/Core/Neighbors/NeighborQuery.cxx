@@ -1,6 +1,5 @@
 #include "Core/Neighbors/NeighborQuery.h"
 
-#include "Core/Neighbors/NeighborKernel.h"
 #include "Core/Neighbors/SpatialOrder.h"
 
 #include <algorithm>
@@ -37,7 +36,6 @@ void setBox(BoxGroup& group, int box, const Bounds& bounds, std::uint32_t firstI
 void NeighborQuery::build(const PointView& points, const Executor& executor)
 {
   tree_ = {};
-  kernels_ = &simd::neighborKernels();
   indices_ = spatialOrder(points, kLeafPoints, executor);
   repeats_.clear();
   tree_.size = std::int64_t(indices_.size());
@@ -67,16 +65,13 @@ void NeighborQuery::copyPoints(const PointView& points, const Executor& executor
     places_[axis].resize(padded);
     tree_.places[axis] = places_[axis].data();
   }
-  forRange(executor, tree_.size,
-    [&](std::int64_t begin, std::int64_t end)
+  forEachIndex(executor, tree_.size,
+    [&](std::int64_t slot)
     {
-      for (std::int64_t slot = begin; slot < end; ++slot)
-      {
-        const Vec3 p = points[indices_[std::size_t(slot)]];
-        places_[0][std::size_t(slot)] = p.x;
-        places_[1][std::size_t(slot)] = p.y;
-        places_[2][std::size_t(slot)] = p.z;
-      }
+      const Vec3 p = points[indices_[std::size_t(slot)]];
+      places_[0][std::size_t(slot)] = p.x;
+      places_[1][std::size_t(slot)] = p.y;
+      places_[2][std::size_t(slot)] = p.z;
     });
 }
 
@@ -99,16 +94,13 @@ std::int64_t NeighborQuery::sameBefore(const Vec3& place, std::int64_t slot) con
 void NeighborQuery::dropRepeats(const Executor& executor)
 {
   std::atomic<bool> repeats{ false };
-  forRange(executor, tree_.size,
-    [&](std::int64_t begin, std::int64_t end)
+  forEachIndex(executor, tree_.size,
+    [&](std::int64_t slot)
     {
-      for (std::int64_t slot = begin; slot < end; ++slot)
+      if (sameBefore(point(slot), slot) >= 0)
       {
-        if (sameBefore(point(slot), slot) >= 0)
-        {
-          repeats.store(true, std::memory_order_relaxed);
-          return;
-        }
+        repeats.store(true, std::memory_order_relaxed);
+        return;
       }
     });
   std::int64_t kept = repeats ? 0 : tree_.size;
@@ -161,22 +153,19 @@ void NeighborQuery::boundLeaves(const Executor& executor)
 
 void NeighborQuery::boundGroups(int level, const Executor& executor)
 {
-  forRange(executor, tree_.boxes[level],
-    [&](std::int64_t begin, std::int64_t end)
+  forEachIndex(executor, tree_.boxes[level],
+    [&](std::int64_t child)
     {
-      for (std::int64_t child = begin; child < end; ++child)
+      const BoxGroup& below = groups_[level - 1][std::size_t(child)];
+      const int boxes = simd::boxesOf(tree_, level - 1, child);
+      Bounds bounds;
+      for (int box = 0; box < boxes; ++box)
       {
-        const BoxGroup& below = groups_[level - 1][std::size_t(child)];
-        const int boxes = simd::boxesOf(tree_, level - 1, child);
-        Bounds bounds;
-        for (int box = 0; box < boxes; ++box)
-        {
-          bounds.include({ below.low[0][box], below.low[1][box], below.low[2][box] });
-          bounds.include({ below.high[0][box], below.high[1][box], below.high[2][box] });
-        }
-        const std::uint32_t least = *std::min_element(below.firstIndex, below.firstIndex + boxes);
-        setBox(groups_[level][std::size_t(child / kBranches)], int(child % kBranches), bounds, least);
+        bounds.include({ below.low[0][box], below.low[1][box], below.low[2][box] });
+        bounds.include({ below.high[0][box], below.high[1][box], below.high[2][box] });
       }
+      const std::uint32_t least = *std::min_element(below.firstIndex, below.firstIndex + boxes);
+      setBox(groups_[level][std::size_t(child / kBranches)], int(child % kBranches), bounds, least);
     });
 }
 
@@ -193,7 +182,7 @@ int NeighborQuery::nearest(const Vec3& center, int k, Neighbor* neighbors) const
 /// The best so far: sorted where they are few, else a heap.
 struct NeighborQuery::Search
 {
-  double center[3];
+  Vec3 center;
   int k;
   Neighbor* best;
   int count;
@@ -239,20 +228,7 @@ struct NeighborQuery::Search
 
 int NeighborQuery::nearestSlots(const Vec3& center, int k, Neighbor* neighbors) const noexcept
 {
-  Search search{ { center.x, center.y, center.z }, k, neighbors, 0 };
-  if (k > 0 && k <= simd::kMostAlone && k <= size())
-  {
-    alignas(64) double memory[simd::LeafSearch::wordsFor(simd::kMostAlone, 1)];
-    simd::LeafSearch around(memory, k, 1);
-    if (kernels_->searchPlace(tree_, search.center, around))
-    {
-      for (int i = 0; i < k; ++i)
-      {
-        neighbors[i] = { around.squaredDistances[i], packed(around.neighbors[i]) };
-      }
-      return k;
-    }
-  }
+  Search search{ center, k, neighbors, 0 };
   if (k > 0 && size() > 0)
   {
     searchGroup(tree_.levels - 1, 0, search);
@@ -269,7 +245,10 @@ void NeighborQuery::searchGroup(int level, std::int64_t group, Search& search) c
 {
   const BoxGroup& boxes = tree_.groups[level][group];
   double gaps[kBranches];
-  kernels_->groupGaps(boxes, search.center, gaps);
+  for (int box = 0; box < kBranches; ++box)
+  {
+    gaps[box] = simd::squaredGap(boxes, box, &search.center.x);
+  }
   for (unsigned left = (1u << simd::boxesOf(tree_, level, group)) - 1u; left != 0;)
   {
     int next = __builtin_ctz(left);
@@ -294,13 +273,10 @@ void NeighborQuery::searchGroup(int level, std::int64_t group, Search& search) c
 
 void NeighborQuery::searchLeaf(std::int64_t leaf, Search& search) const noexcept
 {
-  double distances[kLeafPoints];
-  unsigned within = kernels_->leafDistances(tree_, leaf, search.center, search.reach(), distances);
-  for (; within != 0; within &= within - 1u)
-  {
-    const int at = __builtin_ctz(within);
-    search.offer({ distances[at], packed(leaf * kLeafPoints + at) });
-  }
+  visitLeaf(leaf, search.center, search.reach(),
+    [&](double d2, std::int64_t slot) {
+      search.offer({ d2, packed(slot) });
+    });
 }
 
 } // namespace pointhaptics

@@ -12,11 +12,6 @@
 namespace pointhaptics
 {
 
-namespace simd
-{
-struct NeighborKernels;
-}
-
 /// A point that a query found.
 struct Neighbor
 {
@@ -37,8 +32,7 @@ inline bool operator<(const Neighbor& a, const Neighbor& b)
 /// loop no further than the tree, and may run in any number of threads after build(), the servo thread among
 /// them. Any density and extent is fine. For the neighbours of all points at once use NeighborSweep, which is
 /// several times as fast. build(): O(n), see SpatialOrder.h; 32 bytes a place, 8 a repeated point, and 16 a
-/// point more while it runs. nearest(): O(log n + k log k) as a rule, 1.6 us for 17 of 200,000 points; it
-/// uses 60 KiB of stack.
+/// point more while it runs. nearest(): O(log n + k log k) as a rule, 2 us for 17 of 200,000 points.
 class NeighborQuery
 {
 public:
@@ -148,7 +142,7 @@ private:
     }
   }
   template <typename Visitor>
-  void visitLeaf(std::int64_t leaf, const Vec3& center, double r2, Visitor& visit) const
+  void visitLeaf(std::int64_t leaf, const Vec3& center, double r2, Visitor&& visit) const
   {
     const std::int64_t begin = leaf * simd::kLeafPoints;
     const std::int64_t end = begin + simd::kLeafPoints < size() ? begin + simd::kLeafPoints : size();
@@ -167,7 +161,6 @@ private:
   std::vector<double> places_[3];
   std::vector<simd::BoxGroup> groups_[simd::kMostLevels];
   simd::NeighborTree tree_;
-  const simd::NeighborKernels* kernels_ = nullptr;
 };
 
 } // namespace pointhaptics

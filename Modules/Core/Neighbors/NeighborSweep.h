@@ -31,9 +31,9 @@ struct NeighborList
 
 /// Finds the neighbours of many points, leaf by leaf. The results are those of NeighborQuery::nearest, bit
 /// for bit, at a fraction of the cost: the points of a leaf share their candidates, and each search begins
-/// with the reach of the one before. Where more than 4096 neighbours are wanted, or the guessed reach fails
-/// (an isolated point), points are searched one by one. Memory: 60 KiB and 600 bytes per
-/// neighbour, allocated in the constructor only. One thread at a time.
+/// with the reach of the one before. Where more than 72 neighbours are wanted, or the guessed reach fails (an
+/// isolated point), points are searched one by one. Memory: 60 KiB, allocated in the constructor only. One
+/// thread at a time.
 class NeighborSweep
 {
 public:
@@ -72,20 +72,12 @@ private:
 
   const NeighborQuery& query_;
   const int k_;
-  const simd::NeighborKernels* kernels_; ///< Null: every point is searched alone.
-  std::vector<double> memory_;
-  std::unique_ptr<simd::LeafSearch> search_;
+  const simd::NeighborKernels& kernels_;
+  std::unique_ptr<simd::LeafSearch> search_; ///< Null: every point is searched alone.
   // The neighbours of the last point that was searched alone.
   std::vector<Neighbor> alone_;
   std::vector<double> squaredDistances_;
   std::vector<std::uint32_t> slots_;
 };
-
-/// The neighbours of all points. Those of point i start at neighbors[i k], as from NeighborQuery::nearest at
-/// its position, and counts[i] says how many of the k are valid; entries of points that are not finite are
-/// left unchanged. The caller provides n k @p neighbors and n @p counts, n the points given to build().
-/// Independent of @p executor.
-void nearestOfAll(
-  const NeighborQuery& query, int k, Neighbor* neighbors, int* counts, const Executor& executor = {});
 
 } // namespace pointhaptics

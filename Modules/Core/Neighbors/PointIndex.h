@@ -6,7 +6,7 @@
 #include "Core/Base/Buffer.h"
 #include "Core/Base/Executor.h"
 #include "Core/Base/Lattice.h"
-#include "Core/Base/PointRange.h"
+#include "Core/Base/PointBlocks.h"
 #include "Core/Base/PointView.h"
 #include "Core/Base/ProgressObserver.h"
 #include "Core/Base/Status.h"

@@ -1,9 +1,8 @@
 #include "Core/Neighbors/SpatialOrder.h"
 
-#include "Core/Neighbors/NeighborKernel.h"
+#include "Core/Base/RadixSort.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace pointhaptics
@@ -18,8 +17,6 @@ constexpr int kBitsPerAxis = 10;
 constexpr double kCellsPerAxis = 1 << kBitsPerAxis;
 /// Points processed together.
 constexpr std::int64_t kBlock = 4096;
-constexpr int kDigitBits = 10;
-constexpr int kDigits = 3 * kBitsPerAxis / kDigitBits;
 /// Fewer entries are sorted by comparing them.
 constexpr std::int64_t kSmallSort = 2048;
 
@@ -30,6 +27,41 @@ std::uint32_t indexOf(Entry entry)
 std::uint32_t keyOf(Entry entry)
 {
   return std::uint32_t(entry >> 32);
+}
+
+/// 10 bits with two free places before every one.
+std::uint32_t spreadBits(std::uint32_t v)
+{
+  v = (v | v << 16) & 0x030000FFu;
+  v = (v | v << 8) & 0x0300F00Fu;
+  v = (v | v << 4) & 0x030C30C3u;
+  return (v | v << 2) & 0x09249249u;
+}
+
+/// Position along Hilbert's curve through 2^30 cells: Skilling's AxesToTranspose without branches, then the
+/// bits of the three words in turn.
+std::uint32_t hilbertKey(std::uint32_t x, std::uint32_t y, std::uint32_t z)
+{
+  for (int bit = kBitsPerAxis - 1; bit > 0; --bit)
+  {
+    const std::uint32_t low = (1u << bit) - 1u;
+    x ^= low & (0u - (x >> bit & 1u));
+    for (std::uint32_t* const other : { &y, &z })
+    {
+      const std::uint32_t isSet = 0u - (*other >> bit & 1u);
+      const std::uint32_t swapped = (x ^ *other) & low & ~isSet;
+      x ^= swapped ^ (low & isSet);
+      *other ^= swapped;
+    }
+  }
+  y ^= x;
+  z ^= y;
+  std::uint32_t flip = 0;
+  for (int bit = kBitsPerAxis - 1; bit > 0; --bit)
+  {
+    flip ^= ((1u << bit) - 1u) & (0u - (z >> bit & 1u));
+  }
+  return spreadBits(x ^ flip) << 2 | spreadBits(y ^ flip) << 1 | spreadBits(z ^ flip);
 }
 
 /// From places in a box to cells of the cube about it. Halves, so that no extent overflows.
@@ -52,51 +84,10 @@ struct Grid
   {
     return std::uint32_t(std::min((0.5 * place - corner[axis]) * scale, kCellsPerAxis - 1.0));
   }
-};
-
-/// Turns points into keyed entries, some at once.
-class Keyer
-{
-public:
-  Keyer(const simd::NeighborKernels& kernels, const Grid& grid, Entry* to)
-    : kernels_(kernels)
-    , grid_(grid)
-    , to_(to)
+  Entry entryOf(const Vec3& p, std::uint32_t index) const
   {
+    return Entry(hilbertKey(cell(p.x, 0), cell(p.y, 1), cell(p.z, 2))) << 32 | index;
   }
-  void add(const Vec3& p, std::uint32_t index)
-  {
-    x_[count_] = grid_.cell(p.x, 0);
-    y_[count_] = grid_.cell(p.y, 1);
-    z_[count_] = grid_.cell(p.z, 2);
-    indices_[count_] = index;
-    if (++count_ == kTogether)
-    {
-      flush();
-    }
-  }
-  void flush()
-  {
-    kernels_.hilbertKeys(x_, y_, z_, count_, keys_);
-    for (int i = 0; i < count_; ++i)
-    {
-      *to_++ = Entry(keys_[i]) << 32 | indices_[i];
-    }
-    count_ = 0;
-  }
-
-private:
-  static constexpr int kTogether = 256;
-
-  const simd::NeighborKernels& kernels_;
-  const Grid& grid_;
-  Entry* to_;
-  int count_ = 0;
-  std::uint32_t x_[kTogether];
-  std::uint32_t y_[kTogether];
-  std::uint32_t z_[kTogether];
-  std::uint32_t indices_[kTogether];
-  std::uint32_t keys_[kTogether];
 };
 
 bool lexicographic(const Vec3& a, const Vec3& b)
@@ -200,16 +191,15 @@ private:
     forBlocks(
       [&](Block& block, std::int64_t begin, std::int64_t end)
       {
-        Keyer keyer(kernels_, grid, entries_.data() + block.first);
+        Entry* to = entries_.data() + block.first;
         for (std::int64_t i = begin; i < end; ++i)
         {
           const Vec3 p = points_[i];
           if (isFinite(p))
           {
-            keyer.add(p, std::uint32_t(i));
+            *to++ = grid.entryOf(p, std::uint32_t(i));
           }
         }
-        keyer.flush();
       });
   }
 
@@ -221,34 +211,13 @@ private:
       std::sort(entries_.begin() + run.begin, entries_.begin() + run.end);
       return;
     }
-    constexpr std::uint32_t kMask = (1u << kDigitBits) - 1u;
-    std::array<std::array<std::uint32_t, kMask + 1>, kDigits> places{};
-    for (std::int64_t i = run.begin; i < run.end; ++i)
+    Entry* sorted = entries_.data() + run.begin;
+    Entry* other = spare_.data() + run.begin;
+    radixSort(sorted, other, std::size_t(run.end - run.begin), keyOf);
+    if (sorted != entries_.data() + run.begin)
     {
-      const std::uint32_t key = keyOf(entries_[std::size_t(i)]);
-      for (int digit = 0; digit < kDigits; ++digit)
-      {
-        ++places[std::size_t(digit)][key >> (digit * kDigitBits) & kMask];
-      }
+      std::copy_n(sorted, run.end - run.begin, other);
     }
-    Entry* from = entries_.data() + run.begin;
-    Entry* to = spare_.data() + run.begin;
-    const std::int64_t count = run.end - run.begin;
-    for (int digit = 0; digit < kDigits; ++digit)
-    {
-      std::array<std::uint32_t, kMask + 1>& place = places[std::size_t(digit)];
-      std::uint32_t sum = 0;
-      for (std::uint32_t& p : place)
-      {
-        sum += std::exchange(p, sum);
-      }
-      for (std::int64_t i = 0; i < count; ++i)
-      {
-        to[place[keyOf(from[i]) >> (digit * kDigitBits) & kMask]++] = from[i];
-      }
-      std::swap(from, to);
-    }
-    std::copy(from, from + count, entries_.data() + run.begin);
   }
 
   /// Lists the runs of equal keys that are longer than mostPerCell.
@@ -288,13 +257,8 @@ private:
         [this](Entry a, Entry b) { return lexicographic(points_[indexOf(a)], points_[indexOf(b)]); });
       return;
     }
-    Keyer keyer(kernels_, grid, entries_.data() + run.begin);
-    for (std::int64_t i = run.begin; i < run.end; ++i)
-    {
-      const std::uint32_t index = indexOf(entries_[std::size_t(i)]);
-      keyer.add(points_[index], index);
-    }
-    keyer.flush();
+    std::for_each(entries_.begin() + run.begin, entries_.begin() + run.end,
+      [&](Entry& entry) { entry = grid.entryOf(points_[indexOf(entry)], indexOf(entry)); });
     sortRun(run);
     collectOverfullCells(run);
   }
@@ -302,7 +266,6 @@ private:
   const PointView& points_;
   const std::int64_t mostPerCell_;
   const Executor& executor_;
-  const simd::NeighborKernels& kernels_ = simd::neighborKernels();
   std::vector<Block> blocks_;
   std::vector<Entry> entries_;
   std::vector<Entry> spare_;

@@ -14,22 +14,12 @@ namespace pointhaptics
 namespace reference
 {
 
-/// He_r(t) exp(-t^2 / 2) for r = 0, 2, 4, 6.
+/// He_r(t) exp(-t^2 / 2) for r = 4, 6.
 inline long double gaussianDerivative(long double t, int order)
 {
   const long double q = t * t;
   const long double height = std::exp(-q / 2);
-  switch (order)
-  {
-    case 0:
-      return height;
-    case 2:
-      return (q - 1) * height;
-    case 4:
-      return (q * q - 6 * q + 3) * height;
-    default:
-      return (q * q * q - 15 * q * q + 45 * q - 15) * height;
-  }
+  return order == 4 ? (q * q - 6 * q + 3) * height : (q * q * q - 15 * q * q + 45 * q - 15) * height;
 }
 
 /// Over all pairs, each value with itself among them.
@@ -62,8 +52,6 @@ public:
     const long double second = functional(1.24L * scale_ * std::pow(n_, -1.0L / 7), 4);
     factor_ = 1.357L * std::pow(second / third_, 1.0L / 7);
   }
-
-  long double directPlugIn() const { return optimal(std::pow(2.394L / (n_ * third_), 1.0L / 7)); }
 
   /// The sign changes of the equation are looked for downwards, then upwards, from 1.144 s n^(-1/5) in steps
   /// of a fifth; then it is halved.

@@ -62,16 +62,16 @@ Status voxelMeans(const PointView& points, const AffineTransform& transform, con
   }
   const auto size = std::size_t(resampler.size());
   result.lattice = lattice;
-  result.keys.resize(size);
-  result.means.resize(size);
-  result.counts.resize(size);
-  resampler.copyKeys(result.keys.data(), executor);
-  resampler.copyMeans(size ? &result.means.front().x : nullptr, executor);
-  resampler.copyCounts(result.counts.data(), executor);
+  result.keys.assign(resampler.keys(), resampler.keys() + size);
+  const PointView means(resampler.doubles(), resampler.size());
+  for (std::int64_t i = 0; i < means.size(); ++i)
+  {
+    result.means.push_back(means[i]);
+  }
+  result.counts.assign(resampler.counts(), resampler.counts() + size);
   if (withCovariances)
   {
-    result.covariances.resize(size);
-    resampler.copyCovariances(result.covariances.data(), executor);
+    result.covariances.assign(resampler.covariances(), resampler.covariances() + size);
   }
   result.clippedPoints = resampler.clippedPoints();
   result.invalidPoints = resampler.invalidPoints();

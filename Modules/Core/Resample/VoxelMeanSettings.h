@@ -3,9 +3,9 @@
 /// aside.
 #pragma once
 
+#include "Core/Base/FieldNames.h"
 #include "Core/Base/Lattice.h"
 #include "Core/Base/SettingsMembers.h"
-#include "Core/Resample/FieldNames.h"
 #include "Core/Resample/Representative.h"
 #include "Core/Simd/InstructionSet.h"
 

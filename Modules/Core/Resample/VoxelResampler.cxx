@@ -19,29 +19,6 @@ using namespace simd;
 namespace
 {
 
-/// Copies an array unless it is there already.
-template <typename T>
-void copyArray(const T* from, std::int64_t count, T* to, const Executor& executor)
-{
-  constexpr std::int64_t kGrain = 1 << 14; // Elements worth a thread of their own.
-  if (from != to)
-  {
-    forRange(executor, count, kGrain,
-      [&](std::int64_t begin, std::int64_t end) { std::copy(from + begin, from + end, to + begin); });
-  }
-}
-
-/// Where the voxels of each partition start among all; at the end their number.
-std::vector<std::size_t> startsOf(std::vector<VoxelRuns>& parts)
-{
-  std::vector<std::size_t> starts = { 0 };
-  for (VoxelRuns& part : parts)
-  {
-    starts.push_back(starts.back() + part.whole().size());
-  }
-  return starts;
-}
-
 static_assert(kChunkPoints <= kPointsPerReport, "progress is reported after each chunk");
 
 AttributeView viewOf(const PointView& points)
@@ -80,40 +57,29 @@ Status VoxelResampler::Implementation::run(
 {
   Task task = { request, true };
   task.request.keys = request.keys || choosesPoints(request);
-  std::vector<VoxelRuns> parts;
-  const Status status = sumPoints(task, parts, executor, observer);
+  VoxelRun sums;
+  Status status = sumPoints(task, sums, executor, observer);
+  if (status == Status::Ok && !task.writes)
+  {
+    status = writeRun(task.request, sums, executor, nullptr);
+  }
   if (status != Status::Ok)
   {
     clear();
-    return status;
   }
-  task.writes ? void() : writeParts(task.request, parts, executor);
-  if (keepsPoints(request.representative))
+  else if (keepsPoints(request.representative))
   {
-    chosenPoints.assign(writer.chosen(), writer.chosen() + size);
+    chosenPoints.assign(writer_.chosen(), writer_.chosen() + size);
   }
-  return Status::Ok;
+  publish();
+  return status;
 }
 
 Status VoxelResampler::Implementation::sum(
   const VoxelRequest& request, VoxelRun& sums, const Executor& executor, ProgressObserver* observer)
 {
   Task task = { request, false };
-  std::vector<VoxelRuns> parts;
-  const Status status = sumPoints(task, parts, executor, observer);
-  if (status != Status::Ok)
-  {
-    return status;
-  }
-  const std::size_t room = startsOf(parts).back();
-  sums.voxels.reserve(room);
-  sums.secondMoments.reserve(request.covariances ? room : 0);
-  for (VoxelRuns& part : parts)
-  {
-    sums.append(part.whole(), 0, part.whole().size());
-    part = VoxelRuns();
-  }
-  return Status::Ok;
+  return sumPoints(task, sums, executor, observer);
 }
 
 Status VoxelResampler::Implementation::finish(
@@ -122,7 +88,24 @@ Status VoxelResampler::Implementation::finish(
   clear();
   const Status status = check(request);
   lattice = request.lattice;
-  return status == Status::Ok ? writeRun(request, sums, executor, observer) : status;
+  const Status ended = status == Status::Ok ? writeRun(request, sums, executor, observer) : status;
+  publish();
+  return ended;
+}
+
+/// Tells where the arrays are.
+void VoxelResampler::Implementation::publish()
+{
+  floats = writer_.floats();
+  doubles = writer_.doubles();
+  counts = writer_.counts();
+  keys = writer_.keys();
+  covariances = writer_.covariances();
+  attributes.clear();
+  for (std::size_t i = 0; i < writer_.attributes(); ++i)
+  {
+    attributes.push_back(writer_.attribute(i, 0));
+  }
 }
 
 void VoxelResampler::Implementation::clear()
@@ -133,25 +116,12 @@ void VoxelResampler::Implementation::clear()
   voxelIndex.clear();
 }
 
-/// Writes the voxels that sums give, from @p first to before @p last, to the result from voxel @p to on.
-void VoxelResampler::Implementation::writeSlice(
-  const VoxelRequest& request, const VoxelRun& run, std::size_t first, std::size_t last, std::size_t to)
-{
-  const std::array<Vec3, 3> columns = normalColumns(request.transform);
-  writer.write(to, run, first, last);
-  for (std::size_t i = 0; i < run.tallies.size(); ++i)
-  {
-    const AttributeRequest& array = request.attributes[i];
-    run.tallies[i].write({ array.view.type, array.view.components, array.statistic }, first, last,
-      writer.counts() + to, columns, writer.attribute(i, to));
-  }
-}
-
 /// Makes the result that sums give.
 Status VoxelResampler::Implementation::writeRun(
   const VoxelRequest& request, const VoxelRun& run, const Executor& executor, ProgressObserver* observer)
 {
-  writer.prepare(request, run.size(), fractionBitsOf(lattice));
+  writer_.prepare(request, run.size(), fractionBitsOf(lattice));
+  const std::array<Vec3, 3> columns = normalColumns(request.transform);
   PointProgress progress(observer, std::int64_t(run.size()), 1);
   const bool isDone = forReportedSlices(std::int64_t(run.size()), progress,
     [&](std::int64_t first, std::int64_t last)
@@ -159,33 +129,25 @@ Status VoxelResampler::Implementation::writeRun(
       forRange(executor, last - first,
         [&](std::int64_t begin, std::int64_t end)
         {
-          const std::size_t to = std::size_t(first + begin);
-          this->writeSlice(request, run, to, std::size_t(first + end), to);
+          const auto from = std::size_t(first + begin);
+          const auto to = std::size_t(first + end);
+          writer_.write(from, run, from, to);
+          for (std::size_t i = 0; i < run.tallies.size(); ++i)
+          {
+            const AttributeRequest& array = request.attributes[i];
+            run.tallies[i].write({ array.view.type, array.view.components, array.statistic }, from, to,
+              writer_.counts() + from, columns, writer_.attribute(i, from));
+          }
         });
     });
   size = isDone ? std::int64_t(run.size()) : 0;
   return isDone ? Status::Ok : (clear(), Status::Aborted);
 }
 
-/// Makes the result that the sums of all partitions give, and frees the sums of each once they are written.
-void VoxelResampler::Implementation::writeParts(
-  const VoxelRequest& request, std::vector<VoxelRuns>& parts, const Executor& executor)
-{
-  const std::vector<std::size_t> starts = startsOf(parts);
-  writer.prepare(request, starts.back(), fractionBitsOf(lattice));
-  forEachItem(executor, parts.size(),
-    [&](std::size_t p)
-    {
-      this->writeSlice(request, parts[p].whole(), 0, parts[p].whole().size(), starts[p]);
-      parts[p] = VoxelRuns();
-    });
-  size = std::int64_t(starts.back());
-}
-
 std::size_t VoxelResampler::Implementation::scratchBytes() const
 {
   return std::accumulate(workers_.begin(), workers_.end(),
-    binner_.bytes() + places_.capacity() + writer.bytes() +
+    binner_.bytes() + places_.capacity() + writer_.bytes() +
       (chosenPoints.capacity() + voxelIndex.capacity()) * sizeof(std::int64_t),
     [](std::size_t sum, const auto& worker) { return sum + worker->voxels.bytes(); });
 }
@@ -221,14 +183,11 @@ AttributeView VoxelResampler::Implementation::placesOf(const VoxelRequest& reque
     using Real = decltype(example);
     places_.resize(std::size_t(3 * points.size()) * sizeof(Real));
     Real* const to = reinterpret_cast<Real*>(places_.data());
-    forRange(executor, points.size(),
-      [&](std::int64_t begin, std::int64_t end)
+    forEachIndex(executor, points.size(),
+      [&](std::int64_t i)
       {
-        for (std::int64_t i = begin; i < end; ++i)
-        {
-          const Vec3 place = request.transform.apply(points[i]);
-          std::transform(&place.x, &place.x + 3, to + 3 * i, [](double x) { return Real(x); });
-        }
+        const Vec3 place = request.transform.apply(points[i]);
+        std::transform(&place.x, &place.x + 3, to + 3 * i, [](double x) { return Real(x); });
       });
     return viewOf(PointView(to, points.size()));
   };
@@ -236,7 +195,7 @@ AttributeView VoxelResampler::Implementation::placesOf(const VoxelRequest& reque
 }
 
 Status VoxelResampler::Implementation::sumPoints(
-  Task& task, std::vector<VoxelRuns>& parts, const Executor& executor, ProgressObserver* observer)
+  Task& task, VoxelRun& sums, const Executor& executor, ProgressObserver* observer)
 {
   clear();
   VoxelRequest& request = task.request;
@@ -261,7 +220,25 @@ Status VoxelResampler::Implementation::sumPoints(
   lattice = request.lattice;
   // Other sets divide by way of the reciprocal.
   request.instructions = hasOrdinarySpacing(lattice) ? request.instructions : InstructionSet::Baseline;
-  return runStages(task, parts, executor, observer);
+  std::vector<VoxelRuns> parts;
+  const Status ended = runStages(task, parts, executor, observer);
+  if (ended != Status::Ok)
+  {
+    return ended;
+  }
+  std::size_t room = 0;
+  for (VoxelRuns& part : parts)
+  {
+    room += part.whole().size();
+  }
+  sums.voxels.reserve(room);
+  sums.secondMoments.reserve(request.covariances ? room : 0);
+  for (VoxelRuns& part : parts)
+  {
+    sums.append(part.whole(), 0, part.whole().size());
+    part = VoxelRuns();
+  }
+  return Status::Ok;
 }
 
 /// The stages: quantize and bin; sum; write, or keep the sums of each partition, merged.
@@ -323,16 +300,16 @@ void VoxelResampler::Implementation::makeOutput(const VoxelRequest& request, con
   }
   try
   {
-    writer.prepare(request, most, binner_.plan().fractionBits);
+    writer_.prepare(request, most, binner_.plan().fractionBits);
   }
   catch (const std::bad_alloc&)
   {
-    writer = VoxelWriter();
+    writer_ = VoxelWriter();
     std::atomic<std::size_t> voxels{ 0 };
     forEachItemWith(
       executor, binner_.plan().partitions, [&](std::size_t thread) -> Worker& { return *workers_[thread]; },
       [&](std::size_t p, Worker& worker) { voxels += worker.voxels.find(std::uint32_t(p)); });
-    writer.prepare(request, voxels, binner_.plan().fractionBits);
+    writer_.prepare(request, voxels, binner_.plan().fractionBits);
   }
 }
 
@@ -350,8 +327,8 @@ void VoxelResampler::Implementation::sumPartition(
   }
   if (task.writes)
   {
-    voxels.write(kernelsFor(task.request.instructions), writer, offset);
-    reductions ? reductions->write(writer, offset) : void();
+    voxels.write(kernelsFor(task.request.instructions), writer_, offset);
+    reductions ? reductions->write(writer_, offset) : void();
   }
   else if (voxels.size() > 0)
   {
@@ -407,6 +384,7 @@ bool VoxelResampler::Implementation::sumPartitions(const Task& task, std::size_t
 
 VoxelResampler::VoxelResampler()
   : implementation_(std::make_unique<Implementation>())
+  , results_(implementation_.get())
 {
 }
 
@@ -419,86 +397,10 @@ Status VoxelResampler::run(const VoxelRequest& request, const Executor& executor
   return implementation_->run(request, executor, observer);
 }
 
-std::int64_t VoxelResampler::clippedPoints() const
-{
-  return implementation_->clipped;
-}
-
-std::int64_t VoxelResampler::invalidPoints() const
-{
-  return implementation_->invalid;
-}
-
-std::int64_t VoxelResampler::size() const
-{
-  return implementation_->size;
-}
-
-std::int64_t VoxelResampler::mostPoints() const
-{
-  return size() == 0 ? 0 : *std::max_element(counts(), counts() + size());
-}
-
-const Lattice& VoxelResampler::lattice() const
-{
-  return implementation_->lattice;
-}
-
-const std::vector<std::int64_t>& VoxelResampler::chosenPoints() const
-{
-  return implementation_->chosenPoints;
-}
-
-const std::vector<std::int64_t>& VoxelResampler::voxelIndex() const
-{
-  return implementation_->voxelIndex;
-}
-
-void VoxelResampler::copyMeans(float* xyz, const Executor& executor) const
-{
-  copyArray(implementation_->writer.floats(), 3 * size(), xyz, executor);
-}
-
-void VoxelResampler::copyMeans(double* xyz, const Executor& executor) const
-{
-  copyArray(implementation_->writer.doubles(), 3 * size(), xyz, executor);
-}
-
-void VoxelResampler::copyCounts(std::int64_t* to, const Executor& executor) const
-{
-  copyArray(counts(), size(), to, executor);
-}
-
-const std::int64_t* VoxelResampler::counts() const
-{
-  return implementation_->writer.counts();
-}
-
-void VoxelResampler::copyKeys(std::uint64_t* keys, const Executor& executor) const
-{
-  copyArray(implementation_->writer.keys(), size(), keys, executor);
-}
-
-void VoxelResampler::copyCovariances(SymMat3* covariances, const Executor& executor) const
-{
-  copyArray(implementation_->writer.covariances(), size(), covariances, executor);
-}
-
-const void* VoxelResampler::attribute(std::size_t attribute) const
-{
-  return implementation_->writer.attribute(attribute, 0);
-}
-
-void VoxelResampler::copyAttribute(std::size_t attribute, void* tuples, const Executor& executor) const
-{
-  const VoxelWriter& writer = implementation_->writer;
-  copyArray(writer.attribute(attribute, 0), size() * std::int64_t(writer.attributeBytes(attribute)),
-    static_cast<char*>(tuples), executor);
-}
-
 void VoxelResampler::releaseScratch()
 {
   implementation_ = std::make_unique<Implementation>();
+  results_ = implementation_.get();
 }
 
 std::size_t VoxelResampler::scratchBytes() const

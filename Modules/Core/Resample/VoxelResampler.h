@@ -23,8 +23,7 @@ namespace pointhaptics
 
 class PointIndex;
 
-/// Allocates the results in the caller's memory: run() writes them in place, and copying them there does
-/// nothing.
+/// Allocates the results in the caller's memory: run() writes them in place.
 class OutputAllocator
 {
 public:
@@ -57,7 +56,7 @@ struct VoxelRequest
   std::optional<Lattice> part;
   bool singlePrecision = false; ///< Means are rounded to float.
   bool covariances = false;
-  bool keys = false; ///< For copyKeys().
+  bool keys = false; ///< For keys().
   /// Arrays of the points, to be reduced to a tuple for each voxel.
   std::vector<AttributeRequest> attributes;
   /// Representative of the points of a voxel, in the place of their mean; counts and covariances stay. For
@@ -76,25 +75,23 @@ struct VoxelRequest
 
 /// Resamples clouds. Scratch memory is kept from one run to the next (releaseScratch()).
 ///
-/// The position of a point in the lattice is u = (T p + t - origin) / spacing, in double. It is computed
-/// about a point near the lattice's origin, so that large coordinates cost no digits. The voxel is floor(u),
-/// half-open. Positions are then quantized: truncated to fixed-point numbers whose quantum is a power of two
-/// below the length of the lattice's longest axis, at most 2^-31 voxel, 2^-34 on 300^3. Sums of these are
-/// exact. Hence results are the same bit for bit for every order of the points, every executor, instruction
-/// set and PointIndex.
+/// The position of a point in the lattice is u = (T p + t - origin) / spacing, in double, about a point near
+/// the lattice's origin, so that large coordinates cost no digits. The voxel is floor(u), half-open.
+/// Positions are then quantized: truncated to fixed-point numbers whose quantum is a power of two below the
+/// length of the lattice's longest axis, at most 2^-31 voxel, 2^-34 on 300^3. Sums of these are exact. Hence
+/// results are the same bit for bit for every order of the points, every executor, instruction set and
+/// PointIndex.
 ///
 /// Accuracy: a mean is off by at most 2^-31 voxel (a quarter more beyond 2^20 voxels an axis), then rounded
-/// once to the output's type; it lies in its voxel. Counts are 64-bit. Under a rotation or a scale the point
-/// near the lattice's origin is solved in double: another version may differ within that bound. Under a
-/// matrix whose condition number would cost digits, the products are summed in two words each. That takes
-/// about half as much time again (several times as much on processors without a fused multiplication).
+/// once to the output's type; it lies in its voxel. Under a rotation or a scale another version may differ
+/// within that bound. Under a matrix whose condition number would cost digits the products are summed in two
+/// words each, in half as much time again (several times as much without a fused multiplication).
 ///
 /// Time: a few nanoseconds a point; beyond 4096 voxels an axis some tens of them. Memory beyond input and
 /// results: 16 bytes for each of at most 5 million points (with attributes up to 52), a few megabytes, and
-/// where there are more points 48 bytes an active voxel, 144 with covariances, and the sums and values of
-/// arrays (see VoxelAccumulator): those of 5 million are merged with the others. With representatives or
-/// VoxelRequest::voxelIndex all points are held at once, with medians under a transform their places too. One
-/// object is used by one thread at a time; the executor's threads may be many.
+/// for more points 48 bytes an active voxel, 144 with covariances, and what VoxelAccumulator says of arrays:
+/// sums of 5 million are merged with the others. With representatives or VoxelRequest::voxelIndex all points
+/// are held at once, with medians under a transform their places too. One thread at a time may use an object.
 class VoxelResampler
 {
 public:
@@ -110,29 +107,25 @@ public:
   Status run(
     const VoxelRequest& request, const Executor& executor = {}, ProgressObserver* observer = nullptr);
 
-  // Results of run().
-  std::int64_t clippedPoints() const; ///< Finite points outside the lattice.
-  std::int64_t invalidPoints() const; ///< Points NaN or infinite, before or after the transform.
-  std::int64_t size() const;          ///< Active voxels.
-  std::int64_t mostPoints() const;    ///< Points of the voxel that has most.
-  const Lattice& lattice() const;
-  /// Voxels in ascending order of their keys (x fastest). @p xyz: 3 size() numbers, of the type asked for.
-  void copyMeans(float* xyz, const Executor& executor = {}) const;
-  void copyMeans(double* xyz, const Executor& executor = {}) const;
-  void copyCounts(std::int64_t* counts, const Executor& executor = {}) const;
-  /// Points of each voxel, valid until the next run().
-  const std::int64_t* counts() const;
-  void copyKeys(std::uint64_t* keys, const Executor& executor = {}) const;
-  void copyCovariances(SymMat3* covariances, const Executor& executor = {}) const;
+  // Results of run(), valid until the next one.
+  std::int64_t clippedPoints() const { return results_->clipped; } ///< Finite points outside the lattice.
+  /// Points NaN or infinite, before or after the transform.
+  std::int64_t invalidPoints() const { return results_->invalid; }
+  std::int64_t size() const { return results_->size; } ///< Active voxels.
+  const Lattice& lattice() const { return results_->lattice; }
+  // Arrays of the voxels in ascending order of their keys (x fastest).
+  /// Means, three numbers each; null where the other type was asked for.
+  const float* floats() const { return results_->floats; }
+  const double* doubles() const { return results_->doubles; }
+  const std::int64_t* counts() const { return results_->counts; }
+  const std::uint64_t* keys() const { return results_->keys; } ///< If asked for, as the covariances.
+  const SymMat3* covariances() const { return results_->covariances; }
   /// The tuples of an attribute of the request, of the array's own type.
-  void copyAttribute(std::size_t attribute, void* tuples, const Executor& executor = {}) const;
-  /// Those tuples in place, valid until the next run().
-  const void* attribute(std::size_t attribute) const;
-
+  const void* attribute(std::size_t attribute) const { return results_->attributes[attribute]; }
   /// Number of the point that represents each voxel; empty unless a nearest one was requested.
-  const std::vector<std::int64_t>& chosenPoints() const;
+  const std::vector<std::int64_t>& chosenPoints() const { return results_->chosenPoints; }
   /// Voxel of each point, or -1 where it is clipped or invalid; empty unless requested.
-  const std::vector<std::int64_t>& voxelIndex() const;
+  const std::vector<std::int64_t>& voxelIndex() const { return results_->voxelIndex; }
 
   std::size_t scratchBytes() const;
   /// Frees the memory kept, results included.
@@ -141,7 +134,23 @@ public:
 private:
   friend class VoxelAccumulator;
   class Implementation;
+  struct Results
+  {
+    Lattice lattice;
+    std::int64_t size = 0;
+    std::int64_t clipped = 0;
+    std::int64_t invalid = 0;
+    const float* floats = nullptr;
+    const double* doubles = nullptr;
+    const std::int64_t* counts = nullptr;
+    const std::uint64_t* keys = nullptr;
+    const SymMat3* covariances = nullptr;
+    std::vector<const void*> attributes = {};
+    std::vector<std::int64_t> chosenPoints = {};
+    std::vector<std::int64_t> voxelIndex = {};
+  };
   std::unique_ptr<Implementation> implementation_;
+  const Results* results_; ///< Of the implementation.
 };
 
 } // namespace pointhaptics

@@ -68,7 +68,7 @@ private:
   std::atomic<bool> givenUp_{ false };
 };
 
-class VoxelResampler::Implementation
+class VoxelResampler::Implementation : public VoxelResampler::Results
 {
 public:
   Status run(const VoxelRequest& request, const Executor& executor, ProgressObserver* observer);
@@ -78,14 +78,6 @@ public:
   /// For VoxelAccumulator: the result that such sums make.
   Status finish(const VoxelRequest& request, const simd::VoxelRun& sums, const Executor& executor,
     ProgressObserver* observer);
-
-  Lattice lattice;
-  simd::VoxelWriter writer; ///< The result's arrays.
-  std::int64_t size = 0;    ///< Voxels of the result.
-  std::int64_t clipped = 0;
-  std::int64_t invalid = 0;
-  std::vector<std::int64_t> chosenPoints;
-  std::vector<std::int64_t> voxelIndex;
 
   std::size_t scratchBytes() const;
 
@@ -105,9 +97,9 @@ private:
   };
 
   void clear();
+  void publish();
   static Status check(const VoxelRequest& request);
-  Status sumPoints(
-    Task& task, std::vector<simd::VoxelRuns>& parts, const Executor& executor, ProgressObserver* observer);
+  Status sumPoints(Task& task, simd::VoxelRun& sums, const Executor& executor, ProgressObserver* observer);
   Status runStages(
     Task& task, std::vector<simd::VoxelRuns>& parts, const Executor& executor, ProgressObserver* observer);
   void prepareWorkers(const Task& task, const simd::Chunks& chunks, const Executor& executor);
@@ -117,12 +109,10 @@ private:
     const Executor& executor, ProgressObserver* observer);
   void makeOutput(const VoxelRequest& request, const Executor& executor);
   AttributeView placesOf(const VoxelRequest& request, const Executor& executor);
-  void writeSlice(const VoxelRequest& request, const simd::VoxelRun& run, std::size_t first, std::size_t last,
-    std::size_t to);
-  void writeParts(const VoxelRequest& request, std::vector<simd::VoxelRuns>& parts, const Executor& executor);
   Status writeRun(const VoxelRequest& request, const simd::VoxelRun& run, const Executor& executor,
     ProgressObserver* observer);
 
+  simd::VoxelWriter writer_; ///< The result's arrays.
   simd::PointBinner binner_;
   std::vector<std::unique_ptr<Worker>> workers_; ///< One for each thread.
   PageVector<char> places_;                      ///< Memory of points, for medians.

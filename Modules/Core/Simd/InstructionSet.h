@@ -11,25 +11,18 @@ enum class InstructionSet
   Automatic, ///< The best this machine has.
   Baseline,  ///< Instructions of every processor of the family (SSE2 on x86-64).
   Avx2,      ///< AVX2, FMA, BMI and BMI2.
-  Avx512,    ///< AVX-512 F, DQ, BW, VL and VPOPCNTDQ.
 };
 
 /// The best set that this machine and this build have, not above @p wanted. Thread-safe.
 InstructionSet usableInstructionSet(InstructionSet wanted = InstructionSet::Automatic) noexcept;
 
-/// The loops to use of a family that is compiled for each set: the one place that chooses. The last two give
-/// null where the compiler or the processor family lacks them; they are called where the machine has their
-/// instructions, which they may use. Thread-safe.
+/// The loops to use of a family that is compiled for each set: the one place that chooses. @p avx2 gives null
+/// where the compiler or the processor family lacks them; it is called where the machine has its
+/// instructions, which it may use. Thread-safe.
 template <typename Loops>
-const Loops& loopsFor(
-  InstructionSet wanted, const Loops& (*baseline)(), const Loops* (*avx2)(), const Loops* (*avx512)())
+const Loops& loopsFor(InstructionSet wanted, const Loops& (*baseline)(), const Loops* (*avx2)())
 {
-  const InstructionSet usable = usableInstructionSet(wanted);
-  const Loops* loops = nullptr;
-  if (usable != InstructionSet::Baseline)
-  {
-    loops = usable == InstructionSet::Avx512 ? avx512() : avx2();
-  }
+  const Loops* const loops = usableInstructionSet(wanted) == InstructionSet::Avx2 ? avx2() : nullptr;
   return loops ? *loops : baseline();
 }
 

@@ -3,13 +3,13 @@
 /// loops that are the same bits whatever the width. For sources that are compiled once per instruction set;
 /// all is in an anonymous namespace, so that the linker cannot choose one set's version for the others.
 ///
-/// A Pack has 8 numbers with AVX-512, 4 with AVX, else 2 (SSE2, NEON, whatever the compiler has for 16
-/// bytes): a vector of the compiler's own, with its operators. Wider ones GCC takes apart into single
-/// numbers. The files must be compiled without fused multiply-adds (-ffp-contract=off).
+/// A Pack has 4 numbers with AVX, else 2 (SSE2, NEON, whatever the compiler has for 16 bytes): a vector of
+/// the compiler's own, with its operators. Wider ones GCC takes apart into single numbers. The files must be
+/// compiled without fused multiply-adds (-ffp-contract=off). AVX-512 gained 6 % of a resampling and 20 % of a
+/// proxy's 2 us step, and is left out.
 ///
 /// Not google/highway: version 1.0.3, which is Debian 12's, has nothing between one number at a time and
-/// SSSE3, so that x86-64's baseline takes twice as long as with this; with AVX2 and AVX-512 it takes as long
-/// as this.
+/// SSSE3, so that x86-64's baseline takes twice as long as with this; with AVX2 it takes as long as this.
 #pragma once
 
 namespace pointhaptics
@@ -20,17 +20,13 @@ namespace
 {
 
 constexpr int kLanes = 8;
-#if defined(__AVX512F__)
-constexpr int kWidth = 8;
-#elif defined(__AVX__)
+#if defined(__AVX__)
 constexpr int kWidth = 4;
 #else
 constexpr int kWidth = 2;
 #endif
 /// Packs in eight lanes.
 constexpr int kPacks = kLanes / kWidth;
-/// True if there are registers for some thirty sums at once; else for about fourteen.
-constexpr bool kManyRegisters = kWidth == 8;
 
 /// @p n numbers' room in whole packs.
 constexpr int wholePacks(int n)
@@ -69,46 +65,28 @@ inline Pack smaller(const Pack& a, const Pack& b)
   return a < b ? a : b;
 }
 
-/// Bit i is set where number i of @p v is below @p x.
-inline unsigned int belowBits(const Pack& v, double x)
+/// Bit i of the result: the sign of number i, or whether a comparison of numbers i is true.
+inline unsigned signBits(const Pack& v)
 {
-#if defined(__AVX512F__)
-  return __builtin_ia32_cmppd512_mask(v, all(x), 1, 0xff, 4);
-#elif defined(__AVX__)
-  return unsigned(__builtin_ia32_movmskpd256(Pack(v < x)));
+#if defined(__AVX__)
+  return unsigned(__builtin_ia32_movmskpd256(v));
 #elif defined(__SSE2__)
-  return unsigned(__builtin_ia32_movmskpd(Pack(v < x)));
+  return unsigned(__builtin_ia32_movmskpd(v));
 #else
-  return (v[0] < x ? 1u : 0u) | (v[1] < x ? 2u : 0u);
+  return unsigned(__builtin_signbit(v[0]) != 0) | unsigned(__builtin_signbit(v[1]) != 0) << 1;
 #endif
 }
 
-/// True where a number of @p v is below @p x.
-inline bool anyBelow(const Pack& v, double x)
+/// Bit i is set where number i of @p v is below @p x.
+inline unsigned belowBits(const Pack& v, double x)
 {
-  return belowBits(v, x) != 0;
+  return signBits(reinterpret_cast<Pack>(v < x));
 }
 
 /// Number i is the sum of v[i]: neighbours first, then neighbouring pairs, and so on.
 inline Pack sumOfEach(const Pack v[kWidth])
 {
-#if defined(__AVX512F__)
-  Pack pairs[4];
-#pragma GCC unroll 4
-  for (int i = 0; i < 4; ++i)
-  {
-    const Pack& a = v[2 * i];
-    const Pack& b = v[2 * i + 1];
-    pairs[i] = __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14) +
-      __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15);
-  }
-  const auto halves = [](const Pack& a, const Pack& b)
-  {
-    return __builtin_shufflevector(a, b, 0, 1, 4, 5, 8, 9, 12, 13) +
-      __builtin_shufflevector(a, b, 2, 3, 6, 7, 10, 11, 14, 15);
-  };
-  return halves(halves(pairs[0], pairs[1]), halves(pairs[2], pairs[3]));
-#elif defined(__AVX__)
+#if defined(__AVX__)
   const auto pairs = [](const Pack& a, const Pack& b)
   { return __builtin_shufflevector(a, b, 0, 4, 2, 6) + __builtin_shufflevector(a, b, 1, 5, 3, 7); };
   const Pack a = pairs(v[0], v[1]);

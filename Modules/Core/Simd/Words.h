@@ -50,9 +50,7 @@ inline Pack fromBits(const Words& v)
 /// a b + c, rounded once where processors can, twice elsewhere: the same where a b is exact.
 inline Pack multiplyAdd(const Pack& a, const Pack& b, const Pack& c)
 {
-#if defined(__AVX512F__)
-  return _mm512_fmadd_pd(a, b, c);
-#elif defined(__AVX__) && defined(__FMA__)
+#if defined(__AVX__) && defined(__FMA__)
   return _mm256_fmadd_pd(a, b, c);
 #else
   return a * b + c;
@@ -84,9 +82,7 @@ inline Pack corrected(const Pack& q, const Pack& a, const Pack& b, const Pack& r
 /// The integer below each number, in the low 52 bits. @pre 0 <= v < 2^52; others give any bits.
 inline Words floorBits(const Pack& v)
 {
-#if defined(__AVX512F__)
-  return bitsOf(_mm512_add_round_pd(v, all(0x1p52), _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC));
-#elif defined(__AVX__)
+#if defined(__AVX__)
   return bitsOf(Pack(_mm256_floor_pd(v)) + 0x1p52);
 #else
   const Pack rounded = v + 0x1p52;
@@ -97,31 +93,7 @@ inline Words floorBits(const Pack& v)
 /// Bit i of the result: the highest bit of number i.
 inline unsigned highestBits(const Words& v)
 {
-#if defined(__AVX512F__)
-  return _mm512_movepi64_mask(reinterpret_cast<__m512i>(v));
-#elif defined(__AVX__)
-  return unsigned(_mm256_movemask_pd(reinterpret_cast<__m256d>(v)));
-#elif defined(__SSE2__)
-  return unsigned(_mm_movemask_pd(reinterpret_cast<__m128d>(v)));
-#else
-  return unsigned(v[0] >> 63) | unsigned(v[1] >> 63) << 1;
-#endif
-}
-
-/// The product of the low 32 bits of each.
-inline Words productOfHalves(const Words& a, const Words& b)
-{
-#if defined(__AVX512F__)
-  return reinterpret_cast<Words>(
-    _mm512_mul_epu32(reinterpret_cast<__m512i>(a), reinterpret_cast<__m512i>(b)));
-#elif defined(__AVX2__)
-  return reinterpret_cast<Words>(
-    _mm256_mul_epu32(reinterpret_cast<__m256i>(a), reinterpret_cast<__m256i>(b)));
-#elif defined(__SSE2__)
-  return reinterpret_cast<Words>(_mm_mul_epu32(reinterpret_cast<__m128i>(a), reinterpret_cast<__m128i>(b)));
-#else
-  return (a & 0xffffffffu) * (b & 0xffffffffu);
-#endif
+  return signBits(fromBits(v));
 }
 
 /// Converts integers below 2^52.
@@ -133,13 +105,9 @@ inline Pack smallToNumbers(const Words& v)
 /// Converts signed integers. The halves are put beside 2^52, 2^63 and 2^84; only their sum is rounded.
 inline Pack toNumbers(const Words& v)
 {
-#if defined(__AVX512DQ__)
-  return _mm512_cvtepi64_pd(reinterpret_cast<__m512i>(v));
-#else
   const Words low = (v & 0xffffffffu) | std::uint64_t(0x4330000000000000);
   const Words high = (v >> 32) ^ std::uint64_t(0x4530000080000000);
   return (fromBits(high) - (0x1p84 + 0x1p63 + 0x1p52)) + fromBits(low);
-#endif
 }
 
 /// The nearest integer of what is far below 2^51: adding so much leaves no room for a fraction.
@@ -151,10 +119,7 @@ inline Pack nearest(const Pack& v)
 /// Pairs of the numbers of @p a and @p b, one after the other, in two vectors.
 inline void storePairs(std::uint64_t* to, const Words& a, const Words& b)
 {
-#if defined(__AVX512F__)
-  reinterpret_cast<WordsAt*>(to)[0] = __builtin_shufflevector(a, b, 0, 8, 1, 9, 2, 10, 3, 11);
-  reinterpret_cast<WordsAt*>(to)[1] = __builtin_shufflevector(a, b, 4, 12, 5, 13, 6, 14, 7, 15);
-#elif defined(__AVX__)
+#if defined(__AVX__)
   reinterpret_cast<WordsAt*>(to)[0] = __builtin_shufflevector(a, b, 0, 4, 1, 5);
   reinterpret_cast<WordsAt*>(to)[1] = __builtin_shufflevector(a, b, 2, 6, 3, 7);
 #else
@@ -170,9 +135,7 @@ inline Pack numbersAt(const double* from)
 }
 inline Pack numbersAt(const float* from)
 {
-#if defined(__AVX512F__)
-  return _mm512_cvtps_pd(_mm256_loadu_ps(from));
-#elif defined(__AVX__)
+#if defined(__AVX__)
   return _mm256_cvtps_pd(_mm_loadu_ps(from));
 #else
   return Pack{ double(from[0]), double(from[1]) };
@@ -181,9 +144,7 @@ inline Pack numbersAt(const float* from)
 /// Converts integers below 2^31.
 inline Pack numbersAt(const std::uint32_t* from)
 {
-#if defined(__AVX512F__)
-  return _mm512_cvtepi32_pd(_mm256_loadu_si256(reinterpret_cast<const __m256i_u*>(from)));
-#elif defined(__AVX__)
+#if defined(__AVX__)
   return _mm256_cvtepi32_pd(_mm_loadu_si128(reinterpret_cast<const __m128i_u*>(from)));
 #else
   return Pack{ double(from[0]), double(from[1]) };
@@ -193,14 +154,7 @@ inline Pack numbersAt(const std::uint32_t* from)
 /// kWidth points, x y z interleaved.
 inline void loadPoints(const Pack& a, const Pack& b, const Pack& c, Pack p[3])
 {
-#if defined(__AVX512F__)
-  const Pack x = __builtin_shufflevector(a, b, 0, 3, 6, 9, 12, 15, 0, 0);
-  const Pack y = __builtin_shufflevector(a, b, 1, 4, 7, 10, 13, 0, 0, 0);
-  const Pack z = __builtin_shufflevector(a, b, 2, 5, 8, 11, 14, 0, 0, 0);
-  p[0] = __builtin_shufflevector(x, c, 0, 1, 2, 3, 4, 5, 10, 13);
-  p[1] = __builtin_shufflevector(y, c, 0, 1, 2, 3, 4, 8, 11, 14);
-  p[2] = __builtin_shufflevector(z, c, 0, 1, 2, 3, 4, 9, 12, 15);
-#elif defined(__AVX__)
+#if defined(__AVX__)
   const Pack ab = __builtin_shufflevector(a, b, 0, 1, 6, 7);
   const Pack ac = __builtin_shufflevector(a, c, 2, 3, 4, 5);
   const Pack bc = __builtin_shufflevector(b, c, 0, 1, 6, 7);
@@ -236,9 +190,7 @@ inline void storePoints(float* xyz, const Pack p[3])
   using Floats = float __attribute__((vector_size(4 * kWidth)));
   const auto rounded = [](const Pack& v) -> Floats
   {
-#if defined(__AVX512F__)
-    return _mm512_cvtpd_ps(v);
-#elif defined(__AVX__)
+#if defined(__AVX__)
     return _mm256_cvtpd_ps(v);
 #else
     return Floats{ float(v[0]), float(v[1]) };
@@ -247,13 +199,7 @@ inline void storePoints(float* xyz, const Pack p[3])
   const Floats x = rounded(p[0]);
   const Floats y = rounded(p[1]);
   const Floats z = rounded(p[2]);
-#if defined(__AVX512F__)
-  const __m512 xy = __builtin_shufflevector(x, y, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
-  const __m512 zz = __builtin_shufflevector(z, z, 0, 1, 2, 3, 4, 5, 6, 7, 0, 1, 2, 3, 4, 5, 6, 7);
-  _mm512_storeu_ps(
-    xyz, __builtin_shufflevector(xy, zz, 0, 8, 16, 1, 9, 17, 2, 10, 18, 3, 11, 19, 4, 12, 20, 5));
-  reinterpret_cast<FloatsAt*>(xyz)[2] = __builtin_shufflevector(xy, zz, 13, 21, 6, 14, 22, 7, 15, 23);
-#elif defined(__AVX__)
+#if defined(__AVX__)
   const Floats xy01 = __builtin_shufflevector(x, y, 0, 4, 1, 5);
   const Floats xy23 = __builtin_shufflevector(x, y, 2, 6, 3, 7);
   const Floats z01xy1 = __builtin_shufflevector(z, xy01, 0, 1, 6, 7);
@@ -272,42 +218,19 @@ inline void storePoints(float* xyz, const Pack p[3])
 #endif
 }
 
-#if defined(__AVX__)
-/// Four consecutive words of each of four structures of @p stride words: a vector for each word.
-inline void turnFour(
-  const std::uint64_t* from, std::size_t stride, std::uint64_t __attribute__((vector_size(32))) (&to)[4])
+/// Transposes the first four words of kWidth structures of @p stride words.
+inline void turnWords(const std::uint64_t* from, std::size_t stride, Words (&to)[4])
 {
-  typedef std::uint64_t Four __attribute__((vector_size(32)));
-  typedef std::uint64_t FourAt __attribute__((vector_size(32), aligned(8), may_alias));
-  const auto at = [=](std::size_t i) { return Four(*reinterpret_cast<const FourAt*>(from + stride * i)); };
-  const Four a = at(0);
-  const Four b = at(1);
-  const Four c = at(2);
-  const Four d = at(3);
-  const Four ab02 = __builtin_shufflevector(a, b, 0, 4, 2, 6);
-  const Four ab13 = __builtin_shufflevector(a, b, 1, 5, 3, 7);
-  const Four cd02 = __builtin_shufflevector(c, d, 0, 4, 2, 6);
-  const Four cd13 = __builtin_shufflevector(c, d, 1, 5, 3, 7);
+#if defined(__AVX__)
+  const auto at = [=](std::size_t i) { return Words(*reinterpret_cast<const WordsAt*>(from + stride * i)); };
+  const Words ab02 = __builtin_shufflevector(at(0), at(1), 0, 4, 2, 6);
+  const Words ab13 = __builtin_shufflevector(at(0), at(1), 1, 5, 3, 7);
+  const Words cd02 = __builtin_shufflevector(at(2), at(3), 0, 4, 2, 6);
+  const Words cd13 = __builtin_shufflevector(at(2), at(3), 1, 5, 3, 7);
   to[0] = __builtin_shufflevector(ab02, cd02, 0, 1, 4, 5);
   to[1] = __builtin_shufflevector(ab13, cd13, 0, 1, 4, 5);
   to[2] = __builtin_shufflevector(ab02, cd02, 2, 3, 6, 7);
   to[3] = __builtin_shufflevector(ab13, cd13, 2, 3, 6, 7);
-}
-#endif
-
-/// Transposes the words of kWidth structures.
-inline void turnWords(const std::uint64_t* from, std::size_t stride, Words (&to)[4])
-{
-#if defined(__AVX512F__)
-  std::uint64_t __attribute__((vector_size(32))) low[4], high[4];
-  turnFour(from, stride, low);
-  turnFour(from + 4 * stride, stride, high);
-  for (int w = 0; w < 4; ++w)
-  {
-    to[w] = __builtin_shufflevector(low[w], high[w], 0, 1, 2, 3, 4, 5, 6, 7);
-  }
-#elif defined(__AVX__)
-  turnFour(from, stride, to);
 #else
   for (std::size_t w = 0; w < 4; ++w)
   {
@@ -316,17 +239,10 @@ inline void turnWords(const std::uint64_t* from, std::size_t stride, Words (&to)
 #endif
 }
 
-/// How many bits are set. Without an instruction for it: two at a time, four, eight, then all bytes added.
+/// How many bits are set.
 inline std::uint32_t onesOf(std::uint64_t bits)
 {
-#if defined(__x86_64__) && !defined(__POPCNT__)
-  bits -= (bits >> 1) & 0x5555555555555555u;
-  bits = (bits & 0x3333333333333333u) + ((bits >> 2) & 0x3333333333333333u);
-  bits = (bits + (bits >> 4)) & 0x0F0F0F0F0F0F0F0Fu;
-  return std::uint32_t(bits * 0x0101010101010101u >> 56);
-#else
   return std::uint32_t(__builtin_popcountll(bits));
-#endif
 }
 
 }

@@ -200,7 +200,6 @@ const FitKernels& fitKernels(InstructionSet wanted = InstructionSet::Automatic) 
 const FitKernels& baselineFitKernels();
 /// Loops of one instruction set; null where the compiler or the processor family lacks it.
 const FitKernels* avx2FitKernels();
-const FitKernels* avx512FitKernels();
 
 } // namespace simd
 } // namespace pointhaptics

@@ -13,7 +13,7 @@ const FitKernels& baselineFitKernels()
 
 const FitKernels& fitKernels(InstructionSet wanted) noexcept
 {
-  return loopsFor(wanted, baselineFitKernels, avx2FitKernels, avx512FitKernels);
+  return loopsFor(wanted, baselineFitKernels, avx2FitKernels);
 }
 
 } // namespace simd

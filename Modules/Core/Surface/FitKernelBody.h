@@ -122,7 +122,7 @@ void appendRows(const FitBlock& block, const FitView& whole, FitRows& rows)
     for (int pack = 0; pack < simd::kPacks; ++pack)
     {
       d[pack] = offsetsOf(block, i + pack * simd::kWidth, view.origin, perRho);
-      isAnyInside |= simd::anyBelow(d[pack].e, 1.0);
+      isAnyInside |= simd::belowBits(d[pack].e, 1.0) != 0;
     }
     // Most groups of a neighbourhood gathered with a margin lie inside; the others are cheap to skip.
     if (!isAnyInside)
@@ -194,15 +194,8 @@ inline void sumTermRows(const FitRows& rows, FitSums& sums)
 
 void sumRows(const FitRows& rows, FitSums& sums)
 {
-  if constexpr (simd::kManyRegisters)
-  {
-    sumTermRows<0, 6>(rows, sums);
-  }
-  else
-  {
-    sumTermRows<0, 4>(rows, sums);
-    sumTermRows<4, 6>(rows, sums);
-  }
+  sumTermRows<0, 4>(rows, sums);
+  sumTermRows<4, 6>(rows, sums);
 }
 
 /// Means over a cell of uuu, uuv, uvv and vvv, as far as its second moments determine them.
@@ -268,18 +261,10 @@ inline void sumSomeCubicRows(const FitRows& rows, CubicSums& sums)
 
 void sumCubicRows(const FitRows& rows, CubicSums& sums)
 {
-  if constexpr (simd::kManyRegisters)
-  {
-    sumSomeCubicRows<0, 2>(rows, sums);
-    sumSomeCubicRows<2, 4>(rows, sums);
-  }
-  else
-  {
-    sumSomeCubicRows<0, 1>(rows, sums);
-    sumSomeCubicRows<1, 2>(rows, sums);
-    sumSomeCubicRows<2, 3>(rows, sums);
-    sumSomeCubicRows<3, 4>(rows, sums);
-  }
+  sumSomeCubicRows<0, 1>(rows, sums);
+  sumSomeCubicRows<1, 2>(rows, sums);
+  sumSomeCubicRows<2, 3>(rows, sums);
+  sumSomeCubicRows<3, 4>(rows, sums);
 }
 
 void traceRows(const FitRows& rows, const TracedFit& fit, double ra, double rb, TraceSums& sums)

@@ -1,7 +1,7 @@
 #include "CloudColumns.h"
 
 #include "Bytes/NumericType.h"
-#include "Core/Resample/FieldNames.h"
+#include "Core/Base/FieldNames.h"
 #include "FileProblem.h"
 #include "IO/Bytes/TextScan.h"
 #include "IO/Formats/FormatLooks.h"

@@ -4,7 +4,7 @@
 #include "FileProblem.h"
 #include "IO/Formats/FormatLooks.h"
 
-#include "Core/Resample/FieldNames.h"
+#include "Core/Base/FieldNames.h"
 
 #include "vtkIdList.h"
 #include "vtkNew.h"

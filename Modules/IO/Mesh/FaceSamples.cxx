@@ -3,9 +3,9 @@
 #include "Bytes/NumericType.h"
 #include "Progress.h"
 
+#include "Core/Base/FieldNames.h"
 #include "Core/Base/QuantityText.h"
 #include "Core/Neighbors/SpatialOrder.h"
-#include "Core/Resample/FieldNames.h"
 
 #include "vtkCellArray.h"
 #include "vtkDataArray.h"

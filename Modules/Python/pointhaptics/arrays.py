@@ -216,7 +216,7 @@ def as_dims(dims: object) -> Tuple[int, int, int]:
 
 
 def field_name(name: str) -> str:
-    """One spelling of a field's name: see Core/Resample/FieldNames.h."""
+    """One spelling of a field's name: see Core/Base/FieldNames.h."""
     return name.lower().translate({ord(filler): None for filler in "_ -"})
 
 

@@ -39,32 +39,26 @@ struct RunResult
   VoxelResult voxels;
 };
 
-inline VoxelResult voxelsOf(
-  const VoxelResampler& resampler, const VoxelRequest& request, const Executor& executor = {})
+inline VoxelResult voxelsOf(const VoxelResampler& resampler, const VoxelRequest& request)
 {
   VoxelResult result;
-  const auto size = std::size_t(resampler.size());
-  result.counts.resize(size);
-  resampler.copyCounts(result.counts.data(), executor);
+  const std::int64_t size = resampler.size();
+  result.counts.assign(resampler.counts(), resampler.counts() + size);
   if (request.singlePrecision)
   {
-    result.floats.resize(3 * size);
-    resampler.copyMeans(result.floats.data(), executor);
+    result.floats.assign(resampler.floats(), resampler.floats() + 3 * size);
   }
   else
   {
-    result.means.resize(3 * size);
-    resampler.copyMeans(result.means.data(), executor);
+    result.means.assign(resampler.doubles(), resampler.doubles() + 3 * size);
   }
   if (request.keys)
   {
-    result.keys.resize(size);
-    resampler.copyKeys(result.keys.data(), executor);
+    result.keys.assign(resampler.keys(), resampler.keys() + size);
   }
   if (request.covariances)
   {
-    result.covariances.resize(size);
-    resampler.copyCovariances(result.covariances.data(), executor);
+    result.covariances.assign(resampler.covariances(), resampler.covariances() + size);
   }
   return result;
 }
@@ -72,7 +66,7 @@ inline VoxelResult voxelsOf(
 inline RunResult runOf(VoxelResampler& resampler, const VoxelRequest& request, const Executor& executor = {})
 {
   EXPECT_EQ(resampler.run(request, executor), Status::Ok);
-  return { resampler.clippedPoints(), resampler.invalidPoints(), voxelsOf(resampler, request, executor) };
+  return { resampler.clippedPoints(), resampler.invalidPoints(), voxelsOf(resampler, request) };
 }
 
 inline VoxelRequest requestFor(

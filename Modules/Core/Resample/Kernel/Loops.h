@@ -8,20 +8,17 @@
 namespace pointhaptics::simd
 {
 
-/// Fetches the line of memory at an address that is to be read soon, into the second-level cache. Fetched
-/// into the first, lines on their way take its few places for these (about two dozen), and the loop waits for
-/// one: on Zen 4 blocks of 4 KB in random order came at 9 GB/s that way, at 15 this way. Always inline: the
+/// Fetches the line of memory at an address that is to be read soon, into the second-level cache: the first
+/// one has about two dozen places for lines on their way, and the loop would wait for one. Always inline: the
 /// compiler leaves out calls of functions that only fetch.
 __attribute__((always_inline)) static inline void fetch(const void* address)
 {
   __builtin_prefetch(address, 0, 2);
 }
 
-/// Fetches the line of memory at an address that is to be written soon, or was written by another thread and
-/// is to be so again: the core comes to own it, and the store that follows does not wait until another core
-/// has given it up. Two threads whose cores are far apart (a round trip of 500 ns on Zen 5) resample 5
-/// million points in 0.77 of the time that fetching to read takes. Instruction sets without such a fetch
-/// fetch to read.
+/// Fetches the line of memory at an address that is to be written soon: the core comes to own it, and the
+/// store that follows does not wait until another core has given it up. Two threads whose cores are far apart
+/// resample 5 million points in 0.77 of the time that fetching to read takes.
 __attribute__((always_inline)) static inline void fetchToWrite(const void* address)
 {
   __builtin_prefetch(address, 1, 2);

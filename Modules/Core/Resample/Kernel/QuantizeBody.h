@@ -94,7 +94,7 @@ __attribute__((always_inline)) inline unsigned quantizeGroup(
   Words partition = (position[2] & kPositionMask) >> (c.fractionBits + c.layerShift);
   if (c.blocksPerLayer > 1)
   {
-    partition = productOfHalves(partition, allWords(c.blocksPerLayer)) +
+    partition = partition * std::uint64_t(c.blocksPerLayer) +
       ((position[1] & kPositionMask) >> (c.fractionBits + c.rowShift));
   }
   *reinterpret_cast<WordsAt*>(quantized.partitions + to) = partition;

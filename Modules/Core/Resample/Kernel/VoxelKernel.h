@@ -3,11 +3,12 @@
 /// them. All sets give the same bits.
 #pragma once
 
-#include "Core/Base/PointRange.h"
+#include "Core/Base/PointBlocks.h"
 #include "Core/Simd/InstructionSet.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <tuple>
 
 namespace pointhaptics::simd
 {
@@ -31,10 +32,6 @@ constexpr std::int64_t kChunkPoints = 1250000;
 /// Distance between memory that one thread writes and memory that another uses: two cache lines, which the
 /// processor fetches together.
 constexpr std::size_t kApart = 128;
-
-/// Added to an integer below it this leaves the integer in the low bits of the sum.
-constexpr double kToBits = 0x1p52;
-
 /// Bits of a position: those of a double's mantissa without the leading one.
 constexpr int kDoubleBits = 52;
 constexpr std::uint64_t kPositionMask = (std::uint64_t(1) << kDoubleBits) - 1;
@@ -134,16 +131,14 @@ struct PointRecordWriter
 /// Blocks a writer takes at once: an atomic operation waits for all stores before it.
 constexpr std::uint32_t kTakenBlocks = 32;
 
-/// Where a partition's first block begins to be filled. All cursors advance at about the same pace: without
-/// this stagger they would compete for the same few sets of the first-level cache. @pre blockRecords: a power
-/// of two.
+/// Where a partition's first block begins to be filled: without this stagger all cursors would compete for
+/// the same few sets of the first-level cache. @pre blockRecords: a power of two.
 static inline std::size_t firstRecord(std::uint32_t partition, std::size_t blockRecords)
 {
   return kLineRecords * (partition & (blockRecords / kLineRecords - 1));
 }
 
-/// The cursor of a partition: at first, and where it stands at the end of its block, in a new block. Always
-/// inline: a call would take what loops keep in vector registers out of them.
+/// The cursor of a partition: at first, and where it stands at the end of its block, in a new block.
 __attribute__((always_inline)) static inline PointRecord* cursorOf(
   PointRecordWriter& writer, PointRecord* const* cursors, std::uintptr_t blockMask, std::uint64_t partition)
 {
@@ -205,8 +200,8 @@ struct SecondMoments
   UInt128 lanes[6];
 };
 
-/// Tables to rank the cells of a partition: an occupancy bit for each cell, 0 between partitions, and an
-/// entry of the rank table for each word of 64 bits. Both stay in the first-level cache.
+/// Tables to rank the cells of a partition, in the first-level cache: an occupancy bit for each cell, 0
+/// between partitions, and an entry of the rank table for each word of 64 bits.
 struct CellTables
 {
   std::uint64_t* occupancy;
@@ -263,7 +258,7 @@ struct MeanMap
 };
 
 /// Elements of the widest vectors.
-constexpr int kWidest = 8;
+constexpr int kWidest = 4;
 
 /// The inner loops over numbers of one type; coordinates are x y z interleaved.
 template <typename Real>
@@ -294,19 +289,11 @@ using SelectKernel = void (*)(const void* values, int count, void* to);
 /// The inner loops for one instruction set.
 struct Kernels
 {
-  PointKernels<float> floats;
-  PointKernels<double> doubles;
+  std::tuple<PointKernels<float>, PointKernels<double>> points;
   template <typename Real>
   const PointKernels<Real>& of() const
   {
-    if constexpr (sizeof(Real) == sizeof(float))
-    {
-      return floats;
-    }
-    else
-    {
-      return doubles;
-    }
+    return std::get<PointKernels<Real>>(points);
   }
   /// The cell of each record. Prefetches the block of records that comes @p next: blocks are not contiguous
   /// often enough for the hardware's prefetcher.
@@ -333,6 +320,5 @@ const Kernels& baselineKernels();
 /// Null where the compiler or the processor family lacks them; whether this machine can run them is asked
 /// elsewhere.
 const Kernels* avx2Kernels();
-const Kernels* avx512Kernels();
 
 } // namespace pointhaptics::simd

@@ -11,7 +11,7 @@ const Kernels& baselineKernels()
 
 const Kernels& kernelsFor(InstructionSet wanted)
 {
-  return loopsFor(wanted, baselineKernels, avx2Kernels, avx512Kernels);
+  return loopsFor(wanted, baselineKernels, avx2Kernels);
 }
 
 } // namespace pointhaptics::simd

@@ -337,8 +337,8 @@ constexpr SelectKernel kSelect[] = { &select<Median, std::int8_t>, &select<Media
 template <typename Real>
 constexpr PointKernels<Real> kPointKernels = { &partition<Real>, &packedMeans<Real>, &bounds<Real> };
 
-constexpr Kernels kKernels = { kPointKernels<float>, kPointKernels<double>, &cellsOf, &rankCells, &accumulate,
-  &fineOffsets, kSelect<false>, kSelect<true> };
+constexpr Kernels kKernels = { { kPointKernels<float>, kPointKernels<double> }, &cellsOf, &rankCells,
+  &accumulate, &fineOffsets, kSelect<false>, kSelect<true> };
 
 }
 

@@ -65,22 +65,19 @@ void AttributeTuples::add(
       std::int64_t* const ends = ends_.data();
       const std::size_t apart = componentBytes_;
       const Tuples from = tuples;
-      const auto keep = [=](auto components)
+      const auto components = std::size_t(kind_.components);
+      for (int i = 0; i < count; ++i)
       {
-        for (int i = 0; i < count; ++i)
+        const char* const tuple = from.first + from.step * numbers[i];
+        char* const first = to + sizeof(T) * std::size_t(ends[voxels[i]]++);
+        for (std::size_t c = 0; c < components; ++c)
         {
-          const char* const tuple = from.first + from.step * numbers[i];
-          char* const first = to + sizeof(T) * std::size_t(ends[voxels[i]]++);
-          for (std::size_t c = 0; c < components; ++c)
-          {
-            T value;
-            std::memcpy(&value, tuple + c * sizeof(T), sizeof(T));
-            const auto key = orderedKey(value);
-            std::memcpy(first + apart * c, &key, sizeof(T));
-          }
+          T value;
+          std::memcpy(&value, tuple + c * sizeof(T), sizeof(T));
+          const auto key = orderedKey(value);
+          std::memcpy(first + apart * c, &key, sizeof(T));
         }
-      };
-      withWidth(kind_.components, keep);
+      }
     });
 }
 

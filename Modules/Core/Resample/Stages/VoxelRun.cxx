@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <new>
-#include <numeric>
 #include <utility>
 
 namespace pointhaptics::simd
@@ -16,33 +15,26 @@ constexpr std::size_t kRunRatio = 4;
 
 }
 
-bool VoxelRun::append(const VoxelRun* a, std::size_t i, const VoxelRun* b, std::size_t j, int sign)
+void VoxelRun::append(const VoxelRun* a, std::size_t i, const VoxelRun* b, std::size_t j)
 {
   const VoxelRun& either = a ? *a : *b;
-  WideSums sums = a ? a->voxels[i] : WideSums{ b->voxels[j].key, 0, { 0, 0, 0 }, 0 };
-  bool isRight = true;
-  if (b)
-  {
-    sign > 0 ? sums.add(b->voxels[j]) : void(isRight = sums.subtract(b->voxels[j]));
-  }
+  WideSums sums = a ? a->voxels[i] : b->voxels[j];
+  a&& b ? sums.add(b->voxels[j]) : void();
   voxels.push_back(sums);
   if (either.hasMoments())
   {
-    SecondMoments moments = a ? a->secondMoments[i] : SecondMoments{};
-    for (int m = 0; b && m < 6; ++m)
+    SecondMoments moments = a ? a->secondMoments[i] : b->secondMoments[j];
+    for (int m = 0; a && b && m < 6; ++m)
     {
-      moments.lanes[m] += sign > 0 ? b->secondMoments[j].lanes[m] : -b->secondMoments[j].lanes[m];
+      moments.lanes[m] += b->secondMoments[j].lanes[m];
     }
     secondMoments.push_back(moments);
   }
   tallies.resize(either.tallies.size());
   for (std::size_t array = 0; array < tallies.size(); ++array)
   {
-    isRight =
-      tallies[array].append(a ? &a->tallies[array] : nullptr, i, b ? &b->tallies[array] : nullptr, j, sign) &&
-      isRight;
+    tallies[array].append(a ? &a->tallies[array] : nullptr, i, b ? &b->tallies[array] : nullptr, j);
   }
-  return isRight;
 }
 
 void VoxelRun::append(const VoxelRun& run, std::size_t first, std::size_t last)
@@ -58,19 +50,16 @@ void VoxelRun::append(const VoxelRun& run, std::size_t first, std::size_t last)
   {
     for (std::size_t voxel = first; voxel < last; ++voxel)
     {
-      static_cast<void>(tallies[array].append(&run.tallies[array], voxel, nullptr, 0, 1));
+      tallies[array].append(&run.tallies[array], voxel, nullptr, 0);
     }
   }
 }
 
-std::size_t VoxelRun::bytes() const
+namespace
 {
-  return std::accumulate(tallies.begin(), tallies.end(),
-    voxels.capacity() * sizeof(WideSums) + secondMoments.capacity() * sizeof(SecondMoments),
-    [](std::size_t sum, const VoxelTally& tally) { return sum + tally.bytes(); });
-}
 
-VoxelRun merged(const VoxelRun& a, const VoxelRun& b, int sign, bool& isRight)
+/// The sums of two runs.
+VoxelRun merged(const VoxelRun& a, const VoxelRun& b)
 {
   VoxelRun all;
   all.voxels.reserve(a.size() + b.size());
@@ -79,15 +68,13 @@ VoxelRun merged(const VoxelRun& a, const VoxelRun& b, int sign, bool& isRight)
   {
     const bool isIn = i < a.size() && (j == b.size() || a.voxels[i].key <= b.voxels[j].key);
     const bool isInOther = j < b.size() && (!isIn || b.voxels[j].key == a.voxels[i].key);
-    const bool isEmpty = sign < 0 && isIn && isInOther && a.voxels[i].count == b.voxels[j].count;
-    // A voxel without points is left out; its sums must then be zero, or other points were subtracted.
-    const bool isLeft = isEmpty ? WideSums(a.voxels[i]).subtract(b.voxels[j])
-                                : all.append(isIn ? &a : nullptr, i, isInOther ? &b : nullptr, j, sign);
-    isRight = isRight && isLeft;
+    all.append(isIn ? &a : nullptr, i, isInOther ? &b : nullptr, j);
     i += isIn;
     j += isInOther;
   }
   return all;
+}
+
 }
 
 void VoxelRuns::add(VoxelRun&& run)
@@ -122,8 +109,7 @@ VoxelRun& VoxelRuns::whole()
 
 void VoxelRuns::mergeLast()
 {
-  bool isRight = true;
-  VoxelRun both = merged(runs_[runs_.size() - 2], runs_.back(), 1, isRight);
+  VoxelRun both = merged(runs_[runs_.size() - 2], runs_.back());
   runs_.pop_back();
   runs_.back() = std::move(both);
 }

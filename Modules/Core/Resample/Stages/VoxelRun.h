@@ -50,20 +50,6 @@ struct WideSums
       this->add(axis, other.low[axis], 0);
     }
   }
-  /// Takes another's sums away. @return false where that leaves less than nothing.
-  bool subtract(const WideSums& other)
-  {
-    count -= other.count;
-    bool isRight = count >= 0;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      const Int128 left = sum(axis) - other.sum(axis);
-      isRight = isRight && left >= 0 && (count > 0 || left == 0);
-      const Int128 less = -other.sum(axis);
-      this->add(axis, std::uint64_t(less), std::uint64_t(less >> 64));
-    }
-    return isRight;
-  }
   /// Rounded.
   std::array<double, 3> sums() const { return { double(sum(0)), double(sum(1)), double(sum(2)) }; }
 };
@@ -106,17 +92,16 @@ struct VoxelRun
       addProducts(secondMoments[voxel], offset[0], offset[1], offset[2]);
     }
   }
-  /// Appends voxel @p i of @p a and @p sign times voxel @p j of @p b, the same voxel; either may be null.
-  /// @return false where that leaves less than nothing.
-  bool append(const VoxelRun* a, std::size_t i, const VoxelRun* b, std::size_t j, int sign);
+  /// Appends the sums of voxel @p i of @p a and voxel @p j of @p b, the same voxel; either may be null.
+  void append(const VoxelRun* a, std::size_t i, const VoxelRun* b, std::size_t j);
   /// Appends the voxels from @p first to before @p last of a run whose keys are above all here.
   void append(const VoxelRun& run, std::size_t first, std::size_t last);
-  std::size_t bytes() const;
+  /// Of the voxels, without tallies.
+  std::size_t bytes() const
+  {
+    return voxels.capacity() * sizeof(WideSums) + secondMoments.capacity() * sizeof(SecondMoments);
+  }
 };
-
-/// The sums of two runs, or, with a @p sign of -1, those of the first less those of the second; without
-/// voxels that have no points. @p isRight: becomes false where the second has more.
-VoxelRun merged(const VoxelRun& a, const VoxelRun& b, int sign, bool& isRight);
 
 /// The sums of the voxels of all points so far. Runs are merged when they are of like size, so that n of them
 /// take n log n time and hold little more than each voxel once.

@@ -14,22 +14,21 @@ namespace pointhaptics::simd
 namespace
 {
 
-/// Adds @p sign times a number of @p count words to a sum of @p size words, shifted left by so many bits, or
-/// right where that loses no bit. @return false where the sum has no room for the result: its sign is wrong.
-bool addShifted(const std::uint64_t* number, int count, int shift, int sign, std::uint64_t* sum, int size)
+/// Adds a number of @p count words to a sum of @p size words, shifted left by so many bits, or right where
+/// that loses no bit. @return false where the sum has no room for the result: its sign is wrong.
+bool addShifted(const std::uint64_t* number, int count, int shift, std::uint64_t* sum, int size)
 {
   const int whole = (shift - (shift < 0 ? 63 : 0)) / 64;
   const int bits = shift - 64 * whole;
   const auto word = [=](int i) {
     return i < 0 ? 0 : i < count ? number[i] : std::uint64_t(std::int64_t(number[count - 1]) >> 63);
   };
-  UInt128 carry = sign < 0;
+  UInt128 carry = 0;
   std::uint64_t before = 0;
   std::uint64_t more = 0;
   for (int i = 0; i < size; ++i)
   {
     more = word(i - whole) << bits | (bits > 0 ? word(i - whole - 1) >> (64 - bits) : 0);
-    more = sign < 0 ? ~more : more;
     before = sum[i];
     carry += UInt128(before) + more;
     sum[i] = std::uint64_t(carry);
@@ -116,7 +115,7 @@ inline void TallySums::addWide(Int128 number, int shift, std::size_t sum)
     return;
   }
   const std::uint64_t parts[2] = { std::uint64_t(number), std::uint64_t(UInt128(number) >> 64) };
-  static_cast<void>(addShifted(parts, 2, shift, 1, to, words));
+  static_cast<void>(addShifted(parts, 2, shift, to, words));
 }
 
 /// Adds a number to a sum of any words, and if it is not finite.
@@ -152,23 +151,19 @@ void TallySums::add(
     [&](auto example)
     {
       using T = decltype(example);
-      const auto forNumbers = [&](const auto& addOne)
+      const auto forNumbers = [=, from = tuples, width = std::size_t(components)](const auto& addOne)
       {
-        withWidth(components,
-          [=, from = tuples](auto width)
+        for (int i = 0; i < count; ++i)
+        {
+          const char* const tuple = from.first + from.step * numbers[i];
+          const std::size_t sum = width * std::size_t(voxels[i]);
+          for (std::size_t c = 0; c < width; ++c)
           {
-            for (int i = 0; i < count; ++i)
-            {
-              const char* const tuple = from.first + from.step * numbers[i];
-              const std::size_t sum = width * std::size_t(voxels[i]);
-              for (std::size_t c = 0; c < width; ++c)
-              {
-                T number; // Fields of a packed record are not aligned.
-                std::memcpy(&number, tuple + c * sizeof(T), sizeof number);
-                addOne(number, sum + c);
-              }
-            }
-          });
+            T number; // Fields of a packed record are not aligned.
+            std::memcpy(&number, tuple + c * sizeof(T), sizeof number);
+            addOne(number, sum + c);
+          }
+        }
       };
       constexpr bool kIsReal = std::is_floating_point_v<T>;
       std::uint64_t* const word = values.data();
@@ -195,44 +190,34 @@ void TallySums::fit(int newUnit, int newWords)
   for (std::size_t sum = 0; sum < size; ++sum)
   {
     static_cast<void>(
-      addShifted(at(sum), words, unit - newUnit, 1, moved.data() + sum * std::size_t(newWords), newWords));
+      addShifted(at(sum), words, unit - newUnit, moved.data() + sum * std::size_t(newWords), newWords));
   }
   values = std::move(moved);
   unit = newUnit;
   words = newWords;
 }
 
-/// Adds @p sign times the @p other sum of @p from, which this covers. @return false where that leaves fewer
-/// than no numbers that are not finite.
-inline bool TallySums::add(std::size_t sum, const TallySums& from, std::size_t other, int sign)
+/// Adds the @p other sum of @p from, which this covers.
+inline void TallySums::add(std::size_t sum, const TallySums& from, std::size_t other)
 {
+  const std::uint64_t top = at(sum)[words - 1];
   std::int64_t result; // Mostly words are added.
-  const auto isWord = [&](std::int64_t own, std::int64_t more)
-  {
-    return sign > 0 ? !__builtin_add_overflow(own, more, &result)
-                    : !__builtin_sub_overflow(own, more, &result);
-  };
-  if (words == 1 && from.unit == unit && isWord(std::int64_t(*at(sum)), std::int64_t(*from.at(other))))
+  if (words == 1 && from.unit == unit &&
+    !__builtin_add_overflow(std::int64_t(top), std::int64_t(*from.at(other)), &result))
   {
     *at(sum) = std::uint64_t(result);
   }
-  else
+  else if (!addShifted(from.at(other), from.words, from.unit - unit, at(sum), words))
   {
-    const std::uint64_t top = at(sum)[words - 1];
-    if (!addShifted(from.at(other), from.words, from.unit - unit, sign, at(sum), words))
-    {
-      fit(unit, words + 1);
-      at(sum)[words - 1] = std::uint64_t(std::int64_t(top) >> 63);
-    }
+    fit(unit, words + 1);
+    at(sum)[words - 1] = std::uint64_t(std::int64_t(top) >> 63);
   }
-  if (from.nonFinite.empty())
+  if (!from.nonFinite.empty())
   {
-    return true;
+    NonFiniteCount& seen = nonFinite[sum];
+    const NonFiniteCount& more = from.nonFinite[other];
+    seen = { seen.nans + more.nans, seen.plus + more.plus, seen.minus + more.minus };
   }
-  NonFiniteCount& seen = nonFinite[sum];
-  const NonFiniteCount& more = from.nonFinite[other];
-  seen = { seen.nans + sign * more.nans, seen.plus + sign * more.plus, seen.minus + sign * more.minus };
-  return seen.nans >= 0 && seen.plus >= 0 && seen.minus >= 0;
 }
 
 /// Has sums hold those of the other, too.
@@ -244,7 +229,7 @@ void TallySums::cover(const TallySums& other)
   fit(least, std::max(words > 0 ? wordsOf(*this) : 0, wordsOf(other)));
 }
 
-bool TallySums::append(const TallySums* a, std::size_t i, const TallySums* b, std::size_t j, int sign)
+void TallySums::append(const TallySums* a, std::size_t i, const TallySums* b, std::size_t j)
 {
   const auto width = std::size_t(a ? a->components : b->components);
   const bool areFinite = nonFinite.empty() && (!a || a->nonFinite.empty()) && (!b || b->nonFinite.empty());
@@ -255,13 +240,11 @@ bool TallySums::append(const TallySums* a, std::size_t i, const TallySums* b, st
   size += width;
   values.resize(size * std::size_t(words), 0);
   nonFinite.resize(areFinite ? 0 : size);
-  bool isRight = true;
   for (std::size_t sum = size - width, c = 0; c < width; ++c, ++sum)
   {
-    isRight = (!a || add(sum, *a, i * width + c, 1)) && isRight;
-    isRight = (!b || add(sum, *b, j * width + c, sign)) && isRight;
+    a ? add(sum, *a, i * width + c) : void();
+    b ? add(sum, *b, j * width + c) : void();
   }
-  return isRight;
 }
 
 /// @p scale: 2^unit, or 0 where that is no normal number.
@@ -336,29 +319,6 @@ void TallySums::write(const AccumulatedArray& kind, std::size_t first, std::size
     });
 }
 
-void TallySums::trim()
-{
-  int low = 64 * words; // Bits in use, but the sign.
-  int high = 0;
-  for (std::size_t sum = 0; sum < size; ++sum)
-  {
-    const std::uint64_t* const number = at(sum);
-    const auto sign = std::uint64_t(std::int64_t(number[words - 1]) >> 63);
-    for (int i = 0; i < words; ++i)
-    {
-      low = number[i] != 0 ? std::min(low, 64 * i + __builtin_ctzll(number[i])) : low;
-      high = number[i] != sign ? std::max(high, 64 * (i + 1) - __builtin_clzll(number[i] ^ sign)) : high;
-    }
-  }
-  low < 64 * words ? fit(unit + low, (high - low) / 64 + 1) : fit(0, 1);
-  values.shrink_to_fit();
-  if (std::none_of(nonFinite.begin(), nonFinite.end(), [](const NonFiniteCount& seen) { return seen.any(); }))
-  {
-    nonFinite.clear();
-  }
-  nonFinite.shrink_to_fit();
-}
-
 std::int64_t TallyValues::List::mostFrequent() const
 {
   return std::max_element(
@@ -377,11 +337,10 @@ std::int64_t TallyValues::List::middle(std::int64_t count) const
   return value->key;
 }
 
-bool TallyValues::append(const TallyValues* a, std::size_t i, const TallyValues* b, std::size_t j, int sign)
+void TallyValues::append(const TallyValues* a, std::size_t i, const TallyValues* b, std::size_t j)
 {
   components = a ? a->components : b->components;
   const auto width = std::size_t(components);
-  bool isRight = true;
   for (std::size_t c = 0; c < width; ++c)
   {
     List ofA = a ? (*a)[i * width + c] : List{};
@@ -390,69 +349,13 @@ bool TallyValues::append(const TallyValues* a, std::size_t i, const TallyValues*
     {
       const bool isIn = ofA.first != ofA.last && (ofB.first == ofB.last || ofA.first->key <= ofB.first->key);
       const bool isInOther = ofB.first != ofB.last && (!isIn || ofB.first->key == ofA.first->key);
-      const TallyValue value = { isIn ? ofA.first->key : ofB.first->key,
-        (isIn ? ofA.first->points : 0) + (isInOther ? sign * ofB.first->points : 0) };
-      isRight = isRight && value.points >= 0;
-      value.points != 0 ? values.push_back(value) : void();
+      values.push_back({ isIn ? ofA.first->key : ofB.first->key,
+        (isIn ? ofA.first->points : 0) + (isInOther ? ofB.first->points : 0) });
       ofA.first += isIn;
       ofB.first += isInOther;
     }
     ends.push_back(values.size());
   }
-  return isRight;
-}
-
-bool VoxelTally::append(const VoxelTally* a, std::size_t i, const VoxelTally* b, std::size_t j, int sign)
-{
-  const bool areRight = sums.append(a ? &a->sums : nullptr, i, b ? &b->sums : nullptr, j, sign);
-  return values.append(a ? &a->values : nullptr, i, b ? &b->values : nullptr, j, sign) && areRight;
-}
-
-namespace
-{
-
-bool isOf(const NonFiniteCount& seen, std::int64_t count)
-{
-  return seen.nans >= 0 && seen.plus >= 0 && seen.minus >= 0 && seen.nans <= count &&
-    seen.plus <= count - seen.nans && seen.minus <= count - seen.nans - seen.plus;
-}
-
-/// True if @p count integers can have the sum.
-template <typename T>
-bool isSumOf(const TallySums& sums, std::size_t sum, std::int64_t count)
-{
-  constexpr int kMostBits = 34 + 64; // Bits of the count and of each integer.
-  if (std::is_floating_point_v<T>)
-  {
-    return true;
-  }
-  if (sums.unit < 0 || sums.unit > kMostBits || sums.words > 2)
-  {
-    return false;
-  }
-  const Int128 units = sums.inUnits(sum);
-  const Int128 least = Int128(std::numeric_limits<T>::lowest()) * count;
-  const Int128 most = Int128(std::numeric_limits<T>::max()) * count;
-  return units >= -(-least >> sums.unit) && units <= most >> sums.unit;
-}
-
-template <typename T>
-bool areValuesOf(TallyValues::List list, std::int64_t count)
-{
-  using Key = decltype(orderedKey(T()));
-  const auto ascends = [](const TallyValue& a, const TallyValue& b) { return a.key >= b.key; };
-  std::int64_t left = count;
-  for (const TallyValue& value : list)
-  {
-    if (value.points < 1 || value.points > left || value.key != std::int64_t(Key(value.key)))
-    {
-      return false;
-    }
-    left -= value.points;
-  }
-  return left == 0 && std::adjacent_find(list.first, list.last, ascends) == list.last;
-}
-
 }
 
 void VoxelTally::write(const AccumulatedArray& kind, std::size_t first, std::size_t last,
@@ -476,37 +379,6 @@ void VoxelTally::write(const AccumulatedArray& kind, std::size_t first, std::siz
                                                                          : values[list].middle(count));
       }
     });
-}
-
-bool VoxelTally::isOf(const AccumulatedArray& kind, std::size_t voxel, std::int64_t count) const
-{
-  bool isRight = true;
-  withType(kind.type,
-    [&](auto example)
-    {
-      using T = decltype(example);
-      for (int c = 0; isRight && c < kind.components; ++c)
-      {
-        const std::size_t i = voxel * std::size_t(kind.components) + std::size_t(c);
-        isRight = isSum(kind.statistic)
-          ? isSumOf<T>(sums, i, count) && (sums.nonFinite.empty() || simd::isOf(sums.nonFinite[i], count))
-          : areValuesOf<T>(values[i], count);
-      }
-    });
-  return isRight;
-}
-
-void VoxelTally::trim()
-{
-  sums.trim();
-  values.ends.shrink_to_fit();
-  values.values.shrink_to_fit();
-}
-
-std::size_t VoxelTally::bytes() const
-{
-  return sums.values.capacity() * sizeof(std::uint64_t) + sums.nonFinite.capacity() * sizeof(NonFiniteCount) +
-    values.ends.capacity() * sizeof(std::size_t) + values.values.capacity() * sizeof(TallyValue);
 }
 
 } // namespace pointhaptics::simd

@@ -1,6 +1,6 @@
 /// @file
-/// Sums or values of an array in voxels, to which more can be added, or from which some can be taken. They
-/// depend on the tuples alone, not on their order or on how they came.
+/// Sums or values of an array in voxels, to which more can be added. They depend on the tuples alone, not on
+/// their order or on how they came.
 #pragma once
 
 #include "Core/Base/Buffer.h"
@@ -29,15 +29,6 @@ inline double toDouble(Int128 value)
   return double(value);
 }
 
-/// Calls body(width), of one and of three components as a number that the compiler knows.
-template <typename Body>
-void withWidth(int components, const Body& body)
-{
-  components == 1     ? body(std::integral_constant<std::size_t, 1>())
-    : components == 3 ? body(std::integral_constant<std::size_t, 3>())
-                      : body(std::size_t(components));
-}
-
 /// Where the tuples of points lie.
 struct Tuples
 {
@@ -62,28 +53,20 @@ public:
   PageVector<std::uint64_t> values;      ///< [voxel][component][word], the lowest word first.
   std::vector<NonFiniteCount> nonFinite; ///< [voxel][component], where there are any.
 
-  /// Sums of doubles need no smaller unit, and no more words.
-  static constexpr int kLeastUnit = -1200;
-  static constexpr int kMostWords = 40;
-
   /// Drops all sums and makes room for those of voxels with @p counts points each. @p range: of all tuples.
   void prepare(
     const AccumulatedArray& kind, const AttributeRange& range, const std::vector<std::int64_t>& counts);
   /// Adds tuple numbers[i] to voxels[i].
   void add(ScalarType type, const Tuples& tuples, const std::int64_t* numbers, const std::uint32_t* voxels,
     int count);
-  /// Appends the sum of voxel @p i of @p a and @p sign times voxel @p j of @p b; either may be null. @return
-  /// false where fewer than no numbers are left that are not finite.
-  bool append(const TallySums* a, std::size_t i, const TallySums* b, std::size_t j, int sign);
+  /// Appends the sum of voxel @p i of @p a and voxel @p j of @p b; either may be null.
+  void append(const TallySums* a, std::size_t i, const TallySums* b, std::size_t j);
   /// Writes the means of voxels @p first to before @p last, of @p counts numbers each; vectors turned by @p
   /// columns.
   void write(const AccumulatedArray& kind, std::size_t first, std::size_t last, const std::int64_t* counts,
     const std::array<Vec3, 3>& columns, void* tuples) const;
   /// @pre it has up to two words.
   Int128 inUnits(std::size_t sum) const;
-  /// Takes the largest unit and the fewest words, so that equal sums are kept in the same way, and frees
-  /// memory.
-  void trim();
 
 private:
   std::uint64_t* at(std::size_t sum) { return values.data() + sum * std::size_t(words); }
@@ -91,7 +74,7 @@ private:
   void addWide(Int128 number, int shift, std::size_t sum);
   template <typename T>
   void addNumber(T number, std::size_t sum);
-  bool add(std::size_t sum, const TallySums& from, std::size_t other, int sign);
+  void add(std::size_t sum, const TallySums& from, std::size_t other);
   double mean(std::size_t sum, std::int64_t count, double scale) const;
   void fit(int newUnit, int newWords);
   void cover(const TallySums& other);
@@ -116,16 +99,13 @@ struct TallyValues
   {
     const TallyValue* first;
     const TallyValue* last;
-
-    const TallyValue* begin() const { return first; }
-    const TallyValue* end() const { return last; }
     /// The key that most points have, of several the smallest.
     std::int64_t mostFrequent() const;
     /// That of the middle one of @p count points.
     std::int64_t middle(std::int64_t count) const;
   };
   /// As of TallySums: points with a value.
-  bool append(const TallyValues* a, std::size_t i, const TallyValues* b, std::size_t j, int sign);
+  void append(const TallyValues* a, std::size_t i, const TallyValues* b, std::size_t j);
   std::size_t beginOf(std::size_t list) const { return list == 0 ? 0 : ends[list - 1]; }
   List operator[](std::size_t list) const
   {
@@ -142,16 +122,15 @@ public:
   TallyValues values;
 
   /// As of TallySums.
-  bool append(const VoxelTally* a, std::size_t i, const VoxelTally* b, std::size_t j, int sign);
+  void append(const VoxelTally* a, std::size_t i, const VoxelTally* b, std::size_t j)
+  {
+    sums.append(a ? &a->sums : nullptr, i, b ? &b->sums : nullptr, j);
+    values.append(a ? &a->values : nullptr, i, b ? &b->values : nullptr, j);
+  }
   /// Writes the tuples of voxels @p first to before @p last, of @p counts points each; vectors turned by @p
   /// columns.
   void write(const AccumulatedArray& kind, std::size_t first, std::size_t last, const std::int64_t* counts,
     const std::array<Vec3, 3>& columns, void* tuples) const;
-  /// Whether tuples of @p count points can have made what a voxel has.
-  bool isOf(const AccumulatedArray& kind, std::size_t voxel, std::int64_t count) const;
-  /// Frees memory that is not used. Equal tallies are then kept in the same way.
-  void trim();
-  std::size_t bytes() const;
 };
 
 } // namespace pointhaptics::simd

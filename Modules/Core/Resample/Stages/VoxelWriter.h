@@ -67,9 +67,8 @@ public:
   /// The tuples of an attribute from a voxel on.
   char* attribute(std::size_t attribute, std::size_t voxel) const
   {
-    return arrays_[kAttributes + attribute].values + attributeBytes(attribute) * voxel;
+    return arrays_[kAttributes + attribute].values + arrays_[kAttributes + attribute].bytes * voxel;
   }
-  std::size_t attributeBytes(std::size_t attribute) const { return arrays_[kAttributes + attribute].bytes; }
   std::size_t bytes() const
   {
     return std::accumulate(arrays_.begin(), arrays_.end(), std::size_t(0),

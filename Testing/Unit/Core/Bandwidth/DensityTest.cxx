@@ -20,7 +20,7 @@ std::vector<double> densitiesOf(const std::vector<Vec3>& points, const std::vect
   NeighborQuery query;
   query.build(view(points));
   std::vector<double> densities;
-  surfaceDensities(view(points), query, bandwidths, densities, executor, kernel);
+  surfaceDensities(view(points), {}, query, bandwidths, densities, executor, kernel);
   EXPECT_EQ(densities.size(), points.size());
   return densities;
 }

@@ -32,8 +32,8 @@ inline Local localOf(
   NeighborQuery query;
   query.build(view(points));
   Local result;
-  EXPECT_EQ(
-    localBandwidths(view(points), query, settings, result.bandwidths, result.radii, executor), Status::Ok);
+  EXPECT_EQ(localBandwidths(view(points), {}, query, settings, result.bandwidths, result.radii, executor),
+    Status::Ok);
   EXPECT_EQ(result.bandwidths.size(), points.size());
   EXPECT_EQ(result.radii.size(), points.size());
   return result;

@@ -30,7 +30,7 @@ TEST(LocalBandwidths, OfDuplicatesTakeNoLongerThanOfOthers)
   NeighborQuery query;
   query.build(view(points));
   std::vector<double> densities;
-  surfaceDensities(view(points), query, nearest.bandwidths, densities);
+  surfaceDensities(view(points), {}, query, nearest.bandwidths, densities);
   EXPECT_EQ(densities.back(), densities[3]);
 }
 

@@ -250,7 +250,7 @@ TEST(LocalBandwidths, AreTheSameBitsForFloatsAndDoublesAndEveryNumberOfThreads)
     NeighborQuery query;
     query.build(single);
     Local other;
-    ASSERT_EQ(localBandwidths(single, query, settings, other.bandwidths, other.radii), Status::Ok);
+    ASSERT_EQ(localBandwidths(single, {}, query, settings, other.bandwidths, other.radii), Status::Ok);
     ASSERT_EQ(other.bandwidths, expected.bandwidths);
     ASSERT_EQ(other.radii, expected.radii);
   }

@@ -39,8 +39,8 @@ TEST(LocalRadiiAt, AreTheBitsOfTheWholeArray)
         settings.smoothRadius = kind == 2;
         const Local whole = localOf(cloud, settings);
         std::vector<double> radii;
-        ASSERT_EQ(
-          localRadiiAt(view(cloud), query, settings, slots, radii, trial::ThreadedExecutor(3)), Status::Ok);
+        ASSERT_EQ(localRadiiAt(view(cloud), {}, query, settings, slots, radii, trial::ThreadedExecutor(3)),
+          Status::Ok);
         ASSERT_EQ(radii.size(), slots.size());
         for (std::size_t i = 0; i < slots.size(); ++i)
         {
@@ -60,7 +60,7 @@ TEST(LocalRadiiAt, RefuseBadSettings)
   LocalBandwidthSettings settings;
   settings.numberOfNeighbors = 0;
   std::vector<double> radii;
-  EXPECT_EQ(localRadiiAt(view(points), query, settings, { 0 }, radii), Status::InvalidNeighborhood);
+  EXPECT_EQ(localRadiiAt(view(points), {}, query, settings, { 0 }, radii), Status::InvalidNeighborhood);
 }
 
 TEST(LimitSlope, GivesTheLargestRadiiWithinTheSlope)

@@ -98,11 +98,9 @@ TEST(StridedPoints, BringTheirTuplesToTheirVoxels)
     std::int64_t(7 * sizeof(float)) } } };
   VoxelResampler resampler;
   ASSERT_EQ(resampler.run(request), Status::Ok);
-  std::vector<float> averaged(3 * std::size_t(resampler.size()));
-  std::vector<double> means(averaged.size());
-  resampler.copyAttribute(0, averaged.data());
-  resampler.copyMeans(means.data());
-  for (std::size_t i = 0; i < means.size(); ++i)
+  const auto* const averaged = static_cast<const float*>(resampler.attribute(0));
+  const double* const means = resampler.doubles();
+  for (std::int64_t i = 0; i < 3 * resampler.size(); ++i)
   {
     ASSERT_NEAR(double(averaged[i]), means[i], 1e-6) << i;
   }

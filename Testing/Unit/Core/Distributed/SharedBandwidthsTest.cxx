@@ -123,7 +123,7 @@ BandwidthsOfPoints expectedOf(const Cloud& cloud, const BandwidthSettings& setti
   result.ofMeans = result.bandwidths;
   if (!cloud.counts.empty())
   {
-    EXPECT_EQ(localBandwidths(viewOf(cloud.points), query, alone, result.ofMeans, unused), Status::Ok);
+    EXPECT_EQ(localBandwidths(viewOf(cloud.points), {}, query, alone, result.ofMeans, unused), Status::Ok);
   }
   surfaceDensities(
     viewOf(cloud.points), cloud.counts, query, result.ofMeans, result.densities, {}, settings.densityKernel);

@@ -83,7 +83,7 @@ RunResult sharedRun(
       EXPECT_EQ(own.add(partOf(points, ends, ranks.rank())), Status::Ok);
       SharedVoxels shared;
       EXPECT_EQ(shared.share(ranks, std::move(own)), Status::Ok);
-      VoxelAccumulator::Request wanted;
+      VoxelRequest wanted;
       wanted.keys = true;
       VoxelResampler made;
       EXPECT_EQ(shared.voxels().finish(wanted, made), Status::Ok);

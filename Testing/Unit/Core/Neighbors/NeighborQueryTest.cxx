@@ -1,15 +1,11 @@
 #include "Core/Neighbors/NeighborQuery.h"
-#include "Core/Neighbors/NeighborKernel.h"
 #include "Core/Reference/ReferenceNeighbors.h"
 
 #include "RandomClouds.h"
 
-#include "Unit/HeldInstructionSets.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <memory>
 
 using namespace pointhaptics;
 using trial::view;
@@ -181,30 +177,6 @@ TEST(NeighborQuery, BallIsClosed)
   expectBall(grid, { 4, 4, 4 }, 1.0);
   expectBall(grid, { 4, 4, 4 }, 2.0);
   expectBall(grid, { 4, 4, 4 }, 0.0);
-}
-
-TEST(NeighborQuery, FindsTheSameBitsWithEveryInstructionSet)
-{
-  SKIP_WITHOUT_OTHER_INSTRUCTION_SETS();
-  std::vector<Vec3> points = trial::randomBox(3000, 21, { 0, 0, 0 }, { 1, 1, 0.1 });
-  points.insert(points.end(), 40, points[5]);
-  NeighborQuery query;
-  query.build(view(points));
-  std::vector<double> words(simd::LeafSearch::wordsFor(17, 1));
-  simd::LeafSearch memory(words.data(), 17, 1);
-  for (const Vec3& center : trial::randomBox(200, 22, { 0, 0, 0 }, { 1, 1, 0.1 }))
-  {
-    std::vector<double> expected;
-    for (const InstructionSet set : heldInstructionSets())
-    {
-      const double place[3] = { center.x, center.y, center.z };
-      ASSERT_TRUE(simd::neighborKernels(set).searchPlace(query.tree(), place, memory));
-      std::vector<double> found(memory.squaredDistances, memory.squaredDistances + 17);
-      found.insert(found.end(), memory.neighbors, memory.neighbors + 17);
-      expected = set == InstructionSet::Baseline ? found : expected;
-      ASSERT_EQ(found, expected) << int(set);
-    }
-  }
 }
 
 TEST(NeighborQuery, OfPlacesThatAreNotFiniteOrFarAwayEnds)

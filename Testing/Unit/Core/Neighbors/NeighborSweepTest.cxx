@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 using namespace pointhaptics;
@@ -87,12 +88,35 @@ struct All
   std::vector<int> counts;
 };
 
-All nearestOf(const std::vector<Vec3>& points, int k, const Executor& executor = {})
+/// Points at one place have one answer.
+All nearestOf(const PointView& points, int k, const Executor& executor = {})
 {
   NeighborQuery query;
-  query.build(view(points), executor);
-  All all{ std::vector<Neighbor>(points.size() * std::size_t(k)), std::vector<int>(points.size(), 0) };
-  nearestOfAll(query, k, all.neighbors.data(), all.counts.data(), executor);
+  query.build(points, executor);
+  const auto size = std::size_t(points.size());
+  All all{ std::vector<Neighbor>(size * std::size_t(k)), std::vector<int>(size, 0) };
+  forRange(executor, NeighborSweep::leaves(query), 1,
+    [&](std::int64_t begin, std::int64_t end)
+    {
+      NeighborSweep(query, k).run(begin, end,
+        [&](const NeighborList& list)
+        {
+          const std::int64_t index = query.index(list.slot);
+          all.counts[std::size_t(index)] = list.count;
+          for (int i = 0; i < list.count; ++i)
+          {
+            all.neighbors[std::size_t(index * k + i)] = { list.squaredDistances[i],
+              query.index(list.slots[i]) };
+          }
+        });
+    });
+  query.visitRepeats(
+    [&](std::int64_t repeated, std::int64_t slot)
+    {
+      const std::int64_t first = query.index(slot);
+      all.counts[std::size_t(repeated)] = all.counts[std::size_t(first)];
+      std::copy_n(all.neighbors.begin() + first * k, k, all.neighbors.begin() + repeated * k);
+    });
   return all;
 }
 
@@ -108,7 +132,7 @@ void expectEqual(const All& a, const All& b)
 
 void expectBruteForce(const std::vector<Vec3>& points, int k, std::size_t step)
 {
-  const All all = nearestOf(points, k);
+  const All all = nearestOf(view(points), k);
   for (std::size_t i = 0; i < points.size(); i += step)
   {
     if (!isFinite(points[i]))
@@ -188,15 +212,11 @@ TEST(NeighborSweep, DoesNotDependOnThreadsNorOnTheTypeOfNumber)
       p[axis] = double(floats.back());
     }
   }
-  const All expected = nearestOf(points, 10);
-  expectEqual(nearestOf(points, 10, trial::BackwardExecutor(7)), expected);
+  const All expected = nearestOf(view(points), 10);
+  expectEqual(nearestOf(view(points), 10, trial::BackwardExecutor(7)), expected);
   for (const int threads : { 2, 8 })
   {
-    expectEqual(nearestOf(points, 10, trial::ThreadedExecutor(threads)), expected);
+    expectEqual(nearestOf(view(points), 10, trial::ThreadedExecutor(threads)), expected);
   }
-  NeighborQuery query;
-  query.build({ floats.data(), 20000 });
-  All all{ std::vector<Neighbor>(200000), std::vector<int>(20000) };
-  nearestOfAll(query, 10, all.neighbors.data(), all.counts.data());
-  expectEqual(all, expected);
+  expectEqual(nearestOf({ floats.data(), 20000 }, 10), expected);
 }

@@ -98,9 +98,8 @@ inline std::vector<char> reducedTuples(
   VoxelResampler resampler;
   EXPECT_EQ(resampler.run(request), Status::Ok);
   EXPECT_EQ(resampler.size(), plan.size);
-  std::vector<char> tuples(std::size_t(plan.size * attribute.view.tupleBytes()));
-  resampler.copyAttribute(0, tuples.data());
-  return tuples;
+  const auto* const tuples = static_cast<const char*>(resampler.attribute(0));
+  return { tuples, tuples + plan.size * attribute.view.tupleBytes() };
 }
 
 /// Those of an array, taken in the order of the plan.

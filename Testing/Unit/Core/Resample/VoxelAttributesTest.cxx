@@ -78,8 +78,8 @@ std::vector<Tuples> attributesOf(const VoxelResampler& resampler, const VoxelReq
   std::vector<Tuples> all;
   for (std::size_t i = 0; i < request.attributes.size(); ++i)
   {
-    all.emplace_back(std::size_t(resampler.size()) * std::size_t(request.attributes[i].view.tupleBytes()));
-    resampler.copyAttribute(i, all.back().data());
+    const auto* const tuples = static_cast<const char*>(resampler.attribute(i));
+    all.emplace_back(tuples, tuples + resampler.size() * request.attributes[i].view.tupleBytes());
   }
   return all;
 }
@@ -407,7 +407,7 @@ TEST(VoxelAttributes, LeaveTheSumsOfAnOverfullCellAsTheyAre)
   request.covariances = true;
   VoxelResampler plain;
   ASSERT_EQ(plain.run(request), Status::Ok);
-  ASSERT_GT(plain.mostPoints(), std::int64_t(1) << 21);
+  ASSERT_GT(*std::max_element(plain.counts(), plain.counts() + plain.size()), std::int64_t(1) << 21);
   request.attributes = { { { values.data(), ScalarType::Float, 1, std::int64_t(kPoints) } } };
   request.voxelIndex = true;
   VoxelResampler resampler;
@@ -416,9 +416,8 @@ TEST(VoxelAttributes, LeaveTheSumsOfAnOverfullCellAsTheyAre)
   const auto voxels = std::size_t(plain.size());
   const auto resultsOf = [&](const VoxelResampler& from)
   {
-    std::vector<double> results(9 * voxels);
-    from.copyMeans(results.data());
-    from.copyCovariances(reinterpret_cast<SymMat3*>(results.data() + 3 * voxels));
+    std::vector<double> results(from.doubles(), from.doubles() + 3 * voxels);
+    results.insert(results.end(), &from.covariances()->xx, &from.covariances()->xx + 6 * voxels);
     return results;
   };
   EXPECT_EQ(resultsOf(resampler), resultsOf(plain));

@@ -68,9 +68,8 @@ std::vector<float> randomValues(std::size_t points)
 /// Means of the last run's array.
 std::vector<float> meansOf(const VoxelResampler& resampler)
 {
-  std::vector<float> means(3 * std::size_t(resampler.size()));
-  resampler.copyAttribute(0, means.data());
-  return means;
+  const auto* const means = static_cast<const float*>(resampler.attribute(0));
+  return { means, means + 3 * resampler.size() };
 }
 
 /// A lattice of unit voxels, and whether points and means are floats.
@@ -100,7 +99,6 @@ TEST_P(VoxelThreads, GiveTheBitsOfOneThreadOnEveryInstructionSet)
   const RunResult expected = runOf(resampler, request);
   const std::vector<float> expectedMeans = meansOf(resampler);
   EXPECT_GT(expected.clipped, n / 1000);
-  EXPECT_GT(resampler.mostPoints(), 4);
   for (const InstructionSet set : heldInstructionSets())
   {
     request.instructions = set;

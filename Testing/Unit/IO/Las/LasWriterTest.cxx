@@ -1,6 +1,6 @@
 #include "CloudFiles.h"
 
-#include "Core/Resample/FieldNames.h"
+#include "Core/Base/FieldNames.h"
 #include "IO/Info/FieldText.h"
 
 #include "vtkDoubleArray.h"
