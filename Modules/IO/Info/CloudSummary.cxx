@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 namespace pointhaptics
@@ -169,27 +170,31 @@ double variationOf(std::vector<double> spacings)
 void takeNearest(const NeighborQuery& query, const std::vector<Vec3>& places, std::vector<double>& nearest)
 {
   const std::size_t samples = nearest.size();
-  const auto others = static_cast<std::size_t>(kNeighbors[0]);
-  std::vector<Neighbor> firsts(samples == places.size() ? others * samples : 0);
-  std::vector<int> counts(samples, 0);
-  firsts.empty() ? void() : nearestOfAll(query, kNeighbors[0], firsts.data(), counts.data());
+  std::vector<double> squares(samples, 0.0); // 0: not known
+  if (samples == places.size())
+  {
+    NeighborSweep sweep(query, kNeighbors[0]);
+    sweep.run(0, NeighborSweep::leaves(query),
+      [&](const NeighborList& list)
+      {
+        const double* end = list.squaredDistances + list.count;
+        const double* other =
+          std::find_if(list.squaredDistances, end, [](double square) { return square > 0.0; });
+        squares[std::size_t(query.index(list.slot))] = other != end ? *other : 0.0;
+      });
+  }
   Neighbor neighbors[kNeighbors[1]];
   for (std::size_t i = 0; i < samples; ++i)
   {
-    const Vec3& center = places[sampled(i, samples, places.size())];
-    for (const int most : kNeighbors)
+    for (std::size_t step = 0; step < std::size(kNeighbors) && squares[i] == 0.0; ++step)
     {
-      const bool isKnown = !firsts.empty() && most == kNeighbors[0];
-      const Neighbor* list = isKnown ? &firsts[others * i] : neighbors;
-      const int found = isKnown ? counts[i] : query.nearest(center, most, neighbors);
-      const Neighbor* other =
-        std::find_if(list, list + found, [](const Neighbor& each) { return each.squaredDistance > 0.0; });
-      if (other != list + found)
-      {
-        nearest[i] = std::min(nearest[i], std::sqrt(other->squaredDistance));
-        break;
-      }
+      const Neighbor* end =
+        neighbors + query.nearest(places[sampled(i, samples, places.size())], kNeighbors[step], neighbors);
+      const Neighbor* other = std::find_if<const Neighbor*>(
+        neighbors, end, [](const Neighbor& each) { return each.squaredDistance > 0.0; });
+      squares[i] = other != end ? other->squaredDistance : 0.0;
     }
+    nearest[i] = squares[i] > 0.0 ? std::min(nearest[i], std::sqrt(squares[i])) : nearest[i];
   }
 }
 
