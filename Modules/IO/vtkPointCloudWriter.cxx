@@ -124,10 +124,16 @@ void noteWhatIsNoColumn(vtkPointSet* cloud, const io::CloudFormat& format, io::W
     if (!keeps(format, cloud, name) && kOfTheMaking.find(" " + name + " ") == std::string_view::npos &&
       !isIdentityPose(cloud, name))
     {
-      name == "LengthUnit" ? notes.add("the file does not say that the unit is " +
-                               io::inQuotes(io::fieldText(cloud->GetFieldData(), name.c_str())) +
-                               ": readers guess it by the cloud's size, or take --unit")
-                           : void(lost += (lost.empty() ? "" : ", ") + io::inQuotes(name));
+      const std::string unit = name == "LengthUnit" ? io::fieldText(cloud->GetFieldData(), name.c_str()) : "";
+      if (unit.empty())
+      {
+        lost += (lost.empty() ? "" : ", ") + io::inQuotes(name);
+      }
+      else if (unit != "metre") // readers take metres where nothing is said
+      {
+        notes.add("the file does not say that the unit is " + io::inQuotes(unit) +
+          ": readers guess it by the cloud's size, or take --unit");
+      }
     }
   }
   if (!lost.empty())

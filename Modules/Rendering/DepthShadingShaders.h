@@ -36,11 +36,12 @@ float depthAt(ivec2 place, ivec2 last)
 constexpr const char* kTileShader = R"(
 void main()
 {
-  ivec2 last = textureSize(depths, 0) - ivec2(1);
+  ivec2 size = textureSize(depths, 0);
+  ivec2 first = 8 * ivec2(texCoord * vec2((size + ivec2(7)) / 8));
   float farthest = 0.0;
   for (int i = 0; i < 64; ++i)
   {
-    farthest = max(farthest, depthAt(8 * ivec2(gl_FragCoord.xy) + ivec2(i % 8, i / 8), last));
+    farthest = max(farthest, depthAt(first + ivec2(i % 8, i / 8), size - ivec2(1)));
   }
   gl_FragData[0] = vec4(farthest);
 }

@@ -1,5 +1,6 @@
 #include "vtkDepthShadingPass.h"
 
+#include "ClippingSteps.h"
 #include "DepthShadingShaders.h"
 #include "DrawPace.h"
 #include "PictureState.h"
@@ -38,28 +39,6 @@ constexpr double kUsualHeight = 800.0;
 
 /// Least resolution in motion; below it nothing is told apart.
 constexpr double kLeastResolution = 0.3;
-
-/// Moves the end of a clipping range outward to a step: four steps double it.
-double clippingStep(double distance, bool isNear)
-{
-  constexpr double kStepsPerDoubling = 4.0;
-  constexpr double kOnStep = 1e-6; // a step stays where it is
-  const double at = kStepsPerDoubling * std::log2(distance);
-  const double step = isNear ? std::floor(at + kOnStep) : std::ceil(at - kOnStep);
-  return std::exp2(step / kStepsPerDoubling);
-}
-
-/// Sets the clipping range in steps. Shades depend on depths, and their last bits on the clipping range,
-/// which follows all that is in the scene and is reset before most frames: with steps, an equal view has an
-/// equal picture.
-void setClippingRangeToSteps(vtkCamera* camera)
-{
-  const double* range = camera->GetClippingRange();
-  if (range[0] > 0.0 && std::isfinite(range[1]))
-  {
-    camera->SetClippingRange(clippingStep(range[0], true), clippingStep(range[1], false));
-  }
-}
 
 /// Format of the depths that are drawn into, as vtkTextureObject numbers it; below 0: another one, or several
 /// samples a pixel.
@@ -284,7 +263,7 @@ void vtkDepthShadingPass::RenderEye(const vtkRenderState* state)
   }
   this->ChooseResolution(state, window);
   this->PrepareTargets(window);
-  setClippingRangeToSteps(renderer->GetActiveCamera());
+  pointhaptics::setClippingRangeToSteps(renderer->GetActiveCamera());
 
   std::vector<double> wanted = pointhaptics::pictureState(renderer);
   wanted.insert(wanted.end(),

@@ -342,6 +342,7 @@ protected:
   {
     CloudLook look;
     look.kind = kind;
+    look.hasOwnLight = kind == CloudKind::Frame;
     return chooseColors(cloud_, query_, shape_, look);
   }
 
