@@ -176,7 +176,7 @@ void vtkInteractorStyleHaptic::Refresh()
   const std::vector<ServoSample> samples = std::exchange(this->Samples, {});
   const ServoSample latest = this->Servo ? this->Servo->latest() : ServoSample();
   bool touchMoved = this->Servo && this->Display.update(samples, latest);
-  if (this->Display.showChartIfFelt(samples))
+  if (this->Display.showChartIfFelt(samples, this->Hand.isDragged()))
   {
     this->Hand.putPointerOnHand(); // the picture is smaller now
   }

@@ -139,16 +139,26 @@ TEST_F(StyleParts, ShowTheChartOnceAForceIsFelt)
   TouchDisplay& display = style->GetDisplay();
   display.hideChartUntilTouch();
   ServoSample sample;
-  EXPECT_FALSE(display.showChartIfFelt({ sample }));
+  EXPECT_FALSE(display.showChartIfFelt({ sample }, false));
   EXPECT_FALSE(chart->GetVisibility());
   EXPECT_EQ(renderer->GetViewport()[1], 0.0);
   sample.state.force = { 0.0, 0.0, 1.0 };
-  EXPECT_TRUE(display.showChartIfFelt({ ServoSample(), sample }));
+  EXPECT_FALSE(display.showChartIfFelt({ sample }, true)) << "the picture shifts under no drag";
+  EXPECT_TRUE(display.showChartIfFelt({}, false)) << "but after it";
   EXPECT_TRUE(chart->GetVisibility());
   EXPECT_EQ(renderer->GetViewport()[1], 0.25);
-  display.setChartVisibility(false); // the user does not want it
-  EXPECT_FALSE(display.showChartIfFelt({ sample }));
+  display.setFigure(true);
   EXPECT_FALSE(chart->GetVisibility());
+  display.setFigure(false);
+  EXPECT_TRUE(chart->GetVisibility());
+  display.setChartVisibility(false); // the user does not want it
+  EXPECT_FALSE(display.showChartIfFelt({ sample }, false));
+  EXPECT_FALSE(chart->GetVisibility());
+  display.hideChartUntilTouch();
+  display.setFigure(true);
+  EXPECT_FALSE(display.showChartIfFelt({ sample }, false)) << "a figure has no chart";
+  display.setFigure(false);
+  EXPECT_TRUE(chart->GetVisibility()) << "it was felt";
 }
 
 } // namespace

@@ -277,8 +277,7 @@ void addShowCommands(CommandRegistry& commands, vtkInteractorStyleHaptic& style)
   };
   const auto panel = [&status] { status.setPanelVisibility(!status.panelVisibility()); };
   const auto hasChart = [&display] { return display.chart() != nullptr; };
-  const auto chart = [&display, hasChart]
-  { display.setChartVisibility(hasChart() && !display.chart()->GetVisibility()); };
+  const auto chart = [&display, hasChart] { display.setChartVisibility(!display.wantsChart()); };
   const auto pause = [&display]
   {
     if (display.chart())

@@ -69,40 +69,58 @@ void TouchDisplay::setProps(vtkHapticProps* props)
 void TouchDisplay::setChart(vtkHapticChart* chart)
 {
   chart_ = chart;
+  wantsChart_ = chart && chart->GetVisibility();
 }
 
 void TouchDisplay::setChartVisibility(bool visible)
 {
+  wantsChart_ = visible;
+  chartWaits_ = false;
+  this->placeChart();
+}
+
+void TouchDisplay::setFigure(bool on)
+{
+  isFigure_ = on;
+  this->placeChart();
+}
+
+void TouchDisplay::hideChartUntilTouch()
+{
+  wantsChart_ = false;
+  chartWaits_ = true;
+  isFelt_ = false;
+  if (chart_)
+  {
+    chart_->SetVisibility(false); // no picture has made room for it yet
+  }
+}
+
+bool TouchDisplay::showChartIfFelt(const std::vector<ServoSample>& samples, bool isDragged)
+{
+  isFelt_ = isFelt_ ||
+    std::any_of(samples.begin(), samples.end(),
+      [](const ServoSample& sample) { return norm(sample.state.force) > 0.0; });
+  if (!chartWaits_ || !isFelt_ || isDragged)
+  {
+    return false;
+  }
+  this->setChartVisibility(true);
+  return !isFigure_;
+}
+
+void TouchDisplay::placeChart()
+{
   vtkRenderer* renderer = screen_.renderer();
+  const bool visible = wantsChart_ && !isFigure_;
   if (chart_ && renderer && chart_->GetVisibility() != visible)
   {
     chart_->SetVisibility(visible);
-    chartWaits_ = false;
     chartChanged_ = true;
     const double* strip = chart_->GetRenderer()->GetViewport();
     renderer->SetViewport(0.0, visible ? strip[3] : 0.0, 1.0, renderer->GetViewport()[3]);
     this->requestRender();
   }
-}
-
-void TouchDisplay::hideChartUntilTouch()
-{
-  if (chart_)
-  {
-    chart_->SetVisibility(false);
-    chartWaits_ = true;
-  }
-}
-
-bool TouchDisplay::showChartIfFelt(const std::vector<ServoSample>& samples)
-{
-  const auto isFelt = [](const ServoSample& sample) { return norm(sample.state.force) > 0.0; };
-  if (!chartWaits_ || std::none_of(samples.begin(), samples.end(), isFelt))
-  {
-    return false;
-  }
-  this->setChartVisibility(true);
-  return true;
 }
 
 bool TouchDisplay::update(const std::vector<ServoSample>& samples, const ServoSample& latest)

@@ -42,12 +42,17 @@ public:
   /// What an exact surface would answer the hand of a tick, in newtons, for the chart; NaN: not known. Called
   /// for every tick in the order of time. Empty (default): none.
   void setIdealForce(std::function<double(const ServoSample&)> ideal) { idealForce_ = std::move(ideal); }
-  /// The chart is a strip along the lower edge; the picture takes the room that it leaves.
+  /// Whether the user wants the chart, a strip along the lower edge; the picture takes the room that it
+  /// leaves.
   void setChartVisibility(bool visible);
+  bool wantsChart() const { return wantsChart_; }
+  /// A figure has no chart.
+  void setFigure(bool on);
   /// Hides the chart, which no picture has made room for yet, until a force is felt or the user asks for it.
   void hideChartUntilTouch();
-  /// Shows the chart that was hidden until a force is felt. True: the picture gave it room just now.
-  bool showChartIfFelt(const std::vector<ServoSample>& samples);
+  /// Shows the chart that was hidden until a force is felt; while the hand @p isDragged the picture stays
+  /// where it is. True: the picture gave it room just now.
+  bool showChartIfFelt(const std::vector<ServoSample>& samples, bool isDragged);
 
   /// Takes the new ticks, and the newest one. True: the picture has changed.
   bool update(const std::vector<ServoSample>& samples, const ServoSample& latest);
@@ -60,6 +65,7 @@ public:
   void renderIfDue();
 
 private:
+  void placeChart();
   bool isDue() const;
   void render();
 
@@ -68,7 +74,10 @@ private:
   vtkSmartPointer<vtkHapticChart> chart_;
   std::function<double(const ServoSample&)> idealForce_;
   bool isRequested_ = false;
-  bool chartWaits_ = false;          ///< True until a force is felt or the chart is shown.
+  bool wantsChart_ = false;
+  bool chartWaits_ = false; ///< True until a force is felt or the user asks for the chart.
+  bool isFelt_ = false;     ///< True once a force was felt while the chart waited.
+  bool isFigure_ = false;
   bool chartChanged_ = true;         ///< True if the chart changed since it was drawn.
   std::vector<double> chartPicture_; ///< Other values on which the chart's picture depends.
   double frameSeconds_ = 0.0;        ///< Duration of the last frame.

@@ -75,6 +75,7 @@ public:
   void drag();
   /// Between true and false the mouse holds the hand.
   void setDragged(bool on) { isDragged_ = on; }
+  bool isDragged() const { return isDragged_; }
   /// Moves the hand in the view plane to the pointer.
   void follow();
   void setPointerInside(bool isInside) { isPointerInside_ = isInside; }

@@ -244,7 +244,6 @@ private:
   int screenshots_ = 0;
   int savedParts_ = 0;
   std::future<std::pair<bool, std::string>> saving_; ///< Success, and what it will say.
-  bool chartBesideFigure_ = true;                    ///< Restores the chart when the figure goes.
   bool clipBoxBesideFigure_ = false;
   LengthUnit firstUnit_;      ///< Unit of the file before the user took another; no name: none was taken.
   std::string news_;          // last line of the status

@@ -563,11 +563,10 @@ void ViewWindow::showFigure(bool figure)
   {
     overlay_->SetHelpVisibility(false);
     sliders_->SetVisibility(false);
-    chartBesideFigure_ = chart_->GetVisibility();
     clipBoxBesideFigure_ = scene_.clipMark().isVisible();
   }
   scene_.clipMark().setVisible(!figure && clipBoxBesideFigure_);
-  style_->GetDisplay().setChartVisibility(!figure && chartBesideFigure_);
+  style_->GetDisplay().setFigure(figure);
 }
 
 bool ViewWindow::writeImage(const std::string& fileName, std::string& message)
