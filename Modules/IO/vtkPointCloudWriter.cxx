@@ -13,6 +13,7 @@
 #include "Core/Base/Host/GuardedWork.h"
 #include "Core/Base/Host/StopRequest.h"
 
+#include "vtkCellData.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkFieldData.h"
 #include "vtkInformation.h"
@@ -22,9 +23,11 @@
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
+#include "vtkPoints.h"
 #include "vtkPolyData.h"
 
 #include <algorithm>
+#include <initializer_list>
 #include <string_view>
 
 namespace io = pointhaptics::io;
@@ -100,16 +103,20 @@ std::string informationOf(vtkAbstractArray* array)
 
 void noteInformation(vtkPointSet* cloud, io::WriterNotes& notes)
 {
-  for (vtkFieldData* data : { static_cast<vtkFieldData*>(cloud->GetPointData()), cloud->GetFieldData() })
+  const auto note = [&](vtkAbstractArray* array, const char* name)
+  {
+    const std::string keys = informationOf(array);
+    keys.empty() ? void()
+                 : notes.add("what is noted of array " + io::inQuotes(name ? name : "") + " as " + keys +
+                     " is left out");
+  };
+  note(cloud->GetPoints()->GetData(), "Points");
+  for (vtkFieldData* data : std::initializer_list<vtkFieldData*>{
+         cloud->GetPointData(), cloud->GetCellData(), cloud->GetFieldData() })
   {
     for (int i = 0; i < data->GetNumberOfArrays(); ++i)
     {
-      vtkAbstractArray* array = data->GetAbstractArray(i);
-      const std::string keys = informationOf(array);
-      keys.empty()
-        ? void()
-        : notes.add("what is noted of array " + io::inQuotes(array->GetName() ? array->GetName() : "") +
-            " as " + keys + " is left out");
+      note(data->GetAbstractArray(i), data->GetAbstractArray(i)->GetName());
     }
   }
 }

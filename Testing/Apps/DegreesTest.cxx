@@ -38,7 +38,7 @@ TEST_F(Lengths, DegreesAreFeltInMetresAndNotResampled)
   EXPECT_EQ(refused.exitCode, 1);
   EXPECT_NE(
     refused.errors.find("project the cloud to metres, or give metres a degree and of a unit of height: "
-                        "--scale 71475,111195,1"),
+                        "--scale 71474.7,111195,1"),
     std::string::npos)
     << refused.errors;
   EXPECT_FALSE(this->exists("o.ply"));
@@ -57,6 +57,32 @@ TEST_F(Lengths, DegreesAreFeltInMetresAndNotResampled)
       << outcome.errors;
   }
   EXPECT_FALSE(this->exists("o.ply"));
+}
+
+TEST_F(Lengths, TheCureForDegreesWorksNearThePoles)
+{
+  this->write(
+    "pole.csv", "longitude,latitude,alt\n8.5,89.9999999,100\n8.51,89.9999998,101\n8.52,89.9999997,102\n");
+  const std::string errors = this->run({ "resample", "pole.csv", "-o", "o.ply" }).errors;
+  const std::size_t at = errors.find("--scale ");
+  ASSERT_NE(at, std::string::npos) << errors;
+  const std::string scale = errors.substr(at + 8, errors.find_first_of(" \n", at + 8) - at - 8);
+  EXPECT_EQ(this->run({ "resample", "pole.csv", "--scale", scale, "-o", "o.ply" }).exitCode, 0) << scale;
+  this->write(
+    "date.csv", "longitude,latitude,alt\n179.999,10,100\n-179.999,10.001,101\n179.9995,10.002,102\n");
+  const std::string across = this->run({ "resample", "date.csv", "-o", "o.ply" }).errors;
+  EXPECT_NE(across.find("both sides of 180 degrees"), std::string::npos) << across;
+  EXPECT_EQ(across.find("--scale"), std::string::npos);
+}
+
+TEST_F(Lengths, UnitsOfTheFileEndWithTheirCoordinates)
+{
+  this->write("in.csv", "lon,lat,height [ft]\n8.5,49.1,300\n8.6,49.2,301\n8.7,49.3,302\n");
+  ASSERT_EQ(this->run({ "resample", "in.csv", "--scale", "73000,111000,0.3048", "-o", "o.vtp" }).exitCode, 0);
+  EXPECT_EQ(this->read("o.vtp").find("HeightUnit"), std::string::npos);
+  this->write("ft.csv", "x [ft],y [ft],z [ft]\n8.5,49.1,300\n8.6,49.2,301\n8.7,49.3,302\n");
+  this->run({ "bandwidth", "ft.csv", "--unit", "m", "-o", "o.vtp" });
+  EXPECT_NE(this->succeed({ "info", "o.vtp" }).find("metre (the file says so)"), std::string::npos);
 }
 
 TEST_F(Lengths, BandwidthsSayThatPointsAreFar)

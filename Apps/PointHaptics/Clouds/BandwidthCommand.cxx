@@ -89,6 +89,7 @@ CloudResult BandwidthCommand::work(Cloud& cloud, Files& files)
   filter->SetInputData(this->prepared(cloud.points));
   filter->SetSettings(this->bandwidth.settings);
   updateFilter(filter, "bandwidth", this->input);
+  this->unitIsGiven ? sayMetres(filter->GetOutput()) : void();
   const CloudResult figures = this->result(bandwidthFigures(filter->GetOutput()));
   showWarnings();
   writeCloud(filter->GetOutput(), this->output, files, this->writing);

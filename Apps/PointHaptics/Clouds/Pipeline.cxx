@@ -6,6 +6,7 @@
 #include "Terminal/StandardStreams.h"
 #include "Terminal/StopSignals.h"
 
+#include "IO/Info/FieldText.h"
 #include "IO/Info/LengthUnit.h"
 #include "MergedCloud.h"
 #include "vtkPointCloudReader.h"
@@ -14,6 +15,7 @@
 #include <fmt/format.h>
 #include <vtkAlgorithm.h>
 #include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
 #include <vtkNew.h>
 #include <vtkPointSet.h>
 #include <vtkPoints.h>
@@ -222,15 +224,23 @@ Cloud mergedCloud(std::vector<Cloud>& clouds)
 
 std::string whyNoLengths(vtkPolyData* cloud, const AffineTransform& transform)
 {
-  constexpr double kFewestPerLongitude = 100.0; // of a length: near the poles such a degree is short
-  constexpr double kFewestPerLatitude = 1e4;
+  if (lengthUnitOf(cloud, Bounds()).name != "deg")
+  {
+    return {};
+  }
+  constexpr double kFewestPerLatitude = 1e4; // of a length
+  const double perLongitude = inLocalMetres(cloud)->GetFieldData()->GetArray(kLocalFrame)->GetTuple1(2);
   const auto lengthOf = [&](const Vec3& v) { return norm(transform.applyToVector(v)); };
   const double z = lengthOf({ 0, 0, 1 });
-  const bool areLengths =
-    lengthOf({ 1, 0, 0 }) > kFewestPerLongitude * z && lengthOf({ 0, 1, 0 }) > kFewestPerLatitude * z;
-  return lengthUnitOf(cloud, Bounds()).name == "deg" && !areLengths
-    ? "x and y are degrees and z is a length; project the cloud to metres"
-    : "";
+  const bool areLengths = lengthOf({ 1, 0, 0 }) > std::min(100.0, 0.1 * perLongitude) * z &&
+    lengthOf({ 0, 1, 0 }) > kFewestPerLatitude * z;
+  return areLengths ? "" : "x and y are degrees and z is a length; project the cloud to metres";
+}
+
+void sayMetres(vtkPolyData* cloud)
+{
+  cloud->GetFieldData()->RemoveArray(kHeightUnit);
+  io::addFieldText(cloud, "LengthUnit", kLengthUnits[0].word);
 }
 
 std::string noFinitePoint(const std::string& fileName, std::int64_t count)

@@ -79,6 +79,9 @@ Cloud mergedCloud(std::vector<Cloud>& clouds);
 /// does not change; empty: there can.
 std::string whyNoLengths(vtkPolyData* cloud, const AffineTransform& transform = {});
 
+/// Makes the field data of @p cloud say that all its coordinates are in metres.
+void sayMetres(vtkPolyData* cloud);
+
 /// Message that all @p count points are NaN or infinite.
 std::string noFinitePoint(const std::string& fileName, std::int64_t count);
 

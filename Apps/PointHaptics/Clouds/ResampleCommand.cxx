@@ -55,20 +55,20 @@ void ResampleCommand::complete(CLI::App& command, Files& files)
     "a mean or median is no point of IN; give --representative nearest-to-mean or nearest-to-center too");
 }
 
-/// Removes steps and coordinate system of the file from transformed points, and its unit from scaled ones.
-/// With
-/// --unit the points are in metres.
+/// Removes steps and coordinate system of the file from transformed points, and its units from scaled ones.
+/// With --unit the points are in metres.
 void ResampleCommand::finish(vtkPolyData* means) const
 {
-  for (const char* name : { "LasScale", "LasOffset", "CoordinateSystem", "LengthUnit" })
+  for (const char* name : { "LasScale", "LasOffset", "CoordinateSystem", "LengthUnit", kHeightUnit })
   {
-    if (this->lattice.hasTransform() && (this->lattice.isScaled() || name != std::string("LengthUnit")))
+    const bool isUnit = std::string(name).find("Unit") != std::string::npos;
+    if (this->lattice.hasTransform() && (this->lattice.isScaled() || !isUnit))
     {
       means->GetFieldData()->RemoveArray(name);
     }
   }
   const bool areMetres = this->unitIsGiven && this->lattice.scale.empty() && this->lattice.matrix.empty();
-  io::addFieldText(means, "LengthUnit", areMetres ? kLengthUnits[0].word : "");
+  areMetres ? sayMetres(means) : void();
 }
 
 void ResampleCommand::update(vtkVoxelMeanResampler* resampler, vtkPolyData* cloud) const
@@ -78,9 +78,12 @@ void ResampleCommand::update(vtkVoxelMeanResampler* resampler, vtkPolyData* clou
   {
     const vtkSmartPointer<vtkPolyData> local = inLocalMetres(cloud);
     vtkDataArray* frame = local->GetFieldData()->GetArray(kLocalFrame);
-    throw Failure(
-      fmt::format("{}: {}, or give metres a degree and of a unit of height: --scale {:.0f},{:.0f},{:.6g}",
-        this->input, why, frame->GetTuple1(2), frame->GetTuple1(3), frame->GetTuple1(4)));
+    const double* box = cloud->GetBounds();
+    throw Failure(fmt::format("{}: {}{}", this->input, why,
+      box[1] - box[0] > 180.0
+        ? ", as its longitudes lie on both sides of 180 degrees"
+        : fmt::format(", or give metres a degree and of a unit of height: --scale {:.6g},{:.6g},{:.6g}",
+            frame->GetTuple1(2), frame->GetTuple1(3), frame->GetTuple1(4))));
   }
   resampler->SetInputData(cloud);
   this->lattice.configure(resampler);

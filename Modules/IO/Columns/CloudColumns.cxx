@@ -110,14 +110,16 @@ using Names = std::vector<std::vector<std::string>>;
 
 const std::vector<std::string> kXyz = { "x", "y", "z" };
 /// Other names of the three coordinates.
-const Names kCoordinateWords = { { "x", "easting", "east", "e", "rechtswert", "rechts", "rw", "ost", "est",
-                                   "este", "longitude", "lon", "long", "lng" },
-  { "y", "northing", "north", "n", "hochwert", "hoch", "hw", "nord", "norte", "latitude", "lat" },
-  { "z", "elevation", "elev", "height", "h", "altitude", "alt", "up", "hoehe", "h\xc3\xb6he", "cota" } };
+const Names kCoordinateWords = { { "x", "easting", "eastings", "east", "e", "rechtswert", "rechts", "rw",
+                                   "ost", "ostwert", "est", "este", "longitude", "lon", "long", "lng" },
+  { "y", "northing", "northings", "north", "n", "hochwert", "hoch", "hw", "nord", "nordwert", "norte",
+    "latitude", "lat" },
+  { "z", "elevation", "elev", "height", "h", "altitude", "alt", "up", "hoehe", "h\xc3\xb6he", "cota", "quota",
+    "level", "rl", "nhn" } };
 /// Words beside the name of a coordinate: "POINT_X", "x coordinate".
 const std::vector<std::string> kFillers = { "coord", "coords", "coordinate", "coordinates", "point", "points",
-  "pos", "position", "positions", "xyz", "field", "world", "global", "local", "utm", "map", "vertex",
-  "cartesian", "value" };
+  "pos", "position", "positions", "xyz", "field", "world", "global", "local", "utm", "map", "grid", "mga",
+  "ahd", "vertex", "cartesian", "value" };
 const std::vector<std::string> kDegrees = { "longitude", "lon", "long", "lng", "latitude", "lat" };
 const Names kColorsWithAlpha = { { "red", "green", "blue", "alpha" }, { "r", "g", "b", "a" },
   { "diffuse_red", "diffuse_green", "diffuse_blue", "diffuse_alpha" } };
@@ -212,7 +214,8 @@ std::vector<std::string> wordsOf(const std::string& name)
   return words;
 }
 
-/// Axis and unit that a column's name gives: 0 and "mm" for "X1 (mm)"; axis -1 where it names none.
+/// Axis and unit that a column's name gives: 0 and "mm" for "X1 (mm)"; axis -1 where it names none. The word
+/// in "Y (Rechtswert)" says more than its letter.
 struct CoordinateName
 {
   int axis = -1;
@@ -224,11 +227,17 @@ struct CoordinateName
   {
     const std::size_t bracket = std::min(name.find_first_of("[("), name.size());
     const std::size_t end = name.find_first_of("])", bracket);
+    std::string called = name.substr(0, bracket);
     if (end != std::string::npos)
     {
-      unit = trimmed(std::string_view(name).substr(bracket + 1, end - bracket - 1));
+      const std::string inside(trimmed(std::string_view(name).substr(bracket + 1, end - bracket - 1)));
+      const bool isWord = inside.size() > 2 &&
+        std::any_of(kCoordinateWords.begin(), kCoordinateWords.end(),
+          [&](const std::vector<std::string>& words) { return has(words, wordsOf(inside)[0]); });
+      unit = lengthUnitCalled(inside).empty() ? "" : inside;
+      called = isWord ? inside : called;
     }
-    for (const std::string& word : wordsOf(name.substr(0, bracket)))
+    for (const std::string& word : wordsOf(called))
     {
       const bool isUnit = (!rest.empty() || isPosition) && findLengthUnit(word);
       isPosition = isPosition || has(kFillers, word);

@@ -30,8 +30,18 @@ bool isLabel(const ColumnEvidence& column)
 
 bool areColors(const Columns& columns, std::size_t first);
 
-/// Whole numbers that count the rows, and coordinates that are not all whole; or any that differ, before
-/// three coordinates with decimals which are those of a map, or stand before three whole colours.
+/// Seconds or parts of them since an epoch, which no coordinates beside them reach.
+bool isEpoch(const Columns& columns)
+{
+  constexpr double kEpoch = 1e8;
+  return columns[0].least >= kEpoch && std::is_sorted(columns[0].sample.begin(), columns[0].sample.end()) &&
+    std::none_of(columns.begin() + 1, columns.begin() + 4,
+      [](const ColumnEvidence& c) { return c.most >= kEpoch || c.least <= -kEpoch; });
+}
+
+/// Whole numbers that count the rows, and coordinates that are not all whole; or any but epochs before three
+/// coordinates with decimals which are those of a map; or any that differ before such ones with whole
+/// colours.
 bool isId(const Columns& columns)
 {
   if (columns.size() < 4 || !columns[0].isWhole || columns[0].sample.size() < kFewestIds ||
@@ -44,8 +54,9 @@ bool isId(const Columns& columns)
   const bool hasDecimals =
     std::none_of(columns.begin() + 1, columns.begin() + 4, [](const ColumnEvidence& c) { return c.isWhole; });
   const bool hasColors = columns.size() >= 7 && columns[4].isWhole && areColors(columns, 4);
-  const bool isMap = columns[1].least >= kMapCoordinate && columns[2].least >= kMapCoordinate;
-  return (hasDecimals && (hasColors || isMap) && numberOfValues(columns[0]) == ids.size()) ||
+  const bool isMap =
+    columns[1].least >= kMapCoordinate && columns[2].least >= kMapCoordinate && !isEpoch(columns);
+  return (hasDecimals && (isMap || (hasColors && numberOfValues(columns[0]) == ids.size()))) ||
     std::adjacent_find(ids.begin(), ids.end(), [](double a, double b) { return b != a + 1.0; }) == ids.end();
 }
 
@@ -64,12 +75,11 @@ bool isSmooth(const ColumnEvidence& column)
   return true;
 }
 
-/// Times before the coordinates: seconds since an epoch, which no coordinates beside them reach, or numbers
-/// that grow by the same step beside the three coordinates of a path. A profile of a scanner also has
-/// coordinates of one step, but nothing that goes on smoothly in all three columns after them.
+/// Times before the coordinates: those of an epoch, or numbers that grow by the same step beside the three
+/// coordinates of a path. A profile of a scanner also has coordinates of one step, but nothing that goes on
+/// smoothly in all three columns after them.
 bool isClock(const Columns& columns)
 {
-  constexpr double kEpoch = 1e8;
   constexpr double kRounded = 1e-3; // of a step
   constexpr std::size_t kFewestWhole = 8;
   if (columns.size() < 4 || columns[0].sample.size() < kFewestIds)
@@ -87,11 +97,7 @@ bool isClock(const Columns& columns)
     }
     return isSame;
   };
-  const bool isEpoch = columns[0].least >= kEpoch &&
-    std::is_sorted(columns[0].sample.begin(), columns[0].sample.end()) &&
-    std::none_of(columns.begin() + 1, columns.begin() + 4,
-      [](const ColumnEvidence& c) { return c.most >= kEpoch || c.least <= -kEpoch; });
-  return isEpoch ||
+  return isEpoch(columns) ||
     ((!columns[0].isWhole || columns[0].sample.size() >= kFewestWhole) && isSteady(columns[0]) &&
       columns[0].sample.back() > columns[0].sample.front() &&
       std::none_of(columns.begin() + 1, columns.begin() + 4, isSteady) &&
@@ -242,7 +248,8 @@ bool mayBeNorthingFirst(const std::vector<ColumnEvidence>& columns, std::size_t 
   return isWithin(at, 1e6, 1e7) && isWithin(at + 1, 1e5, 1e6);
 }
 
-std::vector<std::string> guessColumnNames(const std::vector<ColumnEvidence>& columns, bool prefersColors)
+std::vector<std::string> guessColumnNames(
+  const std::vector<ColumnEvidence>& columns, bool prefersColors, bool hasName, bool hasDescription)
 {
   const bool hasId = isId(columns);
   const bool hasRays = !hasId && areRowAndColumn(columns);
@@ -254,7 +261,8 @@ std::vector<std::string> guessColumnNames(const std::vector<ColumnEvidence>& col
     names[0] = hasRays ? "row" : hasId ? "id" : "time";
     names[first - 1] = hasRays ? "column" : names[0];
   }
-  const char* const order = hasId && mayBeNorthingFirst(columns, first) ? "yxz" : "xyz";
+  const bool isSurvey = (hasId || hasName) && hasDescription;
+  const char* const order = isSurvey && mayBeNorthingFirst(columns, first) ? "yxz" : "xyz";
   for (std::size_t i = 0; i < 3 && first + i < names.size(); ++i)
   {
     names[first + i] = std::string(1, order[i]);
@@ -278,14 +286,24 @@ std::vector<std::string> guessColumnNames(const std::vector<ColumnEvidence>& col
   return names;
 }
 
-std::string guessNote(const std::vector<std::string>& names)
+std::string listOf(const std::vector<std::string>& names)
 {
   std::string list;
   for (const std::string& name : names)
   {
     list += (list.empty() ? "" : ",") + (name.empty() ? std::string("-") : name);
   }
-  return "no header names the columns, which are taken as " + list + "; --columns NAMES says otherwise";
+  return list;
+}
+
+std::string guessNote(const std::vector<std::string>& names, bool mayBeNorthing)
+{
+  std::vector<std::string> swapped = names;
+  const auto x = std::find(swapped.begin(), swapped.end(), "x");
+  x != swapped.end() ? std::iter_swap(x, std::find(swapped.begin(), swapped.end(), "y")) : void();
+  return "no header names the columns, which are taken as " + listOf(names) +
+    (mayBeNorthing ? "; where x is a northing, give --columns " + listOf(swapped)
+                   : "; --columns NAMES says otherwise");
 }
 
 } // namespace pointhaptics::io

@@ -25,20 +25,26 @@ struct ColumnEvidence
 
 /// Names for columns that have none:
 /// - whole numbers that count the rows, before three coordinates: id;
-/// - x, y, z; behind an id y, x, z where these can only be a northing and an easting;
+/// - x, y, z; of a survey y, x, z where mayBeNorthingFirst();
 /// - three of unit length together: nx ny nz; three within 0..1 or 0..255 together, or of 16 bits: red green
 ///   blue;
 /// - whole numbers of few values: label; one other number: intensity; more: column_4 and so on.
 /// Four whole numbers of which all may be colours are intensity and colours, unless the last is a label.
 /// @param prefersColors whether vectors that may be both are colours.
-std::vector<std::string> guessColumnNames(const std::vector<ColumnEvidence>& columns, bool prefersColors);
+/// @param hasName whether texts stand before the columns.
+/// @param hasDescription whether texts stand behind coordinates, which a survey is then: it has names or
+/// numbers before them, too.
+std::vector<std::string> guessColumnNames(const std::vector<ColumnEvidence>& columns, bool prefersColors,
+  bool hasName = false, bool hasDescription = false);
 
 /// True if the columns from @p at on may be northing and easting of UTM, whose eastings have a digit less.
-/// Feet of a state plane look so, too, the other way round; those of numbered points hardly come in this
-/// order.
+/// Feet of a state plane look so, too, the other way round.
 bool mayBeNorthingFirst(const std::vector<ColumnEvidence>& columns, std::size_t at = 0);
 
-/// "columns are taken as x,y,z,intensity, which no header says; --columns NAMES names them otherwise".
-std::string guessNote(const std::vector<std::string>& names);
+/// "a,b", with - for empty names.
+std::string listOf(const std::vector<std::string>& names);
+
+/// Says that columns are taken as @p names, and with @p mayBeNorthing that x may be a northing.
+std::string guessNote(const std::vector<std::string>& names, bool mayBeNorthing = false);
 
 } // namespace pointhaptics::io

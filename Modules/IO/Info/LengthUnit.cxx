@@ -131,15 +131,15 @@ const NamedUnit* findLengthUnit(const std::string& name)
   {
     return found;
   }
-  const auto hasWord = [&](const char* word)
+  const auto hasWord = [&](const std::string& word)
   {
     const std::size_t at = said.find(word);
     const auto isLetter = [&](std::size_t i)
     { return i < said.size() && std::isalpha(static_cast<unsigned char>(said[i])); };
-    return at != std::string::npos && !(at > 0 && isLetter(at - 1)) && !isLetter(at + 4);
+    return at != std::string::npos && !(at > 0 && isLetter(at - 1)) && !isLetter(at + word.size());
   };
-  const bool isFoot = hasWord("foot") || hasWord("feet");
-  return isFoot ? findLengthUnit(has(said, "survey") ? "US survey foot" : "foot") : nullptr;
+  const bool isFoot = hasWord("foot") || hasWord("feet") || (hasWord("ft") && hasWord("us"));
+  return isFoot ? findLengthUnit(has(said, "survey") || hasWord("us") ? "US survey foot" : "foot") : nullptr;
 }
 
 LengthUnit lengthUnitOf(vtkPolyData* cloud, const Bounds& bounds)

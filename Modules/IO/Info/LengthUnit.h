@@ -32,12 +32,12 @@ inline constexpr NamedUnit kLengthUnits[] = {
   { "km", 1e3, 9036, "kilometre", "kilometres kilometer kilometers" },
   { "in", 0.0254, 0, "inch", "inches" },
   { "ft", 0.3048, 9002, "foot", "feet" },
-  { "us-ft", 1200.0 / 3937.0, 9003, "US survey foot", "ftus" },
+  { "us-ft", 1200.0 / 3937.0, 9003, "US survey foot", "ftus usft sft" },
   { "yd", 0.9144, 9096, "yard", "yards yds" },
 };
 
-/// The unit that a file calls @p name, in upper or lower case, also in more words: "International Feet".
-/// Null: none is known.
+/// The unit that a file calls @p name, in upper or lower case, also in more words: "International Feet",
+/// "Foot_US". Null: none is known.
 POINTHAPTICSIO_EXPORT const NamedUnit* findLengthUnit(const std::string& name);
 
 enum class UnitEvidence

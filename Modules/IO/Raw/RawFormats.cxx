@@ -40,11 +40,14 @@ bool isLength(float value)
   return value == 0.0f || (std::abs(value) <= kMost && std::abs(value) >= kLeast);
 }
 
+/// Files that are cut have the extension.
 bool areScans(const FormatStart& start, std::size_t floats)
 {
   const std::size_t record = kFloat * floats;
   const std::size_t records = start.bytes.size() / record;
-  if (start.isText || start.size % record != 0 || records < (start.extension == "bin" ? 1 : kFewest))
+  const bool isNamed = start.extension == "bin";
+  const bool isCut = start.size % record != 0;
+  if (start.isText || (isCut && !isNamed) || records < (isNamed && !isCut ? 1 : kFewest))
   {
     return false;
   }

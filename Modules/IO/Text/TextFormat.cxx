@@ -99,15 +99,22 @@ std::vector<std::string> namesOf(
     const NumberColumn& numbers = table.columns[i].numbers;
     evidence.push_back({ table.columns[i].sample, numbers.smallest(), numbers.largest(), numbers.isWhole() });
   }
-  const std::vector<std::string> guessed = guessColumnNames(evidence, task.extension == "xyzrgb");
+  const bool hasName = !read.empty() && read[0] > 0;
+  const bool hasDescription =
+    table.hasMore || (!read.empty() && table.columns.size() - read[0] > read.size());
+  const std::vector<std::string> guessed =
+    guessColumnNames(evidence, task.extension == "xyzrgb", hasName, hasDescription);
   std::vector<std::string> names(table.columns.size());
   for (std::size_t i = 0; i < read.size(); ++i)
   {
     names[read[i]] = guessed[i];
   }
-  if ((read.size() > 3 && !layout.hasPointCount) || mayBeNorthingFirst(evidence)) // of PTS it is known
+  const auto x = std::find(guessed.begin(), guessed.end(), "x");
+  const bool mayBeNorthing = std::find(x, guessed.end(), "y") != guessed.end() &&
+    mayBeNorthingFirst(evidence, std::size_t(x - guessed.begin()));
+  if ((read.size() > 3 && !layout.hasPointCount) || mayBeNorthing) // of PTS it is known
   {
-    task.notes.push_back(guessNote(names));
+    task.notes.push_back(guessNote(names, mayBeNorthing));
   }
   return names;
 }
@@ -234,8 +241,8 @@ TextTable surveyLines(const ReadTask& task, std::string_view text, TextLayout& l
   }
 }
 
-void noteColumns(
-  const TextTable& table, const std::vector<std::string>& names, std::vector<std::string>& notes)
+void noteColumns(const TextTable& table, const TextLayout& layout, const std::vector<std::string>& names,
+  std::vector<std::string>& notes)
 {
   for (std::size_t i = 0; i < names.size(); ++i)
   {
@@ -249,7 +256,7 @@ void noteColumns(
         " has whole numbers of 2^53 and more, which are rounded: the last digits are lost");
     }
   }
-  if (table.hasMore)
+  if (table.hasMore && layout.note.empty()) // which says it
   {
     notes.push_back("what stands behind column " + std::to_string(names.size()) + ", " +
       inQuotes(names.back()) + ", is left out; --columns with more names reads more of each line");
@@ -278,7 +285,7 @@ void readTable(ReadTask& task, std::string_view text, TextLayout layout, vtkPoly
   const std::vector<std::size_t> read = columnsOfNumbers(table, layout);
   checkCoordinates(text, table, layout, read);
   const std::vector<std::string> names = namesOf(table, layout, read, task);
-  noteColumns(table, names, task.notes);
+  noteColumns(table, layout, names, task.notes);
   std::vector<Column> planned;
   for (const std::size_t i : read)
   {
@@ -333,6 +340,7 @@ void readText(ReadTask& task, vtkPolyData* cloud)
   failTornDecimals(text, layout);
   FileComments comments = layout.comments;
   takeUnits(layout.names, comments);
+  layout.note.empty() ? void() : task.notes.push_back(layout.note);
   readTable(task, text, layout, cloud);
   comments.moveTo(cloud, task.notes);
 }

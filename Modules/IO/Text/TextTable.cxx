@@ -85,6 +85,10 @@ void addComment(std::string_view comment, std::size_t number, TextLayout& layout
 /// Prose is no header, however long it is.
 bool nameByComment(const Title& title, TextLayout& layout)
 {
+  if (!title.isComment)
+  {
+    return false;
+  }
   std::string_view text = title.line.substr(0, kLongestHeader);
   const std::size_t list = std::min(text.find("[]"), text.find("..."));
   for (const std::size_t colon : { std::string_view::npos, text.substr(0, list).rfind(": ") })
@@ -108,30 +112,63 @@ bool nameByComment(const Title& title, TextLayout& layout)
   return false;
 }
 
-/// The names that the letters of a word such as PNEZD stand for, as surveyors call an order of columns; empty
-/// where @p line has no such word for @p columns columns. The description at the end may be missing.
-std::vector<std::string> namesOfOrder(std::string_view line, std::size_t columns)
+/// The columns that an order such as PNEZD names, as surveyors write it; empty where @p word is none. Small
+/// letters count from four on: nez is a nose.
+std::vector<std::string> namesOfOrder(std::string_view word)
 {
   constexpr std::string_view kLetters = "PNEXYZHDC";
   constexpr const char* kNames[] = { "point", "northing", "easting", "x", "y", "z", "height", "description",
     "code" };
-  while (!line.empty())
+  std::string letters;
+  bool isUpper = true;
+  for (const char c : word)
   {
-    const std::string_view word = line.substr(0, line.find_first_of(" \t,;:()"));
-    line.remove_prefix(std::min(word.size() + 1, line.size()));
-    if ((word.size() == columns || word.size() == columns + 1) &&
-      word.find_first_not_of(kLetters) == std::string_view::npos)
-    {
-      std::vector<std::string> names(columns);
-      std::transform(word.begin(), word.begin() + std::ptrdiff_t(columns), names.begin(),
-        [&](char letter) { return kNames[kLetters.find(letter)]; });
-      if (LineCells::namesCoordinates(names))
-      {
-        return names;
-      }
-    }
+    isUpper = isUpper && !(c >= 'a' && c <= 'z');
+    letters += c == '-' ? "" : std::string(1, c >= 'a' && c <= 'z' ? char(c - 'a' + 'A') : c);
   }
-  return {};
+  const std::size_t first = letters.find_first_not_of("PC");
+  const std::string pair = first <= 1 ? letters.substr(first, 2) : "";
+  const bool isOrder = (pair == "NE" || pair == "EN" || pair == "XY" || pair == "YX") &&
+    letters.find_first_of("ZH", first + 2) == first + 2 &&
+    letters.find_first_not_of("PDC", first + 3) == std::string::npos && (isUpper || letters.size() > 3);
+  std::vector<std::string> names(isOrder ? letters.size() : 0);
+  std::transform(letters.begin(), letters.begin() + std::ptrdiff_t(names.size()), names.begin(),
+    [&](char letter) { return kNames[kLetters.find(letter)]; });
+  return names;
+}
+
+/// Names the columns by an order in the words of @p title. A description is the rest of its line, may have
+/// any words or none, and is left out.
+bool nameByOrder(const Title& title, TextLayout& layout)
+{
+  const auto isOfWord = [](char c)
+  { return (c >= '0' && c <= '9') || ((c | 0x20) >= 'a' && (c | 0x20) <= 'z') || c == '-' || c == '_'; };
+  for (auto at = title.line.begin(); at != title.line.end();)
+  {
+    at = std::find_if(at, title.line.end(), isOfWord);
+    const auto end = std::find_if_not(at, title.line.end(), isOfWord);
+    const std::string word(at, end);
+    at = end;
+    std::vector<std::string> names = namesOfOrder(word);
+    const auto description = std::find(names.begin(), names.end(), "description");
+    const bool hasMore = description != names.end();
+    names.erase(description, names.end());
+    if (names.size() < 3 || (hasMore ? names.size() > layout.columns : names.size() != layout.columns))
+    {
+      continue;
+    }
+    std::vector<std::size_t> found;
+    findCoordinates(columnsCalled(names), found);
+    layout.note = found == std::vector<std::size_t>{ 0, 1, 2 } ? ""
+                                                               : inQuotes(word) + " in line " +
+        std::to_string(title.number) + " orders the columns as " + listOf(names) +
+        (hasMore ? " and a description, which is left out" : "") + "; --columns NAMES says otherwise";
+    layout.columns = names.size();
+    layout.hasMore = hasMore;
+    layout.names = std::move(names);
+    return true;
+  }
+  return false;
 }
 
 /// "x [mm]" for x with mm in the line of units.
@@ -181,26 +218,18 @@ void nameColumns(const std::vector<Title>& titles, const std::vector<std::string
       }
     }
   }
-  for (auto title = titles.rbegin(); title != titles.rend() && layout.names.empty(); ++title)
+  for (const auto name : { nameByComment, nameByOrder })
   {
-    layout.names = namesOfOrder(title->line, layout.columns);
-  }
-  if (!layout.names.empty())
-  {
-    return;
+    if (std::any_of(titles.rbegin(), titles.rend(), [&](const Title& title) { return name(title, layout); }))
+    {
+      return;
+    }
   }
   if (!lastFit.empty())
   {
     layout.names = lastFit;
     layout.columns = lastFit.size();
     return;
-  }
-  for (auto title = titles.rbegin(); title != titles.rend(); ++title)
-  {
-    if (title->isComment && nameByComment(*title, layout))
-    {
-      return;
-    }
   }
   layout.names = lastNames.size() >= 3 ? lastNames : layout.names; // which do not fit
 }
@@ -313,16 +342,12 @@ void TableWalk<Sink>::addSeparated(std::string_view line)
   {
     if (column >= layout_.columns)
     {
-      if (layout_.hasMore)
+      if (cell.empty()) // a separator at the end of a line is common
       {
-        sink_.more();
-        break;
+        continue;
       }
-      if (!cell.empty()) // a separator at the end of a line is common
-      {
-        failColumns(line);
-      }
-      continue;
+      layout_.hasMore ? sink_.more() : failColumns(line);
+      break;
     }
     double value = 0.0;
     NumberShape shape;

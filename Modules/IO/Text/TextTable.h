@@ -26,6 +26,7 @@ struct TextLayout
 {
   char separator = ' ';           ///< see separatorOf()
   std::vector<std::string> names; ///< of header, comment or user; empty when there are none
+  std::string note;               ///< on names that a word of order gives
   FileComments comments;
   bool hasPointCount = false; ///< PTS: lines that hold only a count stand before blocks of points
   std::size_t bodyOffset = 0; ///< first byte after the header, or the first byte of the data
@@ -42,8 +43,8 @@ struct TextLayout
 };
 
 /// Reads the lines up to the first one that holds numbers. Columns are called as the last line of names or
-/// comment before it says that has x, y and z and a name for each column; or as @p names, which the user
-/// gave. @throws FileProblem when a line has more than kMostColumns columns.
+/// comment before it says that has x, y and z and a name for each column, or else an order such as PNEZD; or
+/// as @p names, which the user gave. @throws FileProblem when a line has more than kMostColumns columns.
 TextLayout inspectText(std::string_view text, const std::vector<std::string>& names = {});
 
 /// Summarises the numbers that were added; stores none. Integers beyond 2^53 lose their last digits.

@@ -80,6 +80,7 @@ private:
   vtkPolyData* cloud_;
   MeshFaces& faces_ = task_.faces;
   bool inPointData_ = false;
+  bool hasPoints_ = false;
   Count tuples_ = 0; ///< Tuples of the section.
 };
 
@@ -251,7 +252,7 @@ void LegacyParser::parsePoints()
   {
     failNoPoints();
   }
-  if (cloud_->GetPoints())
+  if (std::exchange(hasPoints_, true)) // the caller's cloud may have points without a place already
   {
     failFormat(where() + "a second section POINTS", "keep one of the two");
   }
@@ -321,7 +322,7 @@ void LegacyParser::keepFaces(vtkDataArray* offsets, vtkDataArray* corners)
 
 void LegacyParser::add(const std::string& name, const Array& array, Count tuples)
 {
-  if (inPointData_ && cloud_->GetPoints() && tuples == static_cast<Count>(cloud_->GetNumberOfPoints()))
+  if (inPointData_ && hasPoints_ && tuples == static_cast<Count>(cloud_->GetNumberOfPoints()))
   {
     array->SetName(name.c_str());
     cloud_->GetPointData()->AddArray(array);
@@ -453,7 +454,7 @@ void LegacyParser::parse()
         "save it as PolyData (.vtp), for example with ParaView");
     }
   }
-  if (!cloud_->GetPoints())
+  if (!hasPoints_)
   {
     failTruncated("the file has no section POINTS");
   }

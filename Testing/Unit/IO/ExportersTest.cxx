@@ -161,7 +161,7 @@ TEST_F(Exporters, CoordinatesAreFoundUnderTheNamesOfOtherPrograms)
     { "xcoord,ycoord,zcoord", "" }, { "field.x,field.y,field.z", "" },
     { "\"Points_m_XYZ:0\",\"Points_m_XYZ:1\",\"Points_m_XYZ:2\"", "m" }, { "Rechtswert,Hochwert,Hoehe", "" },
     { "Points:0,Points:1,Points:2", "" }, { "pos_x,pos_y,pos_z", "" },
-    { "X (world),Y (world),Z (world)", "world" }, { "Easting [ft],Northing [ft],Elevation [ft]", "ft" } };
+    { "X (world),Y (world),Z (world)", "" }, { "Easting [ft],Northing [ft],Elevation [ft]", "ft" } };
   for (const auto& each : known)
   {
     const ReadResult result = readCloud(write("a.csv", std::string(each.header) + ",t\n1,2,3,9\n4,5,7,9\n"));

@@ -62,6 +62,18 @@ TEST_F(Variants, CutNumpyAndSplatsAreSalvaged)
   const std::string cut = write("a.splat", splats.substr(0, splats.size() - 5));
   expectRefused(readCloud(cut), "within its record 3");
   EXPECT_EQ(salvage(cut).points(), 2);
+  for (const int floats : { 4, 5 }) // of KITTI and nuScenes
+  {
+    std::string scan;
+    for (int i = 0; i < 10 * floats; ++i)
+    {
+      append(scan, i % floats == 4 ? 7.0f : 1.5f + 0.1f * static_cast<float>(i));
+    }
+    const std::string half = write("a.bin", scan.substr(0, scan.size() - 6));
+    expectRefused(readCloud(half), "within its record 10");
+    EXPECT_EQ(salvage(half).points(), 9);
+    EXPECT_EQ(salvage(half).array("ring") != nullptr, floats == 5);
+  }
 }
 
 TEST_F(Variants, Utf16WithoutAMarkIsText)

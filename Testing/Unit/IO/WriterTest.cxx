@@ -307,7 +307,7 @@ TEST_F(Writer, TheUnitComesBackFromEveryFormat)
       const bool isNoted = std::any_of(notes.begin(), notes.end(),
         [](const std::string& note)
         { return note.find("does not say that the unit is") != std::string::npos; });
-      EXPECT_EQ(isNoted, !isSaid);
+      EXPECT_EQ(isNoted, !isSaid && unit != "metre"); // which readers take where nothing is said
       const ReadResult result = readCloud(path("a." + extension));
       ASSERT_EQ(result.error, "");
       EXPECT_EQ(pointhaptics::io::fieldText(result.cloud->GetFieldData(), "LengthUnit"), isSaid ? unit : "");

@@ -3,7 +3,9 @@
 
 #include "IO/Info/FieldText.h"
 
+#include "vtkCellData.h"
 #include "vtkDataArray.h"
+#include "vtkFloatArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationStringKey.h"
 #include "vtkVariant.h"
@@ -165,6 +167,15 @@ TEST_F(WrittenNames, VtpKeepsArraysApartWhoseNamesXmlMakesOne)
   EXPECT_TRUE(isNoted(notes, "array 'a_' is called a__3"));
   EXPECT_TRUE(isNoted(notes, "what is noted of array 'a_' as UNITS_LABEL is left out"));
   EXPECT_EQ(notes.size(), 4u);
+  cloud->GetPoints()->GetData()->GetInformation()->Set(vtkDataArray::UNITS_LABEL(), "metre");
+  vtkNew<vtkFloatArray> cells;
+  cells->SetName("c");
+  cells->GetInformation()->Set(vtkDataArray::UNITS_LABEL(), "kelvin");
+  cloud->GetCellData()->AddArray(cells);
+  ASSERT_EQ(writeCloud(cloud, path("b.vtp"), &notes), "");
+  EXPECT_TRUE(isNoted(notes, "what is noted of array 'Points' as UNITS_LABEL is left out"));
+  EXPECT_TRUE(isNoted(notes, "what is noted of array 'c' as UNITS_LABEL is left out"));
+  cloud->GetCellData()->RemoveArray("c");
   ASSERT_EQ(writeCloud(cloud, path("a.ply"), &notes), "");
   EXPECT_TRUE(isNoted(notes, "what is noted of array 'a_' as UNITS_LABEL is left out"));
 }

@@ -62,6 +62,11 @@ TEST(LengthUnit, IsWhatTheFileSays)
   sayUnit(survey, "US survey foot");
   EXPECT_EQ(lengthUnitOf(survey, kMap).name, "us-ft");
   EXPECT_NEAR(lengthUnitOf(survey, kMap).metres, 0.3048006096, 1e-10);
+  for (const char* each : { "Foot_US", "US Feet", "Feet (US)", "usft", "sft", "US ft" })
+  {
+    EXPECT_STREQ(findLengthUnit(each)->name, "us-ft") << each;
+  }
+  EXPECT_STREQ(findLengthUnit("International Feet")->name, "ft");
   vtkNew<vtkPolyData> feet;
   sayUnit(feet, "foot");
   EXPECT_EQ(lengthUnitOf(feet, kMap).metres, 0.3048);

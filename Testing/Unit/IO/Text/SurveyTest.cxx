@@ -36,6 +36,51 @@ TEST_F(Survey, AWordOfLettersNamesTheColumns)
   expectSecond(write("g.txt", "# PEN of Zoe\n20.5 100.25 5\n21.5 101.25 6\n"), 21.5, 101.25, 6);
 }
 
+TEST_F(Survey, TheOrderIsAWordOfItsOwnAndGivesWayToNames)
+{
+  const std::string rows = "1,20.5,100.25,5,GRND\n2,21.5,101.25,6,GRND\n";
+  for (const char* title :
+    { "pnezd\n", "# P-N-E-Z-D\n", "\"PNEZD\"\n", "# Order=PNEZD\n", "# PNEZD/comma\n" })
+  {
+    SCOPED_TRACE(title);
+    const std::string file = write("a.csv", title + rows);
+    expectSecond(file, 101.25, 21.5, 6);
+    EXPECT_NE(readCloud(file).notes.at(0).find("orders the columns"), std::string::npos);
+  }
+  for (const char* prose :
+    { "# ZEN camera\n", "HEN LANE\n", "# the nez of it\n", "# PNEZ2\n", "# NEZ\n# x y z\n" })
+  {
+    SCOPED_TRACE(prose);
+    expectSecond(write("b.txt", std::string(prose) + "20.5 100.25 5\n21.5 101.25 6\n"), 21.5, 101.25, 6);
+    EXPECT_TRUE(readCloud(path("b.txt")).notes.empty());
+  }
+}
+
+TEST_F(Survey, DescriptionsHaveAnyWordsOrNone)
+{
+  for (const char* rows :
+    { "1,20.5,100.25,5\n2,21.5,101.25,6,GRND\n", "1,20.5,100.25,5,GRND\n2,21.5,101.25,6,\n",
+      "1,20.5,100.25,5,GRND\n2,21.5,101.25,6\n", "1 20.5 100.25 5 EDGE OF ROAD 0\n2 21.5 101.25 6 GRND\n",
+      "1 20.5 100.25 5 GRND\n2 21.5 101.25 6 EDGE OF ROAD 0\n" })
+  {
+    SCOPED_TRACE(rows);
+    expectSecond(write("a.csv", std::string("PNEZD\n") + rows), 101.25, 21.5, 6);
+  }
+}
+
+TEST_F(Survey, EpochsBeforeMapCoordinatesAreTimes)
+{
+  for (const char* three : { "000", "" }) // milliseconds and seconds
+  {
+    std::string rows;
+    for (const char* row : { "1700000000", "1700000002", "1700000003" })
+    {
+      rows += row + std::string(three) + " 412345.2 5350000.1 530.5\n";
+    }
+    EXPECT_NE(readCloud(write("a.txt", rows)).cloud->GetPointData()->GetArray("time"), nullptr);
+  }
+}
+
 TEST_F(Survey, NumberedPointsOfUtmAreTakenByTheirDigits)
 {
   const std::string northing = "1,5350000.1,412345.2,530,GRND\n2,5350003.1,412347.2,531,GRND\n"
@@ -44,13 +89,22 @@ TEST_F(Survey, NumberedPointsOfUtmAreTakenByTheirDigits)
   const std::vector<std::string> notes = readCloud(path("a.csv")).notes;
   EXPECT_TRUE(std::any_of(notes.begin(), notes.end(),
     [](const std::string& note) { return note.find("taken as id,y,x,z,-") != std::string::npos; }));
+  // Names and repeated numbers are like numbers.
+  expectSecond(write("f.csv", "CP1,5350000.1,412345.2,530,GRND\nCP2,5350003.1,412347.2,531,GRND\n"), 412347.2,
+    5350003.1, 531);
+  expectSecond(write("g.csv",
+                 "7,5350000.1,412345.2,530.5,A\n8,5350003.1,412347.2,531.5,A\n"
+                 "7,5350000.1,412345.2,530.5,A\n"),
+    412347.2, 5350003.1, 531.5);
   expectSecond(
     write("b.csv", "1,412345.2,5350000.1,530\n2,412347.2,5350003.1,531\n3,412341.2,5350001.1,532\n"),
     412347.2, 5350003.1, 531);
+  // Without numbers or texts these may be feet of a state plane, whose eastings have a digit more.
   expectSecond(
-    write("e.csv", "17,5350000.1,412345.2,530.5\n4,5350003.1,412347.2,531.5\n9,5350001.1,412341.2,532.5\n"),
-    412347.2, 5350003.1, 531.5);
-  // Without numbers these may be feet of a state plane, whose eastings have a digit more.
+    write("e.csv", "17,1005432.1,210321.5,42.5\n4,1005435.1,210323.5,43.5\n9,1005433.1,210325.5,44.5\n"),
+    1005435.1, 210323.5, 43.5);
+  ASSERT_EQ(readCloud(path("e.csv")).notes.size(), 1u);
+  EXPECT_NE(readCloud(path("e.csv")).notes[0].find("--columns id,y,x,z"), std::string::npos);
   expectSecond(write("c.xyz", "2100000.1 712345.2 530\n2100003.1 712347.2 531\n2100001.1 712341.2 532\n"),
     2100003.1, 712347.2, 531);
   EXPECT_EQ(readCloud(path("c.xyz")).notes.size(), 1u) << "it is said";
@@ -68,6 +122,14 @@ TEST_F(Survey, GermanHeadersAreKnown)
     expectSecond(write("a.csv", header + rows), 21.5, 101.25, 6);
   }
   expectSecond(write("b.csv", "Nr;Hochwert;Rechtswert;Hoehe\n" + rows), 101.25, 21.5, 6);
+  for (const char* header :
+    { "Punkt;Ostwert;Nordwert;NHN\n", "Nr;Y (Rechtswert);X (Hochwert);Z (H\xc3\xb6he)\n",
+      "Point ID;Eastings;Northings;Level\n", "Pt;Grid Easting;Grid Northing;RL\n", "Punto;Est;Nord;Quota\n",
+      "Pt;Eastings (m);Northings (m);Height (ODN)\n" })
+  {
+    SCOPED_TRACE(header);
+    expectSecond(write("c.csv", header + rows), 21.5, 101.25, 6);
+  }
 }
 
 } // namespace
