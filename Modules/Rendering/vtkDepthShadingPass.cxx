@@ -9,6 +9,7 @@
 #include "vtkActor.h"
 #include "vtkActor2D.h"
 #include "vtkCamera.h"
+#include "vtkHardwareSelector.h"
 #include "vtkMath.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLFramebufferObject.h"
@@ -162,8 +163,7 @@ void vtkDepthShadingPass::ChooseResolution(const vtkRenderState* state, vtkOpenG
 {
   this->ReadWindowSize(state);
   const double pixels = double(this->Width) * this->Height;
-  const bool isReduced =
-    this->IsMoving && !state->GetRenderer()->GetSelector() && pointhaptics::DrawPace::of(window).isNeeded();
+  const bool isReduced = this->IsMoving && pointhaptics::DrawPace::of(window).isNeeded();
   const double part = std::min(
     { 1.0, kMostMovingPixels / pixels, kMostMovingFragments / std::max(1.0, this->MovingFragments) });
   this->Resolution = isReduced ? std::max(kLeastResolution, std::sqrt(part)) : 1.0;
@@ -238,6 +238,14 @@ void vtkDepthShadingPass::RenderRightEye(const vtkRenderState* state)
 void vtkDepthShadingPass::Render(const vtkRenderState* state)
 {
   vtkRenderer* renderer = state->GetRenderer();
+  if (vtkHardwareSelector* selector = renderer->GetSelector())
+  {
+    // Selectors draw ids with their own Render(), which the renderer calls only where it has no pass.
+    renderer->GetActiveCamera()->Render(renderer);
+    this->NumberOfRenderedProps =
+      selector->Render(renderer, state->GetPropArray(), state->GetPropArrayCount());
+    return;
+  }
   vtkRenderWindow* window = renderer->GetRenderWindow();
   const bool isRight = window && window->GetStereoRender() && !renderer->GetActiveCamera()->GetLeftEye();
   if (isRight && !this->IsRightEye)
@@ -269,7 +277,7 @@ void vtkDepthShadingPass::RenderEye(const vtkRenderState* state)
   wanted.insert(wanted.end(),
     { this->NoiseLength, this->NoisePerDistance, this->Strength, this->MinimumLightness, this->Resolution,
       double(this->BlendsSplats) });
-  if (wanted != this->Kept || renderer->GetSelector())
+  if (wanted != this->Kept)
   {
     this->Kept.clear();
     this->DrawPicture(state, window);
@@ -278,7 +286,7 @@ void vtkDepthShadingPass::RenderEye(const vtkRenderState* state)
       return; // nobody sees it
     }
     this->Shade(renderer, window);
-    this->Kept = renderer->GetSelector() ? std::vector<double>() : std::move(wanted);
+    this->Kept = std::move(wanted);
     this->FromShown->DeepCopy(renderer->GetActiveCamera()->GetCompositeProjectionTransformMatrix(
       renderer->GetTiledAspectRatio(), -1.0, 1.0));
     this->FromShown->Invert();
@@ -294,16 +302,15 @@ void vtkDepthShadingPass::RenderEye(const vtkRenderState* state)
 /// Draws the picture of the delegate, before it is shaded.
 void vtkDepthShadingPass::DrawPicture(const vtkRenderState* state, vtkOpenGLRenderWindow* window)
 {
-  const bool blends = this->BlendsSplats && !state->GetRenderer()->GetSelector();
   window->GetState()->PushFramebufferBindings();
   Target& drawn = this->Drawn;
   drawn.Frame->Bind();
   // The right eye's pass is asked by none: its stage is the left one's, which stands at the renderer.
   vtkDepthShadingPass* asked = GetPassOf(state->GetRenderer());
   asked = asked ? asked : this;
-  asked->DrawnStage = blends ? Stage::Depths : Stage::Picture;
+  asked->DrawnStage = this->BlendsSplats ? Stage::Depths : Stage::Picture;
   this->RenderDelegate(state, this->W, this->H, this->W, this->H, drawn.Frame, drawn.Colors, drawn.Depths);
-  if (blends && !window->GetAbortRender())
+  if (this->BlendsSplats && !window->GetAbortRender())
   {
     this->FindFarthest(state->GetRenderer(), window);
     asked->DrawnStage = Stage::Blending;
@@ -390,9 +397,8 @@ void vtkDepthShadingPass::Shade(vtkRenderer* renderer, vtkOpenGLRenderWindow* wi
   {
     const DrawingInto into(this->Shown, state);
     this->Draw(*this->CopyQuad, this->Drawn, renderer);
-    if (!renderer->GetSelector() &&
-      this->PrepareQuad(
-        this->ShadeQuad, std::string(pointhaptics::kShade) + pointhaptics::kShadeShader, window, true))
+    if (this->PrepareQuad(
+          this->ShadeQuad, std::string(pointhaptics::kShade) + pointhaptics::kShadeShader, window, true))
     {
       state->vtkglDepthMask(GL_FALSE);
       state->vtkglDepthFunc(GL_GREATER);
