@@ -25,6 +25,7 @@
 #include "vtkSequencePass.h"
 #include "vtkShaderProgram.h"
 #include "vtkTextureObject.h"
+#include "vtkVolumeCollection.h"
 #include "vtk_glew.h"
 
 #include <algorithm>
@@ -171,7 +172,7 @@ void vtkDepthShadingPass::ChooseResolution(const vtkRenderState* state, vtkOpenG
   this->H = std::max(1, int(this->Resolution * this->Height));
 }
 
-void vtkDepthShadingPass::PrepareTargets(vtkOpenGLRenderWindow* window)
+void vtkDepthShadingPass::PrepareTargets(vtkRenderer* renderer, vtkOpenGLRenderWindow* window)
 {
   this->WindowFormat = depthFormatOfTarget();
   const int format = this->WindowFormat < 0 ? int(vtkTextureObject::Float32) : this->WindowFormat;
@@ -197,12 +198,16 @@ void vtkDepthShadingPass::PrepareTargets(vtkOpenGLRenderWindow* window)
       this->Kept.clear();
     }
   };
-  prepare(this->Drawn, VTK_UNSIGNED_CHAR, vtkTextureObject::Float32);
-  if (format != this->ShownFormat)
+  // Volumes copy the depths to a texture of the window's format, which takes no other.
+  const bool hasVolumes = renderer->GetVolumes()->GetNumberOfItems() > 0;
+  const int drawnFormat = hasVolumes ? format : int(vtkTextureObject::Float32);
+  if (format != this->ShownFormat || drawnFormat != this->DrawnFormat)
   {
-    this->Shown = Target();
+    this->Drawn = this->Shown = Target();
     this->ShownFormat = format;
+    this->DrawnFormat = drawnFormat;
   }
+  prepare(this->Drawn, VTK_UNSIGNED_CHAR, drawnFormat);
   prepare(this->Shown, VTK_UNSIGNED_CHAR, format);
   if (this->BlendsSplats)
   {
@@ -270,7 +275,7 @@ void vtkDepthShadingPass::RenderEye(const vtkRenderState* state)
     return;
   }
   this->ChooseResolution(state, window);
-  this->PrepareTargets(window);
+  this->PrepareTargets(renderer, window);
   pointhaptics::setClippingRangeToSteps(renderer->GetActiveCamera());
 
   std::vector<double> wanted = pointhaptics::pictureState(renderer);
