@@ -23,6 +23,9 @@
 namespace
 {
 
+constexpr const char* kTakenAway =
+  "the input was taken away as the update began; leave it until EndEvent, or set another one";
+
 /// Empty, but with points.
 void makeEmpty(vtkPolyData* output)
 {
@@ -54,7 +57,7 @@ struct vtkCloudAlgorithm::Parts
     if (!composite)
     {
       auto* cloud = vtkPointSet::SafeDownCast(input);
-      this->Add(cloud ? cloud : vtkSmartPointer<vtkPolyData>::New().Get()); // an observer took it away
+      this->Add(cloud ? cloud : vtkSmartPointer<vtkPolyData>::New().Get());
       for (vtkDataObject* result : results)
       {
         this->outputs.back().emplace_back(vtkPolyData::SafeDownCast(result));
@@ -199,7 +202,8 @@ int vtkCloudAlgorithm::RequestData(
   this->Warnings.clear();
   this->Warn(parts.others.empty() ? "" : "Blocks without points are left empty: " + parts.others + ".");
   parts.Empty();
-  const std::string problem = this->ProblemOf(input);
+  std::string problem = this->ProblemOf(input);
+  problem = input || !problem.empty() ? problem : kTakenAway;
   if (!problem.empty())
   {
     this->Fail(problem);
@@ -221,8 +225,6 @@ int vtkCloudAlgorithm::RequestData(
     parts.Empty();
   }
   this->EndRun(succeeded);
-  this->RunsAgain = this->GetMTime() > begin;
-  this->RunsAgain = this->RunsAgain || (!succeeded && (this->RepeatsErrors || this->ErrorMessage.empty()));
   if (succeeded)
   {
     for (const std::string& text : std::vector<std::string>(this->Warnings))
@@ -231,6 +233,9 @@ int vtkCloudAlgorithm::RequestData(
     }
     this->UpdateProgress(1.0);
   }
+  // Observers of the warnings and of the end of progress may set something, too.
+  this->RunsAgain =
+    this->GetMTime() > begin || (!succeeded && (this->RepeatsErrors || this->ErrorMessage.empty()));
   return 1;
 }
 

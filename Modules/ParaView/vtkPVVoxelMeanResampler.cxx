@@ -19,6 +19,7 @@ vtkStandardNewMacro(vtkPVVoxelMeanResampler);
 vtkPVVoxelMeanResampler::vtkPVVoxelMeanResampler()
   : Chosen(this->GetSettings().lattice)
 {
+  this->RepeatsErrors = false;
   this->Categorical->AddObserver(vtkCommand::ModifiedEvent, this, &vtkPVVoxelMeanResampler::ApplyChosen);
 }
 

@@ -24,7 +24,6 @@ vtkStandardNewMacro(vtkDistributedKernelBandwidthFilter);
 vtkDistributedKernelBandwidthFilter::vtkDistributedKernelBandwidthFilter()
   : Controller(vtkMultiProcessController::GetGlobalController())
 {
-  this->RepeatsErrors = false;
 }
 
 vtkDistributedKernelBandwidthFilter::~vtkDistributedKernelBandwidthFilter() = default;
@@ -38,7 +37,12 @@ vtkMultiProcessController* vtkDistributedKernelBandwidthFilter::GetController()
 
 std::string vtkDistributedKernelBandwidthFilter::ProblemOf(vtkDataObject* input)
 {
-  return MpiRanks(this->Controller).size() > 1 ? problemOfBlocks(input) : std::string();
+  if (MpiRanks(this->Controller).size() == 1)
+  {
+    return {};
+  }
+  this->RepeatsErrors = false; // ranks run together or not at all
+  return problemOfBlocks(input);
 }
 
 bool vtkDistributedKernelBandwidthFilter::RunCloud(vtkPointSet* cloud, const Outputs& outputs)

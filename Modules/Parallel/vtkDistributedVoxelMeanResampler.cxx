@@ -21,7 +21,6 @@ vtkStandardNewMacro(vtkDistributedVoxelMeanResampler);
 vtkDistributedVoxelMeanResampler::vtkDistributedVoxelMeanResampler()
   : Controller(vtkMultiProcessController::GetGlobalController())
 {
-  this->RepeatsErrors = false;
 }
 
 vtkDistributedVoxelMeanResampler::~vtkDistributedVoxelMeanResampler() = default;
@@ -35,7 +34,12 @@ vtkMultiProcessController* vtkDistributedVoxelMeanResampler::GetController()
 
 std::string vtkDistributedVoxelMeanResampler::ProblemOf(vtkDataObject* input)
 {
-  return MpiRanks(this->Controller).size() > 1 ? problemOfBlocks(input) : std::string();
+  if (MpiRanks(this->Controller).size() == 1)
+  {
+    return {};
+  }
+  this->RepeatsErrors = false; // ranks run together or not at all
+  return problemOfBlocks(input);
 }
 
 bool vtkDistributedVoxelMeanResampler::BeginRun(const Clouds& clouds)

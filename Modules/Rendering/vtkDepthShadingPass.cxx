@@ -9,6 +9,7 @@
 #include "vtkActor.h"
 #include "vtkActor2D.h"
 #include "vtkCamera.h"
+#include "vtkHardwareSelector.h"
 #include "vtkMath.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLFramebufferObject.h"
@@ -24,6 +25,7 @@
 #include "vtkSequencePass.h"
 #include "vtkShaderProgram.h"
 #include "vtkTextureObject.h"
+#include "vtkVolumeCollection.h"
 #include "vtk_glew.h"
 
 #include <algorithm>
@@ -162,8 +164,7 @@ void vtkDepthShadingPass::ChooseResolution(const vtkRenderState* state, vtkOpenG
 {
   this->ReadWindowSize(state);
   const double pixels = double(this->Width) * this->Height;
-  const bool isReduced =
-    this->IsMoving && !state->GetRenderer()->GetSelector() && pointhaptics::DrawPace::of(window).isNeeded();
+  const bool isReduced = this->IsMoving && pointhaptics::DrawPace::of(window).isNeeded();
   const double part = std::min(
     { 1.0, kMostMovingPixels / pixels, kMostMovingFragments / std::max(1.0, this->MovingFragments) });
   this->Resolution = isReduced ? std::max(kLeastResolution, std::sqrt(part)) : 1.0;
@@ -171,7 +172,7 @@ void vtkDepthShadingPass::ChooseResolution(const vtkRenderState* state, vtkOpenG
   this->H = std::max(1, int(this->Resolution * this->Height));
 }
 
-void vtkDepthShadingPass::PrepareTargets(vtkOpenGLRenderWindow* window)
+void vtkDepthShadingPass::PrepareTargets(vtkRenderer* renderer, vtkOpenGLRenderWindow* window)
 {
   this->WindowFormat = depthFormatOfTarget();
   const int format = this->WindowFormat < 0 ? int(vtkTextureObject::Float32) : this->WindowFormat;
@@ -197,12 +198,16 @@ void vtkDepthShadingPass::PrepareTargets(vtkOpenGLRenderWindow* window)
       this->Kept.clear();
     }
   };
-  prepare(this->Drawn, VTK_UNSIGNED_CHAR, vtkTextureObject::Float32);
-  if (format != this->ShownFormat)
+  // Volumes copy the depths to a texture of the window's format, which takes no other.
+  const bool hasVolumes = renderer->GetVolumes()->GetNumberOfItems() > 0;
+  const int drawnFormat = hasVolumes ? format : int(vtkTextureObject::Float32);
+  if (format != this->ShownFormat || drawnFormat != this->DrawnFormat)
   {
-    this->Shown = Target();
+    this->Drawn = this->Shown = Target();
     this->ShownFormat = format;
+    this->DrawnFormat = drawnFormat;
   }
+  prepare(this->Drawn, VTK_UNSIGNED_CHAR, drawnFormat);
   prepare(this->Shown, VTK_UNSIGNED_CHAR, format);
   if (this->BlendsSplats)
   {
@@ -238,6 +243,14 @@ void vtkDepthShadingPass::RenderRightEye(const vtkRenderState* state)
 void vtkDepthShadingPass::Render(const vtkRenderState* state)
 {
   vtkRenderer* renderer = state->GetRenderer();
+  if (vtkHardwareSelector* selector = renderer->GetSelector())
+  {
+    // Selectors draw ids with their own Render(), which the renderer calls only where it has no pass.
+    renderer->GetActiveCamera()->Render(renderer);
+    this->NumberOfRenderedProps =
+      selector->Render(renderer, state->GetPropArray(), state->GetPropArrayCount());
+    return;
+  }
   vtkRenderWindow* window = renderer->GetRenderWindow();
   const bool isRight = window && window->GetStereoRender() && !renderer->GetActiveCamera()->GetLeftEye();
   if (isRight && !this->IsRightEye)
@@ -262,14 +275,14 @@ void vtkDepthShadingPass::RenderEye(const vtkRenderState* state)
     return;
   }
   this->ChooseResolution(state, window);
-  this->PrepareTargets(window);
+  this->PrepareTargets(renderer, window);
   pointhaptics::setClippingRangeToSteps(renderer->GetActiveCamera());
 
   std::vector<double> wanted = pointhaptics::pictureState(renderer);
   wanted.insert(wanted.end(),
     { this->NoiseLength, this->NoisePerDistance, this->Strength, this->MinimumLightness, this->Resolution,
       double(this->BlendsSplats) });
-  if (wanted != this->Kept || renderer->GetSelector())
+  if (wanted != this->Kept)
   {
     this->Kept.clear();
     this->DrawPicture(state, window);
@@ -278,7 +291,7 @@ void vtkDepthShadingPass::RenderEye(const vtkRenderState* state)
       return; // nobody sees it
     }
     this->Shade(renderer, window);
-    this->Kept = renderer->GetSelector() ? std::vector<double>() : std::move(wanted);
+    this->Kept = std::move(wanted);
     this->FromShown->DeepCopy(renderer->GetActiveCamera()->GetCompositeProjectionTransformMatrix(
       renderer->GetTiledAspectRatio(), -1.0, 1.0));
     this->FromShown->Invert();
@@ -294,16 +307,15 @@ void vtkDepthShadingPass::RenderEye(const vtkRenderState* state)
 /// Draws the picture of the delegate, before it is shaded.
 void vtkDepthShadingPass::DrawPicture(const vtkRenderState* state, vtkOpenGLRenderWindow* window)
 {
-  const bool blends = this->BlendsSplats && !state->GetRenderer()->GetSelector();
   window->GetState()->PushFramebufferBindings();
   Target& drawn = this->Drawn;
   drawn.Frame->Bind();
   // The right eye's pass is asked by none: its stage is the left one's, which stands at the renderer.
   vtkDepthShadingPass* asked = GetPassOf(state->GetRenderer());
   asked = asked ? asked : this;
-  asked->DrawnStage = blends ? Stage::Depths : Stage::Picture;
+  asked->DrawnStage = this->BlendsSplats ? Stage::Depths : Stage::Picture;
   this->RenderDelegate(state, this->W, this->H, this->W, this->H, drawn.Frame, drawn.Colors, drawn.Depths);
-  if (blends && !window->GetAbortRender())
+  if (this->BlendsSplats && !window->GetAbortRender())
   {
     this->FindFarthest(state->GetRenderer(), window);
     asked->DrawnStage = Stage::Blending;
@@ -390,9 +402,8 @@ void vtkDepthShadingPass::Shade(vtkRenderer* renderer, vtkOpenGLRenderWindow* wi
   {
     const DrawingInto into(this->Shown, state);
     this->Draw(*this->CopyQuad, this->Drawn, renderer);
-    if (!renderer->GetSelector() &&
-      this->PrepareQuad(
-        this->ShadeQuad, std::string(pointhaptics::kShade) + pointhaptics::kShadeShader, window, true))
+    if (this->PrepareQuad(
+          this->ShadeQuad, std::string(pointhaptics::kShade) + pointhaptics::kShadeShader, window, true))
     {
       state->vtkglDepthMask(GL_FALSE);
       state->vtkglDepthFunc(GL_GREATER);

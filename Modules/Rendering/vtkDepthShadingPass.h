@@ -176,7 +176,7 @@ private:
   void RenderEye(const vtkRenderState* state);
   void RenderRightEye(const vtkRenderState* state);
   void ChooseResolution(const vtkRenderState* state, vtkOpenGLRenderWindow* window);
-  void PrepareTargets(vtkOpenGLRenderWindow* window);
+  void PrepareTargets(vtkRenderer* renderer, vtkOpenGLRenderWindow* window);
   bool PrepareQuad(std::unique_ptr<vtkOpenGLQuadHelper>& quad, const std::string& fragment,
     vtkOpenGLRenderWindow* window, bool isBehindAll = false);
   void SetUniforms(vtkShaderProgram* program, const Target& source, vtkRenderer* renderer);
@@ -203,6 +203,7 @@ private:
   Target Tiles;
   Target Shown;          // kept
   int ShownFormat = -1;  // of its depths
+  int DrawnFormat = -1;  ///< Format of the depths of Drawn.
   int WindowFormat = -1; // of those it is shown in; below 0: its bytes cannot be copied
   std::unique_ptr<vtkOpenGLQuadHelper> TileQuad;
   std::unique_ptr<vtkOpenGLQuadHelper> DivideQuad;

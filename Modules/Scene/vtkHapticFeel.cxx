@@ -61,6 +61,17 @@ public:
   }
 };
 
+/// Leaves it to vtkHapticFeel whether an error is said again.
+class FeltResampler : public vtkVoxelMeanResampler
+{
+public:
+  static FeltResampler* New();
+
+private:
+  FeltResampler() { this->RepeatsErrors = false; }
+};
+vtkStandardNewMacro(FeltResampler);
+
 /// The column of numbers @p name of @p table, or null.
 vtkDataArray* columnOf(vtkTable* table, const char* name)
 {
@@ -122,7 +133,7 @@ public:
   bool Feel(
     vtkHapticFeel* filter, const HipPath& path, std::int64_t ticks, vtkTable* output, std::string& odd);
 
-  vtkNew<vtkVoxelMeanResampler> Resampler;
+  vtkNew<FeltResampler> Resampler;
   vtkNew<vtkKernelBandwidthFilter> Bandwidth;
   vtkNew<ResamplerObserver> Observer;
   bool RunsAgain = false;
@@ -132,17 +143,17 @@ private:
   FeelScenes Scenes;
   /// MTimes of the inputs from which the scenes were made; MTimes are never given twice.
   vtkMTimeType CloudTime = 0;
-  vtkMTimeType FilterTime = 0;
+  vtkMTimeType ResamplerTime = 0;
+  vtkMTimeType BandwidthTime = 0;
   bool UsedCovariance = false;
   bool RefinedNearHand = false;
-
-  vtkMTimeType TimeOfFilters() const { return std::max(Resampler->GetMTime(), Bandwidth->GetMTime()); }
 };
 
 bool vtkHapticFeel::Internals::MakeScenes(vtkHapticFeel* filter, vtkPointSet* cloud, std::string& message)
 {
   const bool isKept = this->Scenes.whole() && this->CloudTime == cloud->GetMTime() &&
-    this->FilterTime == this->TimeOfFilters() && this->UsedCovariance == filter->UseCovariance &&
+    this->ResamplerTime == this->Resampler->GetMTime() &&
+    this->BandwidthTime == this->Bandwidth->GetMTime() && this->UsedCovariance == filter->UseCovariance &&
     this->RefinedNearHand == filter->RefineNearHand;
   if (isKept)
   {
@@ -150,6 +161,9 @@ bool vtkHapticFeel::Internals::MakeScenes(vtkHapticFeel* filter, vtkPointSet* cl
     return true;
   }
   this->CloudTime = 0;
+  // Observers may set these while the resampler runs.
+  const vtkMTimeType cloudTime = cloud->GetMTime();
+  this->BandwidthTime = this->Bandwidth->GetMTime();
   FeelSceneSettings settings;
   settings.bandwidth = this->Bandwidth->GetSettings();
   settings.useCovariance = filter->UseCovariance;
@@ -166,10 +180,10 @@ bool vtkHapticFeel::Internals::MakeScenes(vtkHapticFeel* filter, vtkPointSet* cl
     vtkWarningWithObjectMacro(filter, << this->Scenes.note());
   }
   filter->NumberOfFeltPoints = this->Resampler->GetOutput()->GetNumberOfPoints();
-  this->CloudTime = cloud->GetMTime();
-  this->FilterTime = this->TimeOfFilters();
-  this->UsedCovariance = filter->UseCovariance;
-  this->RefinedNearHand = filter->RefineNearHand;
+  this->CloudTime = cloudTime;
+  this->ResamplerTime = this->Resampler->GetMTime();
+  this->UsedCovariance = settings.useCovariance;
+  this->RefinedNearHand = settings.refineNearHand;
   return true;
 }
 
@@ -276,10 +290,16 @@ int vtkHapticFeel::RequestData(
   const vtkSmartPointer<vtkPointSet> cloud = vtkPointSet::GetData(inputVector[0]);
   const vtkSmartPointer<vtkTable> table = vtkTable::GetData(inputVector[1]);
   const vtkSmartPointer<vtkTable> output = vtkTable::GetData(outputVector);
+  // The run itself sets the resampler's input.
+  const auto setTime = [this]
+  { return std::max(this->Superclass::GetMTime(), this->Impl->Bandwidth->GetMTime()); };
+  const vtkMTimeType begin = setTime();
   const bool hasPoints = cloud && table && cloud->GetNumberOfPoints() > 0;
   HipPath path;
   std::int64_t ticks = 0;
-  std::string message;
+  std::string message = cloud && table
+    ? ""
+    : "an input was taken away as the update began; leave both until EndEvent, or set others";
   std::string odd;
   bool isFelt = false;
   HostStop stop(this->AbortExecute);
@@ -292,9 +312,8 @@ int vtkHapticFeel::RequestData(
     },
     stop.request());
   message = status == Status::Ok ? message : pointhaptics::message(status);
-  this->Impl->RunsAgain = !isFelt && hasPoints && (this->RepeatsErrors || message.empty());
   const unsigned long code = message.empty() ? vtkErrorCode::NoError : vtkErrorCode::UserError;
-  this->SetErrorCode(status == Status::Ok ? code : kOutOfMemoryCode);
+  this->ErrorCode = status == Status::Ok ? code : kOutOfMemoryCode; // without Modified(): nothing was set
   if (!isFelt)
   {
     output->Initialize();
@@ -308,6 +327,8 @@ int vtkHapticFeel::RequestData(
   {
     vtkWarningMacro(<< odd);
   }
+  this->Impl->RunsAgain =
+    setTime() > begin || (!isFelt && hasPoints && (this->RepeatsErrors || message.empty()));
   return 1;
 }
 

@@ -407,7 +407,7 @@ TEST(CloudAlgorithm, WhatIsSetInARunCountsFromTheNextOn)
 }
 
 /// Observers of the first events may take away the only reference to the input.
-TEST(CloudAlgorithm, AnInputThatIsTakenAwayIsAnEmptyOne)
+TEST(CloudAlgorithm, AnInputThatIsTakenAwayBeforeTheRunIsAnError)
 {
   for (const auto event : { vtkCommand::StartEvent, vtkCommand::ProgressEvent, vtkCommand::EndEvent })
   {
@@ -424,6 +424,7 @@ TEST(CloudAlgorithm, AnInputThatIsTakenAwayIsAnEmptyOne)
       const unsigned long tag = filter->AddObserver(event, take);
       filter->Update();
       ASSERT_NE(filter->GetOutput()->GetPoints(), nullptr);
+      EXPECT_EQ(filter->GetErrorCode() != 0, event != vtkCommand::EndEvent) << filter->GetErrorMessage();
       filter->RemoveObserver(tag);
       filter->SetInputDataObject(cloudAt(0, 2000, 16));
       filter->Update();
@@ -526,6 +527,31 @@ TEST(CloudAlgorithm, SettingsStayInTheirRanges)
   EXPECT_EQ(filter->GetNeighborhood(), int(vtkKernelBandwidthFilter::FixedRadius));
   filter->SetRule(9);
   EXPECT_EQ(filter->GetRule(), int(vtkKernelBandwidthFilter::SheatherJones));
+}
+
+/// The last events of a run come after its work.
+TEST(CloudAlgorithm, WhatIsSetAtTheEndOfARunCountsFromTheNextOn)
+{
+  for (const auto event : { vtkCommand::WarningEvent, vtkCommand::ProgressEvent })
+  {
+    vtkNew<vtkVoxelMeanResampler> resampler;
+    resampler->SetInputData(cloudAt(0, 2000, 17));
+    resampler->AddCategoricalArray("none");
+    vtkNew<vtkCallbackCommand> covariance;
+    covariance->SetCallback(
+      [](vtkObject* caller, unsigned long kind, void*, void*)
+      {
+        auto* self = vtkVoxelMeanResampler::SafeDownCast(caller);
+        self->SetComputeCovariance(
+          self->GetComputeCovariance() || kind == vtkCommand::WarningEvent || self->GetProgress() >= 1.0);
+      });
+    resampler->AddObserver(event, covariance);
+    for (const bool has : { false, true })
+    {
+      resampler->Update();
+      EXPECT_EQ(resampler->GetOutput()->GetPointData()->HasArray("VoxelCovariance") != 0, has) << event;
+    }
+  }
 }
 
 } // namespace

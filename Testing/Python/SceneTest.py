@@ -148,7 +148,7 @@ class Feel(TestCase):
             warnings.simplefilter("error")
             scene.feel(self.hand)
 
-    def test_the_filter_warns_of_units_too(self):
+    def filter_of(self, hand):
         from vtkmodules.util.numpy_support import numpy_to_vtk
         from vtkmodules.vtkCommonCore import vtkPoints
         from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkTable
@@ -156,19 +156,25 @@ class Feel(TestCase):
         points, cloud, path = vtkPoints(), vtkPolyData(), vtkTable()
         points.SetData(numpy_to_vtk(self.points, deep=True))
         cloud.SetPoints(points)
-        for name, column in zip("txyz", (self.hand * (1, 1000, 1000, 1000)).T):
+        for name, column in zip("txyz", hand.T):
             array = numpy_to_vtk(column.copy(), deep=True)
             array.SetName(name)
             path.AddColumn(array)
-        feel, said = ph.vtkHapticFeel(), []
+        feel = ph.vtkHapticFeel()
+        feel.SetInputDataObject(0, cloud)
+        feel.SetInputDataObject(1, path)
+        return feel
+
+    def test_the_filter_warns_of_units_too(self):
+        from vtkmodules.vtkCommonDataModel import vtkPolyData
+
+        feel, said = self.filter_of(self.hand * (1, 1000, 1000, 1000)), []
 
         def keep(caller, event, text):
             said.append(text)
 
         keep.CallDataType = "string0"
         feel.AddObserver("WarningEvent", keep)
-        feel.SetInputDataObject(0, cloud)
-        feel.SetInputDataObject(1, path)
         feel.Update()
         self.assertEqual(len(said), 1)
         self.assertIn("multiply the places of the path by 0.001", said[0])
@@ -179,6 +185,43 @@ class Feel(TestCase):
         feel.Update()
         self.assertEqual((said, feel.GetErrorCode(), feel.GetOutput().GetNumberOfRows()), ([], 0, 0))
         self.assertGreater(feel.GetOutput().GetNumberOfColumns(), 10)
+
+    def test_what_an_observer_sets_in_a_run_counts_from_the_next_on(self):
+        def soften(caller, event):
+            if caller.GetProgress() > 0.5:
+                caller.SetStiffness(100)
+
+        feel, largest = self.filter_of(self.hand), []
+        feel.AddObserver("ProgressEvent", soften)
+        for _ in range(3):
+            feel.Update()
+            column = feel.GetOutput().GetColumnByName("force_y")
+            largest.append(max(column.GetValue(row) for row in range(column.GetNumberOfValues())))
+        self.assertGreater(largest[0], 2 * largest[1])
+        self.assertEqual(largest[1], largest[2])
+        before = feel.GetMTime()
+        self.assertEqual(feel.GetMTime(), before)
+
+    def test_an_input_that_an_observer_takes_away_is_an_error(self):
+        feel, said = self.filter_of(self.hand), []
+        feel.AddObserver("ErrorEvent", lambda caller, event: said.append(event))
+        feel.AddObserver("StartEvent", lambda caller, event: caller.RemoveAllInputs())
+        feel.Update()
+        self.assertEqual(said, ["ErrorEvent"])
+        self.assertNotEqual(feel.GetErrorCode(), 0)
+
+    def test_the_inner_resampler_asks_for_no_run_of_its_own(self):
+        feel, said = self.filter_of(self.hand), []
+        feel.AddObserver("ErrorEvent", lambda caller, event: said.append(event))
+        feel.GetResampler().SetVoxelSize(1e-12)
+        for times in (1, 2):
+            feel.Update()
+            self.assertEqual(len(said), times)
+        before = feel.GetResampler().GetMTime()
+        self.assertEqual(feel.GetResampler().GetMTime(), before)
+        feel.GetResampler().SetVoxelSize(0.002)
+        feel.Update()
+        self.assertEqual((len(said), feel.GetErrorCode()), (2, 0))
 
     def test_ctrl_c_ends_a_long_path(self):
         scene = ph.Scene(self.points)

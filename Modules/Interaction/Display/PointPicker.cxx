@@ -4,7 +4,6 @@
 #include "ScenePipeline.h"
 #include "ScreenView.h"
 #include "StatusText.h"
-#include "vtkDepthShadingPass.h"
 #include "vtkPickMarker.h"
 
 #include "vtkActor.h"
@@ -65,19 +64,18 @@ PickedOfFile PointPicker::pickOfFile(int x, int y) const
 std::optional<Vec3> PointPicker::surfaceAt(int x, int y) const
 {
   vtkRenderer* renderer = screen_.renderer();
-  Vec3 shown;
   if (!renderer || !scenes_.cloud() || scenes_.isChanged())
   {
     return std::nullopt;
-  }
-  if (vtkDepthShadingPass::FindShown(renderer, x, y, kSurfacePixels, &shown.x))
-  {
-    return screen_.toWorkspace(x, y, screen_.toDisplay(shown).z);
   }
   PickedPoint picked;
   if (!pickPoint(scenes_.cloud(), renderer, x, y, kSurfacePixels, picked))
   {
     return std::nullopt;
+  }
+  if (picked.shown)
+  {
+    return screen_.toWorkspace(x, y, screen_.toDisplay(*picked.shown).z);
   }
   const auto asDeepAs = [&](const PickedPoint& point, double aside)
   { return screen_.toWorkspace(x + aside, y, screen_.toDisplay(point.inWorkspace).z); };

@@ -16,6 +16,7 @@
 #include "vtkCamera.h"
 #include "vtkDataArray.h"
 #include "vtkFieldData.h"
+#include "vtkMath.h"
 #include "vtkMatrix4x4.h"
 #include "vtkNew.h"
 #include "vtkPlane.h"
@@ -46,6 +47,8 @@ constexpr int kLeastDecimals = 3;
 constexpr double kLeastFixed = 1e5;
 constexpr double kLargestFixed = 1e9;
 constexpr int kMostComponents = 9;
+/// Neighbours whose reach tells how far points are apart: those around a point of a grid.
+constexpr int kNeighbors = 8;
 
 std::optional<Vec3> placeInCloud(vtkPolyData* cloud, const Vec3& inWorkspace)
 {
@@ -218,11 +221,53 @@ std::function<bool(vtkIdType, const Vec3&)> drawnBy(vtkActor* actor)
   };
 }
 
-bool pickPoint(vtkPolyData* cloud, vtkRenderer* renderer, double x, double y, double pixels,
-  PickedPoint& picked, vtkMatrix4x4* toWorkspace, const std::function<bool(vtkIdType, const Vec3&)>& isDrawn)
+namespace
 {
-  Vec3 shown;
-  const bool isShown = vtkDepthShadingPass::FindShown(renderer, x, y, pixels, &shown.x);
+
+/// True if a place that is drawn belongs to the surface at the point @p found, which is nearest to it: it is
+/// no farther than twice the reach of the point's neighbours, or than @p slack.
+bool isOfSurface(
+  vtkPolyData* cloud, vtkIdType found, const Vec3& shown, double slack, vtkMatrix4x4* toWorkspace)
+{
+  const auto placeOf = [&](vtkIdType i)
+  {
+    Vec3 p;
+    cloud->GetPoint(i, &p.x);
+    return toWorkspace ? transformed(toWorkspace, p) : p;
+  };
+  const Vec3 middle = placeOf(found);
+  const double away = norm2(shown - middle);
+  if (away <= slack * slack)
+  {
+    return true;
+  }
+  // Count the neighbours within half of that distance.
+  int nearer = 0;
+  for (vtkIdType i = 0; i < cloud->GetNumberOfPoints() && nearer < kNeighbors; ++i)
+  {
+    nearer += i != found && 4.0 * norm2(placeOf(i) - middle) < away ? 1 : 0;
+  }
+  return nearer < kNeighbors && nearer < std::max(vtkIdType(1), cloud->GetNumberOfPoints() - 1);
+}
+
+/// Length of @p pixels of the picture as deep as @p place.
+double lengthOf(vtkRenderer* renderer, double pixels, const Vec3& place)
+{
+  vtkCamera* camera = renderer->GetActiveCamera();
+  Vec3 eye;
+  Vec3 forward;
+  camera->GetPosition(&eye.x);
+  camera->GetDirectionOfProjection(&forward.x);
+  const double halfHeight = camera->GetParallelProjection()
+    ? camera->GetParallelScale()
+    : dot(place - eye, forward) * std::tan(0.5 * vtkMath::RadiansFromDegrees(camera->GetViewAngle()));
+  return 2.0 * halfHeight * pixels / std::max(1, renderer->GetSize()[1]);
+}
+
+/// Finds the point that pickPoint() takes: by the place that is @p shown, or else by its pixel. -1: none.
+vtkIdType findPicked(vtkPolyData* cloud, vtkRenderer* renderer, double x, double y, double pixels,
+  const Vec3* shown, vtkMatrix4x4* toWorkspace, const std::function<bool(vtkIdType, const Vec3&)>& isDrawn)
+{
   const ScreenProjection project(renderer, x);
   const std::array<double, 2> pointer = placeInPicture(renderer, x, y);
   const double pointerX = pointer[0] - renderer->GetViewport()[0] * renderer->GetVTKWindow()->GetSize()[0];
@@ -238,17 +283,35 @@ bool pickPoint(vtkPolyData* cloud, vtkRenderer* renderer, double x, double y, do
     Vec3 p;
     cloud->GetPoint(i, &p.x);
     const Vec3 at = toWorkspace ? transformed(toWorkspace, p) : p;
-    const double away = isShown ? norm2(at - shown) : dot(at - eye, forward);
+    const double away = shown ? norm2(at - *shown) : dot(at - eye, forward);
     if (!(away < best) || (isDrawn && !isDrawn(i, p)))
     {
       continue;
     }
-    const Pixel pixel = isShown ? Pixel() : project(at);
-    if (isShown || (pixel.seen && std::hypot(pixel.x - pointerX, pixel.y - pointerY) <= pixels))
+    const Pixel pixel = shown ? Pixel() : project(at);
+    if (shown || (pixel.seen && std::hypot(pixel.x - pointerX, pixel.y - pointerY) <= pixels))
     {
       best = away;
       found = i;
     }
+  }
+  return found;
+}
+
+} // namespace
+
+bool pickPoint(vtkPolyData* cloud, vtkRenderer* renderer, double x, double y, double pixels,
+  PickedPoint& picked, vtkMatrix4x4* toWorkspace, const std::function<bool(vtkIdType, const Vec3&)>& isDrawn)
+{
+  Vec3 shown;
+  const bool isShown = vtkDepthShadingPass::FindShown(renderer, x, y, pixels, &shown.x);
+  vtkIdType found =
+    isShown ? findPicked(cloud, renderer, x, y, pixels, &shown, toWorkspace, isDrawn) : vtkIdType(-1);
+  const bool isOfCloud =
+    found >= 0 && isOfSurface(cloud, found, shown, lengthOf(renderer, pixels, shown), toWorkspace);
+  if (!isOfCloud)
+  {
+    found = findPicked(cloud, renderer, x, y, pixels, nullptr, toWorkspace, isDrawn);
   }
   if (found < 0)
   {
@@ -256,6 +319,7 @@ bool pickPoint(vtkPolyData* cloud, vtkRenderer* renderer, double x, double y, do
   }
   picked = PickedPoint();
   picked.index = found;
+  picked.shown = isOfCloud ? std::optional<Vec3>(shown) : std::nullopt;
   cloud->GetPoint(found, &picked.inWorkspace.x);
   picked.inCloud = placeInCloud(cloud, picked.inWorkspace);
   findVoxel(cloud, picked);

@@ -28,6 +28,7 @@ struct PickedPoint
 {
   vtkIdType index = -1;              ///< Index in the picked cloud.
   Vec3 inWorkspace;                  ///< Position in the workspace, metres.
+  std::optional<Vec3> shown;         ///< Place on the drawn cloud under the pointer, where depths tell it.
   std::optional<Vec3> inCloud;       ///< In the frame of the file, where the cloud says how it was mapped.
   std::optional<Vec3> voxel;         ///< Whole numbers from 0, where the cloud has a lattice.
   std::optional<Bounds> voxelBounds; ///< Bounds of that voxel in the workspace.
@@ -47,7 +48,8 @@ struct PickedOfFile
 /// Picks the point of @p cloud (in the workspace's frame: the output of vtkVoxelMeanResampler) that is drawn
 /// at the display position (@p x, @p y) of @p renderer's window, or within @p pixels of it: the one nearest
 /// to what the picture shows there, see vtkDepthShadingPass::FindShown(); without such a picture the one
-/// nearest to the camera. False: there is none. Cost: a few ns a point. GUI thread only.
+/// nearest to the camera. What is drawn farther from the cloud than its points are apart is no part of it.
+/// False: there is none. Cost: a few ns a point. GUI thread only.
 /// @param toWorkspace of a cloud in another frame, as that of its file; null: it is in the workspace.
 /// @param isDrawn of points, by index and place in the frame of @p cloud; empty: all are.
 POINTHAPTICSINTERACTION_EXPORT bool pickPoint(vtkPolyData* cloud, vtkRenderer* renderer, double x, double y,

@@ -75,7 +75,10 @@ void HapticTouch::showMeans()
   actor->SetMapper(mapper);
   applyCloudAppearance(style_->GetScenes().cloud(), mapper, actor);
   actor->GetProperty()->SetColor(kClayColor[0], kClayColor[1], kClayColor[2]);
-  applyDepthShading(renderer); // means have no normals: depths show their shape
+  if (!renderer->GetPass())
+  {
+    applyDepthShading(renderer); // means have no normals: depths show their shape
+  }
   renderer->AddActor(actor);
   style_->SetCloudActor(actor);
 }

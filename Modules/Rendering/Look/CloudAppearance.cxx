@@ -11,6 +11,7 @@
 #include "vtkLightsPass.h"
 #include "vtkLookupTable.h"
 #include "vtkNew.h"
+#include "vtkObjectFactory.h"
 #include "vtkOpaquePass.h"
 #include "vtkOverlayPass.h"
 #include "vtkPointData.h"
@@ -19,10 +20,12 @@
 #include "vtkPolyDataMapper.h"
 #include "vtkProperty.h"
 #include "vtkRenderPassCollection.h"
+#include "vtkRenderState.h"
 #include "vtkRenderer.h"
 #include "vtkSequencePass.h"
 #include "vtkSmartPointer.h"
 #include "vtkTranslucentPass.h"
+#include "vtkVolumetricPass.h"
 
 #include <algorithm>
 #include <array>
@@ -371,6 +374,26 @@ void applyFigureAppearance(vtkPolyDataMapper* mapper, vtkActor* actor, vtkRender
   renderer->SetBackground(1.0, 1.0, 1.0);
 }
 
+namespace
+{
+
+/// Draws nothing into the ids of a selector, which draws the overlays itself.
+class OverlaysOfPicture : public vtkOverlayPass
+{
+public:
+  static OverlaysOfPicture* New();
+  void Render(const vtkRenderState* state) override
+  {
+    if (!state->GetRenderer()->GetSelector())
+    {
+      this->vtkOverlayPass::Render(state);
+    }
+  }
+};
+vtkStandardNewMacro(OverlaysOfPicture);
+
+} // namespace
+
 void applyDepthShading(vtkRenderer* renderer, double noise, double noisePerDistance)
 {
   if (vtkDepthShadingPass* present = vtkDepthShadingPass::GetPassOf(renderer))
@@ -382,10 +405,12 @@ void applyDepthShading(vtkRenderer* renderer, double noise, double noisePerDista
   vtkNew<vtkLightsPass> lights;
   vtkNew<vtkOpaquePass> opaque;
   vtkNew<vtkTranslucentPass> translucent;
+  vtkNew<vtkVolumetricPass> volumes;
   vtkNew<vtkRenderPassCollection> worldPasses;
   worldPasses->AddItem(lights);
   worldPasses->AddItem(opaque);
   worldPasses->AddItem(translucent);
+  worldPasses->AddItem(volumes);
   vtkNew<vtkSequencePass> world;
   world->SetPasses(worldPasses);
   vtkNew<vtkCameraPass> camera;
@@ -395,7 +420,7 @@ void applyDepthShading(vtkRenderer* renderer, double noise, double noisePerDista
   shading->SetNoiseLength(noise);
   shading->SetNoisePerDistance(noisePerDistance);
   // Text is drawn after the shading, as it has no depth.
-  vtkNew<vtkOverlayPass> overlay;
+  vtkNew<OverlaysOfPicture> overlay;
   vtkNew<vtkRenderPassCollection> passes;
   passes->AddItem(shading);
   passes->AddItem(overlay);

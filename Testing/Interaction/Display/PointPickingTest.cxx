@@ -13,6 +13,8 @@
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
 
 #include <string>
 #include <vector>
@@ -271,6 +273,62 @@ TEST(PointPicking, TakesADiscWhereverItIsSeen)
   EXPECT_EQ(pickedAt(100, 143), 0) << "four pixels beside it";
   EXPECT_EQ(pickedAt(100, 150), -1);
   EXPECT_EQ(pickedAt(190, 10), -1);
+}
+
+/// A wall beside the cloud and a line in front of it are drawn, too.
+TEST(PointPicking, TakesNothingThatIsNoCloud)
+{
+  SKIP_WITHOUT_DISPLAY();
+  pointhaptics::OffscreenWindow seen(400, 400);
+  vtkNew<vtkPoints> points;
+  for (int i = 0; i < 400; ++i)
+  {
+    points->InsertNextPoint(0.001 * (i % 20 - 35), 0.001 * (i / 20 - 10), 0.0);
+  }
+  vtkNew<vtkPolyData> cloud;
+  cloud->SetPoints(points);
+  vtkNew<vtkSplatMapper> mapper;
+  mapper->SetInputData(cloud);
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  seen.renderer->AddActor(actor);
+  vtkNew<vtkPolyData> others;
+  vtkNew<vtkPoints> corners;
+  const double places[][3] = { { 0.01, -0.04, -0.01 }, { 0.04, -0.04, -0.01 }, { 0.04, 0.04, -0.01 },
+    { 0.01, 0.04, -0.01 }, { -0.04, 0.0, 0.03 }, { 0.005, 0.0, 0.03 } };
+  for (const auto& place : places)
+  {
+    corners->InsertNextPoint(place);
+  }
+  others->SetPoints(corners);
+  others->AllocateExact(2, 6);
+  const vtkIdType wall[] = { 0, 1, 2, 3 };
+  const vtkIdType line[] = { 4, 5 };
+  others->InsertNextCell(VTK_LINE, 2, line);
+  others->InsertNextCell(VTK_QUAD, 4, wall);
+  vtkNew<vtkPolyDataMapper> plain;
+  plain->SetInputData(others);
+  vtkNew<vtkActor> other;
+  other->SetMapper(plain);
+  other->GetProperty()->SetLineWidth(5.0F);
+  seen.renderer->AddActor(other);
+  pointhaptics::applyDepthShading(seen.renderer);
+  seen.window->Render();
+  const auto pickAt = [&](const Vec3& place, PickedPoint& picked)
+  {
+    seen.renderer->SetWorldPoint(place.x, place.y, place.z, 1.0);
+    seen.renderer->WorldToDisplay();
+    const double* at = seen.renderer->GetDisplayPoint();
+    return pickPoint(cloud, seen.renderer, at[0], at[1], 8.0, picked);
+  };
+  PickedPoint picked;
+  ASSERT_TRUE(pickAt({ -0.0205, 0.0055, 0.0 }, picked));
+  ASSERT_TRUE(picked.shown);
+  EXPECT_NEAR(picked.shown->z, 0.0, 1e-3);
+  EXPECT_FALSE(pickAt({ 0.025, 0.0, -0.01 }, picked)) << "the wall, 100 pixels from the cloud";
+  EXPECT_FALSE(pickAt({ 0.003, 0.0, 0.03 }, picked)) << "the line beside the cloud";
+  ASSERT_TRUE(pickAt({ -0.02, 0.0, 0.03 }, picked)) << "the line in front of the cloud";
+  EXPECT_FALSE(picked.shown) << "the cloud is behind it";
 }
 
 } // namespace

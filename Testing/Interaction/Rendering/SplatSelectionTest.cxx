@@ -1,3 +1,4 @@
+#include "CloudAppearance.h"
 #include "vtkInteractorStyleHaptic.h"
 #include "vtkSplatMapper.h"
 
@@ -18,8 +19,10 @@
 #include <vtkPropPicker.h>
 #include <vtkProperty.h>
 #include <vtkRenderWindowInteractor.h>
+#include <vtkRenderedAreaPicker.h>
 #include <vtkSelection.h>
 #include <vtkSelectionNode.h>
+#include <vtkTextActor.h>
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
@@ -309,6 +312,34 @@ TEST(SplatSelection, KeyOfTheStylesLeavesThePictureAsItWas)
       EXPECT_EQ(view.picture(), before) << style->GetClassName() << " at " << place;
     }
     interactor->SetInteractorStyle(nullptr);
+  }
+}
+
+/// A renderer with a pass leaves the drawing of ids to the pass.
+TEST(SplatSelection, PicksAndSelectionsFindSplatsThatAreShadedByDepth)
+{
+  SKIP_WITHOUT_DISPLAY();
+  SplatActor cloud(wave(Cells::OfOnePoint, false), false, 1.0);
+  SelectionWindow plain(cloud.actor);
+  plain.window->Render();
+  const std::set<vtkIdType> ids = plain.idsIn(90, 120, kPoints);
+  ASSERT_GT(ids.size(), 10u);
+  SelectionWindow view(cloud.actor, plain.renderer->GetActiveCamera());
+  pointhaptics::applyDepthShading(view.renderer);
+  vtkNew<vtkTextActor> text; // is drawn after the shading, and is not picked
+  text->SetInput("over");
+  text->SetPosition(90, 90);
+  text->PickableOff();
+  view.renderer->AddActor(text);
+  const std::vector<unsigned char> before = view.picture();
+  for (int time = 0; time < 2; ++time)
+  {
+    EXPECT_EQ(view.idsIn(90, 120, kPoints), ids);
+    EXPECT_EQ(view.picture(), before) << "after a selection";
+    vtkNew<vtkRenderedAreaPicker> picker;
+    EXPECT_TRUE(picker->AreaPick(90, 90, 120, 120, view.renderer));
+    EXPECT_EQ(picker->GetActor(), cloud.actor);
+    EXPECT_EQ(view.picture(), before) << "after a pick";
   }
 }
 

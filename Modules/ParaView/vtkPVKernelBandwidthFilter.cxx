@@ -1,0 +1,5 @@
+#include "vtkPVKernelBandwidthFilter.h"
+
+#include "vtkObjectFactory.h"
+
+vtkStandardNewMacro(vtkPVKernelBandwidthFilter);
