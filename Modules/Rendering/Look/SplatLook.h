@@ -38,7 +38,7 @@ struct MeasuredCloud
   NeighborQuery query;
   LocalShape shape;
   CloudLook look;
-  std::vector<float> diameters; ///< Of the splats, as the file says; empty: the shape tells.
+  std::vector<float> diameters; ///< As the file says; none or 0: the shape tells.
 };
 
 /// Measures @p cloud, of which all points are finite. Of more than three million points those within half a
