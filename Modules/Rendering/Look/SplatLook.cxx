@@ -12,7 +12,6 @@
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkShortArray.h"
-#include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
 #include <cmath>
@@ -195,7 +194,7 @@ void addSplats(vtkPolyData* points, const MeasuredCloud& measured)
   normals->SetName(kSplatNormalName);
   normals->SetNumberOfComponents(3);
   normals->SetNumberOfTuples(count);
-  vtkNew<vtkUnsignedCharArray> growths;
+  vtkNew<vtkFloatArray> growths;
   growths->SetName(kSplatGrowthName);
   growths->SetNumberOfValues(count);
   const auto addOne = [&](std::int64_t i)
@@ -218,9 +217,7 @@ void addSplats(vtkPolyData* points, const MeasuredCloud& measured)
     const double length =
       own > 0.0 ? own : std::max({ bounded, least, 2.0 * kOverlap * closed * double(each.reach) });
     lengths->SetValue(i, float(length));
-    const double growth =
-      usual > 0.0 ? std::clamp(kNoSplatGrowth * length / usual, 1.0, 255.0) : kNoSplatGrowth;
-    growths->SetValue(i, static_cast<unsigned char>(std::lround(growth)));
+    growths->SetValue(i, usual > 0.0 && length > 0.0 ? float(length / usual) : 1.0F);
     const Vec3 n{ double(each.normal[0]), double(each.normal[1]), double(each.normal[2]) };
     const double side = facesSensor && dot(n, places[i]) > 0.0 ? -1.0 : 1.0;
     for (int axis = 0; axis < 3; ++axis)
@@ -274,7 +271,7 @@ void addDensity(vtkPolyData* points)
   {
     Vec3 n;
     normals->GetTuple(i, &n.x);
-    const double usual = std::abs(lengths->GetComponent(i, 0)) * kNoSplatGrowth / growths->GetComponent(i, 0);
+    const double usual = std::abs(lengths->GetComponent(i, 0)) / growths->GetComponent(i, 0);
     const double spacing = usual / usualDiameter(norm(n) / kSplatNormalUnit, 1.0);
     density->SetValue(i, spacing > 0.0 ? float(1.0 / (spacing * spacing)) : NAN);
   }

@@ -494,6 +494,13 @@ TEST(CloudLook, TakesSizeAndTiltOfGaussianSplats)
   cloud->GetPointData()->GetArray(kSplatNormalName)->GetTuple(7, normal);
   EXPECT_NEAR(std::abs(normal[2]) / kSplatNormalUnit, 0.98, 1e-3);
   EXPECT_NEAR(normal[0], 0.0, 2.0);
+  addDensity(cloud);
+  for (vtkIdType i = 0; i < cloud->GetNumberOfPoints(); i += 100)
+  {
+    const double spacing = double(measured.shape.points[std::size_t(i)].spacing);
+    EXPECT_NEAR(
+      cloud->GetPointData()->GetArray("Density")->GetComponent(i, 0) * spacing * spacing, 1.0, 1e-3);
+  }
 }
 
 /// Two clouds in one: the second one has neither scales nor rotations.
