@@ -72,8 +72,7 @@ constexpr double kArrowThickness = 0.06;
 constexpr double kHiddenSphere = 0.75;
 constexpr double kHiddenFreeSphere = 0.35;
 constexpr double kVisibleMotion = 1e-4;
-/// Radius of a sphere that is drawn: around a larger one, as a few points far apart have, there is nothing to
-/// see.
+/// Radius of the largest sphere that is drawn. A few points far apart have larger ones.
 constexpr double kLargestSphere = 0.5;
 /// Radius of a sphere that is drawn larger than it is, points: in a close view it would hide what it touches.
 constexpr double kLargestEnlarged = 24.0;
@@ -125,6 +124,25 @@ Vec3 originOf(vtkMatrix4x4* matrix)
   return columnOf(matrix, 3);
 }
 
+Vec3 rightOf(vtkCamera* camera)
+{
+  Vec3 forward;
+  Vec3 up;
+  camera->GetDirectionOfProjection(&forward.x);
+  camera->GetViewUp(&up.x);
+  return cross(forward, up);
+}
+
+/// Direction from the eye to @p place.
+Vec3 sightTo(const Vec3& place, vtkCamera* camera)
+{
+  Vec3 sight;
+  Vec3 eye;
+  camera->GetDirectionOfProjection(&sight.x);
+  camera->GetPosition(&eye.x);
+  return camera->GetParallelProjection() ? sight : normalized(place - eye, sight);
+}
+
 } // namespace
 
 struct vtkHapticProps::Internals
@@ -140,10 +158,9 @@ struct vtkHapticProps::Internals
   vtkNew<vtkOverlayActor> normal;
   vtkNew<vtkOverlayActor> hip;
   vtkNew<vtkOverlayActor> force;
-  /// Drawn in this order: what stands in the sphere is seen through it, and the force hides the normal that
-  /// it lies along.
+  /// Drawn in this order: the sphere lets see what stands in it, and the force hides the normal.
   std::array<vtkOverlayActor*, 4> all() { return { normal, proxy, hip, force }; }
-  /// The back of a larger shape, seen beside the mark alone; or a line.
+  /// A ring about a ball, the back of a larger arrow, or a line.
   struct Rim
   {
     vtkNew<vtkOverlayActor> actor;
@@ -183,9 +200,9 @@ struct vtkHapticProps::Internals
     {
       visit(this->rims[k][1].actor);
       visit(this->rims[k][0].actor);
-      for (std::size_t i = 0; i < 4 && k == 0; ++i)
+      for (std::size_t i = 0; i < 4 && k == 2; ++i)
       {
-        visit(this->all()[i]); // after the lines beside the normal, before what stands behind them
+        visit(this->all()[i]); // over the lines and the rings, before what stands behind them
       }
     }
   }
@@ -199,16 +216,7 @@ struct vtkHapticProps::Internals
   /// On the screen: the gauge stands where the arrow goes, not over what it comes from.
   bool pointsLeft(const Vec3& along) const
   {
-    if (!this->renderer)
-    {
-      return false;
-    }
-    vtkCamera* camera = this->renderer->GetActiveCamera();
-    Vec3 forward;
-    Vec3 up;
-    camera->GetDirectionOfProjection(&forward.x);
-    camera->GetViewUp(&up.x);
-    return dot(along, cross(forward, up)) < 0.0;
+    return this->renderer && dot(along, rightOf(this->renderer->GetActiveCamera())) < 0.0;
   }
 };
 
@@ -219,15 +227,10 @@ double vtkHapticProps::Internals::pointAt(const Vec3& place) const
   {
     return 0.0;
   }
-  vtkCamera* camera = this->renderer->GetActiveCamera();
-  Vec3 forward;
-  Vec3 up;
-  camera->GetDirectionOfProjection(&forward.x);
-  camera->GetViewUp(&up.x);
   const pointhaptics::ScreenProjection project(this->renderer);
   const double way = 0.01 * this->edge;
   const auto middle = project(place);
-  const auto side = project(place + way * normalized(cross(forward, up)));
+  const auto side = project(place + way * normalized(rightOf(this->renderer->GetActiveCamera())));
   const double pixels = std::hypot(side.x - middle.x, side.y - middle.y);
   return middle.seen && side.seen && pixels > 0.0
     ? way / pixels * pointhaptics::pixelsPerPoint(this->renderer)
@@ -242,8 +245,7 @@ double vtkHapticProps::Internals::drawnRadius() const
     this->state.radius, most > 0.0 ? std::min(this->smallestRadius, most) : this->smallestRadius);
 }
 
-/// An arrow that is seen end-on starts above the sphere on the screen, by @p way, not in front of it or
-/// behind.
+/// Lifts the foot of an arrow that is seen end-on above the sphere on the screen, by @p way.
 Vec3 vtkHapticProps::Internals::lift(const Vec3& center, const Vec3& along, double way) const
 {
   if (!this->renderer || !this->renderer->IsActiveCameraCreated())
@@ -251,13 +253,9 @@ Vec3 vtkHapticProps::Internals::lift(const Vec3& center, const Vec3& along, doub
     return {};
   }
   vtkCamera* camera = this->renderer->GetActiveCamera();
-  Vec3 sight;
-  Vec3 eye;
+  const Vec3 sight = sightTo(center, camera);
   Vec3 up;
-  camera->GetDirectionOfProjection(&sight.x);
-  camera->GetPosition(&eye.x);
   camera->GetViewUp(&up.x);
-  sight = camera->GetParallelProjection() ? sight : normalized(center - eye, sight);
   const double part =
     std::clamp((std::abs(dot(along, sight)) - kNearlyEndOn) / (kEndOn - kNearlyEndOn), 0.0, 1.0);
   return part * way * normalized(up - dot(up, sight) * sight);
@@ -296,14 +294,14 @@ void vtkHapticProps::Internals::setUpRims()
   {
     this->rimArrows[i]->SetShaftResolution(20);
     this->rimArrows[i]->SetTipResolution(20);
-    vtkAlgorithmOutput* shapes[6] = { this->line->GetOutputPort(), this->sphere->GetOutputPort(),
-      this->ball->GetOutputPort(), this->rimArrows[i]->GetOutputPort(), this->line->GetOutputPort(),
+    vtkAlgorithmOutput* shapes[6] = { this->line->GetOutputPort(), this->circle->GetOutputPort(),
+      this->circle->GetOutputPort(), this->rimArrows[i]->GetOutputPort(), this->line->GetOutputPort(),
       this->circle->GetOutputPort() };
     for (std::size_t k = 0; k < 6; ++k)
     {
       Rim& rim = this->rims[k][i];
-      setUpMark(rim.actor, shapes[k], k < 4 ? kRimColors[i] : kNearColors[i], false, k < 4 ? 0.0 : 1.0);
-      rim.actor->GetProperty()->SetFrontfaceCulling(k > 0 && k < 4);
+      setUpMark(rim.actor, shapes[k], k < 4 ? kRimColors[i] : kNearColors[i], false, k % 3 == 0 ? 0.0 : 1.0);
+      rim.actor->GetProperty()->SetFrontfaceCulling(k == 3);
       rim.actor->SetUserMatrix(rim.matrix);
       rim.actor->VisibilityOff();
     }
@@ -328,15 +326,17 @@ void vtkHapticProps::Internals::placeRims()
     {
       const bool isRim = k < 4 && this->outlined && point > 0.0 && this->all()[k]->GetVisibility();
       this->rims[k][i].actor->SetVisibility(isRim || (k >= 4 && this->showsNearest));
-      const double inside = k < 4 ? double(this->colors.lineWidth) : 0.0;
-      const double beside = k < 4 ? 2.0 * kRims[i] : kNearWidths[i];
+      const double inside = k == 0 ? double(this->colors.lineWidth) : 0.0;
+      const double beside = k == 0 ? 2.0 * kRims[i] : k < 4 ? kRims[i] : kNearWidths[i];
       this->rims[k][i].actor->GetProperty()->SetLineWidth(float(inside + beside * thicker * pixels));
+      if (vtkMatrix4x4* mark = k == 1 ? this->proxyMatrix : this->hipMatrix; isRim && (k == 1 || k == 2))
+      {
+        setFrame(this->rims[k][i].matrix, originOf(mark),
+          sightTo(originOf(mark), this->renderer->GetActiveCamera()), 1.0,
+          norm(columnOf(mark, 0)) + 0.5 * width);
+      }
     }
     this->rims[0][i].matrix->DeepCopy(this->normalMatrix);
-    const double radius = norm(columnOf(this->proxyMatrix, 0)) + width;
-    setFrame(this->rims[1][i].matrix, originOf(this->proxyMatrix), { 1, 0, 0 }, radius, radius);
-    const double hipRadius = norm(columnOf(this->hipMatrix, 0)) + width;
-    setFrame(this->rims[2][i].matrix, originOf(this->hipMatrix), { 1, 0, 0 }, hipRadius, hipRadius);
     const double longer = length + 2.0 * width;
     setFrame(this->rims[3][i].matrix, originOf(this->forceMatrix) - width * normalized(ahead),
       normalized(ahead), longer, thickness);

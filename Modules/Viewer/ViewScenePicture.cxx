@@ -204,7 +204,7 @@ std::optional<ViewScene::ColorBarPlace> ViewScene::placeOnBar(double x, double y
   const int* corner = renderer_->GetOrigin(); // a chart may lie below
   const double across = x - corner[0];
   const double along = y - corner[1] - strip[1];
-  const double left = besideStrip ? std::min<double>(barBox_.left, strip[0]) : strip[0];
+  const double left = besideStrip && !barBox_.empty() ? barBox_.left : strip[0];
   const bool isInside = across >= left && across <= strip[0] + strip[2] && along >= 0.0 && along <= strip[3];
   return isInside ? std::optional(ColorBarPlace{ along / strip[3], double(strip[3]) }) : std::nullopt;
 }

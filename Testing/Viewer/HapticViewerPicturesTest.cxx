@@ -436,6 +436,14 @@ TEST_F(HapticViewerPictures, SaysWhatBoxTheCloudHasWhereTheClippingBoxHoldsNothi
   EXPECT_NE(viewer.message().find("the cloud has 0,2.49,0,0.01,0,0"), std::string::npos) << viewer.message();
 }
 
+TEST_F(HapticViewerPictures, SaysThatAllPointsAreHidden)
+{
+  options_.picture.hidden = { { "Height", -INFINITY, INFINITY } };
+  HapticViewer viewer(options_, observer_);
+  EXPECT_FALSE(viewer.open({ this->writeCloud("plane.csv", 500) }));
+  EXPECT_NE(viewer.message().find("all points are hidden by"), std::string::npos) << viewer.message();
+}
+
 /// Pixels that differ from the lower left one by more than a little.
 int drawnPixels(const std::string& fileName, int fromRow, int toRow)
 {

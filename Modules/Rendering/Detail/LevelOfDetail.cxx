@@ -340,8 +340,7 @@ std::int64_t LevelOfDetail::finestFor(vtkPolyData* cloud)
   {
     // Splats that close wide gaps are larger than their spacing says.
     vtkDataArray* growths = cloud->GetPointData()->GetArray(kSplatGrowthName);
-    spacing_ = splats->Settings().sizeScale / kDiameterPerSpacing * (growths ? kNoSplatGrowth : 1.0) *
-      quantileOfPositive(lengths, 9, growths);
+    spacing_ = splats->Settings().sizeScale / kDiameterPerSpacing * quantileOfPositive(lengths, 9, growths);
   }
   vtkMatrix4x4* toClip = renderer_->GetActiveCamera()->GetCompositeProjectionTransformMatrix(
     renderer_->GetTiledAspectRatio(), -1, 1);

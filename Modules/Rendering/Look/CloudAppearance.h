@@ -90,6 +90,9 @@ POINTHAPTICSRENDERING_EXPORT bool applyCloudAppearance(vtkPolyData* cloud, vtkPo
 /// Width of the range of colours of an array that holds only @p value: such a range has one label.
 POINTHAPTICSRENDERING_EXPORT double widthOfOneValue(double value);
 
+/// "LOW to HIGH", with the decimals of the labels of a bar of colours over that range.
+POINTHAPTICSRENDERING_EXPORT std::string rangeText(double low, double high);
+
 /// Sets dark text on the light background, at the right edge: see placeScalarBar().
 POINTHAPTICSRENDERING_EXPORT void setUpScalarBar(vtkScalarBarActor* bar);
 

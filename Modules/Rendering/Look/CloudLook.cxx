@@ -187,62 +187,88 @@ void lookAtTerrain(CloudLook& look, const PointView& cloud, const LocalShape& sh
   }
 }
 
-/// Box about the points of a sample that are no floaters: those that lie on a surface, or have company in a
-/// lattice of some spacings. Empty: none is a floater, or more are than floaters can be.
-Bounds coreOf(const PointView& cloud, const LocalShape& shape)
+/// A point of a sample, and whether it lies on a surface.
+struct SamplePoint
 {
-  constexpr double kSpacings = 2.0; // so a surface has 4 points in a cell
-  constexpr int kFewest = 5;        // in 27 cells; a surface has 36 there, a line 6
-  constexpr float kOnSurface = 0.3F;
-  constexpr double kMostFloaters = 0.1;
-  constexpr double kCells = 1 << 20; // along an axis
-  const std::int64_t step = 1 + cloud.size() / kSample;
-  const double edge = kSpacings * shape.medianSpacing * std::sqrt(double(step));
-  Bounds all;
-  for (std::int64_t i = 0; i < cloud.size(); i += step)
-  {
-    all.include(cloud[i]);
-  }
-  const Vec3 size = all.extent();
-  if (!(edge > 0.0) || !(std::max({ size.x, size.y, size.z }) < kCells * edge))
-  {
-    return {};
-  }
+  Vec3 place;
+  bool isOnSurface;
+};
+
+/// Takes the points out of @p rest that lie on a surface or have company: at least @p fewest points of the
+/// rest in 27 cells of this @p edge. Returns their box.
+Bounds takeTogether(std::vector<SamplePoint>& rest, const Vec3& corner, double edge, int fewest)
+{
   const auto cellOf = [&](const Vec3& p)
   {
     std::int64_t cell = 0;
     for (int axis = 0; axis < 3; ++axis)
     {
-      cell = (cell << 21) + 1 + std::int64_t((p[axis] - all.minimum[axis]) / edge);
+      cell = (cell << 21) + 1 + std::int64_t((p[axis] - corner[axis]) / edge);
     }
     return cell;
   };
   std::unordered_map<std::int64_t, int> counts;
-  for (std::int64_t i = 0; i < cloud.size(); i += step)
+  for (const SamplePoint& point : rest)
   {
-    ++counts[cellOf(cloud[i])];
+    ++counts[cellOf(point.place)];
   }
-  const auto hasCompany = [&](const Vec3& p)
+  Bounds together;
+  const auto isTogether = [&](const SamplePoint& point)
   {
     int count = 0;
-    for (int i = 0; i < 27 && count < kFewest; ++i)
+    for (int i = 0; i < 27 && count < fewest; ++i)
     {
       const std::int64_t beside =
         (std::int64_t(i / 9 - 1) << 42) + (std::int64_t(i / 3 % 3 - 1) << 21) + i % 3 - 1;
-      const auto found = counts.find(cellOf(p) + beside);
+      const auto found = counts.find(cellOf(point.place) + beside);
       count += found == counts.end() ? 0 : found->second;
     }
-    return count >= kFewest;
+    const bool takes = point.isOnSurface || count >= fewest;
+    takes ? together.include(point.place) : void();
+    return takes;
   };
-  Bounds core;
-  double floaters = 0.0;
-  double looked = 0.0;
-  for (std::int64_t i = 0; i < cloud.size(); i += step, looked += 1.0)
+  rest.erase(std::remove_if(rest.begin(), rest.end(), isTogether), rest.end());
+  return together;
+}
+
+/// Box about the points of a sample that are no floaters. What has no company at the spacing of the cloud may
+/// be a sparse part beside a dense one: there the points have company of their own kind in wider cells.
+/// Empty: none is a floater, or more are than floaters can be.
+Bounds coreOf(const PointView& cloud, const LocalShape& shape)
+{
+  constexpr double kSpacings = 2.0;        // so a surface has 4 points in a cell
+  constexpr int kFewest = 5;               // in 27 cells; a surface has 36 there, a line 6
+  constexpr double kSparseSpacings = 16.0; // a line has 48 points in 27 cells, floaters at most 12
+  constexpr int kFewestSparse = 30;
+  constexpr float kOnSurface = 0.3F;
+  constexpr double kMostFloaters = 0.1;
+  constexpr double kCells = 1 << 20; // along an axis
+  const std::int64_t step = 1 + cloud.size() / kSample;
+  const double spacing = shape.medianSpacing * std::sqrt(double(step));
+  Bounds all;
+  std::vector<SamplePoint> rest;
+  for (std::int64_t i = 0; i < cloud.size(); i += step)
   {
-    const bool isCore = shape.points[std::size_t(i)].flatness > kOnSurface || hasCompany(cloud[i]);
-    isCore ? core.include(cloud[i]) : void(floaters += 1.0);
+    all.include(cloud[i]);
+    rest.push_back({ cloud[i], shape.points[std::size_t(i)].flatness > kOnSurface });
   }
-  return floaters == 0.0 || floaters > kMostFloaters * looked ? Bounds() : grown(core, 0.5 * edge);
+  const Vec3 size = all.extent();
+  if (!(spacing > 0.0) || !(std::max({ size.x, size.y, size.z }) < kCells * kSpacings * spacing))
+  {
+    return {};
+  }
+  const double most = kMostFloaters * double(rest.size());
+  Bounds core =
+    grown(takeTogether(rest, all.minimum, kSpacings * spacing, kFewest), 0.5 * kSpacings * spacing);
+  const Bounds sparse = takeTogether(rest, all.minimum, kSparseSpacings * spacing, kFewestSparse);
+  if (!sparse.empty())
+  {
+    // The outskirts are sparser still.
+    const Bounds wider = grown(sparse, kSparseSpacings * spacing);
+    core.include(wider.minimum);
+    core.include(wider.maximum);
+  }
+  return rest.empty() || double(rest.size()) > most ? Bounds() : core;
 }
 
 /// The axes of a view.

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <iterator>
 #include <string>
@@ -21,21 +22,37 @@ static constexpr double kLongest = 1e6; // others are written with an exponent
 
 double widthOfOneValue(double value)
 {
-  return std::max(1e-12, 1e-6 * std::abs(value));
+  return std::max(1e-12, 1e-9 * std::abs(value)); // a step of heights is far more, also of a northing
 }
 
 /// Format with which neighbouring labels, @p step apart, differ: three digits as a rule, and no point behind
-/// the last.
+/// the last. The step alone decides about the decimals and an exponent: a northing is large.
 static std::string labelFormat(const double range[2], double step)
 {
   constexpr double kThreeDigits = 99.5;
+  constexpr double kLeastOfThree = 0.01;
   const double largest = std::max(std::abs(range[0]), std::abs(range[1]));
-  if (!(largest >= kThreeDigits && largest < kLongest && step > 0.0))
+  if (!(step >= 1e-6 && step < kLongest) || (largest < kThreeDigits && step >= kLeastOfThree * largest))
   {
-    return "%#.3g ";
+    return "%#.3g";
   }
-  const int decimals = std::clamp(int(std::ceil(-std::log10(step))), 0, 6 - int(std::log10(largest)));
-  return "%." + std::to_string(decimals) + "f ";
+  return "%." + std::to_string(std::clamp(int(std::ceil(-std::log10(step))), 0, 6)) + "f";
+}
+
+std::string rangeText(double low, double high)
+{
+  constexpr double kSteps = 3.0; // as between the labels of the bar
+  const double range[2] = { low, high };
+  std::string format = labelFormat(range, (high - low) / kSteps);
+  format.erase(
+    std::remove(format.begin(), format.end(), '#'), format.end()); // no zeros behind the last digit
+  const auto text = [&format](double value)
+  {
+    char written[400]; // 309 digits at most
+    std::snprintf(written, sizeof written, format.c_str(), value);
+    return std::string(written);
+  };
+  return text(low) + " to " + text(high);
 }
 
 /// Sets the labels. Between whole numbers, such as counts and returns, all are whole. An array of one value
@@ -63,7 +80,7 @@ static void labelScalarBar(vtkScalarBarActor* bar)
   }
   bar->SetNumberOfLabels(labels);
   const std::string format =
-    areWhole || !range ? "%.0f " : labelFormat(range, (range[1] - range[0]) / std::max(1, labels - 1));
+    areWhole || !range ? "%.0f " : labelFormat(range, (range[1] - range[0]) / std::max(1, labels - 1)) + " ";
   bar->SetLabelFormat(format.c_str());
 }
 

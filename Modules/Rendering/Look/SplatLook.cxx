@@ -12,7 +12,6 @@
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkShortArray.h"
-#include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
 #include <cmath>
@@ -143,38 +142,37 @@ void takeOwnShapes(vtkPolyData* cloud, const std::vector<std::uint32_t>& drawn, 
   const bool areSplats =
     scales && turns && scales->GetNumberOfComponents() == 3 && turns->GetNumberOfComponents() == 4;
   std::vector<PointShape>& shapes = measured.shape.points;
-  if (areSplats)
-  {
-    measured.diameters.resize(shapes.size());
-    measured.look.closesAll = measured.look.hasOwnLight = true;
-  }
+  std::vector<float> own;
+  measured.diameters.resize(areSplats ? shapes.size() : 0);
   for (std::size_t i = 0; i < shapes.size() && (areSplats || normals); ++i)
   {
     const auto of = vtkIdType(drawn.empty() ? i : drawn[i]);
     Vec3 normal{ double(shapes[i].normal[0]), double(shapes[i].normal[1]), double(shapes[i].normal[2]) };
-    if (areSplats)
+    // A cloud that is joined with splats has neither scales nor rotations.
+    const OwnDisc disc = areSplats ? discOf(scales, turns, of) : OwnDisc();
+    if (disc.diameter > 0.0)
     {
-      const OwnDisc disc = discOf(scales, turns, of);
       const double most = 2.0 * double(PointShape::kLargestReach) * double(shapes[i].spacing);
       const double least = std::max(2.0 * kOverlap * double(shapes[i].reach), // where it closes a surface
         double(shapes[i].flatness) * usualDiameter(1.0, double(shapes[i].spacing)));
       measured.diameters[i] = float(std::max(std::min(disc.diameter, most), least));
+      own.push_back(measured.diameters[i]);
       shapes[i].flatness = float(disc.flatness);
       normal = disc.normal;
     }
-    else
+    else if (normals)
     {
-      Vec3 own;
-      normals->GetTuple(of, &own.x);
-      normal = normalized(own, normal);
+      Vec3 given;
+      normals->GetTuple(of, &given.x);
+      normal = normalized(given, normal);
     }
     std::copy(&normal.x, &normal.x + 3, shapes[i].normal);
   }
-  if (areSplats && !measured.diameters.empty())
+  if (2 * own.size() > shapes.size()) // most are splats
   {
-    std::vector<float> sorted = measured.diameters;
-    const auto median = sorted.begin() + std::ptrdiff_t(sorted.size() / 2);
-    std::nth_element(sorted.begin(), median, sorted.end());
+    measured.look.closesAll = measured.look.hasOwnLight = true;
+    const auto median = own.begin() + std::ptrdiff_t(own.size() / 2);
+    std::nth_element(own.begin(), median, own.end());
     measured.look.noiseLength = std::max(measured.look.noiseLength, kStepsOfSplats * double(*median));
   }
 }
@@ -196,7 +194,7 @@ void addSplats(vtkPolyData* points, const MeasuredCloud& measured)
   normals->SetName(kSplatNormalName);
   normals->SetNumberOfComponents(3);
   normals->SetNumberOfTuples(count);
-  vtkNew<vtkUnsignedCharArray> growths;
+  vtkNew<vtkFloatArray> growths;
   growths->SetName(kSplatGrowthName);
   growths->SetNumberOfValues(count);
   const auto addOne = [&](std::int64_t i)
@@ -215,13 +213,11 @@ void addSplats(vtkPolyData* points, const MeasuredCloud& measured)
       : look.closesAll           ? usualDiameter(1.0, filled)
                                  : 0.0;
     const double closed = isApart ? surface : look.closesAll ? 1.0 : double(each.flatness);
-    const double length = measured.diameters.empty()
-      ? std::max({ bounded, least, 2.0 * kOverlap * closed * double(each.reach) })
-      : double(measured.diameters[std::size_t(i)]);
+    const double own = measured.diameters.empty() ? 0.0 : double(measured.diameters[std::size_t(i)]);
+    const double length =
+      own > 0.0 ? own : std::max({ bounded, least, 2.0 * kOverlap * closed * double(each.reach) });
     lengths->SetValue(i, float(length));
-    const double growth =
-      usual > 0.0 ? std::clamp(kNoSplatGrowth * length / usual, 1.0, 255.0) : kNoSplatGrowth;
-    growths->SetValue(i, static_cast<unsigned char>(std::lround(growth)));
+    growths->SetValue(i, usual > 0.0 && length > 0.0 ? float(length / usual) : 1.0F);
     const Vec3 n{ double(each.normal[0]), double(each.normal[1]), double(each.normal[2]) };
     const double side = facesSensor && dot(n, places[i]) > 0.0 ? -1.0 : 1.0;
     for (int axis = 0; axis < 3; ++axis)
@@ -275,7 +271,7 @@ void addDensity(vtkPolyData* points)
   {
     Vec3 n;
     normals->GetTuple(i, &n.x);
-    const double usual = std::abs(lengths->GetComponent(i, 0)) * kNoSplatGrowth / growths->GetComponent(i, 0);
+    const double usual = std::abs(lengths->GetComponent(i, 0)) / growths->GetComponent(i, 0);
     const double spacing = usual / usualDiameter(norm(n) / kSplatNormalUnit, 1.0);
     density->SetValue(i, spacing > 0.0 ? float(1.0 / (spacing * spacing)) : NAN);
   }

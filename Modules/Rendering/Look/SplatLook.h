@@ -24,13 +24,12 @@ namespace pointhaptics
 constexpr const char* kSplatLengthName =
   "SplatLength"; ///< Diameter of each splat, unit of the file; hidden: < 0.
 constexpr const char* kSplatNormalName = "SplatNormal"; ///< Short integers: kSplatNormalUnit is flat.
-constexpr const char* kSplatGrowthName = "SplatGrowth"; ///< Bytes: kNoSplatGrowth where spacing rules.
+constexpr const char* kSplatGrowthName = "SplatGrowth"; ///< Diameter over that of the spacing.
 constexpr const char* kLookColorName = "LookColor";
 /// All arrays of the picture: texts at a point leave them out.
 constexpr std::array<const char*, 4> kArraysOfPicture = { kSplatLengthName, kSplatNormalName,
   kSplatGrowthName, kLookColorName };
 constexpr double kSplatNormalUnit = 32767.0;
-constexpr double kNoSplatGrowth = 64.0;
 
 /// Surface about each point of a cloud, and the look that follows from it.
 struct MeasuredCloud
@@ -38,7 +37,7 @@ struct MeasuredCloud
   NeighborQuery query;
   LocalShape shape;
   CloudLook look;
-  std::vector<float> diameters; ///< Of the splats, as the file says; empty: the shape tells.
+  std::vector<float> diameters; ///< As the file says; none or 0: the shape tells.
 };
 
 /// Measures @p cloud, of which all points are finite. Of more than three million points those within half a
@@ -54,7 +53,7 @@ POINTHAPTICSRENDERING_EXPORT bool measureCloud(const PointView& cloud, const Clo
 POINTHAPTICSRENDERING_EXPORT void takeOwnShapes(
   vtkPolyData* cloud, const std::vector<std::uint32_t>& drawn, MeasuredCloud& measured);
 
-/// Adds the arrays kSplatLengthName, kSplatNormalName and kSplatGrowthName to @p points, 11 bytes a point.
+/// Adds the arrays kSplatLengthName, kSplatNormalName and kSplatGrowthName to @p points, 14 bytes a point.
 POINTHAPTICSRENDERING_EXPORT void addSplats(vtkPolyData* points, const MeasuredCloud& measured);
 
 /// Lets @p mapper draw the arrays of addSplats(): sizes, normals and light. Input, colours and strength of

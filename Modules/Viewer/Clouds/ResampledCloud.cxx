@@ -233,6 +233,12 @@ bool resampleCloud(
   FirstRun run(request, goesOn, loaded);
   if (loaded.felt->GetNumberOfPoints() == 0)
   {
+    if (shownPart(loaded.cloud, request.options->clip, {})->GetNumberOfPoints() > 0)
+    {
+      message =
+        fmt::format("{}: all points are hidden by {}; hide fewer values", loaded.title, request.hiddenName);
+      return false;
+    }
     const Bounds all = extentOf(loaded.cloud).all;
     message = fmt::format("{}: no point lies in the box of {} {:.6g}; the cloud has {:.6g}", loaded.title,
       request.options->names.clip, fmt::join(request.options->clip, ","),

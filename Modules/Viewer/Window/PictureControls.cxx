@@ -253,7 +253,7 @@ void PictureControls::dragColorRange(std::array<double, 2> range, double from, d
   }
   options_.picture.colorRange = { range[0], range[1] };
   this->apply();
-  say_(fmt::format("colours from {:.4g} to {:.4g}", range[0], range[1]));
+  say_("colours from " + rangeText(range[0], range[1]));
 }
 
 void PictureControls::resetColorRange()
@@ -315,7 +315,7 @@ void PictureControls::toggleOutside()
       array + " is computed for the picture and hides nothing; colour by heights or by numbers of the file");
     return;
   }
-  say_(fmt::format("hidden: {} outside of {:.4g} to {:.4g}", array, range[0], range[1]));
+  say_(fmt::format("hidden: {} outside of {}", array, rangeText(range[0], range[1])));
   this->hide({ { array, -INFINITY, std::nextafter(range[0], -INFINITY) },
     { array, std::nextafter(range[1], INFINITY), INFINITY } });
 }

@@ -1,4 +1,5 @@
 // What keys do with the shown part of a cloud, a line through it, and its up axis.
+#include "CloudAppearance.h"
 #include "CloudFiles.h"
 #include "ViewWindow.h"
 
@@ -106,7 +107,7 @@ void ViewWindow::followProfile()
   this->setTop(kProfileBegin);
   const auto [low, high] = std::minmax_element(
     points.begin(), points.end(), [](const auto& a, const auto& b) { return a[1] < b[1]; });
-  this->say(fmt::format("profile: heights {:.4g} to {:.4g} {}", (*low)[1], (*high)[1], scene_.unit().name));
+  this->say(fmt::format("profile: heights {} {}", rangeText((*low)[1], (*high)[1]), scene_.unit().name));
 }
 
 /// Ends the picture of the cloud at this part of the window's height.

@@ -237,16 +237,26 @@ TEST(CloudAppearance, ABarBetweenWholeNumbersHasWholeLabels)
   setUpScalarBar(bar);
   for (const Case& one :
     { Case{ 1, 3, 3, "%.0f " }, Case{ 1, 4, 4, "%.0f " }, Case{ 0, 8, 5, "%.0f " }, Case{ 0, 7, 2, "%.0f " },
-      Case{ 0, 580, 4, "%.0f " }, Case{ 0.5, 3, 4, "%#.3g " }, Case{ 0, 2e6, 4, "%#.3g " },
+      Case{ 0, 580, 4, "%.0f " }, Case{ 0.5, 3, 4, "%#.3g " }, Case{ 0, 2e6, 4, "%.0f " },
       Case{ 2, 2, 1, "%.0f " }, Case{ 627, 627 + widthOfOneValue(627), 1, "%.0f " },
       Case{ 0.25, 0.25 + widthOfOneValue(0.25), 1, "%.6g " }, Case{ 3.5, 812.4, 4, "%.0f " },
-      Case{ 627.1, 627.9, 4, "%.1f " }, Case{ 627.1, 627.12, 4, "%.3f " } })
+      Case{ 627.1, 627.9, 4, "%.1f " }, Case{ 627.1, 627.12, 4, "%.3f " },
+      Case{ 5599999.7, 5600000.3, 4, "%.1f " }, Case{ 5.6e6, 5.601e6, 4, "%.0f " },
+      Case{ 1.2e-6, 3.1e-6, 4, "%#.3g " }, Case{ 50.001, 50.007, 4, "%.3f " },
+      Case{ 1.5e6, 9.5e6, 4, "%#.3g " } })
   {
     colors->SetRange(one.low, one.high);
     placeScalarBar(bar, renderer);
     EXPECT_EQ(bar->GetNumberOfLabels(), one.labels) << one.low << " to " << one.high;
     EXPECT_STREQ(bar->GetLabelFormat(), one.format) << one.low << " to " << one.high;
   }
+}
+
+TEST(CloudAppearance, ARangeOfLargeCoordinatesHasTwoEnds)
+{
+  EXPECT_EQ(rangeText(5599999.72, 5600000.31), "5599999.7 to 5600000.3");
+  EXPECT_EQ(rangeText(0.01, 0.03), "0.01 to 0.03");
+  EXPECT_EQ(rangeText(-1e-7, 3e-7), "-1e-07 to 3e-07");
 }
 
 } // namespace

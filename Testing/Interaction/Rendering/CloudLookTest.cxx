@@ -3,6 +3,7 @@
 #include "CloudColors.h"
 #include "SplatLook.h"
 
+#include "Core/Base/Boxes.h"
 #include "Core/Neighbors/LocalShape.h"
 
 #include <gtest/gtest.h>
@@ -493,6 +494,84 @@ TEST(CloudLook, TakesSizeAndTiltOfGaussianSplats)
   cloud->GetPointData()->GetArray(kSplatNormalName)->GetTuple(7, normal);
   EXPECT_NEAR(std::abs(normal[2]) / kSplatNormalUnit, 0.98, 1e-3);
   EXPECT_NEAR(normal[0], 0.0, 2.0);
+  addDensity(cloud);
+  for (vtkIdType i = 0; i < cloud->GetNumberOfPoints(); i += 100)
+  {
+    const double spacing = double(measured.shape.points[std::size_t(i)].spacing);
+    EXPECT_NEAR(
+      cloud->GetPointData()->GetArray("Density")->GetComponent(i, 0) * spacing * spacing, 1.0, 1e-3);
+  }
+}
+
+/// Two clouds in one: the second one has neither scales nor rotations.
+TEST(CloudLook, KeepsMeasuredShapesOfACloudBesideSplats)
+{
+  std::vector<Vec3> points = ball(3000);
+  const std::size_t splats = 1000;
+  vtkNew<vtkPoints> places;
+  vtkNew<vtkFloatArray> scales;
+  scales->SetName("scale");
+  scales->SetNumberOfComponents(3);
+  vtkNew<vtkFloatArray> turns;
+  turns->SetName("rot");
+  turns->SetNumberOfComponents(4);
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    const double none = i % 2 ? 0.0 : double(NAN);
+    places->InsertNextPoint(&points[i].x);
+    i < splats ? scales->InsertNextTuple3(std::log(0.001), std::log(0.05), std::log(0.1))
+               : scales->InsertNextTuple3(none, none, none);
+    i < splats ? turns->InsertNextTuple4(1.0, 0.0, 1.0, 0.0)
+               : turns->InsertNextTuple4(none, none, none, none);
+  }
+  vtkNew<vtkPolyData> cloud;
+  cloud->SetPoints(places);
+  MeasuredCloud plain;
+  ASSERT_TRUE(measureCloud(viewOf(points), {}, std::nullopt, plain));
+  MeasuredCloud joined;
+  ASSERT_TRUE(measureCloud(viewOf(points), {}, std::nullopt, joined));
+  addSplats(cloud, plain);
+  vtkNew<vtkPolyData> both;
+  both->SetPoints(places);
+  both->GetPointData()->AddArray(scales);
+  both->GetPointData()->AddArray(turns);
+  takeOwnShapes(both, {}, joined);
+  EXPECT_FALSE(joined.look.hasOwnLight) << "most points are no splats";
+  addSplats(both, joined);
+  for (const char* name : { kSplatLengthName, kSplatNormalName })
+  {
+    vtkDataArray* expected = cloud->GetPointData()->GetArray(name);
+    vtkDataArray* actual = both->GetPointData()->GetArray(name);
+    for (auto i = vtkIdType(splats); i < vtkIdType(points.size()); ++i)
+    {
+      ASSERT_EQ(actual->GetComponent(i, 0), expected->GetComponent(i, 0)) << name << " of " << i;
+    }
+  }
+}
+
+/// A bush of a few points beside a dense scan is no cloud of floaters.
+TEST(CloudLook, ShowsASparsePartBesideADenseOne)
+{
+  std::vector<Vec3> points = ball(20000);
+  const Vec3 middle = points[0];
+  Random random;
+  const auto normal = [&random]
+  {
+    double sum = 0.0;
+    for (int i = 0; i < 12; ++i)
+    {
+      sum += random.between(-0.5, 0.5);
+    }
+    return sum;
+  };
+  for (int i = 0; i < 1200; ++i)
+  {
+    points.push_back(middle + Vec3{ 4.0 + 0.8 * normal(), 0.8 * normal(), 0.8 * normal() });
+  }
+  const CloudLook look = cloudLook(CloudKind::Object, viewOf(points), measured(points), {});
+  const auto shown = std::count_if(points.begin() + 20000, points.end(),
+    [&look](const Vec3& p) { return look.core.empty() || contains(look.core, p); });
+  EXPECT_GT(shown, 1100);
 }
 
 } // namespace
