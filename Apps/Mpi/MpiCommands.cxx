@@ -134,12 +134,12 @@ struct RankRun
   template <class Figures, class WriteMore>
   void finish(vtkPolyData* piece, const Figures& figures, std::int64_t bytesSent, const WriteMore& writeMore)
   {
+    CloudResult result;
+    job.attempt([&] { result = options.result(figures); });
     if (job.isRoot())
     {
       showWarnings();
     }
-    CloudResult result;
-    job.attempt([&] { result = options.result(figures); });
     writePieces(job, options, piece, files);
     writeMore();
     commitTogether(job, files);

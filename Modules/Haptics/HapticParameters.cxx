@@ -12,7 +12,8 @@ Status HapticParameters::check() const noexcept
 {
   const bool knownMethod = method == ProxyMethod::SurfaceFit || method == ProxyMethod::GradientSteps ||
     method == ProxyMethod::Sphere;
-  const bool isValid = knownMethod && areInRange(*this) && contact.dynamicFriction <= contact.staticFriction;
+  const bool isValid =
+    knownMethod && !firstOutOfRange(*this).name && contact.dynamicFriction <= contact.staticFriction;
   return isValid ? Status::Ok : Status::InvalidParameter;
 }
 

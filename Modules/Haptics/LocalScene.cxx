@@ -61,8 +61,8 @@ double residualOfAll(const CellPyramid& pyramid, const Vec3& place, double radiu
   return fit.quality == FitQuality::Quadric ? fit.residual : INFINITY;
 }
 
-/// Median thickness of the voxels within @p reach of @p seed, over their edge: of the finest voxels that hold
-/// enough points to have one. Negative: too few do. Noise of more than a cell leaves a point or two in each
+/// Median thickness, metres, of the voxels within @p reach of @p seed: of the finest voxels that hold enough
+/// points to have one. Negative: too few do. Noise of more than a cell leaves a point or two in each
 /// finest voxel, and shows in the next ones.
 double thicknessOf(const CellPyramid& pyramid, const Vec3& seed, double reach)
 {
@@ -82,7 +82,7 @@ double thicknessOf(const CellPyramid& pyramid, const Vec3& seed, double reach)
     {
       const auto middle = thicknesses.begin() + std::ptrdiff_t(thicknesses.size() / 2);
       std::nth_element(thicknesses.begin(), middle, thicknesses.end());
-      return *middle / pyramid.level(level).voxelSize;
+      return *middle;
     }
   }
   return -1.0;
@@ -94,8 +94,9 @@ double thicknessOf(const CellPyramid& pyramid, const Vec3& seed, double reach)
 bool hasFineShape(const HapticScene& global, const Vec3& seed, double reach)
 {
   const CellPyramid& pyramid = global.pyramid();
+  const double edge = global.cellSize();
   const double thickness = thicknessOf(pyramid, seed, reach);
-  if (thickness < 0.0 || !(thickness < kThick))
+  if (thickness < 0.0 || !(thickness < kThick * edge))
   {
     return thickness < 0.0;
   }
@@ -105,8 +106,7 @@ bool hasFineShape(const HapticScene& global, const Vec3& seed, double reach)
     pyramid.visitBall(
       level, seed, reach, [&](std::uint32_t, const Cell& cell, double) { isMixed |= cell.mixed; });
   }
-  const double cell = global.cellSize();
-  const double noise = kShapeOverNoise * thickness * cell;
+  const double noise = kShapeOverNoise * thickness;
   const auto memory = std::make_unique<FitCells>();
   bool isShaped = isMixed;
   const int nodes = RadiusField::nodeLevel(pyramid);
@@ -114,8 +114,8 @@ bool hasFineShape(const HapticScene& global, const Vec3& seed, double reach)
     [&](std::uint32_t, const Cell& node, double)
     {
       const double wide = kWide * global.fitScale(node.mean).countRadius;
-      isShaped = isShaped || global.noise(node.mean) > std::max(kSmooth * cell, noise) ||
-        residualOfAll(pyramid, node.mean, wide, *memory) > std::max(kSmoothWide * cell, noise);
+      isShaped = isShaped || global.noise(node.mean) > std::max(kSmooth * edge, noise) ||
+        residualOfAll(pyramid, node.mean, wide, *memory) > std::max(kSmoothWide * edge, noise);
     });
   return isShaped;
 }

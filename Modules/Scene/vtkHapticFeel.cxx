@@ -190,12 +190,17 @@ bool vtkHapticFeel::Internals::MakeScenes(vtkHapticFeel* filter, vtkPointSet* cl
 bool vtkHapticFeel::Internals::Check(const vtkHapticFeel* filter, std::string& message) const
 {
   const ContactParameters& contact = filter->Settings.contact;
-  if (filter->Settings.check() != Status::Ok)
+  if (const NumberOutOfRange wrong = firstOutOfRange(filter->Settings); wrong.name)
   {
-    message =
-      fmt::format("stiffness {} N/m, damping {} N s/m, mu_s {}, mu_d {}; give 0 to 1e5, 0 to 1e3, 0 to "
-                  "10 and 0 to mu_s",
-        contact.stiffness, contact.damping, contact.staticFriction, contact.dynamicFriction);
+    message = fmt::format("{} {}; give {}{} to {}", wrong.name, wrong.value,
+      wrong.range.openMinimum ? "above " : "", wrong.range.minimum, wrong.range.maximum);
+  }
+  else if (filter->Settings.check() != Status::Ok)
+  {
+    message = fmt::format(
+      "method {}, staticFriction {}, dynamicFriction {}; give a method of vtkHapticFeel and at most as "
+      "much dynamic friction as static",
+      int(filter->Settings.method), contact.staticFriction, contact.dynamicFriction);
   }
   else if (!(filter->Rate >= 1.0 && filter->Rate <= 1e5))
   {

@@ -62,6 +62,9 @@ exec "$MPI_PROGRAM" bandwidth large.ply -o out.ply --neighbors 500'
     expect_end 2 "pipes have no parts" "$MPIRUN" -n 2 "$MPI_PROGRAM" resample pipe.ply -o out.ply
     expect_end 2 "pointhaptics-mpi resample: " "$MPIRUN" -n 2 "$MPI_PROGRAM" resample idol.ply -o out.ply --dims 0
     (($(grep -c "^pointhaptics-mpi" output) == 1)) || fault "more than one message: $(cat output)"
+    expect_end 1 "no point lies in the workspace" \
+      "$MPIRUN" -n 2 "$MPI_PROGRAM" resample idol.ply -o out.ply --workspace 90,91,90,91,90,91
+    (($(grep -c "^pointhaptics-mpi" output) == 1)) || fault "more than one message: $(cat output)"
     # One JSON object a run, not one a rank.
     for words in "resample absent.ply -o out.ply" "bandwidth idol.ply -o out.xls" "resampel idol.ply -o out.ply"; do
       # shellcheck disable=SC2086 # several words

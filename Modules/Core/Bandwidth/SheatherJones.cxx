@@ -1,5 +1,7 @@
 #include "Core/Bandwidth/SheatherJones.h"
 
+#include "Core/Bandwidth/GaussianPairSum.h"
+
 #include <cmath>
 
 namespace pointhaptics
@@ -18,20 +20,9 @@ constexpr int kLargestNumberOfRefinements = 100;
 /// Steps of the logarithm of b as short as this end the refinement, which by then converges superlinearly.
 constexpr double kTolerance = 1e-12;
 
-/// Pairs farther apart than so many bandwidths have |H_r| < 1e-20.
-constexpr double kReach = 11.0;
-
 bool isUsable(double value)
 {
   return value > 0.0 && std::isfinite(value);
-}
-
-/// H_4(t), or H_6(t).
-double derivative(double t, bool fourth)
-{
-  const double q = t * t;
-  const double height = std::exp(-0.5 * q);
-  return fourth ? ((q - 6.0) * q + 3.0) * height : (((q - 15.0) * q + 45.0) * q - 15.0) * height;
 }
 
 /// A sample and the constants of its equation. Bandwidths are in units of the scale, which keeps their powers
@@ -50,47 +41,39 @@ public:
   {
   }
   bool isSolvable() const { return isUsable(thirdDerivative_) && isUsable(pilotFactor_); }
-  bool bracket(double& low, double& high, double& atLow, double& atHigh) const;
-  double root(double low, double high, double atLow, double atHigh) const;
+  bool bracket(double& low, double& high, double& atLow, double& atHigh);
+  double root(double low, double high, double atLow, double atHigh);
 
 private:
-  double roughness(double g, bool second) const;
-  double excess(double logarithm) const;
+  double roughness(double g, bool second);
+  double excess(double logarithm);
 
   const double* sorted_;
   std::int64_t count_;
   double n_;
   double scale_;
+  GaussianPairSum sums_;   ///< Before what is made with it.
   double thirdDerivative_; ///< T(b).
   double pilotFactor_;     ///< 1.357 (S(a) / T(b))^(1/7).
 };
 
 /// Integral of the squared second or third derivative of the density with unit scale.
-double Equation::roughness(double g, bool second) const
+double Equation::roughness(double g, bool second)
 {
-  const double width = g * scale_;
-  double sum = n_ * derivative(0.0, second);
-  for (std::int64_t i = 0; i < count_ && width > 0.0; ++i)
-  {
-    double ofRow = 0.0;
-    for (std::int64_t j = i + 1; j < count_ && (sorted_[j] - sorted_[i]) / width <= kReach; ++j)
-    {
-      ofRow += derivative((sorted_[j] - sorted_[i]) / width, second);
-    }
-    sum += 2.0 * ofRow;
-  }
+  const double sum =
+    sums_.sum(sorted_, count_, g * scale_, second ? GaussianDerivative::Fourth : GaussianDerivative::Sixth);
   return (second ? sum : -sum) / (n_ * (n_ - 1.0) * kSqrtTwoPi * std::pow(g, second ? 5.0 : 7.0));
 }
 
 /// log of right-hand side over left-hand side of the equation at bandwidth exp(logarithm); falls to 0 at a
 /// solution.
-double Equation::excess(double logarithm) const
+double Equation::excess(double logarithm)
 {
   const double g = pilotFactor_ * std::exp(5.0 / 7.0 * logarithm);
   return std::log(std::pow(2.0 * kSqrtPi * n_ * roughness(g, true), -0.2)) - logarithm;
 }
 
-bool Equation::bracket(double& low, double& high, double& atLow, double& atHigh) const
+bool Equation::bracket(double& low, double& high, double& atLow, double& atHigh)
 {
   const double step = std::log(kStepRatio);
   low = high = std::log(kStart * std::pow(n_, -0.2));
@@ -121,7 +104,7 @@ bool Equation::bracket(double& low, double& high, double& atLow, double& atHigh)
 }
 
 /// Regula falsi where the end that stays has its value halved (Illinois): never leaves the bracket.
-double Equation::root(double low, double high, double atLow, double atHigh) const
+double Equation::root(double low, double high, double atLow, double atHigh)
 {
   double last = low;
   int side = 0;
@@ -161,7 +144,7 @@ Status sheatherJones(const double* sorted, std::int64_t count, double scale, dou
   {
     return Status::DegenerateSample;
   }
-  const Equation equation(sorted, count, scale);
+  Equation equation(sorted, count, scale);
   double low = 0.0, high = 0.0, atLow = 0.0, atHigh = 0.0;
   if (!equation.isSolvable() || !equation.bracket(low, high, atLow, atHigh))
   {

@@ -157,29 +157,34 @@ void visitSettings(Settings& settings, Visitor&& visit, const std::string& prefi
     });
 }
 
-/// True if all numbers of @p settings, of all levels, lie in their ranges.
-template <typename Settings>
-bool areInRange(const Settings& settings)
+/// The first number of @p settings, of all levels, that is out of its range; no name: none is.
+struct NumberOutOfRange
 {
-  const auto isInRange = [](const auto& value, const NumberRange& range)
+  const char* name = nullptr;
+  double value = 0.0;
+  NumberRange range = {};
+};
+template <typename Settings>
+NumberOutOfRange firstOutOfRange(const Settings& settings)
+{
+  NumberOutOfRange first;
+  const auto look = [&](const char* name, const auto& value, const NumberRange& range)
   {
     using Value = std::decay_t<decltype(value)>;
     if constexpr (isSettings<Value>)
     {
-      return areInRange(value);
+      first = first.name ? first : firstOutOfRange(value);
     }
     else if constexpr (std::is_arithmetic_v<Value>)
     {
-      return range.holds(double(value));
-    }
-    else
-    {
-      return true;
+      first =
+        first.name || range.holds(double(value)) ? first : NumberOutOfRange{ name, double(value), range };
     }
   };
-  return std::apply([&](const auto&... member)
-    { return (isInRange(settings.*(member.pointer), member.option.range) && ...); },
+  std::apply([&](const auto&... member)
+    { (look(member.name, settings.*(member.pointer), member.option.range), ...); },
     Settings::members());
+  return first;
 }
 
 /// True if all members are equal. NaN is not equal to itself.

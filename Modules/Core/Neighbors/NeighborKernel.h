@@ -14,10 +14,19 @@ namespace simd
 {
 
 /// Most neighbours that these loops search for, including the point itself.
-constexpr int kMostSwept = 72;
-/// Most points that may be within reach of a leaf, and most of those within reach of a point.
-constexpr int kMostCandidates = 1024;
-constexpr int kMostNear = 192;
+constexpr int kMostSwept = 512;
+/// Most points that may be within reach of a leaf, and most of those within reach of a point, where @p k
+/// neighbours are wanted.
+constexpr int mostCandidates(int k)
+{
+  return k <= 72 ? 1024 : 8 * k + 512;
+}
+constexpr int mostNear(int k)
+{
+  return k <= 72 ? 192 : 2 * k + 64;
+}
+constexpr int kMostCandidates = mostCandidates(kMostSwept);
+constexpr int kMostNear = mostNear(kMostSwept);
 /// Loads and stores may pass the end by a vector.
 constexpr int kSlack = 4;
 

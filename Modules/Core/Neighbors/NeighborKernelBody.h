@@ -172,7 +172,7 @@ bool gather(const NeighborTree& tree, const Box& box, double reach, LeafSearch& 
       {
         stack[depth++] = { here.level - 1, child };
       }
-      else if (search.candidates + kLeafPoints > kMostCandidates)
+      else if (search.candidates + kLeafPoints > mostCandidates(search.k))
       {
         return false;
       }
@@ -311,6 +311,7 @@ double searchPoint(
   const NeighborTree& tree, std::int64_t slot, int at, double first, double reach, LeafSearch& search)
 {
   const double center[3] = { tree.places[0][slot], tree.places[1][slot], tree.places[2][slot] };
+  const int most = mostNear(search.k);
   double limit = first;
   int count = listNear(center, limit, search);
   if (count < search.k && limit < reach)
@@ -318,13 +319,13 @@ double searchPoint(
     limit = reach;
     count = listNear(center, limit, search);
   }
-  if (count > kMostNear)
+  if (count > most)
   {
     // On a surface the number grows like the squared distance.
-    limit *= 0.5 * (search.k + kMostNear) / count;
+    limit *= 0.5 * (search.k + most) / count;
     count = listNear(center, limit, search);
   }
-  if (count < search.k || count > kMostNear)
+  if (count < search.k || count > most)
   {
     return -1.0;
   }

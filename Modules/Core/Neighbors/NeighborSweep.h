@@ -31,9 +31,9 @@ struct NeighborList
 
 /// Finds the neighbours of many points, leaf by leaf. The results are those of NeighborQuery::nearest, bit
 /// for bit, at a fraction of the cost: the points of a leaf share their candidates, and each search begins
-/// with the reach of the one before. Where more than 72 neighbours are wanted, or the guessed reach fails (an
-/// isolated point), points are searched one by one. Memory: 60 KiB, allocated in the constructor only. One
-/// thread at a time.
+/// with the reach of the one before. Where more than 512 neighbours are wanted, or the guessed reach fails
+/// (an isolated point), points are searched one by one. Memory: 290 KiB, allocated in the constructor only.
+/// One thread at a time.
 class NeighborSweep
 {
 public:

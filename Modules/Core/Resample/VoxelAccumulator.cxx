@@ -3,6 +3,7 @@
 #include "Core/Resample/VoxelResamplerImplementation.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <numeric>
 #include <type_traits>
 #include <utility>
@@ -133,6 +134,7 @@ Status VoxelAccumulator::finish(
   request.lattice = lattice_;
   request.covariances = covariances_;
   request.transform = transform_;
+  request.attributes.clear();
   for (const Array& array : arrays_)
   {
     request.attributes.push_back({ { nullptr, array.type, array.components }, array.statistic });
@@ -292,6 +294,28 @@ void exchange(Archive& archive, Content& content, VoxelRun& run)
   }
 }
 
+/// True if a run that was read has the sizes and the order that its content asks for.
+bool isConsistent(const Content& content, const VoxelRun& run)
+{
+  constexpr int kMostUnit = 1100; // Double numbers are multiples of 2^-1074.
+  const auto isNotAbove = [](const WideSums& a, const WideSums& b) { return a.key >= b.key; };
+  bool result = run.secondMoments.size() == (content.covariances == 1 ? run.size() : 0) &&
+    std::adjacent_find(run.voxels.begin(), run.voxels.end(), isNotAbove) == run.voxels.end();
+  for (const VoxelTally& tally : run.tallies)
+  {
+    const TallySums& sums = tally.sums;
+    const auto& ends = tally.values.ends;
+    result = result && sums.components + tally.values.components > 0 && std::abs(sums.unit) <= kMostUnit &&
+      sums.words >= 0 && std::size_t(sums.words) <= sums.values.size() &&
+      sums.values.size() == sums.size * std::size_t(sums.words) &&
+      (sums.nonFinite.empty() || sums.nonFinite.size() == sums.size) &&
+      ends.size() == run.size() * std::size_t(tally.values.components) &&
+      std::is_sorted(ends.begin(), ends.end()) &&
+      (ends.empty() ? 0 : ends.back()) == tally.values.values.size();
+  }
+  return result;
+}
+
 }
 
 std::string VoxelAccumulator::serialize(std::uint64_t first, std::uint64_t end)
@@ -318,7 +342,7 @@ Status VoxelAccumulator::deserialize(std::string_view bytes, VoxelAccumulator& r
     return Status::InvalidParameter;
   }
   exchange(reader, content, run);
-  if (content.magic != kMagic || !reader.isAtEnd())
+  if (content.magic != kMagic || !reader.isAtEnd() || !isConsistent(content, run))
   {
     return Status::InvalidParameter;
   }

@@ -17,6 +17,9 @@ constexpr double kFace = 0.2;
 /// Longest way that is judged from one place: of a glide or a ride, to a point under the HIP, to the next
 /// look for a flat place.
 constexpr double kStride = 0.5;
+/// Largest distance of the fit's point from the ball's where the ball lies on a smooth surface: with a stride
+/// in its place, bumps of the noise on a noisy sphere end the trust, and the force jumps.
+constexpr double kTrustPlain = 0.6;
 /// A flat place serves so far, and a ball may pass an edge so far beside it.
 constexpr double kFlatNear = 2.0;
 /// Reach of the points about a ball that touch it or tell whether its place is flat.

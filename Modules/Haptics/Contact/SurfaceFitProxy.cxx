@@ -148,7 +148,7 @@ double SurfaceFitProxy::updateFit(const HapticScene& scene, Memory& memory, cons
   {
     const double trust =
       std::max(kTrustRadii * ball_.radius() + kTrustDepths * std::max(0.0, ball_.depth(hip)),
-        isSmooth() && tracker_.continuesAround() ? ball::kStride * ball_.radius() : 0.0);
+        isSmooth() && tracker_.continuesAround() ? ball::kTrustPlain * ball_.radius() : 0.0);
     const double distance = norm(tracker_.point() - ball_.nearestPoint(hip));
     // A HIP in front of the fit but deep below the ball belongs to another sheet.
     const bool agrees =

@@ -86,3 +86,15 @@ TEST(ForceLimits, RefusesNegativeAndNaN)
   EXPECT_EQ((ForceLimits{ -1.0, 1.0 }.check()), Status::InvalidParameter);
   EXPECT_EQ((ForceLimits{ 1.0, std::nan("") }.check()), Status::InvalidParameter);
 }
+
+TEST(HapticParameters, NameTheFirstNumberThatIsOutOfItsRange)
+{
+  HapticParameters parameters;
+  EXPECT_EQ(firstOutOfRange(parameters).name, nullptr);
+  parameters.gradientSteps.largestStep = 20.0;
+  EXPECT_STREQ(firstOutOfRange(parameters).name, "largestStep");
+  EXPECT_EQ(firstOutOfRange(parameters).range.maximum, 10.0);
+  parameters.contact.forceLimit = 0.0;
+  EXPECT_STREQ(firstOutOfRange(parameters).name, "forceLimit");
+  EXPECT_EQ(firstOutOfRange(parameters).value, 0.0);
+}

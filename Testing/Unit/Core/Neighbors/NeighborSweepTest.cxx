@@ -171,7 +171,7 @@ TEST(NeighborSweep, EqualsBruteForceOnEveryKindOfCloud)
 {
   for (const NamedCloud& cloud : clouds())
   {
-    for (const int k : { 1, 2, 9, 17, 65, 72, 73, 128, 300 })
+    for (const int k : { 1, 2, 9, 17, 65, 72, 73, 128, 512, 513 })
     {
       SCOPED_TRACE(std::string(cloud.name) + ", k = " + std::to_string(k));
       expectBruteForce(cloud.points, k, 13);

@@ -263,3 +263,47 @@ TEST(VoxelAccumulatorArrays, BytesThatWereCutOrChangedAreRefused)
   }
   EXPECT_EQ(read.points(), 0);
 }
+
+TEST(VoxelAccumulatorArrays, BytesWithWrongSizesAndARightChecksumDoNoHarm)
+{
+  const Lattice lattice = latticeOf(4, 3, 2);
+  const ArrayCloud cloud(60, lattice, 3, 0);
+  VoxelAccumulator sums(lattice, true, kinds(), turnedBy(25));
+  addPart(sums, cloud, 0, 60);
+  const std::string bytes = sums.serialize();
+  int refused = 0;
+  for (std::size_t at = 0; at + 8 < bytes.size(); ++at)
+  {
+    std::string changed = bytes.substr(0, bytes.size() - 8);
+    changed[at] ^= 1;
+    std::uint64_t sum = changed.size();
+    for (std::size_t i = 0; i < changed.size(); i += 8)
+    {
+      std::uint64_t word = 0;
+      changed.copy(reinterpret_cast<char*>(&word), 8, i);
+      sum = (sum ^ word) * 0x9e3779b97f4a7c15;
+      sum ^= sum >> 32;
+    }
+    changed.append(reinterpret_cast<const char*>(&sum), 8);
+    VoxelAccumulator read{ Lattice() };
+    VoxelAccumulator all(lattice, true, kinds(), turnedBy(25));
+    addPart(all, cloud, 0, 60);
+    refused += VoxelAccumulator::deserialize(changed, read) != Status::Ok ? 1 : 0;
+    static_cast<void>(all.merge(std::move(read)));
+    VoxelResampler result;
+    EXPECT_EQ(all.finish({}, result), Status::Ok);
+  }
+  EXPECT_GT(refused, 100);
+}
+
+TEST(VoxelAccumulatorArrays, AttributesOfTheRequestDoNotCount)
+{
+  const Lattice lattice = latticeOf(4, 3, 2);
+  const ArrayCloud cloud(60, lattice, 3, 0);
+  VoxelAccumulator sums(lattice, false, kinds(), turnedBy(25));
+  addPart(sums, cloud, 0, 60);
+  VoxelRequest request;
+  request.attributes.push_back({ cloud.arrays(0, 60)[0], AttributeStatistic::Mean });
+  VoxelResampler result;
+  EXPECT_EQ(sums.finish(request, result), Status::Ok);
+}

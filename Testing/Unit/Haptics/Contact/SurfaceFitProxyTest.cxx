@@ -554,3 +554,32 @@ TEST(SurfaceFitProxy, FindsTheFitAgainWhereItWasLost)
   }
   EXPECT_GT(longest, 8) << "it is not found at once";
 }
+
+TEST(SurfaceFitProxy, HasNoJumpsOnANoisySphere)
+{
+  constexpr double kRadius = 0.1;
+  int jumps = 0;
+  for (const std::uint64_t seed : { 2, 3 })
+  {
+    trial::Random random(seed);
+    std::vector<Vec3> points;
+    for (int i = 0; i < 60000; ++i)
+    {
+      points.push_back((kRadius + 2e-3 * random.normal()) * random.direction());
+    }
+    trial::Path path;
+    for (int i = -200; i < 4000; ++i)
+    {
+      const double angle = 1e-3 * std::max(i, 0);
+      path.push_back((kRadius - 4e-3 + 5e-5 * std::max(-i, 0)) *
+        Vec3(std::cos(angle), std::sin(angle), 0.4 * std::sin(1.7 * angle)) /
+        std::hypot(1.0, 0.4 * std::sin(1.7 * angle)));
+    }
+    const auto states = trial::feel(trial::resampledScene(points, {}, 4e-3), HapticParameters(), path);
+    for (std::size_t i = 400; i < states.size(); ++i)
+    {
+      jumps += norm(states[i].force - states[i - 1].force) > 0.05 ? 1 : 0;
+    }
+  }
+  EXPECT_LE(trial::recorded("jumps", jumps), 40);
+}
