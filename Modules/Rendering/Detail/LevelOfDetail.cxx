@@ -139,7 +139,6 @@ std::int64_t LevelOfDetail::wanted(double now)
 {
   if (finestOnce_)
   {
-    finestOnce_ = false;
     return finest_;
   }
   if (moving_)
@@ -202,7 +201,7 @@ void LevelOfDetail::endFrame()
     window_->WaitForCompletion();
     budget_.add(visible_, steadySeconds() - frameBegin_);
   }
-  frameIsTypical_ = false;
+  frameIsTypical_ = finestOnce_ = false; // both eyes have been drawn
 }
 
 /// End of the largest level, made or not, that has at most @p points; all of them where no level has.
