@@ -77,7 +77,13 @@ def __getattr__(name: str) -> Any:
         try:
             from . import PointHapticsInteraction, PointHapticsRendering
         except ImportError as fault:
-            if "failed to map segment" in str(fault):
+            import importlib.util
+            import re
+
+            # Of a module that could not be mapped for want of memory VTK says that there is none.
+            hidden = re.search(r"No module named '?([\w.]+)", str(fault))
+            is_there = hidden is not None and importlib.util.find_spec(hidden.group(1)) is not None
+            if is_there or "failed to map segment" in str(fault):
                 raise MemoryError(f"{name}: not enough memory for VTK's rendering modules") from None
             raise
         for module in (PointHapticsRendering, PointHapticsInteraction):
