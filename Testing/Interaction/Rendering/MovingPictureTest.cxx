@@ -140,6 +140,7 @@ TEST_F(MovingPicture, GivesWayToOneOfAllPixelsAtRest)
   detail.showFinestOnce();
   detail.beginFrame(3.0);
   EXPECT_FALSE(detail.isInMotion()) << "a picture that is kept";
+  window->InvokeEvent(vtkCommand::EndEvent); // all eyes of it are drawn
   renderer->GetActiveCamera()->Azimuth(1.0);
   detail.beginFrame(4.0);
   EXPECT_TRUE(detail.isInMotion());
