@@ -328,11 +328,11 @@ std::int64_t TallyValues::List::mostFrequent() const
 
 std::int64_t TallyValues::List::middle(std::int64_t count) const
 {
-  std::int64_t left = (count - 1) / 2;
+  auto left = std::uint64_t((count - 1) / 2); // counts of damaged bytes wrap
   const TallyValue* value = first;
-  for (; left >= value->points; ++value)
+  for (; value + 1 < last && left >= std::uint64_t(value->points); ++value)
   {
-    left -= value->points;
+    left -= std::uint64_t(value->points);
   }
   return value->key;
 }
