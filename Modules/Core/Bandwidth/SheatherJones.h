@@ -15,7 +15,7 @@ namespace pointhaptics
 ///   T(g) = -sum_ij H_6((x_i - x_j) / g) / (n (n - 1) sqrt(2 pi) g^7) of the integral of f'''^2
 /// (sums with i = j) and the pilot bandwidths a = 1.24 s n^(-1/7), b = 1.23 s n^(-1/9), h solves
 ///   h = (2 sqrt(pi) n S(g(h)))^(-1/5), g(h) = 1.357 (S(a) / T(b))^(1/7) h^(5/7).
-/// The same as R's bw.SJ with method "ste" on data that are not binned. S and T are never negative and the
+/// R's bw.SJ with method "ste" solves this equation on binned data. S and T are never negative and the
 /// equation always has a solution. It may have several where values coincide or cluster. The search begins at
 /// 1.144 s n^(-1/5), goes down if the left-hand side is the larger one there, else up, in steps of a fifth,
 /// and takes the first solution it meets.

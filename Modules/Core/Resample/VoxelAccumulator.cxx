@@ -294,7 +294,31 @@ void exchange(Archive& archive, Content& content, VoxelRun& run)
   }
 }
 
-/// True if a run that was read has the sizes and the order that its content asks for.
+/// True if the values of each list have as many points as its voxel.
+bool listsAddUp(const VoxelRun& run, const TallyValues& values)
+{
+  const auto components = std::size_t(values.components);
+  for (std::size_t list = 0; list < values.ends.size(); ++list)
+  {
+    std::int64_t left = run.voxels[list / components].count;
+    const TallyValues::List points = values[list];
+    for (const TallyValue* value = points.first; value != points.last; ++value)
+    {
+      if (value->points <= 0 || value->points > left)
+      {
+        return false;
+      }
+      left -= value->points;
+    }
+    if (left != 0 || points.first == points.last)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// True if a run that was read has the sizes, the order and the counts that its content asks for.
 bool isConsistent(const Content& content, const VoxelRun& run)
 {
   constexpr int kMostUnit = 1100; // Double numbers are multiples of 2^-1074.
@@ -311,7 +335,7 @@ bool isConsistent(const Content& content, const VoxelRun& run)
       (sums.nonFinite.empty() || sums.nonFinite.size() == sums.size) &&
       ends.size() == run.size() * std::size_t(tally.values.components) &&
       std::is_sorted(ends.begin(), ends.end()) &&
-      (ends.empty() ? 0 : ends.back()) == tally.values.values.size();
+      (ends.empty() ? 0 : ends.back()) == tally.values.values.size() && listsAddUp(run, tally.values);
   }
   return result;
 }

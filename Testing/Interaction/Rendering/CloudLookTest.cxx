@@ -12,6 +12,7 @@
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
@@ -459,10 +460,17 @@ TEST(CloudLook, FollowsTheCoreAmongNearFloaters)
   }
 }
 
-/// An ellipsoid flat across x, turned by 90 degrees about y: it is flat across z.
-TEST(CloudLook, TakesSizeAndTiltOfGaussianSplats)
+/// A Gaussian splat: logarithms of its standard deviations, and its rotation.
+struct Splat
 {
-  const std::vector<Vec3> points = ball(3000);
+  double scale[3];
+  double turn[4];
+};
+
+/// A cloud with the arrays of a file of splats; @p splatOf(i) is that of each point.
+template <typename SplatOf>
+vtkSmartPointer<vtkPolyData> splatCloud(const std::vector<Vec3>& points, const SplatOf& splatOf)
+{
   vtkNew<vtkPoints> places;
   vtkNew<vtkFloatArray> scales;
   scales->SetName("scale");
@@ -472,15 +480,29 @@ TEST(CloudLook, TakesSizeAndTiltOfGaussianSplats)
   turns->SetNumberOfComponents(4);
   for (std::size_t i = 0; i < points.size(); ++i)
   {
+    const Splat splat = splatOf(i);
     places->InsertNextPoint(&points[i].x);
-    const double size = i == 0 ? 5.0 : 0.05;
-    scales->InsertNextTuple3(std::log(0.001), std::log(size), std::log(2.0 * size));
-    turns->InsertNextTuple4(2.0, 0.0, 2.0, 0.0); // of any length
+    scales->InsertNextTuple(splat.scale);
+    turns->InsertNextTuple(splat.turn);
   }
-  vtkNew<vtkPolyData> cloud;
+  auto cloud = vtkSmartPointer<vtkPolyData>::New();
   cloud->SetPoints(places);
   cloud->GetPointData()->AddArray(scales);
   cloud->GetPointData()->AddArray(turns);
+  return cloud;
+}
+
+/// An ellipsoid flat across x, turned by 90 degrees about y: it is flat across z.
+TEST(CloudLook, TakesSizeAndTiltOfGaussianSplats)
+{
+  const std::vector<Vec3> points = ball(3000);
+  const auto cloud = splatCloud(points,
+    [](std::size_t i)
+    {
+      const double size = i == 0 ? 5.0 : 0.05;
+      return Splat{ { std::log(0.001), std::log(size), std::log(2.0 * size) },
+        { 2.0, 0.0, 2.0, 0.0 } }; // of any length
+    });
   MeasuredCloud measured;
   ASSERT_TRUE(measureCloud(viewOf(points), {}, std::nullopt, measured));
   takeOwnShapes(cloud, {}, measured);
@@ -506,35 +528,22 @@ TEST(CloudLook, TakesSizeAndTiltOfGaussianSplats)
 /// Two clouds in one: the second one has neither scales nor rotations.
 TEST(CloudLook, KeepsMeasuredShapesOfACloudBesideSplats)
 {
-  std::vector<Vec3> points = ball(3000);
+  const std::vector<Vec3> points = ball(3000);
   const std::size_t splats = 1000;
-  vtkNew<vtkPoints> places;
-  vtkNew<vtkFloatArray> scales;
-  scales->SetName("scale");
-  scales->SetNumberOfComponents(3);
-  vtkNew<vtkFloatArray> turns;
-  turns->SetName("rot");
-  turns->SetNumberOfComponents(4);
-  for (std::size_t i = 0; i < points.size(); ++i)
-  {
-    const double none = i % 2 ? 0.0 : double(NAN);
-    places->InsertNextPoint(&points[i].x);
-    i < splats ? scales->InsertNextTuple3(std::log(0.001), std::log(0.05), std::log(0.1))
-               : scales->InsertNextTuple3(none, none, none);
-    i < splats ? turns->InsertNextTuple4(1.0, 0.0, 1.0, 0.0)
-               : turns->InsertNextTuple4(none, none, none, none);
-  }
+  const auto both = splatCloud(points,
+    [](std::size_t i)
+    {
+      const double none = i % 2 ? 0.0 : double(NAN);
+      return i < splats ? Splat{ { std::log(0.001), std::log(0.05), std::log(0.1) }, { 1.0, 0.0, 1.0, 0.0 } }
+                        : Splat{ { none, none, none }, { none, none, none, none } };
+    });
   vtkNew<vtkPolyData> cloud;
-  cloud->SetPoints(places);
+  cloud->SetPoints(both->GetPoints());
   MeasuredCloud plain;
   ASSERT_TRUE(measureCloud(viewOf(points), {}, std::nullopt, plain));
   MeasuredCloud joined;
   ASSERT_TRUE(measureCloud(viewOf(points), {}, std::nullopt, joined));
   addSplats(cloud, plain);
-  vtkNew<vtkPolyData> both;
-  both->SetPoints(places);
-  both->GetPointData()->AddArray(scales);
-  both->GetPointData()->AddArray(turns);
   takeOwnShapes(both, {}, joined);
   EXPECT_FALSE(joined.look.hasOwnLight) << "most points are no splats";
   addSplats(both, joined);

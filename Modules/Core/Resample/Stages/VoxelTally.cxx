@@ -328,11 +328,11 @@ std::int64_t TallyValues::List::mostFrequent() const
 
 std::int64_t TallyValues::List::middle(std::int64_t count) const
 {
-  auto left = std::uint64_t((count - 1) / 2); // counts of damaged bytes wrap
+  std::int64_t left = (count - 1) / 2;
   const TallyValue* value = first;
-  for (; value + 1 < last && left >= std::uint64_t(value->points); ++value)
+  for (; left >= value->points; ++value)
   {
-    left -= std::uint64_t(value->points);
+    left -= value->points;
   }
   return value->key;
 }
