@@ -493,7 +493,6 @@ int vtkPointCloudReader::RequestData(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {
   vtkPolyData* output = vtkPolyData::GetData(outputVector);
-  output->SetPoints(vtkNew<vtkPoints>()); // never null, whatever fails
   this->ErrorMessage.clear();
   this->Format.clear();
   this->Notes.clear();
@@ -509,6 +508,7 @@ int vtkPointCloudReader::RequestData(
   // message, which callers cannot silence.
   if (!this->FileName || !*this->FileName)
   {
+    output->SetPoints(vtkNew<vtkPoints>());
     this->Fail(vtkErrorCode::NoFileNameError, "there is nothing to read; set a file name");
     return 1;
   }
@@ -524,6 +524,7 @@ int vtkPointCloudReader::RequestData(
   catch (const io::NoPoints& problem)
   {
     this->ValidWithoutPoints = true;
+    output->SetPoints(vtkNew<vtkPoints>());
     this->Fail(problem.code, problem.what());
     return 1; // with the field data that was found
   }

@@ -312,7 +312,7 @@ void vtkHapticProps::Internals::setUpRims()
 void vtkHapticProps::Internals::placeRims()
 {
   const double thicker = this->highContrast ? kThicker : 1.0;
-  const double pixels = this->renderer ? pointhaptics::pixelsPerPoint(this->renderer) : 1.0;
+  const double pixels = pointhaptics::pixelsPerPoint(this->renderer);
   const double point = thicker * this->pointAt(this->state.sphereCenter);
   const Vec3 way = this->nearestTo - this->nearest;
   const double ring = std::max(kSmallestRing * this->edge, kRingPart * norm(way));

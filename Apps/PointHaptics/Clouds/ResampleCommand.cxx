@@ -23,6 +23,8 @@
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 
+#include <initializer_list>
+
 namespace pointhaptics::app
 {
 
@@ -59,14 +61,16 @@ void ResampleCommand::complete(CLI::App& command, Files& files)
 /// With --unit the points are in metres.
 void ResampleCommand::finish(vtkPolyData* means) const
 {
-  for (const char* name : { "LasScale", "LasOffset", "CoordinateSystem", "LengthUnit", kHeightUnit })
+  const auto removeIf = [means](bool condition, std::initializer_list<const char*> names)
   {
-    const bool isUnit = std::string(name).find("Unit") != std::string::npos;
-    if (this->lattice.hasTransform() && (this->lattice.isScaled() || !isUnit))
+    for (const char* name : names)
     {
-      means->GetFieldData()->RemoveArray(name);
+      condition ? means->GetFieldData()->RemoveArray(name) : void();
     }
-  }
+  };
+  const bool isMoved = this->lattice.hasTransform();
+  removeIf(isMoved, { "LasScale", "LasOffset", "CoordinateSystem" });
+  removeIf(isMoved && this->lattice.isScaled(), { "LengthUnit", kHeightUnit });
   const bool areMetres = this->unitIsGiven && this->lattice.scale.empty() && this->lattice.matrix.empty();
   areMetres ? sayMetres(means) : void();
 }

@@ -49,10 +49,11 @@ Status bandwidth(BandwidthRule rule, double s, double n, int dimensions, double&
 
 /// b of any @p rule (d = 1) for the @p count values of @p sample, in their unit; independent of their order.
 /// For SilvermanRobust from min(s, IQR / 1.34), s alone where the quartiles coincide. @p scratch: memory of
-/// the caller's, one for each thread; later samples of no greater size allocate nothing.
-/// Errors and @p fallback as for bandwidth(), and a value that is not finite is an InvalidParameter. Where
-/// the equation of SheatherJones cannot be solved in double numbers: EquationUnsolved, and the bandwidth of
-/// SilvermanRobust instead of @p fallback. Cost: a sort; for SheatherJones see there.
+/// the caller's, one for each thread; later samples of no greater size allocate nothing, but for
+/// SheatherJones. Errors and @p fallback as for bandwidth(), and a value that is not finite is an
+/// InvalidParameter. Where the equation of SheatherJones cannot be solved in double numbers:
+/// EquationUnsolved, and the bandwidth of SilvermanRobust instead of @p fallback. Cost: a sort; for
+/// SheatherJones see there.
 Status sampleBandwidth(BandwidthRule rule, const double* sample, std::int64_t count,
   std::vector<double>& scratch, double& result, double fallback = kBandwidthWithoutSpread);
 

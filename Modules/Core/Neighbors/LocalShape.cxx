@@ -397,14 +397,9 @@ LocalShape collect(const PointView& cloud, const NeighborQuery& query, const Thi
 {
   LocalShape shape;
   shape.points.resize(std::size_t(cloud.size()));
-  forRange(executor, query.size(),
-    [&](std::int64_t begin, std::int64_t end)
-    {
-      for (; begin < end; ++begin)
-      {
-        shape.points[std::size_t(query.index(begin))] = measurement.result(measured.slotFor(begin));
-      }
-    });
+  forEachIndex(executor, query.size(),
+    [&](std::int64_t slot)
+    { shape.points[std::size_t(query.index(slot))] = measurement.result(measured.slotFor(slot)); });
   double flatness = 0.0;
   std::vector<float> spacings;
   for (std::int64_t slot = 0; slot < query.size(); ++slot)

@@ -97,10 +97,9 @@ void NeighborQuery::dropRepeats(const Executor& executor)
   forEachIndex(executor, tree_.size,
     [&](std::int64_t slot)
     {
-      if (sameBefore(point(slot), slot) >= 0)
+      if (!repeats.load(std::memory_order_relaxed) && sameBefore(point(slot), slot) >= 0)
       {
         repeats.store(true, std::memory_order_relaxed);
-        return;
       }
     });
   std::int64_t kept = repeats ? 0 : tree_.size;

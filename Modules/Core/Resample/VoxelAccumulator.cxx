@@ -3,7 +3,6 @@
 #include "Core/Resample/VoxelResamplerImplementation.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <numeric>
 #include <type_traits>
 #include <utility>
@@ -310,7 +309,7 @@ bool listsAddUp(const VoxelRun& run, const TallyValues& values)
       }
       left -= value->points;
     }
-    if (left != 0 || points.first == points.last)
+    if (left != 0)
     {
       return false;
     }
@@ -323,16 +322,30 @@ bool isConsistent(const Content& content, const VoxelRun& run)
 {
   constexpr int kMostUnit = 1100; // Double numbers are multiples of 2^-1074.
   const auto isNotAbove = [](const WideSums& a, const WideSums& b) { return a.key >= b.key; };
-  bool result = run.secondMoments.size() == (content.covariances == 1 ? run.size() : 0) &&
+  const auto isCount = [](std::int64_t n) { return n >= 0 && n <= VoxelAccumulator::kMostPoints; };
+  const auto areCounts = [&](const NonFiniteCount& n)
+  { return isCount(n.nans) && isCount(n.plus) && isCount(n.minus); };
+  const PointCounts& counts = content.counts;
+  bool result = isCount(counts.points) && isCount(counts.clipped) && isCount(counts.invalid) &&
+    run.secondMoments.size() == (content.covariances == 1 ? run.size() : 0) &&
     std::adjacent_find(run.voxels.begin(), run.voxels.end(), isNotAbove) == run.voxels.end();
+  std::int64_t left = result ? counts.points - counts.clipped - counts.invalid : 0;
+  for (const WideSums& voxel : run.voxels)
+  {
+    result = result && voxel.count > 0 && voxel.count <= left;
+    left -= result ? voxel.count : 0;
+  }
+  result = result && left == 0;
   for (const VoxelTally& tally : run.tallies)
   {
     const TallySums& sums = tally.sums;
     const auto& ends = tally.values.ends;
-    result = result && sums.components + tally.values.components > 0 && std::abs(sums.unit) <= kMostUnit &&
-      sums.words >= 0 && std::size_t(sums.words) <= sums.values.size() &&
-      sums.values.size() == sums.size * std::size_t(sums.words) &&
+    const auto words = std::size_t(std::max(sums.words, 1));
+    result = result && sums.components + tally.values.components > 0 && sums.unit >= -kMostUnit &&
+      sums.unit <= kMostUnit && (sums.words > 0 || sums.size == 0) && sums.values.size() % words == 0 &&
+      sums.values.size() / words == sums.size &&
       (sums.nonFinite.empty() || sums.nonFinite.size() == sums.size) &&
+      std::all_of(sums.nonFinite.begin(), sums.nonFinite.end(), areCounts) &&
       ends.size() == run.size() * std::size_t(tally.values.components) &&
       std::is_sorted(ends.begin(), ends.end()) &&
       (ends.empty() ? 0 : ends.back()) == tally.values.values.size() && listsAddUp(run, tally.values);

@@ -28,10 +28,10 @@ public:
   }
 
   /// @param foot the point nearest to @p hip on the surface, and @p normal there, unit. @param depth of the
-  /// hip below it, metres. @param uncertain metres by which noise lets the foot move though the surface does
-  /// not: a contact point so near stays, so that a hand at rest feels a spring to a fixed point, and forces
-  /// that are no gradient cannot drive it in circles. @param along receives (tangent offset from the foot,
-  /// point, normal): the surface there.
+  /// hip below it, metres. @param uncertain without friction, metres by which noise lets the foot move though
+  /// the surface does not: a contact point so near stays, so that a hand at rest feels a spring to a fixed
+  /// point, and forces that are no gradient cannot drive it in circles. @param along receives (tangent offset
+  /// from the foot, point, normal): the surface there.
   /// @return the contact point.
   template <typename Surface>
   Vec3 contactPoint(const ContactParameters& parameters, const Vec3& foot, const Vec3& normal, double depth,

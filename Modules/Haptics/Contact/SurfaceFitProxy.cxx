@@ -260,7 +260,7 @@ void SurfaceFitProxy::step(const HapticScene& scene, Memory& memory, const Conta
       normal = contact.normal;
     };
     state.proxy = friction_.contactPoint(parameters, contact.point, contact.normal, norm(contact.point - hip),
-      this->uncertainty(scene, weight), hip, along);
+      parameters.staticFriction > 0.0 ? 0.0 : this->uncertainty(scene, weight), hip, along);
   }
   else
   {

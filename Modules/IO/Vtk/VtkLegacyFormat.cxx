@@ -80,7 +80,6 @@ private:
   vtkPolyData* cloud_;
   MeshFaces& faces_ = task_.faces;
   bool inPointData_ = false;
-  bool hasPoints_ = false;
   Count tuples_ = 0; ///< Tuples of the section.
 };
 
@@ -252,7 +251,7 @@ void LegacyParser::parsePoints()
   {
     failNoPoints();
   }
-  if (std::exchange(hasPoints_, true)) // the caller's cloud may have points without a place already
+  if (cloud_->GetPoints())
   {
     failFormat(where() + "a second section POINTS", "keep one of the two");
   }
@@ -322,7 +321,7 @@ void LegacyParser::keepFaces(vtkDataArray* offsets, vtkDataArray* corners)
 
 void LegacyParser::add(const std::string& name, const Array& array, Count tuples)
 {
-  if (inPointData_ && hasPoints_ && tuples == static_cast<Count>(cloud_->GetNumberOfPoints()))
+  if (inPointData_ && cloud_->GetPoints() && tuples == static_cast<Count>(cloud_->GetNumberOfPoints()))
   {
     array->SetName(name.c_str());
     cloud_->GetPointData()->AddArray(array);
@@ -454,7 +453,7 @@ void LegacyParser::parse()
         "save it as PolyData (.vtp), for example with ParaView");
     }
   }
-  if (!hasPoints_)
+  if (!cloud_->GetPoints())
   {
     failTruncated("the file has no section POINTS");
   }

@@ -64,12 +64,9 @@ PickedOfFile PointPicker::pickOfFile(int x, int y) const
 std::optional<Vec3> PointPicker::surfaceAt(int x, int y) const
 {
   vtkRenderer* renderer = screen_.renderer();
-  if (!renderer || !scenes_.cloud() || scenes_.isChanged())
-  {
-    return std::nullopt;
-  }
   PickedPoint picked;
-  if (!pickPoint(scenes_.cloud(), renderer, x, y, kSurfacePixels, picked))
+  if (!renderer || !scenes_.cloud() || scenes_.isChanged() ||
+    !pickPoint(scenes_.cloud(), renderer, x, y, kSurfacePixels, picked))
   {
     return std::nullopt;
   }

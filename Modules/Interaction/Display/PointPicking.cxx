@@ -270,8 +270,8 @@ vtkIdType findPicked(vtkPolyData* cloud, vtkRenderer* renderer, double x, double
 {
   const ScreenProjection project(renderer, x);
   const std::array<double, 2> pointer = placeInPicture(renderer, x, y);
-  const double pointerX = pointer[0] - renderer->GetViewport()[0] * renderer->GetVTKWindow()->GetSize()[0];
-  const double pointerY = pointer[1] - renderer->GetViewport()[1] * renderer->GetVTKWindow()->GetSize()[1];
+  const double pointerX = pointer[0] - renderer->GetOrigin()[0];
+  const double pointerY = pointer[1] - renderer->GetOrigin()[1];
   Vec3 eye;
   Vec3 forward;
   renderer->GetActiveCamera()->GetPosition(&eye.x);
@@ -284,12 +284,13 @@ vtkIdType findPicked(vtkPolyData* cloud, vtkRenderer* renderer, double x, double
     cloud->GetPoint(i, &p.x);
     const Vec3 at = toWorkspace ? transformed(toWorkspace, p) : p;
     const double away = shown ? norm2(at - *shown) : dot(at - eye, forward);
-    if (!(away < best) || (isDrawn && !isDrawn(i, p)))
+    if (!(away < best))
     {
       continue;
     }
     const Pixel pixel = shown ? Pixel() : project(at);
-    if (shown || (pixel.seen && std::hypot(pixel.x - pointerX, pixel.y - pointerY) <= pixels))
+    const bool isNear = shown || (pixel.seen && std::hypot(pixel.x - pointerX, pixel.y - pointerY) <= pixels);
+    if (isNear && (!isDrawn || isDrawn(i, p)))
     {
       best = away;
       found = i;

@@ -98,10 +98,9 @@ void TouchDisplay::hideChartUntilTouch()
 
 bool TouchDisplay::showChartIfFelt(const std::vector<ServoSample>& samples, bool isDragged)
 {
-  isFelt_ = isFelt_ ||
-    std::any_of(samples.begin(), samples.end(),
-      [](const ServoSample& sample) { return norm(sample.state.force) > 0.0; });
-  if (!chartWaits_ || !isFelt_ || isDragged)
+  const auto isFelt = [](const ServoSample& sample) { return norm(sample.state.force) > 0.0; };
+  isFelt_ = chartWaits_ && (isFelt_ || std::any_of(samples.begin(), samples.end(), isFelt));
+  if (!isFelt_ || isDragged)
   {
     return false;
   }

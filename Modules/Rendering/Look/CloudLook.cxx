@@ -8,7 +8,6 @@
 #include <bitset>
 #include <cmath>
 #include <cstddef>
-#include <iterator>
 #include <mutex>
 #include <unordered_map>
 
@@ -553,9 +552,13 @@ CameraFit fitCamera(const PointView& cloud, const CloudLook& look, const AffineT
     return Vec3{ dot(q, view.right), dot(q, view.up), dot(q, view.back) };
   };
   const auto isInCore = [&](std::int64_t i) { return contains(look.core, cloud[i]); };
-  Extremes extremes = extremesOf(
-    cloud.size(), seen, [](std::int64_t) { return true; }, tx, ty);
-  const Extremes ofCore = extremesOf(cloud.size(), seen, isInCore, tx, ty);
+  const bool hasCore = !look.cutsSparse && !look.core.empty();
+  Extremes extremes = hasCore ? extremesOf(cloud.size(), seen, isInCore, tx, ty) : Extremes();
+  if (!std::isfinite(extremes.most[0])) // no core, or nothing of it is left
+  {
+    extremes = extremesOf(
+      cloud.size(), seen, [](std::int64_t) { return true; }, tx, ty);
+  }
   std::vector<Vec3> sample;
   for (std::int64_t i = 0; i < cloud.size(); i += 1 + cloud.size() / kSample)
   {
@@ -576,9 +579,12 @@ CameraFit fitCamera(const PointView& cloud, const CloudLook& look, const AffineT
   const double depth = 0.5 * (from.z + to.z);
   const auto distanceOf = [&](const Extremes& each)
   { return parallel ? depth + each.distance(tangent * aspect, tangent) : each.distance(tx, ty); };
-  const Extremes middle = look.cutsSparse ? extremesBetween(sample, from, to, tx, ty) : ofCore;
-  const bool isSmall = distanceOf(extremes) - depth >= kStrayFactor * (distanceOf(middle) - depth);
-  extremes = std::isfinite(middle.most[0]) && (isSmall || !look.cutsSparse) ? middle : extremes;
+  if (look.cutsSparse)
+  {
+    const Extremes middle = extremesBetween(sample, from, to, tx, ty);
+    const bool isSmall = distanceOf(extremes) - depth >= kStrayFactor * (distanceOf(middle) - depth);
+    extremes = std::isfinite(middle.most[0]) && isSmall ? middle : extremes;
+  }
   const double distance = std::max(distanceOf(extremes), depth + 1e-6 * (1.0 + std::abs(depth)));
   const double x = 0.5 * (extremes.most[0] - extremes.most[1]);
   const double y = 0.5 * (extremes.most[2] - extremes.most[3]);

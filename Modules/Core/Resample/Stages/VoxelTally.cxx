@@ -312,7 +312,7 @@ void TallySums::write(const AccumulatedArray& kind, std::size_t first, std::size
           }
           else
           {
-            *to = roundedMean<T>(inUnits(sum) * (Int128(1) << unit), count);
+            *to = roundedMean<T>(inUnits(sum), count);
           }
         }
       }
