@@ -283,6 +283,12 @@ int vtkHapticFeel::RequestData(
   const vtkSmartPointer<vtkTable> table = vtkTable::GetData(inputVector[1]);
   const vtkSmartPointer<vtkTable> output = vtkTable::GetData(outputVector);
   this->Impl->RunsAgain = false;
+  if (vtkDataObject* block = vtkDataObject::GetData(inputVector[0]); block && !cloud)
+  {
+    vtkWarningMacro(<< "A block without points is left empty: " << block->GetClassName() << ".");
+    addColumns(output);
+    return 1;
+  }
   const vtkMTimeType begin = this->GetMTime();
   const bool hasPoints = cloud && table && cloud->GetNumberOfPoints() > 0;
   HipPath path;

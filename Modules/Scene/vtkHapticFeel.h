@@ -24,6 +24,9 @@
  * set lattice, transform and rule there. The scene that comes of it is kept until the cloud, one of these or
  * UseCovariance or RefineNearHand changes, so that many paths are felt in one scene.
  *
+ * Of a composite each block is felt alone, and the output is a composite of tables. Blocks without points are
+ * left empty with a warning.
+ *
  * @warning A path without rows or columns, times that do not ascend, numbers that are not finite, more than
  * 1e8 ticks, gains out of range and a cloud without a finite point in the workspace are reported by
  * vtkErrorMacro with the cure, and the output has no rows. Sizes and times that make other units likely

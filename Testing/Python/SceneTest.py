@@ -186,6 +186,22 @@ class Feel(TestCase):
         self.assertEqual((said, feel.GetErrorCode(), feel.GetOutput().GetNumberOfRows()), ([], 0, 0))
         self.assertGreater(feel.GetOutput().GetNumberOfColumns(), 10)
 
+    def test_each_block_is_felt_alone(self):
+        from vtkmodules.vtkCommonDataModel import vtkImageData, vtkMultiBlockDataSet
+
+        feel, said = self.filter_of(self.hand), []
+        feel.Update()
+        rows = feel.GetOutput().GetNumberOfRows()
+        blocks = vtkMultiBlockDataSet()
+        blocks.SetBlock(0, feel.GetInputDataObject(0, 0))
+        blocks.SetBlock(1, vtkImageData())
+        feel.SetInputDataObject(0, blocks)
+        for kind in ("ErrorEvent", "WarningEvent"):
+            feel.AddObserver(kind, lambda caller, event: said.append(event))
+        feel.Update()
+        found = [feel.GetOutputDataObject(0).GetBlock(index) for index in range(2)]
+        self.assertEqual(([table.GetNumberOfRows() for table in found], said), ([rows, 0], ["WarningEvent"]))
+
     def test_what_an_observer_sets_in_a_run_counts_from_the_next_on(self):
         def soften(caller, event):
             if caller.GetProgress() > 0.5:
