@@ -19,20 +19,6 @@
 
 namespace pointhaptics
 {
-namespace
-{
-
-void addArray(vtkPolyData* output, const char* name, const std::vector<double>& values)
-{
-  vtkNew<vtkDoubleArray> array;
-  array->SetName(name);
-  array->SetNumberOfValues(vtkIdType(values.size()));
-  std::copy(values.begin(), values.end(), array->GetPointer(0));
-  output->GetPointData()->AddArray(array);
-}
-
-}
-
 std::vector<double> voxelCounts(vtkPointSet* cloud, bool use, std::string& problem)
 {
   std::vector<double> counts;
@@ -98,22 +84,21 @@ void addBandwidthArrays(vtkPolyData* output, const BandwidthSettings& settings,
   const std::vector<double>& densities, const std::vector<double>& ofMeans,
   const std::vector<double>& bandwidths, const std::vector<double>& radii)
 {
-  if (settings.computeDensity)
+  const auto add = [output](bool isWanted, const char* name, const std::vector<double>& values)
   {
-    addArray(output, "Density", densities);
-  }
-  if (settings.computeMeanBandwidth)
-  {
-    addArray(output, "MeanBandwidth", ofMeans);
-  }
-  if (settings.computeBandwidth)
-  {
-    addArray(output, "Bandwidth", bandwidths);
-  }
-  if (settings.computeProxyRadius)
-  {
-    addArray(output, "ProxyRadius", radii);
-  }
+    if (isWanted)
+    {
+      vtkNew<vtkDoubleArray> array;
+      array->SetName(name);
+      array->SetNumberOfValues(vtkIdType(values.size()));
+      std::copy(values.begin(), values.end(), array->GetPointer(0));
+      output->GetPointData()->AddArray(array);
+    }
+  };
+  add(settings.computeDensity, "Density", densities);
+  add(settings.computeMeanBandwidth, "MeanBandwidth", ofMeans);
+  add(settings.computeBandwidth, "Bandwidth", bandwidths);
+  add(settings.computeProxyRadius, "ProxyRadius", radii);
 }
 
 } // namespace pointhaptics

@@ -22,8 +22,8 @@ constexpr const char* kPoses[] = { kViewpoint, "ScanPoses" };
 constexpr std::size_t kPoseSize = 7;
 using Quaternion = std::array<double, 4>; ///< w x y z
 
-/// Pose by pose; none where the array has another shape.
-std::vector<double> posesIn(vtkFieldData* field, const char* name)
+/// Pose by pose, those that a transform moves; none where the array has another shape.
+std::vector<double> movedPosesIn(vtkFieldData* field, const char* name)
 {
   std::vector<double> values;
   vtkDataArray* array = field->GetArray(name);
@@ -36,13 +36,6 @@ std::vector<double> posesIn(vtkFieldData* field, const char* name)
       values.push_back(array->GetComponent(i / components, int(i % components)));
     }
   }
-  return values;
-}
-
-/// The poses of @p name that a transform moves.
-std::vector<double> movedPosesIn(vtkFieldData* field, const char* name)
-{
-  std::vector<double> values = posesIn(field, name);
   const std::vector<double> identity = { 0, 0, 0, 1, 0, 0, 0 };
   if (name == kViewpoint && values == identity)
   {

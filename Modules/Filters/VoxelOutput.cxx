@@ -1,6 +1,7 @@
 #include "VoxelOutput.h"
 
 #include "FieldPoses.h"
+#include "PolyDataAccess.h"
 #include "VoxelArrays.h"
 
 #include "vtkCellArray.h"
@@ -9,6 +10,7 @@
 #include "vtkFloatArray.h"
 #include "vtkIdTypeArray.h"
 #include "vtkIntArray.h"
+#include "vtkMatrix4x4.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
@@ -97,13 +99,14 @@ void keepTuples(vtkAbstractArray* array, const std::vector<std::int64_t>& kept)
   array->Resize(vtkIdType(kept.size()));
 }
 
-void addField(vtkFieldData* field, const char* name, const double* values, int count)
+template <typename Array, typename Number>
+void addField(vtkFieldData* field, const char* name, const Number* values, int count)
 {
-  vtkNew<vtkDoubleArray> array;
+  vtkNew<Array> array;
   array->SetName(name);
   array->SetNumberOfComponents(count);
   array->SetNumberOfTuples(1);
-  array->SetTypedTuple(0, values);
+  std::copy_n(values, count, array->GetPointer(0));
   field->AddArray(array);
 }
 
@@ -203,21 +206,12 @@ std::optional<std::vector<std::int64_t>> keepVoxels(
 /// Records the lattice and the transform: a scene is built from them.
 void addLattice(const Lattice& lattice, const AffineTransform& transform, vtkFieldData* field)
 {
-  addField(field, "LatticeOrigin", &lattice.origin.x, 3);
-  addField(field, "LatticeSpacing", &lattice.spacing.x, 3);
-  vtkNew<vtkIntArray> dimensions;
-  dimensions->SetName("LatticeDimensions");
-  dimensions->SetNumberOfComponents(3);
-  dimensions->SetNumberOfTuples(1);
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    dimensions->SetValue(axis, int(lattice.dimensions[std::size_t(axis)]));
-  }
-  field->AddArray(dimensions);
-  double matrix[16] = { 0 };
-  std::copy(&transform.m[0][0], &transform.m[0][0] + 12, matrix);
-  matrix[15] = 1.0;
-  addField(field, "ModelToWorkspace", matrix, 16);
+  addField<vtkDoubleArray>(field, "LatticeOrigin", &lattice.origin.x, 3);
+  addField<vtkDoubleArray>(field, "LatticeSpacing", &lattice.spacing.x, 3);
+  addField<vtkIntArray>(field, "LatticeDimensions", lattice.dimensions.data(), 3);
+  vtkNew<vtkMatrix4x4> matrix;
+  setElements(matrix, transform);
+  addField<vtkDoubleArray>(field, "ModelToWorkspace", matrix->GetData(), 16);
 }
 
 }

@@ -124,6 +124,12 @@ void vtkCloudAlgorithm::Fail(const std::string& problem)
   vtkErrorMacro(<< problem);
 }
 
+void vtkCloudAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "RepeatsErrors: " << this->RepeatsErrors << "\n";
+}
+
 void vtkCloudAlgorithm::Warn(const std::string& text)
 {
   if (!text.empty() && std::find(this->Warnings.begin(), this->Warnings.end(), text) == this->Warnings.end())

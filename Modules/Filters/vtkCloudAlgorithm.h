@@ -9,8 +9,8 @@
  * vtkMultiBlockDataSet.
  *
  * Errors: vtkErrorMacro with what, where, value and cure. GetErrorCode() is then not 0, GetErrorMessage() has
- * the sentence, the output is valid and empty (its points are never null), and each further Update() runs
- * again and says so again until the cause is mended. An aborted update gives an empty output without an error
+ * the sentence, the output is valid and empty (its points are never null), and RepeatsErrors decides about
+ * further updates. An aborted update gives an empty output without an error
  * and starts anew next time. An error is the only message of its update; an empty input gives an empty output
  * without one, as whatever left it empty has said why.
  *
@@ -70,12 +70,23 @@ class POINTHAPTICSFILTERS_EXPORT vtkCloudAlgorithm : public vtkPolyDataAlgorithm
 {
 public:
   vtkAbstractTypeMacro(vtkCloudAlgorithm, vtkPolyDataAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /**
    * Later than what was set in a run; later than the last output where that was cut short by an error or an
    * abort.
    */
   vtkMTimeType GetMTime() override;
+
+  ///@{
+  /**
+   * On: after an error each Update() runs again and says so again until the cause is mended. Off, for hosts
+   * that update several times for one action of a person: nothing runs until something is set. Default: on.
+   */
+  vtkSetMacro(RepeatsErrors, bool);
+  vtkGetMacro(RepeatsErrors, bool);
+  vtkBooleanMacro(RepeatsErrors, bool);
+  ///@}
 
   /**
    * Errors of the last update; empty: none.
@@ -109,8 +120,6 @@ protected:
   int FillOutputPortInformation(int port, vtkInformation* info) override;
   virtual int RequestDataObject(vtkInformation*, vtkInformationVector**, vtkInformationVector*);
 
-  /// Off: after an error nothing runs again until something is set. For hosts that update several times for
-  /// one action of a person, and ranks that run together or not at all.
   bool RepeatsErrors = true;
 
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;

@@ -57,6 +57,14 @@ void vtkVoxelMeanResampler::SetSettings(const VoxelMeanSettings& settings)
   this->Modified();
 }
 
+void vtkVoxelMeanResampler::TakeSettings(vtkVoxelMeanResampler* other)
+{
+  this->SetTransform(other->Transform);
+  this->SetLatticePerBlock(other->LatticePerBlock);
+  this->SetNumberOfThreads(other->NumberOfThreads);
+  this->SetSettings(other->Settings);
+}
+
 void vtkVoxelMeanResampler::UpdateVectors()
 {
   const LatticeSettings& lattice = this->Settings.lattice;
@@ -127,11 +135,6 @@ bool vtkVoxelMeanResampler::IsCategoricalArray(const char* name) const
 unsigned long vtkVoxelMeanResampler::GetScratchMemorySize() const
 {
   return static_cast<unsigned long>(this->Impl->ScratchBytes() / 1024);
-}
-
-void vtkVoxelMeanResampler::SetNumberOfThreads(int threads)
-{
-  this->Impl->SetNumberOfThreads(unsigned(std::max(0, threads)));
 }
 
 void vtkVoxelMeanResampler::ReleaseScratch()

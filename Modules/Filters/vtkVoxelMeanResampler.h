@@ -295,7 +295,12 @@ public:
    * At most so many threads of vtkSMPTools in the next updates; 0: all of them. The result is the same with
    * any number. Not a property of the output: the pipeline does not update for it. Default: 0.
    */
-  void SetNumberOfThreads(int threads);
+  void SetNumberOfThreads(int threads) { this->NumberOfThreads = std::max(0, threads); }
+
+  /**
+   * Takes over all of the above from @p other.
+   */
+  void TakeSettings(vtkVoxelMeanResampler* other);
 
   /**
    * Frees that memory.
@@ -340,6 +345,7 @@ private:
 
   pointhaptics::VoxelMeanSettings Settings;
   bool LatticePerBlock = false;
+  int NumberOfThreads = 0;
   // Copies of settings that are returned by pointers, in VTK's order.
   double WorkspaceBounds[6];
   int Dimensions[3];

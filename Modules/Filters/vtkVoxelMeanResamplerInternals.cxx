@@ -35,6 +35,7 @@ bool vtkVoxelMeanResampler::Internals::Begin(const Clouds& clouds)
   this->IsRunning = true;
   this->Aborted = false;
   this->Settings = this->Filter->Settings;
+  this->Smp = SmpExecutor(unsigned(this->Filter->NumberOfThreads));
   this->PartBegin = this->PartEnd = 0.0;
   this->NumberOfPoints = 0;
   for (vtkPointSet* cloud : clouds)

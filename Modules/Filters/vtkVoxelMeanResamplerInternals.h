@@ -50,8 +50,6 @@ public:
   void End(bool succeeded);
   /// Frees what is kept between updates; called during an update, at its end.
   void ReleaseCaches();
-  /// 0: all.
-  void SetNumberOfThreads(unsigned most) { this->Smp = pointhaptics::SmpExecutor(most); }
   std::size_t ScratchBytes() const;
 
   /// Maps the fraction to the current part of the update and passes it to the filter.

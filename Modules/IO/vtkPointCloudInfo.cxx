@@ -7,6 +7,7 @@
 
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
 
@@ -41,7 +42,9 @@ bool vtkPointCloudInfo::GetArrayRange(int array, int component, double range[2])
 int vtkPointCloudInfo::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
+  const vtkNew<vtkPolyData> none; // for a block of another kind
   auto* input = vtkPolyData::GetData(inputVector[0]);
+  input = input ? input : none.Get();
   auto* reader = vtkPointCloudReader::SafeDownCast(this->GetInputAlgorithm());
   this->SetErrorCode(0);
   vtkPolyData::GetData(outputVector)->ShallowCopy(input);

@@ -275,6 +275,11 @@ void vtkPointCloudReader::SetRanks(pointhaptics::Ranks* ranks)
   }
 }
 
+bool vtkPointCloudReader::IsShared() const
+{
+  return this->Ranks && this->Ranks->size() > 1;
+}
+
 void vtkPointCloudReader::ReadInto(vtkPolyData* cloud)
 {
   io::ReadTask task;
@@ -293,7 +298,7 @@ void vtkPointCloudReader::ReadInto(vtkPolyData* cloud)
   std::copy_n(this->Box, 6, task.wanted.box.begin());
   task.applyPoses = this->ApplyPoses;
   const KeepFindings keep{ task, this->Format, this->Notes };
-  if (this->Ranks && this->Ranks->size() > 1)
+  if (this->IsShared())
   {
     this->ReadTogether(task, cloud);
   }
@@ -472,10 +477,9 @@ std::string vtkPointCloudReader::ExtensionOf(const std::string& path) const
                                  : this->Extension;
 }
 
-/// A file that was stopped is read again by the next Update().
 vtkMTimeType vtkPointCloudReader::GetMTime()
 {
-  if (this->WasStopped)
+  if (this->RunsAgain)
   {
     this->RetryTime.Modified();
   }
@@ -485,6 +489,7 @@ vtkMTimeType vtkPointCloudReader::GetMTime()
 void vtkPointCloudReader::Fail(unsigned long code, const std::string& message)
 {
   this->ErrorMessage = io::messageOf(this->FileName, this->Format, message);
+  this->RunsAgain = this->RepeatsErrors && !this->IsShared();
   this->SetErrorCode(code);
   vtkErrorMacro(<< this->ErrorMessage);
 }
@@ -498,7 +503,7 @@ int vtkPointCloudReader::RequestData(
   this->Notes.clear();
   this->ValidWithoutPoints = false;
   this->OtherRankFailed = false;
-  this->WasStopped = false;
+  this->RunsAgain = false;
   this->NumberOfBytesRead = 0;
   this->Coarse = false;
   this->Sampled = false;
@@ -506,16 +511,14 @@ int vtkPointCloudReader::RequestData(
   this->SetProgressShiftScale(0.0, 1.0);
   // The pipeline goes on with an empty cloud after a fault: returning 0 would add the executive's own
   // message, which callers cannot silence.
-  if (!this->FileName || !*this->FileName)
-  {
-    output->SetPoints(vtkNew<vtkPoints>());
-    this->Fail(vtkErrorCode::NoFileNameError, "there is nothing to read; set a file name");
-    return 1;
-  }
   pointhaptics::HostStop stop(this->AbortExecute);
   const pointhaptics::WithoutInterpreterLock unlocked(stop.request());
   try
   {
+    if (!this->FileName || !*this->FileName)
+    {
+      throw io::FileProblem(vtkErrorCode::NoFileNameError, "there is nothing to read", "set a file name");
+    }
     pointhaptics::requireRoomOfWork();
     this->ReadInto(output);
     this->UpdateProgress(1.0);
@@ -539,7 +542,7 @@ int vtkPointCloudReader::RequestData(
   }
   catch (const io::StoppedOnRequest&)
   {
-    this->WasStopped = true;
+    this->RunsAgain = true;
     this->ErrorMessage = std::string(this->FileName) + ": reading was stopped on request; read it again";
     this->SetErrorCode(vtkErrorCode::UserError);
   }
@@ -571,5 +574,6 @@ void vtkPointCloudReader::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Salvage: " << (this->Salvage ? "On" : "Off") << "\n";
   os << indent << "ApplyPoses: " << this->ApplyPoses << "\n";
   os << indent << "Format: " << this->Format << "\n";
+  os << indent << "RepeatsErrors: " << (this->RepeatsErrors ? "On" : "Off") << "\n";
   os << indent << "ErrorMessage: " << this->ErrorMessage << "\n";
 }

@@ -20,8 +20,8 @@
  * What becomes of each format is in Documentation/Formats.md.
  *
  * Faults give an empty output, an error code (vtkErrorCode), a vtkErrorMacro, and GetErrorMessage() with
- * `file: format: what, where, value; cure`. Sizes that a file claims are checked against its length before
- * anything is allocated, so hostile files fail cleanly.
+ * `file: format: what, where, value; cure`; RepeatsErrors decides about further updates. Sizes that a file
+ * claims are checked against its length before anything is allocated, so hostile files fail cleanly.
  *
  * Costs the file's (unpacked) size in memory beside the output, and less than 64 MB more; STL needs its
  * vertices twice, and OBJ all its numbers as doubles, up to twice the file's size. A gzip file may unpack to
@@ -180,6 +180,17 @@ public:
   bool HasSamples() const { return this->Sampled; }
   ///@}
 
+  ///@{
+  /**
+   * On: after a fault each Update() reads again and says so again until the cause is mended. Off, for hosts
+   * that update several times for one action of a person: nothing is read until something is set. Several
+   * ranks say a fault once, as they read together or not at all. Default: on.
+   */
+  vtkSetMacro(RepeatsErrors, bool);
+  vtkGetMacro(RepeatsErrors, bool);
+  vtkBooleanMacro(RepeatsErrors, bool);
+  ///@}
+
   /**
    * The extensions of all formats that are read, without dots.
    */
@@ -232,6 +243,10 @@ public:
    * was not recognised.
    */
   const char* GetFormat() const { return this->Format.c_str(); }
+
+  /**
+   * Later than the last output where that was cut short by a fault or an abort.
+   */
   vtkMTimeType GetMTime() override;
 
 protected:
@@ -251,6 +266,7 @@ private:
   void Finish(pointhaptics::io::ReadTask& task, vtkPolyData* cloud);
   void FinishFaces(pointhaptics::io::ReadTask& task, vtkPolyData* cloud);
   std::string ExtensionOf(const std::string& path) const;
+  bool IsShared() const;
   void Fail(unsigned long code, const std::string& message);
 
   char* FileName = nullptr;
@@ -273,7 +289,8 @@ private:
   bool ValidWithoutPoints = false;
   pointhaptics::Ranks* Ranks = nullptr;
   bool OtherRankFailed = false;
-  bool WasStopped = false;
+  bool RepeatsErrors = true;
+  bool RunsAgain = false;
   vtkTimeStamp RetryTime;
   vtkTypeInt64 NumberOfBytesRead = 0;
 };

@@ -6,12 +6,6 @@
 
 vtkStandardNewMacro(vtkPVHapticFeel);
 
-vtkPVHapticFeel::vtkPVHapticFeel()
-{
-  this->GetResampler()->SetAutomaticWorkspace(true);
-  this->RepeatsErrors = false;
-}
-
 void vtkPVHapticFeel::SetVoxelSize(double size)
 {
   pointhaptics::VoxelMeanSettings settings = this->GetResampler()->GetSettings();

@@ -28,7 +28,7 @@ public:
   void SetVoxelSize(double size);
 
 protected:
-  vtkPVHapticFeel();
+  vtkPVHapticFeel() = default;
   ~vtkPVHapticFeel() override = default;
 
 private:

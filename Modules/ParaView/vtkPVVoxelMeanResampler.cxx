@@ -19,7 +19,6 @@ vtkStandardNewMacro(vtkPVVoxelMeanResampler);
 vtkPVVoxelMeanResampler::vtkPVVoxelMeanResampler()
   : Chosen(this->GetSettings().lattice)
 {
-  this->RepeatsErrors = false;
   this->Categorical->AddObserver(vtkCommand::ModifiedEvent, this, &vtkPVVoxelMeanResampler::ApplyChosen);
 }
 

@@ -42,9 +42,9 @@ constexpr double kUsualHeight = 800.0;
 /// Least resolution in motion; below it nothing is told apart.
 constexpr double kLeastResolution = 0.3;
 
-/// Format of the depths that are drawn into, as vtkTextureObject numbers it; below 0: another one, or several
-/// samples a pixel.
-int depthFormatOfTarget()
+/// Format of the depths that are drawn into, as vtkTextureObject numbers it. @p takesCopies: false with a
+/// stencil or several samples a pixel, whose bytes are others.
+int depthFormatOfTarget(bool& takesCopies)
 {
   const auto parameter = [](GLenum name)
   {
@@ -56,16 +56,19 @@ int depthFormatOfTarget()
   GLint samples = 0;
   glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &bound);
   glGetIntegerv(GL_SAMPLES, &samples);
-  if (bound == 0 || samples > 0 || parameter(GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE) == GL_NONE ||
-    parameter(GL_FRAMEBUFFER_ATTACHMENT_STENCIL_SIZE) > 0)
-  {
-    return -1;
-  }
-  const int bits = parameter(GL_FRAMEBUFFER_ATTACHMENT_DEPTH_SIZE);
-  const bool isFloat = parameter(GL_FRAMEBUFFER_ATTACHMENT_COMPONENT_TYPE) == GL_FLOAT;
-  return bits == 32 ? (isFloat ? vtkTextureObject::Float32 : vtkTextureObject::Fixed32)
-    : bits == 24    ? vtkTextureObject::Fixed24
-                    : -1;
+  const bool hasDepths = bound != 0 && parameter(GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE) != GL_NONE;
+  const int bits = hasDepths ? parameter(GL_FRAMEBUFFER_ATTACHMENT_DEPTH_SIZE) : 0;
+  takesCopies = bits >= 24 && samples == 0 && parameter(GL_FRAMEBUFFER_ATTACHMENT_STENCIL_SIZE) == 0;
+  const bool isFixed32 = bits == 32 && parameter(GL_FRAMEBUFFER_ATTACHMENT_COMPONENT_TYPE) != GL_FLOAT;
+  return bits == 24 ? vtkTextureObject::Fixed24
+    : isFixed32     ? vtkTextureObject::Fixed32
+                    : vtkTextureObject::Float32;
+}
+
+/// Volumes copy the depths of a picture to a texture of the window's format and size.
+bool hasVolumes(vtkRenderer* renderer)
+{
+  return renderer->GetVolumes()->GetNumberOfItems() > 0;
 }
 
 /// Lets the next drawing overwrite colours and depths.
@@ -164,7 +167,8 @@ void vtkDepthShadingPass::ChooseResolution(const vtkRenderState* state, vtkOpenG
 {
   this->ReadWindowSize(state);
   const double pixels = double(this->Width) * this->Height;
-  const bool isReduced = this->IsMoving && pointhaptics::DrawPace::of(window).isNeeded();
+  const bool isReduced =
+    this->IsMoving && pointhaptics::DrawPace::of(window).isNeeded() && !hasVolumes(state->GetRenderer());
   const double part = std::min(
     { 1.0, kMostMovingPixels / pixels, kMostMovingFragments / std::max(1.0, this->MovingFragments) });
   this->Resolution = isReduced ? std::max(kLeastResolution, std::sqrt(part)) : 1.0;
@@ -174,8 +178,7 @@ void vtkDepthShadingPass::ChooseResolution(const vtkRenderState* state, vtkOpenG
 
 void vtkDepthShadingPass::PrepareTargets(vtkRenderer* renderer, vtkOpenGLRenderWindow* window)
 {
-  this->WindowFormat = depthFormatOfTarget();
-  const int format = this->WindowFormat < 0 ? int(vtkTextureObject::Float32) : this->WindowFormat;
+  const int format = depthFormatOfTarget(this->WindowTakesCopies);
   const auto prepare = [&](Target& target, int type, int depthFormat, int pixel = 1)
   {
     const auto width = static_cast<unsigned int>((this->W + pixel - 1) / pixel);
@@ -198,9 +201,7 @@ void vtkDepthShadingPass::PrepareTargets(vtkRenderer* renderer, vtkOpenGLRenderW
       this->Kept.clear();
     }
   };
-  // Volumes copy the depths to a texture of the window's format, which takes no other.
-  const bool hasVolumes = renderer->GetVolumes()->GetNumberOfItems() > 0;
-  const int drawnFormat = hasVolumes ? format : int(vtkTextureObject::Float32);
+  const int drawnFormat = hasVolumes(renderer) ? format : int(vtkTextureObject::Float32);
   if (format != this->ShownFormat || drawnFormat != this->DrawnFormat)
   {
     this->Drawn = this->Shown = Target();
@@ -488,7 +489,7 @@ void vtkDepthShadingPass::Show(vtkRenderer* renderer, vtkOpenGLRenderWindow* win
   renderer->GetTiledSizeAndOrigin(&width, &height, &x, &y);
   state->vtkglViewport(x, y, width, height);
   state->vtkglScissor(x, y, width, height);
-  if (this->Resolution == 1.0 && this->ShownFormat == this->WindowFormat)
+  if (this->Resolution == 1.0 && this->WindowTakesCopies)
   {
     state->PushReadFramebufferBinding();
     this->Shown.Frame->Bind(GL_READ_FRAMEBUFFER);

@@ -201,10 +201,10 @@ private:
   Target Drawn;
   Target Sums;
   Target Tiles;
-  Target Shown;          // kept
-  int ShownFormat = -1;  // of its depths
-  int DrawnFormat = -1;  ///< Format of the depths of Drawn.
-  int WindowFormat = -1; // of those it is shown in; below 0: its bytes cannot be copied
+  Target Shown;                   // kept
+  int ShownFormat = -1;           // of its depths
+  int DrawnFormat = -1;           ///< Format of the depths of Drawn.
+  bool WindowTakesCopies = false; ///< Whether the bytes of Shown are those of the window.
   std::unique_ptr<vtkOpenGLQuadHelper> TileQuad;
   std::unique_ptr<vtkOpenGLQuadHelper> DivideQuad;
   std::unique_ptr<vtkOpenGLQuadHelper> CopyQuad;

@@ -126,7 +126,6 @@ Status FeelScenes::resample(
   auto input = vtkSmartPointer<vtkPointSet>::Take(cloud->NewInstance());
   input->ShallowCopy(cloud);
   prepareForTouch(resampler, settings.useCovariance);
-  const VoxelMeanSettings asked = resampler->GetSettings();
   note_ = setLattice(cloud->GetPoints(), resampler);
   const LatticeSettings lattice = resampler->GetSettings().lattice;
   resampler->SetInputData(input);
@@ -135,9 +134,6 @@ Status FeelScenes::resample(
   resampler->AddObserver(vtkCommand::ErrorEvent, silence);
   resampler->AddObserver(vtkCommand::WarningEvent, silence);
   resampler->Update();
-  resampler->RemoveObserver(silence);
-  resampler->SetInputData(nullptr);
-  resampler->SetSettings(asked);
   vtkPolyData* felt = resampler->GetOutput();
   message = resampler->GetErrorMessage();
   message.erase(message.find_last_not_of(" .") + 1);
@@ -164,7 +160,6 @@ Status FeelScenes::resample(
   settings.workspace = lattice.automaticWorkspace ? Bounds() : lattice.workspace;
   const Status status = this->make(felt, cloud->GetPoints(), settings);
   message = pointhaptics::message(status);
-  resampler->ReleaseScratch();
   return status;
 }
 

@@ -49,8 +49,8 @@ public:
   Status make(vtkPolyData* felt, vtkPoints* cloud, const FeelSceneSettings& settings);
   /// As make(), with a scene of the whole cloud that is there already.
   void adopt(std::shared_ptr<const HapticScene> whole, vtkPoints* cloud, const FeelSceneSettings& settings);
-  /// Resamples @p cloud and makes its scenes. @param resampler has lattice and transform, and is set up by
-  /// prepareForTouch(); its observers may abort the work. @p settings' workspace is that of the resampler.
+  /// Resamples @p cloud and makes its scenes. @param resampler has lattice and transform, and is used up: it
+  /// is set up by prepareForTouch(); its observers may abort the work. @p settings' workspace is its own.
   /// Errors: Aborted, Empty (no finite point in the workspace), InvalidParameter (the resampler's settings),
   /// those of HapticScene::create(); @p message says which, with the cure.
   Status resample(

@@ -61,17 +61,6 @@ public:
   }
 };
 
-/// Leaves it to vtkHapticFeel whether an error is said again.
-class FeltResampler : public vtkVoxelMeanResampler
-{
-public:
-  static FeltResampler* New();
-
-private:
-  FeltResampler() { this->RepeatsErrors = false; }
-};
-vtkStandardNewMacro(FeltResampler);
-
 /// The column of numbers @p name of @p table, or null.
 vtkDataArray* columnOf(vtkTable* table, const char* name)
 {
@@ -133,9 +122,8 @@ public:
   bool Feel(
     vtkHapticFeel* filter, const HipPath& path, std::int64_t ticks, vtkTable* output, std::string& odd);
 
-  vtkNew<FeltResampler> Resampler;
+  vtkNew<vtkVoxelMeanResampler> Resampler; ///< Settings alone, as Bandwidth.
   vtkNew<vtkKernelBandwidthFilter> Bandwidth;
-  vtkNew<ResamplerObserver> Observer;
   bool RunsAgain = false;
   vtkTimeStamp RetryTime;
 
@@ -163,12 +151,18 @@ bool vtkHapticFeel::Internals::MakeScenes(vtkHapticFeel* filter, vtkPointSet* cl
   this->CloudTime = 0;
   // Observers may set these while the resampler runs.
   const vtkMTimeType cloudTime = cloud->GetMTime();
+  this->ResamplerTime = this->Resampler->GetMTime();
   this->BandwidthTime = this->Bandwidth->GetMTime();
   FeelSceneSettings settings;
   settings.bandwidth = this->Bandwidth->GetSettings();
   settings.useCovariance = filter->UseCovariance;
   settings.refineNearHand = filter->RefineNearHand;
-  const Status status = this->Scenes.resample(cloud, this->Resampler, settings, message);
+  vtkNew<vtkVoxelMeanResampler> resampler;
+  resampler->TakeSettings(this->Resampler);
+  vtkNew<ResamplerObserver> observer;
+  observer->Owner = filter;
+  resampler->AddObserver(vtkCommand::ProgressEvent, observer);
+  const Status status = this->Scenes.resample(cloud, resampler, settings, message);
   if (status != Status::Ok)
   {
     message = status == Status::Aborted ? "" : message;
@@ -179,9 +173,8 @@ bool vtkHapticFeel::Internals::MakeScenes(vtkHapticFeel* filter, vtkPointSet* cl
   {
     vtkWarningWithObjectMacro(filter, << this->Scenes.note());
   }
-  filter->NumberOfFeltPoints = this->Resampler->GetOutput()->GetNumberOfPoints();
+  filter->NumberOfFeltPoints = resampler->GetOutput()->GetNumberOfPoints();
   this->CloudTime = cloudTime;
-  this->ResamplerTime = this->Resampler->GetMTime();
   this->UsedCovariance = settings.useCovariance;
   this->RefinedNearHand = settings.refineNearHand;
   return true;
@@ -243,15 +236,9 @@ vtkHapticFeel::vtkHapticFeel()
   : Impl(std::make_unique<Internals>())
 {
   this->SetNumberOfInputPorts(2);
-  this->Impl->Observer->Owner = this;
-  this->Impl->Resampler->AddObserver(vtkCommand::ProgressEvent, this->Impl->Observer);
 }
 
-vtkHapticFeel::~vtkHapticFeel()
-{
-  // Others may hold the resampler longer.
-  this->Impl->Resampler->RemoveObserver(this->Impl->Observer);
-}
+vtkHapticFeel::~vtkHapticFeel() = default;
 
 void vtkHapticFeel::SetSettings(const HapticParameters& settings)
 {
@@ -295,10 +282,14 @@ int vtkHapticFeel::RequestData(
   const vtkSmartPointer<vtkPointSet> cloud = vtkPointSet::GetData(inputVector[0]);
   const vtkSmartPointer<vtkTable> table = vtkTable::GetData(inputVector[1]);
   const vtkSmartPointer<vtkTable> output = vtkTable::GetData(outputVector);
-  // The run itself sets the resampler's input.
-  const auto setTime = [this]
-  { return std::max(this->Superclass::GetMTime(), this->Impl->Bandwidth->GetMTime()); };
-  const vtkMTimeType begin = setTime();
+  this->Impl->RunsAgain = false;
+  if (vtkDataObject* block = vtkDataObject::GetData(inputVector[0]); block && !cloud)
+  {
+    vtkWarningMacro(<< "A block without points is left empty: " << block->GetClassName() << ".");
+    addColumns(output);
+    return 1;
+  }
+  const vtkMTimeType begin = this->GetMTime();
   const bool hasPoints = cloud && table && cloud->GetNumberOfPoints() > 0;
   HipPath path;
   std::int64_t ticks = 0;
@@ -333,7 +324,7 @@ int vtkHapticFeel::RequestData(
     vtkWarningMacro(<< odd);
   }
   this->Impl->RunsAgain =
-    setTime() > begin || (!isFelt && hasPoints && (this->RepeatsErrors || message.empty()));
+    this->GetMTime() > begin || (!isFelt && hasPoints && (this->RepeatsErrors || message.empty()));
   return 1;
 }
 
@@ -344,5 +335,6 @@ void vtkHapticFeel::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Rate: " << this->Rate << "\n";
   os << indent << "UseCovariance: " << this->UseCovariance << "\n";
   os << indent << "RefineNearHand: " << this->RefineNearHand << "\n";
+  os << indent << "RepeatsErrors: " << this->RepeatsErrors << "\n";
   os << indent << "NumberOfFeltPoints: " << this->NumberOfFeltPoints << "\n";
 }

@@ -20,9 +20,12 @@
  * feel->Update();
  * @endcode
  *
- * The cloud is resampled by GetResampler() and its proxy radii follow the rule of GetBandwidthFilter(): set
- * lattice, transform and rule there. The scene that comes of it is kept until the cloud, one of these or
+ * The cloud is resampled as GetResampler() says and its proxy radii follow the rule of GetBandwidthFilter():
+ * set lattice, transform and rule there. The scene that comes of it is kept until the cloud, one of these or
  * UseCovariance or RefineNearHand changes, so that many paths are felt in one scene.
+ *
+ * Of a composite each block is felt alone, and the output is a composite of tables. Blocks without points are
+ * left empty with a warning.
  *
  * @warning A path without rows or columns, times that do not ascend, numbers that are not finite, more than
  * 1e8 ticks, gains out of range and a cloud without a finite point in the workspace are reported by
@@ -133,11 +136,20 @@ public:
 
   ///@{
   /**
-   * The filters that the cloud goes through, owned by this one. Its input, precision and arrays are set by
-   * this filter.
+   * Lattice, transform and rule of the filters that the cloud goes through. Each run has filters of its own
+   * with these settings, so that what an observer sets here counts from the next run on.
    */
   vtkVoxelMeanResampler* GetResampler();
   vtkKernelBandwidthFilter* GetBandwidthFilter();
+  ///@}
+
+  ///@{
+  /**
+   * As in vtkCloudAlgorithm. Default: on.
+   */
+  vtkSetMacro(RepeatsErrors, bool);
+  vtkGetMacro(RepeatsErrors, bool);
+  vtkBooleanMacro(RepeatsErrors, bool);
   ///@}
 
   /**
@@ -157,7 +169,7 @@ protected:
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
-  bool RepeatsErrors = true; ///< As in vtkCloudAlgorithm.
+  bool RepeatsErrors = true;
   pointhaptics::HapticParameters Settings;
   double Rate = 1000.0;
   bool UseCovariance = true;

@@ -316,6 +316,10 @@ TEST(CloudAlgorithm, AnErrorIsSaidOnEachUpdateAndLeavesEmptyPoints)
         EXPECT_EQ(warnings.count, 0) << "the error is the only message";
         EXPECT_NE(filter->GetErrorCode(), 0u);
       }
+      filter->RepeatsErrorsOff();
+      filter->Update();
+      filter->Update();
+      EXPECT_EQ(errors.count, 4) << "once after it was set";
       const std::vector<vtkSmartPointer<vtkPolyData>> outputs = isComposite
         ? cloudsIn(filter->GetOutputDataObject(0))
         : std::vector<vtkSmartPointer<vtkPolyData>>{ filter->GetOutput() };
@@ -334,7 +338,7 @@ TEST(CloudAlgorithm, AnErrorIsSaidOnEachUpdateAndLeavesEmptyPoints)
         vtkKernelBandwidthFilter::SafeDownCast(filter)->SetNumberOfNeighbors(8);
       }
       filter->Update();
-      EXPECT_EQ(errors.count, 3);
+      EXPECT_EQ(errors.count, 4);
       EXPECT_EQ(filter->GetErrorCode(), 0u);
       const vtkMTimeType made = filter->GetOutputDataObject(0)->GetMTime();
       filter->Update();

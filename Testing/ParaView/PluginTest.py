@@ -1,5 +1,6 @@
 """The ParaView plugin in pvpython: results are the program's bit for bit, defaults fit, bad input is an error."""
 
+import os
 import re
 import unittest
 
@@ -253,6 +254,12 @@ class InPipelines(TestCase):
                     self.assertTrue(all(fields == expected[0] for fields in found), found)
                     self.assertEqual(points, count * len(found) // 2)  # no voxel has points of both
 
+    def test_progress_has_the_names_of_the_menu(self):
+        cloud = self.labels()
+        filters = (simple.VoxelMeanResampler(Input=cloud, VoxelSize=3), simple.KernelBandwidth(Input=cloud), simple.HapticFeel())
+        for proxy, name in zip((cloud, *filters), ("PointHaptics Reader", "Voxel Mean Resampler", "Kernel Bandwidth", "Haptic Feel")):
+            self.assertEqual(proxy.SMProxy.GetClientSideObject().GetProgressText(), name)
+
     def test_the_arrays_with_labels_are_those_that_are_ticked(self):
         means = simple.VoxelMeanResampler(Input=self.labels(), VoxelSize=3)
         self.assertEqual(list(means.CategoricalArrays), ["Classification"])
@@ -402,6 +409,18 @@ class BadInput(TestCase):
             writer = simple.CreateWriter(self.path("no/such/folder/out.pcd"), cloud)
             writer.UpdatePipeline()
         self.assertIn("out.pcd", " ".join(messages.found))
+
+    def test_a_cloud_without_points_is_not_written(self):
+        for empty in (
+            simple.ProgrammableSource(OutputDataSetType="vtkPolyData", Script=""),
+            simple.VoxelMeanResampler(Input=read_sphere(self), AutomaticWorkspace=0, VoxelSize=0.1,
+                                      WorkspacePosition=[9, 9, 9], WorkspaceSize=[1, 1, 1]),
+        ):  # fmt: skip
+            with ErrorMessages("WarningEvent"), ErrorMessages() as messages:
+                simple.SaveData(self.path("out.pcd"), proxy=empty)
+            self.assertEqual(len(messages.found), 1, messages.found)
+            self.assertIn("the cloud holds no points", messages.found[0])
+            self.assertFalse(os.path.exists(self.path("out.pcd")))
 
     def test_each_is_one_message(self):
         """However often ParaView updates for one action, and whatever comes after."""

@@ -118,6 +118,15 @@ class Server(TestCase):
         found, expected = (servermanager.Fetch(read(self.path(name))) for name in ("out.pcd", "program.pcd"))
         self.assert_same_bits(found, expected)
 
+    def test_a_cloud_without_points_is_not_written(self):
+        run_program("generate", "sphere", "-n", 5000, "-o", self.path("in.ply"))
+        box = {"WorkspacePosition": [9, 9, 9], "WorkspaceSize": [1, 1, 1]}
+        none = simple.VoxelMeanResampler(Input=read(self.path("in.ply")), AutomaticWorkspace=0, VoxelSize=0.1, **box)
+        with ErrorMessages() as errors:
+            simple.SaveData(self.path("out.pcd"), proxy=none)
+        self.assertEqual(len(errors.found), 1, errors.found)
+        self.assertIn("the cloud holds no points", errors.found[0])
+
     def test_bad_input_is_an_error_and_the_server_lives_on(self):
         run_program("generate", "sphere", "-n", 5000, "-o", self.path("in.ply"))
         box = {"WorkspacePosition": [9, 9, 9], "WorkspaceSize": [1, 1, 1]}

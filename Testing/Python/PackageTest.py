@@ -64,6 +64,15 @@ class Package(TestCase):
             with self.assertRaises(ValueError):
                 ph.updates.update(filter)
 
+    def test_a_block_of_another_kind_is_no_crash(self):
+        from vtkmodules.vtkCommonDataModel import vtkImageData, vtkMultiBlockDataSet
+
+        blocks, info = vtkMultiBlockDataSet(), ph.vtkPointCloudInfo()
+        blocks.SetBlock(0, vtkImageData())
+        info.SetInputDataObject(blocks)
+        info.Update()
+        self.assertEqual((info.GetNumberOfPoints(), info.GetErrorCode()), (0, 0))
+
 
 class Habits(TestCase):
     """Expectations of users of NumPy, pip and pickle."""

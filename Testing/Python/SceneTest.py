@@ -186,6 +186,22 @@ class Feel(TestCase):
         self.assertEqual((said, feel.GetErrorCode(), feel.GetOutput().GetNumberOfRows()), ([], 0, 0))
         self.assertGreater(feel.GetOutput().GetNumberOfColumns(), 10)
 
+    def test_each_block_is_felt_alone(self):
+        from vtkmodules.vtkCommonDataModel import vtkImageData, vtkMultiBlockDataSet
+
+        feel, said = self.filter_of(self.hand), []
+        feel.Update()
+        rows = feel.GetOutput().GetNumberOfRows()
+        blocks = vtkMultiBlockDataSet()
+        blocks.SetBlock(0, feel.GetInputDataObject(0, 0))
+        blocks.SetBlock(1, vtkImageData())
+        feel.SetInputDataObject(0, blocks)
+        for kind in ("ErrorEvent", "WarningEvent"):
+            feel.AddObserver(kind, lambda caller, event: said.append(event))
+        feel.Update()
+        found = [feel.GetOutputDataObject(0).GetBlock(index) for index in range(2)]
+        self.assertEqual(([table.GetNumberOfRows() for table in found], said), ([rows, 0], ["WarningEvent"]))
+
     def test_what_an_observer_sets_in_a_run_counts_from_the_next_on(self):
         def soften(caller, event):
             if caller.GetProgress() > 0.5:
@@ -210,6 +226,22 @@ class Feel(TestCase):
         self.assertEqual(said, ["ErrorEvent"])
         self.assertNotEqual(feel.GetErrorCode(), 0)
 
+    def test_what_an_observer_sets_in_the_inner_resampler_stays(self):
+        def coarsen(caller, event):
+            if caller.GetProgress() > 0:
+                caller.GetResampler().SetVoxelSize(0.006)
+
+        feel, felt = self.filter_of(self.hand), []
+        feel.GetResampler().SetVoxelSize(0.002)
+        feel.AddObserver("ProgressEvent", coarsen)
+        for _ in range(3):
+            feel.Update()
+            felt.append(feel.GetNumberOfFeltPoints())
+            self.assertEqual(feel.GetResampler().GetVoxelSize(), 0.006)
+            self.assertTrue(feel.GetResampler().GetAutomaticWorkspace())
+        self.assertGreater(felt[0], 4 * felt[1])
+        self.assertEqual(felt[1], felt[2])
+
     def test_the_inner_resampler_asks_for_no_run_of_its_own(self):
         feel, said = self.filter_of(self.hand), []
         feel.AddObserver("ErrorEvent", lambda caller, event: said.append(event))
@@ -217,11 +249,15 @@ class Feel(TestCase):
         for times in (1, 2):
             feel.Update()
             self.assertEqual(len(said), times)
+        feel.RepeatsErrorsOff()
+        feel.Update()
+        feel.Update()
+        self.assertEqual(len(said), 3)
         before = feel.GetResampler().GetMTime()
         self.assertEqual(feel.GetResampler().GetMTime(), before)
         feel.GetResampler().SetVoxelSize(0.002)
         feel.Update()
-        self.assertEqual((len(said), feel.GetErrorCode()), (2, 0))
+        self.assertEqual((len(said), feel.GetErrorCode()), (3, 0))
 
     def test_ctrl_c_ends_a_long_path(self):
         scene = ph.Scene(self.points)

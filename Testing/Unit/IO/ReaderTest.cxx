@@ -84,13 +84,25 @@ TEST_F(Reader, CanBeUsedAgainAfterAFault)
   observer->SetClientData(&events);
   reader->AddObserver(vtkCommand::ErrorEvent, observer);
   reader->SetFileName(path("missing.ply").c_str());
-  reader->Update();
-  EXPECT_STRNE(reader->GetErrorMessage(), "");
+  for (int times = 1; times <= 3; ++times)
+  {
+    reader->Update();
+    EXPECT_EQ(events, times) << "it is said on each update";
+    EXPECT_STRNE(reader->GetErrorMessage(), "");
+  }
+  reader->RepeatsErrorsOff();
+  for (int time = 0; time < 2; ++time)
+  {
+    reader->Update();
+    EXPECT_EQ(events, 4) << "nothing was set";
+    EXPECT_STRNE(reader->GetErrorMessage(), "");
+  }
   reader->SetFileName(write("a.xyz", "1 2 3\n").c_str());
   reader->Update();
   EXPECT_STREQ(reader->GetErrorMessage(), "");
   EXPECT_EQ(reader->GetErrorCode(), 0u);
   EXPECT_EQ(reader->GetOutput()->GetNumberOfPoints(), 1);
+  EXPECT_EQ(events, 4);
 }
 
 void abortAtHalf(vtkObject* caller, unsigned long, void* calls, void*)

@@ -1,5 +1,0 @@
-#include "vtkPVKernelBandwidthFilter.h"
-
-#include "vtkObjectFactory.h"
-
-vtkStandardNewMacro(vtkPVKernelBandwidthFilter);
