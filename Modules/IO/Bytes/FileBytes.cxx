@@ -1,6 +1,6 @@
 #include "Bytes/FileBytes.h"
 
-#include "FileProblem.h"
+#include "Bytes/Checks.h"
 
 #include "Core/Base/OutputFile.h"
 
@@ -108,11 +108,9 @@ struct Inflater
     stream.avail_out = static_cast<uInt>(room);
     const int result = inflate(&stream, Z_NO_FLUSH);
     ended = result == Z_STREAM_END;
-    if (result != Z_OK && result != Z_STREAM_END && result != Z_BUF_ERROR)
-    {
-      failFormat(where() + (stream.msg ? stream.msg : "damaged data"),
-        "the file is damaged: copy it again, or test it with gunzip -t");
-    }
+    failFormatIf(result != Z_OK && result != Z_STREAM_END && result != Z_BUF_ERROR,
+      "the file is damaged: copy it again, or test it with gunzip -t", "{}{}", where(),
+      (stream.msg ? stream.msg : "damaged data"));
     return room - stream.avail_out;
   }
 };
@@ -322,20 +320,13 @@ void FileBytes::unpack(const Progress& progress, const Inspect& inspect, bool sa
     }
     if (size_ == capacity)
     {
-      if (capacity == limit)
-      {
-        failFormat(where() + "unpacks to more than " + std::to_string(limit) + " bytes from " +
-            std::to_string(packedSize),
-          "if this is no attack, unpack it first: gunzip -k FILE");
-      }
+      failFormatIf(capacity == limit, "if this is no attack, unpack it first: gunzip -k FILE",
+        "{}unpacks to more than {} bytes from {}", where(), limit, packedSize);
       capacity = std::min(limit, 2 * capacity);
       resize(capacity);
     }
   }
-  if (size_ == 0)
-  {
-    failTruncated("the gzip file holds 0 bytes");
-  }
+  failTruncatedIf(size_ == 0, "the gzip file holds 0 bytes");
 }
 
 std::string startOfFile(const std::string& path, std::size_t size)

@@ -1,7 +1,7 @@
 #include "IO/E57/E57Columns.h"
 
+#include "Bytes/Checks.h"
 #include "Bytes/NumericType.h"
-#include "FileProblem.h"
 
 #include <algorithm>
 #include <limits>
@@ -177,13 +177,10 @@ void E57Columns::chooseColors(const std::vector<E57Scan>& scans)
 void E57Columns::addScan(const E57Scan& scan)
 {
   const bool isCartesian = hasAll(scan, kCartesian);
-  if (!isCartesian && !hasAll(scan, kSpherical))
-  {
-    failFormat("scan " + inQuotes(scan.name) +
-        " has neither cartesianX, cartesianY, cartesianZ nor sphericalRange, "
-        "sphericalAzimuth, sphericalElevation",
-      "export it with coordinates");
-  }
+  failFormatIf(!isCartesian && !hasAll(scan, kSpherical), "export it with coordinates",
+    "scan {} has neither cartesianX, cartesianY, cartesianZ nor sphericalRange, sphericalAzimuth, "
+    "sphericalElevation",
+    inQuotes(scan.name));
   isSpherical_.push_back(!isCartesian);
   const bool hasColors = hasE57Colors(scan);
   std::vector<Place>& places = places_.emplace_back();
@@ -234,11 +231,8 @@ std::size_t E57Columns::columnNamed(const std::string& name, int components)
   {
     return found->second;
   }
-  if (columns_.size() >= kMostColumns)
-  {
-    failFormat("the scans have more than " + std::to_string(kMostColumns) + " different fields",
-      "export fewer fields");
-  }
+  failFormatIf(columns_.size() >= kMostColumns, "export fewer fields",
+    "the scans have more than {} different fields", kMostColumns);
   columns_.push_back({ name, VTK_DOUBLE, components });
   values_.emplace_back();
   indices_[name] = columns_.size() - 1;

@@ -1,5 +1,6 @@
 #include "ReadTask.h"
 
+#include "Bytes/Checks.h"
 #include "Bytes/NumericType.h"
 #include "IO/Bytes/XmlTree.h"
 #include "IO/Columns/CloudColumns.h"
@@ -122,13 +123,10 @@ public:
   {
     const auto [at, isNew] = ends_.insert(section);
     const auto next = std::next(at);
-    if (!isNew || (at != ends_.begin() && std::prev(at)->second > section.first) ||
-      (next != ends_.end() && next->first < section.second))
-    {
-      failFormat(atByte(E57Pages::physical(section.first)) + "a section of " +
-          std::to_string(section.second - section.first) + " bytes that overlaps another one",
-        "the file is damaged: copy or write it again");
-    }
+    failFormatIf(!isNew || (at != ends_.begin() && std::prev(at)->second > section.first) ||
+        (next != ends_.end() && next->first < section.second),
+      kDamagedCure, "byte {}: a section of {} bytes that overlaps another one",
+      E57Pages::physical(section.first), section.second - section.first);
   }
 
 private:
@@ -149,12 +147,8 @@ vtkIdType checkedRows(const std::vector<E57Scan>& scans, const E57Columns& plan,
     rowSize += static_cast<std::uint64_t>(column.components * sizeOfType(column.type));
   }
   const std::uint64_t most = std::max(kGrowthFloor, kMostGrowth * fileSize);
-  if (rows > most / rowSize)
-  {
-    failFormat(std::to_string(rows) + " points of " + std::to_string(rowSize) + " bytes would be more than " +
-        std::to_string(kMostGrowth) + " times the file's size",
-      "the file is damaged or hostile: write it again");
-  }
+  failFormatIf(rows > most / rowSize, "the file is damaged or hostile: write it again",
+    "{} points of {} bytes would be more than {} times the file's size", rows, rowSize, kMostGrowth);
   return static_cast<vtkIdType>(rows);
 }
 

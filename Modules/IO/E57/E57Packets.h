@@ -95,7 +95,6 @@ private:
   void planStreams(const E57Scan& scan);
   void walk(std::uint64_t at);
   void addDataPacket(std::uint64_t at, std::size_t length);
-  [[noreturn]] void failPacket(std::uint64_t at, const std::string& fault) const;
   void endEarly(E57Scan& scan, ReadTask& task) const;
 
   const E57Pages& pages_;

@@ -1,6 +1,6 @@
 #include "IO/E57/E57Scan.h"
 
-#include "FileProblem.h"
+#include "Bytes/Checks.h"
 #include "IO/Bytes/TextScan.h"
 #include "IO/Bytes/XmlTree.h"
 #include "IO/Columns/CloudColumns.h"
@@ -16,8 +16,6 @@ namespace pointhaptics::io
 
 namespace
 {
-
-constexpr const char* kCure = "write the file again with another program";
 
 /// Numbers of one scan, with its name in the message of what is none.
 class Numbers
@@ -62,7 +60,7 @@ public:
   }
   [[noreturn]] void fail(const std::string& what, std::string_view text, const std::string& fault) const
   {
-    failFormat(where_ + ": " + what + " " + inQuotes(text) + " " + fault, kCure);
+    failFormat(where_ + ": " + what + " " + inQuotes(text) + " " + fault, kRewriteCure);
   }
   const std::string& where() const { return where_; }
 
@@ -153,10 +151,8 @@ void addFields(const XmlElement& parent, const std::string& prefix, const Number
       numbers.fail(field.name, type, "is no type of a record's field");
     }
     scan.fields.push_back(field);
-    if (scan.fields.size() > kMostColumns)
-    {
-      failFormat(numbers.where() + ": more than " + std::to_string(kMostColumns) + " fields", kCure);
-    }
+    failFormatIf(scan.fields.size() > kMostColumns, kRewriteCure, "{}: more than {} fields", numbers.where(),
+      kMostColumns);
   }
 }
 
@@ -190,12 +186,8 @@ E57Pose poseOf(const XmlElement* element, const Numbers& numbers)
   pose.rotation[0] = numberOf(rotation, "w", numbers);
   const std::array<double, 4>& q = pose.rotation;
   const double length = std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3]));
-  if (!(length > 0.0) || !std::isfinite(length))
-  {
-    failFormat(numbers.where() + ": the rotation of the pose is a quaternion of length " +
-        std::to_string(length) + ", not 1",
-      kCure);
-  }
+  failFormatIf(!(length > 0.0) || !std::isfinite(length), kRewriteCure,
+    "{}: the rotation of the pose is a quaternion of length {:f}, not 1", numbers.where(), length);
   // Rounded digits are no other rotation: within them the quaternion stays as it is written.
   constexpr double kRounded = 1e-15;
   if (std::abs(length - 1.0) > kRounded)
@@ -226,10 +218,8 @@ void setColorLimits(const XmlElement* limits, const Numbers& numbers, E57Scan& s
 void checkCodecs(const XmlElement* codecs, const Numbers& numbers)
 {
   const auto isKnown = [](const XmlElement& codec) { return codec.child("bitPackCodec") != nullptr; };
-  if (codecs && !std::all_of(codecs->children.begin(), codecs->children.end(), isKnown))
-  {
-    failFormat(numbers.where() + ": its points are packed by another codec than bitPackCodec", kCure);
-  }
+  failFormatIf(codecs && !std::all_of(codecs->children.begin(), codecs->children.end(), isKnown),
+    kRewriteCure, "{}: its points are packed by another codec than bitPackCodec", numbers.where());
 }
 
 E57Scan scanOf(const XmlElement& element, std::size_t number)
@@ -248,10 +238,8 @@ E57Scan scanOf(const XmlElement& element, std::size_t number)
     return scan;
   }
   const XmlElement* prototype = points->child("prototype");
-  if (points->attribute("type") != "CompressedVector" || !prototype)
-  {
-    failFormat(numbers.where() + ": its points are no CompressedVector with a prototype", kCure);
-  }
+  failFormatIf(points->attribute("type") != "CompressedVector" || !prototype, kRewriteCure,
+    "{}: its points are no CompressedVector with a prototype", numbers.where());
   scan.records = numbers.count(points->attribute("recordCount"), "recordCount");
   scan.fileOffset = numbers.count(points->attribute("fileOffset"), "fileOffset");
   addFields(*prototype, "", numbers, scan);
@@ -277,10 +265,8 @@ std::size_t E57Scan::find(const std::string& fieldName) const
 
 E57Contents parseE57Contents(const XmlElement& root)
 {
-  if (root.name != "e57Root")
-  {
-    failFormat("the XML begins with " + inQuotes(root.name) + ", not with 'e57Root'", kCure);
-  }
+  failFormatIf(
+    root.name != "e57Root", kRewriteCure, "the XML begins with {}, not with 'e57Root'", inQuotes(root.name));
   E57Contents contents;
   contents.generator = inOneLine(root.textOf("e57LibraryVersion"));
   contents.coordinateSystem = root.textOf("coordinateMetadata");

@@ -1,3 +1,4 @@
+#include "Bytes/Checks.h"
 #include "IO/Formats/FormatLooks.h"
 #include "IO/Text/TextCells.h"
 #include "ReadTask.h"
@@ -98,11 +99,8 @@ void readEsriGrid(ReadTask& task, vtkPolyData* cloud)
   LineReader lines(text);
   std::string_view line;
   const EsriHeader header = parseHeader(lines, line);
-  if (header.rows > text.size() / header.columns)
-  {
-    failTruncated(atLine(lines.lineNumber()) + std::to_string(header.columns) + " x " +
-      std::to_string(header.rows) + " cells in a file of " + std::to_string(text.size()) + " bytes");
-  }
+  failTruncatedIf(header.rows > text.size() / header.columns, "line {}: {} x {} cells in a file of {} bytes",
+    lines.lineNumber(), header.columns, header.rows, text.size());
   const double cell = header.value("cellsize", 0.0);
   const double width = header.value("dx", cell);
   const double height = header.value("dy", cell);
@@ -143,10 +141,7 @@ void readEsriGrid(ReadTask& task, vtkPolyData* cloud)
     }
     task.step(i, i, cells);
   }
-  if (points->GetNumberOfPoints() == 0)
-  {
-    failNoPoints();
-  }
+  points->GetNumberOfPoints() == 0 ? failNoPoints() : void();
   cloud->SetPoints(points);
 }
 

@@ -1,3 +1,4 @@
+#include "Bytes/Checks.h"
 #include "IO/Bytes/TextScan.h"
 #include "IO/Columns/CloudColumns.h"
 #include "IO/Formats/FormatLooks.h"
@@ -70,12 +71,14 @@ private:
     }
     return value;
   }
+  void nextLine()
+  {
+    const bool isThere = lines_.nextFilled(line_);
+    failTruncatedIf(!isThere, "the file ends at line {} before its points", lines_.lineNumber());
+  }
   void nextNumbers(double* values, int wanted)
   {
-    if (!lines_.nextFilled(line_))
-    {
-      failTruncated("the file ends at line " + std::to_string(lines_.lineNumber()) + " before its points");
-    }
+    nextLine();
     if (takeNumbers(line_, values, wanted) != wanted)
     {
       fail(std::to_string(wanted) + " numbers of the scanner's place");
@@ -103,16 +106,11 @@ bool PtxReader::readScan()
 {
   constexpr std::uint64_t kShortestLine = 8; // "0 0 0 0" and its end
   const std::uint64_t columns = count();
-  if (!lines_.nextFilled(line_))
-  {
-    failTruncated("the file ends at line " + std::to_string(lines_.lineNumber()) + " before its points");
-  }
+  nextLine();
   const std::uint64_t rows = count();
-  if (rows > (task_.bytes.size() / kShortestLine + 1) / columns)
-  {
-    failTruncated("line " + std::to_string(lines_.lineNumber()) + ": a scan of " + std::to_string(columns) +
-      " x " + std::to_string(rows) + " points in a file of " + std::to_string(task_.bytes.size()) + " bytes");
-  }
+  failTruncatedIf(rows > (task_.bytes.size() / kShortestLine + 1) / columns,
+    "line {}: a scan of {} x {} points in a file of {} bytes", lines_.lineNumber(), columns, rows,
+    task_.bytes.size());
   double ignored[3]; // place and axes of the scanner, which the matrix has, too
   for (int i = 0; i < 4; ++i)
   {
@@ -172,10 +170,7 @@ void PtxReader::addPoint(const double* values, int count)
 
 void PtxReader::moveTo(vtkPolyData* cloud)
 {
-  if (points_->GetNumberOfPoints() == 0)
-  {
-    failNoPoints();
-  }
+  points_->GetNumberOfPoints() == 0 ? failNoPoints() : void();
   cloud->SetPoints(points_);
   cloud->GetPointData()->AddArray(intensity_);
   if (hasColors_)

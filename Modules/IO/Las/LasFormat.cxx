@@ -1,5 +1,6 @@
 #include "ReadTask.h"
 
+#include "Bytes/Checks.h"
 #include "IO/Info/FieldText.h"
 #include "IO/Info/LengthUnit.h"
 #include "IO/Las/LasHeader.h"
@@ -81,10 +82,8 @@ LazChunks chunksOf(ReadTask& task, const LasHeader& header, const LazSchema& sch
   }
   checkLazCount(task.bytes, header);
   LazChunks part = findCopcChunks(task, header);
-  if (part.all.empty())
-  {
-    failFormat("no node of the octree touches the box", "choose a box that meets the bounds of the cloud");
-  }
+  failFormatIf(part.all.empty(), "choose a box that meets the bounds of the cloud",
+    "no node of the octree touches the box");
   return part;
 }
 
@@ -145,7 +144,7 @@ void LazReader::work(LasRecords& records) noexcept
   std::size_t chunk = chunks_.all.size();
   try
   {
-    ChunkDecoder decoder(schema_, task_.wanted.onlyPositions ? LazFields::Positions : LazFields::All);
+    ChunkDecoder decoder(schema_, task_.wanted.onlyPositions);
     std::vector<char> block(static_cast<std::size_t>(kLasBlockRows) * schema_.recordLength);
     while (!isStopped_ && (chunk = next_++) < chunks_.all.size())
     {
@@ -167,7 +166,7 @@ void LazReader::work(LasRecords& records) noexcept
 /// fault.
 void LazReader::readInOrder(LasRecords& records)
 {
-  ChunkDecoder decoder(schema_, LazFields::All);
+  ChunkDecoder decoder(schema_);
   std::vector<char> block(static_cast<std::size_t>(kLasBlockRows) * schema_.recordLength);
   std::size_t offset = chunks_.all.front().offset;
   done_ = 0;

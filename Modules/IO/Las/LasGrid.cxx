@@ -1,8 +1,6 @@
 #include "IO/Las/LasGrid.h"
 
-#include "FileProblem.h"
-
-#include <fmt/format.h>
+#include "Bytes/Checks.h"
 
 #include <algorithm>
 #include <cmath>
@@ -213,11 +211,8 @@ LasGrid LasGrid::fit(ConstColumnView column, vtkIdType count, const WantedGrid& 
   LasGrid grid;
   grid.scale = isForced ? wanted.forced : wanted.scale;
   grid.offset = wanted.offset;
-  if (isForced && !reaches(axis, grid))
-  {
-    failFormat("steps of " + fmt::format("{}", grid.scale) + " do not span the cloud with 32 bits",
-      "give larger ones, or none");
-  }
+  failFormatIf(isForced && !reaches(axis, grid), "give larger ones, or none",
+    "steps of {} do not span the cloud with 32 bits", grid.scale);
   const bool isExact = !isForced &&
     ((isWanted && place(axis, isSame, grid)) || placeOnDecimals(axis, isSame, grid) ||
       (!isWanted && placeOnDecimals(axis, isNearby, grid)) ||

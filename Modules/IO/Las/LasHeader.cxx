@@ -1,7 +1,7 @@
 #include "IO/Las/LasHeader.h"
 
+#include "Bytes/Checks.h"
 #include "Bytes/NumericType.h"
-#include "FileProblem.h"
 #include "IO/Las/LasCoordinateSystem.h"
 #include "ReadTask.h"
 
@@ -134,35 +134,23 @@ void checkScales(const LasHeader& header)
 {
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    if (!std::isfinite(header.scale[axis]) || header.scale[axis] == 0.0 ||
-      !std::isfinite(header.offset[axis]))
-    {
-      failFormat(atByte(131 + 8 * axis) + "scale " + std::to_string(header.scale[axis]) + " and offset " +
-          std::to_string(header.offset[axis]) + " of axis " + "xyz"[axis] + " are unusable",
-        "write the file again with finite scales other than 0");
-    }
+    failFormatIf(
+      !std::isfinite(header.scale[axis]) || header.scale[axis] == 0.0 || !std::isfinite(header.offset[axis]),
+      "write the file again with finite scales other than 0",
+      "byte {}: scale {:f} and offset {:f} of axis {} are unusable", 131 + 8 * axis, header.scale[axis],
+      header.offset[axis], "xyz"[axis]);
   }
 }
 
 void checkLayout(std::string_view bytes, LasHeader& header, ReadTask* task)
 {
   const std::size_t needed = header.fields().size;
-  if (header.recordLength < needed)
-  {
-    failFormat("byte 105: records of " + std::to_string(header.recordLength) +
-        " bytes are too short for point format " + std::to_string(header.pointFormat) + ", which takes " +
-        std::to_string(needed),
-      "write the file again with another program");
-  }
-  if (header.pointsOffset < header.headerSize || header.pointsOffset > bytes.size())
-  {
-    failTruncated("byte 96: the points start at byte " + std::to_string(header.pointsOffset) +
-      " of a file of " + std::to_string(bytes.size()) + " bytes");
-  }
-  if (header.count == 0)
-  {
-    failNoPoints();
-  }
+  failFormatIf(header.recordLength < needed, kRewriteCure,
+    "byte 105: records of {} bytes are too short for point format {}, which takes {}", header.recordLength,
+    header.pointFormat, needed);
+  failTruncatedIf(header.pointsOffset < header.headerSize || header.pointsOffset > bytes.size(),
+    "byte 96: the points start at byte {} of a file of {} bytes", header.pointsOffset, bytes.size());
+  header.count == 0 ? failNoPoints() : void();
   const std::size_t available = bytes.size() - header.pointsOffset;
   const std::uint64_t there = available / header.recordLength;
   if (header.packing.empty() && header.count > there)
@@ -170,10 +158,7 @@ void checkLayout(std::string_view bytes, LasHeader& header, ReadTask* task)
     const std::string what = "the header counts " + std::to_string(header.count) + " points of " +
       std::to_string(header.recordLength) + " bytes, but only " + std::to_string(available) +
       " bytes follow (" + std::to_string(there) + " points)";
-    if (!task)
-    {
-      failTruncated(what);
-    }
+    failTruncatedIf(!task, "{}", what);
     header.count = task->endAt(there, header.count, what);
   }
 }
@@ -289,36 +274,24 @@ void needLasHeader(const ReadTask& task)
 
 LasHeader parseLasHeader(std::string_view bytes, ReadTask* task)
 {
-  if (bytes.size() < kLasHeaderOf12)
-  {
-    failTruncated("the file ends at byte " + std::to_string(bytes.size()) + " inside its header");
-  }
+  failTruncatedIf(bytes.size() < kLasHeaderOf12, "the file ends at byte {} inside its header", bytes.size());
   LasHeader header;
   header.minorVersion = numberAt<std::uint8_t>(bytes, 25);
   const int major = numberAt<std::uint8_t>(bytes, 24);
-  if (major != 1 || header.minorVersion > 4)
-  {
-    failFormat("byte 24: version " + std::to_string(major) + "." + std::to_string(header.minorVersion),
-      "convert it to LAS 1.0 to 1.4");
-  }
+  failFormatIf(major != 1 || header.minorVersion > 4, "convert it to LAS 1.0 to 1.4",
+    "byte 24: version {}.{}", major, header.minorVersion);
   header.globalEncoding = numberAt<std::uint16_t>(bytes, 6);
   const std::string_view generator = bytes.substr(58, 32);
   header.generator = generator.substr(0, generator.find('\0'));
   header.headerSize = numberAt<std::uint16_t>(bytes, 94);
-  if (header.headerSize < kLasHeaderOf12)
-  {
-    failFormat("byte 94: a header of " + std::to_string(header.headerSize) + " bytes",
-      "LAS headers take at least 227");
-  }
+  failFormatIf(header.headerSize < kLasHeaderOf12, "LAS headers take at least 227",
+    "byte 94: a header of {} bytes", header.headerSize);
   header.pointsOffset = numberAt<std::uint32_t>(bytes, 96);
   const int formatByte = numberAt<std::uint8_t>(bytes, 104);
   header.packing = packingOf(bytes, header, formatByte);
   const int format = header.packing.empty() ? formatByte : formatByte & ~kLasPackedMark;
-  if (format > kMostLasFormat)
-  {
-    failFormat(
-      "byte 104: unknown point format " + std::to_string(format), "convert it to point format 0 to 10");
-  }
+  failFormatIf(format > kMostLasFormat, "convert it to point format 0 to 10",
+    "byte 104: unknown point format {}", format);
   header.pointFormat = format;
   header.recordLength = numberAt<std::uint16_t>(bytes, 105);
   header.count = numberAt<std::uint32_t>(bytes, 107);

@@ -1,5 +1,6 @@
 #include "IO/WriteTask.h"
 
+#include "Bytes/Checks.h"
 #include "Bytes/NumericType.h"
 #include "Core/Base/FieldNames.h"
 #include "IO/Info/FieldText.h"
@@ -418,12 +419,9 @@ void LasWriter::planExtraFields()
       addDescriptor(array, component, field != known.end() ? field->descriptor : std::string());
     }
   }
-  if (recordSize_ > kMostRecord || descriptors_.size() > kMostRecord)
-  {
-    failFormat(
-      std::to_string(descriptors_.size() / kLasExtraDescriptor) + " columns beside the standard ones",
-      "LAS holds 341 of them: leave some out, or write .vtp, .ply or .pcd");
-  }
+  failFormatIf(recordSize_ > kMostRecord || descriptors_.size() > kMostRecord,
+    "LAS holds 341 of them: leave some out, or write .vtp, .ply or .pcd",
+    "{} columns beside the standard ones", descriptors_.size() / kLasExtraDescriptor);
 }
 
 /// Points, and those of each number of return.
@@ -543,11 +541,8 @@ void writeRecordsOf(WriteTask& task, bool isPacked)
     return;
   }
   task.points = all - static_cast<vtkIdType>(left.size());
-  if (task.points == 0)
-  {
-    failFormat("all coordinates are NaN or infinite, and LAS stores them as integers",
-      "mend the cloud, or write .vtp, .ply or .pcd");
-  }
+  failFormatIf(task.points == 0, "mend the cloud, or write .vtp, .ply or .pcd",
+    "all coordinates are NaN or infinite, and LAS stores them as integers");
   task.notes.add(std::to_string(left.size()) + " of " + std::to_string(all) +
     " points are NaN or infinite and left out: LAS stores coordinates as integers; write .vtp, .ply or .pcd "
     "to keep them");

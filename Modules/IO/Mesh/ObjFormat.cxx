@@ -164,10 +164,7 @@ void ObjReader::read()
 void ObjReader::moveTo(vtkPolyData* cloud)
 {
   const vtkIdType rows = places_.rows();
-  if (rows == 0)
-  {
-    failNoPoints();
-  }
+  rows == 0 ? failNoPoints() : void();
   const bool hasNormals = normals_.rows() == rows;
   std::vector<Column> names;
   for (const Triples* each : { &places_, hasNormals ? &normals_ : nullptr })

@@ -23,16 +23,11 @@ public:
 
   ArithmeticDecoder() = default;
   /// @p bytes must outlive this object.
-  explicit ArithmeticDecoder(std::string_view bytes) { start(bytes); }
-  void start(std::string_view bytes)
+  explicit ArithmeticDecoder(std::string_view bytes)
+    : at_(reinterpret_cast<const unsigned char*>(bytes.data()))
+    , end_(at_ + bytes.size())
+    , begin_(at_)
   {
-    begin_ = reinterpret_cast<const unsigned char*>(bytes.data());
-    at_ = begin_;
-    end_ = at_ + bytes.size();
-    missing_ = 0;
-    isDamaged_ = false;
-    length_ = 0xffffffffu;
-    value_ = 0;
     for (int i = 0; i < 4; ++i)
     {
       value_ = value_ << 8 | nextByte();
@@ -42,6 +37,7 @@ public:
 
   unsigned symbol(SymbolModel& model, unsigned = 0)
   {
+    model.startIfNew();
     const std::uint32_t step = length_ >> SymbolModel::kProbabilityBits;
     const unsigned last = model.lastSymbol();
     unsigned found;
@@ -135,7 +131,7 @@ private:
   const unsigned char* end_ = nullptr;
   const unsigned char* begin_ = nullptr;
   std::uint32_t value_ = 0;
-  std::uint32_t length_ = 0;
+  std::uint32_t length_ = 0xffffffffu;
   std::uint64_t missing_ = 0;
   bool isDamaged_ = false;
 };

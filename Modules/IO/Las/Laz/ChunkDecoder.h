@@ -12,19 +12,17 @@
 namespace pointhaptics::io
 {
 
-/// Which fields of the records are decoded; the others hold anything.
-enum class LazFields
-{
-  All,
-  Positions, ///< x, y and z. Saves the work of the others in layered files only.
-};
-
-/// One chunk after the other; keeps its memory, up to a few MB, from chunk to chunk. One thread.
+/// One chunk after the other. One thread.
 class ChunkDecoder
 {
 public:
-  /// @p schema must outlive this object.
-  ChunkDecoder(const LazSchema& schema, LazFields fields);
+  /// @p schema must outlive this object. @p onlyPositions: fields but x, y and z may hold anything, which
+  /// saves their work in layered files.
+  explicit ChunkDecoder(const LazSchema& schema, bool onlyPositions = false)
+    : schema_(schema)
+    , onlyPositions_(onlyPositions)
+  {
+  }
 
   /// Begins @p chunk of the file @p bytes. @throws FileProblem where its layers do not lie inside it.
   void start(std::string_view bytes, const LazChunk& chunk);
@@ -36,11 +34,11 @@ public:
 
 private:
   const LazSchema& schema_;
-  LazFields fields_;
+  const bool onlyPositions_;
   LazChunk chunk_;
   std::uint64_t done_ = 0;
   const char* first_ = nullptr;
-  std::optional<PointwiseItems<ArithmeticDecoder>> pointwise_; ///< One of the two is there.
+  std::optional<PointwiseItems<ArithmeticDecoder>> pointwise_; ///< One of the two is in use.
   std::optional<LayeredItems<ArithmeticDecoder>> layered_;
 };
 

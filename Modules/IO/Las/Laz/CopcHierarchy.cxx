@@ -1,6 +1,6 @@
 #include "IO/Las/Laz/LazChunks.h"
 
-#include "FileProblem.h"
+#include "Bytes/Checks.h"
 #include "IO/Las/LasHeader.h"
 #include "ReadTask.h"
 
@@ -75,10 +75,7 @@ void Hierarchy::readInfo()
   const std::string_view bytes = task_.bytes;
   const bool isHere = header_.headerSize == kLasHeaderOf14 && header_.pointsOffset >= kInfoAt + kInfoSize &&
     bytes.substr(377, 4) == "copc" && numberAt<std::uint16_t>(393) == 1;
-  if (!isHere)
-  {
-    failDamaged(375, "the first variable length record does not describe the octree");
-  }
+  failDamagedIf(!isHere, 375, "the first variable length record does not describe the octree");
   const double half = numberAt<double>(kInfoAt + 24);
   const double spacing = numberAt<double>(kInfoAt + 32);
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -86,12 +83,9 @@ void Hierarchy::readInfo()
     origin_[axis] = numberAt<double>(kInfoAt + 8 * axis) - half;
   }
   side_ = 2.0 * half;
-  if (!std::isfinite(origin_[0] + origin_[1] + origin_[2] + side_) || !(half > 0.0) || !(spacing > 0.0) ||
-    !std::isfinite(spacing))
-  {
-    failDamaged(
-      kInfoAt, "an octree of half size " + std::to_string(half) + " and spacing " + std::to_string(spacing));
-  }
+  failDamagedIf(!std::isfinite(origin_[0] + origin_[1] + origin_[2] + side_) || !(half > 0.0) ||
+      !(spacing > 0.0) || !std::isfinite(spacing),
+    kInfoAt, "an octree of half size {:f} and spacing {:f}", half, spacing);
   if (task_.wanted.resolution > 0.0)
   {
     lastLevel_ = 0;
@@ -109,19 +103,14 @@ void Hierarchy::take(std::uint64_t offset, std::uint64_t size, std::size_t at, c
 {
   const std::string shown =
     std::string("a ") + what + " of " + std::to_string(size) + " bytes at byte " + std::to_string(offset);
-  if (size == 0 || offset < kInfoAt + kInfoSize || offset > task_.bytes.size() ||
-    size > task_.bytes.size() - offset)
-  {
-    failDamaged(at, shown + ", which is outside the file's " + std::to_string(task_.bytes.size()));
-  }
+  failDamagedIf(size == 0 || offset < kInfoAt + kInfoSize || offset > task_.bytes.size() ||
+      size > task_.bytes.size() - offset,
+    at, "{}, which is outside the file's {}", shown, task_.bytes.size());
   auto& taken = *what == 'p' ? pages_ : nodes_;
   const auto next = taken.lower_bound(offset);
   const bool meetsNext = next != taken.end() && next->first < offset + size;
   const bool meetsBefore = next != taken.begin() && std::prev(next)->second > offset;
-  if (meetsNext || meetsBefore)
-  {
-    failDamaged(at, shown + " overlaps another");
-  }
+  failDamagedIf(meetsNext || meetsBefore, at, "{} overlaps another", shown);
   taken.emplace(offset, offset + size);
 }
 
@@ -152,21 +141,15 @@ void Hierarchy::readEntry(std::size_t at)
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     entry.cell[axis] = numberAt<std::int32_t>(at + 4 + 4 * axis);
-    if (entry.level < 0 || entry.level > kMostLevel || entry.cell[axis] < 0 ||
-      entry.cell[axis] >> entry.level != 0)
-    {
-      failDamaged(
-        at, "cell " + std::to_string(entry.cell[axis]) + " of level " + std::to_string(entry.level));
-    }
+    failDamagedIf(entry.level < 0 || entry.level > kMostLevel || entry.cell[axis] < 0 ||
+        entry.cell[axis] >> entry.level != 0,
+      at, "cell {} of level {}", entry.cell[axis], entry.level);
   }
   entry.offset = numberAt<std::uint64_t>(at + 16);
   entry.size = numberAt<std::int32_t>(at + 24);
   entry.count = numberAt<std::int32_t>(at + 28);
-  if (entry.count < -1 || entry.size < 0)
-  {
-    failDamaged(
-      at, "a node of " + std::to_string(entry.count) + " points in " + std::to_string(entry.size) + " bytes");
-  }
+  failDamagedIf(
+    entry.count < -1 || entry.size < 0, at, "a node of {} points in {} bytes", entry.count, entry.size);
   if (entry.count == 0 || !isWanted(entry))
   {
     return;
@@ -236,12 +219,8 @@ LazChunks Hierarchy::find()
     chunks.all.push_back({ static_cast<std::size_t>(start),
       static_cast<std::size_t>(nodes_.at(start) - start), first, points.count });
   }
-  if (sum > header_.count)
-  {
-    failDamaged(kInfoAt + 40,
-      "the nodes hold " + std::to_string(sum) + " points, but the header counts " +
-        std::to_string(header_.count));
-  }
+  failDamagedIf(sum > header_.count, kInfoAt + 40, "the nodes hold {} points, but the header counts {}", sum,
+    header_.count);
   return chunks;
 }
 

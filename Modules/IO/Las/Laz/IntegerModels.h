@@ -25,15 +25,6 @@ public:
       places_.emplace_back(1u << (i < kModelledBits ? i : kModelledBits));
     }
   }
-  void forget()
-  {
-    lengths_.forget();
-    zeroOrOne_.start();
-    for (SymbolModel& model : places_)
-    {
-      model.forget();
-    }
-  }
   /// Number of bits of the difference that was coded last, 0..32: a context for what comes next.
   unsigned lengthOfLast() const { return length_; }
 
@@ -94,7 +85,7 @@ private:
     // Negative ones first: -(2^k - 1) is place 0.
     const std::uint32_t shift = (1u << length_) - 1;
     std::uint32_t place = (difference >> 31) != 0 ? difference + shift : difference - 1;
-    SymbolModel& places = places_[length_ - 1].startIfForgotten();
+    SymbolModel& places = places_[length_ - 1];
     if (length_ <= kModelledBits)
     {
       place = coder.symbol(places, place);

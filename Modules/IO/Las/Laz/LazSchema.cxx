@@ -1,6 +1,6 @@
 #include "IO/Las/Laz/LazSchema.h"
 
-#include "FileProblem.h"
+#include "Bytes/Checks.h"
 #include "IO/Las/LasHeader.h"
 
 #include <array>
@@ -58,23 +58,13 @@ LasRecord findDescription(std::string_view bytes, const LasHeader& header)
         found = record;
       }
     });
-  if (whole < records)
-  {
-    failDamaged(100,
-      "the header counts " + std::to_string(records) + " variable length records, but only " +
-        std::to_string(whole) + " lie before the points");
-  }
-  if (found.at == 0)
-  {
-    failDamaged(104, "the points are marked as compressed, but no record says how");
-  }
+  failDamagedIf(whole < records, 100,
+    "the header counts {} variable length records, but only {} lie before the points", records, whole);
+  failDamagedIf(found.at == 0, 104, "the points are marked as compressed, but no record says how");
   found.at += kLasVlrHeader; // to its content, of which messages speak
-  if (found.content.size() < kDescriptionStart)
-  {
-    failDamaged(found.at,
-      "a description of the compression of " + std::to_string(found.content.size()) +
-        " bytes, which takes at least " + std::to_string(kDescriptionStart));
-  }
+  failDamagedIf(found.content.size() < kDescriptionStart, found.at,
+    "a description of the compression of {} bytes, which takes at least {}", found.content.size(),
+    kDescriptionStart);
   return found;
 }
 
@@ -130,21 +120,16 @@ void placeItems(
     same = numberAt<std::uint16_t>(bytes, at) == expected[i].type &&
       numberAt<std::uint16_t>(bytes, at + 2) == expected[i].size;
     const int version = numberAt<std::uint16_t>(bytes, at + 4);
-    if (same && !isKnownVersion(expected[i].type, version))
-    {
-      failFormat(atByte(at + 4) + "item " + std::to_string(expected[i].type) + " is compressed in version " +
-          std::to_string(version) + ", which is not supported: 1 to 3 are",
-        "unpack it with the program that wrote it, or compress it with LASzip 3");
-    }
+    failFormatIf(same && !isKnownVersion(expected[i].type, version),
+      "unpack it with the program that wrote it, or compress it with LASzip 3",
+      "byte {}: item {} is compressed in version {}, which is not supported: 1 to 3 are", at + 4,
+      expected[i].type, version);
     place(schema, expected[i], offset, version);
     offset += expected[i].size;
   }
-  if (!same)
-  {
-    failDamaged(description.at + 32,
-      "what is compressed is not a record of point format " + std::to_string(header.pointFormat) + " with " +
-        std::to_string(header.recordLength) + " bytes");
-  }
+  failDamagedIf(!same, description.at + 32,
+    "what is compressed is not a record of point format {} with {} bytes", header.pointFormat,
+    header.recordLength);
 }
 
 template <typename T>
@@ -171,16 +156,9 @@ LazSchema parseLazSchema(std::string_view bytes, const LasHeader& header)
   const int compressor = numberAt<std::uint16_t>(bytes, description.at);
   const int coder = numberAt<std::uint16_t>(bytes, description.at + 2);
   const bool isLayered = compressor == static_cast<int>(LazSchema::Compressor::Layered);
-  if (compressor < 1 || compressor > 3 || isLayered != header.isExtended())
-  {
-    failDamaged(description.at,
-      "unknown compressor " + std::to_string(compressor) + " for point format " +
-        std::to_string(header.pointFormat));
-  }
-  if (coder != 0)
-  {
-    failDamaged(description.at + 2, "unknown coder " + std::to_string(coder));
-  }
+  failDamagedIf(compressor < 1 || compressor > 3 || isLayered != header.isExtended(), description.at,
+    "unknown compressor {} for point format {}", compressor, header.pointFormat);
+  failDamagedIf(coder != 0, description.at + 2, "unknown coder {}", coder);
   schema.compressor = static_cast<LazSchema::Compressor>(compressor);
   schema.chunkSize = numberAt<std::uint32_t>(bytes, description.at + 12);
   schema.recordLength = header.recordLength;

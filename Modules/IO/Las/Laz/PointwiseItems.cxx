@@ -13,24 +13,19 @@ void PointwiseItems<Coder>::code(char* records, std::size_t count)
   for (char* record = records; record != end; record += schema_.recordLength)
   {
     point_.code(coder_, record);
-    schema_.gpsTime.offset != 0 ? gpsTime_.code(coder_, record) : void();
-    schema_.color.offset != 0 ? color_.code(coder_, record) : void();
-    schema_.wavePacket.offset != 0 ? wavePacket_.code(coder_, record) : void();
-    codeBytes(record + schema_.extraBytes.offset);
-  }
-}
-
-template <typename Coder>
-void PointwiseItems<Coder>::codeBytes(char* at)
-{
-  for (std::size_t i = 0; i < bytes_.size(); ++i)
-  {
-    std::uint8_t& last = lastBytes_[i];
-    const std::uint8_t value = byteAt(at, i);
-    last = firstBytes_
-      ? static_cast<std::uint8_t>(firstBytes_->code(coder_, last, value, static_cast<unsigned>(i)))
-      : bytes_[i].code(coder_, PointLabel(), last, value);
-    at[i] = static_cast<char>(last);
+    gpsTime_ ? gpsTime_->code(coder_, record) : void();
+    color_ ? color_->code(coder_, record) : void();
+    wavePacket_ ? wavePacket_->code(coder_, record) : void();
+    char* const at = record + schema_.extraBytes.offset;
+    for (std::size_t i = 0; i < bytes_.size(); ++i)
+    {
+      std::uint8_t& last = lastBytes_[i];
+      const std::uint8_t value = byteAt(at, i);
+      last = firstBytes_
+        ? static_cast<std::uint8_t>(firstBytes_->code(coder_, last, value, static_cast<unsigned>(i)))
+        : bytes_[i].code(coder_, PointLabel(), last, value);
+      at[i] = static_cast<char>(last);
+    }
   }
 }
 

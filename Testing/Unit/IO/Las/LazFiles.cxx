@@ -239,7 +239,7 @@ std::string recordsOf(const std::string& bytes)
   const io::LazChunks chunks = io::findLazChunks(bytes, header, schema);
   EXPECT_TRUE(chunks.arePlaced);
   std::string records(header.count * header.recordLength, '\0');
-  io::ChunkDecoder decoder(schema, io::LazFields::All);
+  io::ChunkDecoder decoder(schema);
   for (const io::LazChunk& chunk : chunks.all)
   {
     decoder.start(bytes, chunk);

@@ -25,6 +25,7 @@ struct AnyColorItem
   using Value = std::array<std::uint16_t, 3>;
   static constexpr bool kIsAttribute = true;
 
+  void start(const Value&) {}
   static Value load(const char* at)
   {
     return { loadLittle<std::uint16_t>(at), loadLittle<std::uint16_t>(at + 2),
@@ -43,11 +44,6 @@ struct AnyColorItem
 class ColorItem : public AnyColorItem
 {
 public:
-  void start(const Value&)
-  {
-    changed_.forget();
-    differences_.forget();
-  }
   template <typename Coder>
   Value code(Coder& coder, const PointLabel&, const Value& last, const Value& color)
   {
@@ -56,7 +52,7 @@ public:
     {
       changed = changedBytes(last, color);
     }
-    changed = coder.symbol(changed_.startIfForgotten(), changed);
+    changed = coder.symbol(changed_, changed);
     Value result{};
     const unsigned redLow = codeByte(coder, changed, 0, byteOf(last, 0), byteOf(color, 0));
     const unsigned redHigh = codeByte(coder, changed, 1, byteOf(last, 1), byteOf(color, 1));
@@ -127,17 +123,12 @@ class NearInfraredItem : public NumberItem<std::uint16_t>
 public:
   static constexpr bool kIsAttribute = true;
 
-  void start(Value)
-  {
-    changed_.forget();
-    differences_.forget();
-  }
   template <typename Coder>
   Value code(Coder& coder, const PointLabel&, Value last, Value value)
   {
     const unsigned difference = last ^ value;
-    const unsigned which = coder.symbol(
-      changed_.startIfForgotten(), ((difference & 0xff) != 0 ? 1u : 0u) | (difference > 0xff ? 2u : 0u));
+    const unsigned which =
+      coder.symbol(changed_, ((difference & 0xff) != 0 ? 1u : 0u) | (difference > 0xff ? 2u : 0u));
     unsigned bytes[2] = { last & 0xffu, static_cast<unsigned>(last >> 8) };
     for (unsigned half = 0; half < 2; ++half)
     {
@@ -160,12 +151,11 @@ class ByteItem : public NumberItem<std::uint8_t>
 public:
   static constexpr bool kIsAttribute = true;
 
-  void start(Value) { differences_.forget(); }
   template <typename Coder>
   Value code(Coder& coder, const PointLabel&, Value last, Value value)
   {
     const unsigned step = static_cast<std::uint8_t>(value - last);
-    return addToByte(last, coder.symbol(differences_.startIfForgotten(), step));
+    return addToByte(last, coder.symbol(differences_, step));
   }
 
 private:

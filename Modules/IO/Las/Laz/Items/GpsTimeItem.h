@@ -18,15 +18,7 @@ template <bool kEachTime>
 class GpsTimeItem : public NumberItem<std::uint64_t>
 {
 public:
-  void start(Value first)
-  {
-    zeroCases_.start();
-    multiples_.start();
-    differences_.forget();
-    sequences_ = {};
-    sequences_[0].time = first;
-    current_ = newest_ = 0;
-  }
+  void start(Value first) { sequences_[0].time = first; }
   template <typename Coder>
   Value code(Coder& coder, const PointLabel& label, Value last, Value time)
   {
