@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <limits>
 
 namespace pointhaptics::io
 {

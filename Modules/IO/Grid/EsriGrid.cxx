@@ -6,6 +6,7 @@
 #include "vtkNew.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
+#include "vtksys/SystemTools.hxx"
 
 #include <cmath>
 #include <map>
@@ -35,11 +36,8 @@ struct EsriHeader
   }
 };
 
-[[noreturn]] void failLine(const LineReader& lines, const std::string& what)
-{
-  failFormat(atLine(lines.lineNumber()) + what,
-    "write ncols, nrows, xllcorner, yllcorner, cellsize and NODATA_value, then a height for each cell");
-}
+constexpr const char* kCure =
+  "write ncols, nrows, xllcorner, yllcorner, cellsize and NODATA_value, then a height for each cell";
 
 /// Leaves @p line at the first heights.
 EsriHeader parseHeader(LineReader& lines, std::string_view& line)
@@ -58,25 +56,16 @@ EsriHeader parseHeader(LineReader& lines, std::string_view& line)
     {
       break;
     }
-    std::string name(word);
-    for (char& c : name)
-    {
-      c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
-    }
-    if (!parseCell(takeWord(rest), value) || header.values.size() > 16)
-    {
-      failLine(lines, inQuotes(word) + " has no number");
-    }
-    header.values[name] = value;
+    failFormatIf(!parseCell(takeWord(rest), value) || header.values.size() > 16, kCure,
+      "line {}: {} has no number", lines.lineNumber(), inQuotes(word));
+    header.values[vtksys::SystemTools::LowerCase(std::string(word))] = value;
   }
   for (const auto& [name, count] : { std::pair<const char*, std::size_t*>{ "ncols", &header.columns },
          std::pair<const char*, std::size_t*>{ "nrows", &header.rows } })
   {
     const double given = header.value(name, 0.0);
-    if (!(given >= 1.0 && given <= 1e9 && given == std::floor(given)))
-    {
-      failLine(lines, std::string(name) + " is no count");
-    }
+    failFormatIf(!(given >= 1.0 && given <= 1e9 && given == std::floor(given)), kCure,
+      "line {}: {} is no count", lines.lineNumber(), name);
     *count = static_cast<std::size_t>(given);
   }
   return header;
@@ -105,10 +94,8 @@ void readEsriGrid(ReadTask& task, vtkPolyData* cloud)
   const double width = header.value("dx", cell);
   const double height = header.value("dy", cell);
   const double none = header.value("nodata_value", -9999.0);
-  if (!(width > 0.0) || !(height > 0.0))
-  {
-    failLine(lines, "there is no cellsize above 0");
-  }
+  failFormatIf(
+    !(width > 0.0) || !(height > 0.0), kCure, "line {}: there is no cellsize above 0", lines.lineNumber());
   const double west = header.middle("xllcorner", "xllcenter", width);
   const double south = header.middle("yllcorner", "yllcenter", height);
   const std::size_t cells = header.columns * header.rows;
@@ -122,7 +109,8 @@ void readEsriGrid(ReadTask& task, vtkPolyData* cloud)
       if (!line.empty())
       {
         const std::string_view word = takeWord(line);
-        parseCell(word, z) ? void() : failLine(lines, inQuotes(word) + " is no height");
+        failFormatIf(
+          !parseCell(word, z), kCure, "line {}: {} is no height", lines.lineNumber(), inQuotes(word));
         break;
       }
       if (!lines.next(line))

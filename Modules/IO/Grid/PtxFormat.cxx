@@ -57,18 +57,15 @@ public:
   void moveTo(vtkPolyData* cloud);
 
 private:
-  [[noreturn]] void fail(const std::string& expected) const
+  void failIf(bool isWrong, const std::string& expected) const
   {
-    failFormat(atLine(lines_.lineNumber()) + inQuotes(line_) + " stands where " + expected + " was expected",
-      "write the scan again, as PTX or E57");
+    failFormatIf(isWrong, "write the scan again, as PTX or E57", "line {}: {} stands where {} was expected",
+      lines_.lineNumber(), isWrong ? inQuotes(line_) : "", expected);
   }
   std::uint64_t count()
   {
     unsigned long long value = 0;
-    if (!parseCount(trimmed(line_), value) || value == 0)
-    {
-      fail("a number of columns or rows");
-    }
+    failIf(!parseCount(trimmed(line_), value) || value == 0, "a number of columns or rows");
     return value;
   }
   void nextLine()
@@ -79,10 +76,8 @@ private:
   void nextNumbers(double* values, int wanted)
   {
     nextLine();
-    if (takeNumbers(line_, values, wanted) != wanted)
-    {
-      fail(std::to_string(wanted) + " numbers of the scanner's place");
-    }
+    failIf(takeNumbers(line_, values, wanted) != wanted,
+      std::to_string(wanted) + " numbers of the scanner's place");
   }
   bool readScan();
   void addPoint(const double* values, int count);
@@ -134,7 +129,7 @@ bool PtxReader::readScan()
             std::to_string(scan_ + 1));
         return false;
       }
-      fail("x y z intensity, and perhaps red green blue,");
+      failIf(true, "x y z intensity, and perhaps red green blue,");
     }
     addPoint(values, found);
     task_.step(i, lines_.position(), task_.bytes.size());

@@ -89,8 +89,7 @@ LazChunks chunksOf(ReadTask& task, const LasHeader& header, const LazSchema& sch
 
 RowRange rowsOf(ReadTask& task, const LazChunks& chunks)
 {
-  const LazChunk& last = chunks.all.back();
-  const RowRange rows = task.rowsOf(last.first + last.count);
+  const RowRange rows = task.rowsOf(chunks.points());
   for (std::size_t i = 0; task.load && i < chunks.all.size(); ++i)
   {
     const LazChunk& chunk = chunks.all[i];
@@ -245,21 +244,11 @@ void LazReader::read(LasRecords& records)
   {
     helper.join();
   }
-  for (const std::exception_ptr& fault : faults_)
+  const auto fault = std::find_if(
+    faults_.begin(), faults_.end(), [](const std::exception_ptr& each) { return each != nullptr; });
+  if (fault != faults_.end())
   {
-    try
-    {
-      fault ? std::rethrow_exception(fault) : void();
-    }
-    catch (const FileProblem&)
-    {
-      if (!task_.salvage)
-      {
-        throw;
-      }
-      readInOrder(records);
-      return;
-    }
+    task_.salvage ? readInOrder(records) : std::rethrow_exception(*fault);
   }
 }
 

@@ -63,16 +63,6 @@ bool place(const Axis& axis, const Accepts& accepts, LasGrid& grid)
   return true;
 }
 
-bool isSame(double given, double wanted)
-{
-  return given == wanted;
-}
-
-bool isSameFloat(double given, double wanted)
-{
-  return static_cast<float>(given) == static_cast<float>(wanted);
-}
-
 /// 10 to the power of @p exponent, the double next to it.
 double powerOfTen(int exponent)
 {
@@ -206,6 +196,9 @@ LasGrid LasGrid::fit(ConstColumnView column, vtkIdType count, const WantedGrid& 
   const double lastDigits = 2.0 * std::numeric_limits<double>::epsilon() * axis.farthest();
   const auto isNearby = [=](double given, double coordinate)
   { return std::abs(given - coordinate) <= lastDigits; };
+  const auto isSame = [](double given, double coordinate) { return given == coordinate; };
+  const auto isSameFloat = [](double given, double coordinate)
+  { return static_cast<float>(given) == static_cast<float>(coordinate); };
   const auto isAny = [](double, double) { return true; };
   const bool isForced = wanted.forced > 0.0;
   LasGrid grid;

@@ -28,21 +28,17 @@ bool nextSignificant(LineReader& lines, std::string_view& line)
 /// The letters before OFF say what follows x y z.
 std::vector<std::string> namesOf(std::string_view prefix, std::size_t columns)
 {
+  const std::pair<const char*, std::vector<std::string>> kinds[] = { { "N", { "nx", "ny", "nz" } },
+    { "C", { "red", "green", "blue" } }, { "ST", { "s", "t" } } };
   std::vector<std::string> names = { "x", "y", "z" };
-  const auto append = [&](std::initializer_list<const char*> more)
-  { names.insert(names.end(), more.begin(), more.end()); };
-  if (prefix.find('N') != std::string_view::npos)
+  for (const auto& [letters, more] : kinds)
   {
-    append({ "nx", "ny", "nz" });
-  }
-  if (prefix.find('C') != std::string_view::npos)
-  {
-    columns == names.size() + 3 ? append({ "red", "green", "blue" })
-                                : append({ "red", "green", "blue", "alpha" });
-  }
-  if (prefix.find("ST") != std::string_view::npos)
-  {
-    append({ "s", "t" });
+    const bool isThere = prefix.find(letters) != std::string_view::npos;
+    names.insert(names.end(), more.begin(), isThere ? more.end() : more.begin());
+    if (isThere && *letters == 'C' && columns != names.size())
+    {
+      names.emplace_back("alpha");
+    }
   }
   return names;
 }

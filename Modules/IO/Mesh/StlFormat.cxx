@@ -127,8 +127,8 @@ void readFacets(ReadTask& task, DistinctVertices& vertices)
         if (!takeNumber(line, value))
         {
           const std::string_view word = takeWord(line);
-          failFormat("line " + std::to_string(lines.lineNumber()) + ": a vertex with " +
-              (word.empty() ? std::string("fewer than 3 numbers") : inQuotes(word) + ", not a number"),
+          failFormat(fmt::format("line {}: a vertex with {}", lines.lineNumber(),
+                       word.empty() ? "fewer than 3 numbers" : inQuotes(word) + ", not a number"),
             "a vertex is: vertex x y z");
         }
         coordinate = static_cast<float>(value);

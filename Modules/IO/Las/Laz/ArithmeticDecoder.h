@@ -88,16 +88,6 @@ public:
     renormalise();
     return found & ((1u << count) - 1); // more than that in damaged streams only
   }
-  std::uint32_t int32(std::uint32_t = 0)
-  {
-    const std::uint32_t low = bits(16);
-    return bits(16) << 16 | low;
-  }
-  std::uint64_t int64(std::uint64_t = 0)
-  {
-    const std::uint64_t low = int32();
-    return std::uint64_t{ int32() } << 32 | low;
-  }
 
   /// Marks the stream as one that no encoder writes.
   void markDamaged() { isDamaged_ = true; }

@@ -47,18 +47,6 @@ public:
     raise(value * length_);
     return value;
   }
-  std::uint32_t int32(std::uint32_t value)
-  {
-    bits(16, value & 0xffff);
-    bits(16, value >> 16);
-    return value;
-  }
-  std::uint64_t int64(std::uint64_t value)
-  {
-    int32(static_cast<std::uint32_t>(value));
-    int32(static_cast<std::uint32_t>(value >> 32));
-    return value;
-  }
   void markDamaged() {}
 
   /// Ends the stream and hands it over: a decoder that reads it to its end has then read all its bytes.

@@ -1,6 +1,7 @@
 #include "IO/Las/Laz/LazChunks.h"
 
 #include "Bytes/Checks.h"
+#include "Bytes/DisjointRanges.h"
 #include "IO/Las/LasHeader.h"
 #include "ReadTask.h"
 
@@ -44,7 +45,7 @@ private:
   template <typename T>
   T numberAt(std::size_t offset) const
   {
-    return loadLittle<T>(task_.bytes.data() + offset);
+    return io::numberAt<T>(task_.bytes, offset);
   }
   void readInfo();
   void readPage(std::uint64_t offset, std::uint64_t size);
@@ -58,16 +59,16 @@ private:
   std::array<double, 3> origin_{};
   double side_ = 0.0; ///< of the root's cube
   int lastLevel_ = kMostLevel;
-  std::map<std::uint64_t, std::uint64_t> pages_; ///< offsets and ends of those that were found, read or not
-  std::map<std::uint64_t, std::uint64_t> nodes_; ///< offsets and ends of the wanted ones
+  DisjointRanges pages_;                                         ///< that were found, read or not
+  DisjointRanges nodes_;                                         ///< that are wanted
   std::vector<std::pair<std::uint64_t, std::uint64_t>> pending_; ///< pages to read
-  /// Level and number of points of a wanted node.
-  struct Points
+  /// A wanted node; its chunk has no number yet.
+  struct Node
   {
     int level;
-    std::uint64_t count;
+    LazChunk chunk;
   };
-  std::map<std::uint64_t, Points> points_; ///< by the node's offset
+  std::map<std::uint64_t, Node> found_; ///< by their offsets
 };
 
 void Hierarchy::readInfo()
@@ -101,17 +102,12 @@ void Hierarchy::readInfo()
 /// Notes that a page or node lies at @p offset. @p at: of the entry that says so.
 void Hierarchy::take(std::uint64_t offset, std::uint64_t size, std::size_t at, const char* what)
 {
-  const std::string shown =
-    std::string("a ") + what + " of " + std::to_string(size) + " bytes at byte " + std::to_string(offset);
+  const std::string shown = fmt::format("a {} of {} bytes at byte {}", what, size, offset);
   failDamagedIf(size == 0 || offset < kInfoAt + kInfoSize || offset > task_.bytes.size() ||
       size > task_.bytes.size() - offset,
     at, "{}, which is outside the file's {}", shown, task_.bytes.size());
-  auto& taken = *what == 'p' ? pages_ : nodes_;
-  const auto next = taken.lower_bound(offset);
-  const bool meetsNext = next != taken.end() && next->first < offset + size;
-  const bool meetsBefore = next != taken.begin() && std::prev(next)->second > offset;
-  failDamagedIf(meetsNext || meetsBefore, at, "{} overlaps another", shown);
-  taken.emplace(offset, offset + size);
+  failDamagedIf(
+    !(*what == 'p' ? pages_ : nodes_).add(offset, offset + size), at, "{} overlaps another", shown);
 }
 
 bool Hierarchy::isWanted(const Entry& entry) const
@@ -161,7 +157,10 @@ void Hierarchy::readEntry(std::size_t at)
     pending_.emplace_back(entry.offset, size);
     return;
   }
-  points_.emplace(entry.offset, Points{ entry.level, static_cast<std::uint64_t>(entry.count) });
+  found_.emplace(entry.offset,
+    Node{ entry.level,
+      { static_cast<std::size_t>(entry.offset), static_cast<std::size_t>(size), 0,
+        static_cast<std::uint64_t>(entry.count) } });
 }
 
 void Hierarchy::readPage(std::uint64_t offset, std::uint64_t size)
@@ -177,9 +176,9 @@ void Hierarchy::readPage(std::uint64_t offset, std::uint64_t size)
 int Hierarchy::lastLevelFor(std::uint64_t mostPoints) const
 {
   std::array<std::uint64_t, kMostLevel + 1> counts{};
-  for (const auto& node : points_)
+  for (const auto& [start, node] : found_)
   {
-    counts[static_cast<std::size_t>(node.second.level)] += node.second.count;
+    counts[static_cast<std::size_t>(node.level)] += node.chunk.count;
   }
   std::uint64_t sum = 0;
   for (int level = 0; level <= kMostLevel; ++level)
@@ -207,17 +206,11 @@ LazChunks Hierarchy::find()
   const int lastLevel = most > 0 ? lastLevelFor(most) : kMostLevel;
   LazChunks chunks;
   std::uint64_t sum = 0;
-  for (const auto& [start, points] : points_)
+  for (auto& [start, node] : found_)
   {
-    sum += points.count;
-    if (points.level > lastLevel)
-    {
-      chunks.isCoarse = true;
-      continue;
-    }
-    const std::uint64_t first = chunks.all.empty() ? 0 : chunks.all.back().first + chunks.all.back().count;
-    chunks.all.push_back({ static_cast<std::size_t>(start),
-      static_cast<std::size_t>(nodes_.at(start) - start), first, points.count });
+    sum += node.chunk.count;
+    node.chunk.first = chunks.points();
+    node.level > lastLevel ? void(chunks.isCoarse = true) : chunks.all.push_back(node.chunk);
   }
   failDamagedIf(sum > header_.count, kInfoAt + 40, "the nodes hold {} points, but the header counts {}", sum,
     header_.count);

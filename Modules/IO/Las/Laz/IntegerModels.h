@@ -12,6 +12,14 @@
 namespace pointhaptics::io
 {
 
+/// Codes a number of 64 equally likely bits.
+template <typename Coder>
+std::uint64_t codeInt64(Coder& coder, std::uint64_t value)
+{
+  const std::uint64_t low = coder.bits(32, static_cast<std::uint32_t>(value));
+  return std::uint64_t{ coder.bits(32, static_cast<std::uint32_t>(value >> 32)) } << 32 | low;
+}
+
 /// Integers of @p bits bits (8, 16 or 32) with models for each of @p contexts contexts. One thread.
 class IntegerModels
 {

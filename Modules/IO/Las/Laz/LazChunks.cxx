@@ -76,7 +76,7 @@ std::size_t ChunkFinder::tableOffset() const
 /// Adds a chunk with as many of its @p count points as the header counts. @return false when it has them all.
 bool ChunkFinder::add(LazChunks& chunks, std::size_t offset, std::size_t size, std::uint64_t count) const
 {
-  const std::uint64_t done = chunks.all.empty() ? 0 : chunks.all.back().first + chunks.all.back().count;
+  const std::uint64_t done = chunks.points();
   count = std::min(count, header_.count - done);
   if (count > 0)
   {
@@ -87,11 +87,10 @@ bool ChunkFinder::add(LazChunks& chunks, std::size_t offset, std::size_t size, s
 
 void ChunkFinder::checkSum(const LazChunks& chunks, std::size_t at) const
 {
-  const std::uint64_t sum = chunks.all.empty() ? 0 : chunks.all.back().first + chunks.all.back().count;
-  if (sum < header_.count)
+  if (const std::uint64_t sum = chunks.points(); sum < header_.count)
   {
-    const std::string what = "the header counts " + std::to_string(header_.count) +
-      " points, but the chunks hold " + std::to_string(sum);
+    const std::string what =
+      fmt::format("the header counts {} points, but the chunks hold {}", header_.count, sum);
     isSalvaged_ ? void(task_->endAt(sum, header_.count, atByte(at) + what)) : failDamaged(at, what);
   }
 }
@@ -137,28 +136,21 @@ LazChunks ChunkFinder::walkLayers() const
   std::size_t offset = first_;
   for (bool goesOn = true; goesOn;)
   {
-    if (bytes_.size() - offset < headSize)
+    const std::size_t left = bytes_.size() - offset;
+    std::uint64_t size = headSize;
+    for (std::size_t i = 0; i < layers && left >= headSize; ++i)
+    {
+      size += numberAt<std::uint32_t>(bytes_, offset + sizesAt + i * sizeof(std::uint32_t));
+    }
+    const std::uint32_t points =
+      left < headSize ? 0 : numberAt<std::uint32_t>(bytes_, offset + header_.recordLength);
+    if (left < headSize || (isSalvaged_ && (size > left || points == 0)))
     {
       checkSum(chunks, offset);
       break;
     }
-    std::uint64_t size = headSize;
-    for (std::size_t i = 0; i < layers; ++i)
-    {
-      size += numberAt<std::uint32_t>(bytes_, offset + sizesAt + i * sizeof(std::uint32_t));
-    }
-    const std::uint32_t points = numberAt<std::uint32_t>(bytes_, offset + header_.recordLength);
-    if (size > bytes_.size() - offset || points == 0)
-    {
-      if (isSalvaged_)
-      {
-        checkSum(chunks, offset);
-        break;
-      }
-      failDamaged(offset,
-        "a chunk of " + std::to_string(points) + " points in " + std::to_string(size) + " bytes, of which " +
-          std::to_string(bytes_.size() - offset) + " are there");
-    }
+    failDamagedIf(size > left || points == 0, offset,
+      "a chunk of {} points in {} bytes, of which {} are there", points, size, left);
     goesOn = add(chunks, offset, static_cast<std::size_t>(size), points);
     offset += static_cast<std::size_t>(size);
   }

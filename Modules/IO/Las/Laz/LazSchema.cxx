@@ -3,7 +3,6 @@
 #include "Bytes/Checks.h"
 #include "IO/Las/LasHeader.h"
 
-#include <array>
 #include <vector>
 
 namespace pointhaptics::io
@@ -48,16 +47,16 @@ LasRecord findDescription(std::string_view bytes, const LasHeader& header)
   const std::uint32_t records = numberAt<std::uint32_t>(bytes, 100);
   std::uint32_t whole = 0;
   LasRecord found;
-  forEachLasRecord(bytes.substr(0, header.pointsOffset), header.headerSize, records, false,
-    [&](const LasRecord& record)
+  for (const LasRecord& record :
+    lasRecords(bytes.substr(0, header.pointsOffset), header.headerSize, records, false))
+  {
+    whole += record.whole.empty() ? 0 : 1;
+    if (record.is(kLaszipUser, kLaszipRecord))
     {
-      whole += record.whole.empty() ? 0 : 1;
-      if (record.user == kLaszipUser && record.id == kLaszipRecord)
-      {
-        found.at != 0 ? failDamaged(record.at, "a second record says how the points are compressed") : void();
-        found = record;
-      }
-    });
+      failDamagedIf(found.at != 0, record.at, "a second record says how the points are compressed");
+      found = record;
+    }
+  }
   failDamagedIf(whole < records, 100,
     "the header counts {} variable length records, but only {} lie before the points", records, whole);
   failDamagedIf(found.at == 0, 104, "the points are marked as compressed, but no record says how");
@@ -132,14 +131,6 @@ void placeItems(
     header.recordLength);
 }
 
-template <typename T>
-void append(std::string& bytes, T value)
-{
-  char raw[sizeof(T)];
-  storeLittle(value, raw);
-  bytes.append(raw, sizeof(T));
-}
-
 } // namespace
 
 std::size_t LazSchema::numberOfLayers() const
@@ -184,25 +175,20 @@ LazSchema makeLazSchema(const LasHeader& header)
 
 std::string lazRecord(const LazSchema& schema, const LasHeader& header)
 {
-  std::string record;
-  append(record, static_cast<std::uint16_t>(schema.compressor));
-  append(record, std::uint16_t{ 0 }); // the only coder
-  for (const std::uint8_t part : { 3, 4 })
-  {
-    append(record, part); // of the format's description
-  }
-  append(record, std::uint16_t{ 0 });
-  append(record, std::uint32_t{ 0 });
-  append(record, schema.chunkSize);
-  append(record, std::int64_t{ -1 });
-  append(record, std::int64_t{ -1 });
   const std::vector<RecordItem> items = itemsOf(header);
-  append(record, static_cast<std::uint16_t>(items.size()));
-  for (const RecordItem& item : items)
+  std::string record(kDescriptionStart + kItemSize * items.size(), '\0');
+  putLittle(record, 0, static_cast<std::uint16_t>(schema.compressor)); // coder 0, the only one
+  record[4] = 3;                                                       // version of the format's description
+  record[5] = 4;
+  putLittle(record, 12, schema.chunkSize);
+  record.replace(16, 16, 16, '\xff'); // no special records
+  putLittle(record, 32, static_cast<std::uint16_t>(items.size()));
+  for (std::size_t i = 0; i < items.size(); ++i)
   {
-    append(record, static_cast<std::uint16_t>(item.type));
-    append(record, static_cast<std::uint16_t>(item.size));
-    append(record, static_cast<std::uint16_t>(item.version()));
+    const std::size_t at = kDescriptionStart + kItemSize * i;
+    putLittle(record, at, static_cast<std::uint16_t>(items[i].type));
+    putLittle(record, at + 2, static_cast<std::uint16_t>(items[i].size));
+    putLittle(record, at + 4, static_cast<std::uint16_t>(items[i].version()));
   }
   return record;
 }

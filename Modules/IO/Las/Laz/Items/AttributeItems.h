@@ -13,12 +13,6 @@
 namespace pointhaptics::io
 {
 
-/// A byte as it comes to be when @p difference is added to it, modulo 256.
-inline std::uint8_t addToByte(unsigned byte, unsigned difference)
-{
-  return static_cast<std::uint8_t>(byte + difference);
-}
-
 /// Red, green and blue of 16 bits.
 struct AnyColorItem
 {
@@ -54,8 +48,8 @@ public:
     }
     changed = coder.symbol(changed_, changed);
     Value result{};
-    const unsigned redLow = codeByte(coder, changed, 0, byteOf(last, 0), byteOf(color, 0));
-    const unsigned redHigh = codeByte(coder, changed, 1, byteOf(last, 1), byteOf(color, 1));
+    const unsigned redLow = codeByteOf(coder, changed, 0, last, color);
+    const unsigned redHigh = codeByteOf(coder, changed, 1, last, color);
     result[0] = word(redLow, redHigh);
     if ((changed & kIsColored) == 0)
     {
@@ -68,11 +62,9 @@ public:
     {
       const int red = static_cast<int>(half == 0 ? redLow : redHigh);
       int shift = red - byteOf(last, half);
-      green[half] =
-        codeShifted(coder, changed, 2 + half, byteOf(last, 2 + half), shift, byteOf(color, 2 + half));
+      green[half] = codeByteOf(coder, changed, 2 + half, last, color, shift);
       shift = (shift + static_cast<int>(green[half]) - byteOf(last, 2 + half)) / 2;
-      blue[half] =
-        codeShifted(coder, changed, 4 + half, byteOf(last, 4 + half), shift, byteOf(color, 4 + half));
+      blue[half] = codeByteOf(coder, changed, 4 + half, last, color, shift);
     }
     result[1] = word(green[0], green[1]);
     result[2] = word(blue[0], blue[1]);
@@ -97,21 +89,15 @@ private:
     }
     return changed;
   }
+  /// Byte @p i, which is predicted to have changed by @p shift where it changed.
   template <typename Coder>
-  unsigned codeByte(Coder& coder, unsigned changed, unsigned i, int predicted, int value)
+  unsigned codeByteOf(
+    Coder& coder, unsigned changed, unsigned i, const Value& last, const Value& color, int shift = 0)
   {
-    if ((changed >> i & 1) == 0)
-    {
-      return static_cast<unsigned>(predicted);
-    }
-    const unsigned difference = static_cast<std::uint8_t>(value - predicted);
-    return addToByte(static_cast<unsigned>(predicted), coder.symbol(differences_[i], difference));
-  }
-  template <typename Coder>
-  unsigned codeShifted(Coder& coder, unsigned changed, unsigned i, int last, int shift, int value)
-  {
-    return (changed >> i & 1) == 0 ? static_cast<unsigned>(last)
-                                   : codeByte(coder, changed, i, std::clamp(last + shift, 0, 255), value);
+    const int before = byteOf(last, i);
+    return (changed >> i & 1) == 0
+      ? static_cast<unsigned>(before)
+      : codeByte(coder, differences_[i], std::clamp(before + shift, 0, 255), byteOf(color, i));
   }
 
   SymbolModel changed_{ 128 };
@@ -134,8 +120,7 @@ public:
     {
       if ((which >> half & 1) != 0)
       {
-        const unsigned step = static_cast<std::uint8_t>((value >> 8 * half) - static_cast<int>(bytes[half]));
-        bytes[half] = addToByte(bytes[half], coder.symbol(differences_[half], step));
+        bytes[half] = codeByte(coder, differences_[half], static_cast<int>(bytes[half]), value >> 8 * half);
       }
     }
     return static_cast<Value>(bytes[0] | bytes[1] << 8);
@@ -154,8 +139,7 @@ public:
   template <typename Coder>
   Value code(Coder& coder, const PointLabel&, Value last, Value value)
   {
-    const unsigned step = static_cast<std::uint8_t>(value - last);
-    return addToByte(last, coder.symbol(differences_, step));
+    return codeByte(coder, differences_, last, value);
   }
 
 private:

@@ -82,11 +82,11 @@ public:
     {
       const unsigned choice = decoder.symbol(zeroCases_, 0);
       difference_ = choice == 1 ? differences_.code(decoder, 0, 0, 0) : 0;
-      return choice == 2 ? decoder.int64(0) : after(last, difference_);
+      return choice == 2 ? codeInt64(decoder, 0) : after(last, difference_);
     }
     const int multiple = static_cast<int>(decoder.symbol(multiples_, 0));
     return multiple < kFull ? after(last, codeMultiple(decoder, multiple))
-      : multiple == kFull   ? decoder.int64(0)
+      : multiple == kFull   ? codeInt64(decoder, 0)
                             : last;
   }
 

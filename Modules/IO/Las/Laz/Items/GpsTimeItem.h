@@ -164,7 +164,7 @@ private:
     newest_ = (newest_ + 1) & 3;
     const std::uint32_t high = static_cast<std::uint32_t>(
       differences_.code(coder, predicted, static_cast<std::int32_t>(time >> 32), 8));
-    const std::uint32_t low = coder.int32(static_cast<std::uint32_t>(time));
+    const std::uint32_t low = coder.bits(32, static_cast<std::uint32_t>(time));
     current_ = newest_;
     sequences_[current_] = {};
     sequences_[current_].time = std::uint64_t{ high } << 32 | low;

@@ -8,6 +8,7 @@
 #pragma once
 
 #include "Bytes/LittleEndian.h"
+#include "IO/Las/Laz/SymbolModel.h"
 
 #include <array>
 #include <cstdint>
@@ -40,6 +41,14 @@ struct NumberItem
   static T load(const char* at) { return loadLittle<T>(at); }
   static void store(T value, char* at) { storeLittle(value, at); }
 };
+
+/// Codes a byte by its difference from @p predicted, modulo 256.
+template <typename Coder>
+std::uint8_t codeByte(Coder& coder, SymbolModel& differences, int predicted, int value)
+{
+  const auto difference = static_cast<std::uint8_t>(value - predicted);
+  return static_cast<std::uint8_t>(predicted + static_cast<int>(coder.symbol(differences, difference)));
+}
 
 /// The scanner channel of a record of point formats 6 to 10.
 inline unsigned channelOf14(const char* record)

@@ -102,9 +102,9 @@ private:
   unsigned codeOthers(Coder& coder, const Point10& last, Point10& point)
   {
     const unsigned changed = coder.symbol(changed_, Coder::kEncodes ? changesOf(last, point) : 0);
-    const auto codeByte = [&](Changed which, ModelBank& models, std::uint8_t before, std::uint8_t& value)
+    const auto codeSymbol = [&](Changed which, ModelBank& models, std::uint8_t before, std::uint8_t& value)
     { value = (changed & which) != 0 ? std::uint8_t(coder.symbol(models[before], value)) : value; };
-    codeByte(kReturns, returnsModels_, last.returns, point.returns);
+    codeSymbol(kReturns, returnsModels_, last.returns, point.returns);
     const unsigned context = contextOf(point);
     if ((changed & kIntensity) != 0)
     {
@@ -112,14 +112,13 @@ private:
         intensityModels_.code(coder, intensities_[context], point.intensity, std::min(context, 3u)));
     }
     point.intensity = intensities_[context];
-    codeByte(kClassification, classificationModels_, last.classification, point.classification);
+    codeSymbol(kClassification, classificationModels_, last.classification, point.classification);
     if ((changed & kScanAngle) != 0)
     {
-      const unsigned difference = static_cast<std::uint8_t>(point.scanAngle - last.scanAngle);
-      point.scanAngle = static_cast<std::uint8_t>(
-        last.scanAngle + coder.symbol(scanAngleModels_[point.scanDirection()], difference));
+      point.scanAngle =
+        codeByte(coder, scanAngleModels_[point.scanDirection()], last.scanAngle, point.scanAngle);
     }
-    codeByte(kUserData, userDataModels_, last.userData, point.userData);
+    codeSymbol(kUserData, userDataModels_, last.userData, point.userData);
     if ((changed & kSource) != 0)
     {
       point.source = static_cast<std::uint16_t>(sourceModels_.code(coder, last.source, point.source));

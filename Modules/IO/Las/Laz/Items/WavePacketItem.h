@@ -71,7 +71,7 @@ private:
         lastDifference_ = offsets_.code(coder, lastDifference_, difference);
         return before + static_cast<std::uint64_t>(std::int64_t{ lastDifference_ });
       default:
-        return coder.int64(wanted);
+        return codeInt64(coder, wanted);
     }
   }
   template <typename Coder>
