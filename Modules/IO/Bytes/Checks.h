@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <cstdint>
+#include <string>
 
 namespace pointhaptics::io
 {

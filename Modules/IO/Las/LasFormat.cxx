@@ -5,7 +5,7 @@
 #include "IO/Info/LengthUnit.h"
 #include "IO/Las/LasHeader.h"
 #include "IO/Las/LasRecords.h"
-#include "IO/Las/Laz/ChunkDecoder.h"
+#include "IO/Las/Laz/ChunkCoding.h"
 #include "IO/Las/Laz/LazChunks.h"
 
 #include "vtkDoubleArray.h"
@@ -47,10 +47,7 @@ public:
   /// The points that read() gives: those of the header, or of the wanted part; where ranks read together,
   /// this one's of them.
   std::uint64_t count() const { return rows_.count(); }
-  /// True if WantedPart::mostPoints left out points.
-  bool isCoarse() const { return chunks_.isCoarse; }
-  /// Parts that are packed one by one, of those points.
-  std::int64_t numberOfChunks() const { return std::int64_t(chunks_.all.size()); }
+  const LazChunks& chunks() const { return chunks_; }
   /// Fills @p records with the points in the file's order. Uses as many threads as vtkSMPTools has; progress
   /// is reported from the calling one, which decodes too. @throws FileProblem, StoppedOnRequest.
   void read(LasRecords& records);
@@ -339,7 +336,7 @@ void readLas(ReadTask& task, vtkPolyData* cloud)
   {
     withPacked(task, [&] { packed.emplace(task, header); });
     header.count = packed->count();
-    task.isCoarse = packed->isCoarse();
+    task.isCoarse = packed->chunks().isCoarse;
   }
   LasRecords records(header, task.wanted.onlyPositions);
   if (packed)
@@ -362,7 +359,7 @@ void readLas(ReadTask& task, vtkPolyData* cloud)
   if (packed)
   {
     addFieldNumbers<vtkTypeInt64Array>(
-      cloud, "Chunks", std::array<vtkTypeInt64, 1>{ packed->numberOfChunks() });
+      cloud, "Chunks", std::array<vtkTypeInt64, 1>{ vtkTypeInt64(packed->chunks().all.size()) });
   }
   addFieldText(cloud, "Generator", header.generator);
   addFieldText(cloud, "CoordinateSystem", header.coordinateSystem);

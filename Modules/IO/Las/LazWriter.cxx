@@ -1,7 +1,7 @@
 #include "IO/Las/LasDescription.h"
 
 #include "IO/Las/LasHeader.h"
-#include "IO/Las/Laz/ChunkEncoder.h"
+#include "IO/Las/Laz/ChunkCoding.h"
 #include "IO/Las/Laz/LazChunks.h"
 
 #include "vtkSMPTools.h"

@@ -3,8 +3,7 @@
 #include "CloudFiles.h"
 
 #include "IO/Las/LasHeader.h"
-#include "IO/Las/Laz/ChunkDecoder.h"
-#include "IO/Las/Laz/ChunkEncoder.h"
+#include "IO/Las/Laz/ChunkCoding.h"
 
 #include <array>
 #include <cmath>

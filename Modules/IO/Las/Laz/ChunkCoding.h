@@ -1,13 +1,15 @@
 /// @file
-/// Decodes the chunks of a LAZ file into the records that an uncompressed file would hold.
+/// Decodes the chunks of a LAZ file into the records that an uncompressed file would hold, and encodes these.
 #pragma once
 
 #include "IO/Las/Laz/ArithmeticDecoder.h"
+#include "IO/Las/Laz/ArithmeticEncoder.h"
 #include "IO/Las/Laz/LayeredItems.h"
 #include "IO/Las/Laz/LazChunks.h"
 #include "IO/Las/Laz/PointwiseItems.h"
 
 #include <optional>
+#include <string>
 
 namespace pointhaptics::io
 {
@@ -40,6 +42,23 @@ private:
   const char* first_ = nullptr;
   std::optional<PointwiseItems<ArithmeticDecoder>> pointwise_; ///< One of the two is in use.
   std::optional<LayeredItems<ArithmeticDecoder>> layered_;
+};
+
+/// One chunk after the other. One thread.
+class ChunkEncoder
+{
+public:
+  /// @p schema must be one of makeLazSchema() and outlive this object.
+  explicit ChunkEncoder(const LazSchema& schema)
+    : schema_(schema)
+  {
+  }
+  /// The chunk of the @p count records at @p records, at least one, each of schema.recordLength bytes. The
+  /// records are as before when this returns.
+  std::string encode(char* records, std::size_t count) const;
+
+private:
+  const LazSchema& schema_;
 };
 
 } // namespace pointhaptics::io
