@@ -1,17 +1,17 @@
 #include "Bytes/FileBytes.h"
 
-#include "FileProblem.h"
+#include "Bytes/Checks.h"
 
 #include "Core/Base/OutputFile.h"
 
 #include "vtk_zlib.h"
+#include "vtksys/SystemTools.hxx"
 
 #include <algorithm>
-#include <cctype>
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <new>
 #include <utility>
 
@@ -36,6 +36,15 @@ constexpr std::string_view kGzipMagic = "\x1f\x8b";
 
 constexpr const char* kStandardInput = "/dev/stdin";
 
+/// Throws where the file @p isWrong.
+void failOpenIf(bool isWrong, const std::string& what, const char* cure)
+{
+  if (isWrong)
+  {
+    throw FileProblem(vtkErrorCode::CannotOpenFileError, what, cure);
+  }
+}
+
 void checkIsReadable(const std::string& path)
 {
   std::error_code error;
@@ -46,19 +55,10 @@ void checkIsReadable(const std::string& path)
     throw FileProblem(
       vtkErrorCode::FileNotFoundError, missed.empty() ? "there is no such file; check the path" : missed);
   }
-  if (status.type() == fs::file_type::none)
-  {
-    throw FileProblem(
-      vtkErrorCode::CannotOpenFileError, error.message(), "check the path and its permissions");
-  }
-  if (fs::is_directory(status))
-  {
-    throw FileProblem(vtkErrorCode::CannotOpenFileError, "this is a folder", "name one file inside it");
-  }
-  if (fs::is_block_file(status) || (fs::is_character_file(status) && path != kStandardInput))
-  {
-    throw FileProblem(vtkErrorCode::CannotOpenFileError, "this is a device", "name a file or a pipe");
-  }
+  failOpenIf(status.type() == fs::file_type::none, error.message(), "check the path and its permissions");
+  failOpenIf(fs::is_directory(status), "this is a folder", "name one file inside it");
+  failOpenIf(fs::is_block_file(status) || (fs::is_character_file(status) && path != kStandardInput),
+    "this is a device", "name a file or a pipe");
 }
 
 /// Closes at the end.
@@ -74,15 +74,6 @@ struct Descriptor
   Descriptor(const Descriptor&) = delete;
   Descriptor& operator=(const Descriptor&) = delete;
 };
-
-std::string lowerCase(std::string text)
-{
-  for (char& c : text)
-  {
-    c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  }
-  return text;
-}
 
 /// Frees what zlib allocates.
 struct Inflater
@@ -108,11 +99,9 @@ struct Inflater
     stream.avail_out = static_cast<uInt>(room);
     const int result = inflate(&stream, Z_NO_FLUSH);
     ended = result == Z_STREAM_END;
-    if (result != Z_OK && result != Z_STREAM_END && result != Z_BUF_ERROR)
-    {
-      failFormat(where() + (stream.msg ? stream.msg : "damaged data"),
-        "the file is damaged: copy it again, or test it with gunzip -t");
-    }
+    failFormatIf(result != Z_OK && result != Z_STREAM_END && result != Z_BUF_ERROR,
+      "the file is damaged: copy it again, or test it with gunzip -t", "{}{}", where(),
+      (stream.msg ? stream.msg : "damaged data"));
     return room - stream.avail_out;
   }
 };
@@ -138,32 +127,23 @@ class FileBytes::File
 {
 public:
   explicit File(const std::string& path)
-    : file_(std::fopen(path.c_str(), "rb"), &std::fclose)
+    : file_(path, std::ios::binary)
   {
-    if (!file_)
-    {
-      throw FileProblem(
-        vtkErrorCode::CannotOpenFileError, std::strerror(errno), "check that you may read the file");
-    }
-    std::setvbuf(file_.get(), nullptr, _IONBF, 0);
+    failOpenIf(!file_, std::strerror(errno), "check that you may read the file");
     size_ = static_cast<std::size_t>(fs::file_size(path));
   }
   std::size_t size() const { return size_; }
   /// Reads exactly @p size bytes from byte @p offset on. @throws FileProblem when there are fewer.
   void read(std::size_t offset, char* to, std::size_t size)
   {
-    std::fseek(file_.get(), static_cast<long>(offset), SEEK_SET);
-    const std::size_t got = std::fread(to, 1, size, file_.get());
-    if (got != size)
-    {
-      throw FileProblem(vtkErrorCode::CannotOpenFileError,
-        "reading stopped at byte " + std::to_string(offset + got) + " of " + std::to_string(size_),
-        "check the disk, or wait until the file is completely written");
-    }
+    file_.seekg(static_cast<std::streamoff>(offset)).read(to, static_cast<std::streamsize>(size));
+    const auto got = static_cast<std::size_t>(file_.gcount());
+    failOpenIf(got != size, fmt::format("reading stopped at byte {} of {}", offset + got, size_),
+      "check the disk, or wait until the file is completely written");
   }
 
 private:
-  std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
+  std::ifstream file_;
   std::size_t size_ = 0;
 };
 
@@ -213,11 +193,7 @@ void FileBytes::load(std::size_t offset, std::size_t size)
 void FileBytes::resize(std::size_t size)
 {
   void* grown = std::realloc(data_.get(), size);
-  if (!grown)
-  {
-    throw std::bad_alloc();
-  }
-  static_cast<void>(data_.release());
+  grown ? static_cast<void>(data_.release()) : throw std::bad_alloc();
   data_.reset(static_cast<char*>(grown));
 }
 
@@ -247,11 +223,7 @@ void FileBytes::readStream(const std::string& path, const Progress& progress)
     size_ += got > 0 ? static_cast<std::size_t>(got) : 0;
     got = got < 0 && (errno == EINTR || errno == EAGAIN) ? 1 : got;
   }
-  if (got < 0)
-  {
-    throw FileProblem(
-      vtkErrorCode::CannotOpenFileError, std::strerror(errno), "check the program that writes the pipe");
-  }
+  failOpenIf(got < 0, std::strerror(errno), "check the program that writes the pipe");
   resize(std::max(size_, std::size_t{ 1 }));
 }
 
@@ -322,38 +294,29 @@ void FileBytes::unpack(const Progress& progress, const Inspect& inspect, bool sa
     }
     if (size_ == capacity)
     {
-      if (capacity == limit)
-      {
-        failFormat(where() + "unpacks to more than " + std::to_string(limit) + " bytes from " +
-            std::to_string(packedSize),
-          "if this is no attack, unpack it first: gunzip -k FILE");
-      }
+      failFormatIf(capacity == limit, "if this is no attack, unpack it first: gunzip -k FILE",
+        "{}unpacks to more than {} bytes from {}", where(), limit, packedSize);
       capacity = std::min(limit, 2 * capacity);
       resize(capacity);
     }
   }
-  if (size_ == 0)
-  {
-    failTruncated("the gzip file holds 0 bytes");
-  }
+  failTruncatedIf(size_ == 0, "the gzip file holds 0 bytes");
 }
 
 std::string startOfFile(const std::string& path, std::size_t size)
 {
   std::string start(size, '\0');
   std::error_code ignored; // a pipe would lose what is read
-  std::FILE* file = fs::is_regular_file(path, ignored) ? std::fopen(path.c_str(), "rb") : nullptr;
-  start.resize(file ? std::fread(start.data(), 1, size, file) : 0);
-  if (file)
-  {
-    std::fclose(file);
-  }
+  std::ifstream file;
+  fs::is_regular_file(path, ignored) ? file.open(path, std::ios::binary) : void();
+  file.read(start.data(), static_cast<std::streamsize>(size));
+  start.resize(static_cast<std::size_t>(file.gcount()));
   return start;
 }
 
 std::string lowerExtension(const std::string& path)
 {
-  const std::string extension = lowerCase(fs::path(path).extension().string());
+  const std::string extension = vtksys::SystemTools::LowerCase(fs::path(path).extension().string());
   return extension.empty() ? extension : extension.substr(1);
 }
 

@@ -2,7 +2,9 @@
 /// VTK's scalar types as C++ types of known size.
 #pragma once
 
+#include "vtkSetGet.h"
 #include "vtkType.h"
+#include "vtkTypeTraits.h"
 
 #include <cstdint>
 #include <type_traits>
@@ -10,47 +12,9 @@
 namespace pointhaptics::io
 {
 
-/// The type with a fixed size that stands for @p vtkType: VTK_LONG and VTK_ID_TYPE become a 32 or 64 bit
-/// integer type, VTK_CHAR the signed one. Types without numbers (strings, bits) give VTK_VOID.
-inline int fixedSizeType(int vtkType)
-{
-  switch (vtkType)
-  {
-    case VTK_CHAR:
-    case VTK_SIGNED_CHAR:
-      return VTK_TYPE_INT8;
-    case VTK_UNSIGNED_CHAR:
-      return VTK_TYPE_UINT8;
-    case VTK_SHORT:
-      return VTK_TYPE_INT16;
-    case VTK_UNSIGNED_SHORT:
-      return VTK_TYPE_UINT16;
-    case VTK_INT:
-      return VTK_TYPE_INT32;
-    case VTK_UNSIGNED_INT:
-      return VTK_TYPE_UINT32;
-    case VTK_LONG:
-      return sizeof(long) == 8 ? VTK_TYPE_INT64 : VTK_TYPE_INT32;
-    case VTK_UNSIGNED_LONG:
-      return sizeof(long) == 8 ? VTK_TYPE_UINT64 : VTK_TYPE_UINT32;
-    case VTK_LONG_LONG:
-      return VTK_TYPE_INT64;
-    case VTK_UNSIGNED_LONG_LONG:
-      return VTK_TYPE_UINT64;
-    case VTK_ID_TYPE:
-      return sizeof(vtkIdType) == 8 ? VTK_TYPE_INT64 : VTK_TYPE_INT32;
-    case VTK_FLOAT:
-      return VTK_FLOAT;
-    case VTK_DOUBLE:
-      return VTK_DOUBLE;
-    default:
-      return VTK_VOID;
-  }
-}
-
 /// The type of numbers of @p size bytes, of the kind 'f' floating, 'i' integer or 'u' unsigned integer;
 /// VTK_VOID where there is none.
-inline int typeOfKind(char kind, unsigned long long size)
+constexpr int typeOfKind(char kind, unsigned long long size)
 {
   constexpr int kTypes[][4] = { { VTK_TYPE_INT8, VTK_TYPE_UINT8, VTK_VOID, 1 },
     { VTK_TYPE_INT16, VTK_TYPE_UINT16, VTK_VOID, 2 }, { VTK_TYPE_INT32, VTK_TYPE_UINT32, VTK_FLOAT, 4 },
@@ -64,36 +28,30 @@ inline int typeOfKind(char kind, unsigned long long size)
   return type;
 }
 
+/// The type with a fixed size that stands for @p vtkType: VTK_LONG and VTK_ID_TYPE become a 32 or 64 bit
+/// integer type, VTK_CHAR the signed one. Types without numbers (strings, bits) give VTK_VOID.
+constexpr int fixedSizeType(int vtkType)
+{
+  switch (vtkType == VTK_CHAR ? VTK_SIGNED_CHAR : vtkType)
+  {
+    vtkTemplateMacro(return typeOfKind(std::is_floating_point_v<VTK_TT> ? 'f'
+        : std::is_signed_v<VTK_TT>                                      ? 'i'
+                                                                        : 'u',
+      sizeof(VTK_TT)));
+  }
+  return VTK_VOID;
+}
+
 /// Calls @p f with a value of the C++ type of @p vtkType: withType(VTK_FLOAT, [](auto zero) { ... }).
 /// Types without numbers do nothing.
 template <typename F>
 void withType(int vtkType, F&& f)
 {
-  switch (fixedSizeType(vtkType))
-  {
-    case VTK_TYPE_INT8:
-      return f(std::int8_t{});
-    case VTK_TYPE_UINT8:
-      return f(std::uint8_t{});
-    case VTK_TYPE_INT16:
-      return f(std::int16_t{});
-    case VTK_TYPE_UINT16:
-      return f(std::uint16_t{});
-    case VTK_TYPE_INT32:
-      return f(std::int32_t{});
-    case VTK_TYPE_UINT32:
-      return f(std::uint32_t{});
-    case VTK_TYPE_INT64:
-      return f(std::int64_t{});
-    case VTK_TYPE_UINT64:
-      return f(std::uint64_t{});
-    case VTK_FLOAT:
-      return f(float{});
-    case VTK_DOUBLE:
-      return f(double{});
-    default:
-      return;
-  }
+  const int type = fixedSizeType(vtkType);
+  const auto callFor = [&](auto... zeros)
+  { ((type == fixedSizeType(vtkTypeTraits<decltype(zeros)>::VTK_TYPE_ID) ? f(zeros) : void()), ...); };
+  callFor(std::int8_t{}, std::uint8_t{}, std::int16_t{}, std::uint16_t{}, std::int32_t{}, std::uint32_t{},
+    std::int64_t{}, std::uint64_t{}, float{}, double{});
 }
 
 /// Bytes of one value of @p vtkType; 0 for types without numbers.

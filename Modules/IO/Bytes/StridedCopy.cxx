@@ -6,7 +6,6 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <cstdint>
 #include <cstring>
 #include <limits>
 
@@ -42,6 +41,16 @@ void copyColumn(ConstColumnView source, ColumnView target, vtkIdType count, bool
   }
 }
 
+/// Reads the integer that @p text begins with. @return false where its number has a point or an exponent.
+template <typename T>
+bool isWhole(std::string_view text, T& value)
+{
+  text.remove_prefix(text.substr(0, 1) == "+" ? 1 : 0);
+  const auto [last, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() &&
+    (last == text.data() + text.size() || std::isspace(static_cast<unsigned char>(*last)));
+}
+
 } // namespace
 
 void copyStrided(ConstColumnView source, ColumnView target, vtkIdType count, bool swapSource) noexcept
@@ -63,21 +72,6 @@ void copyStrided(ConstColumnView source, ColumnView target, vtkIdType count, boo
         });
     });
 }
-
-namespace
-{
-
-/// Reads the integer that @p text begins with. @return false where its number has a point or an exponent.
-template <typename T>
-bool isWhole(std::string_view text, T& value)
-{
-  text.remove_prefix(text.substr(0, 1) == "+" ? 1 : 0);
-  const auto [last, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc() &&
-    (last == text.data() + text.size() || std::isspace(static_cast<unsigned char>(*last)));
-}
-
-} // namespace
 
 bool storeNumber(ColumnView target, vtkIdType row, double value, std::string_view digits) noexcept
 {

@@ -1,5 +1,6 @@
 #include "IO/Bytes/TextScan.h"
 
+#include <algorithm>
 #include <cctype>
 #include <charconv>
 #include <cmath>
@@ -41,15 +42,9 @@ bool LineReader::nextFilled(std::string_view& line)
 
 std::string_view trimmed(std::string_view text)
 {
-  while (!text.empty() && isBlank(text.front()))
-  {
-    text.remove_prefix(1);
-  }
-  while (!text.empty() && isBlank(text.back()))
-  {
-    text.remove_suffix(1);
-  }
-  return text;
+  constexpr std::string_view kBlanks = " \t\r\v\f";
+  const std::size_t first = std::min(text.find_first_not_of(kBlanks), text.size());
+  return text.substr(first, text.find_last_not_of(kBlanks) + 1 - first);
 }
 
 std::string_view takeWord(std::string_view& line)
@@ -71,18 +66,8 @@ std::string_view takeWord(std::string_view& line)
 
 bool equalNoCase(std::string_view a, std::string_view b)
 {
-  if (a.size() != b.size())
-  {
-    return false;
-  }
-  for (std::size_t i = 0; i < a.size(); ++i)
-  {
-    if (std::tolower(static_cast<unsigned char>(a[i])) != std::tolower(static_cast<unsigned char>(b[i])))
-    {
-      return false;
-    }
-  }
-  return true;
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+    [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
 }
 
 namespace

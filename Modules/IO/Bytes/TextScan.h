@@ -2,6 +2,7 @@
 /// Lines, words and numbers of a text in memory. Independent of the locale; nothing here allocates.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <string_view>
 
@@ -57,12 +58,7 @@ bool equalNoCase(std::string_view a, std::string_view b);
 template <std::size_t Count>
 std::size_t indexOf(const std::string_view (&words)[Count], std::string_view word)
 {
-  std::size_t i = 0;
-  while (i < Count && words[i] != word)
-  {
-    ++i;
-  }
-  return i;
+  return static_cast<std::size_t>(std::find(words, words + Count, word) - words);
 }
 
 /// How a number was written, which determines the type that holds it.

@@ -1,6 +1,6 @@
 #include "IO/Bytes/XmlTree.h"
 
-#include "FileProblem.h"
+#include "Bytes/Checks.h"
 
 #include "vtk_expat.h"
 
@@ -16,8 +16,6 @@ namespace pointhaptics::io
 
 namespace
 {
-
-constexpr const char* kCure = "the file is damaged: copy or write it again";
 
 /// The line that the parser is at, from 1.
 std::uint64_t lineOf(XML_Parser parser)
@@ -56,8 +54,8 @@ public:
     const std::int64_t at = XML_GetCurrentByteIndex(parser_);
     if (!isLast && at >= 0 && fed_ - at > static_cast<std::int64_t>(kLongestXmlTag))
     {
-      failFormat("XML line " + std::to_string(lineOf(parser_)) + ": a tag or comment of more than " +
-          std::to_string(kLongestXmlTag) + " bytes",
+      failFormat(
+        fmt::format("XML line {}: a tag or comment of more than {} bytes", lineOf(parser_), kLongestXmlTag),
         "write it with shorter ones; texts belong between tags");
     }
   }
@@ -69,7 +67,7 @@ public:
 private:
   [[noreturn]] void fail(const std::string& what) const
   {
-    failFormat("XML line " + std::to_string(lineOf(parser_)) + ": " + what, kCure);
+    failFormat(fmt::format("XML line {}: {}", lineOf(parser_), what), kDamagedCure);
   }
   template <typename F>
   static void guarded(void* self, F&& f)
@@ -90,14 +88,11 @@ private:
   }
   void start(const char* name, const char** attributes)
   {
-    if (open_.size() > kMostXmlDepth)
-    {
-      fail("more than " + std::to_string(kMostXmlDepth) + " XML elements inside each other");
-    }
-    if (++elements_ > kMostXmlElements)
-    {
-      fail("more than " + std::to_string(kMostXmlElements) + " XML elements");
-    }
+    open_.size() > kMostXmlDepth
+      ? fail(fmt::format("more than {} XML elements inside each other", kMostXmlDepth))
+      : void();
+    ++elements_ > kMostXmlElements ? fail(fmt::format("more than {} XML elements", kMostXmlElements))
+                                   : void();
     // An open element's siblings come after it is closed, so that the addresses of open ones stay.
     XmlElement& element = open_.back()->children.emplace_back();
     element.name = name;
@@ -158,14 +153,9 @@ const XmlElement* XmlElement::child(std::string_view childName) const
 
 std::string_view XmlElement::attribute(std::string_view attributeName) const
 {
-  for (const auto& [key, value] : attributes)
-  {
-    if (key == attributeName)
-    {
-      return value;
-    }
-  }
-  return {};
+  const auto found = std::find_if(attributes.begin(), attributes.end(),
+    [&](const auto& attribute) { return attribute.first == attributeName; });
+  return found == attributes.end() ? std::string_view() : found->second;
 }
 
 std::string_view XmlElement::textOf(std::string_view childName) const

@@ -1,7 +1,7 @@
 #include "IO/E57/E57Columns.h"
 
+#include "Bytes/Checks.h"
 #include "Bytes/NumericType.h"
-#include "FileProblem.h"
 
 #include <algorithm>
 #include <limits>
@@ -90,23 +90,22 @@ std::string columnOf(const std::string& field)
   return normal ? normal : field + (isOurs(field) ? kSecond : "");
 }
 
-template <typename T>
-bool holds(std::int64_t minimum, std::int64_t maximum)
-{
-  return minimum >= std::int64_t{ std::numeric_limits<T>::min() } &&
-    maximum <= std::int64_t{ std::numeric_limits<T>::max() };
-}
-
 /// The smallest one that holds both.
 int integerType(std::int64_t minimum, std::int64_t maximum)
 {
-  return holds<std::uint8_t>(minimum, maximum) ? VTK_TYPE_UINT8
-    : holds<std::int8_t>(minimum, maximum)     ? VTK_TYPE_INT8
-    : holds<std::uint16_t>(minimum, maximum)   ? VTK_TYPE_UINT16
-    : holds<std::int16_t>(minimum, maximum)    ? VTK_TYPE_INT16
-    : holds<std::uint32_t>(minimum, maximum)   ? VTK_TYPE_UINT32
-    : holds<std::int32_t>(minimum, maximum)    ? VTK_TYPE_INT32
-                                               : VTK_TYPE_INT64;
+  for (int bits = 8; bits < 64; bits *= 2)
+  {
+    const auto size = static_cast<unsigned>(bits / 8);
+    if (minimum >= 0 && maximum >> bits == 0)
+    {
+      return typeOfKind('u', size);
+    }
+    if (minimum >= -(std::int64_t{ 1 } << (bits - 1)) && maximum < std::int64_t{ 1 } << (bits - 1))
+    {
+      return typeOfKind('i', size);
+    }
+  }
+  return VTK_TYPE_INT64;
 }
 
 } // namespace
@@ -177,13 +176,10 @@ void E57Columns::chooseColors(const std::vector<E57Scan>& scans)
 void E57Columns::addScan(const E57Scan& scan)
 {
   const bool isCartesian = hasAll(scan, kCartesian);
-  if (!isCartesian && !hasAll(scan, kSpherical))
-  {
-    failFormat("scan " + inQuotes(scan.name) +
-        " has neither cartesianX, cartesianY, cartesianZ nor sphericalRange, "
-        "sphericalAzimuth, sphericalElevation",
-      "export it with coordinates");
-  }
+  failFormatIf(!isCartesian && !hasAll(scan, kSpherical), "export it with coordinates",
+    "scan {} has neither cartesianX, cartesianY, cartesianZ nor sphericalRange, sphericalAzimuth, "
+    "sphericalElevation",
+    inQuotes(scan.name));
   isSpherical_.push_back(!isCartesian);
   const bool hasColors = hasE57Colors(scan);
   std::vector<Place>& places = places_.emplace_back();
@@ -234,11 +230,8 @@ std::size_t E57Columns::columnNamed(const std::string& name, int components)
   {
     return found->second;
   }
-  if (columns_.size() >= kMostColumns)
-  {
-    failFormat("the scans have more than " + std::to_string(kMostColumns) + " different fields",
-      "export fewer fields");
-  }
+  failFormatIf(columns_.size() >= kMostColumns, "export fewer fields",
+    "the scans have more than {} different fields", kMostColumns);
   columns_.push_back({ name, VTK_DOUBLE, components });
   values_.emplace_back();
   indices_[name] = columns_.size() - 1;
@@ -248,24 +241,14 @@ std::size_t E57Columns::columnNamed(const std::string& name, int components)
 void E57Columns::hold(std::size_t column, const E57Field& field, std::int64_t added)
 {
   Values& values = values_[column];
-  switch (field.kind)
+  values.hasFloat = values.hasFloat || field.kind == E57Field::Kind::Float;
+  values.hasDouble =
+    values.hasDouble || field.kind == E57Field::Kind::Scaled || field.kind == E57Field::Kind::Double;
+  if (field.kind == E57Field::Kind::Integer)
   {
-    case E57Field::Kind::Integer:
-      values.minimum =
-        values.hasInteger ? std::min(values.minimum, field.minimum + added) : field.minimum + added;
-      values.maximum =
-        values.hasInteger ? std::max(values.maximum, field.maximum + added) : field.maximum + added;
-      values.hasInteger = true;
-      break;
-    case E57Field::Kind::Float:
-      values.hasFloat = true;
-      break;
-    case E57Field::Kind::Scaled:
-    case E57Field::Kind::Double:
-      values.hasDouble = true;
-      break;
-    case E57Field::Kind::Text:
-      break;
+    values.minimum = std::min(values.minimum, field.minimum + added);
+    values.maximum = std::max(values.maximum, field.maximum + added);
+    values.hasInteger = true;
   }
 }
 

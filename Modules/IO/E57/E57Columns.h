@@ -6,6 +6,8 @@
 #include "IO/E57/E57Scan.h"
 
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <map>
 #include <set>
 #include <string>
@@ -51,8 +53,8 @@ private:
     bool hasDouble = false;
     bool hasFloat = false;
     bool hasInteger = false;
-    std::int64_t minimum = 0;
-    std::int64_t maximum = 0;
+    std::int64_t minimum = std::numeric_limits<std::int64_t>::max();
+    std::int64_t maximum = std::numeric_limits<std::int64_t>::min();
     int type() const;
   };
   void chooseColors(const std::vector<E57Scan>& scans);

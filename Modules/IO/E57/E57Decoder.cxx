@@ -189,14 +189,9 @@ void E57Decoder::decodeField(std::size_t index, const Block& block) const
           return static_cast<double>(static_cast<std::int64_t>(stored + least)) * field.scale + field.offset;
         });
       break;
-    case E57Field::Kind::Float:
-      copyStrided({ bytes, 4, VTK_FLOAT }, column, block.count, !kIsLittleEndianHost);
-      break;
-    case E57Field::Kind::Double:
-      copyStrided({ bytes, 8, VTK_DOUBLE }, column, block.count, !kIsLittleEndianHost);
-      break;
-    case E57Field::Kind::Text:
-      break;
+    default: // Text is not read.
+      copyStrided({ bytes, field.bits / 8, typeOfKind('f', field.bits / 8) }, column, block.count,
+        !kIsLittleEndianHost);
   }
 }
 

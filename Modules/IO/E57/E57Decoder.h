@@ -7,7 +7,6 @@
 #include "IO/E57/E57Packets.h"
 #include "IO/E57/E57Scan.h"
 
-#include <memory>
 #include <vector>
 
 namespace pointhaptics::io

@@ -1,5 +1,7 @@
 #include "ReadTask.h"
 
+#include "Bytes/Checks.h"
+#include "Bytes/DisjointRanges.h"
 #include "Bytes/NumericType.h"
 #include "IO/Bytes/XmlTree.h"
 #include "IO/Columns/CloudColumns.h"
@@ -23,7 +25,6 @@
 #include <array>
 #include <deque>
 #include <limits>
-#include <map>
 #include <set>
 
 namespace pointhaptics::io
@@ -108,32 +109,12 @@ void addGrid(const std::vector<E57Scan>& scans, bool moves, vtkPolyData* cloud)
   addFieldNumbers<vtkDoubleArray>(cloud, "LasOffset", offset);
 }
 
-std::string described(const E57Scan& scan)
+/// Notes the section from @p begin to @p end.
+void addSection(DisjointRanges& sections, std::uint64_t begin, std::uint64_t end)
 {
-  return "scan " + std::to_string(scan.number + 1) + " " + inQuotes(scan.name);
+  failDamagedIf(!sections.add(begin, end), E57Pages::physical(begin),
+    "a section of {} bytes that overlaps another one", end - begin);
 }
-
-/// Sections of the file, of which no two may share a byte: reading these again and again would cost more time
-/// than the file has bytes for.
-class Sections
-{
-public:
-  void add(std::pair<std::uint64_t, std::uint64_t> section)
-  {
-    const auto [at, isNew] = ends_.insert(section);
-    const auto next = std::next(at);
-    if (!isNew || (at != ends_.begin() && std::prev(at)->second > section.first) ||
-      (next != ends_.end() && next->first < section.second))
-    {
-      failFormat(atByte(E57Pages::physical(section.first)) + "a section of " +
-          std::to_string(section.second - section.first) + " bytes that overlaps another one",
-        "the file is damaged: copy or write it again");
-    }
-  }
-
-private:
-  std::map<std::uint64_t, std::uint64_t> ends_; ///< by where they begin
-};
 
 /// @return the number of points. @throws FileProblem before anything of their size is allocated.
 vtkIdType checkedRows(const std::vector<E57Scan>& scans, const E57Columns& plan, std::uint64_t fileSize)
@@ -149,12 +130,8 @@ vtkIdType checkedRows(const std::vector<E57Scan>& scans, const E57Columns& plan,
     rowSize += static_cast<std::uint64_t>(column.components * sizeOfType(column.type));
   }
   const std::uint64_t most = std::max(kGrowthFloor, kMostGrowth * fileSize);
-  if (rows > most / rowSize)
-  {
-    failFormat(std::to_string(rows) + " points of " + std::to_string(rowSize) + " bytes would be more than " +
-        std::to_string(kMostGrowth) + " times the file's size",
-      "the file is damaged or hostile: write it again");
-  }
+  failFormatIf(rows > most / rowSize, "the file is damaged or hostile: write it again",
+    "{} points of {} bytes would be more than {} times the file's size", rows, rowSize, kMostGrowth);
   return static_cast<vtkIdType>(rows);
 }
 
@@ -167,9 +144,9 @@ void decode(const ReadTask& task, const E57Decoder& decoder, vtkIdType first, vt
     vtkSMPTools::For(begin, end, 1,
       [&](vtkIdType from, vtkIdType to)
       {
-        for (vtkIdType block = from; block < to; ++block)
+        for (; from < to; ++from)
         {
-          decoder.decode(block);
+          decoder.decode(from);
         }
       });
     const double done = static_cast<double>(first + end * E57Decoder::kBlockRows) / static_cast<double>(rows);
@@ -235,8 +212,8 @@ void addNotes(
 {
   if (contents.images > 0)
   {
-    task.notes.push_back(std::to_string(contents.images) +
-      (contents.images == 1 ? " image is" : " images are") + " not read: only points are");
+    task.notes.push_back(fmt::format(
+      "{} {} not read: only points are", contents.images, contents.images == 1 ? "image is" : "images are"));
   }
   std::set<std::string> texts;
   std::vector<std::size_t> missing(plan.all().size(), 0);
@@ -244,10 +221,7 @@ void addNotes(
   {
     for (const E57Field& field : scans[i].fields)
     {
-      if (field.kind == E57Field::Kind::Text)
-      {
-        texts.insert(field.name);
-      }
+      field.kind == E57Field::Kind::Text ? void(texts.insert(field.name)) : void();
     }
     for (const std::size_t column : plan.missing(i))
     {
@@ -263,9 +237,8 @@ void addNotes(
     const Column& column = plan.all()[i];
     if (missing[i] > 0 && !isE57Flag(column.name))
     {
-      task.notes.push_back(std::to_string(missing[i]) + " of " + std::to_string(scans.size()) +
-        " scans have no " + inQuotes(column.name) + ": their points have " +
-        (isFloatingType(column.type) ? "NaN" : "0") + " there");
+      task.notes.push_back(fmt::format("{} of {} scans have no {}: their points have {} there", missing[i],
+        scans.size(), inQuotes(column.name), isFloatingType(column.type) ? "NaN" : "0"));
     }
   }
 }
@@ -281,8 +254,9 @@ std::vector<E57Scan> scansWithPoints(const E57Contents& contents)
     [](const E57Scan& scan) { return scan.records > 0; });
   if (scans.empty())
   {
-    throw NoPoints("the file is valid, but its " + std::to_string(contents.scans.size()) +
-      (contents.scans.size() == 1 ? " scan holds no points" : " scans hold no points"));
+    const std::size_t count = contents.scans.size();
+    throw NoPoints(fmt::format(
+      "the file is valid, but its {} {} no points", count, count == 1 ? "scan holds" : "scans hold"));
   }
   return scans;
 }
@@ -297,13 +271,13 @@ void readE57(ReadTask& task, vtkPolyData* cloud)
   const E57Contents contents = parseE57Contents(xmlOf(pages));
   addFieldData(contents, cloud);
   std::vector<E57Scan> scans = scansWithPoints(contents);
-  Sections sections;
-  sections.add({ pages.xmlOffset(), pages.xmlOffset() + pages.xmlLength() });
+  DisjointRanges sections;
+  addSection(sections, pages.xmlOffset(), pages.xmlOffset() + pages.xmlLength());
   std::deque<E57Packets> packets;
   for (E57Scan& scan : scans)
   {
-    packets.emplace_back(pages, scan, described(scan), task);
-    sections.add(packets.back().section());
+    packets.emplace_back(pages, scan, fmt::format("scan {} {}", scan.number + 1, inQuotes(scan.name)), task);
+    addSection(sections, packets.back().begin(), packets.back().end());
   }
   const bool moves = task.applyPoses &&
     std::any_of(scans.begin(), scans.end(), [](const E57Scan& scan) { return !scan.pose.isIdentity(); });

@@ -1,7 +1,7 @@
 #include "IO/E57/E57Packets.h"
 
+#include "Bytes/Checks.h"
 #include "Bytes/LittleEndian.h"
-#include "FileProblem.h"
 #include "ReadTask.h"
 
 #include "vtkSMPTools.h"
@@ -9,19 +9,12 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <limits>
 
 namespace pointhaptics::io
 {
 
 namespace
 {
-
-constexpr const char* kCure = "the file is damaged: copy or write it again";
-
-/// CRC-32C (Castagnoli: polynomial 0x1EDC6F41, bits reflected, all ones before and after) of @p size bytes.
-/// Any thread. Source: RFC 3720, appendix B.4.
-std::uint32_t crc32c(const char* bytes, std::size_t size) noexcept;
 
 constexpr std::uint32_t kReflectedPolynomial = 0x82f63b78;
 constexpr std::size_t kSlices = 8;
@@ -54,6 +47,8 @@ constexpr Tables makeTables()
 
 constexpr Tables kTables = makeTables();
 
+/// CRC-32C (Castagnoli: polynomial 0x1EDC6F41, bits reflected, all ones before and after) of @p size bytes.
+/// Any thread. Source: RFC 3720, appendix B.4.
 std::uint32_t crc32c(const char* bytes, std::size_t size) noexcept
 {
   std::uint32_t crc = ~std::uint32_t{ 0 };
@@ -88,15 +83,19 @@ std::uint32_t storedChecksum(const char* page)
   return value;
 }
 
+constexpr std::size_t kSectionHeader = 32;
+constexpr std::size_t kPacketHeader = 4;     ///< of any packet: type, flags, length - 1
+constexpr std::size_t kDataPacketHeader = 6; ///< and the number of streams
+constexpr unsigned kCompressedVectorSection = 1;
+constexpr unsigned kDataPacket = 1;
+constexpr unsigned kEmptyPacket = 2;
+
 } // namespace
 
 E57Pages::E57Pages(std::string_view bytes)
 {
-  if (bytes.size() < kPage)
-  {
-    failTruncated("the file ends at byte " + std::to_string(bytes.size()) + " inside its first page of " +
-      std::to_string(kPage) + " bytes");
-  }
+  failTruncatedIf(
+    bytes.size() < kPage, "the file ends at byte {} inside its first page of {} bytes", bytes.size(), kPage);
   const char* header = bytes.data();
   major_ = loadLittle<std::uint32_t>(header + 8);
   minor_ = loadLittle<std::uint32_t>(header + 12);
@@ -104,32 +103,17 @@ E57Pages::E57Pages(std::string_view bytes)
   const std::uint64_t xml = loadLittle<std::uint64_t>(header + 24);
   xmlLength_ = loadLittle<std::uint64_t>(header + 32);
   const std::uint64_t page = loadLittle<std::uint64_t>(header + 40);
-  if (major_ != 1)
-  {
-    failFormat(
-      "byte 8: version " + version() + ", but 1.0 is read here", "export it as E57 1.0 (ASTM E2807)");
-  }
-  if (page != kPage)
-  {
-    failFormat(
-      "byte 40: pages of " + std::to_string(page) + " bytes, but E57 has " + std::to_string(kPage), kCure);
-  }
-  if (length > bytes.size())
-  {
-    failTruncated("byte 16: the header says " + std::to_string(length) + " bytes, but the file has " +
-      std::to_string(bytes.size()));
-  }
-  if (length < kPage || length % kPage != 0)
-  {
-    failFormat("byte 16: a length of " + std::to_string(length) + " bytes, which are no whole pages", kCure);
-  }
+  failFormatIf(
+    major_ != 1, "export it as E57 1.0 (ASTM E2807)", "byte 8: version {}, but 1.0 is read here", version());
+  failDamagedIf(page != kPage, 40, "pages of {} bytes, but E57 has {}", page, kPage);
+  failTruncatedIf(
+    length > bytes.size(), "byte 16: the header says {} bytes, but the file has {}", length, bytes.size());
+  failDamagedIf(
+    length < kPage || length % kPage != 0, 16, "a length of {} bytes, which are no whole pages", length);
   bytes_ = bytes.substr(0, length);
   xmlOffset_ = logical(xml, "byte 24: the XML section");
-  if (xmlLength_ > size() - xmlOffset_)
-  {
-    failTruncated("byte 32: an XML section of " + std::to_string(xmlLength_) + " bytes, but only " +
-      std::to_string(size() - xmlOffset_) + " follow byte " + std::to_string(xml));
-  }
+  failTruncatedIf(xmlLength_ > size() - xmlOffset_,
+    "byte 32: an XML section of {} bytes, but only {} follow byte {}", xmlLength_, size() - xmlOffset_, xml);
 }
 
 void E57Pages::check(const ReadTask& task, double part) const
@@ -155,12 +139,8 @@ void E57Pages::check(const ReadTask& task, double part) const
           }
         }
       });
-    if (firstWrong < pages)
-    {
-      failFormat(atByte(firstWrong * kPage) + "page " + std::to_string(firstWrong + 1) + " of " +
-          std::to_string(pages) + " does not have the content of its checksum (CRC-32C)",
-        kCure);
-    }
+    failDamagedIf(firstWrong < pages, firstWrong * kPage,
+      "page {} of {} does not have the content of its checksum (CRC-32C)", firstWrong + 1, pages);
     task.progress(part * static_cast<double>(end) / static_cast<double>(pages));
   }
 }
@@ -172,12 +152,8 @@ std::string E57Pages::version() const
 
 std::uint64_t E57Pages::logical(std::uint64_t physical, const std::string& what) const
 {
-  if (physical >= bytes_.size() || physical % kPage >= kContent || physical < kFileHeader)
-  {
-    failFormat(what + " is at byte " + std::to_string(physical) + " of " + std::to_string(bytes_.size()) +
-        ", where no content is",
-      kCure);
-  }
+  failFormatIf(physical >= bytes_.size() || physical % kPage >= kContent || physical < kFileHeader,
+    kDamagedCure, "{} is at byte {} of {}, where no content is", what, physical, bytes_.size());
   return physical / kPage * kContent + physical % kPage;
 }
 
@@ -195,24 +171,6 @@ void E57Pages::copy(std::uint64_t logicalOffset, std::size_t count, char* to) co
     ++page;
   }
 }
-
-namespace
-{
-
-constexpr std::size_t kSectionHeader = 32;
-constexpr std::size_t kPacketHeader = 4;     ///< of any packet: type, flags, length - 1
-constexpr std::size_t kDataPacketHeader = 6; ///< and the number of streams
-constexpr unsigned kCompressedVectorSection = 1;
-constexpr unsigned kIndexPacket = 0;
-constexpr unsigned kDataPacket = 1;
-constexpr unsigned kEmptyPacket = 2;
-
-std::string atLogical(std::uint64_t logical)
-{
-  return atByte(E57Pages::physical(logical));
-}
-
-} // namespace
 
 E57Packets::E57Packets(const E57Pages& pages, E57Scan& scan, const std::string& where, ReadTask& task)
   : pages_(pages)
@@ -233,33 +191,21 @@ std::uint64_t E57Packets::findSection(const E57Scan& scan)
 {
   begin_ = pages_.logical(scan.fileOffset, where_ + ": the section of its points");
   std::array<char, kSectionHeader> header{};
-  if (pages_.size() - begin_ < header.size())
-  {
-    failTruncated(atLogical(begin_) + "the file ends inside the section of the points of " + where_);
-  }
+  failTruncatedIf(pages_.size() - begin_ < header.size(),
+    "byte {}: the file ends inside the section of the points of {}", E57Pages::physical(begin_), where_);
   pages_.copy(begin_, header.size(), header.data());
   const unsigned kind = static_cast<unsigned char>(header[0]);
   const std::uint64_t length = loadLittle<std::uint64_t>(header.data() + 8);
-  if (kind != kCompressedVectorSection)
-  {
-    failFormat(atLogical(begin_) + "a section of kind " + std::to_string(kind) + " where the points of " +
-        where_ + " are said to be",
-      kCure);
-  }
-  if (length < kSectionHeader || length > pages_.size() - begin_)
-  {
-    failTruncated(atLogical(begin_) + "a section of " + std::to_string(length) + " bytes, but only " +
-      std::to_string(pages_.size() - begin_) + " follow");
-  }
+  const std::uint64_t at = E57Pages::physical(begin_);
+  failDamagedIf(kind != kCompressedVectorSection, at,
+    "a section of kind {} where the points of {} are said to be", kind, where_);
+  failTruncatedIf(length < kSectionHeader || length > pages_.size() - begin_,
+    "byte {}: a section of {} bytes, but only {} follow", at, length, pages_.size() - begin_);
   end_ = begin_ + length;
   const std::uint64_t first =
     pages_.logical(loadLittle<std::uint64_t>(header.data() + 16), where_ + ": its first packet");
-  if (first < begin_ + kSectionHeader || first > end_)
-  {
-    failFormat(atLogical(begin_) + "the first packet of " + where_ + " is at byte " +
-        std::to_string(E57Pages::physical(first)) + ", outside of its section",
-      kCure);
-  }
+  failDamagedIf(first < begin_ + kSectionHeader || first > end_, at,
+    "the first packet of {} is at byte {}, outside of its section", where_, E57Pages::physical(first));
   return first;
 }
 
@@ -275,12 +221,8 @@ void E57Packets::planStreams(const E57Scan& scan)
     streams_[i].needed = bits == 0 ? 0 : (records / 8) * bits + (records % 8 * bits + 7) / 8;
     unfinished_ += streams_[i].needed > 0 ? 1 : 0;
   }
-  if (bitsOfRecord == 0 && scan.records > end_ - begin_)
-  {
-    failFormat(
-      where_ + ": " + std::to_string(scan.records) + " points that are all the same by their description",
-      kCure);
-  }
+  failFormatIf(bitsOfRecord == 0 && scan.records > end_ - begin_, kDamagedCure,
+    "{}: {} points that are all the same by their description", where_, scan.records);
 }
 
 void E57Packets::walk(std::uint64_t at)
@@ -291,21 +233,11 @@ void E57Packets::walk(std::uint64_t at)
     pages_.copy(at, header.size(), header.data());
     const unsigned kind = static_cast<unsigned char>(header[0]);
     const std::size_t length = std::size_t{ loadLittle<std::uint16_t>(header.data() + 2) } + 1;
-    if (kind > kEmptyPacket)
-    {
-      failPacket(at, "of kind " + std::to_string(kind) + ", but 0 to 2 are known");
-    }
-    if (length < kPacketHeader || length % 4 != 0 || length > end_ - at)
-    {
-      failPacket(at,
-        "of " + std::to_string(length) + " bytes, with " + std::to_string(end_ - at) +
-          " left in the section");
-    }
-    static_assert(kIndexPacket == 0 && kDataPacket == 1, "the other kinds are passed over");
-    if (kind == kDataPacket)
-    {
-      addDataPacket(at, length);
-    }
+    const std::uint64_t place = E57Pages::physical(at);
+    failDamagedIf(kind > kEmptyPacket, place, "{}: a packet of kind {}, but 0 to 2 are known", where_, kind);
+    failDamagedIf(length < kPacketHeader || length % 4 != 0 || length > end_ - at, place,
+      "{}: a packet of {} bytes, with {} left in the section", where_, length, end_ - at);
+    kind == kDataPacket ? addDataPacket(at, length) : void(); // the other kinds are passed over
     at += length;
   }
 }
@@ -316,18 +248,15 @@ void E57Packets::addDataPacket(std::uint64_t at, std::size_t length)
   const std::size_t streams = streams_.size();
   const std::size_t header = kDataPacketHeader + 2 * streams;
   pages_.copy(at, std::min(header, length), packet.data());
-  if (header > length || loadLittle<std::uint16_t>(packet.data() + 4) != streams)
-  {
-    failPacket(at, "that does not have the " + std::to_string(streams) + " streams of the scan's fields");
-  }
+  failDamagedIf(header > length || loadLittle<std::uint16_t>(packet.data() + 4) != streams,
+    E57Pages::physical(at), "{}: a packet that does not have the {} streams of the scan's fields", where_,
+    streams);
   std::size_t inPacket = header;
   for (std::size_t i = 0; i < streams; ++i)
   {
     const std::size_t size = loadLittle<std::uint16_t>(packet.data() + kDataPacketHeader + 2 * i);
-    if (size > length - inPacket)
-    {
-      failPacket(at, "whose streams are longer than its " + std::to_string(length) + " bytes");
-    }
+    failDamagedIf(size > length - inPacket, E57Pages::physical(at),
+      "{}: a packet whose streams are longer than its {} bytes", where_, length);
     Stream& stream = streams_[i];
     if (size > 0 && stream.size < stream.needed)
     {
@@ -339,11 +268,6 @@ void E57Packets::addDataPacket(std::uint64_t at, std::size_t length)
   }
 }
 
-void E57Packets::failPacket(std::uint64_t at, const std::string& fault) const
-{
-  failFormat(atLogical(at) + where_ + ": a packet " + fault, kCure);
-}
-
 void E57Packets::endEarly(E57Scan& scan, ReadTask& task) const
 {
   std::uint64_t there = scan.records;
@@ -352,10 +276,10 @@ void E57Packets::endEarly(E57Scan& scan, ReadTask& task) const
   {
     if (streams_[i].size < streams_[i].needed)
     {
-      what = what.empty() ? where_ + ": field " + inQuotes(scan.fields[i].name) + " has " +
-          std::to_string(streams_[i].size) + " bytes, but " + std::to_string(scan.records) + " points of " +
-          std::to_string(scan.fields[i].bits) + " bits are promised"
-                          : what;
+      what = what.empty()
+        ? fmt::format("{}: field {} has {} bytes, but {} points of {} bits are promised", where_,
+            inQuotes(scan.fields[i].name), streams_[i].size, scan.records, scan.fields[i].bits)
+        : what;
       there = std::min(there, streams_[i].size * 8 / scan.fields[i].bits);
     }
   }

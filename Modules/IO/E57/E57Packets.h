@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace pointhaptics::io
@@ -76,7 +75,8 @@ public:
   void gather(std::size_t field, std::uint64_t first, std::size_t count, char* to) const noexcept;
 
   /// The logical bytes of the section that holds the packets, from first to one past the last.
-  std::pair<std::uint64_t, std::uint64_t> section() const { return { begin_, end_ }; }
+  std::uint64_t begin() const { return begin_; }
+  std::uint64_t end() const { return end_; }
 
 private:
   struct Part
@@ -95,7 +95,6 @@ private:
   void planStreams(const E57Scan& scan);
   void walk(std::uint64_t at);
   void addDataPacket(std::uint64_t at, std::size_t length);
-  [[noreturn]] void failPacket(std::uint64_t at, const std::string& fault) const;
   void endEarly(E57Scan& scan, ReadTask& task) const;
 
   const E57Pages& pages_;

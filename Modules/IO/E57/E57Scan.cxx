@@ -1,6 +1,6 @@
 #include "IO/E57/E57Scan.h"
 
-#include "FileProblem.h"
+#include "Bytes/Checks.h"
 #include "IO/Bytes/TextScan.h"
 #include "IO/Bytes/XmlTree.h"
 #include "IO/Columns/CloudColumns.h"
@@ -17,57 +17,35 @@ namespace pointhaptics::io
 namespace
 {
 
-constexpr const char* kCure = "write the file again with another program";
-
 /// Numbers of one scan, with its name in the message of what is none.
-class Numbers
+struct Numbers
 {
-public:
-  explicit Numbers(std::string where)
-    : where_(std::move(where))
-  {
-  }
+  std::string where;
+
   /// An empty text is @p otherwise: E57 leaves out zeros, and attributes with their default.
   std::int64_t integer(std::string_view text, const std::string& what, std::int64_t otherwise) const
   {
-    std::int64_t value = otherwise;
-    if (!text.empty())
-    {
-      const char* last = text.data() + text.size();
-      const auto [end, error] = std::from_chars(text.data(), last, value);
-      if (end != last || error != std::errc())
-      {
-        fail(what, text, "is no integer of 64 bits");
-      }
-    }
-    return value;
+    const char* last = text.data() + text.size();
+    const auto [end, error] = std::from_chars(text.data(), last, otherwise);
+    failIf(!text.empty() && (end != last || error != std::errc()), what, text, "is no integer of 64 bits");
+    return otherwise;
   }
   double real(std::string_view text, const std::string& what, double otherwise) const
   {
-    double value = otherwise;
-    if (!text.empty() && (!parseNumber(text, value) || !std::isfinite(value)))
-    {
-      fail(what, text, "is no finite number");
-    }
-    return value;
+    const bool isNumber = text.empty() || (parseNumber(text, otherwise) && std::isfinite(otherwise));
+    failIf(!isNumber, what, text, "is no finite number");
+    return otherwise;
   }
   std::uint64_t count(std::string_view text, const std::string& what) const
   {
     unsigned long long value = 0;
-    if (!parseCount(text, value))
-    {
-      fail(what, text, "is no count");
-    }
+    failIf(!parseCount(text, value), what, text, "is no count");
     return value;
   }
-  [[noreturn]] void fail(const std::string& what, std::string_view text, const std::string& fault) const
+  void failIf(bool isWrong, const std::string& what, std::string_view text, const char* fault) const
   {
-    failFormat(where_ + ": " + what + " " + inQuotes(text) + " " + fault, kCure);
+    failFormatIf(isWrong, kRewriteCure, "{}: {} {} {}", where, what, isWrong ? inQuotes(text) : "", fault);
   }
-  const std::string& where() const { return where_; }
-
-private:
-  std::string where_;
 };
 
 /// The value of an element that is Integer, ScaledInteger or Float.
@@ -97,9 +75,9 @@ std::string inOneLine(std::string_view text)
 
 unsigned bitsOfRange(std::int64_t minimum, std::int64_t maximum)
 {
-  std::uint64_t range = static_cast<std::uint64_t>(maximum) - static_cast<std::uint64_t>(minimum);
+  const std::uint64_t range = static_cast<std::uint64_t>(maximum) - static_cast<std::uint64_t>(minimum);
   unsigned bits = 0;
-  for (; range != 0; range >>= 1)
+  while (bits < 64 && range >> bits != 0)
   {
     ++bits;
   }
@@ -111,10 +89,8 @@ void setIntegerRange(E57Field& field, const XmlElement& element, const Numbers& 
   using Limits = std::numeric_limits<std::int64_t>;
   field.minimum = numbers.integer(element.attribute("minimum"), field.name + " minimum", Limits::min());
   field.maximum = numbers.integer(element.attribute("maximum"), field.name + " maximum", Limits::max());
-  if (field.maximum < field.minimum)
-  {
-    numbers.fail(field.name + " maximum", element.attribute("maximum"), "is below the minimum");
-  }
+  numbers.failIf(field.maximum < field.minimum, field.name + " maximum", element.attribute("maximum"),
+    "is below the minimum");
   field.bits = bitsOfRange(field.minimum, field.maximum);
 }
 
@@ -143,20 +119,15 @@ void addFields(const XmlElement& parent, const std::string& prefix, const Number
       field.kind = isSingle ? E57Field::Kind::Float : E57Field::Kind::Double;
       field.bits = isSingle ? 32 : 64;
     }
-    else if (type == "String")
+    else
     {
+      numbers.failIf(type != "String", field.name, type, "is no type of a record's field");
       field.kind = E57Field::Kind::Text;
       field.bits = 0;
     }
-    else
-    {
-      numbers.fail(field.name, type, "is no type of a record's field");
-    }
     scan.fields.push_back(field);
-    if (scan.fields.size() > kMostColumns)
-    {
-      failFormat(numbers.where() + ": more than " + std::to_string(kMostColumns) + " fields", kCure);
-    }
+    failFormatIf(scan.fields.size() > kMostColumns, kRewriteCure, "{}: more than {} fields", numbers.where,
+      kMostColumns);
   }
 }
 
@@ -165,10 +136,7 @@ void checkNames(const E57Scan& scan, const Numbers& numbers)
   std::set<std::string> names;
   for (const E57Field& field : scan.fields)
   {
-    if (!names.insert(field.name).second)
-    {
-      numbers.fail("a field", field.name, "comes twice");
-    }
+    numbers.failIf(!names.insert(field.name).second, "a field", field.name, "comes twice");
   }
 }
 
@@ -190,12 +158,8 @@ E57Pose poseOf(const XmlElement* element, const Numbers& numbers)
   pose.rotation[0] = numberOf(rotation, "w", numbers);
   const std::array<double, 4>& q = pose.rotation;
   const double length = std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3]));
-  if (!(length > 0.0) || !std::isfinite(length))
-  {
-    failFormat(numbers.where() + ": the rotation of the pose is a quaternion of length " +
-        std::to_string(length) + ", not 1",
-      kCure);
-  }
+  failFormatIf(!(length > 0.0) || !std::isfinite(length), kRewriteCure,
+    "{}: the rotation of the pose is a quaternion of length {:f}, not 1", numbers.where, length);
   // Rounded digits are no other rotation: within them the quaternion stays as it is written.
   constexpr double kRounded = 1e-15;
   if (std::abs(length - 1.0) > kRounded)
@@ -226,10 +190,8 @@ void setColorLimits(const XmlElement* limits, const Numbers& numbers, E57Scan& s
 void checkCodecs(const XmlElement* codecs, const Numbers& numbers)
 {
   const auto isKnown = [](const XmlElement& codec) { return codec.child("bitPackCodec") != nullptr; };
-  if (codecs && !std::all_of(codecs->children.begin(), codecs->children.end(), isKnown))
-  {
-    failFormat(numbers.where() + ": its points are packed by another codec than bitPackCodec", kCure);
-  }
+  failFormatIf(codecs && !std::all_of(codecs->children.begin(), codecs->children.end(), isKnown),
+    kRewriteCure, "{}: its points are packed by another codec than bitPackCodec", numbers.where);
 }
 
 E57Scan scanOf(const XmlElement& element, std::size_t number)
@@ -238,7 +200,7 @@ E57Scan scanOf(const XmlElement& element, std::size_t number)
   scan.number = number - 1;
   const std::string ordinal = "scan " + std::to_string(number);
   scan.name = inOneLine(element.textOf("name"));
-  const Numbers numbers(scan.name.empty() ? ordinal : ordinal + " " + inQuotes(scan.name));
+  const Numbers numbers{ scan.name.empty() ? ordinal : ordinal + " " + inQuotes(scan.name) };
   scan.name = scan.name.empty() ? ordinal : scan.name;
   scan.pose = poseOf(element.child("pose"), numbers);
   setColorLimits(element.child("colorLimits"), numbers, scan);
@@ -248,10 +210,8 @@ E57Scan scanOf(const XmlElement& element, std::size_t number)
     return scan;
   }
   const XmlElement* prototype = points->child("prototype");
-  if (points->attribute("type") != "CompressedVector" || !prototype)
-  {
-    failFormat(numbers.where() + ": its points are no CompressedVector with a prototype", kCure);
-  }
+  failFormatIf(points->attribute("type") != "CompressedVector" || !prototype, kRewriteCure,
+    "{}: its points are no CompressedVector with a prototype", numbers.where);
   scan.records = numbers.count(points->attribute("recordCount"), "recordCount");
   scan.fileOffset = numbers.count(points->attribute("fileOffset"), "fileOffset");
   addFields(*prototype, "", numbers, scan);
@@ -277,10 +237,8 @@ std::size_t E57Scan::find(const std::string& fieldName) const
 
 E57Contents parseE57Contents(const XmlElement& root)
 {
-  if (root.name != "e57Root")
-  {
-    failFormat("the XML begins with " + inQuotes(root.name) + ", not with 'e57Root'", kCure);
-  }
+  failFormatIf(
+    root.name != "e57Root", kRewriteCure, "the XML begins with {}, not with 'e57Root'", inQuotes(root.name));
   E57Contents contents;
   contents.generator = inOneLine(root.textOf("e57LibraryVersion"));
   contents.coordinateSystem = root.textOf("coordinateMetadata");

@@ -1,3 +1,4 @@
+#include "Bytes/Checks.h"
 #include "IO/Formats/FormatLooks.h"
 #include "IO/Text/TextCells.h"
 #include "ReadTask.h"
@@ -5,6 +6,7 @@
 #include "vtkNew.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
+#include "vtksys/SystemTools.hxx"
 
 #include <cmath>
 #include <map>
@@ -34,11 +36,8 @@ struct EsriHeader
   }
 };
 
-[[noreturn]] void failLine(const LineReader& lines, const std::string& what)
-{
-  failFormat(atLine(lines.lineNumber()) + what,
-    "write ncols, nrows, xllcorner, yllcorner, cellsize and NODATA_value, then a height for each cell");
-}
+constexpr const char* kCure =
+  "write ncols, nrows, xllcorner, yllcorner, cellsize and NODATA_value, then a height for each cell";
 
 /// Leaves @p line at the first heights.
 EsriHeader parseHeader(LineReader& lines, std::string_view& line)
@@ -57,25 +56,16 @@ EsriHeader parseHeader(LineReader& lines, std::string_view& line)
     {
       break;
     }
-    std::string name(word);
-    for (char& c : name)
-    {
-      c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
-    }
-    if (!parseCell(takeWord(rest), value) || header.values.size() > 16)
-    {
-      failLine(lines, inQuotes(word) + " has no number");
-    }
-    header.values[name] = value;
+    failFormatIf(!parseCell(takeWord(rest), value) || header.values.size() > 16, kCure,
+      "line {}: {} has no number", lines.lineNumber(), inQuotes(word));
+    header.values[vtksys::SystemTools::LowerCase(std::string(word))] = value;
   }
   for (const auto& [name, count] : { std::pair<const char*, std::size_t*>{ "ncols", &header.columns },
          std::pair<const char*, std::size_t*>{ "nrows", &header.rows } })
   {
     const double given = header.value(name, 0.0);
-    if (!(given >= 1.0 && given <= 1e9 && given == std::floor(given)))
-    {
-      failLine(lines, std::string(name) + " is no count");
-    }
+    failFormatIf(!(given >= 1.0 && given <= 1e9 && given == std::floor(given)), kCure,
+      "line {}: {} is no count", lines.lineNumber(), name);
     *count = static_cast<std::size_t>(given);
   }
   return header;
@@ -98,19 +88,14 @@ void readEsriGrid(ReadTask& task, vtkPolyData* cloud)
   LineReader lines(text);
   std::string_view line;
   const EsriHeader header = parseHeader(lines, line);
-  if (header.rows > text.size() / header.columns)
-  {
-    failTruncated(atLine(lines.lineNumber()) + std::to_string(header.columns) + " x " +
-      std::to_string(header.rows) + " cells in a file of " + std::to_string(text.size()) + " bytes");
-  }
+  failTruncatedIf(header.rows > text.size() / header.columns, "line {}: {} x {} cells in a file of {} bytes",
+    lines.lineNumber(), header.columns, header.rows, text.size());
   const double cell = header.value("cellsize", 0.0);
   const double width = header.value("dx", cell);
   const double height = header.value("dy", cell);
   const double none = header.value("nodata_value", -9999.0);
-  if (!(width > 0.0) || !(height > 0.0))
-  {
-    failLine(lines, "there is no cellsize above 0");
-  }
+  failFormatIf(
+    !(width > 0.0) || !(height > 0.0), kCure, "line {}: there is no cellsize above 0", lines.lineNumber());
   const double west = header.middle("xllcorner", "xllcenter", width);
   const double south = header.middle("yllcorner", "yllcenter", height);
   const std::size_t cells = header.columns * header.rows;
@@ -124,7 +109,8 @@ void readEsriGrid(ReadTask& task, vtkPolyData* cloud)
       if (!line.empty())
       {
         const std::string_view word = takeWord(line);
-        parseCell(word, z) ? void() : failLine(lines, inQuotes(word) + " is no height");
+        failFormatIf(
+          !parseCell(word, z), kCure, "line {}: {} is no height", lines.lineNumber(), inQuotes(word));
         break;
       }
       if (!lines.next(line))
@@ -143,10 +129,7 @@ void readEsriGrid(ReadTask& task, vtkPolyData* cloud)
     }
     task.step(i, i, cells);
   }
-  if (points->GetNumberOfPoints() == 0)
-  {
-    failNoPoints();
-  }
+  points->GetNumberOfPoints() == 0 ? failNoPoints() : void();
   cloud->SetPoints(points);
 }
 

@@ -1,3 +1,4 @@
+#include "Bytes/Checks.h"
 #include "IO/Bytes/TextScan.h"
 #include "IO/Columns/CloudColumns.h"
 #include "IO/Formats/FormatLooks.h"
@@ -56,30 +57,27 @@ public:
   void moveTo(vtkPolyData* cloud);
 
 private:
-  [[noreturn]] void fail(const std::string& expected) const
+  void failIf(bool isWrong, const std::string& expected) const
   {
-    failFormat(atLine(lines_.lineNumber()) + inQuotes(line_) + " stands where " + expected + " was expected",
-      "write the scan again, as PTX or E57");
+    failFormatIf(isWrong, "write the scan again, as PTX or E57", "line {}: {} stands where {} was expected",
+      lines_.lineNumber(), isWrong ? inQuotes(line_) : "", expected);
   }
   std::uint64_t count()
   {
     unsigned long long value = 0;
-    if (!parseCount(trimmed(line_), value) || value == 0)
-    {
-      fail("a number of columns or rows");
-    }
+    failIf(!parseCount(trimmed(line_), value) || value == 0, "a number of columns or rows");
     return value;
+  }
+  void nextLine()
+  {
+    const bool isThere = lines_.nextFilled(line_);
+    failTruncatedIf(!isThere, "the file ends at line {} before its points", lines_.lineNumber());
   }
   void nextNumbers(double* values, int wanted)
   {
-    if (!lines_.nextFilled(line_))
-    {
-      failTruncated("the file ends at line " + std::to_string(lines_.lineNumber()) + " before its points");
-    }
-    if (takeNumbers(line_, values, wanted) != wanted)
-    {
-      fail(std::to_string(wanted) + " numbers of the scanner's place");
-    }
+    nextLine();
+    failIf(takeNumbers(line_, values, wanted) != wanted,
+      std::to_string(wanted) + " numbers of the scanner's place");
   }
   bool readScan();
   void addPoint(const double* values, int count);
@@ -103,16 +101,11 @@ bool PtxReader::readScan()
 {
   constexpr std::uint64_t kShortestLine = 8; // "0 0 0 0" and its end
   const std::uint64_t columns = count();
-  if (!lines_.nextFilled(line_))
-  {
-    failTruncated("the file ends at line " + std::to_string(lines_.lineNumber()) + " before its points");
-  }
+  nextLine();
   const std::uint64_t rows = count();
-  if (rows > (task_.bytes.size() / kShortestLine + 1) / columns)
-  {
-    failTruncated("line " + std::to_string(lines_.lineNumber()) + ": a scan of " + std::to_string(columns) +
-      " x " + std::to_string(rows) + " points in a file of " + std::to_string(task_.bytes.size()) + " bytes");
-  }
+  failTruncatedIf(rows > (task_.bytes.size() / kShortestLine + 1) / columns,
+    "line {}: a scan of {} x {} points in a file of {} bytes", lines_.lineNumber(), columns, rows,
+    task_.bytes.size());
   double ignored[3]; // place and axes of the scanner, which the matrix has, too
   for (int i = 0; i < 4; ++i)
   {
@@ -136,7 +129,7 @@ bool PtxReader::readScan()
             std::to_string(scan_ + 1));
         return false;
       }
-      fail("x y z intensity, and perhaps red green blue,");
+      failIf(true, "x y z intensity, and perhaps red green blue,");
     }
     addPoint(values, found);
     task_.step(i, lines_.position(), task_.bytes.size());
@@ -172,10 +165,7 @@ void PtxReader::addPoint(const double* values, int count)
 
 void PtxReader::moveTo(vtkPolyData* cloud)
 {
-  if (points_->GetNumberOfPoints() == 0)
-  {
-    failNoPoints();
-  }
+  points_->GetNumberOfPoints() == 0 ? failNoPoints() : void();
   cloud->SetPoints(points_);
   cloud->GetPointData()->AddArray(intensity_);
   if (hasColors_)

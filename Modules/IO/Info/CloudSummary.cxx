@@ -311,17 +311,6 @@ ArraySummary summaryOf(vtkAbstractArray* abstract, bool statistics)
   return summary;
 }
 
-std::vector<ArraySummary> arraysOf(vtkPolyData* cloud, bool statistics)
-{
-  std::vector<ArraySummary> result;
-  vtkPointData* data = cloud->GetPointData();
-  for (int i = 0; i < data->GetNumberOfArrays(); ++i)
-  {
-    result.push_back(summaryOf(data->GetAbstractArray(i), statistics));
-  }
-  return result;
-}
-
 /// @param known: what the coordinates are measured in, as far as the file and its points tell.
 void suggest(const LengthUnit& known, const Bounds& bounds, CloudSummary& summary)
 {
@@ -404,7 +393,10 @@ CloudSummary summarize(vtkPolyData* cloud, const std::string& format, bool stati
     summary.unit = unit.name;
     summary.unitIsTold = unit.evidence != UnitEvidence::None;
   }
-  summary.arrays = arraysOf(cloud, statistics);
+  for (int i = 0; i < cloud->GetPointData()->GetNumberOfArrays(); ++i)
+  {
+    summary.arrays.push_back(summaryOf(cloud->GetPointData()->GetAbstractArray(i), statistics));
+  }
   suggest(unit, far.others, summary);
   return summary;
 }

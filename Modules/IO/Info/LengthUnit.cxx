@@ -11,6 +11,7 @@
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
+#include "vtksys/SystemTools.hxx"
 
 #include <algorithm>
 #include <cctype>
@@ -32,12 +33,6 @@ constexpr double kLargestThing = 1e4;
 /// within.
 constexpr double kCompact = 0.2;
 constexpr double kCompactAboutOrigin = 0.45;
-std::string lower(std::string text)
-{
-  std::transform(
-    text.begin(), text.end(), text.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-  return text;
-}
 
 bool has(const std::string& text, const char* part)
 {
@@ -48,7 +43,7 @@ bool has(const std::string& text, const char* part)
 bool findUnit(const std::string& name, LengthUnit& unit)
 {
   const NamedUnit* found = findLengthUnit(name);
-  const bool isDegree = has(lower(name), "degree");
+  const bool isDegree = has(vtksys::SystemTools::LowerCase(name), "degree");
   unit = isDegree ? LengthUnit{ "deg", 1.0, UnitEvidence::File }
     : found       ? LengthUnit{ found->name, found->metres, UnitEvidence::File }
                   : unit;
@@ -62,7 +57,8 @@ bool hasArray(vtkPolyData* cloud, const char* const (&words)[Count])
   vtkPointData* data = cloud->GetPointData();
   for (int i = 0; i < data->GetNumberOfArrays(); ++i)
   {
-    const std::string name = lower(data->GetArrayName(i) ? data->GetArrayName(i) : "");
+    const std::string name =
+      vtksys::SystemTools::LowerCase(data->GetArrayName(i) ? data->GetArrayName(i) : "");
     if (std::any_of(words, words + Count, [&](const char* word) { return has(name, word); }))
     {
       return true;
@@ -120,10 +116,10 @@ vtkSmartPointer<vtkPolyData> movedCloud(vtkPolyData* cloud, const std::string& u
 
 const NamedUnit* findLengthUnit(const std::string& name)
 {
-  const std::string said = lower(name);
+  const std::string said = vtksys::SystemTools::LowerCase(name);
   const auto isCalled = [&](const NamedUnit& unit)
   {
-    return said == unit.name || said == lower(unit.word) ||
+    return said == unit.name || said == vtksys::SystemTools::LowerCase(unit.word) ||
       (!said.empty() && has(" " + std::string(unit.others) + " ", (" " + said + " ").c_str()));
   };
   const auto* found = std::find_if(std::begin(kLengthUnits), std::end(kLengthUnits), isCalled);

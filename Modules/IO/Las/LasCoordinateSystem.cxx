@@ -32,10 +32,11 @@ constexpr const char* kDegree = "degree";
 constexpr std::size_t kMostText = 65535; ///< 16 bits hold the length of a record
 constexpr const char* kProjection = "LASF_Projection";
 
+/// @return nothing for code 0, which some units have for none.
 const char* nameOfUnit(int code)
 {
   const auto* const unit = std::find_if(std::begin(kLengthUnits), std::end(kLengthUnits),
-    [&](const NamedUnit& each) { return each.code == code; });
+    [&](const NamedUnit& each) { return code != 0 && each.code == code; });
   return unit == std::end(kLengthUnits) ? "" : unit->word;
 }
 
@@ -102,28 +103,28 @@ void LasCoordinateSystem::addKeys(std::string_view content)
     const int key = loadLittle<std::uint16_t>(content.data() + at);
     const int place = loadLittle<std::uint16_t>(content.data() + at + 2);
     const int value = loadLittle<std::uint16_t>(content.data() + at + 6);
-    if (place != 0 || value == 0 || value == kUserDefined)
+    if (place == 0 && value != 0 && value != kUserDefined)
     {
-      continue;
-    }
-    isGeographic_ = key == kModelType ? value == kGeographicModel : isGeographic_;
-    if (key == kProjectedSystem || (key == kGeographicSystem && code_.empty()))
-    {
-      code_ = "EPSG:" + std::to_string(value);
-    }
-    else if (key == kProjectedUnit)
-    {
-      unit_ = nameOfUnit(value);
-    }
-    else if (key == kVerticalUnit)
-    {
-      heightUnit_ = nameOfUnit(value);
+      keys_[key] = value;
     }
   }
 }
 
+int LasCoordinateSystem::keyOf(int key) const
+{
+  const auto found = keys_.find(key);
+  return found == keys_.end() ? 0 : found->second;
+}
+
+std::string LasCoordinateSystem::name() const
+{
+  const int code = keyOf(kProjectedSystem) != 0 ? keyOf(kProjectedSystem) : keyOf(kGeographicSystem);
+  return !text_.empty() || code == 0 ? text_ : "EPSG:" + std::to_string(code);
+}
+
 std::string LasCoordinateSystem::lengthUnit() const
 {
+  const std::string unitOfKeys = nameOfUnit(keyOf(kProjectedUnit));
   // PROJCS ends with its own unit, after that of the geographic system it stands on.
   const std::size_t projected = text_.find("PROJC");
   if (projected == std::string::npos)
@@ -132,16 +133,18 @@ std::string LasCoordinateSystem::lengthUnit() const
       text_.rfind("COMPD_CS", 0) == 0 || text_.rfind("COMPOUNDCRS", 0) == 0;
     const bool hasDegrees =
       text_.find("GEOG") != std::string::npos || text_.find("GEODCRS") != std::string::npos;
-    return unit_.empty() && ((text_.empty() && isGeographic_) || (isText && hasDegrees)) ? kDegree : unit_;
+    const bool isGeographic = text_.empty() && keyOf(kModelType) == kGeographicModel;
+    return unitOfKeys.empty() && (isGeographic || (isText && hasDegrees)) ? kDegree : unitOfKeys;
   }
   const std::string unit = lastUnit(text_.substr(projected, text_.find("VERT") - projected));
-  return unit.empty() ? unit_ : unit;
+  return unit.empty() ? unitOfKeys : unit;
 }
 
 std::string LasCoordinateSystem::heightUnit() const
 {
   const std::size_t vertical = text_.find("VERT");
-  return text_.empty() ? heightUnit_ : lastUnit(text_.substr(std::min(vertical, text_.size())));
+  return text_.empty() ? nameOfUnit(keyOf(kVerticalUnit))
+                       : lastUnit(text_.substr(std::min(vertical, text_.size())));
 }
 
 bool isMetre(const std::string& unit)

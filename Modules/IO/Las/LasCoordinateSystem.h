@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <string_view>
 
@@ -20,7 +21,7 @@ public:
   /// @p id 2112: well-known text; 34735: GeoTIFF keys. Others are ignored, and so is what is damaged.
   void addRecord(int id, std::string_view content);
   /// Well-known text as the file has it, or "EPSG:26917"; empty when the file names none.
-  const std::string& name() const { return text_.empty() ? code_ : text_; }
+  std::string name() const;
   /// The unit of a projected system ("metre", "US survey foot"), "degree" of a geographic one, empty when the
   /// file names none.
   std::string lengthUnit() const;
@@ -30,11 +31,11 @@ public:
 private:
   void addKeys(std::string_view content);
 
+  /// The value of a GeoTIFF key; 0: the file has none.
+  int keyOf(int key) const;
+
   std::string text_;
-  std::string code_;
-  std::string unit_;
-  std::string heightUnit_;
-  bool isGeographic_ = false;
+  std::map<int, int> keys_;
 };
 
 /// True if @p unit is one of the names of a metre, as files write them.

@@ -5,6 +5,8 @@
 #include "IO/Info/FieldText.h"
 #include "IO/Las/LasCoordinateSystem.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -25,9 +27,10 @@ constexpr std::size_t kLongestText = 32;
 bool keepsCoordinateSystem(const LasOrigin& origin, vtkFieldData* fieldData)
 {
   LasCoordinateSystem system;
-  forEachLasRecord(origin,
-    [&](const LasRecord& record)
-    { record.user == kLasProjectionUser ? system.addRecord(record.id, record.content) : void(); });
+  for (const LasRecord& record : lasRecords(origin))
+  {
+    record.user == kLasProjectionUser ? system.addRecord(record.id, record.content) : void();
+  }
   return origin.isHere() && system.name() == fieldText(fieldData, "CoordinateSystem") &&
     system.lengthUnit() == fieldText(fieldData, "LengthUnit");
 }
@@ -74,18 +77,17 @@ LasDescription::LasDescription(
                   : std::string());
     describes = false;
   };
-  forEachLasRecord(origin,
-    [&](const LasRecord& record)
+  for (const LasRecord& record : lasRecords(origin))
+  {
+    if (record.is(kLasSpecUser, kLasExtraBytesRecord))
     {
-      if (record.user == "LASF_Spec" && record.id == kLasExtraBytesRecord)
-      {
-        describe(descriptionOf(record));
-      }
-      else if (record.user != kLasProjectionUser || keepsSystem)
-      {
-        keep(record, !points.packing.empty(), notes);
-      }
-    });
+      describe(descriptionOf(record));
+    }
+    else if (record.user != kLasProjectionUser || keepsSystem)
+    {
+      keep(record, !points.packing.empty(), notes);
+    }
+  }
   describe({});
   add(points.packing);
   isOf14 =
@@ -111,13 +113,11 @@ void LasDescription::keep(const LasRecord& record, bool isPacked, WriterNotes& n
   }
   else
   {
-    notes.add("the record " + std::to_string(record.id) + " of " + inQuotes(record.user) + ", of " +
-      std::to_string(record.content.size()) + " bytes, is left out; .las keeps it");
+    notes.add(fmt::format("the record {} of {}, of {} bytes, is left out; .las keeps it", record.id,
+      inQuotes(record.user), record.content.size()));
   }
 }
 
-/// The values of @p array as the file had them where each comes back so: of its type, with its scale, and
-/// what it has for none.
 bool storeAsBefore(const OutputArray& array, const LasExtraField& field, OutputArray& stored)
 {
   if (field.arrayType() != fixedSizeType(array.type()) || field.components != array.components() ||

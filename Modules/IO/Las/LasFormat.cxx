@@ -1,10 +1,11 @@
 #include "ReadTask.h"
 
+#include "Bytes/Checks.h"
 #include "IO/Info/FieldText.h"
 #include "IO/Info/LengthUnit.h"
 #include "IO/Las/LasHeader.h"
 #include "IO/Las/LasRecords.h"
-#include "IO/Las/Laz/ChunkDecoder.h"
+#include "IO/Las/Laz/ChunkCoding.h"
 #include "IO/Las/Laz/LazChunks.h"
 
 #include "vtkDoubleArray.h"
@@ -46,10 +47,7 @@ public:
   /// The points that read() gives: those of the header, or of the wanted part; where ranks read together,
   /// this one's of them.
   std::uint64_t count() const { return rows_.count(); }
-  /// True if WantedPart::mostPoints left out points.
-  bool isCoarse() const { return chunks_.isCoarse; }
-  /// Parts that are packed one by one, of those points.
-  std::int64_t numberOfChunks() const { return std::int64_t(chunks_.all.size()); }
+  const LazChunks& chunks() const { return chunks_; }
   /// Fills @p records with the points in the file's order. Uses as many threads as vtkSMPTools has; progress
   /// is reported from the calling one, which decodes too. @throws FileProblem, StoppedOnRequest.
   void read(LasRecords& records);
@@ -81,17 +79,14 @@ LazChunks chunksOf(ReadTask& task, const LasHeader& header, const LazSchema& sch
   }
   checkLazCount(task.bytes, header);
   LazChunks part = findCopcChunks(task, header);
-  if (part.all.empty())
-  {
-    failFormat("no node of the octree touches the box", "choose a box that meets the bounds of the cloud");
-  }
+  failFormatIf(part.all.empty(), "choose a box that meets the bounds of the cloud",
+    "no node of the octree touches the box");
   return part;
 }
 
 RowRange rowsOf(ReadTask& task, const LazChunks& chunks)
 {
-  const LazChunk& last = chunks.all.back();
-  const RowRange rows = task.rowsOf(last.first + last.count);
+  const RowRange rows = task.rowsOf(chunks.points());
   for (std::size_t i = 0; task.load && i < chunks.all.size(); ++i)
   {
     const LazChunk& chunk = chunks.all[i];
@@ -145,7 +140,7 @@ void LazReader::work(LasRecords& records) noexcept
   std::size_t chunk = chunks_.all.size();
   try
   {
-    ChunkDecoder decoder(schema_, task_.wanted.onlyPositions ? LazFields::Positions : LazFields::All);
+    ChunkDecoder decoder(schema_, task_.wanted.onlyPositions);
     std::vector<char> block(static_cast<std::size_t>(kLasBlockRows) * schema_.recordLength);
     while (!isStopped_ && (chunk = next_++) < chunks_.all.size())
     {
@@ -167,7 +162,7 @@ void LazReader::work(LasRecords& records) noexcept
 /// fault.
 void LazReader::readInOrder(LasRecords& records)
 {
-  ChunkDecoder decoder(schema_, LazFields::All);
+  ChunkDecoder decoder(schema_);
   std::vector<char> block(static_cast<std::size_t>(kLasBlockRows) * schema_.recordLength);
   std::size_t offset = chunks_.all.front().offset;
   done_ = 0;
@@ -246,21 +241,11 @@ void LazReader::read(LasRecords& records)
   {
     helper.join();
   }
-  for (const std::exception_ptr& fault : faults_)
+  const auto fault = std::find_if(
+    faults_.begin(), faults_.end(), [](const std::exception_ptr& each) { return each != nullptr; });
+  if (fault != faults_.end())
   {
-    try
-    {
-      fault ? std::rethrow_exception(fault) : void();
-    }
-    catch (const FileProblem&)
-    {
-      if (!task_.salvage)
-      {
-        throw;
-      }
-      readInOrder(records);
-      return;
-    }
+    task_.salvage ? readInOrder(records) : std::rethrow_exception(*fault);
   }
 }
 
@@ -351,7 +336,7 @@ void readLas(ReadTask& task, vtkPolyData* cloud)
   {
     withPacked(task, [&] { packed.emplace(task, header); });
     header.count = packed->count();
-    task.isCoarse = packed->isCoarse();
+    task.isCoarse = packed->chunks().isCoarse;
   }
   LasRecords records(header, task.wanted.onlyPositions);
   if (packed)
@@ -374,7 +359,7 @@ void readLas(ReadTask& task, vtkPolyData* cloud)
   if (packed)
   {
     addFieldNumbers<vtkTypeInt64Array>(
-      cloud, "Chunks", std::array<vtkTypeInt64, 1>{ packed->numberOfChunks() });
+      cloud, "Chunks", std::array<vtkTypeInt64, 1>{ vtkTypeInt64(packed->chunks().all.size()) });
   }
   addFieldText(cloud, "Generator", header.generator);
   addFieldText(cloud, "CoordinateSystem", header.coordinateSystem);

@@ -1,8 +1,6 @@
 #include "IO/Las/LasGrid.h"
 
-#include "FileProblem.h"
-
-#include <fmt/format.h>
+#include "Bytes/Checks.h"
 
 #include <algorithm>
 #include <cmath>
@@ -63,16 +61,6 @@ bool place(const Axis& axis, const Accepts& accepts, LasGrid& grid)
     grid.largestError = std::max(grid.largestError, std::abs(given - wanted));
   }
   return true;
-}
-
-bool isSame(double given, double wanted)
-{
-  return given == wanted;
-}
-
-bool isSameFloat(double given, double wanted)
-{
-  return static_cast<float>(given) == static_cast<float>(wanted);
 }
 
 /// 10 to the power of @p exponent, the double next to it.
@@ -208,16 +196,16 @@ LasGrid LasGrid::fit(ConstColumnView column, vtkIdType count, const WantedGrid& 
   const double lastDigits = 2.0 * std::numeric_limits<double>::epsilon() * axis.farthest();
   const auto isNearby = [=](double given, double coordinate)
   { return std::abs(given - coordinate) <= lastDigits; };
+  const auto isSame = [](double given, double coordinate) { return given == coordinate; };
+  const auto isSameFloat = [](double given, double coordinate)
+  { return static_cast<float>(given) == static_cast<float>(coordinate); };
   const auto isAny = [](double, double) { return true; };
   const bool isForced = wanted.forced > 0.0;
   LasGrid grid;
   grid.scale = isForced ? wanted.forced : wanted.scale;
   grid.offset = wanted.offset;
-  if (isForced && !reaches(axis, grid))
-  {
-    failFormat("steps of " + fmt::format("{}", grid.scale) + " do not span the cloud with 32 bits",
-      "give larger ones, or none");
-  }
+  failFormatIf(isForced && !reaches(axis, grid), "give larger ones, or none",
+    "steps of {} do not span the cloud with 32 bits", grid.scale);
   const bool isExact = !isForced &&
     ((isWanted && place(axis, isSame, grid)) || placeOnDecimals(axis, isSame, grid) ||
       (!isWanted && placeOnDecimals(axis, isNearby, grid)) ||

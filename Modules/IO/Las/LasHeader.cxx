@@ -1,13 +1,12 @@
 #include "IO/Las/LasHeader.h"
 
+#include "Bytes/Checks.h"
 #include "Bytes/NumericType.h"
-#include "FileProblem.h"
 #include "IO/Las/LasCoordinateSystem.h"
 #include "ReadTask.h"
 
 #include <cmath>
 #include <iterator>
-#include <limits>
 
 namespace pointhaptics::io
 {
@@ -22,35 +21,29 @@ std::string_view untilZero(std::string_view text)
   return text.substr(0, text.find('\0'));
 }
 
-/// For all records of a file; a damaged list ends where it leaves the file.
-template <typename Visit>
-void forEachRecord(std::string_view bytes, const LasHeader& header, Visit visit)
+/// All records of a file; a damaged list ends where it leaves the file.
+std::vector<LasRecord> recordsOf(std::string_view bytes, const LasHeader& header)
 {
-  forEachLasRecord(bytes.substr(0, header.pointsOffset), header.headerSize,
-    numberAt<std::uint32_t>(bytes, 100), false, visit);
+  std::vector<LasRecord> records = lasRecords(
+    bytes.substr(0, header.pointsOffset), header.headerSize, numberAt<std::uint32_t>(bytes, 100), false);
   if (header.minorVersion >= 4 && header.headerSize >= kLasHeaderOf14 && bytes.size() >= kLasHeaderOf14)
   {
-    forEachLasRecord(
-      bytes, numberAt<std::uint64_t>(bytes, 235), numberAt<std::uint32_t>(bytes, 243), true, visit);
+    const std::vector<LasRecord> far =
+      lasRecords(bytes, numberAt<std::uint64_t>(bytes, 235), numberAt<std::uint32_t>(bytes, 243), true);
+    records.insert(records.end(), far.begin(), far.end());
   }
+  return records;
 }
 
 /// "LAZ" by the mark in the point format or by LASzip's record, "COPC" by its own; else empty.
-std::string packingOf(std::string_view bytes, const LasHeader& header, int formatByte)
+std::string packingOf(const std::vector<LasRecord>& records, int formatByte)
 {
   std::string found = (formatByte & kLasPackedMark) != 0 ? "LAZ" : "";
-  forEachRecord(bytes, header,
-    [&](const LasRecord& record)
-    {
-      if (record.user == "copc" && record.id == 1)
-      {
-        found = "COPC";
-      }
-      else if (found.empty() && record.user == kLaszipUser && record.id == kLaszipRecord)
-      {
-        found = "LAZ";
-      }
-    });
+  for (const LasRecord& record : records)
+  {
+    const bool isLaszip = record.is(kLaszipUser, kLaszipRecord);
+    found = record.is("copc", 1) ? "COPC" : found.empty() && isLaszip ? "LAZ" : found;
+  }
   return found;
 }
 
@@ -95,34 +88,28 @@ LasExtraField parseExtraField(std::string_view descriptor, std::size_t offset)
 }
 
 /// True if a record is written anew, or means nothing beside the points as they are written.
-bool isOfPacking(std::string_view user, int id)
+bool isOfPacking(const LasRecord& record)
 {
   constexpr int kFirstWave = 100;
   constexpr int kLastWave = 354;
-  const bool isWave = user == "LASF_Spec" && ((id >= kFirstWave && id <= kLastWave) || id == 65535);
-  return isWave || user == "copc" || (user == kLaszipUser && id == kLaszipRecord);
+  const bool isWave = record.user == kLasSpecUser &&
+    ((record.id >= kFirstWave && record.id <= kLastWave) || record.id == 65535);
+  return isWave || record.user == "copc" || record.is(kLaszipUser, kLaszipRecord);
 }
 
-void parseRecords(std::string_view bytes, LasHeader& header)
+void parseRecords(std::string_view bytes, const std::vector<LasRecord>& records, LasHeader& header)
 {
   std::string_view descriptors;
   LasCoordinateSystem system;
-  forEachRecord(bytes, header,
-    [&](const LasRecord& record)
+  for (const LasRecord& record : records)
+  {
+    if (!isOfPacking(record))
     {
-      if (!isOfPacking(record.user, record.id))
-      {
-        (record.isFar ? header.origin.farRecords : header.origin.records) += record.whole;
-      }
-      if (record.user == "LASF_Spec" && record.id == kLasExtraBytesRecord)
-      {
-        descriptors = record.content;
-      }
-      else if (record.user == kLasProjectionUser)
-      {
-        system.addRecord(record.id, record.content);
-      }
-    });
+      (record.isFar ? header.origin.farRecords : header.origin.records) += record.whole;
+    }
+    descriptors = record.is(kLasSpecUser, kLasExtraBytesRecord) ? record.content : descriptors;
+    record.user == kLasProjectionUser ? system.addRecord(record.id, record.content) : void();
+  }
   header.extraFields = lasExtraFields(descriptors, header.fields().size, header.recordLength);
   header.origin.header = bytes.substr(0, std::min(header.headerSize, kLasHeaderOf14));
   header.coordinateSystem = system.name();
@@ -134,46 +121,31 @@ void checkScales(const LasHeader& header)
 {
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    if (!std::isfinite(header.scale[axis]) || header.scale[axis] == 0.0 ||
-      !std::isfinite(header.offset[axis]))
-    {
-      failFormat(atByte(131 + 8 * axis) + "scale " + std::to_string(header.scale[axis]) + " and offset " +
-          std::to_string(header.offset[axis]) + " of axis " + "xyz"[axis] + " are unusable",
-        "write the file again with finite scales other than 0");
-    }
+    failFormatIf(
+      !std::isfinite(header.scale[axis]) || header.scale[axis] == 0.0 || !std::isfinite(header.offset[axis]),
+      "write the file again with finite scales other than 0",
+      "byte {}: scale {:f} and offset {:f} of axis {} are unusable", 131 + 8 * axis, header.scale[axis],
+      header.offset[axis], "xyz"[axis]);
   }
 }
 
 void checkLayout(std::string_view bytes, LasHeader& header, ReadTask* task)
 {
   const std::size_t needed = header.fields().size;
-  if (header.recordLength < needed)
-  {
-    failFormat("byte 105: records of " + std::to_string(header.recordLength) +
-        " bytes are too short for point format " + std::to_string(header.pointFormat) + ", which takes " +
-        std::to_string(needed),
-      "write the file again with another program");
-  }
-  if (header.pointsOffset < header.headerSize || header.pointsOffset > bytes.size())
-  {
-    failTruncated("byte 96: the points start at byte " + std::to_string(header.pointsOffset) +
-      " of a file of " + std::to_string(bytes.size()) + " bytes");
-  }
-  if (header.count == 0)
-  {
-    failNoPoints();
-  }
+  failFormatIf(header.recordLength < needed, kRewriteCure,
+    "byte 105: records of {} bytes are too short for point format {}, which takes {}", header.recordLength,
+    header.pointFormat, needed);
+  failTruncatedIf(header.pointsOffset < header.headerSize || header.pointsOffset > bytes.size(),
+    "byte 96: the points start at byte {} of a file of {} bytes", header.pointsOffset, bytes.size());
+  header.count == 0 ? failNoPoints() : void();
   const std::size_t available = bytes.size() - header.pointsOffset;
   const std::uint64_t there = available / header.recordLength;
   if (header.packing.empty() && header.count > there)
   {
-    const std::string what = "the header counts " + std::to_string(header.count) + " points of " +
-      std::to_string(header.recordLength) + " bytes, but only " + std::to_string(available) +
-      " bytes follow (" + std::to_string(there) + " points)";
-    if (!task)
-    {
-      failTruncated(what);
-    }
+    const std::string what =
+      fmt::format("the header counts {} points of {} bytes, but only {} bytes follow ({} points)",
+        header.count, header.recordLength, available, there);
+    failTruncatedIf(!task, "{}", what);
     header.count = task->endAt(there, header.count, what);
   }
 }
@@ -221,12 +193,12 @@ std::vector<LasExtraField> lasExtraFields(std::string_view descriptors, std::siz
   return fields;
 }
 
-void forEachLasRecord(std::string_view bytes, std::uint64_t at, std::uint32_t count, bool far,
-  const std::function<void(const LasRecord&)>& visit,
+std::vector<LasRecord> lasRecords(std::string_view bytes, std::uint64_t at, std::uint32_t count, bool far,
   const std::function<void(std::size_t, std::size_t)>& need)
 {
   const std::size_t head = far ? kEvlrHeader : kLasVlrHeader;
-  for (std::uint32_t i = 0; i < count && at < bytes.size() && bytes.size() - at >= head; ++i)
+  std::vector<LasRecord> records;
+  while (records.size() < count && at < bytes.size() && bytes.size() - at >= head)
   {
     const std::size_t start = static_cast<std::size_t>(at);
     need(start, head);
@@ -234,20 +206,23 @@ void forEachLasRecord(std::string_view bytes, std::uint64_t at, std::uint32_t co
     const std::uint64_t claimed =
       far ? numberAt<std::uint64_t>(bytes, start + 20) : numberAt<std::uint16_t>(bytes, start + 20);
     const std::size_t size = static_cast<std::size_t>(std::min<std::uint64_t>(left, claimed));
-    visit({ start, claimed <= left ? bytes.substr(start, head + size) : std::string_view(),
+    records.push_back({ start, claimed <= left ? bytes.substr(start, head + size) : std::string_view(),
       untilZero(bytes.substr(start + 2, 16)), numberAt<std::uint16_t>(bytes, start + 18),
       bytes.substr(start + head, size), far });
     at += head + size;
   }
+  return records;
 }
 
-void forEachLasRecord(const LasOrigin& origin, const std::function<void(const LasRecord&)>& visit)
+std::vector<LasRecord> lasRecords(const LasOrigin& origin)
 {
-  for (const bool far : { false, true })
-  {
-    forEachLasRecord(far ? origin.farRecords : origin.records, 0, ~std::uint32_t{ 0 }, far,
-      [&](const LasRecord& record) { record.whole.empty() ? void() : visit(record); });
-  }
+  constexpr std::uint32_t kAll = ~std::uint32_t{ 0 };
+  std::vector<LasRecord> records = lasRecords(origin.records, 0, kAll, false);
+  const std::vector<LasRecord> far = lasRecords(origin.farRecords, 0, kAll, true);
+  records.insert(records.end(), far.begin(), far.end());
+  const auto isCut = [](const LasRecord& record) { return record.whole.empty(); };
+  records.erase(std::remove_if(records.begin(), records.end(), isCut), records.end());
+  return records;
 }
 
 int lasTypeCode(int type)
@@ -280,45 +255,33 @@ void needLasHeader(const ReadTask& task)
   {
     return; // no records behind the points
   }
-  forEachLasRecord(
-    bytes, numberAt<std::uint64_t>(bytes, 235), numberAt<std::uint32_t>(bytes, 243), true,
-    [&](const LasRecord& record)
-    { record.user != "copc" ? need(record.at + kEvlrHeader, record.content.size()) : void(); },
-    need);
+  for (const LasRecord& record :
+    lasRecords(bytes, numberAt<std::uint64_t>(bytes, 235), numberAt<std::uint32_t>(bytes, 243), true, need))
+  {
+    record.user != "copc" ? need(record.at + kEvlrHeader, record.content.size()) : void();
+  }
 }
 
 LasHeader parseLasHeader(std::string_view bytes, ReadTask* task)
 {
-  if (bytes.size() < kLasHeaderOf12)
-  {
-    failTruncated("the file ends at byte " + std::to_string(bytes.size()) + " inside its header");
-  }
+  failTruncatedIf(bytes.size() < kLasHeaderOf12, "the file ends at byte {} inside its header", bytes.size());
   LasHeader header;
   header.minorVersion = numberAt<std::uint8_t>(bytes, 25);
   const int major = numberAt<std::uint8_t>(bytes, 24);
-  if (major != 1 || header.minorVersion > 4)
-  {
-    failFormat("byte 24: version " + std::to_string(major) + "." + std::to_string(header.minorVersion),
-      "convert it to LAS 1.0 to 1.4");
-  }
+  failFormatIf(major != 1 || header.minorVersion > 4, "convert it to LAS 1.0 to 1.4",
+    "byte 24: version {}.{}", major, header.minorVersion);
   header.globalEncoding = numberAt<std::uint16_t>(bytes, 6);
-  const std::string_view generator = bytes.substr(58, 32);
-  header.generator = generator.substr(0, generator.find('\0'));
+  header.generator = untilZero(bytes.substr(58, 32));
   header.headerSize = numberAt<std::uint16_t>(bytes, 94);
-  if (header.headerSize < kLasHeaderOf12)
-  {
-    failFormat("byte 94: a header of " + std::to_string(header.headerSize) + " bytes",
-      "LAS headers take at least 227");
-  }
+  failFormatIf(header.headerSize < kLasHeaderOf12, "LAS headers take at least 227",
+    "byte 94: a header of {} bytes", header.headerSize);
   header.pointsOffset = numberAt<std::uint32_t>(bytes, 96);
   const int formatByte = numberAt<std::uint8_t>(bytes, 104);
-  header.packing = packingOf(bytes, header, formatByte);
+  const std::vector<LasRecord> records = recordsOf(bytes, header);
+  header.packing = packingOf(records, formatByte);
   const int format = header.packing.empty() ? formatByte : formatByte & ~kLasPackedMark;
-  if (format > kMostLasFormat)
-  {
-    failFormat(
-      "byte 104: unknown point format " + std::to_string(format), "convert it to point format 0 to 10");
-  }
+  failFormatIf(format > kMostLasFormat, "convert it to point format 0 to 10",
+    "byte 104: unknown point format {}", format);
   header.pointFormat = format;
   header.recordLength = numberAt<std::uint16_t>(bytes, 105);
   header.count = numberAt<std::uint32_t>(bytes, 107);
@@ -334,7 +297,7 @@ LasHeader parseLasHeader(std::string_view bytes, ReadTask* task)
   }
   checkLayout(bytes, header, task);
   checkScales(header);
-  parseRecords(bytes, header);
+  parseRecords(bytes, records, header);
   return header;
 }
 

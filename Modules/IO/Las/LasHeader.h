@@ -4,14 +4,13 @@
 #pragma once
 
 #include "Bytes/LittleEndian.h"
-#include "Bytes/NumericType.h"
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <functional>
+#include <iterator>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -58,7 +57,7 @@ struct LasPlace
 
   int mask() const { return (1 << bits) - 1; }
 };
-/// A field of all formats that becomes an array of its name, and the array the field.
+/// A field that becomes an array of its name, and the array the field.
 struct LasField
 {
   const char* name;
@@ -66,6 +65,14 @@ struct LasField
   LasPlace basic;      ///< point formats 0 to 5
   LasPlace extended;   ///< 6 to 10
   bool isRare = false; ///< most files leave it at zero
+  int components = 1;
+  std::size_t LasPointFormat::*offset = nullptr; ///< of fields whose place the point format tells
+
+  /// Where records of the point format have it.
+  LasPlace placeIn(int format) const
+  {
+    return offset ? LasPlace{ kLasPointFormats[format].*offset, type } : format >= 6 ? extended : basic;
+  }
 };
 constexpr LasField kLasFields[] = {
   { "Intensity", VTK_TYPE_UINT16, { 12, VTK_TYPE_UINT16 }, { 12, VTK_TYPE_UINT16 } },
@@ -79,15 +86,29 @@ constexpr LasField kLasFields[] = {
   { "ScannerChannel", VTK_TYPE_UINT8, {}, { 15, VTK_TYPE_UINT8, 4, 2 }, true },
   { "ScanDirection", VTK_TYPE_UINT8, { 14, VTK_TYPE_UINT8, 6, 1 }, { 15, VTK_TYPE_UINT8, 6, 1 }, true },
   { "EdgeOfFlightLine", VTK_TYPE_UINT8, { 14, VTK_TYPE_UINT8, 7, 1 }, { 15, VTK_TYPE_UINT8, 7, 1 }, true },
+  { "GpsTime", VTK_DOUBLE, {}, {}, false, 1, &LasPointFormat::gpsTime },
+  { "Color16", VTK_TYPE_UINT16, {}, {}, false, 3, &LasPointFormat::rgb },
+  { "NearInfrared", VTK_TYPE_UINT16, {}, {}, false, 1, &LasPointFormat::nearInfrared },
 };
-constexpr std::size_t kNumberOfLasFields = sizeof(kLasFields) / sizeof(kLasFields[0]);
-constexpr double kLasScanAngleStep = 0.006; ///< degrees, extended formats
+constexpr std::size_t kNumberOfLasFields = std::size(kLasFields);
+/// Index of a field. @pre there is one of that name.
+constexpr std::size_t lasFieldCalled(std::string_view name)
+{
+  std::size_t i = 0;
+  for (; kLasFields[i].name != name; ++i)
+  {
+  }
+  return i;
+}
+constexpr std::size_t kLasColor = lasFieldCalled("Color16"); ///< An array of bytes is made of it, too.
+constexpr double kLasScanAngleStep = 0.006;                  ///< degrees, extended formats
 
 constexpr std::size_t kLasHeaderOf12 = 227; ///< bytes, also of 1.0 and 1.1
 constexpr std::size_t kLasHeaderOf14 = 375;
 constexpr std::size_t kLasVlrHeader = 54;
 constexpr std::size_t kLasExtraDescriptor = 192;
-constexpr int kLasExtraBytesRecord = 4; ///< of the user LASF_Spec
+constexpr std::string_view kLasSpecUser = "LASF_Spec";
+constexpr int kLasExtraBytesRecord = 4; ///< of this user
 constexpr std::string_view kLasProjectionUser = "LASF_Projection";
 constexpr int kLasPackedMark = 0xc0; ///< bits of the point format that LAZ sets
 constexpr int kLasPackedBit = 0x80;  ///< the one of them that is written today
@@ -190,16 +211,17 @@ struct LasRecord
   int id = 0;
   std::string_view content; ///< as much of it as is there
   bool isFar = false;       ///< an extended one, as they lie behind the points
+
+  bool is(std::string_view ofUser, int number) const { return user == ofUser && id == number; }
 };
 
-/// Calls @p visit for each of @p count records, which lie in @p bytes from byte @p at on, as long as their
-/// headers are there. @p far: extended ones. @p need: called before a header is looked at.
-void forEachLasRecord(
+/// At most @p count records, which lie in @p bytes from byte @p at on, as long as their headers are there.
+/// @p far: extended ones. @p need: called before a header is looked at.
+std::vector<LasRecord> lasRecords(
   std::string_view bytes, std::uint64_t at, std::uint32_t count, bool far,
-  const std::function<void(const LasRecord&)>& visit,
   const std::function<void(std::size_t, std::size_t)>& need = [](std::size_t, std::size_t) {});
-/// As above, for all whole ones among those that @p origin keeps.
-void forEachLasRecord(const LasOrigin& origin, const std::function<void(const LasRecord&)>& visit);
+/// All whole ones among those that @p origin keeps, which must outlive them.
+std::vector<LasRecord> lasRecords(const LasOrigin& origin);
 
 /// LAS's number for the type of an extra field, and for a VTK type.
 int lasTypeCode(int type);

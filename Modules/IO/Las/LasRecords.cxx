@@ -9,7 +9,9 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstdlib>
 #include <limits>
+#include <new>
 
 namespace pointhaptics::io
 {
@@ -19,56 +21,39 @@ namespace
 
 using Byte = std::uint8_t;
 
-/// The bits of @p place in a record.
-Byte bitsAt(const char* record, const LasPlace& place)
+vtkSmartPointer<vtkUnsignedCharArray> makeZeros(const char* name, vtkIdType rows)
 {
-  return static_cast<Byte>(byteAt(record, place.offset) >> place.shift & place.mask());
+  auto array = vtkSmartPointer<vtkUnsignedCharArray>::New();
+  auto* values = static_cast<Byte*>(std::calloc(static_cast<std::size_t>(std::max<vtkIdType>(rows, 1)), 1));
+  if (!values)
+  {
+    throw std::bad_alloc();
+  }
+  array->SetArray(values, rows, 0, vtkUnsignedCharArray::VTK_DATA_ARRAY_FREE);
+  array->SetName(name);
+  return array;
 }
 
 } // namespace
 
-void RareBits::fill(
-  const LasBlock& block, std::size_t stride, vtkIdType rows, const LasField& field, const LasPlace& place)
+void RareBits::fill(const LasBlock& block, std::size_t stride, const LasPlace& place)
 {
-  Byte* values = values_.load(std::memory_order_acquire);
-  const char* end = block.first + static_cast<std::size_t>(block.count) * stride;
-  const Byte bits = static_cast<Byte>(place.mask() << place.shift);
-  Byte any = values ? bits : Byte{ 0 };
-  for (const char* record = block.first; record != end && !values; record += stride)
-  {
-    any = static_cast<Byte>(any | byteAt(record, place.offset));
-  }
-  if ((any & bits) == 0)
-  {
-    return;
-  }
-  Byte* to = (values ? values : allocate(rows, field)) + block.row;
+  const char* const end = block.first + static_cast<std::size_t>(block.count) * stride;
+  const auto bitsAt = [&](const char* record)
+  { return byteAt(record, place.offset) >> place.shift & place.mask(); };
+  int any = 0;
   for (const char* record = block.first; record != end; record += stride)
   {
-    *to++ = bitsAt(record, place);
+    any |= bitsAt(record);
   }
-}
-
-std::uint8_t* RareBits::allocate(vtkIdType rows, const LasField& field)
-{
-  const std::lock_guard<std::mutex> lock(mutex_);
-  if (!array_)
+  if (any != 0)
   {
-    array_ = vtkSmartPointer<vtkUnsignedCharArray>::New();
-    array_->SetName(field.name);
-    array_->SetNumberOfValues(rows);
-    std::fill_n(array_->GetPointer(0), rows, Byte{ 0 });
-    values_.store(array_->GetPointer(0), std::memory_order_release);
-  }
-  return array_->GetPointer(0);
-}
-
-void RareBits::moveTo(vtkPolyData* cloud, vtkIdType rows) const
-{
-  if (array_)
-  {
-    rows < array_->GetNumberOfTuples() ? void(array_->Resize(rows)) : void();
-    cloud->GetPointData()->AddArray(array_);
+    isSet = true;
+    Byte* to = array->GetPointer(block.row);
+    for (const char* record = block.first; record != end; record += stride)
+    {
+      *to++ = static_cast<Byte>(bitsAt(record));
+    }
   }
 }
 
@@ -80,24 +65,23 @@ LasRecords::Columns::Columns(const LasHeader& header, bool onlyPositions)
   }
   for (std::size_t i = 0; i < kNumberOfLasFields; ++i)
   {
-    fields[i] = addIf(!kLasFields[i].isRare, { kLasFields[i].name, kLasFields[i].type });
+    const LasField& field = kLasFields[i];
+    fields[i] = all.size();
+    if (!field.isRare && field.placeIn(header.pointFormat).offset != 0)
+    {
+      all.push_back({ field.name, field.type, field.components });
+    }
+    if (i == kLasColor && header.fields().rgb != 0)
+    {
+      color = all.size();
+      all.push_back({ "RGB", VTK_TYPE_UINT8, 3 });
+    }
   }
-  const LasPointFormat& format = header.fields();
-  gpsTime = addIf(format.gpsTime != 0, { "GpsTime", VTK_DOUBLE });
-  wideColor = addIf(format.rgb != 0, { "Color16", VTK_TYPE_UINT16, 3 });
-  color = addIf(format.rgb != 0, { "RGB", VTK_TYPE_UINT8, 3 });
-  nearInfrared = addIf(format.nearInfrared != 0, { "NearInfrared", VTK_TYPE_UINT16 });
   firstExtra = all.size();
   for (const LasExtraField& field : header.extraFields)
   {
     all.push_back({ field.name, field.arrayType(), field.components });
   }
-}
-
-std::size_t LasRecords::Columns::addIf(bool isThere, const Column& column)
-{
-  isThere ? all.push_back(column) : void();
-  return all.size() - 1;
 }
 
 LasRecords::LasRecords(const LasHeader& header, bool onlyPositions)
@@ -107,6 +91,11 @@ LasRecords::LasRecords(const LasHeader& header, bool onlyPositions)
   , rows_(static_cast<vtkIdType>(header.count))
   , columns_(names_.all, rows_)
 {
+  for (std::size_t i = 0; i < kNumberOfLasFields && !onlyPositions; ++i)
+  {
+    const bool isThere = kLasFields[i].isRare && kLasFields[i].placeIn(header.pointFormat).offset != 0;
+    rare_[i].array = isThere ? makeZeros(kLasFields[i].name, rows_) : nullptr;
+  }
 }
 
 /// target[i] = change(number at offset in record i).
@@ -124,12 +113,12 @@ void LasRecords::fillColumn(
   }
 }
 
-template <typename T>
+/// target[i] = number of @p type at @p offset in record i.
 void LasRecords::copyColumn(
-  const LasBlock& block, std::size_t column, std::size_t offset, int component) const
+  const LasBlock& block, std::size_t column, std::size_t offset, int type, int component) const
 {
-  fillColumn<T, T>(
-    block, column, offset, [](T value) { return value; }, component);
+  copyStrided({ block.first + offset, static_cast<std::ptrdiff_t>(header_.recordLength), type },
+    columns_.target(column, component).fromRow(block.row), block.count, !kIsLittleEndianHost);
 }
 
 void LasRecords::fillPosition(const LasBlock& block) const
@@ -151,7 +140,7 @@ void LasRecords::fillPosition(const LasBlock& block) const
 void LasRecords::fillField(const LasBlock& block, std::size_t index)
 {
   const LasField& field = kLasFields[index];
-  const LasPlace& place = header_.isExtended() ? field.extended : field.basic;
+  const LasPlace place = field.placeIn(header_.pointFormat);
   const std::size_t column = names_.fields[index];
   if (place.offset == 0)
   {
@@ -159,7 +148,7 @@ void LasRecords::fillField(const LasBlock& block, std::size_t index)
   }
   if (field.isRare)
   {
-    rare_[index].fill(block, header_.recordLength, rows_, field, place);
+    rare_[index].fill(block, header_.recordLength, place);
   }
   else if (place.bits > 0)
   {
@@ -179,7 +168,11 @@ void LasRecords::fillField(const LasBlock& block, std::size_t index)
   }
   else
   {
-    withType(place.type, [&](auto zero) { copyColumn<decltype(zero)>(block, column, place.offset); });
+    for (int i = 0; i < field.components; ++i)
+    {
+      copyColumn(
+        block, column, place.offset + static_cast<std::size_t>(i * sizeOfType(place.type)), place.type, i);
+    }
   }
 }
 
@@ -213,7 +206,7 @@ void LasRecords::fillExtra(const LasBlock& block) const
           }
           else
           {
-            copyColumn<T>(block, names_.firstExtra + i, at, component);
+            copyColumn(block, names_.firstExtra + i, at, field.type, component);
           }
         });
     }
@@ -227,23 +220,9 @@ void LasRecords::fill(const LasBlock& block)
   {
     return;
   }
-  const LasPointFormat& fields = header_.fields();
   for (std::size_t i = 0; i < kNumberOfLasFields; ++i)
   {
     fillField(block, i);
-  }
-  if (fields.gpsTime != 0)
-  {
-    copyColumn<double>(block, names_.gpsTime, fields.gpsTime);
-  }
-  for (int channel = 0; channel < 3 && fields.rgb != 0; ++channel)
-  {
-    copyColumn<std::uint16_t>(
-      block, names_.wideColor, fields.rgb + 2 * static_cast<std::size_t>(channel), channel);
-  }
-  if (fields.nearInfrared != 0)
-  {
-    copyColumn<std::uint16_t>(block, names_.nearInfrared, fields.nearInfrared);
   }
   fillExtra(block);
 }
@@ -251,12 +230,10 @@ void LasRecords::fill(const LasBlock& block)
 /// Files that (against the standard) store 0..255 have none.
 bool LasRecords::hasWideColors() const
 {
-  if (header_.fields().rgb == 0 || onlyPositions_)
-  {
-    return false;
-  }
-  const auto* from = reinterpret_cast<const std::uint16_t*>(columns_.target(names_.wideColor).first);
-  return std::any_of(from, from + 3 * rows_, [](std::uint16_t v) { return v > 255; });
+  const auto* from = hasColors()
+    ? reinterpret_cast<const std::uint16_t*>(columns_.target(names_.fields[kLasColor]).first)
+    : nullptr;
+  return from && std::any_of(from, from + 3 * rows_, [](std::uint16_t v) { return v > 255; });
 }
 
 void LasRecords::agree(SharedReading& shared)
@@ -267,14 +244,15 @@ void LasRecords::agree(SharedReading& shared)
     bool wideColors;
   };
   Found own{};
-  std::transform(rare_.begin(), rare_.end(), own.rare, [](const RareBits& bits) { return bits.isHere(); });
+  std::transform(
+    rare_.begin(), rare_.end(), own.rare, [](const RareBits& bits) { return bits.isSet.load(); });
   own.wideColors = hasWideColors();
   for (const Found& found : shared.gatherValues(own))
   {
     othersHaveWideColors_ = othersHaveWideColors_ || found.wideColors;
     for (std::size_t i = 0; i < kNumberOfLasFields; ++i)
     {
-      found.rare[i] ? void(rare_[i].allocate(rows_, kLasFields[i])) : void();
+      rare_[i].isSet = rare_[i].isSet || found.rare[i];
     }
   }
 }
@@ -282,15 +260,15 @@ void LasRecords::agree(SharedReading& shared)
 /// 8-bit colours: the high byte, or the value itself where no value of the file needs more.
 void LasRecords::fillColors()
 {
-  if (header_.fields().rgb == 0 || onlyPositions_)
+  if (hasColors())
   {
-    return;
+    const auto* from =
+      reinterpret_cast<const std::uint16_t*>(columns_.target(names_.fields[kLasColor]).first);
+    Byte* to = reinterpret_cast<Byte*>(columns_.target(names_.color).first);
+    const int shift = othersHaveWideColors_ || hasWideColors() ? 8 : 0;
+    std::transform(
+      from, from + 3 * rows_, to, [=](std::uint16_t v) { return static_cast<Byte>(v >> shift); });
   }
-  const std::uint16_t* from = reinterpret_cast<const std::uint16_t*>(columns_.target(names_.wideColor).first);
-  Byte* to = reinterpret_cast<Byte*>(columns_.target(names_.color).first);
-  const vtkIdType values = 3 * rows_;
-  const int shift = othersHaveWideColors_ || hasWideColors() ? 8 : 0;
-  std::transform(from, from + values, to, [=](std::uint16_t v) { return static_cast<Byte>(v >> shift); });
 }
 
 void LasRecords::moveTo(vtkPolyData* cloud, const ReadTask& task)
@@ -301,7 +279,11 @@ void LasRecords::moveTo(vtkPolyData* cloud, const ReadTask& task)
   columns_.moveTo(cloud, task);
   for (const RareBits& bits : rare_)
   {
-    bits.moveTo(cloud, rows_);
+    if (bits.isSet)
+    {
+      rows_ < bits.array->GetNumberOfTuples() ? void(bits.array->Resize(rows_)) : void();
+      cloud->GetPointData()->AddArray(bits.array);
+    }
   }
 }
 

@@ -12,7 +12,6 @@
 
 #include <array>
 #include <atomic>
-#include <mutex>
 #include <vector>
 
 class vtkPolyData;
@@ -28,23 +27,16 @@ struct LasBlock
   vtkIdType count = 0;
 };
 
-/// An array for bits that most files leave at zero: it comes to be with the first one that is set.
-class RareBits
+/// An array for bits that most files leave at zero, and then nobody gets. Its memory costs nothing before the
+/// first one that is set.
+struct RareBits
 {
-public:
-  /// Values of the records of @p block, @p stride bytes each and of @p rows in all, at @p place. Blocks may
-  /// come from several threads at once.
-  void fill(
-    const LasBlock& block, std::size_t stride, vtkIdType rows, const LasField& field, const LasPlace& place);
-  void moveTo(vtkPolyData* cloud, vtkIdType rows) const;
-  bool isHere() const { return array_ != nullptr; }
-  /// The array of zeros, where there is none yet.
-  std::uint8_t* allocate(vtkIdType rows, const LasField& field);
+  vtkSmartPointer<vtkUnsignedCharArray> array; ///< Null: the files have no such field.
+  std::atomic<bool> isSet{ false };
 
-private:
-  std::mutex mutex_;
-  std::atomic<std::uint8_t*> values_{ nullptr };
-  vtkSmartPointer<vtkUnsignedCharArray> array_;
+  /// Values of the records of @p block, @p stride bytes each, at @p place. Blocks may come from several
+  /// threads at once.
+  void fill(const LasBlock& block, std::size_t stride, const LasPlace& place);
 };
 
 /// Owns the arrays and fills them block by block; one object per file.
@@ -67,24 +59,21 @@ private:
   {
     std::vector<Column> all{ { "x", VTK_DOUBLE }, { "y", VTK_DOUBLE }, { "z", VTK_DOUBLE } };
     std::array<std::size_t, kNumberOfLasFields> fields{};
-    std::size_t gpsTime = 0;
-    std::size_t wideColor = 0;
-    std::size_t color = 0;
-    std::size_t nearInfrared = 0;
+    std::size_t color = 0; ///< of 8 bits
     std::size_t firstExtra = 0;
 
     Columns(const LasHeader& header, bool onlyPositions);
-    std::size_t addIf(bool isThere, const Column& column);
   };
 
   template <typename From, typename To, typename Change>
   void fillColumn(
     const LasBlock& block, std::size_t column, std::size_t offset, Change change, int component = 0) const;
-  template <typename T>
-  void copyColumn(const LasBlock& block, std::size_t column, std::size_t offset, int component = 0) const;
+  void copyColumn(
+    const LasBlock& block, std::size_t column, std::size_t offset, int type, int component) const;
   void fillPosition(const LasBlock& block) const;
   void fillField(const LasBlock& block, std::size_t field);
   void fillExtra(const LasBlock& block) const;
+  bool hasColors() const { return header_.fields().rgb != 0 && !onlyPositions_; }
   bool hasWideColors() const;
   void fillColors();
 

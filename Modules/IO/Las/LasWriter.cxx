@@ -1,5 +1,6 @@
 #include "IO/WriteTask.h"
 
+#include "Bytes/Checks.h"
 #include "Bytes/NumericType.h"
 #include "Core/Base/FieldNames.h"
 #include "IO/Info/FieldText.h"
@@ -18,10 +19,8 @@
 #include <cstdint>
 #include <cstring>
 #include <deque>
-#include <iterator>
 #include <map>
 #include <string_view>
-#include <type_traits>
 #include <utility>
 
 namespace pointhaptics::io
@@ -58,25 +57,20 @@ public:
 private:
   const OutputArray* take(
     const char* name, int type, int components = 1, double most = INFINITY, const char* field = nullptr);
-  const OutputArray* standard(const char* name) const;
-  const LasPlace& placeOf(std::size_t field) const
-  {
-    return extended_ ? kLasFields[field].extended : kLasFields[field].basic;
-  }
+  const OutputArray* standard(std::string_view name) const { return standard_[lasFieldCalled(name)]; }
   bool needsExtended() const;
   void takeStandardArrays();
   void nameArrays();
-  double largestExtent() const;
   void planPositions();
   void planStandardFields();
-  void planScanSteps(const OutputArray& angles, const LasPlace& place);
-  void planColors();
+  const OutputArray& scanSteps(const OutputArray& angles);
+  OutputArray& convertedArray(const OutputArray& array, int type);
   void planExtraFields();
   void addStored(const OutputArray& stored, const LasExtraField& field);
   void addDescriptor(const OutputArray& array, int component, const std::string& origin);
-  void addField(const OutputArray* array, int component, std::size_t offset, int type);
+  std::size_t addFields(const OutputArray& array, std::size_t offset, int type);
   std::vector<Byte>& bytesAt(std::size_t offset);
-  void putCounts(std::string& bytes, bool isOf14) const;
+  void putCounts(std::string& bytes) const;
   std::string header(std::size_t pointsOffset, const LasDescription& description) const;
   double fieldValue(const char* name, int component, double otherwise) const;
 
@@ -91,17 +85,11 @@ private:
   const bool isPacked_;
 
   std::array<const OutputArray*, kNumberOfLasFields> standard_{}; ///< Of kLasFields; null: there is none.
-  const OutputArray* gpsTime_ = nullptr;
-  const OutputArray* wideColor_ = nullptr;
-  const OutputArray* color_ = nullptr;
-  const OutputArray* nearInfrared_ = nullptr;
 
   bool extended_ = false;
   int format_ = 0;
   LasGrid grids_[3];
   std::map<std::size_t, std::vector<Byte>> bytes_; ///< of bit fields, by their place; references stay
-  std::vector<std::int16_t> scanSteps_;
-  std::vector<std::uint16_t> widened_;
   std::vector<RecordField> fields_;
   std::size_t recordSize_ = 0;
   std::string descriptors_;
@@ -160,24 +148,23 @@ void LasWriter::takeStandardArrays()
   {
     const LasField& field = kLasFields[i];
     const double most = field.extended.bits > 0 ? field.extended.mask() : INFINITY;
-    standard_[i] = take(field.name, field.type, 1, most);
+    standard_[i] = take(field.name, field.type, field.components, most);
     const bool isClass = field.name == std::string_view("Classification");
     for (const char* other : { "scalar_Classification", "Class", "Label", "scalar_Label" })
     {
       standard_[i] = !isClass || standard_[i] ? standard_[i] : take(other, field.type, 1, most, field.name);
     }
   }
-  gpsTime_ = take("GpsTime", VTK_DOUBLE);
-  wideColor_ = take("Color16", VTK_TYPE_UINT16, 3);
-  color_ = take("RGB", VTK_TYPE_UINT8, 3);
-  nearInfrared_ = take("NearInfrared", VTK_TYPE_UINT16);
-}
-
-const OutputArray* LasWriter::standard(const char* name) const
-{
-  const auto* const field = std::find_if(std::begin(kLasFields), std::end(kLasFields),
-    [&](const LasField& each) { return each.name == std::string_view(name); });
-  return standard_[static_cast<std::size_t>(field - std::begin(kLasFields))];
+  const OutputArray* color = take("RGB", VTK_TYPE_UINT8, 3);
+  if (!standard_[kLasColor] && color)
+  {
+    // 0xabab for 0xab: readers take the high byte.
+    const Byte* from = static_cast<const Byte*>(color->array->GetVoidPointer(0));
+    OutputArray& wide = convertedArray(*color, VTK_TYPE_UINT16);
+    std::transform(from, from + 3 * rows_, static_cast<std::uint16_t*>(wide.array->GetVoidPointer(0)),
+      [](Byte v) { return static_cast<std::uint16_t>(257 * v); });
+    standard_[kLasColor] = &wide;
+  }
 }
 
 void LasWriter::nameArrays()
@@ -207,7 +194,7 @@ void LasWriter::nameArrays()
 /// True if the point formats 0 to 3 are too narrow.
 bool LasWriter::needsExtended() const
 {
-  bool needs = nearInfrared_ || static_cast<std::uint64_t>(rows_) > 0xffffffffu;
+  bool needs = standard("NearInfrared") || static_cast<std::uint64_t>(rows_) > 0xffffffffu;
   for (std::size_t field = 0; field < kNumberOfLasFields; ++field)
   {
     const LasPlace& place = kLasFields[field].basic;
@@ -233,12 +220,23 @@ double LasWriter::fieldValue(const char* name, int component, double otherwise) 
     : otherwise;
 }
 
-void LasWriter::addField(const OutputArray* array, int component, std::size_t offset, int type)
+/// All components of @p array, one behind the other. @return the byte behind them.
+std::size_t LasWriter::addFields(const OutputArray& array, std::size_t offset, int type)
 {
-  if (array)
+  for (int component = 0; component < array.components(); ++component)
   {
-    fields_.push_back({ array->column(component), offset, type });
+    fields_.push_back({ array.column(component), offset, type });
+    offset += static_cast<std::size_t>(sizeOfType(type));
   }
+  return offset;
+}
+
+/// An array like @p array for other values.
+OutputArray& LasWriter::convertedArray(const OutputArray& array, int type)
+{
+  OutputArray& converted = converted_.emplace_back(array);
+  converted.array = makeArray(type, array.components(), rows_);
+  return converted;
 }
 
 /// The bytes at @p offset, which several fields may share.
@@ -253,21 +251,14 @@ std::vector<Byte>& LasWriter::bytesAt(std::size_t offset)
   return at->second;
 }
 
-double LasWriter::largestExtent() const
+void LasWriter::planPositions()
 {
   double extent = 0.0;
   for (int axis = 0; axis < 3; ++axis)
   {
-    double range[2];
-    arrays_[0].array->GetRange(range, axis);
+    const double* range = arrays_[0].array->GetRange(axis);
     extent = std::max(extent, range[1] - range[0]);
   }
-  return extent;
-}
-
-void LasWriter::planPositions()
-{
-  const double extent = largestExtent();
   const std::string unit = fieldText(fieldData_, "LengthUnit");
   double worst = 0.0;
   double step = 0.0;
@@ -287,8 +278,9 @@ void LasWriter::planPositions()
   }
   if (worst > 0.0)
   {
-    notes_.add("coordinates are rounded to steps of " + shortestDecimal(step) + ", by at most " +
-      fmt::format("{:.3g}", worst) + "; .vtp and .ply keep every bit, --las-scale sets other steps");
+    notes_.add(fmt::format("coordinates are rounded to steps of {}, by at most {:.3g}; .vtp and .ply keep "
+                           "every bit, --las-scale sets other steps",
+      shortestDecimal(step), worst));
   }
 }
 
@@ -296,84 +288,47 @@ void LasWriter::planStandardFields()
 {
   for (std::size_t i = 0; i < kNumberOfLasFields; ++i)
   {
-    const LasPlace& place = placeOf(i);
-    const OutputArray* array = place.offset != 0 ? standard_[i] : nullptr;
-    if (array && place.bits > 0)
+    const LasPlace place = kLasFields[i].placeIn(format_);
+    if (place.offset == 0 || !standard_[i])
     {
-      const Byte* from = static_cast<const Byte*>(array->array->GetVoidPointer(0));
+      continue;
+    }
+    if (place.bits > 0)
+    {
+      const Byte* from = static_cast<const Byte*>(standard_[i]->array->GetVoidPointer(0));
       for (Byte& byte : bytesAt(place.offset))
       {
         byte = static_cast<Byte>(byte | (*from++ & place.mask()) << place.shift);
       }
+      continue;
     }
-    else if (array && extended_ && kLasFields[i].type == VTK_FLOAT)
-    {
-      planScanSteps(*array, place);
-    }
-    else
-    {
-      addField(array, 0, place.offset, place.type);
-    }
+    const bool isAngle = extended_ && kLasFields[i].type == VTK_FLOAT;
+    addFields(isAngle ? scanSteps(*standard_[i]) : *standard_[i], place.offset, place.type);
   }
-  const LasPointFormat& places = kLasPointFormats[format_];
-  addField(gpsTime_, 0, places.gpsTime, VTK_DOUBLE);
-  addField(nearInfrared_, 0, places.nearInfrared, VTK_TYPE_UINT16);
 }
 
-void LasWriter::planScanSteps(const OutputArray& array, const LasPlace& place)
+/// The angles as LAS 1.4 stores them.
+const OutputArray& LasWriter::scanSteps(const OutputArray& array)
 {
   const float* angles = static_cast<const float*>(array.array->GetVoidPointer(0));
+  OutputArray& steps = convertedArray(array, VTK_TYPE_INT16);
   bool rounded = false;
-  for (vtkIdType i = 0; i < rows_; ++i)
-  {
-    const double steps = std::isfinite(angles[i])
-      ? std::clamp(std::nearbyint(static_cast<double>(angles[i]) / kLasScanAngleStep), -32768.0, 32767.0)
-      : 0.0;
-    scanSteps_.push_back(static_cast<std::int16_t>(steps));
-    rounded = rounded || static_cast<float>(kLasScanAngleStep * steps) != angles[i];
-  }
-  fields_.push_back(
-    { { reinterpret_cast<const char*>(scanSteps_.data()), 2, VTK_TYPE_INT16 }, place.offset, place.type });
-  if (rounded)
-  {
-    notes_.add("scan angles are rounded to steps of 0.006 degrees");
-  }
-}
-
-void LasWriter::planColors()
-{
-  const std::size_t place = kLasPointFormats[format_].rgb;
-  if (!wideColor_ && color_)
-  {
-    // 0xabab for 0xab: readers take the high byte.
-    const Byte* from = static_cast<const Byte*>(color_->array->GetVoidPointer(0));
-    widened_.assign(from, from + 3 * rows_);
-    std::transform(widened_.begin(), widened_.end(), widened_.begin(),
-      [](std::uint16_t v) { return static_cast<std::uint16_t>(257 * v); });
-  }
-  for (int channel = 0; channel < 3 && place != 0; ++channel)
-  {
-    const std::size_t offset = place + 2 * static_cast<std::size_t>(channel);
-    if (wideColor_)
+  std::transform(angles, angles + rows_, static_cast<std::int16_t*>(steps.array->GetVoidPointer(0)),
+    [&](float angle)
     {
-      addField(wideColor_, channel, offset, VTK_TYPE_UINT16);
-    }
-    else
-    {
-      fields_.push_back({ { reinterpret_cast<const char*>(widened_.data() + channel), 6, VTK_TYPE_UINT16 },
-        offset, VTK_TYPE_UINT16 });
-    }
-  }
+      const double step = std::isfinite(angle)
+        ? std::clamp(std::nearbyint(static_cast<double>(angle) / kLasScanAngleStep), -32768.0, 32767.0)
+        : 0.0;
+      rounded = rounded || static_cast<float>(kLasScanAngleStep * step) != angle;
+      return static_cast<std::int16_t>(step);
+    });
+  rounded ? notes_.add("scan angles are rounded to steps of 0.006 degrees") : void();
+  return steps;
 }
 
 void LasWriter::addStored(const OutputArray& stored, const LasExtraField& field)
 {
-  converted_.push_back(stored);
-  for (int component = 0; component < field.components; ++component)
-  {
-    addField(&converted_.back(), component, recordSize_, field.type);
-    recordSize_ += static_cast<std::size_t>(sizeOfType(field.type));
-  }
+  recordSize_ = addFields(converted_.emplace_back(stored), recordSize_, field.type);
   descriptors_ += field.descriptor;
 }
 
@@ -389,19 +344,18 @@ void LasWriter::addDescriptor(const OutputArray& array, int component, const std
     descriptor.replace(kExtraText, std::string::npos, origin, kExtraText, std::string::npos);
   }
   descriptors_ += descriptor;
-  addField(&array, component, recordSize_, array.type());
+  fields_.push_back({ array.column(component), recordSize_, array.type() });
   recordSize_ += static_cast<std::size_t>(sizeOfType(array.type()));
 }
 
 void LasWriter::planExtraFields()
 {
   std::vector<LasExtraField> known;
-  forEachLasRecord(origin_,
-    [&](const LasRecord& record)
-    {
-      const bool describes = record.user == "LASF_Spec" && record.id == kLasExtraBytesRecord;
-      known = describes ? lasExtraFields(record.content, 0, kMostRecord) : std::move(known);
-    });
+  for (const LasRecord& record : lasRecords(origin_))
+  {
+    const bool describes = record.is(kLasSpecUser, kLasExtraBytesRecord);
+    known = describes ? lasExtraFields(record.content, 0, kMostRecord) : std::move(known);
+  }
   for (std::size_t i = 1; i < arrays_.size(); ++i)
   {
     const OutputArray& array = arrays_[i];
@@ -418,16 +372,13 @@ void LasWriter::planExtraFields()
       addDescriptor(array, component, field != known.end() ? field->descriptor : std::string());
     }
   }
-  if (recordSize_ > kMostRecord || descriptors_.size() > kMostRecord)
-  {
-    failFormat(
-      std::to_string(descriptors_.size() / kLasExtraDescriptor) + " columns beside the standard ones",
-      "LAS holds 341 of them: leave some out, or write .vtp, .ply or .pcd");
-  }
+  failFormatIf(recordSize_ > kMostRecord || descriptors_.size() > kMostRecord,
+    "LAS holds 341 of them: leave some out, or write .vtp, .ply or .pcd",
+    "{} columns beside the standard ones", descriptors_.size() / kLasExtraDescriptor);
 }
 
 /// Points, and those of each number of return.
-void LasWriter::putCounts(std::string& bytes, bool isOf14) const
+void LasWriter::putCounts(std::string& bytes) const
 {
   std::uint64_t byReturn[15] = {};
   const OutputArray* numbers = standard("ReturnNumber");
@@ -442,45 +393,34 @@ void LasWriter::putCounts(std::string& bytes, bool isOf14) const
   }
   for (std::size_t i = 0; i < 15; ++i)
   {
-    if (i < 5 && !extended_)
-    {
-      putLittle(bytes, 111 + 4 * i, static_cast<std::uint32_t>(byReturn[i]));
-    }
-    if (isOf14)
-    {
-      putLittle(bytes, 255 + 8 * i, byReturn[i]);
-    }
+    putLittle(bytes, 255 + 8 * i, byReturn[i]);
+    i < 5 && !extended_ ? putLittle(bytes, 111 + 4 * i, static_cast<std::uint32_t>(byReturn[i])) : void();
   }
-  if (!extended_)
-  {
-    putLittle(bytes, 107, static_cast<std::uint32_t>(rows_));
-  }
-  if (isOf14)
-  {
-    putLittle(bytes, 247, static_cast<std::uint64_t>(rows_));
-  }
+  putLittle(bytes, 247, static_cast<std::uint64_t>(rows_));
+  putLittle(bytes, 107, extended_ ? 0u : static_cast<std::uint32_t>(rows_));
 }
 
+/// As for LAS 1.4, of which older versions have the beginning.
 std::string LasWriter::header(std::size_t pointsOffset, const LasDescription& records) const
 {
-  const bool isOf14 = records.isOf14;
-  std::string bytes(isOf14 ? kLasHeaderOf14 : kLasHeaderOf12, '\0');
+  const std::size_t size = records.isOf14 ? kLasHeaderOf14 : kLasHeaderOf12;
+  std::string bytes(kLasHeaderOf14, '\0');
   bytes.replace(0, 4, "LASF");
   bytes.replace(26, 5, "OTHER");
   if (origin_.isHere())
   {
     constexpr std::pair<std::size_t, std::size_t> kKept[] = { { 4, 2 }, { 8, 16 }, { 26, 32 }, { 90, 4 } };
-    for (const auto& [at, size] : kKept) // source, GUID, system, date
+    for (const auto& [at, length] : kKept) // source, GUID, system, date
     {
-      bytes.replace(at, size, origin_.header, at, size);
+      bytes.replace(at, length, origin_.header, at, length);
     }
   }
   putLittle(bytes, 6, records.encoding);
   bytes[24] = 1;
-  bytes[25] = isOf14 ? 4 : 2;
+  bytes[25] = records.isOf14 ? 4 : 2;
   const std::string program = "PointHaptics";
   bytes.replace(58, program.size(), program);
-  putLittle(bytes, 94, static_cast<std::uint16_t>(bytes.size()));
+  putLittle(bytes, 94, static_cast<std::uint16_t>(size));
   putLittle(bytes, 96, static_cast<std::uint32_t>(pointsOffset));
   putLittle(bytes, 100, records.count);
   bytes[104] = static_cast<char>(isPacked_ ? format_ | kLasPackedBit : format_);
@@ -491,7 +431,7 @@ std::string LasWriter::header(std::size_t pointsOffset, const LasDescription& re
       bytes, 235, static_cast<std::uint64_t>(pointsOffset + recordSize_ * static_cast<std::size_t>(rows_)));
     putLittle(bytes, 243, records.farCount);
   }
-  putCounts(bytes, isOf14);
+  putCounts(bytes);
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     const LasGrid& grid = grids_[axis];
@@ -501,6 +441,7 @@ std::string LasWriter::header(std::size_t pointsOffset, const LasDescription& re
     putLittle(bytes, 179 + 16 * axis, *ends.second * grid.scale + grid.offset);
     putLittle(bytes, 187 + 16 * axis, *ends.first * grid.scale + grid.offset);
   }
+  bytes.resize(size);
   return bytes;
 }
 
@@ -509,12 +450,14 @@ void LasWriter::write()
   takeStandardArrays();
   nameArrays();
   extended_ = needsExtended() || origin_.pointFormat() >= 6;
-  const bool isColored = wideColor_ || color_;
-  format_ = extended_ ? (nearInfrared_ ? 8 : isColored ? 7 : 6) : (gpsTime_ ? 1 : 0) + (isColored ? 2 : 0);
+  const bool isColored = standard_[kLasColor];
+  format_ = extended_ ? (standard("NearInfrared") ? 8
+                            : isColored           ? 7
+                                                  : 6)
+                      : (standard("GpsTime") ? 1 : 0) + (isColored ? 2 : 0);
   recordSize_ = kLasPointFormats[format_].size;
   planPositions();
   planStandardFields();
-  planColors();
   planExtraFields();
 
   const LasDescription described(origin_, fieldData_,
@@ -543,11 +486,8 @@ void writeRecordsOf(WriteTask& task, bool isPacked)
     return;
   }
   task.points = all - static_cast<vtkIdType>(left.size());
-  if (task.points == 0)
-  {
-    failFormat("all coordinates are NaN or infinite, and LAS stores them as integers",
-      "mend the cloud, or write .vtp, .ply or .pcd");
-  }
+  failFormatIf(task.points == 0, "mend the cloud, or write .vtp, .ply or .pcd",
+    "all coordinates are NaN or infinite, and LAS stores them as integers");
   task.notes.add(std::to_string(left.size()) + " of " + std::to_string(all) +
     " points are NaN or infinite and left out: LAS stores coordinates as integers; write .vtp, .ply or .pcd "
     "to keep them");

@@ -1,7 +1,7 @@
 #include "IO/Las/LasDescription.h"
 
 #include "IO/Las/LasHeader.h"
-#include "IO/Las/Laz/ChunkEncoder.h"
+#include "IO/Las/Laz/ChunkCoding.h"
 #include "IO/Las/Laz/LazChunks.h"
 
 #include "vtkSMPTools.h"
@@ -22,23 +22,24 @@ LasHeader headerOf(int pointFormat, std::size_t recordLength)
   return header;
 }
 
-/// Encodes the chunks of one wave, each thread with an encoder and a block of its own.
+/// Encodes the chunks from @p begin to @p end, each thread with a block of its own.
 void encodeChunks(const std::vector<RecordField>& fields, const LazSchema& schema, vtkIdType rows,
-  vtkIdType firstChunk, std::vector<std::string>& chunks)
+  vtkIdType begin, vtkIdType end, std::vector<std::string>& chunks)
 {
   const vtkIdType chunkRows = static_cast<vtkIdType>(schema.chunkSize);
-  vtkSMPTools::For(0, static_cast<vtkIdType>(chunks.size()), 1,
-    [&](vtkIdType begin, vtkIdType end)
+  vtkSMPTools::For(begin, end, 1,
+    [&](vtkIdType first, vtkIdType last)
     {
-      ChunkEncoder encoder(schema);
+      const ChunkEncoder encoder(schema);
       std::vector<char> block;
-      for (vtkIdType i = begin; i < end; ++i)
+      for (; first < last; ++first)
       {
-        const vtkIdType row = (firstChunk + i) * chunkRows;
+        const vtkIdType row = first * chunkRows;
         const vtkIdType count = std::min(chunkRows, rows - row);
         block.assign(schema.recordLength * static_cast<std::size_t>(count), '\0');
         packRecords(fields, schema.recordLength, row, count, block.data());
-        chunks[static_cast<std::size_t>(i)] = encoder.encode(block.data(), static_cast<std::size_t>(count));
+        chunks[static_cast<std::size_t>(first)] =
+          encoder.encode(block.data(), static_cast<std::size_t>(count));
       }
     });
 }
@@ -59,27 +60,23 @@ void writeLazRecords(const std::vector<RecordField>& fields, int pointFormat, st
   const vtkIdType chunkRows = static_cast<vtkIdType>(schema.chunkSize);
   const vtkIdType total = (rows + chunkRows - 1) / chunkRows;
   const vtkIdType wave = 2 * std::max(vtkSMPTools::GetEstimatedNumberOfThreads(), 1);
-  std::vector<std::string> encoded;
-  std::vector<LazChunk> table;
-  std::uint64_t size = 0;
+  std::vector<std::string> chunks(static_cast<std::size_t>(total));
   for (vtkIdType first = 0; first < total; first += wave)
   {
     task.progress(begin + (1.0 - begin) * static_cast<double>(first) / static_cast<double>(total));
-    std::vector<std::string> chunks(static_cast<std::size_t>(std::min(wave, total - first)));
-    encodeChunks(fields, schema, rows, first, chunks);
-    for (std::string& chunk : chunks)
-    {
-      LazChunk entry;
-      entry.size = chunk.size();
-      table.push_back(entry);
-      size += chunk.size();
-      encoded.push_back(std::move(chunk));
-    }
+    encodeChunks(fields, schema, rows, first, std::min(first + wave, total), chunks);
+  }
+  std::vector<LazChunk> table(chunks.size());
+  std::uint64_t size = 0;
+  for (std::size_t i = 0; i < chunks.size(); ++i)
+  {
+    table[i].size = chunks[i].size();
+    size += chunks[i].size();
   }
   std::string offset(sizeof(std::uint64_t), '\0');
   putLittle(offset, 0, static_cast<std::uint64_t>(pointsOffset + offset.size() + size));
   task.out.write(offset);
-  for (const std::string& chunk : encoded)
+  for (const std::string& chunk : chunks)
   {
     task.out.write(chunk);
   }

@@ -4,6 +4,8 @@
 #include "IO/Formats/FormatLooks.h"
 #include "IO/Text/TextTable.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -66,11 +68,6 @@ private:
   void addLine(std::string_view line);
   void addNumbers(std::string_view line, Triples& triples, std::size_t most);
   void addFace(std::string_view line);
-  [[noreturn]] void fail(const std::string& what, bool isNormal) const
-  {
-    failFormat(atLine(lines_.lineNumber()) + what,
-      isNormal ? "a normal is: vn x y z" : "a vertex is: v x y z, with r g b after it if it is coloured");
-  }
 
   ReadTask& task_;
   LineReader lines_;
@@ -92,13 +89,13 @@ void ObjReader::addNumbers(std::string_view line, Triples& triples, std::size_t 
     ++count;
   }
   const std::string_view word = takeWord(line);
-  if (count <= most && !word.empty() && word.front() != '#')
+  const bool isNumber = count > most || word.empty() || word.front() == '#';
+  if (!isNumber || count < 3 || count == 5 || count > most)
   {
-    fail(inQuotes(word) + " is not a number", isNormal);
-  }
-  if (count < 3 || count == 5 || count > most)
-  {
-    fail((isNormal ? "a normal of " : "a vertex of ") + std::to_string(count) + " numbers", isNormal);
+    const char* kind = isNormal ? "normal" : "vertex";
+    failFormat(atLine(lines_.lineNumber()) +
+        (isNumber ? fmt::format("a {} of {} numbers", kind, count) : inQuotes(word) + " is not a number"),
+      isNormal ? "a normal is: vn x y z" : "a vertex is: v x y z, with r g b after it if it is coloured");
   }
   for (std::size_t i = 0; i < 3; ++i)
   {
@@ -164,10 +161,7 @@ void ObjReader::read()
 void ObjReader::moveTo(vtkPolyData* cloud)
 {
   const vtkIdType rows = places_.rows();
-  if (rows == 0)
-  {
-    failNoPoints();
-  }
+  rows == 0 ? failNoPoints() : void();
   const bool hasNormals = normals_.rows() == rows;
   std::vector<Column> names;
   for (const Triples* each : { &places_, hasNormals ? &normals_ : nullptr })

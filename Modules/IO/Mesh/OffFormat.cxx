@@ -1,6 +1,6 @@
 #include "ReadTask.h"
 
-#include "FileProblem.h"
+#include "Bytes/Checks.h"
 #include "IO/Bytes/TextScan.h"
 #include "IO/Columns/CloudColumns.h"
 #include "IO/Formats/FormatLooks.h"
@@ -28,21 +28,17 @@ bool nextSignificant(LineReader& lines, std::string_view& line)
 /// The letters before OFF say what follows x y z.
 std::vector<std::string> namesOf(std::string_view prefix, std::size_t columns)
 {
+  const std::pair<const char*, std::vector<std::string>> kinds[] = { { "N", { "nx", "ny", "nz" } },
+    { "C", { "red", "green", "blue" } }, { "ST", { "s", "t" } } };
   std::vector<std::string> names = { "x", "y", "z" };
-  const auto append = [&](std::initializer_list<const char*> more)
-  { names.insert(names.end(), more.begin(), more.end()); };
-  if (prefix.find('N') != std::string_view::npos)
+  for (const auto& [letters, more] : kinds)
   {
-    append({ "nx", "ny", "nz" });
-  }
-  if (prefix.find('C') != std::string_view::npos)
-  {
-    columns == names.size() + 3 ? append({ "red", "green", "blue" })
-                                : append({ "red", "green", "blue", "alpha" });
-  }
-  if (prefix.find("ST") != std::string_view::npos)
-  {
-    append({ "s", "t" });
+    const bool isThere = prefix.find(letters) != std::string_view::npos;
+    names.insert(names.end(), more.begin(), isThere ? more.end() : more.begin());
+    if (isThere && *letters == 'C' && columns != names.size())
+    {
+      names.emplace_back("alpha");
+    }
   }
   return names;
 }
@@ -86,11 +82,9 @@ void readOff(ReadTask& task, vtkPolyData* cloud)
   std::string_view line;
   nextSignificant(lines, line);
   const std::string_view keyword = takeKeyword(line);
-  if (keyword.size() < 3 || keyword.substr(keyword.size() - 3) != "OFF")
-  {
-    failFormat(atLine(lines.lineNumber()) + inQuotes(keyword) + " where OFF was expected",
-      "make the first line OFF, NOFF, COFF or CNOFF");
-  }
+  failFormatIf(keyword.size() < 3 || keyword.substr(keyword.size() - 3) != "OFF",
+    "make the first line OFF, NOFF, COFF or CNOFF", "line {}: {} where OFF was expected", lines.lineNumber(),
+    inQuotes(keyword));
   const std::string_view prefix = keyword.substr(0, keyword.size() - 3);
   task.format = inQuotes(keyword).substr(1, keyword.size());
   if (prefix.find_first_of("4n") != std::string_view::npos || equalNoCase(trimmed(line), "BINARY"))
@@ -98,22 +92,12 @@ void readOff(ReadTask& task, vtkPolyData* cloud)
     throw FileProblem(vtkErrorCode::UnrecognizedFileTypeError,
       "binary and four-dimensional OFF is not read here", "convert it to PLY, for example with MeshLab");
   }
-  if (trimmed(line).empty() && !nextSignificant(lines, line))
-  {
-    failTruncated("the file ends before its counts");
-  }
+  failTruncatedIf(trimmed(line).empty() && !nextSignificant(lines, line), "the file ends before its counts");
   const std::string_view word = takeWord(line);
   unsigned long long count = 0;
-  if (!parseCount(word, count))
-  {
-    failFormat(
-      atLine(lines.lineNumber()) + inQuotes(word) + " stands where the number of vertices was expected",
-      "write three counts after OFF: vertices, faces, edges");
-  }
-  if (count == 0)
-  {
-    failNoPoints();
-  }
+  failFormatIf(!parseCount(word, count), "write three counts after OFF: vertices, faces, edges",
+    "line {}: {} stands where the number of vertices was expected", lines.lineNumber(), inQuotes(word));
+  count == 0 ? failNoPoints() : void();
   unsigned long long faces = 0;
   task.faces.count = parseCount(takeWord(line), faces) ? faces : 0;
   TextLayout layout;
@@ -121,23 +105,19 @@ void readOff(ReadTask& task, vtkPolyData* cloud)
   layout.bodyLine = lines.lineNumber() + 1;
   for (unsigned long long i = 0; i < count; ++i)
   {
-    if (!nextSignificant(lines, line))
-    {
-      failTruncated("the file ends at line " + std::to_string(lines.lineNumber()) + " after " +
-        std::to_string(i) + " of " + std::to_string(count) + " vertices");
-    }
+    const bool isThere = nextSignificant(lines, line);
+    failTruncatedIf(
+      !isThere, "the file ends at line {} after {} of {} vertices", lines.lineNumber(), i, count);
     while (i == 0 && !takeWord(line).empty() && layout.columns <= kMostColumns)
     {
       ++layout.columns;
     }
   }
   layout.names = namesOf(prefix, layout.columns);
-  if (layout.names.size() != layout.columns)
-  {
-    failFormat("the first vertex has " + std::to_string(layout.columns) + " numbers where " +
-        std::string(keyword) + " has " + std::to_string(layout.names.size()),
-      "write x y z, then normals (N) and colours (C) as the letters before OFF say");
-  }
+  failFormatIf(layout.names.size() != layout.columns,
+    "write x y z, then normals (N) and colours (C) as the letters before OFF say",
+    "the first vertex has {} numbers where {} has {}", layout.columns, std::string(keyword),
+    layout.names.size());
   readTable(task, text.substr(0, lines.position()), layout, cloud);
   readFaces(task.faces, lines);
 }

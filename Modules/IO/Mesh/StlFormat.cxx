@@ -1,5 +1,6 @@
 #include "ReadTask.h"
 
+#include "Bytes/Checks.h"
 #include "Bytes/LittleEndian.h"
 #include "IO/Bytes/TextScan.h"
 #include "IO/Columns/CloudColumns.h"
@@ -88,12 +89,9 @@ void readBinary(ReadTask& task, DistinctVertices& vertices)
 {
   const std::uint32_t count = loadLittle<std::uint32_t>(task.bytes.data() + kCountAt);
   const std::size_t available = task.bytes.size() - kTrianglesAt;
-  if (count > available / kTriangleSize)
-  {
-    failTruncated("byte 80: " + std::to_string(count) + " triangles announced, but only " +
-      std::to_string(available) + " bytes follow (" + std::to_string(available / kTriangleSize) +
-      " triangles)");
-  }
+  failTruncatedIf(count > available / kTriangleSize,
+    "byte 80: {} triangles announced, but only {} bytes follow ({} triangles)", count, available,
+    available / kTriangleSize);
   task.faces.count = count;
   std::vector<vtkIdType> corners(3);
   for (std::uint32_t i = 0; i < count; ++i)
@@ -129,8 +127,8 @@ void readFacets(ReadTask& task, DistinctVertices& vertices)
         if (!takeNumber(line, value))
         {
           const std::string_view word = takeWord(line);
-          failFormat("line " + std::to_string(lines.lineNumber()) + ": a vertex with " +
-              (word.empty() ? std::string("fewer than 3 numbers") : inQuotes(word) + ", not a number"),
+          failFormat(fmt::format("line {}: a vertex with {}", lines.lineNumber(),
+                       word.empty() ? "fewer than 3 numbers" : inQuotes(word) + ", not a number"),
             "a vertex is: vertex x y z");
         }
         coordinate = static_cast<float>(value);
@@ -145,10 +143,7 @@ void readFacets(ReadTask& task, DistinctVertices& vertices)
     }
     task.step(lines.lineNumber(), lines.position(), task.bytes.size());
   }
-  if (!ended)
-  {
-    failTruncated("the file ends at line " + std::to_string(lines.lineNumber()) + " without endsolid");
-  }
+  failTruncatedIf(!ended, "the file ends at line {} without endsolid", lines.lineNumber());
 }
 
 } // namespace
@@ -160,17 +155,11 @@ void readStl(ReadTask& task, vtkPolyData* cloud)
     (size - kTrianglesAt) / kTriangleSize == loadLittle<std::uint32_t>(task.bytes.data() + kCountAt);
   const bool isText = !fits && looksLikeStlText(task.bytes);
   task.format = isText ? "STL (ascii)" : "STL (binary)";
-  if (!isText && size < kTrianglesAt)
-  {
-    failTruncated("the file ends at byte " + std::to_string(size) + " inside its header");
-  }
+  failTruncatedIf(!isText && size < kTrianglesAt, "the file ends at byte {} inside its header", size);
   DistinctVertices vertices;
   isText ? readFacets(task, vertices) : readBinary(task, vertices);
   const std::vector<Vertex>& all = vertices.all();
-  if (all.empty())
-  {
-    failNoPoints();
-  }
+  all.empty() ? failNoPoints() : void();
   const vtkIdType rows = static_cast<vtkIdType>(all.size());
   CloudColumns columns({ { "x", VTK_FLOAT }, { "y", VTK_FLOAT }, { "z", VTK_FLOAT } }, rows);
   for (std::size_t axis = 0; axis < 3; ++axis)

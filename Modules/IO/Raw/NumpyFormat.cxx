@@ -6,6 +6,7 @@
 #include "IO/Formats/FormatLooks.h"
 #include "ReadTask.h"
 
+#include "Bytes/Checks.h"
 #include <algorithm>
 #include <cmath>
 
@@ -41,10 +42,7 @@ struct NumpyHeader
 std::string_view valueOf(std::string_view text, const std::string& key)
 {
   const std::size_t at = text.find("'" + key + "':");
-  if (at == std::string_view::npos)
-  {
-    failFormat("the header has no " + inQuotes(key), kCure);
-  }
+  failFormatIf(at == std::string_view::npos, kCure, "the header has no {}", inQuotes(key));
   return trimmed(text.substr(at + key.size() + 3));
 }
 
@@ -62,15 +60,11 @@ NumpyField fieldOf(std::string_view type)
 {
   NumpyField field;
   unsigned long long size = 0;
-  if (type.size() < 3 || !parseCount(type.substr(2), size))
-  {
-    failFormat("the values are of type " + inQuotes(type), kCure);
-  }
+  failFormatIf(
+    type.size() < 3 || !parseCount(type.substr(2), size), kCure, "the values are of type {}", inQuotes(type));
   field.type = type.substr(1) == "b1" ? VTK_TYPE_UINT8 : typeOfKind(type[1], size);
-  if (field.type == VTK_VOID)
-  {
-    failFormat("the values are of type " + inQuotes(type) + ", which is not read here", kCure);
-  }
+  failFormatIf(
+    field.type == VTK_VOID, kCure, "the values are of type {}, which is not read here", inQuotes(type));
   field.isSwapped = (type[0] == '>') == kIsLittleEndianHost && (type[0] == '>' || type[0] == '<');
   return field;
 }
@@ -91,10 +85,8 @@ std::vector<NumpyField> fieldsOf(std::string_view descr)
     std::string_view entry = list.substr(0, list.find(')'));
     const std::string_view name = quoted(entry);
     NumpyField field = fieldOf(quoted(entry));
-    if (entry.find('(') != std::string_view::npos)
-    {
-      failFormat("the field " + inQuotes(name) + " holds arrays", kCure);
-    }
+    failFormatIf(
+      entry.find('(') != std::string_view::npos, kCure, "the field {} holds arrays", inQuotes(name));
     field.name = name;
     field.offset = offset;
     offset += static_cast<std::size_t>(sizeOfType(field.type));
@@ -109,17 +101,11 @@ NumpyHeader parseHeader(std::string_view bytes)
 {
   const bool isLong = bytes.size() > 12 && bytes[6] > 1;
   const std::size_t begin = isLong ? 12 : 10;
-  if (bytes.size() < begin)
-  {
-    failTruncated("the file ends at byte " + std::to_string(bytes.size()) + " inside its header");
-  }
+  failTruncatedIf(bytes.size() < begin, "the file ends at byte {} inside its header", bytes.size());
   const std::size_t size =
     isLong ? loadLittle<std::uint32_t>(bytes.data() + 8) : loadLittle<std::uint16_t>(bytes.data() + 8);
-  if (size > bytes.size() - begin)
-  {
-    failTruncated(
-      "byte 8: a header of " + std::to_string(size) + " bytes in a file of " + std::to_string(bytes.size()));
-  }
+  failTruncatedIf(
+    size > bytes.size() - begin, "byte 8: a header of {} bytes in a file of {}", size, bytes.size());
   const std::string_view text = bytes.substr(begin, size);
   NumpyHeader header;
   header.bodyOffset = begin + size;
@@ -131,10 +117,8 @@ NumpyHeader parseHeader(std::string_view bytes)
   {
     const std::size_t comma = std::min(shape.find(','), shape.size());
     unsigned long long length = 0;
-    if (!parseCount(trimmed(shape.substr(0, comma)), length))
-    {
-      failFormat("the shape has " + inQuotes(shape) + " where a count was expected", kCure);
-    }
+    failFormatIf(!parseCount(trimmed(shape.substr(0, comma)), length), kCure,
+      "the shape has {} where a count was expected", inQuotes(shape));
     header.shape.push_back(length);
     shape.remove_prefix(std::min(comma + 1, shape.size()));
   }
@@ -202,10 +186,8 @@ void readNumpy(ReadTask& task, vtkPolyData* cloud)
   {
     shape.pop_back();
   }
-  if (columns < 3 || columns > kMostColumns || header.fields.empty())
-  {
-    failFormat("the array has " + std::to_string(columns) + " columns", kCure);
-  }
+  failFormatIf(columns < 3 || columns > kMostColumns || header.fields.empty(), kCure,
+    "the array has {} columns", columns);
   const NumpyField& last = header.fields.back();
   const std::size_t value = static_cast<std::size_t>(sizeOfType(last.type));
   const std::size_t record = hasNames ? last.offset + value : static_cast<std::size_t>(columns) * value;

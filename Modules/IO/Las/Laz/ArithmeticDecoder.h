@@ -23,16 +23,11 @@ public:
 
   ArithmeticDecoder() = default;
   /// @p bytes must outlive this object.
-  explicit ArithmeticDecoder(std::string_view bytes) { start(bytes); }
-  void start(std::string_view bytes)
+  explicit ArithmeticDecoder(std::string_view bytes)
+    : at_(reinterpret_cast<const unsigned char*>(bytes.data()))
+    , end_(at_ + bytes.size())
+    , begin_(at_)
   {
-    begin_ = reinterpret_cast<const unsigned char*>(bytes.data());
-    at_ = begin_;
-    end_ = at_ + bytes.size();
-    missing_ = 0;
-    isDamaged_ = false;
-    length_ = 0xffffffffu;
-    value_ = 0;
     for (int i = 0; i < 4; ++i)
     {
       value_ = value_ << 8 | nextByte();
@@ -42,6 +37,7 @@ public:
 
   unsigned symbol(SymbolModel& model, unsigned = 0)
   {
+    model.startIfNew();
     const std::uint32_t step = length_ >> SymbolModel::kProbabilityBits;
     const unsigned last = model.lastSymbol();
     unsigned found;
@@ -92,16 +88,6 @@ public:
     renormalise();
     return found & ((1u << count) - 1); // more than that in damaged streams only
   }
-  std::uint32_t int32(std::uint32_t = 0)
-  {
-    const std::uint32_t low = bits(16);
-    return bits(16) << 16 | low;
-  }
-  std::uint64_t int64(std::uint64_t = 0)
-  {
-    const std::uint64_t low = int32();
-    return std::uint64_t{ int32() } << 32 | low;
-  }
 
   /// Marks the stream as one that no encoder writes.
   void markDamaged() { isDamaged_ = true; }
@@ -135,7 +121,7 @@ private:
   const unsigned char* end_ = nullptr;
   const unsigned char* begin_ = nullptr;
   std::uint32_t value_ = 0;
-  std::uint32_t length_ = 0;
+  std::uint32_t length_ = 0xffffffffu;
   std::uint64_t missing_ = 0;
   bool isDamaged_ = false;
 };

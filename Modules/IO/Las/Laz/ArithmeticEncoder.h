@@ -5,6 +5,7 @@
 #include "IO/Las/Laz/SymbolModel.h"
 
 #include <string>
+#include <utility>
 
 namespace pointhaptics::io
 {
@@ -17,6 +18,7 @@ public:
 
   unsigned symbol(SymbolModel& model, unsigned value)
   {
+    model.startIfNew();
     const std::uint32_t step = length_ >> SymbolModel::kProbabilityBits;
     const std::uint32_t low = model.below(value) * step;
     length_ = (value == model.lastSymbol() ? length_ : model.below(value + 1) * step) - low;
@@ -45,33 +47,16 @@ public:
     raise(value * length_);
     return value;
   }
-  std::uint32_t int32(std::uint32_t value)
-  {
-    bits(16, value & 0xffff);
-    bits(16, value >> 16);
-    return value;
-  }
-  std::uint64_t int64(std::uint64_t value)
-  {
-    int32(static_cast<std::uint32_t>(value));
-    int32(static_cast<std::uint32_t>(value >> 32));
-    return value;
-  }
   void markDamaged() {}
 
-  /// Ends the stream and hands it over: a decoder that reads it to its end has then read all its bytes. The
-  /// encoder is as new.
+  /// Ends the stream and hands it over: a decoder that reads it to its end has then read all its bytes.
   std::string finish()
   {
     const bool isLong = length_ > 2 * kShortest;
     length_ = isLong ? kShortest >> 1 : kShortest >> 9;
     raise(isLong ? kShortest : kShortest >> 1);
     bytes_.append(isLong ? 3 : 2, '\0');
-    std::string done;
-    done.swap(bytes_);
-    base_ = 0;
-    length_ = 0xffffffffu;
-    return done;
+    return std::move(bytes_);
   }
 
 private:

@@ -1,6 +1,7 @@
 #include "IO/Las/Laz/LazChunks.h"
 
-#include "FileProblem.h"
+#include "Bytes/Checks.h"
+#include "Bytes/DisjointRanges.h"
 #include "IO/Las/LasHeader.h"
 #include "ReadTask.h"
 
@@ -44,7 +45,7 @@ private:
   template <typename T>
   T numberAt(std::size_t offset) const
   {
-    return loadLittle<T>(task_.bytes.data() + offset);
+    return io::numberAt<T>(task_.bytes, offset);
   }
   void readInfo();
   void readPage(std::uint64_t offset, std::uint64_t size);
@@ -58,16 +59,16 @@ private:
   std::array<double, 3> origin_{};
   double side_ = 0.0; ///< of the root's cube
   int lastLevel_ = kMostLevel;
-  std::map<std::uint64_t, std::uint64_t> pages_; ///< offsets and ends of those that were found, read or not
-  std::map<std::uint64_t, std::uint64_t> nodes_; ///< offsets and ends of the wanted ones
+  DisjointRanges pages_;                                         ///< that were found, read or not
+  DisjointRanges nodes_;                                         ///< that are wanted
   std::vector<std::pair<std::uint64_t, std::uint64_t>> pending_; ///< pages to read
-  /// Level and number of points of a wanted node.
-  struct Points
+  /// A wanted node; its chunk has no number yet.
+  struct Node
   {
     int level;
-    std::uint64_t count;
+    LazChunk chunk;
   };
-  std::map<std::uint64_t, Points> points_; ///< by the node's offset
+  std::map<std::uint64_t, Node> found_; ///< by their offsets
 };
 
 void Hierarchy::readInfo()
@@ -75,10 +76,7 @@ void Hierarchy::readInfo()
   const std::string_view bytes = task_.bytes;
   const bool isHere = header_.headerSize == kLasHeaderOf14 && header_.pointsOffset >= kInfoAt + kInfoSize &&
     bytes.substr(377, 4) == "copc" && numberAt<std::uint16_t>(393) == 1;
-  if (!isHere)
-  {
-    failDamaged(375, "the first variable length record does not describe the octree");
-  }
+  failDamagedIf(!isHere, 375, "the first variable length record does not describe the octree");
   const double half = numberAt<double>(kInfoAt + 24);
   const double spacing = numberAt<double>(kInfoAt + 32);
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -86,12 +84,9 @@ void Hierarchy::readInfo()
     origin_[axis] = numberAt<double>(kInfoAt + 8 * axis) - half;
   }
   side_ = 2.0 * half;
-  if (!std::isfinite(origin_[0] + origin_[1] + origin_[2] + side_) || !(half > 0.0) || !(spacing > 0.0) ||
-    !std::isfinite(spacing))
-  {
-    failDamaged(
-      kInfoAt, "an octree of half size " + std::to_string(half) + " and spacing " + std::to_string(spacing));
-  }
+  failDamagedIf(!std::isfinite(origin_[0] + origin_[1] + origin_[2] + side_) || !(half > 0.0) ||
+      !(spacing > 0.0) || !std::isfinite(spacing),
+    kInfoAt, "an octree of half size {:f} and spacing {:f}", half, spacing);
   if (task_.wanted.resolution > 0.0)
   {
     lastLevel_ = 0;
@@ -107,22 +102,12 @@ void Hierarchy::readInfo()
 /// Notes that a page or node lies at @p offset. @p at: of the entry that says so.
 void Hierarchy::take(std::uint64_t offset, std::uint64_t size, std::size_t at, const char* what)
 {
-  const std::string shown =
-    std::string("a ") + what + " of " + std::to_string(size) + " bytes at byte " + std::to_string(offset);
-  if (size == 0 || offset < kInfoAt + kInfoSize || offset > task_.bytes.size() ||
-    size > task_.bytes.size() - offset)
-  {
-    failDamaged(at, shown + ", which is outside the file's " + std::to_string(task_.bytes.size()));
-  }
-  auto& taken = *what == 'p' ? pages_ : nodes_;
-  const auto next = taken.lower_bound(offset);
-  const bool meetsNext = next != taken.end() && next->first < offset + size;
-  const bool meetsBefore = next != taken.begin() && std::prev(next)->second > offset;
-  if (meetsNext || meetsBefore)
-  {
-    failDamaged(at, shown + " overlaps another");
-  }
-  taken.emplace(offset, offset + size);
+  const std::string shown = fmt::format("a {} of {} bytes at byte {}", what, size, offset);
+  failDamagedIf(size == 0 || offset < kInfoAt + kInfoSize || offset > task_.bytes.size() ||
+      size > task_.bytes.size() - offset,
+    at, "{}, which is outside the file's {}", shown, task_.bytes.size());
+  failDamagedIf(
+    !(*what == 'p' ? pages_ : nodes_).add(offset, offset + size), at, "{} overlaps another", shown);
 }
 
 bool Hierarchy::isWanted(const Entry& entry) const
@@ -152,21 +137,15 @@ void Hierarchy::readEntry(std::size_t at)
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     entry.cell[axis] = numberAt<std::int32_t>(at + 4 + 4 * axis);
-    if (entry.level < 0 || entry.level > kMostLevel || entry.cell[axis] < 0 ||
-      entry.cell[axis] >> entry.level != 0)
-    {
-      failDamaged(
-        at, "cell " + std::to_string(entry.cell[axis]) + " of level " + std::to_string(entry.level));
-    }
+    failDamagedIf(entry.level < 0 || entry.level > kMostLevel || entry.cell[axis] < 0 ||
+        entry.cell[axis] >> entry.level != 0,
+      at, "cell {} of level {}", entry.cell[axis], entry.level);
   }
   entry.offset = numberAt<std::uint64_t>(at + 16);
   entry.size = numberAt<std::int32_t>(at + 24);
   entry.count = numberAt<std::int32_t>(at + 28);
-  if (entry.count < -1 || entry.size < 0)
-  {
-    failDamaged(
-      at, "a node of " + std::to_string(entry.count) + " points in " + std::to_string(entry.size) + " bytes");
-  }
+  failDamagedIf(
+    entry.count < -1 || entry.size < 0, at, "a node of {} points in {} bytes", entry.count, entry.size);
   if (entry.count == 0 || !isWanted(entry))
   {
     return;
@@ -178,7 +157,10 @@ void Hierarchy::readEntry(std::size_t at)
     pending_.emplace_back(entry.offset, size);
     return;
   }
-  points_.emplace(entry.offset, Points{ entry.level, static_cast<std::uint64_t>(entry.count) });
+  found_.emplace(entry.offset,
+    Node{ entry.level,
+      { static_cast<std::size_t>(entry.offset), static_cast<std::size_t>(size), 0,
+        static_cast<std::uint64_t>(entry.count) } });
 }
 
 void Hierarchy::readPage(std::uint64_t offset, std::uint64_t size)
@@ -194,9 +176,9 @@ void Hierarchy::readPage(std::uint64_t offset, std::uint64_t size)
 int Hierarchy::lastLevelFor(std::uint64_t mostPoints) const
 {
   std::array<std::uint64_t, kMostLevel + 1> counts{};
-  for (const auto& node : points_)
+  for (const auto& [start, node] : found_)
   {
-    counts[static_cast<std::size_t>(node.second.level)] += node.second.count;
+    counts[static_cast<std::size_t>(node.level)] += node.chunk.count;
   }
   std::uint64_t sum = 0;
   for (int level = 0; level <= kMostLevel; ++level)
@@ -224,24 +206,14 @@ LazChunks Hierarchy::find()
   const int lastLevel = most > 0 ? lastLevelFor(most) : kMostLevel;
   LazChunks chunks;
   std::uint64_t sum = 0;
-  for (const auto& [start, points] : points_)
+  for (auto& [start, node] : found_)
   {
-    sum += points.count;
-    if (points.level > lastLevel)
-    {
-      chunks.isCoarse = true;
-      continue;
-    }
-    const std::uint64_t first = chunks.all.empty() ? 0 : chunks.all.back().first + chunks.all.back().count;
-    chunks.all.push_back({ static_cast<std::size_t>(start),
-      static_cast<std::size_t>(nodes_.at(start) - start), first, points.count });
+    sum += node.chunk.count;
+    node.chunk.first = chunks.points();
+    node.level > lastLevel ? void(chunks.isCoarse = true) : chunks.all.push_back(node.chunk);
   }
-  if (sum > header_.count)
-  {
-    failDamaged(kInfoAt + 40,
-      "the nodes hold " + std::to_string(sum) + " points, but the header counts " +
-        std::to_string(header_.count));
-  }
+  failDamagedIf(sum > header_.count, kInfoAt + 40, "the nodes hold {} points, but the header counts {}", sum,
+    header_.count);
   return chunks;
 }
 

@@ -12,6 +12,14 @@
 namespace pointhaptics::io
 {
 
+/// Codes a number of 64 equally likely bits.
+template <typename Coder>
+std::uint64_t codeInt64(Coder& coder, std::uint64_t value)
+{
+  const std::uint64_t low = coder.bits(32, static_cast<std::uint32_t>(value));
+  return std::uint64_t{ coder.bits(32, static_cast<std::uint32_t>(value >> 32)) } << 32 | low;
+}
+
 /// Integers of @p bits bits (8, 16 or 32) with models for each of @p contexts contexts. One thread.
 class IntegerModels
 {
@@ -23,15 +31,6 @@ public:
     for (unsigned i = 1; i <= bits; ++i)
     {
       places_.emplace_back(1u << (i < kModelledBits ? i : kModelledBits));
-    }
-  }
-  void forget()
-  {
-    lengths_.forget();
-    zeroOrOne_.start();
-    for (SymbolModel& model : places_)
-    {
-      model.forget();
     }
   }
   /// Number of bits of the difference that was coded last, 0..32: a context for what comes next.
@@ -94,7 +93,7 @@ private:
     // Negative ones first: -(2^k - 1) is place 0.
     const std::uint32_t shift = (1u << length_) - 1;
     std::uint32_t place = (difference >> 31) != 0 ? difference + shift : difference - 1;
-    SymbolModel& places = places_[length_ - 1].startIfForgotten();
+    SymbolModel& places = places_[length_ - 1];
     if (length_ <= kModelledBits)
     {
       place = coder.symbol(places, place);

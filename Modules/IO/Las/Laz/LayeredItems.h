@@ -3,7 +3,7 @@
 /// are not wanted need not be looked at.
 #pragma once
 
-#include "FileProblem.h"
+#include "Bytes/Checks.h"
 #include "IO/Las/Laz/Items/AttributeItems.h"
 #include "IO/Las/Laz/Items/Point14Items.h"
 #include "IO/Las/Laz/Items/WavePacketItem.h"
@@ -13,7 +13,6 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <variant>
 #include <vector>
 
@@ -26,11 +25,12 @@ template <typename Coder>
 class LayeredItems
 {
 public:
-  explicit LayeredItems(const LazSchema& schema)
-    : first_(schema.recordLength)
+  /// Begins a chunk whose first point is @p record.
+  LayeredItems(const LazSchema& schema, const char* record)
+    : first_(record, record + schema.recordLength)
   {
     layers_.reserve(schema.numberOfLayers());
-    layers_.push_back({ PositionLayer() });
+    layers_.push_back({ PositionLayer(record) });
     add<HeightItem>(kHeightOf14);
     add<ClassificationItem>(kClassificationOf14);
     add<FlagsItem>(kFlagsOf14);
@@ -61,23 +61,11 @@ public:
       begin += size;
       if (layers_[i].isUsed && begin <= bytes.size())
       {
-        layers_[i].coder.start(bytes.substr(begin - size, size));
+        layers_[i].coder = Coder(bytes.substr(begin - size, size));
       }
     }
-    if (begin > bytes.size())
-    {
-      failTruncated("the layers of a chunk take more than its " +
-        std::to_string(first_.size() + bytes.size()) + " bytes");
-    }
-  }
-  /// Begins a chunk whose first point is @p record.
-  void start(const char* record)
-  {
-    std::copy_n(record, first_.size(), first_.data());
-    for (CodedLayer& each : layers_)
-    {
-      each.isUsed ? std::visit([&](auto& layer) { layer.start(record); }, each.layer) : void();
-    }
+    failTruncatedIf(begin > bytes.size(), "the layers of a chunk take more than its {} bytes",
+      first_.size() + bytes.size());
   }
   /// Codes @p count records of schema.recordLength bytes: those layers that are in use.
   void code(char* records, std::size_t count);
@@ -121,7 +109,7 @@ private:
   template <typename Item>
   void add(std::size_t offset)
   {
-    offset != 0 ? layers_.push_back({ Layer<Item>(offset) }) : void();
+    offset != 0 ? layers_.push_back({ Layer<Item>(offset, first_.data()) }) : void();
   }
   template <typename OneLayer>
   void codeLayer(OneLayer& layer, Coder& stored, char* records, std::size_t count);

@@ -1,6 +1,6 @@
 #include "IO/Las/Laz/LazChunks.h"
 
-#include "FileProblem.h"
+#include "Bytes/Checks.h"
 #include "IO/Las/LasHeader.h"
 #include "IO/Las/Laz/ArithmeticDecoder.h"
 #include "IO/Las/Laz/ArithmeticEncoder.h"
@@ -36,7 +36,6 @@ public:
 
 private:
   bool hasVariableChunks() const { return chunkSize_ == LazSchema::kVariableChunks; }
-  bool isLayered() const { return schema_.compressor == LazSchema::Compressor::Layered; }
   /// 0 where the writer was interrupted before it.
   std::size_t tableOffset() const;
   LazChunks readTable(std::size_t table) const;
@@ -57,10 +56,7 @@ private:
 
 std::size_t ChunkFinder::tableOffset() const
 {
-  if (first_ > bytes_.size())
-  {
-    failTruncated("the file ends at byte " + std::to_string(bytes_.size()) + " before its first chunk");
-  }
+  failTruncatedIf(first_ > bytes_.size(), "the file ends at byte {} before its first chunk", bytes_.size());
   std::uint64_t table = numberAt<std::uint64_t>(bytes_, header_.pointsOffset);
   if (table == header_.pointsOffset)
   {
@@ -71,18 +67,16 @@ std::size_t ChunkFinder::tableOffset() const
   {
     return 0; // it is cut off
   }
-  if (table < first_ || table > bytes_.size() - kTableHeader)
-  {
-    failTruncated(atByte(header_.pointsOffset) + "the table of chunks is at byte " + std::to_string(table) +
-      " of a file of " + std::to_string(bytes_.size()) + " bytes");
-  }
+  failTruncatedIf(table < first_ || table > bytes_.size() - kTableHeader,
+    "byte {}: the table of chunks is at byte {} of a file of {} bytes", header_.pointsOffset, table,
+    bytes_.size());
   return static_cast<std::size_t>(table);
 }
 
 /// Adds a chunk with as many of its @p count points as the header counts. @return false when it has them all.
 bool ChunkFinder::add(LazChunks& chunks, std::size_t offset, std::size_t size, std::uint64_t count) const
 {
-  const std::uint64_t done = chunks.all.empty() ? 0 : chunks.all.back().first + chunks.all.back().count;
+  const std::uint64_t done = chunks.points();
   count = std::min(count, header_.count - done);
   if (count > 0)
   {
@@ -93,11 +87,10 @@ bool ChunkFinder::add(LazChunks& chunks, std::size_t offset, std::size_t size, s
 
 void ChunkFinder::checkSum(const LazChunks& chunks, std::size_t at) const
 {
-  const std::uint64_t sum = chunks.all.empty() ? 0 : chunks.all.back().first + chunks.all.back().count;
-  if (sum < header_.count)
+  if (const std::uint64_t sum = chunks.points(); sum < header_.count)
   {
-    const std::string what = "the header counts " + std::to_string(header_.count) +
-      " points, but the chunks hold " + std::to_string(sum);
+    const std::string what =
+      fmt::format("the header counts {} points, but the chunks hold {}", header_.count, sum);
     isSalvaged_ ? void(task_->endAt(sum, header_.count, atByte(at) + what)) : failDamaged(at, what);
   }
 }
@@ -106,12 +99,9 @@ LazChunks ChunkFinder::readTable(std::size_t table) const
 {
   // Each chunk begins with a whole point.
   const std::size_t count = numberAt<std::uint32_t>(bytes_, table + 4);
-  if (numberAt<std::uint32_t>(bytes_, table) != 0 || count > (table - first_) / header_.recordLength)
-  {
-    failDamaged(table,
-      "a table of " + std::to_string(count) + " chunks, which " + std::to_string(table - first_) +
-        " compressed bytes cannot be");
-  }
+  failDamagedIf(
+    numberAt<std::uint32_t>(bytes_, table) != 0 || count > (table - first_) / header_.recordLength, table,
+    "a table of {} chunks, which {} compressed bytes cannot be", count, table - first_);
   ArithmeticDecoder decoder(bytes_.substr(table + kTableHeader));
   IntegerModels numbers(32, 2);
   LazChunks chunks;
@@ -126,13 +116,9 @@ LazChunks ChunkFinder::readTable(std::size_t table) const
       points = static_cast<std::uint32_t>(numbers.code(decoder, static_cast<std::int32_t>(points), 0, 0));
     }
     size = static_cast<std::uint32_t>(numbers.code(decoder, static_cast<std::int32_t>(size), 0, 1));
-    if (decoder.isDamaged() || size > table - offset || (points > 0 && size < header_.recordLength))
-    {
-      failDamaged(table,
-        "chunk " + std::to_string(i) + " of " + std::to_string(count) + " has " + std::to_string(size) +
-          " bytes at byte " + std::to_string(offset) + ", which " + std::to_string(points) +
-          " points cannot be");
-    }
+    failDamagedIf(decoder.isDamaged() || size > table - offset || (points > 0 && size < header_.recordLength),
+      table, "chunk {} of {} has {} bytes at byte {}, which {} points cannot be", i, count, size, offset,
+      points);
     goesOn = add(chunks, offset, size, points);
     offset += size;
   }
@@ -150,28 +136,21 @@ LazChunks ChunkFinder::walkLayers() const
   std::size_t offset = first_;
   for (bool goesOn = true; goesOn;)
   {
-    if (bytes_.size() - offset < headSize)
+    const std::size_t left = bytes_.size() - offset;
+    std::uint64_t size = headSize;
+    for (std::size_t i = 0; i < layers && left >= headSize; ++i)
+    {
+      size += numberAt<std::uint32_t>(bytes_, offset + sizesAt + i * sizeof(std::uint32_t));
+    }
+    const std::uint32_t points =
+      left < headSize ? 0 : numberAt<std::uint32_t>(bytes_, offset + header_.recordLength);
+    if (left < headSize || (isSalvaged_ && (size > left || points == 0)))
     {
       checkSum(chunks, offset);
       break;
     }
-    std::uint64_t size = headSize;
-    for (std::size_t i = 0; i < layers; ++i)
-    {
-      size += numberAt<std::uint32_t>(bytes_, offset + sizesAt + i * sizeof(std::uint32_t));
-    }
-    const std::uint32_t points = numberAt<std::uint32_t>(bytes_, offset + header_.recordLength);
-    if (size > bytes_.size() - offset || points == 0)
-    {
-      if (isSalvaged_)
-      {
-        checkSum(chunks, offset);
-        break;
-      }
-      failDamaged(offset,
-        "a chunk of " + std::to_string(points) + " points in " + std::to_string(size) + " bytes, of which " +
-          std::to_string(bytes_.size() - offset) + " are there");
-    }
+    failDamagedIf(size > left || points == 0, offset,
+      "a chunk of {} points in {} bytes, of which {} are there", points, size, left);
     goesOn = add(chunks, offset, static_cast<std::size_t>(size), points);
     offset += static_cast<std::size_t>(size);
   }
@@ -194,7 +173,7 @@ LazChunks ChunkFinder::readUntoldTable(std::size_t table)
   {
     // It has no numbers of points.
   }
-  if (isLayered())
+  if (schema_.isLayered())
   {
     return walkLayers();
   }
@@ -206,18 +185,12 @@ LazChunks ChunkFinder::readUntoldTable(std::size_t table)
 
 LazChunks ChunkFinder::countOnly() const
 {
-  if (hasVariableChunks())
-  {
-    failFormat(atByte(header_.pointsOffset) + "there is no table of chunks, whose numbers of points vary",
-      "the file was not completely written: write it again");
-  }
+  failFormatIf(hasVariableChunks(), "the file was not completely written: write it again",
+    "byte {}: there is no table of chunks, whose numbers of points vary", header_.pointsOffset);
   const std::size_t available = bytes_.size() - first_;
-  if ((header_.count - 1) / chunkSize_ >= available / header_.recordLength + 1)
-  {
-    failTruncated("chunks of " + std::to_string(chunkSize_) + " points for the " +
-      std::to_string(header_.count) + " that the header counts are more than " + std::to_string(available) +
-      " bytes can be");
-  }
+  failTruncatedIf((header_.count - 1) / chunkSize_ >= available / header_.recordLength + 1,
+    "chunks of {} points for the {} that the header counts are more than {} bytes can be", chunkSize_,
+    header_.count, available);
   LazChunks chunks;
   chunks.arePlaced = false;
   while (add(chunks, first_, available, chunkSize_))
@@ -245,7 +218,7 @@ LazChunks ChunkFinder::find()
     return schema_.isChunkSizeTold ? readTable(table) : readUntoldTable(table);
   }
   chunkSize_ = schema_.isChunkSizeTold ? chunkSize_ : LazSchema().chunkSize;
-  return isLayered() ? walkLayers() : countOnly();
+  return schema_.isLayered() ? walkLayers() : countOnly();
 }
 
 } // namespace
@@ -253,12 +226,9 @@ LazChunks ChunkFinder::find()
 void checkLazCount(std::string_view bytes, const LasHeader& header)
 {
   const std::size_t most = std::max(kLazFloor, kMostLazRatio * bytes.size()) / header.recordLength;
-  if (header.count > most)
-  {
-    failFormat("the header counts " + std::to_string(header.count) + " points, but a file of " +
-        std::to_string(bytes.size()) + " bytes is not expected to hold more than " + std::to_string(most),
-      "if this is no attack, unpack it first: laszip -i in.laz -o out.las");
-  }
+  failFormatIf(header.count > most, "if this is no attack, unpack it first: laszip -i in.laz -o out.las",
+    "the header counts {} points, but a file of {} bytes is not expected to hold more than {}", header.count,
+    bytes.size(), most);
 }
 
 LazChunks findLazChunks(

@@ -32,6 +32,8 @@ struct LazChunks
   /// decoding it shows. Then the offset of the first chunk alone is set.
   bool arePlaced = true;
   bool isCoarse = false; ///< WantedPart::mostPoints left out chunks
+
+  std::uint64_t points() const { return all.empty() ? 0 : all.back().first + all.back().count; }
 };
 
 /// Points may unpack to this many times the file's size, or to kLazFloor where that is more: real clouds stay

@@ -1,9 +1,8 @@
 #include "IO/Las/Laz/LazSchema.h"
 
-#include "FileProblem.h"
+#include "Bytes/Checks.h"
 #include "IO/Las/LasHeader.h"
 
-#include <array>
 #include <vector>
 
 namespace pointhaptics::io
@@ -48,33 +47,23 @@ LasRecord findDescription(std::string_view bytes, const LasHeader& header)
   const std::uint32_t records = numberAt<std::uint32_t>(bytes, 100);
   std::uint32_t whole = 0;
   LasRecord found;
-  forEachLasRecord(bytes.substr(0, header.pointsOffset), header.headerSize, records, false,
-    [&](const LasRecord& record)
+  for (const LasRecord& record :
+    lasRecords(bytes.substr(0, header.pointsOffset), header.headerSize, records, false))
+  {
+    whole += record.whole.empty() ? 0 : 1;
+    if (record.is(kLaszipUser, kLaszipRecord))
     {
-      whole += record.whole.empty() ? 0 : 1;
-      if (record.user == kLaszipUser && record.id == kLaszipRecord)
-      {
-        found.at != 0 ? failDamaged(record.at, "a second record says how the points are compressed") : void();
-        found = record;
-      }
-    });
-  if (whole < records)
-  {
-    failDamaged(100,
-      "the header counts " + std::to_string(records) + " variable length records, but only " +
-        std::to_string(whole) + " lie before the points");
+      failDamagedIf(found.at != 0, record.at, "a second record says how the points are compressed");
+      found = record;
+    }
   }
-  if (found.at == 0)
-  {
-    failDamaged(104, "the points are marked as compressed, but no record says how");
-  }
+  failDamagedIf(whole < records, 100,
+    "the header counts {} variable length records, but only {} lie before the points", records, whole);
+  failDamagedIf(found.at == 0, 104, "the points are marked as compressed, but no record says how");
   found.at += kLasVlrHeader; // to its content, of which messages speak
-  if (found.content.size() < kDescriptionStart)
-  {
-    failDamaged(found.at,
-      "a description of the compression of " + std::to_string(found.content.size()) +
-        " bytes, which takes at least " + std::to_string(kDescriptionStart));
-  }
+  failDamagedIf(found.content.size() < kDescriptionStart, found.at,
+    "a description of the compression of {} bytes, which takes at least {}", found.content.size(),
+    kDescriptionStart);
   return found;
 }
 
@@ -130,29 +119,16 @@ void placeItems(
     same = numberAt<std::uint16_t>(bytes, at) == expected[i].type &&
       numberAt<std::uint16_t>(bytes, at + 2) == expected[i].size;
     const int version = numberAt<std::uint16_t>(bytes, at + 4);
-    if (same && !isKnownVersion(expected[i].type, version))
-    {
-      failFormat(atByte(at + 4) + "item " + std::to_string(expected[i].type) + " is compressed in version " +
-          std::to_string(version) + ", which is not supported: 1 to 3 are",
-        "unpack it with the program that wrote it, or compress it with LASzip 3");
-    }
+    failFormatIf(same && !isKnownVersion(expected[i].type, version),
+      "unpack it with the program that wrote it, or compress it with LASzip 3",
+      "byte {}: item {} is compressed in version {}, which is not supported: 1 to 3 are", at + 4,
+      expected[i].type, version);
     place(schema, expected[i], offset, version);
     offset += expected[i].size;
   }
-  if (!same)
-  {
-    failDamaged(description.at + 32,
-      "what is compressed is not a record of point format " + std::to_string(header.pointFormat) + " with " +
-        std::to_string(header.recordLength) + " bytes");
-  }
-}
-
-template <typename T>
-void append(std::string& bytes, T value)
-{
-  char raw[sizeof(T)];
-  storeLittle(value, raw);
-  bytes.append(raw, sizeof(T));
+  failDamagedIf(!same, description.at + 32,
+    "what is compressed is not a record of point format {} with {} bytes", header.pointFormat,
+    header.recordLength);
 }
 
 } // namespace
@@ -171,16 +147,9 @@ LazSchema parseLazSchema(std::string_view bytes, const LasHeader& header)
   const int compressor = numberAt<std::uint16_t>(bytes, description.at);
   const int coder = numberAt<std::uint16_t>(bytes, description.at + 2);
   const bool isLayered = compressor == static_cast<int>(LazSchema::Compressor::Layered);
-  if (compressor < 1 || compressor > 3 || isLayered != header.isExtended())
-  {
-    failDamaged(description.at,
-      "unknown compressor " + std::to_string(compressor) + " for point format " +
-        std::to_string(header.pointFormat));
-  }
-  if (coder != 0)
-  {
-    failDamaged(description.at + 2, "unknown coder " + std::to_string(coder));
-  }
+  failDamagedIf(compressor < 1 || compressor > 3 || isLayered != header.isExtended(), description.at,
+    "unknown compressor {} for point format {}", compressor, header.pointFormat);
+  failDamagedIf(coder != 0, description.at + 2, "unknown coder {}", coder);
   schema.compressor = static_cast<LazSchema::Compressor>(compressor);
   schema.chunkSize = numberAt<std::uint32_t>(bytes, description.at + 12);
   schema.recordLength = header.recordLength;
@@ -206,25 +175,20 @@ LazSchema makeLazSchema(const LasHeader& header)
 
 std::string lazRecord(const LazSchema& schema, const LasHeader& header)
 {
-  std::string record;
-  append(record, static_cast<std::uint16_t>(schema.compressor));
-  append(record, std::uint16_t{ 0 }); // the only coder
-  for (const std::uint8_t part : { 3, 4 })
-  {
-    append(record, part); // of the format's description
-  }
-  append(record, std::uint16_t{ 0 });
-  append(record, std::uint32_t{ 0 });
-  append(record, schema.chunkSize);
-  append(record, std::int64_t{ -1 });
-  append(record, std::int64_t{ -1 });
   const std::vector<RecordItem> items = itemsOf(header);
-  append(record, static_cast<std::uint16_t>(items.size()));
-  for (const RecordItem& item : items)
+  std::string record(kDescriptionStart + kItemSize * items.size(), '\0');
+  putLittle(record, 0, static_cast<std::uint16_t>(schema.compressor)); // coder 0, the only one
+  record[4] = 3;                                                       // version of the format's description
+  record[5] = 4;
+  putLittle(record, 12, schema.chunkSize);
+  record.replace(16, 16, 16, '\xff'); // no special records
+  putLittle(record, 32, static_cast<std::uint16_t>(items.size()));
+  for (std::size_t i = 0; i < items.size(); ++i)
   {
-    append(record, static_cast<std::uint16_t>(item.type));
-    append(record, static_cast<std::uint16_t>(item.size));
-    append(record, static_cast<std::uint16_t>(item.version()));
+    const std::size_t at = kDescriptionStart + kItemSize * i;
+    putLittle(record, at, static_cast<std::uint16_t>(items[i].type));
+    putLittle(record, at + 2, static_cast<std::uint16_t>(items[i].size));
+    putLittle(record, at + 4, static_cast<std::uint16_t>(items[i].version()));
   }
   return record;
 }

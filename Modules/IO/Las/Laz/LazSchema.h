@@ -41,6 +41,7 @@ struct LazSchema
   bool isChunkSizeTold = true; ///< Else chunks vary, or have the usual size; their table decides.
 
   static constexpr std::uint32_t kVariableChunks = 0xffffffffu;
+  bool isLayered() const { return compressor == Compressor::Layered; }
   /// Number of bytes after the fixed fields of a record.
   std::size_t numberOfExtraBytes() const
   {

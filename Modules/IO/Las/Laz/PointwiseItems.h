@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,16 +23,13 @@ template <typename Item, typename FirstItem>
 class PointwiseItem
 {
 public:
-  /// @p version 1: as FirstItem has it.
-  PointwiseItem(std::size_t offset, int version)
-    : offset_(offset)
-    , first_(version == 1 ? std::make_unique<FirstItem>() : nullptr)
+  /// @p record: the first one of the chunk. Version 1 is as FirstItem has it.
+  PointwiseItem(const LazSchema::Item& place, const char* record)
+    : offset_(place.offset)
+    , first_(place.version == 1 ? std::make_unique<FirstItem>() : nullptr)
+    , last_(Item::load(record + offset_))
   {
-  }
-  void start(const char* record)
-  {
-    last_ = Item::load(record + offset_);
-    first_ ? first_->start(last_) : item_.start(last_);
+    item_.start(last_);
   }
   template <typename Coder>
   void code(Coder& coder, char* record)
@@ -49,7 +47,7 @@ private:
   std::size_t offset_;
   Item item_;
   std::unique_ptr<FirstItem> first_; ///< Of files of 2010 and 2011 only.
-  Value last_{};
+  Value last_;
 };
 
 /// The items of one chunk. Coder is ArithmeticDecoder or ArithmeticEncoder.
@@ -57,35 +55,24 @@ template <typename Coder>
 class PointwiseItems
 {
 public:
-  explicit PointwiseItems(const LazSchema& schema)
+  /// Begins a chunk whose first point is @p record.
+  PointwiseItems(const LazSchema& schema, const char* record)
     : schema_(schema)
-    , point_(0, schema.point.version)
-    , gpsTime_(schema.gpsTime.offset, schema.gpsTime.version)
-    , color_(schema.color.offset, schema.color.version)
-    , wavePacket_(schema.wavePacket.offset, 0)
+    , point_(schema.point, record)
     , firstBytes_(schema.extraBytes.version == 1
           ? std::make_unique<IntegerModels>(8, static_cast<unsigned>(schema.numberOfExtraBytes()))
           : nullptr)
     , bytes_(schema.numberOfExtraBytes())
-    , lastBytes_(schema.numberOfExtraBytes())
+    , lastBytes_(record + schema.recordLength - bytes_.size(), record + schema.recordLength)
   {
+    const auto add = [record](auto& item, const LazSchema::Item& place)
+    { place.offset != 0 ? void(item.emplace(place, record)) : void(); };
+    add(gpsTime_, schema.gpsTime);
+    add(color_, schema.color);
+    add(wavePacket_, schema.wavePacket);
   }
   /// For a decoder: begins to read the chunk whose content behind its first point is @p bytes.
-  void begin(std::string_view bytes, bool) { coder_.start(bytes); }
-  /// Begins a chunk whose first point is @p record.
-  void start(const char* record)
-  {
-    point_.start(record);
-    schema_.gpsTime.offset != 0 ? gpsTime_.start(record) : void();
-    schema_.color.offset != 0 ? color_.start(record) : void();
-    schema_.wavePacket.offset != 0 ? wavePacket_.start(record) : void();
-    firstBytes_ ? firstBytes_->forget() : void();
-    for (std::size_t i = 0; i < bytes_.size(); ++i)
-    {
-      lastBytes_[i] = byteAt(record, schema_.extraBytes.offset + i);
-      bytes_[i].start(lastBytes_[i]);
-    }
-  }
+  void begin(std::string_view bytes, bool) { coder_ = Coder(bytes); }
   /// Codes @p count records of schema.recordLength bytes.
   void code(char* records, std::size_t count);
   bool isDamaged() const { return coder_.isDamaged(); }
@@ -95,14 +82,12 @@ public:
   void finish(std::string& chunk, std::size_t) { chunk += coder_.finish(); }
 
 private:
-  void codeBytes(char* at);
-
   const LazSchema& schema_;
   Coder coder_;
   PointwiseItem<Point10Item, FirstPoint10Item> point_;
-  PointwiseItem<GpsTimeItem<true>, FirstGpsTimeItem> gpsTime_;
-  PointwiseItem<ColorItem, FirstColorItem> color_;
-  PointwiseItem<WavePacketItem, WavePacketItem> wavePacket_;
+  std::optional<PointwiseItem<GpsTimeItem<true>, FirstGpsTimeItem>> gpsTime_;
+  std::optional<PointwiseItem<ColorItem, FirstColorItem>> color_;
+  std::optional<PointwiseItem<WavePacketItem, WavePacketItem>> wavePacket_; ///< There is one version.
   std::unique_ptr<IntegerModels> firstBytes_; ///< Of version 1, in the place of bytes_.
   std::vector<ByteItem> bytes_;
   std::vector<std::uint8_t> lastBytes_;

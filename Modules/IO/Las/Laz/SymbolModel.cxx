@@ -15,7 +15,7 @@ constexpr std::uint32_t kMostBitCycle = 64;
 
 } // namespace
 
-void SymbolModel::allocate()
+void SymbolModel::start()
 {
   std::uint32_t entries = 0;
   if (size_ > kMostWithoutTable)
@@ -32,16 +32,7 @@ void SymbolModel::allocate()
   below_ = memory_.get();
   counts_ = below_ + size_;
   table_ = counts_ + size_;
-}
-
-void SymbolModel::start()
-{
-  if (!memory_)
-  {
-    allocate();
-  }
   std::fill_n(counts_, size_, std::uint16_t{ 1 });
-  total_ = 0;
   cycle_ = size_;
   update();
   cycle_ = untilUpdate_ = (size_ + 6u) >> 1;

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 namespace pointhaptics::io
 {
@@ -18,23 +19,12 @@ public:
   /// Alphabets up to this size are searched without a table.
   static constexpr unsigned kMostWithoutTable = 16;
 
-  SymbolModel() = default;
   explicit SymbolModel(unsigned size)
     : size_(static_cast<std::uint16_t>(size))
   {
   }
-  /// Makes all symbols equally likely. Memory is taken at the first start only.
-  void start();
-  /// A model that is forgotten is started again where startIfForgotten() is called.
-  void forget() { untilUpdate_ = 0; }
-  SymbolModel& startIfForgotten()
-  {
-    if (untilUpdate_ == 0)
-    {
-      start();
-    }
-    return *this;
-  }
+  /// Takes memory at the first call, with all symbols equally likely: a coder calls it for each symbol.
+  void startIfNew() { untilUpdate_ == 0 ? start() : void(); }
 
   unsigned lastSymbol() const { return size_ - 1u; }
   bool hasTable() const { return tableShift_ != 0; }
@@ -64,7 +54,7 @@ public:
   }
 
 private:
-  void allocate();
+  void start();
   void update();
 
   std::uint16_t* below_ = nullptr;
@@ -84,7 +74,6 @@ class BitModel
 public:
   static constexpr unsigned kProbabilityBits = 13;
 
-  void start() { *this = BitModel(); }
   std::uint32_t zeroProbability() const { return zeroProbability_; }
   void count(unsigned bit)
   {
@@ -105,31 +94,22 @@ private:
   std::uint32_t untilUpdate_ = 4;
 };
 
-/// As many models as there are contexts, each started when it is first asked for.
+/// As many models as there are contexts.
 class ModelBank
 {
 public:
   ModelBank(unsigned models, unsigned symbols)
-    : count_(models)
-    , models_(new SymbolModel[models])
   {
+    models_.reserve(models);
     for (unsigned i = 0; i < models; ++i)
     {
-      models_[i] = SymbolModel(symbols);
+      models_.emplace_back(symbols);
     }
   }
-  SymbolModel& operator[](unsigned context) { return models_[context].startIfForgotten(); }
-  void forget()
-  {
-    for (unsigned i = 0; i < count_; ++i)
-    {
-      models_[i].forget();
-    }
-  }
+  SymbolModel& operator[](unsigned context) { return models_[context]; }
 
 private:
-  unsigned count_;
-  std::unique_ptr<SymbolModel[]> models_;
+  std::vector<SymbolModel> models_;
 };
 
 } // namespace pointhaptics::io

@@ -3,8 +3,7 @@
 #include "CloudFiles.h"
 
 #include "IO/Las/LasHeader.h"
-#include "IO/Las/Laz/ChunkDecoder.h"
-#include "IO/Las/Laz/ChunkEncoder.h"
+#include "IO/Las/Laz/ChunkCoding.h"
 
 #include <array>
 #include <cmath>
@@ -239,7 +238,7 @@ std::string recordsOf(const std::string& bytes)
   const io::LazChunks chunks = io::findLazChunks(bytes, header, schema);
   EXPECT_TRUE(chunks.arePlaced);
   std::string records(header.count * header.recordLength, '\0');
-  io::ChunkDecoder decoder(schema, io::LazFields::All);
+  io::ChunkDecoder decoder(schema);
   for (const io::LazChunk& chunk : chunks.all)
   {
     decoder.start(bytes, chunk);

@@ -13,18 +13,13 @@
 namespace pointhaptics::io
 {
 
-/// A byte as it comes to be when @p difference is added to it, modulo 256.
-inline std::uint8_t addToByte(unsigned byte, unsigned difference)
-{
-  return static_cast<std::uint8_t>(byte + difference);
-}
-
 /// Red, green and blue of 16 bits.
 struct AnyColorItem
 {
   using Value = std::array<std::uint16_t, 3>;
   static constexpr bool kIsAttribute = true;
 
+  void start(const Value&) {}
   static Value load(const char* at)
   {
     return { loadLittle<std::uint16_t>(at), loadLittle<std::uint16_t>(at + 2),
@@ -43,11 +38,6 @@ struct AnyColorItem
 class ColorItem : public AnyColorItem
 {
 public:
-  void start(const Value&)
-  {
-    changed_.forget();
-    differences_.forget();
-  }
   template <typename Coder>
   Value code(Coder& coder, const PointLabel&, const Value& last, const Value& color)
   {
@@ -56,10 +46,10 @@ public:
     {
       changed = changedBytes(last, color);
     }
-    changed = coder.symbol(changed_.startIfForgotten(), changed);
+    changed = coder.symbol(changed_, changed);
     Value result{};
-    const unsigned redLow = codeByte(coder, changed, 0, byteOf(last, 0), byteOf(color, 0));
-    const unsigned redHigh = codeByte(coder, changed, 1, byteOf(last, 1), byteOf(color, 1));
+    const unsigned redLow = codeByteOf(coder, changed, 0, last, color);
+    const unsigned redHigh = codeByteOf(coder, changed, 1, last, color);
     result[0] = word(redLow, redHigh);
     if ((changed & kIsColored) == 0)
     {
@@ -72,11 +62,9 @@ public:
     {
       const int red = static_cast<int>(half == 0 ? redLow : redHigh);
       int shift = red - byteOf(last, half);
-      green[half] =
-        codeShifted(coder, changed, 2 + half, byteOf(last, 2 + half), shift, byteOf(color, 2 + half));
+      green[half] = codeByteOf(coder, changed, 2 + half, last, color, shift);
       shift = (shift + static_cast<int>(green[half]) - byteOf(last, 2 + half)) / 2;
-      blue[half] =
-        codeShifted(coder, changed, 4 + half, byteOf(last, 4 + half), shift, byteOf(color, 4 + half));
+      blue[half] = codeByteOf(coder, changed, 4 + half, last, color, shift);
     }
     result[1] = word(green[0], green[1]);
     result[2] = word(blue[0], blue[1]);
@@ -101,21 +89,15 @@ private:
     }
     return changed;
   }
+  /// Byte @p i, which is predicted to have changed by @p shift where it changed.
   template <typename Coder>
-  unsigned codeByte(Coder& coder, unsigned changed, unsigned i, int predicted, int value)
+  unsigned codeByteOf(
+    Coder& coder, unsigned changed, unsigned i, const Value& last, const Value& color, int shift = 0)
   {
-    if ((changed >> i & 1) == 0)
-    {
-      return static_cast<unsigned>(predicted);
-    }
-    const unsigned difference = static_cast<std::uint8_t>(value - predicted);
-    return addToByte(static_cast<unsigned>(predicted), coder.symbol(differences_[i], difference));
-  }
-  template <typename Coder>
-  unsigned codeShifted(Coder& coder, unsigned changed, unsigned i, int last, int shift, int value)
-  {
-    return (changed >> i & 1) == 0 ? static_cast<unsigned>(last)
-                                   : codeByte(coder, changed, i, std::clamp(last + shift, 0, 255), value);
+    const int before = byteOf(last, i);
+    return (changed >> i & 1) == 0
+      ? static_cast<unsigned>(before)
+      : codeByte(coder, differences_[i], std::clamp(before + shift, 0, 255), byteOf(color, i));
   }
 
   SymbolModel changed_{ 128 };
@@ -127,24 +109,18 @@ class NearInfraredItem : public NumberItem<std::uint16_t>
 public:
   static constexpr bool kIsAttribute = true;
 
-  void start(Value)
-  {
-    changed_.forget();
-    differences_.forget();
-  }
   template <typename Coder>
   Value code(Coder& coder, const PointLabel&, Value last, Value value)
   {
     const unsigned difference = last ^ value;
-    const unsigned which = coder.symbol(
-      changed_.startIfForgotten(), ((difference & 0xff) != 0 ? 1u : 0u) | (difference > 0xff ? 2u : 0u));
+    const unsigned which =
+      coder.symbol(changed_, ((difference & 0xff) != 0 ? 1u : 0u) | (difference > 0xff ? 2u : 0u));
     unsigned bytes[2] = { last & 0xffu, static_cast<unsigned>(last >> 8) };
     for (unsigned half = 0; half < 2; ++half)
     {
       if ((which >> half & 1) != 0)
       {
-        const unsigned step = static_cast<std::uint8_t>((value >> 8 * half) - static_cast<int>(bytes[half]));
-        bytes[half] = addToByte(bytes[half], coder.symbol(differences_[half], step));
+        bytes[half] = codeByte(coder, differences_[half], static_cast<int>(bytes[half]), value >> 8 * half);
       }
     }
     return static_cast<Value>(bytes[0] | bytes[1] << 8);
@@ -160,12 +136,10 @@ class ByteItem : public NumberItem<std::uint8_t>
 public:
   static constexpr bool kIsAttribute = true;
 
-  void start(Value) { differences_.forget(); }
   template <typename Coder>
   Value code(Coder& coder, const PointLabel&, Value last, Value value)
   {
-    const unsigned step = static_cast<std::uint8_t>(value - last);
-    return addToByte(last, coder.symbol(differences_.startIfForgotten(), step));
+    return codeByte(coder, differences_, last, value);
   }
 
 private:

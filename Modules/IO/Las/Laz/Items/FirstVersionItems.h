@@ -15,21 +15,6 @@ namespace pointhaptics::io
 class FirstPoint10Item : public AnyPoint10Item
 {
 public:
-  void start(const Point10&)
-  {
-    xDifferences_ = yDifferences_ = {};
-    next_ = 0;
-    changed_.start();
-    for (ModelBank* bank : { &returnsModels_, &classificationModels_, &userDataModels_ })
-    {
-      bank->forget();
-    }
-    for (IntegerModels* models :
-      { &intensityModels_, &scanAngleModels_, &sourceModels_, &xModels_, &yModels_, &zModels_ })
-    {
-      models->forget();
-    }
-  }
   template <typename Decoder>
   Point10 code(Decoder& decoder, const PointLabel&, const Point10& last, const Point10&)
   {
@@ -89,14 +74,6 @@ private:
 class FirstGpsTimeItem : public NumberItem<std::uint64_t>
 {
 public:
-  void start(Value)
-  {
-    difference_ = 0;
-    extremes_ = 0;
-    zeroCases_.start();
-    multiples_.start();
-    differences_.forget();
-  }
   template <typename Decoder>
   Value code(Decoder& decoder, const PointLabel&, Value last, Value)
   {
@@ -105,11 +82,11 @@ public:
     {
       const unsigned choice = decoder.symbol(zeroCases_, 0);
       difference_ = choice == 1 ? differences_.code(decoder, 0, 0, 0) : 0;
-      return choice == 2 ? decoder.int64(0) : after(last, difference_);
+      return choice == 2 ? codeInt64(decoder, 0) : after(last, difference_);
     }
     const int multiple = static_cast<int>(decoder.symbol(multiples_, 0));
     return multiple < kFull ? after(last, codeMultiple(decoder, multiple))
-      : multiple == kFull   ? decoder.int64(0)
+      : multiple == kFull   ? codeInt64(decoder, 0)
                             : last;
   }
 
@@ -151,15 +128,10 @@ private:
 class FirstColorItem : public AnyColorItem
 {
 public:
-  void start(const Value&)
-  {
-    changed_.forget();
-    bytes_.forget();
-  }
   template <typename Decoder>
   Value code(Decoder& decoder, const PointLabel&, const Value& last, const Value&)
   {
-    const unsigned changed = decoder.symbol(changed_.startIfForgotten(), 0);
+    const unsigned changed = decoder.symbol(changed_, 0);
     Value color = last;
     for (unsigned i = 0; i < 6; ++i)
     {

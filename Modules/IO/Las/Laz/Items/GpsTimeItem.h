@@ -18,15 +18,7 @@ template <bool kEachTime>
 class GpsTimeItem : public NumberItem<std::uint64_t>
 {
 public:
-  void start(Value first)
-  {
-    zeroCases_.start();
-    multiples_.start();
-    differences_.forget();
-    sequences_ = {};
-    sequences_[0].time = first;
-    current_ = newest_ = 0;
-  }
+  void start(Value first) { sequences_[0].time = first; }
   template <typename Coder>
   Value code(Coder& coder, const PointLabel& label, Value last, Value time)
   {
@@ -172,7 +164,7 @@ private:
     newest_ = (newest_ + 1) & 3;
     const std::uint32_t high = static_cast<std::uint32_t>(
       differences_.code(coder, predicted, static_cast<std::int32_t>(time >> 32), 8));
-    const std::uint32_t low = coder.int32(static_cast<std::uint32_t>(time));
+    const std::uint32_t low = coder.bits(32, static_cast<std::uint32_t>(time));
     current_ = newest_;
     sequences_[current_] = {};
     sequences_[current_].time = std::uint64_t{ high } << 32 | low;

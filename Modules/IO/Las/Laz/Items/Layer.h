@@ -3,10 +3,12 @@
 /// format.
 ///
 /// An item has a type Value, load(), store(), start(first) and code(coder, label, last, value), which gives
-/// back the value. What it learned is in it; the value before is given.
+/// back the value. An item has learned nothing when it is made, and each chunk makes its items; the value
+/// before is given.
 #pragma once
 
 #include "Bytes/LittleEndian.h"
+#include "IO/Las/Laz/SymbolModel.h"
 
 #include <array>
 #include <cstdint>
@@ -35,9 +37,18 @@ struct NumberItem
   using Value = T;
   static constexpr bool kIsAttribute = false;
 
+  void start(T) {}
   static T load(const char* at) { return loadLittle<T>(at); }
   static void store(T value, char* at) { storeLittle(value, at); }
 };
+
+/// Codes a byte by its difference from @p predicted, modulo 256.
+template <typename Coder>
+std::uint8_t codeByte(Coder& coder, SymbolModel& differences, int predicted, int value)
+{
+  const auto difference = static_cast<std::uint8_t>(value - predicted);
+  return static_cast<std::uint8_t>(predicted + static_cast<int>(coder.symbol(differences, difference)));
+}
 
 /// The scanner channel of a record of point formats 6 to 10.
 inline unsigned channelOf14(const char* record)
@@ -46,26 +57,25 @@ inline unsigned channelOf14(const char* record)
 }
 
 /// One State for each of the four channels, made when the first of its points comes. State has a member
-/// `last` and start(last): a new channel goes on from the last value of the one before.
+/// `last`, from which it can be made: a new channel goes on from the last value of the one before.
 template <typename State>
 class Channels
 {
 public:
   template <typename Value>
-  void start(unsigned channel, const Value& first)
+  Channels(unsigned channel, const Value& first)
+    : current_(channel)
   {
-    isStarted_ = {};
-    current_ = channel;
-    begin(channel, first);
+    states_[channel] = std::make_unique<State>(first);
   }
   State& current() { return *states_[current_]; }
   unsigned currentChannel() const { return current_; }
   /// The state of @p channel, whether it is the current one or not.
   State& at(unsigned channel)
   {
-    if (!isStarted_[channel])
+    if (!states_[channel])
     {
-      begin(channel, current().last);
+      states_[channel] = std::make_unique<State>(current().last);
     }
     return *states_[channel];
   }
@@ -75,23 +85,11 @@ public:
     current_ = channel;
     return state;
   }
-  bool isStarted(unsigned channel) const { return isStarted_[channel]; }
+  bool isStarted(unsigned channel) const { return states_[channel] != nullptr; }
 
 private:
-  template <typename Value>
-  void begin(unsigned channel, const Value& first)
-  {
-    if (!states_[channel])
-    {
-      states_[channel] = std::make_unique<State>();
-    }
-    states_[channel]->start(first);
-    isStarted_[channel] = true;
-  }
-
   std::array<std::unique_ptr<State>, 4> states_;
-  std::array<bool, 4> isStarted_{};
-  unsigned current_ = 0;
+  unsigned current_;
 };
 
 /// One item at @p offset of the record in a layer of its own.
@@ -105,14 +103,11 @@ template <typename Item>
 class Layer
 {
 public:
-  explicit Layer(std::size_t offset)
+  /// @p record: the first one of the chunk.
+  Layer(std::size_t offset, const char* record)
     : offset_(offset)
+    , channels_(channelOf14(record), Item::load(record + offset))
   {
-  }
-  void start(const char* record)
-  {
-    channels_.start(channelOf14(record), Item::load(record + offset_));
-    hasChanges_ = false;
   }
   template <typename Coder>
   void code(Coder& coder, const PointLabel& label, char* record)
@@ -139,12 +134,12 @@ private:
   using Value = typename Item::Value;
   struct State
   {
-    Value last{};
+    Value last;
     Item item;
 
-    void start(const Value& first)
+    explicit State(const Value& first)
+      : last(first)
     {
-      last = first;
       item.start(first);
     }
   };

@@ -108,12 +108,6 @@ template <std::size_t Contexts>
 class PlaneModels
 {
 public:
-  void forget()
-  {
-    xMedians_ = yMedians_ = {};
-    xModels_.forget();
-    yModels_.forget();
-  }
   /// Codes x and y of @p point, the one before which is @p last. @return the context of z, but for its bit of
   /// single returns: the mean number of bits of the two differences.
   template <typename Coder, typename Point>

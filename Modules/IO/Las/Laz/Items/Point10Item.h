@@ -53,6 +53,7 @@ struct AnyPoint10Item
 {
   using Value = Point10;
 
+  void start(const Point10&) {}
   static Point10 load(const char* record) { return Point10::load(record); }
   static void store(const Point10& point, char* record) { point.store(record); }
 };
@@ -60,21 +61,6 @@ struct AnyPoint10Item
 class Point10Item : public AnyPoint10Item
 {
 public:
-  void start(const Point10&)
-  {
-    plane_.forget();
-    intensities_ = {};
-    heights_ = {};
-    changed_.start();
-    for (ModelBank* bank : { &returnsModels_, &classificationModels_, &scanAngleModels_, &userDataModels_ })
-    {
-      bank->forget();
-    }
-    for (IntegerModels* models : { &intensityModels_, &sourceModels_, &zModels_ })
-    {
-      models->forget();
-    }
-  }
   template <typename Coder>
   Point10 code(Coder& coder, const PointLabel&, const Point10& last, const Point10& value)
   {
@@ -116,10 +102,9 @@ private:
   unsigned codeOthers(Coder& coder, const Point10& last, Point10& point)
   {
     const unsigned changed = coder.symbol(changed_, Coder::kEncodes ? changesOf(last, point) : 0);
-    if ((changed & kReturns) != 0)
-    {
-      point.returns = static_cast<std::uint8_t>(coder.symbol(returnsModels_[last.returns], point.returns));
-    }
+    const auto codeSymbol = [&](Changed which, ModelBank& models, std::uint8_t before, std::uint8_t& value)
+    { value = (changed & which) != 0 ? std::uint8_t(coder.symbol(models[before], value)) : value; };
+    codeSymbol(kReturns, returnsModels_, last.returns, point.returns);
     const unsigned context = contextOf(point);
     if ((changed & kIntensity) != 0)
     {
@@ -127,22 +112,13 @@ private:
         intensityModels_.code(coder, intensities_[context], point.intensity, std::min(context, 3u)));
     }
     point.intensity = intensities_[context];
-    if ((changed & kClassification) != 0)
-    {
-      point.classification = static_cast<std::uint8_t>(
-        coder.symbol(classificationModels_[last.classification], point.classification));
-    }
+    codeSymbol(kClassification, classificationModels_, last.classification, point.classification);
     if ((changed & kScanAngle) != 0)
     {
-      const unsigned difference = static_cast<std::uint8_t>(point.scanAngle - last.scanAngle);
-      point.scanAngle = static_cast<std::uint8_t>(
-        last.scanAngle + coder.symbol(scanAngleModels_[point.scanDirection()], difference));
+      point.scanAngle =
+        codeByte(coder, scanAngleModels_[point.scanDirection()], last.scanAngle, point.scanAngle);
     }
-    if ((changed & kUserData) != 0)
-    {
-      point.userData =
-        static_cast<std::uint8_t>(coder.symbol(userDataModels_[last.userData], point.userData));
-    }
+    codeSymbol(kUserData, userDataModels_, last.userData, point.userData);
     if ((changed & kSource) != 0)
     {
       point.source = static_cast<std::uint16_t>(sourceModels_.code(coder, last.source, point.source));

@@ -30,7 +30,10 @@ enum Point14Offset : std::size_t
 class PositionLayer
 {
 public:
-  void start(const char* record) { channels_.start(channelOf14(record), Last::load(record)); }
+  explicit PositionLayer(const char* record)
+    : channels_(channelOf14(record), Last::load(record))
+  {
+  }
   /// Codes x, y, returns and channel of @p record, and gives the point its label.
   template <typename Coder>
   void code(Coder& coder, PointLabel& label, char* record)
@@ -48,8 +51,7 @@ public:
     if ((changed & kChannel) != 0)
     {
       const unsigned current = channels_.currentChannel();
-      const unsigned step =
-        coder.symbol(channel->steps.startIfForgotten(), (channelOf14(record) - current - 1) & 3);
+      const unsigned step = coder.symbol(channel->steps, (channelOf14(record) - current - 1) & 3);
       channel = &channels_.select((current + step + 1) & 3);
     }
     if constexpr (!Coder::kEncodes)
@@ -119,17 +121,9 @@ private:
     ModelBank numbers{ 16, 16 };
     SymbolModel numbersOfSameTime{ 13 };
 
-    void start(const Last& first)
+    explicit Channel(const Last& first)
+      : last(first)
     {
-      last = first;
-      hadNewTime = false;
-      plane.forget();
-      steps.forget();
-      numbersOfSameTime.forget();
-      for (ModelBank* bank : { &changed, &ofNumbers, &numbers })
-      {
-        bank->forget();
-      }
     }
     unsigned context() const
     {
@@ -163,8 +157,7 @@ private:
     }
     else if (step == 3)
     {
-      const unsigned further =
-        coder.symbol(channel.numbersOfSameTime.startIfForgotten(), (point.number - last.number - 2) & 15);
+      const unsigned further = coder.symbol(channel.numbersOfSameTime, (point.number - last.number - 2) & 15);
       point.number = (last.number + further + 2) & 15;
     }
     else
@@ -191,11 +184,7 @@ private:
 class HeightItem : public NumberItem<std::int32_t>
 {
 public:
-  void start(Value first)
-  {
-    heights_.fill(first);
-    models_.forget();
-  }
+  void start(Value first) { heights_.fill(first); }
   template <typename Coder>
   Value code(Coder& coder, const PointLabel& label, Value, Value value)
   {
@@ -211,11 +200,7 @@ private:
 class IntensityItem : public NumberItem<std::uint16_t>
 {
 public:
-  void start(Value first)
-  {
-    intensities_.fill(first);
-    models_.forget();
-  }
+  void start(Value first) { intensities_.fill(first); }
   template <typename Coder>
   Value code(Coder& coder, const PointLabel& label, Value, Value value)
   {
@@ -233,7 +218,6 @@ template <unsigned Symbols, unsigned (*contextOf)(const PointLabel&, unsigned la
 class SymbolItem : public NumberItem<std::uint8_t>
 {
 public:
-  void start(Value) { models_.forget(); }
   template <typename Coder>
   Value code(Coder& coder, const PointLabel& label, Value last, Value value)
   {
@@ -275,7 +259,6 @@ template <typename T, bool PointLabel::*changes, unsigned Contexts>
 class RareItem : public NumberItem<T>
 {
 public:
-  void start(T) { models_.forget(); }
   template <typename Coder>
   T code(Coder& coder, const PointLabel& label, T last, T value)
   {

@@ -27,21 +27,11 @@ public:
     return value;
   }
   static void store(const Value& value, char* at) { std::copy_n(value.data(), kSize, at); }
-  void start(const Value&)
-  {
-    index_.forget();
-    offsetCases_.forget();
-    for (IntegerModels* models : { &offsets_, &sizes_, &places_, &directions_ })
-    {
-      models->forget();
-    }
-    lastCase_ = 0;
-    lastDifference_ = 0;
-  }
+  void start(const Value&) {}
   template <typename Coder>
   Value code(Coder& coder, const PointLabel&, const Value& last, Value value)
   {
-    value[0] = static_cast<char>(coder.symbol(index_.startIfForgotten(), byteAt(value.data(), 0)));
+    value[0] = static_cast<char>(coder.symbol(index_, byteAt(value.data(), 0)));
     storeLittle(
       codeOffset(coder, last.data(), loadLittle<std::uint64_t>(value.data() + 1)), value.data() + 1);
     codeNumber(coder, sizes_, 9, 0, last, value);
@@ -81,7 +71,7 @@ private:
         lastDifference_ = offsets_.code(coder, lastDifference_, difference);
         return before + static_cast<std::uint64_t>(std::int64_t{ lastDifference_ });
       default:
-        return coder.int64(wanted);
+        return codeInt64(coder, wanted);
     }
   }
   template <typename Coder>
