@@ -23,6 +23,23 @@ bool isPrintable(std::string_view character)
 
 } // namespace
 
+void TextPiece::appendTo(std::string& message) const
+{
+  message += text_;
+  message += isNegative_ ? "-" : "";
+  message += isNumber_ ? std::to_string(isNegative_ ? 0 - number_ : number_) : std::string();
+}
+
+std::string joined(TextPieces pieces)
+{
+  std::string message;
+  for (const TextPiece& piece : pieces)
+  {
+    piece.appendTo(message);
+  }
+  return message;
+}
+
 std::size_t characterBytes(std::string_view text)
 {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };

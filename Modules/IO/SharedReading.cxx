@@ -45,11 +45,8 @@ std::vector<std::string> SharedReading::gather(const std::string& own)
   {
     throw OtherRankFailed();
   }
-  if (!isSame)
-  {
-    failFormat("the file has " + std::to_string(bytes_) + " bytes here and another size on another rank",
-      "give all ranks the same file");
-  }
+  failIf(!isSame, { "the file has ", bytes_, " bytes here and another size on another rank" },
+    "give all ranks the same file");
   return all;
 }
 

@@ -141,10 +141,8 @@ void keepInside(const io::ReadTask& task, vtkPolyData* cloud)
       kept->InsertNextId(i);
     }
   }
-  if (task.sumOfRanks(kept->GetNumberOfIds()) == 0 && task.sumOfRanks(points->GetNumberOfPoints()) > 0)
-  {
-    io::failFormat("no point lies in the box", "choose a box that meets the bounds of the cloud");
-  }
+  io::failIf(task.sumOfRanks(kept->GetNumberOfIds()) == 0 && task.sumOfRanks(points->GetNumberOfPoints()) > 0,
+    { "no point lies in the box" }, "choose a box that meets the bounds of the cloud");
   if (kept->GetNumberOfIds() < points->GetNumberOfPoints())
   {
     io::keepPoints(cloud, kept);

@@ -235,11 +235,8 @@ void vtkPointCloudWriter::WriteCloud(vtkPointSet* cloud)
       "unknown extension " + io::inQuotes("." + extension), std::string("use ") + GetExtensions());
   }
   this->Format = format->name;
-  if (!cloud || cloud->GetNumberOfPoints() == 0)
-  {
-    io::failFormat(
-      "the cloud holds no points", "check the steps before: was the workspace away from the cloud?");
-  }
+  io::failIf(!cloud || cloud->GetNumberOfPoints() == 0, { "the cloud holds no points" },
+    "check the steps before: was the workspace away from the cloud?");
   io::WriteTask task(this->FileName, this);
   task.points = cloud->GetNumberOfPoints();
   task.lasScale = this->LasScale;
@@ -272,10 +269,8 @@ void vtkPointCloudWriter::WriteData()
   try
   {
     pointhaptics::requireRoomOfWork();
-    if (vtkCompositeDataSet::SafeDownCast(this->GetInput()))
-    {
-      io::failFormat("the input has blocks, and a file holds one cloud", "merge them first (vtkMergeBlocks)");
-    }
+    io::failIf(vtkCompositeDataSet::SafeDownCast(this->GetInput()),
+      { "the input has blocks, and a file holds one cloud" }, "merge them first (vtkMergeBlocks)");
     this->WriteCloud(vtkPointSet::SafeDownCast(this->GetInput()));
   }
   catch (const io::FileProblem& problem)

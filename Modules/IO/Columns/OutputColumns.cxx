@@ -153,12 +153,10 @@ std::vector<OutputArray> outputArrays(vtkPointSet* cloud, WriterNotes& notes)
     }
     const std::string name = utf8Name(array->GetName() ? array->GetName() : "");
     OutputArray output{ roleOf(array, data), name, inPlainMemory(array), name };
-    if (array->GetNumberOfTuples() < cloud->GetNumberOfPoints())
-    {
-      failFormat("array " + inQuotes(output.name) + " has " + std::to_string(array->GetNumberOfTuples()) +
-          " values for " + std::to_string(cloud->GetNumberOfPoints()) + " points",
-        "give every array one value per point");
-    }
+    failIf(array->GetNumberOfTuples() < cloud->GetNumberOfPoints(),
+      { "array ", inQuotes(output.name), " has ", array->GetNumberOfTuples(), " values for ",
+        cloud->GetNumberOfPoints(), " points" },
+      "give every array one value per point");
     arrays.push_back(output);
   }
   keepFirstOfRole(arrays, ArrayRole::Colors, data->GetScalars());
@@ -238,10 +236,8 @@ void chooseNames(std::vector<OutputArray>& arrays,
   std::vector<std::string> names = namesRead(arrays, columnsOf);
   for (int round = 0; std::find(names.begin() + 1, names.end(), "") != names.end(); ++round)
   {
-    if (round == kMostRounds)
-    {
-      failFormat("arrays whose names mean something else together", "give them other names");
-    }
+    failIf(
+      round == kMostRounds, { "arrays whose names mean something else together" }, "give them other names");
     for (std::size_t i = 1; i < arrays.size(); ++i)
     {
       names[i].empty() && arrays[i].role == ArrayRole::Other ? choose(arrays[i], arrays[i].name) : void();

@@ -211,11 +211,10 @@ void fillFromCompressed(
     {
       const vtkIdType count = std::min(most, rows - row);
       block.resize(size * static_cast<std::size_t>(count));
-      if (!stream.read(block.data(), block.size()))
-      {
-        failFormat(atByte(packedAt + stream.position()) + "damaged LZF data in field " + inQuotes(field.name),
-          "the file is damaged: copy or write it again");
-      }
+      const bool isRead = stream.read(block.data(), block.size());
+      failIf(!isRead,
+        { atByte(packedAt + stream.position()), "damaged LZF data in field ", inQuotes(field.name) },
+        "the file is damaged: copy or write it again");
       std::vector<StoredColumn> stored;
       addStored(entry, block.data(), static_cast<std::ptrdiff_t>(size), stored);
       for (const StoredColumn& each : stored)
@@ -227,11 +226,8 @@ void fillFromCompressed(
         static_cast<double>(done) / static_cast<double>(header.points * header.compressedRecordSize));
     }
   }
-  if (!stream.isAtEnd())
-  {
-    failFormat(atByte(packedAt + stream.position()) + "more compressed data than points",
-      "the file is damaged or its header is wrong: copy it again");
-  }
+  failIf(!stream.isAtEnd(), { atByte(packedAt + stream.position()), "more compressed data than points" },
+    "the file is damaged or its header is wrong: copy it again");
 }
 
 /// A line of numbers for each point. Packed colours are read as the numbers that they are, and unpacked then.

@@ -54,41 +54,31 @@ std::vector<std::string> HeaderParser::wordsPerField(std::string_view rest) cons
   std::vector<std::string> words;
   for (std::string_view word = takeWord(rest); !word.empty(); word = takeWord(rest))
   {
-    if (words.size() == kMostColumns)
-    {
-      failLine(lines_.lineNumber(), "more than " + std::to_string(kMostColumns) + " entries",
-        "use COUNT for fields of many numbers");
-    }
+    failIf(words.size() == kMostColumns,
+      { atLine(lines_.lineNumber()), "more than ", kMostColumns, " entries" },
+      "use COUNT for fields of many numbers");
     words.emplace_back(word);
   }
-  if (!names_.empty() && words.size() != names_.size())
-  {
-    failLine(lines_.lineNumber(),
-      std::to_string(words.size()) + " entries for " + std::to_string(names_.size()) + " fields",
-      "write one entry per field");
-  }
+  failIf(!names_.empty() && words.size() != names_.size(),
+    { atLine(lines_.lineNumber()), words.size(), " entries for ", names_.size(), " fields" },
+    "write one entry per field");
   return words;
 }
 
 unsigned long long HeaderParser::parseOneCount(std::string_view rest) const
 {
   unsigned long long value = 0;
-  if (!parseCount(trimmed(rest), value))
-  {
-    failLine(
-      lines_.lineNumber(), inQuotes(trimmed(rest)) + " is not a count", "write a whole number, 0 or more");
-  }
+  failIf(!parseCount(trimmed(rest), value),
+    { atLine(lines_.lineNumber()), inQuotes(trimmed(rest)), " is not a count" },
+    "write a whole number, 0 or more");
   return value;
 }
 
 void HeaderParser::parseData(std::string_view word)
 {
   const std::size_t found = indexOf(kEncodings, word);
-  if (found == std::size(kEncodings))
-  {
-    failLine(
-      lines_.lineNumber(), "unknown DATA " + inQuotes(word), "PCD has ascii, binary and binary_compressed");
-  }
+  failIf(found == std::size(kEncodings), { atLine(lines_.lineNumber()), "unknown DATA ", inQuotes(word) },
+    "PCD has ascii, binary and binary_compressed");
   header_.encoding = static_cast<PcdEncoding>(found);
 }
 
@@ -97,11 +87,9 @@ void HeaderParser::parseViewpoint(std::string_view rest)
   for (double& value : header_.viewpoint)
   {
     const std::string_view word = takeWord(rest);
-    if (!parseNumber(word, value))
-    {
-      failLine(lines_.lineNumber(), "VIEWPOINT has " + inQuotes(word) + " where a number was expected",
-        "write 7 numbers: tx ty tz qw qx qy qz");
-    }
+    failIf(!parseNumber(word, value),
+      { atLine(lines_.lineNumber()), "VIEWPOINT has ", inQuotes(word), " where a number was expected" },
+      "write 7 numbers: tx ty tz qw qx qy qz");
   }
 }
 
@@ -134,12 +122,9 @@ void HeaderParser::buildFields()
 {
   for (const std::vector<std::string>* entries : { &sizes_, &types_, &counts_ })
   {
-    if (names_.empty() || (!entries->empty() && entries->size() != names_.size()))
-    {
-      failFormat("FIELDS has " + std::to_string(names_.size()) + " names, another entry has " +
-          std::to_string(entries->size()),
-        "write one entry per field in FIELDS, SIZE, TYPE and COUNT");
-    }
+    failIf(names_.empty() || (!entries->empty() && entries->size() != names_.size()),
+      { "FIELDS has ", names_.size(), " names, another entry has ", entries->size() },
+      "write one entry per field in FIELDS, SIZE, TYPE and COUNT");
   }
   // Old files leave SIZE, TYPE and COUNT out: floats of 4 bytes then.
   for (std::size_t i = 0; i < names_.size(); ++i)
@@ -152,13 +137,11 @@ void HeaderParser::buildFields()
     const bool counted = counts_.empty() || parseCount(counts_[i], count);
     const char letter = types_.empty() ? 'F' : types_[i].size() == 1 ? types_[i][0] : '?';
     field.type = letter < 'a' ? typeOfKind(static_cast<char>(letter - 'A' + 'a'), size) : VTK_VOID;
-    if (!sized || field.type == VTK_VOID || !counted || count < 1 || count > 65536)
-    {
-      failFormat("field " + inQuotes(field.name) + " has SIZE " + inQuotes(sizes_.empty() ? "4" : sizes_[i]) +
-          ", TYPE " + inQuotes(types_.empty() ? "F" : types_[i]) + " and COUNT " +
-          inQuotes(counts_.empty() ? "1" : counts_[i]),
-        "use TYPE F with SIZE 4 or 8, or I or U with SIZE 1, 2, 4 or 8, and a COUNT from 1 to 65536");
-    }
+    failIf(!sized || field.type == VTK_VOID || !counted || count < 1 || count > 65536,
+      { "field ", inQuotes(field.name), " has SIZE ", inQuotes(sizes_.empty() ? "4" : sizes_[i]), ", TYPE ",
+        inQuotes(types_.empty() ? "F" : types_[i]), " and COUNT ",
+        inQuotes(counts_.empty() ? "1" : counts_[i]) },
+      "use TYPE F with SIZE 4 or 8, or I or U with SIZE 1, 2, 4 or 8, and a COUNT from 1 to 65536");
     field.count = static_cast<int>(count);
     field.offset = header_.recordSize;
     header_.recordSize += size * count;
@@ -181,24 +164,16 @@ PcdHeader HeaderParser::parse()
       continue;
     }
     keyword = keyword == "COLUMNS" ? "FIELDS" : keyword;
-    if (!seen_.insert(keyword).second)
-    {
-      failLine(lines_.lineNumber(), "a second entry " + inQuotes(keyword), "keep one of the two");
-    }
+    failIf(!seen_.insert(keyword).second,
+      { atLine(lines_.lineNumber()), "a second entry ", inQuotes(keyword) }, "keep one of the two");
     parseEntry(keyword, line);
     complete = keyword == "DATA";
   }
-  if (!complete)
-  {
-    failTruncated("the header has no entry DATA");
-  }
+  failTruncatedIf(!complete, { "the header has no entry DATA" });
   for (const char* needed : { "FIELDS", "WIDTH" })
   {
-    if (seen_.count(needed) == 0)
-    {
-      failFormat(
-        std::string("the header has no entry ") + needed, "write FIELDS, SIZE, TYPE, COUNT, WIDTH, HEIGHT");
-    }
+    failIf(seen_.count(needed) == 0, { "the header has no entry ", needed },
+      "write FIELDS, SIZE, TYPE, COUNT, WIDTH, HEIGHT");
   }
   if (seen_.count("POINTS") == 0)
   {
@@ -213,11 +188,9 @@ PcdHeader HeaderParser::parse()
 void checkCompressedSize(std::string_view bytes, PcdHeader& header, unsigned long long unpacked)
 {
   const std::size_t available = bytes.size() - header.bodyOffset;
-  if (available < 8)
-  {
-    failTruncated("the file ends at byte " + std::to_string(bytes.size()) +
-      " before its compressed points, which are stored field after field: a part holds no whole point");
-  }
+  failTruncatedIf(available < 8,
+    { "the file ends at byte ", bytes.size(),
+      " before its compressed points, which are stored field after field: a part holds no whole point" });
   const unsigned long long packed = numberAt<std::uint32_t>(bytes, header.bodyOffset);
   const unsigned long long claimed = numberAt<std::uint32_t>(bytes, header.bodyOffset + 4);
   if (claimed != unpacked && claimed == header.points * header.recordSize)
@@ -225,19 +198,13 @@ void checkCompressedSize(std::string_view bytes, PcdHeader& header, unsigned lon
     header.compressedRecordSize = header.recordSize; // with the padding, as some programs write it
     unpacked = claimed;
   }
-  if (packed > available - 8)
-  {
-    failTruncated(atByte(header.bodyOffset) + std::to_string(packed) +
-      " compressed bytes announced, but only " + std::to_string(available - 8) +
-      " follow, and as fields are stored one after the other these hold no whole point");
-  }
-  if (claimed != unpacked || unpacked > kMostLzfRatio * packed)
-  {
-    failFormat(atByte(header.bodyOffset + 4) + std::to_string(packed) +
-        " compressed bytes are said to hold " + std::to_string(claimed) + " where the header needs " +
-        std::to_string(unpacked),
-      "the file is damaged or its header is wrong: copy it again");
-  }
+  failTruncatedIf(packed > available - 8,
+    { atByte(header.bodyOffset), packed, " compressed bytes announced, but only ", available - 8,
+      " follow, and as fields are stored one after the other these hold no whole point" });
+  failIf(claimed != unpacked || unpacked > kMostLzfRatio * packed,
+    { atByte(header.bodyOffset + 4), packed, " compressed bytes are said to hold ", claimed,
+      " where the header needs ", unpacked },
+    "the file is damaged or its header is wrong: copy it again");
   header.compressedSize = static_cast<std::size_t>(packed);
 }
 
@@ -247,12 +214,9 @@ void checkSizes(ReadTask& task, PcdHeader& header)
   const bool matches = header.width == 0 || header.height == 0
     ? header.points == 0
     : header.points / header.width == header.height && header.points % header.width == 0;
-  if (!matches)
-  {
-    failFormat("POINTS is " + std::to_string(header.points) + ", but WIDTH is " +
-        std::to_string(header.width) + " and HEIGHT is " + std::to_string(header.height),
-      "make POINTS the product of WIDTH and HEIGHT");
-  }
+  failIf(!matches,
+    { "POINTS is ", header.points, ", but WIDTH is ", header.width, " and HEIGHT is ", header.height },
+    "make POINTS the product of WIDTH and HEIGHT");
   if (header.points == 0)
   {
     failNoPoints();
@@ -270,10 +234,7 @@ void checkSizes(ReadTask& task, PcdHeader& header)
   {
     const std::string what = "the header counts " + std::to_string(header.points) + " points of at least " +
       std::to_string(least) + " bytes, but only " + std::to_string(available) + " bytes follow";
-    if (isCompressed)
-    {
-      failTruncated(what);
-    }
+    failTruncatedIf(isCompressed, { what });
     header.points = task.endAt(there, header.points, what);
     header.width = header.points;
     header.height = 1;

@@ -284,10 +284,8 @@ void skipAsciiElement(LineReader& lines, const PlyElement& element)
   std::string_view line;
   for (unsigned long long i = 0; i < element.count && !element.properties.empty(); ++i)
   {
-    if (!lines.nextFilled(line))
-    {
-      failTruncated("the file ends before " + recordNumber(element.name.c_str(), i, element.count));
-    }
+    failTruncatedIf(!lines.nextFilled(line),
+      { "the file ends before ", recordNumber(element.name.c_str(), i, element.count) });
   }
 }
 
@@ -306,10 +304,8 @@ void skipWholeAsciiElement(LineReader& lines, PlyElement element, MeshFaces& fac
   std::vector<vtkIdType> corners;
   for (unsigned long long i = element.count; i < count; ++i)
   {
-    if (!record.next())
-    {
-      failTruncated("the file ends before " + recordNumber(element.name.c_str(), i, count));
-    }
+    failTruncatedIf(
+      !record.next(), { "the file ends before ", recordNumber(element.name.c_str(), i, count) });
     try
     {
       for (std::size_t k = 0; k < fields.size(); ++k)

@@ -51,11 +51,8 @@ constexpr std::string_view kEncodings[] = { "ascii", "binary_little_endian", "bi
 PlyEncoding parseEncoding(std::string_view word, std::size_t line)
 {
   const std::size_t found = indexOf(kEncodings, word);
-  if (found == std::size(kEncodings))
-  {
-    failLine(line, "unknown encoding " + inQuotes(word),
-      "PLY has ascii, binary_little_endian and binary_big_endian");
-  }
+  failIf(found == std::size(kEncodings), { atLine(line), "unknown encoding ", inQuotes(word) },
+    "PLY has ascii, binary_little_endian and binary_big_endian");
   return static_cast<PlyEncoding>(found);
 }
 
@@ -64,11 +61,9 @@ PlyElement parseElement(std::string_view rest, std::size_t line)
   PlyElement element;
   element.name = std::string(takeWord(rest));
   const std::string_view count = takeWord(rest);
-  if (element.name.empty() || !parseCount(count, element.count))
-  {
-    failLine(line, "element " + inQuotes(element.name) + " has the count " + inQuotes(count),
-      "write: element NAME COUNT, with a count of 0 or more");
-  }
+  failIf(element.name.empty() || !parseCount(count, element.count),
+    { atLine(line), "element ", inQuotes(element.name), " has the count ", inQuotes(count) },
+    "write: element NAME COUNT, with a count of 0 or more");
   return element;
 }
 
@@ -80,18 +75,13 @@ PlyProperty parseProperty(std::string_view rest, std::size_t line)
   {
     property.isList = true;
     property.countType = parseType(takeWord(rest), line);
-    if (isFloatingType(property.countType))
-    {
-      failLine(line, "a list counted by float numbers", "count lists by uchar, ushort or uint");
-    }
+    failIf(isFloatingType(property.countType), { atLine(line), "a list counted by float numbers" },
+      "count lists by uchar, ushort or uint");
     word = takeWord(rest);
   }
   property.type = parseType(word, line);
   property.name = std::string(takeWord(rest));
-  if (property.name.empty())
-  {
-    failLine(line, "a property without name", "write: property TYPE NAME");
-  }
+  failIf(property.name.empty(), { atLine(line), "a property without name" }, "write: property TYPE NAME");
   return property;
 }
 
@@ -151,10 +141,8 @@ PlyHeader parsePlyHeader(std::string_view bytes)
   // A header of CR-only lines may stand before a body with LF bytes: cut it off before splitting lines.
   std::size_t end = bytes.find("\nend_header");
   end = std::min(end, bytes.substr(0, end).find("\rend_header")); // not in the body, which may be large
-  if (end == std::string_view::npos)
-  {
-    failTruncated("the header has no line end_header within " + std::to_string(bytes.size()) + " bytes");
-  }
+  failTruncatedIf(
+    end == std::string_view::npos, { "the header has no line end_header within ", bytes.size(), " bytes" });
   ++end;
   PlyHeader header;
   bool formatSeen = false;
@@ -176,14 +164,10 @@ PlyHeader parsePlyHeader(std::string_view bytes)
     }
     else if (keyword == "property")
     {
-      if (header.elements.empty())
-      {
-        failLine(number, "a property before any element", "write the element's line first");
-      }
-      if (header.elements.back().properties.size() == kMostColumns)
-      {
-        failLine(number, "more than " + std::to_string(kMostColumns) + " properties", "use lists");
-      }
+      failIf(header.elements.empty(), { atLine(number), "a property before any element" },
+        "write the element's line first");
+      failIf(header.elements.back().properties.size() == kMostColumns,
+        { atLine(number), "more than ", kMostColumns, " properties" }, "use lists");
       header.elements.back().properties.push_back(parseProperty(line, number));
     }
     else if (keyword == "comment")
@@ -196,10 +180,8 @@ PlyHeader parsePlyHeader(std::string_view bytes)
     }
   }
   noteUnknown(unknown, header);
-  if (!formatSeen)
-  {
-    failFormat("the header has no line format", "write: format ascii 1.0 (or binary_little_endian)");
-  }
+  failIf(
+    !formatSeen, { "the header has no line format" }, "write: format ascii 1.0 (or binary_little_endian)");
   header.bodyLine = lines.lineNumber() + 2;
   header.bodyOffset = bodyAfter(bytes, end + std::string_view("end_header").size());
   return header;

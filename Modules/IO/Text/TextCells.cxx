@@ -287,12 +287,8 @@ std::vector<std::string_view> cellsOf(std::string_view line, char separator, std
   std::string_view cell;
   while (takeCell(line, separator, cell) && !(separator == ' ' && isComment(cell)))
   {
-    if (cells.size() == kMostColumns)
-    {
-      failFormat(
-        "line " + std::to_string(lineNumber) + ": more than " + std::to_string(kMostColumns) + " columns",
-        "write one point per line");
-    }
+    failIf(cells.size() == kMostColumns, { "line ", lineNumber, ": more than ", kMostColumns, " columns" },
+      "write one point per line");
     cells.push_back(cell);
     double value = 0.0;
     const std::string_view beforeComment = withoutComment(cell);

@@ -185,10 +185,7 @@ void failTornDecimals(std::string_view text, const TextLayout& layout)
       }
     }
   }
-  if (!torn.empty())
-  {
-    failFormat(torn, kCureOfCommas);
-  }
+  failIf(!torn.empty(), { torn }, kCureOfCommas);
 }
 
 /// Takes the unit that the header says: "mm" of "x [mm]", "y [mm]", "z [mm]", "degree" of longitude and
@@ -210,11 +207,9 @@ void takeUnits(const std::vector<std::string>& names, FileComments& comments)
     {
       return;
     }
-    if (!unit.empty() && own != unit && (known.empty() || known != lengthUnitCalled(unit)))
-    {
-      failFormat(inQuotes(names[i]) + " is in " + own + ", other coordinates are in " + unit,
-        "convert the columns to one unit, or name them by --columns where they are in one");
-    }
+    failIf(!unit.empty() && own != unit && (known.empty() || known != lengthUnitCalled(unit)),
+      { inQuotes(names[i]), " is in ", own, ", other coordinates are in ", unit },
+      "convert the columns to one unit, or name them by --columns where they are in one");
     unit = own;
   }
   comments.unit = unit.empty() ? comments.unit : unit;
@@ -322,21 +317,16 @@ void readText(ReadTask& task, vtkPolyData* cloud)
   {
     failNoPoints();
   }
-  if (!task.columns.empty() && task.columns.size() < 3)
-  {
-    failFormat("--columns has " + std::to_string(task.columns.size()) + " names, and a point needs three",
-      "name x, y and z, and - for each column that is left out");
-  }
-  if (layout.columns < 3 || (!layout.names.empty() && layout.names.size() != layout.columns))
-  {
-    failFormat("the first line of data has " + std::to_string(layout.columns) +
-        (layout.columns == 1 ? " column" : " columns") +
-        (layout.names.empty() ? "" : " and the header names " + std::to_string(layout.names.size())),
-      layout.separator == ',' && layout.columns > layout.names.size()
-        ? kCureOfCommas
-        : "write one point per line: x y z, then one column per name of the header; or name them by "
-          "--columns");
-  }
+  failIf(!task.columns.empty() && task.columns.size() < 3,
+    { "--columns has ", task.columns.size(), " names, and a point needs three" },
+    "name x, y and z, and - for each column that is left out");
+  failIf(layout.columns < 3 || (!layout.names.empty() && layout.names.size() != layout.columns),
+    { "the first line of data has ", layout.columns, (layout.columns == 1 ? " column" : " columns"),
+      (layout.names.empty() ? "" : " and the header names " + std::to_string(layout.names.size())) },
+    layout.separator == ',' && layout.columns > layout.names.size()
+      ? kCureOfCommas
+      : "write one point per line: x y z, then one column per name of the header; or name them by "
+        "--columns");
   failTornDecimals(text, layout);
   FileComments comments = layout.comments;
   takeUnits(layout.names, comments);

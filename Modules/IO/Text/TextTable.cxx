@@ -279,16 +279,11 @@ void TableWalk<Sink>::failColumns(std::string_view line) const
 template <typename Sink>
 void TableWalk<Sink>::startBlock(std::string_view line)
 {
-  if (!parseCount(trimmed(line), remainingLines_))
-  {
-    failFormat(where() + ": " + inQuotes(line) + " stands where a count of points was expected",
-      "write the right number of points in the first line");
-  }
-  if (remainingLines_ > bytes_ && !isSalvaged_)
-  {
-    failTruncated(where() + ": the count of points is " + std::to_string(remainingLines_) + " in a file of " +
-      std::to_string(bytes_) + " bytes");
-  }
+  failIf(!parseCount(trimmed(line), remainingLines_),
+    { where(), ": ", inQuotes(line), " stands where a count of points was expected" },
+    "write the right number of points in the first line");
+  failTruncatedIf(remainingLines_ > bytes_ && !isSalvaged_,
+    { where(), ": the count of points is ", remainingLines_, " in a file of ", bytes_, " bytes" });
 }
 
 /// Programs write a word where they have no value.

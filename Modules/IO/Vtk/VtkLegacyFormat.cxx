@@ -126,11 +126,8 @@ LegacyParser::Count LegacyParser::count(const char* what)
 {
   const std::string_view text = word();
   Count value = 0;
-  if (!parseCount(text, value))
-  {
-    failFormat(where() + inQuotes(text) + " stands where " + what + " was expected",
-      "the file is damaged: write it again, or save it as .vtp with ParaView");
-  }
+  failIf(!parseCount(text, value), { where(), inQuotes(text), " stands where ", what, " was expected" },
+    "the file is damaged: write it again, or save it as .vtp with ParaView");
   return value;
 }
 
@@ -145,10 +142,8 @@ int LegacyParser::type()
   const std::string_view text = word();
   const auto* const known = std::find_if(
     std::begin(kTypes), std::end(kTypes), [&](const auto& each) { return equalNoCase(each.first, text); });
-  if (known == std::end(kTypes))
-  {
-    failFormat(where() + "values of the type " + inQuotes(text) + " are not read here", kSaveAsVtp);
-  }
+  failIf(known == std::end(kTypes), { where(), "values of the type ", inQuotes(text), " are not read here" },
+    kSaveAsVtp);
   return known->second;
 }
 
@@ -156,12 +151,9 @@ double LegacyParser::number()
 {
   const std::string_view text = word();
   double value = 0.0;
-  if (text.empty())
-  {
-    failTruncated(where() + "the file ends where a number was expected");
-  }
   if (!parseNumber(text, value))
   {
+    failTruncatedIf(text.empty(), { where(), "the file ends where a number was expected" });
     failFormat(where() + inQuotes(text) + " is not a number", kOtherProgram);
   }
   return value;
@@ -171,26 +163,18 @@ void LegacyParser::checkSize(int vtkType, Count count)
 {
   const Count available = bytes_.size() - at_;
   const Count least = isBinary_ ? static_cast<Count>(sizeOfType(vtkType)) : 2;
-  if (count > (available + (isBinary_ ? 0 : 1)) / least)
-  {
-    failTruncated(where() + std::to_string(count) + " values announced, but only " +
-      std::to_string(available) + " bytes follow");
-  }
+  failTruncatedIf(count > (available + (isBinary_ ? 0 : 1)) / least,
+    { where(), count, " values announced, but only ", available, " bytes follow" });
 }
 
 /// An array whose values begin here or, in binary files, on the next line; null unless it is kept.
 LegacyParser::Array LegacyParser::values(
   const std::string& name, int vtkType, Count tuples, Count components, bool isKept)
 {
-  if (components < 1 || components > kMostColumns)
-  {
-    failFormat(where() + "an array of " + std::to_string(components) + " components", kOtherProgram);
-  }
-  if (tuples > bytes_.size())
-  {
-    failTruncated(where() + std::to_string(tuples) + " tuples announced in a file of " +
-      std::to_string(bytes_.size()) + " bytes");
-  }
+  failIf(components < 1 || components > kMostColumns, { where(), "an array of ", components, " components" },
+    kOtherProgram);
+  failTruncatedIf(
+    tuples > bytes_.size(), { where(), tuples, " tuples announced in a file of ", bytes_.size(), " bytes" });
   const Count count = tuples * components;
   isBinary_ ? void(line()) : void(); // the rest of the line of words; the values start on the next
   checkSize(vtkType, count);
@@ -237,10 +221,8 @@ void LegacyParser::parseHeader()
   line(); // a title
   const std::string_view kind = line();
   isBinary_ = equalNoCase(kind, "BINARY");
-  if (!isBinary_ && !equalNoCase(kind, "ASCII"))
-  {
-    failFormat("line 3: " + inQuotes(kind) + " where ASCII or BINARY was expected", "write the file again");
-  }
+  failIf(!isBinary_ && !equalNoCase(kind, "ASCII"),
+    { "line 3: ", inQuotes(kind), " where ASCII or BINARY was expected" }, "write the file again");
 }
 
 void LegacyParser::parsePoints()
@@ -251,10 +233,7 @@ void LegacyParser::parsePoints()
   {
     failNoPoints();
   }
-  if (cloud_->GetPoints())
-  {
-    failFormat(where() + "a second section POINTS", "keep one of the two");
-  }
+  failIf(cloud_->GetPoints(), { where(), "a second section POINTS" }, "keep one of the two");
   Array array = values("Points", vtkType, points, 3);
   if (!isFloatingType(vtkType))
   {
@@ -428,10 +407,7 @@ void LegacyParser::parseSection(std::string_view keyword)
   };
   const auto* const section = std::find_if(std::begin(kSections), std::end(kSections),
     [&](const auto& known) { return equalNoCase(keyword, known.first); });
-  if (section == std::end(kSections))
-  {
-    failFormat(where() + "unknown keyword " + inQuotes(keyword), kSaveAsVtp);
-  }
+  failIf(section == std::end(kSections), { where(), "unknown keyword ", inQuotes(keyword) }, kSaveAsVtp);
   section->second();
 }
 
@@ -446,17 +422,12 @@ void LegacyParser::parse()
       continue;
     }
     const std::string_view kind = word();
-    if (!equalNoCase(kind, "POLYDATA") && !equalNoCase(kind, "UNSTRUCTURED_GRID") &&
-      !equalNoCase(kind, "STRUCTURED_GRID"))
-    {
-      failFormat(where() + inQuotes(kind) + " holds no list of points",
-        "save it as PolyData (.vtp), for example with ParaView");
-    }
+    failIf(!equalNoCase(kind, "POLYDATA") && !equalNoCase(kind, "UNSTRUCTURED_GRID") &&
+        !equalNoCase(kind, "STRUCTURED_GRID"),
+      { where(), inQuotes(kind), " holds no list of points" },
+      "save it as PolyData (.vtp), for example with ParaView");
   }
-  if (!cloud_->GetPoints())
-  {
-    failTruncated("the file has no section POINTS");
-  }
+  failTruncatedIf(!cloud_->GetPoints(), { "the file has no section POINTS" });
 }
 
 } // namespace

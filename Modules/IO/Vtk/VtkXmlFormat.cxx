@@ -138,13 +138,10 @@ void checkArrays(vtkPointSet* read)
   for (int i = 0; i < data->GetNumberOfArrays(); ++i)
   {
     vtkAbstractArray* array = data->GetAbstractArray(i);
-    if (array->GetNumberOfTuples() != read->GetNumberOfPoints())
-    {
-      failFormat("array " + inQuotes(array->GetName() ? array->GetName() : "") + " has " +
-          std::to_string(array->GetNumberOfTuples()) + " values for " +
-          std::to_string(read->GetNumberOfPoints()) + " points",
-        "write the file again");
-    }
+    failIf(array->GetNumberOfTuples() != read->GetNumberOfPoints(),
+      { "array ", inQuotes(array->GetName() ? array->GetName() : ""), " has ", array->GetNumberOfTuples(),
+        " values for ", read->GetNumberOfPoints(), " points" },
+      "write the file again");
   }
 }
 
@@ -252,18 +249,13 @@ void addPiece(const ReadTask& task, const XmlElement& element, std::set<std::str
   std::vector<PieceFile>& pieces)
 {
   const std::string name(element.attribute("Source"));
-  if (!isBelow(name))
-  {
-    failFormat(atByte(element.begin) + "a piece called " + inQuotes(name) +
-        ", which does not lie beside or below the list",
-      "put the pieces there, and their names relative to the list into it");
-  }
+  failIf(!isBelow(name),
+    { atByte(element.begin), "a piece called ", inQuotes(name),
+      ", which does not lie beside or below the list" },
+    "put the pieces there, and their names relative to the list into it");
   const fs::path path = fs::path(task.path).parent_path() / name;
-  if (!names.insert(path.lexically_normal().string()).second)
-  {
-    failFormat(
-      atByte(element.begin) + "the piece " + inQuotes(name) + " is there twice", "name each piece once");
-  }
+  failIf(!names.insert(path.lexically_normal().string()).second,
+    { atByte(element.begin), "the piece ", inQuotes(name), " is there twice" }, "name each piece once");
   pieces.push_back({ name, path.string() });
 }
 
@@ -275,11 +267,9 @@ std::vector<PieceFile> piecesOf(const ReadTask& task, const XmlElement& root)
     [&](const XmlElement& element)
     {
       const std::string_view level = element.attribute("GhostLevel");
-      if (element.name == "PPolyData" && !level.empty() && level != "0")
-      {
-        failFormat("pieces with ghost points (GhostLevel is " + inQuotes(level) + "), which are there twice",
-          "write the pieces without ghost levels");
-      }
+      failIf(element.name == "PPolyData" && !level.empty() && level != "0",
+        { "pieces with ghost points (GhostLevel is ", inQuotes(level), "), which are there twice" },
+        "write the pieces without ghost levels");
       element.name == "Piece" ? addPiece(task, element, names, pieces) : void();
     });
   return pieces;
@@ -316,10 +306,8 @@ std::uint64_t pointsOf(ReadTask& task, const PieceFile& piece)
   task.bytesElsewhere += bytes.loaded();
   const XmlElement root = vtkXml(start);
   const std::string_view type = root.attribute("type");
-  if (type != "PolyData")
-  {
-    failFormat("a VTK file of the type " + inQuotes(type), "list VTP files, whose type is PolyData");
-  }
+  failIf(type != "PolyData", { "a VTK file of the type ", inQuotes(type) },
+    "list VTP files, whose type is PolyData");
   return pointsOfVtkXml(root, bytes.view().size());
 }
 
@@ -413,12 +401,9 @@ void readRows(ReadTask& task, const std::vector<PieceFile>& pieces, const RowRan
           const auto size = static_cast<double>(pieces.size());
           const vtkSmartPointer<vtkPointSet> read = readVtkXmlFile(task, piece.path, bytes.view(),
             vtkXml(bytes.view()), static_cast<double>(i) / size, static_cast<double>(i + 1) / size);
-          if (static_cast<std::uint64_t>(read->GetNumberOfPoints()) != piece.points)
-          {
-            failFormat(std::to_string(read->GetNumberOfPoints()) + " points, not the " +
-                std::to_string(piece.points) + " that its start says",
-              "the file is damaged, or was written meanwhile: copy or write it again");
-          }
+          failIf(static_cast<std::uint64_t>(read->GetNumberOfPoints()) != piece.points,
+            { read->GetNumberOfPoints(), " points, not the ", piece.points, " that its start says" },
+            "the file is damaged, or was written meanwhile: copy or write it again");
           const bool hasRows = own.first < own.last;
           joined.add(read, static_cast<vtkIdType>(hasRows ? own.first - begin : 0),
             static_cast<vtkIdType>(hasRows ? own.count() : 0));

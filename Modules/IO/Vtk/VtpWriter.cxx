@@ -141,12 +141,9 @@ void VtpFile::addFields(const char* element, vtkFieldData* data, vtkIdType tuple
       name = wanted + "_" + std::to_string(number);
     }
     name == given ? void() : notes_.add("array " + inQuotes(given) + " is called " + name);
-    if (array->GetNumberOfTuples() < tuples)
-    {
-      failFormat("array " + inQuotes(given) + " has " + std::to_string(array->GetNumberOfTuples()) +
-          " values for " + std::to_string(tuples) + " points",
-        "give every array one value per point");
-    }
+    failIf(array->GetNumberOfTuples() < tuples,
+      { "array ", inQuotes(given), " has ", array->GetNumberOfTuples(), " values for ", tuples, " points" },
+      "give every array one value per point");
     names[array] = name;
   }
   head_ += std::string("<") + element;
