@@ -7,11 +7,9 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <initializer_list>
 #include <stdexcept>
 #include <string>
 #include <string_view>
-#include <type_traits>
 
 namespace pointhaptics::io
 {
@@ -57,58 +55,6 @@ inline std::string atLine(std::size_t line)
   throw FileProblem(vtkErrorCode::FileFormatError, what, cure);
 }
 
-/// As failFormat(), of a line of text.
-[[noreturn]] inline void failLine(std::size_t line, const std::string& what, const std::string& cure)
-{
-  failFormat(atLine(line) + what, cure);
-}
-
-/// A text or a whole number within a message.
-class TextPiece
-{
-public:
-  TextPiece(const char* text)
-    : text_(text)
-  {
-  }
-  TextPiece(std::string_view text)
-    : text_(text)
-  {
-  }
-  TextPiece(const std::string& text)
-    : text_(text)
-  {
-  }
-  template <typename Number, typename = std::enable_if_t<std::is_integral_v<Number>>>
-  TextPiece(Number number)
-    : number_(static_cast<std::uint64_t>(number))
-    , isNumber_(true)
-    , isNegative_(std::is_signed_v<Number> && number < Number(0))
-  {
-  }
-  void appendTo(std::string& message) const;
-
-private:
-  std::string_view text_;
-  std::uint64_t number_ = 0;
-  bool isNumber_ = false;
-  bool isNegative_ = false;
-};
-
-/// Pieces of a message, which is made of them only where it is needed.
-using TextPieces = std::initializer_list<TextPiece>;
-
-std::string joined(TextPieces pieces);
-
-/// failFormat() where @p isWrong.
-inline void failIf(bool isWrong, TextPieces what, const char* cure)
-{
-  if (isWrong)
-  {
-    failFormat(joined(what), cure);
-  }
-}
-
 /// "byte 12: ", in front of what is there.
 inline std::string atByte(std::uint64_t offset)
 {
@@ -121,29 +67,11 @@ inline std::string atByte(std::uint64_t offset)
   failFormat(atByte(offset) + what, "the file is damaged: copy or write it again");
 }
 
-/// failDamaged() where @p isWrong.
-inline void failDamagedIf(bool isWrong, std::uint64_t offset, TextPieces what)
-{
-  if (isWrong)
-  {
-    failDamaged(offset, joined(what));
-  }
-}
-
 /// The file ends before the points its header promises. @param more of the cure.
 [[noreturn]] inline void failTruncated(const std::string& what, const std::string& more = {})
 {
   throw FileProblem(vtkErrorCode::PrematureEndOfFileError, what,
     "the file is cut short or its header is wrong: copy it again" + more);
-}
-
-/// failTruncated() where @p isWrong.
-inline void failTruncatedIf(bool isWrong, TextPieces what)
-{
-  if (isWrong)
-  {
-    failTruncated(joined(what));
-  }
 }
 
 /// The file is valid and announces no points: what it says beside them is worth knowing.

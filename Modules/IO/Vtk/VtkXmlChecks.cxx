@@ -1,6 +1,6 @@
 #include "IO/Vtk/VtkXmlChecks.h"
 
-#include "FileProblem.h"
+#include "Bytes/Checks.h"
 #include "IO/Bytes/TextScan.h"
 
 #include "vtkBase64Utilities.h"
@@ -85,10 +85,10 @@ void checkBase64(const DataLayout& layout, std::size_t position, std::uint64_t s
   const std::string_view text = layout.from(position).substr(0, (digits + 3) / 4 * 4);
   const auto at =
     static_cast<std::size_t>(std::find_if_not(text.begin(), text.end(), &isBase64Digit) - text.begin());
-  failDamagedIf(at < std::min(digits, text.size()), position + at,
-    { inQuotes(text.substr(at, 1)), " is no digit of base64" });
+  failDamagedIf(at < std::min(digits, text.size()), position + at, "{} is no digit of base64",
+    inQuotes(text.substr(at, 1)));
   failDamagedIf(text.find_first_not_of('=', at) != std::string_view::npos, position + digits,
-    { "base64 that does not end with '='" });
+    "base64 that does not end with '='");
 }
 
 void checkArrayBytes(const DataLayout& layout, std::size_t position, bool isBase64)
@@ -96,8 +96,8 @@ void checkArrayBytes(const DataLayout& layout, std::size_t position, bool isBase
   const ArrayWords one(layout, position, isBase64, 1);
   const std::uint64_t first = one.values[0];
   failTruncatedIf(first > one.remaining / (layout.isPacked ? layout.wordSize : 1),
-    { atByte(position), "an array of ", first, layout.isPacked ? " blocks" : " bytes", ", but only ",
-      one.remaining, " bytes follow" });
+    "{}an array of {}{}, but only {} bytes follow", atByte(position), first,
+    layout.isPacked ? " blocks" : " bytes", one.remaining);
   std::uint64_t most = one.remaining;
   std::uint64_t size = layout.wordSize + first;
   if (layout.isPacked)
@@ -109,22 +109,21 @@ void checkArrayBytes(const DataLayout& layout, std::size_t position, bool isBase
     const double mostUnpacked = kMostUnpackedBytes * static_cast<double>(most);
     // VTK would take the last block's size for that of data which are there.
     failDamagedIf(
-      first == 0 && lastSize > 0, position, { "an array of no blocks, the last of ", lastSize, " bytes" });
+      first == 0 && lastSize > 0, position, "an array of no blocks, the last of {} bytes", lastSize);
     failDamagedIf(first > 0 &&
         (lastSize > blockSize ||
           static_cast<double>(first) * static_cast<double>(blockSize) >
             mostUnpacked + static_cast<double>(blockSize - lastSize)),
-      position, { first, " blocks of ", blockSize, " bytes are said to be packed in ", most });
+      position, "{} blocks of {} bytes are said to be packed in {}", first, blockSize, most);
     // A short array may be less than the usual block, of which nothing but the last part is there.
     failDamagedIf(first > 0 && static_cast<double>(blockSize) > std::max(mostUnpacked, 1e8), position,
-      { "blocks of ", blockSize, " bytes" });
+      "blocks of {} bytes", blockSize);
     size = 0;
     for (std::size_t i = 3; i < words.values.size() && size <= most; ++i)
     {
       size += std::min(words.values[i], most + 1);
     }
-    failTruncatedIf(
-      size > most, { atByte(position), "blocks of more than the ", most, " bytes that follow" });
+    failTruncatedIf(size > most, "{}blocks of more than the {} bytes that follow", atByte(position), most);
     position = layout.bytes.size() - static_cast<std::size_t>(most);
   }
   isBase64 ? checkBase64(layout, position, size) : void();
@@ -140,11 +139,11 @@ void checkAreArrays(const XmlElement& parent)
   {
     const std::string_view type = child.attribute("type");
     failDamagedIf(parent.name == "Points" && child.attribute("NumberOfComponents") != "3", child.begin,
-      { "points of ", inQuotes(child.attribute("NumberOfComponents")), " components" });
+      "points of {} components", inQuotes(child.attribute("NumberOfComponents")));
     failDamagedIf(child.name != "DataArray" && child.name != "Array", child.begin,
-      { inQuotes(child.name), " in the place of an array" });
+      "{} in the place of an array", inQuotes(child.name));
     failDamagedIf(
-      indexOf(kTypes, type) == std::size(kTypes), child.begin, { "an array of the type ", inQuotes(type) });
+      indexOf(kTypes, type) == std::size(kTypes), child.begin, "an array of the type {}", inQuotes(type));
   }
 }
 
@@ -157,26 +156,20 @@ void checkArray(const DataLayout& layout, const XmlElement& array)
     unsigned long long offset = 0;
     failTruncatedIf(layout.appendedAt == 0 || !parseCount(text, offset) ||
         offset >= layout.bytes.size() - layout.appendedAt,
-      { atByte(array.begin), "an array at offset ", inQuotes(text),
-        " of the appended data, which is not there" });
+      "{}an array at offset {} of the appended data, which is not there", atByte(array.begin),
+      inQuotes(text));
     checkArrayBytes(layout, layout.appendedAt + static_cast<std::size_t>(offset), layout.appendedIsBase64);
     return;
   }
   if (format == "binary")
   {
-    std::size_t start = array.end;
-    while (start < layout.bytes.size() && isSpace(layout.bytes[start]))
-    {
-      ++start;
-    }
+    const std::size_t start =
+      std::min(layout.bytes.find_first_not_of(" \t\r\n\v\f", array.end), layout.bytes.size());
     const bool isEmpty = layout.bytes[array.end - 2] == '/' || layout.bytes.substr(start, 1) == "<";
-    if (!isEmpty)
-    {
-      checkArrayBytes(layout, start, true);
-    }
+    isEmpty ? void() : checkArrayBytes(layout, start, true);
     return;
   }
-  failDamagedIf(format != "ascii", array.begin, { "an array of the format ", inQuotes(format) });
+  failDamagedIf(format != "ascii", array.begin, "an array of the format {}", inQuotes(format));
 }
 
 /// Counts in the attributes of tags.
@@ -198,8 +191,8 @@ struct CountCheck
       if (!value.empty() &&
         (!parseCount(value, count) || static_cast<double>(count) * (isOfTuples ? tuples : 1.0) > most))
       {
-        failTruncated(joined(
-          { atByte(element.begin), name, " is ", inQuotes(value), " in a file of ", fileSize, " bytes" }));
+        failTruncated(fmt::format(
+          "{}{} is {} in a file of {} bytes", atByte(element.begin), name, inQuotes(value), fileSize));
       }
       tuples = isOfTuples ? tuples : std::max(tuples, static_cast<double>(count));
     }
@@ -228,7 +221,7 @@ void checkIsComplete(std::string_view bytes)
   constexpr std::size_t kTail = 256;
   const std::string_view tail = bytes.substr(bytes.size() - std::min(bytes.size(), kTail));
   failTruncatedIf(tail.find("</VTKFile>") == std::string_view::npos,
-    { "the file ends at byte ", bytes.size(), " without </VTKFile>" });
+    "the file ends at byte {} without </VTKFile>", bytes.size());
 }
 
 } // namespace
@@ -249,9 +242,9 @@ XmlElement vtkXml(std::string_view bytes)
     },
     false, isPart ? XmlPart::Start : XmlPart::Whole);
   const XmlElement* last = root.child("AppendedData");
-  failDamagedIf(isPart && !(last && last->begin == appended), appended,
-    { inQuotes(kAppended), " in a place where it is no tag" });
-  failDamagedIf(root.name != "VTKFile", 0, { "the first XML element is not VTKFile" });
+  failDamagedIf(isPart && !(last && last->begin == appended), appended, "{} in a place where it is no tag",
+    inQuotes(kAppended));
+  failDamagedIf(root.name != "VTKFile", 0, "the first XML element is not VTKFile");
   return root;
 }
 
