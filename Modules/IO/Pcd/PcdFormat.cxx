@@ -250,10 +250,7 @@ void readPcd(ReadTask& task, vtkPolyData* cloud)
     : header.encoding == PcdEncoding::Binary ? fillFromRecords(task, header, rows, columns)
                                              : fillFromCompressed(task, header, columns);
   columns.moveTo(cloud, task);
-  if (task.pointsThere < header.points) // no grid of the scanner
-  {
-    header.height = 1;
-  }
+  header.height = task.pointsThere < header.points ? 1 : header.height; // no grid of the scanner
   addFieldData(task, header, cloud);
 }
 

@@ -286,12 +286,16 @@ struct TableWalk
     {
       double value = 0.0;
       NumberShape shape;
-      bool isNumber = areWords && takeNumber(rest, value, &shape);
-      if (!isNumber && !takeCell(rest, layout.separator, cell))
+      if (areWords && takeNumber(rest, value, &shape)) // as nearly all are
+      {
+        sink.number(column, value, shape);
+        continue;
+      }
+      if (!takeCell(rest, layout.separator, cell))
       {
         failColumns(line);
       }
-      isNumber = isNumber || parseCell(cell, value, &shape);
+      bool isNumber = parseCell(cell, value, &shape);
       const std::string_view plain = isNumber ? cell : withoutComment(cell);
       if (plain.size() < cell.size() && parseCell(plain, value, &shape))
       {
@@ -300,7 +304,7 @@ struct TableWalk
       }
       isNumber ? sink.number(column, value, shape) : addText(column, cell);
     }
-    while (takeCell(rest, layout.separator, cell) && !(areWords && isComment(cell)))
+    while (!rest.empty() && takeCell(rest, layout.separator, cell) && !(areWords && isComment(cell)))
     {
       if (!cell.empty()) // a separator at the end of a line is common
       {
