@@ -24,20 +24,11 @@ namespace
 
 std::string plyPropertyName(const OutputArray& array, int component)
 {
-  static const char* const kColors[] = { "red", "green", "blue", "alpha" };
-  static const char* const kNormals[] = { "nx", "ny", "nz" };
-  switch (array.role)
-  {
-    case ArrayRole::Points:
-      return std::string(1, "xyz"[component]);
-    case ArrayRole::Colors:
-      return kColors[component];
-    case ArrayRole::Normals:
-      return kNormals[component];
-    case ArrayRole::Other:
-      break;
-  }
-  return array.componentName(component);
+  /// In the order of ArrayRole.
+  static const char* const kNames[][4] = { { "x", "y", "z" }, { "red", "green", "blue", "alpha" },
+    { "nx", "ny", "nz" } };
+  return array.role == ArrayRole::Other ? array.componentName(component)
+                                        : kNames[static_cast<std::size_t>(array.role)][component];
 }
 
 /// Points are float or double in every format.
@@ -50,57 +41,51 @@ int writtenType(const OutputArray& array)
 const char* pcdTypeLetter(int type)
 {
   const int plain = fixedSizeType(type);
-  const bool isUnsigned = plain == VTK_TYPE_UINT8 || plain == VTK_TYPE_UINT16 || plain == VTK_TYPE_UINT32 ||
-    plain == VTK_TYPE_UINT64;
+  const bool isUnsigned = plain == typeOfKind('u', static_cast<unsigned long long>(sizeOfType(plain)));
   return isFloatingType(plain) ? "F" : isUnsigned ? "U" : "I";
 }
 
 /// The four header lines that describe the fields.
-struct PcdFieldLines
+std::string pcdFieldLines(const std::vector<PcdField>& fields)
 {
   std::string names = "FIELDS";
-  std::string sizes = "SIZE";
-  std::string types = "TYPE";
-  std::string counts = "COUNT";
-
-  void add(const std::string& name, int size, const char* type, int count)
+  std::string sizes = "\nSIZE";
+  std::string types = "\nTYPE";
+  std::string counts = "\nCOUNT";
+  for (const PcdField& field : fields)
   {
-    names += " " + name;
-    sizes += " " + std::to_string(size);
-    types += std::string(" ") + type;
-    counts += " " + std::to_string(count);
+    const bool isFloat = field.isPackedColor() && field.name == "rgb"; // as PCL writes it
+    names += " " + field.name;
+    sizes += " " + std::to_string(sizeOfType(field.type));
+    types += std::string(" ") + (isFloat ? "F" : pcdTypeLetter(field.type));
+    counts += " " + std::to_string(field.count);
   }
-  std::string text() const { return names + "\n" + sizes + "\n" + types + "\n" + counts + "\n"; }
-};
+  return names + sizes + types + counts + "\n";
+}
 
 std::string pcdShape(vtkFieldData* fieldData, vtkIdType rows)
 {
-  vtkIdType width = rows;
-  vtkIdType height = 1;
-  vtkDataArray* dimensions = fieldData->GetArray("OrganizedDimensions");
-  if (dimensions && dimensions->GetNumberOfValues() == 2)
+  const auto numbers = [&](const char* name, std::vector<double> usual)
   {
-    const double w = dimensions->GetVariantValue(0).ToDouble();
-    const double h = dimensions->GetVariantValue(1).ToDouble();
-    // A filter may have dropped points since the cloud was read: then it is a plain list.
-    if (w >= 1.0 && h >= 1.0 && w * h == static_cast<double>(rows))
+    vtkDataArray* stored = fieldData->GetArray(name);
+    const bool isThere = stored && stored->GetNumberOfValues() == static_cast<vtkIdType>(usual.size());
+    for (std::size_t i = 0; isThere && i < usual.size(); ++i)
     {
-      width = static_cast<vtkIdType>(w);
-      height = static_cast<vtkIdType>(h);
+      usual[i] = stored->GetVariantValue(static_cast<vtkIdType>(i)).ToDouble();
     }
-  }
-  std::string viewpoint = "0 0 0 1 0 0 0";
-  vtkDataArray* stored = fieldData->GetArray("Viewpoint");
-  if (stored && stored->GetNumberOfValues() == 7)
+    return usual;
+  };
+  const std::vector<double> size = numbers("OrganizedDimensions", { static_cast<double>(rows), 1.0 });
+  // A filter may have dropped points since the cloud was read: then it is a plain list.
+  const bool isGrid = size[0] >= 1.0 && size[1] >= 1.0 && size[0] * size[1] == static_cast<double>(rows);
+  std::vector<std::string> viewpoint;
+  for (const double value : numbers("Viewpoint", { 0, 0, 0, 1, 0, 0, 0 }))
   {
-    viewpoint.clear();
-    for (vtkIdType i = 0; i < 7; ++i)
-    {
-      viewpoint += (i ? " " : "") + shortestDecimal(stored->GetVariantValue(i).ToDouble());
-    }
+    viewpoint.push_back(shortestDecimal(value));
   }
-  return "WIDTH " + std::to_string(width) + "\nHEIGHT " + std::to_string(height) + "\nVIEWPOINT " +
-    viewpoint + "\nPOINTS " + std::to_string(rows) + "\nDATA binary\n";
+  return fmt::format("WIDTH {}\nHEIGHT {}\nVIEWPOINT {}\nPOINTS {}\nDATA binary\n",
+    isGrid ? static_cast<vtkIdType>(size[0]) : rows, isGrid ? static_cast<vtkIdType>(size[1]) : 1,
+    fmt::join(viewpoint, " "), rows);
 }
 
 /// Colours packed as 0xAARRGGBB; alpha is 0 for three channels, as PCL writes rgb.
@@ -239,13 +224,12 @@ struct PcdArray
   }
   bool isLabel(const OutputArray& array, bool isScalar) const
   {
-    double range[2] = { 0.0, 0.0 };
+    double range[2] = { -1.0, -1.0 };
     if (isScalar && isSameField(name, "Label") && !isFloatingType(type))
     {
       array.array->GetRange(range, 0);
     }
-    return isScalar && isSameField(name, "Label") && !isFloatingType(type) && range[0] >= 0.0 &&
-      range[1] <= 4294967295.0;
+    return range[0] >= 0.0 && range[1] <= 4294967295.0;
   }
 };
 
@@ -308,19 +292,15 @@ void writePcd(WriteTask& task)
   };
   chooseNames(arrays, columnsOf, { NameRule::Words, std::string::npos, &task.comments }, task.notes);
   const vtkIdType rows = arrays[0].array->GetNumberOfTuples();
-  PcdFieldLines lines;
+  std::vector<PcdField> described;
   std::vector<RecordField> fields;
   std::vector<std::uint32_t> packed;
   std::size_t recordSize = 0;
   for (const OutputArray& array : arrays)
   {
     const PcdArray written(array, task);
-    for (const PcdField& field : written.fields(array))
-    {
-      lines.add(field.name, sizeOfType(field.type),
-        array.role == ArrayRole::Colors && array.components() == 3 ? "F" : pcdTypeLetter(field.type),
-        field.count);
-    }
+    const std::vector<PcdField> own = written.fields(array);
+    described.insert(described.end(), own.begin(), own.end());
     if (array.role == ArrayRole::Colors)
     {
       packed = packColors(array);
@@ -333,7 +313,7 @@ void writePcd(WriteTask& task)
     addRecordFields(fields, recordSize, array, written.type);
   }
   task.out.write("# .PCD v0.7 - Point Cloud Data file format\n" + task.comments.lines("# ") +
-    "VERSION 0.7\n" + lines.text() + pcdShape(task.fieldData(), rows));
+    "VERSION 0.7\n" + pcdFieldLines(described) + pcdShape(task.fieldData(), rows));
   writeRecords(fields, recordSize, rows, task);
 }
 

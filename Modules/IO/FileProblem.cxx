@@ -8,43 +8,43 @@ namespace pointhaptics::io
 namespace
 {
 
-/// False for control characters, and for those without a shape that turn a text around or end its line:
-/// U+200B..F, U+2028..E and U+2060..F.
-bool isPrintable(std::string_view character)
+struct Character
 {
-  const std::string_view start = character.substr(0, 2);
-  const auto first = static_cast<unsigned char>(character.empty() ? 0 : character[0]);
-  const auto last = static_cast<unsigned char>(character.empty() ? 0 : character.back());
-  const bool isDirection =
-    (start == "\xe2\x80" && ((last >= 0x8b && last <= 0x8f) || (last >= 0xa8 && last <= 0xae))) ||
-    (start == "\xe2\x81" && last >= 0xa0 && last <= 0xaf);
-  return first >= 0x20 && first != 0x7f && !(first == 0xc2 && last < 0xa0) && !isDirection;
+  std::size_t bytes = 0; ///< 0: there is none.
+  std::uint32_t code = 0;
+};
+
+/// The character of UTF-8 at the front of @p text.
+Character characterAt(std::string_view text)
+{
+  constexpr std::uint32_t kLeast[] = { 0, 0, 0x80, 0x800, 0x10000 }; // by bytes: fewer would do below
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const std::size_t bytes = byte(0) < 0x80 ? 1 : byte(0) >= 0xf0 ? 4 : byte(0) >= 0xe0 ? 3 : 2;
+  bool isRight = byte(0) < 0x80 || (byte(0) >= 0xc0 && byte(0) < 0xf8 && text.size() >= bytes);
+  std::uint32_t code = bytes == 1 ? byte(0) : byte(0) & (0xffU >> (bytes + 1));
+  for (std::size_t i = 1; isRight && i < bytes; ++i)
+  {
+    isRight = (byte(i) & 0xc0) == 0x80;
+    code = code << 6 | (byte(i) & 0x3fU);
+  }
+  isRight = isRight && code >= kLeast[bytes] && code <= 0x10ffff && !(code >= 0xd800 && code < 0xe000);
+  return isRight ? Character{ bytes, code } : Character();
+}
+
+/// False for control characters, and for those without a shape that turn a text around or end its line.
+bool isPrintable(std::uint32_t code)
+{
+  const auto isWithin = [code](std::uint32_t first, std::uint32_t last)
+  { return code >= first && code <= last; };
+  return code >= 0x20 && !isWithin(0x7f, 0x9f) && !isWithin(0x200b, 0x200f) && !isWithin(0x2028, 0x202e) &&
+    !isWithin(0x2060, 0x206f);
 }
 
 } // namespace
 
 std::size_t characterBytes(std::string_view text)
 {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  if (byte(0) < 0x80)
-  {
-    return 1;
-  }
-  const std::size_t size = byte(0) >= 0xf0 ? 4 : byte(0) >= 0xe0 ? 3 : 2;
-  if (byte(0) < 0xc2 || byte(0) > 0xf4 || text.size() < size)
-  {
-    return 0;
-  }
-  for (std::size_t i = 1; i < size; ++i)
-  {
-    if ((byte(i) & 0xc0) != 0x80)
-    {
-      return 0;
-    }
-  }
-  const bool isTooLong = (byte(0) == 0xe0 && byte(1) < 0xa0) || (byte(0) == 0xf0 && byte(1) < 0x90);
-  const bool isNoCharacter = (byte(0) == 0xed && byte(1) >= 0xa0) || (byte(0) == 0xf4 && byte(1) >= 0x90);
-  return isTooLong || isNoCharacter ? 0 : size;
+  return characterAt(text).bytes;
 }
 
 std::string inQuotes(std::string_view text)
@@ -53,14 +53,14 @@ std::string inQuotes(std::string_view text)
   std::string result = "'";
   while (!text.empty())
   {
-    const std::string_view character = text.substr(0, characterBytes(text));
-    const std::string_view shown = isPrintable(character) ? character : "?";
+    const Character character = characterAt(text);
+    const std::string_view shown = isPrintable(character.code) ? text.substr(0, character.bytes) : "?";
     if (result.size() + shown.size() > kLongest + 1)
     {
       return result + "...'";
     }
     result += shown;
-    text.remove_prefix(std::max<std::size_t>(character.size(), 1));
+    text.remove_prefix(std::max<std::size_t>(character.bytes, 1));
   }
   return result + "'";
 }

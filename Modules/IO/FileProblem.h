@@ -55,12 +55,6 @@ inline std::string atLine(std::size_t line)
   throw FileProblem(vtkErrorCode::FileFormatError, what, cure);
 }
 
-/// As failFormat(), of a line of text.
-[[noreturn]] inline void failLine(std::size_t line, const std::string& what, const std::string& cure)
-{
-  failFormat(atLine(line) + what, cure);
-}
-
 /// "byte 12: ", in front of what is there.
 inline std::string atByte(std::uint64_t offset)
 {

@@ -93,16 +93,15 @@ std::vector<MergedArray> planArrays(const std::vector<vtkPolyData*>& clouds, std
 std::string lackingInputs(const MergedArray& array, const std::vector<std::string>& names)
 {
   constexpr std::size_t kNamed = 3;
-  std::string list;
-  std::size_t lacking = 0;
+  std::vector<std::string> lacking;
   for (std::size_t i = 0; i < names.size(); ++i)
   {
-    lacking += array.sources[i] ? 0 : 1;
-    list += array.sources[i] || lacking > kNamed ? "" : ", " + inQuotes(names[i]);
+    array.sources[i] ? void() : lacking.push_back(inQuotes(names[i]));
   }
-  return lacking == 0
-    ? std::string()
-    : fmt::format("{} of {} inputs{}{},", lacking, names.size(), list, lacking > kNamed ? " ..." : "");
+  const auto named = lacking.begin() + std::ptrdiff_t(std::min(kNamed, lacking.size()));
+  return lacking.empty() ? std::string()
+                         : fmt::format("{} of {} inputs, {}{},", lacking.size(), names.size(),
+                             fmt::join(lacking.begin(), named, ", "), lacking.size() > kNamed ? " ..." : "");
 }
 
 vtkSmartPointer<vtkDataArray> filled(const MergedArray& array, const std::vector<vtkPolyData*>& clouds,
@@ -141,19 +140,14 @@ vtkSmartPointer<vtkDataArray> filled(const MergedArray& array, const std::vector
 
 bool isSame(vtkAbstractArray* a, vtkAbstractArray* b)
 {
-  if (!a || !b || a->GetDataType() != b->GetDataType() || a->GetNumberOfValues() != b->GetNumberOfValues() ||
-    a->GetNumberOfComponents() != b->GetNumberOfComponents())
+  bool same = a && b && a->GetDataType() == b->GetDataType() &&
+    a->GetNumberOfValues() == b->GetNumberOfValues() &&
+    a->GetNumberOfComponents() == b->GetNumberOfComponents();
+  for (vtkIdType i = 0; same && i < a->GetNumberOfValues(); ++i)
   {
-    return false;
+    same = a->GetVariantValue(i) == b->GetVariantValue(i);
   }
-  for (vtkIdType i = 0; i < a->GetNumberOfValues(); ++i)
-  {
-    if (a->GetVariantValue(i) != b->GetVariantValue(i))
-    {
-      return false;
-    }
-  }
-  return true;
+  return same;
 }
 
 template <std::size_t N>
@@ -277,14 +271,10 @@ vtkSmartPointer<vtkPolyData> mergeClouds(const std::vector<vtkPolyData*>& given,
   }
   for (vtkPolyData* cloud : clouds)
   {
-    vtkPointData* data = cloud->GetPointData();
-    if (data->GetScalars() && data->GetScalars()->GetName())
+    for (const int type : { vtkDataSetAttributes::SCALARS, vtkDataSetAttributes::NORMALS })
     {
-      merged->GetPointData()->SetActiveScalars(data->GetScalars()->GetName());
-    }
-    if (data->GetNormals() && data->GetNormals()->GetName())
-    {
-      merged->GetPointData()->SetActiveNormals(data->GetNormals()->GetName());
+      vtkAbstractArray* active = cloud->GetPointData()->GetAbstractAttribute(type);
+      active && active->GetName() ? merged->GetPointData()->SetActiveAttribute(active->GetName(), type) : 0;
     }
   }
   mergeFieldData(clouds, merged, notes);

@@ -125,6 +125,15 @@ struct ReadTask
     pointsThere = there;
     return there;
   }
+  /// endAt() behind @p row where @p problem is that the file ends; thrown on unless it is salvaged.
+  void endBehind(std::uint64_t row, std::uint64_t all, const FileProblem& problem)
+  {
+    if (!salvage || row == 0)
+    {
+      throw;
+    }
+    endAt(row, all, problem.what());
+  }
   /// Whether the file ended among its points.
   bool isTorn() const { return pointsThere != ~std::uint64_t{ 0 }; }
   /// The same as a rank that reads it alone: for what cannot be read in parts.

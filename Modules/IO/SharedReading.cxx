@@ -1,6 +1,6 @@
 #include "SharedReading.h"
 
-#include "FileProblem.h"
+#include "Bytes/Checks.h"
 
 #include <algorithm>
 
@@ -45,11 +45,8 @@ std::vector<std::string> SharedReading::gather(const std::string& own)
   {
     throw OtherRankFailed();
   }
-  if (!isSame)
-  {
-    failFormat("the file has " + std::to_string(bytes_) + " bytes here and another size on another rank",
-      "give all ranks the same file");
-  }
+  failFormatIf(!isSame, "give all ranks the same file",
+    "the file has {} bytes here and another size on another rank", bytes_);
   return all;
 }
 

@@ -1,5 +1,6 @@
 #include "vtkPointCloudReader.h"
 
+#include "Bytes/Checks.h"
 #include "Bytes/FileBytes.h"
 #include "IO/Columns/CloudColumns.h"
 #include "IO/Formats/FormatList.h"
@@ -10,6 +11,7 @@
 #include "IO/Mesh/FaceSamples.h"
 #include "ReadTask.h"
 
+#include "Core/Base/Boxes.h"
 #include "Core/Base/Host/GuardedWork.h"
 #include "Core/Base/Host/StopRequest.h"
 #include "Core/Base/QuantityText.h"
@@ -26,6 +28,8 @@
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -33,7 +37,6 @@
 #include <filesystem>
 #include <limits>
 #include <numeric>
-#include <sstream>
 #include <string_view>
 
 namespace io = pointhaptics::io;
@@ -93,31 +96,17 @@ void checkCoordinates(vtkPolyData* cloud)
   }
   if (at < count)
   {
-    const double value = array->GetComponent(at / 3, static_cast<int>(at % 3));
-    std::ostringstream text;
-    text << "point " << at / 3 << " of " << count / 3 << ": "
-         << "xyz"[at % 3] << " is " << value << ", which can be no position";
-    io::failFormat(text.str(), "the file is damaged: copy or write it again");
+    io::failFormat(fmt::format("point {} of {}: {} is {:g}, which can be no position", at / 3, count / 3,
+                     "xyz"[at % 3], array -> GetComponent(at / 3, static_cast<int>(at % 3))),
+      "the file is damaged: copy or write it again");
   }
-}
-
-/// Takes away all but these points, with their values in all arrays.
-void keepRows(vtkPolyData* cloud, const io::RowRange& rows)
-{
-  vtkNew<vtkIdList> kept;
-  kept->SetNumberOfIds(static_cast<vtkIdType>(rows.count()));
-  std::iota(kept->begin(), kept->end(), static_cast<vtkIdType>(rows.first));
-  io::keepPoints(cloud, kept);
 }
 
 /// True if the format, told by the file's @p start, can be read in parts.
 bool canBeCut(const std::string& start, std::size_t size, const std::string& extension)
 {
-  if (start.empty() || start.compare(0, 2, "\x1f\x8b") == 0) // gzip
-  {
-    return false;
-  }
-  return io::identifyFormat(start, size, extension).isReadInParts;
+  const bool isGzip = start.compare(0, 2, "\x1f\x8b") == 0;
+  return !start.empty() && !isGzip && io::identifyFormat(start, size, extension).isReadInParts;
 }
 
 /// Takes away the points outside the box that is wanted, with their values in all arrays. Among floats its
@@ -131,20 +120,15 @@ void keepInside(const io::ReadTask& task, vtkPolyData* cloud)
   {
     end = points->GetDataType() == VTK_FLOAT ? double(float(end)) : end;
   }
+  const pointhaptics::Bounds wanted{ { box[0], box[2], box[4] }, { box[1], box[3], box[5] } };
   for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
   {
-    double at[3];
-    points->GetPoint(i, at);
-    if (at[0] >= box[0] && at[0] <= box[1] && at[1] >= box[2] && at[1] <= box[3] && at[2] >= box[4] &&
-      at[2] <= box[5])
-    {
-      kept->InsertNextId(i);
-    }
+    const double* at = points->GetPoint(i);
+    pointhaptics::contains(wanted, { at[0], at[1], at[2] }) ? void(kept->InsertNextId(i)) : void();
   }
-  if (task.sumOfRanks(kept->GetNumberOfIds()) == 0 && task.sumOfRanks(points->GetNumberOfPoints()) > 0)
-  {
-    io::failFormat("no point lies in the box", "choose a box that meets the bounds of the cloud");
-  }
+  io::failFormatIf(
+    task.sumOfRanks(kept->GetNumberOfIds()) == 0 && task.sumOfRanks(points->GetNumberOfPoints()) > 0,
+    "choose a box that meets the bounds of the cloud", "no point lies in the box");
   if (kept->GetNumberOfIds() < points->GetNumberOfPoints())
   {
     io::keepPoints(cloud, kept);
@@ -181,20 +165,16 @@ std::string coarseFloats(const io::ReadTask& task, vtkPolyData* cloud)
   const double longest = std::max({ bounds[1] - bounds[0], bounds[3] - bounds[2], bounds[5] - bounds[4] });
   const double spacing =
     longest / std::sqrt(static_cast<double>(task.sumOfRanks(cloud->GetNumberOfPoints())));
-  std::ostringstream text;
-  text.precision(3);
-  for (int axis = 0; axis < 3; ++axis)
+  std::string text;
+  for (std::size_t a = 0; a < 3; ++a)
   {
-    const auto a = static_cast<std::size_t>(axis);
     const float most = static_cast<float>(std::max(std::abs(bounds[2 * a]), std::abs(bounds[2 * a + 1])));
     const double step = static_cast<double>(most - std::nextafter(most, 0.0f));
-    if (step > kVisible * spacing)
-    {
-      text << (text.tellp() > 0 ? ", " : "") << step << " in "
-           << "xyz"[axis];
-    }
+    text += step > kVisible * spacing
+      ? fmt::format("{}{:.3g} in {}", text.empty() ? "" : ", ", step, "xyz"[a])
+      : "";
   }
-  return text.str();
+  return text;
 }
 
 /// Stores the format's name and the notes, also when reading fails.
@@ -238,15 +218,6 @@ vtkPointCloudReader::~vtkPointCloudReader()
   this->SetFileName(nullptr);
 }
 
-void vtkPointCloudReader::SetExtension(const std::string& extension)
-{
-  if (this->Extension != extension)
-  {
-    this->Extension = extension;
-    this->Modified();
-  }
-}
-
 void vtkPointCloudReader::SetColumns(const std::vector<std::string>& names)
 {
   if (this->Columns != names)
@@ -266,15 +237,6 @@ std::string vtkPointCloudReader::GetFormatTable()
   return io::formatTable();
 }
 
-void vtkPointCloudReader::SetRanks(pointhaptics::Ranks* ranks)
-{
-  if (this->Ranks != ranks)
-  {
-    this->Ranks = ranks;
-    this->Modified();
-  }
-}
-
 bool vtkPointCloudReader::IsShared() const
 {
   return this->Ranks && this->Ranks->size() > 1;
@@ -287,10 +249,7 @@ void vtkPointCloudReader::ReadInto(vtkPolyData* cloud)
   task.extension = this->ExtensionOf(task.path);
   task.columns = this->Columns;
   task.salvage = this->Salvage;
-  if (this->Samples != 0)
-  {
-    task.faces.cells = vtkSmartPointer<vtkCellArray>::New();
-  }
+  task.faces.cells.TakeReference(this->Samples != 0 ? vtkCellArray::New() : nullptr);
   task.algorithm = this;
   task.wanted.onlyPositions = this->OnlyPositions;
   task.wanted.resolution = this->Resolution;
@@ -322,13 +281,14 @@ void vtkPointCloudReader::ReadInto(vtkPolyData* cloud)
 void vtkPointCloudReader::ReadTogether(io::ReadTask& task, vtkPolyData* cloud)
 {
   std::error_code missing;
-  const std::uintmax_t bytes = std::filesystem::file_size(task.path, missing);
-  io::SharedReading shared(*this->Ranks, missing ? 0 : bytes);
+  const std::uintmax_t size = std::filesystem::file_size(task.path, missing);
+  const std::uintmax_t bytes = missing ? 0 : size;
+  io::SharedReading shared(*this->Ranks, bytes);
   try
   {
     const std::string start = io::startOfFile(task.path, kStart);
     if (this->Samples == 0 && !this->LocalMetres &&
-      canBeCut(start, static_cast<std::size_t>(missing ? 0 : bytes), task.extension))
+      canBeCut(start, static_cast<std::size_t>(bytes), task.extension))
     {
       task.shared = &shared;
       this->ReadPart(task, cloud);
@@ -339,17 +299,17 @@ void vtkPointCloudReader::ReadTogether(io::ReadTask& task, vtkPolyData* cloud)
     }
     if (!task.isCut)
     {
-      keepRows(cloud, shared.rowsOf(static_cast<std::uint64_t>(cloud->GetNumberOfPoints())));
+      const io::RowRange rows = shared.rowsOf(static_cast<std::uint64_t>(cloud->GetNumberOfPoints()));
+      vtkNew<vtkIdList> kept;
+      kept->SetNumberOfIds(static_cast<vtkIdType>(rows.count()));
+      std::iota(kept->begin(), kept->end(), static_cast<vtkIdType>(rows.first));
+      io::keepPoints(cloud, kept);
     }
     shared.gather({});
   }
-  catch (const io::OtherRankFailed&)
-  {
-    throw;
-  }
   catch (...)
   {
-    shared.fail();
+    shared.fail(); // does nothing where another rank failed
     throw;
   }
 }
@@ -524,15 +484,9 @@ int vtkPointCloudReader::RequestData(
     this->UpdateProgress(1.0);
     return 1;
   }
-  catch (const io::NoPoints& problem)
-  {
-    this->ValidWithoutPoints = true;
-    output->SetPoints(vtkNew<vtkPoints>());
-    this->Fail(problem.code, problem.what());
-    return 1; // with the field data that was found
-  }
   catch (const io::FileProblem& problem)
   {
+    this->ValidWithoutPoints = dynamic_cast<const io::NoPoints*>(&problem) != nullptr;
     this->Fail(problem.code, problem.what());
   }
   catch (const io::OtherRankFailed&)
@@ -553,7 +507,7 @@ int vtkPointCloudReader::RequestData(
       : this->Fail(vtkErrorCode::UnknownError,
           std::string(fault.what()) + "; the file is probably damaged: copy it again");
   }
-  output->Initialize();
+  this->ValidWithoutPoints ? void() : output->Initialize(); // else the field data that was found stays
   output->SetPoints(vtkNew<vtkPoints>());
   return 1;
 }

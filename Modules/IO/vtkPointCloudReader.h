@@ -119,7 +119,7 @@ public:
    * The extension to go by instead of the file name's, where the content leaves the format open: "obj" or
    * "xyz". Default: empty.
    */
-  void SetExtension(const std::string& extension);
+  vtkSetMacro(Extension, const std::string&);
   const std::string& GetExtension() const { return this->Extension; }
   ///@}
 
@@ -209,7 +209,7 @@ public:
    * fault of one ends the reading of all. Null (the default): this process reads all. The ranks must outlive
    * updates.
    */
-  void SetRanks(pointhaptics::Ranks* ranks);
+  vtkSetMacro(Ranks, pointhaptics::Ranks*);
 
   /**
    * True if the last update ended without points and without a fault of its own, as another of the ranks had

@@ -1,7 +1,7 @@
 #include "vtkPointCloudWriter.h"
 
+#include "Bytes/Checks.h"
 #include "Bytes/FileBytes.h"
-#include "FileProblem.h"
 #include "IO/Formats/FormatList.h"
 #include "IO/Formats/FormatLooks.h"
 #include "IO/Info/FieldText.h"
@@ -25,6 +25,8 @@
 #include "vtkPointSet.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <initializer_list>
@@ -69,15 +71,11 @@ constexpr std::string_view kOfTheMaking =
 /// True if @p name is a viewpoint or poses (tx ty tz qw qx qy qz) that change nothing.
 bool isIdentityPose(vtkPointSet* cloud, const std::string& name)
 {
-  const double usual[] = { 0, 0, 0, 1, 0, 0, 0 };
   vtkDataArray* poses = cloud->GetFieldData()->GetArray(name.c_str());
   bool same = (name == "Viewpoint" || name == "ScanPoses") && poses && poses->GetNumberOfComponents() == 7;
-  for (vtkIdType row = 0; same && row < poses->GetNumberOfTuples(); ++row)
+  for (vtkIdType i = 0; same && i < poses->GetNumberOfValues(); ++i)
   {
-    for (int i = 0; i < 7 && same; ++i)
-    {
-      same = poses->GetComponent(row, i) == usual[i];
-    }
+    same = poses->GetComponent(i / 7, static_cast<int>(i % 7)) == (i % 7 == 3 ? 1.0 : 0.0);
   }
   return same;
 }
@@ -169,12 +167,7 @@ const char* vtkPointCloudWriter::GetExtensions()
   static const std::string list = []
   {
     const std::vector<std::string> all = io::formatExtensions(true);
-    std::string text;
-    for (const std::string& each : all)
-    {
-      text += (text.empty() ? "." : &each == &all.back() ? " or ." : ", .") + each;
-    }
-    return text;
+    return fmt::format(".{} or .{}", fmt::join(all.begin(), all.end() - 1, ", ."), all.back());
   }();
   return list.c_str();
 }
@@ -196,15 +189,6 @@ void vtkPointCloudWriter::Fail(unsigned long code, const std::string& message)
   this->ErrorMessage = io::messageOf(this->FileName, this->Format, message);
   this->SetErrorCode(code);
   vtkErrorMacro(<< this->ErrorMessage);
-}
-
-void vtkPointCloudWriter::SetExtension(const std::string& extension)
-{
-  if (this->Extension != extension)
-  {
-    this->Extension = extension;
-    this->Modified();
-  }
 }
 
 int vtkPointCloudWriter::Write()
@@ -235,11 +219,8 @@ void vtkPointCloudWriter::WriteCloud(vtkPointSet* cloud)
       "unknown extension " + io::inQuotes("." + extension), std::string("use ") + GetExtensions());
   }
   this->Format = format->name;
-  if (!cloud || cloud->GetNumberOfPoints() == 0)
-  {
-    io::failFormat(
-      "the cloud holds no points", "check the steps before: was the workspace away from the cloud?");
-  }
+  io::failFormatIf(!cloud || cloud->GetNumberOfPoints() == 0,
+    "check the steps before: was the workspace away from the cloud?", "the cloud holds no points");
   io::WriteTask task(this->FileName, this);
   task.points = cloud->GetNumberOfPoints();
   task.lasScale = this->LasScale;
@@ -272,10 +253,8 @@ void vtkPointCloudWriter::WriteData()
   try
   {
     pointhaptics::requireRoomOfWork();
-    if (vtkCompositeDataSet::SafeDownCast(this->GetInput()))
-    {
-      io::failFormat("the input has blocks, and a file holds one cloud", "merge them first (vtkMergeBlocks)");
-    }
+    io::failFormatIf(vtkCompositeDataSet::SafeDownCast(this->GetInput()), "merge them first (vtkMergeBlocks)",
+      "the input has blocks, and a file holds one cloud");
     this->WriteCloud(vtkPointSet::SafeDownCast(this->GetInput()));
   }
   catch (const io::FileProblem& problem)

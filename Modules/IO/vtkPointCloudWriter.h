@@ -55,7 +55,7 @@ public:
   /**
    * The extension that chooses the format instead of the file name's, such as "ply". Default: empty.
    */
-  void SetExtension(const std::string& extension);
+  vtkSetMacro(Extension, const std::string&);
   const std::string& GetExtension() const { return this->Extension; }
   ///@}
 

@@ -33,12 +33,6 @@ namespace pointhaptics::io
 namespace
 {
 
-/// An array "RGB" of bytes made of @p colors: integers up to 255 are bytes, of those up to 65535 the high
-/// byte is taken; other numbers are 0..1, or 0..255 or 0..65535 where one is larger. NaN is 0. The largest
-/// value is that of all ranks, where @p shared is there (collective). Null where a value is below 0 or
-/// larger: these are no colours.
-vtkSmartPointer<vtkDataArray> shownColors(vtkDataArray* colors, SharedReading* shared);
-
 struct ValueRange
 {
   double least = 0.0;
@@ -73,6 +67,10 @@ void fillBytes(const T* values, vtkIdType count, double most, unsigned char* byt
   }
 }
 
+/// An array "RGB" of bytes made of @p colors: integers up to 255 are bytes, of those up to 65535 the high
+/// byte is taken; other numbers are 0..1, or 0..255 or 0..65535 where one is larger. NaN is 0. The largest
+/// value is that of all ranks, where @p shared is there (collective). Null where a value is below 0 or
+/// larger: these are no colours.
 vtkSmartPointer<vtkDataArray> shownColors(vtkDataArray* colors, SharedReading* shared)
 {
   const vtkIdType count = colors->GetNumberOfValues();
@@ -111,16 +109,18 @@ using Names = std::vector<std::vector<std::string>>;
 const std::vector<std::string> kXyz = { "x", "y", "z" };
 /// Other names of the three coordinates.
 const Names kCoordinateWords = { { "x", "easting", "eastings", "east", "e", "rechtswert", "rechts", "rw",
-                                   "ost", "ostwert", "est", "este", "longitude", "lon", "long", "lng" },
+                                   "ost", "ostwert", "est", "este", "longitude", "lon", "long", "lng",
+                                   "laenge", "l\xc3\xa4nge" },
   { "y", "northing", "northings", "north", "n", "hochwert", "hoch", "hw", "nord", "nordwert", "norte",
-    "latitude", "lat" },
+    "latitude", "lat", "breite" },
   { "z", "elevation", "elev", "height", "h", "altitude", "alt", "up", "hoehe", "h\xc3\xb6he", "cota", "quota",
     "level", "rl", "nhn" } };
 /// Words beside the name of a coordinate: "POINT_X", "x coordinate".
 const std::vector<std::string> kFillers = { "coord", "coords", "coordinate", "coordinates", "point", "points",
   "pos", "position", "positions", "xyz", "field", "world", "global", "local", "utm", "map", "grid", "mga",
   "ahd", "vertex", "cartesian", "value" };
-const std::vector<std::string> kDegrees = { "longitude", "lon", "long", "lng", "latitude", "lat" };
+const std::vector<std::string> kDegrees = { "longitude", "lon", "long", "lng", "laenge", "l\xc3\xa4nge",
+  "latitude", "lat", "breite" };
 const Names kColorsWithAlpha = { { "red", "green", "blue", "alpha" }, { "r", "g", "b", "a" },
   { "diffuse_red", "diffuse_green", "diffuse_blue", "diffuse_alpha" } };
 const Names kColors = { { "red", "green", "blue" }, { "r", "g", "b" }, { "rf", "gf", "bf" },
@@ -176,14 +176,13 @@ bool findNames(const std::vector<Column>& columns, const std::vector<bool>& plac
   found.clear();
   for (const std::string& name : names)
   {
-    for (std::size_t i = 0; i < columns.size(); ++i)
+    std::size_t i = 0;
+    while (
+      i < columns.size() && (placed[i] || columns[i].components != 1 || !isSameField(columns[i].name, name)))
     {
-      if (!placed[i] && columns[i].components == 1 && isSameField(columns[i].name, name))
-      {
-        found.push_back(i);
-        break;
-      }
+      ++i;
     }
+    i < columns.size() ? found.push_back(i) : void();
   }
   return found.size() == names.size();
 }
@@ -295,6 +294,16 @@ bool isOneOf(const Names& lists, const std::string& name)
       : "name the three coordinates x, y and z in the header, or for columns of text by --columns");
 }
 
+/// 0, 1, 2 and so on.
+template <typename Array>
+vtkSmartPointer<Array> counted(vtkIdType count)
+{
+  auto array = vtkSmartPointer<Array>::New();
+  array->SetNumberOfValues(count);
+  std::iota(array->GetPointer(0), array->GetPointer(0) + count, typename Array::ValueType{ 0 });
+  return array;
+}
+
 } // namespace
 
 vtkSmartPointer<vtkDataArray> makeArray(int type, int components, vtkIdType tuples, const std::string& name)
@@ -404,12 +413,7 @@ bool CloudColumns::planNamed(const Names& names, const char* arrayName, bool (*a
     if (findNames(columns_, placed_, candidate, found) &&
       std::all_of(found.begin(), found.end(), [&](std::size_t i) { return accepts(columns_[i].type); }))
     {
-      int type = columns_[found[0]].type;
-      for (const std::size_t i : found)
-      {
-        type = commonType(type, columns_[i].type);
-      }
-      add(arrayName, found, type);
+      add(arrayName, found);
       return true;
     }
   }
@@ -425,7 +429,6 @@ void CloudColumns::planNumbered()
       continue;
     }
     std::vector<std::size_t> members{ first };
-    int type = columns_[first].type;
     std::string name = columns_[first].name;
     std::string base;
     unsigned long long number = 1;
@@ -437,11 +440,10 @@ void CloudColumns::planNumbered()
            ++i)
       {
         members.push_back(i);
-        type = commonType(type, columns_[i].type);
       }
       name = members.size() > 1 ? base : name;
     }
-    add(name, members, type);
+    add(name, members);
   }
 }
 
@@ -467,7 +469,9 @@ void CloudColumns::add(const std::string& name, const std::vector<std::size_t>& 
     placed_[columns[i]] = true;
     places_[columns[i]] = { arrays_.size(), static_cast<int>(i) };
   }
-  arrays_.push_back(makeArray(type, components, rows_, unusedName(name)));
+  const int common = std::accumulate(columns.begin(), columns.end(), columns_[columns[0]].type,
+    [&](int known, std::size_t i) { return commonType(known, columns_[i].type); });
+  arrays_.push_back(makeArray(type == VTK_VOID ? common : type, components, rows_, unusedName(name)));
 }
 
 ColumnView CloudColumns::target(std::size_t column, int component) const
@@ -525,33 +529,16 @@ void CloudColumns::moveTo(vtkPolyData* cloud, const ReadTask& task)
   setActiveAttributes(cloud);
 }
 
-namespace
-{
-
-template <typename Array>
-vtkSmartPointer<vtkDataArray> counted(vtkIdType first, vtkIdType count)
-{
-  auto array = vtkSmartPointer<Array>::New();
-  array->SetNumberOfValues(count);
-  std::iota(
-    array->GetPointer(0), array->GetPointer(0) + count, static_cast<typename Array::ValueType>(first));
-  return array;
-}
-
-} // namespace
-
-vtkSmartPointer<vtkCellArray> numberedVertices(vtkIdType first, vtkIdType count, bool have64Bits)
-{
-  auto vertices = vtkSmartPointer<vtkCellArray>::New();
-  const auto make = have64Bits ? &counted<vtkTypeInt64Array> : &counted<vtkTypeInt32Array>;
-  vertices->SetData(make(first, count + 1), make(first, count));
-  return vertices;
-}
-
 void setOneVertexPerPoint(vtkPolyData* cloud)
 {
+  using Short = vtkTypeInt32Array;
+  using Long = vtkTypeInt64Array;
   const vtkIdType count = cloud->GetNumberOfPoints();
-  cloud->SetVerts(numberedVertices(0, count, count >= std::numeric_limits<std::int32_t>::max()));
+  vtkNew<vtkCellArray> vertices;
+  count >= std::numeric_limits<std::int32_t>::max()
+    ? vertices->SetData(counted<Long>(count + 1), counted<Long>(count))
+    : vertices->SetData(counted<Short>(count + 1), counted<Short>(count));
+  cloud->SetVerts(vertices);
 }
 
 void keepPoints(vtkPolyData* cloud, vtkIdList* kept)

@@ -12,7 +12,6 @@
 #include <string>
 #include <vector>
 
-class vtkCellArray;
 class vtkIdList;
 class vtkPolyData;
 
@@ -104,7 +103,8 @@ private:
   bool planNamed(
     const std::vector<std::vector<std::string>>& names, const char* arrayName, bool (*accepts)(int));
   void planNumbered();
-  void add(const std::string& name, const std::vector<std::size_t>& columns, int type);
+  /// @param type VTK_VOID: the widest of the columns.
+  void add(const std::string& name, const std::vector<std::size_t>& columns, int type = 0);
   std::string unusedName(const std::string& name) const;
 
   const std::vector<Column> columns_;
@@ -114,9 +114,6 @@ private:
   std::vector<vtkSmartPointer<vtkDataArray>> arrays_; ///< the first one holds the points
   vtkSmartPointer<vtkDataArray> colors_;              ///< that are no bytes; null where there are none
 };
-
-/// A vertex for each of @p count points, which are numbered from @p first on.
-vtkSmartPointer<vtkCellArray> numberedVertices(vtkIdType first, vtkIdType count, bool have64Bits);
 
 /// Gives @p cloud one vertex cell per point and no other cell.
 void setOneVertexPerPoint(vtkPolyData* cloud);

@@ -1,5 +1,7 @@
 #include "IO/Columns/ColumnGuess.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -64,15 +66,11 @@ bool isId(const Columns& columns)
 bool isSmooth(const ColumnEvidence& column)
 {
   constexpr double kStep = 0.2; // of the range of the sample
-  const auto [least, most] = std::minmax_element(column.sample.begin(), column.sample.end());
-  for (std::size_t i = 1; i < column.sample.size(); ++i)
-  {
-    if (!(std::abs(column.sample[i] - column.sample[i - 1]) <= kStep * (*most - *least)))
-    {
-      return false;
-    }
-  }
-  return true;
+  const std::vector<double>& v = column.sample;
+  const auto [least, most] = std::minmax_element(v.begin(), v.end());
+  const double longest = kStep * (*most - *least);
+  return std::adjacent_find(
+           v.begin(), v.end(), [&](double a, double b) { return !(std::abs(b - a) <= longest); }) == v.end();
 }
 
 /// Times before the coordinates: those of an epoch, or numbers that grow by the same step beside the three
@@ -90,12 +88,9 @@ bool isClock(const Columns& columns)
   {
     const std::vector<double>& v = column.sample;
     const double step = v[1] - v[0];
-    bool isSame = true;
-    for (std::size_t i = 2; i < v.size(); ++i)
-    {
-      isSame = isSame && std::abs(v[i] - v[i - 1] - step) <= kRounded * std::abs(step);
-    }
-    return isSame;
+    return std::adjacent_find(v.begin() + 1, v.end(),
+             [&](double a, double b)
+             { return !(std::abs(b - a - step) <= kRounded * std::abs(step)); }) == v.end();
   };
   return isEpoch(columns) ||
     ((!columns[0].isWhole || columns[0].sample.size() >= kFewestWhole) && isSteady(columns[0]) &&
@@ -143,68 +138,56 @@ bool areNormals(const Columns& columns, std::size_t first)
   return hasUnit;
 }
 
-/// Names the columns from @p at on.
-class RestNames
+/// True if of four columns the last is less like the one beside it than a color is like another.
+bool isLastOdd(const ColumnEvidence* four)
 {
-public:
-  RestNames(const Columns& columns, std::size_t at, bool prefersColors)
-    : columns_(columns)
-    , names_(columns.size())
-    , prefersColors_(prefersColors)
-  {
-    while (at < columns.size())
-    {
-      at = nameFrom(at);
-    }
-  }
-  std::vector<std::string> take() { return std::move(names_); }
+  const std::size_t last = numberOfValues(four[3]);
+  const std::size_t beside = numberOfValues(four[2]);
+  const bool isBesideConstant =
+    beside == 1 && four[3].sample != four[2].sample && (last > 1 || four[0].sample == four[1].sample);
+  return !isLabel(four[0]) || 2 * last < beside || isBesideConstant;
+}
 
-private:
-  std::size_t give(std::size_t at, const std::vector<std::string>& names)
-  {
-    std::copy(names.begin(), names.end(), names_.begin() + static_cast<std::ptrdiff_t>(at));
-    return at + names.size();
-  }
-  /// True if of four columns the last is less like the one beside it than a color is like another.
-  bool isLastOdd(std::size_t at) const
-  {
-    const ColumnEvidence* four = &columns_[at];
-    const std::size_t last = numberOfValues(four[3]);
-    const std::size_t beside = numberOfValues(four[2]);
-    const bool isBesideConstant =
-      beside == 1 && four[3].sample != four[2].sample && (last > 1 || four[0].sample == four[1].sample);
-    return !isLabel(four[0]) || 2 * last < beside || isBesideConstant;
-  }
-  /// True if a number stands before the colours or normals that end here.
-  bool isScalarFirst(std::size_t at) const
-  {
-    const std::size_t left = columns_.size() - at;
-    const bool isLastLabel = left >= 4 && isLabel(columns_[at + 3]) && isLastOdd(at);
-    const bool isWhole = columns_[at].isWhole && areColors(columns_, at + 1);
-    return isWhole && !isLastLabel && (left == 4 || (left == 7 && areNormals(columns_, at + 4)));
-  }
-  std::size_t nameFrom(std::size_t at)
-  {
-    const bool mayBeColors = !hasColors_ && areColors(columns_, at);
-    if (!hasNormals_ && areNormals(columns_, at) && !(mayBeColors && prefersColors_))
-    {
-      hasNormals_ = true;
-      return give(at, { "nx", "ny", "nz" });
-    }
-    if (mayBeColors && !isScalarFirst(at))
-    {
-      hasColors_ = true;
-      return give(at, { "red", "green", "blue" });
-    }
-    return give(at, { "" });
-  }
+/// True if a number stands at @p at before the colours or normals that end the row.
+bool isScalarFirst(const Columns& columns, std::size_t at)
+{
+  const std::size_t left = columns.size() - at;
+  const bool isLastLabel = left >= 4 && isLabel(columns[at + 3]) && isLastOdd(&columns[at]);
+  const bool isWhole = columns[at].isWhole && areColors(columns, at + 1);
+  return isWhole && !isLastLabel && (left == 4 || (left == 7 && areNormals(columns, at + 4)));
+}
 
-  const Columns& columns_;
-  std::vector<std::string> names_;
-  bool prefersColors_;
-  bool hasColors_ = false;
-  bool hasNormals_ = false;
-};
+/// Names of the normals and colours from @p at on; empty for all others.
+std::vector<std::string> vectorNames(const Columns& columns, std::size_t at, bool prefersColors)
+{
+  std::vector<std::string> names(columns.size());
+  bool hasColors = false;
+  bool hasNormals = false;
+  while (at < columns.size())
+  {
+    const bool mayBeColors = !hasColors && areColors(columns, at);
+    const bool isNormal = !hasNormals && areNormals(columns, at) && !(mayBeColors && prefersColors);
+    const bool isColor = !isNormal && mayBeColors && !isScalarFirst(columns, at);
+    hasNormals = hasNormals || isNormal;
+    hasColors = hasColors || isColor;
+    const std::vector<std::string> own = isNormal ? std::vector<std::string>{ "nx", "ny", "nz" }
+      : isColor                                   ? std::vector<std::string>{ "red", "green", "blue" }
+                                                  : std::vector<std::string>(1);
+    std::copy(own.begin(), own.end(), names.begin() + static_cast<std::ptrdiff_t>(at));
+    at += own.size();
+  }
+  return names;
+}
+
+/// True if the first two columns number the rays of a scanner, before coordinates with decimals and colours.
+bool areRowAndColumn(const Columns& columns)
+{
+  const auto isWhole = [](const ColumnEvidence& c) { return c.isWhole && c.least >= 0.0; };
+  return columns.size() >= 8 && isWhole(columns[0]) && isWhole(columns[1]) && isWhole(columns[5]) &&
+    std::none_of(
+      columns.begin() + 2, columns.begin() + 5, [](const ColumnEvidence& c) { return c.isWhole; }) &&
+    areColors(columns, 5);
+}
 
 } // namespace
 
@@ -226,21 +209,6 @@ ColumnEvidence ColumnEvidence::of(std::vector<double> sample, bool isWhole)
   return evidence;
 }
 
-namespace
-{
-
-/// True if the first two columns number the rays of a scanner, before coordinates with decimals and colours.
-bool areRowAndColumn(const Columns& columns)
-{
-  const auto isWhole = [](const ColumnEvidence& c) { return c.isWhole && c.least >= 0.0; };
-  return columns.size() >= 8 && isWhole(columns[0]) && isWhole(columns[1]) && isWhole(columns[5]) &&
-    std::none_of(
-      columns.begin() + 2, columns.begin() + 5, [](const ColumnEvidence& c) { return c.isWhole; }) &&
-    areColors(columns, 5);
-}
-
-} // namespace
-
 bool mayBeNorthingFirst(const std::vector<ColumnEvidence>& columns, std::size_t at)
 {
   const auto isWithin = [&](std::size_t i, double least, double most)
@@ -254,8 +222,7 @@ std::vector<std::string> guessColumnNames(
   const bool hasId = isId(columns);
   const bool hasRays = !hasId && areRowAndColumn(columns);
   const std::size_t first = hasRays ? 2 : hasId || isClock(columns) ? 1 : 0;
-  std::vector<std::string> names =
-    RestNames(columns, std::min(first + 3, columns.size()), prefersColors).take();
+  std::vector<std::string> names = vectorNames(columns, first + 3, prefersColors);
   if (first > 0)
   {
     names[0] = hasRays ? "row" : hasId ? "id" : "time";
@@ -267,33 +234,27 @@ std::vector<std::string> guessColumnNames(
   {
     names[first + i] = std::string(1, order[i]);
   }
-  std::vector<std::size_t> scalars;
   std::size_t label = names.size(); // the one of fewest values
   for (std::size_t i = first + 3; i < names.size(); ++i)
   {
     const bool isFewer = label == names.size() || numberOfValues(columns[i]) < numberOfValues(columns[label]);
     label = names[i].empty() && isLabel(columns[i]) && isFewer ? i : label;
   }
+  label < names.size() ? void(names[label] = "label") : void();
+  const auto scalars = std::count(names.begin(), names.end(), "");
   for (std::size_t i = first + 3; i < names.size(); ++i)
   {
-    names[i] = i == label ? "label" : names[i];
-    names[i].empty() ? scalars.push_back(i) : void();
-  }
-  for (const std::size_t i : scalars)
-  {
-    names[i] = scalars.size() == 1 ? "intensity" : "column_" + std::to_string(i + 1);
+    const std::string scalar = scalars == 1 ? "intensity" : "column_" + std::to_string(i + 1);
+    names[i] = names[i].empty() ? scalar : names[i];
   }
   return names;
 }
 
 std::string listOf(const std::vector<std::string>& names)
 {
-  std::string list;
-  for (const std::string& name : names)
-  {
-    list += (list.empty() ? "" : ",") + (name.empty() ? std::string("-") : name);
-  }
-  return list;
+  std::vector<std::string> shown = names;
+  std::replace(shown.begin(), shown.end(), std::string(), std::string("-"));
+  return fmt::format("{}", fmt::join(shown, ","));
 }
 
 std::string guessNote(const std::vector<std::string>& names, bool mayBeNorthing)

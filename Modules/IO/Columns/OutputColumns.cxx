@@ -1,7 +1,7 @@
 #include "OutputColumns.h"
 
+#include "Bytes/Checks.h"
 #include "Bytes/NumericType.h"
-#include "FileProblem.h"
 #include "IO/Formats/FormatLooks.h"
 
 #include "Core/Base/FieldNames.h"
@@ -32,8 +32,8 @@ vtkSmartPointer<vtkDataArray> inPlainMemory(vtkDataArray* array)
   {
     return array;
   }
-  vtkSmartPointer<vtkDataArray> copy;
-  copy.TakeReference(vtkDataArray::CreateDataArray(type == VTK_VOID ? VTK_TYPE_UINT8 : type));
+  const auto copy = vtkSmartPointer<vtkDataArray>::Take(
+    vtkDataArray::CreateDataArray(type == VTK_VOID ? VTK_TYPE_UINT8 : type));
   copy->DeepCopy(array);
   return copy;
 }
@@ -51,10 +51,9 @@ std::string plainName(const std::string& name, NameRule rule)
   // In the header of a text these are a column that is left out, and lists.
   for (const std::string_view mark : { "[]", "..." })
   {
-    for (std::size_t at = result.find(mark); rule == NameRule::Cells && at != std::string::npos;)
+    for (std::size_t at = 0; rule == NameRule::Cells && (at = result.find(mark)) != std::string::npos;)
     {
       result.replace(at, mark.size(), mark.size(), '_');
-      at = result.find(mark);
     }
   }
   return result == "-" ? "_" : result;
@@ -77,107 +76,39 @@ ArrayRole roleOf(vtkDataArray* array, vtkPointData* data)
   return ArrayRole::Other;
 }
 
-/// Names that differ.
-class UnusedNames
+/// @p wanted, or with a number behind it where it is @p used, in at most @p longest bytes.
+std::string unusedName(std::set<std::string>& used, const std::string& wanted, std::size_t longest)
 {
-public:
-  /// @p wanted, or with a number behind it where it was given before, in at most @p longest bytes.
-  std::string unused(const std::string& wanted, std::size_t longest)
+  const auto cut = [&](std::size_t size)
   {
-    const auto cut = [&](std::size_t size)
+    std::size_t end = std::min(size, wanted.size());
+    while (end < wanted.size() && end > 0 && (static_cast<unsigned char>(wanted[end]) & 0xc0) == 0x80)
     {
-      std::size_t end = std::min(size, wanted.size());
-      while (end < wanted.size() && end > 0 && (static_cast<unsigned char>(wanted[end]) & 0xc0) == 0x80)
-      {
-        --end; // within a character of UTF-8
-      }
-      return wanted.substr(0, end);
-    };
-    std::string name = cut(longest);
-    for (int number = 2; !used_.insert(name).second; ++number)
-    {
-      const std::string suffix = "_" + std::to_string(number);
-      name = cut(longest == std::string::npos ? longest : longest - suffix.size()) + suffix;
+      --end; // within a character of UTF-8
     }
-    return name;
+    return wanted.substr(0, end);
+  };
+  std::string name = cut(longest);
+  for (int number = 2; !used.insert(name).second; ++number)
+  {
+    const std::string suffix = "_" + std::to_string(number);
+    name = cut(longest == std::string::npos ? longest : longest - suffix.size()) + suffix;
   }
-
-private:
-  std::set<std::string> used_ = { "Points", "x", "y", "z" };
-};
+  return name;
+}
 
 /// Only one array may be the colours, and one the normals: the first found; the active one goes first.
 void keepFirstOfRole(std::vector<OutputArray>& arrays, ArrayRole role, vtkDataArray* active)
 {
-  const bool activeHasRole = std::any_of(arrays.begin(), arrays.end(),
-    [&](const OutputArray& each) { return each.role == role && each.array == active; });
-  bool found = false;
-  for (OutputArray& each : arrays)
+  const auto hasRole = [&](const OutputArray& each) { return each.role == role; };
+  const auto isActive = [&](const OutputArray& each) { return hasRole(each) && each.array == active; };
+  auto chosen = std::find_if(arrays.begin(), arrays.end(), isActive);
+  chosen = chosen == arrays.end() ? std::find_if(arrays.begin(), arrays.end(), hasRole) : chosen;
+  for (auto each = arrays.begin(); each != arrays.end(); ++each)
   {
-    if (each.role == role)
-    {
-      const bool chosen = !found && (!activeHasRole || each.array == active);
-      each.role = chosen ? role : ArrayRole::Other;
-      found = found || chosen;
-    }
+    each->role = hasRole(*each) && each != chosen ? ArrayRole::Other : each->role;
   }
 }
-
-} // namespace
-
-ConstColumnView OutputArray::column(int component) const
-{
-  const int size = array->GetDataTypeSize();
-  return { static_cast<const char*>(array->GetVoidPointer(0)) + component * size,
-    std::ptrdiff_t{ size } * array->GetNumberOfComponents(), array->GetDataType() };
-}
-
-std::string OutputArray::componentName(int component) const
-{
-  return components() == 1 ? name : name + "_" + std::to_string(component);
-}
-
-std::vector<OutputArray> outputArrays(vtkPointSet* cloud, WriterNotes& notes)
-{
-  std::vector<OutputArray> arrays;
-  arrays.push_back({ ArrayRole::Points, "Points", inPlainMemory(cloud->GetPoints()->GetData()), "Points" });
-  vtkPointData* data = cloud->GetPointData();
-  for (int i = 0; i < data->GetNumberOfArrays(); ++i)
-  {
-    vtkDataArray* array = data->GetArray(i);
-    if (!array || array->GetNumberOfComponents() < 1)
-    {
-      const char* name = data->GetAbstractArray(i)->GetName();
-      notes.add("array " + inQuotes(name ? name : "") + " holds no numbers and is left out");
-      continue;
-    }
-    const std::string name = utf8Name(array->GetName() ? array->GetName() : "");
-    OutputArray output{ roleOf(array, data), name, inPlainMemory(array), name };
-    if (array->GetNumberOfTuples() < cloud->GetNumberOfPoints())
-    {
-      failFormat("array " + inQuotes(output.name) + " has " + std::to_string(array->GetNumberOfTuples()) +
-          " values for " + std::to_string(cloud->GetNumberOfPoints()) + " points",
-        "give every array one value per point");
-    }
-    arrays.push_back(output);
-  }
-  keepFirstOfRole(arrays, ArrayRole::Colors, data->GetScalars());
-  keepFirstOfRole(arrays, ArrayRole::Normals, data->GetNormals());
-  return arrays;
-}
-
-std::vector<Column> columnsByComponent(const OutputArray& array)
-{
-  std::vector<Column> columns;
-  for (int component = 0; component < array.components(); ++component)
-  {
-    columns.push_back({ array.componentName(component), array.type() });
-  }
-  return columns;
-}
-
-namespace
-{
 
 /// Name that the reader gives each array; empty where its columns become something else.
 std::vector<std::string> namesRead(const std::vector<OutputArray>& arrays,
@@ -219,32 +150,76 @@ std::vector<std::string> namesRead(const std::vector<OutputArray>& arrays,
 
 } // namespace
 
+ConstColumnView OutputArray::column(int component) const
+{
+  const int size = array->GetDataTypeSize();
+  return { static_cast<const char*>(array->GetVoidPointer(0)) + component * size,
+    std::ptrdiff_t{ size } * array->GetNumberOfComponents(), array->GetDataType() };
+}
+
+std::string OutputArray::componentName(int component) const
+{
+  return components() == 1 ? name : name + "_" + std::to_string(component);
+}
+
+std::vector<OutputArray> outputArrays(vtkPointSet* cloud, WriterNotes& notes)
+{
+  std::vector<OutputArray> arrays;
+  arrays.push_back({ ArrayRole::Points, "Points", inPlainMemory(cloud->GetPoints()->GetData()), "Points" });
+  vtkPointData* data = cloud->GetPointData();
+  for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+  {
+    vtkDataArray* array = data->GetArray(i);
+    if (!array || array->GetNumberOfComponents() < 1)
+    {
+      const char* name = data->GetAbstractArray(i)->GetName();
+      notes.add("array " + inQuotes(name ? name : "") + " holds no numbers and is left out");
+      continue;
+    }
+    const std::string name = utf8Name(array->GetName() ? array->GetName() : "");
+    OutputArray output{ roleOf(array, data), name, inPlainMemory(array), name };
+    failFormatIf(array->GetNumberOfTuples() < cloud->GetNumberOfPoints(),
+      "give every array one value per point", "array {} has {} values for {} points", inQuotes(output.name),
+      array->GetNumberOfTuples(), cloud->GetNumberOfPoints());
+    arrays.push_back(output);
+  }
+  keepFirstOfRole(arrays, ArrayRole::Colors, data->GetScalars());
+  keepFirstOfRole(arrays, ArrayRole::Normals, data->GetNormals());
+  return arrays;
+}
+
+std::vector<Column> columnsByComponent(const OutputArray& array)
+{
+  std::vector<Column> columns;
+  for (int component = 0; component < array.components(); ++component)
+  {
+    columns.push_back({ array.componentName(component), array.type() });
+  }
+  return columns;
+}
+
 void chooseNames(std::vector<OutputArray>& arrays,
   const std::function<std::vector<Column>(const OutputArray&)>& columnsOf, const NameLimits& limits,
   WriterNotes& notes)
 {
   constexpr std::size_t kLongestNumber = 4; // of a component, with its '_'
   constexpr int kMostRounds = 16;
-  UnusedNames used;
+  std::set<std::string> used = { "Points", "x", "y", "z" };
   const auto choose = [&](OutputArray& array, const std::string& wanted)
   {
     const bool isCut = limits.longest != std::string::npos && array.components() > 1;
-    array.name = used.unused(plainName(wanted, limits.rule), limits.longest - (isCut ? kLongestNumber : 0));
+    array.name =
+      unusedName(used, plainName(wanted, limits.rule), limits.longest - (isCut ? kLongestNumber : 0));
   };
-  for (std::size_t i = 1; i < arrays.size(); ++i)
-  {
-    choose(arrays[i], arrays[i].name);
-  }
-  std::vector<std::string> names = namesRead(arrays, columnsOf);
+  std::vector<std::string> names(arrays.size());
   for (int round = 0; std::find(names.begin() + 1, names.end(), "") != names.end(); ++round)
   {
-    if (round == kMostRounds)
-    {
-      failFormat("arrays whose names mean something else together", "give them other names");
-    }
+    failFormatIf(
+      round > kMostRounds, "give them other names", "arrays whose names mean something else together");
     for (std::size_t i = 1; i < arrays.size(); ++i)
     {
-      names[i].empty() && arrays[i].role == ArrayRole::Other ? choose(arrays[i], arrays[i].name) : void();
+      const bool mayChange = round == 0 || arrays[i].role == ArrayRole::Other;
+      names[i].empty() && mayChange ? choose(arrays[i], arrays[i].name) : void();
     }
     names = namesRead(arrays, columnsOf);
   }
@@ -267,8 +242,7 @@ std::vector<OutputArray> withoutLongIntegers(std::vector<OutputArray> arrays, Wr
     {
       continue;
     }
-    vtkSmartPointer<vtkDataArray> copy;
-    copy.TakeReference(vtkDataArray::CreateDataArray(VTK_DOUBLE));
+    const auto copy = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(VTK_DOUBLE));
     copy->DeepCopy(each.array);
     vtkIdType changed = 0;
     withType(each.type(),
@@ -322,12 +296,7 @@ std::vector<OutputArray> withoutRows(std::vector<OutputArray> arrays, const std:
   auto next = left.begin();
   for (vtkIdType row = 0; row < all; ++row)
   {
-    if (next != left.end() && *next == row)
-    {
-      ++next;
-      continue;
-    }
-    kept->InsertNextId(row);
+    next != left.end() && *next == row ? void(++next) : void(kept->InsertNextId(row));
   }
   for (OutputArray& each : arrays)
   {

@@ -7,6 +7,13 @@
 namespace pointhaptics::io
 {
 
+std::string spaced(std::string_view word)
+{
+  std::string text(word);
+  std::replace(text.begin(), text.end(), '_', ' ');
+  return text;
+}
+
 bool TextRecords::next()
 {
   goesOn_ = false;
@@ -129,11 +136,7 @@ void TextRecords::storeAll(ReadTask& task, std::uint64_t rows, std::uint64_t all
     }
     catch (const FileProblem& problem)
     {
-      if (!task.salvage || !lines_.isAtEnd() || row == 0)
-      {
-        throw;
-      }
-      task.endAt(row, all, problem.what());
+      lines_.isAtEnd() ? task.endBehind(row, all, problem) : throw;
       return;
     }
     task.step(row, row, rows);

@@ -16,6 +16,9 @@ namespace pointhaptics::io
 
 struct ReadTask;
 
+/// @p word with blanks for its '_': "binary compressed".
+std::string spaced(std::string_view word);
+
 /// One number of each record, or with a list a count and as many numbers behind it.
 struct TextField
 {

@@ -3,7 +3,8 @@
 #include "IO/Formats/FormatLooks.h"
 
 #include <algorithm>
-#include <sstream>
+#include <iterator>
+#include <string>
 
 namespace pointhaptics::io
 {
@@ -103,9 +104,24 @@ const Foreign kByNames[] = {
   { "usd usda usdc", "this is a USD scene, which is not read here", kMesh },
 };
 
-[[noreturn]] void refuse(const std::string& what, const std::string& cure)
+/// By the name of the first file in a zip archive.
+const Foreign kByZippedName[] = {
+  { ".usd", "this is a USDZ scene, which is not read here", kMesh },
+  { ".npy", "this is a NumPy archive (npz)",
+    "write one array of it as .npy: numpy.save('cloud.npy', points)" },
+  { ".kml", "this is a KMZ file of a map, which is not read here", "export the points as LAS or text" },
+};
+
+/// Refuses what the first entry of @p list says for whose mark @p isIt.
+template <std::size_t Count, typename Is>
+void refuseAny(const Foreign (&list)[Count], Is&& isIt)
 {
-  throw FileProblem(vtkErrorCode::UnrecognizedFileTypeError, what, cure);
+  const auto* const found =
+    std::find_if(std::begin(list), std::end(list), [&](const Foreign& each) { return isIt(each.mark); });
+  if (found != std::end(list))
+  {
+    throw FileProblem(vtkErrorCode::UnrecognizedFileTypeError, found->what, found->cure);
+  }
 }
 
 /// Refuses a zip archive, which begins with the name of its first file.
@@ -120,20 +136,9 @@ void refuseZip(std::string_view bytes)
     ? 0
     : static_cast<unsigned char>(bytes[26]) + 256U * static_cast<unsigned char>(bytes[27]);
   const std::string_view first = bytes.substr(std::min(kHeader, bytes.size()), size);
-  const auto has = [&](const char* part) { return first.find(part) != std::string_view::npos; };
-  if (has(".usd"))
-  {
-    refuse("this is a USDZ scene, which is not read here", kMesh);
-  }
-  if (has(".npy"))
-  {
-    refuse("this is a NumPy archive (npz)", "write one array of it as .npy: numpy.save('cloud.npy', points)");
-  }
-  if (has(".kml"))
-  {
-    refuse("this is a KMZ file of a map, which is not read here", "export the points as LAS or text");
-  }
-  refuse("this is a zip archive, which begins with " + inQuotes(first),
+  refuseAny(kByZippedName, [&](std::string_view mark) { return first.find(mark) != std::string_view::npos; });
+  throw FileProblem(vtkErrorCode::UnrecognizedFileTypeError,
+    "this is a zip archive, which begins with " + inQuotes(first),
     "unpack it and give the cloud in it: python3 -m zipfile -e FILE FOLDER");
 }
 
@@ -143,37 +148,18 @@ void refuseForeign(const FormatStart& start)
 {
   constexpr std::size_t kLookedAt = 4096;
   refuseZip(start.bytes);
-  for (const Foreign& each : kByBytes)
-  {
-    if (start.bytes.substr(0, each.mark.size()) == each.mark)
-    {
-      refuse(each.what, each.cure);
-    }
-  }
+  refuseAny(kByBytes, [&](std::string_view mark) { return start.bytes.substr(0, mark.size()) == mark; });
   const std::string_view head = trimmed(start.bytes.substr(0, kLookedAt));
   const bool isTree = start.isText && !head.empty() && (head.front() == '{' || head.front() == '<');
-  for (const Foreign& each : kByWords)
-  {
-    if (isTree && head.find(each.mark) != std::string_view::npos)
-    {
-      refuse(each.what, each.cure);
-    }
-  }
+  refuseAny(
+    kByWords, [&](std::string_view mark) { return isTree && head.find(mark) != std::string_view::npos; });
 }
 
 void refuseForeignName(const std::string& extension)
 {
-  for (const Foreign& each : kByNames)
-  {
-    std::istringstream words{ std::string(each.mark) };
-    for (std::string word; words >> word;)
-    {
-      if (word == extension)
-      {
-        refuse(each.what, each.cure);
-      }
-    }
-  }
+  refuseAny(kByNames,
+    [&](std::string_view names)
+    { return (" " + std::string(names) + " ").find(" " + extension + " ") != std::string::npos; });
 }
 
 } // namespace pointhaptics::io

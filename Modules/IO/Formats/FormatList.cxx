@@ -3,6 +3,8 @@
 #include "FileProblem.h"
 #include "IO/Formats/FormatLooks.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <iterator>
 #include <sstream>
@@ -22,17 +24,27 @@ namespace
 constexpr const char* kLasFields =
   "LasScale LasOffset LasGlobalEncoding LasHeader LasRecords LasFarRecords CoordinateSystem";
 
+constexpr std::string_view kLas = "LASF";
+constexpr std::string_view kE57 = "ASTM-E57";
+constexpr std::string_view kVtkLegacy = "# vtk DataFile";
+
+template <const std::string_view& Mark>
+bool startsWith(const FormatStart& start)
+{
+  return start.bytes.substr(0, Mark.size()) == Mark;
+}
+
 /// Name, extensions, looks, reader, whether it is read in parts, writer, field data. What comes first is
 /// recognised first.
 const CloudFormat kFormats[] = {
   { "VTP", "vtp", nullptr, nullptr, false, writeVtp },
   { "PLY", "ply", looksLikePly, readPly, true, writePly },
   { "PCD", "pcd", looksLikePcd, readPcd, true, writePcd, "Viewpoint OrganizedDimensions" },
-  { "LAS", "las", looksLikeLas, readLas, true, writeLas, kLasFields },
+  { "LAS", "las", startsWith<kLas>, readLas, true, writeLas, kLasFields },
   { "LAZ", "laz", nullptr, nullptr, false, writeLaz, kLasFields },
-  { "E57", "e57", looksLikeE57, readE57 },
+  { "E57", "e57", startsWith<kE57>, readE57 },
   { "VTK XML", "pvtp vtu", looksLikeVtkXml, readVtkXml, true },
-  { "VTK (legacy)", "vtk", looksLikeVtkLegacy, readVtkLegacy },
+  { "VTK (legacy)", "vtk", startsWith<kVtkLegacy>, readVtkLegacy },
   { "OFF", "off noff coff cnoff", looksLikeOff, readOff },
   { "STL", "stl", looksLikeStl, readStl },
   { "PTX", "ptx", looksLikePtx, readPtx },
@@ -67,14 +79,9 @@ const CloudFormat& identifyFormat(std::string_view bytes, std::size_t size, cons
     }
   }
   refuseForeignName(extension);
-  std::string known;
-  for (const std::string& each : formatExtensions(false))
-  {
-    known += (known.empty() ? "." : ", .") + each;
-  }
   throw FileProblem(vtkErrorCode::UnrecognizedFileTypeError,
     "unknown format: starts with " + inQuotes(start.bytes.substr(0, 16)),
-    "use " + known + ", or text with columns x y z");
+    fmt::format("use .{}, or text with columns x y z", fmt::join(formatExtensions(false), ", .")));
 }
 
 const CloudFormat* writtenFormat(const std::string& extension)
@@ -104,13 +111,9 @@ std::string formatTable()
   std::string table = "| format | extensions | written as |\n|---|---|---|\n";
   for (const CloudFormat& format : kFormats)
   {
-    std::string extensions;
-    for (const std::string& word : wordsOf(format.extensions))
-    {
-      extensions += (extensions.empty() ? "." : ", .") + word;
-    }
-    table += std::string("| ") + format.name + " | " + extensions + " | " +
-      (format.write ? "." + wordsOf(format.extensions).front() : "") + " |\n";
+    const std::vector<std::string> extensions = wordsOf(format.extensions);
+    table += fmt::format("| {} | .{} | {} |\n", format.name, fmt::join(extensions, ", ."),
+      format.write ? "." + extensions.front() : "");
   }
   return table;
 }

@@ -1,5 +1,6 @@
 #include "IO/Formats/FormatLooks.h"
 
+#include "Bytes/LittleEndian.h"
 #include "FileProblem.h"
 #include "IO/Text/TextCells.h"
 #include "IO/Text/TextTable.h"
@@ -41,16 +42,8 @@ std::string_view firstSignificantLine(std::string_view bytes)
 bool looksLikeBinaryStl(std::string_view bytes, std::size_t size)
 {
   constexpr std::size_t kHeader = 84;
-  if (bytes.size() < kHeader || size <= kHeader)
-  {
-    return false;
-  }
-  std::size_t count = 0;
-  for (std::size_t i = 4; i > 0; --i)
-  {
-    count = count << 8 | static_cast<unsigned char>(bytes[79 + i]);
-  }
-  return size == kHeader + 50 * count;
+  return bytes.size() >= kHeader && size > kHeader &&
+    size == kHeader + std::size_t{ 50 } * numberAt<std::uint32_t>(bytes, kHeader - sizeof(std::uint32_t));
 }
 
 /// True for extensions of text with columns, whatever is in it.
@@ -171,13 +164,8 @@ FormatStart lookAt(
 
 bool looksLikePly(const FormatStart& start)
 {
-  std::string_view bytes = start.bytes;
-  while (!bytes.empty() && (isBlank(bytes.front()) || bytes.front() == '\n'))
-  {
-    bytes.remove_prefix(1);
-  }
-  return equalNoCase(bytes.substr(0, 3), "ply") &&
-    (bytes.size() == 3 || isBlank(bytes[3]) || bytes[3] == '\n');
+  std::string_view line = start.line;
+  return equalNoCase(takeWord(line), "ply");
 }
 
 bool looksLikePcd(const FormatStart& start)
@@ -187,25 +175,10 @@ bool looksLikePcd(const FormatStart& start)
   return startsWith(start.bytes, "# .PCD") || word == "VERSION" || word == "FIELDS" || word == "COLUMNS";
 }
 
-bool looksLikeLas(const FormatStart& start)
-{
-  return startsWith(start.bytes, "LASF");
-}
-
-bool looksLikeE57(const FormatStart& start)
-{
-  return startsWith(start.bytes, "ASTM-E57");
-}
-
 bool looksLikeVtkXml(const FormatStart& start)
 {
   const std::string_view text = trimmed(start.bytes.substr(0, kLookedAt));
   return startsWith(text, "<") && text.find("<VTKFile") != std::string_view::npos;
-}
-
-bool looksLikeVtkLegacy(const FormatStart& start)
-{
-  return startsWith(start.bytes, "# vtk DataFile");
 }
 
 /// OFF with letters in front for normals, colours and so on.

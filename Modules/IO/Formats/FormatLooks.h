@@ -24,8 +24,7 @@ FormatStart lookAt(
   std::string_view bytes, std::size_t size, const std::string& extension, std::string& converted);
 
 using Look = bool(const FormatStart&);
-Look looksLikePly, looksLikePcd, looksLikeLas, looksLikeE57, looksLikeVtkXml, looksLikeVtkLegacy,
-  looksLikeOff, looksLikeStl, looksLikeObj, looksLikeColumns;
+Look looksLikePly, looksLikePcd, looksLikeVtkXml, looksLikeOff, looksLikeStl, looksLikeObj, looksLikeColumns;
 /// True if the first line is that of an Esri grid, "ncols 300", in any case.
 Look looksLikeEsriGrid;
 /// True if two counts, for columns and rows, and twelve numbers for the scanner's place stand first.

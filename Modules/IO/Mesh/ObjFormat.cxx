@@ -176,7 +176,7 @@ void ObjReader::moveTo(vtkPolyData* cloud)
   if (colors_.rows() == rows)
   {
     names.push_back({ "RGB", VTK_TYPE_UINT8, 3 });
-    const double scale = colors_.columns[0].largest() > 1.0 ? 1.0 : 255.0;
+    const double scale = colors_.columns[0].most > 1.0 ? 1.0 : 255.0;
     for (std::vector<double>& block : colors_.blocks)
     {
       std::transform(block.begin(), block.end(), block.begin(),

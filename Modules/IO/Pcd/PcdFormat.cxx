@@ -1,3 +1,4 @@
+#include "Bytes/Checks.h"
 #include "ReadTask.h"
 
 #include "Bytes/NumericType.h"
@@ -15,9 +16,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <limits>
-#include <memory>
+#include <string>
 #include <string_view>
 
 namespace pointhaptics::io
@@ -34,173 +34,130 @@ public:
   /// @p packed must outlive this object.
   explicit LzfStream(std::string_view packed)
     : packed_(packed)
-    , window_(new std::uint8_t[kCapacity])
   {
   }
-  /// Fills all of @p to. @return false when the packed bytes are damaged or end before.
-  bool read(char* to, std::size_t size)
+  /// The next @p size bytes, which stay until the next call; null when the packed bytes are damaged or end
+  /// before.
+  const char* next(std::size_t size)
   {
-    while (size > 0)
+    const std::size_t kept = std::min(begin_, kFarthest);
+    window_.erase(0, begin_ - kept);
+    begin_ = kept;
+    window_.reserve(begin_ + size + kLongest);
+    while (window_.size() < begin_ + size)
     {
-      if (begin_ == end_ && !this->fill())
+      if (!this->unpackOne())
       {
-        return false;
+        return nullptr;
       }
-      const std::size_t piece = std::min(size, end_ - begin_);
-      std::memcpy(to, window_.get() + begin_, piece);
-      begin_ += piece;
-      to += piece;
-      size -= piece;
     }
-    return true;
+    begin_ += size;
+    return window_.data() + begin_ - size;
   }
   /// True if everything was unpacked and handed out.
-  bool isAtEnd() const { return at_ == packed_.size() && begin_ == end_; }
+  bool isAtEnd() const { return at_ == packed_.size() && begin_ == window_.size(); }
   /// How many packed bytes were used, up to the fault where there is one.
   std::size_t position() const { return at_; }
 
 private:
-  bool fill()
-  {
-    if (end_ > kFarthest)
-    {
-      const std::size_t dropped = end_ - kFarthest;
-      std::memmove(window_.get(), window_.get() + dropped, kFarthest);
-      end_ = kFarthest;
-    }
-    begin_ = end_;
-    while (end_ < kFarthest + kBlock && at_ < packed_.size())
-    {
-      if (!this->unpackOne())
-      {
-        return false;
-      }
-    }
-    return end_ > begin_;
-  }
   bool unpackOne()
   {
     const std::size_t left = packed_.size() - at_;
     const auto byteAt = [&](std::size_t i) { return static_cast<std::uint8_t>(packed_[at_ + i]); };
-    const std::size_t control = byteAt(0);
-    if (control < 32)
-    {
-      const std::size_t length = control + 1;
-      if (length >= left)
-      {
-        return false;
-      }
-      std::memcpy(window_.get() + end_, packed_.data() + at_ + 1, length);
-      at_ += 1 + length;
-      end_ += length;
-      return true;
-    }
+    const std::size_t control = left > 0 ? byteAt(0) : 0;
+    const bool isLiteral = control < 32;
     const bool isLong = control >> 5 == 7;
-    const std::size_t used = isLong ? 3 : 2;
+    const std::size_t used = isLiteral ? control + 2 : isLong ? 3 : 2;
     if (used > left)
     {
       return false;
     }
+    if (isLiteral)
+    {
+      window_.append(packed_, at_ + 1, control + 1);
+      at_ += used;
+      return true;
+    }
     const std::size_t length = (control >> 5) + 2 + (isLong ? byteAt(1) : 0);
     const std::size_t distance = ((control & 31) << 8 | byteAt(used - 1)) + 1;
-    if (distance > end_)
+    const std::size_t end = window_.size();
+    if (distance > end)
     {
       return false;
     }
     // A reference may reach into what it writes: byte by byte.
-    const std::uint8_t* from = window_.get() + end_ - distance;
-    std::uint8_t* to = window_.get() + end_;
+    window_.resize(end + length);
+    char* const to = &window_[end];
+    const char* const from = to - distance;
     for (std::size_t i = 0; i < length; ++i)
     {
       to[i] = from[i];
     }
     at_ += used;
-    end_ += length;
     return true;
   }
 
   static constexpr std::size_t kFarthest = 8192; ///< 13 bits of distance
   static constexpr std::size_t kLongest = 264;   ///< of one control byte
-  static constexpr std::size_t kBlock = 65536;
-  static constexpr std::size_t kCapacity = kFarthest + kBlock + kLongest;
 
   std::string_view packed_;
   std::size_t at_ = 0;
-  std::unique_ptr<std::uint8_t[]> window_; ///< what references may reach, then what was not handed out yet
-  std::size_t begin_ = 0;                  ///< the first byte that was not handed out
-  std::size_t end_ = 0;
+  std::string window_;    ///< what references may reach, then what was not handed out yet
+  std::size_t begin_ = 0; ///< the first byte that was not handed out
 };
 
 /// Bytes of one field that are unpacked at a time: they stay in the cache.
 constexpr std::size_t kBlockBytes = 1 << 18;
 
-/// The fields that are read, each with its place in the output.
-struct PcdTable
+std::vector<Column> columnsOf(const PcdHeader& header)
 {
-  struct Entry
-  {
-    PcdField field;
-    std::size_t column = 0; ///< unless the field is padding
-  };
-  std::vector<Entry> entries;
   std::vector<Column> columns;
-
-  explicit PcdTable(const PcdHeader& header)
+  for (const PcdField& field : header.fields)
   {
-    for (const PcdField& field : header.fields)
-    {
-      entries.push_back({ field, columns.size() });
-      if (!field.isPadding())
-      {
-        columns.push_back(field.column());
-      }
-    }
+    field.isPadding() ? void() : columns.push_back(field.column());
   }
-};
+  return columns;
+}
 
 /// Adds the columns of one field, whose first value lies at @p first: of colours, packed as 0xAARRGGBB, each
 /// byte; of padding none.
 void addStored(
-  const PcdTable::Entry& entry, const char* first, std::ptrdiff_t stride, std::vector<StoredColumn>& stored)
+  const PcdField& field, const char* first, std::ptrdiff_t stride, std::vector<StoredColumn>& stored)
 {
   constexpr std::ptrdiff_t kBytes[] = { 2, 1, 0, 3 }; // of red, green, blue and alpha
-  const PcdField& field = entry.field;
   const bool isPacked = field.isPackedColor();
   for (int i = 0; !field.isPadding() && i < field.column().components; ++i)
   {
     stored.push_back({ { first + (isPacked ? kBytes[i] : i * sizeOfType(field.type)), stride,
                          isPacked ? VTK_TYPE_UINT8 : field.type },
-      entry.column, i });
+      field.index, i });
   }
 }
 
-void fillFromRecords(const ReadTask& task, const PcdHeader& header, const RowRange& wanted,
-  const PcdTable& table, const CloudColumns& columns)
+void fillFromRecords(
+  const ReadTask& task, const PcdHeader& header, const RowRange& wanted, const CloudColumns& columns)
 {
   const std::size_t begin = header.bodyOffset + static_cast<std::size_t>(wanted.first) * header.recordSize;
   task.need(begin, static_cast<std::size_t>(wanted.count()) * header.recordSize);
   std::vector<StoredColumn> stored;
-  for (const PcdTable::Entry& entry : table.entries)
+  for (const PcdField& field : header.fields)
   {
-    addStored(entry, task.bytes.data() + begin + entry.field.offset,
-      static_cast<std::ptrdiff_t>(header.recordSize), stored);
+    addStored(field, task.bytes.data() + begin + field.offset, static_cast<std::ptrdiff_t>(header.recordSize),
+      stored);
   }
   columns.fill(stored, task);
 }
 
 /// Compressed files hold field after field, as a rule without padding.
-void fillFromCompressed(
-  const ReadTask& task, const PcdHeader& header, const PcdTable& table, const CloudColumns& columns)
+void fillFromCompressed(const ReadTask& task, const PcdHeader& header, const CloudColumns& columns)
 {
   const std::size_t packedAt = header.bodyOffset + 8;
   LzfStream stream(task.bytes.substr(packedAt, header.compressedSize));
   const vtkIdType rows = static_cast<vtkIdType>(header.points);
-  std::vector<char> block;
   std::size_t done = 0;
   const bool hasPadding = header.compressedRecordSize == header.recordSize;
-  for (const PcdTable::Entry& entry : table.entries)
+  for (const PcdField& field : header.fields)
   {
-    const PcdField& field = entry.field;
     if (field.isPadding() && !hasPadding)
     {
       continue;
@@ -210,59 +167,52 @@ void fillFromCompressed(
     for (vtkIdType row = 0; row < rows; row += most)
     {
       const vtkIdType count = std::min(most, rows - row);
-      block.resize(size * static_cast<std::size_t>(count));
-      if (!stream.read(block.data(), block.size()))
-      {
-        failFormat(atByte(packedAt + stream.position()) + "damaged LZF data in field " + inQuotes(field.name),
-          "the file is damaged: copy or write it again");
-      }
+      const std::size_t bytes = size * static_cast<std::size_t>(count);
+      const char* const block = stream.next(bytes);
+      failFormatIf(!block, "the file is damaged: copy or write it again", "{}damaged LZF data in field {}",
+        atByte(packedAt + stream.position()), inQuotes(field.name));
       std::vector<StoredColumn> stored;
-      addStored(entry, block.data(), static_cast<std::ptrdiff_t>(size), stored);
+      addStored(field, block, static_cast<std::ptrdiff_t>(size), stored);
       for (const StoredColumn& each : stored)
       {
         copyStrided(each.source, columns.target(each.column, each.component).fromRow(row), count);
       }
-      done += block.size();
+      done += bytes;
       task.progress(
         static_cast<double>(done) / static_cast<double>(header.points * header.compressedRecordSize));
     }
   }
-  if (!stream.isAtEnd())
-  {
-    failFormat(atByte(packedAt + stream.position()) + "more compressed data than points",
-      "the file is damaged or its header is wrong: copy it again");
-  }
+  failFormatIf(!stream.isAtEnd(), "the file is damaged or its header is wrong: copy it again",
+    "{}more compressed data than points", atByte(packedAt + stream.position()));
 }
 
 /// A line of numbers for each point. Packed colours are read as the numbers that they are, and unpacked then.
-void fillFromAscii(
-  ReadTask& task, const PcdHeader& header, const PcdTable& table, const CloudColumns& columns)
+void fillFromAscii(ReadTask& task, const PcdHeader& header, const CloudColumns& columns)
 {
   const vtkIdType rows = static_cast<vtkIdType>(header.points);
   std::vector<TextField> fields;
-  std::vector<std::vector<std::uint32_t>> packed(table.entries.size());
-  for (std::size_t i = 0; i < table.entries.size(); ++i)
+  std::vector<std::vector<std::uint32_t>> packed(header.fields.size());
+  for (std::size_t i = 0; i < header.fields.size(); ++i)
   {
-    const PcdTable::Entry& entry = table.entries[i];
-    packed[i].resize(entry.field.isPackedColor() ? static_cast<std::size_t>(rows) : 0);
-    for (int component = 0; component < entry.field.count; ++component)
+    const PcdField& field = header.fields[i];
+    packed[i].resize(field.isPackedColor() ? static_cast<std::size_t>(rows) : 0);
+    for (int component = 0; component < field.count; ++component)
     {
-      fields.push_back({ entry.field.name,
-        entry.field.isPadding() ? ColumnView{}
-          : entry.field.isPackedColor()
-          ? ColumnView{ reinterpret_cast<char*>(packed[i].data()), 4, entry.field.type }
-          : columns.target(entry.column, component) });
+      fields.push_back({ field.name,
+        field.isPadding()         ? ColumnView{}
+          : field.isPackedColor() ? ColumnView{ reinterpret_cast<char*>(packed[i].data()), 4, field.type }
+                                  : columns.target(field.index, component) });
     }
   }
   LineReader lines(task.bytes.substr(header.bodyOffset), header.bodyLine);
   TextRecords(lines, fields, { "field", "point", "points", "give the field TYPE F in the header" }, true)
     .storeAll(task, header.points, header.points);
   std::vector<StoredColumn> colors;
-  for (std::size_t i = 0; i < table.entries.size(); ++i)
+  for (std::size_t i = 0; i < header.fields.size(); ++i)
   {
     packed[i].empty()
       ? void()
-      : addStored(table.entries[i], reinterpret_cast<const char*>(packed[i].data()), 4, colors);
+      : addStored(header.fields[i], reinterpret_cast<const char*>(packed[i].data()), 4, colors);
   }
   columns.fill(colors, task);
 }
@@ -289,31 +239,18 @@ void readPcd(ReadTask& task, vtkPolyData* cloud)
     task.takeWhole();
   }
   PcdHeader header = parsePcdHeader(task);
-  task.format = "PCD (" + nameOf(header.encoding) + ")";
-  const PcdTable table(header);
+  task.format = "PCD (" + spaced(kPcdEncodings[static_cast<std::size_t>(header.encoding)]) + ")";
   if (header.encoding != PcdEncoding::Binary)
   {
     task.takeWhole(); // text has no records of one size, compressed files have field after field
   }
   const RowRange rows = task.rowsOf(header.points);
-  CloudColumns columns(table.columns, static_cast<vtkIdType>(rows.count()));
-  switch (header.encoding)
-  {
-    case PcdEncoding::Ascii:
-      fillFromAscii(task, header, table, columns);
-      break;
-    case PcdEncoding::Binary:
-      fillFromRecords(task, header, rows, table, columns);
-      break;
-    case PcdEncoding::Compressed:
-      fillFromCompressed(task, header, table, columns);
-      break;
-  }
+  CloudColumns columns(columnsOf(header), static_cast<vtkIdType>(rows.count()));
+  header.encoding == PcdEncoding::Ascii      ? fillFromAscii(task, header, columns)
+    : header.encoding == PcdEncoding::Binary ? fillFromRecords(task, header, rows, columns)
+                                             : fillFromCompressed(task, header, columns);
   columns.moveTo(cloud, task);
-  if (task.pointsThere < header.points) // no grid of the scanner
-  {
-    header.height = 1;
-  }
+  header.height = task.pointsThere < header.points ? 1 : header.height; // no grid of the scanner
   addFieldData(task, header, cloud);
 }
 

@@ -1,5 +1,6 @@
 #include "IO/Pcd/PcdHeader.h"
 
+#include "Bytes/Checks.h"
 #include "Bytes/LittleEndian.h"
 #include "Bytes/NumericType.h"
 #include "IO/Bytes/TextScan.h"
@@ -19,9 +20,6 @@ namespace
 
 constexpr unsigned long long kMostLzfRatio = 90; ///< LZF packs at most 264 bytes into 3
 
-/// In the order of PcdEncoding.
-constexpr std::string_view kEncodings[] = { "ascii", "binary", "binary_compressed" };
-
 /// Reads the header's lines one by one.
 class HeaderParser
 {
@@ -34,9 +32,6 @@ public:
 
 private:
   void parseEntry(const std::string& keyword, std::string_view rest);
-  void parseViewpoint(std::string_view rest);
-  void parseData(std::string_view word);
-  unsigned long long parseOneCount(std::string_view rest) const;
   std::vector<std::string> wordsPerField(std::string_view rest) const;
   void buildFields();
 
@@ -54,55 +49,13 @@ std::vector<std::string> HeaderParser::wordsPerField(std::string_view rest) cons
   std::vector<std::string> words;
   for (std::string_view word = takeWord(rest); !word.empty(); word = takeWord(rest))
   {
-    if (words.size() == kMostColumns)
-    {
-      failLine(lines_.lineNumber(), "more than " + std::to_string(kMostColumns) + " entries",
-        "use COUNT for fields of many numbers");
-    }
+    failFormatIf(words.size() == kMostColumns, "use COUNT for fields of many numbers",
+      "{}more than {} entries", atLine(lines_.lineNumber()), kMostColumns);
     words.emplace_back(word);
   }
-  if (!names_.empty() && words.size() != names_.size())
-  {
-    failLine(lines_.lineNumber(),
-      std::to_string(words.size()) + " entries for " + std::to_string(names_.size()) + " fields",
-      "write one entry per field");
-  }
+  failFormatIf(!names_.empty() && words.size() != names_.size(), "write one entry per field",
+    "{}{} entries for {} fields", atLine(lines_.lineNumber()), words.size(), names_.size());
   return words;
-}
-
-unsigned long long HeaderParser::parseOneCount(std::string_view rest) const
-{
-  unsigned long long value = 0;
-  if (!parseCount(trimmed(rest), value))
-  {
-    failLine(
-      lines_.lineNumber(), inQuotes(trimmed(rest)) + " is not a count", "write a whole number, 0 or more");
-  }
-  return value;
-}
-
-void HeaderParser::parseData(std::string_view word)
-{
-  const std::size_t found = indexOf(kEncodings, word);
-  if (found == std::size(kEncodings))
-  {
-    failLine(
-      lines_.lineNumber(), "unknown DATA " + inQuotes(word), "PCD has ascii, binary and binary_compressed");
-  }
-  header_.encoding = static_cast<PcdEncoding>(found);
-}
-
-void HeaderParser::parseViewpoint(std::string_view rest)
-{
-  for (double& value : header_.viewpoint)
-  {
-    const std::string_view word = takeWord(rest);
-    if (!parseNumber(word, value))
-    {
-      failLine(lines_.lineNumber(), "VIEWPOINT has " + inQuotes(word) + " where a number was expected",
-        "write 7 numbers: tx ty tz qw qx qy qz");
-    }
-  }
 }
 
 void HeaderParser::parseEntry(const std::string& keyword, std::string_view rest)
@@ -111,22 +64,37 @@ void HeaderParser::parseEntry(const std::string& keyword, std::string_view rest)
     { "TYPE", &types_ }, { "COUNT", &counts_ } };
   const std::map<std::string, unsigned long long*> counts = { { "WIDTH", &header_.width },
     { "HEIGHT", &header_.height }, { "POINTS", &header_.points } };
+  const std::string where = atLine(lines_.lineNumber());
   if (const auto list = lists.find(keyword); list != lists.end())
   {
     *list->second = wordsPerField(rest);
   }
   else if (const auto count = counts.find(keyword); count != counts.end())
   {
-    *count->second = parseOneCount(rest);
+    failFormatIf(!parseCount(trimmed(rest), *count->second), "write a whole number, 0 or more",
+      "{}{} is not a count", where, inQuotes(trimmed(rest)));
   }
-  else if (keyword == "VIEWPOINT" || keyword == "DATA")
+  else if (keyword == "DATA")
   {
-    keyword == "DATA" ? parseData(takeWord(rest)) : parseViewpoint(rest);
+    const std::string_view word = takeWord(rest);
+    const std::size_t found = indexOf(kPcdEncodings, word);
+    failFormatIf(found == std::size(kPcdEncodings), "PCD has ascii, binary and binary_compressed",
+      "{}unknown DATA {}", where, inQuotes(word));
+    header_.encoding = static_cast<PcdEncoding>(found);
   }
-  else if (keyword != "VERSION")
+  else if (keyword == "VIEWPOINT")
   {
-    failLine(
-      lines_.lineNumber(), "unknown entry " + inQuotes(keyword), "write the file again with another program");
+    for (double& value : header_.viewpoint)
+    {
+      const std::string_view word = takeWord(rest);
+      failFormatIf(!parseNumber(word, value), "write 7 numbers: tx ty tz qw qx qy qz",
+        "{}VIEWPOINT has {} where a number was expected", where, inQuotes(word));
+    }
+  }
+  else
+  {
+    failFormatIf(keyword != "VERSION", "write the file again with another program", "{}unknown entry {}",
+      where, inQuotes(keyword));
   }
 }
 
@@ -134,13 +102,11 @@ void HeaderParser::buildFields()
 {
   for (const std::vector<std::string>* entries : { &sizes_, &types_, &counts_ })
   {
-    if (names_.empty() || (!entries->empty() && entries->size() != names_.size()))
-    {
-      failFormat("FIELDS has " + std::to_string(names_.size()) + " names, another entry has " +
-          std::to_string(entries->size()),
-        "write one entry per field in FIELDS, SIZE, TYPE and COUNT");
-    }
+    failFormatIf(names_.empty() || (!entries->empty() && entries->size() != names_.size()),
+      "write one entry per field in FIELDS, SIZE, TYPE and COUNT",
+      "FIELDS has {} names, another entry has {}", names_.size(), entries->size());
   }
+  std::size_t columns = 0;
   // Old files leave SIZE, TYPE and COUNT out: floats of 4 bytes then.
   for (std::size_t i = 0; i < names_.size(); ++i)
   {
@@ -152,15 +118,15 @@ void HeaderParser::buildFields()
     const bool counted = counts_.empty() || parseCount(counts_[i], count);
     const char letter = types_.empty() ? 'F' : types_[i].size() == 1 ? types_[i][0] : '?';
     field.type = letter < 'a' ? typeOfKind(static_cast<char>(letter - 'A' + 'a'), size) : VTK_VOID;
-    if (!sized || field.type == VTK_VOID || !counted || count < 1 || count > 65536)
-    {
-      failFormat("field " + inQuotes(field.name) + " has SIZE " + inQuotes(sizes_.empty() ? "4" : sizes_[i]) +
-          ", TYPE " + inQuotes(types_.empty() ? "F" : types_[i]) + " and COUNT " +
-          inQuotes(counts_.empty() ? "1" : counts_[i]),
-        "use TYPE F with SIZE 4 or 8, or I or U with SIZE 1, 2, 4 or 8, and a COUNT from 1 to 65536");
-    }
+    failFormatIf(!sized || field.type == VTK_VOID || !counted || count < 1 || count > 65536,
+      "use TYPE F with SIZE 4 or 8, or I or U with SIZE 1, 2, 4 or 8, and a COUNT from 1 to 65536",
+      "field {} has SIZE {}, TYPE {} and COUNT {}", inQuotes(field.name),
+      inQuotes(sizes_.empty() ? "4" : sizes_[i]), inQuotes(types_.empty() ? "F" : types_[i]),
+      inQuotes(counts_.empty() ? "1" : counts_[i]));
     field.count = static_cast<int>(count);
     field.offset = header_.recordSize;
+    field.index = columns;
+    columns += field.isPadding() ? 0 : 1;
     header_.recordSize += size * count;
     header_.compressedRecordSize += field.isPadding() ? 0 : size * count;
     header_.numbersPerLine += count;
@@ -181,29 +147,18 @@ PcdHeader HeaderParser::parse()
       continue;
     }
     keyword = keyword == "COLUMNS" ? "FIELDS" : keyword;
-    if (!seen_.insert(keyword).second)
-    {
-      failLine(lines_.lineNumber(), "a second entry " + inQuotes(keyword), "keep one of the two");
-    }
+    failFormatIf(!seen_.insert(keyword).second, "keep one of the two", "{}a second entry {}",
+      atLine(lines_.lineNumber()), inQuotes(keyword));
     parseEntry(keyword, line);
     complete = keyword == "DATA";
   }
-  if (!complete)
-  {
-    failTruncated("the header has no entry DATA");
-  }
+  failTruncatedIf(!complete, "the header has no entry DATA");
   for (const char* needed : { "FIELDS", "WIDTH" })
   {
-    if (seen_.count(needed) == 0)
-    {
-      failFormat(
-        std::string("the header has no entry ") + needed, "write FIELDS, SIZE, TYPE, COUNT, WIDTH, HEIGHT");
-    }
+    failFormatIf(seen_.count(needed) == 0, "write FIELDS, SIZE, TYPE, COUNT, WIDTH, HEIGHT",
+      "the header has no entry {}", needed);
   }
-  if (seen_.count("POINTS") == 0)
-  {
-    header_.points = header_.width * header_.height;
-  }
+  header_.points = seen_.count("POINTS") == 0 ? header_.width * header_.height : header_.points;
   header_.bodyOffset = lines_.position();
   header_.bodyLine = lines_.lineNumber() + 1;
   buildFields();
@@ -213,11 +168,10 @@ PcdHeader HeaderParser::parse()
 void checkCompressedSize(std::string_view bytes, PcdHeader& header, unsigned long long unpacked)
 {
   const std::size_t available = bytes.size() - header.bodyOffset;
-  if (available < 8)
-  {
-    failTruncated("the file ends at byte " + std::to_string(bytes.size()) +
-      " before its compressed points, which are stored field after field: a part holds no whole point");
-  }
+  failTruncatedIf(available < 8,
+    "the file ends at byte {} before its compressed points, which are stored field after field: a part holds "
+    "no whole point",
+    bytes.size());
   const unsigned long long packed = numberAt<std::uint32_t>(bytes, header.bodyOffset);
   const unsigned long long claimed = numberAt<std::uint32_t>(bytes, header.bodyOffset + 4);
   if (claimed != unpacked && claimed == header.points * header.recordSize)
@@ -225,19 +179,14 @@ void checkCompressedSize(std::string_view bytes, PcdHeader& header, unsigned lon
     header.compressedRecordSize = header.recordSize; // with the padding, as some programs write it
     unpacked = claimed;
   }
-  if (packed > available - 8)
-  {
-    failTruncated(atByte(header.bodyOffset) + std::to_string(packed) +
-      " compressed bytes announced, but only " + std::to_string(available - 8) +
-      " follow, and as fields are stored one after the other these hold no whole point");
-  }
-  if (claimed != unpacked || unpacked > kMostLzfRatio * packed)
-  {
-    failFormat(atByte(header.bodyOffset + 4) + std::to_string(packed) +
-        " compressed bytes are said to hold " + std::to_string(claimed) + " where the header needs " +
-        std::to_string(unpacked),
-      "the file is damaged or its header is wrong: copy it again");
-  }
+  failTruncatedIf(packed > available - 8,
+    "{}{} compressed bytes announced, but only {} follow, and as fields are stored one after the other these "
+    "hold no whole point",
+    atByte(header.bodyOffset), packed, available - 8);
+  failFormatIf(claimed != unpacked || unpacked > kMostLzfRatio * packed,
+    "the file is damaged or its header is wrong: copy it again",
+    "{}{} compressed bytes are said to hold {} where the header needs {}", atByte(header.bodyOffset + 4),
+    packed, claimed, unpacked);
   header.compressedSize = static_cast<std::size_t>(packed);
 }
 
@@ -247,16 +196,9 @@ void checkSizes(ReadTask& task, PcdHeader& header)
   const bool matches = header.width == 0 || header.height == 0
     ? header.points == 0
     : header.points / header.width == header.height && header.points % header.width == 0;
-  if (!matches)
-  {
-    failFormat("POINTS is " + std::to_string(header.points) + ", but WIDTH is " +
-        std::to_string(header.width) + " and HEIGHT is " + std::to_string(header.height),
-      "make POINTS the product of WIDTH and HEIGHT");
-  }
-  if (header.points == 0)
-  {
-    failNoPoints();
-  }
+  failFormatIf(!matches, "make POINTS the product of WIDTH and HEIGHT",
+    "POINTS is {}, but WIDTH is {} and HEIGHT is {}", header.points, header.width, header.height);
+  header.points == 0 ? failNoPoints() : void();
   const std::size_t available = task.bytes.size() - header.bodyOffset;
   const bool isCompressed = header.encoding == PcdEncoding::Compressed;
   const unsigned long long least = std::max<std::size_t>(1,
@@ -270,10 +212,7 @@ void checkSizes(ReadTask& task, PcdHeader& header)
   {
     const std::string what = "the header counts " + std::to_string(header.points) + " points of at least " +
       std::to_string(least) + " bytes, but only " + std::to_string(available) + " bytes follow";
-    if (isCompressed)
-    {
-      failTruncated(what);
-    }
+    failTruncatedIf(isCompressed, "{}", what);
     header.points = task.endAt(there, header.points, what);
     header.width = header.points;
     header.height = 1;
@@ -303,13 +242,6 @@ PcdHeader parsePcdHeader(ReadTask& task)
   PcdHeader header = HeaderParser(task.bytes).parse();
   checkSizes(task, header);
   return header;
-}
-
-std::string nameOf(PcdEncoding encoding)
-{
-  std::string name(kEncodings[static_cast<std::size_t>(encoding)]);
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return name;
 }
 
 } // namespace pointhaptics::io

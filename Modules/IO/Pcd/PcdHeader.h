@@ -9,12 +9,16 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace pointhaptics::io
 {
 
 struct ReadTask;
+
+/// In the order of PcdEncoding.
+constexpr std::string_view kPcdEncodings[] = { "ascii", "binary", "binary_compressed" };
 
 enum class PcdEncoding
 {
@@ -29,6 +33,7 @@ struct PcdField
   int type = 0; ///< VTK type
   int count = 1;
   std::size_t offset = 0; ///< inside a binary record
+  std::size_t index = 0;  ///< of its column, unless it is padding
 
   bool isPadding() const { return name == "_"; }
   /// "rgb" or "rgba" of 4 bytes: three or four bytes packed into one number.
@@ -57,7 +62,5 @@ struct PcdHeader
 /// @throws FileProblem with line and value, also when the file is too short for what the header promises: one
 /// that is not compressed is read as far as task.endAt() decides.
 PcdHeader parsePcdHeader(ReadTask& task);
-
-std::string nameOf(PcdEncoding encoding);
 
 } // namespace pointhaptics::io

@@ -93,27 +93,19 @@ bool hasCorners(const PlyElement& element, const PlyProperty& list)
 void skipBinaryElement(BinaryBody& body, const PlyElement& element, MeshFaces* faces = nullptr)
 {
   std::vector<vtkIdType> corners;
-  if (element.properties.empty())
-  {
-    return;
-  }
-  for (unsigned long long i = 0; i < element.count; ++i)
+  const bool keepsFaces = faces && faces->isWanted();
+  for (unsigned long long i = 0; i < element.count && !element.properties.empty(); ++i)
   {
     for (const PlyProperty& property : element.properties)
     {
-      if (property.isList && faces && faces->isWanted() && hasCorners(element, property))
-      {
-        body.skipList(property, element, i, &corners);
-        faces->keep(corners);
-      }
-      else if (property.isList)
-      {
-        body.skipList(property, element, i);
-      }
-      else
+      if (!property.isList)
       {
         body.take(static_cast<std::size_t>(sizeOfType(property.type)), element, i);
+        continue;
       }
+      const bool isKept = keepsFaces && hasCorners(element, property);
+      body.skipList(property, element, i, isKept ? &corners : nullptr);
+      isKept ? faces->keep(corners) : void();
     }
   }
 }
@@ -140,33 +132,22 @@ void noteCutElements(ReadTask& task, const PlyHeader& header, Skip&& skip)
   }
 }
 
-/// The columns of the vertex element, and where each property goes (npos for a list).
-struct VertexPlan
+/// The columns of the vertex element: those of its properties that are no lists.
+std::vector<Column> columnsOf(const PlyElement& vertex)
 {
   std::vector<Column> columns;
-  std::vector<std::size_t> columnOfProperty;
-
-  explicit VertexPlan(const PlyElement& vertex)
+  for (const PlyProperty& property : vertex.properties)
   {
-    for (const PlyProperty& property : vertex.properties)
-    {
-      columnOfProperty.push_back(property.isList ? std::string::npos : columns.size());
-      if (!property.isList)
-      {
-        columns.push_back({ property.name, property.type });
-      }
-    }
+    property.isList ? void() : columns.push_back({ property.name, property.type });
   }
-};
+  return columns;
+}
 
 /// How many vertices to read.
 unsigned long long checkedCount(
   ReadTask& task, const PlyElement& vertex, std::size_t available, std::size_t atLeastPerVertex)
 {
-  if (vertex.count == 0)
-  {
-    failNoPoints();
-  }
+  vertex.count == 0 ? failNoPoints() : void();
   const std::size_t there = available / std::max<std::size_t>(atLeastPerVertex, 1);
   return vertex.count > there ? task.endAt(there, vertex.count,
                                   "the header counts " + std::to_string(vertex.count) +
@@ -191,40 +172,36 @@ void fillFixedRecords(
   columns.fill(stored, task);
 }
 
-void fillRecordWithLists(BinaryBody& body, const PlyElement& vertex, const VertexPlan& plan,
-  const CloudColumns& columns, std::uint64_t row)
+void fillRecordWithLists(
+  BinaryBody& body, const PlyElement& vertex, const CloudColumns& columns, std::uint64_t row)
 {
-  for (std::size_t i = 0; i < vertex.properties.size(); ++i)
+  std::size_t column = 0;
+  for (const PlyProperty& property : vertex.properties)
   {
-    const PlyProperty& property = vertex.properties[i];
     if (property.isList)
     {
       body.skipList(property, vertex, row);
       continue;
     }
     const char* data = body.take(static_cast<std::size_t>(sizeOfType(property.type)), vertex, row);
-    copyStrided({ data, 0, property.type },
-      columns.target(plan.columnOfProperty[i]).fromRow(static_cast<vtkIdType>(row)), 1, body.swap());
+    copyStrided({ data, 0, property.type }, columns.target(column++).fromRow(static_cast<vtkIdType>(row)), 1,
+      body.swap());
   }
 }
 
 /// Records that contain lists: their length is known only after reading them.
-void fillRecordsWithLists(BinaryBody& body, const PlyElement& vertex, const VertexPlan& plan,
-  const CloudColumns& columns, std::uint64_t rows, ReadTask& task)
+void fillRecordsWithLists(
+  BinaryBody& body, const PlyElement& vertex, const CloudColumns& columns, std::uint64_t rows, ReadTask& task)
 {
   for (std::uint64_t row = 0; row < rows; ++row)
   {
     try
     {
-      fillRecordWithLists(body, vertex, plan, columns, row);
+      fillRecordWithLists(body, vertex, columns, row);
     }
     catch (const FileProblem& problem)
     {
-      if (!task.salvage || row == 0)
-      {
-        throw;
-      }
-      task.endAt(row, vertex.count, problem.what());
+      task.endBehind(row, vertex.count, problem);
       return;
     }
     task.step(row, row, vertex.count);
@@ -247,11 +224,10 @@ void readBinaryBody(ReadTask& task, const PlyHeader& header, vtkPolyData* cloud)
   }
   const std::size_t recordSize = vertex.minimumRecordSize();
   const RowRange rows = task.rowsOf(checkedCount(task, vertex, body.remaining(), recordSize));
-  const VertexPlan plan(vertex);
-  CloudColumns columns(plan.columns, static_cast<vtkIdType>(rows.count()));
+  CloudColumns columns(columnsOf(vertex), static_cast<vtkIdType>(rows.count()));
   if (vertex.hasList())
   {
-    fillRecordsWithLists(body, vertex, plan, columns, rows.count(), task);
+    fillRecordsWithLists(body, vertex, columns, rows.count(), task);
   }
   else
   {
@@ -343,12 +319,12 @@ void readAsciiBody(ReadTask& task, const PlyHeader& header, vtkPolyData* cloud)
   const std::size_t available = task.bytes.size() - header.bodyOffset - lines.position() + 1;
   const std::size_t least = 2 * vertex.properties.size();
   const std::uint64_t rows = checkedCount(task, vertex, available, least);
-  const VertexPlan plan(vertex);
-  CloudColumns columns(plan.columns, static_cast<vtkIdType>(rows));
+  CloudColumns columns(columnsOf(vertex), static_cast<vtkIdType>(rows));
   std::vector<TextField> fields = textFields(vertex);
-  for (std::size_t i = 0; i < fields.size(); ++i)
+  std::size_t column = 0;
+  for (TextField& field : fields)
   {
-    fields[i].target = fields[i].isList ? ColumnView{} : columns.target(plan.columnOfProperty[i]);
+    field.target = field.isList ? ColumnView{} : columns.target(column++);
   }
   const bool isLast = std::all_of(header.elements.begin() + std::ptrdiff_t(vertexIndex) + 1,
     header.elements.end(), [](const PlyElement& later) { return later.count == 0; });
@@ -368,7 +344,7 @@ void readPly(ReadTask& task, vtkPolyData* cloud)
     task.takeWhole();
   }
   const PlyHeader header = parsePlyHeader(task.bytes);
-  task.format = "PLY (" + nameOf(header.encoding) + ")";
+  task.format = "PLY (" + spaced(kPlyEncodings[static_cast<std::size_t>(header.encoding)]) + ")";
   task.notes = header.notes;
   for (const PlyElement& element : header.elements)
   {
@@ -383,14 +359,8 @@ void readPly(ReadTask& task, vtkPolyData* cloud)
         ", which each vertex has of its own length, is left out; arrays of points have one length");
     }
   }
-  if (header.encoding == PlyEncoding::Ascii)
-  {
-    readAsciiBody(task, header, cloud);
-  }
-  else
-  {
-    readBinaryBody(task, header, cloud);
-  }
+  header.encoding == PlyEncoding::Ascii ? readAsciiBody(task, header, cloud)
+                                        : readBinaryBody(task, header, cloud);
   header.comments.moveTo(cloud, task.notes);
 }
 

@@ -1,13 +1,14 @@
 #include "IO/Ply/PlyHeader.h"
 
+#include "Bytes/Checks.h"
 #include "Bytes/NumericType.h"
-#include "FileProblem.h"
 #include "IO/Bytes/TextScan.h"
 #include "IO/Columns/CloudColumns.h"
 #include "IO/Formats/FormatLooks.h"
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 namespace pointhaptics::io
 {
@@ -15,48 +16,25 @@ namespace pointhaptics::io
 namespace
 {
 
-struct TypeName
-{
-  std::string_view name;
-  int type;
-};
-
 /// The first name of a type is written.
-constexpr TypeName kTypeNames[] = { { "char", VTK_TYPE_INT8 }, { "int8", VTK_TYPE_INT8 },
-  { "uchar", VTK_TYPE_UINT8 }, { "uint8", VTK_TYPE_UINT8 }, { "short", VTK_TYPE_INT16 },
-  { "int16", VTK_TYPE_INT16 }, { "ushort", VTK_TYPE_UINT16 }, { "uint16", VTK_TYPE_UINT16 },
-  { "int", VTK_TYPE_INT32 }, { "int32", VTK_TYPE_INT32 }, { "uint", VTK_TYPE_UINT32 },
-  { "uint32", VTK_TYPE_UINT32 }, { "bool", VTK_TYPE_UINT8 }, { "long", VTK_TYPE_INT64 },
-  { "int64", VTK_TYPE_INT64 }, { "ulong", VTK_TYPE_UINT64 }, { "uint64", VTK_TYPE_UINT64 },
-  { "float", VTK_FLOAT }, { "float32", VTK_FLOAT }, { "double", VTK_DOUBLE }, { "float64", VTK_DOUBLE } };
+constexpr std::pair<std::string_view, int> kTypeNames[] = { { "char", VTK_TYPE_INT8 },
+  { "int8", VTK_TYPE_INT8 }, { "uchar", VTK_TYPE_UINT8 }, { "uint8", VTK_TYPE_UINT8 },
+  { "short", VTK_TYPE_INT16 }, { "int16", VTK_TYPE_INT16 }, { "ushort", VTK_TYPE_UINT16 },
+  { "uint16", VTK_TYPE_UINT16 }, { "int", VTK_TYPE_INT32 }, { "int32", VTK_TYPE_INT32 },
+  { "uint", VTK_TYPE_UINT32 }, { "uint32", VTK_TYPE_UINT32 }, { "bool", VTK_TYPE_UINT8 },
+  { "long", VTK_TYPE_INT64 }, { "int64", VTK_TYPE_INT64 }, { "ulong", VTK_TYPE_UINT64 },
+  { "uint64", VTK_TYPE_UINT64 }, { "float", VTK_FLOAT }, { "float32", VTK_FLOAT }, { "double", VTK_DOUBLE },
+  { "float64", VTK_DOUBLE } };
 
 int parseType(std::string_view word, std::size_t line)
 {
-  for (const TypeName& known : kTypeNames)
-  {
-    if (known.name == word)
-    {
-      return known.type;
-    }
-  }
-  failLine(line, "unknown property type " + inQuotes(word),
+  const auto* const known = std::find_if(
+    std::begin(kTypeNames), std::end(kTypeNames), [&](const auto& each) { return each.first == word; });
+  failFormatIf(known == std::end(kTypeNames),
     "PLY has char uchar short ushort int uint float double; int8 to uint64, float32, float64 and bool are "
-    "known, "
-    "too");
-}
-
-/// In the order of PlyEncoding.
-constexpr std::string_view kEncodings[] = { "ascii", "binary_little_endian", "binary_big_endian" };
-
-PlyEncoding parseEncoding(std::string_view word, std::size_t line)
-{
-  const std::size_t found = indexOf(kEncodings, word);
-  if (found == std::size(kEncodings))
-  {
-    failLine(line, "unknown encoding " + inQuotes(word),
-      "PLY has ascii, binary_little_endian and binary_big_endian");
-  }
-  return static_cast<PlyEncoding>(found);
+    "known, too",
+    "{}unknown property type {}", atLine(line), inQuotes(word));
+  return known->second;
 }
 
 PlyElement parseElement(std::string_view rest, std::size_t line)
@@ -64,11 +42,9 @@ PlyElement parseElement(std::string_view rest, std::size_t line)
   PlyElement element;
   element.name = std::string(takeWord(rest));
   const std::string_view count = takeWord(rest);
-  if (element.name.empty() || !parseCount(count, element.count))
-  {
-    failLine(line, "element " + inQuotes(element.name) + " has the count " + inQuotes(count),
-      "write: element NAME COUNT, with a count of 0 or more");
-  }
+  failFormatIf(element.name.empty() || !parseCount(count, element.count),
+    "write: element NAME COUNT, with a count of 0 or more", "{}element {} has the count {}", atLine(line),
+    inQuotes(element.name), inQuotes(count));
   return element;
 }
 
@@ -80,18 +56,13 @@ PlyProperty parseProperty(std::string_view rest, std::size_t line)
   {
     property.isList = true;
     property.countType = parseType(takeWord(rest), line);
-    if (isFloatingType(property.countType))
-    {
-      failLine(line, "a list counted by float numbers", "count lists by uchar, ushort or uint");
-    }
+    failFormatIf(isFloatingType(property.countType), "count lists by uchar, ushort or uint",
+      "{}a list counted by float numbers", atLine(line));
     word = takeWord(rest);
   }
   property.type = parseType(word, line);
   property.name = std::string(takeWord(rest));
-  if (property.name.empty())
-  {
-    failLine(line, "a property without name", "write: property TYPE NAME");
-  }
+  failFormatIf(property.name.empty(), "write: property TYPE NAME", "{}a property without name", atLine(line));
   return property;
 }
 
@@ -136,14 +107,11 @@ std::size_t PlyElement::minimumRecordSize() const
 
 std::size_t PlyHeader::vertexElement() const
 {
-  for (std::size_t i = 0; i < elements.size(); ++i)
-  {
-    if (elements[i].name == "vertex")
-    {
-      return i;
-    }
-  }
-  failFormat("the header has no element vertex", "a point cloud needs: element vertex COUNT");
+  const auto found = std::find_if(
+    elements.begin(), elements.end(), [](const PlyElement& element) { return element.name == "vertex"; });
+  failFormatIf(
+    found == elements.end(), "a point cloud needs: element vertex COUNT", "the header has no element vertex");
+  return static_cast<std::size_t>(found - elements.begin());
 }
 
 PlyHeader parsePlyHeader(std::string_view bytes)
@@ -151,10 +119,8 @@ PlyHeader parsePlyHeader(std::string_view bytes)
   // A header of CR-only lines may stand before a body with LF bytes: cut it off before splitting lines.
   std::size_t end = bytes.find("\nend_header");
   end = std::min(end, bytes.substr(0, end).find("\rend_header")); // not in the body, which may be large
-  if (end == std::string_view::npos)
-  {
-    failTruncated("the header has no line end_header within " + std::to_string(bytes.size()) + " bytes");
-  }
+  failTruncatedIf(
+    end == std::string_view::npos, "the header has no line end_header within {} bytes", bytes.size());
   ++end;
   PlyHeader header;
   bool formatSeen = false;
@@ -167,7 +133,12 @@ PlyHeader parsePlyHeader(std::string_view bytes)
     const std::string_view keyword = takeWord(line);
     if (keyword == "format")
     {
-      header.encoding = parseEncoding(takeWord(line), number);
+      const std::string_view word = takeWord(line);
+      const std::size_t found = indexOf(kPlyEncodings, word);
+      failFormatIf(found == std::size(kPlyEncodings),
+        "PLY has ascii, binary_little_endian and binary_big_endian", "{}unknown encoding {}", atLine(number),
+        inQuotes(word));
+      header.encoding = static_cast<PlyEncoding>(found);
       formatSeen = true;
     }
     else if (keyword == "element")
@@ -176,14 +147,10 @@ PlyHeader parsePlyHeader(std::string_view bytes)
     }
     else if (keyword == "property")
     {
-      if (header.elements.empty())
-      {
-        failLine(number, "a property before any element", "write the element's line first");
-      }
-      if (header.elements.back().properties.size() == kMostColumns)
-      {
-        failLine(number, "more than " + std::to_string(kMostColumns) + " properties", "use lists");
-      }
+      failFormatIf(header.elements.empty(), "write the element's line first",
+        "{}a property before any element", atLine(number));
+      failFormatIf(header.elements.back().properties.size() == kMostColumns, "use lists",
+        "{}more than {} properties", atLine(number), kMostColumns);
       header.elements.back().properties.push_back(parseProperty(line, number));
     }
     else if (keyword == "comment")
@@ -196,28 +163,19 @@ PlyHeader parsePlyHeader(std::string_view bytes)
     }
   }
   noteUnknown(unknown, header);
-  if (!formatSeen)
-  {
-    failFormat("the header has no line format", "write: format ascii 1.0 (or binary_little_endian)");
-  }
+  failFormatIf(
+    !formatSeen, "write: format ascii 1.0 (or binary_little_endian)", "the header has no line format");
   header.bodyLine = lines.lineNumber() + 2;
   header.bodyOffset = bodyAfter(bytes, end + std::string_view("end_header").size());
   return header;
-}
-
-std::string nameOf(PlyEncoding encoding)
-{
-  std::string name(kEncodings[static_cast<std::size_t>(encoding)]);
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return name;
 }
 
 const char* plyTypeName(int type)
 {
   const int plain = fixedSizeType(type);
   const auto* const found = std::find_if(std::begin(kTypeNames), std::end(kTypeNames),
-    [&](const TypeName& each) { return each.type == plain && sizeOfType(plain) < 8; });
-  return found == std::end(kTypeNames) ? "double" : found->name.data();
+    [&](const auto& each) { return each.second == plain && sizeOfType(plain) < 8; });
+  return found == std::end(kTypeNames) ? "double" : found->first.data();
 }
 
 } // namespace pointhaptics::io

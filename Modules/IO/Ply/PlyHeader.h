@@ -12,6 +12,9 @@
 namespace pointhaptics::io
 {
 
+/// In the order of PlyEncoding.
+constexpr std::string_view kPlyEncodings[] = { "ascii", "binary_little_endian", "binary_big_endian" };
+
 enum class PlyEncoding
 {
   Ascii,
@@ -53,8 +56,6 @@ struct PlyHeader
 
 /// @throws FileProblem with line and value.
 PlyHeader parsePlyHeader(std::string_view bytes);
-
-std::string nameOf(PlyEncoding encoding);
 
 /// The word of the format for numbers of the VTK type @p type; "double" for what it has none for.
 const char* plyTypeName(int type);

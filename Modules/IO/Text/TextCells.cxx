@@ -1,6 +1,6 @@
 #include "IO/Text/TextCells.h"
 
-#include "FileProblem.h"
+#include "Bytes/Checks.h"
 #include "IO/Columns/CloudColumns.h"
 
 #include <algorithm>
@@ -93,6 +93,31 @@ bool parseForeign(std::string_view cell, double& value, NumberShape* shape)
   return parseWith('e', cell.find_first_of("dDqQ"), cell, value, shape);
 }
 
+/// Removes the marks between thousands: "1234.56" for "1.234,56", "1,234.56" or "1'234.56". Empty where @p
+/// cell is no such number: "1.234" alone is ambiguous.
+std::string withoutThousandsMarks(std::string_view cell)
+{
+  const bool isNegative = cell.substr(0, 1) == "-";
+  const std::string_view digits = cell.substr(isNegative ? 1 : 0);
+  const std::size_t first = digits.find_first_of(".,'");
+  const std::size_t last = digits.find_last_of(".,");
+  if (first == std::string_view::npos || last == std::string_view::npos || first == 0 || first > 3 ||
+    last <= first || digits[first] == digits[last])
+  {
+    return {};
+  }
+  std::string plain(digits.substr(0, first));
+  std::size_t at = first;
+  for (; at < last && digits[at] == digits[first] && at + 4 <= last; at += 4)
+  {
+    plain += digits.substr(at + 1, 3);
+  }
+  const std::string decimals(digits.substr(last + 1));
+  const bool areDigits =
+    !decimals.empty() && (plain + decimals).find_first_not_of("0123456789") == std::string::npos;
+  return at == last && areDigits ? (isNegative ? "-" : "") + plain + "." + decimals : std::string();
+}
+
 constexpr std::string_view kSeparators = ",;|\t";
 
 /// Separators on the line of text that holds the place @p at.
@@ -146,31 +171,23 @@ std::string withoutLineEndsInCells(std::string_view text)
   std::size_t open = text.find('"');
   while (open != std::string_view::npos)
   {
-    if (open > 0 && !isEnd(text.find_last_not_of(' ', open - 1)))
-    {
-      open = text.find('"', open + 1);
-      continue;
-    }
-    const std::string_view rest = text.substr(0, open + kLongestCell);
+    const bool isFirst = open == 0 || isEnd(text.find_last_not_of(' ', open - 1));
+    const std::string_view rest = text.substr(0, open + (isFirst ? kLongestCell : 1));
     std::size_t close = rest.find('"', open + 1);
     while (close != std::string_view::npos && rest.substr(close + 1, 1) == "\"")
     {
       close = rest.find('"', close + 2); // two are one within quotation marks
     }
-    if (close == std::string_view::npos)
-    {
-      open = text.find('"', rest.size()); // no cell begins within one that does not end
-      continue;
-    }
-    const std::string_view cell = text.substr(open, close - open);
-    if (isEnd(text.find_first_not_of(' ', close + 1)) &&
-      cell.find_first_of("\r\n") != std::string_view::npos && !areOfTwoRows(text, open, close))
+    const bool isClosed = close != std::string_view::npos;
+    if (isClosed && isEnd(text.find_first_not_of(' ', close + 1)) &&
+      text.substr(open, close - open).find_first_of("\r\n") != std::string_view::npos &&
+      !areOfTwoRows(text, open, close))
     {
       joined = joined.empty() ? std::string(text) : std::move(joined);
       std::replace(joined.begin() + std::ptrdiff_t(open), joined.begin() + std::ptrdiff_t(close), '\n', ' ');
       std::replace(joined.begin() + std::ptrdiff_t(open), joined.begin() + std::ptrdiff_t(close), '\r', ' ');
     }
-    open = text.find('"', close + 1);
+    open = text.find('"', isClosed ? close + 1 : rest.size()); // no cell begins within one that does not end
   }
   return joined;
 }
@@ -179,30 +196,7 @@ bool parseUnusualCell(std::string_view cell, double& value, NumberShape* shape)
 {
   cell = withoutQuotes(cell);
   return parseNumber(cell, value, shape) || parseWithComma(cell, value, shape) ||
-    parseForeign(cell, value, shape);
-}
-
-std::string withoutThousandsMarks(std::string_view cell)
-{
-  const bool isNegative = cell.substr(0, 1) == "-";
-  const std::string_view digits = cell.substr(isNegative ? 1 : 0);
-  const std::size_t first = digits.find_first_of(".,'");
-  const std::size_t last = digits.find_last_of(".,");
-  if (first == std::string_view::npos || last == std::string_view::npos || first == 0 || first > 3 ||
-    last <= first || digits[first] == digits[last])
-  {
-    return {};
-  }
-  std::string plain(digits.substr(0, first));
-  std::size_t at = first;
-  for (; at < last && digits[at] == digits[first] && at + 4 <= last; at += 4)
-  {
-    plain += digits.substr(at + 1, 3);
-  }
-  const std::string decimals(digits.substr(last + 1));
-  const bool areDigits =
-    !decimals.empty() && (plain + decimals).find_first_not_of("0123456789") == std::string::npos;
-  return at == last && areDigits ? (isNegative ? "-" : "") + plain + digits[last] + decimals : std::string();
+    parseForeign(cell, value, shape) || parseNumber(withoutThousandsMarks(cell), value, shape);
 }
 
 char separatorOf(std::string_view line)
@@ -287,12 +281,8 @@ std::vector<std::string_view> cellsOf(std::string_view line, char separator, std
   std::string_view cell;
   while (takeCell(line, separator, cell) && !(separator == ' ' && isComment(cell)))
   {
-    if (cells.size() == kMostColumns)
-    {
-      failFormat(
-        "line " + std::to_string(lineNumber) + ": more than " + std::to_string(kMostColumns) + " columns",
-        "write one point per line");
-    }
+    failFormatIf(cells.size() == kMostColumns, "write one point per line", "line {}: more than {} columns",
+      lineNumber, kMostColumns);
     cells.push_back(cell);
     double value = 0.0;
     const std::string_view beforeComment = withoutComment(cell);

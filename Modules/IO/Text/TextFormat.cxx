@@ -1,9 +1,12 @@
 #include "IO/Text/TextTable.h"
 
+#include "Bytes/Checks.h"
 #include "IO/Columns/CloudColumns.h"
 #include "IO/Formats/FormatLooks.h"
 #include "IO/Info/LengthUnit.h"
 #include "IO/Text/TextCells.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <utility>
@@ -36,39 +39,6 @@ const char* separatorName(char separator)
                           : "space separated";
 }
 
-/// Refuses a table with "1.234,56" in the line of @p texts, whatever the cells were taken to be: commas and
-/// points may have been taken for separators.
-void failThousands(std::string_view text, const TextLayout& layout, const TextColumn& texts)
-{
-  LineReader lines(text.substr(layout.bodyOffset), layout.bodyLine);
-  std::string_view line;
-  while (lines.next(line) && lines.lineNumber() < texts.line)
-  {
-  }
-  while (!line.empty() && lines.lineNumber() == texts.line)
-  {
-    const std::size_t end = std::min(line.find_first_of(" \t;|\""), line.size());
-    if (const std::string plain = withoutThousandsMarks(line.substr(0, end)); !plain.empty())
-    {
-      failFormat(texts.where() + ": " + inQuotes(line.substr(0, end)) + " has marks between thousands",
-        "write numbers without them, as " + plain +
-          (plain.find(',') == std::string::npos ? ""
-                                                : ", and separate columns by semicolons or white space"));
-    }
-    line.remove_prefix(std::min(end + 1, line.size()));
-  }
-}
-
-[[noreturn]] void failText(
-  std::string_view text, const TextLayout& layout, const TextTable& table, std::size_t column)
-{
-  const TextColumn& texts = table.columns[column];
-  failThousands(text, layout, texts);
-  failFormat(texts.where() + ", column " + std::to_string(column + 1) + ": " + inQuotes(texts.firstText) +
-      " is not a number",
-    "write x, y and z as numbers with the same separator on every line, and comments after #");
-}
-
 constexpr const char* kLeftOut = "-";
 
 /// The columns that are read.
@@ -96,8 +66,7 @@ std::vector<std::string> namesOf(
   std::vector<ColumnEvidence> evidence;
   for (const std::size_t i : read)
   {
-    const NumberColumn& numbers = table.columns[i].numbers;
-    evidence.push_back({ table.columns[i].sample, numbers.smallest(), numbers.largest(), numbers.isWhole() });
+    evidence.push_back(table.columns[i].numbers);
   }
   const bool hasName = !read.empty() && read[0] > 0;
   const bool hasDescription =
@@ -120,8 +89,7 @@ std::vector<std::string> namesOf(
 }
 
 /// @throws FileProblem where x, y or z holds a text.
-void checkCoordinates(std::string_view text, const TextTable& table, const TextLayout& layout,
-  const std::vector<std::size_t>& read)
+void checkCoordinates(const TextTable& table, const TextLayout& layout, const std::vector<std::size_t>& read)
 {
   const std::vector<std::size_t> places =
     layout.names.empty() ? read : coordinatesOf(columnsCalled(layout.names));
@@ -129,10 +97,10 @@ void checkCoordinates(std::string_view text, const TextTable& table, const TextL
   for (std::size_t i = 0; i < (areTooFew ? table.columns.size() : 3); ++i)
   {
     const std::size_t column = areTooFew ? i : places[i];
-    if (table.columns[column].texts > 0)
-    {
-      failText(text, layout, table, column);
-    }
+    const TextColumn& texts = table.columns[column];
+    failFormatIf(texts.texts > 0,
+      "write x, y and z as numbers with the same separator on every line, and comments after #",
+      "{}, column {}: {} is not a number", texts.where(), column + 1, inQuotes(texts.firstText));
   }
 }
 
@@ -144,12 +112,15 @@ std::string noteOf(const TextTable& table, std::size_t i, const std::string& nam
   {
     return {};
   }
-  const std::string column = "column " + (name.empty() ? std::to_string(i + 1) : inQuotes(name));
+  const std::string column = name.empty() ? std::to_string(i + 1) : inQuotes(name);
   const std::string first = inQuotes(texts.firstText) + " in " + texts.where();
   return table.isOfTexts(i)
-    ? column + " holds texts, such as " + first + ", and is left out; write numbers in their place to keep it"
-    : std::to_string(texts.texts) + " of " + std::to_string(table.rows) + " cells of " + column +
-      " hold no number, such as " + first + ", and become NaN; write numbers in their place to keep them";
+    ? fmt::format(
+        "column {} holds texts, such as {}, and is left out; write numbers in their place to keep it", column,
+        first)
+    : fmt::format("{} of {} cells of column {} hold no number, such as {}, and become NaN; write numbers in "
+                  "their place to keep them",
+        texts.texts, table.rows, column, first);
 }
 
 constexpr const char* kCureOfCommas =
@@ -185,10 +156,7 @@ void failTornDecimals(std::string_view text, const TextLayout& layout)
       }
     }
   }
-  if (!torn.empty())
-  {
-    failFormat(torn, kCureOfCommas);
-  }
+  failFormatIf(!torn.empty(), kCureOfCommas, "{}", torn);
 }
 
 /// Takes the unit that the header says: "mm" of "x [mm]", "y [mm]", "z [mm]", "degree" of longitude and
@@ -210,11 +178,9 @@ void takeUnits(const std::vector<std::string>& names, FileComments& comments)
     {
       return;
     }
-    if (!unit.empty() && own != unit && (known.empty() || known != lengthUnitCalled(unit)))
-    {
-      failFormat(inQuotes(names[i]) + " is in " + own + ", other coordinates are in " + unit,
-        "convert the columns to one unit, or name them by --columns where they are in one");
-    }
+    failFormatIf(!unit.empty() && own != unit && (known.empty() || known != lengthUnitCalled(unit)),
+      "convert the columns to one unit, or name them by --columns where they are in one",
+      "{} is in {}, other coordinates are in {}", inQuotes(names[i]), own, unit);
     unit = own;
   }
   comments.unit = unit.empty() ? comments.unit : unit;
@@ -272,10 +238,7 @@ void readTable(ReadTask& task, std::string_view text, TextLayout layout, vtkPoly
     text = text.substr(0, text.rfind('\n') + 1); // behind it the file may be cut within a number
   }
   const TextTable table = surveyLines(task, text, layout);
-  if (table.rows == 0)
-  {
-    failNoPoints();
-  }
+  table.rows == 0 ? failNoPoints() : void();
   if (table.missing > 0)
   {
     task.endAt(static_cast<std::uint64_t>(table.rows), static_cast<std::uint64_t>(table.rows) + table.missing,
@@ -283,7 +246,7 @@ void readTable(ReadTask& task, std::string_view text, TextLayout layout, vtkPoly
         " points before the count in its first line is reached");
   }
   const std::vector<std::size_t> read = columnsOfNumbers(table, layout);
-  checkCoordinates(text, table, layout, read);
+  checkCoordinates(table, layout, read);
   const std::vector<std::string> names = namesOf(table, layout, read, task);
   noteColumns(table, layout, names, task.notes);
   std::vector<Column> planned;
@@ -318,25 +281,17 @@ void readText(ReadTask& task, vtkPolyData* cloud)
   task.format = layout.hasPointCount ? "PTS"
     : isBlank                        ? "text"
                                      : std::string("text (") + separatorName(layout.separator) + ")";
-  if (layout.columns == 0)
-  {
-    failNoPoints();
-  }
-  if (!task.columns.empty() && task.columns.size() < 3)
-  {
-    failFormat("--columns has " + std::to_string(task.columns.size()) + " names, and a point needs three",
-      "name x, y and z, and - for each column that is left out");
-  }
-  if (layout.columns < 3 || (!layout.names.empty() && layout.names.size() != layout.columns))
-  {
-    failFormat("the first line of data has " + std::to_string(layout.columns) +
-        (layout.columns == 1 ? " column" : " columns") +
-        (layout.names.empty() ? "" : " and the header names " + std::to_string(layout.names.size())),
-      layout.separator == ',' && layout.columns > layout.names.size()
-        ? kCureOfCommas
-        : "write one point per line: x y z, then one column per name of the header; or name them by "
-          "--columns");
-  }
+  layout.columns == 0 ? failNoPoints() : void();
+  failFormatIf(!task.columns.empty() && task.columns.size() < 3,
+    "name x, y and z, and - for each column that is left out",
+    "--columns has {} names, and a point needs three", task.columns.size());
+  failFormatIf(layout.columns < 3 || (!layout.names.empty() && layout.names.size() != layout.columns),
+    layout.separator == ',' && layout.columns > layout.names.size()
+      ? kCureOfCommas
+      : "write one point per line: x y z, then one column per name of the header; or name them by "
+        "--columns",
+    "the first line of data has {}{}{}", layout.columns, (layout.columns == 1 ? " column" : " columns"),
+    (layout.names.empty() ? "" : " and the header names " + std::to_string(layout.names.size())));
   failTornDecimals(text, layout);
   FileComments comments = layout.comments;
   takeUnits(layout.names, comments);

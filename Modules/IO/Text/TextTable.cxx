@@ -1,5 +1,6 @@
 #include "IO/Text/TextTable.h"
 
+#include "Bytes/Checks.h"
 #include "IO/Columns/CloudColumns.h"
 #include "IO/Info/LengthUnit.h"
 #include "IO/Text/TextCells.h"
@@ -81,15 +82,25 @@ void addComment(std::string_view comment, std::size_t number, TextLayout& layout
   }
 }
 
+/// Takes @p names, behind which each line @p hasMore, where these fit the lines of data.
+bool takeNames(std::vector<std::string> names, bool hasMore, TextLayout& layout)
+{
+  const bool fits = (hasMore ? names.size() <= layout.columns : names.size() == layout.columns) &&
+    LineCells::namesCoordinates(names);
+  if (fits)
+  {
+    layout.columns = names.size();
+    layout.hasMore = hasMore;
+    layout.names = std::move(names);
+  }
+  return fits;
+}
+
 /// Takes names from a comment such as "POINT3D_ID, X, Y, Z, TRACK[] as ...", whose list may have any length.
 /// Prose is no header, however long it is.
 bool nameByComment(const Title& title, TextLayout& layout)
 {
-  if (!title.isComment)
-  {
-    return false;
-  }
-  std::string_view text = title.line.substr(0, kLongestHeader);
+  std::string_view text = title.line.substr(0, title.isComment ? kLongestHeader : 0);
   const std::size_t list = std::min(text.find("[]"), text.find("..."));
   for (const std::size_t colon : { std::string_view::npos, text.substr(0, list).rfind(": ") })
   {
@@ -100,12 +111,8 @@ bool nameByComment(const Title& title, TextLayout& layout)
       { return name.find("[]") != std::string::npos || name.find("...") != std::string::npos; });
     const bool hasList = open != names.end();
     names.erase(open, names.end());
-    if ((hasList ? names.size() <= layout.columns : names.size() == layout.columns) &&
-      LineCells::namesCoordinates(names))
+    if (takeNames(names, hasList, layout))
     {
-      layout.columns = names.size();
-      layout.hasMore = hasList;
-      layout.names = names;
       return true;
     }
   }
@@ -153,20 +160,15 @@ bool nameByOrder(const Title& title, TextLayout& layout)
     const auto description = std::find(names.begin(), names.end(), "description");
     const bool hasMore = description != names.end();
     names.erase(description, names.end());
-    if (names.size() < 3 || (hasMore ? names.size() > layout.columns : names.size() != layout.columns))
+    if (takeNames(names, hasMore, layout))
     {
-      continue;
+      const bool isUsual = coordinatesOf(columnsCalled(names)) == std::vector<std::size_t>{ 0, 1, 2 };
+      layout.note = isUsual ? ""
+                            : inQuotes(word) + " in line " + std::to_string(title.number) +
+          " orders the columns as " + listOf(names) +
+          (hasMore ? " and a description, which is left out" : "") + "; --columns NAMES says otherwise";
+      return true;
     }
-    std::vector<std::size_t> found;
-    findCoordinates(columnsCalled(names), found);
-    layout.note = found == std::vector<std::size_t>{ 0, 1, 2 } ? ""
-                                                               : inQuotes(word) + " in line " +
-        std::to_string(title.number) + " orders the columns as " + listOf(names) +
-        (hasMore ? " and a description, which is left out" : "") + "; --columns NAMES says otherwise";
-    layout.columns = names.size();
-    layout.hasMore = hasMore;
-    layout.names = std::move(names);
-    return true;
   }
   return false;
 }
@@ -237,183 +239,105 @@ void nameColumns(const std::vector<Title>& titles, const std::vector<std::string
 /// Walks over the lines of data and shows each cell to a Sink: number(column, value, shape), empty(column),
 /// text(column, cell, lineNumber), more() for columns that are left out, endRow().
 template <typename Sink>
-class TableWalk
+struct TableWalk
 {
-public:
-  TableWalk(const TextLayout& layout, std::size_t bytes, bool isSalvaged, Sink& sink)
-    : layout_(layout)
-    , isSalvaged_(isSalvaged)
-    , sink_(sink)
-    , remainingLines_(layout.hasPointCount ? 0 : std::numeric_limits<unsigned long long>::max())
-    , bytes_(bytes)
+  const ReadTask& task;
+  std::string_view text;
+  const TextLayout& layout;
+  Sink& sink;
+  unsigned long long remainingLines =
+    layout.hasPointCount ? 0 : std::numeric_limits<unsigned long long>::max();
+  std::size_t lineNumber = 0;
+
+  void run(double from, double to)
   {
-  }
-  void run(const ReadTask& task, std::string_view text, double from, double to);
-
-private:
-  void addLine(std::string_view line);
-  void addWords(std::string_view line);
-  void addSeparated(std::string_view line);
-  void addText(std::size_t column, std::string_view cell);
-  void startBlock(std::string_view line);
-  std::string where() const { return "line " + std::to_string(lineNumber_); }
-  [[noreturn]] void failColumns(std::string_view line) const;
-
-  const TextLayout& layout_;
-  const bool isSalvaged_;
-  Sink& sink_;
-  unsigned long long remainingLines_;
-  std::size_t bytes_;
-  std::size_t lineNumber_ = 0;
-};
-
-template <typename Sink>
-void TableWalk<Sink>::failColumns(std::string_view line) const
-{
-  throw ColumnsDiffer(vtkErrorCode::FileFormatError,
-    where() + ": " + std::to_string(cellsOf(line, layout_.separator, lineNumber_).size()) +
-      " columns where " + std::to_string(layout_.columns) + " were expected",
-    "write the same number of columns on every line");
-}
-
-template <typename Sink>
-void TableWalk<Sink>::startBlock(std::string_view line)
-{
-  if (!parseCount(trimmed(line), remainingLines_))
-  {
-    failFormat(where() + ": " + inQuotes(line) + " stands where a count of points was expected",
-      "write the right number of points in the first line");
-  }
-  if (remainingLines_ > bytes_ && !isSalvaged_)
-  {
-    failTruncated(where() + ": the count of points is " + std::to_string(remainingLines_) + " in a file of " +
-      std::to_string(bytes_) + " bytes");
-  }
-}
-
-/// Programs write a word where they have no value.
-template <typename Sink>
-void TableWalk<Sink>::addText(std::size_t column, std::string_view cell)
-{
-  constexpr std::string_view kNoValue[] = { "NULL", "NA", "N/A", "#N/A", "none", "nil" };
-  const std::string_view word = withoutQuotes(cell);
-  const bool isValue = std::none_of(std::begin(kNoValue), std::end(kNoValue),
-    [word](std::string_view none) { return word.empty() || equalNoCase(word, none); });
-  isValue ? sink_.text(column, cell, lineNumber_) : sink_.empty(column);
-}
-
-template <typename Sink>
-void TableWalk<Sink>::addWords(std::string_view line)
-{
-  std::string_view rest = line;
-  for (std::size_t column = 0; column < layout_.columns; ++column)
-  {
-    double value = 0.0;
-    NumberShape shape;
-    if (!takeNumber(rest, value, &shape))
+    LineReader lines(text.substr(layout.bodyOffset), layout.bodyLine);
+    std::string_view line;
+    while (lines.next(line))
     {
-      std::string_view cell;
-      if (!takeCell(rest, ' ', cell))
+      line = trimmed(line, layout.separator);
+      lineNumber = lines.lineNumber();
+      const bool isFilled = !line.empty() && !isComment(line);
+      if (isFilled && remainingLines == 0)
+      {
+        startBlock(line);
+      }
+      else if (isFilled)
+      {
+        addCells(line);
+        sink.endRow();
+        --remainingLines;
+      }
+      if (lineNumber % static_cast<std::size_t>(kProgressRows) == 0)
+      {
+        const double part =
+          static_cast<double>(layout.bodyOffset + lines.position()) / static_cast<double>(text.size());
+        task.progress(from + (to - from) * part);
+      }
+    }
+    layout.hasPointCount ? sink.missing(remainingLines) : void();
+  }
+  void addCells(std::string_view line)
+  {
+    const bool areWords = layout.separator == ' ';
+    std::string_view rest = line;
+    std::string_view cell;
+    for (std::size_t column = 0; column < layout.columns; ++column)
+    {
+      double value = 0.0;
+      NumberShape shape;
+      if (areWords && takeNumber(rest, value, &shape)) // as nearly all are
+      {
+        sink.number(column, value, shape);
+        continue;
+      }
+      if (!takeCell(rest, layout.separator, cell))
       {
         failColumns(line);
       }
-      if (!parseCell(cell, value, &shape))
+      bool isNumber = parseCell(cell, value, &shape);
+      const std::string_view plain = isNumber ? cell : withoutComment(cell);
+      if (plain.size() < cell.size() && parseCell(plain, value, &shape))
       {
-        addText(column, cell);
-        continue;
+        isNumber = true;
+        rest = {};
+      }
+      isNumber ? sink.number(column, value, shape) : addText(column, cell);
+    }
+    while (!rest.empty() && takeCell(rest, layout.separator, cell) && !(areWords && isComment(cell)))
+    {
+      if (!cell.empty()) // a separator at the end of a line is common
+      {
+        layout.hasMore ? sink.more() : failColumns(line);
+        break;
       }
     }
-    sink_.number(column, value, shape);
   }
-  const std::string_view extra = takeWord(rest);
-  if (!extra.empty() && !isComment(extra))
+  /// Programs write a word where they have no value, or nothing.
+  void addText(std::size_t column, std::string_view cell)
   {
-    layout_.hasMore ? sink_.more() : failColumns(line);
+    constexpr std::string_view kNoValue[] = { "NULL", "NA", "N/A", "#N/A", "none", "nil" };
+    const std::string_view word = withoutQuotes(cell);
+    const bool isValue = std::none_of(std::begin(kNoValue), std::end(kNoValue),
+      [word](std::string_view none) { return word.empty() || equalNoCase(word, none); });
+    isValue ? sink.text(column, cell, lineNumber) : sink.empty(column);
   }
-}
-
-template <typename Sink>
-void TableWalk<Sink>::addSeparated(std::string_view line)
-{
-  std::string_view rest = line;
-  std::string_view cell;
-  std::size_t column = 0;
-  while (takeCell(rest, layout_.separator, cell))
+  void startBlock(std::string_view line)
   {
-    if (column >= layout_.columns)
-    {
-      if (cell.empty()) // a separator at the end of a line is common
-      {
-        continue;
-      }
-      layout_.hasMore ? sink_.more() : failColumns(line);
-      break;
-    }
-    double value = 0.0;
-    NumberShape shape;
-    if (cell.empty())
-    {
-      sink_.empty(column); // a spreadsheet's way to say: not measured
-    }
-    else if (parseCell(cell, value, &shape))
-    {
-      sink_.number(column, value, shape);
-    }
-    else if (parseCell(withoutComment(cell), value, &shape))
-    {
-      sink_.number(column, value, shape);
-      rest = {};
-    }
-    else
-    {
-      addText(column, cell);
-    }
-    ++column;
+    failFormatIf(!parseCount(trimmed(line), remainingLines),
+      "write the right number of points in the first line",
+      "{}{} stands where a count of points was expected", atLine(lineNumber), inQuotes(line));
+    failTruncatedIf(remainingLines > text.size() && !task.salvage,
+      "{}the count of points is {} in a file of {} bytes", atLine(lineNumber), remainingLines, text.size());
   }
-  if (column < layout_.columns)
+  [[noreturn]] void failColumns(std::string_view line) const
   {
-    failColumns(line);
+    throw ColumnsDiffer(vtkErrorCode::FileFormatError,
+      atLine(lineNumber) + std::to_string(cellsOf(line, layout.separator, lineNumber).size()) +
+        " columns where " + std::to_string(layout.columns) + " were expected",
+      "write the same number of columns on every line");
   }
-}
-
-template <typename Sink>
-void TableWalk<Sink>::addLine(std::string_view line)
-{
-  if (remainingLines_ == 0)
-  {
-    startBlock(line);
-    return;
-  }
-  layout_.separator == ' ' ? addWords(line) : addSeparated(line);
-  sink_.endRow();
-  --remainingLines_;
-}
-
-template <typename Sink>
-void TableWalk<Sink>::run(const ReadTask& task, std::string_view text, double from, double to)
-{
-  LineReader lines(text.substr(layout_.bodyOffset), layout_.bodyLine);
-  std::string_view line;
-  while (lines.next(line))
-  {
-    line = trimmed(line, layout_.separator);
-    lineNumber_ = lines.lineNumber();
-    if (!line.empty() && !isComment(line))
-    {
-      addLine(line);
-    }
-    if (lineNumber_ % static_cast<std::size_t>(kProgressRows) == 0)
-    {
-      const double part =
-        static_cast<double>(layout_.bodyOffset + lines.position()) / static_cast<double>(text.size());
-      task.progress(from + (to - from) * part);
-    }
-  }
-  if (layout_.hasPointCount)
-  {
-    sink_.missing(remainingLines_);
-  }
-}
+};
 
 struct SurveySink
 {
@@ -422,17 +346,8 @@ struct SurveySink
   void number(std::size_t column, double value, NumberShape shape)
   {
     table.columns[column].numbers.add(value, shape);
-    sample(column, value);
   }
-  void empty(std::size_t column)
-  {
-    table.columns[column].numbers.addEmpty();
-    sample(column, std::numeric_limits<double>::quiet_NaN());
-  }
-  void sample(std::size_t column, double value)
-  {
-    table.rows < vtkIdType(kGuessedRows) ? table.columns[column].sample.push_back(value) : void();
-  }
+  void empty(std::size_t column) { table.columns[column].numbers.addEmpty(); }
   void text(std::size_t column, std::string_view cell, std::size_t line)
   {
     TextColumn& texts = table.columns[column];
@@ -492,7 +407,7 @@ struct StoreSink
 
 bool TextTable::isOfTexts(std::size_t i) const
 {
-  return columns[i].texts > rows - columns[i].numbers.empty();
+  return columns[i].texts > rows - columns[i].numbers.empty;
 }
 
 TextLayout inspectText(std::string_view text, const std::vector<std::string>& names)
@@ -584,7 +499,7 @@ TextTable surveyTable(const ReadTask& task, std::string_view text, const TextLay
 {
   SurveySink sink;
   sink.table.columns.resize(layout.columns);
-  TableWalk<SurveySink>(layout, text.size(), task.salvage, sink).run(task, text, 0.0, 0.5);
+  TableWalk<SurveySink>{ task, text, layout, sink }.run(0.0, 0.5);
   return std::move(sink.table);
 }
 
@@ -592,7 +507,7 @@ void storeTable(const ReadTask& task, std::string_view text, const TextLayout& l
   const std::vector<ColumnView>& targets)
 {
   StoreSink sink{ targets };
-  TableWalk<StoreSink>(layout, text.size(), task.salvage, sink).run(task, text, 0.5, 1.0);
+  TableWalk<StoreSink>{ task, text, layout, sink }.run(0.5, 1.0);
 }
 
 } // namespace pointhaptics::io

@@ -47,58 +47,53 @@ struct TextLayout
 /// as @p names, which the user gave. @throws FileProblem when a line has more than kMostColumns columns.
 TextLayout inspectText(std::string_view text, const std::vector<std::string>& names = {});
 
-/// Summarises the numbers that were added; stores none. Integers beyond 2^53 lose their last digits.
-class NumberColumn
+/// Summarises the numbers that were added, and stores those of the first kGuessedRows rows. Integers beyond
+/// 2^53 lose their last digits.
+struct NumberColumn : ColumnEvidence
 {
-public:
+  bool fitsFloat = true;
+  std::int64_t empty = 0; ///< How often addEmpty() was called.
+
+  NumberColumn()
+    : ColumnEvidence{ {}, std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
+      true }
+  {
+  }
   void add(double value, NumberShape shape)
   {
-    fitsFloat_ = fitsFloat_ && shape.fitsFloat;
-    isInteger_ = isInteger_ && shape.isInteger;
-    smallest_ = std::min(smallest_, value);
-    largest_ = std::max(largest_, value);
+    fitsFloat = fitsFloat && shape.fitsFloat;
+    isWhole = isWhole && shape.isInteger;
+    least = std::min(least, value);
+    most = std::max(most, value);
+    sample.size() < kGuessedRows ? sample.push_back(value) : void();
   }
   /// A cell without a number reads as NaN.
   void addEmpty()
   {
-    isInteger_ = false;
-    ++empty_;
+    isWhole = false;
+    ++empty;
+    sample.size() < kGuessedRows ? sample.push_back(std::numeric_limits<double>::quiet_NaN()) : void();
   }
-  /// True if all are integers in 0..@p most.
-  bool isInteger(double most) const { return isInteger_ && smallest_ >= 0.0 && largest_ <= most; }
-  /// True if all are written without a point.
-  bool isWhole() const { return isInteger_; }
+  /// True if all are integers in 0..@p largest.
+  bool isInteger(double largest) const { return isWhole && least >= 0.0 && most <= largest; }
   /// True if whole numbers are so large that doubles cannot hold each of them.
-  bool losesDigits() const { return isInteger_ && std::max(largest_, -smallest_) >= 0x1p53; }
-  double smallest() const { return smallest_; }
-  double largest() const { return largest_; }
-  /// How often addEmpty() was called.
-  std::int64_t empty() const { return empty_; }
+  bool losesDigits() const { return isWhole && std::max(most, -least) >= 0x1p53; }
   /// VTK_FLOAT when a float keeps every digit, else VTK_DOUBLE.
-  int floatingType() const { return fitsFloat_ ? VTK_FLOAT : VTK_DOUBLE; }
+  int floatingType() const { return fitsFloat ? VTK_FLOAT : VTK_DOUBLE; }
   /// VTK_INT for integers that fit it, else floatingType().
   int type() const
   {
-    const bool fitsInt =
-      smallest_ >= std::numeric_limits<int>::min() && largest_ <= std::numeric_limits<int>::max();
-    return isInteger_ && fitsInt ? VTK_INT : floatingType();
+    const bool fitsInt = least >= std::numeric_limits<int>::min() && most <= std::numeric_limits<int>::max();
+    return isWhole && fitsInt ? VTK_INT : floatingType();
   }
-
-private:
-  bool fitsFloat_ = true;
-  bool isInteger_ = true;
-  double smallest_ = std::numeric_limits<double>::infinity();
-  double largest_ = -std::numeric_limits<double>::infinity();
-  std::int64_t empty_ = 0;
 };
 
 struct TextColumn
 {
-  NumberColumn numbers;       ///< Texts are empty cells here.
-  std::vector<double> sample; ///< Numbers of the first kGuessedRows rows.
-  std::int64_t texts = 0;     ///< Cells that hold something else than a number,
-  std::size_t line = 0;       ///< the line of the first one,
-  std::string firstText;      ///< and its content.
+  NumberColumn numbers;   ///< Texts are empty cells here.
+  std::int64_t texts = 0; ///< Cells that hold something else than a number,
+  std::size_t line = 0;   ///< the line of the first one,
+  std::string firstText;  ///< and its content.
 
   std::string where() const { return "line " + std::to_string(line); }
 };

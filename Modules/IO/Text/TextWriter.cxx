@@ -5,6 +5,8 @@
 
 #include <charconv>
 #include <cstring>
+#include <iomanip>
+#include <sstream>
 
 namespace pointhaptics::io
 {
@@ -54,12 +56,9 @@ std::string nameOf(const OutputArray& array, int component, const WriteTask& tas
   {
     return name;
   }
-  std::string quoted = "\"";
-  for (const char c : name)
-  {
-    quoted += c == '"' ? "\"\"" : std::string(1, c);
-  }
-  return quoted + "\"";
+  std::ostringstream quoted;
+  quoted << std::quoted(name, '"', '"');
+  return quoted.str();
 }
 
 /// A column per component and a line of their names; each number with the fewest digits that give it back

@@ -1,3 +1,4 @@
+#include "Bytes/Checks.h"
 #include "ReadTask.h"
 
 #include "Bytes/NumericType.h"
@@ -52,16 +53,13 @@ private:
   std::string_view line();
   std::string_view word();
   std::string_view peek();
-  bool takeIf(const char* keyword);
+  bool takeIf(const char* keyword) { return equalNoCase(peek(), keyword) && !word().empty(); }
   Count count(const char* what);
   int type();
   std::string name() { return percentDecoded(word()); }
   double number();
-  void checkSize(int vtkType, Count count);
   Array values(const std::string& name, int vtkType, Count tuples, Count components, bool isKept = true);
-  void readText(vtkDataArray* array);
 
-  void parseHeader();
   void parseSection(std::string_view keyword);
   void parsePoints();
   void parseCells(bool areFaces);
@@ -95,16 +93,11 @@ std::string_view LegacyParser::line()
 /// The next word, on whatever line; empty at the end.
 std::string_view LegacyParser::word()
 {
-  while (at_ < bytes_.size() && isSpace(bytes_[at_]))
-  {
-    ++at_;
-  }
-  const std::size_t begin = at_;
-  while (at_ < bytes_.size() && !isSpace(bytes_[at_]))
-  {
-    ++at_;
-  }
-  return bytes_.substr(begin, at_ - begin);
+  const auto* const begin = std::find_if_not(bytes_.begin() + at_, bytes_.end(), &isSpace);
+  const auto* const end = std::find_if(begin, bytes_.end(), &isSpace);
+  at_ = static_cast<std::size_t>(end - bytes_.begin());
+  return bytes_.substr(
+    static_cast<std::size_t>(begin - bytes_.begin()), static_cast<std::size_t>(end - begin));
 }
 
 std::string_view LegacyParser::peek()
@@ -115,22 +108,13 @@ std::string_view LegacyParser::peek()
   return next;
 }
 
-bool LegacyParser::takeIf(const char* keyword)
-{
-  const bool isNext = equalNoCase(peek(), keyword);
-  isNext ? void(word()) : void();
-  return isNext;
-}
-
 LegacyParser::Count LegacyParser::count(const char* what)
 {
   const std::string_view text = word();
   Count value = 0;
-  if (!parseCount(text, value))
-  {
-    failFormat(where() + inQuotes(text) + " stands where " + what + " was expected",
-      "the file is damaged: write it again, or save it as .vtp with ParaView");
-  }
+  failFormatIf(!parseCount(text, value),
+    "the file is damaged: write it again, or save it as .vtp with ParaView",
+    "{}{} stands where {} was expected", where(), inQuotes(text), what);
   return value;
 }
 
@@ -145,10 +129,8 @@ int LegacyParser::type()
   const std::string_view text = word();
   const auto* const known = std::find_if(
     std::begin(kTypes), std::end(kTypes), [&](const auto& each) { return equalNoCase(each.first, text); });
-  if (known == std::end(kTypes))
-  {
-    failFormat(where() + "values of the type " + inQuotes(text) + " are not read here", kSaveAsVtp);
-  }
+  failFormatIf(known == std::end(kTypes), kSaveAsVtp, "{}values of the type {} are not read here", where(),
+    inQuotes(text));
   return known->second;
 }
 
@@ -156,105 +138,62 @@ double LegacyParser::number()
 {
   const std::string_view text = word();
   double value = 0.0;
-  if (text.empty())
-  {
-    failTruncated(where() + "the file ends where a number was expected");
-  }
   if (!parseNumber(text, value))
   {
+    failTruncatedIf(text.empty(), "{}the file ends where a number was expected", where());
     failFormat(where() + inQuotes(text) + " is not a number", kOtherProgram);
   }
   return value;
-}
-
-void LegacyParser::checkSize(int vtkType, Count count)
-{
-  const Count available = bytes_.size() - at_;
-  const Count least = isBinary_ ? static_cast<Count>(sizeOfType(vtkType)) : 2;
-  if (count > (available + (isBinary_ ? 0 : 1)) / least)
-  {
-    failTruncated(where() + std::to_string(count) + " values announced, but only " +
-      std::to_string(available) + " bytes follow");
-  }
 }
 
 /// An array whose values begin here or, in binary files, on the next line; null unless it is kept.
 LegacyParser::Array LegacyParser::values(
   const std::string& name, int vtkType, Count tuples, Count components, bool isKept)
 {
-  if (components < 1 || components > kMostColumns)
-  {
-    failFormat(where() + "an array of " + std::to_string(components) + " components", kOtherProgram);
-  }
-  if (tuples > bytes_.size())
-  {
-    failTruncated(where() + std::to_string(tuples) + " tuples announced in a file of " +
-      std::to_string(bytes_.size()) + " bytes");
-  }
+  failFormatIf(components < 1 || components > kMostColumns, kOtherProgram, "{}an array of {} components",
+    where(), components);
+  failTruncatedIf(
+    tuples > bytes_.size(), "{}{} tuples announced in a file of {} bytes", where(), tuples, bytes_.size());
   const Count count = tuples * components;
   isBinary_ ? void(line()) : void(); // the rest of the line of words; the values start on the next
-  checkSize(vtkType, count);
+  const std::ptrdiff_t size = sizeOfType(vtkType);
+  const Count available = bytes_.size() - at_;
+  failTruncatedIf(count > (isBinary_ ? available / static_cast<Count>(size) : (available + 1) / 2),
+    "{}{} values announced, but only {} bytes follow", where(), count, available);
   Array array;
+  ColumnView target{ nullptr, size, vtkType };
   if (isKept)
   {
     array = makeArray(vtkType, static_cast<int>(components), static_cast<vtkIdType>(tuples), name);
+    target.first = static_cast<char*>(array->GetVoidPointer(0));
   }
-  for (Count i = 0; !isBinary_ && !isKept && i < count; ++i)
+  if (isBinary_)
   {
-    number();
+    isKept ? copyStrided({ bytes_.data() + at_, size, vtkType }, target, static_cast<vtkIdType>(count),
+               kIsLittleEndianHost)
+           : void();
+    at_ += static_cast<std::size_t>(count) * static_cast<std::size_t>(size);
   }
-  isBinary_ || !isKept ? void() : readText(array);
-  const std::ptrdiff_t size = sizeOfType(vtkType);
-  if (isBinary_ && isKept)
+  for (Count i = 0; !isBinary_ && i < count; ++i)
   {
-    copyStrided({ bytes_.data() + at_, size, vtkType },
-      { static_cast<char*>(array->GetVoidPointer(0)), size, vtkType }, static_cast<vtkIdType>(count),
-      kIsLittleEndianHost);
-  }
-  at_ += isBinary_ ? static_cast<std::size_t>(count) * static_cast<std::size_t>(size) : 0;
-  task_.progress(static_cast<double>(at_) / static_cast<double>(bytes_.size()));
-  return array;
-}
-
-void LegacyParser::readText(vtkDataArray* array)
-{
-  const int type = array->GetDataType();
-  const ColumnView target{ static_cast<char*>(array->GetVoidPointer(0)), array->GetDataTypeSize(), type };
-  for (vtkIdType i = 0; i < array->GetNumberOfValues(); ++i)
-  {
-    if (!storeNumber(target, i, number()))
+    const double value = number();
+    if (isKept && !storeNumber(target, static_cast<vtkIdType>(i), value))
     {
       failFormat(
         where() + "a number that its integer type cannot hold", "write the array as float or double");
     }
-    task_.step(static_cast<std::uint64_t>(i), at_, bytes_.size());
+    task_.step(i, at_, bytes_.size());
   }
-}
-
-void LegacyParser::parseHeader()
-{
-  line();
-  line(); // a title
-  const std::string_view kind = line();
-  isBinary_ = equalNoCase(kind, "BINARY");
-  if (!isBinary_ && !equalNoCase(kind, "ASCII"))
-  {
-    failFormat("line 3: " + inQuotes(kind) + " where ASCII or BINARY was expected", "write the file again");
-  }
+  task_.progress(static_cast<double>(at_) / static_cast<double>(bytes_.size()));
+  return array;
 }
 
 void LegacyParser::parsePoints()
 {
   const Count points = count("the number of points");
   const int vtkType = type();
-  if (points == 0)
-  {
-    failNoPoints();
-  }
-  if (cloud_->GetPoints())
-  {
-    failFormat(where() + "a second section POINTS", "keep one of the two");
-  }
+  points == 0 ? failNoPoints() : void();
+  failFormatIf(cloud_->GetPoints(), "keep one of the two", "{}a second section POINTS", where());
   Array array = values("Points", vtkType, points, 3);
   if (!isFloatingType(vtkType))
   {
@@ -340,12 +279,13 @@ void LegacyParser::parseColors()
     bytes->SetNumberOfComponents(colors->GetNumberOfComponents());
     bytes->SetNumberOfTuples(colors->GetNumberOfTuples());
     const float* from = static_cast<const float*>(colors->GetVoidPointer(0));
-    for (vtkIdType i = 0; i < bytes->GetNumberOfValues(); ++i)
-    {
-      const float scaled =
-        std::isfinite(from[i]) ? std::clamp(std::round(255.0f * from[i]), 0.0f, 255.0f) : 0.0f;
-      bytes->SetValue(i, static_cast<unsigned char>(scaled));
-    }
+    std::transform(from, from + bytes->GetNumberOfValues(), bytes->GetPointer(0),
+      [](float value)
+      {
+        return std::isfinite(value)
+          ? static_cast<unsigned char>(std::clamp(std::round(255.0f * value), 0.0f, 255.0f))
+          : 0;
+      });
     colors = bytes;
   }
   add(called, colors, tuples_);
@@ -428,16 +368,19 @@ void LegacyParser::parseSection(std::string_view keyword)
   };
   const auto* const section = std::find_if(std::begin(kSections), std::end(kSections),
     [&](const auto& known) { return equalNoCase(keyword, known.first); });
-  if (section == std::end(kSections))
-  {
-    failFormat(where() + "unknown keyword " + inQuotes(keyword), kSaveAsVtp);
-  }
+  failFormatIf(
+    section == std::end(kSections), kSaveAsVtp, "{}unknown keyword {}", where(), inQuotes(keyword));
   section->second();
 }
 
 void LegacyParser::parse()
 {
-  parseHeader();
+  line();
+  line(); // a title
+  const std::string_view format = line();
+  isBinary_ = equalNoCase(format, "BINARY");
+  failFormatIf(!isBinary_ && !equalNoCase(format, "ASCII"), "write the file again",
+    "line 3: {} where ASCII or BINARY was expected", inQuotes(format));
   for (std::string_view keyword = word(); !keyword.empty(); keyword = word())
   {
     if (!equalNoCase(keyword, "DATASET"))
@@ -446,17 +389,12 @@ void LegacyParser::parse()
       continue;
     }
     const std::string_view kind = word();
-    if (!equalNoCase(kind, "POLYDATA") && !equalNoCase(kind, "UNSTRUCTURED_GRID") &&
-      !equalNoCase(kind, "STRUCTURED_GRID"))
-    {
-      failFormat(where() + inQuotes(kind) + " holds no list of points",
-        "save it as PolyData (.vtp), for example with ParaView");
-    }
+    failFormatIf(!equalNoCase(kind, "POLYDATA") && !equalNoCase(kind, "UNSTRUCTURED_GRID") &&
+        !equalNoCase(kind, "STRUCTURED_GRID"),
+      "save it as PolyData (.vtp), for example with ParaView", "{}{} holds no list of points", where(),
+      inQuotes(kind));
   }
-  if (!cloud_->GetPoints())
-  {
-    failTruncated("the file has no section POINTS");
-  }
+  failTruncatedIf(!cloud_->GetPoints(), "the file has no section POINTS");
 }
 
 } // namespace

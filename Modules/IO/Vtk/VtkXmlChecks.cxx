@@ -1,6 +1,6 @@
 #include "IO/Vtk/VtkXmlChecks.h"
 
-#include "FileProblem.h"
+#include "Bytes/Checks.h"
 #include "IO/Bytes/TextScan.h"
 
 #include "vtkBase64Utilities.h"
@@ -33,6 +33,8 @@ struct DataLayout
   bool isPacked = false;
   bool isBigEndian = false;
   std::size_t wordSize = 4; ///< of the numbers before each array's bytes
+
+  std::string_view from(std::size_t position) const { return bytes.substr(std::min(position, bytes.size())); }
 };
 
 /// Words in front of the bytes of an array: how many bytes there are, or in how many blocks they are packed,
@@ -46,7 +48,7 @@ struct ArrayWords
   ArrayWords(const DataLayout& layout, std::size_t position, bool isBase64, std::size_t count)
     : values(count)
   {
-    const std::string_view rest = layout.bytes.substr(std::min(position, layout.bytes.size()));
+    const std::string_view rest = layout.from(position);
     const std::size_t size = count * layout.wordSize;
     const std::string_view text = rest.substr(0, isBase64 ? (size + 2) / 3 * 4 : size);
     std::string raw(size, '\0');
@@ -80,77 +82,51 @@ bool isBase64Digit(char c)
 void checkBase64(const DataLayout& layout, std::size_t position, std::uint64_t size)
 {
   const auto digits = static_cast<std::size_t>((size * 4 + 2) / 3);
-  const std::string_view text = layout.bytes.substr(std::min(position, layout.bytes.size()), digits);
-  const auto wrong = std::find_if_not(text.begin(), text.end(), &isBase64Digit);
-  if (wrong != text.end())
-  {
-    failDamaged(position + static_cast<std::size_t>(wrong - text.begin()),
-      inQuotes(std::string_view(&*wrong, 1)) + " is no digit of base64");
-  }
-  const std::string_view padding =
-    layout.bytes.substr(std::min(position + digits, layout.bytes.size()), (4 - digits % 4) % 4);
-  if (!std::all_of(padding.begin(), padding.end(), [](char c) { return c == '=' || isBase64Digit(c); }))
-  {
-    failDamaged(position + digits, "base64 that does not end with '='");
-  }
+  const std::string_view text = layout.from(position).substr(0, (digits + 3) / 4 * 4);
+  const auto at =
+    static_cast<std::size_t>(std::find_if_not(text.begin(), text.end(), &isBase64Digit) - text.begin());
+  failDamagedIf(at < std::min(digits, text.size()), position + at, "{} is no digit of base64",
+    inQuotes(text.substr(at, 1)));
+  failDamagedIf(text.find_first_not_of('=', at) != std::string_view::npos, position + digits,
+    "base64 that does not end with '='");
 }
 
 void checkArrayBytes(const DataLayout& layout, std::size_t position, bool isBase64)
 {
   const ArrayWords one(layout, position, isBase64, 1);
   const std::uint64_t first = one.values[0];
-  if (!layout.isPacked)
+  failTruncatedIf(first > one.remaining / (layout.isPacked ? layout.wordSize : 1),
+    "{}an array of {}{}, but only {} bytes follow", atByte(position), first,
+    layout.isPacked ? " blocks" : " bytes", one.remaining);
+  std::uint64_t most = one.remaining;
+  std::uint64_t size = layout.wordSize + first;
+  if (layout.isPacked)
   {
-    if (first > one.remaining)
-    {
-      failTruncated(atByte(position) + "an array of " + std::to_string(first) + " bytes, but only " +
-        std::to_string(one.remaining) + " follow");
-    }
-    isBase64 ? checkBase64(layout, position, layout.wordSize + first) : void();
-    return;
-  }
-  if (first > one.remaining / layout.wordSize)
-  {
-    failTruncated(atByte(position) + "an array of " + std::to_string(first) + " blocks, but only " +
-      std::to_string(one.remaining) + " bytes follow");
-  }
-  const ArrayWords words(layout, position, isBase64, 3 + static_cast<std::size_t>(first));
-  const std::uint64_t blockSize = words.values[1];
-  const std::uint64_t lastSize = words.values[2];
-  if (first == 0)
-  {
+    const ArrayWords words(layout, position, isBase64, 3 + static_cast<std::size_t>(first));
+    const std::uint64_t blockSize = words.values[1];
+    const std::uint64_t lastSize = words.values[2];
+    most = words.remaining;
+    const double mostUnpacked = kMostUnpackedBytes * static_cast<double>(most);
     // VTK would take the last block's size for that of data which are there.
-    if (lastSize > 0)
+    failDamagedIf(
+      first == 0 && lastSize > 0, position, "an array of no blocks, the last of {} bytes", lastSize);
+    failDamagedIf(first > 0 &&
+        (lastSize > blockSize ||
+          static_cast<double>(first) * static_cast<double>(blockSize) >
+            mostUnpacked + static_cast<double>(blockSize - lastSize)),
+      position, "{} blocks of {} bytes are said to be packed in {}", first, blockSize, most);
+    // A short array may be less than the usual block, of which nothing but the last part is there.
+    failDamagedIf(first > 0 && static_cast<double>(blockSize) > std::max(mostUnpacked, 1e8), position,
+      "blocks of {} bytes", blockSize);
+    size = 0;
+    for (std::size_t i = 3; i < words.values.size() && size <= most; ++i)
     {
-      failDamaged(position, "an array of no blocks, the last of " + std::to_string(lastSize) + " bytes");
+      size += std::min(words.values[i], most + 1);
     }
-    return;
+    failTruncatedIf(size > most, "{}blocks of more than the {} bytes that follow", atByte(position), most);
+    position = layout.bytes.size() - static_cast<std::size_t>(most);
   }
-  const double unpacked = static_cast<double>(first) * static_cast<double>(blockSize);
-  const std::uint64_t most = words.remaining;
-  if (lastSize > blockSize ||
-    unpacked > kMostUnpackedBytes * static_cast<double>(most) + static_cast<double>(blockSize - lastSize))
-  {
-    failDamaged(position,
-      std::to_string(first) + " blocks of " + std::to_string(blockSize) + " bytes are said to be packed in " +
-        std::to_string(most));
-  }
-  // A short array may be less than the usual block, of which nothing but the last part is there.
-  if (static_cast<double>(blockSize) > std::max(kMostUnpackedBytes * static_cast<double>(most), 1e8))
-  {
-    failDamaged(position, "blocks of " + std::to_string(blockSize) + " bytes");
-  }
-  std::uint64_t packed = 0;
-  for (std::size_t i = 3; i < words.values.size() && packed <= most; ++i)
-  {
-    packed += std::min(words.values[i], most + 1);
-  }
-  if (packed > most)
-  {
-    failTruncated(
-      atByte(position) + "blocks of more than the " + std::to_string(most) + " bytes that follow");
-  }
-  isBase64 ? checkBase64(layout, layout.bytes.size() - static_cast<std::size_t>(most), packed) : void();
+  isBase64 ? checkBase64(layout, position, size) : void();
 }
 
 /// VTK's reader makes an array of each child of @p parent, and goes on with none where it knows no such type,
@@ -162,19 +138,12 @@ void checkAreArrays(const XmlElement& parent)
   for (const XmlElement& child : parent.children)
   {
     const std::string_view type = child.attribute("type");
-    if (parent.name == "Points" && child.attribute("NumberOfComponents") != "3")
-    {
-      failDamaged(
-        child.begin, "points of " + inQuotes(child.attribute("NumberOfComponents")) + " components");
-    }
-    if (child.name != "DataArray" && child.name != "Array")
-    {
-      failDamaged(child.begin, inQuotes(child.name) + " in the place of an array");
-    }
-    if (std::find(std::begin(kTypes), std::end(kTypes), type) == std::end(kTypes))
-    {
-      failDamaged(child.begin, "an array of the type " + inQuotes(type));
-    }
+    failDamagedIf(parent.name == "Points" && child.attribute("NumberOfComponents") != "3", child.begin,
+      "points of {} components", inQuotes(child.attribute("NumberOfComponents")));
+    failDamagedIf(child.name != "DataArray" && child.name != "Array", child.begin,
+      "{} in the place of an array", inQuotes(child.name));
+    failDamagedIf(
+      indexOf(kTypes, type) == std::size(kTypes), child.begin, "an array of the type {}", inQuotes(type));
   }
 }
 
@@ -185,73 +154,49 @@ void checkArray(const DataLayout& layout, const XmlElement& array)
   {
     const std::string_view text = array.attribute("offset");
     unsigned long long offset = 0;
-    if (layout.appendedAt == 0 || !parseCount(text, offset) ||
-      offset >= layout.bytes.size() - layout.appendedAt)
-    {
-      failTruncated(atByte(array.begin) + "an array at offset " + inQuotes(text) +
-        " of the appended data, which is not there");
-    }
+    failTruncatedIf(layout.appendedAt == 0 || !parseCount(text, offset) ||
+        offset >= layout.bytes.size() - layout.appendedAt,
+      "{}an array at offset {} of the appended data, which is not there", atByte(array.begin),
+      inQuotes(text));
     checkArrayBytes(layout, layout.appendedAt + static_cast<std::size_t>(offset), layout.appendedIsBase64);
     return;
   }
   if (format == "binary")
   {
-    std::size_t start = array.end;
-    while (start < layout.bytes.size() && isSpace(layout.bytes[start]))
-    {
-      ++start;
-    }
+    const std::size_t start =
+      std::min(layout.bytes.find_first_not_of(" \t\r\n\v\f", array.end), layout.bytes.size());
     const bool isEmpty = layout.bytes[array.end - 2] == '/' || layout.bytes.substr(start, 1) == "<";
-    if (!isEmpty)
-    {
-      checkArrayBytes(layout, start, true);
-    }
+    isEmpty ? void() : checkArrayBytes(layout, start, true);
     return;
   }
-  if (format != "ascii")
-  {
-    failDamaged(array.begin, "an array of the format " + inQuotes(format));
-  }
+  failDamagedIf(format != "ascii", array.begin, "an array of the format {}", inQuotes(format));
 }
 
-/// Counts in the attributes of one tag.
-class CountCheck
+/// Counts in the attributes of tags.
+struct CountCheck
 {
-public:
-  CountCheck(bool isPacked, std::size_t fileSize)
-    : mostBytes_(static_cast<double>(fileSize) * (isPacked ? kMostUnpackedBytes : 1.0))
-    , fileSize_(fileSize)
-  {
-  }
+  std::size_t fileSize = 0;
+  bool isPacked = false;
+  double tuples = 1.0; ///< Most that a tag said so far.
+
   void check(const XmlElement& element)
   {
+    const double most = static_cast<double>(fileSize) * (isPacked ? kMostUnpackedBytes : 1.0);
     for (const char* name : { "NumberOfPoints", "NumberOfVerts", "NumberOfLines", "NumberOfStrips",
            "NumberOfPolys", "NumberOfCells", "NumberOfTuples", "NumberOfComponents" })
     {
       const std::string_view value = element.attribute(name);
       unsigned long long count = 0;
-      if (value.empty())
+      const bool isOfTuples = std::string_view(name) == "NumberOfComponents";
+      if (!value.empty() &&
+        (!parseCount(value, count) || static_cast<double>(count) * (isOfTuples ? tuples : 1.0) > most))
       {
-        continue;
+        failTruncated(fmt::format(
+          "{}{} is {} in a file of {} bytes", atByte(element.begin), name, inQuotes(value), fileSize));
       }
-      const bool isComponents = std::string_view(name) == "NumberOfComponents";
-      if (!parseCount(value, count) ||
-        static_cast<double>(count) * (isComponents ? tuples_ : 1.0) > mostBytes_)
-      {
-        failTruncated(atByte(element.begin) + name + " is " + inQuotes(value) + " in a file of " +
-          std::to_string(fileSize_) + " bytes");
-      }
-      if (!isComponents)
-      {
-        tuples_ = std::max(tuples_, static_cast<double>(count));
-      }
+      tuples = isOfTuples ? tuples : std::max(tuples, static_cast<double>(count));
     }
   }
-
-private:
-  double mostBytes_;
-  std::size_t fileSize_;
-  double tuples_ = 1.0;
 };
 
 DataLayout layoutOf(std::string_view bytes, const XmlElement& root)
@@ -275,10 +220,8 @@ void checkIsComplete(std::string_view bytes)
 {
   constexpr std::size_t kTail = 256;
   const std::string_view tail = bytes.substr(bytes.size() - std::min(bytes.size(), kTail));
-  if (tail.find("</VTKFile>") == std::string_view::npos)
-  {
-    failTruncated("the file ends at byte " + std::to_string(bytes.size()) + " without </VTKFile>");
-  }
+  failTruncatedIf(tail.find("</VTKFile>") == std::string_view::npos,
+    "the file ends at byte {} without </VTKFile>", bytes.size());
 }
 
 } // namespace
@@ -299,20 +242,15 @@ XmlElement vtkXml(std::string_view bytes)
     },
     false, isPart ? XmlPart::Start : XmlPart::Whole);
   const XmlElement* last = root.child("AppendedData");
-  if (isPart && !(last && last->begin == appended))
-  {
-    failDamaged(appended, inQuotes(kAppended) + " in a place where it is no tag");
-  }
-  if (root.name != "VTKFile")
-  {
-    failDamaged(0, "the first XML element is not VTKFile");
-  }
+  failDamagedIf(isPart && !(last && last->begin == appended), appended, "{} in a place where it is no tag",
+    inQuotes(kAppended));
+  failDamagedIf(root.name != "VTKFile", 0, "the first XML element is not VTKFile");
   return root;
 }
 
 std::uint64_t pointsOfVtkXml(const XmlElement& root, std::size_t fileSize)
 {
-  CountCheck counts(!root.attribute("compressor").empty(), fileSize);
+  CountCheck counts{ fileSize, !root.attribute("compressor").empty() };
   std::uint64_t points = 0;
   forEachElement(root,
     [&](const XmlElement& element)
@@ -332,14 +270,12 @@ void checkVtkXml(std::string_view bytes, const XmlElement& root)
 {
   checkIsComplete(bytes);
   const DataLayout layout = layoutOf(bytes, root);
-  CountCheck counts(layout.isPacked, bytes.size());
+  CountCheck counts{ bytes.size(), layout.isPacked };
   forEachElement(root,
     [&](const XmlElement& element)
     {
       counts.check(element);
-      std::find(std::begin(kParents), std::end(kParents), element.name) != std::end(kParents)
-        ? checkAreArrays(element)
-        : void();
+      indexOf(kParents, element.name) < std::size(kParents) ? checkAreArrays(element) : void();
       element.name == "DataArray" || element.name == "Array" ? checkArray(layout, element) : void();
     });
 }

@@ -1,3 +1,4 @@
+#include "Bytes/Checks.h"
 #include "ReadTask.h"
 
 #include "Core/Base/Host/InterpreterLock.h"
@@ -23,6 +24,8 @@
 #include "vtkXMLUnstructuredDataReader.h"
 #include "vtkXMLUnstructuredGridReader.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <set>
@@ -42,48 +45,34 @@ class ReaderObserver : public vtkCommand
 {
 public:
   static ReaderObserver* New() { return new ReaderObserver; }
-  void relayTo(vtkAlgorithm* task, double begin, double end)
-  {
-    task_ = task;
-    reached_ = begin_ = begin;
-    end_ = end;
-  }
   void Execute(vtkObject* reader, unsigned long event, void* data) override
   {
-    event == vtkCommand::ProgressEvent&& data ? relay(*static_cast<double*>(data), reader) : void();
-    if (event != vtkCommand::ErrorEvent || !data || !first_.empty())
+    if (event == vtkCommand::ProgressEvent && data)
     {
-      return;
-    }
-    // VTK's text: "ERROR: In file, line n\nvtkClass (0x...): the message\n\n".
-    first_ = static_cast<const char*>(data);
-    const std::size_t address = first_.find("): ");
-    first_.erase(0, address == std::string::npos ? 0 : address + 3);
-    std::replace(first_.begin(), first_.end(), '\n', ' ');
-    first_.erase(first_.find_last_not_of(" .") + 1);
-    first_ = first_.empty() ? "VTK reported an error without words" : first_;
-  }
-  const std::string& first() const { return first_; }
-
-private:
-  /// An exception must not pass through VTK: reportProgress() throws it behind.
-  void relay(double fraction, vtkObject* reader)
-  {
-    const double now = begin_ + (end_ - begin_) * std::clamp(fraction, 0.0, 1.0);
-    if (now > reached_)
-    {
-      reached_ = now;
-      task_->UpdateProgress(now);
+      const double now = begin + (end - begin) * std::clamp(*static_cast<double*>(data), 0.0, 1.0);
+      now > reached ? task->UpdateProgress(now) : void();
+      reached = std::max(reached, now);
       runSignalHandlers();
+      // An exception must not pass through VTK: reportProgress() throws it behind.
+      task->GetAbortExecute() ? vtkAlgorithm::SafeDownCast(reader)->SetAbortExecute(1) : void();
     }
-    task_->GetAbortExecute() ? vtkAlgorithm::SafeDownCast(reader)->SetAbortExecute(1) : void();
+    if (event == vtkCommand::ErrorEvent && data && first.empty())
+    {
+      // VTK's text: "ERROR: In file, line n\nvtkClass (0x...): the message\n\n".
+      first = static_cast<const char*>(data);
+      const std::size_t address = first.find("): ");
+      first.erase(0, address == std::string::npos ? 0 : address + 3);
+      std::replace(first.begin(), first.end(), '\n', ' ');
+      first.erase(first.find_last_not_of(" .") + 1);
+      first = first.empty() ? "VTK reported an error without words" : first;
+    }
   }
 
-  vtkAlgorithm* task_ = nullptr;
-  double begin_ = 0.0;
-  double end_ = 0.0;
-  double reached_ = 0.0;
-  std::string first_;
+  vtkAlgorithm* task = nullptr;
+  double begin = 0.0;
+  double end = 0.0;
+  double reached = 0.0;
+  std::string first;
 };
 
 /// VTK's own error of an array of texts that cannot be read asks for its name as that of one of numbers,
@@ -107,12 +96,12 @@ protected:
 private:
   int HasRead(int result, vtkAbstractArray* array)
   {
-    if (result != 0 || vtkDataArray::SafeDownCast(array))
+    const bool isSafe = result != 0 || vtkDataArray::SafeDownCast(array);
+    if (!isSafe)
     {
-      return result;
+      vtkErrorMacro(<< "Cannot read the texts of " << inQuotes(array->GetName() ? array->GetName() : ""));
     }
-    vtkErrorMacro(<< "Cannot read the texts of " << inQuotes(array->GetName() ? array->GetName() : ""));
-    return 1;
+    return isSafe ? result : 1;
   }
 };
 
@@ -138,13 +127,9 @@ void checkArrays(vtkPointSet* read)
   for (int i = 0; i < data->GetNumberOfArrays(); ++i)
   {
     vtkAbstractArray* array = data->GetAbstractArray(i);
-    if (array->GetNumberOfTuples() != read->GetNumberOfPoints())
-    {
-      failFormat("array " + inQuotes(array->GetName() ? array->GetName() : "") + " has " +
-          std::to_string(array->GetNumberOfTuples()) + " values for " +
-          std::to_string(read->GetNumberOfPoints()) + " points",
-        "write the file again");
-    }
+    failFormatIf(array->GetNumberOfTuples() != read->GetNumberOfPoints(), "write the file again",
+      "array {} has {} values for {} points", inQuotes(array->GetName() ? array->GetName() : ""),
+      array->GetNumberOfTuples(), read->GetNumberOfPoints());
   }
 }
 
@@ -196,7 +181,9 @@ vtkSmartPointer<vtkPointSet> readVtkXmlFile(const ReadTask& task, const std::str
   const double checked = begin + kCheckPart * (end - begin);
   task.progress(checked);
   vtkNew<ReaderObserver> errors;
-  errors->relayTo(task.algorithm, task.overall(checked), task.overall(end));
+  errors->task = task.algorithm;
+  errors->begin = errors->reached = task.overall(checked);
+  errors->end = task.overall(end);
   // The executive adds a message of its own to each failure of its algorithm.
   reader->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, errors);
   reader->AddObserver(vtkCommand::ErrorEvent, errors);
@@ -217,15 +204,10 @@ vtkSmartPointer<vtkPointSet> readVtkXmlFile(const ReadTask& task, const std::str
   reader->Update();
   task.progress(end);
   const vtkSmartPointer<vtkPointSet> read = vtkPointSet::SafeDownCast(reader->GetOutputDataObject(0));
-  if (!errors->first().empty() || reader->GetErrorCode() != vtkErrorCode::NoError)
-  {
-    const std::string what = errors->first().empty() ? "VTK's XML reader failed" : errors->first();
-    failFormat(what, "the file is damaged or cut short: copy or write it again");
-  }
-  if (read->GetNumberOfPoints() == 0)
-  {
-    failNoPoints();
-  }
+  failFormatIf(!errors->first.empty() || reader->GetErrorCode() != vtkErrorCode::NoError,
+    "the file is damaged or cut short: copy or write it again", "{}",
+    errors->first.empty() ? "VTK's XML reader failed" : errors->first.c_str());
+  read->GetNumberOfPoints() == 0 ? failNoPoints() : void();
   checkArrays(read);
   return read;
 }
@@ -248,25 +230,6 @@ bool isBelow(const std::string& name)
     std::none_of(path.begin(), path.end(), [](const fs::path& part) { return part == ".."; });
 }
 
-void addPiece(const ReadTask& task, const XmlElement& element, std::set<std::string>& names,
-  std::vector<PieceFile>& pieces)
-{
-  const std::string name(element.attribute("Source"));
-  if (!isBelow(name))
-  {
-    failFormat(atByte(element.begin) + "a piece called " + inQuotes(name) +
-        ", which does not lie beside or below the list",
-      "put the pieces there, and their names relative to the list into it");
-  }
-  const fs::path path = fs::path(task.path).parent_path() / name;
-  if (!names.insert(path.lexically_normal().string()).second)
-  {
-    failFormat(
-      atByte(element.begin) + "the piece " + inQuotes(name) + " is there twice", "name each piece once");
-  }
-  pieces.push_back({ name, path.string() });
-}
-
 std::vector<PieceFile> piecesOf(const ReadTask& task, const XmlElement& root)
 {
   std::vector<PieceFile> pieces;
@@ -275,12 +238,20 @@ std::vector<PieceFile> piecesOf(const ReadTask& task, const XmlElement& root)
     [&](const XmlElement& element)
     {
       const std::string_view level = element.attribute("GhostLevel");
-      if (element.name == "PPolyData" && !level.empty() && level != "0")
+      failFormatIf(element.name == "PPolyData" && !level.empty() && level != "0",
+        "write the pieces without ghost levels",
+        "pieces with ghost points (GhostLevel is {}), which are there twice", inQuotes(level));
+      if (element.name == "Piece")
       {
-        failFormat("pieces with ghost points (GhostLevel is " + inQuotes(level) + "), which are there twice",
-          "write the pieces without ghost levels");
+        const std::string name(element.attribute("Source"));
+        const std::string where = atByte(element.begin);
+        failFormatIf(!isBelow(name), "put the pieces there, and their names relative to the list into it",
+          "{}a piece called {}, which does not lie beside or below the list", where, inQuotes(name));
+        const fs::path path = fs::path(task.path).parent_path() / name;
+        failFormatIf(!names.insert(path.lexically_normal().string()).second, "name each piece once",
+          "{}the piece {} is there twice", where, inQuotes(name));
+        pieces.push_back({ name, path.string() });
       }
-      element.name == "Piece" ? addPiece(task, element, names, pieces) : void();
     });
   return pieces;
 }
@@ -316,10 +287,8 @@ std::uint64_t pointsOf(ReadTask& task, const PieceFile& piece)
   task.bytesElsewhere += bytes.loaded();
   const XmlElement root = vtkXml(start);
   const std::string_view type = root.attribute("type");
-  if (type != "PolyData")
-  {
-    failFormat("a VTK file of the type " + inQuotes(type), "list VTP files, whose type is PolyData");
-  }
+  failFormatIf(type != "PolyData", "list VTP files, whose type is PolyData", "a VTK file of the type {}",
+    inQuotes(type));
   return pointsOfVtkXml(root, bytes.view().size());
 }
 
@@ -350,58 +319,44 @@ void checkSameArrays(std::vector<std::string> first, std::vector<std::string> ot
 }
 
 /// Rows of pieces, one after the other.
-class JoinedRows
+struct JoinedRows
 {
-public:
-  JoinedRows(vtkPolyData* cloud, vtkIdType count)
-    : cloud_(cloud)
-    , count_(count)
-  {
-  }
-  void add(vtkPointSet* piece, vtkIdType first, vtkIdType count)
-  {
-    if (arrays_.empty())
-    {
-      arrays_ = arraysOf(piece);
-      points_->SetDataType(piece->GetPoints()->GetDataType());
-      points_->SetNumberOfPoints(count_);
-      data_->CopyAllOn();
-      data_->CopyAllocate(piece->GetPointData(), count_);
-      cloud_->GetFieldData()->ShallowCopy(piece->GetFieldData());
-    }
-    checkSameArrays(arrays_, arraysOf(piece));
-    if (count > 0)
-    {
-      points_->InsertPoints(next_, count, first, piece->GetPoints());
-      data_->CopyData(piece->GetPointData(), next_, count, first);
-      next_ += count;
-    }
-  }
-  void finish()
-  {
-    cloud_->SetPoints(points_);
-    cloud_->GetPointData()->ShallowCopy(data_);
-  }
-  const std::vector<std::string>& arrays() const { return arrays_; }
+  vtkIdType count = 0; ///< All rows.
+  vtkIdType next = 0;
+  std::vector<std::string> arrays;
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkPointData> data;
 
-private:
-  vtkPolyData* cloud_;
-  vtkIdType count_;
-  vtkIdType next_ = 0;
-  std::vector<std::string> arrays_;
-  vtkNew<vtkPoints> points_;
-  vtkNew<vtkPointData> data_;
+  void add(vtkPointSet* piece, vtkIdType first, vtkIdType rows)
+  {
+    if (arrays.empty())
+    {
+      arrays = arraysOf(piece);
+      points->SetDataType(piece->GetPoints()->GetDataType());
+      points->SetNumberOfPoints(count);
+      data->CopyAllOn();
+      data->CopyAllocate(piece->GetPointData(), count);
+    }
+    checkSameArrays(arrays, arraysOf(piece));
+    if (rows > 0)
+    {
+      points->InsertPoints(next, rows, first, piece->GetPoints());
+      data->CopyData(piece->GetPointData(), next, rows, first);
+      next += rows;
+    }
+  }
 };
 
 /// Puts @p rows of all pieces into @p joined. Without rows the first piece shows the arrays.
-void readRows(ReadTask& task, const std::vector<PieceFile>& pieces, const RowRange& rows, JoinedRows& joined)
+void readRows(ReadTask& task, const std::vector<PieceFile>& pieces, const RowRange& rows, vtkPolyData* cloud,
+  JoinedRows& joined)
 {
   std::uint64_t begin = 0;
   for (std::size_t i = 0; i < pieces.size(); ++i)
   {
     const PieceFile& piece = pieces[i];
     const RowRange own{ std::max(rows.first, begin), std::min(rows.last, begin + piece.points) };
-    const bool showsArrays = rows.count() == 0 && joined.arrays().empty();
+    const bool showsArrays = rows.count() == 0 && joined.arrays.empty();
     if (piece.points > 0 && (own.first < own.last || showsArrays))
     {
       withPiece(pieces, i,
@@ -413,33 +368,16 @@ void readRows(ReadTask& task, const std::vector<PieceFile>& pieces, const RowRan
           const auto size = static_cast<double>(pieces.size());
           const vtkSmartPointer<vtkPointSet> read = readVtkXmlFile(task, piece.path, bytes.view(),
             vtkXml(bytes.view()), static_cast<double>(i) / size, static_cast<double>(i + 1) / size);
-          if (static_cast<std::uint64_t>(read->GetNumberOfPoints()) != piece.points)
-          {
-            failFormat(std::to_string(read->GetNumberOfPoints()) + " points, not the " +
-                std::to_string(piece.points) + " that its start says",
-              "the file is damaged, or was written meanwhile: copy or write it again");
-          }
+          failFormatIf(static_cast<std::uint64_t>(read->GetNumberOfPoints()) != piece.points,
+            "the file is damaged, or was written meanwhile: copy or write it again",
+            "{} points, not the {} that its start says", read->GetNumberOfPoints(), piece.points);
+          joined.arrays.empty() ? cloud->GetFieldData()->ShallowCopy(read->GetFieldData()) : void();
           const bool hasRows = own.first < own.last;
           joined.add(read, static_cast<vtkIdType>(hasRows ? own.first - begin : 0),
             static_cast<vtkIdType>(hasRows ? own.count() : 0));
         });
     }
     begin += piece.points;
-  }
-}
-
-/// A rank that does not read two pieces cannot see that they differ.
-void compareArrays(SharedReading& shared, const std::vector<std::string>& own)
-{
-  std::string joined;
-  for (const std::string& array : own)
-  {
-    joined += (joined.empty() ? "" : ", ") + array;
-  }
-  const std::vector<std::string> all = shared.gather(joined);
-  for (const std::string& arrays : all)
-  {
-    checkSameArrays({ all.front() }, { arrays });
   }
 }
 
@@ -454,18 +392,21 @@ void readVtkPieces(ReadTask& task, const XmlElement& root, vtkPolyData* cloud)
     withPiece(pieces, i, [&] { pieces[i].points = pointsOf(task, pieces[i]); });
     all += pieces[i].points;
   }
-  if (all == 0)
-  {
-    failNoPoints();
-  }
+  all == 0 ? failNoPoints() : void();
   const RowRange rows = task.rowsOf(all);
-  JoinedRows joined(cloud, static_cast<vtkIdType>(rows.count()));
-  readRows(task, pieces, rows, joined);
-  if (task.shared)
+  JoinedRows joined;
+  joined.count = static_cast<vtkIdType>(rows.count());
+  readRows(task, pieces, rows, cloud, joined);
+  // A rank that does not read two pieces cannot see that they differ.
+  const std::string own = fmt::format("{}", fmt::join(joined.arrays, ", "));
+  const std::vector<std::string> ofRanks =
+    task.shared ? task.shared->gather(own) : std::vector<std::string>{ own };
+  for (const std::string& arrays : ofRanks)
   {
-    compareArrays(*task.shared, joined.arrays());
+    checkSameArrays({ ofRanks.front() }, { arrays });
   }
-  joined.finish();
+  cloud->SetPoints(joined.points);
+  cloud->GetPointData()->ShallowCopy(joined.data);
 }
 
 } // namespace

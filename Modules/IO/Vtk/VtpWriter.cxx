@@ -1,3 +1,4 @@
+#include "Bytes/Checks.h"
 #include "IO/WriteTask.h"
 
 #include "Bytes/NumericType.h"
@@ -33,12 +34,10 @@ std::string xmlText(const std::string& text)
   std::replace_if(
     name.begin(), name.end(), [](unsigned char c) { return c < 0x20 && c != '\t' && c != '\n' && c != '\r'; },
     '_');
-  for (const char* none : { "\xef\xbf\xbe", "\xef\xbf\xbf" })
+  for (std::size_t at = name.find("\xef\xbf"); at != std::string::npos; at = name.find("\xef\xbf", at + 1))
   {
-    for (std::size_t at = name.find(none); at != std::string::npos; at = name.find(none))
-    {
-      name.replace(at, 3, "_");
-    }
+    const bool isNone = name.compare(at + 2, 1, "\xbe") >= 0; // U+FFFE and U+FFFF
+    isNone ? void(name.replace(at, 3, "_")) : void();
   }
   return name;
 }
@@ -141,12 +140,8 @@ void VtpFile::addFields(const char* element, vtkFieldData* data, vtkIdType tuple
       name = wanted + "_" + std::to_string(number);
     }
     name == given ? void() : notes_.add("array " + inQuotes(given) + " is called " + name);
-    if (array->GetNumberOfTuples() < tuples)
-    {
-      failFormat("array " + inQuotes(given) + " has " + std::to_string(array->GetNumberOfTuples()) +
-          " values for " + std::to_string(tuples) + " points",
-        "give every array one value per point");
-    }
+    failFormatIf(array->GetNumberOfTuples() < tuples, "give every array one value per point",
+      "array {} has {} values for {} points", inQuotes(given), array->GetNumberOfTuples(), tuples);
     names[array] = name;
   }
   head_ += std::string("<") + element;
@@ -250,16 +245,8 @@ void VtpFile::write(WriteTask& task) const
 void writeVtp(WriteTask& task)
 {
   vtkNew<vtkPolyData> written;
-  if (vtkPolyData* polyData = vtkPolyData::SafeDownCast(task.cloud))
-  {
-    written->ShallowCopy(polyData);
-  }
-  else
-  {
-    written->SetPoints(task.cloud->GetPoints());
-    written->GetPointData()->ShallowCopy(task.cloud->GetPointData());
-    written->GetFieldData()->ShallowCopy(task.cloud->GetFieldData());
-  }
+  written->ShallowCopy(task.cloud);
+  vtkPolyData::SafeDownCast(task.cloud) ? void() : written->GetCellData()->Initialize(); // of other cells
   if (written->GetNumberOfCells() == 0)
   {
     setOneVertexPerPoint(written);
