@@ -66,7 +66,7 @@ std::string DistributedUpdate::chooseArrays()
   }
   for (std::size_t i = 0; this->sharesSums() && i < found_.size(); ++i)
   {
-    arrays_.emplace_back(found_[i].array, found_[i].kind);
+    arrays_.emplace_back(found_[i].array, found_[i].statistic);
   }
   return {};
 }
@@ -149,7 +149,7 @@ std::string DistributedUpdate::runOfSums(vtkPolyData* output)
   wanted.singlePrecision = singlePrecision_;
   wanted.keys = true;
   wanted.instructions = settings_.instructionSet;
-  wanted.allocator = &allocator_;
+  wanted.allocator = &pool_;
   status = status == Status::Ok ? shared_.voxels().finish(wanted, made_, smp_) : status;
   if (!this->all(status == Status::Ok))
   {
@@ -165,8 +165,8 @@ std::string DistributedUpdate::runOfSums(vtkPolyData* output)
 void DistributedUpdate::fill(
   vtkPolyData* output, const std::vector<VoxelAttribute>& arrays, const VoxelRequest& request)
 {
-  OutputFiller filler{ made_, transform_, pool_, allocator_, smp_, singlePrecision_,
-    settings_.computeCovariance, settings_.minimumPointsPerVoxel, {} };
+  OutputFiller filler{ made_, transform_, pool_, smp_, singlePrecision_, settings_.computeCovariance,
+    settings_.minimumPointsPerVoxel, {} };
   if (settings_.keepOriginalPointIds)
   {
     filler.pointIds = made_.chosenPoints();
@@ -255,11 +255,11 @@ std::string DistributedUpdate::runOfPoints(vtkPolyData* output)
   request.keys = true;
   request.representative = settings_.representative;
   request.instructions = settings_.instructionSet;
-  request.allocator = &allocator_;
+  request.allocator = &pool_;
   std::vector<VoxelAttribute> attributes;
   for (std::size_t i = 0; i < found_.size(); ++i)
   {
-    attributes.emplace_back(points->GetPointData()->GetArray(int(i)), found_[i].kind);
+    attributes.emplace_back(points->GetPointData()->GetArray(int(i)), found_[i].statistic);
     keepsPoints(request.representative) ? request.tieBreakers.push_back(attributes.back().view())
                                         : request.attributes.push_back(attributes.back().request());
   }

@@ -77,7 +77,6 @@ private:
   PointAccess points_;
   SmpExecutor smp_;
   ArrayPool pool_;
-  ArrayAllocator allocator_{ pool_ };
   AffineTransform transform_;
   Lattice lattice_;
   bool singlePrecision_ = true;
