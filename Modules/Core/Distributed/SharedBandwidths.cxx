@@ -225,8 +225,7 @@ std::vector<double> SharedEstimate::densities(const std::vector<double>& widths)
     hasCounts_ ? this->ofOwn(counts_) : std::vector<double>());
   const double total = ranks_.reduce(own, std::plus<>());
   std::vector<double> densities;
-  surfaceDensitiesOfPart(
-    this->view(), counts_, query_, all, total, densities, executor_, settings_.densityKernel);
+  surfaceDensities(this->view(), counts_, query_, all, densities, executor_, settings_.densityKernel, total);
   return this->ofOwn(densities);
 }
 
