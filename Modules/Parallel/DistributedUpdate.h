@@ -61,6 +61,8 @@ private:
   bool sharesSums() const { return settings_.representative == Representative::Mean; }
   std::string chooseArrays();
   void choosePrecision();
+  /// The voxels of @p points, with keys.
+  VoxelRequest requestOf(const PointView& points, const Lattice& lattice);
   /// The voxels of this rank's points.
   std::string findOwnVoxels(const Lattice& lattice, VoxelResampler& own);
   // Means: sums are shared.
