@@ -240,8 +240,8 @@ TEST(SharedBandwidths, SendLittleMoreThanThePointsAndTheirValues)
         Status::Ok);
     });
   sent = job.bytesSent();
-  // Three quarters of the points go to another rank, 48 bytes each, and four values of 16 bytes come back; the
-  // rest are ghosts.
+  // Three quarters of the points go to another rank, 48 bytes each, and four values of 16 bytes come back;
+  // the rest are ghosts.
   EXPECT_GT(sent, 3 * share * 112);
   EXPECT_LT(sent, 2 * 3 * share * 88);
 }
