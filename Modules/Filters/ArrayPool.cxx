@@ -5,38 +5,34 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <map>
 #include <mutex>
 #include <new>
-#include <vector>
+#include <numeric>
+#include <utility>
 
 namespace pointhaptics
 {
-namespace
-{
-
-/// Smaller arrays are left to malloc.
-constexpr std::size_t kSmallest = std::size_t(1) << 16;
-
-}
 
 /// In front of a block's data.
 struct alignas(64) ArrayPool::Header
 {
-  std::shared_ptr<State> state; ///< State of the pool that it goes back to; only while an array uses it.
+  std::weak_ptr<State> state; ///< State of the pool that it goes back to.
   std::size_t bytes = 0;
 };
 
 struct ArrayPool::State
 {
-  std::mutex mutex;
-  bool closed = false;
-  std::vector<Header*> idle;
-
-  static void destroy(Header* block)
+  struct Free
   {
-    block->~Header();
-    std::free(block);
-  }
+    void operator()(Header* block) const
+    {
+      block->~Header();
+      std::free(block);
+    }
+  };
+  std::mutex mutex;
+  std::multimap<std::size_t, std::unique_ptr<Header, Free>> idle; ///< By size.
 };
 
 ArrayPool::ArrayPool()
@@ -44,106 +40,88 @@ ArrayPool::ArrayPool()
 {
 }
 
-ArrayPool::~ArrayPool()
+ArrayPool::~ArrayPool() = default;
+
+ArrayPool::Memory& ArrayPool::of(std::size_t part)
 {
-  {
-    const std::lock_guard<std::mutex> lock(state_->mutex);
-    state_->closed = true;
-  }
-  trim();
+  parts_.resize(std::max(parts_.size(), part + 1));
+  return parts_[part];
 }
 
-void ArrayPool::allocate(vtkDataArray* array, std::int64_t tuples)
+void* ArrayPool::allocate(std::size_t part, std::size_t bytes)
 {
+  Memory& memory = of(part);
+  memory.reset();
+  memory = reserve(bytes);
+  return memory.get();
+}
+
+void ArrayPool::give(Memory memory, vtkDataArray* array, std::int64_t tuples)
+{
+  array->SetVoidArray(memory.release(), vtkIdType(tuples * array->GetNumberOfComponents()), 0,
+    vtkAbstractArray::VTK_DATA_ARRAY_USER_DEFINED);
+  array->SetArrayFreeFunction([](void* data) { GiveBack()(data); });
+}
+
+void ArrayPool::take(std::size_t part, vtkDataArray* array, std::int64_t tuples)
+{
+  of(part) ? give(std::move(of(part)), array, tuples) : allocateFor(array, tuples);
+}
+
+void ArrayPool::allocateFor(vtkDataArray* array, std::int64_t tuples)
+{
+  constexpr std::size_t kSmallest = std::size_t(1) << 16; // smaller arrays are left to malloc
   const std::int64_t values = tuples * array->GetNumberOfComponents();
   const std::size_t bytes = std::size_t(values) * std::size_t(array->GetDataTypeSize());
-  if (bytes < kSmallest)
-  {
-    array->SetNumberOfTuples(vtkIdType(tuples));
-    return;
-  }
-  take(reserve(bytes), array, tuples);
+  bytes < kSmallest ? array->SetNumberOfTuples(vtkIdType(tuples)) : give(reserve(bytes), array, tuples);
 }
 
-void* ArrayPool::reserve(std::size_t bytes)
+ArrayPool::Memory ArrayPool::reserve(std::size_t bytes)
 {
-  Header* block = nullptr;
   {
     // The smallest that is large enough, but none that would waste more than it holds.
     const std::lock_guard<std::mutex> lock(state_->mutex);
-    auto best = state_->idle.end();
-    for (auto it = state_->idle.begin(); it != state_->idle.end(); ++it)
+    const auto found = state_->idle.lower_bound(bytes);
+    if (found != state_->idle.end() && found->first <= 2 * bytes)
     {
-      const bool fits = (*it)->bytes >= bytes && (*it)->bytes <= 2 * bytes;
-      if (fits && (best == state_->idle.end() || (*it)->bytes < (*best)->bytes))
-      {
-        best = it;
-      }
-    }
-    if (best != state_->idle.end())
-    {
-      block = *best;
-      state_->idle.erase(best);
+      Header* const block = found->second.release();
+      state_->idle.erase(found);
+      return Memory(block + 1);
     }
   }
-  if (!block)
+  constexpr std::size_t kPage = 4096;
+  const std::size_t size = (sizeof(Header) + bytes + kPage - 1) / kPage * kPage;
+  void* const memory = std::aligned_alloc(kPage, size);
+  if (!memory)
   {
-    constexpr std::size_t kPage = 4096;
-    const std::size_t size = (sizeof(Header) + bytes + kPage - 1) / kPage * kPage;
-    void* memory = std::aligned_alloc(kPage, size);
-    if (!memory)
-    {
-      throw std::bad_alloc();
-    }
-    block = new (memory) Header;
-    block->bytes = size - sizeof(Header);
+    throw std::bad_alloc();
   }
-  block->state = state_;
-  return block + 1;
+  return Memory(new (memory) Header{ state_, size - sizeof(Header) } + 1);
 }
 
-void ArrayPool::take(void* memory, vtkDataArray* array, std::int64_t tuples)
+void ArrayPool::GiveBack::operator()(void* data) const
 {
-  array->SetVoidArray(memory, vtkIdType(tuples * array->GetNumberOfComponents()), 0,
-    vtkAbstractArray::VTK_DATA_ARRAY_USER_DEFINED);
-  array->SetArrayFreeFunction(&ArrayPool::giveBack);
-}
-
-/// VTK calls it when the last array releases the memory.
-void ArrayPool::giveBack(void* data)
-{
-  Header* block = static_cast<Header*>(data) - 1;
-  const std::shared_ptr<State> state = std::move(block->state);
+  std::unique_ptr<Header, State::Free> block(static_cast<Header*>(data) - 1);
+  if (const std::shared_ptr<State> state = block->state.lock())
   {
     const std::lock_guard<std::mutex> lock(state->mutex);
-    if (!state->closed)
-    {
-      state->idle.push_back(block);
-      return;
-    }
+    const std::size_t bytes = block->bytes;
+    state->idle.emplace(bytes, std::move(block));
   }
-  State::destroy(block);
 }
 
 void ArrayPool::trim()
 {
-  std::vector<Header*> idle;
-  {
-    const std::lock_guard<std::mutex> lock(state_->mutex);
-    idle.swap(state_->idle);
-  }
-  std::for_each(idle.begin(), idle.end(), &State::destroy);
+  parts_.clear();
+  const std::lock_guard<std::mutex> lock(state_->mutex);
+  state_->idle.clear();
 }
 
 std::size_t ArrayPool::bytes() const
 {
   const std::lock_guard<std::mutex> lock(state_->mutex);
-  std::size_t sum = 0;
-  for (const Header* block : state_->idle)
-  {
-    sum += block->bytes;
-  }
-  return sum;
+  return std::accumulate(state_->idle.begin(), state_->idle.end(), std::size_t(0),
+    [](std::size_t sum, const auto& block) { return sum + block.first; });
 }
 
 } // namespace pointhaptics

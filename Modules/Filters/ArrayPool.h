@@ -2,9 +2,12 @@
 /// Memory of output arrays, reused once the arrays are deleted.
 #pragma once
 
+#include "Core/Resample/VoxelResampler.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 class vtkDataArray;
 
@@ -13,24 +16,22 @@ namespace pointhaptics
 
 /// A filter makes arrays of much the same size at each update, and the first touch of fresh memory takes
 /// longer than filling it. The pool gives arrays the memory of deleted ones. An array, and whatever shares
-/// its buffer, may outlive the pool and be deleted in any thread.
-class ArrayPool
+/// its buffer, may outlive the pool and be deleted in any thread. The engine writes its results in memory of
+/// the pool, which arrays then take over.
+class ArrayPool : public OutputAllocator
 {
 public:
   ArrayPool();
-  ~ArrayPool();
+  ~ArrayPool() override;
   ArrayPool(const ArrayPool&) = delete;
   ArrayPool& operator=(const ArrayPool&) = delete;
 
-  /// Gives @p array, of VTK's usual layout and with its components set, memory for so many tuples, not
-  /// initialised.
-  void allocate(vtkDataArray* array, std::int64_t tuples);
-  /// Reserves memory for at least so many bytes, until it is taken or given back.
-  void* reserve(std::size_t bytes);
-  /// Gives @p array reserved memory, with so many tuples in it.
-  void take(void* memory, vtkDataArray* array, std::int64_t tuples);
-  /// Returns reserved memory that no array took.
-  static void giveBack(void* memory);
+  void* allocate(std::size_t part, std::size_t bytes) override;
+  /// Moves the memory of a part into @p array, of VTK's usual layout and with its components set, as so many
+  /// tuples; where there is none, gives it other memory, not initialised.
+  void take(std::size_t part, vtkDataArray* array, std::int64_t tuples);
+  /// Gives @p array, as take() wants it, memory for so many tuples, not initialised.
+  void allocateFor(vtkDataArray* array, std::int64_t tuples);
   /// Frees the memory that no array uses.
   void trim();
   /// Bytes that the pool keeps for later arrays.
@@ -39,8 +40,19 @@ public:
 private:
   struct State;
   struct Header;
+  struct GiveBack
+  {
+    void operator()(void* data) const;
+  };
+  /// Given back unless an array takes it.
+  using Memory = std::unique_ptr<void, GiveBack>;
+
+  Memory reserve(std::size_t bytes);
+  Memory& of(std::size_t part);
+  static void give(Memory memory, vtkDataArray* array, std::int64_t tuples);
 
   std::shared_ptr<State> state_;
+  std::vector<Memory> parts_; ///< Memory of each part, or null.
 };
 
 } // namespace pointhaptics

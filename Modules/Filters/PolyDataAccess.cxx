@@ -1,6 +1,8 @@
 #include "PolyDataAccess.h"
 
+#include "vtkAbstractArray.h"
 #include "vtkAbstractTransform.h"
+#include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkFloatArray.h"
@@ -39,6 +41,45 @@ PointAccess::PointAccess(vtkPoints* points)
     keep_ = copy;
   }
   view_ = PointView(vtkDoubleArray::FastDownCast(keep_)->GetPointer(0), count);
+}
+
+vtkSmartPointer<vtkAbstractArray> emptyLike(vtkAbstractArray* array, int type)
+{
+  auto empty = vtkSmartPointer<vtkAbstractArray>::Take(vtkAbstractArray::CreateArray(type));
+  empty->SetName(array->GetName());
+  empty->SetNumberOfComponents(array->GetNumberOfComponents());
+  empty->CopyComponentNames(array);
+  if (array->HasInformation())
+  {
+    empty->CopyInformation(array->GetInformation());
+  }
+  if (auto* numbers = vtkDataArray::SafeDownCast(array))
+  {
+    vtkDataArray::SafeDownCast(empty)->SetLookupTable(numbers->GetLookupTable());
+  }
+  return empty;
+}
+
+int rolesOf(vtkDataSetAttributes* data, vtkAbstractArray* array)
+{
+  int roles = 0;
+  for (int type = 0; type < vtkDataSetAttributes::NUM_ATTRIBUTES; ++type)
+  {
+    roles |= int(data->GetAbstractAttribute(type) == array) << type;
+  }
+  return roles;
+}
+
+void addWithRoles(vtkDataSetAttributes* data, vtkAbstractArray* array, int roles)
+{
+  const int index = data->AddArray(array);
+  for (int type = 0; type < vtkDataSetAttributes::NUM_ATTRIBUTES; ++type)
+  {
+    if ((roles >> type & 1) != 0)
+    {
+      data->SetActiveAttribute(index, type);
+    }
+  }
 }
 
 ScalarType scalarTypeOf(vtkDataArray* array)

@@ -14,8 +14,10 @@
 #include <optional>
 #include <string>
 
+class vtkAbstractArray;
 class vtkAbstractTransform;
 class vtkDataArray;
+class vtkDataSetAttributes;
 class vtkMatrix4x4;
 class vtkPoints;
 class vtkPolyData;
@@ -36,6 +38,14 @@ private:
   PointView view_;
 };
 
+/// An array without tuples, of @p type, with the name, the components, the information and the lookup table
+/// of
+/// @p array.
+vtkSmartPointer<vtkAbstractArray> emptyLike(vtkAbstractArray* array, int type);
+/// Bit n: @p array is the active one of vtkDataSetAttributes::AttributeTypes n. It may be that of several.
+int rolesOf(vtkDataSetAttributes* data, vtkAbstractArray* array);
+/// Adds @p array, as the active one of these types.
+void addWithRoles(vtkDataSetAttributes* data, vtkAbstractArray* array, int roles);
 /// Core's type of the numbers of @p array. @pre they are no bits.
 ScalarType scalarTypeOf(vtkDataArray* array);
 /// The matrix of a linear transform; null gives the identity. @return false for a transform that is not

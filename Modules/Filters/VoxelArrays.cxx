@@ -1,5 +1,7 @@
 #include "VoxelArrays.h"
 
+#include "PolyDataAccess.h"
+
 #include "vtkAbstractArray.h"
 #include "vtkDataArray.h"
 #include "vtkDataSetAttributes.h"
@@ -51,35 +53,12 @@ std::string whyDropped(vtkDataSetAttributes* attributes, vtkAbstractArray* array
   return text.str();
 }
 
-/// An array may be the active one of several types.
-std::vector<int> rolesOf(vtkDataSetAttributes* attributes, vtkAbstractArray* array)
+AttributeStatistic statisticOf(vtkDataArray* array, const VoxelMeanSettings& settings, bool isNormal)
 {
-  std::vector<int> roles;
-  for (int type = 0; type < vtkDataSetAttributes::NUM_ATTRIBUTES; ++type)
-  {
-    if (attributes->GetAbstractAttribute(type) == array)
-    {
-      roles.push_back(type);
-    }
-  }
-  return roles;
-}
-
-AttributeKind kindOf(vtkDataArray* array, const VoxelMeanSettings& settings, bool isNormal)
-{
-  if (keepsPoints(settings.representative))
-  {
-    return AttributeKind::Chosen;
-  }
-  if (isCategorical(settings, nameOf(array)))
-  {
-    return AttributeKind::Category;
-  }
-  if (settings.representative == Representative::Median)
-  {
-    return AttributeKind::Median;
-  }
-  return isNormal ? AttributeKind::Normal : AttributeKind::Mean;
+  return isCategorical(settings, nameOf(array))         ? AttributeStatistic::Mode
+    : settings.representative == Representative::Median ? AttributeStatistic::Median
+    : isNormal                                          ? AttributeStatistic::Normal
+                                                        : AttributeStatistic::Mean;
 }
 
 }
@@ -103,7 +82,7 @@ std::vector<VoxelArray> voxelArrays(
       continue;
     }
     const bool isNormal = array == data->GetNormals() && array->GetNumberOfComponents() == 3;
-    found.push_back({ array, kindOf(array, settings, isNormal), rolesOf(data, array), isNormal });
+    found.push_back({ array, statisticOf(array, settings, isNormal), rolesOf(data, array), isNormal });
   }
   return found;
 }

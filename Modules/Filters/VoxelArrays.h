@@ -22,8 +22,8 @@ constexpr const char* kOriginalPointIds = "vtkOriginalPointIds";
 struct VoxelArray
 {
   vtkDataArray* array = nullptr;
-  AttributeKind kind = AttributeKind::Mean;
-  std::vector<int> roles; ///< vtkDataSetAttributes::AttributeTypes it is the active one of.
+  AttributeStatistic statistic = AttributeStatistic::Mean;
+  int roles = 0; ///< As rolesOf() says.
   bool isNormal = false;
 };
 

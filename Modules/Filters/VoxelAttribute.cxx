@@ -54,26 +54,13 @@ vtkSmartPointer<vtkDataArray> plainArray(vtkDataArray* array)
   return copy;
 }
 
-vtkSmartPointer<vtkDataArray> newArray(vtkDataArray* like, int type)
-{
-  auto array = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(type));
-  array->SetName(like->GetName());
-  array->SetNumberOfComponents(like->GetNumberOfComponents());
-  array->CopyComponentNames(like);
-  if (like->HasInformation())
-  {
-    array->CopyInformation(like->GetInformation());
-  }
-  array->SetLookupTable(like->GetLookupTable());
-  return array;
 }
 
-}
-
-VoxelAttribute::VoxelAttribute(vtkDataArray* input, AttributeKind kind, const AttributeValues* known)
+VoxelAttribute::VoxelAttribute(
+  vtkDataArray* input, AttributeStatistic statistic, const AttributeValues* known)
   : input_(input)
   , plain_(known && known->copy ? known->copy : plainArray(input))
-  , kind_(kind)
+  , statistic_(statistic)
   , view_{ plain_->GetVoidPointer(0), scalarTypeOf(plain_), plain_->GetNumberOfComponents(),
     std::int64_t(plain_->GetNumberOfTuples()) }
 {
@@ -83,30 +70,15 @@ VoxelAttribute::VoxelAttribute(vtkDataArray* input, AttributeKind kind, const At
 
 void VoxelAttribute::findRange(const Executor& executor)
 {
-  if (!values_.range && (kind_ == AttributeKind::Mean || kind_ == AttributeKind::Normal))
+  if (!values_.range && isSum(statistic_))
   {
     values_.range = rangeOf(view_, executor);
   }
 }
 
-AttributeRequest VoxelAttribute::request() const
-{
-  switch (kind_)
-  {
-    case AttributeKind::Category:
-      return { view_, AttributeStatistic::Mode, {} };
-    case AttributeKind::Median:
-      return { view_, AttributeStatistic::Median, {} };
-    case AttributeKind::Normal:
-      return { view_, AttributeStatistic::Normal, values_.range };
-    default:
-      return { view_, AttributeStatistic::Mean, values_.range };
-  }
-}
-
 vtkSmartPointer<vtkDataArray> VoxelAttribute::emptyArray() const
 {
-  return newArray(input_, plain_->GetDataType());
+  return vtkDataArray::SafeDownCast(emptyLike(input_, plain_->GetDataType()));
 }
 
 vtkSmartPointer<vtkDataArray> VoxelAttribute::inOwnType(vtkSmartPointer<vtkDataArray> plain) const
@@ -115,7 +87,8 @@ vtkSmartPointer<vtkDataArray> VoxelAttribute::inOwnType(vtkSmartPointer<vtkDataA
   {
     return plain;
   }
-  auto original = newArray(input_, input_->GetDataType());
+  const vtkSmartPointer<vtkDataArray> original =
+    vtkDataArray::SafeDownCast(emptyLike(input_, input_->GetDataType()));
   original->DeepCopy(plain);
   original->SetName(input_->GetName());
   return original;
@@ -125,7 +98,7 @@ vtkSmartPointer<vtkDataArray> VoxelAttribute::chosen(
   const std::vector<std::int64_t>& points, ArrayPool& pool, const Executor& executor) const
 {
   const vtkSmartPointer<vtkDataArray> result = emptyArray();
-  pool.allocate(result, std::int64_t(points.size()));
+  pool.allocateFor(result, std::int64_t(points.size()));
   const std::size_t bytes = std::size_t(bytesOf(view_.type)) * std::size_t(view_.components);
   const auto* from = static_cast<const char*>(view_.values);
   auto* to = static_cast<char*>(result->GetVoidPointer(0));

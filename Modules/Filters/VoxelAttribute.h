@@ -19,15 +19,6 @@ class vtkDataArray;
 namespace pointhaptics
 {
 
-enum class AttributeKind
-{
-  Mean,     ///< Averaged, integers rounded to nearest.
-  Normal,   ///< Averaged, turned with the transform, re-normalised.
-  Category, ///< The value most points have, component by component; the smallest on a tie.
-  Median,   ///< Component by component, of an even number the lower middle one.
-  Chosen,   ///< Value of the point that represents the voxel.
-};
-
 /// Properties of an input array, independent of which points are averaged: valid until its values change.
 struct AttributeValues
 {
@@ -40,28 +31,28 @@ class VoxelAttribute
 {
 public:
   /// Keeps a reference to @p input; if its memory is not plain tuples of numbers, it is copied first. @p
-  /// known: values() of an earlier object of the same input and kind, or null.
-  VoxelAttribute(vtkDataArray* input, AttributeKind kind, const AttributeValues* known = nullptr);
+  /// known: values() of an earlier object of the same input and statistic, or null.
+  VoxelAttribute(vtkDataArray* input, AttributeStatistic statistic, const AttributeValues* known = nullptr);
   /// Finds the range once, for many requests: without it each looks for it.
   void findRange(const Executor& executor);
   const AttributeValues& values() const { return values_; }
 
-  /// For the resampler. @pre it is not AttributeKind::Chosen.
-  AttributeRequest request() const;
+  /// For the resampler, where no point of the input stands for a voxel.
+  AttributeRequest request() const { return { view_, statistic_, values_.range }; }
   const AttributeView& view() const { return view_; }
   /// An empty array of the name, components, information and lookup table of the input, whose numbers are as
   /// the resampler gives them.
   vtkSmartPointer<vtkDataArray> emptyArray() const;
   /// Returns @p plain in the type of the input.
   vtkSmartPointer<vtkDataArray> inOwnType(vtkSmartPointer<vtkDataArray> plain) const;
-  /// The tuples of the @p points, for AttributeKind::Chosen.
+  /// The tuples of the @p points, which stand for the voxels.
   vtkSmartPointer<vtkDataArray> chosen(
     const std::vector<std::int64_t>& points, ArrayPool& pool, const Executor& executor) const;
 
 private:
   vtkSmartPointer<vtkDataArray> input_; ///< The array as given.
   vtkSmartPointer<vtkDataArray> plain_; ///< The input as tuples in memory.
-  AttributeKind kind_;
+  AttributeStatistic statistic_;
   AttributeView view_; ///< View of plain_.
   AttributeValues values_;
 };

@@ -26,51 +26,12 @@
 namespace pointhaptics
 {
 
-void*& ArrayAllocator::of(std::size_t part)
-{
-  memory_.resize(std::max(memory_.size(), part + 1));
-  return memory_[part];
-}
-
-void* ArrayAllocator::allocate(std::size_t part, std::size_t bytes)
-{
-  void*& memory = of(part);
-  if (void* old = std::exchange(memory, nullptr))
-  {
-    ArrayPool::giveBack(old);
-  }
-  memory = pool_.reserve(bytes);
-  return memory;
-}
-
-void ArrayAllocator::take(std::size_t part, vtkDataArray* array, std::int64_t tuples)
-{
-  if (void* memory = std::exchange(of(part), nullptr))
-  {
-    pool_.take(memory, array, tuples);
-    return;
-  }
-  pool_.allocate(array, tuples);
-}
-
-void ArrayAllocator::release()
-{
-  for (void*& memory : memory_)
-  {
-    if (memory)
-    {
-      ArrayPool::giveBack(memory);
-      memory = nullptr;
-    }
-  }
-}
-
 vtkSmartPointer<vtkCellArray> makeVertices(vtkIdType count, ArrayPool& pool, const Executor& executor)
 {
   vtkNew<vtkTypeInt64Array> offsets;
   vtkNew<vtkTypeInt64Array> connectivity;
-  pool.allocate(offsets, count + 1);
-  pool.allocate(connectivity, count);
+  pool.allocateFor(offsets, count + 1);
+  pool.allocateFor(connectivity, count);
   vtkTypeInt64* starts = offsets->GetPointer(0);
   vtkTypeInt64* points = connectivity->GetPointer(0);
   starts[count] = count;
@@ -111,10 +72,9 @@ void addField(vtkFieldData* field, const char* name, const Number* values, int c
 }
 
 /// Gives an array its memory and the @p results, which mostly are there already.
-void take(
-  ArrayAllocator& allocator, std::size_t part, vtkDataArray* array, std::int64_t tuples, const void* results)
+void take(ArrayPool& pool, std::size_t part, vtkDataArray* array, std::int64_t tuples, const void* results)
 {
-  allocator.take(part, array, tuples);
+  pool.take(part, array, tuples);
   void* const to = array->GetVoidPointer(0);
   if (to != results && tuples > 0)
   {
@@ -123,28 +83,27 @@ void take(
 }
 
 /// Makes points of the means.
-vtkSmartPointer<vtkPoints> makePoints(
-  const VoxelResampler& engine, bool singlePrecision, ArrayAllocator& allocator)
+vtkSmartPointer<vtkPoints> makePoints(const VoxelResampler& engine, bool singlePrecision, ArrayPool& pool)
 {
   auto points = vtkSmartPointer<vtkPoints>::New();
   points->SetDataType(singlePrecision ? VTK_FLOAT : VTK_DOUBLE);
-  take(allocator, OutputAllocator::Means, points->GetData(), engine.size(),
+  take(pool, OutputAllocator::Means, points->GetData(), engine.size(),
     singlePrecision ? static_cast<const void*>(engine.floats()) : engine.doubles());
   return points;
 }
 
 /// The array VoxelPointCount.
-vtkSmartPointer<vtkIdTypeArray> makeCounts(const VoxelResampler& engine, ArrayAllocator& allocator)
+vtkSmartPointer<vtkIdTypeArray> makeCounts(const VoxelResampler& engine, ArrayPool& pool)
 {
   static_assert(sizeof(vtkIdType) == sizeof(std::int64_t), "VTK must be built with 64-bit ids");
   auto counts = vtkSmartPointer<vtkIdTypeArray>::New();
   counts->SetName("VoxelPointCount");
-  take(allocator, OutputAllocator::Counts, counts, engine.size(), engine.counts());
+  take(pool, OutputAllocator::Counts, counts, engine.size(), engine.counts());
   return counts;
 }
 
 /// The array VoxelCovariance.
-vtkSmartPointer<vtkDoubleArray> makeCovariances(const VoxelResampler& engine, ArrayAllocator& allocator)
+vtkSmartPointer<vtkDoubleArray> makeCovariances(const VoxelResampler& engine, ArrayPool& pool)
 {
   static_assert(sizeof(SymMat3) == 6 * sizeof(double), "six numbers, xx yy zz xy yz xz");
   auto array = vtkSmartPointer<vtkDoubleArray>::New();
@@ -155,7 +114,7 @@ vtkSmartPointer<vtkDoubleArray> makeCovariances(const VoxelResampler& engine, Ar
   {
     array->SetComponentName(c, names[c]);
   }
-  take(allocator, OutputAllocator::Covariances, array, engine.size(), engine.covariances());
+  take(pool, OutputAllocator::Covariances, array, engine.size(), engine.covariances());
   return array;
 }
 
@@ -165,7 +124,7 @@ vtkSmartPointer<vtkIdTypeArray> makeIds(const std::vector<std::int64_t>& ids, co
 {
   auto array = vtkSmartPointer<vtkIdTypeArray>::New();
   array->SetName(name);
-  pool.allocate(array, std::int64_t(ids.size()));
+  pool.allocateFor(array, std::int64_t(ids.size()));
   vtkIdType* const to = array->GetPointer(0);
   forRange(executor, std::int64_t(ids.size()),
     [&](std::int64_t begin, std::int64_t end)
@@ -229,9 +188,9 @@ bool OutputFiller::fill(
   vtkPolyData* output, const AddArrays& addArrays, std::optional<std::vector<std::int64_t>>& kept) const
 {
   vtkPointData* data = output->GetPointData();
-  output->SetPoints(makePoints(engine, singlePrecision, allocator));
+  output->SetPoints(makePoints(engine, singlePrecision, pool));
   output->SetVerts(makeVertices(vtkIdType(engine.size()), pool, executor));
-  const auto counts = makeCounts(engine, allocator);
+  const auto counts = makeCounts(engine, pool);
   if (!addArrays(data))
   {
     return false;
@@ -239,7 +198,7 @@ bool OutputFiller::fill(
   data->AddArray(counts);
   if (covariances)
   {
-    data->AddArray(makeCovariances(engine, allocator));
+    data->AddArray(makeCovariances(engine, pool));
   }
   if (pointIds)
   {
@@ -262,18 +221,14 @@ void OutputFiller::addReduced(vtkPointData* data, std::size_t i, const VoxelAttr
   else
   {
     array = attribute.emptyArray();
-    take(allocator, OutputAllocator::Attributes + i, array, engine.size(), engine.attribute(i));
+    take(pool, OutputAllocator::Attributes + i, array, engine.size(), engine.attribute(i));
     array = attribute.inOwnType(array);
   }
   if (request.representative != Representative::Mean && found.isNormal && !request.transform.isIdentity())
   {
     turnNormals(array, request.transform);
   }
-  const int index = data->AddArray(array);
-  for (const int role : found.roles)
-  {
-    data->SetActiveAttribute(index, role);
-  }
+  addWithRoles(data, array, found.roles);
 }
 
 } // namespace pointhaptics

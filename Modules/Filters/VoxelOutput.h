@@ -28,31 +28,6 @@ namespace pointhaptics
 class VoxelAttribute;
 struct VoxelArray;
 
-/// Lets the engine write its results in memory that VTK arrays then take over.
-class ArrayAllocator : public OutputAllocator
-{
-public:
-  explicit ArrayAllocator(ArrayPool& pool)
-    : pool_(pool)
-  {
-  }
-  ~ArrayAllocator() override { release(); }
-  ArrayAllocator(const ArrayAllocator&) = delete;
-  ArrayAllocator& operator=(const ArrayAllocator&) = delete;
-
-  void* allocate(std::size_t part, std::size_t bytes) override;
-  /// Moves the memory of a part into @p array, of so many tuples; where there is none, allocates it.
-  void take(std::size_t part, vtkDataArray* array, std::int64_t tuples);
-  /// Frees the memory that no array took.
-  void release();
-
-private:
-  void*& of(std::size_t part);
-
-  ArrayPool& pool_;
-  std::vector<void*> memory_; ///< Memory of each part, or null.
-};
-
 /// @p count vertex cells, one per point, in order.
 vtkSmartPointer<vtkCellArray> makeVertices(vtkIdType count, ArrayPool& pool, const Executor& executor);
 /// Makes @p output the points of @p input with the array VoxelIndex: what @p rows says of the voxel of each,
@@ -67,7 +42,6 @@ struct OutputFiller
   const VoxelResampler& engine;
   const AffineTransform& transform;
   ArrayPool& pool;
-  ArrayAllocator& allocator;
   const Executor& executor;
   bool singlePrecision = false; ///< Setting of the request.
   bool covariances = false;

@@ -248,7 +248,7 @@ bool vtkVoxelMeanResampler::Internals::Resample(vtkPointSet* input)
     this->KeepsPoints() ? this->Request.tieBreakers.push_back(named.attribute.view())
                         : this->Request.attributes.push_back(named.attribute.request());
   }
-  this->Request.allocator = &this->Allocator;
+  this->Request.allocator = &this->Pool;
   this->BeginPart(kRunEnd);
   const Status status = this->Engine.run(this->Request, this->Smp, this);
   if (status != Status::Ok)
@@ -273,17 +273,15 @@ void vtkVoxelMeanResampler::Internals::Release()
     // As large as the input: worth its memory only where parts are resampled repeatedly.
     known.values.copy = this->Indexed ? known.values.copy : nullptr;
   }
-  this->Allocator.release();
-  // Memory of earlier outputs that this one did not reuse.
-  this->Pool.trim();
+  this->Pool.trim(); // memory of earlier outputs that this one did not reuse
   this->Request = VoxelRequest();
   this->Points.reset();
 }
 
 bool vtkVoxelMeanResampler::Internals::Fill(vtkPointSet* input, vtkPolyData* output)
 {
-  OutputFiller filler{ this->Engine, this->Transform, this->Pool, this->Allocator, this->Smp,
-    this->Request.singlePrecision, this->Request.covariances, this->Settings.minimumPointsPerVoxel, {} };
+  OutputFiller filler{ this->Engine, this->Transform, this->Pool, this->Smp, this->Request.singlePrecision,
+    this->Request.covariances, this->Settings.minimumPointsPerVoxel, {} };
   if (this->Settings.keepOriginalPointIds && this->KeepsPoints())
   {
     filler.pointIds = this->Engine.chosenPoints();
@@ -374,12 +372,12 @@ void vtkVoxelMeanResampler::Internals::ChooseArrays(vtkPointSet* input)
   {
     const ArraySeen seen(found.array, ownersTime);
     const auto old = std::find_if(known.begin(), known.end(),
-      [&](const KnownValues& values) { return values.seen == seen && values.kind == found.kind; });
-    VoxelAttribute attribute(found.array, found.kind, old == known.end() ? nullptr : &old->values);
+      [&](const KnownValues& values) { return values.seen == seen && values.statistic == found.statistic; });
+    VoxelAttribute attribute(found.array, found.statistic, old == known.end() ? nullptr : &old->values);
     if (this->Settings.usePointIndex)
     {
-      attribute.findRange(this->Smp);
-      this->Known.push_back({ seen, found.kind, attribute.values() });
+      this->KeepsPoints() ? void() : attribute.findRange(this->Smp);
+      this->Known.push_back({ seen, found.statistic, attribute.values() });
     }
     this->Attributes.push_back({ std::move(attribute), found });
   }

@@ -82,7 +82,7 @@ private:
   struct KnownValues
   {
     ArraySeen seen;
-    pointhaptics::AttributeKind kind;
+    pointhaptics::AttributeStatistic statistic;
     pointhaptics::AttributeValues values;
   };
 
@@ -118,7 +118,6 @@ private:
   std::unique_ptr<pointhaptics::PointAccess> Points;
   std::vector<NamedAttribute> Attributes;
   pointhaptics::ArrayPool Pool;
-  pointhaptics::ArrayAllocator Allocator{ this->Pool };
   std::optional<std::vector<std::int64_t>> Kept; ///< Voxels of output 0, where some may be left out.
   double PartBegin = 0.0;
   double PartEnd = 0.0;

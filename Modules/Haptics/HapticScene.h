@@ -4,6 +4,7 @@
 
 #include "Core/Bandwidth/LocalBandwidth.h"
 #include "Core/Base/AffineTransform.h"
+#include "Core/Base/Boxes.h"
 #include "Core/Base/Executor.h"
 #include "Core/Base/Status.h"
 #include "Core/Surface/CellPyramid.h"
@@ -92,10 +93,7 @@ public:
   /// True if a hand at @p p (lattice frame) feels the same in a global scene.
   bool covers(const Vec3& p) const noexcept
   {
-    const Bounds& box = cloud_->covered;
-    return box.empty() ||
-      (p.x >= box.minimum.x && p.y >= box.minimum.y && p.z >= box.minimum.z && p.x <= box.maximum.x &&
-        p.y <= box.maximum.y && p.z <= box.maximum.z);
+    return cloud_->covered.empty() || contains(cloud_->covered, p);
   }
   /// Box in which a local scene is felt; lattice frame.
   const Bounds& covered() const { return cloud_->covered; }

@@ -1,5 +1,6 @@
 #include "Haptics/LocalRegion.h"
 
+#include "Core/Base/Boxes.h"
 #include "Haptics/HapticScene.h"
 
 #include <algorithm>
@@ -24,19 +25,6 @@ constexpr double kTriedRadii = 2.0;
 constexpr double kMostTriedCells = 20.0;
 /// Longest radius in cells where the global scene's radii are not known: that of clouds with little noise.
 constexpr double kTriedAlone = 14.0;
-
-/// True if @p p is in @p box or within @p margin of it on every axis.
-bool isAbout(const Bounds& box, double margin, const Vec3& p)
-{
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    if (!(p[axis] >= box.minimum[axis] - margin && p[axis] <= box.maximum[axis] + margin))
-    {
-      return false;
-    }
-  }
-  return true;
-}
 
 } // namespace
 
@@ -125,8 +113,9 @@ std::vector<NodeUse> LocalRegion::uses(const CellPyramid& pyramid) const
   std::vector<NodeUse> uses;
   for (const Cell& node : pyramid.level(RadiusField::nodeLevel(pyramid)).cells)
   {
-    const bool isAll = isAbout(covered_, kNodeCells * cellSize_, node.mean);
-    const bool votes = global_ && isAbout(covered_, (kNodeCells + kVoteReachInCells) * cellSize_, node.mean);
+    const bool isAll = contains(grown(covered_, kNodeCells * cellSize_), node.mean);
+    const bool votes =
+      global_ && contains(grown(covered_, (kNodeCells + kVoteReachInCells) * cellSize_), node.mean);
     uses.push_back(isAll ? NodeUse::All : votes ? NodeUse::Vote : NodeUse::None);
   }
   return uses;

@@ -4,6 +4,7 @@
 #include "PCL/FieldLayout.h"
 
 #include "PolyDataAccess.h"
+#include "VoxelOutput.h"
 
 #include "vtkCellArray.h"
 #include "vtkDataArray.h"
@@ -153,7 +154,7 @@ void addOthers(const Cloud& cloud, const FieldLayout& layout, vtkPointData* data
   {
     const auto field = std::find_if(cloud.fields.begin(), cloud.fields.end(),
       [&](const Field& f) { return f.offset == other.offset && f.name != "_"; });
-    if (other.kind == FieldKind::Normal)
+    if (other.statistic == AttributeStatistic::Normal)
     {
       data->SetNormals(arrayOf(cloud, other.offset, other.type, 3, "Normals"));
     }
@@ -238,13 +239,12 @@ public:
 
   void add(const std::string& name, std::uint8_t type, int count, const void* values, std::size_t bytes)
   {
-    Column column;
+    Column& column = columns_.emplace_back();
     column.field.name = name;
     column.field.datatype = type;
     column.field.count = ::pcl::uindex_t(count);
     column.values = values;
     column.bytes = bytes;
-    columns_.push_back(column);
   }
 
   /// Three fields of the components of @p array.
@@ -346,28 +346,24 @@ void readRecords(vtkPolyData* points, Cloud& cloud)
   }
 }
 
-bool areFinite(vtkPoints* points)
+bool areFinite(const PointView& points)
 {
-  for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
+  std::int64_t i = 0;
+  while (i < points.size() && isFinite(points[i]))
   {
-    double p[3];
-    points->GetPoint(i, p);
-    if (!(std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2])))
-    {
-      return false;
-    }
+    ++i;
   }
-  return true;
+  return i == points.size();
 }
 
-/// An array in VTK's usual layout; others are copied into @p kept.
-vtkDataArray* plain(vtkDataArray* array, std::vector<vtkSmartPointer<vtkDataArray>>& kept)
+/// An array of @p type in VTK's usual layout; others are copied into @p kept.
+vtkDataArray* plain(vtkDataArray* array, int type, std::vector<vtkSmartPointer<vtkDataArray>>& kept)
 {
-  if (array->HasStandardMemoryLayout())
+  if (array->HasStandardMemoryLayout() && array->GetDataType() == type)
   {
     return array;
   }
-  kept.push_back(vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(array->GetDataType())));
+  kept.push_back(vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(type)));
   kept.back()->DeepCopy(array);
   return kept.back();
 }
@@ -410,12 +406,8 @@ vtkSmartPointer<vtkPolyData> toPolyData(const Cloud& cloud)
     }
   }
   result->SetPoints(points);
-  vtkNew<vtkCellArray> vertices;
-  for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
-  {
-    vertices->InsertNextCell(1, &i);
-  }
-  result->SetVerts(vertices);
+  ArrayPool pool;
+  result->SetVerts(makeVertices(points->GetNumberOfPoints(), pool, Executor()));
   addOthers(cloud, layout, result->GetPointData());
   addRecords(cloud, result->GetFieldData());
   return result;
@@ -431,16 +423,11 @@ bool toPointCloud2(vtkPolyData* points, Cloud& cloud)
   }
   std::vector<vtkSmartPointer<vtkDataArray>> kept;
   readRecords(points, cloud);
-  cloud.is_dense = areFinite(points->GetPoints());
+  cloud.is_dense = areFinite(PointAccess(points->GetPoints()).view());
   CloudWriter writer(points);
   vtkDataArray* coordinates = points->GetPoints()->GetData();
-  if (coordinates->GetDataType() != VTK_FLOAT && coordinates->GetDataType() != VTK_DOUBLE)
-  {
-    kept.push_back(vtkSmartPointer<vtkDoubleArray>::New());
-    kept.back()->DeepCopy(coordinates);
-    coordinates = kept.back();
-  }
-  writer.addComponents(plain(coordinates, kept), { "x", "y", "z" });
+  const int type = coordinates->GetDataType() == VTK_FLOAT ? VTK_FLOAT : VTK_DOUBLE;
+  writer.addComponents(plain(coordinates, type, kept), { "x", "y", "z" });
   vtkPointData* data = points->GetPointData();
   for (int i = 0; i < data->GetNumberOfArrays(); ++i)
   {
@@ -457,7 +444,7 @@ bool toPointCloud2(vtkPolyData* points, Cloud& cloud)
         text.c_str());
       continue;
     }
-    array = plain(array, kept);
+    array = plain(array, array->GetDataType(), kept);
     if (data->GetAbstractArray(i) == data->GetNormals() && array->GetNumberOfComponents() == 3)
     {
       writer.addComponents(array, { "normal_x", "normal_y", "normal_z" });

@@ -46,15 +46,16 @@ RecordField recordField(const Field& field, ScalarType type, bool normal)
 {
   if (isColor(field))
   {
-    return { field.offset, ScalarType::UInt8, 4, FieldKind::Mean };
+    return { field.offset, ScalarType::UInt8, 4, AttributeStatistic::Mean };
   }
   if (normal)
   {
-    return { field.offset, type, 3, FieldKind::Normal };
+    return { field.offset, type, 3, AttributeStatistic::Normal };
   }
   const bool isCategory = field.datatype == Field::BOOL ||
     (field.name == "label" && type != ScalarType::Float && type != ScalarType::Double);
-  return { field.offset, type, int(countOf(field)), isCategory ? FieldKind::Category : FieldKind::Mean };
+  return { field.offset, type, int(countOf(field)),
+    isCategory ? AttributeStatistic::Mode : AttributeStatistic::Mean };
 }
 
 bool readCoordinates(const std::vector<Field>& fields, FieldLayout& layout, std::string& message)

@@ -55,17 +55,6 @@ PointView viewOf(const RecordCloud& cloud, std::vector<Real>& copy)
   return { copy.data(), cloud.size };
 }
 
-AttributeRequest requestFor(const RecordCloud& cloud, const RecordField& field)
-{
-  AttributeRequest request;
-  request.view = { cloud.records + field.offset, field.type, field.components, cloud.size,
-    std::int64_t(cloud.step) };
-  request.statistic = field.kind == FieldKind::Category ? AttributeStatistic::Mode
-    : field.kind == FieldKind::Normal                   ? AttributeStatistic::Normal
-                                                        : AttributeStatistic::Mean;
-  return request;
-}
-
 /// Records that are written together stay in the first cache until all of their fields have been.
 constexpr std::int64_t kBlock = 1024;
 
@@ -170,7 +159,9 @@ Status RecordVoxels::Implementation::run(const RecordCloud& cloud, const Executo
   request.points = request.singlePrecision ? viewOf(cloud, floats) : viewOf(cloud, doubles);
   for (const RecordField& field : fields)
   {
-    request.attributes.push_back(requestFor(cloud, field));
+    const AttributeView view = { cloud.records + field.offset, field.type, field.components, cloud.size,
+      std::int64_t(cloud.step) };
+    request.attributes.push_back({ view, field.statistic });
   }
   const Bounds box = transformedBounds(request.points, {}, executor);
   if (box.empty())

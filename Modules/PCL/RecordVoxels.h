@@ -16,20 +16,13 @@
 namespace pointhaptics
 {
 
-enum class FieldKind
-{
-  Mean,    ///< Averaged, integers rounded to nearest.
-  Normal,  ///< Three real numbers: averaged and made a unit vector.
-  Category ///< The value most points have, the smallest on a tie.
-};
-
 /// Numbers that follow each other in each record.
 struct RecordField
 {
   std::size_t offset = 0; ///< Bytes from the start of a record.
   ScalarType type = ScalarType::Float;
   int components = 1;
-  FieldKind kind = FieldKind::Mean;
+  AttributeStatistic statistic = AttributeStatistic::Mean; ///< A normal has three real numbers.
 };
 
 /// Records in the caller's memory. Of strides and offsets that are no multiples of the numbers' sizes, and of
@@ -51,7 +44,7 @@ struct RecordVoxelSettings
   unsigned threads = 0;           ///< At most so many; 0: as vtkSMPTools is set.
 };
 
-/// One run of VoxelResampler and AttributeMean over records. Scratch memory is kept for the next run. One
+/// One run of VoxelResampler over records. Scratch memory is kept for the next run. One
 /// thread at a time.
 class RecordVoxels
 {

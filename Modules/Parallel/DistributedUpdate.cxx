@@ -66,7 +66,7 @@ std::string DistributedUpdate::chooseArrays()
   }
   for (std::size_t i = 0; this->sharesSums() && i < found_.size(); ++i)
   {
-    arrays_.emplace_back(found_[i].array, found_[i].kind);
+    arrays_.emplace_back(found_[i].array, found_[i].statistic);
   }
   return {};
 }
@@ -145,11 +145,8 @@ std::string DistributedUpdate::runOfSums(vtkPolyData* output)
     return problemOf(status);
   }
   status = shared_.share(ranks_, std::move(own));
-  VoxelRequest wanted;
-  wanted.singlePrecision = singlePrecision_;
-  wanted.keys = true;
-  wanted.instructions = settings_.instructionSet;
-  wanted.allocator = &allocator_;
+  VoxelRequest wanted = this->requestOf({}, lattice_);
+  wanted.allocator = &pool_;
   status = status == Status::Ok ? shared_.voxels().finish(wanted, made_, smp_) : status;
   if (!this->all(status == Status::Ok))
   {
@@ -165,8 +162,8 @@ std::string DistributedUpdate::runOfSums(vtkPolyData* output)
 void DistributedUpdate::fill(
   vtkPolyData* output, const std::vector<VoxelAttribute>& arrays, const VoxelRequest& request)
 {
-  OutputFiller filler{ made_, transform_, pool_, allocator_, smp_, singlePrecision_,
-    settings_.computeCovariance, settings_.minimumPointsPerVoxel, {} };
+  OutputFiller filler{ made_, transform_, pool_, smp_, singlePrecision_, settings_.computeCovariance,
+    settings_.minimumPointsPerVoxel, {} };
   if (settings_.keepOriginalPointIds)
   {
     filler.pointIds = made_.chosenPoints();
@@ -188,16 +185,23 @@ void DistributedUpdate::fill(
     kept_));
 }
 
+VoxelRequest DistributedUpdate::requestOf(const PointView& points, const Lattice& lattice)
+{
+  VoxelRequest request;
+  request.points = points;
+  request.transform = transform_;
+  request.lattice = lattice;
+  request.singlePrecision = singlePrecision_;
+  request.keys = true;
+  request.instructions = settings_.instructionSet;
+  return request;
+}
+
 /// With keys and the voxel of each point.
 std::string DistributedUpdate::findOwnVoxels(const Lattice& lattice, VoxelResampler& own)
 {
-  VoxelRequest request;
-  request.points = points_.view();
-  request.transform = transform_;
-  request.lattice = lattice;
-  request.keys = true;
+  VoxelRequest request = this->requestOf(points_.view(), lattice);
   request.voxelIndex = true;
-  request.instructions = settings_.instructionSet;
   const Status status = own.run(request, smp_);
   return this->all(status == Status::Ok) ? std::string() : problemOf(status);
 }
@@ -246,20 +250,14 @@ std::string DistributedUpdate::runOfPoints(vtkPolyData* output)
   invalid_ = commonSum(ranks_, own.invalidPoints());
   const vtkSmartPointer<vtkPolyData> points = this->sharePoints(own);
   const PointAccess access(points->GetPoints());
-  VoxelRequest request;
-  request.points = access.view();
-  request.transform = transform_;
-  request.lattice = lattice_;
-  request.singlePrecision = singlePrecision_;
+  VoxelRequest request = this->requestOf(access.view(), lattice_);
   request.covariances = settings_.computeCovariance;
-  request.keys = true;
   request.representative = settings_.representative;
-  request.instructions = settings_.instructionSet;
-  request.allocator = &allocator_;
+  request.allocator = &pool_;
   std::vector<VoxelAttribute> attributes;
   for (std::size_t i = 0; i < found_.size(); ++i)
   {
-    attributes.emplace_back(points->GetPointData()->GetArray(int(i)), found_[i].kind);
+    attributes.emplace_back(points->GetPointData()->GetArray(int(i)), found_[i].statistic);
     keepsPoints(request.representative) ? request.tieBreakers.push_back(attributes.back().view())
                                         : request.attributes.push_back(attributes.back().request());
   }

@@ -61,6 +61,8 @@ private:
   bool sharesSums() const { return settings_.representative == Representative::Mean; }
   std::string chooseArrays();
   void choosePrecision();
+  /// The voxels of @p points, with keys.
+  VoxelRequest requestOf(const PointView& points, const Lattice& lattice);
   /// The voxels of this rank's points.
   std::string findOwnVoxels(const Lattice& lattice, VoxelResampler& own);
   // Means: sums are shared.
@@ -77,7 +79,6 @@ private:
   PointAccess points_;
   SmpExecutor smp_;
   ArrayPool pool_;
-  ArrayAllocator allocator_{ pool_ };
   AffineTransform transform_;
   Lattice lattice_;
   bool singlePrecision_ = true;

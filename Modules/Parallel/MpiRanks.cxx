@@ -1,5 +1,6 @@
 #include "MpiRanks.h"
 
+#include "vtkCompositeDataSet.h"
 #include "vtkMPI.h"
 #include "vtkMPICommunicator.h"
 #include "vtkMPIController.h"
@@ -83,6 +84,15 @@ std::vector<std::string> MpiRanks::exchange(std::vector<std::string> messages)
     sent_ += bytes;
   }
   return received;
+}
+
+std::string problemOnRanks(vtkMultiProcessController* controller, vtkDataObject* input, bool& repeatsErrors)
+{
+  const bool isShared = MpiRanks(controller).size() > 1;
+  repeatsErrors = repeatsErrors && !isShared;
+  return isShared && vtkCompositeDataSet::SafeDownCast(input)
+    ? "The input has blocks, and each process has others; merge them to one cloud first (Merge Blocks)."
+    : std::string();
 }
 
 void abortJob(int exitCode)

@@ -1,5 +1,6 @@
 #include "PieceOfCloud.h"
 
+#include "PolyDataAccess.h"
 #include "SmpExecutor.h"
 #include "VoxelOutput.h"
 
@@ -26,24 +27,6 @@ namespace
 {
 
 using NewTuples = std::function<void(vtkAbstractArray* from, vtkAbstractArray* to)>;
-
-vtkSmartPointer<vtkAbstractArray> emptyLike(vtkAbstractArray* array)
-{
-  auto empty = vtkSmartPointer<vtkAbstractArray>::Take(vtkAbstractArray::CreateArray(array->GetDataType()));
-  empty->SetName(array->GetName());
-  empty->SetNumberOfComponents(array->GetNumberOfComponents());
-  empty->CopyComponentNames(array);
-  if (array->HasInformation())
-  {
-    empty->CopyInformation(array->GetInformation());
-  }
-  auto* numbers = vtkDataArray::SafeDownCast(array);
-  if (numbers && numbers->GetLookupTable())
-  {
-    vtkDataArray::SafeDownCast(empty)->SetLookupTable(numbers->GetLookupTable());
-  }
-  return empty;
-}
 
 /// Which vertex cells the pieces of all ranks have: a rank without points shows nothing.
 struct Vertices
@@ -93,16 +76,9 @@ vtkSmartPointer<vtkPolyData> cloudLike(vtkPolyData* cloud, const NewTuples& fill
   for (int i = 0; i < from->GetNumberOfArrays(); ++i)
   {
     vtkAbstractArray* array = from->GetAbstractArray(i);
-    const vtkSmartPointer<vtkAbstractArray> filled = emptyLike(array);
+    const vtkSmartPointer<vtkAbstractArray> filled = emptyLike(array, array->GetDataType());
     fill(array, filled);
-    const int at = to->AddArray(filled);
-    for (int type = 0; type < vtkDataSetAttributes::NUM_ATTRIBUTES; ++type)
-    {
-      if (from->GetAbstractAttribute(type) == array)
-      {
-        to->SetActiveAttribute(at, type);
-      }
-    }
+    addWithRoles(to, filled, rolesOf(from, array));
   }
   result->GetFieldData()->PassData(cloud->GetFieldData());
   return result;
@@ -148,7 +124,7 @@ struct ArrayPreface
 {
   int type = 0;
   int components = 0;
-  int roles = 0; ///< Bit n: the active one of vtkDataSetAttributes::AttributeTypes n.
+  int roles = 0;
   int nameLength = 0;
 };
 
@@ -160,11 +136,8 @@ std::string namesAndTypes(vtkPointData* data)
   {
     vtkAbstractArray* array = data->GetAbstractArray(i);
     const std::string name = array->GetName() ? array->GetName() : "";
-    ArrayPreface preface{ array->GetDataType(), array->GetNumberOfComponents(), 0, int(name.size()) };
-    for (int type = 0; type < vtkDataSetAttributes::NUM_ATTRIBUTES; ++type)
-    {
-      preface.roles |= int(data->GetAbstractAttribute(type) == array) << type;
-    }
+    const ArrayPreface preface{ array->GetDataType(), array->GetNumberOfComponents(), rolesOf(data, array),
+      int(name.size()) };
     text += bytesOfValues(std::vector<ArrayPreface>{ preface }) + name;
   }
   return text;
@@ -180,14 +153,7 @@ void addEmptyArrays(const std::string& text, vtkPointData* data)
     array->SetNumberOfComponents(preface.components);
     array->SetName(text.substr(at, std::size_t(preface.nameLength)).c_str());
     at += std::size_t(preface.nameLength);
-    const int index = data->AddArray(array);
-    for (int type = 0; type < vtkDataSetAttributes::NUM_ATTRIBUTES; ++type)
-    {
-      if ((preface.roles >> type & 1) != 0)
-      {
-        data->SetActiveAttribute(index, type);
-      }
-    }
+    addWithRoles(data, array, preface.roles);
   }
 }
 
@@ -215,28 +181,10 @@ vtkSmartPointer<vtkPolyData> gatherPieces(Ranks& ranks, vtkPolyData* piece)
   {
     return piece;
   }
-  const vtkIdType points =
-    ranks.reduce(piece->GetNumberOfPoints(), [](vtkIdType a, vtkIdType b) { return a + b; });
-  const Vertices vertices(ranks, piece);
-  const vtkSmartPointer<vtkPolyData> all = cloudLike(piece,
-    [&](vtkAbstractArray* from, vtkAbstractArray* to)
-    {
-      std::vector<std::string> messages(std::size_t(ranks.size()));
-      messages.front() = bytesOf(from);
-      messages = ranks.exchange(std::move(messages));
-      if (ranks.rank() != 0)
-      {
-        return;
-      }
-      to->SetNumberOfTuples(points);
-      setBytes(to, messages);
-    });
-  if (ranks.rank() != 0)
-  {
-    return nullptr;
-  }
-  vertices.addTo(all);
-  return all;
+  std::vector<std::int64_t> numbers;
+  const std::vector<int> toFirst(std::size_t(piece->GetNumberOfPoints()), 0);
+  const vtkSmartPointer<vtkPolyData> all = exchangePoints(ranks, piece, toFirst, numbers);
+  return ranks.rank() == 0 ? all : nullptr;
 }
 
 vtkSmartPointer<vtkPolyData> exchangePoints(
@@ -269,7 +217,7 @@ vtkSmartPointer<vtkPolyData> exchangePoints(
       std::vector<std::string> parts;
       for (const vtkNew<vtkIdList>& wanted : rows)
       {
-        const vtkSmartPointer<vtkAbstractArray> part = emptyLike(from);
+        const vtkSmartPointer<vtkAbstractArray> part = emptyLike(from, from->GetDataType());
         part->SetNumberOfTuples(wanted->GetNumberOfIds());
         from->GetTuples(wanted, part);
         parts.push_back(bytesOf(part));

@@ -1,6 +1,5 @@
 #include "vtkDistributedKernelBandwidthFilter.h"
 
-#include "BlocksOfInput.h"
 #include "MpiRanks.h"
 
 #include "BandwidthArrays.h"
@@ -9,7 +8,6 @@
 
 #include "Core/Distributed/SharedBandwidths.h"
 
-#include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointSet.h"
 #include "vtkPolyData.h"
@@ -28,21 +26,9 @@ vtkDistributedKernelBandwidthFilter::vtkDistributedKernelBandwidthFilter()
 
 vtkDistributedKernelBandwidthFilter::~vtkDistributedKernelBandwidthFilter() = default;
 
-vtkCxxSetSmartPointerMacro(vtkDistributedKernelBandwidthFilter, Controller, vtkMultiProcessController);
-
-vtkMultiProcessController* vtkDistributedKernelBandwidthFilter::GetController()
-{
-  return this->Controller;
-}
-
 std::string vtkDistributedKernelBandwidthFilter::ProblemOf(vtkDataObject* input)
 {
-  if (MpiRanks(this->Controller).size() == 1)
-  {
-    return {};
-  }
-  this->RepeatsErrors = false; // ranks run together or not at all
-  return problemOfBlocks(input);
+  return problemOnRanks(this->Controller, input, this->RepeatsErrors);
 }
 
 bool vtkDistributedKernelBandwidthFilter::RunCloud(vtkPointSet* cloud, const Outputs& outputs)

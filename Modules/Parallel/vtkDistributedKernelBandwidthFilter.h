@@ -22,9 +22,8 @@
 
 #include "PointHapticsParallelModule.h" // For export macro
 #include "vtkKernelBandwidthFilter.h"
-#include "vtkSmartPointer.h" // For Controller
-
-class vtkMultiProcessController;
+#include "vtkMultiProcessController.h" // For Controller
+#include "vtkSmartPointer.h"           // For Controller
 
 class POINTHAPTICSPARALLEL_EXPORT vtkDistributedKernelBandwidthFilter : public vtkKernelBandwidthFilter
 {
@@ -38,8 +37,8 @@ public:
    * The processes that share the cloud: a vtkMPIController, or null for this process alone. Default: the
    * global controller.
    */
-  virtual void SetController(vtkMultiProcessController* controller);
-  vtkMultiProcessController* GetController();
+  vtkSetSmartPointerMacro(Controller, vtkMultiProcessController);
+  vtkGetSmartPointerMacro(Controller, vtkMultiProcessController);
   ///@}
 
   /**

@@ -4,7 +4,6 @@
 
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
-#include "vtkMultiProcessController.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPoints.h"
@@ -25,13 +24,6 @@ vtkDistributedPointCloudReader::vtkDistributedPointCloudReader()
 }
 
 vtkDistributedPointCloudReader::~vtkDistributedPointCloudReader() = default;
-
-vtkCxxSetSmartPointerMacro(vtkDistributedPointCloudReader, Controller, vtkMultiProcessController);
-
-vtkMultiProcessController* vtkDistributedPointCloudReader::GetController()
-{
-  return this->Controller;
-}
 
 int vtkDistributedPointCloudReader::RequestInformation(
   vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)

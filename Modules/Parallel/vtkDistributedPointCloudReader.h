@@ -18,10 +18,9 @@
 #define vtkDistributedPointCloudReader_h
 
 #include "PointHapticsParallelModule.h" // For export macro
+#include "vtkMultiProcessController.h"  // For Controller
 #include "vtkPointCloudReader.h"
 #include "vtkSmartPointer.h" // For Controller
-
-class vtkMultiProcessController;
 
 class POINTHAPTICSPARALLEL_EXPORT vtkDistributedPointCloudReader : public vtkPointCloudReader
 {
@@ -35,8 +34,8 @@ public:
    * The processes that read the file: a vtkMPIController, or null for this process alone. Default: the global
    * controller.
    */
-  virtual void SetController(vtkMultiProcessController* controller);
-  vtkMultiProcessController* GetController();
+  vtkSetSmartPointerMacro(Controller, vtkMultiProcessController);
+  vtkGetSmartPointerMacro(Controller, vtkMultiProcessController);
   ///@}
 
 protected:

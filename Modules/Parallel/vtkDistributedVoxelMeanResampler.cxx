@@ -1,13 +1,11 @@
 #include "vtkDistributedVoxelMeanResampler.h"
 
-#include "BlocksOfInput.h"
 #include "DistributedUpdate.h"
 #include "MpiRanks.h"
 #include "PieceOfCloud.h"
 
 #include "vtkAbstractTransform.h"
 #include "vtkFieldData.h"
-#include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointSet.h"
 #include "vtkPolyData.h"
@@ -25,21 +23,9 @@ vtkDistributedVoxelMeanResampler::vtkDistributedVoxelMeanResampler()
 
 vtkDistributedVoxelMeanResampler::~vtkDistributedVoxelMeanResampler() = default;
 
-vtkCxxSetSmartPointerMacro(vtkDistributedVoxelMeanResampler, Controller, vtkMultiProcessController);
-
-vtkMultiProcessController* vtkDistributedVoxelMeanResampler::GetController()
-{
-  return this->Controller;
-}
-
 std::string vtkDistributedVoxelMeanResampler::ProblemOf(vtkDataObject* input)
 {
-  if (MpiRanks(this->Controller).size() == 1)
-  {
-    return {};
-  }
-  this->RepeatsErrors = false; // ranks run together or not at all
-  return problemOfBlocks(input);
+  return problemOnRanks(this->Controller, input, this->RepeatsErrors);
 }
 
 bool vtkDistributedVoxelMeanResampler::BeginRun(const Clouds& clouds)

@@ -29,9 +29,8 @@
 #define vtkDistributedVoxelMeanResampler_h
 
 #include "PointHapticsParallelModule.h" // For export macro
+#include "vtkMultiProcessController.h"  // For Controller
 #include "vtkVoxelMeanResampler.h"
-
-class vtkMultiProcessController;
 
 class POINTHAPTICSPARALLEL_EXPORT vtkDistributedVoxelMeanResampler : public vtkVoxelMeanResampler
 {
@@ -45,8 +44,8 @@ public:
    * The processes that share the cloud: a vtkMPIController, or null for this process alone. Default: the
    * global controller.
    */
-  virtual void SetController(vtkMultiProcessController* controller);
-  vtkMultiProcessController* GetController();
+  vtkSetSmartPointerMacro(Controller, vtkMultiProcessController);
+  vtkGetSmartPointerMacro(Controller, vtkMultiProcessController);
   ///@}
 
   /**

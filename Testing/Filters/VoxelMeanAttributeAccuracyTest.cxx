@@ -82,85 +82,11 @@ TYPED_TEST(VoxelMeanIntegers, AreRoundedToTheNearest)
   }
 }
 
-TEST_F(VoxelMeanAttributeAccuracy, EveryNumberOfComponents)
-{
-  for (int components = 1; components <= 9; ++components)
-  {
-    const std::string name = "C" + std::to_string(components);
-    trial::addColumns<vtkFloatArray>(
-      cloud_, name.c_str(), components, [&](vtkIdType, int c) { return drawn(-1, 1) + 100 * c; });
-    expectMeans(name.c_str());
-  }
-}
-
 TEST_F(VoxelMeanAttributeAccuracy, TimesKeepTheirMicroseconds)
 {
   trial::addColumns<vtkDoubleArray>(
     cloud_, "GpsTime", 1, [&](vtkIdType i, int) { return 3e8 + 1e-6 * double(i) + drawn(0, 1e-6); });
   expectMeans("GpsTime");
-}
-
-TEST_F(VoxelMeanAttributeAccuracy, NumbersOfManyMagnitudes)
-{
-  // Each voxel its own magnitude, so that a quantum common to the array would show.
-  const auto magnitude = [&](vtkIdType i)
-  { return std::pow(10.0, std::floor(24 * cloud_->GetPoint(i)[0]) - 12); };
-  trial::addColumns<vtkDoubleArray>(
-    cloud_, "Doubles", 1, [&](vtkIdType i, int) { return magnitude(i) * drawn(-1, 1); });
-  trial::addColumns<vtkFloatArray>(
-    cloud_, "Floats", 1, [&](vtkIdType i, int) { return magnitude(i) * drawn(0.1, 1); });
-  expectMeans("Doubles");
-  expectMeans("Floats");
-}
-
-TEST_F(VoxelMeanAttributeAccuracy, LargestAndSmallestNumbers)
-{
-  trial::addColumns<vtkDoubleArray>(
-    cloud_, "Denormal", 1, [&](vtkIdType i, int) { return double(i) * 4.9406564584124654e-324; });
-  trial::addColumns<vtkFloatArray>(cloud_, "Large", 1, [&](vtkIdType, int) { return drawn(1e38, 3.4e38); });
-  trial::addColumns<vtkDoubleArray>(cloud_, "Constant", 1, [](vtkIdType, int) { return 0.1; });
-  expectMeans("Denormal");
-  expectMeans("Large");
-  expectMeans("Constant");
-}
-
-TEST_F(VoxelMeanAttributeAccuracy, NanIsLeftOutAndInfinityIsWhatAdditionGives)
-{
-  // Voxel by voxel: finite; some NaN; +Inf; -Inf; both infinities; NaN and Inf.
-  resampler_->SetDimensions(6, 1, 1);
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  const double infinity = std::numeric_limits<double>::infinity();
-  const double odd[6][2] = { { 1, 1 }, { nan, 1 }, { infinity, infinity }, { -infinity, -1 },
-    { infinity, -infinity }, { nan, infinity } };
-  const auto value = [&](vtkIdType i, int c)
-  {
-    const int voxel = int(std::floor(6 * cloud_->GetPoint(i)[0]));
-    return c == 1 || i % 7 > 1 ? 1.0 : odd[voxel][i % 7];
-  };
-  trial::addColumns<vtkDoubleArray>(cloud_, "Double", 2, value);
-  trial::addColumns<vtkFloatArray>(cloud_, "Float", 2, value);
-  for (const char* name : { "Double", "Float" })
-  {
-    for (const bool turned : { false, true })
-    {
-      if (turned)
-      {
-        cloud_ = trial::reordered(cloud_, trial::randomOrder(kAccuracyPoints, 3));
-      }
-      vtkDataArray* out = averaged(name);
-      ASSERT_EQ(out->GetNumberOfTuples(), 6);
-      EXPECT_EQ(out->GetComponent(0, 0), 1.0);
-      EXPECT_EQ(out->GetComponent(1, 0), 1.0);
-      EXPECT_EQ(out->GetComponent(2, 0), infinity);
-      EXPECT_EQ(out->GetComponent(3, 0), -infinity);
-      EXPECT_TRUE(std::isnan(out->GetComponent(4, 0)));
-      EXPECT_EQ(out->GetComponent(5, 0), infinity);
-      for (int v = 0; v < 6; ++v)
-      {
-        EXPECT_EQ(out->GetComponent(v, 1), 1.0) << "the other component is not touched";
-      }
-    }
-  }
 }
 
 TEST_F(VoxelMeanAttributeAccuracy, ValuesOfPointsOutsideDoNotMatter)
@@ -200,23 +126,4 @@ TEST_F(VoxelMeanAttributeAccuracy, BitsAreRoundedToTheNearest)
   ASSERT_EQ(out->GetNumberOfTuples(), 2);
   EXPECT_EQ(out->GetComponent(0, 0), 1.0);
   EXPECT_EQ(out->GetComponent(1, 0), 0.0);
-}
-
-TEST_F(VoxelMeanAttributeAccuracy, CategoriesTakeTheMajorityAndTheSmallestOnATie)
-{
-  resampler_->SetDimensions(12, 12, 12); // few points in a voxel: many ties
-  trial::addColumns<vtkUnsignedCharArray>(
-    cloud_, "Classification", 1, [&](vtkIdType, int) { return engine_() % 4; });
-  trial::addColumns<vtkIntArray>(cloud_, "Signed", 1, [&](vtkIdType, int) { return int(engine_() % 5) - 3; });
-  trial::addColumns<vtkLongLongArray>(
-    cloud_, "Id", 1, [&](vtkIdType, int) { return (std::int64_t(1) << 62) + std::int64_t(engine_() % 3); });
-  trial::addColumns<vtkFloatArray>(
-    cloud_, "Real", 1, [&](vtkIdType, int) { return 0.25 * double(engine_() % 4) - 0.5; });
-  for (const char* name : { "Classification", "Signed", "Id", "Real" })
-  {
-    resampler_->AddCategoricalArray(name);
-    vtkDataArray* out = averaged(name);
-    trial::expectMajorityAgrees(
-      cloud_->GetPointData()->GetArray(name), out, trial::oracleOf(resampler_, cloud_));
-  }
 }

@@ -407,22 +407,3 @@ TEST(VoxelMeanAttributes, NormalsKeepTheirDirectionUnderTinyScales)
   ASSERT_EQ(resampler->GetOutput()->GetNumberOfPoints(), 1);
   EXPECT_EQ(resampler->GetOutput()->GetPointData()->GetNormals()->GetComponent(0, 2), 1.0);
 }
-
-TEST(VoxelMeanAttributes, NormalsThatCancelStayFinite)
-{
-  const auto cloud = trial::cloudAt({ { 0.5, 0.5, 0.5 }, { 0.5, 0.5, 0.5 } });
-  vtkNew<vtkFloatArray> normals;
-  normals->SetName("Normals");
-  normals->SetNumberOfComponents(3);
-  normals->InsertNextTuple3(0, 0.6, 0.8);
-  normals->InsertNextTuple3(0, -0.6, -0.8);
-  cloud->GetPointData()->SetNormals(normals);
-  vtkNew<vtkVoxelMeanResampler> resampler;
-  resampler->SetInputData(cloud);
-  resampler->Update();
-  ASSERT_EQ(resampler->GetOutput()->GetNumberOfPoints(), 1);
-  for (int c = 0; c < 3; ++c)
-  {
-    EXPECT_TRUE(std::isfinite(resampler->GetOutput()->GetPointData()->GetNormals()->GetComponent(0, c)));
-  }
-}

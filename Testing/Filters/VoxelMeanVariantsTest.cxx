@@ -295,30 +295,6 @@ int filterSet(pointhaptics::InstructionSet set)
                                                    : vtkVoxelMeanResampler::InstructionSetBaseline;
 }
 
-TEST_P(VoxelMeanVariants, EveryInstructionSetGivesTheSameBits)
-{
-  for (int step = 0; step < 8; ++step)
-  {
-    setView(resampler_, transform_, step);
-    resampler_->ComputeCovarianceOn();
-    resampler_->SetInputData(cloud_);
-    resampler_->SetInstructionSet(vtkVoxelMeanResampler::InstructionSetBaseline);
-    resampler_->Update();
-    const auto expected = trial::copyOf(resampler_->GetOutput());
-    for (const pointhaptics::InstructionSet set : pointhaptics::heldInstructionSets())
-    {
-      for (const bool index : { false, true })
-      {
-        SCOPED_TRACE(testing::Message() << "step " << step << " set " << int(set) << " index " << index);
-        resampler_->SetInstructionSet(filterSet(set));
-        resampler_->SetUsePointIndex(index);
-        resampler_->Update();
-        trial::expectSame(resampler_->GetOutput(), expected);
-      }
-    }
-  }
-}
-
 TEST(VoxelMeanInstructionSets, AgreeOnRandomCasesAndFewPoints)
 {
   SKIP_WITHOUT_OTHER_INSTRUCTION_SETS();

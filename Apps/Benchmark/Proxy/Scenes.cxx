@@ -3,6 +3,7 @@
 #include "Core/Bandwidth/LocalBandwidth.h"
 #include "Core/Neighbors/NeighborQuery.h"
 #include "Core/Resample/VoxelMean.h"
+#include "Haptics/LocalScene.h"
 
 #include <fmt/format.h>
 
@@ -22,20 +23,19 @@ bool resample(const std::vector<Vec3>& points, const SceneSettings& settings, Ha
   const PointView view(points.data(), std::int64_t(points.size()));
   LatticeSettings latticeSettings;
   latticeSettings.voxelSize = settings.voxelSize;
-  Lattice lattice;
-  VoxelMeans means;
-  if (makeLattice(latticeSettings, transformedBounds(view, settings.transform), lattice) != Status::Ok ||
-    voxelMeans(view, settings.transform, lattice, settings.covariances, means) != Status::Ok)
+  VoxelRequest request;
+  request.points = view;
+  request.transform = settings.transform;
+  request.covariances = settings.covariances;
+  VoxelResampler voxels;
+  if (makeLattice(latticeSettings, transformedBounds(view, settings.transform), request.lattice) !=
+      Status::Ok ||
+    voxels.run(request) != Status::Ok)
   {
     return false;
   }
-  input.counts.assign(means.counts.begin(), means.counts.end());
-  input.points = std::move(means.means);
-  if (settings.covariances)
-  {
-    input.covariances = std::move(means.covariances);
-  }
-  input.cellSize = settings.voxelSize;
+  takeVoxels(voxels, request, input);
+  input.corner.reset();
   return true;
 }
 

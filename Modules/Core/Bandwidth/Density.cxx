@@ -97,14 +97,6 @@ double epanechnikovOnSurface(const Weights& weights, const Vec3& center, double 
 
 }
 
-void surfaceDensities(const PointView& points, const std::vector<double>& counts, const NeighborQuery& query,
-  const std::vector<double>& bandwidths, std::vector<double>& densities, const Executor& executor,
-  DensityKernel kernel)
-{
-  surfaceDensitiesOfPart(
-    points, counts, query, bandwidths, totalWeight(points, counts), densities, executor, kernel);
-}
-
 double totalWeight(const PointView& points, const std::vector<double>& counts)
 {
   double total = 0.0;
@@ -120,10 +112,11 @@ double densityReach(DensityKernel kernel)
   return kernel == DensityKernel::Epanechnikov ? kEpanechnikovReachOnSurface : kDensityCutoff;
 }
 
-void surfaceDensitiesOfPart(const PointView& points, const std::vector<double>& counts,
-  const NeighborQuery& query, const std::vector<double>& bandwidths, double total,
-  std::vector<double>& densities, const Executor& executor, DensityKernel kernel)
+void surfaceDensities(const PointView& points, const std::vector<double>& counts, const NeighborQuery& query,
+  const std::vector<double>& bandwidths, std::vector<double>& densities, const Executor& executor,
+  DensityKernel kernel, std::optional<double> given)
 {
+  const double total = given ? *given : totalWeight(points, counts);
   densities.assign(std::size_t(points.size()), 0.0);
   if (!std::isfinite(total))
   {

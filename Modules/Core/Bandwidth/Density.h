@@ -9,6 +9,7 @@
 #include "Core/Neighbors/NeighborQuery.h"
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace pointhaptics
@@ -30,15 +31,11 @@ constexpr double kDensityCutoff = 6.0;
 /// @p counts, for voxel means: the density of the points that these represent, each kernel times its voxel's
 /// count (one per point; empty: 1 each), N the sum of the counts. The bandwidths are to be those of the
 /// means: narrower kernels would leave gaps between them.
+/// @p total, for a part of a cloud, given with the points nearby: N of the whole cloud, totalWeight() of its
+/// parts together. Points whose density is not wanted have bandwidth 0.
 void surfaceDensities(const PointView& points, const std::vector<double>& counts, const NeighborQuery& query,
   const std::vector<double>& bandwidths, std::vector<double>& densities, const Executor& executor = {},
-  DensityKernel kernel = DensityKernel::Gaussian);
-/// Densities in a part of a cloud, given with the points nearby: @p total is N of the whole cloud,
-/// totalWeight() of its parts together. Points whose density is not wanted have bandwidth 0.
-void surfaceDensitiesOfPart(const PointView& points, const std::vector<double>& counts,
-  const NeighborQuery& query, const std::vector<double>& bandwidths, double total,
-  std::vector<double>& densities, const Executor& executor = {},
-  DensityKernel kernel = DensityKernel::Gaussian);
+  DensityKernel kernel = DensityKernel::Gaussian, std::optional<double> total = {});
 /// The sum of the counts of finite points, each at least 1; without counts how many there are. Exact, where
 /// counts are whole numbers below 2^53 in all.
 double totalWeight(const PointView& points, const std::vector<double>& counts);

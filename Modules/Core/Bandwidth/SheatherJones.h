@@ -27,7 +27,7 @@ namespace pointhaptics
 /// 1e15, as where the values stand at the end of the range of double numbers.
 ///
 /// Accuracy: within 1e-9 relative of the exact sums and solution, about 1e-12 as measured
-/// (SheatherJonesTest). Cost: 10 to 20 sums over all pairs, each in linear time (GaussianPairSum.h): 20 us
+/// (SheatherJonesTest). Cost: 10 to 20 sums over all pairs, each in linear time: 20 us
 /// for 17 values, 0.1 s for 400,000.
 Status sheatherJones(const double* sorted, std::int64_t count, double scale, double& bandwidth);
 

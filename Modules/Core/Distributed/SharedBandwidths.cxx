@@ -2,10 +2,12 @@
 
 #include "Core/Bandwidth/Density.h"
 #include "Core/Bandwidth/LocalBandwidth.h"
+#include "Core/Distributed/SharedVoxels.h"
 #include "Core/Distributed/SpaceSlabs.h"
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace pointhaptics
 {
@@ -33,14 +35,12 @@ public:
   {
   }
 
-  std::vector<double> bandwidths(std::vector<double>& radii);
-  std::vector<double> bandwidthsOfMeans();
+  /// Estimates bandwidths of the own points; as if each mean were one point where @p areMeans. A
+  /// neighbourhood that reaches beyond the known points gives a range that is certain to hold the neighbours.
+  std::vector<double> bandwidths(bool areMeans, std::vector<double>& radii);
   void smooth(std::vector<double>& radii);
   std::vector<double> densities(const std::vector<double>& widths);
-  std::vector<double> giveBack(const std::vector<double>& values, int width)
-  {
-    return slabs_.giveBack(values, width);
-  }
+  std::vector<double> giveBack(const std::vector<double>& values) { return slabs_.giveBack(values); }
   std::size_t size() { return slabs_.own().size(); }
 
 private:
@@ -50,8 +50,10 @@ private:
   SlabRange guess();
   void take(std::vector<SlabPoint> points);
   bool ensure(const SlabRange& needed);
-  std::vector<double> estimate(
-    const std::vector<double>& counts, const LocalBandwidthSettings& settings, std::vector<double>& radii);
+  double leastOfAll(double own)
+  {
+    return ranks_.reduce(own, [](double a, double b) { return std::min(a, b); });
+  }
 
   Ranks& ranks_;
   const BandwidthSettings& settings_;
@@ -157,18 +159,17 @@ bool SharedEstimate::ensure(const SlabRange& needed)
   return true;
 }
 
-/// Estimates bandwidths of the own points. A neighbourhood that reaches beyond the known points gives a range
-/// that is certain to hold the neighbours.
-std::vector<double> SharedEstimate::estimate(
-  const std::vector<double>& counts, const LocalBandwidthSettings& settings, std::vector<double>& radii)
+std::vector<double> SharedEstimate::bandwidths(bool areMeans, std::vector<double>& radii)
 {
   PartialBandwidths part;
+  const std::vector<double> none;
+  const std::vector<double>& counts = areMeans ? none : counts_;
   const std::int64_t wanted =
-    settings.fixedRadius ? 0 : std::min(slabs_.pointsOfAll(), std::int64_t(settings.numberOfNeighbors) + 1);
+    settings_.fixedRadius ? 0 : std::min(slabs_.pointsOfAll(), std::int64_t(settings_.numberOfNeighbors) + 1);
   this->ensure(both(this->guess(), covered_));
   for (bool isNew = true; isNew;)
   {
-    static_cast<void>(partialBandwidths(this->view(), counts, query_, settings, part, executor_));
+    static_cast<void>(partialBandwidths(this->view(), counts, query_, settings_, part, executor_));
     isNew = this->ensure(
       query_.size() < wanted ? kEverywhere : both(this->reachOf(this->ofOwn(part.reaches)), covered_));
   }
@@ -177,21 +178,10 @@ std::vector<double> SharedEstimate::estimate(
   {
     smallest = radius > 0.0 ? std::min(smallest, radius) : smallest;
   }
-  smallest = ranks_.reduce(smallest, [](double a, double b) { return std::min(a, b); });
-  completeBandwidths(this->view(), settings, smallest, slabs_.box(), part);
+  smallest = this->leastOfAll(smallest);
+  completeBandwidths(this->view(), settings_, smallest, slabs_.box(), part);
   radii = this->ofOwn(part.radii);
   return this->ofOwn(part.bandwidths);
-}
-
-std::vector<double> SharedEstimate::bandwidths(std::vector<double>& radii)
-{
-  return this->estimate(counts_, settings_, radii);
-}
-
-std::vector<double> SharedEstimate::bandwidthsOfMeans()
-{
-  std::vector<double> unused;
-  return this->estimate({}, settings_, unused);
 }
 
 /// A radius is cut by none that is further away than the slope takes it down to the smallest.
@@ -203,7 +193,7 @@ void SharedEstimate::smooth(std::vector<double>& radii)
     slabs_.own()[i].radius = radii[i];
     smallest = std::min(smallest, radii[i]);
   }
-  smallest = ranks_.reduce(smallest, [](double a, double b) { return std::min(a, b); });
+  smallest = this->leastOfAll(smallest);
   std::vector<double> distances;
   for (const double radius : radii)
   {
@@ -233,49 +223,16 @@ std::vector<double> SharedEstimate::densities(const std::vector<double>& widths)
   }
   const double own = totalWeight({ ownPlaces.data(), std::int64_t(ownPlaces.size()) },
     hasCounts_ ? this->ofOwn(counts_) : std::vector<double>());
-  const double total = ranks_.reduce(own, [](double a, double b) { return a + b; });
+  const double total = ranks_.reduce(own, std::plus<>());
   std::vector<double> densities;
-  surfaceDensitiesOfPart(
-    this->view(), counts_, query_, all, total, densities, executor_, settings_.densityKernel);
+  surfaceDensities(this->view(), counts_, query_, all, densities, executor_, settings_.densityKernel, total);
   return this->ofOwn(densities);
 }
-
-/// The values of own points side by side, and apart again where they belong.
-class Columns
-{
-public:
-  void add(std::vector<double>& column) { columns_.push_back(&column); }
-  void giveBack(SharedEstimate& estimate)
-  {
-    const int width = int(columns_.size());
-    std::vector<double> rows;
-    rows.reserve(columns_.size() * estimate.size());
-    for (std::size_t i = 0; i < estimate.size(); ++i)
-    {
-      for (const std::vector<double>* column : columns_)
-      {
-        rows.push_back((*column)[i]);
-      }
-    }
-    rows = estimate.giveBack(rows, width);
-    for (std::size_t c = 0; c < columns_.size(); ++c)
-    {
-      columns_[c]->clear();
-      for (std::size_t at = c; at < rows.size(); at += columns_.size())
-      {
-        columns_[c]->push_back(rows[at]);
-      }
-    }
-  }
-
-private:
-  std::vector<std::vector<double>*> columns_;
-};
 
 Status checkAll(Ranks& ranks, const PointView& points, const std::vector<double>& counts, bool hasCounts,
   const BandwidthSettings& settings)
 {
-  const std::int64_t all = ranks.reduce(points.size(), [](std::int64_t a, std::int64_t b) { return a + b; });
+  const std::int64_t all = commonSum(ranks, points.size());
   const bool fits =
     all <= NeighborQuery::kMostPoints && (!hasCounts || counts.size() == std::size_t(points.size()));
   const Status own = settings.check() != Status::Ok ? settings.check()
@@ -299,28 +256,32 @@ Status sharedBandwidths(Ranks& ranks, const PointView& points, const std::vector
   SharedEstimate estimate(ranks, points, counts, hasCounts, settings, executor);
   const bool wantsPoints = settings.computeBandwidth || settings.computeProxyRadius;
   const bool wantsMeans = settings.computeDensity || settings.computeMeanBandwidth;
-  Columns columns;
+  std::vector<std::vector<double>*> columns; // the same on all ranks
   if (wantsPoints || (wantsMeans && !hasCounts))
   {
-    result.bandwidths = estimate.bandwidths(result.radii);
+    result.bandwidths = estimate.bandwidths(false, result.radii);
     if (settings.smoothRadius && settings.computeProxyRadius)
     {
       estimate.smooth(result.radii);
     }
-    columns.add(result.bandwidths);
-    columns.add(result.radii);
+    columns.push_back(&result.bandwidths);
+    columns.push_back(&result.radii);
   }
   if (wantsMeans)
   {
-    result.ofMeans = hasCounts ? estimate.bandwidthsOfMeans() : result.bandwidths;
-    columns.add(result.ofMeans);
+    std::vector<double> unused;
+    result.ofMeans = hasCounts ? estimate.bandwidths(true, unused) : result.bandwidths;
+    columns.push_back(&result.ofMeans);
   }
   if (settings.computeDensity)
   {
     result.densities = estimate.densities(result.ofMeans);
-    columns.add(result.densities);
+    columns.push_back(&result.densities);
   }
-  columns.giveBack(estimate);
+  for (std::vector<double>* const column : columns)
+  {
+    *column = estimate.giveBack(*column);
+  }
   return Status::Ok;
 }
 

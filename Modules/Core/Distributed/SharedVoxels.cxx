@@ -28,21 +28,6 @@ Bounds commonBounds(Ranks& ranks, const Bounds& own)
     });
 }
 
-AttributeRange joinedRange(const AttributeRange& a, const AttributeRange& b)
-{
-  // Without a number that is not 0 there are no bits.
-  const bool aIsZero = a.exponent == a.lastBit;
-  const bool bIsZero = b.exponent == b.lastBit;
-  AttributeRange both = aIsZero ? b : a;
-  if (!aIsZero && !bIsZero)
-  {
-    both.exponent = std::max(a.exponent, b.exponent);
-    both.lastBit = std::min(a.lastBit, b.lastBit);
-  }
-  both.hasNonFinite = a.hasNonFinite || b.hasNonFinite;
-  return both;
-}
-
 std::int64_t commonSum(Ranks& ranks, std::int64_t own)
 {
   return ranks.reduce(own, [](std::int64_t a, std::int64_t b) { return a + b; });

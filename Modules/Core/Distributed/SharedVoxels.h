@@ -6,7 +6,6 @@
 #include "Core/Base/PointView.h"
 #include "Core/Base/Status.h"
 #include "Core/Distributed/Ranks.h"
-#include "Core/Resample/AttributeView.h"
 #include "Core/Resample/VoxelAccumulator.h"
 
 #include <cstdint>
@@ -17,8 +16,6 @@ namespace pointhaptics
 
 /// The box about those of all ranks.
 Bounds commonBounds(Ranks& ranks, const Bounds& own);
-/// The range of an array of which two parts have these.
-AttributeRange joinedRange(const AttributeRange& a, const AttributeRange& b);
 /// The sum of the numbers of all ranks, on each.
 std::int64_t commonSum(Ranks& ranks, std::int64_t own);
 /// The sum of the numbers of the ranks before this one.

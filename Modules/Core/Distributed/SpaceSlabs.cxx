@@ -1,6 +1,9 @@
 #include "Core/Distributed/SpaceSlabs.h"
 
+#include "Core/Distributed/SharedVoxels.h"
+
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace pointhaptics
@@ -20,16 +23,19 @@ int longestAxis(const Bounds& box)
   return half.x >= half.y && half.x >= half.z ? 0 : half.y >= half.z ? 1 : 2;
 }
 
-/// The points of all ranks' messages, one rank after the other.
-std::vector<SlabPoint> pointsOf(const std::vector<std::string>& messages)
+/// Gives each rank its values. @return those of all ranks for this one, one rank after the other.
+template <typename Value>
+std::vector<Value> exchanged(Ranks& ranks, const std::vector<std::vector<Value>>& ofRanks)
 {
-  std::vector<SlabPoint> points;
-  for (const std::string& bytes : messages)
+  std::vector<std::string> messages;
+  std::transform(ofRanks.begin(), ofRanks.end(), std::back_inserter(messages), &bytesOfValues<Value>);
+  std::vector<Value> values;
+  for (const std::string& bytes : ranks.exchange(std::move(messages)))
   {
-    const auto more = valuesOfBytes<SlabPoint>(bytes);
-    points.insert(points.end(), more.begin(), more.end());
+    const auto more = valuesOfBytes<Value>(bytes);
+    values.insert(values.end(), more.begin(), more.end());
   }
-  return points;
+  return values;
 }
 
 }
@@ -46,15 +52,8 @@ SpaceSlabs::SpaceSlabs(Ranks& ranks, const PointView& points, const std::vector<
       box_.include(points[i]);
     }
   }
-  for (const Bounds& box : ranks.gatherValues(box_))
-  {
-    if (!box.empty())
-    {
-      box_.include(box.minimum);
-      box_.include(box.maximum);
-    }
-  }
-  pointsOfAll_ = ranks.reduce(finite, [](std::int64_t a, std::int64_t b) { return a + b; });
+  box_ = commonBounds(ranks, box_);
+  pointsOfAll_ = commonSum(ranks, finite);
   firsts_.push_back(0);
   for (const std::int64_t size : ranks.gatherValues(points.size()))
   {
@@ -74,13 +73,8 @@ SpaceSlabs::SpaceSlabs(Ranks& ranks, const PointView& points, const std::vector<
         { p, first + i, counts.empty() ? 1.0 : counts[std::size_t(i)], 0.0 });
     }
   }
-  std::vector<std::string> messages;
-  for (const std::vector<SlabPoint>& ofRank : ofRanks)
-  {
-    messages.push_back(bytesOfValues(ofRank));
-  }
   // By index: each rank has its points in order, and those of the next rank come after them.
-  own_ = pointsOf(ranks.exchange(std::move(messages)));
+  own_ = exchanged(ranks, ofRanks);
 }
 
 /// Where one slab ends and the next begins. Every rank shows each n-th of its points, the same n on all.
@@ -115,58 +109,38 @@ std::vector<double> SpaceSlabs::chooseCuts(const PointView& points)
 std::vector<SlabPoint> SpaceSlabs::withGhosts(const SlabRange& range)
 {
   const std::vector<SlabRange> ranges = ranks_.gatherValues(range);
-  std::vector<std::string> messages(ranges.size());
+  std::vector<std::vector<SlabPoint>> wanted(ranges.size());
   for (std::size_t r = 0; r < ranges.size(); ++r)
   {
-    std::vector<SlabPoint> wanted;
-    for (const SlabPoint& point : own_)
-    {
-      if (int(r) != ranks_.rank() && ranges[r].contains(this->coordinate(point)))
-      {
-        wanted.push_back(point);
-      }
-    }
-    messages[r] = bytesOfValues(wanted);
+    std::copy_if(own_.begin(), own_.end(), std::back_inserter(wanted[r]),
+      [&](const SlabPoint& point)
+      { return int(r) != ranks_.rank() && ranges[r].contains(this->coordinate(point)); });
   }
-  std::vector<SlabPoint> ghosts = pointsOf(ranks_.exchange(std::move(messages)));
+  std::vector<SlabPoint> ghosts = exchanged(ranks_, wanted);
   std::sort(ghosts.begin(), ghosts.end(), &comesBefore);
   std::vector<SlabPoint> all(ghosts.size() + own_.size());
   std::merge(ghosts.begin(), ghosts.end(), own_.begin(), own_.end(), all.begin(), &comesBefore);
   return all;
 }
 
-std::vector<double> SpaceSlabs::giveBack(const std::vector<double>& values, int width)
+std::vector<double> SpaceSlabs::giveBack(const std::vector<double>& values)
 {
-  const auto ownerOf = [this](std::int64_t index)
-  { return std::size_t(std::upper_bound(firsts_.begin(), firsts_.end(), index) - firsts_.begin() - 1); };
-  std::vector<std::vector<std::int64_t>> places(std::size_t(ranks_.size()));
-  std::vector<std::vector<double>> numbers(places.size());
+  struct Placed
+  {
+    std::int64_t place;
+    double value;
+  };
+  std::vector<std::vector<Placed>> ofRanks(std::size_t(ranks_.size()));
   for (std::size_t i = 0; i < own_.size(); ++i)
   {
-    const std::size_t owner = ownerOf(own_[i].index);
-    const auto first = values.begin() + std::ptrdiff_t(i) * width;
-    places[owner].push_back(own_[i].index - firsts_[owner]);
-    numbers[owner].insert(numbers[owner].end(), first, first + width);
+    const auto owner = std::upper_bound(firsts_.begin(), firsts_.end(), own_[i].index) - 1;
+    ofRanks[std::size_t(owner - firsts_.begin())].push_back({ own_[i].index - *owner, values[i] });
   }
-  std::vector<std::string> messages;
-  std::vector<std::string> more;
-  for (std::size_t r = 0; r < places.size(); ++r)
-  {
-    messages.push_back(bytesOfValues(places[r]));
-    more.push_back(bytesOfValues(numbers[r]));
-  }
-  messages = ranks_.exchange(std::move(messages));
-  more = ranks_.exchange(std::move(more));
   const auto rank = std::size_t(ranks_.rank());
-  std::vector<double> result(std::size_t(firsts_[rank + 1] - firsts_[rank]) * std::size_t(width), 0.0);
-  for (std::size_t r = 0; r < messages.size(); ++r)
+  std::vector<double> result(std::size_t(firsts_[rank + 1] - firsts_[rank]), 0.0);
+  for (const Placed& placed : exchanged(ranks_, ofRanks))
   {
-    const auto at = valuesOfBytes<std::int64_t>(messages[r]);
-    const auto from = valuesOfBytes<double>(more[r]);
-    for (std::size_t i = 0; i < at.size(); ++i)
-    {
-      std::copy_n(from.begin() + std::ptrdiff_t(i) * width, width, result.begin() + at[i] * width);
-    }
+    result[std::size_t(placed.place)] = placed.value;
   }
   return result;
 }

@@ -51,9 +51,9 @@ public:
   /// Collective: the own points and those of other slabs in @p range, by index.
   std::vector<SlabPoint> withGhosts(const SlabRange& range);
 
-  /// Collective: gives values of the own points, @p width numbers each, back to the ranks whose points they
-  /// are. @return @p width numbers for each of these, 0 for points that are not finite.
-  std::vector<double> giveBack(const std::vector<double>& values, int width);
+  /// Collective: gives values of the own points back to the ranks whose points they are. @return one for each
+  /// of these, 0 for points that are not finite.
+  std::vector<double> giveBack(const std::vector<double>& values);
 
 private:
   std::vector<double> chooseCuts(const PointView& points);

@@ -48,71 +48,47 @@ double spacingOf(const double* squared, int others)
   return std::max(std::sqrt(squared[first] * kPi / first), std::sqrt(squared[second] * kPi / second));
 }
 
-/// Some of the slots of a query, and which of them stands for each of the others.
-struct Chosen
-{
-  std::vector<Vec3> points;         ///< Empty where all are chosen.
-  std::vector<std::uint32_t> ofAll; ///< Index in points of each slot of the query.
-};
-
-/// The slots of a query that are farther than @p apart from the ones chosen just before, which in the order
-/// of SpatialOrder.h are near ones mostly.
-Chosen choose(const NeighborQuery& query, double apart)
-{
-  constexpr std::int64_t kLookedAt = simd::kLeafPoints;
-  Chosen chosen;
-  if (!(apart > 0.0))
-  {
-    return chosen;
-  }
-  chosen.ofAll.reserve(std::size_t(query.size()));
-  std::vector<std::uint32_t>& ofAll = chosen.ofAll;
-  const auto isNear = [apart](const Vec3& a, const Vec3& b) { return norm2(a - b) <= apart * apart; };
-  for (std::int64_t slot = 0; slot < query.size(); ++slot)
-  {
-    const Vec3 here = query.point(slot);
-    const auto end = std::int64_t(chosen.points.size());
-    const std::int64_t first = std::max<std::int64_t>(0, end - kLookedAt);
-    std::int64_t before = end - 1;
-    while (before >= first && !isNear(chosen.points[std::size_t(before)], here))
-    {
-      --before;
-    }
-    if (before < first)
-    {
-      before = end;
-      chosen.points.push_back(here);
-    }
-    ofAll.push_back(std::uint32_t(before));
-  }
-  if (chosen.points.size() == ofAll.size())
-  {
-    chosen = Chosen();
-  }
-  return chosen;
-}
-
 /// A query of some of the points of another one; of all of them it is that one.
 class ThinnedQuery
 {
 public:
+  /// Points that are farther than @p apart from the ones chosen just before, which in the order of
+  /// SpatialOrder.h are near ones mostly.
   ThinnedQuery(const NeighborQuery& all, double apart, const Executor& executor)
     : all_(all)
   {
-    const Chosen chosen = choose(all, apart);
-    if (chosen.points.empty())
+    constexpr std::int64_t kLookedAt = simd::kLeafPoints;
+    std::vector<Vec3> points;
+    for (std::int64_t slot = 0; apart > 0.0 && slot < all.size(); ++slot)
     {
+      const Vec3 here = all.point(slot);
+      const auto end = std::int64_t(points.size());
+      const std::int64_t first = std::max<std::int64_t>(0, end - kLookedAt);
+      std::int64_t before = end - 1;
+      while (before >= first && !(norm2(points[std::size_t(before)] - here) <= apart * apart))
+      {
+        --before;
+      }
+      if (before < first)
+      {
+        before = end;
+        points.push_back(here);
+      }
+      slots_.push_back(std::uint32_t(before));
+    }
+    if (points.size() == slots_.size())
+    {
+      slots_.clear();
       return;
     }
-    query_.build({ chosen.points.data(), std::int64_t(chosen.points.size()) }, executor);
-    std::vector<std::uint32_t> slots(chosen.points.size());
-    for (std::size_t slot = 0; slot < slots.size(); ++slot)
+    query_.build({ points.data(), std::int64_t(points.size()) }, executor);
+    std::vector<std::uint32_t> slotOf(points.size());
+    for (std::size_t slot = 0; slot < slotOf.size(); ++slot)
     {
-      slots[std::size_t(query_.index(std::int64_t(slot)))] = std::uint32_t(slot);
+      slotOf[std::size_t(query_.index(std::int64_t(slot)))] = std::uint32_t(slot);
     }
-    slots_.resize(chosen.ofAll.size());
-    std::transform(chosen.ofAll.begin(), chosen.ofAll.end(), slots_.begin(),
-      [&slots](std::uint32_t point) { return slots[point]; });
+    std::transform(
+      slots_.begin(), slots_.end(), slots_.begin(), [&slotOf](std::uint32_t point) { return slotOf[point]; });
   }
   bool holdsAll() const { return slots_.empty(); }
   const NeighborQuery& all() const { return all_; }

@@ -243,61 +243,32 @@ void rankNear(int count, LeafSearch& search)
   }
 }
 
-/// Equal distances have equal ranks: the smaller index goes first.
-void orderTies(const NeighborTree& tree, int count, LeafSearch& search)
+/// Orders the @p count listed, by comparing each with each, and writes the first search.k to the answer of
+/// point @p at of the leaf. Equal distances have equal ranks: the smaller index goes first.
+void answer(const NeighborTree& tree, int at, int count, LeafSearch& search)
 {
-  const auto k = std::uint64_t(search.k);
   const auto index = [&](std::int32_t i) { return tree.indices[search.slots[search.nearCandidates[i]]]; };
-  for (int i = 0; i < search.k; ++i)
+  rankNear(count, search);
+  for (int i = 0; i < count; ++i)
   {
     search.order[i] = -1;
   }
   for (std::int32_t i = 0; i < count; ++i)
   {
     std::int32_t moving = i;
-    std::uint64_t at = search.ranks[i];
-    for (; at < k && search.order[at] >= 0; ++at)
+    std::uint64_t rank = search.ranks[i];
+    for (; __builtin_expect(search.order[rank] >= 0, false); ++rank)
     {
-      const std::int32_t there = search.order[at];
+      const std::int32_t there = search.order[rank];
       if (index(there) > index(moving))
       {
-        search.order[at] = moving;
+        search.order[rank] = moving;
         moving = there;
       }
     }
-    if (at < k)
-    {
-      search.order[at] = moving;
-    }
+    search.order[rank] = moving;
   }
-}
-
-/// Orders the @p count listed, by comparing each with each, and writes the first search.k to the answer of
-/// point @p at of the leaf.
-void answer(const NeighborTree& tree, int at, int count, LeafSearch& search)
-{
-  const int k = search.k;
-  rankNear(count, search);
-  // Without ties each rank up to the one behind the last is taken.
-  const int looked = k < count ? k + 1 : k;
-  for (int i = 0; i < looked; ++i)
-  {
-    search.order[i] = -1;
-  }
-  for (std::int32_t i = 0; i < count; ++i)
-  {
-    search.order[search.ranks[i]] = i;
-  }
-  std::int32_t all = 0;
-  for (int i = 0; i < looked; ++i)
-  {
-    all |= search.order[i];
-  }
-  if (all < 0)
-  {
-    orderTies(tree, count, search);
-  }
-  for (int i = 0; i < k; ++i)
+  for (int i = 0; i < search.k; ++i)
   {
     search.squaredDistances[at][i] = search.near[search.order[i]];
     search.neighbors[at][i] = search.slots[search.nearCandidates[search.order[i]]];

@@ -29,13 +29,8 @@ std::uint32_t keyOf(Entry entry)
   return std::uint32_t(entry >> 32);
 }
 
-/// Words whose keys are computed together. Any wider, and the ABI would depend on the instruction set.
-using Lanes = std::uint32_t __attribute__((vector_size(16)));
-constexpr int kLanes = 4;
-
 /// 10 bits with two free places before every one.
-template <typename Words>
-Words spreadBits(Words v)
+inline std::uint32_t spreadBits(std::uint32_t v)
 {
   v = (v | v << 16) & 0x030000FFu;
   v = (v | v << 8) & 0x0300F00Fu;
@@ -45,24 +40,23 @@ Words spreadBits(Words v)
 
 /// Position along Hilbert's curve through 2^30 cells: Skilling's AxesToTranspose without branches, then the
 /// bits of the three words in turn.
-template <typename Words>
-Words hilbertKey(Words x, Words y, Words z)
+inline std::uint32_t hilbertKey(std::uint32_t x, std::uint32_t y, std::uint32_t z)
 {
   for (int bit = kBitsPerAxis - 1; bit > 0; --bit)
   {
     const std::uint32_t low = (1u << bit) - 1u;
     x ^= low & (0u - (x >> bit & 1u));
-    for (Words* const other : { &y, &z })
+    for (std::uint32_t* const other : { &y, &z })
     {
-      const Words isSet = 0u - (*other >> bit & 1u);
-      const Words swapped = (x ^ *other) & low & ~isSet;
+      const std::uint32_t isSet = 0u - (*other >> bit & 1u);
+      const std::uint32_t swapped = (x ^ *other) & low & ~isSet;
       x ^= swapped ^ (low & isSet);
       *other ^= swapped;
     }
   }
   y ^= x;
   z ^= y;
-  Words flip{};
+  std::uint32_t flip = 0;
   for (int bit = kBitsPerAxis - 1; bit > 0; --bit)
   {
     flip ^= ((1u << bit) - 1u) & (0u - (z >> bit & 1u));
@@ -197,29 +191,24 @@ private:
     forBlocks(
       [&](Block& block, std::int64_t begin, std::int64_t end)
       {
-        Entry* to = entries_.data() + block.first;
-        std::int64_t i = begin;
-        while (i < end)
+        std::uint32_t cells[3][kBlock];
+        std::uint32_t indices[kBlock];
+        std::int64_t filled = 0;
+        for (std::int64_t i = begin; i < end; ++i)
         {
-          Lanes cells[3] = {};
-          Lanes indices = {};
-          int filled = 0;
-          for (; i < end && filled < kLanes; ++i)
+          const Vec3 p = points_[i];
+          if (isFinite(p))
           {
-            const Vec3 p = points_[i];
-            if (isFinite(p))
-            {
-              cells[0][filled] = grid.cell(p.x, 0);
-              cells[1][filled] = grid.cell(p.y, 1);
-              cells[2][filled] = grid.cell(p.z, 2);
-              indices[filled++] = std::uint32_t(i);
-            }
+            cells[0][filled] = grid.cell(p.x, 0);
+            cells[1][filled] = grid.cell(p.y, 1);
+            cells[2][filled] = grid.cell(p.z, 2);
+            indices[filled++] = std::uint32_t(i);
           }
-          const Lanes keys = hilbertKey(cells[0], cells[1], cells[2]);
-          for (int lane = 0; lane < filled; ++lane)
-          {
-            *to++ = Entry(keys[lane]) << 32 | indices[lane];
-          }
+        }
+        Entry* const to = entries_.data() + block.first;
+        for (std::int64_t i = 0; i < filled; ++i)
+        {
+          to[i] = Entry(hilbertKey(cells[0][i], cells[1][i], cells[2][i])) << 32 | indices[i];
         }
       });
   }

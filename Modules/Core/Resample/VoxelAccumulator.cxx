@@ -15,20 +15,10 @@ using namespace simd;
 namespace
 {
 
-/// Points: all, and of these the ones that are in no voxel.
-struct PointCounts
+void addTo(PointCounts& counts, const PointCounts& more)
 {
-  std::int64_t points = 0;
-  std::int64_t clipped = 0;
-  std::int64_t invalid = 0;
-
-  void add(const PointCounts& more)
-  {
-    points += more.points;
-    clipped += more.clipped;
-    invalid += more.invalid;
-  }
-};
+  counts = { counts.points + more.points, counts.clipped + more.clipped, counts.invalid + more.invalid };
+}
 
 bool sameLattice(const Lattice& a, const Lattice& b)
 {
@@ -37,16 +27,9 @@ bool sameLattice(const Lattice& a, const Lattice& b)
 
 }
 
-class VoxelAccumulator::Sums
-{
-public:
-  simd::VoxelRuns runs;
-  PointCounts counts;
-};
-
 VoxelAccumulator::VoxelAccumulator(
   const Lattice& lattice, bool covariances, std::vector<Array> arrays, const AffineTransform& transform)
-  : sums_(std::make_unique<Sums>())
+  : runs_(std::make_unique<VoxelRuns>())
   , lattice_(lattice)
   , covariances_(covariances)
   , arrays_(std::move(arrays))
@@ -58,27 +41,12 @@ VoxelAccumulator::~VoxelAccumulator() = default;
 VoxelAccumulator::VoxelAccumulator(VoxelAccumulator&&) noexcept = default;
 VoxelAccumulator& VoxelAccumulator::operator=(VoxelAccumulator&&) noexcept = default;
 
-std::int64_t VoxelAccumulator::points() const
-{
-  return sums_->counts.points;
-}
-
-std::int64_t VoxelAccumulator::clippedPoints() const
-{
-  return sums_->counts.clipped;
-}
-
-std::int64_t VoxelAccumulator::invalidPoints() const
-{
-  return sums_->counts.invalid;
-}
-
 Status VoxelAccumulator::add(const PointView& points, const std::vector<AttributeView>& arrays,
   const Executor& executor, ProgressObserver* observer)
 {
   const auto fits = [&](const Array& array, const AttributeView& view)
   { return view.type == array.type && view.components == array.components; };
-  if (points.size() > kMostPoints - sums_->counts.points ||
+  if (points.size() > kMostPoints - counts_.points ||
     !std::equal(arrays_.begin(), arrays_.end(), arrays.begin(), arrays.end(), fits))
   {
     return Status::InvalidParameter;
@@ -88,7 +56,6 @@ Status VoxelAccumulator::add(const PointView& points, const std::vector<Attribut
   request.transform = transform_;
   request.lattice = lattice_;
   request.covariances = covariances_;
-  request.chunkPoints = chunkPoints_;
   for (std::size_t i = 0; i < arrays.size(); ++i)
   {
     request.attributes.push_back({ arrays[i], arrays_[i].statistic });
@@ -100,8 +67,8 @@ Status VoxelAccumulator::add(const PointView& points, const std::vector<Attribut
   {
     return status;
   }
-  sums_->runs.add(std::move(run)); // First: it may throw.
-  sums_->counts.add({ points.size(), engine.clipped, engine.invalid });
+  runs_->add(std::move(run)); // First: it may throw.
+  addTo(counts_, { points.size(), engine.clipped, engine.invalid });
   return Status::Ok;
 }
 
@@ -113,9 +80,10 @@ Status VoxelAccumulator::merge(VoxelAccumulator&& other)
   {
     return Status::InvalidParameter;
   }
-  sums_->runs.add(std::move(other.sums_->runs.whole()));
-  sums_->counts.add(other.sums_->counts);
-  *other.sums_ = {};
+  runs_->add(std::move(other.runs_->whole()));
+  addTo(counts_, other.counts_);
+  *other.runs_ = {};
+  other.counts_ = {};
   other.releaseScratch();
   return Status::Ok;
 }
@@ -123,7 +91,8 @@ Status VoxelAccumulator::merge(VoxelAccumulator&& other)
 Status VoxelAccumulator::merge(const VoxelAccumulator& other)
 {
   VoxelAccumulator copy = other.withoutPoints();
-  *copy.sums_ = *other.sums_;
+  *copy.runs_ = *other.runs_;
+  copy.counts_ = other.counts_;
   return this->merge(std::move(copy));
 }
 
@@ -139,11 +108,11 @@ Status VoxelAccumulator::finish(
     request.attributes.push_back({ { nullptr, array.type, array.components }, array.statistic });
   }
   VoxelResampler::Implementation& engine = *result.implementation_;
-  const Status status = engine.finish(request, sums_->runs.whole(), executor, observer);
+  const Status status = engine.finish(request, runs_->whole(), executor, observer);
   if (status == Status::Ok)
   {
-    engine.clipped = sums_->counts.clipped;
-    engine.invalid = sums_->counts.invalid;
+    engine.clipped = counts_.clipped;
+    engine.invalid = counts_.invalid;
   }
   return status;
 }
@@ -151,24 +120,24 @@ Status VoxelAccumulator::finish(
 VoxelAccumulator VoxelAccumulator::part(std::uint64_t first, std::uint64_t end)
 {
   VoxelAccumulator part = this->withoutPoints();
-  const VoxelRun& all = sums_->runs.whole();
-  PointCounts& counts = part.sums_->counts;
+  const VoxelRun& all = runs_->whole();
+  PointCounts& counts = part.counts_;
   if (first == 0 && end > 0)
   {
-    counts = sums_->counts;
+    counts = counts_;
     counts.points = counts.clipped + counts.invalid;
   }
   VoxelRun run;
   run.append(all, all.find(first), std::max(all.find(first), all.find(end)));
   counts.points = std::accumulate(run.voxels.begin(), run.voxels.end(), counts.points,
     [](std::int64_t sum, const WideSums& voxel) { return sum + voxel.count; });
-  part.sums_->runs.add(std::move(run));
+  part.runs_->add(std::move(run));
   return part;
 }
 
 std::vector<std::uint64_t> VoxelAccumulator::keys()
 {
-  const VoxelRun& run = sums_->runs.whole();
+  const VoxelRun& run = runs_->whole();
   std::vector<std::uint64_t> keys(run.size());
   std::transform(run.voxels.begin(), run.voxels.end(), keys.begin(), [](const WideSums& v) { return v.key; });
   return keys;
@@ -358,8 +327,8 @@ bool isConsistent(const Content& content, const VoxelRun& run)
 std::string VoxelAccumulator::serialize(std::uint64_t first, std::uint64_t end)
 {
   const VoxelAccumulator part = this->part(first, end);
-  VoxelRun& run = part.sums_->runs.whole();
-  Content content{ kMagic, lattice_, covariances_, transform_, part.sums_->counts, arrays_ };
+  VoxelRun& run = part.runs_->whole();
+  Content content{ kMagic, lattice_, covariances_, transform_, part.counts_, arrays_ };
   Writer writer;
   exchange(writer, content, run);
   writer.one(checksum(writer.bytes));
@@ -385,8 +354,8 @@ Status VoxelAccumulator::deserialize(std::string_view bytes, VoxelAccumulator& r
   }
   VoxelAccumulator read(
     content.lattice, content.covariances == 1, std::move(content.arrays), content.transform);
-  read.sums_->counts = content.counts;
-  read.sums_->runs.add(std::move(run));
+  read.counts_ = content.counts;
+  read.runs_->add(std::move(run));
   result = std::move(read);
   return Status::Ok;
 }

@@ -20,6 +20,19 @@
 
 namespace pointhaptics
 {
+namespace simd
+{
+class VoxelRuns;
+}
+
+/// Points: all, and of these the ones that are in no voxel.
+struct PointCounts
+{
+  std::int64_t points = 0;
+  std::int64_t clipped = 0;
+  std::int64_t invalid = 0;
+};
+
 /// Accumulates clouds voxel by voxel: parts of a file, what other processes have summed.
 ///
 /// Sums are exact integers, those of VoxelResampler. So neither the order of add() and merge(), nor how the
@@ -51,9 +64,9 @@ public:
     return VoxelAccumulator(lattice_, covariances_, arrays_, transform_);
   }
   /// Points added: all, those finite outside the lattice, those NaN or infinite.
-  std::int64_t points() const;
-  std::int64_t clippedPoints() const;
-  std::int64_t invalidPoints() const;
+  std::int64_t points() const { return counts_.points; }
+  std::int64_t clippedPoints() const { return counts_.clipped; }
+  std::int64_t invalidPoints() const { return counts_.invalid; }
 
   /// Adds points, with the @p arrays in their order. Errors: the transform's, the lattice's, InvalidParameter
   /// (more than kMostPoints in all, other arrays, fewer tuples than points), Aborted; nothing is added then.
@@ -77,8 +90,6 @@ public:
   /// The voxels whose keys are from @p first to before @p end, and their points alone; those clipped or
   /// invalid go with the first key, 0. The parts of all ranges merge to the whole.
   VoxelAccumulator part(std::uint64_t first, std::uint64_t end);
-  /// Points that add() takes at once: see VoxelRequest::chunkPoints.
-  void setChunkPoints(std::int64_t points) { chunkPoints_ = points; }
   /// Frees the scratch memory that add() keeps for the next call.
   void releaseScratch() { engine_.releaseScratch(); }
   /// Keys of active voxels in ascending order.
@@ -92,15 +103,13 @@ public:
   static constexpr std::int64_t kMostPoints = std::int64_t(1) << 34;
 
 private:
-  class Sums;
-
-  std::unique_ptr<Sums> sums_;
+  std::unique_ptr<simd::VoxelRuns> runs_;
+  PointCounts counts_;
   VoxelResampler engine_;
   Lattice lattice_;
   bool covariances_;
   std::vector<Array> arrays_;
   AffineTransform transform_;
-  std::int64_t chunkPoints_ = 0;
 };
 
 } // namespace pointhaptics

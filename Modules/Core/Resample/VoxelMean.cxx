@@ -1,7 +1,6 @@
 #include "Core/Resample/VoxelMean.h"
 
 #include "Core/Resample/Kernel/VoxelKernel.h"
-#include "Core/Resample/VoxelResampler.h"
 
 #include <algorithm>
 #include <mutex>
@@ -42,40 +41,6 @@ Bounds transformedBounds(const PointView& points, const AffineTransform& transfo
         [&](std::int64_t begin, std::int64_t end) { include(first + begin, first + end); });
     });
   return box;
-}
-
-Status voxelMeans(const PointView& points, const AffineTransform& transform, const Lattice& lattice,
-  bool withCovariances, VoxelMeans& result, const Executor& executor)
-{
-  result = VoxelMeans();
-  VoxelRequest request;
-  request.points = points;
-  request.transform = transform;
-  request.lattice = lattice;
-  request.covariances = withCovariances;
-  request.keys = true;
-  VoxelResampler resampler;
-  const Status status = resampler.run(request, executor);
-  if (status != Status::Ok)
-  {
-    return status;
-  }
-  const auto size = std::size_t(resampler.size());
-  result.lattice = lattice;
-  result.keys.assign(resampler.keys(), resampler.keys() + size);
-  const PointView means(resampler.doubles(), resampler.size());
-  for (std::int64_t i = 0; i < means.size(); ++i)
-  {
-    result.means.push_back(means[i]);
-  }
-  result.counts.assign(resampler.counts(), resampler.counts() + size);
-  if (withCovariances)
-  {
-    result.covariances.assign(resampler.covariances(), resampler.covariances() + size);
-  }
-  result.clippedPoints = resampler.clippedPoints();
-  result.invalidPoints = resampler.invalidPoints();
-  return Status::Ok;
 }
 
 } // namespace pointhaptics

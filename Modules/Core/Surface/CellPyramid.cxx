@@ -220,20 +220,18 @@ void CellPyramid::buildUpperLevels(const std::vector<std::uint64_t>& codes, int 
       {
         continue;
       }
-      const std::size_t first = finer.slotBegin.empty() ? slot : finer.slotBegin[slot];
-      const std::size_t last = finer.slotBegin.empty() ? slot + 1 : finer.slotBegin[slot + 1];
-      for (std::size_t i = first; i < last; ++i)
+      if (fresh)
       {
-        if (fresh && i == first)
-        {
-          level.cells.push_back(finer.cells[i]);
-        }
-        else
-        {
-          level.cells.back() = merged(level.cells.back(), finer.cells[i]);
-        }
+        level.slotBegin.push_back(std::uint32_t(level.cells.size()));
+      }
+      for (std::size_t i = finer.slotBegin[slot]; i < finer.slotBegin[slot + 1]; ++i)
+      {
+        const bool isFirst = level.slotBegin.back() == level.cells.size();
+        isFirst ? level.cells.push_back(finer.cells[i])
+                : void(level.cells.back() = merged(level.cells.back(), finer.cells[i]));
       }
     }
+    level.slotBegin.push_back(std::uint32_t(level.cells.size()));
     for (Cell& cell : level.cells)
     {
       cell.mixed = isThick(cell.covariance, kMixedThickness * level.voxelSize);

@@ -49,9 +49,8 @@ public:
   {
     double voxelSize = 0.0;
     std::vector<Brick> bricks;
-    std::vector<Cell> cells; ///< In slot order; on levels above kCellLevels empty.
-    std::vector<std::uint32_t>
-      slotBegin; ///< Level 0 only: cells of slot s are [slotBegin[s], slotBegin[s + 1]).
+    std::vector<Cell> cells;              ///< In slot order; on levels above kCellLevels empty.
+    std::vector<std::uint32_t> slotBegin; ///< Cells of slot s are [slotBegin[s], slotBegin[s + 1]).
   };
 
   /// @param cells finite means; taken over and re-ordered. @param voxelSize edge of a level-0 voxel, above 0.
@@ -93,8 +92,7 @@ public:
       [&](const Level& l, const Brick& brick)
       {
         const std::uint32_t end = brick.slot + std::uint32_t(__builtin_popcountll(brick.mask));
-        const bool ranged = !l.slotBegin.empty();
-        return visit(ranged ? l.slotBegin[brick.slot] : brick.slot, ranged ? l.slotBegin[end] : end);
+        return visit(l.slotBegin[brick.slot], l.slotBegin[end]);
       });
   }
 
@@ -141,38 +139,11 @@ public:
   template <typename Visitor>
   void visitBallUnmixed(int level, const Vec3& center, double radius, Visitor&& visit) const
   {
-    const double r2 = radius * radius;
     visitBricks(
       level, center, [radius](int, std::uint32_t) { return radius; },
-      [&](const Level& l, const Brick& brick)
+      [&](const Level&, const Brick& brick)
       {
-        std::uint32_t slot = brick.slot;
-        for (std::uint64_t bits = brick.mask; bits != 0; bits &= bits - 1, ++slot)
-        {
-          if (!l.slotBegin.empty())
-          {
-            for (std::uint32_t i = l.slotBegin[slot]; i < l.slotBegin[slot + 1]; ++i)
-            {
-              const double d2 = norm2(l.cells[i].mean - center);
-              if (d2 < r2)
-              {
-                visit(l.cells[i], d2);
-              }
-            }
-            continue;
-          }
-          const Cell& cell = l.cells[slot];
-          if (cell.mixed && level > 0)
-          {
-            visitChildren(level, brick, __builtin_ctzll(bits), center, r2, visit);
-            continue;
-          }
-          const double d2 = norm2(cell.mean - center);
-          if (d2 < r2)
-          {
-            visit(cell, d2);
-          }
-        }
+        visitUnmixed(level, brick, ~std::uint64_t(0), center, radius * radius, visit);
         return true;
       });
   }
@@ -242,42 +213,34 @@ private:
     }
   }
 
-  /// The voxel @p bit of @p brick on @p level covers one byte of a brick's mask on the level below.
+  /// Visits the cells of those voxels of @p brick that are among @p voxels, bits that follow each other; in
+  /// the place of a mixed cell the cells it was merged from, which lie in one byte of the mask of a brick
+  /// below.
   template <typename Visitor>
-  void visitChildren(
-    int level, const Brick& brick, int bit, const Vec3& center, double r2, Visitor& visit) const
+  void visitUnmixed(
+    int level, const Brick& brick, std::uint64_t voxels, const Vec3& center, double r2, Visitor& visit) const
   {
-    const Level& below = levels_[std::size_t(level) - 1];
-    const int octant = bit >> 3;
-    for (std::uint32_t i = 0; i < brick.childCount; ++i)
+    const Level& l = levels_[std::size_t(level)];
+    const std::uint64_t below = (voxels & (~voxels + 1)) - 1;
+    std::uint32_t slot = brick.slot + std::uint32_t(__builtin_popcountll(brick.mask & below));
+    for (std::uint64_t bits = brick.mask & voxels; bits != 0; bits &= bits - 1, ++slot)
     {
-      const Brick& child = below.bricks[brick.child + i];
-      if (((child.x & 1) | (child.y & 1) << 1 | (child.z & 1) << 2) != octant)
+      const int bit = __builtin_ctzll(bits);
+      for (std::uint32_t c = l.slotBegin[slot]; c < l.slotBegin[slot + 1]; ++c)
       {
-        continue;
-      }
-      const int shift = 8 * (bit & 7);
-      std::uint64_t bits = child.mask & (std::uint64_t(0xff) << shift);
-      std::uint32_t slot =
-        child.slot + std::uint32_t(__builtin_popcountll(child.mask & ((std::uint64_t(1) << shift) - 1)));
-      for (; bits != 0; bits &= bits - 1, ++slot)
-      {
-        const bool ranged = !below.slotBegin.empty();
-        const std::uint32_t first = ranged ? below.slotBegin[slot] : slot;
-        const std::uint32_t last = ranged ? below.slotBegin[slot + 1] : slot + 1;
-        for (std::uint32_t c = first; c < last; ++c)
+        const Cell& cell = l.cells[c];
+        const double d2 = norm2(cell.mean - center);
+        for (std::uint32_t i = 0; cell.mixed && level > 0 && i < brick.childCount; ++i)
         {
-          const Cell& cell = below.cells[c];
-          if (cell.mixed && level > 1)
+          const Brick& child = levels_[std::size_t(level) - 1].bricks[brick.child + i];
+          if (((child.x & 1) | (child.y & 1) << 1 | (child.z & 1) << 2) == bit >> 3)
           {
-            visitChildren(level - 1, child, __builtin_ctzll(bits), center, r2, visit);
-            continue;
+            visitUnmixed(level - 1, child, std::uint64_t(0xff) << 8 * (bit & 7), center, r2, visit);
           }
-          const double d2 = norm2(cell.mean - center);
-          if (d2 < r2)
-          {
-            visit(cell, d2);
-          }
+        }
+        if (d2 < r2 && !(cell.mixed && level > 0))
+        {
+          visit(cell, d2);
         }
       }
     }

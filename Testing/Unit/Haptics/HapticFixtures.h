@@ -4,6 +4,7 @@
 
 #include "Core/Resample/VoxelMean.h"
 #include "Haptics/HapticScene.h"
+#include "Haptics/LocalScene.h"
 #include "Haptics/Proxy.h"
 
 #include "Unit/Core/RandomClouds.h"
@@ -110,19 +111,16 @@ inline HapticSceneInput resampledInput(
   const PointView view(points.data(), std::int64_t(points.size()));
   LatticeSettings settings;
   settings.voxelSize = voxel;
-  Lattice lattice;
-  EXPECT_EQ(makeLattice(settings, transformedBounds(view, transform), lattice), Status::Ok);
-  VoxelMeans means;
-  EXPECT_EQ(voxelMeans(view, transform, lattice, true, means), Status::Ok);
+  VoxelRequest request;
+  request.points = view;
+  request.transform = transform;
+  request.covariances = true;
+  EXPECT_EQ(makeLattice(settings, transformedBounds(view, transform), request.lattice), Status::Ok);
+  VoxelResampler voxels;
+  EXPECT_EQ(voxels.run(request), Status::Ok);
   HapticSceneInput input;
-  for (std::size_t v = 0; v < means.keys.size(); ++v)
-  {
-    input.counts.push_back(double(means.counts[v]));
-  }
-  input.points = std::move(means.means);
-  input.covariances = std::move(means.covariances);
-  input.cellSize = voxel;
-  input.modelToWorkspace = transform;
+  takeVoxels(voxels, request, input);
+  input.corner.reset();
   return input;
 }
 

@@ -1,9 +1,10 @@
 #include "Core/Bandwidth/LocalBandwidth.h"
-#include "Core/Resample/VoxelMean.h"
 #include "Shapes/Shapes.h"
 
 #include "LocalBandwidthFixtures.h"
 #include "RandomClouds.h"
+
+#include "Unit/VoxelMeans.h"
 
 #include <gtest/gtest.h>
 

@@ -126,43 +126,31 @@ TEST(Lattice, CheckFindsEveryMistake)
     broken([](Lattice& l) { l.dimensions[2] = kMaximumLatticeDimension + 1; }), Status::InvalidDimensions);
 }
 
-TEST(MakeLattice, CoversThePapersCubeWithItsDefaults)
+TEST(MakeLattice, DividesAGivenWorkspace)
 {
-  LatticeSettings settings;
-  settings.automaticWorkspace = false;
-  settings.workspace = boxOf({ -0.05, -0.05, -0.05 }, { 0.05, 0.05, 0.05 });
-  Lattice lattice;
-  ASSERT_EQ(makeLattice(settings, {}, lattice), Status::Ok);
-  EXPECT_EQ(lattice.dimensions, (std::array<std::int64_t, 3>{ 300, 300, 300 }));
-  EXPECT_NEAR(lattice.spacing.x, 0.1 / 300, 1e-18);
-  EXPECT_EQ(lattice.origin, Vec3(-0.05, -0.05, -0.05));
-}
-
-TEST(MakeLattice, UnequalDimensionsGiveAnisotropicVoxels)
-{
-  LatticeSettings settings;
-  settings.automaticWorkspace = false;
-  settings.workspace = boxOf({ 0, 0, 0 }, { 1, 2, 4 });
-  settings.dimensions = { 10, 5, 8 };
-  Lattice lattice;
-  ASSERT_EQ(makeLattice(settings, {}, lattice), Status::Ok);
-  EXPECT_DOUBLE_EQ(lattice.spacing.x, 0.1);
-  EXPECT_DOUBLE_EQ(lattice.spacing.y, 0.4);
-  EXPECT_DOUBLE_EQ(lattice.spacing.z, 0.5);
-}
-
-TEST(MakeLattice, VoxelSizeRulesAndRoundsTheNumberOfVoxelsUp)
-{
-  // VTK 9.1's vtkVoxelGrid makes 27 voxels of this; the answer is 64.
-  LatticeSettings settings;
-  settings.automaticWorkspace = false;
-  settings.workspace = boxOf({ 0, 0, 0 }, { 1, 1, 1 });
-  settings.voxelSize = 0.3;
-  Lattice lattice;
-  ASSERT_EQ(makeLattice(settings, {}, lattice), Status::Ok);
-  EXPECT_EQ(lattice.dimensions, (std::array<std::int64_t, 3>{ 4, 4, 4 }));
-  EXPECT_EQ(lattice.spacing, Vec3(0.3, 0.3, 0.3));
-  EXPECT_EQ(lattice.origin, Vec3(0, 0, 0));
+  const struct
+  {
+    Bounds workspace;
+    std::array<std::int64_t, 3> dimensions;
+    double voxelSize;
+    std::array<std::int64_t, 3> expected;
+    Vec3 spacing;
+  } cases[] = {
+    // The paper's cube.
+    { boxOf({ -0.05, -0.05, -0.05 }, { 0.05, 0.05, 0.05 }), LatticeSettings().dimensions, 0.0,
+      { 300, 300, 300 }, Vec3(1, 1, 1) * (0.1 / 300) },
+    { boxOf({ 0, 0, 0 }, { 1, 2, 4 }), { 10, 5, 8 }, 0.0, { 10, 5, 8 }, { 0.1, 0.4, 0.5 } },
+    // VTK 9.1's vtkVoxelGrid makes 27 voxels of this; the answer is 64.
+    { boxOf({ 0, 0, 0 }, { 1, 1, 1 }), { 300, 300, 300 }, 0.3, { 4, 4, 4 }, { 0.3, 0.3, 0.3 } },
+  };
+  for (const auto& of : cases)
+  {
+    Lattice lattice;
+    ASSERT_EQ(makeLattice({ of.dimensions, of.voxelSize, false, of.workspace }, {}, lattice), Status::Ok);
+    EXPECT_EQ(lattice.dimensions, of.expected);
+    EXPECT_LE(norm(lattice.spacing - of.spacing), 1e-15);
+    EXPECT_EQ(lattice.origin, of.workspace.minimum);
+  }
 }
 
 TEST(MakeLattice, VoxelLargerThanTheCloudGivesOneOrFewVoxels)
@@ -218,12 +206,32 @@ TEST(MakeLattice, AutomaticWorkspaceClipsNothingAtAnyScale)
   }
 }
 
-TEST(MakeLattice, AutomaticWorkspaceHoldsMapCoordinates)
+TEST(MakeLattice, HoldsCloudsOfEveryShapeAndSize)
 {
-  expectHolds({ 512700.123, 5403547.25, 301.5 }, { 512790.75, 5403600.5, 350.25 });
-  LatticeSettings settings;
-  settings.voxelSize = 0.1;
-  expectHolds({ 512700.123, 5403547.25, 301.5 }, { 512790.75, 5403600.5, 350.25 }, settings);
+  const Vec3 map{ 512700.123, 5403547.25, 301.5 };
+  const struct
+  {
+    Vec3 low;
+    Vec3 high;
+    double voxelSize;
+  } cases[] = { { map, map + Vec3(90, 53, 48), 0.0 }, { map, map + Vec3(90, 53, 48), 0.1 },
+    { { 0, 0, 0 }, { 1, 0, 0 }, 0.0 }, { { 0, -1, 5 }, { 1, 1, 5 }, 0.0 },
+    { { 0, 0, 0 }, { 1, 1e-300, 0 }, 0.0 }, { { 1e12, 1e12, 1e12 }, { 1e12 + 1e-3, 1e12, 1e12 }, 0.0 },
+    { { 0.3, -0.2, 1 }, { 0.3, -0.2, 1 }, 1e-9 } };
+  for (const auto& of : cases)
+  {
+    expectHolds(of.low, of.high, { LatticeSettings().dimensions, of.voxelSize, true, {} });
+  }
+  for (const double extent : { 5e-323, 1e-320, 1e-310, 3e-308, 1e-299, 1e-289 })
+  {
+    expectHolds({ 0, 0, 0 }, { extent, 0, extent }, { { 10, 10, 10 }, 0.0, true, {} });
+    expectHolds({ -extent, -extent, 0 }, { extent, 0, extent }, { { 10, 10, 10 }, 0.0, true, {} });
+  }
+  for (const double size : { 1e-12, 1e-9, 1e-6, 1e-3, 1.0, 1e9 })
+  {
+    expectHolds({ 0, 0, 0 }, { 0, 0, 0 }, { LatticeSettings().dimensions, size, true, {} });
+    expectHolds({ 1e-6, 0, 0 }, { 1e-6, 0, 0 }, { LatticeSettings().dimensions, size, true, {} });
+  }
 }
 
 TEST(MakeLattice, CloudsWithoutExtentGetTheDefaultWorkspace)
@@ -241,45 +249,12 @@ TEST(MakeLattice, CloudsWithoutExtentGetTheDefaultWorkspace)
   }
 }
 
-TEST(MakeLattice, ExtentsOfDenormalNumbersAreHeld)
-{
-  for (const double extent : { 5e-323, 1e-320, 1e-310, 3e-308, 1e-299, 1e-289 })
-  {
-    LatticeSettings settings;
-    settings.dimensions = { 10, 10, 10 };
-    expectHolds({ 0, 0, 0 }, { extent, 0, extent }, settings);
-    expectHolds({ -extent, -extent, 0 }, { extent, 0, extent }, settings);
-  }
-}
-
-TEST(MakeLattice, OnePointHasALatticeOfAnyVoxelSize)
-{
-  for (const double size : { 1e-12, 1e-9, 1e-6, 1e-3, 1.0, 1e9 })
-  {
-    LatticeSettings settings;
-    settings.voxelSize = size;
-    expectHolds({ 0, 0, 0 }, { 0, 0, 0 }, settings);
-    expectHolds({ 1e-6, 0, 0 }, { 1e-6, 0, 0 }, settings);
-  }
-  LatticeSettings settings;
-  settings.voxelSize = 1e-9;
-  expectHolds({ 0.3, -0.2, 1 }, { 0.3, -0.2, 1 }, settings);
-}
-
 TEST(MakeLattice, EmptyCloudGivesAValidLattice)
 {
   Lattice lattice;
   ASSERT_EQ(makeLattice({}, {}, lattice), Status::Ok);
   EXPECT_EQ(lattice.check(), Status::Ok);
   EXPECT_NEAR(lattice.bounds().extent().x, kDefaultWorkspaceEdge, 1e-2 * kDefaultWorkspaceEdge);
-}
-
-TEST(MakeLattice, FlatAndThinCloudsAreHeld)
-{
-  expectHolds({ 0, 0, 0 }, { 1, 0, 0 });
-  expectHolds({ 0, -1, 5 }, { 1, 1, 5 });
-  expectHolds({ 0, 0, 0 }, { 1, 1e-300, 0 });
-  expectHolds({ 1e12, 1e12, 1e12 }, { 1e12 + 1e-3, 1e12, 1e12 });
 }
 
 TEST(MakeLattice, BoxesNearTheLargestNumberGiveALatticeOrAnError)

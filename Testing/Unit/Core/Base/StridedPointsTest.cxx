@@ -1,7 +1,8 @@
 #include "Core/Base/Lattice.h"
 #include "Core/Resample/AttributeView.h"
-#include "Core/Resample/VoxelMean.h"
 #include "Core/Resample/VoxelResampler.h"
+
+#include "Unit/VoxelMeans.h"
 
 #include <gtest/gtest.h>
 

@@ -240,9 +240,9 @@ TEST(SharedBandwidths, SendLittleMoreThanThePointsAndTheirValues)
         Status::Ok);
     });
   sent = job.bytesSent();
-  // Three quarters of the points go to another rank, 48 bytes each, and 40 bytes come back; the rest are
-  // ghosts.
-  EXPECT_GT(sent, 3 * share * 88);
+  // Three quarters of the points go to another rank, 48 bytes each, and four values of 16 bytes come back;
+  // the rest are ghosts.
+  EXPECT_GT(sent, 3 * share * 112);
   EXPECT_LT(sent, 2 * 3 * share * 88);
 }
 

@@ -180,17 +180,6 @@ TEST(VoxelAccumulatorArrays, RangesOfBytesAreThePartsOfTheWhole)
   }
 }
 
-TEST(VoxelAccumulatorArrays, ManyChunksAndFewAreTheSame)
-{
-  // More chunks than are kept at once: arrays take another pass.
-  const Lattice lattice = latticeOf(30, 25, 20);
-  const ArrayCloud cloud(kArrayPoints, lattice, 3, 0);
-  VoxelAccumulator sums(lattice, false, kinds(), turnedBy(25));
-  sums.setChunkPoints(100);
-  addPart(sums, cloud, 0, kArrayPoints);
-  EXPECT_TRUE(finished(sums) == ofOneRun(cloud, lattice, turnedBy(25)));
-}
-
 TEST(VoxelAccumulatorArrays, SumsAreRoundedOnceWhateverIsFarBelow)
 {
   // Half of the last bit of 1 and next to nothing more, or less; and numbers among the denormals.

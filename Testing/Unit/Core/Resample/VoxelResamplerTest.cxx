@@ -117,7 +117,7 @@ TEST(VoxelResampler, GivesTheSameBitsForEveryOrderExecutorAndInstructionSet)
     {
       request.instructions = set;
       expectSame(runOf(request), expected, nameOf(lattice) + " set " + std::to_string(int(set)));
-      expectSame(runOf(request, ThreadedExecutor(3)), expected, nameOf(lattice) + " on three threads");
+      expectSame(runOf(request, ThreadedExecutor(8)), expected, nameOf(lattice) + " on eight threads");
     }
     request.instructions = InstructionSet::Automatic;
     expectSame(runOf(request, BackwardExecutor(7)), expected, nameOf(lattice) + " backward");

@@ -2,10 +2,11 @@
 /// Clouds, cells and frames for the tests of the surface fit.
 #pragma once
 
-#include "Core/Resample/VoxelMean.h"
 #include "Core/Surface/SurfaceFit.h"
 
 #include "RandomClouds.h"
+
+#include "Unit/VoxelMeans.h"
 
 #include <gtest/gtest.h>
 
