@@ -59,20 +59,15 @@ vtkRenderer* ScreenView::renderer() const
 
 ScreenAxes ScreenView::axes() const
 {
-  ScreenAxes axes;
   vtkCamera* camera = this->renderer()->GetActiveCamera();
   camera->OrthogonalizeViewUp();
-  camera->GetViewUp(&axes.up.x);
-  camera->GetDirectionOfProjection(&axes.forward.x);
-  axes.right = cross(axes.forward, axes.up);
-  return axes;
+  const CameraView view(camera);
+  return { cross(view.forward, view.up), view.up, view.forward };
 }
 
 Vec3 ScreenView::forward() const
 {
-  Vec3 forward;
-  this->renderer()->GetActiveCamera()->GetDirectionOfProjection(&forward.x);
-  return forward;
+  return CameraView(this->renderer()->GetActiveCamera()).forward;
 }
 
 Vec3 ScreenView::toWorkspace(double x, double y, double depth) const

@@ -28,4 +28,9 @@ Function xFunction(const char* name)
 /// The Display of @p window; null where it is not one on an X server.
 POINTHAPTICSINTERACTION_EXPORT void* xDisplayOf(vtkRenderWindow* window);
 
+/// Moves the pointer to the display position (@p x, @p y) of @p window, pixels from the lower left. Nothing
+/// happens on a window that is not on the screen, and on systems where VTK does not know how. GUI thread
+/// only.
+void movePointer(vtkRenderWindow* window, int x, int y);
+
 } // namespace pointhaptics

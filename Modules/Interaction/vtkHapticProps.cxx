@@ -87,13 +87,25 @@ constexpr double kEndOn = 0.98;
 constexpr double kRingPart = 0.3;
 constexpr double kSmallestRing = 0.012;
 
-void setUpMark(
-  vtkOverlayActor* mark, vtkAlgorithmOutput* shape, const double color[3], bool lit, double hidden)
+void setColor(vtkProperty* looks, const double color[3])
 {
-  mark->SetShape(shape);
-  mark->SetHiddenOpacity(hidden);
-  vtkProperty* looks = mark->GetProperty();
-  looks->SetColor(const_cast<double*>(color));
+  looks->SetColor(color[0], color[1], color[2]);
+}
+
+/// A shape of size 1, and the matrix that makes of it what is drawn.
+struct Mark
+{
+  vtkNew<vtkOverlayActor> actor;
+  vtkNew<vtkMatrix4x4> matrix;
+};
+
+void setUpMark(Mark& mark, vtkAlgorithmOutput* shape, const double color[3], bool lit, double hidden)
+{
+  mark.actor->SetUserMatrix(mark.matrix);
+  mark.actor->SetShape(shape);
+  mark.actor->SetHiddenOpacity(hidden);
+  vtkProperty* looks = mark.actor->GetProperty();
+  setColor(looks, color);
   looks->SetLighting(lit);
   looks->SetBackfaceCulling(lit);
   looks->SetAmbient(0.5);
@@ -126,27 +138,26 @@ Vec3 originOf(vtkMatrix4x4* matrix)
 
 Vec3 rightOf(vtkCamera* camera)
 {
-  Vec3 forward;
-  Vec3 up;
-  camera->GetDirectionOfProjection(&forward.x);
-  camera->GetViewUp(&up.x);
-  return cross(forward, up);
+  const pointhaptics::CameraView view(camera);
+  return cross(view.forward, view.up);
 }
 
 /// Direction from the eye to @p place.
 Vec3 sightTo(const Vec3& place, vtkCamera* camera)
 {
-  Vec3 sight;
-  Vec3 eye;
-  camera->GetDirectionOfProjection(&sight.x);
-  camera->GetPosition(&eye.x);
-  return camera->GetParallelProjection() ? sight : normalized(place - eye, sight);
+  const pointhaptics::CameraView view(camera);
+  return camera->GetParallelProjection() ? view.forward : normalized(place - view.eye, view.forward);
 }
 
 } // namespace
 
 struct vtkHapticProps::Internals
 {
+  explicit Internals(const vtkHapticProps* props)
+    : self(props)
+  {
+  }
+  const vtkHapticProps* self;
   vtkNew<vtkOutlineSource> outline;
   vtkNew<vtkPolyDataMapper> outlineMapper;
   vtkNew<vtkActor> outlineActor;
@@ -154,20 +165,15 @@ struct vtkHapticProps::Internals
   vtkNew<vtkSphereSource> ball;
   vtkNew<vtkLineSource> line;
   vtkNew<vtkArrowSource> arrow;
-  vtkNew<vtkOverlayActor> proxy;
-  vtkNew<vtkOverlayActor> normal;
-  vtkNew<vtkOverlayActor> hip;
-  vtkNew<vtkOverlayActor> force;
+  Mark proxy;
+  Mark normal;
+  Mark hip;
+  Mark force;
   /// Drawn in this order: the sphere lets see what stands in it, and the force hides the normal.
-  std::array<vtkOverlayActor*, 4> all() { return { normal, proxy, hip, force }; }
-  /// A ring about a ball, the back of a larger arrow, or a line.
-  struct Rim
-  {
-    vtkNew<vtkOverlayActor> actor;
-    vtkNew<vtkMatrix4x4> matrix;
-  };
-  /// Light and dark ones of these marks, in their order, of the way to the nearest point and of its ring.
-  std::array<std::array<Rim, 2>, 6> rims;
+  std::array<vtkOverlayActor*, 4> all() { return { normal.actor, proxy.actor, hip.actor, force.actor }; }
+  /// Light and dark rims of these marks, in their order, of the way to the nearest point and of its ring: a
+  /// ring about a ball, the back of a larger arrow, or a line.
+  std::array<std::array<Mark, 2>, 6> rims;
   vtkNew<vtkArrowSource> rimArrows[2];
   vtkNew<vtkRegularPolygonSource> circle;
   pointhaptics::EventLink onStart{ [this]
@@ -175,22 +181,14 @@ struct vtkHapticProps::Internals
       this->place();
       this->placeRims();
     } };
-  Colors colors = kUsual;
-  bool outlined = false;
-  bool highContrast = false;
   bool showsNearest = false;
   Vec3 nearest;
   Vec3 nearestTo;
-  vtkNew<vtkMatrix4x4> proxyMatrix;
-  vtkNew<vtkMatrix4x4> normalMatrix;
-  vtkNew<vtkMatrix4x4> hipMatrix;
-  vtkNew<vtkMatrix4x4> forceMatrix;
   vtkNew<vtkHapticGauge> gauge;
   vtkWeakPointer<vtkRenderer> renderer;
   double edge = 0.1;
   bool shown = false;
   ProxyState state;
-  double smallestRadius = 0.0; ///< As was set.
   double arrowLength = 0.0;
 
   template <typename Visit>
@@ -212,12 +210,7 @@ struct vtkHapticProps::Internals
   double pointAt(const Vec3& place) const;
   Vec3 lift(const Vec3& center, const Vec3& along, double way) const;
   double drawnRadius() const;
-
-  /// On the screen: the gauge stands where the arrow goes, not over what it comes from.
-  bool pointsLeft(const Vec3& along) const
-  {
-    return this->renderer && dot(along, rightOf(this->renderer->GetActiveCamera())) < 0.0;
-  }
+  const Colors& colors() const { return self->HighContrast ? kHighContrast : kUsual; }
 };
 
 /// Length of a point of the screen at @p place, for the present camera; 0: not known.
@@ -241,8 +234,8 @@ double vtkHapticProps::Internals::pointAt(const Vec3& place) const
 double vtkHapticProps::Internals::drawnRadius() const
 {
   const double most = kLargestEnlarged * this->pointAt(this->state.sphereCenter);
-  return std::max(
-    this->state.radius, most > 0.0 ? std::min(this->smallestRadius, most) : this->smallestRadius);
+  const double least = self->SmallestSphereRadius;
+  return std::max(this->state.radius, most > 0.0 ? std::min(least, most) : least);
 }
 
 /// Lifts the foot of an arrow that is seen end-on above the sphere on the screen, by @p way.
@@ -254,8 +247,7 @@ Vec3 vtkHapticProps::Internals::lift(const Vec3& center, const Vec3& along, doub
   }
   vtkCamera* camera = this->renderer->GetActiveCamera();
   const Vec3 sight = sightTo(center, camera);
-  Vec3 up;
-  camera->GetViewUp(&up.x);
+  const Vec3 up = pointhaptics::CameraView(camera).up;
   const double part =
     std::clamp((std::abs(dot(along, sight)) - kNearlyEndOn) / (kEndOn - kNearlyEndOn), 0.0, 1.0);
   return part * way * normalized(up - dot(up, sight) * sight);
@@ -273,10 +265,10 @@ void vtkHapticProps::Internals::place()
     ? this->state.sphereCenter + (radius - this->state.radius) * normalized(this->state.normal)
     : this->state.sphereCenter;
   const Vec3 along = normalized(this->state.force);
-  setFrame(this->proxyMatrix, center, { 1, 0, 0 }, radius, radius);
+  setFrame(this->proxy.matrix, center, { 1, 0, 0 }, radius, radius);
   const double thickness = std::max(1e-9, std::min(this->arrowLength, kArrowThickness * this->edge));
   const Vec3 foot = center + this->lift(center, along, radius + kTipRadius * thickness);
-  setFrame(this->forceMatrix, foot, along, this->arrowLength, thickness);
+  setFrame(this->force.matrix, foot, along, this->arrowLength, thickness);
   if (this->gauge->GetVisibility())
   {
     const Vec3 tip = foot + this->arrowLength * along;
@@ -299,10 +291,9 @@ void vtkHapticProps::Internals::setUpRims()
       this->circle->GetOutputPort() };
     for (std::size_t k = 0; k < 6; ++k)
     {
-      Rim& rim = this->rims[k][i];
-      setUpMark(rim.actor, shapes[k], k < 4 ? kRimColors[i] : kNearColors[i], false, k % 3 == 0 ? 0.0 : 1.0);
+      Mark& rim = this->rims[k][i];
+      setUpMark(rim, shapes[k], k < 4 ? kRimColors[i] : kNearColors[i], false, k % 3 == 0 ? 0.0 : 1.0);
       rim.actor->GetProperty()->SetFrontfaceCulling(k == 3);
-      rim.actor->SetUserMatrix(rim.matrix);
       rim.actor->VisibilityOff();
     }
   }
@@ -311,34 +302,35 @@ void vtkHapticProps::Internals::setUpRims()
 /// Rims of the marks as they are shown, and the line to the nearest point.
 void vtkHapticProps::Internals::placeRims()
 {
-  const double thicker = this->highContrast ? kThicker : 1.0;
+  const bool isOutlined = self->OutlineVisibility && self->HandVisibility;
+  const double thicker = self->HighContrast ? kThicker : 1.0;
   const double pixels = pointhaptics::pixelsPerPoint(this->renderer);
   const double point = thicker * this->pointAt(this->state.sphereCenter);
   const Vec3 way = this->nearestTo - this->nearest;
   const double ring = std::max(kSmallestRing * this->edge, kRingPart * norm(way));
-  const Vec3 ahead = columnOf(this->forceMatrix, 0);
+  const Vec3 ahead = columnOf(this->force.matrix, 0);
   const double length = norm(ahead);
-  const double thickness = std::max(1e-12, norm(columnOf(this->forceMatrix, 1)));
+  const double thickness = std::max(1e-12, norm(columnOf(this->force.matrix, 1)));
   for (std::size_t i = 0; i < 2; ++i)
   {
     const double width = kRims[i] * point;
     for (std::size_t k = 0; k < 6; ++k)
     {
-      const bool isRim = k < 4 && this->outlined && point > 0.0 && this->all()[k]->GetVisibility();
+      const bool isRim = k < 4 && isOutlined && point > 0.0 && this->all()[k]->GetVisibility();
       this->rims[k][i].actor->SetVisibility(isRim || (k >= 4 && this->showsNearest));
-      const double inside = k == 0 ? double(this->colors.lineWidth) : 0.0;
+      const double inside = k == 0 ? double(this->colors().lineWidth) : 0.0;
       const double beside = k == 0 ? 2.0 * kRims[i] : k < 4 ? kRims[i] : kNearWidths[i];
       this->rims[k][i].actor->GetProperty()->SetLineWidth(float(inside + beside * thicker * pixels));
-      if (vtkMatrix4x4* mark = k == 1 ? this->proxyMatrix : this->hipMatrix; isRim && (k == 1 || k == 2))
+      if (vtkMatrix4x4* mark = k == 1 ? this->proxy.matrix : this->hip.matrix; isRim && (k == 1 || k == 2))
       {
         setFrame(this->rims[k][i].matrix, originOf(mark),
           sightTo(originOf(mark), this->renderer->GetActiveCamera()), 1.0,
           norm(columnOf(mark, 0)) + 0.5 * width);
       }
     }
-    this->rims[0][i].matrix->DeepCopy(this->normalMatrix);
+    this->rims[0][i].matrix->DeepCopy(this->normal.matrix);
     const double longer = length + 2.0 * width;
-    setFrame(this->rims[3][i].matrix, originOf(this->forceMatrix) - width * normalized(ahead),
+    setFrame(this->rims[3][i].matrix, originOf(this->force.matrix) - width * normalized(ahead),
       normalized(ahead), longer, thickness);
     this->rimArrows[i]->SetShaftRadius(kShaftRadius + width / thickness);
     this->rimArrows[i]->SetTipRadius(kTipRadius + width / thickness);
@@ -351,7 +343,7 @@ void vtkHapticProps::Internals::placeRims()
 vtkStandardNewMacro(vtkHapticProps);
 
 vtkHapticProps::vtkHapticProps()
-  : Parts(new Internals)
+  : Parts(new Internals(this))
 {
   Internals& parts = *this->Parts;
   parts.outlineMapper->SetInputConnection(parts.outline->GetOutputPort());
@@ -377,15 +369,11 @@ vtkHapticProps::vtkHapticProps()
   setUpMark(parts.normal, parts.line->GetOutputPort(), kUsual.normal, false, 1.0);
   setUpMark(parts.hip, parts.ball->GetOutputPort(), kUsual.hip, true, 0.55);
   setUpMark(parts.force, parts.arrow->GetOutputPort(), kUsual.force, true, 0.55);
-  parts.normal->GetProperty()->SetLineWidth(kUsual.lineWidth);
-  parts.proxy->SetUserMatrix(parts.proxyMatrix);
-  parts.normal->SetUserMatrix(parts.normalMatrix);
-  parts.hip->SetUserMatrix(parts.hipMatrix);
-  parts.force->SetUserMatrix(parts.forceMatrix);
+  parts.normal.actor->GetProperty()->SetLineWidth(kUsual.lineWidth);
   parts.setUpRims();
   const double cube[6] = { -0.05, 0.05, -0.05, 0.05, -0.05, 0.05 };
   this->SetWorkspaceBounds(cube);
-  this->SetTouchVisibility(false);
+  this->HideTouch();
 }
 
 vtkHapticProps::~vtkHapticProps() = default;
@@ -398,9 +386,8 @@ void vtkHapticProps::SetWorkspaceBounds(const double bounds[6])
   this->Modified();
 }
 
-void vtkHapticProps::SetTouchVisibility(bool visible)
+void vtkHapticProps::HideTouch()
 {
-  this->TouchVisibility = visible;
   this->Parts->shown = false;
   for (vtkOverlayActor* mark : this->Parts->all())
   {
@@ -413,14 +400,13 @@ void vtkHapticProps::SetTouchVisibility(bool visible)
 void vtkHapticProps::SetGaugeVisibility(bool visible)
 {
   this->GaugeVisibility = visible;
-  this->Parts->gauge->SetVisibility(visible && this->Parts->force->GetVisibility());
+  this->Parts->gauge->SetVisibility(visible && this->Parts->force.actor->GetVisibility());
   this->Modified();
 }
 
 void vtkHapticProps::SetHandVisibility(bool visible)
 {
   this->HandVisibility = visible;
-  this->Parts->outlined = visible && this->OutlineVisibility;
   if (!visible)
   {
     this->HideNearest();
@@ -463,7 +449,6 @@ void vtkHapticProps::RemoveFrom(vtkRenderer* renderer)
 void vtkHapticProps::SetOutlineVisibility(bool visible)
 {
   this->OutlineVisibility = visible;
-  this->Parts->outlined = visible && this->HandVisibility;
   this->Modified();
 }
 
@@ -474,12 +459,11 @@ void vtkHapticProps::SetHighContrast(bool high)
   {
     return;
   }
-  this->HighContrast = parts.highContrast = high;
-  parts.colors = high ? kHighContrast : kUsual;
-  parts.normal->GetProperty()->SetColor(const_cast<double*>(parts.colors.normal));
-  parts.normal->GetProperty()->SetLineWidth(parts.colors.lineWidth);
-  parts.hip->GetProperty()->SetColor(const_cast<double*>(parts.colors.hip));
-  parts.force->GetProperty()->SetColor(const_cast<double*>(parts.colors.force));
+  this->HighContrast = high;
+  setColor(parts.normal.actor->GetProperty(), parts.colors().normal);
+  parts.normal.actor->GetProperty()->SetLineWidth(parts.colors().lineWidth);
+  setColor(parts.hip.actor->GetProperty(), parts.colors().hip);
+  setColor(parts.force.actor->GetProperty(), parts.colors().force);
   parts.gauge->SetOpaque(high);
   this->UpdateAgain();
 }
@@ -531,70 +515,55 @@ bool vtkHapticProps::Update(const ProxyState& state)
   }
   parts.state = state;
   parts.shown = true;
-  this->TouchVisibility = true;
   const double force = norm(state.force);
-  parts.smallestRadius = this->SmallestSphereRadius;
   parts.arrowLength = std::min(force * this->ForceScale, kLongestArrow * parts.edge);
-  setFrame(parts.hipMatrix, state.hip, { 1, 0, 0 }, kHipRadius * parts.edge, kHipRadius * parts.edge);
-  setFrame(parts.normalMatrix, state.proxy, normalized(state.normal), kNormalLength * parts.edge, 1.0);
-  parts.proxy->SetVisibility(state.radius > 0.0 && state.radius <= kLargestSphere * parts.edge);
-  parts.hip->SetVisibility(this->HandVisibility);
-  parts.normal->SetVisibility(state.contact);
+  setFrame(parts.hip.matrix, state.hip, { 1, 0, 0 }, kHipRadius * parts.edge, kHipRadius * parts.edge);
+  setFrame(parts.normal.matrix, state.proxy, normalized(state.normal), kNormalLength * parts.edge, 1.0);
+  parts.proxy.actor->SetVisibility(state.radius > 0.0 && state.radius <= kLargestSphere * parts.edge);
+  parts.hip.actor->SetVisibility(this->HandVisibility);
+  parts.normal.actor->SetVisibility(state.contact);
   const bool pushes = this->HandVisibility && state.contact && force > kSmallestForce;
-  parts.force->SetVisibility(pushes);
+  parts.force.actor->SetVisibility(pushes);
   const bool isGauged = pushes && this->GaugeVisibility;
   parts.gauge->SetVisibility(isGauged);
   if (isGauged)
   {
     const Vec3 normalEnd = state.proxy + kNormalLength * parts.edge * normalized(state.normal);
     parts.gauge->KeepOffLine(&state.proxy.x, &normalEnd.x);
-    parts.gauge->SetLeft(parts.pointsLeft(state.force));
+    // The gauge stands where the arrow goes, not over what it comes from.
+    parts.gauge->SetLeft(
+      parts.renderer && dot(state.force, rightOf(parts.renderer->GetActiveCamera())) < 0.0);
   }
   parts.place();
-  vtkProperty* sphere = parts.proxy->GetProperty();
-  sphere->SetColor(const_cast<double*>(state.contact ? parts.colors.sphere : parts.colors.freeSphere));
+  vtkProperty* sphere = parts.proxy.actor->GetProperty();
+  setColor(sphere, state.contact ? parts.colors().sphere : parts.colors().freeSphere);
   sphere->SetOpacity(state.contact ? 1.0 : 0.45);
-  parts.proxy->SetHiddenOpacity(state.contact ? kHiddenSphere : kHiddenFreeSphere);
+  parts.proxy.actor->SetHiddenOpacity(state.contact ? kHiddenSphere : kHiddenFreeSphere);
   this->Modified();
   return true;
 }
 
 vtkActor* vtkHapticProps::GetProxyActor()
 {
-  return this->Parts->proxy;
+  return this->Parts->proxy.actor;
 }
 
 vtkActor* vtkHapticProps::GetNormalActor()
 {
-  return this->Parts->normal;
+  return this->Parts->normal.actor;
 }
 
 vtkActor* vtkHapticProps::GetHipActor()
 {
-  return this->Parts->hip;
+  return this->Parts->hip.actor;
 }
 
 vtkActor* vtkHapticProps::GetForceActor()
 {
-  return this->Parts->force;
+  return this->Parts->force.actor;
 }
 
 vtkActor* vtkHapticProps::GetWorkspaceActor()
 {
   return this->Parts->outlineActor;
-}
-
-void vtkHapticProps::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  os << indent << "WorkspaceBounds: " << this->WorkspaceBounds[0] << ", " << this->WorkspaceBounds[1] << ", "
-     << this->WorkspaceBounds[2] << ", " << this->WorkspaceBounds[3] << ", " << this->WorkspaceBounds[4]
-     << ", " << this->WorkspaceBounds[5] << "\n";
-  os << indent << "ForceScale: " << this->ForceScale << "\n";
-  os << indent << "SmallestSphereRadius: " << this->SmallestSphereRadius << "\n";
-  os << indent << "GaugeVisibility: " << this->GaugeVisibility << "\n";
-  os << indent << "HighContrast: " << this->HighContrast << "\n";
-  os << indent << "OutlineVisibility: " << this->OutlineVisibility << "\n";
-  os << indent << "HandVisibility: " << this->HandVisibility << "\n";
-  os << indent << "TouchVisibility: " << this->TouchVisibility << "\n";
 }

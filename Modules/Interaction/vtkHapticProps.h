@@ -40,7 +40,6 @@ class POINTHAPTICSINTERACTION_EXPORT vtkHapticProps : public vtkObject
 public:
   static vtkHapticProps* New();
   vtkTypeMacro(vtkHapticProps, vtkObject);
-  void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /**
    * Box drawn as the wire frame: xmin, xmax, ymin, ymax, zmin, zmax. Its longest edge also sets the size of
@@ -68,50 +67,34 @@ public:
   vtkGetMacro(SmallestSphereRadius, double);
   ///@}
 
-  ///@{
   /**
-   * Show the touch (sphere, normal, HIP, force). Off: the wire frame only. Default: off until the first
-   * Update().
+   * Shows the wire frame only, as at first, until the next Update().
    */
-  void SetTouchVisibility(bool visible);
-  bool GetTouchVisibility() const { return this->TouchVisibility; }
-  ///@}
+  void HideTouch();
 
-  ///@{
   /**
    * Show the gauge beside the force arrow. Default: on.
    */
   void SetGaugeVisibility(bool visible);
-  bool GetGaugeVisibility() const { return this->GaugeVisibility; }
-  ///@}
 
-  ///@{
   /**
    * Show the hand and what it feels (HIP ball, force arrow, gauge) with the touch. Off: proxy sphere and
    * normal only, as in a figure. Default: on.
    */
   void SetHandVisibility(bool visible);
-  bool GetHandVisibility() const { return this->HandVisibility; }
-  ///@}
 
-  ///@{
   /**
    * Draw a light line with dark edges about sphere, arrow, normal and HIP: they are seen on every background
    * and every colour of cloud. Lines are as wide as the window's dots per inch say. Not where the hand is
    * not shown. Default: off.
    */
   void SetOutlineVisibility(bool visible);
-  bool GetOutlineVisibility() const { return this->OutlineVisibility; }
-  ///@}
 
-  ///@{
   /**
    * Draw the marks in colours that people with colour vision deficiencies tell apart (white normal, yellow
    * sphere, sky-blue HIP, vermilion force), thicker, with the gauge on an opaque plate. Default: off.
    */
   void SetHighContrast(bool high);
-  bool GetHighContrast() const { return this->HighContrast; }
-  ///@}
 
   /**
    * The gauge, to set its range.
@@ -161,7 +144,6 @@ protected:
   double WorkspaceBounds[6];
   double SmallestSphereRadius = 0.0;
   double ForceScale = 0.006;
-  bool TouchVisibility = false;
   bool GaugeVisibility = true;
   bool HandVisibility = true;
   bool OutlineVisibility = false;

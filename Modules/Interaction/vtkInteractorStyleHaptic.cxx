@@ -3,7 +3,6 @@
 #include "Gesture.h"
 #include "SteadyTime.h"
 #include "StyleCommands.h"
-#include "vtkHapticSliders.h"
 
 #include "Devices/HapticDevice.h"
 #include "Devices/PathReplay.h"
@@ -64,16 +63,6 @@ void vtkInteractorStyleHaptic::SetDevice(pointhaptics::HapticPort* device)
   this->UnitsAreJudged = false;
   this->Status.setDeviceName(named ? named->name() : device ? "without a name" : "");
   this->Hand.setDevice(dynamic_cast<pointhaptics::SimulatedDevice*>(device));
-}
-
-void vtkInteractorStyleHaptic::SetSliders(vtkHapticSliders* sliders)
-{
-  this->Sliders = sliders;
-}
-
-vtkHapticSliders* vtkInteractorStyleHaptic::GetSliders() const
-{
-  return this->Sliders;
 }
 
 void vtkInteractorStyleHaptic::AdoptModel(
@@ -328,7 +317,7 @@ void vtkInteractorStyleHaptic::OnDropFiles(vtkStringArray* filePaths)
 void vtkInteractorStyleHaptic::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "HandMode: " << this->GetHandMode() << "\n";
+  os << indent << "HandMode: " << this->Hand.followsMouse() << "\n";
   os << indent << "ModelChanged: " << this->IsModelChanged() << "\n";
   os << indent << "ModelTransform:\n";
   this->Model.transform()->PrintSelf(os, indent.GetNextIndent());

@@ -64,14 +64,13 @@
 #include "Devices/PathUnits.h"             // For names of units
 #include "PointHapticsInteractionModule.h" // For export macro
 #include "vtkCommand.h"                    // For UserEvent
+#include "vtkHapticSliders.h"              // For the sliders
 #include "vtkInteractorStyleTrackballCamera.h"
 #include "vtkSmartPointer.h" // For the sliders
 
 #include <memory> // For scenes
 #include <string> // For gestures
 #include <vector> // For samples
-
-class vtkHapticSliders;
 
 class POINTHAPTICSINTERACTION_EXPORT vtkInteractorStyleHaptic : public vtkInteractorStyleTrackballCamera
 {
@@ -103,8 +102,8 @@ public:
   void SetProps(vtkHapticProps* props) { this->Display.setProps(props); }
   void SetChart(vtkHapticChart* chart) { this->Display.setChart(chart); }
   void SetOverlay(vtkHapticOverlay* overlay) { this->Status.setOverlay(overlay); }
-  void SetSliders(vtkHapticSliders* sliders);
-  vtkHapticSliders* GetSliders() const;
+  void SetSliders(vtkHapticSliders* sliders) { this->Sliders = sliders; }
+  vtkHapticSliders* GetSliders() const { return this->Sliders; }
   ///@}
 
   ///@{
@@ -166,14 +165,6 @@ public:
    */
   bool UpdateModel() { return this->Scenes.update(); }
   bool IsModelChanged() const { return this->Scenes.isChanged(); }
-
-  ///@{
-  /**
-   * Hand mode: the simulated hand follows the mouse pointer in the view plane at its depth. Default: off.
-   */
-  void SetHandMode(bool on) { this->Hand.setFollowsMouse(on); }
-  bool GetHandMode() const { return this->Hand.followsMouse(); }
-  ///@}
 
   /**
    * What the sizes of the model and of the path of a pointhaptics::PathReplayDevice say of their units: see

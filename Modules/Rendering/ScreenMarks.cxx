@@ -41,6 +41,14 @@ bool isSideBySide(vtkRenderer* renderer)
 
 } // namespace
 
+CameraView::CameraView(vtkCamera* camera)
+{
+  camera->GetPosition(&eye.x);
+  camera->GetFocalPoint(&focus.x);
+  camera->GetDirectionOfProjection(&forward.x);
+  camera->GetViewUp(&up.x);
+}
+
 double pixelsPerPoint(vtkRenderer* renderer)
 {
   return renderer->GetVTKWindow() ? renderer->GetVTKWindow()->GetDPI() / kPointsPerInch : 1.0;

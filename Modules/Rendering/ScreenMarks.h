@@ -20,10 +20,21 @@
 #include <string>
 #include <vector>
 
+class vtkCamera;
 class vtkRenderer;
 
 namespace pointhaptics
 {
+
+/// Where a camera is and how it looks; the directions are unit vectors.
+struct POINTHAPTICSRENDERING_EXPORT CameraView
+{
+  explicit CameraView(vtkCamera* camera);
+  Vec3 eye;
+  Vec3 focus;
+  Vec3 forward;
+  Vec3 up; ///< As it was set: not across the view.
+};
 
 /// Transforms @p place by the affine @p matrix.
 inline Vec3 transformed(vtkMatrix4x4* matrix, const Vec3& place)

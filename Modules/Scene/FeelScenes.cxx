@@ -55,13 +55,6 @@ std::string setLattice(vtkPoints* cloud, vtkVoxelMeanResampler* resampler)
 
 } // namespace
 
-void prepareForTouch(vtkVoxelMeanResampler* resampler, bool useCovariance)
-{
-  resampler->SetPassAttributes(false);
-  resampler->SetComputeCovariance(useCovariance);
-  resampler->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
-}
-
 Status FeelScenes::make(vtkPolyData* felt, vtkPoints* cloud, const FeelSceneSettings& settings)
 {
   Status status = Status::Ok;
@@ -125,7 +118,9 @@ Status FeelScenes::resample(
   // The input is a copy, as the original may belong to a pipeline that would update again.
   auto input = vtkSmartPointer<vtkPointSet>::Take(cloud->NewInstance());
   input->ShallowCopy(cloud);
-  prepareForTouch(resampler, settings.useCovariance);
+  resampler->SetPassAttributes(false);
+  resampler->SetComputeCovariance(settings.useCovariance);
+  resampler->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
   note_ = setLattice(cloud->GetPoints(), resampler);
   const LatticeSettings lattice = resampler->GetSettings().lattice;
   resampler->SetInputData(input);

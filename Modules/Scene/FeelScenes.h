@@ -28,9 +28,6 @@ struct FeelSceneSettings
   bool refineNearHand = true;       ///< Scenes near the hand are as fine as the points there.
 };
 
-/// Sets @p resampler up for a scene: double means without arrays, with second moments where they are felt.
-POINTHAPTICSSCENE_EXPORT void prepareForTouch(vtkVoxelMeanResampler* resampler, bool useCovariance);
-
 /// The scene of the whole cloud, and local ones with FeelSceneSettings::refineNearHand, which are made as the
 /// hand comes along. One thread at a time.
 class POINTHAPTICSSCENE_EXPORT FeelScenes
@@ -43,16 +40,16 @@ public:
   FeelScenes& operator=(const FeelScenes&) = delete;
 
   /// Makes the scenes. @param felt the points that are felt, in the workspace frame: the output of
-  /// vtkVoxelMeanResampler after prepareForTouch(), or raw points. @param cloud the points of the cloud in
+  /// vtkVoxelMeanResampler, or raw points. @param cloud the points of the cloud in
   /// its own frame, for the scenes near the hand; no reference is kept. Errors: those of
   /// HapticScene::create().
   Status make(vtkPolyData* felt, vtkPoints* cloud, const FeelSceneSettings& settings);
   /// As make(), with a scene of the whole cloud that is there already.
   void adopt(std::shared_ptr<const HapticScene> whole, vtkPoints* cloud, const FeelSceneSettings& settings);
-  /// Resamples @p cloud and makes its scenes. @param resampler has lattice and transform, and is used up: it
-  /// is set up by prepareForTouch(); its observers may abort the work. @p settings' workspace is its own.
-  /// Errors: Aborted, Empty (no finite point in the workspace), InvalidParameter (the resampler's settings),
-  /// those of HapticScene::create(); @p message says which, with the cure.
+  /// Resamples @p cloud and makes its scenes. @param resampler has lattice and transform, and is used up; its
+  /// observers may abort the work. @p settings' workspace is that of the resampler. Errors: Aborted, Empty (no
+  /// finite point in the workspace), InvalidParameter (the resampler's settings), those of
+  /// HapticScene::create(); @p message says which, with the cure.
   Status resample(
     vtkPointSet* cloud, vtkVoxelMeanResampler* resampler, FeelSceneSettings settings, std::string& message);
   /// Note on the points that resample() left out, as they are far from all others; empty: there are none.

@@ -23,19 +23,6 @@ vtkDataArray* pointArray(vtkPolyData* cloud, const char* name, int components)
   return fits ? array : nullptr;
 }
 
-/// The field array @p name if it holds at least @p values numbers.
-vtkDataArray* fieldArray(vtkPolyData* cloud, const char* name, vtkIdType values)
-{
-  vtkDataArray* array = cloud->GetFieldData()->GetArray(name);
-  return array && array->GetNumberOfValues() >= values ? array : nullptr;
-}
-
-double fieldValue(vtkDataArray* array, vtkIdType i)
-{
-  const int components = array->GetNumberOfComponents();
-  return array->GetComponent(i / components, static_cast<int>(i % components));
-}
-
 std::vector<double> copyScalars(vtkDataArray* array)
 {
   std::vector<double> values;
@@ -68,6 +55,21 @@ std::vector<SymMat3> copyCovariances(vtkDataArray* array)
 
 } // namespace
 
+bool fieldValues(vtkPolyData* cloud, const char* name, int count, double* values)
+{
+  vtkDataArray* array = cloud->GetFieldData()->GetArray(name);
+  if (!array || array->GetNumberOfValues() < count)
+  {
+    return false;
+  }
+  for (int i = 0; i < count; ++i)
+  {
+    const int components = array->GetNumberOfComponents();
+    values[i] = array->GetComponent(i / components, i % components);
+  }
+  return true;
+}
+
 std::shared_ptr<const HapticScene> makeHapticScene(vtkPolyData* cloud, Status& status, bool useCovariance,
   const std::optional<LocalBandwidthSettings>& bandwidth, const VoxelMeanSettings* voxels)
 {
@@ -89,20 +91,18 @@ std::shared_ptr<const HapticScene> makeHapticScene(vtkPolyData* cloud, Status& s
   {
     input.covariances = copyCovariances(pointArray(cloud, "VoxelCovariance", 6));
   }
-  if (vtkDataArray* spacing = fieldArray(cloud, "LatticeSpacing", 3))
+  double values[16];
+  if (fieldValues(cloud, "LatticeSpacing", 3, values))
   {
-    input.cellSize = std::max({ fieldValue(spacing, 0), fieldValue(spacing, 1), fieldValue(spacing, 2) });
+    input.cellSize = std::max({ values[0], values[1], values[2] });
   }
-  if (vtkDataArray* origin = fieldArray(cloud, "LatticeOrigin", 3))
+  if (fieldValues(cloud, "LatticeOrigin", 3, values))
   {
-    input.corner = Vec3{ fieldValue(origin, 0), fieldValue(origin, 1), fieldValue(origin, 2) };
+    input.corner = Vec3{ values[0], values[1], values[2] };
   }
-  if (vtkDataArray* matrix = fieldArray(cloud, "ModelToWorkspace", 16))
+  if (fieldValues(cloud, "ModelToWorkspace", 16, values))
   {
-    for (vtkIdType i = 0; i < 12; ++i)
-    {
-      input.modelToWorkspace.m[i / 4][i % 4] = fieldValue(matrix, i);
-    }
+    input.modelToWorkspace = AffineTransform::fromRows(values);
   }
   if (voxels)
   {

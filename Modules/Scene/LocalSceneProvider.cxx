@@ -8,7 +8,6 @@
 #include "vtkPoints.h"
 
 #include <algorithm>
-#include <array>
 #include <mutex>
 #include <utility>
 #include <vector>

@@ -1,32 +1,24 @@
 #include "HapticViewer.h"
 
+#include "CloudFiles.h"
 #include "CloudLoader.h"
 #include "ViewDisplay.h"
 #include "ViewPicture.h"
 #include "ViewScene.h"
+#include "ViewTouch.h"
 #include "ViewWindow.h"
 
 #include "vtkInteractorStyleHaptic.h"
 #include "vtkKernelBandwidthFilter.h"
 
 #include <fmt/format.h>
-#include <vtkAutoInit.h>
-#include <vtkFieldData.h>
 #include <vtkNew.h>
-#include <vtkPointData.h>
 #include <vtkPolyData.h>
 
 #include <algorithm>
 #include <chrono>
 #include <optional>
 #include <utility>
-
-// Initialises the VTK modules of a window, so that a host need not know them.
-VTK_MODULE_INIT(vtkInteractionStyle)
-VTK_MODULE_INIT(vtkRenderingContextOpenGL2)
-VTK_MODULE_INIT(vtkRenderingFreeType)
-VTK_MODULE_INIT(vtkRenderingOpenGL2)
-VTK_MODULE_INIT(vtkRenderingUI)
 
 namespace pointhaptics
 {
@@ -118,7 +110,7 @@ bool HapticViewer::Implementation::awaitWithoutWindow(const CloudLoader& loader)
   bool stops = false;
   while (!stops && !loader.waitFor(kLookPeriod))
   {
-    stops = this->observer.shouldStop && this->observer.shouldStop();
+    stops = this->observer.stops();
     if (this->observer.progress)
     {
       const CloudLoader::Step step = loader.step();
@@ -149,10 +141,7 @@ void HapticViewer::Implementation::skip(const std::string& title)
   const std::string why = withTitle(title, this->message);
   this->news = this->cloud == 0 ? "skipped: " + why
                                 : fmt::format("{} files are skipped; the last: {}", this->cloud + 1, why);
-  if (this->observer.message)
-  {
-    this->observer.message(HapticViewerObserver::Kind::Warning, "skipped: " + why);
-  }
+  this->observer.say(HapticViewerObserver::Kind::Warning, "skipped: " + why);
 }
 
 /// Reads in the loader's thread, without any message of what fails.
@@ -184,9 +173,9 @@ bool HapticViewer::Implementation::readFirst(LoadedCloud& loaded)
   {
     const std::vector<std::string> shown =
       this->options.together ? this->files : std::vector<std::string>{ this->files[this->cloud] };
-    CloudRequest request = CloudRequest::of(shown, this->options);
+    CloudRequest request(shown, this->options);
     const std::string up = this->observer.upOf ? this->observer.upOf(shown.front()) : std::string();
-    request.up = up.empty() || request.up != "auto" ? request.up : up;
+    request.options.up = up.empty() || this->options.up != "auto" ? this->options.up : up;
     if (this->read(std::move(request), loaded))
     {
       return true;
@@ -207,10 +196,7 @@ bool HapticViewer::Implementation::show(LoadedCloud loaded)
   this->readSeconds -= loaded.resampleSeconds;
   for (const std::string& note : loaded.notes)
   {
-    if (this->observer.message)
-    {
-      this->observer.message(HapticViewerObserver::Kind::Warning, note);
-    }
+    this->observer.say(HapticViewerObserver::Kind::Warning, note);
   }
   this->news += (this->news.empty() || loaded.notes.empty() ? "" : "\n") + shortNote(loaded.notes);
   this->isOpen = this->scene.open(std::move(loaded), this->options, this->message);
@@ -256,12 +242,8 @@ bool HapticViewer::open(vtkPolyData* cloud, const std::string& title)
     return self.fail(title + ": holds no points; give a cloud with at least one");
   }
   const Stopwatch reading;
-  auto points = vtkSmartPointer<vtkPolyData>::New();
-  points->SetPoints(cloud->GetPoints());
-  points->GetPointData()->ShallowCopy(cloud->GetPointData());
-  points->GetFieldData()->ShallowCopy(cloud->GetFieldData());
-  CloudRequest request = CloudRequest::of({}, self.options);
-  request.points = std::move(points);
+  CloudRequest request({}, self.options);
+  request.points = withoutCells(cloud);
   request.title = title;
   LoadedCloud loaded;
   const bool isReady = self.read(std::move(request), loaded);

@@ -133,31 +133,13 @@ struct HapticViewerOptions
   }
 };
 
-/// State of a window: the options that its user changed, with their present values.
-struct HapticViewerState
+/// State of a window: the options with what its user changed, as if they had been given so. The unit is
+/// chosen where the user took it. In a parallel projection the camera's distance tells the scale: see
+/// fitCamera().
+struct HapticViewerState : HapticViewerOptions
 {
   std::array<double, 16> modelToWorkspace{}; ///< From the file's coordinates to metres, row by row.
   std::array<double, 6> workspace{};         ///< xmin, xmax, ymin, ymax, zmin, zmax.
-  double voxelSize = 0.0;                    ///< Size set by the slider; 0: it was not used.
-  ContactParameters contact;
-  double radiusScale = 0.0; ///< beta.
-  /// As HapticViewerOptions::camera. In a parallel projection the distance tells the scale, see fitCamera().
-  std::array<double, 9> camera{};
-  bool pushPointer = false;
-  bool axes = false;
-  bool figure = false;
-  bool felt = false;
-  bool ambient = false;
-  PictureSettings picture;
-  std::vector<double> clip; ///< As in the options.
-  bool fullScreen = false;
-  bool sound = false;
-  std::string colorBy;
-  std::string up;   ///< As in the options.
-  std::string unit; ///< Unit that the user took for the file's; empty: none.
-  double metresPerUnit = 1.0;
-  int width = 0;
-  int height = 0;
 };
 
 /// Messages and questions of a viewer to its host. Every member may be empty. All are called in the GUI
@@ -194,6 +176,18 @@ struct HapticViewerObserver
   std::function<std::string(const std::string& file)> upOf;
   /// Called when the window closes.
   std::function<void(const HapticViewerState& state)> rememberState;
+
+  ///@{
+  /// Ask the functions of these names, where they are there.
+  void say(Kind kind, const std::string& text) const
+  {
+    if (this->message)
+    {
+      this->message(kind, text);
+    }
+  }
+  bool stops() const { return this->shouldStop && this->shouldStop(); }
+  ///@}
 };
 
 } // namespace pointhaptics

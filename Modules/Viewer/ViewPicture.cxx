@@ -1,30 +1,20 @@
 #include "ViewPicture.h"
 
 #include "HapticViewer.h"
-#include "PathTicks.h"
 #include "PngFile.h"
-#include "Replay.h"
 #include "StereoPicture.h"
 #include "ViewScene.h"
-#include "ViewTouch.h"
 
-#include "vtkHapticChart.h"
 #include "vtkHapticProps.h"
-#include "vtkVoxelMeanResampler.h"
-
-#include "Devices/HipPath.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <memory>
 #include <vector>
 
 #include <fmt/format.h>
 #include <vtkCamera.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
-#include <vtkPointSet.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 #include <vtkRendererCollection.h>
@@ -35,18 +25,6 @@ namespace pointhaptics
 {
 namespace
 {
-
-constexpr double kRateHz = 1000.0;
-/// Samples of a path are kept for the picture: about 200 bytes each.
-constexpr double kMostTicks = 2e6;
-
-void note(const HapticViewerObserver& observer, const std::string& text)
-{
-  if (observer.message)
-  {
-    observer.message(HapticViewerObserver::Kind::Note, text);
-  }
-}
 
 vtkSmartPointer<vtkImageData> grab(vtkRenderWindow* window)
 {
@@ -223,132 +201,12 @@ bool writePictureOfSize(vtkRenderWindow* window, vtkCamera* camera, const std::a
 namespace
 {
 
-/// Moves a hand along HapticViewerOptions::path.
-bool feelPathOf(ViewScene& scene, const HapticViewerOptions& options, const HapticViewerObserver& observer,
-  std::vector<ServoSample>& samples, std::string& message)
-{
-  HipPath path;
-  std::int64_t ticks = 0;
-  FeelScenes scenes;
-  if (readHipPath(options.path, path, message) != Status::Ok)
-  {
-    return false;
-  }
-  applyUnits(options.pathUnits, path);
-  if (!countTicks(path, options.path, kRateHz, kMostTicks, ticks, message, options.names.units) ||
-    !makeFeelScenes(scene, options, scenes, message))
-  {
-    return false;
-  }
-  samples = samplesAlong(path, ticks, scenes, options.haptics, kRateHz);
-  const bool isTouched = std::any_of(
-    samples.begin(), samples.end(), [](const ServoSample& sample) { return sample.state.contact; });
-  const std::string odd = unlikelyUnitsIn(scene, options, path, isTouched);
-  if (!odd.empty() && observer.message)
-  {
-    observer.message(HapticViewerObserver::Kind::Warning, options.path + ": " + odd);
-  }
-  return true;
-}
-
-/// Feels the recording in HapticViewerOptions::replay again.
-bool feelReplay(ViewScene& scene, const HapticViewerOptions& options, const HapticViewerObserver& observer,
-  IdealForce* ideal, std::vector<ServoSample>& samples, std::vector<double>& ideals, std::string& message)
-{
-  Recording recording;
-  auto* cloud = vtkPointSet::SafeDownCast(scene.resampler()->GetInputDataObject(0, 0));
-  if (!readRecording(options.replay, recording, message))
-  {
-    return false;
-  }
-  if (!isOf(recording, cloud, message))
-  {
-    message.insert(0, scene.title() + ": ");
-    return false;
-  }
-  Replay replay(recording, cloud);
-  while (!replay.isAtEnd())
-  {
-    samples.emplace_back();
-    if (!replay.step(samples.back(), message))
-    {
-      message.insert(0, options.replay + ": ");
-      return false;
-    }
-    if (ideal && replay.scene())
-    {
-      const AffineTransform& model = replay.scene()->modelToWorkspace();
-      ideals.push_back(idealForce(*ideal, model, samples.back().state.hip, replay.contact()));
-    }
-    ideals.resize(samples.size(), NAN);
-    if (observer.shouldStop && observer.shouldStop())
-    {
-      message = options.replay + ": the replay was stopped on request";
-      return false;
-    }
-  }
-  note(observer, "replay: " + replay.difference().text());
-  return true;
-}
-
-} // namespace
-
-bool feelAlongPath(ViewScene& scene, const HapticViewerOptions& options, const HapticViewerObserver& observer,
-  ServoSample& shown, std::string& message)
-{
-  std::vector<ServoSample> samples;
-  std::vector<double> ideals; // of a replay
-  const std::shared_ptr<IdealForce> ideal = options.forceChart.empty() ? nullptr : idealFor(scene, options);
-  if (!(options.replay.empty() ? feelPathOf(scene, options, observer, samples, message)
-                               : feelReplay(scene, options, observer, ideal.get(), samples, ideals, message)))
-  {
-    return false;
-  }
-  shown = mostTelling(samples);
-  if (!options.trace.empty())
-  {
-    CsvWriter trace;
-    if (!trace.open(options.trace, traceColumns(), message))
-    {
-      return false;
-    }
-    addTrace(trace, samples);
-    if (!trace.commit(message))
-    {
-      return false;
-    }
-    note(observer, fmt::format("trace: {} ({} ticks)", options.trace, samples.size()));
-  }
-  if (!options.forceChart.empty())
-  {
-    vtkNew<vtkHapticChart> chart;
-    for (std::size_t i = 0; i < samples.size(); ++i)
-    {
-      const ProxyState& state = samples[i].state;
-      chart->AddSample(samples[i].timeSeconds, norm(state.force), state.radius,
-        !ideals.empty() ? ideals[i]
-          : ideal       ? idealForce(*ideal, scene, state.hip, options.haptics.contact)
-                        : NAN);
-    }
-    if (!chart->WriteImage(options.forceChart.c_str()))
-    {
-      message = chart->GetErrorMessage();
-      return false;
-    }
-    note(observer, "force chart: " + options.forceChart);
-  }
-  return true;
-}
-
-namespace
-{
-
 /// Warns if a picture shows one eye alone though two were asked for.
 void checkStereo(vtkRenderWindow* window, const std::string& stereo, const HapticViewerObserver& observer)
 {
-  if (!window->GetStereoRender() && stereo != stereoNames().front() && observer.message)
+  if (!window->GetStereoRender() && stereo != stereoNames().front())
   {
-    observer.message(HapticViewerObserver::Kind::Warning,
+    observer.say(HapticViewerObserver::Kind::Warning,
       fmt::format("stereo: {} needs a screen that shows two pictures; this one is for one eye", stereo));
   }
 }
@@ -359,7 +217,7 @@ bool writeTurntable(ViewScene& scene, const std::function<bool(const std::string
 {
   for (int i = 1; i <= pictures; ++i)
   {
-    if (observer.shouldStop && observer.shouldStop())
+    if (observer.stops())
     {
       message = fmt::format(
         "{}: the turntable was stopped on request, after {} of {} pictures", fileName, i - 1, pictures);
@@ -404,7 +262,7 @@ bool makePicture(ViewScene& scene, const HapticViewerOptions& options, const Hap
   checkStereo(window, options.picture.stereo, observer);
   const auto render = [&]
   {
-    scene.completeNextFrame();
+    scene.detail().showFinestOnce();
     window->Render();
   };
   const auto write = [&](const std::string& name)
@@ -423,14 +281,14 @@ bool makePicture(ViewScene& scene, const HapticViewerOptions& options, const Hap
   const std::string names = pictures > 0 ? HapticViewer::pictureName(fileName, 1, pictures) + " to " +
       HapticViewer::pictureName(fileName, pictures, pictures)
                                          : fileName;
-  note(observer, fmt::format("screenshot: {} ({}x{})", names, width, height));
+  observer.say(HapticViewerObserver::Kind::Note, fmt::format("screenshot: {} ({}x{})", names, width, height));
   if (const std::vector<std::string> words = scene.measuredText(); !words.empty())
   {
-    note(observer, "  distance: " + words.front() + "; " + words.back());
+    observer.say(HapticViewerObserver::Kind::Note, "  distance: " + words.front() + "; " + words.back());
   }
   if (shown)
   {
-    note(observer,
+    observer.say(HapticViewerObserver::Kind::Note,
       fmt::format("  shows t = {:.3f} s: {}, force {:.3f} N, proxy radius {:.3f} mm", shown->timeSeconds,
         shown->state.contact ? "in contact" : "no contact along the whole path", norm(shown->state.force),
         1e3 * shown->state.radius));

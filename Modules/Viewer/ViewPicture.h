@@ -32,12 +32,6 @@ bool writePictureOfSize(vtkRenderWindow* window, vtkCamera* camera, const std::a
 
 class ViewScene;
 
-/// Feels @p scene, which must be built, along HapticViewerOptions::path; writes trace and force chart where
-/// they are asked for, and says where each is. @p shown is the tick for a picture. False: @p message says
-/// what failed.
-bool feelAlongPath(ViewScene& scene, const HapticViewerOptions& options, const HapticViewerObserver& observer,
-  ServoSample& shown, std::string& message);
-
 /// Writes a PNG of @p scene, which must be built, with the touch @p shown, if there is one. Needs a display.
 bool makePicture(ViewScene& scene, const HapticViewerOptions& options, const HapticViewerObserver& observer,
   const std::optional<ServoSample>& shown, const std::string& fileName, std::string& message);

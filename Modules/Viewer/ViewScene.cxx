@@ -17,7 +17,7 @@
 #include "vtkKernelBandwidthFilter.h"
 #include "vtkVoxelMeanResampler.h"
 
-#include "Core/Base/Lattice.h"
+#include "Core/Base/Boxes.h"
 
 #include <vtkActor.h>
 #include <vtkCamera.h>
@@ -36,9 +36,7 @@
 #include <vtkVariant.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
-#include <optional>
 #include <utility>
 
 namespace pointhaptics
@@ -128,13 +126,8 @@ double ViewScene::fragments()
 /// A picture that is soon replaced stays coarse.
 bool ViewScene::refinementDue()
 {
-  return !(measurement_ && this->detail().drawnPoints() > kMostPlain) &&
+  return !(loaded_.measurement && this->detail().drawnPoints() > kMostPlain) &&
     this->detail().refinementDue(steadySeconds());
-}
-
-void ViewScene::completeNextFrame()
-{
-  this->detail().showFinestOnce();
 }
 
 vtkIdType ViewScene::numberOfPoints() const
@@ -142,31 +135,17 @@ vtkIdType ViewScene::numberOfPoints() const
   return cloud_ ? cloud_->GetNumberOfPoints() : 0;
 }
 
-void ViewScene::getWorkspaceBounds(double bounds[6]) const
+std::array<double, 6> ViewScene::workspaceBounds() const
 {
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    bounds[2 * axis] = workspace_.minimum[axis];
-    bounds[2 * axis + 1] = workspace_.maximum[axis];
-  }
+  return { workspace_.minimum.x, workspace_.maximum.x, workspace_.minimum.y, workspace_.maximum.y,
+    workspace_.minimum.z, workspace_.maximum.z };
 }
 
-void ViewScene::getVoxel(double edges[3]) const
+double ViewScene::voxelSize() const
 {
-  vtkDataArray* spacing = bandwidth_->GetOutput()->GetFieldData()->GetArray("LatticeSpacing");
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    edges[axis] = spacing ? spacing->GetVariantValue(axis).ToDouble() : 0.0;
-  }
-}
-
-bool ViewScene::open(
-  const std::vector<std::string>& files, const HapticViewerOptions& options, std::string& message)
-{
-  LoadedCloud loaded;
-  return loadCloud(
-           CloudRequest::of(files, options), [](double) { return true; }, loaded, message) &&
-    this->open(std::move(loaded), options, message);
+  Vec3 edges;
+  fieldValues(bandwidth_->GetOutput(), "LatticeSpacing", 3, &edges.x);
+  return std::cbrt(edges.x * edges.y * edges.z);
 }
 
 bool ViewScene::open(LoadedCloud loaded, const HapticViewerOptions& options, std::string& message)
@@ -180,30 +159,24 @@ bool ViewScene::open(LoadedCloud loaded, const HapticViewerOptions& options, std
   cloudOrientation_ = loaded.orientation;
   picture_ = options.picture;
   picture_.hidden = loaded.showing.hidden; // as the arrays are written
-  near_ = loaded.near;
   this->setClip(options.clip);
   orientation_ = loaded.orientation;
   orientation_.up = normalized(loaded.placement.applyToVector(orientation_.up));
-  title_ = loaded.title;
-  shown_ = loaded.shown;
-  measurement_ = loaded.measurement;
+  shown_ = std::move(loaded.shown);
   memoryDue_ = steadySeconds() + kMemorySeconds;
   placedCamera_.clear();
-  isCoarse_ = loaded.isCoarse;
-  invalidPoints_ = loaded.invalid;
-  scene_ = loaded.scene;
   resamplings_ += loaded.resamplings;
-  setElements(modelMatrix_, loaded.placement);
-  this->chooseUnit(loaded, options);
-  this->configure(loaded, options);
-  this->showMeans(loaded, options);
+  const bool isEmpty = loaded.isResampled && loaded.means->GetNumberOfPoints() == 0;
+  loaded_ = std::move(loaded);
+  setElements(modelMatrix_, loaded_.placement);
+  this->chooseUnit(options);
+  this->configure(options);
+  this->showMeans(options);
   if (refines)
   {
     this->keepColorRange(before);
   }
-  isResampled_ = loaded.isResampled;
-  findsLattice_ = loaded.findsLattice;
-  if (isResampled_ && loaded.means->GetNumberOfPoints() == 0)
+  if (isEmpty)
   {
     message = "no point of the cloud lies in the workspace; leave out " + options.names.placement +
       " to fit the cloud to it";
@@ -212,10 +185,10 @@ bool ViewScene::open(LoadedCloud loaded, const HapticViewerOptions& options, std
   return true;
 }
 
-void ViewScene::chooseUnit(const LoadedCloud& loaded, const HapticViewerOptions& options)
+void ViewScene::chooseUnit(const HapticViewerOptions& options)
 {
   const LengthUnit chosen{ options.unit, options.metresPerUnit, UnitEvidence::None };
-  LengthUnit likely = options.unitIsChosen ? chosen : lengthUnitOf(loaded.cloud, loaded.bounds);
+  LengthUnit likely = options.unitIsChosen ? chosen : lengthUnitOf(cloud_, loaded_.bounds);
   const bool isSaid = likely.evidence == UnitEvidence::File;
   this->setUnit(isSaid ? likely : chosen);
   likelyUnit_ = likely.name == unit_.name ? LengthUnit{ "", 1.0, UnitEvidence::None } : likely;
@@ -234,29 +207,30 @@ void ViewScene::setUnit(const LengthUnit& unit)
 }
 
 /// Sets the filters as those that made the means, for means after a change.
-void ViewScene::configure(const LoadedCloud& loaded, const HapticViewerOptions& options)
+void ViewScene::configure(const HapticViewerOptions& options)
 {
-  resampler_->SetInputData(loaded.felt ? loaded.felt : cloud_);
-  configureFilters(options, loaded, resampler_, bandwidth_);
+  const vtkSmartPointer<vtkPolyData> felt = std::exchange(loaded_.felt, nullptr);
+  resampler_->SetInputData(felt ? felt : cloud_);
+  configureFilters(options, loaded_, resampler_, bandwidth_);
   vtkNew<vtkMatrix4x4> model;
-  setElements(model, loaded.model);
+  setElements(model, loaded_.model);
   vtkNew<vtkMatrixToLinearTransform> linear;
   linear->SetInput(model);
   resampler_->SetTransform(linear);
 }
 
-void ViewScene::showMeans(const LoadedCloud& loaded, const HapticViewerOptions& options)
+void ViewScene::showMeans(const HapticViewerOptions& options)
 {
   // The output looks as if the filters had run, which they shall not.
-  bandwidth_->GetOutput()->ShallowCopy(loaded.means);
+  bandwidth_->GetOutput()->ShallowCopy(loaded_.means);
+  loaded_.means = nullptr;
   mapper_->Settings().sizeArray = "MeanBandwidth";
   this->drawPoints();
-  workspace_ = loaded.workspace;
-  double bounds[6];
-  getWorkspaceBounds(bounds);
-  resampler_->SetWorkspaceBounds(bounds); // it stays, whatever the user does to the model
-  props_->SetWorkspaceBounds(bounds);
-  brackets_->SetBox(bounds);
+  workspace_ = loaded_.workspace;
+  const std::array<double, 6> bounds = this->workspaceBounds();
+  resampler_->SetWorkspaceBounds(bounds.data()); // it stays, whatever the user does to the model
+  props_->SetWorkspaceBounds(bounds.data());
+  brackets_->SetBox(bounds.data());
   feltDetail_.setWorkspace(workspace_);
   const Vec3 extent = workspace_.extent();
   const double edge = std::max({ extent.x, extent.y, extent.z });
@@ -271,7 +245,7 @@ void ViewScene::showMeans(const LoadedCloud& loaded, const HapticViewerOptions& 
   showsFelt_ = showsFelt_ || options.felt;
   loadedScale_ = std::cbrt(std::abs(modelMatrix_->Determinant()));
   vtkNew<vtkMatrix4x4> model;
-  setElements(model, loaded.model);
+  setElements(model, loaded_.model);
   this->placeModel(model);
   this->applyColors();
 }
@@ -385,8 +359,8 @@ void ViewScene::completeMeans(bool useCovariance)
 {
   vtkPolyData* output = bandwidth_->GetOutput();
   vtkPointData* data = output->GetPointData();
-  const bool residuals = isResampled_ && this->wantsResiduals() && !data->HasArray(kResidualArrayName);
-  const bool normals = isResampled_ && this->isAmbient() && !data->HasArray(kSurfaceNormalArrayName);
+  const bool residuals = loaded_.isResampled && this->wantsResiduals() && !data->HasArray(kResidualArrayName);
+  const bool normals = loaded_.isResampled && ambient_ && !data->HasArray(kSurfaceNormalArrayName);
   Status status = Status::Ok;
   if (const auto scene = residuals || normals ? this->makeScene(useCovariance, status) : nullptr)
   {
@@ -397,8 +371,8 @@ void ViewScene::completeMeans(bool useCovariance)
 
 void ViewScene::meansChanged()
 {
-  scene_.reset();
-  if (!std::exchange(isResampled_, true) && drawsFelt_)
+  loaded_.scene.reset();
+  if (!std::exchange(loaded_.isResampled, true) && drawsFelt_)
   {
     this->applyColors();
   }
@@ -490,14 +464,8 @@ void ViewScene::placeAxes(vtkMatrix4x4* model)
   const Bounds& cloud = this->cloudBounds();
   vtkNew<vtkMatrix4x4> toCloud;
   vtkMatrix4x4::Invert(model, toCloud);
-  Bounds reach;
-  for (int corner = 0; corner < 8; ++corner)
-  {
-    reach.include(transformed(toCloud,
-      { corner & 1 ? workspace_.maximum.x : workspace_.minimum.x,
-        corner & 2 ? workspace_.maximum.y : workspace_.minimum.y,
-        corner & 4 ? workspace_.maximum.z : workspace_.minimum.z }));
-  }
+  const Bounds reach =
+    boxOfCorners(workspace_, [&toCloud](const Vec3& corner) { return transformed(toCloud, corner); });
   double bounds[6];
   for (int axis = 0; axis < 3; ++axis)
   {
@@ -525,9 +493,9 @@ void ViewScene::setCamera(const std::vector<double>& camera)
 std::shared_ptr<const HapticScene> ViewScene::makeScene(bool useCovariance, Status& status)
 {
   status = Status::Ok;
-  return scene_ ? scene_
-                : makeHapticScene(bandwidth_->GetOutput(), status, useCovariance, bandwidth_->GetSettings(),
-                    &resampler_->GetSettings());
+  return loaded_.scene ? loaded_.scene
+                       : makeHapticScene(bandwidth_->GetOutput(), status, useCovariance,
+                           bandwidth_->GetSettings(), &resampler_->GetSettings());
 }
 
 } // namespace pointhaptics

@@ -61,9 +61,6 @@ public:
   ViewScene();
   ~ViewScene();
 
-  /// Reads @p files into one cloud, resamples and shows it. False: @p message says which file and why, and
-  /// the scene is as it was before; or it says that no point lies in the workspace.
-  bool open(const std::vector<std::string>& files, const HapticViewerOptions& options, std::string& message);
   /// Shows what loadCloud() made of a request with these @p options; resamples nothing. False: no point lies
   /// in the workspace, @p message says so; the scene shows that.
   bool open(LoadedCloud loaded, const HapticViewerOptions& options, std::string& message);
@@ -76,7 +73,7 @@ public:
   /// Part of the measurement that is done, 0 to 1; nothing: none is under way.
   std::optional<double> measuredPart() const
   {
-    return measurement_ ? std::optional(measurement_->part()) : std::nullopt;
+    return loaded_.measurement ? std::optional(loaded_.measurement->part()) : std::nullopt;
   }
   /// Draws the model where @p model, from the file to the workspace, puts it.
   void placeModel(vtkMatrix4x4* model);
@@ -180,7 +177,6 @@ public:
   std::vector<std::string> colorChoices() const;
   /// Lights clouds with photographed colours fully too, and means that have normals.
   void showAmbient(bool ambient);
-  bool isAmbient() const { return ambient_; }
   /// True if the picture needs the residuals of addSurfaceArrays().
   bool wantsResiduals() const;
   /// Makes the arrays of addSurfaceArrays() that the picture needs, and waits for them: for pictures without
@@ -198,9 +194,9 @@ public:
   /// Scene of the shown means; takes the one that came with the cloud where there is one.
   std::shared_ptr<const HapticScene> makeScene(bool useCovariance, Status& status);
   /// False: the cloud has no means yet, until meansChanged().
-  bool isResampled() const { return isResampled_; }
+  bool isResampled() const { return loaded_.isResampled; }
   /// LoadedCloud::findsLattice.
-  bool findsLattice() const { return findsLattice_; }
+  bool findsLattice() const { return loaded_.findsLattice; }
   /// Number of times that clouds were resampled for this scene: by loadCloud(), or by the filters below.
   int resamplings() const { return resamplings_; }
   /// describeScale() of the model as it was opened.
@@ -219,7 +215,7 @@ public:
   vtkActor* pointsActor() { return pointsActor_; }
   const ShownCloud* shown() const { return shown_.get(); }
   /// True while a coarse level of the files is shown.
-  bool isCoarse() const { return isCoarse_; }
+  bool isCoarse() const { return loaded_.isCoarse; }
   /// Request to show a finer level of the same files in place of this one: see CloudRequest::before. It keeps
   /// the colours of open().
   ShownRequest showing() const;
@@ -230,20 +226,15 @@ public:
   const LevelOfDetail& detail() const { return drawsFelt_ ? feltDetail_ : detail_; }
   /// True if the picture rests and can become finer: render it.
   bool refinementDue();
-  /// Makes the next frame as fine as a picture gets, whatever moves: for pictures that are kept.
-  void completeNextFrame();
   const Bounds& workspace() const { return workspace_; }
-  void getWorkspaceBounds(double bounds[6]) const;
-  /// Edges of a voxel, metres; 0 before open().
-  void getVoxel(double edges[3]) const;
+  std::array<double, 6> workspaceBounds() const;
+  /// Mean edge of a voxel, metres; 0 before open().
+  double voxelSize() const;
   /// Text for the window's title: the names of the files.
-  const std::string& title() const { return title_; }
+  const std::string& title() const { return loaded_.title; }
   vtkIdType numberOfPoints() const;
-  vtkIdType numberOfInvalidPoints() const
-  {
-    return invalidPoints_;
-  } ///< Number of points that are not
-    ///< finite.
+  /// Number of points that are not finite.
+  vtkIdType numberOfInvalidPoints() const { return loaded_.invalid; }
 
 private:
   static constexpr double kMemorySeconds = 2.0; ///< Delay after the last work that needs memory.
@@ -268,7 +259,7 @@ private:
   void drawPoints();
   vtkSplatMapper* drawnMapper() { return drawsFelt_ ? mapper_ : pointsMapper_; }
   void chooseArrays();
-  void chooseUnit(const LoadedCloud& loaded, const HapticViewerOptions& options);
+  void chooseUnit(const HapticViewerOptions& options);
   void applyPicture();
   double textScale() const;
   ScreenBlock scalarBarBlock();
@@ -284,9 +275,11 @@ private:
   Vec3 upward() const;
   void turnCamera(const Vec3& about, double degrees, const Vec3& axis);
   void moveCamera(const Vec3& way, const Vec3& wayOfFocus);
-  void configure(const LoadedCloud& loaded, const HapticViewerOptions& options);
-  void showMeans(const LoadedCloud& loaded, const HapticViewerOptions& options);
+  void configure(const HapticViewerOptions& options);
+  void showMeans(const HapticViewerOptions& options);
 
+  LoadedCloud
+    loaded_; ///< As it was opened, without its means; @c measurement and @c scene until they are used.
   vtkSmartPointer<vtkPolyData> cloud_;
   vtkNew<vtkMatrix4x4> modelMatrix_;
   vtkNew<vtkVoxelMeanResampler> resampler_;
@@ -294,10 +287,9 @@ private:
   vtkNew<vtkSplatMapper> mapper_;
   vtkNew<vtkActor> actor_;
   std::shared_ptr<ShownCloud> shown_;
-  std::shared_ptr<ShownMeasurement> measurement_; ///< Null: none is under way.
-  double memoryDue_ = INFINITY;                   ///< Time at which returnMemory() acts, by steadySeconds().
-  std::vector<double> placedCamera_;              ///< Camera as placeCamera() left it.
-  double placedDistance_ = 1.0;                   ///< viewDistance() of that camera.
+  double memoryDue_ = INFINITY;      ///< Time at which returnMemory() acts, by steadySeconds().
+  std::vector<double> placedCamera_; ///< Camera as placeCamera() left it.
+  double placedDistance_ = 1.0;      ///< viewDistance() of that camera.
   vtkNew<vtkSplatMapper> pointsMapper_;
   vtkNew<vtkActor> pointsActor_;
   vtkNew<vtkMatrix4x4> pointsMatrix_; ///< From the file to the workspace.
@@ -322,13 +314,10 @@ private:
   LengthUnit likelyUnit_;
   CloudOrientation cloudOrientation_; ///< Orientation in the frame of the file.
   PictureSettings picture_;
-  bool isCoarse_ = false;
-  vtkIdType invalidPoints_ = 0;
   double fixedPixels_ = 0.0; ///< HapticViewerOptions::pointSize.
   Bounds cloudBounds_;       ///< Bounds of the finite points, as in the file; empty until somebody asks.
   vtkNew<vtkRenderer> renderer_;
   std::vector<double> clip_; ///< As HapticViewerOptions::clip.
-  Bounds near_;              ///< LoadedCloud::near.
   ClipBoxMark clipMark_;
   DistanceMark distance_; ///< Declared to be destroyed before the renderer.
   LevelOfDetail detail_{ renderer_, pointsActor_ };
@@ -336,11 +325,7 @@ private:
   Bounds workspace_;
   CloudOrientation orientation_;
   std::string scaleNote_;
-  std::string title_;
-  std::shared_ptr<const HapticScene> scene_; ///< Scene that came with the cloud, until makeScene() takes it.
   int resamplings_ = 0;
-  bool isResampled_ = true;
-  bool findsLattice_ = false;
   EventLink sizing_{ [this] { this->beginFrame(); } };
   EventLink counting_{ [this] { ++resamplings_; } };
 };

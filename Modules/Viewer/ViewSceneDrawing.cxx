@@ -19,7 +19,6 @@
 #include <vtkRenderer.h>
 
 #include <algorithm>
-#include <cmath>
 
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -131,7 +130,7 @@ void ViewScene::drawPoints()
 /// are over.
 void ViewScene::returnMemory()
 {
-  if (steadySeconds() >= memoryDue_ && !measurement_)
+  if (steadySeconds() >= memoryDue_ && !loaded_.measurement)
   {
     memoryDue_ = INFINITY;
 #ifdef __GLIBC__
@@ -143,12 +142,12 @@ void ViewScene::returnMemory()
 bool ViewScene::followMeasurement(bool waits)
 {
   this->returnMemory();
-  if (!measurement_ || !measurement_->isReady(waits))
+  if (!loaded_.measurement || !loaded_.measurement->isReady(waits))
   {
     return false;
   }
-  const std::shared_ptr<ShownCloud> measured = measurement_->take();
-  measurement_.reset();
+  const std::shared_ptr<ShownCloud> measured = loaded_.measurement->take();
+  loaded_.measurement.reset();
   if (!measured)
   {
     return false;

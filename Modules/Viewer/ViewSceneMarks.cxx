@@ -1,11 +1,10 @@
 // Marks that a person sets in a cloud: the two ends of a distance, and the box outside of which nothing is
 // shown.
+#include "Core/Base/Boxes.h"
 #include "ViewScene.h"
 
-#include "ClippedCloud.h"
 #include "CloudAppearance.h"
 #include "CoordinateText.h"
-#include "IO/Info/LengthUnit.h"
 #include "PointPicking.h"
 #include "PolyDataAccess.h"
 #include "vtkKernelBandwidthFilter.h"
@@ -21,13 +20,8 @@
 #include <vtkVariant.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstddef>
-#include <optional>
-#include <string>
 #include <utility>
-#include <vector>
 
 namespace pointhaptics
 {
@@ -90,7 +84,7 @@ ProfilePoints ViewScene::profile() const
   {
     Vec3 place;
     shown_->points->GetPoint(i, &place.x);
-    return isKept(i) && (!box || isWithin(*box, place));
+    return isKept(i) && (!box || contains(*box, place));
   };
   const PointAccess access(shown_->points->GetPoints());
   return profileAlong(access.view(), from, to, cloudOrientation_.up, width, kMostOfProfile, isShown);
@@ -114,7 +108,7 @@ const Bounds& ViewScene::cloudBounds()
 {
   if (cloudBounds_.empty() && cloud_)
   {
-    cloudBounds_ = near_.empty() ? extentOf(cloud_).all : near_;
+    cloudBounds_ = loaded_.near.empty() ? extentOf(cloud_).all : loaded_.near;
   }
   return cloudBounds_;
 }
@@ -135,7 +129,7 @@ void ViewScene::clipFelt()
   {
     vtkPolyData* points = picture_.hidden.empty() ? cloud_ : shown_->points;
     resampler_->SetInputData(shownPart(points, clip_, picture_.hidden));
-    scene_.reset();
+    loaded_.scene.reset();
   }
 }
 

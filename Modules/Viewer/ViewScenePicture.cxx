@@ -1,9 +1,9 @@
 // Drawing and camera of the scene, as PictureSettings and the person say.
 #include "ViewScene.h"
 
-#include "ClippedCloud.h"
 #include "CloudAppearance.h"
 #include "PolyDataAccess.h"
+#include "ScreenMarks.h"
 #include "StereoPicture.h"
 #include "vtkCloudAxes.h"
 #include "vtkHapticGauge.h"
@@ -21,10 +21,7 @@
 #include <vtkVariant.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstdint>
-#include <optional>
 
 namespace pointhaptics
 {
@@ -112,12 +109,8 @@ void ViewScene::setPicture(const PictureSettings& picture)
   if (!isProjected && !picture.parallel)
   {
     // Objects at the focal point keep their size seen from this distance.
-    const double distance = this->viewDistance();
-    Vec3 focus;
-    Vec3 forward;
-    camera->GetFocalPoint(&focus.x);
-    camera->GetDirectionOfProjection(&forward.x);
-    const Vec3 eye = focus - distance * forward;
+    const CameraView view(camera);
+    const Vec3 eye = view.focus - this->viewDistance() * view.forward;
     camera->SetPosition(&eye.x);
   }
   const bool hasOtherColors =
@@ -149,14 +142,12 @@ void ViewScene::setPicture(const PictureSettings& picture)
 
 bool ViewScene::isStereo() const
 {
-  vtkRenderer* renderer = renderer_;
-  return renderer->GetRenderWindow() && renderer->GetRenderWindow()->GetStereoRender();
+  return renderer_->GetRenderWindow() && renderer_->GetRenderWindow()->GetStereoRender();
 }
 
 double ViewScene::viewDistance() const
 {
-  vtkRenderer* renderer = renderer_;
-  vtkCamera* camera = renderer->GetActiveCamera();
+  vtkCamera* camera = renderer_->GetActiveCamera();
   return picture_.parallel ? camera->GetParallelScale() / halfTangent(camera) : camera->GetDistance();
 }
 
@@ -307,10 +298,8 @@ CameraFit ViewScene::fitFrom(const CloudLook& look, double turn) const
   const vtkSmartPointer<vtkPolyData> clipped = clippedCloud(shown_->points, clipBox(clip_, cloud_));
   const bool isEmpty = clipped->GetNumberOfPoints() == 0;
   const PointAccess access((isEmpty ? shown_->points : clipped)->GetPoints());
-  vtkRenderer* renderer = renderer_;
-  vtkMatrix4x4* matrix = pointsMatrix_;
-  const AffineTransform model = transformOf(matrix);
-  const double aspect = renderer->GetTiledAspectRatio();
+  const AffineTransform model = transformOf(pointsMatrix_);
+  const double aspect = renderer_->GetTiledAspectRatio();
   if (hasFewPlaces(access.view(), 1))
   {
     // Points at one place have no size that could fill the picture: the workspace does, seen from outside.
@@ -374,8 +363,7 @@ void ViewScene::turnView(double degrees)
 /// The up axis of the cloud in the workspace.
 Vec3 ViewScene::upward() const
 {
-  vtkMatrix4x4* matrix = pointsMatrix_;
-  return normalized(transformOf(matrix).applyToVector(cloudOrientation_.up));
+  return normalized(transformOf(pointsMatrix_).applyToVector(cloudOrientation_.up));
 }
 
 void ViewScene::turnCamera(const Vec3& about, double degrees, const Vec3& axis)
@@ -392,12 +380,9 @@ void ViewScene::turnCamera(const Vec3& about, double degrees, const Vec3& axis)
 void ViewScene::moveCamera(const Vec3& way, const Vec3& wayOfFocus)
 {
   vtkCamera* camera = renderer_->GetActiveCamera();
-  Vec3 eye;
-  Vec3 focus;
-  camera->GetPosition(&eye.x);
-  camera->GetFocalPoint(&focus.x);
-  eye += way;
-  focus += wayOfFocus;
+  const CameraView view(camera);
+  const Vec3 eye = view.eye + way;
+  const Vec3 focus = view.focus + wayOfFocus;
   camera->SetPosition(&eye.x);
   camera->SetFocalPoint(&focus.x);
   renderer_->ResetCameraClippingRange();
@@ -405,43 +390,31 @@ void ViewScene::moveCamera(const Vec3& way, const Vec3& wayOfFocus)
 
 void ViewScene::centerView(const Vec3& place)
 {
-  vtkCamera* camera = renderer_->GetActiveCamera();
-  Vec3 focus;
-  Vec3 forward;
-  camera->GetFocalPoint(&focus.x);
-  camera->GetDirectionOfProjection(&forward.x);
-  const Vec3 way = transformOf(pointsMatrix_).apply(place) - focus;
-  this->moveCamera(way - dot(way, forward) * forward, way);
+  const CameraView view(renderer_->GetActiveCamera());
+  const Vec3 way = transformOf(pointsMatrix_).apply(place) - view.focus;
+  this->moveCamera(way - dot(way, view.forward) * view.forward, way);
 }
 
 void ViewScene::walk(double right, double up, double forward)
 {
-  vtkCamera* camera = renderer_->GetActiveCamera();
-  Vec3 ahead;
-  Vec3 viewUp;
-  camera->GetDirectionOfProjection(&ahead.x);
-  camera->GetViewUp(&viewUp.x);
+  const CameraView view(renderer_->GetActiveCamera());
   const Vec3 upward = this->upward();
-  const Vec3 aside = normalized(cross(ahead, viewUp));
-  const Vec3 along = normalized(ahead - dot(ahead, upward) * upward, viewUp);
+  const Vec3 aside = normalized(cross(view.forward, view.up));
+  const Vec3 along = normalized(view.forward - dot(view.forward, upward) * upward, view.up);
   const Vec3 way = right * aside + up * upward + forward * along;
   this->moveCamera(way, way);
 }
 
 void ViewScene::lookAround(double right, double down)
 {
-  vtkCamera* camera = renderer_->GetActiveCamera();
-  Vec3 eye;
-  Vec3 ahead;
-  camera->GetPosition(&eye.x);
-  camera->GetDirectionOfProjection(&ahead.x);
+  const CameraView view(renderer_->GetActiveCamera());
   const Vec3 upward = this->upward();
-  const Vec3 aside = normalized(cross(ahead, upward), { 1.0, 0.0, 0.0 });
-  const double height = std::asin(std::clamp(dot(ahead, upward), -1.0, 1.0)) / kDegree;
+  const Vec3 aside = normalized(cross(view.forward, upward), { 1.0, 0.0, 0.0 });
+  const double height = std::asin(std::clamp(dot(view.forward, upward), -1.0, 1.0)) / kDegree;
   const double lowered = height - std::clamp(height - down, -kHighestLook, kHighestLook);
-  camera->SetViewUp(&upward.x);
-  this->turnCamera(eye, -lowered, aside);
-  this->turnCamera(eye, -right, upward);
+  renderer_->GetActiveCamera()->SetViewUp(&upward.x);
+  this->turnCamera(view.eye, -lowered, aside);
+  this->turnCamera(view.eye, -right, upward);
 }
 
 void ViewScene::fitView()
@@ -450,13 +423,10 @@ void ViewScene::fitView()
   const Vec3 up = this->upward();
   const Vec3 right = normalized(cross(up, model.applyToVector(cloudOrientation_.front)));
   const Vec3 front = cross(right, up);
-  vtkCamera* camera = renderer_->GetActiveCamera();
-  Vec3 forward;
-  Vec3 viewUp;
-  camera->GetDirectionOfProjection(&forward.x);
-  camera->GetViewUp(&viewUp.x);
-  const double height = std::clamp(-dot(forward, up), -1.0, 1.0);
-  const Vec3 aside = std::abs(height) < kSteepest ? -1.0 * forward : (height > 0.0 ? -1.0 : 1.0) * viewUp;
+  const CameraView view(renderer_->GetActiveCamera());
+  const double height = std::clamp(-dot(view.forward, up), -1.0, 1.0);
+  const Vec3 aside =
+    std::abs(height) < kSteepest ? -1.0 * view.forward : (height > 0.0 ? -1.0 : 1.0) * view.up;
   this->lookFrom(std::atan2(dot(aside, right), dot(aside, front)) / kDegree, std::asin(height) / kDegree);
 }
 

@@ -1,15 +1,20 @@
 #include "ViewTouch.h"
 
-#include "HapticViewerOptions.h"
+#include "PathTicks.h"
+#include "Replay.h"
 #include "ViewScene.h"
 #include "VirtualTouch.h"
+
+#include "vtkHapticChart.h"
 
 #include "PolyDataAccess.h"
 #include "vtkVoxelMeanResampler.h"
 
 #include "Core/Base/Boxes.h"
-#include "Devices/PathUnits.h"
+#include "Devices/HipPath.h"
 
+#include <fmt/format.h>
+#include <vtkNew.h>
 #include <vtkPointSet.h>
 
 #include <algorithm>
@@ -18,22 +23,15 @@
 
 namespace pointhaptics
 {
-
-std::vector<ServoSample> samplesAlong(const HipPath& path, std::int64_t ticks, FeelScenes& scenes,
-  const HapticParameters& parameters, double rateHz)
+namespace
 {
-  std::vector<ServoSample> samples;
-  samples.reserve(std::size_t(ticks));
-  feelPath(parameters, scenes, path, rateHz, ticks,
-    [&samples](double time, const VirtualTouch& touch)
-    {
-      samples.push_back(touch.sample());
-      samples.back().timeSeconds = time;
-      return true;
-    });
-  return samples;
-}
 
+constexpr double kRateHz = 1000.0;
+/// Samples of a path are kept for the picture: about 200 bytes each.
+constexpr double kMostSamples = 2e6;
+
+/// Makes the scenes that the command `feel` makes of the cloud of @p scene with the same options. False: @p
+/// message says why not.
 bool makeFeelScenes(
   ViewScene& scene, const HapticViewerOptions& options, FeelScenes& scenes, std::string& message)
 {
@@ -55,6 +53,7 @@ bool makeFeelScenes(
   return true;
 }
 
+/// The tick to show: that of the largest force, or the last one where nothing was touched. @pre not empty.
 const ServoSample& mostTelling(const std::vector<ServoSample>& samples)
 {
   const ServoSample* best = &samples.back();
@@ -71,16 +70,94 @@ const ServoSample& mostTelling(const std::vector<ServoSample>& samples)
   return *best;
 }
 
-std::string unlikelyUnitsIn(
-  ViewScene& scene, const HapticViewerOptions& options, const HipPath& path, bool isTouched)
+/// Newtons where @p model puts the shape.
+double idealForce(
+  IdealForce& ideal, const AffineTransform& model, const Vec3& hip, const ContactParameters& contact)
 {
+  return std::min(ideal.at(hip, model, contact.stiffness), contact.forceLimit);
+}
+
+/// Moves a hand along HapticViewerOptions::path.
+bool feelPathOf(ViewScene& scene, const HapticViewerOptions& options, const HapticViewerObserver& observer,
+  std::vector<ServoSample>& samples, std::string& message)
+{
+  HipPath path;
+  std::int64_t ticks = 0;
+  FeelScenes scenes;
+  if (readHipPath(options.path, path, message) != Status::Ok)
+  {
+    return false;
+  }
+  applyUnits(options.pathUnits, path);
+  if (!countTicks(path, options.path, kRateHz, kMostSamples, ticks, message, options.names.units) ||
+    !makeFeelScenes(scene, options, scenes, message))
+  {
+    return false;
+  }
+  samples.reserve(std::size_t(ticks));
+  feelPath(options.haptics, scenes, path, kRateHz, ticks,
+    [&samples](double time, const VirtualTouch& touch)
+    {
+      samples.push_back(touch.sample());
+      samples.back().timeSeconds = time;
+      return true;
+    });
+  const bool isTouched = std::any_of(
+    samples.begin(), samples.end(), [](const ServoSample& sample) { return sample.state.contact; });
   AffineTransform model;
   const Bounds& box = scene.cloudBounds();
   const bool isPlaced = !box.empty() && affineFromTransform(scene.resampler()->GetTransform(), model);
-  return unlikelyUnits(path,
+  const std::string odd = unlikelyUnits(path,
     isPlaced ? boxOfCorners(box, [&model](const Vec3& p) { return model.apply(p); }) : Bounds(),
     options.names.units, isTouched || options.unitIsChosen);
+  if (!odd.empty())
+  {
+    observer.say(HapticViewerObserver::Kind::Warning, options.path + ": " + odd);
+  }
+  return true;
 }
+
+/// Feels the recording in HapticViewerOptions::replay again.
+bool feelReplay(ViewScene& scene, const HapticViewerOptions& options, const HapticViewerObserver& observer,
+  IdealForce* ideal, std::vector<ServoSample>& samples, std::vector<double>& ideals, std::string& message)
+{
+  Recording recording;
+  auto* cloud = vtkPointSet::SafeDownCast(scene.resampler()->GetInputDataObject(0, 0));
+  if (!readRecording(options.replay, recording, message))
+  {
+    return false;
+  }
+  if (!isOf(recording, cloud, message))
+  {
+    message.insert(0, scene.title() + ": ");
+    return false;
+  }
+  Replay replay(recording, cloud);
+  while (!replay.isAtEnd())
+  {
+    samples.emplace_back();
+    if (!replay.step(samples.back(), message))
+    {
+      message.insert(0, options.replay + ": ");
+      return false;
+    }
+    if (ideal && replay.scene())
+    {
+      const AffineTransform& model = replay.scene()->modelToWorkspace();
+      ideals.push_back(idealForce(*ideal, model, samples.back().state.hip, replay.contact()));
+    }
+    ideals.resize(samples.size(), NAN);
+    if (observer.stops())
+    {
+      message = options.replay + ": the replay was stopped on request";
+      return false;
+    }
+  }
+  observer.say(HapticViewerObserver::Kind::Note, "replay: " + replay.difference().text());
+  return true;
+}
+
+} // namespace
 
 std::shared_ptr<IdealForce> idealFor(ViewScene& scene, const HapticViewerOptions& options)
 {
@@ -93,12 +170,6 @@ std::shared_ptr<IdealForce> idealFor(ViewScene& scene, const HapticViewerOptions
   const bool known = options.ideal == "auto" ? recognizeShape(PointAccess(cloud->GetPoints()).view(), shape)
                                              : shapeFromName(options.ideal, shape);
   return known ? std::make_shared<IdealForce>(shape) : nullptr;
-}
-
-double idealForce(
-  IdealForce& ideal, const AffineTransform& model, const Vec3& hip, const ContactParameters& contact)
-{
-  return std::min(ideal.at(hip, model, contact.stiffness), contact.forceLimit);
 }
 
 double idealForce(IdealForce& ideal, ViewScene& scene, const Vec3& hip, const ContactParameters& contact)
@@ -131,6 +202,54 @@ void addTrace(CsvWriter& trace, const std::vector<ServoSample>& samples)
     row.back() = felt.back();
     trace.row(row.data(), row.size());
   }
+}
+
+bool feelAlongPath(ViewScene& scene, const HapticViewerOptions& options, const HapticViewerObserver& observer,
+  ServoSample& shown, std::string& message)
+{
+  std::vector<ServoSample> samples;
+  std::vector<double> ideals; // of a replay
+  const std::shared_ptr<IdealForce> ideal = options.forceChart.empty() ? nullptr : idealFor(scene, options);
+  if (!(options.replay.empty() ? feelPathOf(scene, options, observer, samples, message)
+                               : feelReplay(scene, options, observer, ideal.get(), samples, ideals, message)))
+  {
+    return false;
+  }
+  shown = mostTelling(samples);
+  if (!options.trace.empty())
+  {
+    CsvWriter trace;
+    if (!trace.open(options.trace, traceColumns(), message))
+    {
+      return false;
+    }
+    addTrace(trace, samples);
+    if (!trace.commit(message))
+    {
+      return false;
+    }
+    observer.say(
+      HapticViewerObserver::Kind::Note, fmt::format("trace: {} ({} ticks)", options.trace, samples.size()));
+  }
+  if (!options.forceChart.empty())
+  {
+    vtkNew<vtkHapticChart> chart;
+    for (std::size_t i = 0; i < samples.size(); ++i)
+    {
+      const ProxyState& state = samples[i].state;
+      chart->AddSample(samples[i].timeSeconds, norm(state.force), state.radius,
+        !ideals.empty() ? ideals[i]
+          : ideal       ? idealForce(*ideal, scene, state.hip, options.haptics.contact)
+                        : NAN);
+    }
+    if (!chart->WriteImage(options.forceChart.c_str()))
+    {
+      message = chart->GetErrorMessage();
+      return false;
+    }
+    observer.say(HapticViewerObserver::Kind::Note, "force chart: " + options.forceChart);
+  }
+  return true;
 }
 
 } // namespace pointhaptics

@@ -4,9 +4,8 @@
 
 #include "CsvWriter.h"
 #include "FeelScenes.h"
+#include "HapticViewerOptions.h"
 
-#include "Devices/HipPath.h"
-#include "Haptics/Proxy.h"
 #include "Haptics/ServoLoop.h"
 #include "Shapes/IdealForce.h"
 
@@ -18,31 +17,18 @@ namespace pointhaptics
 {
 
 class ViewScene;
-struct HapticViewerOptions;
 
-/// One sample for each of the @p ticks of @p rateHz along @p path (see countTicks), as `feel` does it; its
-/// time is that of the path. @pre path not empty.
-std::vector<ServoSample> samplesAlong(const HipPath& path, std::int64_t ticks, FeelScenes& scenes,
-  const HapticParameters& parameters, double rateHz);
-/// Makes the scenes that the command `feel` makes of the cloud of @p scene with the same options. False: @p
-/// message says why not.
-bool makeFeelScenes(
-  ViewScene& scene, const HapticViewerOptions& options, FeelScenes& scenes, std::string& message);
-
-/// Judges the units of @p path and of the cloud, as it stands in @p scene, by unlikelyUnits().
-std::string unlikelyUnitsIn(
-  ViewScene& scene, const HapticViewerOptions& options, const HipPath& path, bool isTouched);
-
-/// The tick to show: that of the largest force, or the last one where nothing was touched. @pre not empty.
-const ServoSample& mostTelling(const std::vector<ServoSample>& samples);
+/// Feels @p scene, which must be built, along HapticViewerOptions::path; writes trace and force chart where
+/// they are asked for, and says where each is. @p shown is the tick for a picture. False: @p message says
+/// what failed.
+bool feelAlongPath(ViewScene& scene, const HapticViewerOptions& options, const HapticViewerObserver& observer,
+  ServoSample& shown, std::string& message);
 
 /// Finds the exact surface that --ideal names, or of which the cloud of @p scene is a sample. Null: none.
 std::shared_ptr<IdealForce> idealFor(ViewScene& scene, const HapticViewerOptions& options);
 
-/// Newtons where the model stands, with stiffness and limit of @p contact; NaN: not known.
-double idealForce(
-  IdealForce& ideal, const AffineTransform& model, const Vec3& hip, const ContactParameters& contact);
-/// As above, with the model where it stands in @p scene at this moment.
+/// Newtons where the model stands in @p scene at this moment, with stiffness and limit of @p contact; NaN:
+/// not known.
 double idealForce(IdealForce& ideal, ViewScene& scene, const Vec3& hip, const ContactParameters& contact);
 
 /// Columns of a trace: those of `feel`, and the status of the tick.

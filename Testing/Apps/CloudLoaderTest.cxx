@@ -48,8 +48,8 @@ protected:
 
   static CloudRequest requestOf(const std::vector<std::string>& files)
   {
-    CloudRequest request;
-    request.files = files;
+    CloudRequest request(files);
+    request.isOnlyRead = true;
     return request;
   }
 
@@ -61,11 +61,11 @@ TEST_F(CloudLoaderTest, ReadsOneCloudOfAllFiles)
 {
   CloudLoader loader;
   EXPECT_FALSE(loader.busy());
-  EXPECT_EQ(loader.progress(), 0.0);
+  EXPECT_EQ(loader.step().part, 0.0);
   loader.start(requestOf({ this->writeCloud("a.csv", 300), this->writeCloud("b.csv", 200) }));
   EXPECT_TRUE(loader.busy());
   ASSERT_TRUE(loader.waitFor(kLong));
-  EXPECT_EQ(loader.progress(), 1.0);
+  EXPECT_STREQ(loader.step().name, "preparing"); // all of it is read
   LoadedCloud loaded;
   std::string message = "old";
   ASSERT_TRUE(loader.take(loaded, message));
@@ -86,8 +86,8 @@ TEST_F(CloudLoaderTest, FitsACloudWithoutRaysThatDidNotReturn)
   HapticViewerOptions options;
   LoadedCloud loaded;
   std::string message;
-  const auto goesOn = [](double) { return true; };
-  ASSERT_TRUE(loadCloud(CloudRequest::of({ path }, options), goesOn, loaded, message)) << message;
+  const auto goesOn = [](const char*, double) { return true; };
+  ASSERT_TRUE(loadCloud(CloudRequest({ path }, options), goesOn, loaded, message)) << message;
   EXPECT_EQ(loaded.noReturns, 3);
   EXPECT_EQ(loaded.bounds.minimum.z, 0.5);
   ASSERT_EQ(loaded.notes.size(), 1u);
@@ -96,7 +96,7 @@ TEST_F(CloudLoaderTest, FitsACloudWithoutRaysThatDidNotReturn)
     "workspace: neither shown nor felt");
   // The lattice about all points is the resampler's choice.
   options.fitsWorkspace = false;
-  ASSERT_TRUE(loadCloud(CloudRequest::of({ path }, options), goesOn, loaded, message)) << message;
+  ASSERT_TRUE(loadCloud(CloudRequest({ path }, options), goesOn, loaded, message)) << message;
   EXPECT_EQ(loaded.bounds.minimum.z, 0.0);
   ASSERT_EQ(loaded.notes.size(), 1u);
   EXPECT_NE(loaded.notes[0].find("are felt but not drawn"), std::string::npos);
@@ -104,10 +104,9 @@ TEST_F(CloudLoaderTest, FitsACloudWithoutRaysThatDidNotReturn)
 
 TEST_F(CloudLoaderTest, NamesTheStepThatRuns)
 {
-  CloudRequest request = requestOf({ this->writeCloud("a.csv", 30000) });
-  request.options = std::make_shared<const HapticViewerOptions>();
+  const CloudRequest request({ this->writeCloud("a.csv", 30000) });
   std::vector<std::string> steps = { "reading" };
-  request.working = [&steps](const char* step, double part)
+  const auto note = [&steps](const char* step, double part)
   {
     EXPECT_GE(part, 0.0);
     EXPECT_LE(part, 1.0);
@@ -115,12 +114,11 @@ TEST_F(CloudLoaderTest, NamesTheStepThatRuns)
     {
       steps.emplace_back(step);
     }
+    return true;
   };
   LoadedCloud loaded;
   std::string message;
-  ASSERT_TRUE(loadCloud(
-    request, [](double) { return true; }, loaded, message))
-    << message;
+  ASSERT_TRUE(loadCloud(request, note, loaded, message)) << message;
   EXPECT_EQ(steps, (std::vector<std::string>{ "reading", "preparing", "measuring", "resampling" }));
 }
 
@@ -130,9 +128,12 @@ TEST_F(CloudLoaderTest, ProgressAscendsOverAllFiles)
   std::vector<double> seen;
   LoadedCloud loaded;
   std::string message;
-  const auto note = [&seen](double part)
+  const auto note = [&seen](const char* step, double part)
   {
-    seen.push_back(part);
+    if (step == std::string("reading"))
+    {
+      seen.push_back(part);
+    }
     return true;
   };
   ASSERT_TRUE(loadCloud(requestOf({ file, file }), note, loaded, message)) << message;
@@ -145,13 +146,11 @@ TEST_F(CloudLoaderTest, ProgressAscendsOverAllFiles)
 
   CloudLoader loader;
   loader.start(requestOf({ file, file }));
-  double last = 0.0;
   while (!loader.waitFor(0.0))
   {
-    const double now = loader.progress();
-    EXPECT_GE(now, last);
-    EXPECT_LE(now, 1.0);
-    last = now;
+    const double part = loader.step().part;
+    EXPECT_GE(part, 0.0);
+    EXPECT_LE(part, 1.0);
   }
 }
 
@@ -163,7 +162,7 @@ TEST_F(CloudLoaderTest, StopsAtTheReportThatIsAnsweredByNo)
   loaded.title = "the former";
   std::string message;
   EXPECT_FALSE(loadCloud(
-    requestOf({ file, file }), [&asked](double) { return ++asked < 3; }, loaded, message));
+    requestOf({ file, file }), [&asked](const char*, double) { return ++asked < 3; }, loaded, message));
   EXPECT_EQ(asked, 3);
   EXPECT_NE(message.find("stopped on request"), std::string::npos) << message;
   EXPECT_EQ(loaded.title, "the former");
@@ -177,14 +176,14 @@ TEST_F(CloudLoaderTest, CancelLeavesNothing)
   LoadedCloud loaded;
   std::string message;
   loader.start(requestOf({ file }));
-  while (loader.progress() == 0.0)
+  while (loader.step().part == 0.0)
   {
     std::this_thread::yield();
   }
   loader.cancel();
   EXPECT_FALSE(loader.busy());
   EXPECT_FALSE(loader.waitFor(0.05));
-  EXPECT_EQ(loader.progress(), 0.0);
+  EXPECT_EQ(loader.step().part, 0.0);
   EXPECT_FALSE(loader.take(loaded, message));
   EXPECT_FALSE(loaded.cloud);
 
@@ -236,7 +235,7 @@ TEST_F(CloudLoaderTest, SaysWhyAFileCannotBeShown)
   EXPECT_NE(complaint(requestOf({ nowhere })).find("no point is finite"), std::string::npos);
 
   CloudRequest warm = requestOf({ this->writeCloud("a.csv", 10) });
-  warm.colorBy = "Warmth";
+  warm.options.colorBy = "Warmth";
   EXPECT_NE(complaint(warm).find("no such array; it has"), std::string::npos);
   EXPECT_EQ(loaded.title, "the former");
 }
@@ -250,11 +249,11 @@ TEST_F(CloudLoaderTest, FindsAnArrayInUpperOrLowerCaseWhereOnlyOneCanBeMeant)
   const auto nameFor = [&](const std::string& colorBy)
   {
     CloudRequest request = requestOf({ file });
-    request.colorBy = colorBy;
+    request.options.colorBy = colorBy;
     LoadedCloud loaded;
     message.clear();
     return loadCloud(
-             request, [](double) { return true; }, loaded, message)
+             request, [](const char*, double) { return true; }, loaded, message)
       ? loaded.colorBy
       : "refused";
   };
@@ -290,7 +289,7 @@ TEST_F(CloudLoaderTest, MayGoWhileItReads)
   {
     CloudLoader loader;
     loader.start(requestOf({ file }));
-    while (hasBegun && loader.progress() == 0.0)
+    while (hasBegun && loader.step().part == 0.0)
     {
       std::this_thread::yield();
     }
@@ -316,11 +315,11 @@ TEST_F(CloudLoaderTest, ChoosesAFinerLatticeWhereTheUsualOneLosesMostOfTheCloud)
   }
   const auto dimensionOf = [&](const std::string& path, bool chooses)
   {
-    CloudRequest request = chooses ? CloudRequest::of({ path }, HapticViewerOptions()) : requestOf({ path });
+    CloudRequest request = chooses ? CloudRequest({ path }, HapticViewerOptions()) : requestOf({ path });
     LoadedCloud loaded;
     std::string message;
     EXPECT_TRUE(loadCloud(
-      request, [](double) { return true; }, loaded, message))
+      request, [](const char*, double) { return true; }, loaded, message))
       << message;
     return loaded.latticeDimension;
   };

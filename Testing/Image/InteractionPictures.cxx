@@ -193,7 +193,7 @@ std::string interactionState()
   const Vec3 hand = s.hand.target();
   addNumbers(text, "hand", &hand.x, 3);
   const double shown[] = { double(s.overlay->GetHelpVisibility()), double(s.sliders->GetVisibility()),
-    double(s.style->GetStatus().panelVisibility()), double(s.style->GetHandMode()),
+    double(s.style->GetStatus().panelVisibility()), double(s.style->GetHand().followsMouse()),
     double(!s.overlay->GetDetail().empty()) };
   addNumbers(text, "shown", shown, 5);
   return text;

@@ -12,7 +12,6 @@
 #include "vtkCloudAxes.h"
 #include "vtkHapticProps.h"
 #include "vtkKernelBandwidthFilter.h"
-#include "vtkPickMarker.h"
 #include "vtkVoxelMeanResampler.h"
 
 #include "Core/Base/Vector3.h"
@@ -276,16 +275,15 @@ void buildForceGauge(const std::string& fault, vtkRenderer* renderer)
 /// The voxel and the bandwidth of a picked point.
 void buildPickMarker(const std::string& fault, vtkRenderer* renderer)
 {
-  static const auto marker = vtkSmartPointer<vtkPickMarker>::New();
+  static pointhaptics::PickMarker marker;
   look(renderer);
   const vtkSmartPointer<vtkPolyData> cloud = cloudOf(spiralSphere(4000, 0.038));
   addHeightArray(cloud, { 0, 0, 1 });
   showCloud(renderer, resample(cloud, 0.008), kHeightArrayName, 5.0);
   const double edge = fault == "wrong-voxel" ? 0.007 : 0.008;
-  const double point[3] = { 0.012, -0.036, 0.004 };
-  const double voxel[6] = { 0.008, 0.008 + edge, -0.040, -0.040 + edge, 0.0, edge };
-  marker->Mark(point, voxel, fault == "wrong-bandwidth" ? 0.010 : 0.012);
-  marker->AddTo(renderer);
+  const Bounds voxel{ { 0.008, -0.040, 0.0 }, { 0.008 + edge, -0.040 + edge, edge } };
+  marker.mark({ 0.012, -0.036, 0.004 }, voxel, fault == "wrong-bandwidth" ? 0.010 : 0.012);
+  marker.addTo(renderer);
 }
 
 /// A touch on a sphere as a printed figure has it: one colour, cube, proxy and normal, nothing else.

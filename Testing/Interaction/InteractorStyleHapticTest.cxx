@@ -193,7 +193,7 @@ TEST_F(InteractorStyleHaptic, DrivesTheHandInTheViewPlaneAndInDepth)
   this->press("Prior"); // away from the person, who looks along -z
   EXPECT_LT(device.target().z, 0.0);
   this->press("f");
-  EXPECT_TRUE(style_->GetHandMode());
+  EXPECT_TRUE(style_->GetHand().followsMouse());
   interactor_->SetEventInformation(100, 140, 0, 0);
   interactor_->InvokeEvent(vtkCommand::MouseMoveEvent);
   EXPECT_GT(device.target().y, 0.01);

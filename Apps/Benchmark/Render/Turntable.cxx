@@ -16,7 +16,12 @@ Turntable::~Turntable()
 
 bool Turntable::open(const std::string& file, int width, int height, std::string& message)
 {
-  if (!scene_.open({ file }, HapticViewerOptions(), message))
+  LoadedCloud loaded;
+  const HapticViewerOptions options;
+  const CloudRequest request({ file }, options);
+  if (!loadCloud(
+        request, [](const char*, double) { return true; }, loaded, message) ||
+    !scene_.open(std::move(loaded), options, message))
   {
     return false;
   }
@@ -58,7 +63,7 @@ int Turntable::rest()
 
 void Turntable::turnToStill(double degrees)
 {
-  scene_.completeNextFrame();
+  scene_.detail().showFinestOnce();
   this->turn(degrees);
 }
 

@@ -50,16 +50,15 @@ std::pair<Recording, vtkSmartPointer<vtkPolyData>> openRecording(
   HapticViewerOptions viewer;
   std::vector<std::string> clouds;
   Recording recording = readRecordingFor(viewer, clouds, files.input(fileName));
-  CloudRequest request =
-    CloudRequest::of(cloudFile.empty() ? clouds : std::vector<std::string>{ cloudFile }, viewer);
-  request.options = nullptr; // it is only read
+  CloudRequest request(cloudFile.empty() ? clouds : std::vector<std::string>{ cloudFile }, viewer);
+  request.isOnlyRead = true;
   for (std::string& file : request.files)
   {
     file = files.input(file);
   }
   ProgressBar bar("reading");
   vtkSmartPointer<vtkPolyData> cloud;
-  const auto goesOn = [&bar](double part)
+  const auto progress = [&bar](const char*, double part)
   {
     bar.show(part);
     return !stopIsRequested();
@@ -69,7 +68,7 @@ std::pair<Recording, vtkSmartPointer<vtkPolyData>> openRecording(
   {
     std::string problem;
     LoadedCloud loaded;
-    isLoaded = loadCloud(request, goesOn, loaded, problem);
+    isLoaded = loadCloud(request, progress, loaded, problem);
     if (isLoaded)
     {
       cloud = shownPart(loaded.cloud, viewer.clip, loaded.showing.hidden);
@@ -79,10 +78,10 @@ std::pair<Recording, vtkSmartPointer<vtkPolyData>> openRecording(
     return problem;
   };
   std::string problem = takeCloud();
-  if (!problem.empty() && isLoaded && !request.vertices)
+  if (!problem.empty() && isLoaded && !request.options.vertices)
   {
     // Before faces were sampled, meshes were felt by their vertices, and recordings did not say so.
-    request.vertices = true;
+    request.options.vertices = true;
     problem = takeCloud().empty() ? "" : problem;
   }
   require(problem.empty(), problem);

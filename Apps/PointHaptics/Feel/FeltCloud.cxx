@@ -63,10 +63,9 @@ void requirePoints(bool canBeFelt, const FeelCommand& options, vtkPolyData* clou
 std::shared_ptr<const HapticScene> resampledScene(const FeelCommand& options, vtkPolyData* cloud, Bounds& box)
 {
   ProgressBar bar("resampling");
-  CloudRequest request = CloudRequest::of({ options.file }, options.viewer);
+  CloudRequest request({ options.file }, options.viewer);
   request.makesScene = true;
   request.isFeltOnly = true;
-  request.working = [&bar](const char*, double part) { bar.show(part); };
   LoadedCloud loaded;
   loaded.cloud = cloud;
   loaded.title = options.file;
@@ -74,8 +73,12 @@ std::shared_ptr<const HapticScene> resampledScene(const FeelCommand& options, vt
   requirePoints(!loaded.bounds.empty(), options, cloud);
   placeCloud(request, loaded);
   std::string message;
-  const bool isMade = resampleCloud(
-    request, [] { return !stopIsRequested(); }, loaded, message);
+  const auto progress = [&bar](const char*, double part)
+  {
+    bar.show(part);
+    return !stopIsRequested();
+  };
+  const bool isMade = resampleCloud(request, progress, loaded, message);
   if (isMade)
   {
     noteNoReturns(request, loaded);

@@ -268,18 +268,18 @@ nlohmann::ordered_json givenSettings(CLI::App& command)
 
 void setState(nlohmann::ordered_json& settings, const HapticViewerState& state, double metresPerUnit)
 {
-  setModel(settings, state, state.unit.empty() ? metresPerUnit : state.metresPerUnit);
-  if (!state.unit.empty())
+  setModel(settings, state, state.unitIsChosen ? state.metresPerUnit : metresPerUnit);
+  if (state.unitIsChosen)
   {
     settings["unit"] = state.unit;
   }
-  if (state.voxelSize > 0.0)
+  if (state.voxels.lattice.voxelSize > 0.0)
   {
     settings.erase("dims");
-    settings["voxel"] = state.voxelSize;
+    settings["voxel"] = state.voxels.lattice.voxelSize;
   }
-  setContact(settings, state.contact);
-  settings["beta"] = state.radiusScale;
+  setContact(settings, state.haptics.contact);
+  settings["beta"] = state.bandwidth.radiusScale;
   settings["camera"] = state.camera;
   settings["push-pointer"] = state.pushPointer;
   settings["axes"] = state.axes;

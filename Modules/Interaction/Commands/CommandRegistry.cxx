@@ -2,10 +2,11 @@
 
 #include "Gesture.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 #include <sstream>
-#include <utility>
 
 namespace pointhaptics
 {
@@ -25,22 +26,6 @@ std::vector<std::string> wordsOf(const std::string& text)
     words.push_back(word);
   }
   return words;
-}
-
-std::string joined(const std::vector<std::string>& words, const char* separator)
-{
-  std::string text;
-  for (const std::string& word : words)
-  {
-    text += (text.empty() ? "" : separator) + word;
-  }
-  return text;
-}
-
-std::string padded(std::string text, std::size_t width)
-{
-  text.resize(std::max(text.size(), width), ' ');
-  return text;
 }
 
 /// Gives the four arrow keys one name together.
@@ -178,7 +163,7 @@ void CommandRegistry::bind(const std::vector<std::string>& bindings)
 std::string CommandRegistry::bindings(const std::string& name) const
 {
   const Entry* entry = this->entryOf(name);
-  return entry ? joined(entry->gestures, " ") : std::string();
+  return entry ? fmt::format("{}", fmt::join(entry->gestures, " ")) : std::string();
 }
 
 std::string CommandRegistry::label(const std::string& name) const
@@ -252,7 +237,7 @@ std::string CommandRegistry::labelsOf(const std::vector<const Entry*>& line, Sco
       }
     }
   }
-  return withArrowKeys(joined(labels, ", "));
+  return withArrowKeys(fmt::format("{}", fmt::join(labels, ", ")));
 }
 
 std::string CommandRegistry::help(Scope scope) const
@@ -278,8 +263,8 @@ std::string CommandRegistry::help(Scope scope) const
       const std::string labels = this->labelsOf(line.second, scope);
       if (!labels.empty())
       {
-        text += (text.empty() ? "" : "\n") + padded(heading, kGroupWidth) + " " +
-          padded(labels, kGestureWidth) + " " + line.first;
+        text += fmt::format("{}{:<{}} {:<{}} {}", text.empty() ? "" : "\n", heading, kGroupWidth, labels,
+          kGestureWidth, line.first);
         heading.clear();
       }
     }

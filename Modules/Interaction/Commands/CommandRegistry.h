@@ -60,21 +60,6 @@ struct Command
   std::function<bool()> isAvailable = {};
 };
 
-/// Calls @p action, a function or member function, with the result of @p part and @p arguments, where @p part
-/// still returns one: commands may live for longer than what they work on.
-template <typename Part, typename Action, typename... Arguments>
-auto whileThere(std::function<Part*()> part, Action action, Arguments... arguments)
-{
-  return [part = std::move(part), action, arguments...](
-           auto... more) -> std::invoke_result_t<const Action&, Part&, Arguments..., decltype(more)...>
-  {
-    if (Part* there = part())
-    {
-      std::invoke(action, *there, arguments..., more...);
-    }
-  };
-}
-
 /// Calls the function of @p command if it is of the kind that happens once. False: it is null or of another
 /// kind.
 POINTHAPTICSINTERACTION_EXPORT bool runOnce(const Command* command);
@@ -159,6 +144,61 @@ private:
   std::vector<std::string> conflicts_;
   std::string modifier_;
   std::function<void()> changed_;
+};
+
+/// Adds commands of one group of the help that work on a part. Commands may live for longer than their part.
+template <typename Part>
+class CommandGroup
+{
+public:
+  /// @p part returns the part while it is there. The help leaves the commands out where it is gone, or where
+  /// @p isAvailable, if given, is false.
+  CommandGroup(CommandRegistry& commands, const char* group, std::function<Part*()> part,
+    std::function<bool(Part&)> isAvailable = {})
+    : commands_(commands)
+    , group_(group)
+    , part_(std::move(part))
+    , isAvailable_(std::move(isAvailable))
+  {
+  }
+
+  /// Wraps @p action, a function or member function: it is called with the part and @p arguments.
+  template <typename Action, typename... Arguments>
+  auto call(Action action, Arguments... arguments) const
+  {
+    return [part = part_, action, arguments...](
+             auto... more) -> std::invoke_result_t<const Action&, Part&, Arguments..., decltype(more)...>
+    {
+      if (Part* there = part())
+      {
+        std::invoke(action, *there, arguments..., more...);
+      }
+    };
+  }
+  /// Adds a command. @p action is a CommandAction, or what call() takes.
+  template <typename Action, typename... Arguments>
+  void add(const char* name, const char* gestures, const char* help, Action action, Arguments... arguments)
+  {
+    const auto isThere = [part = part_, isAvailable = isAvailable_]
+    {
+      Part* there = part();
+      return there && (!isAvailable || isAvailable(*there));
+    };
+    if constexpr (std::is_constructible_v<CommandAction, Action>)
+    {
+      commands_.add({ name, gestures, group_, help, CommandAction(std::move(action)), isThere });
+    }
+    else
+    {
+      commands_.add({ name, gestures, group_, help, this->call(action, arguments...), isThere });
+    }
+  }
+
+private:
+  CommandRegistry& commands_;
+  const char* group_;
+  std::function<Part*()> part_;
+  std::function<bool(Part&)> isAvailable_;
 };
 
 } // namespace pointhaptics

@@ -1,5 +1,6 @@
 #include "StyleCommands.h"
 
+#include "ScreenMarks.h"
 #include "vtkHapticChart.h"
 #include "vtkHapticSliders.h"
 #include "vtkInteractorStyleHaptic.h"
@@ -214,12 +215,9 @@ void rotateByHand(vtkInteractorStyleHaptic& style, const Vec3& way)
 void moveWorkspace(vtkInteractorStyleHaptic& style, const Vec3& way)
 {
   vtkCamera* camera = style.GetScreen().renderer()->GetActiveCamera();
-  Vec3 eye;
-  Vec3 focus;
-  camera->GetPosition(&eye.x);
-  camera->GetFocalPoint(&focus.x);
-  eye += way;
-  focus += way;
+  const CameraView view(camera);
+  const Vec3 eye = view.eye + way;
+  const Vec3 focus = view.focus + way;
   camera->SetPosition(&eye.x);
   camera->SetFocalPoint(&focus.x);
   style.GetModel().translate(way);

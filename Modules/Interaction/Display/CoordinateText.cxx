@@ -1,7 +1,7 @@
 #include "CoordinateText.h"
 
-#include "vtkDataArray.h"
-#include "vtkFieldData.h"
+#include "HapticSceneBuilder.h"
+
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 
@@ -55,21 +55,6 @@ int distanceDecimals(vtkPolyData* cloud, const Vec3& from, const Vec3& to, doubl
 }
 
 } // namespace
-
-bool fieldValues(vtkPolyData* cloud, const char* name, int count, double* values)
-{
-  vtkDataArray* array = cloud->GetFieldData()->GetArray(name);
-  if (!array || array->GetNumberOfValues() < count)
-  {
-    return false;
-  }
-  for (int i = 0; i < count; ++i)
-  {
-    const int components = array->GetNumberOfComponents();
-    values[i] = array->GetComponent(i / components, i % components);
-  }
-  return true;
-}
 
 std::string fixedText(double value, int decimals)
 {

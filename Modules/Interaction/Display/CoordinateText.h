@@ -14,9 +14,6 @@ class vtkPolyData;
 namespace pointhaptics
 {
 
-/// Gets @p count values of a field array, tuple by tuple. False: @p cloud has no such array, or fewer values.
-bool fieldValues(vtkPolyData* cloud, const char* name, int count, double* values);
-
 /// Text of @p value with @p decimals; a number that is rounded to zero has no sign.
 std::string fixedText(double value, int decimals);
 

@@ -4,7 +4,6 @@
 #include "ScenePipeline.h"
 #include "ScreenView.h"
 #include "StatusText.h"
-#include "vtkPickMarker.h"
 
 #include "vtkActor.h"
 #include "vtkMatrix4x4.h"
@@ -27,22 +26,6 @@ constexpr double kNearPixels[] = { 2.0, 4.0, 8.0 };
 constexpr double kSteepest = 3.0;
 
 } // namespace
-
-PointPicker::PointPicker(const ScreenView& screen, const ScenePipeline& scenes, const StatusText& status)
-  : screen_(screen)
-  , scenes_(scenes)
-  , status_(status)
-  , marker_(vtkSmartPointer<vtkPickMarker>::New())
-{
-}
-
-PointPicker::~PointPicker() = default;
-
-void PointPicker::setPointsOfFile(vtkActor* actor, const std::set<std::string>& leftOut)
-{
-  fileActor_ = actor;
-  leftOut_ = leftOut;
-}
 
 PickedOfFile PointPicker::pickOfFile(int x, int y) const
 {
@@ -104,14 +87,8 @@ bool PointPicker::pickAt(int x, int y)
     // A neighbourhood without a bandwidth leaves it at 0, which is not shown.
     static_cast<void>(measurePicked(cloud, scenes_.bandwidthFilter()->GetSettings(), picked));
   }
-  double voxel[6];
-  for (int axis = 0; picked.voxelBounds && axis < 3; ++axis)
-  {
-    voxel[2 * axis] = picked.voxelBounds->minimum[axis];
-    voxel[2 * axis + 1] = picked.voxelBounds->maximum[axis];
-  }
-  marker_->AddTo(renderer);
-  marker_->Mark(&picked.inWorkspace.x, picked.voxelBounds ? voxel : nullptr, picked.bandwidth);
+  marker_.addTo(renderer);
+  marker_.mark(picked.inWorkspace, picked.voxelBounds, picked.bandwidth);
   if (vtkHapticOverlay* overlay = status_.overlay())
   {
     overlay->SetDetail(describePicked(cloud, picked, this->pickOfFile(x, y)));
@@ -121,13 +98,11 @@ bool PointPicker::pickAt(int x, int y)
 
 bool PointPicker::forget()
 {
-  const bool wasShown = marker_->GetVisibility();
-  marker_->SetVisibility(false);
   if (vtkHapticOverlay* overlay = status_.overlay())
   {
     overlay->SetDetail("");
   }
-  return wasShown;
+  return marker_.hide();
 }
 
 } // namespace pointhaptics

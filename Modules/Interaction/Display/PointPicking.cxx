@@ -3,6 +3,7 @@
 #include "AsprsClasses.h"
 #include "CloudAppearance.h"
 #include "CoordinateText.h"
+#include "HapticSceneBuilder.h"
 #include "PolyDataAccess.h"
 #include "ScreenMarks.h"
 #include "SmpExecutor.h"
@@ -27,11 +28,11 @@
 #include "vtkRenderer.h"
 #include "vtkSmartPointer.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
-#include <cstring>
 #include <vector>
 
 namespace pointhaptics
@@ -50,55 +51,31 @@ constexpr int kMostComponents = 9;
 /// Neighbours whose reach tells how far points are apart: those around a point of a grid.
 constexpr int kNeighbors = 8;
 
-std::optional<Vec3> placeInCloud(vtkPolyData* cloud, const Vec3& inWorkspace)
+/// From the workspace to the frame of the file; nothing: the cloud does not say.
+std::optional<AffineTransform> toFile(vtkPolyData* cloud)
 {
   double elements[16];
   if (!fieldValues(cloud, "ModelToWorkspace", 16, elements))
   {
     return {};
   }
-  vtkNew<vtkMatrix4x4> matrix;
-  matrix->DeepCopy(elements);
-  if (matrix->Determinant() == 0.0)
-  {
-    return {};
-  }
-  matrix->Invert();
-  return transformed(matrix, inWorkspace);
+  const AffineTransform model = AffineTransform::fromRows(elements);
+  return model.determinant() == 0.0 ? std::nullopt : std::optional(model.inverse());
 }
 
 /// Step to which coordinates of the file are shown: a thousandth of the smallest edge of a voxel; 0 where the
 /// cloud has no voxels.
 double coordinateStep(vtkPolyData* cloud)
 {
-  double spacing[3];
-  double elements[16];
-  if (!fieldValues(cloud, "LatticeSpacing", 3, spacing) ||
-    !fieldValues(cloud, "ModelToWorkspace", 16, elements))
+  Vec3 spacing;
+  const std::optional<AffineTransform> back = toFile(cloud);
+  if (!back || !fieldValues(cloud, "LatticeSpacing", 3, &spacing.x))
   {
     return 0.0;
   }
-  vtkNew<vtkMatrix4x4> matrix;
-  matrix->DeepCopy(elements);
-  if (matrix->Determinant() == 0.0)
-  {
-    return 0.0;
-  }
-  matrix->Invert();
-  double smallest = INFINITY;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    const Vec3 edge{ matrix->GetElement(0, axis), matrix->GetElement(1, axis), matrix->GetElement(2, axis) };
-    smallest = std::min(smallest, spacing[axis] * norm(edge));
-  }
-  return kStepInVoxels * smallest;
-}
-
-std::string shortText(double value)
-{
-  char text[64];
-  std::snprintf(text, sizeof(text), "%.6g", value);
-  return text;
+  const double edges[3] = { norm(back->applyToVector({ spacing.x, 0.0, 0.0 })),
+    norm(back->applyToVector({ 0.0, spacing.y, 0.0 })), norm(back->applyToVector({ 0.0, 0.0, spacing.z })) };
+  return kStepInVoxels * *std::min_element(edges, edges + 3);
 }
 
 /// Text of an array's value: whole numbers whole, large ones without an exponent.
@@ -107,7 +84,7 @@ std::string valueText(double value)
   const double size = std::abs(value);
   if (!(size < kLargestFixed) || size < kLeastFixed)
   {
-    return shortText(value);
+    return fmt::format("{:.6g}", value);
   }
   return fixedText(value, value == std::round(value) ? 0 : kLeastDecimals);
 }
@@ -254,13 +231,10 @@ bool isOfSurface(
 double lengthOf(vtkRenderer* renderer, double pixels, const Vec3& place)
 {
   vtkCamera* camera = renderer->GetActiveCamera();
-  Vec3 eye;
-  Vec3 forward;
-  camera->GetPosition(&eye.x);
-  camera->GetDirectionOfProjection(&forward.x);
-  const double halfHeight = camera->GetParallelProjection()
-    ? camera->GetParallelScale()
-    : dot(place - eye, forward) * std::tan(0.5 * vtkMath::RadiansFromDegrees(camera->GetViewAngle()));
+  const CameraView view(camera);
+  const double halfHeight = camera->GetParallelProjection() ? camera->GetParallelScale()
+                                                            : dot(place - view.eye, view.forward) *
+      std::tan(0.5 * vtkMath::RadiansFromDegrees(camera->GetViewAngle()));
   return 2.0 * halfHeight * pixels / std::max(1, renderer->GetSize()[1]);
 }
 
@@ -272,10 +246,7 @@ vtkIdType findPicked(vtkPolyData* cloud, vtkRenderer* renderer, double x, double
   const std::array<double, 2> pointer = placeInPicture(renderer, x, y);
   const double pointerX = pointer[0] - renderer->GetOrigin()[0];
   const double pointerY = pointer[1] - renderer->GetOrigin()[1];
-  Vec3 eye;
-  Vec3 forward;
-  renderer->GetActiveCamera()->GetPosition(&eye.x);
-  renderer->GetActiveCamera()->GetDirectionOfProjection(&forward.x);
+  const CameraView view(renderer->GetActiveCamera());
   double best = INFINITY;
   vtkIdType found = -1;
   for (vtkIdType i = 0; i < cloud->GetNumberOfPoints(); ++i)
@@ -283,7 +254,7 @@ vtkIdType findPicked(vtkPolyData* cloud, vtkRenderer* renderer, double x, double
     Vec3 p;
     cloud->GetPoint(i, &p.x);
     const Vec3 at = toWorkspace ? transformed(toWorkspace, p) : p;
-    const double away = shown ? norm2(at - *shown) : dot(at - eye, forward);
+    const double away = shown ? norm2(at - *shown) : dot(at - view.eye, view.forward);
     if (!(away < best))
     {
       continue;
@@ -322,7 +293,10 @@ bool pickPoint(vtkPolyData* cloud, vtkRenderer* renderer, double x, double y, do
   picked.index = found;
   picked.shown = isOfCloud ? std::optional<Vec3>(shown) : std::nullopt;
   cloud->GetPoint(found, &picked.inWorkspace.x);
-  picked.inCloud = placeInCloud(cloud, picked.inWorkspace);
+  if (const std::optional<AffineTransform> back = toFile(cloud))
+  {
+    picked.inCloud = back->apply(picked.inWorkspace);
+  }
   findVoxel(cloud, picked);
   return true;
 }
@@ -386,7 +360,6 @@ Status measurePicked(vtkPolyData* cloud, const LocalBandwidthSettings& settings,
 
 std::string describePicked(vtkPolyData* cloud, const PickedPoint& picked, const PickedOfFile& ofFile)
 {
-  char line[200];
   std::string text;
   const double step = coordinateStep(cloud);
   if (ofFile.cloud)
@@ -402,20 +375,17 @@ std::string describePicked(vtkPolyData* cloud, const PickedPoint& picked, const 
     }
     text += "\n";
   }
-  std::snprintf(line, sizeof(line), "in the workspace  %.2f  %.2f  %.2f mm", 1e3 * picked.inWorkspace.x,
-    1e3 * picked.inWorkspace.y, 1e3 * picked.inWorkspace.z);
-  text += line;
+  const Vec3& place = picked.inWorkspace;
+  text +=
+    fmt::format("in the workspace  {:.2f}  {:.2f}  {:.2f} mm", 1e3 * place.x, 1e3 * place.y, 1e3 * place.z);
   if (picked.voxel)
   {
-    std::snprintf(
-      line, sizeof(line), "\nvoxel  %.0f  %.0f  %.0f", picked.voxel->x, picked.voxel->y, picked.voxel->z);
-    text += line;
+    text += fmt::format("\nvoxel  {:.0f}  {:.0f}  {:.0f}", picked.voxel->x, picked.voxel->y, picked.voxel->z);
   }
   if (picked.bandwidth > 0.0)
   {
-    std::snprintf(line, sizeof(line), "\nbandwidth %.3g mm, proxy radius %.3g mm", 1e3 * picked.bandwidth,
-      1e3 * picked.radius);
-    text += line;
+    text += fmt::format(
+      "\nbandwidth {:.3g} mm, proxy radius {:.3g} mm", 1e3 * picked.bandwidth, 1e3 * picked.radius);
   }
   std::set<std::string> leftOut = ofFile.leftOut;
   leftOut.insert("VoxelCovariance");

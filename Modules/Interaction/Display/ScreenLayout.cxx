@@ -1,9 +1,6 @@
 #include "ScreenLayout.h"
 
 #include "ScreenMarks.h"
-#include "vtkHapticOverlay.h"
-#include "vtkHapticProgress.h"
-#include "vtkHapticSliders.h"
 
 #include "vtkRenderWindow.h"
 #include "vtkRenderer.h"
@@ -53,28 +50,6 @@ struct ScreenLayout::Room
   double gap() const { return kGap * pixels; }
 };
 
-ScreenLayout::ScreenLayout()
-  : before_([this] { this->arrange(renderer_); })
-{
-}
-
-ScreenLayout::~ScreenLayout() = default;
-
-void ScreenLayout::setOverlay(vtkHapticOverlay* overlay)
-{
-  overlay_ = overlay;
-}
-
-void ScreenLayout::setSliders(vtkHapticSliders* sliders)
-{
-  sliders_ = sliders;
-}
-
-void ScreenLayout::setProgress(vtkHapticProgress* progress)
-{
-  progress_ = progress;
-}
-
 void ScreenLayout::follow(vtkRenderer* renderer)
 {
   renderer_ = renderer;
@@ -90,11 +65,6 @@ std::vector<std::array<double, 4>> ScreenLayout::boxes() const
     boxes.push_back({ place.box.left, place.box.bottom, place.box.right, place.box.top });
   }
   return boxes;
-}
-
-void ScreenLayout::add(const char* name, const ScreenRectangle& box)
-{
-  places_.push_back({ name, box });
 }
 
 std::vector<double> ScreenLayout::state(vtkRenderer* renderer) const

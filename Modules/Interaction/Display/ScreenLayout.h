@@ -3,9 +3,13 @@
 #pragma once
 
 #include "EventLink.h"
+#include "vtkHapticOverlay.h"
+#include "vtkHapticProgress.h"
+#include "vtkHapticSliders.h"
 
 #include "PointHapticsInteractionModule.h" // For export macro
 
+#include "vtkRenderer.h"
 #include "vtkSmartPointer.h"
 #include "vtkWeakPointer.h"
 
@@ -13,11 +17,6 @@
 #include <functional>
 #include <string>
 #include <vector>
-
-class vtkHapticOverlay;
-class vtkHapticProgress;
-class vtkHapticSliders;
-class vtkRenderer;
 
 namespace pointhaptics
 {
@@ -58,16 +57,15 @@ struct ScreenBlock
 class POINTHAPTICSINTERACTION_EXPORT ScreenLayout
 {
 public:
-  ScreenLayout();
-  ~ScreenLayout();
+  ScreenLayout() = default;
   ScreenLayout(const ScreenLayout&) = delete;
   ScreenLayout& operator=(const ScreenLayout&) = delete;
 
   ///@{
   /// Set the blocks; null takes one away.
-  void setOverlay(vtkHapticOverlay* overlay);
-  void setSliders(vtkHapticSliders* sliders);
-  void setProgress(vtkHapticProgress* progress);
+  void setOverlay(vtkHapticOverlay* overlay) { overlay_ = overlay; }
+  void setSliders(vtkHapticSliders* sliders) { sliders_ = sliders; }
+  void setProgress(vtkHapticProgress* progress) { progress_ = progress; }
   void setScalarBar(ScreenBlock bar) { bar_ = std::move(bar); }
   /// Size in pixels, at 72 dots per inch, of the lower right corner that is taken; 0: none.
   void setCorner(std::function<double()> corner) { corner_ = std::move(corner); }
@@ -102,7 +100,7 @@ private:
   void leaveOut(const std::string& name);
   void placeDetail(Room& room, bool isLast);
   void placeHelp(vtkRenderer* renderer);
-  void add(const char* name, const ScreenRectangle& box);
+  void add(const char* name, const ScreenRectangle& box) { places_.push_back({ name, box }); }
 
   vtkSmartPointer<vtkHapticOverlay> overlay_;
   vtkSmartPointer<vtkHapticSliders> sliders_;
@@ -110,7 +108,7 @@ private:
   ScreenBlock bar_;
   std::function<double()> corner_;
   std::function<bool()> opaque_;
-  EventLink before_;
+  EventLink before_{ [this] { this->arrange(renderer_); } };
   vtkWeakPointer<vtkRenderer> renderer_;
   std::vector<double> arranged_; ///< Values on which the places depend, at the last arrangement.
   std::string arrangedTexts_;

@@ -8,7 +8,7 @@
 #include "Core/Base/QuantityText.h"
 #include "Haptics/ServoLoop.h"
 
-#include <cstdio>
+#include <fmt/format.h>
 
 namespace pointhaptics
 {
@@ -17,13 +17,7 @@ namespace
 
 constexpr double kPeriodSeconds = 0.25;
 constexpr double kIdlePeriodSeconds = 4.0;
-constexpr double kNow = -1e9;
 constexpr std::size_t kLongestDevice = 200;
-
-unsigned long long count(std::uint64_t n)
-{
-  return static_cast<unsigned long long>(n);
-}
 
 /// "1 point", "2 points".
 std::string counted(vtkIdType n, const char* noun)
@@ -33,46 +27,10 @@ std::string counted(vtkIdType n, const char* noun)
 
 } // namespace
 
-StatusText::StatusText(const CommandRegistry& commands, const ScenePipeline& scenes, const MouseHand& hand,
-  const DeviceClutch& clutch)
-  : commands_(commands)
-  , scenes_(scenes)
-  , hand_(hand)
-  , clutch_(clutch)
-{
-}
-
-StatusText::~StatusText() = default;
-
 void StatusText::setOverlay(vtkHapticOverlay* overlay)
 {
-  overlay_ = overlay;
-  lastUpdate_ = kNow;
+  this->set(overlay_, vtkSmartPointer<vtkHapticOverlay>(overlay));
   this->updateHelp();
-}
-
-void StatusText::setNote(const std::string& note)
-{
-  note_ = note;
-  lastUpdate_ = kNow;
-}
-
-void StatusText::setDeviceNote(const std::string& note)
-{
-  deviceNote_ = note;
-  lastUpdate_ = kNow;
-}
-
-void StatusText::setDeviceName(const std::string& name)
-{
-  deviceName_ = name;
-  lastUpdate_ = kNow;
-}
-
-void StatusText::setPanelVisibility(bool visible)
-{
-  showsPanel_ = visible;
-  lastUpdate_ = kNow;
 }
 
 void StatusText::turnHelp()
@@ -139,7 +97,6 @@ std::string StatusText::resetHint() const
 
 std::string StatusText::statusLine(const ServoLoop* servo) const
 {
-  char text[320];
   const bool isPending = scenes_.isEmpty() && !scenes_.isSettled();
   std::string status = counted(scenes_.numberOfPoints(), "point");
   if (!isPending)
@@ -154,15 +111,13 @@ std::string StatusText::statusLine(const ServoLoop* servo) const
   {
     const ServoSample latest = servo->latest();
     const ServoStatistics statistics = servo->statistics();
-    std::snprintf(text, sizeof(text),
-      "\nproxy radius %s    force %.2f N%s\nservo %.0f Hz, %llu deadline miss%s%s",
-      lengthText(latest.state.radius).c_str(), norm(latest.state.force),
+    status += fmt::format("\nproxy radius {}    force {:.2f} N{}\nservo {:.0f} Hz, {} deadline miss{}{}",
+      lengthText(latest.state.radius), norm(latest.state.force),
       latest.state.contact                  ? "    in contact"
         : latest.state.status & kProxyLetGo ? "    let go: the hand was too far from its contact"
                                             : "",
-      statistics.rateHz, count(statistics.deadlineMisses), statistics.deadlineMisses == 1 ? "" : "es",
+      statistics.rateHz, statistics.deadlineMisses, statistics.deadlineMisses == 1 ? "" : "es",
       this->handMode());
-    status += text;
     if (!latest.state.contact && !distance_.empty())
     {
       status += "\n" + distance_;
@@ -186,22 +141,23 @@ std::string StatusText::panel(const ServoLoop* servo) const
     return "servo loop: none\ndevice: " + device;
   }
   const ServoStatistics statistics = servo->statistics();
-  char text[640];
-  std::snprintf(text, sizeof(text),
-    "servo loop: %s%s\n"
-    "rate: %.1f Hz\n"
-    "jitter: p50 %.0f us, p99 %.0f us, max %.0f us\n"
-    "step time: p50 %.0f us, p99 %.0f us, max %.0f us\n"
-    "ticks: %llu, deadline misses: %llu, idle: %llu\n"
-    "device faults: %llu, waiting: %llu\n"
-    "force limit: %s\n"
-    "device: ",
+  const auto microseconds = [](const auto& of)
+  {
+    return fmt::format(
+      "p50 {:.0f} us, p99 {:.0f} us, max {:.0f} us", 1e6 * of.p50, 1e6 * of.p99, 1e6 * of.maximum);
+  };
+  return fmt::format("servo loop: {}{}\n"
+                     "rate: {:.1f} Hz\n"
+                     "jitter: {}\n"
+                     "step time: {}\n"
+                     "ticks: {}, deadline misses: {}, idle: {}\n"
+                     "device faults: {}, waiting: {}\n"
+                     "force limit: {}\n"
+                     "device: {}",
     servo->running() ? "running" : "stopped", statistics.realtime ? ", SCHED_FIFO" : "", statistics.rateHz,
-    1e6 * statistics.jitter.p50, 1e6 * statistics.jitter.p99, 1e6 * statistics.jitter.maximum,
-    1e6 * statistics.update.p50, 1e6 * statistics.update.p99, 1e6 * statistics.update.maximum,
-    count(statistics.ticks), count(statistics.deadlineMisses), count(statistics.idleTicks),
-    count(statistics.deviceFaults), count(statistics.waitingTicks), servo->forceLimit().text().c_str());
-  return text + device;
+    microseconds(statistics.jitter), microseconds(statistics.update), statistics.ticks,
+    statistics.deadlineMisses, statistics.idleTicks, statistics.deviceFaults, statistics.waitingTicks,
+    servo->forceLimit().text(), device);
 }
 
 } // namespace pointhaptics

@@ -25,8 +25,13 @@ class POINTHAPTICSINTERACTION_EXPORT StatusText
 public:
   /// All must outlive this.
   StatusText(const CommandRegistry& commands, const ScenePipeline& scenes, const MouseHand& hand,
-    const DeviceClutch& clutch);
-  ~StatusText();
+    const DeviceClutch& clutch)
+    : commands_(commands)
+    , scenes_(scenes)
+    , hand_(hand)
+    , clutch_(clutch)
+  {
+  }
   StatusText(const StatusText&) = delete;
   StatusText& operator=(const StatusText&) = delete;
 
@@ -35,14 +40,14 @@ public:
   vtkHapticOverlay* overlay() const { return overlay_; }
 
   /// Text at the end of the status line, such as the scale of the model.
-  void setNote(const std::string& note);
+  void setNote(const std::string& note) { this->set(note_, note); }
   /// Name and state of the device, for the panel. Empty: the device's own name.
-  void setDeviceNote(const std::string& note);
+  void setDeviceNote(const std::string& note) { this->set(deviceNote_, note); }
   /// Name of the device, until there is a note.
-  void setDeviceName(const std::string& name);
+  void setDeviceName(const std::string& name) { this->set(deviceName_, name); }
   ///@{
   /// Show rate, latencies, missed deadlines, faults and the device. Default: off.
-  void setPanelVisibility(bool visible);
+  void setPanelVisibility(bool visible) { this->set(showsPanel_, visible); }
   bool panelVisibility() const { return showsPanel_; }
   ///@}
   /// Text on the distance from the hand to the cloud; empty: none.
@@ -61,6 +66,13 @@ public:
   std::string resetHint() const;
 
 private:
+  /// Changes a text's part: the next update() shows it.
+  template <typename Value>
+  void set(Value& member, const Value& value)
+  {
+    member = value;
+    lastUpdate_ = -1e9;
+  }
   std::string statusLine(const ServoLoop* servo) const;
   std::string panel(const ServoLoop* servo) const;
   const char* handMode() const;

@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <optional>
 
 namespace pointhaptics
 {
@@ -20,62 +19,28 @@ namespace
 /// A background darker than this has light texts.
 constexpr double kDarkGround = 0.5;
 
-/// Keeps an unchanged chart from being drawn while it lives: the window keeps its picture.
-class ChartPause
+/// All but its curves that the picture of a chart depends on.
+std::vector<double> placeOf(vtkRenderer* chart)
 {
-public:
-  ChartPause(vtkRenderer* chart, bool changed, std::vector<double>& picture)
-  {
-    const int* size = chart->GetVTKWindow() ? chart->GetVTKWindow()->GetActualSize() : nullptr;
-    std::vector<double> wanted(4);
-    chart->GetViewport(wanted.data());
-    wanted.push_back(size ? size[0] : 0);
-    wanted.push_back(size ? size[1] : 0);
-    if (chart->GetDraw() && !changed && wanted == picture)
-    {
-      chart_ = chart;
-      chart_->DrawOff();
-    }
-    picture = chart->GetDraw() || chart_ ? wanted : std::vector<double>();
-  }
-  ~ChartPause()
-  {
-    if (chart_)
-    {
-      chart_->DrawOn();
-    }
-  }
-  ChartPause(const ChartPause&) = delete;
-  ChartPause& operator=(const ChartPause&) = delete;
-
-private:
-  vtkRenderer* chart_ = nullptr;
-};
+  const int* size = chart->GetVTKWindow() ? chart->GetVTKWindow()->GetActualSize() : nullptr;
+  std::vector<double> place(4);
+  chart->GetViewport(place.data());
+  place.push_back(size ? size[0] : 0);
+  place.push_back(size ? size[1] : 0);
+  return place;
+}
 
 } // namespace
-
-TouchDisplay::TouchDisplay(const ScreenView& screen)
-  : screen_(screen)
-{
-}
-
-TouchDisplay::~TouchDisplay() = default;
-
-void TouchDisplay::setProps(vtkHapticProps* props)
-{
-  props_ = props;
-}
 
 void TouchDisplay::setChart(vtkHapticChart* chart)
 {
   chart_ = chart;
-  wantsChart_ = chart && chart->GetVisibility();
+  wish_ = chart && chart->GetVisibility() ? Wish::On : Wish::Off;
 }
 
 void TouchDisplay::setChartVisibility(bool visible)
 {
-  wantsChart_ = visible;
-  chartWaits_ = false;
+  wish_ = visible ? Wish::On : Wish::Off;
   this->placeChart();
 }
 
@@ -87,9 +52,7 @@ void TouchDisplay::setFigure(bool on)
 
 void TouchDisplay::hideChartUntilTouch()
 {
-  wantsChart_ = false;
-  chartWaits_ = true;
-  isFelt_ = false;
+  wish_ = Wish::UntilTouch;
   if (chart_)
   {
     chart_->SetVisibility(false); // no picture has made room for it yet
@@ -99,8 +62,11 @@ void TouchDisplay::hideChartUntilTouch()
 bool TouchDisplay::showChartIfFelt(const std::vector<ServoSample>& samples, bool isDragged)
 {
   const auto isFelt = [](const ServoSample& sample) { return norm(sample.state.force) > 0.0; };
-  isFelt_ = chartWaits_ && (isFelt_ || std::any_of(samples.begin(), samples.end(), isFelt));
-  if (!isFelt_ || isDragged)
+  if (wish_ == Wish::UntilTouch && std::any_of(samples.begin(), samples.end(), isFelt))
+  {
+    wish_ = Wish::Touched;
+  }
+  if (wish_ != Wish::Touched || isDragged)
   {
     return false;
   }
@@ -111,7 +77,7 @@ bool TouchDisplay::showChartIfFelt(const std::vector<ServoSample>& samples, bool
 void TouchDisplay::placeChart()
 {
   vtkRenderer* renderer = screen_.renderer();
-  const bool visible = wantsChart_ && !isFigure_;
+  const bool visible = wish_ == Wish::On && !isFigure_;
   if (chart_ && renderer && chart_->GetVisibility() != visible)
   {
     chart_->SetVisibility(visible);
@@ -180,19 +146,25 @@ void TouchDisplay::render()
   {
     renderer->ResetCameraClippingRange();
   }
-  std::optional<ChartPause> pause;
-  if (chart_)
+  vtkRenderer* chart = chart_ ? chart_->GetRenderer() : nullptr;
+  bool isKept = false; // the window keeps the picture of a chart that has not changed
+  if (chart)
   {
     // The chart has the ground of the picture above it, which a key may change.
     const double* ground = screen_.renderer() ? screen_.renderer()->GetBackground() : nullptr;
-    chartChanged_ =
-      (ground &&
-        chart_->SetDark(0.2126 * ground[0] + 0.7152 * ground[1] + 0.0722 * ground[2] < kDarkGround)) ||
-      chartChanged_;
-    pause.emplace(chart_->GetRenderer(), chartChanged_, chartPicture_);
+    const bool isOther =
+      ground && chart_->SetDark(0.2126 * ground[0] + 0.7152 * ground[1] + 0.0722 * ground[2] < kDarkGround);
+    const std::vector<double> place = chart->GetDraw() ? placeOf(chart) : std::vector<double>();
+    isKept = chart->GetDraw() && !isOther && !chartChanged_ && place == chartPlace_;
+    chart->SetDraw(chart->GetDraw() && !isKept);
+    chartPlace_ = place;
   }
   chartChanged_ = false;
   screen_.interactor()->Render();
+  if (isKept)
+  {
+    chart->DrawOn();
+  }
 }
 
 } // namespace pointhaptics

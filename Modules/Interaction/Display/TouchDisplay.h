@@ -28,14 +28,16 @@ class POINTHAPTICSINTERACTION_EXPORT TouchDisplay
 {
 public:
   /// @p screen must outlive this.
-  explicit TouchDisplay(const ScreenView& screen);
-  ~TouchDisplay();
+  explicit TouchDisplay(const ScreenView& screen)
+    : screen_(screen)
+  {
+  }
   TouchDisplay(const TouchDisplay&) = delete;
   TouchDisplay& operator=(const TouchDisplay&) = delete;
 
   ///@{
   /// Null takes one away.
-  void setProps(vtkHapticProps* props);
+  void setProps(vtkHapticProps* props) { props_ = props; }
   void setChart(vtkHapticChart* chart);
   vtkHapticChart* chart() const { return chart_; }
   ///@}
@@ -45,7 +47,7 @@ public:
   /// Whether the user wants the chart, a strip along the lower edge; the picture takes the room that it
   /// leaves.
   void setChartVisibility(bool visible);
-  bool wantsChart() const { return wantsChart_; }
+  bool wantsChart() const { return wish_ == Wish::On; }
   /// A figure has no chart.
   void setFigure(bool on);
   /// Hides the chart, which no picture has made room for yet, until a force is felt or the user asks for it.
@@ -65,6 +67,14 @@ public:
   void renderIfDue();
 
 private:
+  /// Whether a chart is wanted: no, once a force is felt, as soon as the hand that felt it rests, or yes.
+  enum class Wish
+  {
+    Off,
+    UntilTouch,
+    Touched,
+    On,
+  };
   void placeChart();
   bool isDue() const;
   void render();
@@ -74,13 +84,11 @@ private:
   vtkSmartPointer<vtkHapticChart> chart_;
   std::function<double(const ServoSample&)> idealForce_;
   bool isRequested_ = false;
-  bool wantsChart_ = false;
-  bool chartWaits_ = false; ///< True until a force is felt or the user asks for the chart.
-  bool isFelt_ = false;     ///< True once a force was felt while the chart waited.
+  Wish wish_ = Wish::Off;
   bool isFigure_ = false;
-  bool chartChanged_ = true;         ///< True if the chart changed since it was drawn.
-  std::vector<double> chartPicture_; ///< Other values on which the chart's picture depends.
-  double frameSeconds_ = 0.0;        ///< Duration of the last frame.
+  bool chartChanged_ = true;       ///< True if the chart changed since it was drawn.
+  std::vector<double> chartPlace_; ///< Where the chart was drawn; empty: it was not.
+  double frameSeconds_ = 0.0;      ///< Duration of the last frame.
   double frameEnd_ = -1e9;
 };
 

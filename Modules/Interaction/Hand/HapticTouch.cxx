@@ -4,6 +4,8 @@
 #include "CloudColors.h"
 #include "vtkSplatMapper.h"
 
+#include "Core/Base/Boxes.h"
+
 #include "vtkActor.h"
 #include "vtkPolyData.h"
 #include "vtkProperty.h"
@@ -44,12 +46,11 @@ std::string HapticTouch::problemOfReach() const
 {
   vtkPolyData* means = style_->GetScenes().cloud();
   const std::array<double, 6>& box = style_->GetModel().workspaceBounds();
-  double at[3];
+  Vec3 at;
   for (vtkIdType i = 0; i < means->GetNumberOfPoints(); ++i)
   {
-    means->GetPoint(i, at);
-    if (at[0] >= box[0] && at[0] <= box[1] && at[1] >= box[2] && at[1] <= box[3] && at[2] >= box[4] &&
-      at[2] <= box[5])
+    means->GetPoint(i, &at.x);
+    if (contains(style_->GetModel().workspace(), at))
     {
       return {};
     }

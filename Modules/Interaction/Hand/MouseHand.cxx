@@ -1,9 +1,9 @@
 #include "MouseHand.h"
 
 #include "ModelTransform.h"
-#include "MousePointer.h"
 #include "ScreenView.h"
 #include "SteadyTime.h"
+#include "XLibrary.h"
 
 #include "Haptics/Proxy.h"
 
@@ -36,10 +36,10 @@ constexpr double kPointerSlack = 1.0;
 
 Vec3 MouseHand::inWorkspace(Vec3 place) const
 {
-  const std::array<double, 6>& box = model_.workspaceBounds();
+  const Bounds box = model_.workspace();
   for (int axis = 0; axis < 3; ++axis)
   {
-    place[axis] = std::min(std::max(place[axis], box[2 * axis]), box[2 * axis + 1]);
+    place[axis] = std::min(std::max(place[axis], box.minimum[axis]), box.maximum[axis]);
   }
   return place;
 }

@@ -119,11 +119,3 @@ void vtkHapticTouch::GetForce(double force[3]) const
   const Vec3 felt = this->Impl->latest().force;
   std::copy(&felt.x, &felt.x + 3, force);
 }
-
-void vtkHapticTouch::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  os << indent << "DeviceName: " << this->DeviceName << "\n";
-  os << indent << "IsOn: " << this->IsOn() << "\n";
-  os << indent << "Message: " << this->Message << "\n";
-}

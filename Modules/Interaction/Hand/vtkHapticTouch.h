@@ -31,7 +31,6 @@ class POINTHAPTICSINTERACTION_EXPORT vtkHapticTouch : public vtkObject
 public:
   static vtkHapticTouch* New();
   vtkTypeMacro(vtkHapticTouch, vtkObject);
-  void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
   /**

@@ -3,7 +3,6 @@
 #include "vtkMatrix4x4.h"
 #include "vtkNew.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace pointhaptics
@@ -24,21 +23,10 @@ ModelTransform::ModelTransform()
 
 ModelTransform::~ModelTransform() = default;
 
-void ModelTransform::setWorkspaceBounds(const double bounds[6])
-{
-  std::copy(bounds, bounds + 6, workspace_.begin());
-}
-
-Vec3 ModelTransform::center() const
-{
-  return { 0.5 * (workspace_[0] + workspace_[1]), 0.5 * (workspace_[2] + workspace_[3]),
-    0.5 * (workspace_[4] + workspace_[5]) };
-}
-
 double ModelTransform::edge() const
 {
-  return std::max(
-    { workspace_[1] - workspace_[0], workspace_[3] - workspace_[2], workspace_[5] - workspace_[4] });
+  const Vec3 extent = this->workspace().extent();
+  return std::max({ extent.x, extent.y, extent.z });
 }
 
 void ModelTransform::setMatrix(vtkMatrix4x4* matrix)
@@ -121,11 +109,6 @@ void ModelTransform::beginGesture()
 {
   isRemembered_ = isRemembered_ && gestures_ > 0;
   ++gestures_;
-}
-
-void ModelTransform::endGesture()
-{
-  gestures_ = std::max(0, gestures_ - 1);
 }
 
 void ModelTransform::remember()

@@ -2,13 +2,14 @@
 /// Transform of the model into the haptic workspace, with undo.
 #pragma once
 
-#include "Core/Base/Vector3.h"
+#include "Core/Base/PointView.h"
 
 #include "PointHapticsInteractionModule.h" // For export macro
 
 #include "vtkSmartPointer.h"
 #include "vtkTransform.h"
 
+#include <algorithm>
 #include <array>
 #include <deque>
 #include <functional>
@@ -33,9 +34,14 @@ public:
   void setObserver(std::function<void()> changed) { changed_ = std::move(changed); }
 
   /// Box of the hand: xmin, xmax, ymin, ymax, zmin, zmax. Default: the 10 cm cube about the origin.
-  void setWorkspaceBounds(const double bounds[6]);
+  void setWorkspaceBounds(const double bounds[6]) { std::copy(bounds, bounds + 6, workspace_.begin()); }
   const std::array<double, 6>& workspaceBounds() const { return workspace_; }
-  Vec3 center() const;
+  Bounds workspace() const
+  {
+    const std::array<double, 6>& w = workspace_;
+    return { { w[0], w[2], w[4] }, { w[1], w[3], w[5] } };
+  }
+  Vec3 center() const { return this->workspace().center(); }
   double edge() const; ///< Longest edge of the box.
 
   /// The transform, for reading; always the same object.
@@ -61,7 +67,7 @@ public:
   /// Joins the changes in between, such as the steps of a drag, into one for undo(). Gestures that overlap
   /// are one.
   void beginGesture();
-  void endGesture();
+  void endGesture() { gestures_ = std::max(0, gestures_ - 1); }
   ///@}
 
 private:

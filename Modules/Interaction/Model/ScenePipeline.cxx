@@ -12,7 +12,6 @@
 #include "vtkTransform.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace pointhaptics
 {
@@ -224,11 +223,6 @@ void ScenePipeline::adopt(std::shared_ptr<const HapticScene> scene)
   requested_ = worker_.adopt(this->makeRequest(), std::move(scene));
   built.number = requested_;
   this->show(built);
-}
-
-std::uint64_t ScenePipeline::numberOfBuilds() const
-{
-  return worker_.numberOfBuilds();
 }
 
 /// The data object that others see.

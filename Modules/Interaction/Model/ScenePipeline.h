@@ -106,7 +106,7 @@ public:
   vtkIdType numberOfPoints() const { return numberOfPoints_; }
   vtkIdType numberOfVoxels() const { return numberOfVoxels_; }
   /// Number of times that the cloud was resampled here.
-  std::uint64_t numberOfBuilds() const;
+  std::uint64_t numberOfBuilds() const { return worker_.numberOfBuilds(); }
   /// Output of the last filter; null: there is none.
   vtkPolyData* cloud() const;
   /// May be null.

@@ -23,10 +23,8 @@
 #include "vtkWindowToImageFilter.h"
 
 #include <algorithm>
-#include <cmath>
 #include <deque>
 #include <initializer_list>
-#include <limits>
 
 namespace
 {
@@ -98,10 +96,8 @@ struct vtkHapticChart::Internals
   vtkNew<vtkFloatArray> radius;
   vtkNew<vtkFloatArray> ideal;
   std::deque<Sample> samples;
-  bool paused = false;
   bool isDark = false;
   bool wasFlat = false;
-  std::string errorMessage;
   int fittedHeight = 0; // of the renderer whose texts fit, pixels,
   int fittedDpi = 0;    // and of its window
 
@@ -310,24 +306,9 @@ void vtkHapticChart::ApplyColors()
   parts.fitTexts(); // at once: Update() may find nothing else to change
 }
 
-void vtkHapticChart::SetPaused(bool paused)
-{
-  this->Parts->paused = paused;
-}
-
-bool vtkHapticChart::GetPaused() const
-{
-  return this->Parts->paused;
-}
-
 vtkRenderer* vtkHapticChart::GetRenderer()
 {
   return this->Parts->renderer;
-}
-
-void vtkHapticChart::AddSample(double seconds, double newtons, double metres)
-{
-  this->AddSample(seconds, newtons, metres, std::numeric_limits<double>::quiet_NaN());
 }
 
 void vtkHapticChart::SetForceNames(const char* force, const char* other)
@@ -345,23 +326,17 @@ void vtkHapticChart::AddSample(double seconds, double newtons, double metres, do
   {
     std::deque<Sample>& samples = this->Parts->samples;
     samples.push_back({ seconds, newtons, metres, idealNewtons });
-    while (
-      this->Parts->paused && this->TimeWindow > 0.0 && samples.front().seconds < seconds - this->TimeWindow)
+    while (this->Paused && this->TimeWindow > 0.0 && samples.front().seconds < seconds - this->TimeWindow)
     {
       samples.pop_front(); // nobody will see them: a long pause must not fill the memory
     }
   }
 }
 
-void vtkHapticChart::Clear()
-{
-  this->Parts->samples.clear();
-}
-
 bool vtkHapticChart::Update()
 {
   Internals& parts = *this->Parts;
-  if (parts.paused)
+  if (this->Paused)
   {
     return false;
   }
@@ -410,14 +385,14 @@ bool vtkHapticChart::Update()
 bool vtkHapticChart::WriteImage(const char* fileName, int width, int height)
 {
   const double window = this->TimeWindow;
-  const bool paused = this->Parts->paused;
+  const bool paused = this->Paused;
   this->TimeWindow = 0.0;
   this->Parts->wasFlat = false;
-  this->Parts->paused = false;
+  this->Paused = false;
   const bool dark = this->Parts->isDark;
   this->SetDark(false);
   this->Update();
-  this->Parts->paused = paused;
+  this->Paused = paused;
   vtkNew<vtkRenderWindow> renderWindow;
   renderWindow->SetOffScreenRendering(1);
   renderWindow->SetMultiSamples(0);
@@ -431,23 +406,10 @@ bool vtkHapticChart::WriteImage(const char* fileName, int width, int height)
   renderWindow->RemoveRenderer(this->Parts->renderer);
   this->TimeWindow = window;
   this->SetDark(dark);
-  std::string& message = this->Parts->errorMessage;
-  message.clear();
-  if (!pointhaptics::writePng(grabber->GetOutput(), fileName, message))
+  this->ErrorMessage.clear();
+  if (!pointhaptics::writePng(grabber->GetOutput(), fileName, this->ErrorMessage))
   {
-    vtkErrorMacro(<< message);
+    vtkErrorMacro(<< this->ErrorMessage);
   }
-  return message.empty();
-}
-
-const std::string& vtkHapticChart::GetErrorMessage() const
-{
-  return this->Parts->errorMessage;
-}
-
-void vtkHapticChart::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  os << indent << "TimeWindow: " << this->TimeWindow << "\n";
-  os << indent << "Visibility: " << this->GetVisibility() << "\n";
+  return this->ErrorMessage.empty();
 }

@@ -17,6 +17,7 @@
 #include "PointHapticsInteractionModule.h" // For export macro
 #include "vtkObject.h"
 
+#include <cmath>  // For NAN
 #include <memory> // For Internals
 #include <string>
 
@@ -27,7 +28,6 @@ class POINTHAPTICSINTERACTION_EXPORT vtkHapticChart : public vtkObject
 public:
   static vtkHapticChart* New();
   vtkTypeMacro(vtkHapticChart, vtkObject);
-  void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
   /**
@@ -62,8 +62,8 @@ public:
    * Freeze the picture: samples that come are kept out of it until this is off again; then the chart goes on
    * with the newest. Default: off.
    */
-  void SetPaused(bool paused);
-  bool GetPaused() const;
+  void SetPaused(bool paused) { this->Paused = paused; }
+  bool GetPaused() const { return this->Paused; }
   ///@}
 
   /**
@@ -71,9 +71,7 @@ public:
    * radius; @param idealNewtons what an exact surface would answer, NaN: not known. Where another value is
    * not finite the sample is left out.
    */
-  void AddSample(double seconds, double newtons, double metres, double idealNewtons);
-  void AddSample(double seconds, double newtons, double metres);
-  void Clear();
+  void AddSample(double seconds, double newtons, double metres, double idealNewtons = NAN);
 
   /**
    * Bring the chart up to date. True: it looks different now (a flat line that goes on does not).
@@ -91,7 +89,7 @@ public:
    * GetErrorMessage() says why and names the cure.
    */
   bool WriteImage(const char* fileName, int width = 1000, int height = 420);
-  const std::string& GetErrorMessage() const;
+  const std::string& GetErrorMessage() const { return this->ErrorMessage; }
 
 protected:
   vtkHapticChart();
@@ -100,6 +98,8 @@ protected:
   void ApplyColors();
 
   double TimeWindow = 5.0;
+  bool Paused = false;
+  std::string ErrorMessage;
 
 private:
   vtkHapticChart(const vtkHapticChart&) = delete;

@@ -1,17 +1,12 @@
 #include "vtkHapticGauge.h"
 
 #include "EventLink.h"
+#include "PixelBox.h"
 #include "ScreenMarks.h"
 
-#include "vtkActor2D.h"
-#include "vtkCellArray.h"
 #include "vtkCoordinate.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
-#include "vtkPoints.h"
-#include "vtkPolyData.h"
-#include "vtkPolyDataMapper2D.h"
-#include "vtkProperty2D.h"
 #include "vtkRenderWindow.h"
 #include "vtkRenderer.h"
 #include "vtkTextActor.h"
@@ -68,40 +63,6 @@ bool meets(const pointhaptics::Pixel& a, const pointhaptics::Pixel& b, const std
   return enters <= leaves;
 }
 
-/// A rectangle in pixels, kept where the anchor is drawn.
-struct Bar
-{
-  vtkNew<vtkPoints> points;
-  vtkNew<vtkPolyData> shape;
-  vtkNew<vtkPolyDataMapper2D> mapper;
-  vtkNew<vtkActor2D> actor;
-
-  void setUp(bool filled, double red, double green, double blue, double opacity)
-  {
-    const vtkIdType corners[5] = { 0, 1, 2, 3, 0 };
-    this->points->SetNumberOfPoints(4);
-    this->shape->SetPoints(this->points);
-    vtkNew<vtkCellArray> cell;
-    cell->InsertNextCell(filled ? 4 : 5, corners);
-    filled ? this->shape->SetPolys(cell) : this->shape->SetLines(cell);
-    this->mapper->SetInputData(this->shape);
-    this->actor->SetMapper(this->mapper);
-    this->actor->GetProperty()->SetColor(red, green, blue);
-    this->actor->GetProperty()->SetOpacity(opacity);
-    this->actor->GetPositionCoordinate()->SetCoordinateSystemToWorld();
-    this->actor->VisibilityOff();
-  }
-  void setBox(double near, double far, double bottom, double top)
-  {
-    this->points->SetPoint(0, near, bottom, 0.0);
-    this->points->SetPoint(1, far, bottom, 0.0);
-    this->points->SetPoint(2, far, top, 0.0);
-    this->points->SetPoint(3, near, top, 0.0);
-    this->points->Modified();
-    this->shape->Modified();
-  }
-};
-
 } // namespace
 
 struct vtkHapticGauge::Internals
@@ -110,9 +71,10 @@ struct vtkHapticGauge::Internals
     : onStart([self] { self->Arrange(); })
   {
   }
-  Bar ground;
-  Bar fill;
-  Bar frame;
+  pointhaptics::PixelBox ground{ true, 1.0, 1.0, 1.0, kBarGround };
+  pointhaptics::PixelBox fill{ true, 0.95, 0.42, 0.02 };
+  pointhaptics::PixelBox frame{ false, 0.15, 0.15, 0.18 };
+  std::array<vtkActor2D*, 4> all() { return { ground.actor(), fill.actor(), frame.actor(), number }; }
   /// The text's own position is pixels from a corner that follows the anchor.
   vtkNew<vtkTextActor> number;
   vtkNew<vtkCoordinate> anchor;
@@ -138,9 +100,9 @@ void vtkHapticGauge::Internals::place()
   const double far = this->side * this->pixels * (kAside + kWidth);
   const double height = this->pixels * kHeight;
   const double bottom = this->higher - 0.5 * height;
-  this->ground.setBox(near, far, bottom, bottom + height);
-  this->frame.setBox(near, far, bottom, bottom + height);
-  this->fill.setBox(near, far, bottom, bottom + this->part * height);
+  this->ground.place(near, far, bottom, bottom + height);
+  this->frame.place(near, far, bottom, bottom + height);
+  this->fill.place(near, far, bottom, bottom + this->part * height);
   this->number->SetPosition(this->side * this->pixels * kTextAside, this->higher);
   vtkTextProperty* text = this->number->GetTextProperty();
   this->side > 0.0 ? text->SetJustificationToLeft() : text->SetJustificationToRight();
@@ -163,9 +125,10 @@ vtkHapticGauge::vtkHapticGauge()
   : Parts(new Internals(this))
 {
   Internals& parts = *this->Parts;
-  parts.ground.setUp(true, 1.0, 1.0, 1.0, kBarGround);
-  parts.fill.setUp(true, 0.95, 0.42, 0.02, 1.0);
-  parts.frame.setUp(false, 0.15, 0.15, 0.18, 1.0);
+  for (pointhaptics::PixelBox* bar : { &parts.ground, &parts.fill, &parts.frame })
+  {
+    bar->actor()->GetPositionCoordinate()->SetCoordinateSystemToWorld();
+  }
   parts.anchor->SetCoordinateSystemToWorld();
   vtkTextProperty* text = parts.number->GetTextProperty();
   text->SetFontSize(15);
@@ -184,7 +147,7 @@ vtkHapticGauge::~vtkHapticGauge() = default;
 
 void vtkHapticGauge::SetOpaque(bool opaque)
 {
-  this->Parts->ground.actor->GetProperty()->SetOpacity(opaque ? 1.0 : kBarGround);
+  this->Parts->ground.actor()->GetProperty()->SetOpacity(opaque ? 1.0 : kBarGround);
   this->Parts->number->GetTextProperty()->SetBackgroundOpacity(opaque ? 1.0 : kNumberGround);
 }
 
@@ -265,9 +228,9 @@ void vtkHapticGauge::Show(const double anchor[3], double newtons)
   Internals& parts = *this->Parts;
   parts.part = std::min(1.0, std::abs(newtons) / this->MaximumForce);
   parts.place();
-  for (Bar* bar : { &parts.ground, &parts.fill, &parts.frame })
+  for (pointhaptics::PixelBox* bar : { &parts.ground, &parts.fill, &parts.frame })
   {
-    bar->actor->GetPositionCoordinate()->SetValue(anchor[0], anchor[1], anchor[2]);
+    bar->actor()->GetPositionCoordinate()->SetValue(anchor[0], anchor[1], anchor[2]);
   }
   parts.anchor->SetValue(anchor[0], anchor[1], anchor[2]);
   char words[40];
@@ -290,43 +253,33 @@ bool vtkHapticGauge::GetLeft() const
 
 void vtkHapticGauge::SetVisibility(bool visible)
 {
-  for (Bar* bar : { &this->Parts->ground, &this->Parts->fill, &this->Parts->frame })
+  for (vtkActor2D* actor : this->Parts->all())
   {
-    bar->actor->SetVisibility(visible);
+    actor->SetVisibility(visible);
   }
-  this->Parts->number->SetVisibility(visible);
 }
 
 bool vtkHapticGauge::GetVisibility() const
 {
-  return const_cast<vtkTextActor*>(this->Parts->number.Get())->GetVisibility() != 0;
+  return this->Parts->number->GetVisibility() != 0;
 }
 
 void vtkHapticGauge::AddTo(vtkRenderer* renderer)
 {
-  for (Bar* bar : { &this->Parts->ground, &this->Parts->fill, &this->Parts->frame })
+  for (vtkActor2D* actor : this->Parts->all())
   {
-    renderer->AddActor2D(bar->actor);
+    renderer->AddActor2D(actor);
   }
-  renderer->AddActor2D(this->Parts->number);
   this->Parts->renderer = renderer;
   this->Parts->onStart.follow(renderer, vtkCommand::StartEvent, kLast);
 }
 
 void vtkHapticGauge::RemoveFrom(vtkRenderer* renderer)
 {
-  for (Bar* bar : { &this->Parts->ground, &this->Parts->fill, &this->Parts->frame })
+  for (vtkActor2D* actor : this->Parts->all())
   {
-    renderer->RemoveActor2D(bar->actor);
+    renderer->RemoveActor2D(actor);
   }
-  renderer->RemoveActor2D(this->Parts->number);
   this->Parts->onStart.follow(nullptr);
   this->Parts->renderer = nullptr;
-}
-
-void vtkHapticGauge::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  os << indent << "MaximumForce: " << this->MaximumForce << "\n";
-  os << indent << "Visibility: " << this->GetVisibility() << "\n";
 }

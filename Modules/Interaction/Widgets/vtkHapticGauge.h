@@ -27,7 +27,6 @@ class POINTHAPTICSINTERACTION_EXPORT vtkHapticGauge : public vtkObject
 public:
   static vtkHapticGauge* New();
   vtkTypeMacro(vtkHapticGauge, vtkObject);
-  void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
   /**

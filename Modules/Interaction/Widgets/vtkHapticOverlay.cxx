@@ -3,14 +3,14 @@
 #include "vtkCoordinate.h"
 #include "vtkObjectFactory.h"
 #include "vtkRenderer.h"
-#include "vtkTextActor.h"
+#include "vtkStdString.h"
 #include "vtkTextProperty.h"
+#include "vtkTextRenderer.h"
 #include "vtkWindow.h"
 
 #include <algorithm>
 #include <limits>
 #include <sstream>
-#include <vector>
 
 vtkStandardNewMacro(vtkHapticOverlay);
 
@@ -53,14 +53,14 @@ std::vector<std::string> linesOf(const std::string& text)
   return lines;
 }
 
-std::string joinedLines(const std::vector<std::string>& lines)
+std::size_t longestOf(const std::vector<std::string>& lines)
 {
-  std::string text;
+  std::size_t longest = 0;
   for (const std::string& line : lines)
   {
-    text += (text.empty() ? "" : "\n") + line;
+    longest = std::max(longest, line.size());
   }
-  return text;
+  return longest;
 }
 
 /// Two blanks between the columns of @p line.
@@ -78,11 +78,7 @@ std::string withoutColumns(const std::string& line)
 /// Lines of one length: centred as a block, their columns stay in line; with a margin around.
 std::string padded(const std::vector<std::string>& lines)
 {
-  std::size_t longest = 0;
-  for (const std::string& line : lines)
-  {
-    longest = std::max(longest, line.size());
-  }
+  const std::size_t longest = longestOf(lines);
   std::string result(longest + 4, ' ');
   for (const std::string& line : lines)
   {
@@ -138,11 +134,7 @@ std::vector<std::string> inTwoColumns(const std::vector<std::string>& lines)
   }
   std::vector<std::string> left(lines.begin(), lines.begin() + std::ptrdiff_t(split));
   const std::vector<std::string> right = pageOf(lines, split, lines.size() - split);
-  std::size_t longest = 0;
-  for (const std::string& line : left)
-  {
-    longest = std::max(longest, line.size());
-  }
+  const std::size_t longest = longestOf(left);
   left.resize(std::max(left.size(), right.size()));
   for (std::size_t i = 0; i < right.size(); ++i)
   {
@@ -189,33 +181,21 @@ std::string firstOf(const std::vector<std::string>& lines, std::size_t most)
   return text;
 }
 
-/// Empty hides it, and so does @p visible false. True: it is another text than before.
-bool show(vtkTextActor* actor, std::string& shown, const std::string& text, bool visible)
-{
-  if (text == shown)
-  {
-    return false;
-  }
-  shown = text;
-  actor->SetInput(text.c_str());
-  actor->SetVisibility(visible && !text.empty());
-  return true;
-}
-
 } // namespace
 
 vtkHapticOverlay::vtkHapticOverlay()
 {
-  placeCorner(this->Status, false, true);
-  placeCorner(this->Panel, true, true);
-  placeCorner(this->Detail, false, false);
-  styleText(this->Help->GetTextProperty(), kLargestHelp, kHelpPlate);
-  this->Help->GetTextProperty()->SetFontFamilyToCourier();
-  this->Help->GetTextProperty()->SetJustificationToCentered();
-  this->Help->GetTextProperty()->SetVerticalJustificationToCentered();
-  this->Help->GetPositionCoordinate()->SetCoordinateSystemToNormalizedViewport();
-  this->Help->SetPosition(0.5, 0.5);
-  this->Help->VisibilityOff();
+  placeCorner(this->Blocks[StatusBlock].actor, false, true);
+  placeCorner(this->Blocks[PanelBlock].actor, true, true);
+  placeCorner(this->Blocks[DetailBlock].actor, false, false);
+  vtkTextActor* help = this->Blocks[HelpBlock].actor;
+  styleText(help->GetTextProperty(), kLargestHelp, kHelpPlate);
+  help->GetTextProperty()->SetFontFamilyToCourier();
+  help->GetTextProperty()->SetJustificationToCentered();
+  help->GetTextProperty()->SetVerticalJustificationToCentered();
+  help->GetPositionCoordinate()->SetCoordinateSystemToNormalizedViewport();
+  help->SetPosition(0.5, 0.5);
+  help->VisibilityOff();
 }
 
 vtkHapticOverlay::~vtkHapticOverlay() = default;
@@ -233,7 +213,8 @@ void vtkHapticOverlay::FitHelp()
   }
   std::copy(size, size + 2, this->FittedTo);
   this->FittedTo[2] = dots;
-  const std::vector<std::string> lines = linesOf(this->HelpText);
+  vtkTextActor* help = this->Blocks[HelpBlock].actor;
+  const std::vector<std::string> lines = linesOf(this->GetHelp());
   this->HelpPages = 1;
   const std::string texts[2] = { padded(inTwoColumns(lines)), padded(lines) };
   int fonts[2] = { 0, 0 };
@@ -244,8 +225,8 @@ void vtkHapticOverlay::FitHelp()
   }
   if (fonts[0] > fonts[1])
   {
-    this->Help->SetInput(texts[0].c_str());
-    this->Help->GetTextProperty()->SetFontSize(fonts[0]);
+    help->SetInput(texts[0].c_str());
+    help->GetTextProperty()->SetFontSize(fonts[0]);
   }
   else if (fonts[1] == 0)
   {
@@ -253,52 +234,27 @@ void vtkHapticOverlay::FitHelp()
   }
 }
 
-/// The largest font from @p smallest to @p largest with which the plate of @p text is no larger; 0: none. To
-/// measure is to draw, so two small blocks tell width and height of a letter, which all have.
+/// Sets @p text in the largest font from @p smallest to @p largest with which its plate is no larger. 0:
+/// none.
 int vtkHapticOverlay::FitHelpFont(
   const std::string& text, int largest, int smallest, double width, double height)
 {
-  constexpr std::size_t kColumns[2] = { 10, 50 };
-  constexpr std::size_t kLines[2] = { 2, 7 };
-  const std::vector<std::string> rows = linesOf(text);
-  const double measures[2] = { rows.empty() ? 0.0 : double(rows.front().size()), double(rows.size()) };
-  double needed[2] = { 0.0, 0.0 };
-  const auto fits = [&](int font)
+  vtkTextActor* help = this->Blocks[HelpBlock].actor;
+  vtkTextRenderer* texts = vtkTextRenderer::GetInstance();
+  vtkWindow* window = this->Renderer->GetVTKWindow();
+  help->SetInput(text.c_str());
+  for (int font = largest; font >= smallest; --font)
   {
-    this->Help->GetTextProperty()->SetFontSize(font);
-    double sizes[2][2];
-    for (int i = 0; i < 2; ++i)
+    help->GetTextProperty()->SetFontSize(font);
+    int box[4] = {};
+    if (texts->GetBoundingBox(
+          help->GetTextProperty(), vtkStdString(text), box, window ? window->GetDPI() : 72) &&
+      box[1] - box[0] + 1 <= width && box[3] - box[2] + 1 <= height)
     {
-      const std::string row(kColumns[i], 'M');
-      const std::vector<std::string> block(kLines[i], row);
-      this->Help->SetInput(joinedLines(block).c_str());
-      this->Help->GetSize(this->Renderer, sizes[i]);
+      return font;
     }
-    for (int axis = 0; axis < 2; ++axis)
-    {
-      const auto* counts = axis == 0 ? kColumns : kLines;
-      const double each = (sizes[1][axis] - sizes[0][axis]) / double(counts[1] - counts[0]);
-      needed[axis] = sizes[0][axis] + (measures[axis] - double(counts[0])) * each;
-    }
-    this->Help->SetInput(text.c_str());
-    return needed[0] <= width && needed[1] <= height;
-  };
-  if (!fits(smallest))
-  {
-    return 0;
   }
-  const double wider = std::min(width / std::max(1.0, needed[0]), height / std::max(1.0, needed[1]));
-  int font = int(std::clamp(smallest * wider, double(smallest), double(largest)));
-  while (font > smallest && !fits(font))
-  {
-    --font;
-  }
-  while (font < largest && fits(font + 1))
-  {
-    ++font;
-  }
-  this->Help->GetTextProperty()->SetFontSize(font);
-  return font;
+  return 0;
 }
 
 /// Fills the page with as many of @p all, the lines of the help, as fit in a font that is read well. In a
@@ -313,7 +269,7 @@ void vtkHapticOverlay::FitHelpPage(const std::vector<std::string>& all, double w
     this->FitHelpFont(padded(lines), kPageFont, kSmallestHelp, width, kAnyHeight);
   }
   double needed[2] = { 0.0, 0.0 };
-  this->Help->GetSize(this->Renderer, needed);
+  this->Blocks[HelpBlock].actor->GetSize(this->Renderer, needed);
   const auto room = std::size_t(height * double(lines.size() + kPlateLines) / needed[1]);
   const std::size_t most = std::max(room, kPlateLines + kFooterLines + 1) - kPlateLines - kFooterLines;
   this->HelpPages = int((lines.size() + most - 1) / most);
@@ -323,33 +279,19 @@ void vtkHapticOverlay::FitHelpPage(const std::vector<std::string>& all, double w
   page.push_back("");
   page.push_back("page " + std::to_string(this->HelpPage + 1) + " of " + std::to_string(this->HelpPages) +
     (this->HelpKey.empty() ? "" : "    " + this->HelpKey + next));
-  this->Help->SetInput(padded(page).c_str());
-}
-
-vtkTextActor* vtkHapticOverlay::ActorOf(int block) const
-{
-  const vtkNew<vtkTextActor>* actors[NumberOfBlocks] = { &this->Status, &this->Panel, &this->Detail,
-    &this->Help };
-  return const_cast<vtkTextActor*>(actors[block]->Get());
-}
-
-const std::string& vtkHapticOverlay::TextOf(int block) const
-{
-  const std::string* texts[NumberOfBlocks] = { &this->StatusText, &this->PanelText, &this->DetailText,
-    &this->HelpText };
-  return *texts[block];
+  this->Blocks[HelpBlock].actor->SetInput(padded(page).c_str());
 }
 
 bool vtkHapticOverlay::IsBlockShown(int block) const
 {
   return block == HelpBlock ? this->GetHelpVisibility()
-                            : this->TextVisibility && !this->TextOf(block).empty();
+                            : this->TextVisibility && !this->Blocks[block].text.empty();
 }
 
 void vtkHapticOverlay::MeasureBlock(int block, int font, double width, int lines, double size[2])
 {
   constexpr std::size_t kShortest = 8;
-  vtkTextActor* actor = this->ActorOf(block);
+  vtkTextActor* actor = this->Blocks[block].actor;
   if (block == HelpBlock)
   {
     this->FitHelp();
@@ -357,12 +299,8 @@ void vtkHapticOverlay::MeasureBlock(int block, int font, double width, int lines
     return;
   }
   actor->GetTextProperty()->SetFontSize(font);
-  const std::vector<std::string> all = linesOf(this->TextOf(block));
-  std::size_t longest = kShortest;
-  for (const std::string& line : all)
-  {
-    longest = std::max(longest, line.size());
-  }
+  const std::vector<std::string> all = linesOf(this->Blocks[block].text);
+  std::size_t longest = std::max(kShortest, longestOf(all));
   const std::size_t most = std::size_t(std::max(1, lines));
   actor->SetInput(firstOf(all, most).c_str());
   actor->GetSize(this->Renderer, size);
@@ -377,7 +315,7 @@ void vtkHapticOverlay::MeasureBlock(int block, int font, double width, int lines
 
 void vtkHapticOverlay::PlaceBlock(int block, double left, double bottom)
 {
-  vtkTextActor* actor = this->ActorOf(block);
+  vtkTextActor* actor = this->Blocks[block].actor;
   double box[4];
   actor->GetBoundingBox(this->Renderer, box);
   actor->GetPositionCoordinate()->SetCoordinateSystemToViewport();
@@ -385,31 +323,25 @@ void vtkHapticOverlay::PlaceBlock(int block, double left, double bottom)
   actor->VisibilityOn();
 }
 
-void vtkHapticOverlay::HideBlock(int block)
+/// Empty hides it. True: it is another text than before.
+bool vtkHapticOverlay::SetText(int block, const std::string& text)
 {
-  this->ActorOf(block)->VisibilityOff();
-}
-
-bool vtkHapticOverlay::SetStatus(const std::string& text)
-{
-  return show(this->Status, this->StatusText, text, this->TextVisibility);
-}
-
-bool vtkHapticOverlay::SetPanel(const std::string& text)
-{
-  return show(this->Panel, this->PanelText, text, this->TextVisibility);
-}
-
-bool vtkHapticOverlay::SetDetail(const std::string& text)
-{
-  return show(this->Detail, this->DetailText, text, this->TextVisibility);
+  TextBlock& shown = this->Blocks[block];
+  if (text == shown.text)
+  {
+    return false;
+  }
+  shown.text = text;
+  shown.actor->SetInput(text.c_str());
+  shown.actor->SetVisibility(this->IsBlockShown(block));
+  return true;
 }
 
 void vtkHapticOverlay::SetHelp(const std::string& text, const std::string& key)
 {
-  this->HelpText = text;
+  this->Blocks[HelpBlock].text = text;
   this->HelpKey = key;
-  this->Help->SetInput(padded(linesOf(text)).c_str());
+  this->Blocks[HelpBlock].actor->SetInput(padded(linesOf(text)).c_str());
   this->FittedTo[0] = 0;
 }
 
@@ -424,39 +356,30 @@ bool vtkHapticOverlay::ShowNextHelpPage()
   return true;
 }
 
-std::string vtkHapticOverlay::GetHelp() const
-{
-  return this->HelpText;
-}
-
 void vtkHapticOverlay::SetHelpVisibility(bool visible)
 {
-  this->Help->SetVisibility(visible);
+  this->Blocks[HelpBlock].actor->SetVisibility(visible);
   this->HelpPage = 0;
   this->HelpPages = 1;
   this->FittedTo[0] = 0;
 }
 
-bool vtkHapticOverlay::GetHelpVisibility() const
-{
-  return const_cast<vtkTextActor*>(this->Help.Get())->GetVisibility() != 0;
-}
-
 void vtkHapticOverlay::SetTextVisibility(bool visible)
 {
   this->TextVisibility = visible;
-  this->Status->SetVisibility(visible && !this->StatusText.empty());
-  this->Panel->SetVisibility(visible && !this->PanelText.empty());
-  this->Detail->SetVisibility(visible && !this->DetailText.empty());
+  for (const int block : { StatusBlock, PanelBlock, DetailBlock })
+  {
+    this->Blocks[block].actor->SetVisibility(this->IsBlockShown(block));
+  }
 }
 
 void vtkHapticOverlay::SetOpaque(bool opaque)
 {
   this->Opaque = opaque;
-  for (int block = 0; block < NumberOfBlocks; ++block)
+  for (TextBlock& block : this->Blocks)
   {
-    const double usual = block == HelpBlock ? kHelpPlate : kTextPlate;
-    this->ActorOf(block)->GetTextProperty()->SetBackgroundOpacity(opaque ? 1.0 : usual);
+    const double usual = &block == &this->Blocks[HelpBlock] ? kHelpPlate : kTextPlate;
+    block.actor->GetTextProperty()->SetBackgroundOpacity(opaque ? 1.0 : usual);
   }
 }
 
@@ -465,24 +388,8 @@ void vtkHapticOverlay::AddTo(vtkRenderer* renderer)
   this->Renderer = renderer;
   this->FittedTo[0] = 0;
   this->Fitting.follow(renderer);
-  renderer->AddActor2D(this->Status);
-  renderer->AddActor2D(this->Panel);
-  renderer->AddActor2D(this->Detail);
-  renderer->AddActor2D(this->Help);
-}
-
-void vtkHapticOverlay::RemoveFrom(vtkRenderer* renderer)
-{
-  this->Fitting.follow(nullptr);
-  renderer->RemoveActor2D(this->Status);
-  renderer->RemoveActor2D(this->Panel);
-  renderer->RemoveActor2D(this->Detail);
-  renderer->RemoveActor2D(this->Help);
-}
-
-void vtkHapticOverlay::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  os << indent << "Status: " << this->StatusText << "\n";
-  os << indent << "HelpVisibility: " << this->GetHelpVisibility() << "\n";
+  for (TextBlock& block : this->Blocks)
+  {
+    renderer->AddActor2D(block.actor);
+  }
 }

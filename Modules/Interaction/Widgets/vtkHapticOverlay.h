@@ -14,40 +14,49 @@
 #include "PointHapticsInteractionModule.h" // For export macro
 #include "vtkNew.h"                        // For the actors
 #include "vtkObject.h"
+#include "vtkTextActor.h"   // For the blocks
 #include "vtkWeakPointer.h" // For the renderer
 
 #include <string> // For the texts
 #include <vector> // For lines
 
 class vtkRenderer;
-class vtkTextActor;
 
 class POINTHAPTICSINTERACTION_EXPORT vtkHapticOverlay : public vtkObject
 {
 public:
   static vtkHapticOverlay* New();
   vtkTypeMacro(vtkHapticOverlay, vtkObject);
-  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  enum Block
+  {
+    StatusBlock,
+    PanelBlock,
+    DetailBlock,
+    HelpBlock,
+    NumberOfBlocks
+  };
 
   /**
    * Text at the upper left, one or more lines; empty hides it. True: it is another text than before.
    */
-  bool SetStatus(const std::string& text);
+  bool SetStatus(const std::string& text) { return this->SetText(StatusBlock, text); }
 
   ///@{
   /**
-   * As SetText(), at the upper right (a panel of numbers) and at the lower left (details of a picked point).
+   * As SetStatus(), at the upper right (a panel of numbers) and at the lower left (details of a picked
+   * point).
    */
-  bool SetPanel(const std::string& text);
-  bool SetDetail(const std::string& text);
+  bool SetPanel(const std::string& text) { return this->SetText(PanelBlock, text); }
+  bool SetDetail(const std::string& text) { return this->SetText(DetailBlock, text); }
   ///@}
 
   ///@{
   /// The texts as they are shown.
-  const std::string& GetStatus() const { return this->StatusText; }
-  const std::string& GetPanel() const { return this->PanelText; }
-  const std::string& GetDetail() const { return this->DetailText; }
-  std::string GetHelp() const;
+  const std::string& GetStatus() const { return this->Blocks[StatusBlock].text; }
+  const std::string& GetPanel() const { return this->Blocks[PanelBlock].text; }
+  const std::string& GetDetail() const { return this->Blocks[DetailBlock].text; }
+  const std::string& GetHelp() const { return this->Blocks[HelpBlock].text; }
   ///@}
 
   /**
@@ -71,16 +80,13 @@ public:
    * Show the help. Default: off.
    */
   void SetHelpVisibility(bool visible);
-  bool GetHelpVisibility() const;
+  bool GetHelpVisibility() const { return this->Blocks[HelpBlock].actor->GetVisibility() != 0; }
   ///@}
 
-  ///@{
   /**
    * Show status, panel and detail where they have a text; the help does not depend on it. Default: on.
    */
   void SetTextVisibility(bool visible);
-  bool GetTextVisibility() const { return this->TextVisibility; }
-  ///@}
 
   ///@{
   /**
@@ -89,15 +95,6 @@ public:
   void SetOpaque(bool opaque);
   bool GetOpaque() const { return this->Opaque; }
   ///@}
-
-  enum Block
-  {
-    StatusBlock,
-    PanelBlock,
-    DetailBlock,
-    HelpBlock,
-    NumberOfBlocks
-  };
 
   ///@{
   /**
@@ -108,29 +105,24 @@ public:
   bool IsBlockShown(int block) const;
   void MeasureBlock(int block, int font, double width, int lines, double size[2]);
   void PlaceBlock(int block, double left, double bottom);
-  void HideBlock(int block);
+  void HideBlock(int block) { this->Blocks[block].actor->VisibilityOff(); }
   ///@}
 
-  ///@{
   /**
-   * Add all to @p renderer, one at a time, or take them out.
+   * Adds all to @p renderer.
    */
   void AddTo(vtkRenderer* renderer);
-  void RemoveFrom(vtkRenderer* renderer);
-  ///@}
 
 protected:
   vtkHapticOverlay();
   ~vtkHapticOverlay() override;
 
-  vtkNew<vtkTextActor> Status;
-  vtkNew<vtkTextActor> Panel;
-  vtkNew<vtkTextActor> Detail;
-  vtkNew<vtkTextActor> Help;
-  std::string StatusText;
-  std::string PanelText;
-  std::string DetailText;
-  std::string HelpText;
+  struct TextBlock
+  {
+    vtkNew<vtkTextActor> actor;
+    std::string text;
+  };
+  TextBlock Blocks[NumberOfBlocks];
   std::string HelpKey;
   int HelpPage = 0;
   int HelpPages = 1;
@@ -140,8 +132,7 @@ protected:
   void FitHelp();
   int FitHelpFont(const std::string& text, int largest, int smallest, double width, double height);
   void FitHelpPage(const std::vector<std::string>& lines, double width, double height);
-  vtkTextActor* ActorOf(int block) const;
-  const std::string& TextOf(int block) const;
+  bool SetText(int block, const std::string& text);
 
   pointhaptics::EventLink Fitting{ [this] { this->FitHelp(); } };
   vtkWeakPointer<vtkRenderer> Renderer;

@@ -1,13 +1,7 @@
 #include "vtkHapticProgress.h"
 
-#include "vtkActor2D.h"
-#include "vtkCellArray.h"
 #include "vtkCoordinate.h"
 #include "vtkObjectFactory.h"
-#include "vtkPoints.h"
-#include "vtkPolyData.h"
-#include "vtkPolyDataMapper2D.h"
-#include "vtkProperty2D.h"
 #include "vtkRenderWindow.h"
 #include "vtkRenderer.h"
 #include "vtkTextActor.h"
@@ -32,32 +26,6 @@ constexpr std::size_t kLongestText = 38;
 constexpr int kFont = 15;
 /// At which a point is a pixel.
 constexpr double kPointsPerInch = 72.0;
-
-void setCorners(vtkPoints* corners, double left, double right, double bottom, double top)
-{
-  corners->SetNumberOfPoints(4);
-  corners->SetPoint(0, left, bottom, 0.0);
-  corners->SetPoint(1, right, bottom, 0.0);
-  corners->SetPoint(2, right, top, 0.0);
-  corners->SetPoint(3, left, top, 0.0);
-  corners->Modified();
-}
-
-void setUpRectangle(vtkActor2D* actor, vtkPoints* corners, double red, double green, double blue)
-{
-  vtkNew<vtkCellArray> polygons;
-  polygons->InsertNextCell({ 0, 1, 2, 3 });
-  vtkNew<vtkPolyData> rectangle;
-  rectangle->SetPoints(corners);
-  rectangle->SetPolys(polygons);
-  vtkNew<vtkPolyDataMapper2D> mapper;
-  mapper->SetInputData(rectangle);
-  actor->SetMapper(mapper);
-  actor->GetProperty()->SetColor(red, green, blue);
-  actor->GetPositionCoordinate()->SetCoordinateSystemToNormalizedViewport();
-  actor->SetPosition(0.5, 0.5);
-  actor->VisibilityOff();
-}
 
 /// The middle is what names of files of one series have in common.
 std::string shortened(const std::string& text)
@@ -86,32 +54,35 @@ std::string shortened(const std::string& text)
 
 vtkHapticProgress::vtkHapticProgress()
 {
-  this->SetCorners();
-  setUpRectangle(this->Plate, this->PlateCorners, 1.0, 1.0, 1.0);
-  this->Plate->GetProperty()->SetOpacity(0.88);
-  setUpRectangle(this->Trough, this->TroughCorners, 0.80, 0.82, 0.85);
-  setUpRectangle(this->Bar, this->BarCorners, 0.13, 0.40, 0.67);
-
+  this->PlaceBoxes();
   vtkTextProperty* style = this->Text->GetTextProperty();
   style->SetFontSize(kFont);
   style->SetColor(0.08, 0.08, 0.10);
   style->SetLineSpacing(1.15);
   style->SetJustificationToCentered();
   style->SetVerticalJustificationToBottom();
-  this->Text->GetPositionCoordinate()->SetCoordinateSystemToNormalizedViewport();
-  this->Text->SetPosition(0.5, 0.5);
-  this->Text->VisibilityOff();
+  for (vtkActor2D* actor : this->All())
+  {
+    actor->GetPositionCoordinate()->SetCoordinateSystemToNormalizedViewport();
+    actor->SetPosition(0.5, 0.5);
+    actor->VisibilityOff();
+  }
 }
 
 vtkHapticProgress::~vtkHapticProgress() = default;
 
-void vtkHapticProgress::SetCorners()
+void vtkHapticProgress::PlaceBoxes()
 {
   const double s = this->Scale;
   const double end = -kHalfBar + 2.0 * kHalfBar * this->Percent / 100.0;
-  setCorners(this->PlateCorners, -s * kHalfPlate, s * kHalfPlate, s * kPlateBottom, s * kPlateTop);
-  setCorners(this->TroughCorners, -s * kHalfBar, s * kHalfBar, s * kBarBottom, s * kBarTop);
-  setCorners(this->BarCorners, -s * kHalfBar, s * end, s * kBarBottom, s * kBarTop);
+  this->Plate.place(-s * kHalfPlate, s * kHalfPlate, s * kPlateBottom, s * kPlateTop);
+  this->Trough.place(-s * kHalfBar, s * kHalfBar, s * kBarBottom, s * kBarTop);
+  this->Bar.place(-s * kHalfBar, s * end, s * kBarBottom, s * kBarTop);
+}
+
+std::array<vtkActor2D*, 4> vtkHapticProgress::All() const
+{
+  return { this->Plate.actor(), this->Trough.actor(), this->Bar.actor(), this->Text };
 }
 
 void vtkHapticProgress::Measure(vtkRenderer* renderer, double part, double size[2])
@@ -122,7 +93,7 @@ void vtkHapticProgress::Measure(vtkRenderer* renderer, double part, double size[
   if (scale != this->Scale)
   {
     this->Scale = scale;
-    this->SetCorners();
+    this->PlaceBoxes();
   }
   size[0] = 2.0 * kHalfPlate * scale;
   size[1] = (kPlateTop - kPlateBottom) * scale;
@@ -132,8 +103,7 @@ void vtkHapticProgress::Place(vtkRenderer* renderer, double x, double y)
 {
   const int* size = renderer->GetSize();
   const double middle = y - 0.5 * (kPlateTop + kPlateBottom) * this->Scale;
-  for (vtkActor2D* actor :
-    { this->Plate.Get(), this->Trough.Get(), this->Bar.Get(), static_cast<vtkActor2D*>(this->Text.Get()) })
+  for (vtkActor2D* actor : this->All())
   {
     actor->SetPosition(x / size[0], middle / size[1]);
   }
@@ -151,12 +121,11 @@ bool vtkHapticProgress::SetProgress(const std::string& what, double part)
   this->ShownText = text;
   this->Text->SetInput(text.c_str());
   this->Percent = percent;
-  this->SetCorners();
-  for (vtkActor2D* actor : { this->Plate.Get(), this->Trough.Get(), this->Bar.Get() })
+  this->PlaceBoxes();
+  for (vtkActor2D* actor : this->All())
   {
     actor->VisibilityOn();
   }
-  this->Text->VisibilityOn();
   return true;
 }
 
@@ -164,32 +133,25 @@ bool vtkHapticProgress::Hide()
 {
   const bool wasSeen = !this->ShownText.empty();
   this->ShownText.clear();
-  for (vtkActor2D* actor : { this->Plate.Get(), this->Trough.Get(), this->Bar.Get() })
+  for (vtkActor2D* actor : this->All())
   {
     actor->VisibilityOff();
   }
-  this->Text->VisibilityOff();
   return wasSeen;
 }
 
 void vtkHapticProgress::AddTo(vtkRenderer* renderer)
 {
-  renderer->AddActor2D(this->Plate);
-  renderer->AddActor2D(this->Trough);
-  renderer->AddActor2D(this->Bar);
-  renderer->AddActor2D(this->Text);
+  for (vtkActor2D* actor : this->All())
+  {
+    renderer->AddActor2D(actor);
+  }
 }
 
 void vtkHapticProgress::RemoveFrom(vtkRenderer* renderer)
 {
-  renderer->RemoveActor2D(this->Plate);
-  renderer->RemoveActor2D(this->Trough);
-  renderer->RemoveActor2D(this->Bar);
-  renderer->RemoveActor2D(this->Text);
-}
-
-void vtkHapticProgress::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  os << indent << "Text: " << this->ShownText << "\n";
+  for (vtkActor2D* actor : this->All())
+  {
+    renderer->RemoveActor2D(actor);
+  }
 }

@@ -9,14 +9,14 @@
 #ifndef vtkHapticProgress_h
 #define vtkHapticProgress_h
 
+#include "PixelBox.h"                      // For plate and bar
 #include "PointHapticsInteractionModule.h" // For export macro
 #include "vtkNew.h"                        // For the actors
 #include "vtkObject.h"
 
+#include <array>  // For the actors
 #include <string> // For the text
 
-class vtkActor2D;
-class vtkPoints;
 class vtkRenderer;
 class vtkTextActor;
 
@@ -25,7 +25,6 @@ class POINTHAPTICSINTERACTION_EXPORT vtkHapticProgress : public vtkObject
 public:
   static vtkHapticProgress* New();
   vtkTypeMacro(vtkHapticProgress, vtkObject);
-  void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /**
    * Shows the bar: @p what is done, such as "reading cloud.ply" (long words are shortened in the middle), and
@@ -62,18 +61,16 @@ protected:
   vtkHapticProgress();
   ~vtkHapticProgress() override;
 
-  vtkNew<vtkActor2D> Plate;
-  vtkNew<vtkActor2D> Trough;
-  vtkNew<vtkActor2D> Bar;
+  pointhaptics::PixelBox Plate{ true, 1.0, 1.0, 1.0, 0.88 };
+  pointhaptics::PixelBox Trough{ true, 0.80, 0.82, 0.85 };
+  pointhaptics::PixelBox Bar{ true, 0.13, 0.40, 0.67 };
   vtkNew<vtkTextActor> Text;
-  vtkNew<vtkPoints> PlateCorners;
-  vtkNew<vtkPoints> TroughCorners;
-  vtkNew<vtkPoints> BarCorners;
   std::string ShownText;
   int Percent = 0;
   double Scale = 1.0; ///< Pixels per point.
 
-  void SetCorners();
+  void PlaceBoxes();
+  std::array<vtkActor2D*, 4> All() const;
 
 private:
   vtkHapticProgress(const vtkHapticProgress&) = delete;

@@ -1,6 +1,7 @@
 #include "vtkHapticSliders.h"
 
-#include "vtkCallbackCommand.h"
+#include "EventLink.h"
+
 #include "vtkCoordinate.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
@@ -58,9 +59,9 @@ struct One
   vtkNew<vtkSliderRepresentation2D> picture;
   vtkNew<vtkSliderWidget> widget;
   vtkNew<vtkTextActor> text;
-  vtkNew<vtkCallbackCommand> command;
   vtkHapticSliders* owner = nullptr;
   int index = 0;
+  pointhaptics::EventLink moved{ [this] { this->owner->MoveTo(this->index, this->picture->GetValue()); } };
 
   double toPart(double value) const
   {
@@ -122,7 +123,15 @@ struct vtkHapticSliders::Internals
   std::array<One, NumberOfSliders> sliders;
   /// Over the whole window: VTK's sliders are drawn and caught at different places in a part of one.
   vtkNew<vtkRenderer> renderer;
-  vtkNew<vtkCallbackCommand> drawn;
+  /// VTK's sliders look for the part that is pressed in what they have drawn, and crash where that is
+  /// nothing.
+  pointhaptics::EventLink drawn{ [this]
+    {
+      for (One& one : this->sliders)
+      {
+        one.widget->ProcessEventsOn();
+      }
+    } };
   vtkRenderWindowInteractor* interactor = nullptr;
   bool visible = false;
   bool covered = false;
@@ -134,17 +143,7 @@ vtkHapticSliders::vtkHapticSliders()
   this->Parts->renderer->SetLayer(1);
   this->Parts->renderer->InteractiveOff();
   this->Parts->renderer->DrawOff();
-  // VTK's sliders look for the part that is pressed in what they have drawn, and crash where that is nothing.
-  this->Parts->drawn->SetClientData(this->Parts.get());
-  this->Parts->drawn->SetCallback(
-    [](vtkObject*, unsigned long, void* client, void*)
-    {
-      for (One& one : static_cast<Internals*>(client)->sliders)
-      {
-        one.widget->ProcessEventsOn();
-      }
-    });
-  this->Parts->renderer->AddObserver(vtkCommand::EndEvent, this->Parts->drawn);
+  this->Parts->drawn.follow(this->Parts->renderer, vtkCommand::EndEvent);
   for (int i = 0; i < NumberOfSliders; ++i)
   {
     One& one = this->Parts->sliders[i];
@@ -157,14 +156,7 @@ vtkHapticSliders::vtkHapticSliders()
     one.widget->SetRepresentation(one.picture);
     one.widget->SetAnimationModeToJump();
     one.widget->KeyPressActivationOff(); // its key is one of the style's
-    one.command->SetClientData(&one);
-    one.command->SetCallback(
-      [](vtkObject*, unsigned long, void* client, void*)
-      {
-        One* moved = static_cast<One*>(client);
-        moved->owner->MoveTo(moved->index, moved->picture->GetValue());
-      });
-    one.widget->AddObserver(vtkCommand::InteractionEvent, one.command);
+    one.moved.follow(one.widget, vtkCommand::InteractionEvent);
   }
 }
 
@@ -311,14 +303,4 @@ void vtkHapticSliders::Place(double left, double bottom, double right, double to
 bool vtkHapticSliders::GetVisibility() const
 {
   return this->Parts->visible;
-}
-
-void vtkHapticSliders::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  os << indent << "Visibility: " << this->Parts->visible << "\n";
-  for (const One& one : this->Parts->sliders)
-  {
-    os << indent << one.kind.title << ": " << one.kind.value << "\n";
-  }
 }

@@ -31,7 +31,6 @@ class POINTHAPTICSINTERACTION_EXPORT vtkHapticSliders : public vtkObject
 public:
   static vtkHapticSliders* New();
   vtkTypeMacro(vtkHapticSliders, vtkObject);
-  void PrintSelf(ostream& os, vtkIndent indent) override;
 
   enum Slider
   {

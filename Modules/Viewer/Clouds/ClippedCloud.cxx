@@ -1,10 +1,10 @@
 #include "ClippedCloud.h"
 
 #include "CloudAppearance.h"
+#include "Core/Base/Boxes.h"
 #include "IO/Info/LengthUnit.h"
 
 #include <fmt/format.h>
-#include <vtkDataArray.h>
 #include <vtkFieldData.h>
 #include <vtkIdList.h>
 #include <vtkNew.h>
@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <numeric>
 #include <sstream>
 #include <utility>
 
@@ -25,15 +26,21 @@ namespace
 
 constexpr std::size_t kNumbers = 6;
 
-vtkSmartPointer<vtkAbstractArray> picked(vtkAbstractArray* array, vtkIdList* ids)
+std::optional<HiddenValues> hiddenValuesOf(const std::string& text)
 {
-  auto kept = vtkSmartPointer<vtkAbstractArray>::Take(array->NewInstance());
-  kept->SetName(array->GetName());
-  kept->SetNumberOfComponents(array->GetNumberOfComponents());
-  kept->CopyComponentNames(array);
-  kept->SetNumberOfTuples(ids->GetNumberOfIds());
-  array->GetTuples(ids, kept);
-  return kept;
+  const std::size_t equals = text.rfind('=');
+  const std::string values = equals == std::string::npos ? std::string() : text.substr(equals + 1);
+  const std::size_t colon = values.find(':');
+  const auto numberOf = [](const std::string& word, double missing)
+  {
+    char* end = nullptr;
+    const double number = word.empty() ? missing : std::strtod(word.c_str(), &end);
+    return end && *end ? NAN : number;
+  };
+  HiddenValues hidden{ text.substr(0, equals), numberOf(values.substr(0, colon), -INFINITY), 0.0 };
+  hidden.high = colon == std::string::npos ? hidden.low : numberOf(values.substr(colon + 1), INFINITY);
+  const bool isWhole = !hidden.array.empty() && values.find_first_not_of(':') != std::string::npos;
+  return isWhole && hidden.low <= hidden.high ? std::optional(hidden) : std::nullopt;
 }
 
 } // namespace
@@ -55,21 +62,15 @@ std::vector<double> clipNumbers(const Bounds& box, vtkPolyData* cloud)
   return { low.x, high.x, low.y, high.y, low.z, high.z };
 }
 
-bool isWithin(const Bounds& box, const Vec3& place)
-{
-  return place.x >= box.minimum.x && place.x <= box.maximum.x && place.y >= box.minimum.y &&
-    place.y <= box.maximum.y && place.z >= box.minimum.z && place.z <= box.maximum.z;
-}
-
 bool areAlike(const Bounds& one, const Bounds& other)
 {
   const double ratio = norm(one.extent()) / norm(other.extent());
-  return isWithin(other, one.center()) && ratio > 0.5 && ratio < 2.0;
+  return contains(other, one.center()) && ratio > 0.5 && ratio < 2.0;
 }
 
 vtkSmartPointer<vtkPolyData> clippedCloud(vtkPolyData* cloud, const std::optional<Bounds>& box)
 {
-  return box ? partOfCloud(cloud, [&box](vtkIdType, const Vec3& place) { return isWithin(*box, place); })
+  return box ? partOfCloud(cloud, [&box](vtkIdType, const Vec3& place) { return contains(*box, place); })
              : vtkSmartPointer<vtkPolyData>(cloud);
 }
 
@@ -104,23 +105,6 @@ vtkSmartPointer<vtkPolyData> shownPart(
   return clippedCloud(shown, clipBox(clip, cloud));
 }
 
-std::optional<HiddenValues> hiddenValuesOf(const std::string& text)
-{
-  const std::size_t equals = text.rfind('=');
-  const std::string values = equals == std::string::npos ? std::string() : text.substr(equals + 1);
-  const std::size_t colon = values.find(':');
-  const auto numberOf = [](const std::string& word, double missing)
-  {
-    char* end = nullptr;
-    const double number = word.empty() ? missing : std::strtod(word.c_str(), &end);
-    return end && *end ? NAN : number;
-  };
-  HiddenValues hidden{ text.substr(0, equals), numberOf(values.substr(0, colon), -INFINITY), 0.0 };
-  hidden.high = colon == std::string::npos ? hidden.low : numberOf(values.substr(colon + 1), INFINITY);
-  const bool isWhole = !hidden.array.empty() && values.find_first_not_of(':') != std::string::npos;
-  return isWhole && hidden.low <= hidden.high ? std::optional(hidden) : std::nullopt;
-}
-
 std::vector<HiddenValues> hiddenIn(const std::string& list, std::string& wrong)
 {
   std::vector<HiddenValues> all;
@@ -153,27 +137,23 @@ vtkSmartPointer<vtkPolyData> partOfCloud(
       kept->InsertNextId(i);
     }
   }
-  if (kept->GetNumberOfIds() == count)
-  {
-    return cloud;
-  }
-  auto result = vtkSmartPointer<vtkPolyData>::New();
+  return kept->GetNumberOfIds() == count ? vtkSmartPointer<vtkPolyData>(cloud) : pointsOfCloud(cloud, kept);
+}
+
+vtkSmartPointer<vtkPolyData> pointsOfCloud(vtkPolyData* cloud, vtkIdList* ids)
+{
   vtkNew<vtkPoints> points;
   points->SetDataType(cloud->GetPoints()->GetDataType());
-  cloud->GetPoints()->GetPoints(kept, points);
+  cloud->GetPoints()->GetPoints(ids, points);
+  vtkNew<vtkIdList> places;
+  places->SetNumberOfIds(ids->GetNumberOfIds());
+  std::iota(places->GetPointer(0), places->GetPointer(0) + ids->GetNumberOfIds(), vtkIdType(0));
+  auto result = vtkSmartPointer<vtkPolyData>::New();
   result->SetPoints(points);
   result->GetFieldData()->ShallowCopy(cloud->GetFieldData());
-  vtkPointData* data = cloud->GetPointData();
-  for (int i = 0; i < data->GetNumberOfArrays(); ++i)
-  {
-    vtkAbstractArray* array = data->GetAbstractArray(i);
-    const int index = result->GetPointData()->AddArray(picked(array, kept));
-    const int attribute = data->IsArrayAnAttribute(i);
-    if (attribute >= 0)
-    {
-      result->GetPointData()->SetActiveAttribute(index, attribute);
-    }
-  }
+  result->GetPointData()->CopyAllOn();
+  result->GetPointData()->CopyAllocate(cloud->GetPointData(), ids->GetNumberOfIds());
+  result->GetPointData()->CopyData(cloud->GetPointData(), ids, places);
   return result;
 }
 

@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+class vtkIdList;
 class vtkPolyData;
 
 namespace pointhaptics
@@ -26,13 +27,15 @@ POINTHAPTICSVIEWER_EXPORT std::optional<Bounds> clipBox(const std::vector<double
 /// HapticViewerOptions::clip of a box in the coordinates of @p cloud.
 std::vector<double> clipNumbers(const Bounds& box, vtkPolyData* cloud);
 
-bool isWithin(const Bounds& box, const Vec3& place);
 /// True if one box is about as long as the other and their middles are near.
 bool areAlike(const Bounds& one, const Bounds& other);
 
 /// The points of @p cloud that @p isKept, with all arrays, in their order; @p cloud itself where all are.
 vtkSmartPointer<vtkPolyData> partOfCloud(
   vtkPolyData* cloud, const std::function<bool(vtkIdType, const Vec3&)>& isKept);
+
+/// The points @p ids of @p cloud with all arrays.
+vtkSmartPointer<vtkPolyData> pointsOfCloud(vtkPolyData* cloud, vtkIdList* ids);
 
 /// True for points, by their index, that none of @p hidden names; those whose array @p cloud lacks hide none.
 std::function<bool(vtkIdType)> notHidden(vtkPolyData* cloud, const std::vector<HiddenValues>& hidden);
@@ -41,10 +44,8 @@ std::function<bool(vtkIdType)> notHidden(vtkPolyData* cloud, const std::vector<H
 POINTHAPTICSVIEWER_EXPORT vtkSmartPointer<vtkPolyData> shownPart(
   vtkPolyData* cloud, const std::vector<double>& clip, const std::vector<HiddenValues>& hidden);
 
-/// "ARRAY=VALUE" or "ARRAY=LOW:HIGH", either of which may be missing, and back. Nothing: @p text is none of
-/// these.
-POINTHAPTICSVIEWER_EXPORT std::optional<HiddenValues> hiddenValuesOf(const std::string& text);
-/// Those of a list with commas; @p wrong: the first word that is none.
+/// Reads a list with commas of "ARRAY=VALUE" and "ARRAY=LOW:HIGH", either of which may be missing, and back.
+/// @p wrong: the first word that is none of these.
 POINTHAPTICSVIEWER_EXPORT std::vector<HiddenValues> hiddenIn(const std::string& list, std::string& wrong);
 POINTHAPTICSVIEWER_EXPORT std::string textOf(const HiddenValues& hidden);
 

@@ -2,16 +2,15 @@
 
 #include "ClippedCloud.h"
 #include "CloudAppearance.h"
+#include "Core/Base/Boxes.h"
 #include "Core/Base/Host/OutOfMemory.h"
-#include "HapticViewerOptions.h"
+#include "EventLink.h"
 #include "IO/Info/LengthUnit.h"
 #include "MergedCloud.h"
 #include "vtkPointCloudReader.h"
 #include "vtkPointCloudWriter.h"
 
 #include <fmt/format.h>
-#include <vtkCallbackCommand.h>
-#include <vtkCommand.h>
 #include <vtkFieldData.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -33,41 +32,29 @@ std::string baseName(const std::string& fileName)
   return slash == std::string::npos ? fileName : fileName.substr(slash + 1);
 }
 
-/// Reports a reader's progress to goesOn and aborts the reader where goesOn returns false.
-struct Listener
-{
-  vtkPointCloudReader* reader;
-  std::function<bool(double)> goesOn;
-};
-
 /// The points of a file with all arrays, without its cells. Null: @p message says why.
 vtkSmartPointer<vtkPolyData> readPoints(const std::string& fileName, const CloudRequest& request,
   const std::function<bool(double)>& goesOn, Findings& findings, std::string& message)
 {
   vtkNew<vtkPointCloudReader> reader;
-  Listener listener{ reader, goesOn };
-  vtkNew<vtkCallbackCommand> progress;
-  progress->SetClientData(&listener);
-  progress->SetCallback(
-    [](vtkObject*, unsigned long, void* client, void* fraction)
+  EventLink progress(
+    [&reader, &goesOn](unsigned long, void* part)
     {
-      const auto& self = *static_cast<Listener*>(client);
-      if (fraction && !self.reader->GetAbortExecute() && !self.goesOn(*static_cast<double*>(fraction)))
+      if (part && !reader->GetAbortExecute() && !goesOn(*static_cast<double*>(part)))
       {
-        self.reader->SetAbortExecute(1);
+        reader->SetAbortExecute(1);
       }
     });
-  reader->AddObserver(vtkCommand::ProgressEvent, progress);
+  progress.follow(reader, vtkCommand::ProgressEvent);
   // The reader's error is in its message; without an observer it would go where the errors of the scene are
   // collected.
-  vtkNew<vtkCallbackCommand> silence;
-  silence->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
-  reader->AddObserver(vtkCommand::ErrorEvent, silence);
+  EventLink silence([] {});
+  silence.follow(reader, vtkCommand::ErrorEvent);
   reader->SetFileName(fileName.c_str());
-  reader->SetResolution(request.resolution);
-  reader->SetColumns(request.columns);
-  reader->SetSalvage(request.salvage);
-  reader->SetSamples(request.vertices ? 0 : vtkPointCloudReader::AUTOMATIC);
+  reader->SetResolution(request.options.resolution);
+  reader->SetColumns(request.options.columns);
+  reader->SetSalvage(request.options.salvage);
+  reader->SetSamples(request.options.vertices ? 0 : vtkPointCloudReader::AUTOMATIC);
   reader->SetMostPoints(request.mostPoints);
   reader->Update();
   message = reader->GetErrorMessage();
@@ -87,11 +74,7 @@ vtkSmartPointer<vtkPolyData> readPoints(const std::string& fileName, const Cloud
   {
     findings.notes.push_back(baseName(fileName) + ": " + note);
   }
-  auto points = vtkSmartPointer<vtkPolyData>::New();
-  points->SetPoints(read->GetPoints());
-  points->GetPointData()->ShallowCopy(read->GetPointData());
-  points->GetFieldData()->ShallowCopy(read->GetFieldData());
-  return points;
+  return withoutCells(read);
 }
 
 } // namespace
@@ -150,6 +133,15 @@ vtkSmartPointer<vtkPolyData> readFiles(const CloudRequest& request, const std::f
   return merged;
 }
 
+vtkSmartPointer<vtkPolyData> withoutCells(vtkPolyData* cloud)
+{
+  auto points = vtkSmartPointer<vtkPolyData>::New();
+  points->SetPoints(cloud->GetPoints());
+  points->GetPointData()->ShallowCopy(cloud->GetPointData());
+  points->GetFieldData()->ShallowCopy(cloud->GetFieldData());
+  return points;
+}
+
 std::string titleOf(const std::vector<std::string>& files)
 {
   std::string names;
@@ -174,24 +166,23 @@ try
   auto measured = vtkSmartPointer<vtkPolyData>::New();
   measured->ShallowCopy(local);
   addHeightArray(measured, up);
-  std::vector<HiddenValues> hidden = request.hidden;
-  if (!completeHidden(measured, request.hiddenName, hidden, message))
+  std::vector<HiddenValues> hidden = request.options.picture.hidden;
+  if (!completeHidden(measured, request.options.names.hidden, hidden, message))
   {
     return false;
   }
   const auto isShown = notHidden(measured, hidden);
-  const std::optional<Bounds> box = clipBox(request.options->clip, local);
+  const std::optional<Bounds> box = clipBox(request.options.clip, local);
   const auto part = partOfCloud(cloud,
     [&](vtkIdType i, const Vec3&)
     {
       Vec3 place;
       local->GetPoint(i, &place.x);
-      return (!box || isWithin(*box, place)) && isShown(i);
+      return (!box || contains(*box, place)) && isShown(i);
     });
   vtkNew<vtkPointCloudWriter> writer;
-  vtkNew<vtkCallbackCommand> silence;
-  silence->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
-  writer->AddObserver(vtkCommand::ErrorEvent, silence); // its message says it
+  EventLink silence([] {});
+  silence.follow(writer, vtkCommand::ErrorEvent); // its message says it
   writer->SetFileName(fileName.c_str());
   writer->KeepDoublesOn();
   writer->SetInputData(part);

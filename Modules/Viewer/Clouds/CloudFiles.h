@@ -22,6 +22,9 @@ struct Findings
 vtkSmartPointer<vtkPolyData> readFiles(const CloudRequest& request, const std::function<bool(double)>& goesOn,
   Findings& findings, std::string& message);
 
+/// The points of @p cloud with all arrays, which are shared, without its cells.
+vtkSmartPointer<vtkPolyData> withoutCells(vtkPolyData* cloud);
+
 /// Reads the files of @p request again and writes what its options clip and hide to @p fileName, with all
 /// arrays, in their coordinates. @p up is for heights that hide. False: @p message says why nothing was
 /// written; else what was. Any thread; nothing is thrown.

@@ -6,6 +6,9 @@
 
 #include "PointHapticsViewerModule.h" // For export macro
 
+#include <atomic>
+#include <chrono>
+#include <future>
 #include <memory>
 #include <string>
 
@@ -28,13 +31,11 @@ public:
   /// Gives up the present load without waiting. A result that was not taken is lost, too.
   void cancel();
   /// True if a load was started and neither taken nor cancelled.
-  bool busy() const;
-  /// Part of the files of the present load that is read, 0 to 1; it ascends. 0 where there is none.
-  double progress() const;
-  /// Step of the present load, for people, and its progress, 0 to 1.
+  bool busy() const { return present_ != nullptr; }
+  /// Step of the present load, for people, and its progress, 0 to 1; that of "reading" ascends.
   struct Step
   {
-    const char* name = "reading"; ///< Or "measuring", "resampling".
+    const char* name = "reading"; ///< Or "preparing", "measuring", "resampling".
     double part = 0.0;
   };
   Step step() const;
@@ -48,8 +49,11 @@ public:
   bool take(LoadedCloud& loaded, std::string& message);
 
 private:
-  struct Implementation;
-  std::unique_ptr<Implementation> implementation_;
+  using Clock = std::chrono::steady_clock;
+  struct Load;
+
+  std::shared_ptr<Load> present_;
+  std::future<void> ended_; ///< End of the newest load, which begins when the one before has ended.
 };
 
 /// Seconds in which most files are read: a bar for them would only flicker.

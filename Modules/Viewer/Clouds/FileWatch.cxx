@@ -6,12 +6,10 @@ namespace pointhaptics
 FileWatch::Stamp FileWatch::stampOf(const std::string& name)
 {
   std::error_code error;
-  Stamp stamp;
-  stamp.time = std::filesystem::last_write_time(name, error);
-  stamp.exists = !error;
-  stamp.size = stamp.exists ? std::filesystem::file_size(name, error) : 0;
-  stamp.exists = stamp.exists && !error;
-  return stamp;
+  std::error_code sizeError;
+  const auto time = std::filesystem::last_write_time(name, error);
+  const std::uintmax_t size = std::filesystem::file_size(name, sizeError);
+  return error || sizeError ? Stamp() : Stamp({ time, size });
 }
 
 void FileWatch::watch(const std::vector<std::string>& files)
@@ -30,7 +28,7 @@ bool FileWatch::look()
   for (Watched& file : files_)
   {
     const Stamp stamp = stampOf(file.name);
-    if (stamp.exists && stamp == file.last && !(stamp == file.known))
+    if (stamp && stamp == file.last && stamp != file.known)
     {
       file.known = stamp;
       changed = true;

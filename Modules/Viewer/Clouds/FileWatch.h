@@ -4,7 +4,9 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace pointhaptics
@@ -22,16 +24,8 @@ public:
   bool look();
 
 private:
-  struct Stamp
-  {
-    std::filesystem::file_time_type time{};
-    std::uintmax_t size = 0;
-    bool exists = false;
-    bool operator==(const Stamp& other) const
-    {
-      return time == other.time && size == other.size && exists == other.exists;
-    }
-  };
+  /// Time of change and size; nothing: there is no such file.
+  using Stamp = std::optional<std::pair<std::filesystem::file_time_type, std::uintmax_t>>;
   struct Watched
   {
     std::string name;

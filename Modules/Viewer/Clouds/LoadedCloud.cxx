@@ -6,11 +6,9 @@
 #include "Core/Base/Boxes.h"
 #include "Core/Base/QuantityText.h"
 #include "Core/Distributed/FarPoints.h"
-#include "HapticViewerOptions.h"
 #include "IO/Info/LengthUnit.h"
 #include "PolyDataAccess.h"
 #include "ResampledCloud.h"
-#include "ShownCloud.h"
 #include "SmpExecutor.h"
 #include "SurfaceArrays.h"
 
@@ -22,9 +20,7 @@
 #include <algorithm>
 #include <cctype>
 #include <iterator>
-#include <optional>
 #include <set>
-#include <utility>
 
 namespace pointhaptics
 {
@@ -209,10 +205,10 @@ bool hidesByHeight(const std::vector<HiddenValues>& hidden)
 ShownRequest showingOf(const CloudRequest& request, vtkPolyData* cloud, const std::string& format)
 {
   ShownRequest showing;
-  showing.orientation =
-    request.up == "auto" ? guessCloudOrientation(cloud, format) : orientationForUpAxis(request.up);
+  showing.orientation = request.options.up == "auto" ? guessCloudOrientation(cloud, format)
+                                                     : orientationForUpAxis(request.options.up);
   CloudKind kind = CloudKind::Object;
-  if (request.options && cloudKindFromName(request.options->kind, kind))
+  if (!request.isOnlyRead && cloudKindFromName(request.options.kind, kind))
   {
     showing.kind = kind;
   }
@@ -227,7 +223,7 @@ vtkSmartPointer<vtkPolyData> drawnPoints(const CloudRequest& request, const Load
     return loaded.cloud;
   }
   Bounds box = loaded.near;
-  if (const std::optional<Bounds> clip = clipBox(request.options->clip, loaded.cloud))
+  if (const std::optional<Bounds> clip = clipBox(request.options.clip, loaded.cloud))
   {
     box.include(clip->minimum);
     box.include(clip->maximum);
@@ -235,25 +231,23 @@ vtkSmartPointer<vtkPolyData> drawnPoints(const CloudRequest& request, const Load
   return clippedCloud(loaded.cloud, box);
 }
 
-void report(const CloudRequest& request, const char* step, double part)
-{
-  if (request.working)
-  {
-    request.working(step, part);
-  }
-}
-
 /// True if the means come after the picture, or are not needed.
 bool isResampledLater(const CloudRequest& request, const LoadedCloud& loaded)
 {
-  const bool showsMeans = isOfMeans(loaded.colorBy) && !findColorSource(loaded.cloud, loaded.colorBy);
-  return request.options && request.resamplesLater && request.canResampleLater() && !showsMeans;
+  const HapticViewerOptions& options = request.options;
+  const bool showsMeans =
+    options.felt || (isOfMeans(loaded.colorBy) && !findColorSource(loaded.cloud, loaded.colorBy));
+  return !request.isOnlyRead && request.resamplesLater && !showsMeans && options.fitsWorkspace &&
+    options.clip.empty() && options.picture.hidden.empty() && !options.followsFile() &&
+    options.record.empty();
 }
 
 /// Adds the array of heights where means or points are coloured or hidden by it.
-void addHeights(const CloudRequest& request, vtkPolyData* drawn, LoadedCloud& loaded)
+void addHeights(const CloudRequest& request, bool isLater, vtkPolyData* drawn, LoadedCloud& loaded)
 {
-  if (!hasColors(loaded.cloud) || !request.colorBy.empty() || hidesByHeight(loaded.showing.hidden))
+  const bool isNeeded = !isLater || request.makesScene || loaded.colorBy == kHeightArrayName;
+  if (isNeeded &&
+    (!hasColors(loaded.cloud) || !request.options.colorBy.empty() || hidesByHeight(loaded.showing.hidden)))
   {
     addHeightArray(loaded.cloud, loaded.orientation.up);
     if (drawn != loaded.cloud)
@@ -264,15 +258,9 @@ void addHeights(const CloudRequest& request, vtkPolyData* drawn, LoadedCloud& lo
 }
 
 /// Fills in LoadedCloud::shown from the points that are @p drawn, or begins to measure what it needs. False:
-/// @p goesOn said no.
-bool show(
-  const CloudRequest& request, vtkPolyData* drawn, const std::function<bool()>& goesOn, LoadedCloud& loaded)
+/// @p progress said no.
+bool show(const CloudRequest& request, vtkPolyData* drawn, const LoadProgress& progress, LoadedCloud& loaded)
 {
-  const auto measured = [&request, &goesOn](double part)
-  {
-    report(request, "measuring", part);
-    return goesOn();
-  };
   if (request.measuresLater && drawn->GetNumberOfPoints() > kMeasuredAtOnce)
   {
     const auto all = vtkSmartPointer<vtkPolyData>::New();
@@ -283,7 +271,8 @@ bool show(
   }
   else
   {
-    loaded.shown = makeShownCloud(drawn, loaded.showing, measured);
+    loaded.shown =
+      makeShownCloud(drawn, loaded.showing, [&progress](double part) { return progress("measuring", part); });
   }
   return loaded.shown != nullptr;
 }
@@ -311,30 +300,6 @@ bool completeHidden(
   return true;
 }
 
-CloudRequest CloudRequest::of(const std::vector<std::string>& files, const HapticViewerOptions& options)
-{
-  CloudRequest request;
-  request.files = files;
-  request.resolution = options.resolution;
-  request.columns = options.columns;
-  request.salvage = options.salvage;
-  request.vertices = options.vertices;
-  request.colorBy = options.colorBy;
-  request.colorByName = options.names.colorBy;
-  request.hidden = options.picture.hidden;
-  request.hiddenName = options.names.hidden;
-  request.up = options.up;
-  request.transform = options.transform;
-  request.options = std::make_shared<const HapticViewerOptions>(options);
-  return request;
-}
-
-bool CloudRequest::canResampleLater() const
-{
-  return options->fitsWorkspace && options->clip.empty() && options->picture.hidden.empty() &&
-    !options->felt && !options->followsFile() && options->record.empty();
-}
-
 std::string CloudRequest::name() const
 {
   return points ? title : titleOf(files);
@@ -358,25 +323,26 @@ std::string colorWord(const std::string& name)
 
 void findBounds(const CloudRequest& request, LoadedCloud& loaded)
 {
-  const bool isMoved = !request.transform.isIdentity();
-  const bool isFitted = request.options && request.options->fitsWorkspace;
-  const CloudExtent extent = extentOf(loaded.cloud, request.transform, SmpExecutor());
+  const HapticViewerOptions& options = request.options;
+  const bool isFitted = !request.isOnlyRead && options.fitsWorkspace;
+  const CloudExtent extent = extentOf(loaded.cloud, options.transform, SmpExecutor());
   loaded.bounds = isFitted ? extent.returned : extent.all;
   loaded.invalid = extent.invalid;
   loaded.noReturns = extent.noReturns;
-  const bool isClipped = request.options && !request.options->clip.empty();
-  if (!request.options || !(isFitted || (request.options->voxels.lattice.automaticWorkspace && !isClipped)))
+  const bool isClipped = !options.clip.empty();
+  if (request.isOnlyRead || !(isFitted || (options.voxels.lattice.automaticWorkspace && !isClipped)))
   {
     return;
   }
   const PointAccess points(loaded.cloud->GetPoints());
-  FarPoints far = findFarPoints(
-    points.view(), isMoved ? extentOf(loaded.cloud, AffineTransform(), SmpExecutor()).all : extent.all);
+  FarPoints far = findFarPoints(points.view(),
+    options.transform.isIdentity() ? extent.all
+                                   : extentOf(loaded.cloud, AffineTransform(), SmpExecutor()).all);
   if (far.count == 0)
   {
     return;
   }
-  const auto moved = [&](const Vec3& p) { return request.transform.apply(p); };
+  const auto moved = [&](const Vec3& p) { return options.transform.apply(p); };
   loaded.near = far.others;
   loaded.bounds = boxOfCorners(far.others, moved);
   far.all = boxOfCorners(far.all, moved);
@@ -388,42 +354,44 @@ void findBounds(const CloudRequest& request, LoadedCloud& loaded)
 
 void noteNoReturns(const CloudRequest& request, LoadedCloud& loaded)
 {
-  const std::optional<Bounds> clip = clipBox(request.options->clip, loaded.cloud);
-  const bool isFar = !loaded.near.empty() && !isWithin(loaded.near, Vec3()); // that was said
-  if (loaded.noReturns == 0 || request.options->felt || isFar || (clip && !isWithin(*clip, Vec3())))
+  const std::optional<Bounds> clip = clipBox(request.options.clip, loaded.cloud);
+  const bool isFar = !loaded.near.empty() && !contains(loaded.near, Vec3()); // that was said
+  if (loaded.noReturns == 0 || request.options.felt || isFar || (clip && !contains(*clip, Vec3())))
   {
     return;
   }
-  const bool areFelt = isWithin(loaded.workspace, loaded.placement.apply(Vec3()));
+  const bool areFelt = contains(loaded.workspace, loaded.placement.apply(Vec3()));
   const std::string what = !areFelt ? "are outside the workspace: neither shown nor felt"
     : request.isFeltOnly
     ? "are felt"
-    : fmt::format("are felt but not drawn; {} draws what is felt", request.options->names.felt);
+    : fmt::format("are felt but not drawn; {} draws what is felt", request.options.names.felt);
   loaded.notes.push_back(fmt::format("{}: {} {}", loaded.title, noReturnsText(loaded.noReturns), what));
 }
 
 /// Adds @p notes of the readers, and that the chosen unit contradicts the file's.
 void addNotes(const CloudRequest& request, std::vector<std::string> notes, LoadedCloud& loaded)
 {
-  const bool isChosen = request.options && request.options->unitIsChosen;
+  const bool isChosen = !request.isOnlyRead && request.options.unitIsChosen;
   const std::string odd =
-    isChosen ? contradictedUnit(loaded.title, loaded.cloud, request.options->unit) : std::string();
+    isChosen ? contradictedUnit(loaded.title, loaded.cloud, request.options.unit) : std::string();
   loaded.notes = std::move(notes);
   loaded.notes.insert(loaded.notes.end(), odd.empty() ? 0 : 1, odd);
 }
 
-bool loadCloud(const CloudRequest& request, const std::function<bool(double)>& goesOn, LoadedCloud& loaded,
-  std::string& message)
+bool loadCloud(
+  const CloudRequest& request, const LoadProgress& progress, LoadedCloud& loaded, std::string& message)
 {
+  const HapticViewerOptions& options = request.options;
   LoadedCloud result;
   Findings findings;
   result.title = request.name();
-  result.cloud = inLocalMetres(readFiles(request, goesOn, findings, message));
+  result.cloud = inLocalMetres(readFiles(
+    request, [&progress](double part) { return progress("reading", part); }, findings, message));
   if (!result.cloud)
   {
     return false;
   }
-  report(request, "preparing", 0.0);
+  progress("preparing", 0.0);
   result.isCoarse = findings.isCoarse;
   addNotes(request, std::move(findings.notes), result);
   findBounds(request, result);
@@ -432,12 +400,12 @@ bool loadCloud(const CloudRequest& request, const std::function<bool(double)>& g
     message = fmt::format("{}: no point is finite (all are NaN or infinite); nothing to show", result.title);
     return false;
   }
-  report(request, "preparing", 0.2);
-  result.colorBy = request.colorBy;
-  std::vector<HiddenValues> hidden = request.hidden;
-  if (!completeName(result.cloud, request.colorByName, result.colorBy, message) ||
-    !canColorBy(result.cloud, request.colorByName, result.colorBy, message) ||
-    !completeHidden(result.cloud, request.hiddenName, hidden, message))
+  progress("preparing", 0.2);
+  result.colorBy = options.colorBy;
+  std::vector<HiddenValues> hidden = options.picture.hidden;
+  if (!completeName(result.cloud, options.names.colorBy, result.colorBy, message) ||
+    !canColorBy(result.cloud, options.names.colorBy, result.colorBy, message) ||
+    !completeHidden(result.cloud, options.names.hidden, hidden, message))
   {
     return false;
   }
@@ -448,26 +416,22 @@ bool loadCloud(const CloudRequest& request, const std::function<bool(double)>& g
   result.showing.ignoresIntensity = findings.hasSamples;
   result.orientation = result.showing.orientation;
   const bool isLater = isResampledLater(request, result);
-  if (!isLater || request.makesScene || result.colorBy == kHeightArrayName)
-  {
-    addHeights(request, drawn, result);
-  }
-  report(request, "preparing", 0.6);
-  const auto askOn = [&goesOn] { return goesOn(1.0); };
-  if (request.options && !show(request, drawn, askOn, result))
+  addHeights(request, isLater, drawn, result);
+  progress("preparing", 0.6);
+  if (!request.isOnlyRead && !show(request, drawn, progress, result))
   {
     message = result.title + ": reading was stopped on request; start it again";
     return false;
   }
   keepArrays(result.cloud, result.showing);
-  if (request.options)
+  if (!request.isOnlyRead)
   {
     placeCloud(request, result);
     if (isLater)
     {
       resampleLater(request, result);
     }
-    else if (!resampleCloud(request, askOn, result, message))
+    else if (!resampleCloud(request, progress, result, message))
     {
       return false;
     }

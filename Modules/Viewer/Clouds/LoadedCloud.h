@@ -6,6 +6,7 @@
 #include "Core/Base/PointView.h"
 #include "Core/Base/Status.h"
 #include "Core/Resample/VoxelMeanSettings.h"
+#include "HapticViewerOptions.h"
 #include "IO/Info/CloudExtent.h"
 #include "ShownCloud.h"
 
@@ -17,6 +18,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 class vtkPolyData;
@@ -25,31 +27,28 @@ namespace pointhaptics
 {
 
 class HapticScene;
-struct HapticViewerOptions;
 
-struct POINTHAPTICSVIEWER_EXPORT CloudRequest
+/// Receives the step of a load, "reading", "preparing", "measuring" or "resampling", and the part of it that
+/// is done, 0 to 1. False ends the load.
+using LoadProgress = std::function<bool(const char* step, double part)>;
+
+struct CloudRequest
 {
-  /// To read @p files, or take @p points, and resample them as @p options say.
-  static CloudRequest of(const std::vector<std::string>& files, const HapticViewerOptions& options);
+  /// To read the files @p names, or take @c points, and resample them as @p given says.
+  explicit CloudRequest(std::vector<std::string> names = {}, HapticViewerOptions given = {})
+    : files(std::move(names))
+    , options(std::move(given))
+  {
+  }
 
   std::vector<std::string> files;
-  double resolution = 0.0;          ///< How far cloud optimised files are read; 0: all points.
-  std::vector<std::string> columns; ///< Names for the columns of texts; empty: as the files say.
-  bool salvage = false;             ///< Files that are cut are read as far as they go.
-  bool vertices = false;            ///< Meshes are their vertices; else samples of their faces.
+  HapticViewerOptions options; ///< In @c colorBy and @c hidden upper and lower case do not matter.
+  bool isOnlyRead = false;     ///< Neither placed nor resampled, and nothing is made for a picture.
   /// Points of a cloud optimised file that are read at most, by leaving out fine levels; see
   /// LoadedCloud::isCoarse. 0: all.
   vtkIdType mostPoints = 0;
   vtkSmartPointer<vtkPolyData> points; ///< Points instead of files; nobody else may hold them.
   std::string title;                   ///< Title of the points; files have their names.
-  std::string colorBy; ///< An argument of findColorSource(), rgb, or empty; case does not matter.
-  std::string colorByName = "colorBy"; ///< Name of that setting in messages.
-  std::vector<HiddenValues> hidden;    ///< Values whose points are not felt; case does not matter either.
-  std::string hiddenName = "hidden";   ///< Name of that setting in messages.
-  std::string up = "auto";             ///< auto or an axis.
-  AffineTransform transform;           ///< Transform of the cloud, for its bounds.
-  /// Options of the resampling, with colorBy, up and transform as above. Null: the cloud is only read.
-  std::shared_ptr<const HapticViewerOptions> options;
   /// Placement of the cloud that is shown, and its transform now: both are kept where the new one fits the
   /// workspace as well. Empty: those of the options.
   std::optional<AffineTransform> placement;
@@ -57,25 +56,20 @@ struct POINTHAPTICSVIEWER_EXPORT CloudRequest
   bool makesScene = false;            ///< True where the cloud will be felt.
   std::optional<ShownRequest> before; ///< Look of a coarse level of the same files: all points get it, too.
   bool isFeltOnly = false;            ///< Nothing is made for a picture: LoadedCloud::means have no arrays.
-  /// Receives the step after the reading, "preparing", "measuring" or "resampling", and its progress, 0 to 1;
-  /// may be empty.
-  std::function<void(const char* step, double part)> working;
   /// Do not wait for the means before the first picture and the scene near the hand:
-  /// LoadedCloud::isResampled. Effective where canResampleLater().
+  /// LoadedCloud::isResampled. Effective where the options neither show nor record means, nor place the
+  /// cloud, so that it may have no points in the workspace.
   bool resamplesLater = false;
   bool measuresLater = false; ///< Show large clouds plain first: LoadedCloud::measurement.
 
-  std::string name() const; ///< For messages.
-  /// True if the options neither show or record means, nor place the cloud, so that it may have no points in
-  /// the workspace.
-  bool canResampleLater() const;
+  POINTHAPTICSVIEWER_EXPORT std::string name() const; ///< For messages.
 };
 
 struct LoadedCloud
 {
   vtkSmartPointer<vtkPolyData> cloud; ///< Nobody else's.
   vtkSmartPointer<vtkPolyData> felt;  ///< Points that were resampled: all, or those in the clipping box.
-  Bounds bounds; ///< Bounds of the finite points after CloudRequest::transform; a fitted cloud leaves out far
+  Bounds bounds; ///< Bounds of the finite points after the options' transform; a fitted cloud leaves out far
                  ///< ones and rays that did not return.
   Bounds near;   ///< Bounds of all points but a few far ones, which are not drawn; empty: none is far.
   std::int64_t invalid = 0;   ///< Points that are not finite.
@@ -134,9 +128,8 @@ bool completeHidden(
   vtkPolyData* cloud, const std::string& option, std::vector<HiddenValues>& hidden, std::string& message);
 
 /// Reads the files into one cloud, which has every array of each (io::mergeClouds()), and resamples it.
-/// @p goesOn is asked with the part of the work that is done, 0 to 1, which ascends; as soon as it answers
-/// false, it ends. False: @p message says which file and why, and @p loaded is as it was.
-POINTHAPTICSVIEWER_EXPORT bool loadCloud(const CloudRequest& request,
-  const std::function<bool(double)>& goesOn, LoadedCloud& loaded, std::string& message);
+/// False: @p message says which file and why, or that @p progress ended it, and @p loaded is as it was.
+POINTHAPTICSVIEWER_EXPORT bool loadCloud(
+  const CloudRequest& request, const LoadProgress& progress, LoadedCloud& loaded, std::string& message);
 
 } // namespace pointhaptics

@@ -1,8 +1,8 @@
 #include "ResampledCloud.h"
 
 #include "ClippedCloud.h"
+#include "EventLink.h"
 #include "HapticSceneBuilder.h"
-#include "HapticViewerOptions.h"
 #include "LatticeChoice.h"
 #include "PolyDataAccess.h"
 #include "SurfaceArrays.h"
@@ -14,8 +14,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <vtkCallbackCommand.h>
-#include <vtkCommand.h>
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
 #include <vtkMatrix4x4.h>
@@ -26,7 +24,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <optional>
 #include <utility>
 
 namespace pointhaptics
@@ -69,13 +66,19 @@ bool choosesLattice(const HapticViewerOptions& options)
   return options.fitsWorkspace && !options.hasVoxels();
 }
 
+void placeWorkspace(const CloudRequest& request, LoadedCloud& loaded)
+{
+  loaded.workspace = workspaceOf(request.options, loaded);
+  loaded.workspace = loaded.workspace.empty() ? defaultWorkspace() : loaded.workspace;
+}
+
 /// Runs the filters for one cloud.
 class FirstRun
 {
 public:
-  FirstRun(const CloudRequest& request, const std::function<bool()>& goesOn, LoadedCloud& loaded)
+  FirstRun(const CloudRequest& request, const LoadProgress& progress, LoadedCloud& loaded)
     : request_(request)
-    , goesOn_(goesOn)
+    , progress_(progress)
     , loaded_(loaded)
   {
     vtkNew<vtkMatrix4x4> model;
@@ -83,28 +86,18 @@ public:
     vtkNew<vtkMatrixToLinearTransform> transform;
     transform->SetInput(model);
     vtkNew<vtkPolyData> cloud; // the object itself belongs to the one that takes it
-    loaded.felt = shownPart(loaded.cloud, request.options->clip, loaded.showing.hidden);
+    loaded.felt = shownPart(loaded.cloud, request.options.clip, loaded.showing.hidden);
     cloud->ShallowCopy(loaded.felt);
     resampler_->SetInputData(cloud);
     resampler_->SetTransform(transform);
-    vtkNew<vtkCallbackCommand> ask;
-    ask->SetClientData(this);
-    ask->SetCallback(
-      [](vtkObject*, unsigned long, void* client, void*)
-      {
-        const auto& self = *static_cast<FirstRun*>(client);
-        if (self.request_.working)
-        {
-          self.request_.working("resampling", self.resampler_->GetProgress());
-        }
-        self.resampler_->SetAbortExecute(self.goesOn_() ? 0 : 1);
-      });
-    resampler_->AddObserver(vtkCommand::ProgressEvent, ask);
+    asking_.follow(resampler_, vtkCommand::ProgressEvent);
   }
+
+  bool goesOn() const { return progress_("resampling", resampler_->GetProgress()); }
 
   vtkSmartPointer<vtkPolyData> resample()
   {
-    configureFilters(*request_.options, loaded_, resampler_, bandwidth_);
+    configureFilters(request_.options, loaded_, resampler_, bandwidth_);
     resampler_->Update();
     ++loaded_.resamplings;
     auto means = vtkSmartPointer<vtkPolyData>::New();
@@ -120,7 +113,7 @@ public:
       loaded_.latticeDimension = dimension;
       return this->resample();
     };
-    LatticeChoice choice = chooseLattice(with, goesOn_);
+    LatticeChoice choice = chooseLattice(with, [this] { return this->goesOn(); });
     loaded_.latticeDimension = choice.dimension;
     return std::move(choice.means);
   }
@@ -130,11 +123,11 @@ public:
   {
     const bool residuals =
       loaded_.colorBy == kResidualArrayName && !loaded_.cloud->GetPointData()->HasArray(kResidualArrayName);
-    const bool normals = request_.options->ambient;
-    configureFilters(*request_.options, loaded_, resampler_, bandwidth_); // a finer try may have come after
+    const bool normals = request_.options.ambient;
+    configureFilters(request_.options, loaded_, resampler_, bandwidth_); // a finer try may have come after
     if (request_.makesScene || residuals || normals)
     {
-      loaded_.scene = makeHapticScene(means, loaded_.sceneStatus, request_.options->voxels.computeCovariance,
+      loaded_.scene = makeHapticScene(means, loaded_.sceneStatus, request_.options.voxels.computeCovariance,
         bandwidth_->GetSettings(), &resampler_->GetSettings());
     }
     loaded_.voxels = resampler_->GetSettings();
@@ -155,20 +148,21 @@ public:
 
 private:
   const CloudRequest& request_;
-  const std::function<bool()>& goesOn_;
+  const LoadProgress& progress_;
   LoadedCloud& loaded_;
   vtkNew<vtkVoxelMeanResampler> resampler_;
   vtkNew<vtkKernelBandwidthFilter> bandwidth_;
+  EventLink asking_{ [this] { resampler_->SetAbortExecute(this->goesOn() ? 0 : 1); } };
 };
 
 /// True while the cloud lies in the workspace where @p placement puts it, at least half as long as it could
 /// be.
 bool fitsStill(const CloudRequest& request, const LoadedCloud& loaded, const AffineTransform& placement)
 {
-  const AffineTransform fit = placement * request.options->transform.inverse();
+  const AffineTransform fit = placement * request.options.transform.inverse();
   const Bounds box = boxOfCorners(loaded.bounds, [&](const Vec3& p) { return fit.apply(p); });
   const Vec3 extent = box.extent();
-  return isWithin(defaultWorkspace(), box.minimum) && isWithin(defaultWorkspace(), box.maximum) &&
+  return contains(defaultWorkspace(), box.minimum) && contains(defaultWorkspace(), box.maximum) &&
     2.0 * std::max({ extent.x, extent.y, extent.z }) > kFittedPart * kDefaultWorkspaceEdge;
 }
 
@@ -176,8 +170,8 @@ bool fitsStill(const CloudRequest& request, const LoadedCloud& loaded, const Aff
 
 void placeCloud(const CloudRequest& request, LoadedCloud& loaded)
 {
-  loaded.placement = request.options->transform;
-  if (request.options->fitsWorkspace)
+  loaded.placement = request.options.transform;
+  if (request.options.fitsWorkspace)
   {
     const Vec3 extent = loaded.bounds.extent();
     const double longest = std::max({ extent.x, extent.y, extent.z });
@@ -186,7 +180,7 @@ void placeCloud(const CloudRequest& request, LoadedCloud& loaded)
       AffineTransform::translation(-loaded.bounds.center()) * loaded.placement;
   }
   const bool isKept =
-    request.placement && (!request.options->fitsWorkspace || fitsStill(request, loaded, *request.placement));
+    request.placement && (!request.options.fitsWorkspace || fitsStill(request, loaded, *request.placement));
   loaded.placement = isKept ? *request.placement : loaded.placement;
   loaded.model = isKept && request.model ? *request.model : loaded.placement;
 }
@@ -216,48 +210,40 @@ void configureFilters(const HapticViewerOptions& options, const LoadedCloud& loa
 void resampleLater(const CloudRequest& request, LoadedCloud& loaded)
 {
   loaded.isResampled = false;
-  loaded.findsLattice = choosesLattice(*request.options);
+  loaded.findsLattice = choosesLattice(request.options);
   loaded.felt = loaded.cloud;
   loaded.means = vtkSmartPointer<vtkPolyData>::New();
-  loaded.workspace = workspaceOf(*request.options, loaded);
-  if (loaded.workspace.empty())
-  {
-    loaded.workspace = defaultWorkspace();
-  }
+  placeWorkspace(request, loaded);
 }
 
 bool resampleCloud(
-  const CloudRequest& request, const std::function<bool()>& goesOn, LoadedCloud& loaded, std::string& message)
+  const CloudRequest& request, const LoadProgress& progress, LoadedCloud& loaded, std::string& message)
 {
   const auto begin = std::chrono::steady_clock::now();
-  FirstRun run(request, goesOn, loaded);
+  FirstRun run(request, progress, loaded);
   if (loaded.felt->GetNumberOfPoints() == 0)
   {
-    if (shownPart(loaded.cloud, request.options->clip, {})->GetNumberOfPoints() > 0)
+    if (shownPart(loaded.cloud, request.options.clip, {})->GetNumberOfPoints() > 0)
     {
-      message =
-        fmt::format("{}: all points are hidden by {}; hide fewer values", loaded.title, request.hiddenName);
+      message = fmt::format(
+        "{}: all points are hidden by {}; hide fewer values", loaded.title, request.options.names.hidden);
       return false;
     }
     const Bounds all = extentOf(loaded.cloud).all;
     message = fmt::format("{}: no point lies in the box of {} {:.6g}; the cloud has {:.6g}", loaded.title,
-      request.options->names.clip, fmt::join(request.options->clip, ","),
+      request.options.names.clip, fmt::join(request.options.clip, ","),
       fmt::join(clipNumbers(all, loaded.cloud), ","));
     return false;
   }
-  const bool chooses = choosesLattice(*request.options);
+  const bool chooses = choosesLattice(request.options);
   const vtkSmartPointer<vtkPolyData> means = chooses ? run.resampleAsFits() : run.resample();
-  if (!goesOn())
+  if (!run.goesOn())
   {
     message = loaded.title + ": resampling was stopped on request; start it again";
     return false;
   }
   run.finish(means);
-  loaded.workspace = workspaceOf(*request.options, loaded);
-  if (loaded.workspace.empty())
-  {
-    loaded.workspace = defaultWorkspace();
-  }
+  placeWorkspace(request, loaded);
   loaded.resampleSeconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return true;
 }

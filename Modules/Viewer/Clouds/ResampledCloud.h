@@ -4,7 +4,6 @@
 
 #include "LoadedCloud.h"
 
-#include <functional>
 #include <string>
 
 class vtkKernelBandwidthFilter;
@@ -21,10 +20,10 @@ void configureFilters(const HapticViewerOptions& options, const LoadedCloud& loa
   vtkVoxelMeanResampler* resampler, vtkKernelBandwidthFilter* bandwidth);
 
 /// Resamples the placed cloud, and fills in means and workspace, and the scene where @p request wants it. It
-/// runs once, or as often as chooseLattice() needs where nobody chose a lattice. @p goesOn is asked now and
-/// then; once it answers false, the work ends. False: it was ended, @p message says so.
-POINTHAPTICSVIEWER_EXPORT bool resampleCloud(const CloudRequest& request, const std::function<bool()>& goesOn,
-  LoadedCloud& loaded, std::string& message);
+/// runs once, or as often as chooseLattice() needs where nobody chose a lattice. False: @p progress ended it,
+/// @p message says so.
+POINTHAPTICSVIEWER_EXPORT bool resampleCloud(
+  const CloudRequest& request, const LoadProgress& progress, LoadedCloud& loaded, std::string& message);
 
 /// Fills in the workspace of a cloud that is resampled later, without means.
 void resampleLater(const CloudRequest& request, LoadedCloud& loaded);

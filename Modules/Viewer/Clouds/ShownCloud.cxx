@@ -1,5 +1,6 @@
 #include "ShownCloud.h"
 
+#include "ClippedCloud.h"
 #include "CloudAppearance.h"
 #include "PolyDataAccess.h"
 #include "ProgressiveOrder.h"
@@ -19,9 +20,7 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdint>
 #include <new>
-#include <vector>
 
 namespace pointhaptics
 {
@@ -70,40 +69,24 @@ vtkSmartPointer<vtkPolyData> pick(
   vtkPolyData* cloud, const std::vector<std::uint32_t>& drawn, const ShownRequest& request)
 {
   auto result = vtkSmartPointer<vtkPolyData>::New();
-  const bool all = std::int64_t(drawn.size()) == cloud->GetNumberOfPoints();
-  vtkNew<vtkIdList> ids;
-  if (!all)
-  {
-    ids->SetNumberOfIds(vtkIdType(drawn.size()));
-    std::copy(drawn.begin(), drawn.end(), ids->GetPointer(0));
-    vtkNew<vtkPoints> points;
-    points->SetDataType(cloud->GetPoints()->GetDataType());
-    cloud->GetPoints()->GetPoints(ids, points);
-    result->SetPoints(points);
-  }
-  else
-  {
-    result->SetPoints(cloud->GetPoints());
-  }
+  result->SetPoints(cloud->GetPoints());
   result->GetFieldData()->ShallowCopy(cloud->GetFieldData());
   for (vtkDataArray* array : neededArrays(cloud, request))
   {
-    vtkSmartPointer<vtkDataArray> kept = array;
-    if (!all)
-    {
-      kept = vtkSmartPointer<vtkDataArray>::Take(array->NewInstance());
-      kept->SetName(array->GetName());
-      kept->SetNumberOfComponents(array->GetNumberOfComponents());
-      kept->SetNumberOfTuples(ids->GetNumberOfIds());
-      array->GetTuples(ids, kept);
-    }
-    const int index = result->GetPointData()->AddArray(kept);
+    const int index = result->GetPointData()->AddArray(array);
     if (array == cloud->GetPointData()->GetScalars() && hasColors(cloud))
     {
       result->GetPointData()->SetActiveAttribute(index, vtkDataSetAttributes::SCALARS);
     }
   }
-  return result;
+  if (std::int64_t(drawn.size()) == cloud->GetNumberOfPoints())
+  {
+    return result;
+  }
+  vtkNew<vtkIdList> ids;
+  ids->SetNumberOfIds(vtkIdType(drawn.size()));
+  std::copy(drawn.begin(), drawn.end(), ids->GetPointer(0));
+  return pointsOfCloud(result, ids);
 }
 
 /// True if @p colors need no array that @p points do not have.

@@ -37,15 +37,10 @@ ClipBoxTool::ClipBoxTool(ViewScene& scene, HapticViewerOptions& options,
 {
 }
 
-Bounds ClipBoxTool::box() const
-{
-  return scene_.shownBox();
-}
-
 void ClipBoxTool::toggle()
 {
   ClipBoxMark& mark = scene_.clipMark();
-  mark.setBox(this->box());
+  mark.setBox(scene_.shownBox());
   mark.setVisible(!mark.isVisible());
   say_(mark.isVisible() ? "clipping box: drag its handles" : "clipping box: hidden");
 }
@@ -101,7 +96,7 @@ void ClipBoxTool::moveFace(int direction)
     this->toggle();
   }
   const int face = mark.activeFace();
-  this->move(face, this->box(), direction * kStep * scene_.cloudBounds().extent()[face / 2]);
+  this->move(face, scene_.shownBox(), direction * kStep * scene_.cloudBounds().extent()[face / 2]);
   this->finish();
 }
 
@@ -149,7 +144,7 @@ bool ClipBoxTool::takes(const LeftButton::Event& event)
     if (dragged_ >= 0)
     {
       mark.setActiveFace(dragged_);
-      from_ = this->box();
+      from_ = scene_.shownBox();
       fromX_ = event.x;
       fromY_ = event.y;
       perRight_ = mark.wayOf(dragged_, 1.0, 0.0);
@@ -173,19 +168,13 @@ bool ClipBoxTool::takes(const LeftButton::Event& event)
 
 void ClipBoxTool::addCommands(CommandRegistry& commands, const std::function<ClipBoxTool*()>& tool)
 {
-  const auto isOpen = [tool] { return tool() != nullptr; };
-  const auto call = [&tool](auto action, auto... arguments)
-  { return whileThere(tool, action, arguments...); };
-  const char* const group = "Show";
-  commands.add(
-    { "clip-box", "C", group, "clipping box: drag its handles", call(&ClipBoxTool::toggle), isOpen });
-  commands.add({ "clip-face", "Tab", group, "next face of the box; inward, outward",
-    call(&ClipBoxTool::chooseNextFace), isOpen });
-  commands.add({ "clip-inward", "comma less", group, "next face of the box; inward, outward",
-    call(&ClipBoxTool::moveFace, -1), isOpen });
-  commands.add({ "clip-outward", "period greater", group, "next face of the box; inward, outward",
-    call(&ClipBoxTool::moveFace, +1), isOpen });
-  commands.add({ "clip-nothing", "Delete", group, "clip nothing", call(&ClipBoxTool::clear), isOpen });
+  const char* const faces = "next face of the box; inward, outward";
+  CommandGroup<ClipBoxTool> show(commands, "Show", tool);
+  show.add("clip-box", "C", "clipping box: drag its handles", &ClipBoxTool::toggle);
+  show.add("clip-face", "Tab", faces, &ClipBoxTool::chooseNextFace);
+  show.add("clip-inward", "comma less", faces, &ClipBoxTool::moveFace, -1);
+  show.add("clip-outward", "period greater", faces, &ClipBoxTool::moveFace, +1);
+  show.add("clip-nothing", "Delete", "clip nothing", &ClipBoxTool::clear);
 }
 
 } // namespace pointhaptics

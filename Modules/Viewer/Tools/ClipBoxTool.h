@@ -46,7 +46,6 @@ public:
 
 private:
   bool takes(const LeftButton::Event& event);
-  Bounds box() const;
   void move(int face, const Bounds& from, double way);
   void finish();
 

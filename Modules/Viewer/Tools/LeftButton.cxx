@@ -1,6 +1,5 @@
 #include "LeftButton.h"
 
-#include <vtkCommand.h>
 #include <vtkRenderWindowInteractor.h>
 
 #include <utility>
@@ -13,29 +12,12 @@ LeftButton::LeftButton(
   : interactor_(interactor)
   , takes_(std::move(takes))
 {
-  command_->SetClientData(this);
-  command_->SetCallback(
-    [](vtkObject*, unsigned long event, void* self, void*)
-    {
-      auto& button = *static_cast<LeftButton*>(self);
-      button.command_->SetAbortFlag(button.takes(event));
-    });
-  for (const auto event :
-    { vtkCommand::LeftButtonPressEvent, vtkCommand::MouseMoveEvent, vtkCommand::LeftButtonReleaseEvent })
-  {
-    interactor->AddObserver(event, command_, priority);
-  }
+  events_.follow(interactor,
+    { vtkCommand::LeftButtonPressEvent, vtkCommand::MouseMoveEvent, vtkCommand::LeftButtonReleaseEvent },
+    priority);
 }
 
-LeftButton::~LeftButton()
-{
-  if (interactor_)
-  {
-    interactor_->RemoveObserver(command_);
-  }
-}
-
-bool LeftButton::takes(unsigned long event)
+void LeftButton::onEvent(unsigned long event)
 {
   Event seen;
   seen.kind = event == vtkCommand::LeftButtonPressEvent ? Kind::Press
@@ -44,7 +26,10 @@ bool LeftButton::takes(unsigned long event)
   seen.x = interactor_->GetEventPosition()[0];
   seen.y = interactor_->GetEventPosition()[1];
   seen.isPlain = !interactor_->GetShiftKey() && !interactor_->GetControlKey();
-  return takes_(seen);
+  if (takes_(seen))
+  {
+    events_.keepEvent();
+  }
 }
 
 void LeftButton::render()

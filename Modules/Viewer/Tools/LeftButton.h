@@ -2,8 +2,8 @@
 /// The left mouse button, for tools that take it before the style does.
 #pragma once
 
-#include <vtkCallbackCommand.h>
-#include <vtkNew.h>
+#include "EventLink.h"
+
 #include <vtkWeakPointer.h>
 
 #include <functional>
@@ -34,19 +34,16 @@ public:
   /// @p takes returns true if no other observer may see the event. Tools with a higher @p priority come
   /// first; the style's is 0.
   LeftButton(vtkRenderWindowInteractor* interactor, float priority, std::function<bool(const Event&)> takes);
-  ~LeftButton();
-  LeftButton(const LeftButton&) = delete;
-  LeftButton& operator=(const LeftButton&) = delete;
 
   /// Renders the window, where there still is one.
   void render();
 
 private:
-  bool takes(unsigned long event);
+  void onEvent(unsigned long event);
 
   vtkWeakPointer<vtkRenderWindowInteractor> interactor_;
   std::function<bool(const Event&)> takes_;
-  vtkNew<vtkCallbackCommand> command_;
+  EventLink events_{ [this](unsigned long event, void*) { this->onEvent(event); } };
 };
 
 } // namespace pointhaptics

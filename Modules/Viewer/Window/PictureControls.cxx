@@ -12,10 +12,8 @@
 #include <vtkRenderWindowInteractor.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
-#include <vector>
 
 namespace pointhaptics
 {
@@ -42,12 +40,6 @@ constexpr double kDegreesPerPixel = 0.2;
 /// bar.
 constexpr double kNearestToEnd = 0.05;
 
-void takeNext(std::string& name, const std::vector<std::string>& names)
-{
-  const auto found = std::find(names.begin(), names.end(), name);
-  name = found == names.end() || found + 1 == names.end() ? names.front() : *(found + 1);
-}
-
 struct AxisView
 {
   const char* name;
@@ -60,6 +52,18 @@ constexpr AxisView kViews[] = { { "view-front", "1 KP_1", 0.0, 0.0 }, { "view-ba
   { "view-left", "3 KP_3", -90.0, 0.0 }, { "view-right", "4 KP_4", 90.0, 0.0 },
   { "view-top", "5 KP_5", 0.0, 90.0 }, { "view-bottom", "6 KP_6", 0.0, -90.0 },
   { "view-isometric", "7 KP_7", kIsometricAzimuth, kIsometricElevation } };
+
+struct WalkStep
+{
+  const char* name;
+  const char* keys;
+  double right, up, forward;
+};
+
+constexpr WalkStep kWalkSteps[] = { { "walk-forward", "Walk+w Walk+Up", 0.0, 0.0, 1.0 },
+  { "walk-left", "Walk+a Walk+Left", -1.0, 0.0, 0.0 }, { "walk-back", "Walk+s Walk+Down", 0.0, 0.0, -1.0 },
+  { "walk-right", "Walk+d Walk+Right", 1.0, 0.0, 0.0 }, { "walk-up", "Walk+Prior", 0.0, 1.0, 0.0 },
+  { "walk-down", "Walk+Next", 0.0, -1.0, 0.0 } };
 
 } // namespace
 
@@ -80,20 +84,10 @@ void PictureControls::apply()
   scene_.setPicture(options_.picture);
 }
 
-void PictureControls::lookFrom(double azimuth, double elevation)
-{
-  scene_.lookFrom(azimuth, elevation);
-}
-
 void PictureControls::showFirstView()
 {
   scene_.placeCamera();
   scene_.setCamera(options_.camera);
-}
-
-void PictureControls::fitView()
-{
-  scene_.fitView();
 }
 
 void PictureControls::toggleProjection()
@@ -109,11 +103,6 @@ void PictureControls::toggleFullScreen()
   {
     say_("full screen: this window system does not offer it; enlarge the window by its border");
   }
-}
-
-bool PictureControls::leaveFullScreen()
-{
-  return fullScreen_.isFull() && fullScreen_.set(false);
 }
 
 void PictureControls::toggleStereo()
@@ -217,24 +206,29 @@ void PictureControls::changeDepthStrength(int direction)
   say_(strength > 0.0 ? fmt::format("shading by depth: strength {:.2g}", strength) : "shading by depth: off");
 }
 
+/// Takes the next of @p names in the place of @p name, and draws it.
+void PictureControls::takeNext(std::string& name, const std::vector<std::string>& names)
+{
+  const auto found = std::find(names.begin(), names.end(), name);
+  name = found == names.end() || found + 1 == names.end() ? names.front() : *(found + 1);
+  this->apply();
+}
+
 void PictureControls::showNextBackground()
 {
-  takeNext(options_.picture.background, groundNames());
-  this->apply();
+  this->takeNext(options_.picture.background, groundNames());
   say_("background: " + options_.picture.background);
 }
 
 void PictureControls::showNextTheme()
 {
-  takeNext(options_.picture.theme, themeNames());
-  this->apply();
+  this->takeNext(options_.picture.theme, themeNames());
   say_("theme: " + options_.picture.theme);
 }
 
 void PictureControls::showNextColorMap()
 {
-  takeNext(options_.picture.colorMap, colorMapNames());
-  this->apply();
+  this->takeNext(options_.picture.colorMap, colorMapNames());
   say_("colours: " + options_.picture.colorMap +
     (scene_.isColoredByMap() ? "" : "; seen where numbers colour the cloud"));
 }
@@ -338,90 +332,54 @@ void PictureControls::showAlone(std::size_t file)
   this->hide(std::move(hidden));
 }
 
-void PictureControls::addViewCommands(
-  CommandRegistry& commands, const std::function<PictureControls*()>& controls)
+void PictureControls::addViewCommands(CommandRegistry& commands, const Getter& controls)
 {
-  const auto isOpen = [controls] { return controls() != nullptr; };
-  const auto call = [&controls](auto action, auto... arguments)
-  { return whileThere(controls, action, arguments...); };
-  const char* const group = "Look";
+  using Controls = PictureControls;
+  CommandGroup<Controls> look(commands, "Look", controls);
   for (const AxisView& view : kViews)
   {
-    commands.add({ view.name, view.keys, group, "front, back, left, right, top, bottom, isometric",
-      call(&PictureControls::lookFrom, view.azimuth, view.elevation), isOpen });
+    look.add(view.name, view.keys, "front, back, left, right, top, bottom, isometric",
+      [view](Controls& self) { self.scene_.lookFrom(view.azimuth, view.elevation); });
   }
+  look.add("first-view", "e", "as it was first seen", &Controls::showFirstView);
+  look.add(
+    "reset-view", "r", "fit the cloud, level the horizon", [](Controls& self) { self.scene_.fitView(); });
+  look.add("projection", "P", "parallel or perspective projection", &Controls::toggleProjection);
+  look.add("turntable", "T", "turn about the cloud, stop", &Controls::toggleTurntable);
+  look.add("stereo", "S", "a picture for each eye, or one", &Controls::toggleStereo);
+  look.add("walk", "F5", "walk through the cloud, stop", &Controls::toggleWalk);
+  for (const WalkStep& step : kWalkSteps)
+  {
+    look.add(step.name, step.keys, "of the walk: forward, left, back, right, up, down", &Controls::walk,
+      step.right, step.up, step.forward);
+  }
+  look.add("look-around-drag", "Walk+left", "of the walk: look around",
+    DragAction{ {}, look.call(&Controls::lookAround), {} });
+  look.add("walk-wheel", "Walk+wheel", "of the walk: forward, back",
+    WheelAction{ look.call(&Controls::walk, 0.0, 0.0) });
+  look.add("full-screen", "F11", "full screen", &Controls::toggleFullScreen);
+}
+
+void PictureControls::addCommands(CommandRegistry& commands, const Getter& controls)
+{
   using Controls = PictureControls;
-  commands.add({ "first-view", "e", group, "as it was first seen", call(&Controls::showFirstView), isOpen });
-  commands.add(
-    { "reset-view", "r", group, "fit the cloud, level the horizon", call(&Controls::fitView), isOpen });
-  commands.add({ "projection", "P", group, "parallel or perspective projection",
-    call(&Controls::toggleProjection), isOpen });
-  commands.add(
-    { "turntable", "T", group, "turn about the cloud, stop", call(&Controls::toggleTurntable), isOpen });
-  commands.add(
-    { "stereo", "S", group, "a picture for each eye, or one", call(&Controls::toggleStereo), isOpen });
-  addWalkCommands(commands, controls);
-  commands.add({ "full-screen", "F11", group, "full screen", call(&Controls::toggleFullScreen), isOpen });
-}
-
-void PictureControls::addWalkCommands(
-  CommandRegistry& commands, const std::function<PictureControls*()>& controls)
-{
-  struct Step
-  {
-    const char* name;
-    const char* keys;
-    double right, up, forward;
-  };
-  constexpr Step kSteps[] = { { "walk-forward", "Walk+w Walk+Up", 0.0, 0.0, 1.0 },
-    { "walk-left", "Walk+a Walk+Left", -1.0, 0.0, 0.0 }, { "walk-back", "Walk+s Walk+Down", 0.0, 0.0, -1.0 },
-    { "walk-right", "Walk+d Walk+Right", 1.0, 0.0, 0.0 }, { "walk-up", "Walk+Prior", 0.0, 1.0, 0.0 },
-    { "walk-down", "Walk+Next", 0.0, -1.0, 0.0 } };
-  const char* const group = "Look";
-  const auto isOpen = [controls] { return controls() != nullptr; };
-  const auto call = [&controls](auto action, auto... arguments)
-  { return whileThere(controls, action, arguments...); };
-  commands.add(
-    { "walk", "F5", group, "walk through the cloud, stop", call(&PictureControls::toggleWalk), isOpen });
-  for (const Step& step : kSteps)
-  {
-    commands.add({ step.name, step.keys, group, "of the walk: forward, left, back, right, up, down",
-      call(&PictureControls::walk, step.right, step.up, step.forward), isOpen });
-  }
-  commands.add({ "look-around-drag", "Walk+left", group, "of the walk: look around",
-    DragAction{ {}, call(&PictureControls::lookAround), {} }, isOpen });
-  commands.add({ "walk-wheel", "Walk+wheel", group, "of the walk: forward, back",
-    WheelAction{ call(&PictureControls::walk, 0.0, 0.0) }, isOpen });
-}
-
-void PictureControls::addCommands(CommandRegistry& commands, std::function<PictureControls*()> controls)
-{
   addViewCommands(commands, controls);
-  const auto isOpen = [controls] { return controls() != nullptr; };
-  const auto call = [&controls](auto action, auto... arguments)
-  { return whileThere(controls, action, arguments...); };
-  using Controls = PictureControls;
-  const char* const group = "Show";
   commands.bind("scale-up", "Ctrl+plus Ctrl+Shift+plus Ctrl+equal Ctrl+KP_Add");
   commands.bind("scale-down", "Ctrl+minus Ctrl+KP_Subtract");
-  commands.add({ "points-larger", "plus equal KP_Add", group, "larger, smaller points",
-    call(&Controls::scalePoints, +1), isOpen });
-  commands.add({ "points-smaller", "minus underscore KP_Subtract", group, "larger, smaller points",
-    call(&Controls::scalePoints, -1), isOpen });
-  commands.add({ "depth-stronger", "bracketright", group, "stronger, weaker shading by depth",
-    call(&Controls::changeDepthStrength, +1), isOpen });
-  commands.add({ "depth-weaker", "bracketleft", group, "stronger, weaker shading by depth",
-    call(&Controls::changeDepthStrength, -1), isOpen });
-  commands.add({ "background", "G", group, "background: dark, light, white, black",
-    call(&Controls::showNextBackground), isOpen });
-  commands.add({ "theme", "F9", group, "high contrast", call(&Controls::showNextTheme), isOpen });
-  commands.add({ "color-map", "k", group, "next colour map", call(&Controls::showNextColorMap), isOpen });
-  commands.add(
-    { "color-range", "K", group, "colours over all values", call(&Controls::resetColorRange), isOpen });
-  commands.add({ "hide-outside", "F10", group, "hide what is outside of the colours, show all",
-    call(&Controls::toggleOutside), isOpen });
-  commands.addNote(group, "click on a class or file", "hide, show; beside the colours");
-  commands.addNote(group, "drag on the colour bar", "colours over fewer or more values");
+  CommandGroup<Controls> show(commands, "Show", controls);
+  const char* const sizes = "larger, smaller points";
+  const char* const shading = "stronger, weaker shading by depth";
+  show.add("points-larger", "plus equal KP_Add", sizes, &Controls::scalePoints, +1);
+  show.add("points-smaller", "minus underscore KP_Subtract", sizes, &Controls::scalePoints, -1);
+  show.add("depth-stronger", "bracketright", shading, &Controls::changeDepthStrength, +1);
+  show.add("depth-weaker", "bracketleft", shading, &Controls::changeDepthStrength, -1);
+  show.add("background", "G", "background: dark, light, white, black", &Controls::showNextBackground);
+  show.add("theme", "F9", "high contrast", &Controls::showNextTheme);
+  show.add("color-map", "k", "next colour map", &Controls::showNextColorMap);
+  show.add("color-range", "K", "colours over all values", &Controls::resetColorRange);
+  show.add("hide-outside", "F10", "hide what is outside of the colours, show all", &Controls::toggleOutside);
+  commands.addNote("Show", "click on a class or file", "hide, show; beside the colours");
+  commands.addNote("Show", "drag on the colour bar", "colours over fewer or more values");
 }
 
 } // namespace pointhaptics

@@ -26,14 +26,12 @@ public:
   PictureControls(ViewScene& scene, HapticViewerOptions& options, vtkRenderWindow* window,
     CommandRegistry& commands, std::function<void()> clipped, std::function<void(const std::string&)> say);
 
-  void lookFrom(double azimuth, double elevation);
   /// Restores the first view of the cloud.
   void showFirstView();
-  void fitView();
   void toggleProjection();
   void toggleFullScreen();
   /// False: the window does not fill the screen.
-  bool leaveFullScreen();
+  bool leaveFullScreen() { return fullScreen_.isFull() && fullScreen_.set(false); }
   /// Pictures for two eyes, as they were asked for last, or one.
   void toggleStereo();
   /// Lets the view turn about the cloud, or stops it.
@@ -69,11 +67,12 @@ public:
   void showAlone(std::size_t file);
 
   /// Adds the commands of the result of @p controls, for as long as it exists.
-  static void addCommands(CommandRegistry& commands, std::function<PictureControls*()> controls);
+  using Getter = std::function<PictureControls*()>;
+  static void addCommands(CommandRegistry& commands, const Getter& controls);
 
 private:
-  static void addViewCommands(CommandRegistry& commands, const std::function<PictureControls*()>& controls);
-  static void addWalkCommands(CommandRegistry& commands, const std::function<PictureControls*()>& controls);
+  static void addViewCommands(CommandRegistry& commands, const Getter& controls);
+  void takeNext(std::string& name, const std::vector<std::string>& names);
   void apply();
   void hide(std::vector<HiddenValues> hidden);
 

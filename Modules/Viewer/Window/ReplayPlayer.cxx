@@ -37,16 +37,10 @@ bool ReplayPlayer::open(const std::string& fileName, vtkPointSet* cloud, std::st
   return true;
 }
 
-void ReplayPlayer::start(ServoLoop& loop)
-{
-  thread_.start([this, &loop] { this->run(loop); });
-}
-
-bool ReplayPlayer::takeModel(AffineTransform& model)
+std::optional<AffineTransform> ReplayPlayer::takeModel()
 {
   const std::lock_guard<std::mutex> lock(mutex_);
-  model = model_;
-  return std::exchange(hasModel_, false);
+  return std::exchange(model_, std::nullopt);
 }
 
 std::string ReplayPlayer::takeMessage()
@@ -95,7 +89,6 @@ void ReplayPlayer::run(ServoLoop& loop)
     if (replay.scene() && replay.scene().get() != scene)
     {
       const std::lock_guard<std::mutex> lock(mutex_);
-      hasModel_ = true;
       model_ = replay.scene()->modelToWorkspace();
     }
     scene = replay.scene().get();

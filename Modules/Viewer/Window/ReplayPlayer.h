@@ -10,6 +10,7 @@
 
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 
 class vtkPointSet;
@@ -26,12 +27,15 @@ public:
   /// Opens a recording. False: @p message names the fault of the file, or says that @p cloud is another one.
   bool open(const std::string& fileName, vtkPointSet* cloud, std::string& message);
   /// After open(): feeds @p loop, which must outlive stop(), from the first tick on.
-  void start(ServoLoop& loop);
+  void start(ServoLoop& loop)
+  {
+    thread_.start([this, &loop] { this->run(loop); });
+  }
   void stop() { thread_.stop(); }
 
-  /// Gets the present transform of the model, from the file to the workspace. False: it did not move since
-  /// the last call.
-  bool takeModel(AffineTransform& model);
+  /// The present transform of the model, from the file to the workspace; nothing: it did not move since the
+  /// last call.
+  std::optional<AffineTransform> takeModel();
   /// Message since the last call: a marker, the end. Empty: none.
   std::string takeMessage();
   const ServoStepSettings& stepSettings() const { return recording_.header.step; }
@@ -49,8 +53,7 @@ private:
   Recording recording_;
   vtkSmartPointer<vtkPointSet> cloud_;
   std::mutex mutex_;
-  AffineTransform model_; ///< Guarded by the mutex, as are the members below.
-  bool hasModel_ = false;
+  std::optional<AffineTransform> model_; ///< Guarded by the mutex, as is the message.
   std::string message_;
   StoppableThread thread_;
 };

@@ -1,71 +1,48 @@
 // Commands of the viewer beside those of vtkInteractorStyleHaptic: one entry a command.
 #include "Gesture.h"
 #include "HapticViewer.h"
-#include "PictureControls.h"
 #include "ViewWindow.h"
-
-#include <vtkNew.h>
 
 namespace pointhaptics
 {
 
 void ViewWindow::addCommands(CommandRegistry& commands, ViewWindow* window)
 {
-  const WatchedPointer<ViewWindow> self(window); // a host may keep the style for longer
-  const auto isOpen = [self] { return bool(self); };
-  const auto hasOtherFiles = [self] { return self && self->files_.size() > 1; };
-  const auto keepsSettings = [self] { return self && self->observer_.writeState; };
-  const std::function<ViewWindow*()> there = [self] { return self.get(); };
-  const auto call = [&there](void (ViewWindow::*action)()) { return whileThere(there, action); };
-  PictureControls::addCommands(commands,
-    [self]() -> PictureControls*
-    {
-      ViewWindow* open = self.get();
-      return open ? &open->controls_ : nullptr;
-    });
-  ClipBoxTool::addCommands(commands,
-    [self]() -> ClipBoxTool*
-    {
-      ViewWindow* open = self.get();
-      return open ? &open->clipping_ : nullptr;
-    });
   using Window = ViewWindow;
-  commands.add({ "pivot", kDoubleClick, "Look", "turn about the point under the mouse",
-    call(&Window::setPivot), isOpen });
-  commands.add({ "axes", "a", "Show", "axes and bounds", call(&Window::toggleAxes), isOpen });
-  commands.add(
-    { "figure", "o", "Show", "figure: cloud, cube, touch only", call(&Window::toggleFigure), isOpen });
-  commands.add({ "colors", "m", "Show", "colour by the next array", call(&Window::showNextColors), isOpen });
-  commands.add(
-    { "felt", "d", "Show", "voxel means that are felt, or the points", call(&Window::toggleFelt), isOpen });
-  commands.add(
-    { "ambient", "l", "Show", "ambient light from the normals", call(&Window::toggleAmbient), isOpen });
-  commands.add(
-    { "next-file", "n", "Program", "next, previous file", call(&Window::showNextFile), hasOtherFiles });
-  commands.add({ "previous-file", "b", "Program", "next, previous file", call(&Window::showPreviousFile),
-    hasOtherFiles });
+  const WatchedPointer<Window> self(window); // a host may keep the style for longer
+  const auto there = [self] { return self.get(); };
+  PictureControls::addCommands(commands, [self] { return self ? &self->controls_ : nullptr; });
+  ClipBoxTool::addCommands(commands, [self] { return self ? &self->clipping_ : nullptr; });
+  CommandGroup<Window> look(commands, "Look", there);
+  CommandGroup<Window> show(commands, "Show", there);
+  CommandGroup<Window> hand(commands, "Hand", there);
+  CommandGroup<Window> program(commands, "Program", there);
+  CommandGroup<Window> files(commands, "Program", there, [](Window& open) { return open.files_.size() > 1; });
+  CommandGroup<Window> settings(
+    commands, "Program", there, [](Window& open) { return bool(open.observer_.writeState); });
+  look.add("pivot", kDoubleClick, "turn about the point under the mouse", &Window::setPivot);
+  show.add("axes", "a", "axes and bounds", &Window::toggleAxes);
+  show.add("figure", "o", "figure: cloud, cube, touch only", &Window::toggleFigure);
+  show.add("colors", "m", "colour by the next array", &Window::showNextColors);
+  show.add("felt", "d", "voxel means that are felt, or the points", &Window::toggleFelt);
+  show.add("ambient", "l", "ambient light from the normals", &Window::toggleAmbient);
+  files.add("next-file", "n", "next, previous file", &Window::stepFile, +1);
+  files.add("previous-file", "b", "next, previous file", &Window::stepFile, -1);
   commands.bind("undo-model", "Ctrl+z");
-  commands.add(
-    { "take-unit", "u", "Show", "take the unit the file seems to have", call(&Window::toggleUnit), isOpen });
-  commands.add(
-    { "measure", "D", "Show", "measure: click on two points", call(&Window::toggleMeasuring), isOpen });
-  commands.add({ "profile", "F6", "Show", "height profile along the measured line",
-    call(&Window::toggleProfile), isOpen });
-  commands.add(
-    { "turn-up", "F7", "Look", "another axis points up, kept for the file", call(&Window::turnUp), isOpen });
-  commands.add(
-    { "save-part", "F12", "Program", "save the part that is shown", call(&Window::savePart), isOpen });
-  commands.add({ "sound", "F8", "Hand", "hear the touch", call(&Window::toggleSound), isOpen });
-  commands.add({ "screenshot", "s", "Program", "screenshot", call(&Window::writeScreenshot), isOpen });
-  commands.add({ "write-settings", "w", "Program", "write the settings to a file",
-    call(&Window::writeSettings), keepsSettings });
-  commands.add(
-    { "record", "j", "Program", "start, stop recording the touch", call(&Window::toggleRecording), isOpen });
-  commands.add({ "leave", "Escape", "Program",
-    "leave reading, help, tools, hand mode, full screen; then quit", call(&Window::leave), isOpen });
+  show.add("take-unit", "u", "take the unit the file seems to have", &Window::toggleUnit);
+  show.add("measure", "D", "measure: click on two points",
+    [](Window& open) { open.measuring_.toggle(open.style_->GetCommands().label("measure")); });
+  show.add("profile", "F6", "height profile along the measured line", &Window::toggleProfile);
+  look.add("turn-up", "F7", "another axis points up, kept for the file", &Window::turnUp);
+  program.add("save-part", "F12", "save the part that is shown", &Window::savePart);
+  hand.add("sound", "F8", "hear the touch", &Window::toggleSound);
+  program.add("screenshot", "s", "screenshot", &Window::writeScreenshot);
+  settings.add("write-settings", "w", "write the settings to a file", &Window::writeSettings);
+  program.add("record", "j", "start, stop recording the touch", &Window::toggleRecording);
+  program.add(
+    "leave", "Escape", "leave reading, help, tools, hand mode, full screen; then quit", &Window::leave);
   commands.bind("hand-mode", "f");
-  commands.add(
-    { "marker", "space", "Program", "set a marker in the recording", call(&Window::setMarker), isOpen });
+  program.add("marker", "space", "set a marker in the recording", &Window::setMarker);
   commands.addNote("Program", "files dropped on the window", "open them");
 }
 

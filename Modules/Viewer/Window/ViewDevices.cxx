@@ -1,20 +1,7 @@
 // Devices of the window, which move the hand and the model, and the servo loop.
-#include "ViewScene.h"
 #include "ViewWindow.h"
 
-#include "vtkInteractorStyleHaptic.h"
-
-#include "Devices/Falcon/FalconDevice.h"
-#include "Devices/PathReplay.h"
-#include "Devices/SimulatedDevice.h"
-#include "Devices/SpaceMouse/SpaceMouse.h"
-#include "Haptics/ServoLoop.h"
-
 #include <fmt/format.h>
-
-#include <memory>
-#include <string>
-#include <utility>
 
 namespace pointhaptics
 {
@@ -43,7 +30,7 @@ void ViewWindow::openFalcon()
   }
   falcon_ = std::make_unique<FalconDevice>(settings);
   device_ = falcon_.get();
-  this->report(HapticViewerObserver::Kind::Note, "falcon: starting; loading its firmware takes some seconds");
+  observer_.say(kNote, "falcon: starting; loading its firmware takes some seconds");
 }
 
 bool ViewWindow::openDevice(std::string& message)
@@ -77,11 +64,11 @@ bool ViewWindow::openDevice(std::string& message)
     this->openSimulated();
   }
   Status status = device_ ? device_->open() : Status::Ok;
-  if (status != Status::Ok && falcon_ && options_.device == HapticViewerDevice::Auto && !this->shouldStop())
+  if (status != Status::Ok && falcon_ && options_.device == HapticViewerDevice::Auto && !observer_.stops())
   {
     news_ = fmt::format("the Falcon cannot be used: {}; the simulated hand takes its place",
       openProblem(*falcon_, status, options_.names.firmware));
-    this->report(HapticViewerObserver::Kind::Warning, news_);
+    observer_.say(kWarning, news_);
     falcon_.reset();
     this->openSimulated();
     status = device_->open();
@@ -105,7 +92,7 @@ bool ViewWindow::startServo(std::string& message)
 {
   if (const std::string odd = style_->JudgeUnits(options_.names.units); !odd.empty())
   {
-    this->report(HapticViewerObserver::Kind::Warning, options_.path + ": " + odd);
+    observer_.say(kWarning, options_.path + ": " + odd);
   }
   if (player_)
   {
@@ -115,7 +102,7 @@ bool ViewWindow::startServo(std::string& message)
   }
   ServoSettings settings = falcon_ ? pushingServoSettings(1000.0) : ServoSettings();
   settings.idlesWhenStill = options_.trace.empty() && options_.record.empty(); // these have all ticks
-  const Status status = device_ ? servo_.start(*device_, parameters_, settings, &message) : Status::Ok;
+  const Status status = device_ ? servo_.start(*device_, options_.haptics, settings, &message) : Status::Ok;
   return status == Status::Ok;
 }
 

@@ -1,16 +1,16 @@
-// What keys do with the shown part of a cloud, a line through it, and its up axis.
+// The shown part of a cloud as a file, and the profile of a line through it.
 #include "CloudAppearance.h"
 #include "CloudFiles.h"
 #include "ViewWindow.h"
 
 #include "vtkPointCloudWriter.h"
 
+#include "Core/Base/OutputFile.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
-#include <iterator>
 
 namespace pointhaptics
 {
@@ -19,19 +19,19 @@ namespace
 
 constexpr double kProfileBegin = 0.76; // of the window's height
 
-constexpr const char* kAxes[] = { "z", "-z", "y", "-y", "x", "-x" };
-
 } // namespace
 
-/// The first of STEM-001.EXTENSION, STEM-002.EXTENSION, ... after @p last that is not there yet.
-std::string freeFileName(const char* extension, int& last)
+/// The first of pointhaptics-001.EXTENSION, pointhaptics-002.EXTENSION, ... that is not there yet.
+std::string freeFileName(const std::string& extension)
 {
   std::string name;
   std::error_code error;
-  do
+  for (int number = 1; name.empty() || std::filesystem::exists(name, error) ||
+       std::filesystem::exists(OutputFile::keptPartOf(name), error);
+       ++number)
   {
-    name = fmt::format("pointhaptics-{:03}.{}", ++last, extension);
-  } while (std::filesystem::exists(name, error));
+    name = fmt::format("pointhaptics-{:03}.{}", number, extension);
+  }
   return name;
 }
 
@@ -46,9 +46,9 @@ void ViewWindow::savePart()
   const std::string& first = shown_.front();
   const std::size_t dot = first.rfind('.');
   const bool isWritable = dot != std::string::npos && vtkPointCloudWriter::CanWrite(first);
-  const std::string name = freeFileName(isWritable ? first.c_str() + dot + 1 : "ply", savedParts_);
+  const std::string name = freeFileName(isWritable ? first.substr(dot + 1) : "ply");
   saving_ = std::async(std::launch::async,
-    [request = CloudRequest::of(shown_, options_), up = scene_.cloudUp(), name]
+    [request = CloudRequest(shown_, options_), up = scene_.cloudUp(), name]
     {
       std::string message;
       const bool isWritten = writePart(request, up, name, message);
@@ -61,7 +61,7 @@ void ViewWindow::followSaving()
   if (saving_.valid() && saving_.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
   {
     const auto [isWritten, message] = saving_.get();
-    isWritten ? this->say(message) : this->tell(message);
+    this->say(message, isWritten ? kNote : kError);
   }
 }
 
@@ -116,36 +116,6 @@ void ViewWindow::setTop(double top)
   vtkRenderer* renderer = scene_.renderer();
   const double* viewport = renderer->GetViewport();
   renderer->SetViewport(viewport[0], viewport[1], viewport[2], top);
-}
-
-/// Reads the file again with the next axis upwards.
-void ViewWindow::turnUp()
-{
-  const std::string present = axisName(scene_.cloudUp());
-  const auto* found = std::find(std::begin(kAxes), std::end(kAxes), present);
-  const std::string next = kAxes[(found - std::begin(kAxes) + 1) % std::size(kAxes)];
-  if (shown_.empty() || loader_.busy())
-  {
-    this->say(shown_.empty() ? "the points are of no file" : "a file is being read; turn it after that");
-    return;
-  }
-  ups_[shown_.front()] = next;
-  if (observer_.keepUp)
-  {
-    observer_.keepUp(shown_.front(), next);
-  }
-  this->load(shown_, Load::New, [this, next](bool isShown) { isShown ? this->say("up: " + next) : void(); });
-}
-
-/// The axis that points up in @p file: as it was turned here; else that of the options, else as it was kept.
-std::string ViewWindow::upOf(const std::string& file)
-{
-  if (askedUp_ == "auto" && ups_.count(file) == 0 && observer_.upOf)
-  {
-    ups_[file] = observer_.upOf(file);
-  }
-  const auto found = ups_.find(file);
-  return found == ups_.end() || found->second.empty() ? askedUp_ : found->second;
 }
 
 } // namespace pointhaptics

@@ -2,18 +2,11 @@
 #include "PolyDataAccess.h"
 #include "ViewWindow.h"
 
-#include "Core/Base/OutputFile.h"
-
 #include "vtkVoxelMeanResampler.h"
 
 #include <fmt/format.h>
 #include <vtkMatrix4x4.h>
-#include <vtkNew.h>
 #include <vtkPointSet.h>
-
-#include <filesystem>
-#include <memory>
-#include <utility>
 
 namespace pointhaptics
 {
@@ -42,7 +35,7 @@ bool ViewWindow::startRecording(const std::string& fileName, std::string& messag
 
 /// Ends the recording and says where it is, and @p cause where that ends it early. False: @p message says
 /// what is lost.
-bool ViewWindow::endRecording(std::string& message, const std::string& cause)
+bool ViewWindow::closeRecording(std::string& message, const std::string& cause)
 {
   if (!recording_.isOpen())
   {
@@ -54,7 +47,7 @@ bool ViewWindow::endRecording(std::string& message, const std::string& cause)
   if (!why.empty())
   {
     const std::string verb = recording_.numberOfTicks() == 0 ? "" : "it ends early: ";
-    this->report(HapticViewerObserver::Kind::Warning, recording_.fileName() + ": " + verb + why);
+    observer_.say(kWarning, recording_.fileName() + ": " + verb + why);
   }
   if (!isWritten || recording_.numberOfTicks() == 0)
   {
@@ -66,15 +59,22 @@ bool ViewWindow::endRecording(std::string& message, const std::string& cause)
   return true;
 }
 
+/// As closeRecording(), in a window that goes on.
+void ViewWindow::endRecording(const std::string& cause)
+{
+  std::string message;
+  if (!this->closeRecording(message, cause))
+  {
+    this->say(message, kError);
+  }
+}
+
 void ViewWindow::toggleRecording()
 {
   std::string message;
   if (recording_.isOpen())
   {
-    if (!this->endRecording(message))
-    {
-      this->tell(message);
-    }
+    this->endRecording();
     return;
   }
   if (!device_ || !servo_.running())
@@ -87,14 +87,10 @@ void ViewWindow::toggleRecording()
     this->say("not all points are read yet; record once they are");
     return;
   }
-  std::string name;
-  do
-  {
-    name = fmt::format("pointhaptics-{:03}.csv", ++recordings_);
-  } while (std::filesystem::exists(name) || std::filesystem::exists(OutputFile::keptPartOf(name)));
+  const std::string name = freeFileName("csv");
   if (!this->startRecording(name, message))
   {
-    this->tell(message);
+    this->say(message, kError);
     return;
   }
   servo_.beginAnew();
@@ -117,11 +113,7 @@ void ViewWindow::followRecording()
   }
   if (!recording_.problem().empty())
   {
-    std::string message;
-    if (!this->endRecording(message))
-    {
-      this->tell(message);
-    }
+    this->endRecording();
     return;
   }
   if (recording_.isWaiting() && !recordingWaits_ && servo_.latest().state.contact)
@@ -160,7 +152,7 @@ void ViewWindow::toggleSound()
   else
   {
     options_.sound = false;
-    this->tell(message);
+    this->say(message, kError);
   }
 }
 
@@ -172,7 +164,7 @@ void ViewWindow::followSound()
   {
     sound_.stop();
     options_.sound = false;
-    this->tell(problem);
+    this->say(problem, kError);
   }
 }
 
@@ -186,11 +178,10 @@ bool ViewWindow::openReplay(std::string& message)
 /// Called at every timer event: moves the model as in the recording.
 void ViewWindow::followReplay()
 {
-  AffineTransform model;
-  if (player_ && player_->takeModel(model))
+  if (const auto model = player_ ? player_->takeModel() : std::nullopt)
   {
     vtkNew<vtkMatrix4x4> matrix;
-    setElements(matrix, model);
+    setElements(matrix, *model);
     style_->SetModelMatrix(matrix);
   }
   const std::string news = player_ ? player_->takeMessage() : std::string();

@@ -1,38 +1,20 @@
 #include "ViewWindow.h"
 
-#include "StereoPicture.h"
 #include "ViewDisplay.h"
-#include "ViewEvents.h"
-#include "ViewScene.h"
 
 #include "CloudAppearance.h"
 #include "Gesture.h"
 #include "ScreenScale.h"
 #include "SteadyTime.h"
-#include "vtkHapticChart.h"
-#include "vtkHapticOverlay.h"
-#include "vtkHapticProps.h"
-#include "vtkHapticSliders.h"
-#include "vtkInteractorStyleHaptic.h"
-
-#include "Haptics/ServoLoop.h"
+#include "StereoPicture.h"
 
 #include <fmt/format.h>
-#include <vtkCallbackCommand.h>
-#include <vtkCommand.h>
-#include <vtkNew.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderWindowInteractor.h>
-#include <vtkRenderer.h>
 #include <vtkTransform.h>
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
-#include <memory>
 #include <optional>
-#include <utility>
 
 namespace pointhaptics
 {
@@ -51,11 +33,8 @@ ViewWindow::ViewWindow(ViewScene& scene, const HapticViewerOptions& options,
   const HapticViewerObserver& observer, std::vector<std::string> files)
   : scene_(scene)
   , options_(options)
-  , askedColorBy_(options.colorBy)
-  , askedColorRange_(options.picture.colorRange)
-  , askedUp_(options.up)
+  , asked_(options)
   , observer_(observer)
-  , parameters_(options.haptics)
   , files_(std::move(files))
   , controls_(
       scene, options_, window_, style_->GetCommands(), [this] { this->clipFelt(); },
@@ -74,7 +53,7 @@ ViewWindow::ViewWindow(ViewScene& scene, const HapticViewerOptions& options,
   ViewWindow::addCommands(style_->GetCommands(), this);
   for (const std::string& conflict : style_->GetCommands().conflicts())
   {
-    this->report(HapticViewerObserver::Kind::Error, "two commands have one key by default: " + conflict);
+    observer_.say(kError, "two commands have one key by default: " + conflict);
   }
   style_->GetCommands().bind(options_.bindings);
 }
@@ -84,21 +63,13 @@ ViewWindow::~ViewWindow()
   std::string message;
   if (isStarted_ && !this->finish(message))
   {
-    this->report(HapticViewerObserver::Kind::Error, message);
+    observer_.say(kError, message);
   }
   layout_.follow(nullptr);
   scene_.leaveLayout();
   if (isOpen_)
   {
     window_->RemoveRenderer(scene_.renderer());
-  }
-}
-
-void ViewWindow::report(HapticViewerObserver::Kind kind, const std::string& message) const
-{
-  if (observer_.message)
-  {
-    observer_.message(kind, message);
   }
 }
 
@@ -113,6 +84,15 @@ void ViewWindow::openWindow()
   interactor_->SetRenderWindow(window_);
   interactor_->SetInteractorStyle(nullptr); // until there is something to move
   isOpen_ = true;
+}
+
+void ViewWindow::setTitle(const std::string& words)
+{
+  const std::string title = "PointHaptics: " + words;
+  if (title != window_->GetWindowName())
+  {
+    window_->SetWindowName(title.c_str());
+  }
 }
 
 /// Shows the bar in a renderer of its own: the scene's would ask filters that have no cloud.
@@ -132,7 +112,7 @@ void ViewWindow::showBar(const std::string& words, double part)
   window_->Render();
   interactor_->Initialize();
   // The title comes after the window hears keys: a person who waits for it may press one.
-  window_->SetWindowName(("PointHaptics: " + words).c_str());
+  this->setTitle(words);
 }
 
 /// The keys that leave or quit.
@@ -146,52 +126,40 @@ bool ViewWindow::isCancelKey()
 
 bool ViewWindow::awaitCloud(const CloudLoader& loader, const std::string& title)
 {
-  struct Wait
+  bool isRead = false;
+  this->showBar("reading " + title, loader.step().part);
+  const auto look = [&](unsigned long event, void*)
   {
-    ViewWindow& self;
-    const CloudLoader& loader;
-    std::string title;
-    bool isRead = false;
-  } wait{ *this, loader, title };
-  this->showBar("reading " + title, loader.progress());
-  vtkNew<vtkCallbackCommand> events;
-  events->SetClientData(&wait);
-  events->SetCallback(
-    [](vtkObject*, unsigned long event, void* client, void*)
+    if (interactor_->GetDone())
     {
-      auto& [self, reader, cloud, isRead] = *static_cast<Wait*>(client);
-      if (self.interactor_->GetDone())
-      {
-        return; // it is decided; this was in the queue
-      }
-      const bool cancels = (event == vtkCommand::KeyPressEvent && self.isCancelKey()) || self.shouldStop();
-      isRead = !cancels && reader.waitFor(0.0);
-      if (event == vtkCommand::KeyPressEvent && !cancels)
-      {
-        self.waitingKeys_.keep(self.interactor_);
-      }
-      if (cancels || isRead)
-      {
-        leaveEvents(self.interactor_);
-      }
-      const CloudLoader::Step step = reader.step();
-      if (self.observer_.progress)
-      {
-        self.observer_.progress(step.name, isRead || cancels ? 1.0 : std::min(step.part, kAlmostDone));
-      }
-      if (self.progress_->SetProgress(step.name + (" " + cloud), step.part))
-      {
-        self.window_->Render();
-      }
-    });
-  const unsigned long ticks = interactor_->AddObserver(vtkCommand::TimerEvent, events);
-  const unsigned long keys = interactor_->AddObserver(vtkCommand::KeyPressEvent, events);
+      return; // it is decided; this was in the queue
+    }
+    const bool cancels = (event == vtkCommand::KeyPressEvent && this->isCancelKey()) || observer_.stops();
+    isRead = !cancels && loader.waitFor(0.0);
+    if (event == vtkCommand::KeyPressEvent && !cancels)
+    {
+      waitingKeys_.keep(interactor_);
+    }
+    if (cancels || isRead)
+    {
+      leaveEvents(interactor_);
+    }
+    const CloudLoader::Step step = loader.step();
+    if (observer_.progress)
+    {
+      observer_.progress(step.name, isRead || cancels ? 1.0 : std::min(step.part, kAlmostDone));
+    }
+    if (progress_->SetProgress(step.name + (" " + title), step.part))
+    {
+      window_->Render();
+    }
+  };
+  EventLink events(look);
+  events.follow(interactor_, { vtkCommand::TimerEvent, vtkCommand::KeyPressEvent });
   const int timer = interactor_->CreateRepeatingTimer(33);
   runEvents(interactor_);
   interactor_->DestroyTimer(timer);
-  interactor_->RemoveObserver(ticks);
-  interactor_->RemoveObserver(keys);
-  return wait.isRead; // not where the close button ended it
+  return isRead; // not where the close button ended it
 }
 
 void ViewWindow::setUpRendering()
@@ -203,7 +171,7 @@ void ViewWindow::setUpRendering()
   progress_->Hide();
   progress_->RemoveFrom(waiting_);
   window_->RemoveRenderer(waiting_);
-  window_->SetWindowName(("PointHaptics: " + scene_.title()).c_str());
+  this->setTitle(scene_.title());
   window_->AddRenderer(scene_.renderer());
   overlay_->AddTo(scene_.renderer());
   progress_->AddTo(scene_.renderer());
@@ -228,33 +196,9 @@ void ViewWindow::setUpRendering()
   scene_.placeAxes(scene_.modelMatrix());
 }
 
-void ViewWindow::observe(unsigned long event, void (ViewWindow::*handler)(void*))
-{
-  struct Link
-  {
-    WatchedPointer<ViewWindow> window; // a host may keep the style for longer
-    void (ViewWindow::*handler)(void*);
-  };
-  vtkNew<vtkCallbackCommand> command;
-  command->SetClientData(new Link{ this, handler });
-  command->SetClientDataDeleteCallback([](void* link) { delete static_cast<Link*>(link); });
-  command->SetCallback(
-    [](vtkObject*, unsigned long, void* client, void* callData)
-    {
-      const Link* link = static_cast<Link*>(client);
-      if (ViewWindow* window = link->window.get())
-      {
-        (window->*link->handler)(callData);
-      }
-    });
-  style_->AddObserver(event, command);
-}
-
 void ViewWindow::connectStyle()
 {
-  double bounds[6];
-  scene_.getWorkspaceBounds(bounds);
-  style_->SetWorkspaceBounds(bounds);
+  style_->SetWorkspaceBounds(scene_.workspaceBounds().data());
   scene_.showAmbient(options_.ambient);
   this->setSceneOptions();
   style_->SetResampler(scene_.resampler());
@@ -267,12 +211,15 @@ void ViewWindow::connectStyle()
   style_->GetHand().setPushesPointer(options_.pushPointer);
   style_->SetDefaultRenderer(scene_.renderer());
   this->showNote();
-  this->observe(vtkInteractorStyleHaptic::ModelChangedEvent, &ViewWindow::onModelChanged);
-  this->observe(vtkInteractorStyleHaptic::SceneChangedEvent, &ViewWindow::onSceneChanged);
-  this->observe(vtkInteractorStyleHaptic::SamplesEvent, &ViewWindow::onSamples);
-  this->observe(vtkInteractorStyleHaptic::FilesDroppedEvent, &ViewWindow::onFilesDropped);
+  modelChanged_.follow(style_, vtkInteractorStyleHaptic::ModelChangedEvent);
+  sceneChanged_.follow(style_, vtkInteractorStyleHaptic::SceneChangedEvent);
+  samples_.follow(style_, vtkInteractorStyleHaptic::SamplesEvent);
+  dropped_.follow(style_, vtkInteractorStyleHaptic::FilesDroppedEvent);
   interactor_->SetInteractorStyle(style_);
-  this->connectSliders();
+  sliders_->SetInteractor(interactor_);
+  this->showSliderValues();
+  sliderMoved_.follow(sliders_, vtkHapticSliders::ValueChangedEvent);
+  style_->SetSliders(sliders_);
   if (options_.figure)
   {
     this->showFigure(true);
@@ -291,7 +238,7 @@ void ViewWindow::onSamples(void* callData)
     std::string message;
     if (!trace_.isFine() && !trace_.commit(message)) // at once: the session may last for hours
     {
-      this->report(HapticViewerObserver::Kind::Error, message);
+      observer_.say(kError, message);
     }
   }
   if (!options_.forceChart.empty())
@@ -314,16 +261,17 @@ void ViewWindow::onTimer()
   {
     interactor_->Render();
   }
-  saysDrawing_ = false;
   if (!loader_.busy())
   {
-    this->nameWork();
+    const std::optional<double> part = scene_.measuredPart();
+    this->setTitle(part ? fmt::format("measuring {} {:.0f} %", scene_.title(), std::floor(100.0 * *part))
+                        : scene_.title());
   }
   if (controls_.turnTable(steadySeconds()))
   {
     style_->GetDisplay().requestRender();
   }
-  if (this->shouldStop())
+  if (observer_.stops())
   {
     interactor_->TerminateApp();
   }
@@ -338,27 +286,8 @@ void ViewWindow::onTimer()
     sinceLook_ = 0;
     if (watch_.look())
     {
-      this->load(shown_, Load::Again,
-        [this](bool isShown)
-        {
-          if (isShown)
-          {
-            this->say("read again: " + scene_.title());
-          }
-        });
+      this->load(shown_, Load::Again, [this] { this->say("read again: " + scene_.title()); });
     }
-  }
-}
-
-/// Names in the title what is done in the background.
-void ViewWindow::nameWork()
-{
-  const std::optional<double> part = scene_.measuredPart();
-  const std::string title = "PointHaptics: " +
-    (part ? fmt::format("measuring {} {:.0f} %", scene_.title(), std::floor(100.0 * *part)) : scene_.title());
-  if (title != window_->GetWindowName())
-  {
-    window_->SetWindowName(title.c_str());
   }
 }
 
@@ -371,34 +300,25 @@ void ViewWindow::onAbortCheck()
   {
     return;
   }
-  if (inputWaits(window_) || this->shouldStop())
+  if (inputWaits(window_) || observer_.stops())
   {
     isGivenUp_ = true;
     window_->SetAbortRender(1);
   }
-  else if (!saysDrawing_ && !loader_.busy() && *seconds > kLongFrame)
+  else if (!loader_.busy() && *seconds > kLongFrame)
   {
-    saysDrawing_ = true;
-    window_->SetWindowName(("PointHaptics: drawing " + scene_.title()).c_str());
+    this->setTitle("drawing " + scene_.title());
   }
 }
 
-void ViewWindow::say(const std::string& news)
+void ViewWindow::say(const std::string& news, HapticViewerObserver::Kind kind)
 {
-  this->report(HapticViewerObserver::Kind::Note, news);
+  observer_.say(kind, news);
   news_ = news;
   this->showNote();
 }
 
-/// Sends a message to the host and shows it in the window.
-void ViewWindow::tell(const std::string& message)
-{
-  this->report(HapticViewerObserver::Kind::Error, message);
-  news_ = message;
-  this->showNote();
-}
-
-void ViewWindow::onModelChanged(void*)
+void ViewWindow::onModelChanged()
 {
   news_.clear();
   scene_.placeModel(style_->GetModelTransform()->GetMatrix());
@@ -408,7 +328,7 @@ void ViewWindow::onModelChanged(void*)
 
 /// Shows new means, which may bring the colours that the picture waits for. Errors of VTK classes go where
 /// the user looks.
-void ViewWindow::onSceneChanged(void*)
+void ViewWindow::onSceneChanged()
 {
   const bool wasResampled = scene_.isResampled();
   scene_.meansChanged();
@@ -420,7 +340,7 @@ void ViewWindow::onSceneChanged(void*)
   for (const std::string& error :
     observer_.takeVtkErrors ? observer_.takeVtkErrors() : std::vector<std::string>())
   {
-    this->tell(error);
+    this->say(error, kError);
   }
 }
 
@@ -447,7 +367,7 @@ bool ViewWindow::finish(std::string& message)
   }
   if (const std::string refusals = describeRefusals(servo_.statistics()); falcon_ && !refusals.empty())
   {
-    this->report(HapticViewerObserver::Kind::Warning, refusals);
+    observer_.say(kWarning, refusals);
   }
   return this->endFiles(message);
 }
@@ -455,35 +375,34 @@ bool ViewWindow::finish(std::string& message)
 /// Ends all files. One that cannot be written takes none of the others with it.
 bool ViewWindow::endFiles(std::string& message)
 {
-  bool areWritten = this->endRecording(message);
+  const auto noteFile = [this](bool isWritten, const std::string& note)
+  {
+    if (isWritten)
+    {
+      observer_.say(kNote, note);
+    }
+  };
+  bool areWritten = this->closeRecording(message);
   if (trace_.isOpen())
   {
     const bool isWritten = trace_.commit(message);
-    this->noteFile(isWritten, "trace: " + options_.trace);
+    noteFile(isWritten, "trace: " + options_.trace);
     areWritten = areWritten && isWritten;
   }
   if (!options_.forceChart.empty())
   {
     const bool isWritten = wholeChart_->WriteImage(options_.forceChart.c_str());
     message = isWritten ? message : wholeChart_->GetErrorMessage();
-    this->noteFile(isWritten, "force chart: " + options_.forceChart);
+    noteFile(isWritten, "force chart: " + options_.forceChart);
     areWritten = areWritten && isWritten;
   }
   return areWritten;
 }
 
-void ViewWindow::noteFile(bool isWritten, const std::string& note) const
-{
-  if (isWritten)
-  {
-    this->report(HapticViewerObserver::Kind::Note, note);
-  }
-}
-
 /// Parameters that @p sample was felt with.
 ContactParameters ViewWindow::contactOf(const ServoSample& sample) const
 {
-  ContactParameters contact = player_ ? player_->contactOf(sample) : parameters_.contact;
+  ContactParameters contact = player_ ? player_->contactOf(sample) : options_.haptics.contact;
   contact.forceLimit = device_ && servo_.running() ? servo_.forceLimit().newtons() : contact.forceLimit;
   return contact;
 }

@@ -1,13 +1,14 @@
 /// @file
 /// The viewer's window with the live touch: ViewWindow.cxx sets it up, runs it and closes it, ViewDevices.cxx
-/// has devices and servo loop, ViewCommands.cxx lists what its keys do, ViewWindowActions.cxx,
-/// ViewSliders.cxx and ViewRecording.cxx do it.
+/// has devices and servo loop, ViewLoading.cxx brings the files, ViewCommands.cxx lists what its keys do,
+/// ViewActions.cxx, ViewParts.cxx and ViewRecording.cxx do it.
 #pragma once
 
 #include "ClipBoxTool.h"
 #include "CloudLoader.h"
 #include "ColorBarDrag.h"
 #include "DistanceMeasuring.h"
+#include "EventLink.h"
 #include "FileWatch.h"
 #include "HapticViewerOptions.h"
 #include "HeightProfile.h"
@@ -15,9 +16,9 @@
 #include "RecordingWriter.h"
 #include "ReplayPlayer.h"
 #include "ScreenLayout.h"
+#include "ViewEvents.h"
 #include "ViewScene.h"
 #include "ViewTouch.h"
-#include "WaitingKeys.h"
 
 #include "vtkHapticChart.h"
 #include "vtkHapticOverlay.h"
@@ -34,7 +35,6 @@
 #include "Devices/SpaceMouse/SpaceMouse.h"
 #include "Haptics/ServoLoop.h"
 
-#include <vtkCallbackCommand.h>
 #include <vtkNew.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderWindowInteractor.h>
@@ -52,9 +52,12 @@
 namespace pointhaptics
 {
 
-/// The first of pointhaptics-001.EXTENSION, pointhaptics-002.EXTENSION, ... after @p last that is not there
-/// yet.
-std::string freeFileName(const char* extension, int& last);
+constexpr auto kNote = HapticViewerObserver::Kind::Note;
+constexpr auto kWarning = HapticViewerObserver::Kind::Warning;
+constexpr auto kError = HapticViewerObserver::Kind::Error;
+
+/// The first of pointhaptics-001.EXTENSION, pointhaptics-002.EXTENSION, ... that is not there yet.
+std::string freeFileName(const std::string& extension);
 
 /// All that the window needs while it is open, which may be before there is a cloud. The servo loop stops
 /// before its devices and scenes go.
@@ -107,11 +110,13 @@ private:
   {
     std::vector<std::string> files;
     Load kind = Load::New;
-    HapticViewerOptions options;            ///< Options when the load began.
-    std::function<void(bool isShown)> then; ///< Also after a cancel.
-    FileWatch watch;                        ///< State of the files before the first byte was read.
+    HapticViewerOptions options; ///< Options when the load began.
+    std::function<void()> then;  ///< Called when the cloud is shown.
+    FileWatch watch;             ///< State of the files before the first byte was read.
   };
   void openWindow();
+  /// Names the program and @p words.
+  void setTitle(const std::string& words);
   bool isCancelKey();
   void showBar(const std::string& words, double part);
   void setUpRendering();
@@ -121,16 +126,15 @@ private:
   void openFalcon();
   void onTimer();
   void onAbortCheck();
-  void nameWork();
   bool startServo(std::string& message);
   void connectStyle();
-  void observe(unsigned long event, void (ViewWindow::*handler)(void*));
   void onSamples(void* callData);
   void onFilesDropped(void* callData);
   void writeScreenshot();
   // ViewRecording.cxx
   bool startRecording(const std::string& fileName, std::string& message);
-  bool endRecording(std::string& message, const std::string& cause = {});
+  bool closeRecording(std::string& message, const std::string& cause = {});
+  void endRecording(const std::string& cause = {});
   void toggleRecording();
   void setMarker();
   void followRecording();
@@ -138,13 +142,9 @@ private:
   void followSound();
   bool openReplay(std::string& message);
   void followReplay();
-  void showNextFile();
-  void showPreviousFile();
-  std::size_t fileChoices() const;
   void writeSettings();
   void toggleAxes();
   void toggleFigure();
-  void toggleMeasuring();
   void setPivot();
   void clipFelt();
   void savePart();
@@ -162,10 +162,9 @@ private:
   void endAwaitingColors();
   void showFigure(bool figure);
   void onSlider(int slider);
-  void connectSliders();
   void setContact(const ContactParameters& contact);
   void showSliderValues();
-  void load(const std::vector<std::string>& files, Load kind, std::function<void(bool)> then);
+  void load(const std::vector<std::string>& files, Load kind, std::function<void()> then);
   void refine();
   void followLoading();
   void endLoading(bool isShown);
@@ -177,32 +176,25 @@ private:
   void followOptions();
   void adoptModel(const AffineTransform& model, bool keepsModel);
   void giveModel(vtkMatrix4x4* matrix);
-  void showFile(std::size_t index);
+  void stepFile(int direction);
   bool endFiles(std::string& message);
-  void noteFile(bool isWritten, const std::string& note) const;
   void findIdeal();
   /// Parameters with the limit of the force that holds.
   ContactParameters contactOf(const ServoSample& sample) const;
   HapticViewerState state();
-  void onModelChanged(void*);
-  void onSceneChanged(void*);
+  void onModelChanged();
+  void onSceneChanged();
   void showNote();
   std::string scaleText();
   void toggleUnit();
-  void tell(const std::string& message);
-  void say(const std::string& news);
-  void report(HapticViewerObserver::Kind kind, const std::string& message) const;
-  bool shouldStop() const { return observer_.shouldStop && observer_.shouldStop(); }
+  /// Sends @p news to the host, and shows them in the window.
+  void say(const std::string& news, HapticViewerObserver::Kind kind = kNote);
 
   ViewScene& scene_;
-  HapticViewerOptions options_;
-  const std::string askedColorBy_; ///< Colours of the options at the start, for each new cloud.
-  const std::vector<double> askedColorRange_;
-  const std::string askedUp_;
+  HapticViewerOptions options_;            ///< As keys and sliders have changed them.
+  const HapticViewerOptions asked_;        ///< As they were at the start: some are for each new cloud.
   std::map<std::string, std::string> ups_; ///< Axes that point up, of files.
   const HapticViewerObserver& observer_;
-  HapticParameters parameters_; ///< Parameters of the servo loop.
-  double voxelSize_ = 0.0;      ///< Voxel size of the slider, metres; 0: that of the options.
   std::vector<std::string> files_;
   std::size_t fileIndex_ = 0;      ///< Index of the file that was last asked for.
   std::vector<std::string> shown_; ///< The shown files: one of files_, or all together.
@@ -210,16 +202,20 @@ private:
   int sinceLook_ = 0;
   EventLink timer_{ [this] { this->onTimer(); } };
   EventLink abortCheck_{ [this] { this->onAbortCheck(); } };
-  bool isGivenUp_ = false;   ///< A frame was given up and must be drawn again.
-  bool saysDrawing_ = false; ///< The window's title says "drawing".
-  Loading loading_;          ///< Valid while loader_ is busy.
+  EventLink modelChanged_{ [this] { this->onModelChanged(); } };
+  EventLink sceneChanged_{ [this] { this->onSceneChanged(); } };
+  EventLink samples_{ [this](unsigned long, void* data) { this->onSamples(data); } };
+  EventLink dropped_{ [this](unsigned long, void* data) { this->onFilesDropped(data); } };
+  EventLink sliderMoved_{ [this](unsigned long, void* slider)
+    { this->onSlider(*static_cast<int*>(slider)); } };
+  bool isGivenUp_ = false; ///< A frame was given up and must be drawn again.
+  Loading loading_;        ///< Valid while loader_ is busy.
   /// Until then Escape is taken for the bar that has just gone.
   std::chrono::steady_clock::time_point escapeIsLate_;
   /// Until then Escape quits, although the touch is recorded.
   std::chrono::steady_clock::time_point escapeQuits_;
   bool isOpen_ = false;
   bool isStarted_ = false;
-  int writtenSettings_ = 0;
   vtkNew<vtkRenderWindow> window_;
   vtkNew<vtkRenderWindowInteractor> interactor_;
   vtkNew<vtkInteractorStyleHaptic> style_;
@@ -239,10 +235,7 @@ private:
   std::shared_ptr<IdealForce> wholeIdeal_; // for the same
   CsvWriter trace_;
   RecordingWriter recording_;
-  int recordings_ = 0;
-  bool recordingWaits_ = false; ///< The user was told that the recording waits.
-  int screenshots_ = 0;
-  int savedParts_ = 0;
+  bool recordingWaits_ = false;                      ///< The user was told that the recording waits.
   std::future<std::pair<bool, std::string>> saving_; ///< Success, and what it will say.
   bool clipBoxBesideFigure_ = false;
   LengthUnit firstUnit_;      ///< Unit of the file before the user took another; no name: none was taken.

@@ -191,7 +191,7 @@ TEST_F(HandClutch, SaysInTheWindowThatTheHandHoldsTheModel)
   begin(-0.03, 0.03);
   vtkNew<vtkHapticOverlay> overlay;
   style->SetOverlay(overlay);
-  style->SetHandMode(true);
+  style->GetHand().setFollowsMouse(true);
   style->GetHand().setPushesPointer(true);
   style->Refresh();
   EXPECT_NE(overlay->GetStatus().find("touch pushes it"), std::string::npos) << overlay->GetStatus();

@@ -4,7 +4,6 @@
 #include "LevelOfDetail.h"
 #include "vtkDepthShadingPass.h"
 #include "vtkHapticProps.h"
-#include "vtkPickMarker.h"
 #include "vtkSplatMapper.h"
 
 #include "OffscreenWindow.h"
@@ -82,7 +81,7 @@ protected:
     applyBackground(renderer);
     applyDepthShading(renderer);
     props_->AddTo(renderer);
-    marker_->AddTo(renderer);
+    marker_.addTo(renderer);
     props_->GetWorkspaceActor()->VisibilityOff();
     props_->SetSmallestSphereRadius(0.002);
     detail_.setEnabled(true);
@@ -130,7 +129,7 @@ protected:
   double now_ = 100.0;
   vtkNew<vtkActor> actor_;
   vtkNew<vtkHapticProps> props_;
-  vtkNew<vtkPickMarker> marker_;
+  PickMarker marker_;
   vtkNew<vtkCallbackCommand> begin_;
   LevelOfDetail detail_{ renderer, actor_ };
 };
@@ -162,17 +161,17 @@ TEST_F(KeptPicture, OfACloudAtRestIsNotDrawnAgainWhereAHandMovesOverIt)
     }
   }
   const double place[3] = { 0.01, 0.01, 0.0 };
-  marker_->Mark(place, nullptr, 0.004);
+  marker_.mark({ place[0], place[1], place[2] }, std::nullopt, 0.004);
   EXPECT_NE(this->picture(), bare);
-  marker_->SetVisibility(false);
-  props_->SetTouchVisibility(false);
+  marker_.hide();
+  props_->HideTouch();
   EXPECT_EQ(this->picture(), bare);
   EXPECT_EQ(this->pass()->GetNumberOfPictures(), drawn);
 }
 
 TEST_F(KeptPicture, HidesMarksThatLieBehindTheCloud)
 {
-  props_->SetTouchVisibility(false);
+  props_->HideTouch();
   const std::array<int, 3> wall = pixel(this->picture(), kSize / 2, kSize / 2);
   const auto distance = [&wall](const std::array<int, 3>& color)
   { return std::abs(color[0] - wall[0]) + std::abs(color[1] - wall[1]) + std::abs(color[2] - wall[2]); };
