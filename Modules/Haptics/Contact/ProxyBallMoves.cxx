@@ -71,9 +71,9 @@ bool ProxyBall::glide(Work& work, const Vec3& hip) noexcept
     [&](const Vec3& offset, double) { isWalled = isWalled || dot(offset, up) < highest; });
   const ProxyBall before = *this;
   const Vec3 direction = lean / leaning;
-  gather(work, (kStride + kLifts[kMostLifts - 1]) * radius_);
   for (const double lift : kLifts)
   {
+    gather(work, (kStride + lift) * radius_);
     // A smaller ball passes bumps; a lift takes the ball out of deeper gaps.
     const double ball = lift > 0.0 ? scale_ : kGlideRadius * scale_;
     center_ += work.cells.sweep(center_, up, lift * radius_, ball) * up;
@@ -85,7 +85,9 @@ bool ProxyBall::glide(Work& work, const Vec3& hip) noexcept
     }
     const Vec3 left = hip - center_;
     const double stillLeaning = isWalled ? norm(left) : norm(left - dot(left, up) * up);
-    if (isOut && stillLeaning <= (isWalled ? norm(pull) : leaning) - kLeastGain * radius_ &&
+    // A glide follows the surface: a ball that sank by more than a stride has gone around a rim.
+    const bool isAlong = dot(center_ - before.center_, up) >= -kStride * before.radius_;
+    if (isOut && isAlong && stillLeaning <= (isWalled ? norm(pull) : leaning) - kLeastGain * radius_ &&
       norm(left) <= norm(pull) + kBump * radius_)
     {
       if (lift == 0.0)
