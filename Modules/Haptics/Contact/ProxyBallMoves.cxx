@@ -78,8 +78,10 @@ bool ProxyBall::glide(Work& work, const Vec3& hip) noexcept
     }
     const Vec3 left = hip - center_;
     const double stillLeaning = isWalled ? norm(left) : norm(left - dot(left, up) * up);
-    // A glide follows the surface: a ball that sank by more than a stride has gone around a rim.
-    const bool isAlong = dot(center_ - before.center_, up) >= -kStride * before.radius_;
+    // A glide follows the surface: a ball that sank by more than a stride has gone around a rim. Noise above
+    // the bumps says nothing about where the surface is.
+    const bool isAlong = dot(center_ - before.center_, up) >= -kStride * before.radius_ ||
+      kAboveNoise * work.scene.noise(before.center_) > kBump * before.radius_;
     if (isOut && isAlong && stillLeaning <= (isWalled ? norm(pull) : leaning) - kLeastGain * radius_ &&
       norm(left) <= norm(pull) + kBump * radius_)
     {

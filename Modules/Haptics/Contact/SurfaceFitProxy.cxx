@@ -26,9 +26,11 @@ constexpr double kTrustRadii = 0.2;
 constexpr double kTrustDepths = 0.3;
 /// From this many times the trusted distance on the ball alone is felt.
 constexpr double kDistrust = 1.5;
-/// A face is an exit of the HIP if its residual is below this, over the ball's radius. A fit across two faces
-/// of a wedge has a larger residual.
+/// A face is an exit of the HIP if its residual is below kOutResidual, over the ball's radius, or kOutNoise,
+/// over the noise. A fit across two faces of a wedge has a larger residual. Without the second the ball goes
+/// around a noisy rim: of the ticks that press against it edge-on half have no force.
 constexpr double kOutResidual = 0.01;
+constexpr double kOutNoise = 1.5;
 
 constexpr Vec3 kNowhere{ NAN, NAN, NAN };
 
@@ -105,8 +107,8 @@ bool SurfaceFitProxy::comesOut(
   SurfaceSearch search;
   search.begin(nearest);
   const SurfaceTracker& face = search.found();
-  const bool isRough =
-    !search.finish(scene, memory.fit, hip, hip) || face.residual() >= kOutResidual * ball_.radius();
+  const bool isRough = !search.finish(scene, memory.fit, hip, hip) ||
+    face.residual() >= std::max(kOutResidual * ball_.radius(), kOutNoise * face.noise());
   roughAt_ = isRough ? hip : kNowhere;
   const ProxyBall before = ball_;
   if (isRough || face.height(hip) < 0.0 ||
