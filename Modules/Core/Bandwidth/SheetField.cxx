@@ -34,16 +34,11 @@ constexpr int kLeast = 4;
 constexpr double kChanceOffset = 0.3;
 constexpr double kPartPerOffset = 4.0;
 constexpr double kLeastPart = 0.25;
-/// The middle of a quarter of a disk is 0.6 radii aside. A point farther from its neighbours is no part of
-/// their sheet: it is a stray in their plane, and its ball would reach to them.
-constexpr double kMostAside = 0.7;
 /// Spacing of a sheet over that of all neighbours, at most. Without it a bend of few points has balls as wide
 /// as the part.
 constexpr double kMostOfAll = 1.4142135623730951;
-/// Least eigenvalue of the neighbours' moments over the next where they lie in a plane, and that over the
-/// largest where they lie on a line, which has no normal.
+/// Least eigenvalue of the neighbours' moments over the next where they lie in a plane.
 constexpr double kFlat = 0.1;
-constexpr double kLine = 0.02;
 /// Ratio below which all neighbours count alike; without it each point of a smooth surface takes three fits.
 constexpr double kThin = 0.01;
 /// Spacing over the median up to which points are a sheet, and where all neighbours lie in a plane. Without
@@ -94,8 +89,7 @@ private:
   struct Near
   {
     int count = 0;
-    bool isFlat = false; ///< The neighbours lie in a plane, all of them.
-    bool isLine = false;
+    bool isFlat = false;                         ///< The neighbours lie in a plane, all of them.
     float spacing = 0.0F;                        ///< Spacing of all neighbours, as if they lay in one sheet.
     std::array<std::uint32_t, kNeighbors> slots; ///< Nearest first.
   };
@@ -164,7 +158,6 @@ private:
     };
     fit();
     near.isFlat = plane.values[0] < kFlat * plane.values[1];
-    near.isLine = plane.values[1] < kLine * plane.values[2];
     if (plane.values[0] > kThin * plane.values[1])
     {
       for (const double part : kWidths)
@@ -205,7 +198,7 @@ private:
       }
     }
     const double aside = norm(sum) / (std::max(1, count) * reach);
-    if (count >= kLeast && aside < kMostAside && !near.isLine)
+    if (count >= kLeast)
     {
       const double part = std::clamp(1.0 - kPartPerOffset * (aside - kChanceOffset), kLeastPart, 1.0);
       // Two sheets have twice the points of one; where fewer agree the surface bends.

@@ -9,28 +9,19 @@ namespace pointhaptics
 namespace
 {
 
-/// Points are gathered further than requested, so that a sliding hand stays inside for some ticks. The
-/// factors apply to the requested way plus the typical radius; they are tried in order until the points fit.
-/// Index 0 covers the way that will be requested soon, too; index 1 drops that way alone.
-constexpr double kMargins[] = { 1.35, 1.35, 1.1, 1.0 + 1e-9 };
+/// Points are gathered further than requested, so that a sliding hand stays inside for some ticks: by these
+/// parts of the requested way plus the typical radius, tried in order until the points fit. The first also
+/// covers a glide after a slide. The last takes what was asked for.
+constexpr double kMargins[] = { 0.9, 0.25, 0.0 };
 /// If points were left out, a way shorter than this fraction of the last one is gathered anew: all may have
-/// room.
+/// room. With 1 a tick beside a step in density takes 4 ms, as each of its ways is gathered.
 constexpr double kShorterWay = 0.8;
-/// Margin around the points near the focus, as a fraction of way plus typical radius.
-constexpr double kNearMargin = 0.25;
 /// Padding coordinate behind the last point: no ball reaches it, and its square is finite.
 constexpr double kFarAway = 1e100;
 /// Tolerance over the radius of a touched point: a way that comes nearer to that point by less is tangential.
 /// Without it rounding would stop a sliding ball.
 constexpr double kTangential = 1e-6;
 
-}
-
-/// The reach for a requested way of @p way metres. The margin scales way plus typical radius; gather() adds
-/// the radius of each point itself, so the typical one is subtracted again.
-double BallCells::reachOf(double way) const noexcept
-{
-  return kMargins[margin_] * (way + typicalRadius_) - typicalRadius_;
 }
 
 /// Lowers the reach to the next smaller margin and removes the points beyond it, as add() does without a
@@ -42,7 +33,7 @@ bool BallCells::shrink() noexcept
     return false;
   }
   ++margin_;
-  reach_ = this->reachOf(requestedWay_);
+  reach_ = this->reachOf(requestedWay_, kMargins[margin_]);
   const int all = size_;
   size_ = 0;
   for (int i = 0; i < all; ++i)
@@ -98,13 +89,13 @@ bool BallCells::add(
   return true;
 }
 
-bool BallCells::gatherFrom(const ContactField& field, int level, double likely, bool onePerVoxel) noexcept
+bool BallCells::gatherFrom(const ContactField& field, int level, bool onePerVoxel) noexcept
 {
   const CellPyramid::Level& l = field.pyramid().level(level);
   bool fits = true;
   size_ = 0;
   margin_ = 0;
-  reach_ = this->reachOf(std::max(requestedWay_, likely));
+  reach_ = this->reachOf(requestedWay_, kMargins[margin_]);
   ++passes_;
   field.visitRuns(level, center_, reach_,
     [&](std::uint32_t first, std::uint32_t last)
@@ -124,8 +115,7 @@ bool BallCells::gatherFrom(const ContactField& field, int level, double likely, 
   return fits;
 }
 
-bool BallCells::gather(
-  const ContactField& field, const Vec3& center, double way, double ball, double likely) noexcept
+bool BallCells::gather(const ContactField& field, const Vec3& center, double way, double ball) noexcept
 {
   const double left = reach_ - way;
   const bool isInside = pyramid_ == &field.pyramid() && left >= 0.0 && norm2(center - center_) <= left * left;
@@ -137,13 +127,13 @@ bool BallCells::gather(
   center_ = center;
   requestedWay_ = way;
   typicalRadius_ = ball;
-  complete_ = gatherFrom(field, 0, likely, false);
-  bool fits = complete_ || gatherFrom(field, 0, likely, true);
+  complete_ = gatherFrom(field, 0, false);
+  bool fits = complete_ || gatherFrom(field, 0, true);
   for (int level = 1;
        !fits && level < pyramid_->numberOfCellLevels() && pyramid_->level(level).voxelSize <= 0.5 * ball;
        ++level)
   {
-    fits = gatherFrom(field, level, likely, false);
+    fits = gatherFrom(field, level, false);
   }
   this->pad(size_);
   nearReach_ = -1.0;
@@ -167,7 +157,7 @@ void BallCells::focus(const Vec3& center, double way) noexcept
     return;
   }
   nearCenter_ = center;
-  nearReach_ = way + kNearMargin * (way + typicalRadius_);
+  nearReach_ = this->reachOf(way, kMargins[1]);
   int indices[kCapacity];
   nearSize_ =
     kernels_->ballsWithin(points({ 0, size_ }), center - center_, 1.0, nearReach_, indices, kCapacity);
@@ -205,32 +195,6 @@ double BallCells::roomAt(const Vec3& p) const noexcept
   this->visitTouched(
     p, 1.0, [&](const Vec3& offset, double radius) { room = std::min(room, norm(offset) / radius); });
   return room;
-}
-
-int BallCells::nearestWithin(const Vec3& p, double radius) const noexcept
-{
-  const Vec3 local = p - center_;
-  int indices[kCapacity];
-  const Part part = partAbout(p, radius);
-  const int count = kernels_->pointsWithin(points(part), local, radius * radius, indices, kCapacity);
-  const auto distance2 = [&](int i)
-  { return norm2(local - Vec3(x_[part.first + i], y_[part.first + i], z_[part.first + i])); };
-  const int* const nearest =
-    std::min_element(indices, indices + count, [&](int i, int j) { return distance2(i) < distance2(j); });
-  return count > 0 ? part.first + *nearest : -1;
-}
-
-bool BallCells::nearestOf(
-  const CellPyramid& pyramid, const Vec3& p, double search, Vec3& nearest) const noexcept
-{
-  const double known = pyramid_ == &pyramid && complete_ ? std::min(search, reach_ - norm(p - center_)) : 0.0;
-  const int here = known > 0.0 ? this->nearestWithin(p, known) : -1;
-  double ignored = 0.0;
-  const std::int64_t cell = here < 0 && known < search ? pyramid.nearest(0, p, search, ignored) : -1;
-  nearest = here >= 0 ? this->point(here)
-    : cell >= 0       ? pyramid.level(0).cells[std::size_t(cell)].mean
-                      : nearest;
-  return here >= 0 || cell >= 0;
 }
 
 double BallCells::sweep(const Vec3& from, const Vec3& direction, double length, double scale) const noexcept

@@ -31,10 +31,8 @@ public:
   /// Gathers all points nearer to @p center than their radius plus @p way, so that a ball there can go by @p
   /// way metres. Where these are more than kCapacity, it takes one point of each finest voxel, or means of
   /// coarser voxels, whose edge is at most half of @p ball. False: points are left out. @param ball typical
-  /// radius there, metres. @param likely a way that will be asked for soon: gathered at once, if there is
-  /// room.
-  bool gather(
-    const ContactField& field, const Vec3& center, double way, double ball, double likely = 0.0) noexcept;
+  /// radius there, metres.
+  bool gather(const ContactField& field, const Vec3& center, double way, double ball) noexcept;
 
   /// Announces that the next queries are within @p way of @p center. The answers are the same, and cost less
   /// where more points were gathered.
@@ -59,12 +57,6 @@ public:
   int deepest(const Vec3& p, double scale) const noexcept;
   /// The largest scale, at most 1, with which a ball at @p p covers no point.
   double roomAt(const Vec3& p) const noexcept;
-  /// The point nearest to @p p among those nearer than @p radius; -1: there is none.
-  int nearestWithin(const Vec3& p, double radius) const noexcept;
-
-  /// Finds the point of @p pyramid nearest to @p p, at most @p search away. Mostly it is here already. False:
-  /// there is none.
-  bool nearestOf(const CellPyramid& pyramid, const Vec3& p, double search, Vec3& nearest) const noexcept;
 
   /// Length that a ball at @p from can go along the unit vector @p direction before it would cover a point:
   /// exact, 0 to @p length. A point that it covers already, or that it leaves, counts only if the ball goes
@@ -131,8 +123,9 @@ private:
   template <typename IndexAt>
   bool add(const ContactField& field, int level, std::uint32_t count, const IndexAt& indexAt) noexcept;
   bool shrink() noexcept;
-  bool gatherFrom(const ContactField& field, int level, double likely, bool onePerVoxel) noexcept;
-  double reachOf(double way) const noexcept;
+  bool gatherFrom(const ContactField& field, int level, bool onePerVoxel) noexcept;
+  /// The reach for a way of @p way metres and a margin over way plus typical radius.
+  double reachOf(double way, double margin) const noexcept { return way + margin * (way + typicalRadius_); }
 
   alignas(64) double x_[2 * kNear];
   alignas(64) double y_[2 * kNear];

@@ -8,8 +8,8 @@ namespace pointhaptics::ball
 /// Height of the bumps between points. A riding ball keeps as far above the surface, a move may end so much
 /// further from the HIP, and a place so near counts as reached.
 constexpr double kBump = 0.1;
-/// Shorter ways along the surface are none: the ball does not lean, the HIP is not past an edge.
-constexpr double kNoLean = 0.02;
+/// Ways shorter than this count as none, and no ball is smaller than this part of its full size.
+constexpr double kNoWay = 1e-4;
 /// Bumps push the ball aside by so much: it may wait there, and a move that gets further is worth a look.
 constexpr double kAside = 0.25;
 /// Points further than this above or below a surface belong to another face.

@@ -14,26 +14,19 @@ using namespace ball;
 
 /// Moves of one slide.
 constexpr int kMostSlides = 24;
-/// A visit of the pyramid costs so many rounds of the budget, and one more for each kPointsOfRound points
-/// that it examines: a large ball among dense points examines thousands.
-constexpr int kRoundsOfPass = 3;
+/// A visit of the pyramid costs a round of the budget for each kPointsOfRound points that it examines: a
+/// large ball among dense points examines thousands.
 constexpr std::uint64_t kPointsOfRound = 128;
 /// Glides of one step.
 constexpr int kMostGlides = 3;
 /// A point nearer than this many radii is touched.
 constexpr double kTouch = 1.002;
 constexpr int kMostTouched = 16; ///< Also pushes out of points.
-/// Least scale of a ball that begins where it has no room.
-constexpr double kSmallestScale = 1e-3;
-/// The scale of a ball that has nearly its full size.
-constexpr double kNearlyFull = 0.8;
 /// Reach of the points that decide whether the place is flat for the first touch beside an edge, over the
 /// radius. With kPlaneReach a hand falls off a sharp wedge.
 constexpr double kTouchReach = 1.2;
 /// Places further away than this many times the cloud's extent are free without a look at the way there.
 constexpr double kFarAway = 1e6;
-/// Ways shorter than this, over the radius, count as none.
-constexpr double kNoWay = 1e-4;
 
 /// The vector nearest to @p pull that points into none of the @p count planes with unit normals @p n.
 Vec3 withinPlanes(const Vec3& pull, const Vec3* n, int count) noexcept
@@ -104,12 +97,9 @@ void ProxyBall::carry(const AffineTransform& change, double scale) noexcept
 
 void ProxyBall::gather(Work& work, double way) noexcept
 {
-  const int passes = work.cells.passes();
   const std::uint64_t looked = work.cells.pointsExamined();
-  const double likely = isFree_ ? 0.0 : kReachOfTick * radius_;
-  const bool all = work.cells.gather(work.scene.contactField(), center_, way, radius_, likely);
-  work.rounds -= kRoundsOfPass * (work.cells.passes() - passes) +
-    int((work.cells.pointsExamined() - looked) / kPointsOfRound);
+  const bool all = work.cells.gather(work.scene.contactField(), center_, way, radius_);
+  work.rounds -= int((work.cells.pointsExamined() - looked) / kPointsOfRound);
   work.status |= std::uint32_t(all ? kProxyOk : kProxyCellLimit);
 }
 
@@ -138,7 +128,7 @@ void ProxyBall::makeRoom(Work& work, double full) noexcept
   if (!pushOut(work.cells) || norm(center_ - before) > 2.0 * radius_)
   {
     center_ = before;
-    scale_ = std::max(kSmallestScale, std::min(scale_, work.cells.roomAt(center_)));
+    scale_ = std::max(kNoWay, std::min(scale_, work.cells.roomAt(center_)));
     radius_ = scale_ * full;
   }
 }
@@ -190,37 +180,32 @@ void ProxyBall::grow(Work& work) noexcept
   }
 }
 
-/// Moves a free ball with the HIP. @return how far it came before it touched a point, metres.
-double ProxyBall::fly(Work& work, const Vec3& direction, double length) noexcept
+/// Moves the ball along the unit vector @p direction by up to @p length metres. @param gone receives how far.
+/// @return false if it touched a point.
+bool ProxyBall::advance(Work& work, const Vec3& direction, double length, double& gone) noexcept
 {
   const Vec3 start = center_;
   const double largest = work.scene.contactField().largest();
-  double flown = 0.0;
-  for (; flown < length && work.rounds > 0; --work.rounds)
+  bool isClear = true;
+  for (gone = 0.0; gone < length && isClear && work.rounds > 0; --work.rounds)
   {
     double stride = distanceTo(work.scene.bounds(), center_) - largest;
     if (!(stride > radius_))
     {
       stride = work.scene.isNear(center_) ? 0.0 : work.scene.clearance() - largest;
     }
-    double reached = std::min(length - flown, stride);
+    double reached = std::min(length - gone, stride);
     if (!(stride > radius_))
     {
-      const double wanted = std::min(length - flown, radius_);
+      const double wanted = std::min(length - gone, radius_);
       gather(work, wanted);
       reached = work.cells.sweep(center_, direction, wanted, scale_);
-      isFree_ = reached == wanted;
+      isClear = reached == wanted;
     }
-    flown += reached;
-    center_ = start + flown * direction;
-    if (!isFree_)
-    {
-      pushOut(work.cells);
-      touchDown(work);
-      break;
-    }
+    gone += reached;
+    center_ = start + gone * direction;
   }
-  return flown;
+  return isClear;
 }
 
 /// Takes the radius of the touched point and looks for the flat place there, also beside an edge: the ball
@@ -317,7 +302,14 @@ void ProxyBall::walk(Work& work, const Vec3& hip) noexcept
   {
     if (isFree_)
     {
-      walked += fly(work, direction, length - walked);
+      double flown = 0.0;
+      isFree_ = advance(work, direction, length - walked, flown);
+      walked += flown;
+      if (!isFree_)
+      {
+        pushOut(work.cells);
+        touchDown(work);
+      }
     }
     if (!isFree_)
     {
@@ -364,7 +356,7 @@ void ProxyBall::step(
   walk(work, hip);
   hasReachedHip_ = hip_ == hip;
   status |= std::uint32_t(hasReachedHip_ ? kProxyOk : kProxyStepLimit);
-  status |= std::uint32_t(scale_ < kNearlyFull && !isFree_ ? kProxyCrowded : kProxyOk);
+  status |= std::uint32_t(scale_ < 1.0 && !isFree_ ? kProxyCrowded : kProxyOk);
   const double again = kTryAgain * radius_;
   if (isFree_ || norm2(hip - heldAt_) < again * again || mayWait(hip, isPatient))
   {

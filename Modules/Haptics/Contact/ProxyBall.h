@@ -80,9 +80,7 @@ public:
   double depth(const Vec3& hip) const noexcept { return norm(hip - center_) - radius_; }
 
 private:
-  /// Reach of a tick in contact over the radius, as far as a glide. kClear allows for the rounding of a
-  /// covered point.
-  static constexpr double kReachOfTick = 1.1;
+  /// Allows for the rounding of a covered point.
   static constexpr double kClear = 1.0 - 1e-9;
   /// Budget of one step, in rounds; a move costs one. A hand at 1 m/s needs some ten.
   static constexpr int kMostRounds = 192;
@@ -101,8 +99,7 @@ private:
   void placeAmongOthers(Work& work) noexcept;
   void grow(Work& work) noexcept;
   void walk(Work& work, const Vec3& hip) noexcept;
-  double fly(Work& work, const Vec3& direction, double length) noexcept;
-  double advance(Work& work, const Vec3& direction, double length) noexcept;
+  bool advance(Work& work, const Vec3& direction, double length, double& gone) noexcept;
   void slide(Work& work, const Vec3& hip) noexcept;
   bool mayWait(const Vec3& hip, bool isPatient) const noexcept;
   bool glide(Work& work, const Vec3& hip) noexcept;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace pointhaptics
 {
@@ -10,24 +11,16 @@ namespace
 
 using namespace ball;
 
-/// Cosine of the largest angle between a remembered flat place and the direction away from the points.
-constexpr double kFlatCosine = 0.5;
 /// Radius and least gain of a glide, over the radius.
 constexpr double kGlideRadius = 0.9;
 constexpr double kLeastGain = 1e-3;
-/// A ball within kWaitNear of a flat place that leans by less than kWaitLean waits; over the radius.
-constexpr double kWaitNear = 0.3;
+/// A ball on a flat place that leans by less than this waits, over the radius.
 constexpr double kWaitLean = 0.2;
-/// Limit as the first for a patient ball, which another part leads along the surface; it may lean by a
-/// stride.
-constexpr double kPatientNear = 1.0;
-constexpr int kMostLifts = 3;
-constexpr double kLifts[kMostLifts] = { 0.0, 0.3, 0.6 };
+/// Lifts that take the ball off its points, over the radius: a deep gap needs the second.
+constexpr double kLifts[] = { 0.0, 0.3, 0.6 };
 /// Height of a riding ball above the surface, over the noise: the points of a noisy surface hold a lower one
 /// back.
 constexpr double kAboveNoise = 2.0;
-/// Offsets shorter than this, radii, have no direction.
-constexpr double kRounding = 1e-9;
 
 }
 
@@ -37,7 +30,7 @@ Vec3 ProxyBall::surfaceNormal(const BallCells& cells) noexcept
 {
   Vec3 away;
   if (!flat_.find(cells, center_, radius_, kPlaneReach * radius_, away) &&
-    !(flat_.isNear(center_, kFlatNear * radius_) && dot(flat_.normal(), away) >= kFlatCosine))
+    !(flat_.isNear(center_, kFlatNear * radius_) && dot(flat_.normal(), away) >= 0.0))
   {
     flat_.invalidate();
   }
@@ -47,7 +40,7 @@ Vec3 ProxyBall::surfaceNormal(const BallCells& cells) noexcept
 /// True if the ball lies on a flat place and leans so little that it may wait.
 bool ProxyBall::mayWait(const Vec3& hip, bool isPatient) const noexcept
 {
-  return !hasRidden_ && flat_.isNear(center_, (isPatient ? kPatientNear : kWaitNear) * radius_) &&
+  return !hasRidden_ && flat_.isNear(center_, kFlatNear * radius_) &&
     norm(flat_.along(hip - center_)) < (isPatient ? kStride : kWaitLean) * radius_;
 }
 
@@ -59,7 +52,7 @@ bool ProxyBall::glide(Work& work, const Vec3& hip) noexcept
   const Vec3 pull = hip - center_;
   const Vec3 lean = pull - dot(pull, up) * up;
   const double leaning = norm(lean);
-  if (leaning < kNoLean * radius_)
+  if (leaning < kLeastGain * radius_)
   {
     return false;
   }
@@ -71,9 +64,9 @@ bool ProxyBall::glide(Work& work, const Vec3& hip) noexcept
     [&](const Vec3& offset, double) { isWalled = isWalled || dot(offset, up) < highest; });
   const ProxyBall before = *this;
   const Vec3 direction = lean / leaning;
-  gather(work, (kStride + kLifts[kMostLifts - 1]) * radius_);
   for (const double lift : kLifts)
   {
+    gather(work, (kStride + lift) * radius_);
     // A smaller ball passes bumps; a lift takes the ball out of deeper gaps.
     const double ball = lift > 0.0 ? scale_ : kGlideRadius * scale_;
     center_ += work.cells.sweep(center_, up, lift * radius_, ball) * up;
@@ -85,7 +78,11 @@ bool ProxyBall::glide(Work& work, const Vec3& hip) noexcept
     }
     const Vec3 left = hip - center_;
     const double stillLeaning = isWalled ? norm(left) : norm(left - dot(left, up) * up);
-    if (isOut && stillLeaning <= (isWalled ? norm(pull) : leaning) - kLeastGain * radius_ &&
+    // A glide follows the surface: a ball that sank by more than a stride has gone around a rim. Noise above
+    // the bumps says nothing about where the surface is.
+    const bool isAlong = dot(center_ - before.center_, up) >= -kStride * before.radius_ ||
+      kAboveNoise * work.scene.noise(before.center_) > kBump * before.radius_;
+    if (isOut && isAlong && stillLeaning <= (isWalled ? norm(pull) : leaning) - kLeastGain * radius_ &&
       norm(left) <= norm(pull) + kBump * radius_)
     {
       if (lift == 0.0)
@@ -99,30 +96,12 @@ bool ProxyBall::glide(Work& work, const Vec3& hip) noexcept
   return false;
 }
 
-/// Moves the ball along the unit vector @p direction by up to @p length metres, until a point is in the way.
-/// @return how far.
-double ProxyBall::advance(Work& work, const Vec3& direction, double length) noexcept
-{
-  double left = length;
-  double stride = 0.0;
-  double reached = 0.0;
-  for (; left > 0.0 && reached == stride && work.rounds > 0; --work.rounds)
-  {
-    stride = std::min(left, radius_);
-    gather(work, stride);
-    reached = work.cells.sweep(center_, direction, stride, scale_);
-    center_ += reached * direction;
-    left -= reached;
-  }
-  return length - left;
-}
-
 bool ProxyBall::goTo(const HapticScene& scene, BallCells& cells, const Vec3& foot, const Vec3& up,
   std::uint32_t& status) noexcept
 {
   // At an edge sharper than a right angle the HIP passes the other face before it is past the edge.
   if (dot(hip_ - foot, up) >= 0.0 && flat_.isNear(center_, kFlatNear * radius_) &&
-    dot(hip_ - flat_.height(hip_) * flat_.normal() - foot, up) < -kNoLean * radius_)
+    dot(hip_ - flat_.height(hip_) * flat_.normal() - foot, up) < -kLeastGain * radius_)
   {
     return false;
   }
@@ -130,16 +109,16 @@ bool ProxyBall::goTo(const HapticScene& scene, BallCells& cells, const Vec3& foo
   const ProxyBall before = *this;
   const double furthest = norm(hip_ - center_) + kBump * radius_;
   const double beside = std::clamp(radius_ - dot(center_ - foot, up), 0.0, kFlatNear * radius_);
-  for (int i = 1; i < kMostLifts; ++i)
+  for (std::size_t i = 1; i < std::size(kLifts); ++i)
   {
     const double lift = kLifts[i] * radius_;
     // Lift the ball off its points, in a gap only to the middle; move it past the edge, lower it.
     const Vec3 away = normalized(center_ - hip_);
-    const double lifted = advance(work, away, lift);
-    center_ -= lifted < lift ? 0.5 * lifted * away : Vec3();
-    advance(work, up, beside + lift);
+    double gone = 0.0;
+    center_ -= advance(work, away, lift, gone) ? Vec3() : 0.5 * gone * away;
+    advance(work, up, beside + lift, gone);
     const Vec3 way = foot + (radius_ + lift) * up - center_;
-    advance(work, normalized(way), norm(way));
+    advance(work, normalized(way), norm(way), gone);
     slide(work, hip_);
     if (isFree_ || (norm(hip_ - center_) < furthest && norm(center_ - foot) < kPlaneReach * radius_))
     {
@@ -153,7 +132,7 @@ bool ProxyBall::goTo(const HapticScene& scene, BallCells& cells, const Vec3& foo
 bool ProxyBall::hasPointsAround(
   const HapticScene& scene, BallCells& cells, const Vec3& foot, const Vec3& up) const noexcept
 {
-  cells.gather(scene.contactField(), foot, radius_, radius_, kReachOfTick * radius_);
+  cells.gather(scene.contactField(), foot, radius_, radius_);
   // The points seen so far lie between two directions less than half a turn apart.
   Vec3 right;
   Vec3 left;
@@ -163,7 +142,7 @@ bool ProxyBall::hasPointsAround(
     {
       const double height = dot(offset, up);
       const Vec3 flat = offset - height * up;
-      const bool isInFace = std::abs(height) < kFace * radius_ && norm(flat) > kRounding * radius_;
+      const bool isInFace = std::abs(height) < kFace * radius_ && norm(flat) > kNoWay * radius_;
       const Vec3 inFace = isInFace ? flat : Vec3();
       const double fromRight = dot(cross(right, inFace), up);
       const double fromLeft = dot(cross(left, inFace), up);

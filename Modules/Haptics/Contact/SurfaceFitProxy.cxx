@@ -27,11 +27,22 @@ constexpr double kTrustDepths = 0.3;
 /// From this many times the trusted distance on the ball alone is felt.
 constexpr double kDistrust = 1.5;
 /// A face is an exit of the HIP if its residual is below kOutResidual, over the ball's radius, or kOutNoise,
-/// over the noise. A fit across two faces of a wedge has a larger residual.
+/// over the noise. A fit across two faces of a wedge has a larger residual. Without the second the ball goes
+/// around a noisy rim: of the ticks that press against it edge-on half have no force.
 constexpr double kOutResidual = 0.01;
 constexpr double kOutNoise = 1.5;
 
 constexpr Vec3 kNowhere{ NAN, NAN, NAN };
+
+/// Finds the point of the cloud nearest to @p p, at most @p search away. False: there is none.
+bool findNearest(const HapticScene& scene, const Vec3& p, double search, Vec3& nearest) noexcept
+{
+  const CellPyramid& pyramid = scene.contactPyramid();
+  double ignored = 0.0;
+  const std::int64_t cell = pyramid.nearest(0, p, search, ignored);
+  nearest = cell >= 0 ? pyramid.level(0).cells[std::size_t(cell)].mean : nearest;
+  return cell >= 0;
+}
 
 double smoothStep(double t) noexcept
 {
@@ -86,7 +97,7 @@ bool SurfaceFitProxy::comesOut(
   const double near = ball::kStride * ball_.radius();
   const double again = ball::kTryAgain * ball_.radius();
   Vec3 nearest;
-  if (!memory.ball.nearestOf(scene.contactPyramid(), hip, near, nearest) ||
+  if (!findNearest(scene, hip, near, nearest) ||
     (hasFit_ && tracker_.height(hip) <= 0.0 &&
       std::abs(tracker_.heightAboveFit(nearest)) < ball::kBump * ball_.radius()) ||
     norm2(hip - roughAt_) < again * again)
@@ -120,7 +131,7 @@ bool SurfaceFitProxy::seek(const HapticScene& scene, Memory& memory, const Vec3&
   if (tick == 0 || tick % kSeekEvery == 1)
   {
     search_.giveUp();
-    if (memory.ball.nearestOf(scene.contactPyramid(), ball_.nearestPoint(hip), 2.0 * ball_.radius(), nearest))
+    if (findNearest(scene, ball_.nearestPoint(hip), 2.0 * ball_.radius(), nearest))
     {
       search_.begin(nearest);
     }

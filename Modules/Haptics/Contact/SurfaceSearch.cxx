@@ -8,17 +8,11 @@ namespace pointhaptics
 namespace
 {
 
-/// RMS distance of the points over the fit radius: below kCleanSheet no second try is made; a second try
-/// replaces the first if its residual is below kBetter of that.
-constexpr double kCleanSheet = 0.05;
-constexpr double kBetter = 0.8;
-
-/// Finds the sheet by fits of one radius.
+/// Finds the sheet by fits of one radius. The plane to begin with is that of points at several distances: at
+/// an edge the nearer ones lie on one face, in noise the farther ones tell.
 bool findSheet(const HapticScene& scene, FitCells& memory, const Vec3& onSurface, double radius, double gate,
   SurfaceTracker& tracker) noexcept
 {
-  bool found = false;
-  double residual = 0.0;
   for (const double part : { 1.0, 0.7, 1.4 })
   {
     SurfaceFrame frame;
@@ -30,23 +24,14 @@ bool findSheet(const HapticScene& scene, FitCells& memory, const Vec3& onSurface
       continue;
     }
     frame.turnTo(normal);
-    if (!settleOnSurface(scene.pyramid(), onSurface, radius, gate, memory, frame, fit, curvature) ||
-      norm2(frame.origin - onSurface) > radius * radius)
-    {
-      continue;
-    }
-    if (!found || fit.residual < kBetter * residual)
+    if (settleOnSurface(scene.pyramid(), onSurface, radius, gate, memory, frame, fit, curvature) &&
+      norm2(frame.origin - onSurface) <= radius * radius)
     {
       tracker.start(frame, curvature);
-      residual = fit.residual;
-      found = true;
-    }
-    if (residual < kCleanSheet * radius)
-    {
-      break;
+      return true;
     }
   }
-  return found;
+  return false;
 }
 
 }

@@ -15,10 +15,8 @@ constexpr double kConverged = 1e-5;
 /// Part of the noise below which moving on is pointless.
 constexpr double kConvergedNoise = 3e-3;
 constexpr double kAwaySlack = 1e-3;
-/// A call moves the point by at most kFurthestRadii fit radii; one that is still moving after kFar of them
-/// has leapt.
+/// A call moves the point by at most so many fit radii.
 constexpr double kFurthestRadii = 2.0;
-constexpr double kFar = 1.0;
 /// Slopes of a fit may differ from those that the last one predicted by this much; at edges they differ by
 /// 0.07 and more.
 constexpr double kForeseen = 0.03;
@@ -157,8 +155,7 @@ TrackResult SurfaceTracker::follow(const HapticScene& scene, FitCells& memory, c
     }
     last = now;
   }
-  return isForeseen && norm(frame_.origin - start) > kFar * fit_.radius ? TrackResult::Far
-                                                                        : TrackResult::RoundLimit;
+  return TrackResult::RoundLimit;
 }
 
 void SurfaceTracker::carry(const AffineTransform& from, const AffineTransform& to) noexcept
