@@ -163,15 +163,19 @@ public:
   bool fit(const Executor& executor, const GoesOn& goesOn)
   {
     return sweep(
-      query_, neighbors_ + 1, executor, goesOn, [this](const NeighborList& list) { this->fitOne(list); });
+      query_, neighbors_ + 1, executor, goesOn, [this](const NeighborList& list) { this->fitOne(list); },
+      [](std::int64_t) { return true; });
   }
   /// Fits spacing and reach among all places, where not all were fitted.
   template <typename GoesOn>
   bool space(const Executor& executor, const GoesOn& goesOn)
   {
     return places_.holdsAll() ||
-      sweep(places_.all(), LocalShapeSettings::kFewest + 1, executor, goesOn,
-        [this](const NeighborList& list) { this->spaceOne(list); });
+      sweep(
+        places_.all(), LocalShapeSettings::kFewest + 1, executor, goesOn,
+        [this](const NeighborList& list) { this->spaceOne(list); },
+        [this](std::int64_t slot)
+        { return query_.point(places_.slotFor(slot)) == places_.all().point(slot); });
   }
   void compareNormals(const Executor& executor)
   {
@@ -200,9 +204,9 @@ private:
   using Near = std::array<std::uint32_t, kNear>;
   using Around = std::array<std::uint32_t, std::size(kSurroundings)>;
 
-  template <typename GoesOn, typename Visit>
-  static bool sweep(
-    const NeighborQuery& query, int count, const Executor& executor, const GoesOn& goesOn, const Visit& visit)
+  template <typename GoesOn, typename Visit, typename Wants>
+  static bool sweep(const NeighborQuery& query, int count, const Executor& executor, const GoesOn& goesOn,
+    const Visit& visit, const Wants& wants)
   {
     constexpr std::int64_t kLeavesAtOnce = 1024;
     const std::int64_t leaves = NeighborSweep::leaves(query);
@@ -213,8 +217,8 @@ private:
         return false;
       }
       forRange(executor, std::min(kLeavesAtOnce, leaves - first), NeighborSweep::kSmallestRange,
-        [&query, &visit, count, first](std::int64_t begin, std::int64_t end)
-        { NeighborSweep(query, count).run(first + begin, first + end, visit); });
+        [&query, &visit, &wants, count, first](std::int64_t begin, std::int64_t end)
+        { NeighborSweep(query, count).run(first + begin, first + end, visit, wants); });
     }
     return true;
   }
@@ -260,14 +264,10 @@ private:
     }
   }
 
-  /// @param list of slots of all places.
+  /// @param list of slots of all places, of one that stands for itself.
   void spaceOne(const NeighborList& list)
   {
     const std::int64_t slot = places_.slotFor(list.slot);
-    if (!(query_.point(slot) == places_.all().point(list.slot)))
-    {
-      return; // another one stands for it
-    }
     PointShape& shape = raw_[std::size_t(slot)];
     shape.spacing = float(spacingOf(list.squaredDistances, list.count - 1));
     shape.reach = reachOf(list, places_.all(), shape,

@@ -33,7 +33,8 @@ constexpr int kSlack = 4;
 /// Scratch memory of one thread.
 struct LeafSearch
 {
-  int k = 1; ///< Neighbours wanted, up to kMostSwept.
+  int k = 1;             ///< Neighbours wanted, up to kMostSwept.
+  unsigned wanted = ~0u; ///< Points of the leaf that are searched for, as bits.
   // Points within reach of the leaf.
   double places[3][kMostCandidates + kSlack];
   std::uint32_t slots[kMostCandidates + kSlack];
@@ -55,8 +56,8 @@ struct LeafSearch
 
 struct NeighborKernels
 {
-  /// The search.k nearest points of each point of @p leaf. Points for which the guess is too short are left
-  /// out of search.found.
+  /// The search.k nearest points of each wanted point of @p leaf. Points for which the guess is too short are
+  /// left out of search.found.
   void (*searchLeaf)(const NeighborTree& tree, std::int64_t leaf, LeafSearch& search);
 };
 

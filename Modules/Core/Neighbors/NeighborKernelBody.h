@@ -313,7 +313,7 @@ double searchPoints(const NeighborTree& tree, std::int64_t leaf, double reach, L
   double near = reach;
   for (int at = 0; at < points; ++at)
   {
-    if ((search.found >> at & 1u) == 0)
+    if (((search.wanted & ~search.found) >> at & 1u) != 0)
     {
       const double d2 = searchPoint(tree, first + at, at, near, reach, search);
       largest = d2 > largest ? d2 : largest;
@@ -327,7 +327,7 @@ void searchLeaf(const NeighborTree& tree, std::int64_t leaf, LeafSearch& search)
 {
   const Box box = boxOfLeaf(tree, leaf);
   const std::int64_t left = tree.size - leaf * kLeafPoints;
-  const unsigned all = (1u << (left < kLeafPoints ? left : kLeafPoints)) - 1u;
+  const unsigned all = search.wanted & ((1u << (left < kLeafPoints ? left : kLeafPoints)) - 1u);
   search.found = 0;
   double largest = 0.0;
   double reach = search.reach;

@@ -36,19 +36,18 @@ std::int64_t NeighborSweep::leaves(const NeighborQuery& query)
   return (query.size() + simd::kLeafPoints - 1) / simd::kLeafPoints;
 }
 
-int NeighborSweep::searchLeaf(std::int64_t leaf)
+void NeighborSweep::searchLeaf(std::int64_t leaf, unsigned wanted)
 {
-  const std::int64_t first = leaf * simd::kLeafPoints;
-  if (search_)
+  if (search_ && wanted != 0)
   {
+    search_->wanted = wanted;
     if (!(search_->reach > 0.0))
     {
-      const NeighborList list = alone(first);
+      const NeighborList list = alone(leaf * simd::kLeafPoints);
       search_->reach = kFirstMargin * list.squaredDistances[list.count - 1];
     }
     kernels_.searchLeaf(query_.tree(), leaf, *search_);
   }
-  return int(std::min<std::int64_t>(query_.size() - first, simd::kLeafPoints));
 }
 
 NeighborList NeighborSweep::listOf(std::int64_t leaf, int i)

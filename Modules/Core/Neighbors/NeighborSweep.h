@@ -6,6 +6,7 @@
 #include "Core/Neighbors/NeighborQuery.h"
 #include "Core/Simd/InstructionSet.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -49,25 +50,42 @@ public:
   /// Least leaves for a piece of a parallel loop.
   static constexpr std::int64_t kSmallestRange = 64;
 
-  /// Calls visit(const NeighborList&) for each point of the leaves [begin, end), in the order of slots.
-  template <typename Visitor>
-  void run(std::int64_t begin, std::int64_t end, Visitor&& visit)
+  /// Calls visit(const NeighborList&) for each point of the leaves [begin, end), in the order of slots, that
+  /// wants(slot) is true of.
+  template <typename Visitor, typename Wants>
+  void run(std::int64_t begin, std::int64_t end, Visitor&& visit, Wants&& wants)
   {
     for (std::int64_t leaf = begin; leaf < end; ++leaf)
     {
-      const int points = searchLeaf(leaf);
-      for (int i = 0; i < points; ++i)
+      const std::int64_t first = leaf * simd::kLeafPoints;
+      const std::int64_t last = std::min(query_.size(), first + simd::kLeafPoints);
+      unsigned wanted = 0;
+      for (std::int64_t slot = first; slot < last; ++slot)
       {
-        visit(listOf(leaf, i));
+        wanted |= unsigned(wants(slot)) << (slot - first);
+      }
+      searchLeaf(leaf, wanted);
+      for (std::int64_t slot = first; slot < last; ++slot)
+      {
+        if ((wanted >> (slot - first) & 1u) != 0)
+        {
+          visit(listOf(leaf, int(slot - first)));
+        }
       }
     }
+  }
+  /// All of them.
+  template <typename Visitor>
+  void run(std::int64_t begin, std::int64_t end, Visitor&& visit)
+  {
+    run(begin, end, visit, [](std::int64_t) { return true; });
   }
 
   /// The neighbours of one point. Valid until the next call.
   NeighborList alone(std::int64_t slot);
 
 private:
-  int searchLeaf(std::int64_t leaf);
+  void searchLeaf(std::int64_t leaf, unsigned wanted);
   NeighborList listOf(std::int64_t leaf, int i);
 
   const NeighborQuery& query_;
