@@ -166,6 +166,14 @@ public:
   bool UpdateModel() { return this->Scenes.update(); }
   bool IsModelChanged() const { return this->Scenes.isChanged(); }
 
+  ///@{
+  /**
+   * Hand mode: the simulated hand follows the mouse pointer in the view plane at its depth. Default: off.
+   */
+  void SetHandMode(bool on) { this->Hand.setFollowsMouse(on); }
+  bool GetHandMode() const { return this->Hand.followsMouse(); }
+  ///@}
+
   /**
    * What the sizes of the model and of the path of a pointhaptics::PathReplayDevice say of their units: see
    * pointhaptics::unlikelyUnits(). Where nobody asks, StartUpdates() makes a warning of it.
