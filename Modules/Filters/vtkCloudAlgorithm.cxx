@@ -241,7 +241,7 @@ int vtkCloudAlgorithm::RequestData(
   }
   // Observers of the warnings and of the end of progress may set something, too.
   this->RunsAgain =
-    this->GetMTime() > begin || (!succeeded && (this->RepeatsErrors || this->ErrorMessage.empty()));
+    this->GetMTime() > begin || (!succeeded && (this->SaysAgain() || this->ErrorMessage.empty()));
   return 1;
 }
 

@@ -105,6 +105,12 @@ protected:
 
   /// Why a run over @p input cannot be; empty: it can.
   virtual std::string ProblemOf(vtkDataObject* input);
+  /// Whether an error is said again on the next update: RepeatsErrors, but for ranks, which run together or
+  /// not at all.
+  virtual bool SaysAgain() const
+  {
+    return this->RepeatsErrors;
+  }
   /// Takes over settings for a run over all @p clouds. @return false after Fail() or an abort.
   virtual bool BeginRun(const Clouds& clouds) = 0;
   /// Fills an output for each port from one cloud. @return as BeginRun().

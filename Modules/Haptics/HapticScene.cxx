@@ -542,4 +542,9 @@ bool HapticScene::isNear(const Vec3& position) const noexcept
     RadiusField::nodeLevel(pyramid()), position, cloud_->scale.reach(), [](const Cell&) { return true; });
 }
 
+bool HapticScene::covers(const Vec3& p) const noexcept
+{
+  return cloud_->covered.empty() || contains(cloud_->covered, p);
+}
+
 } // namespace pointhaptics

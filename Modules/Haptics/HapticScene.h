@@ -4,7 +4,6 @@
 
 #include "Core/Bandwidth/LocalBandwidth.h"
 #include "Core/Base/AffineTransform.h"
-#include "Core/Base/Boxes.h"
 #include "Core/Base/Executor.h"
 #include "Core/Base/Status.h"
 #include "Core/Surface/CellPyramid.h"
@@ -91,10 +90,7 @@ public:
   const HapticScene* fallback() const { return fallback_.get(); }
   bool isLocal() const { return !cloud_->covered.empty(); }
   /// True if a hand at @p p (lattice frame) feels the same in a global scene.
-  bool covers(const Vec3& p) const noexcept
-  {
-    return cloud_->covered.empty() || contains(cloud_->covered, p);
-  }
+  bool covers(const Vec3& p) const noexcept;
   /// Box in which a local scene is felt; lattice frame.
   const Bounds& covered() const { return cloud_->covered; }
   /// Box in which this scene has the same cells and fields as @p other, of the same lattice frame: cells

@@ -182,8 +182,9 @@ public:
 
   ///@{
   /**
-   * On: after a fault each Update() reads again and says so again until the cause is mended. Off, for hosts
-   * that update several times for one action of a person: nothing is read until something is set. Several
+   * On: after a fault each Update(), and with it each picture of a scene, reads again and says so again until
+   * the cause is mended. Off, for hosts that update several times for one action of a person, and for scenes
+   * that go on without the file: nothing is read until something is set. Several
    * ranks say a fault once, as they read together or not at all. Default: on.
    */
   vtkSetMacro(RepeatsErrors, bool);

@@ -9,7 +9,7 @@
  *
  * @code
  * vtkNew< vtkInteractorStyleHaptic > style;
- * style->SetResampler(resampler);       // its Transform becomes the style's
+ * style->SetResampler(resampler);       // its Transform is set by the style: see SetModelMatrix()
  * style->SetCloudActor(actor);          // moves at once while the pipeline catches up
  * interactor->SetInteractorStyle(style);
  * pointhaptics::HapticTouch touch(style);

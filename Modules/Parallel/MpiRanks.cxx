@@ -86,11 +86,9 @@ std::vector<std::string> MpiRanks::exchange(std::vector<std::string> messages)
   return received;
 }
 
-std::string problemOnRanks(vtkMultiProcessController* controller, vtkDataObject* input, bool& repeatsErrors)
+std::string problemOnRanks(vtkMultiProcessController* controller, vtkDataObject* input)
 {
-  const bool isShared = MpiRanks(controller).size() > 1;
-  repeatsErrors = repeatsErrors && !isShared;
-  return isShared && vtkCompositeDataSet::SafeDownCast(input)
+  return MpiRanks(controller).size() > 1 && vtkCompositeDataSet::SafeDownCast(input)
     ? "The input has blocks, and each process has others; merge them to one cloud first (Merge Blocks)."
     : std::string();
 }

@@ -37,9 +37,8 @@ private:
   std::int64_t sent_ = 0;
 };
 
-/// Why a filter of several ranks refuses @p input; empty for one cloud, and where there is one rank. Several
-/// run together or not at all: @p repeatsErrors is then false.
-std::string problemOnRanks(vtkMultiProcessController* controller, vtkDataObject* input, bool& repeatsErrors);
+/// Why a filter of several ranks refuses @p input; empty for one cloud, and where there is one rank.
+std::string problemOnRanks(vtkMultiProcessController* controller, vtkDataObject* input);
 
 /// Ends all processes of an MPI job at once, this one with @p exitCode; without MPI this one alone. Does not
 /// return.

@@ -28,7 +28,12 @@ vtkDistributedKernelBandwidthFilter::~vtkDistributedKernelBandwidthFilter() = de
 
 std::string vtkDistributedKernelBandwidthFilter::ProblemOf(vtkDataObject* input)
 {
-  return problemOnRanks(this->Controller, input, this->RepeatsErrors);
+  return problemOnRanks(this->Controller, input);
+}
+
+bool vtkDistributedKernelBandwidthFilter::SaysAgain() const
+{
+  return this->RepeatsErrors && MpiRanks(this->Controller).size() == 1;
 }
 
 bool vtkDistributedKernelBandwidthFilter::RunCloud(vtkPointSet* cloud, const Outputs& outputs)

@@ -52,6 +52,7 @@ protected:
 
 #ifndef __VTK_WRAP__
   std::string ProblemOf(vtkDataObject* input) override;
+  bool SaysAgain() const override;
   bool RunCloud(vtkPointSet* cloud, const Outputs& outputs) override;
 #endif
 

@@ -25,7 +25,12 @@ vtkDistributedVoxelMeanResampler::~vtkDistributedVoxelMeanResampler() = default;
 
 std::string vtkDistributedVoxelMeanResampler::ProblemOf(vtkDataObject* input)
 {
-  return problemOnRanks(this->Controller, input, this->RepeatsErrors);
+  return problemOnRanks(this->Controller, input);
+}
+
+bool vtkDistributedVoxelMeanResampler::SaysAgain() const
+{
+  return this->RepeatsErrors && MpiRanks(this->Controller).size() == 1;
 }
 
 bool vtkDistributedVoxelMeanResampler::BeginRun(const Clouds& clouds)

@@ -59,6 +59,7 @@ protected:
 
 #ifndef __VTK_WRAP__
   std::string ProblemOf(vtkDataObject* input) override;
+  bool SaysAgain() const override;
   bool BeginRun(const Clouds& clouds) override;
   bool RunCloud(vtkPointSet* cloud, const Outputs& outputs) override;
 #endif

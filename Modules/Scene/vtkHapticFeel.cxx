@@ -236,6 +236,7 @@ vtkHapticFeel::vtkHapticFeel()
   : Impl(std::make_unique<Internals>())
 {
   this->SetNumberOfInputPorts(2);
+  this->AddObserver(vtkCommand::StartEvent, this, &vtkHapticFeel::BeginUpdate);
 }
 
 vtkHapticFeel::~vtkHapticFeel() = default;
@@ -276,13 +277,19 @@ int vtkHapticFeel::FillInputPortInformation(int port, vtkInformation* info)
   return 1;
 }
 
+/// An update of a composite runs once for each block.
+void vtkHapticFeel::BeginUpdate()
+{
+  this->Impl->RunsAgain = false;
+  this->ErrorCode = vtkErrorCode::NoError;
+}
+
 int vtkHapticFeel::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   const vtkSmartPointer<vtkPointSet> cloud = vtkPointSet::GetData(inputVector[0]);
   const vtkSmartPointer<vtkTable> table = vtkTable::GetData(inputVector[1]);
   const vtkSmartPointer<vtkTable> output = vtkTable::GetData(outputVector);
-  this->Impl->RunsAgain = false;
   if (vtkDataObject* block = vtkDataObject::GetData(inputVector[0]); block && !cloud)
   {
     vtkWarningMacro(<< "A block without points is left empty: " << block->GetClassName() << ".");
@@ -308,14 +315,15 @@ int vtkHapticFeel::RequestData(
     },
     stop.request());
   message = status == Status::Ok ? message : pointhaptics::message(status);
-  const unsigned long code = message.empty() ? vtkErrorCode::NoError : vtkErrorCode::UserError;
-  this->ErrorCode = status == Status::Ok ? code : kOutOfMemoryCode; // without Modified(): nothing was set
   if (!isFelt)
   {
     output->Initialize();
     addColumns(output);
     if (!message.empty())
     {
+      // Without Modified(): nothing was set.
+      this->ErrorCode =
+        status == Status::Ok ? static_cast<unsigned long>(vtkErrorCode::UserError) : kOutOfMemoryCode;
       vtkErrorMacro(<< message);
     }
   }
@@ -323,8 +331,8 @@ int vtkHapticFeel::RequestData(
   {
     vtkWarningMacro(<< odd);
   }
-  this->Impl->RunsAgain =
-    this->GetMTime() > begin || (!isFelt && hasPoints && (this->RepeatsErrors || message.empty()));
+  this->Impl->RunsAgain = this->Impl->RunsAgain || this->GetMTime() > begin ||
+    (!isFelt && hasPoints && (this->RepeatsErrors || message.empty()));
   return 1;
 }
 

@@ -168,6 +168,7 @@ protected:
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+  void BeginUpdate();
 
   bool RepeatsErrors = true;
   pointhaptics::HapticParameters Settings;

@@ -202,6 +202,28 @@ class Feel(TestCase):
         found = [feel.GetOutputDataObject(0).GetBlock(index) for index in range(2)]
         self.assertEqual(([table.GetNumberOfRows() for table in found], said), ([rows, 0], ["WarningEvent"]))
 
+    def test_a_block_that_fails_beside_one_that_is_felt_says_so_on_each_update(self):
+        from vtkmodules.vtkCommonCore import vtkPoints
+        from vtkmodules.vtkCommonDataModel import vtkMultiBlockDataSet, vtkPolyData
+
+        feel, said = self.filter_of(self.hand), []
+        empty = vtkPolyData()
+        empty.ShallowCopy(feel.GetInputDataObject(0, 0))
+        points = vtkPoints()
+        for _ in range(empty.GetNumberOfPoints()):
+            points.InsertNextPoint(np.nan, np.nan, np.nan)
+        empty.SetPoints(points)
+        blocks = vtkMultiBlockDataSet()
+        blocks.SetBlock(0, empty)
+        blocks.SetBlock(1, feel.GetInputDataObject(0, 0))
+        feel.SetInputDataObject(0, blocks)
+        feel.AddObserver("ErrorEvent", lambda caller, event: said.append(caller.GetErrorCode()))
+        codes = []
+        for _ in range(3):
+            feel.Update()
+            codes.append(feel.GetErrorCode())
+        self.assertEqual((len(said), min(codes) > 0), (3, True))
+
     def test_what_an_observer_sets_in_a_run_counts_from_the_next_on(self):
         def soften(caller, event):
             if caller.GetProgress() > 0.5:

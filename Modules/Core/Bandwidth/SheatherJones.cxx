@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -112,15 +113,19 @@ private:
 
   double cellPair(const SampleCell& a, const SampleCell& b) const
   {
-    return a.hasSeries() && b.hasSeries() ? this->bothSeries(a, b) : this->everyPair(a, b);
+    if (a.hasSeries() && b.hasSeries())
+    {
+      return this->bothSeries(a, b);
+    }
+    return a.hasSeries() ? this->oneSeries(b, a)
+      : b.hasSeries()    ? this->oneSeries(a, b)
+                         : this->everyPair(a, b);
   }
 
-  double bothSeries(const SampleCell& a, const SampleCell& b) const
+  /// Element k: H_(order + k)(t), by He_(k + 1) = t He_k - k He_(k - 1).
+  std::array<double, SampleCell::kTerms> derivativesAt(double t) const
   {
-    constexpr std::size_t kTerms = SampleCell::kTerms;
-    // Element k: H_(order + k)(t), by He_(k + 1) = t He_k - k He_(k - 1).
-    double table[kTerms];
-    const double t = (sorted_[a.begin] - sorted_[b.begin]) / h_;
+    std::array<double, SampleCell::kTerms> table{};
     double before = 0.0;
     double now = std::exp(-0.5 * t * t);
     for (int k = 0; k < order_ + SampleCell::kTerms; ++k)
@@ -128,6 +133,25 @@ private:
       table[std::size_t(std::max(k - order_, 0))] = now;
       before = std::exchange(now, t * now - double(k) * before);
     }
+    return table;
+  }
+
+  /// Each of few values against the power sums of many: time stays linear where strays lie beside crowds.
+  double oneSeries(const SampleCell& values, const SampleCell& series) const
+  {
+    double sum = 0.0;
+    for (std::int64_t i = values.begin; i < values.end; ++i)
+    {
+      const auto table = this->derivativesAt((sorted_[i] - sorted_[series.begin]) / h_);
+      sum = std::inner_product(table.begin(), table.end(), series.moments.begin(), sum);
+    }
+    return sum;
+  }
+
+  double bothSeries(const SampleCell& a, const SampleCell& b) const
+  {
+    constexpr std::size_t kTerms = SampleCell::kTerms;
+    const auto table = this->derivativesAt((sorted_[a.begin] - sorted_[b.begin]) / h_);
     double sum = 0.0;
     for (std::size_t j = 0; j < kTerms; ++j)
     {

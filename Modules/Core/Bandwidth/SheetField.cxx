@@ -34,6 +34,9 @@ constexpr int kLeast = 4;
 constexpr double kChanceOffset = 0.3;
 constexpr double kPartPerOffset = 4.0;
 constexpr double kLeastPart = 0.25;
+/// The middle of a quarter of a disk is 0.6 radii aside. A point farther from its neighbours is no part of
+/// their sheet: it is a stray in their plane, and its ball would reach to them.
+constexpr double kMostAside = 0.7;
 /// Spacing of a sheet over that of all neighbours, at most. Without it a bend of few points has balls as wide
 /// as the part.
 constexpr double kMostOfAll = 1.4142135623730951;
@@ -198,7 +201,7 @@ private:
       }
     }
     const double aside = norm(sum) / (std::max(1, count) * reach);
-    if (count >= kLeast)
+    if (count >= kLeast && aside < kMostAside)
     {
       const double part = std::clamp(1.0 - kPartPerOffset * (aside - kChanceOffset), kLeastPart, 1.0);
       // Two sheets have twice the points of one; where fewer agree the surface bends.

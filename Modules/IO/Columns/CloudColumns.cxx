@@ -109,18 +109,16 @@ using Names = std::vector<std::vector<std::string>>;
 const std::vector<std::string> kXyz = { "x", "y", "z" };
 /// Other names of the three coordinates.
 const Names kCoordinateWords = { { "x", "easting", "eastings", "east", "e", "rechtswert", "rechts", "rw",
-                                   "ost", "ostwert", "est", "este", "longitude", "lon", "long", "lng",
-                                   "laenge", "l\xc3\xa4nge" },
+                                   "ost", "ostwert", "est", "este", "longitude", "lon", "long", "lng" },
   { "y", "northing", "northings", "north", "n", "hochwert", "hoch", "hw", "nord", "nordwert", "norte",
-    "latitude", "lat", "breite" },
+    "latitude", "lat" },
   { "z", "elevation", "elev", "height", "h", "altitude", "alt", "up", "hoehe", "h\xc3\xb6he", "cota", "quota",
     "level", "rl", "nhn" } };
 /// Words beside the name of a coordinate: "POINT_X", "x coordinate".
 const std::vector<std::string> kFillers = { "coord", "coords", "coordinate", "coordinates", "point", "points",
   "pos", "position", "positions", "xyz", "field", "world", "global", "local", "utm", "map", "grid", "mga",
   "ahd", "vertex", "cartesian", "value" };
-const std::vector<std::string> kDegrees = { "longitude", "lon", "long", "lng", "laenge", "l\xc3\xa4nge",
-  "latitude", "lat", "breite" };
+const std::vector<std::string> kDegrees = { "longitude", "lon", "long", "lng", "latitude", "lat" };
 const Names kColorsWithAlpha = { { "red", "green", "blue", "alpha" }, { "r", "g", "b", "a" },
   { "diffuse_red", "diffuse_green", "diffuse_blue", "diffuse_alpha" } };
 const Names kColors = { { "red", "green", "blue" }, { "r", "g", "b" }, { "rf", "gf", "bf" },

@@ -164,8 +164,7 @@ FormatStart lookAt(
 
 bool looksLikePly(const FormatStart& start)
 {
-  std::string_view line = start.line;
-  return equalNoCase(takeWord(line), "ply");
+  return equalNoCase(trimmed(start.line), "ply");
 }
 
 bool looksLikePcd(const FormatStart& start)

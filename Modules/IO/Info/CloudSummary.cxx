@@ -346,7 +346,8 @@ void suggest(const LengthUnit& known, const Bounds& bounds, CloudSummary& summar
     const char* const evidence = (known.evidence == UnitEvidence::File) ? "as the file says" : "by its size";
     summary.hint += fmt::format(" --unit {} {},", known.name, evidence);
   }
-  summary.hint += fmt::format(" --scale {} to fill the workspace", summary.suggestedScale);
+  summary.hint += fmt::format(
+    "{} --scale {} to fill the workspace", summary.hint.back() == ',' ? " or" : "", summary.suggestedScale);
 }
 
 } // namespace

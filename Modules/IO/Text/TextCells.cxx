@@ -93,31 +93,6 @@ bool parseForeign(std::string_view cell, double& value, NumberShape* shape)
   return parseWith('e', cell.find_first_of("dDqQ"), cell, value, shape);
 }
 
-/// Removes the marks between thousands: "1234.56" for "1.234,56", "1,234.56" or "1'234.56". Empty where @p
-/// cell is no such number: "1.234" alone is ambiguous.
-std::string withoutThousandsMarks(std::string_view cell)
-{
-  const bool isNegative = cell.substr(0, 1) == "-";
-  const std::string_view digits = cell.substr(isNegative ? 1 : 0);
-  const std::size_t first = digits.find_first_of(".,'");
-  const std::size_t last = digits.find_last_of(".,");
-  if (first == std::string_view::npos || last == std::string_view::npos || first == 0 || first > 3 ||
-    last <= first || digits[first] == digits[last])
-  {
-    return {};
-  }
-  std::string plain(digits.substr(0, first));
-  std::size_t at = first;
-  for (; at < last && digits[at] == digits[first] && at + 4 <= last; at += 4)
-  {
-    plain += digits.substr(at + 1, 3);
-  }
-  const std::string decimals(digits.substr(last + 1));
-  const bool areDigits =
-    !decimals.empty() && (plain + decimals).find_first_not_of("0123456789") == std::string::npos;
-  return at == last && areDigits ? (isNegative ? "-" : "") + plain + "." + decimals : std::string();
-}
-
 constexpr std::string_view kSeparators = ",;|\t";
 
 /// Separators on the line of text that holds the place @p at.
@@ -196,7 +171,30 @@ bool parseUnusualCell(std::string_view cell, double& value, NumberShape* shape)
 {
   cell = withoutQuotes(cell);
   return parseNumber(cell, value, shape) || parseWithComma(cell, value, shape) ||
-    parseForeign(cell, value, shape) || parseNumber(withoutThousandsMarks(cell), value, shape);
+    parseForeign(cell, value, shape);
+}
+
+std::string withoutThousandsMarks(std::string_view cell)
+{
+  const bool isNegative = cell.substr(0, 1) == "-";
+  const std::string_view digits = cell.substr(isNegative ? 1 : 0);
+  const std::size_t first = digits.find_first_of(".,'");
+  const std::size_t last = digits.find_last_of(".,");
+  if (first == std::string_view::npos || last == std::string_view::npos || first == 0 || first > 3 ||
+    last <= first || digits[first] == digits[last])
+  {
+    return {};
+  }
+  std::string plain(digits.substr(0, first));
+  std::size_t at = first;
+  for (; at < last && digits[at] == digits[first] && at + 4 <= last; at += 4)
+  {
+    plain += digits.substr(at + 1, 3);
+  }
+  const std::string decimals(digits.substr(last + 1));
+  const bool areDigits =
+    !decimals.empty() && (plain + decimals).find_first_not_of("0123456789") == std::string::npos;
+  return at == last && areDigits ? (isNegative ? "-" : "") + plain + digits[last] + decimals : std::string();
 }
 
 char separatorOf(std::string_view line)

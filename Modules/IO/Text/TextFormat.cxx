@@ -88,8 +88,34 @@ std::vector<std::string> namesOf(
   return names;
 }
 
+/// Refuses a table with "1.234,56" in the line of @p texts, whatever the cells were taken to be: commas and
+/// points may have been taken for separators.
+void failThousands(std::string_view text, const TextLayout& layout, const TextColumn& texts)
+{
+  LineReader lines(text.substr(layout.bodyOffset), layout.bodyLine);
+  std::string_view line;
+  while (lines.next(line) && lines.lineNumber() < texts.line)
+  {
+  }
+  while (!line.empty() && lines.lineNumber() == texts.line)
+  {
+    const std::size_t end = std::min(line.find_first_of(" \t;|\""), line.size());
+    const std::string plain = withoutThousandsMarks(line.substr(0, end));
+    if (!plain.empty())
+    {
+      failFormat(
+        fmt::format("{}: {} has marks between thousands", texts.where(), inQuotes(line.substr(0, end))),
+        "write numbers without them, as " + plain +
+          (plain.find(',') == std::string::npos ? ""
+                                                : ", and separate columns by semicolons or white space"));
+    }
+    line.remove_prefix(std::min(end + 1, line.size()));
+  }
+}
+
 /// @throws FileProblem where x, y or z holds a text.
-void checkCoordinates(const TextTable& table, const TextLayout& layout, const std::vector<std::size_t>& read)
+void checkCoordinates(std::string_view text, const TextTable& table, const TextLayout& layout,
+  const std::vector<std::size_t>& read)
 {
   const std::vector<std::size_t> places =
     layout.names.empty() ? read : coordinatesOf(columnsCalled(layout.names));
@@ -98,6 +124,7 @@ void checkCoordinates(const TextTable& table, const TextLayout& layout, const st
   {
     const std::size_t column = areTooFew ? i : places[i];
     const TextColumn& texts = table.columns[column];
+    texts.texts > 0 ? failThousands(text, layout, texts) : void();
     failFormatIf(texts.texts > 0,
       "write x, y and z as numbers with the same separator on every line, and comments after #",
       "{}, column {}: {} is not a number", texts.where(), column + 1, inQuotes(texts.firstText));
@@ -246,7 +273,7 @@ void readTable(ReadTask& task, std::string_view text, TextLayout layout, vtkPoly
         " points before the count in its first line is reached");
   }
   const std::vector<std::size_t> read = columnsOfNumbers(table, layout);
-  checkCoordinates(table, layout, read);
+  checkCoordinates(text, table, layout, read);
   const std::vector<std::string> names = namesOf(table, layout, read, task);
   noteColumns(table, layout, names, task.notes);
   std::vector<Column> planned;

@@ -243,18 +243,23 @@ int vtkHapticOverlay::FitHelpFont(
   vtkTextRenderer* texts = vtkTextRenderer::GetInstance();
   vtkWindow* window = this->Renderer->GetVTKWindow();
   help->SetInput(text.c_str());
-  for (int font = largest; font >= smallest; --font)
+  // To measure is to draw: the smallest font tells about how large one fits.
+  const auto room = [&](int font)
   {
     help->GetTextProperty()->SetFontSize(font);
     int box[4] = {};
-    if (texts->GetBoundingBox(
-          help->GetTextProperty(), vtkStdString(text), box, window ? window->GetDPI() : 72) &&
-      box[1] - box[0] + 1 <= width && box[3] - box[2] + 1 <= height)
-    {
-      return font;
-    }
+    const bool isMeasured =
+      texts->GetBoundingBox(help->GetTextProperty(), vtkStdString(text), box, window ? window->GetDPI() : 72);
+    return isMeasured ? std::min(width / (box[1] - box[0] + 1), height / (box[3] - box[2] + 1)) : 0.0;
+  };
+  const double most = room(smallest);
+  int font = std::min(largest, int(smallest * most) + 1);
+  while (font > smallest && room(font) < 1.0)
+  {
+    --font;
   }
-  return 0;
+  help->GetTextProperty()->SetFontSize(std::max(font, smallest));
+  return most < 1.0 ? 0 : font;
 }
 
 /// Fills the page with as many of @p all, the lines of the help, as fit in a font that is read well. In a

@@ -117,6 +117,7 @@ protected:
   vtkHapticOverlay();
   ~vtkHapticOverlay() override;
 
+  /// A text and its actor.
   struct TextBlock
   {
     vtkNew<vtkTextActor> actor;

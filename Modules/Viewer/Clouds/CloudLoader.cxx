@@ -65,7 +65,7 @@ void CloudLoader::start(CloudRequest request)
   {
     if (former.valid())
     {
-      former.wait();
+      former.get(); // and lets go of what it kept
     }
     load->run();
     load.reset(); // frees a cloud that was given up: this may take long

@@ -11,7 +11,9 @@
 #include <vtkStringArray.h>
 
 #include <algorithm>
+#include <chrono>
 #include <iterator>
+#include <thread>
 
 namespace pointhaptics
 {
@@ -53,7 +55,7 @@ void ViewWindow::load(const std::vector<std::string>& files, Load kind, std::fun
     options.picture.hidden.clear();
   }
   options.up = this->upOf(files.front());
-  loading_ = { files, kind, options, std::move(then), FileWatch() };
+  loading_ = { files, kind, options, std::move(then), {}, FileWatch() };
   loading_.watch.watch(files);
   CloudRequest request(files, options);
   request.makesScene = true;
@@ -104,13 +106,13 @@ void ViewWindow::followLoading()
   if (!message.empty())
   {
     this->say(message, kError); // the window shows what it showed before
-    this->endLoading(false);
+    this->endLoading(&Loading::failed);
     return;
   }
   const std::vector<std::string> notes =
     loading_.kind == Load::Finer ? std::vector<std::string>() : cloud.notes; // they were told
   this->show(std::move(cloud));
-  this->endLoading(true);
+  this->endLoading(&Loading::then);
   this->warn(notes);
   if (scene_.isCoarse())
   {
@@ -132,7 +134,8 @@ void ViewWindow::warn(const std::vector<std::string>& notes)
   }
 }
 
-void ViewWindow::endLoading(bool isShown)
+/// Then what the load asks for: one of its two functions, or nothing.
+void ViewWindow::endLoading(std::function<void()> Loading::*next)
 {
   if (progress_->Hide())
   {
@@ -142,9 +145,9 @@ void ViewWindow::endLoading(bool isShown)
   }
   const Loading ended = std::move(loading_);
   loading_ = Loading();
-  if (isShown)
+  if (next && ended.*next)
   {
-    ended.then();
+    (ended.*next)();
   }
 }
 
@@ -154,7 +157,7 @@ void ViewWindow::cancelLoading()
   const bool isFiner = loading_.kind == Load::Finer;
   this->say(titleOf(loading_.files) + ": not read" + (isFiner ? " to its end" : "") +
     ", it was cancelled; the " + (isFiner ? "coarse level" : "former cloud") + " stays");
-  this->endLoading(false);
+  this->endLoading();
 }
 
 void ViewWindow::show(LoadedCloud cloud)
@@ -188,6 +191,10 @@ void ViewWindow::show(LoadedCloud cloud)
     clipping_.forget();
   }
   this->setSceneOptions();
+  if (!keepsModel)
+  {
+    this->releaseHand();
+  }
   this->adoptModel(model, keepsModel);
   this->followOptions();
   scene_.placeAxes(style_->GetModelTransform()->GetMatrix());
@@ -209,6 +216,17 @@ void ViewWindow::show(LoadedCloud cloud)
   style_->GetScenes().poll(); // what is near the hand, before the picture
   this->findIdeal();
   this->followProfile();
+}
+
+/// The hand feels nothing until another cloud is there: that one does not come to it as a model that moves.
+void ViewWindow::releaseHand()
+{
+  constexpr int kMostMilliseconds = 20;
+  servo_.publishScene(nullptr);
+  for (int i = 0; i < kMostMilliseconds && servo_.running() && servo_.latest().scene != 0; ++i)
+  {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
 }
 
 /// Applies the options that keys changed while the cloud was read.
@@ -284,8 +302,9 @@ void ViewWindow::findIdeal()
                                            : std::function<double(const ServoSample&)>());
 }
 
-/// Shows the next file in @p direction; where they are shown together, one of them alone or all.
-void ViewWindow::stepFile(int direction)
+/// Shows the next file in @p direction that can be read; where they are shown together, one of them alone or
+/// all. @param skipped files that could not be read on the way.
+void ViewWindow::stepFrom(int direction, std::size_t skipped)
 {
   if (files_.size() < 2)
   {
@@ -303,6 +322,10 @@ void ViewWindow::stepFile(int direction)
   this->load({ files_[fileIndex_] }, Load::New,
     [this, index = fileIndex_]
     { this->say(fmt::format("file {} of {}: {}", index + 1, files_.size(), scene_.title())); });
+  if (skipped + 1 < files_.size())
+  {
+    loading_.failed = [this, direction, skipped] { this->stepFrom(direction, skipped + 1); };
+  }
 }
 
 /// Reads the file again with the next axis upwards.

@@ -360,6 +360,8 @@ bool ViewWindow::finish(std::string& message)
   }
   servo_.stop();
   style_->Refresh(); // the last ticks
+  saving_.valid() ? saving_.wait() : void();
+  this->followSaving();
   spaceMouse_.stop();
   if (device_)
   {

@@ -110,9 +110,10 @@ private:
   {
     std::vector<std::string> files;
     Load kind = Load::New;
-    HapticViewerOptions options; ///< Options when the load began.
-    std::function<void()> then;  ///< Called when the cloud is shown.
-    FileWatch watch;             ///< State of the files before the first byte was read.
+    HapticViewerOptions options;  ///< Options when the load began.
+    std::function<void()> then;   ///< Called when the cloud is shown.
+    std::function<void()> failed; ///< Called when it cannot be read.
+    FileWatch watch;              ///< State of the files before the first byte was read.
   };
   void openWindow();
   /// Names the program and @p words.
@@ -167,16 +168,18 @@ private:
   void load(const std::vector<std::string>& files, Load kind, std::function<void()> then);
   void refine();
   void followLoading();
-  void endLoading(bool isShown);
+  void endLoading(std::function<void()> Loading::*next = nullptr);
   void cancelLoading();
   void forgiveEscape();
   void leave();
   void show(LoadedCloud cloud);
   void warn(const std::vector<std::string>& notes);
+  void releaseHand();
   void followOptions();
   void adoptModel(const AffineTransform& model, bool keepsModel);
   void giveModel(vtkMatrix4x4* matrix);
-  void stepFile(int direction);
+  void stepFile(int direction) { this->stepFrom(direction, 0); }
+  void stepFrom(int direction, std::size_t skipped);
   bool endFiles(std::string& message);
   void findIdeal();
   /// Parameters with the limit of the force that holds.

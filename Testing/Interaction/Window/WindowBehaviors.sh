@@ -14,6 +14,18 @@ KeysNAndBStepThroughTheFiles() {
   shows second.ply
 }
 
+KeyNSkipsAFileThatCannotBeRead() {
+  make sphere first.ply
+  echo "no cloud" >broken.ply
+  make plane third.ply
+  open_viewer first.ply broken.ply third.ply
+  key n
+  said "broken.ply: "
+  said "file 3 of 3: third.ply"
+  key b
+  said "file 1 of 3: first.ply"
+}
+
 AChangedFileIsReadAgain() {
   make plane cloud.ply
   open_viewer cloud.ply --watch

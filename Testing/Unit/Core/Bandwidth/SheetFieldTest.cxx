@@ -118,6 +118,7 @@ TEST(SheetField, TakesStraysRowsAndScatterForNoSheet)
     points.emplace_back(0.002 * i, 0.0, 0.2);
   }
   points.emplace_back(0.3, 0.0, 0.0);
+  points.emplace_back(0.055, 0.0, 0.0); // a few spacings beyond the rim
   const std::vector<SheetPoint> field = fieldOf(points);
   for (std::size_t i = sheet; i < points.size(); ++i)
   {
