@@ -109,8 +109,10 @@ void readEsriGrid(ReadTask& task, vtkPolyData* cloud)
       if (!line.empty())
       {
         const std::string_view word = takeWord(line);
-        failFormatIf(
-          !parseCell(word, z), kCure, "line {}: {} is no height", lines.lineNumber(), inQuotes(word));
+        if (!parseCell(word, z))
+        {
+          failFormat(fmt::format("line {}: {} is no height", lines.lineNumber(), inQuotes(word)), kCure);
+        }
         break;
       }
       if (!lines.next(line))

@@ -105,7 +105,8 @@ void LasCoordinateSystem::addKeys(std::string_view content)
     const int value = loadLittle<std::uint16_t>(content.data() + at + 6);
     if (place == 0 && value != 0 && value != kUserDefined)
     {
-      keys_[key] = value;
+      int& known = keys_[key];
+      known = key == kGeographicSystem && known != 0 ? known : value;
     }
   }
 }

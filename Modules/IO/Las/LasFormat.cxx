@@ -243,9 +243,17 @@ void LazReader::read(LasRecords& records)
   }
   const auto fault = std::find_if(
     faults_.begin(), faults_.end(), [](const std::exception_ptr& each) { return each != nullptr; });
-  if (fault != faults_.end())
+  try
   {
-    task_.salvage ? readInOrder(records) : std::rethrow_exception(*fault);
+    fault != faults_.end() ? std::rethrow_exception(*fault) : void();
+  }
+  catch (const FileProblem&)
+  {
+    if (!task_.salvage)
+    {
+      throw;
+    }
+    readInOrder(records);
   }
 }
 

@@ -150,7 +150,7 @@ void checkAreArrays(const XmlElement& parent)
 void checkArray(const DataLayout& layout, const XmlElement& array)
 {
   const std::string_view format = array.attribute("format");
-  if (format == "appended")
+  if (format == "appended" || !array.attribute("offset").empty()) // VTK asks for the offset alone
   {
     const std::string_view text = array.attribute("offset");
     unsigned long long offset = 0;

@@ -19,7 +19,10 @@
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
+#include "vtkStringArray.h"
 #include "vtkUnstructuredGrid.h"
+#include "vtkXMLDataElement.h"
+#include "vtkXMLDataParser.h"
 #include "vtkXMLPolyDataReader.h"
 #include "vtkXMLUnstructuredDataReader.h"
 #include "vtkXMLUnstructuredGridReader.h"
@@ -75,8 +78,8 @@ public:
   std::string first;
 };
 
-/// VTK's own error of an array of texts that cannot be read asks for its name as that of one of numbers,
-/// which is not there.
+/// VTK's own reading of texts writes behind the end of an array where the file has more of them, and its
+/// error of one that cannot be read asks for the name as that of an array of numbers, which is not there.
 template <class Reader>
 class TextSafe : public Reader
 {
@@ -84,24 +87,52 @@ public:
   static TextSafe* New() { VTK_STANDARD_NEW_BODY(TextSafe); }
 
 protected:
-  int ReadArrayForPoints(vtkXMLDataElement* element, vtkAbstractArray* array) override
+  int ReadArrayValues(vtkXMLDataElement* element, vtkIdType first, vtkAbstractArray* array, vtkIdType start,
+    vtkIdType count, vtkXMLReader::FieldType type) override
   {
-    return this->HasRead(Reader::ReadArrayForPoints(element, array), array);
-  }
-  int ReadArrayForCells(vtkXMLDataElement* element, vtkAbstractArray* array) override
-  {
-    return this->HasRead(Reader::ReadArrayForCells(element, array), array);
+    vtkStringArray* texts = vtkStringArray::SafeDownCast(array);
+    if (!texts)
+    {
+      return Reader::ReadArrayValues(element, first, array, start, count, type);
+    }
+    const std::string bytes = count > 0 ? this->BytesOf(element) : std::string();
+    vtkIdType there = 0;
+    for (std::size_t at = 0, end = bytes.find('\0'); end != std::string::npos;
+         at = end + 1, end = bytes.find('\0', at), ++there)
+    {
+      if (there >= start && there < start + count)
+      {
+        texts->SetValue(first + there - start, bytes.substr(at, end - at));
+      }
+    }
+    // Cells are read in parts: vertices, lines, strips, polygons.
+    const vtkIdType most = type == vtkXMLReader::CELL_DATA ? texts->GetNumberOfValues() : start + count;
+    if (count > 0 && (there < start + count || there > most))
+    {
+      vtkErrorMacro(<< "Cannot read the texts of " << inQuotes(array->GetName() ? array->GetName() : "")
+                    << ": " << there << " strings where its tags say " << start + count);
+    }
+    return 1;
   }
 
 private:
-  int HasRead(int result, vtkAbstractArray* array)
+  /// All bytes of an array, unpacked.
+  std::string BytesOf(vtkXMLDataElement* element)
   {
-    const bool isSafe = result != 0 || vtkDataArray::SafeDownCast(array);
-    if (!isSafe)
+    vtkTypeInt64 offset = 0;
+    const bool isAppended = element->GetScalarAttribute("offset", offset) != 0;
+    const char* format = element->GetAttribute("format");
+    const int isAscii = format && std::string_view(format) == "binary" ? 0 : 1;
+    std::string bytes;
+    std::size_t size = 0;
+    do
     {
-      vtkErrorMacro(<< "Cannot read the texts of " << inQuotes(array->GetName() ? array->GetName() : ""));
-    }
-    return isSafe ? result : 1;
+      bytes.resize(std::max<std::size_t>(4 * bytes.size(), 1024));
+      size = isAppended ? this->XMLParser->ReadAppendedData(offset, bytes.data(), 0, bytes.size())
+                        : this->XMLParser->ReadInlineData(element, isAscii, bytes.data(), 0, bytes.size());
+    } while (size == bytes.size());
+    bytes.resize(size);
+    return bytes;
   }
 };
 

@@ -1,5 +1,11 @@
 #include "CloudFiles.h"
 
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkFieldData.h"
+#include "vtkStringArray.h"
+#include "vtkXMLPolyDataWriter.h"
+
 #include <cstdint>
 
 namespace
@@ -127,6 +133,9 @@ TEST_F(HostileFiles, SizesThatVtkWouldBelieveAreCheckedFirst)
   const std::string packed(60, 'z');
   expectRefused(
     readCloud(write("a.vtp", makeVtp({ 0xffffffff, 24, 0, 9 }, packed, true))), "blocks, but only");
+  std::string other = makeVtp({ 0xffffffff, 24, 0, 9 }, packed, true);
+  other.replace(other.find("\"appended\""), 10, "\"ascii\""); // VTK looks for the offset alone
+  expectRefused(readCloud(write("a.vtp", other)), "blocks, but only");
   expectRefused(
     readCloud(write("a.vtp", makeVtp({ 1, 0xffffffff, 24, 9 }, packed, true))), "blocks of 4294967295");
   expectRefused(
@@ -283,6 +292,7 @@ TEST_F(HostileFiles, TextsOfVtkThatHaveNoEndAreRefused)
   };
   EXPECT_EQ(with("97 0 98 0").points(), 2);
   expectRefused(with("97 98"), "Cannot read the texts of 'words'");
+  expectRefused(with("97 0 98 0 99 0"), "3 strings where its tags say 2");
 }
 
 TEST_F(HostileFiles, MarksWithinAttributesOfVtkEndNoTag)
@@ -295,6 +305,78 @@ TEST_F(HostileFiles, MarksWithinAttributesOfVtkEndNoTag)
   ASSERT_EQ(result.error, "");
   EXPECT_EQ(result.cloud->GetPoint(1)[2], 6.0);
   EXPECT_EQ(result.value("a > b", 1), 8.0);
+}
+
+/// @p cloud as VTK writes it, with @p encoding and the compressor @p packing (of vtkXMLWriter).
+std::string vtkXmlOf(vtkPolyData* cloud, int encoding, int packing)
+{
+  vtkNew<vtkXMLPolyDataWriter> writer;
+  writer->SetInputData(cloud);
+  writer->SetDataMode(encoding);
+  writer->SetCompressorType(packing);
+  writer->WriteToOutputStringOn();
+  writer->Write();
+  return writer->GetOutputString();
+}
+
+TEST_F(HostileFiles, MoreTextsOfVtkThanItHasRoomForAreRefused)
+{
+  vtkNew<vtkPolyData> cloud;
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkStringArray> words;
+  words->SetName("words");
+  vtkNew<vtkStringArray> ofPoints;
+  ofPoints->SetName("of points");
+  for (int i = 0; i < 4000; ++i)
+  {
+    words->InsertNextValue(i % 7 == 0 ? "" : "word " + std::to_string(i));
+    if (i < 3)
+    {
+      points->InsertNextPoint(i, 2, 3);
+      ofPoints->InsertNextValue("point " + std::to_string(i));
+    }
+  }
+  cloud->SetPoints(points);
+  cloud->GetFieldData()->AddArray(words);
+  cloud->GetPointData()->AddArray(ofPoints);
+  // VTK reads texts of cells in as many parts as there are kinds.
+  vtkNew<vtkCellArray> vertices;
+  vertices->InsertNextCell({ 0 });
+  cloud->SetVerts(vertices);
+  vtkNew<vtkCellArray> faces;
+  faces->InsertNextCell({ 0, 1, 2 });
+  cloud->SetPolys(faces);
+  vtkNew<vtkStringArray> ofCells;
+  ofCells->SetName("of cells");
+  ofCells->InsertNextValue("vertex");
+  ofCells->InsertNextValue("face");
+  cloud->GetCellData()->AddArray(ofCells);
+  const std::string count = "NumberOfTuples=\"4000\"";
+  for (const int encoding : { vtkXMLWriter::Ascii, vtkXMLWriter::Binary, vtkXMLWriter::Appended })
+  {
+    for (const int packing :
+      { vtkXMLWriter::NONE, vtkXMLWriter::ZLIB, vtkXMLWriter::LZ4, vtkXMLWriter::LZMA })
+    {
+      SCOPED_TRACE(std::to_string(encoding) + " " + std::to_string(packing));
+      const std::string vtp = vtkXmlOf(cloud, encoding, packing);
+      const ReadResult good = readCloud(write("a.vtp", vtp));
+      ASSERT_EQ(good.error, "");
+      const auto* read = vtkStringArray::SafeDownCast(good.cloud->GetFieldData()->GetAbstractArray("words"));
+      ASSERT_NE(read, nullptr);
+      EXPECT_EQ(const_cast<vtkStringArray*>(read)->GetValue(3999), words->GetValue(3999));
+      read = vtkStringArray::SafeDownCast(good.cloud->GetPointData()->GetAbstractArray("of points"));
+      ASSERT_NE(read, nullptr);
+      EXPECT_EQ(const_cast<vtkStringArray*>(read)->GetValue(2), "point 2");
+      ASSERT_NE(vtp.find(count), std::string::npos);
+      for (const char* wrong : { "1", "3999", "4001" })
+      {
+        std::string changed = vtp;
+        changed.replace(vtp.find(count), count.size(), std::string("NumberOfTuples=\"") + wrong + "\"");
+        expectRefused(
+          readCloud(write("b.vtp", changed)), std::string("4000 strings where its tags say ") + wrong);
+      }
+    }
+  }
 }
 
 } // namespace

@@ -4,6 +4,7 @@
 #include "IO/MergedCloud.h"
 
 #include <cstdint>
+#include <initializer_list>
 
 namespace
 {
@@ -160,12 +161,13 @@ TEST_F(Las, HeightsInAnotherUnitAreSaidToBeSo)
   EXPECT_NE(mergeClouds({ feet.cloud, feet.cloud }, { "feet", "feet" }, notes), nullptr);
 }
 
-TEST_F(Las, HeightsOfGeoTiffKeysHaveTheirUnit)
+/// A LAS file of two points whose record of GeoTIFF keys has @p numbers.
+std::string makeLasWithKeys(std::initializer_list<int> numbers)
 {
   std::string record(54, '\0');
   record.replace(2, 15, "LASF_Projection");
   put(record, 18, std::uint16_t{ 34735 });
-  for (const int number : { 1, 1, 0, 3, 1024, 0, 1, 1, 3076, 0, 1, 9001, 4099, 0, 1, 9003 })
+  for (const int number : numbers)
   {
     append(record, static_cast<std::uint16_t>(number));
   }
@@ -174,10 +176,24 @@ TEST_F(Las, HeightsOfGeoTiffKeysHaveTheirUnit)
   las.insert(227, record);
   put(las, 96, static_cast<std::uint32_t>(227 + record.size()));
   put(las, 100, std::uint32_t{ 1 });
-  const ReadResult result = readCloud(write("a.las", las));
+  return las;
+}
+
+TEST_F(Las, HeightsOfGeoTiffKeysHaveTheirUnit)
+{
+  const ReadResult result = readCloud(
+    write("a.las", makeLasWithKeys({ 1, 1, 0, 3, 1024, 0, 1, 1, 3076, 0, 1, 9001, 4099, 0, 1, 9003 })));
   ASSERT_EQ(result.error, "");
   EXPECT_EQ(fieldText(result.cloud->GetFieldData(), "LengthUnit"), "metre");
   EXPECT_EQ(fieldText(result.cloud->GetFieldData(), "HeightUnit"), "US survey foot");
+}
+
+TEST_F(Las, FirstOfTwoGeographicSystemsCounts)
+{
+  const ReadResult result =
+    readCloud(write("a.las", makeLasWithKeys({ 1, 1, 0, 2, 2048, 0, 1, 4326, 2048, 0, 1, 4269 })));
+  ASSERT_EQ(result.error, "");
+  EXPECT_EQ(fieldText(result.cloud->GetFieldData(), "CoordinateSystem"), "EPSG:4326");
 }
 
 } // namespace

@@ -10,6 +10,7 @@
 #include "vtkPointCloudWriter.h"
 #include "vtkStringArray.h"
 #include "vtkUnsignedCharArray.h"
+#include "vtkUnsignedShortArray.h"
 
 #include <algorithm>
 #include <cmath>
@@ -570,6 +571,21 @@ TEST_F(LasWriting, DegreesGetStepsOfCentimetres)
   EXPECT_NEAR(result.cloud->GetPoint(0)[0], 8.123456789, 6e-8);
   EXPECT_NEAR(result.cloud->GetPoint(0)[1], 47.987654321, 6e-8);
   EXPECT_NEAR(result.cloud->GetPoint(0)[2], 408.12345, 6e-5);
+}
+
+TEST_F(LasWriting, KeepsNearInfraredWithoutColors)
+{
+  const ReadResult plain = readCloud(write("a.las", makeLas(2, 0, 20)));
+  vtkNew<vtkUnsignedShortArray> infrared;
+  infrared->SetName("NearInfrared");
+  infrared->InsertNextValue(258);
+  infrared->InsertNextValue(65535);
+  plain.cloud->GetPointData()->AddArray(infrared);
+  for (const char* name : { "b.las", "b.laz" })
+  {
+    ASSERT_EQ(writeCloud(plain.cloud, path(name)), "");
+    expectSameBits(infrared, readCloud(path(name)).array("NearInfrared"));
+  }
 }
 
 } // namespace

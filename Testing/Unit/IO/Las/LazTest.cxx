@@ -271,11 +271,17 @@ TEST_F(Laz, StopsOnRequest)
     });
   reader->AddObserver(vtkCommand::ProgressEvent, stop);
   reader->SetFileName(file.c_str());
-  reader->Update();
-  EXPECT_EQ(reader->GetErrorCode(), vtkErrorCode::UserError);
-  EXPECT_NE(std::string(reader->GetErrorMessage()).find("stopped on request"), std::string::npos);
-  EXPECT_LT(reader->GetProgress(), 0.9);
-  EXPECT_EQ(reader->GetOutput()->GetNumberOfPoints(), 0);
+  for (const bool salvages : { false, true })
+  {
+    reader->SetSalvage(salvages);
+    reader->Modified();
+    reader->Update();
+    EXPECT_EQ(reader->GetErrorCode(), vtkErrorCode::UserError);
+    EXPECT_NE(std::string(reader->GetErrorMessage()).find("stopped on request"), std::string::npos);
+    EXPECT_LT(reader->GetProgress(), 0.9);
+    EXPECT_GT(reader->GetProgress(), 0.5) << "it does not start again";
+    EXPECT_EQ(reader->GetOutput()->GetNumberOfPoints(), 0);
+  }
 }
 
 TEST_F(Laz, WhoseRecordDoesNotSayTheSizeOfChunksIsRead)
