@@ -47,8 +47,8 @@ public:
   /// As make(), with a scene of the whole cloud that is there already.
   void adopt(std::shared_ptr<const HapticScene> whole, vtkPoints* cloud, const FeelSceneSettings& settings);
   /// Resamples @p cloud and makes its scenes. @param resampler has lattice and transform, and is used up; its
-  /// observers may abort the work. @p settings' workspace is that of the resampler. Errors: Aborted, Empty (no
-  /// finite point in the workspace), InvalidParameter (the resampler's settings), those of
+  /// observers may abort the work. @p settings' workspace is that of the resampler. Errors: Aborted, Empty
+  /// (no finite point in the workspace), InvalidParameter (the resampler's settings), those of
   /// HapticScene::create(); @p message says which, with the cure.
   Status resample(
     vtkPointSet* cloud, vtkVoxelMeanResampler* resampler, FeelSceneSettings settings, std::string& message);
