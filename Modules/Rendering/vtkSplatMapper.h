@@ -131,9 +131,10 @@ public:
   double GetMedianPixels(vtkRenderer* renderer, vtkActor* actor);
 
   /**
-   * Takes over settings and clipping planes, sizes times @p factor.
+   * Takes over settings and clipping planes, for some of the points of @p other: @p gap between them is
+   * closed.
    */
-  void CopySizes(const vtkSplatMapper* other, double factor);
+  void CopySizes(const vtkSplatMapper* other, double gap);
 
 protected:
   vtkSplatMapper();

@@ -138,6 +138,10 @@ void vtkSplatMapper::SetMapperShaderParameters(vtkOpenGLHelper& cells, vtkRender
   uniforms.set("splatPixels", pixels);
   uniforms.set("splatLongest", this->Now.largestRatio * this->MedianLength);
   uniforms.set("splatRange", range);
+  // Discs about one point of each cell close what those about all would: their areas grow by that of the gap.
+  constexpr double kCloses = 2.5;
+  uniforms.set("splatGap",
+    kCloses * this->Now.gap * resolution * this->PixelsPerLength(renderer, actor) / this->Now.sizeScale);
 }
 
 /// In the frame of the uploaded points, which are shifted and scaled where they are far from the origin.
