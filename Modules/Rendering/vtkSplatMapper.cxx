@@ -172,14 +172,15 @@ bool vtkSplatMapper::WantsQuads(vtkRenderer* renderer, vtkActor* actor)
   constexpr double kLargePixels = 60.0;
   return this->Now.surfaces && this->HasNormals && this->HasSizes && this->Now.fixedPixels == 0.0 &&
     this->CurrentInput->GetNumberOfCells() == 0 && glDrawArraysInstancedBaseInstance &&
-    this->GetMedianPixels(renderer, actor) > kLargePixels;
+    this->GetMedianPixels(renderer, actor, INFINITY) > kLargePixels;
 }
 
-double vtkSplatMapper::GetMedianPixels(vtkRenderer* renderer, vtkActor* actor)
+double vtkSplatMapper::GetMedianPixels(vtkRenderer* renderer, vtkActor* actor, double largest)
 {
   vtkCamera* camera = renderer->GetActiveCamera();
   const double distance = camera->GetParallelProjection() ? 1.0 : camera->GetDistance();
-  return this->PixelsPerLength(renderer, actor) * this->MedianLength / distance;
+  const double own = this->PixelsPerLength(renderer, actor) * this->MedianLength / distance;
+  return std::hypot(std::min(own, largest), this->GapPixels(renderer, actor) / distance);
 }
 
 /// In steps: see DrawPace. Between them the window may give up the frame, but not a selection.

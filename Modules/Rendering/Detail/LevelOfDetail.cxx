@@ -70,9 +70,13 @@ vtkSplatMapper* LevelOfDetail::splats() const
   return vtkSplatMapper::SafeDownCast(actor_->GetMapper());
 }
 
-double LevelOfDetail::spacingFactor() const
+double LevelOfDetail::fragments() const
 {
-  return drawn_ > 0 ? std::sqrt(double(total_) / double(drawn_)) : 1.0;
+  vtkSplatMapper* drawn = drawn_ < total_ && !levels_.empty() ? levels_.front().splats.Get() : this->splats();
+  const SplatSettings& settings = drawn->Settings();
+  const double pixels =
+    drawn->GetMedianPixels(renderer_, actor_, settings.closesAll ? INFINITY : settings.largestPixels);
+  return double(visible_) * pixels * pixels;
 }
 
 bool LevelOfDetail::refinementDue(double now) const

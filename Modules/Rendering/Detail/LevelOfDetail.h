@@ -92,8 +92,8 @@ public:
   /// Number of points that are kept beside the cloud, for pictures with a part of them; at most a quarter of
   /// all after a picture that went from few points to all.
   std::int64_t keptPoints() const { return levels_.empty() ? 0 : levels_.back().end; }
-  /// Distance of the drawn points over that of all points on a surface: the square root of their ratio.
-  double spacingFactor() const;
+  /// Rough number of pixels that the splats in view cover, each on its own.
+  double fragments() const;
   const FrameBudget& budget() const { return budget_; }
 
 private:

@@ -141,7 +141,11 @@ TEST_F(LevelOfDetailTest, MovesWithFewPointsAndRestsWithThePictureOfAllPoints)
   EXPECT_TRUE(detail_.isMoving());
   EXPECT_LT(detail_.drawnPoints(), kPoints / 2);
   EXPECT_GE(detail_.drawnPoints(), FrameBudget::kFewestPoints);
-  EXPECT_NEAR(detail_.spacingFactor(), std::sqrt(double(kPoints) / double(detail_.drawnPoints())), 1e-12);
+  const double distance = renderer->GetActiveCamera()->GetDistance();
+  const double radius = 0.04 / distance / std::tan(vtkMath::RadiansFromDegrees(15.0)) * kSize / 2;
+  const double surface = 4.0 * vtkMath::Pi() * radius * radius; // pixels
+  EXPECT_GT(detail_.fragments(), 2.0 * surface) << "discs that close";
+  EXPECT_LT(detail_.fragments(), 16.0 * surface);
   EXPECT_NE(this->pixels(), whole);
   EXPECT_FALSE(detail_.refinementDue(now_));
   EXPECT_TRUE(detail_.refinementDue(now_ + 2.0 * LevelOfDetail::kRestSeconds));
