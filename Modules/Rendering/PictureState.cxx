@@ -51,7 +51,7 @@ void addProp(std::vector<double>& state, vtkProp* prop)
     const SplatSettings& drawn = splats->Settings();
     state.insert(state.end(),
       { drawn.sizeScale, drawn.smallestPixels, drawn.largestPixels, drawn.largestRatio, drawn.normalUnit,
-        drawn.fixedPixels, drawn.pointPixels, drawn.surfacePixels, drawn.lightStrength,
+        drawn.fixedPixels, drawn.gap, drawn.pointPixels, drawn.surfacePixels, drawn.lightStrength,
         double(drawn.ambientLight), double(drawn.surfaces), double(drawn.hidesBackFaces),
         double(drawn.foreshortens), double(drawn.closesAll),
         double(std::hash<std::string>()(drawn.sizeArray + '\n' + drawn.normalArray)) });

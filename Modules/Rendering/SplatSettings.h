@@ -46,6 +46,8 @@ struct SplatSettings
   double pointPixels = 4.0; ///< Largest diameter, pixels, of a splat whose neighbourhood is not flat at all.
   /// Largest diameter, pixels, of a splat whose neighbourhood is flat: as large as its length says.
   double surfacePixels = INFINITY;
+  /// Edge of cells of which one point each is drawn: no splat is smaller than closes it. 0: all are drawn.
+  double gap = 0.0;
   /// Leave out what looks away from the viewer, where the normals are on the side that was seen: a room
   /// without its near walls. Splats with a normal shorter than 0.02 stay.
   bool hidesBackFaces = false;

@@ -100,16 +100,10 @@ void vtkSplatMapper::SetRanges(std::vector<std::array<vtkIdType, 2>> ranges)
   this->Ranges = std::move(ranges);
 }
 
-void vtkSplatMapper::CopySizes(const vtkSplatMapper* other, double factor)
+void vtkSplatMapper::CopySizes(const vtkSplatMapper* other, double gap)
 {
-  const double valid = factor > 0.0 && std::isfinite(factor) ? factor : 1.0;
   this->Now = other->Now;
-  this->Now.sizeScale *= valid;
-  this->Now.fixedPixels *= valid;
-  const double wider = other->Now.surfaces ? valid : 1.0;
-  this->Now.largestPixels *= wider;
-  this->Now.pointPixels *= wider;
-  this->Now.surfacePixels *= wider;
+  this->Now.gap = gap > 0.0 && std::isfinite(gap) ? gap : 0.0;
   this->SetClippingPlanes(other->ClippingPlanes);
 }
 
@@ -178,14 +172,15 @@ bool vtkSplatMapper::WantsQuads(vtkRenderer* renderer, vtkActor* actor)
   constexpr double kLargePixels = 60.0;
   return this->Now.surfaces && this->HasNormals && this->HasSizes && this->Now.fixedPixels == 0.0 &&
     this->CurrentInput->GetNumberOfCells() == 0 && glDrawArraysInstancedBaseInstance &&
-    this->GetMedianPixels(renderer, actor) > kLargePixels;
+    this->GetMedianPixels(renderer, actor, INFINITY) > kLargePixels;
 }
 
-double vtkSplatMapper::GetMedianPixels(vtkRenderer* renderer, vtkActor* actor)
+double vtkSplatMapper::GetMedianPixels(vtkRenderer* renderer, vtkActor* actor, double largest)
 {
   vtkCamera* camera = renderer->GetActiveCamera();
   const double distance = camera->GetParallelProjection() ? 1.0 : camera->GetDistance();
-  return this->PixelsPerLength(renderer, actor) * this->MedianLength / distance;
+  const double own = this->PixelsPerLength(renderer, actor) * this->MedianLength / distance;
+  return std::hypot(std::min(own, largest), this->GapPixels(renderer, actor) / distance);
 }
 
 /// In steps: see DrawPace. Between them the window may give up the frame, but not a selection.
@@ -352,6 +347,7 @@ void vtkSplatMapper::ReplaceShaderValues(
   vtkShaderProgram::Substitute(vertex, "//VTK::PositionVC::Dec",
     "//VTK::PositionVC::Dec\n" + declared +
       "uniform float splatPixels;\nuniform float splatLongest;\nuniform vec4 splatRange;\n"
+      "uniform float splatGap;\n"
       "uniform vec2 splatFit;\nuniform vec3 splatLow;\nuniform vec3 splatHigh;\n");
   // A flat surface is drawn at its size; the rest stays small on the screen.
   const std::string size = std::string("splatPixels") +
@@ -365,8 +361,11 @@ void vtkSplatMapper::ReplaceShaderValues(
       (tilts ? "  float splatTilts = clamp(2.0 * splatFlat - 0.6, 0.0, 1.0);\n"
                "  float splatCloses = max(splatTilts, splatAll);\n"
              : "") +
-      "  float splatSize = " + size + ";\n  gl_PointSize = clamp(" + bounded +
-      ", splatRange.x, max(splatRange.x, splatRange.w));\n" +
+      "  float splatSize = " + size + ";\n  gl_PointSize = min(" + bounded +
+      ", max(splatRange.x, splatRange.w));\n"
+      "  float splatWide = splatGap > 0.0 ? length(vec2(gl_PointSize, splatGap / gl_Position.w)) : "
+      "gl_PointSize;\n"
+      "  gl_PointSize = max(splatRange.x, splatWide);\n" +
       (tilts ? std::string(pointhaptics::kSurfaceStatements) + pointhaptics::kTileStatements : "") +
       pointhaptics::kFitStatements + (tilts ? pointhaptics::kQuadStatements : "") +
       pointhaptics::kClipStatements + (this->HasSizes ? pointhaptics::kHideStatements : ""));

@@ -125,15 +125,16 @@ public:
   const std::vector<std::array<vtkIdType, 2>>& GetRanges() const { return this->Ranges; }
 
   /**
-   * Diameter of a splat of median length where the camera looks at, pixels of the window; 0 without the
-   * array.
+   * Diameter of a splat of median length where the camera looks at, pixels of the window: at most @p largest,
+   * and the gap that it closes. Without the array the gap's alone.
    */
-  double GetMedianPixels(vtkRenderer* renderer, vtkActor* actor);
+  double GetMedianPixels(vtkRenderer* renderer, vtkActor* actor, double largest);
 
   /**
-   * Takes over settings and clipping planes, sizes times @p factor.
+   * Takes over settings and clipping planes, for some of the points of @p other: @p gap between them is
+   * closed.
    */
-  void CopySizes(const vtkSplatMapper* other, double factor);
+  void CopySizes(const vtkSplatMapper* other, double gap);
 
 protected:
   vtkSplatMapper();
@@ -152,6 +153,7 @@ private:
   void DrawPoints(vtkOpenGLHelper& points, vtkRenderer* renderer, vtkActor* actor, const RangeList& ranges);
   bool WantsQuads(vtkRenderer* renderer, vtkActor* actor);
   double PixelsPerLength(vtkRenderer* renderer, vtkActor* actor);
+  double GapPixels(vtkRenderer* renderer, vtkActor* actor);
   void DrawRange(vtkRenderer* renderer, vtkIdType begin, vtkIdType end, bool isIndexed);
   void MapArray(vtkDataArray* array, const std::string& name, const char* attribute, bool& isMapped);
   void SetSurfaceParameters(vtkOpenGLHelper& cells, vtkRenderer* renderer, vtkActor* actor);

@@ -93,6 +93,14 @@ double vtkSplatMapper::PixelsPerLength(vtkRenderer* renderer, vtkActor* actor)
   return this->Now.sizeScale * modelScale * 0.5 * renderer->GetSize()[1] * projection->GetElement(1, 1);
 }
 
+/// Discs about one point of each cell close what those about all would: their areas grow by that of a disc of
+/// this diameter at distance 1.
+double vtkSplatMapper::GapPixels(vtkRenderer* renderer, vtkActor* actor)
+{
+  constexpr double kCloses = 2.2;
+  return kCloses * this->Now.gap * this->PixelsPerLength(renderer, actor) / this->Now.sizeScale;
+}
+
 void vtkSplatMapper::SetMapperShaderParameters(vtkOpenGLHelper& cells, vtkRenderer* renderer, vtkActor* actor)
 {
   this->Superclass::SetMapperShaderParameters(cells, renderer, actor);
@@ -138,6 +146,7 @@ void vtkSplatMapper::SetMapperShaderParameters(vtkOpenGLHelper& cells, vtkRender
   uniforms.set("splatPixels", pixels);
   uniforms.set("splatLongest", this->Now.largestRatio * this->MedianLength);
   uniforms.set("splatRange", range);
+  uniforms.set("splatGap", resolution * this->GapPixels(renderer, actor));
 }
 
 /// In the frame of the uploaded points, which are shifted and scaled where they are far from the origin.

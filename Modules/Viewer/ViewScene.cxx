@@ -107,20 +107,9 @@ void ViewScene::beginFrame()
   if (vtkDepthShadingPass* shading = vtkDepthShadingPass::GetPassOf(renderer_))
   {
     shading->SetIsMoving(this->detail().isInMotion());
-    shading->SetMovingFragments(this->fragments());
+    shading->SetMovingFragments(this->detail().fragments());
     shading->SetBlendsSplats(this->detail().isFinest());
   }
-}
-
-/// Rough number of pixels that the splats in view cover, each on its own.
-double ViewScene::fragments()
-{
-  vtkActor* actor = drawsFelt_ ? actor_ : pointsActor_;
-  const bool closes = shown_ && shown_->look.closesAll && !drawsFelt_;
-  const double pixels = this->detail().spacingFactor() *
-    std::min(this->drawnMapper()->GetMedianPixels(renderer_, actor),
-      closes ? INFINITY : this->drawnMapper()->Settings().largestPixels);
-  return double(this->detail().visiblePoints()) * pixels * pixels;
 }
 
 /// A picture that is soon replaced stays coarse.

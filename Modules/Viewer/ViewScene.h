@@ -250,7 +250,6 @@ private:
   ColorRange colorRange();
   void keepColorRange(const ColorRange& before);
   void beginFrame();
-  double fragments();
   void applyLook();
   void applyColors();
   void colorPoints();

@@ -406,7 +406,7 @@ void showLevel(const std::string& fault, vtkRenderer* renderer, int part, double
   }
   const vtkSmartPointer<vtkPolyData> means = resample(cloudOf(points), 0.0005);
   const PointAccess access(means->GetPoints());
-  const std::vector<std::uint32_t> order = progressiveOrder(access.view());
+  const std::vector<std::uint32_t> order = progressiveOrder(access.view()).indices;
   vtkNew<vtkCellArray> vertices;
   for (vtkIdType i = 0; i < means->GetNumberOfPoints() / part; ++i)
   {

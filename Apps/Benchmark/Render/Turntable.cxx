@@ -54,7 +54,7 @@ int Turntable::rest()
 {
   int frames = 0;
   std::this_thread::sleep_for(std::chrono::duration<double>(LevelOfDetail::kRestSeconds));
-  for (; !scene_.detail().showsAll() && frames < 100; ++frames)
+  for (; !this->showsAll() && frames < 100; ++frames)
   {
     this->render();
   }
@@ -65,6 +65,11 @@ void Turntable::turnToStill(double degrees)
 {
   scene_.detail().showFinestOnce();
   this->turn(degrees);
+}
+
+bool Turntable::showsAll() const
+{
+  return scene_.detail().showsAll();
 }
 
 std::int64_t Turntable::allPoints() const

@@ -36,6 +36,8 @@ public:
   /// Turns the camera and renders the picture of a camera at rest at once: all points, several samples a
   /// pixel.
   void turnToStill(double degrees);
+  /// True if the last frame showed all that pixels can tell apart.
+  bool showsAll() const;
   /// Points there are, and those of the last frame.
   std::int64_t allPoints() const;
   std::int64_t drawnPoints() const;

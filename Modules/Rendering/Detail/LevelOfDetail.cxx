@@ -2,8 +2,6 @@
 
 #include "CloudParts.h"
 #include "PictureState.h"
-#include "ProgressiveOrder.h"
-#include "SplatLook.h"
 #include "vtkSplatMapper.h"
 
 #include "vtkActor.h"
@@ -26,7 +24,6 @@ namespace pointhaptics
 namespace
 {
 
-constexpr double kLevelRatio = 1.4142135623730951;
 constexpr std::int64_t kRefinement = 4;
 /// A moving picture keeps its level while the budget is between these parts of it.
 constexpr double kLeastShare = 0.9;
@@ -34,11 +31,10 @@ constexpr double kMostShare = 1.6;
 /// Least part in view that is assumed: the next frame may show more.
 constexpr double kLeastSeen = 0.1;
 
-/// Points nearer to each other on the screen than this many pixels cannot be told apart: more than half of
-/// the smallest splat lies on its neighbour.
-constexpr double kFinestPixels = 0.8;
-/// Least diameter, over their spacing, of splats that close to a surface.
-constexpr double kDiameterPerSpacing = 1.8;
+/// Points in one cell of this many pixels cannot be told apart: the smallest splat covers it.
+constexpr double kFinestPixels = 1.0;
+/// A part of the points saves nothing where it is larger than this part of all.
+constexpr double kMostSaving = 0.7;
 
 double steadySeconds()
 {
@@ -74,9 +70,13 @@ vtkSplatMapper* LevelOfDetail::splats() const
   return vtkSplatMapper::SafeDownCast(actor_->GetMapper());
 }
 
-double LevelOfDetail::spacingFactor() const
+double LevelOfDetail::fragments() const
 {
-  return drawn_ > 0 ? std::sqrt(double(total_) / double(drawn_)) : 1.0;
+  vtkSplatMapper* drawn = drawn_ < total_ && !levels_.empty() ? levels_.front().splats.Get() : this->splats();
+  const SplatSettings& settings = drawn->Settings();
+  const double pixels =
+    drawn->GetMedianPixels(renderer_, actor_, settings.closesAll ? INFINITY : settings.largestPixels);
+  return double(visible_) * pixels * pixels;
 }
 
 bool LevelOfDetail::refinementDue(double now) const
@@ -204,26 +204,40 @@ void LevelOfDetail::endFrame()
   frameIsTypical_ = finestOnce_ = false; // both eyes have been drawn
 }
 
-/// End of the largest level, made or not, that has at most @p points; all of them where no level has.
-std::int64_t LevelOfDetail::levelFor(std::int64_t points) const
+const ProgressiveOrder& LevelOfDetail::order(vtkPolyData* cloud)
+{
+  if (!order_)
+  {
+    std::vector<Vec3> copy;
+    const bool isGiven = givenOrder_ && std::int64_t(givenOrder_->indices.size()) == total_;
+    order_ =
+      isGiven ? givenOrder_ : std::make_shared<const ProgressiveOrder>(progressiveOrder(viewOf(cloud, copy)));
+  }
+  return *order_;
+}
+
+/// The largest step of at most @p points, or the first of enough to see anything.
+ProgressiveOrder::Step LevelOfDetail::stepFor(vtkPolyData* cloud, std::int64_t points)
 {
   if (points >= total_)
   {
-    return total_;
+    return { total_, 0.0 };
   }
-  double end = double(FrameBudget::kFewestPoints);
-  while (end * kLevelRatio <= double(points))
+  const std::vector<ProgressiveOrder::Step>& steps = this->order(cloud).steps;
+  auto step = steps.begin();
+  while (step + 1 != steps.end() && (step->end < FrameBudget::kFewestPoints || (step + 1)->end <= points))
   {
-    end *= kLevelRatio;
+    ++step;
   }
-  return std::min(total_, std::int64_t(end));
+  return *step;
 }
 
 void LevelOfDetail::show(vtkPolyData* cloud, std::int64_t points)
 {
-  drawn_ = points >= finest_ ? finest_ : this->levelFor(points);
+  const ProgressiveOrder::Step step = this->stepFor(cloud, std::min(points, finest_));
+  drawn_ = step.end;
   const bool all = drawn_ >= total_;
-  while (!all && (levels_.empty() || levels_.back().end < drawn_))
+  while (!all && this->keptPoints() < drawn_)
   {
     this->addLevel(cloud);
   }
@@ -233,7 +247,7 @@ void LevelOfDetail::show(vtkPolyData* cloud, std::int64_t points)
   {
     level.actor->SetVisibility(!all && begin < drawn_);
     level.actor->SetUserMatrix(actor_->GetUserMatrix());
-    level.splats->CopySizes(this->splats(), this->spacingFactor());
+    level.splats->CopySizes(this->splats(), step.gap);
     begin = level.end;
   }
   visible_ = drawn_;
@@ -325,21 +339,13 @@ void LevelOfDetail::leaveOutOfView(vtkPolyData* cloud)
   splats->SetRanges(std::move(ranges));
 }
 
-/// Number of points that the picture at rest needs: all, or as many of the progressive order as lie
-/// kFinestPixels apart where the cloud is nearest.
+/// Number of points that the picture at rest needs: all, or one in each cell of kFinestPixels where the cloud
+/// is nearest.
 std::int64_t LevelOfDetail::finestFor(vtkPolyData* cloud)
 {
-  vtkSplatMapper* splats = this->splats();
-  vtkDataArray* lengths = cloud->GetPointData()->GetArray(splats->Settings().sizeArray.c_str());
-  if (!lengths || splats->Settings().fixedPixels > 0.0)
+  if (this->splats()->Settings().fixedPixels > 0.0)
   {
     return total_;
-  }
-  if (spacing_ < 0.0)
-  {
-    // Splats that close wide gaps are larger than their spacing says.
-    vtkDataArray* growths = cloud->GetPointData()->GetArray(kSplatGrowthName);
-    spacing_ = splats->Settings().sizeScale / kDiameterPerSpacing * quantileOfPositive(lengths, 9, growths);
   }
   vtkMatrix4x4* toClip = renderer_->GetActiveCamera()->GetCompositeProjectionTransformMatrix(
     renderer_->GetTiledAspectRatio(), -1, 1);
@@ -358,18 +364,16 @@ std::int64_t LevelOfDetail::finestFor(vtkPolyData* cloud)
       ->GetProjectionTransformMatrix(renderer_->GetTiledAspectRatio(), -1, 1)
       ->GetElement(1, 1);
   const double scale = std::cbrt(std::abs(actor_->GetMatrix()->Determinant()));
-  const double pixels = spacing_ * scale * perUnit / nearest; // between neighbours
-  const double needed = double(total_) * (pixels / kFinestPixels) * (pixels / kFinestPixels);
-  if (!(nearest > 0.0) || !(spacing_ > 0.0) || !(needed < double(total_) / kLevelRatio))
+  const double pixels = scale * perUnit / nearest; // of the unit
+  const double edge = cloud->GetLength() * pixels;
+  if (!(nearest > 0.0) || double(total_) < edge * edge)
   {
-    return total_;
+    return total_; // and no order need be made
   }
-  double end = double(FrameBudget::kFewestPoints);
-  while (end < needed)
-  {
-    end *= kLevelRatio;
-  }
-  return std::min(total_, std::int64_t(end));
+  const std::vector<ProgressiveOrder::Step>& steps = this->order(cloud).steps;
+  const auto step = std::find_if(steps.begin(), steps.end(),
+    [pixels](const ProgressiveOrder::Step& each) { return each.gap * pixels <= kFinestPixels; });
+  return double(step->end) < kMostSaving * double(total_) ? step->end : total_;
 }
 
 void LevelOfDetail::cullOutsideFrustum()
@@ -399,30 +403,21 @@ void LevelOfDetail::cullOutsideFrustum()
 
 void LevelOfDetail::addLevel(vtkPolyData* cloud)
 {
-  std::vector<Vec3> copy;
-  const PointView points = viewOf(cloud, copy);
-  if (!order_)
-  {
-    const bool isGiven = givenOrder_ && std::int64_t(givenOrder_->size()) == total_;
-    order_ =
-      isGiven ? givenOrder_ : std::make_shared<const std::vector<std::uint32_t>>(progressiveOrder(points));
-  }
-  const std::int64_t begin = levels_.empty() ? 0 : levels_.back().end;
-  double end = double(FrameBudget::kFewestPoints);
-  while (std::int64_t(end) <= begin)
-  {
-    end *= kLevelRatio;
-  }
+  const ProgressiveOrder& order = this->order(cloud);
+  const std::int64_t begin = this->keptPoints();
+  const auto step = std::find_if(order.steps.begin(), order.steps.end(),
+    [begin](const ProgressiveOrder::Step& each)
+    { return each.end > begin && each.end >= FrameBudget::kFewestPoints; });
   Level level;
-  level.end = std::min(total_, std::int64_t(end));
-  std::vector<std::int64_t> members(order_->begin() + begin, order_->begin() + level.end);
-  level.bricks = makeBricks(points, members);
+  level.end = step == order.steps.end() ? total_ : step->end;
   vtkNew<vtkIdList> ids;
   ids->SetNumberOfIds(level.end - begin);
-  std::copy(members.begin(), members.end(), ids->GetPointer(0));
+  std::copy(order.indices.begin() + begin, order.indices.begin() + level.end, ids->GetPointer(0));
   level.splats = vtkSmartPointer<vtkSplatMapper>::New();
   colorAlike(this->splats(), level.splats);
   const vtkSmartPointer<vtkPolyData> part = pickPoints(cloud, this->splats(), ids);
+  std::vector<Vec3> copy;
+  level.bricks = makeRows(viewOf(part, copy));
   level.splats->SetInputData(part);
   vtkDataArray* sizes = part->GetPointData()->GetArray(this->splats()->Settings().sizeArray.c_str());
   level.largestLength = sizes ? sizes->GetRange()[1] : 0.0;
@@ -453,7 +448,6 @@ void LevelOfDetail::dropLevels()
   order_.reset();
   rows_.clear();
   hasRows_ = false;
-  spacing_ = -1.0;
 }
 
 } // namespace pointhaptics

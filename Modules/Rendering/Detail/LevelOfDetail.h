@@ -4,6 +4,7 @@
 
 #include "EventLink.h"
 #include "FrameBudget.h"
+#include "ProgressiveOrder.h"
 #include "SplatBricks.h"
 
 #include "PointHapticsRenderingModule.h" // For export macro
@@ -70,7 +71,7 @@ public:
   std::optional<double> restingFrame() const;
   /// Gives it progressiveOrder() of the cloud's points, which takes a second for some millions. If it is null
   /// or has another size, the order is made here when it is first needed.
-  void setOrder(std::shared_ptr<const std::vector<std::uint32_t>> order) { givenOrder_ = std::move(order); }
+  void setOrder(std::shared_ptr<const ProgressiveOrder> order) { givenOrder_ = std::move(order); }
   /// Makes the next frame as fine as possible, whatever moves: for pictures that are kept.
   void showFinestOnce() { finestOnce_ = true; }
 
@@ -91,8 +92,8 @@ public:
   /// Number of points that are kept beside the cloud, for pictures with a part of them; at most a quarter of
   /// all after a picture that went from few points to all.
   std::int64_t keptPoints() const { return levels_.empty() ? 0 : levels_.back().end; }
-  /// Distance of the drawn points over that of all points on a surface: the square root of their ratio.
-  double spacingFactor() const;
+  /// Rough number of pixels that the splats in view cover, each on its own.
+  double fragments() const;
   const FrameBudget& budget() const { return budget_; }
 
 private:
@@ -110,7 +111,8 @@ private:
   void endFrame();
   bool sceneChanged(vtkPolyData* cloud);
   std::int64_t wanted(double now);
-  std::int64_t levelFor(std::int64_t points) const;
+  const ProgressiveOrder& order(vtkPolyData* cloud);
+  ProgressiveOrder::Step stepFor(vtkPolyData* cloud, std::int64_t points);
   void show(vtkPolyData* cloud, std::int64_t points);
   void addLevel(vtkPolyData* cloud);
   void cullOutsideFrustum();
@@ -126,8 +128,8 @@ private:
   vtkNew<vtkProperty> coarse_;
   EventLink onEnd_{ [this] { this->endFrame(); } };
   vtkWeakPointer<vtkRenderWindow> window_;
-  std::shared_ptr<const std::vector<std::uint32_t>> givenOrder_;
-  std::shared_ptr<const std::vector<std::uint32_t>> order_;
+  std::shared_ptr<const ProgressiveOrder> givenOrder_;
+  std::shared_ptr<const ProgressiveOrder> order_;
   std::vector<Level> levels_;
   FrameBudget budget_;
   bool enabled_ = false;
@@ -139,7 +141,6 @@ private:
   bool frameIsTypical_ = false;  // nothing is uploaded in it
   std::vector<SplatBrick> rows_; // of the whole cloud, in its order
   bool hasRows_ = false;         // and they were made
-  double spacing_ = -1.0;        // of most neighbours; 0: not known; below 0: not looked at
   std::int64_t total_ = 0;
   std::int64_t finest_ = 0; // so many points tell apart what pixels can
   std::int64_t drawn_ = 0;

@@ -2,9 +2,11 @@
 
 #include "SmpExecutor.h"
 
+#include "Core/Neighbors/SpatialOrder.h"
 #include "Core/Resample/VoxelMean.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <numeric>
@@ -14,97 +16,96 @@ namespace pointhaptics
 namespace
 {
 
-constexpr int kDepth = 6; // levels of the octree
-constexpr std::uint32_t kCubes = 1u << (3 * kDepth);
+constexpr int kDepth = 10; // halvings of the lattice, those of spatialOrder()
+constexpr int kStepsPerHalving = 4;
 
-/// Spreads the low kDepth bits of @p value to every third bit.
-std::uint32_t spread(std::uint32_t value)
+/// For each point of @p along, as many halvings as it takes to part it from the one before; kDepth + 1: no
+/// cell does.
+std::vector<std::uint8_t> depthsOf(
+  const PointView& points, const std::vector<std::uint32_t>& along, const Bounds& box, double perUnit)
 {
-  std::uint32_t result = 0;
-  for (int bit = 0; bit < kDepth; ++bit)
+  const auto cellOf = [&](std::uint32_t index)
   {
-    result |= ((value >> bit) & 1u) << (3 * bit);
-  }
-  return result;
-}
-
-/// Place of the cube of @p p along the curve that visits every cube of the octree whole.
-std::uint32_t cubeOf(const Vec3& p, const Bounds& bounds, double perEdge)
-{
-  std::uint32_t cube = 0;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    const double cell = (p[axis] - bounds.minimum[axis]) * perEdge;
-    const double limited = std::min(std::max(cell, 0.0), double((1 << kDepth) - 1));
-    cube |= spread(std::isfinite(limited) ? std::uint32_t(limited) : 0u) << axis;
-  }
-  return cube;
-}
-
-/// The lowest @p bits of @p value, at most 32, in reverse.
-std::uint64_t reversedBits(std::uint64_t value, int bits)
-{
-  value = (value >> 1 & 0x55555555u) | (value & 0x55555555u) << 1;
-  value = (value >> 2 & 0x33333333u) | (value & 0x33333333u) << 2;
-  value = (value >> 4 & 0x0f0f0f0fu) | (value & 0x0f0f0f0fu) << 4;
-  value = (value >> 8 & 0x00ff00ffu) | (value & 0x00ff00ffu) << 8;
-  value = value >> 16 | (value & 0xffffu) << 16;
-  return value >> (32 - bits);
-}
-
-/// Indices in the order of the curve.
-std::vector<std::uint32_t> alongCurve(const PointView& points)
-{
-  const SmpExecutor executor;
-  const Bounds bounds = transformedBounds(points, AffineTransform(), executor);
-  const Vec3 extent = bounds.empty() ? Vec3() : bounds.extent();
-  const double longest = std::max({ extent.x, extent.y, extent.z });
-  const double perEdge = longest > 0.0 ? double(1 << kDepth) / longest : 0.0;
-  std::vector<std::uint32_t> cubes(std::size_t(points.size()));
-  forRange(executor, points.size(),
+    std::array<std::uint32_t, 3> cell{};
+    const Vec3 place = perUnit * (points[index] - box.minimum);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      cell[std::size_t(axis)] = std::uint32_t(std::min(place[axis], double((1 << kDepth) - 1)));
+    }
+    return cell;
+  };
+  std::vector<std::uint8_t> depths(along.size());
+  forRange(SmpExecutor(), std::int64_t(along.size()),
     [&](std::int64_t begin, std::int64_t end)
     {
-      for (; begin < end; ++begin)
+      auto other = cellOf(along[std::size_t(std::max<std::int64_t>(begin - 1, 0))]);
+      for (std::int64_t i = std::max<std::int64_t>(begin, 1); i < end; ++i)
       {
-        cubes[std::size_t(begin)] = cubeOf(points[begin], bounds, perEdge);
+        const auto one = other;
+        other = cellOf(along[std::size_t(i)]);
+        std::uint32_t differing = (one[0] ^ other[0]) | (one[1] ^ other[1]) | (one[2] ^ other[2]);
+        std::uint8_t depth = kDepth + 1;
+        for (; differing > 0; differing >>= 1)
+        {
+          --depth;
+        }
+        depths[std::size_t(i)] = depth;
       }
     });
-  std::vector<std::int64_t> starts(std::size_t(kCubes) + 1, 0);
-  for (const std::uint32_t cube : cubes)
-  {
-    ++starts[cube + 1];
-  }
-  std::partial_sum(starts.begin(), starts.end(), starts.begin());
-  std::vector<std::uint32_t> order(cubes.size());
-  for (std::size_t i = 0; i < cubes.size(); ++i)
-  {
-    order[std::size_t(starts[cubes[i]]++)] = std::uint32_t(i);
-  }
-  return order;
+  return depths;
+}
+
+/// Part of a halving that @p one of the points in a row belongs to: multiples of the golden section fill an
+/// interval evenly, however many are taken, so each part comes from all of the row.
+int partOf(std::size_t one)
+{
+  constexpr double kGoldenSection = 0.6180339887498949;
+  const double place = std::fmod(kGoldenSection * double(one), 1.0); // four times the points halve the gap
+  return std::clamp(int(kStepsPerHalving * 0.5 * std::log2(1.0 + 3.0 * place)), 0, kStepsPerHalving - 1);
 }
 
 } // namespace
 
-std::vector<std::uint32_t> progressiveOrder(const PointView& points)
+ProgressiveOrder progressiveOrder(const PointView& points)
 {
-  const std::vector<std::uint32_t> curve = alongCurve(points);
-  const std::uint64_t size = curve.size();
-  int bits = 0;
-  while ((std::uint64_t(1) << bits) < size)
+  const SmpExecutor executor;
+  const std::vector<std::uint32_t> along = spatialOrder(points, kMostOrderedPoints, executor);
+  const Bounds box = transformedBounds(points, AffineTransform(), executor);
+  const Vec3 extent = box.empty() ? Vec3() : box.extent();
+  ProgressiveOrder order;
+  order.edge = std::max({ extent.x, extent.y, extent.z });
+  const double perUnit = order.edge > 0.0 ? double(1 << kDepth) / order.edge : 0.0;
+  const std::vector<std::uint8_t> depths = depthsOf(points, along, box, perUnit);
+  constexpr int kParts = (kDepth + 2) * kStepsPerHalving;
+  std::array<std::size_t, kDepth + 2> seen{};
+  std::array<std::vector<std::uint32_t>, kParts> parts;
+  for (std::size_t i = 0; i < along.size(); ++i)
   {
-    ++bits;
+    parts[std::size_t(kStepsPerHalving * depths[i] + partOf(seen[depths[i]]++))].push_back(along[i]);
   }
-  // Numbers with their bits reversed fill an interval evenly, however many of them are taken.
-  std::vector<std::uint32_t> order;
-  order.reserve(curve.size());
-  for (std::uint64_t i = 0; i < std::uint64_t(1) << bits; ++i)
+  order.indices.reserve(std::size_t(points.size()));
+  for (int part = 0; part < kParts; ++part)
   {
-    const std::uint64_t place = reversedBits(i, bits);
-    if (place < size)
+    const std::vector<std::uint32_t>& some = parts[std::size_t(part)];
+    order.indices.insert(order.indices.end(), some.begin(), some.end());
+    if (!some.empty())
     {
-      order.push_back(curve[place]);
+      const double halvings = double(part + 1) / kStepsPerHalving - 1.0;
+      order.steps.push_back({ std::int64_t(order.indices.size()), order.edge * std::exp2(-halvings) });
     }
   }
+  for (std::int64_t i = 0; i < points.size() && along.size() < std::size_t(points.size()); ++i)
+  {
+    if (!isFinite(points[i]))
+    {
+      order.indices.push_back(std::uint32_t(i));
+    }
+  }
+  if (!order.steps.empty())
+  {
+    order.steps.pop_back();
+  }
+  order.steps.push_back({ points.size(), 0.0 });
   return order;
 }
 

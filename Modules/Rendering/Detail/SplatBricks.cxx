@@ -4,22 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace pointhaptics
 {
 namespace
 {
-
-constexpr int kBits = 10; // an axis of the curve
-
-std::uint32_t spread(std::uint32_t v)
-{
-  v = (v | v << 16) & 0x030000ffu;
-  v = (v | v << 8) & 0x0300f00fu;
-  v = (v | v << 4) & 0x030c30c3u;
-  return (v | v << 2) & 0x09249249u;
-}
 
 /// Takes a half space into the points' frame.
 HalfSpace inFrame(const HalfSpace& plane, vtkMatrix4x4* toWorld)
@@ -48,53 +37,6 @@ bool meets(const Bounds& box, const HalfSpace& plane, double margin)
 }
 
 } // namespace
-
-std::vector<SplatBrick> makeBricks(const PointView& points, std::vector<std::int64_t>& ids, std::int64_t size)
-{
-  Bounds bounds;
-  for (const std::int64_t id : ids)
-  {
-    if (isFinite(points[id]))
-    {
-      bounds.include(points[id]);
-    }
-  }
-  const Vec3 extent = bounds.empty() ? Vec3() : bounds.extent();
-  const double longest = std::max({ extent.x, extent.y, extent.z });
-  const double perEdge = longest > 0.0 ? ((1 << kBits) - 1) / longest : 0.0;
-  std::vector<std::pair<std::uint32_t, std::int64_t>> order;
-  order.reserve(ids.size());
-  std::int64_t finite = 0;
-  for (const std::int64_t id : ids)
-  {
-    const Vec3 p = points[id];
-    std::uint32_t code = ~0u;
-    if (isFinite(p))
-    {
-      const Vec3 cell = perEdge * (p - bounds.minimum);
-      code = spread(std::uint32_t(cell.x)) | spread(std::uint32_t(cell.y)) << 1 |
-        spread(std::uint32_t(cell.z)) << 2;
-      ++finite;
-    }
-    order.emplace_back(code, id);
-  }
-  std::sort(order.begin(), order.end());
-  std::vector<SplatBrick> bricks;
-  for (std::size_t i = 0; i < order.size(); ++i)
-  {
-    ids[i] = order[i].second;
-    if (std::int64_t(i) % size == 0 || std::int64_t(i) == finite)
-    {
-      bricks.push_back({ std::int64_t(i), std::int64_t(i), Bounds() });
-    }
-    bricks.back().end = std::int64_t(i) + 1;
-    if (std::int64_t(i) < finite)
-    {
-      bricks.back().box.include(points[ids[i]]);
-    }
-  }
-  return bricks;
-}
 
 std::vector<SplatBrick> makeRows(const PointView& points, std::int64_t size)
 {

@@ -28,13 +28,8 @@ struct SplatBrick
   Bounds box;
 };
 
-/// Orders @p ids, indices of @p points, along a curve through space and cuts them into bricks of at most
-/// @p size. Points that are not finite come last, in bricks that are always drawn.
-POINTHAPTICSRENDERING_EXPORT std::vector<SplatBrick> makeBricks(
-  const PointView& points, std::vector<std::int64_t>& ids, std::int64_t size = 128);
-
-/// Cuts all @p points, in the order they have, into bricks of @p size: longer boxes than those of
-/// makeBricks(), for pictures whose order of drawing must stay.
+/// Cuts all @p points, in the order they have, into bricks of @p size; those with points that are not finite
+/// are always drawn.
 POINTHAPTICSRENDERING_EXPORT std::vector<SplatBrick> makeRows(
   const PointView& points, std::int64_t size = 64);
 

@@ -169,7 +169,7 @@ std::shared_ptr<ShownCloud> makePlainCloud(vtkPolyData* cloud, const ShownReques
   unknown.meanFlatness = 1.0; // most objects are statues and parts
   shown->look = cloudLook(request.kind.value_or(guess), access.view(), unknown, request.orientation);
   addColors(*shown, request, NeighborQuery(), unknown);
-  shown->order = std::make_shared<const std::vector<std::uint32_t>>(progressiveOrder(access.view()));
+  shown->order = std::make_shared<const ProgressiveOrder>(progressiveOrder(access.view()));
   return shown;
 }
 

@@ -6,6 +6,7 @@
 #include "CloudLook.h"
 #include "CloudOrientation.h"
 #include "PictureSettings.h"
+#include "ProgressiveOrder.h"
 #include "SplatLook.h"
 
 #include "PointHapticsViewerModule.h" // For export macro
@@ -36,7 +37,7 @@ struct ShownCloud
   CloudColors colors;
   double medianSpacing = 0.0; ///< Median spacing of the points, unit of the file; 0: not measured.
   /// progressiveOrder() of them, made in the thread that reads; null: left to LevelOfDetail.
-  std::shared_ptr<const std::vector<std::uint32_t>> order;
+  std::shared_ptr<const ProgressiveOrder> order;
 };
 
 /// Request for the look of a cloud.

@@ -141,7 +141,11 @@ TEST_F(LevelOfDetailTest, MovesWithFewPointsAndRestsWithThePictureOfAllPoints)
   EXPECT_TRUE(detail_.isMoving());
   EXPECT_LT(detail_.drawnPoints(), kPoints / 2);
   EXPECT_GE(detail_.drawnPoints(), FrameBudget::kFewestPoints);
-  EXPECT_NEAR(detail_.spacingFactor(), std::sqrt(double(kPoints) / double(detail_.drawnPoints())), 1e-12);
+  const double distance = renderer->GetActiveCamera()->GetDistance();
+  const double radius = 0.04 / distance / std::tan(vtkMath::RadiansFromDegrees(15.0)) * kSize / 2;
+  const double surface = 4.0 * vtkMath::Pi() * radius * radius; // pixels
+  EXPECT_GT(detail_.fragments(), 2.0 * surface) << "discs that close";
+  EXPECT_LT(detail_.fragments(), 16.0 * surface);
   EXPECT_NE(this->pixels(), whole);
   EXPECT_FALSE(detail_.refinementDue(now_));
   EXPECT_TRUE(detail_.refinementDue(now_ + 2.0 * LevelOfDetail::kRestSeconds));
@@ -484,6 +488,7 @@ TEST_F(LevelOfDetailTest, LeavesOutWhatIsBelowAPixelFromAfar)
   lengths->FillValue(0.0003f); // 0.43 mm apart
   cloud_->GetPointData()->AddArray(lengths);
   const vtkSmartPointer<vtkSplatMapper> splats = this->drawSplats();
+  setDepthStrength(renderer, 0.0); // larger discs that face the viewer have higher steps
   vtkCamera* camera = renderer->GetActiveCamera();
   std::int64_t last = kPoints + 1;
   for (const bool parallel : { false, true })
@@ -507,14 +512,9 @@ TEST_F(LevelOfDetailTest, LeavesOutWhatIsBelowAPixelFromAfar)
       this->render(0.01);
       EXPECT_EQ(detail_.drawnPoints(), kPoints);
       detail_.setEnabled(true);
-      const Difference difference = differenceOf(part, this->pixels());
       const double radius = 0.04 / distance / std::tan(vtkMath::RadiansFromDegrees(15.0)) * kSize / 2;
+      const Difference difference = differenceOf(part, this->pixels());
       const double covered = vtkMath::Pi() * radius * radius;
-      if (distance < 0.5)
-      {
-        EXPECT_EQ(drawn, kPoints);
-        continue;
-      }
       EXPECT_LT(drawn, parallel ? kPoints : last);
       EXPECT_LT(difference.visible, 0.05 * covered + 4.0);
       EXPECT_EQ(difference.lasting, 0) << "a colour that was not next to it before";
@@ -569,9 +569,11 @@ TEST_F(LevelOfDetailTest, TakesAnOrderThatWasMadeElsewhere)
 {
   this->render(0.01);
   const std::vector<unsigned char> own = this->pixels();
-  std::vector<std::uint32_t> upwards(kPoints); // the points begin at the pole
-  std::iota(upwards.begin(), upwards.end(), 0u);
-  detail_.setOrder(std::make_shared<const std::vector<std::uint32_t>>(upwards));
+  ProgressiveOrder upwards; // the points begin at the pole
+  upwards.indices.resize(kPoints);
+  std::iota(upwards.indices.begin(), upwards.indices.end(), 0u);
+  upwards.steps = { { kPoints / 4, 0.001 }, { kPoints, 0.0 } };
+  detail_.setOrder(std::make_shared<const ProgressiveOrder>(upwards));
   cloud_->Modified();
   this->render(0.01);
   EXPECT_NE(this->pixels(), own);
