@@ -3,7 +3,6 @@
 #include <dlfcn.h>
 #include <unistd.h>
 
-#include <cstdio>
 #include <cstdlib>
 #include <string>
 
@@ -17,23 +16,23 @@ bool endsWith(const std::string& text, const std::string& end)
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
-bool isHeld(std::FILE* stream)
+bool isHeld(int file)
 {
   const char* held = std::getenv("HELD_FILE");
   if (!held)
   {
     return false;
   }
-  const std::string link = "/proc/self/fd/" + std::to_string(fileno(stream));
+  const std::string link = "/proc/self/fd/" + std::to_string(file);
   char target[4096];
   const ssize_t size = readlink(link.c_str(), target, sizeof(target));
   return size > 0 && endsWith(std::string(target, std::size_t(size)), std::string("/") + held);
 }
 
-void waitUntilReleased(std::FILE* stream)
+void waitUntilReleased(int file)
 {
   const char* release = std::getenv("HELD_UNTIL");
-  while (release && isHeld(stream) && access(release, F_OK) != 0)
+  while (release && isHeld(file) && access(release, F_OK) != 0)
   {
     usleep(kLookPeriod);
   }
@@ -47,19 +46,9 @@ Function next(const char* name)
 
 } // namespace
 
-extern "C" std::size_t fread(void* to, std::size_t size, std::size_t count, std::FILE* stream)
+extern "C" ssize_t read(int file, void* to, std::size_t size)
 {
-  static const auto real = next<std::size_t (*)(void*, std::size_t, std::size_t, std::FILE*)>("fread");
-  waitUntilReleased(stream);
-  return real(to, size, count, stream);
-}
-
-/// Called in place of fread() by a build with _FORTIFY_SOURCE.
-extern "C" std::size_t __fread_chk(
-  void* to, std::size_t room, std::size_t size, std::size_t count, std::FILE* stream)
-{
-  using Read = std::size_t (*)(void*, std::size_t, std::size_t, std::size_t, std::FILE*);
-  static const auto real = next<Read>("__fread_chk");
-  waitUntilReleased(stream);
-  return real(to, room, size, count, stream);
+  static const auto real = next<ssize_t (*)(int, void*, std::size_t)>("read");
+  waitUntilReleased(file);
+  return real(file, to, size);
 }
