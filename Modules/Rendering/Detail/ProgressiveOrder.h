@@ -12,6 +12,7 @@
 namespace pointhaptics
 {
 
+/// Indices of points in an order of which each beginning shows the whole cloud, evenly.
 struct ProgressiveOrder
 {
   /// A beginning of the order: all points lie next to one of it.
