@@ -28,6 +28,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 #include <vector>
 
 using namespace pointhaptics;
@@ -125,6 +126,7 @@ public:
   vtkNew<vtkVoxelMeanResampler> Resampler; ///< Settings alone, as Bandwidth.
   vtkNew<vtkKernelBandwidthFilter> Bandwidth;
   bool RunsAgain = false;
+  bool BeginsUpdate = true;
   vtkTimeStamp RetryTime;
 
 private:
@@ -236,7 +238,6 @@ vtkHapticFeel::vtkHapticFeel()
   : Impl(std::make_unique<Internals>())
 {
   this->SetNumberOfInputPorts(2);
-  this->AddObserver(vtkCommand::StartEvent, this, &vtkHapticFeel::BeginUpdate);
 }
 
 vtkHapticFeel::~vtkHapticFeel() = default;
@@ -267,8 +268,14 @@ vtkMTimeType vtkHapticFeel::GetMTime()
     // The pipeline would take what an error or an abort left for valid: request another one.
     this->Impl->RetryTime.Modified();
   }
-  return std::max({ this->Superclass::GetMTime(), this->Impl->Resampler->GetMTime(),
-    this->Impl->Bandwidth->GetMTime(), this->Impl->RetryTime.GetMTime() });
+  this->Impl->BeginsUpdate = true; // each asks for the time first
+  return std::max(this->SettingsTime(), this->Impl->RetryTime.GetMTime());
+}
+
+vtkMTimeType vtkHapticFeel::SettingsTime()
+{
+  return std::max(
+    { this->Superclass::GetMTime(), this->Impl->Resampler->GetMTime(), this->Impl->Bandwidth->GetMTime() });
 }
 
 int vtkHapticFeel::FillInputPortInformation(int port, vtkInformation* info)
@@ -277,26 +284,24 @@ int vtkHapticFeel::FillInputPortInformation(int port, vtkInformation* info)
   return 1;
 }
 
-/// An update of a composite runs once for each block.
-void vtkHapticFeel::BeginUpdate()
-{
-  this->Impl->RunsAgain = false;
-  this->ErrorCode = vtkErrorCode::NoError;
-}
-
 int vtkHapticFeel::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   const vtkSmartPointer<vtkPointSet> cloud = vtkPointSet::GetData(inputVector[0]);
   const vtkSmartPointer<vtkTable> table = vtkTable::GetData(inputVector[1]);
   const vtkSmartPointer<vtkTable> output = vtkTable::GetData(outputVector);
+  if (std::exchange(this->Impl->BeginsUpdate, false)) // else this is another block of the same one
+  {
+    this->Impl->RunsAgain = false;
+    this->ErrorCode = vtkErrorCode::NoError; // without Modified(): nothing was set
+  }
   if (vtkDataObject* block = vtkDataObject::GetData(inputVector[0]); block && !cloud)
   {
     vtkWarningMacro(<< "A block without points is left empty: " << block->GetClassName() << ".");
     addColumns(output);
     return 1;
   }
-  const vtkMTimeType begin = this->GetMTime();
+  const vtkMTimeType begin = this->SettingsTime();
   const bool hasPoints = cloud && table && cloud->GetNumberOfPoints() > 0;
   HipPath path;
   std::int64_t ticks = 0;
@@ -321,7 +326,6 @@ int vtkHapticFeel::RequestData(
     addColumns(output);
     if (!message.empty())
     {
-      // Without Modified(): nothing was set.
       this->ErrorCode =
         status == Status::Ok ? static_cast<unsigned long>(vtkErrorCode::UserError) : kOutOfMemoryCode;
       vtkErrorMacro(<< message);
@@ -331,7 +335,7 @@ int vtkHapticFeel::RequestData(
   {
     vtkWarningMacro(<< odd);
   }
-  this->Impl->RunsAgain = this->Impl->RunsAgain || this->GetMTime() > begin ||
+  this->Impl->RunsAgain = this->Impl->RunsAgain || this->SettingsTime() > begin ||
     (!isFelt && hasPoints && (this->RepeatsErrors || message.empty()));
   return 1;
 }

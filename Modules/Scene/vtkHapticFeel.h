@@ -168,7 +168,7 @@ protected:
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
-  void BeginUpdate();
+  vtkMTimeType SettingsTime();
 
   bool RepeatsErrors = true;
   pointhaptics::HapticParameters Settings;

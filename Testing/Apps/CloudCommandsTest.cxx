@@ -519,7 +519,7 @@ TEST_F(CloudCommands, InfoTellsTheCoordinateSystemAndItsUnit)
   const std::string text = this->succeed({ "info", "feet.vtp" });
   EXPECT_NE(text.find("EPSG:2225"), std::string::npos) << text;
   EXPECT_NE(text.find("the file says so"), std::string::npos) << text;
-  EXPECT_NE(text.find("m; --unit ft as the file says, --scale"), std::string::npos) << text;
+  EXPECT_NE(text.find("m; --unit ft as the file says, or --scale"), std::string::npos) << text;
   // Points that are moved are not where the system says.
   const auto resampled = [&](std::vector<std::string> more)
   {

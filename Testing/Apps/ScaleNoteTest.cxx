@@ -8,7 +8,6 @@
 #include <vtkNew.h>
 
 #include <string>
-#include <vector>
 
 using namespace pointhaptics;
 using namespace pointhaptics::app;

@@ -43,8 +43,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <iostream>
 #include <vector>
 
 namespace

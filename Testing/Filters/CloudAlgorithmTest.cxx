@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 #include <vtkCompositeDataIterator.h>
-#include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
 #include <vtkIdTypeArray.h>
 #include <vtkImageData.h>
@@ -16,7 +15,6 @@
 #include <vtkUnstructuredGrid.h>
 
 #include <cmath>
-#include <memory>
 #include <string>
 #include <vector>
 

@@ -4,15 +4,11 @@
 #include "VoxelMeanCases.h"
 
 #include "vtkBitArray.h"
-#include "vtkIntArray.h"
 #include "vtkSOADataArrayTemplate.h"
-#include "vtkUnsignedLongLongArray.h"
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <limits>
-#include <string>
 
 namespace
 {

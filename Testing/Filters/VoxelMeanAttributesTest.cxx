@@ -9,7 +9,6 @@
 #include "vtkSignedCharArray.h"
 #include "vtkStringArray.h"
 #include "vtkTransform.h"
-#include "vtkUnsignedCharArray.h"
 
 #include <gtest/gtest.h>
 

@@ -11,7 +11,6 @@
 #include "vtkTransform.h"
 #include "vtkUnsignedCharArray.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <ostream>

@@ -12,7 +12,6 @@
 
 #include <chrono>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <random>
 #include <vector>

@@ -29,7 +29,6 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
-#include <memory>
 #include <string>
 
 namespace pointhaptics

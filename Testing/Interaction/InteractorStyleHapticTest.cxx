@@ -16,10 +16,8 @@
 #include <vtkPointData.h>
 #include <vtkStringArray.h>
 
-#include <chrono>
 #include <cmath>
 #include <string>
-#include <thread>
 
 using namespace pointhaptics;
 

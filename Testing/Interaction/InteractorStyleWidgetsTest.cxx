@@ -20,7 +20,6 @@
 #include <vtkDoubleArray.h>
 #include <vtkPropCollection.h>
 #include <vtkRenderWindow.h>
-#include <vtkStringArray.h>
 #include <vtkTextProperty.h>
 #include <vtkUnsignedCharArray.h>
 

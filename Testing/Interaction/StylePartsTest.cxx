@@ -25,10 +25,8 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <memory>
 #include <string>
-#include <thread>
 
 using namespace pointhaptics;
 using namespace pointhaptics::trial;

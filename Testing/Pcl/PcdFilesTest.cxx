@@ -7,7 +7,6 @@
 #include <pcl/io/pcd_io.h>
 #include <pcl/point_types.h>
 #include <vtkDoubleArray.h>
-#include <vtkFloatArray.h>
 #include <vtkIntArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>

@@ -13,7 +13,6 @@
 #include <chrono>
 #include <cmath>
 #include <mutex>
-#include <new>
 #include <thread>
 
 using namespace pointhaptics;

@@ -54,9 +54,7 @@ protected:
   }
   Holes holesIn(vtkPolyData* cloud)
   {
-    HapticViewer viewer(options_, observer_);
-    EXPECT_TRUE(viewer.open(cloud)) << viewer.message();
-    EXPECT_TRUE(viewer.renderToFile(this->path("picture.png"))) << viewer.message();
+    this->save(cloud, "picture.png");
     return holesOf(this->path("picture.png"));
   }
 };

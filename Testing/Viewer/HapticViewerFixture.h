@@ -59,6 +59,14 @@ protected:
 
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
 
+  /// Draws @p cloud to the file @p name.
+  void save(vtkPolyData* cloud, const std::string& name)
+  {
+    HapticViewer viewer(options_, observer_);
+    ASSERT_TRUE(viewer.open(cloud)) << viewer.message();
+    ASSERT_TRUE(viewer.renderToFile(this->path(name))) << viewer.message();
+  }
+
   std::string writeCloud(const std::string& name, int rows) const
   {
     std::ofstream file(this->path(name));

@@ -47,9 +47,7 @@ protected:
   /// Draws @p cloud to the file @p name and counts its coloured pixels.
   vtkIdType coloredPixelsOf(vtkPolyData* cloud, const char* name)
   {
-    HapticViewer viewer(options_, observer_);
-    EXPECT_TRUE(viewer.open(cloud)) << viewer.message();
-    EXPECT_TRUE(viewer.renderToFile(this->path(name))) << viewer.message();
+    this->save(cloud, name);
     return coloredPixels(this->path(name), 2, 10.0);
   }
 };
@@ -62,9 +60,7 @@ TEST_F(HapticViewerPictures, LeavesTheBackgroundOutOfTransparentPictures)
   ASSERT_TRUE(opaque.open(makeSphere())) << opaque.message();
   ASSERT_TRUE(opaque.renderToFile(this->path("opaque.png"))) << opaque.message();
   options_.picture.transparent = true;
-  HapticViewer viewer(options_, observer_);
-  ASSERT_TRUE(viewer.open(makeSphere())) << viewer.message();
-  ASSERT_TRUE(viewer.renderToFile(this->path("transparent.png"))) << viewer.message();
+  this->save(makeSphere(), "transparent.png");
   vtkNew<vtkPNGReader> readers[2];
   readers[0]->SetFileName(this->path("opaque.png").c_str());
   readers[1]->SetFileName(this->path("transparent.png").c_str());
@@ -117,9 +113,7 @@ TEST_F(HapticViewerPictures, ShowsPointsThatLieAtOnePlace)
     }
     vtkNew<vtkPolyData> cloud;
     cloud->SetPoints(points);
-    HapticViewer viewer(options_, observer_);
-    ASSERT_TRUE(viewer.open(cloud.Get())) << viewer.message();
-    ASSERT_TRUE(viewer.renderToFile(this->path("place.png"))) << viewer.message();
+    this->save(cloud.Get(), "place.png");
     const vtkIdType colored = pixelsOfPoints(this->path("place.png"));
     EXPECT_GE(colored, 40) << "a disc of eight pixels";
     EXPECT_LT(colored, 140); // with its smooth rim
@@ -143,9 +137,7 @@ TEST_F(HapticViewerPictures, ShowsColorsWithoutAlpha)
       colors->InsertNextTypedTuple(color);
     }
     cloud->GetPointData()->SetScalars(colors);
-    HapticViewer viewer(options_, observer_);
-    ASSERT_TRUE(viewer.open(cloud)) << viewer.message();
-    ASSERT_TRUE(viewer.renderToFile(this->path("alpha.png"))) << viewer.message();
+    this->save(cloud, "alpha.png");
     EXPECT_GT(pixelsOfPoints(this->path("alpha.png")), 5000) << "felt: " << felt;
   }
 }
@@ -230,9 +222,7 @@ TEST_F(HapticViewerPictures, MakesAHandfulOfPointsLarge)
   }
   vtkNew<vtkPolyData> cloud;
   cloud->SetPoints(points);
-  HapticViewer viewer(options_, observer_);
-  ASSERT_TRUE(viewer.open(cloud.Get())) << viewer.message();
-  ASSERT_TRUE(viewer.renderToFile(this->path("few.png"))) << viewer.message();
+  this->save(cloud.Get(), "few.png");
   const vtkIdType lit = pixelsOfPoints(this->path("few.png"));
   EXPECT_GT(lit, kFew * 3.14159 * 2.5 * 2.5) << "discs of six pixels";
   EXPECT_LT(lit, kFew * 3.14159 * 4.0 * 4.0);
@@ -485,9 +475,7 @@ TEST_F(HapticViewerPictures, DrawsOnlyWhatIsInTheClippingBox)
     }
     sphere->SetPoints(points);
     options_.clip = { offset - 2, offset + 2, -2, 2, 0, 2 };
-    HapticViewer viewer(options_, observer_);
-    ASSERT_TRUE(viewer.open(sphere)) << viewer.message();
-    ASSERT_TRUE(viewer.renderToFile(this->path("half.png"))) << viewer.message();
+    this->save(sphere, "half.png");
     EXPECT_LT(drawnPixels(this->path("half.png"), 0, 100), 300) << offset << ": more than the brackets";
     EXPECT_GT(drawnPixels(this->path("half.png"), 155, 300), 5000) << offset;
   }

@@ -1,7 +1,6 @@
 #include "UhidCap.h"
 
 #include <algorithm>
-#include <cstring>
 
 #include <fcntl.h>
 #include <linux/input.h>

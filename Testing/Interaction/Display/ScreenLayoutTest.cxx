@@ -245,7 +245,7 @@ protected:
   void SetUp() override { SKIP_WITHOUT_DISPLAY(); }
 };
 
-TEST_F(ScreenLayoutTest, NothingThatIsShownAtOnceOverlaps)
+TEST_F(ScreenLayoutTest, AllIsDrawnWhereTheLayoutSaysAndNothingOverlaps)
 {
   for (const Size& size : kSizes)
   {
@@ -272,6 +272,9 @@ TEST_F(ScreenLayoutTest, NothingThatIsShownAtOnceOverlaps)
       screen.window->Render();
       expectApart(screen, what + "progress: ");
       EXPECT_TRUE(screen.names().count("progress")) << what;
+      Screen inPlaces(size.width, size.height, size.fontScale, hasClasses);
+      inPlaces.showAll(6);
+      expectInPlaces(inPlaces, what);
     }
   }
 }
@@ -337,21 +340,6 @@ TEST_F(ScreenLayoutTest, TheHelpIsLargeEnoughToBeRead)
     const double letter = (box.right - box.left) / (pages == 1 ? 2.0 * 84.0 : 88.0);
     EXPECT_GT(letter, 5.0) << "pixels, of 9 points";
     EXPECT_LE(box.right - box.left, size.width);
-  }
-}
-
-TEST_F(ScreenLayoutTest, EverythingIsDrawnWhereTheLayoutSays)
-{
-  for (const Size& size : kSizes)
-  {
-    for (const bool hasClasses : { false, true })
-    {
-      const std::string what = std::to_string(size.width) + " times " + std::to_string(size.fontScale) +
-        (hasClasses ? ", classes: " : ", numbers: ");
-      Screen screen(size.width, size.height, size.fontScale, hasClasses);
-      screen.showAll(6);
-      expectInPlaces(screen, what);
-    }
   }
 }
 

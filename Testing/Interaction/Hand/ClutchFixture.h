@@ -19,7 +19,6 @@
 #include <vtkTransform.h>
 
 #include <chrono>
-#include <functional>
 #include <thread>
 
 namespace pointhaptics

@@ -14,9 +14,7 @@
 #include <vtkCamera.h>
 #include <vtkCommand.h>
 
-#include <chrono>
 #include <string>
-#include <thread>
 
 using namespace pointhaptics;
 

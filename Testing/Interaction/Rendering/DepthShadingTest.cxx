@@ -12,7 +12,6 @@
 #include <vtkPlaneSource.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
-#include <vtkSmartPointer.h>
 
 #include <algorithm>
 #include <vector>

@@ -16,9 +16,7 @@
 #include <vtkPlaneSource.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
-#include <vtkSmartPointer.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <vector>

@@ -28,7 +28,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <set>
-#include <string>
 #include <vector>
 
 namespace

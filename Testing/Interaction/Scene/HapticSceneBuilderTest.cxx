@@ -9,8 +9,6 @@
 #include <vtkPolyData.h>
 #include <vtkTransform.h>
 
-#include <cmath>
-
 using namespace pointhaptics;
 
 namespace

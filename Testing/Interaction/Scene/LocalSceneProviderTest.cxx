@@ -9,7 +9,6 @@
 #include "MadeClouds.h"
 
 #include <gtest/gtest.h>
-#include <vtkFloatArray.h>
 #include <vtkNew.h>
 #include <vtkPolyData.h>
 

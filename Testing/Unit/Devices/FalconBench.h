@@ -16,7 +16,6 @@
 #include <functional>
 #include <random>
 #include <string>
-#include <thread>
 
 namespace pointhaptics
 {

@@ -1,7 +1,5 @@
 #include "HapticFixtures.h"
 
-#include <algorithm>
-
 using namespace pointhaptics;
 
 namespace

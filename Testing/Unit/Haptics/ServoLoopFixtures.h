@@ -8,10 +8,8 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <functional>
 #include <memory>
-#include <thread>
 
 namespace pointhaptics
 {

@@ -2,7 +2,6 @@
 
 #include "vtkErrorCode.h"
 
-#include <fstream>
 #include <random>
 
 namespace

@@ -4,8 +4,6 @@
 #include "Las/LazFiles.h"
 #include "Unit/Core/ThreadRanks.h"
 
-#include <algorithm>
-#include <mutex>
 #include <random>
 
 namespace

@@ -7,10 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <limits>
 #include <string>
-#include <utility>
 
 using namespace pointhaptics;
 using namespace pointhaptics::trial;

@@ -11,8 +11,6 @@
 
 #include <gtest/gtest.h>
 
-#include <numeric>
-
 using namespace pointhaptics;
 using namespace pointhaptics::trial;
 

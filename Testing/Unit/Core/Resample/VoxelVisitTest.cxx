@@ -7,8 +7,6 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
-
 using namespace pointhaptics;
 using namespace pointhaptics::trial;
 

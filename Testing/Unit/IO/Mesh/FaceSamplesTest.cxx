@@ -3,8 +3,6 @@
 #include "vtkCallbackCommand.h"
 #include "vtkCellArray.h"
 #include "vtkCommand.h"
-#include "vtkDoubleArray.h"
-#include "vtkIntArray.h"
 #include "vtkNew.h"
 #include "vtkPointLocator.h"
 #include "vtkPolyDataWriter.h"

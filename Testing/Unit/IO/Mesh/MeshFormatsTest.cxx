@@ -1,7 +1,6 @@
 #include "CloudFiles.h"
 
 #include "vtkDoubleArray.h"
-#include "vtkFloatArray.h"
 #include "vtkIntArray.h"
 #include "vtkPolyDataWriter.h"
 #include "vtkSTLReader.h"
@@ -12,7 +11,6 @@
 #include "vtkUnstructuredGridWriter.h"
 #include "vtkXMLUnstructuredGridWriter.h"
 
-#include <cstdint>
 #include <random>
 
 namespace

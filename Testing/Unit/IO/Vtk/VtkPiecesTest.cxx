@@ -8,8 +8,6 @@
 #include "vtkUnsignedCharArray.h"
 #include "vtkXMLPolyDataWriter.h"
 
-#include <algorithm>
-
 namespace
 {
 
