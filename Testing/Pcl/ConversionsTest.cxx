@@ -5,7 +5,6 @@
 #include <pcl/point_types.h>
 #include <vtkDataArray.h>
 #include <vtkDoubleArray.h>
-#include <vtkFloatArray.h>
 #include <vtkLongLongArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
