@@ -1,6 +1,5 @@
 #include "VoxelMeanFixtures.h"
 
-#include "vtkMatrix4x4.h"
 #include "vtkStructuredGrid.h"
 #include "vtkTransform.h"
 #include "vtkUnstructuredGrid.h"

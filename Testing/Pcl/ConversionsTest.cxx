@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 #include <pcl/console/print.h>
 #include <pcl/point_types.h>
-#include <vtkDataArray.h>
 #include <vtkDoubleArray.h>
 #include <vtkLongLongArray.h>
 #include <vtkNew.h>

@@ -6,6 +6,7 @@
 #include <pcl/console/print.h>
 #include <pcl/io/pcd_io.h>
 #include <pcl/point_types.h>
+#include <unistd.h>
 #include <vtkDoubleArray.h>
 #include <vtkIntArray.h>
 #include <vtkNew.h>
@@ -79,7 +80,8 @@ protected:
     return cloud;
   }
 
-  const std::filesystem::path folder_ = std::filesystem::temp_directory_path() / "pointhaptics-pcl-files";
+  const std::filesystem::path folder_ =
+    std::filesystem::temp_directory_path() / ("pointhaptics-pcl-files-" + std::to_string(getpid()));
   const std::string file_ = (folder_ / "a.pcd").string();
   vtkNew<vtkPolyData> cloud_;
   std::vector<std::string> notes_;
