@@ -26,6 +26,21 @@ KeyNSkipsAFileThatCannotBeRead() {
   said "file 1 of 3: first.ply"
 }
 
+# The other file lies aside, so that at the place of the first one its box would have to pass the hand.
+AnotherFileIsFeltByAFreeHand() {
+  make sphere first.ply
+  make box box.csv
+  awk -F, -v OFS=, 'NR > 1 { $2 -= 0.3 } { print }' box.csv >aside.csv
+  open_viewer first.ply aside.csv --device simulated --trace trace.csv
+  key n
+  said "file 2 of 2: aside.csv"
+  sleep 1 # ticks with its scene
+  key q
+  ends_with 0 "key Q"
+  said "trace: trace.csv"
+  ! has_value 15 1 trace.csv || fail "the hand is pushed"
+}
+
 AChangedFileIsReadAgain() {
   make plane cloud.ply
   open_viewer cloud.ply --watch
