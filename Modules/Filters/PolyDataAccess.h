@@ -39,8 +39,7 @@ private:
 };
 
 /// An array without tuples, of @p type, with the name, the components, the information and the lookup table
-/// of
-/// @p array.
+/// of @p array.
 vtkSmartPointer<vtkAbstractArray> emptyLike(vtkAbstractArray* array, int type);
 /// Bit n: @p array is the active one of vtkDataSetAttributes::AttributeTypes n. It may be that of several.
 int rolesOf(vtkDataSetAttributes* data, vtkAbstractArray* array);

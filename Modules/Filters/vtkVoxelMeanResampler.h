@@ -298,12 +298,12 @@ public:
   void SetNumberOfThreads(int threads) { this->NumberOfThreads = std::max(0, threads); }
 
   /**
-   * Takes over all of the above from @p other.
+   * Takes over all settings of @p other.
    */
   void TakeSettings(vtkVoxelMeanResampler* other);
 
   /**
-   * Frees that memory.
+   * Frees the scratch memory.
    */
   void ReleaseScratch();
 

@@ -111,12 +111,12 @@ double LocalRegion::fraction() const
 std::vector<NodeUse> LocalRegion::uses(const CellPyramid& pyramid) const
 {
   std::vector<NodeUse> uses;
+  const Bounds all = grown(covered_, kNodeCells * cellSize_);
+  const Bounds voting = grown(covered_, (kNodeCells + kVoteReachInCells) * cellSize_);
   for (const Cell& node : pyramid.level(RadiusField::nodeLevel(pyramid)).cells)
   {
-    const bool isAll = contains(grown(covered_, kNodeCells * cellSize_), node.mean);
-    const bool votes =
-      global_ && contains(grown(covered_, (kNodeCells + kVoteReachInCells) * cellSize_), node.mean);
-    uses.push_back(isAll ? NodeUse::All : votes ? NodeUse::Vote : NodeUse::None);
+    const bool votes = global_ && contains(voting, node.mean);
+    uses.push_back(contains(all, node.mean) ? NodeUse::All : votes ? NodeUse::Vote : NodeUse::None);
   }
   return uses;
 }

@@ -55,6 +55,9 @@ inline std::string atLine(std::size_t line)
   throw FileProblem(vtkErrorCode::FileFormatError, what, cure);
 }
 
+inline constexpr const char* kDamagedCure = "the file is damaged: copy or write it again";
+inline constexpr const char* kRewriteCure = "write the file again with another program";
+
 /// "byte 12: ", in front of what is there.
 inline std::string atByte(std::uint64_t offset)
 {
@@ -64,7 +67,7 @@ inline std::string atByte(std::uint64_t offset)
 /// What stands at @p offset cannot be.
 [[noreturn]] inline void failDamaged(std::uint64_t offset, const std::string& what)
 {
-  failFormat(atByte(offset) + what, "the file is damaged: copy or write it again");
+  failFormat(atByte(offset) + what, kDamagedCure);
 }
 
 /// The file ends before the points its header promises. @param more of the cure.

@@ -98,7 +98,7 @@ void checkCoordinates(vtkPolyData* cloud)
   {
     io::failFormat(fmt::format("point {} of {}: {} is {:g}, which can be no position", at / 3, count / 3,
                      "xyz"[at % 3], array -> GetComponent(at / 3, static_cast<int>(at % 3))),
-      "the file is damaged: copy or write it again");
+      io::kDamagedCure);
   }
 }
 

@@ -9,6 +9,10 @@
 namespace pointhaptics
 {
 
+/// Diameter of discs over the edge of cells, of which each has one, that close what discs about all points
+/// would.
+inline constexpr double kClosingCells = 2.2;
+
 /// Changing a number is free; another array, light or surfaces upload the points again.
 struct SplatSettings
 {

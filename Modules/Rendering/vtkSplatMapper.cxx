@@ -361,11 +361,11 @@ void vtkSplatMapper::ReplaceShaderValues(
       (tilts ? "  float splatTilts = clamp(2.0 * splatFlat - 0.6, 0.0, 1.0);\n"
                "  float splatCloses = max(splatTilts, splatAll);\n"
              : "") +
-      "  float splatSize = " + size + ";\n  gl_PointSize = min(" + bounded +
-      ", max(splatRange.x, splatRange.w));\n"
-      "  float splatWide = splatGap > 0.0 ? length(vec2(gl_PointSize, splatGap / gl_Position.w)) : "
+      "  float splatSize = " + size + ";\n  gl_PointSize = " + bounded +
+      ";\n"
+      "  gl_PointSize = splatGap > 0.0 ? length(vec2(gl_PointSize, splatGap / gl_Position.w)) : "
       "gl_PointSize;\n"
-      "  gl_PointSize = max(splatRange.x, splatWide);\n" +
+      "  gl_PointSize = clamp(gl_PointSize, splatRange.x, max(splatRange.x, splatRange.w));\n" +
       (tilts ? std::string(pointhaptics::kSurfaceStatements) + pointhaptics::kTileStatements : "") +
       pointhaptics::kFitStatements + (tilts ? pointhaptics::kQuadStatements : "") +
       pointhaptics::kClipStatements + (this->HasSizes ? pointhaptics::kHideStatements : ""));

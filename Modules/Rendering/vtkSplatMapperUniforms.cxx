@@ -97,8 +97,8 @@ double vtkSplatMapper::PixelsPerLength(vtkRenderer* renderer, vtkActor* actor)
 /// this diameter at distance 1.
 double vtkSplatMapper::GapPixels(vtkRenderer* renderer, vtkActor* actor)
 {
-  constexpr double kCloses = 2.2;
-  return kCloses * this->Now.gap * this->PixelsPerLength(renderer, actor) / this->Now.sizeScale;
+  return pointhaptics::kClosingCells * this->Now.gap * this->PixelsPerLength(renderer, actor) /
+    this->Now.sizeScale;
 }
 
 void vtkSplatMapper::SetMapperShaderParameters(vtkOpenGLHelper& cells, vtkRenderer* renderer, vtkActor* actor)

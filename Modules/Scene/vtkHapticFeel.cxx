@@ -268,8 +268,15 @@ vtkMTimeType vtkHapticFeel::GetMTime()
     // The pipeline would take what an error or an abort left for valid: request another one.
     this->Impl->RetryTime.Modified();
   }
-  this->Impl->BeginsUpdate = true; // each asks for the time first
   return std::max(this->SettingsTime(), this->Impl->RetryTime.GetMTime());
+}
+
+/// Once for each update, whatever the number of blocks.
+int vtkHapticFeel::ComputePipelineMTime(vtkInformation* request, vtkInformationVector** inputs,
+  vtkInformationVector* outputs, int port, vtkMTimeType* time)
+{
+  this->Impl->BeginsUpdate = true;
+  return this->Superclass::ComputePipelineMTime(request, inputs, outputs, port, time);
 }
 
 vtkMTimeType vtkHapticFeel::SettingsTime()

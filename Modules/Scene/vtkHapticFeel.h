@@ -168,6 +168,8 @@ protected:
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+  int ComputePipelineMTime(
+    vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType*) override;
   vtkMTimeType SettingsTime();
 
   bool RepeatsErrors = true;

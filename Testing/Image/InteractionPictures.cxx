@@ -16,7 +16,6 @@
 #include <vtkActor.h>
 #include <vtkCamera.h>
 #include <vtkInteractorEventRecorder.h>
-#include <vtkMatrix4x4.h>
 #include <vtkNew.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>

@@ -32,7 +32,6 @@
 #include <vtkPolyDataMapper.h>
 #include <vtkRenderer.h>
 #include <vtkScalarBarActor.h>
-#include <vtkScalarsToColors.h>
 #include <vtkSmartPointer.h>
 #include <vtkUnsignedCharArray.h>
 

@@ -19,7 +19,6 @@
 #include "Shapes/Shapes.h"
 
 #include <vtkActor.h>
-#include <vtkCallbackCommand.h>
 #include <vtkCamera.h>
 #include <vtkCommand.h>
 #include <vtkDataArray.h>

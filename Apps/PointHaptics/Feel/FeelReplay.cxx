@@ -58,9 +58,9 @@ std::pair<Recording, vtkSmartPointer<vtkPolyData>> openRecording(
   }
   ProgressBar bar("reading");
   vtkSmartPointer<vtkPolyData> cloud;
-  const auto progress = [&bar](const char*, double part)
+  const auto progress = [&bar](const std::string& step, double part)
   {
-    bar.show(part);
+    bar.show(step == "reading" ? part : 1.0);
     return !stopIsRequested();
   };
   bool isLoaded = false;

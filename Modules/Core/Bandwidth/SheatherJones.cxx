@@ -136,7 +136,7 @@ private:
     return table;
   }
 
-  /// Each of few values against the power sums of many: time stays linear where strays lie beside crowds.
+  /// Each of few values against the power sums of many: time stays linear where outliers lie beside clusters.
   double oneSeries(const SampleCell& values, const SampleCell& series) const
   {
     double sum = 0.0;

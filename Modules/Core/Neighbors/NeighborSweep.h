@@ -74,7 +74,7 @@ public:
       }
     }
   }
-  /// All of them.
+  /// As above, for every point.
   template <typename Visitor>
   void run(std::int64_t begin, std::int64_t end, Visitor&& visit)
   {

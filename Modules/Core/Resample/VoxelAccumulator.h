@@ -95,8 +95,8 @@ public:
   /// Keys of active voxels in ascending order.
   std::vector<std::uint64_t> keys();
   /// Reads the bytes of serialize(). InvalidParameter, with @p result unchanged: bytes of another version, or
-  /// cut or changed on their way, which their checksum tells, or whose sizes or
-  /// counts contradict each other.
+  /// cut or changed on their way, which their checksum tells, or whose sizes or counts contradict each
+  /// other.
   static Status deserialize(std::string_view bytes, VoxelAccumulator& result);
 
   /// Their sums fit on every lattice.

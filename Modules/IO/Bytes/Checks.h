@@ -12,9 +12,6 @@
 namespace pointhaptics::io
 {
 
-constexpr const char* kDamagedCure = "the file is damaged: copy or write it again";
-constexpr const char* kRewriteCure = "write the file again with another program";
-
 /// Each check throws as the function of FileProblem.h that it is named after, where @p isWrong: fmt makes the
 /// text of @p what and @p parts only then. Not for loops over points: the parts are evaluated each time.
 template <typename... Parts>

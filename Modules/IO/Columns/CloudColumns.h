@@ -104,7 +104,7 @@ private:
     const std::vector<std::vector<std::string>>& names, const char* arrayName, bool (*accepts)(int));
   void planNumbered();
   /// @param type VTK_VOID: the widest of the columns.
-  void add(const std::string& name, const std::vector<std::size_t>& columns, int type = 0);
+  void add(const std::string& name, const std::vector<std::size_t>& columns, int type = VTK_VOID);
   std::string unusedName(const std::string& name) const;
 
   const std::vector<Column> columns_;

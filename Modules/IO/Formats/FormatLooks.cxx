@@ -164,7 +164,8 @@ FormatStart lookAt(
 
 bool looksLikePly(const FormatStart& start)
 {
-  return equalNoCase(trimmed(start.line), "ply");
+  std::string_view line = start.line;
+  return equalNoCase(takeWord(line), "ply");
 }
 
 bool looksLikePcd(const FormatStart& start)

@@ -27,8 +27,8 @@ struct LasBlock
   vtkIdType count = 0;
 };
 
-/// An array for bits that most files leave at zero, and then nobody gets. Its memory costs nothing before the
-/// first one that is set.
+/// An array for bits that most files leave at zero. It becomes part of the cloud where a bit is set; until
+/// then its memory costs nothing.
 struct RareBits
 {
   vtkSmartPointer<vtkUnsignedCharArray> array; ///< Null: the files have no such field.

@@ -169,8 +169,8 @@ void fillFromCompressed(const ReadTask& task, const PcdHeader& header, const Clo
       const vtkIdType count = std::min(most, rows - row);
       const std::size_t bytes = size * static_cast<std::size_t>(count);
       const char* const block = stream.next(bytes);
-      failFormatIf(!block, "the file is damaged: copy or write it again", "{}damaged LZF data in field {}",
-        atByte(packedAt + stream.position()), inQuotes(field.name));
+      failDamagedIf(
+        !block, packedAt + stream.position(), "damaged LZF data in field {}", inQuotes(field.name));
       std::vector<StoredColumn> stored;
       addStored(field, block, static_cast<std::ptrdiff_t>(size), stored);
       for (const StoredColumn& each : stored)

@@ -93,8 +93,7 @@ void HeaderParser::parseEntry(const std::string& keyword, std::string_view rest)
   }
   else
   {
-    failFormatIf(keyword != "VERSION", "write the file again with another program", "{}unknown entry {}",
-      where, inQuotes(keyword));
+    failFormatIf(keyword != "VERSION", kRewriteCure, "{}unknown entry {}", where, inQuotes(keyword));
   }
 }
 

@@ -64,7 +64,7 @@ public:
     {
       failFormat(atByte(at) + "a list of " + std::to_string(static_cast<long long>(count)) + " items in " +
           recordNumber(element.name.c_str(), index, element.count),
-        "write the file again with another program");
+        kRewriteCure);
     }
     const std::ptrdiff_t size = sizeOfType(list.type);
     data = take(static_cast<std::size_t>(count) * static_cast<std::size_t>(size), element, index);

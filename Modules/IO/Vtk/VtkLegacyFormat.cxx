@@ -29,7 +29,6 @@ namespace
 {
 
 constexpr const char* kSaveAsVtp = "save the file as .vtp, for example with ParaView";
-constexpr const char* kOtherProgram = "write the file again with another program";
 
 /// VTK's legacy format. Not left to VTK's reader, which allocates whatever a file claims and trusts the
 /// corners of cells. Functions @throw FileProblem with the byte offset, before anything is allocated that the
@@ -141,7 +140,7 @@ double LegacyParser::number()
   if (!parseNumber(text, value))
   {
     failTruncatedIf(text.empty(), "{}the file ends where a number was expected", where());
-    failFormat(where() + inQuotes(text) + " is not a number", kOtherProgram);
+    failFormat(where() + inQuotes(text) + " is not a number", kRewriteCure);
   }
   return value;
 }
@@ -150,7 +149,7 @@ double LegacyParser::number()
 LegacyParser::Array LegacyParser::values(
   const std::string& name, int vtkType, Count tuples, Count components, bool isKept)
 {
-  failFormatIf(components < 1 || components > kMostColumns, kOtherProgram, "{}an array of {} components",
+  failFormatIf(components < 1 || components > kMostColumns, kRewriteCure, "{}an array of {} components",
     where(), components);
   failTruncatedIf(
     tuples > bytes_.size(), "{}{} tuples announced in a file of {} bytes", where(), tuples, bytes_.size());

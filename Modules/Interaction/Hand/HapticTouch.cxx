@@ -46,11 +46,12 @@ std::string HapticTouch::problemOfReach() const
 {
   vtkPolyData* means = style_->GetScenes().cloud();
   const std::array<double, 6>& box = style_->GetModel().workspaceBounds();
+  const Bounds reach = style_->GetModel().workspace();
   Vec3 at;
   for (vtkIdType i = 0; i < means->GetNumberOfPoints(); ++i)
   {
     means->GetPoint(i, &at.x);
-    if (contains(style_->GetModel().workspace(), at))
+    if (contains(reach, at))
     {
       return {};
     }

@@ -108,6 +108,12 @@ void ScenePipeline::startCloud(bool findsLattice)
   }
 }
 
+void ScenePipeline::release()
+{
+  publisher_.startCloud();
+  publisher_.publish(nullptr, publisher_.cloud(), 0);
+}
+
 /// Lets the hand feel the model at its new place before it is resampled there. Not after a change of the
 /// cloud: the felt scene then stays where it was until the new cloud is resampled.
 void ScenePipeline::publishMoved()

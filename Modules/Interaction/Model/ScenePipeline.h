@@ -83,6 +83,8 @@ public:
   /// place. poll() requests its scene: the one near the hand comes first. @param findsLattice
   /// SceneRequest::findsLattice, until a scene is shown; the resampler gets the dimensions.
   void startCloud(bool findsLattice);
+  /// Nothing is felt until another cloud is.
+  void release();
   /// Notes that the model has moved. With @p requestsNow the new scene is requested at once.
   void moveModel(bool requestsNow);
   /// Requests a scene where something has changed, and shows a finished one. Call it from a timer.

@@ -65,13 +65,13 @@ PointView viewOf(vtkPolyData* cloud, std::vector<Vec3>& copy)
   return { copy.data(), std::int64_t(copy.size()) };
 }
 
-double quantileOfPositive(vtkDataArray* array, std::size_t tenths, vtkDataArray* over)
+double quantileOfPositive(vtkDataArray* array, std::size_t tenths)
 {
   std::vector<double> values;
   const vtkIdType step = 1 + array->GetNumberOfTuples() / 10000;
   for (vtkIdType i = 0; i < array->GetNumberOfTuples(); i += step)
   {
-    const double value = array->GetComponent(i, 0) / (over ? over->GetComponent(i, 0) : 1.0);
+    const double value = array->GetComponent(i, 0);
     if (value > 0.0 && std::isfinite(value))
     {
       values.push_back(value);

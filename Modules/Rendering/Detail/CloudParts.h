@@ -25,9 +25,8 @@ namespace pointhaptics
 PointView viewOf(vtkPolyData* cloud, std::vector<Vec3>& copy);
 
 /// Quantile of the values above 0 among at most about 10,000: @p tenths tenths are below it; 0 where there is
-/// none. @param tenths 0 to 9. @param over if given, what each value is divided by.
-POINTHAPTICSRENDERING_EXPORT double quantileOfPositive(
-  vtkDataArray* array, std::size_t tenths, vtkDataArray* over = nullptr);
+/// none. @param tenths 0 to 9.
+POINTHAPTICSRENDERING_EXPORT double quantileOfPositive(vtkDataArray* array, std::size_t tenths);
 
 /// True if @p cloud has no cells, or vertices at all of its points, first to last.
 bool drawsInOrder(vtkPolyData* cloud);

@@ -389,7 +389,9 @@ void LevelOfDetail::cullOutsideFrustum()
     {
       continue;
     }
-    const double margin = 0.5 * level.splats->Settings().sizeScale * level.largestLength;
+    const SplatSettings& settings = level.splats->Settings();
+    const double margin =
+      0.5 * std::hypot(settings.sizeScale * level.largestLength, kClosingCells * settings.gap);
     std::vector<std::array<vtkIdType, 2>> ranges =
       visibleRanges(level.bricks, halfSpaces, actor_->GetMatrix(), margin);
     for (const auto& range : ranges)

@@ -36,8 +36,8 @@ namespace pointhaptics
 /// until the cloud's own actor is drawn: the picture at rest is the one without this class. Of the splats
 /// only the bricks in view, and in the workspace if there is one, are drawn in such a frame, and only they
 /// count: a part of the cloud seen from near by is shown with more points. In the picture at rest what is out
-/// of view is left out too, which changes no pixel. From so far that neighbours are much less than a pixel
-/// apart the picture is as fine as it gets with a part of the points: the others are neither drawn nor
+/// of view is left out too, which changes no pixel. From so far that several points share a pixel
+/// the picture is as fine as it gets with a part of the points: the others are neither drawn nor
 /// uploaded. Text may change without the detail changing. Points are uploaded when they are first drawn.
 ///
 /// The picture only gets finer when somebody renders: call refinementDue() from a timer. A frame that its
@@ -69,7 +69,7 @@ public:
   /// Seconds for which the present frame at rest has been drawn. None: it belongs to a motion, or must be
   /// kept, so it must not be given up.
   std::optional<double> restingFrame() const;
-  /// Gives it progressiveOrder() of the cloud's points, which takes a second for some millions. If it is null
+  /// Gives it progressiveOrder() of the cloud's points. If it is null
   /// or has another size, the order is made here when it is first needed.
   void setOrder(std::shared_ptr<const ProgressiveOrder> order) { givenOrder_ = std::move(order); }
   /// Makes the next frame as fine as possible, whatever moves: for pictures that are kept.

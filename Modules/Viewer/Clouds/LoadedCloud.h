@@ -29,7 +29,7 @@ namespace pointhaptics
 class HapticScene;
 
 /// Receives the step of a load, "reading", "preparing", "measuring" or "resampling", and the part of it that
-/// is done, 0 to 1. False ends the load.
+/// is done, 0 to 1. False ends the load, but for "preparing".
 using LoadProgress = std::function<bool(const char* step, double part)>;
 
 struct CloudRequest

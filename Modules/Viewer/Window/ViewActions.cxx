@@ -67,8 +67,7 @@ void ViewWindow::leave()
 /// The options as they are now.
 HapticViewerState ViewWindow::state()
 {
-  HapticViewerState state;
-  static_cast<HapticViewerOptions&>(state) = options_;
+  HapticViewerState state{ options_, {}, {} };
   const double* model = style_->GetModelTransform()->GetMatrix()->GetData();
   std::copy_n(model, state.modelToWorkspace.size(), state.modelToWorkspace.begin());
   state.workspace = scene_.workspaceBounds();
@@ -327,7 +326,8 @@ void ViewWindow::writeScreenshot()
   std::string message;
   const std::array<int, 2>& size = options_.picture.screenshotSize;
   const std::string words = size[0] > 0 ? fmt::format(" ({}x{})", size[0], size[1]) : "";
-  say(this->writeImage(name, message) ? "screenshot: " + name + words : message);
+  const bool isWritten = this->writeImage(name, message);
+  say(isWritten ? "screenshot: " + name + words : message, isWritten ? kNote : kError);
 }
 
 } // namespace pointhaptics

@@ -221,9 +221,10 @@ void ViewWindow::show(LoadedCloud cloud)
 /// The hand feels nothing until another cloud is there: that one does not come to it as a model that moves.
 void ViewWindow::releaseHand()
 {
-  constexpr int kMostMilliseconds = 20;
-  servo_.publishScene(nullptr);
-  for (int i = 0; i < kMostMilliseconds && servo_.running() && servo_.latest().scene != 0; ++i)
+  constexpr int kMostMilliseconds = 100;
+  style_->GetScenes().release();
+  const bool isFelt = servo_.running() && !player_;
+  for (int i = 0; i < kMostMilliseconds && isFelt && servo_.latest().scene != 0; ++i)
   {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
@@ -322,7 +323,7 @@ void ViewWindow::stepFrom(int direction, std::size_t skipped)
   this->load({ files_[fileIndex_] }, Load::New,
     [this, index = fileIndex_]
     { this->say(fmt::format("file {} of {}: {}", index + 1, files_.size(), scene_.title())); });
-  if (skipped + 1 < files_.size())
+  if (skipped + 2 < files_.size()) // the file that is shown is not read again
   {
     loading_.failed = [this, direction, skipped] { this->stepFrom(direction, skipped + 1); };
   }

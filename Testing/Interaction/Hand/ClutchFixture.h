@@ -13,7 +13,6 @@
 
 #include <gtest/gtest.h>
 #include <vtkCamera.h>
-#include <vtkMatrix4x4.h>
 #include <vtkNew.h>
 #include <vtkRenderer.h>
 #include <vtkTransform.h>

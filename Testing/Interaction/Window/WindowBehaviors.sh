@@ -26,6 +26,17 @@ KeyNSkipsAFileThatCannotBeRead() {
   said "file 1 of 3: first.ply"
 }
 
+# What the window shows, and what was chosen for it, stays.
+KeyNStaysWhereNoOtherFileCanBeRead() {
+  make sphere good.ply
+  echo "no cloud" >broken.ply
+  open_viewer good.ply broken.ply
+  key n
+  said "broken.ply: "
+  sleep 1 # for a file that must not be read
+  never_said "file 1 of 2"
+}
+
 # The other file lies aside, so that at the place of the first one its box would have to pass the hand.
 AnotherFileIsFeltByAFreeHand() {
   make sphere first.ply

@@ -4,6 +4,7 @@
 #include "vtkFieldData.h"
 #include "vtkVariant.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -245,6 +246,11 @@ TEST_F(Exporters, HeadersOfPlyAreReadWithWhatOthersPutThere)
   {
     expectPoint(readCloud(write("a.ply", start + body)), 1, 4, 5, 6);
   }
+  std::string oldMac =
+    "ply\nformat binary_little_endian 1.0\nelement vertex 1\nproperty char x\nproperty char y\n"
+    "property char z\nend_header\n";
+  std::replace(oldMac.begin(), oldMac.end(), '\n', '\r');
+  expectPoint(readCloud(write("f.ply", oldMac + "\n\n\n")), 0, 10, 10, 10);
   const ReadResult stray = readCloud(write("b.ply", "ply\nbye\nbye\n" + body));
   expectPoint(stray, 1, 4, 5, 6);
   EXPECT_TRUE(isSaid(stray.notes, "2 lines of the header, beginning with 'bye' in line 2"));
