@@ -53,7 +53,10 @@ struct alignas(64) FitBlock
   void clear(int i) { set(i, Vec3(), 0.0, SymMat3()); }
 };
 
-/// Nodes of the field of fit radii near a center.
+/// Values of a node of the field of fit radii, the radius first; see kScaleValues in RadiusField.h.
+constexpr int kFieldValues = 6;
+
+/// Nodes of the field near a center.
 struct alignas(64) FieldBlock
 {
   static constexpr int kCapacity = 128;
@@ -62,12 +65,7 @@ struct alignas(64) FieldBlock
   double y[kCapacity];
   double z[kCapacity];
   double present[kCapacity]; ///< 1, or 0 in the padding.
-  double radius[kCapacity];
-  double gate[kCapacity];
-  double countRadius[kCapacity];
-  double proxyRadius[kCapacity];
-  double noise[kCapacity];
-  double cubic[kCapacity];
+  double values[kFieldValues][kCapacity];
   int size = 0;
   Vec3 center;
   double reach = -1.0;
@@ -75,21 +73,19 @@ struct alignas(64) FieldBlock
   void clear(int i)
   {
     x[i] = y[i] = z[i] = present[i] = 0.0;
-    radius[i] = gate[i] = countRadius[i] = proxyRadius[i] = noise[i] = cubic[i] = 0.0;
+    for (auto& each : values)
+    {
+      each[i] = 0.0;
+    }
   }
 };
 
 struct FieldSums
 {
   double weights = 0.0;
-  double radius = 0.0;
-  double gate = 0.0;
-  double countRadius = 0.0;
-  double proxyRadius = 0.0;
-  double noise = 0.0;
-  double cubic = 0.0;
-  double weightGradient[3] = { 0.0, 0.0, 0.0 };
-  double radiusGradient[3] = { 0.0, 0.0, 0.0 }; ///< Gradient of the sum of weight times radius.
+  double values[kFieldValues] = {};
+  double weightGradient[3] = {};
+  double radiusGradient[3] = {}; ///< Gradient of the sum of weight times radius.
 };
 
 /// The frame and parameters of a fit; lengths in the unit of the block.
@@ -126,22 +122,14 @@ struct alignas(64) FitRows
   int size = 0; ///< A multiple of kFitLanes; rows without a cell have weight 0.
 };
 
-/// Sums of W P P' (lower triangle, row by row), W P z, W z z, and how many weights are above 0.
+/// Sums over the ten terms T = P, Q: W T T' (lower triangle, row by row), W T z, W z z, and how many weights
+/// are above 0.
 struct FitSums
 {
-  double a[21];
-  double rhs[6];
+  double a[55];
+  double rhs[10];
   double zz;
   double cells;
-};
-
-/// Sums for the cubic terms Q = (uuu, uuv, uvv, vvv): W Q P' (Q by Q), W Q Q' (lower triangle, row by row), W
-/// Q z.
-struct CubicSums
-{
-  double qp[24];
-  double qq[10];
-  double rhs[4];
 };
 
 /// A height over the frame with ten terms, P and Q, and the row of the inverse normal matrix that gives k0.
@@ -175,8 +163,9 @@ struct FitKernels
 {
   /// Appends a row for each cell of @p block. Groups of cells beyond the radius may be left out.
   void (*appendRows)(const FitBlock& block, const FitView& view, FitRows& rows);
+  /// All sums but those of the cubic terms Q = (uuu, uuv, uvv, vvv), and these.
   void (*sumRows)(const FitRows& rows, FitSums& sums);
-  void (*sumCubicRows)(const FitRows& rows, CubicSums& sums);
+  void (*sumCubicRows)(const FitRows& rows, FitSums& sums);
   /// @param ra, rb gradient of the radius along a and b.
   void (*traceRows)(const FitRows& rows, const TracedFit& fit, double ra, double rb, TraceSums& sums);
   /// Indices of the points nearer to @p p than sqrt(@p radius2), ascending; at most @p most of them. @return

@@ -140,64 +140,6 @@ void appendRows(const FitBlock& block, const FitView& whole, FitRows& rows)
   rows.size = row;
 }
 
-/// Sums the terms P from @p First to before @p Last, as many as fit in registers; the last call adds the
-/// other sums.
-template <int First, int Last>
-inline void sumTermRows(const FitRows& rows, FitSums& sums)
-{
-  constexpr bool kIsLast = Last == 6;
-  constexpr int kSquares = (Last * (Last + 1) - First * (First + 1)) / 2;
-  // A group that is copied together begins with a pack: loads across two packs would wait until these are in
-  // memory.
-  constexpr int kRhs = simd::wholePacks(kSquares);
-  constexpr int kOthers = kRhs + Last - First;
-  constexpr int kSums = kOthers + (kIsLast ? 2 : 0);
-  const simd::LaneSums<kSums> to = simd::sumLanes<kSums>(rows.size,
-    [&](int i, Pack(&s)[kSums])
-    {
-      const Pack weight = load(rows.weight + i);
-      const Pack height = load(rows.height + i);
-      const double* const p[6] = { nullptr, rows.u + i, rows.v + i, rows.uu + i, rows.uv + i, rows.vv + i };
-      int at = 0;
-#pragma GCC unroll 6
-      for (int r = First; r < Last; ++r)
-      {
-        const Pack wp = r == 0 ? weight : weight * load(p[r]);
-        s[kRhs + r - First] += wp * height;
-        s[at++] += wp;
-#pragma GCC unroll 6
-        for (int c = 1; c <= r; ++c)
-        {
-          s[at++] += wp * load(p[c]);
-        }
-      }
-      if constexpr (kIsLast)
-      {
-        s[kOthers] += weight * height * height;
-        s[kOthers + 1] += weight > 0.0 ? simd::all(1.0) : simd::all(0.0);
-      }
-    });
-  for (int i = 0; i < kSquares; ++i)
-  {
-    sums.a[First * (First + 1) / 2 + i] = to[i];
-  }
-  for (int i = First; i < Last; ++i)
-  {
-    sums.rhs[i] = to[kRhs + i - First];
-  }
-  if constexpr (kIsLast)
-  {
-    sums.zz = to[kOthers];
-    sums.cells = to[kOthers + 1];
-  }
-}
-
-void sumRows(const FitRows& rows, FitSums& sums)
-{
-  sumTermRows<0, 4>(rows, sums);
-  sumTermRows<4, 6>(rows, sums);
-}
-
 /// Means over a cell of uuu, uuv, uvv and vvv, as far as its second moments determine them.
 inline void cubicTerms(
   const Pack& u, const Pack& v, const Pack& uu, const Pack& uv, const Pack& vv, Pack q[4])
@@ -210,67 +152,80 @@ inline void cubicTerms(
   q[3] = v * (3.0 * vv - twice(v * v));
 }
 
-/// Sums the cubic terms from @p First to before @p Last.
+/// Sums the terms from @p First to before @p Last, as many as fit in registers; those up to the last
+/// quadratic one add the other sums.
 template <int First, int Last>
-inline void sumSomeCubicRows(const FitRows& rows, CubicSums& sums)
+inline void sumTermRows(const FitRows& rows, FitSums& sums)
 {
-  constexpr int kTerms = Last - First;
-  constexpr int kSquares = (Last * (Last + 1) - First * (First + 1)) / 2;
-  constexpr int kQq = simd::wholePacks(6 * kTerms);
-  constexpr int kRhs = kQq + simd::wholePacks(kSquares);
-  constexpr int kSums = kRhs + kTerms;
+  constexpr bool kAddsOthers = Last == 6;
+  constexpr int kBegin = First * (First + 1) / 2;
+  constexpr int kSquares = Last * (Last + 1) / 2 - kBegin;
+  // A group that is copied together begins with a pack: loads across two packs would wait until these are in
+  // memory.
+  constexpr int kRhs = simd::wholePacks(kSquares);
+  constexpr int kOthers = kRhs + Last - First;
+  constexpr int kSums = kOthers + (kAddsOthers ? 2 : 0);
   const simd::LaneSums<kSums> to = simd::sumLanes<kSums>(rows.size,
     [&](int i, Pack(&s)[kSums])
     {
       const Pack weight = load(rows.weight + i);
-      const double* const p[5] = { rows.u + i, rows.v + i, rows.uu + i, rows.uv + i, rows.vv + i };
+      const Pack height = load(rows.height + i);
+      const double* const p[6] = { nullptr, rows.u + i, rows.v + i, rows.uu + i, rows.uv + i, rows.vv + i };
       Pack q[4];
-      cubicTerms(load(p[0]), load(p[1]), load(p[2]), load(p[3]), load(p[4]), q);
-      int at = kQq;
-#pragma GCC unroll 4
-      for (int r = 0; r < kTerms; ++r)
+      if constexpr (Last > 6)
       {
-        const Pack wq = weight * q[First + r];
-        s[kRhs + r] += wq * load(rows.height + i);
-        s[6 * r] += wq;
-#pragma GCC unroll 5
-        for (int c = 0; c < 5; ++c)
+        cubicTerms(load(p[1]), load(p[2]), load(p[3]), load(p[4]), load(p[5]), q);
+      }
+      int at = 0;
+#pragma GCC unroll 10
+      for (int r = First; r < Last; ++r)
+      {
+        const Pack wt = r == 0 ? weight : weight * (r < 6 ? load(p[r]) : q[r - 6]);
+        s[kRhs + r - First] += wt * height;
+        s[at++] += wt;
+#pragma GCC unroll 10
+        for (int c = 1; c <= r; ++c)
         {
-          s[6 * r + 1 + c] += wq * load(p[c]);
-        }
-#pragma GCC unroll 4
-        for (int c = 0; c <= First + r; ++c)
-        {
-          s[at++] += wq * q[c];
+          s[at++] += wt * (c < 6 ? load(p[c]) : q[c - 6]);
         }
       }
+      if constexpr (kAddsOthers)
+      {
+        s[kOthers] += weight * height * height;
+        s[kOthers + 1] += weight > 0.0 ? simd::all(1.0) : simd::all(0.0);
+      }
     });
-  for (int i = 0; i < 6 * kTerms; ++i)
-  {
-    sums.qp[6 * First + i] = to[i];
-  }
   for (int i = 0; i < kSquares; ++i)
   {
-    sums.qq[First * (First + 1) / 2 + i] = to[kQq + i];
+    sums.a[kBegin + i] = to[i];
   }
-  for (int i = 0; i < kTerms; ++i)
+  for (int i = First; i < Last; ++i)
   {
-    sums.rhs[First + i] = to[kRhs + i];
+    sums.rhs[i] = to[kRhs + i - First];
+  }
+  if constexpr (kAddsOthers)
+  {
+    sums.zz = to[kOthers];
+    sums.cells = to[kOthers + 1];
   }
 }
 
-void sumCubicRows(const FitRows& rows, CubicSums& sums)
+void sumRows(const FitRows& rows, FitSums& sums)
 {
-  sumSomeCubicRows<0, 1>(rows, sums);
-  sumSomeCubicRows<1, 2>(rows, sums);
-  sumSomeCubicRows<2, 3>(rows, sums);
-  sumSomeCubicRows<3, 4>(rows, sums);
+  sumTermRows<0, 4>(rows, sums);
+  sumTermRows<4, 6>(rows, sums);
+}
+
+void sumCubicRows(const FitRows& rows, FitSums& sums)
+{
+  sumTermRows<6, 7>(rows, sums);
+  sumTermRows<7, 8>(rows, sums);
+  sumTermRows<8, 9>(rows, sums);
+  sumTermRows<9, 10>(rows, sums);
 }
 
 void traceRows(const FitRows& rows, const TracedFit& fit, double ra, double rb, TraceSums& sums)
 {
-  const double* k = fit.k;
-  const double* x = fit.row;
   const simd::LaneSums<4> to = simd::sumLanes<4>(rows.size,
     [&](int i, Pack(&s)[4])
     {
@@ -284,32 +239,32 @@ void traceRows(const FitRows& rows, const TracedFit& fit, double ra, double rb, 
       const Pack cbn = load(rows.cbn + i);
       Pack q[4];
       cubicTerms(u, v, uu, uv, vv, q);
-      const Pack r = h -
-        (k[0] + k[1] * u + k[2] * v + k[3] * uu + k[4] * uv + k[5] * vv + k[6] * q[0] + k[7] * q[1] +
-          k[8] * q[2] + k[9] * q[3]);
-      const Pack reach = x[0] + x[1] * u + x[2] * v + x[3] * uu + x[4] * uv + x[5] * vv + x[6] * q[0] +
-        x[7] * q[1] + x[8] * q[2] + x[9] * q[3];
+      const auto height = [&](const double* k)
+      {
+        return k[0] + k[1] * u + k[2] * v + k[3] * uu + k[4] * uv + k[5] * vv + k[6] * q[0] + k[7] * q[1] +
+          k[8] * q[2] + k[9] * q[3];
+      };
+      const Pack r = h - height(fit.k);
+      const Pack reach = height(fit.row);
       // The turning frame changes the cell's terms: u gains h as it turns along a, v as it turns along b.
       const Pack uh = u * h + can;
       const Pack vh = v * h + cbn;
       const Pack uuh = uu * h + twice(u * can);
       const Pack uvh = uv * h + (u * cbn + v * can);
       const Pack vvh = vv * h + twice(v * cbn);
-      const Pack ka =
-        k[1] * h + k[3] * twice(uh) + k[4] * vh + k[6] * (3.0 * uuh) + k[7] * twice(uvh) + k[8] * vvh;
-      const Pack kb =
-        k[2] * h + k[4] * uh + k[5] * twice(vh) + k[7] * uuh + k[8] * twice(uvh) + k[9] * (3.0 * vvh);
-      const Pack xa =
-        x[1] * h + x[3] * twice(uh) + x[4] * vh + x[6] * (3.0 * uuh) + x[7] * twice(uvh) + x[8] * vvh;
-      const Pack xb =
-        x[2] * h + x[4] * uh + x[5] * twice(vh) + x[7] * uuh + x[8] * twice(uvh) + x[9] * (3.0 * vvh);
+      const auto alongA = [&](const double* k) {
+        return k[1] * h + k[3] * twice(uh) + k[4] * vh + k[6] * (3.0 * uuh) + k[7] * twice(uvh) + k[8] * vvh;
+      };
+      const auto alongB = [&](const double* k) {
+        return k[2] * h + k[4] * uh + k[5] * twice(vh) + k[7] * uuh + k[8] * twice(uvh) + k[9] * (3.0 * vvh);
+      };
       const Pack e = load(rows.e + i);
       const Pack moved = twice(load(rows.slopeWeight + i)) * r * reach;
       const Pack weight = load(rows.weight + i);
       s[0] += moved * (u + e * ra);
       s[1] += moved * (v + e * rb);
-      s[2] += weight * (r * xa - reach * ka);
-      s[3] += weight * (r * xb - reach * kb);
+      s[2] += weight * (r * alongA(fit.row) - reach * alongA(fit.k));
+      s[3] += weight * (r * alongB(fit.row) - reach * alongB(fit.k));
     });
   sums.moveA = to[0];
   sums.moveB = to[1];
@@ -388,8 +343,10 @@ double sweepBall(const BallPoints& points, const Vec3& from, const Vec3& directi
 void sumField(const FieldBlock& block, const Vec3& position, double reach, FieldSums& sums)
 {
   const double perReach2 = 1.0 / (reach * reach);
-  const simd::LaneSums<13> to = simd::sumLanes<13>(block.size,
-    [&](int i, Pack(&s)[13])
+  constexpr int kGradients = 1 + kFieldValues;
+  constexpr int kSums = kGradients + 6;
+  const simd::LaneSums<kSums> to = simd::sumLanes<kSums>(block.size,
+    [&](int i, Pack(&s)[kSums])
     {
       const Pack d[3] = { position.x - load(block.x + i), position.y - load(block.y + i),
         position.z - load(block.z + i) };
@@ -398,32 +355,28 @@ void sumField(const FieldBlock& block, const Vec3& position, double reach, Field
       const Pack base2 = base * base;
       const Pack weight = base2 * base;
       const Pack slope = base2 * (-6.0 * perReach2);
-      const Pack value = load(block.radius + i);
       s[0] += weight;
-      s[1] += weight * value;
-      s[2] += weight * load(block.gate + i);
-      s[3] += weight * load(block.countRadius + i);
-      s[4] += weight * load(block.proxyRadius + i);
-      s[5] += weight * load(block.cubic + i);
+#pragma GCC unroll 6
+      for (int v = 0; v < kFieldValues; ++v)
+      {
+        s[1 + v] += weight * load(block.values[v] + i);
+      }
 #pragma GCC unroll 3
       for (int axis = 0; axis < 3; ++axis)
       {
-        s[6 + axis] += slope * d[axis];
-        s[9 + axis] += slope * d[axis] * value;
+        s[kGradients + axis] += slope * d[axis];
+        s[kGradients + 3 + axis] += slope * d[axis] * load(block.values[0] + i);
       }
-      s[12] += weight * load(block.noise + i);
     });
   sums.weights = to[0];
-  sums.radius = to[1];
-  sums.gate = to[2];
-  sums.countRadius = to[3];
-  sums.proxyRadius = to[4];
-  sums.cubic = to[5];
-  sums.noise = to[12];
+  for (int v = 0; v < kFieldValues; ++v)
+  {
+    sums.values[v] = to[1 + v];
+  }
   for (int axis = 0; axis < 3; ++axis)
   {
-    sums.weightGradient[axis] = to[6 + axis];
-    sums.radiusGradient[axis] = to[9 + axis];
+    sums.weightGradient[axis] = to[kGradients + axis];
+    sums.radiusGradient[axis] = to[kGradients + 3 + axis];
   }
 }
 

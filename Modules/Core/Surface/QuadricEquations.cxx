@@ -23,95 +23,143 @@ constexpr double kCubicPivotTo = 1e-3;
 
 /// Solves L y = rhs.
 template <int N>
-inline void halfSolve(const double l[6][6], const double rhs[6], double y[6])
+inline void halfSolve(const FitFactor& f, const double* rhs, double y[10])
 {
-#pragma GCC unroll 6
+#pragma GCC unroll 10
   for (int i = 0; i < N; ++i)
   {
     double sum = rhs[i];
-#pragma GCC unroll 6
+#pragma GCC unroll 10
     for (int m = 0; m < i; ++m)
     {
-      sum -= l[i][m] * y[m];
+      sum -= f.l[i][m] * y[m];
     }
-    y[i] = sum * l[i][i];
+    y[i] = sum * f.l[i][i];
   }
 }
 
-/// Solves L' k = y.
-template <int N>
-inline void otherHalf(const double l[6][6], const double y[6], double k[6])
+/// Solves L' k = y for the unknowns from @p First to before @p Last.
+template <int First, int Last>
+inline void otherHalf(const FitFactor& f, const double y[10], double* k)
 {
-#pragma GCC unroll 6
-  for (int i = N - 1; i >= 0; --i)
+#pragma GCC unroll 10
+  for (int i = Last - 1; i >= First; --i)
   {
     double sum = y[i];
-#pragma GCC unroll 6
-    for (int m = i + 1; m < N; ++m)
+#pragma GCC unroll 10
+    for (int m = i + 1; m < Last; ++m)
     {
-      sum -= l[m][i] * k[m];
+      sum -= f.l[m][i] * k[m];
     }
-    k[i] = sum * l[i][i];
+    k[i] = sum * f.l[i][i];
   }
 }
 
-template <int N>
-inline bool factorLeading(const simd::FitSums& sums, double l[6][6])
+/// Factors the rows from @p First to before @p Last. @p isUsable is asked about each pivot and its diagonal.
+template <int First, int Last, typename IsUsable>
+inline bool factorRows(const simd::FitSums& sums, FitFactor& f, const IsUsable& isUsable)
 {
-#pragma GCC unroll 6
-  for (int i = 0; i < N; ++i)
+#pragma GCC unroll 10
+  for (int i = First; i < Last; ++i)
   {
     const double* row = sums.a + i * (i + 1) / 2;
-#pragma GCC unroll 6
+#pragma GCC unroll 10
     for (int j = 0; j <= i; ++j)
     {
       double sum = row[j];
-#pragma GCC unroll 6
+#pragma GCC unroll 10
       for (int m = 0; m < j; ++m)
       {
-        sum -= l[i][m] * l[j][m];
+        sum -= f.l[i][m] * f.l[j][m];
       }
       if (i != j)
       {
-        l[i][j] = sum * l[j][j];
+        f.l[i][j] = sum * f.l[j][j];
         continue;
       }
-      // The test is negated, so that NaN fails too.
-      if (!(sum > kPivotTolerance * row[i]))
+      if (!isUsable(sum, row[i]))
       {
         return false;
       }
-      l[i][i] = 1.0 / std::sqrt(sum);
+      f.l[i][i] = 1.0 / std::sqrt(sum);
     }
   }
+  f.terms = Last;
   return true;
 }
 
 }
 
-bool factor(const simd::FitSums& sums, int n, double l[6][6]) noexcept
+bool factor(const simd::FitSums& sums, int terms, FitFactor& factor) noexcept
 {
-  return n == 6 ? factorLeading<6>(sums, l) : factorLeading<3>(sums, l);
+  // False for NaN, too.
+  const auto isUsable = [](double pivot, double diagonal) { return pivot > kPivotTolerance * diagonal; };
+  return terms == 6 ? factorRows<0, 6>(sums, factor, isUsable) : factorRows<0, 3>(sums, factor, isUsable);
 }
 
-void backSolve(const double l[6][6], int n, const double rhs[6], double k[6]) noexcept
+void addCubicTerms(const simd::FitSums& sums, double weight, FitFactor& factor) noexcept
 {
-  double y[6];
-  if (n == 6)
+  factor.cubicWeight = weight;
+  factorRows<6, 10>(sums, factor,
+    [&factor](double sum, double diagonal)
+    {
+      // NaN gives zero, too.
+      const double pivot = sum > kCubicPivotFrom * diagonal ? sum / diagonal : 0.0;
+      const double t = std::clamp((pivot - kCubicPivotFrom) / (kCubicPivotTo - kCubicPivotFrom), 0.0, 1.0);
+      factor.cubicWeight *= t * t * (3.0 - 2.0 * t);
+      return true;
+    });
+}
+
+void solve(const FitFactor& factor, const double* rhs, double* x) noexcept
+{
+  double y[10];
+  if (factor.terms == 3)
   {
-    halfSolve<6>(l, rhs, y);
-    otherHalf<6>(l, y, k);
+    halfSolve<3>(factor, rhs, y);
+    otherHalf<0, 3>(factor, y, x);
+    return;
+  }
+  if (factor.terms == 10 && factor.cubicWeight > 0.0)
+  {
+    halfSolve<10>(factor, rhs, y);
+    otherHalf<6, 10>(factor, y, x);
+#pragma GCC unroll 4
+    for (int i = 6; i < 10; ++i)
+    {
+      x[i] *= factor.cubicWeight;
+#pragma GCC unroll 6
+      for (int n = 0; n < 6; ++n)
+      {
+        y[n] -= factor.l[i][n] * x[i];
+      }
+    }
   }
   else
   {
-    halfSolve<3>(l, rhs, y);
-    otherHalf<3>(l, y, k);
+    halfSolve<6>(factor, rhs, y);
+    std::fill(x + 6, x + factor.terms, 0.0);
   }
+  otherHalf<0, 6>(factor, y, x);
 }
 
-void errorsOf(const simd::FitRows& rows, const simd::FitSums& sums, const double inverse[3][10], int terms,
-  double residual, double rho, SurfaceFitError& error) noexcept
+void inverseRow(const FitFactor& factor, int term, double row[10]) noexcept
 {
+  double unit[10] = {};
+  unit[term] = 1.0;
+  std::fill(row, row + 10, 0.0);
+  solve(factor, unit, row);
+}
+
+void errorsOf(const simd::FitRows& rows, const simd::FitSums& sums, const FitFactor& factor, double residual,
+  double rho, SurfaceFitError& error) noexcept
+{
+  const int terms = factor.terms;
+  double inverse[3][10];
+  for (int i = 0; i < 3; ++i)
+  {
+    inverseRow(factor, i, inverse[i]);
+  }
   double variances[3] = { 0.0, 0.0, 0.0 };
   double perPoint = 0.0;
   double all = 0.0;
@@ -152,108 +200,6 @@ void errorsOf(const simd::FitRows& rows, const simd::FitSums& sums, const double
   {
     error.standardError[i] = std::sqrt(variances[i]) / (i == 0 ? 1.0 : rho);
   }
-}
-
-CubicFactor factorCubic(const simd::CubicSums& cubic, const double l[6][6], double cubicWeight) noexcept
-{
-  CubicFactor factor;
-  factor.weight = cubicWeight;
-#pragma GCC unroll 4
-  for (int i = 0; i < 4; ++i)
-  {
-    const double* row = cubic.qq + i * (i + 1) / 2;
-    halfSolve<6>(l, cubic.qp + 6 * i, factor.half[i]);
-#pragma GCC unroll 4
-    for (int j = 0; j <= i; ++j)
-    {
-      double sum = row[j];
-#pragma GCC unroll 6
-      for (int n = 0; n < 6; ++n)
-      {
-        sum -= factor.half[i][n] * factor.half[j][n];
-      }
-#pragma GCC unroll 6
-      for (int n = 0; n < j; ++n)
-      {
-        sum -= factor.m[i][n] * factor.m[j][n];
-      }
-      if (i != j)
-      {
-        factor.m[i][j] = sum * factor.m[j][j];
-        continue;
-      }
-      // NaN gives zero, too.
-      const double pivot = sum > kCubicPivotFrom * row[i] ? sum / row[i] : 0.0;
-      const double t = std::clamp((pivot - kCubicPivotFrom) / (kCubicPivotTo - kCubicPivotFrom), 0.0, 1.0);
-      factor.weight *= t * t * (3.0 - 2.0 * t);
-      factor.m[i][i] = 1.0 / std::sqrt(sum);
-    }
-  }
-  return factor;
-}
-
-void solveCubic(const CubicFactor& factor, const double l[6][6], const double p[6], const double q[4],
-  double x[10]) noexcept
-{
-  double y[6];
-  halfSolve<6>(l, p, y);
-  if (factor.weight > 0.0)
-  {
-    double z[4];
-#pragma GCC unroll 6
-    for (int i = 0; i < 4; ++i)
-    {
-      double sum = q[i];
-#pragma GCC unroll 6
-      for (int n = 0; n < 6; ++n)
-      {
-        sum -= factor.half[i][n] * y[n];
-      }
-#pragma GCC unroll 6
-      for (int n = 0; n < i; ++n)
-      {
-        sum -= factor.m[i][n] * z[n];
-      }
-      z[i] = sum * factor.m[i][i];
-    }
-#pragma GCC unroll 6
-    for (int i = 3; i >= 0; --i)
-    {
-#pragma GCC unroll 6
-      for (int n = i + 1; n < 4; ++n)
-      {
-        z[i] -= factor.m[n][i] * z[n];
-      }
-      z[i] *= factor.m[i][i];
-    }
-#pragma GCC unroll 6
-    for (int i = 0; i < 4; ++i)
-    {
-      x[6 + i] = factor.weight * z[i];
-#pragma GCC unroll 6
-      for (int n = 0; n < 6; ++n)
-      {
-        y[n] -= factor.half[i][n] * x[6 + i];
-      }
-    }
-  }
-  else
-  {
-    std::fill(x + 6, x + 10, 0.0);
-  }
-  otherHalf<6>(l, y, x);
-}
-
-simd::TracedFit withCubicTerms(
-  const simd::FitSums& sums, const simd::CubicSums& cubic, const double l[6][6], double cubicWeight) noexcept
-{
-  const CubicFactor factor = factorCubic(cubic, l, cubicWeight);
-  const double unit[6] = { 1.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
-  const double none[4] = { 0.0, 0.0, 0.0, 0.0 };
-  simd::TracedFit fit;
-  solveCubic(factor, l, sums.rhs, cubic.rhs, fit.k);
-  solveCubic(factor, l, unit, none, fit.row);
-  return fit;
 }
 
 void traceSlopes(const simd::TraceSums& sums, double strength, SurfaceFit& fit) noexcept

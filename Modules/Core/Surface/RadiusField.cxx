@@ -107,12 +107,10 @@ LocalScale RadiusField::at(
       const double weight = base * base * base;
       const Vec3 gradient = (-6.0 * base * base * perReach2) * (position - node.mean);
       sums.weights += weight;
-      sums.radius += weight * values_[i].radius;
-      sums.gate += weight * values_[i].gate;
-      sums.countRadius += weight * values_[i].countRadius;
-      sums.proxyRadius += weight * values_[i].proxyRadius;
-      sums.noise += weight * values_[i].noise;
-      sums.cubic += weight * values_[i].cubic;
+      for (int v = 0; v < simd::kFieldValues; ++v)
+      {
+        sums.values[v] += weight * (values_[i].*kScaleValues[v]);
+      }
       for (int axis = 0; axis < 3; ++axis)
       {
         sums.weightGradient[axis] += gradient[axis];
@@ -150,12 +148,10 @@ bool RadiusField::gather(
       block.y[at] = place.y;
       block.z[at] = place.z;
       block.present[at] = 1.0;
-      block.radius[at] = values_[i].radius;
-      block.gate[at] = values_[i].gate;
-      block.countRadius[at] = values_[i].countRadius;
-      block.proxyRadius[at] = values_[i].proxyRadius;
-      block.noise[at] = values_[i].noise;
-      block.cubic[at] = values_[i].cubic;
+      for (int v = 0; v < simd::kFieldValues; ++v)
+      {
+        block.values[v][at] = values_[i].*kScaleValues[v];
+      }
     });
   return fits;
 }
@@ -168,13 +164,16 @@ LocalScale RadiusField::scaleFrom(const simd::FieldSums& sums, Vec3& radiusGradi
     return typical_;
   }
   const double per = 1.0 / sums.weights;
-  const double radius = sums.radius * per;
+  LocalScale scale;
+  for (int v = 0; v < simd::kFieldValues; ++v)
+  {
+    scale.*kScaleValues[v] = sums.values[v] * per;
+  }
   for (int axis = 0; axis < 3; ++axis)
   {
-    radiusGradient[axis] = (sums.radiusGradient[axis] - radius * sums.weightGradient[axis]) * per;
+    radiusGradient[axis] = (sums.radiusGradient[axis] - scale.radius * sums.weightGradient[axis]) * per;
   }
-  return { radius, sums.gate * per, sums.countRadius * per, sums.proxyRadius * per, sums.noise * per,
-    sums.cubic * per };
+  return scale;
 }
 
 } // namespace pointhaptics

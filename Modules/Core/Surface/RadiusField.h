@@ -6,6 +6,7 @@
 #include "Core/Surface/CellPyramid.h"
 #include "Core/Surface/FitKernel.h"
 
+#include <iterator>
 #include <vector>
 
 namespace pointhaptics
@@ -21,6 +22,11 @@ struct LocalScale
   double noise = 0.0;       ///< Standard deviation of the points about the surface.
   double cubic = 0.0;       ///< Weight of the fit's cubic terms, 0 to 1.
 };
+
+/// The values of a field in the order of FieldBlock.
+constexpr double LocalScale::*kScaleValues[] = { &LocalScale::radius, &LocalScale::gate,
+  &LocalScale::countRadius, &LocalScale::proxyRadius, &LocalScale::noise, &LocalScale::cubic };
+static_assert(std::size(kScaleValues) == simd::kFieldValues);
 
 /// Scale of a cloud that is @p factor times as large.
 LocalScale scaled(LocalScale scale, double factor);

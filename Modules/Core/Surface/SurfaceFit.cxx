@@ -91,41 +91,50 @@ void collectRows(
   }
 }
 
-/// Solves the fit of the rows; @p terms receives the number of its coefficients, @p l the factor.
-SurfaceFit solve(const simd::FitSums& sums, double radius, double l[6][6], int& terms)
+/// Sums the rows of a fit and solves it; the factor has no terms where the fit has no quality.
+SurfaceFit solvedFit(FitCells& memory, double radius, simd::FitSums& sums, FitFactor& f)
 {
+  memory.kernels().sumRows(memory.rows(), sums);
   SurfaceFit fit;
   fit.radius = radius;
   fit.cells = int(sums.cells);
-  terms = 0;
   if (fit.cells < 3 || !(sums.a[0] > 0.0))
   {
     return fit;
   }
   fit.centroidU = sums.a[1] / sums.a[0];
   fit.centroidV = sums.a[3] / sums.a[0];
-  if (fit.cells >= kFewestCellsForQuadric && factor(sums, 6, l))
+  if (fit.cells >= kFewestCellsForQuadric && factor(sums, 6, f))
   {
-    terms = 6;
     fit.quality = FitQuality::Quadric;
   }
-  else if (factor(sums, 3, l))
+  else if (factor(sums, 3, f))
   {
-    terms = 3;
     fit.quality = FitQuality::Plane;
   }
   else
   {
     return fit;
   }
-  backSolve(l, terms, sums.rhs, fit.k);
+  solve(f, sums.rhs, fit.k);
   double explained = 0.0;
-  for (int i = 0; i < terms; ++i)
+  for (int i = 0; i < f.terms; ++i)
   {
     explained += fit.k[i] * sums.rhs[i];
   }
   fit.residual = std::sqrt(std::max(0.0, (sums.zz - explained) / sums.a[0])) * radius;
   return fit;
+}
+
+/// Solves a quadric again with cubic terms. @p k receives all ten.
+void solveCubic(
+  FitCells& memory, double weight, simd::FitSums& sums, FitFactor& f, double k[10], SurfaceFit& fit)
+{
+  memory.kernels().sumCubicRows(memory.rows(), sums);
+  addCubicTerms(sums, weight, f);
+  solve(f, sums.rhs, k);
+  std::copy(k, k + 6, fit.k);
+  std::copy(k + 6, k + 10, fit.cubic);
 }
 
 }
@@ -135,20 +144,16 @@ SurfaceFit fitSurface(const CellPyramid& pyramid, const SurfaceFrame& frame, con
 {
   collectRows(pyramid, frame, settings, memory);
   simd::FitSums sums;
-  memory.kernels().sumRows(memory.rows(), sums);
-  double l[6][6];
-  int terms = 0;
-  SurfaceFit fit = solve(sums, settings.radius, l, terms);
+  FitFactor f;
+  SurfaceFit fit = solvedFit(memory, settings.radius, sums, f);
   const double cubicWeight = slopes ? std::max(slopes->strength, slopes->cubic) : 0.0;
-  if (cubicWeight > 0.0 && terms == 6)
+  if (cubicWeight > 0.0 && f.terms == 6)
   {
-    simd::CubicSums cubic;
-    memory.kernels().sumCubicRows(memory.rows(), cubic);
-    const simd::TracedFit traced = withCubicTerms(sums, cubic, l, cubicWeight);
-    std::copy(traced.k, traced.k + 6, fit.k);
-    std::copy(traced.k + 6, traced.k + 10, fit.cubic);
+    simd::TracedFit traced;
+    solveCubic(memory, cubicWeight, sums, f, traced.k, fit);
     if (slopes->strength > 0.0)
     {
+      inverseRow(f, 0, traced.row);
       simd::TraceSums trace;
       memory.kernels().traceRows(memory.rows(), traced, dot(slopes->radiusGradient, frame.a),
         dot(slopes->radiusGradient, frame.b), trace);
@@ -164,43 +169,22 @@ SurfaceFit fitSurface(const CellPyramid& pyramid, const SurfaceFrame& frame, con
   error = SurfaceFitError();
   collectRows(pyramid, frame, settings, memory);
   simd::FitSums sums;
-  memory.kernels().sumRows(memory.rows(), sums);
-  double l[6][6];
-  int terms = 0;
-  SurfaceFit fit = solve(sums, settings.radius, l, terms);
-  double inverse[3][10] = {};
-  for (int i = 0; i < 3 && terms > 0; ++i)
+  FitFactor f;
+  SurfaceFit fit = solvedFit(memory, settings.radius, sums, f);
+  if (cubic && f.terms == 6)
   {
-    double unit[6] = {};
-    unit[i] = 1.0;
-    backSolve(l, terms, unit, inverse[i]);
-  }
-  if (cubic && terms == 6)
-  {
-    simd::CubicSums cubicSums;
-    memory.kernels().sumCubicRows(memory.rows(), cubicSums);
-    const CubicFactor factor = factorCubic(cubicSums, l, 1.0);
-    if (factor.weight < 1.0)
+    SurfaceFit quadric = fit;
+    double k[10];
+    solveCubic(memory, 1.0, sums, f, k, fit);
+    if (f.cubicWeight < 1.0)
     {
-      fit.quality = FitQuality::Plane;
-      return fit;
+      quadric.quality = FitQuality::Plane;
+      return quadric;
     }
-    double x[10];
-    solveCubic(factor, l, sums.rhs, cubicSums.rhs, x);
-    std::copy(x, x + 6, fit.k);
-    std::copy(x + 6, x + 10, fit.cubic);
-    const double none[4] = { 0.0, 0.0, 0.0, 0.0 };
-    for (int i = 0; i < 3; ++i)
-    {
-      double unit[6] = {};
-      unit[i] = 1.0;
-      solveCubic(factor, l, unit, none, inverse[i]);
-    }
-    terms = 10;
   }
-  if (terms > 0)
+  if (f.terms > 0)
   {
-    errorsOf(memory.rows(), sums, inverse, terms, fit.residual, settings.radius, error);
+    errorsOf(memory.rows(), sums, f, fit.residual, settings.radius, error);
   }
   return fit;
 }
