@@ -119,13 +119,11 @@ double medianOf(std::vector<float>& values)
 
 int chosenNeighbors(const NeighborQuery& query, const LocalShapeSettings& settings)
 {
-  if (settings.numberOfNeighbors > 0)
-  {
-    return settings.numberOfNeighbors;
-  }
+  // A few neighbours that are apart reach as far as many that are close.
+  const bool isAsked = settings.pixel > 0.0 && !(settings.apart > 0.0);
   std::vector<float> spacings;
   const std::int64_t step = 1 + query.size() / kSample;
-  for (std::int64_t slot = 0; settings.pixel > 0.0 && slot < query.size(); slot += step)
+  for (std::int64_t slot = 0; isAsked && slot < query.size(); slot += step)
   {
     Neighbor neighbors[9];
     const int count = query.nearest(query.point(slot), 9, neighbors);
@@ -399,10 +397,7 @@ LocalShape collect(const PointView& cloud, const NeighborQuery& query, const Thi
 Status measureLocalShape(const PointView& cloud, const NeighborQuery& query,
   const LocalShapeSettings& settings, LocalShape& shape, const Executor& executor, ProgressObserver* observer)
 {
-  if ((settings.numberOfNeighbors != 0 &&
-        (settings.numberOfNeighbors < LocalShapeSettings::kFewest ||
-          settings.numberOfNeighbors > LocalShapeSettings::kMost)) ||
-    !(settings.apart >= 0.0) || !std::isfinite(settings.apart))
+  if (!(settings.apart >= 0.0) || !std::isfinite(settings.apart))
   {
     return Status::InvalidParameter;
   }

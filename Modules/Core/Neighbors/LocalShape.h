@@ -49,10 +49,9 @@ struct LocalShapeSettings
 {
   static constexpr int kFewest = 16;
   static constexpr int kMost = 48;
-  /// Neighbours of a point, kFewest to kMost; 0: kFewest, or as many as a disc of five pixels' radius holds
-  /// where those are more than 24.
-  int numberOfNeighbors = 0;
-  /// Edge of a pixel in the unit of the coordinates, for that choice; 0: not known.
+  /// Edge of a pixel in the unit of the coordinates; 0: not known. kFewest neighbours are looked at, or as
+  /// many as a disc of five pixels' radius holds where those are more than 24, up to kMost; kFewest in any
+  /// case where points are apart.
   double pixel = 0.0;
   /// 0: all points are measured. Else points within this distance of each other, in the unit of the
   /// coordinates, share the shape of one of them, whose neighbours are others that are measured; but spacing

@@ -113,9 +113,7 @@ bool measureCloud(const PointView& cloud, const CloudOrientation& orientation,
   settings.pixel = std::max({ extent.x, extent.y, extent.z }) / kUsualHeight;
   if (cloud.size() > kAllMeasured)
   {
-    // A few neighbours that are apart reach as far as many that are close.
     settings.apart = kSharedPixels * settings.pixel;
-    settings.numberOfNeighbors = LocalShapeSettings::kFewest;
   }
   LocalShape& shape = measured.shape;
   if (measureLocalShape(cloud, measured.query, settings, shape, executor, observer) != Status::Ok)

@@ -188,7 +188,7 @@ TEST(LocalShape, SeesTheNoiseOfASurface)
       p.z = sigma * random.normal();
     }
     LocalShapeSettings settings;
-    settings.numberOfNeighbors = 48;
+    settings.pixel = 100.0; // 48 neighbours
     const LocalShape shape = measured(points, settings);
     EXPECT_NEAR(shape.noise * shape.medianSpacing, sigma, 0.2 * sigma);
   }
@@ -276,9 +276,6 @@ TEST(LocalShape, OfFewOrNoPointsIsLeftOpen)
   LocalShape none;
   EXPECT_EQ(measureLocalShape({}, NeighborQuery(), {}, none), Status::Empty);
   LocalShapeSettings settings;
-  settings.numberOfNeighbors = 3;
-  EXPECT_EQ(measureLocalShape({}, NeighborQuery(), settings, none), Status::InvalidParameter);
-  settings.numberOfNeighbors = 0;
   settings.apart = -1.0;
   EXPECT_EQ(measureLocalShape({}, NeighborQuery(), settings, none), Status::InvalidParameter);
 }
