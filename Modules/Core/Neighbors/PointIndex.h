@@ -10,6 +10,7 @@
 #include "Core/Base/PointView.h"
 #include "Core/Base/ProgressObserver.h"
 #include "Core/Base/Status.h"
+#include "Core/Neighbors/SpatialOrder.h"
 
 #include <cstdint>
 #include <vector>
@@ -17,14 +18,14 @@
 namespace pointhaptics
 {
 
-/// A copy of the finite points of a cloud, sorted into bricks with bounds.
+/// A copy of the finite points of a cloud in spatial order, in bricks with bounds.
 /// Memory: the coordinates again and 4 bytes a point (16 for floats). Immutable after build(); any number of
 /// threads may read it.
 class PointIndex
 {
 public:
   /// Most points of an index; for more it is not built.
-  static constexpr std::int64_t kMostPoints = (std::int64_t(1) << 32) - 1;
+  static constexpr std::int64_t kMostPoints = kMostOrderedPoints;
 
   /// @return InvalidParameter for more than kMostPoints; Empty when no point is finite; Aborted where
   /// @p observer aborted the work: the index is then empty.
@@ -34,7 +35,7 @@ public:
   std::vector<PointRange> rangesInside(
     const AffineTransform& transform, const Lattice& lattice, const Executor& executor = {}) const;
 
-  /// The finite points, brick by brick.
+  /// The finite points in the order of SpatialOrder.h.
   PointView points() const;
   /// The index in the cloud of each point of points().
   const std::uint32_t* originals() const { return originals_.data(); }
@@ -44,35 +45,19 @@ public:
 
 private:
   bool staysFinite(const AffineTransform& transform) const;
-  // The steps of build(); false: aborted.
-  Status sort(const PointView& points, const Executor& executor, PointProgress& progress);
-  /// Turns the counts, slice after slice in @p places, into the place of each slice's first point of a cell.
-  void assignPlaces(std::vector<std::uint32_t>& places, std::size_t cellCount);
+  /// Copies the points and bounds the bricks. @return false: aborted.
   template <typename Real>
-  bool fill(const PointView& points, const std::vector<std::uint32_t>& bricks,
-    std::vector<std::uint32_t>& places, Buffer<Real>& copy, const Executor& executor,
-    PointProgress& progress);
-  bool bound(const Executor& executor, PointProgress& progress);
+  bool fill(const PointView& points, Buffer<Real>& copy, const Executor& executor, PointProgress& progress);
+  /// Points of a brick.
+  PointRange pointsOf(std::size_t brick) const;
 
   std::int64_t cloudSize_ = 0;
   std::int64_t size_ = 0;
   bool single_ = false;
   Buffer<float> floats_;
   Buffer<double> doubles_;
-  Buffer<std::uint32_t> originals_;
-  /// Bounds: their middle and half their extent.
-  struct Box
-  {
-    double middle[3];
-    double half[3];
-  };
-  class BoxTest;
-  void appendRanges(const BoxTest& test, std::size_t group, std::vector<PointRange>& ranges) const;
-
-  // Begin of each brick with points (and an end), and its bounds.
-  std::vector<std::int64_t> begins_;
-  std::vector<Box> boxes_;
-  std::vector<Box> groups_; ///< The bounds of so many bricks each that follow each other.
+  std::vector<std::uint32_t> originals_;
+  std::vector<Bounds> bricks_;
   double farthest_[3] = {}; ///< Largest absolute coordinates.
 };
 

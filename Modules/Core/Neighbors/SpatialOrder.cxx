@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 
 namespace pointhaptics
 {
@@ -15,8 +16,10 @@ using Entry = std::uint64_t;
 
 constexpr int kBitsPerAxis = 10;
 constexpr double kCellsPerAxis = 1 << kBitsPerAxis;
+/// Above all keys.
+constexpr std::uint32_t kNoKey = ~0u;
 /// Points processed together.
-constexpr std::int64_t kBlock = 4096;
+constexpr std::int64_t kBlock = 1024;
 /// Fewer entries are sorted by comparing them.
 constexpr std::int64_t kSmallSort = 2048;
 
@@ -108,10 +111,14 @@ public:
   std::vector<std::uint32_t> order()
   {
     const Bounds box = survey();
+    entries_.resize(std::size_t(points_.size()));
     spare_.resize(entries_.size());
     fill(Grid(box));
-    const std::int64_t count = std::int64_t(entries_.size());
-    sortRun({ 0, count });
+    sortRun({ 0, points_.size() });
+    const auto none = std::partition_point(
+      entries_.begin(), entries_.end(), [](Entry entry) { return keyOf(entry) != kNoKey; });
+    entries_.resize(std::size_t(none - entries_.begin()));
+    const auto count = std::int64_t(entries_.size());
     // The points of overfull cells, recursively.
     collectOverfullCells({ 0, count });
     while (!overfull_.empty())
@@ -133,82 +140,57 @@ private:
     std::int64_t begin;
     std::int64_t end;
   };
-  struct Block
+  /// @return the bounds of the finite points.
+  Bounds survey() const
   {
+    std::mutex mutex;
     Bounds box;
-    std::int64_t count = 0;
-    std::int64_t first = 0;
-  };
-
-  template <typename Function>
-  void forBlocks(Function&& function)
-  {
-    forRange(executor_, std::int64_t(blocks_.size()), 1,
+    forRange(executor_, points_.size(),
       [&](std::int64_t begin, std::int64_t end)
       {
-        for (std::int64_t b = begin; b < end; ++b)
-        {
-          function(blocks_[std::size_t(b)], b * kBlock, std::min(points_.size(), (b + 1) * kBlock));
-        }
-      });
-  }
-
-  /// Counts the finite points, block by block, and makes room for them. @return their bounds.
-  Bounds survey()
-  {
-    blocks_.resize(std::size_t((points_.size() + kBlock - 1) / kBlock));
-    forBlocks(
-      [this](Block& block, std::int64_t begin, std::int64_t end)
-      {
+        Bounds own;
         for (std::int64_t i = begin; i < end; ++i)
         {
           const Vec3 p = points_[i];
           if (isFinite(p))
           {
-            block.box.include(p);
-            ++block.count;
+            own.include(p);
           }
         }
+        const std::lock_guard<std::mutex> lock(mutex);
+        box.include(own.minimum);
+        box.include(own.maximum);
       });
-    Bounds box;
-    std::int64_t count = 0;
-    for (Block& block : blocks_)
-    {
-      block.first = count;
-      count += block.count;
-      if (block.count > 0)
-      {
-        box.include(block.box.minimum);
-        box.include(block.box.maximum);
-      }
-    }
-    entries_.resize(std::size_t(count));
     return box;
   }
 
+  /// Points that are not finite get a key behind all others.
   void fill(const Grid& grid)
   {
-    forBlocks(
-      [&](Block& block, std::int64_t begin, std::int64_t end)
+    forRange(executor_, points_.size(),
+      [&](std::int64_t begin, std::int64_t end)
       {
         std::uint32_t cells[3][kBlock];
-        std::uint32_t indices[kBlock];
-        std::int64_t filled = 0;
-        for (std::int64_t i = begin; i < end; ++i)
+        std::uint32_t noKey[kBlock];
+        for (; begin < end; begin += kBlock)
         {
-          const Vec3 p = points_[i];
-          if (isFinite(p))
+          const std::int64_t count = std::min(kBlock, end - begin);
+          for (std::int64_t i = 0; i < count; ++i)
           {
-            cells[0][filled] = grid.cell(p.x, 0);
-            cells[1][filled] = grid.cell(p.y, 1);
-            cells[2][filled] = grid.cell(p.z, 2);
-            indices[filled++] = std::uint32_t(i);
+            const Vec3 p = points_[begin + i];
+            const bool isPlace = isFinite(p);
+            noKey[i] = isPlace ? 0 : kNoKey;
+            for (int axis = 0; axis < 3; ++axis)
+            {
+              cells[axis][i] = isPlace ? grid.cell(p[axis], axis) : 0;
+            }
           }
-        }
-        Entry* const to = entries_.data() + block.first;
-        for (std::int64_t i = 0; i < filled; ++i)
-        {
-          to[i] = Entry(hilbertKey(cells[0][i], cells[1][i], cells[2][i])) << 32 | indices[i];
+          Entry* const to = entries_.data() + begin;
+          for (std::int64_t i = 0; i < count; ++i)
+          {
+            to[i] = Entry(hilbertKey(cells[0][i], cells[1][i], cells[2][i]) | noKey[i]) << 32 |
+              std::uint32_t(begin + i);
+          }
         }
       });
   }
@@ -276,7 +258,6 @@ private:
   const PointView& points_;
   const std::int64_t mostPerCell_;
   const Executor& executor_;
-  std::vector<Block> blocks_;
   std::vector<Entry> entries_;
   std::vector<Entry> spare_;
   std::vector<Run> overfull_;
