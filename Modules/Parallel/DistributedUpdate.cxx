@@ -5,7 +5,7 @@
 #include "FieldPoses.h"
 
 #include "Core/Distributed/FarPoints.h"
-#include "Core/Resample/VoxelMean.h"
+#include "Core/Resample/TransformedBounds.h"
 
 #include "vtkAbstractTransform.h"
 #include "vtkDataArray.h"
