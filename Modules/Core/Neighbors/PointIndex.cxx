@@ -226,7 +226,7 @@ template <typename Real>
 bool PointIndex::fill(const PointView& points, const std::vector<std::uint32_t>& cells,
   std::vector<std::uint32_t>& places, Buffer<Real>& copy, const Executor& executor, PointProgress& progress)
 {
-  copy.reserve(3 * std::size_t(size_), Pages::Huge);
+  copy.reserve(3 * std::size_t(size_));
   const Slices slices(points.size(), executor);
   const std::size_t cellCount = places.size() / slices.count();
   return slices.pass(progress,
