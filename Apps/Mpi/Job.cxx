@@ -3,14 +3,12 @@
 #include "Terminal/CommandLine.h"
 #include "Terminal/Messages.h"
 
-#include <fmt/format.h>
 #include <vtkMPIController.h>
 
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
 #include <string>
-#include <vector>
 
 namespace pointhaptics::app
 {
@@ -62,19 +60,14 @@ void Job::attempt(const std::function<void()>& work)
   {
     problem = failure.what();
   }
-  const std::vector<std::string> problems = ranks_.gather(problem);
-  const auto first =
-    std::find_if(problems.begin(), problems.end(), [](const std::string& text) { return !text.empty(); });
-  if (first == problems.end())
+  problem = firstMessage(ranks_, problem);
+  if (problem.empty())
   {
     return;
   }
-  const bool isEverywhere =
-    std::all_of(problems.begin(), problems.end(), [&](const std::string& text) { return text == *first; });
   if (this->isRoot())
   {
-    fail(isEverywhere ? *first
-                      : fmt::format("rank {} of {}: {}", first - problems.begin(), ranks_.size(), *first));
+    fail(problem);
   }
   throw EndOfJob();
 }

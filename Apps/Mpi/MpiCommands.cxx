@@ -30,11 +30,6 @@ namespace pointhaptics::app
 namespace
 {
 
-std::int64_t sumOf(Job& job, std::int64_t ofRank)
-{
-  return job.ranks().reduce(ofRank, [](std::int64_t a, std::int64_t b) { return a + b; });
-}
-
 /// Writes a file for each rank with points, and the list of them.
 void writePerRank(Job& job, const std::string& fileName, vtkPolyData* piece, Files& files)
 {
@@ -151,7 +146,7 @@ struct RankRun
     {
       return;
     }
-    const std::int64_t sentByAll = sumOf(job, bytesSent);
+    const std::int64_t sentByAll = job.ranks().sum(bytesSent);
     const std::int64_t mostRead =
       job.ranks().reduce(bytesRead, [](std::int64_t a, std::int64_t b) { return std::max(a, b); });
     if (job.isRoot())
@@ -165,16 +160,13 @@ struct RankRun
 /// Writes the index by rank 0, which gathers the rows: pieces of IN are in its order.
 void writeIndex(Job& job, CsvWriter& file, vtkVoxelMeanResampler* resampler)
 {
-  std::vector<std::string> messages(std::size_t(job.ranks().size()));
-  messages.front() = bytesOfValues(voxelIndexOf(resampler));
-  messages = job.ranks().exchange(std::move(messages));
+  std::vector<std::vector<std::int64_t>> rows(std::size_t(job.ranks().size()));
+  rows.front() = voxelIndexOf(resampler);
+  const std::vector<std::int64_t> all = job.ranks().exchangeValues(rows); // none but on rank 0
   job.attempt(
     [&]
     {
-      for (const std::string& bytes : job.isRoot() ? messages : std::vector<std::string>())
-      {
-        addVoxelIndex(valuesOfBytes<std::int64_t>(bytes), file);
-      }
+      addVoxelIndex(all, file);
       std::string problem;
       require(!job.isRoot() || file.commit(problem), problem);
     });
@@ -202,8 +194,8 @@ void runResample(RankRun<ResampleCommand>& run)
   {
     warn(job.isRoot() ? note : "");
   }
-  const ResampleFigures figures{ sumOf(job, piece->GetNumberOfPoints()),
-    sumOf(job, means->GetNumberOfPoints()), resampler->GetNumberOfClippedPoints(),
+  const ResampleFigures figures{ job.ranks().sum(piece->GetNumberOfPoints()),
+    job.ranks().sum(means->GetNumberOfPoints()), resampler->GetNumberOfClippedPoints(),
     resampler->GetNumberOfInvalidPoints() };
   options.finish(means);
   run.finish(means, figures, resampler->GetNumberOfBytesSent(),

@@ -2,12 +2,17 @@
 /// The commands of pointhaptics-mpi.
 #pragma once
 
-#include "Forward.h"
-
 #include <functional>
+
+namespace CLI
+{
+class App;
+}
 
 namespace pointhaptics::app
 {
+
+class Job;
 
 /// Work of a command line, run after it was parsed on all ranks. @throws EndOfJob
 using MpiWork = std::function<void(Job&)>;

@@ -2,10 +2,10 @@
 /// Clouds in one file per rank: VTK's parallel format, a list of VTP files.
 #pragma once
 
-#include "Forward.h"
-
 #include <string>
 #include <vector>
+
+class vtkPolyData;
 
 namespace pointhaptics::app
 {

@@ -7,7 +7,6 @@
 #include "Terminal/Messages.h"
 
 #include <CLI/CLI.hpp>
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <limits>
@@ -71,12 +70,10 @@ int run(Job& job, std::vector<std::string> arguments)
   dup2(errors, STDERR_FILENO);
   close(errors);
   const std::string message = lastMessageOf(kept);
-  const std::vector<std::string> problems = job.ranks().gather(parsed == kSuccess ? std::string() : message);
-  const auto problem =
-    std::find_if(problems.begin(), problems.end(), [](const std::string& text) { return !text.empty(); });
-  if (job.isRoot() && parsed == kSuccess && problem != problems.end())
+  const std::string problem = firstMessage(job.ranks(), parsed == kSuccess ? std::string() : message);
+  if (job.isRoot() && parsed == kSuccess && !problem.empty())
   {
-    fail(fmt::format("rank {} of {}: {}", problem - problems.begin(), problems.size(), *problem));
+    fail(problem);
   }
   const int ofAll = job.ranks().reduce(parsed != kSuccess ? parsed
       : work                                              ? -1

@@ -9,7 +9,7 @@
 #include "Core/Bandwidth/LocalBandwidth.h"
 #include "Core/Base/Host/InterpreterLock.h"
 #include "Core/Distributed/FarPoints.h"
-#include "Core/Resample/VoxelMean.h"
+#include "Core/Resample/TransformedBounds.h"
 
 #include "vtkObjectFactory.h"
 #include "vtkPointSet.h"

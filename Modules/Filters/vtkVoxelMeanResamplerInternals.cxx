@@ -6,7 +6,7 @@
 #include "Core/Base/Host/InterpreterLock.h"
 #include "Core/Distributed/FarPoints.h"
 #include "Core/Distributed/Ranks.h"
-#include "Core/Resample/VoxelMean.h"
+#include "Core/Resample/TransformedBounds.h"
 
 #include "vtkDataArray.h"
 #include "vtkFieldData.h"

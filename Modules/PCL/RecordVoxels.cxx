@@ -4,7 +4,7 @@
 
 #include "Core/Distributed/SharedVoxels.h"
 #include "Core/Resample/AttributeView.h"
-#include "Core/Resample/VoxelMean.h"
+#include "Core/Resample/TransformedBounds.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include "FieldPoses.h"
 
 #include "Core/Distributed/FarPoints.h"
-#include "Core/Resample/VoxelMean.h"
+#include "Core/Resample/TransformedBounds.h"
 
 #include "vtkAbstractTransform.h"
 #include "vtkDataArray.h"
@@ -18,6 +18,7 @@
 #include "vtkPolyData.h"
 
 #include <algorithm>
+#include <numeric>
 #include <sstream>
 #include <utility>
 
@@ -77,8 +78,8 @@ void DistributedUpdate::choosePrecision()
   const vtkPoints* points = input_->GetPoints();
   const bool isSingle = !points || points->GetDataType() == VTK_FLOAT;
   const bool hasPoints = points_.view().size() > 0;
-  const bool somePoints = !this->all(!hasPoints);
-  singlePrecision_ = this->all(isSingle || (somePoints && !hasPoints));
+  const bool somePoints = !ranks_.all(!hasPoints);
+  singlePrecision_ = ranks_.all(isSingle || (somePoints && !hasPoints));
   if (settings_.outputPointsPrecision != PointsPrecision::OfInput)
   {
     singlePrecision_ = settings_.outputPointsPrecision == PointsPrecision::Single;
@@ -140,21 +141,21 @@ std::string DistributedUpdate::runOfSums(vtkPolyData* output)
   }
   VoxelAccumulator own(lattice_, settings_.computeCovariance, kinds, transform_);
   Status status = own.add(points_.view(), views, smp_);
-  if (!this->all(status == Status::Ok))
+  if (!ranks_.all(status == Status::Ok))
   {
     return problemOf(status);
   }
-  status = shared_.share(ranks_, std::move(own));
+  ranges_ = shareKeys(ranks_, own.keys());
+  status = shareVoxels(ranks_, ranges_, own);
   VoxelRequest wanted = this->requestOf({}, lattice_);
   wanted.allocator = &pool_;
-  status = status == Status::Ok ? shared_.voxels().finish(wanted, made_, smp_) : status;
-  if (!this->all(status == Status::Ok))
+  status = status == Status::Ok ? own.finish(wanted, made_, smp_) : status;
+  if (!ranks_.all(status == Status::Ok))
   {
     return problemOf(status);
   }
-  clipped_ = shared_.clippedPoints();
-  invalid_ = shared_.invalidPoints();
-  ranges_ = shared_.ranges();
+  clipped_ = ranks_.sum(own.clippedPoints());
+  invalid_ = ranks_.sum(own.invalidPoints());
   this->fill(output, arrays_, VoxelRequest());
   return {};
 }
@@ -203,7 +204,7 @@ std::string DistributedUpdate::findOwnVoxels(const Lattice& lattice, VoxelResamp
   VoxelRequest request = this->requestOf(points_.view(), lattice);
   request.voxelIndex = true;
   const Status status = own.run(request, smp_);
-  return this->all(status == Status::Ok) ? std::string() : problemOf(status);
+  return ranks_.all(status == Status::Ok) ? std::string() : problemOf(status);
 }
 
 vtkSmartPointer<vtkPolyData> DistributedUpdate::sharePoints(const VoxelResampler& own)
@@ -222,7 +223,7 @@ vtkSmartPointer<vtkPolyData> DistributedUpdate::sharePoints(const VoxelResampler
   }
   // The type must be equal on all ranks, also where some have no points.
   const bool isFloat = !input_->GetPoints() || input_->GetPoints()->GetDataType() == VTK_FLOAT;
-  const bool areFloat = this->all(isFloat || to.empty());
+  const bool areFloat = ranks_.all(isFloat || to.empty());
   vtkNew<vtkPoints> places;
   places->SetDataType(areFloat ? VTK_FLOAT : VTK_DOUBLE);
   if (input_->GetPoints())
@@ -235,7 +236,16 @@ vtkSmartPointer<vtkPolyData> DistributedUpdate::sharePoints(const VoxelResampler
   {
     piece->GetPointData()->AddArray(found.array);
   }
-  return exchangePoints(ranks_, piece, to, numbers_);
+  if (settings_.keepOriginalPointIds)
+  {
+    vtkNew<vtkIdTypeArray> numbers;
+    numbers->SetName(kOriginalPointIds);
+    const auto size = vtkIdType(to.size());
+    vtkIdType* const first = numbers->WritePointer(0, size);
+    std::iota(first, first + size, vtkIdType(ranks_.sumBefore(size)));
+    piece->GetPointData()->AddArray(numbers);
+  }
+  return exchangePoints(ranks_, piece, to);
 }
 
 std::string DistributedUpdate::runOfPoints(vtkPolyData* output)
@@ -246,9 +256,13 @@ std::string DistributedUpdate::runOfPoints(vtkPolyData* output)
   {
     return problem;
   }
-  clipped_ = commonSum(ranks_, own.clippedPoints());
-  invalid_ = commonSum(ranks_, own.invalidPoints());
+  clipped_ = ranks_.sum(own.clippedPoints());
+  invalid_ = ranks_.sum(own.invalidPoints());
   const vtkSmartPointer<vtkPolyData> points = this->sharePoints(own);
+  if (auto* numbers = vtkIdTypeArray::SafeDownCast(points->GetPointData()->GetArray(kOriginalPointIds)))
+  {
+    numbers_.assign(numbers->GetPointer(0), numbers->GetPointer(0) + numbers->GetNumberOfValues());
+  }
   const PointAccess access(points->GetPoints());
   VoxelRequest request = this->requestOf(access.view(), lattice_);
   request.covariances = settings_.computeCovariance;
@@ -262,7 +276,7 @@ std::string DistributedUpdate::runOfPoints(vtkPolyData* output)
                                         : request.attributes.push_back(attributes.back().request());
   }
   const Status status = made_.run(request, smp_);
-  if (!this->all(status == Status::Ok))
+  if (!ranks_.all(status == Status::Ok))
   {
     return problemOf(status);
   }
@@ -278,7 +292,7 @@ std::string DistributedUpdate::fillIndex(vtkPolyData* output, vtkIdType voxels)
   {
     return problem;
   }
-  const std::int64_t first = sumBefore(ranks_, voxels);
+  const std::int64_t first = ranks_.sumBefore(voxels);
   std::vector<std::int64_t> rows(std::size_t(made_.size()), -1);
   for (std::size_t i = 0; i < std::size_t(voxels); ++i)
   {

@@ -49,10 +49,6 @@ public:
   const std::vector<std::string>& dropped() const { return dropped_; }
 
 private:
-  bool all(bool own)
-  {
-    return ranks_.reduce(own, [](bool a, bool b) { return a && b; });
-  }
   bool agree(const std::string& text)
   {
     const std::vector<std::string> texts = ranks_.gather(text);
@@ -87,9 +83,9 @@ private:
   std::vector<std::string> dropped_;
   std::int64_t clipped_ = 0; ///< Number of points outside the workspace, on all ranks.
   std::int64_t invalid_ = 0;
-  SharedVoxels shared_;
   std::vector<std::uint64_t> ranges_;             ///< Ranges of keys of all ranks.
-  std::vector<std::int64_t> numbers_;             ///< Global numbers of the points that came to this rank.
+  std::vector<std::int64_t> numbers_;             ///< Numbers among the points of all ranks, of those that
+                                                  ///< came to this one; for KeepOriginalPointIds.
   VoxelResampler made_;                           ///< Result for this rank's range.
   std::optional<std::vector<std::int64_t>> kept_; ///< Voxels of this rank that stay, where some may be left
                                                   ///< out.

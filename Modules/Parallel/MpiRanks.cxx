@@ -86,6 +86,22 @@ std::vector<std::string> MpiRanks::exchange(std::vector<std::string> messages)
   return received;
 }
 
+std::string firstMessage(Ranks& ranks, const std::string& own)
+{
+  const std::vector<std::string> messages = ranks.gather(own);
+  const auto first =
+    std::find_if(messages.begin(), messages.end(), [](const std::string& text) { return !text.empty(); });
+  if (first == messages.end())
+  {
+    return {};
+  }
+  const bool isEverywhere =
+    std::all_of(messages.begin(), messages.end(), [&](const std::string& text) { return text == *first; });
+  return isEverywhere ? *first
+                      : "rank " + std::to_string(first - messages.begin()) + " of " +
+      std::to_string(ranks.size()) + ": " + *first;
+}
+
 std::string problemOnRanks(vtkMultiProcessController* controller, vtkDataObject* input)
 {
   return MpiRanks(controller).size() > 1 && vtkCompositeDataSet::SafeDownCast(input)

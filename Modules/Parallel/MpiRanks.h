@@ -37,6 +37,9 @@ private:
   std::int64_t sent_ = 0;
 };
 
+/// Collective: the message of the first rank that has one, in front of it "rank 1 of 3: " where not all have
+/// the same. Empty: none has.
+POINTHAPTICSPARALLEL_EXPORT std::string firstMessage(Ranks& ranks, const std::string& own);
 /// Why a filter of several ranks refuses @p input; empty for one cloud, and where there is one rank.
 std::string problemOnRanks(vtkMultiProcessController* controller, vtkDataObject* input);
 

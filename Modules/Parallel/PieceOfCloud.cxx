@@ -4,8 +4,6 @@
 #include "SmpExecutor.h"
 #include "VoxelOutput.h"
 
-#include "Core/Distributed/SharedVoxels.h"
-
 #include "vtkCellArray.h"
 #include "vtkDataArray.h"
 #include "vtkFieldData.h"
@@ -28,36 +26,22 @@ namespace
 
 using NewTuples = std::function<void(vtkAbstractArray* from, vtkAbstractArray* to)>;
 
-/// Which vertex cells the pieces of all ranks have: a rank without points shows nothing.
-struct Vertices
+/// Vertex cells of a piece: 0 for none, 1 where 32 bits number them, 2 for 64. Files show the bits, too.
+int kindOfVertices(vtkPolyData* piece)
 {
-  bool isThere = false;
-  bool isNumberedBy64Bits = false;
+  return piece->GetNumberOfVerts() == 0 ? 0 : piece->GetVerts()->IsStorage64Bit() ? 2 : 1;
+}
 
-  Vertices(Ranks& ranks, vtkPolyData* piece)
+void addVertices(vtkPolyData* cloud, int kind)
+{
+  const vtkIdType points = cloud->GetNumberOfPoints();
+  ArrayPool pool;
+  cloud->SetVerts(makeVertices(points, pool, SmpExecutor()));
+  if (kind == 1 && points < VTK_INT_MAX)
   {
-    const int own = piece->GetNumberOfVerts() == 0 ? 0 : piece->GetVerts()->IsStorage64Bit() ? 2 : 1;
-    const int most = ranks.reduce(own, [](int a, int b) { return std::max(a, b); });
-    isThere = most > 0;
-    isNumberedBy64Bits = most > 1;
+    cloud->GetVerts()->ConvertTo32BitStorage();
   }
-
-  /// Files show the bits, too.
-  void addTo(vtkPolyData* cloud) const
-  {
-    const vtkIdType points = cloud->GetNumberOfPoints();
-    if (!isThere)
-    {
-      return;
-    }
-    ArrayPool pool;
-    cloud->SetVerts(makeVertices(points, pool, SmpExecutor()));
-    if (!isNumberedBy64Bits && points < VTK_INT_MAX)
-    {
-      cloud->GetVerts()->ConvertTo32BitStorage();
-    }
-  }
-};
+}
 
 /// A cloud of other points, without cells, with arrays as those of @p cloud, which @p fill fills, and the
 /// same field data.
@@ -181,36 +165,33 @@ vtkSmartPointer<vtkPolyData> gatherPieces(Ranks& ranks, vtkPolyData* piece)
   {
     return piece;
   }
-  std::vector<std::int64_t> numbers;
   const std::vector<int> toFirst(std::size_t(piece->GetNumberOfPoints()), 0);
-  const vtkSmartPointer<vtkPolyData> all = exchangePoints(ranks, piece, toFirst, numbers);
+  const vtkSmartPointer<vtkPolyData> all = exchangePoints(ranks, piece, toFirst);
   return ranks.rank() == 0 ? all : nullptr;
 }
 
-vtkSmartPointer<vtkPolyData> exchangePoints(
-  Ranks& ranks, vtkPolyData* piece, const std::vector<int>& to, std::vector<std::int64_t>& numbers)
+vtkSmartPointer<vtkPolyData> exchangePoints(Ranks& ranks, vtkPolyData* piece, const std::vector<int>& to)
 {
-  const auto size = std::size_t(ranks.size());
-  const std::int64_t first = sumBefore(ranks, piece->GetNumberOfPoints());
-  std::vector<vtkNew<vtkIdList>> rows(size);
-  std::vector<std::vector<std::int64_t>> numbersFor(size);
+  std::vector<vtkNew<vtkIdList>> rows(std::size_t(ranks.size()));
   for (std::size_t i = 0; i < to.size(); ++i)
   {
     if (to[i] >= 0)
     {
       rows[std::size_t(to[i])]->InsertNextId(vtkIdType(i));
-      numbersFor[std::size_t(to[i])].push_back(first + std::int64_t(i));
     }
   }
-  std::vector<std::string> messages(size);
-  std::transform(numbersFor.begin(), numbersFor.end(), messages.begin(), &bytesOfValues<std::int64_t>);
-  numbers.clear();
-  for (const std::string& bytes : ranks.exchange(std::move(messages)))
+  std::vector<std::vector<vtkIdType>> counts;
+  for (const vtkNew<vtkIdList>& wanted : rows)
   {
-    const auto some = valuesOfBytes<std::int64_t>(bytes);
-    numbers.insert(numbers.end(), some.begin(), some.end());
+    counts.push_back({ wanted->GetNumberOfIds() });
   }
-  const Vertices vertices(ranks, piece);
+  vtkIdType points = 0;
+  for (const vtkIdType count : ranks.exchangeValues(counts))
+  {
+    points += count;
+  }
+  // A rank without points shows none of these.
+  const int vertices = ranks.reduce(kindOfVertices(piece), [](int a, int b) { return std::max(a, b); });
   const vtkSmartPointer<vtkPolyData> result = cloudLike(piece,
     [&](vtkAbstractArray* from, vtkAbstractArray* into)
     {
@@ -223,10 +204,13 @@ vtkSmartPointer<vtkPolyData> exchangePoints(
         parts.push_back(bytesOf(part));
       }
       parts = ranks.exchange(std::move(parts));
-      into->SetNumberOfTuples(vtkIdType(numbers.size()));
+      into->SetNumberOfTuples(points);
       setBytes(into, parts);
     });
-  vertices.addTo(result);
+  if (vertices > 0)
+  {
+    addVertices(result, vertices);
+  }
   return result;
 }
 

@@ -8,7 +8,6 @@
 
 #include "vtkSmartPointer.h"
 
-#include <cstdint>
 #include <vector>
 
 class vtkPointSet;
@@ -22,11 +21,10 @@ namespace pointhaptics
 POINTHAPTICSPARALLEL_EXPORT vtkSmartPointer<vtkPolyData> gatherPieces(Ranks& ranks, vtkPolyData* piece);
 
 /// The points of all ranks that are meant for this one, with their arrays, in the order of ranks and on each
-/// in its own. @p to: for each point of @p piece the rank that gets it, or -1. @p numbers: of each point that
-/// came, its number among the points of all ranks, one rank after the other. @pre as of gatherPieces();
+/// in its own. @p to: for each point of @p piece the rank that gets it, or -1. @pre as of gatherPieces();
 /// arrays of numbers alone.
 POINTHAPTICSPARALLEL_EXPORT vtkSmartPointer<vtkPolyData> exchangePoints(
-  Ranks& ranks, vtkPolyData* piece, const std::vector<int>& to, std::vector<std::int64_t>& numbers);
+  Ranks& ranks, vtkPolyData* piece, const std::vector<int>& to);
 
 /// @p piece; where it has no points and others have, an empty cloud with point arrays as those of the first
 /// rank that has: sources that know no pieces give all to one rank, and to the others nothing at all.

@@ -10,9 +10,7 @@
 #include "vtkPolyData.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
-#include <algorithm>
 #include <string>
-#include <vector>
 
 using pointhaptics::MpiRanks;
 
@@ -49,13 +47,11 @@ int vtkDistributedPointCloudReader::RequestData(
   this->SetRanks(isShared ? &ranks : nullptr);
   const int result = this->Superclass::RequestData(request, inputs, outputs);
   this->SetRanks(nullptr);
-  const std::vector<std::string> messages =
-    isShared ? ranks.gather(this->GetErrorMessage()) : std::vector<std::string>();
-  const auto first =
-    std::find_if(messages.begin(), messages.end(), [](const std::string& text) { return !text.empty(); });
-  if (this->FailedElsewhere() && first != messages.end())
+  const std::string message =
+    isShared ? pointhaptics::firstMessage(ranks, this->GetErrorMessage()) : std::string();
+  if (this->FailedElsewhere() && !message.empty())
   {
-    vtkErrorMacro(<< "rank " << first - messages.begin() << " of " << ranks.size() << ": " << *first);
+    vtkErrorMacro(<< message);
   }
   return result;
 }

@@ -60,7 +60,7 @@ bool vtkDistributedVoxelMeanResampler::RunCloud(vtkPointSet* cloud, const Output
   this->NumberOfBytesSent = ranks.bytesSent();
   this->NumberOfClippedPoints = vtkIdType(update.clippedPoints());
   this->NumberOfInvalidPoints = vtkIdType(update.invalidPoints());
-  this->WarnOfNothing(vtkIdType(commonSum(ranks, cloud->GetNumberOfPoints())));
+  this->WarnOfNothing(vtkIdType(ranks.sum(cloud->GetNumberOfPoints())));
   for (const std::string& dropped : update.dropped())
   {
     this->Warn(dropped);

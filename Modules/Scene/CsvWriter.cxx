@@ -20,7 +20,7 @@ bool CsvWriter::open(
 {
   fileName_ = fileName;
   isKept_ = isKept;
-  isOpen_ = isFine_ = (isKept ? file_.openKept(fileName) : file_.open(fileName)) == Status::Ok;
+  isOpen_ = isFine_ = file_.open(fileName, isKept) == Status::Ok;
   if (!isOpen_)
   {
     message = fmt::format("{}: cannot be created: {}; {}", fileName, file_.reason(), file_.cure());

@@ -17,7 +17,7 @@ class POINTHAPTICSSCENE_EXPORT CsvWriter
 {
 public:
   /// Opens the file. @param isKept for data that cannot be made again: rows stand in NAME.part within a
-  /// second, and stay there where commit() is not reached (OutputFile::openKept()). False: @p message says
+  /// second, and stay there where commit() is not reached (OutputFile::open()). False: @p message says
   /// why the file cannot be created.
   bool open(
     const std::string& fileName, const std::string& header, std::string& message, bool isKept = false);

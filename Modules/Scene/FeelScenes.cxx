@@ -7,7 +7,7 @@
 #include "Core/Base/Host/OutOfMemory.h"
 #include "Core/Base/Lattice.h"
 #include "Core/Distributed/FarPoints.h"
-#include "Core/Resample/VoxelMean.h"
+#include "Core/Resample/TransformedBounds.h"
 
 #include "vtkCallbackCommand.h"
 #include "vtkFieldData.h"

@@ -1,5 +1,7 @@
 #include "Shapes/IdealForce.h"
 
+#include "Shapes/ShapeFoot.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,7 +13,6 @@ namespace
 
 constexpr double kOnSurface = 1e-6;
 constexpr std::int64_t kSample = 1000;
-constexpr double kHoleRadius = 0.010;
 constexpr double kHalfEdge = 0.05; ///< Half the edge of the cube that holds all shapes, metres.
 /// A foot point this far off the normal's line, over the distance, lies on a rim.
 constexpr double kRimSlope = 1e-4;
@@ -58,7 +59,7 @@ bool recognizeShape(const PointView& points, Shape& shape)
     if (holdsForSample(points, isOnSurface))
     {
       const auto isOutsideHole = [](const Vec3& p)
-      { return std::hypot(p.x, p.y) > kHoleRadius - kOnSurface; };
+      { return std::hypot(p.x, p.y) > detail::kHoleRadius - kOnSurface; };
       const bool hasHole =
         candidate == Shape::Plane && holdsForSample(points, isOutsideHole) && points.size() >= kSample / 2;
       shape = hasHole ? Shape::Hole : candidate;

@@ -1,7 +1,7 @@
 #include "Shapes/Shapes.h"
 
-#include "Core/Base/PortableRandom.h"
 #include "Shapes/IdolShape.h"
+#include "Shapes/PortableRandom.h"
 #include "Shapes/ShapeFoot.h"
 
 #include <algorithm>

@@ -4,7 +4,7 @@ cmake_minimum_required(VERSION 3.18)
 
 function (check_planted expected file include)
   file(REMOVE_RECURSE "${FOLDER}")
-  foreach (header IN ITEMS Modules/Core/Base/Lattice.h Modules/Core/Resample/VoxelMean.h Modules/Shapes/Shapes.h Modules/Haptics/Proxy.h Modules/Devices/HipPath.h
+  foreach (header IN ITEMS Modules/Core/Base/Lattice.h Modules/Core/Resample/TransformedBounds.h Modules/Shapes/Shapes.h Modules/Haptics/Proxy.h Modules/Devices/HipPath.h
       Modules/Filters/vtkFilter.h Modules/IO/vtkReader.h Modules/Interaction/Widgets/vtkChart.h
       Modules/Interaction/vtkStyle.h Modules/Scene/vtkScene.h Modules/Rendering/vtkLook.h Modules/Viewer/Window/ViewWindow.h Modules/PCL/VoxelMean.h
       Apps/PointHaptics/Options.h)
@@ -30,7 +30,7 @@ check_planted(accepted Modules/Interaction/A.cxx "\"Devices/HipPath.h\"")
 check_planted(accepted Apps/PointHaptics/A.cxx "\"vtkStyle.h\"")
 check_planted(accepted Apps/PointHaptics/A.cxx "\"vtkChart.h\"")
 check_planted(accepted Modules/Core/Resample/A.cxx "\"Core/Base/Lattice.h\"")
-check_planted(accepted Modules/Core/Resample/Kernel/A.h "\"Core/Resample/VoxelMean.h\"")
+check_planted(accepted Modules/Core/Resample/Kernel/A.h "\"Core/Resample/TransformedBounds.h\"")
 check_planted(accepted Modules/Interaction/A.cxx "\"vtkScene.h\"")
 check_planted(accepted Modules/Viewer/A.cxx "\"vtkStyle.h\"")
 check_planted(accepted Modules/Viewer/A.cxx "\"Shapes/Shapes.h\"")
@@ -70,8 +70,8 @@ check_planted(refused Modules/Filters/A.cxx "\"vtkReader.h\"")
 check_planted(refused Modules/Filters/A.cxx "\"PointHapticsInteractionModule.h\"")
 check_planted(refused Modules/IO/A.h "\"vtkFilter.h\"")
 check_planted(refused Modules/Interaction/A.cxx "\"Options.h\"")
-check_planted(refused Modules/Core/Base/A.cxx "\"Core/Resample/VoxelMean.h\"")
-check_planted(refused Modules/Core/Surface/A.h "\"Core/Resample/VoxelMean.h\"")
+check_planted(refused Modules/Core/Base/A.cxx "\"Core/Resample/TransformedBounds.h\"")
+check_planted(refused Modules/Core/Surface/A.h "\"Core/Resample/TransformedBounds.h\"")
 check_planted(refused Modules/Core/Surface/A.h "\"Shapes/Shapes.h\"")
 check_planted(refused Modules/Haptics/A.cxx "\"Shapes/Shapes.h\"")
 check_planted(refused Modules/Scene/A.cxx "\"vtkLook.h\"")

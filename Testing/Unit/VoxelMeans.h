@@ -2,7 +2,7 @@
 /// Mean resampling in one call, for tests.
 #pragma once
 
-#include "Core/Resample/VoxelMean.h"
+#include "Core/Resample/TransformedBounds.h"
 #include "Core/Resample/VoxelResampler.h"
 
 #include <cstdint>

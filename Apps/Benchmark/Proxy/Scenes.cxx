@@ -2,7 +2,7 @@
 
 #include "Core/Bandwidth/LocalBandwidth.h"
 #include "Core/Neighbors/NeighborQuery.h"
-#include "Core/Resample/VoxelMean.h"
+#include "Core/Resample/TransformedBounds.h"
 #include "Haptics/LocalScene.h"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 #include "Benchmark/Touch/TouchMesh.h"
 
-#include "Core/Base/PortableRandom.h"
+#include "Shapes/PortableRandom.h"
 
 #include <algorithm>
 #include <array>

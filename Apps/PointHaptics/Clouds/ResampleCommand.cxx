@@ -101,10 +101,10 @@ std::vector<std::string> ResampleCommand::notes(vtkPolyData* cloud, vtkPolyData*
   const bool areScaled = this->lattice.isScaled() && !this->unitIsGiven;
   std::vector<std::string> notes = { areScaled ? std::string() : this->unitNote(cloud) };
   const CloudExtent own = extentOf(cloud);
-  const std::int64_t atZero = commonSum(ranks, own.atZero);
+  const std::int64_t atZero = ranks.sum(own.atZero);
   const std::optional<Lattice> made = latticeOf(means);
   const bool areIn = made && contains(made->bounds(), this->lattice.transform().apply(Vec3()));
-  if (areIn && areNoReturns(atZero, commonSum(ranks, own.finite)))
+  if (areIn && areNoReturns(atZero, ranks.sum(own.finite)))
   {
     notes.push_back(fmt::format("{}: {} are resampled as others are", this->input, noReturnsText(atZero)));
   }

@@ -502,7 +502,7 @@ std::string Files::output(const std::string& name)
     {
       found->file.reset();
     }
-    else if ((found->isKept ? found->file->openKept(name) : found->file->open(name)) == Status::Ok)
+    else if (found->file->open(name, found->isKept) == Status::Ok)
     {
       found->path = found->file->path();
       showAs(found->path, name);

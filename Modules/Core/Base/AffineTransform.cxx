@@ -12,6 +12,7 @@ constexpr double kSingularRatio = 1e-13;
 /// Part of a length by which a similarity may change it with its direction: rounding, also of products of
 /// many transforms.
 constexpr double kSimilarityTolerance = 1e-9;
+constexpr int kElements = 12; ///< They lie one after the other.
 
 Vec3 row(const AffineTransform& t, int r)
 {
@@ -87,15 +88,9 @@ Vec3 AffineTransform::applyToNormal(const Vec3& n) const noexcept
 
 Status AffineTransform::check() const noexcept
 {
-  for (const auto& r : m)
+  if (!std::all_of(m[0], m[0] + kElements, [](double value) { return std::isfinite(value); }))
   {
-    for (double value : r)
-    {
-      if (!std::isfinite(value))
-      {
-        return Status::NonFiniteTransform;
-      }
-    }
+    return Status::NonFiniteTransform;
   }
   const ScaledRows scaled(*this);
   // Each product in the determinant has one entry of each row and one of each column.
@@ -148,7 +143,7 @@ AffineTransform AffineTransform::inverse() const noexcept
 AffineTransform AffineTransform::fromRows(const double* rows) noexcept
 {
   AffineTransform result;
-  std::copy_n(rows, 12, result.m[0]);
+  std::copy_n(rows, kElements, result.m[0]);
   return result;
 }
 
@@ -209,17 +204,7 @@ AffineTransform operator*(const AffineTransform& a, const AffineTransform& b) no
 
 bool operator==(const AffineTransform& a, const AffineTransform& b) noexcept
 {
-  for (int r = 0; r < 3; ++r)
-  {
-    for (int c = 0; c < 4; ++c)
-    {
-      if (a.m[r][c] != b.m[r][c])
-      {
-        return false;
-      }
-    }
-  }
-  return true;
+  return std::equal(a.m[0], a.m[0] + kElements, b.m[0]);
 }
 
 } // namespace pointhaptics

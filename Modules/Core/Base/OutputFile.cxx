@@ -302,17 +302,7 @@ void OutputFile::forgetKept(const std::string& target)
   }
 }
 
-Status OutputFile::open(const std::string& target)
-{
-  return this->openAs(target, false);
-}
-
-Status OutputFile::openKept(const std::string& target)
-{
-  return this->openAs(target, true);
-}
-
-Status OutputFile::openAs(const std::string& target, bool isKept)
+Status OutputFile::open(const std::string& target, bool isKept)
 {
   if (this->check(target) != Status::Ok)
   {

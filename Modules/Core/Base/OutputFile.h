@@ -34,11 +34,10 @@ public:
 
   /// FileNotWritable: a folder, a loop of links, a write-protected file, a folder that does not exist or must
   /// not be written in.
-  Status open(const std::string& target);
-  /// As open(), for what cannot be made again: the part is called NAME.part and stays unless commit() or
+  /// @param isKept for what cannot be made again: the part is called NAME.part and stays unless commit() or
   /// abandon() end it, whatever happens to this process. commit() replaces only a file that was there at the
   /// beginning. FileNotWritable also where there is such a part; forgetKept() removes it.
-  Status openKept(const std::string& target);
+  Status open(const std::string& target, bool isKept = false);
   /// Removes the NAME.part of @p target that no process writes any more.
   static void forgetKept(const std::string& target);
   static std::string keptPartOf(const std::string& target);
@@ -79,7 +78,6 @@ private:
   Status fail(const std::string& reason, const std::string& cure);
   Status openInPlace(int descriptor);
   Status openPart(const struct stat* replaced);
-  Status openAs(const std::string& target, bool isKept);
   bool renamePart() noexcept;
   void discard() noexcept;
 

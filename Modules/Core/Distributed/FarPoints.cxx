@@ -6,10 +6,11 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
-#include <functional>
+#include <iomanip>
+#include <locale>
 #include <numeric>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -151,8 +152,8 @@ private:
 bool CoreSearch::mayBeSmall(double longest) const
 {
   const std::int64_t count = this->size();
-  const std::int64_t before = sumBefore(ranks_, count);
-  const std::int64_t step = std::max<std::int64_t>(1, commonSum(ranks_, count) / kLookedAt);
+  const std::int64_t before = ranks_.sumBefore(count);
+  const std::int64_t step = std::max<std::int64_t>(1, ranks_.sum(count) / kLookedAt);
   std::vector<double> own[3];
   this->forEach((step - before % step) % step, step,
     [&own](const Vec3& p, bool isFill)
@@ -165,12 +166,7 @@ bool CoreSearch::mayBeSmall(double longest) const
   bool isSmall = true;
   for (const std::vector<double>& ofAxis : own)
   {
-    std::vector<double> values;
-    for (const std::string& bytes : ranks_.gather(bytesOfValues(ofAxis)))
-    {
-      const std::vector<double> more = valuesOfBytes<double>(bytes);
-      values.insert(values.end(), more.begin(), more.end());
-    }
+    std::vector<double> values = ranks_.gatherAll(ofAxis);
     std::sort(values.begin(), values.end());
     const std::size_t cut = values.size() / kCut;
     isSmall =
@@ -197,12 +193,11 @@ std::vector<std::int64_t> CoreSearch::count(const Bounds& box, double edge) cons
       }
       ++at(cells, cell);
     });
-  const std::vector<std::string> ofRanks = ranks_.gather(bytesOfValues(cells));
+  const std::vector<std::int64_t> ofRanks = ranks_.gatherAll(cells);
   std::fill(cells.begin(), cells.end(), 0);
-  for (const std::string& bytes : ofRanks)
+  for (std::size_t i = 0; i < ofRanks.size(); ++i)
   {
-    const std::vector<std::int64_t> more = valuesOfBytes<std::int64_t>(bytes);
-    std::transform(cells.begin(), cells.end(), more.begin(), cells.begin(), std::plus<>());
+    cells[i % cells.size()] += ofRanks[i];
   }
   return cells;
 }
@@ -275,18 +270,14 @@ Bounds CoreSearch::core(const Bounds& all) const
 
 std::string boxText(const Bounds& box, int digits)
 {
-  std::string text;
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text << std::fixed << std::setprecision(digits);
   for (int axis = 0; axis < 3; ++axis)
   {
-    for (const double end : { box.minimum[axis], box.maximum[axis] })
-    {
-      std::array<char, 400> number;
-      char* const begin = number.data();
-      const auto written = std::to_chars(begin, begin + number.size(), end, std::chars_format::fixed, digits);
-      text += (text.empty() ? "" : ",") + std::string(begin, written.ptr);
-    }
+    text << (axis > 0 ? "," : "") << box.minimum[axis] << "," << box.maximum[axis];
   }
-  return text;
+  return text.str();
 }
 
 } // namespace
@@ -320,7 +311,7 @@ FarPoints findFarPoints(
   none.all = none.others = commonBounds(ranks, bounds);
   const double longest = longestSide(none.all);
   CoreSearch search(parts, transform, ranks);
-  if (commonSum(ranks, search.size()) < kFewest || !(longest > 0.0) || !std::isfinite(longest) ||
+  if (ranks.sum(search.size()) < kFewest || !(longest > 0.0) || !std::isfinite(longest) ||
     !search.mayBeSmall(longest))
   {
     return none;
@@ -337,8 +328,8 @@ FarPoints findFarPoints(
       ++found.of;
       contains(core, p) ? found.others.include(p) : static_cast<void>(++found.count);
     });
-  found.of = commonSum(ranks, found.of);
-  found.count = commonSum(ranks, found.count);
+  found.of = ranks.sum(found.of);
+  found.count = ranks.sum(found.count);
   found.all = none.all;
   found.others = commonBounds(ranks, found.others);
   return found.count > 0 && longestSide(found.others) <= kMostLength * longest ? found : none;

@@ -2,7 +2,10 @@
 /// The interface between Core's distributed steps and what carries their messages (VTK's MPI in Parallel).
 #pragma once
 
+#include <cstdint>
 #include <cstring>
+#include <functional>
+#include <numeric>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -10,52 +13,6 @@
 
 namespace pointhaptics
 {
-
-/// The processes of a job, which each have a part of a cloud. All calls are collective: each rank makes the
-/// same ones in the same order. The base class is a job of one rank. Messages are in the order of bytes of
-/// the machine: all ranks run on machines of one kind.
-class Ranks
-{
-public:
-  virtual ~Ranks() = default;
-  virtual int rank() const { return 0; }
-  virtual int size() const { return 1; }
-  /// Gives messages[r] to rank r. @return what each rank gave to this one, by rank. @pre size() messages.
-  virtual std::vector<std::string> exchange(std::vector<std::string> messages) { return messages; }
-
-  /// Gives every rank the messages of all ranks, by rank.
-  std::vector<std::string> gather(const std::string& message)
-  {
-    return this->exchange(std::vector<std::string>(std::size_t(this->size()), message));
-  }
-  /// As gather(), for plain values.
-  template <typename T>
-  std::vector<T> gatherValues(const T& value)
-  {
-    static_assert(std::is_trivially_copyable_v<T>, "its bytes are sent");
-    std::vector<T> values;
-    for (const std::string& bytes : this->gather({ reinterpret_cast<const char*>(&value), sizeof value }))
-    {
-      T ofRank = value;
-      std::memcpy(static_cast<void*>(&ofRank), bytes.data(), sizeof ofRank);
-      values.push_back(ofRank);
-    }
-    return values;
-  }
-  /// From the values of all ranks, one after the other, what @p join(a, b) makes of them: on all ranks the
-  /// same.
-  template <typename T, typename Join>
-  T reduce(const T& value, Join&& join)
-  {
-    const std::vector<T> values = this->gatherValues(value);
-    T result = values.front();
-    for (std::size_t r = 1; r < values.size(); ++r)
-    {
-      result = join(result, values[r]);
-    }
-    return result;
-  }
-};
 
 ///@{
 /// Trivial values one after the other, as bytes.
@@ -76,5 +33,79 @@ std::vector<T> valuesOfBytes(const std::string& bytes)
   return values;
 }
 ///@}
+
+/// The processes of a job, which each have a part of a cloud. All calls are collective: each rank makes the
+/// same ones in the same order. The base class is a job of one rank. Messages are in the order of bytes of
+/// the machine: all ranks run on machines of one kind.
+class Ranks
+{
+public:
+  virtual ~Ranks() = default;
+  virtual int rank() const { return 0; }
+  virtual int size() const { return 1; }
+  /// Gives messages[r] to rank r. @return what each rank gave to this one, by rank. @pre size() messages.
+  virtual std::vector<std::string> exchange(std::vector<std::string> messages) { return messages; }
+
+  /// Gives every rank the messages of all ranks, by rank.
+  std::vector<std::string> gather(const std::string& message)
+  {
+    return this->exchange(std::vector<std::string>(std::size_t(this->size()), message));
+  }
+  /// Gives values[r], which are trivial, to rank r. @return what all ranks gave to this one, one rank after
+  /// the other. @pre size() lists.
+  template <typename T>
+  std::vector<T> exchangeValues(const std::vector<std::vector<T>>& values)
+  {
+    std::vector<std::string> messages;
+    for (const std::vector<T>& forRank : values)
+    {
+      messages.push_back(bytesOfValues(forRank));
+    }
+    std::vector<T> received;
+    for (const std::string& bytes : this->exchange(std::move(messages)))
+    {
+      const std::vector<T> more = valuesOfBytes<T>(bytes);
+      received.insert(received.end(), more.begin(), more.end());
+    }
+    return received;
+  }
+  /// Gives every rank the values of all ranks, one rank after the other.
+  template <typename T>
+  std::vector<T> gatherAll(const std::vector<T>& own)
+  {
+    return this->exchangeValues(std::vector<std::vector<T>>(std::size_t(this->size()), own));
+  }
+  /// The values of all ranks, by rank.
+  template <typename T>
+  std::vector<T> gatherValues(const T& own)
+  {
+    return this->gatherAll(std::vector<T>{ own });
+  }
+  /// From the values of all ranks, one after the other, what @p join(a, b) makes of them: on all ranks the
+  /// same.
+  template <typename T, typename Join>
+  T reduce(const T& value, Join&& join)
+  {
+    const std::vector<T> values = this->gatherValues(value);
+    T result = values.front();
+    for (std::size_t r = 1; r < values.size(); ++r)
+    {
+      result = join(result, values[r]);
+    }
+    return result;
+  }
+  /// True where it is on every rank.
+  bool all(bool own)
+  {
+    return this->reduce(char(own), [](char a, char b) { return char(a && b); }) != 0;
+  }
+  std::int64_t sum(std::int64_t own) { return this->reduce(own, std::plus<>()); }
+  /// The sum of the numbers of the ranks before this one.
+  std::int64_t sumBefore(std::int64_t own)
+  {
+    const std::vector<std::int64_t> all = this->gatherValues(own);
+    return std::accumulate(all.begin(), all.begin() + this->rank(), std::int64_t(0));
+  }
+};
 
 } // namespace pointhaptics

@@ -2,7 +2,6 @@
 
 #include "Core/Bandwidth/Density.h"
 #include "Core/Bandwidth/LocalBandwidth.h"
-#include "Core/Distributed/SharedVoxels.h"
 #include "Core/Distributed/SpaceSlabs.h"
 
 #include <algorithm>
@@ -143,7 +142,7 @@ bool SharedEstimate::ensure(const SlabRange& needed)
 {
   const bool isHere =
     isCovered_ && (this->size() == 0 || (covered_.low <= needed.low && needed.high <= covered_.high));
-  if (ranks_.reduce(isHere, [](bool a, bool b) { return a && b; }))
+  if (ranks_.all(isHere))
   {
     return false;
   }
@@ -232,7 +231,7 @@ std::vector<double> SharedEstimate::densities(const std::vector<double>& widths)
 Status checkAll(Ranks& ranks, const PointView& points, const std::vector<double>& counts, bool hasCounts,
   const BandwidthSettings& settings)
 {
-  const std::int64_t all = commonSum(ranks, points.size());
+  const std::int64_t all = ranks.sum(points.size());
   const bool fits =
     all <= NeighborQuery::kMostPoints && (!hasCounts || counts.size() == std::size_t(points.size()));
   const Status own = settings.check() != Status::Ok ? settings.check()
@@ -247,7 +246,7 @@ Status sharedBandwidths(Ranks& ranks, const PointView& points, const std::vector
   const BandwidthSettings& settings, BandwidthsOfPoints& result, const Executor& executor)
 {
   result = BandwidthsOfPoints();
-  const bool hasCounts = ranks.reduce(!counts.empty(), [](bool a, bool b) { return a || b; });
+  const bool hasCounts = !ranks.all(counts.empty());
   const Status status = checkAll(ranks, points, counts, hasCounts, settings);
   if (status != Status::Ok)
   {

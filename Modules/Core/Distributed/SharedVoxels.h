@@ -16,10 +16,6 @@ namespace pointhaptics
 
 /// The box about those of all ranks.
 Bounds commonBounds(Ranks& ranks, const Bounds& own);
-/// The sum of the numbers of all ranks, on each.
-std::int64_t commonSum(Ranks& ranks, std::int64_t own);
-/// The sum of the numbers of the ranks before this one.
-std::int64_t sumBefore(Ranks& ranks, std::int64_t own);
 
 /// Which keys of voxels belong to which rank: contiguous ranges with about as many of the voxels that ranks
 /// have; rank r has those from [r] to before [r + 1]. Collective. @p own: the keys that this rank has points
@@ -33,34 +29,16 @@ std::vector<std::int64_t> numbersOfKeys(Ranks& ranks, const std::vector<std::uin
   const std::vector<std::uint64_t>& own, const std::vector<std::uint64_t>& keys,
   const std::vector<std::int64_t>& numbers);
 
-/// Which rank gets which voxels: contiguous ranges of keys with about as many voxels each.
+/// Collective: gives each rank all sums of the voxels in its range of keys. @p voxels: before, the sums of
+/// the points of this rank, on the same lattice on all; afterwards those of its range. Points outside the
+/// lattice and those not finite are counted on one rank. @p ranges: of shareKeys().
 ///
 /// Voxels are exact sums, so it makes no difference where they are merged: the voxels of all ranks, one rank
 /// after the other, are those of one run over all points, bit for bit, however the points are split. What is
 /// sent is in proportion to the active voxels (48 bytes each, 144 with covariances, and the sums of arrays),
-/// not to the points. One thread at a time.
-class SharedVoxels
-{
-public:
-  /// @p own: the sums of the points of this rank, all of them on the same lattice; give them away, and they
-  /// are freed before others come. Afterwards voxels() are the merged ones of this rank's range.
-  /// Errors, on all ranks: InvalidParameter (other lattices or arrays, more points than an accumulator
-  /// takes).
-  Status share(Ranks& ranks, VoxelAccumulator own);
-  VoxelAccumulator& voxels() { return voxels_; }
-  /// The ranges of keys of all ranks: see shareKeys().
-  const std::vector<std::uint64_t>& ranges() const { return ranges_; }
-  /// Points outside the lattice and those not finite, of all ranks.
-  std::int64_t clippedPoints() const { return clipped_; }
-  std::int64_t invalidPoints() const { return invalid_; }
-
-private:
-  Status merge(std::vector<std::string> messages, std::size_t rank, VoxelAccumulator kept);
-
-  VoxelAccumulator voxels_{ Lattice() };
-  std::int64_t clipped_ = 0;
-  std::int64_t invalid_ = 0;
-  std::vector<std::uint64_t> ranges_;
-};
+/// not to the points.
+///
+/// Errors, on all ranks: InvalidParameter (other lattices or arrays, more points than an accumulator takes).
+Status shareVoxels(Ranks& ranks, const std::vector<std::uint64_t>& ranges, VoxelAccumulator& voxels);
 
 } // namespace pointhaptics

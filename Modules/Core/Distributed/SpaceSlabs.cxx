@@ -23,21 +23,6 @@ int longestAxis(const Bounds& box)
   return half.x >= half.y && half.x >= half.z ? 0 : half.y >= half.z ? 1 : 2;
 }
 
-/// Gives each rank its values. @return those of all ranks for this one, one rank after the other.
-template <typename Value>
-std::vector<Value> exchanged(Ranks& ranks, const std::vector<std::vector<Value>>& ofRanks)
-{
-  std::vector<std::string> messages;
-  std::transform(ofRanks.begin(), ofRanks.end(), std::back_inserter(messages), &bytesOfValues<Value>);
-  std::vector<Value> values;
-  for (const std::string& bytes : ranks.exchange(std::move(messages)))
-  {
-    const auto more = valuesOfBytes<Value>(bytes);
-    values.insert(values.end(), more.begin(), more.end());
-  }
-  return values;
-}
-
 }
 
 SpaceSlabs::SpaceSlabs(Ranks& ranks, const PointView& points, const std::vector<double>& counts)
@@ -53,7 +38,7 @@ SpaceSlabs::SpaceSlabs(Ranks& ranks, const PointView& points, const std::vector<
     }
   }
   box_ = commonBounds(ranks, box_);
-  pointsOfAll_ = commonSum(ranks, finite);
+  pointsOfAll_ = ranks.sum(finite);
   firsts_.push_back(0);
   for (const std::int64_t size : ranks.gatherValues(points.size()))
   {
@@ -74,7 +59,7 @@ SpaceSlabs::SpaceSlabs(Ranks& ranks, const PointView& points, const std::vector<
     }
   }
   // By index: each rank has its points in order, and those of the next rank come after them.
-  own_ = exchanged(ranks, ofRanks);
+  own_ = ranks.exchangeValues(ofRanks);
 }
 
 /// Where one slab ends and the next begins. Every rank shows each n-th of its points, the same n on all.
@@ -91,12 +76,7 @@ std::vector<double> SpaceSlabs::chooseCuts(const PointView& points)
       sample.push_back(points[i][axis_]);
     }
   }
-  std::vector<double> ofAll;
-  for (const std::string& bytes : ranks_.gather(bytesOfValues(sample)))
-  {
-    const auto more = valuesOfBytes<double>(bytes);
-    ofAll.insert(ofAll.end(), more.begin(), more.end());
-  }
+  std::vector<double> ofAll = ranks_.gatherAll(sample);
   std::sort(ofAll.begin(), ofAll.end());
   std::vector<double> cuts;
   for (std::int64_t r = 1; r < size && !ofAll.empty(); ++r)
@@ -116,7 +96,7 @@ std::vector<SlabPoint> SpaceSlabs::withGhosts(const SlabRange& range)
       [&](const SlabPoint& point)
       { return int(r) != ranks_.rank() && ranges[r].contains(this->coordinate(point)); });
   }
-  std::vector<SlabPoint> ghosts = exchanged(ranks_, wanted);
+  std::vector<SlabPoint> ghosts = ranks_.exchangeValues(wanted);
   std::sort(ghosts.begin(), ghosts.end(), &comesBefore);
   std::vector<SlabPoint> all(ghosts.size() + own_.size());
   std::merge(ghosts.begin(), ghosts.end(), own_.begin(), own_.end(), all.begin(), &comesBefore);
@@ -138,7 +118,7 @@ std::vector<double> SpaceSlabs::giveBack(const std::vector<double>& values)
   }
   const auto rank = std::size_t(ranks_.rank());
   std::vector<double> result(std::size_t(firsts_[rank + 1] - firsts_[rank]), 0.0);
-  for (const Placed& placed : exchanged(ranks_, ofRanks))
+  for (const Placed& placed : ranks_.exchangeValues(ofRanks))
   {
     result[std::size_t(placed.place)] = placed.value;
   }

@@ -51,18 +51,18 @@ Status VoxelAccumulator::add(const PointView& points, const std::vector<Attribut
   {
     return Status::InvalidParameter;
   }
-  VoxelRequest request;
-  request.points = points;
-  request.transform = transform_;
-  request.lattice = lattice_;
-  request.covariances = covariances_;
+  VoxelResampler::Implementation::Task task = { {}, false };
+  task.request.points = points;
+  task.request.transform = transform_;
+  task.request.lattice = lattice_;
+  task.request.covariances = covariances_;
   for (std::size_t i = 0; i < arrays.size(); ++i)
   {
-    request.attributes.push_back({ arrays[i], arrays_[i].statistic });
+    task.request.attributes.push_back({ arrays[i], arrays_[i].statistic });
   }
   VoxelRun run;
   VoxelResampler::Implementation& engine = *engine_.implementation_;
-  const Status status = engine.sum(request, run, executor, observer);
+  const Status status = engine.sumPoints(task, run, executor, observer);
   if (status != Status::Ok)
   {
     return status;
@@ -88,14 +88,6 @@ Status VoxelAccumulator::merge(VoxelAccumulator&& other)
   return Status::Ok;
 }
 
-Status VoxelAccumulator::merge(const VoxelAccumulator& other)
-{
-  VoxelAccumulator copy = other.withoutPoints();
-  *copy.runs_ = *other.runs_;
-  copy.counts_ = other.counts_;
-  return this->merge(std::move(copy));
-}
-
 Status VoxelAccumulator::finish(
   VoxelRequest request, VoxelResampler& result, const Executor& executor, ProgressObserver* observer)
 {
@@ -119,7 +111,7 @@ Status VoxelAccumulator::finish(
 
 VoxelAccumulator VoxelAccumulator::part(std::uint64_t first, std::uint64_t end)
 {
-  VoxelAccumulator part = this->withoutPoints();
+  VoxelAccumulator part(lattice_, covariances_, arrays_, transform_);
   const VoxelRun& all = runs_->whole();
   PointCounts& counts = part.counts_;
   if (first == 0 && end > 0)
@@ -146,19 +138,8 @@ std::vector<std::uint64_t> VoxelAccumulator::keys()
 namespace
 {
 
-/// "PHVoxel5" in the bytes.
-constexpr std::uint64_t kMagic = 0x356c65786f564850;
-
-/// Content besides the voxels.
-struct Content
-{
-  std::uint64_t magic = kMagic;
-  Lattice lattice;
-  std::uint64_t covariances = 0;
-  AffineTransform transform;
-  PointCounts counts;
-  std::vector<AccumulatedArray> arrays = {};
-};
+/// "PHVoxel6", the first of the bytes.
+constexpr std::uint64_t kMagic = 0x366c65786f564850;
 
 /// Bytes that changed on their way have another sum.
 std::uint64_t checksum(std::string_view bytes)
@@ -196,14 +177,12 @@ public:
   }
 };
 
-/// Reads what a Writer wrote; zeros beyond the end.
+/// Reads what a Writer wrote, whole and unchanged.
 class Reader
 {
 public:
-  explicit Reader(std::string_view bytes)
-    : left_(bytes)
-  {
-  }
+  const char* next;
+
   template <typename T>
   void one(T& thing)
   {
@@ -214,38 +193,33 @@ public:
   {
     std::uint64_t count = 0;
     this->one(count);
-    isWhole_ = isWhole_ && count <= left_.size() / sizeof(elements[0]);
-    elements.resize(isWhole_ ? count : 0);
-    this->copy(elements.data(), elements.size() * sizeof(elements[0]));
+    elements.resize(count);
+    this->copy(elements.data(), count * sizeof(elements[0]));
   }
-  bool isAtEnd() const { return isWhole_ && left_.empty(); }
 
 private:
   void copy(void* to, std::size_t size)
   {
-    isWhole_ = isWhole_ && left_.size() >= size;
-    std::fill_n(static_cast<char*>(to), isWhole_ ? 0 : size, 0);
-    left_.copy(static_cast<char*>(to), isWhole_ ? size : 0);
-    left_.remove_prefix(isWhole_ ? size : 0);
+    std::copy_n(next, size, static_cast<char*>(to));
+    next += size;
   }
-
-  std::string_view left_;
-  bool isWhole_ = true;
 };
 
-/// Writes a run, or reads one.
+}
+
+/// Writes all, or reads it into an object without points.
 template <typename Archive>
-void exchange(Archive& archive, Content& content, VoxelRun& run)
+void VoxelAccumulator::exchange(Archive& archive)
 {
-  archive.one(content.magic);
-  archive.one(content.lattice);
-  archive.one(content.covariances);
-  archive.one(content.transform);
-  archive.one(content.counts);
+  VoxelRun& run = runs_->whole();
+  archive.one(lattice_);
+  archive.one(covariances_);
+  archive.one(transform_);
+  archive.one(counts_);
   archive.all(run.voxels);
   archive.all(run.secondMoments);
-  archive.all(content.arrays);
-  run.tallies.resize(run.size() > 0 ? content.arrays.size() : 0);
+  archive.all(arrays_);
+  run.tallies.resize(run.size() > 0 ? arrays_.size() : 0);
   for (std::size_t i = 0; i < run.tallies.size(); ++i)
   {
     VoxelTally& tally = run.tallies[i];
@@ -255,107 +229,36 @@ void exchange(Archive& archive, Content& content, VoxelRun& run)
     archive.all(tally.sums.nonFinite);
     archive.all(tally.values.ends);
     archive.all(tally.values.values);
-    const bool isSummed = isSum(content.arrays[i].statistic);
-    tally.sums.components = isSummed ? content.arrays[i].components : 0;
+    const bool isSummed = isSum(arrays_[i].statistic);
+    tally.sums.components = isSummed ? arrays_[i].components : 0;
     tally.sums.size = run.size() * std::size_t(tally.sums.components);
-    tally.values.components = isSummed ? 0 : content.arrays[i].components;
+    tally.values.components = isSummed ? 0 : arrays_[i].components;
   }
-}
-
-/// True if the values of each list have as many points as its voxel.
-bool listsAddUp(const VoxelRun& run, const TallyValues& values)
-{
-  const auto components = std::size_t(values.components);
-  for (std::size_t list = 0; list < values.ends.size(); ++list)
-  {
-    std::int64_t left = run.voxels[list / components].count;
-    const TallyValues::List points = values[list];
-    for (const TallyValue* value = points.first; value != points.last; ++value)
-    {
-      if (value->points <= 0 || value->points > left)
-      {
-        return false;
-      }
-      left -= value->points;
-    }
-    if (left != 0)
-    {
-      return false;
-    }
-  }
-  return true;
-}
-
-/// True if a run that was read has the sizes, the order and the counts that its content asks for.
-bool isConsistent(const Content& content, const VoxelRun& run)
-{
-  constexpr int kMostUnit = 1100; // Double numbers are multiples of 2^-1074.
-  const auto isNotAbove = [](const WideSums& a, const WideSums& b) { return a.key >= b.key; };
-  const auto isCount = [](std::int64_t n) { return n >= 0 && n <= VoxelAccumulator::kMostPoints; };
-  const auto areCounts = [&](const NonFiniteCount& n)
-  { return isCount(n.nans) && isCount(n.plus) && isCount(n.minus); };
-  const PointCounts& counts = content.counts;
-  bool result = isCount(counts.points) && isCount(counts.clipped) && isCount(counts.invalid) &&
-    run.secondMoments.size() == (content.covariances == 1 ? run.size() : 0) &&
-    std::adjacent_find(run.voxels.begin(), run.voxels.end(), isNotAbove) == run.voxels.end();
-  std::int64_t left = result ? counts.points - counts.clipped - counts.invalid : 0;
-  for (const WideSums& voxel : run.voxels)
-  {
-    result = result && voxel.count > 0 && voxel.count <= left;
-    left -= result ? voxel.count : 0;
-  }
-  result = result && left == 0;
-  for (const VoxelTally& tally : run.tallies)
-  {
-    const TallySums& sums = tally.sums;
-    const auto& ends = tally.values.ends;
-    const auto words = std::size_t(std::max(sums.words, 1));
-    result = result && sums.components + tally.values.components > 0 && sums.unit >= -kMostUnit &&
-      sums.unit <= kMostUnit && (sums.words > 0 || sums.size == 0) && sums.values.size() % words == 0 &&
-      sums.values.size() / words == sums.size &&
-      (sums.nonFinite.empty() || sums.nonFinite.size() == sums.size) &&
-      std::all_of(sums.nonFinite.begin(), sums.nonFinite.end(), areCounts) &&
-      ends.size() == run.size() * std::size_t(tally.values.components) &&
-      std::is_sorted(ends.begin(), ends.end()) &&
-      (ends.empty() ? 0 : ends.back()) == tally.values.values.size() && listsAddUp(run, tally.values);
-  }
-  return result;
-}
-
 }
 
 std::string VoxelAccumulator::serialize(std::uint64_t first, std::uint64_t end)
 {
-  const VoxelAccumulator part = this->part(first, end);
-  VoxelRun& run = part.runs_->whole();
-  Content content{ kMagic, lattice_, covariances_, transform_, part.counts_, arrays_ };
+  VoxelAccumulator part = this->part(first, end);
   Writer writer;
-  exchange(writer, content, run);
+  writer.one(kMagic);
+  part.exchange(writer);
   writer.one(checksum(writer.bytes));
   return std::move(writer.bytes);
 }
 
 Status VoxelAccumulator::deserialize(std::string_view bytes, VoxelAccumulator& result)
 {
-  std::uint64_t sum = 0;
-  const std::size_t size = bytes.size() - std::min(bytes.size(), sizeof sum);
-  bytes.copy(reinterpret_cast<char*>(&sum), sizeof sum, size);
-  Content content;
-  VoxelRun run;
-  Reader reader(bytes.substr(0, size));
-  if (sum != checksum(bytes.substr(0, size)))
+  std::uint64_t ends[2] = { 0, 0 };
+  const std::size_t size = bytes.size() - std::min(bytes.size(), sizeof ends[1]);
+  bytes.copy(reinterpret_cast<char*>(&ends[0]), sizeof ends[0]);
+  bytes.copy(reinterpret_cast<char*>(&ends[1]), sizeof ends[1], size);
+  if (ends[0] != kMagic || ends[1] != checksum(bytes.substr(0, size)))
   {
     return Status::InvalidParameter;
   }
-  exchange(reader, content, run);
-  if (content.magic != kMagic || !reader.isAtEnd() || !isConsistent(content, run))
-  {
-    return Status::InvalidParameter;
-  }
-  VoxelAccumulator read(
-    content.lattice, content.covariances == 1, std::move(content.arrays), content.transform);
-  read.counts_ = content.counts;
-  read.runs_->add(std::move(run));
+  VoxelAccumulator read{ Lattice() };
+  Reader reader{ bytes.data() + sizeof kMagic };
+  read.exchange(reader);
   result = std::move(read);
   return Status::Ok;
 }

@@ -58,11 +58,6 @@ public:
   VoxelAccumulator(VoxelAccumulator&&) noexcept;
   VoxelAccumulator& operator=(VoxelAccumulator&&) noexcept;
 
-  /// Another one of the same lattice and arrays, without points.
-  VoxelAccumulator withoutPoints() const
-  {
-    return VoxelAccumulator(lattice_, covariances_, arrays_, transform_);
-  }
   /// Points added: all, those finite outside the lattice, those NaN or infinite.
   std::int64_t points() const { return counts_.points; }
   std::int64_t clippedPoints() const { return counts_.clipped; }
@@ -72,11 +67,8 @@ public:
   /// (more than kMostPoints in all, other arrays, fewer tuples than points), Aborted; nothing is added then.
   Status add(const PointView& points, const std::vector<AttributeView>& arrays = {},
     const Executor& executor = {}, ProgressObserver* observer = nullptr);
-  /// Adds all of another's sums. InvalidParameter: another lattice, covariances in one of them only, other
-  /// arrays, another transform, too many points; nothing is changed then.
-  Status merge(const VoxelAccumulator& other);
-  /// Merges another accumulator that is no longer needed: its sums are not copied, and it has none
-  /// afterwards.
+  /// Adds all of another's sums, which has none afterwards. InvalidParameter: another lattice, covariances in
+  /// one of them only, other arrays, another transform, too many points; nothing is changed then.
   Status merge(VoxelAccumulator&& other);
 
   /// Makes @p result: its means, counts, covariances, arrays, keys, as after run(). More can be added
@@ -88,21 +80,24 @@ public:
   /// @p end). Machines with the other order of bytes refuse them.
   std::string serialize(std::uint64_t first = 0, std::uint64_t end = ~std::uint64_t(0));
   /// The voxels whose keys are from @p first to before @p end, and their points alone; those clipped or
-  /// invalid go with the first key, 0. The parts of all ranges merge to the whole.
+  /// invalid go with the first key, 0. The parts of all ranges merge to the whole;
+  /// part(0, 0) has none.
   VoxelAccumulator part(std::uint64_t first, std::uint64_t end);
   /// Frees the scratch memory that add() keeps for the next call.
   void releaseScratch() { engine_.releaseScratch(); }
   /// Keys of active voxels in ascending order.
   std::vector<std::uint64_t> keys();
   /// Reads the bytes of serialize(). InvalidParameter, with @p result unchanged: bytes of another version, or
-  /// cut or changed on their way, which their checksum tells, or whose sizes or counts contradict each
-  /// other.
+  /// cut or changed on their way, which their checksum tells. Not for bytes that somebody may have forged.
   static Status deserialize(std::string_view bytes, VoxelAccumulator& result);
 
   /// Their sums fit on every lattice.
   static constexpr std::int64_t kMostPoints = std::int64_t(1) << 34;
 
 private:
+  template <typename Archive>
+  void exchange(Archive& archive);
+
   std::unique_ptr<simd::VoxelRuns> runs_;
   PointCounts counts_;
   VoxelResampler engine_;

@@ -75,13 +75,6 @@ Status VoxelResampler::Implementation::run(
   return status;
 }
 
-Status VoxelResampler::Implementation::sum(
-  const VoxelRequest& request, VoxelRun& sums, const Executor& executor, ProgressObserver* observer)
-{
-  Task task = { request, false };
-  return sumPoints(task, sums, executor, observer);
-}
-
 Status VoxelResampler::Implementation::finish(
   const VoxelRequest& request, const VoxelRun& sums, const Executor& executor, ProgressObserver* observer)
 {
@@ -147,7 +140,7 @@ Status VoxelResampler::Implementation::writeRun(
 std::size_t VoxelResampler::Implementation::scratchBytes() const
 {
   return std::accumulate(workers_.begin(), workers_.end(),
-    binner_.bytes() + places_.capacity() + writer_.bytes() +
+    binner_.bytes() + places_.bytes() + writer_.bytes() +
       (chosenPoints.capacity() + voxelIndex.capacity()) * sizeof(std::int64_t),
     [](std::size_t sum, const auto& worker) { return sum + worker->voxels.bytes(); });
 }
@@ -181,7 +174,7 @@ AttributeView VoxelResampler::Implementation::placesOf(const VoxelRequest& reque
   const auto move = [&](auto example)
   {
     using Real = decltype(example);
-    places_.resize(std::size_t(3 * points.size()) * sizeof(Real));
+    places_.reserve(std::size_t(3 * points.size()) * sizeof(Real));
     Real* const to = reinterpret_cast<Real*>(places_.data());
     forEachIndex(executor, points.size(),
       [&](std::int64_t i)

@@ -72,16 +72,6 @@ class VoxelResampler::Implementation : public VoxelResampler::Results
 {
 public:
   Status run(const VoxelRequest& request, const Executor& executor, ProgressObserver* observer);
-  /// For VoxelAccumulator: the sums of the points in the lattice's voxels.
-  Status sum(
-    const VoxelRequest& request, simd::VoxelRun& sums, const Executor& executor, ProgressObserver* observer);
-  /// For VoxelAccumulator: the result that such sums make.
-  Status finish(const VoxelRequest& request, const simd::VoxelRun& sums, const Executor& executor,
-    ProgressObserver* observer);
-
-  std::size_t scratchBytes() const;
-
-private:
   /// Use of the voxels of points.
   struct Task
   {
@@ -90,6 +80,15 @@ private:
     /// The attributes of the request, and what is reduced like them.
     std::vector<AttributeRequest> arrays = {};
   };
+  /// The sums of the points in the lattice's voxels, where @p task does not write them.
+  Status sumPoints(Task& task, simd::VoxelRun& sums, const Executor& executor, ProgressObserver* observer);
+  /// For VoxelAccumulator: the result that such sums make.
+  Status finish(const VoxelRequest& request, const simd::VoxelRun& sums, const Executor& executor,
+    ProgressObserver* observer);
+
+  std::size_t scratchBytes() const;
+
+private:
   struct Worker
   {
     simd::BinnedVoxels voxels;
@@ -99,7 +98,6 @@ private:
   void clear();
   void publish();
   static Status check(const VoxelRequest& request);
-  Status sumPoints(Task& task, simd::VoxelRun& sums, const Executor& executor, ProgressObserver* observer);
   Status runStages(
     Task& task, std::vector<simd::VoxelRuns>& parts, const Executor& executor, ProgressObserver* observer);
   void prepareWorkers(const Task& task, const simd::Chunks& chunks, const Executor& executor);
@@ -115,7 +113,7 @@ private:
   simd::VoxelWriter writer_; ///< The result's arrays.
   simd::PointBinner binner_;
   std::vector<std::unique_ptr<Worker>> workers_; ///< One for each thread.
-  PageVector<char> places_;                      ///< Memory of points, for medians.
+  Buffer<char> places_;                          ///< Memory of points, for medians.
 };
 
 } // namespace pointhaptics

@@ -3,7 +3,7 @@
 #include "SmpExecutor.h"
 
 #include "Core/Neighbors/SpatialOrder.h"
-#include "Core/Resample/VoxelMean.h"
+#include "Core/Resample/TransformedBounds.h"
 
 #include <algorithm>
 #include <array>

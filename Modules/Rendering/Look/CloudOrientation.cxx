@@ -5,7 +5,7 @@
 #include "UpEvidence.h"
 
 #include "Core/Base/PointView.h"
-#include "Core/Resample/VoxelMean.h"
+#include "Core/Resample/TransformedBounds.h"
 
 #include "vtkDataArray.h"
 #include "vtkFieldData.h"

@@ -7,7 +7,7 @@
 #include "SmpExecutor.h"
 #include "vtkSplatMapper.h"
 
-#include "Core/Resample/VoxelMean.h"
+#include "Core/Resample/TransformedBounds.h"
 
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>

@@ -1,7 +1,7 @@
 #include "Benchmark/Resample/Expected.h"
 
-#include "Core/Base/PortableRandom.h"
 #include "Core/Reference/ReferenceVoxelMean.h"
+#include "Shapes/PortableRandom.h"
 
 #include <gtest/gtest.h>
 

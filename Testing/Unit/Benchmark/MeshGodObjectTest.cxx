@@ -2,7 +2,7 @@
 #include "Benchmark/Touch/Methods/MeshGodObject.h"
 #include "Benchmark/Touch/TouchJudge.h"
 #include "Benchmark/Touch/TouchStrokes.h"
-#include "Core/Base/PortableRandom.h"
+#include "Shapes/PortableRandom.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 /// Scenes with exact answers, hands that move over them, and what a proxy made of it.
 #pragma once
 
-#include "Core/Resample/VoxelMean.h"
+#include "Core/Resample/TransformedBounds.h"
 #include "Haptics/HapticScene.h"
 #include "Haptics/LocalScene.h"
 #include "Haptics/Proxy.h"

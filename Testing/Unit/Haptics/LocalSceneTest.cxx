@@ -3,7 +3,7 @@
 #include "HapticFixtures.h"
 
 #include "Core/Base/Boxes.h"
-#include "Core/Resample/VoxelMean.h"
+#include "Core/Resample/TransformedBounds.h"
 #include "Haptics/Contact/BallCells.h"
 
 #include <gtest/gtest.h>

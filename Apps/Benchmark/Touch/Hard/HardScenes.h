@@ -5,7 +5,7 @@
 
 #include "Benchmark/Touch/TouchBenchmark.h"
 
-#include "Core/Base/PortableRandom.h"
+#include "Shapes/PortableRandom.h"
 
 #include <functional>
 #include <string>

@@ -1,6 +1,6 @@
 /// @file
-/// Prefetches for loops that wait for memory, and a loop in another order. Internal linkage: sources of
-/// several instruction sets include them.
+/// Prefetches for loops that wait for memory. Internal linkage: sources of several instruction sets include
+/// them.
 #pragma once
 
 #include <cstddef>
@@ -30,26 +30,6 @@ __attribute__((always_inline)) static inline void fetchToWrite(const void* addre
   for (std::size_t i = 0; i < bytes; i += 64)
   {
     fetchToWrite(static_cast<const char*>(address) + i);
-  }
-}
-
-/// Calls visit(i) for all i below @p count, taking turns in four parts of the range. Neighbours in a scan are
-/// in one voxel and one partition, so that an update would wait for the one before: updates elsewhere hide
-/// this latency.
-template <typename Index, typename Visit>
-__attribute__((always_inline)) static inline void fromFourParts(Index count, Visit&& visit)
-{
-  const Index part = count / 4;
-  for (Index i = 0; i < part; ++i)
-  {
-    visit(i);
-    visit(i + part);
-    visit(i + 2 * part);
-    visit(i + 3 * part);
-  }
-  for (Index i = 4 * part; i < count; ++i)
-  {
-    visit(i);
   }
 }
 

@@ -114,8 +114,22 @@ std::uint32_t rankCells(
   const CellTables& given, std::uint32_t* cells, std::size_t count, std::uint32_t* occupied)
 {
   const CellTables tables = given; // A copy, which no store can change.
-  fromFourParts(
-    count, [=](std::size_t i) { tables.occupancy[cells[i] / 64] |= std::uint64_t(1) << (cells[i] % 64); });
+  const auto occupy = [=](std::size_t i)
+  { tables.occupancy[cells[i] / 64] |= std::uint64_t(1) << (cells[i] % 64); };
+  // Neighbours in a scan are in one word, and an update would wait for the one before: updates elsewhere hide
+  // this latency.
+  const std::size_t part = count / 4;
+  for (std::size_t i = 0; i < part; ++i)
+  {
+    occupy(i);
+    occupy(i + part);
+    occupy(i + 2 * part);
+    occupy(i + 3 * part);
+  }
+  for (std::size_t i = 4 * part; i < count; ++i)
+  {
+    occupy(i);
+  }
   std::uint32_t sum = 0;
   for (std::size_t word = 0; word < tables.words; ++word)
   {
@@ -162,12 +176,11 @@ __attribute__((noinline)) void accumulateProducts(
   int fractionBits, const PointRecord* records, const std::uint32_t* ranks, int count, SecondMoments* to)
 {
   const std::uint64_t mask = (std::uint64_t(1) << fractionBits) - 1;
-  fromFourParts(count,
-    [=](int i)
-    {
-      const PointRecord& r = records[i];
-      addProducts(to[ranks[i]], xFraction(r, mask), yFraction(r, mask), zFraction(r, mask));
-    });
+  for (int i = 0; i < count; ++i)
+  {
+    const PointRecord& r = records[i];
+    addProducts(to[ranks[i]], xFraction(r, mask), yFraction(r, mask), zFraction(r, mask));
+  }
 }
 
 void accumulate(int fractionBits, const PointRecord* records, const std::uint32_t* ranks, int count,

@@ -50,7 +50,7 @@ void AttributeTuples::prepare(const AccumulatedArray& kind, const std::vector<st
   }
   const std::size_t bytes = std::size_t(tuples * bytesOf(kind_.type)) + kListVector;
   componentBytes_ = (bytes + 63) / 64 * 64;
-  keys_.reserve(componentBytes_ * std::size_t(kind_.components), Pages::Huge);
+  keys_.reserve(componentBytes_ * std::size_t(kind_.components));
 }
 
 void AttributeTuples::add(

@@ -70,7 +70,7 @@ public:
   void prepare(const BinnedVoxels& voxels)
   {
     size_ = voxels.size();
-    nearest_.reserve(size_, Pages::Huge);
+    nearest_.reserve(size_);
     for (std::size_t v = 0; v < size_; ++v)
     {
       const std::int64_t count = toMean_ ? voxels.count(v) : 1;

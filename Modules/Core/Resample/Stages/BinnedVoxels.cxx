@@ -69,8 +69,8 @@ void BinnedVoxels::findCells()
 /// Ranks the voxels of the records by sorting these.
 void BinnedVoxels::sortKeys()
 {
-  keys_.resize(records_);
-  otherKeys_.resize(records_);
+  keys_.reserve(records_);
+  otherKeys_.reserve(records_);
   std::uint32_t record = 0;
   for (PointBinner::Walk block(*binner_, partition_); block.next();)
   {
@@ -121,7 +121,8 @@ void BinnedVoxels::sumPacked()
 
 void BinnedVoxels::sumWide()
 {
-  wide_.start(voxels_.size, request_->covariances);
+  wide_.voxels.assign(voxels_.size, WideSums{});
+  wide_.secondMoments.assign(request_->covariances ? voxels_.size : 0, SecondMoments{});
   constexpr std::uint64_t kMask = (std::uint64_t(1) << kFineBits) - 1;
   for (std::size_t v = 0; v < voxels_.size; ++v)
   {
@@ -134,7 +135,17 @@ void BinnedVoxels::sumWide()
     {
       for (int i = 0; i < block.count; ++i)
       {
-        wide_.addPoint(block.voxels[i], block.offsets[i]);
+        const std::uint32_t voxel = block.voxels[i];
+        const std::array<std::uint64_t, 3>& offset = block.offsets[i];
+        ++wide_.voxels[voxel].count;
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          wide_.voxels[voxel].add(axis, offset[std::size_t(axis)]);
+        }
+        if (request_->covariances)
+        {
+          addProducts(wide_.secondMoments[voxel], offset[0], offset[1], offset[2]);
+        }
       }
     });
 }
@@ -182,8 +193,8 @@ void BinnedVoxels::write(const Kernels& kernels, VoxelWriter& writer, std::size_
 
 std::size_t BinnedVoxels::bytes() const
 {
-  return occupancy_.bytes() + rankTable_.bytes() + ranks_.bytes() + cells_.bytes() +
-    (keys_.capacity() + otherKeys_.capacity()) * sizeof(Key) + packed_.capacity() * sizeof(PackedSums) +
+  return occupancy_.bytes() + rankTable_.bytes() + ranks_.bytes() + cells_.bytes() + keys_.bytes() +
+    otherKeys_.bytes() + packed_.capacity() * sizeof(PackedSums) +
     secondMoments_.capacity() * sizeof(SecondMoments) + wide_.bytes();
 }
 

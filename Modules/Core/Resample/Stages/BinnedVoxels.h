@@ -98,8 +98,8 @@ private:
   Buffer<std::uint32_t> rankTable_;
   Buffer<std::uint32_t> ranks_; ///< Of the records' voxels; their cells before.
   Buffer<std::uint32_t> cells_; ///< Those of the voxels.
-  PageVector<Key> keys_;        ///< Where records are sorted; the first ones become those of the voxels.
-  PageVector<Key> otherKeys_;
+  Buffer<Key> keys_;            ///< Where records are sorted; the first ones become those of the voxels.
+  Buffer<Key> otherKeys_;
   std::vector<PackedSums> packed_;
   std::vector<SecondMoments> secondMoments_;
   bool isWide_ = false; ///< Packed sums are too small for these points.

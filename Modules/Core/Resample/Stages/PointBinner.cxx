@@ -64,6 +64,37 @@ std::size_t blockRecordsFor(std::size_t writers)
   return records;
 }
 
+/// A plan for @p points points at a time.
+PartitionPlan makePlan(const Lattice& lattice, std::int64_t points)
+{
+  const int indexBits = indexBitsOf(lattice);
+  PartitionPlan plan;
+  plan.columns = std::uint32_t(lattice.dimensions[0]);
+  plan.rowsPerLayer = std::uint32_t(lattice.dimensions[1]);
+  const auto layers = std::uint32_t(lattice.dimensions[2]);
+  plan.fractionBits = fractionBitsOf(lattice);
+  plan.isFine = indexBits > kMaximumIndexBits;
+  const std::uint32_t half = std::uint32_t(1) << (indexBits - 1);
+  plan.upperRows = layers > half ? plan.rowsPerLayer * half : 0;
+
+  const auto wanted = std::uint32_t(
+    std::min<std::int64_t>(std::max<std::int64_t>(points / kPointsPerPartition, 1), kMostPartitions));
+  // No partition may span more than half the layers.
+  while (blocks(layers, plan.layerShift) > wanted && plan.layerShift < indexBits - 1 &&
+    (plan.isFine || 2 * plan.cells() <= kMostCells))
+  {
+    ++plan.layerShift;
+  }
+  plan.rowShift = indexBits;
+  while (plan.layerShift == 0 && plan.rowShift > 0 && 2 * layers * plan.blocksPerLayer <= wanted)
+  {
+    --plan.rowShift;
+    plan.blocksPerLayer = blocks(plan.rowsPerLayer, plan.rowShift);
+  }
+  plan.partitions = blocks(layers, plan.layerShift) * plan.blocksPerLayer;
+  return plan;
+}
+
 /// Bins ranges of points: all at once, or block by block where other fields lie between points.
 void binRanges(const Kernels& kernels, const PointQuantizer& quantizer, const Chunks& chunks,
   const PointRange* ranges, std::int64_t count, std::int64_t firstNumber, PointRecordWriter& writer)
@@ -101,36 +132,6 @@ void binRanges(const Kernels& kernels, const PointQuantizer& quantizer, const Ch
 
 }
 
-PartitionPlan makePlan(const Lattice& lattice, std::int64_t points)
-{
-  const int indexBits = indexBitsOf(lattice);
-  PartitionPlan plan;
-  plan.columns = std::uint32_t(lattice.dimensions[0]);
-  plan.rowsPerLayer = std::uint32_t(lattice.dimensions[1]);
-  const auto layers = std::uint32_t(lattice.dimensions[2]);
-  plan.fractionBits = fractionBitsOf(lattice);
-  plan.isFine = indexBits > kMaximumIndexBits;
-  const std::uint32_t half = std::uint32_t(1) << (indexBits - 1);
-  plan.upperRows = layers > half ? plan.rowsPerLayer * half : 0;
-
-  const auto wanted = std::uint32_t(
-    std::min<std::int64_t>(std::max<std::int64_t>(points / kPointsPerPartition, 1), kMostPartitions));
-  // No partition may span more than half the layers.
-  while (blocks(layers, plan.layerShift) > wanted && plan.layerShift < indexBits - 1 &&
-    (plan.isFine || 2 * plan.cells() <= kMostCells))
-  {
-    ++plan.layerShift;
-  }
-  plan.rowShift = indexBits;
-  while (plan.layerShift == 0 && plan.rowShift > 0 && 2 * layers * plan.blocksPerLayer <= wanted)
-  {
-    --plan.rowShift;
-    plan.blocksPerLayer = blocks(plan.rowsPerLayer, plan.rowShift);
-  }
-  plan.partitions = blocks(layers, plan.layerShift) * plan.blocksPerLayer;
-  return plan;
-}
-
 void PointBinner::prepare(
   const VoxelRequest& request, const Chunks& chunks, const std::vector<AttributeView>& arrays, bool numbered)
 {
@@ -161,9 +162,9 @@ void PointBinner::start(const Chunks& chunks, std::size_t first, std::size_t las
   blockRecords_ = blockRecordsFor(writers_.size());
   const std::size_t blocks =
     std::size_t(points) / blockRecords_ + writers_.size() * (2 * plan_.partitions + kTakenBlocks);
-  records_.reserve(blocks * blockRecords_, Pages::Huge);
+  records_.reserve(blocks * blockRecords_);
   previous_.reserve(blocks);
-  payloads_.reserve(std::size_t(layout.words) * blocks * blockRecords_, Pages::Huge);
+  payloads_.reserve(std::size_t(layout.words) * blocks * blockRecords_);
   takenBlocks_ = 0;
   for (std::unique_ptr<Writer>& writer : writers_)
   {

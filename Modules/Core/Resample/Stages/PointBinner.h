@@ -136,9 +136,6 @@ struct PartitionPlan
   }
 };
 
-/// A plan for @p points points at a time.
-PartitionPlan makePlan(const Lattice& lattice, std::int64_t points);
-
 /// The first two stages. Records lie in blocks of one piece of memory: the writer of a thread takes a block
 /// for each partition it has a point for, and a new one when that is full; the blocks of a writer and
 /// partition form a list.

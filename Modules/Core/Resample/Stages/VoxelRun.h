@@ -2,7 +2,6 @@
 /// Exact sums of the points of voxels, and how they are merged where they come in several times.
 #pragma once
 
-#include "Core/Base/Buffer.h"
 #include "Core/Resample/Kernel/VoxelKernel.h"
 #include "Core/Resample/Stages/VoxelTally.h"
 
@@ -35,11 +34,11 @@ struct WideSums
     constexpr std::uint64_t kMask = (std::uint64_t(1) << kHighBits) - 1;
     return (Int128((high >> (kHighBits * axis)) & kMask) << 64) + Int128(low[axis]);
   }
-  /// Adds the low and the high bits of a sum.
-  void add(int axis, std::uint64_t lowBits, std::uint64_t highBits)
+  /// Adds to a sum.
+  void add(int axis, std::uint64_t bits)
   {
-    low[axis] += lowBits;
-    high += (highBits + std::uint64_t(low[axis] < lowBits)) << (kHighBits * axis);
+    low[axis] += bits;
+    high += std::uint64_t(low[axis] < bits) << (kHighBits * axis);
   }
   void add(const WideSums& other)
   {
@@ -47,7 +46,7 @@ struct WideSums
     high += other.high;
     for (int axis = 0; axis < 3; ++axis)
     {
-      this->add(axis, other.low[axis], 0);
+      this->add(axis, other.low[axis]);
     }
   }
   /// Rounded.
@@ -58,8 +57,8 @@ struct WideSums
 /// each array, unless arrays are accumulated.
 struct VoxelRun
 {
-  PageVector<WideSums> voxels;
-  PageVector<SecondMoments> secondMoments;
+  std::vector<WideSums> voxels;
+  std::vector<SecondMoments> secondMoments;
   std::vector<VoxelTally> tallies;
 
   std::size_t size() const { return voxels.size(); }
@@ -70,27 +69,6 @@ struct VoxelRun
     return std::size_t(std::lower_bound(voxels.begin(), voxels.end(), key,
                          [](const WideSums& voxel, std::uint64_t k) { return voxel.key < k; }) -
       voxels.begin());
-  }
-  /// Makes it voxels without points, keys and what arrays have.
-  void start(std::size_t size, bool withMoments)
-  {
-    voxels.assign(size, WideSums{});
-    secondMoments.assign(withMoments ? size : 0, SecondMoments{});
-    tallies.clear();
-  }
-  /// Adds the offsets of a point to a voxel.
-  void addPoint(std::size_t voxel, const std::array<std::uint64_t, 3>& offset)
-  {
-    WideSums& sums = voxels[voxel];
-    ++sums.count;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      sums.add(axis, offset[std::size_t(axis)], 0);
-    }
-    if (hasMoments())
-    {
-      addProducts(secondMoments[voxel], offset[0], offset[1], offset[2]);
-    }
   }
   /// Appends the sums of voxel @p i of @p a and voxel @p j of @p b, the same voxel; either may be null.
   void append(const VoxelRun* a, std::size_t i, const VoxelRun* b, std::size_t j);

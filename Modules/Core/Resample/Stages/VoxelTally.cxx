@@ -186,7 +186,7 @@ void TallySums::fit(int newUnit, int newWords)
   {
     return;
   }
-  PageVector<std::uint64_t> moved(size * std::size_t(newWords), 0);
+  std::vector<std::uint64_t> moved(size * std::size_t(newWords), 0);
   for (std::size_t sum = 0; sum < size; ++sum)
   {
     static_cast<void>(
@@ -276,12 +276,6 @@ double TallySums::mean(std::size_t sum, std::int64_t count, double scale) const
                                  : std::ldexp(whole / double(count), unit + 64 * std::max(top - 1, 0));
 }
 
-Int128 TallySums::inUnits(std::size_t sum) const
-{
-  const std::uint64_t* const number = at(sum);
-  return words == 1 ? Int128(std::int64_t(number[0])) : Int128(UInt128(number[1]) << 64 | number[0]);
-}
-
 void TallySums::write(const AccumulatedArray& kind, std::size_t first, std::size_t last,
   const std::int64_t* counts, const std::array<Vec3, 3>& columns, void* tuples) const
 {
@@ -312,29 +306,14 @@ void TallySums::write(const AccumulatedArray& kind, std::size_t first, std::size
           }
           else
           {
-            *to = roundedMean<T>(inUnits(sum), count);
+            const std::uint64_t* const number = at(sum); // of up to two words
+            *to = roundedMean<T>(
+              words == 1 ? Int128(std::int64_t(number[0])) : Int128(UInt128(number[1]) << 64 | number[0]),
+              count);
           }
         }
       }
     });
-}
-
-std::int64_t TallyValues::List::mostFrequent() const
-{
-  return std::max_element(
-    first, last, [](const TallyValue& a, const TallyValue& b) { return a.points < b.points; })
-    ->key;
-}
-
-std::int64_t TallyValues::List::middle(std::int64_t count) const
-{
-  std::int64_t left = (count - 1) / 2;
-  const TallyValue* value = first;
-  for (; left >= value->points; ++value)
-  {
-    left -= value->points;
-  }
-  return value->key;
 }
 
 void TallyValues::append(const TallyValues* a, std::size_t i, const TallyValues* b, std::size_t j)
@@ -374,9 +353,18 @@ void VoxelTally::write(const AccumulatedArray& kind, std::size_t first, std::siz
       const auto components = std::size_t(kind.components);
       for (std::size_t list = first * components; list < last * components; ++list)
       {
-        const std::int64_t count = counts[list / components - first];
-        *to++ = valueOfKey<T>(kind.statistic == AttributeStatistic::Mode ? values[list].mostFrequent()
-                                                                         : values[list].middle(count));
+        const bool isMode = kind.statistic == AttributeStatistic::Mode;
+        const TallyValues::List points = values[list];
+        const TallyValue* value = isMode
+          ? std::max_element(points.first, points.last,
+              [](const TallyValue& a, const TallyValue& b) { return a.points < b.points; })
+          : points.first;
+        std::int64_t left = (counts[list / components - first] - 1) / 2;
+        for (; !isMode && left >= value->points; ++value)
+        {
+          left -= value->points;
+        }
+        *to++ = valueOfKey<T>(value->key);
       }
     });
 }

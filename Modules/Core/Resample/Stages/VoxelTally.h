@@ -3,7 +3,6 @@
 /// their order or on how they came.
 #pragma once
 
-#include "Core/Base/Buffer.h"
 #include "Core/Base/Vector3.h"
 #include "Core/Resample/AttributeView.h"
 #include "Core/Resample/Kernel/VoxelKernel.h"
@@ -50,7 +49,7 @@ public:
   int unit = 0;
   int words = 0; ///< Words of a sum; 0 before there are any.
   std::size_t size = 0;
-  PageVector<std::uint64_t> values;      ///< [voxel][component][word], the lowest word first.
+  std::vector<std::uint64_t> values;     ///< [voxel][component][word], the lowest word first.
   std::vector<NonFiniteCount> nonFinite; ///< [voxel][component], where there are any.
 
   /// Drops all sums and makes room for those of voxels with @p counts points each. @p range: of all tuples.
@@ -65,8 +64,6 @@ public:
   /// columns.
   void write(const AccumulatedArray& kind, std::size_t first, std::size_t last, const std::int64_t* counts,
     const std::array<Vec3, 3>& columns, void* tuples) const;
-  /// @pre it has up to two words.
-  Int128 inUnits(std::size_t sum) const;
 
 private:
   std::uint64_t* at(std::size_t sum) { return values.data() + sum * std::size_t(words); }
@@ -92,17 +89,13 @@ struct TallyValue
 struct TallyValues
 {
   int components = 0;
-  PageVector<std::size_t> ends; ///< End of each list.
-  PageVector<TallyValue> values;
+  std::vector<std::size_t> ends; ///< End of each list.
+  std::vector<TallyValue> values;
 
   struct List
   {
     const TallyValue* first;
     const TallyValue* last;
-    /// The key that most points have, of several the smallest.
-    std::int64_t mostFrequent() const;
-    /// That of the middle one of @p count points.
-    std::int64_t middle(std::int64_t count) const;
   };
   /// As of TallySums: points with a value.
   void append(const TallyValues* a, std::size_t i, const TallyValues* b, std::size_t j);

@@ -6,6 +6,10 @@
 
 namespace pointhaptics::simd
 {
+namespace
+{
+
+/// Covariance of the points of a voxel, divided by their count, from exact integer sums in quanta.
 SymMat3 covarianceOf(std::int64_t count, const Int128 sums[3], const SecondMoments& secondMoments,
   double quantum, const Vec3& spacing)
 {
@@ -35,6 +39,7 @@ SymMat3 covarianceOf(std::int64_t count, const Int128 sums[3], const SecondMomen
     moment(5, 0, 2) };
 }
 
+/// How sums become coordinates in a lattice with offsets of @p fractionBits bits, rounded to float or double.
 MeanMap makeMeanMap(const Lattice& lattice, int fractionBits, bool singlePrecision)
 {
   MeanMap map;
@@ -55,11 +60,6 @@ MeanMap makeMeanMap(const Lattice& lattice, int fractionBits, bool singlePrecisi
   return map;
 }
 
-void VoxelWriter::Array::prepare(std::size_t room, std::size_t voxelBytes, void* given)
-{
-  bytes = voxelBytes;
-  own.reserve(given ? 0 : room * voxelBytes);
-  values = given ? static_cast<char*>(given) : own.data();
 }
 
 void VoxelWriter::prepare(const VoxelRequest& request, std::size_t room, int fractionBits)
@@ -79,8 +79,12 @@ void VoxelWriter::prepare(const VoxelRequest& request, std::size_t room, int fra
   arrays_.resize(bytes.size());
   for (std::size_t i = 0; i < bytes.size(); ++i)
   {
+    Array& array = arrays_[i];
     const bool isPart = allocator && i >= kParts && bytes[i] > 0;
-    arrays_[i].prepare(room, bytes[i], isPart ? allocator->allocate(i - kParts, room * bytes[i]) : nullptr);
+    void* const given = isPart ? allocator->allocate(i - kParts, room * bytes[i]) : nullptr;
+    array.bytes = bytes[i];
+    array.own.reserve(given ? 0 : room * bytes[i]);
+    array.values = given ? static_cast<char*>(given) : array.own.data();
   }
 }
 

@@ -27,13 +27,6 @@ struct PartitionVoxels
   std::size_t size = 0;
 };
 
-/// Covariance of the points of a voxel, divided by their count, from exact integer sums in quanta.
-SymMat3 covarianceOf(std::int64_t count, const Int128 sums[3], const SecondMoments& secondMoments,
-  double quantum, const Vec3& spacing);
-
-/// How sums become coordinates in a lattice with offsets of @p fractionBits bits, rounded to float or double.
-MeanMap makeMeanMap(const Lattice& lattice, int fractionBits, bool singlePrecision);
-
 /// Means, counts and on request keys, covariances, chosen points and attributes of active voxels, an array
 /// each: in the writer's own memory or, where asked for, in the caller's.
 class VoxelWriter
@@ -81,8 +74,6 @@ private:
     std::size_t bytes = 0; ///< Bytes of a voxel; 0: not requested.
     char* values = nullptr;
     Buffer<char> own;
-
-    void prepare(std::size_t room, std::size_t voxelBytes, void* given);
   };
   static constexpr std::size_t kKeys = 0;
   static constexpr std::size_t kChosen = 1;

@@ -80,15 +80,14 @@ RunResult sharedRun(
     {
       VoxelAccumulator own(lattice, true);
       EXPECT_EQ(own.add(partOf(points, ends, ranks.rank())), Status::Ok);
-      SharedVoxels shared;
-      EXPECT_EQ(shared.share(ranks, std::move(own)), Status::Ok);
+      EXPECT_EQ(shareVoxels(ranks, shareKeys(ranks, own.keys()), own), Status::Ok);
       VoxelRequest wanted;
       wanted.keys = true;
       VoxelResampler made;
-      EXPECT_EQ(shared.voxels().finish(wanted, made), Status::Ok);
+      EXPECT_EQ(own.finish(wanted, made), Status::Ok);
       RunResult& result = results[std::size_t(ranks.rank())];
-      result.clipped = shared.clippedPoints();
-      result.invalid = shared.invalidPoints();
+      result.clipped = ranks.sum(own.clippedPoints());
+      result.invalid = ranks.sum(own.invalidPoints());
       result.voxels = voxelsOf(made, requestOf(points, lattice));
     });
   RunResult all;
@@ -178,10 +177,9 @@ Made madeOf(const std::vector<Vec3>& points, const Lattice& lattice, const Array
       const PointView part = partOf(points, ends, ranks.rank());
       VoxelAccumulator own(lattice, false, kindsOfArrays());
       EXPECT_EQ(own.add(part, viewsOf(arrays, ends[std::size_t(ranks.rank())], part.size())), Status::Ok);
-      SharedVoxels shared;
-      EXPECT_EQ(shared.share(ranks, std::move(own)), Status::Ok);
+      EXPECT_EQ(shareVoxels(ranks, shareKeys(ranks, own.keys()), own), Status::Ok);
       VoxelResampler made;
-      EXPECT_EQ(shared.voxels().finish({}, made), Status::Ok);
+      EXPECT_EQ(own.finish({}, made), Status::Ok);
       ofRanks[std::size_t(ranks.rank())] = madeBy(made);
     });
   Made all(kindsOfArrays().size());
@@ -246,8 +244,7 @@ TEST(SharedVoxels, SendInProportionToVoxelsNotToPoints)
         const std::int64_t share = std::int64_t(points.size()) / 4;
         VoxelAccumulator own(lattice);
         EXPECT_EQ(own.add(PointView(points.data() + share * ranks.rank(), share)), Status::Ok);
-        SharedVoxels shared;
-        EXPECT_EQ(shared.share(ranks, std::move(own)), Status::Ok);
+        EXPECT_EQ(shareVoxels(ranks, shareKeys(ranks, own.keys()), own), Status::Ok);
       });
     sent.push_back(job.bytesSent());
   }
@@ -264,8 +261,8 @@ TEST(SharedVoxels, RefuseSumsOfAnotherLatticeOnAllRanks)
     [&](Ranks& ranks)
     {
       VoxelAccumulator own(latticeOf(4, 4, ranks.rank() == 2 ? 5 : 4));
-      SharedVoxels shared;
-      EXPECT_EQ(shared.share(ranks, std::move(own)), Status::InvalidParameter) << ranks.rank();
+      EXPECT_EQ(shareVoxels(ranks, shareKeys(ranks, own.keys()), own), Status::InvalidParameter)
+        << ranks.rank();
     });
 }
 
@@ -277,7 +274,7 @@ TEST(SharedVoxels, RefuseOtherArraysOnAllRanks)
     {
       const ScalarType type = ranks.rank() == 2 ? ScalarType::Double : ScalarType::Float;
       VoxelAccumulator own(latticeOf(4, 4, 4), false, { { type, 1, AttributeStatistic::Mean } });
-      SharedVoxels shared;
-      EXPECT_EQ(shared.share(ranks, std::move(own)), Status::InvalidParameter) << ranks.rank();
+      EXPECT_EQ(shareVoxels(ranks, shareKeys(ranks, own.keys()), own), Status::InvalidParameter)
+        << ranks.rank();
     });
 }

@@ -145,13 +145,13 @@ TEST(VoxelAccumulatorArrays, AreThoseOfOneRunHoweverTheyCame)
         ThreadedExecutor(int(part % 3) + 1));
     }
     EXPECT_TRUE(finished(sums) == expected) << nameOf(lattice) << ", in parts";
-    VoxelAccumulator first = sums.withoutPoints();
-    VoxelAccumulator second = sums.withoutPoints();
+    VoxelAccumulator first = sums.part(0, 0);
+    VoxelAccumulator second = sums.part(0, 0);
     addPart(first, cloud, 0, 1700);
     addPart(second, cloud, 1700, kArrayPoints);
     VoxelAccumulator read(latticeOf(1, 1, 1));
     ASSERT_EQ(VoxelAccumulator::deserialize(second.serialize(), read), Status::Ok);
-    ASSERT_EQ(read.merge(first), Status::Ok);
+    ASSERT_EQ(read.merge(std::move(first)), Status::Ok);
     EXPECT_TRUE(finished(read) == expected) << nameOf(lattice) << ", merged from bytes";
   }
 }
@@ -166,7 +166,7 @@ TEST(VoxelAccumulatorArrays, RangesOfBytesAreThePartsOfTheWhole)
     const std::vector<std::uint64_t> keys = sums.keys();
     std::vector<std::uint64_t> ends = { 0, 0, keys[keys.size() / 3], keys[keys.size() / 2], keys.back() + 9,
       ~std::uint64_t(0) };
-    VoxelAccumulator merged = sums.withoutPoints();
+    VoxelAccumulator merged = sums.part(0, 0);
     for (std::size_t i = 1; i < ends.size(); ++i)
     {
       VoxelAccumulator read{ Lattice() };
@@ -251,40 +251,6 @@ TEST(VoxelAccumulatorArrays, BytesThatWereCutOrChangedAreRefused)
     EXPECT_EQ(VoxelAccumulator::deserialize(changed, read), Status::InvalidParameter);
   }
   EXPECT_EQ(read.points(), 0);
-}
-
-TEST(VoxelAccumulatorArrays, BytesWithWrongSizesAndARightChecksumDoNoHarm)
-{
-  const Lattice lattice = latticeOf(4, 3, 2);
-  const ArrayCloud cloud(60, lattice, 3, 0);
-  VoxelAccumulator sums(lattice, true, kinds(), turnedBy(25));
-  addPart(sums, cloud, 0, 60);
-  const std::string bytes = sums.serialize();
-  int refused = 0;
-  for (std::size_t at = 0; at + 8 < bytes.size(); ++at)
-  {
-    std::string changed = bytes.substr(0, bytes.size() - 8);
-    changed[at] ^= 1;
-    std::uint64_t sum = changed.size();
-    for (std::size_t i = 0; i < changed.size(); i += 8)
-    {
-      std::uint64_t word = 0;
-      changed.copy(reinterpret_cast<char*>(&word), 8, i);
-      sum = (sum ^ word) * 0x9e3779b97f4a7c15;
-      sum ^= sum >> 32;
-    }
-    changed.append(reinterpret_cast<const char*>(&sum), 8);
-    VoxelAccumulator read{ Lattice() };
-    VoxelAccumulator all(lattice, true, kinds(), turnedBy(25));
-    addPart(all, cloud, 0, 60);
-    const bool isRead = VoxelAccumulator::deserialize(changed, read) == Status::Ok;
-    refused += isRead ? 0 : 1;
-    VoxelResampler result;
-    static_cast<void>(isRead ? read.finish({}, result) : Status::Ok);
-    static_cast<void>(all.merge(std::move(read)));
-    EXPECT_EQ(all.finish({}, result), Status::Ok);
-  }
-  EXPECT_GT(refused, 100);
 }
 
 TEST(VoxelAccumulatorArrays, AttributesOfTheRequestDoNotCount)

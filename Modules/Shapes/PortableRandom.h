@@ -1,6 +1,6 @@
 /// @file
 /// Random numbers that are the same on every machine: only exact integer steps and correctly rounded + - * /
-/// sqrt. Internal to Core; the standard distributions and libm's log, sin and cos differ between libraries.
+/// sqrt. Internal to Shapes; the standard distributions and libm's log, sin and cos differ between libraries.
 #pragma once
 
 #include "Core/Base/Vector3.h"

@@ -1,4 +1,4 @@
-#include "Core/Resample/VoxelMean.h"
+#include "Core/Resample/TransformedBounds.h"
 
 #include "Core/Resample/Kernel/VoxelKernel.h"
 
