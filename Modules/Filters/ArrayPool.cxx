@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <cstring>
 #include <map>
 #include <mutex>
 #include <new>
@@ -42,18 +43,12 @@ ArrayPool::ArrayPool()
 
 ArrayPool::~ArrayPool() = default;
 
-ArrayPool::Memory& ArrayPool::of(std::size_t part)
-{
-  parts_.resize(std::max(parts_.size(), part + 1));
-  return parts_[part];
-}
-
 void* ArrayPool::allocate(std::size_t part, std::size_t bytes)
 {
-  Memory& memory = of(part);
-  memory.reset();
-  memory = reserve(bytes);
-  return memory.get();
+  parts_.resize(std::max(parts_.size(), part + 1));
+  parts_[part].reset(); // first: memory may be short
+  parts_[part] = reserve(bytes);
+  return parts_[part].get();
 }
 
 void ArrayPool::give(Memory memory, vtkDataArray* array, std::int64_t tuples)
@@ -63,9 +58,19 @@ void ArrayPool::give(Memory memory, vtkDataArray* array, std::int64_t tuples)
   array->SetArrayFreeFunction([](void* data) { GiveBack()(data); });
 }
 
-void ArrayPool::take(std::size_t part, vtkDataArray* array, std::int64_t tuples)
+void ArrayPool::take(std::size_t part, vtkDataArray* array, std::int64_t tuples, const void* results)
 {
-  of(part) ? give(std::move(of(part)), array, tuples) : allocateFor(array, tuples);
+  if (results && part < parts_.size() && parts_[part].get() == results)
+  {
+    give(std::move(parts_[part]), array, tuples);
+    return;
+  }
+  allocateFor(array, tuples);
+  if (tuples > 0)
+  {
+    std::memcpy(array->GetVoidPointer(0), results,
+      std::size_t(tuples * array->GetNumberOfComponents() * array->GetDataTypeSize()));
+  }
 }
 
 void ArrayPool::allocateFor(vtkDataArray* array, std::int64_t tuples)

@@ -27,9 +27,9 @@ public:
   ArrayPool& operator=(const ArrayPool&) = delete;
 
   void* allocate(std::size_t part, std::size_t bytes) override;
-  /// Moves the memory of a part into @p array, of VTK's usual layout and with its components set, as so many
-  /// tuples; where there is none, gives it other memory, not initialised.
-  void take(std::size_t part, vtkDataArray* array, std::int64_t tuples);
+  /// Gives @p array, of VTK's usual layout and with its components set, the @p results of a part as so many
+  /// tuples: in the memory of the part, where they are there.
+  void take(std::size_t part, vtkDataArray* array, std::int64_t tuples, const void* results);
   /// Gives @p array, as take() wants it, memory for so many tuples, not initialised.
   void allocateFor(vtkDataArray* array, std::int64_t tuples);
   /// Frees the memory that no array uses.
@@ -48,7 +48,6 @@ private:
   using Memory = std::unique_ptr<void, GiveBack>;
 
   Memory reserve(std::size_t bytes);
-  Memory& of(std::size_t part);
   static void give(Memory memory, vtkDataArray* array, std::int64_t tuples);
 
   std::shared_ptr<State> state_;

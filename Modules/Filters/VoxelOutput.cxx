@@ -1,8 +1,6 @@
 #include "VoxelOutput.h"
 
-#include "FieldPoses.h"
 #include "PolyDataAccess.h"
-#include "VoxelArrays.h"
 
 #include "vtkCellArray.h"
 #include "vtkDoubleArray.h"
@@ -19,9 +17,7 @@
 #include "vtkTypeInt64Array.h"
 
 #include <algorithm>
-#include <cstring>
 #include <numeric>
-#include <utility>
 
 namespace pointhaptics
 {
@@ -71,23 +67,12 @@ void addField(vtkFieldData* field, const char* name, const Number* values, int c
   field->AddArray(array);
 }
 
-/// Gives an array its memory and the @p results, which mostly are there already.
-void take(ArrayPool& pool, std::size_t part, vtkDataArray* array, std::int64_t tuples, const void* results)
-{
-  pool.take(part, array, tuples);
-  void* const to = array->GetVoidPointer(0);
-  if (to != results && tuples > 0)
-  {
-    std::memcpy(to, results, std::size_t(tuples * array->GetNumberOfComponents() * array->GetDataTypeSize()));
-  }
-}
-
 /// Makes points of the means.
 vtkSmartPointer<vtkPoints> makePoints(const VoxelResampler& engine, bool singlePrecision, ArrayPool& pool)
 {
   auto points = vtkSmartPointer<vtkPoints>::New();
   points->SetDataType(singlePrecision ? VTK_FLOAT : VTK_DOUBLE);
-  take(pool, OutputAllocator::Means, points->GetData(), engine.size(),
+  pool.take(OutputAllocator::Means, points->GetData(), engine.size(),
     singlePrecision ? static_cast<const void*>(engine.floats()) : engine.doubles());
   return points;
 }
@@ -98,7 +83,7 @@ vtkSmartPointer<vtkIdTypeArray> makeCounts(const VoxelResampler& engine, ArrayPo
   static_assert(sizeof(vtkIdType) == sizeof(std::int64_t), "VTK must be built with 64-bit ids");
   auto counts = vtkSmartPointer<vtkIdTypeArray>::New();
   counts->SetName("VoxelPointCount");
-  take(pool, OutputAllocator::Counts, counts, engine.size(), engine.counts());
+  pool.take(OutputAllocator::Counts, counts, engine.size(), engine.counts());
   return counts;
 }
 
@@ -114,7 +99,7 @@ vtkSmartPointer<vtkDoubleArray> makeCovariances(const VoxelResampler& engine, Ar
   {
     array->SetComponentName(c, names[c]);
   }
-  take(pool, OutputAllocator::Covariances, array, engine.size(), engine.covariances());
+  pool.take(OutputAllocator::Covariances, array, engine.size(), engine.covariances());
   return array;
 }
 
@@ -184,51 +169,34 @@ void fillVoxelIndex(vtkPolyData* output, vtkPointSet* input, const std::vector<s
   output->GetFieldData()->PassData(input->GetFieldData());
 }
 
-bool OutputFiller::fill(
-  vtkPolyData* output, const AddArrays& addArrays, std::optional<std::vector<std::int64_t>>& kept) const
+bool OutputFiller::fill(vtkPolyData* output, const std::vector<VoxelAttribute>& attributes,
+  ProgressObserver* observer, std::optional<std::vector<std::int64_t>>& kept) const
 {
   vtkPointData* data = output->GetPointData();
-  output->SetPoints(makePoints(engine, singlePrecision, pool));
+  output->SetPoints(makePoints(engine, request.singlePrecision, pool));
   output->SetVerts(makeVertices(vtkIdType(engine.size()), pool, executor));
   const auto counts = makeCounts(engine, pool);
-  if (!addArrays(data))
+  for (std::size_t i = 0; i < attributes.size(); ++i)
   {
-    return false;
+    addWithRoles(
+      data, attributes[i].reduced(engine, request, i, pool, executor), attributes[i].found().roles);
+    if (observer && !observer->report(double(i + 1) / double(attributes.size() + 1)))
+    {
+      return false;
+    }
   }
   data->AddArray(counts);
-  if (covariances)
+  if (request.covariances)
   {
     data->AddArray(makeCovariances(engine, pool));
   }
-  if (pointIds)
+  if (ids)
   {
-    data->AddArray(makeIds(*pointIds, kOriginalPointIds, {}, pool, executor));
+    data->AddArray(makeIds(*ids, kOriginalPointIds, {}, pool, executor));
   }
   kept = keepVoxels(output, counts, minimumPoints, pool, executor);
-  movePoses(transform, output->GetFieldData());
-  addLattice(engine.lattice(), transform, output->GetFieldData());
+  addLattice(engine.lattice(), request.transform, output->GetFieldData());
   return true;
-}
-
-void OutputFiller::addReduced(vtkPointData* data, std::size_t i, const VoxelAttribute& attribute,
-  const VoxelArray& found, const VoxelRequest& request) const
-{
-  vtkSmartPointer<vtkDataArray> array;
-  if (keepsPoints(request.representative))
-  {
-    array = attribute.chosen(engine.chosenPoints(), pool, executor);
-  }
-  else
-  {
-    array = attribute.emptyArray();
-    take(pool, OutputAllocator::Attributes + i, array, engine.size(), engine.attribute(i));
-    array = attribute.inOwnType(array);
-  }
-  if (request.representative != Representative::Mean && found.isNormal && !request.transform.isIdentity())
-  {
-    turnNormals(array, request.transform);
-  }
-  addWithRoles(data, array, found.roles);
 }
 
 } // namespace pointhaptics

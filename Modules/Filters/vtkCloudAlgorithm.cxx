@@ -177,11 +177,6 @@ int vtkCloudAlgorithm::RequestDataObject(
   return 1;
 }
 
-std::string vtkCloudAlgorithm::ProblemOf(vtkDataObject*)
-{
-  return {};
-}
-
 int vtkCloudAlgorithm::RequestData(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {

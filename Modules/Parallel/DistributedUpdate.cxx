@@ -9,9 +9,7 @@
 
 #include "vtkAbstractTransform.h"
 #include "vtkDataArray.h"
-#include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
-#include "vtkIdTypeArray.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
@@ -64,10 +62,6 @@ std::string DistributedUpdate::chooseArrays()
     return "Ranks have different point arrays; this one has: " + signature +
       "give all ranks pieces of one cloud.";
   }
-  for (std::size_t i = 0; this->sharesSums() && i < found_.size(); ++i)
-  {
-    arrays_.emplace_back(found_[i].array, found_[i].statistic);
-  }
   return {};
 }
 
@@ -85,7 +79,7 @@ void DistributedUpdate::choosePrecision()
   }
 }
 
-std::string DistributedUpdate::prepare(vtkAbstractTransform* transform)
+std::string DistributedUpdate::prepare(vtkAbstractTransform* transform, vtkFieldData* field)
 {
   if (settings_.keepOriginalPointIds && !keepsPoints(settings_.representative))
   {
@@ -114,7 +108,7 @@ std::string DistributedUpdate::prepare(vtkAbstractTransform* transform)
     return latticeProblem(settings_.lattice, status);
   }
   this->choosePrecision();
-  const std::string lost = lostPoses(transform_, input_->GetFieldData());
+  const std::string lost = movePoses(transform_, field);
   const std::string wrong = this->chooseArrays();
   if (!lost.empty())
   {
@@ -132,7 +126,8 @@ std::string DistributedUpdate::runOfSums(vtkPolyData* output)
 {
   std::vector<VoxelAccumulator::Array> kinds;
   std::vector<AttributeView> views;
-  for (const VoxelAttribute& array : arrays_)
+  const std::vector<VoxelAttribute> arrays(found_.begin(), found_.end());
+  for (const VoxelAttribute& array : arrays)
   {
     const AttributeRequest request = array.request();
     kinds.push_back({ request.view.type, request.view.components, request.statistic });
@@ -146,6 +141,7 @@ std::string DistributedUpdate::runOfSums(vtkPolyData* output)
   }
   status = shared_.share(ranks_, std::move(own));
   VoxelRequest wanted = this->requestOf({}, lattice_);
+  wanted.covariances = settings_.computeCovariance;
   wanted.allocator = &pool_;
   status = status == Status::Ok ? shared_.voxels().finish(wanted, made_, smp_) : status;
   if (!this->all(status == Status::Ok))
@@ -155,34 +151,21 @@ std::string DistributedUpdate::runOfSums(vtkPolyData* output)
   clipped_ = shared_.clippedPoints();
   invalid_ = shared_.invalidPoints();
   ranges_ = shared_.ranges();
-  this->fill(output, arrays_, VoxelRequest());
+  this->fill(output, arrays, wanted);
   return {};
 }
 
 void DistributedUpdate::fill(
-  vtkPolyData* output, const std::vector<VoxelAttribute>& arrays, const VoxelRequest& request)
+  vtkPolyData* output, const std::vector<VoxelAttribute>& attributes, const VoxelRequest& request)
 {
-  OutputFiller filler{ made_, transform_, pool_, smp_, singlePrecision_, settings_.computeCovariance,
-    settings_.minimumPointsPerVoxel, {} };
-  if (settings_.keepOriginalPointIds)
+  std::vector<std::int64_t> ids = made_.chosenPoints();
+  for (std::int64_t& id : ids)
   {
-    filler.pointIds = made_.chosenPoints();
-    for (std::int64_t& id : *filler.pointIds)
-    {
-      id = numbers_[std::size_t(id)];
-    }
+    id = numbers_[std::size_t(id)];
   }
-  static_cast<void>(filler.fill(
-    output,
-    [&](vtkPointData* data)
-    {
-      for (std::size_t i = 0; i < arrays.size(); ++i)
-      {
-        filler.addReduced(data, i, arrays[i], found_[i], request);
-      }
-      return true;
-    },
-    kept_));
+  const OutputFiller filler{ made_, request, pool_, smp_, settings_.minimumPointsPerVoxel,
+    settings_.keepOriginalPointIds ? &ids : nullptr };
+  static_cast<void>(filler.fill(output, attributes, nullptr, kept_));
 }
 
 VoxelRequest DistributedUpdate::requestOf(const PointView& points, const Lattice& lattice)
@@ -257,9 +240,9 @@ std::string DistributedUpdate::runOfPoints(vtkPolyData* output)
   std::vector<VoxelAttribute> attributes;
   for (std::size_t i = 0; i < found_.size(); ++i)
   {
-    attributes.emplace_back(points->GetPointData()->GetArray(int(i)), found_[i].statistic);
-    keepsPoints(request.representative) ? request.tieBreakers.push_back(attributes.back().view())
-                                        : request.attributes.push_back(attributes.back().request());
+    VoxelArray found = found_[i];
+    found.array = points->GetPointData()->GetArray(int(i));
+    attributes.emplace_back(found).addTo(request);
   }
   const Status status = made_.run(request, smp_);
   if (!this->all(status == Status::Ok))
