@@ -159,13 +159,13 @@ void VoxelAttribute::addTo(VoxelRequest& request) const
 }
 
 vtkSmartPointer<vtkDataArray> VoxelAttribute::reduced(const VoxelResampler& engine,
-  const VoxelRequest& request, std::size_t i, ArrayPool& pool, const Executor& executor) const
+  const VoxelRequest& request, std::size_t i, OutputMemory& memory, const Executor& executor) const
 {
   vtkSmartPointer<vtkDataArray> result =
     vtkDataArray::SafeDownCast(emptyLike(found_.array, plain_->GetDataType()));
   if (keepsPoints(request.representative))
   {
-    pool.allocateFor(result, engine.size());
+    OutputMemory::allocateFor(result, engine.size());
     const auto bytes = std::size_t(view_.tupleBytes());
     auto* const to = static_cast<char*>(result->GetVoidPointer(0));
     forEachIndex(executor, engine.size(),
@@ -175,7 +175,7 @@ vtkSmartPointer<vtkDataArray> VoxelAttribute::reduced(const VoxelResampler& engi
   }
   else
   {
-    pool.take(OutputAllocator::Attributes + i, result, engine.size(), engine.attribute(i));
+    memory.take(OutputAllocator::Attributes + i, result, engine.size(), engine.attribute(i));
   }
   if (found_.array->GetDataType() != result->GetDataType())
   {

@@ -2,7 +2,7 @@
 /// The point arrays of a cloud that have values in voxels, and those values.
 #pragma once
 
-#include "ArrayPool.h"
+#include "OutputMemory.h"
 
 #include "Core/Base/Executor.h"
 #include "Core/Resample/AttributeView.h"
@@ -53,7 +53,7 @@ public:
   /// The values of the voxels of @p engine, which has run @p request, in the type of the input: the tuples of
   /// points where a representative is a point of the input, else those of attribute @p i.
   vtkSmartPointer<vtkDataArray> reduced(const VoxelResampler& engine, const VoxelRequest& request,
-    std::size_t i, ArrayPool& pool, const Executor& executor) const;
+    std::size_t i, OutputMemory& memory, const Executor& executor) const;
 
 private:
   VoxelArray found_;

@@ -2,7 +2,7 @@
 /// From the resampler's results to VTK's arrays.
 #pragma once
 
-#include "ArrayPool.h"
+#include "OutputMemory.h"
 #include "VoxelAttribute.h"
 
 #include "Core/Base/Executor.h"
@@ -23,18 +23,18 @@ namespace pointhaptics
 {
 
 /// @p count vertex cells, one per point, in order.
-vtkSmartPointer<vtkCellArray> makeVertices(vtkIdType count, ArrayPool& pool, const Executor& executor);
+vtkSmartPointer<vtkCellArray> makeVertices(vtkIdType count, const Executor& executor);
 /// Makes @p output the points of @p input with the array VoxelIndex: what @p rows says of the voxel of each,
 /// -1 without a voxel; empty: its number.
 void fillVoxelIndex(vtkPolyData* output, vtkPointSet* input, const std::vector<std::int64_t>& voxels,
-  const std::vector<std::int64_t>& rows, ArrayPool& pool, const Executor& executor);
+  const std::vector<std::int64_t>& rows, const Executor& executor);
 
 /// Fills outputs with what the engine made.
 struct OutputFiller
 {
   const VoxelResampler& engine;
   const VoxelRequest& request; ///< The request that the engine has run.
-  ArrayPool& pool;
+  OutputMemory& memory;
   const Executor& executor;
   vtkIdType minimumPoints = 1;                    ///< Voxels of fewer are left out.
   const std::vector<std::int64_t>* ids = nullptr; ///< The array of KeepOriginalPointIds, if there is one.

@@ -45,7 +45,7 @@ namespace
 
 /// Runs a loop in slices on VTK's threads and reports the filter's progress after each slice. After an abort
 /// request it skips the remaining slices; the results of the loop are invalid then.
-class ReportingExecutor : public SmpExecutor
+class ReportingExecutor : public Executor
 {
 public:
   ReportingExecutor(vtkAlgorithm* filter, double from, double to)
@@ -56,6 +56,7 @@ public:
   {
   }
 
+  int concurrency() const override { return this->Smp.concurrency(); }
   void run(std::int64_t count, std::int64_t grain, void* context, Body body) const override
   {
     using Clock = std::chrono::steady_clock;
@@ -66,14 +67,9 @@ public:
     {
       const Clock::time_point start = Clock::now();
       const std::int64_t size = std::min(piece, count - begin);
-      Shifted shifted{ context, body, begin };
       // A slice that is slow with few items is short of a grain for each thread.
-      SmpExecutor::run(size, std::clamp<std::int64_t>(size / shares, 1, grain), &shifted,
-        [](void* here, std::int64_t first, std::int64_t last)
-        {
-          const auto* s = static_cast<const Shifted*>(here);
-          s->Inner(s->Context, s->Offset + first, s->Offset + last);
-        });
+      forRange(this->Smp, size, std::clamp<std::int64_t>(size / shares, 1, grain),
+        [&](std::int64_t first, std::int64_t last) { body(context, begin + first, begin + last); });
       begin += size;
       this->Report(double(begin) / double(count));
       piece = std::min(largest, piece * (Clock::now() - start < kSlice ? 2 : 1));
@@ -83,12 +79,6 @@ public:
 private:
   static constexpr std::int64_t Slices = 8;
   static constexpr std::chrono::milliseconds kSlice{ 50 };
-  struct Shifted
-  {
-    void* Context;
-    Body Inner;
-    std::int64_t Offset;
-  };
 
   /// Several loops share the range: progress never decreases.
   void Report(double fraction) const
@@ -102,6 +92,7 @@ private:
     }
   }
 
+  SmpExecutor Smp;
   vtkAlgorithm* Filter;
   mutable double Now;
   double From;
@@ -117,9 +108,8 @@ void passCloud(vtkPointSet* cloud, vtkPolyData* output)
   }
   else
   {
-    ArrayPool pool;
     output->SetPoints(cloud->GetPoints());
-    output->SetVerts(makeVertices(cloud->GetNumberOfPoints(), pool, SmpExecutor()));
+    output->SetVerts(makeVertices(cloud->GetNumberOfPoints(), SmpExecutor()));
     output->GetPointData()->ShallowCopy(cloud->GetPointData());
     output->GetFieldData()->ShallowCopy(cloud->GetFieldData());
   }

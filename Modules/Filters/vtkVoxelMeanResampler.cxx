@@ -87,7 +87,7 @@ public:
 
   std::size_t ScratchBytes() const
   {
-    return this->Engine.scratchBytes() + (this->Index ? this->Index->bytes() : 0) + this->Pool.bytes();
+    return this->Engine.scratchBytes() + (this->Index ? this->Index->bytes() : 0);
   }
 
   /// Maps the fraction to the current part of the update and passes it to the filter.
@@ -113,8 +113,7 @@ private:
   bool UseIndex(vtkPointSet* input);
   void MakeRequest(vtkPointSet* input);
   bool Resample();
-  bool Fill(vtkPolyData* output);
-  void FillIndex(vtkPointSet* input, vtkPolyData* output);
+  bool Fill(vtkPointSet* input, vtkPolyData* means, vtkPolyData* index);
 
   vtkVoxelMeanResampler* Filter;
   VoxelMeanSettings Settings; ///< Settings of this run: observers of progress may set others.
@@ -126,8 +125,7 @@ private:
   VoxelRequest Request;
   std::unique_ptr<PointAccess> Points;
   std::vector<VoxelAttribute> Attributes;
-  ArrayPool Pool;
-  std::optional<std::vector<std::int64_t>> Kept; ///< Voxels of output 0, where some may be left out.
+  OutputMemory Memory;
   bool Aborted = false;
   double PartBegin = 0.0;
   double PartEnd = 0.0;
@@ -239,13 +237,9 @@ bool vtkVoxelMeanResampler::Internals::Update(vtkPointSet* input, vtkPolyData* m
   }
   this->Filter->Warn(movePoses(this->Transform, means->GetFieldData()));
   this->MakeRequest(input);
-  if (!this->Resample() || !this->Fill(means))
+  if (!this->Resample() || !this->Fill(input, means, index))
   {
     return false;
-  }
-  if (this->Settings.computeVoxelIndex)
-  {
-    this->FillIndex(input, index);
   }
   this->Release();
   return true;
@@ -292,7 +286,7 @@ void vtkVoxelMeanResampler::Internals::MakeRequest(vtkPointSet* input)
   request.representative = this->Settings.representative;
   request.voxelIndex = this->Settings.computeVoxelIndex;
   request.instructions = this->Settings.instructionSet;
-  request.allocator = &this->Pool;
+  request.allocator = &this->Memory;
   if (this->Settings.keepOriginalPointIds && !keepsPoints(request.representative))
   {
     this->Filter->Warn("KeepOriginalPointIds: a mean or median is no point of the input; choose "
@@ -328,29 +322,33 @@ bool vtkVoxelMeanResampler::Internals::Resample()
   return true;
 }
 
-bool vtkVoxelMeanResampler::Internals::Fill(vtkPolyData* output)
+bool vtkVoxelMeanResampler::Internals::Fill(vtkPointSet* input, vtkPolyData* means, vtkPolyData* index)
 {
   const bool hasIds = this->Settings.keepOriginalPointIds && keepsPoints(this->Request.representative);
-  const OutputFiller filler{ this->Engine, this->Request, this->Pool, this->Smp,
+  const OutputFiller filler{ this->Engine, this->Request, this->Memory, this->Smp,
     this->Settings.minimumPointsPerVoxel, hasIds ? &this->Engine.chosenPoints() : nullptr };
+  std::optional<std::vector<std::int64_t>> kept;
   this->BeginPart(kFillEnd);
-  return filler.fill(output, this->Attributes, this, this->Kept);
-}
-
-void vtkVoxelMeanResampler::Internals::FillIndex(vtkPointSet* input, vtkPolyData* output)
-{
-  std::vector<std::int64_t> places(this->Kept ? std::size_t(this->Engine.size()) : 0, -1);
-  for (std::size_t i = 0; this->Kept && i < this->Kept->size(); ++i)
+  if (!filler.fill(means, this->Attributes, this, kept))
   {
-    places[std::size_t((*this->Kept)[i])] = std::int64_t(i);
+    return false;
   }
-  fillVoxelIndex(output, input, this->Engine.voxelIndex(), places, this->Pool, this->Smp);
+  if (this->Settings.computeVoxelIndex)
+  {
+    std::vector<std::int64_t> places(kept ? std::size_t(this->Engine.size()) : 0, -1);
+    for (std::size_t i = 0; kept && i < kept->size(); ++i)
+    {
+      places[std::size_t((*kept)[i])] = std::int64_t(i);
+    }
+    fillVoxelIndex(index, input, this->Engine.voxelIndex(), places, this->Smp);
+  }
+  return true;
 }
 
 void vtkVoxelMeanResampler::Internals::Release()
 {
   this->Attributes.clear();
-  this->Pool.trim(); // memory of earlier outputs that this one did not reuse
+  this->Memory = OutputMemory();
   this->Request = VoxelRequest();
   this->Points.reset();
 }

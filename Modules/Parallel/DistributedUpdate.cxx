@@ -142,7 +142,7 @@ std::string DistributedUpdate::runOfSums(vtkPolyData* output)
   status = shared_.share(ranks_, std::move(own));
   VoxelRequest wanted = this->requestOf({}, lattice_);
   wanted.covariances = settings_.computeCovariance;
-  wanted.allocator = &pool_;
+  wanted.allocator = &memory_;
   status = status == Status::Ok ? shared_.voxels().finish(wanted, made_, smp_) : status;
   if (!this->all(status == Status::Ok))
   {
@@ -163,7 +163,7 @@ void DistributedUpdate::fill(
   {
     id = numbers_[std::size_t(id)];
   }
-  const OutputFiller filler{ made_, request, pool_, smp_, settings_.minimumPointsPerVoxel,
+  const OutputFiller filler{ made_, request, memory_, smp_, settings_.minimumPointsPerVoxel,
     settings_.keepOriginalPointIds ? &ids : nullptr };
   static_cast<void>(filler.fill(output, attributes, nullptr, kept_));
 }
@@ -236,7 +236,7 @@ std::string DistributedUpdate::runOfPoints(vtkPolyData* output)
   VoxelRequest request = this->requestOf(access.view(), lattice_);
   request.covariances = settings_.computeCovariance;
   request.representative = settings_.representative;
-  request.allocator = &pool_;
+  request.allocator = &memory_;
   std::vector<VoxelAttribute> attributes;
   for (std::size_t i = 0; i < found_.size(); ++i)
   {
@@ -268,7 +268,7 @@ std::string DistributedUpdate::fillIndex(vtkPolyData* output, vtkIdType voxels)
     rows[kept_ ? std::size_t((*kept_)[i]) : i] = first + std::int64_t(i);
   }
   const std::vector<std::int64_t> ofOwn = numbersOfKeys(ranks_, ranges_, keysOf(own), keysOf(made_), rows);
-  fillVoxelIndex(output, input_, own.voxelIndex(), ofOwn, pool_, smp_);
+  fillVoxelIndex(output, input_, own.voxelIndex(), ofOwn, smp_);
   return {};
 }
 

@@ -78,7 +78,7 @@ private:
   vtkPointSet* input_;
   PointAccess points_;
   SmpExecutor smp_;
-  ArrayPool pool_;
+  OutputMemory memory_;
   AffineTransform transform_;
   Lattice lattice_;
   bool singlePrecision_ = true;

@@ -50,8 +50,7 @@ struct Vertices
     {
       return;
     }
-    ArrayPool pool;
-    cloud->SetVerts(makeVertices(points, pool, SmpExecutor()));
+    cloud->SetVerts(makeVertices(points, SmpExecutor()));
     if (!isNumberedBy64Bits && points < VTK_INT_MAX)
     {
       cloud->GetVerts()->ConvertTo32BitStorage();

@@ -1,8 +1,6 @@
 // Ways to the same answer: with and without the point index, and by every instruction set.
 #include "VoxelMeanCases.h"
 
-#include "vtkSOADataArrayTemplate.h"
-
 #include "../Unit/HeldInstructionSets.h"
 
 #include <gtest/gtest.h>
