@@ -504,6 +504,7 @@ void vtkVoxelMeanResampler::EndRun(bool succeeded)
   this->Impl->Release();
   if (this->GetErrorCode() == pointhaptics::kOutOfMemoryCode)
   {
+    this->Impl.reset(); // first: memory is short
     this->Impl = std::make_unique<Internals>(this);
   }
 }
