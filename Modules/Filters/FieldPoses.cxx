@@ -4,13 +4,11 @@
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkMath.h"
-#include "vtkNew.h"
+#include "vtkSmartPointer.h"
 
 #include <algorithm>
 #include <array>
-#include <cstddef>
 #include <string>
-#include <vector>
 
 namespace pointhaptics
 {
@@ -18,108 +16,76 @@ namespace
 {
 
 constexpr const char* kViewpoint = "Viewpoint";
-constexpr const char* kPoses[] = { kViewpoint, "ScanPoses" };
-constexpr std::size_t kPoseSize = 7;
+constexpr int kPoseSize = 7;
 using Quaternion = std::array<double, 4>; ///< w x y z
 
-/// Pose by pose, those that a transform moves; none where the array has another shape.
-std::vector<double> movedPosesIn(vtkFieldData* field, const char* name)
+/// A copy of the poses that a transform moves, one value after the other; none where the array has another
+/// shape.
+vtkSmartPointer<vtkDoubleArray> posesIn(vtkFieldData* field, const char* name)
 {
-  std::vector<double> values;
   vtkDataArray* array = field->GetArray(name);
   const int components = array ? array->GetNumberOfComponents() : 0;
   // PCL's conversions have one value a tuple.
-  if (components == int(kPoseSize) || (components == 1 && array->GetNumberOfValues() == kPoseSize))
+  if (components != kPoseSize && !(components == 1 && array->GetNumberOfValues() == kPoseSize))
   {
-    for (vtkIdType i = 0; i < array->GetNumberOfValues(); ++i)
-    {
-      values.push_back(array->GetComponent(i / components, int(i % components)));
-    }
+    return nullptr;
   }
-  const std::vector<double> identity = { 0, 0, 0, 1, 0, 0, 0 };
-  if (name == kViewpoint && values == identity)
+  auto poses = vtkSmartPointer<vtkDoubleArray>::New();
+  poses->SetName(name);
+  poses->SetNumberOfComponents(components);
+  for (vtkIdType i = 0; i < array->GetNumberOfValues(); ++i)
   {
-    values.clear();
+    poses->InsertNextValue(array->GetComponent(i / components, int(i % components)));
   }
-  return values;
+  constexpr double kIdentity[kPoseSize] = { 0, 0, 0, 1, 0, 0, 0 };
+  const bool saysNothing = name == kViewpoint && poses->GetNumberOfValues() == kPoseSize &&
+    std::equal(kIdentity, kIdentity + kPoseSize, poses->GetPointer(0));
+  return saysNothing ? nullptr : poses;
 }
 
-/// Quaternion of the rotation whose matrix is T over @p scale.
-Quaternion rotationOf(const AffineTransform& transform, double scale)
+/// Moves a pose by a similarity that does not mirror.
+void movePose(const AffineTransform& transform, double scale, double* pose)
 {
   double rotation[3][3];
   for (int i = 0; i < 9; ++i)
   {
     rotation[i / 3][i % 3] = transform.m[i / 3][i % 3] / scale;
   }
-  Quaternion result;
-  vtkMath::Matrix3x3ToQuaternion(rotation, result.data());
-  return result;
-}
-
-/// @p scale receives what @p transform does to lengths. False: there is no rotation in it.
-bool turns(const AffineTransform& transform, double& scale)
-{
-  return transform.isSimilarity(scale) && transform.determinant() > 0.0;
+  Quaternion turn;
+  Quaternion turned;
+  vtkMath::Matrix3x3ToQuaternion(rotation, turn.data());
+  vtkMath::MultiplyQuaternion(turn.data(), pose + 3, turned.data());
+  const Vec3 position = transform.apply({ pose[0], pose[1], pose[2] });
+  std::copy(&position.x, &position.x + 3, pose);
+  std::copy(turned.begin(), turned.end(), pose + 3);
 }
 
 } // namespace
 
-void movePoses(const AffineTransform& transform, vtkFieldData* field)
+std::string movePoses(const AffineTransform& transform, vtkFieldData* field)
 {
+  std::string lost;
   double scale = 1.0;
-  if (transform.isIdentity())
+  const bool isTurned = transform.isSimilarity(scale) && transform.determinant() > 0.0;
+  for (const char* name : { kViewpoint, "ScanPoses" })
   {
-    return;
-  }
-  const bool isTurned = turns(transform, scale);
-  for (const char* name : kPoses)
-  {
-    std::vector<double> poses = movedPosesIn(field, name);
-    if (poses.empty())
+    const auto poses = transform.isIdentity() ? nullptr : posesIn(field, name);
+    if (poses && isTurned)
     {
-      continue;
+      for (vtkIdType i = 0; i < poses->GetNumberOfValues(); i += kPoseSize)
+      {
+        movePose(transform, scale, poses->GetPointer(i));
+      }
+      field->AddArray(poses);
     }
-    if (!isTurned)
+    else if (poses)
     {
+      lost += (lost.empty() ? "" : ", ") + std::string(name);
       field->RemoveArray(name);
-      continue;
-    }
-    const Quaternion rotation = rotationOf(transform, scale);
-    for (std::size_t i = 0; i < poses.size(); i += kPoseSize)
-    {
-      const Vec3 position = transform.apply({ poses[i], poses[i + 1], poses[i + 2] });
-      Quaternion turned;
-      vtkMath::MultiplyQuaternion(rotation.data(), &poses[i + 3], turned.data());
-      std::copy(&position.x, &position.x + 3, &poses[i]);
-      std::copy(turned.begin(), turned.end(), &poses[i + 3]);
-    }
-    vtkNew<vtkDoubleArray> moved;
-    moved->SetName(name);
-    moved->SetNumberOfComponents(field->GetArray(name)->GetNumberOfComponents());
-    moved->SetNumberOfValues(vtkIdType(poses.size()));
-    std::copy(poses.begin(), poses.end(), moved->GetPointer(0));
-    field->AddArray(moved);
-  }
-}
-
-std::string lostPoses(const AffineTransform& transform, vtkFieldData* field)
-{
-  double scale = 1.0;
-  if (transform.isIdentity() || turns(transform, scale))
-  {
-    return {};
-  }
-  std::string names;
-  for (const char* name : kPoses)
-  {
-    if (!movedPosesIn(field, name).empty())
-    {
-      names += (names.empty() ? "" : ", ") + std::string(name);
     }
   }
-  return names.empty() ? names
-                       : "Field data " + names +
+  return lost.empty() ? lost
+                      : "Field data " + lost +
       " left out: the transform mirrors or does not keep angles, so no pose says where the sensor was; use "
       "rotations, translations and one scale for all axes to keep it.";
 }

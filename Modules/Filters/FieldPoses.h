@@ -15,8 +15,7 @@ namespace pointhaptics
 /// moved: positions are mapped, orientations turned. Where it mirrors, shears or stretches there is no such
 /// turn, and they are removed. A viewpoint that is the identity says nothing, as in most PCD files, and
 /// stays; so do arrays of another shape. Arrays are replaced, not written to.
-void movePoses(const AffineTransform& transform, vtkFieldData* field);
-/// Names the arrays that movePoses() would remove, in a sentence that says why; empty where it removes none.
-std::string lostPoses(const AffineTransform& transform, vtkFieldData* field);
+/// @return a sentence that names the arrays removed and says why; empty where none is.
+std::string movePoses(const AffineTransform& transform, vtkFieldData* field);
 
 } // namespace pointhaptics

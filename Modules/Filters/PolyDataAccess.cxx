@@ -164,21 +164,6 @@ std::optional<Lattice> latticeOf(vtkPolyData* means)
 namespace
 {
 
-std::string latticeText(const LatticeSettings& lattice)
-{
-  std::ostringstream text;
-  if (lattice.voxelSize != 0.0)
-  {
-    text << "Lattice of voxel size " << lattice.voxelSize;
-  }
-  else
-  {
-    const std::array<std::int64_t, 3>& n = lattice.dimensions;
-    text << "Lattice of " << n[0] << " x " << n[1] << " x " << n[2] << " voxels";
-  }
-  return text.str();
-}
-
 /// Tells why a matrix is not affine: NaN times 0 is NaN, so one that holds NaN mostly is not.
 bool holdsNonFinite(vtkAbstractTransform* transform)
 {
@@ -206,7 +191,12 @@ std::string readTransform(vtkAbstractTransform* transform, AffineTransform& resu
 
 std::string latticeProblem(const LatticeSettings& settings, Status status)
 {
-  return latticeText(settings) + ": " + message(status) + ".";
+  std::ostringstream text;
+  const std::array<std::int64_t, 3>& n = settings.dimensions;
+  settings.voxelSize != 0.0 ? text << "Lattice of voxel size " << settings.voxelSize
+                            : text << "Lattice of " << n[0] << " x " << n[1] << " x " << n[2] << " voxels";
+  text << ": " << message(status) << ".";
+  return text.str();
 }
 
 } // namespace pointhaptics

@@ -2,117 +2,101 @@
 
 #include "PolyDataAccess.h"
 
-#include "Core/Resample/AttributeView.h"
-
+#include "vtkAbstractArray.h"
 #include "vtkDataArray.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
 #include "vtkType.h"
 #include "vtkVariant.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
+#include <sstream>
 
 namespace pointhaptics
 {
 namespace
 {
 
-/// VTK packs bits; everything else is one number after the other once it is in VTK's usual arrays.
-int plainType(int vtkType)
+std::string nameOf(vtkAbstractArray* array)
 {
-  return vtkType == VTK_BIT ? VTK_UNSIGNED_CHAR : vtkType;
+  return array->GetName() ? array->GetName() : "";
 }
 
-/// VTK copies arrays it has no fast path for by way of double, which has no room for 64-bit integers.
-void copyIntegers(vtkDataArray* from, bool isSigned, void* to)
+/// Ghost flags are meaningless once points are merged, and so are counts and covariances of an earlier
+/// resampling.
+bool isBookkeeping(vtkAbstractArray* array)
 {
-  auto* const words = static_cast<std::uint64_t*>(to);
-  for (vtkIdType i = 0; i < from->GetNumberOfValues(); ++i)
+  const std::string name = nameOf(array);
+  return name == vtkDataSetAttributes::GhostArrayName() || name == "VoxelPointCount" ||
+    name == "VoxelCovariance" || name == "VoxelIndex" || name == kOriginalPointIds;
+}
+
+bool areIds(vtkDataSetAttributes* attributes, vtkAbstractArray* array)
+{
+  return array == attributes->GetGlobalIds() || array == attributes->GetPedigreeIds();
+}
+
+std::string whyDropped(vtkDataSetAttributes* attributes, vtkAbstractArray* array, vtkIdType points)
+{
+  std::ostringstream text;
+  text << "Array \"" << nameOf(array) << "\" ";
+  if (areIds(attributes, array))
   {
-    const vtkVariant value = from->GetVariantValue(i);
-    words[i] = isSigned ? std::uint64_t(value.ToTypeInt64()) : value.ToTypeUInt64();
+    text << "holds ids: merged points have none and it is dropped.";
   }
+  else if (!vtkDataArray::SafeDownCast(array))
+  {
+    text << "is not numeric: it has no mean and is dropped.";
+  }
+  else
+  {
+    text << "has " << array->GetNumberOfTuples() << " tuples for " << points << " points: it is dropped.";
+  }
+  return text.str();
 }
 
+AttributeStatistic statisticOf(vtkDataArray* array, const VoxelMeanSettings& settings, bool isNormal)
+{
+  return isCategorical(settings, nameOf(array))         ? AttributeStatistic::Mode
+    : settings.representative == Representative::Median ? AttributeStatistic::Median
+    : isNormal                                          ? AttributeStatistic::Normal
+                                                        : AttributeStatistic::Mean;
+}
+
+/// VTK packs bits; everything else is one number after the other once it is in VTK's usual arrays. It copies
+/// arrays it has no fast path for by way of double, which has no room for 64-bit integers.
 vtkSmartPointer<vtkDataArray> plainArray(vtkDataArray* array)
 {
-  if (array->HasStandardMemoryLayout() && array->GetDataType() != VTK_BIT)
+  const int type = array->GetDataType();
+  if (array->HasStandardMemoryLayout() && type != VTK_BIT)
   {
     return array;
   }
-  auto copy =
-    vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(plainType(array->GetDataType())));
-  const ScalarType type = scalarTypeOf(copy);
-  if (type != ScalarType::Int64 && type != ScalarType::UInt64)
+  auto copy = vtkSmartPointer<vtkDataArray>::Take(
+    vtkDataArray::CreateDataArray(type == VTK_BIT ? VTK_UNSIGNED_CHAR : type));
+  const ScalarType scalar = scalarTypeOf(copy);
+  if (scalar != ScalarType::Int64 && scalar != ScalarType::UInt64)
   {
     copy->DeepCopy(array);
     return copy;
   }
   copy->SetNumberOfComponents(array->GetNumberOfComponents());
   copy->SetNumberOfTuples(array->GetNumberOfTuples());
-  copyIntegers(array, type == ScalarType::Int64, copy->GetVoidPointer(0));
+  auto* const words = static_cast<std::uint64_t*>(copy->GetVoidPointer(0));
+  for (vtkIdType i = 0; i < array->GetNumberOfValues(); ++i)
+  {
+    const vtkVariant value = array->GetVariantValue(i);
+    words[i] = scalar == ScalarType::Int64 ? std::uint64_t(value.ToTypeInt64()) : value.ToTypeUInt64();
+  }
   return copy;
 }
 
-}
-
-VoxelAttribute::VoxelAttribute(
-  vtkDataArray* input, AttributeStatistic statistic, const AttributeValues* known)
-  : input_(input)
-  , plain_(known && known->copy ? known->copy : plainArray(input))
-  , statistic_(statistic)
-  , view_{ plain_->GetVoidPointer(0), scalarTypeOf(plain_), plain_->GetNumberOfComponents(),
-    std::int64_t(plain_->GetNumberOfTuples()) }
-{
-  values_.copy = plain_ == input_ ? nullptr : plain_;
-  values_.range = known ? known->range : std::nullopt;
-}
-
-void VoxelAttribute::findRange(const Executor& executor)
-{
-  if (!values_.range && isSum(statistic_))
-  {
-    values_.range = rangeOf(view_, executor);
-  }
-}
-
-vtkSmartPointer<vtkDataArray> VoxelAttribute::emptyArray() const
-{
-  return vtkDataArray::SafeDownCast(emptyLike(input_, plain_->GetDataType()));
-}
-
-vtkSmartPointer<vtkDataArray> VoxelAttribute::inOwnType(vtkSmartPointer<vtkDataArray> plain) const
-{
-  if (input_->GetDataType() == plain->GetDataType())
-  {
-    return plain;
-  }
-  const vtkSmartPointer<vtkDataArray> original =
-    vtkDataArray::SafeDownCast(emptyLike(input_, input_->GetDataType()));
-  original->DeepCopy(plain);
-  original->SetName(input_->GetName());
-  return original;
-}
-
-vtkSmartPointer<vtkDataArray> VoxelAttribute::chosen(
-  const std::vector<std::int64_t>& points, ArrayPool& pool, const Executor& executor) const
-{
-  const vtkSmartPointer<vtkDataArray> result = emptyArray();
-  pool.allocateFor(result, std::int64_t(points.size()));
-  const std::size_t bytes = std::size_t(bytesOf(view_.type)) * std::size_t(view_.components);
-  const auto* from = static_cast<const char*>(view_.values);
-  auto* to = static_cast<char*>(result->GetVoidPointer(0));
-  forRange(executor, std::int64_t(points.size()),
-    [&](std::int64_t first, std::int64_t last)
-    {
-      for (std::int64_t v = first; v < last; ++v)
-      {
-        std::memcpy(to + bytes * std::size_t(v), from + bytes * std::size_t(points[std::size_t(v)]), bytes);
-      }
-    });
-  return inOwnType(result);
-}
-
+/// Turns normals by the inverse transpose of @p transform and makes them unit vectors; those in integers keep
+/// their length.
 void turnNormals(vtkDataArray* normals, const AffineTransform& transform)
 {
   const bool isFloating = normals->GetDataType() == VTK_FLOAT || normals->GetDataType() == VTK_DOUBLE;
@@ -132,6 +116,80 @@ void turnNormals(vtkDataArray* normals, const AffineTransform& transform)
       normals->SetComponent(v, axis, isFloating ? value : std::clamp(std::round(value), low, high));
     }
   }
+}
+
+}
+
+std::vector<VoxelArray> voxelArrays(
+  vtkPointSet* input, const VoxelMeanSettings& settings, std::vector<std::string>& dropped)
+{
+  std::vector<VoxelArray> found;
+  vtkPointData* data = input->GetPointData();
+  for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+  {
+    vtkAbstractArray* any = data->GetAbstractArray(i);
+    if (isBookkeeping(any))
+    {
+      continue;
+    }
+    vtkDataArray* array = vtkDataArray::SafeDownCast(any);
+    if (areIds(data, any) || !array || array->GetNumberOfTuples() != input->GetNumberOfPoints())
+    {
+      dropped.push_back(whyDropped(data, any, input->GetNumberOfPoints()));
+      continue;
+    }
+    const bool isNormal = array == data->GetNormals() && array->GetNumberOfComponents() == 3;
+    found.push_back({ array, statisticOf(array, settings, isNormal), rolesOf(data, array), isNormal });
+  }
+  return found;
+}
+
+VoxelAttribute::VoxelAttribute(const VoxelArray& found)
+  : found_(found)
+  , plain_(plainArray(found.array))
+  , view_{ plain_->GetVoidPointer(0), scalarTypeOf(plain_), plain_->GetNumberOfComponents(),
+    std::int64_t(plain_->GetNumberOfTuples()) }
+{
+}
+
+void VoxelAttribute::addTo(VoxelRequest& request) const
+{
+  keepsPoints(request.representative) ? request.tieBreakers.push_back(view_)
+                                      : request.attributes.push_back(this->request());
+}
+
+vtkSmartPointer<vtkDataArray> VoxelAttribute::reduced(const VoxelResampler& engine,
+  const VoxelRequest& request, std::size_t i, OutputMemory& memory, const Executor& executor) const
+{
+  vtkSmartPointer<vtkDataArray> result =
+    vtkDataArray::SafeDownCast(emptyLike(found_.array, plain_->GetDataType()));
+  if (keepsPoints(request.representative))
+  {
+    OutputMemory::allocateFor(result, engine.size());
+    const auto bytes = std::size_t(view_.tupleBytes());
+    auto* const to = static_cast<char*>(result->GetVoidPointer(0));
+    forEachIndex(executor, engine.size(),
+      [&](std::int64_t v) {
+        std::memcpy(to + bytes * std::size_t(v), view_.tuple(engine.chosenPoints()[std::size_t(v)]), bytes);
+      });
+  }
+  else
+  {
+    memory.take(OutputAllocator::Attributes + i, result, engine.size(), engine.attribute(i));
+  }
+  if (found_.array->GetDataType() != result->GetDataType())
+  {
+    const vtkSmartPointer<vtkDataArray> own =
+      vtkDataArray::SafeDownCast(emptyLike(found_.array, found_.array->GetDataType()));
+    own->DeepCopy(result);
+    own->SetName(found_.array->GetName()); // a copy of bits has none
+    result = own;
+  }
+  if (request.representative != Representative::Mean && found_.isNormal && !request.transform.isIdentity())
+  {
+    turnNormals(result, request.transform);
+  }
+  return result;
 }
 
 } // namespace pointhaptics

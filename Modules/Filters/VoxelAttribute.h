@@ -1,64 +1,64 @@
 /// @file
-/// A point array of the input, and the array that it becomes.
+/// The point arrays of a cloud that have values in voxels, and those values.
 #pragma once
 
-#include "ArrayPool.h"
+#include "OutputMemory.h"
 
-#include "Core/Base/AffineTransform.h"
 #include "Core/Base/Executor.h"
 #include "Core/Resample/AttributeView.h"
+#include "Core/Resample/VoxelMeanSettings.h"
+#include "Core/Resample/VoxelResampler.h"
 
 #include "vtkSmartPointer.h"
 
-#include <cstdint>
-#include <optional>
+#include <cstddef>
+#include <string>
 #include <vector>
 
 class vtkDataArray;
+class vtkPointSet;
 
 namespace pointhaptics
 {
 
-/// Properties of an input array, independent of which points are averaged: valid until its values change.
-struct AttributeValues
+/// The array of KeepOriginalPointIds.
+constexpr const char* kOriginalPointIds = "vtkOriginalPointIds";
+
+/// A point array of the input, and what becomes of it.
+struct VoxelArray
 {
-  std::optional<AttributeRange> range; ///< For means, once it was looked for.
-  vtkSmartPointer<vtkDataArray> copy; ///< Plain tuples in memory, where the input is something else; or null.
+  vtkSmartPointer<vtkDataArray> array;
+  AttributeStatistic statistic = AttributeStatistic::Mean;
+  int roles = 0; ///< As rolesOf() says.
+  bool isNormal = false;
 };
 
-/// An array of the input and what it is reduced to.
+/// Arrays of @p input that have values in voxels, in its order; not identifiers, ghost flags and results of
+/// an earlier resampling.
+/// @p dropped: a sentence for each array that has no value in voxels.
+std::vector<VoxelArray> voxelArrays(
+  vtkPointSet* input, const VoxelMeanSettings& settings, std::vector<std::string>& dropped);
+
+/// The values of a VoxelArray as the resampler takes them.
 class VoxelAttribute
 {
 public:
-  /// Keeps a reference to @p input; if its memory is not plain tuples of numbers, it is copied first. @p
-  /// known: values() of an earlier object of the same input and statistic, or null.
-  VoxelAttribute(vtkDataArray* input, AttributeStatistic statistic, const AttributeValues* known = nullptr);
-  /// Finds the range once, for many requests: without it each looks for it.
-  void findRange(const Executor& executor);
-  const AttributeValues& values() const { return values_; }
+  /// Copies the array if its memory is not plain tuples of numbers.
+  explicit VoxelAttribute(const VoxelArray& found);
 
-  /// For the resampler, where no point of the input stands for a voxel.
-  AttributeRequest request() const { return { view_, statistic_, values_.range }; }
-  const AttributeView& view() const { return view_; }
-  /// An empty array of the name, components, information and lookup table of the input, whose numbers are as
-  /// the resampler gives them.
-  vtkSmartPointer<vtkDataArray> emptyArray() const;
-  /// Returns @p plain in the type of the input.
-  vtkSmartPointer<vtkDataArray> inOwnType(vtkSmartPointer<vtkDataArray> plain) const;
-  /// The tuples of the @p points, which stand for the voxels.
-  vtkSmartPointer<vtkDataArray> chosen(
-    const std::vector<std::int64_t>& points, ArrayPool& pool, const Executor& executor) const;
+  const VoxelArray& found() const { return found_; }
+  AttributeRequest request() const { return { view_, found_.statistic }; }
+  /// Adds the values to @p request, whose representative is set.
+  void addTo(VoxelRequest& request) const;
+  /// The values of the voxels of @p engine, which has run @p request, in the type of the input: the tuples of
+  /// points where a representative is a point of the input, else those of attribute @p i.
+  vtkSmartPointer<vtkDataArray> reduced(const VoxelResampler& engine, const VoxelRequest& request,
+    std::size_t i, OutputMemory& memory, const Executor& executor) const;
 
 private:
-  vtkSmartPointer<vtkDataArray> input_; ///< The array as given.
-  vtkSmartPointer<vtkDataArray> plain_; ///< The input as tuples in memory.
-  AttributeStatistic statistic_;
-  AttributeView view_; ///< View of plain_.
-  AttributeValues values_;
+  VoxelArray found_;
+  vtkSmartPointer<vtkDataArray> plain_; ///< The array as tuples in memory.
+  AttributeView view_;                  ///< View of plain_.
 };
-
-/// Turns normals by the inverse transpose of @p transform and makes them unit vectors; those in integers keep
-/// their length.
-void turnNormals(vtkDataArray* normals, const AffineTransform& transform);
 
 } // namespace pointhaptics

@@ -1,8 +1,6 @@
 #include "VoxelOutput.h"
 
-#include "FieldPoses.h"
 #include "PolyDataAccess.h"
-#include "VoxelArrays.h"
 
 #include "vtkCellArray.h"
 #include "vtkDoubleArray.h"
@@ -19,19 +17,17 @@
 #include "vtkTypeInt64Array.h"
 
 #include <algorithm>
-#include <cstring>
 #include <numeric>
-#include <utility>
 
 namespace pointhaptics
 {
 
-vtkSmartPointer<vtkCellArray> makeVertices(vtkIdType count, ArrayPool& pool, const Executor& executor)
+vtkSmartPointer<vtkCellArray> makeVertices(vtkIdType count, const Executor& executor)
 {
   vtkNew<vtkTypeInt64Array> offsets;
   vtkNew<vtkTypeInt64Array> connectivity;
-  pool.allocateFor(offsets, count + 1);
-  pool.allocateFor(connectivity, count);
+  OutputMemory::allocateFor(offsets, count + 1);
+  OutputMemory::allocateFor(connectivity, count);
   vtkTypeInt64* starts = offsets->GetPointer(0);
   vtkTypeInt64* points = connectivity->GetPointer(0);
   starts[count] = count;
@@ -71,39 +67,8 @@ void addField(vtkFieldData* field, const char* name, const Number* values, int c
   field->AddArray(array);
 }
 
-/// Gives an array its memory and the @p results, which mostly are there already.
-void take(ArrayPool& pool, std::size_t part, vtkDataArray* array, std::int64_t tuples, const void* results)
-{
-  pool.take(part, array, tuples);
-  void* const to = array->GetVoidPointer(0);
-  if (to != results && tuples > 0)
-  {
-    std::memcpy(to, results, std::size_t(tuples * array->GetNumberOfComponents() * array->GetDataTypeSize()));
-  }
-}
-
-/// Makes points of the means.
-vtkSmartPointer<vtkPoints> makePoints(const VoxelResampler& engine, bool singlePrecision, ArrayPool& pool)
-{
-  auto points = vtkSmartPointer<vtkPoints>::New();
-  points->SetDataType(singlePrecision ? VTK_FLOAT : VTK_DOUBLE);
-  take(pool, OutputAllocator::Means, points->GetData(), engine.size(),
-    singlePrecision ? static_cast<const void*>(engine.floats()) : engine.doubles());
-  return points;
-}
-
-/// The array VoxelPointCount.
-vtkSmartPointer<vtkIdTypeArray> makeCounts(const VoxelResampler& engine, ArrayPool& pool)
-{
-  static_assert(sizeof(vtkIdType) == sizeof(std::int64_t), "VTK must be built with 64-bit ids");
-  auto counts = vtkSmartPointer<vtkIdTypeArray>::New();
-  counts->SetName("VoxelPointCount");
-  take(pool, OutputAllocator::Counts, counts, engine.size(), engine.counts());
-  return counts;
-}
-
 /// The array VoxelCovariance.
-vtkSmartPointer<vtkDoubleArray> makeCovariances(const VoxelResampler& engine, ArrayPool& pool)
+vtkSmartPointer<vtkDoubleArray> makeCovariances(const VoxelResampler& engine, OutputMemory& memory)
 {
   static_assert(sizeof(SymMat3) == 6 * sizeof(double), "six numbers, xx yy zz xy yz xz");
   auto array = vtkSmartPointer<vtkDoubleArray>::New();
@@ -114,17 +79,17 @@ vtkSmartPointer<vtkDoubleArray> makeCovariances(const VoxelResampler& engine, Ar
   {
     array->SetComponentName(c, names[c]);
   }
-  take(pool, OutputAllocator::Covariances, array, engine.size(), engine.covariances());
+  memory.take(OutputAllocator::Covariances, array, engine.size(), engine.covariances());
   return array;
 }
 
 /// An array of ids. @p numbers: what becomes of each id that is not negative; empty: they stay.
 vtkSmartPointer<vtkIdTypeArray> makeIds(const std::vector<std::int64_t>& ids, const char* name,
-  const std::vector<std::int64_t>& numbers, ArrayPool& pool, const Executor& executor)
+  const std::vector<std::int64_t>& numbers, const Executor& executor)
 {
   auto array = vtkSmartPointer<vtkIdTypeArray>::New();
   array->SetName(name);
-  pool.allocateFor(array, std::int64_t(ids.size()));
+  OutputMemory::allocateFor(array, std::int64_t(ids.size()));
   vtkIdType* const to = array->GetPointer(0);
   forRange(executor, std::int64_t(ids.size()),
     [&](std::int64_t begin, std::int64_t end)
@@ -138,7 +103,7 @@ vtkSmartPointer<vtkIdTypeArray> makeIds(const std::vector<std::int64_t>& ids, co
 /// Leaves out the points of @p cloud whose @p counts, one of its arrays, are below @p minimum. @return those
 /// that stay; nothing for a minimum of 1, with which all do.
 std::optional<std::vector<std::int64_t>> keepVoxels(
-  vtkPolyData* cloud, vtkIdTypeArray* counts, vtkIdType minimum, ArrayPool& pool, const Executor& executor)
+  vtkPolyData* cloud, vtkIdTypeArray* counts, vtkIdType minimum, const Executor& executor)
 {
   if (minimum <= 1)
   {
@@ -158,7 +123,7 @@ std::optional<std::vector<std::int64_t>> keepVoxels(
     keepTuples(data->GetAbstractArray(i), kept);
   }
   keepTuples(cloud->GetPoints()->GetData(), kept);
-  cloud->SetVerts(makeVertices(vtkIdType(kept.size()), pool, executor));
+  cloud->SetVerts(makeVertices(vtkIdType(kept.size()), executor));
   return kept;
 }
 
@@ -176,59 +141,49 @@ void addLattice(const Lattice& lattice, const AffineTransform& transform, vtkFie
 }
 
 void fillVoxelIndex(vtkPolyData* output, vtkPointSet* input, const std::vector<std::int64_t>& voxels,
-  const std::vector<std::int64_t>& rows, ArrayPool& pool, const Executor& executor)
+  const std::vector<std::int64_t>& rows, const Executor& executor)
 {
   output->SetPoints(input->GetPoints());
   output->GetPointData()->PassData(input->GetPointData());
-  output->GetPointData()->AddArray(makeIds(voxels, "VoxelIndex", rows, pool, executor));
+  output->GetPointData()->AddArray(makeIds(voxels, "VoxelIndex", rows, executor));
   output->GetFieldData()->PassData(input->GetFieldData());
 }
 
-bool OutputFiller::fill(
-  vtkPolyData* output, const AddArrays& addArrays, std::optional<std::vector<std::int64_t>>& kept) const
+bool OutputFiller::fill(vtkPolyData* output, const std::vector<VoxelAttribute>& attributes,
+  ProgressObserver* observer, std::optional<std::vector<std::int64_t>>& kept) const
 {
   vtkPointData* data = output->GetPointData();
-  output->SetPoints(makePoints(engine, singlePrecision, pool));
-  output->SetVerts(makeVertices(vtkIdType(engine.size()), pool, executor));
-  const auto counts = makeCounts(engine, pool);
-  if (!addArrays(data))
+  vtkNew<vtkPoints> points;
+  points->SetDataType(request.singlePrecision ? VTK_FLOAT : VTK_DOUBLE);
+  memory.take(OutputAllocator::Means, points->GetData(), engine.size(),
+    request.singlePrecision ? static_cast<const void*>(engine.floats()) : engine.doubles());
+  output->SetPoints(points);
+  output->SetVerts(makeVertices(vtkIdType(engine.size()), executor));
+  static_assert(sizeof(vtkIdType) == sizeof(std::int64_t), "VTK must be built with 64-bit ids");
+  vtkNew<vtkIdTypeArray> counts;
+  counts->SetName("VoxelPointCount");
+  memory.take(OutputAllocator::Counts, counts, engine.size(), engine.counts());
+  for (std::size_t i = 0; i < attributes.size(); ++i)
   {
-    return false;
+    addWithRoles(
+      data, attributes[i].reduced(engine, request, i, memory, executor), attributes[i].found().roles);
+    if (observer && !observer->report(double(i + 1) / double(attributes.size() + 1)))
+    {
+      return false;
+    }
   }
   data->AddArray(counts);
-  if (covariances)
+  if (request.covariances)
   {
-    data->AddArray(makeCovariances(engine, pool));
+    data->AddArray(makeCovariances(engine, memory));
   }
-  if (pointIds)
+  if (ids)
   {
-    data->AddArray(makeIds(*pointIds, kOriginalPointIds, {}, pool, executor));
+    data->AddArray(makeIds(*ids, kOriginalPointIds, {}, executor));
   }
-  kept = keepVoxels(output, counts, minimumPoints, pool, executor);
-  movePoses(transform, output->GetFieldData());
-  addLattice(engine.lattice(), transform, output->GetFieldData());
+  kept = keepVoxels(output, counts, minimumPoints, executor);
+  addLattice(engine.lattice(), request.transform, output->GetFieldData());
   return true;
-}
-
-void OutputFiller::addReduced(vtkPointData* data, std::size_t i, const VoxelAttribute& attribute,
-  const VoxelArray& found, const VoxelRequest& request) const
-{
-  vtkSmartPointer<vtkDataArray> array;
-  if (keepsPoints(request.representative))
-  {
-    array = attribute.chosen(engine.chosenPoints(), pool, executor);
-  }
-  else
-  {
-    array = attribute.emptyArray();
-    take(pool, OutputAllocator::Attributes + i, array, engine.size(), engine.attribute(i));
-    array = attribute.inOwnType(array);
-  }
-  if (request.representative != Representative::Mean && found.isNormal && !request.transform.isIdentity())
-  {
-    turnNormals(array, request.transform);
-  }
-  addWithRoles(data, array, found.roles);
 }
 
 } // namespace pointhaptics

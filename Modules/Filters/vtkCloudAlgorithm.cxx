@@ -57,10 +57,10 @@ struct vtkCloudAlgorithm::Parts
     if (!composite)
     {
       auto* cloud = vtkPointSet::SafeDownCast(input);
-      this->Add(cloud ? cloud : vtkSmartPointer<vtkPolyData>::New().Get());
+      Outputs& own = this->Add(cloud ? cloud : vtkSmartPointer<vtkPolyData>::New().Get());
       for (vtkDataObject* result : results)
       {
-        this->outputs.back().emplace_back(vtkPolyData::SafeDownCast(result));
+        own.emplace_back(vtkPolyData::SafeDownCast(result));
       }
       return;
     }
@@ -69,11 +69,11 @@ struct vtkCloudAlgorithm::Parts
     {
       if (auto* cloud = vtkPointSet::SafeDownCast(block->GetCurrentDataObject()))
       {
-        this->Add(cloud);
+        Outputs& own = this->Add(cloud);
         for (vtkDataObject* result : results)
         {
-          this->outputs.back().push_back(vtkSmartPointer<vtkPolyData>::New());
-          vtkCompositeDataSet::SafeDownCast(result)->SetDataSet(block, this->outputs.back().back());
+          own.push_back(vtkSmartPointer<vtkPolyData>::New());
+          vtkCompositeDataSet::SafeDownCast(result)->SetDataSet(block, own.back());
         }
       }
       else
@@ -92,10 +92,10 @@ struct vtkCloudAlgorithm::Parts
   }
 
 private:
-  void Add(vtkPointSet* cloud)
+  Outputs& Add(vtkPointSet* cloud)
   {
     this->clouds.emplace_back(cloud);
-    this->outputs.emplace_back();
+    return this->outputs.emplace_back();
   }
 };
 
@@ -175,11 +175,6 @@ int vtkCloudAlgorithm::RequestDataObject(
     }
   }
   return 1;
-}
-
-std::string vtkCloudAlgorithm::ProblemOf(vtkDataObject*)
-{
-  return {};
 }
 
 int vtkCloudAlgorithm::RequestData(

@@ -103,8 +103,11 @@ protected:
   vtkCloudAlgorithm() = default;
   ~vtkCloudAlgorithm() override = default;
 
-  /// Why a run over @p input cannot be; empty: it can.
-  virtual std::string ProblemOf(vtkDataObject* input);
+  /// Why a run over an input cannot be; empty: it can.
+  virtual std::string ProblemOf(vtkDataObject*)
+  {
+    return {};
+  }
   /// Whether an error is said again on the next update: RepeatsErrors, but for ranks, which run together or
   /// not at all.
   virtual bool SaysAgain() const

@@ -1,24 +1,35 @@
 #include "vtkKernelBandwidthFilter.h"
 
-#include "BandwidthArrays.h"
 #include "PolyDataAccess.h"
 #include "SettingText.h"
 #include "SmpExecutor.h"
+#include "VoxelOutput.h"
 
 #include "Core/Bandwidth/Density.h"
 #include "Core/Bandwidth/LocalBandwidth.h"
 #include "Core/Base/Host/InterpreterLock.h"
 #include "Core/Distributed/FarPoints.h"
+#include "Core/Distributed/SharedBandwidths.h"
 #include "Core/Resample/TransformedBounds.h"
 
+#include "vtkDataArray.h"
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkNew.h"
 #include "vtkObjectFactory.h"
+#include "vtkPointData.h"
 #include "vtkPointSet.h"
+#include "vtkPoints.h"
 #include "vtkPolyData.h"
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdint>
+#include <sstream>
 #include <string>
+#include <tuple>
+#include <vector>
 
 using namespace pointhaptics;
 
@@ -34,7 +45,7 @@ namespace
 
 /// Runs a loop in slices on VTK's threads and reports the filter's progress after each slice. After an abort
 /// request it skips the remaining slices; the results of the loop are invalid then.
-class ReportingExecutor : public SmpExecutor
+class ReportingExecutor : public Executor
 {
 public:
   ReportingExecutor(vtkAlgorithm* filter, double from, double to)
@@ -45,6 +56,7 @@ public:
   {
   }
 
+  int concurrency() const override { return this->Smp.concurrency(); }
   void run(std::int64_t count, std::int64_t grain, void* context, Body body) const override
   {
     using Clock = std::chrono::steady_clock;
@@ -55,14 +67,9 @@ public:
     {
       const Clock::time_point start = Clock::now();
       const std::int64_t size = std::min(piece, count - begin);
-      Shifted shifted{ context, body, begin };
       // A slice that is slow with few items is short of a grain for each thread.
-      SmpExecutor::run(size, std::clamp<std::int64_t>(size / shares, 1, grain), &shifted,
-        [](void* here, std::int64_t first, std::int64_t last)
-        {
-          const auto* s = static_cast<const Shifted*>(here);
-          s->Inner(s->Context, s->Offset + first, s->Offset + last);
-        });
+      forRange(this->Smp, size, std::clamp<std::int64_t>(size / shares, 1, grain),
+        [&](std::int64_t first, std::int64_t last) { body(context, begin + first, begin + last); });
       begin += size;
       this->Report(double(begin) / double(count));
       piece = std::min(largest, piece * (Clock::now() - start < kSlice ? 2 : 1));
@@ -72,12 +79,6 @@ public:
 private:
   static constexpr std::int64_t Slices = 8;
   static constexpr std::chrono::milliseconds kSlice{ 50 };
-  struct Shifted
-  {
-    void* Context;
-    Body Inner;
-    std::int64_t Offset;
-  };
 
   /// Several loops share the range: progress never decreases.
   void Report(double fraction) const
@@ -91,53 +92,73 @@ private:
     }
   }
 
+  SmpExecutor Smp;
   vtkAlgorithm* Filter;
   mutable double Now;
   double From;
   double To;
 };
 
-}
-
-void vtkKernelBandwidthFilter::SetSettings(const BandwidthSettings& settings)
+/// The points and their arrays: a vtkPolyData as it is, others with a vertex each.
+void passCloud(vtkPointSet* cloud, vtkPolyData* output)
 {
-  if (!equalSettings(this->Settings, settings))
+  if (vtkPolyData::SafeDownCast(cloud))
   {
-    this->Settings = settings;
-    this->Modified();
+    output->ShallowCopy(cloud);
+  }
+  else
+  {
+    output->SetPoints(cloud->GetPoints());
+    output->SetVerts(makeVertices(cloud->GetNumberOfPoints(), SmpExecutor()));
+    output->GetPointData()->ShallowCopy(cloud->GetPointData());
+    output->GetFieldData()->ShallowCopy(cloud->GetFieldData());
+  }
+  if (!output->GetPoints())
+  {
+    output->SetPoints(vtkNew<vtkPoints>());
   }
 }
 
-bool vtkKernelBandwidthFilter::BeginRun(const Clouds&)
+/// VoxelPointCount; empty where it is missing or of no use. @p problem: why it is of no use.
+std::vector<double> voxelCounts(vtkPolyData* cloud, std::string& problem)
 {
-  this->SettingsOfRun = this->Settings;
-  const Status status = this->Settings.check();
-  if (status != Status::Ok)
+  vtkAbstractArray* any = cloud->GetPointData()->GetAbstractArray("VoxelPointCount");
+  auto* array = vtkDataArray::SafeDownCast(any);
+  const vtkIdType points = cloud->GetNumberOfPoints();
+  bool areCounts = array && array->GetNumberOfComponents() == 1 && array->GetNumberOfTuples() == points;
+  std::vector<double> counts;
+  for (vtkIdType i = 0; areCounts && i < points; ++i)
   {
-    this->Fail(bandwidthProblem(this->Settings, status));
+    counts.push_back(array->GetComponent(i, 0));
+    areCounts = counts.back() > 0.0 && std::isfinite(counts.back());
   }
-  return status == Status::Ok;
+  if (any && !areCounts)
+  {
+    counts.clear();
+    problem = "VoxelPointCount is not a number above 0 for each point: bandwidths are those of the points as "
+              "they are. Mend the array, or remove it.";
+  }
+  return counts;
 }
 
-void vtkKernelBandwidthFilter::EndRun(bool) {}
-
-bool vtkKernelBandwidthFilter::RunCloud(vtkPointSet* cloud, const Outputs& outputs)
+/// Why settings.check() gave @p status.
+std::string problemOf(const BandwidthSettings& settings, Status status)
 {
-  if (cloud->GetNumberOfPoints() > NeighborQuery::kMostPoints)
-  {
-    this->Fail("The input has " + std::to_string(cloud->GetNumberOfPoints()) + " points, more than " +
-      std::to_string(NeighborQuery::kMostPoints) + ": resample it first.");
-    return false;
-  }
-  passCloud(cloud, outputs[0]);
-  const BandwidthSettings& settings = this->SettingsOfRun;
-  const bool wanted = settings.computeBandwidth || settings.computeProxyRadius || settings.computeDensity ||
-    settings.computeMeanBandwidth;
-  return !wanted || this->Estimate(outputs[0]);
+  std::ostringstream text;
+  text << "NumberOfNeighbors " << settings.numberOfNeighbors << ", Radius " << settings.radius
+       << ", RadiusScale " << settings.radiusScale << ", MinimumRadius " << settings.minimumRadius
+       << ", MaximumRadius " << settings.maximumRadius << ": " << message(status) << ".";
+  return text.str();
 }
 
-namespace
+void addArray(vtkPolyData* output, const char* name, const std::vector<double>& values)
 {
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(name);
+  array->SetNumberOfValues(vtkIdType(values.size()));
+  std::copy(values.begin(), values.end(), array->GetPointer(0));
+  output->GetPointData()->AddArray(array);
+}
 
 /// Why balls of @p radius about all points would be looked at for hours; empty: they would not.
 std::string tooManyPairs(const NeighborQuery& query, double radius)
@@ -159,67 +180,136 @@ std::string tooManyPairs(const NeighborQuery& query, double radius)
       " points each, which takes hours; give a smaller radius, or a number of neighbors.";
 }
 
-} // namespace
-
-/// @return false where an abort was asked for.
-bool vtkKernelBandwidthFilter::Estimate(vtkPolyData* cloud)
+/// Makes the arrays that are wanted. Aborted: @p filter was asked to stop.
+Status search(vtkAlgorithm* filter, const BandwidthSettings& wanted, const PointView& points,
+  const std::vector<double>& counts, const NeighborQuery& query, BandwidthsOfPoints& found)
 {
-  LocalBandwidthSettings settings = this->SettingsOfRun;
-  settings.smoothRadius = settings.smoothRadius && this->SettingsOfRun.computeProxyRadius;
-  const PointAccess points(cloud->GetPoints());
-  const double found = this->SettingsOfRun.computeDensity ? 0.4 : 0.95;
+  const double end = wanted.computeDensity ? 0.4 : 0.95;
+  const bool wantsPoints = wanted.computeBandwidth || wanted.computeProxyRadius;
+  const bool wantsMeans = wanted.computeDensity || wanted.computeMeanBandwidth;
+  LocalBandwidthSettings settings = wanted;
+  settings.smoothRadius = wanted.smoothRadius && wanted.computeProxyRadius;
+  Status status = Status::Ok;
+  // One search does for both where each mean is one point.
+  if (wantsPoints || counts.empty())
+  {
+    status = localBandwidths(
+      points, counts, query, settings, found.bandwidths, found.radii, ReportingExecutor(filter, 0.1, end));
+  }
+  if (wantsMeans && counts.empty())
+  {
+    found.ofMeans = found.bandwidths;
+  }
+  else if (wantsMeans && !filter->GetAbortExecute())
+  {
+    settings.smoothRadius = false;
+    std::vector<double> unused;
+    static_cast<void>(localBandwidths(points, {}, query, settings, found.ofMeans, unused,
+      ReportingExecutor(filter, wantsPoints ? end : 0.1, end)));
+  }
+  if (wanted.computeDensity && !filter->GetAbortExecute())
+  {
+    surfaceDensities(points, counts, query, found.ofMeans, found.densities,
+      ReportingExecutor(filter, end, 0.95), wanted.densityKernel);
+  }
+  return filter->GetAbortExecute() ? Status::Aborted : status;
+}
+
+}
+
+void vtkKernelBandwidthFilter::SetSettings(const BandwidthSettings& settings)
+{
+  if (!equalSettings(this->Settings, settings))
+  {
+    this->Settings = settings;
+    this->Modified();
+  }
+}
+
+bool vtkKernelBandwidthFilter::BeginRun(const Clouds&)
+{
+  this->SettingsOfRun = this->Settings;
+  const Status status = this->Settings.check();
+  if (status != Status::Ok)
+  {
+    this->Fail(problemOf(this->Settings, status));
+  }
+  return status == Status::Ok;
+}
+
+void vtkKernelBandwidthFilter::EndRun(bool) {}
+
+bool vtkKernelBandwidthFilter::RunCloud(vtkPointSet* cloud, const Outputs& outputs)
+{
+  const BandwidthSettings& settings = this->SettingsOfRun;
+  vtkPolyData* output = outputs[0];
+  passCloud(cloud, output);
+  if (!settings.computeBandwidth && !settings.computeProxyRadius && !settings.computeDensity &&
+    !settings.computeMeanBandwidth)
+  {
+    return true;
+  }
+  std::string problem;
+  const auto counts = settings.usePointCounts ? voxelCounts(output, problem) : std::vector<double>();
+  this->Warn(problem);
+  const PointAccess points(output->GetPoints());
+  BandwidthsOfPoints found;
+  const Status status = this->Estimate(points.view(), counts, found);
+  if (status != Status::Ok)
+  {
+    if (status != Status::Aborted)
+    {
+      this->Fail(problemOf(settings, status));
+    }
+    return false;
+  }
+  const std::tuple<bool, const char*, const std::vector<double>&> arrays[] = {
+    { settings.computeDensity, "Density", found.densities },
+    { settings.computeMeanBandwidth, "MeanBandwidth", found.ofMeans },
+    { settings.computeBandwidth, "Bandwidth", found.bandwidths },
+    { settings.computeProxyRadius, "ProxyRadius", found.radii },
+  };
+  for (const auto& [isWanted, name, values] : arrays)
+  {
+    if (isWanted)
+    {
+      addArray(output, name, values);
+    }
+  }
+  return true;
+}
+
+Status vtkKernelBandwidthFilter::Estimate(
+  const PointView& points, const std::vector<double>& counts, BandwidthsOfPoints& found)
+{
+  if (points.size() > NeighborQuery::kMostPoints)
+  {
+    this->Fail("The input has " + std::to_string(points.size()) + " points, more than " +
+      std::to_string(NeighborQuery::kMostPoints) + ": resample it first.");
+    return Status::Aborted;
+  }
   NeighborQuery query;
-  query.build(points.view(), SmpExecutor());
+  query.build(points, SmpExecutor());
   this->UpdateProgress(0.1);
-  std::string problem = settings.fixedRadius ? tooManyPairs(query, settings.radius) : "";
+  const bool isFixed = this->SettingsOfRun.fixedRadius;
+  const std::string problem = isFixed ? tooManyPairs(query, this->SettingsOfRun.radius) : "";
   if (!problem.empty())
   {
     this->Fail(problem);
-    return false;
+    return Status::Aborted;
   }
-  const std::vector<double> counts = voxelCounts(cloud, settings.usePointCounts, problem);
-  this->Warn(problem);
-  this->Warn(invalidPoints(points.view().size() - query.finitePoints(), points.view().size()));
-  if (const FarPoints far = findFarPoints(points.view(), transformedBounds(points.view(), {}, SmpExecutor()));
+  if (const std::int64_t invalid = points.size() - query.finitePoints(); invalid > 0)
+  {
+    this->Warn(std::to_string(invalid) + " of " + std::to_string(points.size()) +
+      " points are NaN or infinite: they have bandwidth and radius 0. Remove them first.");
+  }
+  if (const FarPoints far = findFarPoints(points, transformedBounds(points, {}, SmpExecutor()));
       far.count > 0 && counts.empty())
   {
     this->Warn(
       far.text() + "; density and bandwidth there are those of the gap: clip them off to leave them out");
   }
-  const bool wantsPoints = this->SettingsOfRun.computeBandwidth || this->SettingsOfRun.computeProxyRadius;
-  const bool wantsMeans = this->SettingsOfRun.computeDensity || this->SettingsOfRun.computeMeanBandwidth;
-  std::vector<double> bandwidths;
-  std::vector<double> radii;
-  std::vector<double> ofMeans;
-  std::vector<double> densities;
-  // One search does for both where each mean is one point.
-  if (this->GetAbortExecute() ||
-    ((wantsPoints || counts.empty()) &&
-      localBandwidths(points.view(), counts, query, settings, bandwidths, radii,
-        ReportingExecutor(this, 0.1, found)) != Status::Ok))
-  {
-    return false;
-  }
-  if (wantsMeans && !counts.empty() && !this->GetAbortExecute())
-  {
-    LocalBandwidthSettings alone = settings;
-    alone.smoothRadius = false;
-    std::vector<double> unused;
-    (void)localBandwidths(points.view(), {}, query, alone, ofMeans, unused,
-      ReportingExecutor(this, wantsPoints ? found : 0.1, found));
-  }
-  const std::vector<double>& widths = counts.empty() ? bandwidths : ofMeans;
-  if (this->SettingsOfRun.computeDensity && !this->GetAbortExecute())
-  {
-    surfaceDensities(points.view(), counts, query, widths, densities, ReportingExecutor(this, found, 0.95),
-      this->SettingsOfRun.densityKernel);
-  }
-  if (this->GetAbortExecute())
-  {
-    return false;
-  }
-  addBandwidthArrays(cloud, this->SettingsOfRun, densities, widths, bandwidths, radii);
-  return true;
+  return search(this, this->SettingsOfRun, points, counts, query, found);
 }
 
 void vtkKernelBandwidthFilter::PrintSelf(ostream& os, vtkIndent indent)

@@ -19,10 +19,9 @@
  * deviation along one direction of the surface. s' and IQR are those of the distances of the neighbours,
  * which are also the sample of SheatherJones.
  *
- * The paper computes the bandwidth from the density of the points, because the proxy is to be large where
- * they are sparse and small where they are dense. The means of a resampled cloud stand about a voxel apart
- * whatever that density was. Where the input has the point array "VoxelPointCount" of vtkVoxelMeanResampler,
- * bandwidths and radii are therefore those of the points that the means stand for (see UsePointCounts).
+ * The means of a resampled cloud stand about a voxel apart whatever the density of its points was. Where the
+ * input has the point array "VoxelPointCount" of vtkVoxelMeanResampler, bandwidths and radii are therefore
+ * those of the points that the means stand for (UsePointCounts).
  *
  * Input: any vtkPointSet, or a composite of them (vtkCloudAlgorithm: neighbours are those of the same
  * block, and of the same piece where a pipeline runs on several processes); its points are read, float or
@@ -41,12 +40,10 @@
  * Accuracy: bandwidths are within 1e-9 relative of the definition, and all values scale with the cloud.
  * Results do not depend on the number of threads, the SMP backend or the type of number, bit for bit.
  * Cost: O(n); 200 ns a point and thread for 16 neighbours, density six times as much. 100 bytes a point
- * while it runs. Parallel by vtkSMPTools; one thread may use an object at a time.
- *
- * Progress is reported ten times a second and more often, and AbortExecute ends the work there, with an empty
- * output.
- * @warning A number of neighbours below 1, a radius not above 0, r1 > r2 or a scale not above 0 is reported
- * by vtkErrorMacro and gives an empty output; so do more than 2^31 - 1 points.
+ * while it runs. Parallel by vtkSMPTools. Progress is reported ten times a second and more often, and
+ * AbortExecute ends the work there.
+ * @warning A number of neighbours below 1, a radius not above 0, r1 > r2, a scale not above 0 and more than
+ * 2^31 - 1 points are errors.
  * @sa vtkVoxelMeanResampler
  */
 #ifndef vtkKernelBandwidthFilter_h
@@ -55,6 +52,14 @@
 #include "Core/Bandwidth/BandwidthSettings.h" // For Settings
 #include "PointHapticsFiltersModule.h"        // For export macro
 #include "vtkCloudAlgorithm.h"
+
+#include <vector> // For Estimate
+
+namespace pointhaptics
+{
+class PointView;
+struct BandwidthsOfPoints;
+}
 
 class POINTHAPTICSFILTERS_EXPORT vtkKernelBandwidthFilter : public vtkCloudAlgorithm
 {
@@ -213,11 +218,13 @@ protected:
   bool BeginRun(const Clouds& clouds) override;
   bool RunCloud(vtkPointSet* cloud, const Outputs& outputs) override;
   void EndRun(bool succeeded) override;
+  /// Estimates what the settings ask for, with warnings. Aborted: an abort was asked for, or Fail() was
+  /// called.
+  virtual pointhaptics::Status Estimate(const pointhaptics::PointView& points,
+    const std::vector<double>& counts, pointhaptics::BandwidthsOfPoints& found);
 #endif
 
 private:
-  bool Estimate(vtkPolyData* cloud);
-
   pointhaptics::BandwidthSettings Settings;
   pointhaptics::BandwidthSettings SettingsOfRun; // observers of progress may set others
 

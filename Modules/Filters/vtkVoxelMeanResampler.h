@@ -24,10 +24,10 @@
  * for a viewpoint that is the identity, which says nothing; a transform that mirrors or does not keep angles
  * drops them with a warning. Output port 1 is the input with the voxel of each point (ComputeVoxelIndex).
  *
- * Composites (vtkCloudAlgorithm): each block has means of its own, and all blocks share one lattice
- * (LatticePerBlock: each has its own). The counts of clipped and invalid points are sums over the blocks.
- * Pieces of a pipeline that runs on several processes have an automatic workspace each, about their own
- * points: give WorkspaceBounds for a common lattice, or use vtkDistributedVoxelMeanResampler.
+ * Composites (vtkCloudAlgorithm): each block has means of its own, and all blocks share one lattice. The
+ * counts of clipped and invalid points are sums over the blocks. Pieces of a pipeline that runs on several
+ * processes have an automatic workspace each, about their own points: give WorkspaceBounds for a common
+ * lattice, or use vtkDistributedVoxelMeanResampler.
  *
  * Arrays: numeric arrays of any type and number of components are averaged and rounded to their own type
  * (integers to nearest, exactly), and keep their lookup table and information keys; the active normals are
@@ -42,11 +42,6 @@
  * keep some of the arrays, put a vtkPassArrays before the filter. Points flagged as ghosts, and blanked ones,
  * are averaged like all others: remove duplicates first.
  *
- * In the place of the mean another point may stand for a voxel (Representative): the point of the input
- * nearest to the mean or to the centre of the voxel, with its own values in all arrays, or the median of each
- * coordinate and component. Voxels with few points can be left out (MinimumPointsPerVoxel), and each point of
- * the input can be told its voxel (ComputeVoxelIndex).
- *
  * Accuracy: voxel index = floor((x - origin) / spacing), all in double about a point near the workspace, so
  * that map coordinates cost no digits. Offsets in the voxel are summed exactly, in integers whose quantum is
  * at most 2^-31 of a voxel; that is the largest error of a mean before it is rounded to the output type, and
@@ -60,26 +55,24 @@
  * Points that are NaN or infinite are dropped and counted by GetNumberOfInvalidPoints(), finite points
  * outside the workspace by GetNumberOfClippedPoints(). Where that leaves none at all, a warning says so.
  *
- * @warning Errors (singular or non-finite transform, empty bounds, a lattice that cannot be addressed) are
- * reported by vtkErrorMacro with the cure, and the output is a valid empty vtkPolyData.
+ * @warning A singular or non-finite transform, empty bounds and a lattice that cannot be addressed are
+ * errors.
  *
- * Cost: a few nanoseconds a point (Documentation/Performance.md). Memory beyond input and output: 16
- * bytes for each of at most 5 million points, 60 bytes an active voxel and a few megabytes, kept for
- * the next update until ReleaseScratch() or the filter's end; nothing in proportion to the voxels of the
- * lattice. With covariance: 100 bytes an active voxel more; with more points: up to 90 bytes in all, 280 with
- * covariance too. With arrays: for each of those points its number and tuples (up to 36 bytes);
- * where there are more points, also the values of categories, and of other arrays 8 bytes for each
- * active voxel and component, or 16 for integers of 64 bits and for most arrays of doubles
- * (more where magnitudes differ by more than 2^50; at most 32 are kept). Representatives and the
- * voxel index hold all points at once. A workspace that shows less than
- * half of the cloud for the second time makes a PointIndex (16 bytes a point; 28 for double coordinates),
- * after which an update costs in proportion to the points inside. Copies of arrays whose memory is not
- * plain tuples of numbers are then kept too.
+ * Cost: a few nanoseconds a point (Documentation/Performance.md). Memory beyond input and output: 16 bytes
+ * for each of at most 5 million points, 60 bytes an active voxel and a few megabytes, kept for the next
+ * update; nothing in proportion to the voxels of the lattice. With covariance: 100 bytes an active voxel
+ * more; with more points: up to 90 bytes in all, 280 with covariance too. With arrays: for each of those
+ * points its number and tuples (up to 36 bytes); where there are more points, also the values of categories,
+ * and of other arrays 8 bytes for each active voxel and component, or 16 for integers of 64 bits and for
+ * most arrays of doubles (more where magnitudes differ by more than 2^50; at most 32 are kept).
+ * Representatives and the voxel index hold all points at once. A workspace that shows less than half of the
+ * cloud for the second time makes a PointIndex (16 bytes a point; 28 for double coordinates), after which an
+ * update costs in proportion to the points inside, and a look at every value of arrays of floats and
+ * doubles.
  *
- * Progress events come at least every 1.25 million points; AbortExecute ends the work there, the output is
- * then empty and the next Update() starts anew. Like every VTK filter, one object is used by one thread at a
- * time; inside it runs on vtkSMPTools. Source: Kumari, Sreeni, Chaudhuri, "Scalable Rendering of Variable
- * Density Point Cloud Data"; the exact sums are ours (Documentation/Method.md).
+ * Progress events, at which AbortExecute ends the work, come at least every 1.25 million points. Inside it
+ * runs on vtkSMPTools. Source: Kumari, Sreeni, Chaudhuri, "Scalable Rendering of Variable Density Point Cloud
+ * Data"; the exact sums are ours (Documentation/Method.md).
  *
  * @sa vtkKernelBandwidthFilter vtkVoxelGrid
  */
@@ -245,19 +238,9 @@ public:
 
   ///@{
   /**
-   * With an automatic workspace: each block of a composite has a lattice about its own points. Off: one
-   * lattice about the points of all. Default: off.
-   */
-  vtkSetMacro(LatticePerBlock, bool);
-  vtkGetMacro(LatticePerBlock, bool);
-  vtkBooleanMacro(LatticePerBlock, bool);
-  ///@}
-
-  ///@{
-  /**
-   * Build an index of the input's points once parts of them are resampled repeatedly, and cache the
-   * magnitudes in arrays. This changes only the cost of updates, provided that whoever writes to the points
-   * or to an array calls Modified() on it, or on the input. Default: on.
+   * Build an index of the input's points once parts of them are resampled repeatedly. This changes only the
+   * cost of updates, provided that whoever writes to the points calls Modified() on them, or on the input.
+   * Default: on.
    */
   vtkSettingMacro(UsePointIndex, bool, usePointIndex);
   vtkBooleanMacro(UsePointIndex, bool);
@@ -279,8 +262,7 @@ public:
 
   ///@{
   /**
-   * All of the above but the transform and LatticePerBlock as one plain value.
-   * MinimumPointsPerVoxel is clamped to its range.
+   * All of the above but the transform as one plain value. MinimumPointsPerVoxel is clamped to its range.
    */
   virtual void SetSettings(const pointhaptics::VoxelMeanSettings& settings);
   const pointhaptics::VoxelMeanSettings& GetSettings() const { return this->Settings; }
@@ -301,11 +283,6 @@ public:
    * Takes over all settings of @p other.
    */
   void TakeSettings(vtkVoxelMeanResampler* other);
-
-  /**
-   * Frees the scratch memory.
-   */
-  void ReleaseScratch();
 
   ///@{
   /**
@@ -344,7 +321,6 @@ private:
   void UpdateVectors();
 
   pointhaptics::VoxelMeanSettings Settings;
-  bool LatticePerBlock = false;
   int NumberOfThreads = 0;
   // Copies of settings that are returned by pointers, in VTK's order.
   double WorkspaceBounds[6];

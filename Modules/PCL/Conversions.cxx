@@ -406,8 +406,7 @@ vtkSmartPointer<vtkPolyData> toPolyData(const Cloud& cloud)
     }
   }
   result->SetPoints(points);
-  ArrayPool pool;
-  result->SetVerts(makeVertices(points->GetNumberOfPoints(), pool, Executor()));
+  result->SetVerts(makeVertices(points->GetNumberOfPoints(), Executor()));
   addOthers(cloud, layout, result->GetPointData());
   addRecords(cloud, result->GetFieldData());
   return result;

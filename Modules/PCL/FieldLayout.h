@@ -2,19 +2,32 @@
 /// PCL's descriptions of fields as Core's.
 #pragma once
 
-#include "PCL/RecordVoxels.h"
+#include "Core/Base/ScalarType.h"
+#include "Core/Resample/AttributeView.h"
 
 #include "vtkType.h"
 
 #include <pcl/PCLPointField.h>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
 
 namespace pointhaptics
 {
+
+/// Numbers that follow each other in each record.
+struct RecordField
+{
+  std::size_t offset = 0; ///< Bytes from the start of a record.
+  ScalarType type = ScalarType::Float;
+  int components = 1;
+  AttributeStatistic statistic = AttributeStatistic::Mean; ///< A normal has three real numbers.
+
+  std::size_t bytes() const { return std::size_t(bytesOf(type)) * std::size_t(components); }
+};
 
 /// Where the coordinates are, and what else a record has.
 struct FieldLayout

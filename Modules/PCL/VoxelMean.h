@@ -3,14 +3,19 @@
 #pragma once
 
 #include "PCL/FieldLayout.h"
-#include "PCL/RecordVoxels.h"
+
+#include "Core/Base/Lattice.h"
+#include "Core/Resample/VoxelResampler.h"
 
 #include <pcl/PCLPointCloud2.h>
 #include <pcl/common/io.h>
 #include <pcl/filters/filter.h>
 
+#include <array>
 #include <cstdint>
 #include <limits>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -95,14 +100,17 @@ protected:
     std::string name;                        ///< For messages.
   };
   /// False, after a PCL_ERROR with what, where, value and cure: nothing can be averaged.
-  bool average(const Input& input, const std::vector<::pcl::PCLPointField>& fields);
-  std::int64_t numberOfVoxels() const { return voxels_.size(); }
-  /// The offset of coordinates @p xyz where only these are written.
-  void write(char* records, std::size_t step) const;
-  void write(char* records, std::size_t step, const std::array<std::size_t, 3>& xyz) const;
+  bool average(Input input, const std::vector<::pcl::PCLPointField>& fields);
+  std::int64_t numberOfVoxels() const { return size_; }
+  /// Writes the voxels into so many records of @p step bytes, fields where the points have them, coordinates
+  /// at @p xyz if it is given; other bytes stay.
+  void write(
+    char* records, std::size_t step, const std::optional<std::array<std::size_t, 3>>& xyz = {}) const;
 
 private:
-  bool select(const Input& input, const std::vector<::pcl::PCLPointField>& fields, RecordCloud& cloud);
+  bool select(Input& input, const std::vector<::pcl::PCLPointField>& fields, std::vector<char>& selected,
+    std::string& message) const;
+  Status run(const Input& input, const Executor& executor);
 
   Vec3 leaf_{ 0.0, 0.0, 0.0 };
   bool downsampleAllData_ = true;
@@ -113,9 +121,15 @@ private:
   std::string fieldName_;
   double low_ = std::numeric_limits<float>::lowest();
   double high_ = std::numeric_limits<float>::max();
-  RecordVoxels voxels_;
+  // The last run.
+  std::unique_ptr<VoxelResampler>
+    engine_; ///< Scratch memory is kept for the next run. Null before the first.
   FieldLayout layout_;
-  std::vector<char> selected_; ///< Copies of the records of setIndices() and setFilterLimits().
+  Lattice lattice_;
+  std::array<std::int64_t, 3> first_{}; ///< The multiple of the edges at which the lattice starts.
+  std::vector<std::int64_t> kept_;      ///< Voxels that are not left out; empty: all are kept.
+  std::vector<std::uint64_t> keys_;     ///< Of the voxels that are kept, with setSaveLeafLayout().
+  std::int64_t size_ = 0;
 };
 
 /// Takes the place of pcl::VoxelGrid<PointT>: the same setters, the same voxels, the same order of the

@@ -9,9 +9,7 @@
 
 #include "vtkAbstractTransform.h"
 #include "vtkDataArray.h"
-#include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
-#include "vtkIdTypeArray.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
@@ -65,10 +63,6 @@ std::string DistributedUpdate::chooseArrays()
     return "Ranks have different point arrays; this one has: " + signature +
       "give all ranks pieces of one cloud.";
   }
-  for (std::size_t i = 0; this->sharesSums() && i < found_.size(); ++i)
-  {
-    arrays_.emplace_back(found_[i].array, found_[i].statistic);
-  }
   return {};
 }
 
@@ -86,7 +80,7 @@ void DistributedUpdate::choosePrecision()
   }
 }
 
-std::string DistributedUpdate::prepare(vtkAbstractTransform* transform)
+std::string DistributedUpdate::prepare(vtkAbstractTransform* transform, vtkFieldData* field)
 {
   if (settings_.keepOriginalPointIds && !keepsPoints(settings_.representative))
   {
@@ -115,7 +109,7 @@ std::string DistributedUpdate::prepare(vtkAbstractTransform* transform)
     return latticeProblem(settings_.lattice, status);
   }
   this->choosePrecision();
-  const std::string lost = lostPoses(transform_, input_->GetFieldData());
+  const std::string lost = movePoses(transform_, field);
   const std::string wrong = this->chooseArrays();
   if (!lost.empty())
   {
@@ -133,7 +127,8 @@ std::string DistributedUpdate::runOfSums(vtkPolyData* output)
 {
   std::vector<VoxelAccumulator::Array> kinds;
   std::vector<AttributeView> views;
-  for (const VoxelAttribute& array : arrays_)
+  const std::vector<VoxelAttribute> arrays(found_.begin(), found_.end());
+  for (const VoxelAttribute& array : arrays)
   {
     const AttributeRequest request = array.request();
     kinds.push_back({ request.view.type, request.view.components, request.statistic });
@@ -148,7 +143,8 @@ std::string DistributedUpdate::runOfSums(vtkPolyData* output)
   ranges_ = shareKeys(ranks_, own.keys());
   status = shareVoxels(ranks_, ranges_, own);
   VoxelRequest wanted = this->requestOf({}, lattice_);
-  wanted.allocator = &pool_;
+  wanted.covariances = settings_.computeCovariance;
+  wanted.allocator = &memory_;
   status = status == Status::Ok ? own.finish(wanted, made_, smp_) : status;
   if (!ranks_.all(status == Status::Ok))
   {
@@ -156,34 +152,25 @@ std::string DistributedUpdate::runOfSums(vtkPolyData* output)
   }
   clipped_ = ranks_.sum(own.clippedPoints());
   invalid_ = ranks_.sum(own.invalidPoints());
-  this->fill(output, arrays_, VoxelRequest());
+  this->fill(output, arrays, wanted);
   return {};
 }
 
 void DistributedUpdate::fill(
-  vtkPolyData* output, const std::vector<VoxelAttribute>& arrays, const VoxelRequest& request)
+  vtkPolyData* output, const std::vector<VoxelAttribute>& attributes, const VoxelRequest& request)
 {
-  OutputFiller filler{ made_, transform_, pool_, smp_, singlePrecision_, settings_.computeCovariance,
-    settings_.minimumPointsPerVoxel, {} };
+  std::vector<std::int64_t> ids;
   if (settings_.keepOriginalPointIds)
   {
-    filler.pointIds = made_.chosenPoints();
-    for (std::int64_t& id : *filler.pointIds)
-    {
-      id = numbers_[std::size_t(id)];
-    }
+    ids = made_.chosenPoints();
   }
-  static_cast<void>(filler.fill(
-    output,
-    [&](vtkPointData* data)
-    {
-      for (std::size_t i = 0; i < arrays.size(); ++i)
-      {
-        filler.addReduced(data, i, arrays[i], found_[i], request);
-      }
-      return true;
-    },
-    kept_));
+  for (std::int64_t& id : ids)
+  {
+    id = numbers_[std::size_t(id)];
+  }
+  const OutputFiller filler{ made_, request, memory_, smp_, settings_.minimumPointsPerVoxel,
+    settings_.keepOriginalPointIds ? &ids : nullptr };
+  static_cast<void>(filler.fill(output, attributes, nullptr, kept_));
 }
 
 VoxelRequest DistributedUpdate::requestOf(const PointView& points, const Lattice& lattice)
@@ -267,13 +254,13 @@ std::string DistributedUpdate::runOfPoints(vtkPolyData* output)
   VoxelRequest request = this->requestOf(access.view(), lattice_);
   request.covariances = settings_.computeCovariance;
   request.representative = settings_.representative;
-  request.allocator = &pool_;
+  request.allocator = &memory_;
   std::vector<VoxelAttribute> attributes;
   for (std::size_t i = 0; i < found_.size(); ++i)
   {
-    attributes.emplace_back(points->GetPointData()->GetArray(int(i)), found_[i].statistic);
-    keepsPoints(request.representative) ? request.tieBreakers.push_back(attributes.back().view())
-                                        : request.attributes.push_back(attributes.back().request());
+    VoxelArray found = found_[i];
+    found.array = points->GetPointData()->GetArray(int(i));
+    attributes.emplace_back(found).addTo(request);
   }
   const Status status = made_.run(request, smp_);
   if (!ranks_.all(status == Status::Ok))
@@ -299,7 +286,7 @@ std::string DistributedUpdate::fillIndex(vtkPolyData* output, vtkIdType voxels)
     rows[kept_ ? std::size_t((*kept_)[i]) : i] = first + std::int64_t(i);
   }
   const std::vector<std::int64_t> ofOwn = numbersOfKeys(ranks_, ranges_, keysOf(own), keysOf(made_), rows);
-  fillVoxelIndex(output, input_, own.voxelIndex(), ofOwn, pool_, smp_);
+  fillVoxelIndex(output, input_, own.voxelIndex(), ofOwn, smp_);
   return {};
 }
 

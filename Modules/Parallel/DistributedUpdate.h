@@ -4,7 +4,7 @@
 
 #include "PolyDataAccess.h"
 #include "SmpExecutor.h"
-#include "VoxelArrays.h"
+#include "VoxelAttribute.h"
 #include "VoxelOutput.h"
 
 #include "Core/Distributed/SharedVoxels.h"
@@ -20,8 +20,7 @@
 #include <vector>
 
 class vtkAbstractTransform;
-class vtkIdTypeArray;
-class vtkPointData;
+class vtkFieldData;
 class vtkPolyData;
 
 namespace pointhaptics
@@ -39,7 +38,8 @@ public:
   {
   }
 
-  std::string prepare(vtkAbstractTransform* transform);
+  /// @p field: of the output, that of the input so far.
+  std::string prepare(vtkAbstractTransform* transform, vtkFieldData* field);
   std::string run(vtkPolyData* output);
   /// Fills the output with the index of this rank's points in the @p voxels that run() has just
   /// given to this rank's output, and those of the others.
@@ -66,20 +66,19 @@ private:
   // Others: points go to the rank that has their voxel.
   std::string runOfPoints(vtkPolyData* output);
   vtkSmartPointer<vtkPolyData> sharePoints(const VoxelResampler& own);
-  /// @p arrays: what points have beside places, counts and covariances.
-  void fill(vtkPolyData* output, const std::vector<VoxelAttribute>& arrays, const VoxelRequest& request);
+  /// @p attributes: what points have beside places, counts and covariances.
+  void fill(vtkPolyData* output, const std::vector<VoxelAttribute>& attributes, const VoxelRequest& request);
 
   Ranks& ranks_;
   const VoxelMeanSettings& settings_;
   vtkPointSet* input_;
   PointAccess points_;
   SmpExecutor smp_;
-  ArrayPool pool_;
+  OutputMemory memory_;
   AffineTransform transform_;
   Lattice lattice_;
   bool singlePrecision_ = true;
   std::vector<VoxelArray> found_;
-  std::vector<VoxelAttribute> arrays_; ///< Attributes of these arrays, where sums are shared.
   std::vector<std::string> dropped_;
   std::int64_t clipped_ = 0; ///< Number of points outside the workspace, on all ranks.
   std::int64_t invalid_ = 0;

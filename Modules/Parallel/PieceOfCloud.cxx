@@ -35,8 +35,7 @@ int kindOfVertices(vtkPolyData* piece)
 void addVertices(vtkPolyData* cloud, int kind)
 {
   const vtkIdType points = cloud->GetNumberOfPoints();
-  ArrayPool pool;
-  cloud->SetVerts(makeVertices(points, pool, SmpExecutor()));
+  cloud->SetVerts(makeVertices(points, SmpExecutor()));
   if (kind == 1 && points < VTK_INT_MAX)
   {
     cloud->GetVerts()->ConvertTo32BitStorage();

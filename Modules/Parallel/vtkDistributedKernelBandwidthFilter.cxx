@@ -2,15 +2,11 @@
 
 #include "MpiRanks.h"
 
-#include "BandwidthArrays.h"
-#include "PolyDataAccess.h"
 #include "SmpExecutor.h"
 
 #include "Core/Distributed/SharedBandwidths.h"
 
 #include "vtkObjectFactory.h"
-#include "vtkPointSet.h"
-#include "vtkPolyData.h"
 
 #include <string>
 #include <vector>
@@ -36,30 +32,18 @@ bool vtkDistributedKernelBandwidthFilter::SaysAgain() const
   return this->RepeatsErrors && MpiRanks(this->Controller).size() == 1;
 }
 
-bool vtkDistributedKernelBandwidthFilter::RunCloud(vtkPointSet* cloud, const Outputs& outputs)
+Status vtkDistributedKernelBandwidthFilter::Estimate(
+  const PointView& points, const std::vector<double>& counts, BandwidthsOfPoints& found)
 {
   MpiRanks ranks(this->Controller);
   this->NumberOfBytesSent = 0;
   if (ranks.size() == 1)
   {
-    return this->Superclass::RunCloud(cloud, outputs);
+    return this->Superclass::Estimate(points, counts, found);
   }
-  const BandwidthSettings settings = this->GetSettings();
-  const PointAccess points(cloud->GetPoints());
-  BandwidthsOfPoints found;
-  std::string problem;
-  const std::vector<double> counts = voxelCounts(cloud, settings.usePointCounts, problem);
-  this->Warn(problem);
-  const Status status = sharedBandwidths(ranks, points.view(), counts, settings, found, SmpExecutor());
+  const Status status = sharedBandwidths(ranks, points, counts, this->GetSettings(), found, SmpExecutor());
   this->NumberOfBytesSent = ranks.bytesSent();
-  if (status != Status::Ok)
-  {
-    this->Fail(bandwidthProblem(settings, status));
-    return false;
-  }
-  passCloud(cloud, outputs[0]);
-  addBandwidthArrays(outputs[0], settings, found.densities, found.ofMeans, found.bandwidths, found.radii);
-  return true;
+  return status;
 }
 
 void vtkDistributedKernelBandwidthFilter::PrintSelf(ostream& os, vtkIndent indent)

@@ -53,7 +53,8 @@ protected:
 #ifndef __VTK_WRAP__
   std::string ProblemOf(vtkDataObject* input) override;
   bool SaysAgain() const override;
-  bool RunCloud(vtkPointSet* cloud, const Outputs& outputs) override;
+  pointhaptics::Status Estimate(const pointhaptics::PointView& points, const std::vector<double>& counts,
+    pointhaptics::BandwidthsOfPoints& found) override;
 #endif
 
 private:

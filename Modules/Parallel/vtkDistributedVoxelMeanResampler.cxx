@@ -51,7 +51,7 @@ bool vtkDistributedVoxelMeanResampler::RunCloud(vtkPointSet* cloud, const Output
   const VoxelMeanSettings settings = this->GetSettings();
   outputs[0]->GetFieldData()->PassData(input->GetFieldData());
   DistributedUpdate update(ranks, settings, input);
-  std::string problem = update.prepare(this->Transform);
+  std::string problem = update.prepare(this->Transform, outputs[0]->GetFieldData());
   problem = problem.empty() ? update.run(outputs[0]) : problem;
   if (problem.empty() && settings.computeVoxelIndex)
   {

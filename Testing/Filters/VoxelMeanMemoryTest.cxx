@@ -1,5 +1,4 @@
-// Memory of the resampler between updates is bounded by the active voxels and the points, and freed on
-// request.
+// Memory of the resampler between updates is bounded by the active voxels and the points.
 #include "VoxelMeanCases.h"
 
 #include <gtest/gtest.h>
@@ -40,32 +39,6 @@ TEST(VoxelMeanMemory, FollowsActiveVoxelsAndPointsNotTheLatticeOrTheThreads)
       EXPECT_LE(double(resampler->GetScratchMemorySize()),
         boundInKiB(resampler->GetOutput()->GetNumberOfPoints(), 1500000));
     }
-  }
-}
-
-TEST(VoxelMeanMemory, IsFreedOnRequestWithoutChangingTheAnswer)
-{
-  const auto cloud = trial::cloudOf(trial::randomPoints(300000, 92));
-  trial::addScanAttributes(cloud, 93);
-  vtkNew<vtkVoxelMeanResampler> resampler;
-  resampler->SetInputData(cloud);
-  for (int round = 0; round < 3; ++round)
-  {
-    // Parts of the cloud, again and again, so that an index is made.
-    vtkSmartPointer<vtkPolyData> expected;
-    for (int view = 0; view < 3; ++view)
-    {
-      resampler->SetWorkspaceBounds(0, 0.25, 0, 0.5, 0, 0.5);
-      resampler->SetDimensions(20 + view, 40, 40);
-      resampler->Update();
-    }
-    expected = trial::copyOf(resampler->GetOutput());
-    EXPECT_GT(resampler->GetScratchMemorySize(), 100u);
-    resampler->ReleaseScratch();
-    EXPECT_LT(resampler->GetScratchMemorySize(), 64u);
-    resampler->Modified();
-    resampler->Update();
-    trial::expectSame(resampler->GetOutput(), expected);
   }
 }
 

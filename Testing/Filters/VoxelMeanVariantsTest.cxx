@@ -1,8 +1,6 @@
 // Ways to the same answer: with and without the point index, and by every instruction set.
 #include "VoxelMeanCases.h"
 
-#include "vtkSOADataArrayTemplate.h"
-
 #include "../Unit/HeldInstructionSets.h"
 
 #include <gtest/gtest.h>
@@ -99,50 +97,6 @@ TEST(VoxelMeanPointIndex, IsUsedUnlessForbidden)
   vtkNew<vtkVoxelMeanResampler> resampler;
   EXPECT_TRUE(resampler->GetUsePointIndex());
   EXPECT_EQ(resampler->GetInstructionSet(), int(vtkVoxelMeanResampler::InstructionSetAutomatic));
-}
-
-TEST(VoxelMeanPointIndex, ValuesAreLookedThroughAgainWhenTheyChange)
-{
-  const auto cloud = clusteredScan(75, VTK_FLOAT, false);
-  vtkNew<vtkFloatArray> values;
-  values->SetName("Values");
-  values->SetNumberOfTuples(cloud->GetNumberOfPoints());
-  values->Fill(1.0);
-  cloud->GetPointData()->AddArray(values);
-  vtkNew<vtkSOADataArrayTemplate<double>> apart;
-  apart->SetName("Apart");
-  apart->SetNumberOfComponents(2);
-  apart->SetNumberOfTuples(cloud->GetNumberOfPoints());
-  apart->Fill(1.0);
-  cloud->GetPointData()->AddArray(apart);
-  vtkNew<vtkVoxelMeanResampler> resampler;
-  vtkNew<vtkTransform> transform;
-  resampler->SetInputData(cloud);
-  std::mt19937_64 engine(76);
-  for (int step = 0; step < 12; ++step)
-  {
-    setView(resampler, transform, step);
-    // Values of other magnitudes, down to other last bits; now and then one is not finite.
-    const double scale = std::ldexp(1.0, 20 * (step % 5) - 40);
-    for (vtkIdType i = 0; step % 2 == 0 && i < values->GetNumberOfTuples(); ++i)
-    {
-      values->SetValue(i, step % 3 == 0 && i % 50 == 0 ? NAN : float(scale * trial::uniform(engine)));
-      apart->SetComponent(i, int(i % 2), scale * trial::uniform(engine));
-    }
-    if (step % 4 == 0)
-    {
-      values->Modified();
-      apart->Modified();
-    }
-    else if (step % 4 == 2)
-    {
-      cloud->Modified();
-    }
-    SCOPED_TRACE("step " + std::to_string(step));
-    const int holders = values->GetReferenceCount();
-    expectAsFromScratch(resampler, cloud);
-    EXPECT_EQ(values->GetReferenceCount(), holders) << "what is remembered does not keep the input";
-  }
 }
 
 TEST_P(VoxelMeanVariants, ThePointIndexDoesNotChangeTheAnswer)

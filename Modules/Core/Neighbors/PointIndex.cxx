@@ -109,7 +109,7 @@ template <typename Real>
 bool PointIndex::fill(
   const PointView& points, Buffer<Real>& copy, const Executor& executor, PointProgress& progress)
 {
-  copy.reserve(3 * std::size_t(size_), Pages::Huge);
+  copy.reserve(3 * std::size_t(size_));
   bricks_.resize(std::size_t((size_ + kBrickPoints - 1) / kBrickPoints));
   const auto fillBrick = [&](std::size_t brick)
   {
