@@ -5,6 +5,7 @@
 #include "C/pointhaptics.h"
 
 #include "Core/Base/Host/GuardedWork.h"
+#include "Devices/HipPath.h"
 #include "FeelScenes.h"
 #include "Haptics/HapticParameters.h"
 
@@ -39,9 +40,10 @@ enum class ThreadText
 std::string* textOfThread(ThreadText which) noexcept;
 /// Keeps @p text for ph_problem().
 int fail(int status, std::string_view text) noexcept;
-inline int fail(Status status) noexcept
+/// @p text empty: the sentence of @p status.
+inline int fail(Status status, std::string_view text = {}) noexcept
 {
-  return status == Status::Ok ? PH_OK : fail(int(status), message(status));
+  return status == Status::Ok ? PH_OK : fail(int(status), text.empty() ? message(status) : text);
 }
 /// True if one of @p pointers is null, which is passed to fail() then.
 inline bool hasNull(std::initializer_list<const void*> pointers) noexcept
@@ -93,6 +95,8 @@ Options optionsOf(const Options* given)
   return options;
 }
 
+/// Rows t, x, y, z. False: nobody can follow them; the reason was passed to fail().
+bool readPath(const double* rows, std::size_t count, HipPath& path);
 /// False: one is out of range, and was passed to fail().
 bool parametersOf(const ph_proxy_options* options, HapticParameters& parameters);
 

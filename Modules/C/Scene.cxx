@@ -1,13 +1,10 @@
 #include "C/Handles.h"
 
-#include "PathTicks.h"
 #include "VirtualTouch.h"
 #include "vtkVoxelMeanResampler.h"
 
-#include "Devices/HipPath.h"
 #include "Devices/PathUnits.h"
 
-#include <vtkCommand.h>
 #include <vtkDoubleArray.h>
 #include <vtkFloatArray.h>
 #include <vtkNew.h>
@@ -27,19 +24,6 @@ namespace
 constexpr std::int64_t kStepsBetweenLooks = 64;
 /// Stands for what nobody looks at.
 constexpr double kNothing = 0.0;
-
-/// Ends a filter once a stop is requested.
-class StopObserver : public vtkCommand
-{
-public:
-  static StopObserver* New() { return new StopObserver; }
-  const ph_stop* Stop = nullptr;
-
-  void Execute(vtkObject* caller, unsigned long, void*) override
-  {
-    static_cast<vtkAlgorithm*>(caller)->SetAbortExecute(isStopped(this->Stop));
-  }
-};
 
 bool isGiven(const double* numbers, std::size_t count)
 {
@@ -67,11 +51,9 @@ int createScene(vtkDataArray* xyz, const ph_scene_options* given, ph_scene** out
   {
     resampler->SetWorkspaceBounds(options.workspace);
   }
-  vtkNew<StopObserver> observer;
-  observer->Stop = options.stop;
-  resampler->AddObserver(vtkCommand::ProgressEvent, observer);
   FeelSceneSettings settings;
   settings.refineNearHand = options.voxel == 0.0 && !hasDims;
+  settings.goesOn = [&options](double) { return !isStopped(options.stop); };
   auto scenes = std::make_shared<FeelScenes>();
   std::string message;
   if (isStopped(options.stop))
@@ -81,22 +63,10 @@ int createScene(vtkDataArray* xyz, const ph_scene_options* given, ph_scene** out
   const Status status = scenes->resample(cloud, resampler, settings, message);
   if (status != Status::Ok)
   {
-    return fail(int(status), message);
+    return fail(status, message);
   }
   *out = new ph_scene{ scenes };
   return PH_OK;
-}
-
-bool readPath(const double* rows, std::size_t count, HipPath& path)
-{
-  path.points.reserve(count);
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    const double* v = rows + 4 * i;
-    path.points.push_back({ v[0], { v[1], v[2], v[3] } });
-  }
-  const std::string problem = pathProblem(path);
-  return problem.empty() || fail(PH_INVALID_PARAMETER, problem) == PH_OK;
 }
 
 /// False: the problem was passed to fail().
@@ -109,6 +79,18 @@ bool countSteps(const HipPath& path, double rate, std::int64_t& steps)
 }
 
 } // namespace
+
+bool pointhaptics::c::readPath(const double* rows, std::size_t count, HipPath& path)
+{
+  path.points.reserve(count);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const double* v = rows + 4 * i;
+    path.points.push_back({ v[0], { v[1], v[2], v[3] } });
+  }
+  const std::string problem = path.problem();
+  return problem.empty() || fail(PH_INVALID_PARAMETER, problem) == PH_OK;
+}
 
 int ph_scene_create(const double* xyz, size_t count, const ph_scene_options* options, ph_scene** out)
 {

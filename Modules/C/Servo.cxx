@@ -1,6 +1,5 @@
 #include "C/Handles.h"
 
-#include "PathTicks.h"
 #include "VirtualTouch.h"
 
 #include "Core/Base/StoppableThread.h"
@@ -8,8 +7,6 @@
 #include "Haptics/ServoLoop.h"
 
 #include <algorithm>
-#include <chrono>
-#include <thread>
 #include <vector>
 
 using namespace pointhaptics;
@@ -17,9 +14,6 @@ using namespace pointhaptics::c;
 
 namespace
 {
-
-/// Between two looks at where the hand is: 0.25 mm at 50 mm/s.
-constexpr auto kLook = std::chrono::milliseconds(5);
 
 /// The simulated hand, with the caller between it and the loop.
 class HandWithCallback : public SimulatedDevice
@@ -59,7 +53,7 @@ private:
   bool isEnded_ = false;
 };
 
-SimulatedHandSettings handOf(const ph_servo_options& options)
+SimulatedHandSettings handOf(const ph_servo_options& options, const HipPath& path)
 {
   SimulatedHandSettings settings;
   const auto take = [](double given, double& value) { value = given != 0.0 ? given : value; };
@@ -77,10 +71,9 @@ SimulatedHandSettings handOf(const ph_servo_options& options)
   constexpr double kHalf = 0.05;
   settings.workspace.include(settings.start - Vec3(kHalf, kHalf, kHalf));
   settings.workspace.include(settings.start + Vec3(kHalf, kHalf, kHalf));
-  for (std::size_t i = 0; i < options.path_count; ++i)
+  for (const HipPathPoint& point : path.points)
   {
-    const double* v = options.path + 4 * i;
-    settings.workspace.include({ v[1], v[2], v[3] });
+    settings.workspace.include(point.position);
   }
   return settings;
 }
@@ -89,38 +82,13 @@ SimulatedHandSettings handOf(const ph_servo_options& options)
 
 struct ph_servo
 {
-  ph_servo(const FeelScenes& shared, const ph_servo_options& options)
+  ph_servo(const FeelScenes& shared, const ph_servo_options& options, const HipPath& path)
     : scenes(shared)
-    , hand(handOf(options), options.on_tick, options.user)
+    , hand(handOf(options, path), options.on_tick, options.user)
   {
+    hand.setPath(path);
   }
   ~ph_servo() { stop(); }
-
-  /// Publishes finer scenes of where the hand is.
-  void follow(LocalSceneFollower& follower)
-  {
-    double lastLook = 0.0;
-    while (!sceneThread.stopIsRequested())
-    {
-      const ServoSample latest = loop.latest();
-      Bounds place;
-      place.include(latest.state.hip);
-      place.include(latest.state.proxy);
-      const double seconds = latest.timeSeconds - std::exchange(lastLook, latest.timeSeconds);
-      try
-      {
-        if (latest.tick > 0 && follower.update(place, seconds, SmpExecutor()))
-        {
-          loop.publishScene(follower.scene());
-        }
-      }
-      catch (const std::exception&)
-      {
-        // Without memory for a finer scene the one that is there goes on.
-      }
-      std::this_thread::sleep_for(kLook);
-    }
-  }
 
   void stop()
   {
@@ -144,18 +112,12 @@ int ph_servo_start(
     [&](const HapticParameters& parameters)
     {
       const ph_servo_options options = optionsOf(given);
-      auto servo = std::make_unique<ph_servo>(*scene->scenes, options);
       HipPath path;
-      for (std::size_t i = 0; i < options.path_count; ++i)
+      if (options.path_count > 0 && !readPath(options.path, options.path_count, path))
       {
-        const double* v = options.path + 4 * i;
-        path.points.push_back({ v[0], { v[1], v[2], v[3] } });
+        return int(PH_INVALID_PARAMETER);
       }
-      if (const std::string problem = path.points.empty() ? "" : pathProblem(path); !problem.empty())
-      {
-        return fail(PH_INVALID_PARAMETER, problem);
-      }
-      servo->hand.setPath(std::move(path));
+      auto servo = std::make_unique<ph_servo>(*scene->scenes, options, path);
       if (const Status status = servo->hand.open(); status != Status::Ok)
       {
         return fail(status);
@@ -168,12 +130,9 @@ int ph_servo_start(
       if (const Status status = servo->loop.start(servo->hand, parameters, settings, &problem);
           status != Status::Ok)
       {
-        return fail(int(status), problem.empty() ? message(status) : problem);
+        return fail(status, problem);
       }
-      if (LocalSceneFollower* follower = servo->scenes.follower())
-      {
-        servo->sceneThread.start([self = servo.get(), follower] { self->follow(*follower); });
-      }
+      servo->scenes.publishNearHand(servo->loop, servo->sceneThread);
       *out = servo.release();
       return int(PH_OK);
     });
@@ -196,8 +155,7 @@ int ph_servo_set_options(ph_servo* servo, const ph_proxy_options* options)
     {
       std::string problem;
       const Status status = servo->loop.setParameters(parameters, &problem);
-      return status == Status::Ok ? int(PH_OK)
-                                  : fail(int(status), problem.empty() ? message(status) : problem);
+      return fail(status, problem);
     });
 }
 

@@ -19,26 +19,6 @@ constexpr const char* kNoSpaceMouse =
   "no SpaceMouse was found: plug in its cable or its receiver, and switch it on; one that only lacks its "
   "udev rule would be listed";
 
-void listFalcons(std::vector<ListedDevice>& devices, std::vector<std::string>& notes)
-{
-  if (!makeUsbFtdiBus())
-  {
-    notes.emplace_back(
-      "built without libusb: no Falcon can be used; install libusb-1.0-0-dev and build again");
-    return;
-  }
-  std::string problem;
-  const std::vector<UsbFalcon> falcons = findUsbFalcons(problem);
-  for (const UsbFalcon& falcon : falcons)
-  {
-    devices.push_back({ "falcon", "Novint Falcon", falcon.place, falcon.problem });
-  }
-  if (falcons.empty())
-  {
-    notes.push_back(problem.empty() ? kNoFalcon : "no Falcon can be found: " + problem);
-  }
-}
-
 void listSpaceMice(std::vector<ListedDevice>& devices, std::vector<std::string>& notes)
 {
   const std::unique_ptr<HidBus> bus = makeHidapiBus();
@@ -66,6 +46,26 @@ void listSpaceMice(std::vector<ListedDevice>& devices, std::vector<std::string>&
 }
 
 } // namespace
+
+void listFalcons(std::vector<ListedDevice>& devices, std::vector<std::string>& notes)
+{
+  if (!makeUsbFtdiBus())
+  {
+    notes.emplace_back(
+      "built without libusb: no Falcon can be used; install libusb-1.0-0-dev and build again");
+    return;
+  }
+  std::string problem;
+  const std::vector<UsbFalcon> falcons = findUsbFalcons(problem);
+  for (const UsbFalcon& falcon : falcons)
+  {
+    devices.push_back({ "falcon", "Novint Falcon", falcon.place, falcon.problem });
+  }
+  if (falcons.empty())
+  {
+    notes.push_back(problem.empty() ? kNoFalcon : "no Falcon can be found: " + problem);
+  }
+}
 
 std::vector<ListedDevice> listDevices(std::vector<std::string>& notes)
 {

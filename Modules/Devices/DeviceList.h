@@ -22,4 +22,7 @@ struct ListedDevice
 /// found and for each that this build cannot use.
 std::vector<ListedDevice> listDevices(std::vector<std::string>& notes);
 
+/// The Falcons alone; where none is found @p notes gets a sentence.
+void listFalcons(std::vector<ListedDevice>& devices, std::vector<std::string>& notes);
+
 } // namespace pointhaptics

@@ -15,11 +15,9 @@ namespace pointhaptics
 /// person.
 struct DeviceCapabilities
 {
-  Bounds workspace;              ///< Where the hand can be.
-  double maximumForce = 0.0;     ///< N the device can hold.
-  double maximumStiffness = 0.0; ///< N/m that a spring without damping may have at 1 kHz or the highest rate.
-  double maximumDamping = 0.0;   ///< N s/m that a damper without spring may have there.
-  double maximumRateHz = 0.0;    ///< Ticks per second that make sense; 0: any.
+  Bounds workspace;           ///< Where the hand can be.
+  double maximumForce = 0.0;  ///< N the device can hold.
+  double maximumRateHz = 0.0; ///< Ticks per second that make sense; 0: any.
   int numberOfButtons = 0;
   bool pushes = false; ///< True if there are motors: somebody's hand is in it.
 };

@@ -43,6 +43,13 @@ std::string shortestDigits(double value)
   return std::string(digits, end.ptr);
 }
 
+constexpr const char* kSortRows = "sort the rows by time and remove duplicates";
+
+std::string notAfter(double time, double before)
+{
+  return "time " + shortestDigits(time) + " is not after the time before it, " + shortestDigits(before);
+}
+
 std::string trimmed(const std::string& text)
 {
   const std::size_t first = text.find_first_not_of(" \t");
@@ -218,8 +225,7 @@ bool readRows(
     }
     if (!path.points.empty() && !(point.timeSeconds > path.points.back().timeSeconds))
     {
-      problem = "time " + shortestDigits(point.timeSeconds) + " is not after the time before it, " +
-        shortestDigits(path.points.back().timeSeconds) + ": sort the rows by time and remove duplicates";
+      problem = notAfter(point.timeSeconds, path.points.back().timeSeconds) + ": " + kSortRows;
       return false;
     }
     point.isNew = isNew;
@@ -239,17 +245,24 @@ std::string systemReason(int error)
 }
 }
 
-Status HipPath::check() const noexcept
+std::string HipPath::problem() const
 {
   for (std::size_t i = 0; i < points.size(); ++i)
   {
-    const bool later = i == 0 || points[i].timeSeconds > points[i - 1].timeSeconds;
-    if (!std::isfinite(points[i].timeSeconds) || !isFinite(points[i].position) || !later)
+    const double time = points[i].timeSeconds;
+    const Vec3& p = points[i].position;
+    const std::string row = "path: row " + std::to_string(i);
+    if (!std::isfinite(time) || !isFinite(p))
     {
-      return Status::InvalidParameter;
+      return row + " is " + shortestDigits(time) + ", " + shortestDigits(p.x) + ", " + shortestDigits(p.y) +
+        ", " + shortestDigits(p.z) + "; leave rows out that are not finite";
+    }
+    if (i > 0 && !(time > points[i - 1].timeSeconds))
+    {
+      return row + ": " + notAfter(time, points[i - 1].timeSeconds) + "; " + kSortRows;
     }
   }
-  return Status::Ok;
+  return points.empty() ? "path: it has no rows; give at least one" : "";
 }
 
 Vec3 HipPath::position(double timeSeconds, std::size_t& hint) const noexcept

@@ -29,8 +29,9 @@ struct HipPath
 {
   std::vector<HipPathPoint> points;
 
-  /// Ok, or InvalidParameter: a number is not finite, or a time not above the one before it.
-  Status check() const noexcept;
+  /// Why nobody can follow it, with row, value and cure: it has no point, a number is not finite, or times do
+  /// not ascend. Empty: nothing is wrong.
+  std::string problem() const;
 
   double duration() const
   {

@@ -93,15 +93,16 @@ std::string cure(const std::vector<std::string>& options, const std::string& num
   return text;
 }
 
-std::string unlikelyLengths(const Bounds& pathBox, const Bounds& cloudBox, const UnitNames& names)
+std::string unlikelyLengths(
+  const Bounds& pathBox, const Bounds& cloudBox, const UnitNames& names, bool isCloudKnown)
 {
   const double path = sizeOf(pathBox);
   const double cloud = sizeOf(cloudBox);
-  if (path <= kReach)
+  const bool isLarge = cloud > kReach;
+  if (path <= kReach || (isCloudKnown && isLarge && areNear(reachOf(pathBox), reachOf(cloudBox))))
   {
     return {};
   }
-  const bool isLarge = cloud > kReach;
   const std::vector<Unit> units = likelyUnits(path, isLarge || cloud == 0.0 ? kUsualReach : cloud);
   const std::string spans = "the path spans " + lengthText(path, 2);
   if (isLarge && areNear(reachOf(pathBox), reachOf(cloudBox)))
@@ -167,13 +168,14 @@ void applyUnits(const PathUnits& units, HipPath& path)
   }
 }
 
-std::string unlikelyUnits(const HipPath& path, const Bounds& cloud, const UnitNames& names, bool isTouched)
+std::string unlikelyUnits(
+  const HipPath& path, const Bounds& cloud, const UnitNames& names, bool isTouched, bool isCloudKnown)
 {
   const Bounds box = boxOf(path);
-  std::string odd = unlikelyLengths(box, cloud, names);
+  std::string odd = unlikelyLengths(box, cloud, names, isCloudKnown);
   // Speeds are wrong where lengths are.
   odd = odd.empty() ? unlikelyTimes(path, names) : odd;
-  return odd.empty() && !isTouched ? unlikelyPlaces(box, cloud, names) : odd;
+  return odd.empty() && !isTouched && !isCloudKnown ? unlikelyPlaces(box, cloud, names) : odd;
 }
 
 } // namespace pointhaptics

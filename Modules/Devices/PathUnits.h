@@ -31,9 +31,9 @@ void applyUnits(const PathUnits& units, HipPath& path);
 /// A hand reaches 2 m, moves by millimetres a second at least, and is told more often than once in half a
 /// second. Where @p path, in metres and seconds, does not, and would in other units, says so in one sentence
 /// with the cure; else empty. @p cloud: box of what is felt, metres; may be empty. @p isTouched: false where
-/// the path has passed the cloud, which then may be in another unit, and nobody chose the cloud's. Costs a
-/// pass over the path.
-std::string unlikelyUnits(
-  const HipPath& path, const Bounds& cloud, const UnitNames& names = {}, bool isTouched = true);
+/// the path has passed the cloud, which then may be in another unit. @p isCloudKnown: the unit of the cloud
+/// is not doubted, as somebody chose it or its file says it. Costs a pass over the path.
+std::string unlikelyUnits(const HipPath& path, const Bounds& cloud, const UnitNames& names = {},
+  bool isTouched = true, bool isCloudKnown = false);
 
 } // namespace pointhaptics

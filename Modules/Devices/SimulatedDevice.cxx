@@ -11,7 +11,6 @@ constexpr double kLongestStepSeconds = 1e-4;
 constexpr double kLongestPauseSeconds = 0.1;
 constexpr double kDefaultHalfEdge = 0.05;
 constexpr double kHoldingForce = 8.0;
-constexpr double kServoRateHz = 1000.0;
 /// Tolerance for the rounding of (tick / rate) against the times of a file.
 constexpr double kTimeTolerance = 1e-9;
 constexpr int kButtons = 4;
@@ -43,13 +42,25 @@ SimulatedDevice::SimulatedDevice(const SimulatedHandSettings& settings)
   }
 }
 
+const char* SimulatedDevice::name() const noexcept
+{
+  return settings_.yieldsToForce || path_.points.empty() ? "simulated" : "path";
+}
+
+void SimulatedDevice::setPath(HipPath path)
+{
+  path_ = std::move(path);
+  for (std::size_t i = 0; !settings_.yieldsToForce && i < path_.points.size(); ++i)
+  {
+    settings_.workspace.include(path_.points[i].position);
+  }
+}
+
 DeviceCapabilities SimulatedDevice::capabilities() const noexcept
 {
   DeviceCapabilities result;
   result.workspace = settings_.workspace;
-  result.maximumForce = kHoldingForce;
-  result.maximumStiffness = largestPassiveStiffness(limits(), 0.0, kServoRateHz);
-  result.maximumDamping = largestPassiveDamping(limits(), 0.0, kServoRateHz);
+  result.maximumForce = settings_.yieldsToForce ? kHoldingForce : 0.0;
   result.numberOfButtons = kButtons;
   return result;
 }
@@ -68,7 +79,7 @@ Status SimulatedDevice::open()
 {
   if (!above(settings_.mass, 0.0) || !above(settings_.gripStiffness, 0.0) ||
     !(settings_.gripDamping >= 0.0 && std::isfinite(settings_.gripDamping)) || !isFinite(settings_.start) ||
-    !isFinite(settings_.workspace.extent()) || path_.check() != Status::Ok)
+    !isFinite(settings_.workspace.extent()) || !(path_.points.empty() || path_.problem().empty()))
   {
     return Status::InvalidParameter;
   }
@@ -100,7 +111,7 @@ Status SimulatedDevice::read(double timeSeconds, HandState& state) noexcept
   state.isNew = false;
   if (!path_.points.empty())
   {
-    if (timeSeconds > path_.duration() + kTimeTolerance)
+    if (!settings_.holdsAtEnd && timeSeconds > path_.duration() + kTimeTolerance)
     {
       return Status::EndOfPath;
     }

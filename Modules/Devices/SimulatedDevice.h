@@ -19,6 +19,7 @@ struct SimulatedHandSettings
   double gripStiffness = 200.0; ///< Stiffness between the person's target and the hand, N/m; above 0.
   double gripDamping = 9.0;     ///< N s/m, 0 or more; critical damping for the defaults.
   bool yieldsToForce = true;    ///< If false, the hand is exactly at its target, whatever the force.
+  bool holdsAtEnd = false;      ///< After the end of its path the hand stays there; read() is Ok.
   Vec3 start;                   ///< Position at open(), metres; clamped to the workspace.
   Bounds workspace; ///< The hand and its targets stay in it; empty: the 10 cm cube about the origin.
 };
@@ -38,18 +39,20 @@ class SimulatedDevice : public HapticDevice
 public:
   explicit SimulatedDevice(const SimulatedHandSettings& settings = {});
 
-  const char* name() const noexcept override { return "simulated"; }
+  /// "path" for a hand that is exactly where its path is.
+  const char* name() const noexcept override;
   DeviceCapabilities capabilities() const noexcept override;
   /// Limits of the springs, by the grip's damping; none where the hand does not yield.
   HandLimits limits() const noexcept override;
   /// True unless a path moves the hand: a target that comes from the mouse is later than that.
   bool mayIdle() const noexcept override { return path_.points.empty(); }
   /// Makes the target follow @p path in servo time from the next open() on, its first point at time 0, in
-  /// place of setTarget(); read() gives EndOfPath after its end. An empty path restores setTarget(). Not
-  /// while open.
-  void setPath(HipPath path) { path_ = std::move(path); }
+  /// place of setTarget(); read() gives EndOfPath after its end. A hand that does not yield may go anywhere
+  /// on it, one that does stays in the workspace. An empty path restores setTarget(). Not while open.
+  void setPath(HipPath path);
+  const HipPath& path() const noexcept { return path_; }
   /// Puts the hand at rest at settings.start (or at the path's first point), which is also the target.
-  /// InvalidParameter: a setting out of its range, or a path that is none (HipPath::check()).
+  /// InvalidParameter: a setting out of its range, or a path that is none (HipPath::problem()).
   Status open() override;
   void close() override;
   /// Moves the hand to @p timeSeconds. A time that is not after the last one moves nothing.

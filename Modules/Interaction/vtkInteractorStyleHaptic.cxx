@@ -5,7 +5,6 @@
 #include "StyleCommands.h"
 
 #include "Devices/HapticDevice.h"
-#include "Devices/PathReplay.h"
 #include "Devices/SimulatedDevice.h"
 
 #include "vtkObjectFactory.h"
@@ -62,7 +61,8 @@ void vtkInteractorStyleHaptic::SetDevice(pointhaptics::HapticPort* device)
   this->Device = device;
   this->UnitsAreJudged = false;
   this->Status.setDeviceName(named ? named->name() : device ? "without a name" : "");
-  this->Hand.setDevice(dynamic_cast<pointhaptics::SimulatedDevice*>(device));
+  auto* hand = dynamic_cast<pointhaptics::SimulatedDevice*>(device);
+  this->Hand.setDevice(hand && hand->path().points.empty() ? hand : nullptr);
 }
 
 void vtkInteractorStyleHaptic::AdoptModel(
@@ -123,7 +123,7 @@ void vtkInteractorStyleHaptic::SceneShown(const pointhaptics::BuiltScene& built)
 std::string vtkInteractorStyleHaptic::JudgeUnits(const pointhaptics::UnitNames& names)
 {
   this->UnitsAreJudged = true;
-  const auto* replay = dynamic_cast<pointhaptics::PathReplayDevice*>(this->Device.get());
+  const auto* hand = dynamic_cast<pointhaptics::SimulatedDevice*>(this->Device.get());
   vtkPolyData* cloud = this->Scenes.cloud();
   pointhaptics::Bounds box;
   if (cloud && cloud->GetNumberOfPoints() > 0)
@@ -131,7 +131,8 @@ std::string vtkInteractorStyleHaptic::JudgeUnits(const pointhaptics::UnitNames& 
     const double* b = cloud->GetBounds();
     box = { { b[0], b[2], b[4] }, { b[1], b[3], b[5] } };
   }
-  return replay ? pointhaptics::unlikelyUnits(replay->path(), box, names) : std::string();
+  return hand && !hand->path().points.empty() ? pointhaptics::unlikelyUnits(hand->path(), box, names)
+                                              : std::string();
 }
 
 void vtkInteractorStyleHaptic::StartUpdates(unsigned long milliseconds)

@@ -90,7 +90,7 @@ public:
   ///@{
   /**
    * The parts the style works on; null takes one away. The device is whatever the servo loop drives: its
-   * buttons hold the model. A pointhaptics::SimulatedDevice is driven by mouse and keys too.
+   * buttons hold the model. A pointhaptics::SimulatedDevice without a path is driven by mouse and keys too.
    */
   void SetServoLoop(pointhaptics::ServoLoop* servo);
   pointhaptics::ServoLoop* GetServoLoop() const { return this->Servo.get(); }
@@ -175,7 +175,7 @@ public:
   ///@}
 
   /**
-   * What the sizes of the model and of the path of a pointhaptics::PathReplayDevice say of their units: see
+   * What the sizes of the model and of the path of a pointhaptics::SimulatedDevice say of their units: see
    * pointhaptics::unlikelyUnits(). Where nobody asks, StartUpdates() makes a warning of it.
    */
   std::string JudgeUnits(const pointhaptics::UnitNames& names = {});

@@ -6,8 +6,10 @@
 
 #include "Core/Base/Host/OutOfMemory.h"
 #include "Core/Base/Lattice.h"
+#include "Core/Base/StoppableThread.h"
 #include "Core/Distributed/FarPoints.h"
 #include "Core/Resample/TransformedBounds.h"
+#include "Haptics/ServoLoop.h"
 
 #include "vtkCallbackCommand.h"
 #include "vtkFieldData.h"
@@ -18,14 +20,19 @@
 #include "vtkSmartPointer.h"
 #include "vtkStringArray.h"
 
+#include <chrono>
+#include <exception>
 #include <new>
+#include <thread>
 #include <utility>
 
 namespace pointhaptics
 {
-
 namespace
 {
+
+/// Between two looks at where the hand is: 0.25 mm at 50 mm/s.
+constexpr auto kLook = std::chrono::milliseconds(5);
 
 /// Gives the resampler the lattice of feel and view: about the cloud without the points that are far from all
 /// others. Finer scenes are counted from its corner. @return note on the far points; empty where there are
@@ -55,57 +62,79 @@ std::string setLattice(vtkPoints* cloud, vtkVoxelMeanResampler* resampler)
 
 } // namespace
 
-Status FeelScenes::make(vtkPolyData* felt, vtkPoints* cloud, const FeelSceneSettings& settings)
+void configure(LocalSceneBuilder& builder, const SceneOrigin& origin)
 {
-  Status status = Status::Ok;
-  // No picture is drawn: the scene computes the few radii it needs.
-  this->adopt(makeHapticScene(felt, status, settings.useCovariance, settings.bandwidth), cloud, settings);
-  return status;
-}
-
-void FeelScenes::adopt(
-  std::shared_ptr<const HapticScene> whole, vtkPoints* cloud, const FeelSceneSettings& settings)
-{
-  follower_.reset();
-  whole_ = std::move(whole);
-  settings_ = settings;
-  builder_.setCloud(nullptr);
-  if (whole_ && settings.refineNearHand && cloud)
-  {
-    // No finer scenes are made without an index.
-    static_cast<void>(builder_.setCloud(PointAccess(cloud).view(), SmpExecutor()));
-  }
-  this->follow();
+  const LatticeSettings& lattice = origin.voxels.lattice;
+  builder.setBandwidth(origin.bandwidth);
+  builder.setWorkspace(lattice.automaticWorkspace ? Bounds() : lattice.workspace);
 }
 
 FeelScenes::FeelScenes(const FeelScenes& shared)
-  : settings_(shared.settings_)
-  , whole_(shared.whole_)
 {
-  builder_.setCloud(shared.builder_.index());
-  this->follow();
+  this->adopt(shared.whole_, shared.builder_.index());
 }
 
-void FeelScenes::follow()
+void FeelScenes::adopt(std::shared_ptr<const HapticScene> whole, vtkPoints* cloud)
 {
-  if (builder_.index())
+  std::shared_ptr<PointIndex> index;
+  if (whole && cloud)
   {
-    builder_.setBandwidth(settings_.bandwidth);
-    builder_.setWorkspace(settings_.workspace);
-    follower_.emplace(builder_, whole_);
+    index = std::make_shared<PointIndex>();
+    index = index->build(PointAccess(cloud).view(), SmpExecutor()) == Status::Ok ? index : nullptr;
   }
+  this->adopt(std::move(whole), std::shared_ptr<const PointIndex>(std::move(index)));
+}
+
+void FeelScenes::adopt(std::shared_ptr<const HapticScene> whole, std::shared_ptr<const PointIndex> cloud)
+{
+  whole_ = std::move(whole);
+  builder_.setCloud(whole_ && whole_->origin() ? std::move(cloud) : nullptr);
+  this->restart();
 }
 
 void FeelScenes::restart()
 {
-  if (follower_)
+  follower_.reset();
+  if (builder_.index())
   {
+    configure(builder_, *whole_->origin());
     follower_.emplace(builder_, whole_);
   }
 }
 
-Status FeelScenes::resample(
-  vtkPointSet* cloud, vtkVoxelMeanResampler* resampler, FeelSceneSettings settings, std::string& message)
+void FeelScenes::publishNearHand(ServoLoop& loop, StoppableThread& thread)
+{
+  if (!follower_)
+  {
+    return;
+  }
+  thread.start(
+    [this, &loop, &thread]
+    {
+      for (double lastLook = 0.0; !thread.stopIsRequested(); std::this_thread::sleep_for(kLook))
+      {
+        const ServoSample latest = loop.latest();
+        const double seconds = latest.timeSeconds - std::exchange(lastLook, latest.timeSeconds);
+        Bounds hand;
+        hand.include(latest.state.hip);
+        hand.include(latest.state.proxy);
+        try
+        {
+          if (latest.tick > 0 && follower_->update(hand, seconds, SmpExecutor()))
+          {
+            loop.publishScene(follower_->scene());
+          }
+        }
+        catch (const std::exception&)
+        {
+          // Without memory for a finer scene the one that is there goes on.
+        }
+      }
+    });
+}
+
+Status FeelScenes::resample(vtkPointSet* cloud, vtkVoxelMeanResampler* resampler,
+  const FeelSceneSettings& settings, std::string& message)
 {
   auto* unit = vtkStringArray::SafeDownCast(cloud->GetFieldData()->GetAbstractArray("LengthUnit"));
   if (unit && unit->GetNumberOfValues() == 1 && unit->GetValue(0).rfind("deg", 0) == 0)
@@ -122,12 +151,22 @@ Status FeelScenes::resample(
   resampler->SetComputeCovariance(settings.useCovariance);
   resampler->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
   note_ = setLattice(cloud->GetPoints(), resampler);
-  const LatticeSettings lattice = resampler->GetSettings().lattice;
   resampler->SetInputData(input);
   // The caller reports the errors of the resampler and note().
   vtkNew<vtkCallbackCommand> silence;
   resampler->AddObserver(vtkCommand::ErrorEvent, silence);
   resampler->AddObserver(vtkCommand::WarningEvent, silence);
+  std::function<bool(double)> goesOn = settings.goesOn;
+  vtkNew<vtkCallbackCommand> progress;
+  progress->SetClientData(&goesOn);
+  progress->SetCallback(
+    [](vtkObject* caller, unsigned long, void* asked, void*)
+    {
+      auto* filter = static_cast<vtkAlgorithm*>(caller);
+      const auto& ask = *static_cast<const std::function<bool(double)>*>(asked);
+      filter->SetAbortExecute(!ask || ask(filter->GetProgress()) ? 0 : 1);
+    });
+  resampler->AddObserver(vtkCommand::ProgressEvent, progress);
   resampler->Update();
   vtkPolyData* felt = resampler->GetOutput();
   message = resampler->GetErrorMessage();
@@ -151,9 +190,12 @@ Status FeelScenes::resample(
               "mend the transform";
     return Status::Empty;
   }
-  settings.refineNearHand = settings.refineNearHand && settings.useCovariance;
-  settings.workspace = lattice.automaticWorkspace ? Bounds() : lattice.workspace;
-  const Status status = this->make(felt, cloud->GetPoints(), settings);
+  Status status = Status::Ok;
+  // No picture is drawn: the scene computes the few radii it needs.
+  auto whole =
+    makeHapticScene(felt, status, settings.useCovariance, settings.bandwidth, &resampler->GetSettings());
+  const bool refines = settings.refineNearHand && settings.useCovariance;
+  this->adopt(std::move(whole), refines ? cloud->GetPoints() : nullptr);
   message = pointhaptics::message(status);
   return status;
 }

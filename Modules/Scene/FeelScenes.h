@@ -1,5 +1,5 @@
 /// @file
-/// Scenes that a hand on a path feels: the whole cloud, and finer scenes where the hand is.
+/// Scenes that a hand feels: the whole cloud, and finer scenes where the hand is.
 #pragma once
 
 #include "Haptics/LocalScene.h"
@@ -7,29 +7,36 @@
 
 #include "PointHapticsSceneModule.h" // For export macro
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 
 class vtkPoints;
 class vtkPointSet;
-class vtkPolyData;
 class vtkVoxelMeanResampler;
 
 namespace pointhaptics
 {
 
+class ServoLoop;
+class StoppableThread;
+
 /// Settings of the scenes of a cloud.
 struct FeelSceneSettings
 {
   LocalBandwidthSettings bandwidth; ///< Rule for proxy radii.
-  Bounds workspace;                 ///< Points outside are not felt; empty: all are.
   bool useCovariance = true;        ///< Feel the second moments of the voxels, too.
   bool refineNearHand = true;       ///< Scenes near the hand are as fine as the points there.
+  /// Called with the part that is done, 0 to 1; false aborts the work. May be missing.
+  std::function<bool(double)> goesOn;
 };
 
-/// The scene of the whole cloud, and local ones with FeelSceneSettings::refineNearHand, which are made as the
-/// hand comes along. One thread at a time.
+/// Sets workspace and radii of fine scenes beside one that was made as @p origin says.
+void configure(LocalSceneBuilder& builder, const SceneOrigin& origin);
+
+/// The scene of the whole cloud, and local ones, which are made as the hand comes along. One thread at a
+/// time.
 class POINTHAPTICSSCENE_EXPORT FeelScenes
 {
 public:
@@ -39,19 +46,18 @@ public:
   explicit FeelScenes(const FeelScenes& shared);
   FeelScenes& operator=(const FeelScenes&) = delete;
 
-  /// Makes the scenes. @param felt the points that are felt, in the workspace frame: the output of
-  /// vtkVoxelMeanResampler, or raw points. @param cloud the points of the cloud in
-  /// its own frame, for the scenes near the hand; no reference is kept. Errors: those of
-  /// HapticScene::create().
-  Status make(vtkPolyData* felt, vtkPoints* cloud, const FeelSceneSettings& settings);
-  /// As make(), with a scene of the whole cloud that is there already.
-  void adopt(std::shared_ptr<const HapticScene> whole, vtkPoints* cloud, const FeelSceneSettings& settings);
-  /// Resamples @p cloud and makes its scenes. @param resampler has lattice and transform, and is used up; its
-  /// observers may abort the work. @p settings' workspace is that of the resampler. Errors: Aborted, Empty
-  /// (no finite point in the workspace), InvalidParameter (the resampler's settings), those of
-  /// HapticScene::create(); @p message says which, with the cure.
-  Status resample(
-    vtkPointSet* cloud, vtkVoxelMeanResampler* resampler, FeelSceneSettings settings, std::string& message);
+  ///@{
+  /// Takes the scene of the whole cloud. @param cloud the points of the cloud in its own frame, for scenes
+  /// near the hand, of which no reference is kept, or an index of them; null: there are no scenes near the
+  /// hand. None are made either where the scene's origin is not known.
+  void adopt(std::shared_ptr<const HapticScene> whole, vtkPoints* cloud);
+  void adopt(std::shared_ptr<const HapticScene> whole, std::shared_ptr<const PointIndex> cloud);
+  ///@}
+  /// Resamples @p cloud and makes its scenes. @param resampler has lattice and transform, and is used up.
+  /// Errors: Aborted, Empty (no finite point in the workspace), InvalidParameter (the resampler's settings),
+  /// those of HapticScene::create(); @p message says which, with the cure.
+  Status resample(vtkPointSet* cloud, vtkVoxelMeanResampler* resampler, const FeelSceneSettings& settings,
+    std::string& message);
   /// Note on the points that resample() left out, as they are far from all others; empty: there are none.
   const std::string& note() const { return note_; }
   /// Forgets the hand: the next path is felt as the first one.
@@ -65,15 +71,15 @@ public:
   {
     return follower_ ? follower_->at(hip, touched, SmpExecutor()) : whole_.get();
   }
+  /// Publishes to @p loop the scenes of where its hand comes, in @p thread, until that is stopped. Both are
+  /// outlived by this.
+  void publishNearHand(ServoLoop& loop, StoppableThread& thread);
 
   std::int64_t numberOfLocalScenes() const { return follower_ ? follower_->numberOfScenes() : 0; }
   /// Edge of the finest cells felt, metres.
   double finestCell() const { return follower_ ? follower_->finestCell() : whole_->cellSize(); }
 
 private:
-  void follow();
-
-  FeelSceneSettings settings_;
   std::string note_;
   std::shared_ptr<const HapticScene> whole_;
   LocalSceneBuilder builder_;

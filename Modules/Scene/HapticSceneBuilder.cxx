@@ -23,32 +23,24 @@ vtkDataArray* pointArray(vtkPolyData* cloud, const char* name, int components)
   return fits ? array : nullptr;
 }
 
-std::vector<double> copyScalars(vtkDataArray* array)
+double* numbersOf(double& value)
 {
-  std::vector<double> values;
-  if (array)
-  {
-    values.resize(static_cast<std::size_t>(array->GetNumberOfTuples()));
-    for (std::size_t i = 0; i < values.size(); ++i)
-    {
-      values[i] = array->GetComponent(static_cast<vtkIdType>(i), 0);
-    }
-  }
-  return values;
+  return &value;
 }
 
-std::vector<SymMat3> copyCovariances(vtkDataArray* array)
+double* numbersOf(SymMat3& value)
 {
-  std::vector<SymMat3> values;
-  if (array)
+  return &value.xx;
+}
+
+/// Empty where @p array is null.
+template <typename Value>
+std::vector<Value> valuesOf(vtkDataArray* array)
+{
+  std::vector<Value> values(array ? std::size_t(array->GetNumberOfTuples()) : 0);
+  for (std::size_t i = 0; i < values.size(); ++i)
   {
-    values.resize(static_cast<std::size_t>(array->GetNumberOfTuples()));
-    for (std::size_t i = 0; i < values.size(); ++i)
-    {
-      double c[6];
-      array->GetTuple(static_cast<vtkIdType>(i), c);
-      values[i] = { c[0], c[1], c[2], c[3], c[4], c[5] };
-    }
+    array->GetTuple(vtkIdType(i), numbersOf(values[i]));
   }
   return values;
 }
@@ -84,12 +76,12 @@ std::shared_ptr<const HapticScene> makeHapticScene(vtkPolyData* cloud, Status& s
   {
     cloud->GetPoint(static_cast<vtkIdType>(i), &input.points[i].x);
   }
-  input.counts = copyScalars(pointArray(cloud, "VoxelPointCount", 1));
-  input.proxyRadii = copyScalars(pointArray(cloud, "ProxyRadius", 1));
+  input.counts = valuesOf<double>(pointArray(cloud, "VoxelPointCount", 1));
+  input.proxyRadii = valuesOf<double>(pointArray(cloud, "ProxyRadius", 1));
   input.bandwidth = bandwidth;
   if (useCovariance)
   {
-    input.covariances = copyCovariances(pointArray(cloud, "VoxelCovariance", 6));
+    input.covariances = valuesOf<SymMat3>(pointArray(cloud, "VoxelCovariance", 6));
   }
   double values[16];
   if (fieldValues(cloud, "LatticeSpacing", 3, values))

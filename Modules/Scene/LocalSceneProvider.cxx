@@ -4,7 +4,6 @@
 
 #include "Core/Base/Boxes.h"
 
-#include "vtkPointSet.h"
 #include "vtkPoints.h"
 
 #include <algorithm>
@@ -59,19 +58,17 @@ Bounds boxOfModel(const AffineTransform& transform, const Bounds& box)
 LocalSceneProvider::LocalSceneProvider() = default;
 LocalSceneProvider::~LocalSceneProvider() = default;
 
-void LocalSceneProvider::setCloud(vtkSmartPointer<vtkPointSet> cloud)
+void LocalSceneProvider::setCloud(vtkSmartPointer<vtkPoints> points)
 {
-  cloud_ = std::move(cloud);
+  points_ = std::move(points);
   index_.reset();
-  follower_.reset();
-  finer_.setCloud(nullptr);
+  fine_.adopt(nullptr, std::shared_ptr<const PointIndex>());
 }
 
 std::shared_ptr<const HapticScene> LocalSceneProvider::build(
-  const SceneRequest& request, std::shared_ptr<const HapticScene> global)
+  const SceneOrigin& recipe, const Bounds& hand, std::shared_ptr<const HapticScene> global)
 {
-  const Bounds hand = request.hand ? request.hand() : Bounds();
-  if (hand.empty() || !this->prepare(request))
+  if (hand.empty() || !this->prepare(recipe))
   {
     return nullptr;
   }
@@ -84,13 +81,9 @@ std::shared_ptr<const HapticScene> LocalSceneProvider::build(
   }
   HapticSceneInput input;
   takeVoxels(engine_, voxels_, input);
-  input.bandwidth = request.bandwidth;
-  auto origin = std::make_shared<SceneOrigin>();
+  input.bandwidth = recipe.bandwidth;
+  auto origin = std::make_shared<SceneOrigin>(recipe);
   origin->kind = SceneOrigin::Kind::Region;
-  origin->voxels = request.voxels;
-  origin->bandwidth = request.bandwidth;
-  origin->useCovariance = request.useCovariance;
-  origin->modelToWorkspace = voxels_.transform;
   origin->hand = hand;
   if (region->globalScene())
   {
@@ -111,19 +104,14 @@ bool LocalSceneProvider::resample(const LocalRegion& region)
   if (!region.globalScene())
   {
     // To look at each point costs less than an index, which is not needed yet.
-    const PointAccess access(cloud_->GetPoints());
+    const PointAccess access(points_);
     const PointView& all = access.view();
-    const Bounds box = boxOfModel(voxels_.transform, region.voxels().bounds());
-    if (all.floats())
+    const auto take = [&](const auto* first, auto& found)
     {
-      floats = pointsWithin(all.floats(), all, box, smp_);
-      voxels_.points = PointView(floats.data(), std::int64_t(floats.size() / 3));
-    }
-    else
-    {
-      doubles = pointsWithin(all.doubles(), all, box, smp_);
-      voxels_.points = PointView(doubles.data(), std::int64_t(doubles.size() / 3));
-    }
+      found = pointsWithin(first, all, boxOfModel(voxels_.transform, region.voxels().bounds()), smp_);
+      voxels_.points = PointView(found.data(), std::int64_t(found.size() / 3));
+    };
+    all.floats() ? take(all.floats(), floats) : take(all.doubles(), doubles);
   }
   else if (region.fraction() <= kLargestFraction && this->index())
   {
@@ -141,68 +129,49 @@ bool LocalSceneProvider::resample(const LocalRegion& region)
 }
 
 std::shared_ptr<const HapticScene> LocalSceneProvider::refine(
-  const SceneRequest& request, const std::shared_ptr<const HapticScene>& global)
+  const Bounds& hand, const std::shared_ptr<const HapticScene>& global)
 {
-  const Bounds hand = request.hand ? request.hand() : Bounds();
   const auto now = std::chrono::steady_clock::now();
   const std::chrono::duration<double> seconds = now - std::exchange(lastLook_, now);
-  const bool mayServe = isIndexed() || (global && finer_.isUseful(hand, *global));
-  if (hand.empty() || !mayServe || !this->follow(request, global) ||
-    !follower_->update(hand, seconds.count(), smp_))
+  const bool mayServe = isIndexed() || (global && LocalSceneBuilder().isUseful(hand, *global));
+  if (hand.empty() || !global || !global->origin() || !mayServe || !this->index())
   {
     return nullptr;
   }
-  return follower_->scene() == global ? nullptr : follower_->scene();
+  if (fine_.whole() != global)
+  {
+    fine_.adopt(global, index_);
+  }
+  LocalSceneFollower& follower = *fine_.follower();
+  return follower.update(hand, seconds.count(), smp_) && follower.scene() != global ? follower.scene()
+                                                                                    : nullptr;
 }
 
 std::shared_ptr<const HapticScene> LocalSceneProvider::make(
   const SceneOrigin& origin, const std::shared_ptr<const HapticScene>& global)
 {
-  SceneRequest request;
-  request.voxels = origin.voxels;
-  if (origin.bandwidth)
-  {
-    static_cast<LocalBandwidthSettings&>(request.bandwidth.emplace()) = *origin.bandwidth;
-  }
-  request.useCovariance = origin.useCovariance;
-  request.hand = [&origin] { return origin.hand; };
-  const AffineTransform& model = origin.modelToWorkspace;
   if (origin.kind == SceneOrigin::Kind::Region)
   {
-    std::copy_n(model.m[0], 12, request.modelToWorkspace.begin());
-    return this->build(request, global);
+    return this->build(origin, origin.hand, global);
   }
   Status status = Status::Ok;
-  const bool isThere = global->modelToWorkspace() == model;
-  const std::shared_ptr<const HapticScene> beside = isThere ? global : global->moved(model, status);
-  return beside && this->follow(request, beside) ? finer_.build(origin.hand, beside, smp_) : nullptr;
-}
-
-/// Prepares finer scenes. False: the scene or the cloud cannot have any.
-bool LocalSceneProvider::follow(const SceneRequest& request, const std::shared_ptr<const HapticScene>& global)
-{
-  if (follower_ && follower_->global() == global)
+  const bool isThere = global->modelToWorkspace() == origin.modelToWorkspace;
+  const auto beside = isThere ? global : global->moved(origin.modelToWorkspace, status);
+  if (!beside || !this->index())
   {
-    return true;
+    return nullptr;
   }
-  follower_.reset();
-  if (!global || !this->index())
-  {
-    return false;
-  }
-  const LatticeSettings& lattice = request.voxels.lattice;
-  finer_.setCloud(index_);
-  finer_.setWorkspace(lattice.automaticWorkspace ? Bounds() : lattice.workspace);
-  finer_.setBandwidth(request.bandwidth);
-  follower_.emplace(finer_, global);
-  return true;
+  LocalSceneBuilder builder;
+  builder.setCloud(index_);
+  configure(builder, origin);
+  return builder.build(origin.hand, beside, smp_);
 }
 
 bool LocalSceneProvider::index()
 {
-  if (!index_ && cloud_ && cloud_->GetNumberOfPoints() > 0)
+  if (!index_ && points_ && points_->GetNumberOfPoints() > 0)
   {
-    const PointAccess access(cloud_->GetPoints());
+    const PointAccess access(points_);
     const auto made = std::make_shared<PointIndex>();
     index_ = made->build(access.view(), smp_) == Status::Ok ? made : nullptr;
   }
@@ -211,19 +180,19 @@ bool LocalSceneProvider::index()
 
 /// Prepares lattice and transform of the resampling. False: there is no cloud, or the lattice depends on the
 /// whole cloud.
-bool LocalSceneProvider::prepare(const SceneRequest& request)
+bool LocalSceneProvider::prepare(const SceneOrigin& recipe)
 {
-  const VoxelMeanSettings& settings = request.voxels;
-  if (!cloud_ || cloud_->GetNumberOfPoints() == 0 || settings.lattice.automaticWorkspace)
+  const VoxelMeanSettings& settings = recipe.voxels;
+  if (!points_ || points_->GetNumberOfPoints() == 0 || settings.lattice.automaticWorkspace)
   {
     return false;
   }
   voxels_ = VoxelRequest();
-  voxels_.transform = AffineTransform::fromRows(request.modelToWorkspace.data());
+  voxels_.transform = recipe.modelToWorkspace;
   voxels_.singlePrecision = settings.outputPointsPrecision == PointsPrecision::OfInput
-    ? cloud_->GetPoints()->GetDataType() == VTK_FLOAT
+    ? points_->GetDataType() == VTK_FLOAT
     : settings.outputPointsPrecision == PointsPrecision::Single;
-  voxels_.covariances = settings.computeCovariance && request.useCovariance;
+  voxels_.covariances = settings.computeCovariance && recipe.useCovariance;
   voxels_.instructions = settings.instructionSet;
   return voxels_.transform.check() == Status::Ok &&
     makeLattice(settings.lattice, Bounds(), voxels_.lattice) == Status::Ok;

@@ -1,16 +1,10 @@
 #include "SceneWorker.h"
 
-#include "HapticSceneBuilder.h"
-#include "LatticeChoice.h"
 #include "LocalSceneProvider.h"
-#include "SurfaceArrays.h"
+#include "SceneFilters.h"
 #include "vtkKernelBandwidthFilter.h"
 #include "vtkVoxelMeanResampler.h"
 
-#include "vtkCallbackCommand.h"
-#include "vtkMatrix4x4.h"
-#include "vtkMatrixToLinearTransform.h"
-#include "vtkNew.h"
 #include "vtkPointSet.h"
 #include "vtkPolyData.h"
 
@@ -33,118 +27,26 @@ constexpr std::chrono::milliseconds kLookPeriod(10);
 constexpr std::chrono::milliseconds kRestPeriod(40);
 constexpr int kRestingLooks = 50;
 
-/// Filters that live and die in the worker's thread.
-class Pipeline
+/// A cloud for all threads, which copy it or take its points, and change nothing. It has one reference of
+/// VTK's: who lets go of one of several makes vtkGarbageCollector walk through an object of other threads.
+using SharedCloud = std::shared_ptr<vtkSmartPointer<vtkPointSet>>;
+
+/// A request, with what it is to be built of.
+struct Job
 {
-public:
-  Pipeline()
-  {
-    // Messages of these filters come from another thread; the owner reports them as BuiltScene::problem.
-    for (const auto event : { vtkCommand::ErrorEvent, vtkCommand::WarningEvent })
-    {
-      resampler_->AddObserver(event, silent_);
-      bandwidth_->AddObserver(event, silent_);
-    }
-    transform_->SetInput(matrix_);
-    resampler_->SetTransform(transform_);
-    bandwidth_->SetInputConnection(resampler_->GetOutputPort());
-  }
+  std::shared_ptr<const SceneRequest> request;
+  std::uint64_t number = 0;
+  SharedCloud cloud = std::make_shared<vtkSmartPointer<vtkPointSet>>();
+  std::shared_ptr<const HapticScene> global; ///< The newest global scene of the cloud; null: none yet.
+};
 
-  void setCloud(vtkSmartPointer<vtkPointSet> cloud)
-  {
-    resampler_->SetInputDataObject(cloud);
-    numberOfPoints_ = cloud ? cloud->GetNumberOfPoints() : 0;
-  }
-
-  /// Resamples and makes the scene; null where there is nothing to feel.
-  std::shared_ptr<const HapticScene> buildScene(const SceneRequest& request, BuiltScene& built)
-  {
-    built.modelToWorkspace = request.modelToWorkspace;
-    built.numberOfPoints = numberOfPoints_;
-    matrix_->DeepCopy(request.modelToWorkspace.data());
-    VoxelMeanSettings voxels = request.voxels;
-    resampler_->SetSettings(voxels);
-    std::optional<LocalBandwidthSettings> rule;
-    if (request.bandwidth)
-    {
-      bandwidth_->SetSettings(*request.bandwidth);
-      rule = *request.bandwidth;
-    }
-    std::shared_ptr<const HapticScene> scene;
-    if (numberOfPoints_ > 0)
-    {
-      this->resample(request.findsLattice, voxels, built);
-      built.problem = resampler_->GetErrorMessage();
-      scene = makeHapticScene(resampler_->GetOutput(), built.status, request.useCovariance, rule, &voxels);
-    }
-    built.empty = scene == nullptr;
-    scene_ = request.hasResiduals || request.hasNormals ? scene : nullptr;
-    return scene;
-  }
-
-  /// Updates the resampler, whose settings are @p voxels.
-  void resample(bool findsLattice, VoxelMeanSettings& voxels, BuiltScene& built)
-  {
-    const auto with = [&](int dimension)
-    {
-      voxels.lattice.dimensions = { dimension, dimension, dimension };
-      resampler_->SetSettings(voxels);
-      resampler_->Update();
-      auto means = vtkSmartPointer<vtkPolyData>::New();
-      means->ShallowCopy(resampler_->GetOutput());
-      return means;
-    };
-    if (!findsLattice)
-    {
-      resampler_->Update();
-      return;
-    }
-    const LatticeChoice choice = chooseLattice(with, [] { return true; });
-    built.latticeDimension = choice.dimension;
-    if (!choice.isNewest)
-    {
-      with(choice.dimension);
-    }
-  }
-
-  /// Makes the arrays of the picture and moves all of them into @p built.
-  void buildDisplay(const SceneRequest& request, BuiltScene& built)
-  {
-    built.means = vtkSmartPointer<vtkPolyData>::New();
-    if (numberOfPoints_ > 0)
-    {
-      vtkPolyData* result = resampler_->GetOutput();
-      if (request.bandwidth)
-      {
-        bandwidth_->Update();
-        result = bandwidth_->GetOutput();
-        built.problem += bandwidth_->GetErrorMessage();
-      }
-      built.means->ShallowCopy(result);
-    }
-    if (scene_)
-    {
-      addSurfaceArrays(built.means, *scene_, request.hasResiduals, request.hasNormals);
-    }
-    this->release();
-  }
-
-  /// Lets go of the output, which others own now; the next update makes new arrays.
-  void release()
-  {
-    bandwidth_->GetOutput()->ReleaseData();
-    resampler_->GetOutput()->ReleaseData();
-    scene_.reset();
-  }
-
-private:
-  vtkNew<vtkCallbackCommand> silent_;
-  vtkNew<vtkMatrix4x4> matrix_;
-  vtkNew<vtkMatrixToLinearTransform> transform_;
-  vtkNew<vtkVoxelMeanResampler> resampler_;
-  vtkNew<vtkKernelBandwidthFilter> bandwidth_;
-  vtkIdType numberOfPoints_ = 0;
-  std::shared_ptr<const HapticScene> scene_; // for the arrays of the picture
+/// A thread of the worker. All members but the thread are guarded by the worker's mutex.
+struct Builder
+{
+  std::uint64_t begun = 0; ///< Number of the newest request that it has begun, or need not build.
+  bool isBuilding = false; ///< It works on a request.
+  bool isRefining = false; ///< It looks for a finer scene near the hand.
+  std::thread thread;
 };
 
 } // namespace
@@ -152,86 +54,36 @@ private:
 SceneRequest SceneRequest::of(vtkVoxelMeanResampler* resampler, vtkKernelBandwidthFilter* filter)
 {
   SceneRequest request;
-  request.voxels = resampler->GetSettings();
+  request.recipe.voxels = resampler->GetSettings();
   if (filter)
   {
-    request.bandwidth = filter->GetSettings();
+    request.recipe.bandwidth = filter->GetSettings();
+    request.arrays = filter->GetSettings();
   }
   return request;
 }
-
-namespace
-{
-
-/// An object whose ownership passes to another thread. vtkSmartPointer copies even where it is assigned from
-/// a moved pointer, so a reference would stay behind. Whoever lets go of one of several references makes
-/// vtkGarbageCollector walk through an object that belongs to another thread by then. The constructor of an
-/// optional moves.
-template <typename Object>
-using Owned = std::optional<Object>;
-
-template <typename Object>
-Owned<Object> takeOwned(Owned<Object>& from)
-{
-  Owned<Object> to(std::move(from));
-  from.reset();
-  return to;
-}
-
-/// The scene of the newest request, which may be refined near the hand.
-struct Refinable
-{
-  SceneRequest request;
-  std::uint64_t number;
-  std::shared_ptr<const HapticScene> global;
-};
-
-/// Task of a thread of the worker.
-struct Job
-{
-  SceneRequest request;
-  std::uint64_t number;
-  std::uint64_t cloudNumber;
-  Owned<vtkSmartPointer<vtkPointSet>> cloud;            // if it is a new one
-  std::shared_ptr<const Refinable> refinable = nullptr; // refine this; there is no request then
-};
-
-/// A thread of the worker and its next task. All members but the thread are guarded by the worker's mutex.
-struct Builder
-{
-  std::optional<SceneRequest> waiting;
-  Owned<vtkSmartPointer<vtkPointSet>> cloud; // a new one that is not yet the thread's own
-  bool inFlight = false;
-  bool refines = false;     // as long as it does, who cancels waits
-  std::uint64_t number = 0; // of the newest job that was begun
-  std::thread thread;
-
-  bool busy() const { return this->inFlight || this->waiting.has_value(); }
-};
-
-} // namespace
 
 struct SceneWorker::Implementation
 {
   mutable std::mutex mutex;
   std::condition_variable changed;
   // Guarded by the mutex.
+  Job newest;                ///< The newest request, with the cloud of the next one.
+  std::uint64_t adopted = 0; ///< Scenes of requests until this one are dropped.
+  bool mayRefine = false;    ///< Finer scenes beside newest.global are wanted.
+  std::unique_ptr<BuiltScene> finished;
+  std::uint64_t builds = 0;
+  bool ending = false;
   Builder global;
   Builder local;
-  std::uint64_t number = 0;
-  std::uint64_t cloudNumber = 0;
-  std::uint64_t adopted = 0; // the newest request that is not built here; what was begun before is dropped
-  std::uint64_t builds = 0;
-  std::shared_ptr<const HapticScene> newestGlobal; // of this cloud
-  std::shared_ptr<const Refinable> refinable;      // while no request follows, if that is wanted
-  Owned<BuiltScene> finished;
-  bool ending = false;
   // State of the thread near the hand.
   Bounds seenHand;
   int restingLooks = 0;
 
-  void look(const SceneRequest& request);
   void start(Builder& builder, void (Implementation::*build)());
+  bool busy(const Builder& builder) const { return builder.isBuilding || newest.number > builder.begun; }
+  bool isCurrent(const Job& job) const { return job.cloud == newest.cloud && job.number > adopted; }
+  std::uint64_t renew(SceneRequest request);
   std::optional<Job> next(Builder& builder);
   void waitForLocal(const Job& job);
   bool isFollowed() const;
@@ -248,144 +100,138 @@ void SceneWorker::Implementation::start(Builder& builder, void (Implementation::
   }
 }
 
+/// Takes a request in the place of the one before. @return its number. @pre the mutex is locked.
+std::uint64_t SceneWorker::Implementation::renew(SceneRequest request)
+{
+  newest.request = std::make_shared<const SceneRequest>(std::move(request));
+  mayRefine = false;
+  return ++newest.number;
+}
+
 /// Ends the thread's last job and waits for the next one. Nothing: the thread must end.
 std::optional<Job> SceneWorker::Implementation::next(Builder& builder)
 {
-  std::unique_lock<std::mutex> lock(this->mutex);
-  builder.inFlight = false;
-  builder.refines = false;
-  this->changed.notify_all();
-  const auto isDue = [&] { return this->ending || builder.waiting.has_value(); };
-  const auto mayRefine = [&] { return &builder == &this->local && this->refinable; };
+  std::unique_lock<std::mutex> lock(mutex);
+  builder.isBuilding = builder.isRefining = false;
+  changed.notify_all();
+  const auto isDue = [&] { return ending || newest.number > builder.begun; };
+  const auto refines = [&] { return &builder == &local && mayRefine; };
   while (!isDue())
   {
-    this->changed.wait(lock, [&] { return isDue() || mayRefine(); });
-    const auto period = this->restingLooks < kRestingLooks ? kLookPeriod : kRestPeriod;
-    if (!this->changed.wait_for(lock, period, isDue) && mayRefine())
+    changed.wait(lock, [&] { return isDue() || refines(); });
+    const auto period = restingLooks < kRestingLooks ? kLookPeriod : kRestPeriod;
+    if (!changed.wait_for(lock, period, isDue) && refines())
     {
-      builder.refines = true;
-      return Job{ {}, this->refinable->number, this->cloudNumber, takeOwned(builder.cloud), this->refinable };
+      builder.isRefining = true;
+      return newest;
     }
   }
-  if (this->ending)
-  {
-    return {};
-  }
-  builder.inFlight = true;
-  builder.number = this->number;
-  Job job = { std::move(*builder.waiting), this->number, this->cloudNumber, takeOwned(builder.cloud) };
-  builder.waiting.reset();
-  return job;
+  builder.isBuilding = true;
+  builder.begun = newest.number;
+  return ending ? std::nullopt : std::optional<Job>(newest);
 }
 
 /// Lets the thread of the whole cloud wait until the other one is done with this job, or with a newer one:
 /// local scenes go first.
 void SceneWorker::Implementation::waitForLocal(const Job& job)
 {
-  std::unique_lock<std::mutex> lock(this->mutex);
-  this->changed.wait(
-    lock, [&] { return this->ending || !this->local.busy() || this->local.number > job.number; });
+  std::unique_lock<std::mutex> lock(mutex);
+  changed.wait(lock, [&] { return ending || !busy(local) || local.begun > job.number; });
 }
 
 bool SceneWorker::Implementation::isFollowed() const
 {
-  const std::lock_guard<std::mutex> lock(this->mutex);
-  return this->global.waiting.has_value();
+  const std::lock_guard<std::mutex> lock(mutex);
+  return newest.number > global.begun;
 }
 
 /// Offers the scene of a request, which is published, for refinement, if no other request follows.
 void SceneWorker::Implementation::offerRefinement(
   const Job& job, const std::shared_ptr<const HapticScene>& scene)
 {
-  const SceneRequest& request = job.request;
-  const std::lock_guard<std::mutex> lock(this->mutex);
-  const bool isNewest = job.number == this->number && job.cloudNumber == this->cloudNumber;
-  if (isNewest && scene && request.refinesNearHand && request.hand && request.publish &&
-    request.useCovariance)
+  const SceneRequest& request = *job.request;
+  const bool isWanted =
+    scene && request.refinesNearHand && request.hand && request.publish && request.recipe.useCovariance;
+  const std::lock_guard<std::mutex> lock(mutex);
+  if (isWanted && job.number == newest.number && job.cloud == newest.cloud)
   {
-    this->refinable = std::make_shared<const Refinable>(Refinable{ request, job.number, scene });
-    this->changed.notify_all();
+    mayRefine = true;
+    changed.notify_all();
   }
 }
 
 void SceneWorker::Implementation::buildGlobalScenes()
 {
-  Pipeline pipeline;
+  SceneFilters filters;
+  SharedCloud cloud;
   Clock::time_point displayed = Clock::now() - std::chrono::hours(1);
-  while (std::optional<Job> job = this->next(this->global))
+  while (const std::optional<Job> job = this->next(global))
   {
-    if (job->cloud)
+    const SceneRequest& request = *job->request;
+    if (job->cloud != cloud)
     {
-      pipeline.setCloud(std::move(*job->cloud));
+      cloud = job->cloud;
+      filters.setCloud(*cloud);
     }
     this->waitForLocal(*job);
-    BuiltScene built;
-    built.number = job->number;
-    std::shared_ptr<const HapticScene> scene = pipeline.buildScene(job->request, built);
+    auto built = std::make_unique<BuiltScene>();
+    built->number = job->number;
+    const std::shared_ptr<const HapticScene> scene =
+      filters.makeScene(request.recipe, request.findsLattice, *built);
     {
-      const std::lock_guard<std::mutex> lock(this->mutex);
-      ++this->builds;
-      const bool isOurs = job->cloudNumber == this->cloudNumber && job->number > this->adopted;
-      this->newestGlobal = isOurs ? scene : this->newestGlobal;
+      const std::lock_guard<std::mutex> lock(mutex);
+      ++builds;
+      newest.global = this->isCurrent(*job) ? scene : newest.global;
     }
-    if (job->request.publish)
+    if (request.publish)
     {
-      job->request.publish(scene, job->number);
+      request.publish(scene, job->number);
     }
     this->offerRefinement(*job, scene);
-    scene.reset();
     const std::chrono::duration<double> since = Clock::now() - displayed;
-    const bool isSlow = job->request.hasResiduals || job->request.hasNormals;
+    const bool isSlow = request.hasResiduals || request.hasNormals;
     if (this->isFollowed() && (isSlow || since.count() <= kPictureSeconds))
     {
       continue;
     }
-    pipeline.buildDisplay(job->request, built);
+    filters.makePicture(request, scene.get(), *built);
     displayed = Clock::now();
-    const std::lock_guard<std::mutex> lock(this->mutex);
-    if (job->number > this->adopted && job->cloudNumber == this->cloudNumber)
+    const std::lock_guard<std::mutex> lock(mutex);
+    if (this->isCurrent(*job))
     {
-      this->finished.emplace(std::move(built));
+      finished = std::move(built);
     }
   }
 }
 
-/// Looks at the hand. If it rests, the next look comes later, and a window at rest sleeps.
-void SceneWorker::Implementation::look(const SceneRequest& request)
-{
-  const Bounds hand = request.hand();
-  this->restingLooks = hand == this->seenHand ? this->restingLooks + 1 : 0;
-  this->seenHand = hand;
-}
-
 void SceneWorker::Implementation::buildLocalScenes()
 {
-  LocalSceneProvider builder;
-  while (std::optional<Job> job = this->next(this->local))
+  LocalSceneProvider provider;
+  SharedCloud cloud;
+  while (const std::optional<Job> job = this->next(local))
   {
-    if (job->cloud)
+    const SceneRequest& request = *job->request;
+    if (job->cloud != cloud)
     {
-      builder.setCloud(std::move(*job->cloud));
+      cloud = job->cloud;
+      provider.setCloud(*cloud ? (*cloud)->GetPoints() : nullptr);
     }
-    if (job->refinable)
+    const Bounds hand = request.hand();
+    std::shared_ptr<const HapticScene> scene;
+    if (local.isRefining) // only this thread changes it
     {
-      const SceneRequest& request = job->refinable->request;
-      this->look(request);
-      if (std::shared_ptr<const HapticScene> finer = builder.refine(request, job->refinable->global))
-      {
-        request.publish(std::move(finer), job->number);
-      }
-      continue;
+      // If the hand rests, the next look comes later, and a window at rest sleeps.
+      restingLooks = hand == seenHand ? restingLooks + 1 : 0;
+      seenHand = hand;
+      scene = provider.refine(hand, job->global);
     }
-    std::shared_ptr<const HapticScene> newest;
+    else
     {
-      const std::lock_guard<std::mutex> lock(this->mutex);
-      newest = job->cloudNumber == this->cloudNumber ? this->newestGlobal : nullptr;
+      scene = provider.build(request.recipe, hand, job->global);
     }
-    std::shared_ptr<const HapticScene> scene = builder.build(job->request, std::move(newest));
-    if (scene && job->request.publish)
+    if (scene && request.publish)
     {
-      job->request.publish(std::move(scene), job->number);
+      request.publish(std::move(scene), job->number);
     }
   }
 }
@@ -412,40 +258,36 @@ SceneWorker::~SceneWorker()
   }
 }
 
-void SceneWorker::setCloud(vtkSmartPointer<vtkPointSet> cloud)
+void SceneWorker::setCloud(vtkPointSet* cloud)
 {
-  vtkSmartPointer<vtkPointSet> copy;
+  Implementation& self = *implementation_;
+  const auto copy = std::make_shared<vtkSmartPointer<vtkPointSet>>();
   if (cloud)
   {
-    copy.TakeReference(vtkPointSet::SafeDownCast(cloud->NewInstance()));
-    copy->ShallowCopy(cloud);
+    copy->TakeReference(cloud->NewInstance());
+    (*copy)->ShallowCopy(cloud);
   }
-  Implementation& self = *implementation_;
   const std::lock_guard<std::mutex> lock(self.mutex);
-  self.global.cloud.emplace(std::move(cloud));
-  self.local.cloud.emplace(std::move(copy));
-  self.newestGlobal.reset();
-  self.refinable.reset();
+  self.newest.cloud = copy;
+  self.newest.global.reset();
+  self.mayRefine = false;
   self.finished.reset();
-  ++self.cloudNumber;
 }
 
 std::uint64_t SceneWorker::request(SceneRequest request)
 {
   Implementation& self = *implementation_;
   const bool hasHand = bool(request.hand);
+  const std::lock_guard<std::mutex> lock(self.mutex);
+  const std::uint64_t number = self.renew(std::move(request));
   self.start(self.global, &Implementation::buildGlobalScenes);
   if (hasHand)
   {
     self.start(self.local, &Implementation::buildLocalScenes);
   }
-  std::uint64_t number = 0;
+  else
   {
-    const std::lock_guard<std::mutex> lock(self.mutex);
-    self.local.waiting = hasHand ? std::optional<SceneRequest>(request) : std::nullopt;
-    self.global.waiting = std::move(request);
-    self.refinable.reset();
-    number = ++self.number;
+    self.local.begun = number;
   }
   self.changed.notify_all();
   return number;
@@ -454,27 +296,22 @@ std::uint64_t SceneWorker::request(SceneRequest request)
 std::uint64_t SceneWorker::adopt(SceneRequest request, std::shared_ptr<const HapticScene> scene)
 {
   Implementation& self = *implementation_;
-  Job job{};
+  Job job;
   {
     const std::lock_guard<std::mutex> lock(self.mutex);
-    self.local.waiting.reset();
-    self.global.waiting.reset();
-    self.refinable.reset();
+    self.adopted = self.global.begun = self.local.begun = self.renew(std::move(request));
     self.finished.reset();
-    self.newestGlobal = scene;
-    self.adopted = ++self.number;
-    job.number = self.number;
-    job.cloudNumber = self.cloudNumber;
+    self.newest.global = scene;
+    job = self.newest;
+    if (job.request->hand)
+    {
+      self.start(self.local, &Implementation::buildLocalScenes);
+    }
   }
-  if (request.hand)
+  if (job.request->publish)
   {
-    self.start(self.local, &Implementation::buildLocalScenes);
+    job.request->publish(scene, job.number);
   }
-  if (request.publish)
-  {
-    request.publish(scene, job.number);
-  }
-  job.request = std::move(request);
   self.offerRefinement(job, scene);
   return job.number;
 }
@@ -488,40 +325,36 @@ std::uint64_t SceneWorker::numberOfBuilds() const
 bool SceneWorker::take(BuiltScene& built)
 {
   const std::lock_guard<std::mutex> lock(implementation_->mutex);
-  if (!implementation_->finished)
+  const std::unique_ptr<BuiltScene> finished = std::move(implementation_->finished);
+  if (finished)
   {
-    return false;
+    built = std::move(*finished);
   }
-  built = *takeOwned(implementation_->finished);
-  return true;
+  return finished != nullptr;
 }
 
 bool SceneWorker::busy() const
 {
   const std::lock_guard<std::mutex> lock(implementation_->mutex);
-  return implementation_->global.busy() || implementation_->local.busy();
+  return implementation_->busy(implementation_->global) || implementation_->busy(implementation_->local);
 }
 
 void SceneWorker::wait()
 {
   Implementation& self = *implementation_;
   std::unique_lock<std::mutex> lock(self.mutex);
-  self.changed.wait(lock, [&self] { return !self.global.busy() && !self.local.busy(); });
+  self.changed.wait(lock, [&self] { return !self.busy(self.global) && !self.busy(self.local); });
 }
 
 void SceneWorker::cancel()
 {
   Implementation& self = *implementation_;
-  {
-    const std::lock_guard<std::mutex> lock(self.mutex);
-    self.global.waiting.reset();
-    self.local.waiting.reset();
-    self.refinable.reset();
-  }
   std::unique_lock<std::mutex> lock(self.mutex);
+  self.global.begun = self.local.begun = self.newest.number;
+  self.mayRefine = false;
   self.changed.wait(
-    lock, [&self] { return !self.global.busy() && !self.local.busy() && !self.local.refines; });
-  self.refinable.reset(); // of a build that was in flight
+    lock, [&self] { return !self.busy(self.global) && !self.busy(self.local) && !self.local.isRefining; });
+  self.mayRefine = false; // of a build that was in flight
   self.finished.reset();
 }
 

@@ -1,10 +1,9 @@
 /// @file
-/// Makes scenes in a thread of its own: resampling, the servo loop's snapshot, the arrays of the picture.
+/// Makes scenes and their pictures in the background.
 #pragma once
 
 #include "Core/Bandwidth/BandwidthSettings.h"
 #include "Core/Base/Status.h"
-#include "Core/Resample/VoxelMeanSettings.h"
 #include "Haptics/HapticScene.h"
 
 #include "PointHapticsSceneModule.h" // For export macro
@@ -12,7 +11,6 @@
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
 
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -36,10 +34,8 @@ struct SceneRequest
   POINTHAPTICSSCENE_EXPORT static SceneRequest of(
     vtkVoxelMeanResampler* resampler, vtkKernelBandwidthFilter* filter);
 
-  std::array<double, 16> modelToWorkspace{ 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1 }; ///< Row by row.
-  bool useCovariance = true;
-  VoxelMeanSettings voxels;                   ///< Settings of scene and picture.
-  std::optional<BandwidthSettings> bandwidth; ///< Rule of the radii, and the arrays of the picture.
+  SceneOrigin recipe;                      ///< Of the global scene.
+  std::optional<BandwidthSettings> arrays; ///< Arrays that the picture has beside those of the voxels.
   /// Arrays of the picture that take long: see SurfaceArrays.h. A build that is followed by another leaves
   /// out a picture with them.
   bool hasResiduals = false;
@@ -47,7 +43,7 @@ struct SceneRequest
   /// Make fine scenes near the hand while the model rests (LocalSceneBuilder), and publish them with this
   /// request's number. Needs a hand and covariances.
   bool refinesNearHand = false;
-  /// Choose the lattice of the global scene by chooseLattice(); local scenes have that of @c voxels.
+  /// Choose the lattice of the global scene by chooseLattice(); local scenes have that of the recipe.
   bool findsLattice = false;
   /// Returns a box about the HIP and the contact point, in the workspace; empty: there is no hand. May be
   /// missing. Called in the worker's threads.
@@ -62,7 +58,7 @@ struct SceneRequest
 struct BuiltScene
 {
   std::uint64_t number = 0; ///< Number of the request: 1, 2, ...
-  std::array<double, 16> modelToWorkspace{};
+  AffineTransform modelToWorkspace;
   vtkSmartPointer<vtkPolyData> means; ///< With the arrays of both filters; nobody else has it.
   vtkIdType numberOfPoints = 0;       ///< Number of the cloud's points.
   int latticeDimension = 0;           ///< Dimension that SceneRequest::findsLattice found; else 0.
@@ -79,8 +75,8 @@ struct BuiltScene
 /// on its way.
 ///
 /// request(), adopt(), setCloud(), take(), wait() and cancel() belong to one thread (the GUI's), which waits
-/// in the last two only. VTK objects pass from thread to thread whole: the worker has filters of its own, and
-/// the side that passes an object on keeps no reference.
+/// in the last two only. A data object of VTK belongs to one thread at a time: each thread has a copy of the
+/// cloud that shares its arrays, and a picture is handed over whole.
 class POINTHAPTICSSCENE_EXPORT SceneWorker
 {
 public:
@@ -92,8 +88,8 @@ public:
   SceneWorker& operator=(const SceneWorker&) = delete;
 
   /// Sets the cloud of the following requests; results of the former one can no longer be taken. Its points
-  /// and arrays are shared and must not be changed; the object itself is the worker's.
-  void setCloud(vtkSmartPointer<vtkPointSet> cloud);
+  /// and arrays are shared and must not be changed. Null: there is none.
+  void setCloud(vtkPointSet* cloud);
   /// @return the request's number.
   std::uint64_t request(SceneRequest request);
   /// Takes a scene that was made elsewhere, as @p request would make it, in place of a build; null where

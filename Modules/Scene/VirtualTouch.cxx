@@ -1,5 +1,7 @@
 #include "VirtualTouch.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -51,6 +53,24 @@ const ServoSample& VirtualTouch::step(const HandState& hand)
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - before;
   sample_.updateSeconds = took.count();
   return sample_;
+}
+
+bool countTicks(const HipPath& path, const std::string& fileName, double rateHz, double most,
+  std::int64_t& ticks, std::string& message, const UnitNames& units)
+{
+  // The last point counts even if rounding puts it just before its tick.
+  const double count = std::floor(path.duration() * rateHz + 1e-6) + 1.0;
+  if (!(count <= most))
+  {
+    message =
+      fmt::format("{}: {} s at {} Hz are more than {} ticks; check that t is in seconds, or cut the path",
+        fileName, path.duration(), rateHz, most);
+    const std::string odd = unlikelyUnits(path, Bounds(), units);
+    message += odd.empty() ? "" : "; " + odd;
+    return false;
+  }
+  ticks = static_cast<std::int64_t>(count);
+  return true;
 }
 
 void feelPath(const HapticParameters& parameters, FeelScenes& scenes, const HipPath& path, double rateHz,

@@ -4,7 +4,7 @@
 
 #include "FeelScenes.h"
 
-#include "Devices/HipPath.h"
+#include "Devices/PathUnits.h"
 #include "Haptics/Servo/ServoStep.h"
 
 #include "PointHapticsSceneModule.h" // For export macro
@@ -55,11 +55,17 @@ private:
   ServoSample sample_;
 };
 
+/// Ticks of @p rateHz from the path's first point to its last, both included. False where they are more than
+/// @p most: @p message then says so, with @p fileName and the cure, which may be one of @p units
+/// (unlikelyUnits()). @pre the path is not empty.
+POINTHAPTICSSCENE_EXPORT bool countTicks(const HipPath& path, const std::string& fileName, double rateHz,
+  double most, std::int64_t& ticks, std::string& message, const UnitNames& units = {});
+
 /// Called with each tick; the time of its sample counts from the first tick. False stops feelPath().
 using OnTick = std::function<bool(double timeSeconds, const VirtualTouch& touch)>;
 
 /// Moves the hand along @p path, whatever the force, linearly between its points, for so many ticks (see
-/// countTicks()). @pre the path is checked and not empty.
+/// countTicks()). @pre HipPath::problem() is empty.
 POINTHAPTICSSCENE_EXPORT void feelPath(const HapticParameters& parameters, FeelScenes& scenes,
   const HipPath& path, double rateHz, std::int64_t ticks, const OnTick& onTick);
 

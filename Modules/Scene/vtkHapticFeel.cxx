@@ -1,6 +1,5 @@
 #include "vtkHapticFeel.h"
 
-#include "PathTicks.h"
 #include "SettingText.h"
 #include "VirtualTouch.h"
 #include "vtkKernelBandwidthFilter.h"
@@ -10,7 +9,6 @@
 #include "Core/Base/Host/StopRequest.h"
 #include "Devices/PathUnits.h"
 
-#include "vtkCommand.h"
 #include "vtkDataArray.h"
 #include "vtkDoubleArray.h"
 #include "vtkErrorCode.h"
@@ -27,6 +25,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <string>
 #include <utility>
 #include <vector>
@@ -46,21 +45,6 @@ namespace
 constexpr double kResampled = 0.3;
 /// Ticks between two looks at AbortExecute.
 constexpr std::int64_t kTicksBetweenReports = 256;
-
-/// Passes the resampler's progress on, and a wish to stop back.
-class ResamplerObserver : public vtkCommand
-{
-public:
-  static ResamplerObserver* New() { return new ResamplerObserver; }
-  vtkAlgorithm* Owner = nullptr;
-
-  void Execute(vtkObject* caller, unsigned long, void*) override
-  {
-    auto* resampler = static_cast<vtkAlgorithm*>(caller);
-    this->Owner->UpdateProgress(kResampled * resampler->GetProgress());
-    resampler->SetAbortExecute(this->Owner->GetAbortExecute());
-  }
-};
 
 /// The column of numbers @p name of @p table, or null.
 vtkDataArray* columnOf(vtkTable* table, const char* name)
@@ -94,7 +78,7 @@ bool pathOf(vtkTable* table, HipPath& path, std::string& message)
     }
     path.points.push_back({ v[0], { v[1], v[2], v[3] } });
   }
-  message = pathProblem(path);
+  message = path.problem();
   return message.empty();
 }
 
@@ -131,39 +115,32 @@ public:
 
 private:
   FeelScenes Scenes;
-  /// MTimes of the inputs from which the scenes were made; MTimes are never given twice.
-  vtkMTimeType CloudTime = 0;
-  vtkMTimeType ResamplerTime = 0;
-  vtkMTimeType BandwidthTime = 0;
-  bool UsedCovariance = false;
-  bool RefinedNearHand = false;
+  /// MTimes of cloud and filters from which the scenes were made, which are never given twice, and the flags.
+  std::array<vtkMTimeType, 5> MadeOf{};
 };
 
 bool vtkHapticFeel::Internals::MakeScenes(vtkHapticFeel* filter, vtkPointSet* cloud, std::string& message)
 {
-  const bool isKept = this->Scenes.whole() && this->CloudTime == cloud->GetMTime() &&
-    this->ResamplerTime == this->Resampler->GetMTime() &&
-    this->BandwidthTime == this->Bandwidth->GetMTime() && this->UsedCovariance == filter->UseCovariance &&
-    this->RefinedNearHand == filter->RefineNearHand;
-  if (isKept)
+  // Observers may set these while the resampler runs.
+  const decltype(this->MadeOf) madeOf = { cloud->GetMTime(), this->Resampler->GetMTime(),
+    this->Bandwidth->GetMTime(), filter->UseCovariance, filter->RefineNearHand };
+  if (this->Scenes.whole() && this->MadeOf == madeOf)
   {
     this->Scenes.restart();
     return true;
   }
-  this->CloudTime = 0;
-  // Observers may set these while the resampler runs.
-  const vtkMTimeType cloudTime = cloud->GetMTime();
-  this->ResamplerTime = this->Resampler->GetMTime();
-  this->BandwidthTime = this->Bandwidth->GetMTime();
+  this->MadeOf = {};
   FeelSceneSettings settings;
   settings.bandwidth = this->Bandwidth->GetSettings();
   settings.useCovariance = filter->UseCovariance;
   settings.refineNearHand = filter->RefineNearHand;
   vtkNew<vtkVoxelMeanResampler> resampler;
   resampler->TakeSettings(this->Resampler);
-  vtkNew<ResamplerObserver> observer;
-  observer->Owner = filter;
-  resampler->AddObserver(vtkCommand::ProgressEvent, observer);
+  settings.goesOn = [filter](double part)
+  {
+    filter->UpdateProgress(kResampled * part);
+    return !filter->GetAbortExecute();
+  };
   const Status status = this->Scenes.resample(cloud, resampler, settings, message);
   if (status != Status::Ok)
   {
@@ -176,9 +153,7 @@ bool vtkHapticFeel::Internals::MakeScenes(vtkHapticFeel* filter, vtkPointSet* cl
     vtkWarningWithObjectMacro(filter, << this->Scenes.note());
   }
   filter->NumberOfFeltPoints = resampler->GetOutput()->GetNumberOfPoints();
-  this->CloudTime = cloudTime;
-  this->UsedCovariance = settings.useCovariance;
-  this->RefinedNearHand = settings.refineNearHand;
+  this->MadeOf = madeOf;
   return true;
 }
 

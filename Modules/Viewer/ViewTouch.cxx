@@ -1,6 +1,5 @@
 #include "ViewTouch.h"
 
-#include "PathTicks.h"
 #include "Replay.h"
 #include "ViewScene.h"
 #include "VirtualTouch.h"
@@ -42,14 +41,9 @@ bool makeFeelScenes(
     message = std::string("the cloud cannot be felt: ") + pointhaptics::message(status);
     return false;
   }
-  const LatticeSettings& lattice = scene.resampler()->GetSettings().lattice;
-  FeelSceneSettings settings;
-  settings.bandwidth = options.bandwidth;
-  settings.workspace = lattice.automaticWorkspace ? Bounds() : lattice.workspace;
-  settings.useCovariance = options.voxels.computeCovariance;
-  settings.refineNearHand = !options.hasVoxels() && settings.useCovariance;
+  const bool refines = !options.hasVoxels() && options.voxels.computeCovariance;
   auto* cloud = vtkPointSet::SafeDownCast(scene.resampler()->GetInputDataObject(0, 0));
-  scenes.adopt(std::move(whole), cloud ? cloud->GetPoints() : nullptr, settings);
+  scenes.adopt(std::move(whole), cloud && refines ? cloud->GetPoints() : nullptr);
   return true;
 }
 

@@ -1,7 +1,6 @@
 // No force exceeds the least of the three limits, whatever parameters, scenes, hands and devices do.
 #include "FuzzRuns.h"
 
-#include "Devices/PathReplay.h"
 #include "Devices/SimulatedDevice.h"
 #include "Haptics/Servo/ForceLimit.h"
 #include "Haptics/Servo/ServoStep.h"
@@ -194,7 +193,11 @@ double loopAlong(Draw& draw, double seconds)
   { return path.points[std::min(path.points.size() - 1, std::size_t(time / 0.002))].position; };
   SimulatedDevice simulated;
   simulated.setPath(path);
-  PathReplayDevice replayed(path, true);
+  SimulatedHandSettings stiff;
+  stiff.yieldsToForce = false;
+  stiff.holdsAtEnd = true;
+  SimulatedDevice replayed(stiff);
+  replayed.setPath(path);
   const int kind = draw.below(3);
   HapticPort* const devices[] = { &port, &simulated, &replayed };
   HapticPort& device = *devices[kind];

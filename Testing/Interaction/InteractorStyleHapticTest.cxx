@@ -6,7 +6,6 @@
 #include "vtkHapticOverlay.h"
 #include "vtkHapticProps.h"
 
-#include "Devices/PathReplay.h"
 #include "Devices/SimulatedDevice.h"
 #include "Haptics/ServoLoop.h"
 
@@ -344,9 +343,11 @@ TEST_F(InteractorStyleHaptic, WarnsOfAPathInAnotherUnit)
 {
   HipPath path;
   path.points = { { 0.0, { 0.0, 0.0, 70.0 } }, { 1.0, { 10.0, 0.0, 10.0 } } };
-  PathReplayDevice inMillimetres(path);
+  SimulatedDevice inMillimetres;
+  inMillimetres.setPath(path);
   applyUnits({ 1e-3, 1.0 }, path);
-  PathReplayDevice inMetres(path);
+  SimulatedDevice inMetres;
+  inMetres.setPath(path);
   int warnings = 0;
   this->count(vtkCommand::WarningEvent, warnings);
   style_->SetDevice(&inMetres);

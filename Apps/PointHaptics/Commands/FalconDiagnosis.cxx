@@ -83,7 +83,6 @@ public:
 private:
   static FalconSettings gentle(FalconSettings settings)
   {
-    settings.armWhenHomed = false;
     settings.limits.maximumForce = std::min(settings.limits.maximumForce, kTinyForce);
     return settings;
   }
@@ -286,6 +285,7 @@ void Diagnosis::run()
   note(
     "Novint Falcon, checks with its owner. Nothing pushes with more than 0.5 N; Ctrl+C ends it at any time.");
   printNow(stdout, "Starting the Falcon; loading its firmware takes some seconds.\n");
+  device_.setArmed(false);
   if (const Status status = device_.open(); status != Status::Ok)
   {
     const std::string problem = openProblem(device_, status, kFirmwareOption);

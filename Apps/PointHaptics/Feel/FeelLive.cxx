@@ -3,10 +3,10 @@
 #include "Terminal/Messages.h"
 #include "Terminal/StopSignals.h"
 
-#include <atomic>
+#include "Core/Base/StoppableThread.h"
+
 #include <chrono>
 #include <cstdio>
-#include <optional>
 #include <thread>
 
 namespace pointhaptics::app
@@ -15,51 +15,6 @@ namespace
 {
 
 constexpr auto kPause = std::chrono::milliseconds(20);
-/// Time between two looks at the hand: 0.25 mm at 50 mm/s.
-constexpr auto kLook = std::chrono::milliseconds(5);
-
-/// A thread that follows the hand and publishes the scenes there, as long as this lives.
-class SceneThread
-{
-public:
-  SceneThread(ServoLoop& loop, LocalSceneFollower& follower)
-    : thread_([this, &loop, &follower] { this->run(loop, follower); })
-  {
-  }
-  ~SceneThread()
-  {
-    ending_ = true;
-    thread_.join();
-  }
-  SceneThread(const SceneThread&) = delete;
-  SceneThread& operator=(const SceneThread&) = delete;
-
-private:
-  void run(ServoLoop& loop, LocalSceneFollower& follower)
-  {
-    double lastLook = 0.0;
-    while (!ending_)
-    {
-      const ServoSample latest = loop.latest();
-      Bounds hand;
-      hand.include(latest.state.hip);
-      hand.include(latest.state.proxy);
-      if (latest.tick > 0)
-      {
-        const double seconds = latest.timeSeconds - lastLook;
-        lastLook = latest.timeSeconds;
-        if (follower.update(hand, seconds, SmpExecutor()))
-        {
-          loop.publishScene(follower.scene());
-        }
-      }
-      std::this_thread::sleep_for(kLook);
-    }
-  }
-
-  std::atomic<bool> ending_{ false };
-  std::thread thread_; // last: it uses the other
-};
 
 /// Gives the samples that came since the last call to the recording and, where the device spoke, to onSample.
 void passSamples(ServoLoop& loop, RecordingWriter& recording, std::vector<ServoSample>& samples,
@@ -92,11 +47,8 @@ ServoStatistics FeelCommand::feelLive(FeelScenes& scenes, RecordingWriter& recor
   const Status started =
     loop.start(falconDevice, this->touch.parameters, pushingServoSettings(this->rateHz), &problem);
   require(started == Status::Ok, problem);
-  std::optional<SceneThread> sceneThread;
-  if (LocalSceneFollower* follower = scenes.follower())
-  {
-    sceneThread.emplace(loop, *follower);
-  }
+  StoppableThread sceneThread;
+  scenes.publishNearHand(loop, sceneThread);
   FalconUpdates updates;
   std::vector<ServoSample> samples;
   const auto pass = [&] { passSamples(loop, recording, samples, onSample); };
@@ -116,7 +68,7 @@ ServoStatistics FeelCommand::feelLive(FeelScenes& scenes, RecordingWriter& recor
     }
     std::this_thread::sleep_for(kPause);
   }
-  sceneThread.reset();
+  sceneThread.stop();
   loop.stop();
   pass();
   falconDevice.close();

@@ -7,7 +7,6 @@
 #include "Terminal/StopSignals.h"
 
 #include "ClippedCloud.h"
-#include "PathTicks.h"
 
 #include "Core/Base/Boxes.h"
 #include "Core/Base/QuantityText.h"
@@ -260,6 +259,8 @@ int runFeel(const FeelCommand& options, Files& files)
   showNotes(cloud);
   cloud.points = inLocalMetres(cloud.points); // as view has them
   const std::string stated = statedUnit(options, cloud.points);
+  const bool isKnown = options.viewer.unitIsChosen ||
+    (stated.empty() && lengthUnitOf(cloud.points, Bounds()).evidence == UnitEvidence::File);
   const Bounds box = feltBox(options, cloud.points);
   FeelScenes scenes;
   options.makeScenes(cloud.points, scenes);
@@ -275,9 +276,7 @@ int runFeel(const FeelCommand& options, Files& files)
   const std::string& problem = rows.recording.problem();
   warn(problem.empty() ? "" : fmt::format("{}: it ends early: {}", record, problem));
   const FeltSummary summary = rows.summary();
-  warn(stated.empty()
-      ? unlikelyUnits(path, box, unitOptions(), options.viewer.unitIsChosen || summary.contactTicks > 0)
-      : stated);
+  warn(stated.empty() ? unlikelyUnits(path, box, unitOptions(), summary.contactTicks > 0, isKnown) : stated);
   print(options, scenes, invalid, summary, path,
     summary.contactTicks == 0 ? rows.approach().distance(*scenes.whole()) : std::nullopt);
   return kSuccess;

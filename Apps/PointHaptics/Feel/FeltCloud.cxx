@@ -5,6 +5,7 @@
 #include "Terminal/StopSignals.h"
 
 #include "ClippedCloud.h"
+#include "HapticSceneBuilder.h"
 #include "LoadedCloud.h"
 #include "ResampledCloud.h"
 
@@ -59,8 +60,8 @@ void requirePoints(bool canBeFelt, const FeelCommand& options, vtkPolyData* clou
   }
 }
 
-/// Makes the scene of the whole cloud, as the viewer does; @p box gets the felt part of the workspace.
-std::shared_ptr<const HapticScene> resampledScene(const FeelCommand& options, vtkPolyData* cloud, Bounds& box)
+/// Makes the scene of the whole cloud, as the viewer does.
+std::shared_ptr<const HapticScene> resampledScene(const FeelCommand& options, vtkPolyData* cloud)
 {
   ProgressBar bar("resampling");
   CloudRequest request({ options.file }, options.viewer);
@@ -92,7 +93,6 @@ std::shared_ptr<const HapticScene> resampledScene(const FeelCommand& options, vt
   require(isMade, message);
   requirePoints(loaded.scene || loaded.means->GetNumberOfPoints() > 0, options, cloud);
   require(loaded.scene != nullptr, options.file + ": " + pointhaptics::message(loaded.sceneStatus));
-  box = loaded.voxels.lattice.automaticWorkspace ? Bounds() : loaded.voxels.lattice.workspace;
   return loaded.scene;
 }
 
@@ -100,29 +100,27 @@ std::shared_ptr<const HapticScene> resampledScene(const FeelCommand& options, vt
 
 void FeelCommand::makeScenes(vtkPolyData* cloud, FeelScenes& scenes) const
 {
-  FeelSceneSettings made;
-  made.bandwidth = this->bandwidth.settings;
-  made.useCovariance = !this->noCovariance;
-  // Where the user asked neither for other voxels nor for none.
-  made.refineNearHand = !this->lattice.voxelsAreGiven && !this->raw && !this->noCovariance;
   const auto clipped = [this, cloud] { return clippedCloud(cloud, clipBox(this->viewer.clip, cloud)); };
   if (!this->raw)
   {
-    auto whole = resampledScene(*this, cloud, made.workspace);
-    scenes.adopt(std::move(whole), clipped()->GetPoints(), made); // after the memory of the resampling
+    auto whole = resampledScene(*this, cloud);
+    // Where the user asked neither for other voxels nor for none. After the memory of the resampling.
+    const bool refines = !this->lattice.voxelsAreGiven && !this->noCovariance;
+    scenes.adopt(std::move(whole), refines ? clipped()->GetPoints() : nullptr);
     return;
   }
   const vtkSmartPointer<vtkPolyData> felt = clipped();
   const vtkSmartPointer<vtkPolyData> prepared = rawPoints(*this, felt);
   requirePoints(prepared->GetNumberOfPoints() > 0, *this, cloud);
-  made.workspace = this->lattice.workspace();
+  const Bounds box = this->lattice.workspace();
   const std::int64_t noReturns = extentOf(felt).noReturns;
-  if (noReturns > 0 &&
-    (made.workspace.empty() || contains(made.workspace, this->viewer.transform.apply(Vec3()))))
+  if (noReturns > 0 && (box.empty() || contains(box, this->viewer.transform.apply(Vec3()))))
   {
     warn(fmt::format("{}: {} are felt", this->file, noReturnsText(noReturns)));
   }
-  const Status status = scenes.make(prepared, felt->GetPoints(), made);
+  Status status = Status::Ok;
+  auto whole = makeHapticScene(prepared, status, !this->noCovariance, this->bandwidth.settings);
+  scenes.adopt(std::move(whole), static_cast<vtkPoints*>(nullptr));
   require(status == Status::Ok, this->file + ": " + message(status));
 }
 

@@ -1,12 +1,10 @@
 #include "Devices/Falcon/FalconDevice.h"
 
+#include "Devices/DriverThread.h"
 #include "Devices/Falcon/FalconFirmware.h"
 #include "Devices/Falcon/FalconProtocol.h"
 
-#include <algorithm>
 #include <chrono>
-#include <condition_variable>
-#include <mutex>
 #include <thread>
 
 namespace pointhaptics
@@ -26,7 +24,7 @@ constexpr double kLargestCountStep = 60e-6;
 /// tick.
 constexpr double kDelayTicks = 1.0;
 constexpr double kRampDownSeconds = 0.06;
-constexpr auto kBetweenQuestions = std::chrono::milliseconds(50);
+constexpr auto kBetweenQuestions = std::chrono::milliseconds(5);
 }
 
 struct FalconDevice::Implementation
@@ -49,19 +47,14 @@ struct FalconDevice::Implementation
   FalconProtocol protocol;        ///< Belongs to the owner.
   std::atomic<int> owner{ kSupervisor };
   std::atomic<int> state{ int(FalconState::Closed) }; ///< State while the supervisor owns the link.
-  std::atomic<bool> quit{ false };
   std::atomic<bool> armed{ true };
   std::atomic<int> leds{ -1 };
-  std::thread supervisor;
-  mutable std::mutex mutex; ///< Guards the members below; the servo thread never takes it.
-  std::condition_variable changed;
-  std::string message;
-  Status started = Status::DeviceNotReady;
+  bool everRan = false;    ///< The device has run since open(). The supervisor's.
+  DriverThread supervisor; ///< Its status is that of the last start; the servo thread asks nothing of it.
 
   void transition(FalconEvent event) { state = int(next(FalconState(state.load()), event)); }
-  void supervise();
+  bool supervise();
   Status start(std::string& text);
-  void report(Status status, const std::string& text);
   /// Works on the connection if it is the servo thread's, and gives it up where it is lost. Servo thread.
   template <typename Work>
   Status serve(Work&& work) noexcept
@@ -98,8 +91,8 @@ Status FalconDevice::Implementation::start(std::string& text)
   {
     return read;
   }
-  status =
-    bootFalcon(*link, settings.boot, firmware.bytes, quit, [this] { transition(FalconEvent::BootDone); });
+  status = bootFalcon(*link, settings.boot, firmware.bytes, supervisor.stopping(),
+    [this] { transition(FalconEvent::BootDone); });
   if (status != Status::FirmwareMissing)
   {
     text = status == Status::Ok ? firmware.note : std::string("falcon: ") + pointhaptics::message(status);
@@ -107,48 +100,31 @@ Status FalconDevice::Implementation::start(std::string& text)
   return status;
 }
 
-void FalconDevice::Implementation::report(Status status, const std::string& text)
+/// Starts a device that is not in use. False: the first start failed, and is not tried again.
+bool FalconDevice::Implementation::supervise()
 {
-  const std::lock_guard<std::mutex> lock(mutex);
-  message = text;
-  started = status;
-  changed.notify_all();
-}
-
-void FalconDevice::Implementation::supervise()
-{
-  bool everRan = settings.waitForDevice;
-  const auto pause = std::chrono::duration_cast<std::chrono::nanoseconds>(
-    std::chrono::duration<double>(settings.retrySeconds));
-  while (!quit)
+  if (owner.load(std::memory_order_acquire) != kSupervisor)
   {
-    if (owner.load(std::memory_order_acquire) == kSupervisor)
-    {
-      link.reset();
-      transition(FalconState(state.load()) == FalconState::Closed ? FalconEvent::Open : FalconEvent::Retry);
-      std::string text;
-      const Status status = start(text);
-      if (status == Status::Ok)
-      {
-        transition(FalconEvent::Running);
-        protocol.begin();
-        owner.store(kServo, std::memory_order_release);
-      }
-      else
-      {
-        link.reset();
-        transition(FalconEvent::Failed);
-      }
-      report(status, text);
-      everRan = everRan || status == Status::Ok;
-      if (!everRan)
-      {
-        return;
-      }
-    }
-    std::unique_lock<std::mutex> lock(mutex);
-    changed.wait_for(lock, pause, [this] { return quit.load(); });
+    return true;
   }
+  link.reset();
+  transition(FalconState(state.load()) == FalconState::Closed ? FalconEvent::Open : FalconEvent::Retry);
+  std::string text;
+  const Status status = start(text);
+  if (status == Status::Ok)
+  {
+    transition(FalconEvent::Running);
+    protocol.begin();
+    owner.store(kServo, std::memory_order_release);
+  }
+  else
+  {
+    link.reset();
+    transition(FalconEvent::Failed);
+  }
+  everRan = everRan || status == Status::Ok;
+  supervisor.report(status, text);
+  return everRan;
 }
 
 FalconDevice::FalconDevice(const FalconSettings& settings)
@@ -160,7 +136,6 @@ FalconDevice::FalconDevice(const FalconSettings& settings, std::unique_ptr<FtdiB
   : implementation_(std::make_unique<Implementation>(settings))
 {
   implementation_->bus = std::move(bus);
-  implementation_->armed = settings.armWhenHomed;
 }
 
 FalconDevice::~FalconDevice()
@@ -187,8 +162,6 @@ DeviceCapabilities FalconDevice::capabilities() const noexcept
   result.workspace.include({ -kHalfWorkspace, -kHalfWorkspace, -kHalfWorkspace });
   result.workspace.include({ kHalfWorkspace, kHalfWorkspace, kHalfWorkspace });
   result.maximumForce = implementation_->settings.limits.maximumForce;
-  result.maximumStiffness = largestPassiveStiffness(limits(), 0.0, kRateHz);
-  result.maximumDamping = largestPassiveDamping(limits(), 0.0, kRateHz);
   result.maximumRateHz = kRateHz;
   result.numberOfButtons = kButtons;
   result.pushes = true;
@@ -201,58 +174,41 @@ Status FalconDevice::open()
   Implementation& self = *implementation_;
   if (self.settings.limits.check() != Status::Ok || !(self.settings.retrySeconds >= 0.0))
   {
-    self.report(Status::InvalidParameter,
+    self.supervisor.report(Status::InvalidParameter,
       "falcon: a limit is out of its range: at most 8 N and 0.4096 N m, and a ramp of 1 s or more");
     return Status::InvalidParameter;
   }
   if (!self.bus)
   {
-    self.report(Status::DeviceNotFound,
+    self.supervisor.report(Status::DeviceNotFound,
       "falcon: built without libusb; install libusb-1.0-0-dev and configure the build again");
     return Status::DeviceNotFound;
   }
-  self.quit = false;
+  self.everRan = false;
   self.protocol.clearStatistics();
-  self.report(Status::DeviceNotReady, {});
-  self.supervisor = std::thread([&self] { self.supervise(); });
-  std::unique_lock<std::mutex> lock(self.mutex);
-  bool cancelled = false;
-  while (!cancelled &&
-    !self.changed.wait_for(
-      lock, kBetweenQuestions, [&self] { return self.started != Status::DeviceNotReady; }))
+  self.supervisor.report(Status::DeviceNotReady, {});
+  self.supervisor.start(self.settings.retrySeconds, [&self] { return self.supervise(); });
+  Status status = Status::DeviceNotReady;
+  std::string text;
+  while (status == Status::DeviceNotReady)
   {
-    cancelled = self.settings.cancelled && self.settings.cancelled();
+    std::this_thread::sleep_for(kBetweenQuestions);
+    const bool isCancelled = self.settings.cancelled && self.settings.cancelled();
+    status = isCancelled ? Status::Aborted : self.supervisor.status();
+    text = isCancelled ? "falcon: not started: ended on request" : message();
   }
-  const Status status = cancelled ? Status::Aborted : self.started;
-  lock.unlock();
-  if (cancelled)
+  if (status != Status::Ok)
   {
     close();
-    self.report(status, "falcon: not started: ended on request");
-    return status;
+    self.supervisor.report(status, text);
   }
-  if (status != Status::Ok && !self.settings.waitForDevice)
-  {
-    const std::string text = message();
-    close();
-    self.report(status, text);
-    return status;
-  }
-  return Status::Ok;
+  return status;
 }
 
 void FalconDevice::close()
 {
   Implementation& self = *implementation_;
-  self.quit = true;
-  if (self.supervisor.joinable())
-  {
-    {
-      const std::lock_guard<std::mutex> lock(self.mutex);
-      self.changed.notify_all();
-    }
-    self.supervisor.join();
-  }
+  self.supervisor.stop();
   if (self.link && self.owner.load(std::memory_order_acquire) == Implementation::kServo)
   {
     self.protocol.shutdown(*self.link);
@@ -282,8 +238,7 @@ Status FalconDevice::write(double timeSeconds, const Vec3& force) noexcept
 
 std::string FalconDevice::message() const
 {
-  const std::lock_guard<std::mutex> lock(implementation_->mutex);
-  return implementation_->message;
+  return implementation_->supervisor.message();
 }
 
 void FalconDevice::setArmed(bool armed) noexcept

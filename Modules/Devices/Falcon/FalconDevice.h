@@ -24,9 +24,7 @@ struct FalconSettings
   std::string firmwareFile; ///< File of the firmware; empty: the one that kFirmwareVariable names, if any.
   FalconForceLimits limits;
   FalconBootSettings boot;
-  bool armWhenHomed = true;   ///< If false, forces pass only after setArmed(true).
-  bool waitForDevice = false; ///< open() succeeds without a device; it is used as soon as it is plugged in.
-  /// Ends the start with Aborted when it returns true. open() asks 20 times a second, in its thread. Empty:
+  /// Ends the start with Aborted when it returns true. open() asks again and again, in its thread. Empty:
   /// never.
   std::function<bool()> cancelled;
   double retrySeconds = 0.5;      ///< Between two looks for a device that is gone.
@@ -98,7 +96,7 @@ public:
   Status write(double timeSeconds, const Vec3& force) noexcept override;
   std::string message() const override;
 
-  /// Lets forces pass or not; they begin with the ramp.
+  /// Lets forces pass, as at first, or not; they begin with the ramp.
   void setArmed(bool armed) noexcept;
   FalconState state() const noexcept;
   FalconStatistics statistics() const noexcept;

@@ -49,26 +49,9 @@ FalconState next(FalconState state, FalconEvent event) noexcept
 
 const char* name(FalconState state) noexcept
 {
-  switch (state)
-  {
-    case FalconState::Closed:
-      return "closed";
-    case FalconState::Opening:
-      return "opening";
-    case FalconState::Boot:
-      return "boot";
-    case FalconState::Loading:
-      return "loading";
-    case FalconState::Unhomed:
-      return "unhomed";
-    case FalconState::Homed:
-      return "homed";
-    case FalconState::Armed:
-      return "armed";
-    case FalconState::Fault:
-      return "fault";
-  }
-  return "unknown";
+  constexpr const char* kNames[] = { "closed", "opening", "boot", "loading", "unhomed", "homed", "armed",
+    "fault" };
+  return kNames[int(state)];
 }
 
 } // namespace pointhaptics

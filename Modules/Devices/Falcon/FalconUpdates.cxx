@@ -64,21 +64,11 @@ std::string FalconUpdates::next(const FalconDevice& device)
 
 bool falconIsUsable(std::string& message)
 {
+  std::vector<ListedDevice> found;
   std::vector<std::string> notes;
-  message = "falcon: none is plugged in; check the cable and its power supply";
-  for (const ListedDevice& device : listDevices(notes))
-  {
-    if (device.kind == "falcon")
-    {
-      message = device.problem;
-      return message.empty();
-    }
-  }
-  for (const std::string& note : notes)
-  {
-    message = note.find("Falcon") == std::string::npos ? message : "falcon: " + note;
-  }
-  return false;
+  listFalcons(found, notes);
+  message = found.empty() ? "falcon: " + notes.front() : found.front().problem;
+  return message.empty();
 }
 
 std::string openProblem(const HapticDevice& device, Status status, const std::string& firmwareName)

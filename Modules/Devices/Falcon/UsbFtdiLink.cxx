@@ -248,34 +248,25 @@ private:
   bool closing_ = false;
 };
 
-/// List of the machine's USB devices, freed by its destructor.
-class DeviceList
+/// Calls @p visit with each Falcon on the USB.
+template <typename Visit>
+void forEachFalcon(libusb_context* context, Visit&& visit)
 {
-public:
-  explicit DeviceList(libusb_context* context) { count_ = libusb_get_device_list(context, &devices_); }
-  ~DeviceList()
+  libusb_device** devices = nullptr;
+  const ssize_t count = libusb_get_device_list(context, &devices);
+  for (ssize_t i = 0; i < count; ++i)
   {
-    if (count_ >= 0)
+    libusb_device_descriptor descriptor{};
+    if (libusb_get_device_descriptor(devices[i], &descriptor) == LIBUSB_SUCCESS &&
+      descriptor.idVendor == kFalconVendor && descriptor.idProduct == kFalconProduct)
     {
-      libusb_free_device_list(devices_, 1);
+      visit(devices[i]);
     }
   }
-  DeviceList(const DeviceList&) = delete;
-  DeviceList& operator=(const DeviceList&) = delete;
-
-  libusb_device** begin() const { return devices_; }
-  libusb_device** end() const { return devices_ + std::max<ssize_t>(0, count_); }
-
-private:
-  libusb_device** devices_ = nullptr;
-  ssize_t count_ = 0;
-};
-
-bool isFalcon(libusb_device* device)
-{
-  libusb_device_descriptor descriptor{};
-  return libusb_get_device_descriptor(device, &descriptor) == LIBUSB_SUCCESS &&
-    descriptor.idVendor == kFalconVendor && descriptor.idProduct == kFalconProduct;
+  if (count >= 0)
+  {
+    libusb_free_device_list(devices, 1);
+  }
 }
 
 std::string place(libusb_device* device)
@@ -321,13 +312,8 @@ public:
     status = Status::DeviceNotFound;
     message = "falcon: none is plugged in (USB 0403:cb48); check the cable and its power supply";
     libusb_device_handle* handle = nullptr;
-    {
-      const DeviceList devices(context);
-      for (libusb_device* device : devices)
-      {
-        handle = handle || !isFalcon(device) ? handle : claim(device, status, message);
-      }
-    }
+    forEachFalcon(
+      context, [&](libusb_device* device) { handle = handle ? handle : claim(device, status, message); });
     if (!handle)
     {
       libusb_exit(context);
@@ -385,14 +371,9 @@ std::vector<UsbFalcon> findUsbFalcons(std::string& problem)
     problem = systemProblem(error);
     return found;
   }
-  {
-    const DeviceList devices(context);
-    for (libusb_device* device : devices)
+  forEachFalcon(context,
+    [&](libusb_device* device)
     {
-      if (!isFalcon(device))
-      {
-        continue;
-      }
       libusb_device_handle* handle = nullptr;
       int error = libusb_open(device, &handle);
       if (handle)
@@ -405,8 +386,7 @@ std::vector<UsbFalcon> findUsbFalcons(std::string& problem)
         libusb_close(handle); // releases
       }
       found.push_back({ place(device), error == LIBUSB_SUCCESS ? "" : refusal(place(device), error) });
-    }
-  }
+    });
   libusb_exit(context);
   return found;
 }

@@ -1,13 +1,9 @@
 #include "Devices/SpaceMouse/SpaceMouse.h"
 
+#include "Devices/DriverThread.h"
 #include "Haptics/Servo/LatestValue.h"
 
-#include <algorithm>
-#include <atomic>
 #include <chrono>
-#include <condition_variable>
-#include <mutex>
-#include <thread>
 
 namespace pointhaptics
 {
@@ -42,21 +38,12 @@ struct SpaceMouse::Implementation
 {
   SpaceMouseSettings settings;
   std::unique_ptr<HidBus> bus;
-  std::thread thread;
-  std::atomic<bool> quit{ false };
   LatestValue<Cap> newest;
-  mutable std::mutex mutex;
-  std::condition_variable changed;
-  std::string message;
+  DriverThread thread;
 
-  void run();
+  bool run();
   std::unique_ptr<HidLink> find();
   void serve(HidLink& link);
-  void say(const std::string& text)
-  {
-    const std::lock_guard<std::mutex> lock(mutex);
-    message = text;
-  }
 };
 
 std::unique_ptr<HidLink> SpaceMouse::Implementation::find()
@@ -70,11 +57,11 @@ std::unique_ptr<HidLink> SpaceMouse::Implementation::find()
     }
     if (std::unique_ptr<HidLink> link = bus->open(found, text))
     {
-      say(found.name);
+      thread.report(Status::Ok, found.name);
       return link;
     }
   }
-  say(text);
+  thread.report(Status::DeviceNotFound, text);
   return nullptr;
 }
 
@@ -83,7 +70,7 @@ void SpaceMouse::Implementation::serve(HidLink& link)
   Cap cap{ SpaceMouseDecoder(settings), true };
   newest.write(cap);
   setLed(link, true);
-  while (!quit)
+  while (!thread.stopping())
   {
     std::uint8_t bytes[kLongestReport];
     const int count = link.read(bytes, kLongestReport, kReadMilliseconds);
@@ -96,30 +83,26 @@ void SpaceMouse::Implementation::serve(HidLink& link)
       newest.write(cap);
     }
   }
-  if (quit)
+  if (thread.stopping())
   {
     setLed(link, false);
   }
   newest.write(Cap());
 }
 
-void SpaceMouse::Implementation::run()
+/// Looks for the device and serves it until it is gone.
+bool SpaceMouse::Implementation::run()
 {
-  const auto pause = std::chrono::duration_cast<std::chrono::nanoseconds>(
-    std::chrono::duration<double>(settings.retrySeconds));
-  while (!quit)
+  if (const std::unique_ptr<HidLink> link = find())
   {
-    if (const std::unique_ptr<HidLink> link = find())
+    serve(*link);
+    if (!thread.stopping())
     {
-      serve(*link);
-      if (!quit)
-      {
-        say("spacemouse: it was unplugged; plug it in again, it starts by itself");
-      }
+      thread.report(
+        Status::DeviceLost, "spacemouse: it was unplugged; plug it in again, it starts by itself");
     }
-    std::unique_lock<std::mutex> lock(mutex);
-    changed.wait_for(lock, pause, [this] { return quit.load(); });
   }
+  return true;
 }
 
 SpaceMouse::SpaceMouse(const SpaceMouseSettings& settings)
@@ -134,37 +117,24 @@ SpaceMouse::SpaceMouse(const SpaceMouseSettings& settings, std::unique_ptr<HidBu
   implementation_->bus = std::move(bus);
 }
 
-SpaceMouse::~SpaceMouse()
-{
-  stop();
-}
+SpaceMouse::~SpaceMouse() = default;
 
 Status SpaceMouse::start()
 {
-  stop();
   Implementation& self = *implementation_;
   if (!self.bus)
   {
-    self.say("spacemouse: built without hidapi; install libhidapi-dev and configure the build again");
+    self.thread.report(Status::DeviceNotFound,
+      "spacemouse: built without hidapi; install libhidapi-dev and configure the build again");
     return Status::DeviceNotFound;
   }
-  self.quit = false;
-  self.thread = std::thread([&self] { self.run(); });
+  self.thread.start(self.settings.retrySeconds, [&self] { return self.run(); });
   return Status::Ok;
 }
 
 void SpaceMouse::stop()
 {
-  Implementation& self = *implementation_;
-  {
-    const std::lock_guard<std::mutex> lock(self.mutex);
-    self.quit = true;
-    self.changed.notify_all();
-  }
-  if (self.thread.joinable())
-  {
-    self.thread.join();
-  }
+  implementation_->thread.stop();
 }
 
 SpaceMouseMotion SpaceMouse::motion() const noexcept
@@ -177,8 +147,7 @@ SpaceMouseMotion SpaceMouse::motion() const noexcept
 
 std::string SpaceMouse::message() const
 {
-  const std::lock_guard<std::mutex> lock(implementation_->mutex);
-  return implementation_->message;
+  return implementation_->thread.message();
 }
 
 } // namespace pointhaptics

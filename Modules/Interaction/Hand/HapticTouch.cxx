@@ -20,8 +20,10 @@
 namespace pointhaptics
 {
 
-HapticTouch::HapticTouch(vtkInteractorStyleHaptic* style, HapticDevice* device)
+HapticTouch::HapticTouch(
+  vtkInteractorStyleHaptic* style, HapticDevice* device, const SimulatedHandSettings& hand)
   : style_(style)
+  , hand_(hand)
   , device_(device ? *device : hand_)
 {
   style->SetServoLoop(&servo_);

@@ -28,8 +28,9 @@ class POINTHAPTICSINTERACTION_EXPORT HapticTouch
 {
 public:
   /// Gives the style device, servo loop and props. @p device is not owned, is closed and must outlive this;
-  /// null: a simulated hand.
-  explicit HapticTouch(vtkInteractorStyleHaptic* style, HapticDevice* device = nullptr);
+  /// null: a simulated hand with the settings @p hand.
+  explicit HapticTouch(
+    vtkInteractorStyleHaptic* style, HapticDevice* device = nullptr, const SimulatedHandSettings& hand = {});
   ~HapticTouch(); ///< Stops.
   HapticTouch(const HapticTouch&) = delete;
   HapticTouch& operator=(const HapticTouch&) = delete;

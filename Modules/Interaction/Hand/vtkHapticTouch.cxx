@@ -38,6 +38,15 @@ void vtkHapticTouch::SetDeviceName(const std::string& name)
   this->Modified();
 }
 
+void vtkHapticTouch::SetStartPosition(double x, double y, double z)
+{
+  this->Impl->touch.reset();
+  this->StartPosition[0] = x;
+  this->StartPosition[1] = y;
+  this->StartPosition[2] = z;
+  this->Modified();
+}
+
 bool vtkHapticTouch::Make(vtkInteractorStyleHaptic* style)
 {
   this->Message.clear();
@@ -60,7 +69,9 @@ bool vtkHapticTouch::Make(vtkInteractorStyleHaptic* style)
   this->Impl->touch.reset();
   this->Impl->style = style;
   this->Impl->device = this->DeviceName == "falcon" ? std::make_unique<FalconDevice>() : nullptr;
-  this->Impl->touch = std::make_unique<HapticTouch>(style, this->Impl->device.get());
+  SimulatedHandSettings hand;
+  hand.start = { this->StartPosition[0], this->StartPosition[1], this->StartPosition[2] };
+  this->Impl->touch = std::make_unique<HapticTouch>(style, this->Impl->device.get(), hand);
   return true;
 }
 

@@ -43,6 +43,15 @@ public:
 
   ///@{
   /**
+   * Where the simulated hand begins, metres, such as in front of a cloud about the origin: a hand that begins
+   * inside feels nothing. A touch that is on stops. Default: 0, 0, 0.
+   */
+  void SetStartPosition(double x, double y, double z);
+  vtkGetVector3Macro(StartPosition, double);
+  ///@}
+
+  ///@{
+  /**
    * As of pointhaptics::HapticTouch: shows the window of the style and touches its model; false: GetMessage()
    * says why. Run() returns when the window was closed.
    */
@@ -77,6 +86,7 @@ private:
   struct Internals;
   std::unique_ptr<Internals> Impl;
   std::string DeviceName = "simulated";
+  double StartPosition[3] = { 0.0, 0.0, 0.0 };
   std::string Message;
 
   vtkHapticTouch(const vtkHapticTouch&) = delete;

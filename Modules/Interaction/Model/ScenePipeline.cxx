@@ -180,21 +180,15 @@ void ScenePipeline::sendCloud()
   auto* cloud = vtkPointSet::SafeDownCast(resampler_->GetInputDataObject(0, 0));
   sentCloud_ = cloud;
   sentCloudTime_ = cloud ? cloud->GetMTime() : 0;
-  vtkSmartPointer<vtkPointSet> copy;
-  if (cloud)
-  {
-    copy.TakeReference(vtkPointSet::SafeDownCast(cloud->NewInstance()));
-    copy->ShallowCopy(cloud);
-  }
   publisher_.startCloud();
-  worker_.setCloud(std::move(copy));
+  worker_.setCloud(cloud);
 }
 
 SceneRequest ScenePipeline::makeRequest()
 {
   SceneRequest request = SceneRequest::of(resampler_, bandwidth_);
-  std::copy_n(model_.transform()->GetMatrix()->GetData(), 16, request.modelToWorkspace.begin());
-  request.useCovariance = options_.useCovariance;
+  request.recipe.modelToWorkspace = transformOf(model_.transform()->GetMatrix());
+  request.recipe.useCovariance = options_.useCovariance;
   request.findsLattice = findsLattice_;
   request.hand = [servo = servo_] { return handBounds(servo); };
   request.refinesNearHand = options_.refinesNearHand;
@@ -221,7 +215,7 @@ void ScenePipeline::adopt(std::shared_ptr<const HapticScene> scene)
   this->sendCloud();
   this->publishMoved();
   BuiltScene built;
-  std::copy_n(model_.transform()->GetMatrix()->GetData(), 16, built.modelToWorkspace.begin());
+  built.modelToWorkspace = transformOf(model_.transform()->GetMatrix());
   built.means = this->cloud();
   auto* input = vtkPointSet::SafeDownCast(resampler_->GetInputDataObject(0, 0));
   built.numberOfPoints = input ? input->GetNumberOfPoints() : 0;
@@ -254,7 +248,9 @@ void ScenePipeline::show(const BuiltScene& built)
   problem_ = built.problem;
   numberOfPoints_ = built.numberOfPoints;
   numberOfVoxels_ = built.means->GetNumberOfPoints();
-  resampled_->SetMatrix(built.modelToWorkspace.data());
+  vtkNew<vtkMatrix4x4> placed;
+  setElements(placed, built.modelToWorkspace);
+  resampled_->SetMatrix(placed);
   if (findsLattice_ && built.number == requested_ && built.latticeDimension > 0)
   {
     findsLattice_ = false;

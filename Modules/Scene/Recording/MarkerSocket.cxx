@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <map>
 #include <utility>
 
 #include <arpa/inet.h>
@@ -27,25 +28,20 @@ constexpr std::size_t kMostMarkers = 10000;
 
 bool isUtf8(const std::string& text)
 {
-  int following = 0;
+  int following = 0; // bytes that go on with a character
   for (const char character : text)
   {
     const auto byte = static_cast<unsigned char>(character);
-    const bool continues = byte >> 6 == 2;
-    if (continues != (following > 0))
+    if ((byte >> 6 == 2) != (following > 0))
     {
       return false;
     }
-    following = continues ? following - 1
-      : byte < 128        ? 0
-      : byte >> 5 == 6    ? 1
-      : byte >> 4 == 14   ? 2
-      : byte >> 3 == 30   ? 3
-                          : 5;
-    if (following == 5)
-    {
-      return false;
-    }
+    following = following > 0 ? following - 1
+      : byte < 128            ? 0
+      : byte >> 5 == 6        ? 1
+      : byte >> 4 == 14       ? 2
+      : byte >> 3 == 30       ? 3
+                              : 4;
   }
   return following == 0;
 }
@@ -91,91 +87,90 @@ std::vector<MarkerSocket::Marker> MarkerSocket::take()
   return std::exchange(markers_, {});
 }
 
-/// The line of @p client is a marker, of UTF-8 as the recording is.
-void MarkerSocket::keep(Client& client)
+/// @p line is a marker, of UTF-8 as the recording is; the next one begins.
+void MarkerSocket::keep(std::string& line)
 {
-  if (!client.line.empty() && client.line.back() == '\r')
+  if (!line.empty() && line.back() == '\r')
   {
-    client.line.pop_back();
+    line.pop_back();
   }
-  if (!isUtf8(client.line))
+  if (!isUtf8(line))
   {
     std::replace_if(
-      client.line.begin(), client.line.end(), [](char c) { return static_cast<unsigned char>(c) > 127; },
-      '?');
+      line.begin(), line.end(), [](char c) { return static_cast<unsigned char>(c) > 127; }, '?');
   }
   const std::lock_guard<std::mutex> lock(mutex_);
   if (markers_.size() < kMostMarkers)
   {
-    markers_.push_back({ loop_->latest().tick, client.line });
+    markers_.push_back({ loop_->latest().tick, line });
   }
-  client.line.clear();
+  line.clear();
 }
 
-/// False: the client has ended.
-bool MarkerSocket::read(Client& client)
+/// @p line: as far as it has come. False: the client has ended.
+bool MarkerSocket::read(int client, std::string& line)
 {
   char bytes[4096];
-  const ssize_t count = ::recv(client.socket, bytes, sizeof bytes, 0);
+  const ssize_t count = ::recv(client, bytes, sizeof bytes, 0);
   for (ssize_t i = 0; i < count; ++i)
   {
     if (bytes[i] == '\n')
     {
-      this->keep(client);
+      this->keep(line);
       continue;
     }
-    client.line.append(client.line.size() < kLongestMarker ? 1 : 0, bytes[i]);
+    line.append(line.size() < kLongestMarker ? 1 : 0, bytes[i]);
   }
-  if (count == 0 && !client.line.empty())
+  if (count == 0 && !line.empty())
   {
-    this->keep(client); // its last line has no end
+    this->keep(line); // the last line has no end
   }
   return count > 0 || (count < 0 && (errno == EINTR || errno == EAGAIN));
 }
 
 void MarkerSocket::run()
 {
-  std::vector<Client> clients;
+  std::map<int, std::string> clients; // sockets with their lines
   while (!thread_.stopIsRequested())
   {
     std::vector<pollfd> waits = { { listener_, POLLIN, 0 } };
-    for (const Client& client : clients)
+    for (const auto& client : clients)
     {
-      waits.push_back({ client.socket, POLLIN, 0 });
+      waits.push_back({ client.first, POLLIN, 0 });
     }
     if (::poll(waits.data(), waits.size(), kLookMilliseconds) <= 0)
     {
       continue;
     }
-    for (std::size_t i = 0; i < clients.size(); ++i)
+    for (std::size_t i = 1; i < waits.size(); ++i)
     {
-      if (waits[i + 1].revents != 0 && !this->read(clients[i]))
+      if (waits[i].revents != 0 && !this->read(waits[i].fd, clients[waits[i].fd]))
       {
-        ::close(clients[i].socket);
-        clients[i].socket = -1;
+        ::close(waits[i].fd);
+        clients.erase(waits[i].fd);
       }
     }
-    clients.erase(
-      std::remove_if(clients.begin(), clients.end(), [](const Client& client) { return client.socket < 0; }),
-      clients.end());
-    const int accepted =
-      waits[0].revents != 0 ? ::accept4(listener_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK) : -1;
-    if (accepted >= 0 && clients.size() < kMostClients)
+    if (waits[0].revents == 0)
     {
-      clients.push_back({ accepted, {} });
+      continue;
     }
-    else if (accepted >= 0)
-    {
-      ::close(accepted);
-    }
-    else if (waits[0].revents != 0)
+    const int accepted = ::accept4(listener_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
+    if (accepted < 0)
     {
       ::poll(nullptr, 0, kLookMilliseconds); // without descriptors it stays readable
     }
+    else if (clients.size() < kMostClients)
+    {
+      clients[accepted];
+    }
+    else
+    {
+      ::close(accepted);
+    }
   }
-  for (const Client& client : clients)
+  for (const auto& client : clients)
   {
-    ::close(client.socket);
+    ::close(client.first);
   }
 }
 

@@ -41,14 +41,9 @@ public:
   std::vector<Marker> take();
 
 private:
-  struct Client
-  {
-    int socket = -1;
-    std::string line; ///< As far as it has come.
-  };
   void run();
-  void keep(Client& client);
-  bool read(Client& client);
+  void keep(std::string& line);
+  bool read(int client, std::string& line);
 
   const ServoLoop* loop_ = nullptr;
   int listener_ = -1;

@@ -89,10 +89,9 @@ struct Recording
   RecordingHeader header;
   std::map<std::uint64_t, std::shared_ptr<const SceneOrigin>> clouds;
   std::map<std::uint64_t, HapticParameters> parameters;
-  std::vector<RecordedEvent> events;           ///< By tick.
-  std::vector<RecordedTick> ticks;             ///< Ascending; not empty.
-  std::map<std::uint32_t, std::string> labels; ///< Texts of markers.
-  std::string note; ///< That the recording was not ended, in a sentence; empty: it was.
+  std::vector<RecordedEvent> events; ///< By tick.
+  std::vector<RecordedTick> ticks;   ///< Ascending; not empty.
+  std::string note;                  ///< That the recording was not ended, in a sentence; empty: it was.
 };
 
 /// Reads a recording. False: @p message says file, line, value and cure. What it accepts can be replayed:

@@ -107,10 +107,9 @@ bool Reader::takeHeader(const std::string& text)
   }
   RecordingHeader& header = recording.header;
   isEnded = isEnded || key == kRecordingEnd;
-  if (key == "file" || key == "marker" || key == "program" || key == "settings")
+  if (key == "file" || key == "program" || key == "settings")
   {
     (key == "file"         ? header.cloud.files.emplace_back()
-        : key == "marker"  ? recording.labels[std::uint32_t(number)]
         : key == "program" ? header.program
                            : header.settings) = rest;
   }

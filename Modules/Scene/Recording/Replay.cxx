@@ -1,17 +1,12 @@
 #include "Replay.h"
 
-#include "HapticSceneBuilder.h"
 #include "LocalSceneProvider.h"
-#include "PolyDataAccess.h"
 #include "RecordingLines.h"
+#include "SceneFilters.h"
 #include "VirtualTouch.h"
-#include "vtkVoxelMeanResampler.h"
 
 #include "Haptics/Servo/ServoThread.h"
 
-#include "vtkMatrix4x4.h"
-#include "vtkMatrixToLinearTransform.h"
-#include "vtkNew.h"
 #include "vtkPointSet.h"
 #include "vtkPolyData.h"
 
@@ -34,44 +29,24 @@ public:
   RecordedScenes(const Recording& recording, vtkPointSet* cloud)
     : recording_(recording)
   {
-    vtkNew<vtkMatrixToLinearTransform> transform;
-    transform->SetInput(matrix_);
-    resampler_->SetTransform(transform);
-    resampler_->SetInputDataObject(copyOf(cloud));
-    local_.setCloud(copyOf(cloud));
+    auto points = vtkSmartPointer<vtkPointSet>::Take(cloud->NewInstance());
+    points->SetPoints(cloud->GetPoints()); // no arrays
+    whole_.setCloud(points);
+    local_.setCloud(cloud->GetPoints());
   }
   /// Makes the scene of an event; events come in their order. Null where there was none. False: @p message
   /// says why it cannot be made.
   bool make(const RecordedEvent& event, std::shared_ptr<const HapticScene>& scene, std::string& message);
 
 private:
-  /// An object of its own, whose points are shared.
-  static vtkSmartPointer<vtkPointSet> copyOf(vtkPointSet* cloud)
-  {
-    auto copy = vtkSmartPointer<vtkPointSet>::Take(cloud->NewInstance());
-    copy->SetPoints(cloud->GetPoints());
-    return copy;
-  }
   std::shared_ptr<const HapticScene> cloudOf(std::uint64_t number);
-  std::shared_ptr<const HapticScene> makeWhole(const SceneOrigin& origin);
   void keepThoseOf(const RecordedEvent& event);
 
   const Recording& recording_;
-  vtkNew<vtkMatrix4x4> matrix_;
-  vtkNew<vtkVoxelMeanResampler> resampler_;
+  SceneFilters whole_;
   LocalSceneProvider local_;
   std::map<std::uint64_t, std::shared_ptr<const HapticScene>> clouds_; ///< As they were made.
 };
-
-std::shared_ptr<const HapticScene> RecordedScenes::makeWhole(const SceneOrigin& origin)
-{
-  setElements(matrix_, origin.modelToWorkspace);
-  resampler_->SetSettings(origin.voxels);
-  resampler_->Update();
-  Status status = Status::Ok;
-  return makeHapticScene(
-    resampler_->GetOutput(), status, origin.useCovariance, origin.bandwidth, &origin.voxels);
-}
 
 /// As it was made, before it was moved.
 std::shared_ptr<const HapticScene> RecordedScenes::cloudOf(std::uint64_t number)
@@ -89,7 +64,8 @@ std::shared_ptr<const HapticScene> RecordedScenes::cloudOf(std::uint64_t number)
   const SceneOrigin& how = *origin->second;
   const bool isPart = how.kind != SceneOrigin::Kind::Whole;
   const auto global = isPart && how.globalCloud != 0 ? this->cloudOf(how.globalCloud) : nullptr;
-  return clouds_[number] = !isPart   ? this->makeWhole(how)
+  BuiltScene built;
+  return clouds_[number] = !isPart   ? whole_.makeScene(how, false, built)
     : global || how.globalCloud == 0 ? local_.make(how, global)
                                      : nullptr;
 }

@@ -51,7 +51,11 @@ bool ViewWindow::openDevice(std::string& message)
       return false;
     }
     applyUnits(options_.pathUnits, path);
-    replay_ = std::make_unique<PathReplayDevice>(std::move(path), true);
+    SimulatedHandSettings settings;
+    settings.yieldsToForce = false;
+    settings.holdsAtEnd = true;
+    replay_ = std::make_unique<SimulatedDevice>(settings);
+    replay_->setPath(std::move(path));
     device_ = replay_.get();
   }
   else if (options_.device == HapticViewerDevice::Falcon ||

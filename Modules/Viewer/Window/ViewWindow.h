@@ -29,7 +29,6 @@
 #include "Core/Base/Lifetime.h"
 #include "Devices/Falcon/FalconDevice.h"
 #include "Devices/Falcon/FalconUpdates.h"
-#include "Devices/PathReplay.h"
 #include "Devices/SimulatedDevice.h"
 #include "Devices/Sound/SoundPlayer.h"
 #include "Devices/SpaceMouse/SpaceMouse.h"
@@ -245,7 +244,7 @@ private:
   std::string news_;          // last line of the status
   std::string awaitedColors_; ///< The message while colours are computed; empty: none are.
   std::unique_ptr<SimulatedDevice> hand_;
-  std::unique_ptr<PathReplayDevice> replay_;
+  std::unique_ptr<SimulatedDevice> replay_;
   std::unique_ptr<FalconDevice> falcon_;
   FalconUpdates falconUpdates_;
   std::string spaceMouseMessage_; ///< The message that was shown last.

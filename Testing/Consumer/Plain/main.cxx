@@ -1,5 +1,4 @@
 // Presses a hand onto a plane of points in the servo loop: the installed package without VTK.
-#include <Devices/PathReplay.h>
 #include <Devices/SimulatedDevice.h>
 #include <Haptics/ServoLoop.h>
 
@@ -30,7 +29,10 @@ int main()
   HipPath path;
   path.points = { { 0.0, { 0.0, 0.0, 0.005 } }, { 0.1, { 0.0, 0.0, -0.001 } },
     { 0.2, { 0.0, 0.0, -0.001 } } };
-  PathReplayDevice device(path);
+  SimulatedHandSettings settings;
+  settings.yieldsToForce = false;
+  SimulatedDevice device(settings);
+  device.setPath(path);
   ServoLoop loop;
   loop.publishScene(scene);
   if (device.open() != Status::Ok || loop.start(device, HapticParameters()) != Status::Ok)

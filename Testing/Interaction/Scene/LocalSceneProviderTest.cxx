@@ -58,10 +58,7 @@ protected:
   Scenes request(const AffineTransform& place, const Vec3& hand, const Vec3& contact)
   {
     SceneRequest request = SceneRequest::of(resampler_, bandwidth_);
-    for (int i = 0; i < 12; ++i)
-    {
-      request.modelToWorkspace[std::size_t(i)] = place.m[i / 4][i % 4];
-    }
+    request.recipe.modelToWorkspace = place;
     request.hand = [=]
     {
       Bounds bounds;
@@ -289,19 +286,14 @@ TEST_F(LocalSceneProviderTest, IndexesNoPointsBeforeThereIsASceneToMake)
   worker_.setCloud(cloud);
   const std::shared_ptr<const HapticScene> whole = this->request({}, hand).whole;
   ASSERT_NE(whole, nullptr);
-  SceneRequest request = SceneRequest::of(resampler_, bandwidth_);
-  Vec3 at = hand;
-  request.hand = [&at]
-  {
-    Bounds bounds;
-    bounds.include(at);
-    return bounds;
-  };
+  const SceneOrigin recipe = SceneRequest::of(resampler_, bandwidth_).recipe;
+  Bounds bounds;
+  bounds.include(hand);
   LocalSceneProvider builder;
-  builder.setCloud(cloud);
-  EXPECT_NE(builder.build(request, nullptr), nullptr);
+  builder.setCloud(cloud->GetPoints());
+  EXPECT_NE(builder.build(recipe, bounds, nullptr), nullptr);
   EXPECT_FALSE(builder.isIndexed()) << "no scene of the whole cloud is there yet";
-  EXPECT_NE(builder.build(request, whole), nullptr);
+  EXPECT_NE(builder.build(recipe, bounds, whole), nullptr);
   EXPECT_TRUE(builder.isIndexed());
 }
 
@@ -312,13 +304,11 @@ TEST_F(LocalSceneProviderTest, IndexesNoPointsForAHandThatFeelsNothing)
   const Vec3 far{ 0.049, 0.049, 0.049 };
   const std::shared_ptr<const HapticScene> whole = this->request({}, far).whole;
   ASSERT_NE(whole, nullptr);
-  SceneRequest request = SceneRequest::of(resampler_, bandwidth_);
   Bounds hand;
   hand.include(far);
-  request.hand = [&hand] { return hand; };
   LocalSceneProvider builder;
-  builder.setCloud(cloud);
-  EXPECT_EQ(builder.refine(request, whole), nullptr);
+  builder.setCloud(cloud->GetPoints());
+  EXPECT_EQ(builder.refine(hand, whole), nullptr);
   EXPECT_FALSE(builder.isIndexed());
   // Somewhere on the idol a finer scene is of use.
   std::shared_ptr<const HapticScene> finer;
@@ -328,7 +318,7 @@ TEST_F(LocalSceneProviderTest, IndexesNoPointsForAHandThatFeelsNothing)
     cloud->GetPoint(i, &place.x);
     hand = Bounds();
     hand.include(place);
-    finer = builder.refine(request, whole);
+    finer = builder.refine(hand, whole);
   }
   EXPECT_NE(finer, nullptr);
   EXPECT_TRUE(builder.isIndexed());

@@ -3,7 +3,6 @@
 #include "Devices/PathUnits.h"
 
 #include "Devices/Falcon/FalconDevice.h"
-#include "Devices/PathReplay.h"
 #include "Devices/SimulatedDevice.h"
 #include "Haptics/ServoLoop.h"
 
@@ -141,16 +140,12 @@ TEST(PathUnits, MakeMetresAndSeconds)
 }
 
 /// Declares a force by its capabilities alone.
-class WeakDevice : public PathReplayDevice
+class WeakDevice : public SimulatedDevice
 {
 public:
-  WeakDevice()
-    : PathReplayDevice(swing(0.06, 100, 0.001), true)
-  {
-  }
   DeviceCapabilities capabilities() const noexcept override
   {
-    DeviceCapabilities result = PathReplayDevice::capabilities();
+    DeviceCapabilities result = SimulatedDevice::capabilities();
     result.maximumForce = 2.0;
     return result;
   }
@@ -181,6 +176,15 @@ TEST(PathUnits, OfACloudAtMapCoordinatesAreNotDoubtedByPlaces)
   site.include({ 6e5, 2e5, 500.0 });
   site.include({ 6.001e5, 2.001e5, 520.0 });
   EXPECT_EQ(unlikelyUnits(path, site, kOptions, false), "");
+}
+
+TEST(PathUnits, OfACloudWhoseUnitIsKnownAreNotDoubted)
+{
+  EXPECT_NE(unlikelyUnits(swing(0.06, 1000, 0.01), cube(50.0), kOptions, false), "");
+  EXPECT_EQ(unlikelyUnits(swing(0.06, 1000, 0.01), cube(50.0), kOptions, false, true), "");
+  EXPECT_NE(unlikelyUnits(swing(60.0, 1000, 0.01), cube(50.0), kOptions), "");
+  EXPECT_EQ(unlikelyUnits(swing(60.0, 1000, 0.01), cube(50.0), kOptions, true, true), "");
+  EXPECT_NE(unlikelyUnits(swing(60.0, 1000, 0.01), cube(0.05), kOptions, true, true), "") << "the path is";
 }
 
 } // namespace

@@ -264,10 +264,42 @@ TEST(SimulatedDevice, TellsWhatItsGripBears)
   SimulatedHandSettings settings;
   settings.gripDamping = 3.0;
   const SimulatedDevice yielding(settings);
-  EXPECT_DOUBLE_EQ(yielding.capabilities().maximumStiffness, 6000.0);
-  EXPECT_DOUBLE_EQ(yielding.capabilities().maximumDamping, 3.0);
   EXPECT_EQ(checkPassive(yielding.limits(), 6001.0, 0.0, 1000.0), Status::NotPassive);
   EXPECT_EQ(checkPassive(yielding.limits(), 6001.0, 0.0, 2000.0), Status::Ok);
   settings.yieldsToForce = false;
   EXPECT_EQ(checkPassive(SimulatedDevice(settings).limits(), 1e5, 1e3, 500.0), Status::Ok);
+}
+
+TEST(SimulatedDevice, IsExactlyOnItsPathWhereItDoesNotYield)
+{
+  HipPath path;
+  path.points = { { 10.0, { 0.0, 0.0, 0.1 } }, { 10.5, { 0.0, 0.0, -0.1 } } };
+  SimulatedHandSettings settings;
+  settings.yieldsToForce = false;
+  for (const bool holds : { false, true })
+  {
+    settings.holdsAtEnd = holds;
+    SimulatedDevice device(settings);
+    device.setPath(path);
+    EXPECT_STREQ(device.name(), "path");
+    EXPECT_EQ(device.maximumForce(), INFINITY);
+    HandState hand;
+    EXPECT_EQ(device.read(0.0, hand), Status::DeviceNotOpen);
+    for (int round = 0; round < 2; ++round)
+    {
+      ASSERT_EQ(device.open(), Status::Ok);
+      for (int tick = 0; tick <= 500; ++tick)
+      {
+        ASSERT_EQ(device.read(tick / 1000.0, hand), Status::Ok) << tick;
+        ASSERT_NEAR(hand.position.z, 0.1 - 0.2 * tick / 500.0, 1e-15);
+      }
+      EXPECT_EQ(device.read(2.0, hand), holds ? Status::Ok : Status::EndOfPath);
+      EXPECT_EQ(hand.position.z, -0.1);
+      device.close();
+    }
+    std::swap(path.points[0], path.points[1]);
+    device.setPath(path);
+    EXPECT_EQ(device.open(), Status::InvalidParameter);
+    std::swap(path.points[0], path.points[1]);
+  }
 }
