@@ -104,23 +104,23 @@ std::vector<std::uint32_t> packColors(const OutputArray& colors)
   return packed;
 }
 
-/// Appends the record fields of @p array; each component stands beside the one before.
-void addRecordFields(
-  std::vector<RecordField>& fields, std::size_t& recordSize, const OutputArray& array, int type)
-{
-  for (int component = 0; component < array.components(); ++component)
-  {
-    fields.push_back({ array.column(component), recordSize, type });
-    recordSize += static_cast<std::size_t>(sizeOfType(type));
-  }
-}
-
 } // namespace
 
 std::string shortestDecimal(double value)
 {
   char text[32];
   return { text, std::to_chars(text, text + sizeof(text), value).ptr };
+}
+
+std::size_t addRecordFields(
+  std::vector<RecordField>& fields, std::size_t offset, const OutputArray& array, int type)
+{
+  for (int component = 0; component < array.components(); ++component)
+  {
+    fields.push_back({ array.column(component), offset, type });
+    offset += static_cast<std::size_t>(sizeOfType(type));
+  }
+  return offset;
 }
 
 void packRecords(const std::vector<RecordField>& fields, std::size_t recordSize, vtkIdType row,
@@ -180,7 +180,7 @@ void writePly(WriteTask& task)
     {
       header += std::string("property ") + plyTypeName(column.type) + " " + column.name + "\n";
     }
-    addRecordFields(fields, recordSize, array, writtenType(array));
+    recordSize = addRecordFields(fields, recordSize, array, writtenType(array));
   }
   task.out.write(header + "end_header\n");
   writeRecords(fields, recordSize, rows, task);
@@ -267,14 +267,14 @@ void notePcdArray(const OutputArray& array, const PcdArray& written, WriteTask& 
   const bool isLost = error > 0.0 && !(error <= unseen); // NaN: nobody knows
   if (isLost && array.role == ArrayRole::Points)
   {
-    task.notes.add(
+    task.notes.push_back(
       fmt::format("coordinates are rounded to floats, by at most {:.3g}, as PCL's point types read no "
                   "others; --double keeps every digit, --translate of resample takes a large offset away",
         error));
   }
   else if (isLost)
   {
-    task.notes.add(fmt::format("array {} is rounded to floats, by at most {:.3g}", array.name, error));
+    task.notes.push_back(fmt::format("array {} is rounded to floats, by at most {:.3g}", array.name, error));
   }
 }
 
@@ -310,7 +310,7 @@ void writePcd(WriteTask& task)
       continue;
     }
     notePcdArray(array, written, task);
-    addRecordFields(fields, recordSize, array, written.type);
+    recordSize = addRecordFields(fields, recordSize, array, written.type);
   }
   task.out.write("# .PCD v0.7 - Point Cloud Data file format\n" + task.comments.lines("# ") +
     "VERSION 0.7\n" + pcdFieldLines(described) + pcdShape(task.fieldData(), rows));

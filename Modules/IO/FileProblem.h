@@ -56,6 +56,8 @@ inline std::string atLine(std::size_t line)
 }
 
 inline constexpr const char* kDamagedCure = "the file is damaged: copy or write it again";
+/// Behind the cure of a file that is cut.
+inline constexpr const char* kSalvageCure = ", or read what is there by --salvage (in VTK: SalvageOn())";
 inline constexpr const char* kRewriteCure = "write the file again with another program";
 
 /// "byte 12: ", in front of what is there.
@@ -92,9 +94,6 @@ public:
 {
   throw NoPoints();
 }
-
-/// Bytes of the character of UTF-8 at the front of @p text; 0: none stands there.
-std::size_t characterBytes(std::string_view text);
 
 /// @p text in quotes, cut to 40 bytes, with what is no printable UTF-8 shown as '?': safe to print.
 std::string inQuotes(std::string_view text);

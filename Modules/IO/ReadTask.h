@@ -118,7 +118,7 @@ struct ReadTask
   {
     if (!salvage || shared || there == 0)
     {
-      failTruncated(what, there > 0 && !salvage ? ", or read what is there by --salvage" : "");
+      failTruncated(what, there > 0 && !salvage ? kSalvageCure : "");
     }
     notes.push_back(what.substr(0, what.find("; ")) + ": the " + std::to_string(there) +
       " points before are read, of " + std::to_string(all) + " that the file promises");

@@ -2,8 +2,6 @@
 
 #include "Bytes/Checks.h"
 
-#include <algorithm>
-
 namespace pointhaptics::io
 {
 

@@ -39,7 +39,6 @@ public:
     , bytes_(bytes)
   {
   }
-  std::size_t rank() const { return std::size_t(ranks_.rank()); }
   /// This rank's of @p all rows: as many on each.
   RowRange rowsOf(std::uint64_t all) const;
   /// Collective: what each rank has. @throws OtherRankFailed; FileProblem where ranks see files of different

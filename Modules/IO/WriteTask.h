@@ -28,11 +28,11 @@ struct WriteTask
   }
 
   OutputStream out;
-  vtkPointSet* cloud = nullptr; ///< with at least one point
-  WriterNotes notes;
-  vtkIdType points = 0;      ///< in and out: how many are written
-  FileComments comments;     ///< unit and names, for headers that can say them
-  double lasScale = 0.0;     ///< step of the coordinates in LAS; 0: the writer chooses
+  vtkPointSet* cloud = nullptr;   ///< with at least one point
+  std::vector<std::string> notes; ///< Parts of the cloud that the format could not hold: a sentence each.
+  vtkIdType points = 0;           ///< in and out: how many are written
+  FileComments comments;          ///< unit and names, for headers that can say them
+  double lasScale = 0.0;          ///< step of the coordinates in LAS; 0: the writer chooses
   bool keepsDoubles = false; ///< types and names of PCD as they are, which PCL's point types may not read
   vtkAlgorithm* algorithm;
 
@@ -52,6 +52,10 @@ struct RecordField
   std::size_t offset = 0; ///< inside the record
   int type = 0;           ///< VTK type in the record
 };
+
+/// Adds the components of @p array as fields of @p type, one behind the other. @return the byte behind them.
+std::size_t addRecordFields(
+  std::vector<RecordField>& fields, std::size_t offset, const OutputArray& array, int type);
 
 /// Copies the fields of the rows from @p row on into @p count records; bytes between the fields stay.
 void packRecords(const std::vector<RecordField>& fields, std::size_t recordSize, vtkIdType row,

@@ -80,8 +80,8 @@ public:
 
   ///@{
   /**
-   * Unit of the coordinates ("m", "mm" ...), whether it is a guess by the size, and the coordinate system as
-   * the file says it.
+   * Unit of the coordinates ("m", "mm", "deg" ...; one that is unknown as the file says it), whether it is a
+   * guess by the size, and the coordinate system as the file says it.
    */
   std::string GetUnit() const { return this->Unit; }
   vtkGetMacro(UnitIsGuess, bool);

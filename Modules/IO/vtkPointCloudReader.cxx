@@ -102,13 +102,6 @@ void checkCoordinates(vtkPolyData* cloud)
   }
 }
 
-/// True if the format, told by the file's @p start, can be read in parts.
-bool canBeCut(const std::string& start, std::size_t size, const std::string& extension)
-{
-  const bool isGzip = start.compare(0, 2, "\x1f\x8b") == 0;
-  return !start.empty() && !isGzip && io::identifyFormat(start, size, extension).isReadInParts;
-}
-
 /// Takes away the points outside the box that is wanted, with their values in all arrays. Among floats its
 /// ends are floats, too: 0.2 is no less than the 0.2 of a point.
 void keepInside(const io::ReadTask& task, vtkPolyData* cloud)
@@ -287,8 +280,9 @@ void vtkPointCloudReader::ReadTogether(io::ReadTask& task, vtkPolyData* cloud)
   try
   {
     const std::string start = io::startOfFile(task.path, kStart);
-    if (this->Samples == 0 && !this->LocalMetres &&
-      canBeCut(start, static_cast<std::size_t>(bytes), task.extension))
+    const bool isGzip = start.compare(0, 2, "\x1f\x8b") == 0;
+    if (this->Samples == 0 && !this->LocalMetres && !start.empty() && !isGzip &&
+      io::identifyFormat(start, static_cast<std::size_t>(bytes), task.extension).isReadInParts)
     {
       task.shared = &shared;
       this->ReadPart(task, cloud);

@@ -136,7 +136,8 @@ public:
   ///@{
   /**
    * Names of the columns of a text, for one whose header says nothing or the wrong thing; "-" leaves a column
-   * out, and so does a name less. Three must be x, y and z. Other formats take no notice. Default: none.
+   * out, and so does a name less. Three must be x, y and z. Of NumPy each column is named; other formats take
+   * no notice. Default: none.
    */
   void SetColumns(const std::vector<std::string>& names);
   const std::vector<std::string>& GetColumns() const { return this->Columns; }

@@ -99,14 +99,14 @@ std::string informationOf(vtkAbstractArray* array)
   return names;
 }
 
-void noteInformation(vtkPointSet* cloud, io::WriterNotes& notes)
+void noteInformation(vtkPointSet* cloud, std::vector<std::string>& notes)
 {
   const auto note = [&](vtkAbstractArray* array, const char* name)
   {
     const std::string keys = informationOf(array);
     keys.empty() ? void()
-                 : notes.add("what is noted of array " + io::inQuotes(name ? name : "") + " as " + keys +
-                     " is left out");
+                 : notes.push_back("what is noted of array " + io::inQuotes(name ? name : "") + " as " +
+                     keys + " is left out");
   };
   note(cloud->GetPoints()->GetData(), "Points");
   for (vtkFieldData* data : std::initializer_list<vtkFieldData*>{
@@ -119,7 +119,7 @@ void noteInformation(vtkPointSet* cloud, io::WriterNotes& notes)
   }
 }
 
-void noteWhatIsNoColumn(vtkPointSet* cloud, const io::CloudFormat& format, io::WriterNotes& notes)
+void noteWhatIsNoColumn(vtkPointSet* cloud, const io::CloudFormat& format, std::vector<std::string>& notes)
 {
   std::string lost;
   for (int i = 0; i < cloud->GetFieldData()->GetNumberOfArrays(); ++i)
@@ -136,20 +136,21 @@ void noteWhatIsNoColumn(vtkPointSet* cloud, const io::CloudFormat& format, io::W
       }
       else if (unit != "metre") // readers take metres where nothing is said
       {
-        notes.add("the file does not say that the unit is " + io::inQuotes(unit) +
+        notes.push_back("the file does not say that the unit is " + io::inQuotes(unit) +
           ": readers guess it by the cloud's size, or take --unit");
       }
     }
   }
   if (!lost.empty())
   {
-    notes.add("field data " + lost + (lost.find(',') == std::string::npos ? " is" : " are") + " left out");
+    notes.push_back(
+      "field data " + lost + (lost.find(',') == std::string::npos ? " is" : " are") + " left out");
   }
   vtkPolyData* polyData = vtkPolyData::SafeDownCast(cloud);
   const vtkIdType faces = polyData ? polyData->GetNumberOfCells() - polyData->GetNumberOfVerts() : 0;
   if (faces > 0)
   {
-    notes.add(std::to_string(faces) + " lines and faces are left out");
+    notes.push_back(std::to_string(faces) + " lines and faces are left out");
   }
 }
 
@@ -236,7 +237,7 @@ void vtkPointCloudWriter::WriteCloud(vtkPointSet* cloud)
   }
   format->write(task);
   task.out.commit();
-  this->Notes = task.notes.all;
+  this->Notes = task.notes;
   this->NumberOfPointsWritten = task.points;
 }
 

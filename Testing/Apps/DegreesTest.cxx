@@ -82,7 +82,7 @@ TEST_F(Lengths, UnitsOfTheFileEndWithTheirCoordinates)
   EXPECT_EQ(this->read("o.vtp").find("HeightUnit"), std::string::npos);
   this->write("ft.csv", "x [ft],y [ft],z [ft]\n8.5,49.1,300\n8.6,49.2,301\n8.7,49.3,302\n");
   this->run({ "bandwidth", "ft.csv", "--unit", "m", "-o", "o.vtp" });
-  EXPECT_NE(this->succeed({ "info", "o.vtp" }).find("metre (the file says so)"), std::string::npos);
+  EXPECT_NE(this->succeed({ "info", "o.vtp" }).find("unit     m (the file says so)"), std::string::npos);
 }
 
 TEST_F(Lengths, BandwidthsSayThatPointsAreFar)

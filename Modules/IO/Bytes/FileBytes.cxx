@@ -61,20 +61,6 @@ void checkIsReadable(const std::string& path)
     "this is a device", "name a file or a pipe");
 }
 
-/// Closes at the end.
-struct Descriptor
-{
-  const int number;
-
-  explicit Descriptor(int opened)
-    : number(opened)
-  {
-  }
-  ~Descriptor() { ::close(number); }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-};
-
 /// Frees what zlib allocates.
 struct Inflater
 {
@@ -201,14 +187,15 @@ void FileBytes::resize(std::size_t size)
 void FileBytes::readStream(const std::string& path, const Progress& progress)
 {
   constexpr int kPatience = 100; // ms between questions whether to go on
-  const Descriptor pipe(path == kStandardInput
-      ? ::dup(STDIN_FILENO)
-      : ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)); // it may have no writer yet
+  const int pipe = path == kStandardInput
+    ? ::dup(STDIN_FILENO)
+    : ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK); // it may have no writer yet
+  const std::shared_ptr<void> closed(nullptr, [pipe](void*) { ::close(pipe); });
   std::size_t capacity = 0;
-  ssize_t got = pipe.number < 0 ? -1 : 1;
+  ssize_t got = pipe < 0 ? -1 : 1;
   while (got > 0)
   {
-    struct pollfd input = { pipe.number, POLLIN, 0 };
+    struct pollfd input = { pipe, POLLIN, 0 };
     if (::poll(&input, 1, kPatience) <= 0)
     {
       progress(0.0);
@@ -219,7 +206,7 @@ void FileBytes::readStream(const std::string& path, const Progress& progress)
       capacity = 2 * size_ + kReadAtOnce;
       resize(capacity);
     }
-    got = ::read(pipe.number, data_.get() + size_, capacity - size_);
+    got = ::read(pipe, data_.get() + size_, capacity - size_);
     size_ += got > 0 ? static_cast<std::size_t>(got) : 0;
     got = got < 0 && (errno == EINTR || errno == EAGAIN) ? 1 : got;
   }
@@ -279,8 +266,7 @@ void FileBytes::unpack(const Progress& progress, const Inspect& inspect, bool sa
     const bool isCut = !ended && size_ < capacity && !unread();
     if (isCut && (!salvages || size_ == 0))
     {
-      failTruncated(where() + "the compressed data end too early",
-        size_ > 0 ? ", or read what is there by --salvage" : "");
+      failTruncated(where() + "the compressed data end too early", size_ > 0 ? kSalvageCure : "");
     }
     if (!inspected && size_ > 0 && (size_ == kInspected || ended || isCut))
     {

@@ -1,6 +1,7 @@
 #include "IO/Bytes/XmlTree.h"
 
 #include "Bytes/Checks.h"
+#include "IO/Bytes/TextScan.h"
 
 #include "vtk_expat.h"
 
@@ -132,11 +133,6 @@ private:
   std::exception_ptr problem_;
 };
 
-bool isXmlSpace(char c)
-{
-  return c == ' ' || c == '\t' || c == '\r' || c == '\n';
-}
-
 struct FreeParser
 {
   void operator()(XML_Parser parser) const { XML_ParserFree(parser); }
@@ -166,8 +162,8 @@ std::string_view XmlElement::textOf(std::string_view childName) const
 
 std::string_view XmlElement::trimmedText() const
 {
-  const auto first = std::find_if_not(text.begin(), text.end(), isXmlSpace);
-  const auto last = std::find_if_not(text.rbegin(), text.rend(), isXmlSpace).base();
+  const auto first = std::find_if_not(text.begin(), text.end(), isSpace);
+  const auto last = std::find_if_not(text.rbegin(), text.rend(), isSpace).base();
   return first == text.end() ? std::string_view()
                              : std::string_view(text).substr(static_cast<std::size_t>(first - text.begin()),
                                  static_cast<std::size_t>(last - first));

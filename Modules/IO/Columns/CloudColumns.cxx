@@ -42,35 +42,41 @@ struct ValueRange
 template <typename T>
 ValueRange rangeOf(const T* values, vtkIdType count)
 {
-  ValueRange range;
+  T least{ 0 };
+  T most{ 0 };
   for (vtkIdType i = 0; i < count; ++i)
   {
-    const double value = static_cast<double>(values[i]);
-    range.least = value < range.least ? value : range.least; // false for NaN
-    range.most = value > range.most ? value : range.most;
+    least = values[i] < least ? values[i] : least; // false for NaN
+    most = values[i] > most ? values[i] : most;
   }
-  return range;
+  return { static_cast<double>(least), static_cast<double>(most) };
 }
 
 template <typename T>
 void fillBytes(const T* values, vtkIdType count, double most, unsigned char* bytes)
 {
-  constexpr bool isInteger = std::is_integral_v<T>;
-  // Integers in 256 steps of equal width, so that 65535 is 255 and the byte is the value's first.
-  const double factor = isInteger ? 256.0 / (most + 1.0) : 255.0 / most;
-  const double rounding = isInteger ? 0.0 : 0.5;
-  for (vtkIdType i = 0; i < count; ++i)
+  if constexpr (std::is_integral_v<T>)
   {
-    const double value = factor * static_cast<double>(values[i]) + rounding;
-    bytes[i] =
-      value >= 0.0 ? static_cast<unsigned char>(std::min(value, 255.0)) : static_cast<unsigned char>(0);
+    // 65535 is 255: the byte is the value's first.
+    const int shift = most > 255.0 ? 8 : 0;
+    std::transform(
+      values, values + count, bytes, [=](T v) { return static_cast<unsigned char>(v >> shift); });
+  }
+  else
+  {
+    std::transform(values, values + count, bytes,
+      [=](T v)
+      {
+        const double value = 255.0 / most * static_cast<double>(v) + 0.5;
+        return static_cast<unsigned char>(value >= 0.0 ? std::min(value, 255.0) : 0.0);
+      });
   }
 }
 
-/// An array "RGB" of bytes made of @p colors: integers up to 255 are bytes, of those up to 65535 the high
-/// byte is taken; other numbers are 0..1, or 0..255 or 0..65535 where one is larger. NaN is 0. The largest
-/// value is that of all ranks, where @p shared is there (collective). Null where a value is below 0 or
-/// larger: these are no colours.
+/// bytesOfColors() of @p colors: integers up to 255 are bytes, of those up to 65535 the high
+/// byte is taken; other numbers are 0..1, or 0..255 or 0..65535 where one is larger. The largest value is
+/// that of all ranks, where @p shared is there (collective). Null where a value is below 0 or larger: these
+/// are no colours.
 vtkSmartPointer<vtkDataArray> shownColors(vtkDataArray* colors, SharedReading* shared)
 {
   const vtkIdType count = colors->GetNumberOfValues();
@@ -90,18 +96,7 @@ vtkSmartPointer<vtkDataArray> shownColors(vtkDataArray* colors, SharedReading* s
     return nullptr;
   }
   const bool areBytes = range.most > 1.0 || !isFloatingType(colors->GetDataType());
-  const double most = range.most > 255.0 ? 65535.0 : areBytes ? 255.0 : 1.0;
-  auto bytes = vtkSmartPointer<vtkUnsignedCharArray>::New();
-  bytes->SetName("RGB");
-  bytes->SetNumberOfComponents(colors->GetNumberOfComponents());
-  bytes->SetNumberOfTuples(colors->GetNumberOfTuples());
-  withType(colors->GetDataType(),
-    [&](auto zero)
-    {
-      fillBytes(
-        static_cast<const decltype(zero)*>(colors->GetVoidPointer(0)), count, most, bytes->GetPointer(0));
-    });
-  return bytes;
+  return bytesOfColors(colors, range.most > 255.0 ? 65535.0 : areBytes ? 255.0 : 1.0);
 }
 
 using Names = std::vector<std::vector<std::string>>;
@@ -211,8 +206,16 @@ std::vector<std::string> wordsOf(const std::string& name)
   return words;
 }
 
+/// True if @p word, of more than a letter, names a coordinate.
+bool isCoordinateWord(const std::string& word)
+{
+  return word.size() > 1 &&
+    std::any_of(kCoordinateWords.begin(), kCoordinateWords.end(),
+      [&](const std::vector<std::string>& words) { return has(words, word); });
+}
+
 /// Axis and unit that a column's name gives: 0 and "mm" for "X1 (mm)"; axis -1 where it names none. The word
-/// in "Y (Rechtswert)" says more than its letter.
+/// in "Y (Rechtswert)" and "Y/Rechts" says more than its letter.
 struct CoordinateName
 {
   int axis = -1;
@@ -228,9 +231,7 @@ struct CoordinateName
     if (end != std::string::npos)
     {
       const std::string inside(trimmed(std::string_view(name).substr(bracket + 1, end - bracket - 1)));
-      const bool isWord = inside.size() > 2 &&
-        std::any_of(kCoordinateWords.begin(), kCoordinateWords.end(),
-          [&](const std::vector<std::string>& words) { return has(words, wordsOf(inside)[0]); });
+      const bool isWord = inside.size() > 2 && isCoordinateWord(wordsOf(inside)[0]);
       unit = lengthUnitCalled(inside).empty() ? "" : inside;
       called = isWord ? inside : called;
     }
@@ -239,7 +240,11 @@ struct CoordinateName
       const bool isUnit = (!rest.empty() || isPosition) && findLengthUnit(word);
       isPosition = isPosition || has(kFillers, word);
       unit = isUnit ? word : unit;
-      rest += isUnit || has(kFillers, word) ? "" : (rest.empty() || word.empty() ? "" : " ") + word;
+      const bool isMore = isCoordinateWord(word) && has(kXyz, rest);
+      const bool isLess = isCoordinateWord(rest) && has(kXyz, word);
+      rest = isMore                               ? word
+        : isUnit || isLess || has(kFillers, word) ? rest
+                                                  : rest + (rest.empty() || word.empty() ? "" : " ") + word;
     }
     if (!rest.empty() && has(kXyz, rest.substr(0, 1)) && findLengthUnit(rest.substr(1))) // "Xmm"
     {
@@ -360,6 +365,26 @@ std::vector<std::size_t> coordinatesOf(const std::vector<Column>& columns)
   return found;
 }
 
+std::string unusedName(std::set<std::string>& used, const std::string& wanted, std::size_t longest)
+{
+  const auto cut = [&](std::size_t size)
+  {
+    std::size_t end = std::min(size, wanted.size());
+    while (end < wanted.size() && end > 0 && (static_cast<unsigned char>(wanted[end]) & 0xc0) == 0x80)
+    {
+      --end; // within a character of UTF-8
+    }
+    return wanted.substr(0, end);
+  };
+  std::string name = cut(longest);
+  for (int number = 2; !used.insert(name).second; ++number)
+  {
+    const std::string suffix = "_" + std::to_string(number);
+    name = cut(longest == std::string::npos ? longest : longest - suffix.size()) + suffix;
+  }
+  return name;
+}
+
 std::string coordinateUnit(const std::string& name)
 {
   return CoordinateName(name).unit;
@@ -389,10 +414,11 @@ CloudColumns::CloudColumns(const std::vector<Column>& columns, vtkIdType rows)
   if (!planNamed(kColorsWithAlpha, "RGBA", &isByte) && !planNamed(kColors, "RGB", &isByte) &&
     (planNamed(kColors, "Color16", &isWord) || planNamed(kColors, "Color", &isAny)))
   {
-    colors_ = arrays_.back();
+    colors_ = arrays_.size() - 1;
   }
   planNamed(kNormals, "Normals", &isFloatingType);
   planNumbered();
+  shownBehind_ = arrays_.size() - 1;
 }
 
 void CloudColumns::planPoints()
@@ -445,19 +471,6 @@ void CloudColumns::planNumbered()
   }
 }
 
-std::string CloudColumns::unusedName(const std::string& name) const
-{
-  const std::string wanted = name.empty() ? "unnamed" : name;
-  std::string candidate = wanted;
-  const auto isUsed = [&](const vtkSmartPointer<vtkDataArray>& array)
-  { return candidate == array->GetName(); };
-  for (int number = 2; std::any_of(arrays_.begin(), arrays_.end(), isUsed); ++number)
-  {
-    candidate = wanted + "_" + std::to_string(number);
-  }
-  return candidate;
-}
-
 void CloudColumns::add(const std::string& name, const std::vector<std::size_t>& columns, int type)
 {
   const int components =
@@ -469,7 +482,13 @@ void CloudColumns::add(const std::string& name, const std::vector<std::size_t>& 
   }
   const int common = std::accumulate(columns.begin(), columns.end(), columns_[columns[0]].type,
     [&](int known, std::size_t i) { return commonType(known, columns_[i].type); });
-  arrays_.push_back(makeArray(type == VTK_VOID ? common : type, components, rows_, unusedName(name)));
+  arrays_.push_back(makeArray(type == VTK_VOID ? common : type, components, rows_,
+    unusedName(names_, name.empty() ? "unnamed" : name)));
+}
+
+void CloudColumns::showColors(std::size_t column)
+{
+  colors_ = shownBehind_ = places_[column].array;
 }
 
 ColumnView CloudColumns::target(std::size_t column, int component) const
@@ -515,16 +534,32 @@ void CloudColumns::moveTo(vtkPolyData* cloud, const ReadTask& task)
   vtkNew<vtkPoints> points;
   points->SetData(arrays_[0]);
   cloud->SetPoints(points);
+  const auto shown = colors_ > 0 ? shownColors(arrays_[colors_], task.shared) : nullptr;
   for (std::size_t i = 1; i < arrays_.size(); ++i)
   {
     cloud->GetPointData()->AddArray(arrays_[i]);
-  }
-  if (const auto shown = colors_ ? shownColors(colors_, task.shared) : nullptr)
-  {
-    shown->SetName(unusedName(shown->GetName()).c_str());
-    cloud->GetPointData()->AddArray(shown);
+    if (shown && i == shownBehind_)
+    {
+      shown->SetName(unusedName(names_, "RGB").c_str());
+      cloud->GetPointData()->AddArray(shown);
+    }
   }
   setActiveAttributes(cloud);
+}
+
+vtkSmartPointer<vtkDataArray> bytesOfColors(vtkDataArray* colors, double most)
+{
+  auto bytes = vtkSmartPointer<vtkUnsignedCharArray>::New();
+  bytes->SetName("RGB");
+  bytes->SetNumberOfComponents(colors->GetNumberOfComponents());
+  bytes->SetNumberOfTuples(colors->GetNumberOfTuples());
+  withType(colors->GetDataType(),
+    [&](auto zero)
+    {
+      fillBytes(static_cast<const decltype(zero)*>(colors->GetVoidPointer(0)), colors->GetNumberOfValues(),
+        most, bytes->GetPointer(0));
+    });
+  return bytes;
 }
 
 void setOneVertexPerPoint(vtkPolyData* cloud)

@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -47,6 +48,10 @@ std::vector<std::size_t> coordinatesOf(const std::vector<Column>& columns);
 /// "mm" of "X1 (mm)" and "x_mm", the names of coordinates; empty where the name says no unit.
 std::string coordinateUnit(const std::string& name);
 
+/// @p wanted, or with a number behind it where it is @p used, in at most @p longest bytes.
+std::string unusedName(
+  std::set<std::string>& used, const std::string& wanted, std::size_t longest = std::string::npos);
+
 /// True if @p name is that of a channel of colours, or of a component of normals.
 bool isColorName(const std::string& name);
 bool isNormalName(const std::string& name);
@@ -80,6 +85,9 @@ public:
   /// Where component @p component of column @p column is to be written.
   ColumnView target(std::size_t column, int component = 0) const;
 
+  /// Has moveTo() make an "RGB" of the colours in column @p column, which stands behind them.
+  void showColors(std::size_t column);
+
   /// The array of column @p column.
   vtkDataArray* arrayOf(std::size_t column) const { return arrays_[places_[column].array]; }
 
@@ -105,15 +113,19 @@ private:
   void planNumbered();
   /// @param type VTK_VOID: the widest of the columns.
   void add(const std::string& name, const std::vector<std::size_t>& columns, int type = VTK_VOID);
-  std::string unusedName(const std::string& name) const;
 
   const std::vector<Column> columns_;
   vtkIdType rows_;
   std::vector<bool> placed_;
+  std::set<std::string> names_; ///< Of the arrays.
   std::vector<Place> places_;
   std::vector<vtkSmartPointer<vtkDataArray>> arrays_; ///< the first one holds the points
-  vtkSmartPointer<vtkDataArray> colors_;              ///< that are no bytes; null where there are none
+  std::size_t colors_ = 0;                            ///< Those that are no bytes; 0: there are none.
+  std::size_t shownBehind_ = 0; ///< The array behind which the bytes made of them stand.
 };
+
+/// An array "RGB" of bytes made of @p colors, whose largest value is @p most: 1, 255 or 65535. NaN is 0.
+vtkSmartPointer<vtkDataArray> bytesOfColors(vtkDataArray* colors, double most);
 
 /// Gives @p cloud one vertex cell per point and no other cell.
 void setOneVertexPerPoint(vtkPolyData* cloud);

@@ -42,9 +42,9 @@ bool isEpoch(const Columns& columns)
 }
 
 /// Whole numbers that count the rows, and coordinates that are not all whole; or any but epochs before three
-/// coordinates with decimals which are those of a map; or any that differ before such ones with whole
-/// colours.
-bool isId(const Columns& columns)
+/// coordinates with decimals which are those of a map; or any that differ before such ones with whole colours
+/// or with a description and no more.
+bool isId(const Columns& columns, bool hasDescription)
 {
   if (columns.size() < 4 || !columns[0].isWhole || columns[0].sample.size() < kFewestIds ||
     std::all_of(columns.begin() + 1, columns.begin() + 4, [](const ColumnEvidence& c) { return c.isWhole; }))
@@ -58,7 +58,9 @@ bool isId(const Columns& columns)
   const bool hasColors = columns.size() >= 7 && columns[4].isWhole && areColors(columns, 4);
   const bool isMap =
     columns[1].least >= kMapCoordinate && columns[2].least >= kMapCoordinate && !isEpoch(columns);
-  return (hasDecimals && (isMap || (hasColors && numberOfValues(columns[0]) == ids.size()))) ||
+  const bool isNumbered =
+    numberOfValues(columns[0]) == ids.size() && (hasColors || (hasDescription && columns.size() == 4));
+  return (hasDecimals && (isMap || isNumbered)) ||
     std::adjacent_find(ids.begin(), ids.end(), [](double a, double b) { return b != a + 1.0; }) == ids.end();
 }
 
@@ -189,37 +191,20 @@ bool areRowAndColumn(const Columns& columns)
     areColors(columns, 5);
 }
 
-} // namespace
-
-ColumnEvidence ColumnEvidence::of(std::vector<double> sample, bool isWhole)
-{
-  ColumnEvidence evidence;
-  bool isFirst = true;
-  for (const double value : sample)
-  {
-    if (!std::isnan(value))
-    {
-      evidence.least = isFirst ? value : std::min(evidence.least, value);
-      evidence.most = isFirst ? value : std::max(evidence.most, value);
-      isFirst = false;
-    }
-  }
-  evidence.sample = std::move(sample);
-  evidence.isWhole = isWhole;
-  return evidence;
-}
-
-bool mayBeNorthingFirst(const std::vector<ColumnEvidence>& columns, std::size_t at)
+/// True if the columns @p north and @p east look like northing and easting of UTM.
+bool areMapCoordinates(const Columns& columns, std::size_t north, std::size_t east)
 {
   const auto isWithin = [&](std::size_t i, double least, double most)
   { return i < columns.size() && columns[i].least >= least && columns[i].most < most; };
-  return isWithin(at, 1e6, 1e7) && isWithin(at + 1, 1e5, 1e6);
+  return isWithin(north, 1e6, 1e7) && isWithin(east, 1e5, 1e6);
 }
 
-std::vector<std::string> guessColumnNames(
+} // namespace
+
+GuessedColumns guessColumnNames(
   const std::vector<ColumnEvidence>& columns, bool prefersColors, bool hasName, bool hasDescription)
 {
-  const bool hasId = isId(columns);
+  const bool hasId = isId(columns, hasDescription);
   const bool hasRays = !hasId && areRowAndColumn(columns);
   const std::size_t first = hasRays ? 2 : hasId || isClock(columns) ? 1 : 0;
   std::vector<std::string> names = vectorNames(columns, first + 3, prefersColors);
@@ -228,8 +213,10 @@ std::vector<std::string> guessColumnNames(
     names[0] = hasRays ? "row" : hasId ? "id" : "time";
     names[first - 1] = hasRays ? "column" : names[0];
   }
-  const bool isSurvey = (hasId || hasName) && hasDescription;
-  const char* const order = isSurvey && mayBeNorthingFirst(columns, first) ? "yxz" : "xyz";
+  const bool hasCode = columns.size() == first + 4 && columns.back().isWhole && isLabel(columns.back());
+  const bool isSurvey = (hasId || hasName) && (hasDescription || hasCode);
+  const bool isNorthingFirst = areMapCoordinates(columns, first, first + 1);
+  const char* const order = isSurvey && isNorthingFirst ? "yxz" : "xyz";
   for (std::size_t i = 0; i < 3 && first + i < names.size(); ++i)
   {
     names[first + i] = std::string(1, order[i]);
@@ -247,7 +234,7 @@ std::vector<std::string> guessColumnNames(
     const std::string scalar = scalars == 1 ? "intensity" : "column_" + std::to_string(i + 1);
     names[i] = names[i].empty() ? scalar : names[i];
   }
-  return names;
+  return { names, isNorthingFirst || (isSurvey && !areMapCoordinates(columns, first + 1, first)) };
 }
 
 std::string listOf(const std::vector<std::string>& names)
@@ -257,14 +244,16 @@ std::string listOf(const std::vector<std::string>& names)
   return fmt::format("{}", fmt::join(shown, ","));
 }
 
-std::string guessNote(const std::vector<std::string>& names, bool mayBeNorthing)
+std::string guessNote(const std::vector<std::string>& names, bool mayBeSwapped)
 {
   std::vector<std::string> swapped = names;
   const auto x = std::find(swapped.begin(), swapped.end(), "x");
-  x != swapped.end() ? std::iter_swap(x, std::find(swapped.begin(), swapped.end(), "y")) : void();
+  const auto y = std::find(swapped.begin(), swapped.end(), "y");
+  x != swapped.end() && y != swapped.end() ? std::iter_swap(x, y) : void();
   return "no header names the columns, which are taken as " + listOf(names) +
-    (mayBeNorthing ? "; where x is a northing, give --columns " + listOf(swapped)
-                   : "; --columns NAMES says otherwise");
+    (mayBeSwapped
+        ? "; where northing and easting stand the other way round, give --columns " + listOf(swapped)
+        : "; --columns NAMES says otherwise");
 }
 
 } // namespace pointhaptics::io

@@ -6,8 +6,6 @@
 
 #include "Core/Base/FieldNames.h"
 
-#include "vtkIdList.h"
-#include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 #include "vtkPoints.h"
@@ -76,27 +74,6 @@ ArrayRole roleOf(vtkDataArray* array, vtkPointData* data)
   return ArrayRole::Other;
 }
 
-/// @p wanted, or with a number behind it where it is @p used, in at most @p longest bytes.
-std::string unusedName(std::set<std::string>& used, const std::string& wanted, std::size_t longest)
-{
-  const auto cut = [&](std::size_t size)
-  {
-    std::size_t end = std::min(size, wanted.size());
-    while (end < wanted.size() && end > 0 && (static_cast<unsigned char>(wanted[end]) & 0xc0) == 0x80)
-    {
-      --end; // within a character of UTF-8
-    }
-    return wanted.substr(0, end);
-  };
-  std::string name = cut(longest);
-  for (int number = 2; !used.insert(name).second; ++number)
-  {
-    const std::string suffix = "_" + std::to_string(number);
-    name = cut(longest == std::string::npos ? longest : longest - suffix.size()) + suffix;
-  }
-  return name;
-}
-
 /// Only one array may be the colours, and one the normals: the first found; the active one goes first.
 void keepFirstOfRole(std::vector<OutputArray>& arrays, ArrayRole role, vtkDataArray* active)
 {
@@ -162,7 +139,7 @@ std::string OutputArray::componentName(int component) const
   return components() == 1 ? name : name + "_" + std::to_string(component);
 }
 
-std::vector<OutputArray> outputArrays(vtkPointSet* cloud, WriterNotes& notes)
+std::vector<OutputArray> outputArrays(vtkPointSet* cloud, std::vector<std::string>& notes)
 {
   std::vector<OutputArray> arrays;
   arrays.push_back({ ArrayRole::Points, "Points", inPlainMemory(cloud->GetPoints()->GetData()), "Points" });
@@ -173,7 +150,7 @@ std::vector<OutputArray> outputArrays(vtkPointSet* cloud, WriterNotes& notes)
     if (!array || array->GetNumberOfComponents() < 1)
     {
       const char* name = data->GetAbstractArray(i)->GetName();
-      notes.add("array " + inQuotes(name ? name : "") + " holds no numbers and is left out");
+      notes.push_back("array " + inQuotes(name ? name : "") + " holds no numbers and is left out");
       continue;
     }
     const std::string name = utf8Name(array->GetName() ? array->GetName() : "");
@@ -200,7 +177,7 @@ std::vector<Column> columnsByComponent(const OutputArray& array)
 
 void chooseNames(std::vector<OutputArray>& arrays,
   const std::function<std::vector<Column>(const OutputArray&)>& columnsOf, const NameLimits& limits,
-  WriterNotes& notes)
+  std::vector<std::string>& notes)
 {
   constexpr std::size_t kLongestNumber = 4; // of a component, with its '_'
   constexpr int kMostRounds = 16;
@@ -229,12 +206,12 @@ void chooseNames(std::vector<OutputArray>& arrays,
     {
       limits.comments && !arrays[i].given.empty()
         ? void(limits.comments->names.emplace_back(names[i], arrays[i].given))
-        : notes.add("array " + inQuotes(arrays[i].given) + " is called " + names[i]);
+        : notes.push_back("array " + inQuotes(arrays[i].given) + " is called " + names[i]);
     }
   }
 }
 
-std::vector<OutputArray> withoutLongIntegers(std::vector<OutputArray> arrays, WriterNotes& notes)
+std::vector<OutputArray> withoutLongIntegers(std::vector<OutputArray> arrays, std::vector<std::string>& notes)
 {
   for (OutputArray& each : arrays)
   {
@@ -260,7 +237,7 @@ std::vector<OutputArray> withoutLongIntegers(std::vector<OutputArray> arrays, Wr
       });
     if (changed > 0)
     {
-      notes.add(std::to_string(changed) + " integers of array " + each.name +
+      notes.push_back(std::to_string(changed) + " integers of array " + each.name +
         " are beyond 2^53 and rounded to doubles; write .vtp or .pcd to keep every bit");
     }
     each.array = copy;
@@ -286,27 +263,6 @@ std::vector<vtkIdType> rowsNotFinite(const OutputArray& points)
       }
     });
   return rows;
-}
-
-std::vector<OutputArray> withoutRows(std::vector<OutputArray> arrays, const std::vector<vtkIdType>& left)
-{
-  const vtkIdType all = arrays[0].array->GetNumberOfTuples();
-  vtkNew<vtkIdList> kept;
-  kept->Allocate(all - static_cast<vtkIdType>(left.size()));
-  auto next = left.begin();
-  for (vtkIdType row = 0; row < all; ++row)
-  {
-    next != left.end() && *next == row ? void(++next) : void(kept->InsertNextId(row));
-  }
-  for (OutputArray& each : arrays)
-  {
-    const auto picked = vtkSmartPointer<vtkDataArray>::Take(each.array->NewInstance());
-    picked->SetNumberOfComponents(each.components());
-    picked->SetNumberOfTuples(kept->GetNumberOfIds());
-    each.array->GetTuples(kept, picked);
-    each.array = picked;
-  }
-  return arrays;
 }
 
 } // namespace pointhaptics::io

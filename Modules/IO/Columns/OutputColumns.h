@@ -49,17 +49,10 @@ struct OutputArray
   std::string componentName(int component) const;
 };
 
-/// Parts of a cloud that a format could not hold: one sentence each, without end mark.
-struct WriterNotes
-{
-  std::vector<std::string> all;
-
-  void add(const std::string& note) { all.push_back(note); }
-};
-
 /// The points first, then every array of numbers in the point data, each under its own name; arrays of
-/// strings are left out. @throws FileProblem when an array is shorter than the cloud.
-std::vector<OutputArray> outputArrays(vtkPointSet* cloud, WriterNotes& notes);
+/// strings are left out. @p notes gets what a format cannot hold: one sentence each, without end mark.
+/// @throws FileProblem when an array is shorter than the cloud.
+std::vector<OutputArray> outputArrays(vtkPointSet* cloud, std::vector<std::string>& notes);
 
 /// What the names in a file may be.
 struct NameLimits
@@ -74,18 +67,16 @@ struct NameLimits
 /// the file sees them.
 void chooseNames(std::vector<OutputArray>& arrays,
   const std::function<std::vector<Column>(const OutputArray&)>& columnsOf, const NameLimits& limits,
-  WriterNotes& notes);
+  std::vector<std::string>& notes);
 
 /// A column for each component of @p array.
 std::vector<Column> columnsByComponent(const OutputArray& array);
 
 /// Converts arrays of 64 bit integers to doubles, for formats without such integers.
-std::vector<OutputArray> withoutLongIntegers(std::vector<OutputArray> arrays, WriterNotes& notes);
+std::vector<OutputArray> withoutLongIntegers(
+  std::vector<OutputArray> arrays, std::vector<std::string>& notes);
 
 /// The rows of @p points with a coordinate that is NaN or infinite, in rising order.
 std::vector<vtkIdType> rowsNotFinite(const OutputArray& points);
-
-/// @p left: rows in rising order.
-std::vector<OutputArray> withoutRows(std::vector<OutputArray> arrays, const std::vector<vtkIdType>& left);
 
 } // namespace pointhaptics::io

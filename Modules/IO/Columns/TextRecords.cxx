@@ -85,7 +85,6 @@ void TextRecords::expectEnd()
     return;
   }
   countedLine_ = lines_.lineNumber();
-  ++countedLines_;
   std::size_t extra = 0;
   for (std::string_view copy = rest_; !takeWord(copy).empty();)
   {

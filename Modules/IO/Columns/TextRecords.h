@@ -60,8 +60,6 @@ public:
   void store(vtkIdType row);
   /// Stores @p rows records, of which the file promises @p all; where it ends before, task.endAt() decides.
   void storeAll(ReadTask& task, std::uint64_t rows, std::uint64_t all);
-  /// How often the rest of a line was counted: once for each line of several records.
-  std::size_t countedLines() const { return countedLines_; }
 
 private:
   void expectEnd();
@@ -78,8 +76,7 @@ private:
   std::size_t filledLine_ = 0;  ///< The last one that has numbers.
   std::size_t line_ = 0;        ///< In which the record begins.
   std::size_t countedLine_ = 0; ///< The last one whose rest is known to be whole records.
-  std::size_t countedLines_ = 0;
-  bool goesOn_ = false; ///< Behind the line in which it begins.
+  bool goesOn_ = false;         ///< Behind the line in which it begins.
 };
 
 } // namespace pointhaptics::io

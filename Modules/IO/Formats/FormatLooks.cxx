@@ -5,8 +5,11 @@
 #include "IO/Text/TextCells.h"
 #include "IO/Text/TextTable.h"
 
+#include "vtk_utf8.h"
+
 #include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <string>
 
 namespace pointhaptics::io
@@ -71,22 +74,6 @@ bool hasZeros(std::string_view bytes, std::size_t first)
   return result;
 }
 
-void appendUtf8(std::string& text, std::uint32_t code)
-{
-  if (code < 0x80)
-  {
-    text += static_cast<char>(code);
-    return;
-  }
-  const int more = code < 0x800 ? 1 : code < 0x10000 ? 2 : 3;
-  const int first = more == 1 ? 0xc0 : more == 2 ? 0xe0 : 0xf0;
-  text += static_cast<char>(first | static_cast<int>(code >> (6 * more)));
-  for (int i = more - 1; i >= 0; --i)
-  {
-    text += static_cast<char>(0x80 | (code >> (6 * i) & 0x3f));
-  }
-}
-
 } // namespace
 
 bool isText(std::string_view head)
@@ -129,7 +116,7 @@ std::string utf8Of(std::string_view bytes)
       code = isPair ? 0x10000 + ((code - 0xd800) << 10) + (next - 0xdc00) : '?';
       i += isPair ? 2 : 0;
     }
-    appendUtf8(text, code);
+    utf8::append(code, std::back_inserter(text));
   }
   return text;
 }
@@ -139,14 +126,9 @@ std::string utf8Name(const std::string& name)
   std::string latin;
   for (const char c : name)
   {
-    appendUtf8(latin, static_cast<unsigned char>(c));
+    utf8::append(static_cast<unsigned char>(c), std::back_inserter(latin));
   }
-  std::string_view rest = name;
-  while (!rest.empty() && characterBytes(rest) > 0)
-  {
-    rest.remove_prefix(characterBytes(rest));
-  }
-  return rest.empty() ? name : latin;
+  return utf8::is_valid(name.begin(), name.end()) ? name : latin;
 }
 
 FormatStart lookAt(

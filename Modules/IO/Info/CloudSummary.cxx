@@ -7,7 +7,7 @@
 #include "Core/Base/Boxes.h"
 #include "Core/Base/Lattice.h"
 #include "Core/Distributed/FarPoints.h"
-#include "Core/Neighbors/NeighborSweep.h"
+#include "Core/Neighbors/NeighborQuery.h"
 
 #include "vtkDataArray.h"
 #include "vtkFieldData.h"
@@ -31,7 +31,7 @@ constexpr double kSpacingsPerVoxel = 2.0;
 /// Points in one search tree; larger clouds are searched piece by piece.
 constexpr std::int64_t kPiece = 4'000'000;
 /// A place and the nearest other one; a few more where squares of tiny distances underflow.
-constexpr int kNeighbors[] = { 2, 16 };
+constexpr int kNeighbors = 16;
 /// Part of the workspace's edge the suggested scale fills.
 constexpr double kFilledPart = 0.9;
 /// Longest side of a cloud that needs no hint, in edges of the workspace.
@@ -41,12 +41,10 @@ constexpr double kLargest = 5.0;
 struct Unit
 {
   const char* name;
-  double metres;
   double fromSize; ///< The longest side from which a cloud may well be in this unit.
   double toSize;
 };
-constexpr Unit kUnits[] = { { "cm", 1e-2, 2.0, 20.0 }, { "mm", 1e-3, 20.0, 500.0 },
-  { "um", 1e-6, 2e4, 5e5 } };
+constexpr Unit kUnits[] = { { "cm", 2.0, 20.0 }, { "mm", 20.0, 500.0 }, { "um", 2e4, 5e5 } };
 
 std::vector<Vec3> finitePoints(vtkPolyData* cloud)
 {
@@ -94,28 +92,6 @@ std::array<double, 5> percentilesOf(std::vector<double> distances)
   return result;
 }
 
-/// The @p count nearest about @p center, in any order. Those within @p reach of it are looked at alone, where
-/// they are enough: @p reach becomes a little more than was needed, for the next center.
-void findAbout(const NeighborQuery& query, const Vec3& center, std::size_t count, double& reach,
-  std::vector<Neighbor>& about)
-{
-  constexpr double kSpare = 1.2;
-  about.clear();
-  query.visitBall(center, reach,
-    [&](const Vec3&, double squaredDistance, std::int64_t index) {
-      about.push_back({ squaredDistance, index });
-    });
-  if (about.size() < count)
-  {
-    about.resize(count);
-    about.resize(std::size_t(query.nearest(center, int(count), about.data())));
-  }
-  std::nth_element(
-    about.begin(), about.begin() + std::ptrdiff_t(std::min(count, about.size())) - 1, about.end());
-  about.resize(std::min(count, about.size()));
-  reach = kSpare * std::sqrt(about.back().squaredDistance);
-}
-
 /// The median of the @p distances of the @p samples about some of them. Of points at random the
 /// distance to the nearest one varies 8 : 1 by chance; the median varies where the density does.
 /// @param query of the samples.
@@ -126,15 +102,14 @@ std::vector<double> smoothed(
   constexpr std::size_t kPlaces = 300; // each sample is about four of them
   constexpr std::size_t kPart = 50;    // no more than this part of the samples are about one
   const std::size_t count = std::clamp<std::size_t>(samples.size() / kPart, 1, kMost);
-  std::vector<Neighbor> about;
-  double reach = 0.0;
+  std::vector<Neighbor> about(count);
   std::vector<double> medians;
   std::vector<double> values(count);
   for (std::size_t i = 0; i < samples.size(); i += 1 + samples.size() / kPlaces)
   {
-    findAbout(query, samples[i], count, reach, about);
-    const auto middle = values.begin() + std::ptrdiff_t(about.size() / 2);
-    const auto end = std::transform(about.begin(), about.end(), values.begin(),
+    const auto found = std::size_t(query.nearest(samples[i], int(count), about.data()));
+    const auto middle = values.begin() + std::ptrdiff_t(found / 2);
+    const auto end = std::transform(about.begin(), about.begin() + std::ptrdiff_t(found), values.begin(),
       [&](const Neighbor& neighbor) { return distances[std::size_t(neighbor.index)]; });
     std::nth_element(values.begin(), middle, end);
     medians.push_back(*middle);
@@ -166,35 +141,18 @@ double variationOf(std::vector<double> spacings)
 }
 
 /// Lowers each of @p nearest to the distance of its sample of @p places from the nearest other one in @p
-/// query: of all places at once where all are samples.
+/// query.
 void takeNearest(const NeighborQuery& query, const std::vector<Vec3>& places, std::vector<double>& nearest)
 {
   const std::size_t samples = nearest.size();
-  std::vector<double> squares(samples, 0.0); // 0: not known
-  if (samples == places.size())
-  {
-    NeighborSweep sweep(query, kNeighbors[0]);
-    sweep.run(0, NeighborSweep::leaves(query),
-      [&](const NeighborList& list)
-      {
-        const double* end = list.squaredDistances + list.count;
-        const double* other =
-          std::find_if(list.squaredDistances, end, [](double square) { return square > 0.0; });
-        squares[std::size_t(query.index(list.slot))] = other != end ? *other : 0.0;
-      });
-  }
-  Neighbor neighbors[kNeighbors[1]];
+  Neighbor neighbors[kNeighbors];
   for (std::size_t i = 0; i < samples; ++i)
   {
-    for (std::size_t step = 0; step < std::size(kNeighbors) && squares[i] == 0.0; ++step)
-    {
-      const Neighbor* end =
-        neighbors + query.nearest(places[sampled(i, samples, places.size())], kNeighbors[step], neighbors);
-      const Neighbor* other = std::find_if<const Neighbor*>(
-        neighbors, end, [](const Neighbor& each) { return each.squaredDistance > 0.0; });
-      squares[i] = other != end ? other->squaredDistance : 0.0;
-    }
-    nearest[i] = squares[i] > 0.0 ? std::min(nearest[i], std::sqrt(squares[i])) : nearest[i];
+    const Neighbor* end =
+      neighbors + query.nearest(places[sampled(i, samples, places.size())], kNeighbors, neighbors);
+    const Neighbor* other = std::find_if<const Neighbor*>(
+      neighbors, end, [](const Neighbor& each) { return each.squaredDistance > 0.0; });
+    nearest[i] = other != end ? std::min(nearest[i], std::sqrt(other->squaredDistance)) : nearest[i];
   }
 }
 
@@ -385,8 +343,9 @@ CloudSummary summarize(vtkPolyData* cloud, const std::string& format, bool stati
   summary.suggestedVoxel =
     std::max(kSpacingsPerVoxel * summary.spacing[2], summary.isFloat ? floatStep(summary.bounds) : 0.0);
   summary.coordinateSystem = io::fieldText(cloud->GetFieldData(), "CoordinateSystem");
-  summary.unit = io::fieldText(cloud->GetFieldData(), "LengthUnit");
-  summary.unitIsGuess = summary.unit.empty();
+  const std::string said = io::fieldText(cloud->GetFieldData(), "LengthUnit");
+  summary.unit = lengthUnitCalled(said).empty() ? said : lengthUnitCalled(said);
+  summary.unitIsGuess = said.empty();
   summary.farPoints = far.count > 0 ? far.note() : "";
   const LengthUnit unit = lengthUnitOf(cloud, far.others);
   if (summary.unitIsGuess && !summary.bounds.empty())

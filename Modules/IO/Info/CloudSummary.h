@@ -56,7 +56,8 @@ struct CloudSummary
   double suggestedVoxel =
     0.0; ///< Edge of a voxel that holds a few points of a surface at the median spacing.
   std::string coordinateSystem; ///< As the file says it.
-  std::string unit;             ///< "m"; what the file says, or a guess.
+  std::string unit;             ///< As --unit takes it, or "deg": of the file, or a guess; an unknown one as
+                                ///< the file says it.
   bool unitIsGuess = true;
   bool unitIsTold = true; ///< False: nothing tells the unit, and metres are taken.
   std::vector<ArraySummary> arrays;

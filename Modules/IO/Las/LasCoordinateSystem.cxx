@@ -30,7 +30,6 @@ constexpr int kUserDefined = 32767;
 
 constexpr const char* kDegree = "degree";
 constexpr std::size_t kMostText = 65535; ///< 16 bits hold the length of a record
-constexpr const char* kProjection = "LASF_Projection";
 
 /// @return nothing for code 0, which some units have for none.
 const char* nameOfUnit(int code)
@@ -56,10 +55,10 @@ std::string lastUnit(const std::string& text)
 }
 
 /// The record of GeoTIFF keys. @param code of the system, 0 where only the unit is known; @param unit 0 where
-/// it is not.
-std::string keysRecord(int code, int unit)
+/// it is not; @param isGeographic whether coordinates are degrees, on an unknown datum where there is no
+/// code.
+std::string keysRecord(int code, int unit, bool isGeographic)
 {
-  const bool isGeographic = code >= 4000 && code < 5000;
   std::vector<std::pair<int, int>> keys = { { kModelType, isGeographic ? 2 : 1 },
     { isGeographic ? kGeographicSystem : kProjectedSystem, code > 0 ? code : kUserDefined } };
   if (unit > 0 && !isGeographic)
@@ -76,7 +75,7 @@ std::string keysRecord(int code, int unit)
   {
     putLittle(content, 2 * i, static_cast<std::uint16_t>(numbers[i]));
   }
-  return lasRecordHeader(kProjection, kGeoKeys, content.size()) + content;
+  return lasRecordHeader(kLasProjectionUser, kGeoKeys, content.size()) + content;
 }
 
 } // namespace
@@ -165,26 +164,28 @@ bool lasSaysUnit(vtkFieldData* fieldData)
 {
   const std::string system = fieldText(fieldData, "CoordinateSystem");
   const bool isText = !system.empty() && system.rfind("EPSG:", 0) != 0; // which says its own
-  return isText || (!system.empty() && fieldText(fieldData, "LengthUnit") == kDegree) ||
-    codeOfUnit(fieldText(fieldData, "LengthUnit")) > 0;
+  const std::string unit = fieldText(fieldData, "LengthUnit");
+  return isText || lengthUnitCalled(unit) == "deg" || codeOfUnit(unit) > 0;
 }
 
 std::string lasCoordinateSystemRecord(vtkFieldData* fieldData, std::uint16_t& encoding)
 {
   const std::string system = fieldText(fieldData, "CoordinateSystem");
-  const int unit = codeOfUnit(fieldText(fieldData, "LengthUnit"));
+  const std::string unitName = fieldText(fieldData, "LengthUnit");
+  const int unit = codeOfUnit(unitName);
+  const bool areDegrees = lengthUnitCalled(unitName) == "deg";
   unsigned long long code = 0;
   if (system.rfind("EPSG:", 0) == 0 && parseCount(std::string_view(system).substr(5), code) &&
     code < kUserDefined)
   {
-    return keysRecord(int(code), unit);
+    return keysRecord(int(code), unit, code >= 4000 && code < 5000);
   }
   if (!system.empty() && system.size() < kMostText)
   {
     encoding = static_cast<std::uint16_t>(encoding | kLasWellKnownTextBit);
-    return lasRecordHeader(kProjection, kWellKnownText, system.size() + 1) + system + '\0';
+    return lasRecordHeader(kLasProjectionUser, kWellKnownText, system.size() + 1) + system + '\0';
   }
-  return unit > 0 ? keysRecord(0, unit) : std::string();
+  return unit > 0 || areDegrees ? keysRecord(0, unit, areDegrees) : std::string();
 }
 
 } // namespace pointhaptics::io

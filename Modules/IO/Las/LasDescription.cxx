@@ -56,7 +56,7 @@ std::uint16_t keptEncoding(const LasOrigin& origin, vtkFieldData* fieldData)
 } // namespace
 
 LasDescription::LasDescription(
-  const LasOrigin& origin, vtkFieldData* fieldData, const LasPoints& points, WriterNotes& notes)
+  const LasOrigin& origin, vtkFieldData* fieldData, const LasPoints& points, std::vector<std::string>& notes)
   : encoding(keptEncoding(origin, fieldData))
 {
   const bool keepsSystem = keepsCoordinateSystem(origin, fieldData);
@@ -72,7 +72,7 @@ LasDescription::LasDescription(
   bool describes = !points.descriptors.empty();
   const auto describe = [&](std::string_view text)
   {
-    add(describes ? lasRecordHeader("LASF_Spec", kLasExtraBytesRecord, points.descriptors.size(), text) +
+    add(describes ? lasRecordHeader(kLasSpecUser, kLasExtraBytesRecord, points.descriptors.size(), text) +
           points.descriptors
                   : std::string());
     describes = false;
@@ -94,7 +94,7 @@ LasDescription::LasDescription(
     points.isExtended || origin.minorVersion() == 4 || farCount > 0 || (encoding & kLasWellKnownTextBit) != 0;
 }
 
-void LasDescription::keep(const LasRecord& record, bool isPacked, WriterNotes& notes)
+void LasDescription::keep(const LasRecord& record, bool isPacked, std::vector<std::string>& notes)
 {
   if (!record.isFar)
   {
@@ -107,13 +107,12 @@ void LasDescription::keep(const LasRecord& record, bool isPacked, WriterNotes& n
   }
   else if (record.content.size() <= kMostContent)
   {
-    add(lasRecordHeader(
-          std::string(record.whole.substr(2, 16)), record.id, record.content.size(), descriptionOf(record)) +
+    add(lasRecordHeader(record.whole.substr(2, 16), record.id, record.content.size(), descriptionOf(record)) +
       std::string(record.content));
   }
   else
   {
-    notes.add(fmt::format("the record {} of {}, of {} bytes, is left out; .las keeps it", record.id,
+    notes.push_back(fmt::format("the record {} of {}, of {} bytes, is left out; .las keeps it", record.id,
       inQuotes(record.user), record.content.size()));
   }
 }

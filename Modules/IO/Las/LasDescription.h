@@ -32,8 +32,8 @@ struct LasDescription
   std::uint16_t encoding = 0; ///< The global one.
   bool isOf14 = false;
 
-  LasDescription(
-    const LasOrigin& origin, vtkFieldData* fieldData, const LasPoints& points, WriterNotes& notes);
+  LasDescription(const LasOrigin& origin, vtkFieldData* fieldData, const LasPoints& points,
+    std::vector<std::string>& notes);
 
 private:
   void add(const std::string& record)
@@ -41,7 +41,7 @@ private:
     bytes += record;
     count += record.empty() ? 0 : 1;
   }
-  void keep(const LasRecord& record, bool isPacked, WriterNotes& notes);
+  void keep(const LasRecord& record, bool isPacked, std::vector<std::string>& notes);
 };
 
 /// Fills @p stored with the values of @p array as the file had them. @return whether each comes back so: of

@@ -294,7 +294,7 @@ std::string bytesOf(vtkFieldData* fieldData, const char* name)
                : std::string();
 }
 
-/// Runs @p work on packed points; a fault of these is one that --salvage may pass.
+/// Runs @p work on packed points; a fault of these is one that salvaging may pass.
 template <typename Work>
 void withPacked(const ReadTask& task, Work&& work)
 {
@@ -304,9 +304,7 @@ void withPacked(const ReadTask& task, Work&& work)
   }
   catch (const FileProblem& problem)
   {
-    throw task.salvage
-      ? problem
-      : FileProblem(problem.code, std::string(problem.what()) + ", or read what is there by --salvage");
+    throw task.salvage ? problem : FileProblem(problem.code, std::string(problem.what()) + kSalvageCure);
   }
 }
 

@@ -1,6 +1,7 @@
 #include "IO/Las/LasGrid.h"
 
 #include "Bytes/Checks.h"
+#include "IO/Info/LengthUnit.h"
 
 #include <algorithm>
 #include <cmath>
@@ -180,12 +181,8 @@ bool takeDecimalSteps(const Axis& axis, LasGrid& grid)
 
 double LasGrid::usualStep(const std::string& unit, int axis)
 {
-  const auto begins = [&unit](const char* word) { return unit.rfind(word, 0) == 0; };
-  const bool isDegrees = begins("deg") && axis < 2;
-  return begins("mm") || begins("milli") ? 0.1
-    : begins("cm") || begins("centi")    ? 0.01
-    : isDegrees                          ? 1e-7
-                                         : 0.0001;
+  const std::string known = lengthUnitCalled(unit);
+  return known == "mm" ? 0.1 : known == "cm" ? 0.01 : known == "deg" && axis < 2 ? 1e-7 : 0.0001;
 }
 
 LasGrid LasGrid::fit(ConstColumnView column, vtkIdType count, const WantedGrid& wanted)

@@ -231,7 +231,7 @@ int lasTypeCode(int type)
   return static_cast<int>(found - std::begin(kExtraTypes)) + 1;
 }
 
-std::string lasRecordHeader(const std::string& user, int id, std::size_t size, std::string_view description)
+std::string lasRecordHeader(std::string_view user, int id, std::size_t size, std::string_view description)
 {
   std::string header(kLasVlrHeader, '\0');
   header.replace(2, user.size(), user);

@@ -228,7 +228,7 @@ int lasTypeCode(int type);
 
 /// The header of a variable length record of @p size bytes. @p description: at most 32 bytes.
 std::string lasRecordHeader(
-  const std::string& user, int id, std::size_t size, std::string_view description = {});
+  std::string_view user, int id, std::size_t size, std::string_view description = {});
 
 /// Writes @p value little-endian at @p offset. @pre it lies inside @p bytes.
 template <typename T>

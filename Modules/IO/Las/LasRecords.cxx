@@ -71,11 +71,6 @@ LasRecords::Columns::Columns(const LasHeader& header, bool onlyPositions)
     {
       all.push_back({ field.name, field.type, field.components });
     }
-    if (i == kLasColor && header.fields().rgb != 0)
-    {
-      color = all.size();
-      all.push_back({ "RGB", VTK_TYPE_UINT8, 3 });
-    }
   }
   firstExtra = all.size();
   for (const LasExtraField& field : header.extraFields)
@@ -96,6 +91,8 @@ LasRecords::LasRecords(const LasHeader& header, bool onlyPositions)
     const bool isThere = kLasFields[i].isRare && kLasFields[i].placeIn(header.pointFormat).offset != 0;
     rare_[i].array = isThere ? makeZeros(kLasFields[i].name, rows_) : nullptr;
   }
+  // Files that (against the standard) store 0..255 have bytes there.
+  header.fields().rgb != 0 && !onlyPositions ? columns_.showColors(names_.fields[kLasColor]) : void();
 }
 
 /// target[i] = change(number at offset in record i).
@@ -227,47 +224,17 @@ void LasRecords::fill(const LasBlock& block)
   fillExtra(block);
 }
 
-/// Files that (against the standard) store 0..255 have none.
-bool LasRecords::hasWideColors() const
-{
-  const auto* from = hasColors()
-    ? reinterpret_cast<const std::uint16_t*>(columns_.target(names_.fields[kLasColor]).first)
-    : nullptr;
-  return from && std::any_of(from, from + 3 * rows_, [](std::uint16_t v) { return v > 255; });
-}
-
 void LasRecords::agree(SharedReading& shared)
 {
-  struct Found
-  {
-    bool rare[kNumberOfLasFields];
-    bool wideColors;
-  };
-  Found own{};
+  std::array<bool, kNumberOfLasFields> own{};
   std::transform(
-    rare_.begin(), rare_.end(), own.rare, [](const RareBits& bits) { return bits.isSet.load(); });
-  own.wideColors = hasWideColors();
-  for (const Found& found : shared.gatherValues(own))
+    rare_.begin(), rare_.end(), own.begin(), [](const RareBits& bits) { return bits.isSet.load(); });
+  for (const auto& found : shared.gatherValues(own))
   {
-    othersHaveWideColors_ = othersHaveWideColors_ || found.wideColors;
     for (std::size_t i = 0; i < kNumberOfLasFields; ++i)
     {
-      rare_[i].isSet = rare_[i].isSet || found.rare[i];
+      rare_[i].isSet = rare_[i].isSet || found[i];
     }
-  }
-}
-
-/// 8-bit colours: the high byte, or the value itself where no value of the file needs more.
-void LasRecords::fillColors()
-{
-  if (hasColors())
-  {
-    const auto* from =
-      reinterpret_cast<const std::uint16_t*>(columns_.target(names_.fields[kLasColor]).first);
-    Byte* to = reinterpret_cast<Byte*>(columns_.target(names_.color).first);
-    const int shift = othersHaveWideColors_ || hasWideColors() ? 8 : 0;
-    std::transform(
-      from, from + 3 * rows_, to, [=](std::uint16_t v) { return static_cast<Byte>(v >> shift); });
   }
 }
 
@@ -275,7 +242,6 @@ void LasRecords::moveTo(vtkPolyData* cloud, const ReadTask& task)
 {
   columns_.cut(task.pointsThere);
   rows_ = static_cast<vtkIdType>(std::min(task.pointsThere, static_cast<std::uint64_t>(rows_)));
-  fillColors();
   columns_.moveTo(cloud, task);
   for (const RareBits& bits : rare_)
   {

@@ -47,8 +47,7 @@ public:
   LasRecords(const LasHeader& header, bool onlyPositions);
   /// Blocks of different rows may be filled by several threads at once.
   void fill(const LasBlock& block);
-  /// Collective, when all blocks are filled, where ranks read a file together: the same arrays on each, and
-  /// colours of the same bits.
+  /// Collective, when all blocks are filled, where ranks read a file together: the same arrays on each.
   void agree(SharedReading& shared);
   /// Gives the arrays to @p cloud when all blocks are filled that are there.
   void moveTo(vtkPolyData* cloud, const ReadTask& task);
@@ -59,7 +58,6 @@ private:
   {
     std::vector<Column> all{ { "x", VTK_DOUBLE }, { "y", VTK_DOUBLE }, { "z", VTK_DOUBLE } };
     std::array<std::size_t, kNumberOfLasFields> fields{};
-    std::size_t color = 0; ///< of 8 bits
     std::size_t firstExtra = 0;
 
     Columns(const LasHeader& header, bool onlyPositions);
@@ -73,14 +71,10 @@ private:
   void fillPosition(const LasBlock& block) const;
   void fillField(const LasBlock& block, std::size_t field);
   void fillExtra(const LasBlock& block) const;
-  bool hasColors() const { return header_.fields().rgb != 0 && !onlyPositions_; }
-  bool hasWideColors() const;
-  void fillColors();
 
   const LasHeader& header_;
   const bool onlyPositions_;
   const Columns names_;
-  bool othersHaveWideColors_ = false;
   vtkIdType rows_;
   CloudColumns columns_;
   std::array<RareBits, kNumberOfLasFields> rare_; ///< of those fields that are

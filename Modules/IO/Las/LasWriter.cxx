@@ -10,6 +10,10 @@
 
 #include "vtkDataArray.h"
 #include "vtkFieldData.h"
+#include "vtkIdList.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
 
 #include <fmt/format.h>
 
@@ -68,7 +72,6 @@ private:
   void planExtraFields();
   void addStored(const OutputArray& stored, const LasExtraField& field);
   void addDescriptor(const OutputArray& array, int component, const std::string& origin);
-  std::size_t addFields(const OutputArray& array, std::size_t offset, int type);
   std::vector<Byte>& bytesAt(std::size_t offset);
   void putCounts(std::string& bytes) const;
   std::string header(std::size_t pointsOffset, const LasDescription& description) const;
@@ -80,7 +83,7 @@ private:
   vtkFieldData* fieldData_;
   const LasOrigin origin_; ///< The file that the cloud came from.
   WriteTask& task_;
-  WriterNotes& notes_;
+  std::vector<std::string>& notes_;
   const vtkIdType rows_;
   const bool isPacked_;
 
@@ -173,7 +176,7 @@ void LasWriter::nameArrays()
   {
     if (!taken_[i] && isPointField(arrays_[i].name)) // each LAS point has that field, too
     {
-      notes_.add("array " + arrays_[i].name + " has values that its LAS field cannot hold");
+      notes_.push_back("array " + arrays_[i].name + " has values that its LAS field cannot hold");
       arrays_[i].name += "Extra";
     }
   }
@@ -218,17 +221,6 @@ double LasWriter::fieldValue(const char* name, int component, double otherwise) 
   return array && array->GetNumberOfComponents() > component && array->GetNumberOfTuples() == 1
     ? array->GetComponent(0, component)
     : otherwise;
-}
-
-/// All components of @p array, one behind the other. @return the byte behind them.
-std::size_t LasWriter::addFields(const OutputArray& array, std::size_t offset, int type)
-{
-  for (int component = 0; component < array.components(); ++component)
-  {
-    fields_.push_back({ array.column(component), offset, type });
-    offset += static_cast<std::size_t>(sizeOfType(type));
-  }
-  return offset;
 }
 
 /// An array like @p array for other values.
@@ -278,9 +270,10 @@ void LasWriter::planPositions()
   }
   if (worst > 0.0)
   {
-    notes_.add(fmt::format("coordinates are rounded to steps of {}, by at most {:.3g}; .vtp and .ply keep "
-                           "every bit, --las-scale sets other steps",
-      shortestDecimal(step), worst));
+    notes_.push_back(
+      fmt::format("coordinates are rounded to steps of {}, by at most {:.3g}; .vtp and .ply keep "
+                  "every bit, --las-scale sets other steps",
+        shortestDecimal(step), worst));
   }
 }
 
@@ -303,7 +296,7 @@ void LasWriter::planStandardFields()
       continue;
     }
     const bool isAngle = extended_ && kLasFields[i].type == VTK_FLOAT;
-    addFields(isAngle ? scanSteps(*standard_[i]) : *standard_[i], place.offset, place.type);
+    addRecordFields(fields_, place.offset, isAngle ? scanSteps(*standard_[i]) : *standard_[i], place.type);
   }
 }
 
@@ -322,13 +315,13 @@ const OutputArray& LasWriter::scanSteps(const OutputArray& array)
       rounded = rounded || static_cast<float>(kLasScanAngleStep * step) != angle;
       return static_cast<std::int16_t>(step);
     });
-  rounded ? notes_.add("scan angles are rounded to steps of 0.006 degrees") : void();
+  rounded ? notes_.push_back("scan angles are rounded to steps of 0.006 degrees") : void();
   return steps;
 }
 
 void LasWriter::addStored(const OutputArray& stored, const LasExtraField& field)
 {
-  recordSize_ = addFields(converted_.emplace_back(stored), recordSize_, field.type);
+  recordSize_ = addRecordFields(fields_, recordSize_, converted_.emplace_back(stored), field.type);
   descriptors_ += field.descriptor;
 }
 
@@ -488,10 +481,21 @@ void writeRecordsOf(WriteTask& task, bool isPacked)
   task.points = all - static_cast<vtkIdType>(left.size());
   failFormatIf(task.points == 0, "mend the cloud, or write .vtp, .ply or .pcd",
     "all coordinates are NaN or infinite, and LAS stores them as integers");
-  task.notes.add(std::to_string(left.size()) + " of " + std::to_string(all) +
+  task.notes.push_back(std::to_string(left.size()) + " of " + std::to_string(all) +
     " points are NaN or infinite and left out: LAS stores coordinates as integers; write .vtp, .ply or .pcd "
     "to keep them");
-  LasWriter(withoutRows(arrays, left), task, isPacked).write();
+  vtkNew<vtkIdList> kept;
+  auto next = left.begin();
+  for (vtkIdType row = 0; row < all; ++row)
+  {
+    next != left.end() && *next == row ? void(++next) : void(kept->InsertNextId(row));
+  }
+  vtkNew<vtkPolyData> finite;
+  finite->SetPoints(task.cloud->GetPoints());
+  finite->GetPointData()->ShallowCopy(task.cloud->GetPointData());
+  keepPoints(finite, kept);
+  std::vector<std::string> said;
+  LasWriter(outputArrays(finite, said), task, isPacked).write();
 }
 
 } // namespace

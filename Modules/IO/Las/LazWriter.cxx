@@ -30,7 +30,6 @@ void encodeChunks(const std::vector<RecordField>& fields, const LazSchema& schem
   vtkSMPTools::For(begin, end, 1,
     [&](vtkIdType first, vtkIdType last)
     {
-      const ChunkEncoder encoder(schema);
       std::vector<char> block;
       for (; first < last; ++first)
       {
@@ -39,7 +38,7 @@ void encodeChunks(const std::vector<RecordField>& fields, const LazSchema& schem
         block.assign(schema.recordLength * static_cast<std::size_t>(count), '\0');
         packRecords(fields, schema.recordLength, row, count, block.data());
         chunks[static_cast<std::size_t>(first)] =
-          encoder.encode(block.data(), static_cast<std::size_t>(count));
+          encodeChunk(schema, block.data(), static_cast<std::size_t>(count));
       }
     });
 }
@@ -50,7 +49,7 @@ std::string lazDescription(int pointFormat, std::size_t recordLength)
 {
   const LasHeader header = headerOf(pointFormat, recordLength);
   const std::string content = lazRecord(makeLazSchema(header), header);
-  return lasRecordHeader(std::string(kLaszipUser), kLaszipRecord, content.size()) + content;
+  return lasRecordHeader(kLaszipUser, kLaszipRecord, content.size()) + content;
 }
 
 void writeLazRecords(const std::vector<RecordField>& fields, int pointFormat, std::size_t recordLength,

@@ -17,39 +17,13 @@ namespace pointhaptics::io
 namespace
 {
 
-/// Three columns of numbers, row by row, in blocks: nothing moves while they grow, and each block is freed
-/// when it is copied.
+/// Three columns of numbers, row by row.
 struct Triples
 {
-  static constexpr vtkIdType kBlock = 3 * 32768; ///< numbers
-
   std::array<NumberColumn, 3> columns;
-  std::vector<std::vector<double>> blocks;
-  vtkIdType numbers = 0;
+  std::vector<double> numbers;
 
-  vtkIdType rows() const { return numbers / 3; }
-  void add(double value)
-  {
-    numbers++ % kBlock == 0 ? blocks.emplace_back().reserve(std::size_t(kBlock)) : void();
-    blocks.back().push_back(value);
-  }
-  /// Calls @p copy with each block as three columns, its first row and its number of rows.
-  template <typename Copy>
-  void take(Copy&& copy)
-  {
-    vtkIdType row = 0;
-    for (std::vector<double>& block : blocks)
-    {
-      const auto count = static_cast<vtkIdType>(block.size() / 3);
-      for (std::size_t i = 0; i < 3; ++i)
-      {
-        copy(
-          i, ConstColumnView{ reinterpret_cast<const char*>(block.data() + i), 24, VTK_DOUBLE }, row, count);
-      }
-      row += count;
-      std::vector<double>().swap(block);
-    }
-  }
+  vtkIdType rows() const { return static_cast<vtkIdType>(numbers.size() / 3); }
 };
 
 /// Reads the lines of one file.
@@ -100,12 +74,12 @@ void ObjReader::addNumbers(std::string_view line, Triples& triples, std::size_t 
   for (std::size_t i = 0; i < 3; ++i)
   {
     triples.columns[i].add(values[i], shapes[i]);
-    triples.add(values[i]);
+    triples.numbers.push_back(values[i]);
   }
   for (std::size_t i = count - 3; count >= 6 && i < count; ++i)
   {
     colors_.columns[0].add(values[i], shapes[i]);
-    colors_.add(values[i]);
+    colors_.numbers.push_back(values[i]);
   }
 }
 
@@ -177,24 +151,19 @@ void ObjReader::moveTo(vtkPolyData* cloud)
   {
     names.push_back({ "RGB", VTK_TYPE_UINT8, 3 });
     const double scale = colors_.columns[0].most > 1.0 ? 1.0 : 255.0;
-    for (std::vector<double>& block : colors_.blocks)
-    {
-      std::transform(block.begin(), block.end(), block.begin(),
-        [scale](double value)
-        { return std::isfinite(value) ? std::clamp(std::round(scale * value), 0.0, 255.0) : 0.0; });
-    }
+    std::transform(colors_.numbers.begin(), colors_.numbers.end(), colors_.numbers.begin(),
+      [scale](double value)
+      { return std::isfinite(value) ? std::clamp(std::round(scale * value), 0.0, 255.0) : 0.0; });
   }
   CloudColumns columns(names, rows);
   for (std::size_t first = 0; first < names.size(); first += 3)
   {
-    Triples& from = first == 0 ? places_ : first < colors ? normals_ : colors_;
-    from.take(
-      [&](std::size_t i, ConstColumnView source, vtkIdType row, vtkIdType count)
-      {
-        const bool isColor = first == colors;
-        copyStrided(
-          source, columns.target(isColor ? first : first + i, isColor ? int(i) : 0).fromRow(row), count);
-      });
+    const Triples& from = first == 0 ? places_ : first < colors ? normals_ : colors_;
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      const ColumnView to = first == colors ? columns.target(first, int(i)) : columns.target(first + i);
+      copyStrided({ reinterpret_cast<const char*>(from.numbers.data() + i), 24, VTK_DOUBLE }, to, rows);
+    }
   }
   columns.moveTo(cloud, task_);
 }

@@ -10,7 +10,6 @@
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkIntArray.h"
-#include "vtkNew.h"
 #include "vtkPolyData.h"
 
 #include <algorithm>
@@ -26,88 +25,45 @@ namespace pointhaptics::io
 namespace
 {
 
-/// Format: a control byte below 32 stands before that many and one literal bytes; others hold 3 bits of
-/// length (7: one more byte adds to it) and, with the byte after, 13 bits of distance back.
-class LzfStream
+/// Unpacks @p packed to @p to until @p most bytes are there. Format: a control byte below 32 stands before
+/// that many and one literal bytes; others hold 3 bits of length (7: one more byte adds to it) and, with the
+/// byte after, 13 bits of distance back. @return how many packed bytes were used, up to the fault where there
+/// is one.
+std::size_t unpackLzf(std::string_view packed, std::string& to, std::size_t most)
 {
-public:
-  /// @p packed must outlive this object.
-  explicit LzfStream(std::string_view packed)
-    : packed_(packed)
+  std::size_t at = 0;
+  while (at < packed.size() && to.size() < most)
   {
-  }
-  /// The next @p size bytes, which stay until the next call; null when the packed bytes are damaged or end
-  /// before.
-  const char* next(std::size_t size)
-  {
-    const std::size_t kept = std::min(begin_, kFarthest);
-    window_.erase(0, begin_ - kept);
-    begin_ = kept;
-    window_.reserve(begin_ + size + kLongest);
-    while (window_.size() < begin_ + size)
-    {
-      if (!this->unpackOne())
-      {
-        return nullptr;
-      }
-    }
-    begin_ += size;
-    return window_.data() + begin_ - size;
-  }
-  /// True if everything was unpacked and handed out.
-  bool isAtEnd() const { return at_ == packed_.size() && begin_ == window_.size(); }
-  /// How many packed bytes were used, up to the fault where there is one.
-  std::size_t position() const { return at_; }
-
-private:
-  bool unpackOne()
-  {
-    const std::size_t left = packed_.size() - at_;
-    const auto byteAt = [&](std::size_t i) { return static_cast<std::uint8_t>(packed_[at_ + i]); };
-    const std::size_t control = left > 0 ? byteAt(0) : 0;
+    const auto byteAt = [&](std::size_t i) { return static_cast<std::uint8_t>(packed[at + i]); };
+    const std::size_t control = byteAt(0);
     const bool isLiteral = control < 32;
     const bool isLong = control >> 5 == 7;
     const std::size_t used = isLiteral ? control + 2 : isLong ? 3 : 2;
-    if (used > left)
+    if (used > packed.size() - at)
     {
-      return false;
+      return at;
     }
     if (isLiteral)
     {
-      window_.append(packed_, at_ + 1, control + 1);
-      at_ += used;
-      return true;
+      to.append(packed, at + 1, control + 1);
     }
-    const std::size_t length = (control >> 5) + 2 + (isLong ? byteAt(1) : 0);
-    const std::size_t distance = ((control & 31) << 8 | byteAt(used - 1)) + 1;
-    const std::size_t end = window_.size();
-    if (distance > end)
+    else
     {
-      return false;
+      const std::size_t distance = ((control & 31) << 8 | byteAt(used - 1)) + 1;
+      if (distance > to.size())
+      {
+        return at;
+      }
+      // A reference may reach into what it writes: byte by byte.
+      for (std::size_t length = (control >> 5) + 2 + (isLong ? byteAt(1) : 0); length > 0; --length)
+      {
+        to += to[to.size() - distance];
+      }
     }
-    // A reference may reach into what it writes: byte by byte.
-    window_.resize(end + length);
-    char* const to = &window_[end];
-    const char* const from = to - distance;
-    for (std::size_t i = 0; i < length; ++i)
-    {
-      to[i] = from[i];
-    }
-    at_ += used;
-    return true;
+    at += used;
   }
-
-  static constexpr std::size_t kFarthest = 8192; ///< 13 bits of distance
-  static constexpr std::size_t kLongest = 264;   ///< of one control byte
-
-  std::string_view packed_;
-  std::size_t at_ = 0;
-  std::string window_;    ///< what references may reach, then what was not handed out yet
-  std::size_t begin_ = 0; ///< the first byte that was not handed out
-};
-
-/// Bytes of one field that are unpacked at a time: they stay in the cache.
-constexpr std::size_t kBlockBytes = 1 << 18;
+  return at;
+}
 
 std::vector<Column> columnsOf(const PcdHeader& header)
 {
@@ -152,38 +108,25 @@ void fillFromRecords(
 void fillFromCompressed(const ReadTask& task, const PcdHeader& header, const CloudColumns& columns)
 {
   const std::size_t packedAt = header.bodyOffset + 8;
-  LzfStream stream(task.bytes.substr(packedAt, header.compressedSize));
-  const vtkIdType rows = static_cast<vtkIdType>(header.points);
-  std::size_t done = 0;
+  const std::size_t size = static_cast<std::size_t>(header.points * header.compressedRecordSize);
+  std::string unpacked;
+  unpacked.reserve(size);
+  const std::size_t used = unpackLzf(task.bytes.substr(packedAt, header.compressedSize), unpacked, size);
+  failDamagedIf(
+    unpacked.size() < size, packedAt + used, "damaged LZF data after {} of {} bytes", unpacked.size(), size);
+  failFormatIf(used < header.compressedSize || unpacked.size() > size,
+    "the file is damaged or its header is wrong: copy it again", "{}more compressed data than points",
+    atByte(packedAt + used));
   const bool hasPadding = header.compressedRecordSize == header.recordSize;
+  const char* first = unpacked.data();
+  std::vector<StoredColumn> stored;
   for (const PcdField& field : header.fields)
   {
-    if (field.isPadding() && !hasPadding)
-    {
-      continue;
-    }
-    const std::size_t size = static_cast<std::size_t>(sizeOfType(field.type) * field.count);
-    const vtkIdType most = std::max<vtkIdType>(1, static_cast<vtkIdType>(kBlockBytes / size));
-    for (vtkIdType row = 0; row < rows; row += most)
-    {
-      const vtkIdType count = std::min(most, rows - row);
-      const std::size_t bytes = size * static_cast<std::size_t>(count);
-      const char* const block = stream.next(bytes);
-      failDamagedIf(
-        !block, packedAt + stream.position(), "damaged LZF data in field {}", inQuotes(field.name));
-      std::vector<StoredColumn> stored;
-      addStored(field, block, static_cast<std::ptrdiff_t>(size), stored);
-      for (const StoredColumn& each : stored)
-      {
-        copyStrided(each.source, columns.target(each.column, each.component).fromRow(row), count);
-      }
-      done += bytes;
-      task.progress(
-        static_cast<double>(done) / static_cast<double>(header.points * header.compressedRecordSize));
-    }
+    const std::ptrdiff_t stride = std::ptrdiff_t{ sizeOfType(field.type) } * field.count;
+    addStored(field, first, stride, stored);
+    first += field.isPadding() && !hasPadding ? 0 : stride * static_cast<std::ptrdiff_t>(header.points);
   }
-  failFormatIf(!stream.isAtEnd(), "the file is damaged or its header is wrong: copy it again",
-    "{}more compressed data than points", atByte(packedAt + stream.position()));
+  columns.fill(stored, task);
 }
 
 /// A line of numbers for each point. Packed colours are read as the numbers that they are, and unpacked then.

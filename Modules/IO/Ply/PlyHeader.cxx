@@ -69,11 +69,13 @@ PlyProperty parseProperty(std::string_view rest, std::size_t line)
 /// The byte behind the end of the line that goes on at @p at.
 std::size_t bodyAfter(std::string_view bytes, std::size_t at)
 {
-  while (at < bytes.size() && (bytes[at] == ' ' || bytes[at] == '\t' || bytes.substr(at, 3) == "\r\r\n"))
+  const bool hasLineFeeds = bytes.substr(0, at).find('\n') != std::string_view::npos;
+  while (at < bytes.size() &&
+    (bytes[at] == ' ' || bytes[at] == '\t' || (hasLineFeeds && bytes.substr(at, 3) == "\r\r\n")))
   {
     ++at;
   }
-  return std::min(at + (bytes.substr(at, 2) == "\r\n" ? 2 : 1), bytes.size());
+  return std::min(at + (hasLineFeeds && bytes.substr(at, 2) == "\r\n" ? 2 : 1), bytes.size());
 }
 
 void noteUnknown(const std::vector<std::string>& unknown, PlyHeader& header)

@@ -1,14 +1,18 @@
+#include "Bytes/Checks.h"
 #include "Bytes/LittleEndian.h"
 #include "Bytes/NumericType.h"
 #include "IO/Bytes/TextScan.h"
 #include "IO/Columns/CloudColumns.h"
 #include "IO/Columns/ColumnGuess.h"
 #include "IO/Formats/FormatLooks.h"
+#include "IO/Text/TextTable.h"
 #include "ReadTask.h"
 
-#include "Bytes/Checks.h"
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <deque>
+#include <limits>
 
 namespace pointhaptics::io
 {
@@ -25,9 +29,12 @@ constexpr std::uint64_t kMostTurned = 16;
 struct NumpyField
 {
   std::string name;
-  int type = VTK_VOID;
+  int type = VTK_VOID; ///< Of the values; halves are read as floats.
+  std::size_t size = 0;
   bool isSwapped = false;
   std::size_t offset = 0;
+
+  bool isHalf() const { return type == VTK_FLOAT && size == 2; }
 };
 
 struct NumpyHeader
@@ -62,7 +69,9 @@ NumpyField fieldOf(std::string_view type)
   unsigned long long size = 0;
   failFormatIf(
     type.size() < 3 || !parseCount(type.substr(2), size), kCure, "the values are of type {}", inQuotes(type));
-  field.type = type.substr(1) == "b1" ? VTK_TYPE_UINT8 : typeOfKind(type[1], size);
+  const bool isHalf = type.substr(1) == "f2";
+  field.type = type.substr(1) == "b1" ? VTK_TYPE_UINT8 : isHalf ? VTK_FLOAT : typeOfKind(type[1], size);
+  field.size = static_cast<std::size_t>(size);
   failFormatIf(
     field.type == VTK_VOID, kCure, "the values are of type {}, which is not read here", inQuotes(type));
   field.isSwapped = (type[0] == '>') == kIsLittleEndianHost && (type[0] == '>' || type[0] == '<');
@@ -89,7 +98,7 @@ std::vector<NumpyField> fieldsOf(std::string_view descr)
       entry.find('(') != std::string_view::npos, kCure, "the field {} holds arrays", inQuotes(name));
     field.name = name;
     field.offset = offset;
-    offset += static_cast<std::size_t>(sizeOfType(field.type));
+    offset += field.size;
     fields.push_back(field);
     list.remove_prefix(entry.size());
     list.remove_prefix(std::min<std::size_t>(list.size(), 1));
@@ -141,23 +150,64 @@ std::uint64_t rowsOf(
                           "the header has more rows than the " + std::to_string(most) + " that follow");
 }
 
-/// Values of @p sources, for names: all of them for the range, the first ones as a sample.
-std::vector<ColumnEvidence> evidenceOf(
-  const std::vector<ConstColumnView>& sources, vtkIdType rows, bool isSwapped)
+/// Values of the columns, for names: all of them for the range, the first ones as a sample.
+std::vector<ColumnEvidence> evidenceOf(const std::vector<StoredColumn>& stored, vtkIdType rows)
 {
   std::vector<ColumnEvidence> evidence;
   std::vector<double> values(static_cast<std::size_t>(rows));
-  for (const ConstColumnView& source : sources)
+  for (const StoredColumn& each : stored)
   {
-    copyStrided(
-      source, { reinterpret_cast<char*>(values.data()), sizeof(double), VTK_DOUBLE }, rows, isSwapped);
-    const bool isWhole =
-      std::all_of(values.begin(), values.end(), [](double v) { return std::isnan(v) || v == std::floor(v); });
-    ColumnEvidence column = ColumnEvidence::of(values, isWhole);
-    column.sample.resize(std::min(column.sample.size(), kGuessedRows));
+    copyStrided(each.source, { reinterpret_cast<char*>(values.data()), sizeof(double), VTK_DOUBLE }, rows,
+      each.isSwapped);
+    NumberColumn column;
+    for (const double value : values)
+    {
+      column.add(value, { std::isnan(value) || value == std::floor(value), false });
+    }
     evidence.push_back(std::move(column));
   }
   return evidence;
+}
+
+/// The value of a number of 16 bits (IEEE 754 binary16).
+float ofHalf(std::uint16_t bits)
+{
+  const int exponent = bits >> 10 & 31;
+  const float fraction = static_cast<float>(bits & 1023);
+  const float none = fraction > 0.0f ? std::numeric_limits<float>::quiet_NaN() : INFINITY;
+  const float size = exponent == 31 ? none
+    : exponent == 0                 ? std::ldexp(fraction, -24)
+                                    : std::ldexp(1024.0f + fraction, exponent - 25);
+  return bits >> 15 != 0 ? -size : size;
+}
+
+/// Replaces a column of halves by one of floats, which @p floats keeps.
+void widen(StoredColumn& stored, vtkIdType rows, std::deque<std::vector<float>>& floats)
+{
+  std::vector<std::uint16_t> halves(static_cast<std::size_t>(rows));
+  const ConstColumnView source{ stored.source.first, stored.source.stride, VTK_TYPE_UINT16 };
+  copyStrided(source, { reinterpret_cast<char*>(halves.data()), 2, VTK_TYPE_UINT16 }, rows, stored.isSwapped);
+  std::vector<float>& wide = floats.emplace_back(halves.size());
+  std::transform(halves.begin(), halves.end(), wide.begin(), &ofHalf);
+  stored.source = { reinterpret_cast<const char*>(wide.data()), sizeof(float), VTK_FLOAT };
+  stored.isSwapped = false;
+}
+
+/// What the columns are called: as the user says, as the array does, or as their values suggest.
+std::vector<std::string> namesFor(
+  ReadTask& task, std::vector<std::string> names, const std::vector<StoredColumn>& stored, vtkIdType rows)
+{
+  failFormatIf(!task.columns.empty() && task.columns.size() != names.size(),
+    "name each column, or give - for one that is left out",
+    "--columns has {} names, and the array {} columns", task.columns.size(), names.size());
+  if (task.columns.empty() && names[0].empty())
+  {
+    const GuessedColumns guessed = guessColumnNames(evidenceOf(stored, rows), false);
+    const bool isSaid = names.size() > 3 || guessed.mayBeSwapped;
+    isSaid ? task.notes.push_back(guessNote(guessed.names, guessed.mayBeSwapped)) : void();
+    return guessed.names;
+  }
+  return task.columns.empty() ? names : task.columns;
 }
 
 } // namespace
@@ -189,43 +239,40 @@ void readNumpy(ReadTask& task, vtkPolyData* cloud)
   failFormatIf(columns < 3 || columns > kMostColumns || header.fields.empty(), kCure,
     "the array has {} columns", columns);
   const NumpyField& last = header.fields.back();
-  const std::size_t value = static_cast<std::size_t>(sizeOfType(last.type));
+  const std::size_t value = last.size;
   const std::size_t record = hasNames ? last.offset + value : static_cast<std::size_t>(columns) * value;
   const bool isByColumns = header.isByColumns != isTurned && !hasNames;
   const std::uint64_t rows =
     rowsOf(task, shape, (task.bytes.size() - header.bodyOffset) / record, isByColumns);
-  std::vector<Column> planned;
-  std::vector<ConstColumnView> sources;
+  const vtkIdType count = static_cast<vtkIdType>(rows);
+  std::vector<StoredColumn> stored;
+  std::vector<std::string> names;
+  std::deque<std::vector<float>> floats;
   for (std::size_t i = 0; i < columns; ++i)
   {
     const NumpyField& field = hasNames ? header.fields[i] : header.fields[0];
     const std::size_t at =
       hasNames ? field.offset : value * i * (isByColumns ? static_cast<std::size_t>(rows) : 1);
-    planned.push_back({ field.name, field.type });
-    sources.push_back({ task.bytes.data() + header.bodyOffset + at,
-      static_cast<std::ptrdiff_t>(isByColumns ? value : record), field.type });
+    names.push_back(field.name);
+    stored.push_back({ { task.bytes.data() + header.bodyOffset + at,
+                         static_cast<std::ptrdiff_t>(isByColumns ? value : record), field.type },
+      0, 0, field.isSwapped });
+    field.isHalf() ? widen(stored.back(), count, floats) : void();
   }
-  const vtkIdType count = static_cast<vtkIdType>(rows);
-  if (!hasNames)
+  names = namesFor(task, std::move(names), stored, count);
+  std::vector<Column> planned;
+  std::vector<StoredColumn> wanted;
+  for (std::size_t i = 0; i < columns; ++i)
   {
-    const std::vector<std::string> names =
-      guessColumnNames(evidenceOf(sources, count, last.isSwapped), false);
-    for (std::size_t i = 0; i < columns; ++i)
+    if (names[i] != "-") // left out
     {
-      planned[i].name = names[i];
-    }
-    if (columns > 3)
-    {
-      task.notes.push_back(guessNote(names));
+      stored[i].column = planned.size();
+      planned.push_back({ names[i], stored[i].source.type });
+      wanted.push_back(stored[i]);
     }
   }
   CloudColumns target(planned, count);
-  std::vector<StoredColumn> stored;
-  for (std::size_t i = 0; i < columns; ++i)
-  {
-    stored.push_back({ sources[i], i, 0, (hasNames ? header.fields[i] : last).isSwapped });
-  }
-  target.fill(stored, task);
+  target.fill(wanted, task);
   target.moveTo(cloud, task);
 }
 

@@ -27,11 +27,6 @@ constexpr std::size_t kSplat = 32;
 constexpr std::size_t kLooked = 4096; ///< Records.
 constexpr std::size_t kFewest = 8;    ///< Records that a file without the extension must have.
 
-float floatAt(std::string_view bytes, std::size_t offset)
-{
-  return loadLittle<float>(bytes.data() + offset);
-}
-
 /// A length in metres as sensors measure it; bytes of other kinds are tiny, huge or no number.
 bool isLength(float value)
 {
@@ -54,7 +49,7 @@ bool areScans(const FormatStart& start, std::size_t floats)
   float farthest = 0.0f;
   for (std::size_t i = 0; i < std::min(records, kLooked); ++i)
   {
-    const auto at = [&](std::size_t k) { return floatAt(start.bytes, i * record + k * kFloat); };
+    const auto at = [&](std::size_t k) { return numberAt<float>(start.bytes, i * record + k * kFloat); };
     const float ring = floats > 4 ? at(4) : 0.0f;
     if (!isLength(at(0)) || !isLength(at(1)) || !isLength(at(2)) || !(at(3) >= 0.0f && at(3) <= 65535.0f) ||
       !(ring >= 0.0f && ring <= 255.0f && ring == std::floor(ring)))
@@ -151,8 +146,8 @@ bool looksLikeSplat(const FormatStart& start)
     {
       const double part = (static_cast<unsigned char>(start.bytes[i * kSplat + 28 + k]) - 128.0) / 128.0;
       squares += part * part;
-      isRight = isRight && (k == 3 || std::isfinite(floatAt(start.bytes, i * kSplat + k * kFloat))) &&
-        (k == 3 || floatAt(start.bytes, i * kSplat + 12 + k * kFloat) >= 0.0f);
+      isRight = isRight && (k == 3 || std::isfinite(numberAt<float>(start.bytes, i * kSplat + k * kFloat))) &&
+        (k == 3 || numberAt<float>(start.bytes, i * kSplat + 12 + k * kFloat) >= 0.0f);
     }
     if (!isRight || std::abs(squares - 1.0) > 0.1)
     {

@@ -174,29 +174,6 @@ bool parseUnusualCell(std::string_view cell, double& value, NumberShape* shape)
     parseForeign(cell, value, shape);
 }
 
-std::string withoutThousandsMarks(std::string_view cell)
-{
-  const bool isNegative = cell.substr(0, 1) == "-";
-  const std::string_view digits = cell.substr(isNegative ? 1 : 0);
-  const std::size_t first = digits.find_first_of(".,'");
-  const std::size_t last = digits.find_last_of(".,");
-  if (first == std::string_view::npos || last == std::string_view::npos || first == 0 || first > 3 ||
-    last <= first || digits[first] == digits[last])
-  {
-    return {};
-  }
-  std::string plain(digits.substr(0, first));
-  std::size_t at = first;
-  for (; at < last && digits[at] == digits[first] && at + 4 <= last; at += 4)
-  {
-    plain += digits.substr(at + 1, 3);
-  }
-  const std::string decimals(digits.substr(last + 1));
-  const bool areDigits =
-    !decimals.empty() && (plain + decimals).find_first_not_of("0123456789") == std::string::npos;
-  return at == last && areDigits ? (isNegative ? "-" : "") + plain + digits[last] + decimals : std::string();
-}
-
 char separatorOf(std::string_view line)
 {
   char best = ' ';

@@ -31,10 +31,6 @@ inline bool parseCell(std::string_view cell, double& value, NumberShape* shape =
   return parseNumber(cell, value, shape) || parseUnusualCell(cell, value, shape);
 }
 
-/// Removes the marks between thousands: "1234,56" or "1234.56" for "1.234,56", "1,234.56" or "1'234.56".
-/// Empty where @p cell is no such number: "1.234" alone is ambiguous.
-std::string withoutThousandsMarks(std::string_view cell);
-
 /// Separator of the cells of @p line: ';', ',', '|' or '\t', or ' ' for any white space. It is the one that
 /// leaves the most numbers: white space for "0,25 1 3,5", as a comma may mark decimals.
 char separatorOf(std::string_view line);

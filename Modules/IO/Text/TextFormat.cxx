@@ -71,51 +71,22 @@ std::vector<std::string> namesOf(
   const bool hasName = !read.empty() && read[0] > 0;
   const bool hasDescription =
     table.hasMore || (!read.empty() && table.columns.size() - read[0] > read.size());
-  const std::vector<std::string> guessed =
+  const GuessedColumns guessed =
     guessColumnNames(evidence, task.extension == "xyzrgb", hasName, hasDescription);
   std::vector<std::string> names(table.columns.size());
   for (std::size_t i = 0; i < read.size(); ++i)
   {
-    names[read[i]] = guessed[i];
+    names[read[i]] = guessed.names[i];
   }
-  const auto x = std::find(guessed.begin(), guessed.end(), "x");
-  const bool mayBeNorthing = std::find(x, guessed.end(), "y") != guessed.end() &&
-    mayBeNorthingFirst(evidence, std::size_t(x - guessed.begin()));
-  if ((read.size() > 3 && !layout.hasPointCount) || mayBeNorthing) // of PTS it is known
+  if ((read.size() > 3 && !layout.hasPointCount) || layout.isNumbered || guessed.mayBeSwapped) // PTS is known
   {
-    task.notes.push_back(guessNote(names, mayBeNorthing));
+    task.notes.push_back(guessNote(names, guessed.mayBeSwapped));
   }
   return names;
 }
 
-/// Refuses a table with "1.234,56" in the line of @p texts, whatever the cells were taken to be: commas and
-/// points may have been taken for separators.
-void failThousands(std::string_view text, const TextLayout& layout, const TextColumn& texts)
-{
-  LineReader lines(text.substr(layout.bodyOffset), layout.bodyLine);
-  std::string_view line;
-  while (lines.next(line) && lines.lineNumber() < texts.line)
-  {
-  }
-  while (!line.empty() && lines.lineNumber() == texts.line)
-  {
-    const std::size_t end = std::min(line.find_first_of(" \t;|\""), line.size());
-    const std::string plain = withoutThousandsMarks(line.substr(0, end));
-    if (!plain.empty())
-    {
-      failFormat(
-        fmt::format("{}: {} has marks between thousands", texts.where(), inQuotes(line.substr(0, end))),
-        "write numbers without them, as " + plain +
-          (plain.find(',') == std::string::npos ? ""
-                                                : ", and separate columns by semicolons or white space"));
-    }
-    line.remove_prefix(std::min(end + 1, line.size()));
-  }
-}
-
 /// @throws FileProblem where x, y or z holds a text.
-void checkCoordinates(std::string_view text, const TextTable& table, const TextLayout& layout,
-  const std::vector<std::size_t>& read)
+void checkCoordinates(const TextTable& table, const TextLayout& layout, const std::vector<std::size_t>& read)
 {
   const std::vector<std::size_t> places =
     layout.names.empty() ? read : coordinatesOf(columnsCalled(layout.names));
@@ -124,9 +95,10 @@ void checkCoordinates(std::string_view text, const TextTable& table, const TextL
   {
     const std::size_t column = areTooFew ? i : places[i];
     const TextColumn& texts = table.columns[column];
-    texts.texts > 0 ? failThousands(text, layout, texts) : void();
     failFormatIf(texts.texts > 0,
-      "write x, y and z as numbers with the same separator on every line, and comments after #",
+      "write x, y and z as numbers with the same separator on every line, without marks between thousands, "
+      "and "
+      "comments after #",
       "{}, column {}: {} is not a number", texts.where(), column + 1, inQuotes(texts.firstText));
   }
 }
@@ -273,7 +245,7 @@ void readTable(ReadTask& task, std::string_view text, TextLayout layout, vtkPoly
         " points before the count in its first line is reached");
   }
   const std::vector<std::size_t> read = columnsOfNumbers(table, layout);
-  checkCoordinates(text, table, layout, read);
+  checkCoordinates(table, layout, read);
   const std::vector<std::string> names = namesOf(table, layout, read, task);
   noteColumns(table, layout, names, task.notes);
   std::vector<Column> planned;

@@ -186,6 +186,21 @@ std::vector<std::string> withUnits(std::vector<std::string> names, const std::ve
   return names;
 }
 
+/// True of Var1, Var2, Var3, as MATLAB writes them, and the like: they name nothing.
+bool areNumbered(const std::vector<std::string>& names)
+{
+  constexpr std::string_view kBases[] = { "var", "v", "column", "col", "field" };
+  return std::all_of(names.begin(), names.end(),
+    [&](const std::string& name)
+    {
+      const std::string_view base = std::string_view(name).substr(0, name.find_first_of("0123456789 _"));
+      return base.size() < name.size() &&
+        name.find_first_not_of("0123456789 _", base.size()) == std::string::npos &&
+        std::any_of(std::begin(kBases), std::end(kBases),
+          [&](std::string_view known) { return equalNoCase(known, base); });
+    });
+}
+
 void nameColumns(const std::vector<Title>& titles, const std::vector<std::string>& given, TextLayout& layout)
 {
   if (!given.empty())
@@ -229,8 +244,9 @@ void nameColumns(const std::vector<Title>& titles, const std::vector<std::string
   }
   if (!lastFit.empty())
   {
-    layout.names = lastFit;
+    layout.isNumbered = areNumbered(lastFit);
     layout.columns = lastFit.size();
+    layout.names = layout.isNumbered ? std::vector<std::string>() : std::move(lastFit);
     return;
   }
   layout.names = lastNames.size() >= 3 ? lastNames : layout.names; // which do not fit

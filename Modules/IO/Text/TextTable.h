@@ -27,6 +27,7 @@ struct TextLayout
   char separator = ' ';           ///< see separatorOf()
   std::vector<std::string> names; ///< of header, comment or user; empty when there are none
   std::string note;               ///< on names that a word of order gives
+  bool isNumbered = false;        ///< the header says Var1, Var2 and so on
   FileComments comments;
   bool hasPointCount = false; ///< PTS: lines that hold only a count stand before blocks of points
   std::size_t bodyOffset = 0; ///< first byte after the header, or the first byte of the data

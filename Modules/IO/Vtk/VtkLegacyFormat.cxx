@@ -13,10 +13,8 @@
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
-#include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -92,11 +90,10 @@ std::string_view LegacyParser::line()
 /// The next word, on whatever line; empty at the end.
 std::string_view LegacyParser::word()
 {
-  const auto* const begin = std::find_if_not(bytes_.begin() + at_, bytes_.end(), &isSpace);
-  const auto* const end = std::find_if(begin, bytes_.end(), &isSpace);
-  at_ = static_cast<std::size_t>(end - bytes_.begin());
-  return bytes_.substr(
-    static_cast<std::size_t>(begin - bytes_.begin()), static_cast<std::size_t>(end - begin));
+  const char* const begin = std::find_if_not(bytes_.data() + at_, bytes_.data() + bytes_.size(), &isSpace);
+  const char* const end = std::find_if(begin, bytes_.data() + bytes_.size(), &isSpace);
+  at_ = static_cast<std::size_t>(end - bytes_.data());
+  return { begin, static_cast<std::size_t>(end - begin) };
 }
 
 std::string_view LegacyParser::peek()
@@ -193,16 +190,10 @@ void LegacyParser::parsePoints()
   const int vtkType = type();
   points == 0 ? failNoPoints() : void();
   failFormatIf(cloud_->GetPoints(), "keep one of the two", "{}a second section POINTS", where());
-  Array array = values("Points", vtkType, points, 3);
-  if (!isFloatingType(vtkType))
-  {
-    const auto wide =
-      Array::Take(vtkDataArray::CreateDataArray(needsDouble(vtkType) ? VTK_DOUBLE : VTK_FLOAT));
-    wide->DeepCopy(array);
-    array = wide;
-  }
+  const Array array = values("Points", vtkType, points, 3);
   vtkNew<vtkPoints> made;
-  made->SetData(array);
+  made->SetDataType(needsDouble(vtkType) ? VTK_DOUBLE : VTK_FLOAT);
+  isFloatingType(vtkType) ? made->SetData(array) : made->GetData()->DeepCopy(array);
   cloud_->SetPoints(made);
 }
 
@@ -271,23 +262,8 @@ void LegacyParser::parseColors()
 {
   const std::string called = name();
   const Count components = count("the number of components");
-  Array colors = values(called, isBinary_ ? VTK_TYPE_UINT8 : VTK_FLOAT, tuples_, components);
-  if (!isBinary_)
-  {
-    vtkNew<vtkUnsignedCharArray> bytes;
-    bytes->SetNumberOfComponents(colors->GetNumberOfComponents());
-    bytes->SetNumberOfTuples(colors->GetNumberOfTuples());
-    const float* from = static_cast<const float*>(colors->GetVoidPointer(0));
-    std::transform(from, from + bytes->GetNumberOfValues(), bytes->GetPointer(0),
-      [](float value)
-      {
-        return std::isfinite(value)
-          ? static_cast<unsigned char>(std::clamp(std::round(255.0f * value), 0.0f, 255.0f))
-          : 0;
-      });
-    colors = bytes;
-  }
-  add(called, colors, tuples_);
+  const Array colors = values(called, isBinary_ ? VTK_TYPE_UINT8 : VTK_FLOAT, tuples_, components);
+  add(called, isBinary_ ? colors : bytesOfColors(colors, 1.0), tuples_);
 }
 
 void LegacyParser::parseField()
@@ -308,8 +284,7 @@ void LegacyParser::parseField()
 /// Ends with an empty line.
 void LegacyParser::skipMetadata()
 {
-  line();
-  while (at_ < bytes_.size() && !line().empty())
+  for (line(); at_ < bytes_.size() && !line().empty();)
   {
   }
 }

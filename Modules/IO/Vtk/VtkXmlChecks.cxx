@@ -188,12 +188,9 @@ struct CountCheck
       const std::string_view value = element.attribute(name);
       unsigned long long count = 0;
       const bool isOfTuples = std::string_view(name) == "NumberOfComponents";
-      if (!value.empty() &&
-        (!parseCount(value, count) || static_cast<double>(count) * (isOfTuples ? tuples : 1.0) > most))
-      {
-        failTruncated(fmt::format(
-          "{}{} is {} in a file of {} bytes", atByte(element.begin), name, inQuotes(value), fileSize));
-      }
+      failTruncatedIf(!value.empty() &&
+          (!parseCount(value, count) || static_cast<double>(count) * (isOfTuples ? tuples : 1.0) > most),
+        "{}{} is {} in a file of {} bytes", atByte(element.begin), name, inQuotes(value), fileSize);
       tuples = isOfTuples ? tuples : std::max(tuples, static_cast<double>(count));
     }
   }

@@ -10,7 +10,6 @@
 #include "vtkAlgorithm.h"
 #include "vtkCellType.h"
 #include "vtkCommand.h"
-#include "vtkDataArray.h"
 #include "vtkExecutive.h"
 #include "vtkFieldData.h"
 #include "vtkNew.h"
@@ -67,7 +66,6 @@ public:
       first.erase(0, address == std::string::npos ? 0 : address + 3);
       std::replace(first.begin(), first.end(), '\n', ' ');
       first.erase(first.find_last_not_of(" .") + 1);
-      first = first.empty() ? "VTK reported an error without words" : first;
     }
   }
 
@@ -151,22 +149,8 @@ vtkSmartPointer<vtkXMLUnstructuredDataReader> makeReader(std::string_view type)
     "save it as PolyData (.vtp), for example with ParaView's filter Extract Surface");
 }
 
-/// Arrays of a wrong length crash later filters: they are a fault of the file.
-void checkArrays(vtkPointSet* read)
-{
-  vtkPointData* data = read->GetPointData();
-  for (int i = 0; i < data->GetNumberOfArrays(); ++i)
-  {
-    vtkAbstractArray* array = data->GetAbstractArray(i);
-    failFormatIf(array->GetNumberOfTuples() != read->GetNumberOfPoints(), "write the file again",
-      "array {} has {} values for {} points", inQuotes(array->GetName() ? array->GetName() : ""),
-      array->GetNumberOfTuples(), read->GetNumberOfPoints());
-  }
-}
-
 void takeFaces(vtkPointSet* read, MeshFaces& faces)
 {
-  vtkPolyData* mesh = vtkPolyData::SafeDownCast(read);
   if (const auto grid = vtkUnstructuredGrid::SafeDownCast(read))
   {
     for (vtkIdType i = 0; i < grid->GetNumberOfCells(); ++i)
@@ -174,9 +158,9 @@ void takeFaces(vtkPointSet* read, MeshFaces& faces)
       faces.others += grid->GetCellType(i) > VTK_POLY_LINE ? 1 : 0;
     }
   }
-  faces.others += mesh && mesh->GetStrips() ? std::uint64_t(mesh->GetStrips()->GetNumberOfCells()) : 0;
-  if (mesh && mesh->GetPolys())
+  if (const auto mesh = vtkPolyData::SafeDownCast(read))
   {
+    faces.others += static_cast<std::uint64_t>(mesh->GetStrips()->GetNumberOfCells());
     faces.count = static_cast<std::uint64_t>(mesh->GetPolys()->GetNumberOfCells());
     faces.cells = faces.isWanted() ? mesh->GetPolys() : nullptr;
   }
@@ -239,7 +223,6 @@ vtkSmartPointer<vtkPointSet> readVtkXmlFile(const ReadTask& task, const std::str
     "the file is damaged or cut short: copy or write it again", "{}",
     errors->first.empty() ? "VTK's XML reader failed" : errors->first.c_str());
   read->GetNumberOfPoints() == 0 ? failNoPoints() : void();
-  checkArrays(read);
   return read;
 }
 
@@ -386,9 +369,9 @@ void readRows(ReadTask& task, const std::vector<PieceFile>& pieces, const RowRan
   for (std::size_t i = 0; i < pieces.size(); ++i)
   {
     const PieceFile& piece = pieces[i];
-    const RowRange own{ std::max(rows.first, begin), std::min(rows.last, begin + piece.points) };
-    const bool showsArrays = rows.count() == 0 && joined.arrays.empty();
-    if (piece.points > 0 && (own.first < own.last || showsArrays))
+    const std::uint64_t end = begin + piece.points;
+    const RowRange own{ std::clamp(rows.first, begin, end), std::clamp(rows.last, begin, end) };
+    if (piece.points > 0 && (own.count() > 0 || (rows.count() == 0 && joined.arrays.empty())))
     {
       withPiece(pieces, i,
         [&]
@@ -403,12 +386,10 @@ void readRows(ReadTask& task, const std::vector<PieceFile>& pieces, const RowRan
             "the file is damaged, or was written meanwhile: copy or write it again",
             "{} points, not the {} that its start says", read->GetNumberOfPoints(), piece.points);
           joined.arrays.empty() ? cloud->GetFieldData()->ShallowCopy(read->GetFieldData()) : void();
-          const bool hasRows = own.first < own.last;
-          joined.add(read, static_cast<vtkIdType>(hasRows ? own.first - begin : 0),
-            static_cast<vtkIdType>(hasRows ? own.count() : 0));
+          joined.add(read, static_cast<vtkIdType>(own.first - begin), static_cast<vtkIdType>(own.count()));
         });
     }
-    begin += piece.points;
+    begin = end;
   }
 }
 

@@ -79,7 +79,7 @@ std::string typeName(int type)
 class VtpFile
 {
 public:
-  VtpFile(vtkPolyData* cloud, WriterNotes& notes);
+  VtpFile(vtkPolyData* cloud, std::vector<std::string>& notes);
   void write(WriteTask& task) const;
 
 private:
@@ -88,7 +88,7 @@ private:
   void addArray(vtkAbstractArray* array, const std::string& name, vtkIdType first, vtkIdType tuples,
     bool saysTuples = false);
 
-  WriterNotes& notes_;
+  std::vector<std::string>& notes_;
   std::string head_;
   std::uint64_t end_ = 0; ///< Of the arrays so far.
   std::vector<std::string_view> blocks_;
@@ -96,7 +96,7 @@ private:
   std::deque<std::string> texts_;
 };
 
-VtpFile::VtpFile(vtkPolyData* cloud, WriterNotes& notes)
+VtpFile::VtpFile(vtkPolyData* cloud, std::vector<std::string>& notes)
   : notes_(notes)
 {
   head_ = std::string("<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"") +
@@ -134,12 +134,8 @@ void VtpFile::addFields(const char* element, vtkFieldData* data, vtkIdType tuple
     const std::string given = utf8Name(array->GetName() ? array->GetName() : "");
     const std::string wanted =
       given.empty() ? "unnamed" : xmlText(given); // VTK's reader takes none for no name
-    std::string name = wanted;
-    for (int number = 2; !used.insert(name).second; ++number)
-    {
-      name = wanted + "_" + std::to_string(number);
-    }
-    name == given ? void() : notes_.add("array " + inQuotes(given) + " is called " + name);
+    const std::string name = unusedName(used, wanted);
+    name == given ? void() : notes_.push_back("array " + inQuotes(given) + " is called " + name);
     failFormatIf(array->GetNumberOfTuples() < tuples, "give every array one value per point",
       "array {} has {} values for {} points", inQuotes(given), array->GetNumberOfTuples(), tuples);
     names[array] = name;
@@ -203,7 +199,7 @@ void VtpFile::addArray(
   }
   else
   {
-    notes_.add("array " + inQuotes(name) + " holds neither numbers nor texts and is left out");
+    notes_.push_back("array " + inQuotes(name) + " holds neither numbers nor texts and is left out");
     return;
   }
   head_ += "<" + std::string(areNumbers ? "DataArray" : "Array") + attribute("type", typeName(type)) +

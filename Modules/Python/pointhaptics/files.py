@@ -63,7 +63,7 @@ def _file_to_read(path: object) -> Iterator[Tuple[str, str]]:
 # Options of the program in messages, and what does the same here.
 _SPOKEN = {
     "view and feel take metres about their middle": "local_metres=True gives metres",
-    "--salvage": "salvage=True",
+    "--salvage (in VTK: SalvageOn())": "salvage=True",
     "--columns NAMES": "columns=...",
     "--columns": "columns",
     "--las-scale": "vtkPointCloudWriter.SetLasScale()",

@@ -89,7 +89,7 @@ TEST_F(Exporters, ColumnsWithoutNamesAreTakenByTheirValuesAndThatIsSaid)
     "1,4000000.1,500000.2,100.3,GRND\n2,4000001.1,500001.2,100.4,GRND\n3,4000002.1,500003.2,100.5,EDGE\n"));
   expectPoint(survey, 1, 500001.2, 4000001.1, 100.4);
   EXPECT_EQ(survey.value("id", 2), 3);
-  EXPECT_TRUE(isSaid(survey.notes, "taken as id,y,x,z,-; --columns NAMES says otherwise"));
+  EXPECT_TRUE(isSaid(survey.notes, "taken as id,y,x,z,-; where northing and easting"));
   const ReadResult unit =
     readCloud(write("a.xyzrgb", "0 0 0 0.9 0.2 0.1\n1 0 0 0.8 0.1 0.1\n0 1 0 0.2 0.9 0.3\n"));
   ASSERT_NE(unit.array("RGB"), nullptr);

@@ -44,6 +44,24 @@ TEST_F(Variants, NumpyWithPointsInColumnsIsTurned)
   }
 }
 
+TEST_F(Variants, HalvesOfNumpyAreFloats)
+{
+  std::string array = numpy(2, false).substr(0, 128);
+  array.replace(array.find("<f4"), 3, "<f2");
+  array.resize(10 + static_cast<unsigned char>(array[8]));
+  for (const int bits : { 0x3c00, 0xc000, 0x3555, 0x0001, 0x7bff, 0x8000 })
+  {
+    append(array, static_cast<std::uint16_t>(bits));
+  }
+  const ReadResult result = readCloud(write("a.npy", array));
+  ASSERT_EQ(result.error, "");
+  const float expected[] = { 1.0f, -2.0f, 0.333251953125f, 0x1p-24f, 65504.0f, 0.0f };
+  for (int i = 0; i < 6; ++i)
+  {
+    EXPECT_EQ(result.cloud->GetPoint(i / 3)[i % 3], double(expected[i]));
+  }
+}
+
 TEST_F(Variants, CutNumpyAndSplatsAreSalvaged)
 {
   const std::string array = numpy(4, false);

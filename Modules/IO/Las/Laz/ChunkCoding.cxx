@@ -88,21 +88,21 @@ void ChunkDecoder::next(char* records, std::size_t count)
   done_ += count;
 }
 
-std::string ChunkEncoder::encode(char* records, std::size_t count) const
+std::string encodeChunk(const LazSchema& schema, char* records, std::size_t count)
 {
   const auto encodeBy = [&](auto items)
   {
     constexpr std::size_t kBlock = 4096; // goes through all layers before the next does: stays in the cache
-    std::string chunk(records, schema_.recordLength);
+    std::string chunk(records, schema.recordLength);
     for (std::size_t at = 1; at < count; at += kBlock)
     {
-      items.code(records + at * schema_.recordLength, std::min(kBlock, count - at));
+      items.code(records + at * schema.recordLength, std::min(kBlock, count - at));
     }
     items.finish(chunk, count);
     return chunk;
   };
-  return schema_.isLayered() ? encodeBy(LayeredItems<ArithmeticEncoder>(schema_, records))
-                             : encodeBy(PointwiseItems<ArithmeticEncoder>(schema_, records));
+  return schema.isLayered() ? encodeBy(LayeredItems<ArithmeticEncoder>(schema, records))
+                            : encodeBy(PointwiseItems<ArithmeticEncoder>(schema, records));
 }
 
 } // namespace pointhaptics::io

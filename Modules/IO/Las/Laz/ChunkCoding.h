@@ -44,21 +44,8 @@ private:
   std::optional<LayeredItems<ArithmeticDecoder>> layered_;
 };
 
-/// One chunk after the other. One thread.
-class ChunkEncoder
-{
-public:
-  /// @p schema must be one of makeLazSchema() and outlive this object.
-  explicit ChunkEncoder(const LazSchema& schema)
-    : schema_(schema)
-  {
-  }
-  /// The chunk of the @p count records at @p records, at least one, each of schema.recordLength bytes. The
-  /// records are as before when this returns.
-  std::string encode(char* records, std::size_t count) const;
-
-private:
-  const LazSchema& schema_;
-};
+/// The chunk of the @p count records at @p records, at least one, each of schema.recordLength bytes. The
+/// records are as before when this returns. @p schema: one of makeLazSchema(). Any thread.
+std::string encodeChunk(const LazSchema& schema, char* records, std::size_t count);
 
 } // namespace pointhaptics::io

@@ -42,11 +42,6 @@ public:
   LazChunks find();
 
 private:
-  template <typename T>
-  T numberAt(std::size_t offset) const
-  {
-    return io::numberAt<T>(task_.bytes, offset);
-  }
   void readInfo();
   void readPage(std::uint64_t offset, std::uint64_t size);
   void readEntry(std::size_t at);
@@ -75,13 +70,13 @@ void Hierarchy::readInfo()
 {
   const std::string_view bytes = task_.bytes;
   const bool isHere = header_.headerSize == kLasHeaderOf14 && header_.pointsOffset >= kInfoAt + kInfoSize &&
-    bytes.substr(377, 4) == "copc" && numberAt<std::uint16_t>(393) == 1;
+    bytes.substr(377, 4) == "copc" && numberAt<std::uint16_t>(task_.bytes, 393) == 1;
   failDamagedIf(!isHere, 375, "the first variable length record does not describe the octree");
-  const double half = numberAt<double>(kInfoAt + 24);
-  const double spacing = numberAt<double>(kInfoAt + 32);
+  const double half = numberAt<double>(task_.bytes, kInfoAt + 24);
+  const double spacing = numberAt<double>(task_.bytes, kInfoAt + 32);
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    origin_[axis] = numberAt<double>(kInfoAt + 8 * axis) - half;
+    origin_[axis] = numberAt<double>(task_.bytes, kInfoAt + 8 * axis) - half;
   }
   side_ = 2.0 * half;
   failDamagedIf(!std::isfinite(origin_[0] + origin_[1] + origin_[2] + side_) || !(half > 0.0) ||
@@ -95,7 +90,8 @@ void Hierarchy::readInfo()
       ++lastLevel_;
     }
   }
-  pending_.emplace_back(numberAt<std::uint64_t>(kInfoAt + 40), numberAt<std::uint64_t>(kInfoAt + 48));
+  pending_.emplace_back(
+    numberAt<std::uint64_t>(task_.bytes, kInfoAt + 40), numberAt<std::uint64_t>(task_.bytes, kInfoAt + 48));
   take(pending_[0].first, pending_[0].second, kInfoAt + 40, "page");
 }
 
@@ -133,17 +129,17 @@ bool Hierarchy::isWanted(const Entry& entry) const
 void Hierarchy::readEntry(std::size_t at)
 {
   Entry entry;
-  entry.level = numberAt<std::int32_t>(at);
+  entry.level = numberAt<std::int32_t>(task_.bytes, at);
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    entry.cell[axis] = numberAt<std::int32_t>(at + 4 + 4 * axis);
+    entry.cell[axis] = numberAt<std::int32_t>(task_.bytes, at + 4 + 4 * axis);
     failDamagedIf(entry.level < 0 || entry.level > kMostLevel || entry.cell[axis] < 0 ||
         entry.cell[axis] >> entry.level != 0,
       at, "cell {} of level {}", entry.cell[axis], entry.level);
   }
-  entry.offset = numberAt<std::uint64_t>(at + 16);
-  entry.size = numberAt<std::int32_t>(at + 24);
-  entry.count = numberAt<std::int32_t>(at + 28);
+  entry.offset = numberAt<std::uint64_t>(task_.bytes, at + 16);
+  entry.size = numberAt<std::int32_t>(task_.bytes, at + 24);
+  entry.count = numberAt<std::int32_t>(task_.bytes, at + 28);
   failDamagedIf(
     entry.count < -1 || entry.size < 0, at, "a node of {} points in {} bytes", entry.count, entry.size);
   if (entry.count == 0 || !isWanted(entry))

@@ -474,9 +474,10 @@ TEST_F(LasWriting, KeepsTheUnit)
 {
   for (const std::string& system : { std::string(), std::string("EPSG:2263") })
   {
-    for (const std::string& unit : { std::string("metre"), std::string("foot"), std::string("US survey foot"),
-           std::string("millimetre"), std::string("centimetre") })
+    for (std::string unit : { std::string("metre"), std::string("foot"), std::string("US survey foot"),
+           std::string("millimetre"), std::string("centimetre"), std::string("degree") })
     {
+      unit = unit == "degree" && !system.empty() ? "metre" : unit; // a projected system has no degrees
       const ReadResult plain = readCloud(write("a.las", makeLas(2, 0, 20)));
       addFieldText(plain.cloud, "CoordinateSystem", system);
       addFieldText(plain.cloud, "LengthUnit", unit);

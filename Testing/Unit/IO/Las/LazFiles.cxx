@@ -43,14 +43,13 @@ LazFile lazOf(int format, std::size_t extra, const std::string& records, const L
   std::string copy = records;
   const std::size_t length = parsed.recordLength;
   const std::size_t count = records.size() / length;
-  io::ChunkEncoder encoder(schema);
   for (std::size_t at = 0; at < count;)
   {
     const std::size_t wanted = layout.table == LazTable::NoChunks ? count
       : layout.isVariable                                         ? chunks.size() + 1
                                                                   : layout.chunkSize;
     const std::size_t size = std::min(wanted, count - at);
-    const std::string chunk = encoder.encode(&copy[at * length], size);
+    const std::string chunk = io::encodeChunk(schema, &copy[at * length], size);
     chunks.push_back({ 0, chunk.size(), at, size });
     points += chunk;
     at += size;
@@ -189,12 +188,11 @@ CopcFile makeCopc(std::size_t pointsOfNode)
   const std::size_t points = copc.bytes.size();
   append(copc.bytes, std::uint64_t{ 0 });
   std::vector<io::LazChunk> chunks;
-  io::ChunkEncoder encoder(schema);
   for (const CopcNode& node : nodes)
   {
     std::string records = recordsIn(node, pointsOfNode, chunks.size() + 1);
     copc.records += records;
-    const std::string chunk = encoder.encode(records.data(), records.size() / 30);
+    const std::string chunk = io::encodeChunk(schema, records.data(), records.size() / 30);
     copc.chunks.push_back(copc.bytes.size());
     chunks.push_back({ copc.bytes.size(), chunk.size(), 0, records.size() / 30 });
     copc.bytes += chunk;

@@ -1,11 +1,7 @@
 #include "CloudFiles.h"
 
-#include "IO/Columns/TextRecords.h"
-
 #include <cmath>
 #include <cstdint>
-
-namespace io = pointhaptics::io;
 
 namespace
 {
@@ -218,27 +214,16 @@ TEST_F(Ply, RefusesZeroPointsAndMissingCoordinates)
 
 TEST_F(Ply, ALineOfManyVerticesIsCountedOnce)
 {
-  constexpr std::size_t kVertices = 2000;
+  constexpr std::size_t kVertices = 200000; // whose square takes minutes
   std::string line;
   for (std::size_t i = 0; i < kVertices; ++i)
   {
     line += std::to_string(i) + " 2 3 ";
   }
-  std::vector<double> x(kVertices);
-  const io::ColumnView column{ reinterpret_cast<char*>(x.data()), sizeof(double), VTK_DOUBLE };
-  io::LineReader lines(line);
-  io::TextRecords records(
-    lines, { { "x", column }, { "y", {} }, { "z", {} } }, { "property", "vertex", "vertices", "" }, true);
-  for (vtkIdType row = 0; records.next(); ++row)
-  {
-    records.store(row);
-  }
-  EXPECT_EQ(x.back(), double(kVertices - 1));
-  EXPECT_EQ(records.countedLines(), 1u) << "else the time grows with the square of the vertices";
   const ReadResult result = readCloud(write("a.ply",
-    "ply\nformat ascii 1.0\nelement vertex 2000\nproperty float x\nproperty float y\nproperty float z\n"
+    "ply\nformat ascii 1.0\nelement vertex 200000\nproperty float x\nproperty float y\nproperty float z\n"
     "end_header\n" +
       line + "\n"));
   ASSERT_EQ(result.error, "");
-  EXPECT_EQ(result.cloud->GetPoint(1999)[0], 1999.0);
+  EXPECT_EQ(result.cloud->GetPoint(199999)[0], 199999.0);
 }

@@ -105,18 +105,33 @@ TEST_F(Survey, NumberedPointsOfUtmAreTakenByTheirDigits)
     1005435.1, 210323.5, 43.5);
   ASSERT_EQ(readCloud(path("e.csv")).notes.size(), 1u);
   EXPECT_NE(readCloud(path("e.csv")).notes[0].find("--columns id,y,x,z"), std::string::npos);
+  // A code of numbers is like texts; of local coordinates nobody can tell.
+  expectSecond(
+    write("h.csv", "1,5350000.1,412345.2,530,17\n2,5350003.1,412347.2,531,17\n3,5350001.1,412341.2,532,4\n"),
+    412347.2, 5350003.1, 531);
+  expectSecond(write("i.csv", "CP1,5000.1,2500.2,53,IP\nCP2,5003.1,2502.2,54,IP\n"), 5003.1, 2502.2, 54);
+  EXPECT_NE(readCloud(path("i.csv")).notes.at(0).find("--columns -,y,x,z,-"), std::string::npos);
   expectSecond(write("c.xyz", "2100000.1 712345.2 530\n2100003.1 712347.2 531\n2100001.1 712341.2 532\n"),
     2100003.1, 712347.2, 531);
   EXPECT_EQ(readCloud(path("c.xyz")).notes.size(), 1u) << "it is said";
   EXPECT_TRUE(readCloud(write("d.xyz", "412345.2 5350000.1 530\n412347.2 5350003.1 531\n")).notes.empty());
 }
 
+TEST_F(Survey, NumberedNamesAreNoNames)
+{
+  expectSecond(write("a.csv", "Var1,Var2,Var3\n1,2,3\n4,5.5,6\n"), 4, 5.5, 6);
+  EXPECT_NE(readCloud(path("a.csv")).notes.at(0).find("taken as x,y,z; --columns"), std::string::npos);
+  expectRefused(
+    readCloud(write("b.csv", "band1,band2,band3\n1,2,3\n4,5.5,6\n")), "no columns named x, y and z");
+}
+
 TEST_F(Survey, GermanHeadersAreKnown)
 {
   const std::string rows = "1;20.5;100.25;5\n2;21.5;101.25;6\n";
-  for (const char* header : { "Punktnummer;Rechtswert;Hochwert;H\xc3\xb6he\n",
-         "NR;RECHTSWERT;HOCHWERT;H\xc3\x96HE\n", "Nr;Rechtswert;Hochwert;H\xf6he\n",
-         "Pkt;Rechts;Hoch;Hoehe\n", "Nr;RW;HW;H\n", "Nr;Rechtswert [m];Hochwert [m];H\xc3\xb6he [m]\n" })
+  for (const char* header :
+    { "Punktnummer;Rechtswert;Hochwert;H\xc3\xb6he\n", "NR;RECHTSWERT;HOCHWERT;H\xc3\x96HE\n",
+      "Nr;Rechtswert;Hochwert;H\xf6he\n", "Pkt;Rechts;Hoch;Hoehe\n", "Nr;RW;HW;H\n", "Nr;Y/Rechts;X/Hoch;Z\n",
+      "Nr;Rechtswert Y;Hochwert X;Z\n", "Nr;Rechtswert [m];Hochwert [m];H\xc3\xb6he [m]\n" })
   {
     SCOPED_TRACE(header);
     expectSecond(write("a.csv", header + rows), 21.5, 101.25, 6);

@@ -14,25 +14,7 @@ namespace pointhaptics::io
 {
 
 /// Red, green and blue of 16 bits.
-struct AnyColorItem
-{
-  using Value = std::array<std::uint16_t, 3>;
-  static constexpr bool kIsAttribute = true;
-
-  void start(const Value&) {}
-  static Value load(const char* at)
-  {
-    return { loadLittle<std::uint16_t>(at), loadLittle<std::uint16_t>(at + 2),
-      loadLittle<std::uint16_t>(at + 4) };
-  }
-  static void store(const Value& value, char* at)
-  {
-    for (std::size_t i = 0; i < 3; ++i)
-    {
-      storeLittle(value[i], at + 2 * i);
-    }
-  }
-};
+using AnyColorItem = NumbersItem<std::uint16_t, 3>;
 
 /// Green and blue are predicted as red changed.
 class ColorItem : public AnyColorItem

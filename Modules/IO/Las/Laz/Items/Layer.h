@@ -42,6 +42,32 @@ struct NumberItem
   static void store(T value, char* at) { storeLittle(value, at); }
 };
 
+/// Loads and stores attributes of several numbers, one behind the other.
+template <typename T, std::size_t Count>
+struct NumbersItem
+{
+  using Value = std::array<T, Count>;
+  static constexpr bool kIsAttribute = true;
+
+  void start(const Value&) {}
+  static Value load(const char* at)
+  {
+    Value value;
+    for (std::size_t i = 0; i < Count; ++i)
+    {
+      value[i] = loadLittle<T>(at + i * sizeof(T));
+    }
+    return value;
+  }
+  static void store(const Value& value, char* at)
+  {
+    for (std::size_t i = 0; i < Count; ++i)
+    {
+      storeLittle(value[i], at + i * sizeof(T));
+    }
+  }
+};
+
 /// Codes a byte by its difference from @p predicted, modulo 256.
 template <typename Coder>
 std::uint8_t codeByte(Coder& coder, SymbolModel& differences, int predicted, int value)

@@ -27,25 +27,6 @@ struct Point10
   unsigned returnNumber() const { return returns & 7u; }
   unsigned numberOfReturns() const { return returns >> 3 & 7u; }
   unsigned scanDirection() const { return returns >> 6 & 1u; }
-
-  static Point10 load(const char* record)
-  {
-    return { loadLittle<std::int32_t>(record), loadLittle<std::int32_t>(record + 4),
-      loadLittle<std::int32_t>(record + 8), loadLittle<std::uint16_t>(record + 12), byteAt(record, 14),
-      byteAt(record, 15), byteAt(record, 16), byteAt(record, 17), loadLittle<std::uint16_t>(record + 18) };
-  }
-  void store(char* record) const
-  {
-    storeLittle(x, record);
-    storeLittle(y, record + 4);
-    storeLittle(z, record + 8);
-    storeLittle(intensity, record + 12);
-    record[14] = static_cast<char>(returns);
-    record[15] = static_cast<char>(classification);
-    record[16] = static_cast<char>(scanAngle);
-    record[17] = static_cast<char>(userData);
-    storeLittle(source, record + 18);
-  }
 };
 
 /// The items of such points.
@@ -54,8 +35,24 @@ struct AnyPoint10Item
   using Value = Point10;
 
   void start(const Point10&) {}
-  static Point10 load(const char* record) { return Point10::load(record); }
-  static void store(const Point10& point, char* record) { point.store(record); }
+  static Point10 load(const char* record)
+  {
+    return { loadLittle<std::int32_t>(record), loadLittle<std::int32_t>(record + 4),
+      loadLittle<std::int32_t>(record + 8), loadLittle<std::uint16_t>(record + 12), byteAt(record, 14),
+      byteAt(record, 15), byteAt(record, 16), byteAt(record, 17), loadLittle<std::uint16_t>(record + 18) };
+  }
+  static void store(const Point10& point, char* record)
+  {
+    storeLittle(point.x, record);
+    storeLittle(point.y, record + 4);
+    storeLittle(point.z, record + 8);
+    storeLittle(point.intensity, record + 12);
+    record[14] = static_cast<char>(point.returns);
+    record[15] = static_cast<char>(point.classification);
+    record[16] = static_cast<char>(point.scanAngle);
+    record[17] = static_cast<char>(point.userData);
+    storeLittle(point.source, record + 18);
+  }
 };
 
 class Point10Item : public AnyPoint10Item

@@ -6,28 +6,15 @@
 #include "IO/Las/Laz/IntegerModels.h"
 #include "IO/Las/Laz/Items/Layer.h"
 
-#include <algorithm>
-#include <array>
+#include <cstdint>
 
 namespace pointhaptics::io
 {
 
 /// Index of the descriptor, offset and size of the packet, place of the return in it, direction.
-class WavePacketItem
+class WavePacketItem : public NumbersItem<char, 29>
 {
 public:
-  static constexpr std::size_t kSize = 29;
-  static constexpr bool kIsAttribute = true;
-  using Value = std::array<char, kSize>;
-
-  static Value load(const char* at)
-  {
-    Value value;
-    std::copy_n(at, kSize, value.data());
-    return value;
-  }
-  static void store(const Value& value, char* at) { std::copy_n(value.data(), kSize, at); }
-  void start(const Value&) {}
   template <typename Coder>
   Value code(Coder& coder, const PointLabel&, const Value& last, Value value)
   {
