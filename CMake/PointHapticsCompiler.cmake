@@ -56,6 +56,15 @@ function (pointhaptics_compile_together target)
   target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
 endfunction ()
 
+# pointhaptics_use_x(<VTK module>)
+# Links the X library and defines POINTHAPTICS_USES_X where VTK's windows are those of an X server.
+function (pointhaptics_use_x module)
+  if (TARGET X11::X11)
+    vtk_module_link(${module} PRIVATE X11::X11)
+    vtk_module_definitions(${module} PRIVATE POINTHAPTICS_USES_X)
+  endif ()
+endfunction ()
+
 # pointhaptics_plain_library(<Name> SOURCES ... HEADERS ... [PUBLIC libs...] [PRIVATE libs...] [EXPORT set]
 #   [COMPONENTS <of the library> <of its headers>])
 # A C++17 library that is no VTK module: target PointHaptics<Name>, alias PointHaptics::<Name>, installed and

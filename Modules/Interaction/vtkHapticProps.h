@@ -24,15 +24,22 @@
 #ifndef vtkHapticProps_h
 #define vtkHapticProps_h
 
+#include "EventLink.h"      // For the begin of a render
+#include "vtkHapticGauge.h" // For the gauge
+
 #include "Haptics/Proxy.h" // For ProxyState
 
 #include "PointHapticsInteractionModule.h" // For export macro
+#include "vtkArrowSource.h"                // For shapes that change
+#include "vtkMatrix4x4.h"                  // For the marks
+#include "vtkNew.h"
 #include "vtkObject.h"
+#include "vtkOutlineSource.h"
+#include "vtkOverlayActor.h"
+#include "vtkWeakPointer.h" // For the renderer
 
-#include <memory> // For Internals
+#include <array>
 
-class vtkActor;
-class vtkHapticGauge;
 class vtkRenderer;
 
 class POINTHAPTICSINTERACTION_EXPORT vtkHapticProps : public vtkObject
@@ -43,19 +50,10 @@ public:
 
   /**
    * Box drawn as the wire frame: xmin, xmax, ymin, ymax, zmin, zmax. Its longest edge also sets the size of
-   * the HIP ball, the normal's length and the lines. Default: the 10 cm cube about the origin.
+   * the HIP ball, the normal's length, the lines, and the length of the force arrow: 6 % of it per newton, at
+   * most 40 %. Default: the 10 cm cube about the origin.
    */
   void SetWorkspaceBounds(const double bounds[6]);
-  vtkGetVector6Macro(WorkspaceBounds, double);
-
-  ///@{
-  /**
-   * Length of the force arrow per newton, metres; above 0. An arrow longer than 40 % of the workspace is cut
-   * to that. Default: 0.006 m/N.
-   */
-  vtkSetClampMacro(ForceScale, double, 1e-9, 1e9);
-  vtkGetMacro(ForceScale, double);
-  ///@}
 
   ///@{
   /**
@@ -73,11 +71,6 @@ public:
   void HideTouch();
 
   /**
-   * Show the gauge beside the force arrow. Default: on.
-   */
-  void SetGaugeVisibility(bool visible);
-
-  /**
    * Show the hand and what it feels (HIP ball, force arrow, gauge) with the touch. Off: proxy sphere and
    * normal only, as in a figure. Default: on.
    */
@@ -88,7 +81,7 @@ public:
    * and every colour of cloud. Lines are as wide as the window's dots per inch say. Not where the hand is
    * not shown. Default: off.
    */
-  void SetOutlineVisibility(bool visible);
+  vtkSetMacro(OutlineVisibility, bool);
 
   /**
    * Draw the marks in colours that people with colour vision deficiencies tell apart (white normal, yellow
@@ -97,9 +90,9 @@ public:
   void SetHighContrast(bool high);
 
   /**
-   * The gauge, to set its range.
+   * The gauge beside the arrow.
    */
-  vtkHapticGauge* GetGauge();
+  vtkHapticGauge* GetGauge() { return this->Gauge; }
 
   ///@{
   /**
@@ -130,33 +123,74 @@ public:
   /**
    * The single actors, for other colours or tests.
    */
-  vtkActor* GetProxyActor();
-  vtkActor* GetNormalActor();
-  vtkActor* GetHipActor();
-  vtkActor* GetForceActor();
-  vtkActor* GetWorkspaceActor();
+  vtkActor* GetProxyActor() { return this->Proxy.actor; }
+  vtkActor* GetNormalActor() { return this->Normal.actor; }
+  vtkActor* GetHipActor() { return this->Hip.actor; }
+  vtkActor* GetForceActor() { return this->Force.actor; }
+  vtkActor* GetWorkspaceActor() { return this->Frame; }
   ///@}
 
 protected:
   vtkHapticProps();
   ~vtkHapticProps() override;
 
-  double WorkspaceBounds[6];
-  double SmallestSphereRadius = 0.0;
-  double ForceScale = 0.006;
-  bool GaugeVisibility = true;
-  bool HandVisibility = true;
-  bool OutlineVisibility = false;
-  bool HighContrast = false;
-
 private:
   vtkHapticProps(const vtkHapticProps&) = delete;
   void operator=(const vtkHapticProps&) = delete;
 
+  /// A shape of size 1, and the matrix that makes of it what is drawn.
+  struct Mark
+  {
+    vtkNew<vtkOverlayActor> actor;
+    vtkNew<vtkMatrix4x4> matrix;
+
+    void setUp(vtkAlgorithmOutput* shape, const double color[3], bool lit, double hidden);
+    void place(
+      const pointhaptics::Vec3& origin, const pointhaptics::Vec3& along, double length, double thickness);
+    pointhaptics::Vec3 column(int column) const;
+  };
+
+  /// In the order they are drawn: the sphere lets see what stands in it, and the force hides the normal.
+  std::array<vtkOverlayActor*, 4> All() { return { Normal.actor, Proxy.actor, Hip.actor, Force.actor }; }
+  template <typename Visit>
+  void ForEach(Visit&& visit);
+  void SetUpRims(vtkAlgorithmOutput* line);
+  void PlaceRims();
+  void Place();
+  double PointAt(const pointhaptics::Vec3& place) const;
+  pointhaptics::Vec3 Lift(
+    const pointhaptics::Vec3& center, const pointhaptics::Vec3& along, double way) const;
+  double DrawnRadius() const;
   void UpdateAgain();
 
-  struct Internals;
-  std::unique_ptr<Internals> Parts;
+  double SmallestSphereRadius = 0.0;
+  bool HandVisibility = true;
+  bool OutlineVisibility = false;
+  bool HighContrast = false;
+  vtkNew<vtkOutlineSource> Box;
+  vtkNew<vtkActor> Frame;
+  vtkNew<vtkArrowSource> RimArrows[2];
+  Mark Proxy;
+  Mark Normal;
+  Mark Hip;
+  Mark Force;
+  /// Light and dark rims of All() the marks in their order, of the way to the nearest point and of its ring:
+  /// a ring about a ball, the back of a larger arrow, or a line.
+  std::array<std::array<Mark, 2>, 6> Rims;
+  bool ShowsNearest = false;
+  pointhaptics::Vec3 Nearest;
+  pointhaptics::Vec3 NearestTo;
+  vtkNew<vtkHapticGauge> Gauge;
+  vtkWeakPointer<vtkRenderer> Renderer;
+  double Edge = 0.1;
+  bool IsShown = false;
+  pointhaptics::ProxyState State;
+  double ArrowLength = 0.0;
+  pointhaptics::EventLink OnStart{ [this]
+    {
+      this->Place();
+      this->PlaceRims();
+    } };
 };
 
 #endif

@@ -4,25 +4,25 @@
  *
  * A trackball camera style that turns events into commands. They also move the model in the haptic workspace,
  * drive a simulated hand, and show what the servo loop feels. Every part is optional; set those the program
- * has, in any order. With a resampler, whose points lie in the box of the hand, pointhaptics::HapticTouch
- * brings the others (vtkHapticTouch in Python):
+ * has, in any order. With a resampler, whose points lie in the box of the hand, vtkHapticTouch brings the
+ * others:
  *
  * @code
  * vtkNew< vtkInteractorStyleHaptic > style;
  * style->SetResampler(resampler);       // its Transform is set by the style: see SetModelMatrix()
  * style->SetCloudActor(actor);          // moves at once while the pipeline catches up
  * interactor->SetInteractorStyle(style);
- * pointhaptics::HapticTouch touch(style);
- * touch.run();                          // until the window is closed
+ * vtkNew< vtkHapticTouch > touch;
+ * touch->Run(style);                    // until the window is closed
  * @endcode
  * A program with parts of its own gives them by SetServoLoop(), SetDevice(), SetProps() and the other
  * functions below, adds the props to its renderer (vtkHapticProps::AddTo), starts the device and the servo
  * loop, and calls UpdateModel(), then StartUpdates() after the interactor's Initialize().
  *
  * What it can do is the list of its commands, each with name, keys and line in the help: GetCommands(). A
- * program adds its own there by one call, takes others away, and binds them to other keys. The help shows
- * those whose parts are there. The parts themselves are the program's to use: GetModel(), GetScenes(),
- * GetHand(), GetClutch(), GetStatus(), GetDisplay(), GetPicker().
+ * program in C++ adds its own there by one call, takes others away, and binds them to other keys. The help
+ * shows those whose parts are there. The parts themselves are for programs in C++, too: GetModel(),
+ * GetScenes(), GetHand(), GetClutch(), GetStatus(), GetDisplay(), GetPicker().
  *
  * The default commands: drags turn, pan and dolly the camera; with Shift they move the model, with Ctrl the
  * simulated hand. In hand mode that follows the mouse without a button. While a button of the haptic device

@@ -353,7 +353,7 @@ vtkIdType HapticViewer::numberOfInvalidPoints() const
   return implementation_->scene.numberOfInvalidPoints();
 }
 
-const std::string& HapticViewer::scaleNote() const
+std::string HapticViewer::scaleNote() const
 {
   return implementation_->scene.scaleNote();
 }

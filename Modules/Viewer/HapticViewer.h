@@ -102,7 +102,7 @@ public:
   /// Number of points that are NaN or infinite: neither drawn nor felt.
   vtkIdType numberOfInvalidPoints() const;
   /// How large the model is in the hand, in words.
-  const std::string& scaleNote() const;
+  std::string scaleNote() const;
   ///@{
   /// Times of the last open().
   double readSeconds() const;

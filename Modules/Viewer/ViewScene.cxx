@@ -91,7 +91,7 @@ void ViewScene::beginFrame()
 {
   applyTextScale(renderer_->GetRenderWindow(), this->textScale());
   tellStereo(renderer_);
-  if (scalarBar_->GetVisibility() && !layoutPlacesBar_)
+  if (scalarBar_->GetVisibility() && !barBox_)
   {
     placeScalarBar(scalarBar_, renderer_);
   }
@@ -121,13 +121,13 @@ bool ViewScene::refinementDue()
 
 vtkIdType ViewScene::numberOfPoints() const
 {
-  return cloud_ ? cloud_->GetNumberOfPoints() : 0;
+  return loaded_.cloud ? loaded_.cloud->GetNumberOfPoints() : 0;
 }
 
 std::array<double, 6> ViewScene::workspaceBounds() const
 {
-  return { workspace_.minimum.x, workspace_.maximum.x, workspace_.minimum.y, workspace_.maximum.y,
-    workspace_.minimum.z, workspace_.maximum.z };
+  return { loaded_.workspace.minimum.x, loaded_.workspace.maximum.x, loaded_.workspace.minimum.y,
+    loaded_.workspace.maximum.y, loaded_.workspace.minimum.z, loaded_.workspace.maximum.z };
 }
 
 double ViewScene::voxelSize() const
@@ -139,29 +139,24 @@ double ViewScene::voxelSize() const
 
 bool ViewScene::open(LoadedCloud loaded, const HapticViewerOptions& options, std::string& message)
 {
-  const bool refines = loaded.showing.colors.has_value();
+  const bool isEmpty = loaded.isResampled && loaded.means->GetNumberOfPoints() == 0;
   const ColorRange before = this->colorRange();
-  cloud_ = loaded.cloud;
+  loaded_ = std::move(loaded);
+  shown_ = std::move(loaded_.shown);
   cloudBounds_ = {};
-  colorBy_ = loaded.colorBy;
-  ownColor_ = colorBy_ != "rgb" && findColorSource(cloud_, colorBy_) ? colorBy_ : std::string();
-  cloudOrientation_ = loaded.orientation;
+  colorBy_ = loaded_.colorBy;
+  ownColor_ = colorBy_ != "rgb" && findColorSource(loaded_.cloud, colorBy_) ? colorBy_ : std::string();
   picture_ = options.picture;
-  picture_.hidden = loaded.showing.hidden; // as the arrays are written
+  picture_.hidden = loaded_.showing.hidden; // as the arrays are written
   this->setClip(options.clip);
-  orientation_ = loaded.orientation;
-  orientation_.up = normalized(loaded.placement.applyToVector(orientation_.up));
-  shown_ = std::move(loaded.shown);
   memoryDue_ = steadySeconds() + kMemorySeconds;
   placedCamera_.clear();
-  resamplings_ += loaded.resamplings;
-  const bool isEmpty = loaded.isResampled && loaded.means->GetNumberOfPoints() == 0;
-  loaded_ = std::move(loaded);
+  resamplings_ += loaded_.resamplings;
   setElements(modelMatrix_, loaded_.placement);
   this->chooseUnit(options);
   this->configure(options);
   this->showMeans(options);
-  if (refines)
+  if (loaded_.showing.colors)
   {
     this->keepColorRange(before);
   }
@@ -177,17 +172,21 @@ bool ViewScene::open(LoadedCloud loaded, const HapticViewerOptions& options, std
 void ViewScene::chooseUnit(const HapticViewerOptions& options)
 {
   const LengthUnit chosen{ options.unit, options.metresPerUnit, UnitEvidence::None };
-  LengthUnit likely = options.unitIsChosen ? chosen : lengthUnitOf(cloud_, loaded_.bounds);
+  LengthUnit likely = options.unitIsChosen ? chosen : lengthUnitOf(loaded_.cloud, loaded_.bounds);
   const bool isSaid = likely.evidence == UnitEvidence::File;
   this->setUnit(isSaid ? likely : chosen);
   likelyUnit_ = likely.name == unit_.name ? LengthUnit{ "", 1.0, UnitEvidence::None } : likely;
+}
+
+std::string ViewScene::scaleNote() const
+{
+  return describeScale(modelMatrix_, unit_.name, unit_.metres);
 }
 
 void ViewScene::setUnit(const LengthUnit& unit)
 {
   unit_ = unit;
   axes_->SetUnitName(unit.name);
-  scaleNote_ = describeScale(modelMatrix_, unit.name, unit.metres);
   this->applyMarks();
   if (shown_)
   {
@@ -199,7 +198,7 @@ void ViewScene::setUnit(const LengthUnit& unit)
 void ViewScene::configure(const HapticViewerOptions& options)
 {
   const vtkSmartPointer<vtkPolyData> felt = std::exchange(loaded_.felt, nullptr);
-  resampler_->SetInputData(felt ? felt : cloud_);
+  resampler_->SetInputData(felt ? felt : loaded_.cloud);
   configureFilters(options, loaded_, resampler_, bandwidth_);
   vtkNew<vtkMatrix4x4> model;
   setElements(model, loaded_.model);
@@ -215,24 +214,19 @@ void ViewScene::showMeans(const HapticViewerOptions& options)
   loaded_.means = nullptr;
   mapper_->Settings().sizeArray = "MeanBandwidth";
   this->drawPoints();
-  workspace_ = loaded_.workspace;
   const std::array<double, 6> bounds = this->workspaceBounds();
   resampler_->SetWorkspaceBounds(bounds.data()); // it stays, whatever the user does to the model
   props_->SetWorkspaceBounds(bounds.data());
   brackets_->SetBox(bounds.data());
-  feltDetail_.setWorkspace(workspace_);
-  const Vec3 extent = workspace_.extent();
+  feltDetail_.setWorkspace(loaded_.workspace);
+  const Vec3 extent = loaded_.workspace.extent();
   const double edge = std::max({ extent.x, extent.y, extent.z });
-  props_->SetForceScale(0.06 * edge);
   props_->SetSmallestSphereRadius(kSmallestSphere * edge);
-  for (vtkSplatMapper* mapper : { mapper_.Get(), pointsMapper_.Get() })
-  {
-    mapper->Settings().sky = { orientation_.up.x, orientation_.up.y, orientation_.up.z };
-  }
+  const Vec3 up = normalized(loaded_.placement.applyToVector(loaded_.orientation.up));
+  mapper_->Settings().sky = pointsMapper_->Settings().sky = { up.x, up.y, up.z };
   fixedPixels_ = options.pointSize;
   this->applyPicture();
   showsFelt_ = showsFelt_ || options.felt;
-  loadedScale_ = std::cbrt(std::abs(modelMatrix_->Determinant()));
   vtkNew<vtkMatrix4x4> model;
   setElements(model, loaded_.model);
   this->placeModel(model);
@@ -264,7 +258,7 @@ void ViewScene::applyColors()
 ShownRequest ViewScene::showing() const
 {
   ShownRequest request;
-  request.orientation = cloudOrientation_;
+  request.orientation = loaded_.orientation;
   request.kind = shown_->look.kind;
   request.colors = shown_->colors;
   request.hidden = picture_.hidden;
@@ -308,7 +302,7 @@ std::vector<std::string> ViewScene::colorChoices() const
   for (const char* name : { "classification", "intensity", "returnnumber" })
   {
     // Arrays that were added for drawing are never averaged: with the means only the file's are offered.
-    vtkDataArray* array = findArrayAnyCase(showsFelt_ ? cloud_ : shown_->points, name);
+    vtkDataArray* array = findArrayAnyCase(showsFelt_ ? loaded_.cloud : shown_->points, name);
     add(array ? array->GetName() : "");
   }
   add(shown_->points->GetPointData()->HasArray(kFileArrayName) ? kFileArrayName : "");
@@ -341,7 +335,7 @@ void ViewScene::showAmbient(bool ambient)
 
 bool ViewScene::wantsResiduals() const
 {
-  return colorBy_ == kResidualArrayName && !cloud_->GetPointData()->HasArray(kResidualArrayName);
+  return colorBy_ == kResidualArrayName && !loaded_.cloud->GetPointData()->HasArray(kResidualArrayName);
 }
 
 void ViewScene::completeMeans(bool useCovariance)
@@ -376,7 +370,8 @@ void ViewScene::meansChanged()
     return;
   }
   auto* colors = vtkLookupTable::SafeDownCast(mapper_->GetLookupTable());
-  if (colors && picture_.colorRange.empty() && !cloud_->GetPointData()->HasArray(source->array.c_str()))
+  if (colors && picture_.colorRange.empty() &&
+    !loaded_.cloud->GetPointData()->HasArray(source->array.c_str()))
   {
     followColorRange(output, *source, colors);
   }
@@ -418,7 +413,7 @@ void ViewScene::applyLook()
   const bool isLength = this->wantsResiduals() || (source && source->array == kHeightArrayName);
   scalarBar_->SetTitle((name + (isLength ? " (" + unit_.name + ")\n" : "\n")).c_str());
   wantsScalarBar_ = !figure_ && source.has_value();
-  scalarBar_->SetVisibility(wantsScalarBar_ && barHasRoom_);
+  scalarBar_->SetVisibility(wantsScalarBar_ && !(barBox_ && barBox_->empty()));
   const Vec3 ink = inkOn(ground);
   for (vtkTextProperty* text : { scalarBar_->GetTitleTextProperty(), scalarBar_->GetLabelTextProperty(),
          scalarBar_->GetAnnotationTextProperty() })
@@ -446,7 +441,7 @@ void ViewScene::applyLook()
 /// Ends the box where the workspace does: people look at the part of a monument that is in reach.
 void ViewScene::placeAxes(vtkMatrix4x4* model)
 {
-  if (!axes_->GetVisibility() || !cloud_)
+  if (!axes_->GetVisibility() || !loaded_.cloud)
   {
     return;
   }
@@ -454,7 +449,7 @@ void ViewScene::placeAxes(vtkMatrix4x4* model)
   vtkNew<vtkMatrix4x4> toCloud;
   vtkMatrix4x4::Invert(model, toCloud);
   const Bounds reach =
-    boxOfCorners(workspace_, [&toCloud](const Vec3& corner) { return transformed(toCloud, corner); });
+    boxOfCorners(loaded_.workspace, [&toCloud](const Vec3& corner) { return transformed(toCloud, corner); });
   double bounds[6];
   for (int axis = 0; axis < 3; ++axis)
   {

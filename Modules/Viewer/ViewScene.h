@@ -15,7 +15,6 @@
 #include "EventLink.h"
 #include "Haptics/HapticScene.h"
 #include "Haptics/Proxy.h"
-#include "HeightProfile.h"
 #include "IO/Info/LengthUnit.h"
 #include "LevelOfDetail.h"
 #include "PointHapticsViewerModule.h" // For export macro
@@ -53,6 +52,9 @@ Vec3 inkOn(const std::string& ground);
 
 /// Background of a picture: that of its settings, or the nearest one of its theme.
 std::string groundOf(const PictureSettings& picture);
+
+/// Points of a profile: way along the line, and height along the up axis, in the unit of the cloud.
+using ProfilePoints = std::vector<std::array<double, 2>>;
 
 /// GUI thread only. Frames: the cloud's (as in the file) and the workspace's; metres in the latter.
 class POINTHAPTICSVIEWER_EXPORT ViewScene
@@ -137,9 +139,9 @@ public:
   /// none.
   const Bounds& cloudBounds();
   /// Bounds of what setClip() leaves.
-  Bounds shownBox() { return clipBox(clip_, cloud_).value_or(this->cloudBounds()); }
+  Bounds shownBox() { return clipBox(clip_, loaded_.cloud).value_or(this->cloudBounds()); }
   /// In the frame that is drawn; its coordinates are the file's but for degrees: see toLocalFrame().
-  vtkPolyData* cloud() { return cloud_; }
+  vtkPolyData* cloud() { return loaded_.cloud; }
   /// PictureSettings::measure in words: the distance, and in a second line that along each axis. Empty: there
   /// is none.
   std::vector<std::string> measuredText() const;
@@ -187,10 +189,10 @@ public:
   void meansChanged();
 
   /// The up axis in the frame of the cloud.
-  const Vec3& cloudUp() const { return cloudOrientation_.up; }
-  bool isUpGuessed() const { return cloudOrientation_.isGuess; }
+  const Vec3& cloudUp() const { return loaded_.orientation.up; }
+  bool isUpGuessed() const { return loaded_.orientation.isGuess; }
   /// Unit vector along an axis of the workspace, from its centre to the side the person looks from.
-  Vec3 towardsViewer() const { return orientation_.front; }
+  Vec3 towardsViewer() const;
   /// Scene of the shown means; takes the one that came with the cloud where there is one.
   std::shared_ptr<const HapticScene> makeScene(bool useCovariance, Status& status);
   /// False: the cloud has no means yet, until meansChanged().
@@ -200,7 +202,7 @@ public:
   /// Number of times that clouds were resampled for this scene: by loadCloud(), or by the filters below.
   int resamplings() const { return resamplings_; }
   /// describeScale() of the model as it was opened.
-  const std::string& scaleNote() const { return scaleNote_; }
+  std::string scaleNote() const;
   /// Unit of the file in texts: as the options say, else as the file says, else metres.
   const LengthUnit& unit() const { return unit_; }
   /// Unit that the file seems to have, where it is another; the name is empty where it seems to have none.
@@ -226,7 +228,7 @@ public:
   const LevelOfDetail& detail() const { return drawsFelt_ ? feltDetail_ : detail_; }
   /// True if the picture rests and can become finer: render it.
   bool refinementDue();
-  const Bounds& workspace() const { return workspace_; }
+  const Bounds& workspace() const { return loaded_.workspace; }
   std::array<double, 6> workspaceBounds() const;
   /// Mean edge of a voxel, metres; 0 before open().
   double voxelSize() const;
@@ -279,7 +281,6 @@ private:
 
   LoadedCloud
     loaded_; ///< As it was opened, without its means; @c measurement and @c scene until they are used.
-  vtkSmartPointer<vtkPolyData> cloud_;
   vtkNew<vtkMatrix4x4> modelMatrix_;
   vtkNew<vtkVoxelMeanResampler> resampler_;
   vtkNew<vtkKernelBandwidthFilter> bandwidth_;
@@ -295,13 +296,11 @@ private:
   bool showsFelt_ = false;            ///< The user asked for the means.
   bool drawsFelt_ = false;            ///< The means are drawn now.
   bool ambient_ = false;
-  double loadedScale_ = 1.0; ///< Scale of the model as it was opened.
   vtkNew<vtkWorkspaceBrackets> brackets_;
   vtkNew<vtkScalarBarActor> scalarBar_;
-  bool wantsScalarBar_ = false;  ///< The colours have a scale to show.
-  bool layoutPlacesBar_ = false; ///< A ScreenLayout places the bar.
-  bool barHasRoom_ = true;       ///< The layout gave the bar a box.
-  ScreenRectangle barBox_;       ///< That box.
+  bool wantsScalarBar_ = false; ///< The colours have a scale to show.
+  /// The box that a ScreenLayout gave the bar, empty where it has no room; nothing: no layout places it.
+  std::optional<ScreenRectangle> barBox_;
   vtkNew<vtkHapticProps> props_;
   vtkNew<vtkCloudAxes> axes_;
   bool wantsAxes_ = false;
@@ -311,7 +310,6 @@ private:
   std::string coloredBy_; ///< Array by which the picture is coloured now.
   LengthUnit unit_;       ///< Unit of the file.
   LengthUnit likelyUnit_;
-  CloudOrientation cloudOrientation_; ///< Orientation in the frame of the file.
   PictureSettings picture_;
   double fixedPixels_ = 0.0; ///< HapticViewerOptions::pointSize.
   Bounds cloudBounds_;       ///< Bounds of the finite points, as in the file; empty until somebody asks.
@@ -321,9 +319,6 @@ private:
   DistanceMark distance_; ///< Declared to be destroyed before the renderer.
   LevelOfDetail detail_{ renderer_, pointsActor_ };
   LevelOfDetail feltDetail_{ renderer_, actor_ };
-  Bounds workspace_;
-  CloudOrientation orientation_;
-  std::string scaleNote_;
   int resamplings_ = 0;
   EventLink sizing_{ [this] { this->beginFrame(); } };
   EventLink counting_{ [this] { ++resamplings_; } };

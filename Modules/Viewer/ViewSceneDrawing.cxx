@@ -87,7 +87,7 @@ void ViewScene::colorPoints()
   double light = 1.0;
   if (colorBy_ == kHeightArrayName && !data->HasArray(kHeightArrayName))
   {
-    addHeightArray(points, cloudOrientation_.up);
+    addHeightArray(points, loaded_.orientation.up);
   }
   if (colorBy_ == "Density" && !data->HasArray("Density"))
   {
@@ -123,7 +123,11 @@ void ViewScene::drawPoints()
   drawShown(*shown_, pointsMapper_);
   detail_.setOrder(shown_->order);
   this->applyPointSizes();
-  orientation_.front = normalized(transformOf(modelMatrix_).applyToVector(shown_->look.front));
+}
+
+Vec3 ViewScene::towardsViewer() const
+{
+  return normalized(loaded_.placement.applyToVector(shown_->look.front));
 }
 
 /// Returns freed memory of reading, measuring and drawing to the system, about 200 bytes a point, once these
@@ -188,7 +192,7 @@ void ViewScene::placeModel(vtkMatrix4x4* model)
   }
   const double scale = scaleOf(model);
   this->applyNoise();
-  const bool isWhole = scale <= kShownWhole * loadedScale_;
+  const bool isWhole = scale <= kShownWhole * scaleOf(modelMatrix_);
   if (isWhole != (pointsMapper_->GetNumberOfClippingPlanes() == 0))
   {
     pointsMapper_->RemoveAllClippingPlanes();
@@ -197,12 +201,12 @@ void ViewScene::placeModel(vtkMatrix4x4* model)
       vtkNew<vtkPlane> plane;
       double normal[3] = { 0.0, 0.0, 0.0 };
       normal[side / 2] = side % 2 == 0 ? 1.0 : -1.0;
-      const Vec3& corner = side % 2 == 0 ? workspace_.minimum : workspace_.maximum;
+      const Vec3& corner = side % 2 == 0 ? loaded_.workspace.minimum : loaded_.workspace.maximum;
       plane->SetOrigin(corner.x, corner.y, corner.z);
       plane->SetNormal(normal);
       pointsMapper_->AddClippingPlane(plane);
     }
-    detail_.setWorkspace(isWhole ? Bounds() : workspace_);
+    detail_.setWorkspace(isWhole ? Bounds() : loaded_.workspace);
   }
 }
 

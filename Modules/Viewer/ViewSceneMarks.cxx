@@ -63,9 +63,10 @@ bool ViewScene::placeAt(int x, int y, Vec3& place)
 std::vector<std::string> ViewScene::measuredText() const
 {
   const std::vector<double>& ends = picture_.measure;
-  return cloud_ && ends.size() == 6 ? distanceText(cloud_, placeOf(cloud_, ends, 0), placeOf(cloud_, ends, 1),
-                                        unit_.name, shown_ ? shown_->medianSpacing : 0.0)
-                                    : std::vector<std::string>();
+  return loaded_.cloud && ends.size() == 6
+    ? distanceText(loaded_.cloud, placeOf(loaded_.cloud, ends, 0), placeOf(loaded_.cloud, ends, 1),
+        unit_.name, shown_ ? shown_->medianSpacing : 0.0)
+    : std::vector<std::string>();
 }
 
 ProfilePoints ViewScene::profile() const
@@ -75,29 +76,47 @@ ProfilePoints ViewScene::profile() const
   {
     return {};
   }
-  const Vec3 from = placeOf(cloud_, ends, 0);
-  const Vec3 to = placeOf(cloud_, ends, 1);
-  const double width = std::max(kProfilePart * norm(to - from), kProfileSpacings * shown_->medianSpacing);
+  const Vec3 from = placeOf(loaded_.cloud, ends, 0);
+  const Vec3 whole = placeOf(loaded_.cloud, ends, 1) - from;
+  const double width = std::max(kProfilePart * norm(whole), kProfileSpacings * shown_->medianSpacing);
+  const Vec3& up = loaded_.orientation.up;
+  const Vec3 level = whole - dot(whole, up) * up;
+  const double length = norm(level);
+  const Vec3 along = normalized(level);
+  const Vec3 aside = cross(up, along);
   const auto isKept = notHidden(shown_->points, picture_.hidden);
-  const std::optional<Bounds> box = clipBox(clip_, cloud_);
-  const auto isShown = [&](vtkIdType i)
+  const std::optional<Bounds> box = clipBox(clip_, loaded_.cloud);
+  ProfilePoints found;
+  for (vtkIdType i = 0; length > 0.0 && i < shown_->points->GetNumberOfPoints(); ++i)
   {
     Vec3 place;
     shown_->points->GetPoint(i, &place.x);
-    return isKept(i) && (!box || contains(*box, place));
-  };
-  const PointAccess access(shown_->points->GetPoints());
-  return profileAlong(access.view(), from, to, cloudOrientation_.up, width, kMostOfProfile, isShown);
+    const Vec3 way = place - from;
+    const double distance = dot(way, along);
+    if (distance >= 0.0 && distance <= length && std::abs(dot(way, aside)) <= width && isKept(i) &&
+      (!box || contains(*box, place)))
+    {
+      found.push_back({ distance, dot(place, up) });
+    }
+  }
+  const std::size_t step = 1 + found.size() / kMostOfProfile; // every k-th tells enough
+  for (std::size_t i = 0; i * step < found.size(); ++i)
+  {
+    found[i] = found[i * step];
+  }
+  found.resize((found.size() + step - 1) / step);
+  return found;
 }
 
 /// Shows the marks; a figure has none.
 void ViewScene::applyMarks()
 {
-  const std::size_t count = figure_ || !cloud_ ? 0 : std::min<std::size_t>(2, picture_.measure.size() / 3);
+  const std::size_t count =
+    figure_ || !loaded_.cloud ? 0 : std::min<std::size_t>(2, picture_.measure.size() / 3);
   std::vector<Vec3> places;
   for (std::size_t i = 0; i < count; ++i)
   {
-    places.push_back(placeOf(cloud_, picture_.measure, i));
+    places.push_back(placeOf(loaded_.cloud, picture_.measure, i));
   }
   distance_.setPlaces(std::move(places));
   distance_.setWords(this->measuredText());
@@ -106,9 +125,9 @@ void ViewScene::applyMarks()
 
 const Bounds& ViewScene::cloudBounds()
 {
-  if (cloudBounds_.empty() && cloud_)
+  if (cloudBounds_.empty() && loaded_.cloud)
   {
-    cloudBounds_ = loaded_.near.empty() ? extentOf(cloud_).all : loaded_.near;
+    cloudBounds_ = loaded_.near.empty() ? extentOf(loaded_.cloud).all : loaded_.near;
   }
   return cloudBounds_;
 }
@@ -117,7 +136,7 @@ void ViewScene::setClip(const std::vector<double>& clip)
 {
   clip_ = clip;
   const Vec3 infinite{ INFINITY, INFINITY, INFINITY };
-  const Bounds box = clipBox(clip_, cloud_).value_or(Bounds{ -1.0 * infinite, infinite });
+  const Bounds box = clipBox(clip_, loaded_.cloud).value_or(Bounds{ -1.0 * infinite, infinite });
   pointsMapper_->Settings().clipBox = { box.minimum.x, box.maximum.x, box.minimum.y, box.maximum.y,
     box.minimum.z, box.maximum.z };
 }
@@ -125,9 +144,9 @@ void ViewScene::setClip(const std::vector<double>& clip)
 /// Only the drawn points have the arrays that hide.
 void ViewScene::clipFelt()
 {
-  if (cloud_)
+  if (loaded_.cloud)
   {
-    vtkPolyData* points = picture_.hidden.empty() ? cloud_ : shown_->points;
+    vtkPolyData* points = picture_.hidden.empty() ? loaded_.cloud : shown_->points;
     resampler_->SetInputData(shownPart(points, clip_, picture_.hidden));
     loaded_.scene.reset();
   }
@@ -170,13 +189,14 @@ void ViewScene::markHidden(vtkLookupTable* legend, const std::string& array) con
 
 bool ViewScene::canHideBy(const std::string& array) const
 {
-  vtkPolyData* points = array == "Density" ? cloud_ : shown_->points;
+  vtkPolyData* points = array == "Density" ? loaded_.cloud : shown_->points;
   return findColorSource(points, array).has_value();
 }
 
 std::vector<std::string> ViewScene::fileNames() const
 {
-  vtkAbstractArray* names = cloud_ ? cloud_->GetFieldData()->GetAbstractArray(kFileArrayName) : nullptr;
+  vtkAbstractArray* names =
+    loaded_.cloud ? loaded_.cloud->GetFieldData()->GetAbstractArray(kFileArrayName) : nullptr;
   std::vector<std::string> files;
   for (vtkIdType i = 0; names && i < names->GetNumberOfValues(); ++i)
   {

@@ -195,7 +195,7 @@ std::optional<ViewScene::ColorBarPlace> ViewScene::placeOnBar(double x, double y
   const int* corner = renderer_->GetOrigin(); // a chart may lie below
   const double across = x - corner[0];
   const double along = y - corner[1] - strip[1];
-  const double left = besideStrip && !barBox_.empty() ? barBox_.left : strip[0];
+  const double left = besideStrip && barBox_ && !barBox_->empty() ? barBox_->left : strip[0];
   const bool isInside = across >= left && across <= strip[0] + strip[2] && along >= 0.0 && along <= strip[3];
   return isInside ? std::optional(ColorBarPlace{ along / strip[3], double(strip[3]) }) : std::nullopt;
 }
@@ -245,11 +245,10 @@ ScreenBlock ViewScene::scalarBarBlock()
   };
   block.place = [this](const ScreenRectangle& box, double font)
   {
-    barHasRoom_ = !box.empty();
     barBox_ = box;
-    scalarBar_->SetVisibility(wantsScalarBar_ && barHasRoom_);
+    scalarBar_->SetVisibility(wantsScalarBar_ && !box.empty());
     const double edges[4] = { box.left, box.bottom, box.right, box.top };
-    if (barHasRoom_)
+    if (!box.empty())
     {
       placeScalarBar(
         scalarBar_, renderer_, font, renderer_->GetRenderWindow()->GetDPI() / kPointsPerInch, edges);
@@ -262,7 +261,7 @@ void ViewScene::join(ScreenLayout& layout)
 {
   // Size of the corner with the axes' directions, pixels at 72 dots per inch.
   constexpr double kMarker = 112.0;
-  layoutPlacesBar_ = true;
+  barBox_ = ScreenRectangle();
   layout.setScalarBar(this->scalarBarBlock());
   layout.setCorner([this] { return axes_->GetVisibility() ? kMarker : 0.0; });
   layout.setOpaque([this] { return picture_.isHighContrast(); });
@@ -284,8 +283,7 @@ void ViewScene::join(ScreenLayout& layout)
 
 void ViewScene::leaveLayout()
 {
-  layoutPlacesBar_ = false;
-  barHasRoom_ = true;
+  barBox_.reset();
   scalarBar_->SetVisibility(wantsScalarBar_);
   axes_->SetTaken(nullptr);
   distance_.setTaken(nullptr);
@@ -295,7 +293,7 @@ void ViewScene::leaveLayout()
 CameraFit ViewScene::fitFrom(const CloudLook& look, double turn) const
 {
   // Points inside the clipping box, or all where it holds none.
-  const vtkSmartPointer<vtkPolyData> clipped = clippedCloud(shown_->points, clipBox(clip_, cloud_));
+  const vtkSmartPointer<vtkPolyData> clipped = clippedCloud(shown_->points, clipBox(clip_, loaded_.cloud));
   const bool isEmpty = clipped->GetNumberOfPoints() == 0;
   const PointAccess access((isEmpty ? shown_->points : clipped)->GetPoints());
   const AffineTransform model = transformOf(pointsMatrix_);
@@ -303,7 +301,7 @@ CameraFit ViewScene::fitFrom(const CloudLook& look, double turn) const
   if (hasFewPlaces(access.view(), 1))
   {
     // Points at one place have no size that could fill the picture: the workspace does, seen from outside.
-    const std::array<Vec3, 8> corners = cornersBefore(model, workspace_);
+    const std::array<Vec3, 8> corners = cornersBefore(model, loaded_.workspace);
     CloudLook outside = look;
     outside.kind = CloudKind::Object;
     return fitCamera(PointView(corners.data(), std::int64_t(corners.size())), outside, model, aspect, turn,
@@ -328,8 +326,8 @@ CloudLook ViewScene::axisLook() const
 {
   CloudLook look = shown_->look;
   look.kind = CloudKind::Object;
-  look.up = cloudOrientation_.up;
-  look.front = cloudOrientation_.front;
+  look.up = loaded_.orientation.up;
+  look.front = loaded_.orientation.front;
   look.azimuth = look.elevation = look.tilt = 0.0;
   return look;
 }
@@ -353,7 +351,7 @@ void ViewScene::turnView(double degrees)
   }
   Vec3 middle;
   shown_->points->GetCenter(&middle.x);
-  if (const std::optional<Bounds> box = clipBox(clip_, cloud_))
+  if (const std::optional<Bounds> box = clipBox(clip_, loaded_.cloud))
   {
     middle = box->center();
   }
@@ -363,7 +361,7 @@ void ViewScene::turnView(double degrees)
 /// The up axis of the cloud in the workspace.
 Vec3 ViewScene::upward() const
 {
-  return normalized(transformOf(pointsMatrix_).applyToVector(cloudOrientation_.up));
+  return normalized(transformOf(pointsMatrix_).applyToVector(loaded_.orientation.up));
 }
 
 void ViewScene::turnCamera(const Vec3& about, double degrees, const Vec3& axis)
@@ -421,7 +419,7 @@ void ViewScene::fitView()
 {
   const AffineTransform model = transformOf(pointsMatrix_);
   const Vec3 up = this->upward();
-  const Vec3 right = normalized(cross(up, model.applyToVector(cloudOrientation_.front)));
+  const Vec3 right = normalized(cross(up, model.applyToVector(loaded_.orientation.front)));
   const Vec3 front = cross(right, up);
   const CameraView view(renderer_->GetActiveCamera());
   const double height = std::clamp(-dot(view.forward, up), -1.0, 1.0);

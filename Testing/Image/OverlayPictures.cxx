@@ -154,7 +154,7 @@ void buildMarks(const std::string& fault, vtkRenderer* renderer)
     all.push_back(vtkSmartPointer<vtkHapticProps>::New());
     all.back()->AddTo(part);
     all.back()->GetWorkspaceActor()->VisibilityOff();
-    all.back()->SetGaugeVisibility(false);
+    all.back()->GetGauge()->RemoveFrom(part);
     all.back()->SetOutlineVisibility(fault != "no-outline");
     all.back()->SetHighContrast(i > 3 && fault != "usual-colors");
     const bool isFree = i == 3;

@@ -163,12 +163,12 @@ ProxyState contactAt(const Vec3& point, const Vec3& normal, double depth, double
 void showTouch(vtkRenderer* renderer, const ProxyState& state, const double* workspace = nullptr)
 {
   vtkNew<vtkHapticProps> props;
-  props->SetGaugeVisibility(false); // it has a picture of its own
   if (workspace)
   {
     props->SetWorkspaceBounds(workspace);
   }
   props->AddTo(renderer);
+  props->GetGauge()->RemoveFrom(renderer); // it has a picture of its own
   props->Update(state);
 }
 
@@ -246,13 +246,15 @@ void buildDensityProxies(const std::string& fault, vtkRenderer* renderer)
   renderer->GetActiveCamera()->OrthogonalizeViewUp();
   renderer->GetActiveCamera()->Zoom(1.75);
   showCloud(renderer, means, "ProxyRadius", 4.0, fault == "wrong-color" ? kColorShift : 0.0);
-  const ProxyState small = touchFromAbove(*scene, { 0.018, 0.0, 0.0 }, 0.002);
+  ProxyState small = touchFromAbove(*scene, { 0.018, 0.0, 0.0 }, 0.002);
   ProxyState large = touchFromAbove(*scene, { -0.018, 0.0, 0.0 }, 0.002);
   if (fault == "equal-radii")
   {
     large.sphereCenter += (small.radius - large.radius) * large.normal;
     large.radius = small.radius;
   }
+  small.force *= 1.25; // arrows are as long as the frame says
+  large.force *= 1.25;
   // A frame close about the two, where the workspace's would be.
   const double frame[6] = { -0.04, 0.04, -0.04, 0.04, -0.001, 0.015 };
   showTouch(renderer, small, frame);

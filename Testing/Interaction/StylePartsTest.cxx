@@ -1,8 +1,8 @@
 // The parts of the style: any device, in any order, for as long as they live. No window, no display.
-#include "HapticTouch.h"
 #include "vtkHapticChart.h"
 #include "vtkHapticOverlay.h"
 #include "vtkHapticProps.h"
+#include "vtkHapticTouch.h"
 #include "vtkInteractorStyleHaptic.h"
 #include "vtkKernelBandwidthFilter.h"
 #include "vtkVoxelMeanResampler.h"
@@ -316,20 +316,21 @@ TEST_F(StyleParts, NameTheKeyInForceInTheStatus)
 
 TEST_F(StyleParts, SayWhyTheTouchCannotBegin)
 {
-  HapticTouch touch(style);
-  EXPECT_FALSE(touch.start());
-  EXPECT_NE(touch.message().find("the style has no window"), std::string::npos) << touch.message();
+  vtkNew<vtkHapticTouch> touch;
+  EXPECT_FALSE(touch->Start(style));
+  EXPECT_NE(touch->GetMessage().find("the style has no window"), std::string::npos) << touch->GetMessage();
   EXPECT_TRUE(style->GetHand().hasDevice());
-  EXPECT_EQ(style->GetServoLoop(), &touch.servo());
+  EXPECT_EQ(style->GetServoLoop(), &touch->GetServoLoop());
   vtkNew<vtkRenderWindowInteractor> interactor;
   interactor->SetInteractorStyle(style);
-  EXPECT_FALSE(touch.start());
-  EXPECT_NE(touch.message().find("no point lies in the workspace"), std::string::npos) << touch.message();
+  EXPECT_FALSE(touch->Start(style));
+  EXPECT_NE(touch->GetMessage().find("no point lies in the workspace"), std::string::npos)
+    << touch->GetMessage();
   resampler->SetVoxelSize(1e-12);
   style->SetResampler(resampler);
-  EXPECT_FALSE(touch.start());
-  EXPECT_NE(touch.message().find("voxel size 1e-12"), std::string::npos) << touch.message();
-  EXPECT_FALSE(touch.servo().running());
+  EXPECT_FALSE(touch->Start(style));
+  EXPECT_NE(touch->GetMessage().find("voxel size 1e-12"), std::string::npos) << touch->GetMessage();
+  EXPECT_FALSE(touch->IsOn());
   style = nullptr; // the touch keeps it until it ends itself
 }
 

@@ -148,7 +148,7 @@ std::string fileOptions(CLI::App& program)
 /// Help of all commands, also those that some windows lack.
 std::string keysHelp()
 {
-  return HapticViewer::commands().help(CommandRegistry::Scope::All);
+  return HapticViewer::commands().help();
 }
 
 std::string cheatSheet()

@@ -128,6 +128,10 @@ bool show(const ViewCommand& options, HapticViewer& viewer)
     rememberStopSignals(); // before a device that takes its time to start
     return viewer.run();
   }
+  if (options.files.size() > 1 && !options.viewer.together)
+  {
+    warn(fmt::format("only the first of the {} files is shown; --together shows all", options.files.size()));
+  }
   return (!options.viewer.followsFile() || viewer.feelPath()) &&
     (options.screenshot.empty() || viewer.renderToFile(options.screenshot));
 }

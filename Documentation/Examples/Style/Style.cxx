@@ -1,6 +1,6 @@
 // A ball of points is touched with the mouse: F: the hand follows the pointer, J: what it feels, Q: the end.
-#include <HapticTouch.h>
 #include <vtkActor.h>
+#include <vtkHapticTouch.h>
 #include <vtkNew.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkRenderWindow.h>
@@ -33,8 +33,8 @@ int main()
   vtkNew<vtkInteractorStyleHaptic> style;
   style->SetResampler(resampler);
   interactor->SetInteractorStyle(style);
-  pointhaptics::HapticTouch touch(style); // a simulated hand, its servo loop and what is seen of them
+  vtkNew<vtkHapticTouch> touch; // a simulated hand, its servo loop and what is seen of them
   style->GetCommands().add({ "say-force", "j", "Touch", "say what the hand feels",
-    [&touch] { std::printf("%.2f N to the right\n", touch.servo().latest().state.force.x); } });
-  return touch.run() ? 0 : 1;
+    [&touch] { std::printf("%.2f N to the right\n", touch->GetServoLoop().latest().state.force.x); } });
+  return touch->Run(style) ? 0 : 1;
 }

@@ -218,7 +218,7 @@ std::string CommandRegistry::labelOf(const std::string& gesture) const
 }
 
 /// Labels for a line of the help: the first gesture of each command; a command alone in its line shows two.
-std::string CommandRegistry::labelsOf(const std::vector<const Entry*>& line, Scope scope) const
+std::string CommandRegistry::labelsOf(const std::vector<const Entry*>& line) const
 {
   std::vector<std::string> labels;
   for (const Entry* entry : line)
@@ -228,7 +228,7 @@ std::string CommandRegistry::labelsOf(const std::vector<const Entry*>& line, Sco
     {
       labels.push_back(command.gestures);
     }
-    else if (scope == Scope::All || !command.isAvailable || command.isAvailable())
+    else if (!command.isAvailable || command.isAvailable())
     {
       const std::size_t count = std::min<std::size_t>(entry->gestures.size(), line.size() == 1 ? 2 : 1);
       for (std::size_t i = 0; i < count; ++i)
@@ -240,7 +240,7 @@ std::string CommandRegistry::labelsOf(const std::vector<const Entry*>& line, Sco
   return withArrowKeys(fmt::format("{}", fmt::join(labels, ", ")));
 }
 
-std::string CommandRegistry::help(Scope scope) const
+std::string CommandRegistry::help() const
 {
   using Line = std::pair<std::string, std::vector<const Entry*>>; // its words, and the commands
   std::vector<std::string> groups;
@@ -260,7 +260,7 @@ std::string CommandRegistry::help(Scope scope) const
     std::string heading = group;
     for (const Line& line : linesOfGroup[group])
     {
-      const std::string labels = this->labelsOf(line.second, scope);
+      const std::string labels = this->labelsOf(line.second);
       if (!labels.empty())
       {
         text += fmt::format("{}{:<{}} {:<{}} {}", text.empty() ? "" : "\n", heading, kGroupWidth, labels,

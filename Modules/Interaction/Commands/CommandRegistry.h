@@ -74,13 +74,6 @@ POINTHAPTICSINTERACTION_EXPORT bool runOnce(const Command* command);
 class POINTHAPTICSINTERACTION_EXPORT CommandRegistry
 {
 public:
-  /// Commands in the help: those that are available now, or all.
-  enum class Scope
-  {
-    Available,
-    All
-  };
-
   /// Adds @p command with its default gestures, which are taken from the commands that had them and named by
   /// conflicts(). One with the same name is replaced, and its gestures in force stay.
   void add(Command command);
@@ -114,8 +107,8 @@ public:
   const Command* find(const std::string& gesture) const;
 
   /// Lists the commands in columns, one a line: group, gestures, words. Groups and lines in the order of
-  /// their first command. Commands without a gesture are left out.
-  std::string help(Scope scope = Scope::Available) const;
+  /// their first command. Commands without a gesture, or without the parts they work on, are left out.
+  std::string help() const;
 
   /// Gestures with @p modifier, such as "Walk+", go before those without, until it is set to "".
   void setModifier(const std::string& modifier) { modifier_ = modifier; }
@@ -123,7 +116,7 @@ public:
   /// Called after each change.
   void setObserver(std::function<void()> changed) { changed_ = std::move(changed); }
   /// Copies the commands without functions and observer, so that they can be bound and described, but not
-  /// run: help(Scope::All) is for it.
+  /// run. The help of the copy lists all of them.
   CommandRegistry described() const;
 
 private:
@@ -137,7 +130,7 @@ private:
   void setGestures(Entry& entry, const std::string& gestures);
   const Command* findExactly(const std::string& gesture) const;
   std::string labelOf(const std::string& gesture) const;
-  std::string labelsOf(const std::vector<const Entry*>& line, Scope scope) const;
+  std::string labelsOf(const std::vector<const Entry*>& line) const;
   void reportChange() const;
 
   std::vector<Entry> entries_;

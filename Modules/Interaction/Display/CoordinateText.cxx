@@ -5,10 +5,10 @@
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstring>
 
 namespace pointhaptics
 {
@@ -23,7 +23,9 @@ constexpr int kMostDigits = 15;
 constexpr int kFewestDigits = 2;
 constexpr int kMostDistanceDigits = 4;
 constexpr int kUsualDigits = 3;
-/// Numbers from here on have an exponent.
+/// Between these limits numbers with a fraction have decimals instead of six digits, and none has an
+/// exponent.
+constexpr double kLeastFixed = 1e5;
 constexpr double kLargestFixed = 1e9;
 /// Relative step between neighbouring numbers of single precision.
 constexpr double kSinglePrecision = 1.2e-7;
@@ -58,19 +60,24 @@ int distanceDecimals(vtkPolyData* cloud, const Vec3& from, const Vec3& to, doubl
 
 std::string fixedText(double value, int decimals)
 {
-  char text[64];
-  std::snprintf(text, sizeof(text), "%.*f", decimals, value);
-  const bool isZero = std::strspn(text, "-0.") == std::strlen(text);
-  return isZero && text[0] == '-' ? text + 1 : text;
+  const std::string text = fmt::format("{:.{}f}", value, decimals);
+  const bool isZero = text.find_first_not_of("-0.") == std::string::npos;
+  return isZero && text[0] == '-' ? text.substr(1) : text;
+}
+
+std::string valueText(double value)
+{
+  const double size = std::abs(value);
+  return size >= kLeastFixed && size < kLargestFixed
+    ? fixedText(value, value == std::round(value) ? 0 : kLeastDecimals)
+    : fmt::format("{:.6g}", value);
 }
 
 std::string coordinateText(double value, double step)
 {
   if (!(std::abs(value) < kLargestFixed))
   {
-    char text[64];
-    std::snprintf(text, sizeof(text), "%.6g", value);
-    return text;
+    return valueText(value);
   }
   const int wanted = step > 0.0 ? decimalsDownTo(step) : kLeastDecimals;
   const int whole = std::abs(value) < 1.0 ? 1 : 1 + int(std::log10(std::abs(value)));

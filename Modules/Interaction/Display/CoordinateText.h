@@ -17,6 +17,10 @@ namespace pointhaptics
 /// Text of @p value with @p decimals; a number that is rounded to zero has no sign.
 std::string fixedText(double value, int decimals);
 
+/// Text of a number of a file: six digits, but whole numbers whole, and large ones, such as coordinates of
+/// maps, with three decimals and without an exponent.
+POINTHAPTICSINTERACTION_EXPORT std::string valueText(double value);
+
 /// Text of @p value with decimals down to @p step, at least three where that is 0, and no more digits than a
 /// double has.
 std::string coordinateText(double value, double step);

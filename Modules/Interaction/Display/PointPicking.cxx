@@ -42,11 +42,6 @@ namespace
 
 /// Coordinates of the file are shown down to this part of a voxel.
 constexpr double kStepInVoxels = 1e-3;
-constexpr int kLeastDecimals = 3;
-/// Between these limits numbers with a fraction have decimals instead of six digits, and none has an
-/// exponent.
-constexpr double kLeastFixed = 1e5;
-constexpr double kLargestFixed = 1e9;
 constexpr int kMostComponents = 9;
 /// Neighbours whose reach tells how far points are apart: those around a point of a grid.
 constexpr int kNeighbors = 8;
@@ -76,17 +71,6 @@ double coordinateStep(vtkPolyData* cloud)
   const double edges[3] = { norm(back->applyToVector({ spacing.x, 0.0, 0.0 })),
     norm(back->applyToVector({ 0.0, spacing.y, 0.0 })), norm(back->applyToVector({ 0.0, 0.0, spacing.z })) };
   return kStepInVoxels * *std::min_element(edges, edges + 3);
-}
-
-/// Text of an array's value: whole numbers whole, large ones without an exponent.
-std::string valueText(double value)
-{
-  const double size = std::abs(value);
-  if (!(size < kLargestFixed) || size < kLeastFixed)
-  {
-    return fmt::format("{:.6g}", value);
-  }
-  return fixedText(value, value == std::round(value) ? 0 : kLeastDecimals);
 }
 
 /// Describes an array on a line of its own.

@@ -55,10 +55,9 @@ double screenScale(vtkRenderWindow* window)
   {
     scale = window->GetSize()[1] / kUsualHeight;
   }
-  else if (void* display = xDisplayOf(window))
+  else if (xDisplayOf(window))
   {
-    const auto resources = xFunction<char* (*)(void*)>("XResourceManagerString");
-    const double dots = resources ? dotsPerInchOf(resources(display)) : 0.0;
+    const double dots = dotsPerInchOf(desktopResources(window));
     scale =
       dots > 0.0 ? dots / kUsualDotsPerInch : scaleOfScreen(window->GetScreenSize()[1], window->GetSize()[1]);
   }

@@ -3,10 +3,10 @@
  * @brief   force and proxy radius over time, live beside the cloud or as a picture of a recorded trace
  *
  * Force magnitude in newtons on the left axis, beside it the ideal one where the surface is known exactly,
- * proxy radius in millimetres on the right one, time in seconds below. The chart lives in a renderer of its
- * own: give it a viewport and add it to the window. Samples may come at any rate; what is drawn is the
- * largest force and the mean radius of each of at most 600 slices of the time window, so a short peak is
- * never lost.
+ * proxy radius in millimetres on the right one, time in seconds below, the last five. The chart lives in a
+ * renderer of its own: give it a viewport and add it to the window. Samples may come at any rate; what is
+ * drawn is the largest force and the mean radius of each of at most 600 slices of the time window, so a short
+ * peak is never lost.
  *
  * Not thread safe: GUI thread only.
  * @sa vtkInteractorStyleHaptic
@@ -15,27 +15,24 @@
 #define vtkHapticChart_h
 
 #include "PointHapticsInteractionModule.h" // For export macro
+#include "vtkNew.h"                        // For the parts
 #include "vtkObject.h"
 
-#include <cmath>  // For NAN
-#include <memory> // For Internals
+#include <cmath> // For NAN
+#include <deque> // For the samples
 #include <string>
 
+class vtkChartXY;
+class vtkContextActor;
+class vtkFloatArray;
 class vtkRenderer;
+class vtkTable;
 
 class POINTHAPTICSINTERACTION_EXPORT vtkHapticChart : public vtkObject
 {
 public:
   static vtkHapticChart* New();
   vtkTypeMacro(vtkHapticChart, vtkObject);
-
-  ///@{
-  /**
-   * Seconds shown, ending with the newest sample; 0 shows all samples from the first. Default: 5.
-   */
-  vtkSetClampMacro(TimeWindow, double, 0.0, 1e9);
-  vtkGetMacro(TimeWindow, double);
-  ///@}
 
   ///@{
   /**
@@ -81,7 +78,7 @@ public:
   /**
    * The renderer that shows the chart. Default viewport: the whole window.
    */
-  vtkRenderer* GetRenderer();
+  vtkRenderer* GetRenderer() { return this->Renderer; }
 
   /**
    * Write all samples as a PNG of @p width by @p height pixels, through a window of its own off the screen.
@@ -95,18 +92,39 @@ protected:
   vtkHapticChart();
   ~vtkHapticChart() override;
 
-  void ApplyColors();
-
-  double TimeWindow = 5.0;
-  bool Paused = false;
-  std::string ErrorMessage;
-
 private:
   vtkHapticChart(const vtkHapticChart&) = delete;
   void operator=(const vtkHapticChart&) = delete;
 
-  struct Internals;
-  std::unique_ptr<Internals> Parts;
+  struct Sample
+  {
+    double seconds;
+    double newtons;
+    double metres;
+    double idealNewtons; // NaN: not known
+  };
+  void ApplyColors();
+  bool Draw(double begin, double end);
+  void Fill(double begin, double end);
+  bool IsFlat() const;
+  bool IsLow() const;
+  void FitTexts();
+
+  bool Paused = false;
+  std::string ErrorMessage;
+  vtkNew<vtkRenderer> Renderer;
+  vtkNew<vtkContextActor> Actor;
+  vtkNew<vtkChartXY> Chart;
+  vtkNew<vtkTable> Table;
+  vtkNew<vtkFloatArray> Time;
+  vtkNew<vtkFloatArray> Force;
+  vtkNew<vtkFloatArray> Radius;
+  vtkNew<vtkFloatArray> Ideal;
+  std::deque<Sample> Samples;
+  bool IsDark = false;
+  bool WasFlat = false;
+  int FittedHeight = 0; // of the renderer whose texts fit, pixels,
+  int FittedDpi = 0;    // and of its window
 };
 
 #endif

@@ -1,14 +1,7 @@
 #include "ClipBoxMark.h"
 
-#include "EventLink.h"
-#include "ScreenMarks.h"
-
-#include "vtkMatrix4x4.h"
-#include "vtkNew.h"
 #include "vtkRenderer.h"
-#include "vtkWeakPointer.h"
 
-#include <array>
 #include <cmath>
 
 namespace pointhaptics
@@ -17,9 +10,6 @@ namespace
 {
 
 constexpr unsigned char kColor[3] = { 90, 200, 250 };
-constexpr float kWidth = 1.5F;
-constexpr float kHandleWidth = 3.0F;
-constexpr float kRimWidth = 6.0F;
 constexpr int kFaces = 6;
 /// Size of a handle, and reach of its middle, in points: pixels at 72 dots per inch.
 constexpr double kHandle = 6.0;
@@ -32,169 +22,122 @@ constexpr double kLeastPixels = 0.15; // of the probe
 
 } // namespace
 
-struct ClipBoxMark::Parts
+ClipBoxMark::~ClipBoxMark()
 {
-  Bounds box;
-  vtkNew<vtkMatrix4x4> model;
-  int active = 1;
-  bool isVisible = false;
-  ScreenLines edges{ kWidth };
-  ScreenLines rims{ kRimWidth };
-  ScreenLines handles{ kHandleWidth };
-  EventLink onStart{ [this]
+  for (ScreenLines* lines : this->all())
+  {
+    if (renderer_)
     {
-      if (this->isVisible)
-      {
-        this->draw();
-      }
-    } };
-  vtkWeakPointer<vtkRenderer> renderer;
-
-  double pixels() const { return pixelsPerPoint(this->renderer); }
-  Vec3 inPicture(const Vec3& place) { return transformed(this->model, place); }
-  Vec3 corner(int index) const
-  {
-    return { index & 1 ? this->box.maximum.x : this->box.minimum.x,
-      index & 2 ? this->box.maximum.y : this->box.minimum.y,
-      index & 4 ? this->box.maximum.z : this->box.minimum.z };
+      renderer_->RemoveActor2D(lines->actor());
+    }
   }
-  Vec3 middleOf(int face) const
-  {
-    Vec3 middle = this->box.center();
-    middle[face / 2] = face % 2 == 0 ? this->box.minimum[face / 2] : this->box.maximum[face / 2];
-    return middle;
-  }
-  void draw();
-  void drawHandle(const Pixel& at, const unsigned char color[3]);
-};
+}
 
-void ClipBoxMark::Parts::drawHandle(const Pixel& at, const unsigned char color[3])
+/// A corner of the box in the picture.
+Vec3 ClipBoxMark::corner(int index) const
 {
-  const double half = this->pixels() * kHandle;
+  return transformed(model_,
+    { index & 1 ? box_.maximum.x : box_.minimum.x, index & 2 ? box_.maximum.y : box_.minimum.y,
+      index & 4 ? box_.maximum.z : box_.minimum.z });
+}
+
+/// The middle of a face, in the frame of the cloud.
+Vec3 ClipBoxMark::middleOf(int face) const
+{
+  Vec3 middle = box_.center();
+  middle[face / 2] = face % 2 == 0 ? box_.minimum[face / 2] : box_.maximum[face / 2];
+  return middle;
+}
+
+void ClipBoxMark::drawHandle(const Pixel& at, const unsigned char color[3])
+{
+  const double half = pixelsPerPoint(renderer_) * kHandle;
   for (int side = 0; side < 4; ++side)
   {
     const double fromX = side == 0 || side == 3 ? -half : half;
     const double fromY = side < 2 ? -half : half;
     const double toX = side < 2 ? half : -half;
     const double toY = side == 1 || side == 2 ? half : -half;
-    this->rims.add(at.x + fromX, at.y + fromY, at.x + toX, at.y + toY, kMarkRim);
-    this->handles.add(at.x + fromX, at.y + fromY, at.x + toX, at.y + toY, color);
+    rims_.add(at.x + fromX, at.y + fromY, at.x + toX, at.y + toY, kMarkRim);
+    handles_.add(at.x + fromX, at.y + fromY, at.x + toX, at.y + toY, color);
   }
 }
 
-void ClipBoxMark::Parts::draw()
+void ClipBoxMark::draw()
 {
-  for (ScreenLines* lines : { &this->edges, &this->rims, &this->handles })
+  if (!isVisible_)
+  {
+    return;
+  }
+  for (ScreenLines* lines : this->all())
   {
     lines->clear();
   }
-  const ScreenProjection project(this->renderer);
+  const ScreenProjection project(renderer_);
   for (int i = 0; i < 8; ++i)
   {
     for (const int bit : { 1, 2, 4 })
     {
-      Vec3 a = this->inPicture(this->corner(i));
-      Vec3 b = this->inPicture(this->corner(i | bit));
+      Vec3 a = this->corner(i);
+      Vec3 b = this->corner(i | bit);
       if ((i & bit) == 0 && project.leaveSeenPart(a, b))
       {
         const Pixel from = project(a);
         const Pixel to = project(b);
-        this->edges.add(from.x, from.y, to.x, to.y, kColor);
+        edges_.add(from.x, from.y, to.x, to.y, kColor);
       }
     }
   }
   for (int face = 0; face < kFaces; ++face)
   {
-    const Pixel at = project(this->inPicture(this->middleOf(face)));
+    const Pixel at = project(transformed(model_, this->middleOf(face)));
     if (at.seen)
     {
-      this->drawHandle(at, face == this->active ? kMarkColor : kColor);
+      this->drawHandle(at, face == active_ ? kMarkColor : kColor);
     }
   }
-  for (ScreenLines* lines : { &this->edges, &this->rims, &this->handles })
+  for (ScreenLines* lines : this->all())
   {
     lines->finish();
   }
 }
 
-ClipBoxMark::ClipBoxMark()
-  : parts_(std::make_unique<Parts>())
-{
-}
-
-ClipBoxMark::~ClipBoxMark()
-{
-  if (vtkRenderer* renderer = parts_->renderer)
-  {
-    for (ScreenLines* lines : { &parts_->edges, &parts_->rims, &parts_->handles })
-    {
-      renderer->RemoveActor2D(lines->actor());
-    }
-  }
-}
-
 void ClipBoxMark::addTo(vtkRenderer* renderer)
 {
-  parts_->renderer = renderer;
-  for (ScreenLines* lines : { &parts_->edges, &parts_->rims, &parts_->handles })
+  renderer_ = renderer;
+  for (ScreenLines* lines : this->all())
   {
     renderer->AddActor2D(lines->actor());
   }
-  parts_->onStart.follow(renderer);
-}
-
-void ClipBoxMark::setBox(const Bounds& box)
-{
-  parts_->box = box;
-}
-
-void ClipBoxMark::setModel(vtkMatrix4x4* model)
-{
-  parts_->model->DeepCopy(model);
-}
-
-void ClipBoxMark::setActiveFace(int face)
-{
-  parts_->active = face;
-}
-
-int ClipBoxMark::activeFace() const
-{
-  return parts_->active;
+  onStart_.follow(renderer);
 }
 
 void ClipBoxMark::setVisible(bool visible)
 {
-  parts_->isVisible = visible;
-  for (ScreenLines* lines : { &parts_->edges, &parts_->rims, &parts_->handles })
+  isVisible_ = visible;
+  for (ScreenLines* lines : this->all())
   {
     lines->actor()->SetVisibility(visible);
   }
 }
 
-bool ClipBoxMark::isVisible() const
-{
-  return parts_->isVisible;
-}
-
 std::optional<int> ClipBoxMark::faceAt(double x, double y) const
 {
-  Parts& parts = *parts_;
-  if (!parts.isVisible || !parts.renderer)
+  if (!isVisible_ || !renderer_)
   {
     return std::nullopt;
   }
-  const ScreenProjection project(parts.renderer, x);
-  const std::array<double, 2> place = placeInPicture(parts.renderer, x, y);
-  const int* corner = parts.renderer->GetOrigin(); // a chart may lie below
+  const ScreenProjection project(renderer_, x);
+  const std::array<double, 2> place = placeInPicture(renderer_, x, y);
+  const int* corner = renderer_->GetOrigin(); // a chart may lie below
   std::optional<int> found;
-  double nearest = parts.pixels() * kReach;
+  double nearest = pixelsPerPoint(renderer_) * kReach;
   for (int face = 0; face < kFaces; ++face)
   {
-    const Pixel at = project(parts.inPicture(parts.middleOf(face)));
+    const Pixel at = project(transformed(model_, this->middleOf(face)));
     const double distance = std::hypot(place[0] - corner[0] - at.x, place[1] - corner[1] - at.y);
     // Where two handles meet, the active one wins.
-    if (at.seen && (distance < nearest || (distance == nearest && face == parts.active)))
+    if (at.seen && (distance < nearest || (distance == nearest && face == active_)))
     {
       nearest = distance;
       found = face;
@@ -205,17 +148,16 @@ std::optional<int> ClipBoxMark::faceAt(double x, double y) const
 
 double ClipBoxMark::wayOf(int face, double pixelsRight, double pixelsUp) const
 {
-  Parts& parts = *parts_;
-  const double extent = parts.box.extent()[face / 2];
-  if (!parts.renderer || !(extent > 0.0))
+  const double extent = box_.extent()[face / 2];
+  if (!renderer_ || !(extent > 0.0))
   {
     return 0.0;
   }
-  const ScreenProjection project(parts.renderer);
-  Vec3 probe = parts.middleOf(face);
-  const Pixel from = project(parts.inPicture(probe));
+  const ScreenProjection project(renderer_);
+  Vec3 probe = this->middleOf(face);
+  const Pixel from = project(transformed(model_, probe));
   probe[face / 2] += (face % 2 == 0 ? -kProbe : kProbe) * extent;
-  const Pixel to = project(parts.inPicture(probe));
+  const Pixel to = project(transformed(model_, probe));
   const double right = to.x - from.x;
   const double up = to.y - from.y;
   const double length = std::hypot(right, up);

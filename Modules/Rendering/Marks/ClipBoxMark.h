@@ -3,13 +3,18 @@
 #pragma once
 
 #include "Core/Base/PointView.h"
+#include "EventLink.h"
+#include "ScreenMarks.h"
 
 #include "PointHapticsRenderingModule.h" // For export macro
 
-#include <memory>
+#include "vtkMatrix4x4.h"
+#include "vtkNew.h"
+#include "vtkWeakPointer.h"
+
+#include <array>
 #include <optional>
 
-class vtkMatrix4x4;
 class vtkRenderer;
 
 namespace pointhaptics
@@ -20,7 +25,7 @@ namespace pointhaptics
 class POINTHAPTICSRENDERING_EXPORT ClipBoxMark
 {
 public:
-  ClipBoxMark();
+  ClipBoxMark() = default;
   /// Removes it from its renderer.
   ~ClipBoxMark();
   ClipBoxMark(const ClipBoxMark&) = delete;
@@ -29,15 +34,15 @@ public:
   /// Adds it to one renderer, for good.
   void addTo(vtkRenderer* renderer);
   /// Sets the box in the frame of the cloud.
-  void setBox(const Bounds& box);
+  void setBox(const Bounds& box) { box_ = box; }
   /// Sets the matrix from the frame of the cloud to that of the picture; copied. Default: the identity.
-  void setModel(vtkMatrix4x4* model);
+  void setModel(vtkMatrix4x4* model) { model_->DeepCopy(model); }
   /// Sets the face whose handle stands out.
-  void setActiveFace(int face);
-  int activeFace() const;
+  void setActiveFace(int face) { active_ = face; }
+  int activeFace() const { return active_; }
   /// Default: off.
   void setVisible(bool visible);
-  bool isVisible() const;
+  bool isVisible() const { return isVisible_; }
 
   /// Finds the face whose handle is at a place of the window, in pixels from its lower left corner.
   std::optional<int> faceAt(double x, double y) const;
@@ -45,8 +50,21 @@ public:
   double wayOf(int face, double pixelsRight, double pixelsUp) const;
 
 private:
-  struct Parts;
-  std::unique_ptr<Parts> parts_;
+  std::array<ScreenLines*, 3> all() { return { &edges_, &rims_, &handles_ }; }
+  Vec3 corner(int index) const;
+  Vec3 middleOf(int face) const;
+  void draw();
+  void drawHandle(const Pixel& at, const unsigned char color[3]);
+
+  Bounds box_;
+  vtkNew<vtkMatrix4x4> model_;
+  int active_ = 1;
+  bool isVisible_ = false;
+  ScreenLines edges_{ 1.5F };
+  ScreenLines rims_{ 6.0F };
+  ScreenLines handles_{ 3.0F };
+  EventLink onStart_{ [this] { this->draw(); } };
+  vtkWeakPointer<vtkRenderer> renderer_;
 };
 
 } // namespace pointhaptics

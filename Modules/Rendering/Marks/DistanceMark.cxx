@@ -1,12 +1,6 @@
 #include "DistanceMark.h"
 
-#include "EventLink.h"
-#include "ScreenMarks.h"
-
-#include "vtkMatrix4x4.h"
-#include "vtkNew.h"
 #include "vtkRenderer.h"
-#include "vtkWeakPointer.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,8 +13,6 @@ namespace
 {
 
 constexpr unsigned char kInk[3] = { 25, 25, 30 };
-constexpr float kWidth = 2.0F;
-constexpr float kRimWidth = 5.0F;
 /// Sizes in points: pixels at 72 dots per inch.
 constexpr int kFont = 15;
 constexpr double kArm = 7.0;
@@ -35,44 +27,29 @@ constexpr double kSteep = 0.25;
 
 } // namespace
 
-struct DistanceMark::Parts
-{
-  std::vector<Vec3> places;
-  std::vector<std::string> words;
-  vtkNew<vtkMatrix4x4> model;
-  ScreenLines rim{ kRimWidth };
-  ScreenLines line{ kWidth };
-  ScreenTexts texts;
-  EventLink onStart{ [this]
-    {
-      if (!this->places.empty())
-      {
-        this->place();
-      }
-    } };
-  vtkWeakPointer<vtkRenderer> renderer;
-  std::function<std::vector<std::array<double, 4>>()> taken;
+DistanceMark::DistanceMark() = default;
 
-  Vec3 inPicture(const Vec3& place) { return transformed(this->model, place); }
-  void draw(const Pixel& a, const Pixel& b)
+DistanceMark::~DistanceMark()
+{
+  if (renderer_)
   {
-    this->rim.add(a.x, a.y, b.x, b.y, kMarkRim);
-    this->line.add(a.x, a.y, b.x, b.y, kMarkColor);
+    renderer_->RemoveActor2D(rim_.actor());
+    renderer_->RemoveActor2D(line_.actor());
+    texts_.removeFrom(renderer_);
   }
-  void drawCross(const Pixel& p, double arm)
-  {
-    this->draw({ p.x - arm, p.y - arm, true }, { p.x + arm, p.y + arm, true });
-    this->draw({ p.x - arm, p.y + arm, true }, { p.x + arm, p.y - arm, true });
-  }
-  void place();
-  void write(const Pixel& a, const Pixel& b);
-};
+}
+
+void DistanceMark::draw(const Pixel& a, const Pixel& b)
+{
+  rim_.add(a.x, a.y, b.x, b.y, kMarkRim);
+  line_.add(a.x, a.y, b.x, b.y, kMarkColor);
+}
 
 /// Writes beside the middle of the visible line, within the viewport, where nothing else is written.
-void DistanceMark::Parts::write(const Pixel& a, const Pixel& b)
+void DistanceMark::write(const Pixel& a, const Pixel& b)
 {
-  const double pixels = this->texts.pixelsPerPoint();
-  const int* size = this->renderer->GetSize();
+  const double pixels = texts_.pixelsPerPoint();
+  const int* size = renderer_->GetSize();
   const auto within = [](double value, double edge) { return std::clamp(value, 0.0, edge); };
   const double x = 0.5 * (within(a.x, size[0]) + within(b.x, size[0]));
   const double y = 0.5 * (within(a.y, size[1]) + within(b.y, size[1]));
@@ -80,9 +57,9 @@ void DistanceMark::Parts::write(const Pixel& a, const Pixel& b)
   const bool isSteep = std::abs(b.y - a.y) > kSteep * std::abs(b.x - a.x);
   const double first = isSteep ? ((b.y - a.y) * (b.x - a.x) > 0.0 ? -0.5 : 1.5) * kLine : kGap + 0.5 * kLine;
   const double step = isSteep ? kLine : 2.0 * first;
-  for (std::size_t i = 0; i < this->words.size(); ++i)
+  for (std::size_t i = 0; i < words_.size(); ++i)
   {
-    const double width = this->texts.widthOf(this->words[i]);
+    const double width = texts_.widthOf(words_[i]);
     const double room = pixels * kGap;
     const double left = isSteep ? x + room : x - 0.5 * width;
     const double middle = y + pixels * (first - double(i) * step);
@@ -95,93 +72,69 @@ void DistanceMark::Parts::write(const Pixel& a, const Pixel& b)
       for (int side : { 1, -1 })
       {
         const double up = std::clamp(middle + side * away * pixels * kLine, pixels * kLine, high);
-        isPut = isPut || this->texts.put(this->words[i], across, up, 1.0, 0.0, kInk);
+        isPut = isPut || texts_.put(words_[i], across, up, 1.0, 0.0, kInk);
       }
     }
   }
 }
 
-void DistanceMark::Parts::place()
+void DistanceMark::place()
 {
-  this->rim.clear();
-  this->line.clear();
-  this->texts.clear(this->renderer, kFont);
-  for (const std::array<double, 4>& box : this->taken ? this->taken() : std::vector<std::array<double, 4>>())
+  if (places_.empty())
   {
-    this->texts.take(box);
+    return;
   }
-  const ScreenProjection project(this->renderer);
-  for (const Vec3& place : this->places)
+  rim_.clear();
+  line_.clear();
+  texts_.clear(renderer_, kFont);
+  for (const std::array<double, 4>& box : taken_ ? taken_() : std::vector<std::array<double, 4>>())
   {
-    const Pixel pixel = project(this->inPicture(place));
+    texts_.take(box);
+  }
+  const ScreenProjection project(renderer_);
+  for (const Vec3& place : places_)
+  {
+    const Pixel pixel = project(transformed(model_, place));
     if (pixel.seen)
     {
-      this->drawCross(pixel, this->texts.pixelsPerPoint() * kArm);
+      const double arm = texts_.pixelsPerPoint() * kArm;
+      this->draw({ pixel.x - arm, pixel.y - arm, true }, { pixel.x + arm, pixel.y + arm, true });
+      this->draw({ pixel.x - arm, pixel.y + arm, true }, { pixel.x + arm, pixel.y - arm, true });
     }
   }
-  if (this->places.size() > 1)
+  if (places_.size() > 1)
   {
-    Vec3 a = this->inPicture(this->places[0]);
-    Vec3 b = this->inPicture(this->places[1]);
+    Vec3 a = transformed(model_, places_[0]);
+    Vec3 b = transformed(model_, places_[1]);
     if (project.leaveSeenPart(a, b))
     {
       this->draw(project(a), project(b));
       this->write(project(a), project(b));
     }
   }
-  this->texts.finish();
-  this->rim.finish();
-  this->line.finish();
-}
-
-DistanceMark::DistanceMark()
-  : parts_(std::make_unique<Parts>())
-{
-}
-
-DistanceMark::~DistanceMark()
-{
-  if (vtkRenderer* renderer = parts_->renderer)
-  {
-    renderer->RemoveActor2D(parts_->rim.actor());
-    renderer->RemoveActor2D(parts_->line.actor());
-    parts_->texts.removeFrom(renderer);
-  }
+  texts_.finish();
+  rim_.finish();
+  line_.finish();
 }
 
 void DistanceMark::addTo(vtkRenderer* renderer)
 {
-  parts_->renderer = renderer;
-  renderer->AddActor2D(parts_->rim.actor());
-  renderer->AddActor2D(parts_->line.actor());
-  parts_->texts.addTo(renderer);
-  parts_->onStart.follow(renderer, vtkCommand::StartEvent, kLast);
+  renderer_ = renderer;
+  renderer->AddActor2D(rim_.actor());
+  renderer->AddActor2D(line_.actor());
+  texts_.addTo(renderer);
+  onStart_.follow(renderer, vtkCommand::StartEvent, kLast);
 }
 
 void DistanceMark::setPlaces(std::vector<Vec3> places)
 {
-  parts_->places = std::move(places);
-  parts_->rim.actor()->SetVisibility(!parts_->places.empty());
-  parts_->line.actor()->SetVisibility(!parts_->places.empty());
-  if (parts_->places.empty())
+  places_ = std::move(places);
+  rim_.actor()->SetVisibility(!places_.empty());
+  line_.actor()->SetVisibility(!places_.empty());
+  if (places_.empty())
   {
-    parts_->texts.hide();
+    texts_.hide();
   }
-}
-
-void DistanceMark::setWords(std::vector<std::string> words)
-{
-  parts_->words = std::move(words);
-}
-
-void DistanceMark::setTaken(std::function<std::vector<std::array<double, 4>>()> taken)
-{
-  parts_->taken = std::move(taken);
-}
-
-void DistanceMark::setModel(vtkMatrix4x4* model)
-{
-  parts_->model->DeepCopy(model);
 }
 
 } // namespace pointhaptics

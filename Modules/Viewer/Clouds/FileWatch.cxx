@@ -3,38 +3,39 @@
 namespace pointhaptics
 {
 
-FileWatch::Stamp FileWatch::stampOf(const std::string& name)
+std::vector<FileWatch::Stamp> FileWatch::stamps() const
 {
-  std::error_code error;
-  std::error_code sizeError;
-  const auto time = std::filesystem::last_write_time(name, error);
-  const std::uintmax_t size = std::filesystem::file_size(name, sizeError);
-  return error || sizeError ? Stamp() : Stamp({ time, size });
+  std::vector<Stamp> stamps;
+  for (const std::string& name : files_)
+  {
+    std::error_code error;
+    std::error_code sizeError;
+    const auto time = std::filesystem::last_write_time(name, error);
+    const std::uintmax_t size = std::filesystem::file_size(name, sizeError);
+    stamps.push_back(error || sizeError ? Stamp() : Stamp({ time, size }));
+  }
+  return stamps;
 }
 
 void FileWatch::watch(const std::vector<std::string>& files)
 {
-  files_.clear();
-  for (const std::string& name : files)
-  {
-    const Stamp stamp = stampOf(name);
-    files_.push_back({ name, stamp, stamp });
-  }
+  files_ = files;
+  known_ = last_ = this->stamps();
 }
 
 bool FileWatch::look()
 {
   bool changed = false;
-  for (Watched& file : files_)
+  const std::vector<Stamp> now = this->stamps();
+  for (std::size_t i = 0; i < now.size(); ++i)
   {
-    const Stamp stamp = stampOf(file.name);
-    if (stamp && stamp == file.last && stamp != file.known)
+    if (now[i] && now[i] == last_[i] && now[i] != known_[i])
     {
-      file.known = stamp;
+      known_[i] = now[i];
       changed = true;
     }
-    file.last = stamp;
   }
+  last_ = now;
   return changed;
 }
 

@@ -26,15 +26,11 @@ public:
 private:
   /// Time of change and size; nothing: there is no such file.
   using Stamp = std::optional<std::pair<std::filesystem::file_time_type, std::uintmax_t>>;
-  struct Watched
-  {
-    std::string name;
-    Stamp known;
-    Stamp last;
-  };
-  static Stamp stampOf(const std::string& name);
+  std::vector<Stamp> stamps() const;
 
-  std::vector<Watched> files_;
+  std::vector<std::string> files_;
+  std::vector<Stamp> known_;
+  std::vector<Stamp> last_;
 };
 
 } // namespace pointhaptics

@@ -1,6 +1,7 @@
 #include "ResampledCloud.h"
 
 #include "ClippedCloud.h"
+#include "CoordinateText.h"
 #include "EventLink.h"
 #include "HapticSceneBuilder.h"
 #include "LatticeChoice.h"
@@ -13,7 +14,6 @@
 #include "Core/Base/Lattice.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
 #include <vtkMatrix4x4.h>
@@ -59,6 +59,17 @@ Bounds workspaceOf(const HapticViewerOptions& options, const LoadedCloud& loaded
   Lattice lattice;
   return makeLattice(latticeOf(options, loaded), loaded.bounds, lattice) == Status::Ok ? lattice.bounds()
                                                                                        : Bounds();
+}
+
+/// The numbers as --clip takes them.
+std::string clipText(const std::vector<double>& clip)
+{
+  std::string text;
+  for (const double number : clip)
+  {
+    text += (text.empty() ? "" : ",") + valueText(number);
+  }
+  return text;
 }
 
 bool choosesLattice(const HapticViewerOptions& options)
@@ -230,9 +241,8 @@ bool resampleCloud(
       return false;
     }
     const Bounds all = extentOf(loaded.cloud).all;
-    message = fmt::format("{}: no point lies in the box of {} {:.6g}; the cloud has {:.6g}", loaded.title,
-      request.options.names.clip, fmt::join(request.options.clip, ","),
-      fmt::join(clipNumbers(all, loaded.cloud), ","));
+    message = fmt::format("{}: no point lies in the box of {} {}; the cloud has {}", loaded.title,
+      request.options.names.clip, clipText(request.options.clip), clipText(clipNumbers(all, loaded.cloud)));
     return false;
   }
   const bool chooses = choosesLattice(request.options);

@@ -2,13 +2,13 @@
 
 #include "ClippedCloud.h"
 #include "CommandRegistry.h"
+#include "CoordinateText.h"
 #include "HapticViewerOptions.h"
 #include "ViewScene.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <utility>
 
 namespace pointhaptics
 {
@@ -25,29 +25,24 @@ constexpr const char* kFaceNames[kFaces] = { "xmin", "xmax", "ymin", "ymax", "zm
 
 } // namespace
 
-ClipBoxTool::ClipBoxTool(ViewScene& scene, HapticViewerOptions& options,
-  vtkRenderWindowInteractor* interactor, std::function<void()> clipped,
-  std::function<void(const std::string&)> say)
-  : scene_(scene)
-  , options_(options)
-  , clipped_(std::move(clipped))
-  , say_(std::move(say))
-  , button_(
-      interactor, kBoxBeforeTheStyle, [this](const LeftButton::Event& event) { return this->takes(event); })
+ClipBoxTool::ClipBoxTool(const ToolContext& context)
+  : context_(context)
+  , button_(context.interactor, kBoxBeforeTheStyle,
+      [this](const LeftButton::Event& event) { return this->takes(event); })
 {
 }
 
 void ClipBoxTool::toggle()
 {
-  ClipBoxMark& mark = scene_.clipMark();
-  mark.setBox(scene_.shownBox());
+  ClipBoxMark& mark = context_.scene.clipMark();
+  mark.setBox(context_.scene.shownBox());
   mark.setVisible(!mark.isVisible());
-  say_(mark.isVisible() ? "clipping box: drag its handles" : "clipping box: hidden");
+  context_.say(mark.isVisible() ? "clipping box: drag its handles" : "clipping box: hidden");
 }
 
 bool ClipBoxTool::hide()
 {
-  const bool isShown = scene_.clipMark().isVisible();
+  const bool isShown = context_.scene.clipMark().isVisible();
   if (isShown)
   {
     this->toggle();
@@ -57,26 +52,26 @@ bool ClipBoxTool::hide()
 
 void ClipBoxTool::clear()
 {
-  const bool wasClipped = !options_.clip.empty();
+  const bool wasClipped = !context_.options.clip.empty();
   this->forget();
-  scene_.setClip({});
-  say_("clipping box: none, the whole cloud is shown");
+  context_.scene.setClip({});
+  context_.say("clipping box: none, the whole cloud is shown");
   if (wasClipped)
   {
-    clipped_();
+    context_.clipped();
   }
 }
 
 void ClipBoxTool::forget()
 {
-  options_.clip.clear();
+  context_.options.clip.clear();
   dragged_ = -1;
-  scene_.clipMark().setVisible(false);
+  context_.scene.clipMark().setVisible(false);
 }
 
 void ClipBoxTool::chooseNextFace()
 {
-  ClipBoxMark& mark = scene_.clipMark();
+  ClipBoxMark& mark = context_.scene.clipMark();
   if (mark.isVisible())
   {
     mark.setActiveFace((mark.activeFace() + 1) % kFaces);
@@ -85,18 +80,19 @@ void ClipBoxTool::chooseNextFace()
   {
     this->toggle();
   }
-  say_(std::string("clipping box: keys move ") + kFaceNames[mark.activeFace()]);
+  context_.say(std::string("clipping box: keys move ") + kFaceNames[mark.activeFace()]);
 }
 
 void ClipBoxTool::moveFace(int direction)
 {
-  ClipBoxMark& mark = scene_.clipMark();
+  ClipBoxMark& mark = context_.scene.clipMark();
   if (!mark.isVisible())
   {
     this->toggle();
   }
   const int face = mark.activeFace();
-  this->move(face, scene_.shownBox(), direction * kStep * scene_.cloudBounds().extent()[face / 2]);
+  this->move(
+    face, context_.scene.shownBox(), direction * kStep * context_.scene.cloudBounds().extent()[face / 2]);
   this->finish();
 }
 
@@ -105,7 +101,7 @@ void ClipBoxTool::moveFace(int direction)
 void ClipBoxTool::move(int face, const Bounds& from, double way)
 {
   const int axis = face / 2;
-  const Bounds cloud = scene_.cloudBounds();
+  const Bounds cloud = context_.scene.cloudBounds();
   const double thinnest = kThinnest * cloud.extent()[axis];
   Bounds box = from;
   if (face % 2 == 0)
@@ -120,31 +116,31 @@ void ClipBoxTool::move(int face, const Bounds& from, double way)
     const double least = std::min(most, from.minimum[axis] + thinnest);
     box.maximum[axis] = std::clamp(from.maximum[axis] + way, least, most);
   }
-  options_.clip = clipNumbers(box, scene_.cloud());
-  scene_.setClip(options_.clip);
-  scene_.clipMark().setBox(box);
+  context_.options.clip = clipNumbers(box, context_.scene.cloud());
+  context_.scene.setClip(context_.options.clip);
+  context_.scene.clipMark().setBox(box);
 }
 
 /// Publishes the new box to touch: the felt points are those that are shown.
 void ClipBoxTool::finish()
 {
-  const int face = scene_.clipMark().activeFace();
-  const std::vector<double>& clip = options_.clip;
-  say_(
-    fmt::format("clipping box: {} {:.6g} {}", kFaceNames[face], clip[std::size_t(face)], scene_.unit().name));
-  clipped_(); // after what was said: a recording that ends says so
+  const int face = context_.scene.clipMark().activeFace();
+  const std::vector<double>& clip = context_.options.clip;
+  context_.say(fmt::format("clipping box: {} {} {}", kFaceNames[face], valueText(clip[std::size_t(face)]),
+    context_.scene.unit().name));
+  context_.clipped(); // after what was said: a recording that ends says so
 }
 
 bool ClipBoxTool::takes(const LeftButton::Event& event)
 {
-  ClipBoxMark& mark = scene_.clipMark();
+  ClipBoxMark& mark = context_.scene.clipMark();
   if (event.kind == LeftButton::Kind::Press)
   {
     dragged_ = event.isPlain ? mark.faceAt(event.x, event.y).value_or(-1) : -1;
     if (dragged_ >= 0)
     {
       mark.setActiveFace(dragged_);
-      from_ = scene_.shownBox();
+      from_ = context_.scene.shownBox();
       fromX_ = event.x;
       fromY_ = event.y;
       perRight_ = mark.wayOf(dragged_, 1.0, 0.0);

@@ -3,41 +3,22 @@
 #pragma once
 
 #include "LeftButton.h"
+#include "ToolContext.h"
 
 #include "Core/Base/PointView.h"
 
-#include <functional>
-#include <string>
-
-class vtkRenderWindowInteractor;
-
 namespace pointhaptics
 {
-
-class CommandRegistry;
-class ViewScene;
-struct HapticViewerOptions;
 
 /// Shows the box; drags on a handle and keys move its faces. While a face is dragged the picture follows;
 /// touch follows at its end. GUI thread only.
 class ClipBoxTool
 {
 public:
-  /// @p scene and @p options, whose clip is kept up to date, must outlive this. @p clipped is called when the
-  /// box has changed and touch must follow.
-  ClipBoxTool(ViewScene& scene, HapticViewerOptions& options, vtkRenderWindowInteractor* interactor,
-    std::function<void()> clipped, std::function<void(const std::string&)> say);
+  explicit ClipBoxTool(const ToolContext& context);
 
-  /// Shows or hides the box; what it clips stays clipped.
-  void toggle();
-  /// Hides the box. False: it is not shown.
+  /// Hides the box; what it clips stays clipped. False: it is not shown.
   bool hide();
-  /// The whole cloud again; the box goes.
-  void clear();
-  /// Lets keys work on the next face.
-  void chooseNextFace();
-  /// @p direction 1: outward, -1: inward.
-  void moveFace(int direction);
   /// Forgets the box: another cloud is shown.
   void forget();
 
@@ -45,14 +26,15 @@ public:
   static void addCommands(CommandRegistry& commands, const std::function<ClipBoxTool*()>& tool);
 
 private:
+  void toggle();
+  void clear();
+  void chooseNextFace();
+  void moveFace(int direction);
   bool takes(const LeftButton::Event& event);
   void move(int face, const Bounds& from, double way);
   void finish();
 
-  ViewScene& scene_;
-  HapticViewerOptions& options_;
-  std::function<void()> clipped_;
-  std::function<void(const std::string&)> say_;
+  const ToolContext& context_;
   int dragged_ = -1; ///< The dragged face; below 0: none.
   int fromX_ = 0;
   int fromY_ = 0;

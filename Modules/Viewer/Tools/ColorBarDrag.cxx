@@ -14,11 +14,11 @@ constexpr float kBarBeforeTheStyle = 1.0f;
 
 } // namespace
 
-ColorBarDrag::ColorBarDrag(ViewScene& scene, PictureControls& controls, vtkRenderWindowInteractor* interactor)
-  : scene_(scene)
+ColorBarDrag::ColorBarDrag(const ToolContext& context, PictureControls& controls)
+  : context_(context)
   , controls_(controls)
-  , button_(
-      interactor, kBarBeforeTheStyle, [this](const LeftButton::Event& event) { return this->takes(event); })
+  , button_(context.interactor, kBarBeforeTheStyle,
+      [this](const LeftButton::Event& event) { return this->takes(event); })
 {
 }
 
@@ -26,9 +26,9 @@ bool ColorBarDrag::takes(const LeftButton::Event& event)
 {
   if (event.kind == LeftButton::Kind::Press)
   {
-    const auto place = event.isPlain ? scene_.placeOnColorBar(event.x, event.y) : std::nullopt;
+    const auto place = event.isPlain ? context_.scene.placeOnColorBar(event.x, event.y) : std::nullopt;
     drags_ = place.has_value();
-    if (const auto label = event.isPlain ? scene_.labelOnColorBar(event.x, event.y) : std::nullopt)
+    if (const auto label = event.isPlain ? context_.scene.labelOnColorBar(event.x, event.y) : std::nullopt)
     {
       controls_.toggleLabel(*label);
       button_.render();
@@ -39,7 +39,7 @@ bool ColorBarDrag::takes(const LeftButton::Event& event)
       from_ = place->along;
       pixels_ = place->pixels;
       fromY_ = event.y;
-      range_ = scene_.shownColorRange();
+      range_ = context_.scene.shownColorRange();
     }
     return drags_;
   }

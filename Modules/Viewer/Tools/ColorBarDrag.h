@@ -3,30 +3,28 @@
 #pragma once
 
 #include "LeftButton.h"
+#include "ToolContext.h"
 
 #include <array>
-
-class vtkRenderWindowInteractor;
 
 namespace pointhaptics
 {
 
 class PictureControls;
-class ViewScene;
 
 /// A drag that begins on the colour bar moves the value under the pointer; nothing else moves. A press on a
 /// class or file in its list hides or shows that. GUI thread only.
 class ColorBarDrag
 {
 public:
-  /// @p scene and @p controls must outlive this.
-  ColorBarDrag(ViewScene& scene, PictureControls& controls, vtkRenderWindowInteractor* interactor);
+  /// Both must outlive this.
+  ColorBarDrag(const ToolContext& context, PictureControls& controls);
 
 private:
   /// True if no other observer may see the event.
   bool takes(const LeftButton::Event& event);
 
-  ViewScene& scene_;
+  const ToolContext& context_;
   PictureControls& controls_;
   bool drags_ = false;
   // The bar when the drag began: words that come and go may move it.

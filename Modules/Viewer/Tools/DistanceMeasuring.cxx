@@ -1,5 +1,6 @@
 #include "DistanceMeasuring.h"
 
+#include "CommandRegistry.h"
 #include "HapticViewerOptions.h"
 #include "ViewScene.h"
 
@@ -23,12 +24,10 @@ constexpr std::size_t kNumbersOfTwoEnds = 6;
 
 } // namespace
 
-DistanceMeasuring::DistanceMeasuring(ViewScene& scene, HapticViewerOptions& options,
-  vtkRenderWindowInteractor* interactor, std::function<void(const std::string&)> say)
-  : scene_(scene)
-  , options_(options)
-  , say_(std::move(say))
-  , button_(interactor, kJustBeforeTheStyle,
+DistanceMeasuring::DistanceMeasuring(const ToolContext& context, HeightProfile& profile)
+  : context_(context)
+  , profile_(profile)
+  , button_(context.interactor, kJustBeforeTheStyle,
       [this](const LeftButton::Event& event)
       {
         this->follow(event);
@@ -37,27 +36,29 @@ DistanceMeasuring::DistanceMeasuring(ViewScene& scene, HapticViewerOptions& opti
 {
 }
 
-void DistanceMeasuring::toggle(const std::string& key)
+void DistanceMeasuring::toggle()
 {
+  const std::string key = context_.commands.label("measure");
   if (isOn_)
   {
     this->end();
     return;
   }
   isOn_ = true;
-  say_("measuring: click on two points" + (key.empty() ? "" : "; " + key + " ends it"));
+  context_.say("measuring: click on two points" + (key.empty() ? "" : "; " + key + " ends it"));
 }
 
 bool DistanceMeasuring::end()
 {
   const bool wasOn = std::exchange(isOn_, false);
-  if (!wasOn && options_.picture.measure.empty())
+  if (!wasOn && context_.options.picture.measure.empty())
   {
     return false;
   }
-  options_.picture.measure.clear();
+  context_.options.picture.measure.clear();
   this->show();
-  say_("measuring: ended");
+  context_.say("measuring: ended");
+  profile_.follow();
   return true;
 }
 
@@ -79,27 +80,28 @@ void DistanceMeasuring::follow(const LeftButton::Event& event)
 void DistanceMeasuring::choose()
 {
   Vec3 place;
-  if (!scene_.placeAt(pressedAt_[0], pressedAt_[1], place))
+  if (!context_.scene.placeAt(pressedAt_[0], pressedAt_[1], place))
   {
-    say_("measuring: no point is there; click on one");
+    context_.say("measuring: no point is there; click on one");
     return;
   }
-  place = fromLocalFrame(scene_.cloud(), place);
-  std::vector<double>& ends = options_.picture.measure;
+  place = fromLocalFrame(context_.scene.cloud(), place);
+  std::vector<double>& ends = context_.options.picture.measure;
   if (ends.size() >= kNumbersOfTwoEnds)
   {
     ends.clear();
   }
   ends.insert(ends.end(), { place.x, place.y, place.z });
   this->show();
-  const std::vector<std::string> words = scene_.measuredText();
-  say_(words.empty() ? "measuring: click on the second point"
-                     : "distance: " + words.front() + "; " + words.back());
+  const std::vector<std::string> words = context_.scene.measuredText();
+  context_.say(words.empty() ? "measuring: click on the second point"
+                             : "distance: " + words.front() + "; " + words.back());
+  profile_.follow();
 }
 
 void DistanceMeasuring::show()
 {
-  scene_.setPicture(options_.picture);
+  context_.scene.setPicture(context_.options.picture);
   button_.render();
 }
 

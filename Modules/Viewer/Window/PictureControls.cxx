@@ -67,47 +67,41 @@ constexpr WalkStep kWalkSteps[] = { { "walk-forward", "Walk+w Walk+Up", 0.0, 0.0
 
 } // namespace
 
-PictureControls::PictureControls(ViewScene& scene, HapticViewerOptions& options, vtkRenderWindow* window,
-  CommandRegistry& commands, std::function<void()> clipped, std::function<void(const std::string&)> say)
-  : scene_(scene)
-  , options_(options)
-  , window_(window)
-  , fullScreen_(window)
-  , commands_(commands)
-  , clipped_(std::move(clipped))
-  , say_(std::move(say))
+PictureControls::PictureControls(const ToolContext& context)
+  : context_(context)
+  , fullScreen_(context.window)
 {
 }
 
 void PictureControls::apply()
 {
-  scene_.setPicture(options_.picture);
+  context_.scene.setPicture(context_.options.picture);
 }
 
 void PictureControls::showFirstView()
 {
-  scene_.placeCamera();
-  scene_.setCamera(options_.camera);
+  context_.scene.placeCamera();
+  context_.scene.setCamera(context_.options.camera);
 }
 
 void PictureControls::toggleProjection()
 {
-  options_.picture.parallel = !options_.picture.parallel;
+  context_.options.picture.parallel = !context_.options.picture.parallel;
   this->apply();
-  say_(options_.picture.parallel ? "parallel projection" : "perspective projection");
+  context_.say(context_.options.picture.parallel ? "parallel projection" : "perspective projection");
 }
 
 void PictureControls::toggleFullScreen()
 {
   if (!fullScreen_.set(!fullScreen_.isFull()))
   {
-    say_("full screen: this window system does not offer it; enlarge the window by its border");
+    context_.say("full screen: this window system does not offer it; enlarge the window by its border");
   }
 }
 
 void PictureControls::toggleStereo()
 {
-  std::string& stereo = options_.picture.stereo;
+  std::string& stereo = context_.options.picture.stereo;
   if (stereo == stereoNames().front())
   {
     stereo = stereo_.empty() ? kUsualStereo : stereo_;
@@ -118,38 +112,39 @@ void PictureControls::toggleStereo()
     stereo = stereoNames().front();
   }
   this->apply();
-  const bool fails = stereo != stereoNames().front() && !scene_.isStereo();
-  say_("stereo: " + stereo + (fails ? std::string(kNoQuadBuffers) : std::string()));
+  const bool fails = stereo != stereoNames().front() && !context_.scene.isStereo();
+  context_.say("stereo: " + stereo + (fails ? std::string(kNoQuadBuffers) : std::string()));
 }
 
 void PictureControls::toggleTurntable()
 {
   turns_ = !turns_;
   turnedAt_ = -1.0;
-  say_(turns_ ? "turntable: turning" : "turntable: stopped");
+  context_.say(turns_ ? "turntable: turning" : "turntable: stopped");
 }
 
 void PictureControls::setPivot()
 {
-  const int* at = window_->GetInteractor()->GetEventPosition();
+  const int* at = context_.window->GetInteractor()->GetEventPosition();
   Vec3 place;
-  if (scene_.placeAt(at[0], at[1], place))
+  if (context_.scene.placeAt(at[0], at[1], place))
   {
-    scene_.centerView(place);
-    say_("the view turns about the point in the middle");
+    context_.scene.centerView(place);
+    context_.say("the view turns about the point in the middle");
   }
   else
   {
-    say_("no point is there to turn about");
+    context_.say("no point is there to turn about");
   }
 }
 
 void PictureControls::toggleWalk()
 {
   walks_ = !walks_;
-  commands_.setModifier(walks_ ? "Walk+" : "");
-  say_(walks_ ? "walking: w, a, s, d go, a drag looks around; " + commands_.label("walk") + " stops"
-              : "walking: stopped");
+  context_.commands.setModifier(walks_ ? "Walk+" : "");
+  context_.say(walks_
+      ? "walking: w, a, s, d go, a drag looks around; " + context_.commands.label("walk") + " stops"
+      : "walking: stopped");
 }
 
 bool PictureControls::endWalk()
@@ -164,16 +159,16 @@ bool PictureControls::endWalk()
 
 void PictureControls::walk(double right, double up, double forward)
 {
-  const Vec3 extent = scene_.workspace().extent();
+  const Vec3 extent = context_.scene.workspace().extent();
   const double step = kStepOfWalk * std::max({ extent.x, extent.y, extent.z });
-  scene_.walk(step * right, step * up, step * forward);
+  context_.scene.walk(step * right, step * up, step * forward);
 }
 
 void PictureControls::lookAround()
 {
-  const int* to = window_->GetInteractor()->GetEventPosition();
-  const int* from = window_->GetInteractor()->GetLastEventPosition();
-  scene_.lookAround(kDegreesPerPixel * (to[0] - from[0]), kDegreesPerPixel * (from[1] - to[1]));
+  const int* to = context_.window->GetInteractor()->GetEventPosition();
+  const int* from = context_.window->GetInteractor()->GetLastEventPosition();
+  context_.scene.lookAround(kDegreesPerPixel * (to[0] - from[0]), kDegreesPerPixel * (from[1] - to[1]));
 }
 
 bool PictureControls::turnTable(double seconds)
@@ -182,7 +177,7 @@ bool PictureControls::turnTable(double seconds)
   {
     // A frame that takes long must not make the view jump.
     const double since = turnedAt_ < 0.0 ? 0.0 : std::min(seconds - turnedAt_, kLongestStep);
-    scene_.turnView(kDegreesPerSecond * since);
+    context_.scene.turnView(kDegreesPerSecond * since);
     turnedAt_ = seconds;
   }
   return turns_;
@@ -190,20 +185,21 @@ bool PictureControls::turnTable(double seconds)
 
 void PictureControls::scalePoints(int direction)
 {
-  double& scale = options_.picture.pointScale;
+  double& scale = context_.options.picture.pointScale;
   scale = std::clamp(scale * std::pow(kPointStep, direction), 1.0 / kLargestScale, kLargestScale);
   scale = std::abs(scale - 1.0) < 1e-6 ? 1.0 : scale;
   this->apply();
-  say_(fmt::format("point size: {:.3g} times", scale));
+  context_.say(fmt::format("point size: {:.3g} times", scale));
 }
 
 void PictureControls::changeDepthStrength(int direction)
 {
-  double& strength = options_.picture.depthStrength;
+  double& strength = context_.options.picture.depthStrength;
   strength = std::clamp(strength + direction * kDepthStep, 0.0, kStrongest);
   strength = 1e-6 * std::round(1e6 * strength);
   this->apply();
-  say_(strength > 0.0 ? fmt::format("shading by depth: strength {:.2g}", strength) : "shading by depth: off");
+  context_.say(
+    strength > 0.0 ? fmt::format("shading by depth: strength {:.2g}", strength) : "shading by depth: off");
 }
 
 /// Takes the next of @p names in the place of @p name, and draws it.
@@ -216,21 +212,21 @@ void PictureControls::takeNext(std::string& name, const std::vector<std::string>
 
 void PictureControls::showNextBackground()
 {
-  this->takeNext(options_.picture.background, groundNames());
-  say_("background: " + options_.picture.background);
+  this->takeNext(context_.options.picture.background, groundNames());
+  context_.say("background: " + context_.options.picture.background);
 }
 
 void PictureControls::showNextTheme()
 {
-  this->takeNext(options_.picture.theme, themeNames());
-  say_("theme: " + options_.picture.theme);
+  this->takeNext(context_.options.picture.theme, themeNames());
+  context_.say("theme: " + context_.options.picture.theme);
 }
 
 void PictureControls::showNextColorMap()
 {
-  this->takeNext(options_.picture.colorMap, colorMapNames());
-  say_("colours: " + options_.picture.colorMap +
-    (scene_.isColoredByMap() ? "" : "; seen where numbers colour the cloud"));
+  this->takeNext(context_.options.picture.colorMap, colorMapNames());
+  context_.say("colours: " + context_.options.picture.colorMap +
+    (context_.scene.isColoredByMap() ? "" : "; seen where numbers colour the cloud"));
 }
 
 void PictureControls::dragColorRange(std::array<double, 2> range, double from, double to)
@@ -245,31 +241,31 @@ void PictureControls::dragColorRange(std::array<double, 2> range, double from, d
   {
     range[0] = range[1] - (range[1] - value) / std::clamp(1.0 - to, kNearestToEnd, 1.0);
   }
-  options_.picture.colorRange = { range[0], range[1] };
+  context_.options.picture.colorRange = { range[0], range[1] };
   this->apply();
-  say_("colours from " + rangeText(range[0], range[1]));
+  context_.say("colours from " + rangeText(range[0], range[1]));
 }
 
 void PictureControls::resetColorRange()
 {
-  options_.picture.colorRange.clear();
+  context_.options.picture.colorRange.clear();
   this->apply();
-  say_("colours over all values");
+  context_.say("colours over all values");
 }
 
 void PictureControls::hide(std::vector<HiddenValues> hidden)
 {
-  options_.picture.hidden = std::move(hidden);
+  context_.options.picture.hidden = std::move(hidden);
   this->apply();
-  clipped_(); // after what was said: a recording that ends says so
+  context_.clipped(); // after what was said: a recording that ends says so
 }
 
 void PictureControls::toggleLabel(double label)
 {
-  const HiddenValues values{ scene_.colorArray(), label, label };
+  const HiddenValues values{ context_.scene.colorArray(), label, label };
   std::vector<HiddenValues> hidden;
   bool hides = true;
-  for (const HiddenValues& each : options_.picture.hidden)
+  for (const HiddenValues& each : context_.options.picture.hidden)
   {
     if (each.array != values.array || label < each.low || label > each.high)
     {
@@ -284,42 +280,43 @@ void PictureControls::toggleLabel(double label)
     }
   }
   hides ? hidden.push_back(values) : void();
-  say_((hides ? "hidden: " : "shown: ") + textOf(values));
+  context_.say((hides ? "hidden: " : "shown: ") + textOf(values));
   this->hide(std::move(hidden));
 }
 
 void PictureControls::toggleOutside()
 {
-  if (!options_.picture.hidden.empty())
+  if (!context_.options.picture.hidden.empty())
   {
-    say_("nothing is hidden");
+    context_.say("nothing is hidden");
     this->hide({});
     return;
   }
-  if (!scene_.isColoredByMap())
+  if (!context_.scene.isColoredByMap())
   {
-    say_("colour by numbers first, by " + commands_.label("colors") + "; then drag on the colour bar");
+    context_.say(
+      "colour by numbers first, by " + context_.commands.label("colors") + "; then drag on the colour bar");
     return;
   }
-  const std::array<double, 2> range = scene_.shownColorRange();
-  const std::string array = scene_.colorArray();
-  if (!scene_.canHideBy(array))
+  const std::array<double, 2> range = context_.scene.shownColorRange();
+  const std::string array = context_.scene.colorArray();
+  if (!context_.scene.canHideBy(array))
   {
-    say_(
+    context_.say(
       array + " is computed for the picture and hides nothing; colour by heights or by numbers of the file");
     return;
   }
-  say_(fmt::format("hidden: {} outside of {}", array, rangeText(range[0], range[1])));
+  context_.say(fmt::format("hidden: {} outside of {}", array, rangeText(range[0], range[1])));
   this->hide({ { array, -INFINITY, std::nextafter(range[0], -INFINITY) },
     { array, std::nextafter(range[1], INFINITY), INFINITY } });
 }
 
 void PictureControls::showAlone(std::size_t file)
 {
-  const std::vector<std::string> names = scene_.fileNames();
+  const std::vector<std::string> names = context_.scene.fileNames();
   const bool isOne = file < names.size();
   const double number = double(file);
-  std::vector<HiddenValues> hidden = options_.picture.hidden;
+  std::vector<HiddenValues> hidden = context_.options.picture.hidden;
   hidden.erase(std::remove_if(hidden.begin(), hidden.end(),
                  [](const HiddenValues& each) { return each.array == kFileArrayName; }),
     hidden.end());
@@ -328,7 +325,8 @@ void PictureControls::showAlone(std::size_t file)
     hidden.push_back({ kFileArrayName, -INFINITY, number - 1.0 });
     hidden.push_back({ kFileArrayName, number + 1.0, INFINITY });
   }
-  say_(isOne ? fmt::format("file {} of {}, alone: {}", file + 1, names.size(), names[file]) : "all files");
+  context_.say(
+    isOne ? fmt::format("file {} of {}, alone: {}", file + 1, names.size(), names[file]) : "all files");
   this->hide(std::move(hidden));
 }
 
@@ -339,11 +337,11 @@ void PictureControls::addViewCommands(CommandRegistry& commands, const Getter& c
   for (const AxisView& view : kViews)
   {
     look.add(view.name, view.keys, "front, back, left, right, top, bottom, isometric",
-      [view](Controls& self) { self.scene_.lookFrom(view.azimuth, view.elevation); });
+      [view](Controls& self) { self.context_.scene.lookFrom(view.azimuth, view.elevation); });
   }
   look.add("first-view", "e", "as it was first seen", &Controls::showFirstView);
-  look.add(
-    "reset-view", "r", "fit the cloud, level the horizon", [](Controls& self) { self.scene_.fitView(); });
+  look.add("reset-view", "r", "fit the cloud, level the horizon",
+    [](Controls& self) { self.context_.scene.fitView(); });
   look.add("projection", "P", "parallel or perspective projection", &Controls::toggleProjection);
   look.add("turntable", "T", "turn about the cloud, stop", &Controls::toggleTurntable);
   look.add("stereo", "S", "a picture for each eye, or one", &Controls::toggleStereo);

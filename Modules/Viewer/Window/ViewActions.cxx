@@ -35,9 +35,8 @@ void ViewWindow::forgiveEscape()
 void ViewWindow::leave()
 {
   const auto now = std::chrono::steady_clock::now();
-  if (loader_.busy())
+  if (files_.cancel())
   {
-    this->cancelLoading();
     return;
   }
   if (overlay_->GetHelpVisibility())
@@ -45,8 +44,8 @@ void ViewWindow::leave()
     overlay_->SetHelpVisibility(false);
     return;
   }
-  if (now < escapeIsLate_ || this->endProfile() || measuring_.end() || clipping_.hide() ||
-    controls_.endWalk() || controls_.leaveFullScreen())
+  if (now < escapeIsLate_ || profile_.end() || measuring_.end() || clipping_.hide() || controls_.endWalk() ||
+    controls_.leaveFullScreen())
   {
     return;
   }
@@ -80,7 +79,7 @@ HapticViewerState ViewWindow::state()
   state.axes = scene_.showsAxes();
   state.figure = scene_.isFigure();
   state.fullScreen = controls_.fullScreen().isFull();
-  state.up = shown_.empty() ? asked_.up : this->upOf(shown_.front());
+  state.up = files_.shown().empty() ? asked_.up : files_.upOf(files_.shown().front());
   if (scene_.unit().name == scene_.likelyUnit().name)
   {
     state.unit = scene_.unit().name;
@@ -98,7 +97,7 @@ void ViewWindow::writeSettings()
   {
     return;
   }
-  const std::string name = freeFileName("json");
+  const std::string name = this->freeFileName("json");
   std::string message;
   const bool isWritten = observer_.writeState(this->state(), name, message);
   this->say(isWritten ? "settings: " + name : message, isWritten ? kNote : kError);
@@ -131,7 +130,7 @@ void ViewWindow::clipFelt()
   this->endRecording("what is felt was clipped or hidden");
   scene_.clipFelt();
   style_->InvalidateModel();
-  this->followProfile();
+  profile_.follow();
 }
 
 /// Shows the next of the choices to colour by.
@@ -322,7 +321,7 @@ bool ViewWindow::writeImage(const std::string& fileName, std::string& message)
 
 void ViewWindow::writeScreenshot()
 {
-  const std::string name = freeFileName("png");
+  const std::string name = this->freeFileName("png");
   std::string message;
   const std::array<int, 2>& size = options_.picture.screenshotSize;
   const std::string words = size[0] > 0 ? fmt::format(" ({}x{})", size[0], size[1]) : "";

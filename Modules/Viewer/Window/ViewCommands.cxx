@@ -17,7 +17,8 @@ void ViewWindow::addCommands(CommandRegistry& commands, ViewWindow* window)
   CommandGroup<Window> show(commands, "Show", there);
   CommandGroup<Window> hand(commands, "Hand", there);
   CommandGroup<Window> program(commands, "Program", there);
-  CommandGroup<Window> files(commands, "Program", there, [](Window& open) { return open.files_.size() > 1; });
+  CommandGroup<Window> files(
+    commands, "Program", there, [](Window& open) { return open.files_.areSeveral(); });
   CommandGroup<Window> settings(
     commands, "Program", there, [](Window& open) { return bool(open.observer_.writeState); });
   look.add("pivot", kDoubleClick, "turn about the point under the mouse", &Window::setPivot);
@@ -26,14 +27,15 @@ void ViewWindow::addCommands(CommandRegistry& commands, ViewWindow* window)
   show.add("colors", "m", "colour by the next array", &Window::showNextColors);
   show.add("felt", "d", "voxel means that are felt, or the points", &Window::toggleFelt);
   show.add("ambient", "l", "ambient light from the normals", &Window::toggleAmbient);
-  files.add("next-file", "n", "next, previous file", &Window::stepFile, +1);
-  files.add("previous-file", "b", "next, previous file", &Window::stepFile, -1);
+  files.add("next-file", "n", "next, previous file", [](Window& open) { open.files_.step(+1); });
+  files.add("previous-file", "b", "next, previous file", [](Window& open) { open.files_.step(-1); });
   commands.bind("undo-model", "Ctrl+z");
   show.add("take-unit", "u", "take the unit the file seems to have", &Window::toggleUnit);
-  show.add("measure", "D", "measure: click on two points",
-    [](Window& open) { open.measuring_.toggle(open.style_->GetCommands().label("measure")); });
-  show.add("profile", "F6", "height profile along the measured line", &Window::toggleProfile);
-  look.add("turn-up", "F7", "another axis points up, kept for the file", &Window::turnUp);
+  show.add("measure", "D", "measure: click on two points", [](Window& open) { open.measuring_.toggle(); });
+  show.add(
+    "profile", "F6", "height profile along the measured line", [](Window& open) { open.profile_.toggle(); });
+  look.add(
+    "turn-up", "F7", "another axis points up, kept for the file", [](Window& open) { open.files_.turnUp(); });
   program.add("save-part", "F12", "save the part that is shown", &Window::savePart);
   hand.add("sound", "F8", "hear the touch", &Window::toggleSound);
   program.add("screenshot", "s", "screenshot", &Window::writeScreenshot);

@@ -1,7 +1,5 @@
 #include "ViewDisplay.h"
 
-#include "XLibrary.h"
-
 #include "Core/Base/Host/OutOfMemory.h"
 #include "Core/Base/Status.h"
 
@@ -9,6 +7,11 @@
 #include <chrono>
 #include <cstdlib>
 #include <thread>
+
+#ifdef POINTHAPTICS_USES_X
+#include <X11/Xlib.h>
+#undef Status
+#endif
 
 namespace pointhaptics
 {
@@ -33,9 +36,11 @@ bool hasRoomFor(std::int64_t points)
   return hasRoom;
 }
 
+#ifdef POINTHAPTICS_USES_X
 /// Connection that is kept until the program ends. A server whose last client goes may reset, as that of
 /// xvfb-run does, and cut the connection that VTK opens meanwhile.
-void* keptDisplay = nullptr;
+Display* keptDisplay = nullptr;
+#endif
 
 } // namespace
 
@@ -46,10 +51,7 @@ bool displayIsAvailable(std::string& message, std::int64_t points)
     message = pointhaptics::message(Status::OutOfMemory);
     return false;
   }
-  if (!kUsesX)
-  {
-    return true;
-  }
+#ifdef POINTHAPTICS_USES_X
   const char* const cure = "run it on a desktop, under `xvfb-run`, or try `./setup.sh demo`";
   const char* name = std::getenv("DISPLAY");
   if (!name || !*name)
@@ -57,37 +59,32 @@ bool displayIsAvailable(std::string& message, std::int64_t points)
     message = std::string("no display: the environment variable DISPLAY is not set; ") + cure;
     return false;
   }
-  const auto openDisplay = xFunction<void* (*)(const char*)>("XOpenDisplay");
-  if (!openDisplay)
-  {
-    message = "no display: libX11.so.6 cannot be loaded; install libx11-6";
-    return false;
-  }
   // A server that resets refuses connections for a moment.
   constexpr int kMostTries = 5;
   for (int i = 0; !keptDisplay && i < kMostTries; ++i)
   {
     std::this_thread::sleep_for(std::chrono::milliseconds(i == 0 ? 0 : 50));
-    keptDisplay = openDisplay(nullptr);
+    keptDisplay = XOpenDisplay(nullptr);
   }
   if (!keptDisplay)
   {
     message = std::string("no display: the X server \"") + name + "\" (DISPLAY) cannot be reached; " + cure;
     return false;
   }
+#endif
   return true;
 }
 
 std::array<int, 2> screenSize()
 {
-  const auto screen = xFunction<int (*)(void*)>("XDefaultScreen");
-  const auto width = xFunction<int (*)(void*, int)>("XDisplayWidth");
-  const auto height = xFunction<int (*)(void*, int)>("XDisplayHeight");
-  if (!keptDisplay || !screen || !width || !height)
+#ifdef POINTHAPTICS_USES_X
+  if (keptDisplay)
   {
-    return {};
+    const int screen = DefaultScreen(keptDisplay);
+    return { DisplayWidth(keptDisplay, screen), DisplayHeight(keptDisplay, screen) };
   }
-  return { width(keptDisplay, screen(keptDisplay)), height(keptDisplay, screen(keptDisplay)) };
+#endif
+  return {};
 }
 
 } // namespace pointhaptics

@@ -10,62 +10,53 @@
 #include <chrono>
 #include <utility>
 
-#if defined(__unix__) && !defined(__APPLE__)
+#ifdef POINTHAPTICS_USES_X
+#include <X11/Xlib.h>
 #include <poll.h>
 #endif
 
 namespace pointhaptics
 {
+#ifdef POINTHAPTICS_USES_X
 namespace
 {
 
 constexpr auto kTimerPeriod = std::chrono::milliseconds(33);
 
-#if defined(__unix__) && !defined(__APPLE__)
-/// Socket on which the X server's events of @p window arrive; -1: there is none.
-int eventSocket(vtkRenderWindow* window)
+Display* displayOf(vtkRenderWindow* window)
 {
-  const auto connectionNumber = xFunction<int (*)(void*)>("XConnectionNumber");
-  void* display = xDisplayOf(window);
-  return connectionNumber && display ? connectionNumber(display) : -1;
+  return static_cast<Display*>(xDisplayOf(window));
 }
-#endif
 
 /// Notes a key, a button of the mouse, or a message of the window manager, such as to close the window.
 /// XCheckIfEvent() calls it; it takes no event out of the queue.
-int noteInput(void*, void* event, char* found)
+Bool noteInput(Display*, XEvent* event, XPointer found)
 {
-  constexpr int kKeyPress = 2;
-  constexpr int kButtonPress = 4;
-  constexpr int kClientMessage = 33;
-  const int type = *static_cast<const int*>(event);
   bool& isThere = *reinterpret_cast<bool*>(found);
-  isThere = isThere || type == kKeyPress || type == kButtonPress || type == kClientMessage;
-  return 0;
+  isThere = isThere || event->type == KeyPress || event->type == ButtonPress || event->type == ClientMessage;
+  return False;
 }
 
 } // namespace
+#endif
 
-bool inputWaits(vtkRenderWindow* window)
+bool inputWaits([[maybe_unused]] vtkRenderWindow* window)
 {
-  using CheckIfEvent = int (*)(void*, void*, int (*)(void*, void*, char*), char*);
-  const auto checkIfEvent = xFunction<CheckIfEvent>("XCheckIfEvent");
-  void* display = xDisplayOf(window);
-  if (checkIfEvent && display)
+  bool isThere = false;
+#ifdef POINTHAPTICS_USES_X
+  if (Display* display = displayOf(window))
   {
-    long event[24]; // the size of an XEvent
-    bool isThere = false;
-    checkIfEvent(display, event, noteInput, reinterpret_cast<char*>(&isThere));
-    return isThere;
+    XEvent event;
+    XCheckIfEvent(display, &event, noteInput, reinterpret_cast<XPointer>(&isThere));
   }
-  return false;
+#endif
+  return isThere;
 }
 
 void runEvents(vtkRenderWindowInteractor* interactor)
 {
-#if defined(__unix__) && !defined(__APPLE__)
-  const int socket = eventSocket(interactor->GetRenderWindow());
-  if (socket >= 0)
+#ifdef POINTHAPTICS_USES_X
+  if (Display* display = displayOf(interactor->GetRenderWindow()))
   {
     using Clock = std::chrono::steady_clock;
     interactor->SetDone(false);
@@ -82,7 +73,7 @@ void runEvents(vtkRenderWindowInteractor* interactor)
         continue; // what the timer drew may have brought answers into the queue
       }
       const auto left = std::chrono::ceil<std::chrono::milliseconds>(due - Clock::now()).count();
-      struct pollfd events = { socket, POLLIN, 0 };
+      struct pollfd events = { ConnectionNumber(display), POLLIN, 0 };
       ::poll(&events, 1, static_cast<int>(std::max<long long>(0, left)));
     }
     return;
@@ -93,8 +84,8 @@ void runEvents(vtkRenderWindowInteractor* interactor)
 
 void leaveEvents(vtkRenderWindowInteractor* interactor)
 {
-#if defined(__unix__) && !defined(__APPLE__)
-  if (eventSocket(interactor->GetRenderWindow()) >= 0)
+#ifdef POINTHAPTICS_USES_X
+  if (displayOf(interactor->GetRenderWindow()))
   {
     interactor->SetDone(true);
     return;

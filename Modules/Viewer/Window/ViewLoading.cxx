@@ -1,4 +1,4 @@
-// Files of the window: which are read, and how one comes in the place of another.
+// How one cloud comes in the place of another.
 #include "ViewWindow.h"
 
 #include "ClippedCloud.h"
@@ -12,18 +12,10 @@
 
 #include <algorithm>
 #include <chrono>
-#include <iterator>
 #include <thread>
 
 namespace pointhaptics
 {
-namespace
-{
-
-constexpr const char* kAxes[] = { "z", "-z", "y", "-y", "x", "-x" };
-
-} // namespace
-
 void ViewWindow::onFilesDropped(void* callData)
 {
   auto* names = static_cast<vtkStringArray*>(callData);
@@ -34,89 +26,23 @@ void ViewWindow::onFilesDropped(void* callData)
   }
   if (!files.empty())
   {
-    this->load(options_.together ? files : std::vector<std::string>{ files.front() }, Load::New,
-      [this, files]
-      {
-        files_ = files;
-        fileIndex_ = 0;
-      });
+    files_.open(files);
   }
 }
 
-/// Begins to read files; a load in flight is given up.
-void ViewWindow::load(const std::vector<std::string>& files, Load kind, std::function<void()> then)
+/// Shows the part of the files that is read, or hides the bar.
+void ViewWindow::showProgress(const std::string& words, double part)
 {
-  HapticViewerOptions options = options_;
-  if (kind == Load::New)
+  if (!words.empty() && progress_->SetProgress(words, part))
   {
-    options.clip.clear(); // it is of another cloud, as are colours that nobody asked for on the way in
-    options.colorBy = asked_.colorBy;
-    options.picture.colorRange = asked_.picture.colorRange;
-    options.picture.hidden.clear();
+    this->setTitle(words);
+    interactor_->Render();
   }
-  options.up = this->upOf(files.front());
-  loading_ = { files, kind, options, std::move(then), {}, FileWatch() };
-  loading_.watch.watch(files);
-  CloudRequest request(files, options);
-  request.makesScene = true;
-  request.measuresLater = true;
-  request.resamplesLater = true;
-  request.mostPoints = kind == Load::New ? options.coarsePoints : 0;
-  if (kind == Load::Finer)
+  else if (words.empty() && progress_->Hide())
   {
-    request.before = scene_.showing();
-  }
-  AffineTransform model;
-  if (kind != Load::New && affineFromTransform(style_->GetModelTransform(), model))
-  {
-    request.placement = transformOf(scene_.modelMatrix());
-    request.model = model;
-  }
-  loader_.start(std::move(request));
-}
-
-/// Reads all points of a cloud that is shown coarsely.
-void ViewWindow::refine()
-{
-  this->load(shown_, Load::Finer,
-    [this] { this->say(fmt::format("{}: all {} points", scene_.title(), scene_.numberOfPoints())); });
-}
-
-/// Called at every timer event.
-void ViewWindow::followLoading()
-{
-  if (!loader_.busy())
-  {
-    return;
-  }
-  LoadedCloud cloud;
-  std::string message;
-  if (!loader_.take(cloud, message))
-  {
-    const CloudLoader::Step step = loader_.step();
-    const std::string words =
-      step.name + std::string(loading_.kind == Load::Finer ? " all of " : " ") + titleOf(loading_.files);
-    if (loader_.seconds() > kProgressDelay && progress_->SetProgress(words, step.part))
-    {
-      this->setTitle(words);
-      interactor_->Render();
-    }
-    return;
-  }
-  if (!message.empty())
-  {
-    this->say(message, kError); // the window shows what it showed before
-    this->endLoading(&Loading::failed);
-    return;
-  }
-  const std::vector<std::string> notes =
-    loading_.kind == Load::Finer ? std::vector<std::string>() : cloud.notes; // they were told
-  this->show(std::move(cloud));
-  this->endLoading(&Loading::then);
-  this->warn(notes);
-  if (scene_.isCoarse())
-  {
-    this->refine();
+    this->setTitle(scene_.title());
+    this->forgiveEscape();
+    interactor_->Render();
   }
 }
 
@@ -134,35 +60,9 @@ void ViewWindow::warn(const std::vector<std::string>& notes)
   }
 }
 
-/// Then what the load asks for: one of its two functions, or nothing.
-void ViewWindow::endLoading(std::function<void()> Loading::*next)
+void ViewWindow::show(LoadedCloud cloud, const FileLoad& load)
 {
-  if (progress_->Hide())
-  {
-    this->setTitle(scene_.title());
-    this->forgiveEscape();
-    interactor_->Render();
-  }
-  const Loading ended = std::move(loading_);
-  loading_ = Loading();
-  if (next && ended.*next)
-  {
-    (ended.*next)();
-  }
-}
-
-void ViewWindow::cancelLoading()
-{
-  loader_.cancel();
-  const bool isFiner = loading_.kind == Load::Finer;
-  this->say(titleOf(loading_.files) + ": not read" + (isFiner ? " to its end" : "") +
-    ", it was cancelled; the " + (isFiner ? "coarse level" : "former cloud") + " stays");
-  this->endLoading();
-}
-
-void ViewWindow::show(LoadedCloud cloud)
-{
-  const bool isNew = loading_.kind == Load::New;
+  const bool isNew = load.kind == FileLoad::Kind::New;
   // A file that changed so much that it is placed anew is looked at anew; what was chosen for it stays.
   const bool keepsModel = !isNew && cloud.placement == transformOf(scene_.modelMatrix()) &&
     areAlike(cloud.workspace, scene_.workspace());
@@ -173,10 +73,8 @@ void ViewWindow::show(LoadedCloud cloud)
   {
     player_->stop(); // it is of the former cloud
   }
-  shown_ = loading_.files;
-  watch_ = loading_.watch;
   // From here on the window shows the new cloud, also where none of it lies in the workspace.
-  if (!scene_.open(std::move(cloud), loading_.options, message))
+  if (!scene_.open(std::move(cloud), load.options, message))
   {
     this->say(message, kError);
   }
@@ -184,8 +82,8 @@ void ViewWindow::show(LoadedCloud cloud)
   style_->SetResampler(scene_.resampler());
   if (isNew)
   {
-    options_.colorBy = loading_.options.colorBy;
-    options_.picture.colorRange = loading_.options.picture.colorRange;
+    options_.colorBy = load.options.colorBy;
+    options_.picture.colorRange = load.options.picture.colorRange;
     options_.picture.measure.clear(); // they were in the first cloud
     options_.picture.hidden.clear();
     clipping_.forget();
@@ -195,11 +93,11 @@ void ViewWindow::show(LoadedCloud cloud)
   {
     this->releaseHand();
   }
-  this->adoptModel(model, keepsModel);
-  this->followOptions();
+  this->adoptModel(model, keepsModel, load.options);
+  this->followOptions(load.options);
   scene_.placeAxes(style_->GetModelTransform()->GetMatrix());
   scene_.setPicture(options_.picture); // as it is by now
-  if (options_.picture.hidden != loading_.options.picture.hidden)
+  if (options_.picture.hidden != load.options.picture.hidden)
   {
     this->clipFelt();
   }
@@ -215,7 +113,7 @@ void ViewWindow::show(LoadedCloud cloud)
   this->showSliderValues();
   style_->GetScenes().poll(); // what is near the hand, before the picture
   this->findIdeal();
-  this->followProfile();
+  profile_.follow();
 }
 
 /// The hand feels nothing until another cloud is there: that one does not come to it as a model that moves.
@@ -231,18 +129,18 @@ void ViewWindow::releaseHand()
 }
 
 /// Applies the options that keys changed while the cloud was read.
-void ViewWindow::followOptions()
+void ViewWindow::followOptions(const HapticViewerOptions& then)
 {
-  if (options_.felt != loading_.options.felt)
+  if (options_.felt != then.felt)
   {
     scene_.setShowsFelt(options_.felt);
   }
-  if (options_.clip != loading_.options.clip)
+  if (options_.clip != then.clip)
   {
     scene_.setClip(options_.clip);
     this->clipFelt();
   }
-  if (options_.colorBy != loading_.options.colorBy && scene_.setColorBy(options_.colorBy))
+  if (options_.colorBy != then.colorBy && scene_.setColorBy(options_.colorBy))
   {
     this->setSceneOptions();
     style_->InvalidateModel();
@@ -265,7 +163,7 @@ void ViewWindow::giveModel(vtkMatrix4x4* matrix)
 
 /// Shows the cloud that was read in the frame in which it was resampled. Moves that the user made meanwhile
 /// are repeated where @p keepsModel.
-void ViewWindow::adoptModel(const AffineTransform& model, bool keepsModel)
+void ViewWindow::adoptModel(const AffineTransform& model, bool keepsModel, const HapticViewerOptions& then)
 {
   vtkNew<vtkMatrix4x4> kept;
   kept->DeepCopy(style_->GetModelTransform()->GetMatrix());
@@ -281,12 +179,12 @@ void ViewWindow::adoptModel(const AffineTransform& model, bool keepsModel)
   }
   const double radiusScale = options_.bandwidth.radiusScale;
   const double voxelSize = options_.voxels.lattice.voxelSize;
-  const bool isFiner = voxelSize != loading_.options.voxels.lattice.voxelSize;
+  const bool isFiner = voxelSize != then.voxels.lattice.voxelSize;
   if (isFiner)
   {
     scene_.resampler()->SetVoxelSize(voxelSize);
   }
-  if (isFiner || radiusScale != loading_.options.bandwidth.radiusScale)
+  if (isFiner || radiusScale != then.bandwidth.radiusScale)
   {
     scene_.bandwidth()->SetRadiusScale(radiusScale);
     style_->InvalidateModel();
@@ -301,62 +199,6 @@ void ViewWindow::findIdeal()
   style_->GetDisplay().setIdealForce(ideal ? [this, ideal](const ServoSample& sample)
       { return idealForce(*ideal, scene_, sample.state.hip, this->contactOf(sample)); }
                                            : std::function<double(const ServoSample&)>());
-}
-
-/// Shows the next file in @p direction that can be read; where they are shown together, one of them alone or
-/// all. @param skipped files that could not be read on the way.
-void ViewWindow::stepFrom(int direction, std::size_t skipped)
-{
-  if (files_.size() < 2)
-  {
-    this->say("there is no other file");
-    return;
-  }
-  const std::size_t count = files_.size() + (options_.together ? 1 : 0);
-  // The next key continues from here, not from a broken or cancelled file.
-  fileIndex_ = (fileIndex_ + count + std::size_t(direction)) % count;
-  if (options_.together)
-  {
-    controls_.showAlone(fileIndex_);
-    return;
-  }
-  this->load({ files_[fileIndex_] }, Load::New,
-    [this, index = fileIndex_]
-    { this->say(fmt::format("file {} of {}: {}", index + 1, files_.size(), scene_.title())); });
-  if (skipped + 2 < files_.size()) // the file that is shown is not read again
-  {
-    loading_.failed = [this, direction, skipped] { this->stepFrom(direction, skipped + 1); };
-  }
-}
-
-/// Reads the file again with the next axis upwards.
-void ViewWindow::turnUp()
-{
-  const std::string present = axisName(scene_.cloudUp());
-  const auto* found = std::find(std::begin(kAxes), std::end(kAxes), present);
-  const std::string next = kAxes[(found - std::begin(kAxes) + 1) % std::size(kAxes)];
-  if (shown_.empty() || loader_.busy())
-  {
-    this->say(shown_.empty() ? "the points are of no file" : "a file is being read; turn it after that");
-    return;
-  }
-  ups_[shown_.front()] = next;
-  if (observer_.keepUp)
-  {
-    observer_.keepUp(shown_.front(), next);
-  }
-  this->load(shown_, Load::New, [this, next] { this->say("up: " + next); });
-}
-
-/// The axis that points up in @p file: as it was turned here; else that of the options, else as it was kept.
-std::string ViewWindow::upOf(const std::string& file)
-{
-  if (asked_.up == "auto" && ups_.count(file) == 0 && observer_.upOf)
-  {
-    ups_[file] = observer_.upOf(file);
-  }
-  const auto found = ups_.find(file);
-  return found == ups_.end() || found->second.empty() ? asked_.up : found->second;
 }
 
 } // namespace pointhaptics

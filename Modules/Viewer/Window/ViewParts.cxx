@@ -1,5 +1,4 @@
-// The shown part of a cloud as a file, and the profile of a line through it.
-#include "CloudAppearance.h"
+// The shown part of a cloud as a file.
 #include "CloudFiles.h"
 #include "ViewWindow.h"
 
@@ -9,25 +8,19 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 
 namespace pointhaptics
 {
-namespace
-{
-
-constexpr double kProfileBegin = 0.76; // of the window's height
-
-} // namespace
-
-/// The first of pointhaptics-001.EXTENSION, pointhaptics-002.EXTENSION, ... that is not there yet.
-std::string freeFileName(const std::string& extension)
+/// The first of pointhaptics-001.EXTENSION, pointhaptics-002.EXTENSION, ... that is neither there nor about
+/// to be.
+std::string ViewWindow::freeFileName(const std::string& extension) const
 {
   std::string name;
   std::error_code error;
   for (int number = 1; name.empty() || std::filesystem::exists(name, error) ||
-       std::filesystem::exists(OutputFile::keptPartOf(name), error);
+       std::filesystem::exists(OutputFile::keptPartOf(name), error) ||
+       (saving_.valid() && name == savedName_);
        ++number)
   {
     name = fmt::format("pointhaptics-{:03}.{}", number, extension);
@@ -38,17 +31,17 @@ std::string freeFileName(const std::string& extension)
 /// Writes what is shown, in the format of the first file where that can be written, with all its arrays.
 void ViewWindow::savePart()
 {
-  if (saving_.valid() || shown_.empty())
+  if (saving_.valid() || files_.shown().empty())
   {
-    this->say(shown_.empty() ? "the points are of no file" : "the part is being saved");
+    this->say(files_.shown().empty() ? "the points are of no file" : "the part is being saved");
     return;
   }
-  const std::string& first = shown_.front();
+  const std::string& first = files_.shown().front();
   const std::size_t dot = first.rfind('.');
   const bool isWritable = dot != std::string::npos && vtkPointCloudWriter::CanWrite(first);
-  const std::string name = freeFileName(isWritable ? first.substr(dot + 1) : "ply");
+  savedName_ = this->freeFileName(isWritable ? first.substr(dot + 1) : "ply");
   saving_ = std::async(std::launch::async,
-    [request = CloudRequest(shown_, options_), up = scene_.cloudUp(), name]
+    [request = CloudRequest(files_.shown(), options_), up = scene_.cloudUp(), name = savedName_]
     {
       std::string message;
       const bool isWritten = writePart(request, up, name, message);
@@ -63,59 +56,6 @@ void ViewWindow::followSaving()
     const auto [isWritten, message] = saving_.get();
     this->say(message, isWritten ? kNote : kError);
   }
-}
-
-void ViewWindow::toggleProfile()
-{
-  if (this->endProfile())
-  {
-    return;
-  }
-  if (scene_.profile().empty())
-  {
-    this->say(
-      "no profile: " + style_->GetCommands().label("measure") + " measures its line between two clicks");
-    return;
-  }
-  window_->AddRenderer(profile_.renderer());
-  this->followProfile();
-}
-
-bool ViewWindow::endProfile()
-{
-  const bool wasShown = window_->HasRenderer(profile_.renderer()) != 0;
-  window_->RemoveRenderer(profile_.renderer());
-  this->setTop(1.0);
-  return wasShown;
-}
-
-/// Shows the profile of the present line.
-void ViewWindow::followProfile()
-{
-  if (!window_->HasRenderer(profile_.renderer()))
-  {
-    return;
-  }
-  const ProfilePoints points = scene_.profile();
-  if (points.empty())
-  {
-    this->endProfile();
-    return;
-  }
-  profile_.show(points, scene_.unit().name);
-  profile_.renderer()->SetViewport(0.0, kProfileBegin, 1.0, 1.0);
-  this->setTop(kProfileBegin);
-  const auto [low, high] = std::minmax_element(
-    points.begin(), points.end(), [](const auto& a, const auto& b) { return a[1] < b[1]; });
-  this->say(fmt::format("profile: heights {} {}", rangeText((*low)[1], (*high)[1]), scene_.unit().name));
-}
-
-/// Ends the picture of the cloud at this part of the window's height.
-void ViewWindow::setTop(double top)
-{
-  vtkRenderer* renderer = scene_.renderer();
-  const double* viewport = renderer->GetViewport();
-  renderer->SetViewport(viewport[0], viewport[1], viewport[2], top);
 }
 
 } // namespace pointhaptics

@@ -14,7 +14,8 @@ namespace pointhaptics
 bool ViewWindow::startRecording(const std::string& fileName, std::string& message)
 {
   auto* cloud = vtkPointSet::SafeDownCast(scene_.resampler()->GetInputDataObject(0, 0));
-  std::vector<std::string> files = shown_.empty() ? std::vector<std::string>{ scene_.title() } : shown_;
+  std::vector<std::string> files =
+    files_.shown().empty() ? std::vector<std::string>{ scene_.title() } : files_.shown();
   for (std::string& file : files)
   {
     if (file == options_.passingFile && !file.empty())
@@ -82,12 +83,12 @@ void ViewWindow::toggleRecording()
     this->say("nothing is touched here that could be recorded");
     return;
   }
-  if (loader_.busy())
+  if (files_.isReading())
   {
     this->say("not all points are read yet; record once they are");
     return;
   }
-  const std::string name = freeFileName("csv");
+  const std::string name = this->freeFileName("csv");
   if (!this->startRecording(name, message))
   {
     this->say(message, kError);

@@ -22,8 +22,6 @@ namespace
 {
 
 constexpr double kChartHeight = 0.15; // part of the window
-/// Timer events, 33 ms apart, between two looks at the files.
-constexpr int kLooksApart = 8;
 /// Frames that take longer than this, seconds, are announced in the title.
 constexpr double kLongFrame = 1.0;
 
@@ -35,20 +33,18 @@ ViewWindow::ViewWindow(ViewScene& scene, const HapticViewerOptions& options,
   , options_(options)
   , asked_(options)
   , observer_(observer)
-  , files_(std::move(files))
-  , controls_(
-      scene, options_, window_, style_->GetCommands(), [this] { this->clipFelt(); },
-      [this](const std::string& news) { this->say(news); })
-  , colorBar_(scene, controls_, interactor_)
-  , measuring_(scene, options_, interactor_,
-      [this](const std::string& news)
-      {
-        this->say(news);
-        this->followProfile();
-      })
-  , clipping_(
-      scene, options_, interactor_, [this] { this->clipFelt(); },
-      [this](const std::string& news) { this->say(news); })
+  , tools_{ scene, options_, style_->GetCommands(), window_, interactor_, [this] { this->clipFelt(); },
+    [this](const std::string& news) { this->say(news); } }
+  , controls_(tools_)
+  , colorBar_(tools_, controls_)
+  , profile_(tools_)
+  , measuring_(tools_, profile_)
+  , clipping_(tools_)
+  , files_(tools_, controls_, observer, style_->GetModelTransform(), std::move(files),
+      { [this](LoadedCloud cloud, const FileLoad& load) { this->show(std::move(cloud), load); },
+        [this](const std::vector<std::string>& notes) { this->warn(notes); },
+        [this](const std::string& error) { this->say(error, kError); },
+        [this](const std::string& words, double part) { this->showProgress(words, part); } })
 {
   ViewWindow::addCommands(style_->GetCommands(), this);
   for (const std::string& conflict : style_->GetCommands().conflicts())
@@ -261,7 +257,7 @@ void ViewWindow::onTimer()
   {
     interactor_->Render();
   }
-  if (!loader_.busy())
+  if (!files_.isReading())
   {
     const std::optional<double> part = scene_.measuredPart();
     this->setTitle(part ? fmt::format("measuring {} {:.0f} %", scene_.title(), std::floor(100.0 * *part))
@@ -279,16 +275,8 @@ void ViewWindow::onTimer()
   this->followRecording();
   this->followReplay();
   this->followSound();
-  this->followLoading();
+  files_.follow();
   this->followSaving();
-  if (options_.watch && ++sinceLook_ >= kLooksApart && !loader_.busy())
-  {
-    sinceLook_ = 0;
-    if (watch_.look())
-    {
-      this->load(shown_, Load::Again, [this] { this->say("read again: " + scene_.title()); });
-    }
-  }
 }
 
 /// Called several times in a frame that takes long. All points may take seconds to draw: a frame at rest is
@@ -305,7 +293,7 @@ void ViewWindow::onAbortCheck()
     isGivenUp_ = true;
     window_->SetAbortRender(1);
   }
-  else if (!loader_.busy() && *seconds > kLongFrame)
+  else if (!files_.isReading() && *seconds > kLongFrame)
   {
     this->setTitle("drawing " + scene_.title());
   }
@@ -347,7 +335,7 @@ void ViewWindow::onSceneChanged()
 bool ViewWindow::finish(std::string& message)
 {
   isStarted_ = false;
-  loader_.cancel();
+  files_.stop();
   style_->StopUpdates();
   sound_.stop();
   if (observer_.rememberState)
@@ -423,9 +411,7 @@ bool ViewWindow::start(std::size_t cloud, const std::string& news, std::string& 
   {
     return false;
   }
-  shown_ = options_.together || files_.empty() ? files_ : std::vector<std::string>{ files_[cloud] };
-  fileIndex_ = options_.together ? files_.size() : cloud;
-  watch_.watch(shown_);
+  files_.begin(cloud);
   recording_.follow(&markers_);
   if (options_.markerPort >= 0 && !markers_.open(options_.markerPort, servo_, message))
   {
@@ -463,10 +449,7 @@ bool ViewWindow::start(std::size_t cloud, const std::string& news, std::string& 
   {
     this->forgiveEscape();
   }
-  if (scene_.isCoarse())
-  {
-    this->refine();
-  }
+  files_.refine();
   return true;
 }
 

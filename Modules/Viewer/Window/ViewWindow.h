@@ -1,21 +1,20 @@
 /// @file
 /// The viewer's window with the live touch: ViewWindow.cxx sets it up, runs it and closes it, ViewDevices.cxx
-/// has devices and servo loop, ViewLoading.cxx brings the files, ViewCommands.cxx lists what its keys do,
+/// has devices and servo loop, ViewLoading.cxx shows another cloud, ViewCommands.cxx lists what its keys do,
 /// ViewActions.cxx, ViewParts.cxx and ViewRecording.cxx do it.
 #pragma once
 
 #include "ClipBoxTool.h"
-#include "CloudLoader.h"
 #include "ColorBarDrag.h"
 #include "DistanceMeasuring.h"
 #include "EventLink.h"
-#include "FileWatch.h"
 #include "HapticViewerOptions.h"
 #include "HeightProfile.h"
 #include "PictureControls.h"
 #include "RecordingWriter.h"
 #include "ReplayPlayer.h"
 #include "ScreenLayout.h"
+#include "ShownFiles.h"
 #include "ViewEvents.h"
 #include "ViewScene.h"
 #include "ViewTouch.h"
@@ -42,7 +41,6 @@
 #include <chrono>
 #include <functional>
 #include <future>
-#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -54,9 +52,6 @@ namespace pointhaptics
 constexpr auto kNote = HapticViewerObserver::Kind::Note;
 constexpr auto kWarning = HapticViewerObserver::Kind::Warning;
 constexpr auto kError = HapticViewerObserver::Kind::Error;
-
-/// The first of pointhaptics-001.EXTENSION, pointhaptics-002.EXTENSION, ... that is not there yet.
-std::string freeFileName(const std::string& extension);
 
 /// All that the window needs while it is open, which may be before there is a cloud. The servo loop stops
 /// before its devices and scenes go.
@@ -97,23 +92,6 @@ public:
   static void addCommands(CommandRegistry& commands, ViewWindow* window);
 
 private:
-  /// Reason for which files are read.
-  enum class Load
-  {
-    New,   ///< To be fitted to the workspace.
-    Again, ///< They have changed: model and camera stay.
-    Finer, ///< All points of what is shown coarsely: model, camera and colours stay.
-  };
-  /// Files that are being read to be shown.
-  struct Loading
-  {
-    std::vector<std::string> files;
-    Load kind = Load::New;
-    HapticViewerOptions options;  ///< Options when the load began.
-    std::function<void()> then;   ///< Called when the cloud is shown.
-    std::function<void()> failed; ///< Called when it cannot be read.
-    FileWatch watch;              ///< State of the files before the first byte was read.
-  };
   void openWindow();
   /// Names the program and @p words.
   void setTitle(const std::string& words);
@@ -130,6 +108,7 @@ private:
   void connectStyle();
   void onSamples(void* callData);
   void onFilesDropped(void* callData);
+  std::string freeFileName(const std::string& extension) const;
   void writeScreenshot();
   // ViewRecording.cxx
   bool startRecording(const std::string& fileName, std::string& message);
@@ -149,12 +128,6 @@ private:
   void clipFelt();
   void savePart();
   void followSaving();
-  void toggleProfile();
-  bool endProfile();
-  void followProfile();
-  void setTop(double top);
-  void turnUp();
-  std::string upOf(const std::string& file);
   void showNextColors();
   void toggleFelt();
   void toggleAmbient();
@@ -164,21 +137,15 @@ private:
   void onSlider(int slider);
   void setContact(const ContactParameters& contact);
   void showSliderValues();
-  void load(const std::vector<std::string>& files, Load kind, std::function<void()> then);
-  void refine();
-  void followLoading();
-  void endLoading(std::function<void()> Loading::*next = nullptr);
-  void cancelLoading();
+  void showProgress(const std::string& words, double part);
   void forgiveEscape();
   void leave();
-  void show(LoadedCloud cloud);
+  void show(LoadedCloud cloud, const FileLoad& load);
   void warn(const std::vector<std::string>& notes);
   void releaseHand();
-  void followOptions();
-  void adoptModel(const AffineTransform& model, bool keepsModel);
+  void followOptions(const HapticViewerOptions& then);
+  void adoptModel(const AffineTransform& model, bool keepsModel, const HapticViewerOptions& then);
   void giveModel(vtkMatrix4x4* matrix);
-  void stepFile(int direction) { this->stepFrom(direction, 0); }
-  void stepFrom(int direction, std::size_t skipped);
   bool endFiles(std::string& message);
   void findIdeal();
   /// Parameters with the limit of the force that holds.
@@ -193,15 +160,9 @@ private:
   void say(const std::string& news, HapticViewerObserver::Kind kind = kNote);
 
   ViewScene& scene_;
-  HapticViewerOptions options_;            ///< As keys and sliders have changed them.
-  const HapticViewerOptions asked_;        ///< As they were at the start: some are for each new cloud.
-  std::map<std::string, std::string> ups_; ///< Axes that point up, of files.
+  HapticViewerOptions options_;     ///< As keys and sliders have changed them.
+  const HapticViewerOptions asked_; ///< As they were at the start: some are for each new cloud.
   const HapticViewerObserver& observer_;
-  std::vector<std::string> files_;
-  std::size_t fileIndex_ = 0;      ///< Index of the file that was last asked for.
-  std::vector<std::string> shown_; ///< The shown files: one of files_, or all together.
-  FileWatch watch_;
-  int sinceLook_ = 0;
   EventLink timer_{ [this] { this->onTimer(); } };
   EventLink abortCheck_{ [this] { this->onAbortCheck(); } };
   EventLink modelChanged_{ [this] { this->onModelChanged(); } };
@@ -211,7 +172,6 @@ private:
   EventLink sliderMoved_{ [this](unsigned long, void* slider)
     { this->onSlider(*static_cast<int*>(slider)); } };
   bool isGivenUp_ = false; ///< A frame was given up and must be drawn again.
-  Loading loading_;        ///< Valid while loader_ is busy.
   /// Until then Escape is taken for the bar that has just gone.
   std::chrono::steady_clock::time_point escapeIsLate_;
   /// Until then Escape quits, although the touch is recorded.
@@ -229,16 +189,19 @@ private:
   ScreenLayout layout_;
   vtkNew<vtkRenderer> waiting_; // before the first cloud
   WaitingKeys waitingKeys_;     // of the same time
+  const ToolContext tools_;
   PictureControls controls_;
   ColorBarDrag colorBar_;
-  DistanceMeasuring measuring_;
   HeightProfile profile_;
+  DistanceMeasuring measuring_;
   ClipBoxTool clipping_;
+  ShownFiles files_;
   std::shared_ptr<IdealForce> wholeIdeal_; // for the same
   CsvWriter trace_;
   RecordingWriter recording_;
   bool recordingWaits_ = false;                      ///< The user was told that the recording waits.
   std::future<std::pair<bool, std::string>> saving_; ///< Success, and what it will say.
+  std::string savedName_;                            ///< The file that it makes.
   bool clipBoxBesideFigure_ = false;
   LengthUnit firstUnit_;      ///< Unit of the file before the user took another; no name: none was taken.
   std::string news_;          // last line of the status
@@ -250,7 +213,6 @@ private:
   std::string spaceMouseMessage_; ///< The message that was shown last.
   SpaceMouse spaceMouse_;
   HapticDevice* device_ = nullptr;
-  CloudLoader loader_;
   ServoLoop servo_;                      // destroyed, and so stopped, before the device
   MarkerSocket markers_;                 // asks the loop
   SoundPlayer sound_;                    // before the servo loop, which it plays

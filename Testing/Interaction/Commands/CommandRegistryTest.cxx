@@ -153,7 +153,7 @@ TEST_F(StyleCommands, AreInTheHelpWhereTheyHaveAKey)
 {
   commands.bind("pick", "F2");
   commands.bind("undo-model", "");
-  const std::string text = commands.help(CommandRegistry::Scope::All);
+  const std::string text = commands.described().help();
   EXPECT_NE(text.find("F2 "), std::string::npos);
   EXPECT_EQ(text.find("undo"), std::string::npos);
   EXPECT_NE(text.find("Shift+left drag, x, X, y, Y, z, Z"), std::string::npos);
@@ -203,7 +203,7 @@ TEST(CommandRegistry, LeavesOutOfTheHelpWhatTheProgramHasNot)
   commands.add(once("grid", "g", [] {}));
   EXPECT_EQ(commands.help().find("chart"), std::string::npos);
   EXPECT_EQ(commands.help().find("Show     G"), 0u) << "the heading stays";
-  EXPECT_NE(commands.help(CommandRegistry::Scope::All).find("chart"), std::string::npos);
+  EXPECT_NE(commands.described().help().find("chart"), std::string::npos);
   hasChart = true;
   EXPECT_NE(commands.help().find("chart"), std::string::npos);
 }
