@@ -89,11 +89,16 @@ inline constexpr const char* kTileStatements = R"(
     vec2 splatHalf = vec2(gl_PointSize / 16.0);
     ivec2 splatFrom = clamp(ivec2(floor(splatMiddle - splatHalf)), ivec2(0), splatLast);
     ivec2 splatTo = clamp(ivec2(floor(splatMiddle + splatHalf)), ivec2(0), splatLast);
-    float splatFarthest = max(
-      max(texelFetch(splatTiles, splatFrom, 0).r, texelFetch(splatTiles, splatTo, 0).r),
-      max(texelFetch(splatTiles, ivec2(splatFrom.x, splatTo.y), 0).r,
-        texelFetch(splatTiles, ivec2(splatTo.x, splatFrom.y), 0).r));
-    if (all(lessThan(splatTo - splatFrom, ivec2(2))) && splatFront > splatFarthest + 2e-6)
+    bool splatIsSmall = all(lessThan(splatTo - splatFrom, ivec2(6)));
+    float splatFarthest = splatIsSmall ? 0.0 : 1.0;
+    for (int y = splatFrom.y; splatIsSmall && y <= splatTo.y; ++y)
+    {
+      for (int x = splatFrom.x; x <= splatTo.x; ++x)
+      {
+        splatFarthest = max(splatFarthest, texelFetch(splatTiles, ivec2(x, y), 0).r);
+      }
+    }
+    if (splatFront > splatFarthest + 2e-6)
     {
       gl_Position = vec4(0.0, 0.0, 2.0, 1.0);
     }

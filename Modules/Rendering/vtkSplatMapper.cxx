@@ -291,12 +291,12 @@ void vtkSplatMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* actor)
   const bool hidesColors = stage == Stage::Depths && blends;
   if (hidesColors)
   {
-    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    glDrawBuffer(GL_NONE); // a software renderer works less than with masked colours
   }
   this->DrawSplats(renderer, actor);
   if (hidesColors)
   {
-    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glDrawBuffer(GL_COLOR_ATTACHMENT0);
   }
   state->vtkglViewport(place[0], place[1], place[2], place[3]);
 }

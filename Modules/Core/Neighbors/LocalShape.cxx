@@ -288,10 +288,15 @@ private:
     }
     // Points on the other side of a gap are farther away than those of the list: no corner has one nearer to
     // it.
+    const double listed = list.squaredDistances[list.count - 1];
     Vec3 corner;
     for (int i = 0;
          goesOn && i < kMostAcross && cell.farthestCorner(corner) > kUsualReach * double(shape.spacing); ++i)
     {
+      if (4.0 * norm2(corner) <= listed) // all points so near to the corner are in the list
+      {
+        break;
+      }
       Neighbor across;
       query.nearestSlots(here + corner, 1, &across);
       goesOn = across.squaredDistance < kNearer * norm2(corner) &&

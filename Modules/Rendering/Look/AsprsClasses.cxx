@@ -1,7 +1,7 @@
 #include "AsprsClasses.h"
 
-#include <algorithm>
-#include <cctype>
+#include "vtksys/SystemTools.hxx"
+
 #include <iterator>
 
 namespace pointhaptics
@@ -57,9 +57,7 @@ bool holdsAsprsClasses(const std::string& array)
 {
   const std::string name = "classification";
   const std::string prefix = "scalar_";
-  std::string lowered = array;
-  std::transform(lowered.begin(), lowered.end(), lowered.begin(),
-    [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  const std::string lowered = vtksys::SystemTools::LowerCase(array);
   return lowered == name || lowered == prefix + name;
 }
 

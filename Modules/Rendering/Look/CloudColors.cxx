@@ -8,9 +8,9 @@
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkUnsignedCharArray.h"
+#include "vtksys/SystemTools.hxx"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstddef>
 #include <set>
@@ -20,6 +20,7 @@ namespace pointhaptics
 namespace
 {
 
+using vtksys::SystemTools;
 constexpr vtkIdType kSample = 20000;
 constexpr double kRgbRange = 16.0;
 constexpr double kPlainRange = 20.0;
@@ -27,13 +28,6 @@ constexpr double kRgbLight = 0.35;
 constexpr std::size_t kFewestClasses = 3;
 constexpr double kClayFlatness = 0.63;
 constexpr double kCoherent = 0.5;
-
-std::string lowered(std::string text)
-{
-  std::transform(text.begin(), text.end(), text.begin(),
-    [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-  return text;
-}
 
 double at(const std::vector<double>& sorted, double part)
 {
@@ -138,7 +132,7 @@ vtkDataArray* findArrayAnyCase(vtkPolyData* cloud, const std::string& name)
   for (int i = 0; i < data->GetNumberOfArrays(); ++i)
   {
     vtkDataArray* array = data->GetArray(i);
-    const std::string own = array && array->GetName() ? lowered(array->GetName()) : "";
+    const std::string own = array && array->GetName() ? SystemTools::LowerCase(array->GetName()) : "";
     if ((own == name || own == "scalar_" + name) && array->GetNumberOfComponents() == 1)
     {
       return array;

@@ -12,6 +12,7 @@
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkShortArray.h"
+#include "vtkUnsignedShortArray.h"
 
 #include <algorithm>
 #include <cmath>
@@ -48,6 +49,8 @@ constexpr double kSharedPixels = 0.5;
 
 /// Radius of a Gaussian splat that is drawn, in standard deviations.
 constexpr double kDeviations = 1.5;
+/// Parts of an octave in which growths are kept.
+constexpr double kSplatGrowthStep = 1024.0;
 /// Depths of discs of one bent surface differ by this part of their median diameter.
 constexpr double kStepsOfSplats = 0.15;
 
@@ -192,7 +195,7 @@ void addSplats(vtkPolyData* points, const MeasuredCloud& measured)
   normals->SetName(kSplatNormalName);
   normals->SetNumberOfComponents(3);
   normals->SetNumberOfTuples(count);
-  vtkNew<vtkFloatArray> growths;
+  vtkNew<vtkUnsignedShortArray> growths;
   growths->SetName(kSplatGrowthName);
   growths->SetNumberOfValues(count);
   const auto addOne = [&](std::int64_t i)
@@ -215,7 +218,9 @@ void addSplats(vtkPolyData* points, const MeasuredCloud& measured)
     const double length =
       own > 0.0 ? own : std::max({ bounded, least, 2.0 * kOverlap * closed * double(each.reach) });
     lengths->SetValue(i, float(length));
-    growths->SetValue(i, usual > 0.0 && length > 0.0 ? float(length / usual) : 1.0F);
+    const double octaves = usual > 0.0 && length > 0.0 ? std::log2(length / usual) : 0.0;
+    growths->SetValue(i,
+      static_cast<unsigned short>(std::lround(kSplatGrowthStep * (32.0 + std::clamp(octaves, -32.0, 31.0)))));
     const Vec3 n{ double(each.normal[0]), double(each.normal[1]), double(each.normal[2]) };
     const double side = facesSensor && dot(n, places[i]) > 0.0 ? -1.0 : 1.0;
     for (int axis = 0; axis < 3; ++axis)
@@ -269,7 +274,8 @@ void addDensity(vtkPolyData* points)
   {
     Vec3 n;
     normals->GetTuple(i, &n.x);
-    const double usual = std::abs(lengths->GetComponent(i, 0)) / growths->GetComponent(i, 0);
+    const double usual = std::abs(lengths->GetComponent(i, 0)) *
+      std::exp2(32.0 - growths->GetComponent(i, 0) / kSplatGrowthStep);
     const double spacing = usual / usualDiameter(norm(n) / kSplatNormalUnit, 1.0);
     density->SetValue(i, spacing > 0.0 ? float(1.0 / (spacing * spacing)) : NAN);
   }

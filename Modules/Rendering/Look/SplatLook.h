@@ -24,7 +24,7 @@ namespace pointhaptics
 constexpr const char* kSplatLengthName =
   "SplatLength"; ///< Diameter of each splat, unit of the file; hidden: < 0.
 constexpr const char* kSplatNormalName = "SplatNormal"; ///< Short integers: kSplatNormalUnit is flat.
-constexpr const char* kSplatGrowthName = "SplatGrowth"; ///< Diameter over that of the spacing.
+constexpr const char* kSplatGrowthName = "SplatGrowth"; ///< Diameter over that of the spacing, logarithmic.
 constexpr const char* kLookColorName = "LookColor";
 /// All arrays of the picture: texts at a point leave them out.
 constexpr std::array<const char*, 4> kArraysOfPicture = { kSplatLengthName, kSplatNormalName,
@@ -53,7 +53,7 @@ POINTHAPTICSRENDERING_EXPORT bool measureCloud(const PointView& cloud, const Clo
 POINTHAPTICSRENDERING_EXPORT void takeOwnShapes(
   vtkPolyData* cloud, const std::vector<std::uint32_t>& drawn, MeasuredCloud& measured);
 
-/// Adds the arrays kSplatLengthName, kSplatNormalName and kSplatGrowthName to @p points, 14 bytes a point.
+/// Adds the arrays kSplatLengthName, kSplatNormalName and kSplatGrowthName to @p points, 12 bytes a point.
 POINTHAPTICSRENDERING_EXPORT void addSplats(vtkPolyData* points, const MeasuredCloud& measured);
 
 /// Lets @p mapper draw the arrays of addSplats(): sizes, normals and light. Input, colours and strength of

@@ -16,9 +16,9 @@
 #include <vtkDataArray.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
+#include <vtksys/SystemTools.hxx>
 
 #include <algorithm>
-#include <cctype>
 #include <iterator>
 #include <set>
 
@@ -26,6 +26,8 @@ namespace pointhaptics
 {
 namespace
 {
+
+using vtksys::SystemTools;
 
 /// Points that are measured before the first picture, which takes no longer than a frame or two.
 constexpr vtkIdType kMeasuredAtOnce = 60000;
@@ -61,13 +63,6 @@ bool isMadeByPipeline(const std::string& name)
   return std::find(std::begin(kMadeByPipeline), std::end(kMadeByPipeline), name) != std::end(kMadeByPipeline);
 }
 
-std::string lowered(std::string text)
-{
-  std::transform(text.begin(), text.end(), text.begin(),
-    [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-  return text;
-}
-
 /// True for an exact name: colours or an array of the cloud, or an array of the pipeline.
 bool isExactName(vtkPolyData* cloud, const std::string& name)
 {
@@ -78,11 +73,11 @@ bool isExactName(vtkPolyData* cloud, const std::string& name)
 /// All names there are that differ from @p wanted in upper and lower case only; each once.
 std::set<std::string> namesInAnyCase(vtkPolyData* cloud, const std::string& wanted)
 {
-  const std::string key = lowered(wanted);
+  const std::string key = SystemTools::LowerCase(wanted);
   std::set<std::string> found;
   const auto keepIfSame = [&](const std::string& written, const std::string& name)
   {
-    if (lowered(written) == key)
+    if (SystemTools::LowerCase(written) == key)
     {
       found.insert(name);
     }
@@ -131,12 +126,13 @@ bool completeName(vtkPolyData* cloud, const std::string& option, std::string& na
 /// The array that @p name is a component of, in any case. Null: none, or one without components.
 vtkDataArray* arrayWithComponents(vtkPolyData* cloud, const std::string& name)
 {
-  const std::string key = lowered(name.substr(0, name.rfind(':')));
+  const std::string key = SystemTools::LowerCase(name.substr(0, name.rfind(':')));
   vtkPointData* data = cloud->GetPointData();
   for (int i = 0; i < data->GetNumberOfArrays(); ++i)
   {
     vtkDataArray* array = data->GetArray(i);
-    if (array && array->GetName() && array->GetNumberOfComponents() > 1 && lowered(array->GetName()) == key)
+    if (array && array->GetName() && array->GetNumberOfComponents() > 1 &&
+      SystemTools::LowerCase(array->GetName()) == key)
     {
       return array;
     }
@@ -318,7 +314,7 @@ bool isOfMeans(const std::string& name)
 
 std::string colorWord(const std::string& name)
 {
-  return isMadeByPipeline(name) ? lowered(name) : name;
+  return isMadeByPipeline(name) ? SystemTools::LowerCase(name) : name;
 }
 
 void findBounds(const CloudRequest& request, LoadedCloud& loaded)

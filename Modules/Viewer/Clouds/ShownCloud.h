@@ -28,7 +28,7 @@ class vtkSplatMapper;
 namespace pointhaptics
 {
 
-/// Memory beside the file's arrays: 14 bytes a point, 3 more for colours that are made, and as many as the
+/// Memory beside the file's arrays: 12 bytes a point, 3 more for colours that are made, and as many as the
 /// coordinates where some points are not drawn.
 struct ShownCloud
 {
