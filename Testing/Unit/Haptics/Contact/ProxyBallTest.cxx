@@ -135,8 +135,7 @@ TEST_P(ProxyBallPromises, AreKeptOnRandomCloudsUnderRandomHands)
   int contacts = 0;
   int crowded = 0;
   int closer = 0;
-  int straight = 0;
-  int around = 0;
+  int straight = 0, around = 0;
   double mostCovered = 0.0;
   for (int done = 0; done < trial::stressTicks(); done += kTicksPerCloud)
   {
@@ -167,8 +166,7 @@ TEST_P(ProxyBallPromises, AreKeptOnRandomCloudsUnderRandomHands)
       {
         ++crowded;
         mostCovered = std::max(mostCovered, coveredBy(hand));
-        hand.invalidate();
-        again.invalidate();
+        hand.invalidate(), again.invalidate();
         continue;
       }
       ASSERT_LE(coveredBy(hand), 1e-8);
