@@ -33,11 +33,6 @@ double powerOfTwoNear(double range)
   return std::ldexp(1.0, std::min(std::max(exponent, -1000), 1000));
 }
 
-double usableFallback(double fallback)
-{
-  return fallback > 0.0 && std::isfinite(fallback) ? fallback : kBandwidthWithoutSpread;
-}
-
 /// b / s.
 double ruleFactor(BandwidthRule rule, double n, double d)
 {
@@ -92,16 +87,13 @@ SampleSpread sampleSpread(std::vector<double>& values)
     rest += deviation;
   }
   const double scatter = std::max(0.0, squares - rest * rest / n);
-  result.mean = front + center * unit;
   result.standardDeviation = result.count > 1 ? std::sqrt(scatter / (n - 1.0)) * unit : 0.0;
   result.interquartileRange = quantile(values, result.count, 0.75) - quantile(values, result.count, 0.25);
   return result;
 }
 
-Status bandwidth(
-  BandwidthRule rule, double s, double n, int dimensions, double& result, double fallback) noexcept
+Status bandwidth(BandwidthRule rule, double s, double n, int dimensions, double& result) noexcept
 {
-  result = usableFallback(fallback);
   if (dimensions < 1 || dimensions > 3 || rule == BandwidthRule::SheatherJones)
   {
     return Status::InvalidParameter;
@@ -119,21 +111,20 @@ Status bandwidth(
   return Status::Ok;
 }
 
-Status sampleBandwidth(BandwidthRule rule, const double* sample, std::int64_t count,
-  std::vector<double>& scratch, double& result, double fallback)
+Status sampleBandwidth(
+  BandwidthRule rule, const double* sample, std::int64_t count, std::vector<double>& scratch, double& result)
 {
   scratch.assign(sample, sample + std::max<std::int64_t>(count, 0));
   const SampleSpread spread = sampleSpread(scratch);
   if (spread.count != std::int64_t(scratch.size()))
   {
-    result = usableFallback(fallback);
     return Status::InvalidParameter;
   }
   const bool solves = rule == BandwidthRule::SheatherJones;
   const bool robust = solves || rule == BandwidthRule::SilvermanRobust;
   const double s = robust ? spread.robustDeviation(kSilvermanQuartiles) : spread.standardDeviation;
   const Status status =
-    bandwidth(solves ? BandwidthRule::SilvermanRobust : rule, s, double(spread.count), 1, result, fallback);
+    bandwidth(solves ? BandwidthRule::SilvermanRobust : rule, s, double(spread.count), 1, result);
   return status == Status::Ok && solves
     ? sheatherJones(scratch.data(), spread.count, spread.robustDeviation(kSheatherJonesQuartiles), result)
     : status;

@@ -19,14 +19,10 @@ enum class BandwidthRule
   SheatherJones, ///< Solve-the-equation, for univariate data: Sheather and Jones 1991, SheatherJones.h.
 };
 
-/// The fallback bandwidth where a rule has no answer and the caller gave no other, in the unit of the data.
-constexpr double kBandwidthWithoutSpread = 1e-3;
-
-/// Mean, sample standard deviation (n - 1) and quartiles (R's default, type 7) of a univariate sample.
+/// Sample standard deviation (n - 1) and quartiles (R's default, type 7) of a univariate sample.
 struct SampleSpread
 {
   std::int64_t count = 0; ///< Number of finite values.
-  double mean = 0.0;
   double standardDeviation = 0.0;
   double interquartileRange = 0.0;
   /// min(s, IQR / @p quartilesOfNormal), s alone where the quartiles coincide.
@@ -39,22 +35,19 @@ struct SampleSpread
 SampleSpread sampleSpread(std::vector<double>& values);
 
 /// b from a standard deviation @p s per dimension of n points in @p dimensions (1 to 3), in the unit of s.
-/// For SilvermanRobust pass the smaller of the two spreads. Within 1e-15 relative of the formula. @p result
-/// is always above 0 and finite. Where there is no answer it is @p fallback (or kBandwidthWithoutSpread if
-/// that is not above 0 and finite): DegenerateSample when n < 2, or n or s is not finite, or s is not above
-/// 0; InvalidParameter for other dimensions, and for SheatherJones, which needs the values themselves.
-/// Thread-safe.
-Status bandwidth(BandwidthRule rule, double s, double n, int dimensions, double& result,
-  double fallback = kBandwidthWithoutSpread) noexcept;
+/// For SilvermanRobust pass the smaller of the two spreads. Within 1e-15 relative of the formula, above 0 and
+/// finite. Errors, which leave @p result untouched: DegenerateSample when n < 2, or n or s is not finite, or
+/// s is not above 0; InvalidParameter for other dimensions, and for SheatherJones, which needs the values
+/// themselves. Thread-safe.
+Status bandwidth(BandwidthRule rule, double s, double n, int dimensions, double& result) noexcept;
 
 /// b of any @p rule (d = 1) for the @p count values of @p sample, in their unit; independent of their order.
 /// For SilvermanRobust from min(s, IQR / 1.34), s alone where the quartiles coincide. @p scratch: memory of
 /// the caller's, one for each thread; later samples of no greater size allocate nothing, but for
-/// SheatherJones. Errors and @p fallback as for bandwidth(), and a value that is not finite is an
-/// InvalidParameter. Where the equation of SheatherJones cannot be solved in double numbers:
-/// EquationUnsolved, and the bandwidth of SilvermanRobust instead of @p fallback. Cost: a sort; for
-/// SheatherJones see there.
-Status sampleBandwidth(BandwidthRule rule, const double* sample, std::int64_t count,
-  std::vector<double>& scratch, double& result, double fallback = kBandwidthWithoutSpread);
+/// SheatherJones. Errors as for bandwidth(), and a value that is not finite is an InvalidParameter. Where the
+/// equation of SheatherJones cannot be solved in double numbers: EquationUnsolved, and the bandwidth of
+/// SilvermanRobust. Cost: a sort; for SheatherJones see there.
+Status sampleBandwidth(
+  BandwidthRule rule, const double* sample, std::int64_t count, std::vector<double>& scratch, double& result);
 
 } // namespace pointhaptics

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace pointhaptics
 {
@@ -33,19 +34,9 @@ struct Weights
 
 std::vector<double> weightsOfPlaces(const NeighborQuery& query, const std::vector<double>& counts)
 {
-  std::vector<double> weights;
-  if (counts.empty() && query.finitePoints() == query.size())
-  {
-    return weights;
-  }
-  weights.reserve(std::size_t(query.size()));
-  for (std::int64_t slot = 0; slot < query.size(); ++slot)
-  {
-    weights.push_back(weightOf(counts, query.index(slot)));
-  }
-  query.visitRepeats([&](std::int64_t repeated, std::int64_t slot)
-    { weights[std::size_t(slot)] += weightOf(counts, repeated); });
-  return weights;
+  return counts.empty() && query.finitePoints() == query.size()
+    ? std::vector<double>()
+    : query.valuesOfPlaces([&](std::int64_t index) { return weightOf(counts, index); }, std::plus<>());
 }
 
 /// A sum of numbers from 0 to 2^34 that does not depend on their order: each is cut to multiples of 2^-60, in
@@ -77,22 +68,20 @@ private:
   std::int64_t low_ = 0;
 };
 
-double gaussianOnSurface(const Weights& weights, const Vec3& center, double b)
+double densityAt(const Weights& weights, const Vec3& center, double b, DensityKernel kernel)
 {
-  OrderedSum sum;
-  weights.query.visitBallSlots(center, kDensityCutoff * b,
-    [&](double d2, std::int64_t slot) { sum.add(weights.at(slot) * std::exp(-0.5 * d2 / (b * b))); });
-  return sum.value() / (weights.scale * weights.total * kTwoPi * b * b);
-}
-
-double epanechnikovOnSurface(const Weights& weights, const Vec3& center, double b)
-{
-  const double reach = kEpanechnikovReachOnSurface * b;
+  const bool isGaussian = kernel == DensityKernel::Gaussian;
+  const double reach = densityReach(kernel) * b;
   OrderedSum sum;
   weights.query.visitBallSlots(center, reach,
     [&](double d2, std::int64_t slot)
-    { sum.add(weights.at(slot) * std::max(0.0, 1.0 - d2 / (reach * reach))); });
-  return sum.value() / (weights.scale * weights.total * 0.5 * kPi * reach * reach);
+    {
+      const double height =
+        isGaussian ? std::exp(-0.5 * d2 / (b * b)) : std::max(0.0, 1.0 - d2 / (reach * reach));
+      sum.add(weights.at(slot) * height);
+    });
+  const double all = weights.scale * weights.total;
+  return sum.value() / (isGaussian ? all * kTwoPi * b * b : all * 0.5 * kPi * reach * reach);
 }
 
 }
@@ -127,7 +116,6 @@ void surfaceDensities(const PointView& points, const std::vector<double>& counts
   {
     weights.scale *= 0.5;
   }
-  const auto density = kernel == DensityKernel::Epanechnikov ? &epanechnikovOnSurface : &gaussianOnSurface;
   // In spatial order, where the points of one ball after the other are close in memory.
   forEachIndex(executor, query.size(),
     [&](std::int64_t slot)
@@ -135,7 +123,7 @@ void surfaceDensities(const PointView& points, const std::vector<double>& counts
       const std::size_t i = std::size_t(query.index(slot));
       if (bandwidths[i] > 0.0)
       {
-        densities[i] = density(weights, query.point(slot), bandwidths[i]);
+        densities[i] = densityAt(weights, query.point(slot), bandwidths[i], kernel);
       }
     });
   query.copyToRepeats(densities);

@@ -28,7 +28,6 @@ struct Neighborhood
 /// Input of the radii.
 struct Sample
 {
-  const PointView& points;
   const NeighborQuery& query;
   const NeighborCounts counts;
   const LocalBandwidthSettings& settings;
@@ -123,52 +122,6 @@ private:
   std::vector<double> scratch_;
 };
 
-/// The neighbours in a ball about each point, as NeighborSweep gives the nearest.
-class BallSweep
-{
-public:
-  BallSweep(const NeighborQuery& query, double radius)
-    : query_(query)
-    , radius_(radius)
-  {
-  }
-
-  template <typename Visitor>
-  void run(std::int64_t begin, std::int64_t end, Visitor&& visit)
-  {
-    const std::int64_t last = std::min(end * simd::kLeafPoints, query_.size());
-    for (std::int64_t slot = begin * simd::kLeafPoints; slot < last; ++slot)
-    {
-      visit(alone(slot));
-    }
-  }
-  /// Valid until the next call.
-  NeighborList alone(std::int64_t slot)
-  {
-    found_.clear();
-    query_.visitBallSlots(query_.point(slot), radius_,
-      [this](double d2, std::int64_t other) {
-        found_.push_back({ d2, query_.packed(other) });
-      });
-    std::sort(found_.begin(), found_.end());
-    squaredDistances_.clear();
-    slots_.clear();
-    for (const Neighbor& neighbor : found_)
-    {
-      squaredDistances_.push_back(neighbor.squaredDistance);
-      slots_.push_back(std::uint32_t(NeighborQuery::slotOf(neighbor)));
-    }
-    return { slot, int(found_.size()), squaredDistances_.data(), slots_.data() };
-  }
-
-private:
-  const NeighborQuery& query_;
-  const double radius_;
-  std::vector<Neighbor> found_;
-  std::vector<double> squaredDistances_;
-  std::vector<std::uint32_t> slots_;
-};
-
 double radiusOf(const Neighborhood& near, const LocalBandwidthSettings& settings)
 {
   const double low = settings.minimumRadius > 0.0 ? settings.minimumRadius : kNoSinkSpacings * near.spacing;
@@ -202,100 +155,64 @@ double fallbackRadius(double smallest, const Bounds& box, const LocalBandwidthSe
   return settings.maximumRadius > 0.0 ? std::min(radius, settings.maximumRadius) : radius;
 }
 
-void fillWithout(const PointView& points, const LocalBandwidthSettings& settings, PartialBandwidths& all)
+NeighborSweep sweepOf(const Sample& sample)
 {
-  double smallest = INFINITY;
-  Bounds box;
-  for (std::int64_t i = 0; i < points.size(); ++i)
-  {
-    const double r = all.radii[std::size_t(i)];
-    smallest = r > 0.0 ? std::min(smallest, r) : smallest;
-    if (isFinite(points[i]))
-    {
-      box.include(points[i]);
-    }
-  }
-  completeBandwidths(points, settings, smallest, box, all);
+  const LocalBandwidthSettings& settings = sample.settings;
+  const int nearest = int(std::min<std::int64_t>(settings.numberOfNeighbors, sample.query.size())) + 1;
+  return settings.fixedRadius ? NeighborSweep::ofBalls(sample.query, settings.radius)
+                              : NeighborSweep(sample.query, nearest);
 }
 
-/// @return whether every point has got a radius.
-template <typename MakeSweep>
-bool readAll(const Sample& sample, MakeSweep&& makeSweep, PartialBandwidths& result, const Executor& executor)
+void readAll(const Sample& sample, PartialBandwidths& result, const Executor& executor)
 {
-  const NeighborQuery& query = sample.query;
-  std::atomic<bool> complete{ true };
-  forRange(executor, NeighborSweep::leaves(query), NeighborSweep::kSmallestRange,
+  const LocalBandwidthSettings& settings = sample.settings;
+  std::atomic<bool> isComplete{ true };
+  forRange(executor, NeighborSweep::leaves(sample.query), NeighborSweep::kSmallestRange,
     [&](std::int64_t begin, std::int64_t end)
     {
       NeighborhoodReader reader(sample);
-      makeSweep().run(begin, end,
+      sweepOf(sample).run(begin, end,
         [&](const NeighborList& list)
         {
           const Neighborhood near = reader.read(list);
-          const double radius = radiusOf(near, sample.settings);
-          const std::size_t index = std::size_t(query.index(list.slot));
-          if (!result.reaches.empty())
-          {
-            result.reaches[index] = sample.settings.fixedRadius
-              ? sample.settings.radius
-              : std::sqrt(list.squaredDistances[list.count - 1]);
-          }
+          const double radius = radiusOf(near, settings);
+          const std::size_t index = std::size_t(sample.query.index(list.slot));
+          result.reaches[index] =
+            settings.fixedRadius ? settings.radius : std::sqrt(list.squaredDistances[list.count - 1]);
           if (!(near.bandwidth > 0.0) || !std::isfinite(radius))
           {
-            complete.store(false, std::memory_order_relaxed);
+            isComplete.store(false, std::memory_order_relaxed);
             return;
           }
           result.bandwidths[index] = near.bandwidth;
           result.radii[index] = radius;
         });
     });
-  for (std::vector<double>* values : { &result.bandwidths, &result.radii, &result.reaches })
-  {
-    if (!values->empty())
-    {
-      query.copyToRepeats(*values);
-    }
-  }
-  return complete;
-}
-
-/// Calls withSweep(makeSweep) for the neighbourhoods of the settings.
-template <typename Function>
-bool withNeighborhoods(const Sample& sample, Function&& withSweep)
-{
-  const NeighborQuery& query = sample.query;
-  const LocalBandwidthSettings& settings = sample.settings;
-  if (settings.fixedRadius)
-  {
-    return withSweep([&] { return BallSweep(query, settings.radius); });
-  }
-  const int wanted = int(std::min<std::int64_t>(settings.numberOfNeighbors, query.size())) + 1;
-  return withSweep([&] { return NeighborSweep(query, wanted); });
+  result.isComplete = isComplete;
 }
 
 /// @return whether each of @p slots has got a radius.
-template <typename MakeSweep>
-bool readSome(const Sample& sample, MakeSweep&& makeSweep, const std::vector<std::int64_t>& slots,
-  std::vector<double>& radii, const Executor& executor)
+bool readSome(const Sample& sample, const std::vector<std::int64_t>& slots, std::vector<double>& radii,
+  const Executor& executor)
 {
   constexpr std::int64_t kSmallestRange = 64;
-  std::atomic<bool> complete{ true };
+  std::atomic<bool> isComplete{ true };
   forRange(executor, std::int64_t(slots.size()), kSmallestRange,
     [&](std::int64_t begin, std::int64_t end)
     {
       NeighborhoodReader reader(sample);
-      auto&& sweep = makeSweep();
+      NeighborSweep sweep = sweepOf(sample);
       for (std::int64_t i = begin; i < end; ++i)
       {
         const Neighborhood near = reader.read(sweep.alone(slots[std::size_t(i)]));
         radii[std::size_t(i)] = radiusOf(near, sample.settings);
         if (!(near.bandwidth > 0.0) || !std::isfinite(radii[std::size_t(i)]))
         {
-          complete.store(false, std::memory_order_relaxed);
+          isComplete.store(false, std::memory_order_relaxed);
         }
       }
     });
-  return complete;
+  return isComplete;
 }
 
 Status checked(
@@ -308,26 +225,10 @@ Status checked(
     : status;
 }
 
-Sample sampleOf(const PointView& points, const std::vector<double>& counts, const NeighborQuery& query,
-  const LocalBandwidthSettings& settings)
+Sample sampleOf(
+  const NeighborQuery& query, const std::vector<double>& counts, const LocalBandwidthSettings& settings)
 {
-  return { points, query, NeighborCounts(query, settings.usePointCounts ? counts : kNone), settings };
-}
-
-Status readWhole(const PointView& points, const std::vector<double>& counts, const NeighborQuery& query,
-  const LocalBandwidthSettings& settings, PartialBandwidths& result, bool& isComplete,
-  const Executor& executor)
-{
-  result.bandwidths.assign(std::size_t(points.size()), 0.0);
-  result.radii.assign(std::size_t(points.size()), 0.0);
-  const Status status = checked(points, counts, settings);
-  if (status == Status::Ok)
-  {
-    const Sample sample = sampleOf(points, counts, query, settings);
-    isComplete = withNeighborhoods(
-      sample, [&](auto&& makeSweep) { return readAll(sample, makeSweep, result, executor); });
-  }
-  return status;
+  return { query, NeighborCounts(query, settings.usePointCounts ? counts : kNone), settings };
 }
 
 }
@@ -351,11 +252,21 @@ Status localBandwidths(const PointView& points, const std::vector<double>& count
   const Executor& executor)
 {
   PartialBandwidths all;
-  bool isComplete = false;
-  const Status status = readWhole(points, counts, query, settings, all, isComplete, executor);
-  if (status == Status::Ok && !isComplete)
+  const Status status = partialBandwidths(points, counts, query, settings, all, executor);
+  if (status == Status::Ok && !all.isComplete)
   {
-    fillWithout(points, settings, all);
+    double smallest = INFINITY;
+    Bounds box;
+    for (std::int64_t i = 0; i < points.size(); ++i)
+    {
+      const double r = all.radii[std::size_t(i)];
+      smallest = r > 0.0 ? std::min(smallest, r) : smallest;
+      if (isFinite(points[i]))
+      {
+        box.include(points[i]);
+      }
+    }
+    completeBandwidths(points, settings, smallest, box, all);
   }
   bandwidths = std::move(all.bandwidths);
   radii = std::move(all.radii);
@@ -370,9 +281,19 @@ Status partialBandwidths(const PointView& points, const std::vector<double>& cou
   const NeighborQuery& query, const LocalBandwidthSettings& settings, PartialBandwidths& result,
   const Executor& executor)
 {
-  result.reaches.assign(std::size_t(points.size()), 0.0);
-  bool isComplete = false;
-  return readWhole(points, counts, query, settings, result, isComplete, executor);
+  for (std::vector<double>* values : { &result.bandwidths, &result.radii, &result.reaches })
+  {
+    values->assign(std::size_t(points.size()), 0.0);
+  }
+  const Status status = checked(points, counts, settings);
+  if (status == Status::Ok)
+  {
+    readAll(sampleOf(query, counts, settings), result, executor);
+    query.copyToRepeats(result.bandwidths);
+    query.copyToRepeats(result.radii);
+    query.copyToRepeats(result.reaches);
+  }
+  return status;
 }
 
 void completeBandwidths(const PointView& points, const LocalBandwidthSettings& settings,
@@ -394,25 +315,38 @@ Status localRadiiAt(const PointView& points, const std::vector<double>& counts, 
   const Executor& executor)
 {
   radii.assign(slots.size(), 0.0);
-  const Status status = checked(points, counts, settings);
-  if (status != Status::Ok)
-  {
-    return status;
-  }
-  const Sample sample = sampleOf(points, counts, query, settings);
-  const bool complete = !settings.smoothRadius &&
-    withNeighborhoods(
-      sample, [&](auto&& makeSweep) { return readSome(sample, makeSweep, slots, radii, executor); });
-  if (!complete)
+  Status status = checked(points, counts, settings);
+  if (status == Status::Ok &&
+    (settings.smoothRadius || !readSome(sampleOf(query, counts, settings), slots, radii, executor)))
   {
     std::vector<double> bandwidths;
     std::vector<double> all;
-    const Status whole = localBandwidths(points, counts, query, settings, bandwidths, all, executor);
+    status = localBandwidths(points, counts, query, settings, bandwidths, all, executor);
     std::transform(slots.begin(), slots.end(), radii.begin(),
       [&](std::int64_t slot) { return all[std::size_t(query.index(slot))]; });
-    return whole;
   }
-  return Status::Ok;
+  return status;
+}
+
+/// A radius is cut by none that is farther away than the slope takes it down to the smallest.
+void limitSlope(
+  const NeighborQuery& query, double slope, std::vector<double>& radii, const Executor& executor)
+{
+  constexpr double kRounding = 1.0 + 1e-12;
+  const std::vector<double> given =
+    query.valuesOfPlaces([&](std::int64_t index) { return radii[std::size_t(index)]; },
+      [](double a, double b) { return std::min(a, b); });
+  const double smallest = given.empty() ? 0.0 : *std::min_element(given.begin(), given.end());
+  forEachIndex(executor, query.size(),
+    [&](std::int64_t slot)
+    {
+      double best = given[std::size_t(slot)];
+      query.visitBallSlots(query.point(slot), kRounding * (best - smallest) / slope,
+        [&](double d2, std::int64_t other)
+        { best = std::min(best, given[std::size_t(other)] + slope * std::sqrt(d2)); });
+      radii[std::size_t(query.index(slot))] = best;
+    });
+  query.copyToRepeats(radii);
 }
 
 } // namespace pointhaptics

@@ -63,6 +63,7 @@ struct PartialBandwidths
   std::vector<double> bandwidths; ///< 0 where the neighbourhood has no spread.
   std::vector<double> radii;      ///< Radius; 0 where the neighbourhood has no spread.
   std::vector<double> reaches;    ///< Distance of the last neighbour; of a ball's, its radius.
+  bool isComplete = false;        ///< Each neighbourhood that was read has spread.
 };
 
 /// The first step of localBandwidths, for processes that each have a part of a cloud: @p points are that

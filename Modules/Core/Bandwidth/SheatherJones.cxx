@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -113,13 +113,7 @@ private:
 
   double cellPair(const SampleCell& a, const SampleCell& b) const
   {
-    if (a.hasSeries() && b.hasSeries())
-    {
-      return this->bothSeries(a, b);
-    }
-    return a.hasSeries() ? this->oneSeries(b, a)
-      : b.hasSeries()    ? this->oneSeries(a, b)
-                         : this->everyPair(a, b);
+    return a.hasSeries() && b.hasSeries() ? this->bothSeries(a, b) : this->everyPair(a, b);
   }
 
   /// Element k: H_(order + k)(t), by He_(k + 1) = t He_k - k He_(k - 1).
@@ -134,18 +128,6 @@ private:
       before = std::exchange(now, t * now - double(k) * before);
     }
     return table;
-  }
-
-  /// Each of few values against the power sums of many: time stays linear where outliers lie beside clusters.
-  double oneSeries(const SampleCell& values, const SampleCell& series) const
-  {
-    double sum = 0.0;
-    for (std::int64_t i = values.begin; i < values.end; ++i)
-    {
-      const auto table = this->derivativesAt((sorted_[i] - sorted_[series.begin]) / h_);
-      sum = std::inner_product(table.begin(), table.end(), series.moments.begin(), sum);
-    }
-    return sum;
   }
 
   double bothSeries(const SampleCell& a, const SampleCell& b) const
@@ -202,12 +184,74 @@ public:
   {
   }
   bool isSolvable() const { return isUsable(thirdDerivative_) && isUsable(pilotFactor_); }
-  bool bracket(double& low, double& high, double& atLow, double& atHigh);
-  double root(double low, double high, double atLow, double atHigh);
+
+  /// Logarithms of two bandwidths with a solution between them, and excess() there.
+  struct Bracket
+  {
+    double low;
+    double high;
+    double atLow;
+    double atHigh;
+  };
+  std::optional<Bracket> bracket()
+  {
+    const double step = std::log(kStepRatio);
+    const double start = std::log(kStart * std::pow(n_, -0.2));
+    const double atStart = this->excess(start);
+    Bracket b{ start, start, atStart, atStart };
+    for (int i = 0; i < kLargestNumberOfSteps && std::isfinite(b.atLow) && std::isfinite(b.atHigh); ++i)
+    {
+      if (b.atLow >= 0.0 && b.atHigh <= 0.0)
+      {
+        return b;
+      }
+      const double next = atStart < 0.0 ? b.low - step : b.high + step;
+      const double atNext = this->excess(next);
+      b = atStart < 0.0 ? Bracket{ next, b.low, atNext, b.atLow } : Bracket{ b.high, next, b.atHigh, atNext };
+    }
+    return {};
+  }
+
+  /// Regula falsi where the end that stays has its value halved (Illinois): never leaves the bracket.
+  double root(Bracket b)
+  {
+    double last = b.low;
+    int side = 0;
+    for (int i = 0; i < kLargestNumberOfRefinements && b.atLow != b.atHigh; ++i)
+    {
+      const double next = b.high - b.atHigh * (b.high - b.low) / (b.atHigh - b.atLow);
+      const bool arrived = std::fabs(next - last) <= kTolerance;
+      last = next;
+      if (arrived)
+      {
+        break;
+      }
+      const double value = this->excess(next);
+      const int towards = value > 0.0 ? 1 : -1;
+      double& stays = value > 0.0 ? b.atHigh : b.atLow;
+      stays *= side == towards ? 0.5 : 1.0;
+      (value > 0.0 ? b.low : b.high) = next;
+      (value > 0.0 ? b.atLow : b.atHigh) = value;
+      side = towards;
+    }
+    return last;
+  }
 
 private:
-  double roughness(double g, bool second);
-  double excess(double logarithm);
+  /// Integral of the squared second or third derivative of the density with unit scale.
+  double roughness(double g, bool second)
+  {
+    const double h = g * scale_;
+    const double sum = isUsable(h) ? sums_.sum(sorted_, count_, h, second ? 4 : 6) : 0.0;
+    return (second ? sum : -sum) / (n_ * (n_ - 1.0) * kSqrtTwoPi * std::pow(g, second ? 5.0 : 7.0));
+  }
+  /// log of right-hand side over left-hand side of the equation at bandwidth exp(logarithm); falls to 0 at a
+  /// solution.
+  double excess(double logarithm)
+  {
+    const double g = pilotFactor_ * std::exp(5.0 / 7.0 * logarithm);
+    return std::log(std::pow(2.0 * kSqrtPi * n_ * this->roughness(g, true), -0.2)) - logarithm;
+  }
 
   const double* sorted_;
   std::int64_t count_;
@@ -218,85 +262,6 @@ private:
   double pilotFactor_;     ///< 1.357 (S(a) / T(b))^(1/7).
 };
 
-/// Integral of the squared second or third derivative of the density with unit scale.
-double Equation::roughness(double g, bool second)
-{
-  const double h = g * scale_;
-  const double sum = isUsable(h) ? sums_.sum(sorted_, count_, h, second ? 4 : 6) : 0.0;
-  return (second ? sum : -sum) / (n_ * (n_ - 1.0) * kSqrtTwoPi * std::pow(g, second ? 5.0 : 7.0));
-}
-
-/// log of right-hand side over left-hand side of the equation at bandwidth exp(logarithm); falls to 0 at a
-/// solution.
-double Equation::excess(double logarithm)
-{
-  const double g = pilotFactor_ * std::exp(5.0 / 7.0 * logarithm);
-  return std::log(std::pow(2.0 * kSqrtPi * n_ * roughness(g, true), -0.2)) - logarithm;
-}
-
-bool Equation::bracket(double& low, double& high, double& atLow, double& atHigh)
-{
-  const double step = std::log(kStepRatio);
-  low = high = std::log(kStart * std::pow(n_, -0.2));
-  atLow = atHigh = excess(low);
-  const bool down = atLow < 0.0;
-  for (int i = 0; i < kLargestNumberOfSteps && std::isfinite(atLow) && std::isfinite(atHigh); ++i)
-  {
-    if (atLow >= 0.0 && atHigh <= 0.0)
-    {
-      return true;
-    }
-    if (down)
-    {
-      high = low;
-      atHigh = atLow;
-      low -= step;
-      atLow = excess(low);
-    }
-    else
-    {
-      low = high;
-      atLow = atHigh;
-      high += step;
-      atHigh = excess(high);
-    }
-  }
-  return false;
-}
-
-/// Regula falsi where the end that stays has its value halved (Illinois): never leaves the bracket.
-double Equation::root(double low, double high, double atLow, double atHigh)
-{
-  double last = low;
-  int side = 0;
-  for (int i = 0; i < kLargestNumberOfRefinements && atLow != atHigh; ++i)
-  {
-    const double next = high - atHigh * (high - low) / (atHigh - atLow);
-    const bool arrived = std::fabs(next - last) <= kTolerance;
-    last = next;
-    if (arrived)
-    {
-      break;
-    }
-    const double value = excess(next);
-    if (value > 0.0)
-    {
-      low = next;
-      atLow = value;
-      atHigh *= side > 0 ? 0.5 : 1.0;
-      side = 1;
-    }
-    else
-    {
-      high = next;
-      atHigh = value;
-      atLow *= side < 0 ? 0.5 : 1.0;
-      side = -1;
-    }
-  }
-  return last;
-}
-
 }
 
 Status sheatherJones(const double* sorted, std::int64_t count, double scale, double& bandwidth)
@@ -306,12 +271,12 @@ Status sheatherJones(const double* sorted, std::int64_t count, double scale, dou
     return Status::DegenerateSample;
   }
   Equation equation(sorted, count, scale);
-  double low = 0.0, high = 0.0, atLow = 0.0, atHigh = 0.0;
-  if (!equation.isSolvable() || !equation.bracket(low, high, atLow, atHigh))
+  const auto bracket = equation.isSolvable() ? equation.bracket() : std::nullopt;
+  if (!bracket)
   {
     return Status::EquationUnsolved;
   }
-  const double result = std::exp(equation.root(low, high, atLow, atHigh)) * scale;
+  const double result = std::exp(equation.root(*bracket)) * scale;
   if (!isUsable(result))
   {
     return Status::EquationUnsolved;

@@ -65,12 +65,8 @@ public:
     query_.build(points, executor);
     near_.resize(std::size_t(query_.size()));
     sheets_.resize(std::size_t(query_.size()));
-    forRange(executor, NeighborSweep::leaves(query_), NeighborSweep::kSmallestRange,
-      [this](std::int64_t begin, std::int64_t end)
-      {
-        NeighborSweep(query_, kNeighbors + 1)
-          .run(begin, end, [this](const NeighborList& list) { this->findNormal(list); });
-      });
+    NeighborSweep::runAll(
+      query_, kNeighbors + 1, executor, [this](const NeighborList& list) { this->findNormal(list); });
     this->forEachSlot([this](std::uint32_t slot) { this->findSpacing(slot); });
     this->dropScattered();
     this->forEachSlot([this](std::uint32_t slot) { this->findRadius(slot); });

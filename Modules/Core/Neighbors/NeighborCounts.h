@@ -16,29 +16,18 @@ namespace pointhaptics
 constexpr double kLargestCountJump = 4.0;
 
 /// Counts of the means that a NeighborQuery was built on. What is below 1 or NaN counts as 1; a place that
-/// several means have takes the largest of theirs. Allocates 8 bytes a place where means repeat places, else
-/// nothing. Any number of threads.
+/// several means have takes the largest of theirs. 8 bytes a place. Any number of threads.
 class NeighborCounts
 {
 public:
-  /// @param counts in the order of the points, or empty: 1 each. Both are kept alive by the caller.
+  /// @param counts in the order of the points, or empty: 1 each.
   NeighborCounts(const NeighborQuery& query, const std::vector<double>& counts)
-    : query_(query)
-    , counts_(counts)
   {
-    if (!counts.empty() && query.finitePoints() > query.size())
+    if (!counts.empty())
     {
-      places_.resize(std::size_t(query.size()));
-      for (std::size_t slot = 0; slot < places_.size(); ++slot)
-      {
-        places_[slot] = atLeastOne(counts[std::size_t(query.index(std::int64_t(slot)))]);
-      }
-      query.visitRepeats(
-        [&](std::int64_t repeated, std::int64_t slot)
-        {
-          double& place = places_[std::size_t(slot)];
-          place = std::max(place, atLeastOne(counts[std::size_t(repeated)]));
-        });
+      counts_ = query.valuesOfPlaces([&](std::int64_t index)
+        { return counts[std::size_t(index)] > 1.0 ? counts[std::size_t(index)] : 1.0; },
+        [](double a, double b) { return std::max(a, b); });
     }
   }
   bool empty() const { return counts_.empty(); }
@@ -63,12 +52,7 @@ public:
   }
 
 private:
-  double at(std::int64_t slot) const
-  {
-    return places_.empty() ? atLeastOne(counts_[std::size_t(query_.index(slot))])
-                           : places_[std::size_t(slot)];
-  }
-  static double atLeastOne(double count) { return count > 1.0 ? count : 1.0; }
+  double at(std::int64_t slot) const { return counts_[std::size_t(slot)]; }
   double weightedMean(const NeighborList& list, double largest, bool narrow) const
   {
     const double reach = list.squaredDistances[list.count - 1];
@@ -84,9 +68,7 @@ private:
     return sum / weights;
   }
 
-  const NeighborQuery& query_;
-  const std::vector<double>& counts_;
-  std::vector<double> places_; ///< By slot; empty where no mean repeats a place.
+  std::vector<double> counts_; ///< By slot.
 };
 
 } // namespace pointhaptics

@@ -55,6 +55,19 @@ public:
       visit(std::int64_t(repeat.index), std::int64_t(repeat.slot));
     }
   }
+  /// value(index) for each slot; join(a, b) of them where several points are at the place.
+  template <typename Value, typename Join>
+  std::vector<double> valuesOfPlaces(Value&& value, Join&& join) const
+  {
+    std::vector<double> values(indices_.size());
+    for (std::size_t slot = 0; slot < values.size(); ++slot)
+    {
+      values[slot] = value(index(std::int64_t(slot)));
+    }
+    visitRepeats([&](std::int64_t repeated, std::int64_t slot)
+      { values[std::size_t(slot)] = join(values[std::size_t(slot)], value(repeated)); });
+    return values;
+  }
   /// Gives repeated points the value of the first one. @param values one for each point given to build().
   template <typename T>
   void copyToRepeats(std::vector<T>& values) const

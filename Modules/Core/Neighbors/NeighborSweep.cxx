@@ -17,7 +17,7 @@ constexpr double kFirstMargin = 2.0;
 NeighborSweep::NeighborSweep(const NeighborQuery& query, int k, InstructionSet wanted)
   : query_(query)
   , k_(int(std::min<std::int64_t>(std::max(k, 1), std::max<std::int64_t>(query.size(), 1))))
-  , kernels_(simd::neighborKernels(wanted))
+  , kernels_(&simd::neighborKernels(wanted))
   , search_(k_ <= simd::kMostSwept ? new simd::LeafSearch : nullptr)
   , alone_(std::size_t(k_))
   , squaredDistances_(std::size_t(k_))
@@ -27,6 +27,12 @@ NeighborSweep::NeighborSweep(const NeighborQuery& query, int k, InstructionSet w
   {
     search_->k = k_;
   }
+}
+
+NeighborSweep::NeighborSweep(const NeighborQuery& query, Balls balls)
+  : query_(query)
+  , radius_(balls.radius)
+{
 }
 
 NeighborSweep::~NeighborSweep() = default;
@@ -46,7 +52,7 @@ void NeighborSweep::searchLeaf(std::int64_t leaf, unsigned wanted)
       const NeighborList list = alone(leaf * simd::kLeafPoints);
       search_->reach = kFirstMargin * list.squaredDistances[list.count - 1];
     }
-    kernels_.searchLeaf(query_.tree(), leaf, *search_);
+    kernels_->searchLeaf(query_.tree(), leaf, *search_);
   }
 }
 
@@ -62,13 +68,28 @@ NeighborList NeighborSweep::listOf(std::int64_t leaf, int i)
 
 NeighborList NeighborSweep::alone(std::int64_t slot)
 {
-  const int count = query_.nearestSlots(query_.point(slot), k_, alone_.data());
-  for (int i = 0; i < count; ++i)
+  const Vec3 place = query_.point(slot);
+  if (k_ > 0)
   {
-    squaredDistances_[std::size_t(i)] = alone_[std::size_t(i)].squaredDistance;
-    slots_[std::size_t(i)] = std::uint32_t(NeighborQuery::slotOf(alone_[std::size_t(i)]));
+    alone_.resize(std::size_t(query_.nearestSlots(place, k_, alone_.data())));
   }
-  return { slot, count, squaredDistances_.data(), slots_.data() };
+  else
+  {
+    alone_.clear();
+    query_.visitBallSlots(place, radius_,
+      [this](double d2, std::int64_t other) {
+        alone_.push_back({ d2, query_.packed(other) });
+      });
+    std::sort(alone_.begin(), alone_.end());
+  }
+  squaredDistances_.clear();
+  slots_.clear();
+  for (const Neighbor& neighbor : alone_)
+  {
+    squaredDistances_.push_back(neighbor.squaredDistance);
+    slots_.push_back(std::uint32_t(NeighborQuery::slotOf(neighbor)));
+  }
+  return { slot, int(alone_.size()), squaredDistances_.data(), slots_.data() };
 }
 
 } // namespace pointhaptics

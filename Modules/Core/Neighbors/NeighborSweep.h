@@ -41,6 +41,11 @@ public:
   /// @param query built, and kept alive and unchanged by the caller.
   /// @param k neighbours wanted, the point itself among them, at least 1; more than the cloud has: all of it.
   NeighborSweep(const NeighborQuery& query, int k, InstructionSet wanted = InstructionSet::Automatic);
+  /// The neighbours are all in a ball of @p radius; every point is searched by itself.
+  static NeighborSweep ofBalls(const NeighborQuery& query, double radius)
+  {
+    return NeighborSweep(query, Balls{ radius });
+  }
   ~NeighborSweep();
   NeighborSweep(const NeighborSweep&) = delete;
   NeighborSweep& operator=(const NeighborSweep&) = delete;
@@ -81,16 +86,30 @@ public:
     run(begin, end, visit, [](std::int64_t) { return true; });
   }
 
-  /// The neighbours of one point. Valid until the next call.
+  /// Calls visit for the k nearest of every place, in pieces of @p executor.
+  template <typename Visitor>
+  static void runAll(const NeighborQuery& query, int k, const Executor& executor, const Visitor& visit)
+  {
+    forRange(executor, leaves(query), kSmallestRange,
+      [&](std::int64_t begin, std::int64_t end) { NeighborSweep(query, k).run(begin, end, visit); });
+  }
+
+  /// The neighbours of one point: faster than run() where few are wanted. Valid until the next call.
   NeighborList alone(std::int64_t slot);
 
 private:
+  struct Balls
+  {
+    double radius;
+  };
+  NeighborSweep(const NeighborQuery& query, Balls balls);
   void searchLeaf(std::int64_t leaf, unsigned wanted);
   NeighborList listOf(std::int64_t leaf, int i);
 
   const NeighborQuery& query_;
-  const int k_;
-  const simd::NeighborKernels& kernels_;
+  int k_ = 0; ///< 0: those in balls.
+  double radius_ = 0.0;
+  const simd::NeighborKernels* kernels_ = nullptr;
   std::unique_ptr<simd::LeafSearch> search_; ///< Null: every point is searched alone.
   // The neighbours of the last point that was searched alone.
   std::vector<Neighbor> alone_;

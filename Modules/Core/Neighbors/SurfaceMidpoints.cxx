@@ -84,10 +84,12 @@ public:
   {
     query_.build(points, executor);
     fans_.resize(std::size_t(query_.size()));
-    this->sweep(executor, [this](const NeighborList& list) { this->measure(list); });
+    NeighborSweep::runAll(
+      query_, kNeighbors + 1, executor, [this](const NeighborList& list) { this->measure(list); });
     if (!this->areAtRandom())
     {
-      this->sweep(executor, [this](const NeighborList& list) { this->makeFan(list); });
+      NeighborSweep::runAll(
+        query_, kNeighbors + 1, executor, [this](const NeighborList& list) { this->makeFan(list); });
     }
   }
 
@@ -114,18 +116,6 @@ private:
   {
     const auto twins = std::count_if(fans_.begin(), fans_.end(), [](const Fan& fan) { return fan.hasTwin; });
     return double(twins) > kTwinsAtRandom * double(fans_.size());
-  }
-
-  /// Calls visit(neighbours) once for each point.
-  template <typename Visitor>
-  void sweep(const Executor& executor, Visitor visit)
-  {
-    forRange(executor, NeighborSweep::leaves(query_), NeighborSweep::kSmallestRange,
-      [&](std::int64_t begin, std::int64_t end)
-      {
-        NeighborSweep sweep(query_, kNeighbors + 1);
-        sweep.run(begin, end, visit);
-      });
   }
 
   Vec3 offset(const NeighborList& list, int i) const

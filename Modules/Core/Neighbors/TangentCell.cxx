@@ -84,18 +84,7 @@ double TangentCell::farthestCorner(Vec3& place) const
 
 double TangentCell::reach() const
 {
-  const double edge2 = largest_ * largest_ * (1.0 - 1e-12);
-  double most2 = 0.0;
-  for (int i = 0; i < count_; ++i)
-  {
-    const double length2 = corners_[i].x * corners_[i].x + corners_[i].y * corners_[i].y;
-    if (length2 >= edge2)
-    {
-      return 0.0;
-    }
-    most2 = std::max(most2, length2);
-  }
-  return std::sqrt(most2);
+  return farthest2_ < largest_ * largest_ * (1.0 - 1e-12) ? std::sqrt(farthest2_) : 0.0;
 }
 
 bool TangentCell::touches(const Vec3& place) const

@@ -56,7 +56,6 @@ TEST(SampleSpread, MatchesLongDoubleFarFromZero)
     }
     const reference::Spread expected = reference::spread(values);
     const SampleSpread spread = sampleSpread(values);
-    EXPECT_NEAR(spread.mean, double(expected.mean), 1e-13 * (1 + std::fabs(offset)));
     EXPECT_NEAR(spread.standardDeviation / double(expected.standardDeviation), 1.0, 1e-9);
     EXPECT_NEAR(
       spread.interquartileRange, double(expected.interquartileRange), 1e-15 * (1 + std::fabs(offset)));
@@ -70,7 +69,6 @@ TEST(SampleSpread, LeavesOutWhatIsNotFinite)
   const SampleSpread spread = sampleSpread(values);
   const SampleSpread expected = sampleSpread(finite);
   EXPECT_EQ(spread.count, 3);
-  EXPECT_EQ(spread.mean, expected.mean);
   EXPECT_EQ(spread.standardDeviation, expected.standardDeviation);
   EXPECT_EQ(spread.interquartileRange, expected.interquartileRange);
   EXPECT_EQ(values[0], 1.0);
@@ -84,7 +82,6 @@ TEST(SampleSpread, NeitherOverflowsNorUnderflows)
     std::vector<double> values{ 0.0, unit, 2 * unit, 3 * unit, 4 * unit };
     const SampleSpread spread = sampleSpread(values);
     EXPECT_NEAR(spread.standardDeviation / unit, std::sqrt(2.5), unit < 1e-310 ? 0.05 : 1e-14);
-    EXPECT_NEAR(spread.mean / unit, 2.0, 1e-14);
     EXPECT_DOUBLE_EQ(spread.interquartileRange / unit, 2.0);
   }
 }
@@ -94,7 +91,6 @@ TEST(SampleSpread, OfNothingIsZero)
   std::vector<double> none;
   const SampleSpread spread = sampleSpread(none);
   EXPECT_EQ(spread.count, 0);
-  EXPECT_EQ(spread.mean, 0.0);
   EXPECT_EQ(spread.standardDeviation, 0.0);
   EXPECT_EQ(spread.interquartileRange, 0.0);
 }
@@ -165,24 +161,23 @@ TEST(Bandwidth, RefusesSamplesWithoutSpread)
     for (const double s : { 0.0, -1.0, double(NAN), double(INFINITY) })
     {
       double b = 7.0;
-      EXPECT_EQ(bandwidth(rule, s, 100, 2, b, 0.125), Status::DegenerateSample) << s;
-      EXPECT_EQ(b, 0.125);
+      EXPECT_EQ(bandwidth(rule, s, 100, 2, b), Status::DegenerateSample) << s;
+      EXPECT_EQ(b, 7.0);
     }
     for (const double n : { 1.0, 0.0, double(NAN), double(INFINITY) })
     {
       double b = 7.0;
       EXPECT_EQ(bandwidth(rule, 1.0, n, 2, b), Status::DegenerateSample) << n;
-      EXPECT_EQ(b, kBandwidthWithoutSpread);
+      EXPECT_EQ(b, 7.0);
     }
     for (const int d : { 0, 4, -1 })
     {
       double b = 7.0;
       EXPECT_EQ(bandwidth(rule, 1.0, 100, d, b), Status::InvalidParameter) << d;
-      EXPECT_EQ(b, kBandwidthWithoutSpread);
+      EXPECT_EQ(b, 7.0);
     }
     double b = 7.0;
-    (void)bandwidth(rule, 5e-324, 1e9, 1, b);
-    EXPECT_GT(b, 0.0) << "even where the product underflows";
+    EXPECT_NE(bandwidth(rule, 5e-324, 1e9, 1, b) == Status::Ok, b == 7.0) << "where the product underflows";
   }
 }
 
@@ -209,7 +204,7 @@ TEST(SampleBandwidth, ScalesAndShiftsWithTheSampleWhateverItsOrder)
   }
 }
 
-TEST(SampleBandwidth, DegenerateSamplesHaveAStatusAndTheFallback)
+TEST(SampleBandwidth, DegenerateSamplesHaveAStatusAndTouchNothing)
 {
   std::vector<double> scratch;
   for (const BandwidthRule rule : kRules)
@@ -218,18 +213,16 @@ TEST(SampleBandwidth, DegenerateSamplesHaveAStatusAndTheFallback)
            std::vector<double>(10, 5.0), std::vector<double>{ 3, 3 }, std::vector<double>{ -1e308, 1e308 } })
     {
       double b = 7.0;
-      EXPECT_EQ(sampleBandwidth(rule, sample.data(), std::int64_t(sample.size()), scratch, b, 0.25),
+      EXPECT_EQ(sampleBandwidth(rule, sample.data(), std::int64_t(sample.size()), scratch, b),
         Status::DegenerateSample);
-      EXPECT_EQ(b, 0.25);
+      EXPECT_EQ(b, 7.0);
     }
     for (const double bad : { double(NAN), double(INFINITY), -double(INFINITY) })
     {
       const double sample[] = { 1.0, bad, 2.0, 4.0, bad };
       double b = 7.0;
-      EXPECT_EQ(sampleBandwidth(rule, sample, 5, scratch, b, 0.25), Status::InvalidParameter);
-      EXPECT_EQ(b, 0.25);
       EXPECT_EQ(sampleBandwidth(rule, sample, 5, scratch, b), Status::InvalidParameter);
-      EXPECT_EQ(b, kBandwidthWithoutSpread);
+      EXPECT_EQ(b, 7.0);
     }
   }
 }
@@ -240,9 +233,8 @@ TEST(SampleBandwidth, OfAnUnsolvedEquationIsThatOfTheRobustRule)
   const double sample[] = { 0.0, 2.0 * std::numeric_limits<double>::denorm_min() };
   double robust = 0.0;
   double b = 0.0;
-  ASSERT_EQ(sampleBandwidth(BandwidthRule::SilvermanRobust, sample, 2, scratch, robust, 0.25), Status::Ok);
-  EXPECT_EQ(
-    sampleBandwidth(BandwidthRule::SheatherJones, sample, 2, scratch, b, 0.25), Status::EquationUnsolved);
+  ASSERT_EQ(sampleBandwidth(BandwidthRule::SilvermanRobust, sample, 2, scratch, robust), Status::Ok);
+  EXPECT_EQ(sampleBandwidth(BandwidthRule::SheatherJones, sample, 2, scratch, b), Status::EquationUnsolved);
   EXPECT_EQ(b, robust);
 }
 
@@ -258,9 +250,8 @@ TEST(SampleBandwidth, IsUsableForEveryKindOfSample)
     for (const BandwidthRule rule : kRules)
     {
       double b = 0.0;
-      const Status status =
-        sampleBandwidth(rule, sample.data(), std::int64_t(sample.size()), scratch, b, 1e-5);
-      EXPECT_TRUE(b > 0.0 && std::isfinite(b)) << int(rule) << " kind " << kind;
+      const Status status = sampleBandwidth(rule, sample.data(), std::int64_t(sample.size()), scratch, b);
+      EXPECT_TRUE(status != Status::Ok || (b > 0.0 && std::isfinite(b))) << int(rule) << " kind " << kind;
       EXPECT_EQ(status == Status::Ok,
         sample.size() > 1 &&
           *std::min_element(sample.begin(), sample.end()) < *std::max_element(sample.begin(), sample.end()));
