@@ -365,26 +365,6 @@ std::vector<std::size_t> coordinatesOf(const std::vector<Column>& columns)
   return found;
 }
 
-std::string unusedName(std::set<std::string>& used, const std::string& wanted, std::size_t longest)
-{
-  const auto cut = [&](std::size_t size)
-  {
-    std::size_t end = std::min(size, wanted.size());
-    while (end < wanted.size() && end > 0 && (static_cast<unsigned char>(wanted[end]) & 0xc0) == 0x80)
-    {
-      --end; // within a character of UTF-8
-    }
-    return wanted.substr(0, end);
-  };
-  std::string name = cut(longest);
-  for (int number = 2; !used.insert(name).second; ++number)
-  {
-    const std::string suffix = "_" + std::to_string(number);
-    name = cut(longest == std::string::npos ? longest : longest - suffix.size()) + suffix;
-  }
-  return name;
-}
-
 std::string coordinateUnit(const std::string& name)
 {
   return CoordinateName(name).unit;

@@ -48,10 +48,6 @@ std::vector<std::size_t> coordinatesOf(const std::vector<Column>& columns);
 /// "mm" of "X1 (mm)" and "x_mm", the names of coordinates; empty where the name says no unit.
 std::string coordinateUnit(const std::string& name);
 
-/// @p wanted, or with a number behind it where it is @p used, in at most @p longest bytes.
-std::string unusedName(
-  std::set<std::string>& used, const std::string& wanted, std::size_t longest = std::string::npos);
-
 /// True if @p name is that of a channel of colours, or of a component of normals.
 bool isColorName(const std::string& name);
 bool isNormalName(const std::string& name);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <set>
 #include <string>
 #include <string_view>
 
@@ -58,5 +59,9 @@ std::string utf8Of(std::string_view bytes);
 
 /// @p name as it is where it is UTF-8, else what it is in Latin-1, in UTF-8.
 std::string utf8Name(const std::string& name);
+
+/// @p wanted, or with a number behind it where it is @p used, in at most @p longest bytes.
+std::string unusedName(
+  std::set<std::string>& used, const std::string& wanted, std::size_t longest = std::string::npos);
 
 } // namespace pointhaptics::io
