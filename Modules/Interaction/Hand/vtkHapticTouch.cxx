@@ -24,7 +24,10 @@ using namespace pointhaptics;
 
 vtkStandardNewMacro(vtkHapticTouch);
 
-vtkHapticTouch::vtkHapticTouch() = default;
+vtkHapticTouch::vtkHapticTouch()
+  : Hand(std::make_unique<SimulatedDevice>())
+{
+}
 
 vtkHapticTouch::~vtkHapticTouch()
 {

@@ -109,7 +109,7 @@ private:
   vtkSmartPointer<vtkInteractorStyleHaptic> Style;
   std::string DeviceName = "simulated";
   double StartPosition[3] = { 0.0, 0.0, 0.0 };
-  std::unique_ptr<pointhaptics::SimulatedDevice> Hand = std::make_unique<pointhaptics::SimulatedDevice>();
+  std::unique_ptr<pointhaptics::SimulatedDevice> Hand;
   std::unique_ptr<pointhaptics::HapticDevice> Falcon;
   pointhaptics::HapticDevice* Given = nullptr;
   pointhaptics::HapticDevice* Device = nullptr;
