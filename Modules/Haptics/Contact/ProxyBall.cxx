@@ -144,6 +144,7 @@ void ProxyBall::place(Work& work, const Vec3& hip) noexcept
   const int nearest = work.cells.deepest(center_, 1.0);
   radius_ = nearest >= 0 ? work.cells.radius(nearest) : radius_;
   makeRoom(work, radius_);
+  isFree_ = center_ == hip;
 }
 
 /// Keeps the contact point of a ball in a scene with other points of the same place.
@@ -151,7 +152,7 @@ void ProxyBall::placeAmongOthers(Work& work) noexcept
 {
   isAmongOthers_ = false;
   heldAt_ = { NAN, NAN, NAN };
-  if (isFree())
+  if (isFree_)
   {
     return;
   }
@@ -170,7 +171,7 @@ void ProxyBall::placeAmongOthers(Work& work) noexcept
 /// Lets a free ball that began too small grow as far as there is room.
 void ProxyBall::grow(Work& work) noexcept
 {
-  if (scale_ < 1.0 && isFree())
+  if (scale_ < 1.0 && isFree_)
   {
     gather(work, 0.0);
     const double before = scale_;
@@ -225,7 +226,7 @@ void ProxyBall::touchDown(Work& work) noexcept
 
 /// Moves a touching ball towards the HIP in at most kMostSlides moves. Each takes the parts of the pull that
 /// lead into touched points away, goes up to the next point, and leaves what rounding made it cover. Sets
-/// kProxyRoundLimit where moves or rounds run out.
+/// isFree_ where the ball reaches the HIP, and kProxyRoundLimit where moves or rounds run out.
 void ProxyBall::slide(Work& work, const Vec3& hip) noexcept
 {
   const bool isOnFlat =
@@ -273,6 +274,7 @@ void ProxyBall::slide(Work& work, const Vec3& hip) noexcept
     if (isUnobstructed && reached == length)
     {
       center_ = hip;
+      isFree_ = true;
       return;
     }
     const Vec3 before = center_;
@@ -298,26 +300,29 @@ void ProxyBall::walk(Work& work, const Vec3& hip) noexcept
   double walked = 0.0;
   do
   {
-    bool flies = isFree();
-    if (flies)
+    if (isFree_)
     {
       double flown = 0.0;
-      flies = advance(work, direction, length - walked, flown);
+      isFree_ = advance(work, direction, length - walked, flown);
       walked += flown;
-      if (!flies)
+      if (!isFree_)
       {
         pushOut(work.cells);
         touchDown(work);
       }
     }
-    walked = flies ? walked : std::min(length, walked + radius_);
+    if (!isFree_)
+    {
+      walked = std::min(length, walked + radius_);
+    }
     hip_ = walked < length ? start + walked * direction : hip;
-    if (flies)
+    if (isFree_)
     {
       center_ = hip_;
     }
     else
     {
+      hasSlid_ = true;
       slide(work, hip_);
     }
   } while (walked < length && --work.rounds > 0);
@@ -327,6 +332,7 @@ void ProxyBall::step(
   const HapticScene& scene, BallCells& cells, const Vec3& hip, bool isPatient, std::uint32_t& status) noexcept
 {
   Work work{ scene, cells, status };
+  hasSlid_ = false;
   if (isFarAway(scene, hip) || (isPlaced_ && isFarAway(scene, hip_)))
   {
     reset();
@@ -348,14 +354,17 @@ void ProxyBall::step(
   grow(work);
 
   walk(work, hip);
-  status |= std::uint32_t(isThere(hip) ? kProxyOk : kProxyStepLimit);
-  status |= std::uint32_t(scale_ < 1.0 && !isFree() ? kProxyCrowded : kProxyOk);
-  const double again = 0.5 * kBump * radius_;
-  const bool waits = isFree() || norm2(hip - heldAt_) < again * again || mayWait(hip, isPatient);
-  hasRidden_ = false;
-  heldAt_ = waits ? heldAt_ : Vec3{ NAN, NAN, NAN };
-  const int glides = waits || !isThere(hip) ? 0 : isPatient ? 1 : kMostGlides;
-  for (int i = 0; i < glides && !isFree() && work.rounds > 0; ++i)
+  hasReachedHip_ = hip_ == hip;
+  status |= std::uint32_t(hasReachedHip_ ? kProxyOk : kProxyStepLimit);
+  status |= std::uint32_t(scale_ < 1.0 && !isFree_ ? kProxyCrowded : kProxyOk);
+  const double again = kTryAgain * radius_;
+  if (isFree_ || norm2(hip - heldAt_) < again * again || mayWait(hip, isPatient))
+  {
+    return;
+  }
+  heldAt_ = { NAN, NAN, NAN };
+  const int glides = isPatient ? 1 : kMostGlides;
+  for (int i = 0; i < glides && !isFree_ && hasReachedHip_ && work.rounds > 0; ++i)
   {
     if (!glide(work, hip))
     {

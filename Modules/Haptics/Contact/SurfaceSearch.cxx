@@ -13,7 +13,7 @@ namespace
 bool findSheet(const HapticScene& scene, FitCells& memory, const Vec3& onSurface, double radius, double gate,
   SurfaceTracker& tracker) noexcept
 {
-  for (const double part : { 1.0, 1.0 / SurfaceTracker::kWidening, SurfaceTracker::kWidening })
+  for (const double part : { 1.0, 0.7, 1.4 })
   {
     SurfaceFrame frame;
     SurfaceFit fit;
@@ -92,6 +92,12 @@ bool SurfaceSearch::finish(
     isFound = this->advance(scene, memory, side, target);
   }
   return isFound;
+}
+
+void SurfaceSearch::carry(const AffineTransform& from, const AffineTransform& to) noexcept
+{
+  onSurface_ = (to * from.inverse()).apply(onSurface_);
+  tracker_.carry(from, to);
 }
 
 } // namespace pointhaptics

@@ -91,23 +91,30 @@ bool SurfaceTracker::refit(const HapticScene& scene, FitCells& memory) noexcept
   return true;
 }
 
-/// Finds the next place of frame_ after the round @p now. @param before null in the first round.
+/// Finds the next place of frame_ when the last fit shows the foot @p step away. @param before null in the
+/// first round.
 void SurfaceTracker::nextPlace(const Round& now, const Round* before, Vec3& place, Vec3& normal) noexcept
 {
-  const auto inPlane = [&](const Vec3& v) { return Vec3(dot(v, fitFrame_.a), dot(v, fitFrame_.b), 0.0); };
+  const auto inPlane = [&](const Vec3& v) {
+    return FootSearch::Way{ dot(v, fitFrame_.a), dot(v, fitFrame_.b) };
+  };
   if (before)
   {
-    // A fit changes with its origin, so the foot that it shows is not where the rounds end. Aitken's rule
-    // learns from the last step how far to go; a gain that no relaxation converges with is none.
-    const Vec3 nearer = inPlane(before->step - now.step);
-    const double learned = dot(inPlane(now.origin - before->origin), nearer) / norm2(nearer);
-    gain_ = learned > 0.0 && learned < 2.0 ? learned : 1.0;
+    search_.learn(inPlane(now.origin - before->origin), inPlane(before->step - now.step));
   }
-  // Rounds that lead away swing about the answer.
-  const bool swings = before && now.distance > before->distance + kAwaySlack * fit_.radius;
-  gain_ = swings ? 1.0 : gain_;
-  const Vec3 goal = inPlane(now.origin - fitFrame_.origin) + (swings ? 0.5 : gain_) * inPlane(now.step);
-  pointAt(fit_, fitFrame_, goal.x / fit_.radius, goal.y / fit_.radius, place, normal);
+  FootSearch::Way way;
+  if (before && now.distance > before->distance + kAwaySlack * fit_.radius)
+  {
+    // The rounds swing about the answer.
+    search_.reset();
+    way = inPlane(0.5 * now.step);
+  }
+  else
+  {
+    way = search_.wayFor(inPlane(now.step));
+  }
+  const FootSearch::Way from = inPlane(now.origin - fitFrame_.origin);
+  pointAt(fit_, fitFrame_, (from.a + way.a) / fit_.radius, (from.b + way.b) / fit_.radius, place, normal);
 }
 
 TrackResult SurfaceTracker::follow(const HapticScene& scene, FitCells& memory, const Vec3& target) noexcept
@@ -157,7 +164,7 @@ void SurfaceTracker::carry(const AffineTransform& from, const AffineTransform& t
   frame_.origin = change.apply(frame_.origin);
   frame_.turnTo(normalized(change.applyToNormal(frame_.normal), frame_.normal));
   std::fill(curvature_, curvature_ + 3, 0.0);
-  gain_ = 1.0;
+  search_.reset();
   fresh_ = false;
 }
 

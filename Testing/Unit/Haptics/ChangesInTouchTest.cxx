@@ -184,7 +184,7 @@ TEST(ChangesInTouchOnTheWay, DoNotKickWhereTheBallSpeaks)
     { trial::resampledScene(box), trial::resampledScene(box, {}, 2 * trial::kVoxel),
       { kSide - 3e-3, 1e-3, kSide - 1.5e-3 }, { kSide + 3e-3, 2e-3, kSide - 1.5e-3 }, 15 },
     { trial::sceneOf(rawInput(bare)), limited(rawInput(bare), 2e-3, 0.0), { -7e-3, 0, 0 }, { 7e-3, 1e-3, 0 },
-      35 } };
+      40 } };
   for (const auto& c : cases)
   {
     for (const double friction : { 0.0, 0.4 })

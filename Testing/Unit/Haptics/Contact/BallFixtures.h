@@ -172,7 +172,8 @@ inline bool isFinite(const ProxyBall& ball)
 
 inline bool isSame(const ProxyBall& a, const ProxyBall& b)
 {
-  return a.center() == b.center() && a.radius() == b.radius() && a.isFree() == b.isFree();
+  return a.center() == b.center() && a.radius() == b.radius() && a.isFree() == b.isFree() &&
+    a.isThere() == b.isThere();
 }
 
 /// @p n x @p n points of a square about the origin at height @p z, each somewhere in its own cell.
