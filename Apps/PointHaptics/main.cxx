@@ -5,22 +5,28 @@
 #include <cstring>
 
 #include <dlfcn.h>
-#include <sys/auxv.h>
 #include <unistd.h>
+
+#ifdef __GLIBC__
+#include <sys/auxv.h>
+#endif
 
 int main(int argc, char* argv[])
 {
+#ifdef __GLIBC__
   // Memory for a picture comes in large pages, where the system has them, from one heap that is used again:
   // a tenth of the page faults, a quarter of the processor time. malloc reads this when a program begins, so
   // this one begins again. ViewScene::returnMemory() gives back what is free.
-  if (argc > 1 && std::strcmp(argv[1], "view") == 0 && !std::getenv("GLIBC_TUNABLES"))
+  if (argc > 1 && std::strcmp(argv[1], "view") == 0 && !std::getenv("GLIBC_TUNABLES") &&
+    ::getauxval(AT_SECURE) == 0)
   {
     ::setenv("GLIBC_TUNABLES",
-      "glibc.malloc.hugetlb=1:glibc.malloc.arena_max=1:glibc.malloc.mmap_threshold=1073741824"
+      "glibc.malloc.hugetlb=1:glibc.malloc.arena_max=1:glibc.malloc.mmap_threshold=67108864"
       ":glibc.malloc.trim_threshold=1073741824",
       0);
     ::execv(reinterpret_cast<const char*>(::getauxval(AT_EXECFN)), argv);
   }
+#endif
   void* const library = dlopen(POINTHAPTICS_PROGRAM_LIBRARY, RTLD_LAZY);
   void* const run = library ? dlsym(library, "runPointHaptics") : nullptr;
   if (!run)

@@ -58,7 +58,7 @@ public:
   const std::atomic<bool>& stopping() const { return stopping_; }
 
   ///@{
-  /// What the driver says of its device: its status, and a sentence for people, which may be empty.
+  /// Status of the device as the driver sees it, and a sentence for people, which may be empty.
   void report(Status status, const std::string& message)
   {
     const std::lock_guard<std::mutex> lock(mutex_);

@@ -2,6 +2,7 @@
 /// Memory of output arrays.
 #pragma once
 
+#include "Core/Base/Buffer.h"
 #include "Core/Resample/VoxelResampler.h"
 
 #include "vtkDataArray.h"
@@ -12,7 +13,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <memory>
-#include <new>
 #include <utility>
 #include <vector>
 
@@ -62,16 +62,7 @@ private:
   {
     return std::size_t(tuples * array->GetNumberOfComponents() * array->GetDataTypeSize());
   }
-  static Memory newMemory(std::size_t bytes)
-  {
-    constexpr std::size_t kLine = 64;
-    Memory memory(std::aligned_alloc(kLine, (bytes / kLine + 1) * kLine));
-    if (!memory)
-    {
-      throw std::bad_alloc();
-    }
-    return memory;
-  }
+  static Memory newMemory(std::size_t bytes) { return Memory(allocatePages(bytes + 1)); }
   static void give(Memory memory, vtkDataArray* array, std::int64_t tuples)
   {
     array->SetVoidArray(memory.release(), vtkIdType(tuples * array->GetNumberOfComponents()), 0,

@@ -70,9 +70,9 @@
  * update costs in proportion to the points inside, and a look at every value of arrays of floats and
  * doubles.
  *
- * Progress events, at which AbortExecute ends the work, come at least every 1.25 million points. Inside it
- * runs on vtkSMPTools. Source: Kumari, Sreeni, Chaudhuri, "Scalable Rendering of Variable Density Point Cloud
- * Data"; the exact sums are ours (Documentation/Method.md).
+ * Progress events, at which AbortExecute ends the work, come at least every 1.25 million points, but while an
+ * index is made. Inside it runs on vtkSMPTools. Source: Kumari, Sreeni, Chaudhuri, "Scalable Rendering of
+ * Variable Density Point Cloud Data"; the exact sums are ours (Documentation/Method.md).
  *
  * @sa vtkKernelBandwidthFilter vtkVoxelGrid
  */

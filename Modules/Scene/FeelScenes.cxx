@@ -133,6 +133,38 @@ void FeelScenes::publishNearHand(ServoLoop& loop, StoppableThread& thread)
     });
 }
 
+namespace
+{
+
+/// Status of an update, and its @p message.
+Status outcomeOf(vtkVoxelMeanResampler* resampler, std::string& message)
+{
+  message = resampler->GetErrorMessage();
+  message.erase(message.find_last_not_of(" .") + 1);
+  if (resampler->GetErrorCode() == kOutOfMemoryCode)
+  {
+    throw std::bad_alloc();
+  }
+  if (!message.empty())
+  {
+    return Status::InvalidParameter;
+  }
+  if (resampler->GetAbortExecute())
+  {
+    message = pointhaptics::message(Status::Aborted);
+    return Status::Aborted;
+  }
+  if (resampler->GetOutput()->GetNumberOfPoints() == 0)
+  {
+    message = "no finite point lies in the workspace; mend points that are NaN, leave out the workspace, or "
+              "mend the transform";
+    return Status::Empty;
+  }
+  return Status::Ok;
+}
+
+}
+
 Status FeelScenes::resample(vtkPointSet* cloud, vtkVoxelMeanResampler* resampler,
   const FeelSceneSettings& settings, std::string& message)
 {
@@ -168,29 +200,13 @@ Status FeelScenes::resample(vtkPointSet* cloud, vtkVoxelMeanResampler* resampler
     });
   resampler->AddObserver(vtkCommand::ProgressEvent, progress);
   resampler->Update();
+  resampler->RemoveObserver(progress);
   vtkPolyData* felt = resampler->GetOutput();
-  message = resampler->GetErrorMessage();
-  message.erase(message.find_last_not_of(" .") + 1);
-  if (resampler->GetErrorCode() == kOutOfMemoryCode)
+  Status status = outcomeOf(resampler, message);
+  if (status != Status::Ok)
   {
-    throw std::bad_alloc();
+    return status;
   }
-  if (!message.empty())
-  {
-    return Status::InvalidParameter;
-  }
-  if (resampler->GetAbortExecute())
-  {
-    message = pointhaptics::message(Status::Aborted);
-    return Status::Aborted;
-  }
-  if (felt->GetNumberOfPoints() == 0)
-  {
-    message = "no finite point lies in the workspace; mend points that are NaN, leave out the workspace, or "
-              "mend the transform";
-    return Status::Empty;
-  }
-  Status status = Status::Ok;
   // No picture is drawn: the scene computes the few radii it needs.
   auto whole =
     makeHapticScene(felt, status, settings.useCovariance, settings.bandwidth, &resampler->GetSettings());

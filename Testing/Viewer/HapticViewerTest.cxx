@@ -480,8 +480,7 @@ TEST_F(HapticViewerTest, LetsAHostAddAKeyAndKeepTheStyleForLonger)
   EXPECT_NE(commands.help().find("axes and bounds"), std::string::npos);
   EXPECT_EQ(commands.help().find("next, previous file"), std::string::npos) << "there is one cloud";
   EXPECT_EQ(commands.help().find("write the settings"), std::string::npos) << "the host keeps none";
-  EXPECT_NE(
-    HapticViewer::commands().help().find("write the settings"), std::string::npos);
+  EXPECT_NE(HapticViewer::commands().help().find("write the settings"), std::string::npos);
   // The meaning of a key does not depend on the order of registration.
   EXPECT_EQ(HapticViewer::commands().conflicts(), std::vector<std::string>());
   viewer.reset();

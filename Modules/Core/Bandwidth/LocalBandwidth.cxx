@@ -328,25 +328,4 @@ Status localRadiiAt(const PointView& points, const std::vector<double>& counts, 
   return status;
 }
 
-/// A radius is cut by none that is farther away than the slope takes it down to the smallest.
-void limitSlope(
-  const NeighborQuery& query, double slope, std::vector<double>& radii, const Executor& executor)
-{
-  constexpr double kRounding = 1.0 + 1e-12;
-  const std::vector<double> given =
-    query.valuesOfPlaces([&](std::int64_t index) { return radii[std::size_t(index)]; },
-      [](double a, double b) { return std::min(a, b); });
-  const double smallest = given.empty() ? 0.0 : *std::min_element(given.begin(), given.end());
-  forEachIndex(executor, query.size(),
-    [&](std::int64_t slot)
-    {
-      double best = given[std::size_t(slot)];
-      query.visitBallSlots(query.point(slot), kRounding * (best - smallest) / slope,
-        [&](double d2, std::int64_t other)
-        { best = std::min(best, given[std::size_t(other)] + slope * std::sqrt(d2)); });
-      radii[std::size_t(query.index(slot))] = best;
-    });
-  query.copyToRepeats(radii);
-}
-
 } // namespace pointhaptics

@@ -88,15 +88,16 @@ Status shareVoxels(Ranks& ranks, const std::vector<std::uint64_t>& ranges, Voxel
   }
   voxels = voxels.part(ranges[rank], ranges[rank + 1]);
   Status status = Status::Ok;
-  for (std::string& message : ranks.exchange(std::move(messages)))
+  messages = ranks.exchange(std::move(messages));
+  for (std::size_t r = 0; r < messages.size() && status == Status::Ok; ++r)
   {
-    if (message.empty() || status != Status::Ok)
+    if (r == rank)
     {
-      continue; // the own one is empty
+      continue;
     }
     VoxelAccumulator part{ Lattice() };
-    status = VoxelAccumulator::deserialize(message, part);
-    std::string().swap(message);
+    status = VoxelAccumulator::deserialize(messages[r], part);
+    std::string().swap(messages[r]);
     status = status == Status::Ok ? voxels.merge(std::move(part)) : status;
   }
   return ranks.reduce(status, [](Status a, Status b) { return a != Status::Ok ? a : b; });

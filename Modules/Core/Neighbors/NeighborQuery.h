@@ -123,7 +123,7 @@ private:
   struct Repeat
   {
     std::uint32_t index;
-    std::uint32_t slot; ///< Of its place.
+    std::uint32_t slot; ///< the one of its place
   };
   void copyPoints(const PointView& points, const Executor& executor);
   std::int64_t sameBefore(const Vec3& place, std::int64_t slot) const;

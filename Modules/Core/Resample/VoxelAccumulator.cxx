@@ -177,11 +177,12 @@ public:
   }
 };
 
-/// Reads what a Writer wrote, whole and unchanged.
+/// Reads what a Writer wrote; zeros and no elements beyond the end.
 class Reader
 {
 public:
-  const char* next;
+  std::string_view left;
+  bool isWhole = true;
 
   template <typename T>
   void one(T& thing)
@@ -193,15 +194,18 @@ public:
   {
     std::uint64_t count = 0;
     this->one(count);
-    elements.resize(count);
-    this->copy(elements.data(), count * sizeof(elements[0]));
+    isWhole = isWhole && count <= left.size() / sizeof(elements[0]);
+    elements.resize(isWhole ? count : 0);
+    this->copy(elements.data(), elements.size() * sizeof(elements[0]));
   }
 
 private:
   void copy(void* to, std::size_t size)
   {
-    std::copy_n(next, size, static_cast<char*>(to));
-    next += size;
+    isWhole = isWhole && size <= left.size();
+    std::fill_n(static_cast<char*>(to), isWhole ? 0 : size, '\0');
+    left.copy(static_cast<char*>(to), isWhole ? size : 0);
+    left.remove_prefix(isWhole ? size : 0);
   }
 };
 
@@ -257,8 +261,12 @@ Status VoxelAccumulator::deserialize(std::string_view bytes, VoxelAccumulator& r
     return Status::InvalidParameter;
   }
   VoxelAccumulator read{ Lattice() };
-  Reader reader{ bytes.data() + sizeof kMagic };
+  Reader reader{ bytes.substr(sizeof kMagic, size - sizeof kMagic) };
   read.exchange(reader);
+  if (!reader.isWhole || !reader.left.empty())
+  {
+    return Status::InvalidParameter;
+  }
   result = std::move(read);
   return Status::Ok;
 }

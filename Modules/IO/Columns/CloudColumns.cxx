@@ -240,8 +240,10 @@ struct CoordinateName
       const bool isUnit = (!rest.empty() || isPosition) && findLengthUnit(word);
       isPosition = isPosition || has(kFillers, word);
       unit = isUnit ? word : unit;
-      const bool isMore = isCoordinateWord(word) && has(kXyz, rest);
-      const bool isLess = isCoordinateWord(rest) && has(kXyz, word);
+      const auto isUp = [](const std::string& one) { return one == "z" || has(kCoordinateWords[2], one); };
+      const bool isOne = isUp(word) == isUp(rest); // "X level" is no coordinate
+      const bool isMore = isCoordinateWord(word) && has(kXyz, rest) && isOne;
+      const bool isLess = isCoordinateWord(rest) && has(kXyz, word) && isOne;
       rest = isMore                               ? word
         : isUnit || isLess || has(kFillers, word) ? rest
                                                   : rest + (rest.empty() || word.empty() ? "" : " ") + word;

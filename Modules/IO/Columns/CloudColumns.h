@@ -113,7 +113,7 @@ private:
   const std::vector<Column> columns_;
   vtkIdType rows_;
   std::vector<bool> placed_;
-  std::set<std::string> names_; ///< Of the arrays.
+  std::set<std::string> names_; ///< names of the arrays
   std::vector<Place> places_;
   std::vector<vtkSmartPointer<vtkDataArray>> arrays_; ///< the first one holds the points
   std::size_t colors_ = 0;                            ///< Those that are no bytes; 0: there are none.

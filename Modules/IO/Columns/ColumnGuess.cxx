@@ -58,8 +58,8 @@ bool isId(const Columns& columns, bool hasDescription)
   const bool hasColors = columns.size() >= 7 && columns[4].isWhole && areColors(columns, 4);
   const bool isMap =
     columns[1].least >= kMapCoordinate && columns[2].least >= kMapCoordinate && !isEpoch(columns);
-  const bool isNumbered =
-    numberOfValues(columns[0]) == ids.size() && (hasColors || (hasDescription && columns.size() == 4));
+  const bool isNumbered = numberOfValues(columns[0]) == ids.size() && !isEpoch(columns) &&
+    (hasColors || (hasDescription && columns.size() == 4));
   return (hasDecimals && (isMap || isNumbered)) ||
     std::adjacent_find(ids.begin(), ids.end(), [](double a, double b) { return b != a + 1.0; }) == ids.end();
 }

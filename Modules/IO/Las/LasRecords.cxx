@@ -75,7 +75,9 @@ LasRecords::Columns::Columns(const LasHeader& header, bool onlyPositions)
   firstExtra = all.size();
   for (const LasExtraField& field : header.extraFields)
   {
-    all.push_back({ field.name, field.arrayType(), field.components });
+    // "RGB" is the name of the colours that are shown.
+    const bool isTaken = header.fields().rgb != 0 && field.name == "RGB";
+    all.push_back({ isTaken ? "RGB_2" : field.name, field.arrayType(), field.components });
   }
 }
 

@@ -6,12 +6,9 @@
 #include "IO/Columns/CloudColumns.h"
 #include "IO/Formats/FormatLooks.h"
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
-#include <cstring>
 #include <random>
-#include <unordered_map>
 #include <vector>
 
 namespace pointhaptics::io
@@ -27,39 +24,65 @@ constexpr std::size_t kFirstVertex = 12; ///< inside a triangle, after its norma
 
 using Vertex = std::array<float, 3>;
 
-/// Random for each read: a file cannot be crafted to collide in one bucket.
-struct SeededHash
+/// Each vertex once, in the order they are met: triangles that share a vertex repeat it. -0 counts as 0.
+class DistinctVertices
 {
-  std::uint64_t seed = std::uint64_t{ std::random_device()() } << 32 | std::random_device()();
-
-  std::size_t operator()(const std::array<std::uint32_t, 3>& bits) const
+public:
+  /// @return the number of the vertex.
+  vtkIdType add(Vertex vertex)
   {
-    std::uint64_t hash = seed;
+    for (float& value : vertex)
+    {
+      value += 0.0f;
+    }
+    if (2 * (vertices_.size() + 1) > slots_.size())
+    {
+      grow();
+    }
+    std::uint32_t& slot = slots_[slotOf(vertex)];
+    if (slot == kFree)
+    {
+      slot = static_cast<std::uint32_t>(vertices_.size());
+      vertices_.push_back(vertex);
+    }
+    return static_cast<vtkIdType>(slot);
+  }
+  const std::vector<Vertex>& all() const { return vertices_; }
+
+private:
+  static constexpr std::uint32_t kFree = 0xffffffff;
+
+  std::size_t slotOf(const Vertex& vertex) const
+  {
+    std::array<std::uint32_t, 3> bits;
+    std::memcpy(bits.data(), vertex.data(), sizeof(bits));
+    std::uint64_t hash = seed_;
     for (const std::uint32_t word : bits)
     {
       hash = (hash ^ word) * 0x9e3779b97f4a7c15u;
       hash ^= hash >> 29;
     }
-    return static_cast<std::size_t>(hash);
+    std::size_t at = static_cast<std::size_t>(hash) & (slots_.size() - 1);
+    while (
+      slots_[at] != kFree && std::memcmp(vertices_[slots_[at]].data(), vertex.data(), sizeof(Vertex)) != 0)
+    {
+      at = (at + 1) & (slots_.size() - 1);
+    }
+    return at;
   }
-};
-
-/// Each vertex once, in the order they are met: triangles that share a vertex repeat it. -0 counts as 0.
-struct DistinctVertices
-{
-  std::vector<Vertex> all;
-  std::unordered_map<std::array<std::uint32_t, 3>, vtkIdType, SeededHash> numbers; ///< By the bits.
-
-  /// @return the number of the vertex.
-  vtkIdType add(Vertex vertex)
+  void grow()
   {
-    std::array<std::uint32_t, 3> bits;
-    std::transform(vertex.begin(), vertex.end(), vertex.begin(), [](float value) { return value + 0.0f; });
-    std::memcpy(bits.data(), vertex.data(), sizeof(bits));
-    const auto [at, isNew] = numbers.try_emplace(bits, static_cast<vtkIdType>(all.size()));
-    isNew ? all.push_back(vertex) : void();
-    return at->second;
+    slots_.assign(slots_.empty() ? 1024 : 2 * slots_.size(), kFree);
+    for (std::size_t i = 0; i < vertices_.size(); ++i)
+    {
+      slots_[slotOf(vertices_[i])] = static_cast<std::uint32_t>(i);
+    }
   }
+
+  /// Random for each read: a file cannot be crafted to collide in one slot.
+  const std::uint64_t seed_ = std::uint64_t{ std::random_device()() } << 32 | std::random_device()();
+  std::vector<Vertex> vertices_;
+  std::vector<std::uint32_t> slots_;
 };
 
 void readBinary(ReadTask& task, DistinctVertices& vertices)
@@ -135,7 +158,7 @@ void readStl(ReadTask& task, vtkPolyData* cloud)
   failTruncatedIf(!isText && size < kTrianglesAt, "the file ends at byte {} inside its header", size);
   DistinctVertices vertices;
   isText ? readFacets(task, vertices) : readBinary(task, vertices);
-  const std::vector<Vertex>& all = vertices.all;
+  const std::vector<Vertex>& all = vertices.all();
   all.empty() ? failNoPoints() : void();
   const vtkIdType rows = static_cast<vtkIdType>(all.size());
   CloudColumns columns({ { "x", VTK_FLOAT }, { "y", VTK_FLOAT }, { "z", VTK_FLOAT } }, rows);

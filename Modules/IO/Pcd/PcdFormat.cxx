@@ -29,11 +29,18 @@ namespace
 /// that many and one literal bytes; others hold 3 bits of length (7: one more byte adds to it) and, with the
 /// byte after, 13 bits of distance back. @return how many packed bytes were used, up to the fault where there
 /// is one.
-std::size_t unpackLzf(std::string_view packed, std::string& to, std::size_t most)
+std::size_t unpackLzf(const ReadTask& task, std::string_view packed, std::string& to, std::size_t most)
 {
+  constexpr std::size_t kReport = 1 << 20;
   std::size_t at = 0;
+  std::size_t said = 0;
   while (at < packed.size() && to.size() < most)
   {
+    if (to.size() >= said + kReport)
+    {
+      said = to.size();
+      task.progress(0.5 * static_cast<double>(said) / static_cast<double>(most));
+    }
     const auto byteAt = [&](std::size_t i) { return static_cast<std::uint8_t>(packed[at + i]); };
     const std::size_t control = byteAt(0);
     const bool isLiteral = control < 32;
@@ -55,9 +62,11 @@ std::size_t unpackLzf(std::string_view packed, std::string& to, std::size_t most
         return at;
       }
       // A reference may reach into what it writes: byte by byte.
-      for (std::size_t length = (control >> 5) + 2 + (isLong ? byteAt(1) : 0); length > 0; --length)
+      const std::size_t end = to.size();
+      to.resize(end + (control >> 5) + 2 + (isLong ? byteAt(1) : 0));
+      for (std::size_t i = end; i < to.size(); ++i)
       {
-        to += to[to.size() - distance];
+        to[i] = to[i - distance];
       }
     }
     at += used;
@@ -111,7 +120,8 @@ void fillFromCompressed(const ReadTask& task, const PcdHeader& header, const Clo
   const std::size_t size = static_cast<std::size_t>(header.points * header.compressedRecordSize);
   std::string unpacked;
   unpacked.reserve(size);
-  const std::size_t used = unpackLzf(task.bytes.substr(packedAt, header.compressedSize), unpacked, size);
+  const std::size_t used =
+    unpackLzf(task, task.bytes.substr(packedAt, header.compressedSize), unpacked, size);
   failDamagedIf(
     unpacked.size() < size, packedAt + used, "damaged LZF data after {} of {} bytes", unpacked.size(), size);
   failFormatIf(used < header.compressedSize || unpacked.size() > size,

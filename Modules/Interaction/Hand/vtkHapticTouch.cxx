@@ -43,14 +43,14 @@ void vtkHapticTouch::SetDeviceName(const std::string& name)
 
 void vtkHapticTouch::SetStartPosition(double x, double y, double z)
 {
-  this->Stop();
-  if (this->Style)
-  {
-    this->Style->SetDevice(nullptr); // not the one that ends here
-  }
-  this->Device = nullptr;
   SimulatedHandSettings settings;
   settings.start = { x, y, z };
+  if (!isFinite(settings.start))
+  {
+    vtkErrorMacro("SetStartPosition: a coordinate is not a finite number");
+    return;
+  }
+  this->SetDevice(this->Given);
   this->Hand = std::make_unique<SimulatedDevice>(settings);
   std::copy_n(&settings.start.x, 3, this->StartPosition);
   this->Modified();
@@ -59,6 +59,10 @@ void vtkHapticTouch::SetStartPosition(double x, double y, double z)
 void vtkHapticTouch::SetDevice(HapticDevice* device)
 {
   this->Stop();
+  if (this->Style)
+  {
+    this->Style->SetDevice(nullptr); // not the one that may end now
+  }
   this->Given = device;
   this->Device = nullptr;
   this->Modified();
@@ -94,7 +98,9 @@ bool vtkHapticTouch::Take(vtkInteractorStyleHaptic* style)
     this->Style->SetDevice(nullptr);
   }
   this->Style = style;
-  this->Device = this->Given ? this->Given : this->DeviceName == "falcon" ? this->Falcon.get() : this->Hand.get();
+  this->Device = this->Given       ? this->Given
+    : this->DeviceName == "falcon" ? this->Falcon.get()
+                                   : this->Hand.get();
   style->SetServoLoop(&this->Servo);
   style->SetDevice(this->Device);
   style->SetProps(this->Props);

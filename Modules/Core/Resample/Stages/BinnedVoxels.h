@@ -96,7 +96,7 @@ private:
   PartitionVoxels voxels_;
   Buffer<std::uint64_t> occupancy_;
   Buffer<std::uint32_t> rankTable_;
-  Buffer<std::uint32_t> ranks_; ///< Of the records' voxels; their cells before.
+  Buffer<std::uint32_t> ranks_; ///< ranks of the records' voxels; their cells before
   Buffer<std::uint32_t> cells_; ///< Those of the voxels.
   Buffer<Key> keys_;            ///< Where records are sorted; the first ones become those of the voxels.
   Buffer<Key> otherKeys_;
