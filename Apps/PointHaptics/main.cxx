@@ -31,7 +31,14 @@ int main(int argc, char* argv[])
   void* const run = library ? dlsym(library, "runPointHaptics") : nullptr;
   if (!run)
   {
-    std::fprintf(stderr, "pointhaptics: %s; install the program again\n", dlerror());
+    const char* const why = dlerror();
+    const bool isShort = std::strstr(why, "failed to map") || std::strstr(why, "annot allocate memory");
+    if (isShort)
+    {
+      std::fprintf(stderr, "pointhaptics %s: memory is short: %s\n", argc > 1 ? argv[1] : "", why);
+      return 1;
+    }
+    std::fprintf(stderr, "pointhaptics: %s; install the program again\n", why);
     return 1;
   }
   return reinterpret_cast<int (*)(int, char**)>(run)(argc, argv);

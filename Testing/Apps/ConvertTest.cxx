@@ -287,7 +287,7 @@ TEST_F(Convert, FeetOfTheUsSurveyAreFeetOfTheirOwn)
   {
     this->succeed({ "convert", "feet.csv", "-o", file });
     const std::string text = this->succeed({ "info", file });
-    EXPECT_NE(text.find("US survey foot (the file says so)"), std::string::npos) << text;
+    EXPECT_NE(text.find("us-ft (the file says so)"), std::string::npos) << text;
     EXPECT_NE(text.find("--unit us-ft as the file says"), std::string::npos) << text;
     EXPECT_EQ(this->run({ "resample", file, "--unit", "us-ft", "-o", "m.csv", "--force" }).exitCode, 0);
     EXPECT_NE(this->read("m.csv").find("\n1200000,"), std::string::npos) << this->read("m.csv");
@@ -390,16 +390,16 @@ TEST_F(Convert, AUnitHasItsNamesReadAndWritten)
     return json::parse(this->succeed({ "info", file, "--json" }))["files"][0]["unit"].get<std::string>();
   };
   const std::string said = unit("feet.ply");
-  EXPECT_EQ(said, "foot");
+  EXPECT_EQ(said, "ft");
   for (const std::string& name : { said, std::string("ft"), std::string("Feet") })
   {
     this->succeed({ "resample", "feet.ply", "--unit", name, "-o", "m.ply", "--force" });
-    EXPECT_EQ(unit("m.ply"), "metre") << name;
+    EXPECT_EQ(unit("m.ply"), "m") << name;
     this->succeed({ "bandwidth", "feet.ply", "--unit", name, "-o", "b.ply", "--force" });
-    EXPECT_EQ(unit("b.ply"), "metre") << name;
+    EXPECT_EQ(unit("b.ply"), "m") << name;
   }
   this->succeed({ "resample", "feet.ply", "--unit", "ft", "--scale", "2", "-o", "m.ply", "--force" });
-  EXPECT_NE(unit("m.ply"), "foot");
+  EXPECT_NE(unit("m.ply"), "ft");
   const auto refused = this->run({ "resample", "feet.ply", "--unit", "ell", "-o", "x.ply" });
   EXPECT_EQ(refused.exitCode, 2);
   EXPECT_NE(refused.errors.find("us-ft"), std::string::npos) << refused.errors;
