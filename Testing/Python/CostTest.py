@@ -10,7 +10,7 @@ import pointhaptics as ph
 
 POINTS = 543652
 #: Of the time of the filter alone at so many points.
-MOST = 0.05
+MOST = 0.1
 #: What runs beside the test slows the call more than the filter in some tries.
 TRIES = 4
 
