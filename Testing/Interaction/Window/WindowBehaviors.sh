@@ -282,7 +282,9 @@ TextsAreTwiceAsLargeOnAScreenOf4K() {
   open_viewer cloud.ply --device none --up z --font-scale 2
   xdotool windowsize --sync "$window" 1300 1200
   key o h
-  picture 1
+  settled_picture 1
+  mv "$shown" small.png
+  rm pointhaptics-*.png
   key q
   ends_with 0 "key Q"
   kill "$server"
@@ -290,8 +292,8 @@ TextsAreTwiceAsLargeOnAScreenOf4K() {
   open_viewer cloud.ply --device none --up z
   xdotool windowsize --sync "$window" 1300 1200
   key o h
-  picture 2
-  cmp -s pointhaptics-001.png pointhaptics-002.png || fail "the texts are not twice as large"
+  settled_picture 1
+  cmp -s small.png "$shown" || fail "the texts are not twice as large"
 }
 
 KeyAShowsTheAxes() {
@@ -318,27 +320,36 @@ KeyOMakesTheFigure() {
 # picture NUMBER [KEY]: presses the keys, and s; the picture of that number is there then.
 picture() {
   key ${2:-} s
-  said "screenshot: pointhaptics-00$1.png"
+  said "screenshot: $(picture_name "$1")"
+}
+picture_name() { printf 'pointhaptics-%03d.png' "$1"; }
+
+# settled_picture NUMBER: as work behind still changes some pixels, key s until three pictures are the same. NUMBER is the
+# first one's; the name of the last comes into $shown, its number into $shot.
+settled_picture() {
+  local same=0 before
+  shot=$1
+  picture "$shot"
+  while ((same < 2)); do
+    ((shot < 6)) || fail "the picture does not settle"
+    before="$(picture_name "$shot")"
+    shot=$((shot + 1))
+    picture "$shot"
+    shown="$(picture_name "$shot")"
+    if cmp -s "$before" "$shown"; then same=$((same + 1)); else same=0; fi
+  done
 }
 
 KeyHShowsTheHelpInAFigure() {
   make sphere cloud.ply
   open_viewer cloud.ply
-  # Background work still changes the shading of some pixels: wait until three pictures are the same.
-  picture 1 o
-  local shot=1 same=0
-  while ((same < 2)); do
-    ((shot < 6)) || fail "the picture does not settle"
-    shot=$((shot + 1))
-    picture "$shot"
-    if cmp -s "pointhaptics-00$((shot - 1)).png" "pointhaptics-00$shot.png"; then same=$((same + 1)); else same=0; fi
-  done
+  key o
+  settled_picture 1
+  local page=0
   picture $((shot + 1)) h
-  ! cmp -s "pointhaptics-00$shot.png" "pointhaptics-00$((shot + 1)).png" || fail "there is no help"
-  local page=1
-  picture $((shot + 2)) h
-  until cmp -s "pointhaptics-00$shot.png" "pointhaptics-00$((shot + 1 + page)).png"; do
-    ((page < 3)) || fail "the help stays"
+  ! cmp -s "$shown" "$(picture_name $((shot + 1)))" || fail "there is no help"
+  until cmp -s "$shown" "$(picture_name $((shot + 1 + page)))"; do
+    ((page < 4)) || fail "the help stays"
     page=$((page + 1))
     picture $((shot + 1 + page)) h
   done
