@@ -82,7 +82,7 @@ const std::map<std::string, std::string>& valuesOfOptions()
 const std::set<std::string>& deeds()
 {
   static const std::set<std::string> names = { "--help", "--version", "--verbose", "--screenshot",
-    "--turntable", "--force-chart", "--trace", "--record", "--replay", "--config", "--write-config",
+    "--turntable", "--force-chart", "--trace", "--record", "--replay", "--config", "--set", "--write-config",
     "--recent", "--skip-unreadable", "--quiet", "--no-clobber", "--force", "--dry-run", "--marker-text",
     "--marker-socket" };
   return names;
@@ -151,6 +151,26 @@ TEST_F(ViewConfiguration, SaysThatItCannotBeWritten)
 {
   this->refuse(
     1, { "view", "in.ply", "--write-config", "nowhere/out.json" }, { "nowhere/out.json", "folder" });
+}
+
+TEST_F(ViewConfiguration, SetIsBetweenConfigAndCommandLine)
+{
+  this->write("first.json", R"({"stiffness": 400, "beta": 3, "axes": false})");
+  EXPECT_EQ(this->written({ "--config", "first.json", "--set", "beta=2", "--set", "stiffness=500",
+              "--stiffness", "300", "--set", "axes=true" }),
+    nlohmann::json::parse(R"({"stiffness": 300.0, "beta": 2.0, "axes": true})"));
+  this->refuse(2, { "view", "in.ply", "--set", "axse=true" }, { "--set", "\"axse\"", "did you mean axes?" });
+  this->refuse(2, { "view", "in.ply", "--set", "axes" }, { "--set axes", "NAME=VALUE" });
+  this->refuse(2, { "view", "in.ply", "--set", "beta=soft" }, { "--set", "\"beta\"", "soft" });
+}
+
+TEST_F(ViewConfiguration, HelpDescribesWhatIsUsedOftenAndNamesTheRest)
+{
+  const std::string help = this->succeed({ "view", "--help" });
+  EXPECT_NE(help.find("--stiffness N_PER_M  "), std::string::npos);
+  EXPECT_EQ(help.find("--stereo none|"), std::string::npos);
+  EXPECT_NE(help.find(" --stereo "), std::string::npos);
+  EXPECT_NE(this->succeed({ "manual", "man" }).find("\\-\\-stereo"), std::string::npos);
 }
 
 } // namespace

@@ -26,15 +26,17 @@ struct ViewCommand : Command
   std::string device = "auto"; ///< auto: a Falcon where one is plugged in.
   FalconOptions falcon;
   std::string config;
-  std::string writeConfig; ///< JSON file to write with the options in force instead of showing anything.
+  std::vector<std::string> set; ///< Each NAME=VALUE, as a configuration has them.
+  std::string writeConfig;      ///< JSON file to write with the options in force instead of showing anything.
   bool skipsUnreadable = false;
   bool recent = false;          ///< Begin with what the last window ended with.
   nlohmann::ordered_json given; ///< Options with a value, filled in by complete(): see givenSettings().
   bool noCovariance = false;
 
   void addTo(CLI::App& command) override;
-  /// Takes the values of the JSON file config for the options the command line does not give, and fills in
-  /// what the viewer needs. Takes recorded clouds, and the pictures of a turntable. @throws Failure
+  /// Takes the values of --set, then those of the JSON file config, for the options the command line does not
+  /// give, and fills in what the viewer needs. Takes recorded clouds, and the pictures of a turntable.
+  /// @throws Failure
   void complete(CLI::App& command, Files& taken) override;
   int run(Files& files) override;
   /// A window is what these options ask for: files that a path fills are written at once; without one a

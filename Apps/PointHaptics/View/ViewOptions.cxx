@@ -234,6 +234,24 @@ void addLook(CLI::App& command, HapticViewerOptions& viewer)
   addPictureOptions(command, viewer.picture);
 }
 
+/// Options that the help only names: it is to be read in a minute.
+constexpr const char* kRare[] = { "skip-unreadable", "path-unit", "path-time-unit", "falcon-firmware",
+  "marker-text", "marker-socket", "stereo", "theme", "edl-strength", "font-scale", "color-map", "color-range",
+  "measure", "screenshot-size", "transparent", "bind", "camera", "push-pointer", "figure", "ambient", "sound",
+  "ideal", "preset", "damping", "mu-s", "no-covariance", "neighbors", "radius", "rule", "beta", "r1", "r2",
+  "matrix" };
+
+/// Leaves the rare options out of the help, but for their names.
+void hideRareOptions(CLI::App& command)
+{
+  for (const char* name : kRare)
+  {
+    command.get_option(fmt::format("--{}", name))->group("");
+  }
+  command.footer(fmt::format("Rarer options, which `pointhaptics manual man | man -l -` describes:\n  --{}\n",
+    fmt::join(kRare, " --")));
+}
+
 /// Keys are looked up for a help that is shown: it takes longer than to add the options.
 void describeOptionsWhenShown(CLI::App& command, const std::vector<std::string>& bindings)
 {
@@ -242,6 +260,7 @@ void describeOptionsWhenShown(CLI::App& command, const std::vector<std::string>&
       const CLI::App* shown, const std::string& name, CLI::AppFormatMode mode)
     {
       describeKeys(command, bindings);
+      hideRareOptions(command);
       return usual->make_help(shown, name, mode);
     });
 }
@@ -299,6 +318,10 @@ void ViewCommand::addTo(CLI::App& command)
   this->falcon.addTo(command);
   addInput(command, "--config", this->config,
     "Defaults for these options, a JSON object; the command line wins", "FILE.json");
+  command
+    .add_option("--set", this->set, "One of these defaults, such as stereo=red-blue; wins over --config")
+    ->type_name("NAME=VALUE")
+    ->allow_extra_args(false);
   addOutput(command, "--write-config", this->writeConfig, { "json" },
     keyed("Write the options in force as a file for --config, and end", "write-settings",
       " writes those of the window"),
@@ -368,6 +391,7 @@ void ViewCommand::checkFiles() const
 
 void ViewCommand::complete(CLI::App& command, Files& taken)
 {
+  applySettings(command, this->set, taken);
   const std::vector<std::string> named = givenOptions(command);
   if (!this->viewer.replay.empty())
   {

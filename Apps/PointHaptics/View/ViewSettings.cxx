@@ -26,9 +26,9 @@ namespace pointhaptics::app
 namespace
 {
 
-const std::set<std::string> kDeeds = { "help", "version", "config", "write-config", "recent", "screenshot",
-  "skip-unreadable", "turntable", "force-chart", "trace", "record", "replay", "output", "sound-file",
-  "marker-text", "marker-socket" };
+const std::set<std::string> kDeeds = { "help", "version", "config", "set", "write-config", "recent",
+  "screenshot", "skip-unreadable", "turntable", "force-chart", "trace", "record", "replay", "output",
+  "sound-file", "marker-text", "marker-socket" };
 
 /// Options that belong to the cloud at hand, and to no other.
 constexpr const char* kOfTheCloud[] = { "matrix", "workspace", "voxel", "dims", "scale", "rotate",
@@ -198,7 +198,7 @@ std::string applyKeys(CLI::App& command, const nlohmann::json& keys, const std::
 
 std::vector<std::string> configurableNames(CLI::App& command)
 {
-  const std::set<std::string> others = { "help", "version", "config", "write-config", "recent" };
+  const std::set<std::string> others = { "help", "version", "config", "set", "write-config", "recent" };
   std::vector<std::string> names;
   for (const auto& [name, option] : longNames(command))
   {
@@ -250,6 +250,21 @@ void applyConfigFile(
     fmt::format("not a JSON object{}; write {{\"stiffness\": 600, \"up\": \"z\"}} for example", place));
   const std::string problem = applyKeys(command, keys, ignored);
   requireUsage(problem.empty(), fileName, "", problem);
+  files.take(command);
+}
+
+void applySettings(CLI::App& command, const std::vector<std::string>& settings, Files& files)
+{
+  nlohmann::json keys = nlohmann::json::object();
+  for (const std::string& setting : settings)
+  {
+    const std::size_t equals = setting.find('=');
+    requireUsage(
+      equals != std::string::npos, "--set", setting, "no value; give NAME=VALUE, such as axes=true");
+    keys[setting.substr(0, equals)] = setting.substr(equals + 1);
+  }
+  const std::string problem = applyKeys(command, keys, {});
+  requireUsage(problem.empty(), "--set", "", problem);
   files.take(command);
 }
 
