@@ -9,13 +9,11 @@
 #include "ReadTask.h"
 
 #include "vtkCellArray.h"
-#include "vtkDataArray.h"
 #include "vtkIdList.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
-#include "vtkSmartPointer.h"
 #include "vtkTypeInt32Array.h"
 #include "vtkTypeInt64Array.h"
 #include "vtkUnsignedCharArray.h"
@@ -23,7 +21,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cstdint>
 #include <limits>
 #include <numeric>
 #include <type_traits>
@@ -124,15 +121,10 @@ bool isAny(int)
 /// The type that holds the values of both.
 int commonType(int a, int b)
 {
-  if (a == b)
-  {
-    return a;
-  }
-  if ((isByte(a) || isWord(a)) && (isByte(b) || isWord(b)))
-  {
-    return VTK_UNSIGNED_SHORT;
-  }
-  return needsDouble(a) || needsDouble(b) ? VTK_DOUBLE : VTK_FLOAT;
+  return a == b                        ? a
+    : isWord(a) && isWord(b)           ? VTK_UNSIGNED_SHORT
+    : needsDouble(a) || needsDouble(b) ? VTK_DOUBLE
+                                       : VTK_FLOAT;
 }
 
 /// Splits "name_12" (or "name:12") at its number. @return false when there is none.
@@ -272,19 +264,15 @@ bool isOneOf(const Names& lists, const std::string& name)
 {
   constexpr std::size_t kListed = 6;
   std::string names;
-  bool isPacked = false;
-  for (std::size_t i = 0; i < columns.size(); ++i)
+  for (std::size_t i = 0; i < std::min(columns.size(), kListed + 1); ++i)
   {
-    const std::string& name = columns[i].name;
-    names += i < kListed ? (i == 0 ? " " : ", ") + inQuotes(name) : std::string(i == kListed ? " ..." : "");
-    isPacked = isPacked || name == "packed_position";
+    names += i < kListed ? (i == 0 ? " " : ", ") + inQuotes(columns[i].name) : std::string(" ...");
   }
   failFormat("no columns named x, y and z, but" + names,
-    isPacked
+    names.find("'packed_position'") != std::string::npos
       ? "this is SuperSplat's compressed PLY: save it uncompressed there, or splat-transform IN.ply OUT.ply"
       : "name the three coordinates x, y and z (or longitude, latitude and height) in the header, or for "
-        "columns "
-        "of text by --columns");
+        "columns of text by --columns");
 }
 
 /// 0, 1, 2 and so on.
@@ -509,21 +497,18 @@ void CloudColumns::turnAxes(ReadTask& task)
   for (int axis = 0; axis < 3; ++axis)
   {
     const std::string& name = columns_[coordinates_[static_cast<std::size_t>(axis)]].name;
-    bool isTurned = name.front() == '-';
-    if (CoordinateName(name).isDepth())
+    const bool isDepth = CoordinateName(name).isDepth();
+    std::int64_t below = 0; // more than above
+    for (vtkIdType i = 0; i < rows_ && isDepth; ++i)
     {
-      std::int64_t below = 0; // more than above
-      for (vtkIdType i = 0; i < rows_; ++i)
-      {
-        const double depth = arrays_[0]->GetComponent(i, axis);
-        below += depth > 0.0 ? 1 : depth < 0.0 ? -1 : 0;
-      }
-      const bool countsDown = task.sumOfRanks(below) > 0;
-      isTurned = isTurned != countsDown;
-      task.notes.push_back("z is column " + inQuotes(name) +
-        (isTurned ? " with the other sign, as depths count down" : " as it stands") +
-        "; called z it keeps its sign, called -z it changes it");
+      const double depth = arrays_[0]->GetComponent(i, axis);
+      below += depth > 0.0 ? 1 : depth < 0.0 ? -1 : 0;
     }
+    const bool isTurned = (name.front() == '-') != (isDepth && task.sumOfRanks(below) > 0);
+    const char* const sign = isTurned ? " with the other sign, as depths count down" : " as it stands";
+    isDepth ? task.notes.push_back("z is column " + inQuotes(name) + sign +
+                "; called z it keeps its sign, called -z it changes it")
+            : void();
     for (vtkIdType i = 0; i < rows_ && isTurned; ++i)
     {
       arrays_[0]->SetComponent(i, axis, 0.0 - arrays_[0]->GetComponent(i, axis));

@@ -173,7 +173,7 @@ bool looksLikeDegrees(vtkPolyData* cloud)
   constexpr vtkIdType kLookedAt = 10000;
   constexpr double kSteep = 20.0; // least height in metres over extent in degrees, of flat land
   constexpr double kFar = 3.0;    // place over extent
-  constexpr double kCells = 32.0; // along the extent
+  constexpr double kPerCell = 8.0;
   constexpr double kLevel = 0.25; // variance of z in the cells over that of all
   if (!cloud->GetPoints() || lengthUnitOf(cloud, Bounds()).evidence != UnitEvidence::None)
   {
@@ -195,6 +195,10 @@ bool looksLikeDegrees(vtkPolyData* cloud)
   {
     return false;
   }
+  // Few points have each a cell of its own: they cannot be a pole.
+  const double count = static_cast<double>(points.size());
+  const double perLength =
+    (count < kPerCell * kPerCell ? count * count : std::sqrt(count / kPerCell)) / extent;
   const auto squares = [](const Vec3& sums) { return sums.z - sums.y * sums.y / sums.x; };
   std::map<std::pair<int, int>, Vec3> cells; // sums of 1, z and its square
   Vec3 all;
@@ -202,7 +206,7 @@ bool looksLikeDegrees(vtkPolyData* cloud)
   {
     const Vec3 place = p - box.minimum;
     const double z = place.z - 0.5 * size.z;
-    Vec3& cell = cells[{ int(kCells / extent * place.x), int(kCells / extent * place.y) }];
+    Vec3& cell = cells[{ int(perLength * place.x), int(perLength * place.y) }];
     cell += Vec3{ 1.0, z, z * z };
     all += Vec3{ 1.0, z, z * z };
   }

@@ -177,8 +177,8 @@ void LasWriter::nameArrays()
     {
       const std::string name = arrays_[i].name + "Extra";
       notes_.push_back("array " + arrays_[i].name +
-        " has values that its LAS field cannot hold, and becomes " + "the extra bytes " + name +
-        "; scale it to whole numbers for programs that look for the field");
+        " has values that its LAS field cannot hold, and is called " + name +
+        " in the extra bytes; scale it to whole numbers for programs that look for the field");
       arrays_[i].name = arrays_[i].given = name;
     }
   }

@@ -594,29 +594,7 @@ TEST_F(Exporters, DepthsCountDown)
   expectPoint(depths, 1, 4.75, 52.5, -20.5);
   EXPECT_TRUE(isSaid(depths.notes, "z is column 'depth' with the other sign, as depths count down"));
   expectPoint(readCloud(write("b.csv", "lon,lat,depth [m]\n4.5,52.25,-12.5\n")), 0, 4.5, 52.25, -12.5);
-  expectPoint(readCloud(write("c.csv", "lon,lat,depth,height\n4.5,52.25,1,3\n")), 0, 4.5, 52.25, 3);
   expectPoint(readNamed("d.csv", rows, { "lon", "lat", "-z" }), 1, 4.75, 52.5, -20.5);
-  expectPoint(readNamed("e.csv", rows, { "lon", "lat", "-depth" }), 1, 4.75, 52.5, 20.5);
-  expectRefused(
-    readCloud(write("f.csv", "longitude,latitude,value\n" + rows)), "longitude, latitude and height");
-}
-
-TEST_F(Exporters, PiecesOfVtkHaveTheSameArrays)
-{
-  const auto pieceOf = [](const char* array)
-  {
-    return std::string("<Piece NumberOfPoints=\"1\"><PointData>") + array +
-      "</PointData><Points><DataArray "
-      "type=\"Float32\" NumberOfComponents=\"3\" format=\"ascii\">1 2 3</DataArray></Points></Piece>";
-  };
-  const auto vtpOf = [](const std::string& pieces)
-  { return "<VTKFile type=\"PolyData\" version=\"0.1\"><PolyData>" + pieces + "</PolyData></VTKFile>"; };
-  const char* const a = "<DataArray type=\"Float32\" Name=\"a\" format=\"ascii\">7</DataArray>";
-  const ReadResult same = readCloud(write("a.vtp", vtpOf(pieceOf(a) + pieceOf(a))));
-  EXPECT_EQ(same.error, "");
-  EXPECT_EQ(same.value("a", 1), 7.0);
-  expectRefused(
-    readCloud(write("b.vtp", vtpOf(pieceOf(a) + pieceOf("")))), "other arrays than in the pieces before");
 }
 
 } // namespace

@@ -374,4 +374,22 @@ TEST_F(HostileFiles, MoreTextsOfVtkThanItHasRoomForAreRefused)
   }
 }
 
+TEST_F(HostileFiles, PiecesOfVtkHaveTheSameArrays)
+{
+  const auto pieceOf = [](const char* array)
+  {
+    return std::string("<Piece NumberOfPoints=\"1\"><PointData>") + array +
+      "</PointData><Points><DataArray "
+      "type=\"Float32\" NumberOfComponents=\"3\" format=\"ascii\">1 2 3</DataArray></Points></Piece>";
+  };
+  const auto vtpOf = [](const std::string& pieces)
+  { return "<VTKFile type=\"PolyData\" version=\"0.1\"><PolyData>" + pieces + "</PolyData></VTKFile>"; };
+  const char* const a = "<DataArray type=\"Float32\" Name=\"a\" format=\"ascii\">7</DataArray>";
+  const ReadResult same = readCloud(write("a.vtp", vtpOf(pieceOf(a) + pieceOf(a))));
+  EXPECT_EQ(same.error, "");
+  EXPECT_EQ(same.value("a", 1), 7.0);
+  expectRefused(
+    readCloud(write("b.vtp", vtpOf(pieceOf(a) + pieceOf("")))), "other arrays than in the pieces before");
+}
+
 } // namespace

@@ -202,7 +202,7 @@ TEST(LengthUnit, DegreesAreTakenByTheirRange)
   EXPECT_TRUE(looksLikeDegrees(sea));
   EXPECT_EQ(inLocalMetres(sea), sea);
   const Bounds local = boxOf(Vec3(), Vec3());
-  EXPECT_GT(inLocalMetres(sea, true)->GetBounds()[1], 1e4);
+  EXPECT_GT(inLocalMetres(sea, true)->GetBounds()[1], 9e3);
   EXPECT_EQ(lengthUnitOf(inLocalMetres(sea, true), local).evidence, UnitEvidence::File);
   EXPECT_FALSE(looksLikeDegrees(cloudOf([](int i) { return 0.013 * (7919 * i % 900); }, 0.3))) << "a pole";
   EXPECT_FALSE(looksLikeDegrees(cloudOf([](int i) { return 0.1 * (i % 7); }, 0.3))) << "a thing";
