@@ -38,13 +38,6 @@ int writtenType(const OutputArray& array)
   return isPoints && !isFloatingType(array.type()) ? VTK_DOUBLE : array.type();
 }
 
-const char* pcdTypeLetter(int type)
-{
-  const int plain = fixedSizeType(type);
-  const bool isUnsigned = plain == typeOfKind('u', static_cast<unsigned long long>(sizeOfType(plain)));
-  return isFloatingType(plain) ? "F" : isUnsigned ? "U" : "I";
-}
-
 /// The four header lines that describe the fields.
 std::string pcdFieldLines(const std::vector<PcdField>& fields)
 {
@@ -54,10 +47,14 @@ std::string pcdFieldLines(const std::vector<PcdField>& fields)
   std::string counts = "\nCOUNT";
   for (const PcdField& field : fields)
   {
-    const bool isFloat = field.isPackedColor() && field.name == "rgb"; // as PCL writes it
+    const bool isFloat =
+      isFloatingType(field.type) || (field.isPackedColor() && field.name == "rgb"); // as PCL
+    const int size = sizeOfType(field.type);
+    const bool isUnsigned =
+      fixedSizeType(field.type) == typeOfKind('u', static_cast<unsigned long long>(size));
     names += " " + field.name;
-    sizes += " " + std::to_string(sizeOfType(field.type));
-    types += std::string(" ") + (isFloat ? "F" : pcdTypeLetter(field.type));
+    sizes += " " + std::to_string(size);
+    types += isFloat ? " F" : isUnsigned ? " U" : " I";
     counts += " " + std::to_string(field.count);
   }
   return names + sizes + types + counts + "\n";

@@ -14,6 +14,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <numeric>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -102,15 +103,17 @@ struct ReadTask
     isCut = shared != nullptr;
     return shared ? shared->rowsOf(all) : RowRange{ 0, all };
   }
-  /// Collective where ranks read the file together: the sum of what each has.
+  /// Collective where ranks read the file together: the plain value that each has.
+  template <typename T>
+  std::vector<T> ofRanks(const T& own) const
+  {
+    return shared ? shared->gatherValues(own) : std::vector<T>{ own };
+  }
+  /// Collective as well: the sum of what each rank has.
   std::int64_t sumOfRanks(std::int64_t own) const
   {
-    std::int64_t sum = shared ? 0 : own;
-    for (const std::int64_t each : shared ? shared->gatherValues(own) : std::vector<std::int64_t>())
-    {
-      sum += each;
-    }
-    return sum;
+    const std::vector<std::int64_t> all = this->ofRanks(own);
+    return std::accumulate(all.begin(), all.end(), std::int64_t{ 0 });
   }
   /// What is to be done where the file, as @p what says, ends after @p there of @p all points: it is refused,
   /// or read as far as it goes, with a note. @return @p there. @throws FileProblem.

@@ -17,10 +17,6 @@ using namespace pointhaptics;
 
 vtkStandardNewMacro(vtkPointCloudInfo);
 
-vtkPointCloudInfo::vtkPointCloudInfo() = default;
-
-vtkPointCloudInfo::~vtkPointCloudInfo() = default;
-
 const vtkPointCloudInfo::ArrayInfo& vtkPointCloudInfo::ArrayAt(int array) const
 {
   static const ArrayInfo none;

@@ -101,8 +101,8 @@ public:
   ///@}
 
 protected:
-  vtkPointCloudInfo();
-  ~vtkPointCloudInfo() override;
+  vtkPointCloudInfo() = default;
+  ~vtkPointCloudInfo() override = default;
 
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 

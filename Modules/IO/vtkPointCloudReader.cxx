@@ -5,6 +5,7 @@
 #include "IO/Columns/CloudColumns.h"
 #include "IO/Formats/FormatList.h"
 #include "IO/Formats/FormatLooks.h"
+#include "IO/Info/CloudExtent.h"
 #include "IO/Info/FieldText.h"
 #include "IO/Info/LengthUnit.h"
 #include "IO/Las/LasHeader.h"
@@ -37,9 +38,12 @@
 #include <filesystem>
 #include <limits>
 #include <numeric>
+#include <set>
 #include <string_view>
 
 namespace io = pointhaptics::io;
+using pointhaptics::Bounds;
+using pointhaptics::Vec3;
 
 vtkStandardNewMacro(vtkPointCloudReader);
 
@@ -113,7 +117,7 @@ void keepInside(const io::ReadTask& task, vtkPolyData* cloud)
   {
     end = points->GetDataType() == VTK_FLOAT ? double(float(end)) : end;
   }
-  const pointhaptics::Bounds wanted{ { box[0], box[2], box[4] }, { box[1], box[3], box[5] } };
+  const Bounds wanted{ { box[0], box[2], box[4] }, { box[1], box[3], box[5] } };
   for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
   {
     const double* at = points->GetPoint(i);
@@ -142,29 +146,24 @@ std::string coarseFloats(const io::ReadTask& task, vtkPolyData* cloud)
   {
     return {};
   }
-  std::array<double, 6> bounds{ INFINITY, -INFINITY, INFINITY, -INFINITY, INFINITY, -INFINITY };
-  if (cloud->GetNumberOfPoints() > 0)
+  const double* own = cloud->GetBounds();
+  const bool isHere = cloud->GetNumberOfPoints() > 0;
+  Bounds box;
+  for (const Bounds& part :
+    task.ofRanks(isHere ? Bounds{ { own[0], own[2], own[4] }, { own[1], own[3], own[5] } } : Bounds()))
   {
-    cloud->GetBounds(bounds.data());
+    part.empty() ? void() : box.include(part.minimum);
+    part.empty() ? void() : box.include(part.maximum);
   }
-  for (const auto& other : task.shared ? task.shared->gatherValues(bounds) : std::vector{ bounds })
-  {
-    for (std::size_t i = 0; i < 6; i += 2)
-    {
-      bounds[i] = std::min(bounds[i], other[i]);
-      bounds[i + 1] = std::max(bounds[i + 1], other[i + 1]);
-    }
-  }
-  const double longest = std::max({ bounds[1] - bounds[0], bounds[3] - bounds[2], bounds[5] - bounds[4] });
-  const double spacing =
-    longest / std::sqrt(static_cast<double>(task.sumOfRanks(cloud->GetNumberOfPoints())));
+  const Vec3 size = box.extent();
+  const double spacing = std::max({ size.x, size.y, size.z }) /
+    std::sqrt(static_cast<double>(task.sumOfRanks(cloud->GetNumberOfPoints())));
+  const Vec3 steps = pointhaptics::floatSteps(box);
   std::string text;
-  for (std::size_t a = 0; a < 3; ++a)
+  for (int a = 0; a < 3; ++a)
   {
-    const float most = static_cast<float>(std::max(std::abs(bounds[2 * a]), std::abs(bounds[2 * a + 1])));
-    const double step = static_cast<double>(most - std::nextafter(most, 0.0f));
-    text += step > kVisible * spacing
-      ? fmt::format("{}{:.3g} in {}", text.empty() ? "" : ", ", step, "xyz"[a])
+    text += steps[a] > kVisible * spacing
+      ? fmt::format("{}{:.3g} in {}", text.empty() ? "" : ", ", steps[a], "xyz"[a])
       : "";
   }
   return text;
@@ -186,15 +185,12 @@ struct KeepFindings
 /// Files of other programs have names in Latin-1, which no host could show and no VTP file hold.
 void useUtf8Names(vtkFieldData* data)
 {
+  std::set<std::string> used;
   for (int i = 0; i < data->GetNumberOfArrays(); ++i)
   {
     vtkAbstractArray* array = data->GetAbstractArray(i);
     const std::string given = array->GetName() ? array->GetName() : "";
-    std::string name = io::utf8Name(given);
-    for (int k = 2; name != given && data->GetAbstractArray(name.c_str()); ++k)
-    {
-      name = io::utf8Name(given) + "_" + std::to_string(k);
-    }
+    const std::string name = given.empty() ? given : io::unusedName(used, io::utf8Name(given));
     name != given ? array->SetName(name.c_str()) : void();
   }
 }
@@ -366,7 +362,12 @@ void vtkPointCloudReader::Finish(io::ReadTask& task, vtkPolyData* cloud)
       "coordinates are floats so far from the origin that they lie on a grid of steps of " + steps +
       ", and no finer voxel means anything; export them as double, or with an offset taken away");
   }
-  const bool isInDegrees = pointhaptics::lengthUnitOf(cloud, pointhaptics::Bounds()).name == "deg";
+  const bool isInDegrees = pointhaptics::lengthUnitOf(cloud, Bounds()).name == "deg";
+  if (pointhaptics::looksLikeDegrees(cloud))
+  {
+    task.notes.push_back("x and y may be degrees of longitude and latitude, by their range beside that of z: "
+                         "view and feel take them so; --unit m says otherwise");
+  }
   if (const std::string heights = io::fieldText(cloud->GetFieldData(), pointhaptics::kHeightUnit);
       !heights.empty())
   {
@@ -407,6 +408,9 @@ void vtkPointCloudReader::FinishFaces(io::ReadTask& task, vtkPolyData* cloud)
   }
   if (task.faces.count == 0 || task.isTorn()) // the faces of a torn file come after what is missing
   {
+    this->Samples > 0 && !task.isTorn()
+      ? task.notes.push_back("there are no faces to sample: the points stay")
+      : void();
     return;
   }
   if (!task.faces.isWanted() || task.faces.cells->GetNumberOfCells() == 0)

@@ -28,7 +28,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <initializer_list>
 #include <string_view>
 
@@ -155,8 +154,6 @@ void noteWhatIsNoColumn(vtkPointSet* cloud, const io::CloudFormat& format, std::
 }
 
 } // namespace
-
-vtkPointCloudWriter::vtkPointCloudWriter() = default;
 
 bool vtkPointCloudWriter::CanWrite(const std::string& fileName)
 {

@@ -113,7 +113,7 @@ public:
   static const char* GetExtensions();
 
 protected:
-  vtkPointCloudWriter();
+  vtkPointCloudWriter() = default;
   ~vtkPointCloudWriter() override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;

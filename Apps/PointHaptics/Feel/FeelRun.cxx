@@ -257,7 +257,7 @@ int runFeel(const FeelCommand& options, Files& files)
   Cloud cloud = readCloud(record.empty() ? options.file : files.input(options.file), options.reading);
   cloud.name = options.file;
   showNotes(cloud);
-  cloud.points = inLocalMetres(cloud.points); // as view has them
+  cloud.points = inLocalMetres(cloud.points, !options.viewer.unitIsChosen); // as view has them
   const std::string stated = statedUnit(options, cloud.points);
   const bool isKnown = options.viewer.unitIsChosen ||
     (stated.empty() && lengthUnitOf(cloud.points, Bounds()).evidence == UnitEvidence::File);

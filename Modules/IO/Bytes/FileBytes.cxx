@@ -106,32 +106,23 @@ void inspectPacked(std::string_view packed, const FileBytes::Inspect& inspect)
   isFull && !ended ? inspect(start, 0) : void(); // a shorter one is seen whole
 }
 
-} // namespace
-
-/// A file that is open for reading.
-class FileBytes::File
+std::ifstream opened(const std::string& path)
 {
-public:
-  explicit File(const std::string& path)
-    : file_(path, std::ios::binary)
-  {
-    failOpenIf(!file_, std::strerror(errno), "check that you may read the file");
-    size_ = static_cast<std::size_t>(fs::file_size(path));
-  }
-  std::size_t size() const { return size_; }
-  /// Reads exactly @p size bytes from byte @p offset on. @throws FileProblem when there are fewer.
-  void read(std::size_t offset, char* to, std::size_t size)
-  {
-    file_.seekg(static_cast<std::streamoff>(offset)).read(to, static_cast<std::streamsize>(size));
-    const auto got = static_cast<std::size_t>(file_.gcount());
-    failOpenIf(got != size, fmt::format("reading stopped at byte {} of {}", offset + got, size_),
-      "check the disk, or wait until the file is completely written");
-  }
+  std::ifstream file(path, std::ios::binary);
+  failOpenIf(!file, std::strerror(errno), "check that you may read the file");
+  return file;
+}
 
-private:
-  std::ifstream file_;
-  std::size_t size_ = 0;
-};
+/// Reads exactly @p size bytes from byte @p offset on. @throws FileProblem when there are fewer.
+void readFrom(std::ifstream& file, std::size_t offset, char* to, std::size_t size)
+{
+  file.seekg(static_cast<std::streamoff>(offset)).read(to, static_cast<std::streamsize>(size));
+  const auto got = static_cast<std::size_t>(file.gcount());
+  failOpenIf(got != size, fmt::format("reading stopped at byte {}", offset + got),
+    "check the disk, or wait until the file is completely written");
+}
+
+} // namespace
 
 FileBytes::FileBytes(const std::string& path, const Progress& progress, const Inspect& inspect, bool salvages)
 {
@@ -158,8 +149,8 @@ FileBytes::FileBytes(const std::string& path, const Progress& progress, const In
 FileBytes::FileBytes(const std::string& path)
 {
   checkIsReadable(path);
-  file_ = std::make_unique<File>(path);
-  size_ = file_->size();
+  file_ = opened(path);
+  size_ = static_cast<std::size_t>(fs::file_size(path));
   data_.reset(static_cast<char*>(std::calloc(std::max(size_, std::size_t{ 1 }), 1)));
   if (!data_)
   {
@@ -167,11 +158,9 @@ FileBytes::FileBytes(const std::string& path)
   }
 }
 
-FileBytes::~FileBytes() = default;
-
 void FileBytes::load(std::size_t offset, std::size_t size)
 {
-  file_->read(offset, data_.get() + offset, size);
+  readFrom(file_, offset, data_.get() + offset, size);
   loaded_ += size;
 }
 
@@ -216,21 +205,22 @@ void FileBytes::readStream(const std::string& path, const Progress& progress)
 
 void FileBytes::readPlain(const std::string& path, const Progress& progress, const Inspect& inspect)
 {
-  File file(path);
-  resize(std::max(file.size(), std::size_t{ 1 }));
+  std::ifstream file = opened(path);
+  const auto all = static_cast<std::size_t>(fs::file_size(path));
+  resize(std::max(all, std::size_t{ 1 }));
   bool isPacked = false;
-  while (size_ < file.size())
+  while (size_ < all)
   {
-    const std::size_t piece = std::min(kReadAtOnce, file.size() - size_);
-    file.read(size_, data_.get() + size_, piece);
+    const std::size_t piece = std::min(kReadAtOnce, all - size_);
+    readFrom(file, size_, data_.get() + size_, piece);
     if (size_ == 0)
     {
       isPacked = std::string_view(data_.get(), piece).substr(0, 2) == kGzipMagic;
       const std::string_view start(data_.get(), piece);
-      isPacked ? inspectPacked(start, inspect) : inspect(start, file.size());
+      isPacked ? inspectPacked(start, inspect) : inspect(start, all);
     }
     size_ += piece;
-    progress(isPacked ? 0.0 : static_cast<double>(size_) / static_cast<double>(file.size()));
+    progress(isPacked ? 0.0 : static_cast<double>(size_) / static_cast<double>(all));
   }
 }
 

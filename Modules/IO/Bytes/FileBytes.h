@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdlib>
+#include <fstream>
 #include <functional>
 #include <memory>
 #include <string>
@@ -30,7 +31,6 @@ public:
   FileBytes(const std::string& path, const Progress& progress, const Inspect& inspect, bool salvages = false);
   /// Memory for the whole of @p path, a file that is not packed, of which load() reads what is needed.
   explicit FileBytes(const std::string& path);
-  ~FileBytes();
 
   /// Reads bytes that lie inside the file; bytes that were never read are zero, and cost no memory. Only for
   /// objects made by FileBytes(path). @throws FileProblem when they cannot be read.
@@ -51,7 +51,6 @@ private:
   {
     void operator()(char* data) const { std::free(data); }
   };
-  class File;
 
   void readStream(const std::string& path, const Progress& progress);
   void readPlain(const std::string& path, const Progress& progress, const Inspect& inspect);
@@ -59,7 +58,7 @@ private:
   void resize(std::size_t size);
 
   std::unique_ptr<char, Free> data_;
-  std::unique_ptr<File> file_; ///< that load() reads
+  std::ifstream file_; ///< that load() reads
   std::size_t size_ = 0;
   std::size_t loaded_ = 0;
   bool wasPacked_ = false;

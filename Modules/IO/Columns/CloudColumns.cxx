@@ -9,20 +9,18 @@
 #include "ReadTask.h"
 
 #include "vtkCellArray.h"
-#include "vtkDataArray.h"
 #include "vtkIdList.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
-#include "vtkSmartPointer.h"
 #include "vtkTypeInt32Array.h"
 #include "vtkTypeInt64Array.h"
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
-#include <cstdint>
 #include <limits>
 #include <numeric>
 #include <type_traits>
@@ -32,25 +30,6 @@ namespace pointhaptics::io
 
 namespace
 {
-
-struct ValueRange
-{
-  double least = 0.0;
-  double most = 0.0;
-};
-
-template <typename T>
-ValueRange rangeOf(const T* values, vtkIdType count)
-{
-  T least{ 0 };
-  T most{ 0 };
-  for (vtkIdType i = 0; i < count; ++i)
-  {
-    least = values[i] < least ? values[i] : least; // false for NaN
-    most = values[i] > most ? values[i] : most;
-  }
-  return { static_cast<double>(least), static_cast<double>(most) };
-}
 
 template <typename T>
 void fillBytes(const T* values, vtkIdType count, double most, unsigned char* bytes)
@@ -75,28 +54,29 @@ void fillBytes(const T* values, vtkIdType count, double most, unsigned char* byt
 
 /// bytesOfColors() of @p colors: integers up to 255 are bytes, of those up to 65535 the high
 /// byte is taken; other numbers are 0..1, or 0..255 or 0..65535 where one is larger. The largest value is
-/// that of all ranks, where @p shared is there (collective). Null where a value is below 0 or larger: these
-/// are no colours.
-vtkSmartPointer<vtkDataArray> shownColors(vtkDataArray* colors, SharedReading* shared)
+/// that of all ranks that read the file of @p task (collective). Null where a value is below 0 or larger:
+/// these are no colours.
+vtkSmartPointer<vtkDataArray> shownColors(vtkDataArray* colors, const ReadTask& task)
 {
-  const vtkIdType count = colors->GetNumberOfValues();
-  ValueRange range;
-  withType(colors->GetDataType(),
-    [&](auto zero)
-    { range = rangeOf(static_cast<const decltype(zero)*>(colors->GetVoidPointer(0)), count); });
-  if (shared)
+  using Range = std::array<double, 2>;
+  double least = 0.0;
+  double most = 0.0;
+  for (int channel = 0; channel < colors->GetNumberOfComponents(); ++channel)
   {
-    for (const ValueRange& each : shared->gatherValues(range))
+    Range own{};
+    colors->GetFiniteRange(own.data(), channel);
+    for (const Range& range : task.ofRanks(own))
     {
-      range = { std::min(range.least, each.least), std::max(range.most, each.most) };
+      least = range[0] <= range[1] ? std::min(least, range[0]) : least;
+      most = std::max(most, range[1]);
     }
   }
-  if (range.least < 0.0 || range.most > 65535.0)
+  if (least < 0.0 || most > 65535.0)
   {
     return nullptr;
   }
-  const bool areBytes = range.most > 1.0 || !isFloatingType(colors->GetDataType());
-  return bytesOfColors(colors, range.most > 255.0 ? 65535.0 : areBytes ? 255.0 : 1.0);
+  const bool areBytes = most > 1.0 || !isFloatingType(colors->GetDataType());
+  return bytesOfColors(colors, most > 255.0 ? 65535.0 : areBytes ? 255.0 : 1.0);
 }
 
 using Names = std::vector<std::vector<std::string>>;
@@ -113,6 +93,8 @@ const Names kCoordinateWords = { { "x", "easting", "eastings", "east", "e", "rec
 const std::vector<std::string> kFillers = { "coord", "coords", "coordinate", "coordinates", "point", "points",
   "pos", "position", "positions", "xyz", "field", "world", "global", "local", "utm", "map", "grid", "mga",
   "ahd", "vertex", "cartesian", "value" };
+/// Coordinates that count down.
+const std::vector<std::string> kDepths = { "depth", "depths", "tiefe" };
 const std::vector<std::string> kDegrees = { "longitude", "lon", "long", "lng", "latitude", "lat" };
 const Names kColorsWithAlpha = { { "red", "green", "blue", "alpha" }, { "r", "g", "b", "a" },
   { "diffuse_red", "diffuse_green", "diffuse_blue", "diffuse_alpha" } };
@@ -139,15 +121,10 @@ bool isAny(int)
 /// The type that holds the values of both.
 int commonType(int a, int b)
 {
-  if (a == b)
-  {
-    return a;
-  }
-  if ((isByte(a) || isWord(a)) && (isByte(b) || isWord(b)))
-  {
-    return VTK_UNSIGNED_SHORT;
-  }
-  return needsDouble(a) || needsDouble(b) ? VTK_DOUBLE : VTK_FLOAT;
+  return a == b                        ? a
+    : isWord(a) && isWord(b)           ? VTK_UNSIGNED_SHORT
+    : needsDouble(a) || needsDouble(b) ? VTK_DOUBLE
+                                       : VTK_FLOAT;
 }
 
 /// Splits "name_12" (or "name:12") at its number. @return false when there is none.
@@ -223,6 +200,7 @@ struct CoordinateName
   std::string rest; ///< Rest of the name without fillers and unit.
   bool isPosition = false;
 
+  bool isDepth() const { return has(kDepths, rest); }
   explicit CoordinateName(const std::string& name)
   {
     const std::size_t bracket = std::min(name.find_first_of("[("), name.size());
@@ -264,7 +242,7 @@ struct CoordinateName
     const std::string letter(1, "xyz"[i]);
     const bool isNumbered = rest.size() > 1 && rest.size() < 4 && rest.substr(0, 1) == letter &&
       rest.find_first_not_of("0123456789", 1) == std::string::npos;
-    return has(kCoordinateWords[static_cast<std::size_t>(i)], rest) || isNumbered ||
+    return has(kCoordinateWords[static_cast<std::size_t>(i)], rest) || isNumbered || (i == 2 && isDepth()) ||
       (isPosition && rest == std::to_string(i)) ||
       (rest.substr(0, 1) == letter && has(kFillers, rest.substr(1))) ||
       (rest.size() > 1 && rest.substr(rest.size() - 1) == letter &&
@@ -286,17 +264,15 @@ bool isOneOf(const Names& lists, const std::string& name)
 {
   constexpr std::size_t kListed = 6;
   std::string names;
-  bool isPacked = false;
-  for (std::size_t i = 0; i < columns.size(); ++i)
+  for (std::size_t i = 0; i < std::min(columns.size(), kListed + 1); ++i)
   {
-    const std::string& name = columns[i].name;
-    names += i < kListed ? (i == 0 ? " " : ", ") + inQuotes(name) : std::string(i == kListed ? " ..." : "");
-    isPacked = isPacked || name == "packed_position";
+    names += i < kListed ? (i == 0 ? " " : ", ") + inQuotes(columns[i].name) : std::string(" ...");
   }
   failFormat("no columns named x, y and z, but" + names,
-    isPacked
+    names.find("'packed_position'") != std::string::npos
       ? "this is SuperSplat's compressed PLY: save it uncompressed there, or splat-transform IN.ply OUT.ply"
-      : "name the three coordinates x, y and z in the header, or for columns of text by --columns");
+      : "name the three coordinates x, y and z (or longitude, latitude and height) in the header, or for "
+        "columns of text by --columns");
 }
 
 /// 0, 1, 2 and so on.
@@ -344,7 +320,8 @@ bool findCoordinates(const std::vector<Column>& columns, std::vector<std::size_t
     {
       const CoordinateName name(columns[i].name);
       if (columns[i].components == 1 && name.axis >= 0 &&
-        (name.axis == 2 || (name.unit == "degree") == inDegrees))
+        (name.axis == 2 || (name.unit == "degree") == inDegrees) &&
+        (!name.isDepth() || found[2] == columns.size()))
       {
         found[static_cast<std::size_t>(name.axis)] = i;
       }
@@ -370,6 +347,11 @@ std::vector<std::size_t> coordinatesOf(const std::vector<Column>& columns)
 std::string coordinateUnit(const std::string& name)
 {
   return CoordinateName(name).unit;
+}
+
+std::string coordinateWord(const std::string& name)
+{
+  return CoordinateName(name).rest;
 }
 
 bool isColorName(const std::string& name)
@@ -405,10 +387,10 @@ CloudColumns::CloudColumns(const std::vector<Column>& columns, vtkIdType rows)
 
 void CloudColumns::planPoints()
 {
-  const std::vector<std::size_t> found = coordinatesOf(columns_);
-  const bool wide =
-    std::any_of(found.begin(), found.end(), [&](std::size_t i) { return needsDouble(columns_[i].type); });
-  add("Points", found, wide ? VTK_DOUBLE : VTK_FLOAT);
+  coordinates_ = coordinatesOf(columns_);
+  const bool wide = std::any_of(
+    coordinates_.begin(), coordinates_.end(), [&](std::size_t i) { return needsDouble(columns_[i].type); });
+  add("Points", coordinates_, wide ? VTK_DOUBLE : VTK_FLOAT);
 }
 
 bool CloudColumns::planNamed(const Names& names, const char* arrayName, bool (*accepts)(int))
@@ -510,13 +492,38 @@ void CloudColumns::cut(std::uint64_t rows)
   }
 }
 
-void CloudColumns::moveTo(vtkPolyData* cloud, const ReadTask& task)
+void CloudColumns::turnAxes(ReadTask& task)
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const std::string& name = columns_[coordinates_[static_cast<std::size_t>(axis)]].name;
+    const bool isDepth = CoordinateName(name).isDepth();
+    std::int64_t below = 0; // more than above
+    for (vtkIdType i = 0; i < rows_ && isDepth; ++i)
+    {
+      const double depth = arrays_[0]->GetComponent(i, axis);
+      below += depth > 0.0 ? 1 : depth < 0.0 ? -1 : 0;
+    }
+    const bool isTurned = (name.front() == '-') != (isDepth && task.sumOfRanks(below) > 0);
+    const char* const sign = isTurned ? " with the other sign, as depths count down" : " as it stands";
+    isDepth ? task.notes.push_back("z is column " + inQuotes(name) + sign +
+                "; called z it keeps its sign, called -z it changes it")
+            : void();
+    for (vtkIdType i = 0; i < rows_ && isTurned; ++i)
+    {
+      arrays_[0]->SetComponent(i, axis, 0.0 - arrays_[0]->GetComponent(i, axis));
+    }
+  }
+}
+
+void CloudColumns::moveTo(vtkPolyData* cloud, ReadTask& task)
 {
   cut(task.pointsThere);
+  turnAxes(task);
   vtkNew<vtkPoints> points;
   points->SetData(arrays_[0]);
   cloud->SetPoints(points);
-  const auto shown = colors_ > 0 ? shownColors(arrays_[colors_], task.shared) : nullptr;
+  const auto shown = colors_ > 0 ? shownColors(arrays_[colors_], task) : nullptr;
   for (std::size_t i = 1; i < arrays_.size(); ++i)
   {
     cloud->GetPointData()->AddArray(arrays_[i]);

@@ -40,13 +40,16 @@ vtkSmartPointer<vtkDataArray> makeArray(
 std::vector<Column> columnsCalled(const std::vector<std::string>& names);
 
 /// Which of @p columns become x, y and z: those called so, else those called so in other words, such as
-/// "POINT_X", "y [m]", "xcoord", "field.z", "easting" and "Points:2". @return whether all three were found.
+/// "POINT_X", "y [m]", "xcoord", "field.z", "easting" and "Points:2"; depths where there are no heights.
+/// @return whether all three were found.
 bool findCoordinates(const std::vector<Column>& columns, std::vector<std::size_t>& found);
 /// Returns the columns of x, y and z. @throws FileProblem where there are none.
 std::vector<std::size_t> coordinatesOf(const std::vector<Column>& columns);
 
 /// "mm" of "X1 (mm)" and "x_mm", the names of coordinates; empty where the name says no unit.
 std::string coordinateUnit(const std::string& name);
+/// "x" of "X [m]", "easting" of "easting": what names the axis, in lower case.
+std::string coordinateWord(const std::string& name);
 
 /// True if @p name is that of a channel of colours, or of a component of normals.
 bool isColorName(const std::string& name);
@@ -63,7 +66,8 @@ struct StoredColumn
 
 /// Plans where each column goes, owns the arrays, and hands them over when they are filled:
 /// - x y z, or what coordinatesOf() finds, become the points: double when one of them is double or
-/// an integer of 4 bytes and more, else float;
+/// an integer of 4 bytes and more, else float. Those of a column called "-z" get the other sign, and so do
+/// depths, which count down, where more of them are above 0 than below;
 /// - red green blue [alpha] (or r g b [a], Rf Gf Bf and the like), all unsigned char, become "RGB" or "RGBA",
 /// the active scalars; of other types they become "Color16" (unsigned short) or "Color", beside an "RGB" made
 /// of them (shownColors());
@@ -94,7 +98,7 @@ public:
   void cut(std::uint64_t rows);
   /// Gives points and arrays to @p cloud, of the rows that are there. Collective where ranks read the file of
   /// @p task together.
-  void moveTo(vtkPolyData* cloud, const ReadTask& task);
+  void moveTo(vtkPolyData* cloud, ReadTask& task);
 
 private:
   struct Place
@@ -103,6 +107,7 @@ private:
     int component = 0;
   };
   void planPoints();
+  void turnAxes(ReadTask& task);
   /// @return whether there are such columns.
   bool planNamed(
     const std::vector<std::vector<std::string>>& names, const char* arrayName, bool (*accepts)(int));
@@ -116,6 +121,7 @@ private:
   std::set<std::string> names_; ///< names of the arrays
   std::vector<Place> places_;
   std::vector<vtkSmartPointer<vtkDataArray>> arrays_; ///< the first one holds the points
+  std::vector<std::size_t> coordinates_;              ///< columns of x, y and z
   std::size_t colors_ = 0;                            ///< Those that are no bytes; 0: there are none.
   std::size_t shownBehind_ = 0; ///< The array behind which the bytes made of them stand.
 };

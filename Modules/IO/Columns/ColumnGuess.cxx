@@ -1,5 +1,7 @@
 #include "IO/Columns/ColumnGuess.h"
 
+#include "IO/Columns/CloudColumns.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -46,7 +48,7 @@ bool isEpoch(const Columns& columns)
 /// or with a description and no more.
 bool isId(const Columns& columns, bool hasDescription)
 {
-  if (columns.size() < 4 || !columns[0].isWhole || columns[0].sample.size() < kFewestIds ||
+  if (columns.size() < 4 || !columns[0].isWhole ||
     std::all_of(columns.begin() + 1, columns.begin() + 4, [](const ColumnEvidence& c) { return c.isWhole; }))
   {
     return false;
@@ -60,8 +62,10 @@ bool isId(const Columns& columns, bool hasDescription)
     columns[1].least >= kMapCoordinate && columns[2].least >= kMapCoordinate && !isEpoch(columns);
   const bool isNumbered = numberOfValues(columns[0]) == ids.size() && !isEpoch(columns) &&
     (hasColors || (hasDescription && columns.size() == 4));
-  return (hasDecimals && (isMap || isNumbered)) ||
+  const bool isLikely = hasDecimals && (isMap || isNumbered);
+  const bool isCounted =
     std::adjacent_find(ids.begin(), ids.end(), [](double a, double b) { return b != a + 1.0; }) == ids.end();
+  return ids.size() < kFewestIds ? isLikely && isCounted : isLikely || isCounted;
 }
 
 /// True if the values go on from row to row, as the coordinates of a path do.
@@ -235,6 +239,25 @@ GuessedColumns guessColumnNames(
     names[i] = names[i].empty() ? scalar : names[i];
   }
   return { names, isNorthingFirst || (isSurvey && !areMapCoordinates(columns, first + 1, first)) };
+}
+
+std::string takeSurveyAxes(const std::vector<ColumnEvidence>& columns, std::vector<std::string>& names)
+{
+  std::vector<std::size_t> at; // x, y and z
+  if (!findCoordinates(columnsCalled(names), at) || at[1] + 1 != at[0] || at[0] + 1 != at[2] ||
+    coordinateWord(names[at[0]]) != "x" || coordinateWord(names[at[1]]) != "y" ||
+    areMapCoordinates(columns, at[1], at[0]))
+  {
+    return {};
+  }
+  const std::string height = coordinateWord(names[at[2]]);
+  const bool isSurvey = (height[0] == 'h' && height != "height") || areMapCoordinates(columns, at[0], at[1]);
+  std::vector<std::string> others = names;
+  std::swap(others[at[0]], others[at[1]]);
+  isSurvey ? others.swap(names) : void();
+  return std::string("Y stands before X in the header, and is taken ") +
+    (isSurvey ? "as the easting, as surveys have it" : "as it is called") +
+    "; where that is wrong, give --columns " + listOf(others);
 }
 
 std::string listOf(const std::vector<std::string>& names)

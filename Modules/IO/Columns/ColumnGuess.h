@@ -41,6 +41,11 @@ struct GuessedColumns
 GuessedColumns guessColumnNames(const std::vector<ColumnEvidence>& columns, bool prefersColors,
   bool hasName = false, bool hasDescription = false);
 
+/// Surveys call the easting Y and the northing X, in this order before the height. Swaps the two among
+/// @p names, those of a header, where the height is called H or the values are like UTM's.
+/// @return the note on it; empty where the header has another order.
+std::string takeSurveyAxes(const std::vector<ColumnEvidence>& columns, std::vector<std::string>& names);
+
 /// "a,b", with - for empty names.
 std::string listOf(const std::vector<std::string>& names);
 

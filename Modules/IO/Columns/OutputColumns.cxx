@@ -11,7 +11,6 @@
 #include "vtkPoints.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <set>
 #include <type_traits>
@@ -243,26 +242,6 @@ std::vector<OutputArray> withoutLongIntegers(std::vector<OutputArray> arrays, st
     each.array = copy;
   }
   return arrays;
-}
-
-std::vector<vtkIdType> rowsNotFinite(const OutputArray& points)
-{
-  std::vector<vtkIdType> rows;
-  withType(points.type(),
-    [&](auto zero)
-    {
-      using T = decltype(zero);
-      const T* p = static_cast<const T*>(points.array->GetVoidPointer(0));
-      const vtkIdType count = points.array->GetNumberOfTuples();
-      for (vtkIdType row = 0; row < count; ++row, p += 3)
-      {
-        if (!std::all_of(p, p + 3, [](T value) { return std::isfinite(static_cast<double>(value)); }))
-        {
-          rows.push_back(row);
-        }
-      }
-    });
-  return rows;
 }
 
 } // namespace pointhaptics::io

@@ -76,7 +76,4 @@ std::vector<Column> columnsByComponent(const OutputArray& array);
 std::vector<OutputArray> withoutLongIntegers(
   std::vector<OutputArray> arrays, std::vector<std::string>& notes);
 
-/// The rows of @p points with a coordinate that is NaN or infinite, in rising order.
-std::vector<vtkIdType> rowsNotFinite(const OutputArray& points);
-
 } // namespace pointhaptics::io

@@ -17,8 +17,6 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 /// Bytes that a value may be read beyond its own.
 constexpr std::size_t kReadBeyond = 16;
 
-using Values = double[E57Decoder::kBlockRows];
-
 /// Calls store(i, stored integer) for @p count integers of @p bits bits, one after the other, the least
 /// significant bit first; the first begins at bit @p firstBit of @p bytes.
 template <typename Store>
@@ -211,6 +209,20 @@ void E57Decoder::fillMissing(const Block& block) const
   }
 }
 
+/// Turns @p vectors as the scanner stood, and moves them.
+void E57Decoder::turn(const std::array<double, 3>& shift, vtkIdType count, Values* vectors) const
+{
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    const double x = vectors[0][i], y = vectors[1][i], z = vectors[2][i];
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const double* row = matrix_[axis];
+      vectors[axis][i] = row[0] * x + row[1] * y + row[2] * z + shift[axis];
+    }
+  }
+}
+
 void E57Decoder::placePoints(const Block& block) const
 {
   Values p[3];
@@ -225,15 +237,7 @@ void E57Decoder::placePoints(const Block& block) const
     p[1][i] = range * std::cos(elevation) * std::sin(azimuth);
     p[2][i] = range * std::sin(elevation);
   }
-  for (vtkIdType i = 0; i < block.count && isMoved_; ++i)
-  {
-    const double x = p[0][i], y = p[1][i], z = p[2][i];
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      const double* row = matrix_[axis];
-      p[axis][i] = row[0] * x + row[1] * y + row[2] * z + scan_.pose.translation[axis];
-    }
-  }
+  isMoved_ ? turn(scan_.pose.translation, block.count, p) : void();
   if (state_ != E57Columns::npos)
   {
     Values state;
@@ -259,15 +263,10 @@ void E57Decoder::turnNormals(const Block& block) const
   {
     load(target(normals_[axis], 0, block), block.count, n[axis]);
   }
+  turn({}, block.count, n);
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    Values turned;
-    const double* row = matrix_[axis];
-    for (vtkIdType i = 0; i < block.count; ++i)
-    {
-      turned[i] = row[0] * n[0][i] + row[1] * n[1][i] + row[2] * n[2][i];
-    }
-    store(turned, block.count, target(normals_[axis], 0, block));
+    store(n[axis], block.count, target(normals_[axis], 0, block));
   }
 }
 

@@ -7,6 +7,7 @@
 #include "IO/E57/E57Packets.h"
 #include "IO/E57/E57Scan.h"
 
+#include <array>
 #include <vector>
 
 namespace pointhaptics::io
@@ -30,6 +31,8 @@ public:
 
 private:
   struct Block;
+  using Values = double[kBlockRows];
+  void turn(const std::array<double, 3>& shift, vtkIdType count, Values* vectors) const;
   ColumnView target(std::size_t column, int component, const Block& block) const;
   void decodeField(std::size_t field, const Block& block) const;
   void fillMissing(const Block& block) const;

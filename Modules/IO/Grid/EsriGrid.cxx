@@ -60,14 +60,15 @@ EsriHeader parseHeader(LineReader& lines, std::string_view& line)
       "line {}: {} has no number", lines.lineNumber(), inQuotes(word));
     header.values[vtksys::SystemTools::LowerCase(std::string(word))] = value;
   }
-  for (const auto& [name, count] : { std::pair<const char*, std::size_t*>{ "ncols", &header.columns },
-         std::pair<const char*, std::size_t*>{ "nrows", &header.rows } })
+  const auto count = [&](const char* name)
   {
     const double given = header.value(name, 0.0);
     failFormatIf(!(given >= 1.0 && given <= 1e9 && given == std::floor(given)), kCure,
       "line {}: {} is no count", lines.lineNumber(), name);
-    *count = static_cast<std::size_t>(given);
-  }
+    return static_cast<std::size_t>(given);
+  };
+  header.columns = count("ncols");
+  header.rows = count("nrows");
   return header;
 }
 

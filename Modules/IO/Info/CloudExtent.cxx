@@ -4,10 +4,23 @@
 
 #include <vtkPolyData.h>
 
+#include <algorithm>
+#include <cmath>
 #include <mutex>
 
 namespace pointhaptics
 {
+
+Vec3 floatSteps(const Bounds& box)
+{
+  Vec3 steps;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const auto most = static_cast<float>(std::max(std::abs(box.minimum[axis]), std::abs(box.maximum[axis])));
+    steps[axis] = static_cast<double>(most - std::nextafter(most, 0.0f));
+  }
+  return steps;
+}
 
 CloudExtent extentOf(vtkPolyData* cloud, const AffineTransform& transform, const Executor& executor)
 {

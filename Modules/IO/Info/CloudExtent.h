@@ -26,6 +26,9 @@ struct CloudExtent
   std::int64_t noReturns = 0; ///< the same where areNoReturns(), else 0.
 };
 
+/// The step between neighbouring floats on each axis, where @p box, which is not empty, is farthest.
+Vec3 floatSteps(const Bounds& box);
+
 /// Independent of @p executor.
 POINTHAPTICSIO_EXPORT CloudExtent extentOf(vtkPolyData* cloud,
   const AffineTransform& transform = AffineTransform(), const Executor& executor = Executor());

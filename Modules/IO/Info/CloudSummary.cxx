@@ -186,19 +186,6 @@ void addSpacing(const std::vector<Vec3>& places, CloudSummary& summary)
   summary.densityVariation = variationOf(smoothed(query, centers, distances));
 }
 
-/// The step between neighbouring floats at the farthest corner.
-double floatStep(const Bounds& bounds)
-{
-  double step = 0.0;
-  for (int axis = 0; axis < 3 && !bounds.empty(); ++axis)
-  {
-    const float most =
-      static_cast<float>(std::max(std::abs(bounds.minimum[axis]), std::abs(bounds.maximum[axis])));
-    step = std::max(step, static_cast<double>(most - std::nextafter(most, 0.0f)));
-  }
-  return step;
-}
-
 double numberIn(vtkPolyData* cloud, const char* name, vtkIdType row = 0, int component = 0)
 {
   vtkDataArray* array = cloud->GetFieldData()->GetArray(name);
@@ -340,8 +327,8 @@ CloudSummary summarize(vtkPolyData* cloud, const std::string& format, bool stati
     places = std::vector<Vec3>(); // the points serve as well, and the memory is wanted
   }
   addSpacing(summary.duplicates > 0 ? places : points, summary);
-  summary.suggestedVoxel =
-    std::max(kSpacingsPerVoxel * summary.spacing[2], summary.isFloat ? floatStep(summary.bounds) : 0.0);
+  const Vec3 steps = summary.isFloat && !summary.bounds.empty() ? floatSteps(summary.bounds) : Vec3();
+  summary.suggestedVoxel = std::max({ kSpacingsPerVoxel * summary.spacing[2], steps.x, steps.y, steps.z });
   summary.coordinateSystem = io::fieldText(cloud->GetFieldData(), "CoordinateSystem");
   const std::string said = io::fieldText(cloud->GetFieldData(), "LengthUnit");
   summary.unit = lengthUnitCalled(said).empty() ? said : lengthUnitCalled(said);

@@ -17,6 +17,8 @@
 #include <cctype>
 #include <cmath>
 #include <iterator>
+#include <map>
+#include <utility>
 #include <vector>
 
 namespace pointhaptics
@@ -166,11 +168,62 @@ std::string contradictedUnit(const std::string& file, vtkPolyData* cloud, const 
                                                                   : std::string();
 }
 
-vtkSmartPointer<vtkPolyData> inLocalMetres(vtkPolyData* cloud)
+bool looksLikeDegrees(vtkPolyData* cloud)
+{
+  constexpr vtkIdType kLookedAt = 10000;
+  constexpr double kSteep = 20.0; // least height in metres over extent in degrees, of flat land
+  constexpr double kFar = 3.0;    // place over extent
+  constexpr double kPerCell = 8.0;
+  constexpr double kLevel = 0.25; // variance of z in the cells over that of all
+  if (!cloud->GetPoints() || lengthUnitOf(cloud, Bounds()).evidence != UnitEvidence::None)
+  {
+    return false;
+  }
+  std::vector<Vec3> points;
+  Bounds box;
+  for (vtkIdType i = 0; i < cloud->GetNumberOfPoints(); i += 1 + cloud->GetNumberOfPoints() / kLookedAt)
+  {
+    Vec3 p;
+    cloud->GetPoint(i, &p.x);
+    isFinite(p) && !isAtZero(p) ? points.push_back(p), box.include(p) : void();
+  }
+  const Vec3 size = box.extent();
+  const double extent = std::max(size.x, size.y);
+  if (!(extent > 0.0) || size.z < kSteep * extent || box.minimum.x < -180.0 || box.maximum.x > 360.0 ||
+    box.minimum.y < -90.0 || box.maximum.y > 90.0 ||
+    std::max(std::abs(box.center().x), std::abs(box.center().y)) < kFar * extent)
+  {
+    return false;
+  }
+  // Few points have each a cell of its own: they cannot be a pole.
+  const double count = static_cast<double>(points.size());
+  const double perLength =
+    (count < kPerCell * kPerCell ? count * count : std::sqrt(count / kPerCell)) / extent;
+  const auto squares = [](const Vec3& sums) { return sums.z - sums.y * sums.y / sums.x; };
+  std::map<std::pair<int, int>, Vec3> cells; // sums of 1, z and its square
+  Vec3 all;
+  for (const Vec3& p : points)
+  {
+    const Vec3 place = p - box.minimum;
+    const double z = place.z - 0.5 * size.z;
+    Vec3& cell = cells[{ int(perLength * place.x), int(perLength * place.y) }];
+    cell += Vec3{ 1.0, z, z * z };
+    all += Vec3{ 1.0, z, z * z };
+  }
+  double within = 0.0;
+  for (const auto& [place, sums] : cells)
+  {
+    within += squares(sums);
+  }
+  return within < kLevel * squares(all);
+}
+
+vtkSmartPointer<vtkPolyData> inLocalMetres(vtkPolyData* cloud, bool isGuessed)
 {
   constexpr double kRadian = 3.14159265358979323846 / 180.0;
   constexpr double kMetresPerDegree = 6371008.8 * kRadian;
-  if (!cloud || lengthUnitOf(cloud, Bounds()).name != "deg" || !cloud->GetPoints())
+  if (!cloud || !cloud->GetPoints() ||
+    (lengthUnitOf(cloud, Bounds()).name != "deg" && !(isGuessed && looksLikeDegrees(cloud))))
   {
     return cloud;
   }

@@ -60,6 +60,10 @@ struct LengthUnit
 /// in millimetres: statues of 1600 units are, a street of 160 m is not. Cost: none a point.
 POINTHAPTICSIO_EXPORT LengthUnit lengthUnitOf(vtkPolyData* cloud, const Bounds& bounds);
 
+/// True where no unit is said and x and y are like longitude and latitude: in their range, far from the
+/// origin, and of an extent that is small beside that of z, of which places near each other have the same.
+POINTHAPTICSIO_EXPORT bool looksLikeDegrees(vtkPolyData* cloud);
+
 /// Says with @p file that @p cloud, which comes from it, has another unit than @p chosen; empty: it does not.
 POINTHAPTICSIO_EXPORT std::string contradictedUnit(
   const std::string& file, vtkPolyData* cloud, const std::string& chosen);
@@ -72,11 +76,12 @@ std::string lengthUnitCalled(const std::string& name);
 POINTHAPTICSIO_EXPORT vtkSmartPointer<vtkPolyData> scaledCloud(
   vtkPolyData* cloud, double factor, const std::string& unit = {});
 
-/// @p cloud, or where its x and y are degrees of longitude and latitude a copy of it in metres to the east
-/// and north of their medians, on a sphere of the WGS 84 ellipsoid's mean radius; z becomes metres where
-/// kHeightUnit says another unit, else it stays. What says where the degrees are on the Earth is not in the
-/// copy's field data. Points at 0, 0, 0, which are no returns, stay.
-POINTHAPTICSIO_EXPORT vtkSmartPointer<vtkPolyData> inLocalMetres(vtkPolyData* cloud);
+/// @p cloud, or where its x and y are degrees of longitude and latitude (with @p isGuessed also where
+/// looksLikeDegrees()) a copy of it in metres to the east and north of their medians, on a sphere of the WGS
+/// 84 ellipsoid's mean radius; z becomes metres where kHeightUnit says another unit, else it stays. What says
+/// where the degrees are on the Earth is not in the copy's field data. Points at 0, 0, 0, which are no
+/// returns, stay.
+POINTHAPTICSIO_EXPORT vtkSmartPointer<vtkPolyData> inLocalMetres(vtkPolyData* cloud, bool isGuessed = false);
 /// Field data of a cloud whose heights are in another unit than x and y, or with degrees in no metres:
 /// theirs.
 inline constexpr const char* kHeightUnit = "HeightUnit";

@@ -23,6 +23,8 @@ constexpr int kGeoKeys = 34735;
 constexpr int kModelType = 1024;
 constexpr int kGeographicModel = 2;
 constexpr int kGeographicSystem = 2048;
+constexpr int kAngularUnit = 2054;
+constexpr int kDegreeUnit = 9102;
 constexpr int kProjectedSystem = 3072;
 constexpr int kProjectedUnit = 3076;
 constexpr int kVerticalUnit = 4099;
@@ -61,9 +63,9 @@ std::string keysRecord(int code, int unit, bool isGeographic)
 {
   std::vector<std::pair<int, int>> keys = { { kModelType, isGeographic ? 2 : 1 },
     { isGeographic ? kGeographicSystem : kProjectedSystem, code > 0 ? code : kUserDefined } };
-  if (unit > 0 && !isGeographic)
+  if (unit > 0 || isGeographic)
   {
-    keys.emplace_back(kProjectedUnit, unit);
+    keys.emplace_back(isGeographic ? kAngularUnit : kProjectedUnit, isGeographic ? kDegreeUnit : unit);
   }
   std::vector<int> numbers = { 1, 1, 0, int(keys.size()) };
   for (const auto& [key, value] : keys)

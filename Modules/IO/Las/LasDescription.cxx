@@ -55,8 +55,9 @@ std::uint16_t keptEncoding(const LasOrigin& origin, vtkFieldData* fieldData)
 
 } // namespace
 
-LasDescription::LasDescription(
-  const LasOrigin& origin, vtkFieldData* fieldData, const LasPoints& points, std::vector<std::string>& notes)
+LasDescription::LasDescription(const LasOrigin& origin, vtkFieldData* fieldData,
+  const std::string& descriptors, const std::string& packing, bool isExtended,
+  std::vector<std::string>& notes)
   : encoding(keptEncoding(origin, fieldData))
 {
   const bool keepsSystem = keepsCoordinateSystem(origin, fieldData);
@@ -69,12 +70,12 @@ LasDescription::LasDescription(
   {
     add(lasCoordinateSystemRecord(fieldData, encoding));
   }
-  bool describes = !points.descriptors.empty();
+  bool describes = !descriptors.empty();
   const auto describe = [&](std::string_view text)
   {
-    add(describes ? lasRecordHeader(kLasSpecUser, kLasExtraBytesRecord, points.descriptors.size(), text) +
-          points.descriptors
-                  : std::string());
+    add(describes
+        ? lasRecordHeader(kLasSpecUser, kLasExtraBytesRecord, descriptors.size(), text) + descriptors
+        : std::string());
     describes = false;
   };
   for (const LasRecord& record : lasRecords(origin))
@@ -85,13 +86,12 @@ LasDescription::LasDescription(
     }
     else if (record.user != kLasProjectionUser || keepsSystem)
     {
-      keep(record, !points.packing.empty(), notes);
+      keep(record, !packing.empty(), notes);
     }
   }
   describe({});
-  add(points.packing);
-  isOf14 =
-    points.isExtended || origin.minorVersion() == 4 || farCount > 0 || (encoding & kLasWellKnownTextBit) != 0;
+  add(packing);
+  isOf14 = isExtended || origin.minorVersion() == 4 || farCount > 0 || (encoding & kLasWellKnownTextBit) != 0;
 }
 
 void LasDescription::keep(const LasRecord& record, bool isPacked, std::vector<std::string>& notes)

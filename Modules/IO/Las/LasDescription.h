@@ -13,14 +13,6 @@ class vtkFieldData;
 namespace pointhaptics::io
 {
 
-/// How the points are written.
-struct LasPoints
-{
-  std::string descriptors; ///< Descriptors of the extra bytes, kLasExtraDescriptor each.
-  std::string packing;     ///< The record of LAZ; empty: they are not packed.
-  bool isExtended = false; ///< Point format 6 and more.
-};
-
 /// The records of the file that a cloud came from; those of coordinate system and extra bytes as they are
 /// now.
 struct LasDescription
@@ -32,8 +24,10 @@ struct LasDescription
   std::uint16_t encoding = 0; ///< The global one.
   bool isOf14 = false;
 
-  LasDescription(const LasOrigin& origin, vtkFieldData* fieldData, const LasPoints& points,
-    std::vector<std::string>& notes);
+  /// @p descriptors: of the extra bytes, kLasExtraDescriptor each. @p packing: the record of LAZ; empty: the
+  /// points are not packed. @p isExtended: point format 6 and more.
+  LasDescription(const LasOrigin& origin, vtkFieldData* fieldData, const std::string& descriptors,
+    const std::string& packing, bool isExtended, std::vector<std::string>& notes);
 
 private:
   void add(const std::string& record)

@@ -22,7 +22,6 @@
 #include <atomic>
 #include <exception>
 #include <optional>
-#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -53,21 +52,17 @@ public:
   void read(LasRecords& records);
 
 private:
-  bool isCallingThread() const { return std::this_thread::get_id() == caller_; }
-  void work(LasRecords& records) noexcept;
-  void readChunk(ChunkDecoder& decoder, std::vector<char>& block, const LazChunk& chunk, LasRecords& records);
+  void readChunk(ChunkDecoder& decoder, const LazChunk& chunk, std::uint64_t atOnce, std::uint64_t& there,
+    LasRecords& records);
+  void readAlone(std::size_t chunk, LasRecords& records) noexcept;
   void readInOrder(LasRecords& records);
-  std::uint64_t salvageChunk(
-    ChunkDecoder& decoder, std::vector<char>& block, const LazChunk& chunk, LasRecords& records);
 
   ReadTask& task_;
   const LazSchema schema_;
   const LazChunks chunks_;
   const RowRange rows_; ///< of the points of all chunks
   const std::thread::id caller_ = std::this_thread::get_id();
-  std::atomic<std::size_t> next_{ 0 };
-  std::atomic<std::uint64_t> done_{ 0 }; ///< points
-  std::atomic<bool> isStopped_{ false };
+  std::atomic<std::uint64_t> done_{ 0 };   ///< points
   std::vector<std::exception_ptr> faults_; ///< of each chunk
 };
 
@@ -75,7 +70,7 @@ LazChunks chunksOf(ReadTask& task, const LasHeader& header, const LazSchema& sch
 {
   if (!task.load || !task.wanted.isPart())
   {
-    return findLazChunks(task.bytes, header, schema, &task);
+    return findLazChunks(task, header, schema);
   }
   checkLazCount(task.bytes, header);
   LazChunks part = findCopcChunks(task, header);
@@ -109,15 +104,17 @@ LazReader::LazReader(ReadTask& task, const LasHeader& header)
 {
 }
 
-/// Decodes the chunk as far as points of it are wanted.
-void LazReader::readChunk(
-  ChunkDecoder& decoder, std::vector<char>& block, const LazChunk& chunk, LasRecords& records)
+/// Decodes the chunk as far as points of it are wanted, @p atOnce of them at a time; @p there counts all that
+/// were decoded.
+void LazReader::readChunk(ChunkDecoder& decoder, const LazChunk& chunk, std::uint64_t atOnce,
+  std::uint64_t& there, LasRecords& records)
 {
+  std::vector<char> block(atOnce * schema_.recordLength);
   decoder.start(task_.bytes, chunk);
   const std::uint64_t end = std::min(chunk.first + chunk.count, rows_.last);
-  for (std::uint64_t at = chunk.first; at < end && !isStopped_;)
+  for (std::uint64_t at = chunk.first; at < end; there = at - chunk.first)
   {
-    const std::uint64_t next = std::min(at + static_cast<std::uint64_t>(kLasBlockRows), end);
+    const std::uint64_t next = std::min(at + atOnce, end);
     decoder.next(block.data(), static_cast<std::size_t>(next - at));
     const std::uint64_t first = std::max(at, rows_.first);
     if (first < next)
@@ -127,46 +124,37 @@ void LazReader::readChunk(
       done_ += next - first;
     }
     at = next;
-    if (isCallingThread() && rows_.count() > 0)
+    if (std::this_thread::get_id() == caller_ && rows_.count() > 0)
     {
       task_.progress(static_cast<double>(done_) / static_cast<double>(rows_.count()));
     }
   }
 }
 
-/// Work of each thread: it takes the next chunk until there is none or one is faulty.
-void LazReader::work(LasRecords& records) noexcept
+void LazReader::readAlone(std::size_t chunk, LasRecords& records) noexcept
 {
-  std::size_t chunk = chunks_.all.size();
   try
   {
+    const LazChunk& wanted = chunks_.all[chunk];
     ChunkDecoder decoder(schema_, task_.wanted.onlyPositions);
-    std::vector<char> block(static_cast<std::size_t>(kLasBlockRows) * schema_.recordLength);
-    while (!isStopped_ && (chunk = next_++) < chunks_.all.size())
-    {
-      const LazChunk& next = chunks_.all[chunk];
-      if (rows_.meets(next.first, next.first + next.count))
-      {
-        readChunk(decoder, block, next, records);
-      }
-    }
+    std::uint64_t there = 0;
+    rows_.meets(wanted.first, wanted.first + wanted.count)
+      ? readChunk(decoder, wanted, kLasBlockRows, there, records)
+      : void();
   }
   catch (...)
   {
-    faults_[std::min(chunk, chunks_.all.size() - 1)] = std::current_exception();
-    isStopped_ = true;
+    faults_[chunk] = std::current_exception();
   }
 }
 
 /// Each chunk tells where the next one begins, where it is not known. A salvaged file ends at the first
-/// fault.
+/// fault, and the points before it are there.
 void LazReader::readInOrder(LasRecords& records)
 {
   ChunkDecoder decoder(schema_);
-  std::vector<char> block(static_cast<std::size_t>(kLasBlockRows) * schema_.recordLength);
   std::size_t offset = chunks_.all.front().offset;
   done_ = 0;
-  isStopped_ = false;
   for (LazChunk chunk : chunks_.all)
   {
     if (chunk.first >= rows_.last)
@@ -178,83 +166,58 @@ void LazReader::readInOrder(LasRecords& records)
       chunk.offset = offset;
       chunk.size = task_.bytes.size() - offset;
     }
+    std::uint64_t there = 0;
     try
     {
-      readChunk(decoder, block, chunk, records);
+      readChunk(decoder, chunk, kLasBlockRows, there, records);
       offset += chunks_.arePlaced ? 0 : decoder.chunkSize();
     }
     catch (const FileProblem& problem)
     {
-      if (!task_.salvage)
+      task_.salvage ? void() : throw;
+      try
       {
-        throw;
+        readChunk(decoder, chunk, 1, there = 0, records);
       }
-      task_.endAt(chunk.first + salvageChunk(decoder, block, chunk, records), rows_.count(), problem.what());
+      catch (const FileProblem&)
+      {
+        // The points before it are there.
+      }
+      task_.endAt(chunk.first + there, rows_.count(), problem.what());
       return;
     }
   }
 }
 
-/// Reads the points of a damaged chunk one by one. @return how many there are.
-std::uint64_t LazReader::salvageChunk(
-  ChunkDecoder& decoder, std::vector<char>& block, const LazChunk& chunk, LasRecords& records)
-{
-  std::uint64_t there = 0;
-  try
-  {
-    decoder.start(task_.bytes, chunk);
-    for (; there < chunk.count; ++there)
-    {
-      decoder.next(block.data(), 1);
-      records.fill({ block.data(), static_cast<vtkIdType>(chunk.first + there), 1 });
-    }
-  }
-  catch (const FileProblem&)
-  {
-    // The points before it are there.
-  }
-  return there;
-}
-
 void LazReader::read(LasRecords& records)
+try
 {
-  if (!chunks_.arePlaced)
+  const std::size_t wave =
+    8 * static_cast<std::size_t>(std::max(vtkSMPTools::GetEstimatedNumberOfThreads(), 1));
+  const std::size_t all = chunks_.arePlaced ? chunks_.all.size() : 0;
+  all == 0 ? readInOrder(records) : void();
+  for (std::size_t begin = 0; begin < all; begin += wave)
   {
-    readInOrder(records);
-    return;
-  }
-  const std::size_t most = static_cast<std::size_t>(std::max(vtkSMPTools::GetEstimatedNumberOfThreads(), 1));
-  std::vector<std::thread> helpers;
-  try
-  {
-    while (helpers.size() + 1 < std::min(most, chunks_.all.size()))
+    const std::size_t end = std::min(begin + wave, all);
+    vtkSMPTools::For(static_cast<vtkIdType>(begin), static_cast<vtkIdType>(end), 1,
+      [&](vtkIdType from, vtkIdType to)
+      {
+        for (; from < to; ++from)
+        {
+          readAlone(static_cast<std::size_t>(from), records);
+        }
+      });
+    for (std::size_t i = begin; i < end; ++i)
     {
-      helpers.emplace_back([&] { work(records); });
+      faults_[i] ? std::rethrow_exception(faults_[i]) : void();
     }
+    rows_.count() > 0 ? task_.progress(static_cast<double>(done_) / static_cast<double>(rows_.count()))
+                      : void();
   }
-  catch (const std::system_error&)
-  {
-    // Fewer threads do the same.
-  }
-  work(records);
-  for (std::thread& helper : helpers)
-  {
-    helper.join();
-  }
-  const auto fault = std::find_if(
-    faults_.begin(), faults_.end(), [](const std::exception_ptr& each) { return each != nullptr; });
-  try
-  {
-    fault != faults_.end() ? std::rethrow_exception(*fault) : void();
-  }
-  catch (const FileProblem&)
-  {
-    if (!task_.salvage)
-    {
-      throw;
-    }
-    readInOrder(records);
-  }
+}
+catch (const FileProblem&)
+{
+  task_.salvage&& chunks_.arePlaced ? readInOrder(records) : throw;
 }
 
 /// The records from number @p begin on, as many as @p header counts.
@@ -325,11 +288,11 @@ LasOrigin LasOrigin::of(vtkFieldData* fieldData)
 
 void readLas(ReadTask& task, vtkPolyData* cloud)
 {
-  needLasHeader(task);
+  task.need(0, kLasHeaderOf14);
   const std::string version =
     task.bytes.size() > 25 ? " 1." + std::to_string(byteAt(task.bytes.data(), 25)) : std::string();
   task.format = "LAS" + version;
-  LasHeader header = parseLasHeader(task.bytes, &task);
+  LasHeader header = parseLasHeader(task);
   task.format = (header.packing.empty() ? "LAS" : header.packing) + version + " (point format " +
     std::to_string(header.pointFormat) + ")";
   std::optional<LazReader> packed;

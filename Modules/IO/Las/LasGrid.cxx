@@ -121,15 +121,6 @@ bool placeOnDecimals(const Axis& axis, const Accepts& accepts, LasGrid& grid)
   return false;
 }
 
-/// The finest steps of a power of two: at most 2^31 of them to either side of a centre that is itself a
-/// multiple of the step, and one of fewer than 2^53 steps: else it would be no double.
-void takeBinarySteps(const Axis& axis, LasGrid& grid)
-{
-  grid.scale =
-    std::ldexp(1.0, std::max({ std::ilogb(axis.half()) + 1 - 31, std::ilogb(axis.farthest()) - 51, -1021 }));
-  grid.offset = grid.scale * std::nearbyint(axis.center() / grid.scale);
-}
-
 /// False: the cloud is too small or too large for steps of the wanted scale.
 bool takeWantedSteps(const Axis& axis, const WantedGrid& wanted, LasGrid& grid)
 {
@@ -156,25 +147,20 @@ bool takeUsualSteps(const Axis& axis, const WantedGrid& wanted, LasGrid& grid)
   return reaches(axis, grid) && grid.scale > std::ldexp(axis.farthest(), -52);
 }
 
-/// The finest steps of a power of ten. False: there are none that doubles can hold well.
-bool takeDecimalSteps(const Axis& axis, LasGrid& grid)
+/// The finest steps of a power of ten that doubles can hold well.
+void takeDecimalSteps(const Axis& axis, LasGrid& grid)
 {
-  constexpr int kLargestPower = 290;
+  constexpr int kLeastPower = -290;
   // The last digit of the farthest coordinate, and all steps in 32 bits.
   const double needed =
     std::max(axis.half() / (kMost - 1.0), std::ldexp(1.0, std::ilogb(axis.farthest()) - 52));
-  int exponent = static_cast<int>(std::floor(std::log10(needed)));
-  if (std::abs(exponent) > kLargestPower)
-  {
-    return false;
-  }
+  int exponent = std::max(kLeastPower, static_cast<int>(std::floor(std::log10(needed))));
   while (powerOfTen(exponent) < needed)
   {
     ++exponent;
   }
   grid.scale = powerOfTen(exponent);
   findRoundOffset(axis, grid);
-  return spans(axis, grid.scale, grid.offset);
 }
 
 } // namespace
@@ -191,11 +177,12 @@ LasGrid LasGrid::fit(ConstColumnView column, vtkIdType count, const WantedGrid& 
   const bool isWanted = wanted.scale > 0.0 && std::isfinite(wanted.scale) && std::isfinite(wanted.offset);
   // 17.31 of a text is not 1731 times 0.01, but next to it.
   const double lastDigits = 2.0 * std::numeric_limits<double>::epsilon() * axis.farthest();
-  const auto isNearby = [=](double given, double coordinate)
-  { return std::abs(given - coordinate) <= lastDigits; };
   const auto isSame = [](double given, double coordinate) { return given == coordinate; };
-  const auto isSameFloat = [](double given, double coordinate)
-  { return static_cast<float>(given) == static_cast<float>(coordinate); };
+  const auto isKept = [&](double given, double coordinate)
+  {
+    return std::abs(given - coordinate) <= lastDigits ||
+      (column.type == VTK_FLOAT && static_cast<float>(given) == static_cast<float>(coordinate));
+  };
   const auto isAny = [](double, double) { return true; };
   const bool isForced = wanted.forced > 0.0;
   LasGrid grid;
@@ -205,19 +192,16 @@ LasGrid LasGrid::fit(ConstColumnView column, vtkIdType count, const WantedGrid& 
     "steps of {} do not span the cloud with 32 bits", grid.scale);
   const bool isExact = !isForced &&
     ((isWanted && place(axis, isSame, grid)) || placeOnDecimals(axis, isSame, grid) ||
-      (!isWanted && placeOnDecimals(axis, isNearby, grid)) ||
-      (!isWanted && column.type == VTK_FLOAT && placeOnDecimals(axis, isSameFloat, grid)));
+      (!isWanted && placeOnDecimals(axis, isKept, grid)));
   if (isExact)
   {
     return grid;
   }
-  if (!isForced && !(isWanted && takeWantedSteps(axis, wanted, grid)) &&
-    !takeUsualSteps(axis, wanted, grid) && !takeDecimalSteps(axis, grid))
-  {
-    takeBinarySteps(axis, grid);
-  }
-  place(axis, isAny, grid);
-  grid.rounds = grid.largestError > (isForced ? lastDigits : 0.0);
+  const bool isTaken =
+    isForced || (isWanted && takeWantedSteps(axis, wanted, grid)) || takeUsualSteps(axis, wanted, grid);
+  isTaken ? void() : takeDecimalSteps(axis, grid);
+  grid.rounds = !place(axis, isKept, grid);
+  grid.rounds ? void(place(axis, isAny, grid)) : void();
   return grid;
 }
 

@@ -42,8 +42,7 @@ struct LasGrid
   /// than
   ///   kFewestSteps of them: it was made smaller, and its points would fall together;
   /// - the usual steps; of a cloud shorter than kFewestSteps of them 10^5 to 10^6 for its length;
-  /// - the finest power of ten whose steps span them;
-  /// - the finest power of two, where numbers are too small or too large for that.
+  /// - the finest power of ten, from 1e-290 on, whose steps span them.
   ///
   /// @pre all are finite.
   static LasGrid fit(ConstColumnView column, vtkIdType count, const WantedGrid& wanted);

@@ -21,16 +21,22 @@ std::string_view untilZero(std::string_view text)
   return text.substr(0, text.find('\0'));
 }
 
-/// All records of a file; a damaged list ends where it leaves the file.
-std::vector<LasRecord> recordsOf(std::string_view bytes, const LasHeader& header)
+/// All records of a file, which are loaded; a damaged list ends where it leaves the file.
+std::vector<LasRecord> recordsOf(const ReadTask& task, const LasHeader& header)
 {
+  const std::string_view bytes = task.bytes;
+  task.need(0, header.pointsOffset);
   std::vector<LasRecord> records = lasRecords(
     bytes.substr(0, header.pointsOffset), header.headerSize, numberAt<std::uint32_t>(bytes, 100), false);
   if (header.minorVersion >= 4 && header.headerSize >= kLasHeaderOf14 && bytes.size() >= kLasHeaderOf14)
   {
-    const std::vector<LasRecord> far =
-      lasRecords(bytes, numberAt<std::uint64_t>(bytes, 235), numberAt<std::uint32_t>(bytes, 243), true);
-    records.insert(records.end(), far.begin(), far.end());
+    for (const LasRecord& far :
+      lasRecords(bytes, numberAt<std::uint64_t>(bytes, 235), numberAt<std::uint32_t>(bytes, 243), true,
+        [&](std::size_t offset, std::size_t size) { task.need(offset, size); }))
+    {
+      far.user != "copc" ? task.need(far.at + kEvlrHeader, far.content.size()) : void();
+      records.push_back(far);
+    }
   }
   return records;
 }
@@ -129,24 +135,22 @@ void checkScales(const LasHeader& header)
   }
 }
 
-void checkLayout(std::string_view bytes, LasHeader& header, ReadTask* task)
+void checkLayout(ReadTask& task, LasHeader& header)
 {
   const std::size_t needed = header.fields().size;
   failFormatIf(header.recordLength < needed, kRewriteCure,
     "byte 105: records of {} bytes are too short for point format {}, which takes {}", header.recordLength,
     header.pointFormat, needed);
-  failTruncatedIf(header.pointsOffset < header.headerSize || header.pointsOffset > bytes.size(),
-    "byte 96: the points start at byte {} of a file of {} bytes", header.pointsOffset, bytes.size());
+  failTruncatedIf(header.pointsOffset < header.headerSize || header.pointsOffset > task.bytes.size(),
+    "byte 96: the points start at byte {} of a file of {} bytes", header.pointsOffset, task.bytes.size());
   header.count == 0 ? failNoPoints() : void();
-  const std::size_t available = bytes.size() - header.pointsOffset;
+  const std::size_t available = task.bytes.size() - header.pointsOffset;
   const std::uint64_t there = available / header.recordLength;
   if (header.packing.empty() && header.count > there)
   {
-    const std::string what =
+    header.count = task.endAt(there, header.count,
       fmt::format("the header counts {} points of {} bytes, but only {} bytes follow ({} points)",
-        header.count, header.recordLength, available, there);
-    failTruncatedIf(!task, "{}", what);
-    header.count = task->endAt(there, header.count, what);
+        header.count, header.recordLength, available, there));
   }
 }
 
@@ -241,29 +245,9 @@ std::string lasRecordHeader(std::string_view user, int id, std::size_t size, std
   return header;
 }
 
-void needLasHeader(const ReadTask& task)
+LasHeader parseLasHeader(ReadTask& task)
 {
   const std::string_view bytes = task.bytes;
-  const auto need = [&](std::size_t offset, std::size_t size) { task.need(offset, size); };
-  need(0, kLasHeaderOf14);
-  if (bytes.size() < kLasHeaderOf14)
-  {
-    return;
-  }
-  need(0, numberAt<std::uint32_t>(bytes, 96));
-  if (numberAt<std::uint8_t>(bytes, 25) < 4)
-  {
-    return; // no records behind the points
-  }
-  for (const LasRecord& record :
-    lasRecords(bytes, numberAt<std::uint64_t>(bytes, 235), numberAt<std::uint32_t>(bytes, 243), true, need))
-  {
-    record.user != "copc" ? need(record.at + kEvlrHeader, record.content.size()) : void();
-  }
-}
-
-LasHeader parseLasHeader(std::string_view bytes, ReadTask* task)
-{
   failTruncatedIf(bytes.size() < kLasHeaderOf12, "the file ends at byte {} inside its header", bytes.size());
   LasHeader header;
   header.minorVersion = numberAt<std::uint8_t>(bytes, 25);
@@ -277,7 +261,7 @@ LasHeader parseLasHeader(std::string_view bytes, ReadTask* task)
     "byte 94: a header of {} bytes", header.headerSize);
   header.pointsOffset = numberAt<std::uint32_t>(bytes, 96);
   const int formatByte = numberAt<std::uint8_t>(bytes, 104);
-  const std::vector<LasRecord> records = recordsOf(bytes, header);
+  const std::vector<LasRecord> records = recordsOf(task, header);
   header.packing = packingOf(records, formatByte);
   const int format = header.packing.empty() ? formatByte : formatByte & ~kLasPackedMark;
   failFormatIf(format > kMostLasFormat, "convert it to point format 0 to 10",
@@ -295,7 +279,7 @@ LasHeader parseLasHeader(std::string_view bytes, ReadTask* task)
     header.scale[axis] = numberAt<double>(bytes, 131 + 8 * axis);
     header.offset[axis] = numberAt<double>(bytes, 155 + 8 * axis);
   }
-  checkLayout(bytes, header, task);
+  checkLayout(task, header);
   checkScales(header);
   parseRecords(bytes, records, header);
   return header;

@@ -188,13 +188,10 @@ struct LasHeader
 /// True if a file that begins with @p start, of which 400 bytes are enough, is a cloud optimised point cloud.
 bool startsLikeCopc(std::string_view start);
 
-/// Has header and variable length records loaded, which parseLasHeader() looks at.
-void needLasHeader(const ReadTask& task);
-
-/// @throws FileProblem with byte offset and value; also when the file is too short for the points the header
-/// counts: with @p task as its endAt() decides. Compressed points are only recognised: see Laz/LazSchema.h
-/// and Laz/LazChunks.h.
-LasHeader parseLasHeader(std::string_view bytes, ReadTask* task = nullptr);
+/// Reads the header, whose bytes are there, and loads and reads variable length records. @throws FileProblem
+/// with byte offset and value; also when the file is too short for the points the header counts, as
+/// task.endAt() decides. Compressed points are only recognised: see Laz/LazSchema.h and Laz/LazChunks.h.
+LasHeader parseLasHeader(ReadTask& task);
 
 /// The fields that @p descriptors, the content of an extra bytes record, describe in a record of @p length
 /// bytes from @p first on. What they do not cover, or all where they cannot be right, is kept as

@@ -195,18 +195,10 @@ void LasRecords::fillExtra(const LasBlock& block) const
             return field.isNoData(v, third) ? std::numeric_limits<double>::quiet_NaN()
                                             : scale * static_cast<double>(v) + shift;
           };
-          if (field.arrayType() == VTK_FLOAT && (field.hasNoData || field.isScaled))
-          {
-            fillColumn<T, float>(block, names_.firstExtra + i, at, value, component);
-          }
-          else if (field.hasNoData || field.isScaled)
-          {
-            fillColumn<T, double>(block, names_.firstExtra + i, at, value, component);
-          }
-          else
-          {
-            copyColumn(block, names_.firstExtra + i, at, field.type, component);
-          }
+          const std::size_t column = names_.firstExtra + i;
+          !field.hasNoData && !field.isScaled ? copyColumn(block, column, at, field.type, component)
+            : field.arrayType() == VTK_FLOAT  ? fillColumn<T, float>(block, column, at, value, component)
+                                              : fillColumn<T, double>(block, column, at, value, component);
         });
     }
   }
@@ -240,7 +232,7 @@ void LasRecords::agree(SharedReading& shared)
   }
 }
 
-void LasRecords::moveTo(vtkPolyData* cloud, const ReadTask& task)
+void LasRecords::moveTo(vtkPolyData* cloud, ReadTask& task)
 {
   columns_.cut(task.pointsThere);
   rows_ = static_cast<vtkIdType>(std::min(task.pointsThere, static_cast<std::uint64_t>(rows_)));

@@ -50,7 +50,7 @@ public:
   /// Collective, when all blocks are filled, where ranks read a file together: the same arrays on each.
   void agree(SharedReading& shared);
   /// Gives the arrays to @p cloud when all blocks are filled that are there.
-  void moveTo(vtkPolyData* cloud, const ReadTask& task);
+  void moveTo(vtkPolyData* cloud, ReadTask& task);
 
 private:
   /// The columns, and which of them holds what.

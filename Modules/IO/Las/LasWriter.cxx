@@ -21,7 +21,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <deque>
 #include <map>
 #include <string_view>
@@ -176,8 +175,11 @@ void LasWriter::nameArrays()
   {
     if (!taken_[i] && isPointField(arrays_[i].name)) // each LAS point has that field, too
     {
-      notes_.push_back("array " + arrays_[i].name + " has values that its LAS field cannot hold");
-      arrays_[i].name += "Extra";
+      const std::string name = arrays_[i].name + "Extra";
+      notes_.push_back("array " + arrays_[i].name +
+        " has values that its LAS field cannot hold, and is called " + name +
+        " in the extra bytes; scale it to whole numbers for programs that look for the field");
+      arrays_[i].name = arrays_[i].given = name;
     }
   }
   const auto columnsOf = [&](const OutputArray& array)
@@ -453,8 +455,8 @@ void LasWriter::write()
   planStandardFields();
   planExtraFields();
 
-  const LasDescription described(origin_, fieldData_,
-    { descriptors_, isPacked_ ? lazDescription(format_, recordSize_) : std::string(), extended_ }, notes_);
+  const LasDescription described(origin_, fieldData_, descriptors_,
+    isPacked_ ? lazDescription(format_, recordSize_) : std::string(), extended_, notes_);
   const std::size_t pointsOffset = header(0, described).size() + described.bytes.size();
   task_.out.write(header(pointsOffset, described) + described.bytes);
   if (isPacked_)
@@ -472,24 +474,28 @@ void writeRecordsOf(WriteTask& task, bool isPacked)
 {
   const std::vector<OutputArray> arrays = outputArrays(task.cloud, task.notes);
   const vtkIdType all = arrays[0].array->GetNumberOfTuples();
-  const std::vector<vtkIdType> left = rowsNotFinite(arrays[0]);
-  if (left.empty())
+  vtkNew<vtkIdList> kept;
+  withType(arrays[0].type(),
+    [&](auto zero)
+    {
+      const auto* p = static_cast<const decltype(zero)*>(arrays[0].array->GetVoidPointer(0));
+      const auto isFinite = [](decltype(zero) value) { return std::isfinite(static_cast<double>(value)); };
+      for (vtkIdType row = 0; row < all; ++row, p += 3)
+      {
+        std::all_of(p, p + 3, isFinite) ? void(kept->InsertNextId(row)) : void();
+      }
+    });
+  task.points = kept->GetNumberOfIds();
+  if (task.points == all)
   {
     LasWriter(arrays, task, isPacked).write();
     return;
   }
-  task.points = all - static_cast<vtkIdType>(left.size());
   failFormatIf(task.points == 0, "mend the cloud, or write .vtp, .ply or .pcd",
     "all coordinates are NaN or infinite, and LAS stores them as integers");
-  task.notes.push_back(std::to_string(left.size()) + " of " + std::to_string(all) +
+  task.notes.push_back(std::to_string(all - task.points) + " of " + std::to_string(all) +
     " points are NaN or infinite and left out: LAS stores coordinates as integers; write .vtp, .ply or .pcd "
     "to keep them");
-  vtkNew<vtkIdList> kept;
-  auto next = left.begin();
-  for (vtkIdType row = 0; row < all; ++row)
-  {
-    next != left.end() && *next == row ? void(++next) : void(kept->InsertNextId(row));
-  }
   vtkNew<vtkPolyData> finite;
   finite->SetPoints(task.cloud->GetPoints());
   finite->GetPointData()->ShallowCopy(task.cloud->GetPointData());

@@ -14,14 +14,6 @@ namespace pointhaptics::io
 namespace
 {
 
-LasHeader headerOf(int pointFormat, std::size_t recordLength)
-{
-  LasHeader header;
-  header.pointFormat = pointFormat;
-  header.recordLength = recordLength;
-  return header;
-}
-
 /// Encodes the chunks from @p begin to @p end, each thread with a block of its own.
 void encodeChunks(const std::vector<RecordField>& fields, const LazSchema& schema, vtkIdType rows,
   vtkIdType begin, vtkIdType end, std::vector<std::string>& chunks)
@@ -47,15 +39,14 @@ void encodeChunks(const std::vector<RecordField>& fields, const LazSchema& schem
 
 std::string lazDescription(int pointFormat, std::size_t recordLength)
 {
-  const LasHeader header = headerOf(pointFormat, recordLength);
-  const std::string content = lazRecord(makeLazSchema(header), header);
+  const std::string content = lazRecord(makeLazSchema(pointFormat, recordLength));
   return lasRecordHeader(kLaszipUser, kLaszipRecord, content.size()) + content;
 }
 
 void writeLazRecords(const std::vector<RecordField>& fields, int pointFormat, std::size_t recordLength,
   std::size_t pointsOffset, vtkIdType rows, WriteTask& task, double begin)
 {
-  const LazSchema schema = makeLazSchema(headerOf(pointFormat, recordLength));
+  const LazSchema schema = makeLazSchema(pointFormat, recordLength);
   const vtkIdType chunkRows = static_cast<vtkIdType>(schema.chunkSize);
   const vtkIdType total = (rows + chunkRows - 1) / chunkRows;
   const vtkIdType wave = 2 * std::max(vtkSMPTools::GetEstimatedNumberOfThreads(), 1);

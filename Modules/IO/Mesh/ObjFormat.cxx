@@ -34,6 +34,7 @@ public:
     : task_(task)
     , lines_(withoutByteOrderMark(task.bytes))
   {
+    places_.numbers.reserve(task.bytes.size() / 10); // a number has as many; unused memory costs nothing
   }
   void read();
   void moveTo(vtkPolyData* cloud);

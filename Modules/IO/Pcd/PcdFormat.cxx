@@ -12,7 +12,6 @@
 #include "vtkIntArray.h"
 #include "vtkPolyData.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <limits>

@@ -7,7 +7,6 @@
 #include "IO/Ply/PlyHeader.h"
 
 #include <algorithm>
-#include <cstring>
 
 namespace pointhaptics::io
 {

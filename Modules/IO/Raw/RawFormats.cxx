@@ -61,36 +61,29 @@ bool areScans(const FormatStart& start, std::size_t floats)
   return farthest > 0.0f;
 }
 
-/// Columns of one record, each with its byte.
-struct RawColumn
+/// Records of the numbers of @p planned, one behind the other.
+void readRecords(ReadTask& task, const std::vector<Column>& planned, vtkPolyData* cloud)
 {
-  Column column;
-  std::size_t offset = 0;
-};
-
-void readRecords(ReadTask& task, const std::vector<RawColumn>& fields, std::size_t record, vtkPolyData* cloud)
-{
-  const std::size_t count = task.bytes.size() / record;
-  const vtkIdType rows = static_cast<vtkIdType>(task.bytes.size() % record == 0
-      ? count
-      : task.endAt(count, count + 1, "the file ends within its record " + std::to_string(count + 1)));
-  std::vector<Column> planned;
-  for (const RawColumn& field : fields)
-  {
-    planned.push_back(field.column);
-  }
   std::vector<StoredColumn> stored;
-  for (std::size_t i = 0; i < fields.size(); ++i)
+  std::size_t record = 0;
+  for (std::size_t i = 0; i < planned.size(); ++i)
   {
-    const int type = fields[i].column.type;
-    for (int component = 0; component < fields[i].column.components; ++component)
+    for (int component = 0; component < planned[i].components; ++component)
     {
-      const std::size_t at = fields[i].offset + static_cast<std::size_t>(component * sizeOfType(type));
-      stored.push_back({ { task.bytes.data() + at, static_cast<std::ptrdiff_t>(record), type }, i, component,
-        !kIsLittleEndianHost });
+      stored.push_back(
+        { { task.bytes.data() + record, 0, planned[i].type }, i, component, !kIsLittleEndianHost });
+      record += static_cast<std::size_t>(sizeOfType(planned[i].type));
     }
   }
-  CloudColumns columns(planned, rows);
+  for (StoredColumn& each : stored)
+  {
+    each.source.stride = static_cast<std::ptrdiff_t>(record);
+  }
+  const std::size_t count = task.bytes.size() / record;
+  CloudColumns columns(planned,
+    static_cast<vtkIdType>(task.bytes.size() % record == 0
+        ? count
+        : task.endAt(count, count + 1, "the file ends within its record " + std::to_string(count + 1))));
   columns.fill(stored, task);
   columns.moveTo(cloud, task);
 }
@@ -161,16 +154,14 @@ bool looksLikeSplat(const FormatStart& start)
 void readKitti(ReadTask& task, vtkPolyData* cloud)
 {
   task.format = "KITTI (float32 x y z intensity)";
-  readRecords(task, { { { "x" }, 0 }, { { "y" }, 4 }, { { "z" }, 8 }, { { "intensity" }, 12 } }, 16, cloud);
+  readRecords(task, columnsCalled({ "x", "y", "z", "intensity" }), cloud);
 }
 
 /// Scans of nuScenes.
 void readNuScenes(ReadTask& task, vtkPolyData* cloud)
 {
   task.format = "nuScenes (float32 x y z intensity ring)";
-  readRecords(task,
-    { { { "x" }, 0 }, { { "y" }, 4 }, { { "z" }, 8 }, { { "intensity" }, 12 }, { { "ring" }, 16 } }, 20,
-    cloud);
+  readRecords(task, columnsCalled({ "x", "y", "z", "intensity", "ring" }), cloud);
 }
 
 /// Splats of 32 bytes.
@@ -178,9 +169,9 @@ void readSplat(ReadTask& task, vtkPolyData* cloud)
 {
   task.format = "Gaussian splats (.splat)";
   readRecords(task,
-    { { { "x" }, 0 }, { { "y" }, 4 }, { { "z" }, 8 }, { { "scale", VTK_FLOAT, 3 }, 12 },
-      { { "RGBA", VTK_UNSIGNED_CHAR, 4 }, 24 }, { { "rotation", VTK_UNSIGNED_CHAR, 4 }, 28 } },
-    kSplat, cloud);
+    { { "x" }, { "y" }, { "z" }, { "scale", VTK_FLOAT, 3 }, { "RGBA", VTK_UNSIGNED_CHAR, 4 },
+      { "rotation", VTK_UNSIGNED_CHAR, 4 } },
+    cloud);
   vtkDataArray* colors = cloud->GetPointData()->GetArray("RGBA");
   leaveOutFaint(task, cloud, [=](vtkIdType i) { return colors->GetComponent(i, 3) / 255.0; });
 }

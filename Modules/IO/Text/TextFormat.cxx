@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstring>
+#include <limits>
 #include <utility>
 
 namespace pointhaptics::io
@@ -16,6 +18,246 @@ namespace pointhaptics::io
 
 namespace
 {
+
+struct TextColumn
+{
+  NumberColumn numbers;   ///< Texts are empty cells here.
+  std::int64_t texts = 0; ///< Cells that hold something else than a number,
+  std::size_t line = 0;   ///< the line of the first one,
+  std::string firstText;  ///< and its content.
+
+  std::string where() const { return "line " + std::to_string(line); }
+};
+
+/// The results of a first pass over the text.
+struct TextTable
+{
+  std::vector<TextColumn> columns;
+  vtkIdType rows = 0;
+  std::uint64_t missing = 0; ///< Rows that a count promises and the text does not have.
+  bool hasMore = false;      ///< Lines have more columns than are read.
+
+  /// True if texts outnumber the numbers of column @p i: it holds names, and nothing to compute with.
+  bool isOfTexts(std::size_t i) const { return columns[i].texts > rows - columns[i].numbers.empty; }
+};
+
+/// A line that has more or fewer columns than the first.
+class ColumnsDiffer : public FileProblem
+{
+public:
+  using FileProblem::FileProblem;
+};
+
+/// Walks over the lines of data and shows each cell to a Sink: number(column, value, shape), empty(column),
+/// text(column, cell, lineNumber), more() for columns that are left out, endRow().
+template <typename Sink>
+struct TableWalk
+{
+  const ReadTask& task;
+  std::string_view text;
+  const TextLayout& layout;
+  Sink& sink;
+  unsigned long long remainingLines =
+    layout.hasPointCount ? 0 : std::numeric_limits<unsigned long long>::max();
+  std::size_t lineNumber = 0;
+
+  void run(double from, double to)
+  {
+    LineReader lines(text.substr(layout.bodyOffset), layout.bodyLine);
+    std::string_view line;
+    while (lines.next(line))
+    {
+      line = trimmed(line, layout.separator);
+      lineNumber = lines.lineNumber();
+      const bool isFilled = !line.empty() && !isComment(line);
+      if (isFilled && remainingLines == 0)
+      {
+        startBlock(line);
+      }
+      else if (isFilled)
+      {
+        addCells(line);
+        sink.endRow();
+        --remainingLines;
+      }
+      if (lineNumber % static_cast<std::size_t>(kProgressRows) == 0)
+      {
+        const double part =
+          static_cast<double>(layout.bodyOffset + lines.position()) / static_cast<double>(text.size());
+        task.progress(from + (to - from) * part);
+      }
+    }
+    layout.hasPointCount ? sink.missing(remainingLines) : void();
+  }
+  void addCells(std::string_view line)
+  {
+    const bool areWords = layout.separator == ' ';
+    std::string_view rest = line;
+    std::string_view cell;
+    for (std::size_t column = 0; column < layout.columns; ++column)
+    {
+      double value = 0.0;
+      NumberShape shape;
+      if (areWords && takeNumber(rest, value, &shape)) // as nearly all are
+      {
+        sink.number(column, value, shape);
+        continue;
+      }
+      if (!takeCell(rest, layout.separator, cell))
+      {
+        failColumns(line);
+      }
+      bool isNumber = parseCell(cell, value, &shape);
+      const std::string_view plain = isNumber ? cell : withoutComment(cell);
+      if (plain.size() < cell.size() && parseCell(plain, value, &shape))
+      {
+        isNumber = true;
+        rest = {};
+      }
+      isNumber ? sink.number(column, value, shape) : addText(column, cell);
+    }
+    while (!rest.empty() && takeCell(rest, layout.separator, cell) && !(areWords && isComment(cell)))
+    {
+      if (!cell.empty()) // a separator at the end of a line is common
+      {
+        layout.hasMore ? sink.more() : failColumns(line);
+        break;
+      }
+    }
+  }
+  /// Programs write a word where they have no value, or nothing.
+  void addText(std::size_t column, std::string_view cell)
+  {
+    constexpr std::string_view kNoValue[] = { "NULL", "NA", "N/A", "#N/A", "none", "nil" };
+    const std::string_view word = withoutQuotes(cell);
+    const bool isValue = std::none_of(std::begin(kNoValue), std::end(kNoValue),
+      [word](std::string_view none) { return word.empty() || equalNoCase(word, none); });
+    isValue ? sink.text(column, cell, lineNumber) : sink.empty(column);
+  }
+  void startBlock(std::string_view line)
+  {
+    failFormatIf(!parseCount(trimmed(line), remainingLines),
+      "write the right number of points in the first line",
+      "{}{} stands where a count of points was expected", atLine(lineNumber), inQuotes(line));
+    failTruncatedIf(remainingLines > text.size() && !task.salvage,
+      "{}the count of points is {} in a file of {} bytes", atLine(lineNumber), remainingLines, text.size());
+  }
+  [[noreturn]] void failColumns(std::string_view line) const
+  {
+    throw ColumnsDiffer(vtkErrorCode::FileFormatError,
+      atLine(lineNumber) + std::to_string(cellsOf(line, layout.separator, lineNumber).size()) +
+        " columns where " + std::to_string(layout.columns) + " were expected",
+      "write the same number of columns on every line");
+  }
+};
+
+struct SurveySink
+{
+  TextTable table;
+
+  void number(std::size_t column, double value, NumberShape shape)
+  {
+    table.columns[column].numbers.add(value, shape);
+  }
+  void empty(std::size_t column) { table.columns[column].numbers.addEmpty(); }
+  void text(std::size_t column, std::string_view cell, std::size_t line)
+  {
+    TextColumn& texts = table.columns[column];
+    if (texts.texts++ == 0)
+    {
+      texts.line = line;
+      texts.firstText = withoutQuotes(cell);
+    }
+    this->empty(column);
+  }
+  void more() { table.hasMore = true; }
+  void missing(std::uint64_t rows) { table.missing = rows; }
+  void endRow() { ++table.rows; }
+};
+
+struct StoreSink
+{
+  const std::vector<ColumnView>& targets;
+  vtkIdType row = 0;
+
+  void number(std::size_t column, double value, NumberShape)
+  {
+    const ColumnView& target = targets[column];
+    if (!target.first)
+    {
+      return; // left out
+    }
+    char* to = target.first + row * target.stride;
+    switch (target.type)
+    {
+      case VTK_FLOAT:
+        return put(to, static_cast<float>(value));
+      case VTK_DOUBLE:
+        return put(to, value);
+      case VTK_TYPE_UINT8:
+        return put(to, static_cast<unsigned char>(value));
+      case VTK_TYPE_UINT16:
+        return put(to, static_cast<std::uint16_t>(value));
+      default:
+        return put(to, static_cast<int>(value));
+    }
+  }
+  void empty(std::size_t column) { number(column, std::numeric_limits<double>::quiet_NaN(), {}); }
+  void text(std::size_t column, std::string_view, std::size_t) { this->empty(column); }
+  void more() {}
+  void missing(std::uint64_t) {}
+  void endRow() { ++row; }
+
+  template <typename T>
+  static void put(char* to, T value)
+  {
+    std::memcpy(to, &value, sizeof(T));
+  }
+};
+
+/// How many columns the shortest line of data has; 0 where no more than one line in a hundred differs from
+/// the first, or the last line is cut.
+std::size_t columnsOfAll(std::string_view text, const TextLayout& layout)
+{
+  LineReader lines(text.substr(layout.bodyOffset), layout.bodyLine);
+  std::string_view line;
+  std::size_t rows = 0;
+  std::size_t different = 0;
+  std::size_t fewest = layout.columns;
+  std::size_t last = layout.columns;
+  while (lines.next(line))
+  {
+    line = trimmed(line, layout.separator);
+    if (!line.empty() && !isComment(line))
+    {
+      last = cellsOf(line, layout.separator, lines.lineNumber()).size();
+      fewest = std::min(fewest, last);
+      different += last != layout.columns ? 1 : 0;
+      ++rows;
+    }
+  }
+  const bool isCut = !text.empty() && text.back() != '\n' && last == fewest;
+  return 100 * different > rows && !isCut ? fewest : 0;
+}
+
+/// Parses every number of @p text and stores none: it finds the size and type of each array.
+/// @throws ColumnsDiffer; FileProblem; StoppedOnRequest.
+TextTable surveyTable(const ReadTask& task, std::string_view text, const TextLayout& layout)
+{
+  SurveySink sink;
+  sink.table.columns.resize(layout.columns);
+  TableWalk<SurveySink>{ task, text, layout, sink }.run(0.0, 0.5);
+  return std::move(sink.table);
+}
+
+/// Stores every number in its place, one target per column; a target without a place leaves its column out.
+/// Of texts NaN is stored. @pre surveyTable() succeeded.
+void storeTable(const ReadTask& task, std::string_view text, const TextLayout& layout,
+  const std::vector<ColumnView>& targets)
+{
+  StoreSink sink{ targets };
+  TableWalk<StoreSink>{ task, text, layout, sink }.run(0.5, 1.0);
+}
 
 int typeOf(const std::string& name, const NumberColumn& column, bool isCoordinate)
 {
@@ -59,11 +301,18 @@ std::vector<std::size_t> columnsOfNumbers(const TextTable& table, const TextLayo
 std::vector<std::string> namesOf(
   const TextTable& table, const TextLayout& layout, const std::vector<std::size_t>& read, ReadTask& task)
 {
+  std::vector<ColumnEvidence> evidence;
   if (!layout.names.empty())
   {
-    return layout.names;
+    std::vector<std::string> names = layout.names;
+    for (std::size_t i = 0; i < table.columns.size() && task.columns.empty(); ++i)
+    {
+      evidence.push_back(table.columns[i].numbers);
+    }
+    const std::string note = task.columns.empty() ? takeSurveyAxes(evidence, names) : "";
+    note.empty() ? void() : task.notes.push_back(note);
+    return names;
   }
-  std::vector<ColumnEvidence> evidence;
   for (const std::size_t i : read)
   {
     evidence.push_back(table.columns[i].numbers);
@@ -284,13 +533,14 @@ void readText(ReadTask& task, vtkPolyData* cloud)
   failFormatIf(!task.columns.empty() && task.columns.size() < 3,
     "name x, y and z, and - for each column that is left out",
     "--columns has {} names, and a point needs three", task.columns.size());
-  failFormatIf(layout.columns < 3 || (!layout.names.empty() && layout.names.size() != layout.columns),
+  const bool isUnlike = !layout.names.empty() && layout.names.size() != layout.columns;
+  failFormatIf(layout.columns < 3 || isUnlike,
     layout.separator == ',' && layout.columns > layout.names.size()
       ? kCureOfCommas
       : "write one point per line: x y z, then one column per name of the header; or name them by "
         "--columns",
     "the first line of data has {}{}{}", layout.columns, (layout.columns == 1 ? " column" : " columns"),
-    (layout.names.empty() ? "" : " and the header names " + std::to_string(layout.names.size())));
+    isUnlike ? fmt::format(", but {} are named", layout.names.size()) : "");
   failTornDecimals(text, layout);
   FileComments comments = layout.comments;
   takeUnits(layout.names, comments);

@@ -89,49 +89,6 @@ struct NumberColumn : ColumnEvidence
   }
 };
 
-struct TextColumn
-{
-  NumberColumn numbers;   ///< Texts are empty cells here.
-  std::int64_t texts = 0; ///< Cells that hold something else than a number,
-  std::size_t line = 0;   ///< the line of the first one,
-  std::string firstText;  ///< and its content.
-
-  std::string where() const { return "line " + std::to_string(line); }
-};
-
-/// The results of a first pass over the text.
-struct TextTable
-{
-  std::vector<TextColumn> columns;
-  vtkIdType rows = 0;
-  std::uint64_t missing = 0; ///< Rows that a count promises and the text does not have.
-  bool hasMore = false;      ///< Lines have more columns than are read.
-
-  /// True if texts outnumber the numbers of column @p i: it holds names, and nothing to compute with.
-  bool isOfTexts(std::size_t i) const;
-};
-
-/// Parses every number of @p text and stores none: it finds the size and type of each array.
-/// @throws ColumnsDiffer with the number of a line with more or fewer columns than the first; FileProblem;
-/// StoppedOnRequest.
-TextTable surveyTable(const ReadTask& task, std::string_view text, const TextLayout& layout);
-
-/// A line that has more or fewer columns than the first.
-class ColumnsDiffer : public FileProblem
-{
-public:
-  using FileProblem::FileProblem;
-};
-
-/// How many columns the shortest line of data has; 0 where no more than one line in a hundred differs from
-/// the first, or the last line is cut.
-std::size_t columnsOfAll(std::string_view text, const TextLayout& layout);
-
-/// Stores every number in its place, one target per column; a target without a place leaves its column out.
-/// Of texts NaN is stored. @pre surveyTable() succeeded.
-void storeTable(const ReadTask& task, std::string_view text, const TextLayout& layout,
-  const std::vector<ColumnView>& targets);
-
 /// Fills @p cloud with the points and arrays of a table: the columns are called as in @p layout ("-" skips
 /// one), or as their values suggest (ColumnGuess.h), which task.notes then tells. Columns of texts are left
 /// out, and a few texts among numbers are NaN: task.notes says so; coordinates must be numbers. @throws

@@ -212,6 +212,20 @@ DataLayout layoutOf(std::string_view bytes, const XmlElement& root)
   return layout;
 }
 
+/// Name, type and components of each array of points.
+std::string arraysOf(const XmlElement& piece)
+{
+  std::string arrays;
+  const XmlElement* data = piece.child("PointData");
+  for (std::size_t i = 0; data && i < data->children.size(); ++i)
+  {
+    const XmlElement& array = data->children[i];
+    arrays += fmt::format("{}{} {} {}", i == 0 ? "" : ", ", inQuotes(array.attribute("Name")),
+      array.attribute("type"), array.attribute("NumberOfComponents"));
+  }
+  return arrays;
+}
+
 /// VTK's reader accepts a file whose last bytes are missing.
 void checkIsComplete(std::string_view bytes)
 {
@@ -263,17 +277,32 @@ std::uint64_t pointsOfVtkXml(const XmlElement& root, std::size_t fileSize)
   return points;
 }
 
+void checkSameArrays(const std::string& first, const std::string& other)
+{
+  failFormatIf(first != other, "write all pieces with the same arrays, in the same order",
+    "other arrays than in the pieces before: {} instead of {}", other, first);
+}
+
 void checkVtkXml(std::string_view bytes, const XmlElement& root)
 {
   checkIsComplete(bytes);
   const DataLayout layout = layoutOf(bytes, root);
   CountCheck counts{ bytes.size(), layout.isPacked };
+  const XmlElement* firstPiece = nullptr;
   forEachElement(root,
     [&](const XmlElement& element)
     {
       counts.check(element);
+      const std::size_t mark = bytes.find('>', element.begin); // where VTK looks for the values of an array
+      failFormatIf(mark + 1 < element.end, "write &gt; for it, or save the file with ParaView",
+        "{}a '>' within a tag", atByte(mark));
       indexOf(kParents, element.name) < std::size(kParents) ? checkAreArrays(element) : void();
       element.name == "DataArray" || element.name == "Array" ? checkArray(layout, element) : void();
+      if (element.name == "Piece" && (!firstPiece || element.attribute("NumberOfPoints") != "0"))
+      {
+        firstPiece = firstPiece ? firstPiece : &element;
+        checkSameArrays(arraysOf(*firstPiece), arraysOf(element)); // VTK leaves what one lacks undefined
+      }
     });
 }
 

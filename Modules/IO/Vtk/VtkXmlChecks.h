@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <string_view>
 
 namespace pointhaptics::io
@@ -21,8 +22,12 @@ XmlElement vtkXml(std::string_view bytes);
 /// @throws FileProblem where the file cannot hold as many.
 std::uint64_t pointsOfVtkXml(const XmlElement& root, std::size_t fileSize);
 
+/// @throws FileProblem where the arrays of two pieces differ, each told by name, type and components.
+void checkSameArrays(const std::string& first, const std::string& other);
+
 /// @throws FileProblem with the byte offset of a count, an offset or a block of data that the file cannot
-/// hold, and when the file's end is missing. @p root: vtkXml().
+/// hold, where a piece has other arrays than the first, and when the file's end is missing. @p root:
+/// vtkXml().
 void checkVtkXml(std::string_view bytes, const XmlElement& root);
 
 } // namespace pointhaptics::io

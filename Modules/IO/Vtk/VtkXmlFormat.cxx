@@ -58,14 +58,15 @@ public:
       // An exception must not pass through VTK: reportProgress() throws it behind.
       task->GetAbortExecute() ? vtkAlgorithm::SafeDownCast(reader)->SetAbortExecute(1) : void();
     }
-    if (event == vtkCommand::ErrorEvent && data && first.empty())
+    if (event == vtkCommand::ErrorEvent && first.empty())
     {
       // VTK's text: "ERROR: In file, line n\nvtkClass (0x...): the message\n\n".
-      first = static_cast<const char*>(data);
+      first = data ? static_cast<const char*>(data) : "";
       const std::size_t address = first.find("): ");
       first.erase(0, address == std::string::npos ? 0 : address + 3);
       std::replace(first.begin(), first.end(), '\n', ' ');
       first.erase(first.find_last_not_of(" .") + 1);
+      first = first.empty() ? kFailed : first;
     }
   }
 
@@ -74,6 +75,7 @@ public:
   double end = 0.0;
   double reached = 0.0;
   std::string first;
+  static constexpr const char* kFailed = "VTK's XML reader failed";
 };
 
 /// VTK's own reading of texts writes behind the end of an array where the file has more of them, and its
@@ -166,25 +168,6 @@ void takeFaces(vtkPointSet* read, MeshFaces& faces)
   }
 }
 
-/// @p bytes with "&gt;" for each '>' within an attribute: VTK's reader looks for the values of an array
-/// behind the first one of its tag. Empty where there is none.
-std::string withoutInnerMarks(std::string_view bytes, const XmlElement& root)
-{
-  std::string changed;
-  std::size_t copied = 0;
-  forEachElement(root,
-    [&](const XmlElement& element)
-    {
-      for (std::size_t at = bytes.find('>', element.begin); at + 1 < element.end;
-           at = bytes.find('>', at + 1))
-      {
-        changed.append(bytes, copied, at - copied).append("&gt;");
-        copied = at + 1;
-      }
-    });
-  return copied == 0 ? changed : changed.append(bytes, copied, std::string_view::npos);
-}
-
 /// The points and arrays of one VTP or VTU file, @p bytes with the content @p root, which lie at @p path; an
 /// empty path: nobody can read them again. Progress goes from @p begin to @p end of the parsing.
 vtkSmartPointer<vtkPointSet> readVtkXmlFile(const ReadTask& task, const std::string& path,
@@ -205,23 +188,15 @@ vtkSmartPointer<vtkPointSet> readVtkXmlFile(const ReadTask& task, const std::str
   reader->AddObserver(vtkCommand::WarningEvent, errors);
   reader->SetReaderErrorObserver(errors);
   reader->SetParserErrorObserver(errors);
-  const std::string changed = withoutInnerMarks(bytes, root);
-  if (path.empty() || !changed.empty())
-  {
-    reader->ReadFromInputStringOn();
-    reader->SetInputString(changed.empty() ? std::string(bytes) : changed);
-  }
-  else
-  {
-    reader->SetFileName(path.c_str());
-  }
+  path.empty() ? reader->ReadFromInputStringOn() : reader->SetFileName(path.c_str());
+  path.empty() ? reader->SetInputString(std::string(bytes)) : void();
   reader->AddObserver(vtkCommand::ProgressEvent, errors);
   reader->Update();
   task.progress(end);
   const vtkSmartPointer<vtkPointSet> read = vtkPointSet::SafeDownCast(reader->GetOutputDataObject(0));
   failFormatIf(!errors->first.empty() || reader->GetErrorCode() != vtkErrorCode::NoError,
     "the file is damaged or cut short: copy or write it again", "{}",
-    errors->first.empty() ? "VTK's XML reader failed" : errors->first.c_str());
+    errors->first.empty() ? errors->kFailed : errors->first);
   read->GetNumberOfPoints() == 0 ? failNoPoints() : void();
   return read;
 }
@@ -307,29 +282,16 @@ std::uint64_t pointsOf(ReadTask& task, const PieceFile& piece)
 }
 
 /// Name, type and components of the points and of each array.
-std::vector<std::string> arraysOf(vtkPointSet* cloud)
+std::string arraysOf(vtkPointSet* cloud)
 {
-  std::vector<std::string> arrays = { std::string("points ") +
-    cloud->GetPoints()->GetData()->GetDataTypeAsString() };
+  std::string arrays = std::string("points ") + cloud->GetPoints()->GetData()->GetDataTypeAsString();
   for (int i = 0; i < cloud->GetPointData()->GetNumberOfArrays(); ++i)
   {
     vtkAbstractArray* array = cloud->GetPointData()->GetAbstractArray(i);
-    arrays.push_back(inQuotes(array->GetName() ? array->GetName() : "") + " " + array->GetDataTypeAsString() +
-      " " + std::to_string(array->GetNumberOfComponents()));
+    arrays += fmt::format(", {} {} {}", inQuotes(array->GetName() ? array->GetName() : ""),
+      array->GetDataTypeAsString(), array->GetNumberOfComponents());
   }
   return arrays;
-}
-
-void checkSameArrays(std::vector<std::string> first, std::vector<std::string> other)
-{
-  if (first != other)
-  {
-    first.resize(std::max(first.size(), other.size()), "none");
-    other.resize(first.size(), "none");
-    const auto at = std::mismatch(first.begin(), first.end(), other.begin());
-    failFormat("other arrays than in the pieces before: " + *at.second + " instead of " + *at.first,
-      "write all pieces with the same arrays, in the same order");
-  }
 }
 
 /// Rows of pieces, one after the other.
@@ -337,7 +299,7 @@ struct JoinedRows
 {
   vtkIdType count = 0; ///< All rows.
   vtkIdType next = 0;
-  std::vector<std::string> arrays;
+  std::string arrays;
   vtkNew<vtkPoints> points;
   vtkNew<vtkPointData> data;
 
@@ -410,12 +372,10 @@ void readVtkPieces(ReadTask& task, const XmlElement& root, vtkPolyData* cloud)
   joined.count = static_cast<vtkIdType>(rows.count());
   readRows(task, pieces, rows, cloud, joined);
   // A rank that does not read two pieces cannot see that they differ.
-  const std::string own = fmt::format("{}", fmt::join(joined.arrays, ", "));
-  const std::vector<std::string> ofRanks =
-    task.shared ? task.shared->gather(own) : std::vector<std::string>{ own };
-  for (const std::string& arrays : ofRanks)
+  for (const std::string& arrays :
+    task.shared ? task.shared->gather(joined.arrays) : std::vector<std::string>())
   {
-    checkSameArrays({ ofRanks.front() }, { arrays });
+    checkSameArrays(joined.arrays, arrays);
   }
   cloud->SetPoints(joined.points);
   cloud->GetPointData()->ShallowCopy(joined.data);

@@ -162,7 +162,7 @@ try
   {
     return false;
   }
-  const vtkSmartPointer<vtkPolyData> local = inLocalMetres(cloud);
+  const vtkSmartPointer<vtkPolyData> local = inLocalMetres(cloud, !request.options.unitIsChosen);
   auto measured = vtkSmartPointer<vtkPolyData>::New();
   measured->ShallowCopy(local);
   addHeightArray(measured, up);

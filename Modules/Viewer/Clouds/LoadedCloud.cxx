@@ -381,8 +381,10 @@ bool loadCloud(
   LoadedCloud result;
   Findings findings;
   result.title = request.name();
-  result.cloud = inLocalMetres(readFiles(
-    request, [&progress](double part) { return progress("reading", part); }, findings, message));
+  result.cloud = inLocalMetres(
+    readFiles(
+      request, [&progress](double part) { return progress("reading", part); }, findings, message),
+    !options.unitIsChosen);
   if (!result.cloud)
   {
     return false;

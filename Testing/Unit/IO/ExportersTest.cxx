@@ -120,7 +120,7 @@ TEST_F(Exporters, TheUserNamesColumns)
   expectPoint(readNamed("b.csv", "a,b,c,d\n1,2,3,4\n", { "x", "y", "z" }), 0, 1, 2, 3);
   expectRefused(
     readNamed("c.txt", "1 2 3\n", { "x", "y", "q" }), "no columns named x, y and z, but 'x', 'y', 'q'");
-  expectRefused(readNamed("d.txt", "1 2 3\n", { "x", "y", "z", "q" }), "3 columns and the header names 4");
+  expectRefused(readNamed("d.txt", "1 2 3\n", { "x", "y", "z", "q" }), "3 columns, but 4 are named");
   expectRefused(
     readNamed("e.txt", "1 2 3\n", { "x", "y" }), "--columns has 2 names, and a point needs three");
 }
@@ -585,6 +585,16 @@ TEST_F(Exporters, WhatIsCutIsRefusedOrSalvaged)
   expectRefused(
     salvage("c.pcd", pcd + "DATA binary_compressed\n" + std::string("\x30\0\0\0\x24\0\0\0abc", 11)),
     "these hold no whole point");
+}
+
+TEST_F(Exporters, DepthsCountDown)
+{
+  const std::string rows = "4.5,52.25,12.5\n4.75,52.5,20.5\n";
+  const ReadResult depths = readCloud(write("a.csv", "longitude,latitude,depth\n" + rows));
+  expectPoint(depths, 1, 4.75, 52.5, -20.5);
+  EXPECT_TRUE(isSaid(depths.notes, "z is column 'depth' with the other sign, as depths count down"));
+  expectPoint(readCloud(write("b.csv", "lon,lat,depth [m]\n4.5,52.25,-12.5\n")), 0, 4.5, 52.25, -12.5);
+  expectPoint(readNamed("d.csv", rows, { "lon", "lat", "-z" }), 1, 4.75, 52.5, -20.5);
 }
 
 } // namespace

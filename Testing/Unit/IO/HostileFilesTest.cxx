@@ -295,16 +295,11 @@ TEST_F(HostileFiles, TextsOfVtkThatHaveNoEndAreRefused)
   expectRefused(with("97 0 98 0 99 0"), "3 strings where its tags say 2");
 }
 
-TEST_F(HostileFiles, MarksWithinAttributesOfVtkEndNoTag)
+TEST_F(HostileFiles, MarksWithinTagsOfVtkAreRefused)
 {
   std::string vtp = inlineVtp("GAAAAAAAgD8AAABAAABAQAAAgEAAAKBAAADAQA==");
-  vtp.insert(vtp.find("<Points>"),
-    "<PointData><DataArray type=\"Float32\" Name=\"a > b\" format=\"ascii\">7 8</DataArray></PointData>");
-  vtp.insert(vtp.find("format=\"binary\""), "Note=\">>\" ");
-  const ReadResult result = readCloud(write("a.vtp", vtp));
-  ASSERT_EQ(result.error, "");
-  EXPECT_EQ(result.cloud->GetPoint(1)[2], 6.0);
-  EXPECT_EQ(result.value("a > b", 1), 8.0);
+  vtp.insert(vtp.find("format=\"binary\""), "Note=\">\" ");
+  expectRefused(readCloud(write("a.vtp", vtp)), "'>' within a tag; write &gt; for it");
 }
 
 /// @p cloud as VTK writes it, with @p encoding and the compressor @p packing (of vtkXMLWriter).
@@ -377,6 +372,24 @@ TEST_F(HostileFiles, MoreTextsOfVtkThanItHasRoomForAreRefused)
       }
     }
   }
+}
+
+TEST_F(HostileFiles, PiecesOfVtkHaveTheSameArrays)
+{
+  const auto pieceOf = [](const char* array)
+  {
+    return std::string("<Piece NumberOfPoints=\"1\"><PointData>") + array +
+      "</PointData><Points><DataArray "
+      "type=\"Float32\" NumberOfComponents=\"3\" format=\"ascii\">1 2 3</DataArray></Points></Piece>";
+  };
+  const auto vtpOf = [](const std::string& pieces)
+  { return "<VTKFile type=\"PolyData\" version=\"0.1\"><PolyData>" + pieces + "</PolyData></VTKFile>"; };
+  const char* const a = "<DataArray type=\"Float32\" Name=\"a\" format=\"ascii\">7</DataArray>";
+  const ReadResult same = readCloud(write("a.vtp", vtpOf(pieceOf(a) + pieceOf(a))));
+  EXPECT_EQ(same.error, "");
+  EXPECT_EQ(same.value("a", 1), 7.0);
+  expectRefused(
+    readCloud(write("b.vtp", vtpOf(pieceOf(a) + pieceOf("")))), "other arrays than in the pieces before");
 }
 
 } // namespace

@@ -127,7 +127,7 @@ TEST_F(WrittenNames, NumbersThatAFieldCannotHoldAreSaid)
   times->SetVariantValue(1, vtkVariant(7));
   cloud->GetPointData()->AddArray(times);
   ASSERT_EQ(writeCloud(cloud, path("a.las"), &notes), "");
-  EXPECT_TRUE(isNoted(notes, "array GpsTime has values that its LAS field cannot hold"));
+  EXPECT_TRUE(isNoted(notes, "cannot hold, and is called GpsTimeExtra in the extra bytes; scale it"));
   EXPECT_EQ(readCloud(path("a.las")).array("GpsTimeExtra")->GetVariantValue(0).ToLongLong(), (1LL << 53) + 1);
 }
 

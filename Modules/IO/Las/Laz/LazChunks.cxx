@@ -22,13 +22,13 @@ constexpr std::size_t kTableHeader = 8;           ///< bytes: version and number
 class ChunkFinder
 {
 public:
-  ChunkFinder(std::string_view bytes, const LasHeader& header, const LazSchema& schema, ReadTask* task)
-    : bytes_(bytes)
+  ChunkFinder(ReadTask& task, const LasHeader& header, const LazSchema& schema)
+    : bytes_(task.bytes)
     , header_(header)
     , schema_(schema)
     , chunkSize_(schema.chunkSize)
     , task_(task)
-    , isSalvaged_(task && task->salvage && !task->shared)
+    , isSalvaged_(task.salvage && !task.shared)
     , first_(header.pointsOffset + sizeof(std::uint64_t))
   {
   }
@@ -49,7 +49,7 @@ private:
   const LasHeader& header_;
   const LazSchema& schema_;
   std::uint32_t chunkSize_; ///< points
-  ReadTask* task_;
+  ReadTask& task_;
   const bool isSalvaged_;
   std::size_t first_; ///< byte of the first chunk
 };
@@ -91,7 +91,7 @@ void ChunkFinder::checkSum(const LazChunks& chunks, std::size_t at) const
   {
     const std::string what =
       fmt::format("the header counts {} points, but the chunks hold {}", header_.count, sum);
-    isSalvaged_ ? void(task_->endAt(sum, header_.count, atByte(at) + what)) : failDamaged(at, what);
+    isSalvaged_ ? void(task_.endAt(sum, header_.count, atByte(at) + what)) : failDamaged(at, what);
   }
 }
 
@@ -201,7 +201,6 @@ LazChunks ChunkFinder::countOnly() const
 
 LazChunks ChunkFinder::find()
 {
-  const auto need = [&](std::size_t offset, std::size_t size) { task_ ? task_->need(offset, size) : void(); };
   checkLazCount(bytes_, header_);
   if (schema_.compressor == LazSchema::Compressor::Pointwise)
   {
@@ -209,10 +208,10 @@ LazChunks ChunkFinder::find()
     add(chunks, header_.pointsOffset, bytes_.size() - header_.pointsOffset, header_.count);
     return chunks;
   }
-  need(header_.pointsOffset, sizeof(std::uint64_t));
-  need(bytes_.size() - sizeof(std::uint64_t), sizeof(std::uint64_t));
+  task_.need(header_.pointsOffset, sizeof(std::uint64_t));
+  task_.need(bytes_.size() - sizeof(std::uint64_t), sizeof(std::uint64_t));
   const std::size_t table = tableOffset();
-  need(table != 0 ? table : first_, bytes_.size());
+  task_.need(table != 0 ? table : first_, bytes_.size());
   if (table != 0)
   {
     return schema_.isChunkSizeTold ? readTable(table) : readUntoldTable(table);
@@ -231,10 +230,9 @@ void checkLazCount(std::string_view bytes, const LasHeader& header)
     bytes.size(), most);
 }
 
-LazChunks findLazChunks(
-  std::string_view bytes, const LasHeader& header, const LazSchema& schema, ReadTask* task)
+LazChunks findLazChunks(ReadTask& task, const LasHeader& header, const LazSchema& schema)
 {
-  return ChunkFinder(bytes, header, schema, task).find();
+  return ChunkFinder(task, header, schema).find();
 }
 
 std::string lazChunkTable(const std::vector<LazChunk>& chunks, const LazSchema& schema)

@@ -42,10 +42,9 @@ constexpr std::size_t kMostLazRatio = 100;
 constexpr std::size_t kLazFloor = std::size_t{ 1 } << 26;
 
 /// The chunks of all points that @p header counts, each inside the file. @throws FileProblem with byte offset
-/// and value where table, sizes or counts cannot be true. With @p task bytes are loaded before they are
-/// looked at, and where it salvages its endAt() decides what is done where the chunks hold fewer points.
-LazChunks findLazChunks(
-  std::string_view bytes, const LasHeader& header, const LazSchema& schema, ReadTask* task = nullptr);
+/// and value where table, sizes or counts cannot be true. Bytes are loaded before they are looked at, and
+/// where @p task salvages its endAt() decides what is done where the chunks hold fewer points.
+LazChunks findLazChunks(ReadTask& task, const LasHeader& header, const LazSchema& schema);
 
 /// @throws FileProblem where @p header counts more points than a file of its size is expected to hold.
 void checkLazCount(std::string_view bytes, const LasHeader& header);

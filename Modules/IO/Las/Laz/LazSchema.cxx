@@ -67,11 +67,11 @@ LasRecord findDescription(std::string_view bytes, const LasHeader& header)
   return found;
 }
 
-/// Items that LASzip stores for a record of this point format, in its order.
-std::vector<RecordItem> itemsOf(const LasHeader& header)
+/// Items that LASzip stores for a record of the schema's point format, in its order.
+std::vector<RecordItem> itemsOf(const LazSchema& schema)
 {
-  const LasPointFormat& fields = header.fields();
-  const bool isExtended = header.isExtended();
+  const LasPointFormat& fields = kLasPointFormats[schema.pointFormat];
+  const bool isExtended = schema.pointFormat >= 6;
   std::vector<RecordItem> items;
   std::size_t sum = 0;
   const auto addIf = [&](bool isThere, RecordItem item)
@@ -87,8 +87,8 @@ std::vector<RecordItem> itemsOf(const LasHeader& header)
     fields.rgb != 0 && fields.nearInfrared == 0, { isExtended ? kColor14 : kColor12, 6, &LazSchema::color });
   addIf(fields.size == sum + kWavePacketSize,
     { isExtended ? kWavePacket14 : kWavePacket13, kWavePacketSize, &LazSchema::wavePacket });
-  addIf(header.recordLength > fields.size,
-    { isExtended ? kBytes14 : kBytes, header.recordLength - fields.size, &LazSchema::extraBytes });
+  addIf(schema.recordLength > fields.size,
+    { isExtended ? kBytes14 : kBytes, schema.recordLength - fields.size, &LazSchema::extraBytes });
   return items;
 }
 
@@ -105,10 +105,9 @@ void place(LazSchema& schema, const RecordItem& item, std::size_t offset, int ve
     item.type == kColorNearInfrared14 ? LazSchema::Item{ offset + 6, version } : schema.nearInfrared;
 }
 
-void placeItems(
-  std::string_view bytes, const LasRecord& description, const LasHeader& header, LazSchema& schema)
+void placeItems(std::string_view bytes, const LasRecord& description, LazSchema& schema)
 {
-  const std::vector<RecordItem> expected = itemsOf(header);
+  const std::vector<RecordItem> expected = itemsOf(schema);
   const std::size_t count = numberAt<std::uint16_t>(bytes, description.at + 32);
   bool same =
     count == expected.size() && description.content.size() >= kDescriptionStart + kItemSize * expected.size();
@@ -127,8 +126,8 @@ void placeItems(
     offset += expected[i].size;
   }
   failDamagedIf(!same, description.at + 32,
-    "what is compressed is not a record of point format {} with {} bytes", header.pointFormat,
-    header.recordLength);
+    "what is compressed is not a record of point format {} with {} bytes", schema.pointFormat,
+    schema.recordLength);
 }
 
 } // namespace
@@ -152,20 +151,22 @@ LazSchema parseLazSchema(std::string_view bytes, const LasHeader& header)
   failDamagedIf(coder != 0, description.at + 2, "unknown coder {}", coder);
   schema.compressor = static_cast<LazSchema::Compressor>(compressor);
   schema.chunkSize = numberAt<std::uint32_t>(bytes, description.at + 12);
+  schema.pointFormat = header.pointFormat;
   schema.recordLength = header.recordLength;
   schema.isChunkSizeTold = schema.chunkSize != 0;
   schema.chunkSize = schema.isChunkSizeTold ? schema.chunkSize : LazSchema::kVariableChunks;
-  placeItems(bytes, description, header, schema);
+  placeItems(bytes, description, schema);
   return schema;
 }
 
-LazSchema makeLazSchema(const LasHeader& header)
+LazSchema makeLazSchema(int pointFormat, std::size_t recordLength)
 {
   LazSchema schema;
-  schema.compressor = header.isExtended() ? LazSchema::Compressor::Layered : LazSchema::Compressor::Chunked;
-  schema.recordLength = header.recordLength;
+  schema.compressor = pointFormat >= 6 ? LazSchema::Compressor::Layered : LazSchema::Compressor::Chunked;
+  schema.pointFormat = pointFormat;
+  schema.recordLength = recordLength;
   std::size_t offset = 0;
-  for (const RecordItem& item : itemsOf(header))
+  for (const RecordItem& item : itemsOf(schema))
   {
     place(schema, item, offset, item.version());
     offset += item.size;
@@ -173,9 +174,9 @@ LazSchema makeLazSchema(const LasHeader& header)
   return schema;
 }
 
-std::string lazRecord(const LazSchema& schema, const LasHeader& header)
+std::string lazRecord(const LazSchema& schema)
 {
-  const std::vector<RecordItem> items = itemsOf(header);
+  const std::vector<RecordItem> items = itemsOf(schema);
   std::string record(kDescriptionStart + kItemSize * items.size(), '\0');
   putLittle(record, 0, static_cast<std::uint16_t>(schema.compressor)); // coder 0, the only one
   record[4] = 3;                                                       // version of the format's description

@@ -30,6 +30,7 @@ struct LazSchema
 
   Compressor compressor = Compressor::Chunked;
   std::uint32_t chunkSize = 50000; ///< points; kVariableChunks: the table of chunks says
+  int pointFormat = 0;
   std::size_t recordLength = 0;
   Item point;   ///< at 0
   Item gpsTime; ///< of pointwise files
@@ -56,10 +57,10 @@ struct LazSchema
 /// known are refused with their number.
 LazSchema parseLazSchema(std::string_view bytes, const LasHeader& header);
 
-/// Schema for a file of the point format and the record length of @p header.
-LazSchema makeLazSchema(const LasHeader& header);
+/// Schema for a file of this point format and record length.
+LazSchema makeLazSchema(int pointFormat, std::size_t recordLength);
 
 /// The content of LASzip's record for @p schema.
-std::string lazRecord(const LazSchema& schema, const LasHeader& header);
+std::string lazRecord(const LazSchema& schema);
 
 } // namespace pointhaptics::io

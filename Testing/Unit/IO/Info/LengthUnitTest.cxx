@@ -185,4 +185,29 @@ TEST(LengthUnit, DegreesGoOnAcrossTheAntimeridian)
   EXPECT_NEAR(box[1] - box[0], 0.002 * 111195.0 * 0.9563, 0.5);
 }
 
+TEST(LengthUnit, DegreesAreTakenByTheirRange)
+{
+  const auto cloudOf = [](double (*z)(int), double width)
+  {
+    vtkNew<vtkPoints> points;
+    for (int i = 0; i < 900; ++i)
+    {
+      points->InsertNextPoint(4.0 + width / 30.0 * (i % 30), 52.0 + width / 30.0 * (i / 30), z(i));
+    }
+    auto cloud = vtkSmartPointer<vtkPolyData>::New();
+    cloud->SetPoints(points);
+    return cloud;
+  };
+  const auto sea = cloudOf([](int i) { return -20.0 * std::sin(0.1 * (i % 30)); }, 0.3);
+  EXPECT_TRUE(looksLikeDegrees(sea));
+  EXPECT_EQ(inLocalMetres(sea), sea);
+  const Bounds local = boxOf(Vec3(), Vec3());
+  EXPECT_GT(inLocalMetres(sea, true)->GetBounds()[1], 9e3);
+  EXPECT_EQ(lengthUnitOf(inLocalMetres(sea, true), local).evidence, UnitEvidence::File);
+  EXPECT_FALSE(looksLikeDegrees(cloudOf([](int i) { return 0.013 * (7919 * i % 900); }, 0.3))) << "a pole";
+  EXPECT_FALSE(looksLikeDegrees(cloudOf([](int i) { return 0.1 * (i % 7); }, 0.3))) << "a thing";
+  sayUnit(sea, "m");
+  EXPECT_FALSE(looksLikeDegrees(sea));
+}
+
 } // namespace

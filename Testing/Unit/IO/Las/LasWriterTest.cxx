@@ -161,18 +161,6 @@ TEST_F(LasWriting, RefusesStepsThatDoNotSpanTheCloud)
   EXPECT_NE(std::string(writer->GetErrorMessage()).find("do not span the cloud"), std::string::npos);
 }
 
-TEST_F(LasWriting, NamesOfFieldsMatchInAnySpelling)
-{
-  using pointhaptics::isSameField;
-  EXPECT_TRUE(isSameField("GpsTime", "gps_time"));
-  EXPECT_TRUE(isSameField("ScanAngle", "Scan Angle"));
-  EXPECT_TRUE(isSameField("", "_"));
-  EXPECT_FALSE(isSameField("Classification", "class"));
-  EXPECT_FALSE(isSameField("class", "Classification"));
-  EXPECT_TRUE(pointhaptics::isPointField("number_of_returns"));
-  EXPECT_FALSE(pointhaptics::isPointField("IntensityExtra"));
-}
-
 TEST_F(LasWriting, FieldsAreKnownInAnySpelling)
 {
   const ReadResult text = readCloud(write("a.csv",
@@ -572,6 +560,13 @@ TEST_F(LasWriting, DegreesGetStepsOfCentimetres)
   EXPECT_NEAR(result.cloud->GetPoint(0)[0], 8.123456789, 6e-8);
   EXPECT_NEAR(result.cloud->GetPoint(0)[1], 47.987654321, 6e-8);
   EXPECT_NEAR(result.cloud->GetPoint(0)[2], 408.12345, 6e-5);
+  std::ifstream file(path("a.las"), std::ios::binary);
+  const std::string bytes{ std::istreambuf_iterator<char>(file), {} };
+  EXPECT_NE(bytes.find(std::string("\x06\x08\0\0\1\0\x8e\x23", 8)), std::string::npos) << "2054: 9102";
+  points->SetPoint(0, 8.1234567, 47.9876543, 408.5);
+  std::vector<std::string> notes;
+  ASSERT_EQ(writeCloud(cloud, path("b.las"), &notes), "");
+  EXPECT_TRUE(notes.empty()) << "whole steps are not rounded: " << notes[0];
 }
 
 TEST_F(LasWriting, KeepsNearInfraredWithoutColors)

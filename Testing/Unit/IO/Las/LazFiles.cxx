@@ -4,6 +4,7 @@
 
 #include "IO/Las/LasHeader.h"
 #include "IO/Las/Laz/ChunkCoding.h"
+#include "ReadTask.h"
 
 #include <array>
 #include <cmath>
@@ -23,12 +24,12 @@ std::string lasOf(int format, std::size_t extra, const std::string& records)
 LazFile lazOf(int format, std::size_t extra, const std::string& records, const LazLayout& layout)
 {
   std::string header = lasOf(format, extra, records).substr(0, 375);
-  io::LasHeader parsed = io::parseLasHeader(lasOf(format, extra, records));
-  io::LazSchema schema = io::makeLazSchema(parsed);
+  const std::size_t length = kRecordLengths[format] + extra;
+  io::LazSchema schema = io::makeLazSchema(format, length);
   schema.chunkSize = layout.isVariable ? io::LazSchema::kVariableChunks : layout.chunkSize;
   schema.compressor =
     layout.table == LazTable::NoChunks ? io::LazSchema::Compressor::Pointwise : schema.compressor;
-  const std::string content = io::lazRecord(schema, parsed);
+  const std::string content = io::lazRecord(schema);
   std::string record(54, '\0');
   record.replace(2, 14, "laszip encoded");
   put(record, 18, std::uint16_t{ 22204 });
@@ -41,7 +42,6 @@ LazFile lazOf(int format, std::size_t extra, const std::string& records, const L
   std::string points;
   std::vector<io::LazChunk> chunks;
   std::string copy = records;
-  const std::size_t length = parsed.recordLength;
   const std::size_t count = records.size() / length;
   for (std::size_t at = 0; at < count;)
   {
@@ -175,10 +175,9 @@ CopcFile makeCopc(std::size_t pointsOfNode)
     put(header, 131 + 8 * axis, 1.0);
     put(header, 155 + 8 * axis, 0.0);
   }
-  io::LasHeader parsed = io::parseLasHeader(lasOf(6, 0, recordsIn(nodes[0], pointsOfNode, 0)));
-  io::LazSchema schema = io::makeLazSchema(parsed);
+  io::LazSchema schema = io::makeLazSchema(6, kRecordLengths[6]);
   schema.chunkSize = io::LazSchema::kVariableChunks;
-  const std::string description = io::lazRecord(schema, parsed);
+  const std::string description = io::lazRecord(schema);
   copc.info = 375 + 54;
   copc.bytes = header + recordHeader("copc", 1, 160) + infoOf512Units() +
     recordHeader("laszip encoded", 22204, description.size()) + description;
@@ -231,9 +230,11 @@ std::string randomRecords(int format, std::size_t extra, std::size_t count, std:
 
 std::string recordsOf(const std::string& bytes)
 {
-  const io::LasHeader header = io::parseLasHeader(bytes);
+  io::ReadTask task;
+  task.bytes = bytes;
+  const io::LasHeader header = io::parseLasHeader(task);
   const io::LazSchema schema = io::parseLazSchema(bytes, header);
-  const io::LazChunks chunks = io::findLazChunks(bytes, header, schema);
+  const io::LazChunks chunks = io::findLazChunks(task, header, schema);
   EXPECT_TRUE(chunks.arePlaced);
   std::string records(header.count * header.recordLength, '\0');
   io::ChunkDecoder decoder(schema);

@@ -334,6 +334,9 @@ TEST_F(FaceSamples, OfBrokenFacesAreTheVertices)
     ASSERT_EQ(result.notes.size(), 1u);
     EXPECT_EQ(result.notes[0], note);
   }
+  const std::string cloud = write("cloud.xyz", "1 2 3\n4 5 6\n");
+  EXPECT_EQ(sample(cloud, 7).notes.at(0), "there are no faces to sample: the points stay");
+  EXPECT_TRUE(sample(cloud, vtkPointCloudReader::AUTOMATIC).notes.empty());
 }
 
 /// Vertices that outnumber what samples there would be are kept.

@@ -147,4 +147,28 @@ TEST_F(Survey, GermanHeadersAreKnown)
   }
 }
 
+TEST_F(Survey, YBeforeXIsTheEasting)
+{
+  const auto noteOf = [&](const char* name) { return readCloud(path(name)).notes.at(0); };
+  const std::string gauss = "1,3512345.1,5654321.3,101,12\n2,3512355.1,5654331.3,102,12\n";
+  expectSecond(write("a.csv", "Nr,Y,X,H,Code\n" + gauss), 3512355.1, 5654331.3, 102);
+  EXPECT_NE(noteOf("a.csv").find("as surveys have it; where that is wrong, give --columns Nr,Y,X,H,Code"),
+    std::string::npos);
+  const std::string utm = "1,412345.2,5350000.1,530\n2,412347.2,5350003.1,531\n";
+  expectSecond(write("b.csv", "Nr,Y [m],X [m],Z [m]\n" + utm), 412347.2, 5350003.1, 531);
+  expectSecond(write("c.csv", "y,x,z\n1.5,2,3\n4,5.5,6\n"), 5.5, 4, 6);
+  EXPECT_NE(
+    noteOf("c.csv").find("as it is called; where that is wrong, give --columns x,y,z"), std::string::npos);
+  const std::string mathematical = "1,5350000.1,412345.2,530\n2,5350003.1,412347.2,531\n";
+  expectSecond(write("d.csv", "Nr,Y,X,H\n" + mathematical), 412347.2, 5350003.1, 531);
+  EXPECT_TRUE(readCloud(path("d.csv")).notes.empty());
+}
+
+TEST_F(Survey, TwoPointsHaveNumbersAsMoreHave)
+{
+  expectSecond(write("a.csv", "1,450000.12,5650000.34,100.2,TREE\n2,450010.12,5650010.34,101.2,TREE\n"),
+    450010.12, 5650010.34, 101.2);
+  expectSecond(write("b.txt", "1 0.25 0.5 7.5\n2 0.5 0.75 8.5\n"), 2, 0.5, 0.75);
+}
+
 } // namespace

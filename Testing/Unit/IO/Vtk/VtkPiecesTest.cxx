@@ -217,7 +217,7 @@ TEST_F(VtkPieces, HaveTheSameArrays)
   other->GetPointData()->AddArray(numbers);
   writePiece("other.vtp", other);
   expectRefused({ "a.vtp", "other.vtp" },
-    "piece 2 of 2, 'other.vtp': other arrays than in the pieces before: 'Number' int 1 instead of");
+    "piece 2 of 2, 'other.vtp': other arrays than in the pieces before: points double");
   // Each rank reads one of them.
   const std::string file = write("other.pvtp", listOf({ "a.vtp", "other.vtp" }));
   ThreadJob(2).run(

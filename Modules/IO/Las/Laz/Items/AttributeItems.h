@@ -7,7 +7,6 @@
 #include "IO/Las/Laz/SymbolModel.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 
 namespace pointhaptics::io
