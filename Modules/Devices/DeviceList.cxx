@@ -56,11 +56,8 @@ void listFalcons(std::vector<ListedDevice>& devices, std::vector<std::string>& n
     return;
   }
   std::string problem;
-  const std::vector<UsbFalcon> falcons = findUsbFalcons(problem);
-  for (const UsbFalcon& falcon : falcons)
-  {
-    devices.push_back({ "falcon", "Novint Falcon", falcon.place, falcon.problem });
-  }
+  const std::vector<ListedDevice> falcons = findUsbFalcons(problem);
+  devices.insert(devices.end(), falcons.begin(), falcons.end());
   if (falcons.empty())
   {
     notes.push_back(problem.empty() ? kNoFalcon : "no Falcon can be found: " + problem);

@@ -238,11 +238,6 @@ bool readRows(
   }
   return true;
 }
-
-std::string systemReason(int error)
-{
-  return error ? std::generic_category().message(error) : "unknown reason";
-}
 }
 
 std::string HipPath::problem() const
@@ -251,15 +246,15 @@ std::string HipPath::problem() const
   {
     const double time = points[i].timeSeconds;
     const Vec3& p = points[i].position;
-    const std::string row = "path: row " + std::to_string(i);
     if (!std::isfinite(time) || !isFinite(p))
     {
-      return row + " is " + shortestDigits(time) + ", " + shortestDigits(p.x) + ", " + shortestDigits(p.y) +
-        ", " + shortestDigits(p.z) + "; leave rows out that are not finite";
+      return "path: row " + std::to_string(i) + " is " + shortestDigits(time) + ", " + shortestDigits(p.x) +
+        ", " + shortestDigits(p.y) + ", " + shortestDigits(p.z) + "; leave rows out that are not finite";
     }
     if (i > 0 && !(time > points[i - 1].timeSeconds))
     {
-      return row + ": " + notAfter(time, points[i - 1].timeSeconds) + "; " + kSortRows;
+      return "path: row " + std::to_string(i) + ": " + notAfter(time, points[i - 1].timeSeconds) + "; " +
+        kSortRows;
     }
   }
   return points.empty() ? "path: it has no rows; give at least one" : "";
@@ -324,7 +319,7 @@ Status readHipPath(const std::string& fileName, HipPath& path, std::string& mess
   std::ifstream stream(fileName, std::ios::binary);
   if (!stream || std::filesystem::is_directory(fileName, ignored))
   {
-    const std::string reason = errno ? systemReason(errno) : "it is a folder";
+    const std::string reason = errno ? std::generic_category().message(errno) : "it is a folder";
     const std::string missed = OutputFile::missedPart(fileName);
     message = fileName + ": " +
       (missed.empty() ? "cannot be opened (" + reason + "): check the name and its permissions" : missed);

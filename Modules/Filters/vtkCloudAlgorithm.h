@@ -118,8 +118,8 @@ protected:
   virtual bool BeginRun(const Clouds& clouds) = 0;
   /// Fills an output for each port from one cloud. @return as BeginRun().
   virtual bool RunCloud(vtkPointSet* cloud, const Outputs& outputs) = 0;
-  /// Releases the data of the run. @p succeeded: false after Fail() or an abort.
-  virtual void EndRun(bool succeeded) = 0;
+  /// Releases the data of the run. False after Fail() or an abort.
+  virtual void EndRun(bool) {}
 
   /// Reports the error @p problem; the outputs become empty.
   void Fail(const std::string& problem);

@@ -187,14 +187,12 @@ Status search(vtkAlgorithm* filter, const BandwidthSettings& wanted, const Point
   const double end = wanted.computeDensity ? 0.4 : 0.95;
   const bool wantsPoints = wanted.computeBandwidth || wanted.computeProxyRadius;
   const bool wantsMeans = wanted.computeDensity || wanted.computeMeanBandwidth;
-  LocalBandwidthSettings settings = wanted;
-  settings.smoothRadius = wanted.smoothRadius && wanted.computeProxyRadius;
   Status status = Status::Ok;
   // One search does for both where each mean is one point.
   if (wantsPoints || counts.empty())
   {
     status = localBandwidths(
-      points, counts, query, settings, found.bandwidths, found.radii, ReportingExecutor(filter, 0.1, end));
+      points, counts, query, wanted, found.bandwidths, found.radii, ReportingExecutor(filter, 0.1, end));
   }
   if (wantsMeans && counts.empty())
   {
@@ -202,9 +200,8 @@ Status search(vtkAlgorithm* filter, const BandwidthSettings& wanted, const Point
   }
   else if (wantsMeans && !filter->GetAbortExecute())
   {
-    settings.smoothRadius = false;
     std::vector<double> unused;
-    static_cast<void>(localBandwidths(points, {}, query, settings, found.ofMeans, unused,
+    static_cast<void>(localBandwidths(points, {}, query, wanted, found.ofMeans, unused,
       ReportingExecutor(filter, wantsPoints ? end : 0.1, end)));
   }
   if (wanted.computeDensity && !filter->GetAbortExecute())
@@ -236,8 +233,6 @@ bool vtkKernelBandwidthFilter::BeginRun(const Clouds&)
   }
   return status == Status::Ok;
 }
-
-void vtkKernelBandwidthFilter::EndRun(bool) {}
 
 bool vtkKernelBandwidthFilter::RunCloud(vtkPointSet* cloud, const Outputs& outputs)
 {

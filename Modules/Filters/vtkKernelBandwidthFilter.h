@@ -144,17 +144,6 @@ public:
 
   ///@{
   /**
-   * Cut the radii to min_j (r_j + |x_i - x_j| / 2): the largest ones not above their own of which no two
-   * differ by more than half the distance of their points, so that a proxy that moves meets no jump. No
-   * radius falls below the smallest of the cloud, but beside a denser region one may fall below the automatic
-   * r1. Default: off.
-   */
-  vtkSettingMacro(SmoothRadius, bool, smoothRadius);
-  vtkBooleanMacro(SmoothRadius, bool);
-  ///@}
-
-  ///@{
-  /**
    * Kernel of Density, with t the distance over the bandwidth b. Gaussian (default): 1/(N 2 pi b^2) sum_i
    * exp(-t_i^2 / 2), cut off at t = 6, which leaves out less than 2e-8 of a kernel's height for each point
    * beyond. Epanechnikov: 1/(N 3 pi b^2) sum_i (1 - t_i^2 / 6) over t_i^2 < 6, where nothing is cut off.
@@ -217,7 +206,6 @@ protected:
 #ifndef __VTK_WRAP__
   bool BeginRun(const Clouds& clouds) override;
   bool RunCloud(vtkPointSet* cloud, const Outputs& outputs) override;
-  void EndRun(bool succeeded) override;
   /// Estimates what the settings ask for, with warnings. Aborted: an abort was asked for, or Fail() was
   /// called.
   virtual pointhaptics::Status Estimate(const pointhaptics::PointView& points,

@@ -85,11 +85,6 @@ public:
   /// Lets go of the input and its arrays.
   void Release();
 
-  std::size_t ScratchBytes() const
-  {
-    return this->Engine.scratchBytes() + (this->Index ? this->Index->bytes() : 0);
-  }
-
   /// Maps the fraction to the current part of the update and passes it to the filter.
   bool report(double fraction) override
   {
@@ -456,11 +451,6 @@ void vtkVoxelMeanResampler::ClearCategoricalArrays()
 bool vtkVoxelMeanResampler::IsCategoricalArray(const char* name) const
 {
   return name && pointhaptics::isCategorical(this->Settings, name);
-}
-
-unsigned long vtkVoxelMeanResampler::GetScratchMemorySize() const
-{
-  return static_cast<unsigned long>(this->Impl->ScratchBytes() / 1024);
 }
 
 vtkMTimeType vtkVoxelMeanResampler::GetMTime()

@@ -269,11 +269,6 @@ public:
   ///@}
 
   /**
-   * Memory kept from one update to the next, the index of the points included, in KiB. What a run needs and
-   * gives back before it ends, such as the sums of voxels on lattices beyond 4096 an axis, is not kept.
-   */
-  unsigned long GetScratchMemorySize() const;
-  /**
    * At most so many threads of vtkSMPTools in the next updates; 0: all of them. The result is the same with
    * any number. Not a property of the output: the pipeline does not update for it. Default: 0.
    */

@@ -26,13 +26,6 @@ int toInt(std::int64_t value)
   return int(std::clamp<std::int64_t>(value, Limits::min(), Limits::max()));
 }
 
-/// Calls work(executor) with at most so many threads; 0: as vtkSMPTools is set.
-template <typename Work>
-void withThreads(unsigned threads, Work&& work)
-{
-  threads == 1 ? work(Executor()) : work(SmpExecutor(threads));
-}
-
 /// The coordinates where they are. Of strides and offsets that are no multiples of the numbers' sizes, and of
 /// x, y and z that do not follow each other, they are copied to @p copy.
 template <typename Real>
@@ -115,8 +108,7 @@ bool PclVoxelMeanSettings::average(Input input, const std::vector<::pcl::PCLPoin
     {
       layout_.others.clear();
     }
-    Status status = Status::Ok;
-    withThreads(threads_, [&](const Executor& executor) { status = run(input, executor); });
+    const Status status = run(input, SmpExecutor(threads_));
     if (status == Status::Ok)
     {
       return true;
@@ -198,19 +190,15 @@ void PclVoxelMeanSettings::write(
     fields.push_back(
       { static_cast<const char*>(engine_->attribute(i)), other.bytes(), other.bytes(), other.offset });
   }
-  withThreads(threads_,
-    [&](const Executor& executor)
+  forEachIndex(SmpExecutor(threads_), size_,
+    [&](std::int64_t i)
     {
-      forEachIndex(executor, size_,
-        [&](std::int64_t i)
-        {
-          const std::size_t voxel = std::size_t(kept_.empty() ? i : kept_[std::size_t(i)]);
-          char* record = records + step * std::size_t(i);
-          for (const Written& field : fields)
-          {
-            std::memcpy(record + field.offset, field.tuples + field.every * voxel, field.bytes);
-          }
-        });
+      const std::size_t voxel = std::size_t(kept_.empty() ? i : kept_[std::size_t(i)]);
+      char* record = records + step * std::size_t(i);
+      for (const Written& field : fields)
+      {
+        std::memcpy(record + field.offset, field.tuples + field.every * voxel, field.bytes);
+      }
     });
 }
 

@@ -82,6 +82,7 @@ struct SceneWorker::Implementation
 
   void start(Builder& builder, void (Implementation::*build)());
   bool busy(const Builder& builder) const { return builder.isBuilding || newest.number > builder.begun; }
+  bool busy() const { return busy(global) || busy(local); }
   bool isCurrent(const Job& job) const { return job.cloud == newest.cloud && job.number > adopted; }
   std::uint64_t renew(SceneRequest request);
   std::optional<Job> next(Builder& builder);
@@ -92,6 +93,7 @@ struct SceneWorker::Implementation
   void buildLocalScenes();
 };
 
+/// Where the system has no thread left it throws: to be called before anything waits for that thread.
 void SceneWorker::Implementation::start(Builder& builder, void (Implementation::*build)())
 {
   if (!builder.thread.joinable())
@@ -279,16 +281,13 @@ std::uint64_t SceneWorker::request(SceneRequest request)
   Implementation& self = *implementation_;
   const bool hasHand = bool(request.hand);
   const std::lock_guard<std::mutex> lock(self.mutex);
-  const std::uint64_t number = self.renew(std::move(request));
   self.start(self.global, &Implementation::buildGlobalScenes);
   if (hasHand)
   {
     self.start(self.local, &Implementation::buildLocalScenes);
   }
-  else
-  {
-    self.local.begun = number;
-  }
+  const std::uint64_t number = self.renew(std::move(request));
+  self.local.begun = hasHand ? self.local.begun : number;
   self.changed.notify_all();
   return number;
 }
@@ -299,14 +298,14 @@ std::uint64_t SceneWorker::adopt(SceneRequest request, std::shared_ptr<const Hap
   Job job;
   {
     const std::lock_guard<std::mutex> lock(self.mutex);
+    if (request.hand)
+    {
+      self.start(self.local, &Implementation::buildLocalScenes);
+    }
     self.adopted = self.global.begun = self.local.begun = self.renew(std::move(request));
     self.finished.reset();
     self.newest.global = scene;
     job = self.newest;
-    if (job.request->hand)
-    {
-      self.start(self.local, &Implementation::buildLocalScenes);
-    }
   }
   if (job.request->publish)
   {
@@ -336,14 +335,14 @@ bool SceneWorker::take(BuiltScene& built)
 bool SceneWorker::busy() const
 {
   const std::lock_guard<std::mutex> lock(implementation_->mutex);
-  return implementation_->busy(implementation_->global) || implementation_->busy(implementation_->local);
+  return implementation_->busy();
 }
 
 void SceneWorker::wait()
 {
   Implementation& self = *implementation_;
   std::unique_lock<std::mutex> lock(self.mutex);
-  self.changed.wait(lock, [&self] { return !self.busy(self.global) && !self.busy(self.local); });
+  self.changed.wait(lock, [&self] { return !self.busy(); });
 }
 
 void SceneWorker::cancel()
@@ -352,8 +351,7 @@ void SceneWorker::cancel()
   std::unique_lock<std::mutex> lock(self.mutex);
   self.global.begun = self.local.begun = self.newest.number;
   self.mayRefine = false;
-  self.changed.wait(
-    lock, [&self] { return !self.busy(self.global) && !self.busy(self.local) && !self.local.isRefining; });
+  self.changed.wait(lock, [&self] { return !self.busy() && !self.local.isRefining; });
   self.mayRefine = false; // of a build that was in flight
   self.finished.reset();
 }

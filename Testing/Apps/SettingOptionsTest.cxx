@@ -88,7 +88,7 @@ const std::map<std::string, std::string>& values()
 {
   static const std::map<std::string, std::string> table = { { "--dims", "100,50,25" }, { "--voxel", "0.002" },
     { "--workspace", "0,1,0,2,0,3" }, { "--neighbors", "20" }, { "--radius", "0.002" }, { "--rule", "scott" },
-    { "--beta", "3" }, { "--r1", "0.001" }, { "--r2", "0.01" }, { "--smooth", "" }, { "--method", "sphere" },
+    { "--beta", "3" }, { "--r1", "0.001" }, { "--r2", "0.01" }, { "--method", "sphere" },
     { "--preset", "paper" }, { "--stiffness", "500" }, { "--damping", "1.5" }, { "--mu-s", "0.5" },
     { "--force-limit", "3" }, { "--mu-d", "0.25" } };
   return table;

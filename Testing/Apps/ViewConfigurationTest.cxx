@@ -33,9 +33,9 @@ TEST_F(ViewConfiguration, HoldsTheOptionsThatWereGiven)
 
 TEST_F(ViewConfiguration, ComesBackThroughConfigAndGivesWayToTheCommandLine)
 {
-  this->write("first.json", this->written({ "--stiffness", "400", "--dims", "50", "--smooth" }).dump());
+  this->write("first.json", this->written({ "--stiffness", "400", "--dims", "50", "--watch" }).dump());
   const nlohmann::json settings = this->written({ "--config", "first.json", "--stiffness", "300" });
-  EXPECT_EQ(settings, nlohmann::json::parse(R"({"stiffness": 300.0, "dims": 50.0, "smooth": true})"));
+  EXPECT_EQ(settings, nlohmann::json::parse(R"({"stiffness": 300.0, "dims": 50.0, "watch": true})"));
 }
 
 TEST_F(ViewConfiguration, KeepsNamesThatLookLikeNumbers)
@@ -72,10 +72,10 @@ const std::map<std::string, std::string>& valuesOfOptions()
     { "--preset", "paper" }, { "--stiffness", "500" }, { "--damping", "1.5" }, { "--mu-s", "0.5" },
     { "--force-limit", "3" }, { "--mu-d", "0.25" }, { "--no-covariance", "" }, { "--neighbors", "20" },
     { "--radius", "0.002" }, { "--rule", "scott" }, { "--beta", "3" }, { "--r1", "0.001" },
-    { "--r2", "0.01" }, { "--smooth", "" }, { "--dims", "100,50,25" }, { "--voxel", "0.002" },
-    { "--workspace", "0,1,0,1,0,1" }, { "--scale", "1,2,3" }, { "--rotate", "30,0,0,1" },
-    { "--translate", "0,0,0.5" }, { "--matrix", "2,0,0,0,0,2,0,0,0,0,2,0,0,0,0,1" }, { "--unit", "mm" },
-    { "--path-unit", "mm" }, { "--path-time-unit", "ms" } };
+    { "--r2", "0.01" }, { "--dims", "100,50,25" }, { "--voxel", "0.002" }, { "--workspace", "0,1,0,1,0,1" },
+    { "--scale", "1,2,3" }, { "--rotate", "30,0,0,1" }, { "--translate", "0,0,0.5" },
+    { "--matrix", "2,0,0,0,0,2,0,0,0,0,2,0,0,0,0,1" }, { "--unit", "mm" }, { "--path-unit", "mm" },
+    { "--path-time-unit", "ms" } };
   return values;
 }
 

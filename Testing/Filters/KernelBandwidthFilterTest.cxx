@@ -69,7 +69,6 @@ TEST(KernelBandwidthFilter, HasTheDocumentedDefaults)
   EXPECT_TRUE(filter->GetComputeBandwidth());
   EXPECT_TRUE(filter->GetComputeProxyRadius());
   EXPECT_FALSE(filter->GetComputeDensity());
-  EXPECT_FALSE(filter->GetSmoothRadius());
   EXPECT_EQ(filter->GetDensityKernel(), vtkKernelBandwidthFilter::Gaussian);
 }
 
@@ -148,7 +147,6 @@ TEST(KernelBandwidthFilter, GivesWhatCoreGivesForItsProperties)
   filter->SetInputData(trial::cloudOf(points));
   filter->SetMinimumRadius(0.15);
   filter->SetMaximumRadius(0.2);
-  filter->SmoothRadiusOn();
   filter->SetDensityKernelToEpanechnikov();
   filter->ComputeDensityOn();
   filter->Update();

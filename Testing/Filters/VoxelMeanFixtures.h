@@ -6,7 +6,8 @@
 
 #include "Core/Base/AffineTransform.h"
 #include "Core/Base/Lattice.h"
-#include "Core/Reference/ReferenceVoxelMean.h"
+
+#include "Unit/Core/ReferenceVoxelMean.h"
 
 #include "vtkCommand.h"
 #include "vtkFieldData.h"

@@ -97,7 +97,7 @@ case "$1" in
     (cat idol.csv && tail -n +2 idol.csv && tail -n +2 idol.csv) >thrice.csv
     RANKS="2 3" same_bytes vtp bandwidth thrice.csv
     RANKS="3" same_bytes ply bandwidth idol.ply --neighbors 40 --rule sheather-jones --density epanechnikov --r2 0.1
-    RANKS="4" same_bytes csv bandwidth idol.ply --radius 0.02 --smooth --json
+    RANKS="4" same_bytes csv bandwidth idol.ply --radius 0.02 --json
     ;;
   RealClouds)
     [[ -f "$SHARED_DATA/pine.las" ]] || {

@@ -57,7 +57,7 @@ struct LatticeOptions
   void configure(vtkVoxelMeanResampler* resampler) const;
 };
 
-/// --neighbors --radius --rule --beta --r1 --r2 --smooth
+/// --neighbors --radius --rule --beta --r1 --r2
 struct BandwidthOptions
 {
   BandwidthSettings settings; ///< With what was given.

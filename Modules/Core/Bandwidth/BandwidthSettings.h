@@ -23,7 +23,6 @@ struct LocalBandwidthSettings
   double radiusScale = 4.0;   ///< beta, above 0.
   double minimumRadius = 0.0; ///< r1; 0: kNoSinkSpacings local spacings.
   double maximumRadius = 0.0; ///< r2; 0: none.
-  bool smoothRadius = false;  ///< Cut the radii by limitSlope().
   bool usePointCounts = true; ///< For voxel means: bandwidths and radii of the points they represent.
   Status check() const noexcept;
 
@@ -45,8 +44,6 @@ struct LocalBandwidthSettings
         { "--r1", "Smallest proxy radius; default 2.2 local spacings", kMetres, kLength }),
       settingsMember("maximumRadius", &S::maximumRadius,
         { "--r2", "Largest proxy radius; default none", kMetres, kLength }),
-      settingsMember("smoothRadius", &S::smoothRadius,
-        { "--smooth", "Cut radii so that no two differ by more than half the distance of their points" }),
       settingsMember("usePointCounts", &S::usePointCounts));
   }
 };

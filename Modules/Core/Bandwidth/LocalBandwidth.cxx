@@ -270,10 +270,6 @@ Status localBandwidths(const PointView& points, const std::vector<double>& count
   }
   bandwidths = std::move(all.bandwidths);
   radii = std::move(all.radii);
-  if (status == Status::Ok && settings.smoothRadius)
-  {
-    limitSlope(query, kRadiusSlope, radii, executor);
-  }
   return status;
 }
 
@@ -316,8 +312,7 @@ Status localRadiiAt(const PointView& points, const std::vector<double>& counts, 
 {
   radii.assign(slots.size(), 0.0);
   Status status = checked(points, counts, settings);
-  if (status == Status::Ok &&
-    (settings.smoothRadius || !readSome(sampleOf(query, counts, settings), slots, radii, executor)))
+  if (status == Status::Ok && !readSome(sampleOf(query, counts, settings), slots, radii, executor))
   {
     std::vector<double> bandwidths;
     std::vector<double> all;

@@ -15,8 +15,6 @@ namespace pointhaptics
 
 /// The widest gap of a random sample of up to 1e5 points is 2.2 spacings: a smaller sphere falls through.
 constexpr double kNoSinkSpacings = 2.2;
-/// Largest change of a smooth radius over distance.
-constexpr double kRadiusSlope = 0.5;
 
 /// b and r_p = clamp(beta b, r1, r2) at each of @p points (both outputs are resized). s = sqrt(trace(C) / 2),
 /// C the sample covariance of the neighbourhood with the point itself; for SilvermanRobust and SheatherJones
@@ -68,7 +66,6 @@ struct PartialBandwidths
 
 /// The first step of localBandwidths, for processes that each have a part of a cloud: @p points are that
 /// part, and others nearby, so that no point is missing in the neighbourhoods of those that matter.
-/// smoothRadius is not looked at.
 Status partialBandwidths(const PointView& points, const std::vector<double>& counts,
   const NeighborQuery& query, const LocalBandwidthSettings& settings, PartialBandwidths& result,
   const Executor& executor = {});
@@ -79,19 +76,10 @@ void completeBandwidths(const PointView& points, const LocalBandwidthSettings& s
 
 /// The radii of the points at @p slots of @p query alone, in that order: those of localBandwidths, bit for
 /// bit, without its work for all the others. For a few of many points: about 2 us each at k = 16. All points
-/// are processed only with smoothRadius, or where one of the neighbourhoods has no spread. Errors as for
-/// localBandwidths. Independent of @p executor.
+/// are processed only where one of the neighbourhoods has no spread. Errors as for localBandwidths.
+/// Independent of @p executor.
 Status localRadiiAt(const PointView& points, const std::vector<double>& counts, const NeighborQuery& query,
   const LocalBandwidthSettings& settings, const std::vector<std::int64_t>& slots, std::vector<double>& radii,
   const Executor& executor = {});
-
-/// Cuts @p radii (one per point that @p query was built on, in their order) to min_j (r_j + slope |x_i -
-/// x_j|): the largest radii not above those given of which no two differ by more than slope times the
-/// distance of their points. Never below the smallest radius given. Radii of points that are not finite stay.
-/// Independent of the order of the points and of @p executor. Cost: a search about each point as wide as its
-/// radius is cut.
-/// @pre @p slope above 0, radii not negative.
-void limitSlope(
-  const NeighborQuery& query, double slope, std::vector<double>& radii, const Executor& executor = {});
 
 } // namespace pointhaptics

@@ -72,7 +72,6 @@ public:
 
   T* data() const { return data_; }
   T& operator[](std::size_t i) const { return data_[i]; }
-  std::size_t bytes() const { return capacity_ * sizeof(T); }
 
 private:
   T* data_ = nullptr;

@@ -88,32 +88,6 @@ struct Lattice
   Status check() const noexcept;
 };
 
-/// Lattice::indexOf() of keys that mostly ascend: only a new row takes divisions.
-class RowIndices
-{
-public:
-  explicit RowIndices(const Lattice& lattice) noexcept
-    : lattice_(lattice)
-  {
-  }
-  std::array<std::int64_t, 3> of(std::uint64_t key) noexcept
-  {
-    if (key - row_ >= width_)
-    {
-      index_ = lattice_.indexOf(key);
-      row_ = key - std::uint64_t(index_[0]);
-      width_ = std::uint64_t(lattice_.dimensions[0]);
-    }
-    return { std::int64_t(key - row_), index_[1], index_[2] };
-  }
-
-private:
-  Lattice lattice_;
-  std::array<std::int64_t, 3> index_{};
-  std::uint64_t row_ = 0;   ///< The first key of the row.
-  std::uint64_t width_ = 0; ///< None before the first key.
-};
-
 /// The user's settings of the lattice; makeLattice turns them into one.
 struct LatticeSettings
 {

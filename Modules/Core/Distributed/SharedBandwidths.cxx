@@ -37,7 +37,6 @@ public:
   /// Estimates bandwidths of the own points; as if each mean were one point where @p areMeans. A
   /// neighbourhood that reaches beyond the known points gives a range that is certain to hold the neighbours.
   std::vector<double> bandwidths(bool areMeans, std::vector<double>& radii);
-  void smooth(std::vector<double>& radii);
   std::vector<double> densities(const std::vector<double>& widths);
   std::vector<double> giveBack(const std::vector<double>& values) { return slabs_.giveBack(values); }
   std::size_t size() { return slabs_.own().size(); }
@@ -64,7 +63,6 @@ private:
   bool isCovered_ = false;
   std::vector<Vec3> places_;
   std::vector<double> counts_;
-  std::vector<double> radii_;
   std::vector<std::size_t> own_; ///< Where the own points are among them.
   NeighborQuery query_;
 };
@@ -120,7 +118,6 @@ void SharedEstimate::take(std::vector<SlabPoint> points)
 {
   places_.clear();
   counts_.clear();
-  radii_.clear();
   own_.clear();
   const std::vector<SlabPoint>& own = slabs_.own();
   for (std::size_t i = 0; i < points.size(); ++i)
@@ -131,7 +128,6 @@ void SharedEstimate::take(std::vector<SlabPoint> points)
     }
     places_.push_back(points[i].place);
     counts_.push_back(points[i].count);
-    radii_.push_back(points[i].radius);
   }
   counts_.resize(hasCounts_ ? counts_.size() : 0);
   query_.build(this->view(), executor_);
@@ -181,28 +177,6 @@ std::vector<double> SharedEstimate::bandwidths(bool areMeans, std::vector<double
   completeBandwidths(this->view(), settings_, smallest, slabs_.box(), part);
   radii = this->ofOwn(part.radii);
   return this->ofOwn(part.bandwidths);
-}
-
-/// A radius is cut by none that is further away than the slope takes it down to the smallest.
-void SharedEstimate::smooth(std::vector<double>& radii)
-{
-  double smallest = INFINITY;
-  for (std::size_t i = 0; i < radii.size(); ++i)
-  {
-    slabs_.own()[i].radius = radii[i];
-    smallest = std::min(smallest, radii[i]);
-  }
-  smallest = this->leastOfAll(smallest);
-  std::vector<double> distances;
-  for (const double radius : radii)
-  {
-    distances.push_back((radius - smallest) / kRadiusSlope);
-  }
-  isCovered_ = false; // the ghosts that are here have no radii
-  this->ensure(both(this->reachOf(distances), covered_));
-  std::vector<double> all = radii_;
-  limitSlope(query_, kRadiusSlope, all, executor_);
-  radii = this->ofOwn(all);
 }
 
 std::vector<double> SharedEstimate::densities(const std::vector<double>& widths)
@@ -259,10 +233,6 @@ Status sharedBandwidths(Ranks& ranks, const PointView& points, const std::vector
   if (wantsPoints || (wantsMeans && !hasCounts))
   {
     result.bandwidths = estimate.bandwidths(false, result.radii);
-    if (settings.smoothRadius && settings.computeProxyRadius)
-    {
-      estimate.smooth(result.radii);
-    }
     columns.push_back(&result.bandwidths);
     columns.push_back(&result.radii);
   }

@@ -29,8 +29,8 @@ struct BandwidthsOfPoints
 /// Ranks exchange points for slabs of space, with about as many points each. A rank finds how far the
 /// neighbourhoods of its slab reach, gets the points of other slabs in that range (ghosts), and sees whether
 /// each neighbourhood lies in what it has; where not it asks again, with a range that is certain to do.
-/// Densities and smooth radii reach further and ask for their own range. A rank has its points twice, its
-/// slab and the ghosts; what is sent is in proportion to the points, 48 bytes each, and to those near the
+/// Densities reach further and ask for their own range. A rank has its points twice, its
+/// slab and the ghosts; what is sent is in proportion to the points, 40 bytes each, and to those near the
 /// faces of slabs. Errors, on all ranks alike: those of settings.check(), InvalidParameter (more points in
 /// all than a NeighborQuery takes, counts of another size).
 Status sharedBandwidths(Ranks& ranks, const PointView& points, const std::vector<double>& counts,

@@ -54,8 +54,7 @@ SpaceSlabs::SpaceSlabs(Ranks& ranks, const PointView& points, const std::vector<
     if (isFinite(p))
     {
       const auto slab = std::upper_bound(cuts.begin(), cuts.end(), p[axis_]) - cuts.begin();
-      ofRanks[std::size_t(slab)].push_back(
-        { p, first + i, counts.empty() ? 1.0 : counts[std::size_t(i)], 0.0 });
+      ofRanks[std::size_t(slab)].push_back({ p, first + i, counts.empty() ? 1.0 : counts[std::size_t(i)] });
     }
   }
   // By index: each rank has its points in order, and those of the next rank come after them.

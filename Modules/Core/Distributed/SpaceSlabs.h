@@ -17,7 +17,6 @@ struct SlabPoint
   Vec3 place;
   std::int64_t index = 0; ///< Among the points of all ranks.
   double count = 1.0;
-  double radius = 0.0; ///< Once it is known.
 };
 
 /// Coordinates along the axis of the slabs.
@@ -42,8 +41,8 @@ public:
   /// Collective. @p counts: one for each of @p points, or empty.
   SpaceSlabs(Ranks& ranks, const PointView& points, const std::vector<double>& counts);
 
-  /// Points of this rank's slab, by index. Their radii may be set before they go to other ranks.
-  std::vector<SlabPoint>& own() { return own_; }
+  /// Points of this rank's slab, by index.
+  const std::vector<SlabPoint>& own() const { return own_; }
   double coordinate(const SlabPoint& point) const { return point.place[axis_]; }
   /// Finite points of all ranks, and the box about them.
   std::int64_t pointsOfAll() const { return pointsOfAll_; }

@@ -208,10 +208,4 @@ bool PointIndex::staysFinite(const AffineTransform& transform) const
   return true;
 }
 
-std::size_t PointIndex::bytes() const
-{
-  return floats_.bytes() + doubles_.bytes() + originals_.capacity() * sizeof(std::uint32_t) +
-    bricks_.capacity() * sizeof(Bounds);
-}
-
 } // namespace pointhaptics

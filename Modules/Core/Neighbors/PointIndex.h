@@ -41,7 +41,6 @@ public:
   const std::uint32_t* originals() const { return originals_.data(); }
   std::int64_t cloudSize() const { return cloudSize_; }
   std::int64_t invalidPoints() const { return cloudSize_ - size_; }
-  std::size_t bytes() const;
 
 private:
   bool staysFinite(const AffineTransform& transform) const;

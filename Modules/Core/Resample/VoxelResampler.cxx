@@ -137,14 +137,6 @@ Status VoxelResampler::Implementation::writeRun(
   return isDone ? Status::Ok : (clear(), Status::Aborted);
 }
 
-std::size_t VoxelResampler::Implementation::scratchBytes() const
-{
-  return std::accumulate(workers_.begin(), workers_.end(),
-    binner_.bytes() + places_.bytes() + writer_.bytes() +
-      (chosenPoints.capacity() + voxelIndex.capacity()) * sizeof(std::int64_t),
-    [](std::size_t sum, const auto& worker) { return sum + worker->voxels.bytes(); });
-}
-
 void VoxelResampler::Implementation::prepareWorkers(
   const Task& task, const Chunks& chunks, const Executor& executor)
 {
@@ -394,11 +386,6 @@ void VoxelResampler::releaseScratch()
 {
   implementation_ = std::make_unique<Implementation>();
   results_ = implementation_.get();
-}
-
-std::size_t VoxelResampler::scratchBytes() const
-{
-  return implementation_->scratchBytes();
 }
 
 } // namespace pointhaptics

@@ -127,7 +127,6 @@ public:
   /// Voxel of each point, or -1 where it is clipped or invalid; empty unless requested.
   const std::vector<std::int64_t>& voxelIndex() const { return results_->voxelIndex; }
 
-  std::size_t scratchBytes() const;
   /// Frees the memory kept, results included.
   void releaseScratch();
 

@@ -12,7 +12,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <numeric>
 #include <optional>
 #include <thread>
 #include <vector>
@@ -85,8 +84,6 @@ public:
   /// For VoxelAccumulator: the result that such sums make.
   Status finish(const VoxelRequest& request, const simd::VoxelRun& sums, const Executor& executor,
     ProgressObserver* observer);
-
-  std::size_t scratchBytes() const;
 
 private:
   struct Worker

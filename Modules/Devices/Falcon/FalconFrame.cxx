@@ -34,20 +34,6 @@ std::int16_t word(const FalconFrame& frame, int leg) noexcept
   return std::int16_t(std::uint16_t(value));
 }
 
-FalconFrame frameOf(const std::array<std::int16_t, kFalconLegs>& words, std::uint8_t flags) noexcept
-{
-  FalconFrame frame;
-  frame[0] = kBegin;
-  for (int leg = 0; leg < kFalconLegs; ++leg)
-  {
-    putWord(frame, leg, words[std::size_t(leg)]);
-  }
-  frame[kFlags] = std::uint8_t(flags + kOffset);
-  frame[kUnknown] = kOffset;
-  frame[kLast] = kEnd;
-  return frame;
-}
-
 bool fits(std::uint8_t byte, int place) noexcept
 {
   if (place == 0 || place == kLast)
@@ -75,23 +61,16 @@ bool fits(const FalconFrame& frame) noexcept
 
 FalconFrame encode(const FalconCommand& command) noexcept
 {
-  return frameOf(command.motors, command.leds & kLargestNibble);
-}
-
-FalconFrame encode(const FalconReply& reply) noexcept
-{
-  return frameOf(reply.encoders, std::uint8_t((reply.buttons & 15) | ((reply.homed & 7) << 4)));
-}
-
-bool decode(const FalconFrame& frame, FalconCommand& command) noexcept
-{
-  const std::uint8_t flags = std::uint8_t(frame[kFlags] - kOffset);
-  if (!fits(frame) || flags > kLargestNibble)
+  FalconFrame frame;
+  frame[0] = kBegin;
+  for (int leg = 0; leg < kFalconLegs; ++leg)
   {
-    return false;
+    putWord(frame, leg, command.motors[std::size_t(leg)]);
   }
-  command = { { word(frame, 0), word(frame, 1), word(frame, 2) }, flags };
-  return true;
+  frame[kFlags] = std::uint8_t((command.leds & kLargestNibble) + kOffset);
+  frame[kUnknown] = kOffset;
+  frame[kLast] = kEnd;
+  return frame;
 }
 
 bool decode(const FalconFrame& frame, FalconReply& reply) noexcept

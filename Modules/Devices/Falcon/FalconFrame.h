@@ -41,10 +41,7 @@ struct FalconReply
 };
 
 FalconFrame encode(const FalconCommand& command) noexcept;
-/// Encodes a reply, for emulators and tests.
-FalconFrame encode(const FalconReply& reply) noexcept;
-/// Decodes a frame. False: a byte is invalid; @p command or @p reply is then unchanged.
-bool decode(const FalconFrame& frame, FalconCommand& command) noexcept;
+/// Decodes a frame. False: a byte is invalid; @p reply is then unchanged.
 bool decode(const FalconFrame& frame, FalconReply& reply) noexcept;
 
 /// Finds frames in a stream of bytes. '<' begins one wherever it stands. An invalid byte drops the collected

@@ -118,14 +118,6 @@ FalconAngles anglesFromCounts(const std::array<double, 3>& counts) noexcept
   return angles;
 }
 
-std::array<double, 3> countsFromAngles(const FalconAngles& angles) noexcept
-{
-  std::array<double, 3> counts;
-  std::transform(angles.begin(), angles.end(), counts.begin(),
-    [](double angle) { return (angle - kEncoderZero) * countsPerRadian(); });
-  return counts;
-}
-
 bool inverse(const Vec3& position, FalconAngles& angles) noexcept
 {
   FalconAngles result;

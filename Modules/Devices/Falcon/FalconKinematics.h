@@ -30,7 +30,6 @@ constexpr Vec3 kCenter(0.0, 0.0, 0.12);
 /// Counts of the motor's encoder per radian of the joint (the drum gears 110 : 14.25).
 double countsPerRadian() noexcept;
 FalconAngles anglesFromCounts(const std::array<double, 3>& counts) noexcept;
-std::array<double, 3> countsFromAngles(const FalconAngles& angles) noexcept;
 
 /// Joint angles that put the grip at @p position. False: it is out of reach; @p angles is then unchanged.
 /// Exact up to rounding: forward() leads back to within 1e-12 m (FalconKinematicsTest).

@@ -10,7 +10,7 @@ std::unique_ptr<FtdiBus> makeUsbFtdiBus()
   return nullptr;
 }
 
-std::vector<UsbFalcon> findUsbFalcons(std::string&)
+std::vector<ListedDevice> findUsbFalcons(std::string&)
 {
   return {};
 }

@@ -14,6 +14,8 @@ namespace pointhaptics
 {
 namespace
 {
+constexpr std::uint16_t kFalconVendor = 0x0403;
+constexpr std::uint16_t kFalconProduct = 0xcb48;
 constexpr int kInterface = 0;
 constexpr unsigned char kOut = 0x02;
 constexpr unsigned char kIn = 0x81;
@@ -362,9 +364,9 @@ std::unique_ptr<FtdiBus> makeUsbFtdiBus()
   return std::make_unique<UsbFtdiBus>();
 }
 
-std::vector<UsbFalcon> findUsbFalcons(std::string& problem)
+std::vector<ListedDevice> findUsbFalcons(std::string& problem)
 {
-  std::vector<UsbFalcon> found;
+  std::vector<ListedDevice> found;
   libusb_context* context = nullptr;
   if (const int error = libusb_init(&context); error != LIBUSB_SUCCESS)
   {
@@ -385,7 +387,8 @@ std::vector<UsbFalcon> findUsbFalcons(std::string& problem)
           : libusb_claim_interface(handle, kInterface);
         libusb_close(handle); // releases
       }
-      found.push_back({ place(device), error == LIBUSB_SUCCESS ? "" : refusal(place(device), error) });
+      found.push_back({ "falcon", "Novint Falcon", place(device),
+        error == LIBUSB_SUCCESS ? "" : refusal(place(device), error) });
     });
   libusb_exit(context);
   return found;

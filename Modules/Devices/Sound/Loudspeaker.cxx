@@ -7,16 +7,12 @@
 #include <cmath>
 #include <cstdint>
 
-#if defined(__linux__)
 #include <dlfcn.h>
-#endif
 
 namespace pointhaptics
 {
 namespace
 {
-
-#if defined(__linux__)
 
 // Constants of ALSA's interface, which does not change within libasound.so.2.
 constexpr int kPlayback = 0;
@@ -128,13 +124,10 @@ private:
   std::array<std::int16_t, 1024> block_{};
 };
 
-#endif
-
 } // namespace
 
 std::unique_ptr<SoundOutput> openLoudspeaker(std::string& message, const char* library)
 {
-#if defined(__linux__)
   Alsa alsa;
   if (!alsa.load(library))
   {
@@ -145,11 +138,6 @@ std::unique_ptr<SoundOutput> openLoudspeaker(std::string& message, const char* l
   }
   auto loudspeaker = std::make_unique<Loudspeaker>(alsa);
   return loudspeaker->open(message) ? std::move(loudspeaker) : nullptr;
-#else
-  static_cast<void>(library);
-  message = "sound is played on Linux alone; write it to a file with feel --sound-file";
-  return nullptr;
-#endif
 }
 
 } // namespace pointhaptics

@@ -329,11 +329,9 @@ Status measurePicked(vtkPolyData* cloud, const LocalBandwidthSettings& settings,
   const PointView view(positions.data(), std::int64_t(positions.size() / 3));
   NeighborQuery neighborhood;
   neighborhood.build(view);
-  LocalBandwidthSettings alone = settings;
-  alone.smoothRadius = false;
   std::vector<double> bandwidths;
   std::vector<double> radii;
-  const Status status = localBandwidths(view, counts, neighborhood, alone, bandwidths, radii);
+  const Status status = localBandwidths(view, counts, neighborhood, settings, bandwidths, radii);
   if (status == Status::Ok)
   {
     picked.bandwidth = bandwidths.front();

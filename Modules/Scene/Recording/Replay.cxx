@@ -39,7 +39,7 @@ public:
   bool make(const RecordedEvent& event, std::shared_ptr<const HapticScene>& scene, std::string& message);
 
 private:
-  std::shared_ptr<const HapticScene> cloudOf(std::uint64_t number);
+  std::shared_ptr<const HapticScene> cloudOf(std::uint64_t number, std::string& problem);
   void keepThoseOf(const RecordedEvent& event);
 
   const Recording& recording_;
@@ -48,8 +48,8 @@ private:
   std::map<std::uint64_t, std::shared_ptr<const HapticScene>> clouds_; ///< As they were made.
 };
 
-/// As it was made, before it was moved.
-std::shared_ptr<const HapticScene> RecordedScenes::cloudOf(std::uint64_t number)
+/// As it was made, before it was moved. @p problem: failures of the filters, where there are any.
+std::shared_ptr<const HapticScene> RecordedScenes::cloudOf(std::uint64_t number, std::string& problem)
 {
   const auto known = clouds_.find(number);
   if (known != clouds_.end())
@@ -63,11 +63,13 @@ std::shared_ptr<const HapticScene> RecordedScenes::cloudOf(std::uint64_t number)
   }
   const SceneOrigin& how = *origin->second;
   const bool isPart = how.kind != SceneOrigin::Kind::Whole;
-  const auto global = isPart && how.globalCloud != 0 ? this->cloudOf(how.globalCloud) : nullptr;
+  const auto global = isPart && how.globalCloud != 0 ? this->cloudOf(how.globalCloud, problem) : nullptr;
   BuiltScene built;
-  return clouds_[number] = !isPart   ? whole_.makeScene(how, false, built)
+  const auto made = !isPart          ? whole_.makeScene(how, false, built)
     : global || how.globalCloud == 0 ? local_.make(how, global)
                                      : nullptr;
+  problem = built.problem.empty() ? problem : built.problem;
+  return clouds_[number] = made;
 }
 
 /// Forgets the scenes that @p event does not use: they would be made again.
@@ -93,10 +95,11 @@ bool RecordedScenes::make(
     return true;
   }
   Status status = Status::Ok;
-  scene = this->cloudOf(event.number);
+  std::string problem;
+  scene = this->cloudOf(event.number, problem);
   if (scene && event.fallback != 0 && recording_.clouds.at(event.number)->globalCloud != event.fallback)
   {
-    const std::shared_ptr<const HapticScene> global = this->cloudOf(event.fallback);
+    const std::shared_ptr<const HapticScene> global = this->cloudOf(event.fallback, problem);
     scene = global ? scene->withFallback(*global, status) : nullptr;
   }
   if (scene && !(scene->modelToWorkspace() == event.model))
@@ -105,8 +108,9 @@ bool RecordedScenes::make(
   }
   if (!scene)
   {
-    message = fmt::format("tick {}: the scene cannot be made again{}; was the header changed?", event.tick,
-      status == Status::Ok ? "" : std::string(": ") + pointhaptics::message(status));
+    problem = problem.empty() && status != Status::Ok ? pointhaptics::message(status) : problem;
+    message = fmt::format("tick {}: the scene cannot be made again{}{}; was the header changed?", event.tick,
+      problem.empty() ? "" : ": ", problem);
   }
   return scene != nullptr;
 }

@@ -150,7 +150,7 @@ TEST_F(SceneSettingsTest, OfTheBandwidthFilterReachTheWorkersPicture)
   bandwidth_->SetNeighborhoodToFixedRadius();
   bandwidth_->SetRadius(0.008);
   // In balls of one size the spread is much the same everywhere.
-  this->walk(bandwidth_.Get(), { "numberOfNeighbors", "smoothRadius" });
+  this->walk(bandwidth_.Get(), { "numberOfNeighbors" });
 }
 
 } // namespace

@@ -1,5 +1,7 @@
 #include "Devices/Falcon/FalconFrame.h"
 
+#include "FalconReplies.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,6 +10,7 @@
 #include <vector>
 
 using namespace pointhaptics;
+using trial::encode;
 
 namespace
 {

@@ -1,5 +1,7 @@
 #include "Devices/Falcon/FalconKinematics.h"
 
+#include "FalconReplies.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -54,7 +56,8 @@ TEST(FalconKinematics, KnowsThePoseInTheMiddle)
 {
   FalconAngles angles;
   ASSERT_TRUE(inverse({ 0.0, 0.0, 0.15 }, angles));
-  const std::array<double, 3> counts = falcon::countsFromAngles(angles);
+  const std::array<double, 3> counts = { trial::countOf(angles[0]), trial::countOf(angles[1]),
+    trial::countOf(angles[2]) };
   for (std::size_t leg = 0; leg < 3; ++leg)
   {
     EXPECT_NEAR(angles[leg] * 180.0 / kPi, 47.24, 0.01);

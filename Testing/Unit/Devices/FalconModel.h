@@ -3,8 +3,7 @@
 /// same model stands behind the in-process tests and the emulated USB device.
 #pragma once
 
-#include "Devices/Falcon/FalconFrame.h"
-#include "Devices/Falcon/FalconKinematics.h"
+#include "FalconReplies.h"
 
 #include <algorithm>
 #include <array>
@@ -247,11 +246,10 @@ private:
     FalconReply reply;
     FalconAngles angles{};
     falcon::inverse(hand.position, angles);
-    const std::array<double, 3> counts = falcon::countsFromAngles(angles);
     for (std::size_t i = 0; i < 3; ++i)
     {
       // Before homing the counts begin wherever the arm was when the power came on.
-      reply.encoders[i] = std::int16_t(std::lround(counts[i])) + (homed_ ? 0 : 977);
+      reply.encoders[i] = std::int16_t(std::lround(countOf(angles[i]))) + (homed_ ? 0 : 977);
     }
     reply.homed = homed_ ? 7 : 0;
     reply.buttons = buttons;

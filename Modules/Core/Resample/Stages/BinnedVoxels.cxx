@@ -191,11 +191,4 @@ void BinnedVoxels::write(const Kernels& kernels, VoxelWriter& writer, std::size_
   isWide_ ? writer.write(offset, wide_, 0, voxels_.size) : writer.write(kernels, offset, voxels_);
 }
 
-std::size_t BinnedVoxels::bytes() const
-{
-  return occupancy_.bytes() + rankTable_.bytes() + ranks_.bytes() + cells_.bytes() + keys_.bytes() +
-    otherKeys_.bytes() + packed_.capacity() * sizeof(PackedSums) +
-    secondMoments_.capacity() * sizeof(SecondMoments) + wide_.bytes();
-}
-
 } // namespace pointhaptics::simd

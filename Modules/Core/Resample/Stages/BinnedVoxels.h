@@ -71,7 +71,6 @@ public:
       visit(block);
     }
   }
-  std::size_t bytes() const;
 
 private:
   /// A record's voxel and its number among the records.

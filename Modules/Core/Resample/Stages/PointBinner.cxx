@@ -218,15 +218,4 @@ std::int64_t PointBinner::total(std::int64_t PointRecordWriter::*count) const
     [=](std::int64_t sum, const std::unique_ptr<Writer>& writer) { return sum + (*writer).*count; });
 }
 
-std::size_t PointBinner::bytes() const
-{
-  return std::accumulate(writers_.begin(), writers_.end(),
-    records_.bytes() + payloads_.bytes() + previous_.bytes(),
-    [](std::size_t sum, const std::unique_ptr<Writer>& writer)
-    {
-      return sum + writer->cursorStorage.capacity() * sizeof(PointRecord*) +
-        writer->lastStorage.capacity() * sizeof(kNoBlock);
-    });
-}
-
 } // namespace pointhaptics::simd

@@ -162,7 +162,6 @@ public:
   std::uint32_t following(std::uint32_t partition) const;
   /// Points that were counted, PointRecordWriter::inside or invalid.
   std::int64_t total(std::int64_t PointRecordWriter::*count) const;
-  std::size_t bytes() const;
 
   /// Walks over the blocks of a partition, from the last of each writer to its first.
   class Walk

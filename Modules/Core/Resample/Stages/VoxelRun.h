@@ -74,11 +74,6 @@ struct VoxelRun
   void append(const VoxelRun* a, std::size_t i, const VoxelRun* b, std::size_t j);
   /// Appends the voxels from @p first to before @p last of a run whose keys are above all here.
   void append(const VoxelRun& run, std::size_t first, std::size_t last);
-  /// Memory that the sums of the voxels take, without their tallies.
-  std::size_t bytes() const
-  {
-    return voxels.capacity() * sizeof(WideSums) + secondMoments.capacity() * sizeof(SecondMoments);
-  }
 };
 
 /// The sums of the voxels of all points so far. Runs are merged when they are of like size, so that n of them

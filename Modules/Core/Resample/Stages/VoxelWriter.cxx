@@ -134,11 +134,19 @@ void VoxelWriter::write(const Kernels& kernels, std::size_t offset, const Partit
 
 void VoxelWriter::write(std::size_t offset, const VoxelRun& run, std::size_t first, std::size_t last)
 {
-  RowIndices indices(lattice_);
+  std::array<std::int64_t, 3> index{};
+  std::uint64_t row = 0;    // The first key of a row: only a new row takes divisions.
+  std::uint64_t rowEnd = 0; // None before the first voxel.
   for (std::size_t v = first; v < last; ++v, ++offset)
   {
     const WideSums& voxel = run.voxels[v];
-    const auto index = indices.of(voxel.key);
+    if (voxel.key >= rowEnd)
+    {
+      index = lattice_.indexOf(voxel.key);
+      row = voxel.key - std::uint64_t(index[0]);
+      rowEnd = row + std::uint64_t(lattice_.dimensions[0]);
+    }
+    index[0] = std::int64_t(voxel.key - row);
     const Int128 sums[3] = { voxel.sum(0), voxel.sum(1), voxel.sum(2) };
     for (int axis = 0; axis < 3; ++axis)
     {

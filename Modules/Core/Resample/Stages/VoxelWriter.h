@@ -10,7 +10,6 @@
 
 #include <array>
 #include <cstdint>
-#include <numeric>
 #include <vector>
 
 namespace pointhaptics::simd
@@ -61,11 +60,6 @@ public:
   char* attribute(std::size_t attribute, std::size_t voxel) const
   {
     return arrays_[kAttributes + attribute].values + arrays_[kAttributes + attribute].bytes * voxel;
-  }
-  std::size_t bytes() const
-  {
-    return std::accumulate(arrays_.begin(), arrays_.end(), std::size_t(0),
-      [](std::size_t sum, const Array& array) { return sum + array.own.bytes(); });
   }
 
 private:

@@ -1,6 +1,5 @@
 #include "Core/Bandwidth/Bandwidth.h"
 #include "Core/Reference/ReferenceBandwidth.h"
-#include "Core/Reference/ReferenceKernelSum.h"
 
 #include "RandomSamples.h"
 #include "ReferenceSamples.h"

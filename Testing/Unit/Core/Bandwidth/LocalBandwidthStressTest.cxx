@@ -36,24 +36,19 @@ TEST(LocalBandwidths, ScaleWithTheCloudFromPicometresToTerametres)
 {
   std::vector<Vec3> points;
   ASSERT_EQ(generateShape(Shape::DensityStep, 3000, 1, 0.0, points), Status::Ok);
-  for (const bool smooth : { false, true })
+  const Local local = localOf(points, {});
+  for (double scale = 1e-12; scale < 2e12; scale *= 10)
   {
-    LocalBandwidthSettings settings;
-    settings.smoothRadius = smooth;
-    const Local local = localOf(points, settings);
-    for (double scale = 1e-12; scale < 2e12; scale *= 10)
+    std::vector<Vec3> scaled = points;
+    for (Vec3& p : scaled)
     {
-      std::vector<Vec3> scaled = points;
-      for (Vec3& p : scaled)
-      {
-        p *= scale;
-      }
-      const Local other = localOf(scaled, settings);
-      for (std::size_t i = 0; i < points.size(); ++i)
-      {
-        ASSERT_NEAR(other.bandwidths[i] / (scale * local.bandwidths[i]), 1.0, 1e-12) << scale;
-        ASSERT_NEAR(other.radii[i] / (scale * local.radii[i]), 1.0, 1e-12) << scale;
-      }
+      p *= scale;
+    }
+    const Local other = localOf(scaled, {});
+    for (std::size_t i = 0; i < points.size(); ++i)
+    {
+      ASSERT_NEAR(other.bandwidths[i] / (scale * local.bandwidths[i]), 1.0, 1e-12) << scale;
+      ASSERT_NEAR(other.radii[i] / (scale * local.radii[i]), 1.0, 1e-12) << scale;
     }
   }
 }
@@ -105,7 +100,6 @@ TEST(LocalBandwidths, SurviveEveryCloudWithUsableRadii)
         LocalBandwidthSettings settings;
         settings.rule = rule;
         settings.numberOfNeighbors = k;
-        settings.smoothRadius = k == 16;
         expectUsable(localOf(clouds[c], settings));
         settings.fixedRadius = true;
         settings.minimumRadius = k == 1 ? 0.0 : 0.25;

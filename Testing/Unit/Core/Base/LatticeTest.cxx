@@ -84,17 +84,6 @@ TEST(Lattice, KeyIsLinearWithXFastestAndInverts)
   }
 }
 
-TEST(Lattice, RowIndicesAreThoseOfKeysInAnyOrder)
-{
-  Lattice lattice;
-  lattice.dimensions = { 5, 3, 4 };
-  RowIndices rows(lattice);
-  for (const std::uint64_t key : { 7, 8, 9, 10, 4, 5, 59, 0, 1, 30, 29, 14, 15, 58 })
-  {
-    EXPECT_EQ(rows.of(key), lattice.indexOf(key)) << key;
-  }
-}
-
 TEST(Lattice, KeysOfTheLargestLatticeDoNotOverlap)
 {
   Lattice lattice;

@@ -117,13 +117,11 @@ BandwidthsOfPoints expectedOf(const Cloud& cloud, const BandwidthSettings& setti
   EXPECT_EQ(
     localBandwidths(viewOf(cloud.points), cloud.counts, query, settings, result.bandwidths, result.radii),
     Status::Ok);
-  LocalBandwidthSettings alone = settings;
-  alone.smoothRadius = false;
   std::vector<double> unused;
   result.ofMeans = result.bandwidths;
   if (!cloud.counts.empty())
   {
-    EXPECT_EQ(localBandwidths(viewOf(cloud.points), {}, query, alone, result.ofMeans, unused), Status::Ok);
+    EXPECT_EQ(localBandwidths(viewOf(cloud.points), {}, query, settings, result.ofMeans, unused), Status::Ok);
   }
   surfaceDensities(
     viewOf(cloud.points), cloud.counts, query, result.ofMeans, result.densities, {}, settings.densityKernel);
@@ -195,10 +193,7 @@ std::vector<std::pair<std::string, BandwidthSettings>> variants()
   BandwidthSettings ball = usual;
   ball.fixedRadius = true;
   ball.radius = 0.05;
-  BandwidthSettings smooth = usual;
-  smooth.smoothRadius = true;
-  smooth.maximumRadius = 10.0;
-  return { { "usual", usual }, { "100 neighbours", many }, { "ball", ball }, { "smooth", smooth } };
+  return { { "usual", usual }, { "100 neighbours", many }, { "ball", ball } };
 }
 
 }

@@ -1,6 +1,5 @@
-#include "Core/Reference/ReferenceVoxelMean.h"
-
 #include "RandomClouds.h"
+#include "ReferenceVoxelMean.h"
 
 #include "Unit/VoxelMeans.h"
 

@@ -1,10 +1,10 @@
 // Lattices that the partitions of voxels cannot take as they are: few voxels with many points, more voxels on
 // an axis than a record can tell, voxels of no ordinary size. All give what the others would.
 #include "Core/Neighbors/PointIndex.h"
-#include "Core/Reference/ReferenceVoxelMean.h"
 #include "Core/Resample/VoxelResampler.h"
 
 #include "RandomClouds.h"
+#include "ReferenceVoxelMean.h"
 #include "ResamplerRuns.h"
 
 #include <gtest/gtest.h>
@@ -156,19 +156,4 @@ TEST(VoxelPaths, AnIndexChangesNoBitOfFineLattices)
   ASSERT_GT(expected.clipped, 1000);
   request.index = &index;
   expectSame(runOf(request, ThreadedExecutor(2)), expected, "with an index");
-}
-
-TEST(VoxelPaths, FineLatticesKeepAndReportTheirScratch)
-{
-  // More than a chunk of the default size, whose memory this is about.
-  const std::vector<Vec3> points = sphereAndDust(600000, 7);
-  const VoxelRequest request = requestFor(points, unitCube(5000), false);
-  VoxelResampler resampler;
-  runOf(resampler, request, ThreadedExecutor(2));
-  const std::size_t bytes = resampler.scratchBytes();
-  const std::size_t results = std::size_t(resampler.size()) * (24 + 8 + 8);
-  EXPECT_GT(bytes, results + (std::size_t(1) << 20)) << "what the next run will use again";
-  EXPECT_LT(bytes, results + (std::size_t(19) << 20)) << "the sums themselves are gone";
-  runOf(resampler, request, ThreadedExecutor(2));
-  EXPECT_EQ(resampler.scratchBytes(), bytes);
 }

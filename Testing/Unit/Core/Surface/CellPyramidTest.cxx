@@ -1,5 +1,4 @@
 #include "Core/Surface/CellPyramid.h"
-#include "Core/Reference/ReferenceVoxelMean.h"
 
 #include "RandomClouds.h"
 

@@ -1,6 +1,5 @@
 /// @file
-/// Mean resampling the slow way: long double, one ordered map. The oracle of tests and benchmarks; not
-/// installed.
+/// Mean resampling the slow way: long double, one ordered map. The tests' oracle.
 #pragma once
 
 #include "Core/Base/AffineTransform.h"
