@@ -6,8 +6,7 @@
 
 #include "Core/Base/AffineTransform.h"
 #include "Core/Base/Lattice.h"
-
-#include "Unit/Core/ReferenceVoxelMean.h"
+#include "Core/Reference/ReferenceVoxelMean.h"
 
 #include "vtkCommand.h"
 #include "vtkFieldData.h"

@@ -22,7 +22,7 @@ struct ExpectedMeans
 };
 
 /// @p points finite, about 24 bytes each while it runs. Points outside the lattice are left out. Gives what
-/// ReferenceVoxelMean.h of the tests gives (one says so), in less memory.
+/// Core/Reference/ReferenceVoxelMean.h gives (a test says so), in less memory.
 ExpectedMeans expectedMeans(const PointView& points, const Lattice& lattice);
 
 struct Verdict

@@ -1,8 +1,7 @@
 #include "Benchmark/Resample/Expected.h"
 
+#include "Core/Reference/ReferenceVoxelMean.h"
 #include "Shapes/PortableRandom.h"
-
-#include "Unit/Core/ReferenceVoxelMean.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 #include "Core/Bandwidth/LocalBandwidth.h"
 #include "Core/Reference/ReferenceBandwidth.h"
+#include "Core/Reference/ReferenceKernelSum.h"
 #include "Shapes/Shapes.h"
 
 #include "LocalBandwidthFixtures.h"
 #include "RandomClouds.h"
-#include "ReferenceKernelSum.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 #include "Core/Bandwidth/SheatherJones.h"
 #include "Core/Bandwidth/Bandwidth.h"
+#include "Core/Reference/ReferenceKernelSum.h"
 
 #include "RandomSamples.h"
-#include "ReferenceKernelSum.h"
 #include "ReferenceSamples.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,6 @@
+#include "Core/Reference/ReferenceVoxelMean.h"
+
 #include "RandomClouds.h"
-#include "ReferenceVoxelMean.h"
 
 #include "Unit/VoxelMeans.h"
 

@@ -1,10 +1,10 @@
 // Lattices that the partitions of voxels cannot take as they are: few voxels with many points, more voxels on
 // an axis than a record can tell, voxels of no ordinary size. All give what the others would.
 #include "Core/Neighbors/PointIndex.h"
+#include "Core/Reference/ReferenceVoxelMean.h"
 #include "Core/Resample/VoxelResampler.h"
 
 #include "RandomClouds.h"
-#include "ReferenceVoxelMean.h"
 #include "ResamplerRuns.h"
 
 #include <gtest/gtest.h>

@@ -1,10 +1,10 @@
 // The points that stand for voxels, and the voxel of each point.
 #include "Core/Neighbors/PointIndex.h"
+#include "Core/Reference/ReferenceVoxelMean.h"
 #include "Core/Resample/VoxelResampler.h"
 
 #include "CountingObserver.h"
 #include "RandomClouds.h"
-#include "ReferenceVoxelMean.h"
 #include "ResamplerRuns.h"
 
 #include "Unit/HeldInstructionSets.h"

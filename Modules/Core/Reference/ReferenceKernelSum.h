@@ -1,6 +1,6 @@
 /// @file
 /// Kernel sums and the Sheather-Jones bandwidths in long double, every pair summed, straight from the
-/// definitions. The tests' oracle.
+/// definitions. The oracle of tests and benchmarks; not installed.
 #pragma once
 
 #include "Core/Reference/ReferenceBandwidth.h"

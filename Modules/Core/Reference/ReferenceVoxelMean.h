@@ -1,5 +1,6 @@
 /// @file
-/// Mean resampling the slow way: long double, one ordered map. The tests' oracle.
+/// Mean resampling the slow way: long double, one ordered map. The oracle of tests and benchmarks; not
+/// installed.
 #pragma once
 
 #include "Core/Base/AffineTransform.h"
