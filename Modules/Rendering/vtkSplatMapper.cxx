@@ -317,6 +317,8 @@ void vtkSplatMapper::DrawSplats(vtkRenderer* renderer, vtkActor* actor)
     state->vtkglDepthFunc(GL_LEQUAL);
   }
   glEnable(GL_PROGRAM_POINT_SIZE);
+  // The markers of a chart leave it the other way up, and discs would tilt the wrong way.
+  glPointParameteri(GL_POINT_SPRITE_COORD_ORIGIN, GL_UPPER_LEFT);
   this->DrawingVertices = false;
   this->DrawingSelection = false;
   const int pass = selector ? selector->GetCurrentPass() : vtkHardwareSelector::MIN_KNOWN_PASS - 1;

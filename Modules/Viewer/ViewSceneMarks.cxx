@@ -86,11 +86,12 @@ ProfilePoints ViewScene::profile() const
   const Vec3 aside = cross(up, along);
   const auto isKept = notHidden(shown_->points, picture_.hidden);
   const std::optional<Bounds> box = clipBox(clip_, loaded_.cloud);
+  const PointAccess access(shown_->points->GetPoints());
+  const PointView points = access.view();
   ProfilePoints found;
-  for (vtkIdType i = 0; length > 0.0 && i < shown_->points->GetNumberOfPoints(); ++i)
+  for (std::int64_t i = 0; length > 0.0 && i < points.size(); ++i)
   {
-    Vec3 place;
-    shown_->points->GetPoint(i, &place.x);
+    const Vec3 place = points[i];
     const Vec3 way = place - from;
     const double distance = dot(way, along);
     if (distance >= 0.0 && distance <= length && std::abs(dot(way, aside)) <= width && isKept(i) &&

@@ -4,8 +4,6 @@
 #include "ViewScene.h"
 #include "VirtualTouch.h"
 
-#include "vtkHapticChart.h"
-
 #include "PolyDataAccess.h"
 #include "vtkVoxelMeanResampler.h"
 
@@ -13,7 +11,6 @@
 #include "Devices/HipPath.h"
 
 #include <fmt/format.h>
-#include <vtkNew.h>
 #include <vtkPointSet.h>
 
 #include <algorithm>
@@ -173,8 +170,10 @@ double idealForce(IdealForce& ideal, ViewScene& scene, const Vec3& hip, const Co
   return isAffine ? idealForce(ideal, model, hip, contact) : NAN;
 }
 
-std::string traceColumns()
+bool TouchFiles::open(const HapticViewerOptions& options, bool isLive, std::string& message)
 {
+  traceName_ = options.trace;
+  chartName_ = options.forceChart;
   std::string columns;
   for (const char* column : kFeltColumns)
   {
@@ -182,11 +181,13 @@ std::string traceColumns()
     columns += column == kFeltColumns.back() ? ",status" : "";
     columns += (columns.empty() ? "" : ",") + std::string(column);
   }
-  return columns;
+  return traceName_.empty() || trace_.open(traceName_, columns, message, isLive);
 }
 
-void addTrace(CsvWriter& trace, const std::vector<ServoSample>& samples)
+bool TouchFiles::add(const std::vector<ServoSample>& samples,
+  const std::function<double(const ServoSample&)>& ideal, std::string& message)
 {
+  ticks_ += samples.size();
   for (const ServoSample& sample : samples)
   {
     const auto felt = feltRow(sample.timeSeconds, sample);
@@ -194,8 +195,33 @@ void addTrace(CsvWriter& trace, const std::vector<ServoSample>& samples)
     std::copy(felt.begin(), felt.end() - 1, row.begin());
     row[felt.size() - 1] = double(sample.state.status);
     row.back() = felt.back();
-    trace.row(row.data(), row.size());
+    trace_.isOpen() ? trace_.row(row.data(), row.size()) : void();
+    if (!chartName_.empty())
+    {
+      chart_->AddSample(sample.timeSeconds, norm(sample.state.force), sample.state.radius, ideal(sample));
+    }
   }
+  return !trace_.isOpen() || trace_.isFine() || trace_.commit(message);
+}
+
+bool TouchFiles::commit(const HapticViewerObserver& observer, std::string& message)
+{
+  const bool hasTrace = trace_.isOpen();
+  bool areWritten = !hasTrace || trace_.commit(message);
+  if (hasTrace && areWritten)
+  {
+    observer.say(HapticViewerObserver::Kind::Note, fmt::format("trace: {} ({} ticks)", traceName_, ticks_));
+  }
+  if (!chartName_.empty() && !chart_->WriteImage(chartName_.c_str()))
+  {
+    message = chart_->GetErrorMessage();
+    return false;
+  }
+  if (!chartName_.empty())
+  {
+    observer.say(HapticViewerObserver::Kind::Note, "force chart: " + chartName_);
+  }
+  return areWritten;
 }
 
 bool feelAlongPath(ViewScene& scene, const HapticViewerOptions& options, const HapticViewerObserver& observer,
@@ -210,40 +236,15 @@ bool feelAlongPath(ViewScene& scene, const HapticViewerOptions& options, const H
     return false;
   }
   shown = mostTelling(samples);
-  if (!options.trace.empty())
+  TouchFiles files;
+  const auto idealOf = [&](const ServoSample& sample)
   {
-    CsvWriter trace;
-    if (!trace.open(options.trace, traceColumns(), message))
-    {
-      return false;
-    }
-    addTrace(trace, samples);
-    if (!trace.commit(message))
-    {
-      return false;
-    }
-    observer.say(
-      HapticViewerObserver::Kind::Note, fmt::format("trace: {} ({} ticks)", options.trace, samples.size()));
-  }
-  if (!options.forceChart.empty())
-  {
-    vtkNew<vtkHapticChart> chart;
-    for (std::size_t i = 0; i < samples.size(); ++i)
-    {
-      const ProxyState& state = samples[i].state;
-      chart->AddSample(samples[i].timeSeconds, norm(state.force), state.radius,
-        !ideals.empty() ? ideals[i]
-          : ideal       ? idealForce(*ideal, scene, state.hip, options.haptics.contact)
-                        : NAN);
-    }
-    if (!chart->WriteImage(options.forceChart.c_str()))
-    {
-      message = chart->GetErrorMessage();
-      return false;
-    }
-    observer.say(HapticViewerObserver::Kind::Note, "force chart: " + options.forceChart);
-  }
-  return true;
+    return !ideals.empty() ? ideals[std::size_t(&sample - samples.data())]
+      : ideal              ? idealForce(*ideal, scene, sample.state.hip, options.haptics.contact)
+                           : NAN;
+  };
+  return files.open(options, false, message) && files.add(samples, idealOf, message) &&
+    files.commit(observer, message);
 }
 
 } // namespace pointhaptics

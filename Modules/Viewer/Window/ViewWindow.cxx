@@ -228,23 +228,12 @@ void ViewWindow::onSamples(void* callData)
 {
   const auto& samples = *static_cast<std::vector<ServoSample>*>(callData);
   recording_.add(servo_, samples);
-  if (trace_.isOpen())
+  std::string message;
+  const auto ideal = [this](const ServoSample& sample)
+  { return wholeIdeal_ ? idealForce(*wholeIdeal_, scene_, sample.state.hip, this->contactOf(sample)) : NAN; };
+  if (!touchFiles_.add(samples, ideal, message)) // said at once: the session may last for hours
   {
-    addTrace(trace_, samples);
-    std::string message;
-    if (!trace_.isFine() && !trace_.commit(message)) // at once: the session may last for hours
-    {
-      observer_.say(kError, message);
-    }
-  }
-  if (!options_.forceChart.empty())
-  {
-    for (const ServoSample& sample : samples)
-    {
-      const double newtons = norm(sample.state.force);
-      wholeChart_->AddSample(sample.timeSeconds, newtons, sample.state.radius,
-        wholeIdeal_ ? idealForce(*wholeIdeal_, scene_, sample.state.hip, this->contactOf(sample)) : NAN);
-    }
+    observer_.say(kError, message);
   }
 }
 
@@ -359,34 +348,8 @@ bool ViewWindow::finish(std::string& message)
   {
     observer_.say(kWarning, refusals);
   }
-  return this->endFiles(message);
-}
-
-/// Ends all files. One that cannot be written takes none of the others with it.
-bool ViewWindow::endFiles(std::string& message)
-{
-  const auto noteFile = [this](bool isWritten, const std::string& note)
-  {
-    if (isWritten)
-    {
-      observer_.say(kNote, note);
-    }
-  };
-  bool areWritten = this->closeRecording(message);
-  if (trace_.isOpen())
-  {
-    const bool isWritten = trace_.commit(message);
-    noteFile(isWritten, "trace: " + options_.trace);
-    areWritten = areWritten && isWritten;
-  }
-  if (!options_.forceChart.empty())
-  {
-    const bool isWritten = wholeChart_->WriteImage(options_.forceChart.c_str());
-    message = isWritten ? message : wholeChart_->GetErrorMessage();
-    noteFile(isWritten, "force chart: " + options_.forceChart);
-    areWritten = areWritten && isWritten;
-  }
-  return areWritten;
+  const bool isRecorded = this->closeRecording(message);
+  return touchFiles_.commit(observer_, message) && isRecorded;
 }
 
 /// Parameters that @p sample was felt with.
@@ -400,7 +363,7 @@ ContactParameters ViewWindow::contactOf(const ServoSample& sample) const
 bool ViewWindow::start(std::size_t cloud, const std::string& news, std::string& message)
 {
   options_.picture.hidden = scene_.picture().hidden; // as the arrays are written
-  if (!options_.trace.empty() && !trace_.open(options_.trace, traceColumns(), message, true))
+  if (!touchFiles_.open(options_, true, message))
   {
     return false;
   }

@@ -146,7 +146,6 @@ private:
   void followOptions(const HapticViewerOptions& then);
   void adoptModel(const AffineTransform& model, bool keepsModel, const HapticViewerOptions& then);
   void giveModel(vtkMatrix4x4* matrix);
-  bool endFiles(std::string& message);
   void findIdeal();
   /// Parameters with the limit of the force that holds.
   ContactParameters contactOf(const ServoSample& sample) const;
@@ -182,7 +181,6 @@ private:
   vtkNew<vtkRenderWindowInteractor> interactor_;
   vtkNew<vtkInteractorStyleHaptic> style_;
   vtkNew<vtkHapticChart> chart_;
-  vtkNew<vtkHapticChart> wholeChart_; // for --force-chart
   vtkNew<vtkHapticOverlay> overlay_;
   vtkNew<vtkHapticSliders> sliders_;
   vtkNew<vtkHapticProgress> progress_;
@@ -196,8 +194,8 @@ private:
   DistanceMeasuring measuring_;
   ClipBoxTool clipping_;
   ShownFiles files_;
-  std::shared_ptr<IdealForce> wholeIdeal_; // for the same
-  CsvWriter trace_;
+  std::shared_ptr<IdealForce> wholeIdeal_; // for the force chart
+  TouchFiles touchFiles_;
   RecordingWriter recording_;
   bool recordingWaits_ = false;                      ///< The user was told that the recording waits.
   std::future<std::pair<bool, std::string>> saving_; ///< Success, and what it will say.

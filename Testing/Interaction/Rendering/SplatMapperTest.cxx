@@ -7,13 +7,18 @@
 #include <gtest/gtest.h>
 #include <vtkActor.h>
 #include <vtkCellArray.h>
+#include <vtkChartXY.h>
+#include <vtkContextActor.h>
+#include <vtkContextScene.h>
 #include <vtkFloatArray.h>
 #include <vtkNew.h>
 #include <vtkOpenGLRenderWindow.h>
+#include <vtkPlot.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkProperty.h>
+#include <vtkTable.h>
 
 #include <algorithm>
 #include <cmath>
@@ -216,6 +221,37 @@ TEST(SplatMapper, SettersKeepToTheirRangesAndMoveTheTimeOfWhatIsUploaded)
   EXPECT_TRUE(moves([&] { splats->SetAmbientLight(true); }));
   EXPECT_TRUE(moves([&] { splats->SetSurfaces(true); }));
   EXPECT_FALSE(moves([&] { splats->SetSizeScale(2.0); })); // a uniform of the shader
+}
+
+TEST(SplatMapper, DiscsTiltAsBeforeAfterTheMarkersOfAChart)
+{
+  SKIP_WITHOUT_DISPLAY();
+  const vtkSmartPointer<vtkPolyData> three = threePoints();
+  vtkNew<vtkFloatArray> normals;
+  normals->SetName("N");
+  normals->SetNumberOfComponents(3);
+  normals->SetNumberOfTuples(3);
+  normals->Fill(0.58); // towards the upper right
+  three->GetPointData()->AddArray(normals);
+  SplatWindow view(three);
+  view.splats->SetSizeArrayName("Length");
+  view.splats->SetNormalArrayName("N");
+  view.splats->SetAmbientLight(true);
+  view.splats->SetSurfaces(true);
+  const std::vector<unsigned char> expected = view.picture();
+  vtkNew<vtkTable> table;
+  table->AddColumn(three->GetPointData()->GetArray("Length"));
+  vtkNew<vtkChartXY> chart;
+  chart->AddPlot(vtkChart::POINTS)->SetInputData(table, 0, 0);
+  vtkNew<vtkContextActor> actor;
+  actor->GetScene()->AddItem(chart);
+  vtkNew<vtkRenderer> over;
+  over->AddActor(actor);
+  actor->GetScene()->SetRenderer(over);
+  view.window->AddRenderer(over);
+  EXPECT_GT(differences(view.picture(), expected), 1000u) << "the chart is seen";
+  view.window->RemoveRenderer(over);
+  EXPECT_EQ(differences(view.picture(), expected), 0u);
 }
 
 } // namespace
