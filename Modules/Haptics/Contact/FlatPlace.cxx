@@ -12,10 +12,10 @@ namespace
 
 /// Points are flat up to this RMS distance from their plane, over the ball's radius; fewer than kPlanePoints
 /// are not.
-constexpr double kFlat = 0.05;
+constexpr double kFlat = 0.5 * ball::kBump;
 constexpr double kPlanePoints = 6.0;
 /// Points in a row have no normal: up to this RMS distance from a line, over the radius.
-constexpr double kLine = 0.1;
+constexpr double kLine = ball::kBump;
 /// Points further from the plane than the RMS belong to another face: they are left out this many times.
 constexpr int kTrims = 3;
 /// The place continues where a point lies within a stride of the foot of the HIP and this far beyond it, over
