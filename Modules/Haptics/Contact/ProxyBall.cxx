@@ -12,16 +12,16 @@ namespace
 
 using namespace ball;
 
-/// Moves of one slide.
-constexpr int kMostSlides = 24;
+/// Moves of one slide, pushes out of points, and touched points that bound a move. With eight times as many
+/// more hands go around noisy rims.
+constexpr int kMostMoves = 24;
 /// A visit of the pyramid costs a round of the budget for each kPointsOfRound points that it examines: a
 /// large ball among dense points examines thousands.
 constexpr std::uint64_t kPointsOfRound = 128;
-/// Glides of one step.
+/// Glides of one step: without a bound they use up the budget.
 constexpr int kMostGlides = 3;
-/// A point nearer than this many radii is touched.
+/// A point nearer than this many radii is touched: with 1 rounding would lose the points that hold the ball.
 constexpr double kTouch = 1.002;
-constexpr int kMostTouched = 16; ///< Also pushes out of points.
 /// Reach of the points that decide whether the place is flat for the first touch beside an edge, over the
 /// radius. With kPlaneReach a hand falls off a sharp wedge.
 constexpr double kTouchReach = 1.2;
@@ -106,7 +106,7 @@ void ProxyBall::gather(Work& work, double way) noexcept
 /// Moves the ball out of the points that it covers. False: they enclose it.
 bool ProxyBall::pushOut(const BallCells& cells) noexcept
 {
-  for (int push = 0; push < kMostTouched; ++push)
+  for (int push = 0; push < kMostMoves; ++push)
   {
     const int deepest = cells.deepest(center_, kClear * scale_);
     if (deepest < 0)
@@ -223,7 +223,7 @@ void ProxyBall::touchDown(Work& work) noexcept
   }
 }
 
-/// Moves a touching ball towards the HIP in at most kMostSlides moves. Each takes the parts of the pull that
+/// Moves a touching ball towards the HIP in at most kMostMoves moves. Each takes the parts of the pull that
 /// lead into touched points away, goes up to the next point, and leaves what rounding made it cover. Sets
 /// kProxyRoundLimit where moves or rounds run out.
 void ProxyBall::slide(Work& work, const Vec3& hip) noexcept
@@ -233,7 +233,7 @@ void ProxyBall::slide(Work& work, const Vec3& hip) noexcept
   const auto aside = [&] { return norm(flat_.along(hip - center_)); };
   // Bumps may not push the ball further aside than kAside, or than it was at the start.
   const double mostAside = isOnFlat ? std::max(kAside * radius_, aside()) : 0.0;
-  for (int i = 0; i < kMostSlides && work.rounds > 0; ++i, --work.rounds)
+  for (int i = 0; i < kMostMoves && work.rounds > 0; ++i, --work.rounds)
   {
     const Vec3 pull = hip - center_;
     // A move ends where the gathered points end; where that is too short, points are gathered for a radius.
@@ -243,7 +243,7 @@ void ProxyBall::slide(Work& work, const Vec3& hip) noexcept
       std::min({ norm(pull), radius_, gathered > kAside * radius_ ? gathered : radius_ });
     gather(work, (kTouch - 1.0) * work.scene.contactField().largest() + longest);
     work.cells.focus(center_, kAside * radius_);
-    Vec3 normals[kMostTouched];
+    Vec3 normals[kMostMoves];
     int touched = 0;
     double mostOpposed = 0.0; // the ball takes the radius of the touched point that opposes the pull most
     work.cells.visitTouched(center_, kTouch * scale_,
@@ -253,7 +253,7 @@ void ProxyBall::slide(Work& work, const Vec3& hip) noexcept
         const double against = dot(normal, pull);
         radius_ = against < mostOpposed ? radius / kTouch : radius_;
         mostOpposed = std::min(mostOpposed, against);
-        if (touched < kMostTouched)
+        if (touched < kMostMoves)
         {
           normals[touched++] = normal;
         }

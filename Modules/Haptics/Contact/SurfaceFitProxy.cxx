@@ -9,23 +9,13 @@ namespace pointhaptics
 namespace
 {
 
-/// The contact point of a ball wanders by this part of the noise while the hand rests.
+/// The contact point of a ball wanders by this part of the noise while the hand rests. Without it a hand on
+/// teeth trembles.
 constexpr double kWander = 0.2;
-/// A lost fit is sought at once. Later searches take three ticks, and one begins every kSeekEvery ticks: a
-/// search that failed a moment ago mostly fails again.
-constexpr int kSeekEvery = 4;
-/// A fit is sought where the present one decides less than this part of the contact.
-constexpr double kSeekBelow = 0.5;
 /// RMS distance of the cells from the fit up to which the surface is smooth: over the ball's radius, or over
 /// the noise of single points, which cells average. Without the second a noisy sphere is rough.
 constexpr double kSmoothResidual = 0.03;
 constexpr double kSmoothNoise = 0.5;
-/// The fit alone is felt up to this distance of its point from the ball's: kTrustRadii of the ball's radius
-/// plus kTrustDepths of the depth, as bumps between points hold the ball back.
-constexpr double kTrustRadii = 0.2;
-constexpr double kTrustDepths = 0.3;
-/// From this many times the trusted distance on the ball alone is felt.
-constexpr double kDistrust = 1.5;
 /// A face is an exit of the HIP if its residual is below kOutResidual, over the ball's radius, or kOutNoise,
 /// over the noise. A fit across two faces of a wedge has a larger residual. Without the second the ball goes
 /// around a noisy rim: of the ticks that press against it edge-on half have no force.
@@ -57,7 +47,7 @@ void SurfaceFitProxy::carry(const AffineTransform& from, const AffineTransform& 
   const AffineTransform change = to * from.inverse();
   ball_.carry(change, std::cbrt(std::abs(change.determinant())));
   tracker_.carry(from, to);
-  search_.carry(from, to);
+  search_.giveUp();
   friction_.carry(change);
   roughAt_ = kNowhere;
   normal_ = normalized(change.applyToNormal(normal_), normal_);
@@ -119,22 +109,17 @@ bool SurfaceFitProxy::comesOut(
   return true;
 }
 
-/// Does the next part of the search for a fit at the ball, or all of it in the first tick without a fit.
-/// @return true if it has come to the foot of the HIP.
+/// Searches for a fit at the ball: all of it in the first tick without a fit, then a part in each tick, as a
+/// search that failed a moment ago mostly fails again. @return true if it has come to the foot of the HIP.
 bool SurfaceFitProxy::seek(const HapticScene& scene, Memory& memory, const Vec3& hip) noexcept
 {
-  const int tick = searchTicks_++;
   Vec3 nearest;
-  if (tick == 0 || tick % kSeekEvery == 1)
+  if (search_.isIdle() && findNearest(scene, ball_.nearestPoint(hip), 2.0 * ball_.radius(), nearest))
   {
-    search_.giveUp();
-    if (findNearest(scene, ball_.nearestPoint(hip), 2.0 * ball_.radius(), nearest))
-    {
-      search_.begin(nearest);
-    }
+    search_.begin(nearest);
   }
-  return tick == 0 ? search_.finish(scene, memory.fit, ball_.center(), hip)
-                   : search_.advance(scene, memory.fit, ball_.center(), hip);
+  return std::exchange(isSeeking_, true) ? search_.advance(scene, memory.fit, ball_.center(), hip)
+                                         : search_.finish(scene, memory.fit, ball_.center(), hip);
 }
 
 /// Moves the ball with the foot of the fit while the fit alone is felt and the surface continues smoothly: it
@@ -155,14 +140,16 @@ void SurfaceFitProxy::updateFit(const HapticScene& scene, Memory& memory, const 
 {
   const auto agreement = [&]
   {
+    // The fit alone is felt up to this distance of its point from the ball's, as bumps between points hold
+    // the ball back, and the ball alone from twice of it on.
     const double trust =
-      std::max(kTrustRadii * ball_.radius() + kTrustDepths * std::max(0.0, ball_.depth(hip)),
+      std::max(ball::kFace * ball_.radius() + ball::kAside * std::max(0.0, ball_.depth(hip)),
         isSmooth() && tracker_.continuesAround() ? ball::kTrustPlain * ball_.radius() : 0.0);
     const double distance = norm(tracker_.point() - ball_.nearestPoint(hip));
     // A HIP in front of the fit but deep below the ball belongs to another sheet.
     const bool agrees =
       tracker_.height(ball_.center()) > 0.0 && !(tracker_.height(hip) > 0.0 && ball_.depth(hip) > trust);
-    return agrees ? 1.0 - smoothStep((distance - trust) / ((kDistrust - 1.0) * trust)) : 0.0;
+    return agrees ? 1.0 - smoothStep((distance - trust) / trust) : 0.0;
   };
   double result = 0.0;
   if (weight_ > 0.0)
@@ -175,8 +162,8 @@ void SurfaceFitProxy::updateFit(const HapticScene& scene, Memory& memory, const 
     status |= std::uint32_t(isLed ? kProxyLed : kProxyOk);
     result = followed <= TrackResult::RoundLimit || isLed ? agreement() : 0.0;
   }
-  const bool seeks = result < kSeekBelow;
-  status |= std::uint32_t(seeks && searchTicks_ > 0 ? kProxySeeking : kProxyOk);
+  const bool seeks = result < 1.0;
+  status |= std::uint32_t(seeks && isSeeking_ ? kProxySeeking : kProxyOk);
   if (seeks && seek(scene, memory, hip))
   {
     const SurfaceTracker before = std::exchange(tracker_, search_.found());
@@ -186,7 +173,8 @@ void SurfaceFitProxy::updateFit(const HapticScene& scene, Memory& memory, const 
   }
   if (result == 1.0)
   {
-    searchTicks_ = 0;
+    isSeeking_ = false;
+    search_.giveUp();
   }
   weight_ = result;
   // Another face is looked for unless the fit is trusted, exact, and has surface on all sides.
@@ -203,7 +191,7 @@ void SurfaceFitProxy::forgetFit() noexcept
   weight_ = 0.0;
   roughAt_ = kNowhere;
   search_.giveUp();
-  searchTicks_ = 0;
+  isSeeking_ = false;
 }
 
 /// Blends the contacts of fit and ball: weight_ is the fit's part, the rest is the ball's. Each presses only
