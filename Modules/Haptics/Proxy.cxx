@@ -34,14 +34,8 @@ constexpr double kSheetGoesOn = 50e-3;
 struct Proxy::Implementation
 {
   HapticParameters parameters;
-  const HapticScene* scene = nullptr;
-  AffineTransform lastLattice; ///< modelToLattice of the last scene: the state of the methods is in that
-                               ///< frame.
-  std::uint64_t lastCloud = 0;
-  std::uint64_t lastGlobalCloud = 0;
-  AffineTransform lastPlace; ///< modelToWorkspace of the last scene.
-  bool hadScene = false;
-  bool isFallback = false; ///< True after a local scene was left.
+  const HapticScene* scene = nullptr; ///< The state of the methods is in its lattice frame.
+  bool isFallback = false;            ///< True after a local scene was left.
   SurfaceFitProxy surfaceFit;
   SurfaceFitProxy::Memory memory;
   SurfaceFitProxy::Memory prefetchMemory; ///< Separate, since a prefetch gathers about another place and must
@@ -49,7 +43,6 @@ struct Proxy::Implementation
   OffsetSettler settler;
   GradientSteps gradientSteps;
   ProxyState last;
-  Vec3 lastHip;
   Vec3 lastMove; ///< Motion of the HIP in the last step, metres.
   bool hasLastHip = false;
   double lastDt = 0.0; ///< Duration of the last step, seconds.
@@ -75,37 +68,32 @@ struct Proxy::Implementation
 
   void take(const HapticScene* newScene) noexcept
   {
-    if (newScene && hadScene && !(newScene->modelToLattice() == lastLattice))
+    if (newScene && scene && !(newScene->modelToLattice() == scene->modelToLattice()))
     {
-      surfaceFit.carry(lastLattice, newScene->modelToLattice());
-      gradientSteps.carry(lastLattice, newScene->modelToLattice());
+      surfaceFit.carry(scene->modelToLattice(), newScene->modelToLattice());
+      gradientSteps.carry(scene->modelToLattice(), newScene->modelToLattice());
     }
     if (!newScene)
     {
       releaseContact();
     }
+    const bool isInPlace = newScene && scene && newScene->modelToWorkspace() == scene->modelToWorkspace();
     isModelMoved = isModelMoved ||
-      (newScene && hasLastHip &&
-        (newScene->globalCloudNumber() != lastGlobalCloud || !(newScene->modelToWorkspace() == lastPlace)));
+      (newScene && hasLastHip && !(isInPlace && newScene->globalCloudNumber() == scene->globalCloudNumber()));
+    isBehind = isBehind && isInPlace;
     const Bounds shared = newScene && scene ? newScene->sharedWith(*scene) : Bounds();
     if (!shared.empty())
     {
       memory.carryOver(*newScene, shared);
       surfaceFit.changeRadii();
     }
-    else if (!newScene || newScene->cloudNumber() != lastCloud)
+    else if (!newScene || !scene || newScene->cloudNumber() != scene->cloudNumber())
     {
       // A new cloud may have the address of an old one.
       memory.invalidate();
       surfaceFit.changeCells();
       gradientSteps.changeCells();
     }
-    isBehind = isBehind && newScene && newScene->modelToWorkspace() == lastPlace;
-    lastCloud = newScene ? newScene->cloudNumber() : 0;
-    lastGlobalCloud = newScene ? newScene->globalCloudNumber() : 0;
-    lastPlace = newScene ? newScene->modelToWorkspace() : AffineTransform();
-    lastLattice = newScene ? newScene->modelToLattice() : AffineTransform();
-    hadScene = newScene != nullptr;
     hasChanged = hasChanged || (!settlesOffset() && hasLastHip && newScene != scene);
     scene = newScene;
   }
@@ -118,8 +106,8 @@ struct Proxy::Implementation
     {
       return true;
     }
-    const AffineTransform change = local.modelToLattice() * lastLattice.inverse();
-    return local.covers(change.apply(scene->toLattice(lastHip))) &&
+    const AffineTransform change = local.modelToLattice() * scene->modelToLattice().inverse();
+    return local.covers(change.apply(scene->toLattice(last.hip))) &&
       local.covers(change.apply(scene->toLattice(last.proxy))) &&
       local.covers(change.apply(scene->toLattice(last.sphereCenter)));
   }
@@ -163,8 +151,7 @@ struct Proxy::Implementation
 
   void remember(const Vec3& hip, double dt) noexcept
   {
-    lastMove = hasLastHip ? hip - lastHip : Vec3();
-    lastHip = hip;
+    lastMove = hasLastHip ? hip - last.hip : Vec3();
     hasLastHip = true;
     lastDt = dt;
   }
@@ -252,7 +239,7 @@ struct Proxy::Implementation
       return false;
     }
     const bool wasSettling = settler.settling();
-    const double moved = hasLastHip ? norm(state.hip - lastHip) : 0.0;
+    const double moved = hasLastHip ? norm(state.hip - last.hip) : 0.0;
     const Vec3 felt = settler.settle(state.proxy - state.hip, moved, shrink);
     if (settler.settling())
     {
@@ -343,7 +330,7 @@ struct Proxy::Implementation
     return part < 1.0 ? part * force : force;
   }
 
-  Vec3 moved(const ProxyState& state) const noexcept { return hasLastHip ? state.hip - lastHip : Vec3(); }
+  Vec3 moved(const ProxyState& state) const noexcept { return hasLastHip ? state.hip - last.hip : Vec3(); }
 
   Vec3 forceOf(ProxyState& state, double stiffness, double dt) noexcept
   {
@@ -351,7 +338,7 @@ struct Proxy::Implementation
     Vec3 force = springForce(state, stiffness);
     if (state.contact && contact.damping > 0.0 && hasLastHip && dt > 0.0)
     {
-      const double speed = dot(state.hip - lastHip, state.normal) / dt;
+      const double speed = dot(state.hip - last.hip, state.normal) / dt;
       const double spring = dot(force, state.normal);
       // Damping never pulls the hand into the surface.
       force += std::max(-contact.damping * speed, -spring) * state.normal;
@@ -424,11 +411,6 @@ void Proxy::restart() noexcept
   self.reset();
   self.memory.invalidate();
   self.scene = nullptr;
-  self.lastLattice = AffineTransform();
-  self.lastCloud = 0;
-  self.lastGlobalCloud = 0;
-  self.lastPlace = AffineTransform();
-  self.hadScene = false;
   self.isFallback = false;
   self.lastDt = 0.0;
 }
@@ -475,8 +457,8 @@ ProxyState Proxy::step(const Vec3& hip, double dt) noexcept
   // Only one of them settles at a time: both together would be twice the rate.
   self.settleChanges(state, settles ? 0.0 : self.parameters.contact.settleRate * dt);
   self.finishForce(state);
-  self.last = state;
   self.remember(hip, dt);
+  self.last = state;
   self.fadedSeconds = 0.0;
   self.enterFallback(state.proxy);
   self.enterFallback(state.sphereCenter);
@@ -490,7 +472,7 @@ void Proxy::prefetch() noexcept
   {
     return;
   }
-  const Vec3 hip = self.scene->toLattice(self.lastHip + self.lastMove);
+  const Vec3 hip = self.scene->toLattice(self.last.hip + self.lastMove);
   if (!isFinite(hip))
   {
     return;

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <iterator>
 #include <limits>
 #include <mutex>
@@ -43,22 +44,6 @@ HandLimits limitsOf(const HapticPort& port)
   HandLimits limits = port.limits();
   limits.maximumForce = std::min(limits.maximumForce, port.maximumForce());
   return limits;
-}
-
-/// Parameters whose force limit is the one that holds.
-HapticParameters within(const ForceLimit& limit, HapticParameters parameters)
-{
-  // A limit of 0 is the guard's.
-  parameters.contact.forceLimit = std::max(limit.newtons(), std::numeric_limits<double>::min());
-  return parameters;
-}
-
-Status checkSpring(const HandLimits& limits, const HapticParameters& parameters, double rateHz)
-{
-  const Status status = parameters.check();
-  return status == Status::Ok
-    ? checkPassive(limits, parameters.contact.stiffness, parameters.contact.damping, rateHz)
-    : status;
 }
 
 template <typename Input>
@@ -116,8 +101,8 @@ struct ServoLoop::Implementation
   ServoSettings settings;
   HapticPort* port = nullptr;
   HandLimits limits;
-  std::atomic<double> userLimit{ 0.0 };  ///< N, of the newest parameters.
-  std::atomic<std::int64_t> origin{ 0 }; ///< steadyNanoseconds() of time 0.
+  ForceLimit forceLimit{ INFINITY, 0.0, kMostServoForce }; ///< Of the newest parameters.
+  std::atomic<std::int64_t> origin{ 0 };                   ///< steadyNanoseconds() of time 0.
   ServoStepSettings stepSettings;
   ServoStep step;
   const HapticScene* scene = nullptr;
@@ -131,7 +116,7 @@ struct ServoLoop::Implementation
   bool holdsModel = false;      ///< In this tick.
   ServoSample sample;
 
-  void writeParameters(const HapticParameters& newParameters);
+  HapticParameters writeParameters(HapticParameters newParameters);
   void clear();
   void publish(const ServoSample& newSample, std::int64_t wake) noexcept;
   void prepare(HapticPort& newPort, const HapticParameters& wanted, const ServoSettings& newSettings);
@@ -142,20 +127,19 @@ struct ServoLoop::Implementation
   bool gateIsOpen(std::int64_t wake) noexcept;
   std::uint64_t ticksToIdle() noexcept;
   bool pushes() const noexcept { return sample.state.force != Vec3(); }
-  ForceLimit forceLimit() const noexcept
-  {
-    ContactParameters contact;
-    contact.forceLimit = userLimit.load(std::memory_order_relaxed);
-    return servoForceLimit(limits, contact, settings.limits);
-  }
   void heartbeat() noexcept { newestHeartbeat.store(steadyNanoseconds(), std::memory_order_relaxed); }
 };
 
-void ServoLoop::Implementation::writeParameters(const HapticParameters& newParameters)
+/// Publishes the parameters with the force limit that holds. @return those.
+HapticParameters ServoLoop::Implementation::writeParameters(HapticParameters newParameters)
 {
+  forceLimit = servoForceLimit(limits, newParameters.contact, settings.limits);
+  // A limit of 0 is the guard's.
+  newParameters.contact.forceLimit = std::max(forceLimit.newtons(), std::numeric_limits<double>::min());
   const std::lock_guard<std::mutex> lock(publishing);
   parameters.write(newParameters);
   keep(inputs.parameters, { parameters.version(), newParameters });
+  return newParameters;
 }
 
 /// Statistics, trace and the newest sample, for a new start.
@@ -166,7 +150,6 @@ void ServoLoop::Implementation::clear()
   jitter.clear();
   update.clear();
   count = ServoStatistics();
-  statistics.write(count);
   firstWake = 0;
   stopRequested.store(false, std::memory_order_relaxed);
 }
@@ -177,8 +160,6 @@ void ServoLoop::Implementation::prepare(
   port = &newPort;
   settings = newSettings;
   limits = limitsOf(*port);
-  userLimit.store(wanted.contact.forceLimit, std::memory_order_relaxed);
-  const HapticParameters newParameters = within(forceLimit(), wanted);
   stepSettings.rateHz = settings.rateHz;
   stepSettings.limits = settings.limits;
   stepSettings.limits.maximumForce =
@@ -187,13 +168,12 @@ void ServoLoop::Implementation::prepare(
   stepSettings.rampUpSeconds = limits.rampUpSeconds;
   stepSettings.clutchDownSeconds = std::max(limits.rampDownSeconds, ServoLoop::kClutchDownSeconds);
   stepSettings.clutchUpSeconds = std::max(limits.rampUpSeconds, ServoLoop::kClutchUpSeconds);
-  step = ServoStep(stepSettings, newParameters);
+  step = ServoStep(stepSettings, writeParameters(wanted));
   clutched.store(false, std::memory_order_relaxed);
   beginsAnew.store(true, std::memory_order_relaxed); // whatever the number of the first tick
   scene = nullptr;
   stillTicks = 0;
   sample = ServoSample();
-  writeParameters(newParameters);
   parametersVersion = parameters.version();
   sample.parameters = parametersVersion;
   clear();
@@ -202,8 +182,7 @@ void ServoLoop::Implementation::prepare(
   count.awakeRefusal = settings.keepCoresAwake ? wakefulCores.request() : 0;
   count.coresAwake = settings.keepCoresAwake && count.awakeRefusal == 0;
   statistics.write(count);
-  newestHeartbeat.store(steadyNanoseconds(), std::memory_order_relaxed);
-  stopRequested.store(false, std::memory_order_relaxed);
+  heartbeat();
   running.store(true, std::memory_order_release);
 }
 
@@ -375,12 +354,9 @@ Status ServoLoop::start(
   HapticPort& port, const HapticParameters& parameters, const ServoSettings& settings, std::string* message)
 {
   const HandLimits limits = limitsOf(port);
-  const ForceLimit limit = servoForceLimit(limits, parameters.contact, settings.limits);
   const bool mayStart = !running() && valid(settings) && limits.maximumForce > 0.0;
-  const Status status = mayStart && parameters.check() == Status::Ok
-    ? checkSpring(limits, within(limit, parameters), settings.rateHz)
-    : Status::InvalidParameter;
-  if (explained(status, limits, parameters.contact, settings.rateHz, message) != Status::Ok)
+  const Status status = checkSpring(mayStart, limits, parameters, settings.rateHz, message);
+  if (status != Status::Ok)
   {
     return status;
   }
@@ -463,16 +439,12 @@ Status ServoLoop::setParameters(const HapticParameters& parameters, std::string*
 {
   Implementation& self = *implementation_;
   self.heartbeat();
-  const ForceLimit limit = servoForceLimit(self.limits, parameters.contact, self.settings.limits);
-  const Status status = parameters.check() == Status::Ok
-    ? checkSpring(self.limits, within(limit, parameters), self.settings.rateHz)
-    : Status::InvalidParameter;
+  const Status status = checkSpring(true, self.limits, parameters, self.settings.rateHz, message);
   if (status == Status::Ok)
   {
-    self.userLimit.store(parameters.contact.forceLimit, std::memory_order_relaxed);
-    self.writeParameters(within(limit, parameters));
+    self.writeParameters(parameters);
   }
-  return explained(status, self.limits, parameters.contact, self.settings.rateHz, message);
+  return status;
 }
 
 void ServoLoop::setClutched(bool clutched) noexcept
@@ -528,7 +500,7 @@ void ServoLoop::beginAnew() noexcept
 
 ForceLimit ServoLoop::forceLimit() const noexcept
 {
-  return implementation_->forceLimit();
+  return implementation_->forceLimit;
 }
 
 std::int64_t ServoLoop::origin() const noexcept

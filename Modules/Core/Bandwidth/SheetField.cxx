@@ -30,10 +30,10 @@ constexpr double kAgree = 0.7;
 constexpr int kCounted = 12;
 constexpr int kLeast = 4;
 /// The middle of half a disk is 0.42 radii aside. The middle of a few points on a whole disk lies aside by
-/// chance up to the first; the filled part falls by the second for each radius beyond, to the third.
+/// chance up to the first; the filled part falls by the second for each radius beyond, to that of one
+/// neighbour.
 constexpr double kChanceOffset = 0.3;
 constexpr double kPartPerOffset = 4.0;
-constexpr double kLeastPart = 0.25;
 /// The middle of a quarter of a disk is 0.6 radii aside. A point farther from its neighbours is no part of
 /// their sheet: it is a stray in their plane, and its ball would reach to them.
 constexpr double kMostAside = 0.7;
@@ -199,7 +199,7 @@ private:
     const double aside = norm(sum) / (std::max(1, count) * reach);
     if (count >= kLeast && aside < kMostAside)
     {
-      const double part = std::clamp(1.0 - kPartPerOffset * (aside - kChanceOffset), kLeastPart, 1.0);
+      const double part = std::clamp(1.0 - kPartPerOffset * (aside - kChanceOffset), 1.0 / kLeast, 1.0);
       // Two sheets have twice the points of one; where fewer agree the surface bends.
       sheet.spacing =
         float(std::min(reach * std::sqrt(kPi * part / count), kMostOfAll * double(near.spacing)));

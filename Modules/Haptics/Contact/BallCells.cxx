@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 
 namespace pointhaptics
 {
@@ -16,8 +17,6 @@ constexpr double kMargins[] = { 0.9, 0.25, 0.0 };
 /// If points were left out, a way shorter than this fraction of the last one is gathered anew: all may have
 /// room. With 1 a tick beside a step in density takes 4 ms, as each of its ways is gathered.
 constexpr double kShorterWay = 0.8;
-/// Padding coordinate behind the last point: no ball reaches it, and its square is finite.
-constexpr double kFarAway = 1e100;
 /// Tolerance over the radius of a touched point: a way that comes nearer to that point by less is tangential.
 /// Without it rounding would stop a sliding ball.
 constexpr double kTangential = 1e-6;
@@ -145,7 +144,8 @@ void BallCells::pad(int end) noexcept
 {
   for (int i = end; i % simd::kFitLanes != 0; ++i)
   {
-    x_[i] = y_[i] = z_[i] = kFarAway;
+    // No ball reaches it, and its square is finite.
+    x_[i] = y_[i] = z_[i] = double(std::numeric_limits<float>::max());
     radius_[i] = 0.0;
   }
 }

@@ -12,14 +12,12 @@ namespace
 
 /// Points are flat up to this RMS distance from their plane, over the ball's radius; fewer than kPlanePoints
 /// are not.
-constexpr double kFlat = 0.05;
+constexpr double kFlat = 0.5 * ball::kBump;
 constexpr double kPlanePoints = 6.0;
 /// Points in a row have no normal: up to this RMS distance from a line, over the radius.
-constexpr double kLine = 0.1;
-/// Points further from the plane than the RMS belong to another face: they are left out this many times.
-constexpr int kTrims = 3;
+constexpr double kLine = ball::kBump;
 /// The place continues where a point lies within a stride of the foot of the HIP and this far beyond it, over
-/// the radius.
+/// the radius. With 0.05 a hand falls through a wedge of 20 degrees.
 constexpr double kAhead = 0.04;
 
 }
@@ -29,23 +27,24 @@ bool FlatPlace::find(
 {
   Vec3 mean;
   SymEigen eigen;
-  for (int trim = 0; trim <= kTrims; ++trim)
+  // Points further from the plane than the RMS belong to another face: the second round leaves them out.
+  for (const bool trims : { false, true })
   {
-    const double gate = trim > 0 ? std::sqrt(std::max(0.0, eigen.values[0])) : INFINITY;
+    const double gate = std::sqrt(std::max(0.0, eigen.values[0]));
     double count = 0.0;
     Vec3 sum;
     SymMat3 squares;
     cells.visitBall(center, reach,
       [&](const Vec3& offset, double)
       {
-        if (trim == 0 || std::abs(dot(offset - mean, eigen.vectors[0])) <= gate)
+        if (!trims || std::abs(dot(offset - mean, eigen.vectors[0])) <= gate)
         {
           count += 1.0;
           sum += offset;
           squares += outerProduct(offset);
         }
       });
-    if (count < kPlanePoints && trim > 0)
+    if (count < kPlanePoints && trims)
     {
       break;
     }
@@ -55,8 +54,8 @@ bool FlatPlace::find(
     squares *= count > 0.0 ? 1.0 / count : 0.0;
     squares += middle;
     eigen = symmetricEigen(squares);
-    away = trim == 0 ? normalized(mean) : away;
-    if (trim == 0 &&
+    away = trims ? away : normalized(mean);
+    if (!trims &&
       (count < kPlanePoints || eigen.values[0] > kFlat * kFlat * radius * radius ||
         eigen.values[1] < kLine * kLine * radius * radius))
     {

@@ -1,5 +1,7 @@
 #include "Haptics/Contact/GradientSteps.h"
 
+#include "Haptics/Contact/BallLengths.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -7,9 +9,6 @@ namespace pointhaptics
 {
 namespace
 {
-
-/// No step is longer than this part of the radius: a longer one could jump over a surface.
-constexpr double kLongestStep = 0.5;
 
 struct Penetration
 {
@@ -65,7 +64,7 @@ void GradientSteps::oneStep(
   const HapticScene& scene, const HapticParameters& parameters, const Vec3& hip, double radius) noexcept
 {
   const GradientStepsParameters& gains = parameters.gradientSteps;
-  const double longest = kLongestStep * radius;
+  const double longest = ball::kStride * radius; // a longer step could jump over a surface
   const Penetration inside = penetration(scene, center_, radius);
   const Vec3 toHip = hip - center_;
   const double sunk = norm(inside.sum);

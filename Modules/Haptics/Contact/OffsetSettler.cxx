@@ -10,8 +10,6 @@ namespace
 
 /// Rounding error of positions in the workspace, metres.
 constexpr double kRounding = 1e-12;
-/// Sine below which two directions are one.
-constexpr double kSameDirection = 1e-6;
 
 /// Moves @p from by at most @p way towards @p to. Directions less than a right angle apart are turned, so
 /// that the vector gets no shorter on the way than the shorter one.
@@ -27,7 +25,7 @@ Vec3 towards(const Vec3& from, const Vec3& to, double way) noexcept
   const double end = norm(to);
   const double across = norm(cross(from, to));
   const double along = dot(from, to);
-  if (!(along > 0.0 && across > kSameDirection * start * end))
+  if (!(along > 0.0 && across > 0.0))
   {
     return from + (way / distance) * change;
   }

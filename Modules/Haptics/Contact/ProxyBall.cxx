@@ -12,16 +12,16 @@ namespace
 
 using namespace ball;
 
-/// Moves of one slide.
-constexpr int kMostSlides = 24;
+/// Moves of one slide, pushes out of points, and touched points that bound a move. With eight times as many
+/// more hands go around noisy rims.
+constexpr int kMostMoves = 24;
 /// A visit of the pyramid costs a round of the budget for each kPointsOfRound points that it examines: a
 /// large ball among dense points examines thousands.
 constexpr std::uint64_t kPointsOfRound = 128;
-/// Glides of one step.
+/// Glides of one step: without a bound they use up the budget.
 constexpr int kMostGlides = 3;
-/// A point nearer than this many radii is touched.
+/// A point nearer than this many radii is touched: with 1 rounding would lose the points that hold the ball.
 constexpr double kTouch = 1.002;
-constexpr int kMostTouched = 16; ///< Also pushes out of points.
 /// Reach of the points that decide whether the place is flat for the first touch beside an edge, over the
 /// radius. With kPlaneReach a hand falls off a sharp wedge.
 constexpr double kTouchReach = 1.2;
@@ -106,7 +106,7 @@ void ProxyBall::gather(Work& work, double way) noexcept
 /// Moves the ball out of the points that it covers. False: they enclose it.
 bool ProxyBall::pushOut(const BallCells& cells) noexcept
 {
-  for (int push = 0; push < kMostTouched; ++push)
+  for (int push = 0; push < kMostMoves; ++push)
   {
     const int deepest = cells.deepest(center_, kClear * scale_);
     if (deepest < 0)
@@ -144,7 +144,6 @@ void ProxyBall::place(Work& work, const Vec3& hip) noexcept
   const int nearest = work.cells.deepest(center_, 1.0);
   radius_ = nearest >= 0 ? work.cells.radius(nearest) : radius_;
   makeRoom(work, radius_);
-  isFree_ = center_ == hip;
 }
 
 /// Keeps the contact point of a ball in a scene with other points of the same place.
@@ -152,7 +151,7 @@ void ProxyBall::placeAmongOthers(Work& work) noexcept
 {
   isAmongOthers_ = false;
   heldAt_ = { NAN, NAN, NAN };
-  if (isFree_)
+  if (isFree())
   {
     return;
   }
@@ -171,7 +170,7 @@ void ProxyBall::placeAmongOthers(Work& work) noexcept
 /// Lets a free ball that began too small grow as far as there is room.
 void ProxyBall::grow(Work& work) noexcept
 {
-  if (scale_ < 1.0 && isFree_)
+  if (scale_ < 1.0 && isFree())
   {
     gather(work, 0.0);
     const double before = scale_;
@@ -224,9 +223,9 @@ void ProxyBall::touchDown(Work& work) noexcept
   }
 }
 
-/// Moves a touching ball towards the HIP in at most kMostSlides moves. Each takes the parts of the pull that
+/// Moves a touching ball towards the HIP in at most kMostMoves moves. Each takes the parts of the pull that
 /// lead into touched points away, goes up to the next point, and leaves what rounding made it cover. Sets
-/// isFree_ where the ball reaches the HIP, and kProxyRoundLimit where moves or rounds run out.
+/// kProxyRoundLimit where moves or rounds run out.
 void ProxyBall::slide(Work& work, const Vec3& hip) noexcept
 {
   const bool isOnFlat =
@@ -234,7 +233,7 @@ void ProxyBall::slide(Work& work, const Vec3& hip) noexcept
   const auto aside = [&] { return norm(flat_.along(hip - center_)); };
   // Bumps may not push the ball further aside than kAside, or than it was at the start.
   const double mostAside = isOnFlat ? std::max(kAside * radius_, aside()) : 0.0;
-  for (int i = 0; i < kMostSlides && work.rounds > 0; ++i, --work.rounds)
+  for (int i = 0; i < kMostMoves && work.rounds > 0; ++i, --work.rounds)
   {
     const Vec3 pull = hip - center_;
     // A move ends where the gathered points end; where that is too short, points are gathered for a radius.
@@ -244,7 +243,7 @@ void ProxyBall::slide(Work& work, const Vec3& hip) noexcept
       std::min({ norm(pull), radius_, gathered > kAside * radius_ ? gathered : radius_ });
     gather(work, (kTouch - 1.0) * work.scene.contactField().largest() + longest);
     work.cells.focus(center_, kAside * radius_);
-    Vec3 normals[kMostTouched];
+    Vec3 normals[kMostMoves];
     int touched = 0;
     double mostOpposed = 0.0; // the ball takes the radius of the touched point that opposes the pull most
     work.cells.visitTouched(center_, kTouch * scale_,
@@ -254,7 +253,7 @@ void ProxyBall::slide(Work& work, const Vec3& hip) noexcept
         const double against = dot(normal, pull);
         radius_ = against < mostOpposed ? radius / kTouch : radius_;
         mostOpposed = std::min(mostOpposed, against);
-        if (touched < kMostTouched)
+        if (touched < kMostMoves)
         {
           normals[touched++] = normal;
         }
@@ -274,7 +273,6 @@ void ProxyBall::slide(Work& work, const Vec3& hip) noexcept
     if (isUnobstructed && reached == length)
     {
       center_ = hip;
-      isFree_ = true;
       return;
     }
     const Vec3 before = center_;
@@ -300,29 +298,26 @@ void ProxyBall::walk(Work& work, const Vec3& hip) noexcept
   double walked = 0.0;
   do
   {
-    if (isFree_)
+    bool flies = isFree();
+    if (flies)
     {
       double flown = 0.0;
-      isFree_ = advance(work, direction, length - walked, flown);
+      flies = advance(work, direction, length - walked, flown);
       walked += flown;
-      if (!isFree_)
+      if (!flies)
       {
         pushOut(work.cells);
         touchDown(work);
       }
     }
-    if (!isFree_)
-    {
-      walked = std::min(length, walked + radius_);
-    }
+    walked = flies ? walked : std::min(length, walked + radius_);
     hip_ = walked < length ? start + walked * direction : hip;
-    if (isFree_)
+    if (flies)
     {
       center_ = hip_;
     }
     else
     {
-      hasSlid_ = true;
       slide(work, hip_);
     }
   } while (walked < length && --work.rounds > 0);
@@ -332,7 +327,6 @@ void ProxyBall::step(
   const HapticScene& scene, BallCells& cells, const Vec3& hip, bool isPatient, std::uint32_t& status) noexcept
 {
   Work work{ scene, cells, status };
-  hasSlid_ = false;
   if (isFarAway(scene, hip) || (isPlaced_ && isFarAway(scene, hip_)))
   {
     reset();
@@ -354,17 +348,14 @@ void ProxyBall::step(
   grow(work);
 
   walk(work, hip);
-  hasReachedHip_ = hip_ == hip;
-  status |= std::uint32_t(hasReachedHip_ ? kProxyOk : kProxyStepLimit);
-  status |= std::uint32_t(scale_ < 1.0 && !isFree_ ? kProxyCrowded : kProxyOk);
-  const double again = kTryAgain * radius_;
-  if (isFree_ || norm2(hip - heldAt_) < again * again || mayWait(hip, isPatient))
-  {
-    return;
-  }
-  heldAt_ = { NAN, NAN, NAN };
-  const int glides = isPatient ? 1 : kMostGlides;
-  for (int i = 0; i < glides && !isFree_ && hasReachedHip_ && work.rounds > 0; ++i)
+  status |= std::uint32_t(isThere(hip) ? kProxyOk : kProxyStepLimit);
+  status |= std::uint32_t(scale_ < 1.0 && !isFree() ? kProxyCrowded : kProxyOk);
+  const double again = 0.5 * kBump * radius_;
+  const bool waits = isFree() || norm2(hip - heldAt_) < again * again || mayWait(hip, isPatient);
+  hasRidden_ = false;
+  heldAt_ = waits ? heldAt_ : Vec3{ NAN, NAN, NAN };
+  const int glides = waits || !isThere(hip) ? 0 : isPatient ? 1 : kMostGlides;
+  for (int i = 0; i < glides && !isFree() && work.rounds > 0; ++i)
   {
     if (!glide(work, hip))
     {

@@ -54,16 +54,16 @@ public:
     const HapticScene& scene, BallCells& cells, const Vec3& foot, const Vec3& up) const noexcept;
 
   /// The ball is at the HIP.
-  bool isFree() const noexcept { return isFree_; }
+  bool isFree() const noexcept { return center_ == hip_; }
   /// Moves the ball off its points, over bumps or around an edge, and down to the surface through @p foot
   /// with the unit normal @p up. False, and it stays: a point is in its way, it would get further from the
   /// HIP than bumps are high, or a HIP in front of that surface is not yet past the edge.
   bool goTo(const HapticScene& scene, BallCells& cells, const Vec3& foot, const Vec3& up,
     std::uint32_t& status) noexcept;
-  /// False: the HIP moved further than one step can follow; the ball is on its way.
-  bool isThere() const noexcept { return hasReachedHip_; }
-  /// True if points were in its way in the last step; if not, it moved straight with the HIP.
-  bool hasSlid() const noexcept { return hasSlid_; }
+  /// False: a step could not follow to @p hip, and the ball is on its way.
+  bool isThere(const Vec3& hip) const noexcept { return hip_ == hip; }
+  /// True if the last step was ride().
+  bool hasRidden() const noexcept { return hasRidden_; }
   const Vec3& center() const noexcept { return center_; }
   /// Radius of the point that the ball touches, times the scale; metres.
   double radius() const noexcept { return radius_; }
@@ -116,11 +116,8 @@ private:
   Vec3 heldAt_{ NAN, NAN, NAN }; ///< The HIP when gliding did not help; not finite: the ball is not held.
   FlatPlace flat_;
   bool isPlaced_ = false;
-  bool isFree_ = true;
-  bool hasReachedHip_ = true;
   bool isAmongOthers_ = false; ///< The points differ from those of the last step.
-  bool hasSlid_ = false;
-  bool hasRidden_ = false; ///< The ball rode, and has not looked for its way among the points since.
+  bool hasRidden_ = false;
 };
 
 } // namespace pointhaptics

@@ -11,11 +11,8 @@ namespace
 
 using namespace ball;
 
-/// Radius and least gain of a glide, over the radius.
-constexpr double kGlideRadius = 0.9;
+/// Least gain of a glide, over the radius. With a tenth of it a hand on noise of one spacing trembles.
 constexpr double kLeastGain = 1e-3;
-/// A ball on a flat place that leans by less than this waits, over the radius.
-constexpr double kWaitLean = 0.2;
 /// Lifts that take the ball off its points, over the radius: a deep gap needs the second.
 constexpr double kLifts[] = { 0.0, 0.3, 0.6 };
 /// Height of a riding ball above the surface, over the noise: the points of a noisy surface hold a lower one
@@ -41,12 +38,11 @@ Vec3 ProxyBall::surfaceNormal(const BallCells& cells) noexcept
 bool ProxyBall::mayWait(const Vec3& hip, bool isPatient) const noexcept
 {
   return !hasRidden_ && flat_.isNear(center_, kFlatNear * radius_) &&
-    norm(flat_.along(hip - center_)) < (isPatient ? kStride : kWaitLean) * radius_;
+    norm(flat_.along(hip - center_)) < (isPatient ? kStride : kFace) * radius_;
 }
 
 bool ProxyBall::glide(Work& work, const Vec3& hip) noexcept
 {
-  hasRidden_ = false;
   gather(work, kPlaneReach * radius_);
   const Vec3 up = surfaceNormal(work.cells);
   const Vec3 pull = hip - center_;
@@ -68,7 +64,7 @@ bool ProxyBall::glide(Work& work, const Vec3& hip) noexcept
   {
     gather(work, (kStride + lift) * radius_);
     // A smaller ball passes bumps; a lift takes the ball out of deeper gaps.
-    const double ball = lift > 0.0 ? scale_ : kGlideRadius * scale_;
+    const double ball = lift > 0.0 ? scale_ : (1.0 - kBump) * scale_;
     center_ += work.cells.sweep(center_, up, lift * radius_, ball) * up;
     center_ += work.cells.sweep(center_, direction, std::min(leaning, kStride * radius_), ball) * direction;
     const bool isOut = pushOut(work.cells);
@@ -85,6 +81,7 @@ bool ProxyBall::glide(Work& work, const Vec3& hip) noexcept
     if (isOut && isAlong && stillLeaning <= (isWalled ? norm(pull) : leaning) - kLeastGain * radius_ &&
       norm(left) <= norm(pull) + kBump * radius_)
     {
+      // Judged before this slide, or a ball that slides around a rim would count as nearer.
       if (lift == 0.0)
       {
         slide(work, hip);
@@ -120,7 +117,7 @@ bool ProxyBall::goTo(const HapticScene& scene, BallCells& cells, const Vec3& foo
     const Vec3 way = foot + (radius_ + lift) * up - center_;
     advance(work, normalized(way), norm(way), gone);
     slide(work, hip_);
-    if (isFree_ || (norm(hip_ - center_) < furthest && norm(center_ - foot) < kPlaneReach * radius_))
+    if (isFree() || (norm(hip_ - center_) < furthest && norm(center_ - foot) < kPlaneReach * radius_))
     {
       return true;
     }
@@ -157,7 +154,7 @@ bool ProxyBall::hasPointsAround(
 bool ProxyBall::ride(const HapticScene& scene, BallCells& cells, const Vec3& hip, const Vec3& foot,
   const Vec3& up, double noise, std::uint32_t& status) noexcept
 {
-  if (isFree_ || !hasReachedHip_ || scale_ < 1.0 || isAmongOthers_)
+  if (isFree() || scale_ < 1.0 || isAmongOthers_)
   {
     return false;
   }
@@ -194,7 +191,6 @@ bool ProxyBall::ride(const HapticScene& scene, BallCells& cells, const Vec3& hip
   }
   hip_ = hip;
   heldAt_ = { NAN, NAN, NAN };
-  hasSlid_ = false;
   hasRidden_ = true;
   // A fit leans towards an edge before it ends there; a plane through the points does not.
   Vec3 ignored;

@@ -61,7 +61,7 @@ public:
   /// The ball after the last step, for pictures.
   const ProxyBall& ball() const noexcept { return ball_; }
   /// The fit after the last step, for pictures; null where the ball alone is felt.
-  const SurfaceTracker* fit() const noexcept { return hasFit_ ? &tracker_ : nullptr; }
+  const SurfaceTracker* fit() const noexcept { return weight_ > 0.0 ? &tracker_ : nullptr; }
 
 private:
   /// Drops the fit where the ball is free: the next contact looks for a fit anew.
@@ -76,12 +76,12 @@ private:
 
   bool seek(const HapticScene& scene, Memory& memory, const Vec3& hip) noexcept;
   bool ride(const HapticScene& scene, Memory& memory, const Vec3& hip, std::uint32_t& status) noexcept;
-  double updateFit(const HapticScene& scene, Memory& memory, const Vec3& hip, TrackResult followed,
+  void updateFit(const HapticScene& scene, Memory& memory, const Vec3& hip, TrackResult followed,
     std::uint32_t& status) noexcept;
-  Contact blended(const HapticScene& scene, Memory& memory, const Vec3& hip, double weight) const noexcept;
+  Contact blended(const HapticScene& scene, Memory& memory, const Vec3& hip) const noexcept;
   bool comesOut(const HapticScene& scene, Memory& memory, const Vec3& hip, std::uint32_t& status) noexcept;
   bool isSmooth() const noexcept;
-  double uncertainty(const HapticScene& scene, double weight) const noexcept;
+  double uncertainty(const HapticScene& scene) const noexcept;
   bool hasSurfaceAround(const HapticScene& scene, Memory& memory) const noexcept;
 
   ProxyBall ball_;
@@ -89,12 +89,10 @@ private:
   SurfaceSearch search_; ///< Search for the next fit.
   FrictionCone friction_;
   Vec3 normal_{ 0.0, 0.0, 1.0 };
-  bool hasFit_ = false;
-  bool isFitAlone_ = false; ///< The fit alone was felt.
-  bool isPatient_ = false;  ///< The fit followed a smooth surface that continues on all sides.
+  double weight_ = 0.0; ///< The fit's part of the last contact, 0 to 1.
   /// The HIP when the surface beside it was last found not to be a flat face; not finite: it was not.
   Vec3 roughAt_{ NAN, NAN, NAN };
-  int searchTicks_ = 0; ///< Ticks of the search since the fit alone was felt.
+  bool isSeeking_ = false; ///< A fit has been sought since the fit alone was felt.
 };
 
 } // namespace pointhaptics

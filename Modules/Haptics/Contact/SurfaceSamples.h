@@ -13,7 +13,7 @@ namespace pointhaptics
 /// it was made of: the distance to the nearest point of the surface that ProxyMethod::SurfaceFit follows (the
 /// same fits, radii and gates), and the unit normal there. Without a side: the distance is not below 0, the
 /// normal is either of the two. @p distances, metres of the workspace: NaN where there is no fit, and for
-/// points that are not finite. @p normals, three numbers a point: zero there. Either may be null.
+/// points that are not finite. @p normals, three numbers a point: zero there.
 ///
 /// Cost: about 10 us a point and thread. The result does not depend on the executor. Allocates half a
 /// megabyte a thread.

@@ -94,10 +94,4 @@ bool SurfaceSearch::finish(
   return isFound;
 }
 
-void SurfaceSearch::carry(const AffineTransform& from, const AffineTransform& to) noexcept
-{
-  onSurface_ = (to * from.inverse()).apply(onSurface_);
-  tracker_.carry(from, to);
-}
-
 } // namespace pointhaptics

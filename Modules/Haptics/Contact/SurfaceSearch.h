@@ -21,13 +21,13 @@ public:
   /// Begins anew at the cell @p onSurface.
   void begin(const Vec3& onSurface) noexcept;
   void giveUp() noexcept { next_ = Part::None; }
+  /// True if no part remains.
+  bool isIdle() const noexcept { return next_ == Part::None; }
   /// Does the next part, if any. @return true if found() has come to @p target.
   bool advance(const HapticScene& scene, FitCells& memory, const Vec3& side, const Vec3& target) noexcept;
   /// Does all remaining parts.
   bool finish(const HapticScene& scene, FitCells& memory, const Vec3& side, const Vec3& target) noexcept;
   const SurfaceTracker& found() const noexcept { return tracker_; }
-  /// Moves the result so far with the model.
-  void carry(const AffineTransform& from, const AffineTransform& to) noexcept;
 
 private:
   enum class Part

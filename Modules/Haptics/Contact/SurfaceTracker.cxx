@@ -1,5 +1,7 @@
 #include "Haptics/Contact/SurfaceTracker.h"
 
+#include "Haptics/Contact/BallLengths.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -8,31 +10,28 @@ namespace pointhaptics
 namespace
 {
 
-/// Largest number of fits in a call.
+/// Largest number of fits in a call: a tick must be bounded.
 constexpr int kRounds = 8;
 /// The point has converged when one more round would move it by less than this part of the fit radius.
 constexpr double kConverged = 1e-5;
-/// Part of the noise below which moving on is pointless.
-constexpr double kConvergedNoise = 3e-3;
+/// Rounds lead away where they end farther from the target by more than this, over the fit radius. With 0 a
+/// hand deep inside of stairs is let go for some ticks.
 constexpr double kAwaySlack = 1e-3;
-/// A call moves the point by at most so many fit radii.
+/// A call moves the point by at most so many fit radii: without it a hand at rest on noise trembles.
 constexpr double kFurthestRadii = 2.0;
 /// Slopes of a fit may differ from those that the last one predicted by this much; at edges they differ by
 /// 0.07 and more.
 constexpr double kForeseen = 0.03;
-/// Part of the fit radius within which the fit represents the surface.
-constexpr double kReach = 0.5;
 /// The surface continues on all sides if the weighted centroid of the cells is nearer than this, over the fit
 /// radius; a straight rim has 0.235.
 constexpr double kInner = 0.1;
-/// Traced slopes amplify noise: they fade out between these two ratios of fit radius to counted radius.
-constexpr double kTracedUpTo = 1.05;
+/// Traced slopes amplify noise: they fade out up to this ratio of fit radius to counted radius.
 constexpr double kTracedNoMore = 1.3;
 
 double tracedStrength(const LocalScale& scale)
 {
   const double growth = scale.radius / scale.countRadius;
-  const double t = std::clamp((growth - kTracedUpTo) / (kTracedNoMore - kTracedUpTo), 0.0, 1.0);
+  const double t = std::clamp((growth - 1.0) / (kTracedNoMore - 1.0), 0.0, 1.0);
   return 1.0 - t * t * (3.0 - 2.0 * t);
 }
 
@@ -91,30 +90,23 @@ bool SurfaceTracker::refit(const HapticScene& scene, FitCells& memory) noexcept
   return true;
 }
 
-/// Finds the next place of frame_ when the last fit shows the foot @p step away. @param before null in the
-/// first round.
+/// Finds the next place of frame_ after the round @p now. @param before null in the first round.
 void SurfaceTracker::nextPlace(const Round& now, const Round* before, Vec3& place, Vec3& normal) noexcept
 {
-  const auto inPlane = [&](const Vec3& v) {
-    return FootSearch::Way{ dot(v, fitFrame_.a), dot(v, fitFrame_.b) };
-  };
+  const auto inPlane = [&](const Vec3& v) { return Vec3(dot(v, fitFrame_.a), dot(v, fitFrame_.b), 0.0); };
   if (before)
   {
-    search_.learn(inPlane(now.origin - before->origin), inPlane(before->step - now.step));
+    // A fit changes with its origin, so the foot that it shows is not where the rounds end. Aitken's rule
+    // learns from the last step how far to go; a gain that no relaxation converges with is none.
+    const Vec3 nearer = inPlane(before->step - now.step);
+    const double learned = dot(inPlane(now.origin - before->origin), nearer) / norm2(nearer);
+    gain_ = learned > 0.0 && learned < 2.0 ? learned : 1.0;
   }
-  FootSearch::Way way;
-  if (before && now.distance > before->distance + kAwaySlack * fit_.radius)
-  {
-    // The rounds swing about the answer.
-    search_.reset();
-    way = inPlane(0.5 * now.step);
-  }
-  else
-  {
-    way = search_.wayFor(inPlane(now.step));
-  }
-  const FootSearch::Way from = inPlane(now.origin - fitFrame_.origin);
-  pointAt(fit_, fitFrame_, (from.a + way.a) / fit_.radius, (from.b + way.b) / fit_.radius, place, normal);
+  // Rounds that lead away swing about the answer.
+  const bool swings = before && now.distance > before->distance + kAwaySlack * fit_.radius;
+  gain_ = swings ? 1.0 : gain_;
+  const Vec3 goal = inPlane(now.origin - fitFrame_.origin) + (swings ? 0.5 : gain_) * inPlane(now.step);
+  pointAt(fit_, fitFrame_, goal.x / fit_.radius, goal.y / fit_.radius, place, normal);
 }
 
 TrackResult SurfaceTracker::follow(const HapticScene& scene, FitCells& memory, const Vec3& target) noexcept
@@ -135,12 +127,9 @@ TrackResult SurfaceTracker::follow(const HapticScene& scene, FitCells& memory, c
     footPoint(fit_, fitFrame_, target, place, normal);
     const Round now{ frame_.origin, place - frame_.origin, norm(target - frame_.origin) };
     nextPlace(now, round > 0 ? &last : nullptr, place, normal);
-    if (!isFinite(place))
-    {
-      return TrackResult::Lost;
-    }
-    isForeseen = isForeseen && std::hypot(fit_.k[1], fit_.k[2]) < kForeseen;
-    if (norm(place - start) > kFurthestRadii * fit_.radius)
+    isForeseen = isForeseen && isFinite(place) && std::hypot(fit_.k[1], fit_.k[2]) < kForeseen;
+    // The test is negated, so that a place that is not finite is rejected too.
+    if (!(norm(place - start) <= kFurthestRadii * fit_.radius))
     {
       return isForeseen ? TrackResult::Far : TrackResult::Lost;
     }
@@ -148,7 +137,7 @@ TrackResult SurfaceTracker::follow(const HapticScene& scene, FitCells& memory, c
     // The steps shrink geometrically: estimate the next one from the last two.
     const double length = norm(now.step);
     const double next = round > 0 ? length * std::min(1.0, length / norm(last.step)) : length;
-    if (!(next > std::max(kConverged * fit_.radius, kConvergedNoise * fit_.residual)))
+    if (!(next > kConverged * fit_.radius))
     {
       fresh_ = true;
       return TrackResult::Converged;
@@ -164,7 +153,7 @@ void SurfaceTracker::carry(const AffineTransform& from, const AffineTransform& t
   frame_.origin = change.apply(frame_.origin);
   frame_.turnTo(normalized(change.applyToNormal(frame_.normal), frame_.normal));
   std::fill(curvature_, curvature_ + 3, 0.0);
-  search_.reset();
+  gain_ = 1.0;
   fresh_ = false;
 }
 
@@ -183,7 +172,7 @@ void SurfaceTracker::alongSurface(const Vec3& t, Vec3& point, Vec3& normal) cons
 {
   const Vec3 local = (1.0 / fit_.radius) * fitFrame_.toLocal(frame_.origin + t);
   const double length = std::hypot(local.x, local.y);
-  const double scale = length > kReach ? kReach / length : 1.0;
+  const double scale = length > ball::kStride ? ball::kStride / length : 1.0;
   pointAt(fit_, fitFrame_, scale * local.x, scale * local.y, point, normal);
   // Beyond its reach the curvature of the fit means nothing.
   const Vec3 rest = (1.0 - scale) * fit_.radius * (local.x * fitFrame_.a + local.y * fitFrame_.b);

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "Core/Surface/SurfaceFit.h"
-#include "Haptics/Contact/FootSearch.h"
 #include "Haptics/HapticScene.h"
 
 namespace pointhaptics
@@ -79,7 +78,7 @@ private:
   LocalScale scale_;      ///< Scale at the origin of fitFrame_.
   bool fresh_ = false;    ///< True while fit_ is valid about frame_: the next step may begin with it.
   double curvature_[3] = { 0.0, 0.0, 0.0 };
-  FootSearch search_; ///< Search in the tangents of frame_.
+  double gain_ = 1.0; ///< Length of the step to take over that of the step to the foot that a fit shows.
 };
 
 } // namespace pointhaptics

@@ -16,9 +16,13 @@ std::string number(double value)
 }
 }
 
-Status explained(Status status, const HandLimits& limits, const ContactParameters& contact, double rateHz,
+Status checkSpring(bool isValid, const HandLimits& limits, const HapticParameters& parameters, double rateHz,
   std::string* message)
 {
+  const ContactParameters& contact = parameters.contact;
+  const Status status = isValid && parameters.check() == Status::Ok
+    ? checkPassive(limits, contact.stiffness, contact.damping, rateHz)
+    : Status::InvalidParameter;
   if (message && status == Status::RateNotSupported)
   {
     *message = "the device cannot be served at " + number(rateHz) + " Hz; use at most " +

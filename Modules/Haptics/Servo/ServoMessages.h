@@ -1,5 +1,5 @@
 /// @file
-/// Messages of the servo loop about refused springs and rates.
+/// Check of a servo loop's spring, with the limit that refuses it.
 #pragma once
 
 #include "Core/Base/Status.h"
@@ -11,8 +11,9 @@
 namespace pointhaptics
 {
 
-/// @p status itself, with the limit in @p message (where given) where a spring or a rate is refused.
-Status explained(Status status, const HandLimits& limits, const ContactParameters& contact, double rateHz,
+/// Ok; InvalidParameter where @p isValid is false or @p parameters are not; else what checkPassive() says of
+/// their spring. @p message, where given, names the limit.
+Status checkSpring(bool isValid, const HandLimits& limits, const HapticParameters& parameters, double rateHz,
   std::string* message);
 
 } // namespace pointhaptics

@@ -224,3 +224,30 @@ TEST(BreakAway, ClosedPathsInScatterGiveNoEnergy)
     << "the hand touches points, and the limit speaks";
   EXPECT_LT(trial::recorded("energyInFog", most), 0.2e-3);
 }
+
+TEST(BreakAway, NoHandAtTheRimOfANoisySheetIsPushedFromBehind)
+{
+  constexpr double kHalf = 0.03;
+  trial::Random random(7);
+  std::vector<Vec3> points;
+  for (int i = 0; i < 20000; ++i)
+  {
+    const Vec3 place = random.inBox({ -kHalf, -kHalf, 0.0 }, { kHalf, kHalf, 0.0 });
+    points.push_back(place + Vec3(0.0, 0.0, 3e-4 * random.normal()));
+  }
+  const trial::Scene sheet = trial::resampledScene(points);
+  for (int hand = 0; hand < 24; ++hand)
+  {
+    const double side = hand % 2 == 0 ? 1.0 : -1.0;
+    const double x = kHalf - random.uniform(0.5e-3, 3e-3);
+    const double y = random.uniform(-0.02, 0.02);
+    trial::Path path = { { x, y, 4e-3 * side } };
+    moveTo(path, { x, y, -0.85e-3 * side }, 0.025);
+    path.insert(path.end(), 500, path.back());
+    moveTo(path, { x, y, 4e-3 * side }, 0.025);
+    for (const ProxyState& state : trial::feel(sheet, HapticParameters(), path))
+    {
+      ASSERT_GT(side * state.force.z, -0.2) << hand << ' ' << state.hip.z;
+    }
+  }
+}

@@ -172,8 +172,7 @@ inline bool isFinite(const ProxyBall& ball)
 
 inline bool isSame(const ProxyBall& a, const ProxyBall& b)
 {
-  return a.center() == b.center() && a.radius() == b.radius() && a.isFree() == b.isFree() &&
-    a.isThere() == b.isThere();
+  return a.center() == b.center() && a.radius() == b.radius() && a.isFree() == b.isFree();
 }
 
 /// @p n x @p n points of a square about the origin at height @p z, each somewhere in its own cell.

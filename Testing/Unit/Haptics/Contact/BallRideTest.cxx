@@ -24,7 +24,7 @@ public:
     state_.hip = hip;
     proxy_.step(*scene_, *memory_, ContactParameters(), hip, true, state_);
   }
-  bool rode() const { return !before_.isFree() && !ball().isFree() && !ball().hasSlid(); }
+  bool rode() const { return !before_.isFree() && !ball().isFree() && ball().hasRidden(); }
   /// How deep the ball covers a point now, and did on its way when it rode, over its radius.
   double deepest() const
   {
