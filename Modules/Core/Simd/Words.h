@@ -27,10 +27,11 @@ constexpr bool kFuses = false;
 #endif
 
 using Words = std::uint64_t __attribute__((vector_size(8 * kWidth)));
-using WordsAt = std::uint64_t __attribute__((vector_size(8 * kWidth), aligned(8), may_alias));
-using FloatsAt = float __attribute__((vector_size(4 * kWidth), aligned(4), may_alias));
-using DoublesAt = double __attribute__((vector_size(8 * kWidth), aligned(8), may_alias));
-using IntsAt = std::int32_t __attribute__((vector_size(4 * kWidth), aligned(4), may_alias));
+// Vectors in arrays of numbers. As aliases Clang gives them the alignment of whole vectors.
+typedef std::uint64_t WordsAt __attribute__((vector_size(8 * kWidth), aligned(8), may_alias));
+typedef float FloatsAt __attribute__((vector_size(4 * kWidth), aligned(4), may_alias));
+typedef double DoublesAt __attribute__((vector_size(8 * kWidth), aligned(8), may_alias));
+typedef std::int32_t IntsAt __attribute__((vector_size(4 * kWidth), aligned(4), may_alias));
 
 inline Words allWords(std::uint64_t value)
 {
@@ -204,7 +205,7 @@ inline void storePoints(float* xyz, const Pack p[3])
   const Floats xy23 = __builtin_shufflevector(x, y, 2, 6, 3, 7);
   const Floats z01xy1 = __builtin_shufflevector(z, xy01, 0, 1, 6, 7);
   const Floats z23xy3 = __builtin_shufflevector(z, xy23, 2, 3, 6, 7);
-  auto* to = reinterpret_cast<FloatsAt*>(xyz);
+  FloatsAt* to = reinterpret_cast<FloatsAt*>(xyz);
   to[0] = __builtin_shufflevector(xy01, z01xy1, 0, 1, 4, 6);
   to[1] = __builtin_shufflevector(z01xy1, xy23, 3, 1, 4, 5);
   to[2] = __builtin_shufflevector(z23xy3, z23xy3, 0, 2, 3, 1);
