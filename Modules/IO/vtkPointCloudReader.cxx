@@ -366,7 +366,7 @@ void vtkPointCloudReader::Finish(io::ReadTask& task, vtkPolyData* cloud)
   if (pointhaptics::looksLikeDegrees(cloud))
   {
     task.notes.push_back("x and y may be degrees of longitude and latitude, by their range beside that of z: "
-                         "view and feel take them so; --unit m says otherwise");
+                         "view and feel take them so unless --unit is given");
   }
   if (const std::string heights = io::fieldText(cloud->GetFieldData(), pointhaptics::kHeightUnit);
       !heights.empty())

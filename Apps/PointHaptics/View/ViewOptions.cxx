@@ -238,8 +238,7 @@ void addLook(CLI::App& command, HapticViewerOptions& viewer)
 constexpr const char* kRare[] = { "skip-unreadable", "path-unit", "path-time-unit", "falcon-firmware",
   "marker-text", "marker-socket", "stereo", "theme", "edl-strength", "font-scale", "color-map", "color-range",
   "measure", "screenshot-size", "transparent", "bind", "camera", "push-pointer", "figure", "ambient", "sound",
-  "ideal", "preset", "damping", "mu-s", "no-covariance", "neighbors", "radius", "rule", "beta", "r1", "r2",
-  "matrix" };
+  "ideal", "preset", "damping", "mu-s", "no-covariance", "neighbors", "radius", "rule", "beta", "r1", "r2" };
 
 /// Leaves the rare options out of the help, but for their names.
 void hideRareOptions(CLI::App& command)
@@ -436,7 +435,7 @@ void ViewCommand::completeViewer(CLI::App& command)
     options.fitsWorkspace = options.fitsWorkspace && command.get_option(name)->count() == 0;
   }
   setFelt(options, this->lattice, this->bandwidth, this->noCovariance);
-  options.unitIsChosen = command.count("--unit") > 0;
+  options.unitIsChosen = options.unitIsChosen || command.count("--unit") > 0; // a recording has it, too
   options.haptics = this->touch.parameters;
   options.device = this->device == "falcon" ? HapticViewerDevice::Falcon
     : this->device == "simulated"           ? HapticViewerDevice::Simulated

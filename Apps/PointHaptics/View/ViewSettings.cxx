@@ -227,6 +227,7 @@ void takeRecordedReading(const std::string& settings, HapticViewerOptions& viewe
   viewer.columns = columns.empty() ? std::vector<std::string>() : CLI::detail::split(columns, ',');
   viewer.salvage = text("salvage") == "true";
   viewer.vertices = text("vertices") == "true";
+  viewer.unitIsChosen = keys.contains("unit");
 }
 
 void applyConfigFile(
@@ -261,7 +262,9 @@ void applySettings(CLI::App& command, const std::vector<std::string>& settings, 
     const std::size_t equals = setting.find('=');
     requireUsage(
       equals != std::string::npos, "--set", setting, "no value; give NAME=VALUE, such as axes=true");
-    keys[setting.substr(0, equals)] = setting.substr(equals + 1);
+    const std::string name = setting.substr(0, equals);
+    requireUsage(!keys.contains(name), "--set", setting, "is set twice; keep one of them");
+    keys[name] = setting.substr(equals + 1);
   }
   const std::string problem = applyKeys(command, keys, {});
   requireUsage(problem.empty(), "--set", "", problem);

@@ -64,7 +64,7 @@ vtkSmartPointer<vtkDataArray> shownColors(vtkDataArray* colors, const ReadTask& 
   for (int channel = 0; channel < colors->GetNumberOfComponents(); ++channel)
   {
     Range own{};
-    colors->GetFiniteRange(own.data(), channel);
+    colors->GetRange(own.data(), channel);
     for (const Range& range : task.ofRanks(own))
     {
       least = range[0] <= range[1] ? std::min(least, range[0]) : least;
@@ -321,7 +321,7 @@ bool findCoordinates(const std::vector<Column>& columns, std::vector<std::size_t
       const CoordinateName name(columns[i].name);
       if (columns[i].components == 1 && name.axis >= 0 &&
         (name.axis == 2 || (name.unit == "degree") == inDegrees) &&
-        (!name.isDepth() || found[2] == columns.size()))
+        (!name.isDepth() || found[2] == columns.size() || CoordinateName(columns[found[2]].name).isDepth()))
       {
         found[static_cast<std::size_t>(name.axis)] = i;
       }
@@ -504,8 +504,12 @@ void CloudColumns::turnAxes(ReadTask& task)
       const double depth = arrays_[0]->GetComponent(i, axis);
       below += depth > 0.0 ? 1 : depth < 0.0 ? -1 : 0;
     }
-    const bool isTurned = (name.front() == '-') != (isDepth && task.sumOfRanks(below) > 0);
-    const char* const sign = isTurned ? " with the other sign, as depths count down" : " as it stands";
+    const bool isDown = isDepth && task.sumOfRanks(below) > 0;
+    const bool isMinus = !task.columns.empty() && name.front() == '-';
+    const bool isTurned = isMinus != isDown;
+    const std::string sign = isTurned
+      ? std::string(" with the other sign") + (isDown ? ", as depths count down" : "")
+      : " as it stands";
     isDepth ? task.notes.push_back("z is column " + inQuotes(name) + sign +
                 "; called z it keeps its sign, called -z it changes it")
             : void();

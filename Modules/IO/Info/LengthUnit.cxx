@@ -175,6 +175,7 @@ bool looksLikeDegrees(vtkPolyData* cloud)
   constexpr double kFar = 3.0;    // place over extent
   constexpr double kPerCell = 8.0;
   constexpr double kLevel = 0.25; // variance of z in the cells over that of all
+  constexpr double kArea = 3.0;   // cells with points over those along a side: a line has up to 2
   if (!cloud->GetPoints() || lengthUnitOf(cloud, Bounds()).evidence != UnitEvidence::None)
   {
     return false;
@@ -195,10 +196,8 @@ bool looksLikeDegrees(vtkPolyData* cloud)
   {
     return false;
   }
-  // Few points have each a cell of its own: they cannot be a pole.
-  const double count = static_cast<double>(points.size());
-  const double perLength =
-    (count < kPerCell * kPerCell ? count * count : std::sqrt(count / kPerCell)) / extent;
+  const double side = std::sqrt(static_cast<double>(points.size()) / kPerCell);
+  const double perLength = side / extent;
   const auto squares = [](const Vec3& sums) { return sums.z - sums.y * sums.y / sums.x; };
   std::map<std::pair<int, int>, Vec3> cells; // sums of 1, z and its square
   Vec3 all;
@@ -215,7 +214,7 @@ bool looksLikeDegrees(vtkPolyData* cloud)
   {
     within += squares(sums);
   }
-  return within < kLevel * squares(all);
+  return static_cast<double>(cells.size()) > kArea * side && within < kLevel * squares(all);
 }
 
 vtkSmartPointer<vtkPolyData> inLocalMetres(vtkPolyData* cloud, bool isGuessed)

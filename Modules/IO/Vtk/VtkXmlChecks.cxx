@@ -212,16 +212,19 @@ DataLayout layoutOf(std::string_view bytes, const XmlElement& root)
   return layout;
 }
 
-/// Name, type and components of each array of points.
+/// Type of the points; name, type and components of each of their arrays.
 std::string arraysOf(const XmlElement& piece)
 {
-  std::string arrays;
+  const XmlElement* points = piece.child("Points");
+  const bool hasPoints = points && !points->children.empty();
+  std::string arrays = fmt::format("points {}", hasPoints ? points->children[0].attribute("type") : "");
   const XmlElement* data = piece.child("PointData");
   for (std::size_t i = 0; data && i < data->children.size(); ++i)
   {
     const XmlElement& array = data->children[i];
-    arrays += fmt::format("{}{} {} {}", i == 0 ? "" : ", ", inQuotes(array.attribute("Name")),
-      array.attribute("type"), array.attribute("NumberOfComponents"));
+    const std::string_view components = array.attribute("NumberOfComponents");
+    arrays += fmt::format(", {} {} {}", inQuotes(array.attribute("Name")), array.attribute("type"),
+      components.empty() ? "1" : components);
   }
   return arrays;
 }
@@ -298,7 +301,7 @@ void checkVtkXml(std::string_view bytes, const XmlElement& root)
         "{}a '>' within a tag", atByte(mark));
       indexOf(kParents, element.name) < std::size(kParents) ? checkAreArrays(element) : void();
       element.name == "DataArray" || element.name == "Array" ? checkArray(layout, element) : void();
-      if (element.name == "Piece" && (!firstPiece || element.attribute("NumberOfPoints") != "0"))
+      if (element.name == "Piece" && element.attribute("NumberOfPoints") != "0")
       {
         firstPiece = firstPiece ? firstPiece : &element;
         checkSameArrays(arraysOf(*firstPiece), arraysOf(element)); // VTK leaves what one lacks undefined
