@@ -92,7 +92,7 @@ private:
   double weight_ = 0.0; ///< The fit's part of the last contact, 0 to 1.
   /// The HIP when the surface beside it was last found not to be a flat face; not finite: it was not.
   Vec3 roughAt_{ NAN, NAN, NAN };
-  bool isSeeking_ = false; ///< A fit has been sought since the fit alone was felt.
+  int searchTicks_ = 0; ///< Ticks of the search since the fit alone was felt.
 };
 
 } // namespace pointhaptics

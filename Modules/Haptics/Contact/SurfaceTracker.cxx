@@ -14,6 +14,8 @@ namespace
 constexpr int kRounds = 8;
 /// The point has converged when one more round would move it by less than this part of the fit radius.
 constexpr double kConverged = 1e-5;
+/// Part of the noise below which moving on is pointless. Without it a tick on noise takes 1.4 times as long.
+constexpr double kConvergedNoise = 3e-3;
 /// Rounds lead away where they end farther from the target by more than this, over the fit radius. With 0 a
 /// hand deep inside of stairs is let go for some ticks.
 constexpr double kAwaySlack = 1e-3;
@@ -137,7 +139,7 @@ TrackResult SurfaceTracker::follow(const HapticScene& scene, FitCells& memory, c
     // The steps shrink geometrically: estimate the next one from the last two.
     const double length = norm(now.step);
     const double next = round > 0 ? length * std::min(1.0, length / norm(last.step)) : length;
-    if (!(next > kConverged * fit_.radius))
+    if (!(next > std::max(kConverged * fit_.radius, kConvergedNoise * fit_.residual)))
     {
       fresh_ = true;
       return TrackResult::Converged;
