@@ -388,6 +388,7 @@ Status ServoLoop::startFed(const ServoStepSettings& settings, int traceCapacity)
   self.settings.rateHz = settings.rateHz;
   self.settings.traceCapacity = traceCapacity;
   self.limits = HandLimits();
+  self.forceLimit = servoForceLimit(self.limits, ContactParameters(), self.settings.limits);
   self.stepSettings = settings;
   self.sample = ServoSample();
   self.clear();

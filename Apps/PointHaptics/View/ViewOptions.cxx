@@ -237,8 +237,8 @@ void addLook(CLI::App& command, HapticViewerOptions& viewer)
 /// Options that the help only names: it is to be read in a minute.
 constexpr const char* kRare[] = { "skip-unreadable", "path-unit", "path-time-unit", "falcon-firmware",
   "marker-text", "marker-socket", "stereo", "theme", "edl-strength", "font-scale", "color-map", "color-range",
-  "measure", "screenshot-size", "transparent", "bind", "camera", "push-pointer", "figure", "ambient", "sound",
-  "ideal", "preset", "damping", "mu-s", "no-covariance", "neighbors", "radius", "rule", "beta", "r1", "r2" };
+  "measure", "screenshot-size", "transparent", "bind", "camera", "push-pointer", "ambient", "sound", "ideal",
+  "preset", "damping", "mu-s", "no-covariance", "neighbors", "radius", "rule", "beta", "r1", "r2" };
 
 /// Leaves the rare options out of the help, but for their names.
 void hideRareOptions(CLI::App& command)

@@ -26,8 +26,8 @@ std::vector<std::string> configurableNames(CLI::App& command);
 /// @p command that the command line does not give, and the @p files that they name. Ends in a usage error.
 void applySettings(CLI::App& command, const std::vector<std::string>& settings, Files& files);
 
-/// The same with the JSON file. Keys among @p ignored are of another command, and mean nothing here. Ends in
-/// a usage error where a key or a value is wrong. @throws Failure where the file cannot be read.
+/// Takes the values of the JSON file. Keys among @p ignored are of another command, and mean nothing here.
+/// Ends in a usage error where a key or a value is wrong. @throws Failure where the file cannot be read.
 void applyConfigFile(
   CLI::App& command, const std::string& fileName, const std::vector<std::string>& ignored, Files& files);
 

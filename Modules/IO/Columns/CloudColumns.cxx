@@ -58,14 +58,13 @@ void fillBytes(const T* values, vtkIdType count, double most, unsigned char* byt
 /// these are no colours.
 vtkSmartPointer<vtkDataArray> shownColors(vtkDataArray* colors, const ReadTask& task)
 {
-  using Range = std::array<double, 2>;
   double least = 0.0;
   double most = 0.0;
   for (int channel = 0; channel < colors->GetNumberOfComponents(); ++channel)
   {
-    Range own{};
+    std::array<double, 2> own{};
     colors->GetRange(own.data(), channel);
-    for (const Range& range : task.ofRanks(own))
+    for (const auto& range : task.ofRanks(own))
     {
       least = range[0] <= range[1] ? std::min(least, range[0]) : least;
       most = std::max(most, range[1]);
@@ -505,14 +504,11 @@ void CloudColumns::turnAxes(ReadTask& task)
       below += depth > 0.0 ? 1 : depth < 0.0 ? -1 : 0;
     }
     const bool isDown = isDepth && task.sumOfRanks(below) > 0;
-    const bool isMinus = !task.columns.empty() && name.front() == '-';
-    const bool isTurned = isMinus != isDown;
-    const std::string sign = isTurned
-      ? std::string(" with the other sign") + (isDown ? ", as depths count down" : "")
-      : " as it stands";
-    isDepth ? task.notes.push_back("z is column " + inQuotes(name) + sign +
-                "; called z it keeps its sign, called -z it changes it")
-            : void();
+    const bool isTurned = (!task.columns.empty() && name.front() == '-') != isDown;
+    isDepth
+      ? task.notes.push_back("z is column " + inQuotes(name) + (isTurned ? " with the other sign" : "") +
+          (isDown ? ", which counts down" : "") + "; called z it keeps its sign, called -z it changes it")
+      : void();
     for (vtkIdType i = 0; i < rows_ && isTurned; ++i)
     {
       arrays_[0]->SetComponent(i, axis, 0.0 - arrays_[0]->GetComponent(i, axis));

@@ -108,7 +108,7 @@ bool RecordedScenes::make(
   }
   if (!scene)
   {
-    problem = problem.empty() && status != Status::Ok ? pointhaptics::message(status) : problem;
+    problem = status != Status::Ok ? pointhaptics::message(status) : problem;
     message = fmt::format("tick {}: the scene cannot be made again{}{}; was the header changed?", event.tick,
       problem.empty() ? "" : ": ", problem);
   }

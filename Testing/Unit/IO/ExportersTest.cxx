@@ -592,7 +592,7 @@ TEST_F(Exporters, DepthsCountDown)
   const std::string rows = "4.5,52.25,12.5\n4.75,52.5,20.5\n";
   const ReadResult depths = readCloud(write("a.csv", "longitude,latitude,depth\n" + rows));
   expectPoint(depths, 1, 4.75, 52.5, -20.5);
-  EXPECT_TRUE(isSaid(depths.notes, "z is column 'depth' with the other sign, as depths count down"));
+  EXPECT_TRUE(isSaid(depths.notes, "z is column 'depth' with the other sign, which counts down"));
   expectPoint(readCloud(write("b.csv", "lon,lat,depth [m]\n4.5,52.25,-12.5\n")), 0, 4.5, 52.25, -12.5);
   expectPoint(readNamed("d.csv", rows, { "lon", "lat", "-z" }), 1, 4.75, 52.5, -20.5);
 }
