@@ -170,9 +170,9 @@ std::string contradictedUnit(const std::string& file, vtkPolyData* cloud, const 
 
 bool looksLikeDegrees(vtkPolyData* cloud)
 {
-  constexpr vtkIdType kLookedAt = 10000;
-  constexpr double kSteep = 20.0; // least height in metres over extent in degrees, of flat land
-  constexpr double kFar = 3.0;    // place over extent
+  constexpr vtkIdType kLookedAt = 1000; // each read pays for them
+  constexpr double kSteep = 20.0;       // least height in metres over extent in degrees, of flat land
+  constexpr double kFar = 3.0;          // place over extent
   constexpr double kPerCell = 8.0;
   constexpr double kLevel = 0.25; // variance of z in the cells over that of all
   constexpr double kArea = 3.0;   // cells with points over those along a side: a line has up to 2
