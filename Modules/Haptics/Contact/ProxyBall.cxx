@@ -318,6 +318,7 @@ void ProxyBall::walk(Work& work, const Vec3& hip) noexcept
     }
     else
     {
+      hasSlid_ = true;
       slide(work, hip_);
     }
   } while (walked < length && --work.rounds > 0);
@@ -327,6 +328,7 @@ void ProxyBall::step(
   const HapticScene& scene, BallCells& cells, const Vec3& hip, bool isPatient, std::uint32_t& status) noexcept
 {
   Work work{ scene, cells, status };
+  hasSlid_ = false;
   if (isFarAway(scene, hip) || (isPlaced_ && isFarAway(scene, hip_)))
   {
     reset();

@@ -62,6 +62,8 @@ public:
     std::uint32_t& status) noexcept;
   /// False: a step could not follow to @p hip, and the ball is on its way.
   bool isThere(const Vec3& hip) const noexcept { return hip_ == hip; }
+  /// False: the last step went straight, through nothing.
+  bool hasSlid() const noexcept { return hasSlid_; }
   /// True if the last step was ride().
   bool hasRidden() const noexcept { return hasRidden_; }
   const Vec3& center() const noexcept { return center_; }
@@ -117,6 +119,7 @@ private:
   FlatPlace flat_;
   bool isPlaced_ = false;
   bool isAmongOthers_ = false; ///< The points differ from those of the last step.
+  bool hasSlid_ = false;
   bool hasRidden_ = false;
 };
 

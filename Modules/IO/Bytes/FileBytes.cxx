@@ -113,12 +113,12 @@ std::ifstream opened(const std::string& path)
   return file;
 }
 
-/// Reads exactly @p size bytes from byte @p offset on. @throws FileProblem when there are fewer.
-void readFrom(std::ifstream& file, std::size_t offset, char* to, std::size_t size)
+/// Reads exactly @p size bytes from byte @p offset on, of @p all. @throws FileProblem when there are fewer.
+void readFrom(std::ifstream& file, std::size_t offset, char* to, std::size_t size, std::size_t all)
 {
   file.seekg(static_cast<std::streamoff>(offset)).read(to, static_cast<std::streamsize>(size));
   const auto got = static_cast<std::size_t>(file.gcount());
-  failOpenIf(got != size, fmt::format("reading stopped at byte {}", offset + got),
+  failOpenIf(got != size, fmt::format("reading stopped at byte {} of {}", offset + got, all),
     "check the disk, or wait until the file is completely written");
 }
 
@@ -160,7 +160,7 @@ FileBytes::FileBytes(const std::string& path)
 
 void FileBytes::load(std::size_t offset, std::size_t size)
 {
-  readFrom(file_, offset, data_.get() + offset, size);
+  readFrom(file_, offset, data_.get() + offset, size, size_);
   loaded_ += size;
 }
 
@@ -212,7 +212,7 @@ void FileBytes::readPlain(const std::string& path, const Progress& progress, con
   while (size_ < all)
   {
     const std::size_t piece = std::min(kReadAtOnce, all - size_);
-    readFrom(file, size_, data_.get() + size_, piece);
+    readFrom(file, size_, data_.get() + size_, piece, all);
     if (size_ == 0)
     {
       isPacked = std::string_view(data_.get(), piece).substr(0, 2) == kGzipMagic;

@@ -63,6 +63,7 @@ private:
   const RowRange rows_; ///< of the points of all chunks
   const std::thread::id caller_ = std::this_thread::get_id();
   std::atomic<std::uint64_t> done_{ 0 };   ///< points
+  std::atomic<bool> isStopped_{ false };   ///< on request: no other chunk is begun
   std::vector<std::exception_ptr> faults_; ///< of each chunk
 };
 
@@ -138,9 +139,14 @@ void LazReader::readAlone(std::size_t chunk, LasRecords& records) noexcept
     const LazChunk& wanted = chunks_.all[chunk];
     ChunkDecoder decoder(schema_, task_.wanted.onlyPositions);
     std::uint64_t there = 0;
-    rows_.meets(wanted.first, wanted.first + wanted.count)
+    rows_.meets(wanted.first, wanted.first + wanted.count) && !isStopped_
       ? readChunk(decoder, wanted, kLasBlockRows, there, records)
       : void();
+  }
+  catch (const StoppedOnRequest&)
+  {
+    isStopped_ = true;
+    faults_[chunk] = std::current_exception();
   }
   catch (...)
   {

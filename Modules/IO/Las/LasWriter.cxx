@@ -474,19 +474,21 @@ void writeRecordsOf(WriteTask& task, bool isPacked)
 {
   const std::vector<OutputArray> arrays = outputArrays(task.cloud, task.notes);
   const vtkIdType all = arrays[0].array->GetNumberOfTuples();
-  vtkNew<vtkIdList> kept;
+  bool isWhole = false;
+  vtkNew<vtkIdList> kept; // where some are left out
   withType(arrays[0].type(),
     [&](auto zero)
     {
       const auto* p = static_cast<const decltype(zero)*>(arrays[0].array->GetVoidPointer(0));
       const auto isFinite = [](decltype(zero) value) { return std::isfinite(static_cast<double>(value)); };
-      for (vtkIdType row = 0; row < all; ++row, p += 3)
+      isWhole = std::all_of(p, p + 3 * all, isFinite);
+      for (vtkIdType row = 0; row < all && !isWhole; ++row, p += 3)
       {
         std::all_of(p, p + 3, isFinite) ? void(kept->InsertNextId(row)) : void();
       }
     });
-  task.points = kept->GetNumberOfIds();
-  if (task.points == all)
+  task.points = isWhole ? all : kept->GetNumberOfIds();
+  if (isWhole)
   {
     LasWriter(arrays, task, isPacked).write();
     return;

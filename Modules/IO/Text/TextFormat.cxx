@@ -251,7 +251,7 @@ TextTable surveyTable(const ReadTask& task, std::string_view text, const TextLay
 }
 
 /// Stores every number in its place, one target per column; a target without a place leaves its column out.
-/// Of texts NaN is stored. @pre surveyTable() succeeded.
+/// A word that is no number is stored as NaN. @pre surveyTable() succeeded.
 void storeTable(const ReadTask& task, std::string_view text, const TextLayout& layout,
   const std::vector<ColumnView>& targets)
 {

@@ -135,7 +135,7 @@ TEST_P(ProxyBallPromises, AreKeptOnRandomCloudsUnderRandomHands)
   int contacts = 0;
   int crowded = 0;
   int closer = 0;
-  int straight = 0, around = 0;
+  int straight = 0;
   double mostCovered = 0.0;
   for (int done = 0; done < trial::stressTicks(); done += kTicksPerCloud)
   {
@@ -176,10 +176,10 @@ TEST_P(ProxyBallPromises, AreKeptOnRandomCloudsUnderRandomHands)
         ++closer;
         ASSERT_LE(norm(ball.center() - asked), norm(before.center() - asked) + 1e-9 * ball.radius());
       }
-      if (before.isFree() && before.isThere(last) && ball.isFree() && ball.scale() == before.scale())
+      if (before.isFree() && before.isThere(last) && !ball.hasSlid() && ball.scale() == before.scale())
       {
         ++straight;
-        around += double(deepestOnWay(hand.scene(), before.center(), ball.center(), ball.scale())) > 1e-8;
+        ASSERT_LE(double(deepestOnWay(hand.scene(), before.center(), ball.center(), ball.scale())), 1e-8);
       }
     }
   }
@@ -188,7 +188,6 @@ TEST_P(ProxyBallPromises, AreKeptOnRandomCloudsUnderRandomHands)
   EXPECT_GT(contacts, ticks / 20) << "the hand meets something";
   EXPECT_GT(trial::recorded("onlySlidShare", closer / ticks), 0.05);
   EXPECT_GT(trial::recorded("straightShare", straight / ticks), 0.05);
-  EXPECT_LT(trial::recorded("aroundShare", around / ticks), 1e-3) << "it touched a point and left it";
   EXPECT_LT(trial::recorded("crowdedShare", crowded / ticks), 0.1);
 }
 

@@ -217,7 +217,9 @@ TEST_F(VtkPieces, HaveTheSameArrays)
   other->GetPointData()->AddArray(numbers);
   writePiece("other.vtp", other);
   expectRefused({ "a.vtp", "other.vtp" },
-    "piece 2 of 2, 'other.vtp': other arrays than in the pieces before: points double");
+    "piece 2 of 2, 'other.vtp': other arrays than in the pieces before: points double, 'RGB' unsigned char "
+    "3, 'Number' int 1 instead of "
+    "points double, 'RGB' unsigned char 3, 'Number' long long 1");
   // Each rank reads one of them.
   const std::string file = write("other.pvtp", listOf({ "a.vtp", "other.vtp" }));
   ThreadJob(2).run(
