@@ -7,6 +7,7 @@
 #include "SharedReading.h"
 
 #include "vtkCellArray.h"
+#include "vtkSMPTools.h"
 #include "vtkSmartPointer.h"
 
 #include <algorithm>
@@ -153,6 +154,18 @@ struct ReadTask
     if (count % kProgressRows == 0)
     {
       progress(static_cast<double>(done) / static_cast<double>(all));
+    }
+  }
+  /// Calls @p fill(begin, end) for pieces of 0..rows-1 on VTK's threads, and progress() between them, which
+  /// ends at @p part.
+  template <typename Fill>
+  void fillRows(vtkIdType rows, const Fill& fill, double part = 1.0) const
+  {
+    for (vtkIdType begin = 0; begin < rows; begin += 2 * kProgressRows)
+    {
+      const vtkIdType end = std::min(begin + 2 * kProgressRows, rows);
+      vtkSMPTools::For(begin, end, kProgressRows / 8, fill);
+      progress(part * static_cast<double>(end) / static_cast<double>(rows));
     }
   }
   /// Part of the whole work that is done when @p fraction of the parsing is.

@@ -57,6 +57,7 @@ constexpr double kSmallestForce = 0.01; // newtons: shorter arrows are not drawn
 /// Sizes as parts of the workspace's edge.
 constexpr double kHipRadius = 0.007;
 constexpr double kNormalLength = 0.25;
+constexpr double kLongestNormal = 100.0; // points, in a close view
 constexpr double kNewtonLength = 0.06;
 constexpr double kLongestArrow = 0.4;
 constexpr double kArrowThickness = 0.06;
@@ -207,8 +208,14 @@ void vtkHapticProps::Place()
   const double thickness = std::max(1e-9, std::min(this->ArrowLength, kArrowThickness * this->Edge));
   const Vec3 foot = center + this->Lift(center, along, radius + kTipRadius * thickness);
   this->Force.place(foot, along, this->ArrowLength, thickness);
+  const double longest = kLongestNormal * this->PointAt(this->State.proxy);
+  const double length = kNormalLength * this->Edge;
+  const double drawn = longest > 0.0 ? std::min(length, longest) : length;
+  this->Normal.place(this->State.proxy, normalized(this->State.normal), drawn, 1.0);
   if (this->Gauge->GetVisibility())
   {
+    const Vec3 end = this->State.proxy + drawn * normalized(this->State.normal);
+    this->Gauge->KeepOffLine(&this->State.proxy.x, &end.x);
     const Vec3 tip = foot + this->ArrowLength * along;
     this->Gauge->Show(&tip.x, norm(this->State.force));
   }
@@ -440,7 +447,6 @@ bool vtkHapticProps::Update(const ProxyState& state)
   const double force = norm(state.force);
   this->ArrowLength = std::min(force * newtonLength, kLongestArrow * this->Edge);
   this->Hip.place(state.hip, { 1, 0, 0 }, kHipRadius * this->Edge, kHipRadius * this->Edge);
-  this->Normal.place(state.proxy, normalized(state.normal), kNormalLength * this->Edge, 1.0);
   this->Proxy.actor->SetVisibility(state.radius > 0.0 && state.radius <= kLargestSphere * this->Edge);
   this->Hip.actor->SetVisibility(this->HandVisibility);
   this->Normal.actor->SetVisibility(state.contact);
@@ -449,8 +455,6 @@ bool vtkHapticProps::Update(const ProxyState& state)
   this->Gauge->SetVisibility(pushes);
   if (pushes)
   {
-    const Vec3 normalEnd = state.proxy + kNormalLength * this->Edge * normalized(state.normal);
-    this->Gauge->KeepOffLine(&state.proxy.x, &normalEnd.x);
     // The gauge stands where the arrow goes, not over what it comes from.
     this->Gauge->SetLeft(
       this->Renderer && dot(state.force, rightOf(this->Renderer->GetActiveCamera())) < 0.0);

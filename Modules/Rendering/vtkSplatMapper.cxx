@@ -165,14 +165,34 @@ void vtkSplatMapper::RenderPieceStart(vtkRenderer* renderer, vtkActor* actor)
   }
 }
 
+/// Distance of the focal point over that of the nearest place that can be seen, at least 1: the camera moves
+/// towards a focal point that may be far behind the surface.
+double vtkSplatMapper::NearestIsNearer(vtkRenderer* renderer, vtkActor* actor)
+{
+  vtkCamera* camera = renderer->GetActiveCamera();
+  const double* bounds = actor->GetBounds();
+  double nearest[3];
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    nearest[axis] = std::clamp(camera->GetPosition()[axis], bounds[2 * axis], bounds[2 * axis + 1]);
+  }
+  const double distance = std::sqrt(vtkMath::Distance2BetweenPoints(camera->GetPosition(), nearest));
+  return camera->GetParallelProjection()
+    ? 1.0
+    : std::max(1.0, camera->GetDistance() / std::max(distance, camera->GetClippingRange()[0]));
+}
+
 /// True if splats are seen from so near that some may be larger than points can be. Quads take four times as
-/// long as points to begin with.
+/// long as points to begin with: in motion those at the focal point count.
 bool vtkSplatMapper::WantsQuads(vtkRenderer* renderer, vtkActor* actor)
 {
+  using Stage = vtkDepthShadingPass::Stage;
   constexpr double kLargePixels = 60.0;
+  const bool rests = vtkDepthShadingPass::StageOf(renderer) != Stage::Picture;
+  const double nearer = rests ? this->NearestIsNearer(renderer, actor) : 1.0;
   return this->Now.surfaces && this->HasNormals && this->HasSizes && this->Now.fixedPixels == 0.0 &&
     this->CurrentInput->GetNumberOfCells() == 0 && glDrawArraysInstancedBaseInstance &&
-    this->GetMedianPixels(renderer, actor, INFINITY) > kLargePixels;
+    nearer * this->GetMedianPixels(renderer, actor, INFINITY) > kLargePixels;
 }
 
 double vtkSplatMapper::GetMedianPixels(vtkRenderer* renderer, vtkActor* actor, double largest)

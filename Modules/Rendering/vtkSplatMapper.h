@@ -151,6 +151,7 @@ private:
   using RangeList = std::vector<std::array<vtkIdType, 2>>;
   void DrawSplats(vtkRenderer* renderer, vtkActor* actor);
   void DrawPoints(vtkOpenGLHelper& points, vtkRenderer* renderer, vtkActor* actor, const RangeList& ranges);
+  double NearestIsNearer(vtkRenderer* renderer, vtkActor* actor);
   bool WantsQuads(vtkRenderer* renderer, vtkActor* actor);
   double PixelsPerLength(vtkRenderer* renderer, vtkActor* actor);
   double GapPixels(vtkRenderer* renderer, vtkActor* actor);

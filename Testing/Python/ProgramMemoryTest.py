@@ -8,7 +8,7 @@ import unittest
 
 from support import PROGRAM, TestCase, run_program
 
-SIZES = 20
+SIZES = 12
 ENOUGH = 4 << 30
 
 

@@ -42,6 +42,13 @@ struct LocalShape
   /// Median distance of flat neighbourhoods from their plane (root mean square) over the spacing.
   double noise = 0.0;
   int numberOfNeighbors = 0;
+
+  /// The shape of point @p i; that of nothing known where nothing was measured.
+  const PointShape& at(std::int64_t i) const
+  {
+    static const PointShape unknown;
+    return points.empty() ? unknown : points[std::size_t(i)];
+  }
 };
 
 /// Which neighbours are looked at.

@@ -466,17 +466,16 @@ ColumnView CloudColumns::target(std::size_t column, int component) const
 
 void CloudColumns::fill(const std::vector<StoredColumn>& stored, const ReadTask& task) const
 {
-  for (vtkIdType row = 0; row < rows_; row += kProgressRows)
-  {
-    const vtkIdType count = std::min(kProgressRows, rows_ - row);
-    for (const StoredColumn& each : stored)
+  task.fillRows(rows_,
+    [&](vtkIdType row, vtkIdType end)
     {
-      const ConstColumnView& source = each.source;
-      copyStrided({ source.first + row * source.stride, source.stride, source.type },
-        target(each.column, each.component).fromRow(row), count, each.isSwapped);
-    }
-    task.progress(static_cast<double>(row + count) / static_cast<double>(rows_));
-  }
+      for (const StoredColumn& each : stored)
+      {
+        const ConstColumnView& source = each.source;
+        copyStrided({ source.first + row * source.stride, source.stride, source.type },
+          target(each.column, each.component).fromRow(row), end - row, each.isSwapped);
+      }
+    });
 }
 
 void CloudColumns::cut(std::uint64_t rows)

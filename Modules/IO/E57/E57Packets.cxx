@@ -4,8 +4,6 @@
 #include "Bytes/LittleEndian.h"
 #include "ReadTask.h"
 
-#include "vtkSMPTools.h"
-
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -69,9 +67,6 @@ std::uint32_t crc32c(const char* bytes, std::size_t size) noexcept
   return ~crc;
 }
 
-/// Pages between two reports of progress: 16 MB.
-constexpr std::size_t kPagesPerReport = 16384;
-
 /// Stored with the most significant byte first, unlike all other numbers of the file.
 std::uint32_t storedChecksum(const char* page)
 {
@@ -119,30 +114,25 @@ E57Pages::E57Pages(std::string_view bytes)
 void E57Pages::check(const ReadTask& task, double part) const
 {
   const std::size_t pages = bytes_.size() / kPage;
-  for (std::size_t begin = 0; begin < pages; begin += kPagesPerReport)
+  std::atomic<std::size_t> firstWrong{ pages };
+  const auto check = [&](vtkIdType from, vtkIdType to)
   {
-    const std::size_t end = std::min(begin + kPagesPerReport, pages);
-    std::atomic<std::size_t> firstWrong{ pages };
-    vtkSMPTools::For(static_cast<vtkIdType>(begin), static_cast<vtkIdType>(end), 256,
-      [&](vtkIdType from, vtkIdType to)
+    for (std::size_t i = static_cast<std::size_t>(from); i < static_cast<std::size_t>(to); ++i)
+    {
+      const char* page = bytes_.data() + i * kPage;
+      if (crc32c(page, kContent) != storedChecksum(page))
       {
-        for (std::size_t i = static_cast<std::size_t>(from); i < static_cast<std::size_t>(to); ++i)
+        std::size_t known = firstWrong;
+        while (i < known && !firstWrong.compare_exchange_weak(known, i))
         {
-          const char* page = bytes_.data() + i * kPage;
-          if (crc32c(page, kContent) != storedChecksum(page))
-          {
-            std::size_t known = firstWrong;
-            while (i < known && !firstWrong.compare_exchange_weak(known, i))
-            {
-            }
-            return;
-          }
         }
-      });
-    failDamagedIf(firstWrong < pages, firstWrong * kPage,
-      "page {} of {} does not have the content of its checksum (CRC-32C)", firstWrong + 1, pages);
-    task.progress(part * static_cast<double>(end) / static_cast<double>(pages));
-  }
+        return;
+      }
+    }
+  };
+  task.fillRows(static_cast<vtkIdType>(pages), check, part);
+  failDamagedIf(firstWrong < pages, firstWrong * kPage,
+    "page {} of {} does not have the content of its checksum (CRC-32C)", firstWrong + 1, pages);
 }
 
 std::string E57Pages::version() const

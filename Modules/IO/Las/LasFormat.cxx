@@ -233,15 +233,10 @@ void readPlain(const ReadTask& task, const LasHeader& header, std::uint64_t begi
   const std::size_t offset = header.pointsOffset + static_cast<std::size_t>(begin) * header.recordLength;
   task.need(offset, static_cast<std::size_t>(header.count) * header.recordLength);
   const char* first = task.bytes.data() + offset;
-  for (vtkIdType row = 0; row < rows; row += kLasBlockRows)
-  {
-    const vtkIdType count = std::min(kLasBlockRows, rows - row);
-    records.fill({ first + static_cast<std::size_t>(row) * header.recordLength, row, count });
-    if (row % (16 * kLasBlockRows) == 0)
-    {
-      task.progress(static_cast<double>(row + count) / static_cast<double>(rows));
-    }
-  }
+  task.fillRows(rows,
+    [&](vtkIdType row, vtkIdType end) {
+      records.fill({ first + static_cast<std::size_t>(row) * header.recordLength, row, end - row });
+    });
 }
 
 void addBytes(vtkPolyData* cloud, const char* name, const std::string& bytes)

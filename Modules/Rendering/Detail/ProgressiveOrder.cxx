@@ -9,7 +9,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <numeric>
+#include <iterator>
 
 namespace pointhaptics
 {
@@ -56,12 +56,15 @@ std::vector<std::uint8_t> depthsOf(
 }
 
 /// Part of a halving that @p one of the points in a row belongs to: multiples of the golden section fill an
-/// interval evenly, however many are taken, so each part comes from all of the row.
+/// interval evenly, however many are taken, so each part comes from all of the row. Four times the points
+/// halve the gap: the parts end where 1 + 3 place is 2^(1/2), 2 and 2^(3/2).
 int partOf(std::size_t one)
 {
   constexpr double kGoldenSection = 0.6180339887498949;
-  const double place = std::fmod(kGoldenSection * double(one), 1.0); // four times the points halve the gap
-  return std::clamp(int(kStepsPerHalving * 0.5 * std::log2(1.0 + 3.0 * place)), 0, kStepsPerHalving - 1);
+  constexpr double kEnds[kStepsPerHalving - 1] = { 0.1380711874576984, 1.0 / 3.0, 0.6094757082487301 };
+  const double turns = kGoldenSection * double(one);
+  const double place = turns - std::floor(turns);
+  return int(std::count_if(kEnds, std::end(kEnds), [place](double end) { return place >= end; }));
 }
 
 } // namespace
@@ -75,24 +78,34 @@ ProgressiveOrder progressiveOrder(const PointView& points)
   ProgressiveOrder order;
   order.edge = std::max({ extent.x, extent.y, extent.z });
   const double perUnit = order.edge > 0.0 ? double(1 << kDepth) / order.edge : 0.0;
-  const std::vector<std::uint8_t> depths = depthsOf(points, along, box, perUnit);
+  std::vector<std::uint8_t> parts = depthsOf(points, along, box, perUnit);
   constexpr int kParts = (kDepth + 2) * kStepsPerHalving;
   std::array<std::size_t, kDepth + 2> seen{};
-  std::array<std::vector<std::uint32_t>, kParts> parts;
-  for (std::size_t i = 0; i < along.size(); ++i)
+  std::array<std::size_t, kParts> ends{};
+  for (std::uint8_t& part : parts)
   {
-    parts[std::size_t(kStepsPerHalving * depths[i] + partOf(seen[depths[i]]++))].push_back(along[i]);
+    const std::uint8_t depth = part;
+    part = std::uint8_t(kStepsPerHalving * depth + partOf(seen[depth]++));
+    ++ends[part];
   }
-  order.indices.reserve(std::size_t(points.size()));
+  std::size_t end = 0;
   for (int part = 0; part < kParts; ++part)
   {
-    const std::vector<std::uint32_t>& some = parts[std::size_t(part)];
-    order.indices.insert(order.indices.end(), some.begin(), some.end());
-    if (!some.empty())
+    std::size_t& size = ends[std::size_t(part)];
+    const std::size_t begin = end;
+    end += size;
+    if (size > 0)
     {
       const double halvings = double(part + 1) / kStepsPerHalving - 1.0;
-      order.steps.push_back({ std::int64_t(order.indices.size()), order.edge * std::exp2(-halvings) });
+      order.steps.push_back({ std::int64_t(end), order.edge * std::exp2(-halvings) });
     }
+    size = begin; // grows to the end as its points come
+  }
+  order.indices.reserve(std::size_t(points.size()));
+  order.indices.resize(along.size());
+  for (std::size_t i = 0; i < along.size(); ++i)
+  {
+    order.indices[ends[parts[i]]++] = along[i];
   }
   for (std::int64_t i = 0; i < points.size() && along.size() < std::size_t(points.size()); ++i)
   {

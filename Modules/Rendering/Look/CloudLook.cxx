@@ -46,9 +46,9 @@ void forSample(const PointView& cloud, const LocalShape& shape, Visit&& visit)
   const std::int64_t step = 1 + cloud.size() / kSample;
   for (std::int64_t i = 0; i < cloud.size(); i += step)
   {
-    if (shape.points[std::size_t(i)].spacing > 0.0F && norm2(cloud[i]) > 0.0)
+    if (shape.at(i).spacing > 0.0F && norm2(cloud[i]) > 0.0)
     {
-      visit(cloud[i], shape.points[std::size_t(i)]);
+      visit(cloud[i], shape.at(i));
     }
   }
 }
@@ -97,7 +97,7 @@ bool isUnderARoof(const PointView& cloud, const LocalShape& shape, const Vec3& u
   {
     const Vec3 p = cloud[i];
     const double length = norm(p);
-    if (shape.points[std::size_t(i)].spacing > 0.0F && length > 0.0)
+    if (shape.at(i).spacing > 0.0F && length > 0.0)
     {
       const double above = std::asin(std::clamp(dot(p, up) / length, -1.0, 1.0)) / kDegree;
       const double around = std::atan2(dot(p, v), dot(p, u)) / kDegree + 180.0;
@@ -249,7 +249,7 @@ Bounds coreOf(const PointView& cloud, const LocalShape& shape)
   for (std::int64_t i = 0; i < cloud.size(); i += step)
   {
     all.include(cloud[i]);
-    rest.push_back({ cloud[i], shape.points[std::size_t(i)].flatness > kOnSurface });
+    rest.push_back({ cloud[i], shape.at(i).flatness > kOnSurface });
   }
   const Vec3 size = all.extent();
   if (!(spacing > 0.0) || !(std::max({ size.x, size.y, size.z }) < kCells * kSpacings * spacing))

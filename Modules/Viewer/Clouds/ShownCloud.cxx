@@ -165,7 +165,6 @@ std::shared_ptr<ShownCloud> makePlainCloud(vtkPolyData* cloud, const ShownReques
     : isLow                                              ? CloudKind::Terrain
                                                          : CloudKind::Object;
   LocalShape unknown;
-  unknown.points.resize(drawn.size());
   unknown.meanFlatness = 1.0; // most objects are statues and parts
   shown->look = cloudLook(request.kind.value_or(guess), access.view(), unknown, request.orientation);
   addColors(*shown, request, NeighborQuery(), unknown);
