@@ -11,15 +11,11 @@
 namespace pointhaptics
 {
 
-/// Capabilities of a device. Metres, newtons, seconds, hertz; workspace frame: x right, y up, z towards the
-/// person.
+/// Capabilities of a device. Metres, newtons; workspace frame: x right, y up, z towards the person.
 struct DeviceCapabilities
 {
-  Bounds workspace;           ///< Where the hand can be.
-  double maximumForce = 0.0;  ///< N the device can hold.
-  double maximumRateHz = 0.0; ///< Ticks per second that make sense; 0: any.
-  int numberOfButtons = 0;
-  bool pushes = false; ///< True if there are motors: somebody's hand is in it.
+  Bounds workspace;          ///< Where the hand can be.
+  double maximumForce = 0.0; ///< N the device can hold.
 };
 
 /// Life: open(), then read() and write() in turn, once a tick, then close(). open() and close() belong to the

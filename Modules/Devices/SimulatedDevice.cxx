@@ -13,7 +13,6 @@ constexpr double kDefaultHalfEdge = 0.05;
 constexpr double kHoldingForce = 8.0;
 /// Tolerance for the rounding of (tick / rate) against the times of a file.
 constexpr double kTimeTolerance = 1e-9;
-constexpr int kButtons = 4;
 
 Vec3 clamped(const Vec3& p, const Bounds& box) noexcept
 {
@@ -61,7 +60,6 @@ DeviceCapabilities SimulatedDevice::capabilities() const noexcept
   DeviceCapabilities result;
   result.workspace = settings_.workspace;
   result.maximumForce = settings_.yieldsToForce ? kHoldingForce : 0.0;
-  result.numberOfButtons = kButtons;
   return result;
 }
 
@@ -83,7 +81,7 @@ Status SimulatedDevice::open()
   {
     return Status::InvalidParameter;
   }
-  hint_ = 0;
+  row_ = 0;
   const Vec3& start = path_.points.empty() ? settings_.start : path_.points.front().position;
   position_ = clamped(start, settings_.workspace);
   velocity_ = {};
@@ -116,7 +114,7 @@ Status SimulatedDevice::read(double timeSeconds, HandState& state) noexcept
       return Status::EndOfPath;
     }
     const double pathTime = path_.points.front().timeSeconds + timeSeconds;
-    const HandState next = path_.hand(pathTime, hint_);
+    const HandState next = path_.hand(pathTime, row_);
     lastTarget_ = clamped(next.position, settings_.workspace);
     state.isNew = next.isNew;
   }

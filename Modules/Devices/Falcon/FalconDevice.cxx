@@ -13,7 +13,6 @@ namespace
 {
 constexpr double kHalfWorkspace = 0.05;
 constexpr double kRateHz = 1000.0;
-constexpr int kButtons = 4;
 // Least damping (N s/m) and friction (N) of the drive and the hand in it. Assumed, to be confirmed on
 // hardware: at 1 kHz they allow 1667 N/m, in the middle of what other programs use (800 to 3000).
 constexpr double kLeastDamping = 2.5;
@@ -162,9 +161,6 @@ DeviceCapabilities FalconDevice::capabilities() const noexcept
   result.workspace.include({ -kHalfWorkspace, -kHalfWorkspace, -kHalfWorkspace });
   result.workspace.include({ kHalfWorkspace, kHalfWorkspace, kHalfWorkspace });
   result.maximumForce = implementation_->settings.limits.maximumForce;
-  result.maximumRateHz = kRateHz;
-  result.numberOfButtons = kButtons;
-  result.pushes = true;
   return result;
 }
 

@@ -530,10 +530,7 @@ TEST(FalconDevice, TellsWhatItCanDo)
 {
   FalconBench bench;
   const DeviceCapabilities can = bench.device->capabilities();
-  EXPECT_TRUE(can.pushes);
   EXPECT_EQ(can.maximumForce, 4.0);
-  EXPECT_EQ(can.maximumRateHz, 1000.0);
-  EXPECT_EQ(can.numberOfButtons, 4);
   const double stiffness = largestPassiveStiffness(bench.device->limits(), 0.0, 1000.0);
   EXPECT_GT(stiffness, 800.0) << "the default stiffness must pass";
   EXPECT_LT(stiffness, 3000.0);
