@@ -68,9 +68,6 @@ public:
   Eigen::Vector3i getGridCoordinates(float x, float y, float z) const;
   /// The output point of a voxel, or -1 where it has none; needs setSaveLeafLayout().
   int getCentroidIndexAt(const Eigen::Vector3i& voxel) const;
-  /// getCentroidIndexAt() of all voxels of the box, x fastest: layout[(voxel - getMinBoxCoordinates()).dot(
-  /// getDivisionMultiplier())]. 4 bytes a voxel; empty, after a PCL_ERROR, where they are 2^31 or more.
-  std::vector<int> getLeafLayout() const;
   /// Index of the voxel that a point lies in, and of its neighbours: one voxel a column, counted from it.
   template <typename PointT>
   int getCentroidIndex(const PointT& point) const
