@@ -125,7 +125,7 @@ private:
   Lattice lattice_;
   std::array<std::int64_t, 3> first_{}; ///< The multiple of the edges at which the lattice starts.
   std::vector<std::int64_t> kept_;      ///< Voxels that are not left out; empty: all are kept.
-  std::vector<std::uint64_t> keys_;     ///< Of the voxels that are kept, with setSaveLeafLayout().
+  std::vector<std::uint64_t> keys_;     ///< Keys of the voxels that are kept, with setSaveLeafLayout().
   std::int64_t size_ = 0;
 };
 
