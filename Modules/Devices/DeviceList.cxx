@@ -1,7 +1,6 @@
 #include "Devices/DeviceList.h"
 
 #include "Devices/Falcon/FalconDevice.h"
-#include "Devices/Falcon/UsbFtdi.h"
 #include "Devices/SpaceMouse/HidBus.h"
 #include "Devices/SpaceMouse/SpaceMouseReport.h"
 

@@ -25,4 +25,8 @@ std::vector<ListedDevice> listDevices(std::vector<std::string>& notes);
 /// The Falcons alone; where none is found @p notes gets a sentence.
 void listFalcons(std::vector<ListedDevice>& devices, std::vector<std::string>& notes);
 
+/// Falcons on this machine's USB; any thread. Empty where the package was built without libusb, and where the
+/// USB system cannot be used: @p problem then says why, with the cure.
+std::vector<ListedDevice> findUsbFalcons(std::string& problem);
+
 } // namespace pointhaptics

@@ -260,36 +260,23 @@ std::string HipPath::problem() const
   return points.empty() ? "path: it has no rows; give at least one" : "";
 }
 
-Vec3 HipPath::position(double timeSeconds, std::size_t& hint) const noexcept
+Vec3 HipPath::position(double timeSeconds, std::size_t& row) const noexcept
 {
   if (!(timeSeconds > points.front().timeSeconds))
   {
-    hint = 0;
+    row = 0;
     return points.front().position;
   }
   if (timeSeconds >= points.back().timeSeconds)
   {
-    hint = points.size() - 1;
+    row = points.size() - 1;
     return points.back().position;
   }
-  // Most calls stay in the hint's interval or move on to the next one.
-  constexpr int kNear = 4;
-  std::size_t i = std::min(hint, points.size() - 2);
-  for (int step = 0;
-       step < kNear && points[i].timeSeconds <= timeSeconds && points[i + 1].timeSeconds <= timeSeconds;
-       ++step)
-  {
-    ++i;
-  }
-  if (!(points[i].timeSeconds <= timeSeconds && timeSeconds < points[i + 1].timeSeconds))
-  {
-    const auto after = std::upper_bound(points.begin(), points.end(), timeSeconds,
-      [](double time, const HipPathPoint& point) { return time < point.timeSeconds; });
-    i = std::size_t(after - points.begin()) - 1;
-  }
-  hint = i;
-  const HipPathPoint& from = points[i];
-  const HipPathPoint& to = points[i + 1];
+  const auto after = std::upper_bound(points.begin(), points.end(), timeSeconds,
+    [](double time, const HipPathPoint& point) { return time < point.timeSeconds; });
+  row = std::size_t(after - points.begin()) - 1;
+  const HipPathPoint& from = points[row];
+  const HipPathPoint& to = points[row + 1];
   if (to.isNew)
   {
     return from.position;
@@ -298,12 +285,12 @@ Vec3 HipPath::position(double timeSeconds, std::size_t& hint) const noexcept
   return from.position + part * (to.position - from.position);
 }
 
-HandState HipPath::hand(double timeSeconds, std::size_t& hint) const noexcept
+HandState HipPath::hand(double timeSeconds, std::size_t& row) const noexcept
 {
   HandState state;
-  const std::size_t before = hint;
-  state.position = this->position(timeSeconds, hint);
-  for (std::size_t i = before + 1; i <= hint && !state.isNew; ++i)
+  const std::size_t before = row;
+  state.position = this->position(timeSeconds, row);
+  for (std::size_t i = before + 1; i <= row && !state.isNew; ++i)
   {
     state.isNew = points[i].isNew;
   }

@@ -24,7 +24,7 @@ struct HipPathPoint
 };
 
 /// Times strictly ascending, all numbers finite. Plain data; position() may run in any number of threads,
-/// each with its own hint.
+/// each with its own row.
 struct HipPath
 {
   std::vector<HipPathPoint> points;
@@ -39,10 +39,10 @@ struct HipPath
   }
   /// Interpolates linearly between two points, and holds the position before a new one until its time; before
   /// the first and after the last it holds their positions.
-  /// @pre not empty. @p hint speeds up ascending times: pass the same variable, first 0.
-  Vec3 position(double timeSeconds, std::size_t& hint) const noexcept;
-  /// As position(); new where a new point lies between the time of the last call with @p hint and this one.
-  HandState hand(double timeSeconds, std::size_t& hint) const noexcept;
+  /// @pre not empty. @p row becomes that of the last point not later.
+  Vec3 position(double timeSeconds, std::size_t& row) const noexcept;
+  /// As position(); new where a new point lies behind @p row, which is that of the last call, first 0.
+  HandState hand(double timeSeconds, std::size_t& row) const noexcept;
 };
 
 /// Reads the columns t, x, y and z that the header line names, or t, hip_x, hip_y and hip_z as the tables of

@@ -83,7 +83,7 @@ Status SimulatedDevice::open()
   {
     return Status::InvalidParameter;
   }
-  hint_ = 0;
+  row_ = 0;
   const Vec3& start = path_.points.empty() ? settings_.start : path_.points.front().position;
   position_ = clamped(start, settings_.workspace);
   velocity_ = {};
@@ -116,7 +116,7 @@ Status SimulatedDevice::read(double timeSeconds, HandState& state) noexcept
       return Status::EndOfPath;
     }
     const double pathTime = path_.points.front().timeSeconds + timeSeconds;
-    const HandState next = path_.hand(pathTime, hint_);
+    const HandState next = path_.hand(pathTime, row_);
     lastTarget_ = clamped(next.position, settings_.workspace);
     state.isNew = next.isNew;
   }

@@ -74,7 +74,7 @@ private:
 
   SimulatedHandSettings settings_;
   HipPath path_;
-  std::size_t hint_ = 0;
+  std::size_t row_ = 0;
   LatestValue<Vec3> target_;
   std::atomic<std::uint32_t> buttons_{ 0 };
   std::atomic<std::uint32_t> placings_{ 0 }; ///< Number of calls of placeAt().

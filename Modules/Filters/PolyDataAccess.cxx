@@ -141,23 +141,32 @@ AffineTransform transformOf(const vtkMatrix4x4* matrix)
   return AffineTransform::fromRows(matrix->Element[0]);
 }
 
+bool fieldValues(vtkPolyData* cloud, const char* name, int count, double* values)
+{
+  vtkDataArray* array = cloud->GetFieldData()->GetArray(name);
+  if (!array || array->GetNumberOfValues() < count)
+  {
+    return false;
+  }
+  for (int i = 0; i < count; ++i)
+  {
+    const int components = array->GetNumberOfComponents();
+    values[i] = array->GetComponent(i / components, i % components);
+  }
+  return true;
+}
+
 std::optional<Lattice> latticeOf(vtkPolyData* means)
 {
-  vtkFieldData* fields = means->GetFieldData();
-  vtkDataArray* origin = fields->GetArray("LatticeOrigin");
-  vtkDataArray* spacing = fields->GetArray("LatticeSpacing");
-  vtkDataArray* dimensions = fields->GetArray("LatticeDimensions");
-  if (!origin || !spacing || !dimensions)
+  Lattice lattice;
+  double n[3];
+  if (!fieldValues(means, "LatticeOrigin", 3, &lattice.origin.x) ||
+    !fieldValues(means, "LatticeSpacing", 3, &lattice.spacing.x) ||
+    !fieldValues(means, "LatticeDimensions", 3, n))
   {
     return std::nullopt;
   }
-  Lattice lattice;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    lattice.origin[axis] = origin->GetComponent(0, axis);
-    lattice.spacing[axis] = spacing->GetComponent(0, axis);
-    lattice.dimensions[std::size_t(axis)] = std::int64_t(dimensions->GetComponent(0, axis));
-  }
+  lattice.dimensions = { std::int64_t(n[0]), std::int64_t(n[1]), std::int64_t(n[2]) };
   return lattice;
 }
 

@@ -52,6 +52,8 @@ ScalarType scalarTypeOf(vtkDataArray* array);
 bool affineFromTransform(vtkAbstractTransform* transform, AffineTransform& result);
 /// Null gives the identity. @return empty, or why @p transform is of no use.
 std::string readTransform(vtkAbstractTransform* transform, AffineTransform& result);
+/// Gets @p count values of a field array, tuple by tuple. False: @p cloud has no such array, or fewer values.
+bool fieldValues(vtkPolyData* cloud, const char* name, int count, double* values);
 /// The lattice that vtkVoxelMeanResampler says in the field data of its output; nothing where it says none.
 std::optional<Lattice> latticeOf(vtkPolyData* means);
 /// Why makeLattice() gave @p status for @p settings.

@@ -95,6 +95,12 @@ vtkSmartPointer<vtkDataArray> plainArray(vtkDataArray* array)
   return copy;
 }
 
+AttributeView viewOf(vtkDataArray* plain)
+{
+  return { plain->GetVoidPointer(0), scalarTypeOf(plain), plain->GetNumberOfComponents(),
+    std::int64_t(plain->GetNumberOfTuples()) };
+}
+
 /// Turns normals by the inverse transpose of @p transform and makes them unit vectors; those in integers keep
 /// their length.
 void turnNormals(vtkDataArray* normals, const AffineTransform& transform)
@@ -120,10 +126,10 @@ void turnNormals(vtkDataArray* normals, const AffineTransform& transform)
 
 }
 
-std::vector<VoxelArray> voxelArrays(
+std::vector<VoxelAttribute> voxelArrays(
   vtkPointSet* input, const VoxelMeanSettings& settings, std::vector<std::string>& dropped)
 {
-  std::vector<VoxelArray> found;
+  std::vector<VoxelAttribute> found;
   vtkPointData* data = input->GetPointData();
   for (int i = 0; i < data->GetNumberOfArrays(); ++i)
   {
@@ -144,48 +150,47 @@ std::vector<VoxelArray> voxelArrays(
   return found;
 }
 
-VoxelAttribute::VoxelAttribute(const VoxelArray& found)
-  : found_(found)
-  , plain_(plainArray(found.array))
-  , view_{ plain_->GetVoidPointer(0), scalarTypeOf(plain_), plain_->GetNumberOfComponents(),
-    std::int64_t(plain_->GetNumberOfTuples()) }
+AttributeRequest VoxelAttribute::request()
 {
+  plain = plainArray(array);
+  return { viewOf(plain), statistic };
 }
 
-void VoxelAttribute::addTo(VoxelRequest& request) const
+void VoxelAttribute::addTo(VoxelRequest& wanted)
 {
-  keepsPoints(request.representative) ? request.tieBreakers.push_back(view_)
-                                      : request.attributes.push_back(this->request());
+  const AttributeRequest own = this->request();
+  keepsPoints(wanted.representative) ? wanted.tieBreakers.push_back(own.view)
+                                     : wanted.attributes.push_back(own);
 }
 
 vtkSmartPointer<vtkDataArray> VoxelAttribute::reduced(const VoxelResampler& engine,
   const VoxelRequest& request, std::size_t i, OutputMemory& memory, const Executor& executor) const
 {
-  vtkSmartPointer<vtkDataArray> result =
-    vtkDataArray::SafeDownCast(emptyLike(found_.array, plain_->GetDataType()));
+  vtkSmartPointer<vtkDataArray> result = vtkDataArray::SafeDownCast(emptyLike(array, plain->GetDataType()));
   if (keepsPoints(request.representative))
   {
     OutputMemory::allocateFor(result, engine.size());
-    const auto bytes = std::size_t(view_.tupleBytes());
+    const AttributeView view = viewOf(plain);
+    const auto bytes = std::size_t(view.tupleBytes());
     auto* const to = static_cast<char*>(result->GetVoidPointer(0));
     forEachIndex(executor, engine.size(),
       [&](std::int64_t v) {
-        std::memcpy(to + bytes * std::size_t(v), view_.tuple(engine.chosenPoints()[std::size_t(v)]), bytes);
+        std::memcpy(to + bytes * std::size_t(v), view.tuple(engine.chosenPoints()[std::size_t(v)]), bytes);
       });
   }
   else
   {
     memory.take(OutputAllocator::Attributes + i, result, engine.size(), engine.attribute(i));
   }
-  if (found_.array->GetDataType() != result->GetDataType())
+  if (array->GetDataType() != result->GetDataType())
   {
     const vtkSmartPointer<vtkDataArray> own =
-      vtkDataArray::SafeDownCast(emptyLike(found_.array, found_.array->GetDataType()));
+      vtkDataArray::SafeDownCast(emptyLike(array, array->GetDataType()));
     own->DeepCopy(result);
-    own->SetName(found_.array->GetName()); // a copy of bits has none
+    own->SetName(array->GetName()); // a copy of bits has none
     result = own;
   }
-  if (request.representative != Representative::Mean && found_.isNormal && !request.transform.isIdentity())
+  if (request.representative != Representative::Mean && isNormal && !request.transform.isIdentity())
   {
     turnNormals(result, request.transform);
   }

@@ -24,41 +24,29 @@ namespace pointhaptics
 /// The array of KeepOriginalPointIds.
 constexpr const char* kOriginalPointIds = "vtkOriginalPointIds";
 
-/// A point array of the input, and what becomes of it.
-struct VoxelArray
+/// A point array of the input, and its values in voxels.
+struct VoxelAttribute
 {
   vtkSmartPointer<vtkDataArray> array;
   AttributeStatistic statistic = AttributeStatistic::Mean;
   int roles = 0; ///< As rolesOf() says.
   bool isNormal = false;
+  vtkSmartPointer<vtkDataArray> plain = nullptr; ///< The array as tuples in memory, after request().
+
+  /// The values as the resampler takes them. Copies the array if its memory is not plain tuples of numbers.
+  AttributeRequest request();
+  /// Adds the values to @p wanted, whose representative is set.
+  void addTo(VoxelRequest& wanted);
+  /// The values of the voxels of @p engine, which has run @p request, in the type of the input: the tuples of
+  /// points where a representative is a point of the input, else those of attribute @p i.
+  vtkSmartPointer<vtkDataArray> reduced(const VoxelResampler& engine, const VoxelRequest& request,
+    std::size_t i, OutputMemory& memory, const Executor& executor) const;
 };
 
 /// Arrays of @p input that have values in voxels, in its order; not identifiers, ghost flags and results of
 /// an earlier resampling.
 /// @p dropped: a sentence for each array that has no value in voxels.
-std::vector<VoxelArray> voxelArrays(
+std::vector<VoxelAttribute> voxelArrays(
   vtkPointSet* input, const VoxelMeanSettings& settings, std::vector<std::string>& dropped);
-
-/// The values of a VoxelArray as the resampler takes them.
-class VoxelAttribute
-{
-public:
-  /// Copies the array if its memory is not plain tuples of numbers.
-  explicit VoxelAttribute(const VoxelArray& found);
-
-  const VoxelArray& found() const { return found_; }
-  AttributeRequest request() const { return { view_, found_.statistic }; }
-  /// Adds the values to @p request, whose representative is set.
-  void addTo(VoxelRequest& request) const;
-  /// The values of the voxels of @p engine, which has run @p request, in the type of the input: the tuples of
-  /// points where a representative is a point of the input, else those of attribute @p i.
-  vtkSmartPointer<vtkDataArray> reduced(const VoxelResampler& engine, const VoxelRequest& request,
-    std::size_t i, OutputMemory& memory, const Executor& executor) const;
-
-private:
-  VoxelArray found_;
-  vtkSmartPointer<vtkDataArray> plain_; ///< The array as tuples in memory.
-  AttributeView view_;                  ///< View of plain_.
-};
 
 } // namespace pointhaptics

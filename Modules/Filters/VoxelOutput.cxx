@@ -165,8 +165,7 @@ bool OutputFiller::fill(vtkPolyData* output, const std::vector<VoxelAttribute>& 
   memory.take(OutputAllocator::Counts, counts, engine.size(), engine.counts());
   for (std::size_t i = 0; i < attributes.size(); ++i)
   {
-    addWithRoles(
-      data, attributes[i].reduced(engine, request, i, memory, executor), attributes[i].found().roles);
+    addWithRoles(data, attributes[i].reduced(engine, request, i, memory, executor), attributes[i].roles);
     if (observer && !observer->report(double(i + 1) / double(attributes.size() + 1)))
     {
       return false;

@@ -288,10 +288,13 @@ void vtkVoxelMeanResampler::Internals::MakeRequest(vtkPointSet* input)
                        "Representative NearestToMean or NearestToCenter.");
   }
   std::vector<std::string> dropped;
-  for (const VoxelArray& found :
-    this->Settings.passAttributes ? voxelArrays(input, this->Settings, dropped) : std::vector<VoxelArray>())
+  if (this->Settings.passAttributes)
   {
-    this->Attributes.emplace_back(found).addTo(request);
+    this->Attributes = voxelArrays(input, this->Settings, dropped);
+  }
+  for (VoxelAttribute& attribute : this->Attributes)
+  {
+    attribute.addTo(request);
   }
   for (const std::string& text : dropped)
   {

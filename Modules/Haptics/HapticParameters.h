@@ -30,10 +30,6 @@ struct ContactParameters
   /// nearest point settles at this rate. With every method so do changes of parameters and scenes. Where
   /// contact ends the force ends at once.
   double settleRate = 100.0;
-  /// Viscous damping of the device, N s/m, 0 to 1e3; 0: unknown. It is for programs that step a Proxy without
-  /// ServoLoop, which refuses such springs by HapticPort::limits(). Where it is known the stiffness is kept
-  /// at largestPassiveStiffness(), here 2 (deviceDamping - damping) / T, T the tick.
-  double deviceDamping = 0.0;
   /// F, N: the force never exceeds it; above 0, infinity: none, for virtual time only. The spring has its
   /// full force up to F/K, the limit from there to twice the hold length (F/K, within 5 and 15 mm), and fades
   /// to nothing at three times that. There contact ends where no point is within 10 mm of the hand. A servo
@@ -55,7 +51,6 @@ struct ContactParameters
       settingsMember("dynamicFriction", &S::dynamicFriction,
         { "--mu-d", "Dynamic friction; default 0", "X", { 0.0, 10.0 } }),
       settingsMember("settleRate", &S::settleRate, { nullptr, "", "N/s", { 0.0, kInfinity, true } }),
-      settingsMember("deviceDamping", &S::deviceDamping, { nullptr, "", "N s/m", { 0.0, 1e3 } }),
       settingsMember("forceLimit", &S::forceLimit,
         { "--force-limit",
           "The force never exceeds this, fades where the hand is far from its contact, and lets it go; above "

@@ -516,26 +516,6 @@ Bounds HapticScene::sharedWith(const HapticScene& other) const noexcept
   return isShared ? grown(intersection(covered(), other.covered()), kSharedCells * cellSize()) : Bounds();
 }
 
-double HapticScene::proxyRadius(const Vec3& position) const noexcept
-{
-  return cloud_->scale.at(pyramid(), position).proxyRadius;
-}
-
-double HapticScene::coveringRadius(const Vec3& position) const noexcept
-{
-  return std::max(proxyRadius(position), cloud_->leastCovering);
-}
-
-double HapticScene::noise(const Vec3& position) const noexcept
-{
-  return cloud_->scale.noiseAt(pyramid(), position);
-}
-
-LocalScale HapticScene::fitScale(const Vec3& position) const noexcept
-{
-  return cloud_->scale.at(pyramid(), position);
-}
-
 bool HapticScene::isNear(const Vec3& position) const noexcept
 {
   return pyramid().anyWithin(

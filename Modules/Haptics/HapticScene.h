@@ -13,6 +13,7 @@
 #include "Haptics/LocalRegion.h"
 #include "Haptics/SceneOrigin.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -134,16 +135,19 @@ public:
   double cellSize() const { return pyramid().level(0).voxelSize; }
   /// Radius of the proxy sphere at @p position: smooth, from the radii of the points near it, and the cloud's
   /// typical one far from all of them; metres, above 0.
-  double proxyRadius(const Vec3& position) const noexcept;
+  double proxyRadius(const Vec3& position) const noexcept { return fitScale(position).proxyRadius; }
   /// Radius of a sphere that stands on the cells themselves. Where cells are means of several points,
   /// proxyRadius() may be smaller than the gaps between them, and such a sphere would fall through. This is
   /// then at least 2.8 cells, the default rule for points a cell apart. On raw points it equals
   /// proxyRadius().
-  double coveringRadius(const Vec3& position) const noexcept;
+  double coveringRadius(const Vec3& position) const noexcept
+  {
+    return std::max(proxyRadius(position), cloud_->leastCovering);
+  }
   /// Radius and gate of the local surface fit at @p position: large enough for 30 points and 14 cells, more
   /// where the cloud is noisy. Functions of position only, so that the force does not depend on how the hand
   /// came there.
-  LocalScale fitScale(const Vec3& position) const noexcept;
+  LocalScale fitScale(const Vec3& position) const noexcept { return cloud_->scale.at(pyramid(), position); }
   /// As fitScale(position) up to rounding, faster while the positions stay near each other; adds the gradient
   /// of the radius.
   LocalScale fitScale(const Vec3& position, FitCells& memory, Vec3& radiusGradient) const noexcept
@@ -174,7 +178,7 @@ public:
   /// True if the index cells have the size that create() was given: the points are dense enough.
   bool hasLatticeCells() const { return cloud_->latticeCells; }
   /// Standard deviation of the points about the surface near @p position, metres; 0 where no cell is near.
-  double noise(const Vec3& position) const noexcept;
+  double noise(const Vec3& position) const noexcept { return cloud_->scale.noiseAt(pyramid(), position); }
   /// Values of the fields far from the cloud.
   const LocalScale& typicalScale() const { return cloud_->scale.typical(); }
   /// True where the covariances of the voxels are known, or each cell is a single point; false for plain

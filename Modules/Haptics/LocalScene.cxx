@@ -140,6 +140,75 @@ Lattice partOf(const Lattice& lattice, const Bounds& box)
   return part;
 }
 
+/// Edge of the cells in a scene about @p hand (workspace), metres of the lattice frame of @p global; 0: the
+/// global cells are fine enough.
+double cellSizeNear(const Bounds& hand, const HapticScene& global) noexcept
+{
+  const CellPyramid& pyramid = global.pyramid();
+  const double coarse = global.cellSize();
+  const Vec3 place = global.toLattice(hand.center());
+  const double reach = (LocalSceneBuilder::kReach + 0.5 * norm(hand.extent())) / global.latticeScale();
+  const LocalScale scale = global.fitScale(place);
+  double distance = 0.0;
+  const std::int64_t nearest = pyramid.nearest(0, place, 2.0 * reach, distance);
+  if (nearest < 0)
+  {
+    return 0.0;
+  }
+  const Vec3 seed = pyramid.level(0).cells[std::size_t(nearest)].mean;
+  double points = 0.0;
+  pyramid.visitBall(
+    0, seed, scale.countRadius, [&](std::uint32_t, const Cell& cell, double) { points += cell.count; });
+  const double spacing = scale.countRadius * std::sqrt(kPi / std::max(1.0, points));
+  if (!hasFineShape(global, seed, reach))
+  {
+    return 0.0;
+  }
+  // The cell is a whole fraction of the global one, so that scenes of neighbouring places share their cells.
+  const double finest = std::max(LocalSceneBuilder::kFinest * coarse, scale.radius / kCellsInFit);
+  const double most = std::max(2.0, std::floor(coarse / finest));
+  const double parts = std::min(std::floor(coarse / spacing + 0.5), most);
+  return parts * kCoarsest >= 1.0 ? coarse / parts : 0.0;
+}
+
+/// Lattice from which all scenes with cells of @p cell beside @p global are cut, metres of the workspace. An
+/// empty @p workspace: it is about all points.
+Lattice latticeOf(const HapticScene& global, const Bounds& workspace, double cell)
+{
+  Bounds box = workspace;
+  if (box.empty())
+  {
+    box = boxOfCorners(global.bounds(), [&](const Vec3& p) { return global.toWorkspace(p); });
+    // Points lie within a voxel of their mean.
+    box = grown(box, std::sqrt(3.0) * global.latticeScale() * global.cellSize());
+  }
+  Lattice lattice;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    lattice.origin[axis] = box.minimum[axis];
+    lattice.spacing[axis] = cell;
+    lattice.end[axis] = (box.maximum[axis] - box.minimum[axis]) / cell;
+    lattice.dimensions[std::size_t(axis)] = std::int64_t(std::max(1.0, std::ceil(lattice.end[axis])));
+  }
+  return lattice;
+}
+
+/// Origin of a scene about @p hand beside @p global.
+std::shared_ptr<SceneOrigin> originOf(const Bounds& hand, const HapticScene& global)
+{
+  const LatticeSettings& lattice = global.origin()->voxels.lattice;
+  auto origin = std::make_shared<SceneOrigin>();
+  origin->kind = SceneOrigin::Kind::Fine;
+  origin->voxels.lattice.automaticWorkspace = lattice.automaticWorkspace;
+  origin->voxels.lattice.workspace = lattice.automaticWorkspace ? Bounds() : lattice.workspace;
+  origin->bandwidth = global.origin()->bandwidth;
+  origin->modelToWorkspace = global.modelToWorkspace();
+  origin->hand = hand;
+  origin->globalCloud = global.cloudNumber();
+  origin->global = global.origin();
+  return origin;
+}
+
 } // namespace
 
 void takeVoxels(const VoxelResampler& voxels, const VoxelRequest& request, HapticSceneInput& input)
@@ -163,103 +232,26 @@ void takeVoxels(const VoxelResampler& voxels, const VoxelRequest& request, Hapti
   input.modelToWorkspace = request.transform;
 }
 
-Status LocalSceneBuilder::setCloud(const PointView& points, const Executor& executor)
+bool isFinerNear(const Bounds& hand, const HapticScene& global) noexcept
 {
-  const auto index = std::make_shared<PointIndex>();
-  const Status status = index->build(points, executor);
-  index_ = status == Status::Ok ? index : nullptr;
-  return status;
-}
-
-/// Edge of the cells in a scene about @p hand (workspace), metres of the lattice frame of @p global; 0: the
-/// global cells are fine enough.
-double LocalSceneBuilder::cellSize(const Bounds& hand, const HapticScene& global) const noexcept
-{
-  const CellPyramid& pyramid = global.pyramid();
-  const double coarse = global.cellSize();
-  const Vec3 place = global.toLattice(hand.center());
-  const double reach = (kReach + 0.5 * norm(hand.extent())) / global.latticeScale();
-  const LocalScale scale = global.fitScale(place);
-  double distance = 0.0;
-  const std::int64_t nearest = pyramid.nearest(0, place, 2.0 * reach, distance);
-  if (nearest < 0)
-  {
-    return 0.0;
-  }
-  const Vec3 seed = pyramid.level(0).cells[std::size_t(nearest)].mean;
-  double points = 0.0;
-  pyramid.visitBall(
-    0, seed, scale.countRadius, [&](std::uint32_t, const Cell& cell, double) { points += cell.count; });
-  const double spacing = scale.countRadius * std::sqrt(kPi / std::max(1.0, points));
-  if (!hasFineShape(global, seed, reach))
-  {
-    return 0.0;
-  }
-  // The cell is a whole fraction of the global one, so that scenes of neighbouring places share their cells.
-  const double finest = std::max(kFinest * coarse, scale.radius / kCellsInFit);
-  const double most = std::max(2.0, std::floor(coarse / finest));
-  const double parts = std::min(std::floor(coarse / spacing + 0.5), most);
-  return parts * kCoarsest >= 1.0 ? coarse / parts : 0.0;
-}
-
-bool LocalSceneBuilder::isUseful(const Bounds& hand, const HapticScene& global) const noexcept
-{
-  return !hand.empty() && isFinite(hand.extent()) && cellSize(hand, global) > 0.0;
-}
-
-/// Lattice from which all scenes with cells of @p cell beside @p global are cut, metres of the workspace.
-Lattice LocalSceneBuilder::latticeOf(const HapticScene& global, double cell) const
-{
-  Bounds box = workspace_;
-  if (box.empty())
-  {
-    box = boxOfCorners(global.bounds(), [&](const Vec3& p) { return global.toWorkspace(p); });
-    // Points lie within a voxel of their mean.
-    box = grown(box, std::sqrt(3.0) * global.latticeScale() * global.cellSize());
-  }
-  Lattice lattice;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    lattice.origin[axis] = box.minimum[axis];
-    lattice.spacing[axis] = cell;
-    lattice.end[axis] = (box.maximum[axis] - box.minimum[axis]) / cell;
-    lattice.dimensions[std::size_t(axis)] = std::int64_t(std::max(1.0, std::ceil(lattice.end[axis])));
-  }
-  return lattice;
-}
-
-std::shared_ptr<const SceneOrigin> LocalSceneBuilder::originOf(
-  const Bounds& hand, const HapticScene& global) const
-{
-  auto origin = std::make_shared<SceneOrigin>();
-  origin->kind = SceneOrigin::Kind::Fine;
-  origin->voxels.lattice.automaticWorkspace = workspace_.empty();
-  origin->voxels.lattice.workspace = workspace_;
-  origin->bandwidth = bandwidth_;
-  origin->modelToWorkspace = global.modelToWorkspace();
-  origin->hand = hand;
-  origin->globalCloud = global.cloudNumber();
-  origin->global = global.origin();
-  return origin;
+  return !hand.empty() && isFinite(hand.extent()) && cellSizeNear(hand, global) > 0.0;
 }
 
 std::shared_ptr<const HapticScene> LocalSceneBuilder::build(
   const Bounds& hand, const std::shared_ptr<const HapticScene>& global, const Executor& executor)
 {
-  if (!index_ || !global || hand.empty() || !isFinite(hand.extent()))
-  {
-    return nullptr;
-  }
-  const double cell = global->latticeScale() * cellSize(hand, *global);
+  const bool mayBe = index_ && global && global->origin() && !hand.empty() && isFinite(hand.extent());
+  const double cell = mayBe ? global->latticeScale() * cellSizeNear(hand, *global) : 0.0;
   if (!(cell > 0.0))
   {
     return nullptr;
   }
+  const std::shared_ptr<const SceneOrigin> origin = originOf(hand, *global);
   HapticSceneInput input;
   input.local.emplace();
   input.local->covered = grown(hand, kReach);
   input.local->global = global;
-  const Lattice lattice = latticeOf(*global, cell);
+  const Lattice lattice = latticeOf(*global, origin->voxels.lattice.workspace, cell);
   const Lattice part = partOf(lattice, grown(input.local->covered, kMarginCells * cell));
   VoxelRequest request;
   request.lattice = lattice;
@@ -279,8 +271,8 @@ std::shared_ptr<const HapticScene> LocalSceneBuilder::build(
   std::replace_if(
     input.points.begin(), input.points.end(), [&](const Vec3& mean) { return !contains(whole, mean); },
     Vec3{ NAN, NAN, NAN });
-  input.bandwidth = bandwidth_;
-  input.origin = this->originOf(hand, *global);
+  input.bandwidth = origin->bandwidth;
+  input.origin = origin;
   Status status = Status::Ok;
   return HapticScene::create(std::move(input), status, executor);
 }

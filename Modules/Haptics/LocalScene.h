@@ -7,13 +7,19 @@
 #include "Haptics/HapticScene.h"
 
 #include <memory>
-#include <optional>
+#include <utility>
 
 namespace pointhaptics
 {
 
 /// Gives @p input what @p voxels, resampled by @p request, are, where they lie, and in which frame.
 void takeVoxels(const VoxelResampler& voxels, const VoxelRequest& request, HapticSceneInput& input);
+
+/// True if a hand would feel the cloud of @p global, the scene of the whole cloud, finer in a scene near it.
+/// False far from all points; where points are as sparse as the global cells; where the surface is so smooth
+/// that these resolve it; and where it is so noisy that finer cells resolve no more. @param hand the HIP and
+/// the contact point, workspace frame.
+bool isFinerNear(const Bounds& hand, const HapticScene& global) noexcept;
 
 /// Resamples the points of a cloud about a hand into cells about as fine as their spacing, and makes a scene
 /// of them. Its fallback for a hand that leaves is the global scene (HapticScene::fallback()). The cells are
@@ -29,35 +35,21 @@ public:
   /// Edge of the finest cell, over the global scene's.
   static constexpr double kFinest = 1.0 / 4.0;
 
-  /// Sets the cloud. @param points in the model's frame; copied. Errors: those of PointIndex::build().
-  Status setCloud(const PointView& points, const Executor& executor = {});
-  /// As setCloud(points), for a cloud that is indexed already. Null removes the cloud.
-  void setCloud(std::shared_ptr<const PointIndex> index) { index_ = std::move(index); }
-  /// The index of the cloud's points, for other builders of the same cloud; null without a cloud.
+  /// @param cloud the points in the model's frame; null: there are none, and no scene is made.
+  explicit LocalSceneBuilder(std::shared_ptr<const PointIndex> cloud = nullptr)
+    : index_(std::move(cloud))
+  {
+  }
+  /// The points; null: there are none.
   const std::shared_ptr<const PointIndex>& index() const { return index_; }
-  /// The rule for proxy radii, as in HapticSceneInput; without one 2.8 local spacings.
-  void setBandwidth(const std::optional<LocalBandwidthSettings>& bandwidth) { bandwidth_ = bandwidth; }
-  /// Points outside are not felt; workspace frame. Empty: all are.
-  void setWorkspace(const Bounds& workspace) { workspace_ = workspace; }
 
-  /// True if the hand would feel the cloud finer than in the global scene. False far from all points; where
-  /// points are as sparse as the global cells; where the surface is so smooth that these resolve it; and
-  /// where it is so noisy that finer cells resolve no more. Needs no cloud. @param hand the HIP and the
-  /// contact point, workspace frame. @param global the scene of the whole cloud.
-  bool isUseful(const Bounds& hand, const HapticScene& global) const noexcept;
-
-  /// Builds the scene about @p hand; null where it is of no use, or cannot be made.
+  /// Builds the scene about @p hand beside @p global, whose origin says the workspace and the rule for proxy
+  /// radii; null where it is of no use, cannot be made, or that origin is not known.
   std::shared_ptr<const HapticScene> build(
     const Bounds& hand, const std::shared_ptr<const HapticScene>& global, const Executor& executor = {});
 
 private:
-  Lattice latticeOf(const HapticScene& global, double cell) const;
-  double cellSize(const Bounds& hand, const HapticScene& global) const noexcept;
-  std::shared_ptr<const SceneOrigin> originOf(const Bounds& hand, const HapticScene& global) const;
-
   std::shared_ptr<const PointIndex> index_;
-  std::optional<LocalBandwidthSettings> bandwidth_;
-  Bounds workspace_;
   VoxelResampler resampler_;
 };
 
@@ -66,9 +58,11 @@ private:
 class LocalSceneFollower
 {
 public:
-  /// @param builder with the cloud of @p global; outlives this.
-  LocalSceneFollower(LocalSceneBuilder& builder, std::shared_ptr<const HapticScene> global)
-    : builder_(builder)
+  /// @param global the scene of the whole cloud; null: nothing is felt. @param cloud as LocalSceneBuilder has
+  /// it.
+  explicit LocalSceneFollower(
+    std::shared_ptr<const HapticScene> global = nullptr, std::shared_ptr<const PointIndex> cloud = nullptr)
+    : builder_(std::move(cloud))
     , global_(std::move(global))
   {
   }
@@ -87,6 +81,7 @@ public:
   /// The scene to feel now: a local one where there is one, else the global one.
   const std::shared_ptr<const HapticScene>& scene() const { return local_ ? local_ : global_; }
   const std::shared_ptr<const HapticScene>& global() const { return global_; }
+  const std::shared_ptr<const PointIndex>& cloud() const { return builder_.index(); }
 
   /// Returns the scene for the next step in virtual time. @param touched contact point of the last step: the
   /// HIP itself out of contact. Valid until the next but one call.
@@ -98,7 +93,7 @@ public:
   double finestCell() const { return finestCell_; }
 
 private:
-  LocalSceneBuilder& builder_;
+  LocalSceneBuilder builder_;
   std::shared_ptr<const HapticScene> global_;
   std::shared_ptr<const HapticScene> local_;
   std::shared_ptr<const HapticScene> last_; ///< The last scene, in which the proxy may still be.

@@ -5,7 +5,6 @@
 #include "Haptics/Contact/SurfaceFitProxy.h"
 #include "Haptics/ContactEnergy.h"
 #include "Haptics/ContactSpring.h"
-#include "Haptics/Servo/PassivityLimit.h"
 
 #include <algorithm>
 #include <cmath>
@@ -202,19 +201,6 @@ struct Proxy::Implementation
     return last;
   }
 
-  /// Applies the servo loop's rule to a device of which only the damping is known, and which answers in the
-  /// same tick.
-  double passiveStiffness(double dt, std::uint32_t& status) const noexcept
-  {
-    const ContactParameters& contact = parameters.contact;
-    HandLimits device;
-    device.damping = contact.deviceDamping;
-    const double limit = largestPassiveStiffness(device, contact.damping, 1.0 / dt);
-    const bool limited = contact.deviceDamping > 0.0 && contact.stiffness > limit;
-    status |= std::uint32_t(limited ? kProxyStiffnessLimit : kProxyOk);
-    return limited ? limit : contact.stiffness;
-  }
-
   /// Takes a method's result from the lattice frame to the workspace.
   void toWorkspace(ProxyState& state) const noexcept
   {
@@ -230,8 +216,9 @@ struct Proxy::Implementation
   /// Lets the contact point follow the hand at once, and the surface at the settle rate. A contact that ends
   /// is over at once: a force that went on in free space would belong to no surface. @return true if anything
   /// settles.
-  bool settle(ProxyState& state, double stiffness, double dt) noexcept
+  bool settle(ProxyState& state, double dt) noexcept
   {
+    const double stiffness = parameters.contact.stiffness;
     const double shrink = stiffness > 0.0 ? parameters.contact.settleRate * dt / stiffness : INFINITY;
     if (!state.contact)
     {
@@ -248,6 +235,11 @@ struct Proxy::Implementation
       state.status |= kProxySettling;
     }
     return wasSettling || settler.settling();
+  }
+
+  ContactSpring spring() const noexcept
+  {
+    return { parameters.contact.stiffness, parameters.contact.forceLimit };
   }
 
   /// Ends the contact; nothing remembers its side.
@@ -279,10 +271,10 @@ struct Proxy::Implementation
 
   /// Ends a contact that the hand has left. A local scene has only points near the contact, so the global one
   /// decides.
-  void letGo(ProxyState& state, double stiffness) noexcept
+  void letGo(ProxyState& state) noexcept
   {
     const HapticScene& whole = scene->fallback() ? *scene->fallback() : *scene;
-    const double end = ContactSpring(stiffness, parameters.contact.forceLimit).end();
+    const double end = this->spring().end();
     if (state.contact && norm(state.proxy - state.hip) >= end &&
       !whole.hasPointsWithin(whole.toLattice(state.hip), kFarFromCloud / whole.latticeScale()))
     {
@@ -297,15 +289,16 @@ struct Proxy::Implementation
   }
 
   /// Force of the spring, within its limit and the energy that the hand has put in.
-  Vec3 springForce(ProxyState& state, double stiffness) noexcept
+  Vec3 springForce(ProxyState& state) noexcept
   {
+    const double stiffness = parameters.contact.stiffness;
     if (!state.contact)
     {
       energy.reset();
       return {};
     }
     const Vec3 offset = state.proxy - state.hip;
-    const double limited = ContactSpring(stiffness, parameters.contact.forceLimit).part(norm(offset));
+    const double limited = this->spring().part(norm(offset));
     const Vec3 plain = stiffness * offset;
     const Vec3 force = limited < 1.0 ? limited * plain : plain;
     if (isModelMoved || hasChanged || carried != Vec3())
@@ -332,10 +325,10 @@ struct Proxy::Implementation
 
   Vec3 moved(const ProxyState& state) const noexcept { return hasLastHip ? state.hip - last.hip : Vec3(); }
 
-  Vec3 forceOf(ProxyState& state, double stiffness, double dt) noexcept
+  Vec3 forceOf(ProxyState& state, double dt) noexcept
   {
     const ContactParameters& contact = parameters.contact;
-    Vec3 force = springForce(state, stiffness);
+    Vec3 force = springForce(state);
     if (state.contact && contact.damping > 0.0 && hasLastHip && dt > 0.0)
     {
       const double speed = dot(state.hip - last.hip, state.normal) / dt;
@@ -429,7 +422,6 @@ ProxyState Proxy::step(const Vec3& hip, double dt) noexcept
   state.proxy = hip;
   state.sphereCenter = hip;
   state.normal = self.last.normal;
-  const double stiffness = self.passiveStiffness(dt, state.status);
   self.enterFallback(hip);
   if (!self.scene)
   {
@@ -444,16 +436,16 @@ ProxyState Proxy::step(const Vec3& hip, double dt) noexcept
     self.surfaceFit.step(*self.scene, self.memory, self.parameters.contact, self.scene->toLattice(hip),
       self.parameters.method == ProxyMethod::SurfaceFit, state);
     self.toWorkspace(state);
-    self.letGo(state, stiffness);
-    settles = self.settle(state, stiffness, dt);
+    self.letGo(state);
+    settles = self.settle(state, dt);
   }
   else
   {
     self.gradientSteps.step(*self.scene, self.parameters, self.scene->toLattice(hip), dt, state);
     self.toWorkspace(state);
-    self.letGo(state, stiffness);
+    self.letGo(state);
   }
-  state.force = self.forceOf(state, stiffness, dt);
+  state.force = self.forceOf(state, dt);
   // Only one of them settles at a time: both together would be twice the rate.
   self.settleChanges(state, settles ? 0.0 : self.parameters.contact.settleRate * dt);
   self.finishForce(state);

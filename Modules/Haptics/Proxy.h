@@ -28,12 +28,10 @@ enum ProxyStatus : std::uint32_t
   kProxyLetGo = 1u << 4,   ///< The hand went so far away from its contact that it was let go, and has touched
                            ///< nothing since. Cure: come back to the surface.
   kProxyNoScene = 1u << 5, ///< No scene is set. Cure: setScene().
-  kProxyCellLimit = 1u << 6,      ///< More cells in a fit than there is room for: coarser ones served. Cure:
-                                  ///< larger voxels.
-  kProxySettling = 1u << 7,       ///< The force follows a surface that moved by itself at the limited rate.
-                                  ///< Cure: settleRate.
-  kProxyStiffnessLimit = 1u << 8, ///< The stiffness was kept at the passivity limit. Cure: a higher rate,
-                                  ///< less damping, or a lower stiffness.
+  kProxyCellLimit = 1u << 6, ///< More cells in a fit than there is room for: coarser ones served. Cure:
+                             ///< larger voxels.
+  kProxySettling = 1u << 7,  ///< The force follows a surface that moved by itself at the limited rate.
+                             ///< Cure: settleRate.
   kProxyLed = 1u << 9,       ///< The fit's foot leapt, as on a ridge, and the ball went there over the bumps
                              ///< between points. No cure needed.
   kProxyAround = 1u << 10,   ///< The HIP came out through another face, and the ball went around the edge

@@ -2,7 +2,6 @@
 
 #include "Haptics/Servo/LatestValue.h"
 #include "Haptics/Servo/SceneExchange.h"
-#include "Haptics/Servo/ServoMessages.h"
 #include "Haptics/Servo/ServoThread.h"
 #include "Haptics/Servo/TraceRing.h"
 
@@ -12,6 +11,7 @@
 #include <iterator>
 #include <limits>
 #include <mutex>
+#include <system_error>
 #include <thread>
 
 namespace pointhaptics
@@ -55,6 +55,27 @@ void keep(std::vector<Input>& inputs, Input input)
   }
   inputs.push_back(std::move(input));
 }
+}
+
+std::string describeRefusals(const ServoStatistics& statistics)
+{
+  std::string text;
+  const auto add = [&](int error, const std::string& what, const std::string& cure)
+  {
+    if (error != 0)
+    {
+      text += (text.empty() ? "" : "\n") + what + " (" + std::generic_category().message(error) + ")" + cure;
+    }
+  };
+  add(statistics.realtimeRefusal, "the servo thread got no real-time priority",
+    ": ticks may come late on a busy machine; allow rtprio 40 for this user in /etc/security/limits.d");
+  add(statistics.memoryRefusal, "the program may be swapped out",
+    "; allow memlock unlimited for this user in /etc/security/limits.d");
+  add(statistics.awakeRefusal, "the processor may fall asleep between ticks",
+    ": they may come some hundreds of microseconds late; let this user write /dev/cpu_dma_latency, as "
+    "70-pointhaptics.rules does for group plugdev after `sudo udevadm trigger "
+    "--sysname-match=cpu_dma_latency`");
+  return text;
 }
 
 PublishedScene PublishedScene::of(const HapticScene* scene)
@@ -178,9 +199,7 @@ void ServoLoop::Implementation::prepare(
   sample.parameters = parametersVersion;
   clear();
   count.memoryRefusal = settings.lockMemory ? lockMemory() : 0;
-  count.memoryLocked = settings.lockMemory && count.memoryRefusal == 0;
   count.awakeRefusal = settings.keepCoresAwake ? wakefulCores.request() : 0;
-  count.coresAwake = settings.keepCoresAwake && count.awakeRefusal == 0;
   statistics.write(count);
   heartbeat();
   running.store(true, std::memory_order_release);

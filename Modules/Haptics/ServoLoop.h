@@ -61,8 +61,6 @@ struct ServoStatistics
   LatencyHistogram::Summary jitter; ///< Wake-up after the deadline, seconds.
   LatencyHistogram::Summary update; ///< Duration of a tick's work, seconds.
   bool realtime = false;            ///< SCHED_FIFO was granted.
-  bool memoryLocked = false;        ///< mlockall was granted.
-  bool coresAwake = false;          ///< The cores are kept from falling asleep.
   int realtimeRefusal = 0;          ///< errno of a refused SCHED_FIFO; 0: granted or not asked for.
   int memoryRefusal = 0;            ///< errno of a refused mlockall; 0: granted or not asked for.
   int awakeRefusal = 0;             ///< errno of refused keepCoresAwake; 0: granted or not asked for.

@@ -324,18 +324,13 @@ void readRecords(vtkPolyData* points, Cloud& cloud)
 {
   cloud.width = ::pcl::uindex_t(points->GetNumberOfPoints());
   cloud.height = 1;
-  vtkDataArray* dimensions = points->GetFieldData()->GetArray(kDimensions);
-  if (dimensions && dimensions->GetNumberOfValues() >= 2)
+  double size[2];
+  // A filter that changed the points may have passed this on.
+  if (fieldValues(points, kDimensions, 2, size) && size[0] >= 1.0 && size[1] >= 1.0 &&
+    size[0] * size[1] == double(points->GetNumberOfPoints()))
   {
-    const int components = dimensions->GetNumberOfComponents();
-    const double width = dimensions->GetComponent(0, 0);
-    const double height = components > 1 ? dimensions->GetComponent(0, 1) : dimensions->GetComponent(1, 0);
-    // A filter that changed the points may have passed this on.
-    if (width >= 1.0 && height >= 1.0 && width * height == double(points->GetNumberOfPoints()))
-    {
-      cloud.width = ::pcl::uindex_t(width);
-      cloud.height = ::pcl::uindex_t(height);
-    }
+    cloud.width = ::pcl::uindex_t(size[0]);
+    cloud.height = ::pcl::uindex_t(size[1]);
   }
   auto* header = vtkStringArray::SafeDownCast(points->GetFieldData()->GetAbstractArray(kHeader));
   if (header && header->GetNumberOfValues() == 3)
@@ -476,17 +471,7 @@ bool getViewpoint(vtkPolyData* points, double viewpoint[7])
 {
   const double unmoved[7] = { 0, 0, 0, 1, 0, 0, 0 };
   std::copy(unmoved, unmoved + 7, viewpoint);
-  vtkDataArray* array = points ? points->GetFieldData()->GetArray(kViewpoint) : nullptr;
-  if (!array || array->GetNumberOfValues() < 7)
-  {
-    return false;
-  }
-  const int components = array->GetNumberOfComponents();
-  for (int i = 0; i < 7; ++i)
-  {
-    viewpoint[i] = array->GetComponent(i / components, i % components);
-  }
-  return true;
+  return points && fieldValues(points, kViewpoint, 7, viewpoint);
 }
 
 } // namespace pointhaptics

@@ -254,23 +254,6 @@ int PclVoxelMeanSettings::getCentroidIndexAt(const Eigen::Vector3i& voxel) const
   return found != keys_.end() && *found == key ? toInt(found - keys_.begin()) : -1;
 }
 
-std::vector<int> PclVoxelMeanSettings::getLeafLayout() const
-{
-  std::vector<int> numbers;
-  const auto& n = lattice_.dimensions;
-  if (!keys_.empty() && n[0] > std::numeric_limits<int>::max() / n[1] / n[2])
-  {
-    PCL_ERROR("[pointhaptics::PclVoxelMean::getLeafLayout] 2^31 voxels or more; use getCentroidIndexAt()\n");
-    return numbers;
-  }
-  numbers.assign(keys_.empty() ? 0 : std::size_t(n[0] * n[1] * n[2]), -1);
-  for (std::size_t i = 0; i < keys_.size(); ++i)
-  {
-    numbers[std::size_t(keys_[i])] = int(i);
-  }
-  return numbers;
-}
-
 void PclVoxelMean<::pcl::PCLPointCloud2>::applyFilter(::pcl::PCLPointCloud2& output)
 {
   const ::pcl::PCLPointCloud2& cloud = *input_;

@@ -68,9 +68,6 @@ public:
   Eigen::Vector3i getGridCoordinates(float x, float y, float z) const;
   /// The output point of a voxel, or -1 where it has none; needs setSaveLeafLayout().
   int getCentroidIndexAt(const Eigen::Vector3i& voxel) const;
-  /// getCentroidIndexAt() of all voxels of the box, x fastest: layout[(voxel - getMinBoxCoordinates()).dot(
-  /// getDivisionMultiplier())]. 4 bytes a voxel; empty, after a PCL_ERROR, where they are 2^31 or more.
-  std::vector<int> getLeafLayout() const;
   /// Index of the voxel that a point lies in, and of its neighbours: one voxel a column, counted from it.
   template <typename PointT>
   int getCentroidIndex(const PointT& point) const
@@ -128,7 +125,7 @@ private:
   Lattice lattice_;
   std::array<std::int64_t, 3> first_{}; ///< The multiple of the edges at which the lattice starts.
   std::vector<std::int64_t> kept_;      ///< Voxels that are not left out; empty: all are kept.
-  std::vector<std::uint64_t> keys_;     ///< Of the voxels that are kept, with setSaveLeafLayout().
+  std::vector<std::uint64_t> keys_;     ///< Keys of the voxels that are kept, with setSaveLeafLayout().
   std::int64_t size_ = 0;
 };
 

@@ -37,10 +37,10 @@ std::string problemOf(Status status)
   return std::string(message(status == Status::Ok ? Status::InvalidParameter : status)) + ".";
 }
 
-std::string signatureOf(const std::vector<VoxelArray>& arrays)
+std::string signatureOf(const std::vector<VoxelAttribute>& arrays)
 {
   std::ostringstream text;
-  for (const VoxelArray& found : arrays)
+  for (const VoxelAttribute& found : arrays)
   {
     text << (found.array->GetName() ? found.array->GetName() : "") << " of "
          << found.array->GetNumberOfComponents() << " " << found.array->GetDataTypeAsString() << "; ";
@@ -127,10 +127,9 @@ std::string DistributedUpdate::runOfSums(vtkPolyData* output)
 {
   std::vector<VoxelAccumulator::Array> kinds;
   std::vector<AttributeView> views;
-  const std::vector<VoxelAttribute> arrays(found_.begin(), found_.end());
-  for (const VoxelAttribute& array : arrays)
+  for (VoxelAttribute& found : found_)
   {
-    const AttributeRequest request = array.request();
+    const AttributeRequest request = found.request();
     kinds.push_back({ request.view.type, request.view.components, request.statistic });
     views.push_back(request.view);
   }
@@ -152,12 +151,11 @@ std::string DistributedUpdate::runOfSums(vtkPolyData* output)
   }
   clipped_ = ranks_.sum(own.clippedPoints());
   invalid_ = ranks_.sum(own.invalidPoints());
-  this->fill(output, arrays, wanted);
+  this->fill(output, wanted);
   return {};
 }
 
-void DistributedUpdate::fill(
-  vtkPolyData* output, const std::vector<VoxelAttribute>& attributes, const VoxelRequest& request)
+void DistributedUpdate::fill(vtkPolyData* output, const VoxelRequest& request)
 {
   std::vector<std::int64_t> ids;
   if (settings_.keepOriginalPointIds)
@@ -170,7 +168,7 @@ void DistributedUpdate::fill(
   }
   const OutputFiller filler{ made_, request, memory_, smp_, settings_.minimumPointsPerVoxel,
     settings_.keepOriginalPointIds ? &ids : nullptr };
-  static_cast<void>(filler.fill(output, attributes, nullptr, kept_));
+  static_cast<void>(filler.fill(output, found_, nullptr, kept_));
 }
 
 VoxelRequest DistributedUpdate::requestOf(const PointView& points, const Lattice& lattice)
@@ -219,7 +217,7 @@ vtkSmartPointer<vtkPolyData> DistributedUpdate::sharePoints(const VoxelResampler
   }
   vtkNew<vtkPolyData> piece;
   piece->SetPoints(places);
-  for (const VoxelArray& found : found_)
+  for (const VoxelAttribute& found : found_)
   {
     piece->GetPointData()->AddArray(found.array);
   }
@@ -255,19 +253,17 @@ std::string DistributedUpdate::runOfPoints(vtkPolyData* output)
   request.covariances = settings_.computeCovariance;
   request.representative = settings_.representative;
   request.allocator = &memory_;
-  std::vector<VoxelAttribute> attributes;
   for (std::size_t i = 0; i < found_.size(); ++i)
   {
-    VoxelArray found = found_[i];
-    found.array = points->GetPointData()->GetArray(int(i));
-    attributes.emplace_back(found).addTo(request);
+    found_[i].array = points->GetPointData()->GetArray(int(i));
+    found_[i].addTo(request);
   }
   const Status status = made_.run(request, smp_);
   if (!ranks_.all(status == Status::Ok))
   {
     return problemOf(status);
   }
-  this->fill(output, attributes, request);
+  this->fill(output, request);
   return {};
 }
 

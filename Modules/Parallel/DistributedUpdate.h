@@ -66,8 +66,8 @@ private:
   // Others: points go to the rank that has their voxel.
   std::string runOfPoints(vtkPolyData* output);
   vtkSmartPointer<vtkPolyData> sharePoints(const VoxelResampler& own);
-  /// @p attributes: what points have beside places, counts and covariances.
-  void fill(vtkPolyData* output, const std::vector<VoxelAttribute>& attributes, const VoxelRequest& request);
+  /// With found_: what points have beside places, counts and covariances.
+  void fill(vtkPolyData* output, const VoxelRequest& request);
 
   Ranks& ranks_;
   const VoxelMeanSettings& settings_;
@@ -78,7 +78,7 @@ private:
   AffineTransform transform_;
   Lattice lattice_;
   bool singlePrecision_ = true;
-  std::vector<VoxelArray> found_;
+  std::vector<VoxelAttribute> found_;
   std::vector<std::string> dropped_;
   std::int64_t clipped_ = 0; ///< Number of points outside the workspace, on all ranks.
   std::int64_t invalid_ = 0;

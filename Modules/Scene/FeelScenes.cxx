@@ -62,49 +62,21 @@ std::string setLattice(vtkPoints* cloud, vtkVoxelMeanResampler* resampler)
 
 } // namespace
 
-void configure(LocalSceneBuilder& builder, const SceneOrigin& origin)
+std::shared_ptr<const PointIndex> indexOf(vtkPoints* points)
 {
-  const LatticeSettings& lattice = origin.voxels.lattice;
-  builder.setBandwidth(origin.bandwidth);
-  builder.setWorkspace(lattice.automaticWorkspace ? Bounds() : lattice.workspace);
-}
-
-FeelScenes::FeelScenes(const FeelScenes& shared)
-{
-  this->adopt(shared.whole_, shared.builder_.index());
+  const auto index = std::make_shared<PointIndex>();
+  return points && index->build(PointAccess(points).view(), SmpExecutor()) == Status::Ok ? index : nullptr;
 }
 
 void FeelScenes::adopt(std::shared_ptr<const HapticScene> whole, vtkPoints* cloud)
 {
-  std::shared_ptr<PointIndex> index;
-  if (whole && cloud)
-  {
-    index = std::make_shared<PointIndex>();
-    index = index->build(PointAccess(cloud).view(), SmpExecutor()) == Status::Ok ? index : nullptr;
-  }
-  this->adopt(std::move(whole), std::shared_ptr<const PointIndex>(std::move(index)));
-}
-
-void FeelScenes::adopt(std::shared_ptr<const HapticScene> whole, std::shared_ptr<const PointIndex> cloud)
-{
-  whole_ = std::move(whole);
-  builder_.setCloud(whole_ && whole_->origin() ? std::move(cloud) : nullptr);
-  this->restart();
-}
-
-void FeelScenes::restart()
-{
-  follower_.reset();
-  if (builder_.index())
-  {
-    configure(builder_, *whole_->origin());
-    follower_.emplace(builder_, whole_);
-  }
+  const bool refines = whole && whole->origin();
+  follower_ = LocalSceneFollower(std::move(whole), indexOf(refines ? cloud : nullptr));
 }
 
 void FeelScenes::publishNearHand(ServoLoop& loop, StoppableThread& thread)
 {
-  if (!follower_)
+  if (!follower_.cloud())
   {
     return;
   }
@@ -120,9 +92,9 @@ void FeelScenes::publishNearHand(ServoLoop& loop, StoppableThread& thread)
         hand.include(latest.state.proxy);
         try
         {
-          if (latest.tick > 0 && follower_->update(hand, seconds, SmpExecutor()))
+          if (latest.tick > 0 && follower_.update(hand, seconds, SmpExecutor()))
           {
-            loop.publishScene(follower_->scene());
+            loop.publishScene(follower_.scene());
           }
         }
         catch (const std::exception&)

@@ -9,7 +9,6 @@
 
 #include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 
 class vtkPoints;
@@ -32,8 +31,8 @@ struct FeelSceneSettings
   std::function<bool(double)> goesOn;
 };
 
-/// Sets workspace and radii of fine scenes beside one that was made as @p origin says.
-void configure(LocalSceneBuilder& builder, const SceneOrigin& origin);
+/// An index of @p points, which may be null; null: there are none, or it cannot be made.
+std::shared_ptr<const PointIndex> indexOf(vtkPoints* points);
 
 /// The scene of the whole cloud, and local ones, which are made as the hand comes along. One thread at a
 /// time.
@@ -43,16 +42,16 @@ public:
   FeelScenes() = default;
   /// Copies for another hand, whose path begins: shares the immutable scenes, and may be used in another
   /// thread. The other object does not change.
-  explicit FeelScenes(const FeelScenes& shared);
+  explicit FeelScenes(const FeelScenes& shared)
+    : follower_(shared.whole(), shared.follower_.cloud())
+  {
+  }
   FeelScenes& operator=(const FeelScenes&) = delete;
 
-  ///@{
   /// Takes the scene of the whole cloud. @param cloud the points of the cloud in its own frame, for scenes
-  /// near the hand, of which no reference is kept, or an index of them; null: there are no scenes near the
-  /// hand. None are made either where the scene's origin is not known.
+  /// near the hand, of which no reference is kept; null: there are no scenes near the hand. None are made
+  /// either where the scene's origin is not known.
   void adopt(std::shared_ptr<const HapticScene> whole, vtkPoints* cloud);
-  void adopt(std::shared_ptr<const HapticScene> whole, std::shared_ptr<const PointIndex> cloud);
-  ///@}
   /// Resamples @p cloud and makes its scenes. @param resampler has lattice and transform, and is used up.
   /// Errors: Aborted, Empty (no finite point in the workspace), InvalidParameter (the resampler's settings),
   /// those of HapticScene::create(); @p message says which, with the cure.
@@ -61,29 +60,25 @@ public:
   /// Note on the points that resample() left out, as they are far from all others; empty: there are none.
   const std::string& note() const { return note_; }
   /// Forgets the hand: the next path is felt as the first one.
-  void restart();
+  void restart() { follower_ = LocalSceneFollower(whole(), follower_.cloud()); }
 
-  const std::shared_ptr<const HapticScene>& whole() const { return whole_; }
-  /// Follower of the hand; null: the global scene is felt everywhere.
-  LocalSceneFollower* follower() { return follower_ ? &*follower_ : nullptr; }
+  const std::shared_ptr<const HapticScene>& whole() const { return follower_.global(); }
   /// Scene for the next step in virtual time (see LocalSceneFollower::at()).
   const HapticScene* at(const Vec3& hip, const Vec3& touched)
   {
-    return follower_ ? follower_->at(hip, touched, SmpExecutor()) : whole_.get();
+    return follower_.at(hip, touched, SmpExecutor());
   }
   /// Publishes to @p loop the scenes of where its hand comes, in @p thread, until that is stopped. Both are
   /// outlived by this.
   void publishNearHand(ServoLoop& loop, StoppableThread& thread);
 
-  std::int64_t numberOfLocalScenes() const { return follower_ ? follower_->numberOfScenes() : 0; }
+  std::int64_t numberOfLocalScenes() const { return follower_.numberOfScenes(); }
   /// Edge of the finest cells felt, metres.
-  double finestCell() const { return follower_ ? follower_->finestCell() : whole_->cellSize(); }
+  double finestCell() const { return follower_.finestCell(); }
 
 private:
   std::string note_;
-  std::shared_ptr<const HapticScene> whole_;
-  LocalSceneBuilder builder_;
-  std::optional<LocalSceneFollower> follower_;
+  LocalSceneFollower follower_;
 };
 
 } // namespace pointhaptics

@@ -1,9 +1,9 @@
 #include "HapticSceneBuilder.h"
 
+#include "PolyDataAccess.h"
 #include "SmpExecutor.h"
 
 #include "vtkDataArray.h"
-#include "vtkFieldData.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 
@@ -23,44 +23,19 @@ vtkDataArray* pointArray(vtkPolyData* cloud, const char* name, int components)
   return fits ? array : nullptr;
 }
 
-double* numbersOf(double& value)
-{
-  return &value;
-}
-
-double* numbersOf(SymMat3& value)
-{
-  return &value.xx;
-}
-
-/// Empty where @p array is null.
+/// Tuples as values that consist of so many numbers. Empty where @p array is null.
 template <typename Value>
 std::vector<Value> valuesOf(vtkDataArray* array)
 {
   std::vector<Value> values(array ? std::size_t(array->GetNumberOfTuples()) : 0);
   for (std::size_t i = 0; i < values.size(); ++i)
   {
-    array->GetTuple(vtkIdType(i), numbersOf(values[i]));
+    array->GetTuple(vtkIdType(i), reinterpret_cast<double*>(&values[i]));
   }
   return values;
 }
 
 } // namespace
-
-bool fieldValues(vtkPolyData* cloud, const char* name, int count, double* values)
-{
-  vtkDataArray* array = cloud->GetFieldData()->GetArray(name);
-  if (!array || array->GetNumberOfValues() < count)
-  {
-    return false;
-  }
-  for (int i = 0; i < count; ++i)
-  {
-    const int components = array->GetNumberOfComponents();
-    values[i] = array->GetComponent(i / components, i % components);
-  }
-  return true;
-}
 
 std::shared_ptr<const HapticScene> makeHapticScene(vtkPolyData* cloud, Status& status, bool useCovariance,
   const std::optional<LocalBandwidthSettings>& bandwidth, const VoxelMeanSettings* voxels)

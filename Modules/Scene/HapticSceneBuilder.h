@@ -14,9 +14,6 @@ class vtkPolyData;
 namespace pointhaptics
 {
 
-/// Gets @p count values of a field array, tuple by tuple. False: @p cloud has no such array, or fewer values.
-POINTHAPTICSSCENE_EXPORT bool fieldValues(vtkPolyData* cloud, const char* name, int count, double* values);
-
 /// Reads the points of @p cloud, with VoxelPointCount, VoxelCovariance, ProxyRadius and the field data
 /// LatticeOrigin, LatticeSpacing and ModelToWorkspace where they are there (the output of
 /// vtkVoxelMeanResampler and vtkKernelBandwidthFilter has them all). @p useCovariance false leaves

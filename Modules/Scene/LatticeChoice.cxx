@@ -22,17 +22,16 @@ constexpr double kGain = 1.25;
 LatticeChoice chooseLattice(
   const std::function<vtkSmartPointer<vtkPolyData>(int)>& resample, const std::function<bool()>& goesOn)
 {
-  LatticeChoice choice{ kDefaultLatticeDimension, resample(kDefaultLatticeDimension), true };
+  LatticeChoice choice{ kDefaultLatticeDimension, resample(kDefaultLatticeDimension) };
   while (choice.dimension < kFinest && choice.means->GetNumberOfPoints() > 0 &&
     choice.means->GetNumberOfPoints() < kEnough && goesOn())
   {
     vtkSmartPointer<vtkPolyData> finer = resample(2 * choice.dimension);
     if (double(finer->GetNumberOfPoints()) < kGain * double(choice.means->GetNumberOfPoints()))
     {
-      choice.isNewest = false;
       break;
     }
-    choice = { 2 * choice.dimension, std::move(finer), true };
+    choice = { 2 * choice.dimension, std::move(finer) };
   }
   return choice;
 }

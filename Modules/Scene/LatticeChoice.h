@@ -17,7 +17,6 @@ struct LatticeChoice
 {
   int dimension = 0; ///< Voxels on each axis.
   vtkSmartPointer<vtkPolyData> means;
-  bool isNewest = true; ///< The means are those of the last call of @c resample.
 };
 
 /// Chooses 300; or 600 or 1200 where 300 leave fewer than 30,000 means of a cloud that finer voxels would

@@ -62,7 +62,7 @@ void LocalSceneProvider::setCloud(vtkSmartPointer<vtkPoints> points)
 {
   points_ = std::move(points);
   index_.reset();
-  fine_.adopt(nullptr, std::shared_ptr<const PointIndex>());
+  fine_ = LocalSceneFollower();
 }
 
 std::shared_ptr<const HapticScene> LocalSceneProvider::build(
@@ -133,18 +133,16 @@ std::shared_ptr<const HapticScene> LocalSceneProvider::refine(
 {
   const auto now = std::chrono::steady_clock::now();
   const std::chrono::duration<double> seconds = now - std::exchange(lastLook_, now);
-  const bool mayServe = isIndexed() || (global && LocalSceneBuilder().isUseful(hand, *global));
+  const bool mayServe = isIndexed() || (global && isFinerNear(hand, *global));
   if (hand.empty() || !global || !global->origin() || !mayServe || !this->index())
   {
     return nullptr;
   }
-  if (fine_.whole() != global)
+  if (fine_.global() != global)
   {
-    fine_.adopt(global, index_);
+    fine_ = LocalSceneFollower(global, index_);
   }
-  LocalSceneFollower& follower = *fine_.follower();
-  return follower.update(hand, seconds.count(), smp_) && follower.scene() != global ? follower.scene()
-                                                                                    : nullptr;
+  return fine_.update(hand, seconds.count(), smp_) && fine_.scene() != global ? fine_.scene() : nullptr;
 }
 
 std::shared_ptr<const HapticScene> LocalSceneProvider::make(
@@ -157,24 +155,12 @@ std::shared_ptr<const HapticScene> LocalSceneProvider::make(
   Status status = Status::Ok;
   const bool isThere = global->modelToWorkspace() == origin.modelToWorkspace;
   const auto beside = isThere ? global : global->moved(origin.modelToWorkspace, status);
-  if (!beside || !this->index())
-  {
-    return nullptr;
-  }
-  LocalSceneBuilder builder;
-  builder.setCloud(index_);
-  configure(builder, origin);
-  return builder.build(origin.hand, beside, smp_);
+  return beside && this->index() ? LocalSceneBuilder(index_).build(origin.hand, beside, smp_) : nullptr;
 }
 
 bool LocalSceneProvider::index()
 {
-  if (!index_ && points_ && points_->GetNumberOfPoints() > 0)
-  {
-    const PointAccess access(points_);
-    const auto made = std::make_shared<PointIndex>();
-    index_ = made->build(access.view(), smp_) == Status::Ok ? made : nullptr;
-  }
+  index_ = index_ ? index_ : indexOf(points_);
   return index_ != nullptr;
 }
 

@@ -58,7 +58,7 @@ private:
   SmpExecutor smp_;
   vtkSmartPointer<vtkPoints> points_;
   std::shared_ptr<const PointIndex> index_; ///< Null: not made yet.
-  FeelScenes fine_;                         ///< Beside the global scene that was refined last.
+  LocalSceneFollower fine_;                 ///< Beside the global scene that was refined last.
   std::chrono::steady_clock::time_point lastLook_;
   VoxelResampler engine_;
   VoxelRequest voxels_;

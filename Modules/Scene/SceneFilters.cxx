@@ -13,6 +13,8 @@
 #include "vtkPointSet.h"
 #include "vtkPolyData.h"
 
+#include <utility>
+
 namespace pointhaptics
 {
 
@@ -26,7 +28,6 @@ SceneFilters::SceneFilters()
   vtkNew<vtkMatrixToLinearTransform> transform;
   transform->SetInput(matrix_);
   resampler_->SetTransform(transform);
-  bandwidth_->SetInputConnection(resampler_->GetOutputPort());
 }
 
 SceneFilters::~SceneFilters() = default;
@@ -43,29 +44,13 @@ void SceneFilters::setCloud(vtkPointSet* cloud)
   numberOfPoints_ = cloud ? cloud->GetNumberOfPoints() : 0;
 }
 
-/// Updates the resampler, whose settings are @p voxels.
-void SceneFilters::resample(bool findsLattice, VoxelMeanSettings& voxels, BuiltScene& built)
+vtkSmartPointer<vtkPolyData> SceneFilters::resample(const VoxelMeanSettings& voxels)
 {
-  const auto with = [&](int dimension)
-  {
-    voxels.lattice.dimensions = { dimension, dimension, dimension };
-    resampler_->SetSettings(voxels);
-    resampler_->Update();
-    auto means = vtkSmartPointer<vtkPolyData>::New();
-    means->ShallowCopy(resampler_->GetOutput());
-    return means;
-  };
-  if (!findsLattice)
-  {
-    resampler_->Update();
-    return;
-  }
-  const LatticeChoice choice = chooseLattice(with, [] { return true; });
-  built.latticeDimension = choice.dimension;
-  if (!choice.isNewest)
-  {
-    with(choice.dimension);
-  }
+  resampler_->SetSettings(voxels);
+  resampler_->Update();
+  auto means = vtkSmartPointer<vtkPolyData>::New();
+  means->ShallowCopy(resampler_->GetOutput());
+  return means;
 }
 
 std::shared_ptr<const HapticScene> SceneFilters::makeScene(
@@ -75,33 +60,43 @@ std::shared_ptr<const HapticScene> SceneFilters::makeScene(
   built.numberOfPoints = numberOfPoints_;
   setElements(matrix_, recipe.modelToWorkspace);
   VoxelMeanSettings voxels = recipe.voxels;
-  resampler_->SetSettings(voxels);
-  std::shared_ptr<const HapticScene> scene;
-  if (numberOfPoints_ > 0)
+  const auto with = [&](int dimension)
   {
-    this->resample(findsLattice, voxels, built);
-    built.problem = resampler_->GetErrorMessage();
-    scene =
-      makeHapticScene(resampler_->GetOutput(), built.status, recipe.useCovariance, recipe.bandwidth, &voxels);
+    voxels.lattice.dimensions = { dimension, dimension, dimension };
+    return this->resample(voxels);
+  };
+  means_ = nullptr;
+  if (numberOfPoints_ > 0 && findsLattice)
+  {
+    const LatticeChoice choice = chooseLattice(with, [] { return true; });
+    built.latticeDimension = choice.dimension;
+    voxels.lattice.dimensions.fill(choice.dimension);
+    means_ = choice.means;
   }
+  else if (numberOfPoints_ > 0)
+  {
+    means_ = this->resample(voxels);
+  }
+  // After an error there are no means.
+  built.problem = means_ && means_->GetNumberOfPoints() == 0 ? resampler_->GetErrorMessage() : "";
+  std::shared_ptr<const HapticScene> scene =
+    makeHapticScene(means_, built.status, recipe.useCovariance, recipe.bandwidth, &voxels);
   built.empty = scene == nullptr;
   return scene;
 }
 
 void SceneFilters::makePicture(const SceneRequest& request, const HapticScene* scene, BuiltScene& built)
 {
-  built.means = vtkSmartPointer<vtkPolyData>::New();
-  if (numberOfPoints_ > 0)
+  built.means = means_ ? std::move(means_) : vtkSmartPointer<vtkPolyData>::New();
+  if (numberOfPoints_ > 0 && request.arrays)
   {
-    vtkPolyData* result = resampler_->GetOutput();
-    if (request.arrays)
-    {
-      bandwidth_->SetSettings(*request.arrays);
-      bandwidth_->Update();
-      result = bandwidth_->GetOutput();
-      built.problem += bandwidth_->GetErrorMessage();
-    }
-    built.means->ShallowCopy(result);
+    bandwidth_->SetInputData(built.means);
+    bandwidth_->SetSettings(*request.arrays);
+    bandwidth_->Update();
+    built.means = vtkSmartPointer<vtkPolyData>::New();
+    built.means->ShallowCopy(bandwidth_->GetOutput());
+    built.problem += bandwidth_->GetErrorMessage();
+    bandwidth_->SetInputData(nullptr);
   }
   if (scene)
   {

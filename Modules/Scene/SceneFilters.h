@@ -32,12 +32,13 @@ public:
   void makePicture(const SceneRequest& request, const HapticScene* scene, BuiltScene& built);
 
 private:
-  void resample(bool findsLattice, VoxelMeanSettings& voxels, BuiltScene& built);
+  vtkSmartPointer<vtkPolyData> resample(const VoxelMeanSettings& voxels);
 
   vtkNew<vtkCallbackCommand> silent_;
   vtkNew<vtkMatrix4x4> matrix_;
   vtkNew<vtkVoxelMeanResampler> resampler_;
   vtkNew<vtkKernelBandwidthFilter> bandwidth_;
+  vtkSmartPointer<vtkPolyData> means_; ///< Means of the newest scene, until its picture is made.
   vtkIdType numberOfPoints_ = 0;
 };
 

@@ -79,11 +79,11 @@ void feelPath(const HapticParameters& parameters, FeelScenes& scenes, const HipP
   VirtualTouch touch(parameters, scenes, rateHz);
   const double start = path.points.front().timeSeconds;
   const double end = path.points.back().timeSeconds;
-  std::size_t hint = 0;
+  std::size_t row = 0;
   for (std::int64_t tick = 0; tick < ticks; ++tick)
   {
     const double time = std::min(start + double(tick) / rateHz, end);
-    touch.step(path.hand(time, hint));
+    touch.step(path.hand(time, row));
     if (!onTick(time, touch))
     {
       return;

@@ -57,6 +57,9 @@ Scene sceneOf(const std::vector<Vec3>& points, const SceneSettings& settings)
   {
     return nullptr;
   }
+  auto origin = std::make_shared<SceneOrigin>();
+  origin->bandwidth.emplace();
+  input.origin = std::move(origin);
   // The proxy's radius from the bandwidth, as the program does.
   const PointView felt(input.points.data(), std::int64_t(input.points.size()));
   NeighborQuery query;

@@ -322,8 +322,8 @@ void addRow(Run& run, const Setting& setting, const Outcome& outcome)
     { { "hand", name(setting.hand) }, { "load", name(setting.load) }, { "rate_hz", setting.rateHz },
       { "step_seconds", toJson(s.update) }, { "jitter_seconds", toJson(s.jitter) }, { "ticks", s.ticks },
       { "deadline_misses", s.deadlineMisses }, { "empty_loop", empty }, { "achieved_hz", s.rateHz },
-      { "real_time_priority", s.realtime }, { "memory_locked", s.memoryLocked },
-      { "cores_awake", s.coresAwake }, { "frames_per_second", outcome.framesPerSecond },
+      { "real_time_priority", s.realtime }, { "memory_locked", s.memoryRefusal == 0 },
+      { "cores_awake", s.awakeRefusal == 0 }, { "frames_per_second", outcome.framesPerSecond },
       { "largest_force_error_n", outcome.largestError }, { "right", right } });
   if (!right)
   {

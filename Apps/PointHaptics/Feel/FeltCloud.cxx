@@ -120,7 +120,7 @@ void FeelCommand::makeScenes(vtkPolyData* cloud, FeelScenes& scenes) const
   }
   Status status = Status::Ok;
   auto whole = makeHapticScene(prepared, status, !this->noCovariance, this->bandwidth.settings);
-  scenes.adopt(std::move(whole), static_cast<vtkPoints*>(nullptr));
+  scenes.adopt(std::move(whole), nullptr);
   require(status == Status::Ok, this->file + ": " + message(status));
 }
 

@@ -1,6 +1,6 @@
 // Replaces UsbFtdiLink.cxx where libusb is not installed.
+#include "Devices/DeviceList.h"
 #include "Devices/Falcon/FalconDevice.h"
-#include "Devices/Falcon/UsbFtdi.h"
 
 namespace pointhaptics
 {

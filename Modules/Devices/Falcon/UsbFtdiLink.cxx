@@ -1,5 +1,4 @@
-#include "Devices/Falcon/UsbFtdi.h"
-
+#include "Devices/DeviceList.h"
 #include "Devices/Falcon/FalconDevice.h"
 #include "Devices/Falcon/FtdiLink.h"
 

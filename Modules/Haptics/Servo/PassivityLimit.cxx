@@ -1,5 +1,7 @@
 #include "Haptics/Servo/PassivityLimit.h"
 
+#include "Haptics/HapticParameters.h"
+
 #include <algorithm>
 
 namespace pointhaptics
@@ -14,6 +16,13 @@ double secondsFromPositionToForce(const HandLimits& limits, double rateHz) noexc
 {
   return (kHalfATick + limits.delayTicks) / rateHz;
 }
+
+/// Three digits are enough for a limit.
+std::string number(double value)
+{
+  std::string text = std::to_string(value);
+  return text.substr(0, text.find('.') + (value < 100.0 ? 3 : 0));
+}
 }
 
 double largestPassiveStiffness(const HandLimits& limits, double damping, double rateHz) noexcept
@@ -21,15 +30,6 @@ double largestPassiveStiffness(const HandLimits& limits, double damping, double 
   const double byDamping = (limits.damping - damping) / secondsFromPositionToForce(limits, rateHz);
   const double byFriction = limits.positionStep > 0.0
     ? 2.0 * limits.friction / limits.positionStep - damping * rateHz
-    : std::numeric_limits<double>::infinity();
-  return std::max(0.0, std::min(byDamping, byFriction));
-}
-
-double largestPassiveDamping(const HandLimits& limits, double stiffness, double rateHz) noexcept
-{
-  const double byDamping = limits.damping - stiffness * secondsFromPositionToForce(limits, rateHz);
-  const double byFriction = limits.positionStep > 0.0
-    ? (2.0 * limits.friction / limits.positionStep - stiffness) / rateHz
     : std::numeric_limits<double>::infinity();
   return std::max(0.0, std::min(byDamping, byFriction));
 }
@@ -43,6 +43,32 @@ Status checkPassive(const HandLimits& limits, double stiffness, double damping, 
   const bool passive =
     stiffness <= largestPassiveStiffness(limits, damping, rateHz) * kRounding && damping <= limits.damping;
   return passive ? Status::Ok : Status::NotPassive;
+}
+
+Status checkSpring(bool isValid, const HandLimits& limits, const HapticParameters& parameters, double rateHz,
+  std::string* message)
+{
+  const ContactParameters& contact = parameters.contact;
+  const Status status = isValid && parameters.check() == Status::Ok
+    ? checkPassive(limits, contact.stiffness, contact.damping, rateHz)
+    : Status::InvalidParameter;
+  if (message && status == Status::RateNotSupported)
+  {
+    *message = "the device cannot be served at " + number(rateHz) + " Hz; use at most " +
+      number(limits.maximumRateHz) + " Hz";
+  }
+  else if (message && status == Status::NotPassive)
+  {
+    *message = "stiffness " + number(contact.stiffness) + " N/m with damping " + number(contact.damping) +
+      " N s/m at " + number(rateHz) + " Hz would make the hand shake; use a stiffness of at most " +
+      number(largestPassiveStiffness(limits, contact.damping, rateHz)) + " N/m beside this damping (" +
+      number(largestPassiveStiffness(limits, 0.0, rateHz)) + " N/m without damping)";
+  }
+  else if (message)
+  {
+    *message = status == Status::Ok ? "" : pointhaptics::message(status);
+  }
+  return status;
 }
 
 } // namespace pointhaptics

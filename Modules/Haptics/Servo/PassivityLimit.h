@@ -1,13 +1,16 @@
 /// @file
-/// Largest stiffness and damping with which a sampled spring gives the hand no more energy than it took.
+/// Largest stiffness with which a sampled spring gives the hand no more energy than it took.
 #pragma once
 
 #include "Core/Base/Status.h"
 
 #include <limits>
+#include <string>
 
 namespace pointhaptics
 {
+
+struct HapticParameters;
 
 /// Mechanics of the hand and of the device that reads and pushes it, as far as the servo loop must know them.
 /// The defaults are those of a hand that no force moves: no limit.
@@ -33,10 +36,13 @@ struct HandLimits
 /// accepted gives energy back, and that far above the limit it does.
 /// @return N/m: the largest K beside damping @p damping (N s/m); 0 where that alone is too much.
 double largestPassiveStiffness(const HandLimits& limits, double damping, double rateHz) noexcept;
-/// @return N s/m: the largest B beside stiffness @p stiffness (N/m); 0 where that alone is too much.
-double largestPassiveDamping(const HandLimits& limits, double stiffness, double rateHz) noexcept;
 
 /// RateNotSupported, NotPassive, or Ok.
 Status checkPassive(const HandLimits& limits, double stiffness, double damping, double rateHz) noexcept;
+
+/// Ok; InvalidParameter where @p isValid is false or @p parameters are not; else what checkPassive() says of
+/// their spring. @p message, where given, names the limit.
+Status checkSpring(bool isValid, const HandLimits& limits, const HapticParameters& parameters, double rateHz,
+  std::string* message);
 
 } // namespace pointhaptics

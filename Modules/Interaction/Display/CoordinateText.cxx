@@ -1,6 +1,6 @@
 #include "CoordinateText.h"
 
-#include "HapticSceneBuilder.h"
+#include "PolyDataAccess.h"
 
 #include "vtkPoints.h"
 #include "vtkPolyData.h"

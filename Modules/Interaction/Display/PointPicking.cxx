@@ -3,7 +3,6 @@
 #include "AsprsClasses.h"
 #include "CloudAppearance.h"
 #include "CoordinateText.h"
-#include "HapticSceneBuilder.h"
 #include "PolyDataAccess.h"
 #include "ScreenMarks.h"
 #include "SmpExecutor.h"

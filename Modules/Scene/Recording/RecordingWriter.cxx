@@ -3,9 +3,12 @@
 #include "RecordingLines.h"
 #include "VirtualTouch.h"
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
+#include <ctime>
 #include <iterator>
 #include <limits>
 
@@ -28,6 +31,35 @@ const Input* inUse(std::vector<Input>& inputs, std::uint64_t number)
   }
   inputs.erase(inputs.begin(), std::prev(used.base()));
   return &inputs.front();
+}
+
+/// The lines of a header, without their "# ".
+std::vector<std::string> linesOf(const RecordingHeader& header)
+{
+  const auto sinceOrigin =
+    std::chrono::steady_clock::now().time_since_epoch() - std::chrono::nanoseconds(header.origin);
+  const auto started =
+    std::chrono::time_point_cast<std::chrono::microseconds>(std::chrono::system_clock::now() - sinceOrigin);
+  const std::time_t seconds = std::chrono::system_clock::to_time_t(started);
+  const std::int64_t microseconds = started.time_since_epoch().count() % 1000000;
+  std::vector<std::string> lines = { "pointhaptics recording: 2", "program: " + header.program,
+    fmt::format("started: {:%Y-%m-%dT%H:%M:%S}.{:06}Z", fmt::gmtime(seconds), microseconds),
+    fmt::format("monotonic: {}.{:09}", header.origin / 1000000000, header.origin % 1000000000) };
+  for (const std::string& file : header.cloud.files)
+  {
+    lines.push_back("file: " + file);
+  }
+  lines.push_back(lineOf("cloud:", header.cloud));
+  if (!header.settings.empty())
+  {
+    lines.push_back("settings: " + header.settings);
+  }
+  lines.push_back(lineOf("servo:", header.step));
+  const ForceLimit& limit = header.limit;
+  lines.push_back(
+    fmt::format("limits: force={} of={} device={} user={} program={}", keyed::textOf(limit.newtons()),
+      limit.name(), keyed::textOf(limit.device), keyed::textOf(limit.user), keyed::textOf(limit.program)));
+  return lines;
 }
 
 } // namespace

@@ -30,7 +30,7 @@ TEST(LateScenes, ComeSoManyTicksAfterTheLook)
   ASSERT_TRUE(scene.local);
   for (const int late : { 0, 3 })
   {
-    LateScenes scenes(*scene.local, scene.scene, late);
+    LateScenes scenes(scene.local, scene.scene, late);
     for (int tick = 0; tick < 6; ++tick)
     {
       const HapticScene* const felt = scenes.at(kOnEdge, kOnEdge);
@@ -43,7 +43,7 @@ TEST(LateScenes, AreNotLookedForWhileOneIsComing)
 {
   const TouchScene scene = boxScene();
   ASSERT_TRUE(scene.local);
-  LateScenes scenes(*scene.local, scene.scene, 3);
+  LateScenes scenes(scene.local, scene.scene, 3);
   const Vec3 other{ -kEdge, 0.0, kEdge };
   EXPECT_FALSE(scenes.at(kOnEdge, kOnEdge)->isLocal());
   EXPECT_FALSE(scenes.at(other, other)->isLocal());

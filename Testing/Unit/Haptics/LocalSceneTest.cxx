@@ -51,15 +51,29 @@ Bounds handAt(const Vec3& place)
   return hand;
 }
 
+/// Null: no point is finite.
+std::shared_ptr<const PointIndex> indexOf(const std::vector<Vec3>& points)
+{
+  const auto index = std::make_shared<PointIndex>();
+  const Status status = index->build(PointView(points.data(), std::int64_t(points.size())));
+  return status == Status::Ok ? index : nullptr;
+}
+
 /// A cloud with the scene of all of it.
 struct Cloud
 {
-  explicit Cloud(const std::vector<Vec3>& points)
-    : whole(resampledScene(points))
+  explicit Cloud(const std::vector<Vec3>& points, const Bounds& workspace = {})
+    : builder(indexOf(points))
   {
-    builder.setBandwidth(LocalBandwidthSettings());
-    EXPECT_EQ(builder.setCloud(PointView(points.data(), std::int64_t(points.size()))), Status::Ok);
+    SceneOrigin origin;
+    origin.bandwidth.emplace();
+    origin.voxels.lattice.automaticWorkspace = workspace.empty();
+    origin.voxels.lattice.workspace = workspace;
+    HapticSceneInput input = resampledInput(points);
+    input.origin = std::make_shared<const SceneOrigin>(origin);
+    whole = sceneOf(std::move(input));
   }
+  LocalSceneFollower follower() const { return LocalSceneFollower(whole, builder.index()); }
   Scene whole;
   LocalSceneBuilder builder;
 };
@@ -83,7 +97,7 @@ TEST(LocalScene, HasCellsAboutAsFineAsThePoints)
 {
   Cloud cloud(waves(kDense));
   const Vec3 hand{ 0.001, 0.0005, 0.0 };
-  ASSERT_TRUE(cloud.builder.isUseful(handAt(hand), *cloud.whole));
+  ASSERT_TRUE(isFinerNear(handAt(hand), *cloud.whole));
   const Scene scene = cloud.builder.build(handAt(hand), cloud.whole);
   ASSERT_NE(scene, nullptr);
   EXPECT_LT(scene->cellSize(), 0.6 * cloud.whole->cellSize());
@@ -178,7 +192,7 @@ TEST(LocalScene, IsOfNoUseWherePointsAreSparseOrSmoothOrNoisyOrFar)
 {
   const Bounds hand = handAt({ 0.001, 0.0005, 0.0 });
   Cloud sparse(waves(3000)); // 0.44 mm apart
-  EXPECT_FALSE(sparse.builder.isUseful(hand, *sparse.whole));
+  EXPECT_FALSE(isFinerNear(hand, *sparse.whole));
   EXPECT_EQ(sparse.builder.build(hand, sparse.whole), nullptr);
   Cloud smooth(planePoints(300000, 1));
   EXPECT_EQ(smooth.builder.build(hand, smooth.whole), nullptr);
@@ -194,11 +208,10 @@ TEST(LocalScene, IsOfNoUseWherePointsAreSparseOrSmoothOrNoisyOrFar)
 
 TEST(LocalScene, EndsWhereTheWorkspaceEnds)
 {
-  Cloud cloud(waves(kDense));
   Bounds workspace;
   workspace.include({ -0.01, -0.01, -0.01 });
   workspace.include({ 0.00123, 0.01, 0.01 });
-  cloud.builder.setWorkspace(workspace);
+  Cloud cloud(waves(kDense), workspace);
   const Scene scene = cloud.builder.build(handAt({ 0.0005, 0.0, 0.0 }), cloud.whole);
   ASSERT_NE(scene, nullptr);
   EXPECT_LT(scene->bounds().maximum.x, 0.00123);
@@ -215,13 +228,10 @@ TEST(LocalScene, OfNothingIsNone)
   EXPECT_EQ(cloud.builder.build(handAt({}), nullptr), nullptr);
   LocalSceneBuilder empty;
   EXPECT_EQ(empty.build(handAt({}), cloud.whole), nullptr);
-  const std::vector<Vec3> invalid(3, Vec3{ nan, nan, nan });
-  EXPECT_EQ(empty.setCloud(PointView(invalid.data(), 3)), Status::Empty);
-  EXPECT_EQ(empty.build(handAt({}), cloud.whole), nullptr);
+  EXPECT_EQ(cloud.builder.build(handAt({}), resampledScene(waves(kDense))), nullptr) << "without an origin";
   std::vector<Vec3> points = waves(kDense);
   points.insert(points.begin(), { nan, 0.0, 0.0 });
-  LocalSceneBuilder most;
-  ASSERT_EQ(most.setCloud(PointView(points.data(), std::int64_t(points.size()))), Status::Ok);
+  LocalSceneBuilder most(indexOf(points));
   const Scene scene = most.build(handAt({}), cloud.whole);
   ASSERT_NE(scene, nullptr);
   EXPECT_EQ(scene->numberOfPoints(), cloud.builder.build(handAt({}), cloud.whole)->numberOfPoints());
@@ -248,7 +258,7 @@ TEST(LocalScene, IsFeltMoreExactlyThanTheWhole)
   double squares[2] = {};
   for (const bool local : { false, true })
   {
-    LocalSceneFollower follower(cloud.builder, cloud.whole);
+    LocalSceneFollower follower = cloud.follower();
     Proxy proxy;
     const HapticScene* scene = nullptr;
     ProxyState state;
@@ -299,7 +309,7 @@ TEST(LocalScene, ChangingToOneAndBackDoesNotKick)
 {
   Cloud cloud(waves(kDense));
   const ContactParameters contact;
-  LocalSceneFollower follower(cloud.builder, cloud.whole);
+  LocalSceneFollower follower = cloud.follower();
   Proxy proxy;
   ProxyState last;
   double changes = 0.0;
@@ -330,7 +340,7 @@ TEST(LocalScene, ChangingToOneAndBackDoesNotKick)
 TEST(LocalSceneFollower, MakesAnotherOneOnlyWhereTheLastOneEnds)
 {
   Cloud cloud(waves(kDense));
-  LocalSceneFollower follower(cloud.builder, cloud.whole);
+  LocalSceneFollower follower = cloud.follower();
   EXPECT_EQ(follower.scene(), cloud.whole);
   EXPECT_TRUE(follower.update(handAt({})));
   const Scene first = follower.scene();
@@ -355,7 +365,7 @@ TEST(LocalSceneFollower, CoversWhereAHandThatMovesWillBe)
   const double most = LocalSceneFollower::kMostAhead;
   for (const bool moves : { false, true })
   {
-    LocalSceneFollower follower(cloud.builder, cloud.whole);
+    LocalSceneFollower follower = cloud.follower();
     EXPECT_TRUE(follower.update(handAt({})));
     const Bounds hand = handAt({ 0.001, 0.0, 0.0 });
     // At 0.2 m/s it is beyond the end by the time a scene is made.
@@ -364,7 +374,7 @@ TEST(LocalSceneFollower, CoversWhereAHandThatMovesWillBe)
     EXPECT_EQ(follower.scene()->covers({ 0.001 + 0.999 * (most + reach), 0.0, 0.0 }), moves);
     EXPECT_TRUE(follower.scene()->covers({ -0.99 * (reach - 0.001), 0.0, 0.0 })) << "and where it is";
   }
-  LocalSceneFollower fast(cloud.builder, cloud.whole);
+  LocalSceneFollower fast = cloud.follower();
   fast.update(handAt({}));
   EXPECT_TRUE(fast.update(handAt({ 0.001, 0.0, 0.0 }), 0.001));
   EXPECT_FALSE(fast.scene()->covers({ 0.001 + 1.001 * (most + reach), 0.0, 0.0 })) << "no further than that";

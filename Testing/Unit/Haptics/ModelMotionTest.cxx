@@ -143,25 +143,3 @@ TEST(ModelMotion, LetsGoAtOnceWhereTheHandSlidesOffAnEdgeMeanwhile)
     }
   }
 }
-
-TEST(Passivity, KeepsTheStiffnessThatTheDeviceCanBear)
-{
-  const trial::Scene scene = trial::resampledScene(trial::planePoints(60000, 28));
-  const auto slide = trial::planeSlide(1e-3, 0.05, 10);
-  HapticParameters parameters;
-  const struct
-  {
-    double deviceDamping;
-    double damping;
-    double expected;
-  } cases[] = { { 0.0, 0.0, 800.0 }, { 0.5, 0.0, 800.0 }, { 0.3, 0.0, 600.0 }, { 0.3, 0.1, 400.0 },
-    { 0.3, 0.5, 0.0 } };
-  for (const auto& c : cases)
-  {
-    parameters.contact.deviceDamping = c.deviceDamping;
-    parameters.contact.damping = c.damping;
-    const ProxyState s = trial::feel(scene, parameters, slide).back();
-    EXPECT_NEAR(s.force.z, c.expected * 1e-3, 1e-6);
-    EXPECT_EQ((s.status & kProxyStiffnessLimit) != 0, c.expected < 800.0);
-  }
-}

@@ -7,8 +7,9 @@
 namespace pointhaptics::bench::touch
 {
 
-LateScenes::LateScenes(LocalSceneBuilder& builder, std::shared_ptr<const HapticScene> global, int lateTicks)
-  : follower_(builder, global)
+LateScenes::LateScenes(
+  std::shared_ptr<const PointIndex> cloud, std::shared_ptr<const HapticScene> global, int lateTicks)
+  : follower_(global, std::move(cloud))
   , lateTicks_(lateTicks)
   , felt_(std::move(global))
 {

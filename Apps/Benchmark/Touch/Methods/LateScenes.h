@@ -15,9 +15,10 @@ namespace pointhaptics::bench::touch
 class LateScenes
 {
 public:
-  /// @param builder with the cloud of @p global; outlives this. @param lateTicks 0: each scene serves the
-  /// tick in which it was due.
-  LateScenes(LocalSceneBuilder& builder, std::shared_ptr<const HapticScene> global, int lateTicks);
+  /// @param cloud the points of @p global. @param lateTicks 0: each scene serves the tick in which it was
+  /// due.
+  LateScenes(
+    std::shared_ptr<const PointIndex> cloud, std::shared_ptr<const HapticScene> global, int lateTicks);
 
   /// Advances to the next tick. @param touched the contact point of the last one: the HIP out of contact.
   /// @return what is to be felt; valid until the next but one call.

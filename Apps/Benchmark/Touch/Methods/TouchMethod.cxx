@@ -25,7 +25,7 @@ public:
     scenes_.reset();
     if (scene.local)
     {
-      scenes_.emplace(*scene.local, scene.scene, scene.lateTicks);
+      scenes_.emplace(scene.local, scene.scene, scene.lateTicks);
     }
     proxy_.setScene(scene_ = scene.scene.get());
     proxy_.reset();
@@ -80,10 +80,9 @@ TouchScene makeTouchScene(std::vector<Vec3> points, const TouchSceneSettings& se
   scene.points = std::make_shared<const std::vector<Vec3>>(std::move(points));
   if (settings.local && !settings.raw && scene.scene)
   {
-    scene.local = std::make_shared<LocalSceneBuilder>();
-    scene.local->setBandwidth(LocalBandwidthSettings());
-    static_cast<void>(
-      scene.local->setCloud(PointView(scene.points->data(), std::int64_t(scene.points->size()))));
+    const auto index = std::make_shared<PointIndex>();
+    const PointView view(scene.points->data(), std::int64_t(scene.points->size()));
+    scene.local = index->build(view) == Status::Ok ? index : nullptr;
   }
   return scene;
 }

@@ -28,7 +28,7 @@ struct TouchScene
 {
   proxy::Scene scene;
   std::shared_ptr<const std::vector<Vec3>> points; ///< The cloud itself.
-  std::shared_ptr<LocalSceneBuilder> local;        ///< Null: the scene of the whole cloud everywhere.
+  std::shared_ptr<const PointIndex> local;         ///< Null: the scene of the whole cloud everywhere.
   int lateTicks = 0;                               ///< As TouchSceneSettings has it.
 };
 
