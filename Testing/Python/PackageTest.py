@@ -117,7 +117,7 @@ class Habits(TestCase):
             self.assertIn("a", joined)
 
     def test_messages_name_no_option_of_the_program(self):
-        for extension, words in (("las", "SetLasScale"), ("pcd", "KeepDoublesOn")):
+        for extension, words in (("las", "fields=.*LasScale"), ("pcd", "KeepDoublesOn")):
             with self.assertWarnsRegex(RuntimeWarning, words) as said:
                 ph.write(self.path("cloud." + extension), 1e5 + sphere(1000) / 7)
             self.assertNotIn("--", str(said.warning))
@@ -126,6 +126,7 @@ class Habits(TestCase):
         nothing = np.empty((0, 3))
         for function in (ph.resample, ph.bandwidth, ph.Scene, lambda points: ph.write(self.path("a.ply"), points)):
             self.assert_raises(ValueError, ["points", "(0, 3)"], function, nothing)
+        self.assert_raises(ValueError, ["points", "3", "finite"], ph.Scene, np.full((3, 3), np.nan))
 
     def test_a_truth_value_is_no_length(self):
         for wrong in (True, np.True_):

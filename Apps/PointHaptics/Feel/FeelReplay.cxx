@@ -10,6 +10,8 @@
 
 #include <vtkPolyData.h>
 
+#include <filesystem>
+
 namespace pointhaptics::app
 {
 
@@ -39,6 +41,14 @@ Recording readRecordingFor(
     files = recording.header.cloud.files;
     viewer.together = files.size() > 1;
     viewer.resolution = recording.header.cloud.resolution;
+    for (const std::string& file : files)
+    {
+      std::error_code ignored;
+      require(std::filesystem::exists(file, ignored) || std::filesystem::exists(file + ".part", ignored),
+        fileName + ": its cloud " + file +
+          " is not there; name where it is now beside the recording, as in "
+          "feel MOVED.ply --replay REC.csv");
+    }
   }
   takeRecordedReading(recording.header.settings, viewer);
   return recording;
