@@ -50,60 +50,53 @@ vtkStandardNewMacro(vtkPointCloudReader);
 namespace
 {
 
-/// The universe spans 9e26 metres. A float, so that float and double points have the same limit.
-constexpr float kMostCoordinate = 1e30f;
+/// The universe spans 9e26 metres. A float's, so that float and double points have the same limit.
+constexpr double kMostCoordinate = 1e30f;
 
 /// Bytes that tell a cloud optimised point cloud from others.
 constexpr std::size_t kCopcStart = 400;
 /// Bytes that show what format a file has.
 constexpr std::size_t kStart = 65536;
 
-/// The first coordinate of @p count that is finite and too large for any unit; @p count where none is.
+/// The first coordinate of @p count that is finite and too large for any unit; @p count where none is. The
+/// largest float stands for no data in grids of GDAL and Esri, and becomes NaN; @p noData counts those.
 template <typename T>
-vtkIdType firstImpossible(const T* values, vtkIdType count)
+vtkIdType firstImpossible(T* values, vtkIdType count, std::int64_t& noData)
 {
-  constexpr T kMost = T(kMostCoordinate);
-  constexpr vtkIdType kBlock = 4096;
-  for (vtkIdType begin = 0; begin < count; begin += kBlock)
+  for (vtkIdType i = 0; i < count; ++i)
   {
-    const vtkIdType end = std::min(begin + kBlock, count);
-    bool found = false;
-    for (vtkIdType i = begin; i < end; ++i)
+    const double size = std::abs(values[i]);
+    if (size > kMostCoordinate && std::isfinite(size))
     {
-      const T size = std::abs(values[i]);
-      found |= (size > kMost) & (size <= std::numeric_limits<T>::max());
-    }
-    for (vtkIdType i = begin; i < end && found; ++i)
-    {
-      if (std::abs(values[i]) > kMost && std::isfinite(values[i]))
+      if (size < 3.4e38 || size > 3.41e38) // in texts it has few digits
       {
         return i;
       }
+      values[i] = std::numeric_limits<T>::quiet_NaN();
+      ++noData;
     }
   }
   return count;
 }
 
-/// A coordinate too large for any unit means a damaged file.
-void checkCoordinates(vtkPolyData* cloud)
+/// A coordinate too large for any unit means a damaged file. @return how many stand for no data.
+std::int64_t checkCoordinates(vtkPolyData* cloud)
 {
   vtkDataArray* array = cloud->GetPoints()->GetData();
   const vtkIdType count = array->GetNumberOfValues();
   vtkIdType at = count;
-  if (vtkFloatArray* floats = vtkFloatArray::FastDownCast(array))
-  {
-    at = firstImpossible(floats->GetPointer(0), count);
-  }
-  else if (vtkDoubleArray* doubles = vtkDoubleArray::FastDownCast(array))
-  {
-    at = firstImpossible(doubles->GetPointer(0), count);
-  }
+  std::int64_t noData = 0;
+  const auto check = [&](auto* typed)
+  { at = typed ? firstImpossible(typed->GetPointer(0), count, noData) : at; };
+  check(vtkFloatArray::FastDownCast(array));
+  check(vtkDoubleArray::FastDownCast(array));
   if (at < count)
   {
     io::failFormat(fmt::format("point {} of {}: {} is {:g}, which can be no position", at / 3, count / 3,
                      "xyz"[at % 3], array -> GetComponent(at / 3, static_cast<int>(at % 3))),
       io::kDamagedCure);
   }
+  return noData;
 }
 
 /// Takes away the points outside the box that is wanted, with their values in all arrays. Among floats its
@@ -350,7 +343,12 @@ void vtkPointCloudReader::Finish(io::ReadTask& task, vtkPolyData* cloud)
   {
     task.notes.push_back("the gzip file is cut: what is there of it is read");
   }
-  checkCoordinates(cloud);
+  if (const std::int64_t noData = task.sumOfRanks(checkCoordinates(cloud)); noData > 0)
+  {
+    task.notes.push_back(pointhaptics::countText(noData) +
+      (noData == 1 ? " coordinate is" : " coordinates are") +
+      " 3.4e38, which stands for no data, and become" + (noData == 1 ? "s NaN" : " NaN"));
+  }
   useUtf8Names(cloud->GetPointData());
   useUtf8Names(cloud->GetFieldData());
   cloud->GetFieldData()->RemoveArray(pointhaptics::kLocalFrame); // of another cloud that a file was made of

@@ -524,6 +524,11 @@ TEST_F(RecordingCommands, ARecordingComesThroughAPipeAsWell)
   expectSame({ "view", "--replay", "-", "--trace", "again.csv" });
   expectSame({ "view", "--replay", "-", "sphere.ply", "--trace", "again.csv" });
   expectSame({ "feel", "--replay", "/dev/stdin", "sphere.ply", "-o", "again.csv" });
+  std::filesystem::rename(this->path("sphere.ply"), this->path("moved.ply"));
+  const apptest::Outcome lost = this->run({ "feel", "--replay", "rec.csv", "-o", "again.csv" });
+  EXPECT_NE(lost.errors.find("sphere.ply is not there; name where it is now"), std::string::npos)
+    << lost.errors;
+  expectSame({ "feel", "moved.ply", "--replay", "rec.csv", "-o", "again.csv" });
 }
 
 } // namespace

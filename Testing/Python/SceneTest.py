@@ -123,7 +123,7 @@ class Feel(TestCase):
                 self.assert_raises(kind, ["path", words], scene.feel, path)
 
     def test_nothing_to_feel(self):
-        self.assert_raises(ValueError, ["workspace", "NaN"], ph.Scene(np.full((4, 3), np.nan)).feel, self.hand)
+        self.assert_raises(ValueError, ["points", "finite"], ph.Scene, np.full((4, 3), np.nan))
         far = ph.Scene(self.points, workspace=(1, 2, 1, 2, 1, 2))
         self.assert_raises(ValueError, "workspace", far.feel, self.hand)
 

@@ -10,8 +10,27 @@
 
 #include <vtkPolyData.h>
 
+#include <filesystem>
+
 namespace pointhaptics::app
 {
+namespace
+{
+
+/// @throws Failure where a recorded cloud has moved, with the cure.
+void requireClouds(const std::vector<std::string>& files, const std::string& fileName)
+{
+  for (const std::string& file : files)
+  {
+    std::error_code ignored;
+    require(std::filesystem::exists(file, ignored) || std::filesystem::exists(file + ".part", ignored),
+      fileName + ": its cloud " + file +
+        " is not there; name where it is now beside the recording, as in "
+        "feel MOVED.ply --replay REC.csv");
+  }
+}
+
+} // namespace
 
 void declareRecordedClouds(const std::string& fileName, const std::string& cloudFile, Files& files)
 {
@@ -50,6 +69,7 @@ std::pair<Recording, vtkSmartPointer<vtkPolyData>> openRecording(
   HapticViewerOptions viewer;
   std::vector<std::string> clouds;
   Recording recording = readRecordingFor(viewer, clouds, files.input(fileName));
+  requireClouds(cloudFile.empty() ? clouds : std::vector<std::string>(), fileName);
   CloudRequest request(cloudFile.empty() ? clouds : std::vector<std::string>{ cloudFile }, viewer);
   request.isOnlyRead = true;
   for (std::string& file : request.files)

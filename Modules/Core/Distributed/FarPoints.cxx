@@ -24,24 +24,38 @@ constexpr std::int64_t kMostPart = 20; ///< One in so many is far at most.
 constexpr double kMostLength = 0.1;    ///< The core's longest side over that of all.
 constexpr std::int64_t kLookedAt = 1000;
 /// Part of the sample that is cut off at each end of an axis: more than ever is far.
-constexpr std::size_t kCut = 10;
+constexpr std::int64_t kCut = 10;
 constexpr int kCells = 32;
 /// Points of a cell over those of one beside it below which the cell is no connection.
 constexpr double kConnects = 0.01;
 
-/// Whether a file has this in the place of coordinates that were not measured.
-bool isNoData(const Vec3& p)
+/// The values among the sorted @p values of an axis that stand for no data: one in 200 points and more has
+/// exactly such a value, and it is far from all others, of which tenths at both ends may be strays.
+std::vector<double> noDataAmong(const std::vector<double>& values)
 {
-  constexpr double kNoData[] = { -9999.0, -99999.0, -32768.0 };
-  bool result = isAtZero(p);
-  for (int axis = 0; axis < 3; ++axis)
+  constexpr std::ptrdiff_t kOneIn = 200;
+  constexpr double kFar = 10.0; // from the farther end of the others, over their range
+  std::vector<double> found;
+  for (auto first = values.begin(), last = first; first != values.end(); first = last)
   {
-    for (const double value : kNoData)
+    last = std::upper_bound(first, values.end(), *first);
+    const auto other = [&](std::ptrdiff_t i) {
+      return i < first - values.begin() ? values[std::size_t(i)] : *(last + (i - (first - values.begin())));
+    };
+    const std::ptrdiff_t others = std::ptrdiff_t(values.size()) - (last - first);
+    if (last - first < 2 + std::ptrdiff_t(values.size()) / kOneIn || others == 0)
     {
-      result = result || std::abs(p[axis] - value) <= 1e-9 * -value; // LAS: a multiple of a step
+      continue;
+    }
+    const double low = other(others / kCut);
+    const double high = other(others - 1 - others / kCut);
+    const bool isOutside = *first < low || *first > high;
+    if (isOutside && std::max(std::abs(*first - low), std::abs(*first - high)) >= kFar * (high - low))
+    {
+      found.push_back(*first);
     }
   }
-  return result;
+  return found;
 }
 
 double longestSide(const Bounds& bounds)
@@ -124,11 +138,22 @@ public:
         const Vec3 p = part[first];
         if (isFinite(p))
         {
-          visit(transform_.apply(p), isNoData(p));
+          visit(p, transform_.apply(p));
         }
       }
       first -= part.size();
     }
+  }
+  /// Whether a file has this in the place of coordinates that were not measured.
+  bool isNoData(const Vec3& p) const
+  {
+    bool result = isAtZero(p);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const std::vector<double>& values = noData_[axis];
+      result = result || std::find(values.begin(), values.end(), p[axis]) != values.end();
+    }
+    return result;
   }
   std::int64_t size() const
   {
@@ -136,8 +161,9 @@ public:
       [](std::int64_t sum, const PointView& part) { return sum + part.size(); });
   }
 
-  /// Whether most of the points may lie within a small part of @p longest.
-  bool mayBeSmall(double longest) const;
+  /// Finds what stands for no data, too. @return whether most of the points may lie within a small part of
+  /// @p longest.
+  bool mayBeSmall(double longest);
   Bounds core(const Bounds& all) const;
 
 private:
@@ -147,30 +173,39 @@ private:
   const std::vector<PointView>& parts_;
   const AffineTransform& transform_;
   Ranks& ranks_;
+  std::vector<double> noData_[3]; ///< On each axis.
 };
 
-bool CoreSearch::mayBeSmall(double longest) const
+bool CoreSearch::mayBeSmall(double longest)
 {
   const std::int64_t count = this->size();
   const std::int64_t before = ranks_.sumBefore(count);
   const std::int64_t step = std::max<std::int64_t>(1, ranks_.sum(count) / kLookedAt);
-  std::vector<double> own[3];
+  std::vector<Vec3> own;
   this->forEach((step - before % step) % step, step,
-    [&own](const Vec3& p, bool isFill)
-    {
-      for (int axis = 0; axis < 3 && !isFill; ++axis)
-      {
-        own[axis].push_back(p[axis]);
-      }
-    });
-  bool isSmall = true;
-  for (const std::vector<double>& ofAxis : own)
+    [&own](const Vec3& p, const Vec3&) { isAtZero(p) ? void() : own.push_back(p); });
+  std::vector<Vec3> sample = ranks_.gatherAll(own);
+  const auto sorted = [&sample](int axis)
   {
-    std::vector<double> values = ranks_.gatherAll(ofAxis);
+    std::vector<double> values(sample.size());
+    std::transform(sample.begin(), sample.end(), values.begin(), [axis](const Vec3& p) { return p[axis]; });
     std::sort(values.begin(), values.end());
-    const std::size_t cut = values.size() / kCut;
-    isSmall =
-      isSmall && !values.empty() && values[values.size() - 1 - cut] - values[cut] <= kMostLength * longest;
+    return values;
+  };
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    noData_[axis] = noDataAmong(sorted(axis));
+  }
+  const auto isFill = [this](const Vec3& p) { return this->isNoData(p); };
+  sample.erase(std::remove_if(sample.begin(), sample.end(), isFill), sample.end());
+  std::transform(
+    sample.begin(), sample.end(), sample.begin(), [this](const Vec3& p) { return transform_.apply(p); });
+  const auto cut = std::ptrdiff_t(sample.size()) / kCut;
+  bool isSmall = !sample.empty();
+  for (int axis = 0; axis < 3 && isSmall; ++axis)
+  {
+    const std::vector<double> values = sorted(axis);
+    isSmall = *(values.end() - 1 - cut) - *(values.begin() + cut) <= kMostLength * longest;
   }
   return isSmall;
 }
@@ -180,9 +215,9 @@ std::vector<std::int64_t> CoreSearch::count(const Bounds& box, double edge) cons
 {
   std::vector<std::int64_t> cells(std::size_t(kCells * kCells * kCells), 0);
   this->forEach(0, 1,
-    [&](const Vec3& p, bool isFill)
+    [&](const Vec3& raw, const Vec3& p)
     {
-      if (isFill || !contains(box, p))
+      if (this->isNoData(raw) || !contains(box, p))
       {
         return;
       }
@@ -323,7 +358,7 @@ FarPoints findFarPoints(
   }
   FarPoints found;
   search.forEach(0, 1,
-    [&](const Vec3& p, bool)
+    [&](const Vec3&, const Vec3& p)
     {
       ++found.of;
       contains(core, p) ? found.others.include(p) : static_cast<void>(++found.count);

@@ -30,12 +30,12 @@ struct FarPoints
   std::string note() const;
 };
 
-/// The points outside the core of a cloud: up to one in 20, anywhere, and any number with a coordinate such
-/// as -9999 that stands for no data or at exactly (0, 0, 0). The core is at most a tenth as long as the
-/// whole. It is found on lattices of 32 cells, each about the core that the coarser one showed: the fullest
-/// cell, and all that are connected with it, where a cell that has less than 1 % of the points of one beside
-/// it is no connection. So thin surroundings that go on from the core, as the outskirts of a scan, are part
-/// of it.
+/// The points outside the core of a cloud: up to one in 20, anywhere, and any number at exactly (0, 0, 0) or
+/// with a coordinate that stands for no data, such as -9999: many have it exactly, and it is far from others.
+/// The core is at most a tenth as long as the whole. It is found on lattices of 32 cells, each about the core
+/// that the coarser one showed: the fullest cell, and all that are connected with it, where a cell that has
+/// less than 1 % of the points of one beside it is no connection. So thin surroundings that go on from the
+/// core, as the outskirts of a scan, are part of it.
 /// @param bounds of the transformed, finite points, all of them. Cost: a look at 1,000 points; where the
 /// cloud may have far ones, at all of them for each lattice.
 FarPoints findFarPoints(const PointView& points, const Bounds& bounds, const AffineTransform& transform = {});

@@ -267,9 +267,9 @@ void suggest(const LengthUnit& known, const Bounds& bounds, CloudSummary& summar
   }
   if (known.name == "deg")
   {
-    summary.hint =
-      "degrees are no lengths: spacing, voxel and bandwidth mean nothing before the cloud is projected "
-      "to metres";
+    summary.hint = std::string("degrees") + (known.evidence == UnitEvidence::File ? "" : ", as guessed,") +
+      " are no lengths: spacing, voxel and bandwidth mean nothing before the cloud is "
+      "projected to metres";
     return;
   }
   summary.suggestedScale = std::stod(fmt::format("{:.3g}", kFilledPart * kDefaultWorkspaceEdge / longest));
@@ -327,14 +327,15 @@ CloudSummary summarize(vtkPolyData* cloud, const std::string& format, bool stati
     places = std::vector<Vec3>(); // the points serve as well, and the memory is wanted
   }
   addSpacing(summary.duplicates > 0 ? places : points, summary);
-  const Vec3 steps = summary.isFloat && !summary.bounds.empty() ? floatSteps(summary.bounds) : Vec3();
+  const Vec3 steps = summary.isFloat && !far.others.empty() ? floatSteps(far.others) : Vec3();
   summary.suggestedVoxel = std::max({ kSpacingsPerVoxel * summary.spacing[2], steps.x, steps.y, steps.z });
   summary.coordinateSystem = io::fieldText(cloud->GetFieldData(), "CoordinateSystem");
   const std::string said = io::fieldText(cloud->GetFieldData(), "LengthUnit");
   summary.unit = lengthUnitCalled(said).empty() ? said : lengthUnitCalled(said);
   summary.unitIsGuess = said.empty();
   summary.farPoints = far.count > 0 ? far.note() : "";
-  const LengthUnit unit = lengthUnitOf(cloud, far.others);
+  const LengthUnit unit =
+    looksLikeDegrees(cloud) ? LengthUnit{ "deg", 1.0, UnitEvidence::Shape } : lengthUnitOf(cloud, far.others);
   if (summary.unitIsGuess && !summary.bounds.empty())
   {
     summary.unit = unit.name;

@@ -6,6 +6,7 @@
 
 #include "vtkDataArray.h"
 #include "vtkPointData.h"
+#include "vtksys/SystemTools.hxx"
 
 #include <algorithm>
 #include <cctype>
@@ -93,21 +94,6 @@ bool mayBeDegrees(vtkPolyData* cloud)
 
 } // namespace
 
-std::string percentDecoded(std::string_view word)
-{
-  std::string name;
-  for (std::size_t i = 0; i < word.size(); ++i)
-  {
-    unsigned char byte = 0;
-    const std::string_view code = word[i] == '%' ? word.substr(i + 1, 2) : std::string_view();
-    const bool isCode = code.size() == 2 &&
-      std::from_chars(code.data(), code.data() + 2, byte, 16).ptr == code.data() + 2 && byte != 0;
-    name += isCode ? static_cast<char>(byte) : word[i];
-    i += isCode ? 2 : 0;
-  }
-  return name;
-}
-
 bool isUnitWord(std::string_view unit)
 {
   constexpr std::size_t kLongest = 40;
@@ -143,9 +129,9 @@ bool FileComments::add(std::string_view comment)
     return false;
   }
   comment.remove_prefix(kName.size());
-  const std::string inFile = percentDecoded(takeWord(comment));
-  const std::string name = percentDecoded(takeWord(comment));
-  const bool isName = !name.empty() && trimmed(comment).empty();
+  const std::string inFile = vtksys::SystemTools::DecodeURL(std::string(takeWord(comment)));
+  const std::string name = vtksys::SystemTools::DecodeURL(std::string(takeWord(comment)));
+  const bool isName = !name.empty() && name.front() != '\0' && trimmed(comment).empty();
   isName ? void(names.emplace_back(inFile, name)) : void();
   return isName;
 }

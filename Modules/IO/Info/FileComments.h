@@ -12,9 +12,6 @@ class vtkPolyData;
 namespace pointhaptics::io
 {
 
-/// A name whose blanks and the like are written as %20.
-std::string percentDecoded(std::string_view word);
-
 /// True if @p unit may stand in a line of a header, also in brackets: letters, and spaces as in "US survey
 /// foot".
 bool isUnitWord(std::string_view unit);

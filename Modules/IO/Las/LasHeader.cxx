@@ -135,7 +135,7 @@ void checkScales(const LasHeader& header)
   }
 }
 
-void checkLayout(ReadTask& task, LasHeader& header)
+void checkLayout(ReadTask& task, const std::vector<LasRecord>& records, LasHeader& header)
 {
   const std::size_t needed = header.fields().size;
   failFormatIf(header.recordLength < needed, kRewriteCure,
@@ -143,14 +143,20 @@ void checkLayout(ReadTask& task, LasHeader& header)
     header.pointFormat, needed);
   failTruncatedIf(header.pointsOffset < header.headerSize || header.pointsOffset > task.bytes.size(),
     "byte 96: the points start at byte {} of a file of {} bytes", header.pointsOffset, task.bytes.size());
-  header.count == 0 ? failNoPoints() : void();
-  const std::size_t available = task.bytes.size() - header.pointsOffset;
-  const std::uint64_t there = available / header.recordLength;
-  if (header.packing.empty() && header.count > there)
+  std::size_t end = task.bytes.size();
+  for (const LasRecord& record : records)
+  {
+    const bool isBehind = header.count == 0 && record.isFar && record.at >= header.pointsOffset;
+    end = isBehind ? std::min(end, record.at) : end;
+  }
+  const std::size_t available = end - header.pointsOffset;
+  const std::uint64_t there = header.packing.empty() ? available / header.recordLength : header.count;
+  header.count == 0 && there == 0 ? failNoPoints() : void();
+  if (header.count > there || header.count == 0) // 0: its writer did not come to the end
   {
     header.count = task.endAt(there, header.count,
-      fmt::format("the header counts {} points of {} bytes, but only {} bytes follow ({} points)",
-        header.count, header.recordLength, available, there));
+      fmt::format("the header counts {} points of {} bytes, but {}{} bytes follow ({} points)", header.count,
+        header.recordLength, header.count > 0 ? "only " : "", available, there));
   }
 }
 
@@ -279,7 +285,7 @@ LasHeader parseLasHeader(ReadTask& task)
     header.scale[axis] = numberAt<double>(bytes, 131 + 8 * axis);
     header.offset[axis] = numberAt<double>(bytes, 155 + 8 * axis);
   }
-  checkLayout(task, header);
+  checkLayout(task, records, header);
   checkScales(header);
   parseRecords(bytes, records, header);
   return header;

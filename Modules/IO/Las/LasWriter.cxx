@@ -23,6 +23,7 @@
 #include <cstdint>
 #include <deque>
 #include <map>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -255,7 +256,8 @@ void LasWriter::planPositions()
   }
   const std::string unit = fieldText(fieldData_, "LengthUnit");
   double worst = 0.0;
-  double step = 0.0;
+  std::set<double> steps; // of the axes that are rounded
+  std::string ofAxes;
   for (int axis = 0; axis < 3; ++axis)
   {
     const ConstColumnView column = arrays_[0].column(axis);
@@ -265,9 +267,13 @@ void LasWriter::planPositions()
         LasGrid::usualStep(unit, axis) });
     fields_.push_back({ { reinterpret_cast<const char*>(grid.integers.data()), 4, VTK_TYPE_INT32 },
       static_cast<std::size_t>(4 * axis), VTK_TYPE_INT32 });
-    const double error = grid.rounds ? grid.largestError : 0.0;
-    step = error > worst ? grid.scale : step;
-    worst = std::max(worst, error);
+    if (grid.rounds)
+    {
+      steps.insert(grid.scale);
+      ofAxes +=
+        fmt::format("{}{} in {}", ofAxes.empty() ? "" : ", ", shortestDecimal(grid.scale), "xyz"[axis]);
+      worst = std::max(worst, grid.largestError);
+    }
     task_.progress(kGridPart * (axis + 1) / 3);
   }
   if (worst > 0.0)
@@ -275,7 +281,7 @@ void LasWriter::planPositions()
     notes_.push_back(
       fmt::format("coordinates are rounded to steps of {}, by at most {:.3g}; .vtp and .ply keep "
                   "every bit, --las-scale sets other steps",
-        shortestDecimal(step), worst));
+        steps.size() == 1 ? shortestDecimal(*steps.begin()) : ofAxes, worst));
   }
 }
 

@@ -345,18 +345,25 @@ void readPly(ReadTask& task, vtkPolyData* cloud)
   const PlyHeader header = parsePlyHeader(task.bytes);
   task.format = "PLY (" + spaced(kPlyEncodings[static_cast<std::size_t>(header.encoding)]) + ")";
   task.notes = header.notes;
+  std::string ofFaces;
   for (const PlyElement& element : header.elements)
   {
     task.faces.count += element.name == "face" ? element.count : 0;
     task.faces.others += element.name == "tristrips" ? element.count : 0;
-  }
-  for (const PlyProperty& property : header.elements[header.vertexElement()].properties)
-  {
-    if (property.isList)
+    for (const PlyProperty& property : element.properties)
     {
-      task.notes.push_back("the list " + inQuotes(property.name) +
-        ", which each vertex has of its own length, is left out; arrays of points have one length");
+      const bool isOfFaces = element.name == "face" && element.count > 0 && isColorName(property.name);
+      ofFaces += isOfFaces ? (ofFaces.empty() ? "" : ", ") + inQuotes(property.name) : "";
+      if (property.isList && &element == &header.elements[header.vertexElement()])
+      {
+        task.notes.push_back("the list " + inQuotes(property.name) +
+          ", which each vertex has of its own length, is left out; arrays of points have one length");
+      }
     }
+  }
+  if (!ofFaces.empty())
+  {
+    task.notes.push_back("colours of faces are left out: " + ofFaces);
   }
   header.encoding == PlyEncoding::Ascii ? readAsciiBody(task, header, cloud)
                                         : readBinaryBody(task, header, cloud);

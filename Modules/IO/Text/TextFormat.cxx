@@ -175,6 +175,7 @@ struct SurveySink
   void endRow() { ++table.rows; }
 };
 
+/// Stores every number in its place; a target without a place leaves its column out, and a word is NaN.
 struct StoreSink
 {
   const std::vector<ColumnView>& targets;
@@ -248,15 +249,6 @@ TextTable surveyTable(const ReadTask& task, std::string_view text, const TextLay
   sink.table.columns.resize(layout.columns);
   TableWalk<SurveySink>{ task, text, layout, sink }.run(0.0, 0.5);
   return std::move(sink.table);
-}
-
-/// Stores every number in its place, one target per column; a target without a place leaves its column out.
-/// A word that is no number is stored as NaN. @pre surveyTable() succeeded.
-void storeTable(const ReadTask& task, std::string_view text, const TextLayout& layout,
-  const std::vector<ColumnView>& targets)
-{
-  StoreSink sink{ targets };
-  TableWalk<StoreSink>{ task, text, layout, sink }.run(0.5, 1.0);
 }
 
 int typeOf(const std::string& name, const NumberColumn& column, bool isCoordinate)
@@ -455,8 +447,8 @@ TextTable surveyLines(const ReadTask& task, std::string_view text, TextLayout& l
   }
 }
 
-void noteColumns(const TextTable& table, const TextLayout& layout, const std::vector<std::string>& names,
-  std::vector<std::string>& notes)
+void noteColumns(std::string_view text, const TextTable& table, const TextLayout& layout,
+  const std::vector<std::string>& names, std::vector<std::string>& notes)
 {
   for (std::size_t i = 0; i < names.size(); ++i)
   {
@@ -474,6 +466,12 @@ void noteColumns(const TextTable& table, const TextLayout& layout, const std::ve
   {
     notes.push_back("what stands behind column " + std::to_string(names.size()) + ", " +
       inQuotes(names.back()) + ", is left out; --columns with more names reads more of each line");
+  }
+  text = text.substr(layout.bodyOffset, text.substr(layout.bodyOffset).find('\n'));
+  const std::string_view word = trimmed(text.substr(std::min(text.find(" #"), text.size())));
+  if (layout.separator == ' ' && word.size() == 7 && word.find_first_not_of("#0123456789abcdefABCDEF") > 7)
+  {
+    notes.push_back("colours such as " + inQuotes(word) + " are comments here and left out; write numbers");
   }
 }
 
@@ -496,7 +494,7 @@ void readTable(ReadTask& task, std::string_view text, TextLayout layout, vtkPoly
   const std::vector<std::size_t> read = columnsOfNumbers(table, layout);
   checkCoordinates(table, layout, read);
   const std::vector<std::string> names = namesOf(table, layout, read, task);
-  noteColumns(table, layout, names, task.notes);
+  noteColumns(text, table, layout, names, task.notes);
   std::vector<Column> planned;
   for (const std::size_t i : read)
   {
@@ -514,7 +512,8 @@ void readTable(ReadTask& task, std::string_view text, TextLayout layout, vtkPoly
   {
     targets[read[i]] = columns.target(i);
   }
-  storeTable(task, text, layout, targets);
+  StoreSink sink{ targets };
+  TableWalk<StoreSink>{ task, text, layout, sink }.run(0.5, 1.0);
   columns.moveTo(cloud, task);
 }
 

@@ -4,7 +4,6 @@
 #include "Bytes/NumericType.h"
 #include "IO/Bytes/TextScan.h"
 #include "IO/Columns/CloudColumns.h"
-#include "IO/Info/FileComments.h"
 
 #include "vtkCellType.h"
 #include "vtkDataArray.h"
@@ -13,6 +12,7 @@
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
+#include "vtksys/SystemTools.hxx"
 
 #include <algorithm>
 #include <functional>
@@ -53,7 +53,7 @@ private:
   bool takeIf(const char* keyword) { return equalNoCase(peek(), keyword) && !word().empty(); }
   Count count(const char* what);
   int type();
-  std::string name() { return percentDecoded(word()); }
+  std::string name() { return vtksys::SystemTools::DecodeURL(std::string(word())); }
   double number();
   Array values(const std::string& name, int vtkType, Count tuples, Count components, bool isKept = true);
 

@@ -287,7 +287,8 @@ void addShowCommands(CommandRegistry& commands, vtkInteractorStyleHaptic& style)
   const auto hasCloud = [&style] { return style.GetScenes().hasCloud(); };
   const auto hasSliders = [&style] { return style.GetSliders() != nullptr; };
   const char* const group = "Show";
-  commands.add({ "help", "h question", group, "this help", help, hasOverlay });
+  commands.add(
+    { "help", "h question", group, "this help; P means Shift+P where p is listed, too", help, hasOverlay });
   commands.add({ "pick", "p", group, "the point under the mouse", pick, hasCloud });
   commands.add({ "sliders", "v", group, "sliders of the touch", sliders, hasSliders });
   commands.add({ "servo-panel", "i", group, "servo loop and device", panel, hasOverlay });

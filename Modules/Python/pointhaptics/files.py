@@ -66,7 +66,7 @@ _SPOKEN = {
     "--salvage (in VTK: SalvageOn())": "salvage=True",
     "--columns NAMES": "columns=...",
     "--columns": "columns",
-    "--las-scale": "vtkPointCloudWriter.SetLasScale()",
+    "--las-scale sets": "fields={'LasScale': [[0.001, 0.001, 0.001]]} sets",
     "--double keeps": "vtkPointCloudWriter.KeepDoublesOn() keeps",
     "--translate of resample takes": "the transform of resample() takes",
     ", or take --unit": "",

@@ -43,6 +43,9 @@ class Scene:
         if voxel is not None and dims is not None:
             raise ValueError(f"voxel {voxel!r} and dims {dims!r}: two ways to say one thing; give one of them")
         self._points = as_points(points)
+        blocks = (self._points[i : i + 100_000] for i in range(0, len(self._points), 100_000))
+        if not any(np.isfinite(block).all(axis=1).any() for block in blocks):
+            raise ValueError(f"points: none of {len(self._points)} is finite; give at least one without NaN")
         self._voxel = None if voxel is None else number(voxel, "voxel", 0.0, np.inf, open_low=True)
         self._dims = None if dims is None else as_dims(dims)
         self._workspace = None if workspace is None else as_bounds(workspace)

@@ -97,12 +97,21 @@ TEST(FarPoints, AreFoundAtAnyDistance)
 
 TEST(FarPoints, OfNoDataAreFarWhateverTheirNumber)
 {
-  std::vector<Vec3> points = sphere(2000, { 5e5, 4e6, 100.0 });
-  for (std::size_t i = 0; i < points.size(); i += 4)
+  for (const double none : { -9999.0, -32767.0, 9999.0, 1e30, -1e10 })
   {
-    points[i] = i % 8 == 0 ? Vec3() : Vec3(points[i].x, points[i].y, -9999.0);
+    std::vector<Vec3> points = sphere(2000, { 5e5, 4e6, 100.0 });
+    for (std::size_t i = 0; i < points.size(); i += 4)
+    {
+      points[i] = i % 8 == 0 ? Vec3() : Vec3(points[i].x, points[i].y, none);
+    }
+    EXPECT_EQ(farOf(points).count, 500) << none;
   }
-  EXPECT_EQ(farOf(points).count, 500);
+  std::vector<Vec3> plates = randomBox(1000, 7, {}, { 1, 1, 0 });
+  for (std::size_t i = 0; i < plates.size(); i += 3)
+  {
+    plates[i].z = 100.0;
+  }
+  EXPECT_EQ(farOf(plates).count, 0) << "each has exactly one height";
 }
 
 TEST(FarPoints, AreNoneWhereTheCloudGoesOnOrFallsApart)

@@ -47,4 +47,17 @@ TEST(CloudSummary, PointsWhoseSquaresAreZeroAreNotAtZero)
   EXPECT_EQ(extent.returned.maximum.z, 3e-200);
 }
 
+TEST(CloudSummary, AFarPointMakesNoVoxelCoarser)
+{
+  vtkNew<vtkPoints> points;
+  points->InsertNextPoint(1e6, 0.0, 0.0);
+  for (int i = 0; i < 400; ++i)
+  {
+    points->InsertNextPoint(0.01 * (i % 20), 0.01 * (i / 20), 0.0);
+  }
+  vtkNew<vtkPolyData> cloud;
+  cloud->SetPoints(points);
+  EXPECT_NEAR(summarize(cloud, "xyz").suggestedVoxel, 0.02, 1e-6); // 0.0625: a step of floats at 1e6
+}
+
 } // namespace

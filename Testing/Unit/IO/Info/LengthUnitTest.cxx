@@ -1,4 +1,5 @@
 #include "IO/Info/LengthUnit.h"
+#include "IO/Info/CloudSummary.h"
 
 #include "vtkFieldData.h"
 #include "vtkFloatArray.h"
@@ -200,6 +201,8 @@ TEST(LengthUnit, DegreesAreTakenByTheirRange)
   };
   const auto sea = cloudOf([](int i) { return -20.0 * std::sin(0.1 * (i % 30)); }, 0.3);
   EXPECT_TRUE(looksLikeDegrees(sea));
+  EXPECT_EQ(summarize(sea, "xyz").unit, "deg");
+  EXPECT_EQ(summarize(sea, "xyz").hint.substr(0, 20), "degrees, as guessed,");
   EXPECT_EQ(inLocalMetres(sea), sea);
   const Bounds local = boxOf(Vec3(), Vec3());
   EXPECT_GT(inLocalMetres(sea, true)->GetBounds()[1], 9e3);

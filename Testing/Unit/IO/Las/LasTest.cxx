@@ -117,7 +117,7 @@ TEST_F(Las, TruncationsAndHostileHeadersAreRefused)
   put(las, 247, std::uint64_t{ 0xffffffffffffffff });
   expectRefused(readCloud(write("h.las", las)), "bytes follow");
   put(las, 247, std::uint64_t{ 0 });
-  expectRefused(readCloud(write("h.las", las)), "holds no points");
+  expectRefused(readCloud(write("h.las", las.substr(0, 375))), "holds no points");
   las = makeLas(2, 0, 20);
   put(las, 131, 0.0);
   expectRefused(readCloud(write("h.las", las)), "scale");
@@ -194,6 +194,18 @@ TEST_F(Las, FirstOfTwoGeographicSystemsCounts)
     readCloud(write("a.las", makeLasWithKeys({ 1, 1, 0, 2, 2048, 0, 1, 4326, 2048, 0, 1, 4269 })));
   ASSERT_EQ(result.error, "");
   EXPECT_EQ(fieldText(result.cloud->GetFieldData(), "CoordinateSystem"), "EPSG:4326");
+}
+
+TEST_F(Las, PointsThatTheHeaderDoesNotCountAreSalvaged)
+{
+  std::string las = makeLas(2, 0, 20) + "cut";
+  put(las, 107, std::uint32_t{ 0 });
+  vtkNew<vtkPointCloudReader> reader;
+  const std::string refused = readCloudBy(reader, write("a.las", las)).error;
+  EXPECT_NE(refused.find("counts 0 points of 20 bytes, but 43 bytes follow (2 points)"), std::string::npos);
+  EXPECT_NE(refused.find("--salvage"), std::string::npos);
+  reader->SalvageOn();
+  EXPECT_EQ(readCloudBy(reader, path("a.las")).points(), 2);
 }
 
 } // namespace

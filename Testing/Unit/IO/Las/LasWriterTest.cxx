@@ -584,4 +584,17 @@ TEST_F(LasWriting, KeepsNearInfraredWithoutColors)
   }
 }
 
+TEST_F(LasWriting, DegreesAreRoundedInOtherStepsThanHeights)
+{
+  vtkNew<vtkPolyData> cloud;
+  cloud->SetPoints(vtkNew<vtkPoints>());
+  cloud->GetPoints()->SetDataTypeToDouble();
+  cloud->GetPoints()->InsertNextPoint(8.123456789, 47.0, 400.000012);
+  cloud->GetPoints()->InsertNextPoint(8.2, 47.1, 450.0);
+  pointhaptics::io::addFieldText(cloud, "LengthUnit", "degree");
+  std::vector<std::string> notes;
+  ASSERT_EQ(writeCloud(cloud, path("a.las"), &notes), "");
+  EXPECT_NE(notes.front().find("to steps of 1e-07 in x, 1e-04 in z, by"), std::string::npos);
+}
+
 } // namespace

@@ -227,3 +227,13 @@ TEST_F(Ply, ALineOfManyVerticesIsCountedOnce)
   ASSERT_EQ(result.error, "");
   EXPECT_EQ(result.cloud->GetPoint(199999)[0], 199999.0);
 }
+
+TEST_F(Ply, ColoursOfFacesAreSaidToBeLeftOut)
+{
+  const ReadResult result = readCloud(write("a.ply",
+    "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
+    "element face 1\nproperty list uchar int vertex_index\nproperty uchar red\nend_header\n1 2 3\n3 0 0 0 "
+    "9\n"));
+  ASSERT_EQ(result.notes.size(), 2u);
+  EXPECT_EQ(result.notes[0], "colours of faces are left out: 'red'");
+}

@@ -516,6 +516,17 @@ TEST_F(Text, ProjectedCoordinatesGoBeforeDegrees)
   EXPECT_EQ(readCloud(write("b.csv", "x (m),y (metre),z (M)\n1,2,3\n")).error, "");
 }
 
+TEST_F(Text, ColoursAmongWordsAndTheLargestFloatAreSaid)
+{
+  const ReadResult result = readCloud(write("a.xyz", "1 2 3 #aabbcc\n4 5 -3.4028235e38 #aabbcd\n"));
+  ASSERT_EQ(result.error, "");
+  EXPECT_TRUE(std::isnan(result.cloud->GetPoint(1)[2]));
+  ASSERT_EQ(result.notes.size(), 2u);
+  EXPECT_NE(result.notes[0].find("'#aabbcc' are comments"), std::string::npos);
+  EXPECT_EQ(result.notes[1], "1 coordinate is 3.4e38, which stands for no data, and becomes NaN");
+  EXPECT_NE(readCloud(write("b.xyz", "1 2 3\n4 5 1e35\n")).error, "");
+}
+
 } // namespace
 
 TEST_F(Text, UnitsAndSystemsOfCommentsAreTaken)
