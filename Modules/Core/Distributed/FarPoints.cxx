@@ -29,8 +29,17 @@ constexpr int kCells = 32;
 /// Points of a cell over those of one beside it below which the cell is no connection.
 constexpr double kConnects = 0.01;
 
-/// The values among the sorted @p values of an axis that stand for no data: one in 200 points and more has
-/// exactly such a value, and it is far from all others, of which tenths at both ends may be strays.
+/// Whether programs write this for no data; LAS has a multiple of a step near it.
+bool isUsualNoData(double value)
+{
+  const double whole = std::round(value);
+  return std::abs(value - whole) <= 1e-9 * std::abs(whole) &&
+    (whole == -9999.0 || whole == -99999.0 || whole == -32768.0);
+}
+
+/// The values among the sorted @p values of an axis that stand for no data: one in 200 points and more, but
+/// no more than the others are, has exactly such a value, and it is far from all others, of which tenths at
+/// both ends may be strays. A usual one may be that of most points.
 std::vector<double> noDataAmong(const std::vector<double>& values)
 {
   constexpr std::ptrdiff_t kOneIn = 200;
@@ -43,14 +52,17 @@ std::vector<double> noDataAmong(const std::vector<double>& values)
       return i < first - values.begin() ? values[std::size_t(i)] : *(last + (i - (first - values.begin())));
     };
     const std::ptrdiff_t others = std::ptrdiff_t(values.size()) - (last - first);
-    if (last - first < 2 + std::ptrdiff_t(values.size()) / kOneIn || others == 0)
+    const std::ptrdiff_t count = last - first;
+    const bool isUsual = isUsualNoData(*first);
+    if (count < 2 + std::ptrdiff_t(values.size()) / kOneIn || others == 0 || (count > others && !isUsual))
     {
       continue;
     }
     const double low = other(others / kCut);
     const double high = other(others - 1 - others / kCut);
     const bool isOutside = *first < low || *first > high;
-    if (isOutside && std::max(std::abs(*first - low), std::abs(*first - high)) >= kFar * (high - low))
+    if (isOutside && (high > low || isUsual) &&
+      std::max(std::abs(*first - low), std::abs(*first - high)) >= kFar * (high - low))
     {
       found.push_back(*first);
     }
