@@ -302,6 +302,10 @@ TEST(HapticChart, HasTitlesOfOneSizeThatFollowTheWindow)
     }
   }
   EXPECT_LT(sizes[0], sizes[1]);
+  window->SetSize(360, 45);
+  window->Render();
+  chart->Update();
+  EXPECT_EQ(drawn->GetAxis(vtkAxis::RIGHT)->GetTitle(), "mm") << "the longer one would be cut";
   window->RemoveRenderer(chart->GetRenderer());
 }
 

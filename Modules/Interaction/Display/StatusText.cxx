@@ -105,7 +105,8 @@ std::string StatusText::statusLine(const ServoLoop* servo) const
   }
   if (scenes_.isEmpty() && !isPending)
   {
-    status += " (nothing in the workspace" + this->resetHint() + ")";
+    status +=
+      " (" + (emptyCause_.empty() ? "nothing in the workspace" + this->resetHint() : emptyCause_) + ")";
   }
   if (servo)
   {

@@ -50,6 +50,8 @@ public:
   void setPanelVisibility(bool visible) { this->set(showsPanel_, visible); }
   bool panelVisibility() const { return showsPanel_; }
   ///@}
+  /// Why nothing is felt, and its cure; empty: the model is not in the workspace.
+  void setEmptyCause(const std::string& cause) { this->set(emptyCause_, cause); }
   /// Text on the distance from the hand to the cloud; empty: none.
   void setDistance(const std::string& distance) { distance_ = distance; }
   /// Shows the help, its next page, or hides it after the last one.
@@ -86,6 +88,7 @@ private:
   std::string note_;
   std::string deviceNote_;
   std::string deviceName_;
+  std::string emptyCause_;
   std::string distance_;
   bool hasTouched_ = false; ///< True once the hand has touched in hand mode: the person knows the keys then.
   bool showsPanel_ = false;

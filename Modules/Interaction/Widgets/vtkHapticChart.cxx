@@ -35,6 +35,8 @@ constexpr double kLow = 150.0;
 constexpr double kPointsPerInch = 72.0;
 constexpr int kFontSize = 13;
 constexpr int kSmallestFontSize = 7;
+/// Titles of the left and the right axis, and shorter ones for a chart that is too low for these.
+constexpr const char* kTitles[] = { "force (N)", "radius (mm)", "N", "mm" };
 constexpr int kVtkBorder = 20; // pixels, beside an axis that is not shown
 
 void styleAxis(vtkAxis* axis, const char* title, const unsigned char color[3])
@@ -101,10 +103,12 @@ void vtkHapticChart::FitTexts()
   this->Chart->SetHiddenAxisBorder(above);
   // Below the axis are a row of labels and a title; twice the way from its middle to the nearer edge.
   const double room = this->FittedHeight + above - 3.5 * letter;
-  double fitting = kFontSize;
-  for (const int which : { vtkAxis::LEFT, vtkAxis::RIGHT })
+  double fitting = 0.0;
+  for (int i = 0; i < 4 && (i % 2 != 0 || fitting < kSmallestFontSize); ++i)
   {
-    vtkAxis* axis = this->Chart->GetAxis(which);
+    fitting = i % 2 == 0 ? kFontSize : fitting;
+    vtkAxis* axis = this->Chart->GetAxis(i % 2 == 0 ? vtkAxis::LEFT : vtkAxis::RIGHT);
+    axis->SetTitle(kTitles[i]);
     vtkNew<vtkTextProperty> upright;
     upright->ShallowCopy(axis->GetTitleProperties());
     upright->SetOrientation(0.0);
@@ -254,9 +258,9 @@ void vtkHapticChart::ApplyColors()
     const unsigned char* color = curves[which][plot];
     this->Chart->GetPlot(plot)->SetColor(color[0], color[1], color[2], 255);
   }
-  styleAxis(this->Chart->GetAxis(vtkAxis::LEFT), "force (N)", curves[which][1]);
+  styleAxis(this->Chart->GetAxis(vtkAxis::LEFT), kTitles[0], curves[which][1]);
   styleAxis(this->Chart->GetAxis(vtkAxis::BOTTOM), "time (s)", ink[which]);
-  styleAxis(this->Chart->GetAxis(vtkAxis::RIGHT), "radius (mm)", curves[which][0]);
+  styleAxis(this->Chart->GetAxis(vtkAxis::RIGHT), kTitles[1], curves[which][0]);
   for (const int axis : { vtkAxis::LEFT, vtkAxis::BOTTOM, vtkAxis::RIGHT })
   {
     this->Chart->GetAxis(axis)->GetGridPen()->SetColor(grid[which][0], grid[which][1], grid[which][2]);

@@ -8,6 +8,8 @@
 #include "vtkTextRenderer.h"
 #include "vtkWindow.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 #include <sstream>
@@ -170,15 +172,15 @@ std::vector<std::string> wrapped(const std::vector<std::string>& lines, std::siz
   return result;
 }
 
-std::string firstOf(const std::vector<std::string>& lines, std::size_t most)
+/// At most @p most lines, but two at least: the first ones, and the last, which names the key of the help.
+std::string firstOf(std::vector<std::string> lines, std::size_t most)
 {
-  std::string text;
-  for (std::size_t i = 0; i < std::min(lines.size(), most); ++i)
+  if (lines.size() > most)
   {
-    const bool isCut = i + 1 == most && lines.size() > most;
-    text += (i ? "\n" : "") + (isCut ? std::string("...") : lines[i]);
+    lines.erase(lines.begin() + std::ptrdiff_t(std::max<std::size_t>(2, most) - 2), lines.end() - 1);
+    lines.insert(lines.end() - 1, "...");
   }
-  return text;
+  return fmt::format("{}", fmt::join(lines, "\n"));
 }
 
 } // namespace

@@ -28,6 +28,8 @@ constexpr std::int64_t kRefinement = 4;
 /// A moving picture keeps its level while the budget is between these parts of it.
 constexpr double kLeastShare = 0.9;
 constexpr double kMostShare = 1.6;
+/// Moving frames that a picture at rest may take to be drawn at once.
+constexpr std::int64_t kFramesAtOnce = 60;
 /// Least part in view that is assumed: the next frame may show more.
 constexpr double kLeastSeen = 0.1;
 
@@ -121,7 +123,8 @@ bool LevelOfDetail::sceneChanged(vtkPolyData* cloud)
   while (vtkActor* actor = actors->GetNextActor(cookie))
   {
     const auto isLevel = [actor](const Level& level) { return level.actor == actor; };
-    if (actor != actor_ && !isDrawnOver(actor) && std::none_of(levels_.begin(), levels_.end(), isLevel))
+    if (actor != actor_ && actor->GetVisibility() && !isDrawnOver(actor) &&
+      std::none_of(levels_.begin(), levels_.end(), isLevel))
     {
       propsTime = std::max<unsigned long long>(propsTime, actor->GetRedrawMTime());
     }
@@ -164,6 +167,7 @@ std::int64_t LevelOfDetail::wanted(double now)
 void LevelOfDetail::beginFrame(double now)
 {
   vtkPolyData* cloud = this->splats()->GetInput();
+  const bool wasFinest = this->isFinest();
   frameIsTypical_ = inMotion_ = false;
   if (!enabled_ || !renderer_ || !cloud || cloud->GetNumberOfPoints() == 0)
   {
@@ -171,7 +175,12 @@ void LevelOfDetail::beginFrame(double now)
     return;
   }
   this->watchWindow();
-  moving_ = this->sceneChanged(cloud);
+  const double height = renderer_->GetViewport()[3] - renderer_->GetViewport()[1];
+  const bool isOther = std::exchange(isRecolored_, false) || height != height_;
+  height_ = height;
+  const bool rests = isOther && wasFinest && total_ == cloud->GetNumberOfPoints() &&
+    total_ <= kFramesAtOnce * budget_.points();
+  moving_ = this->sceneChanged(cloud) && !rests;
   if (cloudChanged_)
   {
     this->dropLevels();
@@ -430,6 +439,12 @@ void LevelOfDetail::addLevel(vtkPolyData* cloud)
   level.actor->PickableOff();
   renderer_->AddActor(level.actor);
   levels_.push_back(level);
+}
+
+void LevelOfDetail::recolor()
+{
+  this->removeLevels();
+  isRecolored_ = true;
 }
 
 void LevelOfDetail::removeLevels()

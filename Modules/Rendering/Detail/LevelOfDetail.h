@@ -75,8 +75,10 @@ public:
   /// Makes the next frame as fine as possible, whatever moves: for pictures that are kept.
   void showFinestOnce() { finestOnce_ = true; }
 
-  /// Notes that the actor's mapper has other colours: the parts for moving pictures are made anew.
-  void recolor() { this->removeLevels(); }
+  /// Notes that the actor's mapper has other colours or hides others. After a picture at rest the next one is
+  /// at rest, too, if it takes two seconds at most, as after a change of the viewport: splats that grow for a
+  /// moment look like another object.
+  void recolor();
 
   /// True if the last frame was as fine as possible: all points, but for those below a pixel.
   bool showsAll() const { return drawn_ >= finest_; }
@@ -138,6 +140,8 @@ private:
   bool moving_ = false;
   bool inMotion_ = false;
   bool cloudChanged_ = false;
+  bool isRecolored_ = false;
+  double height_ = 1.0;          // part of the window, in the last frame
   bool frameIsTypical_ = false;  // nothing is uploaded in it
   std::vector<SplatBrick> rows_; // of the whole cloud, in its order
   bool hasRows_ = false;         // and they were made

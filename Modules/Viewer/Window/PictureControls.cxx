@@ -260,6 +260,16 @@ void PictureControls::hide(std::vector<HiddenValues> hidden)
   context_.clipped(); // after what was said: a recording that ends says so
 }
 
+void PictureControls::forgetHeights()
+{
+  PictureSettings& picture = context_.options.picture;
+  picture.colorRange.resize(context_.scene.colorArray() == kHeightArrayName ? 0 : picture.colorRange.size());
+  std::vector<HiddenValues> hidden;
+  std::copy_if(picture.hidden.begin(), picture.hidden.end(), std::back_inserter(hidden),
+    [](const HiddenValues& each) { return each.array != kHeightArrayName; });
+  hidden != picture.hidden ? this->hide(std::move(hidden)) : void();
+}
+
 void PictureControls::toggleLabel(double label)
 {
   const HiddenValues values{ context_.scene.colorArray(), label, label };

@@ -26,6 +26,8 @@ public:
   /// False: the window does not fill the screen.
   bool leaveFullScreen() { return fullScreen_.isFull() && fullScreen_.set(false); }
   void toggleFullScreen();
+  /// Forgets ranges of heights, which will be along another axis.
+  void forgetHeights();
   /// Makes the point under the mouse the one that the view turns about, in the middle of the picture.
   void setPivot();
   /// False: nobody walks.

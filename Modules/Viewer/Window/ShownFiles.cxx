@@ -43,7 +43,8 @@ void ShownFiles::begin(std::size_t cloud)
 }
 
 /// Begins to read files; a load in flight is given up.
-void ShownFiles::load(const std::vector<std::string>& files, FileLoad::Kind kind, std::function<void()> then)
+void ShownFiles::load(const std::vector<std::string>& files, FileLoad::Kind kind, std::function<void()> then,
+  const std::string& up)
 {
   const bool isNew = kind == FileLoad::Kind::New;
   HapticViewerOptions options = context_.options;
@@ -54,20 +55,20 @@ void ShownFiles::load(const std::vector<std::string>& files, FileLoad::Kind kind
     options.picture.colorRange = asked_.picture.colorRange;
     options.picture.hidden.clear();
   }
-  options.up = this->upOf(files.front());
+  options.up = up.empty() ? this->upOf(files.front()) : up;
   loading_ = { files, kind, options, std::move(then), {}, FileWatch() };
   loading_.watch.watch(files);
   CloudRequest request(files, options);
   request.makesScene = true;
-  request.measuresLater = true;
+  request.measuresLater = kind != FileLoad::Kind::Turned;
   request.resamplesLater = true;
-  request.mostPoints = isNew ? options.coarsePoints : 0;
+  request.mostPoints = loading_.isFitted() ? options.coarsePoints : 0;
   if (kind == FileLoad::Kind::Finer)
   {
     request.before = context_.scene.showing();
   }
   AffineTransform model;
-  if (!isNew && affineFromTransform(model_, model))
+  if (!loading_.isFitted() && affineFromTransform(model_, model))
   {
     request.placement = transformOf(context_.scene.modelMatrix());
     request.model = model;
@@ -200,19 +201,24 @@ void ShownFiles::step(int direction, std::size_t skipped)
 
 void ShownFiles::turnUp()
 {
-  if (shown_.empty() || loader_.busy())
+  const bool isTurning = loader_.busy() && loading_.kind == FileLoad::Kind::Turned;
+  if (shown_.empty() || (loader_.busy() && loading_.kind == FileLoad::Kind::New))
   {
     context_.say(shown_.empty() ? "the points are of no file" : "a file is being read; turn it after that");
     return;
   }
-  const auto* found = std::find(std::begin(kAxes), std::end(kAxes), axisName(context_.scene.cloudUp()));
+  // Another key before the turn is seen goes on from its axis.
+  const std::string present = isTurning ? loading_.options.up : axisName(context_.scene.cloudUp());
+  const auto* found = std::find(std::begin(kAxes), std::end(kAxes), present);
   const std::string next = kAxes[(found - std::begin(kAxes) + 1) % std::size(kAxes)];
-  ups_[shown_.front()] = next;
-  if (observer_.keepUp)
+  controls_.forgetHeights();
+  const auto keep = [this, next]
   {
-    observer_.keepUp(shown_.front(), next);
-  }
-  this->load(shown_, FileLoad::Kind::New, [this, next] { context_.say("up: " + next); });
+    ups_[shown_.front()] = next;
+    observer_.keepUp ? observer_.keepUp(shown_.front(), next) : void();
+    context_.say("up: " + next);
+  };
+  this->load(shown_, FileLoad::Kind::Turned, keep, next);
 }
 
 std::string ShownFiles::upOf(const std::string& file)

@@ -25,9 +25,10 @@ struct FileLoad
 {
   enum class Kind
   {
-    New,   ///< To be fitted to the workspace.
-    Again, ///< They have changed: model and camera stay.
-    Finer, ///< All points of what is shown coarsely: model, camera and colours stay.
+    New,    ///< To be fitted to the workspace.
+    Turned, ///< The same, with another axis upwards: what was chosen for them stays.
+    Again,  ///< They have changed: model and camera stay.
+    Finer,  ///< All points of what is shown coarsely: model, camera and colours stay.
   };
   std::vector<std::string> files;
   Kind kind = Kind::New;
@@ -35,6 +36,8 @@ struct FileLoad
   std::function<void()> then;   ///< Called when the cloud is shown.
   std::function<void()> failed; ///< Called when it cannot be read.
   FileWatch watch;              ///< State of the files before the first byte was read.
+
+  bool isFitted() const { return kind == Kind::New || kind == Kind::Turned; }
 };
 
 /// Reads files in the loader's thread and hands the finished cloud to the window. GUI thread only.
@@ -68,7 +71,7 @@ public:
   /// Reads the next file (@p direction 1) or the previous one (-1) that can be read; where they are shown
   /// together, shows one of them alone or all.
   void step(int direction) { this->step(direction, 0); }
-  /// Reads the file again with the next axis upwards.
+  /// Reads the file again with the next axis upwards; the picture stays until then.
   void turnUp();
   /// The axis that points up in @p file: as it was turned here; else that of the options, else as it was
   /// kept.
@@ -81,7 +84,9 @@ public:
 
 private:
   void step(int direction, std::size_t skipped);
-  void load(const std::vector<std::string>& files, FileLoad::Kind kind, std::function<void()> then);
+  /// @param up axis that points up; empty: upOf() the first file.
+  void load(const std::vector<std::string>& files, FileLoad::Kind kind, std::function<void()> then,
+    const std::string& up = {});
   void take();
   void end(std::function<void()> FileLoad::*next = nullptr);
 

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <vtkCamera.h>
 #include <vtkMatrix4x4.h>
+#include <vtkPointSet.h>
 
 #include <algorithm>
 #include <array>
@@ -35,6 +36,7 @@ void ViewWindow::forgiveEscape()
 void ViewWindow::leave()
 {
   const auto now = std::chrono::steady_clock::now();
+  const bool isWarned = now <= std::exchange(escapeQuits_, {});
   if (files_.cancel())
   {
     return;
@@ -54,7 +56,7 @@ void ViewWindow::leave()
     style_->GetCommands().run("hand-mode");
     return;
   }
-  if (recording_.isOpen() && now > escapeQuits_)
+  if (recording_.isOpen() && !isWarned)
   {
     escapeQuits_ = now + kRepeatedEscape;
     this->say("recording: " + style_->GetCommands().label("leave") + " once more ends it and quits");
@@ -129,8 +131,18 @@ void ViewWindow::clipFelt()
 {
   this->endRecording("what is felt was clipped or hidden");
   scene_.clipFelt();
+  style_->GetStatus().setEmptyCause(this->hiddenWords());
   style_->InvalidateModel();
   profile_.follow();
+}
+
+/// Says that all points are hidden, and what shows them; empty: they are not.
+std::string ViewWindow::hiddenWords() const
+{
+  auto* felt = vtkPointSet::SafeDownCast(scene_.resampler()->GetInputDataObject(0, 0));
+  const bool isAll = !options_.picture.hidden.empty() && felt && felt->GetNumberOfPoints() == 0;
+  const std::string key = style_->GetCommands().label("hide-outside");
+  return isAll ? "all points are hidden" + (key.empty() ? key : "; " + key + " shows all") : std::string();
 }
 
 /// Shows the next of the choices to colour by.

@@ -64,7 +64,7 @@ void ViewWindow::show(LoadedCloud cloud, const FileLoad& load)
 {
   const bool isNew = load.kind == FileLoad::Kind::New;
   // A file that changed so much that it is placed anew is looked at anew; what was chosen for it stays.
-  const bool keepsModel = !isNew && cloud.placement == transformOf(scene_.modelMatrix()) &&
+  const bool keepsModel = !load.isFitted() && cloud.placement == transformOf(scene_.modelMatrix()) &&
     areAlike(cloud.workspace, scene_.workspace());
   const AffineTransform model = cloud.model;
   std::string message;
@@ -101,7 +101,7 @@ void ViewWindow::show(LoadedCloud cloud, const FileLoad& load)
   {
     this->clipFelt();
   }
-  if (isNew)
+  if (load.isFitted())
   {
     options_.camera.clear(); // it was for the first cloud
   }
@@ -109,6 +109,7 @@ void ViewWindow::show(LoadedCloud cloud, const FileLoad& load)
   {
     scene_.placeCamera();
   }
+  style_->GetStatus().setEmptyCause(this->hiddenWords());
   this->setTitle(scene_.title());
   this->showSliderValues();
   style_->GetScenes().poll(); // what is near the hand, before the picture

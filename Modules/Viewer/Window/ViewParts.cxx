@@ -31,9 +31,10 @@ std::string ViewWindow::freeFileName(const std::string& extension) const
 /// Writes what is shown, in the format of the first file where that can be written, with all its arrays.
 void ViewWindow::savePart()
 {
-  if (saving_.valid() || files_.shown().empty())
+  const std::string obstacle = saving_.valid() ? "the part is being saved" : this->hiddenWords();
+  if (!obstacle.empty() || files_.shown().empty())
   {
-    this->say(files_.shown().empty() ? "the points are of no file" : "the part is being saved");
+    this->say(obstacle.empty() ? "the points are of no file" : obstacle);
     return;
   }
   const std::string& first = files_.shown().front();

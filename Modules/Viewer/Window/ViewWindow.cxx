@@ -222,6 +222,11 @@ void ViewWindow::connectStyle()
   }
   timer_.follow(interactor_, vtkCommand::TimerEvent);
   abortCheck_.follow(window_, vtkCommand::AbortCheckEvent);
+  acted_.follow(interactor_,
+    { vtkCommand::KeyPressEvent, vtkCommand::LeftButtonPressEvent, vtkCommand::MiddleButtonPressEvent,
+      vtkCommand::RightButtonPressEvent, vtkCommand::MouseWheelForwardEvent,
+      vtkCommand::MouseWheelBackwardEvent },
+    1.0F);
 }
 
 void ViewWindow::onSamples(void* callData)

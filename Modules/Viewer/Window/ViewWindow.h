@@ -126,6 +126,7 @@ private:
   void toggleFigure();
   void setPivot();
   void clipFelt();
+  std::string hiddenWords() const;
   void savePart();
   void followSaving();
   void showNextColors();
@@ -164,6 +165,12 @@ private:
   const HapticViewerObserver& observer_;
   EventLink timer_{ [this] { this->onTimer(); } };
   EventLink abortCheck_{ [this] { this->onAbortCheck(); } };
+  /// After any other key or button Escape warns again.
+  EventLink acted_{ [this](unsigned long event, void*)
+    {
+      const bool isSame = event == vtkCommand::KeyPressEvent && this->isCancelKey();
+      escapeQuits_ = isSame ? escapeQuits_ : decltype(escapeQuits_)();
+    } };
   EventLink modelChanged_{ [this] { this->onModelChanged(); } };
   EventLink sceneChanged_{ [this] { this->onSceneChanged(); } };
   EventLink samples_{ [this](unsigned long, void* data) { this->onSamples(data); } };

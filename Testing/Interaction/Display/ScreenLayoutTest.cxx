@@ -584,4 +584,14 @@ TEST_F(ScreenLayoutTest, ASmallWindowIsThePicturesFirst)
   }
 }
 
+TEST_F(ScreenLayoutTest, ACutStatusNamesTheKeyOfTheHelp)
+{
+  Screen screen(360, 300, 1.0, false);
+  screen.overlay->SetStatus(kStatus);
+  double size[2];
+  screen.overlay->MeasureBlock(vtkHapticOverlay::StatusBlock, 8, 300.0, 3, size);
+  auto* text = vtkTextActor::SafeDownCast(screen.renderer->GetActors2D()->GetItemAsObject(0));
+  EXPECT_STREQ(text->GetInput(), "5000000 points in 401222 active voxels\n...\nH: help");
+}
+
 } // namespace

@@ -579,4 +579,20 @@ TEST_F(LevelOfDetailTest, TakesAnOrderThatWasMadeElsewhere)
   EXPECT_NE(this->pixels(), own);
 }
 
+TEST_F(LevelOfDetailTest, OtherColoursOfACloudAtRestKeepItsSplats)
+{
+  this->drawSplats();
+  this->render(0.0);
+  this->renderUntilFine();
+  cloud_->Modified();
+  detail_.recolor();
+  this->render(1.0);
+  EXPECT_TRUE(detail_.isFinest());
+  vtkNew<vtkActor> unseen;
+  unseen->VisibilityOff();
+  renderer->AddActor(unseen);
+  this->render(1.0);
+  EXPECT_TRUE(detail_.isFinest());
+}
+
 } // namespace

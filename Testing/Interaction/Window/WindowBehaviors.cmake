@@ -95,3 +95,6 @@ list(APPEND window_helpers STUDY_BLOCKS=${PROJECT_BINARY_DIR}/Testing/Documents/
 pointhaptics_window_test(AStudyIsRunAndAnalysed)
 pointhaptics_window_test(AGrownFileIsFittedAgain)
 pointhaptics_window_test(AHiddenPartEndsTheRecordingAndSaysWhy)
+pointhaptics_window_test(ATurnKeepsColoursAndWhatIsHidden)
+pointhaptics_window_test(WhereAllIsHiddenTheKeyThatShowsItIsNamed)
+pointhaptics_window_test(AnActionAfterEscapeHasWarnedIsNoSecondEscape)

@@ -1134,3 +1134,46 @@ AHiddenPartEndsTheRecordingAndSaysWhy() {
   tail -n 1 rec.csv | grep -q "^# end: .*it ends early: what is felt was clipped or hidden" || fail "the file does not say why"
   feels_again rec.csv
 }
+
+# Two keys, the second before the first turn is seen.
+ATurnKeepsColoursAndWhatIsHidden() {
+  make sphere cloud.ply
+  make plane second.ply
+  start_viewer cloud.ply second.ply --together --color-by File --hide File=1 --device none --up z
+  shows cloud.ply
+  has_keys
+  key F7 F7
+  said "up: y"
+  write_settings
+  grep -q '"hide": "File=1"' "$settings" || fail "what was hidden is shown"
+  grep -q '"color-by": "File"' "$settings" || fail "the colours are others"
+}
+
+WhereAllIsHiddenTheKeyThatShowsItIsNamed() {
+  make sphere first.csv
+  make plane plane.csv
+  awk -F, -v OFS=, 'NR > 1 { $3 -= 0.1 } { print }' plane.csv >low.csv
+  start_viewer first.csv low.csv --together --hide height=:-0.09 --up z --bind hide-outside=F3
+  shows first.csv
+  has_keys
+  key n n
+  said "file 2 of 2, alone: low.csv"
+  key F12
+  said "all points are hidden; F3 shows all"
+  key F3
+  said "nothing is hidden"
+}
+
+AnActionAfterEscapeHasWarnedIsNoSecondEscape() {
+  make sphere cloud.ply
+  open_viewer cloud.ply --device simulated --record rec.csv
+  key Escape
+  said "once more ends it and quits"
+  key D Escape
+  said "measuring: ended"
+  key Escape
+  until_true "it did not warn again" warned_twice
+  key Escape
+  ends_with 0 "the second Escape"
+}
+warned_twice() { (($(grep -c "once more ends it and quits" said.txt) == 2)); }
