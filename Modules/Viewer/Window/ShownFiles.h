@@ -26,7 +26,7 @@ struct FileLoad
   enum class Kind
   {
     New,    ///< To be fitted to the workspace.
-    Turned, ///< The same, with another axis upwards: what was chosen for them stays.
+    Turned, ///< To be fitted with another axis upwards: what was chosen for them stays.
     Again,  ///< They have changed: model and camera stay.
     Finer,  ///< All points of what is shown coarsely: model, camera and colours stay.
   };

@@ -1,4 +1,4 @@
-// What keys and sliders of the window do to picture and touch.
+// Actions of keys and sliders of the window on picture and touch.
 #include "ScaleNote.h"
 #include "ScreenMarks.h"
 #include "ViewPicture.h"
