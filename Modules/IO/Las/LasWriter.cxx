@@ -87,7 +87,7 @@ private:
   const vtkIdType rows_;
   const bool isPacked_;
 
-  std::array<const OutputArray*, kNumberOfLasFields> standard_{}; ///< Of kLasFields; null: there is none.
+  std::array<const OutputArray*, kNumberOfLasFields> standard_{}; ///< By kLasFields; null: there is none.
 
   bool extended_ = false;
   int format_ = 0;
