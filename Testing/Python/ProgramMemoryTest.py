@@ -88,7 +88,7 @@ class ProgramMemory(TestCase):
                 except subprocess.TimeoutExpired:
                     window.terminate()
                     window.communicate(timeout=60)
-                    self.assertIn(window.returncode, (1, 143))
+                    self.assertIn(window.returncode, (1, 143, -15))  # -15: a slow machine was still loading it
         self.assertEqual(window.returncode, 143)
 
     def test_read_and_write(self):
