@@ -125,7 +125,7 @@ struct ReadTask
       failTruncated(what, there > 0 && !salvage ? kSalvageCure : "");
     }
     notes.push_back(what.substr(0, what.find("; ")) + ": the " + std::to_string(there) +
-      " points before are read, of " + std::to_string(all) + " that the file promises");
+      " points before are read" + (all > 0 ? ", of " + std::to_string(all) + " that the file promises" : ""));
     pointsThere = there;
     return there;
   }
