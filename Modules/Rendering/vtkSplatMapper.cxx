@@ -171,13 +171,14 @@ double vtkSplatMapper::NearestIsNearer(vtkRenderer* renderer, vtkActor* actor)
 {
   vtkCamera* camera = renderer->GetActiveCamera();
   const double* bounds = actor->GetBounds();
-  double nearest[3];
-  for (int axis = 0; axis < 3; ++axis)
+  const bool isThere = vtkMath::AreBoundsInitialized(bounds);
+  double nearest[3] = { 0.0, 0.0, 0.0 };
+  for (int axis = 0; axis < 3 && isThere; ++axis)
   {
     nearest[axis] = std::clamp(camera->GetPosition()[axis], bounds[2 * axis], bounds[2 * axis + 1]);
   }
   const double distance = std::sqrt(vtkMath::Distance2BetweenPoints(camera->GetPosition(), nearest));
-  return camera->GetParallelProjection()
+  return camera->GetParallelProjection() || !isThere
     ? 1.0
     : std::max(1.0, camera->GetDistance() / std::max(distance, camera->GetClippingRange()[0]));
 }

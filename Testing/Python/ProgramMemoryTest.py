@@ -89,7 +89,7 @@ class ProgramMemory(TestCase):
                     window.terminate()
                     window.communicate(timeout=60)
                     self.assertIn(window.returncode, (1, 143, -15))  # -15: a slow machine was still loading it
-        self.assertEqual(window.returncode, 143)
+        self.assertIn(window.returncode, (143, -15))
 
     def test_read_and_write(self):
         run_program("convert", self.path("c.vtp"), self.path("c.csv"))

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <iomanip>
 #include <locale>
+#include <map>
 #include <numeric>
 #include <sstream>
 #include <string>
@@ -37,34 +38,48 @@ bool isUsualNoData(double value)
     (whole == -9999.0 || whole == -99999.0 || whole == -32768.0);
 }
 
-/// The values among the sorted @p values of an axis that stand for no data: one in 200 points and more, but
-/// no more than the others are, has exactly such a value, and it is far from all others, of which tenths at
-/// both ends may be strays. A usual one may be that of most points.
-std::vector<double> noDataAmong(const std::vector<double>& values)
+/// The values on @p axis that stand for no data: one in 200 points of @p sample and more, but no more than
+/// the others are, has exactly such a value, and it is ten times as far from all others as these are long. Of
+/// the others a tenth at either end may be strays. A usual value may be that of most points, and be far on
+/// its axis alone, also from one value.
+std::vector<double> noDataOn(const std::vector<Vec3>& sample, int axis)
 {
-  constexpr std::ptrdiff_t kOneIn = 200;
-  constexpr double kFar = 10.0; // from the farther end of the others, over their range
-  std::vector<double> found;
-  for (auto first = values.begin(), last = first; first != values.end(); first = last)
+  constexpr std::size_t kOneIn = 200;
+  constexpr double kFar = 10.0;
+  std::map<double, std::size_t> counts;
+  for (const Vec3& p : sample)
   {
-    last = std::upper_bound(first, values.end(), *first);
-    const auto other = [&](std::ptrdiff_t i) {
-      return i < first - values.begin() ? values[std::size_t(i)] : *(last + (i - (first - values.begin())));
-    };
-    const std::ptrdiff_t others = std::ptrdiff_t(values.size()) - (last - first);
-    const std::ptrdiff_t count = last - first;
-    const bool isUsual = isUsualNoData(*first);
-    if (count < 2 + std::ptrdiff_t(values.size()) / kOneIn || others == 0 || (count > others && !isUsual))
+    ++counts[p[axis]];
+  }
+  std::vector<double> found;
+  for (const auto& [value, count] : counts)
+  {
+    const bool isUsual = isUsualNoData(value);
+    const std::size_t others = sample.size() - count;
+    if (count < 2 + sample.size() / kOneIn || others == 0 || (count > others && !isUsual))
     {
       continue;
     }
-    const double low = other(others / kCut);
-    const double high = other(others - 1 - others / kCut);
-    const bool isOutside = *first < low || *first > high;
-    if (isOutside && (high > low || isUsual) &&
-      std::max(std::abs(*first - low), std::abs(*first - high)) >= kFar * (high - low))
+    double longest = 0.0;
+    double away = 0.0;
+    for (int of = 0; of < 3; ++of)
     {
-      found.push_back(*first);
+      std::vector<double> places;
+      for (const Vec3& p : sample)
+      {
+        p[axis] != value ? places.push_back(p[of]) : void();
+      }
+      std::sort(places.begin(), places.end());
+      const std::size_t cut = others / std::size_t(kCut);
+      const double low = places[cut];
+      const double high = places[others - 1 - cut];
+      longest = isUsual && of != axis ? longest : std::max(longest, high - low);
+      const bool isBeside = of == axis && (value < low || value > high) && (high > low || isUsual);
+      away = isBeside ? std::max(std::abs(value - low), std::abs(value - high)) : away;
+    }
+    if (away > 0.0 && away >= kFar * longest)
+    {
+      found.push_back(value);
     }
   }
   return found;
@@ -206,7 +221,7 @@ bool CoreSearch::mayBeSmall(double longest)
   };
   for (int axis = 0; axis < 3; ++axis)
   {
-    noData_[axis] = noDataAmong(sorted(axis));
+    noData_[axis] = noDataOn(sample, axis);
   }
   const auto isFill = [this](const Vec3& p) { return this->isNoData(p); };
   sample.erase(std::remove_if(sample.begin(), sample.end(), isFill), sample.end());

@@ -131,7 +131,7 @@ bool FileComments::add(std::string_view comment)
   comment.remove_prefix(kName.size());
   const std::string inFile = vtksys::SystemTools::DecodeURL(std::string(takeWord(comment)));
   const std::string name = vtksys::SystemTools::DecodeURL(std::string(takeWord(comment)));
-  const bool isName = !name.empty() && name.front() != '\0' && trimmed(comment).empty();
+  const bool isName = !name.empty() && name.find('\0') == std::string::npos && trimmed(comment).empty();
   isName ? void(names.emplace_back(inFile, name)) : void();
   return isName;
 }

@@ -53,7 +53,12 @@ private:
   bool takeIf(const char* keyword) { return equalNoCase(peek(), keyword) && !word().empty(); }
   Count count(const char* what);
   int type();
-  std::string name() { return vtksys::SystemTools::DecodeURL(std::string(word())); }
+  std::string name()
+  {
+    const std::string text(word());
+    const std::string name = vtksys::SystemTools::DecodeURL(text);
+    return name.find('\0') == std::string::npos ? name : text; // of VTK's names that is the end
+  }
   double number();
   Array values(const std::string& name, int vtkType, Count tuples, Count components, bool isKept = true);
 

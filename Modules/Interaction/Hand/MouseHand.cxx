@@ -54,8 +54,15 @@ void MouseHand::move(const Vec3& offset)
 {
   if (device_ && isFinite(offset))
   {
-    device_->setTarget(this->inWorkspace(this->onPlane(this->seen() + offset) - press_ * normal_));
+    this->press(this->onPlane(this->seen() + offset));
   }
+}
+
+/// Puts the hand as deep below @p place as it presses, or to where the workspace ends.
+void MouseHand::press(const Vec3& place)
+{
+  device_->setTarget(this->inWorkspace(place - press_ * normal_));
+  press_ = std::max(0.0, std::min(press_, dot(place - device_->target(), normal_)));
 }
 
 void MouseHand::moveInDepth(double metres)
@@ -73,8 +80,7 @@ void MouseHand::moveInDepth(double metres)
   // Along the normal: what is seen stays where the pointer is.
   const Vec3 place = this->seen();
   press_ += dot(normal_, forward) < 0.0 ? metres : -metres;
-  device_->setTarget(this->inWorkspace(place - press_ * normal_));
-  press_ = std::max(0.0, press_);
+  this->press(place);
 }
 
 void MouseHand::moveOnScreen(double right, double up)

@@ -99,6 +99,7 @@ private:
   Vec3 inWorkspace(Vec3 place) const;
   Vec3 seen() const;
   Vec3 onPlane(const Vec3& place) const;
+  void press(const Vec3& place);
   void placePointer(const Vec3& point);
 
   const ScreenView& screen_;

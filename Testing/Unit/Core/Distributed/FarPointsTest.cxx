@@ -112,6 +112,13 @@ TEST(FarPoints, OfNoDataAreFarWhateverTheirNumber)
     plates[i].z = 100.0;
   }
   EXPECT_EQ(farOf(plates).count, 0) << "each has exactly one height";
+  std::vector<Vec3> hall = randomBox(20000, 7, {}, { 10, 10, 0.02 });
+  for (std::size_t i = 0; i < hall.size(); i += 3)
+  {
+    hall[i].z = 3.0;
+  }
+  hall.push_back({ 665, 5, 1 });
+  EXPECT_EQ(farOf(hall).count, 1) << "a ceiling is far from a thin floor, and no farther than it is wide";
 }
 
 TEST(FarPoints, AreNoneWhereTheCloudGoesOnOrFallsApart)
