@@ -56,8 +56,7 @@ private:
   std::string name()
   {
     const std::string text(word());
-    const std::string name = vtksys::SystemTools::DecodeURL(text);
-    return name.find('\0') == std::string::npos ? name : text; // of VTK's names that is the end
+    return text.find("%00") == std::string::npos ? vtksys::SystemTools::DecodeURL(text) : text;
   }
   double number();
   Array values(const std::string& name, int vtkType, Count tuples, Count components, bool isKept = true);
@@ -78,7 +77,6 @@ private:
   std::size_t at_ = 0;
   bool isBinary_ = false;
   vtkPolyData* cloud_;
-  MeshFaces& faces_ = task_.faces;
   bool inPointData_ = false;
   Count tuples_ = 0; ///< Tuples of the section.
 };
@@ -208,7 +206,7 @@ void LegacyParser::parseCellTypes()
   const Array types = values("types", VTK_TYPE_INT32, count("the number of cells"), 1);
   for (vtkIdType i = 0; i < types->GetNumberOfTuples(); ++i)
   {
-    faces_.others += types->GetComponent(i, 0) > VTK_POLY_LINE ? 1 : 0;
+    task_.faces.others += types->GetComponent(i, 0) > VTK_POLY_LINE ? 1 : 0;
   }
 }
 
@@ -218,7 +216,7 @@ void LegacyParser::parseCells(bool areFaces)
   const Count first = count("a number of cells");
   const Count second = count("the size of the cells");
   const bool hasOffsets = equalNoCase(peek(), "OFFSETS");
-  const bool isKept = areFaces && faces_.isWanted();
+  const bool isKept = areFaces && task_.faces.isWanted();
   const auto cells = [&](Count size)
   {
     const int vtkType = hasOffsets ? (word(), type()) : VTK_TYPE_INT32;
@@ -240,7 +238,7 @@ void LegacyParser::keepFaces(vtkDataArray* offsets, vtkDataArray* corners)
     {
       face.push_back(static_cast<vtkIdType>(corners->GetComponent(begin, 0)));
     }
-    faces_.keep(face);
+    task_.faces.keep(face);
     return begin;
   };
   for (vtkIdType at = 0; !offsets && at < corners->GetNumberOfTuples();)
@@ -321,8 +319,8 @@ void LegacyParser::parseSection(std::string_view keyword)
     { "DIMENSIONS", [&] { line(); } },
     { "VERTICES", [&] { parseCells(false); } },
     { "LINES", [&] { parseCells(false); } },
-    { "POLYGONS", [&] { parseCells(true), faces_.count += tuples_; } },
-    { "TRIANGLE_STRIPS", [&] { parseCells(false), faces_.others += tuples_; } },
+    { "POLYGONS", [&] { parseCells(true), task_.faces.count += tuples_; } },
+    { "TRIANGLE_STRIPS", [&] { parseCells(false), task_.faces.others += tuples_; } },
     { "CELLS", [&] { parseCells(false); } },
     { "CELL_TYPES", [&] { parseCellTypes(); } },
     { "POINT_DATA", [&] { parseData(true); } },
