@@ -57,7 +57,7 @@ constexpr double kSmallestForce = 0.01; // newtons: shorter arrows are not drawn
 /// Sizes as parts of the workspace's edge.
 constexpr double kHipRadius = 0.007;
 constexpr double kNormalLength = 0.25;
-constexpr double kLongestNormal = 100.0; // points, in a close view
+constexpr double kLongestNormal = 150.0; // points, in a close view
 constexpr double kNewtonLength = 0.06;
 constexpr double kLongestArrow = 0.4;
 constexpr double kArrowThickness = 0.06;

@@ -44,43 +44,21 @@ Vec3 MouseHand::inWorkspace(Vec3 place) const
   return place;
 }
 
-/// The place that the person sees and moves: of a hand that presses that of the plane it is pressed below.
-Vec3 MouseHand::seen() const
-{
-  return device_->target() + press_ * normal_;
-}
-
 void MouseHand::move(const Vec3& offset)
 {
   if (device_ && isFinite(offset))
   {
-    this->press(this->onPlane(this->seen() + offset));
+    device_->setTarget(this->inWorkspace(this->pressed(device_->target() + offset)));
   }
-}
-
-/// Puts the hand as deep below @p place as it presses, or to where the workspace ends.
-void MouseHand::press(const Vec3& place)
-{
-  device_->setTarget(this->inWorkspace(place - press_ * normal_));
-  press_ = std::max(0.0, std::min(press_, dot(place - device_->target(), normal_)));
 }
 
 void MouseHand::moveInDepth(double metres)
 {
-  if (!device_ || !screen_.renderer())
+  press_ = 0.0;
+  if (screen_.renderer())
   {
-    return;
+    this->move(metres * screen_.forward());
   }
-  const Vec3 forward = screen_.forward();
-  if (!(press_ > 0.0))
-  {
-    this->move(metres * forward);
-    return;
-  }
-  // Along the normal: what is seen stays where the pointer is.
-  const Vec3 place = this->seen();
-  press_ += dot(normal_, forward) < 0.0 ? metres : -metres;
-  this->press(place);
 }
 
 void MouseHand::moveOnScreen(double right, double up)
@@ -118,7 +96,7 @@ void MouseHand::drag()
 {
   if (device_ && screen_.renderer())
   {
-    this->move(screen_.mouseMotion(this->seen()));
+    this->move(screen_.mouseMotion(device_->target()));
   }
 }
 
@@ -128,7 +106,7 @@ bool MouseHand::isUnderPointer() const
   {
     return false;
   }
-  const Vec3 hand = screen_.toDisplay(this->seen());
+  const Vec3 hand = screen_.toDisplay(device_->target());
   const int* pointer = screen_.interactor()->GetEventPosition();
   return std::hypot(hand.x - pointer[0], hand.y - pointer[1]) < kReachOfHand;
 }
@@ -137,14 +115,14 @@ void MouseHand::follow()
 {
   if (device_ && screen_.renderer())
   {
-    const Vec3 hand = this->seen();
+    const Vec3 target = device_->target();
     const int* pointer = screen_.interactor()->GetEventPosition();
-    this->move(screen_.toWorkspace(pointer[0], pointer[1], screen_.toDisplay(hand).z) - hand);
+    this->move(screen_.toWorkspace(pointer[0], pointer[1], screen_.toDisplay(target).z) - target);
   }
 }
 
-/// @p place, moved along the line of sight to the plane of the contact; itself where nothing is pressed.
-Vec3 MouseHand::onPlane(const Vec3& place) const
+/// @p place, moved along the line of sight to where it presses as deep as the hand is to press.
+Vec3 MouseHand::pressed(const Vec3& place) const
 {
   if (!(press_ > 0.0) || !screen_.renderer())
   {
@@ -154,8 +132,8 @@ Vec3 MouseHand::onPlane(const Vec3& place) const
   const Vec3 seen = screen_.toDisplay(place);
   const Vec3 sight = normalized(screen_.toWorkspace(seen.x, seen.y, screen_.toDisplay(deeper).z) - place);
   const double steepness = dot(sight, normal_);
-  const double above = dot(place - contact_, normal_);
-  return std::abs(steepness) > kFlattestView ? place - above / steepness * sight : place;
+  const double missing = press_ - dot(contact_ - place, normal_);
+  return std::abs(steepness) > kFlattestView ? place - missing / steepness * sight : place;
 }
 
 void MouseHand::followTouch(const ProxyState& latest, const SurfaceAt& surfaceAt)
@@ -174,8 +152,8 @@ void MouseHand::followTouch(const ProxyState& latest, const SurfaceAt& surfaceAt
   }
   else if (press_ > 0.0)
   {
-    const Vec3 place = screen_.toDisplay(this->seen());
-    const std::optional<Vec3> surface = surfaceAt(int(std::lround(place.x)), int(std::lround(place.y)));
+    const Vec3 seen = screen_.toDisplay(device_->target());
+    const std::optional<Vec3> surface = surfaceAt(int(std::lround(seen.x)), int(std::lround(seen.y)));
     const bool goesOn = surface && norm(*surface - contact_) < kFarthestJump;
     contact_ = goesOn ? *surface : contact_;
     normal_ = goesOn ? -screen_.forward() : normal_;
@@ -201,7 +179,7 @@ void MouseHand::putPointerOnHand()
 {
   if (followsMouse_ && isPointerInside_ && device_)
   {
-    this->placePointer(this->seen());
+    this->placePointer(device_->target());
   }
 }
 

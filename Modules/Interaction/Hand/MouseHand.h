@@ -81,8 +81,8 @@ public:
   void setPointerInside(bool isInside) { isPointerInside_ = isInside; }
   /// To be called from a timer with the newest tick. In contact hand mode or a drag holds how deep the hand
   /// presses below the plane that is touched, so the hand neither leaves a surface that falls away nor digs
-  /// into one that rises; a move in depth changes it. The mouse moves the place on the plane above the hand,
-  /// which is where the proxy is seen. Where contact is lost, @p surfaceAt says where the surface goes on.
+  /// into one that rises; a move in depth changes it. Where contact is lost, @p surfaceAt says where the
+  /// surface goes on.
   void followTouch(const ProxyState& latest, const SurfaceAt& surfaceAt);
   /// Moves the pointer to the hand, where the surface has pushed the hand away from it.
   void pushPointer(const ProxyState& latest);
@@ -97,9 +97,7 @@ public:
 
 private:
   Vec3 inWorkspace(Vec3 place) const;
-  Vec3 seen() const;
-  Vec3 onPlane(const Vec3& place) const;
-  void press(const Vec3& place);
+  Vec3 pressed(const Vec3& place) const;
   void placePointer(const Vec3& point);
 
   const ScreenView& screen_;
