@@ -8,6 +8,8 @@
 #include "ClippedCloud.h"
 #include "LoadedCloud.h"
 
+#include "Core/Base/OutputFile.h"
+
 #include <vtkPolyData.h>
 
 #include <filesystem>
@@ -23,7 +25,7 @@ void requireClouds(const std::vector<std::string>& files, const std::string& fil
   for (const std::string& file : files)
   {
     std::error_code ignored;
-    require(std::filesystem::exists(file, ignored) || std::filesystem::exists(file + ".part", ignored),
+    require(std::filesystem::exists(file, ignored) || !OutputFile::missedPart(file).empty(),
       fileName + ": its cloud " + file +
         " is not there; name where it is now beside the recording, as in "
         "feel MOVED.ply --replay REC.csv");

@@ -13,6 +13,7 @@
 #include <numeric>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace pointhaptics
@@ -25,7 +26,7 @@ constexpr std::int64_t kMostPart = 20; ///< One in so many is far at most.
 constexpr double kMostLength = 0.1;    ///< The core's longest side over that of all.
 constexpr std::int64_t kLookedAt = 1000;
 /// Part of the sample that is cut off at each end of an axis: more than ever is far.
-constexpr std::int64_t kCut = 10;
+constexpr std::size_t kCut = 10;
 constexpr int kCells = 32;
 /// Points of a cell over those of one beside it below which the cell is no connection.
 constexpr double kConnects = 0.01;
@@ -38,10 +39,25 @@ bool isUsualNoData(double value)
     (whole == -9999.0 || whole == -99999.0 || whole == -32768.0);
 }
 
+/// Where on @p axis those of @p sample lie that @p counts, without a tenth at either end, which may be
+/// strays.
+/// @pre It counts one at least.
+template <typename Counts>
+std::pair<double, double> middleOf(const std::vector<Vec3>& sample, int axis, const Counts& counts)
+{
+  std::vector<double> places;
+  for (const Vec3& p : sample)
+  {
+    counts(p) ? places.push_back(p[axis]) : void();
+  }
+  std::sort(places.begin(), places.end());
+  const std::size_t cut = places.size() / kCut;
+  return { places[cut], places[places.size() - 1 - cut] };
+}
+
 /// The values on @p axis that stand for no data: one in 200 points of @p sample and more, but no more than
-/// the others are, has exactly such a value, and it is ten times as far from all others as these are long. Of
-/// the others a tenth at either end may be strays. A usual value may be that of most points, and be far on
-/// its axis alone, also from one value.
+/// the others are, has exactly such a value, and it is ten times as far from all others as these are long. A
+/// usual value may be that of most points, and be far on its axis alone, also from one value.
 std::vector<double> noDataOn(const std::vector<Vec3>& sample, int axis)
 {
   constexpr std::size_t kOneIn = 200;
@@ -60,24 +76,17 @@ std::vector<double> noDataOn(const std::vector<Vec3>& sample, int axis)
     {
       continue;
     }
-    double longest = 0.0;
-    double away = 0.0;
-    for (int of = 0; of < 3; ++of)
+    const auto isOther = [axis, none = value](const Vec3& p) { return p[axis] != none; };
+    const auto [low, high] = middleOf(sample, axis, isOther);
+    double longest = high - low;
+    for (int of = 0; of < 3 && !isUsual; ++of)
     {
-      std::vector<double> places;
-      for (const Vec3& p : sample)
-      {
-        p[axis] != value ? places.push_back(p[of]) : void();
-      }
-      std::sort(places.begin(), places.end());
-      const std::size_t cut = others / std::size_t(kCut);
-      const double low = places[cut];
-      const double high = places[others - 1 - cut];
-      longest = isUsual && of != axis ? longest : std::max(longest, high - low);
-      const bool isBeside = of == axis && (value < low || value > high) && (high > low || isUsual);
-      away = isBeside ? std::max(std::abs(value - low), std::abs(value - high)) : away;
+      const auto [from, to] = middleOf(sample, of, isOther);
+      longest = std::max(longest, to - from);
     }
-    if (away > 0.0 && away >= kFar * longest)
+    const bool isBeside = (value < low || value > high) && (high > low || isUsual);
+    const double away = std::max(std::abs(value - low), std::abs(value - high));
+    if (isBeside && away >= kFar * longest)
     {
       found.push_back(value);
     }
@@ -212,13 +221,6 @@ bool CoreSearch::mayBeSmall(double longest)
   this->forEach((step - before % step) % step, step,
     [&own](const Vec3& p, const Vec3&) { isAtZero(p) ? void() : own.push_back(p); });
   std::vector<Vec3> sample = ranks_.gatherAll(own);
-  const auto sorted = [&sample](int axis)
-  {
-    std::vector<double> values(sample.size());
-    std::transform(sample.begin(), sample.end(), values.begin(), [axis](const Vec3& p) { return p[axis]; });
-    std::sort(values.begin(), values.end());
-    return values;
-  };
   for (int axis = 0; axis < 3; ++axis)
   {
     noData_[axis] = noDataOn(sample, axis);
@@ -227,12 +229,11 @@ bool CoreSearch::mayBeSmall(double longest)
   sample.erase(std::remove_if(sample.begin(), sample.end(), isFill), sample.end());
   std::transform(
     sample.begin(), sample.end(), sample.begin(), [this](const Vec3& p) { return transform_.apply(p); });
-  const auto cut = std::ptrdiff_t(sample.size()) / kCut;
   bool isSmall = !sample.empty();
   for (int axis = 0; axis < 3 && isSmall; ++axis)
   {
-    const std::vector<double> values = sorted(axis);
-    isSmall = *(values.end() - 1 - cut) - *(values.begin() + cut) <= kMostLength * longest;
+    const auto [low, high] = middleOf(sample, axis, [](const Vec3&) { return true; });
+    isSmall = high - low <= kMostLength * longest;
   }
   return isSmall;
 }
