@@ -8,6 +8,7 @@
 #include "vtkChartXY.h"
 #include "vtkContextActor.h"
 #include "vtkContextScene.h"
+#include "vtkDoubleArray.h"
 #include "vtkFloatArray.h"
 #include "vtkImageData.h"
 #include "vtkObjectFactory.h"
@@ -127,8 +128,8 @@ void vtkHapticChart::FitTexts()
   }
 }
 
-/// Fills the table: one row for each slice that has samples.
-void vtkHapticChart::Fill(double begin, double end)
+/// Fills the table: one row for each slice that has samples, its time after @p zero.
+void vtkHapticChart::Fill(double begin, double end, double zero)
 {
   this->Time->Reset();
   this->Force->Reset();
@@ -154,7 +155,7 @@ void vtkHapticChart::Fill(double begin, double end)
       moment += this->Samples[i].seconds;
       ++count;
     }
-    this->Time->InsertNextValue(static_cast<float>(moment / count));
+    this->Time->InsertNextValue(static_cast<float>(moment / count - zero));
     this->Force->InsertNextValue(static_cast<float>(peak));
     this->Radius->InsertNextValue(static_cast<float>(1e3 * sum / count));
     this->Ideal->InsertNextValue(static_cast<float>(idealPeak));
@@ -214,6 +215,10 @@ vtkHapticChart::vtkHapticChart()
   legend->GetPen()->SetLineType(vtkPen::NO_PEN);
   this->Chart->GetAxis(vtkAxis::RIGHT)->SetGridVisible(false);
   this->Chart->SetInteractive(false);
+  for (int second = 0; second <= int(kTimeWindow); ++second)
+  {
+    this->Ticks->InsertNextValue(second - kTimeWindow);
+  }
   this->Actor->GetScene()->AddItem(this->Chart);
   this->Renderer->AddActor(this->Actor);
   this->Renderer->InteractiveOff();
@@ -302,20 +307,23 @@ bool vtkHapticChart::Update()
   {
     this->Samples.pop_front();
   }
-  const double end = std::max(newest, kTimeWindow);
-  return !this->Paused && this->Draw(end - kTimeWindow, end);
+  // Now is 0, so that the axis stays: VTK lays out all texts of an axis whose range changes.
+  return !this->Paused && this->Draw(newest - kTimeWindow, newest, newest);
 }
 
-/// Draws the samples of this time. True: the picture has changed.
-bool vtkHapticChart::Draw(double begin, double end)
+/// Draws the samples of this time, which is shown from @p zero on. True: the picture has changed.
+bool vtkHapticChart::Draw(double begin, double end, double zero)
 {
   const bool flat = this->IsFlat();
   const bool changed = !(flat && this->WasFlat);
   this->WasFlat = flat && !this->Samples.empty();
-  this->Fill(begin, end);
+  this->Fill(begin, end, zero);
   vtkAxis* bottom = this->Chart->GetAxis(vtkAxis::BOTTOM);
   bottom->SetBehavior(vtkAxis::FIXED);
-  bottom->SetRange(begin, end);
+  const bool isLive = zero == end;
+  bottom->SetRange(begin - zero, end - zero);
+  bottom->SetTitle(isLive ? "time from now (s)" : "time (s)");
+  bottom->SetCustomTickPositions(isLive ? this->Ticks.Get() : nullptr);
   double largestForce = 0.0;
   double largestRadius = 0.0;
   for (vtkIdType i = 0; i < this->Time->GetNumberOfTuples(); ++i)
@@ -336,7 +344,7 @@ bool vtkHapticChart::WriteImage(const char* fileName, int width, int height)
   const bool dark = this->IsDark;
   this->SetDark(false);
   const double begin = this->Samples.empty() ? 0.0 : this->Samples.front().seconds;
-  this->Draw(begin, this->Samples.empty() ? 1.0 : std::max(this->Samples.back().seconds, begin + 1e-3));
+  this->Draw(begin, this->Samples.empty() ? 1.0 : std::max(this->Samples.back().seconds, begin + 1e-3), 0.0);
   this->WasFlat = false;
   vtkNew<vtkRenderWindow> renderWindow;
   renderWindow->SetOffScreenRendering(1);

@@ -24,6 +24,7 @@
 
 class vtkChartXY;
 class vtkContextActor;
+class vtkDoubleArray;
 class vtkFloatArray;
 class vtkRenderer;
 class vtkTable;
@@ -104,8 +105,8 @@ private:
     double idealNewtons; // NaN: not known
   };
   void ApplyColors();
-  bool Draw(double begin, double end);
-  void Fill(double begin, double end);
+  bool Draw(double begin, double end, double zero);
+  void Fill(double begin, double end, double zero);
   bool IsFlat() const;
   bool IsLow() const;
   void FitTexts();
@@ -120,6 +121,7 @@ private:
   vtkNew<vtkFloatArray> Force;
   vtkNew<vtkFloatArray> Radius;
   vtkNew<vtkFloatArray> Ideal;
+  vtkNew<vtkDoubleArray> Ticks; // of the live chart: fewer texts to lay out
   std::deque<Sample> Samples;
   bool IsDark = false;
   bool WasFlat = false;
